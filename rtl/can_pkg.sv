@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_pkg: the names that all blocks share: levels, fields of the bit stream, errors, trace layout.
+
+package can_pkg;
+
+  // Levels on the wire: the bus is the AND of all drivers.
+  localparam logic Dominant  = 1'b0;
+  localparam logic Recessive = 1'b1;
+
+  // Fields of the bit stream (the place of the current bit). The two top bits form groups, so that
+  // "is stuffed" and "is arbitration" cost one gate.
+  typedef logic [4:0] field_t;
+  // 00xxx: between frames; nothing dominant is ever sent here.
+  localparam logic [4:0] FldInteg   = 5'b00000;  // WAIT_FOR_BUS_IDLE: counts 11 recessive bits (IN-01)
+  localparam logic [4:0] FldBusOff  = 5'b00001;  // BUS_OFF_RECOVERY: counts 128 x 11 (BO-02)
+  localparam logic [4:0] FldIdle    = 5'b00010;  // bus idle (IF-12)
+  localparam logic [4:0] FldInt     = 5'b00011;  // intermission INT1..INT3 (IF-01)
+  localparam logic [4:0] FldSuspend = 5'b00100;  // suspend transmission (IF-08)
+  // 01xxx: stuffed, arbitration field (and the SOF that precedes it).
+  localparam logic [4:0] FldSof     = 5'b01000;  // own start of frame
+  localparam logic [4:0] FldId      = 5'b01001;  // ID28..ID18
+  localparam logic [4:0] FldRtr     = 5'b01010;  // RTR (base) or SRR (extended)
+  localparam logic [4:0] FldIde     = 5'b01011;  // IDE
+  localparam logic [4:0] FldExId    = 5'b01100;  // ID17..ID0
+  localparam logic [4:0] FldExRtr   = 5'b01101;  // RTR (extended)
+  // 10xxx: stuffed, control to CRC.
+  localparam logic [4:0] FldR1      = 5'b10000;  // r1 (extended; FDF position)
+  localparam logic [4:0] FldR0      = 5'b10001;  // r0 (base: FDF position)
+  localparam logic [4:0] FldDlc     = 5'b10010;  // DLC3..DLC0
+  localparam logic [4:0] FldData    = 5'b10011;  // 8 bits a byte
+  localparam logic [4:0] FldCrc     = 5'b10100;  // CRC14..CRC0
+  // 11xxx: fixed form.
+  localparam logic [4:0] FldCrcDel  = 5'b11000;  // CRC delimiter (a last stuff bit may precede it, ST-03)
+  localparam logic [4:0] FldAck     = 5'b11001;  // ACK slot
+  localparam logic [4:0] FldAckDel  = 5'b11010;  // ACK delimiter
+  localparam logic [4:0] FldEof     = 5'b11011;  // EOF1..EOF7
+  localparam logic [4:0] FldErrFlag = 5'b11100;  // active or passive error flag (EF-01, EF-02)
+  localparam logic [4:0] FldWait    = 5'b11101;  // after a flag: until the first recessive bit (EF-08)
+  localparam logic [4:0] FldDel     = 5'b11110;  // DEL2..DEL8 of error or overload delimiter
+  localparam logic [4:0] FldOvlFlag = 5'b11111;  // overload flag (OV-01)
+
+  // Error kinds, as bits of a one-clock pulse; order of ESR1[15:10] (flexcan.md 1.4).
+  localparam int ErrBit1  = 5;  // sent recessive, saw dominant
+  localparam int ErrBit0  = 4;  // sent dominant, saw recessive
+  localparam int ErrAck   = 3;  // no dominant level in the ACK slot
+  localparam int ErrCrc   = 2;  // CRC mismatch (receiver)
+  localparam int ErrForm  = 1;  // fixed-form bit wrong
+  localparam int ErrStuff = 0;  // sixth equal bit
+
+  // can_core.trace_o: what an observer sees, decoded by sim/node/trace.hpp, unconnected in synthesis.
+  // While `sample` is 1 all other level and position fields describe the bit that is being sampled;
+  // `err`, `rx_valid`, `tx_ok`, `tx_fail`, `start` are pulses in the clock after the sample that caused them.
+  //   [48]    sample     sample point in this clock
+  //   [47]    boundary   last clock of the bit: the next TX level is taken over
+  //   [46]    rx         level as sampled (majority if triple sampling)
+  //   [45]    tx         level that this node sends in the current bit (internal, before LOM/LPB gating)
+  //   [44]    role       1: transmitter (RO-01)
+  //   [43]    stuff      the current bit is a stuff bit
+  //   [42:38] field      Fld*
+  //   [37:32] left       bits of the field that follow the current one
+  //   [31:26] err        Err* pulse
+  //   [25]    rx_valid   frame valid for receivers, SP of EOF6 (VA-01); also pulses for own frames
+  //   [24]    tx_ok      frame sent, SP of EOF7 (VA-02)
+  //   [23]    tx_fail    transmission ended by error or lost arbitration
+  //   [22]    start      a frame begins: the next bit is ID28
+  //   [21]    passive    error passive (FC-11)
+  //   [20]    running    the node takes part (not frozen)
+  //   [19:17] reserved   0
+  //   [16:8]  tec        bit 16 = bus-off; then tec[7:0] counts recovery sequences (FC-13)
+  //   [7:0]   rec
+  localparam int TraceWidth = 49;
+endpackage
