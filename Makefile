@@ -1,0 +1,58 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# The front door: every target installs what it needs, builds, runs and says what it did.
+# "make help" lists the targets; "make V=1 ..." shows the build's own output.
+
+PRESET ?= release
+JOBS   ?= 2
+BUILD  := build/$(PRESET)
+OUT    := $(BUILD)/out
+QUIET  := $(if $(V),,tools/quiet.sh)
+
+.DEFAULT_GOAL := help
+.PHONY: help packages build demo test lint bench synth wave rules format clean
+
+help:  ## List the targets
+	@echo "VeriCAN: a CAN 2.0 controller in RTL and its bus simulator"
+	@sed -n 's/^\([a-z]*\):.*## */\1|/p' Makefile | while IFS='|' read -r t d; do \
+	    printf '  make %-8s %s\n' "$$t" "$$d"; done
+	@echo "Options: PRESET=release|debug|asan  JOBS=$(JOBS)  V=1 (show the build)"
+
+packages:
+	@tools/install-packages.sh
+
+$(BUILD)/build.ninja: | packages
+	@$(QUIET) "Configuring ($(PRESET))" cmake --preset $(PRESET)
+
+build: packages $(BUILD)/build.ninja  ## Build the library, the tool and the tests
+	@$(QUIET) "Building ($(PRESET))" cmake --build $(BUILD) -j $(JOBS)
+
+demo: packages $(BUILD)/build.ninja  ## Controllers exchange frames: examples, the paper's experiments, a real recording
+	@$(QUIET) "Building the tool" cmake --build $(BUILD) -j $(JOBS) --target verican
+	@tools/demo.sh $(BUILD) $(OUT)
+
+test: build  ## Run every test and check that every protocol rule has one
+	@tools/test.sh $(BUILD) $(JOBS)
+
+lint: packages $(BUILD)/build.ninja  ## Check RTL with Verilator, Yosys, Icarus; C++ with clang-format and clang-tidy
+	@tools/lint.sh $(BUILD)
+
+bench: packages $(BUILD)/build.ninja  ## Measure the simulator's speed; writes docs/performance.md
+	@$(QUIET) "Building" cmake --build $(BUILD) -j $(JOBS)
+	@tools/bench.sh $(BUILD)
+
+synth: packages  ## Measure area and clock rate (iCE40, VersaTiles); writes docs/synthesis.md
+	@tools/synth.sh
+
+wave: build  ## Run one test with waveforms: make wave TEST=Arbitration.LoserReceivesTheWinnersFrame
+	@tools/wave.sh $(BUILD) "$(TEST)"
+
+rules: packages  ## Regenerate docs/rules.md, the table of rules and their tests
+	@/usr/bin/python3 tools/rules.py
+
+format: packages  ## Let clang-format rewrite our C++
+	@git ls-files '*.cpp' '*.hpp' '*.c' '*.h' | xargs -r clang-format -i
+
+clean:  ## Remove everything that was built
+	@rm -rf build

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# install-packages.sh: installs what packages.txt names and this machine lacks; silent if nothing is.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+mapfile -t wanted < <(sed 's/#.*//; s/[[:space:]]//g; /^$/d' packages.txt)
+if ! command -v dpkg-query >/dev/null; then
+  echo "install-packages: no dpkg here; please install the equivalents of packages.txt yourself" >&2
+  exit 0
+fi
+installed=$(dpkg-query -W -f '${db:Status-Abbrev}${Package}\n' "${wanted[@]}" 2>/dev/null |
+            sed -n 's/^ii //p' || true)
+missing=()
+for package in "${wanted[@]}"; do
+  grep -qx "$package" <<<"$installed" || missing+=("$package")
+done
+[ "${#missing[@]}" -eq 0 ] && exit 0
+
+if ! command -v apt-get >/dev/null; then
+  echo "install-packages: no apt-get; install by hand: ${missing[*]}" >&2
+  exit 1
+fi
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "install-packages: run as root (no sudo here): apt-get install ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+echo "Installing ${#missing[@]} packages: ${missing[*]}"
+apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -y -q "$@" >>"$log" 2>&1 </dev/null; }
+# The index may be fresh enough; refresh it only if the first try fails.
+if ! apt install --no-install-recommends "${missing[@]}"; then
+  if ! { apt update && apt install --no-install-recommends "${missing[@]}"; }; then
+    tail -n 15 "$log" >&2
+    echo "install-packages: apt-get failed, see above; missing: ${missing[*]}" >&2
+    exit 1
+  fi
+fi
+echo "Installed."
