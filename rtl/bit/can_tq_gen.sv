@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_tq_gen: divides the system clock into time quanta, the paper's clock generator (BT-01).
+// A clock enable instead of a derived clock: one clock domain costs no timing closure.
+
+module can_tq_gen #(
+  /// Width of the prescaler, 4 to 16 bits; 8 as in CTRL.PRESDIV.
+  parameter int PresdivWidth = 8
+) (
+  input  logic                    clk_i,
+  input  logic                    rst_ni,
+  input  logic                    run_i,      // 0: stopped, the next quantum starts whole
+  input  logic [PresdivWidth-1:0] presdiv_i,  // clocks per time quantum minus one
+  output logic                    tq_o        // last clock of each time quantum
+);
+
+  if (PresdivWidth < 4 || PresdivWidth > 16) begin : gen_check_presdiv_width
+    PresdivWidth_must_be_4_to_16 u_stop ();
+  end
+
+  logic [PresdivWidth-1:0] left_q;
+
+  assign tq_o = run_i && (left_q == '0);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)             left_q <= '0;
+    else if (!run_i || tq_o) left_q <= presdiv_i;
+    else                     left_q <= left_q - 1'b1;
+  end
+
+endmodule

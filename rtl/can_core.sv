@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_core: the protocol engine: time quanta, bits, bit stream; pins on one side, frames on the other.
+// The paper's three processes in one clock domain. Frames pass word by word; buffers are elsewhere.
+
+module can_core (
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  // Mode
+  input  logic        run_i,           // 1: take part in the bus; rising: integrate first (IN-01)
+  output logic        running_o,       // falls at the end of the current bit at the latest (MO-13)
+  output logic        stop_ok_o,       // run_i may fall without hurting a frame
+  // Bit timing, constant while running; encodings of CTRL (length minus one)
+  input  logic [7:0]  presdiv_i,       // clocks per time quantum
+  input  logic [1:0]  rjw_i,           // SJW, time quanta
+  input  logic [2:0]  pseg1_i,
+  input  logic [2:0]  pseg2_i,
+  input  logic [2:0]  propseg_i,
+  input  logic        smp_i,           // triple sampling (BT-10)
+  input  logic        lom_i,           // listen-only (MO-01)
+  input  logic        lpb_i,           // loop-back (MO-04)
+  input  logic        fd_tolerant_i,   // protocol exception on a recessive FDF bit (FF-06)
+  input  logic        boff_rec_i,      // 1: no automatic recovery from bus-off (BO-03)
+  // Error counters; writes take effect while running_o = 0
+  input  logic        ec_clear_i,      // both to 0, bus-off left
+  input  logic        ec_we_i,         // write {REC, TEC}
+  input  logic [15:0] ec_wdata_i,
+  output logic [7:0]  tec_o,           // in bus-off: recovery sequences seen
+  output logic [7:0]  rec_o,
+  output logic        passive_o,       // error passive (FC-11)
+  output logic        boff_o,          // bus-off (FC-13)
+  output logic [5:0]  err_o,           // pulses, can_pkg::Err*
+  // Status
+  output logic        idle_o,
+  output logic        transmitter_o,   // transmitter of the current frame (RO-01)
+  output logic        receiver_o,      // receiver of the current frame
+  output logic        synch_o,         // integrated, not in bus-off
+  output logic        bit_tick_o,      // once a bit while running
+  // Transmission: a frame waits while tx_req_i = 1; tx_word_i is its ID word, ID[28:0] (base frames:
+  // ID in [28:18]), and after each tx_next_o, within 16 bits, the next data word (byte 0 in 31:24).
+  input  logic        tx_req_i,
+  input  logic        tx_ide_i,
+  input  logic        tx_rtr_i,
+  input  logic [3:0]  tx_dlc_i,
+  input  logic [31:0] tx_word_i,
+  output logic        tx_next_o,       // pulse: word taken
+  output logic        tx_ok_o,         // pulse: frame sent (VA-02)
+  output logic        tx_fail_o,       // pulse: attempt ended by error or lost arbitration
+  // Reception: pulses in the clock after the sample point
+  output logic        start_o,         // a frame begins; transmitter_o tells whose
+  output logic        stamp_o,         // the next bit is the first of the ID field
+  output logic        rx_hdr_o,        // rx_id_o, rx_ide_o, rx_srr_o, rx_rtr_o valid for 3 bits or more
+  output logic [28:0] rx_id_o,         // base frames: ID in [28:18], rest 0
+  output logic        rx_ide_o,
+  output logic        rx_srr_o,
+  output logic        rx_rtr_o,
+  output logic [3:0]  rx_dlc_o,        // raw DLC (FF-08), valid from the data or CRC field on
+  output logic        rx_byte_we_o,    // rx_byte_o is the next data byte, stable for a bit
+  output logic [7:0]  rx_byte_o,
+  output logic        rx_valid_o,      // frame valid, SP of EOF6 (VA-01); own frames too
+  // Pins and observers
+  input  logic        can_rx_i,
+  output logic        can_tx_o,
+  output logic [can_pkg::TraceWidth-1:0] trace_o
+);
+
+  logic rx_pin, rx, tq, sample, bit_value, boundary, edge_seen, hard;
+  logic tx_d, tx_q, active_q;
+  logic stuff;
+  logic [8:0]      tec;
+  can_pkg::field_t field;
+  logic [5:0]      left;
+
+  can_sync u_sync (.clk_i, .rst_ni, .can_rx_i, .rx_o(rx_pin));
+
+  assign rx = lpb_i ? tx_q : rx_pin;
+
+  can_tq_gen u_tq_gen (.clk_i, .rst_ni, .run_i(active_q), .presdiv_i, .tq_o(tq));
+
+  can_bit_timing u_bit_timing (
+    .clk_i, .rst_ni, .run_i(active_q), .tq_i(tq), .rx_i(rx), .tx_i(tx_q), .hard_i(hard),
+    .propseg_i, .pseg1_i, .pseg2_i, .rjw_i, .smp_i,
+    .sample_o(sample), .bit_o(bit_value), .boundary_o(boundary), .edge_o(edge_seen)
+  );
+
+  can_bsp u_bsp (
+    .clk_i, .rst_ni, .run_i(active_q), .sample_i(sample), .bit_i(bit_value), .edge_i(edge_seen),
+    .sent_i(tx_q), .lom_i, .lpb_i, .fd_tolerant_i, .boff_rec_i, .ec_clear_i, .ec_we_i, .ec_wdata_i,
+    .tx_req_i, .tx_ide_i, .tx_rtr_i, .tx_dlc_i, .tx_word_i,
+    .tx_o(tx_d), .hard_o(hard), .field_o(field), .left_o(left), .stuff_o(stuff), .transmitter_o,
+    .tec_o(tec), .rec_o, .passive_o, .boff_o, .err_o, .tx_next_o, .tx_ok_o, .tx_fail_o, .start_o,
+    .stamp_o, .rx_hdr_o, .rx_id_o, .rx_ide_o, .rx_srr_o, .rx_rtr_o, .rx_dlc_o, .rx_byte_we_o,
+    .rx_byte_o, .rx_valid_o
+  );
+
+  // A stop request never shortens a dominant bit: the node stays until its level is recessive.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      active_q <= 1'b0;
+      tx_q     <= can_pkg::Recessive;
+      can_tx_o <= can_pkg::Recessive;
+    end else begin
+      active_q <= run_i || (active_q && tx_q == can_pkg::Dominant);
+      if (boundary) begin
+        tx_q     <= tx_d || !run_i;
+        can_tx_o <= tx_d || !run_i || lom_i || lpb_i;
+      end
+    end
+  end
+
+  assign running_o  = active_q;
+  assign bit_tick_o = sample;
+  assign tec_o      = tec[7:0];
+  assign idle_o     = (field == can_pkg::FldIdle);
+  assign receiver_o = (|field[4:3]) && !transmitter_o;
+  assign synch_o    = active_q && (field != can_pkg::FldInteg) && (field != can_pkg::FldBusOff);
+  assign stop_ok_o  = !(|field[4:3]) || (field == can_pkg::FldWait);
+
+  assign trace_o = {sample, boundary, bit_value, tx_q, transmitter_o, stuff, field, left, err_o,
+                    rx_valid_o, tx_ok_o, tx_fail_o, start_o, passive_o, active_q, 3'b0, tec, rec_o};
+
+endmodule

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_bsp: the bit stream processor, wires the blocks of the frame and turns their findings into
+// the pulses that the message buffers see. All registers move at the sample point.
+
+module can_bsp (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  input  logic            run_i,
+  input  logic            sample_i,
+  input  logic            bit_i,
+  input  logic            edge_i,
+  input  logic            sent_i,          // level this node sends in the current bit
+  input  logic            lom_i,
+  input  logic            lpb_i,
+  input  logic            fd_tolerant_i,
+  input  logic            boff_rec_i,
+  input  logic            ec_clear_i,
+  input  logic            ec_we_i,
+  input  logic [15:0]     ec_wdata_i,
+  input  logic            tx_req_i,
+  input  logic            tx_ide_i,
+  input  logic            tx_rtr_i,
+  input  logic [3:0]      tx_dlc_i,
+  input  logic [31:0]     tx_word_i,
+  output logic            tx_o,            // level to send in the coming bit
+  output logic            hard_o,          // the coming bit takes hard synchronisation (SY-05)
+  output can_pkg::field_t field_o,
+  output logic [5:0]      left_o,
+  output logic            stuff_o,
+  output logic            transmitter_o,
+  output logic [8:0]      tec_o,
+  output logic [7:0]      rec_o,
+  output logic            passive_o,
+  output logic            boff_o,
+  output logic [5:0]      err_o,
+  output logic            tx_next_o,
+  output logic            tx_ok_o,
+  output logic            tx_fail_o,
+  output logic            start_o,
+  output logic            stamp_o,
+  output logic            rx_hdr_o,
+  output logic [28:0]     rx_id_o,
+  output logic            rx_ide_o,
+  output logic            rx_srr_o,
+  output logic            rx_rtr_o,
+  output logic [3:0]      rx_dlc_o,
+  output logic            rx_byte_we_o,
+  output logic [7:0]      rx_byte_o,
+  output logic            rx_valid_o
+);
+
+  logic       prev, last, crc_bit, mismatch, begin_rx, take_tx, load, in_frame;
+  logic       passive_flag, overload_frame, boff_end;
+  logic       id_bit, ex_id_bit, data_bit;
+  logic [5:0] kind;
+  logic       error, exempt, lost, overload, word_end;
+
+  can_stuff u_stuff (
+    .clk_i, .rst_ni, .sample_i, .bit_i, .field_i(field_o), .stuff_o, .last_o(prev)
+  );
+
+  can_crc15 u_crc15 (
+    .clk_i, .rst_ni, .sample_i, .bit_i, .stuff_i(stuff_o), .field_i(field_o),
+    .crc_bit_o(crc_bit), .mismatch_o(mismatch)
+  );
+
+  can_error u_error (
+    .field_i(field_o), .last_i(last), .bit_i, .sent_i, .transmitter_i(transmitter_o),
+    .stuff_i(stuff_o), .prev_i(prev), .crc_mismatch_i(mismatch), .lpb_i,
+    .kind_o(kind), .error_o(error), .exempt_o(exempt), .lost_o(lost), .overload_o(overload)
+  );
+
+  can_field u_field (
+    .clk_i, .rst_ni, .run_i, .sample_i, .bit_i, .stuff_i(stuff_o), .prev_i(prev), .edge_i,
+    .error_i(error), .lost_i(lost), .overload_i(overload),
+    .passive_i(passive_o), .boff_i(boff_o), .boff_end_i(boff_end),
+    .tx_req_i(tx_req_i && !lom_i), .ide_i(rx_ide_o), .rtr_i(rx_rtr_o), .dlc_i(rx_dlc_o[2:0]),
+    .lom_i, .fd_tolerant_i,
+    .field_o, .left_o, .last_o(last), .transmitter_o, .passive_flag_o(passive_flag),
+    .overload_frame_o(overload_frame), .begin_rx_o(begin_rx), .take_tx_o(take_tx)
+  );
+
+  can_fault u_fault (
+    .clk_i, .rst_ni, .run_i, .sample_i, .bit_i, .field_i(field_o),
+    .after_flag_i({left_o[5], left_o[2:0]}), .last_i(last), .sent_i, .transmitter_i(transmitter_o), .overload_frame_i(overload_frame),
+    .passive_flag_i(passive_flag), .error_i(error), .exempt_i(exempt),
+    .ack_error_i(kind[can_pkg::ErrAck]), .lom_i, .boff_rec_i,
+    .clear_i(ec_clear_i), .we_i(ec_we_i), .wdata_i(ec_wdata_i),
+    .tec_o, .rec_o, .passive_o, .boff_o, .boff_end_o(boff_end)
+  );
+
+  can_rx_frame u_rx_frame (
+    .clk_i, .rst_ni, .sample_i, .bit_i, .stuff_i(stuff_o), .field_i(field_o), .last_i(last),
+    .byte_end_i(left_o[2:0] == 3'd0), .word_end_i(word_end), .take_i(take_tx),
+    .tx_ide_i, .tx_rtr_i, .tx_dlc_i, .tx_word_i,
+    .id_bit_o(id_bit), .ex_id_bit_o(ex_id_bit), .data_bit_o(data_bit), .load_o(load),
+    .rx_id_o, .ide_o(rx_ide_o), .srr_o(rx_srr_o), .rtr_o(rx_rtr_o), .dlc_o(rx_dlc_o),
+    .byte_o(rx_byte_o), .byte_we_o(rx_byte_we_o)
+  );
+
+  can_tx_frame u_tx_frame (
+    .field_i(field_o), .transmitter_i(transmitter_o), .stuff_i(stuff_o), .last_i(prev),
+    .id_bit_i(id_bit), .ex_id_bit_i(ex_id_bit), .data_bit_i(data_bit), .crc_bit_i(crc_bit),
+    .ide_i(rx_ide_o), .rtr_i(rx_rtr_o), .dlc_bit_i(rx_dlc_o[3]),
+    .ack_i(!transmitter_o && !mismatch && !lom_i), .passive_flag_i(passive_flag), .tx_o
+  );
+
+  // The fourth data byte of more than four is complete: the sender needs its second word.
+  assign word_end = (left_o[5:3] == (rx_dlc_o[3] ? 3'd4 : {1'b0, rx_dlc_o[1:0]}))
+                    && (left_o[2:0] == 3'd0) && !last;
+
+  // Hard synchronisation in idle, suspend, INT2, INT3, integration and bus-off recovery.
+  assign hard_o = !(|field_o[4:3]) && !(field_o == can_pkg::FldInt && left_o[1]);
+
+  // SOF to EOF: an error here, or lost arbitration, ends the attempt to send.
+  assign in_frame = (|field_o[4:3]) && !(&field_o[4:2]);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      err_o     <= '0;
+      tx_next_o <= 1'b0;
+      tx_ok_o   <= 1'b0;
+      tx_fail_o <= 1'b0;
+      start_o   <= 1'b0;
+      stamp_o   <= 1'b0;
+      rx_hdr_o  <= 1'b0;
+      rx_valid_o <= 1'b0;
+    end else begin
+      err_o      <= kind & {6{sample_i}};
+      tx_next_o  <= sample_i && (take_tx || (load && transmitter_o));
+      tx_ok_o    <= sample_i && field_o == can_pkg::FldEof && last && bit_i && transmitter_o;
+      tx_fail_o  <= sample_i && transmitter_o && in_frame && (error || lost);
+      start_o    <= sample_i && (take_tx || begin_rx);
+      stamp_o    <= sample_i && !bit_i && (take_tx || begin_rx || field_o == can_pkg::FldSof);
+      rx_hdr_o   <= sample_i && field_o == can_pkg::FldR0 && !stuff_o && !error;
+      rx_valid_o <= sample_i && field_o == can_pkg::FldEof && left_o == 6'd1 && bit_i;  // VA-01
+    end
+  end
+
+endmodule

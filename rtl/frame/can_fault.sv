@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_fault: error counters and error state, ISO 11898-1 fault confinement (FC, BO).
+// One bit changes at most one counter (FC-01), so one adder serves both.
+
+module can_fault (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  input  logic            run_i,
+  input  logic            sample_i,
+  input  logic            bit_i,
+  input  can_pkg::field_t field_i,
+  input  logic [3:0]      after_flag_i,     // FldWait: {first bit after the flag, bits left modulo 8}
+  input  logic            last_i,
+  input  logic            sent_i,           // level this node sent in the bit
+  input  logic            transmitter_i,
+  input  logic            overload_frame_i,
+  input  logic            passive_flag_i,
+  input  logic            error_i,
+  input  logic            exempt_i,         // arbitration stuff error (FC-05 exc. 2)
+  input  logic            ack_error_i,
+  input  logic            lom_i,            // counters frozen (FC-22)
+  input  logic            boff_rec_i,       // 1: no automatic recovery
+  input  logic            clear_i,          // soft reset, while not running
+  input  logic            we_i,             // write both counters, while not running
+  input  logic [15:0]     wdata_i,          // {REC, TEC}
+  output logic [8:0]      tec_o,            // bit 8: bus-off, then sequences counted in [7:0]
+  output logic [7:0]      rec_o,
+  output logic            passive_o,
+  output logic            boff_o,
+  output logic            boff_end_o        // recovery is complete with the bit being sampled
+);
+
+  logic [8:0] tec_q;
+  logic [7:0] rec_q;
+  logic       withheld_q;   // passive ACK error not yet counted (FC-05a)
+  logic       hold_q;       // bus-off without automatic recovery
+  logic       boff_seen_q;  // the clock after bus-off entry has passed
+
+  logic saw_d, in_flag, first, eighth, good_tx, good_rx, withhold;
+  logic plus8, plus1, minus1, sequence_end;
+
+  assign tec_o     = tec_q;
+  assign rec_o     = rec_q;
+  assign boff_o    = tec_q[8];
+  assign passive_o = !tec_q[8] && (tec_q[7] || rec_q[7]);   // FC-11, FC-12
+
+  assign saw_d   = !bit_i;
+  assign in_flag = (&field_i[4:2]) && (field_i[1:0] == 2'b00 || field_i[1:0] == 2'b11);
+  assign first   = (field_i == can_pkg::FldWait) && saw_d && after_flag_i[3];
+  assign eighth  = (field_i == can_pkg::FldWait) && saw_d && after_flag_i[2:0] == 3'd0;
+
+  // A passive transmitter that misses its ACK counts only when it sees dominant in its flag (FC-05).
+  assign withhold = ack_error_i && passive_o;
+  assign good_tx  = (field_i == can_pkg::FldEof) && last_i && bit_i && transmitter_i;    // FC-09
+  assign good_rx  = (field_i == can_pkg::FldAck) && !sent_i && saw_d;                    // FC-10
+
+  assign plus8 = (error_i && (transmitter_i ? !(exempt_i || withhold) : in_flag))        // FC-05..07
+                 || eighth                                                               // FC-08
+                 || (first && !transmitter_i && !overload_frame_i)                       // FC-04
+                 || (withheld_q && saw_d && field_i == can_pkg::FldErrFlag && passive_flag_i);
+  assign plus1  = error_i && !transmitter_i && !in_flag;                                 // FC-02
+  assign minus1 = transmitter_i ? good_tx && (tec_q[7:0] != '0) : good_rx && (rec_q != '0);
+
+  // 128 sequences of 11 recessive bits (BO-02); the count waits at 128 for the host's leave.
+  assign sequence_end = (field_i == can_pkg::FldBusOff) && last_i && bit_i;
+  assign boff_end_o   = sequence_end && (tec_q[7] || (&tec_q[6:0])) && !hold_q;
+
+  logic       on_tec;
+  logic [8:0] sum;
+  assign on_tec = transmitter_i || tec_q[8];
+  assign sum = (on_tec ? tec_q : {1'b0, rec_q})
+               + (plus8 ? 9'd8 : minus1 ? 9'h1FF : 9'd1);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      tec_q <= '0;
+      rec_q <= '0;
+    end else if (!run_i) begin
+      if (clear_i) {tec_q, rec_q} <= '0;
+      else if (we_i) begin
+        rec_q <= wdata_i[15:8];
+        if (!tec_q[8]) tec_q[7:0] <= wdata_i[7:0];
+      end
+    end else if (tec_q[8] && !boff_seen_q) begin
+      tec_q[7:0] <= '0;                                                                  // FC-13
+    end else if (sample_i) begin
+      if (boff_end_o) {tec_q, rec_q} <= '0;                                              // BO-05
+      else if (sequence_end) begin
+        if (!tec_q[7]) tec_q <= sum;
+      end else if (!lom_i && !tec_q[8] && (plus8 || plus1 || minus1)) begin
+        if (transmitter_i)          tec_q <= sum;
+        else if (!rec_q[7])         rec_q <= sum[7:0];
+        else if (minus1)            rec_q <= 8'd127;                                     // FC-10
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      withheld_q  <= 1'b0;
+      hold_q      <= 1'b0;
+      boff_seen_q <= 1'b0;
+    end else begin
+      boff_seen_q <= tec_q[8] && (run_i || boff_seen_q);
+      if (!tec_q[8] || !boff_rec_i) hold_q <= 1'b0;
+      else if (!boff_seen_q)        hold_q <= 1'b1;
+      if (sample_i) begin
+        if (error_i)                                                    withheld_q <= withhold;
+        else if (field_i != can_pkg::FldErrFlag || saw_d)               withheld_q <= 1'b0;
+      end
+    end
+  end
+
+endmodule

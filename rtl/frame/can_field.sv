@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_field: where in the bit stream the node is: field, bits left in it, role.
+// The paper's states: WAIT_FOR_BUS_IDLE = FldInteg, IDLE = FldIdle, BUS_OFF_RECOVERY = FldBusOff;
+// all the rest is RECEIVING or TRANSMITTING by transmitter_o. Rules IF, RO, EF, OV, IN, BO.
+
+module can_field (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  input  logic            run_i,           // 0: not on the bus; then integrate (IN-01)
+  input  logic            sample_i,
+  input  logic            bit_i,
+  input  logic            stuff_i,         // current bit is a stuff bit: the field stands still
+  input  logic            prev_i,          // level of the bit before
+  input  logic            edge_i,          // synchronising edge
+  // What can_error found in this bit
+  input  logic            error_i,
+  input  logic            lost_i,
+  input  logic            overload_i,
+  // Fault confinement
+  input  logic            passive_i,       // error passive before this bit is counted (EF-05)
+  input  logic            boff_i,          // bus-off
+  input  logic            boff_end_i,      // the 128th sequence is complete with this bit
+  // Frame and configuration
+  input  logic            tx_req_i,
+  input  logic            ide_i,
+  input  logic            rtr_i,
+  input  logic [2:0]      dlc_i,           // DLC3..DLC1; DLC0 is the bit being sampled
+  input  logic            lom_i,
+  input  logic            fd_tolerant_i,
+  output can_pkg::field_t field_o,
+  output logic [5:0]      left_o,          // bits of the field that follow the current one
+  output logic            last_o,          // left_o = 0
+  output logic            transmitter_o,   // role (RO-01)
+  output logic            passive_flag_o,  // the error flag being sent is passive
+  output logic            overload_frame_o,// the flag or delimiter belongs to an overload frame
+  output logic            begin_rx_o,      // at this sample point a foreign frame begins
+  output logic            take_tx_o        // at this sample point an own frame begins
+);
+
+  can_pkg::field_t field_q;
+  logic [5:0]      left_q;
+  logic            tx_q, passive_flag_q, overload_q;
+
+  logic last, may_begin, suspend, fd_frame;
+
+  assign field_o          = field_q;
+  assign left_o           = left_q;
+  assign last_o           = last;
+  assign transmitter_o    = tx_q;
+  assign passive_flag_o   = passive_flag_q;
+  assign overload_frame_o = overload_q;
+
+  assign last    = (left_q == '0);
+  assign suspend = tx_q && passive_i;                                        // IF-08, IF-11
+  // A recessive FDF bit, for a receiver that tolerates FD frames (FF-06).
+  assign fd_frame = fd_tolerant_i && bit_i && !tx_q && !stuff_i
+                    && (field_q == can_pkg::FldR1 || (field_q == can_pkg::FldR0 && !ide_i));
+
+  // The bus is free after this bit, whatever it was: a recessive one lets an own frame begin, a
+  // dominant one is a start of frame (IF-03, IF-05, IF-12, IN-04).
+  always_comb begin
+    case (field_q)
+      can_pkg::FldIdle:    may_begin = 1'b1;
+      can_pkg::FldInt:     may_begin = last && (!suspend || !bit_i);
+      can_pkg::FldSuspend: may_begin = last || !bit_i;
+      can_pkg::FldInteg:   may_begin = last && bit_i;
+      can_pkg::FldBusOff:  may_begin = boff_end_i;
+      default:             may_begin = 1'b0;
+    endcase
+  end
+
+  // Own frame: after recessive with SOF; after a foreign SOF without, unless suspended (IF-06, IF-10).
+  assign take_tx_o  = may_begin && tx_req_i
+                      && (bit_i || (field_q != can_pkg::FldSuspend && !suspend));
+  assign begin_rx_o = may_begin && !bit_i && !take_tx_o;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      field_q        <= can_pkg::FldInteg;
+      left_q         <= 6'd10;
+      tx_q           <= 1'b0;
+      passive_flag_q <= 1'b0;
+      overload_q     <= 1'b0;
+    end else if (!run_i || (boff_i && field_q != can_pkg::FldBusOff)) begin
+      field_q <= boff_i ? can_pkg::FldBusOff : can_pkg::FldInteg;
+      left_q  <= 6'd10;
+      tx_q    <= 1'b0;
+    end else if (sample_i) begin
+      if (may_begin) begin
+        tx_q    <= take_tx_o;
+        field_q <= !bit_i ? can_pkg::FldId : take_tx_o ? can_pkg::FldSof : can_pkg::FldIdle;
+        left_q  <= bit_i ? 6'd0 : 6'd10;
+      end else if (error_i || overload_i) begin
+        // Listen-only answers everything with a passive flag: six equal bits (MO-02).
+        field_q        <= (error_i || lom_i) ? can_pkg::FldErrFlag : can_pkg::FldOvlFlag;
+        left_q         <= 6'd5;
+        passive_flag_q <= passive_i || lom_i;
+        overload_q     <= !error_i && !lom_i;
+      end else if (fd_frame) begin
+        field_q <= can_pkg::FldInteg;
+        left_q  <= 6'd10;
+      end else if (!stuff_i) begin
+        if (lost_i) tx_q <= 1'b0;
+        if (!last)  left_q <= left_q - 6'd1;
+        case (field_q)
+          can_pkg::FldInteg, can_pkg::FldBusOff: if (last || !bit_i) left_q <= 6'd10;
+          can_pkg::FldInt: if (last) begin
+            field_q <= can_pkg::FldSuspend;
+            left_q  <= 6'd7;
+          end
+          can_pkg::FldSof: begin
+            field_q <= can_pkg::FldId;
+            left_q  <= 6'd10;
+          end
+          can_pkg::FldId:  if (last) field_q <= can_pkg::FldRtr;
+          can_pkg::FldRtr: field_q <= can_pkg::FldIde;
+          can_pkg::FldIde: begin
+            field_q <= bit_i ? can_pkg::FldExId : can_pkg::FldR0;
+            left_q  <= bit_i ? 6'd17 : 6'd0;
+          end
+          can_pkg::FldExId:  if (last) field_q <= can_pkg::FldExRtr;
+          can_pkg::FldExRtr: field_q <= can_pkg::FldR1;
+          can_pkg::FldR1:    field_q <= can_pkg::FldR0;
+          can_pkg::FldR0: begin
+            field_q <= can_pkg::FldDlc;
+            left_q  <= 6'd3;
+          end
+          can_pkg::FldDlc: if (last) begin
+            // min(DLC, 8) bytes, none in a remote frame (FF-03, FF-07).
+            if (rtr_i || {dlc_i, bit_i} == 4'd0) begin
+              field_q <= can_pkg::FldCrc;
+              left_q  <= 6'd14;
+            end else begin
+              field_q <= can_pkg::FldData;
+              left_q  <= {dlc_i[2] ? 3'd7 : {dlc_i[1:0], bit_i} - 3'd1, 3'd7};
+            end
+          end
+          can_pkg::FldData: if (last) begin
+            field_q <= can_pkg::FldCrc;
+            left_q  <= 6'd14;
+          end
+          can_pkg::FldCrc:    if (last) field_q <= can_pkg::FldCrcDel;
+          can_pkg::FldCrcDel: field_q <= can_pkg::FldAck;
+          can_pkg::FldAck:    field_q <= can_pkg::FldAckDel;
+          can_pkg::FldAckDel: begin
+            field_q <= can_pkg::FldEof;
+            left_q  <= 6'd6;
+          end
+          can_pkg::FldEof, can_pkg::FldDel: if (last) begin
+            field_q <= can_pkg::FldInt;
+            left_q  <= 6'd2;
+          end
+          can_pkg::FldErrFlag, can_pkg::FldOvlFlag: begin
+            // A passive flag is complete after six equal bits: a change restarts the count (EF-03).
+            if (field_q == can_pkg::FldErrFlag && passive_flag_q
+                && left_q != 6'd5 && bit_i != prev_i) begin
+              left_q <= 6'd4;
+            end else if (last) begin
+              field_q <= can_pkg::FldWait;
+              left_q  <= 6'd39;  // see can_fault: first bit after the flag, then modulo 8
+            end
+          end
+          can_pkg::FldWait: begin
+            if (bit_i) begin
+              field_q <= can_pkg::FldDel;  // that bit was DEL1 (EF-08)
+              left_q  <= 6'd6;
+            end else begin
+              left_q  <= {3'd0, left_q[2:0] - 3'd1};
+            end
+          end
+          default: ;
+        endcase
+      end
+    end else if (fd_tolerant_i && edge_i && field_q == can_pkg::FldInteg) begin
+      left_q <= 6'd10;  // IN-02
+    end
+  end
+
+endmodule

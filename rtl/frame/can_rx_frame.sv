@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_rx_frame: the one shift register of the frame: bits of the bus go in, bits to send come out.
+// A sender reads back its own bits, so that at a lost arbitration the register already holds what
+// the winner sent so far (AR-07). Data words are loaded as the bits pass; received bytes leave so.
+
+module can_rx_frame (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  input  logic            sample_i,
+  input  logic            bit_i,
+  input  logic            stuff_i,
+  input  can_pkg::field_t field_i,
+  input  logic            last_i,      // last bit of the field
+  input  logic            byte_end_i,  // last bit of a data byte, if in the data field
+  input  logic            word_end_i,  // last bit of the first data word, if in the data field
+  input  logic            take_i,      // at this sample point an own frame starts: load its head
+  input  logic            tx_ide_i,
+  input  logic            tx_rtr_i,
+  input  logic [3:0]      tx_dlc_i,
+  input  logic [31:0]     tx_word_i,   // ID word at take_i, then the data words
+  output logic            id_bit_o,    // next bits to send
+  output logic            ex_id_bit_o,
+  output logic            data_bit_o,
+  output logic            load_o,      // data word taken at this sample point
+  output logic [28:0]     rx_id_o,
+  output logic            ide_o,
+  output logic            srr_o,
+  output logic            rtr_o,
+  output logic [3:0]      dlc_o,
+  output logic [7:0]      byte_o,
+  output logic            byte_we_o    // one clock: byte_o is new
+);
+
+  logic [31:0] shift_q;  // ID[28:0], or data with the next bit in 31
+  logic        in_id, in_ex_id, in_data;
+
+  assign in_id    = (field_i == can_pkg::FldId);
+  assign in_ex_id = (field_i == can_pkg::FldExId);
+  assign in_data  = (field_i == can_pkg::FldData);
+
+  assign id_bit_o    = shift_q[28];
+  assign ex_id_bit_o = shift_q[17];
+  assign data_bit_o  = shift_q[31];
+  assign rx_id_o     = {shift_q[28:18], shift_q[17:0] & {18{ide_o}}};
+  // Receivers load too (their word is not used): the role stays out of this path.
+  assign load_o      = !stuff_i && last_i && (field_i == can_pkg::FldDlc)
+                       || !stuff_i && word_end_i && in_data;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      shift_q <= '0;
+    end else if (sample_i) begin
+      if (take_i || load_o) begin
+        shift_q <= tx_word_i;
+      end else if (!stuff_i) begin
+        if (in_id || in_data)    shift_q[31:18] <= {shift_q[30:18], in_id ? bit_i : shift_q[17]};
+        if (in_ex_id || in_data) shift_q[17:0]  <= {shift_q[16:0], bit_i};
+      end
+    end
+  end
+
+  // Head: RTR of a base frame is the bit where an extended one has SRR; known when IDE is (FF-13).
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {ide_o, srr_o, rtr_o} <= '0;
+      dlc_o                 <= '0;
+    end else if (sample_i) begin
+      if (take_i) begin
+        ide_o <= tx_ide_i;
+        rtr_o <= tx_rtr_i;
+        dlc_o <= tx_dlc_i;
+      end else if (!stuff_i) begin
+        case (field_i)
+          can_pkg::FldRtr:   srr_o <= bit_i;
+          can_pkg::FldIde: begin
+            ide_o <= bit_i;
+            if (!bit_i) rtr_o <= srr_o;
+          end
+          can_pkg::FldExRtr: rtr_o <= bit_i;
+          can_pkg::FldDlc:   dlc_o <= {dlc_o[2:0], bit_i};
+          default: ;
+        endcase
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      byte_o    <= '0;
+      byte_we_o <= 1'b0;
+    end else begin
+      byte_we_o <= sample_i && in_data && byte_end_i && !stuff_i;
+      if (sample_i && in_data && !stuff_i) byte_o <= {byte_o[6:0], bit_i};
+    end
+  end
+
+endmodule

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_stuff: counts equal bits on the bus and tells which bit is a stuff bit, for sender and receiver.
+// Rules ST-01..ST-09. The bus is counted, not the own output: a joined SOF (ST-07) and the bits up
+// to a lost arbitration (ST-08) need no special case.
+
+module can_stuff (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  input  logic            sample_i,
+  input  logic            bit_i,
+  input  can_pkg::field_t field_i,
+  output logic            stuff_o,   // the current bit is a stuff bit
+  output logic            last_o     // level of the bit before
+);
+
+  logic [2:0] run_q;
+  logic       five_q;
+  logic       counts;
+  logic [2:0] run_d;
+
+  // From the bit after SOF to CRC0; everywhere else a bit starts a run of one, so SOF does (ST-02).
+  assign counts = (field_i[4] ^ field_i[3]) && (field_i != can_pkg::FldSof);
+  assign run_d  = (counts && bit_i == last_o) ? run_q + 3'd1 : 3'd1;
+
+  // After CRC0 the stuff bit stands before the CRC delimiter (ST-03); in flags the mark means nothing.
+  assign stuff_o = five_q && (!(&field_i[4:3]) || field_i == can_pkg::FldCrcDel);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      run_q  <= 3'd1;
+      five_q <= 1'b0;
+      last_o <= can_pkg::Recessive;
+    end else if (sample_i) begin
+      run_q  <= run_d;
+      five_q <= counts && (run_d == 3'd5);
+      last_o <= bit_i;
+    end
+  end
+
+endmodule
