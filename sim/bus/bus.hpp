@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bus: the wired-AND of its nodes, and the kernel that runs their clocks.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <queue>
+#include <vector>
+
+#include "bus/node.hpp"
+#include "bus/observer.hpp"
+#include "bus/types.hpp"
+
+namespace vericansim {
+
+class Fault;
+
+/// How a node hangs on the bus; all one-way, ps.
+struct Link {
+  Time cable = 0;        ///< stub from the node to the common star point
+  Time transmitter = 0;  ///< transceiver, TX pin to wire
+  Time receiver = 0;     ///< transceiver, wire to RX pin
+};
+
+/// Propagation on copper, 5 ns/m, for those who think in metres.
+constexpr Time cable_delay(double metres) { return static_cast<Time>(metres * 5000.0); }
+
+/// The bus. Nodes, observers and faults are referred to, not owned, and must outlive it.
+///
+/// A level driven at time t reaches another node after the sum of the delays between them, and a clock
+/// edge sees what arrived strictly before it: with no delay at all, all nodes that are clocked at the
+/// same instant sample what their registers drove before that instant (no races).
+class Bus {
+ public:
+  static constexpr unsigned kMaxNodes = 64;
+
+  Bus() = default;
+  ~Bus();
+  Bus(const Bus &) = delete;
+  Bus &operator=(const Bus &) = delete;
+
+  /// Adds a node (at most kMaxNodes; std::invalid_argument beyond or if a delay is negative) and
+  /// returns its index. A node's first edge must not lie in the past of this bus.
+  NodeId add(Node &node, const Link &link = {});
+  /// Sets the delay from the TX pin of `from` to the RX pin of `to`, instead of the sum of the links.
+  void set_delay(NodeId from, NodeId to, Time delay);
+  [[nodiscard]] Time delay(NodeId from, NodeId to) const;
+  void add(BusObserver &observer);
+  void remove(BusObserver &observer);
+  void add(Fault &fault);
+
+  /// Calls `action` at `when` (ps, not before now()), before the clock edges of that instant.
+  void at(Time when, std::function<void()> action);
+
+  /// Runs all clock edges of the next instant that has any.
+  void step();
+  /// Runs every edge and action up to and including `until`, or until stop().
+  void run_until(Time until);
+  void run_for(Time duration) { run_until(now_ + duration); }
+  /// Runs until `done()` is true, tested after every instant; false if `limit` (ps from now) came first.
+  bool run_until(const std::function<bool()> &done, Time limit);
+  /// Lets the run_until() under way return after the current instant.
+  void stop() { stopped_ = true; }
+
+  [[nodiscard]] Time now() const { return now_; }
+  /// Level at the observation point, as known at now().
+  [[nodiscard]] Level level() const { return level_; }
+  [[nodiscard]] unsigned size() const { return static_cast<unsigned>(nodes_.size()); }
+  [[nodiscard]] Node &node(NodeId id) { return *nodes_[id].node; }
+  [[nodiscard]] const Link &link(NodeId id) const { return nodes_[id].link; }
+  /// True while all nodes tick together and no delay is set: the fast path.
+  [[nodiscard]] bool lockstep();
+
+ private:
+  struct Arrival {
+    Time time;
+    NodeId source;
+    Level level;
+  };
+
+  // A receiver: who has been heard as dominant, and the changes still on the wire, oldest first.
+  struct Receiver {
+    std::uint64_t dominant = 0;
+    std::vector<Arrival> pending;
+    std::size_t head = 0;
+
+    void push(const Arrival &arrival);
+    void collect(Time before);
+  };
+
+  struct Entry {
+    Node *node = nullptr;
+    Link link;
+    Receiver receiver;
+    Level tx = Level::kRecessive;
+    Level rx = Level::kRecessive;
+    bool sampled = false;  // the bit in `bit` waits for its `after`
+    BitRecord bit;
+  };
+
+  struct Action {
+    Time time;
+    std::uint64_t order;
+    std::function<void()> run;
+    bool operator<(const Action &other) const {
+      return time != other.time ? time > other.time : order > other.order;
+    }
+  };
+
+  void prepare();
+  void step_lockstep();
+  void step_events();
+  void clock_node(NodeId id, Time t);
+  void driven(NodeId id, Time t, Level level);
+  void watch(NodeId id, Time t, Level rx);
+  void observe(Time before);
+  void set_level(Time t, Level level);
+  [[nodiscard]] Level receive(NodeId id, Time t);
+  [[nodiscard]] Time next_edge() const;
+  void run_actions(Time until);
+
+  std::vector<Entry> nodes_;
+  std::vector<Time> next_;   // next edge of each node, contiguous for the scan
+  std::vector<Time> delay_;  // [to * size + from]
+  Receiver observer_point_;
+  std::vector<BusObserver *> observers_;
+  std::vector<Fault *> faults_;
+  std::priority_queue<Action> actions_;
+  std::uint64_t action_order_ = 0;
+  std::uint64_t driven_dominant_ = 0;  // lockstep: bit i set while node i drives dominant
+  Time now_ = 0;
+  Level level_ = Level::kRecessive;
+  unsigned interests_ = 0;
+  bool prepared_ = false;
+  bool lockstep_ = false;
+  bool stopped_ = false;
+};
+
+}  // namespace vericansim

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Node: a participant of the bus with a clock of its own. Nothing in it is global (design.md, 3).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "bus/clock.hpp"
+#include "bus/types.hpp"
+
+namespace vericansim {
+
+class Bus;
+
+/// Index of a node on its bus, 0, 1, ... in the order of Bus::add().
+using NodeId = unsigned;
+
+/// A bus participant. The kernel calls clock() once for each rising edge of the node's oscillator, with
+/// the level that its pin has had just before the edge.
+class Node {
+ public:
+  Node(std::string name, const ClockConfig &clock) : name_{std::move(name)}, oscillator_{clock} {}
+  virtual ~Node() = default;
+  Node(const Node &) = delete;
+  Node &operator=(const Node &) = delete;
+
+  /// One rising clock edge. `rx` is the level at the receive pin.
+  virtual void clock(Level rx) = 0;
+
+  /// The observer's view after the last edge (trace_o, see node/trace.hpp); 0 if the node has none.
+  [[nodiscard]] virtual std::uint64_t trace() const { return 0; }
+
+  /// Level at the transmit pin since the last edge.
+  [[nodiscard]] Level tx() const { return tx_; }
+  [[nodiscard]] const std::string &name() const { return name_; }
+  [[nodiscard]] Clock &oscillator() { return oscillator_; }
+  [[nodiscard]] const Clock &oscillator() const { return oscillator_; }
+
+  /// The bus the node has been added to, or nullptr.
+  [[nodiscard]] Bus *bus() const { return bus_; }
+
+ protected:
+  void drive(Level level) { tx_ = level; }
+
+ private:
+  friend class Bus;
+
+  Level tx_ = Level::kRecessive;
+  Bus *bus_ = nullptr;
+  std::string name_;
+  Clock oscillator_;
+};
+
+}  // namespace vericansim
