@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// GVRET logs: parser.
+#include "trace/gvret.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "trace/input_error.hpp"
+#include "trace/text.hpp"
+
+namespace vericansim {
+namespace {
+
+using text::fail;
+using text::Place;
+
+/// Places of the columns that differ between versions of the format.
+struct Columns {
+  std::size_t bus = 3;
+  std::size_t length = 4;
+  std::size_t data = 5;
+};
+
+Columns parse_header(std::string_view line, const Place &place) {
+  const auto names = text::split_commas(line);
+  Columns columns;
+  const auto length = std::find(names.begin(), names.end(), "LEN");
+  const auto bus = std::find(names.begin(), names.end(), "Bus");
+  if (names.size() < 5 || names[1] != "ID" || names[2] != "Extended" || length == names.end() || bus == names.end())
+    fail(place, "expected the columns Time Stamp,ID,Extended,Bus,LEN,D1,...");
+  columns.bus = static_cast<std::size_t>(bus - names.begin());
+  columns.length = static_cast<std::size_t>(length - names.begin());
+  columns.data = columns.length + 1;
+  return columns;
+}
+
+LogEntry parse_entry(const std::vector<std::string_view> &fields, const Columns &columns,
+                     const Place &place) {
+  if (fields.size() <= columns.length) fail(place, "too few columns; see the header line");
+  LogEntry entry;
+  const auto id = text::parse_unsigned(fields[1], 16);
+  if (!id || (fields[2] != "true" && fields[2] != "false"))
+    fail(place, "identifier " + quoted(std::string(fields[1])) + " or Extended " +
+                    quoted(std::string(fields[2])) + " is not allowed; allowed: hexadecimal, true or false");
+  text::set_id(entry.frame, *id, fields[2] == "true", place);
+  const auto length = text::parse_unsigned(fields[columns.length], 10);
+  if (!length || *length > 8)
+    fail(place, "LEN " + quoted(std::string(fields[columns.length])) + " is not allowed; allowed: 0 to 8");
+  if (fields.size() < columns.data + *length)
+    fail(place, fmt::format("fewer data bytes than LEN = {}", *length));
+  entry.frame.dlc = static_cast<std::uint8_t>(*length);
+  for (std::size_t i = 0; i < *length; ++i)
+    text::set_byte(entry.frame, i, text::trimmed(fields[columns.data + i]), place);
+  entry.channel = "can" + std::string(text::trimmed(fields[columns.bus]));
+  return entry;
+}
+
+}  // namespace
+
+CanLog parse_gvret(std::string_view text, const std::string &file) {
+  CanLog log;
+  Columns columns;
+  bool header = false;
+  std::int64_t first_us = 0;
+  text::for_each_line(text, file, [&](std::string_view line, const Place &place) {
+    if (text::trimmed(line).empty()) return;
+    if (!header) {
+      columns = parse_header(line, place);
+      header = true;
+      return;
+    }
+    const auto fields = text::split_commas(line);
+    const auto time = text::parse_decimal(text::trimmed(fields[0]), 1);
+    if (!time) fail(place, "time " + quoted(std::string(fields[0])) + " is no number of microseconds");
+    LogEntry entry = parse_entry(fields, columns, place);
+    if (log.entries.empty()) first_us = *time;
+    if (std::abs(*time - first_us) > std::numeric_limits<Time>::max() / kMicrosecond)
+      fail(place, "time is more than 106 days from the first one");
+    entry.time = (*time - first_us) * kMicrosecond;
+    log.entries.push_back(std::move(entry));
+  });
+  return log;
+}
+
+}  // namespace vericansim

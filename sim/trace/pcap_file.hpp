@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Packet captures (pcap and pcapng, link type 227 = SocketCAN) for Wireshark and tcpdump, in and out.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "trace/log.hpp"
+
+namespace vericansim {
+
+/// Reads a capture of either byte order, micro- or nanoseconds. CAN FD frames and error messages are counted
+/// as skipped. Throws InputError (with the number of the packet) on a broken file or another link type.
+[[nodiscard]] CanLog read_pcap(const std::string &path);
+
+/// Writes captures with nanosecond stamps.
+class PcapWriter {
+ public:
+  /// Throws InputError if the file cannot be written. `start_ns` is added to each time.
+  explicit PcapWriter(const std::string &path, std::int64_t start_ns = 0);
+  ~PcapWriter();
+  PcapWriter(const PcapWriter &) = delete;
+  PcapWriter &operator=(const PcapWriter &) = delete;
+  /// Appends one frame; times are cut to nanoseconds.
+  void write(const LogEntry &entry);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vericansim
