@@ -1,0 +1,21 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# common.sh: what the scripts share; to be sourced in the project's root.
+
+# The RTL files of rtl/can.f, in the order of the data path.
+rtl_files() {
+  sed 's/#.*//; s/[[:space:]]//g; /^$/d; s|^|rtl/|' rtl/can.f
+}
+
+# has_module NAME: whether the file list holds that module.
+has_module() {
+  rtl_files | grep -q "/$1\.sv$"
+}
+
+# our_files PATTERN...: files of the project that match, new ones included, ignored ones left out.
+our_files() {
+  git ls-files --cached --others --exclude-standard -- "$@" | while read -r file; do
+    [ -f "$file" ] && printf '%s\n' "$file"
+  done
+}

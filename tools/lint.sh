@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# lint.sh BUILD: everything that can be said about the sources without running them. BUILD is a
+# configured build directory, for clang-tidy.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+. tools/common.sh
+build=$1
+failures=0
+
+# check NAME COMMAND...: one line if good, the output and a mark if not.
+check() {
+  local name=$1 output start=$SECONDS
+  shift
+  if output=$("$@" 2>&1 </dev/null); then
+    echo "  ok    $name ($((SECONDS - start)) s)"
+  else
+    failures=$((failures + 1))
+    echo "  FAIL  $name"
+    printf '%s\n' "$output" | head -n 60 | sed 's/^/        /'
+  fi
+}
+
+# The whole core in each size that is offered; the engine alone, because it is a product of its own.
+mapfile -t rtl < <(rtl_files)
+tops=()
+has_module can_core && tops+=("can_core")
+has_module can_ahb && tops+=("can_ahb NumMb=16" "can_ahb NumMb=32" "can_ahb NumMb=64")
+
+verilator_lint() {  # TOP [NAME=VALUE]
+  verilator --lint-only -Wall --top-module "$1" ${2:+-G"$2"} rtl/lint.vlt "${rtl[@]}"
+}
+yosys_check() {  # TOP [NAME=VALUE]; no latch, no loop, no wire without driver
+  local parameter=""
+  [ -n "${2:-}" ] && parameter="-chparam ${2%=*} ${2#*=}"
+  yosys -q -p "read_verilog -sv ${rtl[*]}; hierarchy -check -top $1 $parameter;
+               proc; flatten; opt_clean; check -assert; select -assert-none t:\$dlatch"
+}
+iverilog_elaborate() {  # TOP [NAME=VALUE]
+  local output status=0
+  output=$(iverilog -g2012 -o /dev/null -s "$1" ${2:+-P"$1.$2"} "${rtl[@]}" 2>&1) || status=$?
+  # Icarus 11 says this of correct code: it then watches the whole vector, which is what is meant.
+  output=$(grep -v 'sorry: constant selects in always_\*' <<<"$output")
+  printf '%s' "$output"
+  [ "$status" -eq 0 ] && [ -z "$output" ]
+}
+spdx() {
+  local bad
+  bad=$(our_files '*.sv' '*.vlt' '*.cpp' '*.hpp' '*.c' '*.h' '*.py' '*.sh' '*.cmake' '*.tcl' '*.sdc' \
+                  '*.pdc' '*.pcf' '*.yaml' '*.core' '*CMakeLists.txt' Makefile .ci/run |
+        while read -r file; do
+          head -n 5 "$file" | grep -q 'SPDX-License-Identifier: Apache-2.0' || echo "$file"
+        done)
+  printf '%s' "$bad"
+  [ -z "$bad" ]
+}
+line_length() {
+  ! our_files '*.sv' '*.cpp' '*.hpp' '*.c' '*.h' '*.py' '*.sh' '*.cmake' '*CMakeLists.txt' |
+    xargs -r awk 'length($0) > 100 {print FILENAME ":" FNR ": " length($0) " characters (at most 100)"}' |
+    grep .
+}
+format() {
+  our_files '*.cpp' '*.hpp' '*.c' '*.h' | xargs -r clang-format --dry-run -Werror
+}
+
+echo "RTL: ${#rtl[@]} files"
+for top in "${tops[@]}"; do
+  # shellcheck disable=SC2086  # TOP and parameter are two words
+  check "verilator -Wall $top" verilator_lint $top
+  check "yosys           $top" yosys_check $top
+  check "iverilog        $top" iverilog_elaborate $top
+done
+echo "Sources"
+check "licence heads" spdx
+check "lines of at most 100 characters" line_length
+check "clang-format" format
+check "clang-tidy" tools/tidy.sh "$build"
+
+if [ "$failures" -ne 0 ]; then
+  echo "lint: $failures checks failed" >&2
+  exit 1
+fi
+echo "lint: all checks passed"

@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# synth.sh: area and clock rate by the open flow, the same steps for every block:
+#   iCE40       yosys synth_ice40 -abc9 of the bare block; nextpnr-ice40 on an HX8K for the clock rate,
+#               the block between shift registers (every input from, every output to a flip-flop)
+#   VersaTiles  of ProASIC3/SmartFusion: LUT3 + flip-flop after abc -lut 3, memories kept apart
+# Writes docs/synthesis.md. SEEDS="1 2 3" (nextpnr), OUT=build/synth (intermediate files).
+set -euo pipefail
+cd "$(dirname "$0")/.."
+. tools/common.sh
+seeds=${SEEDS:-1 2 3}
+out=${OUT:-build/synth}
+mapfile -t rtl < <(rtl_files)
+
+run_yosys() {  # DIR NAME SCRIPT
+  yosys -q -l "$1/$2.log" -p "$3" >"$1/$2.out" 2>&1 || {
+    tail -n 5 "$1/$2.out" >&2
+    echo "synth: yosys failed at $2, see $1/$2.log" >&2
+    exit 1
+  }
+}
+
+# Prepared like this the block is the same for every target.
+elaborate() {  # DIR TOP PARAMETERS
+  run_yosys "$1" elaborate "read_verilog -sv ${rtl[*]}; hierarchy -check -top $2 $3; proc -norom;
+    write_rtlil $1/hierarchy.il; flatten; opt_clean; rename -top area_core;
+    write_rtlil $1/core.il; write_json $1/ports.json"
+}
+
+# Memories as black boxes, so that block RAM is counted as such and not as flip-flops.
+memories_apart() {  # TOP
+  echo "setattr -unset init w:*; hierarchy -top $1; opt -full; opt_dff; wreduce; memory -nomap;
+    opt_clean; read_verilog -lib tools/synth/memory_box.v; techmap -map tools/synth/memory_map.v;
+    opt_clean"
+}
+# A VersaTile is one LUT3 or one D flip-flop with enable and asynchronous set or clear.
+versatiles() {
+  local cell legal=""
+  for cell in DFF_?_ DFF_???_ DFFE_??_ DFFE_????_ DLATCH_?_ DLATCH_???_; do
+    legal="$legal -cell \$_$cell 01"
+  done
+  echo "opt -fast -full; opt -undriven -fine; techmap; opt -fast; opt_merge; dfflegalize $legal;
+    opt_clean; techmap; simplemap; opt_expr; opt_merge; opt_clean; abc -lut 3; opt_clean"
+}
+
+place_and_route() {  # DIR
+  local dir=$1 seed
+  /usr/bin/python3 tools/synth/report.py wrap "$dir"
+  run_yosys "$dir" ice40_wrapped "read_rtlil $dir/core.il; read_verilog $dir/wrap.v;
+    synth_ice40 -abc9 -device hx -top area_wrap -json $dir/ice40_wrapped.json"
+  echo "set_io clk_pin J3" >"$dir/wrap.pcf"
+  for seed in $seeds; do
+    nextpnr-ice40 --hx8k --package ct256 --json "$dir/ice40_wrapped.json" --pcf "$dir/wrap.pcf" \
+      --pcf-allow-unconstrained --freq 100 --seed "$seed" --timing-allow-fail \
+      --report "$dir/pnr_$seed.json" --log "$dir/pnr_$seed.log" -q >/dev/null 2>&1 || {
+      tail -n 2 "$dir/pnr_$seed.log" >&2
+      echo "synth: nextpnr failed, see $dir/pnr_$seed.log" >&2
+      exit 1
+    }
+  done
+}
+
+measure() {  # NAME TOP [PARAMETER VALUE]
+  local name=$1 top=$2 dir=$out/$1 parameters="" start=$SECONDS
+  [ $# -ge 4 ] && parameters="-chparam $3 $4"
+  rm -rf "$dir"
+  mkdir -p "$dir"
+  elaborate "$dir" "$top" "$parameters"
+  run_yosys "$dir" ice40 "read_rtlil $dir/core.il;
+    synth_ice40 -abc9 -device hx -top area_core -json $dir/ice40.json" &
+  run_yosys "$dir" versatile "read_rtlil $dir/core.il; $(memories_apart area_core);
+    synth -flatten -top area_core -run begin:fine; $(versatiles); write_json $dir/versatile.json"
+  wait $!
+  run_yosys "$dir" modules "read_rtlil $dir/hierarchy.il; $(memories_apart "$top");
+    synth -top $top -run begin:fine; opt -fast -full; techmap; opt -fast; abc -lut 4; opt_clean;
+    write_json $dir/modules.json"
+  place_and_route "$dir"
+  echo "Measured $name in $((SECONDS - start)) s"
+}
+
+blocks=()
+if has_module can_core; then
+  measure can_core can_core
+  blocks+=("can_core")
+fi
+if has_module can_ahb; then
+  for size in 32 64; do
+    measure "can_ahb_$size" can_ahb NumMb "$size"
+    blocks+=("can_ahb_$size")
+  done
+fi
+/usr/bin/python3 tools/synth/report.py page "$out" docs/synthesis.md "${blocks[@]}"
+echo "Written: docs/synthesis.md"
