@@ -67,6 +67,7 @@ module can_core (
 
   logic rx_pin, rx, tq, sample, bit_value, boundary, edge_seen, hard;
   logic tx_d, tx_q, active_q;
+  logic first_q;  // first clock of a bit
   logic stuff;
   logic [8:0]      tec;
   can_pkg::field_t field;
@@ -85,8 +86,8 @@ module can_core (
   );
 
   can_bsp u_bsp (
-    .clk_i, .rst_ni, .run_i(active_q), .sample_i(sample), .bit_i(bit_value), .edge_i(edge_seen),
-    .sent_i(tx_q), .lom_i, .lpb_i, .fd_tolerant_i, .boff_rec_i, .ec_clear_i, .ec_we_i, .ec_wdata_i,
+    .clk_i, .rst_ni, .run_i(active_q), .sample_i(sample), .bit_i(bit_value),
+    .judge_i(first_q), .edge_i(edge_seen), .sent_i(tx_q), .lom_i, .lpb_i, .fd_tolerant_i, .boff_rec_i, .ec_clear_i, .ec_we_i, .ec_wdata_i,
     .tx_req_i, .tx_ide_i, .tx_rtr_i, .tx_dlc_i, .tx_word_i,
     .tx_o(tx_d), .hard_o(hard), .field_o(field), .left_o(left), .stuff_o(stuff), .transmitter_o,
     .tec_o(tec), .rec_o, .passive_o, .boff_o, .err_o, .tx_next_o, .tx_ok_o, .tx_fail_o, .start_o,
@@ -98,10 +99,12 @@ module can_core (
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       active_q <= 1'b0;
+      first_q  <= 1'b0;
       tx_q     <= can_pkg::Recessive;
       can_tx_o <= can_pkg::Recessive;
     end else begin
       active_q <= run_i || (active_q && tx_q == can_pkg::Dominant);
+      first_q  <= boundary;
       if (boundary) begin
         tx_q     <= tx_d || !run_i;
         can_tx_o <= tx_d || !run_i || lom_i || lpb_i;

@@ -29,10 +29,10 @@ module can_bit_timing (
   logic       armed_q;  // last sample recessive, no synchronisation since (SY-02, SY-03)
   logic [1:0] prev_q;   // levels at the two preceding quanta
 
-  logic [4:0] tseg1, tseg2, sjw, ahead;
+  logic [4:0] tseg1_q;  // PROP_SEG + PHASE_SEG1; a register, for the sum is constant and slow
+  logic [4:0] tseg2, sjw, ahead;
   logic       falling, hard, late, early, end1;
 
-  assign tseg1 = {2'b0, propseg_i} + {2'b0, pseg1_i} + 5'd2;
   assign tseg2 = {2'b0, pseg2_i} + 5'd1;
   assign sjw   = {3'b0, rjw_i} + 5'd1;
 
@@ -45,11 +45,16 @@ module can_bit_timing (
   // Position after this quantum: a late edge sets the count back, which lengthens PHASE_SEG1; an
   // early one sets it forward, which shortens PHASE_SEG2; both by at most SJW (SY-08).
   assign ahead      = early ? pos_q + sjw : pos_q;
-  assign end1       = (pos_q == tseg1) && !late && !hard;
+  assign end1       = (pos_q == tseg1_q) && !late && !hard;
   assign sample_o   = tq_i && !seg2_q && end1;
   assign boundary_o = tq_i && seg2_q && ((ahead >= tseg2) || hard);
   assign edge_o     = tq_i && falling;
   assign bit_o      = smp_i ? (rx_i && prev_q[0]) || (rx_i && prev_q[1]) || (&prev_q) : rx_i;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)     tseg1_q <= 5'd2;
+    else if (!run_i) tseg1_q <= {2'b0, propseg_i} + {2'b0, pseg1_i} + 5'd2;
+  end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -21,12 +21,18 @@ module can_tq_gen #(
 
   logic [PresdivWidth-1:0] left_q;
 
-  assign tq_o = run_i && (left_q == '0);
-
+  // tq_o is a register: it stands at the head of the longest paths of the core.
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)             left_q <= '0;
-    else if (!run_i || tq_o) left_q <= presdiv_i;
-    else                     left_q <= left_q - 1'b1;
+    if (!rst_ni) begin
+      left_q <= '0;
+      tq_o   <= 1'b0;
+    end else if (!run_i || tq_o) begin
+      left_q <= presdiv_i;
+      tq_o   <= run_i && (presdiv_i == '0);
+    end else begin
+      left_q <= left_q - 1'b1;
+      tq_o   <= (left_q == PresdivWidth'(1));
+    end
   end
 
 endmodule

@@ -10,6 +10,7 @@ module can_bsp (
   input  logic            run_i,
   input  logic            sample_i,
   input  logic            bit_i,
+  input  logic            judge_i,         // first clock of a bit
   input  logic            edge_i,
   input  logic            sent_i,          // level this node sends in the current bit
   input  logic            lom_i,
@@ -51,7 +52,7 @@ module can_bsp (
   output logic            rx_valid_o
 );
 
-  logic       prev, last, crc_bit, mismatch, begin_rx, take_tx, load, in_frame;
+  logic       prev, ends, last, free, crc_bit, mismatch, begin_rx, take_tx, load, in_frame;
   logic       passive_flag, overload_frame, boff_end;
   logic       id_bit, ex_id_bit, data_bit;
   logic [5:0] kind;
@@ -67,24 +68,26 @@ module can_bsp (
   );
 
   can_error u_error (
-    .field_i(field_o), .last_i(last), .bit_i, .sent_i, .transmitter_i(transmitter_o),
+    .clk_i, .rst_ni, .run_i, .judge_i, .field_i(field_o), .last_i(ends), .bit_i, .sent_i, .transmitter_i(transmitter_o),
     .stuff_i(stuff_o), .prev_i(prev), .crc_mismatch_i(mismatch), .lpb_i,
     .kind_o(kind), .error_o(error), .exempt_o(exempt), .lost_o(lost), .overload_o(overload)
   );
 
   can_field u_field (
-    .clk_i, .rst_ni, .run_i, .sample_i, .bit_i, .stuff_i(stuff_o), .prev_i(prev), .edge_i,
+    .clk_i, .rst_ni, .run_i, .sample_i, .bit_i, .judge_i, .stuff_i(stuff_o), .prev_i(prev), .edge_i,
     .error_i(error), .lost_i(lost), .overload_i(overload),
     .passive_i(passive_o), .boff_i(boff_o), .boff_end_i(boff_end),
     .tx_req_i(tx_req_i && !lom_i), .ide_i(rx_ide_o), .rtr_i(rx_rtr_o), .dlc_i(rx_dlc_o[2:0]),
     .lom_i, .fd_tolerant_i,
-    .field_o, .left_o, .last_o(last), .transmitter_o, .passive_flag_o(passive_flag),
-    .overload_frame_o(overload_frame), .begin_rx_o(begin_rx), .take_tx_o(take_tx)
+    .field_o, .left_o, .ends_o(ends), .last_o(last), .transmitter_o, .passive_flag_o(passive_flag),
+    .overload_frame_o(overload_frame), .free_o(free),
+    .begin_rx_o(begin_rx), .take_tx_o(take_tx)
   );
 
   can_fault u_fault (
     .clk_i, .rst_ni, .run_i, .sample_i, .bit_i, .field_i(field_o),
-    .after_flag_i({left_o[5], left_o[2:0]}), .last_i(last), .sent_i, .transmitter_i(transmitter_o), .overload_frame_i(overload_frame),
+    .after_flag_i({left_o[5], left_o[2:0]}), .ends_i(ends), .last_i(last), .free_i(free),
+    .sent_i, .transmitter_i(transmitter_o), .overload_frame_i(overload_frame),
     .passive_flag_i(passive_flag), .error_i(error), .exempt_i(exempt),
     .ack_error_i(kind[can_pkg::ErrAck]), .lom_i, .boff_rec_i,
     .clear_i(ec_clear_i), .we_i(ec_we_i), .wdata_i(ec_wdata_i),

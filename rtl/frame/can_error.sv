@@ -1,14 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_error: what is wrong with the bit just sampled, and what it asks for: flag, overload, retreat.
-// Rules ED-01..ED-21, AR-02..AR-05, OV-03. Valid at the sample point; one event a bit (ED-17).
+// can_error: what is wrong with the bit being sampled, and what it asks for: flag, overload, retreat.
+// Rules ED-01..ED-21, AR-02..AR-05, OV-03; one event a bit (ED-17). Both levels are judged when the
+// bit begins, so that the sample point has only to choose: it sits on the longest path of the core.
 
 module can_error (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  input  logic            run_i,
+  input  logic            judge_i,        // the clock in which field, level and role of a bit are new
   input  can_pkg::field_t field_i,
   input  logic            last_i,         // last bit of the field
   input  logic            bit_i,          // sampled
-  input  logic            sent_i,         // level this node sent in the bit
+  input  logic            sent_i,         // level this node sends in the bit
   input  logic            transmitter_i,
   input  logic            stuff_i,        // the bit is a stuff bit
   input  logic            prev_i,         // level of the bit before
@@ -21,45 +26,68 @@ module can_error (
   output logic            overload_o      // an overload flag follows
 );
 
-  logic dominant, saw_d, arbitration, fixed, bit0, bit1, ack, crc, form, stuff;
+  logic arbitration, saw_d, foreign_stuff, fixed, overload;
 
-  assign dominant    = !bit_i;
-  assign saw_d       = transmitter_i && sent_i && dominant;  // sent recessive, somebody sends dominant
-  assign arbitration = !field_i[4] && field_i[3];            // AR-01
+  assign saw_d         = transmitter_i && sent_i;                 // if dominant: sent by somebody else
+  assign arbitration   = !field_i[4] && field_i[3];               // AR-01
+  assign foreign_stuff = stuff_i && !transmitter_i;
 
-  assign lost_o   = saw_d && arbitration && !stuff_i;        // AR-02
-  assign exempt_o = saw_d && arbitration && stuff_i;         // AR-04
+  // Fixed form; the last bit of EOF is judged by the transmitter alone (ED-10, ED-11), that of a
+  // delimiter by nobody (ED-12). Where a dominant bit is no error there, it asks for an overload flag.
+  always_comb begin
+    case (field_i)
+      can_pkg::FldCrcDel: {fixed, overload} = {!stuff_i, 1'b0};
+      can_pkg::FldAckDel: {fixed, overload} = 2'b10;
+      can_pkg::FldEof:    {fixed, overload} = (!last_i || transmitter_i) ? 2'b10 : 2'b01;
+      can_pkg::FldDel:    {fixed, overload} = {!last_i, last_i};
+      can_pkg::FldInt:    {fixed, overload} = {1'b0, !last_i};
+      default:            {fixed, overload} = 2'b00;
+    endcase
+  end
 
+  // If the bit is dominant
+  logic bit1_q, form_q, stuff_d_q, lost_q, exempt_q, overload_q, error_d_q;
+  // If it is recessive
+  logic bit0_q, ack_q, crc_q, stuff_r_q, error_r_q;
+
+  logic bit1, stuff_d, exempt, bit0, ack, crc, stuff_r;
+  assign bit1    = saw_d && !arbitration && (stuff_i || (field_i[4] && !field_i[3]));
+  assign exempt  = saw_d && arbitration && stuff_i;                                      // AR-04
+  assign stuff_d = foreign_stuff && !prev_i;                                             // ST-06
   // Whoever sends dominant and sees recessive: frame bit, ACK, active flag, overload flag (ED-06).
-  assign bit0 = !sent_i && bit_i;
-  assign bit1 = saw_d && ((field_i[4] && !field_i[3]) || stuff_i) && !arbitration;
-  assign ack  = (field_i == can_pkg::FldAck) && transmitter_i && bit_i && !lpb_i;  // ED-16
-  assign crc  = (field_i == can_pkg::FldAckDel) && crc_mismatch_i && !transmitter_i && bit_i;  // ED-20
-  assign stuff = exempt_o || (!transmitter_i && stuff_i && bit_i == prev_i);       // ST-06
+  assign bit0    = !sent_i;
+  assign ack     = (field_i == can_pkg::FldAck) && transmitter_i && !lpb_i;              // ED-16
+  assign crc     = (field_i == can_pkg::FldAckDel) && crc_mismatch_i && !transmitter_i;  // ED-20
+  assign stuff_r = foreign_stuff && prev_i;
 
-  // Fixed form; the last bit of EOF is judged by the transmitter alone (ED-10, ED-11) and that of a
-  // delimiter by nobody (ED-12).
-  always_comb begin
-    case (field_i)
-      can_pkg::FldCrcDel: fixed = !stuff_i;
-      can_pkg::FldAckDel: fixed = 1'b1;
-      can_pkg::FldEof:    fixed = !last_i || transmitter_i;
-      can_pkg::FldDel:    fixed = !last_i;
-      default:            fixed = 1'b0;
-    endcase
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {bit1_q, form_q, stuff_d_q, lost_q, exempt_q, overload_q, error_d_q} <= '0;
+      {bit0_q, ack_q, crc_q, stuff_r_q, error_r_q}                         <= '0;
+    end else if (!run_i) begin
+      {bit1_q, form_q, stuff_d_q, lost_q, exempt_q, overload_q, error_d_q} <= '0;
+      {bit0_q, ack_q, crc_q, stuff_r_q, error_r_q}                         <= '0;
+    end else if (judge_i) begin
+      bit1_q     <= bit1;
+      form_q     <= fixed;
+      stuff_d_q  <= stuff_d || exempt;
+      lost_q     <= saw_d && arbitration && !stuff_i;                                    // AR-02
+      exempt_q   <= exempt;
+      overload_q <= overload;
+      error_d_q  <= bit1 || fixed || stuff_d || exempt;
+      bit0_q     <= bit0;
+      ack_q      <= ack;
+      crc_q      <= crc;
+      stuff_r_q  <= stuff_r;
+      error_r_q  <= bit0 || ack || crc || stuff_r;
+    end
   end
-  assign form = fixed && dominant;
 
-  assign kind_o  = {bit1, bit0, ack, crc, form, stuff};
-  assign error_o = |kind_o;
-
-  always_comb begin
-    case (field_i)
-      can_pkg::FldEof: overload_o = dominant && last_i && !transmitter_i;
-      can_pkg::FldDel: overload_o = dominant && last_i;
-      can_pkg::FldInt: overload_o = dominant && !last_i;
-      default:         overload_o = 1'b0;
-    endcase
-  end
+  assign kind_o     = bit_i ? {1'b0, bit0_q, ack_q, crc_q, 1'b0, stuff_r_q}
+                            : {bit1_q, 3'b000, form_q, stuff_d_q};
+  assign error_o    = bit_i ? error_r_q : error_d_q;
+  assign exempt_o   = exempt_q && !bit_i;
+  assign lost_o     = lost_q && !bit_i;
+  assign overload_o = overload_q && !bit_i;
 
 endmodule

@@ -12,7 +12,9 @@ module can_fault (
   input  logic            bit_i,
   input  can_pkg::field_t field_i,
   input  logic [3:0]      after_flag_i,     // FldWait: {first bit after the flag, bits left modulo 8}
-  input  logic            last_i,
+  input  logic            ends_i,           // last bit of the field
+  input  logic            last_i,           // the same, registered
+  input  logic            free_i,           // after this bit a frame may begin
   input  logic            sent_i,           // level this node sent in the bit
   input  logic            transmitter_i,
   input  logic            overload_frame_i,
@@ -29,7 +31,7 @@ module can_fault (
   output logic [7:0]      rec_o,
   output logic            passive_o,
   output logic            boff_o,
-  output logic            boff_end_o        // recovery is complete with the bit being sampled
+  output logic            boff_end_o        // a recessive bit here completes the recovery
 );
 
   logic [8:0] tec_q;
@@ -65,35 +67,45 @@ module can_fault (
 
   // 128 sequences of 11 recessive bits (BO-02); the count waits at 128 for the host's leave.
   assign sequence_end = (field_i == can_pkg::FldBusOff) && last_i && bit_i;
-  assign boff_end_o   = sequence_end && (tec_q[7] || (&tec_q[6:0])) && !hold_q;
+  assign boff_end_o   = ends_i && (tec_q[7] || (&tec_q[6:0])) && !hold_q;
 
+  // The decision is taken at the sample point and counted one clock later: still before anyone asks,
+  // and the adder stays off the longest path.
+  logic       plus8_q, plus1_q, minus1_q, sequence_q, recovered_q;
   logic       on_tec;
   logic [8:0] sum;
+
   assign on_tec = transmitter_i || tec_q[8];
   assign sum = (on_tec ? tec_q : {1'b0, rec_q})
-               + (plus8 ? 9'd8 : minus1 ? 9'h1FF : 9'd1);
+               + (plus8_q ? 9'd8 : minus1_q ? 9'h1FF : 9'd1);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) {plus8_q, plus1_q, minus1_q, sequence_q, recovered_q} <= '0;
+    else begin
+      plus8_q     <= sample_i && plus8 && !lom_i;
+      plus1_q     <= sample_i && plus1 && !lom_i;
+      minus1_q    <= sample_i && minus1 && !lom_i;
+      sequence_q  <= sample_i && sequence_end && !tec_q[7];
+      recovered_q <= sample_i && tec_q[8] && free_i;                                     // BO-05
+    end
+  end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       tec_q <= '0;
       rec_q <= '0;
-    end else if (!run_i) begin
-      if (clear_i) {tec_q, rec_q} <= '0;
-      else if (we_i) begin
-        rec_q <= wdata_i[15:8];
-        if (!tec_q[8]) tec_q[7:0] <= wdata_i[7:0];
-      end
+    end else if (recovered_q || (clear_i && !run_i)) begin
+      tec_q <= '0;
+      rec_q <= '0;
+    end else if (we_i && !run_i) begin
+      rec_q <= wdata_i[15:8];
+      if (!tec_q[8]) tec_q[7:0] <= wdata_i[7:0];
     end else if (tec_q[8] && !boff_seen_q) begin
       tec_q[7:0] <= '0;                                                                  // FC-13
-    end else if (sample_i) begin
-      if (boff_end_o) {tec_q, rec_q} <= '0;                                              // BO-05
-      else if (sequence_end) begin
-        if (!tec_q[7]) tec_q <= sum;
-      end else if (!lom_i && !tec_q[8] && (plus8 || plus1 || minus1)) begin
-        if (transmitter_i)          tec_q <= sum;
-        else if (!rec_q[7])         rec_q <= sum[7:0];
-        else if (minus1)            rec_q <= 8'd127;                                     // FC-10
-      end
+    end else if (sequence_q || plus8_q || plus1_q || minus1_q) begin
+      if (on_tec)         tec_q <= sum;
+      else if (!rec_q[7]) rec_q <= sum[7:0];
+      else if (minus1_q)  rec_q <= 8'd127;                                               // FC-10
     end
   end
 
@@ -103,12 +115,12 @@ module can_fault (
       hold_q      <= 1'b0;
       boff_seen_q <= 1'b0;
     end else begin
-      boff_seen_q <= tec_q[8] && (run_i || boff_seen_q);
+      boff_seen_q <= tec_q[8];
       if (!tec_q[8] || !boff_rec_i) hold_q <= 1'b0;
       else if (!boff_seen_q)        hold_q <= 1'b1;
       if (sample_i) begin
-        if (error_i)                                                    withheld_q <= withhold;
-        else if (field_i != can_pkg::FldErrFlag || saw_d)               withheld_q <= 1'b0;
+        if (error_i)                                             withheld_q <= withhold;
+        else if (field_i != can_pkg::FldErrFlag || saw_d)        withheld_q <= 1'b0;
       end
     end
   end

@@ -11,6 +11,7 @@ module can_field (
   input  logic            run_i,           // 0: not on the bus; then integrate (IN-01)
   input  logic            sample_i,
   input  logic            bit_i,
+  input  logic            judge_i,         // first clock of a bit, see can_error
   input  logic            stuff_i,         // current bit is a stuff bit: the field stands still
   input  logic            prev_i,          // level of the bit before
   input  logic            edge_i,          // synchronising edge
@@ -21,7 +22,7 @@ module can_field (
   // Fault confinement
   input  logic            passive_i,       // error passive before this bit is counted (EF-05)
   input  logic            boff_i,          // bus-off
-  input  logic            boff_end_i,      // the 128th sequence is complete with this bit
+  input  logic            boff_end_i,      // a recessive bit here completes bus-off recovery
   // Frame and configuration
   input  logic            tx_req_i,
   input  logic            ide_i,
@@ -31,10 +32,12 @@ module can_field (
   input  logic            fd_tolerant_i,
   output can_pkg::field_t field_o,
   output logic [5:0]      left_o,          // bits of the field that follow the current one
-  output logic            last_o,          // left_o = 0
+  output logic            ends_o,          // left_o = 0
+  output logic            last_o,          // the same, registered: from the second clock of a bit on
   output logic            transmitter_o,   // role (RO-01)
   output logic            passive_flag_o,  // the error flag being sent is passive
   output logic            overload_frame_o,// the flag or delimiter belongs to an overload frame
+  output logic            free_o,          // after this bit a frame may begin
   output logic            begin_rx_o,      // at this sample point a foreign frame begins
   output logic            take_tx_o        // at this sample point an own frame begins
 );
@@ -43,38 +46,50 @@ module can_field (
   logic [5:0]      left_q;
   logic            tx_q, passive_flag_q, overload_q;
 
-  logic last, may_begin, suspend, fd_frame;
+  logic last_q, free_r_q, free_d_q, join_q;
+  logic ends, suspend, may_begin, fd_frame, restart;
 
   assign field_o          = field_q;
   assign left_o           = left_q;
-  assign last_o           = last;
+  assign ends_o           = ends;
+  assign last_o           = last_q;
   assign transmitter_o    = tx_q;
   assign passive_flag_o   = passive_flag_q;
   assign overload_frame_o = overload_q;
 
-  assign last    = (left_q == '0);
+  assign ends    = (left_q == '0);
   assign suspend = tx_q && passive_i;                                        // IF-08, IF-11
+
+  // May a frame begin after this bit? A recessive one lets an own frame begin, a dominant one is a
+  // start of frame (IF-03, IF-05, IF-12, IN-04). Joining it is for who need not suspend (IF-06, IF-10).
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)     {last_q, free_r_q, free_d_q, join_q} <= '0;
+    else if (!run_i) {last_q, free_r_q, free_d_q, join_q} <= '0;
+    else if (judge_i) begin
+      last_q <= ends;
+      join_q <= !suspend && (field_q == can_pkg::FldIdle || field_q == can_pkg::FldInt);
+      case (field_q)
+        can_pkg::FldIdle:    {free_r_q, free_d_q} <= 2'b11;
+        can_pkg::FldInt:     {free_r_q, free_d_q} <= {ends && !suspend, ends};
+        can_pkg::FldSuspend: {free_r_q, free_d_q} <= {ends, 1'b1};
+        can_pkg::FldInteg:   {free_r_q, free_d_q} <= {ends, 1'b0};
+        can_pkg::FldBusOff:  {free_r_q, free_d_q} <= {boff_end_i, 1'b0};
+        default:             {free_r_q, free_d_q} <= 2'b00;
+      endcase
+    end else if (restart) {last_q, free_r_q} <= '0;
+  end
+
+  assign free_o     = may_begin;
+  assign may_begin  = bit_i ? free_r_q : free_d_q;
+  assign take_tx_o  = may_begin && tx_req_i && (bit_i || join_q);
+  assign begin_rx_o = may_begin && !bit_i && !take_tx_o;
+
   // A recessive FDF bit, for a receiver that tolerates FD frames (FF-06).
   assign fd_frame = fd_tolerant_i && bit_i && !tx_q && !stuff_i
                     && (field_q == can_pkg::FldR1 || (field_q == can_pkg::FldR0 && !ide_i));
 
-  // The bus is free after this bit, whatever it was: a recessive one lets an own frame begin, a
-  // dominant one is a start of frame (IF-03, IF-05, IF-12, IN-04).
-  always_comb begin
-    case (field_q)
-      can_pkg::FldIdle:    may_begin = 1'b1;
-      can_pkg::FldInt:     may_begin = last && (!suspend || !bit_i);
-      can_pkg::FldSuspend: may_begin = last || !bit_i;
-      can_pkg::FldInteg:   may_begin = last && bit_i;
-      can_pkg::FldBusOff:  may_begin = boff_end_i;
-      default:             may_begin = 1'b0;
-    endcase
-  end
-
-  // Own frame: after recessive with SOF; after a foreign SOF without, unless suspended (IF-06, IF-10).
-  assign take_tx_o  = may_begin && tx_req_i
-                      && (bit_i || (field_q != can_pkg::FldSuspend && !suspend));
-  assign begin_rx_o = may_begin && !bit_i && !take_tx_o;
+  // It also counts its eleven bits anew at edges between sample points (IN-02).
+  assign restart = fd_tolerant_i && edge_i && field_q == can_pkg::FldInteg;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -103,10 +118,10 @@ module can_field (
         left_q  <= 6'd10;
       end else if (!stuff_i) begin
         if (lost_i) tx_q <= 1'b0;
-        if (!last)  left_q <= left_q - 6'd1;
+        if (!last_q) left_q <= left_q - 6'd1;
         case (field_q)
-          can_pkg::FldInteg, can_pkg::FldBusOff: if (last || !bit_i) left_q <= 6'd10;
-          can_pkg::FldInt: if (last) begin
+          can_pkg::FldInteg, can_pkg::FldBusOff: if (last_q || !bit_i) left_q <= 6'd10;
+          can_pkg::FldInt: if (last_q) begin
             field_q <= can_pkg::FldSuspend;
             left_q  <= 6'd7;
           end
@@ -114,20 +129,20 @@ module can_field (
             field_q <= can_pkg::FldId;
             left_q  <= 6'd10;
           end
-          can_pkg::FldId:  if (last) field_q <= can_pkg::FldRtr;
+          can_pkg::FldId:  if (last_q) field_q <= can_pkg::FldRtr;
           can_pkg::FldRtr: field_q <= can_pkg::FldIde;
           can_pkg::FldIde: begin
             field_q <= bit_i ? can_pkg::FldExId : can_pkg::FldR0;
             left_q  <= bit_i ? 6'd17 : 6'd0;
           end
-          can_pkg::FldExId:  if (last) field_q <= can_pkg::FldExRtr;
+          can_pkg::FldExId:  if (last_q) field_q <= can_pkg::FldExRtr;
           can_pkg::FldExRtr: field_q <= can_pkg::FldR1;
           can_pkg::FldR1:    field_q <= can_pkg::FldR0;
           can_pkg::FldR0: begin
             field_q <= can_pkg::FldDlc;
             left_q  <= 6'd3;
           end
-          can_pkg::FldDlc: if (last) begin
+          can_pkg::FldDlc: if (last_q) begin
             // min(DLC, 8) bytes, none in a remote frame (FF-03, FF-07).
             if (rtr_i || {dlc_i, bit_i} == 4'd0) begin
               field_q <= can_pkg::FldCrc;
@@ -137,18 +152,18 @@ module can_field (
               left_q  <= {dlc_i[2] ? 3'd7 : {dlc_i[1:0], bit_i} - 3'd1, 3'd7};
             end
           end
-          can_pkg::FldData: if (last) begin
+          can_pkg::FldData: if (last_q) begin
             field_q <= can_pkg::FldCrc;
             left_q  <= 6'd14;
           end
-          can_pkg::FldCrc:    if (last) field_q <= can_pkg::FldCrcDel;
+          can_pkg::FldCrc:    if (last_q) field_q <= can_pkg::FldCrcDel;
           can_pkg::FldCrcDel: field_q <= can_pkg::FldAck;
           can_pkg::FldAck:    field_q <= can_pkg::FldAckDel;
           can_pkg::FldAckDel: begin
             field_q <= can_pkg::FldEof;
             left_q  <= 6'd6;
           end
-          can_pkg::FldEof, can_pkg::FldDel: if (last) begin
+          can_pkg::FldEof, can_pkg::FldDel: if (last_q) begin
             field_q <= can_pkg::FldInt;
             left_q  <= 6'd2;
           end
@@ -157,7 +172,7 @@ module can_field (
             if (field_q == can_pkg::FldErrFlag && passive_flag_q
                 && left_q != 6'd5 && bit_i != prev_i) begin
               left_q <= 6'd4;
-            end else if (last) begin
+            end else if (last_q) begin
               field_q <= can_pkg::FldWait;
               left_q  <= 6'd39;  // see can_fault: first bit after the flag, then modulo 8
             end
@@ -173,8 +188,8 @@ module can_field (
           default: ;
         endcase
       end
-    end else if (fd_tolerant_i && edge_i && field_q == can_pkg::FldInteg) begin
-      left_q <= 6'd10;  // IN-02
+    end else if (restart) begin
+      left_q <= 6'd10;
     end
   end
 
