@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// FaultConfinement: the two error counters of the node model, one member function per rule (rule book 11).
+// FaultConfinement: the two error counters of the node model, one member function per rule (rule
+// book 11).
 #pragma once
 
 #include <cstdint>
@@ -29,7 +30,8 @@ class FaultConfinement {
     rec_ = rec;
   }
 
-  /// FC-02, FC-05, FC-16: an error starts an error flag. `exempt`: one of the two exceptions of FC-05.
+  /// FC-02, FC-05, FC-16: an error starts an error flag. `exempt`: one of the two exceptions of
+  /// FC-05.
   void error(Role role, bool exempt) {
     if (role == Role::kTransmitter) {
       if (!exempt) add_tec();

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Field: the names of the places in the bit stream, shared by the judges and by observers of the core.
+// Field: the names of the places in the bit stream, shared by the judges and by observers of the
+// core.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@ namespace vericansim {
 /// Where a bit stands. Names and encodings are those of the core's trace (can_pkg Fld*), so that a
 /// trace field casts to a Field.
 ///
-/// A stuff bit belongs to the field whose bit was due when it was inserted: a stuff bit between ID18
-/// and RTR stands at kRtr, the last one between CRC0 and the CRC delimiter at kCrcDel (ST-03).
+/// A stuff bit belongs to the field whose bit was due when it was inserted: a stuff bit between
+/// ID18 and RTR stands at kRtr, the last one between CRC0 and the CRC delimiter at kCrcDel (ST-03).
 enum class Field : std::uint8_t {
   kInteg = 0,     ///< waits for eleven recessive bits (IN-01)
   kBusOff = 1,    ///< bus-off, counts 128 x 11 recessive bits (BO-02)
@@ -44,10 +45,11 @@ enum class Field : std::uint8_t {
 /// Short name for reports and wave files, for example "CRC"; "?" for a value that names no field.
 constexpr std::string_view field_name(Field field) {
   constexpr std::string_view kNames[32] = {
-      "INTEGRATING", "BUS_OFF", "IDLE", "INT",  "SUSPEND",    "?",        "?",         "?",
-      "SOF",         "ID",      "RTR",  "IDE",  "EXID",       "EXRTR",    "?",         "?",
-      "R1",          "R0",      "DLC",  "DATA", "CRC",        "?",        "?",         "?",
-      "CRC_DEL",     "ACK",     "ACK_DEL", "EOF", "ERROR_FLAG", "DEL_WAIT", "DELIMITER", "OVERLOAD_FLAG"};
+      "INTEGRATING", "BUS_OFF",  "IDLE",      "INT",          "SUSPEND", "?",       "?",
+      "?",           "SOF",      "ID",        "RTR",          "IDE",     "EXID",    "EXRTR",
+      "?",           "?",        "R1",        "R0",           "DLC",     "DATA",    "CRC",
+      "?",           "?",        "?",         "CRC_DEL",      "ACK",     "ACK_DEL", "EOF",
+      "ERROR_FLAG",  "DEL_WAIT", "DELIMITER", "OVERLOAD_FLAG"};
   return kNames[static_cast<std::uint8_t>(field) & 31u];
 }
 

@@ -9,13 +9,13 @@
 
 namespace vericansim {
 
-/// A data or remote frame. `dlc` is the raw code on the wire, 0..15 (FF-07); only payload_size() bytes
-/// of `data` mean something and the others are zero.
+/// A data or remote frame. `dlc` is the raw code on the wire, 0..15 (FF-07); only payload_size()
+/// bytes of `data` mean something and the others are zero.
 struct Frame {
-  std::uint32_t id = 0;    ///< 11 bits (0..0x7FF) or, if `extended`, 29 bits (0..0x1FFFFFFF)
-  bool extended = false;   ///< IDE: 29-bit identifier
-  bool remote = false;     ///< RTR: remote frame, carries no data
-  std::uint8_t dlc = 0;    ///< 0..15; 9..15 mean eight bytes (FF-07, FF-08)
+  std::uint32_t id = 0;   ///< 11 bits (0..0x7FF) or, if `extended`, 29 bits (0..0x1FFFFFFF)
+  bool extended = false;  ///< IDE: 29-bit identifier
+  bool remote = false;    ///< RTR: remote frame, carries no data
+  std::uint8_t dlc = 0;   ///< 0..15; 9..15 mean eight bytes (FF-07, FF-08)
   std::array<std::uint8_t, 8> data{};
 
   /// Bytes that travel in the data field: min(dlc, 8), or 0 for a remote frame (FF-03).

@@ -114,7 +114,8 @@ EncodedFrame encode_frame(const Frame &frame, const EncodeOptions &options) {
   out.bits.push_back({Level::kRecessive, Field::kCrcDel, 0, false});
   out.bits.push_back({options.ack_slot, Field::kAck, 0, false});
   out.bits.push_back({Level::kRecessive, Field::kAckDel, 0, false});
-  for (std::uint8_t i = 0; i < 7; ++i) out.bits.push_back({Level::kRecessive, Field::kEof, i, false});
+  for (std::uint8_t i = 0; i < 7; ++i)
+    out.bits.push_back({Level::kRecessive, Field::kEof, i, false});
   return out;
 }
 

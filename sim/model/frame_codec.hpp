@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frame codec: a whole frame to the bits on the wire and back, as tables of bits (rule book 1, 2, 3).
+// Frame codec: a whole frame to the bits on the wire and back, as tables of bits (rule book 1, 2,
+// 3).
 #pragma once
 
 #include <cstddef>
@@ -23,16 +24,18 @@ struct WireBit {
   Level level = Level::kRecessive;
   Field field = Field::kSof;
   std::uint8_t index = 0;  ///< place in the field, counted from 0 in the order on the wire
-  bool is_stuff = false;   ///< inserted bit; field and index are those of the bit that was due (ST-01)
+  bool is_stuff =
+      false;  ///< inserted bit; field and index are those of the bit that was due (ST-01)
 };
 
 /// Levels that a Frame leaves open. A CAN 2.0 transmitter uses the defaults (FF-04); receivers must
 /// accept all others too (FF-05).
 struct EncodeOptions {
   Level r0 = Level::kDominant;
-  Level r1 = Level::kDominant;        ///< extended frames only
-  Level srr = Level::kRecessive;      ///< extended frames only
-  Level ack_slot = Level::kDominant;  ///< the slot as seen on an acknowledged bus; transmitters send r
+  Level r1 = Level::kDominant;    ///< extended frames only
+  Level srr = Level::kRecessive;  ///< extended frames only
+  Level ack_slot =
+      Level::kDominant;  ///< the slot as seen on an acknowledged bus; transmitters send r
 };
 
 /// A frame from SOF to EOF7.
@@ -43,7 +46,8 @@ struct EncodedFrame {
   std::uint16_t crc = 0;
 };
 
-/// CRC15 of a list of bits by long division with 0xC599, first bit first (CR-01). `bits` are 0 or 1.
+/// CRC15 of a list of bits by long division with 0xC599, first bit first (CR-01). `bits` are 0
+/// or 1.
 [[nodiscard]] std::uint16_t crc15(std::span<const std::uint8_t> bits);
 
 /// Bits of `frame` as they travel. Throws std::invalid_argument if the identifier does not fit its
@@ -65,8 +69,8 @@ enum class DecodeError : std::uint8_t {
 struct DecodeResult {
   std::optional<Frame> frame;
   DecodeError error = DecodeError::kNone;
-  std::size_t position = 0;        ///< index of the offending bit in the input
-  Field field = Field::kSof;       ///< its place
+  std::size_t position = 0;   ///< index of the offending bit in the input
+  Field field = Field::kSof;  ///< its place
   std::uint8_t index = 0;
   EncodeOptions levels;            ///< reserved bits, SRR and ACK slot as received
   std::size_t stuffed_length = 0;  ///< bits SOF..CRC0 with all stuff bits
@@ -79,7 +83,8 @@ struct DecodeResult {
 /// Levels of an encoded frame, for decode_frame() or a driver.
 [[nodiscard]] std::vector<Level> levels_of(std::span<const WireBit> bits);
 
-/// "0" for dominant, "1" for recessive; and back. Throws std::invalid_argument on another character.
+/// "0" for dominant, "1" for recessive; and back. Throws std::invalid_argument on another
+/// character.
 [[nodiscard]] std::string to_string(std::span<const Level> bits);
 [[nodiscard]] std::vector<Level> levels_from_string(std::string_view text);
 

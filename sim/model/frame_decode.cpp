@@ -40,10 +40,9 @@ class Reader {
     return bits_[at_++];
   }
 
-  /// True if the five bits before the next one are equal, none of them before the last stuff bit's run.
-  [[nodiscard]] bool stuff_due() const {
-    return at_ - run_start_ == 5;
-  }
+  /// True if the five bits before the next one are equal, none of them before the last stuff bit's
+  /// run.
+  [[nodiscard]] bool stuff_due() const { return at_ - run_start_ == 5; }
 
   void skip_stuff_bit(Field field, std::size_t index) {
     const std::size_t position = at_;
@@ -71,9 +70,7 @@ class Reader {
     return value;
   }
 
-  Level level(Field field) {
-    return stuffed_bit(field, 0) ? Level::kRecessive : Level::kDominant;
-  }
+  Level level(Field field) { return stuffed_bit(field, 0) ? Level::kRecessive : Level::kDominant; }
 
   void recessive(Field field, std::size_t index) {
     const std::size_t position = at_;

@@ -6,7 +6,8 @@
 
 namespace vericansim {
 
-/// An error other than one in an own flag. The flag's type is that of the state before the step (EF-05).
+/// An error other than one in an own flag. The flag's type is that of the state before the step
+/// (EF-05).
 void NodeModel::error(NodeError kind, bool exempt) {
   const bool passive = confinement_.passive();
   events_.error = kind;

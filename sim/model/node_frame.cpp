@@ -1,24 +1,30 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// NodeModel within a frame: arbitration, bit check, acknowledge, end of frame (rule book 1-4, 6, 8, 15).
+// NodeModel within a frame: arbitration, bit check, acknowledge, end of frame (rule book 1-4, 6, 8,
+// 15).
 #include "model/node_model.hpp"
 
 namespace vericansim {
 namespace {
 
-/// AR-01: the fields where an own recessive bit may be overwritten. The base IDE is outside too, but a
-/// node that sends it recessive has an extended frame, for which it is inside.
+/// AR-01: the fields where an own recessive bit may be overwritten. The base IDE is outside too,
+/// but a node that sends it recessive has an extended frame, for which it is inside.
 bool in_arbitration(Field field) { return field >= Field::kId && field <= Field::kExRtr; }
 
 /// AR-12: 0 = ID28 .. 31 = extended RTR.
 std::uint8_t arbitration_position(const BitPlace &place) {
   switch (place.field) {
-    case Field::kId: return place.index;
-    case Field::kRtr: return 11;
-    case Field::kIde: return 12;
-    case Field::kExId: return static_cast<std::uint8_t>(13 + place.index);
-    default: return 31;
+    case Field::kId:
+      return place.index;
+    case Field::kRtr:
+      return 11;
+    case Field::kIde:
+      return 12;
+    case Field::kExId:
+      return static_cast<std::uint8_t>(13 + place.index);
+    default:
+      return 31;
   }
 }
 
@@ -30,23 +36,35 @@ Level recessive_if(bool value) { return value ? Level::kRecessive : Level::kDomi
 
 }  // namespace
 
-/// The transmitter's next bit: a stuff bit, or the frame's bit at the parser's place (FF-01..FF-04).
+/// The transmitter's next bit: a stuff bit, or the frame's bit at the parser's place
+/// (FF-01..FF-04).
 Level NodeModel::frame_level() const {
   if (place_.is_stuff) return !parser_.run_level();
   const unsigned index = place_.index;
   switch (place_.field) {
-    case Field::kSof: return Level::kDominant;
-    case Field::kId: return bit_of(active_.extended ? active_.id >> 18 : active_.id, 10 - index);
-    case Field::kRtr: return recessive_if(active_.extended || active_.remote);
-    case Field::kIde: return recessive_if(active_.extended);
-    case Field::kExId: return bit_of(active_.id, 17 - index);
-    case Field::kExRtr: return recessive_if(active_.remote);
+    case Field::kSof:
+      return Level::kDominant;
+    case Field::kId:
+      return bit_of(active_.extended ? active_.id >> 18 : active_.id, 10 - index);
+    case Field::kRtr:
+      return recessive_if(active_.extended || active_.remote);
+    case Field::kIde:
+      return recessive_if(active_.extended);
+    case Field::kExId:
+      return bit_of(active_.id, 17 - index);
+    case Field::kExRtr:
+      return recessive_if(active_.remote);
     case Field::kR1:
-    case Field::kR0: return Level::kDominant;
-    case Field::kDlc: return bit_of(active_.dlc, 3 - index);
-    case Field::kData: return bit_of(active_.data[index / 8], 7 - index % 8);
-    case Field::kCrc: return bit_of(parser_.crc(), 14 - index);
-    default: return Level::kRecessive;
+    case Field::kR0:
+      return Level::kDominant;
+    case Field::kDlc:
+      return bit_of(active_.dlc, 3 - index);
+    case Field::kData:
+      return bit_of(active_.data[index / 8], 7 - index % 8);
+    case Field::kCrc:
+      return bit_of(parser_.crc(), 14 - index);
+    default:
+      return Level::kRecessive;
   }
 }
 
@@ -67,9 +85,8 @@ void NodeModel::sample_stuffed(Level level) {
   if (role_ == Role::kTransmitter && level != sent_ && transmitter_mismatch(level)) return;
   if (!parser_.take(level)) return error(NodeError::kStuff);
   // FF-06: FDF is the bit after a base IDE, or extended r1.
-  const bool fdf = !place_.is_stuff &&
-                   (place_.field == Field::kR1 ||
-                    (place_.field == Field::kR0 && !parser_.frame().extended));
+  const bool fdf = !place_.is_stuff && (place_.field == Field::kR1 ||
+                                        (place_.field == Field::kR0 && !parser_.frame().extended));
   if (fdf && config_.fd_tolerant && level == Level::kRecessive) {
     events_.fd_exception = true;
     return integrate();
@@ -77,7 +94,8 @@ void NodeModel::sample_stuffed(Level level) {
   place_ = parser_.place();
 }
 
-/// Sent and sampled level differ. False if that is lost arbitration, where the node goes on as receiver.
+/// Sent and sampled level differ. False if that is lost arbitration, where the node goes on as
+/// receiver.
 bool NodeModel::transmitter_mismatch(Level level) {
   if (level == Level::kRecessive) {  // AR-03, AR-05
     error(NodeError::kBit0);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// NodeModel: a CAN node as the rule book describes it, one call a bit; the judge of the RTL (rule 19.5).
+// NodeModel: a CAN node as the rule book describes it, one call a bit; the judge of the RTL
+// (rule 19.5).
 #pragma once
 
 #include <cstdint>
@@ -18,11 +19,11 @@ namespace vericansim {
 /// Options of a node. May be changed between bits; listen_only, loop_back and self_reception only
 /// while no frame is under way.
 struct NodeConfig {
-  bool listen_only = false;     ///< MO-01: never dominant, counters frozen
-  bool loop_back = false;       ///< MO-04: hears only itself, pin recessive, ACK not needed
-  bool fd_tolerant = false;     ///< FF-06: recessive FDF bit starts integration
-  bool one_shot = false;        ///< MO-09: one start for each request
-  bool boff_rec = false;        ///< true: bus-off lasts until this is cleared; latched at entry (BO-03)
+  bool listen_only = false;  ///< MO-01: never dominant, counters frozen
+  bool loop_back = false;    ///< MO-04: hears only itself, pin recessive, ACK not needed
+  bool fd_tolerant = false;  ///< FF-06: recessive FDF bit starts integration
+  bool one_shot = false;     ///< MO-09: one start for each request
+  bool boff_rec = false;  ///< true: bus-off lasts until this is cleared; latched at entry (BO-03)
   bool self_reception = false;  ///< MO-06: own frames are delivered too (loop_back implies it)
 };
 
@@ -46,18 +47,20 @@ struct NodeEvents {
   bool sent_ok = false;             ///< EOF7 of an own frame (VA-02)
   bool tx_fail = false;             ///< an own frame ended by an error or by lost arbitration
   bool lost_arbitration = false;    ///< AR-02
-  std::uint8_t lost_position = 0;   ///< 0 = ID28 .. 31 = extended RTR, with lost_arbitration (AR-12)
-  bool overload = false;            ///< an overload flag begins in the next bit
-  bool fd_exception = false;        ///< FF-06
-  bool bus_off_entered = false;     ///< BO-01
-  bool recovered = false;           ///< BO-05
+  std::uint8_t lost_position = 0;  ///< 0 = ID28 .. 31 = extended RTR, with lost_arbitration (AR-12)
+  bool overload = false;           ///< an overload flag begins in the next bit
+  bool fd_exception = false;       ///< FF-06
+  bool bus_off_entered = false;    ///< BO-01
+  bool recovered = false;          ///< BO-05
   NodeError error = NodeError::kNone;
 };
 
-/// One node. Per bit: level = drive(); then sample(AND of all levels). Starts integrating with TEC=REC=0.
+/// One node. Per bit: level = drive(); then sample(AND of all levels). Starts integrating with
+/// TEC=REC=0.
 ///
-/// A frame pending at the sample point of INT3, idle, suspend 8, or of the bit that ends integration or
-/// bus-off starts with SOF in the next bit; one pending at a foreign SOF in INT3, idle joins (IF-06, IF-14).
+/// A frame pending at the sample point of INT3, idle, suspend 8, or of the bit that ends
+/// integration or bus-off starts with SOF in the next bit; one pending at a foreign SOF in INT3,
+/// idle joins (IF-06, IF-14).
 class NodeModel {
  public:
   explicit NodeModel(const NodeConfig &config = {}) : config_(config) {}

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// FrameParser: the stuffed part of a frame, SOF..CRC0, followed one sampled bit at a time (rule book 1-3).
+// FrameParser: the stuffed part of a frame, SOF..CRC0, followed one sampled bit at a time (rule
+// book 1-3).
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,8 @@ struct BitPlace {
   bool is_stuff = false;
 };
 
-/// Destuffing, CRC and field sequence of one frame, for both roles: a transmitter parses what it sends.
+/// Destuffing, CRC and field sequence of one frame, for both roles: a transmitter parses what it
+/// sends.
 class FrameParser {
  public:
   /// A frame begins; its dominant SOF was just sampled, sent by whomever (ST-02, ST-07).

@@ -25,19 +25,29 @@ inline std::string rep(int count, const std::string &text) {
   return out;
 }
 
-/// Runs `node` against the rest of the bus: per bit '0' or '1' is what the node samples; '.' means the
-/// others are quiet and it samples its own level; '!' inverts its own level. Returns what it sent.
+/// Runs `node` against the rest of the bus: per bit '0' or '1' is what the node samples; '.' means
+/// the others are quiet and it samples its own level; '!' inverts its own level. Returns what it
+/// sent.
 inline std::string play(NodeModel &node, const std::string &script) {
   std::string sent;
   for (const char c : script) {
     const Level own = node.drive();
     sent.push_back(own == Level::kRecessive ? '1' : '0');
     switch (c) {
-      case '0': node.sample(Level::kDominant); break;
-      case '1': node.sample(Level::kRecessive); break;
-      case '.': node.sample(own); break;
-      case '!': node.sample(!own); break;
-      default: throw std::invalid_argument("script takes 0 1 . !");
+      case '0':
+        node.sample(Level::kDominant);
+        break;
+      case '1':
+        node.sample(Level::kRecessive);
+        break;
+      case '.':
+        node.sample(own);
+        break;
+      case '!':
+        node.sample(!own);
+        break;
+      default:
+        throw std::invalid_argument("script takes 0 1 . !");
     }
   }
   return sent;
@@ -52,7 +62,8 @@ inline NodeModel idle_node(int tec = 0, int rec = 0, const NodeConfig &config = 
 }
 
 /// A node whose SOF of `frame` is the next bit.
-inline NodeModel sender(const Frame &frame, int tec = 0, int rec = 0, const NodeConfig &config = {}) {
+inline NodeModel sender(const Frame &frame, int tec = 0, int rec = 0,
+                        const NodeConfig &config = {}) {
   NodeModel node = idle_node(tec, rec, config);
   node.request(frame);
   play(node, ".");

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frame codec against the golden vectors and the lengths of the rule book (CR-01, FF-11, GV-1..GV-9).
+// Frame codec against the golden vectors and the lengths of the rule book (CR-01, FF-11,
+// GV-1..GV-9).
 #include "model/frame_codec.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +30,8 @@ Frame random_frame(std::mt19937 &rng) {
   f.dlc = static_cast<std::uint8_t>(rng() & 15);
   const bool flat = (rng() & 1) != 0;  // long runs make many stuff bits
   for (unsigned i = 0; i < f.payload_size(); ++i) {
-    f.data[i] = flat ? static_cast<std::uint8_t>((rng() & 1) ? 0xFF : 0) : static_cast<std::uint8_t>(rng());
+    f.data[i] =
+        flat ? static_cast<std::uint8_t>((rng() & 1) ? 0xFF : 0) : static_cast<std::uint8_t>(rng());
   }
   return f;
 }
@@ -62,7 +64,8 @@ const std::array<std::uint8_t, 8> kCount = {1, 2, 3, 4, 5, 6, 7, 8};
 INSTANTIATE_TEST_SUITE_P(
     Rules, GoldenVector,
     ::testing::Values(
-        Golden{"GV_1", base(0x123, 1, {0x55}), 0x2363, "0001001000110000010101010101010001101100011"},
+        Golden{"GV_1", base(0x123, 1, {0x55}), 0x2363,
+               "0001001000110000010101010101010001101100011"},
         Golden{"GV_2", base(0x555, 0), 0x674C, "01010101010100000100110011101001100"},
         Golden{"GV_3", base(0x009, 0), 0x7C20, "000001000100100000100111110000011000001"},
         Golden{"GV_4", base(0x017, 0), 0x521F, "0000010010111000001001010010000111110"},
@@ -70,7 +73,8 @@ INSTANTIATE_TEST_SUITE_P(
                "0001001000111000101000011011001011"},
         Golden{"GV_6", Frame{.id = 0, .extended = true, .remote = true}, 0x35D5,
                "000001000001001100000100000100000100010000010011010111010101"},
-        Golden{"GV_7", base(0x078, 8, {0x01, 0xE1, 0xE1, 0xE1, 0xE1, 0xE1, 0xE1, 0xE1}), 0x28A3, ""},
+        Golden{"GV_7", base(0x078, 8, {0x01, 0xE1, 0xE1, 0xE1, 0xE1, 0xE1, 0xE1, 0xE1}), 0x28A3,
+               ""},
         Golden{"GV_8_dlc8", base(0x2AA, 8, kCount), 0x248C, ""},
         Golden{"GV_8_dlc9", base(0x2AA, 9, kCount), 0x0FD2, ""},
         Golden{"GV_8_dlc15", base(0x2AA, 15, kCount), 0x318F, ""},
@@ -150,7 +154,7 @@ TEST(FrameCodec, ReservedBitsTravelAtEitherLevel) {  // FF-05
   }
 }
 
-TEST(FrameCodec, AnnotationsNameEveryPlace) {  // FF-01
+TEST(FrameCodec, AnnotationsNameEveryPlace) {           // FF-01
   const EncodedFrame e = encode_frame(base(0x009, 0));  // GV-3: 39 bits SOF..final stuff bit
   EXPECT_EQ(e.bits[0].field, Field::kSof);
   EXPECT_EQ(e.bits[5].field, Field::kId);  // r stuff bit after SOF + 4 d (ST-02)
@@ -210,7 +214,8 @@ TEST(FrameCodec, EverySingleFlipIsSeen) {  // CR-03, MX-08: no frame survives on
 TEST(FrameCodec, RefusesWhatDoesNotFit) {
   EXPECT_THROW((void)encode_frame(base(0x800, 0)), std::invalid_argument);
   EXPECT_THROW((void)encode_frame(base(0x1, 16)), std::invalid_argument);
-  EXPECT_THROW((void)encode_frame(Frame{.id = 0x20000000, .extended = true}), std::invalid_argument);
+  EXPECT_THROW((void)encode_frame(Frame{.id = 0x20000000, .extended = true}),
+               std::invalid_argument);
   EXPECT_THROW((void)levels_from_string("01x"), std::invalid_argument);
 }
 

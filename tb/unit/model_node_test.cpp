@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Node model against the timelines of rule book 12a and the counter sequences of section 11, by hand.
+// Node model against the timelines of rule book 12a and the counter sequences of section 11, by
+// hand.
 #include <gtest/gtest.h>
 
-#include "model_bench.hpp"
+#include "unit/model_bench.hpp"
 
 namespace vericansim {
 namespace {
@@ -21,14 +22,23 @@ TEST(NodeModelTimeline, TL_01_ActiveTransmitterBitError) {
   EXPECT_EQ(n.events().error, NodeError::kBit0);
   EXPECT_TRUE(n.events().tx_fail);
   EXPECT_EQ(n.tec(), 8);
-  EXPECT_EQ(play(n, rep(18, ".")), "000000" "11111111" "111" "0");
+  EXPECT_EQ(play(n, rep(18, ".")),
+            "000000"
+            "11111111"
+            "111"
+            "0");
   EXPECT_EQ(n.tec(), 8);
 }
 
 TEST(NodeModelTimeline, TL_02_PassiveTransmitterBitError) {
   NodeModel n = sender(kGv1, 128);
   play(n, kUpToData + "!");
-  EXPECT_EQ(play(n, rep(26, ".")), "111111" "11111111" "111" "11111111" "0");
+  EXPECT_EQ(play(n, rep(26, ".")),
+            "111111"
+            "11111111"
+            "111"
+            "11111111"
+            "0");
   EXPECT_EQ(n.tec(), 136);
 }
 
@@ -38,7 +48,11 @@ TEST(NodeModelTimeline, TL_03_NoAcknowledge) {
   EXPECT_EQ(n.state().field, Field::kAck);
   play(n, ".");
   EXPECT_EQ(n.events().error, NodeError::kAck);
-  EXPECT_EQ(play(n, rep(18, ".")), "000000" "11111111" "111" "0");  // SOF 18 bits after the slot
+  EXPECT_EQ(play(n, rep(18, ".")),
+            "000000"
+            "11111111"
+            "111"
+            "0");  // SOF 18 bits after the slot
   EXPECT_EQ(n.tec(), 8);
 }
 
@@ -72,7 +86,9 @@ TEST(NodeModelTimeline, TL_06_OverloadAtEof7) {
   NodeModel n = idle_node();
   play(n, kGv1Bits + "1");
   EXPECT_EQ(play(n, "0"), "0");  // own acknowledge
-  play(n, "1" "11111");
+  play(n,
+       "1"
+       "11111");
   EXPECT_FALSE(n.events().delivered);
   play(n, "1");  // EOF6
   EXPECT_TRUE(n.events().delivered);
@@ -80,7 +96,10 @@ TEST(NodeModelTimeline, TL_06_OverloadAtEof7) {
   play(n, "0");  // EOF7
   EXPECT_TRUE(n.events().overload);
   EXPECT_EQ(n.events().error, NodeError::kNone);
-  EXPECT_EQ(play(n, rep(17, ".")), "000000" "11111111" "111");
+  EXPECT_EQ(play(n, rep(17, ".")),
+            "000000"
+            "11111111"
+            "111");
   EXPECT_EQ(n.state().field, Field::kIdle);
   EXPECT_EQ(n.rec(), 0);
 }
@@ -92,20 +111,30 @@ TEST(NodeModelTimeline, TL_07_JoinedStart) {
   EXPECT_EQ(play(n, "0"), "1");
   EXPECT_TRUE(n.events().started);
   EXPECT_EQ(n.role(), Role::kTransmitter);
-  EXPECT_EQ(play(n, rep(13, ".")), "0000" "1" "1111" "0" "111");
+  EXPECT_EQ(play(n, rep(13, ".")),
+            "0000"
+            "1"
+            "1111"
+            "0"
+            "111");
   EXPECT_EQ(n.state().field, Field::kRtr);
 }
 
 TEST(NodeModelTimeline, TL_08_PassiveFlagOfUnequalBits) {
   NodeModel n = sender(kGv1, 128);
   play(n, kUpToData + "!");
-  play(n, "00000" "11111" "000000");
+  play(n,
+       "00000"
+       "11111"
+       "000000");
   EXPECT_EQ(n.state().field, Field::kWait);
   play(n, "11111111");
   EXPECT_EQ(n.state().field, Field::kInt);
   play(n, "0");
   EXPECT_TRUE(n.events().overload);
-  EXPECT_EQ(play(n, rep(7, ".")), "000000" "1");  // dominant although passive (OV-01)
+  EXPECT_EQ(play(n, rep(7, ".")),
+            "000000"
+            "1");  // dominant although passive (OV-01)
   EXPECT_EQ(n.tec(), 136);
 }
 
@@ -204,7 +233,10 @@ TEST(NodeModelTimeline, MX_30_DominantBitsAfterAPassiveFlag) {
 
 TEST(NodeModelTimeline, FC_08_SixteenDominantAfterTheFlag) {
   NodeModel r = idle_node();
-  play(r, "000000" "000000" + rep(16, "0"));
+  play(r,
+       "000000"
+       "000000" +
+           rep(16, "0"));
   EXPECT_EQ(r.rec(), 25);
   NodeModel t = sender(kGv1);
   play(t, kUpToData + "!" + "000000" + rep(16, "0"));
