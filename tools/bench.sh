@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# bench.sh BUILD: runs the benchmarks of tb/bench and writes docs/performance.md from what they print.
+# bench.sh BUILD: runs the benchmarks of tb/bench and writes docs/performance.md from their results.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=$1

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# install-packages.sh: installs what packages.txt names and this machine lacks; silent if nothing is.
+# install-packages.sh: installs what packages.txt names and this machine lacks.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -35,7 +35,9 @@ fi
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 echo "Installing ${#missing[@]} packages: ${missing[*]}"
-apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -y -q "$@" >>"$log" 2>&1 </dev/null; }
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -y -q "$@" >>"$log" 2>&1 </dev/null
+}
 # The index may be fresh enough; refresh it only if the first try fails.
 if ! apt install --no-install-recommends "${missing[@]}"; then
   if ! { apt update && apt install --no-install-recommends "${missing[@]}"; }; then

@@ -48,8 +48,8 @@ iverilog_elaborate() {  # TOP [NAME=VALUE]
 }
 spdx() {
   local bad
-  bad=$(our_files '*.sv' '*.vlt' '*.cpp' '*.hpp' '*.c' '*.h' '*.py' '*.sh' '*.cmake' '*.tcl' '*.sdc' \
-                  '*.pdc' '*.pcf' '*.yaml' '*.core' '*CMakeLists.txt' Makefile .ci/run |
+  bad=$(our_files '*.sv' '*.v' '*.vlt' '*.cpp' '*.hpp' '*.c' '*.h' '*.py' '*.sh' '*.cmake' '*.tcl' \
+                  '*.sdc' '*.pdc' '*.pcf' '*.yaml' '*.core' '*CMakeLists.txt' Makefile .ci/run |
         while read -r file; do
           head -n 5 "$file" | grep -q 'SPDX-License-Identifier: Apache-2.0' || echo "$file"
         done)
@@ -58,8 +58,10 @@ spdx() {
 }
 line_length() {
   ! our_files '*.sv' '*.cpp' '*.hpp' '*.c' '*.h' '*.py' '*.sh' '*.cmake' '*CMakeLists.txt' |
-    xargs -r awk 'length($0) > 100 {print FILENAME ":" FNR ": " length($0) " characters (at most 100)"}' |
-    grep .
+    xargs -r awk 'length($0) > 100 {print FILENAME ":" FNR ": " length($0) " characters"}' | grep .
+}
+core_file() {
+  diff can.core <(tools/core-file.sh) || { echo "run: tools/core-file.sh >can.core"; return 1; }
 }
 format() {
   our_files '*.cpp' '*.hpp' '*.c' '*.h' | xargs -r clang-format --dry-run -Werror
@@ -73,6 +75,7 @@ for top in "${tops[@]}"; do
   check "iverilog        $top" iverilog_elaborate $top
 done
 echo "Sources"
+check "can.core agrees with rtl/can.f" core_file
 check "licence heads" spdx
 check "lines of at most 100 characters" line_length
 check "clang-format" format

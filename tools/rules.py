@@ -135,8 +135,8 @@ def table(rules, cited):
     required = [rule for rule, entry in rules.items() if entry[2]]
     tests = {test for files in cited.values() for names in files.values() for test in names}
     out = ["# Rules and their tests", "",
-           "Written by `make rules` from [`tb/plan.yaml`](../tb/plan.yaml) and the rule ids that the",
-           "tests cite; `make test` fails if a rule lacks a test or this page is stale.", "",
+           "Written by `make rules` from [`tb/plan.yaml`](../tb/plan.yaml) and the rule ids that",
+           "the tests cite; `make test` fails if a rule lacks a test or this page is stale.", "",
            f"{sum(rule in cited for rule in required)} of {len(required)} rules have a test; "
            f"{sum(entry[1] is not None for entry in rules.values())} rules do not apply; "
            f"{len(tests)} tests cite rules."]

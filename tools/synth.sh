@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # synth.sh: area and clock rate by the open flow, the same steps for every block:
-#   iCE40       yosys synth_ice40 -abc9 of the bare block; nextpnr-ice40 on an HX8K for the clock rate,
-#               the block between shift registers (every input from, every output to a flip-flop)
+#   iCE40       yosys synth_ice40 -abc9 of the bare block; nextpnr-ice40 on an HX8K for the clock
+#               rate, the block between shift registers (all inputs and outputs are flip-flops)
 #   VersaTiles  of ProASIC3/SmartFusion: LUT3 + flip-flop after abc -lut 3, memories kept apart
 # Writes docs/synthesis.md. SEEDS="1 2 3" (nextpnr), OUT=build/synth (intermediate files).
 set -euo pipefail

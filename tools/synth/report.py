@@ -24,6 +24,12 @@ RAM_SHAPES = ((512, 9), (256, 18), (1024, 4), (2048, 2), (4096, 1))  # depth x w
 ENGINES = (("OpenCores CAN", 942, 340, None), ("canola", 1110, 593, 83), ("noasic", 1066, 404, 73))
 CORES = (("CTU CAN FD, two Tx buffers", 4596, 44), ("OpenCores CAN", 4539, 65))
 
+METHOD = """\
+LUT4, flip-flops and RAM: Yosys `synth_ice40 -abc9 -device hx` of the bare block. Fmax: nextpnr on
+an HX8K (ct256), the block between shift registers. VersaTiles: LUT3 and flip-flops after `abc
+-lut 3`, an estimate, as Libero is not part of the flow. RAM blocks of 4,608 bits: 512x9, 256x18
+and narrower, one per byte lane of a byte-enabled memory."""
+
 
 def load(path):
     return json.loads(path.read_text())
@@ -54,7 +60,8 @@ def wrap(directory):
             pins.append(f".\\{name} ({vector}[{low + width - 1}:{low}])")
             low += width
     # The names matter: placement follows them, and other cores were measured in this very harness.
-    (directory / "wrap.v").write_text(f"""module area_wrap(input clk_pin, input si, input cap, output reg so);
+    (directory / "wrap.v").write_text(f"""
+module area_wrap(input clk_pin, input si, input cap, output reg so);
 reg [{ins - 1}:0] ir; reg [{outs - 1}:0] orr; wire [{outs - 1}:0] ow; reg si_q, cap_q;
 wire clk;
 assign clk = clk_pin;
@@ -146,13 +153,10 @@ def page(out, blocks):
         seeds = ", ".join(f"{value:.1f}" for value in row["fmax_all"])
         text.append(
             f"| {title(block)} | {row['lut4']} | {row['ff']} | {row['carry']} | {row['bram']} | "
-            f"{row['fmax']:.1f} MHz ({seeds}) | {row['tiles']} ({row['lut3']} + {row['tile_ff']}) | "
+            f"{row['fmax']:.1f} MHz ({seeds}) | "
+            f"{row['tiles']} ({row['lut3']} + {row['tile_ff']}) | "
             f"{100 * row['tiles'] / TILES:.1f} % | {row['blocks']} of {RAM_BLOCKS} |")
-    text += ["", "LUT4, flip-flops and RAM: Yosys `synth_ice40 -abc9 -device hx` of the bare block.",
-             "Fmax: nextpnr on an HX8K (ct256), the block between shift registers. VersaTiles: LUT3 and",
-             "flip-flops after `abc -lut 3`, an estimate, as Libero is not part of the flow. RAM blocks of",
-             "4,608 bits: 512x9, 256x18 and narrower, one per byte lane of a byte-enabled memory.",
-             "", "## Other cores, by the same steps", "",
+    text += ["", METHOD, "", "## Other cores, by the same steps", "",
              "| engine | LUT4 | FF | Fmax |", "|---|---|---|---|"]
     if "can_core" in rows:
         own = rows["can_core"]
@@ -166,8 +170,8 @@ def page(out, blocks):
                         f"{row['fmax']:.0f} MHz |")
     text += [f"| {name} | {tiles} | {fmax} MHz |" for name, tiles, fmax in CORES]
     text += ["", f"## Where the area goes: {title(blocks[-1])}", "",
-             "Each module synthesised on its own (`abc -lut 4`, no optimisation across borders, so the sum",
-             "is above the flat figure); memories apart; carries counted as LUTs.", "",
+             "Each module synthesised on its own (`abc -lut 4`, no optimisation across borders, so",
+             "the sum is above the flat figure); memories apart; carries counted as LUTs.", "",
              "| module | instances | LUT4 | FF |", "|---|---|---|---|"]
     text += [f"| `{name}` | {count} | {luts} | {ffs} |"
              for name, count, luts, ffs in by_module(out / blocks[-1] / "modules.json")]

@@ -1,0 +1,22 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# can.mk: bitstream of can_ahb for an HX8K, to see it placed and timed as it is, without a harness:
+#   make -f constraints/ice40/can.mk            in the project's root
+# A design of your own takes the Yosys line, adds its own files and replaces the top.
+RTL   := $(addprefix rtl/,$(shell sed 's/\#.*//' rtl/can.f))
+TOP   ?= can_ahb
+NUMMB ?= 32
+OUT   := build/ice40
+
+$(OUT)/$(TOP).bin: $(OUT)/$(TOP).asc
+	icepack $< $@
+
+$(OUT)/$(TOP).asc: $(OUT)/$(TOP).json constraints/ice40/can.pcf
+	nextpnr-ice40 --hx8k --package ct256 --json $< --pcf constraints/ice40/can.pcf \
+	  --pcf-allow-unconstrained --freq 12 --asc $@ --log $(OUT)/nextpnr.log -q
+
+$(OUT)/$(TOP).json: $(RTL)
+	mkdir -p $(OUT)
+	yosys -q -p "read_verilog -sv $(RTL); hierarchy -check -top $(TOP) -chparam NumMb $(NUMMB); \
+	  synth_ice40 -abc9 -device hx -top $(TOP) -json $@"

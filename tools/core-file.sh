@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# core-file.sh: prints can.core, the FuseSoC description, for the files of rtl/can.f.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+. tools/common.sh
+cat <<EOF
+CAPI=2:
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# can.core: FuseSoC description; written by tools/core-file.sh from rtl/can.f (make lint compares).
+name: verican:ip:can:0.1.0
+description: CAN 2.0 controller with FlexCAN registers on AHB-Lite
+
+filesets:
+  rtl:
+    file_type: systemVerilogSource
+    files:
+$(rtl_files | sed 's/^/      - /')
+
+parameters:
+  NumMb:
+    datatype: int
+    description: Number of message buffers (16, 32 or 64)
+    paramtype: vlogparam
+    default: 64
+
+targets:
+  default: &default
+    filesets: [rtl]
+    toplevel: can_ahb
+    parameters: [NumMb]
+  lint:
+    <<: *default
+    default_tool: verilator
+    tools:
+      verilator:
+        mode: lint-only
+        verilator_options: [-Wall, rtl/lint.vlt]
+EOF
