@@ -53,7 +53,7 @@ module can_bsp (
 );
 
   logic       prev, ends, last, free, crc_bit, mismatch, begin_rx, take_tx, load, in_frame;
-  logic       passive_flag, overload_frame, boff_end;
+  logic       passive_flag, overload_frame, boff_enter, boff_end;
   logic       id_bit, ex_id_bit, data_bit;
   logic [5:0] kind;
   logic       error, exempt, lost, overload, word_end;
@@ -76,7 +76,7 @@ module can_bsp (
   can_field u_field (
     .clk_i, .rst_ni, .run_i, .sample_i, .bit_i, .judge_i, .stuff_i(stuff_o), .prev_i(prev), .edge_i,
     .error_i(error), .lost_i(lost), .overload_i(overload),
-    .passive_i(passive_o), .boff_i(boff_o), .boff_end_i(boff_end),
+    .passive_i(passive_o), .boff_i(boff_o), .boff_enter_i(boff_enter), .boff_end_i(boff_end),
     .tx_req_i(tx_req_i && !lom_i), .ide_i(rx_ide_o), .rtr_i(rx_rtr_o), .dlc_i(rx_dlc_o[2:0]),
     .lom_i, .fd_tolerant_i,
     .field_o, .left_o, .ends_o(ends), .last_o(last), .transmitter_o, .passive_flag_o(passive_flag),
@@ -91,7 +91,7 @@ module can_bsp (
     .passive_flag_i(passive_flag), .error_i(error), .exempt_i(exempt),
     .ack_error_i(kind[can_pkg::ErrAck]), .lom_i, .boff_rec_i,
     .clear_i(ec_clear_i), .we_i(ec_we_i), .wdata_i(ec_wdata_i),
-    .tec_o, .rec_o, .passive_o, .boff_o, .boff_end_o(boff_end)
+    .tec_o, .rec_o, .passive_o, .boff_o, .boff_enter_o(boff_enter), .boff_end_o(boff_end)
   );
 
   can_rx_frame u_rx_frame (

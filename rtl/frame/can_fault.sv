@@ -31,6 +31,7 @@ module can_fault (
   output logic [7:0]      rec_o,
   output logic            passive_o,
   output logic            boff_o,
+  output logic            boff_enter_o,     // one clock: bus-off begins
   output logic            boff_end_o        // a recessive bit here completes the recovery
 );
 
@@ -46,6 +47,7 @@ module can_fault (
   assign tec_o     = tec_q;
   assign rec_o     = rec_q;
   assign boff_o    = tec_q[8];
+  assign boff_enter_o = tec_q[8] && !boff_seen_q;
   assign passive_o = !tec_q[8] && (tec_q[7] || rec_q[7]);   // FC-11, FC-12
 
   assign saw_d   = !bit_i;
@@ -100,7 +102,7 @@ module can_fault (
     end else if (we_i && !run_i) begin
       rec_q <= wdata_i[15:8];
       if (!tec_q[8]) tec_q[7:0] <= wdata_i[7:0];
-    end else if (tec_q[8] && !boff_seen_q) begin
+    end else if (boff_enter_o) begin
       tec_q[7:0] <= '0;                                                                  // FC-13
     end else if (sequence_q || plus8_q || plus1_q || minus1_q) begin
       if (on_tec)         tec_q <= sum;

@@ -22,6 +22,7 @@ module can_field (
   // Fault confinement
   input  logic            passive_i,       // error passive before this bit is counted (EF-05)
   input  logic            boff_i,          // bus-off
+  input  logic            boff_enter_i,    // it begins
   input  logic            boff_end_i,      // a recessive bit here completes bus-off recovery
   // Frame and configuration
   input  logic            tx_req_i,
@@ -98,7 +99,7 @@ module can_field (
       tx_q           <= 1'b0;
       passive_flag_q <= 1'b0;
       overload_q     <= 1'b0;
-    end else if (!run_i || (boff_i && field_q != can_pkg::FldBusOff)) begin
+    end else if (!run_i || boff_enter_i) begin
       field_q <= boff_i ? can_pkg::FldBusOff : can_pkg::FldInteg;
       left_q  <= 6'd10;
       tx_q    <= 1'b0;

@@ -24,8 +24,9 @@ module can_stuff (
   assign counts = (field_i[4] ^ field_i[3]) && (field_i != can_pkg::FldSof);
   assign run_d  = (counts && bit_i == last_o) ? run_q + 3'd1 : 3'd1;
 
-  // After CRC0 the stuff bit stands before the CRC delimiter (ST-03); in flags the mark means nothing.
-  assign stuff_o = five_q && (!(&field_i[4:3]) || field_i == can_pkg::FldCrcDel);
+  // After CRC0 the stuff bit stands before the CRC delimiter (ST-03). After an error or a protocol
+  // exception in the fifth bit the mark means nothing: no frame is under way any more.
+  assign stuff_o = five_q && ((field_i[4] ^ field_i[3]) || field_i == can_pkg::FldCrcDel);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
