@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the subcommands of `verican` share: exit codes, output, and how each of them joins the tool.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+#include "bus/types.hpp"
+#include "model/frame.hpp"
+
+namespace vericansim::cli {
+
+/// Exit codes of the tool, documented in docs/tool.md.
+enum ExitCode : int {
+  kOk = 0,        ///< done, and everything that was checked is as expected
+  kFailed = 1,    ///< done, but a check failed: an expectation, a replayed frame, a result of the paper
+  kBadInput = 2,  ///< a file, an option or a value cannot be used; one line on stderr says which and why
+  kInternal = 3,  ///< a mistake in the tool itself
+};
+
+/// Each adds its subcommand; the callback stores the exit code.
+void add_run(CLI::App &app, int &exit_code);
+void add_replay(CLI::App &app, int &exit_code);
+void add_decode(CLI::App &app, int &exit_code);
+void add_bittime(CLI::App &app, int &exit_code);
+void add_paper(CLI::App &app, int &exit_code);
+
+using Json = nlohmann::ordered_json;
+
+/// A frame as an object: id, extended, remote, dlc, data (hexadecimal).
+[[nodiscard]] Json to_json(const Frame &frame);
+
+/// "12.345 ms" with the unit that suits.
+[[nodiscard]] std::string time_text(Time time);
+
+/// Prints indented JSON and a line end.
+void print_json(const Json &json);
+
+/// A progress bar on stderr, only if that is a terminal; costs one comparison a call otherwise.
+class Progress {
+ public:
+  explicit Progress(std::string title);
+  ~Progress();
+  Progress(const Progress &) = delete;
+  Progress &operator=(const Progress &) = delete;
+  /// `part` of the work is done, 0..1.
+  void show(double part);
+
+ private:
+  std::string title_;
+  bool terminal_;
+  int shown_ = -1;
+};
+
+}  // namespace vericansim::cli

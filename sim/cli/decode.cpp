@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// verican decode: a bus waveform to frames and error frames.
+#include <fmt/format.h>
+
+#include <fstream>
+#include <memory>
+
+#include "cli/cli.hpp"
+#include "trace/candump.hpp"
+#include "trace/input_error.hpp"
+#include "trace/pcap_file.hpp"
+#include "trace/wave_decode.hpp"
+
+namespace vericansim::cli {
+namespace {
+
+struct Options {
+  std::string wave;
+  WaveDecodeOptions decode;
+  double bitrate = 0;
+  double sample_point = 80;  // per cent
+  std::string candump;
+  std::string pcap;
+  bool json = false;
+};
+
+const char *name_of(BusEventKind kind) {
+  switch (kind) {
+    case BusEventKind::kFrame: return "frame";
+    case BusEventKind::kErrorFrame: return "error";
+    case BusEventKind::kOverloadFrame: return "overload";
+    case BusEventKind::kBadFrame: return "bad frame";
+  }
+  return "";
+}
+
+const char *name_of(BusProblem problem) {
+  switch (problem) {
+    case BusProblem::kNone: return "none";
+    case BusProblem::kStuff: return "stuff";
+    case BusProblem::kForm: return "form";
+    case BusProblem::kCrc: return "crc";
+  }
+  return "";
+}
+
+bool is_frame(const BusEvent &event) { return event.kind == BusEventKind::kFrame; }
+
+Json event_json(const BusEvent &event) {
+  Json json{{"kind", name_of(event.kind)}, {"start_ps", event.start}, {"end_ps", event.end}};
+  if (is_frame(event) || event.kind == BusEventKind::kBadFrame) {
+    json["frame"] = to_json(event.frame);
+    json["acked"] = event.acked;
+    json["stuffed_length"] = event.stuffed_length;
+  }
+  if (!is_frame(event)) {
+    json["problem"] = name_of(event.problem);
+    json["field"] = field_name(event.field);
+    json["index"] = event.index;
+    json["flag_bits"] = event.flag_bits;
+  }
+  return json;
+}
+
+void write_logs(const Options &options, const WaveDecodeResult &result) {
+  std::ofstream file;
+  std::unique_ptr<PcapWriter> pcap;
+  if (!options.candump.empty()) {
+    file.open(options.candump);
+    if (!file) throw InputError(options.candump, 0, "cannot be opened for writing");
+  }
+  if (!options.pcap.empty()) pcap = std::make_unique<PcapWriter>(options.pcap);
+  CandumpWriter candump{file};
+  for (const BusEvent &event : result.events) {
+    if (!is_frame(event)) continue;
+    const LogEntry entry{event.start, "can0", event.frame};
+    if (file.is_open()) candump.write(entry);
+    if (pcap) pcap->write(entry);
+  }
+}
+
+int decode(Options &options) {
+  if (options.bitrate != 0) options.decode.bitrate = options.bitrate;
+  options.decode.sample_point = static_cast<int>(options.sample_point * 10);
+  const WaveDecodeResult result = decode_wave(options.wave, options.decode);
+  write_logs(options, result);
+  std::size_t frames = 0, errors = 0, overloads = 0;
+  Json list = Json::array();
+  for (const BusEvent &event : result.events) {
+    frames += is_frame(event) ? 1 : 0;
+    errors += event.kind == BusEventKind::kErrorFrame || event.kind == BusEventKind::kBadFrame ? 1 : 0;
+    overloads += event.kind == BusEventKind::kOverloadFrame ? 1 : 0;
+    if (options.json)
+      list.push_back(event_json(event));
+    else
+      fmt::print("{}\n", to_string(event));
+  }
+  if (options.json)
+    print_json({{"signal", result.signal}, {"bitrate", result.bitrate}, {"end_ps", result.end},
+                {"frames", frames}, {"errors", errors}, {"overloads", overloads}, {"events", list}});
+  else
+    fmt::print("signal {}, {:.0f} bit/s: {} frames, {} error frames, {} overload frames in {}\n", result.signal,
+               result.bitrate, frames, errors, overloads, time_text(result.end));
+  return kOk;
+}
+
+}  // namespace
+
+void add_decode(CLI::App &app, int &exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand("decode", "Frames and error frames of a bus waveform");
+  command->add_option("wave", options->wave, "VCD file")->required();
+  command->add_option("--signal,-s", options->decode.signal, "Signal of the bus, or the end of its name (guessed)");
+  command->add_option("--bitrate,-b", options->bitrate, "Bit rate, bit/s (detected)")
+      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"k", 1e3}, {"M", 1e6}}))
+      ->check(CLI::Range(1e3, 1e6));
+  command->add_option("--sample-point", options->sample_point, "Place of the sample, % of the bit (80)")
+      ->check(CLI::Range(1.0, 99.0));
+  command->add_option("--candump", options->candump, "Write the frames as a candump log");
+  command->add_option("--pcap", options->pcap, "Write the frames as a capture for Wireshark");
+  command->add_flag("--json", options->json, "Events as JSON");
+  command->callback([options, &exit_code] { exit_code = decode(*options); });
+}
+
+}  // namespace vericansim::cli

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Output that the subcommands share.
+#include "cli/cli.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace vericansim::cli {
+
+Json to_json(const Frame &frame) {
+  std::string data;
+  for (unsigned i = 0; i < frame.payload_size(); ++i) data += fmt::format("{:02X}", frame.data[i]);
+  return {{"id", frame.id},
+          {"extended", frame.extended},
+          {"remote", frame.remote},
+          {"dlc", frame.dlc},
+          {"data", data}};
+}
+
+std::string time_text(Time time) {
+  const double seconds = static_cast<double>(time) / kSecond;
+  if (std::llabs(time) >= kSecond) return fmt::format("{:.3f} s", seconds);
+  if (std::llabs(time) >= kMillisecond) return fmt::format("{:.3f} ms", seconds * 1e3);
+  return fmt::format("{:.3f} us", seconds * 1e6);
+}
+
+void print_json(const Json &json) { fmt::print("{}\n", json.dump(2)); }
+
+Progress::Progress(std::string title) : title_{std::move(title)}, terminal_{isatty(STDERR_FILENO) != 0} {}
+
+Progress::~Progress() {
+  if (shown_ >= 0) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::show(double part) {
+  if (!terminal_) return;
+  const int percent = static_cast<int>(part * 100);
+  if (percent == shown_) return;
+  shown_ = percent;
+  constexpr int kWidth = 40;
+  const int full = percent * kWidth / 100;
+  fmt::print(stderr, "\r{} [{}{}] {:3d} %", title_, std::string(static_cast<std::size_t>(full), '#'),
+             std::string(static_cast<std::size_t>(kWidth - full), ' '), percent);
+  std::fflush(stderr);
+}
+
+}  // namespace vericansim::cli

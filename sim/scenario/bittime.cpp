@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bit timing calculator: search over all prescalers and segments.
+#include "scenario/bittime.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <tuple>
+
+namespace vericansim {
+namespace {
+
+// Limits of the registers (flexcan.md 1.2) and of a bit (BT-02).
+constexpr unsigned kMaxPrescaler = 256;
+constexpr unsigned kMinTseg1 = 4, kMaxTseg1 = 16, kMinTseg2 = 2, kMaxTseg2 = 8;
+constexpr unsigned kMinQuanta = 8, kMaxQuanta = 25;
+constexpr unsigned kMaxSegment = 8, kMaxSjw = 4;
+constexpr double kDelayPerMetreNs = 5.0;
+
+void check(const BitTimingRequest &r) {
+  const auto require = [](bool ok, const std::string &message) {
+    if (!ok) throw std::invalid_argument(message);
+  };
+  require(r.clock_hz >= 1'000 && r.clock_hz <= 1'000'000'000,
+          fmt::format("clock {} Hz is out of range; allowed: 1000 to 1000000000", r.clock_hz));
+  require(r.bitrate >= 1'000 && r.bitrate <= 1'000'000,
+          fmt::format("bit rate {} is out of range; allowed: 1000 to 1000000 bit/s", r.bitrate));
+  require(!r.sample_point || (*r.sample_point >= 0.5 && *r.sample_point <= 0.9),
+          fmt::format("sample point {} is out of range; allowed: 0.5 to 0.9", r.sample_point.value_or(0)));
+  require(!r.sjw || (*r.sjw >= 1 && *r.sjw <= kMaxSjw),
+          fmt::format("SJW {} is out of range; allowed: 1 to 4", r.sjw.value_or(0)));
+  require(r.cable_m >= 0 && r.cable_m <= 10'000,
+          fmt::format("cable {} m is out of range; allowed: 0 to 10000", r.cable_m));
+  require(r.node_delay_ns >= 0 && r.node_delay_ns <= 100'000,
+          fmt::format("node delay {} ns is out of range; allowed: 0 to 100000", r.node_delay_ns));
+}
+
+/// How TSEG1 is shared between PROP and PS1. Nothing if the cable does not fit.
+std::optional<unsigned> choose_prop(const BitTimingRequest &r, unsigned prescaler, unsigned tseg1) {
+  const unsigned least = tseg1 > kMaxSegment ? tseg1 - kMaxSegment : 1;
+  const unsigned most = std::min(kMaxSegment, tseg1 - 1);
+  if (r.cable_m == 0) return std::clamp(tseg1 / 2, least, most);
+  const double quantum_ns = 1e9 * prescaler / r.clock_hz;
+  const double loop_ns = 2 * (r.cable_m * kDelayPerMetreNs + r.node_delay_ns);  // BT-07
+  const auto needed = static_cast<unsigned>(std::ceil(loop_ns / quantum_ns - 1e-9));
+  if (needed > most) return std::nullopt;
+  return std::clamp(needed, least, most);
+}
+
+/// Order of preference; smaller is better.
+auto rank(const BitTimingResult &result, const BitTimingRequest &r) {
+  const unsigned quanta = result.timing.quanta();
+  const double wanted = r.sample_point.value_or(recommended_sample_point(r.bitrate));
+  // Whole bit/s and whole per mille, cut, as can-utils and the kernel compare them.
+  const auto rate = static_cast<long>(r.clock_hz / (result.timing.prescaler * quanta));
+  const long rate_error = std::labs(rate - static_cast<long>(r.bitrate));
+  const long point = 1000L * (quanta - result.timing.ps2) / quanta;
+  const long distance = std::lround(wanted * 1000) - point;
+  return std::make_tuple(rate_error, distance < 0, std::labs(distance), result.timing.prescaler);
+}
+
+void search_prescaler(const BitTimingRequest &r, unsigned quanta, unsigned prescaler,
+                      std::vector<BitTimingResult> &found) {
+  for (unsigned tseg2 = kMinTseg2; tseg2 <= kMaxTseg2; ++tseg2) {
+    if (quanta < 1 + tseg2 + kMinTseg1 || quanta > 1 + tseg2 + kMaxTseg1) continue;
+    const unsigned tseg1 = quanta - 1 - tseg2;
+    const auto prop = choose_prop(r, prescaler, tseg1);
+    if (!prop) continue;
+    BitTiming timing{prescaler, *prop, tseg1 - *prop, tseg2, 1};
+    const unsigned widest = std::min({kMaxSjw, timing.ps1, timing.ps2});  // BT-03
+    timing.sjw = std::min(r.sjw.value_or(kMaxSjw), widest);
+    if (r.sjw && *r.sjw > widest) continue;
+    const BitTimingResult result = rate_bit_timing(timing, r);
+    if (std::abs(result.rate_error_ppm) <= r.max_rate_error_ppm) found.push_back(result);
+  }
+}
+
+}  // namespace
+
+double recommended_sample_point(std::uint32_t bitrate) {
+  if (bitrate > 800'000) return 0.75;
+  return bitrate > 500'000 ? 0.80 : 0.875;
+}
+
+double oscillator_tolerance(const BitTiming &timing) {
+  const double nbt = timing.quanta();
+  const double phase = std::min(timing.ps1, timing.ps2);
+  return std::min(phase / (2 * (13 * nbt - timing.ps2)), timing.sjw / (20 * nbt));
+}
+
+std::uint32_t ctrl_register(const BitTiming &t) {
+  return (t.prescaler - 1) << 24 | (t.sjw - 1) << 22 | (t.ps1 - 1) << 19 | (t.ps2 - 1) << 16 | (t.prop - 1);
+}
+
+BitTimingResult rate_bit_timing(const BitTiming &timing, const BitTimingRequest &request) {
+  timing.validate();
+  BitTimingResult result;
+  result.timing = timing;
+  result.bitrate = static_cast<double>(request.clock_hz) / timing.clocks_per_bit();
+  result.rate_error_ppm = (result.bitrate / request.bitrate - 1.0) * 1e6;
+  result.sample_point = 1.0 - static_cast<double>(timing.ps2) / timing.quanta();
+  result.oscillator_tolerance = oscillator_tolerance(timing);
+  const double prop_ns = 1e9 * timing.prop * timing.prescaler / request.clock_hz;
+  result.cable_m = (prop_ns / 2 - request.node_delay_ns) / kDelayPerMetreNs;
+  return result;
+}
+
+std::vector<BitTimingResult> find_bit_timings(const BitTimingRequest &request) {
+  check(request);
+  std::vector<BitTimingResult> found;
+  for (unsigned quanta = kMaxQuanta; quanta >= kMinQuanta; --quanta) {
+    // Only the two prescalers around the exact one can be best for this number of quanta.
+    const auto below = static_cast<unsigned>(request.clock_hz / (std::uint64_t{quanta} * request.bitrate));
+    for (const unsigned prescaler : {below, below + 1})
+      if (prescaler >= 1 && prescaler <= kMaxPrescaler)
+        search_prescaler(request, quanta, prescaler, found);
+  }
+  std::stable_sort(found.begin(), found.end(), [&](const auto &a, const auto &b) {
+    return rank(a, request) < rank(b, request);
+  });
+  return found;
+}
+
+}  // namespace vericansim

@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// VCD reader: header, choice of a signal, value changes.
+#include "trace/vcd_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/format.h>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "trace/input_error.hpp"
+#include "trace/log.hpp"
+#include "trace/text.hpp"
+
+namespace vericansim {
+namespace {
+
+/// Words between white space, with the line of the last one.
+class Words {
+ public:
+  Words(std::string_view text, std::size_t line) : text_{text}, line_{line} {}
+
+  /// The next word; empty at the end.
+  std::string_view next() {
+    while (at_ < text_.size() && is_space(text_[at_])) line_ += text_[at_++] == '\n' ? 1 : 0;
+    const std::size_t start = at_;
+    while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
+    return text_.substr(start, at_ - start);
+  }
+  [[nodiscard]] std::size_t at() const { return at_; }
+  [[nodiscard]] std::size_t line() const { return line_; }
+
+ private:
+  static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::size_t line_;
+};
+
+struct Scale {
+  Time unit;      // ps per tick
+  Time fraction;  // ticks per ps
+};
+
+/// "1 ns", "100ps", "10 fs"; nothing if it is none of 1, 10, 100 times s, ms, us, ns, ps, fs.
+std::optional<Scale> parse_timescale(const std::string &text) {
+  static constexpr std::pair<const char *, Time> kUnits[] = {
+      {"fs", 0},       {"ps", kPicosecond},  {"ns", kNanosecond},
+      {"us", kMicrosecond}, {"ms", kMillisecond}, {"s", kSecond}};
+  const std::size_t digits = text.find_first_not_of("0123456789");
+  const std::string number = text.substr(0, digits);
+  if (digits == std::string::npos || (number != "1" && number != "10" && number != "100"))
+    return std::nullopt;
+  for (const auto &[name, unit] : kUnits) {
+    if (text.substr(digits) != name) continue;
+    const Time factor = std::stoi(number);
+    return unit != 0 ? Scale{unit * factor, 1} : Scale{1, 1000 / factor};
+  }
+  return std::nullopt;
+}
+
+std::string lower(std::string_view text) {
+  std::string result{text};
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+bool ends_as_name(const std::string &full, const std::string &end) {
+  return full == end || (full.size() > end.size() && full.ends_with(end) &&
+                         full[full.size() - end.size() - 1] == '.');
+}
+
+}  // namespace
+
+VcdFile::VcdFile(std::string path) : path_{std::move(path)}, text_{read_text_file(path_)} {
+  parse_header();
+}
+
+VcdFile::VcdFile(std::string path, std::string text) : path_{std::move(path)}, text_{std::move(text)} {
+  parse_header();
+}
+
+void VcdFile::parse_header() {
+  Words words{text_, 1};
+  for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+    const std::size_t line = words.line();
+    if (!word.starts_with("$"))
+      throw InputError(path_, line, "expected a VCD keyword such as $timescale or $var, found " +
+                                        quoted(std::string(word)));
+    std::vector<std::string_view> arguments;
+    std::string_view argument = words.next();
+    for (; !argument.empty() && argument != "$end"; argument = words.next()) arguments.push_back(argument);
+    if (argument.empty()) throw InputError(path_, line, std::string(word) + " has no $end");
+    if (word == "$timescale") {
+      std::string joined;
+      for (const std::string_view part : arguments) joined += part;
+      const auto scale = parse_timescale(joined);
+      if (!scale)
+        throw InputError(path_, line, "timescale " + quoted(joined) +
+                                          " is not allowed; allowed: 1, 10 or 100 of s, ms, us, ns, ps, fs");
+      unit_ = scale->unit;
+      fraction_ = scale->fraction;
+    } else if (word == "$scope") {
+      scopes_.emplace_back(arguments.size() > 1 ? arguments[1] : "?");
+    } else if (word == "$upscope") {
+      if (scopes_.empty()) throw InputError(path_, line, "$upscope without $scope");
+      scopes_.pop_back();
+    } else if (word == "$var") {
+      parse_var(arguments, line);
+    } else if (word == "$enddefinitions") {
+      body_ = words.at();
+      body_line_ = words.line();
+      if (unit_ == 0) throw InputError(path_, line, "the header has no $timescale");
+      return;
+    }
+  }
+  throw InputError(path_, 0, "is no VCD file: $enddefinitions is missing");
+}
+
+void VcdFile::parse_var(const std::vector<std::string_view> &words, std::size_t line) {
+  if (words.size() < 4)
+    throw InputError(path_, line, "$var needs a type, a width, a code and a name");
+  const auto width = text::parse_unsigned(words[1], 10);
+  if (!width || *width > 1'000'000)
+    throw InputError(path_, line, "width " + quoted(std::string(words[1])) + " is no number of bits");
+  std::string name;
+  for (const std::string &scope : scopes_) name += scope + ".";
+  signals_.push_back({name + std::string(words[3]), std::string(words[0]),
+                      static_cast<unsigned>(*width), std::string(words[2])});
+}
+
+void VcdFile::fail_with_list(const std::string &message) const {
+  constexpr std::size_t kMostNames = 12;
+  std::string names;
+  std::size_t count = 0;
+  for (const VcdSignal &signal : signals_) {
+    if (signal.width != 1 || signal.type == "string" || signal.type == "real") continue;
+    if (count++ < kMostNames) names += (names.empty() ? "" : ", ") + signal.name;
+  }
+  if (count > kMostNames) names += fmt::format(" and {} more", count - kMostNames);
+  throw InputError(path_, 0, message + (count != 0 ? "; one-bit signals are " + names
+                                                    : std::string("; there is no one-bit signal")));
+}
+
+const VcdSignal &VcdFile::find(const std::string &name) const {
+  const VcdSignal *found = nullptr;
+  for (const VcdSignal &signal : signals_) {
+    if (!ends_as_name(signal.name, name)) continue;
+    if (signal.name == name) {
+      found = &signal;
+      break;
+    }
+    if (found != nullptr && found->code != signal.code)
+      fail_with_list("signal " + quoted(name) + " is not unique");
+    found = &signal;
+  }
+  if (found == nullptr) fail_with_list("no signal is called " + quoted(name));
+  if (found->width != 1)
+    fail_with_list(fmt::format("signal '{}' has {} bits; allowed: 1", found->name, found->width));
+  return *found;
+}
+
+const VcdSignal &VcdFile::guess_bus() const {
+  std::vector<const VcdSignal *> single;
+  for (const VcdSignal &signal : signals_)
+    if (signal.width == 1 && signal.type != "string" && signal.type != "real") single.push_back(&signal);
+  if (single.size() == 1) return *single.front();
+  for (const char *name : {"can", "can_bus", "bus", "canbus", "can_h", "can_rx", "can_rx_i", "rx", "rxd"})
+    for (const VcdSignal *signal : single)
+      if (ends_as_name(lower(signal->name), name)) return *signal;
+  fail_with_list("cannot tell which signal is the bus; give its name");
+}
+
+Time VcdFile::read(const VcdSignal &signal, const OnChange &change) const {
+  Words words{std::string_view{text_}.substr(body_), body_line_};
+  Time now = 0;
+  int last = -1;
+  const auto use = [&](char value) {
+    const int level = value == '0' ? 0 : 1;
+    if (std::exchange(last, level) != level) change(now, static_cast<Level>(level));
+  };
+  for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+    switch (word[0]) {
+      case '#': {
+        const auto stamp = text::parse_unsigned(word.substr(1), 10);
+        if (!stamp || *stamp > static_cast<std::uint64_t>(std::numeric_limits<Time>::max() / unit_))
+          throw InputError(path_, words.line(), "time " + quoted(std::string(word)) + " is no number");
+        const Time time = static_cast<Time>(*stamp) * unit_ / fraction_;
+        if (time < now) throw InputError(path_, words.line(), "time " + quoted(std::string(word)) + " goes back");
+        now = time;
+        break;
+      }
+      case '0': case '1': case 'x': case 'X': case 'z': case 'Z':
+        if (word.substr(1) == signal.code) use(word[0]);
+        break;
+      case 'b': case 'B': case 'r': case 'R': case 's': case 'S': {
+        const std::string_view code = words.next();
+        if (code.empty()) throw InputError(path_, words.line(), "value without a signal at the end of the file");
+        if (code == signal.code) use(word.size() > 1 ? word.back() : 'x');
+        break;
+      }
+      case '$':
+        if (word == "$comment")
+          while (!word.empty() && word != "$end") word = words.next();
+        break;
+      default:
+        throw InputError(path_, words.line(), "expected a value change, found " + quoted(std::string(word)));
+    }
+  }
+  return now;
+}
+
+}  // namespace vericansim

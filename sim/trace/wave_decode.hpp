@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From a waveform file to frames, error frames and overload frames with their times.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/types.hpp"
+#include "model/bus_decoder.hpp"
+
+namespace vericansim {
+
+struct WaveDecodeOptions {
+  std::string signal;             ///< name, or its end; empty: guess
+  std::optional<double> bitrate;  ///< bit/s; unset: detect
+  int sample_point = 800;         ///< per mille of the bit
+};
+
+struct WaveDecodeResult {
+  std::string signal;    ///< the one taken, full name
+  double bitrate = 0;    ///< bit/s, given or detected
+  Time end = 0;          ///< of the waveform, ps
+  std::vector<BusEvent> events;
+};
+
+/// Decodes one signal of a VCD file. Throws InputError if the file, the signal or the bit rate cannot be used.
+[[nodiscard]] WaveDecodeResult decode_wave(const std::string &path, const WaveDecodeOptions &options);
+
+}  // namespace vericansim
