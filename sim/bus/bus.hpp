@@ -6,7 +6,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <queue>
+#include <utility>
 #include <vector>
 
 #include "bus/node.hpp"
@@ -29,9 +31,9 @@ constexpr Time cable_delay(double metres) { return static_cast<Time>(metres * 50
 
 /// The bus. Nodes, observers and faults are referred to, not owned, and must outlive it.
 ///
-/// A level driven at time t reaches another node after the sum of the delays between them, and a clock
-/// edge sees what arrived strictly before it: with no delay at all, all nodes that are clocked at the
-/// same instant sample what their registers drove before that instant (no races).
+/// A level driven at time t reaches another node after the sum of the delays between them, and a
+/// clock edge sees what arrived strictly before it: with no delay at all, all nodes that are
+/// clocked at the same instant sample what their registers drove before that instant (no races).
 class Bus {
  public:
   static constexpr unsigned kMaxNodes = 64;
@@ -44,7 +46,8 @@ class Bus {
   /// Adds a node (at most kMaxNodes; std::invalid_argument beyond or if a delay is negative) and
   /// returns its index. A node's first edge must not lie in the past of this bus.
   NodeId add(Node &node, const Link &link = {});
-  /// Sets the delay from the TX pin of `from` to the RX pin of `to`, instead of the sum of the links.
+  /// Sets the delay from the TX pin of `from` to the RX pin of `to`, instead of the sum of the
+  /// links.
   void set_delay(NodeId from, NodeId to, Time delay);
   [[nodiscard]] Time delay(NodeId from, NodeId to) const;
   void add(BusObserver &observer);
@@ -54,12 +57,16 @@ class Bus {
   /// Calls `action` at `when` (ps, not before now()), before the clock edges of that instant.
   void at(Time when, std::function<void()> action);
 
+  /// Tells the kernel that an oscillator was changed while the bus runs.
+  void clocks_changed() { prepared_ = false; }
+
   /// Runs all clock edges of the next instant that has any.
   void step();
   /// Runs every edge and action up to and including `until`, or until stop().
   void run_until(Time until);
   void run_for(Time duration) { run_until(now_ + duration); }
-  /// Runs until `done()` is true, tested after every instant; false if `limit` (ps from now) came first.
+  /// Runs until `done()` is true, tested after every instant; false if `limit` (ps from now) came
+  /// first.
   bool run_until(const std::function<bool()> &done, Time limit);
   /// Lets the run_until() under way return after the current instant.
   void stop() { stopped_ = true; }
@@ -70,7 +77,8 @@ class Bus {
   [[nodiscard]] unsigned size() const { return static_cast<unsigned>(nodes_.size()); }
   [[nodiscard]] Node &node(NodeId id) { return *nodes_[id].node; }
   [[nodiscard]] const Link &link(NodeId id) const { return nodes_[id].link; }
-  /// True while all nodes tick together and no delay is set: the fast path.
+  /// True while all oscillators tick together and there is neither a delay nor a fault: the fast
+  /// path.
   [[nodiscard]] bool lockstep();
 
  private:
@@ -96,8 +104,7 @@ class Bus {
     Receiver receiver;
     Level tx = Level::kRecessive;
     Level rx = Level::kRecessive;
-    bool sampled = false;  // the bit in `bit` waits for its `after`
-    BitRecord bit;
+    BitRecorder bits;
   };
 
   struct Action {
@@ -109,21 +116,26 @@ class Bus {
     }
   };
 
+  friend class Node;
+
+  void detach(const Node &node);
   void prepare();
-  void step_lockstep();
-  void step_events();
-  void clock_node(NodeId id, Time t);
+  void run_instant(Time t);
+  void clock_together(Time t);
+  void clock_node(NodeId id, Time t, Level rx);
   void driven(NodeId id, Time t, Level level);
   void watch(NodeId id, Time t, Level rx);
   void observe(Time before);
   void set_level(Time t, Level level);
   [[nodiscard]] Level receive(NodeId id, Time t);
+  [[nodiscard]] Level with_faults(NodeId id, Time t, std::uint64_t dominant);
   [[nodiscard]] Time next_edge() const;
-  void run_actions(Time until);
+  [[nodiscard]] bool run_actions(Time until);
 
   std::vector<Entry> nodes_;
-  std::vector<Time> next_;   // next edge of each node, contiguous for the scan
-  std::vector<Time> delay_;  // [to * size + from]
+  std::vector<Time> next_;  // next edge of each node, contiguous for the scan
+  std::map<std::pair<NodeId, NodeId>, Time> delay_override_;
+  std::vector<Time> delay_;  // [from * size + to], valid while prepared_
   Receiver observer_point_;
   std::vector<BusObserver *> observers_;
   std::vector<Fault *> faults_;
@@ -134,7 +146,8 @@ class Bus {
   Level level_ = Level::kRecessive;
   unsigned interests_ = 0;
   bool prepared_ = false;
-  bool lockstep_ = false;
+  bool together_ = false;  // all oscillators in step
+  bool direct_ = false;    // and neither delays nor faults: one AND for everybody
   bool stopped_ = false;
 };
 

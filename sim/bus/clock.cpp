@@ -58,8 +58,8 @@ void Clock::set_error_ppm(double ppm) {
   set_period(ppm + walk_ppm_);
 }
 
-// Frequency in mHz times (10^9 + ppb) is an exact integer, so the period 10^24 / that is divided out
-// without going through floating point.
+// Frequency in mHz times (10^9 + ppb) is an exact integer, so the period 10^24 / that is divided
+// out without going through floating point.
 void Clock::set_period(double ppm) {
   momentary_ppm_ = ppm;
   const auto millihertz = static_cast<Fixed>(std::llround(config_.frequency_hz * 1e3));

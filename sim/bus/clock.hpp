@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Clock: the oscillator of one node; says when its next rising edge comes, without cumulative rounding.
+// Clock: the oscillator of one node; says when its next rising edge comes, without cumulative
+// rounding.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +20,13 @@ enum class Wander : std::uint8_t {
 
 /// Settings of one oscillator. Invalid values make Clock's constructor throw std::invalid_argument.
 struct ClockConfig {
-  double frequency_hz = 8e6;            ///< nominal, 1 kHz to 10 GHz
-  double error_ppm = 0.0;               ///< constant error, within +-100,000 ppm
-  Time phase = 0;                       ///< time of the first rising edge, ps, >= 0
+  double frequency_hz = 8e6;  ///< nominal, 1 kHz to 10 GHz
+  double error_ppm = 0.0;     ///< constant error, within +-100,000 ppm
+  Time phase = 0;             ///< time of the first rising edge, ps, >= 0
   Wander wander = Wander::kNone;
-  double wander_ppm = 0.0;              ///< largest excursion from error_ppm
+  double wander_ppm = 0.0;  ///< largest excursion from error_ppm
   Time wander_period = 10 * kMillisecond;
-  std::uint64_t seed = 1;               ///< of the random walk
+  std::uint64_t seed = 1;  ///< of the random walk
 
   friend bool operator==(const ClockConfig &, const ClockConfig &) = default;
 };

@@ -38,7 +38,8 @@ struct Window {
   [[nodiscard]] constexpr bool contains(Time t) const { return t >= from && t < to; }
 };
 
-/// Base of all faults. The kernel asks at every clock edge of every node, and only if a fault exists.
+/// Base of all faults. The kernel asks at every clock edge of every node, and only if a fault
+/// exists.
 class Fault {
  public:
   virtual ~Fault() = default;
@@ -54,8 +55,8 @@ class Fault {
   virtual void clocked(NodeId, Time, std::uint64_t) {}
 };
 
-/// Forces or flips the level at one receiver (`victim`), or on the whole bus (kAllNodes), for a while.
-/// A bus stuck at a level is a window without end.
+/// Forces or flips the level at one receiver (`victim`), or on the whole bus (kAllNodes), for a
+/// while. A bus stuck at a level is a window without end.
 class LevelFault : public Fault {
  public:
   LevelFault(NodeId victim, Effect effect, Window window)
@@ -143,21 +144,25 @@ class PlaceTracker {
 
 /// A place in the bit stream of one node; an unset member matches anything.
 struct PlaceSpec {
-  std::optional<unsigned> frame;  ///< 1 = first frame since the tracker began
-  std::optional<Field> field;
-  std::optional<unsigned> index;  ///< bits of the field before it
-  std::optional<unsigned> left;   ///< bits of the field after it
-  std::optional<bool> stuff;
-  unsigned first_clock = 0;       ///< part of the bit, in clocks of the node: for a quantum q of a prescaler
-  unsigned last_clock = std::numeric_limits<unsigned>::max();  ///< p these are q * p .. (q + 1) * p - 1
+  std::optional<unsigned> frame = std::nullopt;  ///< 1 = first frame since the tracker began
+  std::optional<Field> field = std::nullopt;
+  std::optional<unsigned> index = std::nullopt;  ///< bits of the field before it
+  std::optional<unsigned> left = std::nullopt;   ///< bits of the field after it
+  std::optional<bool> stuff = std::nullopt;
+  unsigned first_clock =
+      0;  ///< part of the bit, in clocks of the node: for a quantum q of a prescaler
+  unsigned last_clock =
+      std::numeric_limits<unsigned>::max();  ///< p these are q * p .. (q + 1) * p - 1
 
   [[nodiscard]] bool matches(const PlaceTracker &at) const;
 };
 
-/// Changes the level while node `watched` is at a place; the victim is `watched` unless told otherwise.
+/// Changes the level while node `watched` is at a place; the victim is `watched` unless told
+/// otherwise.
 class PlaceFault : public Fault {
  public:
-  PlaceFault(NodeId watched, const PlaceSpec &place, Effect effect, std::optional<NodeId> victim = {})
+  PlaceFault(NodeId watched, const PlaceSpec &place, Effect effect,
+             std::optional<NodeId> victim = {})
       : watched_{watched}, victim_{victim.value_or(watched)}, place_{place}, effect_{effect} {}
   [[nodiscard]] Level level(NodeId receiver, Time t, Level level) override;
   void clocked(NodeId node, Time t, std::uint64_t word) override;
@@ -188,7 +193,6 @@ struct NoiseConfig {
 class NoiseFault : public Fault {
  public:
   explicit NoiseFault(const NoiseConfig &config);
-  void attach(Bus &bus) override;
   [[nodiscard]] Level level(NodeId receiver, Time t, Level level) override;
   void clocked(NodeId node, Time t, std::uint64_t word) override;
   /// Flipped bits and glitches so far.

@@ -18,12 +18,12 @@ class Bus;
 /// Index of a node on its bus, 0, 1, ... in the order of Bus::add().
 using NodeId = unsigned;
 
-/// A bus participant. The kernel calls clock() once for each rising edge of the node's oscillator, with
-/// the level that its pin has had just before the edge.
+/// A bus participant. The kernel calls clock() once for each rising edge of the node's oscillator,
+/// with the level that its pin has had just before the edge.
 class Node {
  public:
   Node(std::string name, const ClockConfig &clock) : name_{std::move(name)}, oscillator_{clock} {}
-  virtual ~Node() = default;
+  virtual ~Node();  // leaves its bus
   Node(const Node &) = delete;
   Node &operator=(const Node &) = delete;
 

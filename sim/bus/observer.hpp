@@ -31,7 +31,7 @@ class BusObserver {
   virtual void on_node_tx(NodeId, Time, Level) {}
   /// A node's receive pin had a new level at its clock edge (delays and faults included).
   virtual void on_node_rx(NodeId, Time, Level) {}
-  /// A node has finished a bit; called one clock after the sample point.
+  /// A node has sampled a bit; called two clocks later, when all that follows from it is known.
   virtual void on_bit(NodeId, const BitRecord &) {}
   /// A node has been clocked; the word is its raw trace.
   virtual void on_clock(NodeId, Time, std::uint64_t) {}

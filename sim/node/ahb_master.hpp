@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// AhbMaster: an AHB-Lite master that queues transfers, runs them clock by clock and checks the slave.
+// AhbMaster: an AHB-Lite master that queues transfers, runs them clock by clock and checks the
+// slave.
 #pragma once
 
 #include <coroutine>
@@ -17,7 +18,16 @@ enum class AhbTrans : std::uint8_t { kIdle = 0, kBusy = 1, kNonseq = 2, kSeq = 3
 /// HSIZE; wider ones exist for tests of the slave's ERROR response.
 enum class AhbSize : std::uint8_t { kByte = 0, kHalf = 1, kWord = 2, kDouble = 3 };
 /// HBURST.
-enum class AhbBurst : std::uint8_t { kSingle = 0, kIncr, kWrap4, kIncr4, kWrap8, kIncr8, kWrap16, kIncr16 };
+enum class AhbBurst : std::uint8_t {
+  kSingle = 0,
+  kIncr,
+  kWrap4,
+  kIncr4,
+  kWrap8,
+  kIncr8,
+  kWrap16,
+  kIncr16
+};
 
 /// What the master drives. `hready` is not here: with one slave it is that slave's HREADYOUT.
 struct AhbRequest {
@@ -48,7 +58,7 @@ struct AhbTransfer {
   std::uint8_t hprot = 0b0011;
   AhbBurst burst = AhbBurst::kSingle;
   AhbTrans trans = AhbTrans::kNonseq;  ///< kSeq for the later beats of a burst
-  unsigned busy_before = 0;            ///< BUSY cycles before this beat (kSeq) or IDLE cycles (kNonseq)
+  unsigned busy_before = 0;  ///< BUSY cycles before this beat (kSeq) or IDLE cycles (kNonseq)
 };
 
 /// How a transfer ended.
@@ -67,8 +77,8 @@ struct AhbReport {
   std::vector<std::string> violations;
 };
 
-/// The master. Each clock cycle: request() is driven while the cycle lasts, and at its end the slave's
-/// response is handed to clock(). Transfers are pipelined back to back as AHB-Lite allows.
+/// The master. Each clock cycle: request() is driven while the cycle lasts, and at its end the
+/// slave's response is handed to clock(). Transfers are pipelined back to back as AHB-Lite allows.
 class AhbMaster {
  public:
   /// Identifies a submitted transfer; its result stays available for 256 further transfers.
@@ -120,12 +130,12 @@ class AhbMaster {
   void next_address_phase();
   void violation(const std::string &what);
 
-  std::deque<Pending> queue_;      // front: in its address phase (if driving_), then waiting
-  Pending data_phase_;             // transfer in its data phase
+  std::deque<Pending> queue_;  // front: in its address phase (if driving_), then waiting
+  Pending data_phase_;         // transfer in its data phase
   bool in_data_phase_ = false;
-  bool driving_ = false;           // request_ shows an address phase of queue_.front()
+  bool driving_ = false;  // request_ shows an address phase of queue_.front()
   bool busy_ = false;
-  bool error_first_ = false;       // first cycle of an ERROR response was seen
+  bool error_first_ = false;  // first cycle of an ERROR response was seen
   unsigned waits_ = 0;
   AhbRequest request_;
   Ticket submitted_ = 0;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Task: a coroutine that starts at once and can be awaited by another one: software on a simulated node.
+// Task: a coroutine that starts at once and can be awaited by another one: software on a simulated
+// node.
 #pragma once
 
 #include <coroutine>
@@ -10,8 +11,8 @@
 
 namespace vericansim {
 
-/// A piece of software on a node, resumed between clock edges. Destroying a Task that has not finished
-/// destroys the coroutine, so whatever would resume it must be told first.
+/// A piece of software on a node, resumed between clock edges. Destroying a Task that has not
+/// finished destroys the coroutine, so whatever would resume it must be told first.
 template <typename T = void>
 class Task;
 

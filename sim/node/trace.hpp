@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Trace: what the core tells an observer (trace_o, layout in rtl/can_pkg.sv) as a struct (Field: model/field.hpp).
+// Trace: what the core tells an observer (trace_o, layout in rtl/can_pkg.sv), as a struct.
 #pragma once
 
 #include <cstdint>
@@ -22,24 +22,25 @@ enum TraceError : std::uint8_t {
 };
 
 /// One word of trace_o. While `sample` is set the levels and the place are those of the bit being
-/// sampled; errors and the event flags are pulses in the clock after.
+/// sampled; errors and the event flags are pulses in the clock after, the counters follow one
+/// later.
 struct Trace {
   bool sample = false;
-  bool boundary = false;     ///< last clock of the bit
+  bool boundary = false;  ///< last clock of the bit
   Level rx = Level::kRecessive;
   Level tx = Level::kRecessive;
   bool transmitter = false;  ///< RO-01
   bool stuff = false;        ///< the bit is a stuff bit
   Field field = Field::kInteg;
-  std::uint8_t left = 0;     ///< bits of the field that follow
-  std::uint8_t errors = 0;   ///< TraceError
-  bool rx_valid = false;     ///< VA-01
-  bool tx_ok = false;        ///< VA-02
+  std::uint8_t left = 0;    ///< bits of the field that follow
+  std::uint8_t errors = 0;  ///< TraceError
+  bool rx_valid = false;    ///< VA-01
+  bool tx_ok = false;       ///< VA-02
   bool tx_fail = false;
-  bool start = false;        ///< the next bit is ID28
-  bool passive = false;      ///< FC-11
+  bool start = false;    ///< the next bit is ID28
+  bool passive = false;  ///< FC-11
   bool running = false;
-  bool bus_off = false;      ///< then tec counts recovery sequences (FC-13)
+  bool bus_off = false;  ///< then tec counts recovery sequences (FC-13)
   std::uint8_t tec = 0;
   std::uint8_t rec = 0;
 
@@ -50,7 +51,8 @@ struct Trace {
 inline constexpr std::uint64_t kTraceSample = 1ULL << 48;
 inline constexpr std::uint64_t kTraceBoundary = 1ULL << 47;
 inline constexpr std::uint64_t kTraceStart = 1ULL << 22;
-inline constexpr std::uint64_t kTraceEvents = 0xFFC00000ULL;  ///< errors, rx_valid, tx_ok, tx_fail, start
+inline constexpr std::uint64_t kTraceEvents =
+    0xFFC00000ULL;  ///< errors, rx_valid, tx_ok, tx_fail, start
 
 constexpr Field trace_field(std::uint64_t word) { return static_cast<Field>((word >> 38) & 0x1F); }
 constexpr std::uint8_t trace_left(std::uint64_t word) { return (word >> 32) & 0x3F; }
@@ -85,7 +87,38 @@ constexpr Trace decode_trace(std::uint64_t word) {
 struct BitRecord {
   Time time = 0;  ///< of the sample point (the clock edge that takes the sample), ps
   Trace at;       ///< as sampled: rx, tx, transmitter, stuff, field, left
-  Trace after;    ///< one clock later: errors, events, counters, states
+  Trace after;    ///< what followed: errors and events of the clocks since, counters and states
+};
+
+/// Puts the records of a node together from its trace, word by word.
+class BitRecorder {
+ public:
+  /// Clocks from the sample point until the counters have followed.
+  static constexpr unsigned kSettle = 2;
+
+  /// Takes the word after a clock edge; `next_edge` is the time of the edge to come. True if that
+  /// has completed record().
+  bool clocked(std::uint64_t word, Time next_edge) {
+    bool complete = false;
+    if (wait_ != 0) {
+      events_ |= word & kTraceEvents;
+      complete = --wait_ == 0;
+      if (complete) record_.after = decode_trace((word & ~kTraceEvents) | events_);
+    }
+    if ((word & kTraceSample) != 0) {
+      record_.time = next_edge;
+      record_.at = decode_trace(word);
+      events_ = 0;
+      wait_ = kSettle;
+    }
+    return complete;
+  }
+  [[nodiscard]] const BitRecord &record() const { return record_; }
+
+ private:
+  BitRecord record_;
+  std::uint64_t events_ = 0;
+  unsigned wait_ = 0;
 };
 
 }  // namespace vericansim

@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# verican_verilate(<target> TOP <module> [PARAMS Name=value ...]): a static library with the Verilated
+# model of any module of rtl/can.f; its class has the name of the target and its header is <target>.h.
+include_guard(GLOBAL)
+find_program(VERILATOR verilator REQUIRED)
+execute_process(COMMAND "${VERILATOR}" --getenv VERILATOR_ROOT
+                OUTPUT_VARIABLE VERILATOR_ROOT OUTPUT_STRIP_TRAILING_WHITESPACE)
+find_package(Threads REQUIRED)
+
+# The run-time library of all models, once.
+add_library(verilated_runtime STATIC "${VERILATOR_ROOT}/include/verilated.cpp"
+                                     "${VERILATOR_ROOT}/include/verilated_threads.cpp")
+target_include_directories(verilated_runtime SYSTEM PUBLIC "${VERILATOR_ROOT}/include"
+                                                           "${VERILATOR_ROOT}/include/vltstd")
+target_compile_options(verilated_runtime PRIVATE -w)
+target_link_libraries(verilated_runtime PUBLIC Threads::Threads)
+
+# Speed: no X, no assertions, no waves inside the model (observers read trace_o); lint is `make lint`.
+set(VERICAN_VERILATOR_FLAGS --cc -O3 --x-assign fast --x-initial fast --no-assert --output-split 0
+    --no-timing -Wno-lint -Wno-style)
+
+function(verican_verilate target)
+  cmake_parse_arguments(ARG "" "TOP" "PARAMS" ${ARGN})
+  set(dir "${CMAKE_CURRENT_BINARY_DIR}/${target}.dir")
+  set(all "${dir}/${target}__all.cpp")
+  list(TRANSFORM ARG_PARAMS PREPEND "-G" OUTPUT_VARIABLE parameters)
+  # One source file that includes the others: their number is known only after Verilator has run, and
+  # the compiler sees the whole model at once.
+  add_custom_command(
+    OUTPUT "${all}" "${dir}/${target}.h"
+    COMMAND "${CMAKE_COMMAND}" -E rm -rf "${dir}"
+    COMMAND "${VERILATOR}" ${VERICAN_VERILATOR_FLAGS} --prefix ${target} --Mdir "${dir}"
+            --top-module ${ARG_TOP} ${parameters} ${VERICAN_RTL}
+    COMMAND "${CMAKE_COMMAND}" -DDIR=${dir} -DOUTPUT=${all}
+            -P "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake"
+    DEPENDS ${VERICAN_RTL} "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake"
+    COMMENT "Verilating ${ARG_TOP} ${ARG_PARAMS}"
+    VERBATIM)
+  add_library(${target} STATIC "${all}")
+  target_compile_options(${target} PRIVATE -w)
+  target_include_directories(${target} SYSTEM PUBLIC "${dir}")
+  target_link_libraries(${target} PUBLIC verilated_runtime)
+endfunction()

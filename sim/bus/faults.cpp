@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Faults: see faults.hpp.
+#include "bus/faults.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "bus/bus.hpp"
+
+namespace vericansim {
+
+void ClockFault::attach(Bus &bus) {
+  Node &node = bus.node(node_);
+  bus.at(when_, [&bus, &node, ppm = error_ppm_] {
+    node.oscillator().set_error_ppm(ppm);
+    bus.clocks_changed();
+  });
+}
+
+// The place register of the core moves on at the sample point, so at the boundary it already tells
+// the bit that begins.
+void PlaceTracker::clocked(std::uint64_t word) {
+  if (ending_) {
+    enter(word);
+  } else {
+    ++clocks_;
+  }
+  if ((word & kTraceStart) != 0 && field_ != Field::kSof) ++frame_;
+  ending_ = (word & kTraceBoundary) != 0;
+}
+
+void PlaceTracker::enter(std::uint64_t word) {
+  const Field field = trace_field(word);
+  const unsigned left = trace_left(word);
+  const bool stuff = trace_stuff(word);
+  // A stuff bit has the index of the bit that it delays.
+  const bool same_run = field == field_ && left <= left_;
+  if (!same_run) {
+    index_ = 0;
+  } else if (!stuff_) {
+    ++index_;
+  }
+  if (field == Field::kSof && field_ != Field::kSof) ++frame_;
+  field_ = field;
+  left_ = left;
+  stuff_ = stuff;
+  clocks_ = 0;
+}
+
+bool PlaceSpec::matches(const PlaceTracker &at) const {
+  return (!frame || *frame == at.frame()) && (!field || *field == at.field()) &&
+         (!index || *index == at.index()) && (!left || *left == at.left()) &&
+         (!stuff || *stuff == at.stuff()) && at.clocks() >= first_clock &&
+         at.clocks() <= last_clock;
+}
+
+Level PlaceFault::level(NodeId receiver, Time, Level level) {
+  const bool hit = active_ && (receiver == victim_ || victim_ == kAllNodes);
+  return hit ? apply_effect(effect_, level) : level;
+}
+
+void PlaceFault::clocked(NodeId node, Time, std::uint64_t word) {
+  if (node != watched_) return;
+  tracker_.clocked(word);
+  const bool active = place_.matches(tracker_);
+  if (active && (!active_ || tracker_.fresh())) ++hits_;
+  active_ = active;
+}
+
+NoiseFault::NoiseFault(const NoiseConfig &config) : config_{config} {
+  const auto is_probability = [](double p) { return p >= 0.0 && p <= 1.0; };
+  if (!is_probability(config.per_bit) || !is_probability(config.per_ns)) {
+    throw std::invalid_argument("noise: probabilities must be 0 to 1");
+  }
+}
+
+NoiseFault::Victim &NoiseFault::victim(NodeId id) {
+  while (victims_.size() <= id) {
+    Victim fresh;
+    fresh.random.seed(config_.seed * 0x9E3779B97F4A7C15ULL + victims_.size());
+    fresh.next_glitch = config_.window.from + draw_gap(fresh);
+    victims_.push_back(std::move(fresh));
+  }
+  return victims_[id];
+}
+
+// Glitches come as a Poisson process.
+Time NoiseFault::draw_gap(Victim &victim) const {
+  if (config_.per_ns <= 0.0) return config_.window.to / 2;
+  std::exponential_distribution<double> gap{config_.per_ns / static_cast<double>(kNanosecond)};
+  return static_cast<Time>(gap(victim.random));
+}
+
+Level NoiseFault::level(NodeId receiver, Time t, Level level) {
+  if (receiver == kBusPoint || !config_.window.contains(t)) return level;
+  if (config_.victim != kAllNodes && config_.victim != receiver) return level;
+  Victim &who = victim(receiver);
+  while (config_.per_ns > 0.0 && t >= who.next_glitch) {
+    who.glitch_end = who.next_glitch + config_.glitch;
+    who.next_glitch += config_.glitch + draw_gap(who);
+    ++hits_;
+  }
+  return (who.bit_hit || t < who.glitch_end) ? !level : level;
+}
+
+void NoiseFault::clocked(NodeId node, Time, std::uint64_t word) {
+  if (config_.per_bit <= 0.0) return;
+  Victim &who = victim(node);
+  who.tracker.clocked(word);
+  if (!who.tracker.fresh()) return;
+  std::bernoulli_distribution flip{config_.per_bit};
+  who.bit_hit = flip(who.random);
+  if (who.bit_hit) ++hits_;
+}
+
+}  // namespace vericansim

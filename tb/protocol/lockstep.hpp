@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lockstep: the rule-based node model beside each DUT of a CoreBench; every bit is compared
+// (rule 19.5).
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "model/node_model.hpp"
+#include "protocol/core_bench.hpp"
+
+namespace vericansim {
+
+/// Follows the DUTs of a bench from start() on. Use request(), cancel() and preset_counters() of
+/// this class, so that DUT and model get the same.
+///
+/// Compared after each sample point: level sent, TEC, REC, error state, deliveries with their
+/// content, success, end of an attempt. Tolerated differences are those of 19.5 item 5: REC from
+/// 128 on is only
+/// ">= 128", set-back to any of 119..127, 0 or 8 for the stuff bit after RTR (FC-05b), the REC step
+/// of a CRC error one bit early or late.
+class Lockstep {
+ public:
+  explicit Lockstep(CoreBench &bench);
+
+  /// Starts the bench and compares from its first bit on.
+  void start();
+  void request(unsigned dut, const Frame &frame);
+  void cancel(unsigned dut);
+  /// Before start().
+  void preset_counters(unsigned dut, std::uint8_t tec, std::uint8_t rec);
+  [[nodiscard]] NodeModel &model(unsigned dut = 0) { return followers_[dut].model; }
+
+  [[nodiscard]] bool agrees() const { return mismatches_.empty(); }
+  /// One sentence for each difference, the first kMaxReports of them.
+  [[nodiscard]] const std::vector<std::string> &mismatches() const { return mismatches_; }
+  /// All of them in one text, with the levels seen up to the first one; empty if there is none.
+  [[nodiscard]] std::string report() const;
+  /// Also compare the names of the places (field, stuff bit); on by default.
+  void compare_places(bool on) { compare_places_ = on; }
+
+ private:
+  static constexpr std::size_t kMaxReports = 20;
+
+  struct Follower {
+    NodeModel model;
+    std::deque<Frame> queue;  // requested, not yet the model's pending frame
+    int last_rec = 0;         // of the model, before the bit
+    bool crc_step = false;    // REC differs since the last bit because of a CRC error
+  };
+
+  void follow(unsigned i, const DutBit &bit);
+  void compare_place(unsigned i, const DutBit &bit);
+  void compare_counters(unsigned i, const DutBit &bit);
+  void compare_events(unsigned i, const DutBit &bit);
+  static bool settle_tec(Follower &follower, const DutBit &bit);
+  static bool settle_rec(Follower &follower, const DutBit &bit);
+  void mismatch(unsigned i, const std::string &what);
+
+  CoreBench &bench_;
+  std::vector<Follower> followers_;
+  std::vector<std::string> mismatches_;
+  std::string history_;
+  bool compare_places_ = true;
+};
+
+}  // namespace vericansim
