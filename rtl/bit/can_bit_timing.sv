@@ -31,7 +31,7 @@ module can_bit_timing (
 
   logic [4:0] tseg1_q;  // PROP_SEG + PHASE_SEG1; a register, for the sum is constant and slow
   logic [4:0] tseg2, sjw, ahead;
-  logic       falling, hard, late, early, end1;
+  logic       falling, hard, late, early, guard;
 
   assign tseg2 = {2'b0, pseg2_i} + 5'd1;
   assign sjw   = {3'b0, rjw_i} + 5'd1;
@@ -45,8 +45,9 @@ module can_bit_timing (
   // Position after this quantum: a late edge sets the count back, which lengthens PHASE_SEG1; an
   // early one sets it forward, which shortens PHASE_SEG2; both by at most SJW (SY-08).
   assign ahead      = early ? pos_q + sjw : pos_q;
-  assign end1       = (pos_q == tseg1_q) && !late && !hard;
-  assign sample_o   = tq_i && !seg2_q && end1;
+  // An edge in the last quantum of PHASE_SEG1 still comes before the sample point and moves it.
+  assign guard      = armed_q && prev_q[0] && (hard_q || tx_i);
+  assign sample_o   = tq_i && !seg2_q && (pos_q == tseg1_q) && (rx_i || !guard);
   assign boundary_o = tq_i && seg2_q && ((ahead >= tseg2) || hard);
   assign edge_o     = tq_i && falling;
   assign bit_o      = smp_i ? (rx_i && prev_q[0]) || (rx_i && prev_q[1]) || (&prev_q) : rx_i;
