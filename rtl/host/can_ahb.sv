@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_ahb: the controller as an AHB-Lite slave. Zero wait states, or one while the engine uses the buffer RAM.
+//
+// ERROR (two cycles): unaligned, wider than 32 bits, or beyond the window of 8 KiB.
+
+module can_ahb #(
+  /// Message buffers: 16, 32 or 64; the Linux driver uses number 63.
+  parameter int NumMb = 64,
+  /// Size of the region that hsel stands for, as a number of address bits, 13 to 32; address bits above
+  /// are not looked at, those down to 13 must be zero.
+  parameter int RegionBits = 16
+) (
+  input  logic        hclk,
+  input  logic        hresetn,
+  input  logic        hsel,
+  input  logic [31:0] haddr,
+  input  logic [1:0]  htrans,
+  input  logic        hwrite,
+  input  logic [2:0]  hsize,
+  input  logic [2:0]  hburst,
+  input  logic [3:0]  hprot,
+  input  logic        hready,
+  input  logic [31:0] hwdata,
+  output logic [31:0] hrdata,
+  output logic        hreadyout,
+  output logic        hresp,
+  output logic        irq_o,
+  output logic        irq_mb_o,
+  output logic        irq_boff_o,
+  output logic        irq_err_o,
+  output logic        irq_twrn_o,
+  output logic        irq_rwrn_o,
+  input  logic        can_rx_i,
+  output logic        can_tx_o,
+  output logic [can_pkg::TraceWidth-1:0] trace_o
+);
+  if (RegionBits < 13 || RegionBits > 32) begin : gen_check_region_bits
+    RegionBits_must_be_13_to_32 u_stop ();   // no such module: the tool prints the name and stops
+  end
+
+  // A burst is a row of single transfers to us, and every access right is the same.
+  logic unused;
+  assign unused = &{1'b0, hburst, hprot, htrans[0]};
+
+  // Address phase.
+  logic       taken, bad, beyond;
+  logic [3:0] be;
+  assign taken  = hsel && hready && htrans[1];                     // NONSEQ or SEQ
+  assign beyond = (haddr & 32'((33'd1 << RegionBits) - 33'd1)) >> 13 != '0;
+  assign bad    = hsize > 3'd2 || (hsize == 3'd2 && haddr[1:0] != '0) || (hsize == 3'd1 && haddr[0])
+               || beyond;
+  always_comb begin
+    case (hsize)
+      3'd0:    be = 4'b0001 << haddr[1:0];
+      3'd1:    be = haddr[1] ? 4'b1100 : 4'b0011;
+      default: be = 4'b1111;
+    endcase
+  end
+
+  // ERROR response: first cycle with hreadyout low, second with it high.
+  logic err1_q, err2_q, ready;
+  always_ff @(posedge hclk or negedge hresetn) begin
+    if (!hresetn) {err1_q, err2_q} <= '0;
+    else          {err1_q, err2_q} <= {taken && bad, err1_q};
+  end
+  assign hreadyout = ready && !err1_q;
+  assign hresp     = err1_q || err2_q;
+
+  can_top #(.NumMb(NumMb)) u_top (
+    .clk_i(hclk), .rst_ni(hresetn),
+    .req_i(taken && !bad), .we_i(hwrite), .addr_i(haddr[12:2]), .be_i(be), .wdata_i(hwdata),
+    .rdata_o(hrdata), .ready_o(ready),
+    .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o,
+    .can_rx_i, .can_tx_o, .trace_o);
+endmodule

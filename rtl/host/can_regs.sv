@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_regs: MCR, CTRL1, ECR, ESR1, IMASK, IFLAG and the extension page (flexcan.md section 1); what needs
+// no RAM. Reserved offsets read 0 and ignore writes; bits of absent features too.
+
+module can_regs #(
+  parameter int NumMb = 64,
+  /// Derived, do not override.
+  localparam int IdxW = $clog2(NumMb)
+) (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  // CPU, in the data phase; always ready. addr_i counts words.
+  input  logic            rd_i,
+  input  logic            wr_i,
+  input  logic [10:0]     addr_i,
+  input  logic [3:0]      be_i,
+  input  logic [31:0]     wdata_i,
+  output logic [31:0]     rdata_o,
+  // Mode.
+  output logic            run_o,
+  output logic            clear_o,
+  output logic            frz_ack_o,
+  input  logic            mb_busy_i,
+  input  logic            mb_scrub_i,
+  // Configuration of the buffers.
+  output logic            bcc_o,
+  output logic            srx_dis_o,
+  output logic            lbuf_o,
+  output logic            tsyn_o,
+  output logic            oneshot_o,
+  output logic [6:0]      maxmb_o,
+  input  logic            flag_i,
+  input  logic [IdxW-1:0] flag_idx_i,
+  // Configuration and state of the engine, see can_core.
+  output logic [7:0]      presdiv_o,
+  output logic [1:0]      rjw_o,
+  output logic [2:0]      pseg1_o,
+  output logic [2:0]      pseg2_o,
+  output logic [2:0]      propseg_o,
+  output logic            smp_o,
+  output logic            lom_o,
+  output logic            lpb_o,
+  output logic            fd_tolerant_o,
+  output logic            boff_rec_o,
+  output logic            ec_we_o,
+  output logic [15:0]     ec_wdata_o,
+  input  logic            running_i,
+  input  logic            stop_ok_i,
+  input  logic [7:0]      tec_i,
+  input  logic [7:0]      rec_i,
+  input  logic            passive_i,
+  input  logic            boff_i,
+  input  logic [5:0]      err_i,
+  input  logic            idle_i,
+  input  logic            transmitter_i,
+  input  logic            receiver_i,
+  input  logic            synch_i,
+  // Interrupt lines, level.
+  output logic            irq_o,
+  output logic            irq_mb_o,
+  output logic            irq_boff_o,
+  output logic            irq_err_o,
+  output logic            irq_twrn_o,
+  output logic            irq_rwrn_o
+);
+  // Word offsets.
+  localparam logic [10:0] Mcr     = 11'h000;
+  localparam logic [10:0] Ctrl    = 11'h001;
+  localparam logic [10:0] Ecr     = 11'h007;
+  localparam logic [10:0] Esr     = 11'h008;
+  localparam logic [10:0] Imask2  = 11'h009;
+  localparam logic [10:0] Imask1  = 11'h00A;
+  localparam logic [10:0] Iflag2  = 11'h00B;
+  localparam logic [10:0] Iflag1  = 11'h00C;
+  localparam logic [10:0] ExtId   = 11'h400;
+  localparam logic [10:0] ExtVer  = 11'h401;
+  localparam logic [10:0] ExtConf = 11'h402;
+  localparam logic [10:0] ExtCtrl = 11'h403;
+
+  // MCR: mode requests.
+  logic mdis_q, frz_q, halt_q, soft_rst, soft_rst_busy, lpm_ack;
+  logic mcr_we, ctrl_we;
+  assign mcr_we   = wr_i && addr_i == Mcr;
+  assign ctrl_we  = wr_i && addr_i == Ctrl;
+  assign soft_rst = mcr_we && be_i[3] && wdata_i[25] && !lpm_ack && !soft_rst_busy;
+
+  can_mode u_mode (
+    .clk_i, .rst_ni,
+    .mdis_i(mdis_q), .freeze_i(frz_q && halt_q), .soft_rst_i(soft_rst),
+    .running_i, .stop_ok_i, .transmitter_i, .busy_i(mb_busy_i), .scrub_i(mb_scrub_i),
+    .run_o, .clear_o, .lpm_ack_o(lpm_ack), .frz_ack_o, .soft_rst_o(soft_rst_busy));
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {mdis_q, frz_q, halt_q} <= '1;
+    end else begin
+      if (mcr_we && be_i[3] && !soft_rst_busy) {mdis_q, frz_q, halt_q} <= {wdata_i[31:30], wdata_i[28]};
+      if (soft_rst) {frz_q, halt_q} <= '1;   // beats the zeros written with it
+    end
+  end
+
+  // MCR: the rest, written in freeze mode only.
+  logic       supv_q, wrn_en_q;
+  logic [1:0] idam_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {supv_q, wrn_en_q, srx_dis_o, bcc_o, idam_q} <= {1'b1, 5'b0};
+      maxmb_o <= 7'h0F;
+    end else if (clear_o) begin
+      {supv_q, wrn_en_q, srx_dis_o, bcc_o, idam_q} <= {1'b1, 5'b0};
+      maxmb_o <= 7'h0F;
+    end else if (mcr_we && frz_ack_o && !soft_rst) begin
+      if (be_i[2]) {supv_q, wrn_en_q, srx_dis_o, bcc_o} <= {wdata_i[23], wdata_i[21], wdata_i[17:16]};
+      if (be_i[1]) idam_q <= wdata_i[9:8];
+      if (be_i[0]) maxmb_o <= wdata_i[6:0];
+    end
+  end
+
+  // CTRL1: interrupt masks and BOFF_REC at any time, CLK_SRC in disable mode, the rest in freeze mode.
+  logic boff_msk_q, err_msk_q, clk_src_q, twrn_msk_q, rwrn_msk_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {boff_msk_q, err_msk_q, clk_src_q, twrn_msk_q, rwrn_msk_q, boff_rec_o} <= '0;
+      {presdiv_o, rjw_o, pseg1_o, pseg2_o, lpb_o, smp_o, tsyn_o, lbuf_o, lom_o, propseg_o} <= '0;
+    end else begin
+      if (ctrl_we && be_i[1]) begin
+        {boff_msk_q, err_msk_q} <= wdata_i[15:14];
+        if (wrn_en_q)  {twrn_msk_q, rwrn_msk_q} <= wdata_i[11:10];
+        if (lpm_ack)   clk_src_q <= wdata_i[13];
+        if (frz_ack_o) lpb_o <= wdata_i[12];
+      end
+      if (ctrl_we && be_i[0]) begin
+        boff_rec_o <= wdata_i[6];
+        if (frz_ack_o) begin
+          smp_o <= wdata_i[7];
+          {tsyn_o, lbuf_o, lom_o, propseg_o} <= wdata_i[5:0];
+        end
+      end
+      if (ctrl_we && frz_ack_o) begin
+        if (be_i[2]) {rjw_o, pseg1_o, pseg2_o} <= wdata_i[23:16];
+        if (be_i[3]) presdiv_o <= wdata_i[31:24];
+      end
+    end
+  end
+
+  // Extension page.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {oneshot_o, fd_tolerant_o} <= '0;
+    end else if (wr_i && addr_i == ExtCtrl && be_i[0]) begin
+      oneshot_o <= wdata_i[1];
+      if (frz_ack_o) fd_tolerant_o <= wdata_i[0];
+    end
+  end
+
+  // ECR.
+  assign ec_we_o    = wr_i && addr_i == Ecr && frz_ack_o;
+  assign ec_wdata_o = {be_i[1] ? wdata_i[15:8] : rec_i, be_i[0] ? wdata_i[7:0] : tec_i};
+
+  // Events.
+  logic        tx_wrn, rx_wrn;
+  logic [63:0] iflag, imask;
+  logic [5:0]  esr_err;
+  logic [3:0]  esr_int;
+  assign tx_wrn = tec_i >= 8'd96 && !boff_i;
+  assign rx_wrn = rec_i >= 8'd96 && !boff_i;
+  can_flags #(.NumMb(NumMb)) u_flags (
+    .clk_i, .rst_ni, .clear_i(clear_o), .flag_i, .flag_idx_i, .err_i, .boff_i,
+    .tx_wrn_i(tx_wrn), .rx_wrn_i(rx_wrn), .wrn_en_i(wrn_en_q),
+    .iflag_lo_we_i(wr_i && addr_i == Iflag1), .iflag_hi_we_i(wr_i && addr_i == Iflag2),
+    .imask_lo_we_i(wr_i && addr_i == Imask1), .imask_hi_we_i(wr_i && addr_i == Imask2),
+    .esr_we_i(wr_i && addr_i == Esr), .esr_rd_i(rd_i && addr_i == Esr && be_i[1]), .be_i, .wdata_i,
+    .boff_msk_i(boff_msk_q), .err_msk_i(err_msk_q),
+    .twrn_msk_i(twrn_msk_q && wrn_en_q), .rwrn_msk_i(rwrn_msk_q && wrn_en_q),
+    .iflag_o(iflag), .imask_o(imask), .esr_err_o(esr_err), .esr_int_o(esr_int),
+    .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o);
+  assign irq_o = irq_mb_o || irq_boff_o || irq_err_o || irq_twrn_o || irq_rwrn_o;
+
+  // Reads.
+  logic [1:0] flt_conf;
+  assign flt_conf = boff_i ? 2'b10 : {1'b0, passive_i || lom_o};   // listen-only reads as passive (2.4)
+  always_comb begin
+    rdata_o = '0;
+    if (rd_i) begin
+      case (addr_i)
+        Mcr:  rdata_o = {mdis_q, frz_q, 1'b0, halt_q, lpm_ack || frz_ack_o, 1'b0, soft_rst_busy, frz_ack_o,
+                         supv_q, 1'b0, wrn_en_q, lpm_ack, 2'b00, srx_dis_o, bcc_o,
+                         6'b0, idam_q, 1'b0, maxmb_o};
+        Ctrl: rdata_o = {presdiv_o, rjw_o, pseg1_o, pseg2_o,
+                         boff_msk_q, err_msk_q, clk_src_q, lpb_o,
+                         twrn_msk_q && wrn_en_q, rwrn_msk_q && wrn_en_q, 2'b00,
+                         smp_o, boff_rec_o, tsyn_o, lbuf_o, lom_o, propseg_o};
+        Ecr:  rdata_o = {16'b0, rec_i, tec_i};
+        Esr:  rdata_o = {13'b0, synch_i, esr_int[3:2], esr_err, tx_wrn, rx_wrn,
+                         idle_i, transmitter_i, flt_conf, receiver_i, esr_int[1:0], 1'b0};
+        Imask2:  rdata_o = imask[63:32];
+        Imask1:  rdata_o = imask[31:0];
+        Iflag2:  rdata_o = iflag[63:32];
+        Iflag1:  rdata_o = iflag[31:0];
+        ExtId:   rdata_o = 32'h5643_414E;               // "VCAN"
+        ExtVer:  rdata_o = 32'h0001_0000;               // 1.0
+        ExtConf: rdata_o = {22'b0, 2'b11, 8'(NumMb)};   // 8: FD tolerance, 9: one-shot
+        ExtCtrl: rdata_o = {30'b0, oneshot_o, fd_tolerant_o};
+        default: ;
+      endcase
+    end
+  end
+endmodule

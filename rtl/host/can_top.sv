@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_top: the whole controller with a plain native port: a command (address, direction, byte lanes) is taken in
+// a clock with ready_o=1; its data (wdata_i, or rdata_o) belongs to the next clock with ready_o=1.
+
+module can_top #(
+  /// Message buffers: 16, 32 or 64; the Linux driver uses number 63.
+  parameter int NumMb = 64
+) (
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  // Native port, window of 8 KiB.
+  input  logic        req_i,
+  input  logic        we_i,
+  input  logic [12:2] addr_i,
+  input  logic [3:0]  be_i,
+  input  logic [31:0] wdata_i,
+  output logic [31:0] rdata_o,
+  output logic        ready_o,
+  // Interrupt lines, level, active high; irq_o is the OR of the others.
+  output logic        irq_o,
+  output logic        irq_mb_o,
+  output logic        irq_boff_o,
+  output logic        irq_err_o,
+  output logic        irq_twrn_o,
+  output logic        irq_rwrn_o,
+  // Transceiver, and the view of an observer (can_pkg).
+  input  logic        can_rx_i,
+  output logic        can_tx_o,
+  output logic [can_pkg::TraceWidth-1:0] trace_o
+);
+  localparam int IdxW = $clog2(NumMb);
+  if (NumMb != 16 && NumMb != 32 && NumMb != 64) begin : gen_check_num_mb
+    NumMb_must_be_16_32_or_64 u_stop ();   // no such module: the tool prints the name and stops
+  end
+
+  // Where a command goes: buffers, masks and TIMER to the mailbox, the rest to the registers.
+  logic       in_mb, in_mask, in_gmask, in_timer, to_mb, wr_ok, frz_ack;
+  logic [1:0] kind, word;
+  logic [7:0] mb_idx;
+  logic [8:0] mask_idx;
+  assign mb_idx   = {1'b0, addr_i[10:4]} - 8'd8;
+  assign mask_idx = addr_i[10:2] - 9'h020;
+  assign in_mb    = addr_i[12:11] == 2'b00 && mb_idx < 8'(NumMb);
+  assign in_mask  = addr_i[12:11] == 2'b01 && mask_idx < 9'(NumMb);
+  assign in_gmask = addr_i == 11'h004 || addr_i == 11'h005 || addr_i == 11'h006;
+  assign in_timer = addr_i == 11'h002;
+  assign to_mb    = in_mb || in_mask || in_gmask || in_timer;
+  assign wr_ok    = in_mb || in_timer || frz_ack;   // masks: in freeze mode only
+
+  logic [IdxW-1:0] idx;
+  always_comb begin
+    kind = 2'd3;
+    word = addr_i[3:2] - 2'd1;
+    idx  = mb_idx[IdxW-1:0];
+    if (in_mb) begin
+      kind = {1'b0, addr_i[3:2] != 2'd0};
+    end else if (in_mask || in_gmask) begin
+      kind = 2'd2;
+      word = {1'b0, in_gmask};
+      idx  = in_gmask ? IdxW'(addr_i[3:2]) : mask_idx[IdxW-1:0];
+    end
+  end
+
+  logic        reg_rd_q, reg_wr_q, mb_ready;
+  logic [10:0] reg_addr_q;
+  logic [3:0]  reg_be_q;
+  logic [31:0] reg_rdata, mb_rdata;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {reg_rd_q, reg_wr_q} <= '0;
+      reg_addr_q <= '0;
+      reg_be_q <= '0;
+    end else if (ready_o) begin
+      reg_rd_q <= req_i && !we_i && !to_mb;
+      reg_wr_q <= req_i && we_i && !to_mb;
+      if (req_i) begin
+        reg_addr_q <= addr_i;
+        reg_be_q   <= be_i;
+      end
+    end
+  end
+  assign ready_o = mb_ready;
+  assign rdata_o = reg_rd_q ? reg_rdata : mb_rdata;
+
+  // Wires between the blocks; names as at the blocks.
+  logic        run, clear, running, stop_ok, mb_busy, mb_scrub;
+  logic        bcc, srx_dis, lbuf, tsyn, oneshot, flag;
+  logic [6:0]  maxmb;
+  logic [IdxW-1:0] flag_idx;
+  logic [7:0]  presdiv, tec, rec, rx_byte;
+  logic [1:0]  rjw;
+  logic [2:0]  pseg1, pseg2, propseg;
+  logic        smp, lom, lpb, fd_tolerant, boff_rec, ec_we, passive, boff;
+  logic [15:0] ec_wdata;
+  logic [5:0]  err;
+  logic        idle, transmitter, receiver, synch, bit_tick;
+  logic        tx_req, tx_ide, tx_rtr, tx_next, tx_ok, tx_fail;
+  logic [3:0]  tx_dlc, rx_dlc;
+  logic [31:0] tx_word;
+  logic        start, stamp, rx_hdr, rx_ide, rx_srr, rx_rtr, rx_byte_we, rx_valid;
+  logic [28:0] rx_id;
+
+  can_regs #(.NumMb(NumMb)) u_regs (
+    .clk_i, .rst_ni,
+    .rd_i(reg_rd_q), .wr_i(reg_wr_q), .addr_i(reg_addr_q), .be_i(reg_be_q), .wdata_i, .rdata_o(reg_rdata),
+    .run_o(run), .clear_o(clear), .frz_ack_o(frz_ack), .mb_busy_i(mb_busy), .mb_scrub_i(mb_scrub),
+    .bcc_o(bcc), .srx_dis_o(srx_dis), .lbuf_o(lbuf), .tsyn_o(tsyn), .oneshot_o(oneshot), .maxmb_o(maxmb),
+    .flag_i(flag), .flag_idx_i(flag_idx),
+    .presdiv_o(presdiv), .rjw_o(rjw), .pseg1_o(pseg1), .pseg2_o(pseg2), .propseg_o(propseg),
+    .smp_o(smp), .lom_o(lom), .lpb_o(lpb), .fd_tolerant_o(fd_tolerant), .boff_rec_o(boff_rec),
+    .ec_we_o(ec_we), .ec_wdata_o(ec_wdata), .running_i(running), .stop_ok_i(stop_ok),
+    .tec_i(tec), .rec_i(rec), .passive_i(passive), .boff_i(boff), .err_i(err),
+    .idle_i(idle), .transmitter_i(transmitter), .receiver_i(receiver), .synch_i(synch),
+    .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o);
+
+  can_mailbox #(.NumMb(NumMb)) u_mailbox (
+    .clk_i, .rst_ni,
+    .running_i(running), .clear_i(clear), .bcc_i(bcc),
+    .eacen_i(1'b0), .rrs_i(1'b0),             // CTRL2 is not there yet: as after its reset
+    .srx_dis_i(srx_dis), .lbuf_i(lbuf), .tsyn_i(tsyn), .oneshot_i(oneshot), .maxmb_i(maxmb),
+    .busy_o(mb_busy), .scrub_o(mb_scrub),
+    .cmd_rd_i(req_i && !we_i && to_mb), .cmd_wr_i(req_i && we_i && to_mb && wr_ok),
+    .cmd_kind_i(kind), .cmd_word_i(word), .cmd_idx_i(idx), .cmd_be_i(be_i),
+    .wdata_i, .ready_o(mb_ready), .rdata_o(mb_rdata), .flag_o(flag), .flag_idx_o(flag_idx),
+    .bit_tick_i(bit_tick), .transmitter_i(transmitter),
+    .tx_req_o(tx_req), .tx_ide_o(tx_ide), .tx_rtr_o(tx_rtr), .tx_dlc_o(tx_dlc), .tx_word_o(tx_word),
+    .tx_next_i(tx_next), .tx_ok_i(tx_ok), .tx_fail_i(tx_fail),
+    .start_i(start), .stamp_i(stamp), .rx_hdr_i(rx_hdr), .rx_id_i(rx_id), .rx_ide_i(rx_ide), .rx_srr_i(rx_srr),
+    .rx_rtr_i(rx_rtr), .rx_dlc_i(rx_dlc), .rx_byte_we_i(rx_byte_we), .rx_byte_i(rx_byte),
+    .rx_valid_i(rx_valid));
+
+  can_core u_core (
+    .clk_i, .rst_ni,
+    .run_i(run), .running_o(running), .stop_ok_o(stop_ok),
+    .presdiv_i(presdiv), .rjw_i(rjw), .pseg1_i(pseg1), .pseg2_i(pseg2), .propseg_i(propseg),
+    .smp_i(smp), .lom_i(lom), .lpb_i(lpb), .fd_tolerant_i(fd_tolerant), .boff_rec_i(boff_rec),
+    .ec_clear_i(clear), .ec_we_i(ec_we), .ec_wdata_i(ec_wdata),
+    .tec_o(tec), .rec_o(rec), .passive_o(passive), .boff_o(boff), .err_o(err),
+    .idle_o(idle), .transmitter_o(transmitter), .receiver_o(receiver), .synch_o(synch),
+    .bit_tick_o(bit_tick),
+    .tx_req_i(tx_req), .tx_ide_i(tx_ide), .tx_rtr_i(tx_rtr), .tx_dlc_i(tx_dlc), .tx_word_i(tx_word),
+    .tx_next_o(tx_next), .tx_ok_o(tx_ok), .tx_fail_o(tx_fail),
+    .start_o(start), .stamp_o(stamp), .rx_hdr_o(rx_hdr), .rx_id_o(rx_id), .rx_ide_o(rx_ide), .rx_srr_o(rx_srr),
+    .rx_rtr_o(rx_rtr), .rx_dlc_o(rx_dlc), .rx_byte_we_o(rx_byte_we), .rx_byte_o(rx_byte),
+    .rx_valid_o(rx_valid), .can_rx_i, .can_tx_o, .trace_o);
+endmodule

@@ -1,0 +1,309 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_mailbox: the message buffers: RAM, transmit arbitration, receive matching and the moves between them,
+// the engine's and the CPU's side.
+//
+// Hidden rows behind the buffers. C/S: NumMb + 0 stamp of the frame sent, + 2/3 frames received. MSG (from
+// 3 * NumMb): 4 * (0/1 frames to send, 2/3 frames received) + (0 ID, 1 bytes 0-3, 2 bytes 4-7). MASK:
+// NumMb + 0 RXGMASK, + 1 RX14MASK, + 2 RX15MASK.
+
+module can_mailbox #(
+  /// Message buffers: 16, 32 or 64.
+  parameter int NumMb = 64,
+  /// Derived, do not override.
+  localparam int IdxW = $clog2(NumMb)
+) (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  // Mode and configuration.
+  input  logic            running_i,     // the engine takes part in the bus
+  input  logic            clear_i,       // soft reset
+  input  logic            bcc_i,
+  input  logic            eacen_i,
+  input  logic            rrs_i,
+  input  logic            srx_dis_i,
+  input  logic            lbuf_i,
+  input  logic            tsyn_i,
+  input  logic            oneshot_i,
+  input  logic [6:0]      maxmb_i,
+  output logic            busy_o,        // moves under way, or rows not cleared yet after reset
+  output logic            scrub_o,       // ... the latter
+  // CPU, see can_mb_port.
+  input  logic            cmd_rd_i,
+  input  logic            cmd_wr_i,
+  input  logic [1:0]      cmd_kind_i,
+  input  logic [1:0]      cmd_word_i,
+  input  logic [IdxW-1:0] cmd_idx_i,
+  input  logic [3:0]      cmd_be_i,
+  input  logic [31:0]     wdata_i,
+  output logic            ready_o,
+  output logic [31:0]     rdata_o,
+  // IFLAG.
+  output logic            flag_o,
+  output logic [IdxW-1:0] flag_idx_o,
+  // Engine, see can_core.
+  input  logic            bit_tick_i,
+  input  logic            transmitter_i,
+  output logic            tx_req_o,
+  output logic            tx_ide_o,
+  output logic            tx_rtr_o,
+  output logic [3:0]      tx_dlc_o,
+  output logic [31:0]     tx_word_o,
+  input  logic            tx_next_i,
+  input  logic            tx_ok_i,
+  input  logic            tx_fail_i,
+  input  logic            start_i,
+  input  logic            stamp_i,
+  input  logic            rx_hdr_i,
+  input  logic [28:0]     rx_id_i,
+  input  logic            rx_ide_i,
+  input  logic            rx_srr_i,
+  input  logic            rx_rtr_i,
+  input  logic [3:0]      rx_dlc_i,
+  input  logic            rx_byte_we_i,
+  input  logic [7:0]      rx_byte_i,
+  input  logic            rx_valid_i
+);
+  localparam logic [1:0] KindCs    = 2'd0;
+  localparam logic [1:0] KindTimer = 2'd3;
+  localparam logic [2:0] StepWord  = 3'd0;   // of can_mb_load
+  localparam logic [2:0] StepEnd   = 3'd1;
+  localparam logic [2:0] StepLow   = 3'd2;
+  localparam logic [2:0] StepHead  = 3'd4;
+
+  // Clearing of the RAMs after a hard reset.
+  logic [IdxW+1:0] scrub_row_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      scrub_o     <= 1'b1;
+      scrub_row_q <= '0;
+    end else if (scrub_o) begin
+      scrub_o     <= scrub_row_q != '1;
+      scrub_row_q <= scrub_row_q + 1'b1;
+    end
+  end
+
+  // CPU accesses and their side effects.
+  logic            rd_done, wr_done, cs_rd, timer_rd, timer_wr, cpu_busy;
+  logic [1:0]      cpu_kind;
+  logic [IdxW-1:0] cpu_idx;
+  logic [3:0]      cpu_be;
+  logic [31:0]     ram_rdata;
+  logic [15:0]     timer;
+  logic            moving, mv_flag;
+  logic [IdxW-1:0] mv_idx;
+  assign cs_rd    = rd_done && cpu_kind == KindCs;
+  assign timer_rd = rd_done && cpu_kind == KindTimer;
+  assign timer_wr = wr_done && cpu_kind == KindTimer;
+  assign cpu_busy = moving && mv_idx == cpu_idx;
+
+  always_comb begin
+    rdata_o = ram_rdata;
+    if (cpu_kind == KindTimer) rdata_o = {16'b0, timer};
+    if (cpu_kind == KindCs) begin
+      {rdata_o[31:28], rdata_o[23]} = '0;
+      rdata_o[24] = ram_rdata[24] || cpu_busy;
+    end
+  end
+
+  // A C/S write by the CPU acts in the next clock, when the RAM holds the new word.
+  logic            csw_q, csw_act_q, csw_empty_q, csw_ide_q;
+  logic [IdxW-1:0] csw_idx_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {csw_q, csw_act_q, csw_empty_q, csw_ide_q} <= '0;
+      csw_idx_q <= '0;
+    end else begin
+      csw_q <= wr_done && cpu_kind == KindCs && !scrub_o;
+      if (wr_done && cpu_kind == KindCs) begin
+        csw_idx_q   <= cpu_idx;
+        csw_act_q   <= !cpu_be[3] || wdata_i[27:24] == 4'b1100;
+        csw_empty_q <= cpu_be == '1 && wdata_i[27:24] == 4'b0100;
+        csw_ide_q   <= wdata_i[21];
+      end
+    end
+  end
+
+  can_timestamp u_timestamp (
+    .clk_i, .rst_ni, .clear_i, .bit_tick_i,
+    .sync_i(tsyn_i && mv_flag && mv_idx == '0),
+    .we_i(timer_wr), .be_i(cpu_be[1:0]), .wdata_i(wdata_i[15:0]), .timer_o(timer));
+
+  logic            lock, lock_now, svc_req, svc_ovr, svc_gnt;
+  logic [IdxW-1:0] lock_idx, svc_idx;
+  can_mb_lock #(.NumMb(NumMb)) u_lock (
+    .clk_i, .rst_ni, .clear_i, .bcc_i,
+    .cs_rd_i(cs_rd), .timer_rd_i(timer_rd), .idx_i(cpu_idx), .cs_i(ram_rdata), .busy_i(cpu_busy),
+    .csw_i(csw_q), .csw_idx_i(csw_idx_q),
+    .lock_o(lock), .lock_idx_o(lock_idx), .lock_now_o(lock_now),
+    .svc_req_o(svc_req), .svc_idx_o(svc_idx), .svc_ovr_o(svc_ovr), .svc_gnt_i(svc_gnt));
+
+  // Reception.
+  logic [31:0]     cs, msg, mask;
+  logic            stale, rx_req, rx_gnt, match_done, hit;
+  logic [IdxW-1:0] rx_idx, hit_idx;
+  can_mb_rx #(.NumMb(NumMb)) u_rx (
+    .clk_i, .rst_ni, .clear_i, .bcc_i, .eacen_i, .rrs_i, .maxmb_i,
+    .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_rtr_i,
+    .lock_i(lock), .lock_idx_i(lock_idx),
+    .csw_i(csw_q), .csw_idx_i(csw_idx_q), .csw_empty_i(csw_empty_q), .csw_ide_i(csw_ide_q),
+    .req_o(rx_req), .idx_o(rx_idx), .gnt_i(rx_gnt), .stale_i(stale),
+    .cs_i(cs), .id_i(msg), .mask_i(mask),
+    .done_o(match_done), .hit_o(hit), .hit_idx_o(hit_idx));
+
+  logic            smb, ewr_req, ewr_gnt, flags_busy;
+  logic [3:0]      ewr_cs_we, ewr_msg_we;
+  logic [IdxW:0]   ewr_cs_row;
+  logic [IdxW+1:0] ewr_msg_row;
+  logic [23:0]     ewr_cs;
+  logic [31:0]     ewr_msg;
+  can_mb_smb #(.NumMb(NumMb)) u_smb (
+    .clk_i, .rst_ni, .smb_i(smb), .timer_i(timer),
+    .start_i, .stamp_i, .transmitter_i, .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_srr_i, .rx_rtr_i, .rx_dlc_i,
+    .rx_byte_we_i, .rx_byte_i, .rx_valid_i,
+    .req_o(ewr_req), .cs_we_o(ewr_cs_we), .cs_row_o(ewr_cs_row), .cs_o(ewr_cs),
+    .msg_we_o(ewr_msg_we), .msg_row_o(ewr_msg_row), .msg_o(ewr_msg), .gnt_i(ewr_gnt),
+    .flags_busy_o(flags_busy));
+
+  logic       mv_req, mv_row, mv_data, mv_cancel, mv_busy;
+  logic [1:0] mv_step;
+  logic [3:0] mv_code;
+  can_mb_move #(.NumMb(NumMb)) u_move (
+    .clk_i, .rst_ni, .clear_i, .start_i, .rx_hdr_i,
+    .valid_i(rx_valid_i && !(transmitter_i && srx_dis_i)), .hold_i(flags_busy || svc_req), .smb_o(smb),
+    .match_done_i(match_done), .hit_i(hit), .hit_idx_i(hit_idx),
+    .lock_i(lock), .lock_idx_i(lock_idx), .lock_now_i(lock_now), .cpu_idx_i(cpu_idx),
+    .csw_i(csw_q), .csw_idx_i(csw_idx_q), .csw_empty_i(csw_empty_q),
+    .req_o(mv_req), .step_o(mv_step), .row_o(mv_row), .idx_o(mv_idx),
+    .data_i(mv_data), .cs_i(cs), .code_o(mv_code), .cancel_o(mv_cancel),
+    .moving_o(moving), .flag_o(mv_flag), .busy_o(mv_busy));
+
+  // Transmission.
+  logic            ins_req, ins_gnt, scan_req, scan_gnt, settled, retry, retry_busy, started, on_bus;
+  logic [IdxW-1:0] ins_idx, scan_idx, best_idx, cur_idx;
+  can_mb_tx #(.NumMb(NumMb)) u_tx (
+    .clk_i, .rst_ni, .running_i, .lbuf_i, .maxmb_i,
+    .csw_i(csw_q), .csw_idx_i(csw_idx_q), .csw_act_i(csw_act_q),
+    .on_bus_i(on_bus), .cur_idx_i(cur_idx), .start_i(started), .retry_i(retry),
+    .ins_req_o(ins_req), .ins_idx_o(ins_idx), .ins_gnt_i(ins_gnt),
+    .scan_req_o(scan_req), .scan_idx_o(scan_idx), .scan_gnt_i(scan_gnt), .stale_i(stale),
+    .cs_i(cs), .id_i(msg),
+    .settled_o(settled), .best_idx_o(best_idx), .retry_o(retry_busy));
+
+  logic            ld_req, ld_row, ld_word, ld_data, ld_cancel, ld_flag, ld_busy;
+  logic [2:0]      ld_step, step_q;
+  logic [3:0]      ld_code;
+  logic [IdxW-1:0] ld_idx;
+  can_mb_load #(.NumMb(NumMb)) u_load (
+    .clk_i, .rst_ni, .running_i, .oneshot_i,
+    .settled_i(settled), .best_idx_i(best_idx), .retry_busy_i(retry_busy), .retry_o(retry),
+    .csw_i(csw_q), .csw_idx_i(csw_idx_q), .csw_act_i(csw_act_q),
+    .bit_tick_i, .start_i, .transmitter_i,
+    .tx_req_o, .tx_ide_o, .tx_rtr_o, .tx_dlc_o, .tx_word_o, .tx_next_i, .tx_ok_i, .tx_fail_i,
+    .started_o(started), .on_bus_o(on_bus), .cur_idx_o(cur_idx),
+    .req_o(ld_req), .step_o(ld_step), .row_o(ld_row), .ld_idx_o(ld_idx), .word_o(ld_word),
+    .data_i(ld_data), .data_step_i(step_q), .cs_i(cs), .msg_i(msg),
+    .cancel_o(ld_cancel), .code_o(ld_code), .flag_o(ld_flag), .busy_o(ld_busy));
+
+  // Steps of loads and moves: a read slot, and in the next clock the data, kept nowhere but on the RAM
+  // outputs. So no two in a row, and none while a CPU write has to wait already.
+  logic step_req, step_gnt, data_q, data_ld_q, take_ld, wr_waits, eng_gnt;
+  assign step_req = (ld_req || mv_req) && !data_q && !wr_waits;
+  assign take_ld  = ld_req && !(mv_req && data_ld_q);   // in turn if both want
+  assign step_gnt = eng_gnt && step_req;
+  assign rx_gnt   = eng_gnt && !step_req && rx_req;
+  assign scan_gnt = eng_gnt && !step_req && !rx_req;
+  assign ld_data  = data_q && data_ld_q;
+  assign mv_data  = data_q && !data_ld_q && moving;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {data_q, data_ld_q} <= '0;
+      step_q <= '0;
+    end else begin
+      data_q <= step_gnt;
+      if (step_gnt) begin
+        data_ld_q <= take_ld;
+        step_q    <= ld_step;
+      end
+    end
+  end
+
+  // Rows of the MSG memory behind the buffers.
+  function automatic logic [IdxW+1:0] hidden(input logic rx, input logic row, input logic [1:0] word);
+    hidden = (IdxW+2)'(3 * NumMb) | (IdxW+2)'({rx, row, word});
+  endfunction
+
+  logic [IdxW:0]   eng_cs_row, eng_mask_row;
+  logic [IdxW+1:0] eng_msg_row;
+  logic [IdxW-1:0] pass_idx;
+  assign pass_idx = rx_req ? rx_idx : scan_idx;
+  always_comb begin
+    eng_cs_row  = {1'b0, pass_idx};
+    eng_msg_row = {2'b00, pass_idx};
+    if (step_req && take_ld) begin
+      eng_cs_row  = ld_step == StepEnd ? (IdxW+1)'(NumMb) : {1'b0, ld_idx};
+      eng_msg_row = ld_step == StepWord ? hidden(1'b0, !ld_row, {ld_word, !ld_word})
+                  : {ld_step == StepHead ? 2'd0 : {ld_step[0], !ld_step[0]}, ld_idx};
+    end else if (step_req) begin
+      eng_cs_row  = mv_step == 2'd0 ? {1'b0, mv_idx} : (IdxW+1)'(NumMb + 2) | (IdxW+1)'(mv_row);
+      eng_msg_row = hidden(1'b1, mv_row, mv_step);
+    end
+  end
+  always_comb begin
+    eng_mask_row = {1'b0, rx_idx};
+    if (!bcc_i) begin
+      eng_mask_row = (IdxW+1)'(NumMb);
+      if (rx_idx == IdxW'(14)) eng_mask_row[0] = 1'b1;
+      if (rx_idx == IdxW'(15)) eng_mask_row[1] = 1'b1;
+    end
+  end
+
+  // Second half of a copy.
+  logic            copy, copy_msg_we;
+  logic [3:0]      copy_cs_we;
+  logic [IdxW:0]   copy_cs_row;
+  logic [IdxW+1:0] copy_msg_row;
+  logic [31:0]     copy_cs;
+  always_comb begin
+    copy         = 1'b0;
+    copy_cs_we   = '0;
+    copy_msg_we  = 1'b0;
+    copy_cs_row  = {1'b0, mv_idx};
+    copy_msg_row = {mv_step, mv_idx};
+    copy_cs      = {4'b0, mv_code, 1'b0, cs[22:0]};
+    if (ld_data) begin
+      copy         = step_q[1:0] != StepWord[1:0];      // not for 0 and 4
+      copy_cs_we   = step_q == StepEnd && !ld_cancel ? 4'b1011 : 4'b0000;
+      copy_cs_row  = {1'b0, cur_idx};
+      copy_cs      = {4'b0, ld_code, 1'b0, cs[22:0]};
+      copy_msg_we  = step_q[1];
+      copy_msg_row = hidden(1'b0, ld_row, {step_q != StepLow, step_q == StepLow});
+    end else if (mv_data) begin
+      copy        = 1'b1;
+      copy_cs_we  = {4{mv_step == 2'd2 && !mv_cancel}};
+      copy_msg_we = !mv_cancel;
+    end
+  end
+
+  can_mb_port #(.NumMb(NumMb)) u_port (
+    .clk_i, .rst_ni,
+    .cmd_rd_i, .cmd_wr_i, .cmd_kind_i, .cmd_word_i, .cmd_idx_i, .cmd_be_i,
+    .wdata_i, .ready_o, .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_done_o(wr_done),
+    .kind_o(cpu_kind), .idx_o(cpu_idx), .be_o(cpu_be),
+    .ins_req_i(ins_req), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
+    .eng_req_i(step_req || rx_req || scan_req), .eng_cs_row_i(eng_cs_row),
+    .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_gnt_o(eng_gnt),
+    .wr_waits_o(wr_waits), .stale_o(stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
+    .copy_i(copy), .copy_cs_we_i(copy_cs_we), .copy_cs_row_i(copy_cs_row), .copy_cs_i(copy_cs),
+    .copy_msg_we_i(copy_msg_we), .copy_msg_row_i(copy_msg_row),
+    .svc_req_i(svc_req), .svc_idx_i(svc_idx), .svc_ovr_i(svc_ovr), .svc_gnt_o(svc_gnt),
+    .ewr_req_i(ewr_req), .ewr_cs_we_i(ewr_cs_we), .ewr_cs_row_i(ewr_cs_row), .ewr_cs_i(ewr_cs),
+    .ewr_msg_we_i(ewr_msg_we), .ewr_msg_row_i(ewr_msg_row), .ewr_msg_i(ewr_msg), .ewr_gnt_o(ewr_gnt),
+    .scrub_i(scrub_o), .scrub_row_i(scrub_row_q), .csw_i(csw_q));
+
+  assign flag_o     = mv_flag || ld_flag;
+  assign flag_idx_o = mv_flag ? mv_idx : cur_idx;
+  assign busy_o     = scrub_o || mv_busy || ld_busy;
+endmodule

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_mb_load: the frame presented to the engine: loaded from the winner of the arbitration, kept apart
+// from the buffer while it is sent, and its end written back.
+//
+// The data words are copied into one of two hidden rows ahead of time, while a frame may still be sent
+// from the other; the last step takes C/S and ID at once, so a frame is replaced in one clock.
+
+module can_mb_load #(
+  parameter int NumMb = 64,
+  /// Derived, do not override.
+  localparam int IdxW = $clog2(NumMb)
+) (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  input  logic            running_i,
+  input  logic            oneshot_i,
+  // Winner of the arbitration.
+  input  logic            settled_i,
+  input  logic [IdxW-1:0] best_idx_i,
+  input  logic            retry_busy_i,
+  output logic            retry_o,       // pulse: cur_idx_o is off the bus and may be active
+  // C/S write by the CPU in the clock before.
+  input  logic            csw_i,
+  input  logic [IdxW-1:0] csw_idx_i,
+  input  logic            csw_act_i,
+  // Engine.
+  input  logic            bit_tick_i,
+  input  logic            start_i,
+  input  logic            transmitter_i,
+  output logic            tx_req_o,
+  output logic            tx_ide_o,
+  output logic            tx_rtr_o,
+  output logic [3:0]      tx_dlc_o,
+  output logic [31:0]     tx_word_o,
+  input  logic            tx_next_i,
+  input  logic            tx_ok_i,
+  input  logic            tx_fail_i,
+  // Frame on the bus.
+  output logic            started_o,     // pulse
+  output logic            on_bus_o,
+  output logic [IdxW-1:0] cur_idx_o,
+  // Steps: 0 next word to the engine, 1 end of a frame, 2/3 copy of bytes 0-3/4-7, 4 C/S and ID.
+  output logic            req_o,
+  output logic [2:0]      step_o,
+  output logic            row_o,         // hidden row that is being filled
+  output logic [IdxW-1:0] ld_idx_o,      // buffer that is being loaded
+  output logic            word_o,        // step 0: 0 bytes 0-3, 1 bytes 4-7
+  input  logic            data_i,        // data of step data_step_i is on the RAM outputs
+  input  logic [2:0]      data_step_i,
+  input  logic [31:0]     cs_i,
+  input  logic [31:0]     msg_i,
+  output logic            cancel_o,      // step 1: do not write
+  output logic [3:0]      code_o,        // step 1: new code
+  output logic            flag_o,        // pulse: set IFLAG of cur_idx_o
+  output logic            busy_o
+);
+  localparam logic [2:0] StepWord = 3'd0;
+  localparam logic [2:0] StepEnd  = 3'd1;
+  localparam logic [2:0] StepLow  = 3'd2;
+  localparam logic [2:0] StepHigh = 3'd3;
+  localparam logic [2:0] StepHead = 3'd4;
+  typedef enum logic [1:0] {StIdle, StLow, StHigh, StHead} state_e;
+  state_e state_q;
+
+  logic       word_q, end_q, failed_q, orphan_q, dropped_q;
+  logic [1:0] tick_q, drop_q;
+  logic       head_ok, csw_cur, csw_ld;
+
+  assign csw_cur   = csw_i && csw_idx_i == cur_idx_o;
+  assign csw_ld    = csw_i && csw_idx_i == ld_idx_o;
+  assign started_o = start_i && transmitter_i && !on_bus_o;
+
+  // A waiting frame is replaced only in the two clocks after a sample point, when the engine cannot
+  // be about to take it; a withdrawn one may have been taken in its last clock.
+  assign head_ok = !on_bus_o && !end_q && !retry_busy_i && drop_q == '0
+                && (!tx_req_o || tick_q != '0);
+  assign req_o   = word_q || end_q || state_q == StLow || state_q == StHigh
+                || (state_q == StHead && head_ok);
+  assign step_o  = word_q ? StepWord : end_q ? StepEnd : state_q == StLow ? StepLow
+                 : state_q == StHigh ? StepHigh : StepHead;
+
+  assign cancel_o = csw_cur;
+  assign code_o   = failed_q ? 4'b1001 : tx_rtr_o ? 4'b0100 : 4'b1000;
+  assign busy_o   = end_q || flag_o;
+
+  // Loading.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q  <= StIdle;
+      ld_idx_o <= '0;
+      row_o    <= 1'b0;
+      {tx_ide_o, tx_rtr_o, tx_dlc_o} <= '0;
+      tx_word_o <= '0;
+    end else begin
+      if (data_i && data_step_i == StepWord) tx_word_o <= msg_i;
+      case (state_q)
+        StIdle: if (settled_i && !(tx_req_o && best_idx_i == cur_idx_o)) begin
+          state_q  <= StLow;
+          ld_idx_o <= best_idx_i;
+        end
+        StLow:  if (data_i && data_step_i == StepLow) state_q <= StHigh;
+        StHigh: if (data_i && data_step_i == StepHigh) state_q <= StHead;
+        StHead: begin
+          if (data_i && data_step_i == StepHead) begin
+            if (!on_bus_o && !started_o) begin
+              state_q   <= StIdle;
+              if (!csw_ld && cs_i[27:24] == 4'b1100) begin
+                row_o     <= !row_o;
+                tx_ide_o  <= cs_i[21];
+                tx_rtr_o  <= cs_i[20];
+                tx_dlc_o  <= cs_i[19:16];
+                tx_word_o <= {3'b0, msg_i[28:18], cs_i[21] ? msg_i[17:0] : 18'b0};
+              end
+            end
+          end else if (!head_ok && settled_i && best_idx_i != ld_idx_o) begin
+            state_q <= StIdle;          // a better one came while this one had to wait
+          end
+        end
+        default: state_q <= StIdle;
+      endcase
+      if (csw_ld || !running_i) state_q <= StIdle;
+    end
+  end
+
+  logic head_taken;
+  assign head_taken = data_i && data_step_i == StepHead && state_q == StHead && !on_bus_o && !started_o
+                   && !csw_ld && cs_i[27:24] == 4'b1100;
+
+  // The frame presented or on the bus.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {tx_req_o, on_bus_o, orphan_q, dropped_q, word_q, word_o} <= '0;
+      {end_q, failed_q, flag_o, retry_o} <= '0;
+      {tick_q, drop_q} <= '0;
+      cur_idx_o <= '0;
+    end else begin
+      {flag_o, retry_o} <= '0;
+      tick_q <= {tick_q[0], bit_tick_i};
+      drop_q <= {drop_q[0], 1'b0};
+
+      if (head_taken) begin
+        tx_req_o  <= 1'b1;
+        orphan_q  <= 1'b0;
+        word_o    <= 1'b0;
+        cur_idx_o <= ld_idx_o;
+      end else if (csw_cur) begin
+        // Rewritten: what is under way is no longer the buffer's. Not yet under way: take it back, but
+        // rewriting it for ever does not keep everybody off the bus.
+        orphan_q <= 1'b1;
+        if (tx_req_o && (!csw_act_i || !dropped_q)) begin
+          tx_req_o  <= 1'b0;
+          dropped_q <= 1'b1;
+          drop_q    <= 2'b11;
+        end
+      end
+      if (started_o) begin
+        on_bus_o  <= 1'b1;
+        tx_req_o  <= 1'b0;
+        dropped_q <= 1'b0;
+      end
+
+      // Words for the engine: the ID is taken first, then bytes 0-3, then 4-7.
+      if (data_i && data_step_i == StepWord) {word_q, word_o} <= {1'b0, 1'b1};
+      if (tx_next_i) word_q <= 1'b1;
+
+      // The end.
+      if (data_i && data_step_i == StepEnd) begin
+        end_q  <= 1'b0;
+        flag_o <= !csw_cur;
+      end else if (end_q && csw_cur) begin
+        end_q   <= 1'b0;
+        retry_o <= 1'b1;
+      end
+      if ((tx_ok_i || tx_fail_i) && on_bus_o) begin
+        on_bus_o <= 1'b0;
+        word_q   <= 1'b0;
+        failed_q <= tx_fail_i;
+        if (orphan_q || csw_cur || (tx_fail_i && !oneshot_i)) retry_o <= 1'b1;
+        else end_q <= 1'b1;
+      end
+      if (!running_i) {tx_req_o, on_bus_o, word_q, dropped_q} <= '0;
+    end
+  end
+endmodule

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_mb_lock: the one buffer that the CPU is reading, and the serviced mark it gets afterwards
+// (flexcan.md 3.6).
+
+module can_mb_lock #(
+  parameter int NumMb = 64,
+  /// Derived, do not override.
+  localparam int IdxW = $clog2(NumMb)
+) (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  input  logic            clear_i,      // soft reset
+  input  logic            bcc_i,
+  input  logic            cs_rd_i,      // the CPU gets the C/S word of buffer idx_i in this clock
+  input  logic            timer_rd_i,   // ... or TIMER
+  input  logic [IdxW-1:0] idx_i,
+  input  logic [31:0]     cs_i,         // the word as stored
+  input  logic            busy_i,       // that buffer is being moved into: reads BUSY, is not locked
+  input  logic            csw_i,        // a C/S word was written in the clock before
+  input  logic [IdxW-1:0] csw_idx_i,
+  output logic            lock_o,
+  output logic [IdxW-1:0] lock_idx_o,
+  output logic            lock_now_o,   // buffer idx_i becomes locked in this clock
+  output logic            svc_req_o,    // mark svc_idx_o as serviced
+  output logic [IdxW-1:0] svc_idx_o,
+  output logic            svc_ovr_o,    // its code is OVERRUN, not FULL
+  input  logic            svc_gnt_i
+);
+  logic [3:0] code;
+  logic       stored, same, csw_hit, leave, ovr_q, mark_q;
+
+  assign code       = cs_i[27:24];
+  assign stored     = code == 4'b0010 || code == 4'b0110;
+  assign lock_now_o = cs_rd_i && !busy_i && (stored || (code == 4'b0100 && !bcc_i));
+  assign same       = lock_idx_o == idx_i;
+  assign leave      = timer_rd_i || (cs_rd_i && !same);
+  assign csw_hit    = csw_i && csw_idx_i == lock_idx_o;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      lock_o <= 1'b0;
+      {ovr_q, mark_q} <= '0;
+      lock_idx_o <= '0;
+      svc_req_o <= 1'b0;
+      svc_idx_o <= '0;
+      svc_ovr_o <= 1'b0;
+    end else begin
+      // A C/S write has the last word about the code: no mark after it.
+      if (svc_gnt_i || (csw_i && csw_idx_i == svc_idx_o)) svc_req_o <= 1'b0;
+      if (lock_o && (leave || csw_hit)) begin
+        lock_o <= 1'b0;
+        if (mark_q && !csw_hit) begin
+          svc_req_o <= 1'b1;
+          svc_idx_o <= lock_idx_o;
+          svc_ovr_o <= ovr_q;
+        end
+      end
+      if (lock_now_o) begin
+        lock_o     <= 1'b1;
+        lock_idx_o <= idx_i;
+        ovr_q      <= code[2];
+        mark_q     <= stored && !cs_i[31];
+      end
+      if (clear_i) {lock_o, svc_req_o} <= '0;
+    end
+  end
+endmodule

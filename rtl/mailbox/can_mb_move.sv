@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_mb_move: received frames on their way from the hidden rows into their buffers (flexcan.md 3.5, 3.6).
+//
+// Two hidden rows: one takes the frame on the bus while the other may hold a frame whose buffer is locked.
+// Each waiting frame is bound to its buffer; a later frame for the same buffer replaces it.
+
+module can_mb_move #(
+  parameter int NumMb = 64,
+  /// Derived, do not override.
+  localparam int IdxW = $clog2(NumMb)
+) (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  input  logic            clear_i,       // soft reset
+  // Engine; valid_i: the frame in row smb_o is good and wanted.
+  input  logic            start_i,
+  input  logic            rx_hdr_i,
+  input  logic            valid_i,
+  input  logic            hold_i,        // header bits or a serviced mark are still to be written
+  output logic            smb_o,         // row for the frame on the bus
+  // Match.
+  input  logic            match_done_i,
+  input  logic            hit_i,
+  input  logic [IdxW-1:0] hit_idx_i,
+  // Locks, CPU reads and writes of C/S words.
+  input  logic            lock_i,
+  input  logic [IdxW-1:0] lock_idx_i,
+  input  logic            lock_now_i,    // buffer cpu_idx_i becomes locked in this clock
+  input  logic [IdxW-1:0] cpu_idx_i,
+  input  logic            csw_i,
+  input  logic [IdxW-1:0] csw_idx_i,
+  input  logic            csw_empty_i,
+  // One copy a step: 0 ID (and the old C/S word), 1 bytes 0-3, 2 bytes 4-7 and C/S.
+  output logic            req_o,
+  output logic [1:0]      step_o,
+  output logic            row_o,         // from this row
+  output logic [IdxW-1:0] idx_o,         // to this buffer
+  input  logic            data_i,        // the step's data is on the RAM outputs
+  input  logic [31:0]     cs_i,
+  output logic [3:0]      code_o,        // new code
+  output logic            cancel_o,      // do not write
+  output logic            moving_o,      // buffer idx_o is BUSY
+  output logic            flag_o,        // pulse: set IFLAG of idx_o
+  output logic            busy_o         // something is still to be done
+);
+  logic            unres_q, unres_row_q, mv_q, end_q, ovr_q;
+  logic [1:0]      full_q;
+  logic [IdxW-1:0] tgt0_q, tgt1_q;
+
+  // A frame may move when its buffer is known and not locked.
+  function automatic logic blocked(input logic [IdxW-1:0] tgt, input logic lock,
+                                   input logic [IdxW-1:0] lock_idx, input logic now,
+                                   input logic [IdxW-1:0] now_idx);
+    blocked = (lock && lock_idx == tgt) || (now && now_idx == tgt);
+  endfunction
+
+  logic [1:0] ready, kill;
+  assign ready[0] = full_q[0] && !(unres_q && !unres_row_q)
+                 && !blocked(tgt0_q, lock_i, lock_idx_i, lock_now_i, cpu_idx_i);
+  assign ready[1] = full_q[1] && !(unres_q && unres_row_q)
+                 && !blocked(tgt1_q, lock_i, lock_idx_i, lock_now_i, cpu_idx_i);
+
+  // A C/S write cancels what waits for this buffer; EMPTY leaves an unlocked buffer a target.
+  logic csw_cancels;
+  assign csw_cancels = csw_i && !(csw_empty_i && !(lock_i && lock_idx_i == csw_idx_i));
+  assign kill[0] = csw_cancels && csw_idx_i == tgt0_q && !(unres_q && !unres_row_q);
+  assign kill[1] = csw_cancels && csw_idx_i == tgt1_q && !(unres_q && unres_row_q);
+
+  logic csw_hit, ovr;
+  assign csw_hit  = csw_i && csw_idx_i == idx_o;
+  assign cancel_o = csw_hit && !csw_empty_i;
+  assign ovr      = ovr_q && !csw_hit;
+  assign code_o   = {1'b0, ovr, 2'b10};
+  assign idx_o    = row_o ? tgt1_q : tgt0_q;
+  assign req_o    = mv_q && !end_q;
+  assign moving_o = mv_q;
+  assign busy_o   = unres_q || mv_q || ready != '0;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {smb_o, unres_q, unres_row_q, mv_q, end_q, ovr_q, row_o, flag_o} <= '0;
+      step_o <= '0;
+      full_q <= '0;
+      {tgt0_q, tgt1_q} <= '0;
+    end else begin
+      flag_o <= 1'b0;
+      // Moves.
+      if (!mv_q && ready != '0 && !hold_i) begin
+        mv_q   <= 1'b1;
+        row_o  <= !ready[0];
+        step_o <= '0;
+      end else if (end_q) begin      // the C/S word is there: CPU reads of it are good from here on
+        {mv_q, end_q} <= '0;
+        full_q[row_o] <= 1'b0;
+      end else if (mv_q && cancel_o) begin
+        mv_q <= 1'b0;
+      end else if (data_i) begin
+        step_o <= step_o + 1'b1;
+        if (step_o == 2'd0) ovr_q <= (cs_i[25] && !cs_i[31]) && !csw_hit;   // FULL or OVERRUN, unread
+        if (step_o == 2'd2) {end_q, flag_o} <= '1;
+      end
+      if (mv_q && csw_hit) ovr_q <= 1'b0;
+      if (kill[0] && !(end_q && !row_o)) full_q[0] <= 1'b0;
+      if (kill[1] && !(end_q && row_o))  full_q[1] <= 1'b0;
+
+      // New frames.
+      if (valid_i) begin
+        full_q[smb_o] <= 1'b1;
+        unres_q       <= 1'b1;
+        unres_row_q   <= smb_o;
+      end else if (unres_q && match_done_i) begin
+        unres_q <= 1'b0;
+        if (!hit_i) full_q[unres_row_q] <= 1'b0;
+        if (unres_row_q) tgt1_q <= hit_idx_i;
+        else             tgt0_q <= hit_idx_i;
+        // It replaces a frame that waits for the same buffer.
+        if (hit_i && !(mv_q && row_o != unres_row_q)) begin
+          if (unres_row_q && tgt0_q == hit_idx_i)  full_q[0] <= 1'b0;
+          if (!unres_row_q && tgt1_q == hit_idx_i) full_q[1] <= 1'b0;
+        end
+      end else if (unres_q && (rx_hdr_i || (start_i && full_q == '1))) begin
+        unres_q <= 1'b0;              // no buffer found in the time of a whole frame
+        full_q[unres_row_q] <= 1'b0;
+      end
+      if (start_i && full_q[smb_o] && !full_q[!smb_o]) smb_o <= !smb_o;
+      if (clear_i) {full_q, unres_q, mv_q, end_q, flag_o} <= '0;
+    end
+  end
+endmodule

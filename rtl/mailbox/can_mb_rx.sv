@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_mb_rx: finds the buffer for the frame being received, one buffer a clock (flexcan.md 3.5).
+
+module can_mb_rx #(
+  parameter int NumMb = 64,
+  /// Derived, do not override.
+  localparam int IdxW = $clog2(NumMb)
+) (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  input  logic            clear_i,      // soft reset
+  // Configuration, constant while the engine runs.
+  input  logic            bcc_i,        // individual masks and reception queue
+  input  logic            eacen_i,      // IDE and RTR compared under the mask
+  input  logic            rrs_i,        // remote frames are stored
+  input  logic [6:0]      maxmb_i,
+  // Frame.
+  input  logic            rx_hdr_i,
+  input  logic [28:0]     rx_id_i,
+  input  logic            rx_ide_i,
+  input  logic            rx_rtr_i,
+  // Locks, and C/S writes by the CPU in the clock before.
+  input  logic            lock_i,
+  input  logic [IdxW-1:0] lock_idx_i,
+  input  logic            csw_i,
+  input  logic [IdxW-1:0] csw_idx_i,
+  input  logic            csw_empty_i,  // code EMPTY was written, with IDE csw_ide_i
+  input  logic            csw_ide_i,
+  // Read slots: C/S, ID and mask of buffer idx_o.
+  output logic            req_o,
+  output logic [IdxW-1:0] idx_o,
+  input  logic            gnt_i,
+  input  logic            stale_i,      // the C/S word was being written
+  input  logic [31:0]     cs_i,
+  input  logic [31:0]     id_i,
+  input  logic [31:0]     mask_i,
+  // Result.
+  output logic            done_o,
+  output logic            hit_o,
+  output logic [IdxW-1:0] hit_idx_o
+);
+  logic [28:0]     key_q;
+  logic            key_ide_q, key_rtr_q;
+  logic            scan_q, eval_q, skip;
+  logic [IdxW-1:0] eval_idx_q;
+
+  assign req_o  = scan_q;
+  assign done_o = !scan_q && !eval_q;
+
+  // Comparison of the buffer on the RAM outputs.
+  logic code_ok, ide_ok, rtr_ok, id_ok, match, free, last;
+  assign code_ok = cs_i[27:24] == 4'b0100 || cs_i[27:24] == 4'b0010 || cs_i[27:24] == 4'b0110;
+  assign ide_ok  = cs_i[21] == key_ide_q || (eacen_i && !mask_i[30]);
+  assign rtr_ok  = !eacen_i || cs_i[20] == key_rtr_q || !mask_i[31];
+  assign id_ok   = ((id_i[28:18] ^ key_q[28:18]) & mask_i[28:18]) == '0
+                && (!key_ide_q || ((id_i[17:0] ^ key_q[17:0]) & mask_i[17:0]) == '0);
+  assign match   = code_ok && ide_ok && rtr_ok && id_ok && 7'(eval_idx_q) <= maxmb_i;
+  assign free    = (cs_i[26:24] == 3'b100 || cs_i[31]) && !(lock_i && lock_idx_i == eval_idx_q);
+  assign skip    = stale_i || (csw_i && csw_idx_i == eval_idx_q);   // read it again
+  assign last    = idx_o == IdxW'(NumMb - 1) || 7'(idx_o) == maxmb_i;
+
+  // The CPU took the chosen buffer away: look again. Writing EMPTY leaves it a candidate.
+  logic lost;
+  assign lost = hit_o && csw_i && csw_idx_i == hit_idx_o
+             && !(csw_empty_i && csw_ide_i == key_ide_q);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      key_q <= '0;
+      {key_ide_q, key_rtr_q} <= '0;
+      {scan_q, eval_q, hit_o} <= '0;
+      {idx_o, eval_idx_q, hit_idx_o} <= '0;
+    end else if (rx_hdr_i) begin
+      key_q     <= rx_id_i;
+      key_ide_q <= rx_ide_i;
+      key_rtr_q <= rx_rtr_i;
+      scan_q    <= !rx_rtr_i || rrs_i;
+      eval_q    <= 1'b0;
+      hit_o     <= 1'b0;
+      idx_o     <= '0;
+    end else if (lost || clear_i) begin
+      scan_q <= !clear_i;
+      eval_q <= 1'b0;
+      hit_o  <= 1'b0;
+      idx_o  <= '0;
+    end else begin
+      eval_q <= gnt_i;
+      if (gnt_i) begin
+        eval_idx_q <= idx_o;
+        idx_o      <= idx_o + 1'b1;
+        if (last) scan_q <= 1'b0;
+      end
+      if (eval_q) begin
+        if (skip) begin
+          eval_q <= 1'b0;
+          idx_o  <= eval_idx_q;
+          scan_q <= 1'b1;
+        end else if (match) begin
+          hit_o     <= 1'b1;
+          hit_idx_o <= eval_idx_q;
+          // BCC=1: the lowest free one, or else the last; BCC=0: the first.
+          if (free || !bcc_i) {scan_q, eval_q} <= '0;
+        end
+      end
+    end
+  end
+endmodule

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_mb_smb: writes the frame that passes by into a hidden row of the RAMs: its time stamp at the start,
+// the identifier, each data byte as it comes, the header bits at the end.
+
+module can_mb_smb #(
+  parameter int NumMb = 64,
+  /// Derived, do not override.
+  localparam int IdxW = $clog2(NumMb)
+) (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  input  logic            smb_i,         // hidden row in use
+  input  logic [15:0]     timer_i,
+  // Engine.
+  input  logic            start_i,
+  input  logic            stamp_i,       // the identifier field begins
+  input  logic            transmitter_i,
+  input  logic            rx_hdr_i,
+  input  logic [28:0]     rx_id_i,
+  input  logic            rx_ide_i,
+  input  logic            rx_srr_i,
+  input  logic            rx_rtr_i,
+  input  logic [3:0]      rx_dlc_i,
+  input  logic            rx_byte_we_i,
+  input  logic [7:0]      rx_byte_i,
+  input  logic            rx_valid_i,
+  // Write port.
+  output logic            req_o,
+  output logic [3:0]      cs_we_o,
+  output logic [IdxW:0]   cs_row_o,
+  output logic [23:0]     cs_o,
+  output logic [3:0]      msg_we_o,
+  output logic [IdxW+1:0] msg_row_o,
+  output logic [31:0]     msg_o,
+  input  logic            gnt_i,
+  output logic            flags_busy_o   // header bits not written yet
+);
+  logic       stamp_q, tx_stamp_q, flags_q, id_q, zero0_q, zero1_q, byte_q;
+  logic [2:0] count_q;                   // data bytes written
+
+  assign req_o = stamp_q || tx_stamp_q || flags_q || id_q || zero0_q || zero1_q || byte_q;
+  assign flags_busy_o = flags_q;
+
+  // SRR of a base frame is kept as 1; byte lanes select what is written.
+  assign cs_o     = {1'b0, rx_srr_i || !rx_ide_i, rx_ide_i, rx_rtr_i, rx_dlc_i, timer_i};
+  assign cs_row_o = (stamp_q || !tx_stamp_q) ? (IdxW+1)'(NumMb + 2) | (IdxW+1)'(smb_i)
+                                             : (IdxW+1)'(NumMb);
+
+  always_comb begin
+    cs_we_o   = '0;
+    msg_we_o  = '0;
+    msg_row_o = (IdxW+2)'(3 * NumMb) | (IdxW+2)'({1'b1, smb_i, 2'd0});
+    msg_o     = {3'b0, rx_id_i};
+    if (stamp_q || tx_stamp_q) begin
+      cs_we_o = 4'b0011;
+    end else if (flags_q) begin
+      cs_we_o = 4'b0100;
+    end else if (id_q) begin
+      msg_we_o = 4'b1111;
+    end else if (zero0_q || zero1_q) begin   // bytes beyond the DLC read as zero
+      msg_we_o = 4'b1111;
+      msg_o    = '0;
+      msg_row_o[1:0] = zero0_q ? 2'd1 : 2'd2;
+    end else if (byte_q) begin
+      msg_we_o = 4'b1000 >> count_q[1:0];
+      msg_o    = {4{rx_byte_i}};
+      msg_row_o[1:0] = count_q[2] ? 2'd2 : 2'd1;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {stamp_q, tx_stamp_q, flags_q, id_q, zero0_q, zero1_q, byte_q} <= '0;
+      count_q <= '0;
+    end else begin
+      if (gnt_i) begin
+        if (stamp_q)         stamp_q    <= 1'b0;
+        else if (tx_stamp_q) tx_stamp_q <= 1'b0;
+        else if (flags_q)    flags_q    <= 1'b0;
+        else if (id_q)       id_q       <= 1'b0;
+        else if (zero0_q)    zero0_q    <= 1'b0;
+        else if (zero1_q)    zero1_q    <= 1'b0;
+        else begin
+          byte_q  <= 1'b0;
+          count_q <= count_q + 1'b1;
+        end
+      end
+      if (start_i) begin
+        {flags_q, id_q, zero0_q, zero1_q, byte_q} <= '0;
+        count_q <= '0;
+      end
+      if (stamp_i)      {stamp_q, tx_stamp_q} <= {1'b1, transmitter_i};
+      if (rx_hdr_i)     {id_q, zero0_q, zero1_q} <= '1;
+      if (rx_byte_we_i) byte_q <= 1'b1;
+      if (rx_valid_i)   flags_q <= 1'b1;
+    end
+  end
+endmodule
