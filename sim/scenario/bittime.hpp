@@ -16,8 +16,8 @@ namespace vericansim {
 struct BitTimingRequest {
   std::uint32_t clock_hz = 8'000'000;      ///< clock of the controller, 1 kHz to 1 GHz
   std::uint32_t bitrate = 500'000;         ///< bit/s, 1000 to 1,000,000
-  std::optional<double> sample_point;      ///< 0.5..0.9; unset: recommended_sample_point()
-  std::optional<unsigned> sjw;             ///< 1..4; unset: as large as the segments and the register allow
+  std::optional<double> sample_point = {};  ///< 0.5..0.9; unset: recommended_sample_point()
+  std::optional<unsigned> sjw = {};         ///< 1..4; unset: as large as the segments and the register allow
   double cable_m = 0.0;                    ///< 0: PROP as half of TSEG1; else PROP covers this cable (BT-07)
   double node_delay_ns = 100.0;            ///< driver, comparator and controller of one node, one way
   double max_rate_error_ppm = 50'000.0;    ///< settings beyond it are left out, as can-utils' calculator does

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// candump logs and the other text recordings: what can-utils, PCAN-View and SavvyCAN write is read exactly.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "trace/candump.hpp"
+#include "trace/gvret.hpp"
+#include "trace/input_error.hpp"
+#include "trace/trc.hpp"
+
+namespace vericansim {
+namespace {
+
+using ::testing::HasSubstr;
+
+Frame frame_of(const std::string &text) {
+  Frame frame;
+  EXPECT_TRUE(parse_candump_frame(text, frame, {"log", 1})) << text;
+  return frame;
+}
+
+std::string error_of(const std::string &text) {
+  try {
+    static_cast<void>(parse_candump(text, "log"));
+  } catch (const InputError &error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// Forms of a frame as `man candump` and lib.h of can-utils describe them.
+TEST(CandumpFrame, BaseData) {
+  const Frame frame = frame_of("123#11223344");
+  EXPECT_EQ(frame, (Frame{0x123, false, false, 4, {0x11, 0x22, 0x33, 0x44}}));
+}
+TEST(CandumpFrame, EightDigitsAreExtended) {
+  EXPECT_EQ(frame_of("00000123#"), (Frame{0x123, true, false, 0, {}}));
+  EXPECT_EQ(frame_of("1FFFFFFF#FF"), (Frame{0x1FFFFFFF, true, false, 1, {0xFF}}));
+}
+TEST(CandumpFrame, DotsBetweenBytes) { EXPECT_EQ(frame_of("7FF#0A.0b"), (Frame{0x7FF, false, false, 2, {10, 11}})); }
+TEST(CandumpFrame, RemoteWithAndWithoutLength) {
+  EXPECT_EQ(frame_of("123#R"), (Frame{0x123, false, true, 0, {}}));
+  EXPECT_EQ(frame_of("123#R8"), (Frame{0x123, false, true, 8, {}}));
+}
+TEST(CandumpFrame, RawDlcBehindUnderscore) {
+  EXPECT_EQ(frame_of("123#0102030405060708_F"), (Frame{0x123, false, false, 15, {1, 2, 3, 4, 5, 6, 7, 8}}));
+  EXPECT_EQ(frame_of("123#R8_9"), (Frame{0x123, false, true, 9, {}}));
+}
+TEST(CandumpFrame, FdAndErrorFramesAreNotClassical) {
+  Frame frame;
+  EXPECT_FALSE(parse_candump_frame("123##100112233", frame, {"log", 1}));
+  EXPECT_FALSE(parse_candump_frame("20000004#0004000000000000", frame, {"log", 1}));
+}
+
+TEST(CandumpFrame, WritesWhatItReads) {
+  for (const char *text : {"000#", "7FF#0001020304050607", "00000000#R", "12345678#R3", "123#R8_F",
+                           "1FFFFFFF#FFFFFFFFFFFFFFFF_9"})
+    EXPECT_EQ(candump_frame(frame_of(text)), text);
+}
+
+TEST(CandumpLog, TimesAreRelativeToTheFirst) {
+  const CanLog log = parse_candump(
+      "# a comment\n\n(1436509052.249713) vcan0 044#2A\r\n(1436509052.449847) vcan1 12345678#\n", "log");
+  ASSERT_EQ(log.entries.size(), 2U);
+  EXPECT_EQ(log.start_ns, 1'436'509'052'249'713'000);
+  EXPECT_EQ(log.entries[0].time, 0);
+  EXPECT_EQ(log.entries[1].time, 200'134 * kMicrosecond);
+  EXPECT_EQ(log.entries[1].channel, "vcan1");
+}
+
+TEST(CandumpLog, ReadsScreenOutput) {
+  const CanLog log = parse_candump("  vcan0  123   [2]  11 22\n  can1  12345678   [0]  remote request\n", "log");
+  ASSERT_EQ(log.entries.size(), 2U);
+  EXPECT_EQ(log.entries[0].frame, (Frame{0x123, false, false, 2, {0x11, 0x22}}));
+  EXPECT_EQ(log.entries[1].frame, (Frame{0x12345678, true, true, 0, {}}));
+  const CanLog stamped = parse_candump(" (3.5)  can0  7FF   [1]  AA\n (4.5)  can0  7FF   [0]\n", "log");
+  ASSERT_EQ(stamped.entries.size(), 2U);
+  EXPECT_EQ(stamped.entries[1].time, kSecond);
+}
+
+TEST(CandumpLog, SkipsAndCountsWhatIsNotClassical) {
+  const CanLog log = parse_candump(
+      "(1.0) can0 123##0AA\n(1.1) can0 20000080#0000000000000000\n(1.3) can0 001#\n", "log");
+  EXPECT_EQ(log.skipped, 2U);
+  ASSERT_EQ(log.entries.size(), 1U);
+  EXPECT_EQ(log.entries[0].time, 0);
+}
+
+TEST(CandumpLog, ErrorsNameFileLineValueAndWhatIsAllowed) {
+  EXPECT_THAT(error_of("(1.0) can0 123#11\n(1.1) can0 12#11\n"), HasSubstr("log:2: identifier '12'"));
+  EXPECT_THAT(error_of("(1.0) can0 800#11\n"), HasSubstr("log:1: identifier is above 7FF"));
+  EXPECT_THAT(error_of("(1.0) can0 123#1\n"), HasSubstr("odd number of data digits"));
+  EXPECT_THAT(error_of("(1.0) can0 123#001122334455667788\n"), HasSubstr("up to 8 bytes"));
+  EXPECT_THAT(error_of("(1.0) can0 123#R9\n"), HasSubstr("allowed: 0 to 8"));
+  EXPECT_THAT(error_of("(1.0) can0 123#11_9\n"), HasSubstr("allowed: _9 to _F after 8 bytes"));
+  EXPECT_THAT(error_of("(x) can0 123#11\n"), HasSubstr("(seconds.microseconds)"));
+  EXPECT_THAT(error_of("(1.0) can0\n"), HasSubstr("expected (TIME) INTERFACE FRAME"));
+  EXPECT_THAT(error_of("(99999999999999999999.0) can0 123#\n"), HasSubstr("log:1: time"));
+}
+
+TEST(CandumpWriter, WritesTheLogFormat) {
+  std::ostringstream out;
+  CandumpWriter writer{out, 1'436'509'052'000'000'000};
+  writer.write({249'713 * kMicrosecond, "vcan0", frame_of("123#11223344")});
+  writer.write({2 * kSecond, "", frame_of("12345678#R")});
+  EXPECT_EQ(out.str(), "(1436509052.249713) vcan0 123#11223344\n(1436509054.000000) can0 12345678#R\n");
+}
+
+TEST(Trc, ReadsPcanViewVersion11) {
+  const CanLog log = parse_trc(";$FILEVERSION=1.1\r\n;\r\n     1)        48.6  Rx     09F11201  2  FF 50 \r\n"
+                               "     2)        49.2  Tx         0123  4  RTR\r\n     3)  50.0  Warng  FFFFFFFF  4  00 00 00 04\r\n",
+                               "a.trc");
+  ASSERT_EQ(log.entries.size(), 2U);
+  EXPECT_EQ(log.skipped, 1U);
+  EXPECT_EQ(log.entries[0].frame, (Frame{0x09F11201, true, false, 2, {0xFF, 0x50}}));
+  EXPECT_EQ(log.entries[1].frame, (Frame{0x123, false, true, 4, {}}));
+  EXPECT_EQ(log.entries[1].time, 600 * kMicrosecond);
+  EXPECT_THROW(static_cast<void>(parse_trc(";$FILEVERSION=2.0\n", "b.trc")), InputError);
+}
+
+TEST(Gvret, ReadsBothVersionsOfTheColumns) {
+  const CanLog old_style = parse_gvret(
+      "Time Stamp,ID,Extended,Bus,LEN,D1,D2,D3,D4,D5,D6,D7,D8\n166064000,0000021A,false,0,2,FE,36,00,00,00,00,00,00,\n", "a.csv");
+  const CanLog new_style = parse_gvret(
+      "Time Stamp,ID,Extended,Dir,Bus,LEN,D1,D2\n5,1FFFFFFF,true,Rx,1,1,0a\n1005,00000001,false,Rx,1,0\n", "a.csv");
+  ASSERT_EQ(old_style.entries.size(), 1U);
+  EXPECT_EQ(old_style.entries[0].frame, (Frame{0x21A, false, false, 2, {0xFE, 0x36}}));
+  ASSERT_EQ(new_style.entries.size(), 2U);
+  EXPECT_EQ(new_style.entries[0].frame, (Frame{0x1FFFFFFF, true, false, 1, {10}}));
+  EXPECT_EQ(new_style.entries[0].channel, "can1");
+  EXPECT_EQ(new_style.entries[1].time, kMillisecond);
+}
+
+// No input may crash a parser: every prefix and every single-character change of good lines either
+// parses or throws InputError.
+TEST(TextLogs, DamagedInputNeverCrashes) {
+  const std::string candump = "(1.5) can0 12345678#0102030405060708_A\n can0 123 [2] 11 22\n";
+  const std::string trc = ";$FILEVERSION=1.1\n 1) 48.6 Rx 09F11201 2 FF 50\n";
+  const std::string csv = "Time Stamp,ID,Extended,Bus,LEN,D1,D2\n16,21A,false,0,2,FE,36\n";
+  const auto survive = [](auto parse, std::string text) {
+    try {
+      static_cast<void>(parse(text, "f"));
+    } catch (const InputError &error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  };
+  for (std::size_t at = 0; at < 64; ++at) {
+    for (const int byte : {0, 10, 32, 35, 40, 44, 48, 57, 70, 91, 95, 120, 255}) {
+      const auto damage = [&](std::string text) {
+        text[at % text.size()] = static_cast<char>(byte);
+        return text;
+      };
+      survive(parse_candump, damage(candump));
+      survive(parse_trc, damage(trc));
+      survive(parse_gvret, damage(csv));
+    }
+    survive(parse_candump, candump.substr(0, at));
+    survive(parse_trc, trc.substr(0, at));
+    survive(parse_gvret, csv.substr(0, at));
+  }
+}
+
+}  // namespace
+}  // namespace vericansim

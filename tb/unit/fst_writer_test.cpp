@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// FST files: GTKWave's own reader must give back what was written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "trace/bus_wave.hpp"
+#include "trace/input_error.hpp"
+#include "trace/log.hpp"
+#include "trace/wave_sink.hpp"
+
+namespace vericansim {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(FstWriter, Fst2vcdGivesTheSameChanges) {
+  if (std::system("command -v fst2vcd > /dev/null 2>&1") != 0) GTEST_SKIP() << "fst2vcd (GTKWave) is not installed";
+  const std::string path = ::testing::TempDir() + "w.fst";
+  {
+    const auto sink = open_fst(path);
+    const auto can = sink->add_wire("bus", "can", 1);
+    const auto field = sink->add_text("node", "field");
+    const auto tec = sink->add_wire("node", "tec", 9);
+    sink->start();
+    sink->set(0, can, 1);
+    sink->set(2'000'001, can, 0);
+    sink->set(2'000'001, field, std::string_view{"ERROR_FLAG"});
+    sink->set(3'000'000, tec, 257);
+    sink->finish(9'000'000);
+  }
+  ASSERT_EQ(std::system(("fst2vcd " + path + " > " + path + ".vcd").c_str()), 0);
+  const std::string text = read_text_file(path + ".vcd");
+  EXPECT_THAT(text, HasSubstr("1ps"));
+  EXPECT_THAT(text, HasSubstr("#2000001\n0!"));
+  EXPECT_THAT(text, HasSubstr("sERROR_FLAG"));
+  EXPECT_THAT(text, HasSubstr("#3000000\nb100000001"));
+}
+
+TEST(FstWriter, AFolderThatIsNotThere) { EXPECT_THROW(open_fst("/no/such/folder/a.fst"), InputError); }
+
+TEST(OpenWave, KnowsTheSuffixes) {
+  EXPECT_NE(open_wave(::testing::TempDir() + "s.vcd"), nullptr);
+  EXPECT_NE(open_wave(::testing::TempDir() + "s.fst"), nullptr);
+  EXPECT_THROW(open_wave("s.txt"), InputError);
+}
+
+}  // namespace
+}  // namespace vericansim

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// VCD files: written ones are what the standard says and what sigrok and GTKWave read; foreign ones are read.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "trace/bitrate.hpp"
+#include "trace/input_error.hpp"
+#include "trace/log.hpp"
+#include "trace/vcd_file.hpp"
+#include "trace/wave_sink.hpp"
+
+namespace vericansim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Pair;
+
+constexpr const char *kHeader =
+    "$date today $end $version some simulator $end $timescale 10 ns $end\n"
+    "$scope module top $end $scope module node $end\n$var wire 1 ! rx $end $var reg 8 \" data [7:0] $end\n$upscope $end\n"
+    "$var wire 1 # rx $end $var string 1 $ text $end $upscope $end $enddefinitions $end\n";
+
+std::vector<std::pair<Time, Level>> changes_of(const VcdFile &file, const std::string &name) {
+  std::vector<std::pair<Time, Level>> changes;
+  file.read(file.find(name), [&](Time time, Level level) { changes.emplace_back(time, level); });
+  return changes;
+}
+
+template <typename Act>
+std::string error_of(Act act) {
+  try {
+    act();
+  } catch (const InputError &error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(VcdFile, ReadsTimescaleHierarchyAndUnknowns) {
+  const VcdFile file{"a.vcd", std::string(kHeader) +
+                                  "#0 $dumpvars x! b00000000 \" 1# $end\n#5 0!\n#7 0! 1#\nb1010 \" z!\n#9 sHELLO $\n#20\n"};
+  EXPECT_THAT(changes_of(file, "top.node.rx"),
+              ElementsAre(Pair(0, Level::kRecessive), Pair(50 * kNanosecond, Level::kDominant),
+                          Pair(70 * kNanosecond, Level::kRecessive)));
+  EXPECT_EQ(file.read(file.find("node.rx"), [](Time, Level) {}), 200 * kNanosecond);
+}
+
+TEST(VcdFile, ScaleBelowAPicosecond) {
+  const VcdFile file{"a.vcd", "$timescale 1fs $end $var wire 1 ! rx $end $enddefinitions $end #0 1! #2500 0! "};
+  EXPECT_THAT(changes_of(file, "rx"), ElementsAre(Pair(0, Level::kRecessive), Pair(2, Level::kDominant)));
+}
+
+TEST(VcdFile, NamesTheChoiceWhenASignalIsUnclear) {
+  const VcdFile file{"a.vcd", kHeader};
+  EXPECT_THAT(error_of([&] { static_cast<void>(file.find("rx")); }),
+              HasSubstr("a.vcd: signal 'rx' is not unique; one-bit signals are top.node.rx, top.rx"));
+  EXPECT_THAT(error_of([&] { static_cast<void>(file.find("nosuch")); }), HasSubstr("no signal is called 'nosuch'"));
+  EXPECT_THAT(error_of([&] { static_cast<void>(file.find("data")); }), HasSubstr("has 8 bits; allowed: 1"));
+}
+
+TEST(VcdFile, GuessesTheBus) {
+  const std::string end = " $enddefinitions $end";
+  const std::string scale = "$timescale 1ns $end ";
+  const auto guess = [&](const std::string &vars) {
+    return VcdFile{"a", scale + vars + end}.guess_bus().name;
+  };
+  EXPECT_EQ(guess("$var wire 1 ! q $end"), "q");
+  EXPECT_EQ(guess("$var wire 1 ! q $end $var wire 1 % CAN_RX $end"), "CAN_RX");
+  EXPECT_EQ(guess("$var wire 1 ! rx $end $scope module bus $end $var wire 1 % can $end $upscope $end"), "bus.can");
+  EXPECT_THROW(guess("$var wire 1 ! q $end $var wire 1 % p $end"), InputError);
+}
+
+TEST(VcdFile, DamagedInputNeverCrashes) {
+  const std::string good = std::string(kHeader) + "#0 1! b101 \"\n#5 0!\nsA $\n$comment x $end\n#9 1!\n";
+  for (std::size_t at = 0; at < good.size(); ++at)
+    for (const char byte : {'\0', '$', '#', ' ', 'b', '9', '\xFF'}) {
+      std::string bad = good;
+      bad[at] = byte;
+      for (const std::string &text : {bad, good.substr(0, at)}) {
+        const std::string error = error_of([&] {
+          const VcdFile file{"a.vcd", text};
+          for (const VcdSignal &signal : file.signals()) file.read(signal, [](Time, Level) {});
+        });
+        EXPECT_EQ(error.find('\n'), std::string::npos);
+      }
+    }
+}
+
+TEST(VcdFile, ErrorsNameTheLine) {
+  EXPECT_THAT(error_of([] { VcdFile("a.vcd", "$timescale 3 ns $end"); }), HasSubstr("a.vcd:1: timescale '3ns'"));
+  EXPECT_THAT(error_of([] { VcdFile("a.vcd", "hello"); }), HasSubstr("a.vcd:1: expected a VCD keyword"));
+  EXPECT_THAT(error_of([] { VcdFile("a.vcd", ""); }), HasSubstr("is no VCD file"));
+  const VcdFile file{"a.vcd", std::string(kHeader) + "#9 1!\n#3 0!\n"};
+  EXPECT_THAT(error_of([&] { file.read(file.find("top.rx"), [](Time, Level) {}); }),
+              HasSubstr("a.vcd:7: time '#3' goes back"));
+}
+
+/// One pulse and one text, written as VCD.
+std::string write_sample(const std::string &name) {
+  const std::string path = ::testing::TempDir() + name;
+  const auto sink = open_vcd(path);
+  const auto can = sink->add_wire("bus", "can", 1);
+  const auto field = sink->add_text("node", "field");
+  const auto tec = sink->add_wire("node", "tec", 9);
+  sink->start();
+  sink->set(0, can, 1);
+  sink->set(0, field, std::string_view{"IDLE"});
+  sink->set(2 * kMicrosecond, can, 0);
+  sink->set(2 * kMicrosecond, field, std::string_view{"ERROR FLAG"});
+  sink->set(3 * kMicrosecond, tec, 256);
+  sink->set(4 * kMicrosecond, can, 1);
+  sink->finish(10 * kMicrosecond);
+  return path;
+}
+
+TEST(VcdWriter, WritesWiresAndTexts) {
+  EXPECT_EQ(read_text_file(write_sample("w.vcd")),
+            "$comment written by VeriCAN $end\n$timescale 1 ns $end\n$scope module bus $end\n"
+            "$var wire 1 ! can $end\n$upscope $end\n$scope module node $end\n$var string 1 \" field $end\n"
+            "$var wire 9 # tec [8:0] $end\n$upscope $end\n$enddefinitions $end\n"
+            "#0\n1!\nsIDLE \"\n#2000\n0!\nsERROR_FLAG \"\n#3000\nb100000000 #\n#4000\n1!\n#10000\n");
+}
+
+TEST(VcdWriter, ReaderReadsIt) {
+  const VcdFile file{write_sample("r.vcd")};
+  EXPECT_THAT(changes_of(file, "bus.can"),
+              ElementsAre(Pair(0, Level::kRecessive), Pair(2 * kMicrosecond, Level::kDominant),
+                          Pair(4 * kMicrosecond, Level::kRecessive)));
+}
+
+TEST(VcdWriter, CodesStayUniqueBeyond94Signals) {
+  const std::string path = ::testing::TempDir() + "many.vcd";
+  {
+    const auto sink = open_vcd(path);
+    for (int i = 0; i < 9000; ++i) sink->add_wire("m", "s" + std::to_string(i), 1);
+    sink->start();
+  }
+  const VcdFile file{path};
+  std::vector<std::string> codes;
+  for (const VcdSignal &signal : file.signals()) codes.push_back(signal.code);
+  std::sort(codes.begin(), codes.end());
+  EXPECT_EQ(std::unique(codes.begin(), codes.end()), codes.end());
+}
+
+TEST(VcdWriter, GtkwaveReadsIt) {
+  if (std::system("command -v vcd2fst > /dev/null 2>&1") != 0) GTEST_SKIP() << "vcd2fst (GTKWave) is not installed";
+  const std::string vcd = write_sample("g.vcd");
+  const std::string command = "vcd2fst " + vcd + " " + vcd + ".fst && fst2vcd " + vcd + ".fst > " + vcd + ".back";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::string back = read_text_file(vcd + ".back");
+  EXPECT_THAT(back, HasSubstr("sERROR_FLAG "));
+  EXPECT_THAT(back, HasSubstr("b100000000 "));
+}
+
+TEST(FileNames, AWaveMustBeVcdOrFst) { EXPECT_THROW(open_vcd("/no/such/folder/a.vcd"), InputError); }
+
+TEST(Bitrate, FoundFromEdges) {
+  for (const double rate : {10e3, 50e3, 83.333e3, 125e3, 500e3, 1e6}) {
+    std::vector<Time> edges;
+    Time now = 12345;
+    for (const int bits : {1, 1, 2, 5, 4, 1, 3, 5, 2, 1, 1, 4, 30, 1, 2, 2, 1})
+      edges.push_back(now += static_cast<Time>(bits * 1e12 / rate) + (bits % 2) * 3);
+    const auto found = detect_bitrate(edges);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_NEAR(*found / rate, 1.0, 0.001);
+  }
+  EXPECT_FALSE(detect_bitrate({1, 2, 3}).has_value());
+  EXPECT_FALSE(detect_bitrate(std::vector<Time>(20, 5)).has_value());
+}
+
+}  // namespace
+}  // namespace vericansim
