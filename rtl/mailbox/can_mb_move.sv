@@ -125,7 +125,10 @@ module can_mb_move #(
         full_q[unres_row_q] <= 1'b0;
       end
       if (start_i && full_q[smb_o] && !full_q[!smb_o]) smb_o <= !smb_o;
-      if (clear_i) {full_q, unres_q, mv_q, end_q, flag_o} <= '0;
+      if (clear_i) begin
+        full_q <= '0;
+        {unres_q, mv_q, end_q, flag_o} <= '0;
+      end
     end
   end
 endmodule
