@@ -69,12 +69,9 @@ void BusDecoder::synchronise(Time time) {
     sampled_this_bit_ = false;
     return;
   }
-  if (!sampled_this_bit_) {  // late edge: this bit began later than thought
-    bit_start_ += std::clamp(time - bit_start_, -largest_shift_, largest_shift_);
-  } else {  // early edge: the next bit begins already
-    const Time error = time - (bit_start_ + config_.bit_time);
-    bit_start_ += std::clamp(error, -largest_shift_, largest_shift_);
-  }
+  // The last sample was recessive, so this edge belongs to the boundary that follows it.
+  const Time error = time - (bit_start_ + config_.bit_time);
+  bit_start_ += std::clamp(error, -largest_shift_, largest_shift_);
 }
 
 void BusDecoder::sample() {

@@ -77,6 +77,9 @@ TEST(BusDecoder, WaitsForElevenRecessiveBits) {  // IN-01
   feed.bits(whole(kGv1).substr(9) + "111" + whole(kGv1) + "111").done();
   ASSERT_EQ(feed.events.size(), 1u);
   EXPECT_EQ(feed.events[0].start, (53 - 9 + 3) * kMicrosecond);
+  Feed early(DecoderConfig{});
+  early.bits("0" + rep(10, "1") + whole(kGv1) + "111").done();
+  EXPECT_TRUE(early.events.empty());
 }
 
 TEST(BusDecoder, RandomTrafficFromDriftingTransmitters) {  // IF-02, BT-08
@@ -97,14 +100,12 @@ TEST(BusDecoder, RandomTrafficFromDriftingTransmitters) {  // IF-02, BT-08
   }
 }
 
-TEST(BusDecoder, LateAcknowledgeMovesTheGridOnlyALittle) {  // SY-18
+TEST(BusDecoder, LateAcknowledgeMovesTheGridOnlyALittle) {  // SY-08, SY-18
   Feed feed;
   for (int n = 0; n < 20; ++n) {
-    feed.bits(to_delimiter(kGv1))
-        .bits("1", 400'000)
-        .bits("0")
-        .bits("1", 600'000)
-        .bits(rep(10, "1"));
+    // The slot is dominant from 0.35 to 1.1 bits: a grid moved by the whole 0.35 would miss it.
+    feed.bits(to_delimiter(kGv1)).bits("1", 350'000).bits("0", 750'000);
+    feed.bits("1", 900'000).bits(rep(10, "1"));
   }
   feed.done();
   ASSERT_EQ(feed.events.size(), 20u);
@@ -132,6 +133,30 @@ TEST(BusDecoder, GlitchesInIdleLeaveNothing) {  // IF-15, SY-15
   EXPECT_EQ(spike.events[0].field, Field::kId);
   EXPECT_EQ(spike.events[0].index, 5);
   EXPECT_EQ(spike.events[0].flag_bits, 0u);
+  EXPECT_EQ(spike.events[0].start, 6 * kMicrosecond);
+  EXPECT_EQ(spike.events[0].end, (7 + 6 + 8) * kMicrosecond);  // passive flag, delimiter
+}
+
+TEST(BusDecoder, DominantBitsAfterAPassiveFlag) {  // TL-09
+  Feed feed;
+  feed.bits("0" + rep(12, "1") + rep(6, "0") + rep(11, "1") + whole(kGv1) + "111").done();
+  ASSERT_EQ(feed.events.size(), 2u);
+  EXPECT_EQ(feed.events[0].kind, BusEventKind::kErrorFrame);
+  EXPECT_EQ(feed.events[0].flag_bits, 6u);
+  EXPECT_EQ(feed.events[1].frame, kGv1);
+}
+
+TEST(BusDecoder, SpikeThatNobodyAnswers) {
+  std::string spiked = whole(kGv1);
+  spiked[48] = '0';  // EOF3
+  Feed feed;         // the nodes go on: the decoder needs eleven recessive bits and loses one frame
+  for (int n = 0; n < 3; ++n) feed.bits((n == 0 ? spiked : whole(kGv1)) + "111");
+  feed.done();
+  ASSERT_EQ(feed.events.size(), 2u);
+  EXPECT_EQ(feed.events[0].kind, BusEventKind::kErrorFrame);
+  EXPECT_EQ(feed.events[0].problem, BusProblem::kForm);
+  EXPECT_EQ(feed.events[0].flag_bits, 1u);
+  EXPECT_EQ(feed.events[1].start, 2 * 56 * kMicrosecond);
 }
 
 TEST(BusDecoder, OverloadFrames) {  // OV-03

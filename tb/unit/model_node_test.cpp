@@ -241,6 +241,7 @@ TEST(NodeModelTimeline, FC_08_SixteenDominantAfterTheFlag) {
   NodeModel t = sender(kGv1);
   play(t, kUpToData + "!" + "000000" + rep(16, "0"));
   EXPECT_EQ(t.tec(), 24);
+  EXPECT_EQ(t.rec(), 0);      // FC-01, FC-04
   NodeModel o = idle_node();  // after an overload flag: two steps, no FC-04
   play(o, whole(kGv1) + "0" + "000000" + rep(23, "0"));
   EXPECT_EQ(o.rec(), 16);
