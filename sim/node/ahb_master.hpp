@@ -1,53 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// AhbMaster: an AHB-Lite master that queues transfers, runs them clock by clock and checks the
-// slave.
+// AhbMaster: an AHB-Lite master that queues transfers and runs them clock by clock.
 #pragma once
 
 #include <coroutine>
 #include <cstdint>
 #include <deque>
-#include <string>
 #include <vector>
 
+#include "node/ahb_checker.hpp"
+
 namespace vericansim {
-
-/// HTRANS.
-enum class AhbTrans : std::uint8_t { kIdle = 0, kBusy = 1, kNonseq = 2, kSeq = 3 };
-/// HSIZE; wider ones exist for tests of the slave's ERROR response.
-enum class AhbSize : std::uint8_t { kByte = 0, kHalf = 1, kWord = 2, kDouble = 3 };
-/// HBURST.
-enum class AhbBurst : std::uint8_t {
-  kSingle = 0,
-  kIncr,
-  kWrap4,
-  kIncr4,
-  kWrap8,
-  kIncr8,
-  kWrap16,
-  kIncr16
-};
-
-/// What the master drives. `hready` is not here: with one slave it is that slave's HREADYOUT.
-struct AhbRequest {
-  std::uint32_t haddr = 0;
-  AhbTrans htrans = AhbTrans::kIdle;
-  bool hwrite = false;
-  AhbSize hsize = AhbSize::kWord;
-  AhbBurst hburst = AhbBurst::kSingle;
-  std::uint8_t hprot = 0b0011;  // privileged data access
-  std::uint32_t hwdata = 0;
-
-  friend bool operator==(const AhbRequest &, const AhbRequest &) = default;
-};
-
-/// What the slave drives.
-struct AhbResponse {
-  std::uint32_t hrdata = 0;
-  bool hready = true;
-  bool hresp = false;
-};
 
 /// One transfer (one beat). Byte lanes are the master's work: `data` is right-aligned.
 struct AhbTransfer {
@@ -58,7 +22,7 @@ struct AhbTransfer {
   std::uint8_t hprot = 0b0011;
   AhbBurst burst = AhbBurst::kSingle;
   AhbTrans trans = AhbTrans::kNonseq;  ///< kSeq for the later beats of a burst
-  unsigned busy_before = 0;  ///< BUSY cycles before this beat (kSeq) or IDLE cycles (kNonseq)
+  unsigned pause = 0;                  ///< cycles before it: BUSY before kSeq, IDLE before kNonseq
 };
 
 /// How a transfer ended.
@@ -68,52 +32,43 @@ struct AhbResult {
   unsigned waits = 0;      ///< wait states of the data phase
 };
 
-/// Statistics of the accesses and the protocol violations seen, as plain sentences.
-struct AhbReport {
-  std::uint64_t transfers = 0;
-  std::uint64_t errors = 0;
-  std::uint64_t wait_states = 0;
-  unsigned max_waits = 0;
-  std::vector<std::string> violations;
-};
-
-/// The master. Each clock cycle: request() is driven while the cycle lasts, and at its end the
-/// slave's response is handed to clock(). Transfers are pipelined back to back as AHB-Lite allows.
+/// The master. In each clock cycle request() is driven, and at its end the slave's response is handed to
+/// clock(). Queued transfers follow each other back to back, address phase over data phase.
 class AhbMaster {
  public:
-  /// Identifies a submitted transfer; its result stays available for 256 further transfers.
+  /// Identifies a submitted transfer; its result stays available while the next 255 are submitted.
   using Ticket = std::uint64_t;
 
-  Ticket submit(const AhbTransfer &transfer);
-  /// Submits a burst of words; returns the ticket of its first beat, the others follow.
+  Ticket submit(const AhbTransfer &transfer) { return enqueue(transfer, nullptr); }
+  /// Submits a burst of words; `data` is written, or only gives the number of beats if `write` is false.
+  /// Returns the ticket of the first beat, those of the others follow it.
   Ticket submit_burst(std::uint32_t address, AhbBurst burst, bool write,
-                      const std::vector<std::uint32_t> &data_or_size);
+                      const std::vector<std::uint32_t> &data);
   [[nodiscard]] bool done(Ticket ticket) const { return ticket < completed_; }
   [[nodiscard]] const AhbResult &result(Ticket ticket) const { return results_[ticket % kKept]; }
 
-  /// True if there is anything to drive or a data phase is under way.
-  [[nodiscard]] bool active() const { return busy_; }
+  /// True if there is a transfer to drive or in its data phase.
+  [[nodiscard]] bool active() const { return in_data_phase_ || !queue_.empty(); }
   [[nodiscard]] const AhbRequest &request() const { return request_; }
   /// End of a clock cycle in which request() was driven. May resume waiting coroutines.
   void clock(const AhbResponse &response);
-  /// Forgets queued transfers and waiting coroutines (reset).
+  /// Forgets queued transfers and who waits for them (reset).
   void reset();
 
-  [[nodiscard]] const AhbReport &report() const { return report_; }
-  void clear_report() { report_ = {}; }
+  [[nodiscard]] const AhbChecker &checker() const { return checker_; }
 
   /// `co_await master.access(transfer)` yields the AhbResult.
   struct Awaiter {
     AhbMaster &master;
     AhbTransfer transfer;
     Ticket ticket = 0;
-    bool await_ready() const { return false; }
-    void await_suspend(std::coroutine_handle<> handle);
-    AhbResult await_resume() const { return master.result(ticket); }
+    [[nodiscard]] bool await_ready() const { return false; }
+    void await_suspend(std::coroutine_handle<> handle) { ticket = master.enqueue(transfer, handle); }
+    [[nodiscard]] AhbResult await_resume() const { return master.result(ticket); }
   };
-  Awaiter access(const AhbTransfer &transfer) { return Awaiter{*this, transfer}; }
-  Awaiter read(std::uint32_t address) { return access({.address = address}); }
-  Awaiter write(std::uint32_t address, std::uint32_t data) {
+  [[nodiscard]] Awaiter access(const AhbTransfer &transfer) { return Awaiter{*this, transfer}; }
+  [[nodiscard]] Awaiter read(std::uint32_t address) { return access({.address = address}); }
+  [[nodiscard]] Awaiter write(std::uint32_t address, std::uint32_t data) {
     return access({.address = address, .write = true, .data = data});
   }
 
@@ -125,24 +80,19 @@ class AhbMaster {
     std::coroutine_handle<> waiter = nullptr;
   };
 
-  void check(const AhbResponse &response);
-  void finish(const AhbResponse &response);
+  Ticket enqueue(const AhbTransfer &transfer, std::coroutine_handle<> waiter);
   void next_address_phase();
-  void violation(const std::string &what);
 
-  std::deque<Pending> queue_;  // front: in its address phase (if driving_), then waiting
-  Pending data_phase_;         // transfer in its data phase
+  std::deque<Pending> queue_;   // the front one is in its address phase if driving_
+  Pending data_phase_;
   bool in_data_phase_ = false;
-  bool driving_ = false;  // request_ shows an address phase of queue_.front()
-  bool busy_ = false;
-  bool error_first_ = false;  // first cycle of an ERROR response was seen
+  bool driving_ = false;
   unsigned waits_ = 0;
   AhbRequest request_;
   Ticket submitted_ = 0;
   Ticket completed_ = 0;
-  std::uint64_t cycles_ = 0;
   std::vector<AhbResult> results_ = std::vector<AhbResult>(kKept);
-  AhbReport report_;
+  AhbChecker checker_;
 };
 
 }  // namespace vericansim

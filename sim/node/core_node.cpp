@@ -15,13 +15,6 @@
 namespace vericansim {
 namespace {
 
-void check_range(const char *what, unsigned value, unsigned low, unsigned high) {
-  if (value >= low && value <= high) return;
-  throw std::invalid_argument(std::string{"bit timing: "} + what + " must be " +
-                              std::to_string(low) + " to " + std::to_string(high) + ", got " +
-                              std::to_string(value));
-}
-
 std::uint32_t data_word(const Frame &frame, unsigned first) {
   std::uint32_t word = 0;
   for (unsigned i = 0; i < 4; ++i) word = (word << 8) | frame.data[first + i];
@@ -29,15 +22,6 @@ std::uint32_t data_word(const Frame &frame, unsigned first) {
 }
 
 }  // namespace
-
-void BitTiming::validate() const {
-  check_range("prescaler", prescaler, 1, 256);
-  check_range("PROP_SEG", prop, 1, 8);
-  check_range("PHASE_SEG1", ps1, 1, 8);
-  check_range("PHASE_SEG2", ps2, 1, 8);
-  check_range("SJW", sjw, 1, 4);
-  check_range("time quanta per bit", quanta(), 4, 25);
-}
 
 struct CoreNode::Impl {
   VerilatedContext context;

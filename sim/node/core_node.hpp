@@ -13,25 +13,10 @@
 
 #include "bus/node.hpp"
 #include "model/frame.hpp"
+#include "node/bit_timing.hpp"
 #include "node/trace.hpp"
 
 namespace vericansim {
-
-/// Bit timing in clocks and time quanta (not register encodings). Default: 8 clocks a bit, BT-02.
-struct BitTiming {
-  unsigned prescaler = 1;  ///< clocks per time quantum, 1..256
-  unsigned prop = 3;       ///< PROP_SEG, 1..8 tq
-  unsigned ps1 = 2;        ///< PHASE_SEG1, 1..8 tq
-  unsigned ps2 = 2;        ///< PHASE_SEG2, 1..8 tq
-  unsigned sjw = 1;        ///< 1..4 tq
-
-  [[nodiscard]] constexpr unsigned quanta() const { return 1 + prop + ps1 + ps2; }
-  [[nodiscard]] constexpr unsigned clocks_per_bit() const { return prescaler * quanta(); }
-  /// Throws std::invalid_argument naming the first value that is out of range.
-  void validate() const;
-
-  friend bool operator==(const BitTiming &, const BitTiming &) = default;
-};
 
 /// The mode inputs of can_core.
 struct CoreConfig {

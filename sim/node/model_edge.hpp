@@ -19,8 +19,8 @@ inline void rising_edge(Model &model, Signal &clock) {
   auto &root = *model.rootp;
   if constexpr (requires { root.__Vtrigrprev__TOP__clk_i; }) {
     root.__Vtrigrprev__TOP__clk_i = 0;
-  } else if constexpr (requires { root.__Vtrigrprev__TOP__hclk_i; }) {
-    root.__Vtrigrprev__TOP__hclk_i = 0;
+  } else if constexpr (requires { root.__Vtrigrprev__TOP__hclk; }) {
+    root.__Vtrigrprev__TOP__hclk = 0;
   } else {
     clock = 0;
     model.eval();

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// RtlNode: see rtl_node.hpp. One class template serves the three Verilated sizes of can_ahb.
+#include "node/rtl_node.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "Vcan_ahb16.h"
+#include "Vcan_ahb16___024root.h"
+#include "Vcan_ahb32.h"
+#include "Vcan_ahb32___024root.h"
+#include "Vcan_ahb64.h"
+#include "Vcan_ahb64___024root.h"
+#include "bus/bus.hpp"
+#include "node/model_edge.hpp"
+#include "verilated.h"
+
+namespace vericansim {
+namespace {
+
+template <typename Model>
+class RtlNodeOf final : public RtlNode {
+ public:
+  RtlNodeOf(std::string name, const ClockConfig &clock, unsigned num_mb)
+      : RtlNode{std::move(name), clock, num_mb}, top_{&context_, "can_ahb"} {
+    reset();
+  }
+  ~RtlNodeOf() override { top_.final(); }
+
+  void reset() override {
+    ahb().reset();
+    show(ahb().request());
+    top_.hready = 1;
+    top_.can_rx_i = 1;
+    top_.hresetn = 0;
+    for (int i = 0; i < 4; ++i) edge();
+    top_.hresetn = 1;
+    edge();
+    drive(static_cast<Level>(top_.can_tx_o));
+  }
+
+  void clock(Level rx) override {
+    top_.can_rx_i = static_cast<std::uint8_t>(rx);
+    if (ahb().active()) {
+      transfer_cycle();
+    } else {
+      edge();
+    }
+    drive(static_cast<Level>(top_.can_tx_o));
+    after_edge();
+  }
+
+  [[nodiscard]] std::uint64_t trace() const override { return top_.trace_o; }
+
+  [[nodiscard]] std::uint8_t irq_lines() const override {
+    return static_cast<std::uint8_t>(top_.irq_o | (top_.irq_mb_o << 1) | (top_.irq_boff_o << 2) |
+                                     (top_.irq_err_o << 3) | (top_.irq_twrn_o << 4) |
+                                     (top_.irq_rwrn_o << 5));
+  }
+
+ private:
+  void edge() { rising_edge(top_, top_.hclk); }
+
+  void show(const AhbRequest &request) {
+    top_.hsel = request.htrans != AhbTrans::kIdle;
+    top_.haddr = request.haddr;
+    top_.htrans = static_cast<std::uint8_t>(request.htrans);
+    top_.hwrite = request.hwrite;
+    top_.hsize = static_cast<std::uint8_t>(request.hsize);
+    top_.hburst = static_cast<std::uint8_t>(request.hburst);
+    top_.hprot = request.hprot;
+    top_.hwdata = request.hwdata;
+  }
+
+  // HREADYOUT, HRESP and HRDATA are read as they have settled with this cycle's request.
+  void transfer_cycle() {
+    show(ahb().request());
+    top_.hready = top_.hreadyout;
+    top_.eval();
+    if (top_.hready != top_.hreadyout) {
+      top_.hready = top_.hreadyout;
+      top_.eval();
+    }
+    const AhbResponse response{top_.hrdata, top_.hreadyout != 0, top_.hresp != 0};
+    edge();
+    ahb().clock(response);
+    if (!ahb().active()) {
+      show(ahb().request());
+      top_.hready = 1;
+    }
+  }
+
+  VerilatedContext context_;
+  Model top_;
+};
+
+}  // namespace
+
+std::unique_ptr<RtlNode> RtlNode::create(std::string name, const ClockConfig &clock, unsigned num_mb) {
+  switch (num_mb) {
+    case 16: return std::make_unique<RtlNodeOf<Vcan_ahb16>>(std::move(name), clock, num_mb);
+    case 32: return std::make_unique<RtlNodeOf<Vcan_ahb32>>(std::move(name), clock, num_mb);
+    case 64: return std::make_unique<RtlNodeOf<Vcan_ahb64>>(std::move(name), clock, num_mb);
+    default:
+      throw std::invalid_argument("message buffers must be 16, 32 or 64, got " + std::to_string(num_mb));
+  }
+}
+
+void RtlNode::Waiter::await_suspend(std::coroutine_handle<> handle) const {
+  node.waiter_ = handle;
+  node.wait_irq_ = for_irq;
+  node.wake_cycle_ = until;
+}
+
+void RtlNode::resume_waiter() { std::exchange(waiter_, nullptr).resume(); }
+
+void RtlNode::advance() {
+  if (bus() != nullptr) {
+    bus()->step();
+  } else {
+    clock(Level::kRecessive);
+    oscillator().tick();
+  }
+}
+
+AhbResult RtlNode::access(const AhbTransfer &transfer) {
+  const AhbMaster::Ticket ticket = ahb_.submit(transfer);
+  while (!ahb_.done(ticket)) advance();
+  return ahb_.result(ticket);
+}
+
+std::uint32_t RtlNode::read32(std::uint32_t address) {
+  const AhbResult result = access({.address = address});
+  if (result.error) throw std::runtime_error(name() + ": bus error reading " + std::to_string(address));
+  return result.data;
+}
+
+void RtlNode::write32(std::uint32_t address, std::uint32_t data) {
+  const AhbResult result = access({.address = address, .write = true, .data = data});
+  if (result.error) throw std::runtime_error(name() + ": bus error writing " + std::to_string(address));
+}
+
+}  // namespace vericansim

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// RtlNode: a Verilated can_ahb, the whole core, with an AHB-Lite master on its host side.
+#pragma once
+
+#include <coroutine>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "bus/node.hpp"
+#include "node/ahb_master.hpp"
+
+namespace vericansim {
+
+/// Interrupt lines of can_ahb as bits of RtlNode::irq_lines().
+enum IrqLine : std::uint8_t {
+  kIrqAll = 1 << 0,  ///< irq_o: OR of the others
+  kIrqMb = 1 << 1,
+  kIrqBusOff = 1 << 2,
+  kIrqError = 1 << 3,
+  kIrqTxWarning = 1 << 4,
+  kIrqRxWarning = 1 << 5,
+};
+
+/// The whole core. Software on it is written as coroutines (task.hpp) that wait for accesses and for
+/// interrupts, or, in tests, as plain calls of read32() and write32() that advance the simulation.
+class RtlNode : public Node {
+ public:
+  /// After the constructor the core has been reset. `num_mb`: 16, 32 or 64 message buffers
+  /// (std::invalid_argument otherwise).
+  static std::unique_ptr<RtlNode> create(std::string name, const ClockConfig &clock = {},
+                                         unsigned num_mb = 64);
+
+  /// Hard reset of the core and of the master; pending accesses are forgotten.
+  virtual void reset() = 0;
+  /// IrqLine bits as of the last clock edge.
+  [[nodiscard]] virtual std::uint8_t irq_lines() const = 0;
+  [[nodiscard]] bool irq() const { return (irq_lines() & kIrqAll) != 0; }
+  [[nodiscard]] unsigned num_mb() const { return num_mb_; }
+  [[nodiscard]] AhbMaster &ahb() { return ahb_; }
+  [[nodiscard]] const AhbMaster &ahb() const { return ahb_; }
+  /// Clock edges since the constructor.
+  [[nodiscard]] std::uint64_t cycles() const { return cycles_; }
+
+  // ---- Coroutines
+
+  /// `co_await node.interrupt()` goes on when irq_o is high, `co_await node.delay(n)` after n clocks.
+  /// One coroutine of a node can wait at a time.
+  struct Waiter {
+    RtlNode &node;
+    bool for_irq;
+    std::uint64_t until;  // cycle at which to go on in any case
+    [[nodiscard]] bool await_ready() const { return for_irq && node.irq(); }
+    void await_suspend(std::coroutine_handle<> handle) const;
+    void await_resume() const {}
+  };
+  [[nodiscard]] Waiter interrupt() { return {*this, true, ~0ULL}; }
+  /// Also goes on after `limit` clocks without an interrupt, or on wake().
+  [[nodiscard]] Waiter interrupt(std::uint64_t limit) { return {*this, true, cycles_ + limit}; }
+  [[nodiscard]] Waiter delay(std::uint64_t clocks) { return {*this, false, cycles_ + clocks}; }
+  /// Lets a coroutine that waits for an interrupt or a delay go on at the next clock.
+  void wake() { wake_cycle_ = 0; }
+  /// Forgets a coroutine that waits (before it is destroyed).
+  void forget_waiter() { waiter_ = nullptr; }
+
+  // ---- Blocking calls
+
+  /// One access; runs the bus (or, without a bus, this node alone with a recessive pin) until it is done.
+  AhbResult access(const AhbTransfer &transfer);
+  /// As access(), for whole words. An ERROR response throws std::runtime_error.
+  std::uint32_t read32(std::uint32_t address);
+  void write32(std::uint32_t address, std::uint32_t data);
+  /// Runs the bus by one instant, or this node by one clock if it is on no bus.
+  void advance();
+
+ protected:
+  RtlNode(std::string name, const ClockConfig &clock, unsigned num_mb)
+      : Node{std::move(name), clock}, num_mb_{num_mb} {}
+  /// To be called after each clock edge.
+  void after_edge() {
+    ++cycles_;
+    if (waiter_ && (cycles_ >= wake_cycle_ || (wait_irq_ && irq()))) resume_waiter();
+  }
+
+ private:
+  void resume_waiter();
+
+  AhbMaster ahb_;
+  unsigned num_mb_;
+  std::uint64_t cycles_ = 0;
+  std::coroutine_handle<> waiter_ = nullptr;
+  bool wait_irq_ = false;
+  std::uint64_t wake_cycle_ = 0;
+};
+
+}  // namespace vericansim
