@@ -35,7 +35,7 @@ Json to_json(const BitTimingResult &result) {
           {"sample_point", result.sample_point},
           {"oscillator_tolerance_percent", result.oscillator_tolerance * 100},
           {"cable_m", result.cable_m},
-          {"ctrl", fmt::format("0x{:08X}", ctrl_register(t))}};
+          {"ctrl", fmt::format("0x{:08X}", t.ctrl_fields())}};
 }
 
 void print_table(const BitTimingRequest &request, const std::vector<BitTimingResult> &results, unsigned rows) {
@@ -48,7 +48,7 @@ void print_table(const BitTimingRequest &request, const std::vector<BitTimingRes
     const BitTiming &t = r.timing;
     fmt::print("{:>4} {:>4} {:>4} {:>4} {:>4} {:>4} {:>5.1f} % {:>11.1f} {:>5.0f} ppm {:>7.3f} % {:>6.0f} m  0x{:08X}\n",
                t.prescaler, t.prop, t.ps1, t.ps2, t.sjw, t.quanta(), r.sample_point * 100, r.bitrate,
-               r.rate_error_ppm, r.oscillator_tolerance * 100, std::max(0.0, r.cable_m), ctrl_register(t));
+               r.rate_error_ppm, r.oscillator_tolerance * 100, std::max(0.0, r.cable_m), t.ctrl_fields());
   }
   if (results.size() > rows) fmt::print("... and {} more (--rows)\n", results.size() - rows);
   fmt::print("\nclock: largest error of each node's clock (BT-08); cable: longest at 5 ns/m (BT-07).\n");

@@ -92,10 +92,6 @@ double oscillator_tolerance(const BitTiming &timing) {
   return std::min(phase / (2 * (13 * nbt - timing.ps2)), timing.sjw / (20 * nbt));
 }
 
-std::uint32_t ctrl_register(const BitTiming &t) {
-  return (t.prescaler - 1) << 24 | (t.sjw - 1) << 22 | (t.ps1 - 1) << 19 | (t.ps2 - 1) << 16 | (t.prop - 1);
-}
-
 BitTimingResult rate_bit_timing(const BitTiming &timing, const BitTimingRequest &request) {
   timing.validate();
   BitTimingResult result;

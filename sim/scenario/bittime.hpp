@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "node/core_node.hpp"
+#include "node/bit_timing.hpp"
 
 namespace vericansim {
 
@@ -47,8 +47,5 @@ struct BitTimingResult {
 
 /// Largest tolerance of each node's oscillator, as a part of 1 (BT-08).
 [[nodiscard]] double oscillator_tolerance(const BitTiming &timing);
-
-/// CTRL register: PRESDIV, RJW, PSEG1, PSEG2, PROPSEG; all other bits 0 (flexcan.md 1.2).
-[[nodiscard]] std::uint32_t ctrl_register(const BitTiming &timing);
 
 }  // namespace vericansim

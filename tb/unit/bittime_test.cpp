@@ -60,9 +60,9 @@ TEST(BitTime, BT_07_PropCoversTheCable) {
 }
 
 TEST(BitTime, CtrlRegisterHoldsEachValueMinusOne) {
-  EXPECT_EQ(ctrl_register({1, 1, 1, 1, 1}), 0U);
-  EXPECT_EQ(ctrl_register({256, 8, 8, 8, 4}), 0xFFFF0007U);
-  EXPECT_EQ(ctrl_register({1, 6, 7, 2, 1}), 0x00310005U);  // can-utils prints this for 8 MHz, 500 kbit/s
+  EXPECT_EQ((BitTiming{1, 1, 1, 1, 1}.ctrl_fields()), 0U);
+  EXPECT_EQ((BitTiming{256, 8, 8, 8, 4}.ctrl_fields()), 0xFFFF0007U);
+  EXPECT_EQ((BitTiming{1, 6, 7, 2, 1}.ctrl_fields()), 0x00310005U);  // can-utils prints this for 8 MHz, 500 kbit/s
 }
 
 TEST(BitTime, ValuesOutOfRangeAreRefused) {

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenario files: the file as a whole, and its nodes.
+#include "scenario/scenario.hpp"
+
+#include <fmt/format.h>
+
+#include "scenario/scenario_parts.hpp"
+#include "trace/input_error.hpp"
+#include "trace/log.hpp"
+
+namespace vericansim {
+namespace detail {
+namespace {
+
+void parse_wander(const YamlValue &value, ClockConfig &clock) {
+  YamlMap map{value};
+  const YamlValue kind = map.need("kind");
+  if (kind.text() == "sine")
+    clock.wander = Wander::kSine;
+  else if (kind.text() == "walk")
+    clock.wander = Wander::kWalk;
+  else
+    kind.refuse("sine, walk");
+  clock.wander_ppm = map.need("ppm").number(0, 50'000);
+  map.with("period", [&](const YamlValue &v) { clock.wander_period = v.time(kMicrosecond, 1000 * kSecond); });
+  map.finish();
+}
+
+BitTiming parse_timing(const YamlValue &value) {
+  YamlMap map{value};
+  BitTiming timing;
+  timing.prescaler = static_cast<unsigned>(map.need("brp").integer(1, 256));
+  timing.prop = static_cast<unsigned>(map.need("prop").integer(1, 8));
+  timing.ps1 = static_cast<unsigned>(map.need("ps1").integer(1, 8));
+  timing.ps2 = static_cast<unsigned>(map.need("ps2").integer(2, 8));
+  timing.sjw = static_cast<unsigned>(map.need("sjw").integer(1, 4));
+  map.finish();
+  try {
+    timing.validate();
+  } catch (const std::invalid_argument &error) {
+    value.fail(error.what());
+  }
+  return timing;
+}
+
+RxFilter parse_filter(const YamlValue &value) {
+  YamlMap map{value};
+  RxFilter filter;
+  map.with("extended", [&](const YamlValue &v) { filter.extended = v.boolean(); });
+  const std::uint32_t highest = filter.extended ? 0x1FFFFFFF : 0x7FF;
+  filter.id = static_cast<std::uint32_t>(map.need("id").integer(0, highest));
+  filter.mask = highest;
+  map.with("mask", [&](const YamlValue &v) { filter.mask = static_cast<std::uint32_t>(v.integer(0, highest)); });
+  map.with("remote", [&](const YamlValue &v) {
+    filter.remote = v.boolean();
+    filter.match_format = true;
+  });
+  map.with("match_format", [&](const YamlValue &v) { filter.match_format = v.boolean(); });
+  map.finish();
+  return filter;
+}
+
+void parse_clock(YamlMap &map, ClockConfig &clock) {
+  map.with("clock", [&](const YamlValue &v) { clock.frequency_hz = v.frequency(1e5, 1e9); });
+  map.with("ppm", [&](const YamlValue &v) { clock.error_ppm = v.number(-50'000, 50'000); });
+  map.with("phase", [&](const YamlValue &v) { clock.phase = v.time(0, kMillisecond); });
+  map.with("wander", [&](const YamlValue &v) { parse_wander(v, clock); });
+}
+
+void parse_link(YamlMap &map, Link &link) {
+  map.with("cable", [&](const YamlValue &v) { link.cable = cable_delay(v.length(10'000)); });
+  map.with("delay", [&](const YamlValue &v) { link.cable = v.time(0, kMillisecond); });
+  map.with("tx_delay", [&](const YamlValue &v) { link.transmitter = v.time(0, kMillisecond); });
+  map.with("rx_delay", [&](const YamlValue &v) { link.receiver = v.time(0, kMillisecond); });
+}
+
+void parse_host(YamlMap &map, HostConfig &host) {
+  const auto flag = [&](const char *key, bool &target) {
+    map.with(key, [&](const YamlValue &v) { target = v.boolean(); });
+  };
+  flag("listen_only", host.listen_only);
+  flag("loop_back", host.loop_back);
+  flag("self_reception", host.self_reception);
+  flag("fd_tolerant", host.fd_tolerant);
+  flag("triple_sampling", host.triple_sampling);
+  flag("lowest_buffer_first", host.lowest_buffer_first);
+  map.with("bus_off_recovery", [&](const YamlValue &v) {
+    if (v.text() != "automatic" && v.text() != "never") v.refuse("automatic, never");
+    host.boff_rec = v.text() == "never";
+  });
+  map.with("filters", [&](const YamlValue &v) {
+    for (const YamlValue &item : v.items()) host.filters.push_back(parse_filter(item));
+  });
+}
+
+void check_buffers(const YamlValue &value, const NodeSpec &node) {
+  const std::size_t receive = node.host.filters.empty() ? 1 : node.host.filters.size();
+  if (node.host.tx_buffers + receive > node.num_mb)
+    value.fail(fmt::format("{} transmit and {} receive buffers are more than the {} of the node", node.host.tx_buffers,
+                           receive, node.num_mb));
+}
+
+}  // namespace
+
+NodeSpec parse_node(const YamlValue &value, const Scenario &scenario) {
+  YamlMap map{value};
+  NodeSpec node;
+  node.line = value.line();
+  node.host.tx_buffers = 0;              // one for each message of the node
+  node.host.lowest_buffer_first = false;  // lowest identifier first, as on the bus
+  node.name = map.need("name").text();
+  for (const NodeSpec &other : scenario.nodes)
+    if (other.name == node.name) value.fail("node name " + quoted(node.name) + " is used twice");
+  node.clock.seed = scenario.seed * 1000 + scenario.nodes.size();
+  parse_clock(map, node.clock);
+  parse_link(map, node.link);
+  parse_host(map, node.host);
+  map.with("timing", [&](const YamlValue &v) { node.timing = parse_timing(v); });
+  map.with("bitrate", [&](const YamlValue &v) { node.bitrate = v.bitrate(); });
+  map.with("sample_point", [&](const YamlValue &v) { node.sample_point = v.part(0.5, 0.9); });
+  map.with("sjw", [&](const YamlValue &v) { node.sjw = static_cast<unsigned>(v.integer(1, 4)); });
+  map.with("mailboxes", [&](const YamlValue &v) {
+    const std::uint64_t count = v.integer(16, 64);
+    if (count != 16 && count != 32 && count != 64) v.refuse("16, 32, 64");
+    node.num_mb = static_cast<unsigned>(count);
+  });
+  map.with("tx_buffers", [&](const YamlValue &v) { node.host.tx_buffers = static_cast<unsigned>(v.integer(1, 62)); });
+  map.finish();
+  check_buffers(value, node);
+  return node;
+}
+
+NodeId parse_node_name(const YamlValue &value, const Scenario &scenario) {
+  std::string names;
+  for (NodeId id = 0; id < scenario.nodes.size(); ++id) {
+    if (scenario.nodes[id].name == value.text()) return id;
+    names += (names.empty() ? "" : ", ") + scenario.nodes[id].name;
+  }
+  value.refuse("the name of a node: " + names);
+}
+
+}  // namespace detail
+
+namespace {
+
+void parse_nodes(const YamlValue &list, Scenario &scenario) {
+  for (const YamlValue &item : list.items()) {
+    if (scenario.nodes.size() >= Bus::kMaxNodes) item.fail(fmt::format("more than {} nodes", Bus::kMaxNodes));
+    scenario.nodes.push_back(detail::parse_node(item, scenario));
+  }
+  if (scenario.nodes.empty()) list.fail("no node is given; allowed: 1 to 64");
+}
+
+void parse_outputs(const YamlValue &value, Outputs &outputs) {
+  YamlMap map{value};
+  const auto file = [&](const char *key, std::string &target) {
+    map.with(key, [&](const YamlValue &v) { target = v.text(); });
+  };
+  file("vcd", outputs.vcd);
+  file("fst", outputs.fst);
+  file("candump", outputs.candump);
+  file("pcap", outputs.pcap);
+  map.finish();
+}
+
+void parse_general(YamlMap &map, Scenario &scenario) {
+  map.with("name", [&](const YamlValue &v) { scenario.name = v.text(); });
+  map.with("bitrate", [&](const YamlValue &v) {
+    scenario.bitrates.clear();
+    for (const YamlValue &item : v.items()) scenario.bitrates.push_back(item.bitrate());
+    if (scenario.bitrates.empty()) v.refuse("a bit rate, or a list of them");
+  });
+  map.with("sample_point", [&](const YamlValue &v) { scenario.sample_point = v.part(0.5, 0.9); });
+  map.with("duration", [&](const YamlValue &v) { scenario.duration = v.time(kMicrosecond, 100'000 * kSecond); });
+  map.with("drain", [&](const YamlValue &v) { scenario.drain = v.time(0, 1000 * kSecond); });
+  map.with("seed", [&](const YamlValue &v) { scenario.seed = v.integer(0, 0xFFFFFFFF); });
+  map.with("analysis", [&](const YamlValue &v) { scenario.analysis = v.boolean(); });
+}
+
+}  // namespace
+
+Scenario parse_scenario(const std::string &path, const std::string &text) {
+  YamlMap map{YamlValue::parse(path, text)};
+  Scenario scenario;
+  scenario.file = path;
+  scenario.name = path;
+  parse_general(map, scenario);
+  parse_nodes(map.need("nodes"), scenario);
+  map.with("traffic", [&](const YamlValue &list) {
+    for (const YamlValue &item : list.items()) scenario.traffic.push_back(detail::parse_traffic(item, scenario));
+  });
+  map.with("faults", [&](const YamlValue &list) {
+    for (const YamlValue &item : list.items()) scenario.faults.push_back(detail::parse_fault(item, scenario));
+  });
+  map.with("expect", [&](const YamlValue &v) { scenario.expect = detail::parse_expectations(v, scenario); });
+  map.with("outputs", [&](const YamlValue &v) { parse_outputs(v, scenario.outputs); });
+  map.finish();
+  return scenario;
+}
+
+Scenario read_scenario(const std::string &path) {
+  return parse_scenario(path, read_text_file(path));
+}
+
+}  // namespace vericansim

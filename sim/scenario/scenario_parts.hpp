@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenario files: parts that have files of their own; shared only by scenario_*.cpp.
+#pragma once
+
+#include "scenario/scenario.hpp"
+#include "scenario/yaml_value.hpp"
+
+namespace vericansim::detail {
+
+/// A node by its name; refuses others with a list of the names.
+[[nodiscard]] NodeId parse_node_name(const YamlValue &value, const Scenario &scenario);
+
+[[nodiscard]] NodeSpec parse_node(const YamlValue &value, const Scenario &scenario);
+[[nodiscard]] TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario);
+[[nodiscard]] FaultSpec parse_fault(const YamlValue &value, const Scenario &scenario);
+[[nodiscard]] Expectations parse_expectations(const YamlValue &value, const Scenario &scenario);
+
+inline constexpr Time kLongestTime = 1'000'000 * kSecond;
+
+}  // namespace vericansim::detail

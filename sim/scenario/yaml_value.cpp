@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// YAML with places.
+#include "scenario/yaml_value.hpp"
+
+#include <fmt/format.h>
+
+#include "scenario/quantity.hpp"
+#include "trace/input_error.hpp"
+#include "trace/log.hpp"
+
+namespace vericansim {
+namespace {
+
+std::size_t line_of(const YAML::Mark &mark) {
+  return mark.is_null() ? 0 : static_cast<std::size_t>(mark.line) + 1;
+}
+
+}  // namespace
+
+YamlValue YamlValue::load(const std::string &path) { return parse(path, read_text_file(path)); }
+
+YamlValue YamlValue::parse(const std::string &path, const std::string &text) {
+  try {
+    YAML::Node root = YAML::Load(text);
+    const std::size_t line = line_of(root.Mark());
+    return {path, "", std::move(root), line};
+  } catch (const YAML::Exception &error) {
+    throw InputError(path, line_of(error.mark), "no valid YAML: " + error.msg);
+  }
+}
+
+void YamlValue::fail(const std::string &message) const {
+  throw InputError(file_, line_, key_.empty() ? message : key_ + ": " + message);
+}
+
+void YamlValue::refuse(const std::string &allowed) const {
+  const std::string value = node_.IsScalar() ? quoted(node_.Scalar()) : node_.IsMap() ? "a map"
+                            : node_.IsSequence() ? "a list" : "nothing";
+  fail(value + " is not allowed; allowed: " + allowed);
+}
+
+std::string YamlValue::text() const {
+  if (!node_.IsScalar()) refuse("a word");
+  return node_.Scalar();
+}
+
+std::uint64_t YamlValue::integer(std::uint64_t least, std::uint64_t most) const {
+  const auto value = node_.IsScalar() ? parse_integer(node_.Scalar()) : std::nullopt;
+  if (!value || *value < least || *value > most)
+    refuse(most > 0xFFFF ? fmt::format("0x{:X} to 0x{:X}", least, most) : fmt::format("{} to {}", least, most));
+  return *value;
+}
+
+double YamlValue::number(double least, double most) const {
+  const auto value = node_.IsScalar() ? parse_number(node_.Scalar()) : std::nullopt;
+  if (!value || *value < least || *value > most) refuse(fmt::format("a number from {:g} to {:g}", least, most));
+  return *value;
+}
+
+bool YamlValue::boolean() const {
+  const std::string value = node_.IsScalar() ? node_.Scalar() : "";
+  if (value == "true" || value == "yes" || value == "on") return true;
+  if (value == "false" || value == "no" || value == "off") return false;
+  refuse("true or false");
+}
+
+double YamlValue::frequency(double least, double most) const {
+  const auto value = node_.IsScalar() ? parse_frequency(node_.Scalar()) : std::nullopt;
+  if (!value || *value < least || *value > most)
+    refuse(fmt::format("{:g} to {:g} Hz, as in '8 MHz'", least, most));
+  return *value;
+}
+
+double YamlValue::bitrate() const {
+  const auto value = node_.IsScalar() ? parse_bitrate(node_.Scalar()) : std::nullopt;
+  if (!value || *value < 1e3 || *value > 1e6) refuse("1 kbit/s to 1 Mbit/s, as in '500k'");
+  return *value;
+}
+
+Time YamlValue::time(Time least, Time most) const {
+  const auto value = node_.IsScalar() ? parse_time(node_.Scalar()) : std::nullopt;
+  if (!value || *value < least || *value > most) {
+    const auto words = [](Time t) { return t == 0 ? "0" : fmt::format("{:g} us", static_cast<double>(t) / 1e6); };
+    refuse(fmt::format("{} to {}, as in '10 ms' (ps, ns, us, ms, s)", words(least), words(most)));
+  }
+  return *value;
+}
+
+double YamlValue::length(double most_m) const {
+  const auto value = node_.IsScalar() ? parse_length(node_.Scalar()) : std::nullopt;
+  if (!value || *value < 0 || *value > most_m) refuse(fmt::format("0 to {:g} m", most_m));
+  return *value;
+}
+
+double YamlValue::part(double least, double most) const {
+  const auto value = node_.IsScalar() ? parse_part(node_.Scalar()) : std::nullopt;
+  if (!value || *value < least || *value > most)
+    refuse(fmt::format("{:g} % to {:g} %, as in '80 %'", least * 100, most * 100));
+  return *value;
+}
+
+std::vector<YamlValue> YamlValue::items() const {
+  if (!node_.IsSequence()) return {*this};
+  std::vector<YamlValue> items;
+  for (const YAML::Node &node : node_) {
+    const std::size_t line = line_of(node.Mark());
+    items.emplace_back(file_, fmt::format("{}[{}]", key_, items.size()), node, line != 0 ? line : line_);
+  }
+  return items;
+}
+
+YamlMap::YamlMap(YamlValue value) : value_{std::move(value)} {
+  if (!value_.node_.IsMap()) value_.refuse("a map of keys and values");
+  std::set<std::string> seen;
+  for (const auto &entry : value_.node_) {
+    const YamlValue key{value_.file_, value_.key_, entry.first, line_of(entry.first.Mark())};
+    if (!seen.insert(key.text()).second) key.fail("key " + quoted(key.text()) + " is given twice");
+  }
+}
+
+std::optional<YamlValue> YamlMap::find(const std::string &key) {
+  asked_.insert(key);
+  const YAML::Node &map = value_.node_;
+  for (const auto &entry : map) {
+    if (entry.first.Scalar() != key) continue;
+    const std::size_t line = line_of(entry.second.Mark());
+    return YamlValue{value_.file_, value_.key_.empty() ? key : value_.key_ + "." + key, entry.second,
+                     line != 0 ? line : line_of(entry.first.Mark())};
+  }
+  return std::nullopt;
+}
+
+YamlValue YamlMap::need(const std::string &key) {
+  const auto value = find(key);
+  if (!value) value_.fail("key '" + key + "' is missing");
+  return *value;
+}
+
+std::vector<std::string> YamlMap::keys() const {
+  std::vector<std::string> keys;
+  for (const auto &entry : value_.node_) keys.push_back(entry.first.Scalar());
+  return keys;
+}
+
+void YamlMap::finish() const {
+  for (const auto &entry : value_.node_) {
+    const std::string &key = entry.first.Scalar();
+    if (asked_.count(key) != 0) continue;
+    std::string allowed;
+    for (const std::string &name : asked_) allowed += (allowed.empty() ? "" : ", ") + name;
+    const YamlValue place{value_.file_, value_.key_, entry.first, line_of(entry.first.Mark())};
+    place.fail("unknown key " + quoted(key) + "; allowed: " + allowed);
+  }
+}
+
+}  // namespace vericansim
