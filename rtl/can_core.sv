@@ -66,7 +66,7 @@ module can_core (
 );
 
   logic rx_pin, rx, tq, sample, bit_value, boundary, edge_seen, hard;
-  logic tx_d, tx_q, active_q;
+  logic tx_q, active_q;
   logic first_q;  // first clock of a bit
   logic stuff;
   logic [8:0]      tec;
@@ -87,10 +87,11 @@ module can_core (
 
   can_bsp u_bsp (
     .clk_i, .rst_ni, .run_i(active_q), .sample_i(sample), .bit_i(bit_value),
-    .judge_i(first_q), .edge_i(edge_seen), .sent_i(tx_q), .lom_i, .lpb_i, .fd_tolerant_i, .boff_rec_i, .ec_clear_i, .ec_we_i, .ec_wdata_i,
+    .stay_i(run_i), .boundary_i(boundary), .judge_i(first_q), .edge_i(edge_seen),
+    .lom_i, .lpb_i, .fd_tolerant_i, .boff_rec_i, .ec_clear_i, .ec_we_i, .ec_wdata_i,
     .tx_req_i, .tx_ide_i, .tx_rtr_i, .tx_dlc_i, .tx_word_i,
-    .tx_o(tx_d), .hard_o(hard), .field_o(field), .left_o(left), .stuff_o(stuff), .transmitter_o,
-    .tec_o(tec), .rec_o, .passive_o, .boff_o, .err_o, .tx_next_o, .tx_ok_o, .tx_fail_o, .start_o,
+    .tx_o(tx_q), .can_tx_o, .hard_o(hard), .field_o(field), .left_o(left), .stuff_o(stuff),
+    .transmitter_o, .tec_o(tec), .rec_o, .passive_o, .boff_o, .err_o, .tx_next_o, .tx_ok_o, .tx_fail_o, .start_o,
     .stamp_o, .rx_hdr_o, .rx_id_o, .rx_ide_o, .rx_srr_o, .rx_rtr_o, .rx_dlc_o, .rx_byte_we_o,
     .rx_byte_o, .rx_valid_o
   );
@@ -100,15 +101,9 @@ module can_core (
     if (!rst_ni) begin
       active_q <= 1'b0;
       first_q  <= 1'b0;
-      tx_q     <= can_pkg::Recessive;
-      can_tx_o <= can_pkg::Recessive;
     end else begin
       active_q <= run_i || (active_q && tx_q == can_pkg::Dominant);
       first_q  <= boundary;
-      if (boundary) begin
-        tx_q     <= tx_d || !run_i;
-        can_tx_o <= tx_d || !run_i || lom_i || lpb_i;
-      end
     end
   end
 

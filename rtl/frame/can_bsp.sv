@@ -8,11 +8,12 @@ module can_bsp (
   input  logic            clk_i,
   input  logic            rst_ni,
   input  logic            run_i,
+  input  logic            stay_i,          // 0: leave at the end of the bit
   input  logic            sample_i,
   input  logic            bit_i,
+  input  logic            boundary_i,      // last clock of a bit
   input  logic            judge_i,         // first clock of a bit
   input  logic            edge_i,
-  input  logic            sent_i,          // level this node sends in the current bit
   input  logic            lom_i,
   input  logic            lpb_i,
   input  logic            fd_tolerant_i,
@@ -25,7 +26,8 @@ module can_bsp (
   input  logic            tx_rtr_i,
   input  logic [3:0]      tx_dlc_i,
   input  logic [31:0]     tx_word_i,
-  output logic            tx_o,            // level to send in the coming bit
+  output logic            tx_o,            // level this node sends in the current bit
+  output logic            can_tx_o,        // the pin
   output logic            hard_o,          // the coming bit takes hard synchronisation (SY-05)
   output can_pkg::field_t field_o,
   output logic [5:0]      left_o,
@@ -68,7 +70,7 @@ module can_bsp (
   );
 
   can_error u_error (
-    .clk_i, .rst_ni, .run_i, .judge_i, .field_i(field_o), .last_i(ends), .bit_i, .sent_i, .transmitter_i(transmitter_o),
+    .clk_i, .rst_ni, .run_i, .judge_i, .field_i(field_o), .last_i(ends), .bit_i, .sent_i(tx_o), .transmitter_i(transmitter_o),
     .stuff_i(stuff_o), .prev_i(prev), .crc_mismatch_i(mismatch), .lpb_i,
     .kind_o(kind), .error_o(error), .exempt_o(exempt), .lost_o(lost), .overload_o(overload)
   );
@@ -87,7 +89,7 @@ module can_bsp (
   can_fault u_fault (
     .clk_i, .rst_ni, .run_i, .sample_i, .bit_i, .field_i(field_o),
     .after_flag_i({left_o[5], left_o[2:0]}), .ends_i(ends), .last_i(last), .free_i(free),
-    .sent_i, .transmitter_i(transmitter_o), .overload_frame_i(overload_frame),
+    .sent_i(tx_o), .transmitter_i(transmitter_o), .overload_frame_i(overload_frame),
     .passive_flag_i(passive_flag), .error_i(error), .exempt_i(exempt),
     .ack_error_i(kind[can_pkg::ErrAck]), .lom_i, .boff_rec_i,
     .clear_i(ec_clear_i), .we_i(ec_we_i), .wdata_i(ec_wdata_i),
@@ -104,10 +106,11 @@ module can_bsp (
   );
 
   can_tx_frame u_tx_frame (
-    .field_i(field_o), .transmitter_i(transmitter_o), .stuff_i(stuff_o), .last_i(prev),
+    .clk_i, .rst_ni, .boundary_i, .run_i(stay_i), .mute_i(lom_i || lpb_i),
+    .field_i(field_o), .transmitter_i(transmitter_o), .stuff_i(stuff_o), .prev_i(prev),
     .id_bit_i(id_bit), .ex_id_bit_i(ex_id_bit), .data_bit_i(data_bit), .crc_bit_i(crc_bit),
     .ide_i(rx_ide_o), .rtr_i(rx_rtr_o), .dlc_bit_i(rx_dlc_o[3]),
-    .ack_i(!transmitter_o && !mismatch && !lom_i), .passive_flag_i(passive_flag), .tx_o
+    .ack_i(!transmitter_o && !mismatch && !lom_i), .passive_flag_i(passive_flag), .tx_o, .can_tx_o
   );
 
   // The fourth data byte of more than four is complete: the sender needs its second word.

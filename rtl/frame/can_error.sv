@@ -26,39 +26,10 @@ module can_error (
   output logic            overload_o      // an overload flag follows
 );
 
-  logic arbitration, saw_d, foreign_stuff, fixed, overload;
-
-  assign saw_d         = transmitter_i && sent_i;                 // if dominant: sent by somebody else
-  assign arbitration   = !field_i[4] && field_i[3];               // AR-01
-  assign foreign_stuff = stuff_i && !transmitter_i;
-
-  // Fixed form; the last bit of EOF is judged by the transmitter alone (ED-10, ED-11), that of a
-  // delimiter by nobody (ED-12). Where a dominant bit is no error there, it asks for an overload flag.
-  always_comb begin
-    case (field_i)
-      can_pkg::FldCrcDel: {fixed, overload} = {!stuff_i, 1'b0};
-      can_pkg::FldAckDel: {fixed, overload} = 2'b10;
-      can_pkg::FldEof:    {fixed, overload} = (!last_i || transmitter_i) ? 2'b10 : 2'b01;
-      can_pkg::FldDel:    {fixed, overload} = {!last_i, last_i};
-      can_pkg::FldInt:    {fixed, overload} = {1'b0, !last_i};
-      default:            {fixed, overload} = 2'b00;
-    endcase
-  end
-
   // If the bit is dominant
   logic bit1_q, form_q, stuff_d_q, lost_q, exempt_q, overload_q, error_d_q;
   // If it is recessive
   logic bit0_q, ack_q, crc_q, stuff_r_q, error_r_q;
-
-  logic bit1, stuff_d, exempt, bit0, ack, crc, stuff_r;
-  assign bit1    = saw_d && !arbitration && (stuff_i || (field_i[4] && !field_i[3]));
-  assign exempt  = saw_d && arbitration && stuff_i;                                      // AR-04
-  assign stuff_d = foreign_stuff && !prev_i;                                             // ST-06
-  // Whoever sends dominant and sees recessive: frame bit, ACK, active flag, overload flag (ED-06).
-  assign bit0    = !sent_i;
-  assign ack     = (field_i == can_pkg::FldAck) && transmitter_i && !lpb_i;              // ED-16
-  assign crc     = (field_i == can_pkg::FldAckDel) && crc_mismatch_i && !transmitter_i;  // ED-20
-  assign stuff_r = foreign_stuff && prev_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -67,11 +38,38 @@ module can_error (
     end else if (!run_i) begin
       {bit1_q, form_q, stuff_d_q, lost_q, exempt_q, overload_q, error_d_q} <= '0;
       {bit0_q, ack_q, crc_q, stuff_r_q, error_r_q}                         <= '0;
-    end else if (judge_i) begin
+    end else if (judge_i) begin : judge
+      logic arbitration, saw_d, foreign_stuff, fixed, overload;
+      logic bit1, stuff_d, exempt, bit0, ack, crc, stuff_r;
+
+      saw_d         = transmitter_i && sent_i;                 // if dominant: sent by somebody else
+      arbitration   = !field_i[4] && field_i[3];               // AR-01
+      foreign_stuff = stuff_i && !transmitter_i;
+
+      // Fixed form; the last bit of EOF is judged by the transmitter alone (ED-10, ED-11), that of
+      // a delimiter by nobody (ED-12). A dominant bit that is no error there asks for overload.
+      case (field_i)
+        can_pkg::FldCrcDel: {fixed, overload} = {!stuff_i, 1'b0};
+        can_pkg::FldAckDel: {fixed, overload} = 2'b10;
+        can_pkg::FldEof:    {fixed, overload} = (!last_i || transmitter_i) ? 2'b10 : 2'b01;
+        can_pkg::FldDel:    {fixed, overload} = {!last_i, last_i};
+        can_pkg::FldInt:    {fixed, overload} = {1'b0, !last_i};
+        default:            {fixed, overload} = 2'b00;
+      endcase
+
+      bit1    = saw_d && !arbitration && (stuff_i || (field_i[4] && !field_i[3]));
+      exempt  = saw_d && arbitration && stuff_i;                                      // AR-04
+      stuff_d = foreign_stuff && !prev_i;                                             // ST-06
+      // Whoever sends dominant and sees recessive: frame bit, ACK, active flag, overload (ED-06).
+      bit0    = !sent_i;
+      ack     = (field_i == can_pkg::FldAck) && transmitter_i && !lpb_i;              // ED-16
+      crc     = (field_i == can_pkg::FldAckDel) && crc_mismatch_i && !transmitter_i;  // ED-20
+      stuff_r = foreign_stuff && prev_i;
+
       bit1_q     <= bit1;
       form_q     <= fixed;
       stuff_d_q  <= stuff_d || exempt;
-      lost_q     <= saw_d && arbitration && !stuff_i;                                    // AR-02
+      lost_q     <= saw_d && arbitration && !stuff_i;                                 // AR-02
       exempt_q   <= exempt;
       overload_q <= overload;
       error_d_q  <= bit1 || fixed || stuff_d || exempt;

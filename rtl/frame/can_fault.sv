@@ -41,35 +41,14 @@ module can_fault (
   logic       hold_q;       // bus-off without automatic recovery
   logic       boff_seen_q;  // the clock after bus-off entry has passed
 
-  logic saw_d, in_flag, first, eighth, good_tx, good_rx, withhold;
-  logic plus8, plus1, minus1, sequence_end;
-
   assign tec_o     = tec_q;
   assign rec_o     = rec_q;
   assign boff_o    = tec_q[8];
   assign boff_enter_o = tec_q[8] && !boff_seen_q;
   assign passive_o = !tec_q[8] && (tec_q[7] || rec_q[7]);   // FC-11, FC-12
 
-  assign saw_d   = !bit_i;
-  assign in_flag = (&field_i[4:2]) && (field_i[1:0] == 2'b00 || field_i[1:0] == 2'b11);
-  assign first   = (field_i == can_pkg::FldWait) && saw_d && after_flag_i[3];
-  assign eighth  = (field_i == can_pkg::FldWait) && saw_d && after_flag_i[2:0] == 3'd0;
-
-  // A passive transmitter that misses its ACK counts only when it sees dominant in its flag (FC-05).
-  assign withhold = ack_error_i && passive_o;
-  assign good_tx  = (field_i == can_pkg::FldEof) && last_i && bit_i && transmitter_i;    // FC-09
-  assign good_rx  = (field_i == can_pkg::FldAck) && !sent_i && saw_d;                    // FC-10
-
-  assign plus8 = (error_i && (transmitter_i ? !(exempt_i || withhold) : in_flag))        // FC-05..07
-                 || eighth                                                               // FC-08
-                 || (first && !transmitter_i && !overload_frame_i)                       // FC-04
-                 || (withheld_q && saw_d && field_i == can_pkg::FldErrFlag && passive_flag_i);
-  assign plus1  = error_i && !transmitter_i && !in_flag;                                 // FC-02
-  assign minus1 = transmitter_i ? good_tx && (tec_q[7:0] != '0) : good_rx && (rec_q != '0);
-
   // 128 sequences of 11 recessive bits (BO-02); the count waits at 128 for the host's leave.
-  assign sequence_end = (field_i == can_pkg::FldBusOff) && last_i && bit_i;
-  assign boff_end_o   = ends_i && (tec_q[7] || (&tec_q[6:0])) && !hold_q;
+  assign boff_end_o = ends_i && (tec_q[7] || (&tec_q[6:0])) && !hold_q;
 
   // The decision is taken at the sample point and counted one clock later: still before anyone asks,
   // and the adder stays off the longest path.
@@ -77,20 +56,44 @@ module can_fault (
   logic       on_tec;
   logic [8:0] sum;
 
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {plus8_q, plus1_q, minus1_q, sequence_q, recovered_q} <= '0;
+      withheld_q <= 1'b0;
+    end else if (!sample_i) begin
+      {plus8_q, plus1_q, minus1_q, sequence_q, recovered_q} <= '0;
+    end else begin : decide
+      logic saw_d, in_flag, in_wait, first, eighth, good_tx, good_rx, withhold, late;
+
+      saw_d   = !bit_i;
+      in_flag = (&field_i[4:2]) && (field_i[1:0] == 2'b00 || field_i[1:0] == 2'b11);
+      in_wait = (field_i == can_pkg::FldWait) && saw_d;
+      first   = in_wait && after_flag_i[3];
+      eighth  = in_wait && after_flag_i[2:0] == 3'd0;
+      // A passive transmitter that misses its ACK counts only when it sees dominant in its flag.
+      withhold = ack_error_i && passive_o;                                               // FC-05
+      late     = withheld_q && saw_d && field_i == can_pkg::FldErrFlag && passive_flag_i;  // FC-05a
+      good_tx  = (field_i == can_pkg::FldEof) && last_i && bit_i && transmitter_i;       // FC-09
+      good_rx  = (field_i == can_pkg::FldAck) && !sent_i && saw_d;                       // FC-10
+
+      plus8_q <= !lom_i && (late
+                 || (error_i && (transmitter_i ? !(exempt_i || withhold) : in_flag))     // FC-05..07
+                 || eighth                                                               // FC-08
+                 || (first && !transmitter_i && !overload_frame_i));                     // FC-04
+      plus1_q <= !lom_i && error_i && !transmitter_i && !in_flag;                        // FC-02
+      minus1_q <= !lom_i && (transmitter_i ? good_tx && (tec_q[7:0] != '0)
+                                           : good_rx && (rec_q != '0));
+      sequence_q  <= (field_i == can_pkg::FldBusOff) && last_i && bit_i && !tec_q[7];
+      recovered_q <= tec_q[8] && free_i;                                                 // BO-05
+
+      if (error_i)                                          withheld_q <= withhold;
+      else if (field_i != can_pkg::FldErrFlag || saw_d)     withheld_q <= 1'b0;
+    end
+  end
+
   assign on_tec = transmitter_i || tec_q[8];
   assign sum = (on_tec ? tec_q : {1'b0, rec_q})
                + (plus8_q ? 9'd8 : minus1_q ? 9'h1FF : 9'd1);
-
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) {plus8_q, plus1_q, minus1_q, sequence_q, recovered_q} <= '0;
-    else begin
-      plus8_q     <= sample_i && plus8 && !lom_i;
-      plus1_q     <= sample_i && plus1 && !lom_i;
-      minus1_q    <= sample_i && minus1 && !lom_i;
-      sequence_q  <= sample_i && sequence_end && !tec_q[7];
-      recovered_q <= sample_i && tec_q[8] && free_i;                                     // BO-05
-    end
-  end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -113,17 +116,12 @@ module can_fault (
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      withheld_q  <= 1'b0;
       hold_q      <= 1'b0;
       boff_seen_q <= 1'b0;
     end else begin
       boff_seen_q <= tec_q[8];
       if (!tec_q[8] || !boff_rec_i) hold_q <= 1'b0;
       else if (!boff_seen_q)        hold_q <= 1'b1;
-      if (sample_i) begin
-        if (error_i)                                             withheld_q <= withhold;
-        else if (field_i != can_pkg::FldErrFlag || saw_d)        withheld_q <= 1'b0;
-      end
     end
   end
 

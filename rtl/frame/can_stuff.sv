@@ -17,12 +17,6 @@ module can_stuff (
 
   logic [2:0] run_q;
   logic       five_q;
-  logic       counts;
-  logic [2:0] run_d;
-
-  // From the bit after SOF to CRC0; everywhere else a bit starts a run of one, so SOF does (ST-02).
-  assign counts = (field_i[4] ^ field_i[3]) && (field_i != can_pkg::FldSof);
-  assign run_d  = (counts && bit_i == last_o) ? run_q + 3'd1 : 3'd1;
 
   // After CRC0 the stuff bit stands before the CRC delimiter (ST-03). After an error or a protocol
   // exception in the fifth bit the mark means nothing: no frame is under way any more.
@@ -33,9 +27,15 @@ module can_stuff (
       run_q  <= 3'd1;
       five_q <= 1'b0;
       last_o <= can_pkg::Recessive;
-    end else if (sample_i) begin
-      run_q  <= run_d;
-      five_q <= counts && (run_d == 3'd5);
+    end else if (sample_i) begin : count
+      logic       counts;
+      logic [2:0] run;
+      // From the bit after SOF to CRC0; everywhere else a bit starts a run of one, so SOF does
+      // (ST-02).
+      counts = (field_i[4] ^ field_i[3]) && (field_i != can_pkg::FldSof);
+      run    = (counts && bit_i == last_o) ? run_q + 3'd1 : 3'd1;
+      run_q  <= run;
+      five_q <= counts && (run == 3'd5);
       last_o <= bit_i;
     end
   end

@@ -1,14 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_tx_frame: chooses the level that this node sends in the coming bit.
+// can_tx_frame: the level that this node sends, chosen anew at every bit boundary.
 // Rules FF-01..FF-04, ST-01, AK-01, EF-01, EF-02, OV-01. Everything not named here is recessive.
 
 module can_tx_frame (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  input  logic            boundary_i,     // last clock of a bit
+  input  logic            run_i,          // 0: recessive from the next bit on (MO-13)
+  input  logic            mute_i,         // listen-only or loop-back: the pin stays recessive
   input  can_pkg::field_t field_i,
   input  logic            transmitter_i,
   input  logic            stuff_i,
-  input  logic            last_i,         // level of the bit before
+  input  logic            prev_i,         // level of the bit before
   input  logic            id_bit_i,
   input  logic            ex_id_bit_i,
   input  logic            data_bit_i,
@@ -18,37 +23,37 @@ module can_tx_frame (
   input  logic            dlc_bit_i,
   input  logic            ack_i,          // receiver: acknowledge
   input  logic            passive_flag_i, // the error flag is passive
-  output logic            tx_o
+  output logic            tx_o,           // level of the current bit as the node itself takes it
+  output logic            can_tx_o        // the pin
 );
 
-  logic frame_bit;
-
-  always_comb begin
-    case (field_i)
-      can_pkg::FldId:    frame_bit = id_bit_i;
-      can_pkg::FldRtr:   frame_bit = rtr_i || ide_i;  // SRR is recessive (FF-02)
-      can_pkg::FldIde:   frame_bit = ide_i;
-      can_pkg::FldExId:  frame_bit = ex_id_bit_i;
-      can_pkg::FldExRtr: frame_bit = rtr_i;
-      can_pkg::FldDlc:   frame_bit = dlc_bit_i;
-      can_pkg::FldData:  frame_bit = data_bit_i;
-      can_pkg::FldCrc:   frame_bit = crc_bit_i;
-      can_pkg::FldCrcDel: frame_bit = can_pkg::Recessive;
-      default:           frame_bit = can_pkg::Dominant;  // SOF, r1, r0 (FF-04)
-    endcase
-  end
-
-  always_comb begin
-    case (field_i)
-      can_pkg::FldAck:     tx_o = !ack_i;
-      can_pkg::FldErrFlag: tx_o = passive_flag_i;
-      can_pkg::FldOvlFlag: tx_o = can_pkg::Dominant;
-      default:
-        if (!transmitter_i || !(field_i[4] ^ field_i[3]) && field_i != can_pkg::FldCrcDel)
-          tx_o = can_pkg::Recessive;
-        else
-          tx_o = stuff_i ? !last_i : frame_bit;
-    endcase
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      tx_o     <= can_pkg::Recessive;
+      can_tx_o <= can_pkg::Recessive;
+    end else if (boundary_i) begin : choose
+      logic level;
+      case (field_i)
+        can_pkg::FldId:      level = id_bit_i;
+        can_pkg::FldRtr:     level = rtr_i || ide_i;  // SRR is recessive (FF-02)
+        can_pkg::FldIde:     level = ide_i;
+        can_pkg::FldExId:    level = ex_id_bit_i;
+        can_pkg::FldExRtr:   level = rtr_i;
+        can_pkg::FldDlc:     level = dlc_bit_i;
+        can_pkg::FldData:    level = data_bit_i;
+        can_pkg::FldCrc:     level = crc_bit_i;
+        can_pkg::FldAck:     level = !ack_i;
+        can_pkg::FldErrFlag: level = passive_flag_i;
+        can_pkg::FldSof, can_pkg::FldR1, can_pkg::FldR0, can_pkg::FldOvlFlag:
+                             level = can_pkg::Dominant;  // FF-04, OV-01
+        default:             level = can_pkg::Recessive;
+      endcase
+      // Frame bits are the transmitter's; a stuff bit is the complement of the bit before it.
+      if ((field_i[4] ^ field_i[3]) || field_i == can_pkg::FldCrcDel)
+        level = !transmitter_i || (stuff_i ? !prev_i : level);
+      tx_o     <= level || !run_i;
+      can_tx_o <= level || !run_i || mute_i;
+    end
   end
 
 endmodule
