@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
                      .data = {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF}},
                0x1B69, ""},
         Golden{"GV_9_zeros", base(0x000, 8), 0x145B, ""}),
-    [](const auto &info) { return std::string(info.param.name); });
+    [](const auto &golden) { return std::string(golden.param.name); });
 
 TEST(FrameCodec, GoldenLengths) {
   EXPECT_EQ(encode_frame(base(0x123, 1, {0x55})).bits.size(), 53u);  // GV-1
