@@ -75,6 +75,12 @@ void CoreBench::force(unsigned i, const PlaceSpec &place, Effect effect, unsigne
   duts_[i].disturbances.push_back({place, effect, times});
 }
 
+// Between two steps DUT 0 has begun its coming bit; a DUT whose boundary is a clock later has not.
+void CoreBench::force_next(unsigned i, Effect effect) {
+  Dut &dut = duts_[i];
+  (dut.boundary ? dut.next : dut.effect) = effect;
+}
+
 void CoreBench::clear_disturbances() {
   for (Dut &dut : duts_) {
     dut.disturbances.clear();

@@ -82,8 +82,8 @@ class CoreBench {
   void invert(unsigned i, const PlaceSpec &place, unsigned times = 1);
   /// Forces the level that DUT `i` sees at a place.
   void force(unsigned i, const PlaceSpec &place, Effect effect, unsigned times = 1);
-  /// Forces or inverts the next bit that DUT `i` sees.
-  void force_next(unsigned i, Effect effect) { duts_[i].next = effect; }
+  /// Forces or inverts the coming bit of DUT `i`, the one that the next step() runs.
+  void force_next(unsigned i, Effect effect);
   void clear_disturbances();
 
   // ---- Time
