@@ -28,7 +28,7 @@ module can_tq_gen #(
       tq_o   <= 1'b0;
     end else if (!run_i || tq_o) begin
       left_q <= presdiv_i;
-      tq_o   <= run_i && (presdiv_i == '0);
+      tq_o   <= (presdiv_i == '0);  // while stopped nobody looks at it
     end else begin
       left_q <= left_q - 1'b1;
       tq_o   <= (left_q == PresdivWidth'(1));
