@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_core: the protocol engine: time quanta, bits, bit stream; pins on one side, frames on the other.
+// can_core: the protocol engine: time quanta, bits, bit stream; pins here, frames there.
 // The paper's three processes in one clock domain. Frames pass word by word; buffers are elsewhere.
 
 module can_core (
@@ -37,8 +37,8 @@ module can_core (
   output logic        receiver_o,      // receiver of the current frame
   output logic        synch_o,         // integrated, not in bus-off
   output logic        bit_tick_o,      // once a bit while running
-  // Transmission: a frame waits while tx_req_i = 1; tx_word_i is its ID word, ID[28:0] (base frames:
-  // ID in [28:18]), and after each tx_next_o, within 16 bits, the next data word (byte 0 in 31:24).
+  // Transmission: a frame waits while tx_req_i = 1; tx_word_i is its ID word, ID[28:0] (base
+  // frames: ID in [28:18]), and after each tx_next_o, within 16 bits, the next data word (byte 0 in 31:24).
   input  logic        tx_req_i,
   input  logic        tx_ide_i,
   input  logic        tx_rtr_i,
@@ -50,7 +50,7 @@ module can_core (
   // Reception: pulses in the clock after the sample point
   output logic        start_o,         // a frame begins; transmitter_o tells whose
   output logic        stamp_o,         // the next bit is the first of the ID field
-  output logic        rx_hdr_o,        // rx_id_o, rx_ide_o, rx_srr_o, rx_rtr_o valid for 3 bits or more
+  output logic        rx_hdr_o,        // rx_id_o, rx_ide_o, rx_srr_o, rx_rtr_o valid for 3 bits
   output logic [28:0] rx_id_o,         // base frames: ID in [28:18], rest 0
   output logic        rx_ide_o,
   output logic        rx_srr_o,
@@ -91,8 +91,8 @@ module can_core (
     .lom_i, .lpb_i, .fd_tolerant_i, .boff_rec_i, .ec_clear_i, .ec_we_i, .ec_wdata_i,
     .tx_req_i, .tx_ide_i, .tx_rtr_i, .tx_dlc_i, .tx_word_i,
     .tx_o(tx_q), .can_tx_o, .hard_o(hard), .field_o(field), .left_o(left), .stuff_o(stuff),
-    .transmitter_o, .tec_o(tec), .rec_o, .passive_o, .boff_o, .err_o, .tx_next_o, .tx_ok_o, .tx_fail_o, .start_o,
-    .stamp_o, .rx_hdr_o, .rx_id_o, .rx_ide_o, .rx_srr_o, .rx_rtr_o, .rx_dlc_o, .rx_byte_we_o,
+    .transmitter_o, .tec_o(tec), .rec_o, .passive_o, .boff_o, .err_o, .tx_next_o, .tx_ok_o,
+    .tx_fail_o, .start_o, .stamp_o, .rx_hdr_o, .rx_id_o, .rx_ide_o, .rx_srr_o, .rx_rtr_o, .rx_dlc_o, .rx_byte_we_o,
     .rx_byte_o, .rx_valid_o
   );
 

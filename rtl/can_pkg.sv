@@ -13,7 +13,7 @@ package can_pkg;
   // "is stuffed" and "is arbitration" cost one gate.
   typedef logic [4:0] field_t;
   // 00xxx: between frames; nothing dominant is ever sent here.
-  localparam logic [4:0] FldInteg   = 5'b00000;  // WAIT_FOR_BUS_IDLE: counts 11 recessive bits (IN-01)
+  localparam logic [4:0] FldInteg   = 5'b00000;  // WAIT_FOR_BUS_IDLE: eleven recessive bits (IN-01)
   localparam logic [4:0] FldBusOff  = 5'b00001;  // BUS_OFF_RECOVERY: counts 128 x 11 (BO-02)
   localparam logic [4:0] FldIdle    = 5'b00010;  // bus idle (IF-12)
   localparam logic [4:0] FldInt     = 5'b00011;  // intermission INT1..INT3 (IF-01)
@@ -32,12 +32,12 @@ package can_pkg;
   localparam logic [4:0] FldData    = 5'b10011;  // 8 bits a byte
   localparam logic [4:0] FldCrc     = 5'b10100;  // CRC14..CRC0
   // 11xxx: fixed form.
-  localparam logic [4:0] FldCrcDel  = 5'b11000;  // CRC delimiter (a last stuff bit may precede it, ST-03)
+  localparam logic [4:0] FldCrcDel  = 5'b11000;  // CRC delimiter (a stuff bit may precede it, ST-03)
   localparam logic [4:0] FldAck     = 5'b11001;  // ACK slot
   localparam logic [4:0] FldAckDel  = 5'b11010;  // ACK delimiter
   localparam logic [4:0] FldEof     = 5'b11011;  // EOF1..EOF7
   localparam logic [4:0] FldErrFlag = 5'b11100;  // active or passive error flag (EF-01, EF-02)
-  localparam logic [4:0] FldWait    = 5'b11101;  // after a flag: until the first recessive bit (EF-08)
+  localparam logic [4:0] FldWait    = 5'b11101;  // after a flag, until a recessive bit (EF-08)
   localparam logic [4:0] FldDel     = 5'b11110;  // DEL2..DEL8 of error or overload delimiter
   localparam logic [4:0] FldOvlFlag = 5'b11111;  // overload flag (OV-01)
 
@@ -49,13 +49,13 @@ package can_pkg;
   localparam int ErrForm  = 1;  // fixed-form bit wrong
   localparam int ErrStuff = 0;  // sixth equal bit
 
-  // can_core.trace_o: what an observer sees, decoded by sim/node/trace.hpp, unconnected in synthesis.
+  // can_core.trace_o: what an observer sees; decoded by sim/node/trace.hpp, open in synthesis.
   // While `sample` is 1 all other level and position fields describe the bit that is being sampled;
-  // `err`, `rx_valid`, `tx_ok`, `tx_fail`, `start` are pulses in the clock after the sample that caused them.
+  // `err`, `rx_valid`, `tx_ok`, `tx_fail`, `start` are pulses in the clock after their sample.
   //   [48]    sample     sample point in this clock
   //   [47]    boundary   last clock of the bit: the next TX level is taken over
   //   [46]    rx         level as sampled (majority if triple sampling)
-  //   [45]    tx         level that this node sends in the current bit (internal, before LOM/LPB gating)
+  //   [45]    tx         level this node sends in the current bit (before LOM/LPB gate the pin)
   //   [44]    role       1: transmitter (RO-01)
   //   [43]    stuff      the current bit is a stuff bit
   //   [42:38] field      Fld*

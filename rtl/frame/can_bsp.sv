@@ -70,7 +70,8 @@ module can_bsp (
   );
 
   can_error u_error (
-    .clk_i, .rst_ni, .run_i, .judge_i, .field_i(field_o), .last_i(ends), .bit_i, .sent_i(tx_o), .transmitter_i(transmitter_o),
+    .clk_i, .rst_ni, .run_i, .judge_i, .field_i(field_o), .last_i(ends), .bit_i,
+    .sent_i(tx_o), .transmitter_i(transmitter_o),
     .stuff_i(stuff_o), .prev_i(prev), .crc_mismatch_i(mismatch), .lpb_i,
     .kind_o(kind), .error_o(error), .exempt_o(exempt), .lost_o(lost), .overload_o(overload)
   );

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_crc15: CRC of the bits from SOF to the last data bit, and their comparison with those received.
-// Rules CR-01..CR-05: x^15+x^14+x^10+x^8+x^7+x^4+x^3+1, start value 0 (so the dominant SOF adds nothing).
+// can_crc15: CRC from SOF to the last data bit, and its comparison with the one received.
+// Rules CR-01..CR-05. It starts from 0, so the dominant SOF adds nothing.
 
 module can_crc15 (
   input  logic            clk_i,

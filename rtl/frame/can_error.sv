@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_error: what is wrong with the bit being sampled, and what it asks for: flag, overload, retreat.
+// can_error: what is wrong with the bit being sampled, and what it asks for.
 // Rules ED-01..ED-21, AR-02..AR-05, OV-03; one event a bit (ED-17). Both levels are judged when the
 // bit begins, so that the sample point has only to choose: it sits on the longest path of the core.
 
@@ -9,7 +9,7 @@ module can_error (
   input  logic            clk_i,
   input  logic            rst_ni,
   input  logic            run_i,
-  input  logic            judge_i,        // the clock in which field, level and role of a bit are new
+  input  logic            judge_i,        // first clock of a bit: field, level and role are new
   input  can_pkg::field_t field_i,
   input  logic            last_i,         // last bit of the field
   input  logic            bit_i,          // sampled
@@ -21,7 +21,7 @@ module can_error (
   input  logic            lpb_i,          // loop-back: no ACK needed (MO-04)
   output logic [5:0]      kind_o,         // can_pkg::Err*, at most one set
   output logic            error_o,        // an error flag follows
-  output logic            exempt_o,       // stuff error in arbitration: counts nothing (FC-05 exc. 2)
+  output logic            exempt_o,       // stuff error in arbitration (FC-05 exception 2)
   output logic            lost_o,         // arbitration lost
   output logic            overload_o      // an overload flag follows
 );

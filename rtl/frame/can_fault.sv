@@ -11,7 +11,7 @@ module can_fault (
   input  logic            sample_i,
   input  logic            bit_i,
   input  can_pkg::field_t field_i,
-  input  logic [3:0]      after_flag_i,     // FldWait: {first bit after the flag, bits left modulo 8}
+  input  logic [3:0]      after_flag_i,     // FldWait: {first bit after flag, left modulo 8}
   input  logic            ends_i,           // last bit of the field
   input  logic            last_i,           // the same, registered
   input  logic            free_i,           // after this bit a frame may begin
@@ -50,8 +50,8 @@ module can_fault (
   // 128 sequences of 11 recessive bits (BO-02); the count waits at 128 for the host's leave.
   assign boff_end_o = ends_i && (tec_q[7] || (&tec_q[6:0])) && !hold_q;
 
-  // The decision is taken at the sample point and counted one clock later: still before anyone asks,
-  // and the adder stays off the longest path.
+  // The decision is taken at the sample point and counted one clock later: still before
+  // anyone asks, and the adder stays off the longest path.
   logic       plus8_q, plus1_q, minus1_q, sequence_q, recovered_q;
   logic       on_tec;
   logic [8:0] sum;
@@ -77,7 +77,7 @@ module can_fault (
       good_rx  = (field_i == can_pkg::FldAck) && !sent_i && saw_d;                       // FC-10
 
       plus8_q <= !lom_i && (late
-                 || (error_i && (transmitter_i ? !(exempt_i || withhold) : in_flag))     // FC-05..07
+                 || (error_i && (transmitter_i ? !(exempt_i || withhold) : in_flag))   // FC-05..07
                  || eighth                                                               // FC-08
                  || (first && !transmitter_i && !overload_frame_i));                     // FC-04
       plus1_q <= !lom_i && error_i && !transmitter_i && !in_flag;                        // FC-02

@@ -34,7 +34,7 @@ module can_field (
   output can_pkg::field_t field_o,
   output logic [5:0]      left_o,          // bits of the field that follow the current one
   output logic            ends_o,          // left_o = 0
-  output logic            last_o,          // the same, registered: from the second clock of a bit on
+  output logic            last_o,          // the same, a register: from a bit's second clock on
   output logic            transmitter_o,   // role (RO-01)
   output logic            passive_flag_o,  // the error flag being sent is passive
   output logic            overload_frame_o,// the flag or delimiter belongs to an overload frame
@@ -62,7 +62,7 @@ module can_field (
   assign suspend = tx_q && passive_i;                                        // IF-08, IF-11
 
   // May a frame begin after this bit? A recessive one lets an own frame begin, a dominant one is a
-  // start of frame (IF-03, IF-05, IF-12, IN-04). Joining it is for who need not suspend (IF-06, IF-10).
+  // start of frame (IF-03, IF-05, IF-12, IN-04). It is joined unless suspended (IF-06, IF-10).
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)     {last_q, free_r_q, free_d_q, join_q} <= '0;
     else if (!run_i) {last_q, free_r_q, free_d_q, join_q} <= '0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_stuff: counts equal bits on the bus and tells which bit is a stuff bit, for sender and receiver.
+// can_stuff: counts equal bits on the bus and tells which bit is a stuff bit, for both roles.
 // Rules ST-01..ST-09. The bus is counted, not the own output: a joined SOF (ST-07) and the bits up
 // to a lost arbitration (ST-08) need no special case.
 
