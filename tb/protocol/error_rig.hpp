@@ -32,10 +32,17 @@ inline void PrintTo(const Counters &c, std::ostream *out) {
   *out << "TEC" << unsigned{c.tec} << "_REC" << unsigned{c.rec};
 }
 
-/// GV-1 is the usual frame: 0x123, one byte, no stuff bit before the data field.
-/// The number of a bit counts from SOF = 0.
-inline constexpr unsigned kGv1Data = 20;  ///< first data bit (stuff bit within the header: 1)
-inline constexpr unsigned kGv1Ack = 44;   ///< ACK slot
+/// What a node in that state sends as an error flag, and what follows flags.
+[[nodiscard]] inline std::string flag_of(const Counters &c) {
+  return c.passive() ? "111111" : "000000";
+}
+inline const std::string kOverloadFlag = "000000";
+inline const std::string kDelimiter = "11111111";
+inline const std::string kIntermission = "111";
+/// ... and the suspend time of a passive transmitter (IF-08).
+[[nodiscard]] inline std::string suspend_of(const Counters &c) {
+  return c.passive() ? "11111111" : "";
+}
 
 /// A script without the blanks that make it readable; for expected levels too.
 [[nodiscard]] std::string bits(std::string_view text);
@@ -75,6 +82,8 @@ class ErrorRig {
   [[nodiscard]] Field field() const { return bench.place().field(); }  ///< of the coming bit
   [[nodiscard]] std::size_t delivered() { return bench.dut().received().size(); }
   [[nodiscard]] std::size_t sent() { return bench.dut().sent().size(); }
+  /// REC is `start` plus `step`; from 128 on only that it is at least 128 (FC-14).
+  void expect_rec(unsigned start, unsigned step);
   /// The model does not know what comes (one-shot, stop, reset): only the assertions go on.
   void without_judge() { judged_ = false; }
 
