@@ -36,6 +36,7 @@ Bus::~Bus() {
 
 // A node that dies before its bus leaves the bus unusable but safe to destroy.
 void Bus::detach(const Node &node) {
+  prepared_ = false;
   for (Entry &entry : nodes_) {
     if (entry.node == &node) entry.node = nullptr;
   }
