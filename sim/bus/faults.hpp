@@ -185,7 +185,7 @@ struct NoiseConfig {
   double per_ns = 0.0;   ///< rate of glitches, 1/ns; a glitch flips the level for `glitch`
   Time glitch = 50 * kNanosecond;
   NodeId victim = kAllNodes;
-  Window window;
+  Window window{};
   std::uint64_t seed = 1;
 };
 

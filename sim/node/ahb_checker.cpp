@@ -50,15 +50,15 @@ void AhbChecker::clock(const AhbRequest &request, const AhbResponse &response) {
   check_slave(response);
   if (response.hready) {
     if (data_phase_) {
-      ++transfers_;
-      if (response.hresp) ++errors_;
+      ++report_.transfers;
+      if (response.hresp) ++report_.errors;
     }
     data_phase_ = is_transfer(request.htrans);
     write_phase_ = data_phase_ && request.hwrite;
     waits_ = 0;
   } else if (!response.hresp) {
-    ++wait_states_;
-    max_waits_ = std::max(max_waits_, ++waits_);
+    ++report_.wait_states;
+    report_.max_waits = std::max(report_.max_waits, ++waits_);
   }
   error_first_ = response.hresp && !response.hready;
   previous_ = request;
@@ -102,8 +102,8 @@ void AhbChecker::check_slave(const AhbResponse &response) {
 }
 
 void AhbChecker::violation(const std::string &what) {
-  if (violations_.size() < kMaxViolations) {
-    violations_.push_back("AHB cycle " + std::to_string(cycle_) + ": " + what);
+  if (report_.violations.size() < kMaxViolations) {
+    report_.violations.push_back("AHB cycle " + std::to_string(cycle_) + ": " + what);
   }
 }
 

@@ -55,6 +55,15 @@ struct AhbResponse {
 /// Beats of a burst of fixed length; 0 for kIncr, 1 for kSingle.
 [[nodiscard]] unsigned ahb_beats(AhbBurst burst);
 
+/// What a checker has seen.
+struct AhbReport {
+  std::uint64_t transfers = 0;
+  std::uint64_t errors = 0;             ///< transfers with an ERROR response
+  std::uint64_t wait_states = 0;        ///< with an OKAY response
+  unsigned max_waits = 0;               ///< most of them in one transfer
+  std::vector<std::string> violations;  ///< broken rules, with the cycle number; the first 20
+};
+
 /// The checker. It keeps no reference to master or slave; both are judged by what they drive.
 class AhbChecker {
  public:
@@ -62,13 +71,12 @@ class AhbChecker {
   void clock(const AhbRequest &request, const AhbResponse &response);
   void reset();
 
-  /// Broken rules, one sentence each with the cycle number; the first 20.
-  [[nodiscard]] const std::vector<std::string> &violations() const { return violations_; }
-  [[nodiscard]] std::uint64_t transfers() const { return transfers_; }
-  [[nodiscard]] std::uint64_t errors() const { return errors_; }
-  /// Wait states with an OKAY response, in all and the most in one transfer.
-  [[nodiscard]] std::uint64_t wait_states() const { return wait_states_; }
-  [[nodiscard]] unsigned max_waits() const { return max_waits_; }
+  [[nodiscard]] const AhbReport &report() const { return report_; }
+  [[nodiscard]] const std::vector<std::string> &violations() const { return report_.violations; }
+  [[nodiscard]] std::uint64_t transfers() const { return report_.transfers; }
+  [[nodiscard]] std::uint64_t errors() const { return report_.errors; }
+  [[nodiscard]] std::uint64_t wait_states() const { return report_.wait_states; }
+  [[nodiscard]] unsigned max_waits() const { return report_.max_waits; }
 
  private:
   void check_master(const AhbRequest &request);
@@ -82,11 +90,7 @@ class AhbChecker {
   bool error_first_ = false;  // the first cycle of an ERROR response has passed
   unsigned waits_ = 0;
   std::uint64_t cycle_ = 0;
-  std::uint64_t transfers_ = 0;
-  std::uint64_t errors_ = 0;
-  std::uint64_t wait_states_ = 0;
-  unsigned max_waits_ = 0;
-  std::vector<std::string> violations_;
+  AhbReport report_;
 };
 
 }  // namespace vericansim

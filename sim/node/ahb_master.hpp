@@ -56,6 +56,8 @@ class AhbMaster {
   void reset();
 
   [[nodiscard]] const AhbChecker &checker() const { return checker_; }
+  /// Statistics of the accesses and the protocol violations seen.
+  [[nodiscard]] const AhbReport &report() const { return checker_.report(); }
 
   /// `co_await master.access(transfer)` yields the AhbResult.
   struct Awaiter {
