@@ -37,6 +37,9 @@ using Json = nlohmann::ordered_json;
 /// "12.345 ms" with the unit that suits.
 [[nodiscard]] std::string time_text(Time time);
 
+/// The value of an option such as "50 ms"; throws InputError that names the option.
+[[nodiscard]] Time time_option(const std::string &option, const std::string &text);
+
 /// Prints indented JSON and a line end.
 void print_json(const Json &json);
 

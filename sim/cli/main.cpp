@@ -20,6 +20,7 @@ int run_tool(int argc, char **argv) {
   app.set_version_flag("--version", "verican 0.1.0");
   app.footer("Exit codes: 0 done, 1 a check failed, 2 bad input, 3 internal error. See docs/tool.md.");
   int exit_code = cli::kOk;
+  cli::add_run(app, exit_code);
   cli::add_bittime(app, exit_code);
   cli::add_decode(app, exit_code);
   try {

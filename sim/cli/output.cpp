@@ -10,6 +10,9 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "scenario/quantity.hpp"
+#include "trace/input_error.hpp"
+
 namespace vericansim::cli {
 
 Json to_json(const Frame &frame) {
@@ -27,6 +30,13 @@ std::string time_text(Time time) {
   if (std::llabs(time) >= kSecond) return fmt::format("{:.3f} s", seconds);
   if (std::llabs(time) >= kMillisecond) return fmt::format("{:.3f} ms", seconds * 1e3);
   return fmt::format("{:.3f} us", seconds * 1e6);
+}
+
+Time time_option(const std::string &option, const std::string &text) {
+  const auto time = parse_time(text);
+  if (!time || *time <= 0)
+    throw InputError(option, 0, quoted(text) + " is not allowed; allowed: a time above 0, as in '50 ms'");
+  return *time;
 }
 
 void print_json(const Json &json) { fmt::print("{}\n", json.dump(2)); }

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// verican run: simulates a scenario file.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/cli.hpp"
+#include "scenario/runner.hpp"
+#include "trace/input_error.hpp"
+
+namespace vericansim::cli {
+namespace {
+
+struct Options {
+  std::string scenario;
+  Outputs outputs;
+  std::string duration;
+  double bitrate = 0;
+  bool json = false;
+};
+
+/// A name for each of several runs: "bus.vcd" becomes "bus-500k.vcd".
+std::string name_for(const std::string &path, double bitrate, bool several) {
+  if (path.empty() || !several) return path;
+  const std::size_t dot = path.rfind('.');
+  const std::string stem = path.substr(0, dot);
+  return fmt::format("{}-{:g}k{}", stem, bitrate / 1e3, dot == std::string::npos ? "" : path.substr(dot));
+}
+
+void override_with(Scenario &scenario, const Options &options) {
+  const auto take = [](std::string &target, const std::string &source) {
+    if (!source.empty()) target = source;
+  };
+  take(scenario.outputs.vcd, options.outputs.vcd);
+  take(scenario.outputs.fst, options.outputs.fst);
+  take(scenario.outputs.candump, options.outputs.candump);
+  take(scenario.outputs.pcap, options.outputs.pcap);
+  if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
+  if (!options.duration.empty()) scenario.duration = time_option("--duration", options.duration);
+}
+
+int run(const Options &options) {
+  Scenario scenario = read_scenario(options.scenario);
+  override_with(scenario, options);
+  const Outputs outputs = scenario.outputs;
+  const bool several = scenario.bitrates.size() > 1;
+  bool ok = true;
+  Json list = Json::array();
+  for (const double bitrate : scenario.bitrates) {
+    scenario.outputs = {name_for(outputs.vcd, bitrate, several), name_for(outputs.fst, bitrate, several),
+                        name_for(outputs.candump, bitrate, several), name_for(outputs.pcap, bitrate, several)};
+    RunReport report;
+    {
+      Progress progress{fmt::format("{:g} kbit/s", bitrate / 1e3)};
+      report = run_scenario(scenario, bitrate, [&](double part) { progress.show(part); });
+    }
+    ok = ok && report.ok();
+    if (options.json)
+      list.push_back(to_json(report));
+    else
+      fmt::print("{}\n", to_text(report));
+  }
+  if (options.json) print_json({{"ok", ok}, {"runs", list}});
+  return ok ? kOk : kFailed;
+}
+
+}  // namespace
+
+void add_run(CLI::App &app, int &exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand("run", "Simulate a scenario file (docs/scenario.md)");
+  command->add_option("scenario", options->scenario, "YAML file")->required();
+  command->add_option("--vcd", options->outputs.vcd, "Write the waveform as VCD");
+  command->add_option("--fst", options->outputs.fst, "Write the waveform as FST");
+  command->add_option("--candump", options->outputs.candump, "Write the frames as a candump log");
+  command->add_option("--pcap", options->outputs.pcap, "Write the frames as a capture for Wireshark");
+  command->add_option("--duration", options->duration, "Simulated time instead of the scenario's, as in '50 ms'");
+  command->add_option("--bitrate", options->bitrate, "Bit rate instead of the scenario's, bit/s")
+      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"k", 1e3}, {"M", 1e6}}))
+      ->check(CLI::Range(1e3, 1e6));
+  command->add_flag("--json", options->json, "The report as JSON");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vericansim::cli

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Expectations of a scenario.
+#include "scenario/expectations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vericansim {
+namespace {
+
+std::string to_text(const Range &range) {
+  if (range.least == range.most) return fmt::format("{:g}", range.least);
+  if (std::isinf(range.least)) return fmt::format("at most {:g}", range.most);
+  if (std::isinf(range.most)) return fmt::format("at least {:g}", range.least);
+  return fmt::format("{:g} to {:g}", range.least, range.most);
+}
+
+CheckResult check_number(const std::string &what, double seen, const Range &range) {
+  return {what, to_text(range), fmt::format("{:.10g}", seen), range.contains(seen)};
+}
+
+double bus_number(const RunReport &report, const std::string &key) {
+  if (key == "frames") return static_cast<double>(report.frames);
+  if (key == "error_frames") return static_cast<double>(report.error_frames);
+  if (key == "overload_frames") return static_cast<double>(report.overload_frames);
+  if (key == "pending") return static_cast<double>(report.pending);
+  return report.load * 100;
+}
+
+double node_number(const NodeReport &node, const std::string &key) {
+  const NodeCounts &c = node.counts;
+  if (key == "tec") return c.tec;
+  if (key == "rec") return c.rec;
+  if (key == "max_tec") return c.max_tec;
+  if (key == "max_rec") return c.max_rec;
+  if (key == "sent") return static_cast<double>(c.sent);
+  if (key == "received") return static_cast<double>(node.received);
+  if (key == "overruns") return static_cast<double>(node.overruns);
+  if (key == "errors") return static_cast<double>(c.errors);
+  if (key == "lost") return static_cast<double>(c.lost_arbitration);
+  if (key == "retries") return static_cast<double>(node.retries());
+  return static_cast<double>(c.bus_off);
+}
+
+/// Every node that takes any frame must have all frames of the others, bit-exact and in their order.
+CheckResult check_complete(const Scenario &scenario, NodeId node, const std::vector<BusFrame> &frames,
+                           const std::vector<Frame> &received) {
+  const HostConfig &host = scenario.nodes[node].host;
+  std::vector<Frame> wanted;
+  for (const BusFrame &frame : frames)
+    if (frame.sender != node || host.self_reception) wanted.push_back(frame.frame);
+  CheckResult result{scenario.nodes[node].name + " has every frame of the others",
+                     fmt::format("{} frames, the same and in order", wanted.size()), "", false};
+  const auto [seen, due] = std::mismatch(received.begin(), received.end(), wanted.begin(), wanted.end());
+  result.ok = seen == received.end() && due == wanted.end();
+  result.seen = result.ok ? fmt::format("{} frames", received.size())
+                          : fmt::format("{} frames, the first {} as they should be", received.size(),
+                                        seen - received.begin());
+  return result;
+}
+
+CheckResult check_bound(const MessageReport &message) {
+  const auto ms = [](Time t) { return fmt::format("{:.3f} ms", static_cast<double>(t) / kMillisecond); };
+  return {"response of " + message.name, message.bound ? "at most the bound, " + ms(*message.bound) : "a bound",
+          ms(message.longest), message.bound && message.longest <= *message.bound};
+}
+
+CheckResult check_response(const RunReport &report, const std::string &name, Time limit) {
+  const auto message = std::find_if(report.messages.begin(), report.messages.end(),
+                                    [&](const MessageReport &m) { return m.name == name; });
+  const bool seen = message != report.messages.end() && message->sent > 0;
+  return {"response of " + name, fmt::format("at most {:.3f} ms", static_cast<double>(limit) / kMillisecond),
+          seen ? fmt::format("{:.3f} ms", static_cast<double>(message->longest) / kMillisecond) : "not sent",
+          seen && message->longest <= limit};
+}
+
+}  // namespace
+
+std::vector<CheckResult> check_expectations(const Scenario &scenario, const RunReport &report,
+                                            const std::vector<BusFrame> &frames,
+                                            const std::vector<std::vector<Frame>> &received) {
+  const Expectations &expect = scenario.expect;
+  std::vector<CheckResult> results;
+  for (const auto &[key, range] : expect.numbers) {
+    const std::string what = key == "load" ? "load in per cent" : key;
+    results.push_back(check_number(what, bus_number(report, key), range));
+  }
+  for (const NodeExpectation &node : expect.nodes) {
+    const NodeReport &seen = report.nodes[node.node];
+    for (const auto &[key, range] : node.numbers)
+      results.push_back(check_number(seen.name + "." + key, node_number(seen, key), range));
+    if (node.state) results.push_back({seen.name + ".state", *node.state, seen.state(), *node.state == seen.state()});
+  }
+  if (expect.complete)
+    for (NodeId id = 0; id < scenario.nodes.size(); ++id)
+      if (scenario.nodes[id].host.filters.empty())
+        results.push_back(check_complete(scenario, id, frames, received[id]));
+  if (expect.within_bound)
+    for (const MessageReport &message : report.messages)
+      if (message.sent != 0) results.push_back(check_bound(message));
+  for (const auto &[name, limit] : expect.response_times) results.push_back(check_response(report, name, limit));
+  return results;
+}
+
+}  // namespace vericansim
