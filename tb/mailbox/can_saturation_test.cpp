@@ -16,7 +16,7 @@
 namespace vericansim {
 namespace {
 
-enum class Hammer { kNone, kRead, kMixed, kLock, kCommand };
+enum class Hammer { kNone, kRead, kMixed, kLock, kCommand, kToggleLast, kToggleFirst };
 
 struct Case {
   const char *name;
@@ -45,7 +45,11 @@ class Saturation : public ::testing::TestWithParam<Case> {
       rig_.configure(n, {.ctrl = GetParam().timing});
       for (unsigned k = 0; k < kCount; ++k) rig_.put_rx(n, kFirstRx + k, make(1 - n, k));
     }
-    for (unsigned n = 0; n < 2; ++n) rig_.go(n);
+    const std::uint32_t toy = GetParam().hammer == Hammer::kToggleFirst ? 0u : 0x7FFu;
+    for (unsigned n = 0; n < 2; ++n) {
+      for (unsigned mb : {0u, 63u}) rig_.write(n, reg::mb(mb, 1), (toy + 2 * n) << 18);
+      rig_.go(n);
+    }
   }
 
   AhbTransfer hammer_transfer() {
@@ -58,6 +62,10 @@ class Saturation : public ::testing::TestWithParam<Case> {
       case Hammer::kCommand:  // ERR005829 workaround without end, as fast as it goes
         return {.address = reg::mb(rng_() % 2 == 0 ? 0 : 63, rng_() % 4 == 0 ? 2 : 0), .write = true,
                 .data = 0x08000000};
+      case Hammer::kToggleLast:  // buffers activated and taken back without end
+      case Hammer::kToggleFirst:
+        return {.address = reg::mb(rng_() % 2 == 0 ? 0 : 63), .write = true,
+                .data = rng_() % 2 == 0 ? 0x08000000u : 0x0C000000u};
       default:
         if (rng_() % 2 == 0)
           return {.address = reg::mb(rng_() % 2 == 0 ? 0 : 63, word), .write = true, .data = 0x08000000};
@@ -148,6 +156,8 @@ TEST_P(Saturation, NothingIsLostAndFramesAreThreeBitsApart) {  // IF-01, MO-06
   EXPECT_THAT(gaps.gaps, ::testing::Each(0u)) << "frames this number of bits apart";
   EXPECT_FALSE(rig_.violated());
   EXPECT_LE(rig_.max_waits(), 1u);
+  if (GetParam().hammer != Hammer::kNone)  // it did hammer
+    EXPECT_GT(rig_.node(0).ahb().checker().transfers(), 60u * 8000 / 2);
   for (unsigned n = 0; n < 2; ++n) EXPECT_EQ(rig_.read(n, reg::kEcr), 0u);
 }
 
@@ -161,6 +171,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Case{"Quiet", Hammer::kNone, kTiming8}, Case{"Reads", Hammer::kRead, kTiming8},
                       Case{"Mixed", Hammer::kMixed, kTiming8}, Case{"Locks", Hammer::kLock, kTiming8},
                       Case{"Commands", Hammer::kCommand, kTiming8},
+                      Case{"TogglesLast", Hammer::kToggleLast, kTiming8},
+                      Case{"TogglesFirst", Hammer::kToggleFirst, kTiming8},
                       Case{"MixedShortPhases", Hammer::kMixed, timing(4, 1, 2, 1)},
                       Case{"MixedWideJump", Hammer::kMixed, timing(1, 3, 3, 3)},
                       Case{"LocksLatePoint", Hammer::kLock, timing(3, 2, 2, 2)}),
