@@ -35,7 +35,8 @@ demo: packages $(BUILD)/build.ninja  ## Controllers exchange frames: examples, t
 test: build  ## Run every test and check that every protocol rule has one
 	@tools/test.sh $(BUILD) $(JOBS)
 
-lint: packages $(BUILD)/build.ninja  ## Check RTL with Verilator, Yosys, Icarus; C++ with clang-format and clang-tidy
+lint: packages  ## Check RTL with Verilator, Yosys, Icarus; C++ with clang-format and clang-tidy
+	@$(QUIET) "Configuring ($(PRESET))" cmake --preset $(PRESET)
 	@tools/lint.sh $(BUILD)
 
 bench: packages $(BUILD)/build.ninja  ## Measure the simulator's speed; writes docs/performance.md
