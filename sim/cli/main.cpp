@@ -21,6 +21,7 @@ int run_tool(int argc, char **argv) {
   app.footer("Exit codes: 0 done, 1 a check failed, 2 bad input, 3 internal error. See docs/tool.md.");
   int exit_code = cli::kOk;
   cli::add_run(app, exit_code);
+  cli::add_replay(app, exit_code);
   cli::add_bittime(app, exit_code);
   cli::add_decode(app, exit_code);
   try {

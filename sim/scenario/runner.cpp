@@ -9,37 +9,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <memory>
 
-#include "node/registers.hpp"
 #include "scenario/analysis.hpp"
 #include "scenario/bittime.hpp"
 #include "scenario/bus_monitor.hpp"
+#include "scenario/bus_outputs.hpp"
 #include "scenario/expectations.hpp"
+#include "scenario/station.hpp"
 #include "scenario/traffic_source.hpp"
-#include "trace/bus_wave.hpp"
-#include "trace/candump.hpp"
 #include "trace/input_error.hpp"
-#include "trace/pcap_file.hpp"
 
 namespace vericansim {
 namespace {
-
-/// A node of the run: core and software.
-struct Station {
-  std::unique_ptr<RtlNode> node;
-  std::unique_ptr<Host> host;
-  BitTiming timing;
-  std::vector<Frame> received;
-};
-
-/// Buffers that take any frame: base and extended ones in turn, since IDE is compared unless CTRL2.EACEN is set.
-std::vector<RxFilter> any_frame(unsigned buffers) {
-  std::vector<RxFilter> filters(buffers);
-  for (unsigned i = 1; i < buffers; i += 2) filters[i].extended = true;
-  return filters;
-}
 
 /// A simulation. Members are in the order of their lifetimes: the bus refers to all others.
 class Run {
@@ -49,15 +31,12 @@ class Run {
 
  private:
   void build_stations();
-  void open_outputs();
-  void join();
+  void observe();
   void add_faults();
   std::unique_ptr<Fault> make_fault(const FaultSpec &spec) const;
   void start_traffic();
   void on_frame(const BusFrame &frame);
   void on_sent(NodeId node, const Frame &frame);
-  void check_hosts();
-  [[nodiscard]] std::uint64_t pending() const;
   void run_for(Time duration, const std::function<void(double)> &progress);
   void drain();
   RunReport collect();
@@ -66,24 +45,20 @@ class Run {
   const Scenario &scenario_;
   double bitrate_;
   Time bit_time_;
-  std::vector<Station> stations_;
+  Stations stations_;
   std::vector<std::unique_ptr<Fault>> faults_;
   std::vector<std::unique_ptr<TrafficSource>> traffic_;
   std::vector<BusFrame> frames_;
-  std::ofstream candump_file_;
-  std::unique_ptr<CandumpWriter> candump_;
-  std::unique_ptr<PcapWriter> pcap_;
   std::unique_ptr<BusMonitor> monitor_;
-  std::vector<std::unique_ptr<BusWave>> waves_;
+  std::unique_ptr<BusOutputs> outputs_;
   Bus bus_;
   Time start_ = 0;
-  bool stores_remote_ = false;
 };
 
 Run::Run(const Scenario &scenario, double bitrate)
     : scenario_{scenario}, bitrate_{bitrate}, bit_time_{static_cast<Time>(std::llround(1e12 / bitrate))} {
   build_stations();
-  open_outputs();
+  observe();
 }
 
 void Run::build_stations() {
@@ -91,63 +66,25 @@ void Run::build_stations() {
   for (const TrafficSpec &traffic : scenario_.traffic) ++messages[traffic.node];
   for (NodeId id = 0; id < scenario_.nodes.size(); ++id) {
     const NodeSpec &spec = scenario_.nodes[id];
-    Station station;
-    station.timing = timing_of(scenario_, spec, bitrate_);
     HostConfig config = spec.host;
-    config.timing = station.timing;
+    config.timing = timing_of(scenario_, spec, bitrate_);
     const auto receive = static_cast<unsigned>(std::max<std::size_t>(config.filters.size(), 8));
     if (config.tx_buffers == 0) config.tx_buffers = std::clamp(messages[id], 1U, spec.num_mb - receive);
-    if (config.filters.empty()) config.filters = any_frame(spec.num_mb - config.tx_buffers);
-    station.node = RtlNode::create(spec.name, spec.clock, spec.num_mb);
-    station.host = std::make_unique<Host>(*station.node, config);
-    stations_.push_back(std::move(station));
-  }
-  for (NodeId id = 0; id < stations_.size(); ++id) {
-    Station &station = stations_[id];
-    bus_.add(*station.node, scenario_.nodes[id].link);
-    station.host->on_received = [&station](const HostFrame &frame) { station.received.push_back(frame.frame); };
-    station.host->on_sent = [this, id](const HostFrame &frame) { on_sent(id, frame.frame); };
+    stations_.add(bus_, make_station(spec.name, spec.clock, config, spec.num_mb), spec.link);
+    stations_[id].host->on_sent = [this, id](const HostFrame &frame) { on_sent(id, frame.frame); };
   }
 }
 
-void Run::open_outputs() {
-  const Outputs &outputs = scenario_.outputs;
+void Run::observe() {
   Time longest_bit = bit_time_;
   for (NodeId id = 0; id < stations_.size(); ++id)
     longest_bit = std::max(longest_bit, static_cast<Time>(stations_[id].timing.clocks_per_bit() * 1e12 /
                                                           scenario_.nodes[id].clock.frequency_hz));
-  const BitTiming &first = stations_.front().timing;
+  const BitTiming &first = stations_[0].timing;
   monitor_ = std::make_unique<BusMonitor>(bus_, bit_time_, 1.0 - static_cast<double>(first.ps2) / first.quanta());
   monitor_->on_frame = [this](const BusFrame &frame) { on_frame(frame); };
   bus_.add(*monitor_);
-  for (const std::string &path : {outputs.vcd, outputs.fst}) {
-    if (path.empty()) continue;
-    waves_.push_back(std::make_unique<BusWave>(bus_, open_wave(path), longest_bit));
-    bus_.add(*waves_.back());
-  }
-  if (!outputs.candump.empty()) {
-    candump_file_.open(outputs.candump);
-    if (!candump_file_) throw InputError(outputs.candump, 0, "cannot be opened for writing");
-    candump_ = std::make_unique<CandumpWriter>(candump_file_);
-  }
-  if (!outputs.pcap.empty()) pcap_ = std::make_unique<PcapWriter>(outputs.pcap);
-}
-
-/// Sets all nodes up and lets them integrate.
-void Run::join() {
-  for (Station &station : stations_) station.host->start();
-  constexpr Time kLimit = 100 * kMillisecond;
-  const bool ready = bus_.run_until(
-      [&] {
-        return std::all_of(stations_.begin(), stations_.end(), [](const Station &s) { return s.host->ready(); });
-      },
-      kLimit);
-  check_hosts();
-  if (!ready) throw std::runtime_error("the set-up of a node takes longer than 100 ms");
-  // Whether the core stores remote frames in receive buffers (flexcan.md 3.5).
-  stores_remote_ = (stations_.front().node->read32(reg::kCtrl2) & reg::kCtrl2Rrs) != 0;
-  bus_.run_for(14 * bit_time_);
-  start_ = bus_.now();
+  outputs_ = std::make_unique<BusOutputs>(scenario_.outputs, bus_, longest_bit);
 }
 
 std::unique_ptr<Fault> Run::make_fault(const FaultSpec &spec) const {
@@ -191,9 +128,7 @@ void Run::start_traffic() {
 
 void Run::on_frame(const BusFrame &frame) {
   frames_.push_back(frame);
-  const LogEntry entry{frame.start, "can0", frame.frame};
-  if (candump_) candump_->write(entry);
-  if (pcap_) pcap_->write(entry);
+  outputs_->write(frame);
   if (frame.sender == BusFrame::kNobody) return;
   for (const auto &traffic : traffic_)
     if (traffic->spec().node == frame.sender && traffic->matches(frame.frame)) return traffic->on_frame(frame.end);
@@ -204,21 +139,11 @@ void Run::on_sent(NodeId node, const Frame &frame) {
     if (traffic->spec().node == node && traffic->matches(frame)) return traffic->on_sent();
 }
 
-void Run::check_hosts() {
-  for (Station &station : stations_) station.host->check();
-}
-
-std::uint64_t Run::pending() const {
-  std::uint64_t sum = 0;
-  for (const Station &station : stations_) sum += station.host->pending();
-  return sum;
-}
-
 void Run::run_for(Time duration, const std::function<void(double)> &progress) {
   constexpr int kSteps = 100;
   for (int step = 1; step <= kSteps; ++step) {
     bus_.run_until(start_ + duration / kSteps * step + duration % kSteps * step / kSteps);
-    check_hosts();
+    stations_.check();
     if (progress) progress(static_cast<double>(step) / kSteps);
   }
 }
@@ -226,9 +151,9 @@ void Run::run_for(Time duration, const std::function<void(double)> &progress) {
 /// Lets frames that wait go out, and the last one be received, for a limited time.
 void Run::drain() {
   const Time limit = bus_.now() + scenario_.drain;
-  while (bus_.now() < limit && pending() != 0) bus_.run_until(std::min(limit, bus_.now() + 20 * bit_time_));
+  while (bus_.now() < limit && stations_.pending() != 0) bus_.run_until(std::min(limit, bus_.now() + 20 * bit_time_));
   bus_.run_for(16 * bit_time_);
-  check_hosts();
+  stations_.check();
   monitor_->advance(bus_.now());
 }
 
@@ -265,7 +190,7 @@ RunReport Run::collect() {
   report.frames = monitor_->frames();
   report.error_frames = monitor_->error_frames();
   report.overload_frames = monitor_->overload_frames();
-  report.pending = pending();
+  report.pending = stations_.pending();
   report.load = static_cast<double>(monitor_->busy()) / static_cast<double>(report.duration);
   for (const auto &traffic : traffic_) report.messages.push_back(traffic->report());
   for (NodeId id = 0; id < stations_.size(); ++id) {
@@ -273,12 +198,12 @@ RunReport Run::collect() {
     const AhbReport &ahb = station.node->ahb().report();
     report.nodes.push_back({scenario_.nodes[id].name, monitor_->node(id), station.received.size(),
                             station.host->stats().overruns, ahb.transfers, ahb.max_waits, ahb.violations});
-    report.node_cycles += station.node->cycles();
   }
+  report.node_cycles = stations_.cycles();
   if (scenario_.analysis || scenario_.expect.within_bound) add_bounds(report);
   std::vector<std::vector<Frame>> received;
-  for (const Station &station : stations_) received.push_back(station.received);
-  if (!stores_remote_)
+  for (NodeId id = 0; id < stations_.size(); ++id) received.push_back(stations_[id].received);
+  if (!stations_.stores_remote())
     std::erase_if(frames_, [](const BusFrame &frame) { return frame.frame.remote; });
   report.checks = check_expectations(scenario_, report, frames_, received);
   return report;
@@ -286,12 +211,13 @@ RunReport Run::collect() {
 
 RunReport Run::execute(const std::function<void(double)> &progress) {
   const auto begin = std::chrono::steady_clock::now();
-  join();
+  stations_.join(bus_, bit_time_);
+  start_ = bus_.now();
   add_faults();
   start_traffic();
   run_for(scenario_.duration, progress);
   drain();
-  for (const auto &wave : waves_) wave->finish(bus_.now());
+  outputs_->finish(bus_.now());
   RunReport report = collect();
   report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report;

@@ -23,6 +23,7 @@ constexpr std::uint32_t kExtended = 0x80000000;
 constexpr std::uint32_t kRemote = 0x40000000;
 constexpr std::uint32_t kError = 0x20000000;
 constexpr std::uint8_t kFdFrame = 0x04;
+constexpr std::uint8_t kFdFlags = 0x07;  // bit rate switch, error state indicator, FD frame
 #ifndef DLT_CAN_SOCKETCAN
 #define DLT_CAN_SOCKETCAN 227
 #endif
@@ -40,7 +41,10 @@ bool decode_packet(const std::uint8_t *bytes, std::size_t size, Frame &frame, co
   const std::uint32_t id = std::uint32_t{bytes[0]} << 24 | std::uint32_t{bytes[1]} << 16 |
                            std::uint32_t{bytes[2]} << 8 | bytes[3];
   const std::uint8_t length = bytes[4];
-  if ((id & kError) != 0 || (bytes[5] & kFdFrame) != 0 || length > 8) return false;
+  // Old captures have rubbish in the three bytes behind the length: believe them only if they make sense.
+  const bool clean = (bytes[5] & ~kFdFlags) == 0 && bytes[6] == 0;
+  const bool fd_frame = clean && bytes[7] == 0 && (bytes[5] & kFdFrame) != 0;
+  if ((id & kError) != 0 || fd_frame || length > 8) return false;
   frame = Frame{};
   frame.extended = (id & kExtended) != 0;
   frame.remote = (id & kRemote) != 0;
@@ -48,7 +52,7 @@ bool decode_packet(const std::uint8_t *bytes, std::size_t size, Frame &frame, co
   if (!frame.extended && frame.id > 0x7FF)
     throw InputError(path, 0, fmt::format("packet {}: identifier {:X} is above 7FF and has no extended flag",
                                           number, frame.id));
-  frame.dlc = (length == 8 && bytes[7] >= 9 && bytes[7] <= 15) ? bytes[7] : length;
+  frame.dlc = (clean && length == 8 && bytes[7] >= 9 && bytes[7] <= 15) ? bytes[7] : length;
   if (frame.remote) return true;
   if (size < kHeader + length)
     throw InputError(path, 0, fmt::format("packet {}: {} data bytes where the length says {}", number,

@@ -95,6 +95,18 @@ TEST(Pcap, SkipsErrorMessagesAndFdFrames) {
   EXPECT_EQ(log.entries[0].frame.dlc, 12);  // the raw DLC of Linux 5.11 and later
 }
 
+// Captures of old kernels hold whatever was in memory behind the length.
+TEST(Pcap, RubbishBehindTheLengthIsIgnored) {
+  CaptureBuilder file{false, false};
+  file.packet(1, 0, packet({0, 0, 1, 0x23, 1, 46, 146, 4, 0x77}));
+  file.packet(1, 0, packet({0, 0, 1, 0x23, 8, 45, 146, 12, 1, 2, 3, 4, 5, 6, 7, 8}));
+  const CanLog log = read_pcap(file.write("rubbish.pcap"));
+  EXPECT_EQ(log.skipped, 0U);
+  ASSERT_EQ(log.entries.size(), 2U);
+  EXPECT_EQ(log.entries[0].frame, (Frame{0x123, false, false, 1, {0x77}}));
+  EXPECT_EQ(log.entries[1].frame.dlc, 8);
+}
+
 TEST(Pcap, BrokenFilesGiveOneLine) {
   CaptureBuilder ethernet{false, false, 1};
   EXPECT_THAT(error_of(ethernet.write("eth.pcap")), HasSubstr("link type 1 is not CAN; allowed: 227"));

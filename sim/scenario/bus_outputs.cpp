@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// BusOutputs.
+#include "scenario/bus_outputs.hpp"
+
+#include "trace/input_error.hpp"
+
+namespace vericansim {
+
+BusOutputs::BusOutputs(const Outputs &outputs, Bus &bus, Time bit_time) {
+  const auto add_wave = [&](std::unique_ptr<WaveSink> sink) {
+    waves_.push_back(std::make_unique<BusWave>(bus, std::move(sink), bit_time));
+    bus.add(*waves_.back());
+  };
+  if (!outputs.vcd.empty()) add_wave(open_vcd(outputs.vcd));
+  if (!outputs.fst.empty()) add_wave(open_fst(outputs.fst));
+  if (!outputs.candump.empty()) {
+    candump_file_.open(outputs.candump);
+    if (!candump_file_) throw InputError(outputs.candump, 0, "cannot be opened for writing");
+    candump_ = std::make_unique<CandumpWriter>(candump_file_);
+  }
+  if (!outputs.pcap.empty()) pcap_ = std::make_unique<PcapWriter>(outputs.pcap);
+}
+
+void BusOutputs::write(const BusFrame &frame) {
+  const LogEntry entry{frame.start, "can0", frame.frame};
+  if (candump_) candump_->write(entry);
+  if (pcap_) pcap_->write(entry);
+}
+
+void BusOutputs::finish(Time time) {
+  for (const auto &wave : waves_) wave->finish(time);
+}
+
+}  // namespace vericansim

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Stations: set-up and questions to all of them.
+#include "scenario/station.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "node/registers.hpp"
+
+namespace vericansim {
+namespace {
+
+/// Buffers that take any frame: base and extended ones in turn, since IDE is compared unless CTRL2.EACEN is set.
+std::vector<RxFilter> any_frame(unsigned buffers) {
+  std::vector<RxFilter> filters(buffers);
+  for (unsigned i = 1; i < buffers; i += 2) filters[i].extended = true;
+  return filters;
+}
+
+}  // namespace
+
+std::unique_ptr<Station> make_station(const std::string &name, const ClockConfig &clock, HostConfig config,
+                                      unsigned num_mb) {
+  if (config.filters.empty()) config.filters = any_frame(num_mb - config.tx_buffers);
+  auto station = std::make_unique<Station>();
+  station->timing = config.timing;
+  station->node = RtlNode::create(name, clock, num_mb);
+  station->host = std::make_unique<Host>(*station->node, config);
+  station->host->on_received = [target = station.get()](const HostFrame &frame) {
+    target->received.push_back(frame.frame);
+  };
+  return station;
+}
+
+void Stations::add(Bus &bus, std::unique_ptr<Station> station, const Link &link) {
+  bus.add(*station->node, link);
+  stations_.push_back(std::move(station));
+}
+
+void Stations::join(Bus &bus, Time bit_time) {
+  constexpr Time kLimit = 100 * kMillisecond;
+  constexpr Time kIntegration = 14;  // bits; 11 are needed (IN-01)
+  for (const auto &station : stations_) station->host->start();
+  const auto all_ready = [&] {
+    return std::all_of(stations_.begin(), stations_.end(), [](const auto &s) { return s->host->ready(); });
+  };
+  const bool ready = bus.run_until(all_ready, kLimit);
+  check();
+  if (!ready) throw std::runtime_error("the set-up of a node takes longer than 100 ms");
+  stores_remote_ = (stations_.front()->node->read32(reg::kCtrl2) & reg::kCtrl2Rrs) != 0;
+  bus.run_for(kIntegration * bit_time);
+}
+
+void Stations::check() {
+  for (const auto &station : stations_) station->host->check();
+}
+
+std::uint64_t Stations::pending() const {
+  std::uint64_t sum = 0;
+  for (const auto &station : stations_) sum += station->host->pending();
+  return sum;
+}
+
+std::uint64_t Stations::cycles() const {
+  std::uint64_t sum = 0;
+  for (const auto &station : stations_) sum += station->node->cycles();
+  return sum;
+}
+
+}  // namespace vericansim
