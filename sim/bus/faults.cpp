@@ -27,7 +27,6 @@ void PlaceTracker::clocked(std::uint64_t word) {
   } else {
     ++clocks_;
   }
-  if ((word & kTraceStart) != 0 && field_ != Field::kSof) ++frame_;
   ending_ = (word & kTraceBoundary) != 0;
 }
 
@@ -42,7 +41,9 @@ void PlaceTracker::enter(std::uint64_t word) {
   } else if (!stuff_) {
     ++index_;
   }
-  if (field == Field::kSof && field_ != Field::kSof) ++frame_;
+  // An own frame begins with SOF, a foreign or a joined one with ID28.
+  const bool foreign = field == Field::kId && field_ != Field::kId && field_ != Field::kSof;
+  if (foreign || (field == Field::kSof && field_ != Field::kSof)) ++frame_;
   field_ = field;
   left_ = left;
   stuff_ = stuff;

@@ -70,7 +70,13 @@ void CoreNode::reset() {
   drive(static_cast<Level>(top.can_tx_o));
 }
 
-void CoreNode::start() { impl_->top.run_i = 1; }
+// A frame that was under way at the stop begins anew: its ID word is due.
+void CoreNode::start() {
+  on_wire_ = false;
+  word_ = 0;
+  present();
+  impl_->top.run_i = 1;
+}
 void CoreNode::stop() { impl_->top.run_i = 0; }
 bool CoreNode::running() const { return impl_->top.running_o; }
 bool CoreNode::idle() const { return impl_->top.running_o && impl_->top.idle_o; }
