@@ -55,7 +55,11 @@ Host::Host(RtlNode &node, HostConfig config)
     throw std::invalid_argument("at most " + std::to_string(first_tx_) + " filters fit beside " +
                                 std::to_string(config_.tx_buffers) + " transmit buffers");
   }
-  if (config_.filters.empty()) config_.filters.resize(first_tx_);
+  if (config_.filters.empty()) {
+    // Without CTRL2.EACEN a buffer takes either base or extended frames, so there are both.
+    config_.filters.resize(first_tx_);
+    for (unsigned n = 1; n < first_tx_; n += 2) config_.filters[n].extended = true;
+  }
   tx_.resize(config_.tx_buffers);
 }
 
