@@ -4,10 +4,12 @@
 // Section 14, synchronisation, on the whole engine at the resolution of a time quantum.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "protocol/timing_pair.hpp"
 #include "protocol/timing_places.hpp"
 #include "protocol/timing_reference.hpp"
 
@@ -213,6 +215,27 @@ TEST(Synchronisation, EngineAgreesWithTheReferenceUnderNoise) {
   for (std::uint32_t seed = 1; seed <= 40; ++seed) {
     EXPECT_EQ(live_beside_reference({4, 4, 3, 2, 1 + seed % 2}, seed), "");
     EXPECT_EQ(live_beside_reference({3, 2, 8, 4, 1 + seed % 4}, seed), "");
+  }
+}
+
+/// Frames of the long run: 200, or VERICAN_FRAMES of the environment (the rule wants 100,000).
+unsigned long_run_frames() {
+  const char *text = std::getenv("VERICAN_FRAMES");
+  return text == nullptr ? 200 : static_cast<unsigned>(std::strtoul(text, nullptr, 10));
+}
+
+// SY-20, BT-08, BT-09: two free-running nodes at the largest tolerance that CAN knows (1.58 %),
+// longest distance between edges, error flags in between: no error but those asked for.
+TEST(Synchronisation, LongRunOfTwoNodesAtTheLimitOfTolerance) {
+  const BitTiming t{8, 1, 4, 4, 4};
+  const double limit_ppm = 1e6 * 4 / (2.0 * (13 * 10 - 4));
+  const unsigned frames = long_run_frames();
+  for (const double ppm : {limit_ppm, -limit_ppm}) {
+    const PairResult r = exchange({.timing = t, .error_ppm = ppm, .disturb_every = 17}, frames);
+    EXPECT_EQ(r.sent, frames);
+    EXPECT_EQ(r.received, frames);
+    EXPECT_GT(r.disturbed, 0u);
+    EXPECT_EQ(r.failed, r.disturbed);
   }
 }
 

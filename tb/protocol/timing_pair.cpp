@@ -26,14 +26,13 @@ class StuffBitFault : public Fault {
   void clocked(NodeId node, Time, std::uint64_t word) override {
     if (node != victim_) return;
     tracker_.clocked(word);
-    const bool place = tracker_.field() == Field::kData && tracker_.stuff() &&
-                       tracker_.frame() % every_ == 0 && !decode_trace(word).transmitter;
-    if (place && !active_ && tracker_.frame() != done_) {
-      ++hits_;
-      done_ = tracker_.frame();
-      active_ = true;
-    }
-    active_ = active_ && place;
+    if (!tracker_.fresh()) return;
+    const Trace trace = decode_trace(word);
+    active_ = armed_ && tracker_.field() == Field::kData && trace.stuff;
+    hits_ += active_;
+    armed_ = armed_ && !active_;
+    const bool begins = tracker_.field() == Field::kRtr && !trace.stuff && !trace.transmitter;
+    if (begins) armed_ = ++frames_ % every_ == 0;
   }
   [[nodiscard]] unsigned hits() const { return hits_; }
 
@@ -41,8 +40,9 @@ class StuffBitFault : public Fault {
   NodeId victim_;
   unsigned every_;
   PlaceTracker tracker_;
-  bool active_ = false;
-  unsigned done_ = 0;
+  bool active_ = false;  // in this bit
+  bool armed_ = false;   // in the next stuff bit
+  unsigned frames_ = 0;
   unsigned hits_ = 0;
 };
 
