@@ -21,5 +21,19 @@ for program in "${programs[@]}"; do
   "$program" --benchmark_repetitions=3 --benchmark_report_aggregates_only=true \
     --benchmark_out="$results/$name.json" --benchmark_out_format=json
 done
+# Real recordings, whole; they are not part of the project and may be absent.
+replay() {  # NAME BITRATE FILE
+  [ -f "$3" ] || return 0
+  echo "Replaying: $1"
+  "$build/verican" replay "$3" --nodes 2 --bitrate "$2" --fast --json >"$results/replay_$1.json"
+}
+traffic=../shared/data/traffic
+rm -f "$results"/replay_*.json
+replay candumpSample3 250k "$traffic/canboat_candumpSample3.txt"
+replay sample3_PCAN-View 250k "$traffic/canboat_sample3_PCAN-View.trc"
+replay nmea2000_can0-1 250k "$traffic/canboat_nmea2000_can0-1.pcap"
+replay savvycan_GVRET 500k "$traffic/savvycan_GVRET_Log.csv"
+
+[ -f "$build/ctest.log" ] && cp "$build/ctest.log" "$results/"
 /usr/bin/python3 tools/bench_page.py "$results" docs/performance.md
 echo "Written: docs/performance.md"

@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""bench_page.py RESULTS PAGE: docs/performance.md from the JSON files of `make bench`.
+
+RESULTS holds *_bench.json (Google Benchmark), replay_*.json (verican replay --json) and, if the
+tests have run, ctest.log.
+"""
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+# Other cores, Verilated by the authors of this project, two nodes on a saturated bus.
+OTHERS = (("noasic", 10.8), ("OpenCores CAN", 1.95), ("CTU CAN FD", 0.72))
+
+
+def benchmarks(results):
+    """Name without suffix -> median entry, of all benchmark files; and the machine."""
+    medians, context = {}, {}
+    for path in sorted(results.glob("*_bench.json")):
+        data = json.loads(path.read_text())
+        context = data["context"]
+        for entry in data["benchmarks"]:
+            if entry.get("aggregate_name") == "median":
+                medians[entry["run_name"]] = entry
+    return medians, context
+
+
+def arguments(name):
+    """ "saturated_bus/nodes:2/MHz:8/drift:1" -> {"nodes": 2, "MHz": 8, "drift": 1} """
+    return {key: int(value) for key, value in re.findall(r"(\w+):(\d+)", name)}
+
+
+def mega(entry):
+    return f"{entry['node_cycles/s'] / 1e6:.2f}"
+
+
+def saturated(medians):
+    """The table of saturated buses, ideal and drifting clocks side by side."""
+    text = ["| nodes | clock | node-cycles/s, one clock | simulated/wall | node-cycles/s, own clocks |"
+            " simulated/wall |", "|---|---|---|---|---|---|"]
+    for name, entry in medians.items():
+        args = arguments(name)
+        if not name.startswith("saturated_bus") or args["drift"]:
+            continue
+        own = medians[name.replace("drift:0", "drift:1")]
+        text.append(f"| {args['nodes']} | {args['MHz']} MHz | {mega(entry)} M | "
+                    f"{entry['real_time']:.3f} | {mega(own)} M | {own['real_time']:.3f} |")
+    return text
+
+
+def parts(medians):
+    """The floor: kernel, engine and core without traffic."""
+    text = ["| what | node-cycles/s |", "|---|---|"]
+    for name, entry in medians.items():
+        if not name.startswith("saturated_bus") and "node_cycles/s" in entry:
+            what, _, detail = name.partition("/")
+            detail = detail.replace("/", ", ").replace(":", " ")
+            text.append(f"| {what.replace('_', ' ')}{', ' + detail if detail else ''} | "
+                        f"{mega(entry)} M |")
+    return text
+
+
+def replays(results):
+    """Recordings replayed whole; empty if none was there."""
+    rows = []
+    for path in sorted(results.glob("replay_*.json")):
+        data = json.loads(path.read_text())
+        rows.append(f"| {path.stem.removeprefix('replay_')} | {data['frames']} | "
+                    f"{len(data['nodes'])} | {data['duration_ps'] / 1e12:.1f} s | "
+                    f"{data['wall_seconds']:.1f} s |")
+    if not rows:
+        return []
+    return ["", "## Recordings, replayed whole", "",
+            "As fast as the bus allows; every node received every frame, bit by bit.", "",
+            "| recording | frames | nodes | simulated | wall |", "|---|---|---|---|---|", *rows]
+
+
+def suite(results):
+    log = results / "ctest.log"
+    if not log.exists():
+        return []
+    text = log.read_text()
+    tests = re.search(r"tests passed, .* out of (\d+)", text)
+    wall = re.search(r"Total Test time \(real\) = +([\d.]+) sec", text)
+    if not tests or not wall:
+        return []
+    return ["", "## The test suite", "",
+            f"{tests.group(1)} tests in {float(wall.group(1)):.0f} s of wall time."]
+
+
+def machine(context):
+    model = "unknown processor"
+    for line in Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            model = line.partition(":")[2].strip()
+            break
+    verilator = subprocess.run(["verilator", "--version"], capture_output=True, text=True, check=True)
+    return f"{model}, {context['num_cpus']} CPUs; {verilator.stdout.split(' rev')[0].strip()}"
+
+
+def page(results):
+    medians, context = benchmarks(results)
+    two = next((entry for name, entry in medians.items()
+                if arguments(name) == {"nodes": 2, "MHz": 8, "drift": 0}), None)
+    text = ["# Speed of the simulator", "",
+            "Written by `make bench`; medians of three runs on one CPU core.",
+            f"Machine: {machine(context)}.", "",
+            "## Saturated bus, 1 Mbit/s, whole cores", "", *saturated(medians), "",
+            "A node-cycle is one clock of one Verilated `can_ahb`; simulated/wall of 1 is real time.",
+            "", "Other cores Verilated on a saturated bus, two nodes:", "",
+            "| core | node-cycles/s |", "|---|---|"]
+    if two:
+        text.append(f"| **VeriCAN** | {mega(two)} M |")
+    text += [f"| {name} | {value} M |" for name, value in OTHERS]
+    text += ["", "## Where the time goes", "", *parts(medians), "",
+             "*Kernel* is the bus with nodes that do nothing, *engine* `can_core` and *core* `can_ahb`",
+             "on an idle bus without observers."]
+    return "\n".join(text + replays(results) + suite(results)) + "\n"
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    Path(sys.argv[2]).write_text(page(Path(sys.argv[1])))

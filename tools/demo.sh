@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# demo.sh BUILD OUT: the examples, the paper's experiments and a real recording through the tool;
+# waveforms and logs go to OUT.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=$1
+out=$2
+verican=$build/verican
+recording=../shared/data/traffic/canboat_candumpSample3.txt
+mkdir -p "$out"
+failed=()
+
+headline() { printf '\n== %s\n' "$1"; }
+run() {  # WHAT COMMAND...: goes on after a failure, and says so at the end
+  local what=$1
+  shift
+  "$@" || failed+=("$what")
+}
+
+for scenario in examples/*.yaml; do
+  name=$(basename "$scenario" .yaml)
+  headline "$scenario"
+  run "$scenario" "$verican" run "$scenario" --fst "$out/$name.fst" --candump "$out/$name.log"
+done
+
+headline "The paper's experiments (Son, Park, Kang 2016): what the core does, what they report"
+run "the paper's experiments" "$verican" paper --out "$out/paper"
+
+if [ -f "$recording" ]; then
+  headline "Replay of a real recording: a boat's NMEA 2000 network on four nodes"
+  run "replay" "$verican" replay "$recording" --nodes 4 --bitrate 250k --fast \
+    --candump "$out/replay.log"
+fi
+
+headline "What is left to look at"
+echo "waveforms: $(find "$out" -name '*.fst' -o -name '*.vcd' | wc -l) in $out and $out/paper, for example"
+echo "  gtkwave $(find "$out" -name '*.fst' -o -name '*.vcd' | sort | head -n 1)"
+echo "logs (candump format): $(find "$out" -name '*.log' | sort | tr '\n' ' ')"
+if [ "${#failed[@]}" -ne 0 ]; then
+  printf 'demo: failed: %s\n' "${failed[@]}" >&2
+  exit 1
+fi
+echo "demo: everything went as expected"
