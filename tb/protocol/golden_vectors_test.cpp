@@ -88,7 +88,7 @@ TEST_P(GoldenVector, IsReceivedAndAcknowledged) {
     const std::string bits = head() + frame_end();
     EXPECT_EQ(scene.play(bits + r_bits(3)), receiver_tx(bits) + r_bits(3));
     ASSERT_EQ(scene.dut().received().size(), 1u);
-    EXPECT_EQ(scene.dut().received().back(), GetParam().frame);
+    EXPECT_EQ(scene.last_received(), GetParam().frame);
   }
 }
 

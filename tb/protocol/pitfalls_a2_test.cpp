@@ -193,14 +193,14 @@ TEST(Pitfall, BitErrorInTheActiveFlagCounts) {
     Scene sender;
     sender.send(kEight);
     sender.play(r_bits(14));
-    sender.bench().force_next(0, Effect::kFlip);
+    sender.bench.force_next(0, Effect::kFlip);
     sender.play("1" + r_bits(bit));
-    sender.bench().force_next(0, Effect::kRecessive);
+    sender.bench.force_next(0, Effect::kRecessive);
     EXPECT_EQ(sender.play("1" + r_bits(6 + 2)), "0" + d_bits(6) + "11") << bit;
     sender.expect_counters(16, 0);
     Scene receiver;
     receiver.play(d_bits(6) + r_bits(bit));
-    receiver.bench().force_next(0, Effect::kRecessive);
+    receiver.bench.force_next(0, Effect::kRecessive);
     EXPECT_EQ(receiver.play("1" + r_bits(6 + 2)), "0" + d_bits(6) + "11") << bit;
     receiver.expect_counters(0, 9);
   }
@@ -231,7 +231,7 @@ TEST(Pitfall, TransmitterMindsADominantEof7) {
     scene.send(kEight);
     const std::string lt = acknowledge(kEight);
     EXPECT_EQ(scene.play(flipped(lt, lt.size() - 1)), wire(kEight));
-    EXPECT_EQ(scene.play(r_bits(6)), flag(counters));
+    EXPECT_EQ(scene.play(r_bits(6)), flag_of(counters));
     scene.play(r_bits(8));
     scene.expect_counters(counters.tec + 8u, counters.rec);
     EXPECT_EQ(scene.events().sent, 0u);

@@ -151,7 +151,7 @@ TEST(Pitfall, ErrorsAfterAnArbitrationStuffErrorCount) {
   EXPECT_EQ(scene.play("0"), "1");  // the stuff bit
   EXPECT_EQ(scene.play("11"), "00");
   scene.expect_counters(0, 0);
-  scene.bench().force_next(0, Effect::kRecessive);
+  scene.bench.force_next(0, Effect::kRecessive);
   scene.play("1");
   EXPECT_EQ(scene.play(r_bits(6)), d_bits(6));
   scene.expect_counters(8, 0);
@@ -168,12 +168,12 @@ TEST(Pitfall, PassiveStateIsEnteredAcrossAnOverloadFrame) {
   Scene scene{{124, 0}};
   scene.send(kHigh);
   scene.play(r_bits(13));
-  scene.bench().force_next(0, Effect::kFlip);
+  scene.bench.force_next(0, Effect::kFlip);
   EXPECT_EQ(scene.play("1" + r_bits(6) + r_bits(7) + "0").substr(1), d_bits(6) + r_bits(8));
   scene.expect_counters(132, 0);
   EXPECT_EQ(scene.play(r_bits(6 + 8 + 3 + 8)), d_bits(6) + r_bits(8 + 3 + 8));
   scene.play(r_bits(13));
-  scene.bench().force_next(0, Effect::kFlip);
+  scene.bench.force_next(0, Effect::kFlip);
   EXPECT_EQ(scene.play("1" + r_bits(6)).substr(1), r_bits(6));
   scene.expect_counters(140, 0);
 }
@@ -182,7 +182,7 @@ TEST(Pitfall, PassiveStateIsEnteredAcrossAnOverloadFrame) {
 void enter_bus_off(Scene &scene, const Frame &frame, std::size_t at) {
   scene.send(frame);
   scene.play(r_bits(at));
-  scene.bench().force_next(0, Effect::kFlip);
+  scene.bench.force_next(0, Effect::kFlip);
   scene.play("1");
   scene.play("1");
   EXPECT_TRUE(scene.dut().bus_off());
@@ -221,7 +221,7 @@ TEST(Pitfall, FirstFrameAfterRecoveryIsBitExact) {
     Scene scene{{248, 0}};
     enter_bus_off(scene, frame, at);
     scene.play("0");
-    scene.bench().run_until([&] { return !scene.dut().bus_off(); }, 1500);
+    scene.bench.run_until([&] { return !scene.dut().bus_off(); }, 1500);
     scene.run_to(Field::kSof);
     EXPECT_EQ(scene.play(acknowledge(frame)), wire(frame)) << at;
     scene.play("1");

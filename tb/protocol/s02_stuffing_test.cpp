@@ -43,7 +43,7 @@ TEST_P(Stuffing, ReceiverTakesTheStuffBitsOut) {
     const std::string bits = stuffed(plain_bits(GetParam())) + frame_end();
     EXPECT_EQ(scene.play(bits + r_bits(3)), receiver_tx(bits) + r_bits(3));
     ASSERT_EQ(scene.dut().received().size(), 1u);
-    EXPECT_EQ(scene.dut().received().back(), GetParam());
+    EXPECT_EQ(scene.last_received(), GetParam());
   }
 }
 
@@ -55,7 +55,7 @@ TEST_P(Stuffing, ReceiverFlagsTheBitAfterASixthEqualOne) {
     for (const Counters &counters : kStates) {
       Scene scene{counters};
       const std::string lt = flipped(bits.substr(0, at + 1), at) + r_bits(6);
-      EXPECT_EQ(scene.play(lt), r_bits(at + 1) + flag(counters)) << at;
+      EXPECT_EQ(scene.play(lt), r_bits(at + 1) + flag_of(counters)) << at;
       scene.expect_counters(counters.tec, counters.rec + 1u);
       EXPECT_EQ(scene.events().errors, kErrStuff);
       scene.play(r_bits(8 + 3));
@@ -73,9 +73,9 @@ TEST_P(Stuffing, SenderFlagsTheBitAfterABrokenStuffBit) {
       Scene scene{counters};
       scene.send(GetParam());
       scene.play(r_bits(at));
-      scene.bench().force_next(0, Effect::kFlip);
+      scene.bench.force_next(0, Effect::kFlip);
       EXPECT_EQ(scene.play("1"), bits.substr(at, 1));
-      EXPECT_EQ(scene.play(r_bits(6)), flag(counters)) << at;
+      EXPECT_EQ(scene.play(r_bits(6)), flag_of(counters)) << at;
       EXPECT_EQ(scene.events().failed, 1u);
       EXPECT_EQ(scene.events().delivered, 0u);
     }
@@ -153,7 +153,7 @@ TEST(StuffingRun, LastStuffBitIsCheckedByTheReceiver) {
       EXPECT_EQ(good.dut().received().size(), 1u);
       Scene bad{counters};
       const std::string broken = flipped(head, head.size() - 1);
-      EXPECT_EQ(bad.play(broken + r_bits(6)), r_bits(head.size()) + flag(counters));
+      EXPECT_EQ(bad.play(broken + r_bits(6)), r_bits(head.size()) + flag_of(counters));
       EXPECT_EQ(bad.events().errors, kErrStuff);
       bad.play(r_bits(20));
       EXPECT_TRUE(bad.dut().received().empty());
@@ -167,7 +167,7 @@ TEST(StuffingRun, NothingAfterTheCrcIsStuffed) {
   for (const Counters &counters : kStates) {
     Scene scene{counters};
     scene.play(d_bits(6));  // a frame broken by a stuff error
-    EXPECT_EQ(scene.play(r_bits(6 + 8 + 3)), flag(counters) + r_bits(11));
+    EXPECT_EQ(scene.play(r_bits(6 + 8 + 3)), flag_of(counters) + r_bits(11));
     scene.expect_reception(base_frame(0x017));
   }
 }
@@ -212,7 +212,7 @@ TEST(StuffingRun, GoesOnAcrossLostArbitration) {
         EXPECT_EQ(tx,
                   wire(loser).substr(0, lost + 1) + receiver_tx(bits).substr(lost + 1) + r_bits(3));
         ASSERT_EQ(scene.dut().received().size(), 1u);
-        EXPECT_EQ(scene.dut().received().back(), winner);
+        EXPECT_EQ(scene.last_received(), winner);
         scene.expect_counters(0, 0);
       }
     }
@@ -270,7 +270,7 @@ TEST(StuffingRun, StuffBitBetweenDlcAndDataIsTakenOut) {
     EXPECT_NE(bits.find("111110" + binary(0x92, 8)), std::string::npos);
     EXPECT_EQ(scene.play(bits), receiver_tx(bits));
     ASSERT_EQ(scene.dut().received().size(), 1u);
-    EXPECT_EQ(scene.dut().received().back(), frame);
+    EXPECT_EQ(scene.last_received(), frame);
   }
 }
 

@@ -99,7 +99,7 @@ TEST_P(WrongCrc, IsNotAcknowledgedAndFlaggedAtEof1) {
       const std::string bits =
           wire_with_bad_crc(frame, static_cast<std::uint16_t>(1u << GetParam()));
       EXPECT_EQ(scene.play(bits.substr(0, bits.size() - 7)), r_bits(bits.size() - 7));
-      EXPECT_EQ(scene.play(r_bits(6)), flag(counters));
+      EXPECT_EQ(scene.play(r_bits(6)), flag_of(counters));
       scene.play(r_bits(8 + 3));
       scene.expect_counters(counters.tec, counters.rec + 1u);
       EXPECT_EQ(scene.events().errors, kErrCrc);
@@ -154,7 +154,7 @@ TEST(Crc, OwnFrameIsSentAfreshAfterAnErrorAtAnyBit) {
     Scene scene;
     scene.send(frame);
     scene.play(r_bits(at));
-    scene.bench().force_next(0, Effect::kFlip);
+    scene.bench.force_next(0, Effect::kFlip);
     EXPECT_EQ(scene.play(r_bits(1 + 6 + 8 + 3)), bits.substr(at, 1) + d_bits(6) + r_bits(11)) << at;
     EXPECT_EQ(scene.play(flipped(r_bits(bits.size()), ack_offset(frame))), bits) << at;
     scene.expect_counters(7, 0);
@@ -180,7 +180,7 @@ TEST(Crc, StartsAfreshAfterAGlitchInIdle) {
   for (unsigned clocks = 1; clocks < 5; ++clocks) {
     for (const Frame &frame : {base_frame(0x000, {0x00}), extended_frame(0x1FFFFFFF)}) {
       Scene scene;
-      for (unsigned i = 0; i < clocks; ++i) scene.bench().clock(Level::kDominant);
+      for (unsigned i = 0; i < clocks; ++i) scene.bench.clock(Level::kDominant);
       scene.play("1");
       EXPECT_EQ(scene.field(), Field::kIdle);
       scene.expect_reception(frame);

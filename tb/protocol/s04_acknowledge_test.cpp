@@ -16,9 +16,8 @@ class Acknowledge : public ::testing::TestWithParam<Counters> {
   [[nodiscard]] static const Counters &counters() { return GetParam(); }
 };
 
-INSTANTIATE_TEST_SUITE_P(States, Acknowledge, ::testing::ValuesIn(kStates), [](const auto &state) {
-  return !is_passive(state.param) ? "Active" : state.param.tec != 0 ? "PassiveTec" : "PassiveRec";
-});
+INSTANTIATE_TEST_SUITE_P(States, Acknowledge, ::testing::ValuesIn(kStates),
+                         [](const auto &state) { return state_name(state.param); });
 
 // AK-01: a receiver sends exactly one dominant bit, in the ACK slot, in every error state; PF-52.
 // AK-05: and nothing dominant after it.
@@ -41,9 +40,9 @@ TEST_P(Acknowledge, IsNotSentAfterAnError) {
   Scene scene{counters()};
   const std::size_t at = stuff_offsets(frame).front();
   EXPECT_EQ(scene.play(flipped(bits, at).substr(0, at + 1)), r_bits(at + 1));
-  EXPECT_EQ(scene.play(bits.substr(at + 1, 6)), flag(counters()));
+  EXPECT_EQ(scene.play(bits.substr(at + 1, 6)), flag_of(counters()));
   const std::size_t rest = bits.size() - at - 7;
-  const std::string lt = is_passive(counters()) ? bits.substr(at + 7) : r_bits(rest);
+  const std::string lt = counters().passive() ? bits.substr(at + 7) : r_bits(rest);
   EXPECT_EQ(scene.play(lt), r_bits(rest));
   EXPECT_TRUE(scene.dut().received().empty());
 }
@@ -55,7 +54,7 @@ TEST_P(Acknowledge, ForeignOneIsNoErrorForWhoFoundAWrongCrc) {
     Scene scene{counters()};
     std::string bits = wire_with_bad_crc(frame, 0x0100);
     bits[bits.size() - 9] = '0';
-    EXPECT_EQ(scene.play(bits), r_bits(bits.size() - 7) + flag(counters()) + "1");
+    EXPECT_EQ(scene.play(bits), r_bits(bits.size() - 7) + flag_of(counters()) + "1");
     EXPECT_EQ(scene.events().errors, kErrCrc);
     scene.expect_counters(counters().tec, counters().rec + 1u);
   }
@@ -70,11 +69,11 @@ TEST_P(Acknowledge, MissingOneIsFlaggedFromTheAckDelimiterOn) {
     const std::string bits = wire(frame);
     const std::size_t slot = ack_offset(frame);
     EXPECT_EQ(scene.play(r_bits(slot + 1)), bits.substr(0, slot) + "1");
-    EXPECT_EQ(scene.play(r_bits(6)), flag(counters()));
+    EXPECT_EQ(scene.play(r_bits(6)), flag_of(counters()));
     scene.play("11");
     EXPECT_EQ(scene.events().errors, kErrAck);
     EXPECT_EQ(scene.events().failed, 1u);
-    scene.expect_counters(is_passive(counters()) ? counters().tec : 8, counters().rec);
+    scene.expect_counters(counters().passive() ? counters().tec : 8, counters().rec);
   }
 }
 
@@ -106,7 +105,7 @@ TEST_P(Acknowledge, IsSentByTheLoserOfArbitration) {
     const std::string tx = scene.play(bits);
     EXPECT_EQ(tx.substr(ack_offset(winner) - 1), "10" + r_bits(8));
     ASSERT_EQ(scene.dut().received().size(), 1u);
-    EXPECT_EQ(scene.dut().received().back(), winner);
+    EXPECT_EQ(scene.last_received(), winner);
   }
 }
 

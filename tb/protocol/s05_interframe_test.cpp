@@ -44,7 +44,7 @@ void play_before(Scene &scene, Before before) {
       scene.send(kFirst);
       scene.cancel();
       scene.play(r_bits(14));
-      scene.bench().force_next(0, Effect::kFlip);
+      scene.bench.force_next(0, Effect::kFlip);
       scene.play("1" + r_bits(6 + 8));
       break;
     case Before::kOwnOverload:
@@ -70,7 +70,7 @@ class Interframe : public ::testing::TestWithParam<std::tuple<int, int>> {
   [[nodiscard]] static const Counters &counters() { return kStates[std::get<1>(GetParam())]; }
   // IF-08, IF-09: due for a passive node that was transmitter.
   [[nodiscard]] static bool suspended() {
-    return was_transmitter(before()) && is_passive(counters());
+    return was_transmitter(before()) && counters().passive();
   }
   // The engine sends `frame`, of which `first` bits have passed already; LT acknowledges.
   void expect_rest(const Frame &frame, std::size_t first) {
@@ -78,13 +78,13 @@ class Interframe : public ::testing::TestWithParam<std::tuple<int, int>> {
     const std::string lt = flipped(r_bits(bits.size()), ack_offset(frame));
     EXPECT_EQ(scene_.play(lt.substr(first)), bits.substr(first));
     ASSERT_FALSE(scene_.dut().sent().empty());
-    EXPECT_EQ(scene_.dut().sent().back(), frame);
+    EXPECT_EQ(scene_.last_sent(), frame);
   }
   void expect_foreign_frame(std::size_t first) {
     const std::string bits = wire(kForeign);
     EXPECT_EQ(scene_.play(bits.substr(first)), receiver_tx(bits).substr(first));
     ASSERT_FALSE(scene_.dut().received().empty());
-    EXPECT_EQ(scene_.dut().received().back(), kForeign);
+    EXPECT_EQ(scene_.last_received(), kForeign);
   }
 
   Scene scene_;
@@ -167,7 +167,7 @@ TEST_P(Interframe, JoinedFrameLosesToAHigherPriority) {
   EXPECT_EQ(scene_.play("110"), "111");
   const std::string bits = wire(kPending);
   EXPECT_EQ(scene_.play(bits.substr(1)), receiver_tx(bits).substr(1));
-  EXPECT_EQ(scene_.dut().received().back(), kPending);
+  EXPECT_EQ(scene_.last_received(), kPending);
 }
 
 // IF-08: the first bit after suspend is idle: a foreign SOF there may be joined or received, the
@@ -203,7 +203,7 @@ TEST(Suspend, IsDueAfterTheErrorThatMadeTheNodePassive) {
     Scene scene{{tec, 0}};
     scene.send(kFirst);
     scene.play(r_bits(14));
-    scene.bench().force_next(0, Effect::kFlip);
+    scene.bench.force_next(0, Effect::kFlip);
     EXPECT_EQ(scene.play("1" + r_bits(6)), wire(kFirst).substr(14, 1) + d_bits(6));
     scene.play(r_bits(8));
     const unsigned wait = tec == 120 ? 3 + 8 : 3;
@@ -280,7 +280,7 @@ TEST(Idle, ForeignSofWithAFramePendingIsNotDisturbed) {
     const std::string tx = scene.play(bits);
     EXPECT_EQ(tx.front(), '1') << "no SOF of its own";
     EXPECT_EQ(tx.substr(2), receiver_tx(bits).substr(2));
-    EXPECT_EQ(scene.dut().received().back(), kFirst);
+    EXPECT_EQ(scene.last_received(), kFirst);
     EXPECT_EQ(scene.play("1111"), "1110");
     scene.expect_counters(counters.tec, counters.rec >= 128 ? scene.rec() : 0);
   }
@@ -290,7 +290,7 @@ TEST(Idle, ForeignSofWithAFramePendingIsNotDisturbed) {
 TEST(Idle, ShortPulseIsIgnored) {
   for (unsigned clocks = 1; clocks <= 5; ++clocks) {
     Scene scene;
-    for (unsigned i = 0; i < clocks; ++i) scene.bench().clock(Level::kDominant);
+    for (unsigned i = 0; i < clocks; ++i) scene.bench.clock(Level::kDominant);
     EXPECT_EQ(scene.play(r_bits(20)), r_bits(20)) << clocks;
     EXPECT_EQ(scene.field(), Field::kIdle);
     EXPECT_EQ(scene.events().started, 0u);
@@ -304,7 +304,7 @@ TEST(Idle, OneDominantBitIsSofAndEndsInAStuffError) {
   for (const Counters &counters : kStates) {
     Scene scene{counters};
     EXPECT_EQ(scene.play("0" + r_bits(6)), r_bits(7));
-    EXPECT_EQ(scene.play(r_bits(6)), flag(counters));
+    EXPECT_EQ(scene.play(r_bits(6)), flag_of(counters));
     scene.expect_counters(counters.tec, counters.rec + 1u);
     EXPECT_EQ(scene.events().errors, kErrStuff);
   }
@@ -343,7 +343,7 @@ TEST(Integration, PinIsRecessiveWheneverTheNodeTakesNoPart) {
   Scene off{{248, 0}};
   off.request(kPending);
   off.run_to(Field::kSof);
-  off.bench().force_next(0, Effect::kFlip);  // TEC 256 at SOF
+  off.bench.force_next(0, Effect::kFlip);  // TEC 256 at SOF
   off.play("1");
   for (unsigned i = 0; i < 20; ++i) {
     EXPECT_EQ(off.play(wire(kFirst) + "111"), r_bits(wire(kFirst).size() + 3));

@@ -86,7 +86,7 @@ TEST_P(Loss, LeavesAReceiverOfTheWinner) {
       EXPECT_EQ(scene.events().failed, 1u);
       EXPECT_EQ(scene.tec(), counters.tec);
       ASSERT_EQ(scene.dut().received().size(), 1u);
-      EXPECT_EQ(scene.dut().received().back(), winner);
+      EXPECT_EQ(scene.last_received(), winner);
       const std::string again = "111" + wire(loser);
       EXPECT_EQ(scene.play(flipped(r_bits(again.size()), 3 + ack_offset(loser))), again);
       EXPECT_EQ(scene.dut().sent().size(), 1u);
@@ -104,7 +104,7 @@ TEST_P(Loss, IsReceptionEvenIfNobodyGoesOn) {
     scene.send(loser);
     scene.play(wire(winner).substr(0, lost + 1));
     EXPECT_EQ(scene.play(r_bits(6)), r_bits(6));
-    EXPECT_EQ(scene.play(r_bits(6)), flag(counters));
+    EXPECT_EQ(scene.play(r_bits(6)), flag_of(counters));
     scene.expect_counters(counters.tec, counters.rec + 1u);
     EXPECT_EQ(scene.play(r_bits(8 + 3 + 1)), r_bits(11) + "0");
   }
@@ -123,13 +123,13 @@ TEST(Arbitration, DominantBitSeenRecessiveIsABitError) {
         Scene scene{counters};
         scene.send(frame);
         scene.play(r_bits(at));
-        scene.bench().force_next(0, Effect::kRecessive);
-        EXPECT_EQ(scene.play(r_bits(1 + 6)), "0" + flag(counters)) << at;
+        scene.bench.force_next(0, Effect::kRecessive);
+        EXPECT_EQ(scene.play(r_bits(1 + 6)), "0" + flag_of(counters)) << at;
         scene.expect_counters(counters.tec + 8u, counters.rec);
         EXPECT_EQ(scene.events().errors, kErrBit0);
         EXPECT_EQ(scene.play(r_bits(8 + 3)), r_bits(11));
         EXPECT_EQ(scene.play(r_bits(9)),
-                  is_passive(counters) ? r_bits(8) + "0" : wire(frame).substr(0, 9));
+                  counters.passive() ? r_bits(8) + "0" : wire(frame).substr(0, 9));
       }
     }
   }
@@ -165,10 +165,10 @@ TEST(Arbitration, RecessiveStuffBitSeenDominantIsAStuffError) {
         Scene scene{counters};
         scene.send(frame);
         scene.play(r_bits(at));
-        EXPECT_EQ(scene.play("0" + r_bits(6)), "1" + flag(counters)) << at;
+        EXPECT_EQ(scene.play("0" + r_bits(6)), "1" + flag_of(counters)) << at;
         scene.expect_counters(counters.tec, counters.rec);
         EXPECT_EQ(scene.events().errors, kErrStuff);
-        const unsigned wait = is_passive(counters) ? 8 + 3 + 8 : 8 + 3;
+        const unsigned wait = counters.passive() ? 8 + 3 + 8 : 8 + 3;
         EXPECT_EQ(scene.play(r_bits(wait + 1)), r_bits(wait) + "0");
         EXPECT_EQ(scene.events().delivered, 0u);
       }
@@ -186,8 +186,8 @@ TEST(Arbitration, DominantStuffBitSeenRecessiveIsABitError) {
         Scene scene{counters};
         scene.send(frame);
         scene.play(r_bits(at));
-        scene.bench().force_next(0, Effect::kRecessive);
-        EXPECT_EQ(scene.play(r_bits(1 + 6)), "0" + flag(counters)) << at;
+        scene.bench.force_next(0, Effect::kRecessive);
+        EXPECT_EQ(scene.play(r_bits(1 + 6)), "0" + flag_of(counters)) << at;
         scene.expect_counters(counters.tec + 8u, counters.rec);
       }
     }
@@ -233,7 +233,7 @@ TEST(Arbitration, LossAtSrrLeavesTheFormatOpen) {
     const std::string bits = wire(winner, {.srr = Level::kDominant});
     scene.play(bits);
     ASSERT_EQ(scene.dut().received().size(), 1u);
-    EXPECT_EQ(scene.dut().received().back(), winner);
+    EXPECT_EQ(scene.last_received(), winner);
     EXPECT_EQ(scene.events().errors, 0);
   }
 }
@@ -331,7 +331,7 @@ TEST(Arbitration, JoinedStartArbitratesFromTheFirstIdentifierBit) {
       const std::string bits = wire(winner);
       EXPECT_EQ(scene.play("11" + bits),
                 "111" + wire(loser).substr(1, lost) + receiver_tx(bits).substr(lost + 1));
-      EXPECT_EQ(scene.dut().received().back(), winner);
+      EXPECT_EQ(scene.last_received(), winner);
       EXPECT_EQ(scene.events().errors, 0);
     }
   }

@@ -15,7 +15,7 @@ const Frame kFrame = base_frame(0x2C5, {0x69, 0xC3});
 void break_own_frame(Scene &scene) {
   scene.send(kFrame);
   scene.play(r_bits(offset_of(kFrame, Field::kR0, 0)));
-  scene.bench().force_next(0, Effect::kRecessive);
+  scene.bench.force_next(0, Effect::kRecessive);
   EXPECT_EQ(scene.play("1"), "0");
 }
 
@@ -27,9 +27,8 @@ class Roles : public ::testing::TestWithParam<Counters> {
   [[nodiscard]] static const Counters &counters() { return GetParam(); }
 };
 
-INSTANTIATE_TEST_SUITE_P(States, Roles, ::testing::ValuesIn(kStates), [](const auto &state) {
-  return !is_passive(state.param) ? "Active" : state.param.tec != 0 ? "PassiveTec" : "PassiveRec";
-});
+INSTANTIATE_TEST_SUITE_P(States, Roles, ::testing::ValuesIn(kStates),
+                         [](const auto &state) { return state_name(state.param); });
 
 // RO-01, FC-16: the transmitter stays that through flag, delimiter and the error frames that follow
 // its frame: errors in its delimiters are TEC + 8, not REC + 1.
@@ -87,10 +86,10 @@ TEST_P(Roles, RetryStartsAtTheDistanceOfTheRule) {
   for (unsigned more = 0; more <= 6; ++more) {
     Scene scene{counters()};
     break_own_frame(scene);
-    const bool passive = is_passive(counters());
+    const bool passive = counters().passive();
     const unsigned wait = passive ? 25 : 17;
     const std::string lt = r_bits(6) + d_bits(more) + r_bits(wait - 6);
-    EXPECT_EQ(scene.play(lt), flag(counters()) + r_bits(wait + more - 6)) << more;
+    EXPECT_EQ(scene.play(lt), flag_of(counters()) + r_bits(wait + more - 6)) << more;
     EXPECT_EQ(wait + 6, passive ? 31u : 23u);
     const std::string bits = wire(kFrame);
     EXPECT_EQ(scene.play(flipped(r_bits(bits.size()), ack_offset(kFrame))), bits);
@@ -109,9 +108,9 @@ TEST_P(Roles, FrameIsRetriedAfterAnErrorAtEveryBit) {
     scene.send(kFrame);
     const std::string lt = flipped(r_bits(bits.size()), ack_offset(kFrame));
     scene.play(lt.substr(0, at));
-    scene.bench().force_next(0, Effect::kFlip);
-    EXPECT_EQ(scene.play("1" + r_bits(6)), bits[at] + flag(counters())) << at;
-    const unsigned wait = is_passive(counters()) ? 8 + 3 + 8 : 8 + 3;
+    scene.bench.force_next(0, Effect::kFlip);
+    EXPECT_EQ(scene.play("1" + r_bits(6)), bits[at] + flag_of(counters())) << at;
+    const unsigned wait = counters().passive() ? 8 + 3 + 8 : 8 + 3;
     EXPECT_EQ(scene.play(r_bits(wait)), r_bits(wait)) << at;
     EXPECT_EQ(scene.play(lt), bits) << at;
     EXPECT_EQ(scene.dut().sent(), std::vector<Frame>{kFrame});
@@ -150,8 +149,8 @@ TEST_P(BrokenReception, LostAcknowledgeDeliversNothing) {
   for (const Counters &counters : kStates) {
     Scene scene{counters};
     scene.play(bits.substr(0, ack_offset(GetParam())));
-    scene.bench().force_next(0, Effect::kRecessive);
-    EXPECT_EQ(scene.play(r_bits(1 + 6)), "0" + flag(counters));
+    scene.bench.force_next(0, Effect::kRecessive);
+    EXPECT_EQ(scene.play(r_bits(1 + 6)), "0" + flag_of(counters));
     scene.play(r_bits(8 + 3));
     EXPECT_TRUE(scene.dut().received().empty());
     scene.expect_counters(counters.tec, counters.rec + 1u);

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scene: one engine and LT as strings of bits, with the rule model watching every bit.
+// Scene: an ErrorRig that knows whole frames, and frames as strings of bits.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "model/frame_codec.hpp"
-#include "protocol/core_bench.hpp"
-#include "protocol/lockstep.hpp"
+#include "protocol/error_rig.hpp"
 
 namespace vericansim {
 
@@ -59,39 +59,27 @@ Frame remote_frame(std::uint32_t id, bool extended, std::uint8_t dlc = 0);
 
 // ---- Error states at the start of a test
 
-struct Counters {
-  std::uint8_t tec = 0;
-  std::uint8_t rec = 0;
-};
-inline constexpr Counters kActive{0, 0};
-inline constexpr Counters kPassiveTec{136, 0};
-inline constexpr Counters kPassiveRec{0, 130};
+/// Passive with room for a few steps of the counters in both directions.
+inline constexpr Counters kPassiveTec{.tec = 136};
+inline constexpr Counters kPassiveRec{.rec = 130};
 inline constexpr Counters kStates[] = {kActive, kPassiveTec, kPassiveRec};
-inline bool is_passive(const Counters &c) { return c.tec >= 128 || c.rec >= 128; }
-/// Six bits of error flag as sent in that state (EF-01, EF-02).
-inline std::string flag(const Counters &c) { return is_passive(c) ? r_bits(6) : d_bits(6); }
-void PrintTo(const Counters &counters, std::ostream *out);
+/// Name of one of kStates, for generated tests.
+std::string state_name(const Counters &counters);
 
 // ---- The scene
 
-/// One engine, idle, with counters as given. Every bit of it is compared with the rule model;
-/// verdict() is also taken at the end.
-class Scene {
+/// One engine, idle, with counters as given; judged bit by bit as ErrorRig does. play() takes the
+/// strings of above.
+class Scene : public ErrorRig {
  public:
-  explicit Scene(const Counters &counters = kActive,
-                 const CoreConfig &config = CoreBench::default_config());
-  ~Scene();
-  Scene(const Scene &) = delete;
-  Scene &operator=(const Scene &) = delete;
+  using ErrorRig::ErrorRig;
+  using ErrorRig::run_to;
 
-  /// LT plays `bits`; returns what the engine sends meanwhile, bit by bit.
-  std::string play(std::string_view bits);
-  /// The engine's next bit is SOF of `frame` (FF-12: it may be requested only between frames).
+  /// The engine's next bit is SOF of `frame`, as soon as the rules allow.
   void send(const Frame &frame);
-  /// Asks for `frame` and does not wait.
-  void request(const Frame &frame) { judge_.request(0, frame); }
-  void cancel() { judge_.cancel(0); }
-  /// Plays recessive bits until the next bit stands at the place; fails the test after 400 bits.
+  /// Withdraws what waits (MO-10).
+  void cancel() { judge.cancel(0); }
+  /// LT stays recessive until the engine's next bit stands at the place.
   void run_to(Field field, unsigned index = 0, bool stuff = false);
   /// LT sends `frame`, which the engine must acknowledge and deliver; then INT1..INT3.
   void expect_reception(const Frame &frame);
@@ -99,19 +87,11 @@ class Scene {
   void expect_transmission(const Frame &frame);
   /// Compares TEC and REC; any REC from 128 on stands for all of them (FC-14).
   void expect_counters(unsigned expected_tec, unsigned expected_rec);
-  /// Fails the test if engine and rule model have differed.
-  void verdict();
 
-  [[nodiscard]] CoreBench &bench() { return bench_; }
-  [[nodiscard]] CoreNode &dut() { return bench_.dut(); }
-  [[nodiscard]] unsigned tec() const { return bench_.last().tec; }
-  [[nodiscard]] unsigned rec() const { return bench_.last().rec; }
-  [[nodiscard]] const CoreEvents &events() { return bench_.dut().events(); }
-  [[nodiscard]] Field field() const { return bench_.place().field(); }
-
- private:
-  CoreBench bench_;
-  Lockstep judge_;
+  /// Frame delivered last; none if there is none.
+  [[nodiscard]] std::optional<Frame> last_received();
+  [[nodiscard]] std::optional<Frame> last_sent();
+  [[nodiscard]] const CoreEvents &events() { return dut().events(); }
 };
 
 }  // namespace vericansim
