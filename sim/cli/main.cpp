@@ -22,6 +22,7 @@ int run_tool(int argc, char **argv) {
   int exit_code = cli::kOk;
   cli::add_run(app, exit_code);
   cli::add_replay(app, exit_code);
+  cli::add_paper(app, exit_code);
   cli::add_bittime(app, exit_code);
   cli::add_decode(app, exit_code);
   try {

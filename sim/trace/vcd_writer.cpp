@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <string_view>
 #include <vector>
 
 #include "trace/input_error.hpp"
@@ -25,12 +26,15 @@ std::string timescale_name(Time unit) {
   return fmt::format("{} {}", unit, kNames[step]);
 }
 
-/// Short printable identifier codes: "!", "\"", ... in the printable range.
-std::string code_of(unsigned index) {
+/// Short identifier codes. Readers that do not know string variables (sigrok) take a code that stands alone for a
+/// value change; without the characters that begin one (# $ 0 1 x z b r s) it means nothing to them.
+std::string code_of(std::size_t index) {
+  static constexpr std::string_view kLetters =
+      "!%&'()*+,./23456789:;<=>?@ACDEFGHIJKLMNOPQTUVWY[]^_`acdefghijklmnopqtuvwy{|}~";
   std::string code;
   do {
-    code += static_cast<char>('!' + index % 94);
-    index /= 94;
+    code += kLetters[index % kLetters.size()];
+    index /= kLetters.size();
   } while (index-- != 0);
   return code;
 }
@@ -101,7 +105,7 @@ class VcdWriter : public WaveSink {
       print("$scope module {} $end\n", scope);
       scope_ = scope;
     }
-    variable.code = code_of(static_cast<unsigned>(variables_.size()));
+    variable.code = code_of(variables_.size());
     print("$var {} {} {} {} $end\n", type, variable.width, variable.code, name);
     variables_.push_back(std::move(variable));
     return static_cast<Signal>(variables_.size() - 1);

@@ -122,9 +122,9 @@ std::string write_sample(const std::string &name) {
 TEST(VcdWriter, WritesWiresAndTexts) {
   EXPECT_EQ(read_text_file(write_sample("w.vcd")),
             "$comment written by VeriCAN $end\n$timescale 1 ns $end\n$scope module bus $end\n"
-            "$var wire 1 ! can $end\n$upscope $end\n$scope module node $end\n$var string 1 \" field $end\n"
-            "$var wire 9 # tec [8:0] $end\n$upscope $end\n$enddefinitions $end\n"
-            "#0\n1!\nsIDLE \"\n#2000\n0!\nsERROR_FLAG \"\n#3000\nb100000000 #\n#4000\n1!\n#10000\n");
+            "$var wire 1 ! can $end\n$upscope $end\n$scope module node $end\n$var string 1 % field $end\n"
+            "$var wire 9 & tec [8:0] $end\n$upscope $end\n$enddefinitions $end\n"
+            "#0\n1!\nsIDLE %\n#2000\n0!\nsERROR_FLAG %\n#3000\nb100000000 &\n#4000\n1!\n#10000\n");
 }
 
 TEST(VcdWriter, ReaderReadsIt) {

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The paper's experiments with errors: missing ACK, error passive, bus-off, recovery (figures 14 to 18).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "scenario/paper_bench.hpp"
+#include "trace/input_error.hpp"
+
+namespace vericansim {
+namespace {
+
+/// One error frame of the IP.
+struct ErrorFrame {
+  std::size_t at = 0;        ///< index of the bit that showed the error
+  unsigned tec_before = 0;   ///< when the error was seen
+  unsigned tec_after = 0;
+  unsigned dominant = 0;     ///< dominant bits that the IP sends as its flag
+  std::size_t next_sof = 0;  ///< bits from the error to the next own SOF, 0 if there is none
+};
+
+std::vector<ErrorFrame> error_frames(const std::vector<BitRecord> &bits) {
+  std::vector<ErrorFrame> frames;
+  for (std::size_t i = 1; i < bits.size(); ++i) {
+    if (bits[i].after.errors == 0) continue;
+    ErrorFrame frame;
+    frame.at = i;
+    frame.tec_before = bits[i - 1].after.tec;
+    frame.tec_after = bits[i].after.bus_off ? 256U : bits[i].after.tec;
+    for (std::size_t k = i + 1; k < bits.size() && bits[k].at.field == Field::kErrFlag; ++k)
+      frame.dominant += bits[k].at.tx == Level::kDominant ? 1 : 0;
+    const auto sof = std::find_if(bits.begin() + static_cast<std::ptrdiff_t>(i) + 1, bits.end(), [](const BitRecord &b) {
+      return b.at.field == Field::kSof;
+    });
+    frame.next_sof = sof == bits.end() ? 0 : static_cast<std::size_t>(sof - bits.begin()) - i;
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+PaperCheck check_flags(const std::vector<ErrorFrame> &frames) {
+  unsigned active = 0, passive = 0;
+  bool ok = frames.size() > 20;
+  for (const ErrorFrame &f : frames) {
+    (f.dominant == 6 ? active : passive) += 1;
+    ok = ok && f.dominant == (f.tec_before < 0x80 ? 6U : 0U);
+  }
+  return {"14", "active error flags while the TEC is below 0x80, passive ones from 0x80 on",
+          fmt::format("{} active flags below, {} passive ones from 0x80 on", active, passive), ok};
+}
+
+PaperCheck check_counter(const std::vector<ErrorFrame> &frames) {
+  std::string seen;
+  bool ok = true;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const unsigned wanted = std::min<unsigned>(8 * (static_cast<unsigned>(i) + 1), 128);  // FC-18
+    ok = ok && frames[i].tec_after == wanted;
+    if (i < 2 || i == 15 || i == 16) seen += fmt::format("{}{}: 0x{:02X}", seen.empty() ? "after attempt " : ", ", i + 1, frames[i].tec_after);
+  }
+  return {"14", "each missing ACK adds 8 up to 0x80, where it stays", seen, ok};
+}
+
+/// Figure 15 / 16: the error frame and the retransmission after it (RO-04).
+PaperCheck check_frame(const std::vector<ErrorFrame> &frames, bool passive) {
+  const auto frame = std::find_if(frames.begin(), frames.end(), [&](const ErrorFrame &f) {
+    return (f.tec_before >= 0x80) == passive && f.next_sof != 0;
+  });
+  const std::size_t wanted = passive ? 26 : 18;
+  const bool ok = frame != frames.end() && frame->dominant == (passive ? 0U : 6U) && frame->next_sof == wanted;
+  return {passive ? "16" : "15",
+          passive ? "a passive error frame, then retransmission" : "an active error frame, then retransmission",
+          frame == frames.end() ? "none"
+                                : fmt::format("{} dominant flag bits, next SOF {} bits after the ACK slot", frame->dominant, frame->next_sof),
+          ok};
+}
+
+PaperCheck check_bus_off(const std::vector<BitRecord> &bits, const std::vector<ErrorFrame> &frames) {
+  const auto off = std::find_if(bits.begin(), bits.end(), [](const BitRecord &b) { return b.after.bus_off; });
+  if (off == bits.end() || frames.empty()) return {"17", "bus-off at 0x100", "no bus-off", false};
+  const bool was_passive = (off - 1)->after.passive && frames.back().tec_before == 0xF8;
+  const bool silent = std::all_of(off + 1, bits.end(), [](const BitRecord &b) {
+    return b.at.tx == Level::kRecessive || !b.after.bus_off;
+  });
+  return {"17", "at 0x100 the node goes from error passive to BUS_OFF_RECOVERY and sends no more",
+          fmt::format("TEC 0x{:02X} to 0x{:X} after {} errors, then {}", frames.back().tec_before, frames.back().tec_after,
+                      frames.size(), silent ? "nothing sent" : "dominant bits sent"),
+          was_passive && silent && frames.back().tec_after == 0x100};
+}
+
+PaperCheck check_recovery(const std::vector<BitRecord> &bits) {
+  const auto off = std::find_if(bits.begin(), bits.end(), [](const BitRecord &b) { return b.after.bus_off; });
+  const auto back = std::find_if(off, bits.end(), [](const BitRecord &b) { return !b.after.bus_off; });
+  if (off == bits.end() || back == bits.end()) return {"18", "recovery", "none", false};
+  const auto count = back - off;  // sampled bits while off
+  const auto &next = back + 1 < bits.end() ? *(back + 1) : *back;
+  // 128 or 129 times 11 (BO-02, BO-04).
+  const bool ok = count >= 128 * 11 && count <= 129 * 11 + 2 && back->after.tec == 0 && back->after.rec == 0;
+  return {"18", "after 0x80 times 11 recessive bits the node is in IDLE with both counters 0",
+          fmt::format("{} recessive bits = {:.2f} x 11, then {} with TEC {} and REC {}", count, static_cast<double>(count) / 11.0,
+                      field_name(next.at.field), back->after.tec, back->after.rec),
+          ok && (next.at.field == Field::kIdle || next.at.field == Field::kSof)};
+}
+
+}  // namespace
+
+PaperExperiment paper_missing_ack(const std::string &wave) {
+  constexpr Time kAttempts = 24;
+  constexpr Time kLongestAttempt = 90;  // bits
+  PaperBench bench{wave, true};
+  bench.send(PaperBench::kIp, kPaperFrame);
+  bench.run_bits(kAttempts * kLongestAttempt);
+  const auto frames = error_frames(bench.bits(PaperBench::kIp));
+  PaperExperiment result{"missing-ack", wave, {}};
+  result.checks = {check_flags(frames), check_counter(frames), check_frame(frames, false), check_frame(frames, true)};
+  return result;
+}
+
+PaperExperiment paper_bus_off(const std::string &wave) {
+  // A missing ACK alone never leads beyond 0x80 (FC-05): bit errors do.
+  DataBitFault fault{PaperBench::kIp};
+  PaperBench bench{wave, true};
+  bench.add(fault);
+  bench.send(PaperBench::kIp, kPaperFrame);
+  const auto &bits = bench.bits(PaperBench::kIp);
+  const auto off = [&] { return bits.back().after.bus_off; };
+  bench.run_until(off, 40 * 90);
+  fault.on = false;
+  const auto frames = error_frames(bits);
+  bench.run_until([&] { return !off(); }, 1500);
+  bench.run_bits(3);
+  PaperExperiment result{"bus-off", wave, {}};
+  result.checks = {check_bus_off(bits, frames), check_recovery(bits)};
+  return result;
+}
+
+std::vector<PaperExperiment> run_paper(const std::string &folder, const std::string &suffix) {
+  if (!folder.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw InputError(folder, 0, "cannot be created: " + error.message());
+  }
+  const auto wave = [&](const char *name) { return folder.empty() ? "" : folder + "/" + name + suffix; };
+  return {paper_reception(wave("fig11-reception")), paper_transmission(wave("fig12-transmission")),
+          paper_arbitration(wave("fig13-arbitration")), paper_missing_ack(wave("fig14-16-missing-ack")),
+          paper_bus_off(wave("fig17-18-bus-off"))};
+}
+
+}  // namespace vericansim
