@@ -64,9 +64,14 @@ void invert_own_bit(const Counters &counters, const Frame &frame, std::size_t n)
   }
   EXPECT_EQ(rig.rec(), counters.rec);
   EXPECT_EQ(rig.play(rep(6, ".")), flag_of(counters));
+  // RO-04: SOF at n+18, or n+26 for who is passive by then (IF-11). No counter moves any more.
+  const bool suspend = rig.tec() >= 128 || counters.rec >= 128;
+  EXPECT_EQ(rig.play(rep(suspend ? 19 : 11, ".")), rep(suspend ? 19 : 11, "1"));
+  EXPECT_EQ(rig.field(), Field::kSof);
 }
 
-// ED-01, ED-02, ED-08, AR-02..AR-05, AR-03, AR-04, AR-05, FC-05, ED-13: every bit from SOF to CRC0.
+// ED-01, ED-02, ED-08, AR-02, AR-03, AR-04, AR-05, FC-05, FC-05b, ED-13, RO-03, RO-04, MX-01,
+// MX-02, MX-03, MX-04: every bit from SOF to CRC0, by the table 19.2a.
 TEST_P(ErrorDetection, TransmitterChecksEveryBitOfItsFrame) {
   for (const Frame &frame : {kManyStuffBits, kExtended}) {
     const std::size_t length = encode_frame(frame).stuffed_length;
