@@ -191,6 +191,7 @@ module can_mailbox #(
     .cs_i(cs), .id_i(msg),
     .settled_o(settled), .best_idx_o(best_idx), .retry_o(retry_busy));
 
+  logic            step_req, step_gnt, data_q, data_ld_q, take_ld, hold, eng_gnt;
   logic            ld_req, ld_row, ld_word, ld_data, ld_cancel, ld_flag, ld_busy;
   logic [2:0]      ld_step, step_q;
   logic [3:0]      ld_code;
@@ -203,26 +204,25 @@ module can_mailbox #(
     .tx_req_o, .tx_ide_o, .tx_rtr_o, .tx_dlc_o, .tx_word_o, .tx_next_i, .tx_ok_i, .tx_fail_i,
     .started_o(started), .on_bus_o(on_bus), .cur_idx_o(cur_idx),
     .req_o(ld_req), .step_o(ld_step), .row_o(ld_row), .ld_idx_o(ld_idx), .word_o(ld_word),
-    .data_i(ld_data), .data_step_i(step_q), .cs_i(cs), .msg_i(msg),
+    .flight_i(data_q), .data_i(ld_data), .data_step_i(step_q), .cs_i(cs), .msg_i(msg),
     .cancel_o(ld_cancel), .code_o(ld_code), .flag_o(ld_flag), .busy_o(ld_busy));
 
   // Steps of loads and moves: a read slot, and in the next clock the data, kept nowhere but on the RAM
-  // outputs. So no two in a row, and none while a CPU write has to wait already.
-  logic step_req, step_gnt, data_q, data_ld_q, take_ld, wr_waits, eng_gnt;
-  assign step_req = (ld_req || mv_req) && !data_q && !wr_waits;
+  // outputs. So no two in a row, and no other read while the data has to stay there (hold).
+  assign step_req = (ld_req || mv_req) && !data_q;
   assign take_ld  = ld_req && !(mv_req && data_ld_q);   // in turn if both want
   assign step_gnt = eng_gnt && step_req;
   assign rx_gnt   = eng_gnt && !step_req && rx_req;
   assign scan_gnt = eng_gnt && !step_req && !rx_req;
-  assign ld_data  = data_q && data_ld_q;
-  assign mv_data  = data_q && !data_ld_q && moving;
+  assign ld_data  = data_q && data_ld_q && !hold;
+  assign mv_data  = data_q && !data_ld_q && moving && !hold;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {data_q, data_ld_q} <= '0;
       step_q <= '0;
     end else begin
-      data_q <= step_gnt;
+      data_q <= step_gnt || hold;
       if (step_gnt) begin
         data_ld_q <= take_ld;
         step_q    <= ld_step;
@@ -273,14 +273,14 @@ module can_mailbox #(
     copy_cs_row  = {1'b0, mv_idx};
     copy_msg_row = {mv_step, mv_idx};
     copy_cs      = {4'b0, mv_code, 1'b0, cs[22:0]};
-    if (ld_data) begin
+    if (data_q && data_ld_q) begin
       copy         = step_q[1:0] != StepWord[1:0];      // not for 0 and 4
       copy_cs_we   = step_q == StepEnd && !ld_cancel ? 4'b1011 : 4'b0000;
       copy_cs_row  = {1'b0, cur_idx};
       copy_cs      = {4'b0, ld_code, 1'b0, cs[22:0]};
       copy_msg_we  = step_q[1];
       copy_msg_row = hidden(1'b0, ld_row, {step_q != StepLow, step_q == StepLow});
-    end else if (mv_data) begin
+    end else if (data_q && moving) begin
       copy        = 1'b1;
       copy_cs_we  = {4{mv_step == 2'd2 && !mv_cancel}};
       copy_msg_we = !mv_cancel;
@@ -292,10 +292,10 @@ module can_mailbox #(
     .cmd_rd_i, .cmd_wr_i, .cmd_kind_i, .cmd_word_i, .cmd_idx_i, .cmd_be_i,
     .wdata_i, .ready_o, .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_done_o(wr_done),
     .kind_o(cpu_kind), .idx_o(cpu_idx), .be_o(cpu_be),
-    .ins_req_i(ins_req), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
-    .eng_req_i(step_req || rx_req || scan_req), .eng_cs_row_i(eng_cs_row),
+    .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
+    .eng_req_i((step_req || rx_req || scan_req) && !hold), .eng_cs_row_i(eng_cs_row),
     .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_gnt_o(eng_gnt),
-    .wr_waits_o(wr_waits), .stale_o(stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
+    .hold_o(hold), .stale_o(stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
     .copy_i(copy), .copy_cs_we_i(copy_cs_we), .copy_cs_row_i(copy_cs_row), .copy_cs_i(copy_cs),
     .copy_msg_we_i(copy_msg_we), .copy_msg_row_i(copy_msg_row),
     .svc_req_i(svc_req), .svc_idx_i(svc_idx), .svc_ovr_i(svc_ovr), .svc_gnt_o(svc_gnt),

@@ -47,6 +47,7 @@ module can_mb_load #(
   output logic            row_o,         // hidden row that is being filled
   output logic [IdxW-1:0] ld_idx_o,      // buffer that is being loaded
   output logic            word_o,        // step 0: 0 bytes 0-3, 1 bytes 4-7
+  input  logic            flight_i,      // a step has been granted and is not over
   input  logic            data_i,        // data of step data_step_i is on the RAM outputs
   input  logic [2:0]      data_step_i,
   input  logic [31:0]     cs_i,
@@ -96,7 +97,7 @@ module can_mb_load #(
     end else begin
       if (data_i && data_step_i == StepWord) tx_word_o <= msg_i;
       case (state_q)
-        StIdle: if (settled_i && !(tx_req_o && best_idx_i == cur_idx_o)) begin
+        StIdle: if (settled_i && !flight_i && !(tx_req_o && best_idx_i == cur_idx_o)) begin
           state_q  <= StLow;
           ld_idx_o <= best_idx_i;
         end

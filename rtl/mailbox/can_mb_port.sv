@@ -5,9 +5,9 @@
 // and one write port, and the CPU never waits more than one clock.
 //
 // Reads, by priority: a CPU read that has waited; an insertion (can_mb_tx); the engine if it was
-// refused before; the CPU; the engine. Writes: the second half of a copy (its data is on the RAM output
-// only now); a CPU write that has waited; a serviced mark; the engine if it was refused before; the
-// CPU; the engine.
+// refused before; the CPU; the engine. Writes: a CPU write that has waited; the second half of a copy
+// (its data is on the RAM outputs only now); a serviced mark; the engine if it was refused before; the
+// CPU; the engine. C/S writes in a row make room for engine reads, because each brings an insertion.
 
 module can_mb_port #(
   parameter int NumMb = 64,
@@ -42,13 +42,14 @@ module can_mb_port #(
   input  logic [IdxW+1:0] eng_msg_row_i,
   input  logic [IdxW:0]   eng_mask_row_i,
   output logic            eng_gnt_o,
-  output logic            wr_waits_o,   // a CPU write is refused in this clock
   output logic            stale_o,      // with the data: this C/S row was being written when read
   output logic [31:0]     cs_o,
   output logic [31:0]     msg_o,
   output logic [31:0]     mask_o,
-  // Second half of a copy, never refused.
+  // Second half of a copy; hold_o: not in this clock, a CPU write has waited for long enough. The RAM
+  // outputs stay as they are then: nobody reads.
   input  logic            copy_i,
+  output logic            hold_o,
   input  logic [3:0]      copy_cs_we_i,
   input  logic [IdxW:0]   copy_cs_row_i,
   input  logic [31:0]     copy_cs_i,
@@ -106,22 +107,23 @@ module can_mb_port #(
   // with its serviced mark, would keep it out otherwise.
   logic pend_q, owed_q, want, cpu_gnt, ewr_owed_q;
   assign want      = eng_req_i || ewr_owed_q;
-  assign cpu_gnt   = pend_q || (cmd_rd_i && !ins_req_i && !(want && owed_q));
+  assign cpu_gnt   = pend_q || (cmd_rd_i && !ins_req_i && !(want && owed_q) && !hold_o);
   assign ins_gnt_o = ins_req_i && !pend_q;
   assign eng_gnt_o = eng_req_i && !pend_q && !ins_req_i && (!cmd_rd_i || owed_q);
 
   // Write port.
-  logic wait_q, w_gnt, ram_wr;
-  assign ram_wr     = wr_q && kind_q != KindTimer;
-  assign w_gnt      = ram_wr && !copy_i
-                   && (wait_q || !(svc_req_i || ewr_owed_q || (kind_q == KindCs && csw_i)));
-  assign wr_waits_o = ram_wr && !w_gnt;
-  assign svc_gnt_o  = svc_req_i && !copy_i && !w_gnt;
-  assign ewr_gnt_o  = ewr_req_i && !copy_i && !w_gnt && !svc_req_i;
+  logic wait_q, w_gnt, ram_wr, wr_waits;
+  assign ram_wr    = wr_q && kind_q != KindTimer;
+  assign w_gnt     = ram_wr && (wait_q || !(copy_i || svc_req_i || ewr_owed_q
+                                            || (kind_q == KindCs && csw_i && owed_q)));
+  assign wr_waits  = ram_wr && !w_gnt;
+  assign hold_o    = copy_i && wait_q;
+  assign svc_gnt_o = svc_req_i && !copy_i && !w_gnt;
+  assign ewr_gnt_o = ewr_req_i && !copy_i && !w_gnt && !svc_req_i;
 
-  assign ready_o   = !pend_q && !wr_waits_o;
+  assign ready_o   = !pend_q && !wr_waits;
   assign rd_done_o = rd_q && !pend_q;
-  assign wr_done_o = wr_q && !wr_waits_o;
+  assign wr_done_o = wr_q && !wr_waits;
   assign kind_o    = kind_q;
   assign idx_o     = idx_q;
   assign be_o      = be_q;
@@ -132,7 +134,7 @@ module can_mb_port #(
     end else begin
       pend_q     <= cmd_rd_i && !cpu_gnt;
       owed_q     <= want && (pend_q || ins_req_i || (cmd_rd_i && !owed_q));
-      wait_q     <= wr_waits_o;
+      wait_q     <= wr_waits;
       ewr_owed_q <= ewr_req_i && !ewr_gnt_o;
     end
   end
@@ -174,7 +176,7 @@ module can_mb_port #(
       cs_wdata   = '0;
       msg_wdata  = '0;
       mask_wdata = {32{scrub_row_i[IdxW]}};   // RXGMASK, RX14MASK, RX15MASK: ones
-    end else if (copy_i) begin
+    end else if (copy_i && !hold_o) begin
       cs_we     = copy_cs_we_i;
       cs_waddr  = copy_cs_row_i;
       cs_wdata  = copy_cs_i;

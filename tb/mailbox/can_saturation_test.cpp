@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <random>
@@ -152,12 +153,15 @@ TEST_P(Saturation, NothingIsLostAndFramesAreThreeBitsApart) {  // IF-01, MO-06
   rig_.bus().remove(gaps);
   EXPECT_GT(received_, 400u);
   EXPECT_GT(gaps.gaps[3], 300u);
-  gaps.gaps[3] = 0;
+  // Whoever withdraws the frame that is next, at the last moment, makes the one behind it late by the
+  // time of a search; nobody else does.
+  const unsigned late = GetParam().hammer == Hammer::kToggleFirst ? 12 : 3;
+  std::fill(gaps.gaps.begin() + 3, gaps.gaps.begin() + late + 1, 0u);
   EXPECT_THAT(gaps.gaps, ::testing::Each(0u)) << "frames this number of bits apart";
   EXPECT_FALSE(rig_.violated());
   EXPECT_LE(rig_.max_waits(), 1u);
-  if (GetParam().hammer != Hammer::kNone)  // it did hammer
-    EXPECT_GT(rig_.node(0).ahb().checker().transfers(), 60u * 8000 / 2);
+  const auto transfers = rig_.node(0).ahb().checker().transfers();
+  EXPECT_GT(transfers, GetParam().hammer == Hammer::kNone ? 0u : 60u * 8000 / 3) << "it did hammer";
   for (unsigned n = 0; n < 2; ++n) EXPECT_EQ(rig_.read(n, reg::kEcr), 0u);
 }
 

@@ -45,7 +45,7 @@ void MailboxRig::step() {
   for (unsigned n = 0; n < nodes_.size(); ++n) {
     if (!hammers_[n]) continue;
     // One transfer in its data phase and one in its address phase, at least.
-    while (last_[n] < 2 || !node(n).ahb().done(last_[n] - 2)) last_[n] = node(n).ahb().submit(hammers_[n]()) + 1;
+    while (last_[n] < 2 || node(n).ahb().done(last_[n] - 2)) last_[n] = node(n).ahb().submit(hammers_[n]()) + 1;
   }
   bus_.step();
 }

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// AHB-Lite: wait states, ERROR responses, byte lanes, bursts; judged by the checker at the pins.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <string>
+
+#include "mailbox/mailbox_rig.hpp"
+
+namespace vericansim {
+namespace {
+
+class Access : public ::testing::Test {
+ protected:
+  Access() : rig_{1} { rig_.configure(0); }
+  ~Access() override {
+    for (const std::string &rule : rig_.node(0).ahb().checker().violations()) ADD_FAILURE() << rule;
+  }
+  static AhbTransfer read(std::uint32_t address, AhbSize size = AhbSize::kWord) {
+    return {.address = address, .size = size};
+  }
+  static AhbTransfer write(std::uint32_t address, std::uint32_t data, AhbSize size = AhbSize::kWord) {
+    return {.address = address, .write = true, .size = size, .data = data};
+  }
+  MailboxRig rig_;
+};
+
+TEST_F(Access, NoWaitStatesWhileTheEngineIsIdle) {  // any mix, back to back
+  rig_.go(0);
+  std::mt19937 rng{1};
+  for (unsigned round = 0; round < 200; ++round) {
+    std::vector<AhbTransfer> transfers;
+    for (unsigned i = 0; i < 20; ++i) {
+      const unsigned pick = rng() % 4, mb = rng() % 64, word = rng() % 4;
+      const std::uint32_t address = pick == 0 ? 4 * (rng() % 0x14) : pick == 1 ? reg::rximr(mb) : reg::mb(mb, word);
+      // Codes of transmission would wake the engine; MCR and CTRL1 stay as they are.
+      const bool is_write = rng() % 2 == 0 && address >= 0x80;
+      transfers.push_back(is_write ? write(address, rng() & 0x007FFFFF) : read(address));
+    }
+    for (const AhbResult &result : rig_.burst(0, transfers)) {
+      EXPECT_EQ(result.waits, 0u);
+      EXPECT_FALSE(result.error);
+    }
+  }
+}
+
+TEST_F(Access, ReadRightAfterAWriteSeesIt) {
+  std::mt19937 rng{2};
+  for (unsigned i = 0; i < 500; ++i) {
+    const std::uint32_t address = rng() % 2 == 0 ? reg::mb(rng() % 64, 1 + rng() % 3) : reg::rximr(rng() % 64);
+    const std::uint32_t value = rng();
+    const auto results = rig_.burst(0, {write(address, value), read(address), read(address)});
+    EXPECT_EQ(results[1].data, value);
+    EXPECT_EQ(results[2].data, value);
+    EXPECT_EQ(results[0].waits + results[1].waits + results[2].waits, 0u);
+  }
+}
+
+TEST_F(Access, ByteAndHalfWordLanesOfBuffersAndMasks) {
+  std::mt19937 rng{3};
+  std::map<std::uint32_t, std::uint32_t> memory;  // independent picture of the words
+  for (unsigned i = 0; i < 4000; ++i) {
+    const std::uint32_t word = rng() % 2 == 0 ? reg::mb(rng() % 8, 1 + rng() % 3) : reg::rximr(rng() % 8);
+    if (memory.count(word) == 0) rig_.write(0, word, memory[word] = rng());
+    const auto size = static_cast<AhbSize>(rng() % 3);
+    const unsigned bytes = 1u << static_cast<unsigned>(size);
+    const unsigned offset = rng() % (4 / bytes) * bytes;
+    const std::uint32_t mask = bytes == 4 ? 0xFFFFFFFF : (1u << (8 * bytes)) - 1;
+    if (rng() % 2 == 0) {
+      const std::uint32_t value = rng() & mask;
+      const auto results = rig_.burst(0, {write(word + offset, value, size), read(word)});
+      memory[word] = (memory[word] & ~(mask << (8 * offset))) | (value << (8 * offset));
+      ASSERT_EQ(results[1].data, memory[word]) << std::hex << word + offset;
+    } else {
+      const AhbResult result = rig_.access(0, read(word + offset, size));
+      ASSERT_EQ(result.data, (memory[word] >> (8 * offset)) & mask);
+    }
+  }
+}
+
+TEST_F(Access, ErrorForUnalignedTooWideAndBeyondTheWindow) {
+  for (bool is_write : {false, true}) {
+    for (AhbTransfer transfer : {read(reg::mb(3, 2) + 2), read(reg::mb(3, 2) + 1), read(reg::mb(3, 2) + 3),
+                                 read(reg::mb(3, 2) + 1, AhbSize::kHalf), read(reg::mb(3, 2) + 3, AhbSize::kHalf),
+                                 read(reg::mb(3, 2), AhbSize::kDouble), read(0x2000), read(0x2000 + reg::mb(3, 2)),
+                                 read(0xE000 + reg::mb(3, 2))}) {
+      transfer.write = is_write;
+      transfer.data = 0xFFFFFFFF;
+      const AhbResult result = rig_.access(0, transfer);
+      EXPECT_TRUE(result.error) << std::hex << transfer.address;
+    }
+  }
+  EXPECT_EQ(rig_.read(0, reg::mb(3, 2)), 0u) << "a refused write writes nothing";
+}
+
+TEST_F(Access, AddressBitsOfTheRegionDoNotMatter) {
+  rig_.write(0, 0x40020000 + reg::mb(3, 2), 0x12345678);
+  EXPECT_EQ(rig_.read(0, reg::mb(3, 2)), 0x12345678u);
+}
+
+TEST_F(Access, ReservedOffsetsReadZeroWithoutError) {
+  for (std::uint32_t address : {0x00Cu, 0x03Cu, 0x050u, 0x480u, 0x700u, 0x980u, 0xFFCu, 0x1010u, 0x1FFCu}) {
+    const auto results = rig_.burst(0, {write(address, 0xFFFFFFFF), read(address)});
+    EXPECT_FALSE(results[0].error || results[1].error) << std::hex << address;
+    EXPECT_EQ(results[1].data, 0u) << std::hex << address;
+  }
+}
+
+TEST_F(Access, TransferAfterAnErrorIsNotLost) {
+  const auto results = rig_.burst(0, {write(reg::mb(1, 2), 0x11), read(0x2000), write(reg::mb(1, 3), 0x22),
+                                      read(0x82), read(reg::mb(1, 2)), read(reg::mb(1, 3))});
+  EXPECT_TRUE(results[1].error && results[3].error);
+  EXPECT_EQ(results[4].data, 0x11u);
+  EXPECT_EQ(results[5].data, 0x22u);
+}
+
+TEST_F(Access, BurstsWithBusyAndIdleBetween) {
+  AhbMaster &ahb = rig_.node(0).ahb();
+  for (AhbBurst burst : {AhbBurst::kIncr4, AhbBurst::kIncr8, AhbBurst::kWrap4, AhbBurst::kWrap8, AhbBurst::kIncr16}) {
+    std::vector<std::uint32_t> data(ahb_beats(burst));
+    for (std::uint32_t &word : data) word = 0x1000 + static_cast<std::uint32_t>(&word - data.data());
+    const std::uint32_t base = reg::rximr(8);  // aligned, so that wrapping bursts stay in place
+    auto ticket = ahb.submit_burst(base, burst, true, data);
+    ticket = ahb.submit_burst(base, burst, false, data);
+    ASSERT_TRUE(rig_.run_until([&] { return ahb.done(ticket + data.size() - 1); }, 200));
+    for (unsigned i = 0; i < data.size(); ++i) EXPECT_EQ(ahb.result(ticket + i).data, data[i]);
+  }
+  const auto results = rig_.burst(0, {{.address = reg::mb(2, 2), .write = true, .data = 5, .pause = 2},
+                                      {.address = reg::mb(2, 2), .pause = 3}});
+  EXPECT_EQ(results[1].data, 5u);
+}
+
+TEST_F(Access, ExtensionPageNeverStalls) {
+  rig_.node(0).reset();
+  for (unsigned i = 0; i < 300; ++i) {  // while the RAM is being cleared after reset, too
+    const auto results = rig_.burst(0, {read(0x1000), read(0x1004), read(0x1008), read(0x100C)});
+    EXPECT_EQ(results[0].data, 0x5643414Eu);
+    for (const AhbResult &result : results) EXPECT_EQ(result.waits, 0u);
+  }
+}
+
+TEST_F(Access, BuffersReadZeroAfterReset) {
+  rig_.write(0, reg::mb(17, 2), 0xFFFFFFFF);
+  rig_.node(0).reset();
+  EXPECT_EQ(rig_.read(0, reg::mb(17, 2)), 0u);
+  rig_.run(300);
+  for (unsigned mb = 0; mb < 64; ++mb)
+    for (unsigned word = 0; word < 4; ++word) EXPECT_EQ(rig_.read(0, reg::mb(mb, word)), 0u);
+}
+
+}  // namespace
+}  // namespace vericansim
