@@ -66,18 +66,21 @@ module can_field (
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)     {last_q, free_r_q, free_d_q, join_q} <= '0;
     else if (!run_i) {last_q, free_r_q, free_d_q, join_q} <= '0;
-    else if (judge_i) begin
-      last_q <= ends;
-      join_q <= !suspend && (field_q == can_pkg::FldIdle || field_q == can_pkg::FldInt);
-      case (field_q)
-        can_pkg::FldIdle:    {free_r_q, free_d_q} <= 2'b11;
-        can_pkg::FldInt:     {free_r_q, free_d_q} <= {ends && !suspend, ends};
-        can_pkg::FldSuspend: {free_r_q, free_d_q} <= {ends, 1'b1};
-        can_pkg::FldInteg:   {free_r_q, free_d_q} <= {ends, 1'b0};
-        can_pkg::FldBusOff:  {free_r_q, free_d_q} <= {boff_end_i, 1'b0};
-        default:             {free_r_q, free_d_q} <= 2'b00;
-      endcase
-    end else if (restart) {last_q, free_r_q} <= '0;
+    else begin
+      if (judge_i) begin
+        last_q <= ends;
+        join_q <= !suspend && (field_q == can_pkg::FldIdle || field_q == can_pkg::FldInt);
+        case (field_q)
+          can_pkg::FldIdle:    {free_r_q, free_d_q} <= 2'b11;
+          can_pkg::FldInt:     {free_r_q, free_d_q} <= {ends && !suspend, ends};
+          can_pkg::FldSuspend: {free_r_q, free_d_q} <= {ends, 1'b1};
+          can_pkg::FldInteg:   {free_r_q, free_d_q} <= {ends, 1'b0};
+          can_pkg::FldBusOff:  {free_r_q, free_d_q} <= {boff_end_i, 1'b0};
+          default:             {free_r_q, free_d_q} <= 2'b00;
+        endcase
+      end
+      if (restart) {last_q, free_r_q} <= '0;
+    end
   end
 
   assign free_o     = may_begin;
