@@ -130,13 +130,13 @@ module can_mailbox #(
     .sync_i(tsyn_i && mv_flag && mv_idx == '0),
     .we_i(timer_wr), .be_i(cpu_be[1:0]), .wdata_i(wdata_i[15:0]), .timer_o(timer));
 
-  logic            lock, lock_now, svc_req, svc_ovr, svc_gnt;
+  logic            lock, svc_req, svc_ovr, svc_gnt;
   logic [IdxW-1:0] lock_idx, svc_idx;
   can_mb_lock #(.NumMb(NumMb)) u_lock (
     .clk_i, .rst_ni, .clear_i, .bcc_i,
     .cs_rd_i(cs_rd), .timer_rd_i(timer_rd), .idx_i(cpu_idx), .cs_i(ram_rdata), .busy_i(cpu_busy),
     .csw_i(csw_q), .csw_idx_i(csw_idx_q),
-    .lock_o(lock), .lock_idx_o(lock_idx), .lock_now_o(lock_now),
+    .lock_o(lock), .lock_idx_o(lock_idx),
     .svc_req_o(svc_req), .svc_idx_o(svc_idx), .svc_ovr_o(svc_ovr), .svc_gnt_i(svc_gnt));
 
   // Reception.
@@ -173,7 +173,7 @@ module can_mailbox #(
     .clk_i, .rst_ni, .clear_i, .start_i, .rx_hdr_i,
     .valid_i(rx_valid_i && !(transmitter_i && srx_dis_i)), .hold_i(flags_busy || svc_req), .smb_o(smb),
     .match_done_i(match_done), .hit_i(hit), .hit_idx_i(hit_idx),
-    .lock_i(lock), .lock_idx_i(lock_idx), .lock_now_i(lock_now), .cpu_idx_i(cpu_idx),
+    .lock_i(lock), .lock_idx_i(lock_idx),
     .csw_i(csw_q), .csw_idx_i(csw_idx_q), .csw_empty_i(csw_empty_q),
     .req_o(mv_req), .step_o(mv_step), .row_o(mv_row), .idx_o(mv_idx),
     .data_i(mv_data), .cs_i(cs), .code_o(mv_code), .cancel_o(mv_cancel),

@@ -22,18 +22,17 @@ module can_mb_lock #(
   input  logic [IdxW-1:0] csw_idx_i,
   output logic            lock_o,
   output logic [IdxW-1:0] lock_idx_o,
-  output logic            lock_now_o,   // buffer idx_i becomes locked in this clock
   output logic            svc_req_o,    // mark svc_idx_o as serviced
   output logic [IdxW-1:0] svc_idx_o,
   output logic            svc_ovr_o,    // its code is OVERRUN, not FULL
   input  logic            svc_gnt_i
 );
   logic [3:0] code;
-  logic       stored, same, csw_hit, leave, ovr_q, mark_q;
+  logic       stored, same, lock_now, csw_hit, leave, ovr_q, mark_q;
 
   assign code       = cs_i[27:24];
   assign stored     = code == 4'b0010 || code == 4'b0110;
-  assign lock_now_o = cs_rd_i && !busy_i && (stored || (code == 4'b0100 && !bcc_i));
+  assign lock_now = cs_rd_i && !busy_i && (stored || (code == 4'b0100 && !bcc_i));
   assign same       = lock_idx_o == idx_i;
   assign leave      = timer_rd_i || (cs_rd_i && !same);
   assign csw_hit    = csw_i && csw_idx_i == lock_idx_o;
@@ -57,7 +56,7 @@ module can_mb_lock #(
           svc_ovr_o <= ovr_q;
         end
       end
-      if (lock_now_o) begin
+      if (lock_now) begin
         lock_o     <= 1'b1;
         lock_idx_o <= idx_i;
         ovr_q      <= code[2];

@@ -27,8 +27,6 @@ module can_mb_move #(
   // Locks, CPU reads and writes of C/S words.
   input  logic            lock_i,
   input  logic [IdxW-1:0] lock_idx_i,
-  input  logic            lock_now_i,    // buffer cpu_idx_i becomes locked in this clock
-  input  logic [IdxW-1:0] cpu_idx_i,
   input  logic            csw_i,
   input  logic [IdxW-1:0] csw_idx_i,
   input  logic            csw_empty_i,
@@ -45,22 +43,15 @@ module can_mb_move #(
   output logic            flag_o,        // pulse: set IFLAG of idx_o
   output logic            busy_o         // something is still to be done
 );
-  logic            unres_q, unres_row_q, mv_q, end_q, ovr_q;
+  logic            unres_q, unres_row_q, mv_q, arm_q, end_q, ovr_q;
   logic [1:0]      full_q;
   logic [IdxW-1:0] tgt0_q, tgt1_q;
 
-  // A frame may move when its buffer is known and not locked.
-  function automatic logic blocked(input logic [IdxW-1:0] tgt, input logic lock,
-                                   input logic [IdxW-1:0] lock_idx, input logic now,
-                                   input logic [IdxW-1:0] now_idx);
-    blocked = (lock && lock_idx == tgt) || (now && now_idx == tgt);
-  endfunction
-
+  // A frame may move when its buffer is known and not locked. The buffer shows BUSY from the next clock
+  // on; only then is it certain that the CPU has not locked it in the clock of the decision (arm_q).
   logic [1:0] ready, kill;
-  assign ready[0] = full_q[0] && !(unres_q && !unres_row_q)
-                 && !blocked(tgt0_q, lock_i, lock_idx_i, lock_now_i, cpu_idx_i);
-  assign ready[1] = full_q[1] && !(unres_q && unres_row_q)
-                 && !blocked(tgt1_q, lock_i, lock_idx_i, lock_now_i, cpu_idx_i);
+  assign ready[0] = full_q[0] && !(unres_q && !unres_row_q) && !(lock_i && lock_idx_i == tgt0_q);
+  assign ready[1] = full_q[1] && !(unres_q && unres_row_q) && !(lock_i && lock_idx_i == tgt1_q);
 
   // A C/S write cancels what waits for this buffer; EMPTY leaves an unlocked buffer a target.
   logic csw_cancels;
@@ -74,13 +65,13 @@ module can_mb_move #(
   assign ovr      = ovr_q && !csw_hit;
   assign code_o   = {1'b0, ovr, 2'b10};
   assign idx_o    = row_o ? tgt1_q : tgt0_q;
-  assign req_o    = mv_q && !end_q;
+  assign req_o    = mv_q && !arm_q && !end_q;
   assign moving_o = mv_q;
   assign busy_o   = unres_q || mv_q || ready != '0;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {smb_o, unres_q, unres_row_q, mv_q, end_q, ovr_q, row_o, flag_o} <= '0;
+      {smb_o, unres_q, unres_row_q, mv_q, arm_q, end_q, ovr_q, row_o, flag_o} <= '0;
       step_o <= '0;
       full_q <= '0;
       {tgt0_q, tgt1_q} <= '0;
@@ -88,14 +79,16 @@ module can_mb_move #(
       flag_o <= 1'b0;
       // Moves.
       if (!mv_q && ready != '0 && !hold_i) begin
-        mv_q   <= 1'b1;
+        {mv_q, arm_q} <= '1;
         row_o  <= !ready[0];
         step_o <= '0;
       end else if (end_q) begin      // the C/S word is there: CPU reads of it are good from here on
         {mv_q, end_q} <= '0;
         full_q[row_o] <= 1'b0;
-      end else if (mv_q && cancel_o) begin
-        mv_q <= 1'b0;
+      end else if (mv_q && (cancel_o || (arm_q && lock_i && lock_idx_i == idx_o))) begin
+        {mv_q, arm_q} <= '0;
+      end else if (arm_q) begin
+        arm_q <= 1'b0;
       end else if (data_i) begin
         step_o <= step_o + 1'b1;
         if (step_o == 2'd0) ovr_q <= (cs_i[25] && !cs_i[31]) && !csw_hit;   // FULL or OVERRUN, unread
@@ -127,7 +120,7 @@ module can_mb_move #(
       if (start_i && full_q[smb_o] && !full_q[!smb_o]) smb_o <= !smb_o;
       if (clear_i) begin
         full_q <= '0;
-        {unres_q, mv_q, end_q, flag_o} <= '0;
+        {unres_q, mv_q, arm_q, end_q, flag_o} <= '0;
       end
     end
   end

@@ -43,22 +43,22 @@ module can_mb_rx #(
 );
   logic [28:0]     key_q;
   logic            key_ide_q, key_rtr_q;
-  logic            scan_q, eval_q, skip;
-  logic [IdxW-1:0] eval_idx_q;
+  logic            scan_q, last;
+  // Stage 1: the buffer is on the RAM outputs. Stage 2: it has been compared.
+  logic            s1_q, s2_q, s2_skip_q, s2_match_q, s2_free_q, skip;
+  logic [IdxW-1:0] s1_idx_q, s2_idx_q;
 
   assign req_o  = scan_q;
-  assign done_o = !scan_q && !eval_q;
+  assign done_o = !scan_q && !s1_q && !s2_q;
 
-  // Comparison of the buffer on the RAM outputs.
-  logic code_ok, ide_ok, rtr_ok, id_ok, match, free, last;
+  logic code_ok, ide_ok, rtr_ok, id_ok, free;
   assign code_ok = cs_i[27:24] == 4'b0100 || cs_i[27:24] == 4'b0010 || cs_i[27:24] == 4'b0110;
   assign ide_ok  = cs_i[21] == key_ide_q || (eacen_i && !mask_i[30]);
   assign rtr_ok  = !eacen_i || cs_i[20] == key_rtr_q || !mask_i[31];
   assign id_ok   = ((id_i[28:18] ^ key_q[28:18]) & mask_i[28:18]) == '0
                 && (!key_ide_q || ((id_i[17:0] ^ key_q[17:0]) & mask_i[17:0]) == '0);
-  assign match   = code_ok && ide_ok && rtr_ok && id_ok && 7'(eval_idx_q) <= maxmb_i;
-  assign free    = (cs_i[26:24] == 3'b100 || cs_i[31]) && !(lock_i && lock_idx_i == eval_idx_q);
-  assign skip    = stale_i || (csw_i && csw_idx_i == eval_idx_q);   // read it again
+  assign free    = (cs_i[26:24] == 3'b100 || cs_i[31]) && !(lock_i && lock_idx_i == s1_idx_q);
+  assign skip    = s2_skip_q || (csw_i && csw_idx_i == s2_idx_q);   // written meanwhile: read it again
   assign last    = idx_o == IdxW'(NumMb - 1) || 7'(idx_o) == maxmb_i;
 
   // The CPU took the chosen buffer away: look again. Writing EMPTY leaves it a candidate.
@@ -68,41 +68,50 @@ module can_mb_rx #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
+      {s2_skip_q, s2_match_q, s2_free_q} <= '0;
+      s2_idx_q <= '0;
+    end else if (s1_q) begin
+      s2_skip_q  <= stale_i || (csw_i && csw_idx_i == s1_idx_q);
+      s2_match_q <= code_ok && ide_ok && rtr_ok && id_ok && 7'(s1_idx_q) <= maxmb_i;
+      s2_free_q  <= free;
+      s2_idx_q   <= s1_idx_q;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
       key_q <= '0;
       {key_ide_q, key_rtr_q} <= '0;
-      {scan_q, eval_q, hit_o} <= '0;
-      {idx_o, eval_idx_q, hit_idx_o} <= '0;
+      {scan_q, s1_q, s2_q, hit_o} <= '0;
+      {idx_o, s1_idx_q, hit_idx_o} <= '0;
     end else if (rx_hdr_i) begin
       key_q     <= rx_id_i;
       key_ide_q <= rx_ide_i;
       key_rtr_q <= rx_rtr_i;
       scan_q    <= !rx_rtr_i || rrs_i;
-      eval_q    <= 1'b0;
-      hit_o     <= 1'b0;
       idx_o     <= '0;
+      {s1_q, s2_q, hit_o} <= '0;
     end else if (lost || clear_i) begin
       scan_q <= !clear_i;
-      eval_q <= 1'b0;
-      hit_o  <= 1'b0;
       idx_o  <= '0;
+      {s1_q, s2_q, hit_o} <= '0;
     end else begin
-      eval_q <= gnt_i;
+      s1_q <= gnt_i;
+      s2_q <= s1_q;
       if (gnt_i) begin
-        eval_idx_q <= idx_o;
-        idx_o      <= idx_o + 1'b1;
+        s1_idx_q <= idx_o;
+        idx_o    <= idx_o + 1'b1;
         if (last) scan_q <= 1'b0;
       end
-      if (eval_q) begin
-        if (skip) begin
-          eval_q <= 1'b0;
-          idx_o  <= eval_idx_q;
-          scan_q <= 1'b1;
-        end else if (match) begin
-          hit_o     <= 1'b1;
-          hit_idx_o <= eval_idx_q;
-          // BCC=1: the lowest free one, or else the last; BCC=0: the first.
-          if (free || !bcc_i) {scan_q, eval_q} <= '0;
-        end
+      if (s2_q && skip) begin
+        idx_o  <= s2_idx_q;
+        scan_q <= 1'b1;
+        {s1_q, s2_q} <= '0;
+      end else if (s2_q && s2_match_q) begin
+        hit_o     <= 1'b1;
+        hit_idx_o <= s2_idx_q;
+        // BCC=1: the lowest free one, or else the last; BCC=0: the first.
+        if (s2_free_q || !bcc_i) {scan_q, s1_q, s2_q} <= '0;
       end
     end
   end

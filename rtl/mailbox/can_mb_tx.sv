@@ -42,75 +42,94 @@ module can_mb_tx #(
   output logic [IdxW-1:0] best_idx_o,
   output logic            retry_o       // a retry has not been looked at yet
 );
-  logic            ins_q, retry_q, scan_q, again_q, spoiled_q, eval_q, last_q, scanned_q, best_q;
-  logic [IdxW-1:0] eval_idx_q;
-  logic [31:0]     best_val_q;
+  logic            ins_q, ins_new, retry_q, retry_gnt, scan_q, wait_q, again_q, spoiled_q, last;
+  // Stage 1: the buffer is on the RAM outputs. Stage 2: its arbitration value is known.
+  logic            s1_q, s1_last_q, s2_q, s2_last_q, s2_active_q, best_q;
+  logic [IdxW-1:0] s1_idx_q, s2_idx_q;
+  logic [31:0]     s2_val_q, best_val_q;
 
-  assign ins_req_o  = running_i && (ins_q || (csw_i && csw_act_i) || retry_q);
-  assign ins_idx_o  = (ins_q || (csw_i && csw_act_i)) ? csw_idx_i : cur_idx_i;
-  assign scan_req_o = running_i && scan_q && !last_q;
-  assign settled_o  = best_q && (!scan_q || spoiled_q);
+  // Insertions: the C/S write first, it cannot wait for the next one.
+  assign ins_new    = ins_q || (csw_i && csw_act_i);
+  assign ins_req_o  = running_i && (ins_new || retry_q);
+  assign ins_idx_o  = ins_new ? csw_idx_i : cur_idx_i;
+  assign retry_gnt  = ins_gnt_i && !ins_new;
   assign retry_o    = retry_q || retry_i;
+  assign scan_req_o = running_i && scan_q && !wait_q;
+  assign settled_o  = best_q && (!scan_q || spoiled_q);
+  assign last       = scan_idx_o == IdxW'(NumMb - 1) || 7'(scan_idx_o) == maxmb_i;
 
-  // The buffer on the RAM outputs: bits in the order of the bus (AR-08).
-  logic        active, skip, gone;
-  logic [31:0] value;
-  assign active = cs_i[27:24] == 4'b1100 && 7'(eval_idx_q) <= maxmb_i
-               && !(on_bus_i && eval_idx_q == cur_idx_i);
-  assign value  = cs_i[21] ? {id_i[28:18], 2'b11, id_i[17:0], cs_i[20]}
-                           : {id_i[28:18], cs_i[20], 20'b0};
-  assign skip   = stale_i || (csw_i && csw_idx_i == eval_idx_q);
+  // Arbitration value: the bits in the order of the bus (flexcan.md 3.3).
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      s2_active_q <= 1'b0;
+      s2_idx_q    <= '0;
+      s2_val_q    <= '0;
+    end else if (s1_q) begin
+      s2_active_q <= cs_i[27:24] == 4'b1100 && 7'(s1_idx_q) <= maxmb_i
+                  && !stale_i && !(csw_i && csw_idx_i == s1_idx_q);
+      s2_idx_q    <= s1_idx_q;
+      s2_val_q    <= cs_i[21] ? {id_i[28:18], 2'b11, id_i[17:0], cs_i[20]}
+                              : {id_i[28:18], cs_i[20], 20'b0};
+    end
+  end
+
+  // A buffer written since it was read does not count: an insertion follows if it is active. Nor does
+  // the one on the bus.
+  logic candidate, gone, better;
+  assign candidate = s2_q && s2_active_q && !(csw_i && csw_idx_i == s2_idx_q)
+                  && !((on_bus_i || start_i) && s2_idx_q == cur_idx_i);
   // The winner is no longer what it was.
   assign gone   = best_q && ((csw_i && csw_idx_i == best_idx_o)
                           || (start_i && cur_idx_i == best_idx_o));
-
-  logic better;
-  assign better = !best_q || gone || (lbuf_i ? eval_idx_q < best_idx_o
-                                             : {value, eval_idx_q} < {best_val_q, best_idx_o});
+  assign better = lbuf_i ? s2_idx_q < best_idx_o : {s2_val_q, s2_idx_q} < {best_val_q, best_idx_o};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {ins_q, retry_q, again_q, spoiled_q, eval_q, last_q, scanned_q, best_q} <= '0;
-      scan_q <= 1'b1;
-      {scan_idx_o, eval_idx_q, best_idx_o} <= '0;
+      best_q     <= 1'b0;
+      best_idx_o <= '0;
       best_val_q <= '0;
     end else if (!running_i) begin
-      {ins_q, retry_q, again_q, spoiled_q, eval_q, last_q, scanned_q, best_q} <= '0;
+      best_q <= 1'b0;
+    end else if (candidate && (!best_q || gone || better)) begin
+      best_q     <= 1'b1;
+      best_idx_o <= s2_idx_q;
+      best_val_q <= s2_val_q;
+    end else if (gone) begin
+      best_q <= 1'b0;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {ins_q, retry_q, wait_q, again_q, spoiled_q, s1_q, s1_last_q, s2_q, s2_last_q} <= '0;
       scan_q <= 1'b1;
+      {scan_idx_o, s1_idx_q} <= '0;
+    end else if (!running_i) begin
+      {ins_q, retry_q, wait_q, again_q, spoiled_q, s1_q, s1_last_q, s2_q, s2_last_q} <= '0;
+      scan_q     <= 1'b1;
       scan_idx_o <= '0;
     end else begin
-      // Insertions: the C/S write first, it cannot wait for the next one.
-      ins_q <= (ins_q || (csw_i && csw_act_i)) && !ins_gnt_i;
-      if (retry_i) retry_q <= 1'b1;
-      else if (ins_gnt_i && !ins_q && !(csw_i && csw_act_i)) retry_q <= 1'b0;
-
-      // Pass over all buffers.
+      ins_q     <= ins_new && !ins_gnt_i;
+      retry_q   <= retry_i || (retry_q && !retry_gnt);
+      s1_q      <= ins_gnt_i || scan_gnt_i;
+      s1_last_q <= scan_gnt_i && last;
+      s2_q      <= s1_q;
+      s2_last_q <= s1_last_q;
+      if (ins_gnt_i)       s1_idx_q <= ins_idx_o;
+      else if (scan_gnt_i) s1_idx_q <= scan_idx_o;
       if (scan_gnt_i) begin
         scan_idx_o <= scan_idx_o + 1'b1;
-        last_q     <= scan_idx_o == IdxW'(NumMb - 1) || 7'(scan_idx_o) == maxmb_i;
+        wait_q     <= last;
       end
-      eval_q    <= ins_gnt_i || scan_gnt_i;
-      scanned_q <= scan_gnt_i;
-      if (ins_gnt_i)       eval_idx_q <= ins_idx_o;
-      else if (scan_gnt_i) eval_idx_q <= scan_idx_o;
-
-      if (gone) best_q <= 1'b0;
-      if (eval_q && !skip) begin
-        if (active && better) begin
-          best_q     <= 1'b1;
-          best_idx_o <= eval_idx_q;
-          best_val_q <= value;
-        end
-      end
-      if (scan_q && last_q && scanned_q) begin   // the last one has been looked at
-        last_q     <= 1'b0;
+      if (s2_last_q) begin              // every buffer has been looked at
+        wait_q     <= 1'b0;
         scan_q     <= again_q || gone;
         again_q    <= 1'b0;
         spoiled_q  <= again_q || gone;
         scan_idx_o <= '0;
       end else if (gone) begin
-        if (scan_q) {again_q, spoiled_q} <= '1;
         scan_q <= 1'b1;
+        if (scan_q) {again_q, spoiled_q} <= '1;
       end
     end
   end
