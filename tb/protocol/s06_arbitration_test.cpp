@@ -318,14 +318,13 @@ TEST(Arbitration, IdenticalFramesAreSentTogether) {
   }
 }
 
-// AR-11, IF-06: a joined start arbitrates from ID28 on: lost at each bit of the identifier.
-TEST(Arbitration, JoinedStartArbitratesFromTheFirstIdentifierBit) {
-  for (unsigned position = 0; position < 11; ++position) {
-    for (const std::uint32_t pattern : kPatterns) {
-      const auto [loser, winner] = rivals(false, position, pattern);
-      const std::size_t lost = offset_of(loser, Field::kId, position);
-      Scene scene;
-      scene.expect_reception(base_frame(0x555));
+// AR-11, IF-06, AR-07: a joined start arbitrates from ID28 on: lost at each bit of the field.
+TEST_P(Loss, OfAJoinedStartLeavesAReceiverToo) {
+  for (const std::uint32_t pattern : kPatterns) {
+    for (const Counters &counters : kStates) {
+      const auto [loser, winner] = rivals(GetParam().extended, GetParam().position, pattern);
+      const std::size_t lost = lost_at(loser);
+      Scene scene{counters};
       scene.play(wire(base_frame(0x555)));
       scene.request(loser);
       const std::string bits = wire(winner);
@@ -333,6 +332,8 @@ TEST(Arbitration, JoinedStartArbitratesFromTheFirstIdentifierBit) {
                 "111" + wire(loser).substr(1, lost) + receiver_tx(bits).substr(lost + 1));
       EXPECT_EQ(scene.last_received(), winner);
       EXPECT_EQ(scene.events().errors, 0);
+      EXPECT_EQ(scene.tec(), counters.tec);
+      EXPECT_EQ(scene.play("111" + wire(loser).substr(0, 9)), "111" + wire(loser).substr(0, 9));
     }
   }
 }

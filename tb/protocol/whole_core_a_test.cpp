@@ -75,6 +75,28 @@ TEST_F(WholeCore, RewrittenBufferDoesNotAlterTheFrameUnderWay) {
   EXPECT_EQ(counters(1), 0u);
 }
 
+// FF-12, AR-13: the CPU activates the buffer with another frame while the first is on the wire, at
+// any bit of it: both arrive, one after the other, each whole.
+TEST_F(WholeCore, BufferActivatedAgainSendsBothFramesWhole) {
+  start(0b010);
+  for (unsigned bit = 0; bit < 100; bit += 3) {
+    const Frame first =
+        base(0x2C5, {0xFF, static_cast<std::uint8_t>(bit), 0, 0, 0xA5, 0x5A, 0x0F, 1});
+    const Frame second = base(0x13A, {9, 8, 7, 6, 5, 4, 3, static_cast<std::uint8_t>(bit)});
+    rig_.put_tx(0, kTx, first);
+    run_to(0, Field::kSof);
+    rig_.run(bit * kBit);
+    rig_.put_tx(0, kTx, second);
+    ASSERT_EQ(receive(1), first) << "activated after " << bit << " bits";
+    ASSERT_EQ(receive(1), second) << "activated after " << bit << " bits";
+    ASSERT_TRUE(rig_.wait_flag(0, kTx));
+    rig_.clear_flag(0, kTx);
+    run_to(0, Field::kIdle);
+  }
+  EXPECT_EQ(counters(0), 0u);
+  EXPECT_EQ(counters(1), 0u);
+}
+
 // FF-13: a base and an extended frame with equal identifier bits find the buffers of their format,
 // whatever the masks say, data of both unharmed.
 TEST_F(WholeCore, FormatIsDecidedByTheWireNotByFilters) {
