@@ -21,6 +21,7 @@ mailbox/can_mb_smb.sv
 mailbox/can_mb_move.sv
 mailbox/can_mb_tx.sv
 mailbox/can_mb_load.sv
+mailbox/can_mb_step.sv
 mailbox/can_mailbox.sv
 host/can_mode.sv
 host/can_flags.sv

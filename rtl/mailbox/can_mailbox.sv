@@ -67,10 +67,6 @@ module can_mailbox #(
 );
   localparam logic [1:0] KindCs    = 2'd0;
   localparam logic [1:0] KindTimer = 2'd3;
-  localparam logic [2:0] StepWord  = 3'd0;   // of can_mb_load
-  localparam logic [2:0] StepEnd   = 3'd1;
-  localparam logic [2:0] StepLow   = 3'd2;
-  localparam logic [2:0] StepHead  = 3'd4;
 
   // Clearing of the RAMs after a hard reset.
   logic [IdxW+1:0] scrub_row_q;
@@ -191,9 +187,9 @@ module can_mailbox #(
     .cs_i(cs), .id_i(msg),
     .settled_o(settled), .best_idx_o(best_idx), .retry_o(retry_busy));
 
-  logic            step_req, step_gnt, data_q, data_ld_q, take_ld, hold, eng_gnt;
+  logic            hold, eng_gnt, flight;
   logic            ld_req, ld_row, ld_word, ld_data, ld_cancel, ld_flag, ld_busy;
-  logic [2:0]      ld_step, step_q;
+  logic [2:0]      ld_step, data_step;
   logic [3:0]      ld_code;
   logic [IdxW-1:0] ld_idx;
   can_mb_load #(.NumMb(NumMb)) u_load (
@@ -204,88 +200,27 @@ module can_mailbox #(
     .tx_req_o, .tx_ide_o, .tx_rtr_o, .tx_dlc_o, .tx_word_o, .tx_next_i, .tx_ok_i, .tx_fail_i,
     .started_o(started), .on_bus_o(on_bus), .cur_idx_o(cur_idx),
     .req_o(ld_req), .step_o(ld_step), .row_o(ld_row), .ld_idx_o(ld_idx), .word_o(ld_word),
-    .flight_i(data_q), .data_i(ld_data), .data_step_i(step_q), .cs_i(cs), .msg_i(msg),
+    .flight_i(flight), .data_i(ld_data), .data_step_i(data_step), .cs_i(cs), .msg_i(msg),
     .cancel_o(ld_cancel), .code_o(ld_code), .flag_o(ld_flag), .busy_o(ld_busy));
 
-  // Steps of loads and moves: a read slot, and in the next clock the data, kept nowhere but on the RAM
-  // outputs. So no two in a row, and no other read while the data has to stay there (hold).
-  assign step_req = (ld_req || mv_req) && !data_q;
-  assign take_ld  = ld_req && !(mv_req && data_ld_q);   // in turn if both want
-  assign step_gnt = eng_gnt && step_req;
-  assign rx_gnt   = eng_gnt && !step_req && rx_req;
-  assign scan_gnt = eng_gnt && !step_req && !rx_req;
-  assign ld_data  = data_q && data_ld_q && !hold;
-  assign mv_data  = data_q && !data_ld_q && moving && !hold;
-
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      {data_q, data_ld_q} <= '0;
-      step_q <= '0;
-    end else begin
-      data_q <= step_gnt || hold;
-      if (step_gnt) begin
-        data_ld_q <= take_ld;
-        step_q    <= ld_step;
-      end
-    end
-  end
-
-  // Rows of the MSG memory behind the buffers.
-  function automatic logic [IdxW+1:0] hidden(input logic rx, input logic row, input logic [1:0] word);
-    hidden = (IdxW+2)'(3 * NumMb) | (IdxW+2)'({rx, row, word});
-  endfunction
-
-  logic [IdxW:0]   eng_cs_row, eng_mask_row;
-  logic [IdxW+1:0] eng_msg_row;
-  logic [IdxW-1:0] pass_idx;
-  assign pass_idx = rx_req ? rx_idx : scan_idx;
-  always_comb begin
-    eng_cs_row  = {1'b0, pass_idx};
-    eng_msg_row = {2'b00, pass_idx};
-    if (step_req && take_ld) begin
-      eng_cs_row  = ld_step == StepEnd ? (IdxW+1)'(NumMb) : {1'b0, ld_idx};
-      eng_msg_row = ld_step == StepWord ? hidden(1'b0, !ld_row, {ld_word, !ld_word})
-                  : {ld_step == StepHead ? 2'd0 : {ld_step[0], !ld_step[0]}, ld_idx};
-    end else if (step_req) begin
-      eng_cs_row  = mv_step == 2'd0 ? {1'b0, mv_idx} : (IdxW+1)'(NumMb + 2) | (IdxW+1)'(mv_row);
-      eng_msg_row = hidden(1'b1, mv_row, mv_step);
-    end
-  end
-  always_comb begin
-    eng_mask_row = {1'b0, rx_idx};
-    if (!bcc_i) begin
-      eng_mask_row = (IdxW+1)'(NumMb);
-      if (rx_idx == IdxW'(14)) eng_mask_row[0] = 1'b1;
-      if (rx_idx == IdxW'(15)) eng_mask_row[1] = 1'b1;
-    end
-  end
-
-  // Second half of a copy.
-  logic            copy, copy_msg_we;
+  logic            copy, copy_msg_we, eng_req;
   logic [3:0]      copy_cs_we;
-  logic [IdxW:0]   copy_cs_row;
-  logic [IdxW+1:0] copy_msg_row;
+  logic [IdxW:0]   copy_cs_row, eng_cs_row, eng_mask_row;
+  logic [IdxW+1:0] copy_msg_row, eng_msg_row;
   logic [31:0]     copy_cs;
-  always_comb begin
-    copy         = 1'b0;
-    copy_cs_we   = '0;
-    copy_msg_we  = 1'b0;
-    copy_cs_row  = {1'b0, mv_idx};
-    copy_msg_row = {mv_step, mv_idx};
-    copy_cs      = {4'b0, mv_code, 1'b0, cs[22:0]};
-    if (data_q && data_ld_q) begin
-      copy         = step_q[1:0] != StepWord[1:0];      // not for 0 and 4
-      copy_cs_we   = step_q == StepEnd && !ld_cancel ? 4'b1011 : 4'b0000;
-      copy_cs_row  = {1'b0, cur_idx};
-      copy_cs      = {4'b0, ld_code, 1'b0, cs[22:0]};
-      copy_msg_we  = step_q[1];
-      copy_msg_row = hidden(1'b0, ld_row, {step_q != StepLow, step_q == StepLow});
-    end else if (data_q && moving) begin
-      copy        = 1'b1;
-      copy_cs_we  = {4{mv_step == 2'd2 && !mv_cancel}};
-      copy_msg_we = !mv_cancel;
-    end
-  end
+  can_mb_step #(.NumMb(NumMb)) u_step (
+    .clk_i, .rst_ni, .bcc_i,
+    .ld_req_i(ld_req), .ld_step_i(ld_step), .ld_row_i(ld_row), .ld_word_i(ld_word), .ld_idx_i(ld_idx),
+    .cur_idx_i(cur_idx), .ld_cancel_i(ld_cancel), .ld_code_i(ld_code),
+    .ld_data_o(ld_data), .ld_data_step_o(data_step),
+    .mv_req_i(mv_req), .mv_step_i(mv_step), .mv_row_i(mv_row), .mv_idx_i(mv_idx), .moving_i(moving),
+    .mv_cancel_i(mv_cancel), .mv_code_i(mv_code), .mv_data_o(mv_data), .flight_o(flight),
+    .rx_req_i(rx_req), .rx_idx_i(rx_idx), .rx_gnt_o(rx_gnt),
+    .scan_req_i(scan_req), .scan_idx_i(scan_idx), .scan_gnt_o(scan_gnt),
+    .req_o(eng_req), .cs_row_o(eng_cs_row), .msg_row_o(eng_msg_row), .mask_row_o(eng_mask_row),
+    .gnt_i(eng_gnt), .hold_i(hold), .cs_i(cs[22:0]),
+    .copy_o(copy), .copy_cs_we_o(copy_cs_we), .copy_cs_row_o(copy_cs_row), .copy_cs_o(copy_cs),
+    .copy_msg_we_o(copy_msg_we), .copy_msg_row_o(copy_msg_row));
 
   can_mb_port #(.NumMb(NumMb)) u_port (
     .clk_i, .rst_ni,
@@ -293,7 +228,7 @@ module can_mailbox #(
     .wdata_i, .ready_o, .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_done_o(wr_done),
     .kind_o(cpu_kind), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
-    .eng_req_i((step_req || rx_req || scan_req) && !hold), .eng_cs_row_i(eng_cs_row),
+    .eng_req_i(eng_req), .eng_cs_row_i(eng_cs_row),
     .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_gnt_o(eng_gnt),
     .hold_o(hold), .stale_o(stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
     .copy_i(copy), .copy_cs_we_i(copy_cs_we), .copy_cs_row_i(copy_cs_row), .copy_cs_i(copy_cs),
