@@ -320,7 +320,7 @@ TEST(NodeModelModes, LoopBack) {  // MO-04, MO-06
   EXPECT_EQ(n.tec(), 0);
 }
 
-TEST(NodeModelModes, OneShotAndCancel) {  // MO-09, MO-10
+TEST(NodeModelModes, OneShotAndCancel) {  // MO-09; and a frame taken back
   NodeModel o = sender({.id = 0x7FF}, 0, 0, {.one_shot = true});
   play(o, ".!");
   EXPECT_TRUE(o.events().lost_arbitration && o.events().tx_fail);
