@@ -38,12 +38,14 @@ module can_top #(
   // Where a command goes: buffers, masks and TIMER to the mailbox, the rest to the registers.
   logic       in_mb, in_mask, in_gmask, in_timer, to_mb, wr_ok, frz_ack;
   logic [1:0] kind, word;
-  logic [7:0] mb_idx;
+  logic [3:0] hi;
+  logic [6:0] mb_idx;
   logic [8:0] mask_idx;
-  assign mb_idx   = {1'b0, addr_i[10:4]} - 8'd8;
-  assign mask_idx = addr_i[10:2] - 9'h020;
-  assign in_mb    = addr_i[12:11] == 2'b00 && mb_idx < 8'(NumMb);
-  assign in_mask  = addr_i[12:11] == 2'b01 && mask_idx < 9'(NumMb);
+  assign hi       = addr_i[10:7] - 4'd1;            // buffers begin at 0x080, masks at 0x880
+  assign mb_idx   = {hi, addr_i[6:4]};
+  assign mask_idx = {hi, addr_i[6:2]};
+  assign in_mb    = addr_i[12:11] == 2'b00 && mb_idx[6:IdxW] == '0;
+  assign in_mask  = addr_i[12:11] == 2'b01 && mask_idx[8:IdxW] == '0;
   assign in_gmask = addr_i == 11'h004 || addr_i == 11'h005 || addr_i == 11'h006;
   assign in_timer = addr_i == 11'h002;
   assign to_mb    = in_mb || in_mask || in_gmask || in_timer;

@@ -225,11 +225,10 @@ module can_mb_port #(
     if (!rst_ni) begin
       fwd_q <= '0;
       fwd_data_q <= '0;
-    end else if (cpu_gnt) begin
-      fwd_q <= '0;
-      if (w_gnt && {c_kind, c_word, c_idx} == {kind_q, word_q, idx_q}) begin
-        fwd_q <= be_q;
-        fwd_data_q <= kind_q == KindCs ? cs_wdata : wdata_i;
+    end else begin
+      if (w_gnt) fwd_data_q <= kind_q == KindCs ? cs_wdata : wdata_i;
+      if (cpu_gnt) begin
+        fwd_q <= (w_gnt && {c_kind, c_word, c_idx} == {kind_q, word_q, idx_q}) ? be_q : 4'b0;
       end
     end
   end
