@@ -198,8 +198,29 @@ TEST(OneShot, JoinedStartIsTheOnlyOne) {
   EXPECT_FALSE(rig.dut().pending());
 }
 
-// The clock at which the pin last turned recessive after a stop in bit `bit`, in clocks since the
-// start of that bit.
+// FF-12, RO-03: a request that is taken back: before the start it is never sent; on the wire it
+// runs on, counts as sent if it succeeds, and is not tried again if it fails.
+TEST_P(AnyState, RequestTakenBack) {
+  const auto take_back = [](ErrorRig &rig) { rig.judge.cancel(0); };
+  ErrorRig before(GetParam());
+  before.play(whole(kGv1) + "11");
+  before.request({.id = 0x001});
+  take_back(before);
+  EXPECT_EQ(before.play(rep(40, ".")), rep(40, "1"));
+  for (const bool fails : {false, true}) {
+    ErrorRig rig(GetParam());
+    rig.send(kGv1);
+    rig.play(rep(22, "."));
+    take_back(rig);
+    rig.play(fails ? "!" : rep(22, ".") + "0");
+    rig.play(rep(80, "."));
+    EXPECT_EQ(rig.sent(), fails ? 0u : 1u);
+    EXPECT_EQ(rig.dut().events().started, 1u);
+    EXPECT_FALSE(rig.dut().pending());
+  }
+}
+
+// The last of the next twenty clocks in which the pin is dominant; 0: none.
 unsigned clocks_of_dominant(CoreBench &bench) {
   unsigned last = 0;
   for (unsigned n = 1; n <= 20; ++n) {
@@ -222,7 +243,7 @@ TEST_P(AnyState, LeavingTheBusNeverCutsADominantBit) {
     for (int k = 0; k < 3; ++k) bench.clock(Level::kRecessive);
     bench.dut().stop();
     const unsigned last = clocks_of_dominant(bench);
-    // step() returns one clock into the bit of ten; the own edge may add SJW to none of them.
+    // One clock of ten had passed at the end of run_bits(), and three came after it.
     EXPECT_EQ(last, dominant ? 6u : 0u) << n;
     EXPECT_FALSE(bench.dut().running()) << n;
     bench.dut().start();
