@@ -240,5 +240,10 @@ module can_mailbox #(
 
   assign flag_o     = mv_flag || ld_flag;
   assign flag_idx_o = mv_flag ? mv_idx : cur_idx;
-  assign busy_o     = scrub_o || mv_busy || ld_busy;
+
+  // A register: a CPU read can hold a move up, and that is known only late in the clock.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) busy_o <= 1'b1;
+    else         busy_o <= scrub_o || mv_busy || ld_busy;
+  end
 endmodule
