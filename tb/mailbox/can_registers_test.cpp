@@ -85,6 +85,7 @@ TEST_P(Registers, WritableBitsInFreezeMode) {
   EXPECT_EQ(writable(), GetParam().in_freeze);
 }
 
+// BT-11: the timing fields of CTRL1 are among what cannot be written outside freeze mode.
 TEST_P(Registers, WritableBitsInNormalMode) {
   if (GetParam().offset == reg::kTimer) return;  // counts
   rig_.configure(0);
