@@ -142,6 +142,7 @@ TEST_P(AnyState, OwnFrameIsReportedAtEof6) {
   loser.play(whole(kGv1).substr(0, 52));
   EXPECT_TRUE(loser.last().delivered);
   EXPECT_FALSE(loser.last().transmitter);
+  ASSERT_EQ(loser.delivered(), 1u);
   EXPECT_EQ(loser.dut().received()[0], kGv1);
 }
 
