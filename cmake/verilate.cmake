@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# verican_verilate(<target> TOP <module> [PARAMS Name=value ...]): a static library with the Verilated
-# model of any module of rtl/can.f; its class has the name of the target and its header is <target>.h.
+# verican_verilate(<target> TOP <module> [PARAMS Name=value ...] [REPLACE <file>]): a static library with
+# the Verilated model of any module of rtl/can.f; its class has the name of the target and its header is
+# <target>.h. REPLACE takes the place of the file of that name in rtl/can.f.
 include_guard(GLOBAL)
 find_program(VERILATOR verilator REQUIRED)
 execute_process(COMMAND "${VERILATOR}" --getenv VERILATOR_ROOT
@@ -22,7 +23,12 @@ set(VERICAN_VERILATOR_FLAGS --cc -O3 --x-assign fast --x-initial fast --no-asser
     --no-timing -Wno-lint -Wno-style)
 
 function(verican_verilate target)
-  cmake_parse_arguments(ARG "" "TOP" "PARAMS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TOP;REPLACE" "PARAMS" ${ARGN})
+  set(files ${VERICAN_RTL})
+  if(ARG_REPLACE)
+    get_filename_component(name "${ARG_REPLACE}" NAME)
+    list(TRANSFORM files REPLACE "^.*/${name}$" "${ARG_REPLACE}")
+  endif()
   set(dir "${CMAKE_CURRENT_BINARY_DIR}/${target}.dir")
   set(all "${dir}/${target}__all.cpp")
   list(TRANSFORM ARG_PARAMS PREPEND "-G" OUTPUT_VARIABLE parameters)
@@ -32,10 +38,10 @@ function(verican_verilate target)
     OUTPUT "${all}" "${dir}/${target}.h"
     COMMAND "${CMAKE_COMMAND}" -E rm -rf "${dir}"
     COMMAND "${VERILATOR}" ${VERICAN_VERILATOR_FLAGS} --prefix ${target} --Mdir "${dir}"
-            --top-module ${ARG_TOP} ${parameters} ${VERICAN_RTL}
+            --top-module ${ARG_TOP} ${parameters} ${files}
     COMMAND "${CMAKE_COMMAND}" -DDIR=${dir} -DOUTPUT=${all}
             -P "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake"
-    DEPENDS ${VERICAN_RTL} "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake"
+    DEPENDS ${files} "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake"
     COMMENT "Verilating ${ARG_TOP} ${ARG_PARAMS}"
     VERBATIM)
   add_library(${target} STATIC "${all}")

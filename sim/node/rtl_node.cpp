@@ -7,52 +7,51 @@
 #include <stdexcept>
 #include <utility>
 
-#include "Vcan_ahb16.h"
-#include "Vcan_ahb16___024root.h"
-#include "Vcan_ahb32.h"
-#include "Vcan_ahb32___024root.h"
-#include "Vcan_ahb64.h"
-#include "Vcan_ahb64___024root.h"
+#include "Vcan_host16.h"
+#include "Vcan_host16___024root.h"
+#include "Vcan_host32.h"
+#include "Vcan_host32___024root.h"
+#include "Vcan_host64.h"
+#include "Vcan_host64___024root.h"
 #include "bus/bus.hpp"
-#include "node/model_edge.hpp"
-#include "verilated.h"
+#include "node/split_core.hpp"
 
 namespace vericansim {
 namespace {
 
-template <typename Model>
+template <typename HostModel>
 class RtlNodeOf final : public RtlNode {
  public:
   RtlNodeOf(std::string name, const ClockConfig &clock, unsigned num_mb)
-      : RtlNode{std::move(name), clock, num_mb}, top_{&context_, "can_ahb"} {
+      : RtlNode{std::move(name), clock, num_mb} {
     reset();
   }
-  ~RtlNodeOf() override { top_.final(); }
 
   void reset() override {
     ahb().reset();
     show(ahb().request());
     top_.hready = 1;
-    top_.can_rx_i = 1;
-    top_.hresetn = 0;
-    for (int i = 0; i < 4; ++i) edge();
-    top_.hresetn = 1;
-    edge();
-    drive(static_cast<Level>(top_.can_tx_o));
+    core_.engine().can_rx_i = 1;
+    core_.reset(true);
+    for (int i = 0; i < 4; ++i) core_.edge();
+    core_.reset(false);
+    core_.settle();
+    core_.edge();
+    drive(static_cast<Level>(core_.engine().can_tx_o));
   }
 
   void clock(Level rx) override {
-    top_.can_rx_i = static_cast<std::uint8_t>(rx);
+    core_.engine().can_rx_i = static_cast<std::uint8_t>(rx);
     if (ahb().active()) {
       transfer_cycle();
     } else {
-      edge();
+      core_.edge();
     }
-    drive(static_cast<Level>(top_.can_tx_o));
+    drive(static_cast<Level>(core_.engine().can_tx_o));
     after_edge();
   }
 
-  [[nodiscard]] std::uint64_t trace() const override { return top_.trace_o; }
+  [[nodiscard]] std::uint64_t trace() const override { return core_.engine().trace_o; }
 
   [[nodiscard]] std::uint8_t irq_lines() const override {
     return static_cast<std::uint8_t>(top_.irq_o | (top_.irq_mb_o << 1) | (top_.irq_boff_o << 2) |
@@ -61,8 +60,6 @@ class RtlNodeOf final : public RtlNode {
   }
 
  private:
-  void edge() { rising_edge(top_, top_.hclk); }
-
   void show(const AhbRequest &request) {
     top_.hsel = request.htrans != AhbTrans::kIdle;
     top_.haddr = request.haddr;
@@ -78,31 +75,32 @@ class RtlNodeOf final : public RtlNode {
   void transfer_cycle() {
     show(ahb().request());
     top_.hready = top_.hreadyout;
-    top_.eval();
+    core_.settle();
     if (top_.hready != top_.hreadyout) {
       top_.hready = top_.hreadyout;
-      top_.eval();
+      core_.settle();
     }
     const AhbResponse response{top_.hrdata, top_.hreadyout != 0, top_.hresp != 0};
-    edge();
+    core_.edge();
     ahb().clock(response);
     if (!ahb().active()) {
       show(ahb().request());
       top_.hready = 1;
+      core_.touch();
     }
   }
 
-  VerilatedContext context_;
-  Model top_;
+  SplitCore<HostModel> core_;
+  HostModel &top_ = core_.host();
 };
 
 }  // namespace
 
 std::unique_ptr<RtlNode> RtlNode::create(std::string name, const ClockConfig &clock, unsigned num_mb) {
   switch (num_mb) {
-    case 16: return std::make_unique<RtlNodeOf<Vcan_ahb16>>(std::move(name), clock, num_mb);
-    case 32: return std::make_unique<RtlNodeOf<Vcan_ahb32>>(std::move(name), clock, num_mb);
-    case 64: return std::make_unique<RtlNodeOf<Vcan_ahb64>>(std::move(name), clock, num_mb);
+    case 16: return std::make_unique<RtlNodeOf<Vcan_host16>>(std::move(name), clock, num_mb);
+    case 32: return std::make_unique<RtlNodeOf<Vcan_host32>>(std::move(name), clock, num_mb);
+    case 64: return std::make_unique<RtlNodeOf<Vcan_host64>>(std::move(name), clock, num_mb);
     default:
       throw std::invalid_argument("message buffers must be 16, 32 or 64, got " + std::to_string(num_mb));
   }

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// SplitCore: can_ahb as two Verilated models, so that the host side rests while nothing happens to it.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <type_traits>
+
+#include "Vcan_core.h"
+#include "Vcan_core___024root.h"
+#include "core_ports.hpp"
+#include "node/model_edge.hpp"
+#include "verilated.h"
+
+namespace vericansim {
+
+/// The engine (Vcan_core) and a can_ahb whose engine is hollow (HostModel, cmake/split_core.py), clocked
+/// together. Registers and buffers are three quarters of the work of a clock and idle in most of them:
+/// when a clock edge has left every bit of the model as it was, no further edge can change anything until
+/// an input does, and the model is not evaluated. The result is that of the
+/// whole core in every clock (tb/system/bus_split_core_test.cpp).
+template <typename HostModel>
+class SplitCore {
+ public:
+  using Root = std::remove_reference_t<decltype(*std::declval<HostModel &>().rootp)>;
+
+  SplitCore() = default;
+  // Verilator 5.006 removes a model's scopes from the context that was last in use on this thread, which
+  // may be that of another node and gone.
+  ~SplitCore() { Verilated::threadContextp(&context_); }
+  SplitCore(const SplitCore &) = delete;
+  SplitCore &operator=(const SplitCore &) = delete;
+
+  /// Host side pins; after changing one of its inputs call settle() or touch().
+  [[nodiscard]] HostModel &host() { return host_; }
+  [[nodiscard]] const HostModel &host() const { return host_; }
+  /// Engine: CAN pins and trace.
+  [[nodiscard]] Vcan_core &engine() { return engine_; }
+  [[nodiscard]] const Vcan_core &engine() const { return engine_; }
+
+  /// The host side's inputs have changed.
+  void touch() { resting_ = false; }
+
+  /// Lets combinational outputs follow the inputs, across both models.
+  void settle() {
+    resting_ = false;
+    copy_to_host(engine_, *host_.rootp);
+    host_.eval();
+    while (copy_to_core(engine_, *host_.rootp)) {
+      engine_.eval();
+      if (!copy_to_host(engine_, *host_.rootp)) return;
+      host_.eval();
+    }
+  }
+
+  /// One rising edge of the clock.
+  void edge() {
+    if (copy_to_host(engine_, *host_.rootp)) settle();
+    if (resting_) {
+      rising_edge(engine_, engine_.clk_i);
+      return;
+    }
+    std::memcpy(before_.get(), static_cast<const void *>(host_.rootp), sizeof(Root));
+    rising_edge(host_, host_.hclk);
+    resting_ = std::memcmp(before_.get(), static_cast<const void *>(host_.rootp), sizeof(Root)) == 0;
+    rising_edge(engine_, engine_.clk_i);
+    if (copy_to_core(engine_, *host_.rootp)) engine_.eval();
+  }
+
+  void reset(bool active) {
+    host_.hresetn = !active;
+    engine_.rst_ni = !active;
+    resting_ = false;
+  }
+
+ private:
+  VerilatedContext context_;
+  Vcan_core engine_{&context_, "engine"};
+  HostModel host_{&context_, "host"};
+  std::unique_ptr<unsigned char[]> before_ = std::make_unique<unsigned char[]>(sizeof(Root));
+  bool resting_ = false;
+};
+
+}  // namespace vericansim

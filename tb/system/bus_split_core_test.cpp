@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// SplitCore, engine and host side as two models, is the whole core in every clock: same pins, same trace.
+#include "node/split_core.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <random>
+#include <string>
+
+#include "Vcan_ahb64.h"
+#include "Vcan_ahb64___024root.h"
+#include "Vcan_host64.h"
+#include "Vcan_host64___024root.h"
+#include "bus/bus.hpp"
+#include "bus/faults.hpp"
+#include "node/host.hpp"
+#include "node/rtl_node.hpp"
+
+namespace vericansim {
+namespace {
+
+// A node that runs the whole model and the split one on the same pins and counts differing clocks.
+class TwinNode : public RtlNode {
+ public:
+  TwinNode(const std::string &name, const ClockConfig &clock) : RtlNode{name, clock, 64} { reset(); }
+  ~TwinNode() override { whole_.final(); }
+
+  void reset() override {
+    show({}, true);
+    whole_.can_rx_i = 1;
+    split_.engine().can_rx_i = 1;
+    whole_.hresetn = 0;
+    split_.reset(true);
+    for (int i = 0; i < 4; ++i) edge();
+    whole_.hresetn = 1;
+    split_.reset(false);
+    settle();
+    edge();
+  }
+
+  void clock(Level rx) override {
+    whole_.can_rx_i = static_cast<std::uint8_t>(rx);
+    split_.engine().can_rx_i = static_cast<std::uint8_t>(rx);
+    const bool active = ahb().active();
+    if (active) {
+      show(ahb().request(), whole_.hreadyout != 0);
+      settle();
+      if (whole_.hready != whole_.hreadyout) {
+        show(ahb().request(), whole_.hreadyout != 0);
+        settle();
+      }
+      compare();
+    }
+    const AhbResponse response{whole_.hrdata, whole_.hreadyout != 0, whole_.hresp != 0};
+    edge();
+    compare();
+    if (active) {
+      ahb().clock(response);
+      if (!ahb().active()) {
+        show(ahb().request(), true);
+        split_.touch();
+      }
+    }
+    drive(static_cast<Level>(whole_.can_tx_o));
+    after_edge();
+  }
+
+  [[nodiscard]] std::uint64_t trace() const override { return whole_.trace_o; }
+  [[nodiscard]] std::uint8_t irq_lines() const override { return lines(whole_); }
+  [[nodiscard]] unsigned differences() const { return differences_; }
+  [[nodiscard]] const std::string &first() const { return first_; }
+
+ private:
+  template <typename Model>
+  static std::uint8_t lines(const Model &m) {
+    return static_cast<std::uint8_t>(m.irq_o | (m.irq_mb_o << 1) | (m.irq_boff_o << 2) | (m.irq_err_o << 3) |
+                                     (m.irq_twrn_o << 4) | (m.irq_rwrn_o << 5));
+  }
+
+  template <typename Model>
+  static void show_to(Model &m, const AhbRequest &r, bool ready) {
+    m.hsel = r.htrans != AhbTrans::kIdle;
+    m.haddr = r.haddr;
+    m.htrans = static_cast<std::uint8_t>(r.htrans);
+    m.hwrite = r.hwrite;
+    m.hsize = static_cast<std::uint8_t>(r.hsize);
+    m.hburst = static_cast<std::uint8_t>(r.hburst);
+    m.hprot = r.hprot;
+    m.hwdata = r.hwdata;
+    m.hready = ready;
+  }
+  void show(const AhbRequest &request, bool ready) {
+    show_to(whole_, request, ready);
+    show_to(split_.host(), request, ready);
+  }
+  void settle() {
+    whole_.eval();
+    split_.settle();
+  }
+  void edge() {
+    rising_edge(whole_, whole_.hclk);
+    split_.edge();
+  }
+
+  void compare() {
+    const auto &host = split_.host();
+    const auto &engine = split_.engine();
+    check("HREADYOUT", whole_.hreadyout, host.hreadyout);
+    check("HRESP", whole_.hresp, host.hresp);
+    check("HRDATA", whole_.hrdata, host.hrdata);
+    check("interrupts", lines(whole_), lines(host));
+    check("can_tx_o", whole_.can_tx_o, engine.can_tx_o);
+    check("trace_o", whole_.trace_o, engine.trace_o);
+  }
+  void check(const char *what, std::uint64_t whole, std::uint64_t split) {
+    if (whole == split) return;
+    if (differences_++ != 0) return;
+    first_ = std::string{what} + " in cycle " + std::to_string(cycles()) + ": whole " +
+             std::to_string(whole) + ", split " + std::to_string(split);
+  }
+
+  VerilatedContext context_;
+  Vcan_ahb64 whole_{&context_, "whole"};
+  SplitCore<Vcan_host64> split_;
+  unsigned differences_ = 0;
+  std::string first_;
+};
+
+Frame random_frame(std::mt19937 &random, std::uint32_t top) {
+  Frame f{.id = static_cast<std::uint32_t>(top << 8 | (random() & 0xFF)), .dlc = static_cast<std::uint8_t>(random() % 16)};
+  f.remote = random() % 8 == 0;
+  for (unsigned i = 0; i < f.payload_size(); ++i) f.data[i] = static_cast<std::uint8_t>(random());
+  return f;
+}
+
+struct SplitCase {
+  const char *name;
+  unsigned prescaler;
+  double noise;  // probability that a bit is flipped at a node
+};
+
+class SplitCoreTest : public ::testing::TestWithParam<SplitCase> {};
+
+TEST_P(SplitCoreTest, IsTheWholeCoreInEveryClock) {
+  Bus bus;
+  HostConfig config;
+  config.timing = {.prescaler = GetParam().prescaler, .prop = 3, .ps1 = 2, .ps2 = 2, .sjw = 2};
+  config.tx_buffers = 4;
+  TwinNode a{"a", {.error_ppm = 100}};
+  TwinNode b{"b", {.error_ppm = -150, .phase = 30'000}};
+  bus.add(a);
+  bus.add(b);
+  NoiseFault noise{{.per_bit = GetParam().noise, .window = {.from = kMillisecond}}};
+  bus.add(noise);
+  Host first{a, config};
+  Host second{b, config};
+  first.start();
+  second.start();
+  std::mt19937 random{1};
+  for (int i = 0; i < 150; ++i) {
+    first.send(random_frame(random, 2));
+    second.send(random_frame(random, 3));
+  }
+  bus.run_for(40 * kMillisecond);
+  first.check();
+  second.check();
+  EXPECT_GT(first.stats().received + second.stats().received, 5u);  // the noisiest bus carries little
+  EXPECT_EQ(a.differences(), 0u) << a.first();
+  EXPECT_EQ(b.differences(), 0u) << b.first();
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, SplitCoreTest,
+                         ::testing::Values(SplitCase{"Saturated", 1, 0}, SplitCase{"Noisy", 1, 0.002},
+                                           SplitCase{"VeryNoisy", 1, 0.02}, SplitCase{"SlowerBits", 3, 0.001}),
+                         [](const auto &each) { return each.param.name; });
+
+}  // namespace
+}  // namespace vericansim
