@@ -136,6 +136,14 @@ TEST_F(CanFault, WithheldStepIsAddedOnceInThePassiveFlag) {
   EXPECT_EQ(fault_->tec_o, 136);
 }
 
+// EF-04, PF-33: after any other error a dominant bit in the passive flag counts nothing.
+TEST_F(CanFault, OnlyAMissingAcknowledgeWithholdsAStep) {
+  preset(128, 0);
+  bit({.transmitter = true, .error = true});
+  bit({.field = Field::kErrFlag, .transmitter = true, .seen = false, .passive_flag = true});
+  EXPECT_EQ(fault_->tec_o, 136);
+}
+
 // FC-05a: a dominant bit after the flag does not bring it back.
 TEST_F(CanFault, WithheldStepIsGoneAfterTheFlag) {
   preset(128, 0);
