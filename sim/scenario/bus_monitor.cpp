@@ -65,9 +65,14 @@ void BusMonitor::take_event(const BusEvent &event) {
   constexpr Time kIntermission = 3;
   switch (event.kind) {
     case BusEventKind::kFrame:
-      ++frames_;
       busy_ += event.end - event.start + kIntermission * bit_time_;
-      unsettled_.push_back({event.frame, event.start, event.end, BusFrame::kNobody, event.acked});
+      // What a lone error-passive transmitter repeats looks whole to a listener (MO-03).
+      if (!event.acked) {
+        ++unacknowledged_;
+        break;
+      }
+      ++frames_;
+      unsettled_.push_back({event.frame, event.start, event.end, BusFrame::kNobody});
       break;
     case BusEventKind::kOverloadFrame:
       ++overload_frames_;

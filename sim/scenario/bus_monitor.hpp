@@ -38,7 +38,6 @@ struct BusFrame {
   Time start = 0;            ///< of SOF
   Time end = 0;              ///< of EOF7
   NodeId sender = kNobody;   ///< node whose transmission ended well with this frame
-  bool acked = false;
 };
 
 /// An observer that counts. Add it to a bus after its nodes.
@@ -53,13 +52,16 @@ class BusMonitor : public BusObserver {
   /// Lets the decoder see the bus up to `time`.
   void advance(Time time);
 
-  /// Called for each frame that is valid for receivers, once its sender is known (some bits after its end).
+  /// Called for each acknowledged frame that is valid for receivers, once its sender is known (some bits after its end).
   std::function<void(const BusFrame &)> on_frame;
   /// Called for each event as the decoder sees it.
   std::function<void(const BusEvent &)> on_event;
 
   [[nodiscard]] const NodeCounts &node(NodeId id) const { return nodes_[id]; }
+  /// Acknowledged frames that are valid for receivers.
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
+  /// Complete frames that nobody acknowledged.
+  [[nodiscard]] std::uint64_t unacknowledged() const { return unacknowledged_; }
   [[nodiscard]] std::uint64_t error_frames() const { return error_frames_; }
   [[nodiscard]] std::uint64_t overload_frames() const { return overload_frames_; }
   /// Time in which frames (with their intermission) and error and overload frames held the bus, ps.
@@ -75,7 +77,7 @@ class BusMonitor : public BusObserver {
   std::vector<BusFrame> unsettled_;               // waiting for the sender's tx_ok
   std::vector<std::pair<NodeId, Time>> senders_;  // tx_ok events not yet matched
   BusDecoder decoder_;
-  std::uint64_t frames_ = 0, error_frames_ = 0, overload_frames_ = 0;
+  std::uint64_t frames_ = 0, unacknowledged_ = 0, error_frames_ = 0, overload_frames_ = 0;
   Time busy_ = 0;
 };
 

@@ -24,7 +24,7 @@ struct ReplayOptions {
   unsigned num_mb = 64;
   bool fast = false;          ///< as fast as the bus allows instead of as recorded
   std::size_t limit = 0;      ///< frames to take from the log, 0: all
-  Outputs outputs;
+  Outputs outputs = {};
 };
 
 /// What one node has received.

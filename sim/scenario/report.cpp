@@ -99,6 +99,7 @@ std::string to_text(const RunReport &report) {
   fmt::format_to(out, "{}: {:.0f} bit/s, {:.3f} ms\n", report.name, report.bitrate, milliseconds(report.duration));
   fmt::format_to(out, "  frames {}  error frames {}  overload frames {}  still waiting {}  load {:.1f} %",
                  report.frames, report.error_frames, report.overload_frames, report.pending, report.load * 100);
+  if (report.unacknowledged != 0) fmt::format_to(out, "  without ACK {}", report.unacknowledged);
   if (report.analytic_load > 0) fmt::format_to(out, " (worst case {:.1f} %)", report.analytic_load * 100);
   text += "\n\n";
   if (!report.messages.empty()) text += messages_text(report) + "\n";
@@ -121,6 +122,7 @@ Json to_json(const RunReport &report) {
           {"bitrate", report.bitrate},
           {"duration_ps", report.duration},
           {"frames", report.frames},
+          {"unacknowledged", report.unacknowledged},
           {"error_frames", report.error_frames},
           {"overload_frames", report.overload_frames},
           {"pending", report.pending},

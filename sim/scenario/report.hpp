@@ -52,7 +52,9 @@ struct RunReport {
   std::string name;
   double bitrate = 0;
   Time duration = 0;  ///< simulated, from the moment when all nodes are on the bus
-  std::uint64_t frames = 0, error_frames = 0, overload_frames = 0;
+  std::uint64_t frames = 0;          ///< acknowledged
+  std::uint64_t unacknowledged = 0;  ///< complete, but nobody is there to say so
+  std::uint64_t error_frames = 0, overload_frames = 0;
   std::uint64_t pending = 0;     ///< frames that were queued and have not left
   double load = 0;               ///< 0..1
   double analytic_load = 0;      ///< worst-case bits, 0 without analysis

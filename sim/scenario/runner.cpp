@@ -188,6 +188,7 @@ RunReport Run::collect() {
   report.bitrate = bitrate_;
   report.duration = bus_.now() - start_;
   report.frames = monitor_->frames();
+  report.unacknowledged = monitor_->unacknowledged();
   report.error_frames = monitor_->error_frames();
   report.overload_frames = monitor_->overload_frames();
   report.pending = stations_.pending();

@@ -15,8 +15,16 @@ class InputError : public std::runtime_error {
  public:
   /// `line` counts from 1; 0 means that no line can be named (a binary file, an option).
   InputError(const std::string &file, std::size_t line, const std::string &message)
-      : std::runtime_error(line != 0 ? file + ":" + std::to_string(line) + ": " + message
-                                     : file + ": " + message) {}
+      : std::runtime_error(one_line(line != 0 ? file + ":" + std::to_string(line) + ": " + message
+                                              : file + ": " + message)) {}
+
+ private:
+  /// Names and values from a file may hold anything; a message holds no control characters.
+  static std::string one_line(std::string text) {
+    for (char &c : text)
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+    return text;
+  }
 };
 
 /// A value from a file as it may appear in a message: control characters become '?', and long text is cut.

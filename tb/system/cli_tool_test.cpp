@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The tool as a user meets it: exit codes, one-line errors, JSON.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <sys/wait.h>
+
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+struct Result {
+  int code = -1;
+  std::string out;    // stdout
+  std::string error;  // stderr
+};
+
+std::string slurp(const std::string &path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Result tool(const std::string &arguments) {
+  const std::string stem = ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::string command =
+      std::string(VERICAN_BINARY) + " " + arguments + " > " + stem + ".out 2> " + stem + ".err";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(stem + ".out"), slurp(stem + ".err")};
+}
+
+std::string file_with(const std::string &name, const std::string &text) {
+  const std::string path = ::testing::TempDir() + name;
+  std::ofstream(path) << text;
+  return path;
+}
+
+/// Bad input: exit code 2, nothing on stdout, one line on stderr that says `what`.
+void expect_refused(const std::string &arguments, const std::string &what) {
+  const Result result = tool(arguments);
+  EXPECT_EQ(result.code, 2) << arguments;
+  EXPECT_EQ(result.out, "") << arguments;
+  EXPECT_THAT(result.error, StartsWith("verican: "));
+  EXPECT_THAT(result.error, HasSubstr(what));
+  EXPECT_EQ(result.error.find('\n'), result.error.size() - 1) << result.error;
+}
+
+TEST(Tool, HelpAndVersion) {
+  EXPECT_EQ(tool("--help").code, 0);
+  for (const char *command : {"run", "replay", "decode", "bittime", "paper"}) {
+    const Result help = tool(std::string(command) + " --help");
+    EXPECT_EQ(help.code, 0);
+    EXPECT_THAT(help.out, HasSubstr("--json"));
+  }
+  EXPECT_THAT(tool("--version").out, HasSubstr("verican"));
+}
+
+TEST(Tool, BadOptionsAreRefused) {
+  expect_refused("", "subcommand");
+  expect_refused("runn", "");
+  expect_refused("run", "scenario is required");
+  expect_refused("run x.yaml --bitrate 5M", "--bitrate");
+  expect_refused("bittime", "--bitrate is required");
+  expect_refused("bittime -b fast", "--bitrate");
+  expect_refused("bittime -b 500k -s 0.3", "sample point 0.3 is out of range; allowed: 0.5 to 0.9");
+  expect_refused("bittime -b 999k --max-error 1", "no setting of 8 to 25 quanta gives 999000 bit/s");
+  expect_refused("replay x.log --nodes 1", "--nodes");
+  expect_refused("decode x.vcd --bitrate 1", "--bitrate");
+}
+
+TEST(Tool, BadFilesAreRefused) {
+  expect_refused("run /no/such.yaml", "/no/such.yaml: no such file");
+  expect_refused("run /tmp", "is a directory");
+  expect_refused("run " + file_with("bad.yaml", "nodes:\n  - {name: a, clock: 8 Mhz}\n"),
+                 "bad.yaml:2: nodes[0].clock: '8 Mhz' is not allowed; allowed: ");
+  expect_refused("replay " + file_with("bad.log", "(1.0) can0 123#11\n(1.0) can0 999#11\n"),
+                 "bad.log:2: identifier is above 7FF");
+  expect_refused("replay " + file_with("empty.log", ""), "empty.log: the file is empty");
+  expect_refused("replay " + file_with("what.log", "hello world\n"), "unknown kind of log");
+  expect_refused("decode " + file_with("bad.vcd", "$timescale 1 ns $end\n$var wire 1 ! x $end\n$enddefinitions $end\n#0 1!\n"),
+                 "the bit rate of signal 'x' cannot be told");
+  expect_refused("run examples/two-nodes.yaml --vcd /no/such/folder/a.vcd", "cannot be opened for writing");
+  expect_refused("run examples/two-nodes.yaml --duration 5", "'5' is not allowed; allowed: a time above 0");
+}
+
+TEST(Tool, RunReportsAndExitsByTheExpectations) {
+  const Result good = tool("run examples/two-nodes.yaml --json");
+  EXPECT_EQ(good.code, 0) << good.error;
+  EXPECT_EQ(good.error, "");  // no progress bar where there is no terminal
+  const auto json = nlohmann::json::parse(good.out);
+  EXPECT_TRUE(json["ok"].get<bool>());
+  EXPECT_EQ(json["runs"][0]["frames"], 13);
+  const Result bad = tool("run examples/two-nodes.yaml --duration '10 ms'");
+  EXPECT_EQ(bad.code, 1);
+  EXPECT_THAT(bad.out, HasSubstr("FAIL  frames: 3 (expected 13)"));
+}
+
+TEST(Tool, ReplayThenDecodeGivesTheLogBack) {
+  const std::string log = file_with("round.log", "(0000000001.000000) can0 123#112233\n(0000000001.001000) can0 12345678#\n"
+                                                 "(0000000001.002000) can0 7FF#0102030405060708_C\n");
+  const std::string vcd = ::testing::TempDir() + "round.vcd", back = ::testing::TempDir() + "round.back";
+  const Result replayed = tool("replay " + log + " --vcd " + vcd + " --json");
+  EXPECT_EQ(replayed.code, 0) << replayed.out;
+  const Result decoded = tool("decode " + vcd + " --candump " + back + " --json");
+  EXPECT_EQ(decoded.code, 0);
+  EXPECT_EQ(nlohmann::json::parse(decoded.out)["frames"], 3);
+  const std::string frames = slurp(back);
+  for (const char *frame : {"123#112233", "12345678#", "7FF#0102030405060708_C"}) EXPECT_THAT(frames, HasSubstr(frame));
+}
+
+TEST(Tool, BittimeJson) {
+  const auto json = nlohmann::json::parse(tool("bittime -c 8M -b 500k --sjw 1 --json").out);
+  EXPECT_EQ(json["settings"][0]["ctrl"], "0x00310005");  // what can-utils prints
+}
+
+TEST(Tool, PaperAgrees) {
+  const Result result = tool("paper --json --out " + ::testing::TempDir() + "waves");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_TRUE(nlohmann::json::parse(result.out)["ok"].get<bool>());
+  EXPECT_THAT(slurp(::testing::TempDir() + "waves/fig13-arbitration.vcd"), HasSubstr("sID "));
+}
+
+}  // namespace

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Real recordings through whole cores: every node has every frame, bit-exact and in order.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "scenario/replay.hpp"
+#include "trace/candump.hpp"
+
+namespace vericansim {
+namespace {
+
+const std::string kTraffic = "../shared/data/traffic/";
+
+bool exists(const std::string &path) { return std::ifstream(path).good(); }
+
+std::string differences(const ReplayReport &report) {
+  std::string text;
+  for (const ReplayNode &node : report.nodes)
+    if (!node.complete) text += node.name + ": " + node.first_difference + "\n";
+  return text;
+}
+
+// The candump sample whole: 2,368 frames of an NMEA 2000 network at 250 kbit/s, here on 16 clocks a bit.
+TEST(Replay, CandumpSampleWhole) {
+  const std::string path = kTraffic + "canboat_candumpSample3.txt";
+  if (!exists(path)) GTEST_SKIP() << path << " is not here";
+  const CanLog log = read_log(path);
+  ASSERT_EQ(log.entries.size(), 2368U);
+  EXPECT_EQ(log.skipped, 0U);
+  const ReplayReport report = replay(log, {.nodes = 2, .bitrate = 250e3, .clock_hz = 4e6, .ppm = 100, .fast = true});
+  EXPECT_EQ(differences(report), "");
+  EXPECT_EQ(report.on_bus, 2368U);
+  EXPECT_EQ(report.error_frames, 0U);
+  EXPECT_EQ(report.nodes.at(1).received, 2368U);
+  EXPECT_GT(report.load, 0.97);  // back to back
+}
+
+struct Recording {
+  const char *name;
+  const char *file;
+  std::size_t entries;
+  double bitrate;
+  unsigned nodes;
+  unsigned senders;
+};
+
+class Recordings : public ::testing::TestWithParam<Recording> {};
+
+// Of the others as many frames as take some seconds, from several senders at once: arbitration in every frame.
+TEST_P(Recordings, FirstFramesThroughSeveralSenders) {
+  const Recording &recording = GetParam();
+  const std::string path = kTraffic + recording.file;
+  if (!exists(path)) GTEST_SKIP() << path << " is not here";
+  const CanLog log = read_log(path);
+  EXPECT_EQ(log.entries.size(), recording.entries);
+  EXPECT_EQ(log.skipped, 0U);
+  const ReplayReport report = replay(log, {.nodes = recording.nodes, .senders = recording.senders, .bitrate = recording.bitrate,
+                                           .clock_hz = 16 * recording.bitrate, .ppm = 200, .cable_m = 20, .fast = true,
+                                           .limit = 500});
+  EXPECT_EQ(differences(report), "");
+  EXPECT_TRUE(report.ok());
+  EXPECT_EQ(report.on_bus, 500U);
+}
+// Numbers of entries: SOURCES.md beside the recordings.
+INSTANTIATE_TEST_SUITE_P(
+    All, Recordings,
+    ::testing::Values(Recording{"Pcap", "canboat_nmea2000_can0-1.pcap", 49928, 250e3, 3, 3},
+                      Recording{"Trc", "canboat_sample3_PCAN-View.trc", 12274, 250e3, 2, 2},
+                      Recording{"Gvret", "savvycan_GVRET_Log.csv", 12974, 500e3, 4, 3}),
+    [](const auto &item) { return std::string(item.param.name); });
+
+// As recorded: the frames keep their distances.
+TEST(Replay, AsRecordedKeepsTheTimes) {
+  const CanLog log = parse_candump("(10.000000) can0 123#11\n(10.004000) can0 456#22\n(10.004000) can0 457#\n", "log");
+  const ReplayReport report = replay(log, {.nodes = 3, .bitrate = 500e3, .ppm = 0});
+  EXPECT_TRUE(report.ok()) << differences(report);
+  EXPECT_GE(report.duration, 4 * kMillisecond);
+  EXPECT_LE(report.duration, 5 * kMillisecond);
+}
+
+// A frame that the log has and a node lacks must be noticed: the check itself is checked with a bus that loses one.
+TEST(Replay, RefusesImpossibleSettings) {
+  const CanLog log = parse_candump("(1.0) can0 123#11\n", "log");
+  EXPECT_THROW(static_cast<void>(replay(log, {.nodes = 1})), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(replay(log, {.nodes = 2, .senders = 3})), std::invalid_argument);
+}
+
+TEST(Replay, AnEmptyLogIsNoError) {
+  const ReplayReport report = replay(CanLog{}, {.nodes = 2});
+  EXPECT_TRUE(report.ok());
+  EXPECT_EQ(report.on_bus, 0U);
+}
+
+}  // namespace
+}  // namespace vericansim

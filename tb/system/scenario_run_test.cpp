@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenarios on whole cores: the report must say what the passive decoder, the frame codec and arithmetic say.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "model/frame_codec.hpp"
+#include "scenario/runner.hpp"
+#include "trace/log.hpp"
+#include "trace/vcd_file.hpp"
+#include "trace/wave_decode.hpp"
+
+namespace vericansim {
+namespace {
+
+using ::testing::HasSubstr;
+
+RunReport run_text(const std::string &text, double bitrate = 500e3) {
+  return run_scenario(parse_scenario("test.yaml", text), bitrate);
+}
+
+std::string failures(const RunReport &report) {
+  std::string text;
+  for (const CheckResult &check : report.checks)
+    if (!check.ok) text += check.what + ": " + check.seen + " (expected " + check.wanted + ")\n";
+  return text;
+}
+
+class Example : public ::testing::TestWithParam<const char *> {};
+
+// Every shipped example meets its own expectations (the SAE set: see below).
+TEST_P(Example, MeetsItsExpectations) {
+  const Scenario scenario = read_scenario(std::string("examples/") + GetParam());
+  for (const double bitrate : scenario.bitrates) EXPECT_EQ(failures(run_scenario(scenario, bitrate)), "") << bitrate;
+}
+INSTANTIATE_TEST_SUITE_P(All, Example,
+                         ::testing::Values("two-nodes.yaml", "arbitration.yaml", "sixteen-nodes.yaml", "faults.yaml"));
+
+// All 17 messages queued at the same moment: no response beyond the bound of Davis et al. at any of the four rates.
+TEST(Sae, NoResponseIsLongerThanItsBound) {
+  Scenario scenario = read_scenario("examples/sae-class-c.yaml");
+  scenario.duration = 40 * kMillisecond;
+  ASSERT_EQ(scenario.bitrates.size(), 4U);
+  for (const double bitrate : scenario.bitrates) {
+    const RunReport report = run_scenario(scenario, bitrate);
+    EXPECT_EQ(failures(report), "") << bitrate;
+    for (const MessageReport &message : report.messages) {
+      ASSERT_TRUE(message.bound.has_value());
+      EXPECT_GE(message.sent, 1U) << message.name;
+    }
+  }
+}
+
+// One frame of known length: the response time is its length (and the way from the registers to the wire).
+TEST(Run, ResponseTimeIsTheLengthOfTheFrame) {
+  const RunReport report = run_text(
+      "duration: 2 ms\nnodes: [{name: a}, {name: b}]\n"
+      "traffic: [{node: a, name: m, id: 0x555, data: 55 55 55 55 55 55 55 55}]\n"
+      "expect: {frames: 1, complete: true}\n");
+  EXPECT_EQ(failures(report), "");
+  const Frame frame{0x555, false, false, 8, {0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55}};
+  const auto bits = static_cast<Time>(encode_frame(frame).bits.size());
+  const Time shortest = bits * 2 * kMicrosecond;
+  EXPECT_GE(report.messages.at(0).longest, shortest);
+  EXPECT_LE(report.messages.at(0).longest, shortest + 8 * kMicrosecond);  // IF-13: at most two bits and the accesses
+  EXPECT_NEAR(report.load * static_cast<double>(report.duration), static_cast<double>((bits + 3) * 2 * kMicrosecond), 2e6);
+}
+
+TEST(Run, FailedExpectationsAreReported) {
+  const RunReport report = run_text(
+      "duration: 1 ms\nnodes: [{name: a}, {name: b}]\ntraffic: [{node: a, name: m, id: 1}]\n"
+      "expect: {frames: 2, nodes: {a: {tec: 8, state: passive}}, response_times: {m: 1 us}}\n");
+  EXPECT_FALSE(report.ok());
+  EXPECT_EQ(report.checks.size(), 4U);
+  for (const CheckResult &check : report.checks) EXPECT_FALSE(check.ok) << check.what;
+}
+
+// FC-18: a lone transmitter ends at TEC 128 and never goes bus-off.
+TEST(Run, FC_18_LoneTransmitter) {
+  const RunReport report = run_text(
+      "duration: 20 ms\ndrain: 0\nnodes: [{name: alone}]\ntraffic: [{node: alone, id: 1}]\n"
+      "expect: {frames: 0, pending: 1, nodes: {alone: {tec: 128, state: passive, bus_off: 0, sent: 0}}}\n");
+  EXPECT_EQ(failures(report), "");
+  EXPECT_EQ(report.nodes.at(0).counts.by_kind[3], report.nodes.at(0).counts.errors);  // ACK errors only
+}
+
+TEST(Run, SaturatedMessagesFillTheBus) {
+  const RunReport report = run_text(
+      "duration: 10 ms\nnodes: [{name: a, clock: 16 MHz}, {name: b, clock: 16 MHz}]\n"
+      "traffic: [{node: a, id: 0x10, data: counter, period: saturated}, {node: b, id: 0x20, data: random, period: saturated}]\n"
+      "expect: {load: {min: 97, max: 100.5}, error_frames: 0, complete: true}\n");
+  EXPECT_EQ(failures(report), "");
+}
+
+TEST(Run, FiltersChooseWhatTheSoftwareSees) {
+  const RunReport report = run_text(
+      "duration: 4 ms\nnodes: [{name: a}, {name: b, filters: [{id: 0x100, mask: 0x7F0}]}]\n"
+      "traffic: [{node: a, id: 0x105, data: 01}, {node: a, id: 0x115, data: 02, offset: 1 ms}]\n"
+      "expect: {frames: 2, nodes: {b: {received: 1}}}\n");
+  EXPECT_EQ(failures(report), "");
+}
+
+TEST(Run, ListenOnlyNodesHearAndSaySilence) {
+  const RunReport report = run_text(
+      "duration: 4 ms\nnodes: [{name: a}, {name: b}, {name: ear, listen_only: true}]\n"
+      "traffic: [{node: a, id: 0x105, data: 01, period: 1 ms}]\n"
+      "expect: {frames: 4, complete: true, nodes: {ear: {received: 4, sent: 0}}}\n");
+  EXPECT_EQ(failures(report), "");
+}
+
+TEST(Run, RunsAreRepeatable) {
+  Scenario scenario = read_scenario("examples/faults.yaml");
+  scenario.duration = 20 * kMillisecond;
+  const auto first = to_json(run_scenario(scenario, 500e3));
+  const auto second = to_json(run_scenario(scenario, 500e3));
+  EXPECT_EQ(first["nodes"], second["nodes"]);
+  EXPECT_EQ(first["messages"], second["messages"]);
+}
+
+/// A run with all outputs; the frames in the order of the bus.
+class Outputs4 : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    Scenario scenario = parse_scenario(
+        "test.yaml",
+        "duration: 8 ms\nnodes: [{name: left, ppm: 200}, {name: right, clock: 16 MHz, ppm: -200, phase: 11 ns}]\n"
+        "traffic:\n  - {node: left, id: 0x123, data: counter, dlc: 3, period: 2 ms}\n"
+        "  - {node: right, id: 0x1ABCDEF0, extended: true, data: random, period: 3 ms, offset: 1 ms}\n"
+        "  - {node: right, id: 0x7F0, remote: true, offset: 0.5 ms}\n"
+        "faults: [{kind: flip, node: left, at: {node: left, frame: 2, field: CRC, bit: 1}}]\n");
+    // ctest runs tests of one file side by side: a name for each.
+    const std::string stem = ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    scenario.outputs = {stem + ".vcd", stem + ".fst", stem + ".log", stem + ".pcap"};
+    report_ = run_scenario(scenario, 500e3);
+    outputs_ = scenario.outputs;
+    log_ = read_log(outputs_.candump);
+  }
+  RunReport report_;
+  Outputs outputs_;
+  CanLog log_;
+};
+
+TEST_F(Outputs4, LogAndCaptureHoldTheSameFrames) {
+  const CanLog pcap = read_log(outputs_.pcap);
+  ASSERT_EQ(log_.entries.size(), report_.frames);
+  ASSERT_EQ(pcap.entries.size(), report_.frames);
+  for (std::size_t i = 0; i < log_.entries.size(); ++i) EXPECT_EQ(log_.entries[i].frame, pcap.entries[i].frame);
+}
+
+TEST_F(Outputs4, WaveformDecodesToTheSameFrames) {
+  for (const char *signal : {"bus.can", "left.rx", "right.rx"}) {
+    const WaveDecodeResult decoded = decode_wave(outputs_.vcd, {signal, std::nullopt, 800});
+    EXPECT_DOUBLE_EQ(decoded.bitrate, 500e3);
+    std::vector<Frame> frames;
+    std::size_t errors = 0;
+    for (const BusEvent &event : decoded.events) {
+      if (event.kind == BusEventKind::kFrame) frames.push_back(event.frame);
+      if (event.kind == BusEventKind::kErrorFrame) ++errors;
+    }
+    ASSERT_EQ(frames.size(), log_.entries.size()) << signal;
+    for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i], log_.entries[i].frame);
+    EXPECT_EQ(errors, 1U) << signal;
+  }
+}
+
+TEST_F(Outputs4, WaveformNamesFieldsRolesAndErrors) {
+  const std::string text = read_text_file(outputs_.vcd);
+  for (const char *name : {"sSOF ", "sID ", "sCRC ", "sERROR_FLAG ", "sTRANSMITTING ", "sRECEIVING ", "sERROR_ACTIVE "})
+    EXPECT_THAT(text, HasSubstr(name));
+}
+
+// GTKWave's own tools must read both files and give the same wire.
+TEST_F(Outputs4, GtkwaveReadsBothFiles) {
+  if (std::system("command -v fst2vcd vcd2fst > /dev/null 2>&1") != 0) GTEST_SKIP() << "GTKWave's tools are not installed";
+  ASSERT_EQ(std::system(("fst2vcd " + outputs_.fst + " > " + outputs_.fst + ".vcd").c_str()), 0);
+  ASSERT_EQ(std::system(("vcd2fst " + outputs_.vcd + " " + outputs_.vcd + ".fst").c_str()), 0);
+  const VcdFile from_fst{outputs_.fst + ".vcd"}, vcd{outputs_.vcd};
+  std::vector<std::pair<Time, Level>> a, b;
+  from_fst.read(from_fst.find("bus.can"), [&](Time t, Level l) { a.emplace_back(t / 1000, l); });
+  vcd.read(vcd.find("bus.can"), [&](Time t, Level l) { b.emplace_back(t / 1000, l); });
+  EXPECT_GT(a.size(), 100U);
+  EXPECT_EQ(a, b);
+}
+
+/// One line of sigrok's annotations for a frame: identifier, DLC, data.
+std::string sigrok_words(const Frame &frame) {
+  std::ostringstream text;
+  if (frame.extended)
+    text << "Full Identifier: " << frame.id << " (0x" << std::hex << frame.id << std::dec << ")\n";
+  else
+    text << "Identifier: " << frame.id << " (0x" << std::hex << frame.id << std::dec << ")\n";
+  text << "Data length code: " << static_cast<int>(frame.dlc) << "\n";
+  for (unsigned i = 0; i < frame.payload_size(); ++i) {
+    char byte[40];
+    std::snprintf(byte, sizeof byte, "Data byte %u: 0x%02x\n", i, frame.data[i]);
+    text << byte;
+  }
+  return text.str();
+}
+
+/// What sigrok's CAN decoder says about a signal of the waveform.
+std::string sigrok(const std::string &vcd, const std::string &signal, int bitrate) {
+  const std::string command = "sigrok-cli -i " + vcd + " -I vcd:downsample=50 -P can:can_rx=" + signal +
+                              ":nominal_bitrate=" + std::to_string(bitrate) + ":sample_point=80" +
+                              " -A can=id:full-id:dlc:data 2> /dev/null | sed 's/^can-1: //'";
+  FILE *pipe = popen(command.c_str(), "r");
+  std::string text;
+  for (int c = 0; pipe != nullptr && (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
+  if (pipe != nullptr) pclose(pipe);
+  return text;
+}
+
+// An outside judge: sigrok's CAN decoder. It knows no error frames, so this run has none; and it takes the DLC of a
+// remote frame for data, so remote frames have DLC 0.
+TEST(Sigrok, SeesTheSameFrames) {
+  if (std::system("command -v sigrok-cli > /dev/null 2>&1") != 0) GTEST_SKIP() << "sigrok-cli is not installed";
+  Scenario scenario = parse_scenario(
+      "test.yaml",
+      "bitrate: 250k\nduration: 30 ms\nnodes: [{name: left, ppm: 200}, {name: right, ppm: -200, phase: 11 ns}]\n"
+      "traffic:\n  - {node: left, id: 0x000, data: 00 00 00 00 00 00 00 00, period: 5 ms}\n"
+      "  - {node: left, id: 0x7FF, data: FF FF FF FF FF FF FF FF, period: 5 ms, offset: 1 ms}\n"
+      "  - {node: right, id: 0x1FFFFFFF, extended: true, data: random, dlc: 5, period: 4 ms, offset: 2 ms}\n"
+      "  - {node: right, id: 0x078, data: 01 E1 E1 E1 E1 E1 E1 E1, period: 5 ms, offset: 3 ms}\n"
+      "  - {node: right, id: 0x123, data: random, dlc: 0, period: 7 ms, offset: 0.1 ms}\n");
+  scenario.outputs.vcd = ::testing::TempDir() + "sigrok.vcd";
+  scenario.outputs.candump = ::testing::TempDir() + "sigrok.log";
+  const RunReport report = run_scenario(scenario, 250e3);
+  ASSERT_GT(report.frames, 25U);
+  std::string wanted;
+  for (const LogEntry &entry : read_log(scenario.outputs.candump).entries) wanted += sigrok_words(entry.frame);
+  std::string seen = sigrok(scenario.outputs.vcd, "can", 250000);
+  // For extended frames sigrok also prints the first eleven bits by themselves.
+  std::istringstream lines{seen};
+  std::string kept, line, previous;
+  while (std::getline(lines, line)) {
+    if (line.rfind("Full Identifier", 0) == 0 && !previous.empty()) kept.erase(kept.size() - previous.size() - 1);
+    kept += line + "\n";
+    previous = line;
+  }
+  EXPECT_EQ(kept, wanted);
+}
+
+}  // namespace
+}  // namespace vericansim

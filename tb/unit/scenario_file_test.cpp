@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenario files: what is read, and that every mistake is named with its line, value and what is allowed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenario/quantity.hpp"
+#include "scenario/runner.hpp"
+#include "scenario/scenario.hpp"
+#include "trace/input_error.hpp"
+
+namespace vericansim {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Quantity, NumbersWithUnits) {
+  EXPECT_EQ(parse_frequency("8 MHz"), 8e6);
+  EXPECT_EQ(parse_frequency("8000000"), 8e6);
+  EXPECT_EQ(parse_bitrate("500k"), 500e3);
+  EXPECT_EQ(parse_bitrate("1 Mbit/s"), 1e6);
+  EXPECT_EQ(parse_time("10 ms"), 10 * kMillisecond);
+  EXPECT_EQ(parse_time("0.5us"), 500 * kNanosecond);
+  EXPECT_EQ(parse_time("0"), 0);
+  EXPECT_EQ(parse_length("40 m"), 40.0);
+  EXPECT_EQ(parse_part("87.5 %"), 0.875);
+  EXPECT_EQ(parse_integer("0x7FF"), 0x7FFU);
+  EXPECT_EQ(parse_integer("0b101"), 5U);
+}
+
+TEST(Quantity, EverythingElseIsRefused) {
+  for (const char *text : {"", " ", "MHz", "8 mhz", "8 MHz x", "nan", "inf", "1e999", "--1"})
+    EXPECT_FALSE(parse_frequency(text)) << text;
+  EXPECT_FALSE(parse_time("10"));  // no unit
+  EXPECT_FALSE(parse_time("1e30 s"));
+  EXPECT_FALSE(parse_integer("0x"));
+  EXPECT_FALSE(parse_integer("-1"));
+  EXPECT_FALSE(parse_integer("99999999999999999999"));
+}
+
+constexpr const char *kGood = R"(name: all keys
+bitrate: [125k, 500k]
+sample_point: 80 %
+duration: 5 ms
+drain: 1 ms
+seed: 3
+analysis: true
+nodes:
+  - name: a
+    clock: 16 MHz
+    ppm: -50
+    phase: 3 ns
+    wander: {kind: sine, ppm: 10, period: 2 ms}
+    cable: 10 m
+    tx_delay: 50 ns
+    rx_delay: 60 ns
+    timing: {brp: 2, prop: 5, ps1: 4, ps2: 6, sjw: 3}
+    mailboxes: 32
+    tx_buffers: 4
+    listen_only: false
+    filters:
+      - {id: 0x100, mask: 0x700}
+      - {id: 0x10000000, extended: true}
+  - {name: b, sample_point: 0.75, sjw: 1, bitrate: 250k, bus_off_recovery: never}
+traffic:
+  - {node: a, name: m, id: 0x123, data: 01 A5, period: 1 ms, offset: 0.1 ms, jitter: 10 us, count: 7}
+  - {node: b, id: 0x1FFFFFFF, extended: true, data: [1, 2, 3, 4, 5, 6, 7, 0xFF], dlc: 15}
+  - {node: b, id: 5, remote: true, dlc: 8, period: saturated}
+faults:
+  - {kind: flip, node: b, at: {node: a, frame: 2, field: ack del, bit: 0, first_tq: 3, last_tq: 9}}
+  - {kind: dominant, node: all, from: 1 ms, for: 4 us}
+  - {kind: noise, per_bit: 0.001, node: a}
+expect:
+  frames: {min: 1, max: 99}
+  complete: true
+  nodes: {a: {tec: 0, state: active}, all: {bus_off: 0}}
+  response_times: {m: 2 ms}
+outputs: {vcd: a.vcd}
+)";
+
+TEST(ScenarioFile, EveryKeyIsUnderstood) {
+  const Scenario s = parse_scenario("s.yaml", kGood);
+  EXPECT_EQ(s.bitrates, (std::vector<double>{125e3, 500e3}));
+  ASSERT_EQ(s.nodes.size(), 2U);
+  EXPECT_EQ(s.nodes[0].clock.frequency_hz, 16e6);
+  EXPECT_EQ(s.nodes[0].clock.wander, Wander::kSine);
+  EXPECT_EQ(s.nodes[0].link.cable, 50 * kNanosecond);  // 5 ns/m
+  EXPECT_EQ(s.nodes[0].timing, (BitTiming{2, 5, 4, 6, 3}));
+  EXPECT_EQ(s.nodes[0].host.filters.at(1).mask, 0x1FFFFFFFU);
+  EXPECT_EQ(s.nodes[1].sample_point, 0.75);
+  EXPECT_TRUE(s.nodes[1].host.boff_rec);
+  ASSERT_EQ(s.traffic.size(), 3U);
+  EXPECT_EQ(s.traffic[0].frame, (Frame{0x123, false, false, 2, {0x01, 0xA5}}));
+  EXPECT_EQ(s.traffic[1].frame, (Frame{0x1FFFFFFF, true, false, 15, {1, 2, 3, 4, 5, 6, 7, 0xFF}}));
+  EXPECT_EQ(s.traffic[1].name, "1FFFFFFF");
+  EXPECT_TRUE(s.traffic[2].saturated);
+  ASSERT_EQ(s.faults.size(), 3U);
+  EXPECT_EQ(s.faults[0].place.field, Field::kAckDel);
+  EXPECT_EQ(s.faults[0].watched, 0U);
+  EXPECT_EQ(s.faults[0].node, 1U);
+  EXPECT_EQ(s.faults[1].window.to, kMillisecond + 4 * kMicrosecond);
+  EXPECT_EQ(s.expect.nodes.size(), 3U);
+  EXPECT_EQ(s.expect.response_times.at("m"), 2 * kMillisecond);
+  EXPECT_EQ(s.outputs.vcd, "a.vcd");
+}
+
+TEST(ScenarioFile, BitTimingOfANode) {
+  const Scenario s = parse_scenario("s.yaml", kGood);
+  EXPECT_EQ(timing_of(s, s.nodes[0], 500e3), (BitTiming{2, 5, 4, 6, 3}));
+  const BitTiming calculated = timing_of(s, s.nodes[1], 500e3);  // its own 250 kbit/s and 75 %
+  EXPECT_EQ(calculated.clocks_per_bit(), 32U);
+  EXPECT_EQ(calculated.ps2 * 4, calculated.quanta());
+}
+
+struct Mistake {
+  const char *name;
+  const char *text;
+  const char *message;
+};
+
+const char *const kTwo = "nodes: [{name: a}, {name: b}]\n";
+
+class ScenarioMistake : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(ScenarioMistake, IsNamedInOneLine) {
+  const Mistake &mistake = GetParam();
+  std::string text = mistake.text;
+  if (text.rfind("nodes:", 0) != 0 && text.find("\nnodes:") == std::string::npos) text = kTwo + text;
+  try {
+    const Scenario s = parse_scenario("s.yaml", text);
+    static_cast<void>(timing_of(s, s.nodes.at(0), s.bitrates.at(0)));
+    FAIL() << "no error";
+  } catch (const InputError &error) {
+    EXPECT_THAT(error.what(), HasSubstr(mistake.message));
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ScenarioMistake,
+    ::testing::Values(
+        Mistake{"NoYaml", "nodes: [", "s.yaml:1: no valid YAML"},
+        Mistake{"NoMap", "nodes: 5", "s.yaml:1: nodes: '5' is not allowed; allowed: a map"},
+        Mistake{"EmptyNodes", "nodes: []", "no node is given"},
+        Mistake{"UnknownKey", "bitrat: 500k\n", "s.yaml:2: unknown key 'bitrat'; allowed: analysis, bitrate, "},
+        Mistake{"TwiceAKey", "seed: 1\nseed: 2\n", "s.yaml:3: key 'seed' is given twice"},
+        Mistake{"Bitrate", "bitrate: 2M\n", "s.yaml:2: bitrate: '2M' is not allowed; allowed: 1 kbit/s to 1 Mbit/s"},
+        Mistake{"Duration", "duration: 10\n", "duration: '10' is not allowed; allowed: 1 us to"},
+        Mistake{"NodeName", "nodes:\n  - {name: a}\n  - {name: a}\n", "s.yaml:3: nodes[1]: node name 'a' is used twice"},
+        Mistake{"Segment", "nodes:\n  - {name: a, timing: {brp: 1, prop: 9, ps1: 1, ps2: 2, sjw: 1}}\n",
+                "timing.prop: '9' is not allowed; allowed: 1 to 8"},
+        Mistake{"Quanta", "nodes:\n  - {name: a, timing: {brp: 1, prop: 8, ps1: 8, ps2: 8, sjw: 1}, clok: 1}\n",
+                "unknown key 'clok'"},
+        Mistake{"Mailboxes", "nodes: [{name: a, mailboxes: 20}]", "allowed: 16, 32, 64"},
+        Mistake{"ImpossibleRate", "bitrate: 1M\nnodes:\n  - {name: slow, clock: 4 MHz}\n",
+                "s.yaml:3: node 'slow': no setting of 8 to 25 quanta gives 1000000 bit/s"},
+        Mistake{"WhichNode", "traffic: [{node: c, id: 1}]", "traffic[0].node: 'c' is not allowed; allowed: the name of a node: a, b"},
+        Mistake{"IdTooLarge", "traffic: [{node: a, id: 0x800}]", "traffic[0].id: '0x800' is not allowed; allowed: 0 to 2047"},
+        Mistake{"NoId", "traffic: [{node: a}]", "key 'id' is missing"},
+        Mistake{"NineBytes", "traffic: [{node: a, id: 1, data: 01 02 03 04 05 06 07 08 09}]", "up to 8 bytes"},
+        Mistake{"RemoteData", "traffic: [{node: a, id: 1, remote: true, data: 01}]", "a remote frame has no data"},
+        Mistake{"DlcAgainstData", "traffic: [{node: a, id: 1, data: 01, dlc: 3}]", "3 does not fit the 1 bytes of data"},
+        Mistake{"JitterAbovePeriod", "traffic: [{node: a, id: 1, period: 1 ms, jitter: 1 ms}]", "below the period"},
+        Mistake{"NameTwice", "traffic: [{node: a, id: 1}, {node: b, id: 1}]", "message name '001' is used twice"},
+        Mistake{"FaultKind", "faults: [{kind: explode}]", "allowed: flip, dominant, recessive, cut, short, clock, noise"},
+        Mistake{"FaultField", "faults: [{kind: flip, at: {node: a, field: HEAD}}]", "'HEAD' is not allowed; allowed: INTEGRATING"},
+        Mistake{"FaultNode", "faults: [{kind: cut}]", "key 'node' is missing"},
+        Mistake{"FaultTimes", "faults: [{kind: dominant, from: 2 ms, to: 1 ms}]", "faults[0].to: '1 ms' is not allowed"},
+        Mistake{"Expectation", "expect: {nodes: {c: {tec: 0}}}", "unknown key 'c'; allowed: a, all, b"},
+        Mistake{"RangeUpsideDown", "expect: {frames: {min: 2, max: 1}}", "min is above max"},
+        Mistake{"AListForANumber", "seed: [1, 2]\n", "a list is not allowed"}),
+    [](const auto &item) { return std::string(item.param.name); });
+
+// Whatever is done to a good file, it is read or refused, and nothing else happens.
+TEST(ScenarioFile, DamagedInputNeverCrashes) {
+  const std::string good = kGood;
+  for (std::size_t at = 0; at < good.size(); at += 7)
+    for (const char byte : {'\0', ':', '[', '{', '}', '-', '&', '*', '"', '\n', '9', '\xFF'}) {
+      std::string bad = good;
+      bad[at] = byte;
+      for (const std::string &text : {bad, good.substr(0, at)}) {
+        try {
+          static_cast<void>(parse_scenario("s.yaml", text));
+        } catch (const InputError &error) {
+          EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        }
+      }
+    }
+}
+
+}  // namespace
+}  // namespace vericansim
