@@ -98,9 +98,9 @@ module can_mb_rx #(
     end else begin
       s1_q <= gnt_i;
       s2_q <= s1_q;
+      s1_idx_q <= idx_o;
       if (gnt_i) begin
-        s1_idx_q <= idx_o;
-        idx_o    <= idx_o + 1'b1;
+        idx_o <= idx_o + 1'b1;
         if (last) scan_q <= 1'b0;
       end
       if (s2_q && skip) begin

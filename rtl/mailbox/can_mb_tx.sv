@@ -115,8 +115,7 @@ module can_mb_tx #(
       s1_last_q <= scan_gnt_i && last;
       s2_q      <= s1_q;
       s2_last_q <= s1_last_q;
-      if (ins_gnt_i)       s1_idx_q <= ins_idx_o;
-      else if (scan_gnt_i) s1_idx_q <= scan_idx_o;
+      s1_idx_q  <= ins_req_o ? ins_idx_o : scan_idx_o;
       if (scan_gnt_i) begin
         scan_idx_o <= scan_idx_o + 1'b1;
         wait_q     <= last;

@@ -73,7 +73,7 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
   void clock(std::optional<unsigned> write = {}, const Buffer &value = {}) {
     top_.gnt_i = 0;
     top_.eval();
-    const bool grant = top_.req_o != 0 && rng_() % 3 != 0;
+    const bool grant = top_.req_o != 0 && random() % 3 != 0;
     top_.gnt_i = grant;
     const Buffer read = buffers_[top_.idx_o];
     if (write) buffers_[*write] = value;
@@ -111,33 +111,34 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
 
   Buffer random_buffer() {
     static constexpr unsigned kCodes[] = {4, 4, 2, 6, 0, 8, 12, 10};
-    Buffer buffer{.code = kCodes[rng_() % 8], .serviced = rng_() % 2 == 0, .ide = rng_() % 2 == 0,
-                  .rtr = rng_() % 2 == 0, .id = ((rng_() % 4) << 18) | (rng_() % 2), .mask = rng_() | rng_()};
+    Buffer buffer{.code = kCodes[random() % 8], .serviced = random() % 2 == 0, .ide = random() % 2 == 0,
+                  .rtr = random() % 2 == 0, .id = ((random() % 4) << 18) | (random() % 2), .mask = random() | random()};
     if (buffer.code != 2 && buffer.code != 6) buffer.serviced = false;
     return buffer;
   }
 
   Header random_header() {
-    Header header{.id = (rng_() % 4) << 18, .ide = rng_() % 2 == 0, .rtr = rng_() % 4 == 0};
-    if (header.ide) header.id |= rng_() % 2;
+    Header header{.id = (random() % 4) << 18, .ide = random() % 2 == 0, .rtr = random() % 4 == 0};
+    if (header.ide) header.id |= random() % 2;
     return header;
   }
 
   std::array<Buffer, kBuffers> buffers_{};
+  std::uint32_t random() { return static_cast<std::uint32_t>(rng_()); }
   std::mt19937 rng_{3};
   Vcan_mb_rx top_;
 };
 
 TEST_P(MbRx, ChosenBufferIsThatOfTheModel) {
   for (unsigned round = 0; round < 1500; ++round) {
-    const unsigned density = rng_() % 60;
+    const unsigned density = random() % 60;
     for (Buffer &buffer : buffers_) {
       buffer = random_buffer();
-      if (rng_() % 60 < density) buffer.code = 0;
+      if (random() % 60 < density) buffer.code = 0;
     }
-    top_.maxmb_i = rng_() % 4 == 0 ? rng_() % 64 : 63;
-    top_.lock_i = rng_() % 2;
-    top_.lock_idx_i = rng_() % kBuffers;
+    top_.maxmb_i = random() % 4 == 0 ? random() % 64 : 63;
+    top_.lock_i = random() % 2;
+    top_.lock_idx_i = random() % kBuffers;
     const Header header = random_header();
     start(header);
     finish();
@@ -153,8 +154,8 @@ TEST_P(MbRx, BuffersTakenAwayMeanwhileAreNotChosen) {  // 3.4: a C/S write remov
     const Header header = random_header();
     start(header);
     for (unsigned i = 0; i < 100; ++i) {
-      if (rng_() % 3 != 0) clock();
-      else clock(rng_() % kBuffers, Buffer{});
+      if (random() % 3 != 0) clock();
+      else clock(random() % kBuffers, Buffer{});
     }
     finish();
     ASSERT_TRUE(top_.hit_o == 0 || matches(top_.hit_idx_o, header)) << "round " << round;
