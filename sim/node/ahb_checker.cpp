@@ -29,7 +29,8 @@ unsigned ahb_beats(AhbBurst burst) {
 
 std::uint32_t ahb_next_address(std::uint32_t address, AhbSize size, AhbBurst burst) {
   const std::uint32_t step = 1u << static_cast<unsigned>(size);
-  const bool wraps = burst == AhbBurst::kWrap4 || burst == AhbBurst::kWrap8 || burst == AhbBurst::kWrap16;
+  const bool wraps =
+      burst == AhbBurst::kWrap4 || burst == AhbBurst::kWrap8 || burst == AhbBurst::kWrap16;
   if (!wraps) return address + step;
   const std::uint32_t block = step * ahb_beats(burst);
   return (address & ~(block - 1)) | ((address + step) & (block - 1));
@@ -76,9 +77,10 @@ void AhbChecker::check_master(const AhbRequest &request) {
     violation("HWDATA changed while HREADY was low");
   }
   if (extended || request.htrans != AhbTrans::kSeq) return;
-  const std::uint32_t expected = previous_.htrans == AhbTrans::kBusy
-                                     ? previous_.haddr
-                                     : ahb_next_address(previous_.haddr, previous_.hsize, previous_.hburst);
+  const std::uint32_t expected =
+      previous_.htrans == AhbTrans::kBusy
+          ? previous_.haddr
+          : ahb_next_address(previous_.haddr, previous_.hsize, previous_.hburst);
   if (previous_.htrans == AhbTrans::kIdle) violation("SEQ without a burst");
   if (request.haddr != expected) violation("SEQ address does not follow the beat before");
   if (request.hwrite != previous_.hwrite || request.hsize != previous_.hsize ||

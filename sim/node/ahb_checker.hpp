@@ -26,7 +26,8 @@ enum class AhbBurst : std::uint8_t {
   kIncr16 = 7,
 };
 
-/// What the master drives in a cycle. HREADY is not here: with one slave it is that slave's HREADYOUT.
+/// What the master drives in a cycle. HREADY is not here: with one slave it is that slave's
+/// HREADYOUT.
 struct AhbRequest {
   std::uint32_t haddr = 0;
   AhbTrans htrans = AhbTrans::kIdle;

@@ -16,13 +16,14 @@ std::uint32_t value_mask(AhbSize size) {
   return size == AhbSize::kHalf ? 0xFFFF : 0xFFFFFFFF;
 }
 
-// The lanes that the transfer does not use carry the complement, so that a slave which takes a wrong
-// lane is found out.
+// The lanes that the transfer does not use carry the complement, so that a slave which takes a
+// wrong lane is found out.
 std::uint32_t to_lanes(const AhbTransfer &transfer) {
   if (transfer.size >= AhbSize::kWord) return transfer.data;
   const std::uint32_t mask = value_mask(transfer.size) << lane_shift(transfer);
-  const std::uint32_t copies = transfer.size == AhbSize::kByte ? (transfer.data & 0xFF) * 0x01010101u
-                                                               : (transfer.data & 0xFFFF) * 0x00010001u;
+  const std::uint32_t copies = transfer.size == AhbSize::kByte
+                                   ? (transfer.data & 0xFF) * 0x01010101u
+                                   : (transfer.data & 0xFFFF) * 0x00010001u;
   return (copies & mask) | (~copies & ~mask);
 }
 
@@ -98,7 +99,8 @@ void AhbMaster::clock(const AhbResponse &response) {
   }
   next_address_phase();
   if (!finished) return;
-  results_[completed_ % kKept] = {from_lanes(ended.transfer, response.hrdata), response.hresp, waits};
+  results_[completed_ % kKept] = {from_lanes(ended.transfer, response.hrdata), response.hresp,
+                                  waits};
   ++completed_;
   if (ended.waiter) ended.waiter.resume();
 }

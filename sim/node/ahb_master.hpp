@@ -32,16 +32,17 @@ struct AhbResult {
   unsigned waits = 0;      ///< wait states of the data phase
 };
 
-/// The master. In each clock cycle request() is driven, and at its end the slave's response is handed to
-/// clock(). Queued transfers follow each other back to back, address phase over data phase.
+/// The master. In each clock cycle request() is driven, and at its end the slave's response is
+/// handed to clock(). Queued transfers follow each other back to back, address phase over data
+/// phase.
 class AhbMaster {
  public:
   /// Identifies a submitted transfer; its result stays available while the next 255 are submitted.
   using Ticket = std::uint64_t;
 
   Ticket submit(const AhbTransfer &transfer) { return enqueue(transfer, nullptr); }
-  /// Submits a burst of words; `data` is written, or only gives the number of beats if `write` is false.
-  /// Returns the ticket of the first beat, those of the others follow it.
+  /// Submits a burst of words; `data` is written, or only gives the number of beats if `write` is
+  /// false. Returns the ticket of the first beat, those of the others follow it.
   Ticket submit_burst(std::uint32_t address, AhbBurst burst, bool write,
                       const std::vector<std::uint32_t> &data);
   [[nodiscard]] bool done(Ticket ticket) const { return ticket < completed_; }
@@ -65,7 +66,9 @@ class AhbMaster {
     AhbTransfer transfer;
     Ticket ticket = 0;
     [[nodiscard]] bool await_ready() const { return false; }
-    void await_suspend(std::coroutine_handle<> handle) { ticket = master.enqueue(transfer, handle); }
+    void await_suspend(std::coroutine_handle<> handle) {
+      ticket = master.enqueue(transfer, handle);
+    }
     [[nodiscard]] AhbResult await_resume() const { return master.result(ticket); }
   };
   [[nodiscard]] Awaiter access(const AhbTransfer &transfer) { return Awaiter{*this, transfer}; }
@@ -85,7 +88,7 @@ class AhbMaster {
   Ticket enqueue(const AhbTransfer &transfer, std::coroutine_handle<> waiter);
   void next_address_phase();
 
-  std::deque<Pending> queue_;   // the front one is in its address phase if driving_
+  std::deque<Pending> queue_;  // the front one is in its address phase if driving_
   Pending data_phase_;
   bool in_data_phase_ = false;
   bool driving_ = false;

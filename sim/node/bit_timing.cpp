@@ -12,8 +12,9 @@ namespace {
 
 void check_range(const char *what, unsigned value, unsigned low, unsigned high) {
   if (value >= low && value <= high) return;
-  throw std::invalid_argument(std::string{"bit timing: "} + what + " must be " + std::to_string(low) +
-                              " to " + std::to_string(high) + ", got " + std::to_string(value));
+  throw std::invalid_argument(std::string{"bit timing: "} + what + " must be " +
+                              std::to_string(low) + " to " + std::to_string(high) + ", got " +
+                              std::to_string(value));
 }
 
 }  // namespace

@@ -15,7 +15,8 @@
 namespace vericansim {
 namespace {
 
-// A mode change that takes longer than the longest frame is stuck: 160 bits x 256 clocks x 25 quanta.
+// A mode change that takes longer than the longest frame is stuck: 160 bits x 256 clocks x 25
+// quanta.
 constexpr std::uint64_t kPollLimit = 160ULL * 256 * 25;
 
 std::uint32_t data_word(const Frame &frame, unsigned first) {
@@ -49,7 +50,8 @@ Host::Host(RtlNode &node, HostConfig config)
     : node_{node}, config_{std::move(config)}, first_tx_{node.num_mb() - config_.tx_buffers} {
   config_.timing.validate();
   if (config_.tx_buffers < 1 || config_.tx_buffers >= node.num_mb()) {
-    throw std::invalid_argument("transmit buffers must be 1 to " + std::to_string(node.num_mb() - 1));
+    throw std::invalid_argument("transmit buffers must be 1 to " +
+                                std::to_string(node.num_mb() - 1));
   }
   if (config_.filters.size() > first_tx_) {
     throw std::invalid_argument("at most " + std::to_string(first_tx_) + " filters fit beside " +
@@ -150,10 +152,13 @@ Task<> Host::set_up_buffers() {
   for (unsigned n = 0; n < node_.num_mb(); ++n) {
     const bool receives = n < config_.filters.size();
     const RxFilter filter = receives ? config_.filters[n] : RxFilter{};
-    const std::uint32_t format = (filter.extended ? reg::kCsIde : 0) | (filter.remote ? reg::kCsRtr : 0);
+    const std::uint32_t format =
+        (filter.extended ? reg::kCsIde : 0) | (filter.remote ? reg::kCsRtr : 0);
     write(reg::rximr(n), mask_word(filter));
     write(reg::mb(n, 1), id_word(filter.id, filter.extended));
-    write(reg::mb(n), receives ? reg::kCodeRxEmpty | format : n >= first_tx_ ? reg::kCodeTxInactive : 0);
+    write(reg::mb(n), receives         ? reg::kCodeRxEmpty | format
+                      : n >= first_tx_ ? reg::kCodeTxInactive
+                                       : 0);
   }
   co_await node_.ahb().read(reg::kMcr);  // in order, so that all writes are done
 }
@@ -225,7 +230,8 @@ Task<HostFrame> Host::read_buffer(unsigned mb) {
   co_return result;
 }
 
-// Frames of one batch leave in the order of their stamps, which lie within half of the TIMER's range.
+// Frames of one batch leave in the order of their stamps, which lie within half of the TIMER's
+// range.
 void Host::deliver(std::vector<HostFrame> &batch) {
   std::sort(batch.begin(), batch.end(), [](const HostFrame &a, const HostFrame &b) {
     return static_cast<std::int16_t>(a.stamp - b.stamp) < 0;

@@ -17,13 +17,14 @@
 
 namespace vericansim {
 
-/// What a range of receive buffers accepts: frames whose identifier equals `id` in all bits of `mask`.
+/// What a range of receive buffers accepts: frames whose identifier equals `id` in all bits of
+/// `mask`.
 struct RxFilter {
   std::uint32_t id = 0;
-  std::uint32_t mask = 0;        ///< 1 = compare; 11 bits, or 29 if `extended`
+  std::uint32_t mask = 0;  ///< 1 = compare; 11 bits, or 29 if `extended`
   bool extended = false;
-  bool match_format = false;     ///< compare base/extended and data/remote too
-  bool remote = false;           ///< with match_format
+  bool match_format = false;  ///< compare base/extended and data/remote too
+  bool remote = false;        ///< with match_format
 };
 
 /// How a Host sets its core up.
@@ -33,12 +34,13 @@ struct HostConfig {
   bool listen_only = false;
   bool loop_back = false;
   bool self_reception = false;
-  bool boff_rec = false;              ///< true: no automatic recovery from bus-off
+  bool boff_rec = false;  ///< true: no automatic recovery from bus-off
   bool fd_tolerant = false;
-  bool lowest_buffer_first = true;    ///< CTRL.LBUF; false: lowest identifier first
+  bool lowest_buffer_first = true;  ///< CTRL.LBUF; false: lowest identifier first
   /// Transmit buffers, the highest ones. 1: frames leave in the order of send().
   unsigned tx_buffers = 1;
-  /// One per receive buffer from MB0 on; empty: every buffer below the transmit ones takes any frame.
+  /// One per receive buffer from MB0 on; empty: every buffer below the transmit ones takes any
+  /// frame.
   std::vector<RxFilter> filters;
 };
 
@@ -47,8 +49,8 @@ struct HostFrame {
   Frame frame;
   std::uint16_t stamp = 0;  ///< TIMER at the first identifier bit
   unsigned mb = 0;
-  bool overrun = false;     ///< received: an older frame was lost in this buffer
-  Time time = 0;            ///< of the bus when the software got to it, ps
+  bool overrun = false;  ///< received: an older frame was lost in this buffer
+  Time time = 0;         ///< of the bus when the software got to it, ps
 };
 
 /// Counts of a Host.
@@ -61,8 +63,8 @@ struct HostStats {
   std::uint32_t esr = 0;  ///< OR of all values read
 };
 
-/// The software. start() returns at once; everything else happens as the node is clocked, so that many
-/// hosts run at the same time. It must not outlive its node.
+/// The software. start() returns at once; everything else happens as the node is clocked, so that
+/// many hosts run at the same time. It must not outlive its node.
 class Host {
  public:
   Host(RtlNode &node, HostConfig config);
@@ -92,7 +94,8 @@ class Host {
   [[nodiscard]] const HostStats &stats() const { return stats_; }
 
   [[nodiscard]] RtlNode &node() { return node_; }
-  /// Rethrows what went wrong in the software, if anything (bus error, no acknowledge of a mode change).
+  /// Rethrows what went wrong in the software, if anything (bus error, no acknowledge of a mode
+  /// change).
   void check();
 
  private:

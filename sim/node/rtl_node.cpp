@@ -96,13 +96,15 @@ class RtlNodeOf final : public RtlNode {
 
 }  // namespace
 
-std::unique_ptr<RtlNode> RtlNode::create(std::string name, const ClockConfig &clock, unsigned num_mb) {
+std::unique_ptr<RtlNode> RtlNode::create(std::string name, const ClockConfig &clock,
+                                         unsigned num_mb) {
   switch (num_mb) {
     case 16: return std::make_unique<RtlNodeOf<Vcan_host16>>(std::move(name), clock, num_mb);
     case 32: return std::make_unique<RtlNodeOf<Vcan_host32>>(std::move(name), clock, num_mb);
     case 64: return std::make_unique<RtlNodeOf<Vcan_host64>>(std::move(name), clock, num_mb);
     default:
-      throw std::invalid_argument("message buffers must be 16, 32 or 64, got " + std::to_string(num_mb));
+      throw std::invalid_argument("message buffers must be 16, 32 or 64, got " +
+                                  std::to_string(num_mb));
   }
 }
 
@@ -131,13 +133,15 @@ AhbResult RtlNode::access(const AhbTransfer &transfer) {
 
 std::uint32_t RtlNode::read32(std::uint32_t address) {
   const AhbResult result = access({.address = address});
-  if (result.error) throw std::runtime_error(name() + ": bus error reading " + std::to_string(address));
+  if (result.error)
+    throw std::runtime_error(name() + ": bus error reading " + std::to_string(address));
   return result.data;
 }
 
 void RtlNode::write32(std::uint32_t address, std::uint32_t data) {
   const AhbResult result = access({.address = address, .write = true, .data = data});
-  if (result.error) throw std::runtime_error(name() + ": bus error writing " + std::to_string(address));
+  if (result.error)
+    throw std::runtime_error(name() + ": bus error writing " + std::to_string(address));
 }
 
 }  // namespace vericansim

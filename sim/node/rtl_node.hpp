@@ -24,8 +24,9 @@ enum IrqLine : std::uint8_t {
   kIrqRxWarning = 1 << 5,
 };
 
-/// The whole core. Software on it is written as coroutines (task.hpp) that wait for accesses and for
-/// interrupts, or, in tests, as plain calls of read32() and write32() that advance the simulation.
+/// The whole core. Software on it is written as coroutines (task.hpp) that wait for accesses and
+/// for interrupts, or, in tests, as plain calls of read32() and write32() that advance the
+/// simulation.
 class RtlNode : public Node {
  public:
   /// After the constructor the core has been reset. `num_mb`: 16, 32 or 64 message buffers
@@ -46,8 +47,8 @@ class RtlNode : public Node {
 
   // ---- Coroutines
 
-  /// `co_await node.interrupt()` goes on when irq_o is high, `co_await node.delay(n)` after n clocks.
-  /// One coroutine of a node can wait at a time.
+  /// `co_await node.interrupt()` goes on when irq_o is high, `co_await node.delay(n)` after n
+  /// clocks. One coroutine of a node can wait at a time.
   struct Waiter {
     RtlNode &node;
     bool for_irq;
@@ -67,7 +68,8 @@ class RtlNode : public Node {
 
   // ---- Blocking calls
 
-  /// One access; runs the bus (or, without a bus, this node alone with a recessive pin) until it is done.
+  /// One access; runs the bus (or, without a bus, this node alone with a recessive pin) until it is
+  /// done.
   AhbResult access(const AhbTransfer &transfer);
   /// As access(), for whole words. An ERROR response throws std::runtime_error.
   std::uint32_t read32(std::uint32_t address);

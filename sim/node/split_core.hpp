@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// SplitCore: can_ahb as two Verilated models, so that the host side rests while nothing happens to it.
+// SplitCore: can_ahb as two Verilated models, so that the host side rests while nothing happens to
+// it.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +18,10 @@
 
 namespace vericansim {
 
-/// The engine (Vcan_core) and a can_ahb whose engine is hollow (HostModel, cmake/split_core.py), clocked
-/// together. Registers and buffers are three quarters of the work of a clock and idle in most of them:
-/// when a clock edge has left every bit of the model as it was, no further edge can change anything until
-/// an input does, and the model is not evaluated. The result is that of the
+/// The engine (Vcan_core) and a can_ahb whose engine is hollow (HostModel, cmake/split_core.py),
+/// clocked together. Registers and buffers are three quarters of the work of a clock and idle in
+/// most of them: when a clock edge has left every bit of the model as it was, no further edge can
+/// change anything until an input does, and the model is not evaluated. The result is that of the
 /// whole core in every clock (tb/system/bus_split_core_test.cpp).
 template <typename HostModel>
 class SplitCore {
@@ -28,8 +29,8 @@ class SplitCore {
   using Root = std::remove_reference_t<decltype(*std::declval<HostModel &>().rootp)>;
 
   SplitCore() = default;
-  // Verilator 5.006 removes a model's scopes from the context that was last in use on this thread, which
-  // may be that of another node and gone.
+  // Verilator 5.006 removes a model's scopes from the context that was last in use on this thread,
+  // which may be that of another node and gone.
   ~SplitCore() { Verilated::threadContextp(&context_); }
   SplitCore(const SplitCore &) = delete;
   SplitCore &operator=(const SplitCore &) = delete;
@@ -65,7 +66,8 @@ class SplitCore {
     }
     std::memcpy(before_.get(), static_cast<const void *>(host_.rootp), sizeof(Root));
     rising_edge(host_, host_.hclk);
-    resting_ = std::memcmp(before_.get(), static_cast<const void *>(host_.rootp), sizeof(Root)) == 0;
+    resting_ =
+        std::memcmp(before_.get(), static_cast<const void *>(host_.rootp), sizeof(Root)) == 0;
     rising_edge(engine_, engine_.clk_i);
     if (copy_to_core(engine_, *host_.rootp)) engine_.eval();
   }

@@ -14,7 +14,8 @@ BitTiming SaturatedBus::timing(unsigned megahertz) {
     case 8: return {.prescaler = 1, .prop = 3, .ps1 = 2, .ps2 = 2, .sjw = 2};
     case 16: return {.prescaler = 1, .prop = 7, .ps1 = 4, .ps2 = 4, .sjw = 4};
     case 50: return {.prescaler = 5, .prop = 3, .ps1 = 3, .ps2 = 3, .sjw = 3};
-    default: throw std::invalid_argument("no 1 Mbit/s timing for " + std::to_string(megahertz) + " MHz");
+    default:
+      throw std::invalid_argument("no 1 Mbit/s timing for " + std::to_string(megahertz) + " MHz");
   }
 }
 
@@ -49,7 +50,8 @@ SaturatedBus::SaturatedBus(unsigned nodes, unsigned megahertz, bool drift) {
       ++next.data[0];
       host.send(next);
     };
-    Frame frame{.id = 0x100 + 16 * i, .dlc = 8, .data = {0, 0x55, 0xC3, 0x0F, 0x99, 0x12, 0xE0, 0x7B}};
+    Frame frame{
+        .id = 0x100 + 16 * i, .dlc = 8, .data = {0, 0x55, 0xC3, 0x0F, 0x99, 0x12, 0xE0, 0x7B}};
     host.send(frame);
     host.send(frame);
   }

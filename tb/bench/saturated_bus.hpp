@@ -12,8 +12,8 @@
 
 namespace vericansim {
 
-/// Nodes on a bus that is never idle. `drift`: every oscillator has its own error, and the kernel runs
-/// by events; otherwise all nodes share an ideal clock.
+/// Nodes on a bus that is never idle. `drift`: every oscillator has its own error, and the kernel
+/// runs by events; otherwise all nodes share an ideal clock.
 class SaturatedBus {
  public:
   SaturatedBus(unsigned nodes, unsigned megahertz, bool drift);

@@ -22,12 +22,13 @@ void saturated_bus(benchmark::State &state) {
   const std::uint64_t cycles = net.cycles();
   const std::uint64_t received = net.received();
   for (auto _ : state) net.run_for(kSlice);
-  const auto simulated = static_cast<double>(kSlice) * 1e-12 * static_cast<double>(state.iterations());
+  const auto simulated =
+      static_cast<double>(kSlice) * 1e-12 * static_cast<double>(state.iterations());
   state.counters["node_cycles/s"] =
       benchmark::Counter(static_cast<double>(net.cycles() - cycles), benchmark::Counter::kIsRate);
   state.counters["real_time"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);
-  state.counters["frames/ms"] =
-      static_cast<double>(net.received() - received) / static_cast<double>(state.range(0) - 1) / simulated / 1e3;
+  state.counters["frames/ms"] = static_cast<double>(net.received() - received) /
+                                static_cast<double>(state.range(0) - 1) / simulated / 1e3;
 }
 BENCHMARK(saturated_bus)
     ->ArgNames({"nodes", "MHz", "drift"})
@@ -53,7 +54,8 @@ void kernel_alone(benchmark::State &state) {
   Bus bus;
   std::vector<std::unique_ptr<EmptyNode>> nodes;
   for (int i = 0; i < state.range(0); ++i) {
-    nodes.push_back(std::make_unique<EmptyNode>(ClockConfig{.error_ppm = state.range(1) * 10.0 * i}));
+    nodes.push_back(
+        std::make_unique<EmptyNode>(ClockConfig{.error_ppm = state.range(1) * 10.0 * i}));
     bus.add(*nodes.back());
   }
   for (auto _ : state) bus.run_for(kMillisecond);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whole cores on a bus: software behind AHB-Lite on every node, drifting clocks, cable, saturated bus.
+// Whole cores on a bus: software behind AHB-Lite on every node, drifting clocks, cable, saturated
+// bus.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -18,7 +19,8 @@ namespace {
 
 Frame frame(std::uint32_t id, std::uint8_t dlc = 8) {
   Frame f{.id = id, .extended = id > 0x7FF, .dlc = dlc};
-  for (unsigned i = 0; i < f.payload_size(); ++i) f.data[i] = static_cast<std::uint8_t>(17 * i + id);
+  for (unsigned i = 0; i < f.payload_size(); ++i)
+    f.data[i] = static_cast<std::uint8_t>(17 * i + id);
   return f;
 }
 
@@ -28,17 +30,21 @@ struct Net {
   std::vector<std::unique_ptr<RtlNode>> nodes;
   std::vector<std::unique_ptr<Host>> hosts;
 
-  void add(const ClockConfig &clock, HostConfig host = {}, const Link &link = {}, unsigned num_mb = 64) {
-    if (host.timing == BitTiming{}) host.timing = {.prescaler = 1, .prop = 4, .ps1 = 3, .ps2 = 2, .sjw = 2};
+  void add(const ClockConfig &clock, HostConfig host = {}, const Link &link = {},
+           unsigned num_mb = 64) {
+    if (host.timing == BitTiming{})
+      host.timing = {.prescaler = 1, .prop = 4, .ps1 = 3, .ps2 = 2, .sjw = 2};
     nodes.push_back(RtlNode::create("n" + std::to_string(nodes.size()), clock, num_mb));
     bus.add(*nodes.back(), link);
     hosts.push_back(std::make_unique<Host>(*nodes.back(), host));
   }
   void start() {
     for (auto &host : hosts) host->start();
-    ASSERT_TRUE(bus.run_until([this] { return all([](Host &h) { return h.ready(); }); }, 100 * kMillisecond));
+    ASSERT_TRUE(bus.run_until([this] { return all([](Host &h) { return h.ready(); }); },
+                              100 * kMillisecond));
     for (auto &host : hosts) host->check();
-    bus.run_for(50 * kMicrosecond);  // all have integrated: a slow clock needs longer for its 11 bits
+    bus.run_for(50 *
+                kMicrosecond);  // all have integrated: a slow clock needs longer for its 11 bits
   }
   template <typename F>
   bool all(F f) {
@@ -104,13 +110,14 @@ struct Traffic {
 
 class DriftingBus : public ::testing::TestWithParam<Traffic> {};
 
-// Every node has frames waiting all the time; every frame must reach every other node, in order of each
-// sender. 10 tq, SJW 2, PS2 2: BT-08 allows +-0.78 %.
+// Every node has frames waiting all the time; every frame must reach every other node, in order of
+// each sender. 10 tq, SJW 2, PS2 2: BT-08 allows +-0.78 %.
 TEST_P(DriftingBus, SaturatedTrafficArrivesEverywhere) {
   const Traffic &traffic = GetParam();
   Net net;
   for (std::size_t i = 0; i < traffic.ppm.size(); ++i) {
-    net.add({.error_ppm = traffic.ppm[i], .phase = static_cast<Time>(7919 * i)}, {}, {.cable = traffic.cable});
+    net.add({.error_ppm = traffic.ppm[i], .phase = static_cast<Time>(7919 * i)}, {},
+            {.cable = traffic.cable});
   }
   net.start();
   constexpr unsigned kEach = 40;
@@ -119,7 +126,8 @@ TEST_P(DriftingBus, SaturatedTrafficArrivesEverywhere) {
     for (unsigned i = 0; i < n; ++i) net.hosts[i]->send(frame((i + 1) * 0x100 + k, k % 9));
   }
   const auto complete = [&] {
-    return net.all([&](Host &h) { return h.received().size() == kEach * (n - 1) && h.pending() == 0; });
+    return net.all(
+        [&](Host &h) { return h.received().size() == kEach * (n - 1) && h.pending() == 0; });
   };
   EXPECT_TRUE(net.bus.run_until(complete, kSecond / 4));
   for (unsigned i = 0; i < n; ++i) {

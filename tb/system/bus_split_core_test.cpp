@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// SplitCore, engine and host side as two models, is the whole core in every clock: same pins, same trace.
+// SplitCore, engine and host side as two models, is the whole core in every clock: same pins, same
+// trace.
 #include "node/split_core.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,9 @@ namespace {
 // A node that runs the whole model and the split one on the same pins and counts differing clocks.
 class TwinNode : public RtlNode {
  public:
-  TwinNode(const std::string &name, const ClockConfig &clock) : RtlNode{name, clock, 64} { reset(); }
+  TwinNode(const std::string &name, const ClockConfig &clock) : RtlNode{name, clock, 64} {
+    reset();
+  }
   ~TwinNode() override { whole_.final(); }
 
   void reset() override {
@@ -76,8 +79,9 @@ class TwinNode : public RtlNode {
  private:
   template <typename Model>
   static std::uint8_t lines(const Model &m) {
-    return static_cast<std::uint8_t>(m.irq_o | (m.irq_mb_o << 1) | (m.irq_boff_o << 2) | (m.irq_err_o << 3) |
-                                     (m.irq_twrn_o << 4) | (m.irq_rwrn_o << 5));
+    return static_cast<std::uint8_t>(m.irq_o | (m.irq_mb_o << 1) | (m.irq_boff_o << 2) |
+                                     (m.irq_err_o << 3) | (m.irq_twrn_o << 4) |
+                                     (m.irq_rwrn_o << 5));
   }
 
   template <typename Model>
@@ -130,7 +134,8 @@ class TwinNode : public RtlNode {
 };
 
 Frame random_frame(std::mt19937 &random, std::uint32_t top) {
-  Frame f{.id = static_cast<std::uint32_t>(top << 8 | (random() & 0xFF)), .dlc = static_cast<std::uint8_t>(random() % 16)};
+  Frame f{.id = static_cast<std::uint32_t>(top << 8 | (random() & 0xFF)),
+          .dlc = static_cast<std::uint8_t>(random() % 16)};
   f.remote = random() % 8 == 0;
   for (unsigned i = 0; i < f.payload_size(); ++i) f.data[i] = static_cast<std::uint8_t>(random());
   return f;
@@ -167,14 +172,17 @@ TEST_P(SplitCoreTest, IsTheWholeCoreInEveryClock) {
   bus.run_for(40 * kMillisecond);
   first.check();
   second.check();
-  EXPECT_GT(first.stats().received + second.stats().received, 5u);  // the noisiest bus carries little
+  EXPECT_GT(first.stats().received + second.stats().received,
+            5u);  // the noisiest bus carries little
   EXPECT_EQ(a.differences(), 0u) << a.first();
   EXPECT_EQ(b.differences(), 0u) << b.first();
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, SplitCoreTest,
-                         ::testing::Values(SplitCase{"Saturated", 1, 0}, SplitCase{"Noisy", 1, 0.002},
-                                           SplitCase{"VeryNoisy", 1, 0.02}, SplitCase{"SlowerBits", 3, 0.001}),
+                         ::testing::Values(SplitCase{"Saturated", 1, 0},
+                                           SplitCase{"Noisy", 1, 0.002},
+                                           SplitCase{"VeryNoisy", 1, 0.02},
+                                           SplitCase{"SlowerBits", 3, 0.001}),
                          [](const auto &each) { return each.param.name; });
 
 }  // namespace

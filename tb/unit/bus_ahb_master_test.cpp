@@ -68,7 +68,8 @@ class Slave {
     for (unsigned lane = 0; lane < 4; ++lane) {
       const std::uint32_t size = 1u << static_cast<unsigned>(phase_->hsize);
       const bool used = base + lane >= phase_->haddr && base + lane < phase_->haddr + size;
-      if (phase_->hwrite && used) bytes[base + lane] = static_cast<std::uint8_t>(wdata >> (8 * lane));
+      if (phase_->hwrite && used)
+        bytes[base + lane] = static_cast<std::uint8_t>(wdata >> (8 * lane));
       word |= static_cast<std::uint32_t>(bytes[base + lane]) << (8 * lane);
     }
     return word;
@@ -91,7 +92,8 @@ struct AhbTest : ::testing::Test {
 };
 
 TEST_F(AhbTest, TransfersFollowEachOtherWithoutAGap) {
-  for (std::uint32_t i = 0; i < 8; ++i) master.submit({.address = 4 * i, .write = true, .data = 100 + i});
+  for (std::uint32_t i = 0; i < 8; ++i)
+    master.submit({.address = 4 * i, .write = true, .data = 100 + i});
   std::vector<AhbMaster::Ticket> reads;
   for (std::uint32_t i = 0; i < 8; ++i) reads.push_back(master.submit({.address = 4 * i}));
   EXPECT_EQ(run(), 17u);  // 16 address phases and one last data phase

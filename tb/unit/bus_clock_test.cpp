@@ -87,10 +87,13 @@ TEST_P(Wandering, ErrorStaysWithinItsBoundsAndMoves) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Wandering, ::testing::Values(Wander::kSine, Wander::kWalk),
-                         [](const auto &each) { return each.param == Wander::kSine ? "Sine" : "Walk"; });
+                         [](const auto &each) {
+                           return each.param == Wander::kSine ? "Sine" : "Walk";
+                         });
 
 TEST(Clock, WalkIsGivenByItsSeed) {
-  ClockConfig config{.wander = Wander::kWalk, .wander_ppm = 100, .wander_period = 100 * kMicrosecond};
+  ClockConfig config{
+      .wander = Wander::kWalk, .wander_ppm = 100, .wander_period = 100 * kMicrosecond};
   Clock a{config};
   Clock b{config};
   config.seed = 2;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faults with stand-in nodes: each changes what it should, where and when it should, and nothing else.
+// Faults with stand-in nodes: each changes what it should, where and when it should, and nothing
+// else.
 #include "bus/faults.hpp"
 
 #include <gmock/gmock.h>
@@ -38,7 +39,9 @@ class StandIn : public Node {
     drive(edge_ < pattern_.size() && pattern_[edge_] == '0' ? kD : kR);
     ++edge_;
   }
-  [[nodiscard]] std::uint64_t trace() const override { return edge_ <= words_.size() ? words_[edge_ - 1] : 0; }
+  [[nodiscard]] std::uint64_t trace() const override {
+    return edge_ <= words_.size() ? words_[edge_ - 1] : 0;
+  }
 
   void show(std::vector<std::uint64_t> words) { words_ = std::move(words); }
   [[nodiscard]] const std::string &seen() const { return seen_; }
@@ -139,15 +142,21 @@ TEST_F(FaultTest, ClockDriftBeginsAtItsTime) {
 std::uint64_t word(Field field, unsigned left, bool boundary = false, bool stuff = false,
                    bool start = false) {
   return (boundary ? kTraceBoundary : 0) | (static_cast<std::uint64_t>(field) << 38) |
-         (static_cast<std::uint64_t>(left) << 32) | (stuff ? 1ULL << 43 : 0) | (start ? kTraceStart : 0);
+         (static_cast<std::uint64_t>(left) << 32) | (stuff ? 1ULL << 43 : 0) |
+         (start ? kTraceStart : 0);
 }
 
 // Two clocks a bit: IDLE, start in it, ID 10, ID 9 (stuff), ID 9, ID 8.
-const std::vector<std::uint64_t> kTrace = {
-    word(Field::kIdle, 0, true),      word(Field::kIdle, 0),         word(Field::kId, 10, true, false, true),
-    word(Field::kId, 10),             word(Field::kId, 9, true, true), word(Field::kId, 9, false, true),
-    word(Field::kId, 9, true),        word(Field::kId, 9),           word(Field::kId, 8, true),
-    word(Field::kId, 8)};
+const std::vector<std::uint64_t> kTrace = {word(Field::kIdle, 0, true),
+                                           word(Field::kIdle, 0),
+                                           word(Field::kId, 10, true, false, true),
+                                           word(Field::kId, 10),
+                                           word(Field::kId, 9, true, true),
+                                           word(Field::kId, 9, false, true),
+                                           word(Field::kId, 9, true),
+                                           word(Field::kId, 9),
+                                           word(Field::kId, 8, true),
+                                           word(Field::kId, 8)};
 
 TEST(PlaceTracker, CountsBitsOfAFieldWithoutStuffBits) {
   PlaceTracker tracker;
@@ -187,18 +196,19 @@ TEST_P(PlaceTest, HitsTheNamedBitOnly) {
 
 INSTANTIATE_TEST_SUITE_P(
     Places, PlaceTest,
-    ::testing::Values(PlaceCase{"Index", {.field = Field::kId, .index = 0}, "11110011111"},
-                      PlaceCase{"Left", {.field = Field::kId, .left = 8}, "11111111110"},
-                      PlaceCase{"StuffBit", {.field = Field::kId, .stuff = true}, "11111100111"},
-                      PlaceCase{"NoStuffBit", {.field = Field::kId, .index = 1, .stuff = false}, "11111111001"},
-                      PlaceCase{"LaterFrame", {.frame = 2, .field = Field::kId}, "11111111111"},
-                      PlaceCase{"FirstFrame", {.frame = 1, .field = Field::kId, .index = 0}, "11110011111"},
-                      PlaceCase{"FirstQuantum",
-                                {.field = Field::kId, .index = 0, .first_clock = 0, .last_clock = 0},
-                                "11110111111"},
-                      PlaceCase{"SecondQuantum",
-                                {.field = Field::kId, .index = 0, .first_clock = 1, .last_clock = 1},
-                                "11111011111"}),
+    ::testing::Values(
+        PlaceCase{"Index", {.field = Field::kId, .index = 0}, "11110011111"},
+        PlaceCase{"Left", {.field = Field::kId, .left = 8}, "11111111110"},
+        PlaceCase{"StuffBit", {.field = Field::kId, .stuff = true}, "11111100111"},
+        PlaceCase{"NoStuffBit", {.field = Field::kId, .index = 1, .stuff = false}, "11111111001"},
+        PlaceCase{"LaterFrame", {.frame = 2, .field = Field::kId}, "11111111111"},
+        PlaceCase{"FirstFrame", {.frame = 1, .field = Field::kId, .index = 0}, "11110011111"},
+        PlaceCase{"FirstQuantum",
+                  {.field = Field::kId, .index = 0, .first_clock = 0, .last_clock = 0},
+                  "11110111111"},
+        PlaceCase{"SecondQuantum",
+                  {.field = Field::kId, .index = 0, .first_clock = 1, .last_clock = 1},
+                  "11111011111"}),
     [](const auto &each) { return each.param.name; });
 
 TEST(PlaceFault, MayHitSomebodyElse) {

@@ -222,7 +222,8 @@ TEST(BusKernel, ActionsRunAtTheirTimeAndBeforeItsEdges) {
   });
   bus.at(2 * kMicrosecond, [&] { log.emplace_back(-1, 0); });
   bus.run_until(3 * kMicrosecond);
-  EXPECT_THAT(log, ElementsAre(Pair(500'000, 1u), Pair(500'001, 1u), Pair(2'000'000, 2u), Pair(-1, 0u)));
+  EXPECT_THAT(log,
+              ElementsAre(Pair(500'000, 1u), Pair(500'001, 1u), Pair(2'000'000, 2u), Pair(-1, 0u)));
   EXPECT_THROW(bus.at(kMicrosecond, note), std::invalid_argument);
 }
 
