@@ -22,7 +22,8 @@ class Access : public ::testing::Test {
   static AhbTransfer read(std::uint32_t address, AhbSize size = AhbSize::kWord) {
     return {.address = address, .size = size};
   }
-  static AhbTransfer write(std::uint32_t address, std::uint32_t data, AhbSize size = AhbSize::kWord) {
+  static AhbTransfer write(std::uint32_t address, std::uint32_t data,
+                           AhbSize size = AhbSize::kWord) {
     return {.address = address, .write = true, .size = size, .data = data};
   }
   MailboxRig rig_;
@@ -35,7 +36,9 @@ TEST_F(Access, NoWaitStatesWhileTheEngineIsIdle) {  // any mix, back to back
     std::vector<AhbTransfer> transfers;
     for (unsigned i = 0; i < 20; ++i) {
       const unsigned pick = rng() % 4, mb = rng() % 64, word = rng() % 4;
-      const std::uint32_t address = pick == 0 ? 4 * (rng() % 0x14) : pick == 1 ? reg::rximr(mb) : reg::mb(mb, word);
+      const std::uint32_t address = pick == 0   ? 4 * (rng() % 0x14)
+                                    : pick == 1 ? reg::rximr(mb)
+                                                : reg::mb(mb, word);
       // Codes of transmission would wake the engine; MCR and CTRL1 stay as they are.
       const bool is_write = rng() % 2 == 0 && address >= 0x80;
       transfers.push_back(is_write ? write(address, rng() & 0x007FFFFF) : read(address));
@@ -50,7 +53,8 @@ TEST_F(Access, NoWaitStatesWhileTheEngineIsIdle) {  // any mix, back to back
 TEST_F(Access, ReadRightAfterAWriteSeesIt) {
   std::mt19937 rng{2};
   for (unsigned i = 0; i < 500; ++i) {
-    const std::uint32_t address = rng() % 2 == 0 ? reg::mb(rng() % 64, 1 + rng() % 3) : reg::rximr(rng() % 64);
+    const std::uint32_t address =
+        rng() % 2 == 0 ? reg::mb(rng() % 64, 1 + rng() % 3) : reg::rximr(rng() % 64);
     const std::uint32_t value = rng();
     const auto results = rig_.burst(0, {write(address, value), read(address), read(address)});
     EXPECT_EQ(results[1].data, value);
@@ -63,7 +67,8 @@ TEST_F(Access, ByteAndHalfWordLanesOfBuffersAndMasks) {
   std::mt19937 rng{3};
   std::map<std::uint32_t, std::uint32_t> memory;  // independent picture of the words
   for (unsigned i = 0; i < 4000; ++i) {
-    const std::uint32_t word = rng() % 2 == 0 ? reg::mb(rng() % 8, 1 + rng() % 3) : reg::rximr(rng() % 8);
+    const std::uint32_t word =
+        rng() % 2 == 0 ? reg::mb(rng() % 8, 1 + rng() % 3) : reg::rximr(rng() % 8);
     if (memory.count(word) == 0) rig_.write(0, word, memory[word] = rng());
     const auto size = static_cast<AhbSize>(rng() % 3);
     const unsigned bytes = 1u << static_cast<unsigned>(size);
@@ -83,10 +88,11 @@ TEST_F(Access, ByteAndHalfWordLanesOfBuffersAndMasks) {
 
 TEST_F(Access, ErrorForUnalignedTooWideAndBeyondTheWindow) {
   for (bool is_write : {false, true}) {
-    for (AhbTransfer transfer : {read(reg::mb(3, 2) + 2), read(reg::mb(3, 2) + 1), read(reg::mb(3, 2) + 3),
-                                 read(reg::mb(3, 2) + 1, AhbSize::kHalf), read(reg::mb(3, 2) + 3, AhbSize::kHalf),
-                                 read(reg::mb(3, 2), AhbSize::kDouble), read(0x2000), read(0x2000 + reg::mb(3, 2)),
-                                 read(0xE000 + reg::mb(3, 2))}) {
+    for (AhbTransfer transfer :
+         {read(reg::mb(3, 2) + 2), read(reg::mb(3, 2) + 1), read(reg::mb(3, 2) + 3),
+          read(reg::mb(3, 2) + 1, AhbSize::kHalf), read(reg::mb(3, 2) + 3, AhbSize::kHalf),
+          read(reg::mb(3, 2), AhbSize::kDouble), read(0x2000), read(0x2000 + reg::mb(3, 2)),
+          read(0xE000 + reg::mb(3, 2))}) {
       transfer.write = is_write;
       transfer.data = 0xFFFFFFFF;
       const AhbResult result = rig_.access(0, transfer);
@@ -102,7 +108,8 @@ TEST_F(Access, AddressBitsOfTheRegionDoNotMatter) {
 }
 
 TEST_F(Access, ReservedOffsetsReadZeroWithoutError) {
-  for (std::uint32_t address : {0x00Cu, 0x03Cu, 0x050u, 0x480u, 0x700u, 0x980u, 0xFFCu, 0x1010u, 0x1FFCu}) {
+  for (std::uint32_t address :
+       {0x00Cu, 0x03Cu, 0x050u, 0x480u, 0x700u, 0x980u, 0xFFCu, 0x1010u, 0x1FFCu}) {
     const auto results = rig_.burst(0, {write(address, 0xFFFFFFFF), read(address)});
     EXPECT_FALSE(results[0].error || results[1].error) << std::hex << address;
     EXPECT_EQ(results[1].data, 0u) << std::hex << address;
@@ -110,8 +117,9 @@ TEST_F(Access, ReservedOffsetsReadZeroWithoutError) {
 }
 
 TEST_F(Access, TransferAfterAnErrorIsNotLost) {
-  const auto results = rig_.burst(0, {write(reg::mb(1, 2), 0x11), read(0x2000), write(reg::mb(1, 3), 0x22),
-                                      read(0x82), read(reg::mb(1, 2)), read(reg::mb(1, 3))});
+  const auto results =
+      rig_.burst(0, {write(reg::mb(1, 2), 0x11), read(0x2000), write(reg::mb(1, 3), 0x22),
+                     read(0x82), read(reg::mb(1, 2)), read(reg::mb(1, 3))});
   EXPECT_TRUE(results[1].error && results[3].error);
   EXPECT_EQ(results[4].data, 0x11u);
   EXPECT_EQ(results[5].data, 0x22u);
@@ -119,17 +127,20 @@ TEST_F(Access, TransferAfterAnErrorIsNotLost) {
 
 TEST_F(Access, BurstsWithBusyAndIdleBetween) {
   AhbMaster &ahb = rig_.node(0).ahb();
-  for (AhbBurst burst : {AhbBurst::kIncr4, AhbBurst::kIncr8, AhbBurst::kWrap4, AhbBurst::kWrap8, AhbBurst::kIncr16}) {
+  for (AhbBurst burst : {AhbBurst::kIncr4, AhbBurst::kIncr8, AhbBurst::kWrap4, AhbBurst::kWrap8,
+                         AhbBurst::kIncr16}) {
     std::vector<std::uint32_t> data(ahb_beats(burst));
-    for (std::uint32_t &word : data) word = 0x1000 + static_cast<std::uint32_t>(&word - data.data());
+    for (std::uint32_t &word : data)
+      word = 0x1000 + static_cast<std::uint32_t>(&word - data.data());
     const std::uint32_t base = reg::rximr(8);  // aligned, so that wrapping bursts stay in place
     auto ticket = ahb.submit_burst(base, burst, true, data);
     ticket = ahb.submit_burst(base, burst, false, data);
     ASSERT_TRUE(rig_.run_until([&] { return ahb.done(ticket + data.size() - 1); }, 200));
     for (unsigned i = 0; i < data.size(); ++i) EXPECT_EQ(ahb.result(ticket + i).data, data[i]);
   }
-  const auto results = rig_.burst(0, {{.address = reg::mb(2, 2), .write = true, .data = 5, .pause = 2},
-                                      {.address = reg::mb(2, 2), .pause = 3}});
+  const auto results =
+      rig_.burst(0, {{.address = reg::mb(2, 2), .write = true, .data = 5, .pause = 2},
+                     {.address = reg::mb(2, 2), .pause = 3}});
   EXPECT_EQ(results[1].data, 5u);
 }
 

@@ -51,7 +51,8 @@ TEST_F(Alone, NoErrorIsLostWhileTheCpuReadsEsrInEveryClock) {
   send();
   unsigned seen = 0;
   for (std::uint32_t counter = 0; counter < 80;) {
-    const auto results = rig_.burst(0, {{.address = reg::kEsr}, {.address = reg::kEsr}, {.address = reg::kEcr}});
+    const auto results =
+        rig_.burst(0, {{.address = reg::kEsr}, {.address = reg::kEsr}, {.address = reg::kEcr}});
     for (unsigned i = 0; i < 2; ++i) seen += (results[i].data & kAckErr) != 0;
     counter = results[2].data & 0xFF;
   }
@@ -175,7 +176,8 @@ TEST(Flags, SettingBeatsClearingInTheSameClock) {  // 1.5: the CPU clears in eve
       for (unsigned k = 0; k < i % 2; ++k) transfers.push_back({.address = reg::kIflag2});
       transfers.push_back({.address = reg::kIflag1});
       transfers.push_back({.address = reg::kIflag1, .write = true, .data = 1u << 9});
-      for (const AhbResult &result : rig.burst(0, transfers)) seen |= (result.data & (1u << 7)) != 0;
+      for (const AhbResult &result : rig.burst(0, transfers))
+        seen |= (result.data & (1u << 7)) != 0;
     }
     EXPECT_TRUE(seen);
     rig.clear_flag(0, 7);
@@ -189,7 +191,8 @@ TEST(Completion, CodeAndStampAreThereBeforeTheFlag) {  // 3.3
   rig.put_tx(0, 7, {.id = 0x100});
   std::vector<AhbResult> results;
   do {
-    results = rig.burst(0, {{.address = reg::kIflag1}, {.address = reg::mb(7)}, {.address = reg::kIflag1}});
+    results = rig.burst(
+        0, {{.address = reg::kIflag1}, {.address = reg::mb(7)}, {.address = reg::kIflag1}});
     const bool active = (results[1].data >> 24) == 0xC;
     EXPECT_FALSE(active && results[0].data != 0);
   } while (results[0].data == 0);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reception into buffers: matching, codes, lock, serviced, overrun, BUSY (flexcan.md 3.2, 3.5, 3.6).
+// Reception into buffers: matching, codes, lock, serviced, overrun, BUSY
+// (flexcan.md 3.2, 3.5, 3.6).
 #include <gtest/gtest.h>
 
 #include "mailbox/mailbox_rig.hpp"
@@ -28,8 +29,10 @@ class Reception : public ::testing::Test {
     rig_.run(60);
   }
   static Frame numbered(unsigned number, std::uint32_t id = 0x123) {
-    return {.id = id, .dlc = 8, .data = {static_cast<std::uint8_t>(number), 0x11, 0x22, 0x33, 0x44, 0x55,
-                                         0x66, static_cast<std::uint8_t>(0x70 + number)}};
+    return {.id = id,
+            .dlc = 8,
+            .data = {static_cast<std::uint8_t>(number), 0x11, 0x22, 0x33, 0x44, 0x55, 0x66,
+                     static_cast<std::uint8_t>(0x70 + number)}};
   }
   // Code without the side effects of a C/S read: the lock is given back.
   unsigned code(unsigned mb) {
@@ -186,7 +189,8 @@ TEST_F(Reception, LaterFrameReplacesTheWaitingOne) {  // 3.5
   EXPECT_EQ(mb_frame(rig_.get(0, 5)), numbered(3));
 }
 
-TEST_F(Reception, OtherBuffersReceiveWhileOneIsLockedAndOneFrameWaits) {  // errata: bound to its index
+TEST_F(Reception,
+       OtherBuffersReceiveWhileOneIsLockedAndOneFrameWaits) {  // errata: bound to its index
   rig_.put_rx(0, 5, {.id = 0x123});
   rig_.put_rx(0, 6, {.id = 0x124});
   go();
@@ -254,7 +258,8 @@ TEST_F(Reception, BusyOrWholeButNeverTorn) {  // 3.2, 3.5: the CPU reads in ever
       const std::uint32_t cs = rig_.read(0, reg::mb(5));
       busy += (cs >> 24) & 1;
       if (((cs >> 24) & 1) != 0) continue;
-      const unsigned low = rig_.read(0, reg::mb(5, 2)) >> 24, high = rig_.read(0, reg::mb(5, 3)) & 0xF;
+      const unsigned low = rig_.read(0, reg::mb(5, 2)) >> 24,
+                     high = rig_.read(0, reg::mb(5, 3)) & 0xF;
       ASSERT_EQ(low & 0xF, high) << "torn";
       seen = low == i;
       unlock();
@@ -360,8 +365,10 @@ TEST(TimeStamp, TsynClearsTimerOnReceptionIntoBuffer0) {  // 2.10
     ASSERT_TRUE(rig.wait_flag(1, 40));
     rig.clear_flag(1, 40);
     const std::uint32_t timer = rig.read(0, reg::kTimer);
-    if (id == 0x123) EXPECT_LT(timer, 20u);
-    else EXPECT_GT(timer, 0x4000u);
+    if (id == 0x123)
+      EXPECT_LT(timer, 20u);
+    else
+      EXPECT_GT(timer, 0x4000u);
   }
 }
 

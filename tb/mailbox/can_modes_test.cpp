@@ -171,7 +171,8 @@ TEST_F(SoftReset, KeepsAndClearsWhatSection2Says) {
   rig_.write(0, reg::rximr(7), 0x11223344);
   rig_.write(0, reg::mb(9, 2), 0xCAFEBABE);
   soft_reset();
-  for (std::uint32_t gone : {reg::kEcr, reg::kTimer, reg::kImask1, reg::kImask2, reg::kIflag1, reg::kEsr})
+  for (std::uint32_t gone :
+       {reg::kEcr, reg::kTimer, reg::kImask1, reg::kImask2, reg::kIflag1, reg::kEsr})
     EXPECT_EQ(rig_.read(0, gone), 0u) << std::hex << gone;
   EXPECT_EQ(rig_.read(0, reg::kCtrl), 0x01234567u & 0xFFFFD0FFu) << "warning masks need WRN_EN";
   EXPECT_EQ(rig_.read(0, reg::kRxgmask), 0x55AA55AAu);
@@ -215,7 +216,8 @@ TEST_F(BusOff, IsReported) {  // 1.4, 2.8, section 7
 TEST_F(BusOff, SoftResetEndsItWithoutBoffInt) {  // 2.3, erratum e7322
   rig_.write(0, reg::kEsr, 0x00030006);
   rig_.write(0, reg::kMcr, reg::kMcrSoftRst);
-  EXPECT_TRUE(rig_.run_until([&] { return (rig_.read(0, reg::kMcr) & reg::kMcrSoftRst) == 0; }, 3 * kBit));
+  EXPECT_TRUE(
+      rig_.run_until([&] { return (rig_.read(0, reg::kMcr) & reg::kMcrSoftRst) == 0; }, 3 * kBit));
   EXPECT_EQ(esr(), 0u);
   EXPECT_EQ(rig_.read(0, reg::kEcr), 0u);
   rig_.run_until([&] { return rig_.bus().now() > 5 * kMillisecond; }, 80000);
@@ -229,7 +231,8 @@ TEST_F(BusOff, FreezeIsImmediate) {  // 2.2, erratum ERR009595
 
 TEST_F(BusOff, DisableIsImmediate) {  // 2.1
   rig_.write(0, reg::kMcr, rig_.read(0, reg::kMcr) | reg::kMcrMdis);
-  EXPECT_TRUE(rig_.run_until([&] { return (rig_.read(0, reg::kMcr) & reg::kMcrLpmAck) != 0; }, 2 * kBit));
+  EXPECT_TRUE(
+      rig_.run_until([&] { return (rig_.read(0, reg::kMcr) & reg::kMcrLpmAck) != 0; }, 2 * kBit));
 }
 
 TEST(ListenOnly, FreezeWorksAndFltConfReadsPassive) {  // 2.4

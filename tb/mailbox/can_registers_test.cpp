@@ -122,7 +122,8 @@ TEST_F(Mcr, ResetAndFirstSteps) {  // section 2
   EXPECT_EQ(mcr(), 0x5980000F);
 }
 
-TEST_F(Mcr, FreezeOnlyFieldsOfMcr) {  // 1.1: {29,23,21,19,17,16,13,12,9:8,6:0}, less absent features
+TEST_F(Mcr,
+       FreezeOnlyFieldsOfMcr) {  // 1.1: {29,23,21,19,17,16,13,12,9:8,6:0}, less absent features
   rig_.write(0, reg::kMcr, 0x7FFFFFFF & ~reg::kMcrSoftRst);
   rig_.run(4);
   EXPECT_EQ(mcr(), 0x5980000F) << "written in disable mode";
@@ -194,7 +195,8 @@ TEST_P(Size, EveryBufferAndMaskIsItsOwnMemory) {
   for (std::uint32_t address : {reg::kRxgmask, reg::kRx14mask, reg::kRx15mask})
     written.emplace_back(address, rng());
   for (const auto &[address, value] : written) rig.write(0, address, value);
-  for (const auto &[address, value] : written) EXPECT_EQ(rig.read(0, address), value) << std::hex << address;
+  for (const auto &[address, value] : written)
+    EXPECT_EQ(rig.read(0, address), value) << std::hex << address;
 }
 
 INSTANTIATE_TEST_SUITE_P(NumMb, Size, ::testing::Values(16u, 32u, 64u));

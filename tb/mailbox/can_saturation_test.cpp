@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// 1 Mbit/s at 8 clocks a bit, every buffer in use, a saturated bus and a CPU that never pauses: nothing is
-// lost, nothing is late (issue bar; flexcan.md 3.3, 3.5, 3.6).
+// 1 Mbit/s at 8 clocks a bit, every buffer in use, a saturated bus and a CPU that never pauses:
+// nothing is lost, nothing is late (issue bar; flexcan.md 3.3, 3.5, 3.6).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +37,8 @@ class Saturation : public ::testing::TestWithParam<Case> {
     frame.extended = (k % 3) == 2;
     frame.id = 0x100 + 0x40 * n + k + (frame.extended ? 0x1234000 : 0);
     frame.dlc = k % 5 == 0 ? 0 : static_cast<std::uint8_t>(rng_() % 12);
-    for (unsigned i = 0; i < frame.payload_size(); ++i) frame.data[i] = static_cast<std::uint8_t>(rng_());
+    for (unsigned i = 0; i < frame.payload_size(); ++i)
+      frame.data[i] = static_cast<std::uint8_t>(rng_());
     return frame;
   }
 
@@ -58,18 +59,21 @@ class Saturation : public ::testing::TestWithParam<Case> {
     switch (GetParam().hammer) {
       case Hammer::kRead:  // no C/S word, no TIMER: no effect but contention
         return {.address = reg::mb(mb, 1 + word % 3)};
-      case Hammer::kLock:
-        return {.address = rng_() % 8 == 0 ? reg::kTimer : reg::mb(mb, 0)};
+      case Hammer::kLock: return {.address = rng_() % 8 == 0 ? reg::kTimer : reg::mb(mb, 0)};
       case Hammer::kCommand:  // ERR005829 workaround without end, as fast as it goes
-        return {.address = reg::mb(rng_() % 2 == 0 ? 0 : 63, rng_() % 4 == 0 ? 2 : 0), .write = true,
+        return {.address = reg::mb(rng_() % 2 == 0 ? 0 : 63, rng_() % 4 == 0 ? 2 : 0),
+                .write = true,
                 .data = 0x08000000};
       case Hammer::kToggleLast:  // buffers activated and taken back without end
       case Hammer::kToggleFirst:
-        return {.address = reg::mb(rng_() % 2 == 0 ? 0 : 63), .write = true,
+        return {.address = reg::mb(rng_() % 2 == 0 ? 0 : 63),
+                .write = true,
                 .data = rng_() % 2 == 0 ? 0x08000000u : 0x0C000000u};
       default:
         if (rng_() % 2 == 0)
-          return {.address = reg::mb(rng_() % 2 == 0 ? 0 : 63, word), .write = true, .data = 0x08000000};
+          return {.address = reg::mb(rng_() % 2 == 0 ? 0 : 63, word),
+                  .write = true,
+                  .data = 0x08000000};
         return {.address = rng_() % 16 == 0 ? reg::kTimer : reg::mb(mb, word)};
     }
   }
@@ -99,7 +103,8 @@ class Saturation : public ::testing::TestWithParam<Case> {
     rig_.read(n, reg::kTimer);
     ++received_;
     auto &queue = expected_[1 - n][k];
-    ASSERT_FALSE(queue.empty()) << "node " << n << " buffer " << k << " cs " << std::hex << words.cs;
+    ASSERT_FALSE(queue.empty()) << "node " << n << " buffer " << k << " cs " << std::hex
+                                << words.cs;
     EXPECT_EQ(words.code(), 2u) << "overrun in buffer " << k;
     EXPECT_EQ(mb_frame(words), queue.front()) << "node " << n << " buffer " << k;
     queue.pop_front();
@@ -153,8 +158,8 @@ TEST_P(Saturation, NothingIsLostAndFramesAreThreeBitsApart) {  // IF-01, MO-06
   rig_.bus().remove(gaps);
   EXPECT_GT(received_, 400u);
   EXPECT_GT(gaps.gaps[3], 300u);
-  // Whoever withdraws the frame that is next, at the last moment, makes the one behind it late by the
-  // time of a search; nobody else does.
+  // Whoever withdraws the frame that is next, at the last moment, makes the one behind it late by
+  // the time of a search; nobody else does.
   const unsigned late = GetParam().hammer == Hammer::kToggleFirst ? 12 : 3;
   std::fill(gaps.gaps.begin() + 3, gaps.gaps.begin() + late + 1, 0u);
   EXPECT_THAT(gaps.gaps, ::testing::Each(0u)) << "frames this number of bits apart";
@@ -172,8 +177,10 @@ constexpr std::uint32_t timing(unsigned prop, unsigned ps1, unsigned ps2, unsign
 
 INSTANTIATE_TEST_SUITE_P(
     EveryHammer, Saturation,
-    ::testing::Values(Case{"Quiet", Hammer::kNone, kTiming8}, Case{"Reads", Hammer::kRead, kTiming8},
-                      Case{"Mixed", Hammer::kMixed, kTiming8}, Case{"Locks", Hammer::kLock, kTiming8},
+    ::testing::Values(Case{"Quiet", Hammer::kNone, kTiming8},
+                      Case{"Reads", Hammer::kRead, kTiming8},
+                      Case{"Mixed", Hammer::kMixed, kTiming8},
+                      Case{"Locks", Hammer::kLock, kTiming8},
                       Case{"Commands", Hammer::kCommand, kTiming8},
                       Case{"TogglesLast", Hammer::kToggleLast, kTiming8},
                       Case{"TogglesFirst", Hammer::kToggleFirst, kTiming8},

@@ -30,11 +30,13 @@ Frame mb_frame(const MbWords &words) {
   frame.dlc = (words.cs >> 16) & 0xF;
   frame.id = frame.extended ? words.id & 0x1FFFFFFF : (words.id >> 18) & 0x7FF;
   for (unsigned i = 0; i < frame.payload_size(); ++i)
-    frame.data[i] = static_cast<std::uint8_t>((i < 4 ? words.low : words.high) >> (24 - 8 * (i % 4)));
+    frame.data[i] =
+        static_cast<std::uint8_t>((i < 4 ? words.low : words.high) >> (24 - 8 * (i % 4)));
   return frame;
 }
 
-MailboxRig::MailboxRig(unsigned nodes, unsigned num_mb) : num_mb_{num_mb}, hammers_(nodes), last_(nodes) {
+MailboxRig::MailboxRig(unsigned nodes, unsigned num_mb)
+    : num_mb_{num_mb}, hammers_(nodes), last_(nodes) {
   for (unsigned n = 0; n < nodes; ++n) {
     nodes_.push_back(RtlNode::create("node" + std::to_string(n), {}, num_mb));
     bus_.add(*nodes_.back());
@@ -45,7 +47,8 @@ void MailboxRig::step() {
   for (unsigned n = 0; n < nodes_.size(); ++n) {
     if (!hammers_[n]) continue;
     // One transfer in its data phase and one in its address phase, at least.
-    while (last_[n] < 2 || node(n).ahb().done(last_[n] - 2)) last_[n] = node(n).ahb().submit(hammers_[n]()) + 1;
+    while (last_[n] < 2 || node(n).ahb().done(last_[n] - 2))
+      last_[n] = node(n).ahb().submit(hammers_[n]()) + 1;
   }
   bus_.step();
 }
@@ -106,7 +109,8 @@ void MailboxRig::put(unsigned n, unsigned mb, const MbWords &words) {
   write(n, reg::mb(mb, 0), words.cs);
 }
 
-void MailboxRig::put_rx(unsigned n, unsigned mb, const Frame &like, std::optional<std::uint32_t> mask) {
+void MailboxRig::put_rx(unsigned n, unsigned mb, const Frame &like,
+                        std::optional<std::uint32_t> mask) {
   MbWords words = mb_words(like, 0x4);
   words.cs &= reg::kCodeMask | reg::kCsIde;
   write(n, reg::mb(mb, 0), 0);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// MailboxRig: several whole cores on one bus, each with plain calls for its software and, if wanted, a
-// stream of accesses that keeps its AHB busy in every clock.
+// MailboxRig: several whole cores on one bus, each with plain calls for its software and, if
+// wanted, a stream of accesses that keeps its AHB busy in every clock.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,9 @@ class MailboxRig {
   [[nodiscard]] unsigned num_mb() const { return num_mb_; }
 
   /// Accesses; the bus runs until they are done.
-  std::uint32_t read(unsigned n, std::uint32_t address) { return access(n, {.address = address}).data; }
+  std::uint32_t read(unsigned n, std::uint32_t address) {
+    return access(n, {.address = address}).data;
+  }
   void write(unsigned n, std::uint32_t address, std::uint32_t data) {
     access(n, {.address = address, .write = true, .data = data});
   }

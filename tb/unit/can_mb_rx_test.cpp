@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_rx: the chosen buffer against a model of the comparison table and the selection (flexcan.md 3.5).
+// can_mb_rx: the chosen buffer against a model of the comparison table and the selection
+// (flexcan.md 3.5).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,7 +22,8 @@ struct Buffer {
   bool serviced = false, ide = false, rtr = false;
   std::uint32_t id = 0, mask = 0;
   [[nodiscard]] std::uint32_t cs() const {
-    return (std::uint32_t{serviced} << 31) | (code << 24) | (std::uint32_t{ide} << 21) | (std::uint32_t{rtr} << 20);
+    return (std::uint32_t{serviced} << 31) | (code << 24) | (std::uint32_t{ide} << 21) |
+           (std::uint32_t{rtr} << 20);
   }
 };
 
@@ -44,14 +46,16 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
 
   bool matches(unsigned i, const Header &header) const {
     const Buffer &buffer = buffers_[i];
-    if (i > top_.maxmb_i || (buffer.code != 4 && buffer.code != 2 && buffer.code != 6)) return false;
+    if (i > top_.maxmb_i || (buffer.code != 4 && buffer.code != 2 && buffer.code != 6))
+      return false;
     if (header.rtr && top_.rrs_i == 0) return false;
     const bool compare_ide = top_.eacen_i == 0 || ((buffer.mask >> 30) & 1) != 0;
     const bool compare_rtr = top_.eacen_i != 0 && (buffer.mask >> 31) != 0;
     if (compare_ide && buffer.ide != header.ide) return false;
     if (compare_rtr && buffer.rtr != header.rtr) return false;
     for (unsigned bit = header.ide ? 0 : 18; bit < 29; ++bit)
-      if (((buffer.mask >> bit) & 1) != 0 && ((buffer.id ^ header.id) >> bit & 1) != 0) return false;
+      if (((buffer.mask >> bit) & 1) != 0 && ((buffer.id ^ header.id) >> bit & 1) != 0)
+        return false;
     return true;
   }
 
@@ -111,8 +115,12 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
 
   Buffer random_buffer() {
     static constexpr unsigned kCodes[] = {4, 4, 2, 6, 0, 8, 12, 10};
-    Buffer buffer{.code = kCodes[random() % 8], .serviced = random() % 2 == 0, .ide = random() % 2 == 0,
-                  .rtr = random() % 2 == 0, .id = ((random() % 4) << 18) | (random() % 2), .mask = random() | random()};
+    Buffer buffer{.code = kCodes[random() % 8],
+                  .serviced = random() % 2 == 0,
+                  .ide = random() % 2 == 0,
+                  .rtr = random() % 2 == 0,
+                  .id = ((random() % 4) << 18) | (random() % 2),
+                  .mask = random() | random()};
     if (buffer.code != 2 && buffer.code != 6) buffer.serviced = false;
     return buffer;
   }
@@ -154,8 +162,10 @@ TEST_P(MbRx, BuffersTakenAwayMeanwhileAreNotChosen) {  // 3.4: a C/S write remov
     const Header header = random_header();
     start(header);
     for (unsigned i = 0; i < 100; ++i) {
-      if (random() % 3 != 0) clock();
-      else clock(random() % kBuffers, Buffer{});
+      if (random() % 3 != 0)
+        clock();
+      else
+        clock(random() % kBuffers, Buffer{});
     }
     finish();
     ASSERT_TRUE(top_.hit_o == 0 || matches(top_.hit_idx_o, header)) << "round " << round;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_tx: the winner against a model that sorts (flexcan.md 3.3), with buffers activated, taken away,
-// sent and retried in every clock.
+// can_mb_tx: the winner against a model that sorts (flexcan.md 3.3), with buffers activated, taken
+// away, sent and retried in every clock.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,14 +52,16 @@ class MbTx : public ::testing::TestWithParam<unsigned> {
   std::optional<unsigned> expected() const {
     std::vector<std::tuple<std::string, unsigned>> active;
     for (unsigned i = 0; i < kBuffers && i <= top_.maxmb_i; ++i) {
-      if ((buffers_[i].cs >> 24) != kActive || (top_.on_bus_i != 0 && i == top_.cur_idx_i)) continue;
+      if ((buffers_[i].cs >> 24) != kActive || (top_.on_bus_i != 0 && i == top_.cur_idx_i))
+        continue;
       active.emplace_back(top_.lbuf_i != 0 ? "" : bits(buffers_[i]), i);
     }
     if (active.empty()) return {};
     return std::get<1>(*std::min_element(active.begin(), active.end()));
   }
 
-  // One clock: `write` is the buffer whose C/S word the CPU writes in it; slots are granted at random.
+  // One clock: `write` is the buffer whose C/S word the CPU writes in it; slots are granted at
+  // random.
   void clock(std::optional<unsigned> write, std::uint32_t cs, unsigned grant_percent) {
     top_.eval();
     const bool ins = top_.ins_req_o != 0;
@@ -91,7 +93,8 @@ class MbTx : public ::testing::TestWithParam<unsigned> {
     std::uint32_t cs = (was_active || rng_() % 4 == 0) ? 0x08000000u : kActive << 24;
     if (!was_active) {
       // Few different identifiers: ties and near ties are what is hard.
-      buffer.id = ((rng_() % 4) << 18) | (rng_() % 3 == 0 ? rng_() & 0x3FFFF : rng_() % 3) | (rng_() << 29);
+      buffer.id =
+          ((rng_() % 4) << 18) | (rng_() % 3 == 0 ? rng_() & 0x3FFFF : rng_() % 3) | (rng_() << 29);
       cs |= (rng_() % 2 != 0 ? kIde : 0) | (rng_() % 2 != 0 ? kRtr : 0);
     }
     if (top_.on_bus_i != 0 && i == top_.cur_idx_i) return clock({}, 0, grant_percent);
@@ -128,8 +131,10 @@ TEST_P(MbTx, WinnerIsThatOfTheModel) {
     if (HasFatalFailure()) FAIL() << "round " << round;
     if (top_.on_bus_i != 0) {  // the frame ends: sent, or to be tried again
       top_.on_bus_i = 0;
-      if (rng_() % 2 == 0) top_.retry_i = 1;
-      else buffers_[top_.cur_idx_i].cs = 0x08000000;
+      if (rng_() % 2 == 0)
+        top_.retry_i = 1;
+      else
+        buffers_[top_.cur_idx_i].cs = 0x08000000;
     } else if (top_.settled_o != 0) {  // the winner goes on the bus
       top_.cur_idx_i = top_.best_idx_o;
       top_.start_i = 1;
