@@ -38,32 +38,39 @@ Json to_json(const BitTimingResult &result) {
           {"ctrl", fmt::format("0x{:08X}", t.ctrl_fields())}};
 }
 
-void print_table(const BitTimingRequest &request, const std::vector<BitTimingResult> &results, unsigned rows) {
-  fmt::print("{} Hz, {} bit/s, {:g} ns from a node's logic to the cable or back\n\n", request.clock_hz,
-             request.bitrate, request.node_delay_ns);
-  fmt::print("{:>4} {:>4} {:>4} {:>4} {:>4} {:>4} {:>7} {:>11} {:>9} {:>9} {:>8}  {}\n", "BRP", "PROP", "PS1",
-             "PS2", "SJW", "tq", "sample", "bit/s", "error", "clock", "cable", "CTRL");
+void print_table(const BitTimingRequest &request, const std::vector<BitTimingResult> &results,
+                 unsigned rows) {
+  fmt::print("{} Hz, {} bit/s, {:g} ns from a node's logic to the cable or back\n\n",
+             request.clock_hz, request.bitrate, request.node_delay_ns);
+  fmt::print("{:>4} {:>4} {:>4} {:>4} {:>4} {:>4} {:>7} {:>11} {:>9} {:>9} {:>8}  {}\n", "BRP",
+             "PROP", "PS1", "PS2", "SJW", "tq", "sample", "bit/s", "error", "clock", "cable",
+             "CTRL");
   for (std::size_t i = 0; i < results.size() && i < rows; ++i) {
     const BitTimingResult &r = results[i];
     const BitTiming &t = r.timing;
-    fmt::print("{:>4} {:>4} {:>4} {:>4} {:>4} {:>4} {:>5.1f} % {:>11.1f} {:>5.0f} ppm {:>7.3f} % {:>6.0f} m  0x{:08X}\n",
-               t.prescaler, t.prop, t.ps1, t.ps2, t.sjw, t.quanta(), r.sample_point * 100, r.bitrate,
-               r.rate_error_ppm, r.oscillator_tolerance * 100, std::max(0.0, r.cable_m), t.ctrl_fields());
+    fmt::print(
+        "{:>4} {:>4} {:>4} {:>4} {:>4} {:>4} {:>5.1f} % {:>11.1f} {:>5.0f} ppm {:>7.3f} % {:>6.0f} "
+        "m  0x{:08X}\n",
+        t.prescaler, t.prop, t.ps1, t.ps2, t.sjw, t.quanta(), r.sample_point * 100, r.bitrate,
+        r.rate_error_ppm, r.oscillator_tolerance * 100, std::max(0.0, r.cable_m), t.ctrl_fields());
   }
   if (results.size() > rows) fmt::print("... and {} more (--rows)\n", results.size() - rows);
-  fmt::print("\nclock: largest error of each node's clock (BT-08); cable: longest at 5 ns/m (BT-07).\n");
+  fmt::print(
+      "\nclock: largest error of each node's clock (BT-08); cable: longest at 5 ns/m (BT-07).\n");
 }
 
 int bittime(const Options &options) {
   BitTimingRequest request = options.request;
   const auto whole = [](double value, const char *name) {
-    if (value < 1 || value > 4e9) throw std::invalid_argument(fmt::format("{} {:g} is out of range", name, value));
+    if (value < 1 || value > 4e9)
+      throw std::invalid_argument(fmt::format("{} {:g} is out of range", name, value));
     return static_cast<std::uint32_t>(value + 0.5);
   };
   request.clock_hz = whole(options.clock, "clock");
   request.bitrate = whole(options.bitrate, "bit rate");
   if (options.sample_point != 0)
-    request.sample_point = options.sample_point > 1 ? options.sample_point / 100 : options.sample_point;
+    request.sample_point =
+        options.sample_point > 1 ? options.sample_point / 100 : options.sample_point;
   if (options.sjw != 0) request.sjw = options.sjw;
   const auto results = find_bit_timings(request);
   if (options.json) {
@@ -85,19 +92,26 @@ int bittime(const Options &options) {
 
 void add_bittime(CLI::App &app, int &exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App *command = app.add_subcommand("bittime", "Bit timing registers for a clock and a bit rate");
-  const CLI::AsNumberWithUnit with_unit(
-      std::map<std::string, double>{{"k", 1e3}, {"M", 1e6}, {"kHz", 1e3}, {"MHz", 1e6}, {"Hz", 1.0}});
-  command->add_option("--clock,-c", options->clock, "Clock of the controller, Hz (8M)")->transform(with_unit);
-  command->add_option("--bitrate,-b", options->bitrate, "Bit rate, bit/s (500k)")->required()->transform(with_unit);
+  CLI::App *command =
+      app.add_subcommand("bittime", "Bit timing registers for a clock and a bit rate");
+  const CLI::AsNumberWithUnit with_unit(std::map<std::string, double>{
+      {"k", 1e3}, {"M", 1e6}, {"kHz", 1e3}, {"MHz", 1e6}, {"Hz", 1.0}});
+  command->add_option("--clock,-c", options->clock, "Clock of the controller, Hz (8M)")
+      ->transform(with_unit);
+  command->add_option("--bitrate,-b", options->bitrate, "Bit rate, bit/s (500k)")
+      ->required()
+      ->transform(with_unit);
   command->add_option("--sample-point,-s", options->sample_point,
                       "Wanted sample point, 0.5..0.9 or 50..90 % (default: CiA's recommendation)");
-  command->add_option("--sjw", options->sjw, "Resynchronisation jump width, 1..4 tq (default: the largest)")
+  command
+      ->add_option("--sjw", options->sjw,
+                   "Resynchronisation jump width, 1..4 tq (default: the largest)")
       ->check(CLI::Range(1U, 4U));
   command->add_option("--cable", options->request.cable_m, "Length that PROP_SEG must cover, m");
   command->add_option("--node-delay", options->request.node_delay_ns,
                       "One way through driver, comparator and controller, ns (100)");
-  command->add_option("--max-error", options->request.max_rate_error_ppm, "Largest bit-rate error, ppm (50000)");
+  command->add_option("--max-error", options->request.max_rate_error_ppm,
+                      "Largest bit-rate error, ppm (50000)");
   command->add_option("--rows", options->rows, "Lines of the table (10)");
   command->add_flag("--json", options->json, "All settings as JSON");
   command->callback([options, &exit_code] { exit_code = bittime(*options); });

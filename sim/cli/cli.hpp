@@ -16,9 +16,11 @@ namespace vericansim::cli {
 
 /// Exit codes of the tool, documented in docs/tool.md.
 enum ExitCode : int {
-  kOk = 0,        ///< done, and everything that was checked is as expected
-  kFailed = 1,    ///< done, but a check failed: an expectation, a replayed frame, a result of the paper
-  kBadInput = 2,  ///< a file, an option or a value cannot be used; one line on stderr says which and why
+  kOk = 0,  ///< done, and everything that was checked is as expected
+  kFailed =
+      1,  ///< done, but a check failed: an expectation, a replayed frame, a result of the paper
+  kBadInput =
+      2,  ///< a file, an option or a value cannot be used; one line on stderr says which and why
   kInternal = 3,  ///< a mistake in the tool itself
 };
 

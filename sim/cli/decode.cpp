@@ -90,7 +90,8 @@ int decode(Options &options) {
   Json list = Json::array();
   for (const BusEvent &event : result.events) {
     frames += is_frame(event) ? 1 : 0;
-    errors += event.kind == BusEventKind::kErrorFrame || event.kind == BusEventKind::kBadFrame ? 1 : 0;
+    errors +=
+        event.kind == BusEventKind::kErrorFrame || event.kind == BusEventKind::kBadFrame ? 1 : 0;
     overloads += event.kind == BusEventKind::kOverloadFrame ? 1 : 0;
     if (options.json)
       list.push_back(event_json(event));
@@ -98,11 +99,16 @@ int decode(Options &options) {
       fmt::print("{}\n", to_string(event));
   }
   if (options.json)
-    print_json({{"signal", result.signal}, {"bitrate", result.bitrate}, {"end_ps", result.end},
-                {"frames", frames}, {"errors", errors}, {"overloads", overloads}, {"events", list}});
+    print_json({{"signal", result.signal},
+                {"bitrate", result.bitrate},
+                {"end_ps", result.end},
+                {"frames", frames},
+                {"errors", errors},
+                {"overloads", overloads},
+                {"events", list}});
   else
-    fmt::print("signal {}, {:.0f} bit/s: {} frames, {} error frames, {} overload frames in {}\n", result.signal,
-               result.bitrate, frames, errors, overloads, time_text(result.end));
+    fmt::print("signal {}, {:.0f} bit/s: {} frames, {} error frames, {} overload frames in {}\n",
+               result.signal, result.bitrate, frames, errors, overloads, time_text(result.end));
   return kOk;
 }
 
@@ -112,11 +118,14 @@ void add_decode(CLI::App &app, int &exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App *command = app.add_subcommand("decode", "Frames and error frames of a bus waveform");
   command->add_option("wave", options->wave, "VCD file")->required();
-  command->add_option("--signal,-s", options->decode.signal, "Signal of the bus, or the end of its name (guessed)");
+  command->add_option("--signal,-s", options->decode.signal,
+                      "Signal of the bus, or the end of its name (guessed)");
   command->add_option("--bitrate,-b", options->bitrate, "Bit rate, bit/s (detected)")
       ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"k", 1e3}, {"M", 1e6}}))
       ->check(CLI::Range(1e3, 1e6));
-  command->add_option("--sample-point", options->sample_point, "Place of the sample, % of the bit (80)")
+  command
+      ->add_option("--sample-point", options->sample_point,
+                   "Place of the sample, % of the bit (80)")
       ->check(CLI::Range(1.0, 99.0));
   command->add_option("--candump", options->candump, "Write the frames as a candump log");
   command->add_option("--pcap", options->pcap, "Write the frames as a capture for Wireshark");

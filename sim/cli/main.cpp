@@ -18,7 +18,8 @@ int run_tool(int argc, char **argv) {
   CLI::App app{"VeriCAN: CAN controllers in RTL on a simulated bus"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "verican 0.1.0");
-  app.footer("Exit codes: 0 done, 1 a check failed, 2 bad input, 3 internal error. See docs/tool.md.");
+  app.footer(
+      "Exit codes: 0 done, 1 a check failed, 2 bad input, 3 internal error. See docs/tool.md.");
   int exit_code = cli::kOk;
   cli::add_run(app, exit_code);
   cli::add_replay(app, exit_code);

@@ -35,13 +35,15 @@ std::string time_text(Time time) {
 Time time_option(const std::string &option, const std::string &text) {
   const auto time = parse_time(text);
   if (!time || *time <= 0)
-    throw InputError(option, 0, quoted(text) + " is not allowed; allowed: a time above 0, as in '50 ms'");
+    throw InputError(option, 0,
+                     quoted(text) + " is not allowed; allowed: a time above 0, as in '50 ms'");
   return *time;
 }
 
 void print_json(const Json &json) { fmt::print("{}\n", json.dump(2)); }
 
-Progress::Progress(std::string title) : title_{std::move(title)}, terminal_{isatty(STDERR_FILENO) != 0} {}
+Progress::Progress(std::string title)
+    : title_{std::move(title)}, terminal_{isatty(STDERR_FILENO) != 0} {}
 
 Progress::~Progress() {
   if (shown_ >= 0) fmt::print(stderr, "\r\033[K");
@@ -54,7 +56,8 @@ void Progress::show(double part) {
   shown_ = percent;
   constexpr int kWidth = 40;
   const int full = percent * kWidth / 100;
-  fmt::print(stderr, "\r{} [{}{}] {:3d} %", title_, std::string(static_cast<std::size_t>(full), '#'),
+  fmt::print(stderr, "\r{} [{}{}] {:3d} %", title_,
+             std::string(static_cast<std::size_t>(full), '#'),
              std::string(static_cast<std::size_t>(kWidth - full), ' '), percent);
   std::fflush(stderr);
 }

@@ -22,26 +22,32 @@ struct Options {
 Json to_json(const PaperExperiment &experiment) {
   Json checks = Json::array();
   for (const PaperCheck &check : experiment.checks)
-    checks.push_back({{"figure", check.figure}, {"reported", check.reported}, {"seen", check.seen}, {"ok", check.ok}});
+    checks.push_back({{"figure", check.figure},
+                      {"reported", check.reported},
+                      {"seen", check.seen},
+                      {"ok", check.ok}});
   return {{"name", experiment.name}, {"wave", experiment.wave}, {"checks", checks}};
 }
 
 int run(const Options &options) {
-  const auto experiments = run_paper(options.no_waves ? "" : options.folder, options.fst ? ".fst" : ".vcd");
+  const auto experiments =
+      run_paper(options.no_waves ? "" : options.folder, options.fst ? ".fst" : ".vcd");
   bool ok = true;
   Json list = Json::array();
   if (!options.json)
-    fmt::print("Son, Park, Kang: Design and Implementation of CAN IP using FPGA (2016)\n"
-               "50 kbit/s, 10 quanta of 2 us: PROP 5, PS1 2, PS2 2, sample point 80 %\n");
+    fmt::print(
+        "Son, Park, Kang: Design and Implementation of CAN IP using FPGA (2016)\n"
+        "50 kbit/s, 10 quanta of 2 us: PROP 5, PS1 2, PS2 2, sample point 80 %\n");
   for (const PaperExperiment &experiment : experiments) {
     list.push_back(to_json(experiment));
     if (!options.json)
-      fmt::print("\n{}{}\n", experiment.name, experiment.wave.empty() ? "" : "  (" + experiment.wave + ")");
+      fmt::print("\n{}{}\n", experiment.name,
+                 experiment.wave.empty() ? "" : "  (" + experiment.wave + ")");
     for (const PaperCheck &check : experiment.checks) {
       ok = ok && check.ok;
       if (!options.json)
-        fmt::print("  {} fig. {}  {}\n                seen: {}\n", check.ok ? "ok  " : "FAIL", check.figure, check.reported,
-                   check.seen);
+        fmt::print("  {} fig. {}  {}\n                seen: {}\n", check.ok ? "ok  " : "FAIL",
+                   check.figure, check.reported, check.seen);
     }
   }
   if (options.json)
@@ -55,7 +61,8 @@ int run(const Options &options) {
 
 void add_paper(CLI::App &app, int &exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App *command = app.add_subcommand("paper", "Repeat the published experiments and compare with the paper");
+  CLI::App *command =
+      app.add_subcommand("paper", "Repeat the published experiments and compare with the paper");
   command->add_option("--out", options->folder, "Folder for the waveforms (paper-waves)");
   command->add_flag("--fst", options->fst, "FST instead of VCD");
   command->add_flag("--no-waves", options->no_waves, "Write no waveforms");

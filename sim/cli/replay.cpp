@@ -43,16 +43,20 @@ Json to_json(const ReplayReport &report) {
 
 void print(const Options &options, const ReplayReport &report) {
   fmt::print("{}: {} frames{} at {:.0f} bit/s through {} nodes\n", options.log, report.frames,
-             report.skipped != 0 ? fmt::format(" ({} entries are no classical frames)", report.skipped) : "",
+             report.skipped != 0
+                 ? fmt::format(" ({} entries are no classical frames)", report.skipped)
+                 : "",
              options.replay.bitrate, report.nodes.size());
-  fmt::print("  recorded {}, simulated {}, load {:.1f} %, {} frames and {} error frames on the bus\n",
-             time_text(report.recorded), time_text(report.duration), report.load * 100, report.on_bus,
-             report.error_frames);
-  fmt::print("  {:<8} {:>8} {:>9} {:>9} {:>9} {:>8}  {}\n", "node", "sent", "to come", "received", "arb lost",
-             "errors", "every frame, bit-exact and in order");
+  fmt::print(
+      "  recorded {}, simulated {}, load {:.1f} %, {} frames and {} error frames on the bus\n",
+      time_text(report.recorded), time_text(report.duration), report.load * 100, report.on_bus,
+      report.error_frames);
+  fmt::print("  {:<8} {:>8} {:>9} {:>9} {:>9} {:>8}  {}\n", "node", "sent", "to come", "received",
+             "arb lost", "errors", "every frame, bit-exact and in order");
   for (const ReplayNode &n : report.nodes)
-    fmt::print("  {:<8} {:>8} {:>9} {:>9} {:>9} {:>8}  {}\n", n.name, n.sent, n.expected, n.received,
-               n.counts.lost_arbitration, n.counts.errors, n.complete ? "yes" : "NO: " + n.first_difference);
+    fmt::print("  {:<8} {:>8} {:>9} {:>9} {:>9} {:>8}  {}\n", n.name, n.sent, n.expected,
+               n.received, n.counts.lost_arbitration, n.counts.errors,
+               n.complete ? "yes" : "NO: " + n.first_difference);
   fmt::print("  {:.1f} million node-cycles in {:.2f} s: {:.1f} million a second\n",
              static_cast<double>(report.node_cycles) / 1e6, report.wall_seconds,
              static_cast<double>(report.node_cycles) / 1e6 / std::max(report.wall_seconds, 1e-9));
@@ -77,13 +81,16 @@ int run(const Options &options) {
 void add_replay(CLI::App &app, int &exit_code) {
   auto options = std::make_shared<Options>();
   ReplayOptions &replay = options->replay;
-  CLI::App *command =
-      app.add_subcommand("replay", "Recorded traffic through simulated nodes; each must receive every frame");
-  const CLI::AsNumberWithUnit with_unit(
-      std::map<std::string, double>{{"k", 1e3}, {"M", 1e6}, {"kHz", 1e3}, {"MHz", 1e6}, {"Hz", 1.0}});
-  command->add_option("log", options->log, "candump log, pcap, PCAN-View .trc or SavvyCAN .csv")->required();
-  command->add_option("--nodes,-n", replay.nodes, "Nodes on the bus (2)")->check(CLI::Range(2U, 64U));
-  command->add_option("--senders", replay.senders, "Nodes that share the identifiers of the log (1)")
+  CLI::App *command = app.add_subcommand(
+      "replay", "Recorded traffic through simulated nodes; each must receive every frame");
+  const CLI::AsNumberWithUnit with_unit(std::map<std::string, double>{
+      {"k", 1e3}, {"M", 1e6}, {"kHz", 1e3}, {"MHz", 1e6}, {"Hz", 1.0}});
+  command->add_option("log", options->log, "candump log, pcap, PCAN-View .trc or SavvyCAN .csv")
+      ->required();
+  command->add_option("--nodes,-n", replay.nodes, "Nodes on the bus (2)")
+      ->check(CLI::Range(2U, 64U));
+  command
+      ->add_option("--senders", replay.senders, "Nodes that share the identifiers of the log (1)")
       ->check(CLI::Range(1U, 64U));
   command->add_option("--bitrate,-b", replay.bitrate, "Bit rate, bit/s (500k)")
       ->transform(with_unit)
@@ -91,8 +98,10 @@ void add_replay(CLI::App &app, int &exit_code) {
   command->add_option("--clock,-c", replay.clock_hz, "Clock of each node, Hz (8M)")
       ->transform(with_unit)
       ->check(CLI::Range(1e5, 1e9));
-  command->add_option("--ppm", replay.ppm, "Clocks are spread over +- this error (100)")->check(CLI::Range(0.0, 5e3));
-  command->add_option("--cable", replay.cable_m, "Length of the bus, m (0)")->check(CLI::Range(0.0, 1e4));
+  command->add_option("--ppm", replay.ppm, "Clocks are spread over +- this error (100)")
+      ->check(CLI::Range(0.0, 5e3));
+  command->add_option("--cable", replay.cable_m, "Length of the bus, m (0)")
+      ->check(CLI::Range(0.0, 1e4));
   command->add_option("--mailboxes", replay.num_mb, "Message buffers of each node (64)")
       ->check(CLI::IsMember({16U, 32U, 64U}));
   command->add_option("--frames", replay.limit, "Take only so many frames from the log (all)");

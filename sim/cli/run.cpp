@@ -26,7 +26,8 @@ std::string name_for(const std::string &path, double bitrate, bool several) {
   if (path.empty() || !several) return path;
   const std::size_t dot = path.rfind('.');
   const std::string stem = path.substr(0, dot);
-  return fmt::format("{}-{:g}k{}", stem, bitrate / 1e3, dot == std::string::npos ? "" : path.substr(dot));
+  return fmt::format("{}-{:g}k{}", stem, bitrate / 1e3,
+                     dot == std::string::npos ? "" : path.substr(dot));
 }
 
 void override_with(Scenario &scenario, const Options &options) {
@@ -49,8 +50,9 @@ int run(const Options &options) {
   bool ok = true;
   Json list = Json::array();
   for (const double bitrate : scenario.bitrates) {
-    scenario.outputs = {name_for(outputs.vcd, bitrate, several), name_for(outputs.fst, bitrate, several),
-                        name_for(outputs.candump, bitrate, several), name_for(outputs.pcap, bitrate, several)};
+    scenario.outputs = {
+        name_for(outputs.vcd, bitrate, several), name_for(outputs.fst, bitrate, several),
+        name_for(outputs.candump, bitrate, several), name_for(outputs.pcap, bitrate, several)};
     RunReport report;
     {
       Progress progress{fmt::format("{:g} kbit/s", bitrate / 1e3)};
@@ -75,8 +77,10 @@ void add_run(CLI::App &app, int &exit_code) {
   command->add_option("--vcd", options->outputs.vcd, "Write the waveform as VCD");
   command->add_option("--fst", options->outputs.fst, "Write the waveform as FST");
   command->add_option("--candump", options->outputs.candump, "Write the frames as a candump log");
-  command->add_option("--pcap", options->outputs.pcap, "Write the frames as a capture for Wireshark");
-  command->add_option("--duration", options->duration, "Simulated time instead of the scenario's, as in '50 ms'");
+  command->add_option("--pcap", options->outputs.pcap,
+                      "Write the frames as a capture for Wireshark");
+  command->add_option("--duration", options->duration,
+                      "Simulated time instead of the scenario's, as in '50 ms'");
   command->add_option("--bitrate", options->bitrate, "Bit rate instead of the scenario's, bit/s")
       ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"k", 1e3}, {"M", 1e6}}))
       ->check(CLI::Range(1e3, 1e6));

@@ -44,10 +44,12 @@ double load_of(const std::vector<Message> &messages, std::size_t count) {
   return load;
 }
 
-/// Response time of message m: the largest of all its instances in the busy period of its priority level.
+/// Response time of message m: the largest of all its instances in the busy period of its priority
+/// level.
 Time respond(const std::vector<Message> &messages, std::size_t m, Time bit_time) {
   Time blocking = 0;
-  for (std::size_t k = m + 1; k < messages.size(); ++k) blocking = std::max(blocking, messages[k].cost);
+  for (std::size_t k = m + 1; k < messages.size(); ++k)
+    blocking = std::max(blocking, messages[k].cost);
   const Message &own = messages[m];
   const Time busy =
       fixed_point(own.cost, [&](Time t) { return blocking + demand(messages, m + 1, t); });
@@ -68,19 +70,23 @@ std::vector<Message> costs_of(const std::vector<MessageSpec> &specs, Time bit_ti
   std::vector<Message> messages;
   for (const MessageSpec &spec : specs) {
     if (spec.period <= 0 || spec.jitter < 0 || spec.bytes > 8)
-      throw std::invalid_argument("a message needs a period above 0, no negative jitter and at most 8 bytes");
-    messages.push_back({worst_case_bits(spec.bytes, spec.extended) * bit_time, spec.period, spec.jitter});
+      throw std::invalid_argument(
+          "a message needs a period above 0, no negative jitter and at most 8 bytes");
+    messages.push_back(
+        {worst_case_bits(spec.bytes, spec.extended) * bit_time, spec.period, spec.jitter});
   }
   return messages;
 }
 
 }  // namespace
 
-std::vector<std::optional<Time>> response_times(const std::vector<MessageSpec> &specs, Time bit_time) {
+std::vector<std::optional<Time>> response_times(const std::vector<MessageSpec> &specs,
+                                                Time bit_time) {
   const std::vector<Message> messages = costs_of(specs, bit_time);
   std::vector<std::optional<Time>> results;
   for (std::size_t m = 0; m < messages.size(); ++m) {
-    // At a full load the busy period never ends; just below it, it may last for hours: call that full, too.
+    // At a full load the busy period never ends; just below it, it may last for hours: call that
+    // full, too.
     constexpr double kFull = 0.9999;
     if (load_of(messages, m + 1) >= kFull)
       results.push_back(std::nullopt);

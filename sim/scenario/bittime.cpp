@@ -4,10 +4,10 @@
 // Bit timing calculator: search over all prescalers and segments.
 #include "scenario/bittime.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fmt/format.h>
 #include <stdexcept>
 #include <tuple>
 
@@ -30,7 +30,8 @@ void check(const BitTimingRequest &r) {
   require(r.bitrate >= 1'000 && r.bitrate <= 1'000'000,
           fmt::format("bit rate {} is out of range; allowed: 1000 to 1000000 bit/s", r.bitrate));
   require(!r.sample_point || (*r.sample_point >= 0.5 && *r.sample_point <= 0.9),
-          fmt::format("sample point {} is out of range; allowed: 0.5 to 0.9", r.sample_point.value_or(0)));
+          fmt::format("sample point {} is out of range; allowed: 0.5 to 0.9",
+                      r.sample_point.value_or(0)));
   require(!r.sjw || (*r.sjw >= 1 && *r.sjw <= kMaxSjw),
           fmt::format("SJW {} is out of range; allowed: 1 to 4", r.sjw.value_or(0)));
   require(r.cable_m >= 0 && r.cable_m <= 10'000,
@@ -110,7 +111,8 @@ std::vector<BitTimingResult> find_bit_timings(const BitTimingRequest &request) {
   std::vector<BitTimingResult> found;
   for (unsigned quanta = kMaxQuanta; quanta >= kMinQuanta; --quanta) {
     // Only the two prescalers around the exact one can be best for this number of quanta.
-    const auto below = static_cast<unsigned>(request.clock_hz / (std::uint64_t{quanta} * request.bitrate));
+    const auto below =
+        static_cast<unsigned>(request.clock_hz / (std::uint64_t{quanta} * request.bitrate));
     for (const unsigned prescaler : {below, below + 1})
       if (prescaler >= 1 && prescaler <= kMaxPrescaler)
         search_prescaler(request, quanta, prescaler, found);

@@ -21,7 +21,8 @@ DecoderConfig decoder_config(Time bit_time, double sample_point) {
 BusMonitor::BusMonitor(const Bus &bus, Time bit_time, double sample_point)
     : bit_time_{bit_time},
       nodes_(bus.size()),
-      decoder_{decoder_config(bit_time, sample_point), [this](const BusEvent &e) { take_event(e); }} {
+      decoder_{decoder_config(bit_time, sample_point),
+               [this](const BusEvent &e) { take_event(e); }} {
   decoder_.on_level(bus.now(), bus.level());
 }
 
@@ -38,7 +39,8 @@ void BusMonitor::advance(Time time) {
 void BusMonitor::count_errors(NodeCounts &counts, std::uint8_t errors) {
   if (errors == 0) return;
   ++counts.errors;
-  for (unsigned kind = 0; kind < counts.by_kind.size(); ++kind) counts.by_kind[kind] += (errors >> kind) & 1;
+  for (unsigned kind = 0; kind < counts.by_kind.size(); ++kind)
+    counts.by_kind[kind] += (errors >> kind) & 1;
 }
 
 void BusMonitor::on_bit(NodeId node, const BitRecord &bit) {
@@ -87,7 +89,8 @@ void BusMonitor::take_event(const BusEvent &event) {
   if (on_event) on_event(event);
 }
 
-// A frame has its sender if a node reported success between the frame's last bits and two bits later.
+// A frame has its sender if a node reported success between the frame's last bits and two bits
+// later.
 void BusMonitor::settle() {
   if (unsettled_.empty()) return;
   for (BusFrame &frame : unsettled_) {

@@ -19,25 +19,26 @@ namespace vericansim {
 
 /// What one node went through, from its trace.
 struct NodeCounts {
-  std::uint64_t attempts = 0;          ///< frames begun as transmitter
-  std::uint64_t sent = 0;              ///< VA-02
-  std::uint64_t delivered = 0;         ///< valid frames of others, VA-01
+  std::uint64_t attempts = 0;   ///< frames begun as transmitter
+  std::uint64_t sent = 0;       ///< VA-02
+  std::uint64_t delivered = 0;  ///< valid frames of others, VA-01
   std::uint64_t lost_arbitration = 0;
-  std::uint64_t errors = 0;            ///< error events
-  std::array<std::uint64_t, 6> by_kind{};  ///< bits of TraceError: stuff, form, CRC, ACK, bit0, bit1
-  std::uint64_t bus_off = 0;           ///< times it went bus-off
-  unsigned tec = 0, rec = 0;           ///< now; bus-off counts as 256
+  std::uint64_t errors = 0;  ///< error events
+  std::array<std::uint64_t, 6>
+      by_kind{};              ///< bits of TraceError: stuff, form, CRC, ACK, bit0, bit1
+  std::uint64_t bus_off = 0;  ///< times it went bus-off
+  unsigned tec = 0, rec = 0;  ///< now; bus-off counts as 256
   unsigned max_tec = 0, max_rec = 0;
-  bool passive = false, off = false;   ///< now
+  bool passive = false, off = false;  ///< now
 };
 
 /// A frame seen on the wire, and who sent it.
 struct BusFrame {
   static constexpr NodeId kNobody = std::numeric_limits<NodeId>::max();
   Frame frame;
-  Time start = 0;            ///< of SOF
-  Time end = 0;              ///< of EOF7
-  NodeId sender = kNobody;   ///< node whose transmission ended well with this frame
+  Time start = 0;           ///< of SOF
+  Time end = 0;             ///< of EOF7
+  NodeId sender = kNobody;  ///< node whose transmission ended well with this frame
 };
 
 /// An observer that counts. Add it to a bus after its nodes.
@@ -52,7 +53,8 @@ class BusMonitor : public BusObserver {
   /// Lets the decoder see the bus up to `time`.
   void advance(Time time);
 
-  /// Called for each acknowledged frame that is valid for receivers, once its sender is known (some bits after its end).
+  /// Called for each acknowledged frame that is valid for receivers, once its sender is known (some
+  /// bits after its end).
   std::function<void(const BusFrame &)> on_frame;
   /// Called for each event as the decoder sees it.
   std::function<void(const BusEvent &)> on_event;

@@ -20,8 +20,9 @@ namespace vericansim {
 /// Open files of a run. Must outlive the bus.
 class BusOutputs {
  public:
-  /// Opens what `outputs` names and hangs the waveforms on the bus, which holds all its nodes by now.
-  /// `bit_time` is that of the slowest node, ps. Throws InputError if a file cannot be written.
+  /// Opens what `outputs` names and hangs the waveforms on the bus, which holds all its nodes by
+  /// now. `bit_time` is that of the slowest node, ps. Throws InputError if a file cannot be
+  /// written.
   BusOutputs(const Outputs &outputs, Bus &bus, Time bit_time);
   /// Appends a frame to the logs.
   void write(const BusFrame &frame);

@@ -46,8 +46,10 @@ double node_number(const NodeReport &node, const std::string &key) {
   return static_cast<double>(c.bus_off);
 }
 
-/// Every node that takes any frame must have all frames of the others, bit-exact and in their order.
-CheckResult check_complete(const Scenario &scenario, NodeId node, const std::vector<BusFrame> &frames,
+/// Every node that takes any frame must have all frames of the others, bit-exact and in their
+/// order.
+CheckResult check_complete(const Scenario &scenario, NodeId node,
+                           const std::vector<BusFrame> &frames,
                            const std::vector<Frame> &received) {
   const HostConfig &host = scenario.nodes[node].host;
   std::vector<Frame> wanted;
@@ -55,17 +57,21 @@ CheckResult check_complete(const Scenario &scenario, NodeId node, const std::vec
     if (frame.sender != node || host.self_reception) wanted.push_back(frame.frame);
   CheckResult result{scenario.nodes[node].name + " has every frame of the others",
                      fmt::format("{} frames, the same and in order", wanted.size()), "", false};
-  const auto [seen, due] = std::mismatch(received.begin(), received.end(), wanted.begin(), wanted.end());
+  const auto [seen, due] =
+      std::mismatch(received.begin(), received.end(), wanted.begin(), wanted.end());
   result.ok = seen == received.end() && due == wanted.end();
   result.seen = result.ok ? fmt::format("{} frames", received.size())
-                          : fmt::format("{} frames, the first {} as they should be", received.size(),
-                                        seen - received.begin());
+                          : fmt::format("{} frames, the first {} as they should be",
+                                        received.size(), seen - received.begin());
   return result;
 }
 
 CheckResult check_bound(const MessageReport &message) {
-  const auto ms = [](Time t) { return fmt::format("{:.3f} ms", static_cast<double>(t) / kMillisecond); };
-  return {"response of " + message.name, message.bound ? "at most the bound, " + ms(*message.bound) : "a bound",
+  const auto ms = [](Time t) {
+    return fmt::format("{:.3f} ms", static_cast<double>(t) / kMillisecond);
+  };
+  return {"response of " + message.name,
+          message.bound ? "at most the bound, " + ms(*message.bound) : "a bound",
           ms(message.longest), message.bound && message.longest <= *message.bound};
 }
 
@@ -73,8 +79,10 @@ CheckResult check_response(const RunReport &report, const std::string &name, Tim
   const auto message = std::find_if(report.messages.begin(), report.messages.end(),
                                     [&](const MessageReport &m) { return m.name == name; });
   const bool seen = message != report.messages.end() && message->sent > 0;
-  return {"response of " + name, fmt::format("at most {:.3f} ms", static_cast<double>(limit) / kMillisecond),
-          seen ? fmt::format("{:.3f} ms", static_cast<double>(message->longest) / kMillisecond) : "not sent",
+  return {"response of " + name,
+          fmt::format("at most {:.3f} ms", static_cast<double>(limit) / kMillisecond),
+          seen ? fmt::format("{:.3f} ms", static_cast<double>(message->longest) / kMillisecond)
+               : "not sent",
           seen && message->longest <= limit};
 }
 
@@ -93,7 +101,9 @@ std::vector<CheckResult> check_expectations(const Scenario &scenario, const RunR
     const NodeReport &seen = report.nodes[node.node];
     for (const auto &[key, range] : node.numbers)
       results.push_back(check_number(seen.name + "." + key, node_number(seen, key), range));
-    if (node.state) results.push_back({seen.name + ".state", *node.state, seen.state(), *node.state == seen.state()});
+    if (node.state)
+      results.push_back(
+          {seen.name + ".state", *node.state, seen.state(), *node.state == seen.state()});
   }
   if (expect.complete)
     for (NodeId id = 0; id < scenario.nodes.size(); ++id)
@@ -102,7 +112,8 @@ std::vector<CheckResult> check_expectations(const Scenario &scenario, const RunR
   if (expect.within_bound)
     for (const MessageReport &message : report.messages)
       if (message.sent != 0) results.push_back(check_bound(message));
-  for (const auto &[name, limit] : expect.response_times) results.push_back(check_response(report, name, limit));
+  for (const auto &[name, limit] : expect.response_times)
+    results.push_back(check_response(report, name, limit));
   return results;
 }
 

@@ -12,10 +12,10 @@
 
 namespace vericansim {
 
-/// One result for each expectation of the scenario. `frames`: all frames of the bus in order; `received`: for each
-/// node what its software read, in order.
-[[nodiscard]] std::vector<CheckResult> check_expectations(const Scenario &scenario, const RunReport &report,
-                                                          const std::vector<BusFrame> &frames,
-                                                          const std::vector<std::vector<Frame>> &received);
+/// One result for each expectation of the scenario. `frames`: all frames of the bus in order;
+/// `received`: for each node what its software read, in order.
+[[nodiscard]] std::vector<CheckResult> check_expectations(
+    const Scenario &scenario, const RunReport &report, const std::vector<BusFrame> &frames,
+    const std::vector<std::vector<Frame>> &received);
 
 }  // namespace vericansim

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// PaperBench: the set-up of the paper's experiments: the core under test, a second node, and every bit of both.
+// PaperBench: the set-up of the paper's experiments: the core under test, a second node, and every
+// bit of both.
 #pragma once
 
 #include <memory>
@@ -31,7 +32,8 @@ class BitLog : public BusObserver {
   std::vector<std::vector<BitRecord>> bits_;
 };
 
-/// Flips what one node sees of its own first data bit, as long as it is on: a bit error in every attempt.
+/// Flips what one node sees of its own first data bit, as long as it is on: a bit error in every
+/// attempt.
 class DataBitFault : public Fault {
  public:
   explicit DataBitFault(NodeId node) : place_{node, first_data_bit(), Effect::kFlip} {}

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The paper's experiments with errors: missing ACK, error passive, bus-off, recovery (figures 14 to 18).
+// The paper's experiments with errors: missing ACK, error passive, bus-off, recovery (figures 14 to
+// 18).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,8 +16,8 @@ namespace {
 
 /// One error frame of the IP.
 struct ErrorFrame {
-  std::size_t at = 0;        ///< index of the bit that showed the error
-  unsigned tec_before = 0;   ///< when the error was seen
+  std::size_t at = 0;       ///< index of the bit that showed the error
+  unsigned tec_before = 0;  ///< when the error was seen
   unsigned tec_after = 0;
   unsigned dominant = 0;     ///< dominant bits that the IP sends as its flag
   std::size_t next_sof = 0;  ///< bits from the error to the next own SOF, 0 if there is none
@@ -32,9 +33,8 @@ std::vector<ErrorFrame> error_frames(const std::vector<BitRecord> &bits) {
     frame.tec_after = bits[i].after.bus_off ? 256U : bits[i].after.tec;
     for (std::size_t k = i + 1; k < bits.size() && bits[k].at.field == Field::kErrFlag; ++k)
       frame.dominant += bits[k].at.tx == Level::kDominant ? 1 : 0;
-    const auto sof = std::find_if(bits.begin() + static_cast<std::ptrdiff_t>(i) + 1, bits.end(), [](const BitRecord &b) {
-      return b.at.field == Field::kSof;
-    });
+    const auto sof = std::find_if(bits.begin() + static_cast<std::ptrdiff_t>(i) + 1, bits.end(),
+                                  [](const BitRecord &b) { return b.at.field == Field::kSof; });
     frame.next_sof = sof == bits.end() ? 0 : static_cast<std::size_t>(sof - bits.begin()) - i;
     frames.push_back(frame);
   }
@@ -58,7 +58,9 @@ PaperCheck check_counter(const std::vector<ErrorFrame> &frames) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const unsigned wanted = std::min<unsigned>(8 * (static_cast<unsigned>(i) + 1), 128);  // FC-18
     ok = ok && frames[i].tec_after == wanted;
-    if (i < 2 || i == 15 || i == 16) seen += fmt::format("{}{}: 0x{:02X}", seen.empty() ? "after attempt " : ", ", i + 1, frames[i].tec_after);
+    if (i < 2 || i == 15 || i == 16)
+      seen += fmt::format("{}{}: 0x{:02X}", seen.empty() ? "after attempt " : ", ", i + 1,
+                          frames[i].tec_after);
   }
   return {"14", "each missing ACK adds 8 up to 0x80, where it stays", seen, ok};
 }
@@ -69,38 +71,49 @@ PaperCheck check_frame(const std::vector<ErrorFrame> &frames, bool passive) {
     return (f.tec_before >= 0x80) == passive && f.next_sof != 0;
   });
   const std::size_t wanted = passive ? 26 : 18;
-  const bool ok = frame != frames.end() && frame->dominant == (passive ? 0U : 6U) && frame->next_sof == wanted;
+  const bool ok =
+      frame != frames.end() && frame->dominant == (passive ? 0U : 6U) && frame->next_sof == wanted;
   return {passive ? "16" : "15",
-          passive ? "a passive error frame, then retransmission" : "an active error frame, then retransmission",
-          frame == frames.end() ? "none"
-                                : fmt::format("{} dominant flag bits, next SOF {} bits after the ACK slot", frame->dominant, frame->next_sof),
+          passive ? "a passive error frame, then retransmission"
+                  : "an active error frame, then retransmission",
+          frame == frames.end()
+              ? "none"
+              : fmt::format("{} dominant flag bits, next SOF {} bits after the ACK slot",
+                            frame->dominant, frame->next_sof),
           ok};
 }
 
-PaperCheck check_bus_off(const std::vector<BitRecord> &bits, const std::vector<ErrorFrame> &frames) {
-  const auto off = std::find_if(bits.begin(), bits.end(), [](const BitRecord &b) { return b.after.bus_off; });
+PaperCheck check_bus_off(const std::vector<BitRecord> &bits,
+                         const std::vector<ErrorFrame> &frames) {
+  const auto off =
+      std::find_if(bits.begin(), bits.end(), [](const BitRecord &b) { return b.after.bus_off; });
   if (off == bits.end() || frames.empty()) return {"17", "bus-off at 0x100", "no bus-off", false};
   const bool was_passive = (off - 1)->after.passive && frames.back().tec_before == 0xF8;
   const bool silent = std::all_of(off + 1, bits.end(), [](const BitRecord &b) {
     return b.at.tx == Level::kRecessive || !b.after.bus_off;
   });
   return {"17", "at 0x100 the node goes from error passive to BUS_OFF_RECOVERY and sends no more",
-          fmt::format("TEC 0x{:02X} to 0x{:X} after {} errors, then {}", frames.back().tec_before, frames.back().tec_after,
-                      frames.size(), silent ? "nothing sent" : "dominant bits sent"),
+          fmt::format("TEC 0x{:02X} to 0x{:X} after {} errors, then {}", frames.back().tec_before,
+                      frames.back().tec_after, frames.size(),
+                      silent ? "nothing sent" : "dominant bits sent"),
           was_passive && silent && frames.back().tec_after == 0x100};
 }
 
 PaperCheck check_recovery(const std::vector<BitRecord> &bits) {
-  const auto off = std::find_if(bits.begin(), bits.end(), [](const BitRecord &b) { return b.after.bus_off; });
-  const auto back = std::find_if(off, bits.end(), [](const BitRecord &b) { return !b.after.bus_off; });
+  const auto off =
+      std::find_if(bits.begin(), bits.end(), [](const BitRecord &b) { return b.after.bus_off; });
+  const auto back =
+      std::find_if(off, bits.end(), [](const BitRecord &b) { return !b.after.bus_off; });
   if (off == bits.end() || back == bits.end()) return {"18", "recovery", "none", false};
   const auto count = back - off;  // sampled bits while off
   const auto &next = back + 1 < bits.end() ? *(back + 1) : *back;
   // 128 or 129 times 11 (BO-02, BO-04).
-  const bool ok = count >= 128 * 11 && count <= 129 * 11 + 2 && back->after.tec == 0 && back->after.rec == 0;
+  const bool ok =
+      count >= 128 * 11 && count <= 129 * 11 + 2 && back->after.tec == 0 && back->after.rec == 0;
   return {"18", "after 0x80 times 11 recessive bits the node is in IDLE with both counters 0",
-          fmt::format("{} recessive bits = {:.2f} x 11, then {} with TEC {} and REC {}", count, static_cast<double>(count) / 11.0,
-                      field_name(next.at.field), back->after.tec, back->after.rec),
+          fmt::format("{} recessive bits = {:.2f} x 11, then {} with TEC {} and REC {}", count,
+                      static_cast<double>(count) / 11.0, field_name(next.at.field), back->after.tec,
+                      back->after.rec),
           ok && (next.at.field == Field::kIdle || next.at.field == Field::kSof)};
 }
 
@@ -114,7 +127,8 @@ PaperExperiment paper_missing_ack(const std::string &wave) {
   bench.run_bits(kAttempts * kLongestAttempt);
   const auto frames = error_frames(bench.bits(PaperBench::kIp));
   PaperExperiment result{"missing-ack", wave, {}};
-  result.checks = {check_flags(frames), check_counter(frames), check_frame(frames, false), check_frame(frames, true)};
+  result.checks = {check_flags(frames), check_counter(frames), check_frame(frames, false),
+                   check_frame(frames, true)};
   return result;
 }
 
@@ -142,10 +156,12 @@ std::vector<PaperExperiment> run_paper(const std::string &folder, const std::str
     std::filesystem::create_directories(folder, error);
     if (error) throw InputError(folder, 0, "cannot be created: " + error.message());
   }
-  const auto wave = [&](const char *name) { return folder.empty() ? "" : folder + "/" + name + suffix; };
+  const auto wave = [&](const char *name) {
+    return folder.empty() ? "" : folder + "/" + name + suffix;
+  };
   return {paper_reception(wave("fig11-reception")), paper_transmission(wave("fig12-transmission")),
-          paper_arbitration(wave("fig13-arbitration")), paper_missing_ack(wave("fig14-16-missing-ack")),
-          paper_bus_off(wave("fig17-18-bus-off"))};
+          paper_arbitration(wave("fig13-arbitration")),
+          paper_missing_ack(wave("fig14-16-missing-ack")), paper_bus_off(wave("fig17-18-bus-off"))};
 }
 
 }  // namespace vericansim

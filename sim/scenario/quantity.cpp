@@ -30,9 +30,10 @@ std::optional<double> parse_with(std::string_view text, std::span<const Unit> un
   return std::nullopt;
 }
 
-constexpr Unit kFrequency[] = {{"", 1}, {"Hz", 1}, {"k", 1e3}, {"kHz", 1e3}, {"M", 1e6}, {"MHz", 1e6}, {"GHz", 1e9}};
-constexpr Unit kBitrate[] = {{"", 1},         {"bit/s", 1},   {"k", 1e3},
-                             {"kbit/s", 1e3}, {"M", 1e6},     {"Mbit/s", 1e6}};
+constexpr Unit kFrequency[] = {{"", 1},    {"Hz", 1},    {"k", 1e3},  {"kHz", 1e3},
+                               {"M", 1e6}, {"MHz", 1e6}, {"GHz", 1e9}};
+constexpr Unit kBitrate[] = {{"", 1},         {"bit/s", 1}, {"k", 1e3},
+                             {"kbit/s", 1e3}, {"M", 1e6},   {"Mbit/s", 1e6}};
 constexpr Unit kTime[] = {{"ps", 1}, {"ns", 1e3}, {"us", 1e6}, {"ms", 1e9}, {"s", 1e12}};
 constexpr Unit kLength[] = {{"", 1}, {"m", 1}, {"cm", 0.01}, {"km", 1e3}};
 constexpr Unit kPart[] = {{"", 1}, {"%", 0.01}};
@@ -40,7 +41,9 @@ constexpr Unit kNone[] = {{"", 1}};
 
 }  // namespace
 
-std::optional<double> parse_frequency(std::string_view text) { return parse_with(text, kFrequency); }
+std::optional<double> parse_frequency(std::string_view text) {
+  return parse_with(text, kFrequency);
+}
 std::optional<double> parse_bitrate(std::string_view text) { return parse_with(text, kBitrate); }
 std::optional<double> parse_length(std::string_view text) { return parse_with(text, kLength); }
 std::optional<double> parse_part(std::string_view text) { return parse_with(text, kPart); }
@@ -56,8 +59,10 @@ std::optional<Time> parse_time(std::string_view text) {
 
 std::optional<std::uint64_t> parse_integer(std::string_view text) {
   text = text::trimmed(text);
-  if (text.starts_with("0x") || text.starts_with("0X")) return text::parse_unsigned(text.substr(2), 16);
-  if (text.starts_with("0b") || text.starts_with("0B")) return text::parse_unsigned(text.substr(2), 2);
+  if (text.starts_with("0x") || text.starts_with("0X"))
+    return text::parse_unsigned(text.substr(2), 16);
+  if (text.starts_with("0b") || text.starts_with("0B"))
+    return text::parse_unsigned(text.substr(2), 2);
   return text::parse_unsigned(text, 10);
 }
 

@@ -11,8 +11,8 @@
 
 namespace vericansim {
 
-/// Each parses the whole text and gives nothing if it is malformed; blanks between number and unit are allowed.
-/// Hz, kHz, MHz, GHz, or k and M; a bare number is Hz.
+/// Each parses the whole text and gives nothing if it is malformed; blanks between number and unit
+/// are allowed. Hz, kHz, MHz, GHz, or k and M; a bare number is Hz.
 [[nodiscard]] std::optional<double> parse_frequency(std::string_view text);
 /// bit/s, kbit/s, Mbit/s, or k and M; a bare number is bit/s.
 [[nodiscard]] std::optional<double> parse_bitrate(std::string_view text);

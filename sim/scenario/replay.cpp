@@ -60,17 +60,21 @@ void Replay::build() {
   request.bitrate = static_cast<std::uint32_t>(std::llround(options_.bitrate));
   const auto timings = find_bit_timings(request);
   if (timings.empty())
-    throw InputError("--clock", 0, fmt::format("no setting of 8 to 25 quanta gives {} bit/s from {} Hz",
-                                               request.bitrate, request.clock_hz));
+    throw InputError("--clock", 0,
+                     fmt::format("no setting of 8 to 25 quanta gives {} bit/s from {} Hz",
+                                 request.bitrate, request.clock_hz));
   HostConfig config;
   config.timing = timings.front().timing;
   for (NodeId id = 0; id < options_.nodes; ++id) {
-    // Ends of the range at the first and the last node, and phases that are no fraction of a period.
+    // Ends of the range at the first and the last node, and phases that are no fraction of a
+    // period.
     const double place = options_.nodes == 1 ? 0 : static_cast<double>(id) / (options_.nodes - 1);
-    ClockConfig clock{.frequency_hz = options_.clock_hz, .error_ppm = options_.ppm * (1 - 2 * place)};
+    ClockConfig clock{.frequency_hz = options_.clock_hz,
+                      .error_ppm = options_.ppm * (1 - 2 * place)};
     clock.phase = options_.ppm == 0 ? 0 : static_cast<Time>(id) * 7'919;
     const Link link{.cable = cable_delay(options_.cable_m * std::abs(place - 0.5))};
-    stations_.add(bus_, make_station(fmt::format("node{}", id), clock, config, options_.num_mb), link);
+    stations_.add(bus_, make_station(fmt::format("node{}", id), clock, config, options_.num_mb),
+                  link);
   }
   monitor_ = std::make_unique<BusMonitor>(bus_, bit_time_, timings.front().sample_point);
   monitor_->on_frame = [this](const BusFrame &frame) {
@@ -81,7 +85,8 @@ void Replay::build() {
   outputs_ = std::make_unique<BusOutputs>(options_.outputs, bus_, bit_time_);
 }
 
-// One identifier always has the same sender, as on a real bus; Fibonacci hashing spreads neighbours.
+// One identifier always has the same sender, as on a real bus; Fibonacci hashing spreads
+// neighbours.
 NodeId Replay::sender_of(const Frame &frame) const {
   const std::uint32_t key = (frame.id ^ (frame.extended ? 0x80000000U : 0U)) * 2654435769U;
   return static_cast<NodeId>((static_cast<std::uint64_t>(key) * options_.senders) >> 32);
@@ -126,7 +131,8 @@ void Replay::run(const std::function<void(double)> &progress) {
   monitor_->advance(bus_.now());
 }
 
-/// Frames of each sender must come in the order of the log; frames of several senders may overtake each other.
+/// Frames of each sender must come in the order of the log; frames of several senders may overtake
+/// each other.
 ReplayNode Replay::judge(NodeId node) const {
   const std::vector<Frame> &received = stations_[node].received;
   ReplayNode result;
@@ -145,14 +151,17 @@ ReplayNode Replay::judge(NodeId node) const {
   std::vector<std::size_t> next(options_.senders);
   for (std::size_t i = 0; i < received.size() && result.first_difference.empty(); ++i) {
     const NodeId sender = sender_of(received[i]);
-    const bool due = next[sender] < wanted[sender].size() && wanted[sender][next[sender]] == received[i];
-    if (!due) result.first_difference = fmt::format("received frame {}: {}", i + 1, candump_frame(received[i]));
+    const bool due =
+        next[sender] < wanted[sender].size() && wanted[sender][next[sender]] == received[i];
+    if (!due)
+      result.first_difference =
+          fmt::format("received frame {}: {}", i + 1, candump_frame(received[i]));
     ++next[sender];
   }
   for (NodeId sender = 0; sender < options_.senders && result.first_difference.empty(); ++sender)
     if (next[sender] != wanted[sender].size())
-      result.first_difference = fmt::format("frame {} of node{} has not come: {}", next[sender] + 1, sender,
-                                            candump_frame(wanted[sender][next[sender]]));
+      result.first_difference = fmt::format("frame {} of node{} has not come: {}", next[sender] + 1,
+                                            sender, candump_frame(wanted[sender][next[sender]]));
   result.complete = result.first_difference.empty();
   return result;
 }
@@ -182,7 +191,8 @@ ReplayReport Replay::execute(const std::function<void(double)> &progress) {
   run(progress);
   outputs_->finish(bus_.now());
   ReplayReport report = collect();
-  report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report;
 }
 
@@ -193,8 +203,10 @@ bool ReplayReport::ok() const {
          std::all_of(nodes.begin(), nodes.end(), [](const ReplayNode &n) { return n.complete; });
 }
 
-ReplayReport replay(const CanLog &log, const ReplayOptions &options, const std::function<void(double)> &progress) {
-  if (options.nodes < 2 || options.nodes > Bus::kMaxNodes || options.senders < 1 || options.senders > options.nodes)
+ReplayReport replay(const CanLog &log, const ReplayOptions &options,
+                    const std::function<void(double)> &progress) {
+  if (options.nodes < 2 || options.nodes > Bus::kMaxNodes || options.senders < 1 ||
+      options.senders > options.nodes)
     throw std::invalid_argument("a replay needs 2 to 64 nodes and 1 to that many senders");
   return Replay{log, options}.execute(progress);
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Replay: recorded traffic to a bus of Verilated cores; every node must receive every frame, bit-exact and in order.
+// Replay: recorded traffic to a bus of Verilated cores; every node must receive every frame,
+// bit-exact and in order.
 #pragma once
 
 #include <functional>
@@ -15,15 +16,15 @@
 namespace vericansim {
 
 struct ReplayOptions {
-  unsigned nodes = 2;         ///< 2..64
-  unsigned senders = 1;       ///< 1..nodes: identifiers are shared out among the first ones
-  double bitrate = 500e3;     ///< bit/s
-  double clock_hz = 8e6;      ///< of every node
-  double ppm = 100;           ///< clocks are spread evenly over +-ppm
-  double cable_m = 0;         ///< between the two ends of the bus; nodes sit evenly between
+  unsigned nodes = 2;      ///< 2..64
+  unsigned senders = 1;    ///< 1..nodes: identifiers are shared out among the first ones
+  double bitrate = 500e3;  ///< bit/s
+  double clock_hz = 8e6;   ///< of every node
+  double ppm = 100;        ///< clocks are spread evenly over +-ppm
+  double cable_m = 0;      ///< between the two ends of the bus; nodes sit evenly between
   unsigned num_mb = 64;
-  bool fast = false;          ///< as fast as the bus allows instead of as recorded
-  std::size_t limit = 0;      ///< frames to take from the log, 0: all
+  bool fast = false;      ///< as fast as the bus allows instead of as recorded
+  std::size_t limit = 0;  ///< frames to take from the log, 0: all
   Outputs outputs = {};
 };
 
@@ -31,20 +32,20 @@ struct ReplayOptions {
 struct ReplayNode {
   std::string name;
   NodeCounts counts;
-  std::uint64_t sent = 0;       ///< frames of the log that it had to send
-  std::uint64_t expected = 0;   ///< frames of the others
+  std::uint64_t sent = 0;      ///< frames of the log that it had to send
+  std::uint64_t expected = 0;  ///< frames of the others
   std::uint64_t received = 0;
-  bool complete = false;        ///< all of them, bit-exact; those of one sender in the order of the log
-  std::string first_difference; ///< empty if complete
+  bool complete = false;  ///< all of them, bit-exact; those of one sender in the order of the log
+  std::string first_difference;  ///< empty if complete
 };
 
 struct ReplayReport {
-  std::size_t frames = 0;       ///< to be sent
-  std::size_t on_bus = 0;       ///< seen on the bus by the passive decoder
+  std::size_t frames = 0;  ///< to be sent
+  std::size_t on_bus = 0;  ///< seen on the bus by the passive decoder
   std::uint64_t error_frames = 0;
-  std::size_t skipped = 0;      ///< entries of the log that are no classical frames
-  Time recorded = 0;            ///< time between the first and the last frame in the log
-  Time duration = 0;            ///< simulated
+  std::size_t skipped = 0;  ///< entries of the log that are no classical frames
+  Time recorded = 0;        ///< time between the first and the last frame in the log
+  Time duration = 0;        ///< simulated
   double load = 0;
   double wall_seconds = 0;
   std::uint64_t node_cycles = 0;

@@ -21,11 +21,13 @@ std::string messages_text(const RunReport &report) {
   auto out = std::back_inserter(text);
   const bool bounds = std::any_of(report.messages.begin(), report.messages.end(),
                                   [](const MessageReport &m) { return m.bound.has_value(); });
-  fmt::format_to(out, "  {:<14} {:<12} {:>8} {:>8} {:>11} {:>11} {:>11}{}\n", "message", "from", "queued", "sent",
-                 "shortest ms", "mean ms", "longest ms", bounds ? "    bound ms" : "");
+  fmt::format_to(out, "  {:<14} {:<12} {:>8} {:>8} {:>11} {:>11} {:>11}{}\n", "message", "from",
+                 "queued", "sent", "shortest ms", "mean ms", "longest ms",
+                 bounds ? "    bound ms" : "");
   for (const MessageReport &m : report.messages) {
-    fmt::format_to(out, "  {:<14} {:<12} {:>8} {:>8} {:>11.3f} {:>11.3f} {:>11.3f}", m.name, m.node, m.queued, m.sent,
-                   milliseconds(m.shortest), milliseconds(m.mean()), milliseconds(m.longest));
+    fmt::format_to(out, "  {:<14} {:<12} {:>8} {:>8} {:>11.3f} {:>11.3f} {:>11.3f}", m.name, m.node,
+                   m.queued, m.sent, milliseconds(m.shortest), milliseconds(m.mean()),
+                   milliseconds(m.longest));
     if (m.bound)
       fmt::format_to(out, " {:>11.3f}", milliseconds(*m.bound));
     else if (bounds)
@@ -38,20 +40,26 @@ std::string messages_text(const RunReport &report) {
 std::string nodes_text(const RunReport &report) {
   std::string text;
   auto out = std::back_inserter(text);
-  fmt::format_to(out, "  {:<14} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9}  {}\n", "node", "sent", "received", "retries",
-                 "arb lost", "errors", "TEC (max)", "REC (max)", "state");
+  fmt::format_to(out, "  {:<14} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9}  {}\n", "node", "sent",
+                 "received", "retries", "arb lost", "errors", "TEC (max)", "REC (max)", "state");
   for (const NodeReport &n : report.nodes) {
     const NodeCounts &c = n.counts;
-    fmt::format_to(out, "  {:<14} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9}  {}\n", n.name, c.sent, n.received,
-                   n.retries(), c.lost_arbitration, c.errors, fmt::format("{} ({})", c.tec, c.max_tec),
+    fmt::format_to(out, "  {:<14} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9}  {}\n", n.name, c.sent,
+                   n.received, n.retries(), c.lost_arbitration, c.errors,
+                   fmt::format("{} ({})", c.tec, c.max_tec),
                    fmt::format("{} ({})", c.rec, c.max_rec), n.state());
   }
   return text;
 }
 
 Json message_json(const MessageReport &m) {
-  Json json{{"name", m.name},          {"node", m.node},           {"queued", m.queued},  {"sent", m.sent},
-            {"shortest_ps", m.shortest}, {"mean_ps", m.mean()}, {"longest_ps", m.longest}};
+  Json json{{"name", m.name},
+            {"node", m.node},
+            {"queued", m.queued},
+            {"sent", m.sent},
+            {"shortest_ps", m.shortest},
+            {"mean_ps", m.mean()},
+            {"longest_ps", m.longest}};
   json["bound_ps"] = m.bound ? Json(*m.bound) : Json(nullptr);
   return json;
 }
@@ -96,19 +104,25 @@ bool RunReport::ok() const {
 std::string to_text(const RunReport &report) {
   std::string text;
   auto out = std::back_inserter(text);
-  fmt::format_to(out, "{}: {:.0f} bit/s, {:.3f} ms\n", report.name, report.bitrate, milliseconds(report.duration));
-  fmt::format_to(out, "  frames {}  error frames {}  overload frames {}  still waiting {}  load {:.1f} %",
-                 report.frames, report.error_frames, report.overload_frames, report.pending, report.load * 100);
+  fmt::format_to(out, "{}: {:.0f} bit/s, {:.3f} ms\n", report.name, report.bitrate,
+                 milliseconds(report.duration));
+  fmt::format_to(
+      out, "  frames {}  error frames {}  overload frames {}  still waiting {}  load {:.1f} %",
+      report.frames, report.error_frames, report.overload_frames, report.pending,
+      report.load * 100);
   if (report.unacknowledged != 0) fmt::format_to(out, "  without ACK {}", report.unacknowledged);
-  if (report.analytic_load > 0) fmt::format_to(out, " (worst case {:.1f} %)", report.analytic_load * 100);
+  if (report.analytic_load > 0)
+    fmt::format_to(out, " (worst case {:.1f} %)", report.analytic_load * 100);
   text += "\n\n";
   if (!report.messages.empty()) text += messages_text(report) + "\n";
   text += nodes_text(report) + "\n";
   for (const CheckResult &check : report.checks)
-    fmt::format_to(out, "  {}  {}: {} (expected {})\n", check.ok ? "ok  " : "FAIL", check.what, check.seen, check.wanted);
-  fmt::format_to(out, "  {:.1f} million node-cycles in {:.2f} s: {:.1f} million a second\n",
-                 static_cast<double>(report.node_cycles) / 1e6, report.wall_seconds,
-                 static_cast<double>(report.node_cycles) / 1e6 / std::max(report.wall_seconds, 1e-9));
+    fmt::format_to(out, "  {}  {}: {} (expected {})\n", check.ok ? "ok  " : "FAIL", check.what,
+                   check.seen, check.wanted);
+  fmt::format_to(
+      out, "  {:.1f} million node-cycles in {:.2f} s: {:.1f} million a second\n",
+      static_cast<double>(report.node_cycles) / 1e6, report.wall_seconds,
+      static_cast<double>(report.node_cycles) / 1e6 / std::max(report.wall_seconds, 1e-9));
   return text;
 }
 

@@ -22,15 +22,16 @@ struct MessageReport {
   std::string node;
   std::uint64_t queued = 0;
   std::uint64_t sent = 0;
-  Time shortest = 0, longest = 0, sum = 0;  ///< response times: from the event to the end of the frame, ps
-  std::optional<Time> bound;                ///< analytic worst case
+  Time shortest = 0, longest = 0,
+       sum = 0;               ///< response times: from the event to the end of the frame, ps
+  std::optional<Time> bound;  ///< analytic worst case
   [[nodiscard]] Time mean() const { return sent == 0 ? 0 : sum / static_cast<Time>(sent); }
 };
 
 struct NodeReport {
   std::string name;
   NodeCounts counts;
-  std::uint64_t received = 0;   ///< by the software
+  std::uint64_t received = 0;  ///< by the software
   std::uint64_t overruns = 0;
   std::uint64_t bus_transfers = 0;  ///< AHB
   unsigned max_wait_states = 0;
@@ -51,13 +52,13 @@ struct CheckResult {
 struct RunReport {
   std::string name;
   double bitrate = 0;
-  Time duration = 0;  ///< simulated, from the moment when all nodes are on the bus
+  Time duration = 0;                 ///< simulated, from the moment when all nodes are on the bus
   std::uint64_t frames = 0;          ///< acknowledged
   std::uint64_t unacknowledged = 0;  ///< complete, but nobody is there to say so
   std::uint64_t error_frames = 0, overload_frames = 0;
-  std::uint64_t pending = 0;     ///< frames that were queued and have not left
-  double load = 0;               ///< 0..1
-  double analytic_load = 0;      ///< worst-case bits, 0 without analysis
+  std::uint64_t pending = 0;  ///< frames that were queued and have not left
+  double load = 0;            ///< 0..1
+  double analytic_load = 0;   ///< worst-case bits, 0 without analysis
   double wall_seconds = 0;
   std::uint64_t node_cycles = 0;
   std::vector<MessageReport> messages;

@@ -56,7 +56,9 @@ class Run {
 };
 
 Run::Run(const Scenario &scenario, double bitrate)
-    : scenario_{scenario}, bitrate_{bitrate}, bit_time_{static_cast<Time>(std::llround(1e12 / bitrate))} {
+    : scenario_{scenario},
+      bitrate_{bitrate},
+      bit_time_{static_cast<Time>(std::llround(1e12 / bitrate))} {
   build_stations();
   observe();
 }
@@ -69,7 +71,8 @@ void Run::build_stations() {
     HostConfig config = spec.host;
     config.timing = timing_of(scenario_, spec, bitrate_);
     const auto receive = static_cast<unsigned>(std::max<std::size_t>(config.filters.size(), 8));
-    if (config.tx_buffers == 0) config.tx_buffers = std::clamp(messages[id], 1U, spec.num_mb - receive);
+    if (config.tx_buffers == 0)
+      config.tx_buffers = std::clamp(messages[id], 1U, spec.num_mb - receive);
     stations_.add(bus_, make_station(spec.name, spec.clock, config, spec.num_mb), spec.link);
     stations_[id].host->on_sent = [this, id](const HostFrame &frame) { on_sent(id, frame.frame); };
   }
@@ -78,10 +81,12 @@ void Run::build_stations() {
 void Run::observe() {
   Time longest_bit = bit_time_;
   for (NodeId id = 0; id < stations_.size(); ++id)
-    longest_bit = std::max(longest_bit, static_cast<Time>(stations_[id].timing.clocks_per_bit() * 1e12 /
-                                                          scenario_.nodes[id].clock.frequency_hz));
+    longest_bit =
+        std::max(longest_bit, static_cast<Time>(stations_[id].timing.clocks_per_bit() * 1e12 /
+                                                scenario_.nodes[id].clock.frequency_hz));
   const BitTiming &first = stations_[0].timing;
-  monitor_ = std::make_unique<BusMonitor>(bus_, bit_time_, 1.0 - static_cast<double>(first.ps2) / first.quanta());
+  monitor_ = std::make_unique<BusMonitor>(bus_, bit_time_,
+                                          1.0 - static_cast<double>(first.ps2) / first.quanta());
   monitor_->on_frame = [this](const BusFrame &frame) { on_frame(frame); };
   bus_.add(*monitor_);
   outputs_ = std::make_unique<BusOutputs>(scenario_.outputs, bus_, longest_bit);
@@ -92,10 +97,12 @@ std::unique_ptr<Fault> Run::make_fault(const FaultSpec &spec) const {
   window.from += start_;
   if (window.to != std::numeric_limits<Time>::max()) window.to += start_;
   switch (spec.kind) {
-    case FaultSpec::Kind::kLevel: return std::make_unique<LevelFault>(spec.node, spec.effect, window);
+    case FaultSpec::Kind::kLevel:
+      return std::make_unique<LevelFault>(spec.node, spec.effect, window);
     case FaultSpec::Kind::kCut: return std::make_unique<CutFault>(spec.node, window);
     case FaultSpec::Kind::kShort: return std::make_unique<ShortFault>(spec.node, window);
-    case FaultSpec::Kind::kClock: return std::make_unique<ClockFault>(spec.node, window.from, spec.ppm);
+    case FaultSpec::Kind::kClock:
+      return std::make_unique<ClockFault>(spec.node, window.from, spec.ppm);
     case FaultSpec::Kind::kNoise: {
       NoiseConfig noise = spec.noise;
       noise.window = window;
@@ -120,8 +127,8 @@ void Run::add_faults() {
 void Run::start_traffic() {
   std::uint64_t seed = scenario_.seed;
   for (const TrafficSpec &spec : scenario_.traffic) {
-    traffic_.push_back(
-        std::make_unique<TrafficSource>(spec, bus_, *stations_[spec.node].host, ++seed * 0x9E3779B97F4A7C15ULL));
+    traffic_.push_back(std::make_unique<TrafficSource>(spec, bus_, *stations_[spec.node].host,
+                                                       ++seed * 0x9E3779B97F4A7C15ULL));
     traffic_.back()->start(start_, start_ + scenario_.duration);
   }
 }
@@ -131,7 +138,8 @@ void Run::on_frame(const BusFrame &frame) {
   outputs_->write(frame);
   if (frame.sender == BusFrame::kNobody) return;
   for (const auto &traffic : traffic_)
-    if (traffic->spec().node == frame.sender && traffic->matches(frame.frame)) return traffic->on_frame(frame.end);
+    if (traffic->spec().node == frame.sender && traffic->matches(frame.frame))
+      return traffic->on_frame(frame.end);
 }
 
 void Run::on_sent(NodeId node, const Frame &frame) {
@@ -151,7 +159,8 @@ void Run::run_for(Time duration, const std::function<void(double)> &progress) {
 /// Lets frames that wait go out, and the last one be received, for a limited time.
 void Run::drain() {
   const Time limit = bus_.now() + scenario_.drain;
-  while (bus_.now() < limit && stations_.pending() != 0) bus_.run_until(std::min(limit, bus_.now() + 20 * bit_time_));
+  while (bus_.now() < limit && stations_.pending() != 0)
+    bus_.run_until(std::min(limit, bus_.now() + 20 * bit_time_));
   bus_.run_for(16 * bit_time_);
   stations_.check();
   monitor_->advance(bus_.now());
@@ -170,7 +179,8 @@ void Run::add_bounds(RunReport &report) const {
     return base << 21 | (f.extended ? (3ULL << 19 | (f.id & 0x3FFFF) << 1 | (f.remote ? 1 : 0))
                                     : (f.remote ? 1ULL << 20 : 0));
   };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return priority(a) < priority(b); });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return priority(a) < priority(b); });
   std::vector<MessageSpec> set;
   for (const std::size_t i : order) {
     const TrafficSpec &t = traffic_[i]->spec();
@@ -198,7 +208,8 @@ RunReport Run::collect() {
     const Station &station = stations_[id];
     const AhbReport &ahb = station.node->ahb().report();
     report.nodes.push_back({scenario_.nodes[id].name, monitor_->node(id), station.received.size(),
-                            station.host->stats().overruns, ahb.transfers, ahb.max_waits, ahb.violations});
+                            station.host->stats().overruns, ahb.transfers, ahb.max_waits,
+                            ahb.violations});
   }
   report.node_cycles = stations_.cycles();
   if (scenario_.analysis || scenario_.expect.within_bound) add_bounds(report);
@@ -220,7 +231,8 @@ RunReport Run::execute(const std::function<void(double)> &progress) {
   drain();
   outputs_->finish(bus_.now());
   RunReport report = collect();
-  report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report;
 }
 
@@ -237,13 +249,16 @@ BitTiming timing_of(const Scenario &scenario, const NodeSpec &node, double bitra
   request.max_rate_error_ppm = kLargestError;
   const auto results = find_bit_timings(request);
   if (results.empty())
-    throw InputError(scenario.file, node.line,
-                     fmt::format("node '{}': no setting of 8 to 25 quanta gives {} bit/s within {:g} ppm from {} Hz",
-                                 node.name, request.bitrate, kLargestError, request.clock_hz));
+    throw InputError(
+        scenario.file, node.line,
+        fmt::format(
+            "node '{}': no setting of 8 to 25 quanta gives {} bit/s within {:g} ppm from {} Hz",
+            node.name, request.bitrate, kLargestError, request.clock_hz));
   return results.front().timing;
 }
 
-RunReport run_scenario(const Scenario &scenario, double bitrate, const std::function<void(double)> &progress) {
+RunReport run_scenario(const Scenario &scenario, double bitrate,
+                       const std::function<void(double)> &progress) {
   return Run{scenario, bitrate}.execute(progress);
 }
 

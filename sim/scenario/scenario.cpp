@@ -24,7 +24,8 @@ void parse_wander(const YamlValue &value, ClockConfig &clock) {
   else
     kind.refuse("sine, walk");
   clock.wander_ppm = map.need("ppm").number(0, 50'000);
-  map.with("period", [&](const YamlValue &v) { clock.wander_period = v.time(kMicrosecond, 1000 * kSecond); });
+  map.with("period",
+           [&](const YamlValue &v) { clock.wander_period = v.time(kMicrosecond, 1000 * kSecond); });
   map.finish();
 }
 
@@ -52,7 +53,9 @@ RxFilter parse_filter(const YamlValue &value) {
   const std::uint32_t highest = filter.extended ? 0x1FFFFFFF : 0x7FF;
   filter.id = static_cast<std::uint32_t>(map.need("id").integer(0, highest));
   filter.mask = highest;
-  map.with("mask", [&](const YamlValue &v) { filter.mask = static_cast<std::uint32_t>(v.integer(0, highest)); });
+  map.with("mask", [&](const YamlValue &v) {
+    filter.mask = static_cast<std::uint32_t>(v.integer(0, highest));
+  });
   map.with("remote", [&](const YamlValue &v) {
     filter.remote = v.boolean();
     filter.match_format = true;
@@ -98,8 +101,8 @@ void parse_host(YamlMap &map, HostConfig &host) {
 void check_buffers(const YamlValue &value, const NodeSpec &node) {
   const std::size_t receive = node.host.filters.empty() ? 1 : node.host.filters.size();
   if (node.host.tx_buffers + receive > node.num_mb)
-    value.fail(fmt::format("{} transmit and {} receive buffers are more than the {} of the node", node.host.tx_buffers,
-                           receive, node.num_mb));
+    value.fail(fmt::format("{} transmit and {} receive buffers are more than the {} of the node",
+                           node.host.tx_buffers, receive, node.num_mb));
 }
 
 }  // namespace
@@ -108,7 +111,7 @@ NodeSpec parse_node(const YamlValue &value, const Scenario &scenario) {
   YamlMap map{value};
   NodeSpec node;
   node.line = value.line();
-  node.host.tx_buffers = 0;              // one for each message of the node
+  node.host.tx_buffers = 0;               // one for each message of the node
   node.host.lowest_buffer_first = false;  // lowest identifier first, as on the bus
   node.name = map.need("name").text();
   for (const NodeSpec &other : scenario.nodes)
@@ -126,7 +129,9 @@ NodeSpec parse_node(const YamlValue &value, const Scenario &scenario) {
     if (count != 16 && count != 32 && count != 64) v.refuse("16, 32, 64");
     node.num_mb = static_cast<unsigned>(count);
   });
-  map.with("tx_buffers", [&](const YamlValue &v) { node.host.tx_buffers = static_cast<unsigned>(v.integer(1, 62)); });
+  map.with("tx_buffers", [&](const YamlValue &v) {
+    node.host.tx_buffers = static_cast<unsigned>(v.integer(1, 62));
+  });
   map.finish();
   check_buffers(value, node);
   return node;
@@ -147,7 +152,8 @@ namespace {
 
 void parse_nodes(const YamlValue &list, Scenario &scenario) {
   for (const YamlValue &item : list.items()) {
-    if (scenario.nodes.size() >= Bus::kMaxNodes) item.fail(fmt::format("more than {} nodes", Bus::kMaxNodes));
+    if (scenario.nodes.size() >= Bus::kMaxNodes)
+      item.fail(fmt::format("more than {} nodes", Bus::kMaxNodes));
     scenario.nodes.push_back(detail::parse_node(item, scenario));
   }
   if (scenario.nodes.empty()) list.fail("no node is given; allowed: 1 to 64");
@@ -173,7 +179,9 @@ void parse_general(YamlMap &map, Scenario &scenario) {
     if (scenario.bitrates.empty()) v.refuse("a bit rate, or a list of them");
   });
   map.with("sample_point", [&](const YamlValue &v) { scenario.sample_point = v.part(0.5, 0.9); });
-  map.with("duration", [&](const YamlValue &v) { scenario.duration = v.time(kMicrosecond, 100'000 * kSecond); });
+  map.with("duration", [&](const YamlValue &v) {
+    scenario.duration = v.time(kMicrosecond, 100'000 * kSecond);
+  });
   map.with("drain", [&](const YamlValue &v) { scenario.drain = v.time(0, 1000 * kSecond); });
   map.with("seed", [&](const YamlValue &v) { scenario.seed = v.integer(0, 0xFFFFFFFF); });
   map.with("analysis", [&](const YamlValue &v) { scenario.analysis = v.boolean(); });
@@ -189,12 +197,15 @@ Scenario parse_scenario(const std::string &path, const std::string &text) {
   parse_general(map, scenario);
   parse_nodes(map.need("nodes"), scenario);
   map.with("traffic", [&](const YamlValue &list) {
-    for (const YamlValue &item : list.items()) scenario.traffic.push_back(detail::parse_traffic(item, scenario));
+    for (const YamlValue &item : list.items())
+      scenario.traffic.push_back(detail::parse_traffic(item, scenario));
   });
   map.with("faults", [&](const YamlValue &list) {
-    for (const YamlValue &item : list.items()) scenario.faults.push_back(detail::parse_fault(item, scenario));
+    for (const YamlValue &item : list.items())
+      scenario.faults.push_back(detail::parse_fault(item, scenario));
   });
-  map.with("expect", [&](const YamlValue &v) { scenario.expect = detail::parse_expectations(v, scenario); });
+  map.with("expect",
+           [&](const YamlValue &v) { scenario.expect = detail::parse_expectations(v, scenario); });
   map.with("outputs", [&](const YamlValue &v) { parse_outputs(v, scenario.outputs); });
   map.finish();
   return scenario;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenario: nodes, traffic, faults and expectations of one simulation, as a scenario file describes them.
+// Scenario: nodes, traffic, faults and expectations of one simulation, as a scenario file describes
+// them.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +25,12 @@ struct NodeSpec {
   ClockConfig clock;
   Link link;
   unsigned num_mb = 64;
-  HostConfig host;                         ///< `timing` is filled for the bit rate; tx_buffers 0: as many as messages
-  std::optional<BitTiming> timing;         ///< given segment by segment; unset: calculated
-  std::optional<double> bitrate;           ///< own rate, bit/s; unset: that of the bus
-  std::optional<double> sample_point;      ///< 0..1; unset: that of the bus, or CiA's
+  HostConfig host;  ///< `timing` is filled for the bit rate; tx_buffers 0: as many as messages
+  std::optional<BitTiming> timing;     ///< given segment by segment; unset: calculated
+  std::optional<double> bitrate;       ///< own rate, bit/s; unset: that of the bus
+  std::optional<double> sample_point;  ///< 0..1; unset: that of the bus, or CiA's
   std::optional<unsigned> sjw;
-  std::size_t line = 0;                    ///< in the file
+  std::size_t line = 0;  ///< in the file
 };
 
 enum class DataKind : std::uint8_t {
@@ -44,12 +45,12 @@ struct TrafficSpec {
   std::string name;
   Frame frame;
   DataKind data = DataKind::kFixed;
-  Time period = 0;                         ///< 0: once
-  Time offset = 0;                         ///< of the first frame
-  bool random_offset = false;              ///< offset anywhere in the first period
-  Time jitter = 0;                         ///< each frame is queued up to this much later
+  Time period = 0;             ///< 0: once
+  Time offset = 0;             ///< of the first frame
+  bool random_offset = false;  ///< offset anywhere in the first period
+  Time jitter = 0;             ///< each frame is queued up to this much later
   std::uint64_t count = std::numeric_limits<std::uint64_t>::max();  ///< frames at most
-  bool saturated = false;                  ///< always one more waiting, as fast as the bus allows
+  bool saturated = false;  ///< always one more waiting, as fast as the bus allows
 };
 
 /// A fault, as Bus knows them.
@@ -57,13 +58,14 @@ struct FaultSpec {
   enum class Kind : std::uint8_t { kLevel, kPlace, kCut, kShort, kClock, kNoise };
   Kind kind = Kind::kLevel;
   Effect effect = Effect::kFlip;
-  NodeId node = kAllNodes;                 ///< victim
+  NodeId node = kAllNodes;  ///< victim
   Window window;
-  NodeId watched = 0;                      ///< kPlace: the node whose place counts
-  PlaceSpec place;                         ///< kPlace
-  std::optional<unsigned> first_quantum, last_quantum;  ///< kPlace: part of the bit, tq of the watched node
-  double ppm = 0;                          ///< kClock
-  NoiseConfig noise;                       ///< kNoise
+  NodeId watched = 0;  ///< kPlace: the node whose place counts
+  PlaceSpec place;     ///< kPlace
+  std::optional<unsigned> first_quantum,
+      last_quantum;   ///< kPlace: part of the bit, tq of the watched node
+  double ppm = 0;     ///< kClock
+  NoiseConfig noise;  ///< kNoise
 };
 
 /// Inclusive limits of a number.
@@ -76,14 +78,16 @@ struct Range {
 /// What must be true of one node at the end.
 struct NodeExpectation {
   NodeId node = 0;
-  std::map<std::string, Range> numbers;  ///< sent, received, overruns, tec, rec, max_tec, max_rec, errors, lost, retries, bus_off
+  std::map<std::string, Range> numbers;  ///< sent, received, overruns, tec, rec, max_tec, max_rec,
+                                         ///< errors, lost, retries, bus_off
   std::optional<std::string> state;      ///< active, passive, bus-off
 };
 
 /// What must be true at the end.
 struct Expectations {
-  std::map<std::string, Range> numbers;        ///< frames, error_frames, overload_frames, load (per cent), pending
-  bool complete = false;                       ///< every node without filters has every frame of the others, in order
+  std::map<std::string, Range>
+      numbers;            ///< frames, error_frames, overload_frames, load (per cent), pending
+  bool complete = false;  ///< every node without filters has every frame of the others, in order
   bool within_bound = false;                   ///< no response time above the analytic bound
   std::map<std::string, Time> response_times;  ///< message name: largest allowed
   std::vector<NodeExpectation> nodes;
@@ -100,9 +104,9 @@ struct Scenario {
   std::vector<double> bitrates = {500e3};  ///< one run for each
   std::optional<double> sample_point;
   Time duration = 100 * kMillisecond;
-  Time drain = 20 * kMillisecond;          ///< at most, after the duration, for frames that still wait
+  Time drain = 20 * kMillisecond;  ///< at most, after the duration, for frames that still wait
   std::uint64_t seed = 1;
-  bool analysis = false;                   ///< print the analytic bound beside the measured response times
+  bool analysis = false;  ///< print the analytic bound beside the measured response times
   std::vector<NodeSpec> nodes;
   std::vector<TrafficSpec> traffic;
   std::vector<FaultSpec> faults;

@@ -26,7 +26,8 @@ void parse_data_bytes(const YamlValue &value, Frame &frame) {
     const std::string text = value.text();
     for (const std::string_view word : text::split_blanks(text)) {
       const auto byte = word.size() == 2 ? text::parse_unsigned(word, 16) : std::nullopt;
-      if (!byte) value.refuse("counter, random, a list of numbers, or hexadecimal bytes as in '01 A5'");
+      if (!byte)
+        value.refuse("counter, random, a list of numbers, or hexadecimal bytes as in '01 A5'");
       add(*byte);
     }
   }
@@ -71,14 +72,17 @@ void parse_times(YamlMap &map, TrafficSpec &traffic) {
   });
   map.with("jitter", [&](const YamlValue &v) {
     traffic.jitter = v.time(0, kLongestTime);
-    if (traffic.period != 0 && traffic.jitter >= traffic.period) v.fail("the jitter must be below the period");
+    if (traffic.period != 0 && traffic.jitter >= traffic.period)
+      v.fail("the jitter must be below the period");
   });
   map.with("count", [&](const YamlValue &v) { traffic.count = v.integer(1, 1'000'000'000); });
-  if (traffic.period == 0 && !traffic.saturated) traffic.count = std::min<std::uint64_t>(traffic.count, 1);
+  if (traffic.period == 0 && !traffic.saturated)
+    traffic.count = std::min<std::uint64_t>(traffic.count, 1);
 }
 
 std::string lower(std::string text) {
-  for (char &c : text) c = c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (char &c : text)
+    c = c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
 }
 
@@ -107,8 +111,10 @@ void parse_place(const YamlValue &value, const Scenario &scenario, FaultSpec &fa
   fault.kind = FaultSpec::Kind::kPlace;
   fault.watched = parse_node_name(map.need("node"), scenario);
   fault.node = fault.watched;
-  const auto number = [&](const char *key, std::optional<unsigned> &target, std::uint64_t least, std::uint64_t most) {
-    map.with(key, [&](const YamlValue &v) { target = static_cast<unsigned>(v.integer(least, most)); });
+  const auto number = [&](const char *key, std::optional<unsigned> &target, std::uint64_t least,
+                          std::uint64_t most) {
+    map.with(key,
+             [&](const YamlValue &v) { target = static_cast<unsigned>(v.integer(least, most)); });
   };
   map.with("field", [&](const YamlValue &v) { fault.place.field = parse_field(v); });
   number("frame", fault.place.frame, 1, 1'000'000'000);
@@ -146,11 +152,12 @@ NodeExpectation parse_node_expectation(const YamlValue &value, NodeId node) {
   NodeExpectation expectation;
   expectation.node = node;
   YamlMap map{value};
-  for (const char *key : {"sent", "received", "overruns", "tec", "rec", "max_tec", "max_rec", "errors", "lost",
-                          "retries", "bus_off"})
+  for (const char *key : {"sent", "received", "overruns", "tec", "rec", "max_tec", "max_rec",
+                          "errors", "lost", "retries", "bus_off"})
     map.with(key, [&](const YamlValue &v) { expectation.numbers[key] = parse_range(v); });
   map.with("state", [&](const YamlValue &v) {
-    if (v.text() != "active" && v.text() != "passive" && v.text() != "bus-off") v.refuse("active, passive, bus-off");
+    if (v.text() != "active" && v.text() != "passive" && v.text() != "bus-off")
+      v.refuse("active, passive, bus-off");
     expectation.state = v.text();
   });
   map.finish();
@@ -164,15 +171,19 @@ void parse_expected_nodes(const YamlValue &value, const Scenario &scenario, Expe
              [&](const YamlValue &v) { expect.nodes.push_back(parse_node_expectation(v, id)); });
   // `all` stands for every node.
   map.with("all", [&](const YamlValue &v) {
-    for (NodeId id = 0; id < scenario.nodes.size(); ++id) expect.nodes.push_back(parse_node_expectation(v, id));
+    for (NodeId id = 0; id < scenario.nodes.size(); ++id)
+      expect.nodes.push_back(parse_node_expectation(v, id));
   });
   map.finish();
 }
 
-void parse_expected_responses(const YamlValue &value, const Scenario &scenario, Expectations &expect) {
+void parse_expected_responses(const YamlValue &value, const Scenario &scenario,
+                              Expectations &expect) {
   YamlMap map{value};
   for (const TrafficSpec &traffic : scenario.traffic)
-    map.with(traffic.name, [&](const YamlValue &v) { expect.response_times[traffic.name] = v.time(1, kLongestTime); });
+    map.with(traffic.name, [&](const YamlValue &v) {
+      expect.response_times[traffic.name] = v.time(1, kLongestTime);
+    });
   map.finish();
 }
 
@@ -185,11 +196,13 @@ TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario) {
   Frame &frame = traffic.frame;
   map.with("extended", [&](const YamlValue &v) { frame.extended = v.boolean(); });
   map.with("remote", [&](const YamlValue &v) { frame.remote = v.boolean(); });
-  frame.id = static_cast<std::uint32_t>(map.need("id").integer(0, frame.extended ? 0x1FFFFFFF : 0x7FF));
+  frame.id =
+      static_cast<std::uint32_t>(map.need("id").integer(0, frame.extended ? 0x1FFFFFFF : 0x7FF));
   traffic.name = frame.extended ? fmt::format("{:08X}", frame.id) : fmt::format("{:03X}", frame.id);
   map.with("name", [&](const YamlValue &v) { traffic.name = v.text(); });
   for (const TrafficSpec &other : scenario.traffic)
-    if (other.name == traffic.name) value.fail("message name " + quoted(traffic.name) + " is used twice; give one with 'name'");
+    if (other.name == traffic.name)
+      value.fail("message name " + quoted(traffic.name) + " is used twice; give one with 'name'");
   parse_payload(map, traffic);
   parse_times(map, traffic);
   map.finish();
@@ -203,7 +216,9 @@ FaultSpec parse_fault(const YamlValue &value, const Scenario &scenario) {
   const std::string word = kind.text();
   const bool level = word == "flip" || word == "dominant" || word == "recessive";
   if (level) {
-    fault.effect = word == "flip" ? Effect::kFlip : word == "dominant" ? Effect::kDominant : Effect::kRecessive;
+    fault.effect = word == "flip"       ? Effect::kFlip
+                   : word == "dominant" ? Effect::kDominant
+                                        : Effect::kRecessive;
     map.with("at", [&](const YamlValue &v) { parse_place(v, scenario, fault); });
   } else if (word == "noise") {
     fault.kind = FaultSpec::Kind::kNoise;
@@ -239,7 +254,8 @@ Expectations parse_expectations(const YamlValue &value, const Scenario &scenario
   map.with("complete", [&](const YamlValue &v) { expect.complete = v.boolean(); });
   map.with("within_bound", [&](const YamlValue &v) { expect.within_bound = v.boolean(); });
   map.with("nodes", [&](const YamlValue &v) { parse_expected_nodes(v, scenario, expect); });
-  map.with("response_times", [&](const YamlValue &v) { parse_expected_responses(v, scenario, expect); });
+  map.with("response_times",
+           [&](const YamlValue &v) { parse_expected_responses(v, scenario, expect); });
   map.finish();
   return expect;
 }

@@ -12,7 +12,8 @@
 namespace vericansim {
 namespace {
 
-/// Buffers that take any frame: base and extended ones in turn, since IDE is compared unless CTRL2.EACEN is set.
+/// Buffers that take any frame: base and extended ones in turn, since IDE is compared unless
+/// CTRL2.EACEN is set.
 std::vector<RxFilter> any_frame(unsigned buffers) {
   std::vector<RxFilter> filters(buffers);
   for (unsigned i = 1; i < buffers; i += 2) filters[i].extended = true;
@@ -21,8 +22,8 @@ std::vector<RxFilter> any_frame(unsigned buffers) {
 
 }  // namespace
 
-std::unique_ptr<Station> make_station(const std::string &name, const ClockConfig &clock, HostConfig config,
-                                      unsigned num_mb) {
+std::unique_ptr<Station> make_station(const std::string &name, const ClockConfig &clock,
+                                      HostConfig config, unsigned num_mb) {
   if (config.filters.empty()) config.filters = any_frame(num_mb - config.tx_buffers);
   auto station = std::make_unique<Station>();
   station->timing = config.timing;
@@ -44,7 +45,8 @@ void Stations::join(Bus &bus, Time bit_time) {
   constexpr Time kIntegration = 14;  // bits; 11 are needed (IN-01)
   for (const auto &station : stations_) station->host->start();
   const auto all_ready = [&] {
-    return std::all_of(stations_.begin(), stations_.end(), [](const auto &s) { return s->host->ready(); });
+    return std::all_of(stations_.begin(), stations_.end(),
+                       [](const auto &s) { return s->host->ready(); });
   };
   const bool ready = bus.run_until(all_ready, kLimit);
   check();

@@ -22,7 +22,8 @@ struct Station {
 };
 
 /// Creates core and software. Without filters every free buffer takes any frame.
-[[nodiscard]] std::unique_ptr<Station> make_station(const std::string &name, const ClockConfig &clock, HostConfig config,
+[[nodiscard]] std::unique_ptr<Station> make_station(const std::string &name,
+                                                    const ClockConfig &clock, HostConfig config,
                                                     unsigned num_mb = 64);
 
 /// The stations of one bus; they must outlive it.
@@ -33,8 +34,8 @@ class Stations {
   [[nodiscard]] const Station &operator[](NodeId id) const { return *stations_[id]; }
   [[nodiscard]] NodeId size() const { return static_cast<NodeId>(stations_.size()); }
 
-  /// Sets all nodes up and lets them integrate: runs `bus` until then. `bit_time` in ps. Throws std::runtime_error if
-  /// a node's set-up fails or takes longer than 100 ms.
+  /// Sets all nodes up and lets them integrate: runs `bus` until then. `bit_time` in ps. Throws
+  /// std::runtime_error if a node's set-up fails or takes longer than 100 ms.
   void join(Bus &bus, Time bit_time);
   /// Whether the cores store remote frames in receive buffers; valid after join().
   [[nodiscard]] bool stores_remote() const { return stores_remote_; }

@@ -15,19 +15,23 @@ TrafficSource::TrafficSource(const TrafficSpec &spec, Bus &bus, Host &host, std:
 }
 
 bool TrafficSource::matches(const Frame &frame) const {
-  return frame.id == spec_.frame.id && frame.extended == spec_.frame.extended && frame.remote == spec_.frame.remote;
+  return frame.id == spec_.frame.id && frame.extended == spec_.frame.extended &&
+         frame.remote == spec_.frame.remote;
 }
 
 void TrafficSource::start(Time start, Time stop) {
   stop_ = stop;
   Time first = start + spec_.offset;
-  if (spec_.random_offset) first = start + static_cast<Time>(random_() % static_cast<std::uint64_t>(spec_.period));
+  if (spec_.random_offset)
+    first = start + static_cast<Time>(random_() % static_cast<std::uint64_t>(spec_.period));
   schedule(first);
 }
 
 void TrafficSource::schedule(Time event) {
   if (event >= stop_ || report_.queued >= spec_.count) return;
-  const Time late = spec_.jitter == 0 ? 0 : static_cast<Time>(random_() % static_cast<std::uint64_t>(spec_.jitter));
+  const Time late = spec_.jitter == 0
+                        ? 0
+                        : static_cast<Time>(random_() % static_cast<std::uint64_t>(spec_.jitter));
   bus_.at(event + late, [this, event] {
     queue(event);
     // A second frame of a saturated message waits while the first is on the wire.
@@ -46,7 +50,8 @@ Frame TrafficSource::next_frame() {
   Frame frame = spec_.frame;
   const std::uint64_t value = spec_.data == DataKind::kRandom ? random_() : report_.queued;
   if (spec_.data != DataKind::kFixed)
-    for (unsigned i = 0; i < frame.payload_size(); ++i) frame.data[i] = static_cast<std::uint8_t>(value >> 8 * i);
+    for (unsigned i = 0; i < frame.payload_size(); ++i)
+      frame.data[i] = static_cast<std::uint8_t>(value >> 8 * i);
   ++report_.queued;
   return frame;
 }

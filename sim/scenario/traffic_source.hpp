@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// TrafficSource: queues the frames of one message at a node when they are due, and measures their response times.
+// TrafficSource: queues the frames of one message at a node when they are due, and measures their
+// response times.
 #pragma once
 
 #include <deque>

@@ -36,8 +36,10 @@ void YamlValue::fail(const std::string &message) const {
 }
 
 void YamlValue::refuse(const std::string &allowed) const {
-  const std::string value = node_.IsScalar() ? quoted(node_.Scalar()) : node_.IsMap() ? "a map"
-                            : node_.IsSequence() ? "a list" : "nothing";
+  const std::string value = node_.IsScalar()     ? quoted(node_.Scalar())
+                            : node_.IsMap()      ? "a map"
+                            : node_.IsSequence() ? "a list"
+                                                 : "nothing";
   fail(value + " is not allowed; allowed: " + allowed);
 }
 
@@ -49,13 +51,15 @@ std::string YamlValue::text() const {
 std::uint64_t YamlValue::integer(std::uint64_t least, std::uint64_t most) const {
   const auto value = node_.IsScalar() ? parse_integer(node_.Scalar()) : std::nullopt;
   if (!value || *value < least || *value > most)
-    refuse(most > 0xFFFF ? fmt::format("0x{:X} to 0x{:X}", least, most) : fmt::format("{} to {}", least, most));
+    refuse(most > 0xFFFF ? fmt::format("0x{:X} to 0x{:X}", least, most)
+                         : fmt::format("{} to {}", least, most));
   return *value;
 }
 
 double YamlValue::number(double least, double most) const {
   const auto value = node_.IsScalar() ? parse_number(node_.Scalar()) : std::nullopt;
-  if (!value || *value < least || *value > most) refuse(fmt::format("a number from {:g} to {:g}", least, most));
+  if (!value || *value < least || *value > most)
+    refuse(fmt::format("a number from {:g} to {:g}", least, most));
   return *value;
 }
 
@@ -82,7 +86,9 @@ double YamlValue::bitrate() const {
 Time YamlValue::time(Time least, Time most) const {
   const auto value = node_.IsScalar() ? parse_time(node_.Scalar()) : std::nullopt;
   if (!value || *value < least || *value > most) {
-    const auto words = [](Time t) { return t == 0 ? "0" : fmt::format("{:g} us", static_cast<double>(t) / 1e6); };
+    const auto words = [](Time t) {
+      return t == 0 ? "0" : fmt::format("{:g} us", static_cast<double>(t) / 1e6);
+    };
     refuse(fmt::format("{} to {}, as in '10 ms' (ps, ns, us, ms, s)", words(least), words(most)));
   }
   return *value;
@@ -106,7 +112,8 @@ std::vector<YamlValue> YamlValue::items() const {
   std::vector<YamlValue> items;
   for (const YAML::Node &node : node_) {
     const std::size_t line = line_of(node.Mark());
-    items.emplace_back(file_, fmt::format("{}[{}]", key_, items.size()), node, line != 0 ? line : line_);
+    items.emplace_back(file_, fmt::format("{}[{}]", key_, items.size()), node,
+                       line != 0 ? line : line_);
   }
   return items;
 }
@@ -126,8 +133,8 @@ std::optional<YamlValue> YamlMap::find(const std::string &key) {
   for (const auto &entry : map) {
     if (entry.first.Scalar() != key) continue;
     const std::size_t line = line_of(entry.second.Mark());
-    return YamlValue{value_.file_, value_.key_.empty() ? key : value_.key_ + "." + key, entry.second,
-                     line != 0 ? line : line_of(entry.first.Mark())};
+    return YamlValue{value_.file_, value_.key_.empty() ? key : value_.key_ + "." + key,
+                     entry.second, line != 0 ? line : line_of(entry.first.Mark())};
   }
   return std::nullopt;
 }

@@ -16,7 +16,8 @@
 
 namespace vericansim {
 
-/// A value of a YAML file. All readers throw InputError "file:line: key: 'value' is not allowed; allowed: ...".
+/// A value of a YAML file. All readers throw InputError "file:line: key: 'value' is not allowed;
+/// allowed: ...".
 class YamlValue {
  public:
   YamlValue(std::string file, std::string key, YAML::Node node, std::size_t line)

@@ -43,7 +43,8 @@ std::optional<double> detect_bitrate(const std::vector<Time> &edges) {
   for (std::size_t i = 1; i < edges.size(); ++i)
     distances.push_back(static_cast<double>(edges[i] - edges[i - 1]));
   std::sort(distances.begin(), distances.end());
-  // Start from short distances that are not glitches: the true bit is the first whose grid holds the others.
+  // Start from short distances that are not glitches: the true bit is the first whose grid holds
+  // the others.
   for (std::size_t percent = 0; percent <= 50; ++percent) {
     const double start = distances[distances.size() * percent / 100];
     if (start <= 0.0) continue;

@@ -97,7 +97,9 @@ void BusWave::put_value(Time time, WaveSink::Signal signal, int &last, int value
   put(time, signal, static_cast<std::uint64_t>(value));
 }
 
-void BusWave::on_level(Time time, Level level) { put(time, can_, static_cast<std::uint64_t>(level)); }
+void BusWave::on_level(Time time, Level level) {
+  put(time, can_, static_cast<std::uint64_t>(level));
+}
 
 void BusWave::on_node_tx(NodeId node, Time time, Level level) {
   put(time, nodes_[node].tx, static_cast<std::uint64_t>(level));

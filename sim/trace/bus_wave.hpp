@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// BusWave: writes a bus to a waveform: the wire, and for each node its pins and, as text, what it thinks.
+// BusWave: writes a bus to a waveform: the wire, and for each node its pins and, as text, what it
+// thinks.
 #pragma once
 
 #include <memory>
@@ -15,9 +16,10 @@
 
 namespace vericansim {
 
-/// An observer to be added to a bus after all its nodes. Signals: `bus.can`; and for each node `tx`, `rx`,
-/// `sampled` (level at the last sample point), `stuff`, `field` (text, one name for the whole length of each
-/// bit: SOF, ID, CRC, ERROR FLAG...), `role`, `state` and `error` (texts), `tec`, `rec`.
+/// An observer to be added to a bus after all its nodes. Signals: `bus.can`; and for each node
+/// `tx`, `rx`, `sampled` (level at the last sample point), `stuff`, `field` (text, one name for the
+/// whole length of each bit: SOF, ID, CRC, ERROR FLAG...), `role`, `state` and `error` (texts),
+/// `tec`, `rec`.
 class BusWave : public BusObserver {
  public:
   /// `bus` must hold all its nodes already; `bit_time` is the longest bit of a node, ps.
@@ -37,7 +39,8 @@ class BusWave : public BusObserver {
   void finish(Time time);
 
  private:
-  // A change that waits until no earlier one can come: a bit's name is known only at its sample point.
+  // A change that waits until no earlier one can come: a bit's name is known only at its sample
+  // point.
   struct Change {
     Time time;
     std::uint64_t order;

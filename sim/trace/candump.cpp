@@ -17,9 +17,11 @@ using text::fail;
 using text::Place;
 
 constexpr std::uint64_t kErrorFlag = 0x20000000;  // SocketCAN CAN_ERR_FLAG
-constexpr const char *kFrameForm = "; allowed: 123#0011, 1234ABCD#00.11, 123#R, 123#R8, 123#<8 bytes>_9.._F";
+constexpr const char *kFrameForm =
+    "; allowed: 123#0011, 1234ABCD#00.11, 123#R, 123#R8, 123#<8 bytes>_9.._F";
 
-/// Identifier in candump's way: 3 digits are 11 bits, 8 digits are 29 bits. False: an error message.
+/// Identifier in candump's way: 3 digits are 11 bits, 8 digits are 29 bits. False: an error
+/// message.
 bool parse_id(std::string_view digits, Frame &frame, const Place &place) {
   const auto id = text::parse_unsigned(digits, 16);
   if (!id || (digits.size() != 3 && digits.size() != 8))
@@ -34,7 +36,8 @@ bool parse_id(std::string_view digits, Frame &frame, const Place &place) {
 void parse_raw_dlc(std::string_view digit, Frame &frame, const Place &place) {
   const auto dlc = text::parse_unsigned(digit, 16);
   if (!dlc || digit.size() != 1 || *dlc < 9 || frame.dlc != 8)
-    fail(place, "raw DLC " + quoted(std::string(digit)) + " is not allowed; allowed: _9 to _F after 8 bytes");
+    fail(place, "raw DLC " + quoted(std::string(digit)) +
+                    " is not allowed; allowed: _9 to _F after 8 bytes");
   frame.dlc = static_cast<std::uint8_t>(*dlc);
 }
 
@@ -67,10 +70,11 @@ void parse_data(std::string_view rest, Frame &frame, const Place &place) {
 /// "(1436509052.249713)" in nanoseconds since the epoch.
 std::int64_t parse_stamp(std::string_view field, const Place &place) {
   const bool framed = field.size() > 2 && field.front() == '(' && field.back() == ')';
-  const auto ns = framed ? text::parse_decimal(field.substr(1, field.size() - 2), 1'000'000'000)
-                         : std::nullopt;
+  const auto ns =
+      framed ? text::parse_decimal(field.substr(1, field.size() - 2), 1'000'000'000) : std::nullopt;
   if (!ns)
-    fail(place, "time " + quoted(std::string(field)) + " is not allowed; allowed: (seconds.microseconds)");
+    fail(place,
+         "time " + quoted(std::string(field)) + " is not allowed; allowed: (seconds.microseconds)");
   return *ns;
 }
 
@@ -78,20 +82,23 @@ std::int64_t parse_stamp(std::string_view field, const Place &place) {
 bool parse_screen(const std::vector<std::string_view> &fields, std::size_t at, Frame &frame,
                   const Place &place) {
   if (fields.size() < at + 2 || fields[at + 1].size() != 3 || fields[at + 1].front() != '[')
-    fail(place, fields.size() > at + 1 && fields[at + 1].size() == 4
-                    ? "CAN FD length " + quoted(std::string(fields[at + 1])) + "; allowed: [0] to [8]"
-                    : "expected IDENTIFIER [LENGTH] BYTES" + std::string(kFrameForm));
+    fail(place,
+         fields.size() > at + 1 && fields[at + 1].size() == 4
+             ? "CAN FD length " + quoted(std::string(fields[at + 1])) + "; allowed: [0] to [8]"
+             : "expected IDENTIFIER [LENGTH] BYTES" + std::string(kFrameForm));
   if (!parse_id(fields[at], frame, place)) return false;
   const auto length = text::parse_unsigned(fields[at + 1].substr(1, 1), 10);
   if (!length || *length > 8)
-    fail(place, "length " + quoted(std::string(fields[at + 1])) + " is not allowed; allowed: [0] to [8]");
+    fail(place,
+         "length " + quoted(std::string(fields[at + 1])) + " is not allowed; allowed: [0] to [8]");
   frame.dlc = static_cast<std::uint8_t>(*length);
   if (fields.size() > at + 2 && fields[at + 2] == "remote") {
     frame.remote = true;
     return true;
   }
   if (fields.size() < at + 2 + frame.dlc)
-    fail(place, fmt::format("{} data bytes where the length says {}", fields.size() - at - 2, frame.dlc));
+    fail(place,
+         fmt::format("{} data bytes where the length says {}", fields.size() - at - 2, frame.dlc));
   for (std::size_t i = 0; i < frame.dlc; ++i) text::set_byte(frame, i, fields[at + 2 + i], place);
   return true;
 }
@@ -127,7 +134,8 @@ CanLog parse_candump(std::string_view text, const std::string &file) {
     const bool stamped = fields[0].front() == '(';
     const std::int64_t ns = stamped ? parse_stamp(fields[0], place) : 0;
     const std::size_t at = stamped ? 2 : 1;  // the frame follows the channel
-    if (fields.size() <= at) fail(place, "expected (TIME) INTERFACE FRAME" + std::string(kFrameForm));
+    if (fields.size() <= at)
+      fail(place, "expected (TIME) INTERFACE FRAME" + std::string(kFrameForm));
     LogEntry entry;
     const bool classical = fields[at].find('#') != std::string_view::npos
                                ? parse_candump_frame(fields[at], entry.frame, place)
@@ -148,7 +156,8 @@ CanLog parse_candump(std::string_view text, const std::string &file) {
 }
 
 std::string candump_frame(const Frame &frame) {
-  std::string text = frame.extended ? fmt::format("{:08X}#", frame.id) : fmt::format("{:03X}#", frame.id);
+  std::string text =
+      frame.extended ? fmt::format("{:08X}#", frame.id) : fmt::format("{:03X}#", frame.id);
   const unsigned length = frame.dlc > 8 ? 8U : frame.dlc;
   if (frame.remote)
     text += length != 0 ? fmt::format("R{}", length) : "R";

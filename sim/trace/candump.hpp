@@ -13,10 +13,10 @@
 
 namespace vericansim {
 
-/// Parses a whole log: lines of `candump -l`, or of candump's screen output ("can0  123   [2]  11 22", also
-/// with a time in front, then without times all entries are at 0). Empty lines and '#' comments are skipped;
-/// CAN FD frames ("##") and error messages (identifier with bit 29) are counted as skipped.
-/// Throws InputError with the line of the first mistake.
+/// Parses a whole log: lines of `candump -l`, or of candump's screen output ("can0  123   [2]  11
+/// 22", also with a time in front, then without times all entries are at 0). Empty lines and '#'
+/// comments are skipped; CAN FD frames ("##") and error messages (identifier with bit 29) are
+/// counted as skipped. Throws InputError with the line of the first mistake.
 [[nodiscard]] CanLog parse_candump(std::string_view text, const std::string &file);
 
 /// Parses "123#1122", "12345678#R8", "123#1122334455667788_F" (raw DLC 9..15 after '_').

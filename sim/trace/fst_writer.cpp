@@ -53,13 +53,15 @@ class FstWriter : public WaveSink {
     unsigned width;
   };
 
-  Signal declare(const std::string &scope, const std::string &name, fstVarType type, unsigned width) {
+  Signal declare(const std::string &scope, const std::string &name, fstVarType type,
+                 unsigned width) {
     if (scope != scope_) {
       if (!scope_.empty()) fstWriterSetUpscope(fst_);
       fstWriterSetScope(fst_, FST_ST_VCD_MODULE, scope.c_str(), nullptr);
       scope_ = scope;
     }
-    const fstHandle handle = fstWriterCreateVar(fst_, type, FST_VD_IMPLICIT, width, name.c_str(), 0);
+    const fstHandle handle =
+        fstWriterCreateVar(fst_, type, FST_VD_IMPLICIT, width, name.c_str(), 0);
     variables_.push_back({handle, width});
     return static_cast<Signal>(variables_.size() - 1);
   }
@@ -78,6 +80,8 @@ class FstWriter : public WaveSink {
 
 }  // namespace
 
-std::unique_ptr<WaveSink> open_fst(const std::string &path) { return std::make_unique<FstWriter>(path); }
+std::unique_ptr<WaveSink> open_fst(const std::string &path) {
+  return std::make_unique<FstWriter>(path);
+}
 
 }  // namespace vericansim

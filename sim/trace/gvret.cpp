@@ -4,8 +4,8 @@
 // GVRET logs: parser.
 #include "trace/gvret.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "trace/input_error.hpp"
 #include "trace/text.hpp"
@@ -28,7 +28,8 @@ Columns parse_header(std::string_view line, const Place &place) {
   Columns columns;
   const auto length = std::find(names.begin(), names.end(), "LEN");
   const auto bus = std::find(names.begin(), names.end(), "Bus");
-  if (names.size() < 5 || names[1] != "ID" || names[2] != "Extended" || length == names.end() || bus == names.end())
+  if (names.size() < 5 || names[1] != "ID" || names[2] != "Extended" || length == names.end() ||
+      bus == names.end())
     fail(place, "expected the columns Time Stamp,ID,Extended,Bus,LEN,D1,...");
   columns.bus = static_cast<std::size_t>(bus - names.begin());
   columns.length = static_cast<std::size_t>(length - names.begin());
@@ -43,11 +44,13 @@ LogEntry parse_entry(const std::vector<std::string_view> &fields, const Columns 
   const auto id = text::parse_unsigned(fields[1], 16);
   if (!id || (fields[2] != "true" && fields[2] != "false"))
     fail(place, "identifier " + quoted(std::string(fields[1])) + " or Extended " +
-                    quoted(std::string(fields[2])) + " is not allowed; allowed: hexadecimal, true or false");
+                    quoted(std::string(fields[2])) +
+                    " is not allowed; allowed: hexadecimal, true or false");
   text::set_id(entry.frame, *id, fields[2] == "true", place);
   const auto length = text::parse_unsigned(fields[columns.length], 10);
   if (!length || *length > 8)
-    fail(place, "LEN " + quoted(std::string(fields[columns.length])) + " is not allowed; allowed: 0 to 8");
+    fail(place,
+         "LEN " + quoted(std::string(fields[columns.length])) + " is not allowed; allowed: 0 to 8");
   if (fields.size() < columns.data + *length)
     fail(place, fmt::format("fewer data bytes than LEN = {}", *length));
   entry.frame.dlc = static_cast<std::uint8_t>(*length);
@@ -73,7 +76,8 @@ CanLog parse_gvret(std::string_view text, const std::string &file) {
     }
     const auto fields = text::split_commas(line);
     const auto time = text::parse_decimal(text::trimmed(fields[0]), 1);
-    if (!time) fail(place, "time " + quoted(std::string(fields[0])) + " is no number of microseconds");
+    if (!time)
+      fail(place, "time " + quoted(std::string(fields[0])) + " is no number of microseconds");
     LogEntry entry = parse_entry(fields, columns, place);
     if (log.entries.empty()) first_us = *time;
     if (std::abs(*time - first_us) > std::numeric_limits<Time>::max() / kMicrosecond)

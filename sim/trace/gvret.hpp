@@ -11,9 +11,9 @@
 
 namespace vericansim {
 
-/// Parses "Time Stamp,ID,Extended,Bus,LEN,D1,...,D8": microseconds, hexadecimal identifier and bytes; newer
-/// files have a column "Dir" after Extended. Bytes beyond LEN are ignored.
-/// Throws InputError with the line of the first mistake.
+/// Parses "Time Stamp,ID,Extended,Bus,LEN,D1,...,D8": microseconds, hexadecimal identifier and
+/// bytes; newer files have a column "Dir" after Extended. Bytes beyond LEN are ignored. Throws
+/// InputError with the line of the first mistake.
 [[nodiscard]] CanLog parse_gvret(std::string_view text, const std::string &file);
 
 }  // namespace vericansim

@@ -4,11 +4,11 @@
 // Chooses the reader of a log by the first bytes of the file.
 #include "trace/log.hpp"
 
+#include <sys/stat.h>
 #include <array>
 #include <fstream>
 #include <sstream>
 #include <string_view>
-#include <sys/stat.h>
 
 #include "trace/candump.hpp"
 #include "trace/gvret.hpp"
@@ -21,9 +21,9 @@ namespace {
 
 /// Magic numbers of pcap (micro- and nanoseconds, both byte orders) and of pcapng.
 bool looks_like_pcap(std::string_view head) {
-  static constexpr std::array<std::string_view, 5> kMagic = {
-      "\xd4\xc3\xb2\xa1", "\xa1\xb2\xc3\xd4", "\x4d\x3c\xb2\xa1", "\xa1\xb2\x3c\x4d",
-      "\x0a\x0d\x0d\x0a"};
+  static constexpr std::array<std::string_view, 5> kMagic = {"\xd4\xc3\xb2\xa1", "\xa1\xb2\xc3\xd4",
+                                                             "\x4d\x3c\xb2\xa1", "\xa1\xb2\x3c\x4d",
+                                                             "\x0a\x0d\x0d\x0a"};
   for (const std::string_view magic : kMagic)
     if (head.substr(0, 4) == magic) return true;
   return false;

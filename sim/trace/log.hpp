@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// CanLog: recorded traffic, whatever the file format: frames with their times, in the order of the bus.
+// CanLog: recorded traffic, whatever the file format: frames with their times, in the order of the
+// bus.
 #pragma once
 
 #include <cstddef>
@@ -20,12 +21,12 @@ struct LogEntry {
   Frame frame;
 };
 
-/// A recording. Entries that classical CAN cannot carry (CAN FD frames, error messages of a driver, status
-/// lines) are counted, not kept.
+/// A recording. Entries that classical CAN cannot carry (CAN FD frames, error messages of a driver,
+/// status lines) are counted, not kept.
 struct CanLog {
   std::vector<LogEntry> entries;
-  std::size_t skipped = 0;      ///< lines or packets that hold no classical data or remote frame
-  std::int64_t start_ns = 0;    ///< absolute time of the first entry (Unix epoch), 0 if unknown
+  std::size_t skipped = 0;    ///< lines or packets that hold no classical data or remote frame
+  std::int64_t start_ns = 0;  ///< absolute time of the first entry (Unix epoch), 0 if unknown
 };
 
 /// Formats by what the file holds, never by its name.
@@ -38,7 +39,8 @@ enum class LogFormat { kCandump, kPcap, kTrc, kGvret };
 /// Throws InputError if the file cannot be read or parsed.
 [[nodiscard]] CanLog read_log(const std::string &path);
 
-/// The format that read_log() will take for `path`. Throws InputError if the file is of no known kind.
+/// The format that read_log() will take for `path`. Throws InputError if the file is of no known
+/// kind.
 [[nodiscard]] LogFormat detect_log_format(const std::string &path);
 
 /// Reads a whole file. Throws InputError if it cannot be opened.

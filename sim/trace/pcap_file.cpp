@@ -6,9 +6,9 @@
 
 #include <pcap/pcap.h>
 
+#include <fmt/format.h>
 #include <array>
 #include <cstring>
-#include <fmt/format.h>
 #include <memory>
 
 #include "trace/input_error.hpp"
@@ -16,8 +16,8 @@
 namespace vericansim {
 namespace {
 
-// Layout of a packet (tcpdump.org, LINKTYPE_CAN_SOCKETCAN): identifier and flags, big-endian; length; FD
-// flags; reserved; raw DLC; data.
+// Layout of a packet (tcpdump.org, LINKTYPE_CAN_SOCKETCAN): identifier and flags, big-endian;
+// length; FD flags; reserved; raw DLC; data.
 constexpr std::size_t kHeader = 8;
 constexpr std::uint32_t kExtended = 0x80000000;
 constexpr std::uint32_t kRemote = 0x40000000;
@@ -34,14 +34,16 @@ struct CloseFile {
 using PcapFile = std::unique_ptr<pcap_t, CloseFile>;
 
 /// True if the packet is a classical frame; throws if it is cut short or contradicts itself.
-bool decode_packet(const std::uint8_t *bytes, std::size_t size, Frame &frame, const std::string &path,
-                   std::size_t number) {
+bool decode_packet(const std::uint8_t *bytes, std::size_t size, Frame &frame,
+                   const std::string &path, std::size_t number) {
   if (size < kHeader)
-    throw InputError(path, 0, fmt::format("packet {}: {} bytes; at least 8 are needed", number, size));
+    throw InputError(path, 0,
+                     fmt::format("packet {}: {} bytes; at least 8 are needed", number, size));
   const std::uint32_t id = std::uint32_t{bytes[0]} << 24 | std::uint32_t{bytes[1]} << 16 |
                            std::uint32_t{bytes[2]} << 8 | bytes[3];
   const std::uint8_t length = bytes[4];
-  // Old captures have rubbish in the three bytes behind the length: believe them only if they make sense.
+  // Old captures have rubbish in the three bytes behind the length: believe them only if they make
+  // sense.
   const bool clean = (bytes[5] & ~kFdFlags) == 0 && bytes[6] == 0;
   const bool fd_frame = clean && bytes[7] == 0 && (bytes[5] & kFdFrame) != 0;
   if ((id & kError) != 0 || fd_frame || length > 8) return false;
@@ -50,13 +52,15 @@ bool decode_packet(const std::uint8_t *bytes, std::size_t size, Frame &frame, co
   frame.remote = (id & kRemote) != 0;
   frame.id = id & 0x1FFFFFFF;
   if (!frame.extended && frame.id > 0x7FF)
-    throw InputError(path, 0, fmt::format("packet {}: identifier {:X} is above 7FF and has no extended flag",
-                                          number, frame.id));
+    throw InputError(path, 0,
+                     fmt::format("packet {}: identifier {:X} is above 7FF and has no extended flag",
+                                 number, frame.id));
   frame.dlc = (clean && length == 8 && bytes[7] >= 9 && bytes[7] <= 15) ? bytes[7] : length;
   if (frame.remote) return true;
   if (size < kHeader + length)
-    throw InputError(path, 0, fmt::format("packet {}: {} data bytes where the length says {}", number,
-                                          size - kHeader, length));
+    throw InputError(path, 0,
+                     fmt::format("packet {}: {} data bytes where the length says {}", number,
+                                 size - kHeader, length));
   std::memcpy(frame.data.data(), bytes + kHeader, length);
   return true;
 }
@@ -69,13 +73,15 @@ CanLog read_pcap(const std::string &path) {
       path.c_str(), PCAP_TSTAMP_PRECISION_NANO, error.data())};
   if (!file) throw InputError(path, 0, quoted(error.data()) + " (libpcap)");
   if (pcap_datalink(file.get()) != DLT_CAN_SOCKETCAN)
-    throw InputError(path, 0, fmt::format("link type {} is not CAN; allowed: 227 (SocketCAN)",
-                                          pcap_datalink(file.get())));
+    throw InputError(path, 0,
+                     fmt::format("link type {} is not CAN; allowed: 227 (SocketCAN)",
+                                 pcap_datalink(file.get())));
   CanLog log;
   pcap_pkthdr *header = nullptr;
   const std::uint8_t *bytes = nullptr;
   int status = 0;
-  for (std::size_t number = 1; (status = pcap_next_ex(file.get(), &header, &bytes)) == 1; ++number) {
+  for (std::size_t number = 1; (status = pcap_next_ex(file.get(), &header, &bytes)) == 1;
+       ++number) {
     LogEntry entry;
     if (!decode_packet(bytes, header->caplen, entry.frame, path, number)) {
       ++log.skipped;
@@ -88,8 +94,9 @@ CanLog read_pcap(const std::string &path) {
     log.entries.push_back(std::move(entry));
   }
   if (status != PCAP_ERROR_BREAK)
-    throw InputError(path, 0, fmt::format("after {} packets: {} (libpcap)", log.entries.size() + log.skipped,
-                                          pcap_geterr(file.get())));
+    throw InputError(path, 0,
+                     fmt::format("after {} packets: {} (libpcap)", log.entries.size() + log.skipped,
+                                 pcap_geterr(file.get())));
   return log;
 }
 
@@ -100,7 +107,8 @@ struct PcapWriter::Impl {
   pcap_dumper_t *out = nullptr;
 };
 
-PcapWriter::PcapWriter(const std::string &path, std::int64_t start_ns) : impl_{std::make_unique<Impl>()} {
+PcapWriter::PcapWriter(const std::string &path, std::int64_t start_ns)
+    : impl_{std::make_unique<Impl>()} {
   constexpr int kLongestPacket = 16;
   impl_->path = path;
   impl_->start_ns = start_ns;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Packet captures (pcap and pcapng, link type 227 = SocketCAN) for Wireshark and tcpdump, in and out.
+// Packet captures (pcap and pcapng, link type 227 = SocketCAN) for Wireshark and tcpdump, in and
+// out.
 #pragma once
 
 #include <memory>
@@ -11,8 +12,9 @@
 
 namespace vericansim {
 
-/// Reads a capture of either byte order, micro- or nanoseconds. CAN FD frames and error messages are counted
-/// as skipped. Throws InputError (with the number of the packet) on a broken file or another link type.
+/// Reads a capture of either byte order, micro- or nanoseconds. CAN FD frames and error messages
+/// are counted as skipped. Throws InputError (with the number of the packet) on a broken file or
+/// another link type.
 [[nodiscard]] CanLog read_pcap(const std::string &path);
 
 /// Writes captures with nanosecond stamps.

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pieces that the text formats share: lines, fields, numbers; each failure is an InputError with its line.
+// Pieces that the text formats share: lines, fields, numbers; each failure is an InputError with
+// its line.
 #pragma once
 
 #include <cstdint>
@@ -45,10 +46,11 @@ void for_each_line(std::string_view text, const std::string &file, Use use) {
 /// Without blanks at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-/// A whole unsigned number in `base`, or nothing if there is any other character or more than 64 bits.
+/// A whole unsigned number in `base`, or nothing if there is any other character or more than 64
+/// bits.
 [[nodiscard]] std::optional<std::uint64_t> parse_unsigned(std::string_view text, int base);
-/// "1436509052.249713" in seconds or milliseconds (`unit` = picoseconds of one) without rounding by a
-/// floating-point type; up to 12 decimals. Nothing if malformed or out of range.
+/// "1436509052.249713" in seconds or milliseconds (`unit` = picoseconds of one) without rounding by
+/// a floating-point type; up to 12 decimals. Nothing if malformed or out of range.
 [[nodiscard]] std::optional<std::int64_t> parse_decimal(std::string_view text, std::int64_t unit);
 
 /// Sets the identifier; throws if it does not fit 11 or 29 bits.

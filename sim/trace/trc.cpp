@@ -19,7 +19,8 @@ using text::Place;
 void check_version(std::string_view line, const Place &place) {
   constexpr std::string_view kKey = ";$FILEVERSION=";
   if (line.starts_with(kKey) && text::trimmed(line.substr(kKey.size())) != "1.1")
-    fail(place, "version " + quoted(std::string(line.substr(kKey.size()))) + " is not known; allowed: 1.1");
+    fail(place, "version " + quoted(std::string(line.substr(kKey.size()))) +
+                    " is not known; allowed: 1.1");
 }
 
 /// Columns: number, milliseconds, type, identifier, length, then bytes or "RTR".
@@ -27,7 +28,8 @@ Frame parse_frame(const std::vector<std::string_view> &fields, const Place &plac
   Frame frame;
   const auto id = text::parse_unsigned(fields[3], 16);
   if (!id || (fields[3].size() != 4 && fields[3].size() != 8))
-    fail(place, "identifier " + quoted(std::string(fields[3])) + " is not allowed; allowed: 4 or 8 hexadecimal digits");
+    fail(place, "identifier " + quoted(std::string(fields[3])) +
+                    " is not allowed; allowed: 4 or 8 hexadecimal digits");
   text::set_id(frame, *id, fields[3].size() == 8, place);
   const auto length = text::parse_unsigned(fields[4], 10);
   if (!length || *length > 8)
@@ -58,7 +60,8 @@ CanLog parse_trc(std::string_view text, const std::string &file) {
       return;
     }
     const auto time = text::parse_decimal(fields[1], kMillisecond);
-    if (!time) fail(place, "time " + quoted(std::string(fields[1])) + " is no number of milliseconds");
+    if (!time)
+      fail(place, "time " + quoted(std::string(fields[1])) + " is no number of milliseconds");
     if (log.entries.empty()) first = *time;
     log.entries.push_back({*time - first, "", parse_frame(fields, place)});
   });

@@ -11,8 +11,8 @@
 
 namespace vericansim {
 
-/// Parses "1)  48.6  Rx  09F11201  8  FF 50 ..."; comment lines begin with ';'. Error, status and warning
-/// lines are counted as skipped. Identifiers of 4 digits are 11 bits, of 8 digits 29 bits.
+/// Parses "1)  48.6  Rx  09F11201  8  FF 50 ..."; comment lines begin with ';'. Error, status and
+/// warning lines are counted as skipped. Identifiers of 4 digits are 11 bits, of 8 digits 29 bits.
 /// Throws InputError with the line of the first mistake.
 [[nodiscard]] CanLog parse_trc(std::string_view text, const std::string &file);
 

@@ -4,9 +4,9 @@
 // VCD reader: header, choice of a signal, value changes.
 #include "trace/vcd_file.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
-#include <fmt/format.h>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -48,9 +48,12 @@ struct Scale {
 
 /// "1 ns", "100ps", "10 fs"; nothing if it is none of 1, 10, 100 times s, ms, us, ns, ps, fs.
 std::optional<Scale> parse_timescale(const std::string &text) {
-  static constexpr std::pair<const char *, Time> kUnits[] = {
-      {"fs", 0},       {"ps", kPicosecond},  {"ns", kNanosecond},
-      {"us", kMicrosecond}, {"ms", kMillisecond}, {"s", kSecond}};
+  static constexpr std::pair<const char *, Time> kUnits[] = {{"fs", 0},
+                                                             {"ps", kPicosecond},
+                                                             {"ns", kNanosecond},
+                                                             {"us", kMicrosecond},
+                                                             {"ms", kMillisecond},
+                                                             {"s", kSecond}};
   const std::size_t digits = text.find_first_not_of("0123456789");
   const std::string number = text.substr(0, digits);
   if (digits == std::string::npos || (number != "1" && number != "10" && number != "100"))
@@ -81,7 +84,8 @@ VcdFile::VcdFile(std::string path) : path_{std::move(path)}, text_{read_text_fil
   parse_header();
 }
 
-VcdFile::VcdFile(std::string path, std::string text) : path_{std::move(path)}, text_{std::move(text)} {
+VcdFile::VcdFile(std::string path, std::string text)
+    : path_{std::move(path)}, text_{std::move(text)} {
   parse_header();
 }
 
@@ -90,19 +94,22 @@ void VcdFile::parse_header() {
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     const std::size_t line = words.line();
     if (!word.starts_with("$"))
-      throw InputError(path_, line, "expected a VCD keyword such as $timescale or $var, found " +
-                                        quoted(std::string(word)));
+      throw InputError(
+          path_, line,
+          "expected a VCD keyword such as $timescale or $var, found " + quoted(std::string(word)));
     std::vector<std::string_view> arguments;
     std::string_view argument = words.next();
-    for (; !argument.empty() && argument != "$end"; argument = words.next()) arguments.push_back(argument);
+    for (; !argument.empty() && argument != "$end"; argument = words.next())
+      arguments.push_back(argument);
     if (argument.empty()) throw InputError(path_, line, std::string(word) + " has no $end");
     if (word == "$timescale") {
       std::string joined;
       for (const std::string_view part : arguments) joined += part;
       const auto scale = parse_timescale(joined);
       if (!scale)
-        throw InputError(path_, line, "timescale " + quoted(joined) +
-                                          " is not allowed; allowed: 1, 10 or 100 of s, ms, us, ns, ps, fs");
+        throw InputError(path_, line,
+                         "timescale " + quoted(joined) +
+                             " is not allowed; allowed: 1, 10 or 100 of s, ms, us, ns, ps, fs");
       unit_ = scale->unit;
       fraction_ = scale->fraction;
     } else if (word == "$scope") {
@@ -127,7 +134,8 @@ void VcdFile::parse_var(const std::vector<std::string_view> &words, std::size_t 
     throw InputError(path_, line, "$var needs a type, a width, a code and a name");
   const auto width = text::parse_unsigned(words[1], 10);
   if (!width || *width > 1'000'000)
-    throw InputError(path_, line, "width " + quoted(std::string(words[1])) + " is no number of bits");
+    throw InputError(path_, line,
+                     "width " + quoted(std::string(words[1])) + " is no number of bits");
   std::string name;
   for (const std::string &scope : scopes_) name += scope + ".";
   signals_.push_back({name + std::string(words[3]), std::string(words[0]),
@@ -143,8 +151,9 @@ void VcdFile::fail_with_list(const std::string &message) const {
     if (count++ < kMostNames) names += (names.empty() ? "" : ", ") + signal.name;
   }
   if (count > kMostNames) names += fmt::format(" and {} more", count - kMostNames);
-  throw InputError(path_, 0, message + (count != 0 ? "; one-bit signals are " + names
-                                                    : std::string("; there is no one-bit signal")));
+  throw InputError(path_, 0,
+                   message + (count != 0 ? "; one-bit signals are " + names
+                                         : std::string("; there is no one-bit signal")));
 }
 
 const VcdSignal &VcdFile::find(const std::string &name) const {
@@ -168,12 +177,23 @@ const VcdSignal &VcdFile::find(const std::string &name) const {
 const VcdSignal &VcdFile::guess_bus() const {
   std::vector<const VcdSignal *> single;
   for (const VcdSignal &signal : signals_)
-    if (signal.width == 1 && signal.type != "string" && signal.type != "real") single.push_back(&signal);
+    if (signal.width == 1 && signal.type != "string" && signal.type != "real")
+      single.push_back(&signal);
   if (single.size() == 1) return *single.front();
-  for (const char *name : {"can", "can_bus", "bus", "canbus", "can_h", "can_rx", "can_rx_i", "rx", "rxd"})
+  for (const char *name :
+       {"can", "can_bus", "bus", "canbus", "can_h", "can_rx", "can_rx_i", "rx", "rxd"})
     for (const VcdSignal *signal : single)
       if (ends_as_name(lower(signal->name), name)) return *signal;
   fail_with_list("cannot tell which signal is the bus; give its name");
+}
+
+Time VcdFile::stamp(std::string_view word, Time now, std::size_t line) const {
+  const auto ticks = text::parse_unsigned(word.substr(1), 10);
+  if (!ticks || *ticks > static_cast<std::uint64_t>(std::numeric_limits<Time>::max() / unit_))
+    throw InputError(path_, line, "time " + quoted(std::string(word)) + " is no number");
+  const Time time = static_cast<Time>(*ticks) * unit_ / fraction_;
+  if (time < now) throw InputError(path_, line, "time " + quoted(std::string(word)) + " goes back");
+  return time;
 }
 
 Time VcdFile::read(const VcdSignal &signal, const OnChange &change) const {
@@ -184,32 +204,22 @@ Time VcdFile::read(const VcdSignal &signal, const OnChange &change) const {
     const int level = value == '0' ? 0 : 1;
     if (std::exchange(last, level) != level) change(now, static_cast<Level>(level));
   };
+  constexpr std::string_view kScalar = "01xXzZ", kSpaced = "bBrRsS";
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-    switch (word[0]) {
-      case '#': {
-        const auto stamp = text::parse_unsigned(word.substr(1), 10);
-        if (!stamp || *stamp > static_cast<std::uint64_t>(std::numeric_limits<Time>::max() / unit_))
-          throw InputError(path_, words.line(), "time " + quoted(std::string(word)) + " is no number");
-        const Time time = static_cast<Time>(*stamp) * unit_ / fraction_;
-        if (time < now) throw InputError(path_, words.line(), "time " + quoted(std::string(word)) + " goes back");
-        now = time;
-        break;
-      }
-      case '0': case '1': case 'x': case 'X': case 'z': case 'Z':
-        if (word.substr(1) == signal.code) use(word[0]);
-        break;
-      case 'b': case 'B': case 'r': case 'R': case 's': case 'S': {
-        const std::string_view code = words.next();
-        if (code.empty()) throw InputError(path_, words.line(), "value without a signal at the end of the file");
-        if (code == signal.code) use(word.size() > 1 ? word.back() : 'x');
-        break;
-      }
-      case '$':
-        if (word == "$comment")
-          while (!word.empty() && word != "$end") word = words.next();
-        break;
-      default:
-        throw InputError(path_, words.line(), "expected a value change, found " + quoted(std::string(word)));
+    if (word[0] == '#') {
+      now = stamp(word, now, words.line());
+    } else if (kScalar.find(word[0]) != std::string_view::npos) {
+      if (word.substr(1) == signal.code) use(word[0]);
+    } else if (kSpaced.find(word[0]) != std::string_view::npos) {
+      const std::string_view code = words.next();
+      if (code.empty())
+        throw InputError(path_, words.line(), "value without a signal at the end of the file");
+      if (code == signal.code) use(word.size() > 1 ? word.back() : 'x');
+    } else if (word == "$comment") {
+      while (!word.empty() && word != "$end") word = words.next();
+    } else if (word[0] != '$') {
+      throw InputError(path_, words.line(),
+                       "expected a value change, found " + quoted(std::string(word)));
     }
   }
   return now;

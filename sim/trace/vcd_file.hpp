@@ -34,17 +34,20 @@ class VcdFile {
   [[nodiscard]] const std::vector<VcdSignal> &signals() const { return signals_; }
 
   /// The signal called `name`: the full name, or the end of exactly one ("rx", "node.rx").
-  /// Throws InputError that lists the signals if there is none or more than one, or if it is no single bit.
+  /// Throws InputError that lists the signals if there is none or more than one, or if it is no
+  /// single bit.
   [[nodiscard]] const VcdSignal &find(const std::string &name) const;
-  /// The signal that is most likely the bus: the only one-bit signal, or one called can, can_bus, can_rx, rx...
-  /// Throws InputError if there is no such signal.
+  /// The signal that is most likely the bus: the only one-bit signal, or one called can, can_bus,
+  /// can_rx, rx... Throws InputError if there is no such signal.
   [[nodiscard]] const VcdSignal &guess_bus() const;
 
-  /// Calls `change` for each change of the signal in the order of time; returns the time of the end, ps.
-  /// 'x' and 'z' count as recessive: nobody drives. Throws InputError on a broken value change.
+  /// Calls `change` for each change of the signal in the order of time; returns the time of the
+  /// end, ps. 'x' and 'z' count as recessive: nobody drives. Throws InputError on a broken value
+  /// change.
   Time read(const VcdSignal &signal, const OnChange &change) const;
 
  private:
+  [[nodiscard]] Time stamp(std::string_view word, Time now, std::size_t line) const;
   void parse_header();
   void parse_var(const std::vector<std::string_view> &words, std::size_t line);
   [[noreturn]] void fail_with_list(const std::string &message) const;

@@ -26,8 +26,9 @@ std::string timescale_name(Time unit) {
   return fmt::format("{} {}", unit, kNames[step]);
 }
 
-/// Short identifier codes. Readers that do not know string variables (sigrok) take a code that stands alone for a
-/// value change; without the characters that begin one (# $ 0 1 x z b r s) it means nothing to them.
+/// Short identifier codes. Readers that do not know string variables (sigrok) take a code that
+/// stands alone for a value change; without the characters that begin one (# $ 0 1 x z b r s) it
+/// means nothing to them.
 std::string code_of(std::size_t index) {
   static constexpr std::string_view kLetters =
       "!%&'()*+,./23456789:;<=>?@ACDEFGHIJKLMNOPQTUVWY[]^_`acdefghijklmnopqtuvwy{|}~";
@@ -99,7 +100,8 @@ class VcdWriter : public WaveSink {
     buffer_.clear();
   }
 
-  Signal declare(const std::string &scope, Variable variable, const char *type, const std::string &name) {
+  Signal declare(const std::string &scope, Variable variable, const char *type,
+                 const std::string &name) {
     if (scope != scope_) {
       if (!scope_.empty()) print("$upscope $end\n");
       print("$scope module {} $end\n", scope);

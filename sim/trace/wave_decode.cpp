@@ -19,7 +19,8 @@ WaveDecodeResult decode_wave(const std::string &path, const WaveDecodeOptions &o
   WaveDecodeResult result;
   result.signal = signal.name;
   std::vector<std::pair<Time, Level>> changes;
-  result.end = file.read(signal, [&](Time time, Level level) { changes.emplace_back(time, level); });
+  result.end =
+      file.read(signal, [&](Time time, Level level) { changes.emplace_back(time, level); });
 
   if (options.bitrate) {
     result.bitrate = *options.bitrate;
@@ -28,9 +29,10 @@ WaveDecodeResult decode_wave(const std::string &path, const WaveDecodeOptions &o
     for (const auto &change : changes) edges.push_back(change.first);
     const auto bitrate = detect_bitrate(edges);
     if (!bitrate)
-      throw InputError(path, 0, "the bit rate of signal " + quoted(signal.name) +
-                                    " cannot be told from its " + std::to_string(edges.size()) +
-                                    " edges; give it with --bitrate");
+      throw InputError(path, 0,
+                       "the bit rate of signal " + quoted(signal.name) +
+                           " cannot be told from its " + std::to_string(edges.size()) +
+                           " edges; give it with --bitrate");
     result.bitrate = *bitrate;
   }
 

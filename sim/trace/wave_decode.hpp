@@ -20,13 +20,15 @@ struct WaveDecodeOptions {
 };
 
 struct WaveDecodeResult {
-  std::string signal;    ///< the one taken, full name
-  double bitrate = 0;    ///< bit/s, given or detected
-  Time end = 0;          ///< of the waveform, ps
+  std::string signal;  ///< the one taken, full name
+  double bitrate = 0;  ///< bit/s, given or detected
+  Time end = 0;        ///< of the waveform, ps
   std::vector<BusEvent> events;
 };
 
-/// Decodes one signal of a VCD file. Throws InputError if the file, the signal or the bit rate cannot be used.
-[[nodiscard]] WaveDecodeResult decode_wave(const std::string &path, const WaveDecodeOptions &options);
+/// Decodes one signal of a VCD file. Throws InputError if the file, the signal or the bit rate
+/// cannot be used.
+[[nodiscard]] WaveDecodeResult decode_wave(const std::string &path,
+                                           const WaveDecodeOptions &options);
 
 }  // namespace vericansim

@@ -33,8 +33,8 @@ class WaveSink {
   virtual void finish(Time time) = 0;
 };
 
-/// A VCD file. Texts are `$var string` (GTKWave), blanks in them become '_'. `unit` is the timescale in
-/// picoseconds: 1, 10, 100, ... Throws InputError if the file cannot be written.
+/// A VCD file. Texts are `$var string` (GTKWave), blanks in them become '_'. `unit` is the
+/// timescale in picoseconds: 1, 10, 100, ... Throws InputError if the file cannot be written.
 [[nodiscard]] std::unique_ptr<WaveSink> open_vcd(const std::string &path, Time unit = kNanosecond);
 
 /// An FST file, compressed, with a resolution of 1 ps. Throws InputError if it cannot be written.

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <sys/wait.h>
 #include <cstdio>
 #include <fstream>
 #include <string>
-#include <sys/wait.h>
 
 namespace {
 
@@ -28,7 +28,8 @@ std::string slurp(const std::string &path) {
 }
 
 Result tool(const std::string &arguments) {
-  const std::string stem = ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::string stem =
+      ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name();
   const std::string command =
       std::string(VERICAN_BINARY) + " " + arguments + " > " + stem + ".out 2> " + stem + ".err";
   const int status = std::system(command.c_str());
@@ -69,7 +70,8 @@ TEST(Tool, BadOptionsAreRefused) {
   expect_refused("bittime", "--bitrate is required");
   expect_refused("bittime -b fast", "--bitrate");
   expect_refused("bittime -b 500k -s 0.3", "sample point 0.3 is out of range; allowed: 0.5 to 0.9");
-  expect_refused("bittime -b 999k --max-error 1", "no setting of 8 to 25 quanta gives 999000 bit/s");
+  expect_refused("bittime -b 999k --max-error 1",
+                 "no setting of 8 to 25 quanta gives 999000 bit/s");
   expect_refused("replay x.log --nodes 1", "--nodes");
   expect_refused("decode x.vcd --bitrate 1", "--bitrate");
 }
@@ -83,10 +85,15 @@ TEST(Tool, BadFilesAreRefused) {
                  "bad.log:2: identifier is above 7FF");
   expect_refused("replay " + file_with("empty.log", ""), "empty.log: the file is empty");
   expect_refused("replay " + file_with("what.log", "hello world\n"), "unknown kind of log");
-  expect_refused("decode " + file_with("bad.vcd", "$timescale 1 ns $end\n$var wire 1 ! x $end\n$enddefinitions $end\n#0 1!\n"),
-                 "the bit rate of signal 'x' cannot be told");
-  expect_refused("run examples/two-nodes.yaml --vcd /no/such/folder/a.vcd", "cannot be opened for writing");
-  expect_refused("run examples/two-nodes.yaml --duration 5", "'5' is not allowed; allowed: a time above 0");
+  expect_refused(
+      "decode " +
+          file_with("bad.vcd",
+                    "$timescale 1 ns $end\n$var wire 1 ! x $end\n$enddefinitions $end\n#0 1!\n"),
+      "the bit rate of signal 'x' cannot be told");
+  expect_refused("run examples/two-nodes.yaml --vcd /no/such/folder/a.vcd",
+                 "cannot be opened for writing");
+  expect_refused("run examples/two-nodes.yaml --duration 5",
+                 "'5' is not allowed; allowed: a time above 0");
 }
 
 TEST(Tool, RunReportsAndExitsByTheExpectations) {
@@ -102,16 +109,20 @@ TEST(Tool, RunReportsAndExitsByTheExpectations) {
 }
 
 TEST(Tool, ReplayThenDecodeGivesTheLogBack) {
-  const std::string log = file_with("round.log", "(0000000001.000000) can0 123#112233\n(0000000001.001000) can0 12345678#\n"
-                                                 "(0000000001.002000) can0 7FF#0102030405060708_C\n");
-  const std::string vcd = ::testing::TempDir() + "round.vcd", back = ::testing::TempDir() + "round.back";
+  const std::string log =
+      file_with("round.log",
+                "(0000000001.000000) can0 123#112233\n(0000000001.001000) can0 12345678#\n"
+                "(0000000001.002000) can0 7FF#0102030405060708_C\n");
+  const std::string vcd = ::testing::TempDir() + "round.vcd",
+                    back = ::testing::TempDir() + "round.back";
   const Result replayed = tool("replay " + log + " --vcd " + vcd + " --json");
   EXPECT_EQ(replayed.code, 0) << replayed.out;
   const Result decoded = tool("decode " + vcd + " --candump " + back + " --json");
   EXPECT_EQ(decoded.code, 0);
   EXPECT_EQ(nlohmann::json::parse(decoded.out)["frames"], 3);
   const std::string frames = slurp(back);
-  for (const char *frame : {"123#112233", "12345678#", "7FF#0102030405060708_C"}) EXPECT_THAT(frames, HasSubstr(frame));
+  for (const char *frame : {"123#112233", "12345678#", "7FF#0102030405060708_C"})
+    EXPECT_THAT(frames, HasSubstr(frame));
 }
 
 TEST(Tool, BittimeJson) {

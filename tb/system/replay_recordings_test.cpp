@@ -23,14 +23,16 @@ std::string differences(const ReplayReport &report) {
   return text;
 }
 
-// The candump sample whole: 2,368 frames of an NMEA 2000 network at 250 kbit/s, here on 16 clocks a bit.
+// The candump sample whole: 2,368 frames of an NMEA 2000 network at 250 kbit/s, here on 16 clocks a
+// bit.
 TEST(Replay, CandumpSampleWhole) {
   const std::string path = kTraffic + "canboat_candumpSample3.txt";
   if (!exists(path)) GTEST_SKIP() << path << " is not here";
   const CanLog log = read_log(path);
   ASSERT_EQ(log.entries.size(), 2368U);
   EXPECT_EQ(log.skipped, 0U);
-  const ReplayReport report = replay(log, {.nodes = 2, .bitrate = 250e3, .clock_hz = 4e6, .ppm = 100, .fast = true});
+  const ReplayReport report =
+      replay(log, {.nodes = 2, .bitrate = 250e3, .clock_hz = 4e6, .ppm = 100, .fast = true});
   EXPECT_EQ(differences(report), "");
   EXPECT_EQ(report.on_bus, 2368U);
   EXPECT_EQ(report.error_frames, 0U);
@@ -49,7 +51,8 @@ struct Recording {
 
 class Recordings : public ::testing::TestWithParam<Recording> {};
 
-// Of the others as many frames as take some seconds, from several senders at once: arbitration in every frame.
+// Of the others as many frames as take some seconds, from several senders at once: arbitration in
+// every frame.
 TEST_P(Recordings, FirstFramesThroughSeveralSenders) {
   const Recording &recording = GetParam();
   const std::string path = kTraffic + recording.file;
@@ -57,8 +60,13 @@ TEST_P(Recordings, FirstFramesThroughSeveralSenders) {
   const CanLog log = read_log(path);
   EXPECT_EQ(log.entries.size(), recording.entries);
   EXPECT_EQ(log.skipped, 0U);
-  const ReplayReport report = replay(log, {.nodes = recording.nodes, .senders = recording.senders, .bitrate = recording.bitrate,
-                                           .clock_hz = 16 * recording.bitrate, .ppm = 200, .cable_m = 20, .fast = true,
+  const ReplayReport report = replay(log, {.nodes = recording.nodes,
+                                           .senders = recording.senders,
+                                           .bitrate = recording.bitrate,
+                                           .clock_hz = 16 * recording.bitrate,
+                                           .ppm = 200,
+                                           .cable_m = 20,
+                                           .fast = true,
                                            .limit = 500});
   EXPECT_EQ(differences(report), "");
   EXPECT_TRUE(report.ok());
@@ -74,14 +82,16 @@ INSTANTIATE_TEST_SUITE_P(
 
 // As recorded: the frames keep their distances.
 TEST(Replay, AsRecordedKeepsTheTimes) {
-  const CanLog log = parse_candump("(10.000000) can0 123#11\n(10.004000) can0 456#22\n(10.004000) can0 457#\n", "log");
+  const CanLog log = parse_candump(
+      "(10.000000) can0 123#11\n(10.004000) can0 456#22\n(10.004000) can0 457#\n", "log");
   const ReplayReport report = replay(log, {.nodes = 3, .bitrate = 500e3, .ppm = 0});
   EXPECT_TRUE(report.ok()) << differences(report);
   EXPECT_GE(report.duration, 4 * kMillisecond);
   EXPECT_LE(report.duration, 5 * kMillisecond);
 }
 
-// A frame that the log has and a node lacks must be noticed: the check itself is checked with a bus that loses one.
+// A frame that the log has and a node lacks must be noticed: the check itself is checked with a bus
+// that loses one.
 TEST(Replay, RefusesImpossibleSettings) {
   const CanLog log = parse_candump("(1.0) can0 123#11\n", "log");
   EXPECT_THROW(static_cast<void>(replay(log, {.nodes = 1})), std::invalid_argument);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenarios on whole cores: the report must say what the passive decoder, the frame codec and arithmetic say.
+// Scenarios on whole cores: the report must say what the passive decoder, the frame codec and
+// arithmetic say.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,12 +37,15 @@ class Example : public ::testing::TestWithParam<const char *> {};
 // Every shipped example meets its own expectations (the SAE set: see below).
 TEST_P(Example, MeetsItsExpectations) {
   const Scenario scenario = read_scenario(std::string("examples/") + GetParam());
-  for (const double bitrate : scenario.bitrates) EXPECT_EQ(failures(run_scenario(scenario, bitrate)), "") << bitrate;
+  for (const double bitrate : scenario.bitrates)
+    EXPECT_EQ(failures(run_scenario(scenario, bitrate)), "") << bitrate;
 }
 INSTANTIATE_TEST_SUITE_P(All, Example,
-                         ::testing::Values("two-nodes.yaml", "arbitration.yaml", "sixteen-nodes.yaml", "faults.yaml"));
+                         ::testing::Values("two-nodes.yaml", "arbitration.yaml",
+                                           "sixteen-nodes.yaml", "faults.yaml"));
 
-// All 17 messages queued at the same moment: no response beyond the bound of Davis et al. at any of the four rates.
+// All 17 messages queued at the same moment: no response beyond the bound of Davis et al. at any of
+// the four rates.
 TEST(Sae, NoResponseIsLongerThanItsBound) {
   Scenario scenario = read_scenario("examples/sae-class-c.yaml");
   scenario.duration = 40 * kMillisecond;
@@ -56,7 +60,8 @@ TEST(Sae, NoResponseIsLongerThanItsBound) {
   }
 }
 
-// One frame of known length: the response time is its length (and the way from the registers to the wire).
+// One frame of known length: the response time is its length (and the way from the registers to the
+// wire).
 TEST(Run, ResponseTimeIsTheLengthOfTheFrame) {
   const RunReport report = run_text(
       "duration: 2 ms\nnodes: [{name: a}, {name: b}]\n"
@@ -67,8 +72,10 @@ TEST(Run, ResponseTimeIsTheLengthOfTheFrame) {
   const auto bits = static_cast<Time>(encode_frame(frame).bits.size());
   const Time shortest = bits * 2 * kMicrosecond;
   EXPECT_GE(report.messages.at(0).longest, shortest);
-  EXPECT_LE(report.messages.at(0).longest, shortest + 8 * kMicrosecond);  // IF-13: at most two bits and the accesses
-  EXPECT_NEAR(report.load * static_cast<double>(report.duration), static_cast<double>((bits + 3) * 2 * kMicrosecond), 2e6);
+  EXPECT_LE(report.messages.at(0).longest,
+            shortest + 8 * kMicrosecond);  // IF-13: at most two bits and the accesses
+  EXPECT_NEAR(report.load * static_cast<double>(report.duration),
+              static_cast<double>((bits + 3) * 2 * kMicrosecond), 2e6);
 }
 
 TEST(Run, FailedExpectationsAreReported) {
@@ -84,15 +91,18 @@ TEST(Run, FailedExpectationsAreReported) {
 TEST(Run, FC_18_LoneTransmitter) {
   const RunReport report = run_text(
       "duration: 20 ms\ndrain: 0\nnodes: [{name: alone}]\ntraffic: [{node: alone, id: 1}]\n"
-      "expect: {frames: 0, pending: 1, nodes: {alone: {tec: 128, state: passive, bus_off: 0, sent: 0}}}\n");
+      "expect: {frames: 0, pending: 1, nodes: {alone: {tec: 128, state: passive, bus_off: 0, sent: "
+      "0}}}\n");
   EXPECT_EQ(failures(report), "");
-  EXPECT_EQ(report.nodes.at(0).counts.by_kind[3], report.nodes.at(0).counts.errors);  // ACK errors only
+  EXPECT_EQ(report.nodes.at(0).counts.by_kind[3],
+            report.nodes.at(0).counts.errors);  // ACK errors only
 }
 
 TEST(Run, SaturatedMessagesFillTheBus) {
   const RunReport report = run_text(
       "duration: 10 ms\nnodes: [{name: a, clock: 16 MHz}, {name: b, clock: 16 MHz}]\n"
-      "traffic: [{node: a, id: 0x10, data: counter, period: saturated}, {node: b, id: 0x20, data: random, period: saturated}]\n"
+      "traffic: [{node: a, id: 0x10, data: counter, period: saturated}, {node: b, id: 0x20, data: "
+      "random, period: saturated}]\n"
       "expect: {load: {min: 97, max: 100.5}, error_frames: 0, complete: true}\n");
   EXPECT_EQ(failures(report), "");
 }
@@ -123,18 +133,21 @@ TEST(Run, RunsAreRepeatable) {
 }
 
 /// A run with all outputs; the frames in the order of the bus.
-class Outputs4 : public ::testing::Test {
+class WrittenFiles : public ::testing::Test {
  protected:
   void SetUp() override {
     Scenario scenario = parse_scenario(
         "test.yaml",
-        "duration: 8 ms\nnodes: [{name: left, ppm: 200}, {name: right, clock: 16 MHz, ppm: -200, phase: 11 ns}]\n"
+        "duration: 8 ms\nnodes: [{name: left, ppm: 200}, {name: right, clock: 16 MHz, ppm: -200, "
+        "phase: 11 ns}]\n"
         "traffic:\n  - {node: left, id: 0x123, data: counter, dlc: 3, period: 2 ms}\n"
-        "  - {node: right, id: 0x1ABCDEF0, extended: true, data: random, period: 3 ms, offset: 1 ms}\n"
+        "  - {node: right, id: 0x1ABCDEF0, extended: true, data: random, period: 3 ms, offset: 1 "
+        "ms}\n"
         "  - {node: right, id: 0x7F0, remote: true, offset: 0.5 ms}\n"
         "faults: [{kind: flip, node: left, at: {node: left, frame: 2, field: CRC, bit: 1}}]\n");
     // ctest runs tests of one file side by side: a name for each.
-    const std::string stem = ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    const std::string stem =
+        ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name();
     scenario.outputs = {stem + ".vcd", stem + ".fst", stem + ".log", stem + ".pcap"};
     report_ = run_scenario(scenario, 500e3);
     outputs_ = scenario.outputs;
@@ -145,14 +158,15 @@ class Outputs4 : public ::testing::Test {
   CanLog log_;
 };
 
-TEST_F(Outputs4, LogAndCaptureHoldTheSameFrames) {
+TEST_F(WrittenFiles, LogAndCaptureHoldTheSameFrames) {
   const CanLog pcap = read_log(outputs_.pcap);
   ASSERT_EQ(log_.entries.size(), report_.frames);
   ASSERT_EQ(pcap.entries.size(), report_.frames);
-  for (std::size_t i = 0; i < log_.entries.size(); ++i) EXPECT_EQ(log_.entries[i].frame, pcap.entries[i].frame);
+  for (std::size_t i = 0; i < log_.entries.size(); ++i)
+    EXPECT_EQ(log_.entries[i].frame, pcap.entries[i].frame);
 }
 
-TEST_F(Outputs4, WaveformDecodesToTheSameFrames) {
+TEST_F(WrittenFiles, WaveformDecodesToTheSameFrames) {
   for (const char *signal : {"bus.can", "left.rx", "right.rx"}) {
     const WaveDecodeResult decoded = decode_wave(outputs_.vcd, {signal, std::nullopt, 800});
     EXPECT_DOUBLE_EQ(decoded.bitrate, 500e3);
@@ -168,15 +182,17 @@ TEST_F(Outputs4, WaveformDecodesToTheSameFrames) {
   }
 }
 
-TEST_F(Outputs4, WaveformNamesFieldsRolesAndErrors) {
+TEST_F(WrittenFiles, WaveformNamesFieldsRolesAndErrors) {
   const std::string text = read_text_file(outputs_.vcd);
-  for (const char *name : {"sSOF ", "sID ", "sCRC ", "sERROR_FLAG ", "sTRANSMITTING ", "sRECEIVING ", "sERROR_ACTIVE "})
+  for (const char *name : {"sSOF ", "sID ", "sCRC ", "sERROR_FLAG ", "sTRANSMITTING ",
+                           "sRECEIVING ", "sERROR_ACTIVE "})
     EXPECT_THAT(text, HasSubstr(name));
 }
 
 // GTKWave's own tools must read both files and give the same wire.
-TEST_F(Outputs4, GtkwaveReadsBothFiles) {
-  if (std::system("command -v fst2vcd vcd2fst > /dev/null 2>&1") != 0) GTEST_SKIP() << "GTKWave's tools are not installed";
+TEST_F(WrittenFiles, GtkwaveReadsBothFiles) {
+  if (std::system("command -v fst2vcd vcd2fst > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "GTKWave's tools are not installed";
   ASSERT_EQ(std::system(("fst2vcd " + outputs_.fst + " > " + outputs_.fst + ".vcd").c_str()), 0);
   ASSERT_EQ(std::system(("vcd2fst " + outputs_.vcd + " " + outputs_.vcd + ".fst").c_str()), 0);
   const VcdFile from_fst{outputs_.fst + ".vcd"}, vcd{outputs_.vcd};
@@ -205,7 +221,8 @@ std::string sigrok_words(const Frame &frame) {
 
 /// What sigrok's CAN decoder says about a signal of the waveform.
 std::string sigrok(const std::string &vcd, const std::string &signal, int bitrate) {
-  const std::string command = "sigrok-cli -i " + vcd + " -I vcd:downsample=50 -P can:can_rx=" + signal +
+  const std::string command = "sigrok-cli -i " + vcd +
+                              " -I vcd:downsample=50 -P can:can_rx=" + signal +
                               ":nominal_bitrate=" + std::to_string(bitrate) + ":sample_point=80" +
                               " -A can=id:full-id:dlc:data 2> /dev/null | sed 's/^can-1: //'";
   FILE *pipe = popen(command.c_str(), "r");
@@ -215,16 +232,19 @@ std::string sigrok(const std::string &vcd, const std::string &signal, int bitrat
   return text;
 }
 
-// An outside judge: sigrok's CAN decoder. It knows no error frames, so this run has none; and it takes the DLC of a
-// remote frame for data, so remote frames have DLC 0.
+// An outside judge: sigrok's CAN decoder. It knows no error frames, so this run has none; and it
+// takes the DLC of a remote frame for data, so remote frames have DLC 0.
 TEST(Sigrok, SeesTheSameFrames) {
-  if (std::system("command -v sigrok-cli > /dev/null 2>&1") != 0) GTEST_SKIP() << "sigrok-cli is not installed";
+  if (std::system("command -v sigrok-cli > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "sigrok-cli is not installed";
   Scenario scenario = parse_scenario(
       "test.yaml",
-      "bitrate: 250k\nduration: 30 ms\nnodes: [{name: left, ppm: 200}, {name: right, ppm: -200, phase: 11 ns}]\n"
+      "bitrate: 250k\nduration: 30 ms\nnodes: [{name: left, ppm: 200}, {name: right, ppm: -200, "
+      "phase: 11 ns}]\n"
       "traffic:\n  - {node: left, id: 0x000, data: 00 00 00 00 00 00 00 00, period: 5 ms}\n"
       "  - {node: left, id: 0x7FF, data: FF FF FF FF FF FF FF FF, period: 5 ms, offset: 1 ms}\n"
-      "  - {node: right, id: 0x1FFFFFFF, extended: true, data: random, dlc: 5, period: 4 ms, offset: 2 ms}\n"
+      "  - {node: right, id: 0x1FFFFFFF, extended: true, data: random, dlc: 5, period: 4 ms, "
+      "offset: 2 ms}\n"
       "  - {node: right, id: 0x078, data: 01 E1 E1 E1 E1 E1 E1 E1, period: 5 ms, offset: 3 ms}\n"
       "  - {node: right, id: 0x123, data: random, dlc: 0, period: 7 ms, offset: 0.1 ms}\n");
   scenario.outputs.vcd = ::testing::TempDir() + "sigrok.vcd";
@@ -232,13 +252,15 @@ TEST(Sigrok, SeesTheSameFrames) {
   const RunReport report = run_scenario(scenario, 250e3);
   ASSERT_GT(report.frames, 25U);
   std::string wanted;
-  for (const LogEntry &entry : read_log(scenario.outputs.candump).entries) wanted += sigrok_words(entry.frame);
+  for (const LogEntry &entry : read_log(scenario.outputs.candump).entries)
+    wanted += sigrok_words(entry.frame);
   std::string seen = sigrok(scenario.outputs.vcd, "can", 250000);
   // For extended frames sigrok also prints the first eleven bits by themselves.
   std::istringstream lines{seen};
   std::string kept, line, previous;
   while (std::getline(lines, line)) {
-    if (line.rfind("Full Identifier", 0) == 0 && !previous.empty()) kept.erase(kept.size() - previous.size() - 1);
+    if (line.rfind("Full Identifier", 0) == 0 && !previous.empty())
+      kept.erase(kept.size() - previous.size() - 1);
     kept += line + "\n";
     previous = line;
   }

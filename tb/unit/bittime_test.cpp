@@ -42,27 +42,31 @@ TEST(BitTime, BT_02_BT_03_EverySettingIsWithinTheLimits) {
       }
 }
 
-// The rule book's example: 1.58 % with PROP 1, PS1 = PS2 = SJW = 4, 10 tq: 4 / (2 (130 - 4)) = 0.01587.
+// The rule book's example: 1.58 % with PROP 1, PS1 = PS2 = SJW = 4, 10 tq: 4 / (2 (130 - 4)) =
+// 0.01587.
 TEST(BitTime, BT_08_OscillatorTolerance) {
   EXPECT_DOUBLE_EQ(oscillator_tolerance({1, 1, 4, 4, 4}), 4.0 / 252.0);
   EXPECT_DOUBLE_EQ(oscillator_tolerance({1, 1, 4, 4, 1}), 1.0 / 200.0);  // SJW is the limit
-  EXPECT_DOUBLE_EQ(oscillator_tolerance({1, 5, 7, 2, 2}), std::min(2.0 / (2 * (13 * 15 - 2)), 2.0 / 300.0));
+  EXPECT_DOUBLE_EQ(oscillator_tolerance({1, 5, 7, 2, 2}),
+                   std::min(2.0 / (2 * (13 * 15 - 2)), 2.0 / 300.0));
 }
 
 // 1 Mbit/s at 40 m: 2 x (200 + 50) ns = 4 quanta of 125 ns.
 TEST(BitTime, BT_07_PropCoversTheCable) {
-  const auto results =
-      find_bit_timings({.clock_hz = 8'000'000, .bitrate = 1'000'000, .cable_m = 40, .node_delay_ns = 50});
+  const auto results = find_bit_timings(
+      {.clock_hz = 8'000'000, .bitrate = 1'000'000, .cable_m = 40, .node_delay_ns = 50});
   ASSERT_FALSE(results.empty());
   EXPECT_EQ(results.front().timing.prop, 4U);
   EXPECT_NEAR(results.front().cable_m, 40.0, 1e-9);
-  EXPECT_TRUE(find_bit_timings({.clock_hz = 8'000'000, .bitrate = 1'000'000, .cable_m = 200}).empty());
+  EXPECT_TRUE(
+      find_bit_timings({.clock_hz = 8'000'000, .bitrate = 1'000'000, .cable_m = 200}).empty());
 }
 
 TEST(BitTime, CtrlRegisterHoldsEachValueMinusOne) {
   EXPECT_EQ((BitTiming{1, 1, 1, 1, 1}.ctrl_fields()), 0U);
   EXPECT_EQ((BitTiming{256, 8, 8, 8, 4}.ctrl_fields()), 0xFFFF0007U);
-  EXPECT_EQ((BitTiming{1, 6, 7, 2, 1}.ctrl_fields()), 0x00310005U);  // can-utils prints this for 8 MHz, 500 kbit/s
+  EXPECT_EQ((BitTiming{1, 6, 7, 2, 1}.ctrl_fields()),
+            0x00310005U);  // can-utils prints this for 8 MHz, 500 kbit/s
 }
 
 TEST(BitTime, ValuesOutOfRangeAreRefused) {
@@ -71,11 +75,14 @@ TEST(BitTime, ValuesOutOfRangeAreRefused) {
   EXPECT_THROW(static_cast<void>(find_bit_timings({.sample_point = 0.95})), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(find_bit_timings({.sjw = 5})), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(find_bit_timings({.cable_m = -1})), std::invalid_argument);
-  EXPECT_TRUE(find_bit_timings({.clock_hz = 8'000'000, .bitrate = 999'000, .max_rate_error_ppm = 10}).empty());
+  EXPECT_TRUE(
+      find_bit_timings({.clock_hz = 8'000'000, .bitrate = 999'000, .max_rate_error_ppm = 10})
+          .empty());
 }
 
 /// What can-calc-bit-timing prints for flexcan's limits; nothing if it finds no setting.
-std::optional<BitTiming> can_utils_choice(std::uint32_t clock, std::uint32_t rate, int sample_permille) {
+std::optional<BitTiming> can_utils_choice(std::uint32_t clock, std::uint32_t rate,
+                                          int sample_permille) {
   std::ostringstream command;
   command << "can-calc-bit-timing -q -c " << clock << " -b " << rate << " -s " << sample_permille
           << " flexcan 2> /dev/null";
@@ -87,19 +94,22 @@ std::optional<BitTiming> can_utils_choice(std::uint32_t clock, std::uint32_t rat
   std::istringstream words{text};
   unsigned bit_rate = 0, quantum = 0;
   BitTiming t;
-  if (!(words >> bit_rate >> quantum >> t.prop >> t.ps1 >> t.ps2 >> t.sjw >> t.prescaler)) return std::nullopt;
+  if (!(words >> bit_rate >> quantum >> t.prop >> t.ps1 >> t.ps2 >> t.sjw >> t.prescaler))
+    return std::nullopt;
   return t;
 }
 
 class CanUtils : public ::testing::TestWithParam<std::uint32_t> {};
 
-// Same rate error and sample point as can-utils, everywhere; the same registers wherever a setting is exact. (Among
-// inexact settings that are equal in both, can-utils takes the coarsest quantum and we take the finest.)
+// Same rate error and sample point as can-utils, everywhere; the same registers wherever a setting
+// is exact. (Among inexact settings that are equal in both, can-utils takes the coarsest quantum
+// and we take the finest.)
 TEST_P(CanUtils, BT_01_BT_02_SameSettingAsTheKernelsCalculator) {
-  if (std::system("command -v can-calc-bit-timing > /dev/null 2>&1") != 0) GTEST_SKIP() << "can-utils is not installed";
+  if (std::system("command -v can-calc-bit-timing > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "can-utils is not installed";
   const std::uint32_t clock = GetParam();
-  for (const std::uint32_t rate : {10'000U, 20'000U, 33'333U, 50'000U, 83'333U, 100'000U, 125'000U, 250'000U,
-                                   500'000U, 800'000U, 1'000'000U})
+  for (const std::uint32_t rate : {10'000U, 20'000U, 33'333U, 50'000U, 83'333U, 100'000U, 125'000U,
+                                   250'000U, 500'000U, 800'000U, 1'000'000U})
     for (const int point : {0, 750, 800, 875}) {
       BitTimingRequest request{.clock_hz = clock, .bitrate = rate, .sjw = 1};
       if (point != 0) request.sample_point = point / 1000.0;
@@ -108,16 +118,19 @@ TEST_P(CanUtils, BT_01_BT_02_SameSettingAsTheKernelsCalculator) {
       ASSERT_EQ(theirs.has_value(), !ours.empty()) << clock << " " << rate << " " << point;
       if (!theirs) continue;
       const BitTimingResult judged = rate_bit_timing(*theirs, request);
-      EXPECT_NEAR(judged.bitrate, ours.front().bitrate, 1.0) << clock << " " << rate << " " << point;
-      EXPECT_NEAR(judged.sample_point, ours.front().sample_point, 0.001) << clock << " " << rate << " " << point;
+      EXPECT_NEAR(judged.bitrate, ours.front().bitrate, 1.0)
+          << clock << " " << rate << " " << point;
+      EXPECT_NEAR(judged.sample_point, ours.front().sample_point, 0.001)
+          << clock << " " << rate << " " << point;
       const double wanted = request.sample_point.value_or(recommended_sample_point(rate));
       if (judged.rate_error_ppm != 0 || std::abs(judged.sample_point - wanted) > 1e-9) continue;
       EXPECT_EQ(*theirs, ours.front().timing) << clock << " " << rate << " " << point;
     }
 }
 INSTANTIATE_TEST_SUITE_P(Clocks, CanUtils,
-                         ::testing::Values(8'000'000, 16'000'000, 20'000'000, 24'000'000, 30'000'000, 40'000'000,
-                                           49'875'000, 50'000'000, 66'000'000, 66'666'666, 80'000'000, 100'000'000));
+                         ::testing::Values(8'000'000, 16'000'000, 20'000'000, 24'000'000,
+                                           30'000'000, 40'000'000, 49'875'000, 50'000'000,
+                                           66'000'000, 66'666'666, 80'000'000, 100'000'000));
 
 }  // namespace
 }  // namespace vericansim

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// candump logs and the other text recordings: what can-utils, PCAN-View and SavvyCAN write is read exactly.
+// candump logs and the other text recordings: what can-utils, PCAN-View and SavvyCAN write is read
+// exactly.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,13 +42,16 @@ TEST(CandumpFrame, EightDigitsAreExtended) {
   EXPECT_EQ(frame_of("00000123#"), (Frame{0x123, true, false, 0, {}}));
   EXPECT_EQ(frame_of("1FFFFFFF#FF"), (Frame{0x1FFFFFFF, true, false, 1, {0xFF}}));
 }
-TEST(CandumpFrame, DotsBetweenBytes) { EXPECT_EQ(frame_of("7FF#0A.0b"), (Frame{0x7FF, false, false, 2, {10, 11}})); }
+TEST(CandumpFrame, DotsBetweenBytes) {
+  EXPECT_EQ(frame_of("7FF#0A.0b"), (Frame{0x7FF, false, false, 2, {10, 11}}));
+}
 TEST(CandumpFrame, RemoteWithAndWithoutLength) {
   EXPECT_EQ(frame_of("123#R"), (Frame{0x123, false, true, 0, {}}));
   EXPECT_EQ(frame_of("123#R8"), (Frame{0x123, false, true, 8, {}}));
 }
 TEST(CandumpFrame, RawDlcBehindUnderscore) {
-  EXPECT_EQ(frame_of("123#0102030405060708_F"), (Frame{0x123, false, false, 15, {1, 2, 3, 4, 5, 6, 7, 8}}));
+  EXPECT_EQ(frame_of("123#0102030405060708_F"),
+            (Frame{0x123, false, false, 15, {1, 2, 3, 4, 5, 6, 7, 8}}));
   EXPECT_EQ(frame_of("123#R8_9"), (Frame{0x123, false, true, 9, {}}));
 }
 TEST(CandumpFrame, FdAndErrorFramesAreNotClassical) {
@@ -64,7 +68,8 @@ TEST(CandumpFrame, WritesWhatItReads) {
 
 TEST(CandumpLog, TimesAreRelativeToTheFirst) {
   const CanLog log = parse_candump(
-      "# a comment\n\n(1436509052.249713) vcan0 044#2A\r\n(1436509052.449847) vcan1 12345678#\n", "log");
+      "# a comment\n\n(1436509052.249713) vcan0 044#2A\r\n(1436509052.449847) vcan1 12345678#\n",
+      "log");
   ASSERT_EQ(log.entries.size(), 2U);
   EXPECT_EQ(log.start_ns, 1'436'509'052'249'713'000);
   EXPECT_EQ(log.entries[0].time, 0);
@@ -73,11 +78,13 @@ TEST(CandumpLog, TimesAreRelativeToTheFirst) {
 }
 
 TEST(CandumpLog, ReadsScreenOutput) {
-  const CanLog log = parse_candump("  vcan0  123   [2]  11 22\n  can1  12345678   [0]  remote request\n", "log");
+  const CanLog log =
+      parse_candump("  vcan0  123   [2]  11 22\n  can1  12345678   [0]  remote request\n", "log");
   ASSERT_EQ(log.entries.size(), 2U);
   EXPECT_EQ(log.entries[0].frame, (Frame{0x123, false, false, 2, {0x11, 0x22}}));
   EXPECT_EQ(log.entries[1].frame, (Frame{0x12345678, true, true, 0, {}}));
-  const CanLog stamped = parse_candump(" (3.5)  can0  7FF   [1]  AA\n (4.5)  can0  7FF   [0]\n", "log");
+  const CanLog stamped =
+      parse_candump(" (3.5)  can0  7FF   [1]  AA\n (4.5)  can0  7FF   [0]\n", "log");
   ASSERT_EQ(stamped.entries.size(), 2U);
   EXPECT_EQ(stamped.entries[1].time, kSecond);
 }
@@ -91,7 +98,8 @@ TEST(CandumpLog, SkipsAndCountsWhatIsNotClassical) {
 }
 
 TEST(CandumpLog, ErrorsNameFileLineValueAndWhatIsAllowed) {
-  EXPECT_THAT(error_of("(1.0) can0 123#11\n(1.1) can0 12#11\n"), HasSubstr("log:2: identifier '12'"));
+  EXPECT_THAT(error_of("(1.0) can0 123#11\n(1.1) can0 12#11\n"),
+              HasSubstr("log:2: identifier '12'"));
   EXPECT_THAT(error_of("(1.0) can0 800#11\n"), HasSubstr("log:1: identifier is above 7FF"));
   EXPECT_THAT(error_of("(1.0) can0 123#1\n"), HasSubstr("odd number of data digits"));
   EXPECT_THAT(error_of("(1.0) can0 123#001122334455667788\n"), HasSubstr("up to 8 bytes"));
@@ -107,13 +115,16 @@ TEST(CandumpWriter, WritesTheLogFormat) {
   CandumpWriter writer{out, 1'436'509'052'000'000'000};
   writer.write({249'713 * kMicrosecond, "vcan0", frame_of("123#11223344")});
   writer.write({2 * kSecond, "", frame_of("12345678#R")});
-  EXPECT_EQ(out.str(), "(1436509052.249713) vcan0 123#11223344\n(1436509054.000000) can0 12345678#R\n");
+  EXPECT_EQ(out.str(),
+            "(1436509052.249713) vcan0 123#11223344\n(1436509054.000000) can0 12345678#R\n");
 }
 
 TEST(Trc, ReadsPcanViewVersion11) {
-  const CanLog log = parse_trc(";$FILEVERSION=1.1\r\n;\r\n     1)        48.6  Rx     09F11201  2  FF 50 \r\n"
-                               "     2)        49.2  Tx         0123  4  RTR\r\n     3)  50.0  Warng  FFFFFFFF  4  00 00 00 04\r\n",
-                               "a.trc");
+  const CanLog log = parse_trc(
+      ";$FILEVERSION=1.1\r\n;\r\n     1)        48.6  Rx     09F11201  2  FF 50 \r\n"
+      "     2)        49.2  Tx         0123  4  RTR\r\n     3)  50.0  Warng  FFFFFFFF  4  00 00 00 "
+      "04\r\n",
+      "a.trc");
   ASSERT_EQ(log.entries.size(), 2U);
   EXPECT_EQ(log.skipped, 1U);
   EXPECT_EQ(log.entries[0].frame, (Frame{0x09F11201, true, false, 2, {0xFF, 0x50}}));
@@ -124,9 +135,15 @@ TEST(Trc, ReadsPcanViewVersion11) {
 
 TEST(Gvret, ReadsBothVersionsOfTheColumns) {
   const CanLog old_style = parse_gvret(
-      "Time Stamp,ID,Extended,Bus,LEN,D1,D2,D3,D4,D5,D6,D7,D8\n166064000,0000021A,false,0,2,FE,36,00,00,00,00,00,00,\n", "a.csv");
+      "Time "
+      "Stamp,ID,Extended,Bus,LEN,D1,D2,D3,D4,D5,D6,D7,D8\n166064000,0000021A,false,0,2,FE,36,00,00,"
+      "00,00,00,00,\n",
+      "a.csv");
   const CanLog new_style = parse_gvret(
-      "Time Stamp,ID,Extended,Dir,Bus,LEN,D1,D2\n5,1FFFFFFF,true,Rx,1,1,0a\n1005,00000001,false,Rx,1,0\n", "a.csv");
+      "Time "
+      "Stamp,ID,Extended,Dir,Bus,LEN,D1,D2\n5,1FFFFFFF,true,Rx,1,1,0a\n1005,00000001,false,Rx,1,"
+      "0\n",
+      "a.csv");
   ASSERT_EQ(old_style.entries.size(), 1U);
   EXPECT_EQ(old_style.entries[0].frame, (Frame{0x21A, false, false, 2, {0xFE, 0x36}}));
   ASSERT_EQ(new_style.entries.size(), 2U);

@@ -18,7 +18,8 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(FstWriter, Fst2vcdGivesTheSameChanges) {
-  if (std::system("command -v fst2vcd > /dev/null 2>&1") != 0) GTEST_SKIP() << "fst2vcd (GTKWave) is not installed";
+  if (std::system("command -v fst2vcd > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "fst2vcd (GTKWave) is not installed";
   const std::string path = ::testing::TempDir() + "w.fst";
   {
     const auto sink = open_fst(path);
@@ -40,7 +41,9 @@ TEST(FstWriter, Fst2vcdGivesTheSameChanges) {
   EXPECT_THAT(text, HasSubstr("#3000000\nb100000001"));
 }
 
-TEST(FstWriter, AFolderThatIsNotThere) { EXPECT_THROW(open_fst("/no/such/folder/a.fst"), InputError); }
+TEST(FstWriter, AFolderThatIsNotThere) {
+  EXPECT_THROW(open_fst("/no/such/folder/a.fst"), InputError);
+}
 
 TEST(OpenWave, KnowsTheSuffixes) {
   EXPECT_NE(open_wave(::testing::TempDir() + "s.vcd"), nullptr);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Packet captures: files put together byte by byte after the published layout, and what the writer makes of it.
+// Packet captures: files put together byte by byte after the published layout, and what the writer
+// makes of it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +21,8 @@ using ::testing::HasSubstr;
 /// Builds a capture file as the pcap format is published: any byte order and resolution.
 class CaptureBuilder {
  public:
-  CaptureBuilder(bool big_endian, bool nanoseconds, std::uint32_t link_type = 227) : big_{big_endian} {
+  CaptureBuilder(bool big_endian, bool nanoseconds, std::uint32_t link_type = 227)
+      : big_{big_endian} {
     word(nanoseconds ? 0xA1B23C4D : 0xA1B2C3D4);
     half(2);
     half(4);
@@ -109,13 +111,15 @@ TEST(Pcap, RubbishBehindTheLengthIsIgnored) {
 
 TEST(Pcap, BrokenFilesGiveOneLine) {
   CaptureBuilder ethernet{false, false, 1};
-  EXPECT_THAT(error_of(ethernet.write("eth.pcap")), HasSubstr("link type 1 is not CAN; allowed: 227"));
+  EXPECT_THAT(error_of(ethernet.write("eth.pcap")),
+              HasSubstr("link type 1 is not CAN; allowed: 227"));
   CaptureBuilder short_packet{false, false};
   short_packet.packet(1, 0, packet({0, 0, 1}));
   EXPECT_THAT(error_of(short_packet.write("short.pcap")), HasSubstr("packet 1: 3 bytes"));
   CaptureBuilder lying{false, false};
   lying.packet(1, 0, packet({0, 0, 1, 0x23, 4, 0, 0, 0, 1}));
-  EXPECT_THAT(error_of(lying.write("lying.pcap")), HasSubstr("1 data bytes where the length says 4"));
+  EXPECT_THAT(error_of(lying.write("lying.pcap")),
+              HasSubstr("1 data bytes where the length says 4"));
   CaptureBuilder whole{false, false};
   whole.packet(1, 0, packet({0, 0, 1, 0x23, 0, 0, 0, 0}));
   for (std::size_t cut = 0; cut < whole.size(); ++cut) {
@@ -146,16 +150,18 @@ TEST(Pcap, WritesWhatItReads) {
 
 // An outside judge, where there is one: Wireshark's dissector must see the same frames.
 TEST(Pcap, TsharkReadsIt) {
-  if (std::system("command -v tshark > /dev/null 2>&1") != 0) GTEST_SKIP() << "tshark is not installed";
+  if (std::system("command -v tshark > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "tshark is not installed";
   const std::string path = ::testing::TempDir() + "tshark.pcap";
   {
     PcapWriter writer{path};
     writer.write({0, "", {0x123, false, false, 2, {0xAB, 0xCD}}});
     writer.write({kMillisecond, "", {0x12345678, true, true, 4, {}}});
   }
-  const std::string command = "tshark -r " + path +
-                              " -T fields -E separator=, -e can.id -e can.flags.xtd -e can.flags.rtr -e can.len"
-                              " -e frame.time_relative 2> /dev/null";
+  const std::string command =
+      "tshark -r " + path +
+      " -T fields -E separator=, -e can.id -e can.flags.xtd -e can.flags.rtr -e can.len"
+      " -e frame.time_relative 2> /dev/null";
   FILE *pipe = popen(command.c_str(), "r");
   ASSERT_NE(pipe, nullptr);
   std::string text;

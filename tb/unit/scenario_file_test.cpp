@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenario files: what is read, and that every mistake is named with its line, value and what is allowed.
+// Scenario files: what is read, and that every mistake is named with its line, value and what is
+// allowed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -64,7 +65,8 @@ nodes:
       - {id: 0x10000000, extended: true}
   - {name: b, sample_point: 0.75, sjw: 1, bitrate: 250k, bus_off_recovery: never}
 traffic:
-  - {node: a, name: m, id: 0x123, data: 01 A5, period: 1 ms, offset: 0.1 ms, jitter: 10 us, count: 7}
+  - {node: a, name: m, id: 0x123, data: 01 A5, period: 1 ms, offset: 0.1 ms, jitter: 10 us,
+     count: 7}
   - {node: b, id: 0x1FFFFFFF, extended: true, data: [1, 2, 3, 4, 5, 6, 7, 0xFF], dlc: 15}
   - {node: b, id: 5, remote: true, dlc: 8, period: saturated}
 faults:
@@ -126,7 +128,8 @@ class ScenarioMistake : public ::testing::TestWithParam<Mistake> {};
 TEST_P(ScenarioMistake, IsNamedInOneLine) {
   const Mistake &mistake = GetParam();
   std::string text = mistake.text;
-  if (text.rfind("nodes:", 0) != 0 && text.find("\nnodes:") == std::string::npos) text = kTwo + text;
+  if (text.rfind("nodes:", 0) != 0 && text.find("\nnodes:") == std::string::npos)
+    text = kTwo + text;
   try {
     const Scenario s = parse_scenario("s.yaml", text);
     static_cast<void>(timing_of(s, s.nodes.at(0), s.bitrates.at(0)));
@@ -143,31 +146,48 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"NoYaml", "nodes: [", "s.yaml:1: no valid YAML"},
         Mistake{"NoMap", "nodes: 5", "s.yaml:1: nodes: '5' is not allowed; allowed: a map"},
         Mistake{"EmptyNodes", "nodes: []", "no node is given"},
-        Mistake{"UnknownKey", "bitrat: 500k\n", "s.yaml:2: unknown key 'bitrat'; allowed: analysis, bitrate, "},
+        Mistake{"UnknownKey", "bitrat: 500k\n",
+                "s.yaml:2: unknown key 'bitrat'; allowed: analysis, bitrate, "},
         Mistake{"TwiceAKey", "seed: 1\nseed: 2\n", "s.yaml:3: key 'seed' is given twice"},
-        Mistake{"Bitrate", "bitrate: 2M\n", "s.yaml:2: bitrate: '2M' is not allowed; allowed: 1 kbit/s to 1 Mbit/s"},
+        Mistake{"Bitrate", "bitrate: 2M\n",
+                "s.yaml:2: bitrate: '2M' is not allowed; allowed: 1 kbit/s to 1 Mbit/s"},
         Mistake{"Duration", "duration: 10\n", "duration: '10' is not allowed; allowed: 1 us to"},
-        Mistake{"NodeName", "nodes:\n  - {name: a}\n  - {name: a}\n", "s.yaml:3: nodes[1]: node name 'a' is used twice"},
-        Mistake{"Segment", "nodes:\n  - {name: a, timing: {brp: 1, prop: 9, ps1: 1, ps2: 2, sjw: 1}}\n",
+        Mistake{"NodeName", "nodes:\n  - {name: a}\n  - {name: a}\n",
+                "s.yaml:3: nodes[1]: node name 'a' is used twice"},
+        Mistake{"Segment",
+                "nodes:\n  - {name: a, timing: {brp: 1, prop: 9, ps1: 1, ps2: 2, sjw: 1}}\n",
                 "timing.prop: '9' is not allowed; allowed: 1 to 8"},
-        Mistake{"Quanta", "nodes:\n  - {name: a, timing: {brp: 1, prop: 8, ps1: 8, ps2: 8, sjw: 1}, clok: 1}\n",
-                "unknown key 'clok'"},
+        Mistake{
+            "Quanta",
+            "nodes:\n  - {name: a, timing: {brp: 1, prop: 8, ps1: 8, ps2: 8, sjw: 1}, clok: 1}\n",
+            "unknown key 'clok'"},
         Mistake{"Mailboxes", "nodes: [{name: a, mailboxes: 20}]", "allowed: 16, 32, 64"},
         Mistake{"ImpossibleRate", "bitrate: 1M\nnodes:\n  - {name: slow, clock: 4 MHz}\n",
                 "s.yaml:3: node 'slow': no setting of 8 to 25 quanta gives 1000000 bit/s"},
-        Mistake{"WhichNode", "traffic: [{node: c, id: 1}]", "traffic[0].node: 'c' is not allowed; allowed: the name of a node: a, b"},
-        Mistake{"IdTooLarge", "traffic: [{node: a, id: 0x800}]", "traffic[0].id: '0x800' is not allowed; allowed: 0 to 2047"},
+        Mistake{"WhichNode", "traffic: [{node: c, id: 1}]",
+                "traffic[0].node: 'c' is not allowed; allowed: the name of a node: a, b"},
+        Mistake{"IdTooLarge", "traffic: [{node: a, id: 0x800}]",
+                "traffic[0].id: '0x800' is not allowed; allowed: 0 to 2047"},
         Mistake{"NoId", "traffic: [{node: a}]", "key 'id' is missing"},
-        Mistake{"NineBytes", "traffic: [{node: a, id: 1, data: 01 02 03 04 05 06 07 08 09}]", "up to 8 bytes"},
-        Mistake{"RemoteData", "traffic: [{node: a, id: 1, remote: true, data: 01}]", "a remote frame has no data"},
-        Mistake{"DlcAgainstData", "traffic: [{node: a, id: 1, data: 01, dlc: 3}]", "3 does not fit the 1 bytes of data"},
-        Mistake{"JitterAbovePeriod", "traffic: [{node: a, id: 1, period: 1 ms, jitter: 1 ms}]", "below the period"},
-        Mistake{"NameTwice", "traffic: [{node: a, id: 1}, {node: b, id: 1}]", "message name '001' is used twice"},
-        Mistake{"FaultKind", "faults: [{kind: explode}]", "allowed: flip, dominant, recessive, cut, short, clock, noise"},
-        Mistake{"FaultField", "faults: [{kind: flip, at: {node: a, field: HEAD}}]", "'HEAD' is not allowed; allowed: INTEGRATING"},
+        Mistake{"NineBytes", "traffic: [{node: a, id: 1, data: 01 02 03 04 05 06 07 08 09}]",
+                "up to 8 bytes"},
+        Mistake{"RemoteData", "traffic: [{node: a, id: 1, remote: true, data: 01}]",
+                "a remote frame has no data"},
+        Mistake{"DlcAgainstData", "traffic: [{node: a, id: 1, data: 01, dlc: 3}]",
+                "3 does not fit the 1 bytes of data"},
+        Mistake{"JitterAbovePeriod", "traffic: [{node: a, id: 1, period: 1 ms, jitter: 1 ms}]",
+                "below the period"},
+        Mistake{"NameTwice", "traffic: [{node: a, id: 1}, {node: b, id: 1}]",
+                "message name '001' is used twice"},
+        Mistake{"FaultKind", "faults: [{kind: explode}]",
+                "allowed: flip, dominant, recessive, cut, short, clock, noise"},
+        Mistake{"FaultField", "faults: [{kind: flip, at: {node: a, field: HEAD}}]",
+                "'HEAD' is not allowed; allowed: INTEGRATING"},
         Mistake{"FaultNode", "faults: [{kind: cut}]", "key 'node' is missing"},
-        Mistake{"FaultTimes", "faults: [{kind: dominant, from: 2 ms, to: 1 ms}]", "faults[0].to: '1 ms' is not allowed"},
-        Mistake{"Expectation", "expect: {nodes: {c: {tec: 0}}}", "unknown key 'c'; allowed: a, all, b"},
+        Mistake{"FaultTimes", "faults: [{kind: dominant, from: 2 ms, to: 1 ms}]",
+                "faults[0].to: '1 ms' is not allowed"},
+        Mistake{"Expectation", "expect: {nodes: {c: {tec: 0}}}",
+                "unknown key 'c'; allowed: a, all, b"},
         Mistake{"RangeUpsideDown", "expect: {frames: {min: 2, max: 1}}", "min is above max"},
         Mistake{"AListForANumber", "seed: [1, 2]\n", "a list is not allowed"}),
     [](const auto &item) { return std::string(item.param.name); });

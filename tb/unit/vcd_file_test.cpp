@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// VCD files: written ones are what the standard says and what sigrok and GTKWave read; foreign ones are read.
+// VCD files: written ones are what the standard says and what sigrok and GTKWave read; foreign ones
+// are read.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +24,8 @@ using ::testing::Pair;
 
 constexpr const char *kHeader =
     "$date today $end $version some simulator $end $timescale 10 ns $end\n"
-    "$scope module top $end $scope module node $end\n$var wire 1 ! rx $end $var reg 8 \" data [7:0] $end\n$upscope $end\n"
+    "$scope module top $end $scope module node $end\n$var wire 1 ! rx $end $var reg 8 \" data "
+    "[7:0] $end\n$upscope $end\n"
     "$var wire 1 # rx $end $var string 1 $ text $end $upscope $end $enddefinitions $end\n";
 
 std::vector<std::pair<Time, Level>> changes_of(const VcdFile &file, const std::string &name) {
@@ -43,8 +45,10 @@ std::string error_of(Act act) {
 }
 
 TEST(VcdFile, ReadsTimescaleHierarchyAndUnknowns) {
-  const VcdFile file{"a.vcd", std::string(kHeader) +
-                                  "#0 $dumpvars x! b00000000 \" 1# $end\n#5 0!\n#7 0! 1#\nb1010 \" z!\n#9 sHELLO $\n#20\n"};
+  const VcdFile file{
+      "a.vcd",
+      std::string(kHeader) +
+          "#0 $dumpvars x! b00000000 \" 1# $end\n#5 0!\n#7 0! 1#\nb1010 \" z!\n#9 sHELLO $\n#20\n"};
   EXPECT_THAT(changes_of(file, "top.node.rx"),
               ElementsAre(Pair(0, Level::kRecessive), Pair(50 * kNanosecond, Level::kDominant),
                           Pair(70 * kNanosecond, Level::kRecessive)));
@@ -52,16 +56,21 @@ TEST(VcdFile, ReadsTimescaleHierarchyAndUnknowns) {
 }
 
 TEST(VcdFile, ScaleBelowAPicosecond) {
-  const VcdFile file{"a.vcd", "$timescale 1fs $end $var wire 1 ! rx $end $enddefinitions $end #0 1! #2500 0! "};
-  EXPECT_THAT(changes_of(file, "rx"), ElementsAre(Pair(0, Level::kRecessive), Pair(2, Level::kDominant)));
+  const VcdFile file{
+      "a.vcd", "$timescale 1fs $end $var wire 1 ! rx $end $enddefinitions $end #0 1! #2500 0! "};
+  EXPECT_THAT(changes_of(file, "rx"),
+              ElementsAre(Pair(0, Level::kRecessive), Pair(2, Level::kDominant)));
 }
 
 TEST(VcdFile, NamesTheChoiceWhenASignalIsUnclear) {
   const VcdFile file{"a.vcd", kHeader};
-  EXPECT_THAT(error_of([&] { static_cast<void>(file.find("rx")); }),
-              HasSubstr("a.vcd: signal 'rx' is not unique; one-bit signals are top.node.rx, top.rx"));
-  EXPECT_THAT(error_of([&] { static_cast<void>(file.find("nosuch")); }), HasSubstr("no signal is called 'nosuch'"));
-  EXPECT_THAT(error_of([&] { static_cast<void>(file.find("data")); }), HasSubstr("has 8 bits; allowed: 1"));
+  EXPECT_THAT(
+      error_of([&] { static_cast<void>(file.find("rx")); }),
+      HasSubstr("a.vcd: signal 'rx' is not unique; one-bit signals are top.node.rx, top.rx"));
+  EXPECT_THAT(error_of([&] { static_cast<void>(file.find("nosuch")); }),
+              HasSubstr("no signal is called 'nosuch'"));
+  EXPECT_THAT(error_of([&] { static_cast<void>(file.find("data")); }),
+              HasSubstr("has 8 bits; allowed: 1"));
 }
 
 TEST(VcdFile, GuessesTheBus) {
@@ -72,12 +81,15 @@ TEST(VcdFile, GuessesTheBus) {
   };
   EXPECT_EQ(guess("$var wire 1 ! q $end"), "q");
   EXPECT_EQ(guess("$var wire 1 ! q $end $var wire 1 % CAN_RX $end"), "CAN_RX");
-  EXPECT_EQ(guess("$var wire 1 ! rx $end $scope module bus $end $var wire 1 % can $end $upscope $end"), "bus.can");
+  EXPECT_EQ(
+      guess("$var wire 1 ! rx $end $scope module bus $end $var wire 1 % can $end $upscope $end"),
+      "bus.can");
   EXPECT_THROW(guess("$var wire 1 ! q $end $var wire 1 % p $end"), InputError);
 }
 
 TEST(VcdFile, DamagedInputNeverCrashes) {
-  const std::string good = std::string(kHeader) + "#0 1! b101 \"\n#5 0!\nsA $\n$comment x $end\n#9 1!\n";
+  const std::string good =
+      std::string(kHeader) + "#0 1! b101 \"\n#5 0!\nsA $\n$comment x $end\n#9 1!\n";
   for (std::size_t at = 0; at < good.size(); ++at)
     for (const char byte : {'\0', '$', '#', ' ', 'b', '9', '\xFF'}) {
       std::string bad = good;
@@ -93,8 +105,10 @@ TEST(VcdFile, DamagedInputNeverCrashes) {
 }
 
 TEST(VcdFile, ErrorsNameTheLine) {
-  EXPECT_THAT(error_of([] { VcdFile("a.vcd", "$timescale 3 ns $end"); }), HasSubstr("a.vcd:1: timescale '3ns'"));
-  EXPECT_THAT(error_of([] { VcdFile("a.vcd", "hello"); }), HasSubstr("a.vcd:1: expected a VCD keyword"));
+  EXPECT_THAT(error_of([] { VcdFile("a.vcd", "$timescale 3 ns $end"); }),
+              HasSubstr("a.vcd:1: timescale '3ns'"));
+  EXPECT_THAT(error_of([] { VcdFile("a.vcd", "hello"); }),
+              HasSubstr("a.vcd:1: expected a VCD keyword"));
   EXPECT_THAT(error_of([] { VcdFile("a.vcd", ""); }), HasSubstr("is no VCD file"));
   const VcdFile file{"a.vcd", std::string(kHeader) + "#9 1!\n#3 0!\n"};
   EXPECT_THAT(error_of([&] { file.read(file.find("top.rx"), [](Time, Level) {}); }),
@@ -120,11 +134,12 @@ std::string write_sample(const std::string &name) {
 }
 
 TEST(VcdWriter, WritesWiresAndTexts) {
-  EXPECT_EQ(read_text_file(write_sample("w.vcd")),
-            "$comment written by VeriCAN $end\n$timescale 1 ns $end\n$scope module bus $end\n"
-            "$var wire 1 ! can $end\n$upscope $end\n$scope module node $end\n$var string 1 % field $end\n"
-            "$var wire 9 & tec [8:0] $end\n$upscope $end\n$enddefinitions $end\n"
-            "#0\n1!\nsIDLE %\n#2000\n0!\nsERROR_FLAG %\n#3000\nb100000000 &\n#4000\n1!\n#10000\n");
+  EXPECT_EQ(
+      read_text_file(write_sample("w.vcd")),
+      "$comment written by VeriCAN $end\n$timescale 1 ns $end\n$scope module bus $end\n"
+      "$var wire 1 ! can $end\n$upscope $end\n$scope module node $end\n$var string 1 % field $end\n"
+      "$var wire 9 & tec [8:0] $end\n$upscope $end\n$enddefinitions $end\n"
+      "#0\n1!\nsIDLE %\n#2000\n0!\nsERROR_FLAG %\n#3000\nb100000000 &\n#4000\n1!\n#10000\n");
 }
 
 TEST(VcdWriter, ReaderReadsIt) {
@@ -149,16 +164,20 @@ TEST(VcdWriter, CodesStayUniqueBeyond94Signals) {
 }
 
 TEST(VcdWriter, GtkwaveReadsIt) {
-  if (std::system("command -v vcd2fst > /dev/null 2>&1") != 0) GTEST_SKIP() << "vcd2fst (GTKWave) is not installed";
+  if (std::system("command -v vcd2fst > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "vcd2fst (GTKWave) is not installed";
   const std::string vcd = write_sample("g.vcd");
-  const std::string command = "vcd2fst " + vcd + " " + vcd + ".fst && fst2vcd " + vcd + ".fst > " + vcd + ".back";
+  const std::string command =
+      "vcd2fst " + vcd + " " + vcd + ".fst && fst2vcd " + vcd + ".fst > " + vcd + ".back";
   ASSERT_EQ(std::system(command.c_str()), 0);
   const std::string back = read_text_file(vcd + ".back");
   EXPECT_THAT(back, HasSubstr("sERROR_FLAG "));
   EXPECT_THAT(back, HasSubstr("b100000000 "));
 }
 
-TEST(FileNames, AWaveMustBeVcdOrFst) { EXPECT_THROW(open_vcd("/no/such/folder/a.vcd"), InputError); }
+TEST(FileNames, AWaveMustBeVcdOrFst) {
+  EXPECT_THROW(open_vcd("/no/such/folder/a.vcd"), InputError);
+}
 
 TEST(Bitrate, FoundFromEdges) {
   for (const double rate : {10e3, 50e3, 83.333e3, 125e3, 500e3, 1e6}) {
