@@ -51,7 +51,8 @@ package can_pkg;
 
   // can_core.trace_o: what an observer sees; decoded by sim/node/trace.hpp, open in synthesis.
   // While `sample` is 1 all other level and position fields describe the bit that is being sampled;
-  // `err`, `rx_valid`, `tx_ok`, `tx_fail`, `start` are pulses in the clock after their sample.
+  // `err`, `rx_valid`, `tx_ok`, `tx_fail`, `start` are pulses in the clock after their sample; `tec`,
+  // `rec` and `passive` follow one clock later.
   //   [48]    sample     sample point in this clock
   //   [47]    boundary   last clock of the bit: the next TX level is taken over
   //   [46]    rx         level as sampled (majority if triple sampling)

@@ -173,8 +173,8 @@ module can_field (
           end
           can_pkg::FldErrFlag, can_pkg::FldOvlFlag: begin
             // A passive flag is complete after six equal bits: a change restarts the count (EF-03).
-            if (field_q == can_pkg::FldErrFlag && passive_flag_q
-                && left_q != 6'd5 && bit_i != prev_i) begin
+            // In its first bit both ways lead to 4.
+            if (field_q == can_pkg::FldErrFlag && passive_flag_q && bit_i != prev_i) begin
               left_q <= 6'd4;
             end else if (last_q) begin
               field_q <= can_pkg::FldWait;

@@ -30,9 +30,9 @@ module can_stuff (
     end else if (sample_i) begin : count
       logic       counts;
       logic [2:0] run;
-      // From the bit after SOF to CRC0; everywhere else a bit starts a run of one, so SOF does
-      // (ST-02).
-      counts = (field_i[4] ^ field_i[3]) && (field_i != can_pkg::FldSof);
+      // From SOF to CRC0; everywhere else a bit starts a run of one, and so does SOF, for the bit
+      // before it was recessive (ST-02).
+      counts = field_i[4] ^ field_i[3];
       run    = (counts && bit_i == last_o) ? run_q + 3'd1 : 3'd1;
       run_q  <= run;
       five_q <= counts && (run == 3'd5);
