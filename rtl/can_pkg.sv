@@ -32,7 +32,7 @@ package can_pkg;
   localparam logic [4:0] FldData    = 5'b10011;  // 8 bits a byte
   localparam logic [4:0] FldCrc     = 5'b10100;  // CRC14..CRC0
   // 11xxx: fixed form.
-  localparam logic [4:0] FldCrcDel  = 5'b11000;  // CRC delimiter (a stuff bit may precede it, ST-03)
+  localparam logic [4:0] FldCrcDel  = 5'b11000;  // CRC delimiter, after a last stuff bit (ST-03)
   localparam logic [4:0] FldAck     = 5'b11001;  // ACK slot
   localparam logic [4:0] FldAckDel  = 5'b11010;  // ACK delimiter
   localparam logic [4:0] FldEof     = 5'b11011;  // EOF1..EOF7
@@ -51,8 +51,8 @@ package can_pkg;
 
   // can_core.trace_o: what an observer sees; decoded by sim/node/trace.hpp, open in synthesis.
   // While `sample` is 1 all other level and position fields describe the bit that is being sampled;
-  // `err`, `rx_valid`, `tx_ok`, `tx_fail`, `start` are pulses in the clock after their sample; `tec`,
-  // `rec` and `passive` follow one clock later.
+  // `err`, `rx_valid`, `tx_ok`, `tx_fail`, `start` are pulses in the clock after their sample;
+  // `tec`, `rec` and `passive` follow one clock later.
   //   [48]    sample     sample point in this clock
   //   [47]    boundary   last clock of the bit: the next TX level is taken over
   //   [46]    rx         level as sampled (majority if triple sampling)
