@@ -41,6 +41,7 @@ MailboxRig::MailboxRig(unsigned nodes, unsigned num_mb)
     nodes_.push_back(RtlNode::create("node" + std::to_string(n), {}, num_mb));
     bus_.add(*nodes_.back());
   }
+  wave_.emplace(bus_);
 }
 
 void MailboxRig::step() {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bus/bus.hpp"
+#include "harness/test_wave.hpp"
 #include "model/frame.hpp"
 #include "node/registers.hpp"
 #include "node/rtl_node.hpp"
@@ -101,6 +102,7 @@ class MailboxRig {
   std::vector<std::unique_ptr<RtlNode>> nodes_;
   std::vector<std::function<AhbTransfer()>> hammers_;
   std::vector<AhbMaster::Ticket> last_;  // newest ticket + 1
+  std::optional<TestWave> wave_;
 };
 
 }  // namespace vericansim

@@ -44,6 +44,9 @@ CoreBench::CoreBench(unsigned duts, const CoreConfig &config) : acknowledged_(du
   for (unsigned i = 0; i < duts; ++i) {
     duts_[i].node = std::make_unique<CoreNode>("dut" + std::to_string(i), config);
   }
+  std::vector<const Node *> nodes;
+  for (const Dut &dut : duts_) nodes.push_back(dut.node.get());
+  wave_.emplace(nodes);
 }
 
 void CoreBench::start() {
@@ -130,7 +133,13 @@ void CoreBench::begin_bit(Dut &dut) {
 void CoreBench::clock(Level level) {
   lt_level_ = level;
   const Level wire = bus();
-  for (Dut &dut : duts_) dut.node->clock(dut.effect ? apply_effect(*dut.effect, wire) : wire);
+  wave_->clock(wire);
+  for (unsigned i = 0; i < size(); ++i) {
+    const Dut &dut = duts_[i];
+    const Level rx = dut.effect ? apply_effect(*dut.effect, wire) : wire;
+    dut.node->clock(rx);
+    wave_->node(i, rx);
+  }
   ++clock_count_;
   for (unsigned i = 0; i < size(); ++i) after_clock(i);
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "bus/faults.hpp"
+#include "harness/test_wave.hpp"
 #include "node/core_node.hpp"
 #include "node/trace.hpp"
 
@@ -149,6 +150,7 @@ class CoreBench {
   std::vector<bool> acknowledged_;
   std::uint64_t bit_count_ = 0;
   std::uint64_t clock_count_ = 0;
+  std::optional<TestWave> wave_;
 };
 
 }  // namespace vericansim

@@ -50,6 +50,9 @@ void TimingBench::clock() {
   const Level partner_pin = dut_.tx() & partner_.tx();
   dut_.clock(last_pin_);
   partner_.clock(partner_pin);
+  wave_.clock(wire);
+  wave_.node(0, last_pin_);
+  wave_.node(1, partner_pin);
   ++now_;
   record();
 }

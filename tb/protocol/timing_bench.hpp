@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bus/faults.hpp"
+#include "harness/test_wave.hpp"
 #include "node/core_node.hpp"
 #include "node/trace.hpp"
 
@@ -102,6 +103,7 @@ class TimingBench {
   std::vector<Sample> samples_;
   std::vector<std::uint64_t> bit_starts_;
   std::vector<TxEdge> tx_edges_;
+  TestWave wave_{{&dut_, &partner_}};
 };
 
 /// Short text of a timing, for SCOPED_TRACE.

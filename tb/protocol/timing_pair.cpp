@@ -5,11 +5,13 @@
 #include "protocol/timing_pair.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <random>
 #include <vector>
 
 #include "bus/bus.hpp"
 #include "bus/faults.hpp"
+#include "harness/test_wave.hpp"
 
 namespace vericansim {
 namespace {
@@ -64,6 +66,7 @@ class Pair {
     bus_.set_delay(1, 0, config.delay);
     if (config.disturb_every != 0) bus_.add(fault_);
     bit_ = static_cast<Time>(config.timing.clocks_per_bit() * 1e12 / config.clock_hz);
+    wave_.emplace(bus_);
     slow_.start();
     fast_.start();
     bus_.run_for(16 * bit_);
@@ -98,6 +101,7 @@ class Pair {
   CoreNode fast_;
   StuffBitFault fault_;
   Time bit_ = 0;
+  std::optional<TestWave> wave_;
 };
 
 Frame random_frame(std::mt19937 &rng) {
