@@ -270,6 +270,30 @@ TEST_F(Reception, BusyOrWholeButNeverTorn) {  // 3.2, 3.5: the CPU reads in ever
   EXPECT_GT(busy, 0u) << "BUSY was met";
 }
 
+TEST_F(Reception, LockTakenInAnyClockAroundTheMoveHolds) {  // 3.6
+  rig_.put_rx(0, 5, {.id = 0x123});
+  go();
+  send(numbered(0));
+  for (unsigned offset = 0; offset < 90; ++offset) {
+    rig_.put_tx(1, 40, numbered(offset));
+    ASSERT_TRUE(rig_.run_until([&] { return rig_.field(1) == Field::kEof; }, 4000));
+    rig_.run(offset);
+    const std::uint32_t cs = rig_.read(0, reg::mb(5));
+    if ((cs & reg::kCodeRxBusy) == 0) {
+      const std::uint32_t low = rig_.read(0, reg::mb(5, 2));
+      rig_.run(80);
+      EXPECT_EQ(rig_.read(0, reg::mb(5)), cs) << "moved into a locked buffer, offset " << offset;
+      EXPECT_EQ(rig_.read(0, reg::mb(5, 2)), low) << "offset " << offset;
+    }
+    unlock();
+    ASSERT_TRUE(rig_.wait_flag(1, 40));
+    rig_.clear_flag(1, 40);
+    rig_.run(60);
+    EXPECT_EQ(mb_frame(rig_.get(0, 5)), numbered(offset));
+    unlock();
+  }
+}
+
 class LegacyMasks : public Reception {
  protected:
   LegacyMasks() : Reception{reg::kMcrSrxDis} {}
