@@ -38,7 +38,8 @@ module can_core (
   output logic        synch_o,         // integrated, not in bus-off
   output logic        bit_tick_o,      // once a bit while running
   // Transmission: a frame waits while tx_req_i = 1; tx_word_i is its ID word, ID[28:0] (base
-  // frames: ID in [28:18]), and after each tx_next_o, within 16 bits, the next data word (byte 0 in 31:24).
+  // frames: ID in [28:18]); after each tx_next_o, within 16 bits, the next data word follows
+  // (byte 0 in 31:24).
   input  logic        tx_req_i,
   input  logic        tx_ide_i,
   input  logic        tx_rtr_i,
@@ -92,8 +93,8 @@ module can_core (
     .tx_req_i, .tx_ide_i, .tx_rtr_i, .tx_dlc_i, .tx_word_i,
     .tx_o(tx_q), .can_tx_o, .hard_o(hard), .field_o(field), .left_o(left), .stuff_o(stuff),
     .transmitter_o, .tec_o(tec), .rec_o, .passive_o, .boff_o, .err_o, .tx_next_o, .tx_ok_o,
-    .tx_fail_o, .start_o, .stamp_o, .rx_hdr_o, .rx_id_o, .rx_ide_o, .rx_srr_o, .rx_rtr_o, .rx_dlc_o, .rx_byte_we_o,
-    .rx_byte_o, .rx_valid_o
+    .tx_fail_o, .start_o, .stamp_o, .rx_hdr_o, .rx_id_o, .rx_ide_o, .rx_srr_o, .rx_rtr_o,
+    .rx_dlc_o, .rx_byte_we_o, .rx_byte_o, .rx_valid_o
   );
 
   // A stop request never shortens a dominant bit: the node stays until its level is recessive.
