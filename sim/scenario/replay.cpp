@@ -184,6 +184,7 @@ ReplayReport Replay::execute(const std::function<void(double)> &progress) {
   const auto begin = std::chrono::steady_clock::now();
   stations_.join(bus_, bit_time_);
   start_ = bus_.now();
+  if (options_.fault != nullptr) bus_.add(*options_.fault);
   if (options_.fast)
     feed_all();
   else

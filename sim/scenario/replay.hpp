@@ -26,6 +26,7 @@ struct ReplayOptions {
   bool fast = false;      ///< as fast as the bus allows instead of as recorded
   std::size_t limit = 0;  ///< frames to take from the log, 0: all
   Outputs outputs = {};
+  Fault *fault = nullptr;  ///< put on the bus, to see that a lost frame is noticed
 };
 
 /// What one node has received.

@@ -90,8 +90,19 @@ TEST(Replay, AsRecordedKeepsTheTimes) {
   EXPECT_LE(report.duration, 5 * kMillisecond);
 }
 
-// A frame that the log has and a node lacks must be noticed: the check itself is checked with a bus
-// that loses one.
+// The check itself: a node whose cable is open for a while lacks frames, and that is noticed.
+TEST(Replay, NoticesALostFrame) {
+  std::string text;
+  for (int i = 0; i < 20; ++i) text += "(1.0) can0 123#0" + std::to_string(i % 10) + "\n";
+  CutFault cut{2, {kMillisecond, 2 * kMillisecond}};
+  const ReplayReport report = replay(parse_candump(text, "log"),
+                                     {.nodes = 3, .bitrate = 500e3, .fast = true, .fault = &cut});
+  EXPECT_FALSE(report.ok());
+  EXPECT_TRUE(report.nodes.at(1).complete);
+  EXPECT_FALSE(report.nodes.at(2).complete);
+  EXPECT_NE(report.nodes.at(2).first_difference, "");
+}
+
 TEST(Replay, RefusesImpossibleSettings) {
   const CanLog log = parse_candump("(1.0) can0 123#11\n", "log");
   EXPECT_THROW(static_cast<void>(replay(log, {.nodes = 1})), std::invalid_argument);

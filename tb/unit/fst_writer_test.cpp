@@ -30,7 +30,7 @@ TEST(FstWriter, Fst2vcdGivesTheSameChanges) {
     sink->set(0, can, 1);
     sink->set(2'000'001, can, 0);
     sink->set(2'000'001, field, std::string_view{"ERROR_FLAG"});
-    sink->set(3'000'000, tec, 257);
+    sink->set(3'000'000, tec, 258);
     sink->finish(9'000'000);
   }
   ASSERT_EQ(std::system(("fst2vcd " + path + " > " + path + ".vcd").c_str()), 0);
@@ -38,7 +38,7 @@ TEST(FstWriter, Fst2vcdGivesTheSameChanges) {
   EXPECT_THAT(text, HasSubstr("1ps"));
   EXPECT_THAT(text, HasSubstr("#2000001\n0!"));
   EXPECT_THAT(text, HasSubstr("sERROR_FLAG"));
-  EXPECT_THAT(text, HasSubstr("#3000000\nb100000001"));
+  EXPECT_THAT(text, HasSubstr("#3000000\nb100000010"));
 }
 
 TEST(FstWriter, AFolderThatIsNotThere) {
