@@ -4,6 +4,7 @@
 // verican bittime: clock and bit rate to register settings.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 
 #include "cli/cli.hpp"
@@ -64,7 +65,7 @@ int bittime(const Options &options) {
   const auto whole = [](double value, const char *name) {
     if (value < 1 || value > 4e9)
       throw std::invalid_argument(fmt::format("{} {:g} is out of range", name, value));
-    return static_cast<std::uint32_t>(value + 0.5);
+    return static_cast<std::uint32_t>(std::llround(value));
   };
   request.clock_hz = whole(options.clock, "clock");
   request.bitrate = whole(options.bitrate, "bit rate");

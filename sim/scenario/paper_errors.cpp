@@ -109,7 +109,7 @@ PaperCheck check_recovery(const std::vector<BitRecord> &bits) {
   const auto &next = back + 1 < bits.end() ? *(back + 1) : *back;
   // 128 or 129 times 11 (BO-02, BO-04).
   const bool ok =
-      count >= 128 * 11 && count <= 129 * 11 + 2 && back->after.tec == 0 && back->after.rec == 0;
+      count >= 128L * 11 && count <= 129L * 11 + 2 && back->after.tec == 0 && back->after.rec == 0;
   return {"18", "after 0x80 times 11 recessive bits the node is in IDLE with both counters 0",
           fmt::format("{} recessive bits = {:.2f} x 11, then {} with TEC {} and REC {}", count,
                       static_cast<double>(count) / 11.0, field_name(next.at.field), back->after.tec,
@@ -140,7 +140,7 @@ PaperExperiment paper_bus_off(const std::string &wave) {
   bench.send(PaperBench::kIp, kPaperFrame);
   const auto &bits = bench.bits(PaperBench::kIp);
   const auto off = [&] { return bits.back().after.bus_off; };
-  bench.run_until(off, 40 * 90);
+  bench.run_until(off, Time{40} * 90);
   fault.on = false;
   const auto frames = error_frames(bits);
   bench.run_until([&] { return !off(); }, 1500);

@@ -23,9 +23,9 @@ YamlValue YamlValue::load(const std::string &path) { return parse(path, read_tex
 
 YamlValue YamlValue::parse(const std::string &path, const std::string &text) {
   try {
-    YAML::Node root = YAML::Load(text);
+    const YAML::Node root = YAML::Load(text);
     const std::size_t line = line_of(root.Mark());
-    return {path, "", std::move(root), line};
+    return {path, "", root, line};
   } catch (const YAML::Exception &error) {
     throw InputError(path, line_of(error.mark), "no valid YAML: " + error.msg);
   }

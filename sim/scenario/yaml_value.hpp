@@ -20,8 +20,8 @@ namespace vericansim {
 /// allowed: ...".
 class YamlValue {
  public:
-  YamlValue(std::string file, std::string key, YAML::Node node, std::size_t line)
-      : file_{std::move(file)}, key_{std::move(key)}, node_{std::move(node)}, line_{line} {}
+  YamlValue(std::string file, std::string key, const YAML::Node &node, std::size_t line)
+      : file_{std::move(file)}, key_{std::move(key)}, node_{node}, line_{line} {}
 
   /// Reads and parses a whole file.
   static YamlValue load(const std::string &path);
