@@ -13,6 +13,9 @@ import sys
 
 # The node drives these itself, and takes the others of these from the engine.
 SKIPPED = {"clk_i", "rst_ni", "can_rx_i", "can_tx_o", "trace_o"}
+# Data that mean something only beside a pulse, or when the CPU reads them: they change in every bit, and
+# the host side need not wake for that.
+QUIET = {"rx_id_o", "rx_ide_o", "rx_srr_o", "rx_rtr_o", "rx_dlc_o", "rx_byte_o", "timer_o"}
 PORT = re.compile(r"^\s*(input|output)\s+logic\s*(\[[^\]]*\])?\s*(\w+),?", re.MULTILINE)
 ROOT = "can_ahb__DOT__u_top__DOT__u_core__DOT__"
 
@@ -51,7 +54,14 @@ def main():
     hpp.append("  if (changed == 0) return false;")
     for name in into:
         hpp.append(f"  host.{ROOT}{name}_v = core.{name};")
-    hpp += ["  return true;", "}", "", "/// Host side to engine inputs; true if any has changed.",
+    hpp += ["  return true;", "}", "",
+            "/// True if an engine output has changed that a resting host side must see.",
+            "template <typename Core, typename Host>", "bool wakes_host(const Core &core, const Host &host) {",
+            "  unsigned changed = 0;"]
+    for name in into:
+        if name not in QUIET:
+            hpp.append(f"  changed |= host.{ROOT}{name}_v ^ core.{name};")
+    hpp += ["  return changed != 0;", "}", "", "/// Host side to engine inputs; true if any has changed.",
             "template <typename Core, typename Host>", "bool copy_to_core(Core &core, const Host &host) {",
             "  unsigned changed = 0;"]
     for name in back:

@@ -3,6 +3,7 @@ can_pkg.sv
 bit/can_sync.sv
 bit/can_tq_gen.sv
 bit/can_bit_timing.sv
+bit/can_timestamp.sv
 frame/can_stuff.sv
 frame/can_crc15.sv
 frame/can_field.sv
@@ -15,7 +16,6 @@ can_core.sv
 mailbox/can_mb_ram.sv
 mailbox/can_mb_port.sv
 mailbox/can_mb_lock.sv
-mailbox/can_timestamp.sv
 mailbox/can_mb_rx.sv
 mailbox/can_mb_smb.sv
 mailbox/can_mb_move.sv

@@ -36,7 +36,14 @@ module can_core (
   output logic        transmitter_o,   // transmitter of the current frame (RO-01)
   output logic        receiver_o,      // receiver of the current frame
   output logic        synch_o,         // integrated, not in bus-off
-  output logic        bit_tick_o,      // once a bit while running
+  input  logic        tick_req_i,      // asks for tick_o
+  output logic        tick_o,          // sample point, while asked for: nobody is woken in vain
+  // TIMER, nominal bit times (flexcan.md section 6)
+  input  logic        timer_clear_i,
+  input  logic        timer_we_i,
+  input  logic [1:0]  timer_be_i,
+  input  logic [15:0] timer_wdata_i,
+  output logic [15:0] timer_o,
   // Transmission: a frame waits while tx_req_i = 1; tx_word_i is its ID word, ID[28:0] (base
   // frames: ID in [28:18]); after each tx_next_o, within 16 bits, the next data word follows
   // (byte 0 in 31:24).
@@ -86,6 +93,11 @@ module can_core (
     .sample_o(sample), .bit_o(bit_value), .boundary_o(boundary), .edge_o(edge_seen)
   );
 
+  can_timestamp u_timestamp (
+    .clk_i, .rst_ni, .clear_i(timer_clear_i), .sample_i(sample),
+    .we_i(timer_we_i), .be_i(timer_be_i), .wdata_i(timer_wdata_i), .timer_o
+  );
+
   can_bsp u_bsp (
     .clk_i, .rst_ni, .run_i(active_q), .sample_i(sample), .bit_i(bit_value),
     .stay_i(run_i), .boundary_i(boundary), .judge_i(first_q), .edge_i(edge_seen),
@@ -109,7 +121,7 @@ module can_core (
   end
 
   assign running_o  = active_q;
-  assign bit_tick_o = sample;
+  assign tick_o     = sample && tick_req_i;
   assign tec_o      = tec[7:0];
   assign idle_o     = (field == can_pkg::FldIdle);
   assign receiver_o = (|field[4:3]) && !transmitter_o;

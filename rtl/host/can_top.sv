@@ -97,7 +97,9 @@ module can_top #(
   logic        smp, lom, lpb, fd_tolerant, boff_rec, ec_we, passive, boff;
   logic [15:0] ec_wdata;
   logic [5:0]  err;
-  logic        idle, transmitter, receiver, synch, bit_tick;
+  logic        idle, transmitter, receiver, synch, tick_req, tick, timer_clear, timer_we;
+  logic [1:0]  timer_be;
+  logic [15:0] timer_wdata, timer;
   logic        tx_req, tx_ide, tx_rtr, tx_next, tx_ok, tx_fail;
   logic [3:0]  tx_dlc, rx_dlc;
   logic [31:0] tx_word;
@@ -126,7 +128,9 @@ module can_top #(
     .cmd_rd_i(req_i && !we_i && to_mb), .cmd_wr_i(req_i && we_i && to_mb && wr_ok),
     .cmd_kind_i(kind), .cmd_word_i(word), .cmd_idx_i(idx), .cmd_be_i(be_i),
     .wdata_i, .ready_o(mb_ready), .rdata_o(mb_rdata), .flag_o(flag), .flag_idx_o(flag_idx),
-    .bit_tick_i(bit_tick), .transmitter_i(transmitter),
+    .tick_req_o(tick_req), .tick_i(tick),
+    .timer_clear_o(timer_clear), .timer_we_o(timer_we), .timer_be_o(timer_be),
+    .timer_wdata_o(timer_wdata), .timer_i(timer), .transmitter_i(transmitter),
     .tx_req_o(tx_req), .tx_ide_o(tx_ide), .tx_rtr_o(tx_rtr), .tx_dlc_o(tx_dlc), .tx_word_o(tx_word),
     .tx_next_i(tx_next), .tx_ok_i(tx_ok), .tx_fail_i(tx_fail),
     .start_i(start), .stamp_i(stamp), .rx_hdr_i(rx_hdr), .rx_id_i(rx_id), .rx_ide_i(rx_ide), .rx_srr_i(rx_srr),
@@ -141,7 +145,9 @@ module can_top #(
     .ec_clear_i(clear), .ec_we_i(ec_we), .ec_wdata_i(ec_wdata),
     .tec_o(tec), .rec_o(rec), .passive_o(passive), .boff_o(boff), .err_o(err),
     .idle_o(idle), .transmitter_o(transmitter), .receiver_o(receiver), .synch_o(synch),
-    .bit_tick_o(bit_tick),
+    .tick_req_i(tick_req), .tick_o(tick),
+    .timer_clear_i(timer_clear), .timer_we_i(timer_we), .timer_be_i(timer_be),
+    .timer_wdata_i(timer_wdata), .timer_o(timer),
     .tx_req_i(tx_req), .tx_ide_i(tx_ide), .tx_rtr_i(tx_rtr), .tx_dlc_i(tx_dlc), .tx_word_i(tx_word),
     .tx_next_o(tx_next), .tx_ok_o(tx_ok), .tx_fail_o(tx_fail),
     .start_o(start), .stamp_o(stamp), .rx_hdr_o(rx_hdr), .rx_id_o(rx_id), .rx_ide_o(rx_ide), .rx_srr_o(rx_srr),

@@ -43,7 +43,13 @@ module can_mailbox #(
   output logic            flag_o,
   output logic [IdxW-1:0] flag_idx_o,
   // Engine, see can_core.
-  input  logic            bit_tick_i,
+  output logic            tick_req_o,
+  input  logic            tick_i,
+  output logic            timer_clear_o,
+  output logic            timer_we_o,
+  output logic [1:0]      timer_be_o,
+  output logic [15:0]     timer_wdata_o,
+  input  logic [15:0]     timer_i,
   input  logic            transmitter_i,
   output logic            tx_req_o,
   output logic            tx_ide_o,
@@ -86,7 +92,6 @@ module can_mailbox #(
   logic [IdxW-1:0] cpu_idx;
   logic [3:0]      cpu_be;
   logic [31:0]     ram_rdata;
-  logic [15:0]     timer;
   logic            moving, mv_flag;
   logic [IdxW-1:0] mv_idx;
   assign cs_rd    = rd_done && cpu_kind == KindCs;
@@ -96,7 +101,7 @@ module can_mailbox #(
 
   always_comb begin
     rdata_o = ram_rdata;
-    if (cpu_kind == KindTimer) rdata_o = {16'b0, timer};
+    if (timer_rd) rdata_o = {16'b0, timer_i};
     if (cpu_kind == KindCs) begin
       {rdata_o[31:28], rdata_o[23]} = '0;
       rdata_o[24] = ram_rdata[24] || cpu_busy;
@@ -121,10 +126,10 @@ module can_mailbox #(
     end
   end
 
-  can_timestamp u_timestamp (
-    .clk_i, .rst_ni, .clear_i, .bit_tick_i,
-    .sync_i(tsyn_i && mv_flag && mv_idx == '0),
-    .we_i(timer_wr), .be_i(cpu_be[1:0]), .wdata_i(wdata_i[15:0]), .timer_o(timer));
+  assign timer_clear_o = clear_i || (tsyn_i && mv_flag && mv_idx == '0);
+  assign timer_we_o    = timer_wr;
+  assign timer_be_o    = cpu_be[1:0];
+  assign timer_wdata_o = wdata_i[15:0];
 
   logic            lock, svc_req, svc_ovr, svc_gnt;
   logic [IdxW-1:0] lock_idx, svc_idx;
@@ -155,7 +160,7 @@ module can_mailbox #(
   logic [23:0]     ewr_cs;
   logic [31:0]     ewr_msg;
   can_mb_smb #(.NumMb(NumMb)) u_smb (
-    .clk_i, .rst_ni, .smb_i(smb), .timer_i(timer),
+    .clk_i, .rst_ni, .smb_i(smb), .timer_i,
     .start_i, .stamp_i, .transmitter_i, .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_srr_i, .rx_rtr_i, .rx_dlc_i,
     .rx_byte_we_i, .rx_byte_i, .rx_valid_i,
     .req_o(ewr_req), .cs_we_o(ewr_cs_we), .cs_row_o(ewr_cs_row), .cs_o(ewr_cs),
@@ -196,7 +201,7 @@ module can_mailbox #(
     .clk_i, .rst_ni, .running_i, .oneshot_i,
     .settled_i(settled), .best_idx_i(best_idx), .retry_busy_i(retry_busy), .retry_o(retry),
     .csw_i(csw_q), .csw_idx_i(csw_idx_q), .csw_act_i(csw_act_q),
-    .bit_tick_i, .start_i, .transmitter_i,
+    .tick_req_o, .tick_i, .start_i, .transmitter_i,
     .tx_req_o, .tx_ide_o, .tx_rtr_o, .tx_dlc_o, .tx_word_o, .tx_next_i, .tx_ok_i, .tx_fail_i,
     .started_o(started), .on_bus_o(on_bus), .cur_idx_o(cur_idx),
     .req_o(ld_req), .step_o(ld_step), .row_o(ld_row), .ld_idx_o(ld_idx), .word_o(ld_word),

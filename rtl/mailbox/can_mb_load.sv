@@ -26,7 +26,8 @@ module can_mb_load #(
   input  logic [IdxW-1:0] csw_idx_i,
   input  logic            csw_act_i,
   // Engine.
-  input  logic            bit_tick_i,
+  output logic            tick_req_o,    // a better frame waits for the next sample point
+  input  logic            tick_i,        // that is now
   input  logic            start_i,
   input  logic            transmitter_i,
   output logic            tx_req_o,
@@ -82,6 +83,7 @@ module can_mb_load #(
   assign step_o  = word_q ? StepWord : end_q ? StepEnd : state_q == StLow ? StepLow
                  : state_q == StHigh ? StepHigh : StepHead;
 
+  assign tick_req_o = tx_req_o && state_q == StHead;
   assign cancel_o = csw_cur;
   assign code_o   = failed_q ? 4'b1001 : tx_rtr_o ? 4'b0100 : 4'b1000;
   assign busy_o   = end_q || flag_o;
@@ -138,7 +140,7 @@ module can_mb_load #(
       cur_idx_o <= '0;
     end else begin
       {flag_o, retry_o} <= '0;
-      tick_q <= {tick_q[0], bit_tick_i};
+      tick_q <= {tick_q[0], tick_i};
       drop_q <= {drop_q[0], 1'b0};
 
       if (head_taken) begin

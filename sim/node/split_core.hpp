@@ -59,7 +59,7 @@ class SplitCore {
 
   /// One rising edge of the clock.
   void edge() {
-    if (copy_to_host(engine_, *host_.rootp)) settle();
+    if (resting_ ? wakes_host(engine_, *host_.rootp) : copy_to_host(engine_, *host_.rootp)) settle();
     if (resting_) {
       rising_edge(engine_, engine_.clk_i);
       return;

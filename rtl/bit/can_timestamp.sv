@@ -6,9 +6,8 @@
 module can_timestamp (
   input  logic        clk_i,
   input  logic        rst_ni,
-  input  logic        clear_i,      // soft reset
-  input  logic        bit_tick_i,   // once per bit while the engine runs
-  input  logic        sync_i,       // TSYN: a frame was stored in buffer 0
+  input  logic        clear_i,      // soft reset, or TSYN; a write in the same clock is lost (2.10)
+  input  logic        sample_i,     // once per bit while the engine runs
   input  logic        we_i,         // write by the CPU
   input  logic [1:0]  be_i,
   input  logic [15:0] wdata_i,
@@ -17,12 +16,12 @@ module can_timestamp (
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       timer_o <= '0;
-    end else if (clear_i || sync_i) begin   // a CPU write in the clock of TSYN is lost (2.10)
+    end else if (clear_i) begin
       timer_o <= '0;
     end else if (we_i) begin
       if (be_i[0]) timer_o[7:0]  <= wdata_i[7:0];
       if (be_i[1]) timer_o[15:8] <= wdata_i[15:8];
-    end else if (bit_tick_i) begin
+    end else if (sample_i) begin
       timer_o <= timer_o + 1'b1;
     end
   end
