@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_ahb: the controller as an AHB-Lite slave. Zero wait states, or one while the engine uses the buffer RAM.
+// can_ahb: the controller as an AHB-Lite slave. Zero wait states, or one while the engine uses the
+// buffer RAM.
 //
 // ERROR (two cycles): unaligned, wider than 32 bits, or beyond the window of 8 KiB.
 
 module can_ahb #(
   /// Message buffers: 16, 32 or 64; the Linux driver uses number 63.
   parameter int NumMb = 64,
-  /// Size of the region that hsel stands for, as a number of address bits, 13 to 32; address bits above
-  /// are not looked at, those down to 13 must be zero.
+  /// Size of the region that hsel stands for, as a number of address bits, 13 to 32; address bits
+  /// above are not looked at, those down to 13 must be zero.
   parameter int RegionBits = 16
 ) (
   input  logic        hclk,

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_flags: what happened: IFLAG, IMASK, the event bits of ESR1, and the interrupt lines (flexcan.md 1.4,
-// 1.5, section 5). An event beats a clear in the same clock.
+// can_flags: what happened: IFLAG, IMASK, the event bits of ESR1, and the interrupt lines
+// (flexcan.md 1.4, 1.5, section 5). An event beats a clear in the same clock.
 
 module can_flags #(
   parameter int NumMb = 64,

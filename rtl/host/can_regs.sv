@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_regs: MCR, CTRL1, ECR, ESR1, IMASK, IFLAG and the extension page (flexcan.md section 1); what needs
-// no RAM. Reserved offsets read 0 and ignore writes; bits of absent features too.
+// can_regs: MCR, CTRL1, ECR, ESR1, IMASK, IFLAG and the extension page (flexcan.md section 1); what
+// needs no RAM. Reserved offsets read 0 and ignore writes; bits of absent features too.
 
 module can_regs #(
   parameter int NumMb = 64,
@@ -96,7 +96,8 @@ module can_regs #(
     if (!rst_ni) begin
       {mdis_q, frz_q, halt_q} <= '1;
     end else begin
-      if (mcr_we && be_i[3] && !soft_rst_busy) {mdis_q, frz_q, halt_q} <= {wdata_i[31:30], wdata_i[28]};
+      if (mcr_we && be_i[3] && !soft_rst_busy)
+        {mdis_q, frz_q, halt_q} <= {wdata_i[31:30], wdata_i[28]};
       if (soft_rst) {frz_q, halt_q} <= '1;   // beats the zeros written with it
     end
   end
@@ -112,13 +113,15 @@ module can_regs #(
       {supv_q, wrn_en_q, srx_dis_o, bcc_o, idam_q} <= {1'b1, 5'b0};
       maxmb_o <= 7'h0F;
     end else if (mcr_we && frz_ack_o && !soft_rst) begin
-      if (be_i[2]) {supv_q, wrn_en_q, srx_dis_o, bcc_o} <= {wdata_i[23], wdata_i[21], wdata_i[17:16]};
+      if (be_i[2])
+        {supv_q, wrn_en_q, srx_dis_o, bcc_o} <= {wdata_i[23], wdata_i[21], wdata_i[17:16]};
       if (be_i[1]) idam_q <= wdata_i[9:8];
       if (be_i[0]) maxmb_o <= wdata_i[6:0];
     end
   end
 
-  // CTRL1: interrupt masks and BOFF_REC at any time, CLK_SRC in disable mode, the rest in freeze mode.
+  // CTRL1: interrupt masks and BOFF_REC at any time, CLK_SRC in disable mode, the rest in freeze
+  // mode.
   logic boff_msk_q, err_msk_q, clk_src_q, twrn_msk_q, rwrn_msk_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -180,12 +183,14 @@ module can_regs #(
 
   // Reads.
   logic [1:0] flt_conf;
-  assign flt_conf = boff_i ? 2'b10 : {1'b0, passive_i || lom_o};   // listen-only reads as passive (2.4)
+  // listen-only reads as passive (2.4)
+  assign flt_conf = boff_i ? 2'b10 : {1'b0, passive_i || lom_o};
   always_comb begin
     rdata_o = '0;
     if (rd_i) begin
       case (addr_i)
-        Mcr:  rdata_o = {mdis_q, frz_q, 1'b0, halt_q, lpm_ack || frz_ack_o, 1'b0, soft_rst_busy, frz_ack_o,
+        Mcr:  rdata_o = {mdis_q, frz_q, 1'b0, halt_q, lpm_ack || frz_ack_o, 1'b0, soft_rst_busy,
+            frz_ack_o,
                          supv_q, 1'b0, wrn_en_q, lpm_ack, 2'b00, srx_dis_o, bcc_o,
                          6'b0, idam_q, 1'b0, maxmb_o};
         Ctrl: rdata_o = {presdiv_o, rjw_o, pseg1_o, pseg2_o,

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_top: the whole controller with a plain native port: a command (address, direction, byte lanes) is taken in
-// a clock with ready_o=1; its data (wdata_i, or rdata_o) belongs to the next clock with ready_o=1.
+// can_top: the whole controller with a plain native port: a command (address, direction, byte
+// lanes) is taken in a clock with ready_o=1; its data (wdata_i, or rdata_o) belongs to the next
+// clock with ready_o=1.
 
 module can_top #(
   /// Message buffers: 16, 32 or 64; the Linux driver uses number 63.
@@ -108,9 +109,11 @@ module can_top #(
 
   can_regs #(.NumMb(NumMb)) u_regs (
     .clk_i, .rst_ni,
-    .rd_i(reg_rd_q), .wr_i(reg_wr_q), .addr_i(reg_addr_q), .be_i(reg_be_q), .wdata_i, .rdata_o(reg_rdata),
+    .rd_i(reg_rd_q), .wr_i(reg_wr_q), .addr_i(reg_addr_q), .be_i(reg_be_q), .wdata_i,
+    .rdata_o(reg_rdata),
     .run_o(run), .clear_o(clear), .frz_ack_o(frz_ack), .mb_busy_i(mb_busy), .mb_scrub_i(mb_scrub),
-    .bcc_o(bcc), .srx_dis_o(srx_dis), .lbuf_o(lbuf), .tsyn_o(tsyn), .oneshot_o(oneshot), .maxmb_o(maxmb),
+    .bcc_o(bcc), .srx_dis_o(srx_dis), .lbuf_o(lbuf), .tsyn_o(tsyn), .oneshot_o(oneshot),
+    .maxmb_o(maxmb),
     .flag_i(flag), .flag_idx_i(flag_idx),
     .presdiv_o(presdiv), .rjw_o(rjw), .pseg1_o(pseg1), .pseg2_o(pseg2), .propseg_o(propseg),
     .smp_o(smp), .lom_o(lom), .lpb_o(lpb), .fd_tolerant_o(fd_tolerant), .boff_rec_o(boff_rec),
@@ -133,7 +136,8 @@ module can_top #(
     .timer_wdata_o(timer_wdata), .timer_i(timer), .transmitter_i(transmitter),
     .tx_req_o(tx_req), .tx_ide_o(tx_ide), .tx_rtr_o(tx_rtr), .tx_dlc_o(tx_dlc), .tx_word_o(tx_word),
     .tx_next_i(tx_next), .tx_ok_i(tx_ok), .tx_fail_i(tx_fail),
-    .start_i(start), .stamp_i(stamp), .rx_hdr_i(rx_hdr), .rx_id_i(rx_id), .rx_ide_i(rx_ide), .rx_srr_i(rx_srr),
+    .start_i(start), .stamp_i(stamp), .rx_hdr_i(rx_hdr), .rx_id_i(rx_id), .rx_ide_i(rx_ide),
+    .rx_srr_i(rx_srr),
     .rx_rtr_i(rx_rtr), .rx_dlc_i(rx_dlc), .rx_byte_we_i(rx_byte_we), .rx_byte_i(rx_byte),
     .rx_valid_i(rx_valid));
 
@@ -150,7 +154,8 @@ module can_top #(
     .timer_wdata_i(timer_wdata), .timer_o(timer),
     .tx_req_i(tx_req), .tx_ide_i(tx_ide), .tx_rtr_i(tx_rtr), .tx_dlc_i(tx_dlc), .tx_word_i(tx_word),
     .tx_next_o(tx_next), .tx_ok_o(tx_ok), .tx_fail_o(tx_fail),
-    .start_o(start), .stamp_o(stamp), .rx_hdr_o(rx_hdr), .rx_id_o(rx_id), .rx_ide_o(rx_ide), .rx_srr_o(rx_srr),
+    .start_o(start), .stamp_o(stamp), .rx_hdr_o(rx_hdr), .rx_id_o(rx_id), .rx_ide_o(rx_ide),
+    .rx_srr_o(rx_srr),
     .rx_rtr_o(rx_rtr), .rx_dlc_o(rx_dlc), .rx_byte_we_o(rx_byte_we), .rx_byte_o(rx_byte),
     .rx_valid_o(rx_valid), .can_rx_i, .can_tx_o, .trace_o);
 endmodule

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mailbox: the message buffers: RAM, transmit arbitration, receive matching and the moves between them,
-// the engine's and the CPU's side.
+// can_mailbox: the message buffers: RAM, transmit arbitration, receive matching and the moves
+// between them, the engine's and the CPU's side.
 //
-// Hidden rows behind the buffers. C/S: NumMb + 0 stamp of the frame sent, + 2/3 frames received. MSG (from
-// 3 * NumMb): 4 * (0/1 frames to send, 2/3 frames received) + (0 ID, 1 bytes 0-3, 2 bytes 4-7). MASK:
-// NumMb + 0 RXGMASK, + 1 RX14MASK, + 2 RX15MASK.
+// Hidden rows behind the buffers. C/S: NumMb + 0 stamp of the frame sent, + 2/3 frames received.
+// MSG (from 3 * NumMb): 4 * (0/1 frames to send, 2/3 frames received) + (0 ID, 1 bytes 0-3, 2 bytes
+// 4-7). MASK: NumMb + 0 RXGMASK, + 1 RX14MASK, + 2 RX15MASK.
 
 module can_mailbox #(
   /// Message buffers: 16, 32 or 64.
@@ -161,7 +161,8 @@ module can_mailbox #(
   logic [31:0]     ewr_msg;
   can_mb_smb #(.NumMb(NumMb)) u_smb (
     .clk_i, .rst_ni, .smb_i(smb), .timer_i,
-    .start_i, .stamp_i, .transmitter_i, .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_srr_i, .rx_rtr_i, .rx_dlc_i,
+    .start_i, .stamp_i, .transmitter_i, .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_srr_i, .rx_rtr_i,
+    .rx_dlc_i,
     .rx_byte_we_i, .rx_byte_i, .rx_valid_i,
     .req_o(ewr_req), .cs_we_o(ewr_cs_we), .cs_row_o(ewr_cs_row), .cs_o(ewr_cs),
     .msg_we_o(ewr_msg_we), .msg_row_o(ewr_msg_row), .msg_o(ewr_msg), .gnt_i(ewr_gnt),
@@ -172,7 +173,8 @@ module can_mailbox #(
   logic [3:0] mv_code;
   can_mb_move #(.NumMb(NumMb)) u_move (
     .clk_i, .rst_ni, .clear_i, .start_i, .rx_hdr_i,
-    .valid_i(rx_valid_i && !(transmitter_i && srx_dis_i)), .hold_i(flags_busy || svc_req), .smb_o(smb),
+    .valid_i(rx_valid_i && !(transmitter_i && srx_dis_i)), .hold_i(flags_busy || svc_req),
+    .smb_o(smb),
     .match_done_i(match_done), .hit_i(hit), .hit_idx_i(hit_idx),
     .lock_i(lock), .lock_idx_i(lock_idx),
     .csw_i(csw_q), .csw_idx_i(csw_idx_q), .csw_empty_i(csw_empty_q),
@@ -181,7 +183,8 @@ module can_mailbox #(
     .moving_o(moving), .flag_o(mv_flag), .busy_o(mv_busy));
 
   // Transmission.
-  logic            ins_req, ins_gnt, scan_req, scan_gnt, settled, retry, retry_busy, started, on_bus;
+  logic            ins_req, ins_gnt, scan_req, scan_gnt, settled, retry, retry_busy, started,
+      on_bus;
   logic [IdxW-1:0] ins_idx, scan_idx, best_idx, cur_idx;
   can_mb_tx #(.NumMb(NumMb)) u_tx (
     .clk_i, .rst_ni, .running_i, .lbuf_i, .maxmb_i,
@@ -215,7 +218,8 @@ module can_mailbox #(
   logic [31:0]     copy_cs;
   can_mb_step #(.NumMb(NumMb)) u_step (
     .clk_i, .rst_ni, .bcc_i,
-    .ld_req_i(ld_req), .ld_step_i(ld_step), .ld_row_i(ld_row), .ld_word_i(ld_word), .ld_idx_i(ld_idx),
+    .ld_req_i(ld_req), .ld_step_i(ld_step), .ld_row_i(ld_row), .ld_word_i(ld_word),
+    .ld_idx_i(ld_idx),
     .cur_idx_i(cur_idx), .ld_cancel_i(ld_cancel), .ld_code_i(ld_code),
     .ld_data_o(ld_data), .ld_data_step_o(data_step),
     .mv_req_i(mv_req), .mv_step_i(mv_step), .mv_row_i(mv_row), .mv_idx_i(mv_idx), .moving_i(moving),
@@ -240,7 +244,8 @@ module can_mailbox #(
     .copy_msg_we_i(copy_msg_we), .copy_msg_row_i(copy_msg_row),
     .svc_req_i(svc_req), .svc_idx_i(svc_idx), .svc_ovr_i(svc_ovr), .svc_gnt_o(svc_gnt),
     .ewr_req_i(ewr_req), .ewr_cs_we_i(ewr_cs_we), .ewr_cs_row_i(ewr_cs_row), .ewr_cs_i(ewr_cs),
-    .ewr_msg_we_i(ewr_msg_we), .ewr_msg_row_i(ewr_msg_row), .ewr_msg_i(ewr_msg), .ewr_gnt_o(ewr_gnt),
+    .ewr_msg_we_i(ewr_msg_we), .ewr_msg_row_i(ewr_msg_row), .ewr_msg_i(ewr_msg),
+    .ewr_gnt_o(ewr_gnt),
     .scrub_i(scrub_o), .scrub_row_i(scrub_row_q), .csw_i(csw_q));
 
   assign flag_o     = mv_flag || ld_flag;

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_load: the frame presented to the engine: loaded from the winner of the arbitration, kept apart
-// from the buffer while it is sent, and its end written back.
+// can_mb_load: the frame presented to the engine: loaded from the winner of the arbitration, kept
+// apart from the buffer while it is sent, and its end written back.
 //
-// The data words are copied into one of two hidden rows ahead of time, while a frame may still be sent
-// from the other; the last step takes C/S and ID at once, so a frame is replaced in one clock.
+// The data words are copied into one of two hidden rows ahead of time, while a frame may still be
+// sent from the other; the last step takes C/S and ID at once, so a frame is replaced in one clock.
 
 module can_mb_load #(
   parameter int NumMb = 64,
@@ -128,7 +128,8 @@ module can_mb_load #(
   end
 
   logic head_taken;
-  assign head_taken = data_i && data_step_i == StepHead && state_q == StHead && !on_bus_o && !started_o
+  assign head_taken = data_i && data_step_i == StepHead && state_q == StHead && !on_bus_o
+                   && !started_o
                    && !csw_ld && cs_i[27:24] == 4'b1100;
 
   // The frame presented or on the bus.
@@ -149,8 +150,8 @@ module can_mb_load #(
         word_o    <= 1'b0;
         cur_idx_o <= ld_idx_o;
       end else if (csw_cur) begin
-        // Rewritten: what is under way is no longer the buffer's. Not yet under way: take it back, but
-        // rewriting it for ever does not keep everybody off the bus.
+        // Rewritten: what is under way is no longer the buffer's. Not yet under way: take it back,
+        // but rewriting it for ever does not keep everybody off the bus.
         orphan_q <= 1'b1;
         if (tx_req_o && (!csw_act_i || !dropped_q)) begin
           tx_req_o  <= 1'b0;

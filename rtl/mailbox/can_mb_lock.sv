@@ -17,7 +17,7 @@ module can_mb_lock #(
   input  logic            timer_rd_i,   // ... or TIMER
   input  logic [IdxW-1:0] idx_i,
   input  logic [31:0]     cs_i,         // the word as stored
-  input  logic            busy_i,       // that buffer is being moved into: reads BUSY, is not locked
+  input  logic            busy_i,       // it is being moved into: reads BUSY, is not locked
   input  logic            csw_i,        // a C/S word was written in the clock before
   input  logic [IdxW-1:0] csw_idx_i,
   output logic            lock_o,

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_move: received frames on their way from the hidden rows into their buffers (flexcan.md 3.5, 3.6).
+// can_mb_move: received frames on their way from the hidden rows into their buffers (flexcan.md
+// 3.5, 3.6).
 //
-// Two hidden rows: one takes the frame on the bus while the other may hold a frame whose buffer is locked.
-// Each waiting frame is bound to its buffer; a later frame for the same buffer replaces it.
+// Two hidden rows: one takes the frame on the bus while the other may hold a frame whose buffer is
+// locked. Each waiting frame is bound to its buffer; a later frame for the same buffer replaces it.
 
 module can_mb_move #(
   parameter int NumMb = 64,
@@ -47,8 +48,9 @@ module can_mb_move #(
   logic [1:0]      full_q;
   logic [IdxW-1:0] tgt0_q, tgt1_q;
 
-  // A frame may move when its buffer is known and not locked. The buffer shows BUSY from the next clock
-  // on; only then is it certain that the CPU has not locked it in the clock of the decision (arm_q).
+  // A frame may move when its buffer is known and not locked. The buffer shows BUSY from the next
+  // clock on; only then is it certain that the CPU has not locked it in the clock of the decision
+  // (arm_q).
   logic [1:0] ready, kill;
   assign ready[0] = full_q[0] && !(unres_q && !unres_row_q) && !(lock_i && lock_idx_i == tgt0_q);
   assign ready[1] = full_q[1] && !(unres_q && unres_row_q) && !(lock_i && lock_idx_i == tgt1_q);
@@ -91,7 +93,8 @@ module can_mb_move #(
         arm_q <= 1'b0;
       end else if (data_i) begin
         step_o <= step_o + 1'b1;
-        if (step_o == 2'd0) ovr_q <= (cs_i[25] && !cs_i[31]) && !csw_hit;   // FULL or OVERRUN, unread
+        // FULL or OVERRUN, unread
+        if (step_o == 2'd0) ovr_q <= (cs_i[25] && !cs_i[31]) && !csw_hit;
         if (step_o == 2'd2) {end_q, flag_o} <= '1;
       end
       if (mv_q && csw_hit) ovr_q <= 1'b0;

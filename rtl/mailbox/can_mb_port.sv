@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_port: who reads and who writes the buffer RAMs in each clock; CPU and engine share one read
-// and one write port, and the CPU never waits more than one clock.
+// can_mb_port: who reads and who writes the buffer RAMs in each clock; CPU and engine share one
+// read and one write port, and the CPU never waits more than one clock.
 //
 // Reads, by priority: a CPU read that has waited; an insertion (can_mb_tx); the engine if it was
-// refused before; the CPU; the engine. Writes: a CPU write that has waited; the second half of a copy
-// (its data is on the RAM outputs only now); a serviced mark; the engine if it was refused before; the
-// CPU; the engine. C/S writes in a row make room for engine reads, because each brings an insertion.
+// refused before; the CPU; the engine. Writes: a CPU write that has waited; the second half of a
+// copy (its data is on the RAM outputs only now); a serviced mark; the engine if it was refused
+// before; the CPU; the engine. C/S writes in a row make room for engine reads, because each brings
+// an insertion.
 
 module can_mb_port #(
   parameter int NumMb = 64,
@@ -16,8 +17,8 @@ module can_mb_port #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  // CPU, command: only while ready_o. kind: 0 C/S, 1 ID or data (word 0..2), 2 mask (word[0]: hidden
-  // row), 3 no RAM, but ordered like one (TIMER).
+  // CPU, command: only while ready_o. kind: 0 C/S, 1 ID or data (word 0..2), 2 mask (word[0]:
+  // hidden row), 3 no RAM, but ordered like one (TIMER).
   input  logic            cmd_rd_i,
   input  logic            cmd_wr_i,
   input  logic [1:0]      cmd_kind_i,
@@ -46,8 +47,8 @@ module can_mb_port #(
   output logic [31:0]     cs_o,
   output logic [31:0]     msg_o,
   output logic [31:0]     mask_o,
-  // Second half of a copy; hold_o: not in this clock, a CPU write has waited for long enough. The RAM
-  // outputs stay as they are then: nobody reads.
+  // Second half of a copy; hold_o: not in this clock, a CPU write has waited for long enough. The
+  // RAM outputs stay as they are then: nobody reads.
   input  logic            copy_i,
   output logic            hold_o,
   input  logic [3:0]      copy_cs_we_i,
@@ -103,8 +104,8 @@ module can_mb_port #(
     end
   end
 
-  // Read port. An engine write that was refused claims a slot too: reads of C/S words in a row, each
-  // with its serviced mark, would keep it out otherwise.
+  // Read port. An engine write that was refused claims a slot too: reads of C/S words in a row,
+  // each with its serviced mark, would keep it out otherwise.
   logic pend_q, owed_q, want, cpu_gnt, ewr_owed_q;
   assign want      = eng_req_i || ewr_owed_q;
   assign cpu_gnt   = pend_q || (cmd_rd_i && !ins_req_i && !(want && owed_q) && !hold_o);

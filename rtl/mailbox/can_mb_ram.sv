@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_ram: one read and one write port, byte enables, registered read data: a block RAM anywhere.
+// can_mb_ram: one read and one write port, byte enables, registered read data: a block RAM
+// anywhere.
 
 module can_mb_ram #(
   /// Words of 32 bits; a power of two.

@@ -58,7 +58,8 @@ module can_mb_rx #(
   assign id_ok   = ((id_i[28:18] ^ key_q[28:18]) & mask_i[28:18]) == '0
                 && (!key_ide_q || ((id_i[17:0] ^ key_q[17:0]) & mask_i[17:0]) == '0);
   assign free    = (cs_i[26:24] == 3'b100 || cs_i[31]) && !(lock_i && lock_idx_i == s1_idx_q);
-  assign skip    = s2_skip_q || (csw_i && csw_idx_i == s2_idx_q);   // written meanwhile: read it again
+  // written meanwhile: read it again
+  assign skip    = s2_skip_q || (csw_i && csw_idx_i == s2_idx_q);
   assign last    = idx_o == IdxW'(NumMb - 1) || 7'(idx_o) == maxmb_i;
 
   // The CPU took the chosen buffer away: look again. Writing EMPTY leaves it a candidate.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_smb: writes the frame that passes by into a hidden row of the RAMs: its time stamp at the start,
-// the identifier, each data byte as it comes, the header bits at the end.
+// can_mb_smb: writes the frame that passes by into a hidden row of the RAMs: its time stamp at the
+// start, the identifier, each data byte as it comes, the header bits at the end.
 
 module can_mb_smb #(
   parameter int NumMb = 64,

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_step: gives the engine's read slots to loads, moves, matching and arbitration, in this order, and
-// does the copies. A copy is a read slot and, in the next clock, a write: the word is kept nowhere but on
-// the RAM outputs, so no two steps in a row, and no other read while it has to stay there (hold_i).
+// can_mb_step: gives the engine's read slots to loads, moves, matching and arbitration, in this
+// order, and does the copies. A copy is a read slot and, in the next clock, a write: the word is
+// kept nowhere but on the RAM outputs, so no two steps in a row, and no other read while it has to
+// stay there (hold_i).
 
 module can_mb_step #(
   parameter int NumMb = 64,
@@ -86,7 +87,8 @@ module can_mb_step #(
   end
 
   // Rows of the MSG memory behind the buffers (can_mailbox).
-  function automatic logic [IdxW+1:0] hidden(input logic rx, input logic row, input logic [1:0] word);
+  function automatic logic [IdxW+1:0] hidden(input logic rx, input logic row,
+      input logic [1:0] word);
     hidden = (IdxW+2)'(3 * NumMb) | (IdxW+2)'({rx, row, word});
   endfunction
 
@@ -126,7 +128,8 @@ module can_mb_step #(
       copy_cs_row_o  = {1'b0, cur_idx_i};
       copy_cs_o      = {4'b0, ld_code_i, 1'b0, cs_i};
       copy_msg_we_o  = ld_data_step_o[1];
-      copy_msg_row_o = hidden(1'b0, ld_row_i, {ld_data_step_o != StepLow, ld_data_step_o == StepLow});
+      copy_msg_row_o = hidden(1'b0, ld_row_i, {ld_data_step_o != StepLow,
+          ld_data_step_o == StepLow});
     end else if (data_q && moving_i) begin
       copy_o        = 1'b1;
       copy_cs_we_o  = {4{mv_step_i == 2'd2 && !mv_cancel_i}};

@@ -4,9 +4,9 @@
 // can_mb_tx: transmit arbitration; keeps the winner among the active buffers (flexcan.md 3.3).
 //
 // A C/S write is compared at once with the winner so far. When the winner itself is changed, taken
-// away or goes on the bus, one pass over all buffers finds the next. A pass that was spoiled by another
-// change is followed by a new one; until a pass ends unspoiled the best of what was seen may be sent, so
-// that a CPU that writes C/S words for ever cannot hold up the others.
+// away or goes on the bus, one pass over all buffers finds the next. A pass that was spoiled by
+// another change is followed by a new one; until a pass ends unspoiled the best of what was seen
+// may be sent, so that a CPU that writes C/S words for ever cannot hold up the others.
 
 module can_mb_tx #(
   parameter int NumMb = 64,
@@ -73,8 +73,8 @@ module can_mb_tx #(
     end
   end
 
-  // A buffer written since it was read does not count: an insertion follows if it is active. Nor does
-  // the one on the bus.
+  // A buffer written since it was read does not count: an insertion follows if it is active. Nor
+  // does the one on the bus.
   logic candidate, gone, better;
   assign candidate = s2_q && s2_active_q && !(csw_i && csw_idx_i == s2_idx_q)
                   && !((on_bus_i || start_i) && s2_idx_q == cur_idx_i);
