@@ -1,20 +1,20 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Writes a can_core without contents, whose ports C++ can reach, and the C++ that copies those ports.
+# Writes a can_core without contents, whose ports C++ can reach, and the C++ that copies them.
 """usage: split_core.py CAN_CORE_SV OUT_SV OUT_HPP
 
 The simulator runs engine and host side as two Verilated models, so that the host side rests while
-nothing changes for it (sim/node/split_core.hpp). Ports are read from the module itself: a new one needs
-no change here.
+nothing changes for it (sim/node/split_core.hpp). Ports are read from the module itself: a new one
+needs no change here.
 """
 import re
 import sys
 
 # The node drives these itself, and takes the others of these from the engine.
 SKIPPED = {"clk_i", "rst_ni", "can_rx_i", "can_tx_o", "trace_o"}
-# Data that mean something only beside a pulse, or when the CPU reads them: they change in every bit, and
-# the host side need not wake for that.
+# Data that mean something only beside a pulse, or when the CPU reads them: they change in every
+# bit, and the host side need not wake for that.
 QUIET = {"rx_id_o", "rx_ide_o", "rx_srr_o", "rx_rtr_o", "rx_dlc_o", "rx_byte_o", "timer_o"}
 PORT = re.compile(r"^\s*(input|output)\s+logic\s*(\[[^\]]*\])?\s*(\w+),?", re.MULTILINE)
 ROOT = "can_ahb__DOT__u_top__DOT__u_core__DOT__"
@@ -44,10 +44,12 @@ def main():
             sv.append(f"  assign {name}_v = {name};")
             back.append(name)
     sv.append("endmodule")
-    hpp = ["// Generated from can_core.sv: copies its ports between the two models.", "#pragma once", "",
+    hpp = ["// Generated from can_core.sv: copies its ports between the two models.",
+           "#pragma once", "",
            "namespace vericansim {", "",
            "/// Engine outputs to the host side; true if any has changed.",
-           "template <typename Core, typename Host>", "bool copy_to_host(const Core &core, Host &host) {",
+           "template <typename Core, typename Host>",
+           "bool copy_to_host(const Core &core, Host &host) {",
            "  unsigned changed = 0;"]
     for name in into:
         hpp.append(f"  changed |= host.{ROOT}{name}_v ^ core.{name};")
@@ -56,13 +58,16 @@ def main():
         hpp.append(f"  host.{ROOT}{name}_v = core.{name};")
     hpp += ["  return true;", "}", "",
             "/// True if an engine output has changed that a resting host side must see.",
-            "template <typename Core, typename Host>", "bool wakes_host(const Core &core, const Host &host) {",
+            "template <typename Core, typename Host>",
+            "bool wakes_host(const Core &core, const Host &host) {",
             "  unsigned changed = 0;"]
     for name in into:
         if name not in QUIET:
             hpp.append(f"  changed |= host.{ROOT}{name}_v ^ core.{name};")
-    hpp += ["  return changed != 0;", "}", "", "/// Host side to engine inputs; true if any has changed.",
-            "template <typename Core, typename Host>", "bool copy_to_core(Core &core, const Host &host) {",
+    hpp += ["  return changed != 0;", "}", "",
+             "/// Host side to engine inputs; true if any has changed.",
+            "template <typename Core, typename Host>",
+            "bool copy_to_core(Core &core, const Host &host) {",
             "  unsigned changed = 0;"]
     for name in back:
         hpp.append(f"  changed |= core.{name} ^ host.{ROOT}{name}_v;")

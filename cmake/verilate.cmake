@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# verican_verilate(<target> TOP <module> [PARAMS Name=value ...] [REPLACE <file>]): a static library with
-# the Verilated model of any module of rtl/can.f; its class has the name of the target and its header is
-# <target>.h. REPLACE takes the place of the file of that name in rtl/can.f.
+# verican_verilate(<target> TOP <module> [PARAMS Name=value ...] [REPLACE <file>]): a static library
+# with the Verilated model of any module of rtl/can.f; its class has the name of the target and its
+# header is <target>.h. REPLACE takes the place of the file of that name in rtl/can.f.
 include_guard(GLOBAL)
 find_program(VERILATOR verilator REQUIRED)
 execute_process(COMMAND "${VERILATOR}" --getenv VERILATOR_ROOT
@@ -18,7 +18,8 @@ target_include_directories(verilated_runtime SYSTEM PUBLIC "${VERILATOR_ROOT}/in
 target_compile_options(verilated_runtime PRIVATE -w)
 target_link_libraries(verilated_runtime PUBLIC Threads::Threads)
 
-# Speed: no X, no assertions, no waves inside the model (observers read trace_o); lint is `make lint`.
+# Speed: no X, no assertions, no waves inside the model (observers read trace_o); lint is `make
+# lint`.
 set(VERICAN_VERILATOR_FLAGS --cc -O3 --x-assign fast --x-initial fast --no-assert --output-split 0
     --no-timing -Wno-lint -Wno-style)
 
@@ -32,8 +33,8 @@ function(verican_verilate target)
   set(dir "${CMAKE_CURRENT_BINARY_DIR}/${target}.dir")
   set(all "${dir}/${target}__all.cpp")
   list(TRANSFORM ARG_PARAMS PREPEND "-G" OUTPUT_VARIABLE parameters)
-  # One source file that includes the others: their number is known only after Verilator has run, and
-  # the compiler sees the whole model at once.
+  # One source file that includes the others: their number is known only after Verilator has run,
+  # and the compiler sees the whole model at once.
   add_custom_command(
     OUTPUT "${all}" "${dir}/${target}.h"
     COMMAND "${CMAKE_COMMAND}" -E rm -rf "${dir}"

@@ -59,7 +59,9 @@ class SplitCore {
 
   /// One rising edge of the clock.
   void edge() {
-    if (resting_ ? wakes_host(engine_, *host_.rootp) : copy_to_host(engine_, *host_.rootp)) settle();
+    const bool changed =
+        resting_ ? wakes_host(engine_, *host_.rootp) : copy_to_host(engine_, *host_.rootp);
+    if (changed) settle();
     if (resting_) {
       rising_edge(engine_, engine_.clk_i);
       return;
