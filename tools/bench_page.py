@@ -39,8 +39,8 @@ def mega(entry):
 
 def saturated(medians):
     """The table of saturated buses, ideal and drifting clocks side by side."""
-    text = ["| nodes | clock | node-cycles/s, one clock | simulated/wall | node-cycles/s, own clocks |"
-            " simulated/wall |", "|---|---|---|---|---|---|"]
+    text = ["| nodes | clock | node-cycles/s, one clock | simulated/wall | "
+            "node-cycles/s, own clocks | simulated/wall |", "|---|---|---|---|---|---|"]
     for name, entry in medians.items():
         args = arguments(name)
         if not name.startswith("saturated_bus") or args["drift"]:
@@ -97,8 +97,8 @@ def machine(context):
         if line.startswith("model name"):
             model = line.partition(":")[2].strip()
             break
-    verilator = subprocess.run(["verilator", "--version"], capture_output=True, text=True, check=True)
-    return f"{model}, {context['num_cpus']} CPUs; {verilator.stdout.split(' rev')[0].strip()}"
+    run = subprocess.run(["verilator", "--version"], capture_output=True, text=True, check=True)
+    return f"{model}, {context['num_cpus']} CPUs; {run.stdout.split(' rev')[0].strip()}"
 
 
 def page(results):
@@ -109,15 +109,15 @@ def page(results):
             "Written by `make bench`; medians of three runs on one CPU core.",
             f"Machine: {machine(context)}.", "",
             "## Saturated bus, 1 Mbit/s, whole cores", "", *saturated(medians), "",
-            "A node-cycle is one clock of one Verilated `can_ahb`; simulated/wall of 1 is real time.",
+            "A node-cycle is one clock of one Verilated `can_ahb`; simulated/wall 1 is real time.",
             "", "Other cores Verilated on a saturated bus, two nodes:", "",
             "| core | node-cycles/s |", "|---|---|"]
     if two:
         text.append(f"| **VeriCAN** | {mega(two)} M |")
     text += [f"| {name} | {value} M |" for name, value in OTHERS]
     text += ["", "## Where the time goes", "", *parts(medians), "",
-             "*Kernel* is the bus with nodes that do nothing, *engine* `can_core` and *core* `can_ahb`",
-             "on an idle bus without observers."]
+             "*Kernel* is the bus with nodes that do nothing, *engine* `can_core` and *core*",
+             "`can_ahb` on an idle bus without observers."]
     return "\n".join(text + replays(results) + suite(results)) + "\n"
 
 

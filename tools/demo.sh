@@ -36,9 +36,11 @@ if [ -f "$recording" ]; then
 fi
 
 headline "What is left to look at"
-echo "waveforms: $(find "$out" -name '*.fst' -o -name '*.vcd' | wc -l) in $out and $out/paper, for example"
-echo "  gtkwave $(find "$out" -name '*.fst' -o -name '*.vcd' | sort | head -n 1)"
-echo "logs (candump format): $(find "$out" -name '*.log' | sort | tr '\n' ' ')"
+waves() { find "$out" -name '*.fst' -o -name '*.vcd'; }
+echo "$(waves | wc -l) waveforms in $out and $out/paper, for example:"
+echo "  gtkwave $out/arbitration.fst"
+echo "$(find "$out" -name '*.log' | wc -l) logs in candump's format, for example:"
+echo "  $out/sixteen-nodes.log"
 if [ "${#failed[@]}" -ne 0 ]; then
   printf 'demo: failed: %s\n' "${failed[@]}" >&2
   exit 1

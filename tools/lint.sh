@@ -19,7 +19,7 @@ check() {
   else
     failures=$((failures + 1))
     echo "  FAIL  $name"
-    printf '%s\n' "$output" | head -n 60 | sed 's/^/        /'
+    printf '%s\n' "$output" | head -n 100 | sed 's/^/        /'
   fi
 }
 

@@ -144,7 +144,8 @@ def table(rules, cited):
     out = ["# Rules and their tests", "",
            "Written by `make rules` from [`tb/plan.yaml`](../tb/plan.yaml) and the rule ids that",
            "the tests cite; `make test` fails if a rule lacks a test or this page is stale.", "",
-           f"{sum(has_test(rule, cited) for rule in required)} of {len(required)} rules have a test; "
+           f"{sum(has_test(rule, cited) for rule in required)} of {len(required)} rules have a "
+           "test; "
            f"{sum(entry[1] is not None for entry in rules.values())} rules do not apply; "
            f"{len(tests)} tests cite rules."]
     for section in yaml.safe_load(PLAN.read_text()):

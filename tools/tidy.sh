@@ -30,7 +30,7 @@ tidy_one() {  # BUILD STAMPS "KEY FILE"
   if output=$(clang-tidy --quiet -p "$build" "$file" 2>/dev/null); then
     : >"$stamps/$key"
   else
-    printf '%s\n' "$output"
+    grep -E ': (error|warning):' <<<"$output"
     return 1
   fi
 }

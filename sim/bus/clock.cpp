@@ -63,9 +63,9 @@ void Clock::set_error_ppm(double ppm) {
 void Clock::set_period(double ppm) {
   momentary_ppm_ = ppm;
   const auto millihertz = static_cast<Fixed>(std::llround(config_.frequency_hz * 1e3));
-  const auto ppb = static_cast<Fixed>(1'000'000'000 + std::llround(ppm * 1e3));
+  const long long ppb = 1'000'000'000 + std::llround(ppm * 1e3);
   constexpr Fixed kTera = 1'000'000'000'000ULL;
-  period_ = divide(kTera * kTera, millihertz * ppb);
+  period_ = divide(kTera * kTera, millihertz * static_cast<Fixed>(ppb));
 }
 
 void Clock::update() {

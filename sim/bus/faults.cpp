@@ -82,7 +82,7 @@ NoiseFault::Victim &NoiseFault::victim(NodeId id) {
     Victim fresh;
     fresh.random.seed(config_.seed * 0x9E3779B97F4A7C15ULL + victims_.size());
     fresh.next_glitch = config_.window.from + draw_gap(fresh);
-    victims_.push_back(std::move(fresh));
+    victims_.push_back(fresh);
   }
   return victims_[id];
 }

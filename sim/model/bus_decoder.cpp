@@ -83,24 +83,12 @@ void BusDecoder::sample() {
     case Stage::kIdle:
       if (sampled_ == Level::kDominant) start_frame();
       break;
-    case Stage::kStuffed:
-      sample_stuffed();
-      break;
-    case Stage::kTail:
-      sample_tail();
-      break;
-    case Stage::kFlag:
-      sample_flag();
-      break;
-    case Stage::kSilence:
-      sample_silence();
-      break;
-    case Stage::kDelimiter:
-      sample_delimiter();
-      break;
-    case Stage::kIntermission:
-      sample_intermission();
-      break;
+    case Stage::kStuffed: sample_stuffed(); break;
+    case Stage::kTail: sample_tail(); break;
+    case Stage::kFlag: sample_flag(); break;
+    case Stage::kSilence: sample_silence(); break;
+    case Stage::kDelimiter: sample_delimiter(); break;
+    case Stage::kIntermission: sample_intermission(); break;
   }
 }
 

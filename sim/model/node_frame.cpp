@@ -15,16 +15,11 @@ bool in_arbitration(Field field) { return field >= Field::kId && field <= Field:
 /// AR-12: 0 = ID28 .. 31 = extended RTR.
 std::uint8_t arbitration_position(const BitPlace &place) {
   switch (place.field) {
-    case Field::kId:
-      return place.index;
-    case Field::kRtr:
-      return 11;
-    case Field::kIde:
-      return 12;
-    case Field::kExId:
-      return static_cast<std::uint8_t>(13 + place.index);
-    default:
-      return 31;
+    case Field::kId: return place.index;
+    case Field::kRtr: return 11;
+    case Field::kIde: return 12;
+    case Field::kExId: return static_cast<std::uint8_t>(13 + place.index);
+    default: return 31;
   }
 }
 
@@ -42,29 +37,18 @@ Level NodeModel::frame_level() const {
   if (place_.is_stuff) return !parser_.run_level();
   const unsigned index = place_.index;
   switch (place_.field) {
-    case Field::kSof:
-      return Level::kDominant;
-    case Field::kId:
-      return bit_of(active_.extended ? active_.id >> 18 : active_.id, 10 - index);
-    case Field::kRtr:
-      return recessive_if(active_.extended || active_.remote);
-    case Field::kIde:
-      return recessive_if(active_.extended);
-    case Field::kExId:
-      return bit_of(active_.id, 17 - index);
-    case Field::kExRtr:
-      return recessive_if(active_.remote);
+    case Field::kSof: return Level::kDominant;
+    case Field::kId: return bit_of(active_.extended ? active_.id >> 18 : active_.id, 10 - index);
+    case Field::kRtr: return recessive_if(active_.extended || active_.remote);
+    case Field::kIde: return recessive_if(active_.extended);
+    case Field::kExId: return bit_of(active_.id, 17 - index);
+    case Field::kExRtr: return recessive_if(active_.remote);
     case Field::kR1:
-    case Field::kR0:
-      return Level::kDominant;
-    case Field::kDlc:
-      return bit_of(active_.dlc, 3 - index);
-    case Field::kData:
-      return bit_of(active_.data[index / 8], 7 - index % 8);
-    case Field::kCrc:
-      return bit_of(parser_.crc(), 14 - index);
-    default:
-      return Level::kRecessive;
+    case Field::kR0: return Level::kDominant;
+    case Field::kDlc: return bit_of(active_.dlc, 3 - index);
+    case Field::kData: return bit_of(active_.data[index / 8], 7 - index % 8);
+    case Field::kCrc: return bit_of(parser_.crc(), 14 - index);
+    default: return Level::kRecessive;
   }
 }
 

@@ -22,33 +22,20 @@ void NodeModel::sample(Level bus) {
 
 void NodeModel::dispatch(Level level) {
   switch (place_.field) {
-    case Field::kInteg:
-      return sample_integration(level);
-    case Field::kBusOff:
-      return sample_bus_off(level);
-    case Field::kIdle:
-      return level == Level::kDominant ? foreign_sof(true) : may_start();
-    case Field::kInt:
-      return sample_intermission(level);
-    case Field::kSuspend:
-      return sample_suspend(level);
-    case Field::kSof:
-      return sample_sof(level);
-    case Field::kAck:
-      return sample_ack(level);
-    case Field::kAckDel:
-      return sample_ack_delimiter(level);
-    case Field::kEof:
-      return sample_eof(level);
+    case Field::kInteg: return sample_integration(level);
+    case Field::kBusOff: return sample_bus_off(level);
+    case Field::kIdle: return level == Level::kDominant ? foreign_sof(true) : may_start();
+    case Field::kInt: return sample_intermission(level);
+    case Field::kSuspend: return sample_suspend(level);
+    case Field::kSof: return sample_sof(level);
+    case Field::kAck: return sample_ack(level);
+    case Field::kAckDel: return sample_ack_delimiter(level);
+    case Field::kEof: return sample_eof(level);
     case Field::kErrFlag:
-    case Field::kOvlFlag:
-      return silent_flag_ ? sample_silent_flag(level) : sample_flag(level);
-    case Field::kWait:
-      return sample_wait(level);
-    case Field::kDel:
-      return sample_delimiter(level);
-    default:
-      return sample_stuffed(level);
+    case Field::kOvlFlag: return silent_flag_ ? sample_silent_flag(level) : sample_flag(level);
+    case Field::kWait: return sample_wait(level);
+    case Field::kDel: return sample_delimiter(level);
+    default: return sample_stuffed(level);
   }
 }
 
@@ -62,17 +49,14 @@ Level NodeModel::next_level() const {
     case Field::kAckDel:
     case Field::kEof:
     case Field::kWait:
-    case Field::kDel:
-      return Level::kRecessive;
+    case Field::kDel: return Level::kRecessive;
     case Field::kErrFlag:
-    case Field::kOvlFlag:
-      return silent_flag_ ? Level::kRecessive : Level::kDominant;
+    case Field::kOvlFlag: return silent_flag_ ? Level::kRecessive : Level::kDominant;
     case Field::kAck:  // AK-01: whatever the filters and the error state say.
       return role_ == Role::kReceiver && parser_.crc_matches() && !config_.listen_only
                  ? Level::kDominant
                  : Level::kRecessive;
-    default:
-      return role_ == Role::kTransmitter ? frame_level() : Level::kRecessive;
+    default: return role_ == Role::kTransmitter ? frame_level() : Level::kRecessive;
   }
 }
 
@@ -105,37 +89,18 @@ ErrorState NodeModel::error_state() const {
 unsigned NodeModel::left() const {
   unsigned length = place_.index + 1u;
   switch (place_.field) {
-    case Field::kInt:
-      length = 3;
-      break;
-    case Field::kSuspend:
-      length = 8;
-      break;
-    case Field::kId:
-      length = 11;
-      break;
-    case Field::kExId:
-      length = 18;
-      break;
-    case Field::kDlc:
-      length = 4;
-      break;
-    case Field::kData:
-      length = 8 * parser_.frame().payload_size();
-      break;
-    case Field::kCrc:
-      length = 15;
-      break;
+    case Field::kInt: length = 3; break;
+    case Field::kSuspend: length = 8; break;
+    case Field::kId: length = 11; break;
+    case Field::kExId: length = 18; break;
+    case Field::kDlc: length = 4; break;
+    case Field::kData: length = 8 * parser_.frame().payload_size(); break;
+    case Field::kCrc: length = 15; break;
     case Field::kEof:
-    case Field::kDel:
-      length = 7;
-      break;
+    case Field::kDel: length = 7; break;
     case Field::kErrFlag:
-    case Field::kOvlFlag:
-      length = 6;
-      break;
-    default:
-      break;
+    case Field::kOvlFlag: length = 6; break;
+    default: break;
   }
   return length - 1u - place_.index;
 }

@@ -45,9 +45,7 @@ void FrameParser::take_field_bit(Level level) {
   if (field_ != Field::kCrc) crc_ = crc_step(crc_, bit);
   switch (field_) {
     case Field::kId:
-    case Field::kExId:
-      take_identifier_bit(bit);
-      break;
+    case Field::kExId: take_identifier_bit(bit); break;
     case Field::kRtr:
       substitute_ = bit;
       go(Field::kIde);
@@ -64,15 +62,9 @@ void FrameParser::take_field_bit(Level level) {
     case Field::kR1:  // FF-05: either level.
       go(Field::kR0);
       break;
-    case Field::kR0:
-      go(Field::kDlc);
-      break;
-    case Field::kDlc:
-      take_length_bit(bit);
-      break;
-    case Field::kData:
-      take_data_bit(bit);
-      break;
+    case Field::kR0: go(Field::kDlc); break;
+    case Field::kDlc: take_length_bit(bit); break;
+    case Field::kData: take_data_bit(bit); break;
     case Field::kCrc:
       received_crc_ = static_cast<std::uint16_t>((received_crc_ << 1) | (bit ? 1u : 0u));
       if (++index_ == 15) go(Field::kCrcDel);

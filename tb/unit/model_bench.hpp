@@ -34,20 +34,11 @@ inline std::string play(NodeModel &node, const std::string &script) {
     const Level own = node.drive();
     sent.push_back(own == Level::kRecessive ? '1' : '0');
     switch (c) {
-      case '0':
-        node.sample(Level::kDominant);
-        break;
-      case '1':
-        node.sample(Level::kRecessive);
-        break;
-      case '.':
-        node.sample(own);
-        break;
-      case '!':
-        node.sample(!own);
-        break;
-      default:
-        throw std::invalid_argument("script takes 0 1 . !");
+      case '0': node.sample(Level::kDominant); break;
+      case '1': node.sample(Level::kRecessive); break;
+      case '.': node.sample(own); break;
+      case '!': node.sample(!own); break;
+      default: throw std::invalid_argument("script takes 0 1 . !");
     }
   }
   return sent;
