@@ -121,9 +121,10 @@ def page(results):
     kernel = medians.get("kernel_alone/nodes:2/drift:0")
     if two and kernel:
         share = 100 * two["node_cycles/s"] / kernel["node_cycles/s"]
-        text += ["", f"Of the time of two saturated nodes the kernel takes {share:.0f} %; the rest is the",
-                 "Verilated cores and their software. Less logic that is evaluated in every clock is",
-                 "what would help next."]
+        text += ["",
+                 f"Of the time of two saturated nodes the kernel takes {share:.0f} %; the rest is",
+                 "the Verilated cores and their software. Less logic that is evaluated in every",
+                 "clock is what would help next."]
     return "\n".join(text + replays(results) + suite(results)) + "\n"
 
 
