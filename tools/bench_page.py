@@ -110,9 +110,9 @@ def page(results):
             f"Machine: {machine(context)}.", "",
             "## Saturated bus, 1 Mbit/s, whole cores", "", *saturated(medians), "",
             "A node-cycle is one clock of one Verilated `can_ahb`; simulated/wall 1 is real time.",
-            "A node runs as two models, engine and host side, and the host side rests while nothing",
-            "changes for it (`sim/node/split_core.hpp`); the other cores were evaluated whole in",
-            "every clock.",
+            "A node runs as two models, engine and host side, and the host side rests while",
+            "nothing changes for it (`sim/node/split_core.hpp`); the other cores were evaluated",
+            "whole in every clock.",
             "", "Other cores Verilated on a saturated bus, two nodes:", "",
             "| core | node-cycles/s |", "|---|---|"]
     if two:
