@@ -11,7 +11,7 @@ OUT    := $(BUILD)/out
 QUIET  := $(if $(V),,tools/quiet.sh)
 
 .DEFAULT_GOAL := help
-.PHONY: help packages build demo test lint bench synth wave rules format clean
+.PHONY: help packages build demo test lint bench synth wave rules rows format clean
 
 help:  ## List the targets
 	@echo "VeriCAN: a CAN 2.0 controller in RTL and its bus simulator"
@@ -51,6 +51,9 @@ wave: build  ## Run one test with waveforms: make wave TEST=Arbitration.LoserRec
 
 rules: packages  ## Regenerate docs/rules.md, the table of rules and their tests
 	@/usr/bin/python3 tools/rules.py
+
+rows: packages  ## Regenerate docs/flexcan-rows.md, the table of FlexCAN rows and their tests
+	@/usr/bin/python3 tools/flexcan_rows.py
 
 format: packages  ## Let clang-format rewrite our C++
 	@git ls-files '*.cpp' '*.hpp' '*.c' '*.h' | xargs -r clang-format -i

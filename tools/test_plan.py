@@ -1,0 +1,186 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""test_plan: holds a plan (a YAML file of ids with titles) against the tests that cite its ids.
+
+A test cites an id where it stands in the body of a TEST, TEST_F or TEST_P block, in the comment
+lines directly above it, or directly above or inside an INSTANTIATE_TEST_SUITE_P (then for every
+TEST_P of that suite). DISABLED_ tests do not count. A range such as "SY-05..SY-09" cites its two
+ends only. Tests of the judges (model_*_test.cpp) are listed, but what they cite still needs a test
+of the core.
+
+The plan is a list of sections: `section`, `name`, `optional` (ids may be cited but need no test)
+and the ids with their titles; an id with {title, not_applicable: reason} must not be cited.
+"""
+import argparse
+import re
+import sys
+from collections import defaultdict
+from dataclasses import dataclass
+from pathlib import Path
+
+import yaml
+
+ROOT = Path(__file__).resolve().parent.parent
+
+TEST = re.compile(r"^(TEST|TEST_F|TEST_P|TYPED_TEST|TYPED_TEST_P)\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.M)
+INSTANCE = re.compile(r"^INSTANTIATE_TEST_SUITE_P\(\s*\w*\s*,\s*(\w+)\s*,", re.M)
+JUDGE = re.compile(r"/model_\w+_test\.cpp$")
+# What braces and parentheses must not be counted in: raw strings, strings, characters, comments.
+OPAQUE = re.compile(r'R"\((?s:.*?)\)"|"(?:\\.|[^"\\\n])*"|'
+                    r"'(?:\\.|[^'\\\n])'|//[^\n]*|/\*(?s:.*?)\*/")
+
+
+def blank_opaque(text):
+    """The same text, same offsets, with strings and comments turned into spaces."""
+    return OPAQUE.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
+
+
+def end_of_group(plain, start, opening, closing):
+    """Offset just behind the group that opens first at or after `start`."""
+    depth = 0
+    for offset in range(plain.index(opening, start), len(plain)):
+        if plain[offset] == opening:
+            depth += 1
+        elif plain[offset] == closing:
+            depth -= 1
+            if depth == 0:
+                return offset + 1
+    return len(plain)
+
+
+def comment_start(text, start):
+    """Offset where the run of // lines directly above `start` begins."""
+    lines = text[:start].split("\n")[:-1]
+    begin = start
+    while lines and lines[-1].lstrip().startswith("//"):
+        begin -= len(lines.pop()) + 1
+    return begin
+
+
+def citations(path, ids):
+    """Yields (id, "Suite.Test") for every citation in one test file."""
+    text = path.read_text()
+    plain = blank_opaque(text)
+    tests_of_suite = defaultdict(list)
+    for match in TEST.finditer(plain):
+        _, suite, name = match.groups()
+        if name.startswith("DISABLED_") or suite.startswith("DISABLED_"):
+            continue
+        tests_of_suite[suite].append(name)
+        end = end_of_group(plain, match.end(), "{", "}")
+        for cited in ids.findall(text[comment_start(text, match.start()):end]):
+            yield cited, f"{suite}.{name}"
+    for match in INSTANCE.finditer(plain):
+        end = end_of_group(plain, match.start(), "(", ")")
+        for cited in ids.findall(text[comment_start(text, match.start()):end]):
+            for name in tests_of_suite[match.group(1)]:
+                yield cited, f"{match.group(1)}.{name}"
+
+
+@dataclass
+class Plan:
+    """One plan, its page, and how to speak of it."""
+    noun: str           # what an id stands for, singular; its plural is the key in the file
+    file: Path          # the plan
+    page: Path          # the table that is written
+    ids: re.Pattern     # one id, without groups
+    heading: str        # of the page
+    command: str        # that writes the page
+
+    @property
+    def key(self):
+        return self.noun + "s"
+
+    def sections(self):
+        return yaml.safe_load(self.file.read_text())
+
+    def load(self):
+        """id -> (title, reason or None, required); exits with one line if the plan is bad."""
+        entries = {}
+        for section in self.sections():
+            for name, entry in section[self.key].items():
+                if not self.ids.fullmatch(name) or name in entries:
+                    sys.exit(f"{self.file}: {name}: not the id of a {self.noun}, or there twice")
+                title, reason = entry, None
+                if isinstance(entry, dict):
+                    title, reason = entry["title"], entry["not_applicable"]
+                entries[name] = (title, reason, not section.get("optional") and reason is None)
+        return entries
+
+    def citations(self):
+        """id -> file -> set of test names."""
+        cited = defaultdict(lambda: defaultdict(set))
+        for path in sorted((ROOT / "tb").glob("*/*_test.cpp")):
+            for name, test in citations(path, self.ids):
+                cited[name][path.relative_to(ROOT).as_posix()].add(test)
+        return cited
+
+    def problems(self, entries, cited):
+        """One line for everything that makes the plan and the tests disagree."""
+        where = self.file.relative_to(ROOT)
+        for name, (title, reason, required) in entries.items():
+            if required and not has_test(name, cited):
+                yield f"{name} ({title}): no test cites it"
+            if reason is not None and name in cited:
+                yield (f"{name}: cited by {sorted(cited[name])[0]}, "
+                       f"but {where} says it does not apply")
+        for name in sorted(set(cited) - set(entries)):
+            yield f"{name}: cited by {sorted(cited[name])[0]}, but not in {where}"
+
+    def table(self, entries, cited):
+        """The page as text."""
+        required = [name for name, entry in entries.items() if entry[2]]
+        tests = {test for files in cited.values() for names in files.values() for test in names}
+        name = self.file.relative_to(ROOT)
+        out = [f"# {self.heading}", "",
+               f"Written by `{self.command}` from [`{name}`](../{name}) and the {self.noun} "
+               "ids that",
+               f"the tests cite; `make test` fails if a {self.noun} lacks a test or this page is "
+               "stale.", "",
+               f"{sum(has_test(name, cited) for name in required)} of {len(required)} {self.key} "
+               f"have a test; {sum(entry[1] is not None for entry in entries.values())} {self.key} "
+               f"do not apply; {len(tests)} tests cite {self.key}."]
+        for section in self.sections():
+            note = " (optional)" if section.get("optional") else ""
+            out += ["", f"## {section['section']} {section['name']}{note}", "",
+                    f"| {self.noun} | title | tests |", "|---|---|---|"]
+            for name in section[self.key]:
+                title, reason, _ = entries[name]
+                out.append(f"| {name} | {title} | {cell(name, reason, cited)} |")
+        return "\n".join(out) + "\n"
+
+
+def has_test(name, cited):
+    """Whether a test that is not only about a judge cites the id."""
+    return any(not JUDGE.search(path) for path in cited.get(name, ()))
+
+
+def cell(name, reason, cited):
+    """The table cell that names the tests of an id."""
+    if reason is not None:
+        return f"*does not apply:* {reason}"
+    parts = []
+    for path, tests in sorted(cited.get(name, {}).items()):
+        names = ", ".join(f"`{test}`" for test in sorted(tests))
+        parts.append(f"[{Path(path).stem}](../{path}): {names}")
+    return "<br>".join(parts) or "–"
+
+
+def main(plan, description, more_problems=lambda entries: ()):
+    """Checks the plan and writes its page, or with --check compares it; the exit status."""
+    parser = argparse.ArgumentParser(description=description.split("\n")[0])
+    parser.add_argument("--check", action="store_true", help="only compare the page")
+    check = parser.parse_args().check
+    entries, cited = plan.load(), plan.citations()
+    found = [*plan.problems(entries, cited), *more_problems(entries)]
+    text = plan.table(entries, cited)
+    if not check:
+        plan.page.write_text(text)
+    elif not plan.page.exists() or plan.page.read_text() != text:
+        page = plan.page.relative_to(ROOT)
+        found.append(f"{page} is stale: run `{plan.command}` and commit it")
+    for line in found:
+        print(f"{plan.key}: {line}", file=sys.stderr)
+    tested = sum(has_test(name, cited) for name in entries)
+    print(f"{plan.key}: {tested} of {len(entries)} have a test, {len(found)} problems")
+    return 1 if found else 0
