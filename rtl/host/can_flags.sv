@@ -15,6 +15,12 @@ module can_flags #(
   // Events.
   input  logic             flag_i,         // a buffer is done
   input  logic [IdxW-1:0]  flag_idx_i,
+  // Rx FIFO: IFLAG1[4:0] are unused then, [5] is the level fifo_avail_i.
+  input  logic             fen_i,
+  input  logic             fifo_clear_i,
+  input  logic             fifo_avail_i,
+  input  logic             fifo_warn_i,
+  input  logic             fifo_ovf_i,
   input  logic [5:0]       err_i,          // can_pkg::Err* pulses
   input  logic             boff_i,
   input  logic             tx_wrn_i,       // counters at 96 or above
@@ -45,7 +51,10 @@ module can_flags #(
   output logic             irq_rwrn_o
 );
   logic [NumMb-1:0] iflag_q, imask_q;
-  assign iflag_o = 64'(iflag_q);
+  always_comb begin
+    iflag_o = 64'(iflag_q);
+    if (fen_i) iflag_o[5:0] = {fifo_avail_i, 5'b0};
+  end
   assign imask_o = 64'(imask_q);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -65,6 +74,9 @@ module can_flags #(
         end
       end
       if (flag_i) iflag_q[flag_idx_i] <= 1'b1;
+      if (fifo_warn_i)  iflag_q[6] <= 1'b1;
+      if (fifo_ovf_i)   iflag_q[7] <= 1'b1;
+      if (fifo_clear_i) iflag_q[7:5] <= '0;
     end
   end
 
@@ -101,7 +113,7 @@ module can_flags #(
     if (!rst_ni) begin
       {irq_mb_o, irq_boff_o, irq_err_o, irq_twrn_o, irq_rwrn_o} <= '0;
     end else begin
-      irq_mb_o   <= (iflag_q & imask_q) != '0;
+      irq_mb_o   <= (iflag_o[NumMb-1:0] & imask_q) != '0;
       irq_twrn_o <= esr_int_o[3] && twrn_msk_i;
       irq_rwrn_o <= esr_int_o[2] && rwrn_msk_i;
       irq_boff_o <= esr_int_o[1] && boff_msk_i;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_regs: MCR, CTRL1, ECR, ESR1, IMASK, IFLAG and the extension page (flexcan.md section 1); what
-// needs no RAM. Reserved offsets read 0 and ignore writes; bits of absent features too.
+// can_regs: MCR, CTRL1, CTRL2, ECR, ESR1, ESR2, CRCR, IMASK, IFLAG and the extension page
+// (flexcan.md section 1); what needs no RAM. Reserved offsets read 0 and ignore writes.
 
 module can_regs #(
   parameter int NumMb = 64,
@@ -29,10 +29,28 @@ module can_regs #(
   output logic            srx_dis_o,
   output logic            lbuf_o,
   output logic            tsyn_o,
+  output logic            lprio_en_o,
+  output logic            aen_o,
+  output logic            eacen_o,
+  output logic            rrs_o,
   output logic            oneshot_o,
+  output logic            osmb_o,        // bit 28 of a Tx buffer's C/S word asks for one shot
   output logic [6:0]      maxmb_o,
   input  logic            flag_i,
   input  logic [IdxW-1:0] flag_idx_i,
+  output logic [63:0]     iflag_o,
+  input  logic [8:0]      esr2_i,        // LPTM, VPS, IMB
+  input  logic [21:0]     crcr_i,        // MBCRC, TXCRC
+  // Rx FIFO.
+  output logic            fen_o,
+  output logic [1:0]      idam_o,
+  output logic [3:0]      rffn_o,
+  output logic            mrp_o,
+  output logic            fifo_clear_o,  // pulse: FEN changes, or soft reset
+  output logic            fifo_pop_o,    // pulse: the CPU is done with the frame at the output
+  input  logic            fifo_avail_i,  // level: a frame is at the output
+  input  logic            fifo_warn_i,   // pulse: almost full
+  input  logic            fifo_ovf_i,    // pulse: a frame was lost
   // Configuration and state of the engine, see can_core.
   output logic [7:0]      presdiv_o,
   output logic [1:0]      rjw_o,
@@ -74,6 +92,9 @@ module can_regs #(
   localparam logic [10:0] Imask1  = 11'h00A;
   localparam logic [10:0] Iflag2  = 11'h00B;
   localparam logic [10:0] Iflag1  = 11'h00C;
+  localparam logic [10:0] Ctrl2   = 11'h00D;
+  localparam logic [10:0] Esr2    = 11'h00E;
+  localparam logic [10:0] Crcr    = 11'h011;
   localparam logic [10:0] ExtId   = 11'h400;
   localparam logic [10:0] ExtVer  = 11'h401;
   localparam logic [10:0] ExtConf = 11'h402;
@@ -102,21 +123,56 @@ module can_regs #(
     end
   end
 
-  // MCR: the rest, written in freeze mode only.
-  logic       supv_q, wrn_en_q;
-  logic [1:0] idam_q;
+  // MCR: wake-up and doze, written at any time.
+  logic wak_msk_q, slf_wak_q, doze_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {supv_q, wrn_en_q, srx_dis_o, bcc_o, idam_q} <= {1'b1, 5'b0};
-      maxmb_o <= 7'h0F;
+      {wak_msk_q, slf_wak_q, doze_q} <= '0;
     end else if (clear_o) begin
-      {supv_q, wrn_en_q, srx_dis_o, bcc_o, idam_q} <= {1'b1, 5'b0};
-      maxmb_o <= 7'h0F;
+      {wak_msk_q, slf_wak_q, doze_q} <= '0;
+    end else if (mcr_we && !soft_rst && !soft_rst_busy) begin
+      if (be_i[3]) wak_msk_q <= wdata_i[26];
+      if (be_i[2]) {slf_wak_q, doze_q} <= {wdata_i[22], wdata_i[18]};
+    end
+  end
+
+  // MCR: the rest, written in freeze mode only.
+  logic supv_q, wrn_en_q, wak_src_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {supv_q, fen_o, wrn_en_q, wak_src_q, srx_dis_o, bcc_o} <= {1'b1, 5'b0};
+      {lprio_en_o, aen_o, idam_o, maxmb_o} <= {4'b0, 7'h0F};
+    end else if (clear_o) begin
+      {supv_q, fen_o, wrn_en_q, wak_src_q, srx_dis_o, bcc_o} <= {1'b1, 5'b0};
+      {lprio_en_o, aen_o, idam_o, maxmb_o} <= {4'b0, 7'h0F};
     end else if (mcr_we && frz_ack_o && !soft_rst) begin
-      if (be_i[2])
-        {supv_q, wrn_en_q, srx_dis_o, bcc_o} <= {wdata_i[23], wdata_i[21], wdata_i[17:16]};
-      if (be_i[1]) idam_q <= wdata_i[9:8];
+      if (be_i[3]) fen_o <= wdata_i[29];
+      if (be_i[2]) begin
+        {supv_q, wrn_en_q} <= {wdata_i[23], wdata_i[21]};
+        {wak_src_q, srx_dis_o, bcc_o} <= {wdata_i[19], wdata_i[17:16]};
+      end
+      if (be_i[1]) {lprio_en_o, aen_o, idam_o} <= {wdata_i[13:12], wdata_i[9:8]};
       if (be_i[0]) maxmb_o <= wdata_i[6:0];
+    end
+  end
+
+  logic fen_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) fen_q <= 1'b0;
+    else         fen_q <= fen_o;
+  end
+  assign fifo_clear_o = clear_o || fen_q != fen_o;
+
+  // CTRL2: freeze mode only.
+  logic       wrmfrz_q;
+  logic [4:0] tasd_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {wrmfrz_q, rffn_o, mrp_o, rrs_o, eacen_o} <= '0;
+      tasd_q <= 5'd22;
+    end else if (wr_i && addr_i == Ctrl2 && frz_ack_o) begin
+      if (be_i[3]) {wrmfrz_q, rffn_o} <= wdata_i[28:24];
+      if (be_i[2]) {tasd_q, mrp_o, rrs_o, eacen_o} <= wdata_i[23:16];
     end
   end
 
@@ -151,12 +207,15 @@ module can_regs #(
   // Extension page.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {oneshot_o, fd_tolerant_o} <= '0;
+      {osmb_o, oneshot_o, fd_tolerant_o} <= '0;
     end else if (wr_i && addr_i == ExtCtrl && be_i[0]) begin
-      oneshot_o <= wdata_i[1];
+      {osmb_o, oneshot_o} <= wdata_i[2:1];
       if (frz_ack_o) fd_tolerant_o <= wdata_i[0];
     end
   end
+
+  // A 1 written to IFLAG1[5] takes the frame at the output out of the FIFO (section 4).
+  assign fifo_pop_o = fen_o && wr_i && addr_i == Iflag1 && be_i[0] && wdata_i[5];
 
   // ECR.
   assign ec_we_o    = wr_i && addr_i == Ecr && frz_ack_o;
@@ -164,20 +223,21 @@ module can_regs #(
 
   // Events.
   logic        tx_wrn, rx_wrn;
-  logic [63:0] iflag, imask;
+  logic [63:0] imask;
   logic [5:0]  esr_err;
   logic [3:0]  esr_int;
   assign tx_wrn = tec_i >= 8'd96 && !boff_i;
   assign rx_wrn = rec_i >= 8'd96 && !boff_i;
   can_flags #(.NumMb(NumMb)) u_flags (
     .clk_i, .rst_ni, .clear_i(clear_o), .flag_i, .flag_idx_i, .err_i, .boff_i,
+    .fen_i(fen_o), .fifo_clear_i(fifo_clear_o), .fifo_avail_i, .fifo_warn_i, .fifo_ovf_i,
     .tx_wrn_i(tx_wrn), .rx_wrn_i(rx_wrn), .wrn_en_i(wrn_en_q),
     .iflag_lo_we_i(wr_i && addr_i == Iflag1), .iflag_hi_we_i(wr_i && addr_i == Iflag2),
     .imask_lo_we_i(wr_i && addr_i == Imask1), .imask_hi_we_i(wr_i && addr_i == Imask2),
     .esr_we_i(wr_i && addr_i == Esr), .esr_rd_i(rd_i && addr_i == Esr && be_i[1]), .be_i, .wdata_i,
     .boff_msk_i(boff_msk_q), .err_msk_i(err_msk_q),
     .twrn_msk_i(twrn_msk_q && wrn_en_q), .rwrn_msk_i(rwrn_msk_q && wrn_en_q),
-    .iflag_o(iflag), .imask_o(imask), .esr_err_o(esr_err), .esr_int_o(esr_int),
+    .iflag_o, .imask_o(imask), .esr_err_o(esr_err), .esr_int_o(esr_int),
     .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o);
   assign irq_o = irq_mb_o || irq_boff_o || irq_err_o || irq_twrn_o || irq_rwrn_o;
 
@@ -189,10 +249,10 @@ module can_regs #(
     rdata_o = '0;
     if (rd_i) begin
       case (addr_i)
-        Mcr:  rdata_o = {mdis_q, frz_q, 1'b0, halt_q, lpm_ack || frz_ack_o, 1'b0, soft_rst_busy,
-            frz_ack_o,
-                         supv_q, 1'b0, wrn_en_q, lpm_ack, 2'b00, srx_dis_o, bcc_o,
-                         6'b0, idam_q, 1'b0, maxmb_o};
+        Mcr:  rdata_o = {mdis_q, frz_q, fen_o, halt_q, lpm_ack || frz_ack_o, wak_msk_q,
+                         soft_rst_busy, frz_ack_o,
+                         supv_q, slf_wak_q, wrn_en_q, lpm_ack, wak_src_q, doze_q, srx_dis_o, bcc_o,
+                         2'b00, lprio_en_o, aen_o, 2'b00, idam_o, 1'b0, maxmb_o};
         Ctrl: rdata_o = {presdiv_o, rjw_o, pseg1_o, pseg2_o,
                          boff_msk_q, err_msk_q, clk_src_q, lpb_o,
                          twrn_msk_q && wrn_en_q, rwrn_msk_q && wrn_en_q, 2'b00,
@@ -202,12 +262,15 @@ module can_regs #(
                          idle_i, transmitter_i, flt_conf, receiver_i, esr_int[1:0], 1'b0};
         Imask2:  rdata_o = imask[63:32];
         Imask1:  rdata_o = imask[31:0];
-        Iflag2:  rdata_o = iflag[63:32];
-        Iflag1:  rdata_o = iflag[31:0];
+        Iflag2:  rdata_o = iflag_o[63:32];
+        Iflag1:  rdata_o = iflag_o[31:0];
+        Ctrl2:   rdata_o = {3'b0, wrmfrz_q, rffn_o, tasd_q, mrp_o, rrs_o, eacen_o, 16'b0};
+        Esr2:    rdata_o = {9'b0, esr2_i[8:2], 1'b0, esr2_i[1:0], 13'b0};
+        Crcr:    rdata_o = {9'b0, crcr_i[21:15], 1'b0, crcr_i[14:0]};
         ExtId:   rdata_o = 32'h5643_414E;               // "VCAN"
         ExtVer:  rdata_o = 32'h0001_0000;               // 1.0
         ExtConf: rdata_o = {22'b0, 2'b11, 8'(NumMb)};   // 8: FD tolerance, 9: one-shot
-        ExtCtrl: rdata_o = {30'b0, oneshot_o, fd_tolerant_o};
+        ExtCtrl: rdata_o = {29'b0, osmb_o, oneshot_o, fd_tolerant_o};
         default: ;
       endcase
     end

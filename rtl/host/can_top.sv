@@ -47,7 +47,8 @@ module can_top #(
   assign mask_idx = {hi, addr_i[6:2]};
   assign in_mb    = addr_i[12:11] == 2'b00 && mb_idx[6:IdxW] == '0;
   assign in_mask  = addr_i[12:11] == 2'b01 && mask_idx[8:IdxW] == '0;
-  assign in_gmask = addr_i == 11'h004 || addr_i == 11'h005 || addr_i == 11'h006;
+  assign in_gmask = addr_i == 11'h004 || addr_i == 11'h005 || addr_i == 11'h006
+                 || addr_i == 11'h012;             // RXGMASK, RX14MASK, RX15MASK, RXFGMASK
   assign in_timer = addr_i == 11'h002;
   assign to_mb    = in_mb || in_mask || in_gmask || in_timer;
   assign wr_ok    = in_mb || in_timer || frz_ack;   // masks: in freeze mode only
@@ -62,7 +63,7 @@ module can_top #(
     end else if (in_mask || in_gmask) begin
       kind = 2'd2;
       word = {1'b0, in_gmask};
-      idx  = in_gmask ? IdxW'(addr_i[3:2]) : mask_idx[IdxW-1:0];
+      idx  = in_gmask ? IdxW'({addr_i[3] | addr_i[6], addr_i[2] | addr_i[6]}) : mask_idx[IdxW-1:0];
     end
   end
 
@@ -89,7 +90,12 @@ module can_top #(
 
   // Wires between the blocks; names as at the blocks.
   logic        run, clear, running, stop_ok, mb_busy, mb_scrub;
-  logic        bcc, srx_dis, lbuf, tsyn, oneshot, flag;
+  logic        bcc, srx_dis, lbuf, tsyn, lprio_en, aen, eacen, rrs, oneshot, osmb, flag;
+  logic        fen, mrp, fifo_clear, fifo_pop, fifo_avail, fifo_warn, fifo_ovf;
+  logic [1:0]  idam;
+  logic [3:0]  rffn;
+  logic [8:0]  esr2;
+  logic [63:0] iflag;
   logic [6:0]  maxmb;
   logic [IdxW-1:0] flag_idx;
   logic [7:0]  presdiv, tec, rec, rx_byte;
@@ -112,9 +118,13 @@ module can_top #(
     .rd_i(reg_rd_q), .wr_i(reg_wr_q), .addr_i(reg_addr_q), .be_i(reg_be_q), .wdata_i,
     .rdata_o(reg_rdata),
     .run_o(run), .clear_o(clear), .frz_ack_o(frz_ack), .mb_busy_i(mb_busy), .mb_scrub_i(mb_scrub),
-    .bcc_o(bcc), .srx_dis_o(srx_dis), .lbuf_o(lbuf), .tsyn_o(tsyn), .oneshot_o(oneshot),
-    .maxmb_o(maxmb),
-    .flag_i(flag), .flag_idx_i(flag_idx),
+    .bcc_o(bcc), .srx_dis_o(srx_dis), .lbuf_o(lbuf), .tsyn_o(tsyn),
+    .lprio_en_o(lprio_en), .aen_o(aen), .eacen_o(eacen), .rrs_o(rrs), .oneshot_o(oneshot),
+    .osmb_o(osmb), .maxmb_o(maxmb),
+    .flag_i(flag), .flag_idx_i(flag_idx), .iflag_o(iflag), .esr2_i(esr2), .crcr_i('0),
+    .fen_o(fen), .idam_o(idam), .rffn_o(rffn), .mrp_o(mrp), .fifo_clear_o(fifo_clear),
+    .fifo_pop_o(fifo_pop), .fifo_avail_i(fifo_avail), .fifo_warn_i(fifo_warn),
+    .fifo_ovf_i(fifo_ovf),
     .presdiv_o(presdiv), .rjw_o(rjw), .pseg1_o(pseg1), .pseg2_o(pseg2), .propseg_o(propseg),
     .smp_o(smp), .lom_o(lom), .lpb_o(lpb), .fd_tolerant_o(fd_tolerant), .boff_rec_o(boff_rec),
     .ec_we_o(ec_we), .ec_wdata_o(ec_wdata), .running_i(running), .stop_ok_i(stop_ok),
@@ -125,8 +135,12 @@ module can_top #(
   can_mailbox #(.NumMb(NumMb)) u_mailbox (
     .clk_i, .rst_ni,
     .running_i(running), .clear_i(clear), .bcc_i(bcc),
-    .eacen_i(1'b0), .rrs_i(1'b0),             // CTRL2 is not there yet: as after its reset
-    .srx_dis_i(srx_dis), .lbuf_i(lbuf), .tsyn_i(tsyn), .oneshot_i(oneshot), .maxmb_i(maxmb),
+    .eacen_i(eacen), .rrs_i(rrs),
+    .srx_dis_i(srx_dis), .lbuf_i(lbuf), .tsyn_i(tsyn), .lprio_en_i(lprio_en), .aen_i(aen),
+    .oneshot_i(oneshot), .osmb_i(osmb), .maxmb_i(maxmb),
+    .fen_i(fen), .idam_i(idam), .rffn_i(rffn), .mrp_i(mrp), .fifo_clear_i(fifo_clear),
+    .fifo_pop_i(fifo_pop), .fifo_avail_o(fifo_avail), .fifo_warn_o(fifo_warn),
+    .fifo_ovf_o(fifo_ovf), .iflag_i(iflag), .esr2_o(esr2),
     .busy_o(mb_busy), .scrub_o(mb_scrub),
     .cmd_rd_i(req_i && !we_i && to_mb), .cmd_wr_i(req_i && we_i && to_mb && wr_ok),
     .cmd_kind_i(kind), .cmd_word_i(word), .cmd_idx_i(idx), .cmd_be_i(be_i),

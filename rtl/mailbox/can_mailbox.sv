@@ -6,7 +6,8 @@
 //
 // Hidden rows behind the buffers. C/S: NumMb + 0 stamp of the frame sent, + 2/3 frames received.
 // MSG (from 3 * NumMb): 4 * (0/1 frames to send, 2/3 frames received) + (0 ID, 1 bytes 0-3, 2 bytes
-// 4-7). MASK: NumMb + 0 RXGMASK, + 1 RX14MASK, + 2 RX15MASK.
+// 4-7). MASK: NumMb + 0 RXGMASK, + 1 RX14MASK, + 2 RX15MASK,
+// + 3 RXFGMASK.
 
 module can_mailbox #(
   /// Message buffers: 16, 32 or 64.
@@ -25,8 +26,21 @@ module can_mailbox #(
   input  logic            srx_dis_i,
   input  logic            lbuf_i,
   input  logic            tsyn_i,
+  input  logic            lprio_en_i,
+  input  logic            aen_i,
   input  logic            oneshot_i,
+  input  logic            osmb_i,
   input  logic [6:0]      maxmb_i,
+  // Rx FIFO, see can_regs.
+  input  logic            fen_i,
+  input  logic [1:0]      idam_i,
+  input  logic [3:0]      rffn_i,
+  input  logic            mrp_i,
+  input  logic            fifo_clear_i,
+  input  logic            fifo_pop_i,
+  output logic            fifo_avail_o,
+  output logic            fifo_warn_o,
+  output logic            fifo_ovf_o,
   output logic            busy_o,        // moves under way, or rows not cleared yet after reset
   output logic            scrub_o,       // ... the latter
   // CPU, see can_mb_port.
@@ -39,7 +53,9 @@ module can_mailbox #(
   input  logic [31:0]     wdata_i,
   output logic            ready_o,
   output logic [31:0]     rdata_o,
-  // IFLAG.
+  // IFLAG, and ESR2: LPTM, VPS, IMB.
+  input  logic [63:0]     iflag_i,
+  output logic [8:0]      esr2_o,
   output logic            flag_o,
   output logic [IdxW-1:0] flag_idx_o,
   // Engine, see can_core.
@@ -73,6 +89,13 @@ module can_mailbox #(
 );
   localparam logic [1:0] KindCs    = 2'd0;
   localparam logic [1:0] KindTimer = 2'd3;
+
+  // Inputs of features that are not there yet.
+  logic unused;
+  assign unused = &{1'b0, lprio_en_i, aen_i, osmb_i, fen_i, idam_i, rffn_i, mrp_i, fifo_clear_i,
+                    fifo_pop_i, iflag_i};
+  assign {fifo_avail_o, fifo_warn_o, fifo_ovf_o} = '0;
+  assign esr2_o = '0;
 
   // Clearing of the RAMs after a hard reset.
   logic [IdxW+1:0] scrub_row_q;

@@ -35,7 +35,7 @@ class LinuxDriver : public ::testing::Test {
     write_mcr(n, mcr(n) | reg::kMcrFrz | reg::kMcrHalt);
     poll(n, reg::kMcrFrzAck, true, 20000);
     write_mcr(n, mcr(n) | (1u << 29) | reg::kMcrSupv);
-    EXPECT_EQ(mcr(n) & (1u << 29), 0u) << "no Rx FIFO in this core yet";
+    EXPECT_NE(mcr(n) & (1u << 29), 0u) << "the driver gives up without an Rx FIFO";
     write_mcr(n, mcr(n) | reg::kMcrMdis);
     poll(n, reg::kMcrLpmAck, true, k250us);
   }

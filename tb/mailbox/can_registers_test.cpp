@@ -38,10 +38,10 @@ const Row kRows[] = {
     {"IMASK1", reg::kImask1, 0, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF},
     {"IFLAG2", reg::kIflag2, 0, 0, 0, 0},
     {"IFLAG1", reg::kIflag1, 0, 0, 0, 0},
-    {"CTRL2", reg::kCtrl2, 0, 0, 0, 0},  // absent so far
+    {"CTRL2", reg::kCtrl2, 0x00B00000, 0, 0x1FFF0000, 0},
     {"ESR2", 0x038, 0, 0, 0, 0},
     {"CRCR", 0x044, 0, 0, 0, 0},
-    {"RXFGMASK", 0x048, 0, 0, 0, 0},
+    {"RXFGMASK", 0x048, 0xFFFFFFFF, 0, 0xFFFFFFFF, 0},
     {"RXFIR", 0x04C, 0, 0, 0, 0},
     {"hole at 0x07C", 0x07C, 0, 0, 0, 0},
     {"MB0 C/S", reg::mb(0), 0, 0x0F7FFFFF, 0x0F7FFFFF, 0x0F7FFFFF},
@@ -56,7 +56,7 @@ const Row kRows[] = {
     {"extension ID", 0x1000, 0x5643414E, 0, 0, 0},
     {"extension VERSION", 0x1004, 0x00010000, 0, 0, 0},
     {"extension CONFIG", 0x1008, 0x00000340, 0, 0, 0},
-    {"extension XCTRL", reg::kExtControl, 0, 0x2, 0x3, 0x2},
+    {"extension XCTRL", reg::kExtControl, 0, 0x6, 0x7, 0x6},
     {"end of the window", 0x1FFC, 0, 0, 0, 0},
 };
 
@@ -123,19 +123,19 @@ TEST_F(Mcr, ResetAndFirstSteps) {  // section 2
 }
 
 TEST_F(Mcr,
-       FreezeOnlyFieldsOfMcr) {  // 1.1: {29,23,21,19,17,16,13,12,9:8,6:0}, less absent features
+       FreezeOnlyFieldsOfMcr) {  // 1.1: {29,23,21,19,17,16,13,12,9:8,6:0}; 26, 22, 18 at any time
   rig_.write(0, reg::kMcr, 0x7FFFFFFF & ~reg::kMcrSoftRst);
   rig_.run(4);
-  EXPECT_EQ(mcr(), 0x5980000F) << "written in disable mode";
+  EXPECT_EQ(mcr(), 0x5DC4000F) << "written in disable mode";
   rig_.write(0, reg::kMcr, 0x7FFFFFFF & ~reg::kMcrSoftRst);
-  EXPECT_EQ(mcr(), 0x59A3037F);
+  EXPECT_EQ(mcr(), 0x7DEF337F);
   rig_.write(0, reg::kMcr, kFreezeRequest);
   EXPECT_EQ(mcr(), 0x59000000);
-  rig_.write(0, reg::kMcr, 0x00A3033F);  // leaves freeze mode: these fields are still written
+  rig_.write(0, reg::kMcr, 0x20AB333F);  // leaves freeze mode: these fields are still written
   rig_.run(4);
-  EXPECT_EQ(mcr(), 0x00A3033F);
+  EXPECT_EQ(mcr(), 0x20AB333F);
   rig_.write(0, reg::kMcr, 0);
-  EXPECT_EQ(mcr(), 0x00A3033F) << "written in normal mode";
+  EXPECT_EQ(mcr(), 0x20AB333F) << "written in normal mode";
 }
 
 TEST_F(Mcr, ByteWritesReachTheirByteOnly) {
