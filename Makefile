@@ -11,12 +11,12 @@ OUT    := $(BUILD)/out
 QUIET  := $(if $(V),,tools/quiet.sh)
 
 .DEFAULT_GOAL := help
-.PHONY: help packages build demo test lint bench synth wave rules rows format clean
+.PHONY: help packages build demo test lint bench synth wave rules rows registers format clean
 
 help:  ## List the targets
 	@echo "VeriCAN: a CAN 2.0 controller in RTL and its bus simulator"
 	@sed -n 's/^\([a-z]*\):.*## */\1|/p' Makefile | while IFS='|' read -r t d; do \
-	    printf '  make %-8s %s\n' "$$t" "$$d"; done
+	    printf '  make %-9s %s\n' "$$t" "$$d"; done
 	@echo "Options: PRESET=release|debug|asan  JOBS=$(JOBS)  V=1 (show the build)"
 
 packages:
@@ -54,6 +54,9 @@ rules: packages  ## Regenerate docs/rules.md, the table of rules and their tests
 
 rows: packages  ## Regenerate docs/flexcan-rows.md, the table of FlexCAN rows and their tests
 	@/usr/bin/python3 tools/flexcan_rows.py
+
+registers: packages  ## Regenerate what is made from the register map, sw/registers.yaml
+	@/usr/bin/python3 tools/registers.py
 
 format: packages  ## Let clang-format rewrite our C++
 	@git ls-files '*.cpp' '*.hpp' '*.c' '*.h' | xargs -r clang-format -i

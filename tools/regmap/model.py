@@ -1,0 +1,211 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""sw/registers.yaml, read and checked. Its head explains the keys."""
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import yaml
+
+NUM_MB = "NumMb"  # stands for the number of buffers where a number may stand
+ACCESSES = ("rw", "ro", "w1c", "rc", "w1s")
+WRITES = ("any", "freeze", "disable", "wrn_en")
+
+
+class MapError(Exception):
+    """What is wrong with the map, where, and what is allowed."""
+
+
+def take(entry, where, required, optional=()):
+    """The dictionary `entry`, checked to have the `required` keys and no others but `optional`."""
+    if not isinstance(entry, dict):
+        raise MapError(f"{where}: keys are expected here, not {entry!r}")
+    for key in required:
+        if key not in entry:
+            raise MapError(f"{where}: key '{key}' is missing")
+    for key in entry:
+        if key not in required and key not in optional:
+            allowed = ", ".join((*required, *optional))
+            raise MapError(f"{where}: unknown key '{key}'; allowed: {allowed}")
+    return entry
+
+
+def choose(value, where, allowed):
+    if value not in allowed:
+        raise MapError(f"{where}: '{value}' is not one of {', '.join(map(str, allowed))}")
+    return value
+
+
+def bit_range(value, where):
+    """(high, low) of "31:24" or 7."""
+    try:
+        high, low = (int(part) for part in (str(value).split(":") * 2)[:2])
+    except ValueError:
+        raise MapError(f"{where}: bits '{value}' are not like \"31:24\" or 7") from None
+    if not 0 <= low <= high <= 31:
+        raise MapError(f"{where}: bits '{value}' are not within 31:0, high bit first")
+    return high, low
+
+
+@dataclass
+class Value:
+    """A named value of a field."""
+    name: str
+    value: int
+    doc: str
+
+
+@dataclass
+class Field:
+    """Some bits of a word."""
+    name: str
+    high: int
+    low: int
+    doc: str
+    access: str = "rw"
+    write: str = "any"
+    reset: object = 0             # a number or NUM_MB
+    live: bool = False
+    kept: bool = True             # over a soft reset
+    after_soft_reset: object = 0  # same as `reset` if nothing else is said
+    values: list = field(default_factory=list)
+
+    @property
+    def width(self):
+        return self.high - self.low + 1
+
+    @property
+    def mask(self):
+        """The field's bits in the word."""
+        return ((1 << self.width) - 1) << self.low
+
+    @property
+    def bits(self):
+        return f"{self.high}:{self.low}" if self.width > 1 else f"{self.low}"
+
+    @property
+    def writable(self):
+        """Whether software can give it a value."""
+        return self.access == "rw"
+
+
+@dataclass
+class Register:
+    """A word with an address; of a buffer: relative to the buffer."""
+    name: str
+    offset: int
+    title: str
+    fields: list
+    overlay: list
+    count: object = 1             # a number or NUM_MB
+    stride: int = 4
+    only_if: str = ""
+    per_buffer: object = None     # number of the buffer of bit 0, if a bit is a buffer
+
+    def value(self, attribute, num_mb):
+        """The fields' `attribute` ("reset", "after_soft_reset") put together."""
+        word = 0
+        for part in self.fields:
+            number = getattr(part, attribute)
+            word |= (num_mb if number == NUM_MB else number) << part.low
+        return word
+
+    def mask(self, wanted=lambda part: True):
+        """The bits of the fields that are wanted."""
+        return sum(part.mask for part in self.fields if wanted(part))
+
+    def exists(self, num_mb):
+        return not self.only_if or num_mb > 32
+
+    def buffer_mask(self, num_mb):
+        """The bits of a per-buffer register that stand for buffers of the core."""
+        if self.per_buffer is None:
+            return 0xFFFFFFFF
+        return (1 << max(0, min(32, num_mb - self.per_buffer))) - 1
+
+
+@dataclass
+class RegisterMap:
+    name: str
+    title: str
+    window: int
+    num_mb: list
+    registers: list
+    buffers: Register             # fields empty; `words` are its registers
+    words: list
+    filter_offset: int
+    fifo_depth: int
+    formats: list                 # Registers without an address
+
+
+FIELD_KEYS = ("access", "write", "reset", "soft_reset", "live", "after_soft_reset", "values")
+
+
+def read_field(entry, where, soft_reset):
+    take(entry, where, ("name", "bits", "doc"), FIELD_KEYS)
+    where = f"{where} {entry['name']}"
+    high, low = bit_range(entry["bits"], where)
+    reset = entry.get("reset", 0)
+    if reset != NUM_MB and not 0 <= reset < 1 << (high - low + 1):
+        raise MapError(f"{where}: reset {reset:#x} does not fit into bits {entry['bits']}")
+    own = choose(entry.get("soft_reset", soft_reset), f"{where}: soft_reset", ("kept", "reset"))
+    values = [Value(**take(value, where, ("name", "value", "doc")))
+              for value in entry.get("values", [])]
+    return Field(entry["name"], high, low, entry["doc"],
+                 choose(entry.get("access", "rw"), f"{where}: access", ACCESSES),
+                 choose(entry.get("write", "any"), f"{where}: write", WRITES),
+                 reset, entry.get("live", False), own == "kept",
+                 entry.get("after_soft_reset", reset), values)
+
+
+def read_fields(entry, key, where, soft_reset):
+    fields = [read_field(part, where, soft_reset) for part in entry.get(key, [])]
+    for upper, lower in zip(fields, fields[1:]):
+        if upper.low <= lower.high and key == "fields":
+            raise MapError(f"{where}: {upper.name} and {lower.name} overlap, or are not listed "
+                           "from the highest bit down")
+    return fields
+
+
+def read_register(entry, where, keys=("offset",)):
+    take(entry, where, ("name", "title", "fields", *keys),
+         ("soft_reset", "overlay", "array", "only_if", "per_buffer"))
+    where = f"{where} {entry['name']}"
+    soft_reset = entry.get("soft_reset", "kept")
+    array = take(entry.get("array", {"count": 1, "stride": 4}), where, ("count", "stride"))
+    return Register(entry["name"], entry.get("offset", 0), entry["title"],
+                    read_fields(entry, "fields", where, soft_reset),
+                    read_fields(entry, "overlay", where, soft_reset),
+                    array["count"], array["stride"],
+                    entry.get("only_if", ""), entry.get("per_buffer"))
+
+
+def check_addresses(registers, buffers, window):
+    """No two registers at one address, in the order of their addresses."""
+    end = 0
+    for register in sorted([*registers, buffers], key=lambda one: one.offset):
+        count = 64 if register.count == NUM_MB else register.count
+        if register.offset % 4 or register.offset < end:
+            raise MapError(f"{register.name}: offset {register.offset:#x} is not a multiple of 4, "
+                           f"or below {end:#x}, the end of the register before it")
+        end = register.offset + count * register.stride
+    if end > window:
+        raise MapError(f"{register.name}: ends at {end:#x}, outside the window of {window:#x}")
+
+
+def load(path: Path):
+    """The map in `path`; raises MapError."""
+    try:
+        data = yaml.safe_load(path.read_text())
+    except yaml.YAMLError as error:
+        raise MapError(str(error)) from None
+    take(data, "map", ("name", "title", "window", "num_mb", "registers", "buffers", "fifo"))
+    registers = [read_register(entry, "registers:") for entry in data["registers"]]
+    part = take(data["buffers"], "buffers", ("name", "offset", "stride", "count", "title", "words"))
+    buffers = Register(part["name"], part["offset"], part["title"], [], [], part["count"],
+                       part["stride"])
+    words = [read_register(entry, "buffers:") for entry in part["words"]]
+    check_addresses(registers, buffers, data["window"])
+    fifo = take(data["fifo"], "fifo", ("filter_offset", "depth", "formats"))
+    formats = [read_register(entry, "fifo:", ()) for entry in fifo["formats"]]
+    return RegisterMap(data["name"], data["title"], data["window"], data["num_mb"], registers,
+                       buffers, words, fifo["filter_offset"], fifo["depth"], formats)
