@@ -1,5 +1,6 @@
 # RTL in the order of the data path; CMake, Yosys, Icarus, Libero Tcl and FuseSoC read this list.
 can_pkg.sv
+host/can_regs_pkg.sv
 bit/can_sync.sv
 bit/can_tq_gen.sv
 bit/can_bit_timing.sv
@@ -23,6 +24,7 @@ mailbox/can_mb_tx.sv
 mailbox/can_mb_load.sv
 mailbox/can_mb_step.sv
 mailbox/can_mailbox.sv
+host/can_reg.sv
 host/can_mode.sv
 host/can_flags.sv
 host/can_regs.sv

@@ -31,8 +31,8 @@ module can_flags #(
   input  logic             iflag_hi_we_i,
   input  logic             imask_lo_we_i,
   input  logic             imask_hi_we_i,
-  input  logic             esr_we_i,
-  input  logic             esr_rd_i,
+  input  logic             esr1_we_i,
+  input  logic             esr1_rd_i,
   input  logic [3:0]       be_i,
   input  logic [31:0]      wdata_i,
   // Interrupt masks of CTRL1.
@@ -42,8 +42,7 @@ module can_flags #(
   input  logic             rwrn_msk_i,
   output logic [63:0]      iflag_o,
   output logic [63:0]      imask_o,
-  output logic [5:0]       esr_err_o,      // ESR1[15:10]
-  output logic [3:0]       esr_int_o,      // TWRN_INT, RWRN_INT, BOFF_INT, ERR_INT
+  output logic [31:0]      esr1_o,         // the event bits, in their places
   output logic             irq_mb_o,
   output logic             irq_boff_o,
   output logic             irq_err_o,
@@ -74,38 +73,57 @@ module can_flags #(
         end
       end
       if (flag_i) iflag_q[flag_idx_i] <= 1'b1;
-      if (fifo_warn_i)  iflag_q[6] <= 1'b1;
-      if (fifo_ovf_i)   iflag_q[7] <= 1'b1;
+      if (fifo_warn_i)  iflag_q[can_regs_pkg::Iflag1FifoWarning]  <= 1'b1;
+      if (fifo_ovf_i)   iflag_q[can_regs_pkg::Iflag1FifoOverflow] <= 1'b1;
       if (fifo_clear_i) iflag_q[7:5] <= '0;
     end
   end
 
   // Error bits, cleared by the read that returns them.
+  logic [5:0] errors_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)                       esr_err_o <= '0;
-    else if (clear_i)                  esr_err_o <= '0;
-    else if (esr_rd_i || err_i != '0)  esr_err_o <= (esr_rd_i ? 6'b0 : esr_err_o) | err_i;
+    if (!rst_ni)                        errors_q <= '0;
+    else if (clear_i)                   errors_q <= '0;
+    else if (esr1_rd_i || err_i != '0)  errors_q <= (esr1_rd_i ? 6'b0 : errors_q) | err_i;
   end
 
   // Entries into a state; each error counts again (section 7).
-  logic boff_q, tx_wrn_q, rx_wrn_q;
+  logic boff_q, tx_wrn_q, rx_wrn_q, twrn_int_q, rwrn_int_q, boff_int_q, err_int_q;
+  logic [31:0] w1c;
+  assign w1c = esr1_we_i ? wdata_i & {{8{be_i[3]}}, {8{be_i[2]}}, {8{be_i[1]}}, {8{be_i[0]}}} : '0;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {boff_q, tx_wrn_q, rx_wrn_q} <= '0;
-      esr_int_o <= '0;
+      {twrn_int_q, rwrn_int_q, boff_int_q, err_int_q} <= '0;
     end else begin
       boff_q   <= boff_i;
       tx_wrn_q <= tx_wrn_i;
       rx_wrn_q <= rx_wrn_i;
-      if (esr_we_i && be_i[2]) esr_int_o[3:2] <= esr_int_o[3:2] & ~wdata_i[17:16];
-      if (esr_we_i && be_i[0]) esr_int_o[1:0] <= esr_int_o[1:0] & ~wdata_i[2:1];
-      if (tx_wrn_i && !tx_wrn_q && wrn_en_i) esr_int_o[3] <= 1'b1;
-      if (rx_wrn_i && !rx_wrn_q && wrn_en_i) esr_int_o[2] <= 1'b1;
-      if (boff_i && !boff_q)                 esr_int_o[1] <= 1'b1;
-      if (err_i != '0)                       esr_int_o[0] <= 1'b1;
-      if (!wrn_en_i) esr_int_o[3:2] <= '0;
-      if (clear_i) esr_int_o <= '0;
+      if (w1c[can_regs_pkg::Esr1TwrnInt]) twrn_int_q <= 1'b0;
+      if (w1c[can_regs_pkg::Esr1RwrnInt]) rwrn_int_q <= 1'b0;
+      if (w1c[can_regs_pkg::Esr1BoffInt]) boff_int_q <= 1'b0;
+      if (w1c[can_regs_pkg::Esr1ErrInt])  err_int_q  <= 1'b0;
+      if (tx_wrn_i && !tx_wrn_q) twrn_int_q <= 1'b1;
+      if (rx_wrn_i && !rx_wrn_q) rwrn_int_q <= 1'b1;
+      if (boff_i && !boff_q)     boff_int_q <= 1'b1;
+      if (err_i != '0)           err_int_q  <= 1'b1;
+      if (!wrn_en_i) {twrn_int_q, rwrn_int_q} <= '0;
+      if (clear_i)   {twrn_int_q, rwrn_int_q, boff_int_q, err_int_q} <= '0;
     end
+  end
+
+  always_comb begin
+    esr1_o = '0;
+    esr1_o[can_regs_pkg::Esr1TwrnInt] = twrn_int_q;
+    esr1_o[can_regs_pkg::Esr1RwrnInt] = rwrn_int_q;
+    esr1_o[can_regs_pkg::Esr1Bit1Err] = errors_q[can_pkg::ErrBit1];
+    esr1_o[can_regs_pkg::Esr1Bit0Err] = errors_q[can_pkg::ErrBit0];
+    esr1_o[can_regs_pkg::Esr1AckErr]  = errors_q[can_pkg::ErrAck];
+    esr1_o[can_regs_pkg::Esr1CrcErr]  = errors_q[can_pkg::ErrCrc];
+    esr1_o[can_regs_pkg::Esr1FrmErr]  = errors_q[can_pkg::ErrForm];
+    esr1_o[can_regs_pkg::Esr1StfErr]  = errors_q[can_pkg::ErrStuff];
+    esr1_o[can_regs_pkg::Esr1BoffInt] = boff_int_q;
+    esr1_o[can_regs_pkg::Esr1ErrInt]  = err_int_q;
   end
 
   // Lines from flip-flops: level, without glitches.
@@ -114,10 +132,10 @@ module can_flags #(
       {irq_mb_o, irq_boff_o, irq_err_o, irq_twrn_o, irq_rwrn_o} <= '0;
     end else begin
       irq_mb_o   <= (iflag_o[NumMb-1:0] & imask_q) != '0;
-      irq_twrn_o <= esr_int_o[3] && twrn_msk_i;
-      irq_rwrn_o <= esr_int_o[2] && rwrn_msk_i;
-      irq_boff_o <= esr_int_o[1] && boff_msk_i;
-      irq_err_o  <= esr_int_o[0] && err_msk_i;
+      irq_twrn_o <= twrn_int_q && twrn_msk_i;
+      irq_rwrn_o <= rwrn_int_q && rwrn_msk_i;
+      irq_boff_o <= boff_int_q && boff_msk_i;
+      irq_err_o  <= err_int_q && err_msk_i;
     end
   end
 endmodule

@@ -83,29 +83,13 @@ module can_regs #(
   output logic            irq_twrn_o,
   output logic            irq_rwrn_o
 );
-  // Word offsets.
-  localparam logic [10:0] Mcr     = 11'h000;
-  localparam logic [10:0] Ctrl    = 11'h001;
-  localparam logic [10:0] Ecr     = 11'h007;
-  localparam logic [10:0] Esr     = 11'h008;
-  localparam logic [10:0] Imask2  = 11'h009;
-  localparam logic [10:0] Imask1  = 11'h00A;
-  localparam logic [10:0] Iflag2  = 11'h00B;
-  localparam logic [10:0] Iflag1  = 11'h00C;
-  localparam logic [10:0] Ctrl2   = 11'h00D;
-  localparam logic [10:0] Esr2    = 11'h00E;
-  localparam logic [10:0] Crcr    = 11'h011;
-  localparam logic [10:0] ExtId   = 11'h400;
-  localparam logic [10:0] ExtVer  = 11'h401;
-  localparam logic [10:0] ExtConf = 11'h402;
-  localparam logic [10:0] ExtCtrl = 11'h403;
+  // What is read of the registers that are stored here.
+  logic [31:0] mcr, ctrl1, ctrl2, xctrl, esr1;
 
   // MCR: mode requests.
-  logic mdis_q, frz_q, halt_q, soft_rst, soft_rst_busy, lpm_ack;
-  logic mcr_we, ctrl_we;
-  assign mcr_we   = wr_i && addr_i == Mcr;
-  assign ctrl_we  = wr_i && addr_i == Ctrl;
-  assign soft_rst = mcr_we && be_i[3] && wdata_i[25] && !lpm_ack && !soft_rst_busy;
+  logic mdis_q, frz_q, halt_q, soft_rst, soft_rst_busy, lpm_ack, mcr_we;
+  assign mcr_we   = wr_i && addr_i == can_regs_pkg::McrAddr && !soft_rst_busy;
+  assign soft_rst = mcr_we && be_i[3] && wdata_i[can_regs_pkg::McrSoftRst] && !lpm_ack;
 
   can_mode u_mode (
     .clk_i, .rst_ni,
@@ -117,43 +101,44 @@ module can_regs #(
     if (!rst_ni) begin
       {mdis_q, frz_q, halt_q} <= '1;
     end else begin
-      if (mcr_we && be_i[3] && !soft_rst_busy)
-        {mdis_q, frz_q, halt_q} <= {wdata_i[31:30], wdata_i[28]};
+      if (mcr_we && be_i[3]) begin
+        mdis_q <= wdata_i[can_regs_pkg::McrMdis];
+        frz_q  <= wdata_i[can_regs_pkg::McrFrz];
+        halt_q <= wdata_i[can_regs_pkg::McrHalt];
+      end
       if (soft_rst) {frz_q, halt_q} <= '1;   // beats the zeros written with it
     end
   end
 
-  // MCR: wake-up and doze, written at any time.
-  logic wak_msk_q, slf_wak_q, doze_q;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      {wak_msk_q, slf_wak_q, doze_q} <= '0;
-    end else if (clear_o) begin
-      {wak_msk_q, slf_wak_q, doze_q} <= '0;
-    end else if (mcr_we && !soft_rst && !soft_rst_busy) begin
-      if (be_i[3]) wak_msk_q <= wdata_i[26];
-      if (be_i[2]) {slf_wak_q, doze_q} <= {wdata_i[22], wdata_i[18]};
-    end
-  end
-
-  // MCR: the rest, written in freeze mode only.
-  logic supv_q, wrn_en_q, wak_src_q;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      {supv_q, fen_o, wrn_en_q, wak_src_q, srx_dis_o, bcc_o} <= {1'b1, 5'b0};
-      {lprio_en_o, aen_o, idam_o, maxmb_o} <= {4'b0, 7'h0F};
-    end else if (clear_o) begin
-      {supv_q, fen_o, wrn_en_q, wak_src_q, srx_dis_o, bcc_o} <= {1'b1, 5'b0};
-      {lprio_en_o, aen_o, idam_o, maxmb_o} <= {4'b0, 7'h0F};
-    end else if (mcr_we && frz_ack_o && !soft_rst) begin
-      if (be_i[3]) fen_o <= wdata_i[29];
-      if (be_i[2]) begin
-        {supv_q, wrn_en_q} <= {wdata_i[23], wdata_i[21]};
-        {wak_src_q, srx_dis_o, bcc_o} <= {wdata_i[19], wdata_i[17:16]};
-      end
-      if (be_i[1]) {lprio_en_o, aen_o, idam_o} <= {wdata_i[13:12], wdata_i[9:8]};
-      if (be_i[0]) maxmb_o <= wdata_i[6:0];
-    end
+  // The rest of MCR.
+  localparam logic [31:0] ModeRequests = (32'd1 << can_regs_pkg::McrMdis)
+                                       | (32'd1 << can_regs_pkg::McrFrz)
+                                       | (32'd1 << can_regs_pkg::McrHalt);
+  logic [31:0] mcr_q;
+  logic        wrn_en;
+  can_reg #(
+    .Reset(can_regs_pkg::McrReset), .SoftReset(1'b1),
+    .Any(can_regs_pkg::McrAny & ~ModeRequests), .Freeze(can_regs_pkg::McrFreeze)
+  ) u_mcr (
+    .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack),
+    .wrn_en_i(wrn_en), .we_i(mcr_we && !soft_rst), .be_i, .wdata_i, .value_o(mcr_q));
+  assign wrn_en     = mcr_q[can_regs_pkg::McrWrnEn];
+  assign fen_o      = mcr_q[can_regs_pkg::McrFen];
+  assign srx_dis_o  = mcr_q[can_regs_pkg::McrSrxDis];
+  assign bcc_o      = mcr_q[can_regs_pkg::McrBcc];
+  assign lprio_en_o = mcr_q[can_regs_pkg::McrLprioEn];
+  assign aen_o      = mcr_q[can_regs_pkg::McrAen];
+  assign idam_o     = mcr_q[can_regs_pkg::McrIdam +: can_regs_pkg::McrIdamW];
+  assign maxmb_o    = mcr_q[can_regs_pkg::McrMaxmb +: can_regs_pkg::McrMaxmbW];
+  always_comb begin
+    mcr = mcr_q;
+    mcr[can_regs_pkg::McrMdis]    = mdis_q;
+    mcr[can_regs_pkg::McrFrz]     = frz_q;
+    mcr[can_regs_pkg::McrHalt]    = halt_q;
+    mcr[can_regs_pkg::McrNotRdy]  = lpm_ack || frz_ack_o;
+    mcr[can_regs_pkg::McrSoftRst] = soft_rst_busy;
+    mcr[can_regs_pkg::McrFrzAck]  = frz_ack_o;
+    mcr[can_regs_pkg::McrLpmAck]  = lpm_ack;
   end
 
   logic fen_q;
@@ -163,114 +148,116 @@ module can_regs #(
   end
   assign fifo_clear_o = clear_o || fen_q != fen_o;
 
-  // CTRL2: freeze mode only.
-  logic       wrmfrz_q;
-  logic [4:0] tasd_q;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      {wrmfrz_q, rffn_o, mrp_o, rrs_o, eacen_o} <= '0;
-      tasd_q <= 5'd22;
-    end else if (wr_i && addr_i == Ctrl2 && frz_ack_o) begin
-      if (be_i[3]) {wrmfrz_q, rffn_o} <= wdata_i[28:24];
-      if (be_i[2]) {tasd_q, mrp_o, rrs_o, eacen_o} <= wdata_i[23:16];
-    end
-  end
+  // CTRL1. Without WRN_EN the warning masks are 0, whatever was written with it.
+  logic [31:0] ctrl1_q;
+  can_reg #(
+    .Reset(can_regs_pkg::Ctrl1Reset), .Any(can_regs_pkg::Ctrl1Any),
+    .Freeze(can_regs_pkg::Ctrl1Freeze), .Disable(can_regs_pkg::Ctrl1Disable),
+    .WrnEn(can_regs_pkg::Ctrl1WrnEn)
+  ) u_ctrl1 (
+    .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack),
+    .wrn_en_i(wrn_en), .we_i(wr_i && addr_i == can_regs_pkg::Ctrl1Addr), .be_i, .wdata_i,
+    .value_o(ctrl1_q));
+  assign ctrl1      = wrn_en ? ctrl1_q : ctrl1_q & ~can_regs_pkg::Ctrl1WrnEn;
+  assign presdiv_o  = ctrl1[can_regs_pkg::Ctrl1Presdiv +: can_regs_pkg::Ctrl1PresdivW];
+  assign rjw_o      = ctrl1[can_regs_pkg::Ctrl1Rjw +: can_regs_pkg::Ctrl1RjwW];
+  assign pseg1_o    = ctrl1[can_regs_pkg::Ctrl1Pseg1 +: can_regs_pkg::Ctrl1Pseg1W];
+  assign pseg2_o    = ctrl1[can_regs_pkg::Ctrl1Pseg2 +: can_regs_pkg::Ctrl1Pseg2W];
+  assign propseg_o  = ctrl1[can_regs_pkg::Ctrl1Propseg +: can_regs_pkg::Ctrl1PropsegW];
+  assign lpb_o      = ctrl1[can_regs_pkg::Ctrl1Lpb];
+  assign smp_o      = ctrl1[can_regs_pkg::Ctrl1Smp];
+  assign boff_rec_o = ctrl1[can_regs_pkg::Ctrl1BoffRec];
+  assign tsyn_o     = ctrl1[can_regs_pkg::Ctrl1Tsyn];
+  assign lbuf_o     = ctrl1[can_regs_pkg::Ctrl1Lbuf];
+  assign lom_o      = ctrl1[can_regs_pkg::Ctrl1Lom];
 
-  // CTRL1: interrupt masks and BOFF_REC at any time, CLK_SRC in disable mode, the rest in freeze
-  // mode.
-  logic boff_msk_q, err_msk_q, clk_src_q, twrn_msk_q, rwrn_msk_q;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      {boff_msk_q, err_msk_q, clk_src_q, twrn_msk_q, rwrn_msk_q, boff_rec_o} <= '0;
-      {presdiv_o, rjw_o, pseg1_o, pseg2_o, lpb_o, smp_o, tsyn_o, lbuf_o, lom_o, propseg_o} <= '0;
-    end else begin
-      if (ctrl_we && be_i[1]) begin
-        {boff_msk_q, err_msk_q} <= wdata_i[15:14];
-        if (wrn_en_q)  {twrn_msk_q, rwrn_msk_q} <= wdata_i[11:10];
-        if (lpm_ack)   clk_src_q <= wdata_i[13];
-        if (frz_ack_o) lpb_o <= wdata_i[12];
-      end
-      if (ctrl_we && be_i[0]) begin
-        boff_rec_o <= wdata_i[6];
-        if (frz_ack_o) begin
-          smp_o <= wdata_i[7];
-          {tsyn_o, lbuf_o, lom_o, propseg_o} <= wdata_i[5:0];
-        end
-      end
-      if (ctrl_we && frz_ack_o) begin
-        if (be_i[2]) {rjw_o, pseg1_o, pseg2_o} <= wdata_i[23:16];
-        if (be_i[3]) presdiv_o <= wdata_i[31:24];
-      end
-    end
-  end
+  // CTRL2.
+  can_reg #(
+    .Reset(can_regs_pkg::Ctrl2Reset), .Freeze(can_regs_pkg::Ctrl2Freeze)
+  ) u_ctrl2 (
+    .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack),
+    .wrn_en_i(wrn_en), .we_i(wr_i && addr_i == can_regs_pkg::Ctrl2Addr), .be_i, .wdata_i,
+    .value_o(ctrl2));
+  assign rffn_o  = ctrl2[can_regs_pkg::Ctrl2Rffn +: can_regs_pkg::Ctrl2RffnW];
+  assign mrp_o   = ctrl2[can_regs_pkg::Ctrl2Mrp];
+  assign rrs_o   = ctrl2[can_regs_pkg::Ctrl2Rrs];
+  assign eacen_o = ctrl2[can_regs_pkg::Ctrl2Eacen];
 
   // Extension page.
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      {osmb_o, oneshot_o, fd_tolerant_o} <= '0;
-    end else if (wr_i && addr_i == ExtCtrl && be_i[0]) begin
-      {osmb_o, oneshot_o} <= wdata_i[2:1];
-      if (frz_ack_o) fd_tolerant_o <= wdata_i[0];
-    end
-  end
+  can_reg #(
+    .Reset(can_regs_pkg::XctrlReset), .Any(can_regs_pkg::XctrlAny),
+    .Freeze(can_regs_pkg::XctrlFreeze)
+  ) u_xctrl (
+    .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack),
+    .wrn_en_i(wrn_en), .we_i(wr_i && addr_i == can_regs_pkg::XctrlAddr), .be_i, .wdata_i,
+    .value_o(xctrl));
+  assign osmb_o        = xctrl[can_regs_pkg::XctrlOsmb];
+  assign oneshot_o     = xctrl[can_regs_pkg::XctrlOneshot];
+  assign fd_tolerant_o = xctrl[can_regs_pkg::XctrlFdtol];
 
   // A 1 written to IFLAG1[5] takes the frame at the output out of the FIFO (section 4).
-  assign fifo_pop_o = fen_o && wr_i && addr_i == Iflag1 && be_i[0] && wdata_i[5];
+  assign fifo_pop_o = fen_o && wr_i && addr_i == can_regs_pkg::Iflag1Addr && be_i[0]
+                   && wdata_i[can_regs_pkg::Iflag1FifoAvailable];
 
   // ECR.
-  assign ec_we_o    = wr_i && addr_i == Ecr && frz_ack_o;
+  assign ec_we_o    = wr_i && addr_i == can_regs_pkg::EcrAddr && frz_ack_o;
   assign ec_wdata_o = {be_i[1] ? wdata_i[15:8] : rec_i, be_i[0] ? wdata_i[7:0] : tec_i};
 
-  // Events.
-  logic        tx_wrn, rx_wrn;
+  // Events and their interrupts.
+  logic        tx_wrn, rx_wrn, esr1_at;
+  logic [31:0] events;
   logic [63:0] imask;
-  logic [5:0]  esr_err;
-  logic [3:0]  esr_int;
-  assign tx_wrn = tec_i >= 8'd96 && !boff_i;
-  assign rx_wrn = rec_i >= 8'd96 && !boff_i;
+  assign tx_wrn  = tec_i >= 8'd96 && !boff_i;
+  assign rx_wrn  = rec_i >= 8'd96 && !boff_i;
+  assign esr1_at = addr_i == can_regs_pkg::Esr1Addr;
   can_flags #(.NumMb(NumMb)) u_flags (
     .clk_i, .rst_ni, .clear_i(clear_o), .flag_i, .flag_idx_i, .err_i, .boff_i,
     .fen_i(fen_o), .fifo_clear_i(fifo_clear_o), .fifo_avail_i, .fifo_warn_i, .fifo_ovf_i,
-    .tx_wrn_i(tx_wrn), .rx_wrn_i(rx_wrn), .wrn_en_i(wrn_en_q),
-    .iflag_lo_we_i(wr_i && addr_i == Iflag1), .iflag_hi_we_i(wr_i && addr_i == Iflag2),
-    .imask_lo_we_i(wr_i && addr_i == Imask1), .imask_hi_we_i(wr_i && addr_i == Imask2),
-    .esr_we_i(wr_i && addr_i == Esr), .esr_rd_i(rd_i && addr_i == Esr && be_i[1]), .be_i, .wdata_i,
-    .boff_msk_i(boff_msk_q), .err_msk_i(err_msk_q),
-    .twrn_msk_i(twrn_msk_q && wrn_en_q), .rwrn_msk_i(rwrn_msk_q && wrn_en_q),
-    .iflag_o, .imask_o(imask), .esr_err_o(esr_err), .esr_int_o(esr_int),
+    .tx_wrn_i(tx_wrn), .rx_wrn_i(rx_wrn), .wrn_en_i(wrn_en),
+    .iflag_lo_we_i(wr_i && addr_i == can_regs_pkg::Iflag1Addr),
+    .iflag_hi_we_i(wr_i && addr_i == can_regs_pkg::Iflag2Addr),
+    .imask_lo_we_i(wr_i && addr_i == can_regs_pkg::Imask1Addr),
+    .imask_hi_we_i(wr_i && addr_i == can_regs_pkg::Imask2Addr),
+    .esr1_we_i(wr_i && esr1_at), .esr1_rd_i(rd_i && esr1_at && be_i[1]), .be_i, .wdata_i,
+    .boff_msk_i(ctrl1[can_regs_pkg::Ctrl1BoffMsk]), .err_msk_i(ctrl1[can_regs_pkg::Ctrl1ErrMsk]),
+    .twrn_msk_i(ctrl1[can_regs_pkg::Ctrl1TwrnMsk]), .rwrn_msk_i(ctrl1[can_regs_pkg::Ctrl1RwrnMsk]),
+    .iflag_o, .imask_o(imask), .esr1_o(events),
     .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o);
   assign irq_o = irq_mb_o || irq_boff_o || irq_err_o || irq_twrn_o || irq_rwrn_o;
 
+  // ESR1: the events, and the state; listen-only reads as passive (2.4).
+  always_comb begin
+    esr1 = events;
+    esr1[can_regs_pkg::Esr1Synch]  = synch_i;
+    esr1[can_regs_pkg::Esr1TxWrn]  = tx_wrn;
+    esr1[can_regs_pkg::Esr1RxWrn]  = rx_wrn;
+    esr1[can_regs_pkg::Esr1Idle]   = idle_i;
+    esr1[can_regs_pkg::Esr1Tx]     = transmitter_i;
+    esr1[can_regs_pkg::Esr1FltConf +: can_regs_pkg::Esr1FltConfW] =
+        boff_i ? 2'b10 : {1'b0, passive_i || lom_o};
+    esr1[can_regs_pkg::Esr1Rx]     = receiver_i;
+  end
+
   // Reads.
-  logic [1:0] flt_conf;
-  // listen-only reads as passive (2.4)
-  assign flt_conf = boff_i ? 2'b10 : {1'b0, passive_i || lom_o};
   always_comb begin
     rdata_o = '0;
     if (rd_i) begin
       case (addr_i)
-        Mcr:  rdata_o = {mdis_q, frz_q, fen_o, halt_q, lpm_ack || frz_ack_o, wak_msk_q,
-                         soft_rst_busy, frz_ack_o,
-                         supv_q, slf_wak_q, wrn_en_q, lpm_ack, wak_src_q, doze_q, srx_dis_o, bcc_o,
-                         2'b00, lprio_en_o, aen_o, 2'b00, idam_o, 1'b0, maxmb_o};
-        Ctrl: rdata_o = {presdiv_o, rjw_o, pseg1_o, pseg2_o,
-                         boff_msk_q, err_msk_q, clk_src_q, lpb_o,
-                         twrn_msk_q && wrn_en_q, rwrn_msk_q && wrn_en_q, 2'b00,
-                         smp_o, boff_rec_o, tsyn_o, lbuf_o, lom_o, propseg_o};
-        Ecr:  rdata_o = {16'b0, rec_i, tec_i};
-        Esr:  rdata_o = {13'b0, synch_i, esr_int[3:2], esr_err, tx_wrn, rx_wrn,
-                         idle_i, transmitter_i, flt_conf, receiver_i, esr_int[1:0], 1'b0};
-        Imask2:  rdata_o = imask[63:32];
-        Imask1:  rdata_o = imask[31:0];
-        Iflag2:  rdata_o = iflag_o[63:32];
-        Iflag1:  rdata_o = iflag_o[31:0];
-        Ctrl2:   rdata_o = {3'b0, wrmfrz_q, rffn_o, tasd_q, mrp_o, rrs_o, eacen_o, 16'b0};
-        Esr2:    rdata_o = {9'b0, esr2_i[8:2], 1'b0, esr2_i[1:0], 13'b0};
-        Crcr:    rdata_o = {9'b0, crcr_i[21:15], 1'b0, crcr_i[14:0]};
-        ExtId:   rdata_o = 32'h5643_414E;               // "VCAN"
-        ExtVer:  rdata_o = 32'h0001_0000;               // 1.0
-        ExtConf: rdata_o = {22'b0, 2'b11, 8'(NumMb)};   // 8: FD tolerance, 9: one-shot
-        ExtCtrl: rdata_o = {29'b0, osmb_o, oneshot_o, fd_tolerant_o};
+        can_regs_pkg::McrAddr:      rdata_o = mcr;
+        can_regs_pkg::Ctrl1Addr:    rdata_o = ctrl1;
+        can_regs_pkg::EcrAddr:      rdata_o = {16'b0, rec_i, tec_i};
+        can_regs_pkg::Esr1Addr:     rdata_o = esr1;
+        can_regs_pkg::Imask2Addr:   rdata_o = imask[63:32];
+        can_regs_pkg::Imask1Addr:   rdata_o = imask[31:0];
+        can_regs_pkg::Iflag2Addr:   rdata_o = iflag_o[63:32];
+        can_regs_pkg::Iflag1Addr:   rdata_o = iflag_o[31:0];
+        can_regs_pkg::Ctrl2Addr:    rdata_o = ctrl2;
+        can_regs_pkg::Esr2Addr:     rdata_o = {9'b0, esr2_i[8:2], 1'b0, esr2_i[1:0], 13'b0};
+        can_regs_pkg::CrcrAddr:     rdata_o = {9'b0, crcr_i[21:15], 1'b0, crcr_i[14:0]};
+        can_regs_pkg::XidAddr:      rdata_o = can_regs_pkg::XidReset;
+        can_regs_pkg::XversionAddr: rdata_o = can_regs_pkg::XversionReset;
+        can_regs_pkg::XconfigAddr:  rdata_o = can_regs_pkg::XconfigReset | 32'(NumMb);
+        can_regs_pkg::XctrlAddr:    rdata_o = xctrl;
         default: ;
       endcase
     end

@@ -47,9 +47,9 @@ module can_top #(
   assign mask_idx = {hi, addr_i[6:2]};
   assign in_mb    = addr_i[12:11] == 2'b00 && mb_idx[6:IdxW] == '0;
   assign in_mask  = addr_i[12:11] == 2'b01 && mask_idx[8:IdxW] == '0;
-  assign in_gmask = addr_i == 11'h004 || addr_i == 11'h005 || addr_i == 11'h006
-                 || addr_i == 11'h012;             // RXGMASK, RX14MASK, RX15MASK, RXFGMASK
-  assign in_timer = addr_i == 11'h002;
+  assign in_gmask = addr_i == can_regs_pkg::RxgmaskAddr  || addr_i == can_regs_pkg::Rx14maskAddr
+                 || addr_i == can_regs_pkg::Rx15maskAddr || addr_i == can_regs_pkg::RxfgmaskAddr;
+  assign in_timer = addr_i == can_regs_pkg::TimerAddr;
   assign to_mb    = in_mb || in_mask || in_gmask || in_timer;
   assign wr_ok    = in_mb || in_timer || frz_ack;   // masks: in freeze mode only
 

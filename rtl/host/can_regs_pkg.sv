@@ -1,0 +1,271 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_regs_pkg: the register map as constants. Written by tools/registers.py from
+// sw/registers.yaml; edits are lost. <Reg>Addr counts words; <Reg><Field> is the lowest bit of a
+// field and <Reg><Field>W its width, if it has more than one; <Reg>Any, Freeze, Disable and WrnEn
+// are the bits that a write changes at any time, in freeze mode, in disable mode, with MCR.WRN_EN.
+
+package can_regs_pkg;
+
+  // MCR: Module configuration
+  localparam logic [10:0] McrAddr           = 11'h000;
+  localparam logic [31:0] McrReset          = 32'hD890_000F;
+  localparam logic [31:0] McrAny            = 32'hD444_0000;
+  localparam logic [31:0] McrFreeze         = 32'h20AB_337F;
+  localparam int          McrMdis           = 31;
+  localparam int          McrFrz            = 30;
+  localparam int          McrFen            = 29;
+  localparam int          McrHalt           = 28;
+  localparam int          McrNotRdy         = 27;
+  localparam int          McrWakMsk         = 26;
+  localparam int          McrSoftRst        = 25;
+  localparam int          McrFrzAck         = 24;
+  localparam int          McrSupv           = 23;
+  localparam int          McrSlfWak         = 22;
+  localparam int          McrWrnEn          = 21;
+  localparam int          McrLpmAck         = 20;
+  localparam int          McrWakSrc         = 19;
+  localparam int          McrDoze           = 18;
+  localparam int          McrSrxDis         = 17;
+  localparam int          McrBcc            = 16;
+  localparam int          McrLprioEn        = 13;
+  localparam int          McrAen            = 12;
+  localparam int          McrIdam           = 8;
+  localparam int          McrIdamW          = 2;
+  localparam int          McrMaxmb          = 0;
+  localparam int          McrMaxmbW         = 7;
+
+  // CTRL1: Bit timing, interrupt masks and bus behaviour
+  localparam logic [10:0] Ctrl1Addr         = 11'h001;
+  localparam logic [31:0] Ctrl1Reset        = 32'h0000_0000;
+  localparam logic [31:0] Ctrl1Any          = 32'h0000_C040;
+  localparam logic [31:0] Ctrl1Freeze       = 32'hFFFF_10BF;
+  localparam logic [31:0] Ctrl1Disable      = 32'h0000_2000;
+  localparam logic [31:0] Ctrl1WrnEn        = 32'h0000_0C00;
+  localparam int          Ctrl1Presdiv      = 24;
+  localparam int          Ctrl1PresdivW     = 8;
+  localparam int          Ctrl1Rjw          = 22;
+  localparam int          Ctrl1RjwW         = 2;
+  localparam int          Ctrl1Pseg1        = 19;
+  localparam int          Ctrl1Pseg1W       = 3;
+  localparam int          Ctrl1Pseg2        = 16;
+  localparam int          Ctrl1Pseg2W       = 3;
+  localparam int          Ctrl1BoffMsk      = 15;
+  localparam int          Ctrl1ErrMsk       = 14;
+  localparam int          Ctrl1ClkSrc       = 13;
+  localparam int          Ctrl1Lpb          = 12;
+  localparam int          Ctrl1TwrnMsk      = 11;
+  localparam int          Ctrl1RwrnMsk      = 10;
+  localparam int          Ctrl1Smp          = 7;
+  localparam int          Ctrl1BoffRec      = 6;
+  localparam int          Ctrl1Tsyn         = 5;
+  localparam int          Ctrl1Lbuf         = 4;
+  localparam int          Ctrl1Lom          = 3;
+  localparam int          Ctrl1Propseg      = 0;
+  localparam int          Ctrl1PropsegW     = 3;
+
+  // TIMER: Free-running timer
+  localparam logic [10:0] TimerAddr         = 11'h002;
+  localparam logic [31:0] TimerReset        = 32'h0000_0000;
+  localparam logic [31:0] TimerAny          = 32'h0000_FFFF;
+  localparam int          TimerTimer        = 0;
+  localparam int          TimerTimerW       = 16;
+
+  // RXGMASK: Receive mask of all buffers but 14 and 15
+  localparam logic [10:0] RxgmaskAddr       = 11'h004;
+  localparam logic [31:0] RxgmaskReset      = 32'hFFFF_FFFF;
+  localparam logic [31:0] RxgmaskFreeze     = 32'hFFFF_FFFF;
+  localparam int          RxgmaskMg         = 0;
+  localparam int          RxgmaskMgW        = 32;
+
+  // RX14MASK: Receive mask of buffer 14
+  localparam logic [10:0] Rx14maskAddr      = 11'h005;
+  localparam logic [31:0] Rx14maskReset     = 32'hFFFF_FFFF;
+  localparam logic [31:0] Rx14maskFreeze    = 32'hFFFF_FFFF;
+  localparam int          Rx14maskRx14m     = 0;
+  localparam int          Rx14maskRx14mW    = 32;
+
+  // RX15MASK: Receive mask of buffer 15
+  localparam logic [10:0] Rx15maskAddr      = 11'h006;
+  localparam logic [31:0] Rx15maskReset     = 32'hFFFF_FFFF;
+  localparam logic [31:0] Rx15maskFreeze    = 32'hFFFF_FFFF;
+  localparam int          Rx15maskRx15m     = 0;
+  localparam int          Rx15maskRx15mW    = 32;
+
+  // ECR: Error counters
+  localparam logic [10:0] EcrAddr           = 11'h007;
+  localparam logic [31:0] EcrReset          = 32'h0000_0000;
+  localparam logic [31:0] EcrFreeze         = 32'h0000_FFFF;
+  localparam int          EcrRxerr          = 8;
+  localparam int          EcrRxerrW         = 8;
+  localparam int          EcrTxerr          = 0;
+  localparam int          EcrTxerrW         = 8;
+
+  // ESR1: Errors and status
+  localparam logic [10:0] Esr1Addr          = 11'h008;
+  localparam logic [31:0] Esr1Reset         = 32'h0000_0000;
+  localparam int          Esr1Synch         = 18;
+  localparam int          Esr1TwrnInt       = 17;
+  localparam int          Esr1RwrnInt       = 16;
+  localparam int          Esr1Bit1Err       = 15;
+  localparam int          Esr1Bit0Err       = 14;
+  localparam int          Esr1AckErr        = 13;
+  localparam int          Esr1CrcErr        = 12;
+  localparam int          Esr1FrmErr        = 11;
+  localparam int          Esr1StfErr        = 10;
+  localparam int          Esr1TxWrn         = 9;
+  localparam int          Esr1RxWrn         = 8;
+  localparam int          Esr1Idle          = 7;
+  localparam int          Esr1Tx            = 6;
+  localparam int          Esr1FltConf       = 4;
+  localparam int          Esr1FltConfW      = 2;
+  localparam int          Esr1Rx            = 3;
+  localparam int          Esr1BoffInt       = 2;
+  localparam int          Esr1ErrInt        = 1;
+  localparam int          Esr1WakInt        = 0;
+
+  // IMASK2: Interrupt masks of buffers 32 to 63
+  localparam logic [10:0] Imask2Addr        = 11'h009;
+  localparam logic [31:0] Imask2Reset       = 32'h0000_0000;
+  localparam logic [31:0] Imask2Any         = 32'hFFFF_FFFF;
+  localparam int          Imask2Bufm        = 0;
+  localparam int          Imask2BufmW       = 32;
+
+  // IMASK1: Interrupt masks of buffers 0 to 31
+  localparam logic [10:0] Imask1Addr        = 11'h00A;
+  localparam logic [31:0] Imask1Reset       = 32'h0000_0000;
+  localparam logic [31:0] Imask1Any         = 32'hFFFF_FFFF;
+  localparam int          Imask1Bufm        = 0;
+  localparam int          Imask1BufmW       = 32;
+
+  // IFLAG2: Interrupt flags of buffers 32 to 63
+  localparam logic [10:0] Iflag2Addr        = 11'h00B;
+  localparam logic [31:0] Iflag2Reset       = 32'h0000_0000;
+  localparam int          Iflag2Bufi        = 0;
+  localparam int          Iflag2BufiW       = 32;
+
+  // IFLAG1: Interrupt flags of buffers 0 to 31
+  localparam logic [10:0] Iflag1Addr        = 11'h00C;
+  localparam logic [31:0] Iflag1Reset       = 32'h0000_0000;
+  localparam int          Iflag1Bufi        = 0;
+  localparam int          Iflag1BufiW       = 32;
+  localparam int          Iflag1FifoOverflow = 7;
+  localparam int          Iflag1FifoWarning = 6;
+  localparam int          Iflag1FifoAvailable = 5;
+
+  // CTRL2: Control 2
+  localparam logic [10:0] Ctrl2Addr         = 11'h00D;
+  localparam logic [31:0] Ctrl2Reset        = 32'h00B0_0000;
+  localparam logic [31:0] Ctrl2Freeze       = 32'h1FFF_0000;
+  localparam int          Ctrl2Wrmfrz       = 28;
+  localparam int          Ctrl2Rffn         = 24;
+  localparam int          Ctrl2RffnW        = 4;
+  localparam int          Ctrl2Tasd         = 19;
+  localparam int          Ctrl2TasdW        = 5;
+  localparam int          Ctrl2Mrp          = 18;
+  localparam int          Ctrl2Rrs          = 17;
+  localparam int          Ctrl2Eacen        = 16;
+
+  // ESR2: State of the transmit arbitration
+  localparam logic [10:0] Esr2Addr          = 11'h00E;
+  localparam logic [31:0] Esr2Reset         = 32'h0000_0000;
+  localparam int          Esr2Lptm          = 16;
+  localparam int          Esr2LptmW         = 7;
+  localparam int          Esr2Vps           = 14;
+  localparam int          Esr2Imb           = 13;
+
+  // CRCR: CRC of the last frame sent
+  localparam logic [10:0] CrcrAddr          = 11'h011;
+  localparam logic [31:0] CrcrReset         = 32'h0000_0000;
+  localparam int          CrcrMbcrc         = 16;
+  localparam int          CrcrMbcrcW        = 7;
+  localparam int          CrcrTxcrc         = 0;
+  localparam int          CrcrTxcrcW        = 15;
+
+  // RXFGMASK: Mask of FIFO filters without a mask of their own
+  localparam logic [10:0] RxfgmaskAddr      = 11'h012;
+  localparam logic [31:0] RxfgmaskReset     = 32'hFFFF_FFFF;
+  localparam logic [31:0] RxfgmaskFreeze    = 32'hFFFF_FFFF;
+  localparam int          RxfgmaskFgm       = 0;
+  localparam int          RxfgmaskFgmW      = 32;
+
+  // RXFIR: Filter of the frame at the FIFO's output
+  localparam logic [10:0] RxfirAddr         = 11'h013;
+  localparam logic [31:0] RxfirReset        = 32'h0000_0000;
+  localparam int          RxfirIdhit        = 0;
+  localparam int          RxfirIdhitW       = 9;
+
+  // RXIMR: Receive mask of buffer n, or of FIFO filter word n
+  localparam logic [10:0] RximrAddr         = 11'h220;
+  localparam int          RximrMi           = 0;
+  localparam int          RximrMiW          = 32;
+
+  // XID: Extension: identification
+  localparam logic [10:0] XidAddr           = 11'h400;
+  localparam logic [31:0] XidReset          = 32'h5643_414E;
+  localparam int          XidXid            = 0;
+  localparam int          XidXidW           = 32;
+
+  // XVERSION: Extension: version of the extension page
+  localparam logic [10:0] XversionAddr      = 11'h401;
+  localparam logic [31:0] XversionReset     = 32'h0001_0001;
+  localparam int          XversionMajor     = 16;
+  localparam int          XversionMajorW    = 16;
+  localparam int          XversionMinor     = 0;
+  localparam int          XversionMinorW    = 16;
+
+  // XCONFIG: Extension: what this core has
+  localparam logic [10:0] XconfigAddr       = 11'h402;
+  localparam logic [31:0] XconfigReset      = 32'h0000_0F00;
+  localparam int          XconfigRxfifo     = 11;
+  localparam int          XconfigOsmb       = 10;
+  localparam int          XconfigOneshot    = 9;
+  localparam int          XconfigFdtol      = 8;
+  localparam int          XconfigNumMb      = 0;
+  localparam int          XconfigNumMbW     = 8;
+
+  // XCTRL: Extension: control
+  localparam logic [10:0] XctrlAddr         = 11'h403;
+  localparam logic [31:0] XctrlReset        = 32'h0000_0000;
+  localparam logic [31:0] XctrlAny          = 32'h0000_0006;
+  localparam logic [31:0] XctrlFreeze       = 32'h0000_0001;
+  localparam int          XctrlOsmb         = 2;
+  localparam int          XctrlOneshot      = 1;
+  localparam int          XctrlFdtol        = 0;
+
+  // MB: Message buffer n
+  localparam logic [10:0] MbAddr            = 11'h020;
+  localparam int          MbCsOs            = 28;
+  localparam int          MbCsCode          = 24;
+  localparam int          MbCsCodeW         = 4;
+  localparam int          MbCsSrr           = 22;
+  localparam int          MbCsIde           = 21;
+  localparam int          MbCsRtr           = 20;
+  localparam int          MbCsDlc           = 16;
+  localparam int          MbCsDlcW          = 4;
+  localparam int          MbCsTimeStamp     = 0;
+  localparam int          MbCsTimeStampW    = 16;
+  localparam int          MbIdPrio          = 29;
+  localparam int          MbIdPrioW         = 3;
+  localparam int          MbIdExt           = 0;
+  localparam int          MbIdExtW          = 29;
+  localparam int          MbIdStd           = 18;
+  localparam int          MbIdStdW          = 11;
+  localparam int          MbData0Byte0      = 24;
+  localparam int          MbData0Byte0W     = 8;
+  localparam int          MbData0Byte1      = 16;
+  localparam int          MbData0Byte1W     = 8;
+  localparam int          MbData0Byte2      = 8;
+  localparam int          MbData0Byte2W     = 8;
+  localparam int          MbData0Byte3      = 0;
+  localparam int          MbData0Byte3W     = 8;
+  localparam int          MbData1Byte0      = 24;
+  localparam int          MbData1Byte0W     = 8;
+  localparam int          MbData1Byte1      = 16;
+  localparam int          MbData1Byte1W     = 8;
+  localparam int          MbData1Byte2      = 8;
+  localparam int          MbData1Byte2W     = 8;
+  localparam int          MbData1Byte3      = 0;
+  localparam int          MbData1Byte3W     = 8;
+endpackage
