@@ -1,0 +1,55 @@
+/* SPDX-FileCopyrightText: 2026 The VeriCAN authors
+ * SPDX-License-Identifier: Apache-2.0
+ *
+ * Taking frames back (flexcan.md 3.4), and one-shot.
+ */
+#include "internal.h"
+
+static bool is_flagged(const verican_t *dev, unsigned mb) {
+  const uint32_t offset = mb < 32u ? VERICAN_IFLAG1_OFFSET : VERICAN_IFLAG2_OFFSET;
+  return (verican_read(dev, offset) & verican_bit(mb)) != 0u;
+}
+
+/* Under lock. True if the frame is gone and no interrupt will tell; false leaves the end to the
+ * handler. With MCR.AEN the core decides and raises the flag, but a core may skip the flag where
+ * the frame had not left its mailbox (FlexCAN2). Without, a frame that has left its mailbox goes on
+ * and nothing is heard of it again. */
+static bool take_back(verican_t *dev, unsigned mb) {
+  if (is_flagged(dev, mb)) return false;
+  dev->tx_taken_back[mb / 32u] |= verican_bit(mb);
+  verican_write(dev, MB_CS(mb), dev->abort ? CS_TX_ABORT : CS_TX_INACTIVE);
+  const uint32_t code = verican_read(dev, MB_CS(mb)) & CS_CODE_MASK;
+  if (is_flagged(dev, mb)) return false;
+  return !dev->abort || code == CS_TX_ABORT;
+}
+
+verican_result_t verican_abort(verican_t *dev, uint8_t mailbox) {
+  const verican_result_t result = verican_check_started(dev);
+  if (result != VERICAN_OK) return result;
+  if (mailbox < dev->first_tx || mailbox >= dev->num_mb) return VERICAN_ERR_RANGE;
+  const uint32_t token = verican_lock(dev);
+  const bool waits = verican_is_pending(dev, mailbox);
+  const bool gone = waits && take_back(dev, mailbox);
+  if (gone) verican_set_pending(dev, mailbox, false);
+  const uint64_t now = gone ? verican_now(dev) : 0u;
+  verican_unlock(dev, token);
+  if (!waits) return VERICAN_ERR_EMPTY;
+  if (gone)
+    verican_tx_report(dev, mailbox, dev->abort ? VERICAN_TX_ABORTED : VERICAN_TX_WITHDRAWN, now);
+  return VERICAN_OK;
+}
+
+verican_result_t verican_set_one_shot(verican_t *dev, bool on) {
+  const verican_result_t result = verican_check(dev);
+  if (result != VERICAN_OK) return result;
+  if (!dev->extension) return VERICAN_ERR_UNSUPPORTED;
+  const uint32_t offer = verican_read(dev, VERICAN_EXT_CONFIG_OFFSET);
+  if ((offer & VERICAN_EXT_CONFIG_ONE_SHOT_MASK) == 0u) return VERICAN_ERR_UNSUPPORTED;
+  const uint32_t token = verican_lock(dev);
+  uint32_t control = verican_read(dev, VERICAN_EXT_CONTROL_OFFSET);
+  control &= ~VERICAN_EXT_CONTROL_ONE_SHOT_MASK;
+  if (on) control |= VERICAN_EXT_CONTROL_ONE_SHOT_MASK;
+  verican_write(dev, VERICAN_EXT_CONTROL_OFFSET, control);
+  verican_unlock(dev, token);
+  return VERICAN_OK;
+}

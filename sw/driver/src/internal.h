@@ -1,0 +1,168 @@
+/* SPDX-FileCopyrightText: 2026 The VeriCAN authors
+ * SPDX-License-Identifier: Apache-2.0
+ *
+ * What the parts of the driver share: register access, argument checks, and each other's functions.
+ */
+#ifndef VERICAN_SRC_INTERNAL_H
+#define VERICAN_SRC_INTERNAL_H
+
+#include <stddef.h>
+
+#include "regs.h"
+#include "verican/verican.h"
+
+/* Keeps the compiler from moving accesses to the ring across its indices. */
+#ifndef VERICAN_BARRIER
+#ifdef __GNUC__
+#define VERICAN_BARRIER() __asm__ volatile("" ::: "memory")
+#else
+#error "define VERICAN_BARRIER as the compiler barrier of this compiler"
+#endif
+#endif
+
+/* verican_t.life: recognises a device that verican_init() has not seen. */
+#define VERICAN_LIFE_STOPPED 0x56434E01u
+#define VERICAN_LIFE_STARTED 0x56434E02u
+
+/* Message buffers, word by word (flexcan.md 3.1). */
+#define MB_CS(mb) (VERICAN_MB_OFFSET + 16u * (uint32_t)(mb))
+#define MB_ID(mb) (MB_CS(mb) + 4u)
+#define MB_DATA0(mb) (MB_CS(mb) + 8u)
+#define MB_DATA1(mb) (MB_CS(mb) + 12u)
+#define RXIMR(mb) (VERICAN_RXIMR_OFFSET + 4u * (uint32_t)(mb))
+
+#define CS_CODE_MASK 0x0F000000u
+#define CS_RX_INACTIVE 0x00000000u
+#define CS_RX_BUSY 0x01000000u /* bit: a move is under way */
+#define CS_RX_FULL 0x02000000u
+#define CS_RX_EMPTY 0x04000000u
+#define CS_RX_OVERRUN 0x06000000u
+#define CS_TX_INACTIVE 0x08000000u
+#define CS_TX_ABORT 0x09000000u
+#define CS_TX_DATA 0x0C000000u
+#define CS_SRR 0x00400000u
+#define CS_IDE 0x00200000u
+#define CS_RTR 0x00100000u
+#define CS_DLC_SHIFT 16u
+#define CS_STAMP_MASK 0x0000FFFFu
+#define ID_STANDARD_SHIFT 18u
+#define ID_PRIORITY_SHIFT 29u
+
+/* Bits 31 and 30 of an individual mask (flexcan.md 1.9). */
+#define MASK_RTR 0x80000000u
+#define MASK_IDE 0x40000000u
+
+/* IFLAG1 with the FIFO. */
+#define FIFO_AVAILABLE 0x00000020u
+#define FIFO_WARNING 0x00000040u
+#define FIFO_OVERFLOW 0x00000080u
+
+#define ESR_FLAGS                                                                      \
+  (VERICAN_ESR_TWRN_INT_MASK | VERICAN_ESR_RWRN_INT_MASK | VERICAN_ESR_BOFF_INT_MASK | \
+   VERICAN_ESR_ERR_INT_MASK | VERICAN_ESR_WAK_INT_MASK)
+
+static inline uint32_t verican_read(const verican_t *dev, uint32_t offset) {
+  if (dev->port.base != NULL) return dev->port.base[offset / 4u];
+  return dev->port.read32(dev->port.context, offset);
+}
+
+static inline void verican_write(const verican_t *dev, uint32_t offset, uint32_t value) {
+  if (dev->port.base != NULL) {
+    dev->port.base[offset / 4u] = value;
+  } else {
+    dev->port.write32(dev->port.context, offset, value);
+  }
+}
+
+static inline uint32_t verican_lock(const verican_t *dev) {
+  return dev->port.lock != NULL ? dev->port.lock(dev->port.context) : 0u;
+}
+
+static inline void verican_unlock(const verican_t *dev, uint32_t token) {
+  if (dev->port.unlock != NULL) dev->port.unlock(dev->port.context, token);
+}
+
+static inline uint32_t verican_bit(unsigned mb) { return (uint32_t)1 << (mb % 32u); }
+
+static inline void verican_clear_flag(const verican_t *dev, unsigned mb) {
+  verican_write(dev, mb < 32u ? VERICAN_IFLAG1_OFFSET : VERICAN_IFLAG2_OFFSET, verican_bit(mb));
+}
+
+static inline bool verican_alive(const verican_t *dev) {
+  return dev->life == VERICAN_LIFE_STOPPED || dev->life == VERICAN_LIFE_STARTED;
+}
+
+/* VERICAN_OK if `dev` is an initialised, a stopped or a started device. */
+static inline verican_result_t verican_check(const verican_t *dev) {
+  if (dev == NULL) return VERICAN_ERR_NULL;
+  return verican_alive(dev) ? VERICAN_OK : VERICAN_ERR_STATE;
+}
+static inline verican_result_t verican_check_stopped(const verican_t *dev) {
+  if (dev == NULL) return VERICAN_ERR_NULL;
+  return dev->life == VERICAN_LIFE_STOPPED ? VERICAN_OK : VERICAN_ERR_STATE;
+}
+static inline verican_result_t verican_check_started(const verican_t *dev) {
+  if (dev == NULL) return VERICAN_ERR_NULL;
+  return dev->life == VERICAN_LIFE_STARTED ? VERICAN_OK : VERICAN_ERR_STATE;
+}
+
+/* mode.c */
+/* Polls until (register & mask) == value. */
+verican_result_t verican_wait(const verican_t *dev, uint32_t offset, uint32_t mask, uint32_t value);
+/* Leaves disable mode, resets, and ends in freeze mode. */
+verican_result_t verican_reset_core(const verican_t *dev);
+verican_result_t verican_freeze(const verican_t *dev);
+verican_result_t verican_unfreeze(const verican_t *dev);
+/* Writes MCR and CTRL as dev->mcr and dev->ctrl say; in freeze mode. */
+void verican_write_settings(const verican_t *dev);
+/* dev->mcr and dev->ctrl for the mode. */
+void verican_apply_mode(verican_t *dev, verican_mode_t mode);
+
+/* timing.c */
+uint32_t verican_timing_bits(const verican_timing_t *timing);
+
+/* filter.c */
+verican_result_t verican_accept_all(verican_t *dev);
+
+/* rx.c */
+/* Moves what has been received into the ring; true if anything was. */
+bool verican_rx_mailboxes(verican_t *dev, const uint32_t flags[2]);
+/* fifo.c */
+bool verican_rx_fifo(verican_t *dev, uint32_t flags);
+/* ring.c */
+void verican_ring_insert(verican_t *dev, const verican_frame_t *frame);
+/* Makes the inserted frames visible; true if there were any. */
+bool verican_ring_commit(verican_t *dev);
+
+/* frame.c */
+/* Frame of the C/S and ID words; data is read from the buffer at `mb`. */
+void verican_frame_read(verican_t *dev, unsigned mb, uint32_t cs, verican_frame_t *frame);
+void verican_frame_write(const verican_t *dev, unsigned mb, const verican_frame_t *frame);
+verican_result_t verican_frame_check(const verican_frame_t *frame);
+
+/* tx.c */
+bool verican_is_pending(const verican_t *dev, unsigned mb);
+/* Also forgets that the frame was taken back. */
+void verican_set_pending(verican_t *dev, unsigned mb, bool on);
+void verican_tx_report(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome,
+                       uint64_t timestamp);
+/* Ends the transmissions of the flagged mailboxes; true if there were any. */
+bool verican_tx_serve(verican_t *dev, const uint32_t flags[2]);
+/* Gives up all that waits; the core is in freeze mode. */
+void verican_tx_drop_all(verican_t *dev);
+
+/* time.c */
+/* Extends 16 bits of TIMER to 64 and remembers the latest. */
+uint64_t verican_extend(verican_t *dev, uint32_t stamp);
+uint64_t verican_now(verican_t *dev);
+
+/* irq.c */
+bool verican_serve(verican_t *dev);
+
+/* state.c */
+/* Reads and clears ESR, follows the state, calls back; true if a flag was set. */
+bool verican_state_serve(verican_t *dev);
+/* CTRL with the interrupt masks that the state needs. */
+void verican_write_ctrl(const verican_t *dev);
+
+#endif /* VERICAN_SRC_INTERNAL_H */

@@ -1,0 +1,109 @@
+/* SPDX-FileCopyrightText: 2026 The VeriCAN authors
+ * SPDX-License-Identifier: Apache-2.0
+ *
+ * Self-test: buffer memory, then frames through loop-back from mailbox 1 to mailbox 0. Everything
+ * that is touched is kept on the stack and put back.
+ */
+#include "internal.h"
+
+enum { RX = 0, TX = 1, WORDS = 8, FRAMES = 18 };
+
+static verican_result_t fail(verican_test_report_t *report, verican_test_step_t step,
+                             uint32_t where, uint32_t expected, uint32_t found) {
+  const verican_test_report_t seen = {step, where, expected, found};
+  *report = seen;
+  return VERICAN_ERR_SELF_TEST;
+}
+
+/* Each word of the buffers but C/S, which acts: its address and its complement, then the old
+ * value. */
+static verican_result_t test_memory(const verican_t *dev, verican_test_report_t *report) {
+  for (unsigned mb = 0; mb < dev->num_mb; ++mb) {
+    for (uint32_t word = MB_ID(mb); word <= MB_DATA1(mb); word += 4u) {
+      const uint32_t old = verican_read(dev, word);
+      for (unsigned round = 0; round < 2u; ++round) {
+        const uint32_t pattern = round == 0u ? word * 0x00010001u : ~(word * 0x00010001u);
+        verican_write(dev, word, pattern);
+        const uint32_t found = verican_read(dev, word);
+        if (found != pattern) return fail(report, VERICAN_TEST_MEMORY, word, pattern, found);
+      }
+      verican_write(dev, word, old);
+    }
+  }
+  return VERICAN_OK;
+}
+
+/* Frame n: lengths 0..8, standard and extended; its identifier and data follow from n. */
+static void make_frame(unsigned n, verican_frame_t *frame) {
+  *frame = (verican_frame_t){0};
+  const bool extended = n >= (unsigned)FRAMES / 2u;
+  frame->flags = extended ? VERICAN_FRAME_EXTENDED : 0;
+  frame->id = extended ? 0x0AAAAAAAu + n * 0x01010101u : 0x2AAu + n * 0x21u;
+  frame->dlc = (uint8_t)(n % ((unsigned)FRAMES / 2u));
+  for (unsigned i = 0; i < frame->dlc; ++i) frame->data[i] = (uint8_t)(0x55u * (i + 1u) + n);
+}
+
+static verican_result_t compare(unsigned n, const verican_frame_t *sent, const verican_frame_t *got,
+                                verican_test_report_t *report) {
+  if (got->id != sent->id) return fail(report, VERICAN_TEST_FRAME, n, sent->id, got->id);
+  if (got->dlc != sent->dlc || got->flags != sent->flags)
+    return fail(report, VERICAN_TEST_FRAME, n, sent->dlc, got->dlc);
+  for (unsigned i = 0; i < 8u; ++i) {
+    if (got->data[i] != sent->data[i])
+      return fail(report, VERICAN_TEST_FRAME, n, sent->data[i], got->data[i]);
+  }
+  return VERICAN_OK;
+}
+
+static verican_result_t loop_frame(verican_t *dev, unsigned n, verican_test_report_t *report) {
+  verican_frame_t sent;
+  verican_frame_t got;
+  make_frame(n, &sent);
+  const uint32_t ide = (sent.flags & VERICAN_FRAME_EXTENDED) != 0u ? CS_IDE : 0u;
+  const uint32_t both = verican_bit(RX) | verican_bit(TX);
+  verican_write(dev, MB_CS(RX), CS_RX_EMPTY | ide);
+  verican_frame_write(dev, TX, &sent);
+  if (verican_wait(dev, VERICAN_IFLAG1_OFFSET, both, both) != VERICAN_OK)
+    return fail(report, VERICAN_TEST_LOOP_BACK, n, both,
+                verican_read(dev, VERICAN_IFLAG1_OFFSET) & both);
+  verican_frame_read(dev, RX, verican_read(dev, MB_CS(RX)), &got);
+  verican_write(dev, VERICAN_IFLAG1_OFFSET, both);
+  (void)verican_now(dev);
+  return compare(n, &sent, &got, report);
+}
+
+/* With only two mailboxes in use: what the others hold is neither sent nor overwritten. */
+static verican_result_t test_loop_back(verican_t *dev, verican_test_report_t *report) {
+  const uint32_t frozen = VERICAN_MCR_FRZ_MASK | VERICAN_MCR_HALT_MASK;
+  const uint32_t mcr = VERICAN_MCR_BCC_MASK | (uint32_t)TX;
+  verican_write(dev, VERICAN_MCR_OFFSET, mcr | frozen);
+  verican_write(dev, VERICAN_CTRL_OFFSET,
+                (dev->ctrl & ~VERICAN_CTRL_LOM_MASK) | VERICAN_CTRL_LPB_MASK);
+  verican_write(dev, RXIMR(RX), MASK_IDE);
+  verican_write(dev, MB_CS(TX), CS_TX_INACTIVE);
+  verican_write(dev, VERICAN_MCR_OFFSET, mcr);
+  verican_result_t result = verican_wait(dev, VERICAN_MCR_OFFSET, VERICAN_MCR_FRZ_ACK_MASK, 0);
+  for (unsigned n = 0; result == VERICAN_OK && n < (unsigned)FRAMES; ++n)
+    result = loop_frame(dev, n, report);
+  verican_write(dev, VERICAN_MCR_OFFSET, mcr | frozen);
+  const verican_result_t frozen_again =
+      verican_wait(dev, VERICAN_MCR_OFFSET, VERICAN_MCR_FRZ_ACK_MASK, VERICAN_MCR_FRZ_ACK_MASK);
+  return result != VERICAN_OK ? result : frozen_again;
+}
+
+verican_result_t verican_self_test(verican_t *dev, verican_test_report_t *report) {
+  verican_result_t result = verican_check_stopped(dev);
+  if (result != VERICAN_OK) return result;
+  verican_test_report_t seen = {VERICAN_TEST_PASSED, 0, 0, 0};
+  uint32_t kept[WORDS];
+  const uint32_t kept_mask = verican_read(dev, RXIMR(RX));
+  for (unsigned i = 0; i < (unsigned)WORDS; ++i) kept[i] = verican_read(dev, MB_CS(RX) + 4u * i);
+  result = test_memory(dev, &seen);
+  if (result == VERICAN_OK) result = test_loop_back(dev, &seen);
+  for (unsigned i = (unsigned)WORDS; i-- > 0u;) verican_write(dev, MB_CS(RX) + 4u * i, kept[i]);
+  verican_write(dev, RXIMR(RX), kept_mask);
+  verican_write(dev, VERICAN_IFLAG1_OFFSET, verican_bit(RX) | verican_bit(TX));
+  verican_write_settings(dev);
+  if (report != NULL) *report = seen;
+  return result;
+}

@@ -1,0 +1,116 @@
+/* SPDX-FileCopyrightText: 2026 The VeriCAN authors
+ * SPDX-License-Identifier: Apache-2.0
+ *
+ * Errors and error state: ESR, the counters, and the way out of bus-off (flexcan.md 1.4, 2.8, 7).
+ */
+#include "internal.h"
+
+/* Error interrupts come with every error. They are needed to see the step from warning to passive,
+ * and the end of bus-off; otherwise only if somebody listens. */
+void verican_write_ctrl(const verican_t *dev) {
+  uint32_t ctrl = dev->ctrl | VERICAN_CTRL_BOFF_MSK_MASK | VERICAN_CTRL_TWRN_MSK_MASK |
+                  VERICAN_CTRL_RWRN_MSK_MASK;
+  if (dev->callbacks.on_error != NULL || dev->recovering ||
+      dev->state == (uint8_t)VERICAN_STATE_WARNING)
+    ctrl |= VERICAN_CTRL_ERR_MSK_MASK;
+  if (dev->bus_off != (uint8_t)VERICAN_BUS_OFF_AUTOMATIC && !dev->recovering)
+    ctrl |= VERICAN_CTRL_BOFF_REC_MASK;
+  verican_write(dev, VERICAN_CTRL_OFFSET, ctrl);
+}
+
+static verican_state_t state_of(uint32_t esr) {
+  const uint32_t confinement = (esr & VERICAN_ESR_FLT_CONF_MASK) >> VERICAN_ESR_FLT_CONF_SHIFT;
+  if (confinement >= 2u) return VERICAN_STATE_BUS_OFF;
+  if (confinement == 1u) return VERICAN_STATE_PASSIVE;
+  if ((esr & (VERICAN_ESR_TX_WRN_MASK | VERICAN_ESR_RX_WRN_MASK)) != 0u)
+    return VERICAN_STATE_WARNING;
+  return VERICAN_STATE_ACTIVE;
+}
+
+static void enter(verican_t *dev, verican_state_t state) {
+  if (dev->state == (uint8_t)state) return;
+  const uint32_t token = verican_lock(dev);
+  dev->state = (uint8_t)state;
+  if (state != VERICAN_STATE_BUS_OFF) dev->recovering = false;
+  verican_write_ctrl(dev);
+  verican_unlock(dev, token);
+  if (dev->callbacks.on_state != NULL) dev->callbacks.on_state(dev->callbacks.user, dev, state);
+}
+
+/* Reading ESR clears its error bits, so that they are kept here. */
+static uint32_t take_esr(verican_t *dev, uint8_t *errors) {
+  const uint32_t token = verican_lock(dev);
+  const uint32_t esr = verican_read(dev, VERICAN_ESR_OFFSET);
+  if ((esr & ESR_FLAGS) != 0u) verican_write(dev, VERICAN_ESR_OFFSET, esr & ESR_FLAGS);
+  *errors = (uint8_t)((esr >> VERICAN_ESR_STF_ERR_SHIFT) & 0x3Fu);
+  if (*errors != 0u) {
+    dev->last_errors = *errors;
+    ++dev->stats.error_events;
+  }
+  if ((esr & VERICAN_ESR_BOFF_INT_MASK) != 0u) {
+    ++dev->stats.bus_offs;
+    dev->bus_off_timing = false;
+  }
+  verican_unlock(dev, token);
+  return esr;
+}
+
+bool verican_state_serve(verican_t *dev) {
+  uint8_t errors = 0;
+  const uint32_t esr = take_esr(dev, &errors);
+  if (errors != 0u && dev->callbacks.on_error != NULL)
+    dev->callbacks.on_error(dev->callbacks.user, dev, errors);
+  /* Off the bus and back before anybody looked: both are told. */
+  if ((esr & VERICAN_ESR_BOFF_INT_MASK) != 0u) enter(dev, VERICAN_STATE_BUS_OFF);
+  enter(dev, state_of(esr));
+  return (esr & ESR_FLAGS) != 0u;
+}
+
+verican_result_t verican_recover(verican_t *dev) {
+  const verican_result_t result = verican_check_started(dev);
+  if (result != VERICAN_OK) return result;
+  (void)verican_state_serve(dev);
+  if (dev->state != (uint8_t)VERICAN_STATE_BUS_OFF) return VERICAN_ERR_STATE;
+  const uint32_t token = verican_lock(dev);
+  dev->recovering = true;
+  verican_write_ctrl(dev);
+  verican_unlock(dev, token);
+  return VERICAN_OK;
+}
+
+static void run_delay(verican_t *dev, uint32_t now_ms) {
+  if (dev->state != (uint8_t)VERICAN_STATE_BUS_OFF || dev->recovering) return;
+  if (dev->bus_off != (uint8_t)VERICAN_BUS_OFF_DELAYED) return;
+  if (!dev->bus_off_timing) {
+    dev->bus_off_timing = true;
+    dev->bus_off_since_ms = now_ms;
+  }
+  if (now_ms - dev->bus_off_since_ms >= dev->bus_off_delay_ms) (void)verican_recover(dev);
+}
+
+verican_result_t verican_poll(verican_t *dev, uint32_t now_ms) {
+  const verican_result_t result = verican_check_started(dev);
+  if (result != VERICAN_OK) return result;
+  (void)verican_state_serve(dev);
+  run_delay(dev, now_ms);
+  const uint32_t token = verican_lock(dev);
+  (void)verican_now(dev);
+  verican_unlock(dev, token);
+  return VERICAN_OK;
+}
+
+verican_result_t verican_get_status(verican_t *dev, verican_status_t *status) {
+  const verican_result_t result = verican_check(dev);
+  if (result != VERICAN_OK) return result;
+  if (status == NULL) return VERICAN_ERR_NULL;
+  if (dev->life == VERICAN_LIFE_STARTED) (void)verican_state_serve(dev);
+  const uint32_t ecr = verican_read(dev, VERICAN_ECR_OFFSET);
+  status->state = (verican_state_t)dev->state;
+  status->tec = (uint8_t)(ecr & VERICAN_ECR_TEC_MASK);
+  status->rec = (uint8_t)((ecr & VERICAN_ECR_REC_MASK) >> VERICAN_ECR_REC_SHIFT);
+  status->last_errors = dev->last_errors;
+  status->synchronised = false;
+  status->timing = dev->timing;
+  status->stats = dev->stats;
+  return VERICAN_OK;
+}

@@ -1,0 +1,142 @@
+/* SPDX-FileCopyrightText: 2026 The VeriCAN authors
+ * SPDX-License-Identifier: Apache-2.0
+ *
+ * Transmission through mailboxes, abort and completion (flexcan.md 3.3 and 3.4).
+ */
+#include "internal.h"
+
+bool verican_is_pending(const verican_t *dev, unsigned mb) {
+  return (dev->tx_pending[mb / 32u] & verican_bit(mb)) != 0u;
+}
+
+void verican_set_pending(verican_t *dev, unsigned mb, bool on) {
+  if (on) {
+    dev->tx_pending[mb / 32u] |= verican_bit(mb);
+  } else {
+    dev->tx_pending[mb / 32u] &= ~verican_bit(mb);
+  }
+  dev->tx_taken_back[mb / 32u] &= ~verican_bit(mb);
+}
+
+/* The free mailbox for the next frame, or num_mb. To keep the order of frames, where the lowest
+ * mailbox goes first, it lies above all those that wait. */
+static unsigned choose(const verican_t *dev) {
+  unsigned chosen = dev->num_mb;
+  for (unsigned mb = dev->num_mb; mb-- > dev->first_tx;) {
+    if (!verican_is_pending(dev, mb)) {
+      chosen = mb;
+    } else if (dev->tx_order == (uint8_t)VERICAN_TX_IN_ORDER) {
+      break;
+    }
+  }
+  return chosen;
+}
+
+static verican_result_t check_send(const verican_t *dev, const verican_frame_t *frame) {
+  const verican_result_t result = verican_check_started(dev);
+  if (result != VERICAN_OK) return result;
+  if (frame == NULL) return VERICAN_ERR_NULL;
+  if (dev->mode == (uint8_t)VERICAN_MODE_LISTEN_ONLY) return VERICAN_ERR_STATE;
+  return verican_frame_check(frame);
+}
+
+/* Under lock. */
+static verican_result_t put(verican_t *dev, const verican_frame_t *frame, unsigned mb) {
+  if (mb >= dev->num_mb || verican_is_pending(dev, mb)) return VERICAN_ERR_BUSY;
+  verican_set_pending(dev, mb, true);
+  verican_frame_write(dev, mb, frame);
+  return VERICAN_OK;
+}
+
+verican_result_t verican_send(verican_t *dev, const verican_frame_t *frame, uint8_t *mailbox) {
+  verican_result_t result = check_send(dev, frame);
+  if (result != VERICAN_OK) return result;
+  const uint32_t token = verican_lock(dev);
+  const unsigned mb = choose(dev);
+  result = put(dev, frame, mb);
+  verican_unlock(dev, token);
+  if (result == VERICAN_OK && mailbox != NULL) *mailbox = (uint8_t)mb;
+  return result;
+}
+
+static verican_result_t check_mailbox(const verican_t *dev, unsigned mb) {
+  return mb >= dev->first_tx && mb < dev->num_mb ? VERICAN_OK : VERICAN_ERR_RANGE;
+}
+
+verican_result_t verican_send_in(verican_t *dev, const verican_frame_t *frame, uint8_t mailbox) {
+  verican_result_t result = check_send(dev, frame);
+  if (result == VERICAN_OK) result = check_mailbox(dev, mailbox);
+  if (result != VERICAN_OK) return result;
+  const uint32_t token = verican_lock(dev);
+  result = put(dev, frame, mailbox);
+  verican_unlock(dev, token);
+  return result;
+}
+
+verican_result_t verican_tx_waiting(const verican_t *dev, uint8_t *count) {
+  const verican_result_t result = verican_check(dev);
+  if (result != VERICAN_OK) return result;
+  if (count == NULL) return VERICAN_ERR_NULL;
+  unsigned waiting = 0;
+  for (unsigned mb = dev->first_tx; mb < dev->num_mb; ++mb)
+    waiting += verican_is_pending(dev, mb) ? 1u : 0u;
+  *count = (uint8_t)waiting;
+  return VERICAN_OK;
+}
+
+/* ---- The end of a transmission ----------------------------------------------------------------
+ */
+
+void verican_tx_report(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome,
+                       uint64_t timestamp) {
+  const verican_tx_event_t event = {timestamp, (uint8_t)mb, outcome};
+  if (outcome == VERICAN_TX_SENT) {
+    ++dev->stats.sent;
+  } else {
+    ++dev->stats.aborted;
+  }
+  if (dev->callbacks.on_sent != NULL) dev->callbacks.on_sent(dev->callbacks.user, dev, &event);
+}
+
+/* Frees a flagged mailbox. A remote frame leaves it as a receive buffer, which must not catch the
+ * answer; with MCR.AEN it takes the write only once the flag is clear, and a frame may come in
+ * between the two. */
+static void finish(verican_t *dev, unsigned mb) {
+  const uint32_t cs = verican_read(dev, MB_CS(mb));
+  const uint32_t code = cs & CS_CODE_MASK;
+  verican_clear_flag(dev, mb);
+  if (code != CS_TX_INACTIVE) {
+    verican_write(dev, MB_CS(mb), CS_TX_INACTIVE);
+    verican_clear_flag(dev, mb);
+  }
+  if (!verican_is_pending(dev, mb)) return;
+  const bool taken_back = (dev->tx_taken_back[mb / 32u] & verican_bit(mb)) != 0u;
+  verican_set_pending(dev, mb, false);
+  if (code == CS_TX_ABORT) {
+    verican_tx_report(dev, mb, taken_back ? VERICAN_TX_ABORTED : VERICAN_TX_FAILED,
+                      verican_now(dev));
+  } else {
+    verican_tx_report(dev, mb, VERICAN_TX_SENT, verican_extend(dev, cs & CS_STAMP_MASK));
+  }
+}
+
+bool verican_tx_serve(verican_t *dev, const uint32_t flags[2]) {
+  bool any = false;
+  for (unsigned mb = dev->first_tx; mb < dev->num_mb; ++mb) {
+    if ((flags[mb / 32u] & verican_bit(mb)) == 0u) continue;
+    finish(dev, mb);
+    any = true;
+  }
+  return any;
+}
+
+void verican_tx_drop_all(verican_t *dev) {
+  for (unsigned mb = dev->first_tx; mb < dev->num_mb; ++mb) {
+    if (!verican_is_pending(dev, mb)) continue;
+    verican_write(dev, MB_CS(mb), dev->abort ? CS_TX_ABORT : CS_TX_INACTIVE);
+    verican_clear_flag(dev, mb);
+    verican_write(dev, MB_CS(mb), CS_TX_INACTIVE);
+    verican_set_pending(dev, mb, false);
+    verican_tx_report(dev, mb, VERICAN_TX_ABORTED, verican_now(dev));
+  }
+}
