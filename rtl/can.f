@@ -16,6 +16,7 @@ frame/can_bsp.sv
 can_core.sv
 mailbox/can_mb_ram.sv
 mailbox/can_mb_port.sv
+mailbox/can_mb_cpu.sv
 mailbox/can_mb_lock.sv
 mailbox/can_mb_rx.sv
 mailbox/can_mb_smb.sv

@@ -37,7 +37,7 @@ module can_top #(
   end
 
   // Where a command goes: buffers, masks and TIMER to the mailbox, the rest to the registers.
-  logic       in_mb, in_mask, in_gmask, in_timer, to_mb, wr_ok, frz_ack;
+  logic       in_mb, in_mask, in_gmask, in_timer, in_rxfir, to_mb, wr_ok, frz_ack;
   logic [1:0] kind, word;
   logic [3:0] hi;
   logic [6:0] mb_idx;
@@ -50,8 +50,10 @@ module can_top #(
   assign in_gmask = addr_i == can_regs_pkg::RxgmaskAddr  || addr_i == can_regs_pkg::Rx14maskAddr
                  || addr_i == can_regs_pkg::Rx15maskAddr || addr_i == can_regs_pkg::RxfgmaskAddr;
   assign in_timer = addr_i == can_regs_pkg::TimerAddr;
-  assign to_mb    = in_mb || in_mask || in_gmask || in_timer;
-  assign wr_ok    = in_mb || in_timer || frz_ack;   // masks: in freeze mode only
+  assign in_rxfir = addr_i == can_regs_pkg::RxfirAddr;
+  assign to_mb    = in_mb || in_mask || in_gmask || in_timer || in_rxfir;
+  // masks: in freeze mode only
+  assign wr_ok    = in_mb || in_timer || (frz_ack && !in_rxfir);
 
   logic [IdxW-1:0] idx;
   always_comb begin
@@ -64,6 +66,10 @@ module can_top #(
       kind = 2'd2;
       word = {1'b0, in_gmask};
       idx  = in_gmask ? IdxW'({addr_i[3] | addr_i[6], addr_i[2] | addr_i[6]}) : mask_idx[IdxW-1:0];
+    end else if (in_rxfir) begin              // hidden bits of the C/S word at the FIFO's output
+      kind = 2'd0;
+      word = 2'd1;
+      idx  = '0;
     end
   end
 

@@ -87,12 +87,9 @@ module can_mailbox #(
   input  logic [7:0]      rx_byte_i,
   input  logic            rx_valid_i
 );
-  localparam logic [1:0] KindCs    = 2'd0;
-  localparam logic [1:0] KindTimer = 2'd3;
-
   // Inputs of features that are not there yet.
   logic unused;
-  assign unused = &{1'b0, lprio_en_i, aen_i, osmb_i, fen_i, idam_i, rffn_i, mrp_i, fifo_clear_i,
+  assign unused = &{1'b0, lprio_en_i, aen_i, osmb_i, idam_i, mrp_i, fifo_clear_i,
                     fifo_pop_i, iflag_i};
   assign {fifo_avail_o, fifo_warn_o, fifo_ovf_o} = '0;
   assign esr2_o = '0;
@@ -109,48 +106,37 @@ module can_mailbox #(
     end
   end
 
+  // First buffer that is a mailbox: the ones below belong to the Rx FIFO.
+  logic [6:0] first;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) first <= '0;
+    else         first <= fen_i ? {1'b0, 5'(rffn_i) + 5'd4, 1'b0} : 7'd0;
+  end
+
   // CPU accesses and their side effects.
-  logic            rd_done, wr_done, cs_rd, timer_rd, timer_wr, cpu_busy;
+  logic            cmd_wr, rd_done, wr_done, rxfir, raw, cs_rd, timer_rd, cpu_busy;
   logic [1:0]      cpu_kind;
-  logic [IdxW-1:0] cpu_idx;
+  logic [IdxW-1:0] cmd_idx, cpu_idx;
   logic [3:0]      cpu_be;
   logic [31:0]     ram_rdata;
+  logic            csw, csw_act, csw_empty, csw_ide;
+  logic [IdxW-1:0] csw_idx;
   logic            moving, mv_flag;
   logic [IdxW-1:0] mv_idx;
-  assign cs_rd    = rd_done && cpu_kind == KindCs;
-  assign timer_rd = rd_done && cpu_kind == KindTimer;
-  assign timer_wr = wr_done && cpu_kind == KindTimer;
-  assign cpu_busy = moving && mv_idx == cpu_idx;
+  can_mb_cpu #(.NumMb(NumMb)) u_cpu (
+    .clk_i, .rst_ni, .scrub_i(scrub_o), .fen_i, .first_i(first), .head_i('0),
+    .cmd_rd_i, .cmd_wr_i, .cmd_mb_i(!cmd_kind_i[1]), .cmd_idx_i,
+    .cmd_wr_o(cmd_wr), .cmd_idx_o(cmd_idx),
+    .ready_i(ready_o), .rd_done_i(rd_done), .wr_done_i(wr_done), .kind_i(cpu_kind),
+    .rxfir_i(rxfir), .idx_i(cpu_idx), .be_i(cpu_be), .code_i(wdata_i[27:24]),
+    .ide_i(wdata_i[21]), .ram_rdata_i(ram_rdata), .timer_i,
+    .moving_i(moving), .mv_idx_i(mv_idx),
+    .raw_o(raw), .rdata_o, .timer_rd_o(timer_rd), .timer_wr_o(timer_we_o), .cs_rd_o(cs_rd),
+    .busy_o(cpu_busy),
+    .csw_o(csw), .csw_idx_o(csw_idx), .csw_act_o(csw_act), .csw_empty_o(csw_empty),
+    .csw_ide_o(csw_ide));
 
-  always_comb begin
-    rdata_o = ram_rdata;
-    if (timer_rd) rdata_o = {16'b0, timer_i};
-    if (cpu_kind == KindCs) begin
-      {rdata_o[31:28], rdata_o[23]} = '0;
-      rdata_o[24] = ram_rdata[24] || cpu_busy;
-    end
-  end
-
-  // A C/S write by the CPU acts in the next clock, when the RAM holds the new word.
-  logic            csw_q, csw_act_q, csw_empty_q, csw_ide_q;
-  logic [IdxW-1:0] csw_idx_q;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      {csw_q, csw_act_q, csw_empty_q, csw_ide_q} <= '0;
-      csw_idx_q <= '0;
-    end else begin
-      csw_q <= wr_done && cpu_kind == KindCs && !scrub_o;
-      if (wr_done && cpu_kind == KindCs) begin
-        csw_idx_q   <= cpu_idx;
-        csw_act_q   <= !cpu_be[3] || wdata_i[27:24] == 4'b1100;
-        csw_empty_q <= cpu_be == '1 && wdata_i[27:24] == 4'b0100;
-        csw_ide_q   <= wdata_i[21];
-      end
-    end
-  end
-
-  assign timer_clear_o = clear_i || (tsyn_i && mv_flag && mv_idx == '0);
-  assign timer_we_o    = timer_wr;
+  assign timer_clear_o = clear_i || (tsyn_i && mv_flag && 7'(mv_idx) == first);
   assign timer_be_o    = cpu_be[1:0];
   assign timer_wdata_o = wdata_i[15:0];
 
@@ -159,7 +145,7 @@ module can_mailbox #(
   can_mb_lock #(.NumMb(NumMb)) u_lock (
     .clk_i, .rst_ni, .clear_i, .bcc_i,
     .cs_rd_i(cs_rd), .timer_rd_i(timer_rd), .idx_i(cpu_idx), .cs_i(ram_rdata), .busy_i(cpu_busy),
-    .csw_i(csw_q), .csw_idx_i(csw_idx_q),
+    .csw_i(csw), .csw_idx_i(csw_idx),
     .lock_o(lock), .lock_idx_o(lock_idx),
     .svc_req_o(svc_req), .svc_idx_o(svc_idx), .svc_ovr_o(svc_ovr), .svc_gnt_i(svc_gnt));
 
@@ -171,7 +157,7 @@ module can_mailbox #(
     .clk_i, .rst_ni, .clear_i, .bcc_i, .eacen_i, .rrs_i, .maxmb_i,
     .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_rtr_i,
     .lock_i(lock), .lock_idx_i(lock_idx),
-    .csw_i(csw_q), .csw_idx_i(csw_idx_q), .csw_empty_i(csw_empty_q), .csw_ide_i(csw_ide_q),
+    .csw_i(csw), .csw_idx_i(csw_idx), .csw_empty_i(csw_empty), .csw_ide_i(csw_ide),
     .req_o(rx_req), .idx_o(rx_idx), .gnt_i(rx_gnt), .stale_i(stale),
     .cs_i(cs), .id_i(msg), .mask_i(mask),
     .done_o(match_done), .hit_o(hit), .hit_idx_o(hit_idx));
@@ -200,7 +186,7 @@ module can_mailbox #(
     .smb_o(smb),
     .match_done_i(match_done), .hit_i(hit), .hit_idx_i(hit_idx),
     .lock_i(lock), .lock_idx_i(lock_idx),
-    .csw_i(csw_q), .csw_idx_i(csw_idx_q), .csw_empty_i(csw_empty_q),
+    .csw_i(csw), .csw_idx_i(csw_idx), .csw_empty_i(csw_empty),
     .req_o(mv_req), .step_o(mv_step), .row_o(mv_row), .idx_o(mv_idx),
     .data_i(mv_data), .cs_i(cs), .code_o(mv_code), .cancel_o(mv_cancel),
     .moving_o(moving), .flag_o(mv_flag), .busy_o(mv_busy));
@@ -211,7 +197,7 @@ module can_mailbox #(
   logic [IdxW-1:0] ins_idx, scan_idx, best_idx, cur_idx;
   can_mb_tx #(.NumMb(NumMb)) u_tx (
     .clk_i, .rst_ni, .running_i, .lbuf_i, .maxmb_i,
-    .csw_i(csw_q), .csw_idx_i(csw_idx_q), .csw_act_i(csw_act_q),
+    .csw_i(csw), .csw_idx_i(csw_idx), .csw_act_i(csw_act),
     .on_bus_i(on_bus), .cur_idx_i(cur_idx), .start_i(started), .retry_i(retry),
     .ins_req_o(ins_req), .ins_idx_o(ins_idx), .ins_gnt_i(ins_gnt),
     .scan_req_o(scan_req), .scan_idx_o(scan_idx), .scan_gnt_i(scan_gnt), .stale_i(stale),
@@ -226,7 +212,7 @@ module can_mailbox #(
   can_mb_load #(.NumMb(NumMb)) u_load (
     .clk_i, .rst_ni, .running_i, .oneshot_i,
     .settled_i(settled), .best_idx_i(best_idx), .retry_busy_i(retry_busy), .retry_o(retry),
-    .csw_i(csw_q), .csw_idx_i(csw_idx_q), .csw_act_i(csw_act_q),
+    .csw_i(csw), .csw_idx_i(csw_idx), .csw_act_i(csw_act),
     .tick_req_o, .tick_i, .start_i, .transmitter_i,
     .tx_req_o, .tx_ide_o, .tx_rtr_o, .tx_dlc_o, .tx_word_o, .tx_next_i, .tx_ok_i, .tx_fail_i,
     .started_o(started), .on_bus_o(on_bus), .cur_idx_o(cur_idx),
@@ -256,9 +242,10 @@ module can_mailbox #(
 
   can_mb_port #(.NumMb(NumMb)) u_port (
     .clk_i, .rst_ni,
-    .cmd_rd_i, .cmd_wr_i, .cmd_kind_i, .cmd_word_i, .cmd_idx_i, .cmd_be_i,
-    .wdata_i, .ready_o, .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_done_o(wr_done),
-    .kind_o(cpu_kind), .idx_o(cpu_idx), .be_o(cpu_be),
+    .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_kind_i, .cmd_word_i, .cmd_idx_i(cmd_idx), .cmd_be_i,
+    .wdata_i, .raw_i(raw), .ready_o, .rdata_o(ram_rdata), .rd_done_o(rd_done),
+    .wr_done_o(wr_done),
+    .kind_o(cpu_kind), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
     .eng_req_i(eng_req), .eng_cs_row_i(eng_cs_row),
     .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_gnt_o(eng_gnt),
@@ -269,7 +256,7 @@ module can_mailbox #(
     .ewr_req_i(ewr_req), .ewr_cs_we_i(ewr_cs_we), .ewr_cs_row_i(ewr_cs_row), .ewr_cs_i(ewr_cs),
     .ewr_msg_we_i(ewr_msg_we), .ewr_msg_row_i(ewr_msg_row), .ewr_msg_i(ewr_msg),
     .ewr_gnt_o(ewr_gnt),
-    .scrub_i(scrub_o), .scrub_row_i(scrub_row_q), .csw_i(csw_q));
+    .scrub_i(scrub_o), .scrub_row_i(scrub_row_q), .csw_i(csw));
 
   assign flag_o     = mv_flag || ld_flag;
   assign flag_idx_o = mv_flag ? mv_idx : cur_idx;

@@ -17,8 +17,8 @@ module can_mb_port #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  // CPU, command: only while ready_o. kind: 0 C/S, 1 ID or data (word 0..2), 2 mask (word[0]:
-  // hidden row), 3 no RAM, but ordered like one (TIMER).
+  // CPU, command: only while ready_o. kind: 0 C/S (word 3; 1: RXFIR, the same row), 1 ID or data
+  // (word 0..2), 2 mask (word[0]: hidden row), 3 no RAM, but ordered like one (TIMER).
   input  logic            cmd_rd_i,
   input  logic            cmd_wr_i,
   input  logic [1:0]      cmd_kind_i,
@@ -27,11 +27,13 @@ module can_mb_port #(
   input  logic [3:0]      cmd_be_i,
   // CPU, data: from the next clock until ready_o.
   input  logic [31:0]     wdata_i,
+  input  logic            raw_i,        // a C/S word with all 32 bits (filter table)
   output logic            ready_o,
   output logic [31:0]     rdata_o,      // of kinds 0..2
   output logic            rd_done_o,    // a read ends in this clock
   output logic            wr_done_o,    // a write ends in this clock
   output logic [1:0]      kind_o,
+  output logic            rxfir_o,      // kind 0: RXFIR, not C/S
   output logic [IdxW-1:0] idx_o,
   output logic [3:0]      be_o,
   // Engine reads; data in the clock after the grant.
@@ -126,6 +128,7 @@ module can_mb_port #(
   assign rd_done_o = rd_q && !pend_q;
   assign wr_done_o = wr_q && !wr_waits;
   assign kind_o    = kind_q;
+  assign rxfir_o   = !word_q[1];
   assign idx_o     = idx_q;
   assign be_o      = be_q;
 
@@ -166,7 +169,8 @@ module can_mb_port #(
     cs_waddr  = {1'b0, idx_q};
     msg_waddr = {word_q, idx_q};
     mask_waddr = {word_q[0], idx_q};
-    cs_wdata  = {4'b0, wdata_i[27:24], 1'b0, wdata_i[22:0]};   // 31:28 and 23 read as zero
+    cs_wdata  = wdata_i;
+    if (!raw_i) {cs_wdata[31:28], cs_wdata[23]} = '0;          // these read as zero
     msg_wdata = wdata_i;
     mask_wdata = wdata_i;
     if (scrub_i) begin

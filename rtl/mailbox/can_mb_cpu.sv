@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_mb_cpu: what an access of the CPU means: where the output of the Rx FIFO is found, which bits
+// of a C/S word can be seen, and that a C/S word was written.
+//
+// Rx FIFO (flexcan.md section 4): the rows of buffers 0 to 5 are its memory and those up to
+// first_i - 1 its filter table. What is read as buffer 0 is the row of the oldest frame; its C/S
+// word has the filter's number in 31:23, which only RXFIR shows.
+
+module can_mb_cpu #(
+  parameter int NumMb = 64,
+  /// Derived, do not override.
+  localparam int IdxW = $clog2(NumMb)
+) (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  input  logic            scrub_i,
+  input  logic            fen_i,
+  input  logic [6:0]      first_i,       // first buffer that is a mailbox
+  input  logic [2:0]      head_i,        // row of the frame at the output, after a pop in this clock
+  // Command, as of can_mailbox.
+  input  logic            cmd_rd_i,
+  input  logic            cmd_wr_i,
+  input  logic            cmd_mb_i,      // a word of a buffer, or RXFIR
+  input  logic [IdxW-1:0] cmd_idx_i,
+  output logic            cmd_wr_o,      // without those that are ignored
+  output logic [IdxW-1:0] cmd_idx_o,     // row
+  // Data phase, see can_mb_port.
+  input  logic            ready_i,
+  input  logic            rd_done_i,
+  input  logic            wr_done_i,
+  input  logic [1:0]      kind_i,
+  input  logic            rxfir_i,
+  input  logic [IdxW-1:0] idx_i,
+  input  logic [3:0]      be_i,
+  input  logic [3:0]      code_i,        // bits 27:24 of the word written
+  input  logic            ide_i,         // ... and 21
+  input  logic [31:0]     ram_rdata_i,
+  input  logic [15:0]     timer_i,
+  input  logic            moving_i,      // buffer mv_idx_i is BUSY
+  input  logic [IdxW-1:0] mv_idx_i,
+  output logic            raw_o,         // a filter word: all 32 bits are kept
+  output logic [31:0]     rdata_o,
+  output logic            timer_rd_o,
+  output logic            timer_wr_o,
+  output logic            cs_rd_o,       // C/S word of a mailbox is read
+  output logic            busy_o,        // ... and is BUSY
+  // C/S word of a mailbox was written in the clock before: the RAM holds the new word.
+  output logic            csw_o,
+  output logic [IdxW-1:0] csw_idx_o,
+  output logic            csw_act_o,     // its code may be active
+  output logic            csw_empty_o,   // its code is EMPTY, IDE is csw_ide_o
+  output logic            csw_ide_o
+);
+  localparam logic [1:0] KindCs    = 2'd0;
+  localparam logic [1:0] KindTimer = 2'd3;
+
+  // Command: in the FIFO's area?
+  logic in_area, in_ring, area_q, ring_q;
+  assign in_area   = fen_i && cmd_mb_i && 7'(cmd_idx_i) < first_i;
+  assign in_ring   = in_area && cmd_idx_i[IdxW-1:3] == '0 && cmd_idx_i[2:1] != 2'b11;
+  assign cmd_wr_o  = cmd_wr_i && !in_ring;
+  assign cmd_idx_o = fen_i && cmd_mb_i && cmd_idx_i == '0 ? IdxW'(head_i) : cmd_idx_i;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)                                    {area_q, ring_q} <= '0;
+    else if (ready_i && (cmd_rd_i || cmd_wr_i))     {area_q, ring_q} <= {in_area, in_ring};
+  end
+
+  // Data.
+  logic is_cs, cs_wr;
+  assign is_cs      = kind_i == KindCs;
+  assign raw_o      = area_q && !ring_q;
+  assign timer_rd_o = rd_done_i && kind_i == KindTimer;
+  assign timer_wr_o = wr_done_i && kind_i == KindTimer;
+  assign cs_rd_o    = rd_done_i && is_cs && !area_q;
+  assign cs_wr      = wr_done_i && is_cs && !area_q;
+  assign busy_o     = moving_i && mv_idx_i == idx_i && !area_q;
+
+  always_comb begin
+    rdata_o = ram_rdata_i;
+    if (timer_rd_o) rdata_o = {16'b0, timer_i};
+    if (is_cs && rxfir_i) begin
+      rdata_o = ring_q ? {23'b0, ram_rdata_i[31:23]} : '0;
+    end else if (is_cs && !raw_o) begin
+      {rdata_o[31:28], rdata_o[23]} = '0;
+      rdata_o[24] = ram_rdata_i[24] || busy_o;
+      if (ring_q) rdata_o[27:24] = '0;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {csw_o, csw_act_o, csw_empty_o, csw_ide_o} <= '0;
+      csw_idx_o <= '0;
+    end else begin
+      csw_o <= cs_wr && !scrub_i;
+      if (cs_wr) begin
+        csw_idx_o   <= idx_i;
+        csw_act_o   <= !be_i[3] || code_i == 4'b1100;
+        csw_empty_o <= be_i == '1 && code_i == 4'b0100;
+        csw_ide_o   <= ide_i;
+      end
+    end
+  end
+endmodule
