@@ -100,6 +100,7 @@ class Register:
     stride: int = 4
     only_if: str = ""
     per_buffer: object = None     # number of the buffer of bit 0, if a bit is a buffer
+    read_effect: str = ""         # what a read does besides reading
 
     def value(self, attribute, num_mb):
         """The fields' `attribute` ("reset", "after_soft_reset") put together."""
@@ -168,7 +169,7 @@ def read_fields(entry, key, where, soft_reset):
 
 def read_register(entry, where, keys=("offset",)):
     take(entry, where, ("name", "title", "fields", *keys),
-         ("soft_reset", "overlay", "array", "only_if", "per_buffer"))
+         ("soft_reset", "overlay", "array", "only_if", "per_buffer", "read_effect"))
     where = f"{where} {entry['name']}"
     soft_reset = entry.get("soft_reset", "kept")
     array = take(entry.get("array", {"count": 1, "stride": 4}), where, ("count", "stride"))
@@ -176,7 +177,8 @@ def read_register(entry, where, keys=("offset",)):
                     read_fields(entry, "fields", where, soft_reset),
                     read_fields(entry, "overlay", where, soft_reset),
                     array["count"], array["stride"],
-                    entry.get("only_if", ""), entry.get("per_buffer"))
+                    entry.get("only_if", ""), entry.get("per_buffer"),
+                    entry.get("read_effect", ""))
 
 
 def check_addresses(registers, buffers, window):

@@ -162,8 +162,7 @@
 /* TIMER: Free-running timer. */
 #define VERICAN_TIMER_OFFSET                    0x008u
 #define VERICAN_TIMER_RESET                     0x00000000u
-/* TIMER: Counts bit times; the time stamps of frames come from here. A read unlocks the buffer
-   being read. */
+/* TIMER: Counts bit times; the time stamps of frames come from here. */
 #define VERICAN_TIMER_TIMER_MASK                0x0000FFFFu
 #define VERICAN_TIMER_TIMER_SHIFT               0u
 #define VERICAN_TIMER_TIMER_GET(word)           (((uint32_t)(word) >> 0) & 0xFFFFu)
