@@ -27,6 +27,7 @@ mailbox/can_mb_step.sv
 mailbox/can_mailbox.sv
 host/can_reg.sv
 host/can_mode.sv
+host/can_wake.sv
 host/can_flags.sv
 host/can_regs.sv
 host/can_top.sv

@@ -38,6 +38,8 @@ module can_core (
   output logic        synch_o,         // integrated, not in bus-off
   input  logic        tick_req_i,      // asks for tick_o
   output logic        tick_o,          // sample point, while asked for: nobody is woken in vain
+  input  logic        rx_req_i,        // asks for rx_level_o
+  output logic        rx_level_o,      // level of the bus, synchronised; recessive unless asked for
   // TIMER, nominal bit times (flexcan.md section 6)
   input  logic        timer_clear_i,
   input  logic        timer_we_i,
@@ -122,11 +124,14 @@ module can_core (
 
   assign running_o  = active_q;
   assign tick_o     = sample && tick_req_i;
+  assign rx_level_o = rx_pin || !rx_req_i;
   assign tec_o      = tec[7:0];
   assign idle_o     = (field == can_pkg::FldIdle);
   assign receiver_o = (|field[4:3]) && !transmitter_o;
   assign synch_o    = active_q && (field != can_pkg::FldInteg) && (field != can_pkg::FldBusOff);
-  assign stop_ok_o  = !(|field[4:3]) || (field == can_pkg::FldWait);
+  // Nor does leaving a passive error flag hurt, and on a restless bus it may never end (EF-03).
+  assign stop_ok_o  = !(|field[4:3]) || (field == can_pkg::FldWait)
+                   || (field == can_pkg::FldErrFlag && left != 6'd5 && tx_q == can_pkg::Recessive);
 
   assign trace_o = {sample, boundary, bit_value, tx_q, transmitter_o, stuff, field, left, err_o,
                     rx_valid_o, tx_ok_o, tx_fail_o, start_o, passive_o, active_q, 3'b0, tec, rec_o};

@@ -11,7 +11,12 @@ module can_ahb #(
   parameter int NumMb = 64,
   /// Size of the region that hsel stands for, as a number of address bits, 13 to 32; address bits
   /// above are not looked at, those down to 13 must be zero.
-  parameter int RegionBits = 16
+  parameter int RegionBits = 16,
+  /// 1: with MCR.SUPV = 1 unprivileged accesses (hprot[1] = 0) read 0 and write nothing; 0: SUPV is
+  /// only stored.
+  parameter int CheckHprot = 0,
+  /// Clocks that the bus must be dominant to wake the core if MCR.WAK_SRC = 1, 1 to 255.
+  parameter int WakeFilter = 6
 ) (
   input  logic        hclk,
   input  logic        hresetn,
@@ -33,6 +38,8 @@ module can_ahb #(
   output logic        irq_err_o,
   output logic        irq_twrn_o,
   output logic        irq_rwrn_o,
+  output logic        irq_wak_o,
+  input  logic        stop_req_i,    // the system wants stop mode; in step with hclk
   input  logic        can_rx_i,
   output logic        can_tx_o,
   output logic [can_pkg::TraceWidth-1:0] trace_o
@@ -41,17 +48,18 @@ module can_ahb #(
     RegionBits_must_be_13_to_32 u_stop ();   // no such module: the tool prints the name and stops
   end
 
-  // A burst is a row of single transfers to us, and every access right is the same.
+  // A burst is a row of single transfers to us, and of the access rights one may count.
   logic unused;
-  assign unused = &{1'b0, hburst, hprot, htrans[0]};
+  assign unused = &{1'b0, hburst, hprot, htrans[0], supv};
 
   // Address phase.
-  logic       taken, bad, beyond;
+  logic       taken, bad, beyond, supv, denied, denied_q;
   logic [3:0] be;
   assign taken  = hsel && hready && htrans[1];                     // NONSEQ or SEQ
   assign beyond = (haddr & 32'((33'd1 << RegionBits) - 33'd1)) >> 13 != '0;
   assign bad    = hsize > 3'd2 || (hsize == 3'd2 && haddr[1:0] != '0) || (hsize == 3'd1 && haddr[0])
                || beyond;
+  assign denied = CheckHprot != 0 && supv && !hprot[1];
   always_comb begin
     case (hsize)
       3'd0:    be = 4'b0001 << haddr[1:0];
@@ -69,10 +77,20 @@ module can_ahb #(
   assign hreadyout = ready && !err1_q;
   assign hresp     = err1_q || err2_q;
 
-  can_top #(.NumMb(NumMb)) u_top (
+  // A denied access is none to the core, which then has no wait states either.
+  logic [31:0] rdata;
+  always_ff @(posedge hclk or negedge hresetn) begin
+    if (!hresetn)    denied_q <= 1'b0;
+    else if (hready) denied_q <= taken && denied;
+  end
+  assign hrdata = denied_q ? '0 : rdata;
+
+  can_top #(.NumMb(NumMb), .WakeFilter(WakeFilter)) u_top (
     .clk_i(hclk), .rst_ni(hresetn),
-    .req_i(taken && !bad), .we_i(hwrite), .addr_i(haddr[12:2]), .be_i(be), .wdata_i(hwdata),
-    .rdata_o(hrdata), .ready_o(ready),
-    .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o,
+    .req_i(taken && !bad && !denied), .we_i(hwrite), .addr_i(haddr[12:2]), .be_i(be),
+    .wdata_i(hwdata),
+    .rdata_o(rdata), .ready_o(ready),
+    .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o,
+    .stop_req_i, .supv_o(supv),
     .can_rx_i, .can_tx_o, .trace_o);
 endmodule

@@ -26,6 +26,7 @@ module can_flags #(
   input  logic             tx_wrn_i,       // counters at 96 or above
   input  logic             rx_wrn_i,
   input  logic             wrn_en_i,
+  input  logic             wake_i,         // pulse: the bus has ended stop mode
   // CPU: writes by byte, one group of buffers at a time, and the read that clears the error bits.
   input  logic             iflag_lo_we_i,
   input  logic             iflag_hi_we_i,
@@ -35,11 +36,12 @@ module can_flags #(
   input  logic             esr1_rd_i,
   input  logic [3:0]       be_i,
   input  logic [31:0]      wdata_i,
-  // Interrupt masks of CTRL1.
+  // Interrupt masks of CTRL1 and MCR.
   input  logic             boff_msk_i,
   input  logic             err_msk_i,
   input  logic             twrn_msk_i,
   input  logic             rwrn_msk_i,
+  input  logic             wak_msk_i,
   output logic [63:0]      iflag_o,
   output logic [63:0]      imask_o,
   output logic [31:0]      esr1_o,         // the event bits, in their places
@@ -47,7 +49,8 @@ module can_flags #(
   output logic             irq_boff_o,
   output logic             irq_err_o,
   output logic             irq_twrn_o,
-  output logic             irq_rwrn_o
+  output logic             irq_rwrn_o,
+  output logic             irq_wak_o
 );
   logic [NumMb-1:0] iflag_q, imask_q;
   always_comb begin
@@ -88,13 +91,13 @@ module can_flags #(
   end
 
   // Entries into a state; each error counts again (section 7).
-  logic boff_q, tx_wrn_q, rx_wrn_q, twrn_int_q, rwrn_int_q, boff_int_q, err_int_q;
+  logic boff_q, tx_wrn_q, rx_wrn_q, twrn_int_q, rwrn_int_q, boff_int_q, err_int_q, wak_int_q;
   logic [31:0] w1c;
   assign w1c = esr1_we_i ? wdata_i & {{8{be_i[3]}}, {8{be_i[2]}}, {8{be_i[1]}}, {8{be_i[0]}}} : '0;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {boff_q, tx_wrn_q, rx_wrn_q} <= '0;
-      {twrn_int_q, rwrn_int_q, boff_int_q, err_int_q} <= '0;
+      {twrn_int_q, rwrn_int_q, boff_int_q, err_int_q, wak_int_q} <= '0;
     end else begin
       boff_q   <= boff_i;
       tx_wrn_q <= tx_wrn_i;
@@ -103,12 +106,14 @@ module can_flags #(
       if (w1c[can_regs_pkg::Esr1RwrnInt]) rwrn_int_q <= 1'b0;
       if (w1c[can_regs_pkg::Esr1BoffInt]) boff_int_q <= 1'b0;
       if (w1c[can_regs_pkg::Esr1ErrInt])  err_int_q  <= 1'b0;
+      if (w1c[can_regs_pkg::Esr1WakInt])  wak_int_q  <= 1'b0;
       if (tx_wrn_i && !tx_wrn_q) twrn_int_q <= 1'b1;
       if (rx_wrn_i && !rx_wrn_q) rwrn_int_q <= 1'b1;
       if (boff_i && !boff_q)     boff_int_q <= 1'b1;
       if (err_i != '0)           err_int_q  <= 1'b1;
+      if (wake_i)                wak_int_q  <= 1'b1;
       if (!wrn_en_i) {twrn_int_q, rwrn_int_q} <= '0;
-      if (clear_i)   {twrn_int_q, rwrn_int_q, boff_int_q, err_int_q} <= '0;
+      if (clear_i)   {twrn_int_q, rwrn_int_q, boff_int_q, err_int_q, wak_int_q} <= '0;
     end
   end
 
@@ -124,18 +129,20 @@ module can_flags #(
     esr1_o[can_regs_pkg::Esr1StfErr]  = errors_q[can_pkg::ErrStuff];
     esr1_o[can_regs_pkg::Esr1BoffInt] = boff_int_q;
     esr1_o[can_regs_pkg::Esr1ErrInt]  = err_int_q;
+    esr1_o[can_regs_pkg::Esr1WakInt]  = wak_int_q;
   end
 
   // Lines from flip-flops: level, without glitches.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {irq_mb_o, irq_boff_o, irq_err_o, irq_twrn_o, irq_rwrn_o} <= '0;
+      {irq_mb_o, irq_boff_o, irq_err_o, irq_twrn_o, irq_rwrn_o, irq_wak_o} <= '0;
     end else begin
       irq_mb_o   <= (iflag_o[NumMb-1:0] & imask_q) != '0;
       irq_twrn_o <= twrn_int_q && twrn_msk_i;
       irq_rwrn_o <= rwrn_int_q && rwrn_msk_i;
       irq_boff_o <= boff_int_q && boff_msk_i;
       irq_err_o  <= err_int_q && err_msk_i;
+      irq_wak_o  <= wak_int_q && wak_msk_i;
     end
   end
 endmodule

@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mode: disable, freeze, normal operation and soft reset, with their acknowledges (flexcan.md
-// section 2). No acknowledge waits for the bus longer than the frame that is being sent.
+// can_mode: disable, stop, freeze, normal operation and soft reset, with their acknowledges
+// (flexcan.md section 2). No acknowledge waits for the bus longer than the frame that is being
+// sent.
 
 module can_mode (
   input  logic clk_i,
   input  logic rst_ni,
-  // Requests, bits of MCR.
+  // Requests, bits of MCR; stop comes from the system.
   input  logic mdis_i,
   input  logic freeze_i,        // FRZ and HALT
   input  logic soft_rst_i,      // pulse
+  input  logic stop_req_i,
+  input  logic wake_i,          // an edge on the bus ends stop mode, see can_wake
   // Engine and buffers.
   input  logic running_i,
   input  logic stop_ok_i,       // no frame is hurt by stopping
@@ -22,20 +25,35 @@ module can_mode (
   // Acknowledges.
   output logic lpm_ack_o,
   output logic frz_ack_o,
-  output logic soft_rst_o       // under way
+  output logic soft_rst_o,      // under way
+  output logic disabled_o,      // disable mode
+  output logic stop_o           // stop mode
 );
   typedef enum logic [2:0] {
     StDisable,     // low power, registers readable
     StFreeze,      // engine stopped, configuration writable
     StRun,         // on the bus, or integrating
-    StStop,        // engine told to stop
-    StReset        // the same, for a soft reset
+    StHalt,        // engine told to stop
+    StReset,       // the same, for a soft reset
+    StStop         // low power because the system wants it; the bus may end it
   } state_e;
-  state_e state_q;
+  // As written here, so that the unused codes lead back (default below).
+  (* fsm_encoding = "none", syn_encoding = "safe" *) state_e state_q;
 
-  // Disable drops a frame that is only received: the driver gives us 250 us, less than a frame.
+  // Woken by the bus: the request counts again only after it has gone away.
+  logic woken_q, stop;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) woken_q <= 1'b0;
+    else         woken_q <= stop_req_i && (woken_q || wake_i);
+  end
+  assign stop = stop_req_i && !woken_q;
+
+  state_e target;
+  assign target = mdis_i ? StDisable : stop ? StStop : freeze_i ? StFreeze : StRun;
+
+  // Low power drops a frame that is only received: the driver gives us 250 us, less than a frame.
   logic may_stop, stopped;
-  assign may_stop = stop_ok_i || (mdis_i && !transmitter_i);
+  assign may_stop = stop_ok_i || ((mdis_i || stop) && !transmitter_i);
   assign stopped  = !running_i && !busy_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -43,19 +61,18 @@ module can_mode (
       state_q <= StDisable;
     end else begin
       case (state_q)
-        StDisable: if (!mdis_i && !scrub_i) state_q <= freeze_i ? StFreeze : StRun;
+        StDisable, StStop: if (!scrub_i) state_q <= target;
         StFreeze: begin
-          if (soft_rst_i)              state_q <= StReset;
-          else if (mdis_i && !busy_i)  state_q <= StDisable;
-          else if (!freeze_i)          state_q <= StRun;
+          if (soft_rst_i)                            state_q <= StReset;
+          else if (target == StRun || !busy_i)       state_q <= target;
         end
         StRun: begin
-          if (soft_rst_i)                              state_q <= StReset;
-          else if ((mdis_i || freeze_i) && may_stop)   state_q <= StStop;
+          if (soft_rst_i)                            state_q <= StReset;
+          else if (target != StRun && may_stop)      state_q <= StHalt;
         end
-        StStop: begin
-          if (soft_rst_i)   state_q <= StReset;
-          else if (stopped) state_q <= mdis_i ? StDisable : freeze_i ? StFreeze : StRun;
+        StHalt: begin
+          if (soft_rst_i)                            state_q <= StReset;
+          else if (stopped)                          state_q <= target;
         end
         StReset: if (stopped) state_q <= StFreeze;
         default: state_q <= StReset;
@@ -65,7 +82,9 @@ module can_mode (
 
   assign run_o      = state_q == StRun;
   assign clear_o    = state_q == StReset && stopped;
-  assign lpm_ack_o  = state_q == StDisable;
+  assign lpm_ack_o  = disabled_o || stop_o;
   assign frz_ack_o  = state_q == StFreeze;
   assign soft_rst_o = state_q == StReset;
+  assign disabled_o = state_q == StDisable;
+  assign stop_o     = state_q == StStop;
 endmodule

@@ -22,6 +22,11 @@ module can_regs #(
   output logic            run_o,
   output logic            clear_o,
   output logic            frz_ack_o,
+  input  logic            stop_req_i,
+  input  logic            wake_i,        // pulse: the bus ends stop mode
+  output logic            wake_en_o,     // it may
+  output logic            wake_filter_o,
+  output logic            supv_o,
   input  logic            mb_busy_i,
   input  logic            mb_scrub_i,
   // Configuration of the buffers.
@@ -81,21 +86,23 @@ module can_regs #(
   output logic            irq_boff_o,
   output logic            irq_err_o,
   output logic            irq_twrn_o,
-  output logic            irq_rwrn_o
+  output logic            irq_rwrn_o,
+  output logic            irq_wak_o
 );
   // What is read of the registers that are stored here.
   logic [31:0] mcr, ctrl1, ctrl2, xctrl, esr1;
 
   // MCR: mode requests.
-  logic mdis_q, frz_q, halt_q, soft_rst, soft_rst_busy, lpm_ack, mcr_we;
+  logic mdis_q, frz_q, halt_q, soft_rst, soft_rst_busy, lpm_ack, disabled, in_stop, mcr_we;
   assign mcr_we   = wr_i && addr_i == can_regs_pkg::McrAddr && !soft_rst_busy;
   assign soft_rst = mcr_we && be_i[3] && wdata_i[can_regs_pkg::McrSoftRst] && !lpm_ack;
 
   can_mode u_mode (
     .clk_i, .rst_ni,
-    .mdis_i(mdis_q), .freeze_i(frz_q && halt_q), .soft_rst_i(soft_rst),
+    .mdis_i(mdis_q), .freeze_i(frz_q && halt_q), .soft_rst_i(soft_rst), .stop_req_i, .wake_i,
     .running_i, .stop_ok_i, .transmitter_i, .busy_i(mb_busy_i), .scrub_i(mb_scrub_i),
-    .run_o, .clear_o, .lpm_ack_o(lpm_ack), .frz_ack_o, .soft_rst_o(soft_rst_busy));
+    .run_o, .clear_o, .lpm_ack_o(lpm_ack), .frz_ack_o, .soft_rst_o(soft_rst_busy),
+    .disabled_o(disabled), .stop_o(in_stop));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -106,22 +113,29 @@ module can_regs #(
         frz_q  <= wdata_i[can_regs_pkg::McrFrz];
         halt_q <= wdata_i[can_regs_pkg::McrHalt];
       end
-      if (soft_rst) {frz_q, halt_q} <= '1;   // beats the zeros written with it
+      if (soft_rst || clear_o) {frz_q, halt_q} <= '1;   // beats the zeros written with it
     end
   end
 
-  // The rest of MCR.
+  // The rest of MCR; SLF_WAK stays as it is in stop mode.
   localparam logic [31:0] ModeRequests = (32'd1 << can_regs_pkg::McrMdis)
                                        | (32'd1 << can_regs_pkg::McrFrz)
                                        | (32'd1 << can_regs_pkg::McrHalt);
-  logic [31:0] mcr_q;
+  logic [31:0] mcr_q, mcr_wdata;
   logic        wrn_en;
+  always_comb begin
+    mcr_wdata = wdata_i;
+    if (in_stop) mcr_wdata[can_regs_pkg::McrSlfWak] = mcr_q[can_regs_pkg::McrSlfWak];
+  end
   can_reg #(
     .Reset(can_regs_pkg::McrReset), .SoftReset(1'b1),
     .Any(can_regs_pkg::McrAny & ~ModeRequests), .Freeze(can_regs_pkg::McrFreeze)
   ) u_mcr (
     .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack),
-    .wrn_en_i(wrn_en), .we_i(mcr_we && !soft_rst), .be_i, .wdata_i, .value_o(mcr_q));
+    .wrn_en_i(wrn_en), .we_i(mcr_we && !soft_rst), .be_i, .wdata_i(mcr_wdata), .value_o(mcr_q));
+  assign supv_o     = mcr_q[can_regs_pkg::McrSupv];
+  assign wake_en_o  = mcr_q[can_regs_pkg::McrSlfWak] && in_stop;
+  assign wake_filter_o = mcr_q[can_regs_pkg::McrWakSrc];
   assign wrn_en     = mcr_q[can_regs_pkg::McrWrnEn];
   assign fen_o      = mcr_q[can_regs_pkg::McrFen];
   assign srx_dis_o  = mcr_q[can_regs_pkg::McrSrxDis];
@@ -155,7 +169,7 @@ module can_regs #(
     .Freeze(can_regs_pkg::Ctrl1Freeze), .Disable(can_regs_pkg::Ctrl1Disable),
     .WrnEn(can_regs_pkg::Ctrl1WrnEn)
   ) u_ctrl1 (
-    .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack),
+    .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(disabled),
     .wrn_en_i(wrn_en), .we_i(wr_i && addr_i == can_regs_pkg::Ctrl1Addr), .be_i, .wdata_i,
     .value_o(ctrl1_q));
   assign ctrl1      = wrn_en ? ctrl1_q : ctrl1_q & ~can_regs_pkg::Ctrl1WrnEn;
@@ -221,9 +235,10 @@ module can_regs #(
     .esr1_we_i(wr_i && esr1_at), .esr1_rd_i(rd_i && esr1_at && be_i[1]), .be_i, .wdata_i,
     .boff_msk_i(ctrl1[can_regs_pkg::Ctrl1BoffMsk]), .err_msk_i(ctrl1[can_regs_pkg::Ctrl1ErrMsk]),
     .twrn_msk_i(ctrl1[can_regs_pkg::Ctrl1TwrnMsk]), .rwrn_msk_i(ctrl1[can_regs_pkg::Ctrl1RwrnMsk]),
+    .wake_i, .wak_msk_i(mcr_q[can_regs_pkg::McrWakMsk]),
     .iflag_o, .imask_o(imask), .esr1_o(events),
-    .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o);
-  assign irq_o = irq_mb_o || irq_boff_o || irq_err_o || irq_twrn_o || irq_rwrn_o;
+    .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o);
+  assign irq_o = irq_mb_o || irq_boff_o || irq_err_o || irq_twrn_o || irq_rwrn_o || irq_wak_o;
 
   // ESR1: the events, and the state; listen-only reads as passive (2.4).
   always_comb begin

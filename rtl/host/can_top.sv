@@ -7,7 +7,9 @@
 
 module can_top #(
   /// Message buffers: 16, 32 or 64; the Linux driver uses number 63.
-  parameter int NumMb = 64
+  parameter int NumMb = 64,
+  /// Clocks that the bus must be dominant to wake the core through the filter (MCR.WAK_SRC).
+  parameter int WakeFilter = 6
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
@@ -26,6 +28,10 @@ module can_top #(
   output logic        irq_err_o,
   output logic        irq_twrn_o,
   output logic        irq_rwrn_o,
+  output logic        irq_wak_o,
+  // System: stop mode wanted, in step with clk_i; and MCR.SUPV for the bus adapter.
+  input  logic        stop_req_i,
+  output logic        supv_o,
   // Transceiver, and the view of an observer (can_pkg).
   input  logic        can_rx_i,
   output logic        can_tx_o,
@@ -96,6 +102,7 @@ module can_top #(
 
   // Wires between the blocks; names as at the blocks.
   logic        run, clear, running, stop_ok, mb_busy, mb_scrub;
+  logic        wake, wake_en, wake_filter, rx_level;
   logic        bcc, srx_dis, lbuf, tsyn, lprio_en, aen, eacen, rrs, oneshot, osmb, flag;
   logic        fen, mrp, fifo_clear, fifo_pop, fifo_avail, fifo_warn, fifo_ovf;
   logic [1:0]  idam;
@@ -124,6 +131,7 @@ module can_top #(
     .rd_i(reg_rd_q), .wr_i(reg_wr_q), .addr_i(reg_addr_q), .be_i(reg_be_q), .wdata_i,
     .rdata_o(reg_rdata),
     .run_o(run), .clear_o(clear), .frz_ack_o(frz_ack), .mb_busy_i(mb_busy), .mb_scrub_i(mb_scrub),
+    .stop_req_i, .wake_i(wake), .wake_en_o(wake_en), .wake_filter_o(wake_filter), .supv_o,
     .bcc_o(bcc), .srx_dis_o(srx_dis), .lbuf_o(lbuf), .tsyn_o(tsyn),
     .lprio_en_o(lprio_en), .aen_o(aen), .eacen_o(eacen), .rrs_o(rrs), .oneshot_o(oneshot),
     .osmb_o(osmb), .maxmb_o(maxmb),
@@ -136,7 +144,10 @@ module can_top #(
     .ec_we_o(ec_we), .ec_wdata_o(ec_wdata), .running_i(running), .stop_ok_i(stop_ok),
     .tec_i(tec), .rec_i(rec), .passive_i(passive), .boff_i(boff), .err_i(err),
     .idle_i(idle), .transmitter_i(transmitter), .receiver_i(receiver), .synch_i(synch),
-    .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o);
+    .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o);
+
+  can_wake #(.FilterClocks(WakeFilter)) u_wake (
+    .clk_i, .rst_ni, .enable_i(wake_en), .filter_i(wake_filter), .rx_i(rx_level), .wake_o(wake));
 
   can_mailbox #(.NumMb(NumMb)) u_mailbox (
     .clk_i, .rst_ni,
@@ -169,7 +180,7 @@ module can_top #(
     .ec_clear_i(clear), .ec_we_i(ec_we), .ec_wdata_i(ec_wdata),
     .tec_o(tec), .rec_o(rec), .passive_o(passive), .boff_o(boff), .err_o(err),
     .idle_o(idle), .transmitter_o(transmitter), .receiver_o(receiver), .synch_o(synch),
-    .tick_req_i(tick_req), .tick_o(tick),
+    .tick_req_i(tick_req), .tick_o(tick), .rx_req_i(wake_en), .rx_level_o(rx_level),
     .timer_clear_i(timer_clear), .timer_we_i(timer_we), .timer_be_i(timer_be),
     .timer_wdata_i(timer_wdata), .timer_o(timer),
     .tx_req_i(tx_req), .tx_ide_i(tx_ide), .tx_rtr_i(tx_rtr), .tx_dlc_i(tx_dlc), .tx_word_i(tx_word),

@@ -56,7 +56,12 @@ class RtlNodeOf final : public RtlNode {
   [[nodiscard]] std::uint8_t irq_lines() const override {
     return static_cast<std::uint8_t>(top_.irq_o | (top_.irq_mb_o << 1) | (top_.irq_boff_o << 2) |
                                      (top_.irq_err_o << 3) | (top_.irq_twrn_o << 4) |
-                                     (top_.irq_rwrn_o << 5));
+                                     (top_.irq_rwrn_o << 5) | (top_.irq_wak_o << 6));
+  }
+
+  void request_stop(bool stop) override {
+    top_.stop_req_i = stop;
+    core_.touch();
   }
 
  private:

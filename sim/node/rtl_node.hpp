@@ -22,6 +22,7 @@ enum IrqLine : std::uint8_t {
   kIrqError = 1 << 3,
   kIrqTxWarning = 1 << 4,
   kIrqRxWarning = 1 << 5,
+  kIrqWake = 1 << 6,
 };
 
 /// The whole core. Software on it is written as coroutines (task.hpp) that wait for accesses and
@@ -38,6 +39,9 @@ class RtlNode : public Node {
   virtual void reset() = 0;
   /// IrqLine bits as of the last clock edge.
   [[nodiscard]] virtual std::uint8_t irq_lines() const = 0;
+  /// Level of stop_req_i from the next clock edge on: the system asks for stop mode (flexcan.md
+  /// 2.9). A reset does not change it.
+  virtual void request_stop(bool stop) = 0;
   [[nodiscard]] bool irq() const { return (irq_lines() & kIrqAll) != 0; }
   [[nodiscard]] unsigned num_mb() const { return num_mb_; }
   [[nodiscard]] AhbMaster &ahb() { return ahb_; }

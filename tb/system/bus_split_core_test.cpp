@@ -71,6 +71,12 @@ class TwinNode : public RtlNode {
     after_edge();
   }
 
+  void request_stop(bool stop) override {
+    whole_.stop_req_i = stop;
+    split_.host().stop_req_i = stop;
+    split_.touch();
+  }
+
   [[nodiscard]] std::uint64_t trace() const override { return whole_.trace_o; }
   [[nodiscard]] std::uint8_t irq_lines() const override { return lines(whole_); }
   [[nodiscard]] unsigned differences() const { return differences_; }
@@ -81,7 +87,7 @@ class TwinNode : public RtlNode {
   static std::uint8_t lines(const Model &m) {
     return static_cast<std::uint8_t>(m.irq_o | (m.irq_mb_o << 1) | (m.irq_boff_o << 2) |
                                      (m.irq_err_o << 3) | (m.irq_twrn_o << 4) |
-                                     (m.irq_rwrn_o << 5));
+                                     (m.irq_rwrn_o << 5) | (m.irq_wak_o << 6));
   }
 
   template <typename Model>
