@@ -18,6 +18,7 @@
 #include "bus/bus.hpp"
 #include "bus/faults.hpp"
 #include "node/host.hpp"
+#include "node/registers.hpp"
 #include "node/rtl_node.hpp"
 
 namespace vericansim {
@@ -182,6 +183,43 @@ TEST_P(SplitCoreTest, IsTheWholeCoreInEveryClock) {
             5u);  // the noisiest bus carries little
   EXPECT_EQ(a.differences(), 0u) << a.first();
   EXPECT_EQ(b.differences(), 0u) << b.first();
+}
+
+// Stop mode over and over, with and without the filter: the host side sleeps in it while the bus
+// moves, and has to see the edge in the same clock as the whole core.
+TEST(SplitCoreStop, WakesInTheSameClock) {
+  constexpr std::uint32_t kSlfWak = 1u << 22, kWakSrc = 1u << 19, kWakMsk = 1u << 26;
+  for (const std::uint32_t filter : {0u, kWakSrc}) {
+    Bus bus;
+    TwinNode a{"a", {.error_ppm = 100}};
+    TwinNode b{"b", {.error_ppm = -150, .phase = 30'000}};
+    bus.add(a);
+    bus.add(b);
+    HostConfig config;
+    config.timing = {.prescaler = 1, .prop = 3, .ps1 = 2, .ps2 = 2, .sjw = 2};
+    Host host{b, config};
+    bus.run_for(100 * kMicrosecond);
+    a.write32(reg::kMcr, reg::kMcrFrz | reg::kMcrHalt | kSlfWak);
+    bus.run_for(10 * kMicrosecond);
+    a.write32(reg::kMcr, reg::kMcrFrz | reg::kMcrHalt | filter | kSlfWak | kWakMsk | 0x3F);
+    a.write32(reg::kCtrl, 0x00490002);
+    a.write32(reg::kMcr, filter | kSlfWak | kWakMsk | 0x3F);
+    host.start();
+    unsigned woken = 0;
+    for (int i = 0; i < 40; ++i) {
+      bus.run_for(300 * kMicrosecond + i * 1234 * kNanosecond);
+      a.request_stop(true);
+      bus.run_for(200 * kMicrosecond);
+      host.send({.id = 0x100u + i, .dlc = 1});
+      bus.run_for(200 * kMicrosecond);
+      woken += (a.irq_lines() & kIrqWake) != 0;
+      a.write32(reg::kEsr, 1);
+      a.request_stop(false);
+    }
+    EXPECT_EQ(woken, 40u);
+    EXPECT_EQ(a.differences(), 0u) << a.first();
+    EXPECT_EQ(b.differences(), 0u) << b.first();
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, SplitCoreTest,
