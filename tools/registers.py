@@ -13,7 +13,8 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from regmap import c_header, chapter, model, svd, systemverilog  # noqa: E402  (the path must be set first)
+# ruff: noqa: E402  (the path must be set first)
+from regmap import c_header, chapter, model, svd, systemverilog, test_table
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "sw/registers.yaml"
@@ -24,6 +25,7 @@ def outputs(regmap):
     return {
         "rtl/host/can_regs_pkg.sv": systemverilog.render(regmap),
         "sw/driver/include/verican/verican_regs.h": c_header.render(regmap),
+        "tb/mailbox/register_table.inc": test_table.render(regmap),
         "sw/verican.svd": svd.render(regmap),
         **chapter.render(regmap),
     }

@@ -16,11 +16,11 @@ Source: [`sw/registers.yaml`](../sw/registers.yaml), from which this page, the c
 ([`verican_regs.h`](../sw/driver/include/verican/verican_regs.h)), the CMSIS-SVD file
 ([`verican.svd`](../sw/verican.svd)) and the table of the register tests are made.
 
-{title}: words of 32 bits, little-endian, in a window of {window} KiB; bytes, half words and words can
-be accessed. Grey bits and offsets that are not listed are reserved: they read 0 and ignore writes.
+{title}: words of 32 bits, little-endian, in a window of {window} KiB; bytes,
+half words and words can be accessed. Grey bits and offsets that are not listed are reserved: they read 0 and ignore writes.
 
-**Access.** `rw` read and write; `ro` read only; `w1c` writing 1 clears, 0 does nothing; `rc` reading
-clears; `w1s` writing 1 requests, and the bit clears itself.
+**Access.** `rw` read and write; `ro` read only; `w1c` writing 1 clears, 0 does nothing; `rc`
+reading clears; `w1s` writing 1 requests, and the bit clears itself.
 
 **Written** says when a write counts; at other times it is ignored, without an error.
 
@@ -33,8 +33,8 @@ clears; `w1s` writing 1 requests, and the bit clears itself.
 | yellow | – | cleared by writing 1 (`w1c`) or by reading (`rc`) |
 | light grey | – | read only |
 
-**Reset** is the value after the hard reset. The soft reset (MCR.SOFT_RST) brings a register back to it
-or keeps it, as the tables say; *state* is a bit that shows what is going on at any moment.
+**Reset** is the value after the hard reset. The soft reset (MCR.SOFT_RST) brings a register back
+to it or keeps it, as the tables say; *state* is a bit that shows what is going on at any moment.
 
 `NumMb` is the number of message buffers of the core, 16, 32 or 64; XCONFIG.NUM_MB tells.
 """

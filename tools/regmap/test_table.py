@@ -1,0 +1,62 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""The rows of the register tests: initialisers of struct RegisterRow (register_table.hpp)."""
+from regmap.model import NUM_MB
+
+HEAD = """\
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The registers for their tests: initialisers of RegisterRow, see register_table.hpp. Written by
+// tools/registers.py from sw/registers.yaml; edits are lost.
+// clang-format off
+"""
+
+ACCESSES = ("ro", "w1c", "rc", "w1s")
+WRITES = ("any", "freeze", "disable", "wrn_en")
+
+
+def members(register, name, offset, count, stride):
+    """The members that are not what the struct has without an initialiser."""
+    yield f'.name = "{name}"'
+    yield f".offset = 0x{offset:03X}"
+    if count != 1:
+        yield f".count = {0 if count == NUM_MB else count}, .stride = {stride}"
+    if register.per_buffer is not None:
+        yield f".first_buffer = {register.per_buffer}"
+    if register.only_if:
+        yield ".min_num_mb = 64"
+    if any(part.reset == NUM_MB for part in register.fields):
+        yield ".adds_num_mb = true"
+    words = {"reset": register.value("reset", 0),
+             "after_soft_reset": register.value("after_soft_reset", 0),
+             "kept": register.mask(lambda part: part.kept),
+             "live": register.mask(lambda part: part.live)}
+    for access in ACCESSES:
+        words[access] = register.mask(lambda part, access=access: part.access == access)
+    for write in WRITES:
+        words[write] = register.mask(
+            lambda part, write=write: part.writable and part.write == write)
+    for word, value in words.items():
+        if value:
+            yield f".{word} = 0x{value:08X}"
+
+
+def row(*arguments):
+    """One initialiser, in lines of at most 100 columns."""
+    lines, line = [], "{"
+    for member in members(*arguments):
+        if len(line) + len(member) > 96:
+            lines.append(line.rstrip())
+            line = " "
+        line += member + ", "
+    return "\n".join([*lines, line[:-2] + "},"])
+
+
+def render(regmap):
+    """The text of the file."""
+    rows = [row(one, one.name, one.offset, one.count, one.stride) for one in regmap.registers]
+    block = regmap.buffers
+    rows += [row(one, f"{block.name} {one.name}", block.offset + one.offset, block.count,
+                 block.stride) for one in regmap.words]
+    return HEAD + "\n".join(rows) + "\n"
