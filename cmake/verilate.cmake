@@ -18,9 +18,10 @@ target_include_directories(verilated_runtime SYSTEM PUBLIC "${VERILATOR_ROOT}/in
 target_compile_options(verilated_runtime PRIVATE -w)
 target_link_libraries(verilated_runtime PUBLIC Threads::Threads)
 
-# Speed: no X, no assertions, no waves inside the model (observers read trace_o); lint is `make
+# Speed: no X, no assertions, no waves inside the model (observers read trace_o), and enabled blocks
+# stay whole, so that what changes once a bit is skipped in the clocks between; lint is `make
 # lint`.
-set(VERICAN_VERILATOR_FLAGS --cc -O3 --x-assign fast --x-initial fast --no-assert --output-split 0
+set(VERICAN_VERILATOR_FLAGS --cc -O3 -fno-split --x-assign fast --x-initial fast --no-assert --output-split 0
     --no-timing -Wno-lint -Wno-style)
 
 function(verican_verilate target)
@@ -40,7 +41,7 @@ function(verican_verilate target)
     COMMAND "${CMAKE_COMMAND}" -E rm -rf "${dir}"
     COMMAND "${VERILATOR}" ${VERICAN_VERILATOR_FLAGS} --prefix ${target} --Mdir "${dir}"
             --top-module ${ARG_TOP} ${parameters} ${files}
-    COMMAND "${CMAKE_COMMAND}" -DDIR=${dir} -DOUTPUT=${all}
+    COMMAND "${CMAKE_COMMAND}" -DDIR=${dir} -DNAME=${target} -DOUTPUT=${all}
             -P "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake"
     DEPENDS ${files} "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake"
     COMMENT "Verilating ${ARG_TOP} ${ARG_PARAMS}"

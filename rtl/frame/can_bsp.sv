@@ -124,6 +124,13 @@ module can_bsp (
   // SOF to EOF: an error here, or lost arbitration, ends the attempt to send.
   assign in_frame = (|field_o[4:3]) && !(&field_o[4:2]);
 
+  // Pulses in the clock after a sample point; in any other nothing here changes.
+  logic sampled_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) sampled_q <= 1'b0;
+    else         sampled_q <= sample_i;
+  end
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       err_o     <= '0;
@@ -134,7 +141,7 @@ module can_bsp (
       stamp_o   <= 1'b0;
       rx_hdr_o  <= 1'b0;
       rx_valid_o <= 1'b0;
-    end else begin
+    end else if (sample_i || sampled_q) begin
       err_o      <= kind & {6{sample_i}};
       tx_next_o  <= sample_i && (take_tx || (load && transmitter_o));
       tx_ok_o    <= sample_i && field_o == can_pkg::FldEof && last && bit_i && transmitter_o;

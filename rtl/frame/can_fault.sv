@@ -53,16 +53,21 @@ module can_fault (
   // The decision is taken at the sample point and counted one clock later: still before
   // anyone asks, and the adder stays off the longest path.
   logic       plus8_q, plus1_q, minus1_q, sequence_q, recovered_q;
+  logic       decided_q;    // the clock after a sample point: nothing moves in any other
   logic       on_tec;
-  logic [8:0] sum;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) decided_q <= 1'b0;
+    else         decided_q <= sample_i;
+  end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {plus8_q, plus1_q, minus1_q, sequence_q, recovered_q} <= '0;
       withheld_q <= 1'b0;
-    end else if (!sample_i) begin
+    end else if (decided_q && !sample_i) begin
       {plus8_q, plus1_q, minus1_q, sequence_q, recovered_q} <= '0;
-    end else begin : decide
+    end else if (sample_i) begin : decide
       logic saw_d, in_flag, in_wait, first, eighth, good_tx, good_rx, withhold, late;
 
       saw_d   = !bit_i;
@@ -92,8 +97,6 @@ module can_fault (
   end
 
   assign on_tec = transmitter_i || tec_q[8];
-  assign sum = (on_tec ? tec_q : {1'b0, rec_q})
-               + (plus8_q ? 9'd8 : minus1_q ? 9'h1FF : 9'd1);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -107,7 +110,9 @@ module can_fault (
       if (!tec_q[8]) tec_q[7:0] <= wdata_i[7:0];
     end else if (boff_enter_o) begin
       tec_q[7:0] <= '0;                                                                  // FC-13
-    end else if (sequence_q || plus8_q || plus1_q || minus1_q) begin
+    end else if (sequence_q || plus8_q || plus1_q || minus1_q) begin : count
+      logic [8:0] sum;
+      sum = (on_tec ? tec_q : {1'b0, rec_q}) + (plus8_q ? 9'd8 : minus1_q ? 9'h1FF : 9'd1);
       if (on_tec)         tec_q <= sum;
       else if (!rec_q[7]) rec_q <= sum[7:0];
       else if (minus1_q)  rec_q <= 8'd127;                                               // FC-10

@@ -90,9 +90,11 @@ module can_rx_frame (
     if (!rst_ni) begin
       byte_o    <= '0;
       byte_we_o <= 1'b0;
-    end else begin
-      byte_we_o <= sample_i && in_data && byte_end_i && !stuff_i;
-      if (sample_i && in_data && !stuff_i) byte_o <= {byte_o[6:0], bit_i};
+    end else if (sample_i) begin
+      byte_we_o <= in_data && byte_end_i && !stuff_i;
+      if (in_data && !stuff_i) byte_o <= {byte_o[6:0], bit_i};
+    end else if (byte_we_o) begin
+      byte_we_o <= 1'b0;
     end
   end
 

@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// rising_edge(): one clock cycle of a Verilated model for the price of one eval().
+// rising_edge(): one clock cycle of a Verilated model for the price of one eval(); settled_edge():
+// for less, where no input has changed.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+
+#include "verilated.h"
 
 namespace vericansim {
 
@@ -27,6 +31,20 @@ inline void rising_edge(Model &model, Signal &clock) {
   }
   clock = 1;
   model.eval();
+}
+
+/// The same for a model whose inputs are as they were at its last eval(), but for those that only
+/// flip-flops look at, and whose clock input is high: what is clocked is evaluated at once, without
+/// the combinational logic of the inputs and the search for what has changed.
+/// verican_clock_edge(Root *), one for each model, is written by cmake/include_all.cmake.
+template <typename Model>
+inline void settled_edge(Model &model) {
+  auto &root = *model.rootp;
+  auto set_all = []<std::size_t kCount>(VlTriggerVec<kCount> &triggers) {
+    for (std::size_t i = 0; i < kCount; ++i) triggers.at(i) = true;
+  };
+  set_all(root.__VnbaTriggered);
+  verican_clock_edge(&root);
 }
 
 }  // namespace vericansim
