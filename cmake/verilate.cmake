@@ -21,8 +21,8 @@ target_link_libraries(verilated_runtime PUBLIC Threads::Threads)
 # Speed: no X, no assertions, no waves inside the model (observers read trace_o), and enabled blocks
 # stay whole, so that what changes once a bit is skipped in the clocks between; lint is `make
 # lint`.
-set(VERICAN_VERILATOR_FLAGS --cc -O3 -fno-split --x-assign fast --x-initial fast --no-assert --output-split 0
-    --no-timing -Wno-lint -Wno-style)
+set(VERICAN_VERILATOR_FLAGS --cc -O3 -fno-split --x-assign fast --x-initial fast --no-assert
+    --output-split 0 --no-timing -Wno-lint -Wno-style)
 
 function(verican_verilate target)
   cmake_parse_arguments(ARG "" "TOP;REPLACE" "PARAMS" ${ARGN})
