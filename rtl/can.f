@@ -18,7 +18,10 @@ mailbox/can_mb_ram.sv
 mailbox/can_mb_port.sv
 mailbox/can_mb_cpu.sv
 mailbox/can_mb_lock.sv
+mailbox/can_mb_filter.sv
 mailbox/can_mb_rx.sv
+mailbox/can_rx_fifo.sv
+mailbox/can_mb_match.sv
 mailbox/can_mb_smb.sv
 mailbox/can_mb_move.sv
 mailbox/can_mb_tx.sv

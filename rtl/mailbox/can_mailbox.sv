@@ -6,8 +6,7 @@
 //
 // Hidden rows behind the buffers. C/S: NumMb + 0 stamp of the frame sent, + 2/3 frames received.
 // MSG (from 3 * NumMb): 4 * (0/1 frames to send, 2/3 frames received) + (0 ID, 1 bytes 0-3, 2 bytes
-// 4-7). MASK: NumMb + 0 RXGMASK, + 1 RX14MASK, + 2 RX15MASK,
-// + 3 RXFGMASK.
+// 4-7). MASK: NumMb + 0 RXGMASK, + 1 RX14MASK, + 2 RX15MASK, + 3 RXFGMASK, + 4 all ones.
 
 module can_mailbox #(
   /// Message buffers: 16, 32 or 64.
@@ -89,9 +88,7 @@ module can_mailbox #(
 );
   // Inputs of features that are not there yet.
   logic unused;
-  assign unused = &{1'b0, lprio_en_i, aen_i, osmb_i, idam_i, mrp_i, fifo_clear_i,
-                    fifo_pop_i, iflag_i};
-  assign {fifo_avail_o, fifo_warn_o, fifo_ovf_o} = '0;
+  assign unused = &{1'b0, lprio_en_i, aen_i, osmb_i, iflag_i};
   assign esr2_o = '0;
 
   // Clearing of the RAMs after a hard reset.
@@ -121,16 +118,17 @@ module can_mailbox #(
   logic [31:0]     ram_rdata;
   logic            csw, csw_act, csw_empty, csw_ide;
   logic [IdxW-1:0] csw_idx;
-  logic            moving, mv_flag;
+  logic            mv_busy_mb, mv_flag;
   logic [IdxW-1:0] mv_idx;
+  logic [2:0]      fifo_head;
   can_mb_cpu #(.NumMb(NumMb)) u_cpu (
-    .clk_i, .rst_ni, .scrub_i(scrub_o), .fen_i, .first_i(first), .head_i('0),
+    .clk_i, .rst_ni, .scrub_i(scrub_o), .fen_i, .first_i(first), .head_i(fifo_head),
     .cmd_rd_i, .cmd_wr_i, .cmd_mb_i(!cmd_kind_i[1]), .cmd_idx_i,
     .cmd_wr_o(cmd_wr), .cmd_idx_o(cmd_idx),
     .ready_i(ready_o), .rd_done_i(rd_done), .wr_done_i(wr_done), .kind_i(cpu_kind),
     .rxfir_i(rxfir), .idx_i(cpu_idx), .be_i(cpu_be), .code_i(wdata_i[27:24]),
     .ide_i(wdata_i[21]), .ram_rdata_i(ram_rdata), .timer_i,
-    .moving_i(moving), .mv_idx_i(mv_idx),
+    .moving_i(mv_busy_mb), .mv_idx_i(mv_idx),
     .raw_o(raw), .rdata_o, .timer_rd_o(timer_rd), .timer_wr_o(timer_we_o), .cs_rd_o(cs_rd),
     .busy_o(cpu_busy),
     .csw_o(csw), .csw_idx_o(csw_idx), .csw_act_o(csw_act), .csw_empty_o(csw_empty),
@@ -143,7 +141,7 @@ module can_mailbox #(
   logic            lock, svc_req, svc_ovr, svc_gnt;
   logic [IdxW-1:0] lock_idx, svc_idx;
   can_mb_lock #(.NumMb(NumMb)) u_lock (
-    .clk_i, .rst_ni, .clear_i, .bcc_i,
+    .clk_i, .rst_ni, .clear_i(fifo_clear_i), .bcc_i,
     .cs_rd_i(cs_rd), .timer_rd_i(timer_rd), .idx_i(cpu_idx), .cs_i(ram_rdata), .busy_i(cpu_busy),
     .csw_i(csw), .csw_idx_i(csw_idx),
     .lock_o(lock), .lock_idx_o(lock_idx),
@@ -151,16 +149,23 @@ module can_mailbox #(
 
   // Reception.
   logic [31:0]     cs, msg, mask;
-  logic            stale, rx_req, rx_gnt, match_done, hit;
+  logic            stale, rx_req, rx_gnt, match_done, hit, hit_fifo, hit_ans, resolve, stored;
   logic [IdxW-1:0] rx_idx, hit_idx;
-  can_mb_rx #(.NumMb(NumMb)) u_rx (
-    .clk_i, .rst_ni, .clear_i, .bcc_i, .eacen_i, .rrs_i, .maxmb_i,
+  logic [1:0]      rx_word;
+  logic [IdxW:0]   rx_mask_row;
+  logic [8:0]      idhit;
+  can_mb_match #(.NumMb(NumMb)) u_match (
+    .clk_i, .rst_ni, .clear_i(fifo_clear_i), .bcc_i, .eacen_i, .rrs_i, .maxmb_i,
+    .fen_i, .idam_i, .rffn_i, .mrp_i, .first_i(first),
     .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_rtr_i,
     .lock_i(lock), .lock_idx_i(lock_idx),
     .csw_i(csw), .csw_idx_i(csw_idx), .csw_empty_i(csw_empty), .csw_ide_i(csw_ide),
-    .req_o(rx_req), .idx_o(rx_idx), .gnt_i(rx_gnt), .stale_i(stale),
-    .cs_i(cs), .id_i(msg), .mask_i(mask),
-    .done_o(match_done), .hit_o(hit), .hit_idx_o(hit_idx));
+    .req_o(rx_req), .idx_o(rx_idx), .word_o(rx_word), .mask_row_o(rx_mask_row), .gnt_i(rx_gnt),
+    .stale_i(stale), .cs_i(cs), .msg_i(msg), .mask_i(mask),
+    .done_o(match_done), .hit_o(hit), .hit_idx_o(hit_idx), .hit_fifo_o(hit_fifo),
+    .hit_ans_o(hit_ans), .resolve_i(resolve), .stored_i(stored), .idhit_o(idhit),
+    .pop_i(fifo_pop_i), .head_o(fifo_head), .avail_o(fifo_avail_o), .warn_o(fifo_warn_o),
+    .ovf_o(fifo_ovf_o));
 
   logic            smb, ewr_req, ewr_gnt, flags_busy;
   logic [3:0]      ewr_cs_we, ewr_msg_we;
@@ -177,19 +182,23 @@ module can_mailbox #(
     .msg_we_o(ewr_msg_we), .msg_row_o(ewr_msg_row), .msg_o(ewr_msg), .gnt_i(ewr_gnt),
     .flags_busy_o(flags_busy));
 
-  logic       mv_req, mv_row, mv_data, mv_cancel, mv_busy;
+  logic       mv_req, mv_row, mv_data, mv_cancel, mv_busy, moving, ans;
   logic [1:0] mv_step;
-  logic [3:0] mv_code;
+  logic [8:0] mv_top;
   can_mb_move #(.NumMb(NumMb)) u_move (
-    .clk_i, .rst_ni, .clear_i, .start_i, .rx_hdr_i,
+    .clk_i, .rst_ni, .clear_i(fifo_clear_i), .start_i, .rx_hdr_i,
     .valid_i(rx_valid_i && !(transmitter_i && srx_dis_i)), .hold_i(flags_busy || svc_req),
     .smb_o(smb),
-    .match_done_i(match_done), .hit_i(hit), .hit_idx_i(hit_idx),
+    .match_done_i(match_done), .hit_i(hit), .hit_idx_i(hit_idx), .hit_fifo_i(hit_fifo),
+    .hit_ans_i(hit_ans), .idhit_i(idhit), .resolve_o(resolve),
     .lock_i(lock), .lock_idx_i(lock_idx),
     .csw_i(csw), .csw_idx_i(csw_idx), .csw_empty_i(csw_empty),
     .req_o(mv_req), .step_o(mv_step), .row_o(mv_row), .idx_o(mv_idx),
-    .data_i(mv_data), .cs_i(cs), .code_o(mv_code), .cancel_o(mv_cancel),
-    .moving_o(moving), .flag_o(mv_flag), .busy_o(mv_busy));
+    .data_i(mv_data), .cs_i(cs), .top_o(mv_top), .cancel_o(mv_cancel),
+    .moving_o(moving), .busy_mb_o(mv_busy_mb), .flag_o(mv_flag), .stored_o(stored), .ans_o(ans),
+    .busy_o(mv_busy));
+  logic unused_ans;
+  assign unused_ans = ans;
 
   // Transmission.
   logic            ins_req, ins_gnt, scan_req, scan_gnt, settled, retry, retry_busy, started,
@@ -226,17 +235,18 @@ module can_mailbox #(
   logic [IdxW+1:0] copy_msg_row, eng_msg_row;
   logic [31:0]     copy_cs;
   can_mb_step #(.NumMb(NumMb)) u_step (
-    .clk_i, .rst_ni, .bcc_i,
+    .clk_i, .rst_ni,
     .ld_req_i(ld_req), .ld_step_i(ld_step), .ld_row_i(ld_row), .ld_word_i(ld_word),
     .ld_idx_i(ld_idx),
     .cur_idx_i(cur_idx), .ld_cancel_i(ld_cancel), .ld_code_i(ld_code),
     .ld_data_o(ld_data), .ld_data_step_o(data_step),
     .mv_req_i(mv_req), .mv_step_i(mv_step), .mv_row_i(mv_row), .mv_idx_i(mv_idx), .moving_i(moving),
-    .mv_cancel_i(mv_cancel), .mv_code_i(mv_code), .mv_data_o(mv_data), .flight_o(flight),
-    .rx_req_i(rx_req), .rx_idx_i(rx_idx), .rx_gnt_o(rx_gnt),
+    .mv_cancel_i(mv_cancel), .mv_top_i(mv_top), .mv_data_o(mv_data), .flight_o(flight),
+    .rx_req_i(rx_req), .rx_idx_i(rx_idx), .rx_word_i(rx_word),
+    .rx_mask_row_i(rx_mask_row), .rx_gnt_o(rx_gnt),
     .scan_req_i(scan_req), .scan_idx_i(scan_idx), .scan_gnt_o(scan_gnt),
     .req_o(eng_req), .cs_row_o(eng_cs_row), .msg_row_o(eng_msg_row), .mask_row_o(eng_mask_row),
-    .gnt_i(eng_gnt), .hold_i(hold), .cs_i(cs[22:0]),
+    .gnt_i(eng_gnt), .hold_i(hold), .cs_i(cs),
     .copy_o(copy), .copy_cs_we_o(copy_cs_we), .copy_cs_row_o(copy_cs_row), .copy_cs_o(copy_cs),
     .copy_msg_we_o(copy_msg_we), .copy_msg_row_o(copy_msg_row));
 

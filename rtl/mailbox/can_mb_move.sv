@@ -6,6 +6,8 @@
 //
 // Two hidden rows: one takes the frame on the bus while the other may hold a frame whose buffer is
 // locked. Each waiting frame is bound to its buffer; a later frame for the same buffer replaces it.
+// A frame for the Rx FIFO is moved in the same way and never has to wait for long. A remote frame
+// that is answered is not moved: only the code of its buffer changes.
 
 module can_mb_move #(
   parameter int NumMb = 64,
@@ -25,27 +27,34 @@ module can_mb_move #(
   input  logic            match_done_i,
   input  logic            hit_i,
   input  logic [IdxW-1:0] hit_idx_i,
+  input  logic            hit_fifo_i,    // row hit_idx_i of the Rx FIFO, element idhit_i
+  input  logic            hit_ans_i,     // buffer hit_idx_i is to answer
+  input  logic [8:0]      idhit_i,
+  output logic            resolve_o,     // the match is taken over in this clock
   // Locks, CPU reads and writes of C/S words.
   input  logic            lock_i,
   input  logic [IdxW-1:0] lock_idx_i,
   input  logic            csw_i,
   input  logic [IdxW-1:0] csw_idx_i,
   input  logic            csw_empty_i,
-  // One copy a step: 0 ID (and the old C/S word), 1 bytes 0-3, 2 bytes 4-7 and C/S.
+  // One copy a step: 0 ID (and the old C/S word), 1 bytes 0-3, 2 bytes 4-7 and C/S; 3 code only.
   output logic            req_o,
   output logic [1:0]      step_o,
   output logic            row_o,         // from this row
   output logic [IdxW-1:0] idx_o,         // to this buffer
   input  logic            data_i,        // the step's data is on the RAM outputs
   input  logic [31:0]     cs_i,
-  output logic [3:0]      code_o,        // new code
+  output logic [8:0]      top_o,         // bits 31:23 of the new C/S word: code, or filter element
   output logic            cancel_o,      // do not write
-  output logic            moving_o,      // buffer idx_o is BUSY
+  output logic            moving_o,      // buffer idx_o changes
+  output logic            busy_mb_o,     // ... and is BUSY
   output logic            flag_o,        // pulse: set IFLAG of idx_o
+  output logic            stored_o,      // pulse: the frame is in the Rx FIFO
+  output logic            ans_o,         // pulse: buffer idx_o has code 1110 now
   output logic            busy_o         // something is still to be done
 );
-  logic            unres_q, unres_row_q, mv_q, arm_q, end_q, ovr_q;
-  logic [1:0]      full_q;
+  logic            unres_q, unres_row_q, mv_q, arm_q, end_q, ovr_q, fifo, ans;
+  logic [1:0]      full_q, fifo_q, ans_q;   // a frame, it goes into the FIFO, it is answered
   logic [IdxW-1:0] tgt0_q, tgt1_q;
 
   // A frame may move when its buffer is known and not locked. The buffer shows BUSY from the next
@@ -58,32 +67,39 @@ module can_mb_move #(
   // A C/S write cancels what waits for this buffer; EMPTY leaves an unlocked buffer a target.
   logic csw_cancels;
   assign csw_cancels = csw_i && !(csw_empty_i && !(lock_i && lock_idx_i == csw_idx_i));
-  assign kill[0] = csw_cancels && csw_idx_i == tgt0_q && !(unres_q && !unres_row_q);
-  assign kill[1] = csw_cancels && csw_idx_i == tgt1_q && !(unres_q && unres_row_q);
+  assign kill[0] = (csw_cancels || (csw_i && ans_q[0])) && csw_idx_i == tgt0_q
+                && !(unres_q && !unres_row_q);
+  assign kill[1] = (csw_cancels || (csw_i && ans_q[1])) && csw_idx_i == tgt1_q
+                && !(unres_q && unres_row_q);
 
   logic csw_hit, ovr;
   assign csw_hit  = csw_i && csw_idx_i == idx_o;
-  assign cancel_o = csw_hit && !csw_empty_i;
+  assign cancel_o = csw_hit && !(csw_empty_i && !ans);
   assign ovr      = ovr_q && !csw_hit;
-  assign code_o   = {1'b0, ovr, 2'b10};
+  assign top_o    = fifo ? idhit_i : {4'b0, ans, ovr || ans, 2'b10, 1'b0};
+  assign fifo     = fifo_q[row_o];
+  assign ans      = ans_q[row_o];
   assign idx_o    = row_o ? tgt1_q : tgt0_q;
   assign req_o    = mv_q && !arm_q && !end_q;
   assign moving_o = mv_q;
+  assign busy_mb_o = mv_q && !ans;
+  assign resolve_o = unres_q && match_done_i && !valid_i && !clear_i;
   assign busy_o   = unres_q || mv_q || ready != '0;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {smb_o, unres_q, unres_row_q, mv_q, arm_q, end_q, ovr_q, row_o, flag_o} <= '0;
+      {smb_o, unres_q, unres_row_q, mv_q, arm_q, end_q, ovr_q, row_o} <= '0;
+      {flag_o, stored_o, ans_o, fifo_q, ans_q} <= '0;
       step_o <= '0;
       full_q <= '0;
       {tgt0_q, tgt1_q} <= '0;
     end else begin
-      flag_o <= 1'b0;
+      {flag_o, stored_o, ans_o} <= '0;
       // Moves.
       if (!mv_q && ready != '0 && !hold_i) begin
         {mv_q, arm_q} <= '1;
         row_o  <= !ready[0];
-        step_o <= '0;
+        step_o <= {2{ready[0] ? ans_q[0] : ans_q[1]}};
       end else if (end_q) begin      // the C/S word is there: CPU reads of it are good from here on
         {mv_q, end_q} <= '0;
         full_q[row_o] <= 1'b0;
@@ -95,7 +111,10 @@ module can_mb_move #(
         step_o <= step_o + 1'b1;
         // FULL or OVERRUN, unread
         if (step_o == 2'd0) ovr_q <= (cs_i[25] && !cs_i[31]) && !csw_hit;
-        if (step_o == 2'd2) {end_q, flag_o} <= '1;
+        if (step_o[1]) begin
+          end_q <= 1'b1;
+          {flag_o, stored_o, ans_o} <= {!fifo && !ans, fifo, ans};
+        end
       end
       if (mv_q && csw_hit) ovr_q <= 1'b0;
       if (kill[0] && !(end_q && !row_o)) full_q[0] <= 1'b0;
@@ -109,6 +128,8 @@ module can_mb_move #(
       end else if (unres_q && match_done_i) begin
         unres_q <= 1'b0;
         if (!hit_i) full_q[unres_row_q] <= 1'b0;
+        fifo_q[unres_row_q] <= hit_fifo_i;
+        ans_q[unres_row_q]  <= hit_ans_i;
         if (unres_row_q) tgt1_q <= hit_idx_i;
         else             tgt0_q <= hit_idx_i;
         // It replaces a frame that waits for the same buffer.
@@ -123,7 +144,7 @@ module can_mb_move #(
       if (start_i && full_q[smb_o] && !full_q[!smb_o]) smb_o <= !smb_o;
       if (clear_i) begin
         full_q <= '0;
-        {unres_q, mv_q, arm_q, end_q, flag_o} <= '0;
+        {unres_q, mv_q, arm_q, end_q, flag_o, stored_o, ans_o} <= '0;
       end
     end
   end

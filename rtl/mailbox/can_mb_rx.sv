@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_rx: finds the buffer for the frame being received, one buffer a clock (flexcan.md 3.5).
+// can_mb_rx: finds the buffer for the frame being received, one buffer a clock (flexcan.md 3.5), or
+// the one that answers it: a remote frame that is not stored looks for code 1010 (3.7).
 
 module can_mb_rx #(
   parameter int NumMb = 64,
@@ -16,6 +17,8 @@ module can_mb_rx #(
   input  logic            eacen_i,      // IDE and RTR compared under the mask
   input  logic            rrs_i,        // remote frames are stored
   input  logic [6:0]      maxmb_i,
+  input  logic [6:0]      first_i,      // first buffer that is a mailbox
+  input  logic            wait_i,       // not now
   // Frame.
   input  logic            rx_hdr_i,
   input  logic [28:0]     rx_id_i,
@@ -36,36 +39,42 @@ module can_mb_rx #(
   input  logic [31:0]     cs_i,
   input  logic [31:0]     id_i,
   input  logic [31:0]     mask_i,
+  // Frame, kept.
+  output logic [28:0]     id_o,
+  output logic            ide_o,
+  output logic            rtr_o,
+  output logic            ans_o,        // an answer is looked for
   // Result.
   output logic            done_o,
   output logic            hit_o,
+  output logic            hit_free_o,   // ... and was free to receive
   output logic [IdxW-1:0] hit_idx_o
 );
-  logic [28:0]     key_q;
-  logic            key_ide_q, key_rtr_q;
   logic            scan_q, last;
   // Stage 1: the buffer is on the RAM outputs. Stage 2: it has been compared.
   logic            s1_q, s2_q, s2_skip_q, s2_match_q, s2_free_q, skip;
   logic [IdxW-1:0] s1_idx_q, s2_idx_q;
 
-  assign req_o  = scan_q;
-  assign done_o = !scan_q && !s1_q && !s2_q;
-
   logic code_ok, ide_ok, rtr_ok, id_ok, free;
-  assign code_ok = cs_i[27:24] == 4'b0100 || cs_i[27:24] == 4'b0010 || cs_i[27:24] == 4'b0110;
-  assign ide_ok  = cs_i[21] == key_ide_q || (eacen_i && !mask_i[30]);
-  assign rtr_ok  = !eacen_i || cs_i[20] == key_rtr_q || !mask_i[31];
-  assign id_ok   = ((id_i[28:18] ^ key_q[28:18]) & mask_i[28:18]) == '0
-                && (!key_ide_q || ((id_i[17:0] ^ key_q[17:0]) & mask_i[17:0]) == '0);
-  assign free    = (cs_i[26:24] == 3'b100 || cs_i[31]) && !(lock_i && lock_idx_i == s1_idx_q);
+  assign code_ok = ans_o ? cs_i[27:24] == 4'b1010
+                 : cs_i[27:24] == 4'b0100 || cs_i[27:24] == 4'b0010 || cs_i[27:24] == 4'b0110;
+  assign ide_ok  = cs_i[21] == ide_o || (eacen_i && !mask_i[30]);
+  assign rtr_ok  = !eacen_i || ans_o || cs_i[20] == rtr_o || !mask_i[31];
+  assign id_ok   = ((id_i[28:18] ^ id_o[28:18]) & mask_i[28:18]) == '0
+                && (!ide_o || ((id_i[17:0] ^ id_o[17:0]) & mask_i[17:0]) == '0);
+  assign free    = (cs_i[26:24] == 3'b100 || cs_i[31] || ans_o) && !(lock_i && lock_idx_i == s1_idx_q);
   // written meanwhile: read it again
   assign skip    = s2_skip_q || (csw_i && csw_idx_i == s2_idx_q);
   assign last    = idx_o == IdxW'(NumMb - 1) || 7'(idx_o) == maxmb_i;
 
-  // The CPU took the chosen buffer away: look again. Writing EMPTY leaves it a candidate.
+  // The CPU took the chosen buffer away: look again. Writing EMPTY leaves one that stores a
+  // candidate.
   logic lost;
   assign lost = hit_o && csw_i && csw_idx_i == hit_idx_o
-             && !(csw_empty_i && csw_ide_i == key_ide_q);
+             && !(csw_empty_i && csw_ide_i == ide_o && !ans_o);
+
+  assign req_o  = scan_q && !wait_i;
+  assign done_o = !scan_q && !s1_q && !s2_q && !lost;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -81,20 +90,21 @@ module can_mb_rx #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      key_q <= '0;
-      {key_ide_q, key_rtr_q} <= '0;
-      {scan_q, s1_q, s2_q, hit_o} <= '0;
+      id_o <= '0;
+      {ide_o, rtr_o, ans_o} <= '0;
+      {scan_q, s1_q, s2_q, hit_o, hit_free_o} <= '0;
       {idx_o, s1_idx_q, hit_idx_o} <= '0;
     end else if (rx_hdr_i) begin
-      key_q     <= rx_id_i;
-      key_ide_q <= rx_ide_i;
-      key_rtr_q <= rx_rtr_i;
-      scan_q    <= !rx_rtr_i || rrs_i;
-      idx_o     <= '0;
+      id_o   <= rx_id_i;
+      ide_o  <= rx_ide_i;
+      rtr_o  <= rx_rtr_i;
+      ans_o  <= rx_rtr_i && !rrs_i;
+      scan_q <= first_i < 7'(NumMb);
+      idx_o  <= first_i[IdxW-1:0];
       {s1_q, s2_q, hit_o} <= '0;
     end else if (lost || clear_i) begin
       scan_q <= !clear_i;
-      idx_o  <= '0;
+      idx_o  <= first_i[IdxW-1:0];
       {s1_q, s2_q, hit_o} <= '0;
     end else begin
       s1_q <= gnt_i;
@@ -109,8 +119,9 @@ module can_mb_rx #(
         scan_q <= 1'b1;
         {s1_q, s2_q} <= '0;
       end else if (s2_q && s2_match_q) begin
-        hit_o     <= 1'b1;
-        hit_idx_o <= s2_idx_q;
+        hit_o      <= 1'b1;
+        hit_free_o <= s2_free_q;
+        hit_idx_o  <= s2_idx_q;
         // BCC=1: the lowest free one, or else the last; BCC=0: the first.
         if (s2_free_q || !bcc_i) {scan_q, s1_q, s2_q} <= '0;
       end

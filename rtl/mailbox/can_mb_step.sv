@@ -13,7 +13,6 @@ module can_mb_step #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            bcc_i,
   // Steps of can_mb_load.
   input  logic            ld_req_i,
   input  logic [2:0]      ld_step_i,
@@ -32,12 +31,14 @@ module can_mb_step #(
   input  logic [IdxW-1:0] mv_idx_i,
   input  logic            moving_i,
   input  logic            mv_cancel_i,
-  input  logic [3:0]      mv_code_i,
+  input  logic [8:0]      mv_top_i,        // bits 31:23 of the new C/S word
   output logic            mv_data_o,
   output logic            flight_o,        // a step is not over
   // Passes over all buffers.
   input  logic            rx_req_i,
   input  logic [IdxW-1:0] rx_idx_i,
+  input  logic [1:0]      rx_word_i,
+  input  logic [IdxW:0]   rx_mask_row_i,
   output logic            rx_gnt_o,
   input  logic            scan_req_i,
   input  logic [IdxW-1:0] scan_idx_i,
@@ -49,7 +50,7 @@ module can_mb_step #(
   output logic [IdxW:0]   mask_row_o,
   input  logic            gnt_i,
   input  logic            hold_i,
-  input  logic [22:0]     cs_i,
+  input  logic [31:0]     cs_i,
   // Write port: second half of a copy.
   output logic            copy_o,
   output logic [3:0]      copy_cs_we_o,
@@ -96,24 +97,17 @@ module can_mb_step #(
   assign pass_idx = rx_req_i ? rx_idx_i : scan_idx_i;
   always_comb begin
     cs_row_o  = {1'b0, pass_idx};
-    msg_row_o = {2'b00, pass_idx};
+    msg_row_o = {rx_req_i ? rx_word_i : 2'b00, pass_idx};
     if (step_req && take_ld) begin
       cs_row_o  = ld_step_i == StepEnd ? (IdxW+1)'(NumMb) : {1'b0, ld_idx_i};
       msg_row_o = ld_step_i == StepWord ? hidden(1'b0, !ld_row_i, {ld_word_i, !ld_word_i})
                 : {ld_step_i == StepHead ? 2'd0 : {ld_step_i[0], !ld_step_i[0]}, ld_idx_i};
     end else if (step_req) begin
-      cs_row_o  = mv_step_i == 2'd0 ? {1'b0, mv_idx_i} : (IdxW+1)'(NumMb + 2) | (IdxW+1)'(mv_row_i);
+      cs_row_o  = mv_step_i[0] == mv_step_i[1] ? {1'b0, mv_idx_i} : (IdxW+1)'(NumMb + 2) | (IdxW+1)'(mv_row_i);
       msg_row_o = hidden(1'b1, mv_row_i, mv_step_i);
     end
   end
-  always_comb begin
-    mask_row_o = {1'b0, rx_idx_i};
-    if (!bcc_i) begin                       // RXGMASK, RX14MASK, RX15MASK
-      mask_row_o = (IdxW+1)'(NumMb);
-      if (rx_idx_i == IdxW'(14)) mask_row_o[0] = 1'b1;
-      if (rx_idx_i == IdxW'(15)) mask_row_o[1] = 1'b1;
-    end
-  end
+  assign mask_row_o = rx_mask_row_i;
 
   always_comb begin
     copy_o         = 1'b0;
@@ -121,19 +115,20 @@ module can_mb_step #(
     copy_msg_we_o  = 1'b0;
     copy_cs_row_o  = {1'b0, mv_idx_i};
     copy_msg_row_o = {mv_step_i, mv_idx_i};
-    copy_cs_o      = {4'b0, mv_code_i, 1'b0, cs_i};
+    copy_cs_o      = {mv_top_i, cs_i[22:0]};
+    if (mv_step_i == 2'd3) copy_cs_o[31:28] = cs_i[31:28];
     if (data_q && data_ld_q) begin
       copy_o         = ld_data_step_o != StepWord && ld_data_step_o != StepHead;
       copy_cs_we_o   = ld_data_step_o == StepEnd && !ld_cancel_i ? 4'b1011 : 4'b0000;
       copy_cs_row_o  = {1'b0, cur_idx_i};
-      copy_cs_o      = {4'b0, ld_code_i, 1'b0, cs_i};
+      copy_cs_o      = {4'b0, ld_code_i, 1'b0, cs_i[22:0]};
       copy_msg_we_o  = ld_data_step_o[1];
       copy_msg_row_o = hidden(1'b0, ld_row_i, {ld_data_step_o != StepLow,
           ld_data_step_o == StepLow});
     end else if (data_q && moving_i) begin
       copy_o        = 1'b1;
-      copy_cs_we_o  = {4{mv_step_i == 2'd2 && !mv_cancel_i}};
-      copy_msg_we_o = !mv_cancel_i;
+      copy_cs_we_o  = {mv_step_i[1], {3{mv_step_i == 2'd2}}} & {4{!mv_cancel_i}};
+      copy_msg_we_o = mv_step_i != 2'd3 && !mv_cancel_i;
     end
   end
 endmodule

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // can_mb_rx: the chosen buffer against a model of the comparison table and the selection
-// (flexcan.md 3.5).
+// (flexcan.md 3.5), and of the search for the buffer that answers (3.7).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -44,11 +44,15 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
     top_.rrs_i = (GetParam() >> 2) & 1;
   }
 
+  bool asks(const Header &header) const { return header.rtr && top_.rrs_i == 0; }
+
   bool matches(unsigned i, const Header &header) const {
     const Buffer &buffer = buffers_[i];
-    if (i > top_.maxmb_i || (buffer.code != 4 && buffer.code != 2 && buffer.code != 6))
-      return false;
-    if (header.rtr && top_.rrs_i == 0) return false;
+    if (i > top_.maxmb_i || i < top_.first_i) return false;
+    if (asks(header))
+      return buffer.code == 0xA && buffer.ide == header.ide &&
+             buffer.id >> (header.ide ? 0 : 18) == header.id >> (header.ide ? 0 : 18);
+    if (buffer.code != 4 && buffer.code != 2 && buffer.code != 6) return false;
     const bool compare_ide = top_.eacen_i == 0 || ((buffer.mask >> 30) & 1) != 0;
     const bool compare_rtr = top_.eacen_i != 0 && (buffer.mask >> 31) != 0;
     if (compare_ide && buffer.ide != header.ide) return false;
@@ -68,7 +72,7 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
     std::optional<unsigned> last;
     for (unsigned i = 0; i < kBuffers; ++i) {
       if (!matches(i, header)) continue;
-      if (free(i) || top_.bcc_i == 0) return i;
+      if (free(i) || top_.bcc_i == 0 || asks(header)) return i;
       last = i;
     }
     return last;
@@ -89,7 +93,7 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
     if (grant) {
       top_.cs_i = read.cs();
       top_.id_i = read.id;
-      top_.mask_i = read.mask;
+      top_.mask_i = top_.ans_o != 0 ? 0xFFFFFFFF : read.mask;  // as can_mb_match reads it
     }
     top_.csw_i = write.has_value();
     if (write) {
@@ -137,6 +141,8 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
   Vcan_mb_rx top_;
 };
 
+// FX-3.5.a, FX-3.5.b, FX-3.5.c, FX-3.5.d, FX-3.5.e, FX-3.5.f, FX-3.5.h, FX-3.5.i, FX-3.5.l,
+// FX-3.5.m, FX-3.5.n
 TEST_P(MbRx, ChosenBufferIsThatOfTheModel) {
   for (unsigned round = 0; round < 1500; ++round) {
     const unsigned density = random() % 60;
@@ -145,6 +151,7 @@ TEST_P(MbRx, ChosenBufferIsThatOfTheModel) {
       if (random() % 60 < density) buffer.code = 0;
     }
     top_.maxmb_i = random() % 4 == 0 ? random() % 64 : 63;
+    top_.first_i = random() % 4 == 0 ? 8 + 2 * (random() % 16) : 0;
     top_.lock_i = random() % 2;
     top_.lock_idx_i = random() % kBuffers;
     const Header header = random_header();
@@ -153,6 +160,9 @@ TEST_P(MbRx, ChosenBufferIsThatOfTheModel) {
     const auto winner = expected(header);
     ASSERT_EQ(top_.hit_o != 0, winner.has_value()) << "round " << round;
     ASSERT_EQ(winner.value_or(top_.hit_idx_o), top_.hit_idx_o) << "round " << round;
+    if (winner && !asks(header)) {
+      ASSERT_EQ(top_.hit_free_o != 0, free(*winner));
+    }
   }
 }
 

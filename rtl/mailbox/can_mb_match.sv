@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_mb_match: where the frame being received belongs: a pass over the filter table of the Rx FIFO
+// and then one over the mailboxes (flexcan.md 3.5, 3.7 and section 4).
+//
+// Clocks: 8 * (RFFN + 1) words and NumMb - 8 - 2 * RFFN mailboxes at one a clock, 154 in the
+// longest case (64 buffers, RFFN=15). A CPU that never pauses takes every second slot: 308. The
+// result is due when the header of the next frame is complete, after 47 bits at the least: 376
+// clocks at 8 clocks a bit.
+
+module can_mb_match #(
+  parameter int NumMb = 64,
+  /// Derived, do not override.
+  localparam int IdxW = $clog2(NumMb)
+) (
+  input  logic            clk_i,
+  input  logic            rst_ni,
+  input  logic            clear_i,      // soft reset, or FEN changes
+  // Configuration, constant while the engine runs.
+  input  logic            bcc_i,
+  input  logic            eacen_i,
+  input  logic            rrs_i,
+  input  logic [6:0]      maxmb_i,
+  input  logic            fen_i,
+  input  logic [1:0]      idam_i,
+  input  logic [3:0]      rffn_i,
+  input  logic            mrp_i,
+  input  logic [6:0]      first_i,
+  // Frame.
+  input  logic            rx_hdr_i,
+  input  logic [28:0]     rx_id_i,
+  input  logic            rx_ide_i,
+  input  logic            rx_rtr_i,
+  // Locks, and C/S writes by the CPU in the clock before.
+  input  logic            lock_i,
+  input  logic [IdxW-1:0] lock_idx_i,
+  input  logic            csw_i,
+  input  logic [IdxW-1:0] csw_idx_i,
+  input  logic            csw_empty_i,
+  input  logic            csw_ide_i,
+  // Read slots.
+  output logic            req_o,
+  output logic [IdxW-1:0] idx_o,
+  output logic [1:0]      word_o,       // of the MSG memory
+  output logic [IdxW:0]   mask_row_o,
+  input  logic            gnt_i,
+  input  logic            stale_i,
+  input  logic [31:0]     cs_i,
+  input  logic [31:0]     msg_i,
+  input  logic [31:0]     mask_i,
+  // Result.
+  output logic            done_o,
+  output logic            hit_o,        // it belongs somewhere
+  output logic [IdxW-1:0] hit_idx_o,
+  output logic            hit_fifo_o,   // into the FIFO
+  output logic            hit_ans_o,    // nowhere: the buffer answers it
+  input  logic            resolve_i,    // the result is taken over
+  input  logic            stored_i,     // the frame is in the FIFO
+  output logic [8:0]      idhit_o,      // filter element of the frame on its way there
+  // CPU's side of the FIFO.
+  input  logic            pop_i,
+  output logic [2:0]      head_o,
+  output logic            avail_o,
+  output logic            warn_o,
+  output logic            ovf_o
+);
+  logic [28:0]     id;
+  logic            ide, rtr, flt_req, flt_busy, flt_hit, enough;
+  logic [IdxW-1:0] flt_idx;
+  logic [1:0]      flt_word;
+  logic [IdxW:0]   flt_mask_row;
+  logic [8:0]      idhit;
+  can_mb_filter #(.NumMb(NumMb)) u_filter (
+    .clk_i, .rst_ni, .clear_i, .bcc_i, .idam_i, .rffn_i, .first_i,
+    .start_i(rx_hdr_i && fen_i), .id_i(id), .ide_i(ide), .rtr_i(rtr),
+    .req_o(flt_req), .idx_o(flt_idx), .word_o(flt_word), .mask_row_o(flt_mask_row),
+    .gnt_i(gnt_i && flt_busy), .cs_i, .msg_i, .mask_i,
+    .busy_o(flt_busy), .hit_o(flt_hit), .idhit_o(idhit));
+
+  logic            mb_req, mb_done, mb_hit, mb_free, mb_ans;
+  logic [IdxW-1:0] mb_idx, mb_hit_idx;
+  can_mb_rx #(.NumMb(NumMb)) u_rx (
+    .clk_i, .rst_ni, .clear_i, .bcc_i, .eacen_i, .rrs_i, .maxmb_i, .first_i,
+    .wait_i(flt_busy || enough), .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_rtr_i,
+    .lock_i, .lock_idx_i, .csw_i, .csw_idx_i, .csw_empty_i, .csw_ide_i,
+    .req_o(mb_req), .idx_o(mb_idx), .gnt_i(gnt_i && !flt_busy), .stale_i,
+    .cs_i, .id_i(msg_i), .mask_i,
+    .id_o(id), .ide_o(ide), .rtr_o(rtr), .ans_o(mb_ans),
+    .done_o(mb_done), .hit_o(mb_hit), .hit_free_o(mb_free), .hit_idx_o(mb_hit_idx));
+
+  logic [2:0] tail;
+  can_rx_fifo u_fifo (
+    .clk_i, .rst_ni, .clear_i, .bcc_i, .mrp_i, .pop_i, .head_o, .avail_o, .warn_o, .ovf_o,
+    .rx_hdr_i, .filter_i(flt_hit), .idhit_i(idhit), .mb_hit_i(mb_hit), .mb_free_i(mb_free),
+    .enough_o(enough), .take_o(hit_fifo_o), .resolve_i, .stored_i, .tail_o(tail), .idhit_o);
+
+  // Masks of mailboxes: their own, or RXGMASK, RX14MASK, RX15MASK; all ones where a remote frame
+  // looks for its answer (a row that nobody writes).
+  logic [IdxW:0] mb_mask_row;
+  always_comb begin
+    mb_mask_row = {1'b0, mb_idx};
+    if (mb_ans) begin
+      mb_mask_row = (IdxW+1)'(NumMb + 4);
+    end else if (!bcc_i) begin
+      mb_mask_row = (IdxW+1)'(NumMb);
+      if (mb_idx == IdxW'(14)) mb_mask_row[0] = 1'b1;
+      if (mb_idx == IdxW'(15)) mb_mask_row[1] = 1'b1;
+    end
+  end
+
+  assign req_o      = flt_req || mb_req;
+  assign idx_o      = flt_busy ? flt_idx : mb_idx;
+  assign word_o     = flt_busy ? flt_word - 2'd1 : 2'd0;
+  assign mask_row_o = flt_busy ? flt_mask_row : mb_mask_row;
+
+  assign done_o    = !flt_busy && (enough || mb_done);
+  assign hit_o     = hit_fifo_o || mb_hit;
+  assign hit_idx_o = hit_fifo_o ? IdxW'(tail) : mb_hit_idx;
+  assign hit_ans_o = mb_ans && !hit_fifo_o;
+endmodule
