@@ -89,9 +89,11 @@ module can_mb_move #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {smb_o, unres_q, unres_row_q, mv_q, arm_q, end_q, ovr_q, row_o} <= '0;
-      {flag_o, stored_o, ans_o, fifo_q, ans_q} <= '0;
+      {flag_o, stored_o, ans_o} <= '0;
       step_o <= '0;
       full_q <= '0;
+      fifo_q <= '0;
+      ans_q  <= '0;
       {tgt0_q, tgt1_q} <= '0;
     end else begin
       {flag_o, stored_o, ans_o} <= '0;
