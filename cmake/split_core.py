@@ -15,7 +15,8 @@ import sys
 SKIPPED = {"clk_i", "rst_ni", "can_rx_i", "can_tx_o", "trace_o"}
 # Data that mean something only beside a pulse, or when the CPU reads them: they change in every
 # bit, and the host side need not wake for that.
-QUIET = {"rx_id_o", "rx_ide_o", "rx_srr_o", "rx_rtr_o", "rx_dlc_o", "rx_byte_o", "timer_o"}
+QUIET = {"rx_id_o", "rx_ide_o", "rx_srr_o", "rx_rtr_o", "rx_dlc_o", "rx_byte_o", "timer_o",
+         "crc_o", "gap_o"}
 PORT = re.compile(r"^\s*(input|output)\s+logic\s*(\[[^\]]*\])?\s*(\w+),?", re.MULTILINE)
 ROOT = "can_ahb__DOT__u_top__DOT__u_core__DOT__"
 

@@ -26,6 +26,8 @@ mailbox/can_mb_smb.sv
 mailbox/can_mb_move.sv
 mailbox/can_mb_tx.sv
 mailbox/can_mb_load.sv
+mailbox/can_mb_guard.sv
+mailbox/can_mb_status.sv
 mailbox/can_mb_step.sv
 mailbox/can_mailbox.sv
 host/can_reg.sv

@@ -11,6 +11,7 @@ module can_core (
   input  logic        run_i,           // 1: take part in the bus; rising: integrate first (IN-01)
   output logic        running_o,       // falls at the end of the current bit at the latest (MO-13)
   output logic        stop_ok_o,       // run_i may fall without hurting a frame
+  output logic        gap_o,           // no frame on the bus: an own one may begin any time
   // Bit timing, constant while running; encodings of CTRL (length minus one)
   input  logic [7:0]  presdiv_i,       // clocks per time quantum
   input  logic [1:0]  rjw_i,           // SJW, time quanta
@@ -69,6 +70,7 @@ module can_core (
   output logic        rx_byte_we_o,    // rx_byte_o is the next data byte, stable for a bit
   output logic [7:0]  rx_byte_o,
   output logic        rx_valid_o,      // frame valid, SP of EOF6 (VA-01); own frames too
+  output logic [14:0] crc_o,           // CRC of the frame, valid with tx_ok_o
   // Pins and observers
   input  logic        can_rx_i,
   output logic        can_tx_o,
@@ -108,7 +110,7 @@ module can_core (
     .tx_o(tx_q), .can_tx_o, .hard_o(hard), .field_o(field), .left_o(left), .stuff_o(stuff),
     .transmitter_o, .tec_o(tec), .rec_o, .passive_o, .boff_o, .err_o, .tx_next_o, .tx_ok_o,
     .tx_fail_o, .start_o, .stamp_o, .rx_hdr_o, .rx_id_o, .rx_ide_o, .rx_srr_o, .rx_rtr_o,
-    .rx_dlc_o, .rx_byte_we_o, .rx_byte_o, .rx_valid_o
+    .rx_dlc_o, .rx_byte_we_o, .rx_byte_o, .rx_valid_o, .crc_o
   );
 
   // A stop request never shortens a dominant bit: the node stays until its level is recessive.
@@ -129,8 +131,9 @@ module can_core (
   assign idle_o     = (field == can_pkg::FldIdle);
   assign receiver_o = (|field[4:3]) && !transmitter_o;
   assign synch_o    = active_q && (field != can_pkg::FldInteg) && (field != can_pkg::FldBusOff);
+  assign gap_o      = !(|field[4:3]);
   // Nor does leaving a passive error flag hurt, and on a restless bus it may never end (EF-03).
-  assign stop_ok_o  = !(|field[4:3]) || (field == can_pkg::FldWait)
+  assign stop_ok_o  = gap_o || (field == can_pkg::FldWait)
                    || (field == can_pkg::FldErrFlag && left != 6'd5 && tx_q == can_pkg::Recessive);
 
   assign trace_o = {sample, boundary, bit_value, tx_q, transmitter_o, stuff, field, left, err_o,

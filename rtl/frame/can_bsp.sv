@@ -51,7 +51,8 @@ module can_bsp (
   output logic [3:0]      rx_dlc_o,
   output logic            rx_byte_we_o,
   output logic [7:0]      rx_byte_o,
-  output logic            rx_valid_o
+  output logic            rx_valid_o,
+  output logic [14:0]     crc_o
 );
 
   logic       prev, ends, last, free, crc_bit, mismatch, begin_rx, take_tx, load, in_frame;
@@ -66,7 +67,7 @@ module can_bsp (
 
   can_crc15 u_crc15 (
     .clk_i, .rst_ni, .sample_i, .bit_i, .stuff_i(stuff_o), .field_i(field_o),
-    .crc_bit_o(crc_bit), .mismatch_o(mismatch)
+    .crc_bit_o(crc_bit), .crc_o, .mismatch_o(mismatch)
   );
 
   can_error u_error (

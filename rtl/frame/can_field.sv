@@ -189,7 +189,12 @@ module can_field (
               left_q  <= {3'd0, left_q[2:0] - 3'd1};
             end
           end
-          default: ;
+          can_pkg::FldIdle, can_pkg::FldSuspend: ;   // left by may_begin alone
+          default: begin             // no such field: an upset flip-flop; join the bus anew
+            field_q <= can_pkg::FldInteg;
+            left_q  <= 6'd10;
+            tx_q    <= 1'b0;
+          end
         endcase
       end
     end else if (restart) begin

@@ -108,6 +108,8 @@ module can_top #(
   logic [1:0]  idam;
   logic [3:0]  rffn;
   logic [8:0]  esr2;
+  logic [21:0] crcr;
+  logic [14:0] crc;
   logic [63:0] iflag;
   logic [6:0]  maxmb;
   logic [IdxW-1:0] flag_idx;
@@ -117,7 +119,7 @@ module can_top #(
   logic        smp, lom, lpb, fd_tolerant, boff_rec, ec_we, passive, boff;
   logic [15:0] ec_wdata;
   logic [5:0]  err;
-  logic        idle, transmitter, receiver, synch, tick_req, tick, timer_clear, timer_we;
+  logic        idle, transmitter, receiver, synch, gap, tick_req, tick, timer_clear, timer_we;
   logic [1:0]  timer_be;
   logic [15:0] timer_wdata, timer;
   logic        tx_req, tx_ide, tx_rtr, tx_next, tx_ok, tx_fail;
@@ -135,7 +137,7 @@ module can_top #(
     .bcc_o(bcc), .srx_dis_o(srx_dis), .lbuf_o(lbuf), .tsyn_o(tsyn),
     .lprio_en_o(lprio_en), .aen_o(aen), .eacen_o(eacen), .rrs_o(rrs), .oneshot_o(oneshot),
     .osmb_o(osmb), .maxmb_o(maxmb),
-    .flag_i(flag), .flag_idx_i(flag_idx), .iflag_o(iflag), .esr2_i(esr2), .crcr_i('0),
+    .flag_i(flag), .flag_idx_i(flag_idx), .iflag_o(iflag), .esr2_i(esr2), .crcr_i(crcr),
     .fen_o(fen), .idam_o(idam), .rffn_o(rffn), .mrp_o(mrp), .fifo_clear_o(fifo_clear),
     .fifo_pop_o(fifo_pop), .fifo_avail_i(fifo_avail), .fifo_warn_i(fifo_warn),
     .fifo_ovf_i(fifo_ovf),
@@ -157,7 +159,7 @@ module can_top #(
     .oneshot_i(oneshot), .osmb_i(osmb), .maxmb_i(maxmb),
     .fen_i(fen), .idam_i(idam), .rffn_i(rffn), .mrp_i(mrp), .fifo_clear_i(fifo_clear),
     .fifo_pop_i(fifo_pop), .fifo_avail_o(fifo_avail), .fifo_warn_o(fifo_warn),
-    .fifo_ovf_o(fifo_ovf), .iflag_i(iflag), .esr2_o(esr2),
+    .fifo_ovf_o(fifo_ovf), .iflag_i(iflag), .esr2_o(esr2), .crcr_o(crcr),
     .busy_o(mb_busy), .scrub_o(mb_scrub),
     .cmd_rd_i(req_i && !we_i && to_mb), .cmd_wr_i(req_i && we_i && to_mb && wr_ok),
     .cmd_kind_i(kind), .cmd_word_i(word), .cmd_idx_i(idx), .cmd_be_i(be_i),
@@ -165,6 +167,7 @@ module can_top #(
     .tick_req_o(tick_req), .tick_i(tick),
     .timer_clear_o(timer_clear), .timer_we_o(timer_we), .timer_be_o(timer_be),
     .timer_wdata_o(timer_wdata), .timer_i(timer), .transmitter_i(transmitter),
+    .mute_i(boff || lom), .gap_i(gap), .crc_i(crc),
     .tx_req_o(tx_req), .tx_ide_o(tx_ide), .tx_rtr_o(tx_rtr), .tx_dlc_o(tx_dlc), .tx_word_o(tx_word),
     .tx_next_i(tx_next), .tx_ok_i(tx_ok), .tx_fail_i(tx_fail),
     .start_i(start), .stamp_i(stamp), .rx_hdr_i(rx_hdr), .rx_id_i(rx_id), .rx_ide_i(rx_ide),
@@ -174,7 +177,7 @@ module can_top #(
 
   can_core u_core (
     .clk_i, .rst_ni,
-    .run_i(run), .running_o(running), .stop_ok_o(stop_ok),
+    .run_i(run), .running_o(running), .stop_ok_o(stop_ok), .gap_o(gap), .crc_o(crc),
     .presdiv_i(presdiv), .rjw_i(rjw), .pseg1_i(pseg1), .pseg2_i(pseg2), .propseg_i(propseg),
     .smp_i(smp), .lom_i(lom), .lpb_i(lpb), .fd_tolerant_i(fd_tolerant), .boff_rec_i(boff_rec),
     .ec_clear_i(clear), .ec_we_i(ec_we), .ec_wdata_i(ec_wdata),

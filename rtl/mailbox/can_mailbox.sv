@@ -55,6 +55,7 @@ module can_mailbox #(
   // IFLAG, and ESR2: LPTM, VPS, IMB.
   input  logic [63:0]     iflag_i,
   output logic [8:0]      esr2_o,
+  output logic [21:0]     crcr_o,        // CRCR: MBCRC, TXCRC
   output logic            flag_o,
   output logic [IdxW-1:0] flag_idx_o,
   // Engine, see can_core.
@@ -66,6 +67,8 @@ module can_mailbox #(
   output logic [15:0]     timer_wdata_o,
   input  logic [15:0]     timer_i,
   input  logic            transmitter_i,
+  input  logic            mute_i,        // it starts no frame: bus-off, listen-only
+  input  logic            gap_i,
   output logic            tx_req_o,
   output logic            tx_ide_o,
   output logic            tx_rtr_o,
@@ -74,6 +77,7 @@ module can_mailbox #(
   input  logic            tx_next_i,
   input  logic            tx_ok_i,
   input  logic            tx_fail_i,
+  input  logic [14:0]     crc_i,
   input  logic            start_i,
   input  logic            stamp_i,
   input  logic            rx_hdr_i,
@@ -86,10 +90,10 @@ module can_mailbox #(
   input  logic [7:0]      rx_byte_i,
   input  logic            rx_valid_i
 );
-  // Inputs of features that are not there yet.
-  logic unused;
-  assign unused = &{1'b0, lprio_en_i, aen_i, osmb_i, iflag_i};
-  assign esr2_o = '0;
+  localparam logic [1:0] KindCs = 2'd0;
+
+  logic unused;                     // flags of buffers that do not exist
+  assign unused = &{1'b0, iflag_i};
 
   // Clearing of the RAMs after a hard reset.
   logic [IdxW+1:0] scrub_row_q;
@@ -111,7 +115,8 @@ module can_mailbox #(
   end
 
   // CPU accesses and their side effects.
-  logic            cmd_wr, rd_done, wr_done, rxfir, raw, cs_rd, timer_rd, cpu_busy;
+  logic            cmd_wr, rd_done, wr_done, mb_wr, block, stall, rxfir, raw, cs_rd, timer_rd,
+      cpu_busy;
   logic [1:0]      cpu_kind;
   logic [IdxW-1:0] cmd_idx, cpu_idx;
   logic [3:0]      cpu_be;
@@ -125,12 +130,13 @@ module can_mailbox #(
     .clk_i, .rst_ni, .scrub_i(scrub_o), .fen_i, .first_i(first), .head_i(fifo_head),
     .cmd_rd_i, .cmd_wr_i, .cmd_mb_i(!cmd_kind_i[1]), .cmd_idx_i,
     .cmd_wr_o(cmd_wr), .cmd_idx_o(cmd_idx),
-    .ready_i(ready_o), .rd_done_i(rd_done), .wr_done_i(wr_done), .kind_i(cpu_kind),
+    .ready_i(ready_o), .rd_done_i(rd_done), .wr_done_i(wr_done), .block_i(block),
+    .kind_i(cpu_kind),
     .rxfir_i(rxfir), .idx_i(cpu_idx), .be_i(cpu_be), .code_i(wdata_i[27:24]),
     .ide_i(wdata_i[21]), .ram_rdata_i(ram_rdata), .timer_i,
     .moving_i(mv_busy_mb), .mv_idx_i(mv_idx),
-    .raw_o(raw), .rdata_o, .timer_rd_o(timer_rd), .timer_wr_o(timer_we_o), .cs_rd_o(cs_rd),
-    .busy_o(cpu_busy),
+    .mb_wr_o(mb_wr), .raw_o(raw), .rdata_o, .timer_rd_o(timer_rd), .timer_wr_o(timer_we_o),
+    .cs_rd_o(cs_rd), .busy_o(cpu_busy),
     .csw_o(csw), .csw_idx_o(csw_idx), .csw_act_o(csw_act), .csw_empty_o(csw_empty),
     .csw_ide_o(csw_ide));
 
@@ -197,37 +203,58 @@ module can_mailbox #(
     .data_i(mv_data), .cs_i(cs), .top_o(mv_top), .cancel_o(mv_cancel),
     .moving_o(moving), .busy_mb_o(mv_busy_mb), .flag_o(mv_flag), .stored_o(stored), .ans_o(ans),
     .busy_o(mv_busy));
-  logic unused_ans;
-  assign unused_ans = ans;
 
   // Transmission.
   logic            ins_req, ins_gnt, scan_req, scan_gnt, settled, retry, retry_busy, started,
-      on_bus;
+      off;
   logic [IdxW-1:0] ins_idx, scan_idx, best_idx, cur_idx;
+  logic            pass, pass_end, seen, seen_act, seen_free;
+  logic [IdxW-1:0] seen_idx;
+  logic [34:0]     seen_val;
   can_mb_tx #(.NumMb(NumMb)) u_tx (
-    .clk_i, .rst_ni, .running_i, .lbuf_i, .maxmb_i,
-    .csw_i(csw), .csw_idx_i(csw_idx), .csw_act_i(csw_act),
-    .on_bus_i(on_bus), .cur_idx_i(cur_idx), .start_i(started), .retry_i(retry),
+    .clk_i, .rst_ni, .running_i, .lbuf_i, .lprio_en_i, .first_i(first), .maxmb_i,
+    .csw_i(csw), .csw_idx_i(csw_idx), .csw_act_i(csw_act), .ans_i(ans), .ans_idx_i(mv_idx),
+    .off_i(off), .cur_idx_i(cur_idx), .start_i(started), .retry_i(retry),
     .ins_req_o(ins_req), .ins_idx_o(ins_idx), .ins_gnt_i(ins_gnt),
     .scan_req_o(scan_req), .scan_idx_o(scan_idx), .scan_gnt_i(scan_gnt), .stale_i(stale),
     .cs_i(cs), .id_i(msg),
-    .settled_o(settled), .best_idx_o(best_idx), .retry_o(retry_busy));
+    .settled_o(settled), .best_idx_o(best_idx), .retry_o(retry_busy),
+    .pass_o(pass), .pass_end_o(pass_end), .seen_o(seen), .seen_idx_o(seen_idx),
+    .seen_val_o(seen_val), .seen_act_o(seen_act), .seen_free_o(seen_free));
 
   logic            hold, eng_gnt, flight;
   logic            ld_req, ld_row, ld_word, ld_data, ld_cancel, ld_flag, ld_busy;
+  logic            out, kept, done, sent, abort, ab_flag;
+  logic [IdxW-1:0] ab_idx;
   logic [2:0]      ld_step, data_step;
   logic [3:0]      ld_code;
   logic [IdxW-1:0] ld_idx;
   can_mb_load #(.NumMb(NumMb)) u_load (
-    .clk_i, .rst_ni, .running_i, .oneshot_i,
+    .clk_i, .rst_ni, .running_i, .mute_i, .gap_i, .oneshot_i, .aen_i,
     .settled_i(settled), .best_idx_i(best_idx), .retry_busy_i(retry_busy), .retry_o(retry),
     .csw_i(csw), .csw_idx_i(csw_idx), .csw_act_i(csw_act),
+    .cs_wr_i(mb_wr && cpu_kind == KindCs), .cs_wr_idx_i(cpu_idx), .abort_i(abort),
+    .out_o(out), .kept_o(kept), .done_o(done), .off_o(off),
     .tick_req_o, .tick_i, .start_i, .transmitter_i,
     .tx_req_o, .tx_ide_o, .tx_rtr_o, .tx_dlc_o, .tx_word_o, .tx_next_i, .tx_ok_i, .tx_fail_i,
-    .started_o(started), .on_bus_o(on_bus), .cur_idx_o(cur_idx),
+    .started_o(started), .cur_idx_o(cur_idx),
     .req_o(ld_req), .step_o(ld_step), .row_o(ld_row), .ld_idx_o(ld_idx), .word_o(ld_word),
     .flight_i(flight), .data_i(ld_data), .data_step_i(data_step), .cs_i(cs), .msg_i(msg),
-    .cancel_o(ld_cancel), .code_o(ld_code), .flag_o(ld_flag), .busy_o(ld_busy));
+    .cancel_o(ld_cancel), .code_o(ld_code), .flag_o(ld_flag), .sent_o(sent), .busy_o(ld_busy));
+
+  can_mb_guard #(.NumMb(NumMb)) u_guard (
+    .clk_i, .rst_ni, .clear_i, .aen_i,
+    .wr_i(mb_wr), .kind_i(cpu_kind), .idx_i(cpu_idx), .be3_i(cpu_be[3]), .code_i(wdata_i[27:24]),
+    .area_i(raw), .block_o(block), .abort_o(abort), .stall_o(stall),
+    .out_i(out), .kept_i(kept), .done_i(done), .cur_idx_i(cur_idx),
+    .flag_o(ab_flag), .flag_idx_o(ab_idx), .gnt_i(!mv_flag && !ld_flag),
+    .end_i(flag_o && !mv_flag), .end_idx_i(flag_idx_o), .iflag_i(iflag_i[NumMb-1:0]));
+
+  can_mb_status #(.NumMb(NumMb)) u_status (
+    .clk_i, .rst_ni, .clear_i, .lbuf_i, .csw_i(csw),
+    .pass_i(pass), .pass_end_i(pass_end), .seen_i(seen), .seen_idx_i(seen_idx),
+    .seen_val_i(seen_val), .seen_act_i(seen_act), .seen_free_i(seen_free),
+    .sent_i(sent), .tx_ok_i, .cur_idx_i(cur_idx), .crc_i, .esr2_o, .crcr_o);
 
   logic            copy, copy_msg_we, eng_req;
   logic [3:0]      copy_cs_we;
@@ -253,8 +280,8 @@ module can_mailbox #(
   can_mb_port #(.NumMb(NumMb)) u_port (
     .clk_i, .rst_ni,
     .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_kind_i, .cmd_word_i, .cmd_idx_i(cmd_idx), .cmd_be_i,
-    .wdata_i, .raw_i(raw), .ready_o, .rdata_o(ram_rdata), .rd_done_o(rd_done),
-    .wr_done_o(wr_done),
+    .wdata_i, .raw_i(raw), .shot_i(osmb_i), .block_i(block), .stall_i(stall), .ready_o,
+    .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_done_o(wr_done),
     .kind_o(cpu_kind), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
     .eng_req_i(eng_req), .eng_cs_row_i(eng_cs_row),
@@ -268,12 +295,12 @@ module can_mailbox #(
     .ewr_gnt_o(ewr_gnt),
     .scrub_i(scrub_o), .scrub_row_i(scrub_row_q), .csw_i(csw));
 
-  assign flag_o     = mv_flag || ld_flag;
-  assign flag_idx_o = mv_flag ? mv_idx : cur_idx;
+  assign flag_o     = mv_flag || ld_flag || ab_flag;
+  assign flag_idx_o = mv_flag ? mv_idx : ld_flag ? cur_idx : ab_idx;
 
   // A register: a CPU read can hold a move up, and that is known only late in the clock.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) busy_o <= 1'b1;
-    else         busy_o <= scrub_o || mv_busy || ld_busy;
+    else         busy_o <= scrub_o || mv_busy || ld_busy || ab_flag;
   end
 endmodule

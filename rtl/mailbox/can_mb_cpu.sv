@@ -30,6 +30,7 @@ module can_mb_cpu #(
   input  logic            ready_i,
   input  logic            rd_done_i,
   input  logic            wr_done_i,
+  input  logic            block_i,       // it does not take place
   input  logic [1:0]      kind_i,
   input  logic            rxfir_i,
   input  logic [IdxW-1:0] idx_i,
@@ -40,6 +41,7 @@ module can_mb_cpu #(
   input  logic [15:0]     timer_i,
   input  logic            moving_i,      // buffer mv_idx_i is BUSY
   input  logic [IdxW-1:0] mv_idx_i,
+  output logic            mb_wr_o,       // a write to a mailbox ends in this clock
   output logic            raw_o,         // a filter word: all 32 bits are kept
   output logic [31:0]     rdata_o,
   output logic            timer_rd_o,
@@ -75,7 +77,8 @@ module can_mb_cpu #(
   assign timer_rd_o = rd_done_i && kind_i == KindTimer;
   assign timer_wr_o = wr_done_i && kind_i == KindTimer;
   assign cs_rd_o    = rd_done_i && is_cs && !area_q;
-  assign cs_wr      = wr_done_i && is_cs && !area_q;
+  assign mb_wr_o    = wr_done_i && !area_q && !scrub_i;
+  assign cs_wr      = mb_wr_o && is_cs && !block_i;
   assign busy_o     = moving_i && mv_idx_i == idx_i && !area_q;
 
   always_comb begin
@@ -95,10 +98,10 @@ module can_mb_cpu #(
       {csw_o, csw_act_o, csw_empty_o, csw_ide_o} <= '0;
       csw_idx_o <= '0;
     end else begin
-      csw_o <= cs_wr && !scrub_i;
+      csw_o <= cs_wr;
       if (cs_wr) begin
         csw_idx_o   <= idx_i;
-        csw_act_o   <= !be_i[3] || code_i == 4'b1100;
+        csw_act_o   <= !be_i[3] || code_i == 4'b1100 || code_i == 4'b1110;
         csw_empty_o <= be_i == '1 && code_i == 4'b0100;
         csw_ide_o   <= ide_i;
       end

@@ -6,6 +6,11 @@
 //
 // The data words are copied into one of two hidden rows ahead of time, while a frame may still be
 // sent from the other; the last step takes C/S and ID at once, so a frame is replaced in one clock.
+//
+// Abort (MCR.AEN, flexcan.md 3.4): a frame on the bus, or presented while the bus is free so that
+// the engine may just be taking it, has moved out: can_mb_guard keeps the CPU from its C/S word and
+// hands the request over. A presented frame is taken back first. Whatever the request meets, it is
+// over with the attempt: 1001, or what a frame sent leaves.
 
 module can_mb_load #(
   parameter int NumMb = 64,
@@ -15,7 +20,10 @@ module can_mb_load #(
   input  logic            clk_i,
   input  logic            rst_ni,
   input  logic            running_i,
+  input  logic            mute_i,        // the engine starts no frame (bus-off, listen-only)
+  input  logic            gap_i,         // no frame on the bus
   input  logic            oneshot_i,
+  input  logic            aen_i,
   // Winner of the arbitration.
   input  logic            settled_i,
   input  logic [IdxW-1:0] best_idx_i,
@@ -25,6 +33,14 @@ module can_mb_load #(
   input  logic            csw_i,
   input  logic [IdxW-1:0] csw_idx_i,
   input  logic            csw_act_i,
+  // ... in this clock; abort_i: it asks to abort the frame that has moved out, and is not done.
+  input  logic            cs_wr_i,
+  input  logic [IdxW-1:0] cs_wr_idx_i,
+  input  logic            abort_i,
+  output logic            out_o,         // buffer cur_idx_o has moved out
+  output logic            kept_o,        // ... is not taken back for a new frame again
+  output logic            done_o,        // ... ends in this clock or the next ones
+  output logic            off_o,         // ... takes no part in the arbitration
   // Engine.
   output logic            tick_req_o,    // a better frame waits for the next sample point
   input  logic            tick_i,        // that is now
@@ -40,7 +56,6 @@ module can_mb_load #(
   input  logic            tx_fail_i,
   // Frame on the bus.
   output logic            started_o,     // pulse
-  output logic            on_bus_o,
   output logic [IdxW-1:0] cur_idx_o,
   // Steps: 0 next word to the engine, 1 end of a frame, 2/3 copy of bytes 0-3/4-7, 4 C/S and ID.
   output logic            req_o,
@@ -56,6 +71,7 @@ module can_mb_load #(
   output logic            cancel_o,      // step 1: do not write
   output logic [3:0]      code_o,        // step 1: new code
   output logic            flag_o,        // pulse: set IFLAG of cur_idx_o
+  output logic            sent_o,        // pulse with it: sent, not given up
   output logic            busy_o
 );
   localparam logic [2:0] StepWord = 3'd0;
@@ -66,18 +82,23 @@ module can_mb_load #(
   typedef enum logic [1:0] {StIdle, StLow, StHigh, StHead} state_e;
   state_e state_q;
 
-  logic       word_q, end_q, failed_q, orphan_q, dropped_q;
+  logic       word_q, on_bus_q, end_q, failed_q, orphan_q, dropped_q, abort_q, shot_q, answer_q;
   logic [1:0] tick_q, drop_q;
-  logic       head_ok, csw_cur, csw_ld;
+  logic       head_ok, head_bad, head_taken, csw_cur, csw_ld, withdrawn;
 
   assign csw_cur   = csw_i && csw_idx_i == cur_idx_o;
   assign csw_ld    = csw_i && csw_idx_i == ld_idx_o;
-  assign started_o = start_i && transmitter_i && !on_bus_o;
+  assign started_o = start_i && transmitter_i && !on_bus_q;
 
   // A waiting frame is replaced only in the two clocks after a sample point, when the engine cannot
   // be about to take it; a withdrawn one may have been taken in its last clock.
-  assign head_ok = !on_bus_o && !end_q && !retry_busy_i && drop_q == '0
+  assign head_ok = !on_bus_q && !end_q && !retry_busy_i && drop_q == '0 && !abort_q && !mute_i
                 && (!tx_req_o || tick_q != '0);
+  // ... and not while the CPU rewrites it, or asks to abort the one it would replace.
+  assign head_bad = csw_ld || abort_q || (cs_wr_i && (cs_wr_idx_i == ld_idx_o
+                                           || (aen_i && tx_req_o && cs_wr_idx_i == cur_idx_o)));
+  assign head_taken = data_i && data_step_i == StepHead && state_q == StHead && !on_bus_q
+                   && !started_o && !head_bad && cs_i[27:26] == 2'b11 && !cs_i[24];
   assign req_o   = word_q || end_q || state_q == StLow || state_q == StHigh
                 || (state_q == StHead && head_ok);
   assign step_o  = word_q ? StepWord : end_q ? StepEnd : state_q == StLow ? StepLow
@@ -85,8 +106,16 @@ module can_mb_load #(
 
   assign tick_req_o = tx_req_o && state_q == StHead;
   assign cancel_o = csw_cur;
-  assign code_o   = failed_q ? 4'b1001 : tx_rtr_o ? 4'b0100 : 4'b1000;
-  assign busy_o   = end_q || flag_o;
+  assign code_o   = failed_q ? 4'b1001 : answer_q ? 4'b1010 : tx_rtr_o ? 4'b0100 : 4'b1000;
+  assign busy_o   = end_q || flag_o || abort_q;
+  assign sent_o   = flag_o && !failed_q;
+
+  assign out_o    = off_o || started_o || (tx_req_o && gap_i && !csw_cur);
+  assign kept_o   = tx_req_o && dropped_q && !csw_cur;
+  assign done_o   = end_q || flag_o;
+  assign off_o    = on_bus_q || abort_q || done_o;
+  // An abort request that need not wait for the end of an attempt, because none is under way.
+  assign withdrawn = abort_q && !tx_req_o && !on_bus_q && !started_o && !end_q;
 
   // Loading.
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -107,15 +136,13 @@ module can_mb_load #(
         StHigh: if (data_i && data_step_i == StepHigh) state_q <= StHead;
         StHead: begin
           if (data_i && data_step_i == StepHead) begin
-            if (!on_bus_o && !started_o) begin
-              state_q   <= StIdle;
-              if (!csw_ld && cs_i[27:24] == 4'b1100) begin
-                row_o     <= !row_o;
-                tx_ide_o  <= cs_i[21];
-                tx_rtr_o  <= cs_i[20];
-                tx_dlc_o  <= cs_i[19:16];
-                tx_word_o <= {3'b0, msg_i[28:18], cs_i[21] ? msg_i[17:0] : 18'b0};
-              end
+            if (!on_bus_q && !started_o && !head_bad) state_q <= StIdle;
+            if (head_taken) begin
+              row_o     <= !row_o;
+              tx_ide_o  <= cs_i[21];
+              tx_rtr_o  <= cs_i[20];
+              tx_dlc_o  <= cs_i[19:16];
+              tx_word_o <= {3'b0, msg_i[28:18], cs_i[21] ? msg_i[17:0] : 18'b0};
             end
           end else if (!head_ok && settled_i && best_idx_i != ld_idx_o) begin
             state_q <= StIdle;          // a better one came while this one had to wait
@@ -127,16 +154,11 @@ module can_mb_load #(
     end
   end
 
-  logic head_taken;
-  assign head_taken = data_i && data_step_i == StepHead && state_q == StHead && !on_bus_o
-                   && !started_o
-                   && !csw_ld && cs_i[27:24] == 4'b1100;
-
   // The frame presented or on the bus.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {tx_req_o, on_bus_o, orphan_q, dropped_q, word_q, word_o} <= '0;
-      {end_q, failed_q, flag_o, retry_o} <= '0;
+      {tx_req_o, on_bus_q, orphan_q, dropped_q, word_q, word_o} <= '0;
+      {end_q, failed_q, flag_o, retry_o, abort_q, shot_q, answer_q} <= '0;
       {tick_q, drop_q} <= '0;
       cur_idx_o <= '0;
     end else begin
@@ -149,6 +171,7 @@ module can_mb_load #(
         orphan_q  <= 1'b0;
         word_o    <= 1'b0;
         cur_idx_o <= ld_idx_o;
+        {shot_q, answer_q} <= {cs_i[28], cs_i[25]};
       end else if (csw_cur) begin
         // Rewritten: what is under way is no longer the buffer's. Not yet under way: take it back,
         // but rewriting it for ever does not keep everybody off the bus.
@@ -160,7 +183,7 @@ module can_mb_load #(
         end
       end
       if (started_o) begin
-        on_bus_o  <= 1'b1;
+        on_bus_q  <= 1'b1;
         tx_req_o  <= 1'b0;
         dropped_q <= 1'b0;
       end
@@ -171,20 +194,24 @@ module can_mb_load #(
 
       // The end.
       if (data_i && data_step_i == StepEnd) begin
-        end_q  <= 1'b0;
+        {end_q, abort_q} <= '0;
         flag_o <= !csw_cur;
       end else if (end_q && csw_cur) begin
         end_q   <= 1'b0;
         retry_o <= 1'b1;
       end
-      if ((tx_ok_i || tx_fail_i) && on_bus_o) begin
-        on_bus_o <= 1'b0;
+      if ((tx_ok_i || tx_fail_i) && on_bus_q) begin
+        on_bus_q <= 1'b0;
         word_q   <= 1'b0;
         failed_q <= tx_fail_i;
-        if (orphan_q || csw_cur || (tx_fail_i && !oneshot_i)) retry_o <= 1'b1;
+        if (orphan_q || csw_cur || (tx_fail_i && !oneshot_i && !shot_q && !abort_q && !abort_i))
+          retry_o <= 1'b1;
         else end_q <= 1'b1;
       end
-      if (!running_i) {tx_req_o, on_bus_o, word_q, dropped_q} <= '0;
+      if (abort_i && !done_o) {abort_q, tx_req_o} <= 2'b10;
+      if (withdrawn) {end_q, failed_q} <= '1;
+      if (mute_i)    tx_req_o <= 1'b0;
+      if (!running_i) {tx_req_o, on_bus_q, word_q, dropped_q} <= '0;
     end
   end
 endmodule

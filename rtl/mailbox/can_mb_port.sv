@@ -28,6 +28,9 @@ module can_mb_port #(
   // CPU, data: from the next clock until ready_o.
   input  logic [31:0]     wdata_i,
   input  logic            raw_i,        // a C/S word with all 32 bits (filter table)
+  input  logic            shot_i,       // bit 28 of a Tx buffer's C/S word is kept
+  input  logic            block_i,      // not to be written
+  input  logic            stall_i,      // a C/S write has to wait for a clock
   output logic            ready_o,
   output logic [31:0]     rdata_o,      // of kinds 0..2
   output logic            rd_done_o,    // a read ends in this clock
@@ -115,10 +118,12 @@ module can_mb_port #(
   assign eng_gnt_o = eng_req_i && !pend_q && !ins_req_i && (!cmd_rd_i || owed_q);
 
   // Write port.
-  logic wait_q, w_gnt, ram_wr, wr_waits;
+  logic wait_q, w_gnt, w_ram, ram_wr, wr_waits;
   assign ram_wr    = wr_q && kind_q != KindTimer;
   assign w_gnt     = ram_wr && (wait_q || !(copy_i || svc_req_i || ewr_owed_q
-                                            || (kind_q == KindCs && csw_i && owed_q)));
+                                            || (kind_q == KindCs
+                                                && ((csw_i && owed_q) || stall_i))));
+  assign w_ram     = w_gnt && !block_i;
   assign wr_waits  = ram_wr && !w_gnt;
   assign hold_o    = copy_i && wait_q;
   assign svc_gnt_o = svc_req_i && !copy_i && !w_gnt;
@@ -170,7 +175,10 @@ module can_mb_port #(
     msg_waddr = {word_q, idx_q};
     mask_waddr = {word_q[0], idx_q};
     cs_wdata  = wdata_i;
-    if (!raw_i) {cs_wdata[31:28], cs_wdata[23]} = '0;          // these read as zero
+    if (!raw_i) begin                                          // these read as zero
+      {cs_wdata[31:28], cs_wdata[23]} = '0;
+      cs_wdata[28] = shot_i && wdata_i[28] && wdata_i[27];
+    end
     msg_wdata = wdata_i;
     mask_wdata = wdata_i;
     if (scrub_i) begin
@@ -188,7 +196,7 @@ module can_mb_port #(
       msg_we    = {4{copy_msg_we_i}};
       msg_waddr = copy_msg_row_i;
       msg_wdata = msg_o;
-    end else if (w_gnt) begin
+    end else if (w_ram) begin
       if (kind_q == KindCs)   cs_we = be_q;
       if (kind_q == KindMsg)  msg_we = be_q;
       if (kind_q == KindMask) mask_we = be_q;
@@ -233,7 +241,7 @@ module can_mb_port #(
     end else begin
       if (w_gnt) fwd_data_q <= kind_q == KindCs ? cs_wdata : wdata_i;
       if (cpu_gnt) begin
-        fwd_q <= (w_gnt && {c_kind, c_word, c_idx} == {kind_q, word_q, idx_q}) ? be_q : 4'b0;
+        fwd_q <= (w_ram && {c_kind, c_word, c_idx} == {kind_q, word_q, idx_q}) ? be_q : 4'b0;
       end
     end
   end

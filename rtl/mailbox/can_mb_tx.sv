@@ -7,6 +7,9 @@
 // away or goes on the bus, one pass over all buffers finds the next. A pass that was spoiled by
 // another change is followed by a new one; until a pass ends unspoiled the best of what was seen
 // may be sent, so that a CPU that writes C/S words for ever cannot hold up the others.
+//
+// ESR2 tells what such a pass has seen (can_mb_status): a C/S write that needs none otherwise
+// starts one too, and starts it again.
 
 module can_mb_tx #(
   parameter int NumMb = 64,
@@ -17,13 +20,18 @@ module can_mb_tx #(
   input  logic            rst_ni,
   input  logic            running_i,    // 0: forget everything; a pass starts when it rises
   input  logic            lbuf_i,       // lowest index wins, not smallest arbitration value
+  input  logic            lprio_en_i,   // PRIO comes before the identifier
+  input  logic [6:0]      first_i,      // buffers first_i to maxmb_i take part
   input  logic [6:0]      maxmb_i,
   // C/S write by the CPU in the clock before; csw_act_i: the code may be active.
   input  logic            csw_i,
   input  logic [IdxW-1:0] csw_idx_i,
   input  logic            csw_act_i,
+  // A remote frame made buffer ans_idx_i active in the clock before.
+  input  logic            ans_i,
+  input  logic [IdxW-1:0] ans_idx_i,
   // Frame on the bus.
-  input  logic            on_bus_i,
+  input  logic            off_i,        // buffer cur_idx_i is on it, or about to end
   input  logic [IdxW-1:0] cur_idx_i,
   input  logic            start_i,      // buffer cur_idx_i goes on the bus
   input  logic            retry_i,      // ... has left it, and may be active still
@@ -40,36 +48,51 @@ module can_mb_tx #(
   // Winner.
   output logic            settled_o,    // it may be sent
   output logic [IdxW-1:0] best_idx_o,
-  output logic            retry_o       // a retry has not been looked at yet
+  output logic            retry_o,      // a retry has not been looked at yet
+  // Pass, for can_mb_status.
+  output logic            pass_o,       // it begins
+  output logic            pass_end_o,   // it is over, and nothing has changed meanwhile
+  output logic            seen_o,       // a buffer has been looked at: its
+  output logic [IdxW-1:0] seen_idx_o,   // index
+  output logic [34:0]     seen_val_o,   // arbitration value
+  output logic            seen_act_o,   // code is active, not on the bus
+  output logic            seen_free_o   // code is INACTIVE
 );
-  logic            ins_q, ins_new, retry_q, retry_gnt, scan_q, wait_q, again_q, spoiled_q, last;
+  logic            ins_q, ins_new, retry_q, retry_gnt, ans_q, ans_gnt;
+  logic            scan_q, look_q, dirty_q, wait_q, again_q, spoiled_q, last, change, restart;
   // Stage 1: the buffer is on the RAM outputs. Stage 2: its arbitration value is known.
-  logic            s1_q, s1_last_q, s2_q, s2_last_q, s2_active_q, best_q;
-  logic [IdxW-1:0] s1_idx_q, s2_idx_q;
-  logic [31:0]     s2_val_q, best_val_q;
+  logic            s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q, s2_active_q, s2_free_q;
+  logic            best_q, s1_part;
+  logic [IdxW-1:0] s1_idx_q, s2_idx_q, ans_idx_q;
+  logic [34:0]     s2_val_q, best_val_q;
 
-  // Insertions: the C/S write first, it cannot wait for the next one.
+  // Insertions: the C/S write first, it cannot wait for the next one; answers are rarest.
   assign ins_new    = ins_q || (csw_i && csw_act_i);
-  assign ins_req_o  = running_i && (ins_new || retry_q);
-  assign ins_idx_o  = ins_new ? csw_idx_i : cur_idx_i;
+  assign ins_req_o  = running_i && (ins_new || retry_q || ans_q);
+  assign ins_idx_o  = ins_new ? csw_idx_i : retry_q ? cur_idx_i : ans_idx_q;
   assign retry_gnt  = ins_gnt_i && !ins_new;
+  assign ans_gnt    = ins_gnt_i && !ins_new && !retry_q;
   assign retry_o    = retry_q || retry_i;
-  assign scan_req_o = running_i && scan_q && !wait_q;
+  assign scan_req_o = running_i && (scan_q || look_q) && !wait_q;
   assign settled_o  = best_q && (!scan_q || spoiled_q);
   assign last       = scan_idx_o == IdxW'(NumMb - 1) || 7'(scan_idx_o) == maxmb_i;
+  assign s1_part    = 7'(s1_idx_q) >= first_i && 7'(s1_idx_q) <= maxmb_i
+                   && !stale_i && !(csw_i && csw_idx_i == s1_idx_q);
 
-  // Arbitration value: the bits in the order of the bus (flexcan.md 3.3).
+  // Arbitration value: PRIO, then the bits in the order of the bus (flexcan.md 3.3). Active codes
+  // are 1100 and 1110, inactive 0000 and 1000.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      s2_active_q <= 1'b0;
+      {s2_active_q, s2_free_q} <= '0;
       s2_idx_q    <= '0;
       s2_val_q    <= '0;
     end else if (s1_q) begin
-      s2_active_q <= cs_i[27:24] == 4'b1100 && 7'(s1_idx_q) <= maxmb_i
-                  && !stale_i && !(csw_i && csw_idx_i == s1_idx_q);
+      s2_active_q <= cs_i[27:26] == 2'b11 && !cs_i[24] && s1_part;
+      s2_free_q   <= cs_i[26:24] == 3'b000 && s1_part;
       s2_idx_q    <= s1_idx_q;
-      s2_val_q    <= cs_i[21] ? {id_i[28:18], 2'b11, id_i[17:0], cs_i[20]}
-                              : {id_i[28:18], cs_i[20], 20'b0};
+      s2_val_q[34:32] <= id_i[31:29] & {3{lprio_en_i}};
+      s2_val_q[31:0]  <= cs_i[21] ? {id_i[28:18], 2'b11, id_i[17:0], cs_i[20]}
+                                  : {id_i[28:18], cs_i[20], 20'b0};
     end
   end
 
@@ -77,10 +100,10 @@ module can_mb_tx #(
   // does the one on the bus.
   logic candidate, gone, better;
   assign candidate = s2_q && s2_active_q && !(csw_i && csw_idx_i == s2_idx_q)
-                  && !((on_bus_i || start_i) && s2_idx_q == cur_idx_i);
+                  && !((off_i || start_i) && s2_idx_q == cur_idx_i);
   // The winner is no longer what it was.
   assign gone   = best_q && ((csw_i && csw_idx_i == best_idx_o)
-                          || (start_i && cur_idx_i == best_idx_o));
+                          || ((start_i || off_i) && cur_idx_i == best_idx_o));
   assign better = lbuf_i ? s2_idx_q < best_idx_o : {s2_val_q, s2_idx_q} < {best_val_q, best_idx_o};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -99,21 +122,52 @@ module can_mb_tx #(
     end
   end
 
+  assign seen_o      = s2_scan_q;
+  assign seen_idx_o  = s2_idx_q;
+  assign seen_val_o  = s2_val_q;
+  assign seen_act_o  = candidate;
+  assign seen_free_o = s2_free_q;
+  assign pass_o      = scan_gnt_i && scan_idx_o == '0;
+  assign pass_end_o  = s2_last_q && !dirty_q && !change && !gone;
+
+  // A pass for ESR2 alone is started anew by whatever happens; one that looks for a winner is not.
+  assign change  = csw_i || ans_i;
+  assign restart = look_q && !scan_q && (change || gone);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)                         {look_q, dirty_q} <= '0;
+    else if (!running_i)                 {look_q, dirty_q} <= '0;
+    else if (s2_last_q && !restart)      {look_q, dirty_q} <= {dirty_q || change, 1'b0};
+    else if (change)                     {look_q, dirty_q} <= {1'b1, scan_q};
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)   {ans_q, ans_idx_q} <= '0;
+    else begin
+      ans_q <= running_i && (ans_i || (ans_q && !ans_gnt));
+      if (ans_i) ans_idx_q <= ans_idx_i;
+    end
+  end
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {ins_q, retry_q, wait_q, again_q, spoiled_q, s1_q, s1_last_q, s2_q, s2_last_q} <= '0;
+      {ins_q, retry_q, wait_q, again_q, spoiled_q} <= '0;
+      {s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q} <= '0;
       scan_q <= 1'b1;
       {scan_idx_o, s1_idx_q} <= '0;
     end else if (!running_i) begin
-      {ins_q, retry_q, wait_q, again_q, spoiled_q, s1_q, s1_last_q, s2_q, s2_last_q} <= '0;
+      {ins_q, retry_q, wait_q, again_q, spoiled_q} <= '0;
+      {s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q} <= '0;
       scan_q     <= 1'b1;
       scan_idx_o <= '0;
     end else begin
       ins_q     <= ins_new && !ins_gnt_i;
       retry_q   <= retry_i || (retry_q && !retry_gnt);
       s1_q      <= ins_gnt_i || scan_gnt_i;
+      s1_scan_q <= scan_gnt_i;
       s1_last_q <= scan_gnt_i && last;
       s2_q      <= s1_q;
+      s2_scan_q <= s1_scan_q;
       s2_last_q <= s1_last_q;
       s1_idx_q  <= ins_req_o ? ins_idx_o : scan_idx_o;
       if (scan_gnt_i) begin
@@ -124,11 +178,16 @@ module can_mb_tx #(
         wait_q     <= 1'b0;
         scan_q     <= again_q || gone;
         again_q    <= 1'b0;
-        spoiled_q  <= again_q || gone;
+        spoiled_q  <= scan_q && (again_q || gone);
         scan_idx_o <= '0;
       end else if (gone) begin
         scan_q <= 1'b1;
         if (scan_q) {again_q, spoiled_q} <= '1;
+      end
+      if (restart) begin
+        scan_idx_o <= '0;
+        wait_q     <= 1'b0;
+        {s1_last_q, s2_last_q} <= '0;
       end
     end
   end

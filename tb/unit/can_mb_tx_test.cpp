@@ -20,39 +20,51 @@ namespace vericansim {
 namespace {
 
 constexpr unsigned kBuffers = 64;
-constexpr std::uint32_t kActive = 0xC, kIde = 1u << 21, kRtr = 1u << 20;
+constexpr std::uint32_t kActive = 0xC, kAnswer = 0xE, kIde = 1u << 21, kRtr = 1u << 20;
+
+bool is_active(std::uint32_t cs) { return (cs >> 24) == kActive || (cs >> 24) == kAnswer; }
 
 struct Buffer {
   std::uint32_t cs = 0, id = 0;
 };
 
-class MbTx : public ::testing::TestWithParam<unsigned> {
+struct Mode {
+  unsigned lbuf, lprio;
+};
+
+class MbTx : public ::testing::TestWithParam<Mode> {
  protected:
   MbTx() {
+    top_.rst_ni = 1;
+    top_.eval();
     top_.rst_ni = 0;
     top_.eval();
     top_.rst_ni = 1;
     top_.maxmb_i = 63;
     top_.running_i = 1;
+    top_.lbuf_i = GetParam().lbuf;
+    top_.lprio_en_i = GetParam().lprio;
   }
 
-  // Bits as they go over the bus, as a string: the smaller string wins arbitration (AR-01).
-  static std::string bits(const Buffer &buffer) {
+  // Bits as they go over the bus, as a string: the smaller string wins arbitration (AR-01); PRIO
+  // comes before them.
+  std::string bits(const Buffer &buffer) const {
     const auto field = [](std::uint32_t value, unsigned width) {
       std::string text;
       for (unsigned i = width; i-- > 0;) text += ((value >> i) & 1) != 0 ? '1' : '0';
       return text;
     };
     const std::string rtr = (buffer.cs & kRtr) != 0 ? "1" : "0";
-    const std::string base = field((buffer.id >> 18) & 0x7FF, 11);
+    const std::string prio = top_.lprio_en_i != 0 ? field(buffer.id >> 29, 3) : "";
+    const std::string base = prio + field((buffer.id >> 18) & 0x7FF, 11);
     if ((buffer.cs & kIde) == 0) return base + rtr + "0";
     return base + "11" + field(buffer.id & 0x3FFFF, 18) + rtr;
   }
 
   std::optional<unsigned> expected() const {
     std::vector<std::tuple<std::string, unsigned>> active;
-    for (unsigned i = 0; i < kBuffers && i <= top_.maxmb_i; ++i) {
-      if ((buffers_[i].cs >> 24) != kActive || (top_.on_bus_i != 0 && i == top_.cur_idx_i))
+    for (unsigned i = top_.first_i; i < kBuffers && i <= top_.maxmb_i; ++i) {
+      if (!is_active(buffers_[i].cs) || (top_.off_i != 0 && i == top_.cur_idx_i))
         continue;
       active.emplace_back(top_.lbuf_i != 0 ? "" : bits(buffers_[i]), i);
     }
@@ -79,7 +91,7 @@ class MbTx : public ::testing::TestWithParam<unsigned> {
       top_.id_i = read.id;
     }
     top_.csw_i = write.has_value();
-    top_.csw_act_i = write && (cs >> 24) == kActive;
+    top_.csw_act_i = write && is_active(cs);
     if (write) top_.csw_idx_i = *write;
     top_.start_i = 0;
     top_.retry_i = 0;
@@ -89,15 +101,16 @@ class MbTx : public ::testing::TestWithParam<unsigned> {
   void random_write(unsigned grant_percent) {
     const unsigned i = rng_() % kBuffers;
     Buffer &buffer = buffers_[i];
-    const bool was_active = (buffer.cs >> 24) == kActive;
-    std::uint32_t cs = (was_active || rng_() % 4 == 0) ? 0x08000000u : kActive << 24;
+    const bool was_active = is_active(buffer.cs);
+    const std::uint32_t code = rng_() % 4 == 0 ? kAnswer : kActive;
+    std::uint32_t cs = (was_active || rng_() % 4 == 0) ? 0x08000000u : code << 24;
     if (!was_active) {
       // Few different identifiers: ties and near ties are what is hard.
       buffer.id =
           ((rng_() % 4) << 18) | (rng_() % 3 == 0 ? rng_() & 0x3FFFF : rng_() % 3) | (rng_() << 29);
       cs |= (rng_() % 2 != 0 ? kIde : 0) | (rng_() % 2 != 0 ? kRtr : 0);
     }
-    if (top_.on_bus_i != 0 && i == top_.cur_idx_i) return clock({}, 0, grant_percent);
+    if (top_.off_i != 0 && i == top_.cur_idx_i) return clock({}, 0, grant_percent);
     clock(i, cs, grant_percent);
   }
 
@@ -118,7 +131,6 @@ class MbTx : public ::testing::TestWithParam<unsigned> {
 };
 
 TEST_P(MbTx, WinnerIsThatOfTheModel) {
-  top_.lbuf_i = GetParam();
   settle();
   for (unsigned round = 0; round < 1500; ++round) {
     const unsigned writes = rng_() % 40, gap = 1 + rng_() % 6, grant = 20 + rng_() % 81;
@@ -129,8 +141,8 @@ TEST_P(MbTx, WinnerIsThatOfTheModel) {
     settle();
     check();
     if (HasFatalFailure()) FAIL() << "round " << round;
-    if (top_.on_bus_i != 0) {  // the frame ends: sent, or to be tried again
-      top_.on_bus_i = 0;
+    if (top_.off_i != 0) {  // the frame ends: sent, or to be tried again
+      top_.off_i = 0;
       if (rng_() % 2 == 0)
         top_.retry_i = 1;
       else
@@ -139,13 +151,12 @@ TEST_P(MbTx, WinnerIsThatOfTheModel) {
       top_.cur_idx_i = top_.best_idx_o;
       top_.start_i = 1;
       clock({}, 0, grant);
-      top_.on_bus_i = 1;
+      top_.off_i = 1;
     }
   }
 }
 
 TEST_P(MbTx, OneActivationIsEnough) {  // erratum ERR005829: at every moment of a pass
-  top_.lbuf_i = GetParam();
   for (unsigned moment = 0; moment < 80; ++moment) {
     top_.running_i = 0;
     clock({}, 0, 100);
@@ -160,7 +171,6 @@ TEST_P(MbTx, OneActivationIsEnough) {  // erratum ERR005829: at every moment of 
 }
 
 TEST_P(MbTx, BuffersBeyondMaxmbAreNotSent) {
-  top_.lbuf_i = GetParam();
   top_.maxmb_i = 15;
   settle();
   clock(16, kActive << 24, 100);
@@ -171,8 +181,53 @@ TEST_P(MbTx, BuffersBeyondMaxmbAreNotSent) {
   check();
 }
 
+TEST_P(MbTx, BuffersOfTheRxFifoAreNotSent) {  // flexcan.md section 4
+  top_.first_i = 12;
+  settle();
+  clock(11, kActive << 24, 100);
+  settle();
+  check();
+  clock(12, kActive << 24, 100);
+  settle();
+  check();
+}
+
+TEST_P(MbTx, AnswerTakesPartAtEveryMomentOfAPass) {  // flexcan.md 3.7: as if written by the CPU
+  buffers_[20].id = 0x100 << 18;
+  buffers_[40] = {kActive << 24, 0x200 << 18};
+  for (unsigned moment = 0; moment < 80; ++moment) {
+    top_.running_i = 0;
+    buffers_[20].cs = 0xAu << 24;
+    clock({}, 0, 100);
+    top_.running_i = 1;
+    for (unsigned i = 0; i < moment; ++i) clock({}, 0, 100);
+    buffers_[20].cs = kAnswer << 24;
+    top_.ans_i = 1;
+    top_.ans_idx_i = 20;
+    clock(41, 0x08000000, 100);
+    top_.ans_i = 0;
+    top_.ans_idx_i = 0;
+    settle();
+    check();
+  }
+}
+
+TEST_P(MbTx, BufferThatEndsWithoutHavingStartedIsNoWinner) {  // an abort request, flexcan.md 3.4
+  buffers_[7] = {kActive << 24, 0x100 << 18};
+  buffers_[9] = {kActive << 24, 0x200 << 18};
+  settle();
+  check();
+  top_.cur_idx_i = 7;
+  top_.off_i = 1;
+  settle();
+  check();
+  buffers_[7].cs = 0x09000000;
+  top_.off_i = 0;
+  settle();
+  check();
+}
+
 TEST_P(MbTx, WritingForEverStarvesNobody) {
-  top_.lbuf_i = GetParam();
   buffers_[40] = {kActive << 24, 0x7FF << 18};
   settle();
   // Buffer 3 would win; it is activated and taken back all the time.
@@ -185,7 +240,8 @@ TEST_P(MbTx, WritingForEverStarvesNobody) {
   EXPECT_GT(seen, 20u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Lbuf, MbTx, ::testing::Values(0u, 1u));
+INSTANTIATE_TEST_SUITE_P(Modes, MbTx,
+                         ::testing::Values(Mode{0, 0}, Mode{1, 0}, Mode{0, 1}, Mode{1, 1}));
 
 }  // namespace
 }  // namespace vericansim
