@@ -205,8 +205,8 @@ module can_mailbox #(
     .busy_o(mv_busy));
 
   // Transmission.
-  logic            ins_req, ins_gnt, scan_req, scan_gnt, settled, retry, retry_busy, started,
-      off;
+  logic            ins_req, ins_gnt, scan_req, scan_lazy, scan_gnt, settled, retry, retry_busy;
+  logic            started, off;
   logic [IdxW-1:0] ins_idx, scan_idx, best_idx, cur_idx;
   logic            pass, pass_end, seen, seen_act, seen_free;
   logic [IdxW-1:0] seen_idx;
@@ -216,8 +216,8 @@ module can_mailbox #(
     .csw_i(csw), .csw_idx_i(csw_idx), .csw_act_i(csw_act), .ans_i(ans), .ans_idx_i(mv_idx),
     .off_i(off), .cur_idx_i(cur_idx), .start_i(started), .retry_i(retry),
     .ins_req_o(ins_req), .ins_idx_o(ins_idx), .ins_gnt_i(ins_gnt),
-    .scan_req_o(scan_req), .scan_idx_o(scan_idx), .scan_gnt_i(scan_gnt), .stale_i(stale),
-    .cs_i(cs), .id_i(msg),
+    .scan_req_o(scan_req), .scan_lazy_o(scan_lazy), .scan_idx_o(scan_idx),
+    .scan_gnt_i(scan_gnt), .stale_i(stale), .cs_i(cs), .id_i(msg),
     .settled_o(settled), .best_idx_o(best_idx), .retry_o(retry_busy),
     .pass_o(pass), .pass_end_o(pass_end), .seen_o(seen), .seen_idx_o(seen_idx),
     .seen_val_o(seen_val), .seen_act_o(seen_act), .seen_free_o(seen_free));
@@ -256,7 +256,7 @@ module can_mailbox #(
     .seen_val_i(seen_val), .seen_act_i(seen_act), .seen_free_i(seen_free),
     .sent_i(sent), .tx_ok_i, .cur_idx_i(cur_idx), .crc_i, .esr2_o, .crcr_o);
 
-  logic            copy, copy_msg_we, eng_req;
+  logic            copy, copy_msg_we, eng_req, eng_lazy;
   logic [3:0]      copy_cs_we;
   logic [IdxW:0]   copy_cs_row, eng_cs_row, eng_mask_row;
   logic [IdxW+1:0] copy_msg_row, eng_msg_row;
@@ -271,8 +271,9 @@ module can_mailbox #(
     .mv_cancel_i(mv_cancel), .mv_top_i(mv_top), .mv_data_o(mv_data), .flight_o(flight),
     .rx_req_i(rx_req), .rx_idx_i(rx_idx), .rx_word_i(rx_word),
     .rx_mask_row_i(rx_mask_row), .rx_gnt_o(rx_gnt),
-    .scan_req_i(scan_req), .scan_idx_i(scan_idx), .scan_gnt_o(scan_gnt),
-    .req_o(eng_req), .cs_row_o(eng_cs_row), .msg_row_o(eng_msg_row), .mask_row_o(eng_mask_row),
+    .scan_req_i(scan_req), .scan_lazy_i(scan_lazy), .scan_idx_i(scan_idx), .scan_gnt_o(scan_gnt),
+    .req_o(eng_req), .lazy_o(eng_lazy),
+    .cs_row_o(eng_cs_row), .msg_row_o(eng_msg_row), .mask_row_o(eng_mask_row),
     .gnt_i(eng_gnt), .hold_i(hold), .cs_i(cs),
     .copy_o(copy), .copy_cs_we_o(copy_cs_we), .copy_cs_row_o(copy_cs_row), .copy_cs_o(copy_cs),
     .copy_msg_we_o(copy_msg_we), .copy_msg_row_o(copy_msg_row));
@@ -284,7 +285,7 @@ module can_mailbox #(
     .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_done_o(wr_done),
     .kind_o(cpu_kind), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
-    .eng_req_i(eng_req), .eng_cs_row_i(eng_cs_row),
+    .eng_req_i(eng_req), .eng_lazy_i(eng_lazy), .eng_cs_row_i(eng_cs_row),
     .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_gnt_o(eng_gnt),
     .hold_o(hold), .stale_o(stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
     .copy_i(copy), .copy_cs_we_i(copy_cs_we), .copy_cs_row_i(copy_cs_row), .copy_cs_i(copy_cs),

@@ -44,6 +44,7 @@ module can_mb_port #(
   input  logic [IdxW-1:0] ins_idx_i,
   output logic            ins_gnt_o,
   input  logic            eng_req_i,
+  input  logic            eng_lazy_i,   // gives way to the CPU every time
   input  logic [IdxW:0]   eng_cs_row_i,
   input  logic [IdxW+1:0] eng_msg_row_i,
   input  logic [IdxW:0]   eng_mask_row_i,
@@ -112,10 +113,10 @@ module can_mb_port #(
   // Read port. An engine write that was refused claims a slot too: reads of C/S words in a row,
   // each with its serviced mark, would keep it out otherwise.
   logic pend_q, owed_q, want, cpu_gnt, ewr_owed_q;
-  assign want      = eng_req_i || ewr_owed_q;
+  assign want      = (eng_req_i && !eng_lazy_i) || ewr_owed_q;
   assign cpu_gnt   = pend_q || (cmd_rd_i && !ins_req_i && !(want && owed_q) && !hold_o);
   assign ins_gnt_o = ins_req_i && !pend_q;
-  assign eng_gnt_o = eng_req_i && !pend_q && !ins_req_i && (!cmd_rd_i || owed_q);
+  assign eng_gnt_o = eng_req_i && !pend_q && !ins_req_i && (!cmd_rd_i || (want && owed_q));
 
   // Write port.
   logic wait_q, w_gnt, w_ram, ram_wr, wr_waits;

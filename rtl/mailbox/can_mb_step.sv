@@ -41,10 +41,12 @@ module can_mb_step #(
   input  logic [IdxW:0]   rx_mask_row_i,
   output logic            rx_gnt_o,
   input  logic            scan_req_i,
+  input  logic            scan_lazy_i,
   input  logic [IdxW-1:0] scan_idx_i,
   output logic            scan_gnt_o,
   // Read port.
   output logic            req_o,
+  output logic            lazy_o,          // it never keeps the CPU waiting
   output logic [IdxW:0]   cs_row_o,
   output logic [IdxW+1:0] msg_row_o,
   output logic [IdxW:0]   mask_row_o,
@@ -68,6 +70,7 @@ module can_mb_step #(
   assign step_req   = (ld_req_i || mv_req_i) && !data_q;
   assign take_ld    = ld_req_i && !(mv_req_i && data_ld_q);   // in turn if both want
   assign req_o      = (step_req || rx_req_i || scan_req_i) && !hold_i;
+  assign lazy_o     = !step_req && !rx_req_i && scan_lazy_i;
   assign rx_gnt_o   = gnt_i && !step_req && rx_req_i;
   assign scan_gnt_o = gnt_i && !step_req && !rx_req_i;
   assign flight_o   = data_q;

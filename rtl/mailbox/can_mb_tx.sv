@@ -40,6 +40,7 @@ module can_mb_tx #(
   output logic [IdxW-1:0] ins_idx_o,
   input  logic            ins_gnt_i,
   output logic            scan_req_o,
+  output logic            scan_lazy_o,  // for ESR2 alone: only what nobody else wants
   output logic [IdxW-1:0] scan_idx_o,
   input  logic            scan_gnt_i,
   input  logic            stale_i,
@@ -74,6 +75,7 @@ module can_mb_tx #(
   assign ans_gnt    = ins_gnt_i && !ins_new && !retry_q;
   assign retry_o    = retry_q || retry_i;
   assign scan_req_o = running_i && (scan_q || look_q) && !wait_q;
+  assign scan_lazy_o = !scan_q;
   assign settled_o  = best_q && (!scan_q || spoiled_q);
   assign last       = scan_idx_o == IdxW'(NumMb - 1) || 7'(scan_idx_o) == maxmb_i;
   assign s1_part    = 7'(s1_idx_q) >= first_i && 7'(s1_idx_q) <= maxmb_i
