@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every way off the bus, asked for in every clock of a frame, by its transmitter and by a receiver
+// (flexcan.md 2.1 to 2.3, 2.9, 8.2; MO-13, ERR008341): acknowledged in time, nothing dominant
+// afterwards, the frame whole where it must be, the others undisturbed, and back on the bus.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <tuple>
+
+#include "mailbox/mode_rig.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr unsigned kBit = ModeRig::kBit;
+// SOF to INT3 of a base frame with one byte, 44 + 8 + 3 bits, and the stuff bits of the worst one.
+constexpr unsigned kFrameBits = 55 + 10;
+// A read of MCR comes back within this, and that many later the request itself has arrived.
+constexpr unsigned kAccess = 8;
+
+Frame first_frame(unsigned k) {
+  return {.id = 0x155, .dlc = 1, .data = {static_cast<std::uint8_t>(k)}};
+}
+Frame second_frame(unsigned k) {
+  return {.id = 0x2AA, .dlc = 1, .data = {static_cast<std::uint8_t>(~k)}};
+}
+
+using Case = std::tuple<Leave, bool>;
+
+class ModeSweep : public ::testing::TestWithParam<Case> {
+ protected:
+  const Leave how_ = std::get<0>(GetParam());
+  const bool transmitter_ = std::get<1>(GetParam());
+  ModeRig mode_;
+  MailboxRig &rig_ = mode_.rig();
+
+  // A transmitter ends its frame except in a soft reset; so does a receiver, for freeze mode.
+  [[nodiscard]] bool waits_for_frame() const {
+    return how_ == Leave::kFreeze || (how_ != Leave::kSoftReset && transmitter_);
+  }
+  [[nodiscard]] bool cuts_own_frame() const { return how_ == Leave::kSoftReset && transmitter_; }
+
+  // The others: no error, unless the subject cut its own frame; that counts as theirs once.
+  void others_are_undisturbed() {
+    for (unsigned n : {ModeRig::kPeer, ModeRig::kWitness}) {
+      const std::uint32_t ecr = rig_.read(n, reg::kEcr), esr = rig_.read(n, reg::kEsr);
+      EXPECT_EQ(ecr & 0xFF, 0u);
+      EXPECT_LE(ecr >> 8, cuts_own_frame() ? 9u : 0u);
+      EXPECT_TRUE((esr & 0xFC02) == 0 || cuts_own_frame());
+      rig_.write(n, reg::kEsr, reg::kEsrInterrupts);
+    }
+  }
+
+  void leave_and_return(unsigned k, bool in_frame) {
+    mode_.ask(how_);
+    const unsigned bound = (waits_for_frame() ? kFrameBits + 1 : 2) * kBit + kAccess;
+    ASSERT_LT(mode_.left(how_, bound + 1), bound + 1) << "acknowledge";
+    const unsigned before = mode_.dominant_clocks();
+    mode_.run(3 * kBit + k % kBit);
+    ASSERT_EQ(mode_.dominant_clocks(), before) << "dominant after the acknowledge";
+    const std::uint32_t flags = mode_.read(reg::kIflag1);
+    if (in_frame && waits_for_frame()) {
+      EXPECT_EQ(flags, transmitter_ ? 1u << 8 : 1u << ModeRig::kRxMb) << "the frame is complete";
+    }
+    mode_.come_back(how_);
+  }
+
+  // After it all: sent once, and a frame in the other direction arrives.
+  void back_on_the_bus(unsigned k) {
+    ASSERT_TRUE(mode_.quiet());
+    const unsigned sender = transmitter_ ? ModeRig::kSubject : ModeRig::kPeer;
+    EXPECT_EQ(rig_.read(sender, reg::mb(8)) >> 24, 0x8u) << "sent";
+    const unsigned seen = mode_.valid_frames(ModeRig::kWitness);
+    // A soft reset between the sixth and the seventh bit of EOF: valid for the receivers only.
+    EXPECT_TRUE(seen == 1 || (cuts_own_frame() && seen == 2)) << seen;
+    EXPECT_EQ(mb_frame(rig_.get(ModeRig::kWitness, ModeRig::kRxMb)), first_frame(k));
+    const unsigned other = transmitter_ ? ModeRig::kPeer : ModeRig::kSubject;
+    rig_.put_tx(other, 9, second_frame(k));
+    ASSERT_TRUE(rig_.wait_flag(sender, ModeRig::kRxMb));
+    EXPECT_EQ(mb_frame(rig_.get(sender, ModeRig::kRxMb)), second_frame(k));
+    ASSERT_TRUE(mode_.quiet());
+  }
+
+  void tidy_up() {
+    for (unsigned n = 0; n < 3; ++n) {
+      rig_.write(n, reg::kIflag1, ~0u);
+      rig_.read(n, reg::kTimer);  // unlocks
+    }
+    mode_.clear_counts();
+  }
+};
+
+// FX-2.1.a, FX-2.2.a, FX-2.2.c, FX-2.2.d, FX-2.3.a, FX-2.3.f, FX-2.9.a, FX-9.ERR008341, MO-13.
+TEST_P(ModeSweep, InEveryClockOfAFrame) {
+  const unsigned sender = transmitter_ ? ModeRig::kSubject : ModeRig::kPeer;
+  for (unsigned k = 0; k < (kFrameBits + 2) * kBit; ++k) {
+    SCOPED_TRACE("clock " + std::to_string(k));
+    tidy_up();
+    rig_.put_tx(sender, 8, first_frame(k));
+    mode_.run(k);
+    const Field field = rig_.field(ModeRig::kSubject);
+    ASSERT_NO_FATAL_FAILURE(leave_and_return(k, field >= Field::kSof && field <= Field::kEof));
+    ASSERT_NO_FATAL_FAILURE(back_on_the_bus(k));
+    others_are_undisturbed();
+    if (HasFailure()) return;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ModeSweep,
+                         ::testing::Combine(::testing::ValuesIn(kAllWays), ::testing::Bool()),
+                         [](const auto &each) {
+                           return to_string(std::get<0>(each.param)) +
+                                  (std::get<1>(each.param) ? "AsTransmitter" : "AsReceiver");
+                         });
+
+}  // namespace
+}  // namespace vericansim
