@@ -105,7 +105,7 @@ module can_mb_load #(
                  : state_q == StHigh ? StepHigh : StepHead;
 
   assign tick_req_o = tx_req_o && state_q == StHead;
-  assign cancel_o = csw_cur;
+  assign cancel_o = csw_cur || !end_q;   // rewritten now, or when the step was granted
   assign code_o   = failed_q ? 4'b1001 : answer_q ? 4'b1010 : tx_rtr_o ? 4'b0100 : 4'b1000;
   assign busy_o   = end_q || flag_o || abort_q;
   assign sent_o   = flag_o && !failed_q;
@@ -195,7 +195,7 @@ module can_mb_load #(
       // The end.
       if (data_i && data_step_i == StepEnd) begin
         {end_q, abort_q} <= '0;
-        flag_o <= !csw_cur;
+        flag_o <= !cancel_o;
       end else if (end_q && csw_cur) begin
         end_q   <= 1'b0;
         retry_o <= 1'b1;

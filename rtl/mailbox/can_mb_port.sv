@@ -119,12 +119,11 @@ module can_mb_port #(
   assign eng_gnt_o = eng_req_i && !pend_q && !ins_req_i && (!cmd_rd_i || (want && owed_q));
 
   // Write port.
-  logic wait_q, w_gnt, w_ram, ram_wr, wr_waits;
+  logic wait_q, w_gnt, ram_wr, wr_waits;
   assign ram_wr    = wr_q && kind_q != KindTimer;
   assign w_gnt     = ram_wr && (wait_q || !(copy_i || svc_req_i || ewr_owed_q
                                             || (kind_q == KindCs
                                                 && ((csw_i && owed_q) || stall_i))));
-  assign w_ram     = w_gnt && !block_i;
   assign wr_waits  = ram_wr && !w_gnt;
   assign hold_o    = copy_i && wait_q;
   assign svc_gnt_o = svc_req_i && !copy_i && !w_gnt;
@@ -197,9 +196,9 @@ module can_mb_port #(
       msg_we    = {4{copy_msg_we_i}};
       msg_waddr = copy_msg_row_i;
       msg_wdata = msg_o;
-    end else if (w_ram) begin
-      if (kind_q == KindCs)   cs_we = be_q;
-      if (kind_q == KindMsg)  msg_we = be_q;
+    end else if (w_gnt) begin
+      if (kind_q == KindCs)   cs_we = be_q & {4{!block_i}};
+      if (kind_q == KindMsg)  msg_we = be_q & {4{!block_i}};
       if (kind_q == KindMask) mask_we = be_q;
     end else if (svc_req_i) begin
       cs_we    = 4'b1000;
@@ -242,7 +241,7 @@ module can_mb_port #(
     end else begin
       if (w_gnt) fwd_data_q <= kind_q == KindCs ? cs_wdata : wdata_i;
       if (cpu_gnt) begin
-        fwd_q <= (w_ram && {c_kind, c_word, c_idx} == {kind_q, word_q, idx_q}) ? be_q : 4'b0;
+        fwd_q <= (w_gnt && !block_i && {c_kind, c_word, c_idx} == {kind_q, word_q, idx_q}) ? be_q : 4'b0;
       end
     end
   end

@@ -49,6 +49,7 @@ class MailboxRig {
   RtlNode &node(unsigned n) { return *nodes_[n]; }
   Bus &bus() { return bus_; }
   [[nodiscard]] unsigned num_mb() const { return num_mb_; }
+  [[nodiscard]] unsigned node_count() const { return static_cast<unsigned>(nodes_.size()); }
 
   /// Accesses; the bus runs until they are done.
   std::uint32_t read(unsigned n, std::uint32_t address) {

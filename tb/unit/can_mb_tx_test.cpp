@@ -64,8 +64,7 @@ class MbTx : public ::testing::TestWithParam<Mode> {
   std::optional<unsigned> expected() const {
     std::vector<std::tuple<std::string, unsigned>> active;
     for (unsigned i = top_.first_i; i < kBuffers && i <= top_.maxmb_i; ++i) {
-      if (!is_active(buffers_[i].cs) || (top_.off_i != 0 && i == top_.cur_idx_i))
-        continue;
+      if (!is_active(buffers_[i].cs) || (top_.off_i != 0 && i == top_.cur_idx_i)) continue;
       active.emplace_back(top_.lbuf_i != 0 ? "" : bits(buffers_[i]), i);
     }
     if (active.empty()) return {};
