@@ -30,6 +30,7 @@ void add_replay(CLI::App &app, int &exit_code);
 void add_decode(CLI::App &app, int &exit_code);
 void add_bittime(CLI::App &app, int &exit_code);
 void add_paper(CLI::App &app, int &exit_code);
+void add_linux(CLI::App &app, int &exit_code);
 
 using Json = nlohmann::ordered_json;
 

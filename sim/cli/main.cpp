@@ -26,6 +26,7 @@ int run_tool(int argc, char **argv) {
   cli::add_paper(app, exit_code);
   cli::add_bittime(app, exit_code);
   cli::add_decode(app, exit_code);
+  cli::add_linux(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success &request) {  // --help, --version

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// verican linux: runs a user-mode Linux whose CAN controllers are Verilated cores.
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "cli/cli.hpp"
+#include "linux/guest_server.hpp"
+#include "trace/input_error.hpp"
+
+namespace vericansim::cli {
+namespace {
+
+struct Options {
+  std::string kernel;
+  std::string dtb;
+  std::string init;
+  BoardConfig board;
+  std::string memory = "64M";
+  unsigned timeout = 600;
+  std::vector<std::string> arguments;
+};
+
+/// A directory for the sockets that goes with its contents; short, since paths of sockets are.
+class SocketDirectory {
+ public:
+  SocketDirectory() {
+    std::string path = (std::filesystem::temp_directory_path() / "verican-XXXXXX").string();
+    if (::mkdtemp(path.data()) == nullptr)
+      throw std::runtime_error("no temporary directory at " + path);
+    path_ = path;
+  }
+  ~SocketDirectory() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  SocketDirectory(const SocketDirectory &) = delete;
+  SocketDirectory &operator=(const SocketDirectory &) = delete;
+  [[nodiscard]] const std::string &path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+/// The guest kernel as a process of its own, in a process group of its own: it has helpers.
+class GuestProcess {
+ public:
+  explicit GuestProcess(const std::vector<std::string> &words) {
+    std::vector<char *> argv;
+    for (const std::string &word : words) argv.push_back(const_cast<char *>(word.c_str()));
+    argv.push_back(nullptr);
+    pid_ = ::fork();
+    if (pid_ < 0) throw std::runtime_error("the guest kernel cannot be started");
+    if (pid_ != 0) return;
+    ::setpgid(0, 0);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  ~GuestProcess() {
+    if (!over()) ::kill(-pid_, SIGKILL);
+    wait();
+  }
+  GuestProcess(const GuestProcess &) = delete;
+  GuestProcess &operator=(const GuestProcess &) = delete;
+
+  [[nodiscard]] bool over() {
+    if (!over_) over_ = ::waitpid(pid_, &status_, WNOHANG) == pid_;
+    return over_;
+  }
+  /// Waits for its end and returns its exit code, or 128 + signal.
+  int wait() {
+    while (!over_) over_ = ::waitpid(pid_, &status_, 0) == pid_ || errno != EINTR;
+    return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+  }
+
+ private:
+  pid_t pid_ = -1;
+  int status_ = 0;
+  bool over_ = false;
+};
+
+void must_exist(const char *option, const std::string &path) {
+  if (::access(path.c_str(), R_OK) != 0) throw InputError(option, 0, "cannot read " + path);
+}
+
+std::vector<std::string> kernel_command(const Options &options, const std::string &sockets) {
+  std::vector<std::string> words{options.kernel,
+                                 "mem=" + options.memory,
+                                 "rootfstype=hostfs",
+                                 "rootflags=/",
+                                 "ro",
+                                 "init=" + options.init,
+                                 "dtb=" + options.dtb,
+                                 "con=null",
+                                 "con0=null,fd:1",
+                                 "quiet",
+                                 "panic=-1",
+                                 "time-travel=ext:" + sockets + "/time",
+                                 "VERICAN_SOCKETS=" + sockets,
+                                 "VERICAN_DIR=" + options.board.directory};
+  words.insert(words.end(), options.arguments.begin(), options.arguments.end());
+  return words;
+}
+
+int run(const Options &options) {
+  must_exist("--kernel", options.kernel);
+  must_exist("--dtb", options.dtb);
+  must_exist("--init", options.init);
+  Board board{options.board};
+  const SocketDirectory sockets;
+  GuestServer server{board, sockets.path()};
+  GuestProcess guest{kernel_command(options, sockets.path())};
+  using Wall = std::chrono::steady_clock;
+  const auto start = Wall::now();
+  bool late = false;
+  server.serve([&] {
+    late = Wall::now() - start > std::chrono::seconds{options.timeout};
+    return late || guest.over();
+  });
+  const std::chrono::duration<double> wall = Wall::now() - start;
+  fmt::print(stderr,
+             "verican linux: {:.3f} s of guest time ({:.3f} s asleep), {} accesses, {} interrupts, "
+             "{:.1f} s\n",
+             static_cast<double>(board.now()) / 1e9, static_cast<double>(board.asleep()) / 1e9,
+             server.accesses(), server.interrupts(), wall.count());
+  if (late) {
+    fmt::print(stderr, "verican linux: the guest did not end within {} s\n", options.timeout);
+    return kFailed;
+  }
+  const int code = guest.wait();
+  if (code != 0) fmt::print(stderr, "verican linux: the guest kernel ended with code {}\n", code);
+  return code == 0 ? kOk : kFailed;
+}
+
+}  // namespace
+
+void add_linux(CLI::App &app, int &exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App *command =
+      app.add_subcommand("linux", "Run a user-mode Linux on Verilated cores (docs/software.md)");
+  command->add_option("--kernel", options->kernel, "User-mode Linux with the glue")->required();
+  command->add_option("--dtb", options->dtb, "Device tree with the controllers")->required();
+  command->add_option("--init", options->init, "First program of the guest")->required();
+  command->add_option("--controllers", options->board.controllers, "Cores on the bus")
+      ->check(CLI::Range(1, 8));
+  command->add_option("--clock", options->board.clock_hz, "Clock of the cores, Hz; as in the DTB")
+      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"k", 1e3}, {"M", 1e6}}));
+  command->add_option("--dir", options->board.directory, "Directory for logs, also the guest's");
+  command->add_flag("--access-logs", options->board.access_logs, "Log each register access");
+  command->add_option("--memory", options->memory, "Memory of the guest");
+  command->add_option("--timeout", options->timeout, "Longest run, seconds of real time");
+  command->add_option("arguments", options->arguments, "More words for the guest's command line");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vericansim::cli

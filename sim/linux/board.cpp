@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Board: accesses, interrupt lines and time. Commands are in board_commands.cpp.
+#include "linux/board.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <stdexcept>
+
+#include "node/registers.hpp"
+#include "trace/input_error.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr std::uint32_t kWindow = 0x1000;
+constexpr std::uint32_t kAllOnes = 0xFFFFFFFF;
+// How long the bus is clocked at a time before it is asked whether it may rest.
+constexpr Time kSlice = 100 * kMicrosecond;
+
+AhbSize ahb_size(unsigned bytes) {
+  if (bytes == 1) return AhbSize::kByte;
+  return bytes == 2 ? AhbSize::kHalf : AhbSize::kWord;
+}
+
+bool is_data_word(std::uint32_t offset) {
+  return offset >= reg::mb(0) && offset < reg::mb(64) && (offset & 8) != 0;
+}
+
+}  // namespace
+
+Board::Board(const BoardConfig &config) : config_{config} {
+  if (config.controllers < 1 || config.controllers > 8)
+    throw std::invalid_argument(
+        fmt::format("a board has 1 to 8 controllers, not {}", config.controllers));
+  ClockConfig clock;
+  clock.frequency_hz = config.clock_hz;
+  for (unsigned n = 0; n < config.controllers; ++n) {
+    cores_.push_back(RtlNode::create(fmt::format("can{}", n), clock, 64));
+    bus_.add(*cores_.back());
+  }
+  watch_bus();
+  if (!config.access_logs || config.directory.empty()) return;
+  for (unsigned n = 0; n < config.controllers; ++n) {
+    const std::string path = fmt::format("{}/access-{}.txt", config.directory, n);
+    access_logs_.emplace_back(path);
+    if (!access_logs_.back()) throw InputError(path, 0, "cannot be opened for writing");
+  }
+}
+
+// ---- Time
+
+std::uint32_t Board::lines() const {
+  std::uint32_t mask = 0;
+  for (std::size_t n = 0; n < cores_.size(); ++n)
+    mask |= static_cast<std::uint32_t>(cores_[n]->irq()) << n;
+  return sabotage_.deaf ? 0 : mask;
+}
+
+std::uint32_t Board::levels() {
+  told_ = lines();
+  return told_;
+}
+
+// Engines that have stopped change nothing; the clocks since the last access are for what it
+// started.
+bool Board::idle() const {
+  constexpr Time kSettle = 100 * kMicrosecond;
+  if (now_ - touched_ < kSettle || (peer_ && peer_->pending())) return false;
+  return std::none_of(cores_.begin(), cores_.end(),
+                      [](const auto &core) { return decode_trace(core->trace()).running; });
+}
+
+bool Board::run_until(std::uint64_t when) {
+  const Time end = static_cast<Time>(when) * kNanosecond - skipped_;
+  const auto rose = [this] { return (lines() & ~told_) != 0; };
+  while (!rose()) {
+    if (now_ >= end) return false;
+    if (idle()) {
+      skipped_ += end - now_;
+      return false;
+    }
+    const Time slice = std::min(end, now_ + kSlice);
+    const bool stopped = bus_.run_until(rose, slice - bus_.now());
+    now_ = stopped ? std::max(now_, bus_.now()) : slice;
+  }
+  return true;
+}
+
+// ---- Accesses
+
+std::uint32_t Board::access(const BoardAccess &access) {
+  const std::uint32_t n = access.address / kWindow;
+  const std::uint32_t offset = access.address % kWindow;
+  if (n >= cores_.size()) {
+    ++bus_errors_;
+    return kAllOnes;
+  }
+  const std::uint32_t value = transfer(*cores_[n], access, offset);
+  now_ = std::max(now_, bus_.now());
+  touched_ = now_;
+  if (!access_logs_.empty()) log_access(n, offset, access, value);
+  return value;
+}
+
+std::uint32_t Board::transfer(RtlNode &core, const BoardAccess &access, std::uint32_t offset) {
+  const bool flags = offset == reg::kIflag1 || offset == reg::kIflag2;
+  if (sabotage_.lose_frame && flags && !access.write) lose_frame(core, offset);
+  const AhbResult result = core.access({.address = offset,
+                                        .write = access.write,
+                                        .size = ahb_size(access.size),
+                                        .data = access.value});
+  if (result.error) {
+    ++bus_errors_;
+    return kAllOnes;
+  }
+  if (access.write) return access.value;
+  if (sabotage_.frozen_errors && offset == reg::kEcr) return 0;
+  if (sabotage_.corrupt_data && is_data_word(offset)) {
+    sabotage_.corrupt_data = false;
+    return result.data ^ 1;
+  }
+  return result.data;
+}
+
+// Clears the flag of one received frame before the driver sees it. MB63 sends.
+void Board::lose_frame(RtlNode &core, std::uint32_t offset) {
+  std::uint32_t flags = core.read32(offset);
+  if (offset == reg::kIflag2) flags &= ~(1u << 31);
+  if (flags == 0) return;
+  core.write32(offset, 1u << std::countr_zero(flags));
+  sabotage_.lose_frame = false;
+}
+
+// The format of recorded driver accesses: time in us, direction, offset, value, interrupt level.
+void Board::log_access(unsigned n, std::uint32_t offset, const BoardAccess &access,
+                       std::uint32_t value) {
+  access_logs_[n] << fmt::format("{:.3f} {} {:03x} {:08x} {:d}\n",
+                                 static_cast<double>(now()) / 1e3, access.write ? 'W' : 'R',
+                                 offset, value, cores_[n]->irq());
+}
+
+}  // namespace vericansim

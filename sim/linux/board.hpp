@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Board: what a guest kernel finds at its register window: Verilated controllers on one bus, and a
+// bench with faults, a peer and judges that its test scripts command.
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bus/bus.hpp"
+#include "linux/switch_fault.hpp"
+#include "node/core_node.hpp"
+#include "node/rtl_node.hpp"
+#include "scenario/bus_monitor.hpp"
+#include "trace/candump.hpp"
+
+namespace vericansim {
+
+/// Settings of a Board.
+struct BoardConfig {
+  unsigned controllers = 2;  ///< 1..8; each has a window of 4 KiB, and the line of its number
+  double clock_hz = 8e6;     ///< of the controllers, 1 kHz to 10 GHz
+  std::string directory;     ///< for logs; empty: none are written
+  bool access_logs = false;  ///< write each access to access-<n>.txt
+};
+
+/// An access of the guest.
+struct BoardAccess {
+  std::uint32_t address = 0;  ///< within the window: 4096 * controller + offset
+  bool write = false;
+  std::uint32_t value = 0;  ///< to write
+  unsigned size = 4;        ///< bytes: 1, 2 or 4
+};
+
+/// Ways in which a Board can be made to lie to its guest, so that tests can be seen to fail.
+struct Sabotage {
+  bool lose_frame = false;     ///< the next received frame is thrown away behind the driver's back
+  bool corrupt_data = false;   ///< the next data word that is read has its lowest bit inverted
+  bool frozen_errors = false;  ///< ECR always reads 0
+  bool deaf = false;           ///< the interrupt lines stay low
+};
+
+/// The board. Its time is that of the guest: it goes on from access to access and in run_until(),
+/// and passes without a clock edge while no controller is enabled and nothing else happens.
+class Board {
+ public:
+  /// Throws std::invalid_argument if a setting is out of range.
+  explicit Board(const BoardConfig &config);
+
+  /// One AHB transfer, now. All ones for an address outside the windows and for an ERROR response.
+  std::uint32_t access(const BoardAccess &access);
+  /// Lets time pass until `when` (ns, as now()). True at once when an interrupt line has risen since
+  /// the last call of levels().
+  bool run_until(std::uint64_t when);
+  /// Bit n: the line of controller n is high.
+  [[nodiscard]] std::uint32_t levels();
+  /// Time that has passed, ns.
+  [[nodiscard]] std::uint64_t now() const {
+    return static_cast<std::uint64_t>((now_ + skipped_) / kNanosecond);
+  }
+  /// A line of text from a test script (docs/software.md); the answer, of one or more lines. Throws
+  /// InputError if it is none that exists or if a value is out of range.
+  std::string command(const std::string &line);
+
+  [[nodiscard]] const RtlNode &controller(unsigned n) const { return *cores_[n]; }
+  /// Time that has passed without clock edges, ns.
+  [[nodiscard]] std::uint64_t asleep() const {
+    return static_cast<std::uint64_t>(skipped_ / kNanosecond);
+  }
+
+ private:
+  using Words = std::vector<std::string_view>;
+
+  [[nodiscard]] std::uint32_t lines() const;
+  [[nodiscard]] bool idle() const;
+  std::uint32_t transfer(RtlNode &core, const BoardAccess &access, std::uint32_t offset);
+  void lose_frame(RtlNode &core, std::uint32_t offset);
+  void log_access(unsigned n, std::uint32_t offset, const BoardAccess &access,
+                  std::uint32_t value);
+
+  std::string observe(const Words &words);
+  std::string log(const Words &words);
+  std::string report();
+  std::string hold(const Words &words);
+  std::string cut(const Words &words);
+  std::string strike(const Words &words);
+  std::string peer(const Words &words);
+  std::string sabotage(const Words &words);
+  void watch_bus();
+  void start_peer();
+  [[nodiscard]] SwitchFault &faults();
+  [[nodiscard]] NodeId node_named(std::string_view name) const;
+  [[nodiscard]] std::string node_name(NodeId id) const;
+
+  BoardConfig config_;
+  std::vector<std::unique_ptr<RtlNode>> cores_;
+  std::unique_ptr<CoreNode> peer_;
+  SwitchFault fault_;
+  std::unique_ptr<BusMonitor> monitor_;
+  std::ofstream log_file_;
+  std::unique_ptr<CandumpWriter> log_;
+  std::vector<std::ofstream> access_logs_;
+  Sabotage sabotage_;
+  bool faulty_ = false;  // fault_ is on the bus
+  std::uint32_t bitrate_ = 500'000;
+  std::uint32_t told_ = 0;  // levels that the guest knows
+  std::uint64_t bus_errors_ = 0;
+  Time observed_since_ = 0;
+  Time now_ = 0;      // time of the bus, ps
+  Time skipped_ = 0;  // time that the bus has not seen, ps
+  Time touched_ = 0;  // time of the bus at the last access or command
+  Bus bus_;
+};
+
+}  // namespace vericansim
