@@ -26,6 +26,7 @@ struct Options {
   std::string kernel;
   std::string dtb;
   std::string init;
+  std::string preload;
   BoardConfig board;
   std::string memory = "64M";
   unsigned timeout = 600;
@@ -56,7 +57,7 @@ class SocketDirectory {
 /// The guest kernel as a process of its own, in a process group of its own: it has helpers.
 class GuestProcess {
  public:
-  explicit GuestProcess(const std::vector<std::string> &words) {
+  GuestProcess(const std::vector<std::string> &words, const std::string &preload) {
     std::vector<char *> argv;
     for (const std::string &word : words) argv.push_back(const_cast<char *>(word.c_str()));
     argv.push_back(nullptr);
@@ -64,6 +65,7 @@ class GuestProcess {
     if (pid_ < 0) throw std::runtime_error("the guest kernel cannot be started");
     if (pid_ != 0) return;
     ::setpgid(0, 0);
+    if (!preload.empty()) ::setenv("LD_PRELOAD", preload.c_str(), 1);
     ::execv(argv[0], argv.data());
     ::_exit(127);
   }
@@ -117,10 +119,11 @@ int run(const Options &options) {
   must_exist("--kernel", options.kernel);
   must_exist("--dtb", options.dtb);
   must_exist("--init", options.init);
+  if (!options.preload.empty()) must_exist("--preload", options.preload);
   Board board{options.board};
   const SocketDirectory sockets;
   GuestServer server{board, sockets.path()};
-  GuestProcess guest{kernel_command(options, sockets.path())};
+  GuestProcess guest{kernel_command(options, sockets.path()), options.preload};
   using Wall = std::chrono::steady_clock;
   const auto start = Wall::now();
   bool late = false;
@@ -152,6 +155,7 @@ void add_linux(CLI::App &app, int &exit_code) {
   command->add_option("--kernel", options->kernel, "User-mode Linux with the glue")->required();
   command->add_option("--dtb", options->dtb, "Device tree with the controllers")->required();
   command->add_option("--init", options->init, "First program of the guest")->required();
+  command->add_option("--preload", options->preload, "Library to preload into the guest kernel");
   command->add_option("--controllers", options->board.controllers, "Cores on the bus")
       ->check(CLI::Range(1, 8));
   command->add_option("--clock", options->board.clock_hz, "Clock of the cores, Hz; as in the DTB")

@@ -65,7 +65,7 @@ class Board {
   }
   /// A line of text from a test script (docs/software.md); the answer, of one or more lines. Throws
   /// InputError if it is none that exists or if a value is out of range.
-  std::string command(const std::string &line);
+  std::string command(const std::string &text);
 
   [[nodiscard]] const RtlNode &controller(unsigned n) const { return *cores_[n]; }
   /// Time that has passed without clock edges, ns.

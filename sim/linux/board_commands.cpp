@@ -68,7 +68,9 @@ std::string counts_text(const std::string &name, const NodeCounts &counts) {
 
 }  // namespace
 
-std::string Board::command(const std::string &line) {
+std::string Board::command(const std::string &text) {
+  std::string line = text;
+  std::replace(line.begin(), line.end(), '\n', ' ');
   struct Entry {
     const char *name;
     std::string (Board::*run)(const Words &);
