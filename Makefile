@@ -6,17 +6,18 @@
 
 PRESET ?= release
 JOBS   ?= 2
+LINUX  ?= build/linux
 BUILD  := build/$(PRESET)
 OUT    := $(BUILD)/out
 QUIET  := $(if $(V),,tools/quiet.sh)
 
 .DEFAULT_GOAL := help
-.PHONY: help packages build demo test lint bench synth wave rules rows registers format clean
+.PHONY: help packages build demo test test-linux lint bench synth wave rules rows registers format clean
 
 help:  ## List the targets
 	@echo "VeriCAN: a CAN 2.0 controller in RTL and its bus simulator"
-	@sed -n 's/^\([a-z]*\):.*## */\1|/p' Makefile | while IFS='|' read -r t d; do \
-	    printf '  make %-9s %s\n' "$$t" "$$d"; done
+	@sed -n 's/^\([a-z-]*\):.*## */\1|/p' Makefile | while IFS='|' read -r t d; do \
+	    printf '  make %-10s %s\n' "$$t" "$$d"; done
 	@echo "Options: PRESET=release|debug|asan  JOBS=$(JOBS)  V=1 (show the build)"
 
 packages:
@@ -34,6 +35,9 @@ demo: packages $(BUILD)/build.ninja  ## Controllers exchange frames: examples, t
 
 test: build  ## Run every test and check that every protocol rule has one
 	@tools/test.sh $(BUILD) $(JOBS)
+
+test-linux: packages $(BUILD)/build.ninja  ## Run Linux's own driver on the core (SHORT=1: fewer cases)
+	@tools/linux-test.sh $(BUILD) $(JOBS) $(LINUX) $(if $(SHORT),--short)
 
 lint: packages  ## Check RTL with Verilator, Yosys, Icarus; C++ with clang-format and clang-tidy
 	@$(QUIET) "Configuring ($(PRESET))" cmake --preset $(PRESET)
@@ -61,5 +65,6 @@ registers: packages  ## Regenerate what is made from the register map, sw/regist
 format: packages  ## Let clang-format rewrite our C++
 	@git ls-files '*.cpp' '*.hpp' '*.c' '*.h' | xargs -r clang-format -i
 
-clean:  ## Remove everything that was built
-	@rm -rf build
+clean:  ## Remove what was built, but for the Linux kernel (ALL=1: that, too)
+	@if [ -d build ]; then \
+	    find build -mindepth 1 -maxdepth 1 $(if $(ALL),,! -name linux) -exec rm -rf {} +; fi

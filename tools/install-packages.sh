@@ -2,13 +2,14 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# install-packages.sh: installs what packages.txt names and this machine lacks.
+# install-packages.sh [LIST]: installs what LIST (packages.txt) names and this machine lacks.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-mapfile -t wanted < <(sed 's/#.*//; s/[[:space:]]//g; /^$/d' packages.txt)
+list=${1:-packages.txt}
+mapfile -t wanted < <(sed 's/#.*//; s/[[:space:]]//g; /^$/d' "$list")
 if ! command -v dpkg-query >/dev/null; then
-  echo "install-packages: no dpkg here; please install the equivalents of packages.txt yourself" >&2
+  echo "install-packages: no dpkg here; please install the equivalents of $list yourself" >&2
   exit 0
 fi
 installed=$(dpkg-query -W -f '${db:Status-Abbrev}${Package}\n' "${wanted[@]}" 2>/dev/null |

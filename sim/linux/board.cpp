@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::uint32_t kWindow = 0x1000;
 constexpr std::uint32_t kAllOnes = 0xFFFFFFFF;
+constexpr int kLineDelay = 2;
 // How long the bus is clocked at a time before it is asked whether it may rest.
 constexpr Time kSlice = 100 * kMicrosecond;
 
@@ -117,7 +118,11 @@ std::uint32_t Board::transfer(RtlNode &core, const BoardAccess &access, std::uin
     ++bus_errors_;
     return kAllOnes;
   }
-  if (access.write) return access.value;
+  if (access.write) {
+    // The interrupt line follows a clock later than the flag; no CPU is back that soon.
+    for (int clock = 0; clock < kLineDelay; ++clock) bus_.step();
+    return access.value;
+  }
   if (sabotage_.frozen_errors && offset == reg::kEcr) return 0;
   if (sabotage_.corrupt_data && is_data_word(offset)) {
     sabotage_.corrupt_data = false;
@@ -138,9 +143,8 @@ void Board::lose_frame(RtlNode &core, std::uint32_t offset) {
 // The format of recorded driver accesses: time in us, direction, offset, value, interrupt level.
 void Board::log_access(unsigned n, std::uint32_t offset, const BoardAccess &access,
                        std::uint32_t value) {
-  access_logs_[n] << fmt::format("{:.3f} {} {:03x} {:08x} {:d}\n",
-                                 static_cast<double>(now()) / 1e3, access.write ? 'W' : 'R',
-                                 offset, value, cores_[n]->irq());
+  access_logs_[n] << fmt::format("{:.3f} {} {:03x} {:08x} {:d}\n", static_cast<double>(now()) / 1e3,
+                                 access.write ? 'W' : 'R', offset, value, cores_[n]->irq());
 }
 
 }  // namespace vericansim

@@ -54,8 +54,8 @@ class Board {
 
   /// One AHB transfer, now. All ones for an address outside the windows and for an ERROR response.
   std::uint32_t access(const BoardAccess &access);
-  /// Lets time pass until `when` (ns, as now()). True at once when an interrupt line has risen since
-  /// the last call of levels().
+  /// Lets time pass until `when` (ns, as now()). True at once when an interrupt line has risen
+  /// since the last call of levels().
   bool run_until(std::uint64_t when);
   /// Bit n: the line of controller n is high.
   [[nodiscard]] std::uint32_t levels();
@@ -80,8 +80,7 @@ class Board {
   [[nodiscard]] bool idle() const;
   std::uint32_t transfer(RtlNode &core, const BoardAccess &access, std::uint32_t offset);
   void lose_frame(RtlNode &core, std::uint32_t offset);
-  void log_access(unsigned n, std::uint32_t offset, const BoardAccess &access,
-                  std::uint32_t value);
+  void log_access(unsigned n, std::uint32_t offset, const BoardAccess &access, std::uint32_t value);
 
   std::string observe(const Words &words);
   std::string log(const Words &words);

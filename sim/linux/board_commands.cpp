@@ -18,8 +18,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string &message) { throw InputError("command", 0, message); }
 
-std::string_view word(const std::vector<std::string_view> &words, std::size_t n,
-                      const char *what) {
+std::string_view word(const std::vector<std::string_view> &words, std::size_t n, const char *what) {
   if (n >= words.size()) refuse(fmt::format("'{}' needs {}", words.front(), what));
   return words[n];
 }
@@ -59,7 +58,8 @@ std::string counts_text(const std::string &name, const NodeCounts &counts) {
   };
   const char *state = counts.off ? "bus-off" : counts.passive ? "passive" : "active";
   return fmt::format(
-      "{} attempts={} sent={} delivered={} lost={} errors={} stuff={} form={} crc={} ack={} bit0={} "
+      "{} attempts={} sent={} delivered={} lost={} errors={} stuff={} form={} crc={} ack={} "
+      "bit0={} "
       "bit1={} busoff={} tec={} rec={} maxtec={} maxrec={} state={}\n",
       name, counts.attempts, counts.sent, counts.delivered, counts.lost_arbitration, counts.errors,
       kind(kErrStuff), kind(kErrForm), kind(kErrCrc), kind(kErrAck), kind(kErrBit0), kind(kErrBit1),
@@ -76,9 +76,9 @@ std::string Board::command(const std::string &text) {
     std::string (Board::*run)(const Words &);
   };
   static constexpr std::array kCommands = {
-      Entry{"bitrate", &Board::observe}, Entry{"log", &Board::log},
-      Entry{"hold", &Board::hold},       Entry{"cut", &Board::cut},
-      Entry{"strike", &Board::strike},   Entry{"peer", &Board::peer},
+      Entry{"bitrate", &Board::observe},  Entry{"log", &Board::log},
+      Entry{"hold", &Board::hold},        Entry{"cut", &Board::cut},
+      Entry{"strike", &Board::strike},    Entry{"peer", &Board::peer},
       Entry{"sabotage", &Board::sabotage}};
   Words words = text::split_blanks(text::trimmed(line));
   if (words.empty()) refuse("empty");
@@ -129,11 +129,11 @@ std::string Board::log(const Words &words) {
 std::string Board::report() {
   monitor_->advance(now_);
   const Time span = std::max<Time>(now_ - observed_since_, 1);
-  std::string text = fmt::format(
-      "bus frames={} unacked={} errors={} overloads={} load={:.4f} access_errors={}\n",
-      monitor_->frames(), monitor_->unacknowledged(), monitor_->error_frames(),
-      monitor_->overload_frames(),
-      static_cast<double>(monitor_->busy()) / static_cast<double>(span), bus_errors_);
+  std::string text =
+      fmt::format("bus frames={} unacked={} errors={} overloads={} load={:.4f} access_errors={}\n",
+                  monitor_->frames(), monitor_->unacknowledged(), monitor_->error_frames(),
+                  monitor_->overload_frames(),
+                  static_cast<double>(monitor_->busy()) / static_cast<double>(span), bus_errors_);
   for (NodeId id = 0; id < bus_.size(); ++id)
     text += counts_text(node_name(id), monitor_->node(id));
   return text;

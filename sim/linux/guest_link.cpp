@@ -65,8 +65,8 @@ Listener::Listener(std::string path)
   address.sun_family = AF_UNIX;
   if (path_.size() >= sizeof address.sun_path)
     throw std::invalid_argument("the path of a socket has at most " +
-                                std::to_string(sizeof address.sun_path - 1) + " characters: " +
-                                path_);
+                                std::to_string(sizeof address.sun_path - 1) +
+                                " characters: " + path_);
   std::memcpy(address.sun_path, path_.c_str(), path_.size() + 1);
   if (!fd_.valid() ||
       ::bind(fd_.get(), reinterpret_cast<const sockaddr *>(&address), sizeof address) != 0 ||

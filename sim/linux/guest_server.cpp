@@ -86,9 +86,9 @@ void GuestServer::serve_registers() {
     if (request.op > 1 || (request.size != 1 && request.size != 2 && request.size != 4))
       throw std::runtime_error("the guest sent an access of " + std::to_string(request.size) +
                                " bytes, operation " + std::to_string(request.op));
-    const std::uint32_t value = board_.access(
-        {request.address, request.op == static_cast<std::uint32_t>(GuestOp::kWrite), request.value,
-         request.size});
+    const std::uint32_t value =
+        board_.access({request.address, request.op == static_cast<std::uint32_t>(GuestOp::kWrite),
+                       request.value, request.size});
     registers_.send(GuestAnswer{value, board_.levels()});
     return;
   }

@@ -19,8 +19,8 @@ namespace vericansim {
 /// are never active at the same time, so a run depends on nothing but its inputs.
 class GuestServer {
  public:
-  /// Opens the sockets `time`, `registers` and `interrupts` in `directory`. Throws std::system_error
-  /// or std::invalid_argument.
+  /// Opens the sockets `time`, `registers` and `interrupts` in `directory`. Throws
+  /// std::system_error or std::invalid_argument.
   GuestServer(Board &board, const std::string &directory);
 
   /// Serves until the guest closes its time socket, or until `given_up` says so, which is asked

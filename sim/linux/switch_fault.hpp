@@ -17,9 +17,7 @@ class SwitchFault : public Fault {
   /// Holds the whole bus at a level; nothing: lets go.
   void hold(std::optional<Level> level) { held_ = level; }
   /// Opens or closes the cable of a node.
-  void cut(NodeId node, bool open) {
-    cut_ = open ? cut_ | (1ULL << node) : cut_ & ~(1ULL << node);
-  }
+  void cut(NodeId node, bool open) { cut_ = open ? cut_ | (1ULL << node) : cut_ & ~(1ULL << node); }
   /// In the next `times` frames that `node` transmits or receives, from the next on, bit `index` of
   /// `field` as seen at that node gets `effect`. Replaces what was set before.
   void strike(NodeId node, Field field, unsigned index, Effect effect, unsigned times) {
@@ -45,8 +43,8 @@ class SwitchFault : public Fault {
   void clocked(NodeId node, Time, std::uint64_t word) override {
     if (node != node_) return;
     place_.clocked(word);
-    const bool hit = left_ != 0 && place_.field() == field_ && place_.index() == index_ &&
-                     !place_.stuff();
+    const bool hit =
+        left_ != 0 && place_.field() == field_ && place_.index() == index_ && !place_.stuff();
     if (now_ && !hit) --left_;
     now_ = hit && left_ != 0;
   }

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a run of a guest script must have left behind. One function a script; Failed says why not."""
+"""What a run of a guest script must have left behind: one function a script."""
 import json
 import re
 from collections import Counter

@@ -88,7 +88,8 @@ def boot(args, case, chip, directory):
     settings = {"VERICAN_SCRIPTS": case.script, "VERICAN_MODULES": str(modules),
                 "VERICAN_GUEST": str(ROOT / "sw/linux/guest"), **case.settings}
     command = [str(args.verican), "linux", "--kernel", str(modules / "linux"),
-               "--dtb", str(modules / f"{chip}.dtb"), "--init", str(ROOT / "sw/linux/guest/init.sh"),
+               "--dtb", str(modules / f"{chip}.dtb"),
+               "--init", str(ROOT / "sw/linux/guest/init.sh"),
                "--preload", str(modules / "wide_xstate.so"), "--dir", str(directory),
                "--access-logs", "--timeout", str(args.timeout), "--"]
     command += [f"{key}={value}" for key, value in settings.items()]

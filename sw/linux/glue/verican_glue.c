@@ -306,8 +306,8 @@ static int glue_probe(struct platform_device *pdev)
 	if (!glue)
 		return -ENOMEM;
 	glue->pdev = pdev;
-	glue->window = (struct resource)DEFINE_RES_MEM_NAMED(reg->start, resource_size(reg),
-							     "verican");
+	glue->window =
+		(struct resource)DEFINE_RES_MEM_NAMED(reg->start, resource_size(reg), "verican");
 	time_travel_set_event_fn(&glue->event, glue_event);
 	platform_set_drvdata(pdev, glue);
 	the_glue = glue;

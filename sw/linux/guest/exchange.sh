@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Both devices send as fast as they can, base frames one way and extended ones the other, and each
-# log is compared with the bus. Lengths, identifiers and data are random; the first frames are remote.
+# log is compared with the bus. Lengths, identifiers and data are random; the first frames are
+# remote ones.
 # VERICAN_RATES: bit rates with commas. VERICAN_FRAMES: from each device at each rate.
 # VERICAN_SABOTAGE: what to spoil after the first frames.
 for rate in $(echo "$VERICAN_RATES" | tr , ' '); do

@@ -4,7 +4,7 @@
 #
 # init.sh: first program of the guest. Mounts, loads the modules, runs the scripts that the kernel's
 # command line names in VERICAN_SCRIPTS (a list with commas), powers off.
-# Also from there: VERICAN_MODULES, VERICAN_DIR (for results), VERICAN_GUEST (where the scripts are).
+# Also from there: VERICAN_MODULES, VERICAN_DIR (for results), VERICAN_GUEST (the scripts' place).
 PATH=/usr/sbin:/usr/bin:/sbin:/bin
 export PATH
 mount -t proc none /proc

@@ -20,7 +20,7 @@ exchange() {
   ethtool --show-priv-flags can1 >"$1-flags.txt"
   status "$1"
   # While a device is up its mode cannot change.
-  if ethtool --set-priv-flags can1 rx-rtr "$2" 2>/dev/null; then echo "FAILED: switched while up"; fi
+  ethtool --set-priv-flags can1 rx-rtr "$2" 2>/dev/null && echo "FAILED: switched while up"
   hush
   tell log off
   down can0
