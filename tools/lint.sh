@@ -47,11 +47,13 @@ iverilog_elaborate() {  # TOP [NAME=VALUE]
   [ "$status" -eq 0 ] && [ -z "$output" ]
 }
 spdx() {
-  local bad
+  local bad licence
   bad=$(our_files '*.sv' '*.v' '*.vlt' '*.cpp' '*.hpp' '*.c' '*.h' '*.py' '*.sh' '*.cmake' '*.tcl' \
                   '*.sdc' '*.pdc' '*.pcf' '*.yaml' '*.core' '*CMakeLists.txt' Makefile .ci/run |
         while read -r file; do
-          head -n 5 "$file" | grep -q 'SPDX-License-Identifier: Apache-2.0' || echo "$file"
+          # The kernel module links with the kernel.
+          [[ $file == sw/linux/glue/* ]] && licence=GPL-2.0 || licence=Apache-2.0
+          head -n 5 "$file" | grep -q "SPDX-License-Identifier: $licence" || echo "$file"
         done)
   printf '%s' "$bad"
   [ -z "$bad" ]
