@@ -89,8 +89,8 @@ module can_regs #(
   output logic            irq_rwrn_o,
   output logic            irq_wak_o
 );
-  // What is read of the registers that are stored here.
-  logic [31:0] mcr, ctrl1, ctrl2, xctrl, esr1;
+  // What is read.
+  logic [31:0] mcr, ctrl1, ctrl2, xctrl, ecr, esr1, esr2, crcr;
 
   // MCR: mode requests.
   logic mdis_q, frz_q, halt_q, soft_rst, soft_rst_busy, lpm_ack, disabled, in_stop, mcr_we;
@@ -253,6 +253,17 @@ module can_regs #(
     esr1[can_regs_pkg::Esr1Rx]     = receiver_i;
   end
 
+  // ECR, ESR2, CRCR.
+  always_comb begin
+    {ecr, esr2, crcr} = '0;
+    ecr[can_regs_pkg::EcrRxerr +: can_regs_pkg::EcrRxerrW]    = rec_i;
+    ecr[can_regs_pkg::EcrTxerr +: can_regs_pkg::EcrTxerrW]    = tec_i;
+    esr2[can_regs_pkg::Esr2Lptm +: can_regs_pkg::Esr2LptmW]   = esr2_i[8:2];
+    {esr2[can_regs_pkg::Esr2Vps], esr2[can_regs_pkg::Esr2Imb]} = esr2_i[1:0];
+    crcr[can_regs_pkg::CrcrMbcrc +: can_regs_pkg::CrcrMbcrcW] = crcr_i[21:15];
+    crcr[can_regs_pkg::CrcrTxcrc +: can_regs_pkg::CrcrTxcrcW] = crcr_i[14:0];
+  end
+
   // Reads.
   always_comb begin
     rdata_o = '0;
@@ -260,15 +271,15 @@ module can_regs #(
       case (addr_i)
         can_regs_pkg::McrAddr:      rdata_o = mcr;
         can_regs_pkg::Ctrl1Addr:    rdata_o = ctrl1;
-        can_regs_pkg::EcrAddr:      rdata_o = {16'b0, rec_i, tec_i};
+        can_regs_pkg::EcrAddr:      rdata_o = ecr;
         can_regs_pkg::Esr1Addr:     rdata_o = esr1;
         can_regs_pkg::Imask2Addr:   rdata_o = imask[63:32];
         can_regs_pkg::Imask1Addr:   rdata_o = imask[31:0];
         can_regs_pkg::Iflag2Addr:   rdata_o = iflag_o[63:32];
         can_regs_pkg::Iflag1Addr:   rdata_o = iflag_o[31:0];
         can_regs_pkg::Ctrl2Addr:    rdata_o = ctrl2;
-        can_regs_pkg::Esr2Addr:     rdata_o = {9'b0, esr2_i[8:2], 1'b0, esr2_i[1:0], 13'b0};
-        can_regs_pkg::CrcrAddr:     rdata_o = {9'b0, crcr_i[21:15], 1'b0, crcr_i[14:0]};
+        can_regs_pkg::Esr2Addr:     rdata_o = esr2;
+        can_regs_pkg::CrcrAddr:     rdata_o = crcr;
         can_regs_pkg::XidAddr:      rdata_o = can_regs_pkg::XidReset;
         can_regs_pkg::XversionAddr: rdata_o = can_regs_pkg::XversionReset;
         can_regs_pkg::XconfigAddr:  rdata_o = can_regs_pkg::XconfigReset | 32'(NumMb);

@@ -28,7 +28,7 @@ reading clears; `w1s` writing 1 requests, and the bit clears itself.
 |---|---|---|
 | green | any | always |
 | blue | freeze | in freeze mode: MCR.FRZ_ACK = 1 |
-| orange | disable | in disable mode: MCR.LPM_ACK = 1 |
+| orange | disable | in disable mode: MCR.LPM_ACK = 1 because of MCR.MDIS |
 | violet | wrn_en | while MCR.WRN_EN = 1 |
 | yellow | – | cleared by writing 1 (`w1c`) or by reading (`rc`) |
 | light grey | – | read only |

@@ -51,10 +51,12 @@
 /* FRZ_ACK: Freeze mode is reached; the engine stands, configuration can be written. */
 #define VERICAN_MCR_FRZ_ACK_MASK                0x01000000u
 #define VERICAN_MCR_FRZ_ACK_SHIFT               24u
-/* SUPV: Registers for privileged accesses only; others then read 0 and write nothing. */
+/* SUPV: Registers for privileged accesses only; others then read 0 and write nothing. Stored,
+   without effect, in a core built with CheckHprot = 0. */
 #define VERICAN_MCR_SUPV_MASK                   0x00800000u
 #define VERICAN_MCR_SUPV_SHIFT                  23u
-/* SLF_WAK: Wakes the controller from stop mode by itself when the bus turns dominant. */
+/* SLF_WAK: Wakes the controller from stop mode by itself when the bus turns dominant. Cannot be
+   written in stop mode. */
 #define VERICAN_MCR_SLF_WAK_MASK                0x00400000u
 #define VERICAN_MCR_SLF_WAK_SHIFT               22u
 /* WRN_EN: Lets ESR1.TWRN_INT and RWRN_INT be set. While 0 they and their masks in CTRL1 are 0. */
