@@ -22,6 +22,8 @@ enum ExitCode : int {
   kBadInput =
       2,  ///< a file, an option or a value cannot be used; one line on stderr says which and why
   kInternal = 3,  ///< a mistake in the tool itself
+  kFault = 4,     ///< firmware: a CPU was stopped by a fault
+  kLimit = 5,     ///< firmware: no end within the simulated time allowed
 };
 
 /// Each adds its subcommand; the callback stores the exit code.
@@ -31,6 +33,7 @@ void add_decode(CLI::App &app, int &exit_code);
 void add_bittime(CLI::App &app, int &exit_code);
 void add_paper(CLI::App &app, int &exit_code);
 void add_linux(CLI::App &app, int &exit_code);
+void add_firmware(CLI::App &app, int &exit_code);
 
 using Json = nlohmann::ordered_json;
 

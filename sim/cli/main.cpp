@@ -19,7 +19,8 @@ int run_tool(int argc, char **argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "verican 0.1.0");
   app.footer(
-      "Exit codes: 0 done, 1 a check failed, 2 bad input, 3 internal error. See docs/tool.md.");
+      "Exit codes: 0 done, 1 a check failed, 2 bad input, 3 internal error, 4 firmware fault, 5 no "
+      "end of the firmware in time. See docs/tool.md.");
   int exit_code = cli::kOk;
   cli::add_run(app, exit_code);
   cli::add_replay(app, exit_code);
@@ -27,6 +28,7 @@ int run_tool(int argc, char **argv) {
   cli::add_bittime(app, exit_code);
   cli::add_decode(app, exit_code);
   cli::add_linux(app, exit_code);
+  cli::add_firmware(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success &request) {  // --help, --version

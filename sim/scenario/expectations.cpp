@@ -107,7 +107,7 @@ std::vector<CheckResult> check_expectations(const Scenario &scenario, const RunR
   }
   if (expect.complete)
     for (NodeId id = 0; id < scenario.nodes.size(); ++id)
-      if (scenario.nodes[id].host.filters.empty())
+      if (report.nodes[id].own_software && scenario.nodes[id].host.filters.empty())
         results.push_back(check_complete(scenario, id, frames, received[id]));
   if (expect.within_bound)
     for (const MessageReport &message : report.messages)

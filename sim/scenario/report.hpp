@@ -31,11 +31,12 @@ struct MessageReport {
 struct NodeReport {
   std::string name;
   NodeCounts counts;
-  std::uint64_t received = 0;  ///< by the software
+  std::uint64_t received = 0;  ///< by the software; valid frames if it is not ours
   std::uint64_t overruns = 0;
   std::uint64_t bus_transfers = 0;  ///< AHB
   unsigned max_wait_states = 0;
   std::vector<std::string> ahb_violations;
+  bool own_software = true;  ///< false: firmware drives the core
   [[nodiscard]] std::uint64_t retries() const { return counts.attempts - counts.sent; }
   /// "active", "passive" or "bus-off".
   [[nodiscard]] std::string state() const;

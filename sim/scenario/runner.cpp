@@ -6,237 +6,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <memory>
 
-#include "scenario/analysis.hpp"
 #include "scenario/bittime.hpp"
-#include "scenario/bus_monitor.hpp"
-#include "scenario/bus_outputs.hpp"
-#include "scenario/expectations.hpp"
-#include "scenario/station.hpp"
-#include "scenario/traffic_source.hpp"
+#include "scenario/simulation.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim {
-namespace {
-
-/// A simulation. Members are in the order of their lifetimes: the bus refers to all others.
-class Run {
- public:
-  Run(const Scenario &scenario, double bitrate);
-  RunReport execute(const std::function<void(double)> &progress);
-
- private:
-  void build_stations();
-  void observe();
-  void add_faults();
-  std::unique_ptr<Fault> make_fault(const FaultSpec &spec) const;
-  void start_traffic();
-  void on_frame(const BusFrame &frame);
-  void on_sent(NodeId node, const Frame &frame);
-  void run_for(Time duration, const std::function<void(double)> &progress);
-  void drain();
-  RunReport collect();
-  void add_bounds(RunReport &report) const;
-
-  const Scenario &scenario_;
-  double bitrate_;
-  Time bit_time_;
-  Stations stations_;
-  std::vector<std::unique_ptr<Fault>> faults_;
-  std::vector<std::unique_ptr<TrafficSource>> traffic_;
-  std::vector<BusFrame> frames_;
-  std::unique_ptr<BusMonitor> monitor_;
-  std::unique_ptr<BusOutputs> outputs_;
-  Bus bus_;
-  Time start_ = 0;
-};
-
-Run::Run(const Scenario &scenario, double bitrate)
-    : scenario_{scenario},
-      bitrate_{bitrate},
-      bit_time_{static_cast<Time>(std::llround(1e12 / bitrate))} {
-  build_stations();
-  observe();
-}
-
-void Run::build_stations() {
-  std::vector<unsigned> messages(scenario_.nodes.size());
-  for (const TrafficSpec &traffic : scenario_.traffic) ++messages[traffic.node];
-  for (NodeId id = 0; id < scenario_.nodes.size(); ++id) {
-    const NodeSpec &spec = scenario_.nodes[id];
-    HostConfig config = spec.host;
-    config.timing = timing_of(scenario_, spec, bitrate_);
-    const auto receive = static_cast<unsigned>(std::max<std::size_t>(config.filters.size(), 8));
-    if (config.tx_buffers == 0)
-      config.tx_buffers = std::clamp(messages[id], 1U, spec.num_mb - receive);
-    stations_.add(bus_, make_station(spec.name, spec.clock, config, spec.num_mb), spec.link);
-    stations_[id].host->on_sent = [this, id](const HostFrame &frame) { on_sent(id, frame.frame); };
-  }
-}
-
-void Run::observe() {
-  Time longest_bit = bit_time_;
-  for (NodeId id = 0; id < stations_.size(); ++id)
-    longest_bit =
-        std::max(longest_bit, static_cast<Time>(stations_[id].timing.clocks_per_bit() * 1e12 /
-                                                scenario_.nodes[id].clock.frequency_hz));
-  const BitTiming &first = stations_[0].timing;
-  monitor_ = std::make_unique<BusMonitor>(bus_, bit_time_,
-                                          1.0 - static_cast<double>(first.ps2) / first.quanta());
-  monitor_->on_frame = [this](const BusFrame &frame) { on_frame(frame); };
-  bus_.add(*monitor_);
-  outputs_ = std::make_unique<BusOutputs>(scenario_.outputs, bus_, longest_bit);
-}
-
-std::unique_ptr<Fault> Run::make_fault(const FaultSpec &spec) const {
-  Window window = spec.window;
-  window.from += start_;
-  if (window.to != std::numeric_limits<Time>::max()) window.to += start_;
-  switch (spec.kind) {
-    case FaultSpec::Kind::kLevel:
-      return std::make_unique<LevelFault>(spec.node, spec.effect, window);
-    case FaultSpec::Kind::kCut: return std::make_unique<CutFault>(spec.node, window);
-    case FaultSpec::Kind::kShort: return std::make_unique<ShortFault>(spec.node, window);
-    case FaultSpec::Kind::kClock:
-      return std::make_unique<ClockFault>(spec.node, window.from, spec.ppm);
-    case FaultSpec::Kind::kNoise: {
-      NoiseConfig noise = spec.noise;
-      noise.window = window;
-      return std::make_unique<NoiseFault>(noise);
-    }
-    case FaultSpec::Kind::kPlace: break;
-  }
-  PlaceSpec place = spec.place;
-  const unsigned clocks = stations_[spec.watched].timing.prescaler;
-  if (spec.first_quantum) place.first_clock = *spec.first_quantum * clocks;
-  if (spec.last_quantum) place.last_clock = (*spec.last_quantum + 1) * clocks - 1;
-  return std::make_unique<PlaceFault>(spec.watched, place, spec.effect, spec.node);
-}
-
-void Run::add_faults() {
-  for (const FaultSpec &spec : scenario_.faults) {
-    faults_.push_back(make_fault(spec));
-    bus_.add(*faults_.back());
-  }
-}
-
-void Run::start_traffic() {
-  std::uint64_t seed = scenario_.seed;
-  for (const TrafficSpec &spec : scenario_.traffic) {
-    traffic_.push_back(std::make_unique<TrafficSource>(spec, bus_, *stations_[spec.node].host,
-                                                       ++seed * 0x9E3779B97F4A7C15ULL));
-    traffic_.back()->start(start_, start_ + scenario_.duration);
-  }
-}
-
-void Run::on_frame(const BusFrame &frame) {
-  frames_.push_back(frame);
-  outputs_->write(frame);
-  if (frame.sender == BusFrame::kNobody) return;
-  for (const auto &traffic : traffic_)
-    if (traffic->spec().node == frame.sender && traffic->matches(frame.frame))
-      return traffic->on_frame(frame.end);
-}
-
-void Run::on_sent(NodeId node, const Frame &frame) {
-  for (const auto &traffic : traffic_)
-    if (traffic->spec().node == node && traffic->matches(frame)) return traffic->on_sent();
-}
-
-void Run::run_for(Time duration, const std::function<void(double)> &progress) {
-  constexpr int kSteps = 100;
-  for (int step = 1; step <= kSteps; ++step) {
-    bus_.run_until(start_ + duration / kSteps * step + duration % kSteps * step / kSteps);
-    stations_.check();
-    if (progress) progress(static_cast<double>(step) / kSteps);
-  }
-}
-
-/// Lets frames that wait go out, and the last one be received, for a limited time.
-void Run::drain() {
-  const Time limit = bus_.now() + scenario_.drain;
-  while (bus_.now() < limit && stations_.pending() != 0)
-    bus_.run_until(std::min(limit, bus_.now() + 20 * bit_time_));
-  bus_.run_for(16 * bit_time_);
-  stations_.check();
-  monitor_->advance(bus_.now());
-}
-
-void Run::add_bounds(RunReport &report) const {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < traffic_.size(); ++i) {
-    if (traffic_[i]->spec().saturated) return;  // no bound for anybody
-    order.push_back(i);
-  }
-  // Priority on the bus: the bits of the arbitration field in their order (AR-06).
-  const auto priority = [&](std::size_t i) {
-    const Frame &f = traffic_[i]->spec().frame;
-    const std::uint64_t base = f.extended ? f.id >> 18 : f.id;
-    return base << 21 | (f.extended ? (3ULL << 19 | (f.id & 0x3FFFF) << 1 | (f.remote ? 1 : 0))
-                                    : (f.remote ? 1ULL << 20 : 0));
-  };
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return priority(a) < priority(b); });
-  std::vector<MessageSpec> set;
-  for (const std::size_t i : order) {
-    const TrafficSpec &t = traffic_[i]->spec();
-    const Time period = t.period != 0 ? t.period : scenario_.duration + scenario_.drain;
-    set.push_back({t.frame.payload_size(), t.frame.extended, period, t.jitter});
-  }
-  const auto bounds = response_times(set, bit_time_);
-  for (std::size_t i = 0; i < order.size(); ++i) report.messages[order[i]].bound = bounds[i];
-  report.analytic_load = worst_case_load(set, bit_time_);
-}
-
-RunReport Run::collect() {
-  RunReport report;
-  report.name = scenario_.name;
-  report.bitrate = bitrate_;
-  report.duration = bus_.now() - start_;
-  report.frames = monitor_->frames();
-  report.unacknowledged = monitor_->unacknowledged();
-  report.error_frames = monitor_->error_frames();
-  report.overload_frames = monitor_->overload_frames();
-  report.pending = stations_.pending();
-  report.load = static_cast<double>(monitor_->busy()) / static_cast<double>(report.duration);
-  for (const auto &traffic : traffic_) report.messages.push_back(traffic->report());
-  for (NodeId id = 0; id < stations_.size(); ++id) {
-    const Station &station = stations_[id];
-    const AhbReport &ahb = station.node->ahb().report();
-    report.nodes.push_back({scenario_.nodes[id].name, monitor_->node(id), station.received.size(),
-                            station.host->stats().overruns, ahb.transfers, ahb.max_waits,
-                            ahb.violations});
-  }
-  report.node_cycles = stations_.cycles();
-  if (scenario_.analysis || scenario_.expect.within_bound) add_bounds(report);
-  std::vector<std::vector<Frame>> received;
-  for (NodeId id = 0; id < stations_.size(); ++id) received.push_back(stations_[id].received);
-  if (!stations_.stores_remote())
-    std::erase_if(frames_, [](const BusFrame &frame) { return frame.frame.remote; });
-  report.checks = check_expectations(scenario_, report, frames_, received);
-  return report;
-}
-
-RunReport Run::execute(const std::function<void(double)> &progress) {
-  const auto begin = std::chrono::steady_clock::now();
-  stations_.join(bus_, bit_time_);
-  start_ = bus_.now();
-  add_faults();
-  start_traffic();
-  run_for(scenario_.duration, progress);
-  drain();
-  outputs_->finish(bus_.now());
-  RunReport report = collect();
-  report.wall_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return report;
-}
-
-}  // namespace
 
 BitTiming timing_of(const Scenario &scenario, const NodeSpec &node, double bitrate) {
   if (node.timing) return *node.timing;
@@ -259,7 +36,23 @@ BitTiming timing_of(const Scenario &scenario, const NodeSpec &node, double bitra
 
 RunReport run_scenario(const Scenario &scenario, double bitrate,
                        const std::function<void(double)> &progress) {
-  return Run{scenario, bitrate}.execute(progress);
+  Simulation simulation{scenario, bitrate};
+  const auto begin = std::chrono::steady_clock::now();
+  simulation.join();
+  simulation.start(simulation.bus().now());
+  constexpr int kSteps = 100;
+  const Time duration = scenario.duration;
+  for (int step = 1; step <= kSteps; ++step) {
+    simulation.bus().run_until(simulation.started() + duration / kSteps * step +
+                               duration % kSteps * step / kSteps);
+    simulation.check();
+    if (progress) progress(static_cast<double>(step) / kSteps);
+  }
+  simulation.drain();
+  RunReport report = simulation.finish();
+  report.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return report;
 }
 
 }  // namespace vericansim

@@ -35,6 +35,14 @@ std::unique_ptr<Station> make_station(const std::string &name, const ClockConfig
   return station;
 }
 
+std::unique_ptr<Station> make_bare_station(const std::string &name, const ClockConfig &clock,
+                                           const BitTiming &timing, unsigned num_mb) {
+  auto station = std::make_unique<Station>();
+  station->timing = timing;
+  station->node = RtlNode::create(name, clock, num_mb);
+  return station;
+}
+
 void Stations::add(Bus &bus, std::unique_ptr<Station> station, const Link &link) {
   bus.add(*station->node, link);
   stations_.push_back(std::move(station));
@@ -43,25 +51,31 @@ void Stations::add(Bus &bus, std::unique_ptr<Station> station, const Link &link)
 void Stations::join(Bus &bus, Time bit_time) {
   constexpr Time kLimit = 100 * kMillisecond;
   constexpr Time kIntegration = 14;  // bits; 11 are needed (IN-01)
-  for (const auto &station : stations_) station->host->start();
+  for (const auto &station : stations_)
+    if (station->host) station->host->start();
   const auto all_ready = [&] {
     return std::all_of(stations_.begin(), stations_.end(),
-                       [](const auto &s) { return s->host->ready(); });
+                       [](const auto &s) { return !s->host || s->host->ready(); });
   };
   const bool ready = bus.run_until(all_ready, kLimit);
   check();
   if (!ready) throw std::runtime_error("the set-up of a node takes longer than 100 ms");
-  stores_remote_ = (stations_.front()->node->read32(reg::kCtrl2) & reg::kCtrl2Rrs) != 0;
+  const auto first = std::find_if(stations_.begin(), stations_.end(),
+                                  [](const auto &s) { return s->host != nullptr; });
+  if (first != stations_.end())
+    stores_remote_ = ((*first)->node->read32(reg::kCtrl2) & reg::kCtrl2Rrs) != 0;
   bus.run_for(kIntegration * bit_time);
 }
 
 void Stations::check() {
-  for (const auto &station : stations_) station->host->check();
+  for (const auto &station : stations_)
+    if (station->host) station->host->check();
 }
 
 std::uint64_t Stations::pending() const {
   std::uint64_t sum = 0;
-  for (const auto &station : stations_) sum += station->host->pending();
+  for (const auto &station : stations_)
+    if (station->host) sum += station->host->pending();
   return sum;
 }
 

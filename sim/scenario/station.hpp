@@ -16,7 +16,7 @@ namespace vericansim {
 /// Core, software, and what the software has received.
 struct Station {
   std::unique_ptr<RtlNode> node;
-  std::unique_ptr<Host> host;
+  std::unique_ptr<Host> host;  ///< none: somebody else drives the core
   BitTiming timing;
   std::vector<Frame> received;
 };
@@ -26,6 +26,12 @@ struct Station {
                                                     const ClockConfig &clock, HostConfig config,
                                                     unsigned num_mb = 64);
 
+/// Creates a core alone. `timing`: what it is expected to be set to.
+[[nodiscard]] std::unique_ptr<Station> make_bare_station(const std::string &name,
+                                                         const ClockConfig &clock,
+                                                         const BitTiming &timing,
+                                                         unsigned num_mb = 64);
+
 /// The stations of one bus; they must outlive it.
 class Stations {
  public:
@@ -34,8 +40,8 @@ class Stations {
   [[nodiscard]] const Station &operator[](NodeId id) const { return *stations_[id]; }
   [[nodiscard]] NodeId size() const { return static_cast<NodeId>(stations_.size()); }
 
-  /// Sets all nodes up and lets them integrate: runs `bus` until then. `bit_time` in ps. Throws
-  /// std::runtime_error if a node's set-up fails or takes longer than 100 ms.
+  /// Sets all nodes with software up and lets them integrate: runs `bus` until then. `bit_time` in
+  /// ps. Throws std::runtime_error if a node's set-up fails or takes longer than 100 ms.
   void join(Bus &bus, Time bit_time);
   /// Whether the cores store remote frames in receive buffers; valid after join().
   [[nodiscard]] bool stores_remote() const { return stores_remote_; }

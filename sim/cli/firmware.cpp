@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// verican firmware: Cortex-M3 binaries on simulated buses.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "cli/cli.hpp"
+#include "firmware/firmware_run.hpp"
+
+namespace vericansim::cli {
+namespace {
+
+using firmware::BoardReport;
+using firmware::FirmwareReport;
+using firmware::FirmwareSetup;
+
+struct Options {
+  std::vector<std::string> files;
+  std::string bus, second_bus;
+  Outputs outputs;
+  std::string limit;
+  FirmwareSetup setup;
+  bool run_hard_fault = false;
+  bool report = false;
+  bool json = false;
+};
+
+/// Prints what boards print; with several boards whole lines, each with the name of its board.
+class Console {
+ public:
+  explicit Console(std::size_t boards) : lines_(boards) {}
+  ~Console() {
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+      if (!lines_[i].empty()) print(i, "\n");
+  }
+  Console(const Console &) = delete;
+  Console &operator=(const Console &) = delete;
+
+  void print(std::size_t board, std::string_view text) {
+    if (lines_.size() == 1) {
+      std::fwrite(text.data(), 1, text.size(), stdout);
+      std::fflush(stdout);
+      return;
+    }
+    for (const char c : text) {
+      lines_[board] += c;
+      if (c != '\n') continue;
+      fmt::print("{}: {}", firmware::firmware_node(board), lines_[board]);
+      lines_[board].clear();
+    }
+    std::fflush(stdout);
+  }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+const char *end_text(BoardReport::End end) {
+  switch (end) {
+    case BoardReport::End::kExit: return "exit";
+    case BoardReport::End::kFault: return "fault";
+    default: return "limit";
+  }
+}
+
+Json to_json(const FirmwareReport &report) {
+  Json boards = Json::array(), buses = Json::array();
+  for (const BoardReport &b : report.boards)
+    boards.push_back({{"node", b.node},
+                      {"file", b.file},
+                      {"end", end_text(b.end)},
+                      {"exit_code", b.exit_code},
+                      {"time_ps", b.time},
+                      {"clocks", b.clocks},
+                      {"instructions", b.instructions},
+                      {"output", b.output},
+                      {"state", b.state}});
+  for (const RunReport &bus : report.buses) buses.push_back(vericansim::to_json(bus));
+  return {{"ok", report.ok()}, {"boards", boards}, {"buses", buses}};
+}
+
+/// What did not end well, on stderr.
+void complain(const FirmwareReport &report) {
+  for (const BoardReport &b : report.boards) {
+    if (b.end == BoardReport::End::kExit && b.exit_code != 0)
+      fmt::print(stderr, "verican: {} ({}) ended with exit code {} after {}\n", b.node, b.file,
+                 b.exit_code, time_text(b.time));
+    if (b.end == BoardReport::End::kFault)
+      fmt::print(stderr, "verican: stopped by a fault after {}\n{}", time_text(b.time), b.state);
+    if (b.end == BoardReport::End::kLimit && !report.endless)
+      fmt::print(stderr, "verican: no end within the limit of {} (--time, --endless)\n{}",
+                 time_text(b.time), b.state);
+  }
+  for (const RunReport &bus : report.buses)
+    for (const CheckResult &check : bus.checks)
+      if (!check.ok)
+        fmt::print(stderr, "verican: {}: {}: {} (expected {})\n", bus.name, check.what, check.seen,
+                   check.wanted);
+}
+
+int exit_code_of(const FirmwareReport &report) {
+  const auto any = [&](BoardReport::End end) {
+    return std::any_of(report.boards.begin(), report.boards.end(),
+                       [end](const BoardReport &b) { return b.end == end; });
+  };
+  if (any(BoardReport::End::kFault)) return kFault;
+  if (!report.endless && any(BoardReport::End::kLimit)) return kLimit;
+  return report.ok() ? kOk : kFailed;
+}
+
+FirmwareSetup make_setup(const Options &options) {
+  FirmwareSetup setup = options.setup;
+  for (const std::string &file : options.files) setup.images.push_back(firmware::read_elf(file));
+  setup.scenarios.push_back(read_scenario(options.bus));
+  if (!options.second_bus.empty()) setup.scenarios.push_back(read_scenario(options.second_bus));
+  const auto take = [](std::string &target, const std::string &source) {
+    if (!source.empty()) target = source;
+  };
+  Outputs &outputs = setup.scenarios.front().outputs;
+  take(outputs.vcd, options.outputs.vcd);
+  take(outputs.fst, options.outputs.fst);
+  take(outputs.candump, options.outputs.candump);
+  take(outputs.pcap, options.outputs.pcap);
+  if (!options.limit.empty()) setup.limit = time_option("--time", options.limit);
+  setup.cpu.catch_hard_fault = !options.run_hard_fault;
+  return setup;
+}
+
+int run(const Options &options) {
+  const FirmwareSetup setup = make_setup(options);
+  FirmwareReport report;
+  {
+    Console console{setup.images.size()};
+    Progress progress{"firmware"};
+    report = run_firmware(
+        setup,
+        [&](std::size_t board, std::string_view text) {
+          if (!options.json) console.print(board, text);
+        },
+        [&](double part) { progress.show(part); });
+  }
+  if (options.json)
+    print_json(to_json(report));
+  else if (options.report)
+    for (const RunReport &bus : report.buses) fmt::print("\n{}", to_text(bus));
+  std::fflush(stdout);
+  complain(report);
+  return exit_code_of(report);
+}
+
+void add_bus_options(CLI::App &command, Options &options) {
+  command.add_option("elf", options.files, "ELF file; with several each gets a board")->required();
+  command
+      .add_option("--bus", options.bus,
+                  "Scenario file: bit rate, other nodes, traffic, faults, expectations")
+      ->required();
+  CLI::Option *second = command.add_flag("--second-core", options.setup.second_core,
+                                         "The board has two cores, both on this bus");
+  command
+      .add_option("--second-bus", options.second_bus,
+                  "The board has two cores; scenario file of the second one's bus")
+      ->excludes(second);
+  command
+      .add_option("--bitrate", options.setup.bitrate, "Bit rate instead of the scenario's, bit/s")
+      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"k", 1e3}, {"M", 1e6}}))
+      ->check(CLI::Range(1e3, 1e6));
+}
+
+void add_output_options(CLI::App &command, Options &options) {
+  command.add_option("--vcd", options.outputs.vcd, "Write the waveform as VCD");
+  command.add_option("--fst", options.outputs.fst, "Write the waveform as FST");
+  command.add_option("--candump", options.outputs.candump, "Write the frames as a candump log");
+  command.add_option("--pcap", options.outputs.pcap, "Write the frames as a capture for Wireshark");
+  command.add_flag("--report", options.report, "Print what the buses saw, as 'verican run' does");
+  command.add_flag("--json", options.json, "Everything as JSON, the firmware's output included");
+}
+
+}  // namespace
+
+void add_firmware(CLI::App &app, int &exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand(
+      "firmware", "Run Cortex-M3 firmware on a simulated board (docs/firmware.md)");
+  add_bus_options(*command, *options);
+  add_output_options(*command, *options);
+  command->add_option("--time", options->limit,
+                      "Longest simulated time, as in '50 ms' (the scenario's duration and drain)");
+  command->add_flag("--endless", options->setup.endless,
+                    "The firmware does not end by itself: reaching the limit is success");
+  command
+      ->add_option("--clocks-per-instruction", options->setup.cpu.clocks_per_instruction,
+                   "Speed of the CPU (2)")
+      ->check(CLI::Range(1U, 100U));
+  command->add_flag("--run-hard-fault-handler", options->run_hard_fault,
+                    "Enter the firmware's HardFault handler instead of stopping");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vericansim::cli

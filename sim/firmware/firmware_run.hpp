@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Firmware on simulated buses: boards with their CPUs among the nodes of a scenario.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "firmware/board.hpp"
+#include "scenario/report.hpp"
+#include "scenario/scenario.hpp"
+
+namespace vericansim::firmware {
+
+/// What to run.
+struct FirmwareSetup {
+  std::vector<ElfImage> images;  ///< a board for each
+  /// The bus, and with a second one the bus of the (only) board's second core.
+  std::vector<Scenario> scenarios;
+  bool second_core = false;  ///< of the only board, on the same bus; implied by a second bus
+  double bitrate = 0;        ///< bit/s; 0: the first of the scenario
+  Time limit = 0;            ///< longest simulated time; 0: duration and drain of the scenario
+  bool endless = false;      ///< the firmware is not expected to end: the limit is its end
+  CortexConfig cpu;
+};
+
+/// How a board has ended.
+struct BoardReport {
+  enum class End { kExit, kFault, kLimit };
+  std::string node;
+  std::string file;
+  End end = End::kLimit;
+  int exit_code = 0;  ///< with kExit
+  Time time = 0;      ///< since the start of the firmware
+  std::uint64_t clocks = 0, instructions = 0;
+  std::string state;   ///< PC, registers and so on, several lines
+  std::string output;  ///< all that it has printed
+};
+
+struct FirmwareReport {
+  std::vector<BoardReport> boards;
+  std::vector<RunReport> buses;
+  bool endless = false;
+  /// Every board has ended as it should, with exit code 0, and all expectations hold.
+  [[nodiscard]] bool ok() const;
+};
+
+/// Name of the node that core `index` of the set-up is: "firmware", "firmware2", "firmware3"...
+/// A node of the scenario with that name (its clock, cable, faults) becomes the board's; otherwise
+/// one is added.
+[[nodiscard]] std::string firmware_node(std::size_t index);
+
+/// Runs until every board has ended, or the limit. `output(board, text)` gets what a board prints
+/// as it is printed; `progress` (0..1) may be empty. Throws InputError if set-up and scenario do
+/// not fit together.
+[[nodiscard]] FirmwareReport run_firmware(
+    const FirmwareSetup &setup,
+    const std::function<void(std::size_t, std::string_view)> &output = {},
+    const std::function<void(double)> &progress = {});
+
+}  // namespace vericansim::firmware

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Simulation: the bus of a scenario with everything on it, step by step; run_scenario() is the
+// simple use of it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "scenario/bus_monitor.hpp"
+#include "scenario/bus_outputs.hpp"
+#include "scenario/report.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/station.hpp"
+#include "scenario/traffic_source.hpp"
+
+namespace vericansim {
+
+/// A simulation: construct, join(), start(), run the bus, finish(). Members are in the order of
+/// their lifetimes: the bus refers to all others.
+class Simulation {
+ public:
+  /// Builds the bus at one of the scenario's bit rates and opens its outputs. The nodes in `bare`
+  /// get no software of ours: somebody else drives their registers. The scenario must outlive the
+  /// simulation. Throws InputError if a node cannot have the bit rate or an output cannot be
+  /// written.
+  Simulation(const Scenario &scenario, double bitrate, const std::set<NodeId> &bare = {});
+
+  /// Runs until the nodes with software are on the bus. std::runtime_error if one fails.
+  void join();
+  /// Runs until `when` (not in the past); the times of the scenario count from there.
+  void start(Time when);
+  /// Lets frames that wait go out, and the last one be received, for a limited time.
+  void drain();
+  /// Ends the waveforms and says what happened since start().
+  [[nodiscard]] RunReport finish();
+  /// Rethrows what went wrong in the software of a node.
+  void check() { stations_.check(); }
+
+  [[nodiscard]] Bus &bus() { return bus_; }
+  [[nodiscard]] RtlNode &node(NodeId id) { return *stations_[id].node; }
+  [[nodiscard]] Time started() const { return start_; }
+
+ private:
+  void build_stations(const std::set<NodeId> &bare);
+  void observe();
+  void add_faults();
+  std::unique_ptr<Fault> make_fault(const FaultSpec &spec) const;
+  void start_traffic();
+  void on_frame(const BusFrame &frame);
+  void on_sent(NodeId node, const Frame &frame);
+  RunReport collect();
+  void add_bounds(RunReport &report) const;
+
+  const Scenario &scenario_;
+  double bitrate_;
+  Time bit_time_;
+  Stations stations_;
+  std::vector<std::unique_ptr<Fault>> faults_;
+  std::vector<std::unique_ptr<TrafficSource>> traffic_;
+  std::vector<BusFrame> frames_;
+  std::unique_ptr<BusMonitor> monitor_;
+  std::unique_ptr<BusOutputs> outputs_;
+  Bus bus_;
+  Time start_ = 0;
+};
+
+}  // namespace vericansim
