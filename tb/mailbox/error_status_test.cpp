@@ -171,6 +171,63 @@ TEST_F(ErrorStatus, CountersAreWrittenInFreezeModeOnly) {
   EXPECT_EQ(ecr(), 0x5566u);
 }
 
+// A fault at one place of the first frame that node 1 sends, seen by `node`, and the error bit that
+// it has to bring.
+struct Kind {
+  const char *name;
+  std::uint32_t bit;
+  unsigned node;
+  PlaceSpec place;
+  Effect effect;
+};
+
+class ErrorKinds : public ::testing::TestWithParam<Kind> {};
+
+// FX-ESR1.BIT1_ERR, FX-ESR1.BIT0_ERR, FX-ESR1.ACK_ERR, FX-ESR1.CRC_ERR, FX-ESR1.FRM_ERR,
+// FX-ESR1.STF_ERR, FX-1.4.a, FX-9.imx: its bit and no other, until it is read; ERR_INT stays, and
+// no other flag is set.
+TEST_P(ErrorKinds, SetsItsBitUntilItIsRead) {
+  const Kind &kind = GetParam();
+  MailboxRig rig{3, 16};
+  for (unsigned n = 0; n < 3; ++n) rig.configure(n);
+  for (unsigned n = 0; n < 3; ++n) rig.go(n);
+  PlaceFault fault{kind.node, kind.place, kind.effect};
+  rig.bus().add(fault);
+  rig.put_tx(1, 8, {.id = 0x155, .dlc = 1, .data = {0xA5}});
+  ASSERT_TRUE(rig.wait_flag(1, 8));
+  EXPECT_GT(fault.hits(), 0u);
+  EXPECT_EQ(rig.read(kind.node, reg::kEsr) & (kErrors | reg::kEsrInterrupts),
+            kind.bit | reg::kEsrErrInt);
+  EXPECT_EQ(rig.read(kind.node, reg::kEsr) & (kErrors | reg::kEsrInterrupts), reg::kEsrErrInt);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ErrorKinds,
+    ::testing::Values(
+        Kind{"Bit1",
+             1u << 15,
+             1,
+             {.frame = 1, .field = Field::kData, .index = 0},
+             Effect::kDominant},
+        Kind{"Bit0",
+             1u << 14,
+             1,
+             {.frame = 1, .field = Field::kData, .index = 1},
+             Effect::kRecessive},
+        Kind{"Ack", 1u << 13, 1, {.frame = 1, .field = Field::kAck}, Effect::kRecessive},
+        Kind{"Crc",
+             1u << 12,
+             0,
+             {.frame = 1, .field = Field::kData, .index = 1},
+             Effect::kRecessive},
+        Kind{"Form",
+             1u << 11,
+             0,
+             {.frame = 1, .field = Field::kCrcDel, .stuff = false},
+             Effect::kDominant},
+        Kind{"Stuff", 1u << 10, 0, {.frame = 1, .field = Field::kId}, Effect::kDominant}),
+    [](const auto &each) { return each.param.name; });
+
 // FX-ESR1.IDLE, FX-ESR1.TX, FX-ESR1.RX, FX-ESR1.SYNCH: live, for sender and receiver.
 TEST(LiveStatus, FollowsTheFrame) {
   MailboxRig rig{2, 16};

@@ -262,7 +262,8 @@ INSTANTIATE_TEST_SUITE_P(All, ModeStates, ::testing::ValuesIn(kAllWays),
 
 // ---- Freeze mode: its two bits
 
-// FX-MCR.FRZ, FX-MCR.HALT: both are needed; either ends it, also cleared one after the other.
+// FX-MCR.FRZ, FX-MCR.HALT, FX-MCR.FRZ_ACK: both are needed; either ends it, also cleared one after
+// the other.
 TEST(FreezeBits, BothAskAndEitherEnds) {
   ModeRig mode;
   MailboxRig &rig = mode.rig();
@@ -283,6 +284,20 @@ TEST(FreezeBits, BothAskAndEitherEnds) {
     write(0);
     EXPECT_FALSE(frozen());
   }
+}
+
+// FX-MCR.MDIS, FX-2.3.a: MDIS asks for disable mode in any mode, and a soft reset leaves it.
+TEST(Disable, MdisSurvivesASoftReset) {
+  ModeRig mode;
+  MailboxRig &rig = mode.rig();
+  rig.write(kSubject, reg::kMcr, reg::kMcrSoftRst | reg::kMcrMdis);
+  mode.run(4 * kBit);
+  EXPECT_EQ(mode.read(reg::kMcr), 0xD890000Fu);
+  rig.write(kSubject, reg::kMcr, 0x5890000F);
+  EXPECT_EQ(mode.read(reg::kMcr), 0x5980000Fu);
+  rig.write(kSubject, reg::kMcr, reg::kMcrSoftRst);
+  mode.run(4);
+  EXPECT_EQ(mode.read(reg::kMcr), 0x5980000Fu);
 }
 
 // FX-2.2.c: in freeze mode the receive pin is ignored, TIMER stands, the pin is recessive.

@@ -81,6 +81,7 @@ class Supervisor : public ::testing::Test {
   bool error_ = false;
 };
 
+// FX-MCR.SUPV
 TEST_F(Supervisor, ResetClosesTheRegistersToUsers) {
   EXPECT_EQ(read(reg::kMcr, kPrivileged) & reg::kMcrSupv, reg::kMcrSupv);
   write(reg::kImask1, 0x1234, kPrivileged);
@@ -105,6 +106,7 @@ TEST_F(Supervisor, WithoutSupvUsersMay) {
   EXPECT_EQ(read(reg::kMcr, kUser), 0u) << "closed by a user, for users";
 }
 
+// FX-MCR.SUPV
 TEST_F(Supervisor, OnlyFreezeModeWritesSupv) {
   write(reg::kMcr, 15, kPrivileged);  // SUPV = 0 along with leaving freeze mode: still counts
   EXPECT_EQ(read(reg::kMcr, kPrivileged) & reg::kMcrSupv, 0u);
@@ -135,7 +137,7 @@ TEST_F(Supervisor, PrivilegeBelongsToTheTransfer) {
   }
 }
 
-// The default: SUPV is stored, and nothing else.
+// FX-MCR.SUPV: by default it is stored, and nothing else.
 TEST(SupervisorDefault, SupvIsStoredOnly) {
   const auto node = RtlNode::create("node", {}, 16);
   for (int i = 0; i < 300; ++i) node->advance();
