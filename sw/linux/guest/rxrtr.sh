@@ -10,10 +10,11 @@ exchange() {
   tell log "$1-bus.log"
   listen can0 "$1-can0.log"
   listen can1 "$1-can1.log"
+  goal0=$(($(sent can0) + 60)) goal1=$(($(sent can1) + 60))
   cangen can0 -g 0 -n 60 -I r -L r -D r
   cangen can1 -g 0 -n 60 -e -I r -L r -D r
-  wait_until 5 has_sent can0 60
-  wait_until 5 has_sent can1 60
+  wait_until 5 has_sent can0 $goal0
+  wait_until 5 has_sent can1 $goal1
   cansend can0 123#R4
   cansend can0 124#01
   sleep 0.002
