@@ -284,6 +284,25 @@ TEST_P(RegisterMap, SoftResetOnTheBusResetsAndKeepsWhatItShould) {
   check_after_soft_reset(before);
 }
 
+// FX-MCR.MDIS: what is written along with SOFT_RST is kept, and disable mode follows the reset.
+TEST_P(RegisterMap, SoftResetKeepsMdis) {
+  enter(Mode::kFreeze);
+  rig_.write(0, reg::kMcr, reg::kMcrSoftRst | reg::kMcrMdis);
+  ASSERT_TRUE(
+      rig_.run_until([&] { return (rig_.read(0, reg::kMcr) & reg::kMcrLpmAck) != 0; }, 2000));
+  EXPECT_EQ(rig_.read(0, reg::kMcr), 0xD890000Fu);
+}
+
+// FX-MCR.FRZ_ACK FX-MCR.NOT_RDY FX-MCR.LPM_ACK: the states of section 2.
+TEST_P(RegisterMap, AcknowledgesTellTheMode) {
+  constexpr std::uint32_t kAcks = reg::kMcrFrzAck | reg::kMcrLpmAck | (1u << 27);
+  EXPECT_EQ(rig_.read(0, reg::kMcr) & kAcks, reg::kMcrLpmAck | (1u << 27));
+  enter(Mode::kFreeze);
+  EXPECT_EQ(rig_.read(0, reg::kMcr) & kAcks, reg::kMcrFrzAck | (1u << 27));
+  rig_.go(0);
+  EXPECT_EQ(rig_.read(0, reg::kMcr) & kAcks, 0u);
+}
+
 TEST_P(RegisterMap, HardResetResetsEverything) {
   enter(Mode::kFreezeWithWrnEn);
   fill();
