@@ -208,23 +208,24 @@ TEST_F(RemoteAnswer, NeverOverwritesWhatTheCpuWrites) {  // FX-3.4.g
   const Frame frame = frame_of(0x333, 1);
   join();
   unsigned answered = 0;
-  for (unsigned wait = 0; wait < 100; ++wait) {
+  for (unsigned n = 0; n < 200; ++n) {
+    const unsigned wait = n / 2;
+    const std::uint32_t written = n % 2 == 0 ? 0x08020000 : 0x04020000;
     wait_with(kWait, frame);
     rig_.put_tx(kAsker, kAsk, request_of(frame, 1));
     // From the last bits of EOF on.
-    ASSERT_TRUE(rig_.run_until(
-        [&] { return rig_.field(kAnswerer) == Field::kEof && rig_.bus().now() > 0; }, 2000));
+    ASSERT_TRUE(rig_.run_until([&] { return rig_.field(kAnswerer) == Field::kEof; }, 2000));
     rig_.run(wait);
-    rig_.write(kAnswerer, reg::mb(kWait), 0x08020000);
+    rig_.write(kAnswerer, reg::mb(kWait), written);
     rig_.run(1200);
-    EXPECT_EQ(rig_.read(kAnswerer, reg::mb(kWait)) & 0x0F7F0000, 0x08020000u) << wait;
+    EXPECT_EQ(rig_.read(kAnswerer, reg::mb(kWait)) & 0x0F7F0000, written) << wait;
     if (((rig_.flags(kAsker) >> kAsk) & 1) != 0 && code(kAsker, kAsk) == 2) ++answered;
     rig_.clear_flag(kAsker, kAsk);
     rig_.clear_flag(kAnswerer, kWait);
     rig_.write(kAsker, reg::mb(kAsk), 0x08000000);
   }
   EXPECT_GT(answered, 0u) << "late writes find the answer on the bus";
-  EXPECT_LT(answered, 60u);
+  EXPECT_LT(answered, 120u);
 }
 
 // Frames for the FIFO, which takes everything (format C, masks 0) or nothing (D).

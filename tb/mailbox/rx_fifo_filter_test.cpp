@@ -138,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(FormatBccRffn, Filters,
                          });
 
 // A word that fits nothing, but for one that fits exactly: its place is its number.
-TEST(FilterTable, EveryWordOfTheLongestTableIsLookedAt) {  // FX-4.a, FX-CTRL2.RFFN
+TEST(FilterTable, EveryWordOfTheLongestTableIsLookedAt) {  // FX-4.a, FX-4.c, FX-RXFIR.IDHIT
   RxFifoRig rig{{.format = 0, .rffn = 15}};
   for (unsigned k = 0; k < 128; ++k) rig.set_filter(k, {element_a(base(0x400 + k)), kAll});
   rig.write(kReceiver, reg::kRxfgmask, kAll);
@@ -146,7 +146,9 @@ TEST(FilterTable, EveryWordOfTheLongestTableIsLookedAt) {  // FX-4.a, FX-CTRL2.R
   for (unsigned k = 0; k < 128; ++k) {
     rig.send(base(0x400 + k));
     ASSERT_TRUE(rig.available()) << k;
-    ASSERT_EQ(rig.output().idhit, k);
+    const FifoEntry entry = rig.output();
+    ASSERT_EQ(entry.idhit, k);
+    ASSERT_EQ(entry.words.cs >> 23, 0u) << "CODE reads 0 with any number";
     rig.pop();
   }
   rig.send(base(0x480));
