@@ -95,18 +95,6 @@ module can_mailbox #(
   logic unused;                     // flags of buffers that do not exist
   assign unused = &{1'b0, iflag_i};
 
-  // Clearing of the RAMs after a hard reset.
-  logic [IdxW+1:0] scrub_row_q;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      scrub_o     <= 1'b1;
-      scrub_row_q <= '0;
-    end else if (scrub_o) begin
-      scrub_o     <= scrub_row_q != '1;
-      scrub_row_q <= scrub_row_q + 1'b1;
-    end
-  end
-
   // First buffer that is a mailbox: the ones below belong to the Rx FIFO.
   logic [6:0] first;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -294,7 +282,7 @@ module can_mailbox #(
     .ewr_req_i(ewr_req), .ewr_cs_we_i(ewr_cs_we), .ewr_cs_row_i(ewr_cs_row), .ewr_cs_i(ewr_cs),
     .ewr_msg_we_i(ewr_msg_we), .ewr_msg_row_i(ewr_msg_row), .ewr_msg_i(ewr_msg),
     .ewr_gnt_o(ewr_gnt),
-    .scrub_i(scrub_o), .scrub_row_i(scrub_row_q), .csw_i(csw));
+    .scrub_o, .csw_i(csw));
 
   assign flag_o     = mv_flag || ld_flag || ab_flag;
   assign flag_idx_o = mv_flag ? mv_idx : ld_flag ? cur_idx : ab_idx;

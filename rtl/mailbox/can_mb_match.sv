@@ -7,7 +7,9 @@
 // Clocks: 8 * (RFFN + 1) words and NumMb - 8 - 2 * RFFN mailboxes at one a clock, 154 in the
 // longest case (64 buffers, RFFN=15). A CPU that never pauses takes every second slot: 308. The
 // result is due when the header of the next frame is complete, after 47 bits at the least: 376
-// clocks at 8 clocks a bit.
+// clocks at 8 clocks a bit. While another frame waits for a locked buffer it is due at the start of
+// the next frame, after 264 clocks: too late only for RFFN > 9, frames of the shortest kind in a row
+// and a CPU that uses the buffers in every clock.
 
 module can_mb_match #(
   parameter int NumMb = 64,

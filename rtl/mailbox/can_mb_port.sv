@@ -76,15 +76,25 @@ module can_mb_port #(
   input  logic [IdxW+1:0] ewr_msg_row_i,
   input  logic [31:0]     ewr_msg_i,
   output logic            ewr_gnt_o,
-  // After reset: every row is written once, whatever else goes on.
-  input  logic            scrub_i,
-  input  logic [IdxW+1:0] scrub_row_i,
+  // After a hard reset: every row is written once, whatever else goes on.
+  output logic            scrub_o,
   input  logic            csw_i         // a C/S write ended in the clock before
 );
   localparam logic [1:0] KindCs    = 2'd0;
   localparam logic [1:0] KindMsg   = 2'd1;
   localparam logic [1:0] KindMask  = 2'd2;
   localparam logic [1:0] KindTimer = 2'd3;
+
+  logic [IdxW+1:0] scrub_row_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      scrub_o     <= 1'b1;
+      scrub_row_q <= '0;
+    end else if (scrub_o) begin
+      scrub_o     <= scrub_row_q != '1;
+      scrub_row_q <= scrub_row_q + 1'b1;
+    end
+  end
 
   // CPU transfer in its data phase.
   logic            rd_q, wr_q;
@@ -181,14 +191,14 @@ module can_mb_port #(
     end
     msg_wdata = wdata_i;
     mask_wdata = wdata_i;
-    if (scrub_i) begin
+    if (scrub_o) begin
       {cs_we, msg_we, mask_we} = '1;
-      cs_waddr   = scrub_row_i[IdxW:0];
-      msg_waddr  = scrub_row_i;
-      mask_waddr = scrub_row_i[IdxW:0];
+      cs_waddr   = scrub_row_q[IdxW:0];
+      msg_waddr  = scrub_row_q;
+      mask_waddr = scrub_row_q[IdxW:0];
       cs_wdata   = '0;
       msg_wdata  = '0;
-      mask_wdata = {32{scrub_row_i[IdxW]}};   // RXGMASK, RX14MASK, RX15MASK: ones
+      mask_wdata = {32{scrub_row_q[IdxW]}};   // RXGMASK, RX14MASK, RX15MASK: ones
     end else if (copy_i && !hold_o) begin
       cs_we     = copy_cs_we_i;
       cs_waddr  = copy_cs_row_i;
@@ -248,7 +258,7 @@ module can_mb_port #(
 
   always_comb begin
     rdata_o = '0;
-    if (rd_q && !scrub_i) begin
+    if (rd_q && !scrub_o) begin
       case (kind_q)
         KindCs:   rdata_o = cs_o;
         KindMsg:  rdata_o = msg_o;
