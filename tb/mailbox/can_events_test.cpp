@@ -145,7 +145,7 @@ TEST(RxWarning, ReceiverCountsUp) {  // 1.4: RWRN_INT and RX_WRN
   EXPECT_EQ(rig.read(0, reg::kEsr) & (kTwrnInt | kRwrnInt | 0x300), kRwrnInt | 0x100);
 }
 
-TEST(Flags, EachBufferHasItsBitAndItsMask) {  // 1.5
+TEST(Flags, EachBufferHasItsBitAndItsMask) {  // FX-1.5.a, FX-1.5.b, FX-5.MB
   MailboxRig rig{2};
   for (unsigned n = 0; n < 2; ++n) rig.configure(n);
   for (unsigned n = 0; n < 2; ++n) rig.go(n);

@@ -23,7 +23,7 @@ struct LinuxLog {
 
 class LinuxAccessLog : public ::testing::TestWithParam<LinuxLog> {};
 
-// FX-4.r
+// FX-4.q FX-4.r
 TEST_P(LinuxAccessLog, TheCoreAnswersAsTheDriverFoundIt) {
   const LinuxLog &param = GetParam();
   const std::string path = std::string("../shared/data/linux-flexcan/") + param.file;
