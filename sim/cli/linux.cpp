@@ -107,7 +107,6 @@ std::vector<std::string> kernel_command(const Options &options, const std::strin
                                  "con=null",
                                  "con0=null,fd:1",
                                  "quiet",
-                                 "panic=-1",
                                  "time-travel=ext:" + sockets + "/time",
                                  "VERICAN_SOCKETS=" + sockets,
                                  "VERICAN_DIR=" + options.board.directory};
@@ -142,6 +141,11 @@ int run(const Options &options) {
     return kFailed;
   }
   const int code = guest.wait();
+  if (!server.connected() && code == 0) {
+    fmt::print(stderr, "verican linux: {} is no user-mode Linux with time-travel support\n",
+               options.kernel);
+    return kFailed;
+  }
   if (code != 0) fmt::print(stderr, "verican linux: the guest kernel ended with code {}\n", code);
   return code == 0 ? kOk : kFailed;
 }

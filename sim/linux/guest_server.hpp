@@ -28,6 +28,8 @@ class GuestServer {
   /// or if it waits for something that cannot happen.
   void serve(const std::function<bool()> &given_up);
 
+  /// True once a guest has asked for the time.
+  [[nodiscard]] bool connected() const { return time_.open(); }
   /// Accesses served so far, and interrupts told to a waiting guest.
   [[nodiscard]] std::uint64_t accesses() const { return accesses_; }
   [[nodiscard]] std::uint64_t interrupts() const { return interrupts_; }

@@ -151,7 +151,7 @@ def show(result):
     load = f"{100 * notes['load']:6.1f}" if "load" in notes and not result.case.red else "     -"
     print(f"{'pass' if result.ok else 'FAIL'}  {result.chip:10} {result.case.name:19}{counted}  "
           f"{load}  {result.guest:7.3f}  {result.wall:6.1f}"
-          f"{'' if result.ok and not result.case.red else '  ' + result.message[:150]}", flush=True)
+          f"{'' if result.ok and not result.case.red else '  ' + result.message[:90]}", flush=True)
 
 
 def options():
