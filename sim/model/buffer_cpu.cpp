@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// BufferModel, the accesses of the CPU: see buffer_model.hpp.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/buffer_model.hpp"
+#include "node/registers.hpp"
+
+namespace vericansim {
+namespace {
+
+using Kind = Destination::Kind;
+
+constexpr std::uint32_t kCodeLane = 0x0F000000;
+constexpr std::uint32_t kRxfir = 0x04C;
+constexpr std::uint32_t kRxfgmask = 0x048;
+
+struct Place {
+  unsigned n;
+  unsigned word;
+};
+
+std::optional<Place> buffer_place(std::uint32_t address, unsigned num_mb) {
+  if (address < reg::mb(0) || address >= reg::mb(num_mb)) return std::nullopt;
+  return Place{(address - 0x080) / 16, (address / 4) % 4};
+}
+
+bool is_transmit(unsigned code) { return code >= kTxInactive; }
+
+}  // namespace
+
+void BufferModel::cpu_write(std::uint32_t address, std::uint32_t data, std::uint64_t now,
+                            std::uint32_t lanes) {
+  if (const auto place = buffer_place(address, config_.num_mb)) {
+    write_buffer(place->n, place->word, data, lanes, now);
+  } else if (address == reg::kIflag1 || address == reg::kIflag2) {
+    settle(now);
+    const std::uint64_t bits = std::uint64_t{data & lanes} << (address == reg::kIflag2 ? 32 : 0);
+    for (BufferState &state : states_) state.clear_flags(bits, config_);
+  } else {
+    write_mask(address, data, lanes);
+  }
+}
+
+void BufferModel::write_mask(std::uint32_t address, std::uint32_t data, std::uint32_t lanes) {
+  std::uint32_t *mask = nullptr;
+  if (address == reg::kRxgmask) mask = &masks_.global;
+  if (address == reg::kRx14mask) mask = &masks_.mb14;
+  if (address == reg::kRx15mask) mask = &masks_.mb15;
+  if (address == kRxfgmask) mask = &masks_.fifo;
+  if (address >= reg::rximr(0) && address < reg::rximr(config_.num_mb))
+    mask = &masks_.individual[(address - reg::rximr(0)) / 4];
+  if (mask != nullptr) *mask = (*mask & ~lanes) | (data & lanes);
+}
+
+void BufferModel::write_buffer(unsigned n, unsigned word, std::uint32_t data, std::uint32_t lanes,
+                               std::uint64_t now) {
+  settle(now);
+  const bool cs = word == 0 && n >= config_.first_mailbox();
+  replace(
+      [&](const BufferState &state, States &out) {
+        if (cs && config_.aen) return write_cs_aen(state, n, data, lanes, now, out);
+        if (cs) return write_cs(state, n, data, lanes, now, out);
+        BufferState next = state;
+        next.write(n, word, data, lanes, config_, now);
+        add(out, std::move(next));
+      },
+      "");
+}
+
+// The write takes effect; a match that had chosen this buffer is lost or made again (3.5).
+void BufferModel::take_write(BufferState state, unsigned n, std::uint32_t data,
+                             std::uint32_t lanes, std::uint64_t now, States &out) const {
+  const Destination &to = state.destination;
+  const bool chosen = (to.kind == Kind::kMailbox || to.kind == Kind::kAnswer) && to.index == n;
+  state.write(n, 0, data, lanes, config_, now);
+  if (chosen) {
+    BufferState again = state;
+    again.destination = {};
+    add(out, std::move(again));
+    state.destination = {Kind::kNowhere, 0};
+  }
+  add(out, std::move(state));
+}
+
+void BufferModel::write_cs(const BufferState &state, unsigned n, std::uint32_t data,
+                           std::uint32_t lanes, std::uint64_t now, States &out) const {
+  take_write(state, n, data, lanes, now, out);
+}
+
+// AEN=1 (3.4): writes to a buffer that is moved out have no effect, but 1001 is remembered.
+void BufferModel::write_cs_aen(const BufferState &state, unsigned n, std::uint32_t data,
+                               std::uint32_t lanes, std::uint64_t now, States &out) const {
+  const unsigned before = state.mb[n].code();
+  const bool abort = (lanes & kCodeLane) != 0 && cs_code(data) == kTxAbort;
+  if (state.write_blocked(n)) {
+    BufferState next = state;
+    if (abort && next.flight) next.flight->abort = true;
+    if (abort && next.moved_out == n) next.moved_out_abort = true;
+    return add(out, std::move(next));
+  }
+  const bool flagged = ((state.flags() >> n) & 1) != 0;
+  if (flagged && (before == kTxInactive || before == kTxAbort)) return add(out, state);
+  // Whether the flag of an answer, or of a request that turned into an Rx buffer, protects is open.
+  if (flagged && (is_transmit(before) || before == kRxEmpty)) add(out, state);
+  if (abort && before == kTxAnswerWaits) add(out, state);
+  if (state.mb[n].request && !state.moved_out && !state.flight) {
+    BufferState next = state;
+    next.moved_out = n;
+    next.moved_out_abort = abort;
+    next.moved_out_since = now;
+    add(out, std::move(next));
+  }
+  if (!abort || !code_sends(before)) return take_write(state, n, data, lanes, now, out);
+  BufferState next = state;
+  next.withdraw(n, now);
+  next.abort(n, now);
+  next.mb[n].words.known[0] &= kCodeLane | ~kCsStored;
+  add(out, std::move(next));
+}
+
+KnownWords BufferModel::words_of(const BufferState &state, unsigned n) const {
+  if (!config_.fen || n >= 6) return state.mb[n].words;
+  KnownWords words;
+  if (n == 0 && !state.fifo.empty()) return received_words(state.fifo.front().frame);
+  words.known = {};  // internal, or the output of an empty FIFO
+  return words;
+}
+
+bool BufferModel::fits(const KnownWords &words, unsigned word, std::uint32_t value) {
+  std::uint32_t known = words.known[word];
+  if (word == 0 && words.stamped) {
+    if ((known & 0xFFFF) == 0xFFFF) {
+      const int offset = static_cast<std::int16_t>(value - words.word[0]);
+      if (stamp_offset_ ? offset != *stamp_offset_ : std::abs(offset) > 1) return false;
+    }
+    known &= ~0xFFFFu;
+  }
+  return ((value ^ words.word[word]) & known) == 0;
+}
+
+std::string BufferModel::allowed(unsigned n, unsigned word) const {
+  std::string text;
+  for (const BufferState &state : states_) {
+    const KnownWords words = words_of(state, n);
+    text += fmt::format(" {:08X} (known {:08X})", words.word[word], words.known[word]);
+    if (text.size() > 400) return text + " ...";
+  }
+  return text;
+}
+
+void BufferModel::read_word(unsigned n, unsigned word, std::uint32_t value) {
+  replace(
+      [&](const BufferState &state, States &out) {
+        if (fits(words_of(state, n), word, value)) add(out, state);
+      },
+      fmt::format("MB{} word {} reads {:08X}; allowed:{}", n, word, value, allowed(n, word)));
+}
+
+// All stamps stand in the same relation to the reference count; the first one read says in which.
+void BufferModel::learn_stamp(unsigned n, std::uint32_t value) {
+  if (stamp_offset_ || !ok()) return;
+  const KnownWords words = words_of(states_.front(), n);
+  if (words.stamped && (words.known[0] & 0xFFFF) == 0xFFFF)
+    stamp_offset_ = static_cast<std::int16_t>(value - words.word[0]);
+}
+
+void BufferModel::read_cs(unsigned n, std::uint32_t value) {
+  const bool mailbox = n >= config_.first_mailbox();
+  replace(
+      [&](const BufferState &state, States &out) {
+        const KnownWords words = words_of(state, n);
+        // A move in progress may show as BUSY; it does not lock then.
+        const bool moving = state.valid && state.destination == Destination{Kind::kMailbox, n};
+        if (mailbox && moving && ((value >> 24) & 9) == 1) return add(out, state);
+        if (!fits(words, 0, value)) return;
+        BufferState next = state;
+        if (next.lock && next.lock != n) {
+          if (!mailbox) add(out, state);  // whether the FIFO's output ends a lock is open
+          next.unlock(true);
+        }
+        if (next.read_locks(n, config_)) next.lock_for_read(n);
+        add(out, std::move(next));
+      },
+      fmt::format("MB{} C/S reads {:08X}; allowed:{}", n, value, allowed(n, 0)));
+  learn_stamp(n, value);
+}
+
+void BufferModel::read_flags(unsigned half, std::uint32_t value) {
+  std::string expected;
+  for (const BufferState &state : states_)
+    expected += fmt::format(" {:08X}", static_cast<std::uint32_t>(state.flags() >> (32 * half)));
+  replace(
+      [&](const BufferState &state, States &out) {
+        if (static_cast<std::uint32_t>(state.flags() >> (32 * half)) == value) add(out, state);
+      },
+      fmt::format("IFLAG{} reads {:08X}; allowed:{}", half + 1, value, expected));
+}
+
+void BufferModel::cpu_read(std::uint32_t address, std::uint32_t value, std::uint64_t now) {
+  settle(now);
+  if (const auto place = buffer_place(address, config_.num_mb)) {
+    if (place->word == 0) return read_cs(place->n, value);
+    return read_word(place->n, place->word, value);
+  }
+  if (address == reg::kIflag1 || address == reg::kIflag2)
+    return read_flags(address == reg::kIflag2 ? 1 : 0, value);
+  if (address == reg::kTimer)
+    for (BufferState &state : states_) state.unlock(true);
+  if (address != kRxfir) return;
+  replace(
+      [&](const BufferState &state, States &out) {
+        if (state.fifo.empty() || state.fifo.front().id_hit == value) add(out, state);
+      },
+      fmt::format("RXFIR reads {}, another filter accepted the frame", value));
+}
+
+}  // namespace vericansim

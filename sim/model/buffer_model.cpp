@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// BufferModel, the set of states and the events of the bus: see buffer_model.hpp. The CPU's side
+// is in buffer_cpu.cpp.
+#include "model/buffer_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace vericansim {
+namespace {
+
+using Kind = Destination::Kind;
+
+std::string name_of(const Frame &frame) {
+  std::string text = fmt::format("{:03X}{}{} [{}]", frame.id, frame.extended ? "x" : "",
+                                 frame.remote ? " remote" : "", frame.dlc);
+  for (unsigned i = 0; i < frame.payload_size(); ++i) text += fmt::format(" {:02X}", frame.data[i]);
+  return text;
+}
+
+}  // namespace
+
+BufferModel::BufferModel(const BufferConfig &config, const BufferWindows &windows)
+    : config_{config}, windows_{windows}, states_{BufferState{config.num_mb}} {}
+
+void BufferModel::configure(const BufferConfig &config) {
+  if (config.fen != config_.fen)
+    for (BufferState &state : states_) state.fen_changed();
+  config_ = config;
+  for (BufferState &state : states_) {
+    for (unsigned n = 0; n < config.num_mb; ++n) {
+      BufferContent &buffer = state.mb[n];
+      const bool sends = code_sends(buffer.code()) && config.takes_part(n);
+      if (!sends) buffer.request.reset();
+      if (sends) buffer.request = state.request_of(n, config, 0);
+    }
+    state.withdrawn.clear();
+  }
+}
+
+void BufferModel::add(States &list, BufferState state) {
+  if (std::find(list.begin(), list.end(), state) == list.end()) list.push_back(std::move(state));
+}
+
+void BufferModel::replace(const std::function<void(const BufferState &, States &)> &each,
+                          const std::string &otherwise) {
+  if (!ok()) return;
+  States next;
+  for (const BufferState &state : states_) each(state, next);
+  if (next.empty()) {
+    failure_ = otherwise;
+    return;
+  }
+  states_ = std::move(next);
+}
+
+// What may happen in this state without further ado: a match decided, a frame moved in, a flight
+// concluded.
+void BufferModel::steps_of(const BufferState &state, std::uint64_t now, States &out) const {
+  if (state.matching && state.destination.kind == Kind::kUndecided) {
+    for (const Destination &to : state.destinations(*state.matching, masks_, config_)) {
+      out.push_back(state);
+      out.back().destination = to;
+    }
+  } else if (state.matching && state.valid) {
+    BufferState next = state;
+    next.matching.reset();
+    next.destination = {};
+    next.valid = false;
+    next.store(*state.matching, state.destination, now, config_);
+    out.push_back(std::move(next));
+  }
+  if (state.ended) {
+    BufferState next = state;
+    next.ended.reset();
+    next.finish(*state.ended, config_, now);
+    out.push_back(std::move(next));
+  }
+}
+
+// Adds the states that steps lead to; what is overdue has happened in all of them.
+void BufferModel::open_up(std::uint64_t now) {
+  States all = states_;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    States next;
+    steps_of(all[i], now, next);
+    for (BufferState &state : next) add(all, std::move(state));
+  }
+  const auto overdue = [&](const BufferState &state) {
+    if (state.valid && now > received_at_ + windows_.move_in) return true;
+    if (state.moved_out && now > state.moved_out_since + windows_.decision) return true;
+    return state.ended && now > ended_at_ + windows_.completion;
+  };
+  std::erase_if(all, overdue);
+  for (BufferState &state : all)
+    std::erase_if(state.withdrawn,
+                  [&](const auto &old) { return old.second.until + windows_.decision < now; });
+  if (ok()) states_ = std::move(all);
+}
+
+void BufferModel::settle(std::uint64_t now) {
+  const bool open = std::any_of(states_.begin(), states_.end(), [](const BufferState &s) {
+    return s.matching || s.ended || s.moved_out || !s.withdrawn.empty();
+  });
+  if (open) open_up(now);
+}
+
+bool BufferModel::must_send_since(std::uint64_t clock) const {
+  return std::all_of(states_.begin(), states_.end(), [&](const BufferState &state) {
+    return std::any_of(state.mb.begin(), state.mb.end(), [&](const BufferContent &buffer) {
+      return buffer.request && buffer.request->since <= clock;
+    });
+  });
+}
+
+void BufferModel::start_own(const BufferState &state, std::uint64_t now, States &out) const {
+  // The best of those that stand long enough must not be passed over by a worse one.
+  std::uint64_t best = ~std::uint64_t{0};
+  std::vector<std::pair<unsigned, SendRequest>> able;
+  for (unsigned n = 0; n < config_.num_mb; ++n) {
+    const auto &request = state.mb[n].request;
+    if (!request) continue;
+    able.emplace_back(n, *request);
+    if (request->since + windows_.decision <= now) best = std::min(best, request->value);
+  }
+  if (!config_.aen)
+    for (const auto &old : state.withdrawn) able.push_back(old);
+  for (const auto &[n, request] : able) {
+    if (request.value > best || (state.moved_out && state.moved_out != n)) continue;
+    BufferState next = state;
+    const bool orphan = request.until != ~std::uint64_t{0};
+    next.flight = Flight{.mb = n, .request = request, .orphan = orphan};
+    next.flight->abort = state.moved_out && state.moved_out_abort;
+    next.moved_out.reset();
+    if (!orphan) next.mb[n].request.reset();
+    add(out, std::move(next));
+  }
+}
+
+void BufferModel::frame_started(bool transmitter, std::uint16_t stamp, std::uint64_t now) {
+  settle(now);
+  stamp_ = stamp;
+  replace(
+      [&](const BufferState &state, States &out) {
+        if (transmitter) return start_own(state, now, out);
+        BufferState next = state;
+        if (state.moved_out && state.moved_out_abort) next.abort(*state.moved_out, now);
+        next.moved_out.reset();
+        add(out, std::move(next));
+      },
+      "a frame is being sent, but no buffer may be");
+}
+
+void BufferModel::header(const std::optional<Frame> &foreign, std::uint64_t now) {
+  settle(now);
+  for (BufferState &state : states_) {
+    if (!foreign && !state.flight) continue;
+    state.matching = ArrivedFrame{.frame = foreign ? *foreign : state.flight->request.frame,
+                                  .stamp = stamp_,
+                                  .own = !foreign};
+    state.destination = {};
+    state.valid = false;
+  }
+}
+
+void BufferModel::received(std::uint64_t now) {
+  settle(now);
+  received_at_ = now;
+  for (BufferState &state : states_) state.valid = state.matching.has_value();
+}
+
+void BufferModel::receive_failed(std::uint64_t now) {
+  settle(now);
+  replace(
+      [](const BufferState &state, States &out) {
+        BufferState next = state;
+        if (!state.valid) {
+          next.matching.reset();
+          next.destination = {};
+        }
+        add(out, std::move(next));
+      },
+      "");
+}
+
+void BufferModel::sent(const Frame &wire, std::uint64_t now) {
+  settle(now);
+  ended_at_ = now;
+  std::string expected;
+  for (const BufferState &state : states_)
+    if (state.flight)
+      expected += fmt::format(" MB{} {};", state.flight->mb, name_of(state.flight->request.frame));
+  replace(
+      [&](const BufferState &state, States &out) {
+        if (!state.flight || state.flight->request.frame != wire) return;
+        BufferState next = state;
+        next.ended = FlightEnd{.flight = *state.flight, .success = true, .stamp = stamp_};
+        next.flight.reset();
+        add(out, std::move(next));
+      },
+      fmt::format("{} was sent; allowed:{}", name_of(wire), expected));
+}
+
+void BufferModel::send_failed(std::uint64_t now) {
+  settle(now);
+  ended_at_ = now;
+  replace(
+      [&](const BufferState &state, States &out) {
+        if (!state.flight) return;
+        BufferState next = state;
+        const FlightEnd end{.flight = *state.flight, .success = false, .stamp = stamp_};
+        next.flight.reset();
+        // A retry needs no time; an end with code and flag does.
+        if (state.flight->abort || state.flight->request.one_shot) {
+          next.ended = end;
+        } else {
+          next.finish(end, config_, now);
+        }
+        add(out, std::move(next));
+      },
+      "a frame failed that was not being sent");
+}
+
+void BufferModel::soft_reset(std::uint64_t) {
+  for (BufferState &state : states_) state.soft_reset();
+}
+
+}  // namespace vericansim

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// BufferModel: the message buffers as the register specification describes them (flexcan.md 3, 4);
+// the judge of the RTL's buffers.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/buffer_state.hpp"
+
+namespace vericansim {
+
+/// How late something may show, in clocks. The specification gives no numbers; these are what a
+/// driver can stand: buffers settled before the next frame could end, a decision within the scan
+/// of all buffers.
+struct BufferWindows {
+  unsigned move_in = 100;   ///< from EOF6 until a frame is in its buffer, accesses of the CPU
+                            ///< included
+  unsigned completion = 100;  ///< from EOF7, or the failure, until code and flag show
+  unsigned decision = 100;  ///< an activation or deactivation this short before a start may miss it
+};
+
+/// The model. It follows the CPU's accesses and the events of the bus in the order in which they
+/// happen, and keeps every state that the specification allows: an access that falls into a window
+/// is taken before and after what happens in it. What the CPU reads removes the states that would
+/// have shown something else; when none is left the core is wrong and failure() says why.
+class BufferModel {
+ public:
+  explicit BufferModel(const BufferConfig &config, const BufferWindows &windows = {});
+
+  /// In freeze mode: new configuration. A change of FEN empties the FIFO.
+  void configure(const BufferConfig &config);
+  [[nodiscard]] const BufferConfig &config() const { return config_; }
+
+  // ---- The CPU (`now`: clock of the data phase)
+
+  /// Write to a buffer, a mask (caller: only in freeze mode) or IFLAG; others are ignored.
+  /// `lanes`: bits that are written.
+  void cpu_write(std::uint32_t address, std::uint32_t data, std::uint64_t now,
+                 std::uint32_t lanes = ~0u);
+  /// Read of a buffer, a mask, IFLAG, RXFIR or TIMER (whose value is not judged).
+  void cpu_read(std::uint32_t address, std::uint32_t value, std::uint64_t now);
+  void soft_reset(std::uint64_t now);
+
+  // ---- The bus
+
+  /// A SOF is over; `transmitter`: this node sends. `stamp`: reference count of bit times.
+  void frame_started(bool transmitter, std::uint16_t stamp, std::uint64_t now);
+  /// The header is over. `foreign`: the frame under way if another node sends it.
+  void header(const std::optional<Frame> &foreign, std::uint64_t now);
+  /// EOF6 without an error.
+  void received(std::uint64_t now);
+  /// The frame under way is destroyed.
+  void receive_failed(std::uint64_t now);
+  /// EOF7 of an own frame without an error; `wire`: the frame as it was on the wire.
+  void sent(const Frame &wire, std::uint64_t now);
+  /// An own frame lost arbitration or was destroyed.
+  void send_failed(std::uint64_t now);
+
+  // ---- Verdict
+
+  [[nodiscard]] bool ok() const { return failure_.empty(); }
+  [[nodiscard]] const std::string &failure() const { return failure_; }
+  /// States still possible; 1 when nothing is open.
+  [[nodiscard]] std::size_t possibilities() const { return states_.size(); }
+  /// One of the states.
+  [[nodiscard]] const BufferState &state() const { return states_.front(); }
+  /// In every state some buffer has waited to be sent since `clock` or earlier.
+  [[nodiscard]] bool must_send_since(std::uint64_t clock) const;
+
+ private:
+  using States = std::vector<BufferState>;
+
+  void settle(std::uint64_t now);
+  void open_up(std::uint64_t now);
+  static void add(States &list, BufferState state);
+  void steps_of(const BufferState &state, std::uint64_t now, States &out) const;
+  void replace(const std::function<void(const BufferState &, States &)> &each,
+               const std::string &otherwise);
+
+  void write_buffer(unsigned n, unsigned word, std::uint32_t data, std::uint32_t lanes,
+                    std::uint64_t now);
+  void write_cs(const BufferState &state, unsigned n, std::uint32_t data, std::uint32_t lanes,
+                std::uint64_t now, States &out) const;
+  void write_cs_aen(const BufferState &state, unsigned n, std::uint32_t data, std::uint32_t lanes,
+                    std::uint64_t now, States &out) const;
+  void take_write(BufferState state, unsigned n, std::uint32_t data, std::uint32_t lanes,
+                  std::uint64_t now, States &out) const;
+  void write_mask(std::uint32_t address, std::uint32_t data, std::uint32_t lanes);
+  void read_cs(unsigned n, std::uint32_t value);
+  void learn_stamp(unsigned n, std::uint32_t value);
+  void read_word(unsigned n, unsigned word, std::uint32_t value);
+  void read_flags(unsigned half, std::uint32_t value);
+  void start_own(const BufferState &state, std::uint64_t now, States &out) const;
+
+  [[nodiscard]] KnownWords words_of(const BufferState &state, unsigned n) const;
+  [[nodiscard]] bool fits(const KnownWords &words, unsigned word, std::uint32_t value);
+  [[nodiscard]] std::string allowed(unsigned n, unsigned word) const;
+
+  BufferConfig config_;
+  BufferWindows windows_;
+  BufferMasks masks_;
+  States states_;
+  std::uint16_t stamp_ = 0;
+  std::uint64_t received_at_ = 0;
+  std::uint64_t ended_at_ = 0;
+  std::optional<int> stamp_offset_;  ///< stamp as read less reference; one value for all frames
+  std::string failure_;
+};
+
+}  // namespace vericansim

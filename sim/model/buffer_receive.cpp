@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// BufferState, reception: which buffer a frame goes to, and what it does there (3.2, 3.5, 4).
+#include <algorithm>
+
+#include "model/buffer_state.hpp"
+
+namespace vericansim {
+namespace {
+
+using Kind = Destination::Kind;
+
+void add(std::vector<Destination> &list, const Destination &item) {
+  if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
+}
+
+/// The filter table, from MB6 on.
+std::vector<std::uint32_t> filter_table(const BufferState &state, const BufferConfig &config) {
+  std::vector<std::uint32_t> table;
+  for (unsigned i = 0; i < config.filter_elements(); ++i)
+    table.push_back(state.mb[6 + i / 4].words.word[i % 4]);
+  return table;
+}
+
+}  // namespace
+
+KnownWords received_words(const ArrivedFrame &arrived) {
+  const Frame &frame = arrived.frame;
+  KnownWords words;
+  words.word[0] = (std::uint32_t{frame.dlc} << 16) | arrived.stamp;
+  if (frame.remote) words.word[0] |= 1u << 20;
+  if (frame.extended) words.word[0] |= (1u << 21) | (1u << 22);
+  if (!frame.extended) words.known[0] &= ~(1u << 22);  // SRR of a standard frame: open
+  words.word[1] = frame.extended ? frame.id : frame.id << 18;
+  words.known[1] = 0x1FFFFFFF;  // PRIO of a received frame: open
+  words.known[2] = words.known[3] = 0;
+  for (unsigned i = 0; i < frame.payload_size(); ++i) {
+    const unsigned shift = 24 - 8 * (i % 4);
+    words.word[2 + i / 4] |= std::uint32_t{frame.data[i]} << shift;
+    words.known[2 + i / 4] |= 0xFFu << shift;
+  }
+  words.stamped = true;
+  return words;
+}
+
+bool BufferState::free_to_receive(unsigned n, bool open_as) const {
+  if (lock == n) return false;
+  if (mb[n].code() == kRxEmpty) return true;
+  if (mb[n].serviced == Serviced::kOpen) return open_as;
+  return mb[n].serviced == Serviced::kYes;
+}
+
+// The mailbox that the rules of 3.5 name, if buffers whose service is open count as `open_as`.
+void BufferState::mailbox_choices(const ArrivedFrame &arrived, const BufferMasks &masks,
+                                  const BufferConfig &config, bool open_as,
+                                  std::vector<Destination> &out) const {
+  std::optional<unsigned> first, last, free;
+  for (unsigned n = config.first_mailbox(); n <= config.maxmb && n < config.num_mb; ++n) {
+    const auto &words = mb[n].words.word;
+    if (!code_receives(mb[n].code())) continue;
+    const std::uint32_t mask = masks.of_mailbox(n, config.bcc);
+    if (!mailbox_accepts(arrived.frame, words[0], words[1], mask, config)) continue;
+    if (!first) first = n;
+    last = n;
+    if (!free && free_to_receive(n, open_as)) free = n;
+  }
+  if (!first) return;
+  if (!config.bcc) return add(out, {Kind::kMailbox, *first});
+  add(out, {Kind::kMailbox, free ? *free : *last});
+}
+
+std::vector<Destination> BufferState::destinations(const ArrivedFrame &arrived,
+                                                   const BufferMasks &masks,
+                                                   const BufferConfig &config) const {
+  std::vector<Destination> mailboxes;
+  if (arrived.own && config.srx_dis) return {{Kind::kNowhere, 0}};
+  for (const bool open_as : {false, true})
+    mailbox_choices(arrived, masks, config, open_as, mailboxes);
+  for (unsigned n = config.first_mailbox(); n <= config.maxmb && n < config.num_mb; ++n) {
+    const auto &words = mb[n].words.word;
+    if (mb[n].code() != kTxAnswerWaits || !mailboxes.empty()) continue;
+    if (answer_fits(arrived.frame, words[0], words[1], config))
+      mailboxes.push_back({Kind::kAnswer, n});
+  }
+  if (!config.fen) {
+    if (mailboxes.empty()) mailboxes.push_back({Kind::kNowhere, 0});
+    return mailboxes;
+  }
+  const auto hit = fifo_accepts(arrived.frame, filter_table(*this, config), masks, config);
+  if (!hit) {
+    if (mailboxes.empty()) mailboxes.push_back({Kind::kNowhere, 0});
+    return mailboxes;
+  }
+  const bool full = fifo.size() == 6;
+  const Destination into_fifo{full ? Kind::kOverflow : Kind::kFifo, *hit};
+  if (mailboxes.empty()) return {into_fifo};
+  if (!config.mrp) return full ? mailboxes : std::vector{into_fifo};
+  if (!config.bcc || full) return mailboxes;
+  std::vector<Destination> out;
+  for (const Destination &to : mailboxes) {
+    const bool free = to.kind == Kind::kMailbox && free_to_receive(to.index, true);
+    const bool taken = to.kind == Kind::kMailbox && !free_to_receive(to.index, false);
+    // Whether an answer counts as a free mailbox is open.
+    if (free || to.kind == Kind::kAnswer) add(out, to);
+    if (taken || to.kind == Kind::kAnswer) add(out, into_fifo);
+  }
+  return out;
+}
+
+void BufferState::move_in(unsigned n, const ArrivedFrame &arrived) {
+  BufferContent &buffer = mb[n];
+  const bool was_empty = buffer.code() == kRxEmpty;
+  const bool overrun = !was_empty && buffer.serviced != Serviced::kYes;
+  const bool open = !was_empty && buffer.serviced == Serviced::kOpen;
+  buffer.words = received_words(arrived);
+  buffer.words.word[0] |= (overrun ? kRxOverrun : kRxFull) << 24;
+  if (open) buffer.words.known[0] &= ~(1u << 26);  // FULL or OVERRUN
+  buffer.serviced = Serviced::kNo;
+  iflag |= std::uint64_t{1} << n;
+}
+
+void BufferState::push(const ArrivedFrame &arrived, unsigned id_hit) {
+  fifo.push_back({arrived, id_hit});
+  if (fifo.size() == 5) iflag |= kFlagWarning;
+}
+
+void BufferState::store(const ArrivedFrame &arrived, const Destination &to, std::uint64_t now,
+                        const BufferConfig &config) {
+  switch (to.kind) {
+    case Kind::kUndecided:
+    case Kind::kNowhere: break;
+    case Kind::kFifo: push(arrived, to.index); break;
+    case Kind::kOverflow: iflag |= kFlagOverflow; break;
+    case Kind::kAnswer: {
+      BufferContent &buffer = mb[to.index];
+      buffer.words.word[0] = (buffer.words.word[0] & ~0x0F000000u) | (kTxAnswer << 24);
+      buffer.words.known[0] &= ~0xFFFFu;  // whether the request leaves its stamp is open
+      buffer.request = request_of(to.index, config, now);
+      break;
+    }
+    case Kind::kMailbox:
+      if (lock == to.index) {
+        waiting.emplace(to.index, arrived);
+      } else {
+        move_in(to.index, arrived);
+      }
+      break;
+  }
+}
+
+}  // namespace vericansim

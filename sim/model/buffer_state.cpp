@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// BufferState, the CPU's side and transmission: see buffer_state.hpp. Reception is in
+// buffer_receive.cpp.
+#include "model/buffer_state.hpp"
+
+#include <algorithm>
+
+namespace vericansim {
+namespace {
+
+constexpr std::uint32_t kStampBits = 0xFFFF;
+constexpr std::uint32_t kOneShotBit = 1u << 28;
+
+void set_code(KnownWords &words, unsigned code) {
+  words.word[0] = (words.word[0] & ~0x0F000000u) | (std::uint32_t{code} << 24);
+  words.known[0] |= 0x0F000000;
+}
+
+void set_stamp(KnownWords &words, std::uint16_t stamp) {
+  words.word[0] = (words.word[0] & ~kStampBits) | stamp;
+  words.known[0] |= kStampBits;
+  words.stamped = true;
+}
+
+}  // namespace
+
+SendRequest BufferState::request_of(unsigned n, const BufferConfig &config,
+                                    std::uint64_t now) const {
+  const auto &words = mb[n].words.word;
+  return {.frame = buffer_frame(words),
+          .value = arbitration_value(n, words[0], words[1], config),
+          .since = now,
+          .one_shot = config.one_shot};
+}
+
+void BufferState::withdraw(unsigned n, std::uint64_t now) {
+  if (!mb[n].request) return;
+  mb[n].request->until = now;
+  withdrawn.emplace_back(n, *mb[n].request);
+  mb[n].request.reset();
+}
+
+void BufferState::write(unsigned n, unsigned word, std::uint32_t data, std::uint32_t lanes,
+                        const BufferConfig &config, std::uint64_t now) {
+  BufferContent &buffer = mb[n];
+  KnownWords &words = buffer.words;
+  const bool mailbox = n >= config.first_mailbox();
+  const bool cs = word == 0 && mailbox;
+  const std::uint32_t stored = cs ? data & kCsStored : data;
+  words.word[word] = (words.word[word] & ~lanes) | (stored & lanes);
+  words.known[word] |= lanes;
+  if (!cs) return;
+  if ((lanes & kStampBits) != 0) words.stamped = false;
+  // A C/S write ends the lock, the pending frame and the request of this buffer (3.4).
+  if (lock == n) lock.reset();
+  if (waiting && waiting->first == n) waiting.reset();
+  if (flight && flight->mb == n) flight->orphan = true;
+  if (ended && ended->flight.mb == n) ended->flight.orphan = true;
+  withdraw(n, now);
+  buffer.serviced = code_receives(buffer.code()) ? Serviced::kOpen : Serviced::kNo;
+  if (!code_sends(buffer.code()) || !config.takes_part(n)) return;
+  buffer.request = request_of(n, config, now);
+  if (config.osmb && (data & kOneShotBit) != 0 && buffer.code() == kTxActive)
+    buffer.request->one_shot = true;
+}
+
+bool BufferState::write_blocked(unsigned n) const {
+  return (flight && flight->mb == n) || (ended && ended->flight.mb == n) || moved_out == n;
+}
+
+bool BufferState::read_locks(unsigned n, const BufferConfig &config) const {
+  if (n < config.first_mailbox()) return false;
+  const unsigned code = mb[n].code();
+  return code == kRxFull || code == kRxOverrun || (!config.bcc && code == kRxEmpty);
+}
+
+void BufferState::unlock(bool read) {
+  if (!lock) return;
+  const unsigned n = *lock;
+  lock.reset();
+  if (read) mb[n].serviced = Serviced::kYes;
+  if (!waiting) return;
+  const ArrivedFrame frame = waiting->second;
+  waiting.reset();
+  move_in(n, frame);
+}
+
+void BufferState::abort(unsigned n, std::uint64_t now) {
+  withdraw(n, now);
+  set_code(mb[n].words, kTxAbort);
+  iflag |= std::uint64_t{1} << n;
+}
+
+void BufferState::clear_flags(std::uint64_t bits, const BufferConfig &config) {
+  if (config.fen) {
+    if ((bits & kFlagAvailable) != 0 && !fifo.empty()) fifo.pop_front();
+    bits &= ~kFlagAvailable;
+  }
+  iflag &= ~bits;
+}
+
+void BufferState::fen_changed() {
+  fifo.clear();
+  iflag &= ~(kFlagAvailable | kFlagWarning | kFlagOverflow);
+}
+
+void BufferState::soft_reset() {
+  iflag = 0;
+  lock.reset();
+  waiting.reset();
+  fifo.clear();
+  flight.reset();
+  ended.reset();
+  moved_out.reset();
+  matching.reset();
+  destination = {};
+  valid = false;
+  for (BufferContent &buffer : mb)
+    if (code_receives(buffer.code())) buffer.serviced = Serviced::kNo;
+}
+
+void BufferState::finish(const FlightEnd &end, const BufferConfig &config, std::uint64_t now) {
+  const Flight &flight_ended = end.flight;
+  if (flight_ended.orphan) return;
+  BufferContent &buffer = mb[flight_ended.mb];
+  const bool answer = buffer.code() == kTxAnswer;
+  if (!end.success) {
+    if (flight_ended.abort || flight_ended.request.one_shot) {
+      abort(flight_ended.mb, now);
+      buffer.words.known[0] &= ~kStampBits;  // whether a failed frame leaves its stamp is open
+    } else {
+      buffer.request = flight_ended.request;
+    }
+    return;
+  }
+  withdraw(flight_ended.mb, now);
+  set_stamp(buffer.words, end.stamp);
+  if (answer && !flight_ended.abort) {
+    set_code(buffer.words, kTxAnswerWaits);
+  } else if (flight_ended.request.frame.remote && !answer && !flight_ended.abort) {
+    set_code(buffer.words, kRxEmpty);
+    buffer.serviced = Serviced::kNo;
+  } else {
+    set_code(buffer.words, kTxInactive);
+  }
+  iflag |= std::uint64_t{1} << flight_ended.mb;
+  (void)config;
+}
+
+}  // namespace vericansim

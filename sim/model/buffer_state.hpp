@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// BufferState: one possible state of the message buffers, and what each event makes of it
+// (flexcan.md 3, 4). It never chooses: where the specification leaves freedom, BufferModel calls it
+// once for each possibility.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "model/buffer_match.hpp"
+
+namespace vericansim {
+
+/// A frame from the bus, as it comes to the buffers.
+struct ArrivedFrame {
+  Frame frame;
+  std::uint16_t stamp = 0;  ///< reference count of bit times at the start of the identifier
+  bool own = false;         ///< sent by this node
+  friend bool operator==(const ArrivedFrame &, const ArrivedFrame &) = default;
+};
+
+/// Words as they should read. `known` marks the bits that the specification promises.
+struct KnownWords {
+  std::array<std::uint32_t, 4> word{};
+  std::array<std::uint32_t, 4> known{~0u, ~0u, ~0u, ~0u};
+  bool stamped = false;  ///< the stamp is a reference count, not what the CPU wrote
+  friend bool operator==(const KnownWords &, const KnownWords &) = default;
+};
+
+/// Whether a buffer has been serviced since its last frame; kOpen: the specification does not say.
+enum class Serviced : std::uint8_t { kNo, kYes, kOpen };
+
+/// A request to send: the buffer as it was when its C/S word was written.
+struct SendRequest {
+  Frame frame;
+  std::uint64_t value = 0;   ///< arbitration_value()
+  std::uint64_t since = 0;   ///< clock of the activation
+  std::uint64_t until = ~std::uint64_t{0};  ///< clock of the deactivation
+  bool one_shot = false;
+  friend bool operator==(const SendRequest &, const SendRequest &) = default;
+};
+
+/// One buffer.
+struct BufferContent {
+  KnownWords words;
+  Serviced serviced = Serviced::kNo;
+  std::optional<SendRequest> request;
+  friend bool operator==(const BufferContent &, const BufferContent &) = default;
+  [[nodiscard]] unsigned code() const { return cs_code(words.word[0]); }
+};
+
+/// Where a received frame goes.
+struct Destination {
+  enum class Kind : std::uint8_t { kUndecided, kNowhere, kMailbox, kAnswer, kFifo, kOverflow };
+  Kind kind = Kind::kUndecided;
+  unsigned index = 0;  ///< of the buffer, or IDHIT
+  friend bool operator==(const Destination &, const Destination &) = default;
+};
+
+/// The frame being sent.
+struct Flight {
+  unsigned mb = 0;
+  SendRequest request;
+  bool orphan = false;  ///< deactivated since (AEN=0): ends without code or flag
+  bool abort = false;   ///< abort requested (AEN=1)
+  friend bool operator==(const Flight &, const Flight &) = default;
+};
+
+/// A flight that has ended on the wire and not yet in its buffer.
+struct FlightEnd {
+  Flight flight;
+  bool success = false;
+  std::uint16_t stamp = 0;
+  friend bool operator==(const FlightEnd &, const FlightEnd &) = default;
+};
+
+struct FifoEntry {
+  ArrivedFrame frame;
+  unsigned id_hit = 0;
+  friend bool operator==(const FifoEntry &, const FifoEntry &) = default;
+};
+
+/// IFLAG1 bits of the FIFO.
+inline constexpr std::uint64_t kFlagAvailable = 1u << 5;
+inline constexpr std::uint64_t kFlagWarning = 1u << 6;
+inline constexpr std::uint64_t kFlagOverflow = 1u << 7;
+
+/// One possible state.
+class BufferState {
+ public:
+  explicit BufferState(unsigned num_mb) : mb(num_mb) {}
+  friend bool operator==(const BufferState &, const BufferState &) = default;
+
+  // ---- The CPU
+
+  /// A word of a buffer is written, after all checks. `now`: clock.
+  void write(unsigned n, unsigned word, std::uint32_t data, std::uint32_t lanes,
+             const BufferConfig &config, std::uint64_t now);
+  /// AEN=1: C/S writes to this buffer have no effect while it is being sent or its flag is set.
+  [[nodiscard]] bool write_blocked(unsigned n) const;
+  /// Whether reading this C/S word locks its buffer.
+  [[nodiscard]] bool read_locks(unsigned n, const BufferConfig &config) const;
+  void lock_for_read(unsigned n) { lock = n; }
+  /// Ends the lock; `read` marks the buffer as serviced. A waiting frame moves in.
+  void unlock(bool read);
+  /// Abort honoured: 1001 and the flag.
+  void abort(unsigned n, std::uint64_t now);
+  /// IFLAG is written.
+  void clear_flags(std::uint64_t bits, const BufferConfig &config);
+  void fen_changed();
+  void soft_reset();
+
+  // ---- The bus
+
+  /// All places that the matching rules allow for this frame now (more than one only where the
+  /// specification leaves it open).
+  [[nodiscard]] std::vector<Destination> destinations(const ArrivedFrame &arrived,
+                                                      const BufferMasks &masks,
+                                                      const BufferConfig &config) const;
+  /// The frame is stored where `to` says, or waits there for the unlock.
+  void store(const ArrivedFrame &arrived, const Destination &to, std::uint64_t now,
+             const BufferConfig &config);
+  /// The flight has ended: stamp, code, flag, or back among the candidates.
+  void finish(const FlightEnd &end, const BufferConfig &config, std::uint64_t now);
+  /// Request of the buffer from what is in it now (code 1100 or 1110).
+  [[nodiscard]] SendRequest request_of(unsigned n, const BufferConfig &config,
+                                       std::uint64_t now) const;
+  /// Buffer n is no candidate any more.
+  void withdraw(unsigned n, std::uint64_t now);
+
+  /// IFLAG2:IFLAG1 as the CPU reads it.
+  [[nodiscard]] std::uint64_t flags() const {
+    return iflag | (fifo.empty() ? 0 : kFlagAvailable);
+  }
+
+  std::vector<BufferContent> mb;
+  std::uint64_t iflag = 0;
+  std::optional<unsigned> lock;
+  std::optional<std::pair<unsigned, ArrivedFrame>> waiting;  ///< for the locked buffer
+  std::deque<FifoEntry> fifo;
+  std::optional<Flight> flight;
+  std::vector<std::pair<unsigned, SendRequest>> withdrawn;  ///< lately
+
+  // What has happened on the bus but perhaps not yet in the buffers.
+  std::optional<ArrivedFrame> matching;  ///< header known, match not over
+  Destination destination;               ///< result of the match
+  bool valid = false;                    ///< the frame has ended well
+  std::optional<FlightEnd> ended;
+  std::optional<unsigned> moved_out;     ///< AEN=1: fixed for the next start
+  bool moved_out_abort = false;          ///< ... with an abort request
+  std::uint64_t moved_out_since = 0;
+
+ private:
+  [[nodiscard]] bool free_to_receive(unsigned n, bool open_as) const;
+  void mailbox_choices(const ArrivedFrame &arrived, const BufferMasks &masks,
+                       const BufferConfig &config, bool open_as,
+                       std::vector<Destination> &out) const;
+  void move_in(unsigned n, const ArrivedFrame &arrived);
+  void push(const ArrivedFrame &arrived, unsigned id_hit);
+};
+
+/// C/S, ID and data of a received frame (code 0), with what is promised of them.
+[[nodiscard]] KnownWords received_words(const ArrivedFrame &arrived);
+
+}  // namespace vericansim
