@@ -68,7 +68,7 @@ void BufferModel::write_buffer(unsigned n, unsigned word, std::uint32_t data, st
         next.write(n, word, data, lanes, config_, now);
         add(out, std::move(next));
       },
-      "");
+      [] { return "no state is left"; });
 }
 
 // The write takes effect; a match that had chosen this buffer is lost or made again (3.5).
@@ -130,7 +130,7 @@ KnownWords BufferModel::words_of(const BufferState &state, unsigned n) const {
   return words;
 }
 
-bool BufferModel::fits(const KnownWords &words, unsigned word, std::uint32_t value) {
+bool BufferModel::fits(const KnownWords &words, unsigned word, std::uint32_t value) const {
   std::uint32_t known = words.known[word];
   if (word == 0 && words.stamped) {
     if ((known & 0xFFFF) == 0xFFFF) {
@@ -153,11 +153,11 @@ std::string BufferModel::allowed(unsigned n, unsigned word) const {
 }
 
 void BufferModel::read_word(unsigned n, unsigned word, std::uint32_t value) {
-  replace(
-      [&](const BufferState &state, States &out) {
-        if (fits(words_of(state, n), word, value)) add(out, state);
-      },
-      fmt::format("MB{} word {} reads {:08X}; allowed:{}", n, word, value, allowed(n, word)));
+  keep([&](const BufferState &state) { return fits(words_of(state, n), word, value); },
+       [&] {
+         return fmt::format("MB{} word {} reads {:08X}; allowed:{}", n, word, value,
+                            allowed(n, word));
+       });
 }
 
 // All stamps stand in the same relation to the reference count; the first one read says in which.
@@ -168,54 +168,57 @@ void BufferModel::learn_stamp(unsigned n, std::uint32_t value) {
     stamp_offset_ = static_cast<std::int16_t>(value - words.word[0]);
 }
 
-void BufferModel::read_cs(unsigned n, std::uint32_t value) {
+void BufferModel::read_cs(unsigned n, std::uint32_t value, std::uint64_t now) {
   const bool mailbox = n >= config_.first_mailbox();
   replace(
       [&](const BufferState &state, States &out) {
         const KnownWords words = words_of(state, n);
         // A move in progress may show as BUSY; it does not lock then.
-        const bool moving = state.valid && state.destination == Destination{Kind::kMailbox, n};
+        const bool moving = (state.released && state.released->first == n) ||
+                            (state.valid && state.destination == Destination{Kind::kMailbox, n});
         if (mailbox && moving && ((value >> 24) & 9) == 1) return add(out, state);
         if (!fits(words, 0, value)) return;
         BufferState next = state;
         if (next.lock && next.lock != n) {
           if (!mailbox) add(out, state);  // whether the FIFO's output ends a lock is open
-          next.unlock(true);
+          next.unlock(true, now);
         }
         if (next.read_locks(n, config_)) next.lock_for_read(n);
         add(out, std::move(next));
       },
-      fmt::format("MB{} C/S reads {:08X}; allowed:{}", n, value, allowed(n, 0)));
+      [&] { return fmt::format("MB{} C/S reads {:08X}; allowed:{}", n, value, allowed(n, 0)); });
   learn_stamp(n, value);
 }
 
 void BufferModel::read_flags(unsigned half, std::uint32_t value) {
-  std::string expected;
-  for (const BufferState &state : states_)
-    expected += fmt::format(" {:08X}", static_cast<std::uint32_t>(state.flags() >> (32 * half)));
-  replace(
-      [&](const BufferState &state, States &out) {
-        if (static_cast<std::uint32_t>(state.flags() >> (32 * half)) == value) add(out, state);
-      },
-      fmt::format("IFLAG{} reads {:08X}; allowed:{}", half + 1, value, expected));
+  const auto flags_of = [half](const BufferState &state) {
+    return static_cast<std::uint32_t>(state.flags() >> (32 * half));
+  };
+  keep([&](const BufferState &state) { return flags_of(state) == value; },
+       [&] {
+         std::string expected;
+         for (const BufferState &state : states_)
+           expected += fmt::format(" {:08X}", flags_of(state));
+         return fmt::format("IFLAG{} reads {:08X}; allowed:{}", half + 1, value, expected);
+       });
 }
 
 void BufferModel::cpu_read(std::uint32_t address, std::uint32_t value, std::uint64_t now) {
   settle(now);
   if (const auto place = buffer_place(address, config_.num_mb)) {
-    if (place->word == 0) return read_cs(place->n, value);
+    if (place->word == 0) return read_cs(place->n, value, now);
     return read_word(place->n, place->word, value);
   }
   if (address == reg::kIflag1 || address == reg::kIflag2)
     return read_flags(address == reg::kIflag2 ? 1 : 0, value);
   if (address == reg::kTimer)
-    for (BufferState &state : states_) state.unlock(true);
+    for (BufferState &state : states_) state.unlock(true, now);
   if (address != kRxfir) return;
-  replace(
-      [&](const BufferState &state, States &out) {
-        if (state.fifo.empty() || state.fifo.front().id_hit == value) add(out, state);
+  keep(
+      [&](const BufferState &state) {
+        return state.fifo.empty() || state.fifo.front().id_hit == value;
       },
-      fmt::format("RXFIR reads {}, another filter accepted the frame", value));
+      [&] { return fmt::format("RXFIR reads {}, another filter accepted the frame", value); });
 }
 
 }  // namespace vericansim

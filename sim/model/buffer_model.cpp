@@ -22,6 +22,8 @@ std::string name_of(const Frame &frame) {
   return text;
 }
 
+std::string nothing() { return "no state is left"; }
+
 }  // namespace
 
 BufferModel::BufferModel(const BufferConfig &config, const BufferWindows &windows)
@@ -47,16 +49,27 @@ void BufferModel::add(States &list, BufferState state) {
 }
 
 void BufferModel::replace(const std::function<void(const BufferState &, States &)> &each,
-                          const std::string &otherwise) {
+                          const std::function<std::string()> &otherwise) {
   if (!ok()) return;
   States next;
   for (const BufferState &state : states_) each(state, next);
   if (next.empty()) {
-    failure_ = otherwise;
+    failure_ = otherwise();
     return;
   }
   states_ = std::move(next);
 }
+
+void BufferModel::keep(const std::function<bool(const BufferState &)> &possible,
+                       const std::function<std::string()> &otherwise) {
+  if (!ok()) return;
+  if (std::none_of(states_.begin(), states_.end(), possible)) {
+    failure_ = otherwise();
+    return;
+  }
+  std::erase_if(states_, [&](const BufferState &state) { return !possible(state); });
+}
+
 
 // What may happen in this state without further ado: a match decided, a frame moved in, a flight
 // concluded.
@@ -73,6 +86,10 @@ void BufferModel::steps_of(const BufferState &state, std::uint64_t now, States &
     next.valid = false;
     next.store(*state.matching, state.destination, now, config_);
     out.push_back(std::move(next));
+  }
+  if (state.released) {
+    out.push_back(state);
+    out.back().release();
   }
   if (state.ended) {
     BufferState next = state;
@@ -92,6 +109,7 @@ void BufferModel::open_up(std::uint64_t now) {
   }
   const auto overdue = [&](const BufferState &state) {
     if (state.valid && now > received_at_ + windows_.move_in) return true;
+    if (state.released && now > state.released_since + windows_.move_in) return true;
     if (state.moved_out && now > state.moved_out_since + windows_.decision) return true;
     return state.ended && now > ended_at_ + windows_.completion;
   };
@@ -104,7 +122,7 @@ void BufferModel::open_up(std::uint64_t now) {
 
 void BufferModel::settle(std::uint64_t now) {
   const bool open = std::any_of(states_.begin(), states_.end(), [](const BufferState &s) {
-    return s.matching || s.ended || s.moved_out || !s.withdrawn.empty();
+    return s.matching || s.released || s.ended || s.moved_out || !s.withdrawn.empty();
   });
   if (open) open_up(now);
 }
@@ -141,9 +159,8 @@ void BufferModel::start_own(const BufferState &state, std::uint64_t now, States 
   }
 }
 
-void BufferModel::frame_started(bool transmitter, std::uint16_t stamp, std::uint64_t now) {
+void BufferModel::frame_started(bool transmitter, std::uint64_t now) {
   settle(now);
-  stamp_ = stamp;
   replace(
       [&](const BufferState &state, States &out) {
         if (transmitter) return start_own(state, now, out);
@@ -152,11 +169,13 @@ void BufferModel::frame_started(bool transmitter, std::uint16_t stamp, std::uint
         next.moved_out.reset();
         add(out, std::move(next));
       },
-      "a frame is being sent, but no buffer may be");
+      [] { return "a frame is being sent, but no buffer may be"; });
 }
 
-void BufferModel::header(const std::optional<Frame> &foreign, std::uint64_t now) {
+void BufferModel::header(const std::optional<Frame> &foreign, std::uint16_t stamp,
+                         std::uint64_t now) {
   settle(now);
+  stamp_ = stamp;
   for (BufferState &state : states_) {
     if (!foreign && !state.flight) continue;
     state.matching = ArrivedFrame{.frame = foreign ? *foreign : state.flight->request.frame,
@@ -184,7 +203,7 @@ void BufferModel::receive_failed(std::uint64_t now) {
         }
         add(out, std::move(next));
       },
-      "");
+      nothing);
 }
 
 void BufferModel::sent(const Frame &wire, std::uint64_t now) {
@@ -202,7 +221,7 @@ void BufferModel::sent(const Frame &wire, std::uint64_t now) {
         next.flight.reset();
         add(out, std::move(next));
       },
-      fmt::format("{} was sent; allowed:{}", name_of(wire), expected));
+      [&] { return fmt::format("{} was sent; allowed:{}", name_of(wire), expected); });
 }
 
 void BufferModel::send_failed(std::uint64_t now) {
@@ -222,7 +241,7 @@ void BufferModel::send_failed(std::uint64_t now) {
         }
         add(out, std::move(next));
       },
-      "a frame failed that was not being sent");
+      [] { return "a frame failed that was not being sent"; });
 }
 
 void BufferModel::soft_reset(std::uint64_t) {

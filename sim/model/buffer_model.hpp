@@ -49,10 +49,11 @@ class BufferModel {
 
   // ---- The bus
 
-  /// A SOF is over; `transmitter`: this node sends. `stamp`: reference count of bit times.
-  void frame_started(bool transmitter, std::uint16_t stamp, std::uint64_t now);
-  /// The header is over. `foreign`: the frame under way if another node sends it.
-  void header(const std::optional<Frame> &foreign, std::uint64_t now);
+  /// A SOF was seen or is about to be sent; `transmitter`: this node sends.
+  void frame_started(bool transmitter, std::uint64_t now);
+  /// The header is over. `foreign`: the frame under way if another node sends it;
+  /// `stamp`: reference count of bit times at the start of the identifier.
+  void header(const std::optional<Frame> &foreign, std::uint16_t stamp, std::uint64_t now);
   /// EOF6 without an error.
   void received(std::uint64_t now);
   /// The frame under way is destroyed.
@@ -81,7 +82,9 @@ class BufferModel {
   static void add(States &list, BufferState state);
   void steps_of(const BufferState &state, std::uint64_t now, States &out) const;
   void replace(const std::function<void(const BufferState &, States &)> &each,
-               const std::string &otherwise);
+               const std::function<std::string()> &otherwise);
+  void keep(const std::function<bool(const BufferState &)> &possible,
+            const std::function<std::string()> &otherwise);
 
   void write_buffer(unsigned n, unsigned word, std::uint32_t data, std::uint32_t lanes,
                     std::uint64_t now);
@@ -92,14 +95,14 @@ class BufferModel {
   void take_write(BufferState state, unsigned n, std::uint32_t data, std::uint32_t lanes,
                   std::uint64_t now, States &out) const;
   void write_mask(std::uint32_t address, std::uint32_t data, std::uint32_t lanes);
-  void read_cs(unsigned n, std::uint32_t value);
+  void read_cs(unsigned n, std::uint32_t value, std::uint64_t now);
   void learn_stamp(unsigned n, std::uint32_t value);
   void read_word(unsigned n, unsigned word, std::uint32_t value);
   void read_flags(unsigned half, std::uint32_t value);
   void start_own(const BufferState &state, std::uint64_t now, States &out) const;
 
   [[nodiscard]] KnownWords words_of(const BufferState &state, unsigned n) const;
-  [[nodiscard]] bool fits(const KnownWords &words, unsigned word, std::uint32_t value);
+  [[nodiscard]] bool fits(const KnownWords &words, unsigned word, std::uint32_t value) const;
   [[nodiscard]] std::string allowed(unsigned n, unsigned word) const;
 
   BufferConfig config_;

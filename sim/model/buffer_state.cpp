@@ -56,6 +56,7 @@ void BufferState::write(unsigned n, unsigned word, std::uint32_t data, std::uint
   // A C/S write ends the lock, the pending frame and the request of this buffer (3.4).
   if (lock == n) lock.reset();
   if (waiting && waiting->first == n) waiting.reset();
+  if (released && released->first == n) released.reset();
   if (flight && flight->mb == n) flight->orphan = true;
   if (ended && ended->flight.mb == n) ended->flight.orphan = true;
   withdraw(n, now);
@@ -76,14 +77,19 @@ bool BufferState::read_locks(unsigned n, const BufferConfig &config) const {
   return code == kRxFull || code == kRxOverrun || (!config.bcc && code == kRxEmpty);
 }
 
-void BufferState::unlock(bool read) {
+void BufferState::unlock(bool read, std::uint64_t now) {
   if (!lock) return;
-  const unsigned n = *lock;
+  if (read) mb[*lock].serviced = Serviced::kYes;
   lock.reset();
-  if (read) mb[n].serviced = Serviced::kYes;
   if (!waiting) return;
-  const ArrivedFrame frame = waiting->second;
+  released = waiting;
+  released_since = now;
   waiting.reset();
+}
+
+void BufferState::release() {
+  const auto [n, frame] = *released;
+  released.reset();
   move_in(n, frame);
 }
 
@@ -110,6 +116,7 @@ void BufferState::soft_reset() {
   iflag = 0;
   lock.reset();
   waiting.reset();
+  released.reset();
   fifo.clear();
   flight.reset();
   ended.reset();

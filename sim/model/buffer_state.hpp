@@ -106,8 +106,10 @@ class BufferState {
   /// Whether reading this C/S word locks its buffer.
   [[nodiscard]] bool read_locks(unsigned n, const BufferConfig &config) const;
   void lock_for_read(unsigned n) { lock = n; }
-  /// Ends the lock; `read` marks the buffer as serviced. A waiting frame moves in.
-  void unlock(bool read);
+  /// Ends the lock; `read` marks the buffer as serviced. A waiting frame is released.
+  void unlock(bool read, std::uint64_t now);
+  /// The released frame has moved in.
+  void release();
   /// Abort honoured: 1001 and the flag.
   void abort(unsigned n, std::uint64_t now);
   /// IFLAG is written.
@@ -142,6 +144,8 @@ class BufferState {
   std::uint64_t iflag = 0;
   std::optional<unsigned> lock;
   std::optional<std::pair<unsigned, ArrivedFrame>> waiting;  ///< for the locked buffer
+  std::optional<std::pair<unsigned, ArrivedFrame>> released;  ///< waited, moves in now
+  std::uint64_t released_since = 0;
   std::deque<FifoEntry> fifo;
   std::optional<Flight> flight;
   std::vector<std::pair<unsigned, SendRequest>> withdrawn;  ///< lately

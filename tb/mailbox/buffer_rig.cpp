@@ -67,6 +67,14 @@ AhbResult BufferRig::access(const AhbTransfer &transfer) {
   return node_->ahb().result(ticket);
 }
 
+std::uint32_t BufferRig::read_cs(unsigned mb) {
+  const std::uint64_t limit = clock_ + 200;  // a code that the CPU wrote may look like BUSY
+  for (;;) {
+    const std::uint32_t cs = read(reg::mb(mb));
+    if (((cs >> 24) & 9) != 1 || clock_ > limit) return cs;
+  }
+}
+
 void BufferRig::put(unsigned mb, const MbWords &words) {
   write(reg::mb(mb, 2), words.low);
   write(reg::mb(mb, 3), words.high);
@@ -154,7 +162,7 @@ void BufferRig::compare_quietly() {
 
 void BufferRig::compare() {
   compare_quietly();
-  for (unsigned n = 0; n < config().num_mb; ++n) read(reg::mb(n));
+  for (unsigned n = 0; n < config().num_mb; ++n) read_cs(n);
   read(reg::kTimer);
   if (config().fen) read(reg::kRxfir);
   tell_model(true);

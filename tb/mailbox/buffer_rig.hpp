@@ -58,6 +58,8 @@ class BufferRig {
   // ---- Software on the core; runs the bus until the access is done
 
   std::uint32_t read(std::uint32_t address);
+  /// C/S word, read again while it shows BUSY.
+  std::uint32_t read_cs(unsigned mb);
   void write(std::uint32_t address, std::uint32_t data);
   void write(std::uint32_t address, AhbSize size, std::uint32_t data);
   /// The access is driven in clock `clock` (see clocks()), or as soon as the bus of the core is
@@ -134,7 +136,7 @@ class BufferRig {
   std::unique_ptr<RtlNode> node_;
   std::optional<TestWave> wave_;
   NodeModel peer_;
-  Level peer_level_ = Level::kRecessive;
+  Level peer_level_ = Level::kRecessive, peer_next_level_ = Level::kRecessive;
   std::deque<Frame> peer_queue_;
   std::multimap<std::uint64_t, AhbTransfer> planned_;
   std::deque<std::pair<AhbMaster::Ticket, AhbTransfer>> under_way_;
@@ -142,6 +144,7 @@ class BufferRig {
 
   std::uint64_t clock_ = 0;
   std::uint16_t timer_ = 0;  // bit times since the start, modulo 2^16
+  std::uint16_t stamp_ = 0;  // timer_ at the start of the identifier
   std::vector<Level> bits_;  // of the frame under way, SOF first
   Frame foreign_;            // what the peer is sending
   unsigned bit_ = 0;

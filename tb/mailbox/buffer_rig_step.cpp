@@ -33,6 +33,7 @@ Level BufferRig::rx_level() const {
 
 void BufferRig::step() {
   drive_accesses();
+  peer_level_ = peer_next_level_;
   const Level rx = rx_level();
   if (wave_) wave_->clock(node_->tx() & peer_level_);
   node_->clock(rx);
@@ -87,6 +88,7 @@ void BufferRig::check_model() {
 // wire early enough to be through the core's synchroniser at the start of the next bit.
 void BufferRig::sampled(const Trace &trace) {
   if (!trace.running) return;
+  ++timer_;
   const Level wire = node_->tx() & peer_level_;
   if (!peer_.pending() && !peer_queue_.empty()) {
     peer_.request(peer_queue_.front());
@@ -94,12 +96,12 @@ void BufferRig::sampled(const Trace &trace) {
     peer_queue_.pop_front();
   }
   peer_.sample(wire);
-  peer_level_ = peer_.drive();
+  peer_next_level_ = peer_.drive();
   if (in_frame_) bits_.push_back(wire);
   const bool past_header = trace.field == Field::kData || trace.field == Field::kCrc;
   if (in_frame_ && past_header && !header_told_) {
     header_told_ = true;
-    model.header(trace.transmitter ? std::nullopt : std::optional{foreign_}, clock_);
+    model.header(trace.transmitter ? std::nullopt : std::optional{foreign_}, stamp_, clock_);
   }
   check_liveness();
 }
@@ -110,9 +112,12 @@ void BufferRig::bus_event(const Trace &trace) {
     start_clock_ = clock_;
     in_frame_ = true;
     header_told_ = false;
-    bit_ = 0;
-    bits_ = {Level::kDominant};
-    model.frame_started(trace.transmitter, timer_, clock_);
+    // A sender decides before its SOF, a receiver knows after it has sampled one.
+    const bool sof_to_come = trace.field == Field::kSof;
+    bit_ = sof_to_come ? ~0u : 0;
+    bits_.clear();
+    if (!sof_to_come) bits_.push_back(Level::kDominant);
+    model.frame_started(trace.transmitter, clock_);
   }
   if (trace.errors != 0) model.receive_failed(clock_);
   if (trace.rx_valid) model.received(clock_);
@@ -129,10 +134,9 @@ void BufferRig::bus_event(const Trace &trace) {
 }
 
 void BufferRig::end_bit(Field field) {
-  ++timer_;
   if (disturbance_ && in_frame_ && disturbance_->second != 0 && bit_ == disturbance_->first)
     if (--disturbance_->second == 0) disturbance_.reset();
-  ++bit_;
+  if (++bit_ == 1) stamp_ = timer_;
   if (field != Field::kIdle) idle_since_ = clock_;
   if (field == Field::kIdle) in_frame_ = false;
 }

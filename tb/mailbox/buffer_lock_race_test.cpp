@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The CPU against a frame that moves in: every kind of access at every clock around the end of the
+// frame, from every state of the buffer; the model says which outcomes are allowed.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "mailbox/buffer_rig.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr unsigned kMb = 5, kOtherMb = 9;
+constexpr Frame kFirst{.id = 0x123, .dlc = 2, .data = {0x11, 0x12}};
+constexpr Frame kSecond{.id = 0x123, .dlc = 2, .data = {0x21, 0x22}};
+constexpr Frame kThird{.id = 0x123, .dlc = 2, .data = {0x31, 0x32}};
+
+/// Clocks before EOF6 at which the sweep begins: the CRC field of the frame, so that the match is
+/// under way; and after it.
+constexpr int kBefore = 200, kAfter = 60;
+
+/// State of kMb before the frame of the race.
+enum class State : unsigned { kEmpty, kFull, kServiced, kOverrun, kLocked, kLockedWaiting, kCount };
+/// What the CPU does.
+enum class Action : unsigned {
+  kReadCs,
+  kReadTimer,
+  kReadOtherCs,
+  kReadCsAndTimer,
+  kWriteEmpty,
+  kWriteInactive,
+  kWriteFull,
+  kWriteOther,
+  kClearFlag,
+  kCount
+};
+
+const char *const kStates[] = {"Empty", "Full", "Serviced", "Overrun", "Locked", "LockedWaiting"};
+const char *const kActions[] = {"ReadCs",        "ReadTimer", "ReadOtherCs", "ReadCsAndTimer",
+                                "WriteEmpty",    "WriteInactive", "WriteFull", "WriteOther",
+                                "ClearFlag"};
+
+void prepare(BufferRig &rig, State state) {
+  rig.write(reg::mb(kMb), 0);
+  rig.write(reg::mb(kOtherMb), 0);
+  rig.write(reg::kIflag1, 0xFFFF);
+  rig.put_rx(kMb, kFirst);
+  if (state == State::kEmpty) return;
+  rig.receive(kFirst);
+  if (state == State::kOverrun) rig.receive(kSecond);
+  if (state == State::kServiced) {
+    rig.read_cs(kMb);
+    rig.read(reg::kTimer);
+  }
+  if (state == State::kLocked || state == State::kLockedWaiting) rig.read_cs(kMb);
+  if (state == State::kLockedWaiting) rig.receive(kSecond);
+}
+
+void act(BufferRig &rig, Action action, std::uint64_t clock) {
+  const auto read = [&](std::uint32_t address) { rig.at(clock, {.address = address}); };
+  const auto write = [&](std::uint32_t address, std::uint32_t data) {
+    rig.at(clock, {.address = address, .write = true, .data = data});
+  };
+  switch (action) {
+    case Action::kReadCs: read(reg::mb(kMb)); break;
+    case Action::kReadTimer: read(reg::kTimer); break;
+    case Action::kReadOtherCs: read(reg::mb(kOtherMb)); break;
+    case Action::kReadCsAndTimer:
+      read(reg::mb(kMb));
+      read(reg::kTimer);
+      break;
+    case Action::kWriteEmpty: write(reg::mb(kMb), kRxEmpty << 24); break;
+    case Action::kWriteInactive: write(reg::mb(kMb), 0); break;
+    case Action::kWriteFull: write(reg::mb(kMb), kRxFull << 24); break;
+    case Action::kWriteOther: write(reg::mb(kOtherMb), kRxEmpty << 24); break;
+    case Action::kClearFlag: write(reg::kIflag1, 1u << kMb); break;
+    case Action::kCount: break;
+  }
+}
+
+// BCC, and whether a second buffer fits as well.
+using Parameter = std::tuple<unsigned, unsigned, unsigned>;
+
+class LockRace : public ::testing::TestWithParam<Parameter> {};
+
+// FX-3.6.a to FX-3.6.i: FX-3.6.c, FX-3.6.d, FX-3.6.e, FX-3.6.f, FX-3.6.h: lock and unlock at every
+// clock around a move-in. FX-3.5.o: the frame waits, a later one replaces it. FX-3.5.r, FX-3.4.g: a
+// C/S write cancels what was to come. FX-1.5.e, FX-5.a: flags set and cleared in the same clock.
+// VA-05: a frame is stored whole or not at all.
+TEST_P(LockRace, EveryClock) {
+  const auto [state, action, setting] = GetParam();
+  BufferRig rig{{.num_mb = 16, .maxmb = 15, .bcc = (setting & 1) != 0}};
+  rig.go();
+  prepare(rig, State::kEmpty);
+  rig.receive(kThird);
+  const std::uint64_t length = rig.end_clock() - rig.start_clock();
+  for (int offset = -kBefore; offset <= kAfter && !HasFailure(); ++offset) {
+    SCOPED_TRACE(testing::Message() << "clock " << offset << " from EOF6");
+    prepare(rig, static_cast<State>(state));
+    rig.put(kOtherMb, {.cs = (setting & 2) != 0 ? kRxEmpty << 24 : 0, .id = 0x123u << 18});
+    const std::uint64_t frames = rig.frames_started();
+    rig.peer_sends(kThird);
+    ASSERT_TRUE(rig.run_until([&] { return rig.frames_started() > frames; }, 400));
+    act(rig, static_cast<Action>(action), rig.start_clock() + length + offset - 2);
+    rig.quiet();
+    rig.compare_quietly();
+    rig.read(reg::kTimer);  // what still waits moves in
+    rig.run(20);
+    rig.compare();
+    rig.receive(kFirst);  // and the next frame finds everything in order
+    rig.compare();
+  }
+}
+
+std::string race_name(const ::testing::TestParamInfo<Parameter> &test) {
+  const auto [state, action, setting] = test.param;
+  return std::string{kStates[state]} + "_" + kActions[action] +
+         ((setting & 1) != 0 ? "_Queue" : "_NoQueue") + ((setting & 2) != 0 ? "_Two" : "_One");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, LockRace,
+    ::testing::Combine(::testing::Range(0u, static_cast<unsigned>(State::kCount)),
+                       ::testing::Range(0u, static_cast<unsigned>(Action::kCount)),
+                       ::testing::Range(0u, 4u)),
+    race_name);
+
+}  // namespace
+}  // namespace vericansim
