@@ -15,8 +15,6 @@ namespace {
 using Kind = Destination::Kind;
 
 constexpr std::uint32_t kCodeLane = 0x0F000000;
-constexpr std::uint32_t kRxfir = 0x04C;
-constexpr std::uint32_t kRxfgmask = 0x048;
 
 struct Place {
   unsigned n;
@@ -50,7 +48,7 @@ void BufferModel::write_mask(std::uint32_t address, std::uint32_t data, std::uin
   if (address == reg::kRxgmask) mask = &masks_.global;
   if (address == reg::kRx14mask) mask = &masks_.mb14;
   if (address == reg::kRx15mask) mask = &masks_.mb15;
-  if (address == kRxfgmask) mask = &masks_.fifo;
+  if (address == reg::kRxfgmask) mask = &masks_.fifo;
   if (address >= reg::rximr(0) && address < reg::rximr(config_.num_mb))
     mask = &masks_.individual[(address - reg::rximr(0)) / 4];
   if (mask != nullptr) *mask = (*mask & ~lanes) | (data & lanes);
@@ -76,6 +74,13 @@ void BufferModel::take_write(BufferState state, unsigned n, std::uint32_t data,
                              std::uint32_t lanes, std::uint64_t now, States &out) const {
   const Destination &to = state.destination;
   const bool chosen = (to.kind == Kind::kMailbox || to.kind == Kind::kAnswer) && to.index == n;
+  if (chosen && state.valid) {
+    // The frame may have been on its way in: words that nobody promises from here on.
+    const KnownWords arriving = received_words(*state.matching);
+    KnownWords &words = state.mb[n].words;
+    for (unsigned i = 1; i < 4; ++i)
+      words.known[i] &= arriving.known[i] & ~(words.word[i] ^ arriving.word[i]);
+  }
   state.write(n, 0, data, lanes, config_, now);
   if (chosen) {
     BufferState again = state;
@@ -176,13 +181,14 @@ void BufferModel::read_cs(unsigned n, std::uint32_t value, std::uint64_t now) {
         // A move in progress may show as BUSY; it does not lock then.
         const bool moving = (state.released && state.released->first == n) ||
                             (state.valid && state.destination == Destination{Kind::kMailbox, n});
-        if (mailbox && moving && ((value >> 24) & 9) == 1) return add(out, state);
-        if (!fits(words, 0, value)) return;
+        const bool busy = mailbox && moving && ((value >> 24) & 9) == 1;
+        if (!busy && !fits(words, 0, value)) return;
         BufferState next = state;
         if (next.lock && next.lock != n) {
           if (!mailbox) add(out, state);  // whether the FIFO's output ends a lock is open
           next.unlock(true, now);
         }
+        if (busy) return add(out, std::move(next));
         if (next.read_locks(n, config_)) next.lock_for_read(n);
         add(out, std::move(next));
       },
@@ -213,7 +219,7 @@ void BufferModel::cpu_read(std::uint32_t address, std::uint32_t value, std::uint
     return read_flags(address == reg::kIflag2 ? 1 : 0, value);
   if (address == reg::kTimer)
     for (BufferState &state : states_) state.unlock(true, now);
-  if (address != kRxfir) return;
+  if (address != reg::kRxfir) return;
   keep(
       [&](const BufferState &state) {
         return state.fifo.empty() || state.fifo.front().id_hit == value;

@@ -29,9 +29,6 @@ namespace vericansim {
 namespace reg {
 inline constexpr std::uint32_t kEsr2 = 0x038;
 inline constexpr std::uint32_t kCrcr = 0x044;
-inline constexpr std::uint32_t kRxfgmask = 0x048;
-inline constexpr std::uint32_t kRxfir = 0x04C;
-inline constexpr std::uint32_t kMcrFen = 1u << 29;
 inline constexpr std::uint32_t kMcrLprioEn = 1u << 13;
 inline constexpr std::uint32_t kMcrAen = 1u << 12;
 inline constexpr std::uint32_t kXctrlOneShot = 1u << 1;
