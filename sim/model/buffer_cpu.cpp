@@ -26,8 +26,6 @@ std::optional<Place> buffer_place(std::uint32_t address, unsigned num_mb) {
   return Place{(address - 0x080) / 16, (address / 4) % 4};
 }
 
-bool is_transmit(unsigned code) { return code >= kTxInactive; }
-
 }  // namespace
 
 void BufferModel::cpu_write(std::uint32_t address, std::uint32_t data, std::uint64_t now,
@@ -62,6 +60,10 @@ void BufferModel::write_buffer(unsigned n, unsigned word, std::uint32_t data, st
       [&](const BufferState &state, States &out) {
         if (cs && config_.aen) return write_cs_aen(state, n, data, lanes, now, out);
         if (cs) return write_cs(state, n, data, lanes, now, out);
+        const bool guarded = config_.aen && state.mb[n].guarded;
+        if (guarded) add(out, state);
+        const unsigned code = state.mb[n].code();
+        if (guarded && (code == kTxInactive || code == kTxAbort)) return;
         BufferState next = state;
         next.write(n, word, data, lanes, config_, now);
         add(out, std::move(next));
@@ -70,8 +72,8 @@ void BufferModel::write_buffer(unsigned n, unsigned word, std::uint32_t data, st
 }
 
 // The write takes effect; a match that had chosen this buffer is lost or made again (3.5).
-void BufferModel::take_write(BufferState state, unsigned n, std::uint32_t data,
-                             std::uint32_t lanes, std::uint64_t now, States &out) const {
+void BufferModel::take_write(BufferState state, unsigned n, std::uint32_t data, std::uint32_t lanes,
+                             std::uint64_t now, States &out) const {
   const Destination &to = state.destination;
   const bool chosen = (to.kind == Kind::kMailbox || to.kind == Kind::kAnswer) && to.index == n;
   if (chosen && state.valid) {
@@ -107,10 +109,9 @@ void BufferModel::write_cs_aen(const BufferState &state, unsigned n, std::uint32
     if (abort && next.moved_out == n) next.moved_out_abort = true;
     return add(out, std::move(next));
   }
-  const bool flagged = ((state.flags() >> n) & 1) != 0;
-  if (flagged && (before == kTxInactive || before == kTxAbort)) return add(out, state);
   // Whether the flag of an answer, or of a request that turned into an Rx buffer, protects is open.
-  if (flagged && (is_transmit(before) || before == kRxEmpty)) add(out, state);
+  if (state.mb[n].guarded) add(out, state);
+  if (state.mb[n].guarded && (before == kTxInactive || before == kTxAbort)) return;
   if (abort && before == kTxAnswerWaits) add(out, state);
   if (state.mb[n].request && !state.moved_out && !state.flight) {
     BufferState next = state;
@@ -119,8 +120,11 @@ void BufferModel::write_cs_aen(const BufferState &state, unsigned n, std::uint32
     next.moved_out_since = now;
     add(out, std::move(next));
   }
-  if (!abort || !code_sends(before)) return take_write(state, n, data, lanes, now, out);
+  // Whether 1001 in a buffer with nothing to abort sets the flag is open.
+  if (!abort || !code_sends(before)) take_write(state, n, data, lanes, now, out);
+  if (!abort || before == kTxAnswerWaits) return;
   BufferState next = state;
+  next.write(n, 0, data, lanes, config_, now);
   next.withdraw(n, now);
   next.abort(n, now);
   next.mb[n].words.known[0] &= kCodeLane | ~kCsStored;

@@ -41,10 +41,10 @@ struct BufferConfig {
 
 /// The mask registers.
 struct BufferMasks {
-  std::uint32_t global = 0xFFFFFFFF;  ///< RXGMASK
-  std::uint32_t mb14 = 0xFFFFFFFF;    ///< RX14MASK
-  std::uint32_t mb15 = 0xFFFFFFFF;    ///< RX15MASK
-  std::uint32_t fifo = 0xFFFFFFFF;    ///< RXFGMASK
+  std::uint32_t global = 0xFFFFFFFF;                                       ///< RXGMASK
+  std::uint32_t mb14 = 0xFFFFFFFF;                                         ///< RX14MASK
+  std::uint32_t mb15 = 0xFFFFFFFF;                                         ///< RX15MASK
+  std::uint32_t fifo = 0xFFFFFFFF;                                         ///< RXFGMASK
   std::vector<std::uint32_t> individual = std::vector<std::uint32_t>(64);  ///< RXIMR
 
   [[nodiscard]] std::uint32_t of_mailbox(unsigned mb, bool bcc) const;

@@ -70,7 +70,6 @@ void BufferModel::keep(const std::function<bool(const BufferState &)> &possible,
   std::erase_if(states_, [&](const BufferState &state) { return !possible(state); });
 }
 
-
 // What may happen in this state without further ado: a match decided, a frame moved in, a flight
 // concluded.
 void BufferModel::steps_of(const BufferState &state, std::uint64_t now, States &out) const {
@@ -94,7 +93,7 @@ void BufferModel::steps_of(const BufferState &state, std::uint64_t now, States &
   if (state.ended) {
     BufferState next = state;
     next.ended.reset();
-    next.finish(*state.ended, config_, now);
+    next.finish(*state.ended, now);
     out.push_back(std::move(next));
   }
 }
@@ -237,7 +236,7 @@ void BufferModel::send_failed(std::uint64_t now) {
         if (state.flight->abort || state.flight->request.one_shot) {
           next.ended = end;
         } else {
-          next.finish(end, config_, now);
+          next.finish(end, now);
         }
         add(out, std::move(next));
       },

@@ -19,8 +19,8 @@ namespace vericansim {
 /// driver can stand: buffers settled before the next frame could end, a decision within the scan
 /// of all buffers.
 struct BufferWindows {
-  unsigned move_in = 100;   ///< from EOF6 until a frame is in its buffer, accesses of the CPU
-                            ///< included
+  unsigned move_in = 100;     ///< from EOF6 until a frame is in its buffer, accesses of the CPU
+                              ///< included
   unsigned completion = 100;  ///< from EOF7, or the failure, until code and flag show
   unsigned decision = 100;  ///< an activation or deactivation this short before a start may miss it
 };

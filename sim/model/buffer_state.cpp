@@ -97,6 +97,7 @@ void BufferState::abort(unsigned n, std::uint64_t now) {
   withdraw(n, now);
   set_code(mb[n].words, kTxAbort);
   iflag |= std::uint64_t{1} << n;
+  mb[n].guarded = true;
 }
 
 void BufferState::clear_flags(std::uint64_t bits, const BufferConfig &config) {
@@ -105,6 +106,8 @@ void BufferState::clear_flags(std::uint64_t bits, const BufferConfig &config) {
     bits &= ~kFlagAvailable;
   }
   iflag &= ~bits;
+  for (unsigned n = 0; n < mb.size(); ++n)
+    if (((bits >> n) & 1) != 0) mb[n].guarded = false;
 }
 
 void BufferState::fen_changed() {
@@ -124,11 +127,13 @@ void BufferState::soft_reset() {
   matching.reset();
   destination = {};
   valid = false;
-  for (BufferContent &buffer : mb)
-    if (code_receives(buffer.code())) buffer.serviced = Serviced::kNo;
+  for (BufferContent &buffer : mb) {
+    buffer.serviced = Serviced::kNo;
+    buffer.guarded = false;
+  }
 }
 
-void BufferState::finish(const FlightEnd &end, const BufferConfig &config, std::uint64_t now) {
+void BufferState::finish(const FlightEnd &end, std::uint64_t now) {
   const Flight &flight_ended = end.flight;
   if (flight_ended.orphan) return;
   BufferContent &buffer = mb[flight_ended.mb];
@@ -153,7 +158,7 @@ void BufferState::finish(const FlightEnd &end, const BufferConfig &config, std::
     set_code(buffer.words, kTxInactive);
   }
   iflag |= std::uint64_t{1} << flight_ended.mb;
-  (void)config;
+  buffer.guarded = true;
 }
 
 }  // namespace vericansim

@@ -38,8 +38,8 @@ enum class Serviced : std::uint8_t { kNo, kYes, kOpen };
 /// A request to send: the buffer as it was when its C/S word was written.
 struct SendRequest {
   Frame frame;
-  std::uint64_t value = 0;   ///< arbitration_value()
-  std::uint64_t since = 0;   ///< clock of the activation
+  std::uint64_t value = 0;                  ///< arbitration_value()
+  std::uint64_t since = 0;                  ///< clock of the activation
   std::uint64_t until = ~std::uint64_t{0};  ///< clock of the deactivation
   bool one_shot = false;
   friend bool operator==(const SendRequest &, const SendRequest &) = default;
@@ -49,6 +49,7 @@ struct SendRequest {
 struct BufferContent {
   KnownWords words;
   Serviced serviced = Serviced::kNo;
+  bool guarded = false;  ///< its flag tells the end of a transmission and stands (AEN=1)
   std::optional<SendRequest> request;
   friend bool operator==(const BufferContent &, const BufferContent &) = default;
   [[nodiscard]] unsigned code() const { return cs_code(words.word[0]); }
@@ -101,7 +102,7 @@ class BufferState {
   /// A word of a buffer is written, after all checks. `now`: clock.
   void write(unsigned n, unsigned word, std::uint32_t data, std::uint32_t lanes,
              const BufferConfig &config, std::uint64_t now);
-  /// AEN=1: C/S writes to this buffer have no effect while it is being sent or its flag is set.
+  /// AEN=1: C/S writes to this buffer have no effect while it is being sent.
   [[nodiscard]] bool write_blocked(unsigned n) const;
   /// Whether reading this C/S word locks its buffer.
   [[nodiscard]] bool read_locks(unsigned n, const BufferConfig &config) const;
@@ -128,7 +129,7 @@ class BufferState {
   void store(const ArrivedFrame &arrived, const Destination &to, std::uint64_t now,
              const BufferConfig &config);
   /// The flight has ended: stamp, code, flag, or back among the candidates.
-  void finish(const FlightEnd &end, const BufferConfig &config, std::uint64_t now);
+  void finish(const FlightEnd &end, std::uint64_t now);
   /// Request of the buffer from what is in it now (code 1100 or 1110).
   [[nodiscard]] SendRequest request_of(unsigned n, const BufferConfig &config,
                                        std::uint64_t now) const;
@@ -136,14 +137,12 @@ class BufferState {
   void withdraw(unsigned n, std::uint64_t now);
 
   /// IFLAG2:IFLAG1 as the CPU reads it.
-  [[nodiscard]] std::uint64_t flags() const {
-    return iflag | (fifo.empty() ? 0 : kFlagAvailable);
-  }
+  [[nodiscard]] std::uint64_t flags() const { return iflag | (fifo.empty() ? 0 : kFlagAvailable); }
 
   std::vector<BufferContent> mb;
   std::uint64_t iflag = 0;
   std::optional<unsigned> lock;
-  std::optional<std::pair<unsigned, ArrivedFrame>> waiting;  ///< for the locked buffer
+  std::optional<std::pair<unsigned, ArrivedFrame>> waiting;   ///< for the locked buffer
   std::optional<std::pair<unsigned, ArrivedFrame>> released;  ///< waited, moves in now
   std::uint64_t released_since = 0;
   std::deque<FifoEntry> fifo;
@@ -155,8 +154,8 @@ class BufferState {
   Destination destination;               ///< result of the match
   bool valid = false;                    ///< the frame has ended well
   std::optional<FlightEnd> ended;
-  std::optional<unsigned> moved_out;     ///< AEN=1: fixed for the next start
-  bool moved_out_abort = false;          ///< ... with an abort request
+  std::optional<unsigned> moved_out;  ///< AEN=1: fixed for the next start
+  bool moved_out_abort = false;       ///< ... with an abort request
   std::uint64_t moved_out_since = 0;
 
  private:

@@ -99,13 +99,13 @@ TEST_P(BufferCodes, EverySequenceOfThreeEvents) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, BufferCodes,
-    ::testing::Combine(::testing::Range(0u, 16u), ::testing::Range(0u, unsigned{std::size(kSettings)})),
-    [](const auto &test) {
-      return std::string{kSettings[std::get<1>(test.param)].name} + "_Code" +
-             std::to_string(std::get<0>(test.param));
-    });
+INSTANTIATE_TEST_SUITE_P(All, BufferCodes,
+                         ::testing::Combine(::testing::Range(0u, 16u),
+                                            ::testing::Range(0u, unsigned{std::size(kSettings)})),
+                         [](const auto &test) {
+                           return std::string{kSettings[std::get<1>(test.param)].name} + "_Code" +
+                                  std::to_string(std::get<0>(test.param));
+                         });
 
 }  // namespace
 }  // namespace vericansim

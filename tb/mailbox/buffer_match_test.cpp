@@ -76,8 +76,8 @@ class MatchTable : public ::testing::TestWithParam<unsigned> {
 TEST_P(MatchTable, EveryRowEveryCode) {
   unsigned mb = 3;
   for (unsigned bits = 0; bits < 16 && !HasFailure(); ++bits) {
-    const std::uint32_t header = (bits & 1 ? reg::kCsIde | reg::kCsSrr : 0) |
-                                 (bits & 2 ? reg::kCsRtr : 0) | 0x00010000;
+    const std::uint32_t header =
+        (bits & 1 ? reg::kCsIde | reg::kCsSrr : 0) | (bits & 2 ? reg::kCsRtr : 0) | 0x00010000;
     const std::uint32_t mask = 0x1FFFFFFF | (bits & 4 ? 1u << 30 : 0) | (bits & 8 ? 1u << 31 : 0);
     rig_.freeze();
     set_mask(mask);
@@ -104,8 +104,8 @@ TEST_P(MatchTable, EveryIdentifierBit) {
         const unsigned mb = 13 + kind % 3;  // the general mask, that of 14, that of 15
         SCOPED_TRACE(testing::Message() << "bit " << bit << " kind " << kind);
         for (const unsigned code : {kRxEmpty, kTxAnswerWaits}) {
-          const std::uint32_t header =
-              (code << 24) | (extended ? reg::kCsIde | reg::kCsSrr : 0) | (remote ? reg::kCsRtr : 0);
+          const std::uint32_t header = (code << 24) | (extended ? reg::kCsIde | reg::kCsSrr : 0) |
+                                       (remote ? reg::kCsRtr : 0);
           rig_.put(mb, {.cs = header, .id = kId});
           rig_.receive(frame_of(extended, remote, flip));
           rig_.read(reg::kIflag1);

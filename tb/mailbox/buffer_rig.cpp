@@ -48,9 +48,7 @@ BufferRig::BufferRig(const BufferConfig &config, const BufferWindows &windows)
   for (unsigned mb = 0; mb < config.num_mb; ++mb) write(reg::rximr(mb), 0xFFFFFFFF);
 }
 
-std::uint32_t BufferRig::read(std::uint32_t address) {
-  return access({.address = address}).data;
-}
+std::uint32_t BufferRig::read(std::uint32_t address) { return access({.address = address}).data; }
 
 void BufferRig::write(std::uint32_t address, std::uint32_t data) {
   access({.address = address, .write = true, .data = data});

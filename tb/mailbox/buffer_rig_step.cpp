@@ -26,8 +26,8 @@ std::uint32_t lanes_of(const AhbTransfer &transfer) {
 
 Level BufferRig::rx_level() const {
   const Level wire = node_->tx() & peer_level_;
-  const bool hit = disturbance_ && in_frame_ && disturbance_->second != 0 &&
-                   bit_ == disturbance_->first;
+  const bool hit =
+      disturbance_ && in_frame_ && disturbance_->second != 0 && bit_ == disturbance_->first;
   return hit ? !wire : wire;
 }
 
