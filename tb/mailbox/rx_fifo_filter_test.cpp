@@ -275,6 +275,19 @@ TEST(FilterTable, FormatCTakesRemoteFramesOfBothKinds) {  // FX-4.f
   }
 }
 
+TEST(FilterTable, FormatCWithoutMasksTakesEverything) {  // FX-4.q
+  RxFifoRig rig{{.format = 2}};
+  for (unsigned k = 0; k < 8; ++k) rig.write(kReceiver, reg::filter(k), 0x5A17C300 + k);
+  rig.join();
+  for (const Frame &frame : {base(0), base(0x7FF, true), extended(0x1FFFFFFF), extended(5, true)}) {
+    rig.send(frame);
+    ASSERT_TRUE(rig.available());
+    EXPECT_EQ(mb_frame(rig.output().words), frame);
+    EXPECT_EQ(rig.output().idhit, 0u);
+    rig.pop();
+  }
+}
+
 TEST(FilterTable, EndsAtTheLastBufferOfASmallCore) {  // FX-4.a
   for (unsigned num_mb : {16u, 32u}) {
     RxFifoRig rig{{.format = 0, .rffn = 15, .num_mb = num_mb}};

@@ -6,9 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <deque>
 #include <string>
 #include <tuple>
 
+#include "bus/faults.hpp"
 #include "mailbox/rx_fifo_rig.hpp"
 
 namespace vericansim {
@@ -183,6 +185,31 @@ TEST(FifoAndMailboxes, OwnFramesOnlyWithoutSrxDis) {  // FX-MCR.SRX_DIS, FX-3.5.
     ASSERT_EQ(frames.size(), srx_dis == 0 ? 1u : 0u);
     if (srx_dis == 0) {
       EXPECT_EQ(frames[0], frame_of(0x155));
+    }
+  }
+}
+
+// The receiver alone sees a wrong bit; the sender repeats the frame (FX-3.5.p).
+TEST(FifoAndMailboxes, FrameWithAnErrorIsStoredNowhere) {
+  for (Field field : {Field::kData, Field::kCrc, Field::kCrcDel, Field::kEof}) {
+    std::deque<LevelFault> faults;  // they outlive the bus
+    RxFifoRig rig{{.format = 0}};
+    for (unsigned k = 0; k < 8; ++k) rig.set_filter(k, {0x400u << 19, 0x400u << 19});
+    rig.put_rx(kReceiver, 20, frame_of(0x055), kAll);
+    rig.join();
+    for (const Frame &frame : {frame_of(0x400), frame_of(0x055)}) {
+      rig.put_tx(kSender, 60, frame);
+      ASSERT_TRUE(rig.run_until([&] { return rig.field(kReceiver) == field; }, 4000));
+      const Time now = rig.bus().now();
+      rig.bus().add(faults.emplace_back(kReceiver, Effect::kFlip, Window{now, now + kMicrosecond}));
+      ASSERT_TRUE(rig.run_until([&] { return rig.field(kReceiver) == Field::kErrFlag; }, 400));
+      rig.run(8);
+      EXPECT_EQ(rig.iflag(), 0u);
+      ASSERT_TRUE(rig.wait_flag(kSender, 60));
+      rig.run(24);
+      EXPECT_EQ(rig.iflag(), frame.id == 0x055 ? 1u << 20 : reg::kIflagFifo);
+      EXPECT_EQ(rig.drain().size(), frame.id == 0x055 ? 0u : 1u);
+      rig.clear_flag(kSender, 60);
     }
   }
 }
