@@ -89,8 +89,7 @@ module can_regs #(
   output logic            irq_rwrn_o,
   output logic            irq_wak_o
 );
-  // What is read.
-  logic [31:0] mcr, ctrl1, ctrl2, xctrl, ecr, esr1, esr2, crcr;
+  logic [31:0] ctrl1, ctrl2, xctrl;
 
   // MCR: mode requests.
   logic mdis_q, frz_q, halt_q, soft_rst, soft_rst_busy, lpm_ack, disabled, in_stop, mcr_we;
@@ -144,16 +143,6 @@ module can_regs #(
   assign aen_o      = mcr_q[can_regs_pkg::McrAen];
   assign idam_o     = mcr_q[can_regs_pkg::McrIdam +: can_regs_pkg::McrIdamW];
   assign maxmb_o    = mcr_q[can_regs_pkg::McrMaxmb +: can_regs_pkg::McrMaxmbW];
-  always_comb begin
-    mcr = mcr_q;
-    mcr[can_regs_pkg::McrMdis]    = mdis_q;
-    mcr[can_regs_pkg::McrFrz]     = frz_q;
-    mcr[can_regs_pkg::McrHalt]    = halt_q;
-    mcr[can_regs_pkg::McrNotRdy]  = lpm_ack || frz_ack_o;
-    mcr[can_regs_pkg::McrSoftRst] = soft_rst_busy;
-    mcr[can_regs_pkg::McrFrzAck]  = frz_ack_o;
-    mcr[can_regs_pkg::McrLpmAck]  = lpm_ack;
-  end
 
   logic fen_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -240,46 +229,51 @@ module can_regs #(
     .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o);
   assign irq_o = irq_mb_o || irq_boff_o || irq_err_o || irq_twrn_o || irq_rwrn_o || irq_wak_o;
 
-  // ESR1: the events, and the state; listen-only reads as passive (2.4).
-  always_comb begin
-    esr1 = events;
-    esr1[can_regs_pkg::Esr1Synch]  = synch_i;
-    esr1[can_regs_pkg::Esr1TxWrn]  = tx_wrn;
-    esr1[can_regs_pkg::Esr1RxWrn]  = rx_wrn;
-    esr1[can_regs_pkg::Esr1Idle]   = idle_i;
-    esr1[can_regs_pkg::Esr1Tx]     = transmitter_i;
-    esr1[can_regs_pkg::Esr1FltConf +: can_regs_pkg::Esr1FltConfW] =
-        boff_i ? 2'b10 : {1'b0, passive_i || lom_o};
-    esr1[can_regs_pkg::Esr1Rx]     = receiver_i;
-  end
-
-  // ECR, ESR2, CRCR.
-  always_comb begin
-    {ecr, esr2, crcr} = '0;
-    ecr[can_regs_pkg::EcrRxerr +: can_regs_pkg::EcrRxerrW]    = rec_i;
-    ecr[can_regs_pkg::EcrTxerr +: can_regs_pkg::EcrTxerrW]    = tec_i;
-    esr2[can_regs_pkg::Esr2Lptm +: can_regs_pkg::Esr2LptmW]   = esr2_i[8:2];
-    {esr2[can_regs_pkg::Esr2Vps], esr2[can_regs_pkg::Esr2Imb]} = esr2_i[1:0];
-    crcr[can_regs_pkg::CrcrMbcrc +: can_regs_pkg::CrcrMbcrcW] = crcr_i[21:15];
-    crcr[can_regs_pkg::CrcrTxcrc +: can_regs_pkg::CrcrTxcrcW] = crcr_i[14:0];
-  end
-
-  // Reads.
+  // Reads; in ESR1 listen-only is passive (2.4).
   always_comb begin
     rdata_o = '0;
     if (rd_i) begin
       case (addr_i)
-        can_regs_pkg::McrAddr:      rdata_o = mcr;
+        can_regs_pkg::McrAddr: begin
+          rdata_o = mcr_q;
+          rdata_o[can_regs_pkg::McrMdis]    = mdis_q;
+          rdata_o[can_regs_pkg::McrFrz]     = frz_q;
+          rdata_o[can_regs_pkg::McrHalt]    = halt_q;
+          rdata_o[can_regs_pkg::McrNotRdy]  = lpm_ack || frz_ack_o;
+          rdata_o[can_regs_pkg::McrSoftRst] = soft_rst_busy;
+          rdata_o[can_regs_pkg::McrFrzAck]  = frz_ack_o;
+          rdata_o[can_regs_pkg::McrLpmAck]  = lpm_ack;
+        end
         can_regs_pkg::Ctrl1Addr:    rdata_o = ctrl1;
-        can_regs_pkg::EcrAddr:      rdata_o = ecr;
-        can_regs_pkg::Esr1Addr:     rdata_o = esr1;
+        can_regs_pkg::EcrAddr: begin
+          rdata_o[can_regs_pkg::EcrRxerr +: can_regs_pkg::EcrRxerrW] = rec_i;
+          rdata_o[can_regs_pkg::EcrTxerr +: can_regs_pkg::EcrTxerrW] = tec_i;
+        end
+        can_regs_pkg::Esr1Addr: begin
+          rdata_o = events;
+          rdata_o[can_regs_pkg::Esr1Synch] = synch_i;
+          rdata_o[can_regs_pkg::Esr1TxWrn] = tx_wrn;
+          rdata_o[can_regs_pkg::Esr1RxWrn] = rx_wrn;
+          rdata_o[can_regs_pkg::Esr1Idle]  = idle_i;
+          rdata_o[can_regs_pkg::Esr1Tx]    = transmitter_i;
+          rdata_o[can_regs_pkg::Esr1FltConf +: can_regs_pkg::Esr1FltConfW] =
+              boff_i ? 2'b10 : {1'b0, passive_i || lom_o};
+          rdata_o[can_regs_pkg::Esr1Rx]    = receiver_i;
+        end
         can_regs_pkg::Imask2Addr:   rdata_o = imask[63:32];
         can_regs_pkg::Imask1Addr:   rdata_o = imask[31:0];
         can_regs_pkg::Iflag2Addr:   rdata_o = iflag_o[63:32];
         can_regs_pkg::Iflag1Addr:   rdata_o = iflag_o[31:0];
         can_regs_pkg::Ctrl2Addr:    rdata_o = ctrl2;
-        can_regs_pkg::Esr2Addr:     rdata_o = esr2;
-        can_regs_pkg::CrcrAddr:     rdata_o = crcr;
+        can_regs_pkg::Esr2Addr: begin
+          rdata_o[can_regs_pkg::Esr2Lptm +: can_regs_pkg::Esr2LptmW] = esr2_i[8:2];
+          rdata_o[can_regs_pkg::Esr2Vps] = esr2_i[1];
+          rdata_o[can_regs_pkg::Esr2Imb] = esr2_i[0];
+        end
+        can_regs_pkg::CrcrAddr: begin
+          rdata_o[can_regs_pkg::CrcrMbcrc +: can_regs_pkg::CrcrMbcrcW] = crcr_i[21:15];
+          rdata_o[can_regs_pkg::CrcrTxcrc +: can_regs_pkg::CrcrTxcrcW] = crcr_i[14:0];
+        end
         can_regs_pkg::XidAddr:      rdata_o = can_regs_pkg::XidReset;
         can_regs_pkg::XversionAddr: rdata_o = can_regs_pkg::XversionReset;
         can_regs_pkg::XconfigAddr:  rdata_o = can_regs_pkg::XconfigReset | 32'(NumMb);
