@@ -47,7 +47,7 @@ TEST_P(EverySize, FramesOfEveryLengthAndFormatArrive) {  // FF-01, FF-07
 }
 
 INSTANTIATE_TEST_SUITE_P(Mailboxes, EverySize, ::testing::Values(16u, 32u, 64u),
-                         [](const auto &info) { return "Of" + std::to_string(info.param); });
+                         [](const auto &size) { return "Of" + std::to_string(size.param); });
 
 }  // namespace
 }  // namespace vericansim

@@ -17,10 +17,11 @@ static bool is_flagged(const verican_t *dev, unsigned mb) {
 static bool take_back(verican_t *dev, unsigned mb) {
   if (is_flagged(dev, mb)) return false;
   dev->tx_taken_back[mb / 32u] |= verican_bit(mb);
-  verican_write(dev, MB_CS(mb), dev->abort ? CS_TX_ABORT : CS_TX_INACTIVE);
-  const uint32_t code = verican_read(dev, MB_CS(mb)) & CS_CODE_MASK;
+  verican_write(dev, VERICAN_MB_CS_OFFSET(mb),
+                dev->abort ? CS_CODE(TX_ABORT) : CS_CODE(TX_INACTIVE));
+  const uint32_t code = verican_read(dev, VERICAN_MB_CS_OFFSET(mb)) & VERICAN_MB_CS_CODE_MASK;
   if (is_flagged(dev, mb)) return false;
-  return !dev->abort || code == CS_TX_ABORT;
+  return !dev->abort || code == CS_CODE(TX_ABORT);
 }
 
 verican_result_t verican_abort(verican_t *dev, uint8_t mailbox) {
@@ -43,13 +44,13 @@ verican_result_t verican_set_one_shot(verican_t *dev, bool on) {
   const verican_result_t result = verican_check(dev);
   if (result != VERICAN_OK) return result;
   if (!dev->extension) return VERICAN_ERR_UNSUPPORTED;
-  const uint32_t offer = verican_read(dev, VERICAN_EXT_CONFIG_OFFSET);
-  if ((offer & VERICAN_EXT_CONFIG_ONE_SHOT_MASK) == 0u) return VERICAN_ERR_UNSUPPORTED;
+  const uint32_t offer = verican_read(dev, VERICAN_XCONFIG_OFFSET);
+  if ((offer & VERICAN_XCONFIG_ONESHOT_MASK) == 0u) return VERICAN_ERR_UNSUPPORTED;
   const uint32_t token = verican_lock(dev);
-  uint32_t control = verican_read(dev, VERICAN_EXT_CONTROL_OFFSET);
-  control &= ~VERICAN_EXT_CONTROL_ONE_SHOT_MASK;
-  if (on) control |= VERICAN_EXT_CONTROL_ONE_SHOT_MASK;
-  verican_write(dev, VERICAN_EXT_CONTROL_OFFSET, control);
+  uint32_t control = verican_read(dev, VERICAN_XCTRL_OFFSET);
+  control &= ~VERICAN_XCTRL_ONESHOT_MASK;
+  if (on) control |= VERICAN_XCTRL_ONESHOT_MASK;
+  verican_write(dev, VERICAN_XCTRL_OFFSET, control);
   verican_unlock(dev, token);
   return VERICAN_OK;
 }

@@ -5,8 +5,6 @@
  */
 #include "internal.h"
 
-#define EXTENSION_ID 0x5643414Eu /* "VCAN" */
-
 verican_result_t verican_config_default(verican_config_t *config) {
   if (config == NULL) return VERICAN_ERR_NULL;
   *config = (verican_config_t){0};
@@ -62,14 +60,15 @@ static void copy_config(verican_t *dev, const verican_config_t *config) {
 /* The number of mailboxes, from the extension page or as configured, and what it offers. */
 static verican_result_t find_core(verican_t *dev, const verican_config_t *config) {
   if (config->mailboxes == 0u) {
-    if (verican_read(dev, VERICAN_EXT_ID_OFFSET) != EXTENSION_ID) return VERICAN_ERR_DEVICE;
-    const uint32_t offer = verican_read(dev, VERICAN_EXT_CONFIG_OFFSET);
+    if (verican_read(dev, VERICAN_XID_OFFSET) != VERICAN_XID_RESET) return VERICAN_ERR_DEVICE;
+    const uint32_t offer = verican_read(dev, VERICAN_XCONFIG_OFFSET);
     dev->extension = true;
-    dev->num_mb = (uint8_t)(offer & VERICAN_EXT_CONFIG_NUM_MB_MASK);
+    dev->frame_one_shot = (offer & VERICAN_XCONFIG_OSMB_MASK) != 0u;
+    dev->num_mb = (uint8_t)(offer & VERICAN_XCONFIG_NUM_MB_MASK);
     if (dev->num_mb != 16u && dev->num_mb != 32u && dev->num_mb != 64u) return VERICAN_ERR_DEVICE;
-    if (config->one_shot && (offer & VERICAN_EXT_CONFIG_ONE_SHOT_MASK) == 0u)
+    if (config->one_shot && (offer & VERICAN_XCONFIG_ONESHOT_MASK) == 0u)
       return VERICAN_ERR_UNSUPPORTED;
-    if (config->fd_tolerant && (offer & VERICAN_EXT_CONFIG_FD_TOLERANT_MASK) == 0u)
+    if (config->fd_tolerant && (offer & VERICAN_XCONFIG_FDTOL_MASK) == 0u)
       return VERICAN_ERR_UNSUPPORTED;
   }
   const unsigned fifo = config->rx_mode == VERICAN_RX_FIFO ? 8u : 1u;
@@ -85,8 +84,8 @@ static void plan_registers(verican_t *dev, const verican_config_t *config) {
   if (config->abort) dev->mcr |= VERICAN_MCR_AEN_MASK;
   if (config->tx_order == VERICAN_TX_BY_PRIORITY) dev->mcr |= VERICAN_MCR_LPRIO_EN_MASK;
   dev->ctrl = verican_timing_bits(&dev->timing);
-  if (config->triple_sampling) dev->ctrl |= VERICAN_CTRL_SMP_MASK;
-  if (config->tx_order == VERICAN_TX_IN_ORDER) dev->ctrl |= VERICAN_CTRL_LBUF_MASK;
+  if (config->triple_sampling) dev->ctrl |= VERICAN_CTRL1_SMP_MASK;
+  if (config->tx_order == VERICAN_TX_IN_ORDER) dev->ctrl |= VERICAN_CTRL1_LBUF_MASK;
   verican_apply_mode(dev, config->mode);
 }
 
@@ -96,20 +95,26 @@ static verican_result_t check_kept(const verican_t *dev) {
   const uint32_t missing = dev->mcr & ~verican_read(dev, VERICAN_MCR_OFFSET);
   if ((missing & optional) != 0u) return VERICAN_ERR_UNSUPPORTED;
   if (missing != 0u) return VERICAN_ERR_DEVICE;
-  if (verican_read(dev, VERICAN_CTRL_OFFSET) != dev->ctrl) return VERICAN_ERR_DEVICE;
-  const uint32_t last = MB_DATA1(dev->num_mb - 1u);
+  if (verican_read(dev, VERICAN_CTRL1_OFFSET) != dev->ctrl) return VERICAN_ERR_DEVICE;
+  const uint32_t last = VERICAN_MB_DATA1_OFFSET(dev->num_mb - 1u);
   verican_write(dev, last, 0xA5C33C5Au);
   if (verican_read(dev, last) != 0xA5C33C5Au) return VERICAN_ERR_SPACE;
   return VERICAN_OK;
 }
 
-static void clear_buffers(verican_t *dev) {
+/* CTRL2, if there is one: format and kind of a frame are compared, remote frames received. */
+static void set_ctrl2(verican_t *dev) {
   const uint32_t strict = VERICAN_CTRL2_EACEN_MASK | VERICAN_CTRL2_RRS_MASK;
   verican_write(dev, VERICAN_CTRL2_OFFSET, strict);
   dev->eacen = (verican_read(dev, VERICAN_CTRL2_OFFSET) & strict) == strict;
+  dev->ctrl2 = dev->eacen ? strict : 0u;
+}
+
+static void clear_buffers(const verican_t *dev) {
   for (unsigned mb = 0; mb < dev->num_mb; ++mb) {
-    verican_write(dev, MB_CS(mb), mb < dev->first_tx ? CS_RX_INACTIVE : CS_TX_INACTIVE);
-    verican_write(dev, RXIMR(mb), ~0u);
+    verican_write(dev, VERICAN_MB_CS_OFFSET(mb),
+                  mb < dev->first_tx ? CS_CODE(RX_INACTIVE) : CS_CODE(TX_INACTIVE));
+    verican_write(dev, VERICAN_RXIMR_OFFSET(mb), ~0u);
   }
   verican_write(dev, VERICAN_IMASK1_OFFSET, 0);
   verican_write(dev, VERICAN_IFLAG1_OFFSET, ~0u);
@@ -127,11 +132,13 @@ static verican_result_t set_up(verican_t *dev, const verican_config_t *config) {
   verican_write_settings(dev);
   result = check_kept(dev);
   if (result != VERICAN_OK) return result;
+  set_ctrl2(dev);
   clear_buffers(dev);
   if (dev->extension) {
-    uint32_t control = config->fd_tolerant ? VERICAN_EXT_CONTROL_FD_TOLERANT_MASK : 0u;
-    if (config->one_shot) control |= VERICAN_EXT_CONTROL_ONE_SHOT_MASK;
-    verican_write(dev, VERICAN_EXT_CONTROL_OFFSET, control);
+    uint32_t control = config->fd_tolerant ? VERICAN_XCTRL_FDTOL_MASK : 0u;
+    if (dev->frame_one_shot) control |= VERICAN_XCTRL_OSMB_MASK;
+    if (config->one_shot) control |= VERICAN_XCTRL_ONESHOT_MASK;
+    verican_write(dev, VERICAN_XCTRL_OFFSET, control);
   }
   dev->life = VERICAN_LIFE_STOPPED;
   return verican_accept_all(dev);

@@ -8,8 +8,8 @@
 
 #include <stddef.h>
 
-#include "regs.h"
 #include "verican/verican.h"
+#include "verican/verican_regs.h"
 
 /* Keeps the compiler from moving accesses to the ring across its indices. */
 #ifndef VERICAN_BARRIER
@@ -24,42 +24,17 @@
 #define VERICAN_LIFE_STOPPED 0x56434E01u
 #define VERICAN_LIFE_STARTED 0x56434E02u
 
-/* Message buffers, word by word (flexcan.md 3.1). */
-#define MB_CS(mb) (VERICAN_MB_OFFSET + 16u * (uint32_t)(mb))
-#define MB_ID(mb) (MB_CS(mb) + 4u)
-#define MB_DATA0(mb) (MB_CS(mb) + 8u)
-#define MB_DATA1(mb) (MB_CS(mb) + 12u)
-#define RXIMR(mb) (VERICAN_RXIMR_OFFSET + 4u * (uint32_t)(mb))
-
-#define CS_CODE_MASK 0x0F000000u
-#define CS_RX_INACTIVE 0x00000000u
+/* Codes in the C/S word of a message buffer (flexcan.md 3.2). */
+#define CS_CODE(code) VERICAN_MB_CS_CODE_SET(VERICAN_MB_CS_CODE_##code)
 #define CS_RX_BUSY 0x01000000u /* bit: a move is under way */
-#define CS_RX_FULL 0x02000000u
-#define CS_RX_EMPTY 0x04000000u
-#define CS_RX_OVERRUN 0x06000000u
-#define CS_TX_INACTIVE 0x08000000u
-#define CS_TX_ABORT 0x09000000u
-#define CS_TX_DATA 0x0C000000u
-#define CS_SRR 0x00400000u
-#define CS_IDE 0x00200000u
-#define CS_RTR 0x00100000u
-#define CS_DLC_SHIFT 16u
-#define CS_STAMP_MASK 0x0000FFFFu
-#define ID_STANDARD_SHIFT 18u
-#define ID_PRIORITY_SHIFT 29u
 
 /* Bits 31 and 30 of an individual mask (flexcan.md 1.9). */
 #define MASK_RTR 0x80000000u
 #define MASK_IDE 0x40000000u
 
-/* IFLAG1 with the FIFO. */
-#define FIFO_AVAILABLE 0x00000020u
-#define FIFO_WARNING 0x00000040u
-#define FIFO_OVERFLOW 0x00000080u
-
-#define ESR_FLAGS                                                                      \
-  (VERICAN_ESR_TWRN_INT_MASK | VERICAN_ESR_RWRN_INT_MASK | VERICAN_ESR_BOFF_INT_MASK | \
-   VERICAN_ESR_ERR_INT_MASK | VERICAN_ESR_WAK_INT_MASK)
+#define ESR_FLAGS                                                                         \
+  (VERICAN_ESR1_TWRN_INT_MASK | VERICAN_ESR1_RWRN_INT_MASK | VERICAN_ESR1_BOFF_INT_MASK | \
+   VERICAN_ESR1_ERR_INT_MASK | VERICAN_ESR1_WAK_INT_MASK)
 
 static inline uint32_t verican_read(const verican_t *dev, uint32_t offset) {
   if (dev->port.base != NULL) return dev->port.base[offset / 4u];
@@ -121,6 +96,9 @@ void verican_apply_mode(verican_t *dev, verican_mode_t mode);
 /* timing.c */
 uint32_t verican_timing_bits(const verican_timing_t *timing);
 
+/* fifo_filter.c */
+verican_result_t verican_set_fifo_filters(verican_t *dev, const verican_filter_t *filters,
+                                          unsigned count);
 /* filter.c */
 verican_result_t verican_accept_all(verican_t *dev);
 
@@ -160,8 +138,8 @@ uint64_t verican_now(verican_t *dev);
 bool verican_serve(verican_t *dev);
 
 /* state.c */
-/* Reads and clears ESR, follows the state, calls back; true if a flag was set. */
-bool verican_state_serve(verican_t *dev);
+/* Reads and clears ESR, follows the state, calls back; returns ESR. */
+uint32_t verican_state_serve(verican_t *dev);
 /* CTRL with the interrupt masks that the state needs. */
 void verican_write_ctrl(const verican_t *dev);
 

@@ -35,7 +35,7 @@ static bool serve_buffers(verican_t *dev) {
 }
 
 bool verican_serve(verican_t *dev) {
-  bool any = verican_state_serve(dev);
+  bool any = (verican_state_serve(dev) & ESR_FLAGS) != 0u;
   for (unsigned n = 0; n < (unsigned)PASSES && serve_buffers(dev); ++n) any = true;
   return any;
 }

@@ -39,16 +39,16 @@ verican_result_t verican_unfreeze(const verican_t *dev) {
 
 void verican_write_settings(const verican_t *dev) {
   verican_write(dev, VERICAN_MCR_OFFSET, dev->mcr | VERICAN_MCR_FRZ_MASK | VERICAN_MCR_HALT_MASK);
-  verican_write(dev, VERICAN_CTRL_OFFSET, dev->ctrl);
+  verican_write(dev, VERICAN_CTRL1_OFFSET, dev->ctrl);
 }
 
 void verican_apply_mode(verican_t *dev, verican_mode_t mode) {
   dev->mode = (uint8_t)mode;
   dev->mcr &= ~VERICAN_MCR_SRX_DIS_MASK;
   if (mode != VERICAN_MODE_LOOP_BACK && !dev->self_reception) dev->mcr |= VERICAN_MCR_SRX_DIS_MASK;
-  dev->ctrl &= ~(VERICAN_CTRL_LPB_MASK | VERICAN_CTRL_LOM_MASK);
-  if (mode == VERICAN_MODE_LOOP_BACK) dev->ctrl |= VERICAN_CTRL_LPB_MASK;
-  if (mode == VERICAN_MODE_LISTEN_ONLY) dev->ctrl |= VERICAN_CTRL_LOM_MASK;
+  dev->ctrl &= ~(VERICAN_CTRL1_LPB_MASK | VERICAN_CTRL1_LOM_MASK);
+  if (mode == VERICAN_MODE_LOOP_BACK) dev->ctrl |= VERICAN_CTRL1_LPB_MASK;
+  if (mode == VERICAN_MODE_LISTEN_ONLY) dev->ctrl |= VERICAN_CTRL1_LOM_MASK;
 }
 
 verican_result_t verican_set_mode(verican_t *dev, verican_mode_t mode) {
@@ -96,7 +96,7 @@ verican_result_t verican_start(verican_t *dev) {
 static void mask_interrupts(const verican_t *dev) {
   verican_write(dev, VERICAN_IMASK1_OFFSET, 0);
   if (dev->num_mb > 32u) verican_write(dev, VERICAN_IMASK2_OFFSET, 0);
-  verican_write(dev, VERICAN_CTRL_OFFSET, dev->ctrl);
+  verican_write(dev, VERICAN_CTRL1_OFFSET, dev->ctrl);
 }
 
 verican_result_t verican_stop(verican_t *dev) {

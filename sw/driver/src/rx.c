@@ -11,17 +11,17 @@ enum { BUSY_LIMIT = 64 };
 /* C/S (which locks), ID, data, clear the flag, TIMER (which unlocks): a frame that waits for this
  * mailbox moves in after the clear and raises the flag again (flexcan.md 3.6). */
 static void read_mailbox(verican_t *dev, unsigned mb) {
-  uint32_t cs = verican_read(dev, MB_CS(mb));
+  uint32_t cs = verican_read(dev, VERICAN_MB_CS_OFFSET(mb));
   for (unsigned n = 0; (cs & CS_RX_BUSY) != 0u && n < (unsigned)BUSY_LIMIT; ++n)
-    cs = verican_read(dev, MB_CS(mb));
-  const uint32_t code = cs & CS_CODE_MASK;
+    cs = verican_read(dev, VERICAN_MB_CS_OFFSET(mb));
+  const uint32_t code = cs & VERICAN_MB_CS_CODE_MASK;
   verican_frame_t frame;
-  const bool full = code == CS_RX_FULL || code == CS_RX_OVERRUN;
+  const bool full = code == CS_CODE(RX_FULL) || code == CS_CODE(RX_OVERRUN);
   if (full) verican_frame_read(dev, mb, cs, &frame);
   verican_clear_flag(dev, mb);
   (void)verican_now(dev);
   if (!full) return;
-  if (code == CS_RX_OVERRUN) ++dev->stats.rx_overruns;
+  if (code == CS_CODE(RX_OVERRUN)) ++dev->stats.rx_overruns;
   verican_ring_insert(dev, &frame);
 }
 

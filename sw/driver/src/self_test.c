@@ -19,7 +19,8 @@ static verican_result_t fail(verican_test_report_t *report, verican_test_step_t 
  * value. */
 static verican_result_t test_memory(const verican_t *dev, verican_test_report_t *report) {
   for (unsigned mb = 0; mb < dev->num_mb; ++mb) {
-    for (uint32_t word = MB_ID(mb); word <= MB_DATA1(mb); word += 4u) {
+    for (uint32_t word = VERICAN_MB_ID_OFFSET(mb); word <= VERICAN_MB_DATA1_OFFSET(mb);
+         word += 4u) {
       const uint32_t old = verican_read(dev, word);
       for (unsigned round = 0; round < 2u; ++round) {
         const uint32_t pattern = round == 0u ? word * 0x00010001u : ~(word * 0x00010001u);
@@ -59,14 +60,14 @@ static verican_result_t loop_frame(verican_t *dev, unsigned n, verican_test_repo
   verican_frame_t sent;
   verican_frame_t got;
   make_frame(n, &sent);
-  const uint32_t ide = (sent.flags & VERICAN_FRAME_EXTENDED) != 0u ? CS_IDE : 0u;
+  const uint32_t ide = (sent.flags & VERICAN_FRAME_EXTENDED) != 0u ? VERICAN_MB_CS_IDE_MASK : 0u;
   const uint32_t both = verican_bit(RX) | verican_bit(TX);
-  verican_write(dev, MB_CS(RX), CS_RX_EMPTY | ide);
+  verican_write(dev, VERICAN_MB_CS_OFFSET(RX), CS_CODE(RX_EMPTY) | ide);
   verican_frame_write(dev, TX, &sent);
   if (verican_wait(dev, VERICAN_IFLAG1_OFFSET, both, both) != VERICAN_OK)
     return fail(report, VERICAN_TEST_LOOP_BACK, n, both,
                 verican_read(dev, VERICAN_IFLAG1_OFFSET) & both);
-  verican_frame_read(dev, RX, verican_read(dev, MB_CS(RX)), &got);
+  verican_frame_read(dev, RX, verican_read(dev, VERICAN_MB_CS_OFFSET(RX)), &got);
   verican_write(dev, VERICAN_IFLAG1_OFFSET, both);
   (void)verican_now(dev);
   return compare(n, &sent, &got, report);
@@ -77,10 +78,10 @@ static verican_result_t test_loop_back(verican_t *dev, verican_test_report_t *re
   const uint32_t frozen = VERICAN_MCR_FRZ_MASK | VERICAN_MCR_HALT_MASK;
   const uint32_t mcr = VERICAN_MCR_BCC_MASK | (uint32_t)TX;
   verican_write(dev, VERICAN_MCR_OFFSET, mcr | frozen);
-  verican_write(dev, VERICAN_CTRL_OFFSET,
-                (dev->ctrl & ~VERICAN_CTRL_LOM_MASK) | VERICAN_CTRL_LPB_MASK);
-  verican_write(dev, RXIMR(RX), MASK_IDE);
-  verican_write(dev, MB_CS(TX), CS_TX_INACTIVE);
+  verican_write(dev, VERICAN_CTRL1_OFFSET,
+                (dev->ctrl & ~VERICAN_CTRL1_LOM_MASK) | VERICAN_CTRL1_LPB_MASK);
+  verican_write(dev, VERICAN_RXIMR_OFFSET(RX), MASK_IDE);
+  verican_write(dev, VERICAN_MB_CS_OFFSET(TX), CS_CODE(TX_INACTIVE));
   verican_write(dev, VERICAN_MCR_OFFSET, mcr);
   verican_result_t result = verican_wait(dev, VERICAN_MCR_OFFSET, VERICAN_MCR_FRZ_ACK_MASK, 0);
   for (unsigned n = 0; result == VERICAN_OK && n < (unsigned)FRAMES; ++n)
@@ -96,12 +97,14 @@ verican_result_t verican_self_test(verican_t *dev, verican_test_report_t *report
   if (result != VERICAN_OK) return result;
   verican_test_report_t seen = {VERICAN_TEST_PASSED, 0, 0, 0};
   uint32_t kept[WORDS];
-  const uint32_t kept_mask = verican_read(dev, RXIMR(RX));
-  for (unsigned i = 0; i < (unsigned)WORDS; ++i) kept[i] = verican_read(dev, MB_CS(RX) + 4u * i);
+  const uint32_t kept_mask = verican_read(dev, VERICAN_RXIMR_OFFSET(RX));
+  for (unsigned i = 0; i < (unsigned)WORDS; ++i)
+    kept[i] = verican_read(dev, VERICAN_MB_CS_OFFSET(RX) + 4u * i);
   result = test_memory(dev, &seen);
   if (result == VERICAN_OK) result = test_loop_back(dev, &seen);
-  for (unsigned i = (unsigned)WORDS; i-- > 0u;) verican_write(dev, MB_CS(RX) + 4u * i, kept[i]);
-  verican_write(dev, RXIMR(RX), kept_mask);
+  for (unsigned i = (unsigned)WORDS; i-- > 0u;)
+    verican_write(dev, VERICAN_MB_CS_OFFSET(RX) + 4u * i, kept[i]);
+  verican_write(dev, VERICAN_RXIMR_OFFSET(RX), kept_mask);
   verican_write(dev, VERICAN_IFLAG1_OFFSET, verican_bit(RX) | verican_bit(TX));
   verican_write_settings(dev);
   if (report != NULL) *report = seen;

@@ -8,62 +8,64 @@
 /* Error interrupts come with every error. They are needed to see the step from warning to passive,
  * and the end of bus-off; otherwise only if somebody listens. */
 void verican_write_ctrl(const verican_t *dev) {
-  uint32_t ctrl = dev->ctrl | VERICAN_CTRL_BOFF_MSK_MASK | VERICAN_CTRL_TWRN_MSK_MASK |
-                  VERICAN_CTRL_RWRN_MSK_MASK;
+  uint32_t ctrl = dev->ctrl | VERICAN_CTRL1_BOFF_MSK_MASK | VERICAN_CTRL1_TWRN_MSK_MASK |
+                  VERICAN_CTRL1_RWRN_MSK_MASK;
   if (dev->callbacks.on_error != NULL || dev->recovering ||
       dev->state == (uint8_t)VERICAN_STATE_WARNING)
-    ctrl |= VERICAN_CTRL_ERR_MSK_MASK;
+    ctrl |= VERICAN_CTRL1_ERR_MSK_MASK;
   if (dev->bus_off != (uint8_t)VERICAN_BUS_OFF_AUTOMATIC && !dev->recovering)
-    ctrl |= VERICAN_CTRL_BOFF_REC_MASK;
-  verican_write(dev, VERICAN_CTRL_OFFSET, ctrl);
+    ctrl |= VERICAN_CTRL1_BOFF_REC_MASK;
+  verican_write(dev, VERICAN_CTRL1_OFFSET, ctrl);
 }
 
 static verican_state_t state_of(uint32_t esr) {
-  const uint32_t confinement = (esr & VERICAN_ESR_FLT_CONF_MASK) >> VERICAN_ESR_FLT_CONF_SHIFT;
+  const uint32_t confinement = (esr & VERICAN_ESR1_FLT_CONF_MASK) >> VERICAN_ESR1_FLT_CONF_SHIFT;
   if (confinement >= 2u) return VERICAN_STATE_BUS_OFF;
   if (confinement == 1u) return VERICAN_STATE_PASSIVE;
-  if ((esr & (VERICAN_ESR_TX_WRN_MASK | VERICAN_ESR_RX_WRN_MASK)) != 0u)
+  if ((esr & (VERICAN_ESR1_TX_WRN_MASK | VERICAN_ESR1_RX_WRN_MASK)) != 0u)
     return VERICAN_STATE_WARNING;
   return VERICAN_STATE_ACTIVE;
 }
 
-static void enter(verican_t *dev, verican_state_t state) {
-  if (dev->state == (uint8_t)state) return;
-  const uint32_t token = verican_lock(dev);
-  dev->state = (uint8_t)state;
-  if (state != VERICAN_STATE_BUS_OFF) dev->recovering = false;
-  verican_write_ctrl(dev);
-  verican_unlock(dev, token);
-  if (dev->callbacks.on_state != NULL) dev->callbacks.on_state(dev->callbacks.user, dev, state);
-}
-
 /* Reading ESR clears its error bits, so that they are kept here. */
-static uint32_t take_esr(verican_t *dev, uint8_t *errors) {
-  const uint32_t token = verican_lock(dev);
-  const uint32_t esr = verican_read(dev, VERICAN_ESR_OFFSET);
-  if ((esr & ESR_FLAGS) != 0u) verican_write(dev, VERICAN_ESR_OFFSET, esr & ESR_FLAGS);
-  *errors = (uint8_t)((esr >> VERICAN_ESR_STF_ERR_SHIFT) & 0x3Fu);
-  if (*errors != 0u) {
-    dev->last_errors = *errors;
+static uint32_t take_esr(verican_t *dev) {
+  const uint32_t esr = verican_read(dev, VERICAN_ESR1_OFFSET);
+  const uint8_t errors = (uint8_t)((esr >> VERICAN_ESR1_STF_ERR_SHIFT) & 0x3Fu);
+  if ((esr & ESR_FLAGS) != 0u) verican_write(dev, VERICAN_ESR1_OFFSET, esr & ESR_FLAGS);
+  if (errors != 0u) {
+    dev->last_errors = errors;
     ++dev->stats.error_events;
   }
-  if ((esr & VERICAN_ESR_BOFF_INT_MASK) != 0u) {
+  if ((esr & VERICAN_ESR1_BOFF_INT_MASK) != 0u) {
     ++dev->stats.bus_offs;
     dev->bus_off_timing = false;
+    dev->recovering = false;
   }
-  verican_unlock(dev, token);
   return esr;
 }
 
-bool verican_state_serve(verican_t *dev) {
-  uint8_t errors = 0;
-  const uint32_t esr = take_esr(dev, &errors);
+static void tell(verican_t *dev, verican_state_t state) {
+  if (dev->callbacks.on_state != NULL) dev->callbacks.on_state(dev->callbacks.user, dev, state);
+}
+
+uint32_t verican_state_serve(verican_t *dev) {
+  const uint32_t token = verican_lock(dev);
+  const uint32_t esr = take_esr(dev);
+  const verican_state_t before = (verican_state_t)dev->state;
+  const verican_state_t now = state_of(esr);
+  dev->state = (uint8_t)now;
+  if (now != VERICAN_STATE_BUS_OFF) dev->recovering = false;
+  if (now != before || (esr & VERICAN_ESR1_BOFF_INT_MASK) != 0u) verican_write_ctrl(dev);
+  verican_unlock(dev, token);
+
+  const uint8_t errors = (uint8_t)((esr >> VERICAN_ESR1_STF_ERR_SHIFT) & 0x3Fu);
   if (errors != 0u && dev->callbacks.on_error != NULL)
     dev->callbacks.on_error(dev->callbacks.user, dev, errors);
   /* Off the bus and back before anybody looked: both are told. */
-  if ((esr & VERICAN_ESR_BOFF_INT_MASK) != 0u) enter(dev, VERICAN_STATE_BUS_OFF);
-  enter(dev, state_of(esr));
-  return (esr & ESR_FLAGS) != 0u;
+  const bool was_off = (esr & VERICAN_ESR1_BOFF_INT_MASK) != 0u && now != VERICAN_STATE_BUS_OFF;
+  if (was_off) tell(dev, VERICAN_STATE_BUS_OFF);
+  if (was_off || now != before) tell(dev, now);
+  return esr;
 }
 
 verican_result_t verican_recover(verican_t *dev) {
@@ -103,13 +105,14 @@ verican_result_t verican_get_status(verican_t *dev, verican_status_t *status) {
   const verican_result_t result = verican_check(dev);
   if (result != VERICAN_OK) return result;
   if (status == NULL) return VERICAN_ERR_NULL;
-  if (dev->life == VERICAN_LIFE_STARTED) (void)verican_state_serve(dev);
+  uint32_t esr = 0;
+  if (dev->life == VERICAN_LIFE_STARTED) esr = verican_state_serve(dev);
   const uint32_t ecr = verican_read(dev, VERICAN_ECR_OFFSET);
   status->state = (verican_state_t)dev->state;
-  status->tec = (uint8_t)(ecr & VERICAN_ECR_TEC_MASK);
-  status->rec = (uint8_t)((ecr & VERICAN_ECR_REC_MASK) >> VERICAN_ECR_REC_SHIFT);
+  status->tec = (uint8_t)(ecr & VERICAN_ECR_TXERR_MASK);
+  status->rec = (uint8_t)((ecr & VERICAN_ECR_RXERR_MASK) >> VERICAN_ECR_RXERR_SHIFT);
   status->last_errors = dev->last_errors;
-  status->synchronised = false;
+  status->synchronised = (esr & VERICAN_ESR1_SYNCH_MASK) != 0u;
   status->timing = dev->timing;
   status->stats = dev->stats;
   return VERICAN_OK;

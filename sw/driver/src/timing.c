@@ -105,9 +105,9 @@ verican_result_t verican_timing_check(uint32_t clock_hz, verican_timing_t *timin
 }
 
 uint32_t verican_timing_bits(const verican_timing_t *timing) {
-  return (timing->prescaler - 1u) << VERICAN_CTRL_PRESDIV_SHIFT |
-         (timing->sjw - 1u) << VERICAN_CTRL_RJW_SHIFT |
-         (timing->phase1 - 1u) << VERICAN_CTRL_PSEG1_SHIFT |
-         (timing->phase2 - 1u) << VERICAN_CTRL_PSEG2_SHIFT |
-         (timing->prop - 1u) << VERICAN_CTRL_PROPSEG_SHIFT;
+  return (timing->prescaler - 1u) << VERICAN_CTRL1_PRESDIV_SHIFT |
+         (timing->sjw - 1u) << VERICAN_CTRL1_RJW_SHIFT |
+         (timing->phase1 - 1u) << VERICAN_CTRL1_PSEG1_SHIFT |
+         (timing->phase2 - 1u) << VERICAN_CTRL1_PSEG2_SHIFT |
+         (timing->prop - 1u) << VERICAN_CTRL1_PROPSEG_SHIFT;
 }

@@ -37,6 +37,8 @@ static verican_result_t check_send(const verican_t *dev, const verican_frame_t *
   if (result != VERICAN_OK) return result;
   if (frame == NULL) return VERICAN_ERR_NULL;
   if (dev->mode == (uint8_t)VERICAN_MODE_LISTEN_ONLY) return VERICAN_ERR_STATE;
+  if ((frame->flags & VERICAN_FRAME_ONE_SHOT) != 0u && !dev->frame_one_shot)
+    return VERICAN_ERR_UNSUPPORTED;
   return verican_frame_check(frame);
 }
 
@@ -102,21 +104,22 @@ void verican_tx_report(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome
  * answer; with MCR.AEN it takes the write only once the flag is clear, and a frame may come in
  * between the two. */
 static void finish(verican_t *dev, unsigned mb) {
-  const uint32_t cs = verican_read(dev, MB_CS(mb));
-  const uint32_t code = cs & CS_CODE_MASK;
+  const uint32_t cs = verican_read(dev, VERICAN_MB_CS_OFFSET(mb));
+  const uint32_t code = cs & VERICAN_MB_CS_CODE_MASK;
   verican_clear_flag(dev, mb);
-  if (code != CS_TX_INACTIVE) {
-    verican_write(dev, MB_CS(mb), CS_TX_INACTIVE);
+  if (code != CS_CODE(TX_INACTIVE)) {
+    verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_INACTIVE));
     verican_clear_flag(dev, mb);
   }
   if (!verican_is_pending(dev, mb)) return;
   const bool taken_back = (dev->tx_taken_back[mb / 32u] & verican_bit(mb)) != 0u;
   verican_set_pending(dev, mb, false);
-  if (code == CS_TX_ABORT) {
+  if (code == CS_CODE(TX_ABORT)) {
     verican_tx_report(dev, mb, taken_back ? VERICAN_TX_ABORTED : VERICAN_TX_FAILED,
                       verican_now(dev));
   } else {
-    verican_tx_report(dev, mb, VERICAN_TX_SENT, verican_extend(dev, cs & CS_STAMP_MASK));
+    verican_tx_report(dev, mb, VERICAN_TX_SENT,
+                      verican_extend(dev, cs & VERICAN_MB_CS_TIME_STAMP_MASK));
   }
 }
 
@@ -133,9 +136,10 @@ bool verican_tx_serve(verican_t *dev, const uint32_t flags[2]) {
 void verican_tx_drop_all(verican_t *dev) {
   for (unsigned mb = dev->first_tx; mb < dev->num_mb; ++mb) {
     if (!verican_is_pending(dev, mb)) continue;
-    verican_write(dev, MB_CS(mb), dev->abort ? CS_TX_ABORT : CS_TX_INACTIVE);
+    verican_write(dev, VERICAN_MB_CS_OFFSET(mb),
+                  dev->abort ? CS_CODE(TX_ABORT) : CS_CODE(TX_INACTIVE));
     verican_clear_flag(dev, mb);
-    verican_write(dev, MB_CS(mb), CS_TX_INACTIVE);
+    verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_INACTIVE));
     verican_set_pending(dev, mb, false);
     verican_tx_report(dev, mb, VERICAN_TX_ABORTED, verican_now(dev));
   }

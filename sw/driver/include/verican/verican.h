@@ -41,7 +41,8 @@ typedef enum verican_result {
 enum {
   VERICAN_FRAME_EXTENDED = 1u << 0, /**< 29-bit identifier */
   VERICAN_FRAME_REMOTE = 1u << 1,   /**< remote frame: a DLC, but no data */
-  VERICAN_FRAME_OVERRUN = 1u << 2 /**< received: a frame before it was overwritten in its mailbox */
+  VERICAN_FRAME_OVERRUN = 1u << 2,  /**< received: one before it was overwritten in its mailbox */
+  VERICAN_FRAME_ONE_SHOT = 1u << 3  /**< to send: at most one start, no repetition */
 };
 
 /** A CAN frame. */
@@ -289,6 +290,7 @@ struct verican {
   uint64_t time;  /* latest TIMER value or time stamp seen, extended */
   uint32_t mcr;   /* besides the mode requests */
   uint32_t ctrl;
+  uint32_t ctrl2;
   uint32_t rx_mask[2];    /* mailboxes that receive, as IMASK1 and IMASK2 */
   uint32_t tx_pending[2]; /* mailboxes that hold a frame to send */
   uint32_t tx_taken_back[2];
@@ -307,7 +309,7 @@ struct verican {
   uint8_t rffn;
   bool abort;
   bool extension;
-  bool one_shot;
+  bool frame_one_shot; /* the core takes VERICAN_FRAME_ONE_SHOT */
   bool eacen;          /* mailboxes compare IDE and RTR under their mask */
   bool recovering;     /* BOFF_REC is clear on request */
   bool bus_off_timing; /* bus_off_since_ms is valid */
@@ -364,7 +366,7 @@ verican_result_t verican_set_filters(verican_t *dev, const verican_filter_t *fil
  * Hands a frame to a free transmit mailbox, whose number goes to `mailbox` unless that is NULL.
  * Device must be started and not listen-only. VERICAN_ERR_BUSY: none is free (with
  * VERICAN_TX_IN_ORDER: none that keeps the order). VERICAN_ERR_RANGE: identifier, flags, DLC or
- * priority.
+ * priority. VERICAN_ERR_UNSUPPORTED: VERICAN_FRAME_ONE_SHOT is not in this core.
  */
 verican_result_t verican_send(verican_t *dev, const verican_frame_t *frame, uint8_t *mailbox);
 
