@@ -12,7 +12,7 @@ OUT    := $(BUILD)/out
 QUIET  := $(if $(V),,tools/quiet.sh)
 
 .DEFAULT_GOAL := help
-.PHONY: help packages build demo test test-linux lint bench synth wave rules rows registers format clean
+.PHONY: help packages build demo test test-linux lint bench synth coverage size wave rules rows registers format clean
 
 help:  ## List the targets
 	@echo "VeriCAN: a CAN 2.0 controller in RTL and its bus simulator"
@@ -49,6 +49,12 @@ bench: packages $(BUILD)/build.ninja  ## Measure the simulator's speed; writes d
 
 synth: packages  ## Measure area and clock rate (iCE40, VersaTiles); writes docs/synthesis.md
 	@tools/synth.sh
+
+coverage: packages $(BUILD)/build.ninja  ## Measure which lines of the C driver its tests run
+	@tools/driver-coverage.sh $(BUILD)
+
+size: packages  ## Build the C driver for a Cortex-M3 and print its size, per function and in total
+	@tools/driver-size.sh
 
 wave: build  ## Run one test with waveforms: make wave TEST=Arbitration.LoserReceivesTheWinnersFrame
 	@tools/wave.sh $(BUILD) "$(TEST)"

@@ -156,7 +156,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Load{"MailboxesServedLate", VERICAN_RX_MAILBOXES, 64, 45 * 47, 0},
                       Load{"LongFramesServedLate", VERICAN_RX_MAILBOXES, 64, 45 * 111, 8},
                       Load{"MailboxesOf32", VERICAN_RX_MAILBOXES, 32, 20 * 47, 0},
-                      Load{"MailboxesOf16", VERICAN_RX_MAILBOXES, 16, 8 * 47, 8}),
+                      Load{"MailboxesOf16", VERICAN_RX_MAILBOXES, 16, 8 * 47, 8},
+                      Load{"FifoServedAtOnce", VERICAN_RX_FIFO, 64, 0, 0},
+                      Load{"FifoServedLate", VERICAN_RX_FIFO, 64, 5 * 47, 0},
+                      Load{"FifoOf16", VERICAN_RX_FIFO, 16, 5 * 111, 8}),
     [](const auto &load) { return load.param.name; });
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "driver/driver_node.hpp"
+#include "driver/fake_core.hpp"
 
 namespace vericansim {
 namespace {
@@ -31,6 +32,92 @@ TEST(DriverSelfTest, PassesWithIdlePinsAndLeavesTheConfigurationAlone) {
     EXPECT_EQ(bus[1 - n].received().size(), 1u);
     EXPECT_TRUE(bus[n].received().empty());
   }
+}
+
+TEST(DriverSelfTest, KeepsTheFiltersOfTheFifo) {
+  DriverBus bus{2};
+  bus[1].config.rx_mode = VERICAN_RX_FIFO;
+  for (unsigned n = 0; n < 2; ++n) ASSERT_EQ(verican_init(&bus[n].dev, &bus[n].config), VERICAN_OK);
+  const verican_filter_t only{0x123, 0x7FF, VERICAN_SELECT_ONLY_0, VERICAN_SELECT_ONLY_0};
+  ASSERT_EQ(verican_set_filters(&bus[1].dev, &only, 1), VERICAN_OK);
+  EXPECT_EQ(verican_self_test(&bus[1].dev, nullptr), VERICAN_OK);
+  for (unsigned n = 0; n < 2; ++n) ASSERT_EQ(verican_start(&bus[n].dev), VERICAN_OK);
+  bus.run(20 * kMicrosecond);
+  for (const std::uint32_t id : {0x122u, 0x123u, 0x124u}) {
+    const verican_frame_t frame = driver_frame(id);
+    ASSERT_EQ(verican_send(&bus[0].dev, &frame, nullptr), VERICAN_OK);
+  }
+  ASSERT_TRUE(bus.run_until([&] { return bus[0].events.size() == 3; }));
+  bus.run(50 * kMicrosecond);
+  const auto frames = bus[1].received();
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].id, 0x123u);
+}
+
+// A core of plain memory that loops frames back from mailbox 1 to mailbox 0, with a fault.
+class BrokenCore : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(verican_init(&dev_, &config_), VERICAN_OK);
+    core_.on_write = [this](std::uint32_t offset, std::uint32_t value) {
+      if (offset != VERICAN_MB_CS_OFFSET(1) || (value >> 24 & 0xF) != 0xC) return;
+      core_.word(VERICAN_MB_CS_OFFSET(0)) = (value & 0x00FF0000) | 0x02000000;
+      core_.word(VERICAN_MB_CS_OFFSET(0)) ^= cs_fault_;
+      for (unsigned word = 4; word < 16; word += 4)
+        core_.word(0x80 + word) = core_.word(0x90 + word) ^ (word == faulty_ ? 0x00400000 : 0);
+      if (answers_) core_.word(VERICAN_IFLAG1_OFFSET) |= 3;
+    };
+  }
+  verican_test_report_t run(verican_result_t expected) {
+    verican_test_report_t report{};
+    EXPECT_EQ(verican_self_test(&dev_, &report), expected);
+    return report;
+  }
+
+  FakeCore core_;
+  verican_config_t config_ = core_.config();
+  verican_t dev_{};
+  std::uint32_t cs_fault_ = 0;
+  unsigned faulty_ = 0;
+  bool answers_ = true;
+};
+
+TEST_F(BrokenCore, PassesWithoutAFault) { EXPECT_EQ(run(VERICAN_OK).step, VERICAN_TEST_PASSED); }
+
+TEST_F(BrokenCore, AStuckBitInTheMemoryIsFound) {
+  core_.lossy = VERICAN_MB_DATA0_OFFSET(17);
+  core_.lost_bits = 0x1000;
+  const verican_test_report_t report = run(VERICAN_ERR_SELF_TEST);
+  EXPECT_EQ(report.step, VERICAN_TEST_MEMORY);
+  EXPECT_EQ(report.where, VERICAN_MB_DATA0_OFFSET(17));
+  EXPECT_EQ(report.expected ^ report.found, 0x1000u);
+}
+
+TEST_F(BrokenCore, AFrameThatDoesNotComeBackIsFound) {
+  answers_ = false;
+  const verican_test_report_t report = run(VERICAN_ERR_SELF_TEST);
+  EXPECT_EQ(report.step, VERICAN_TEST_LOOP_BACK);
+  EXPECT_EQ(report.where, 0u);
+  EXPECT_EQ(report.expected, 3u);
+  EXPECT_EQ(report.found, 0u);
+}
+
+TEST_F(BrokenCore, AChangedIdentifierIsFound) {
+  faulty_ = 4;
+  EXPECT_EQ(run(VERICAN_ERR_SELF_TEST).step, VERICAN_TEST_FRAME);
+}
+
+TEST_F(BrokenCore, AChangedLengthIsFound) {
+  cs_fault_ = 0x00040000;
+  EXPECT_EQ(run(VERICAN_ERR_SELF_TEST).step, VERICAN_TEST_FRAME);
+}
+
+TEST_F(BrokenCore, ChangedDataIsFoundInTheFirstFrameThatHasThem) {
+  faulty_ = 12;
+  const verican_test_report_t report = run(VERICAN_ERR_SELF_TEST);
+  EXPECT_EQ(report.step, VERICAN_TEST_FRAME);
+  EXPECT_EQ(report.where, 6u) << "bit 22 of the second word is in byte 5, frames grow by a byte";
+  EXPECT_EQ(report.expected ^ report.found, 0x40u);
 }
 
 }  // namespace

@@ -10,6 +10,10 @@ static bool is_flagged(const verican_t *dev, unsigned mb) {
   return (verican_read(dev, offset) & verican_bit(mb)) != 0u;
 }
 
+/* Reads of the flag until an abort counts as one without: it follows the code within some clocks.
+ */
+enum { FLAG_LIMIT = 8 };
+
 /* Under lock. True if the frame is gone and no interrupt will tell; false leaves the end to the
  * handler. With MCR.AEN the core decides and raises the flag, but a core may skip the flag where
  * the frame had not left its mailbox (FlexCAN2). Without, a frame that has left its mailbox goes on
@@ -17,11 +21,17 @@ static bool is_flagged(const verican_t *dev, unsigned mb) {
 static bool take_back(verican_t *dev, unsigned mb) {
   if (is_flagged(dev, mb)) return false;
   dev->tx_taken_back[mb / 32u] |= verican_bit(mb);
-  verican_write(dev, VERICAN_MB_CS_OFFSET(mb),
-                dev->abort ? CS_CODE(TX_ABORT) : CS_CODE(TX_INACTIVE));
+  if (!dev->abort) {
+    verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_INACTIVE));
+    return !is_flagged(dev, mb);
+  }
+  verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_ABORT));
   const uint32_t code = verican_read(dev, VERICAN_MB_CS_OFFSET(mb)) & VERICAN_MB_CS_CODE_MASK;
-  if (is_flagged(dev, mb)) return false;
-  return !dev->abort || code == CS_CODE(TX_ABORT);
+  if (code != CS_CODE(TX_ABORT)) return false;
+  for (unsigned n = 0; n < (unsigned)FLAG_LIMIT; ++n) {
+    if (is_flagged(dev, mb)) return false;
+  }
+  return true;
 }
 
 verican_result_t verican_abort(verican_t *dev, uint8_t mailbox) {

@@ -105,9 +105,10 @@ static verican_result_t check_kept(const verican_t *dev) {
 /* CTRL2, if there is one: format and kind of a frame are compared, remote frames received. */
 static void set_ctrl2(verican_t *dev) {
   const uint32_t strict = VERICAN_CTRL2_EACEN_MASK | VERICAN_CTRL2_RRS_MASK;
-  verican_write(dev, VERICAN_CTRL2_OFFSET, strict);
-  dev->eacen = (verican_read(dev, VERICAN_CTRL2_OFFSET) & strict) == strict;
-  dev->ctrl2 = dev->eacen ? strict : 0u;
+  const uint32_t delay = verican_read(dev, VERICAN_CTRL2_OFFSET) & VERICAN_CTRL2_TASD_MASK;
+  verican_write(dev, VERICAN_CTRL2_OFFSET, delay | strict);
+  dev->ctrl2 = verican_read(dev, VERICAN_CTRL2_OFFSET);
+  dev->eacen = (dev->ctrl2 & strict) == strict;
 }
 
 static void clear_buffers(const verican_t *dev) {

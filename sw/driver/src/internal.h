@@ -6,8 +6,6 @@
 #ifndef VERICAN_SRC_INTERNAL_H
 #define VERICAN_SRC_INTERNAL_H
 
-#include <stddef.h>
-
 #include "verican/verican.h"
 #include "verican/verican_regs.h"
 
@@ -36,32 +34,7 @@
   (VERICAN_ESR1_TWRN_INT_MASK | VERICAN_ESR1_RWRN_INT_MASK | VERICAN_ESR1_BOFF_INT_MASK | \
    VERICAN_ESR1_ERR_INT_MASK | VERICAN_ESR1_WAK_INT_MASK)
 
-static inline uint32_t verican_read(const verican_t *dev, uint32_t offset) {
-  if (dev->port.base != NULL) return dev->port.base[offset / 4u];
-  return dev->port.read32(dev->port.context, offset);
-}
-
-static inline void verican_write(const verican_t *dev, uint32_t offset, uint32_t value) {
-  if (dev->port.base != NULL) {
-    dev->port.base[offset / 4u] = value;
-  } else {
-    dev->port.write32(dev->port.context, offset, value);
-  }
-}
-
-static inline uint32_t verican_lock(const verican_t *dev) {
-  return dev->port.lock != NULL ? dev->port.lock(dev->port.context) : 0u;
-}
-
-static inline void verican_unlock(const verican_t *dev, uint32_t token) {
-  if (dev->port.unlock != NULL) dev->port.unlock(dev->port.context, token);
-}
-
 static inline uint32_t verican_bit(unsigned mb) { return (uint32_t)1 << (mb % 32u); }
-
-static inline void verican_clear_flag(const verican_t *dev, unsigned mb) {
-  verican_write(dev, mb < 32u ? VERICAN_IFLAG1_OFFSET : VERICAN_IFLAG2_OFFSET, verican_bit(mb));
-}
 
 static inline bool verican_alive(const verican_t *dev) {
   return dev->life == VERICAN_LIFE_STOPPED || dev->life == VERICAN_LIFE_STARTED;
@@ -81,9 +54,17 @@ static inline verican_result_t verican_check_started(const verican_t *dev) {
   return dev->life == VERICAN_LIFE_STARTED ? VERICAN_OK : VERICAN_ERR_STATE;
 }
 
-/* mode.c */
+/* io.c */
+uint32_t verican_read(const verican_t *dev, uint32_t offset);
+void verican_write(const verican_t *dev, uint32_t offset, uint32_t value);
 /* Polls until (register & mask) == value. */
 verican_result_t verican_wait(const verican_t *dev, uint32_t offset, uint32_t mask, uint32_t value);
+/* Clears the flag of a mailbox. */
+void verican_clear_flag(const verican_t *dev, unsigned mb);
+uint32_t verican_lock(const verican_t *dev);
+void verican_unlock(const verican_t *dev, uint32_t token);
+
+/* mode.c */
 /* Leaves disable mode, resets, and ends in freeze mode. */
 verican_result_t verican_reset_core(const verican_t *dev);
 verican_result_t verican_freeze(const verican_t *dev);

@@ -6,17 +6,6 @@
  */
 #include "internal.h"
 
-#define POLL_LIMIT_DEFAULT 100000u
-
-verican_result_t verican_wait(const verican_t *dev, uint32_t offset, uint32_t mask,
-                              uint32_t value) {
-  const uint32_t limit = dev->port.poll_limit != 0u ? dev->port.poll_limit : POLL_LIMIT_DEFAULT;
-  for (uint32_t n = 0; n < limit; ++n) {
-    if ((verican_read(dev, offset) & mask) == value) return VERICAN_OK;
-  }
-  return VERICAN_ERR_TIMEOUT;
-}
-
 verican_result_t verican_reset_core(const verican_t *dev) {
   const uint32_t frozen = VERICAN_MCR_FRZ_MASK | VERICAN_MCR_HALT_MASK;
   verican_write(dev, VERICAN_MCR_OFFSET, frozen);
@@ -80,7 +69,10 @@ verican_result_t verican_start(verican_t *dev) {
   if (result != VERICAN_OK) return result;
   verican_write_settings(dev);
   result = verican_unfreeze(dev);
-  if (result != VERICAN_OK) return result;
+  if (result != VERICAN_OK) {
+    verican_write_settings(dev); /* asks for freeze mode again */
+    return result;
+  }
   const uint32_t tx_low = dev->first_tx < 32u ? ~0u << dev->first_tx : 0u;
   const uint32_t tx_high = dev->first_tx < 32u ? ~0u : ~0u << (dev->first_tx - 32u);
   dev->life = VERICAN_LIFE_STARTED;

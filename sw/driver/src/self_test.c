@@ -73,20 +73,21 @@ static verican_result_t loop_frame(verican_t *dev, unsigned n, verican_test_repo
   return compare(n, &sent, &got, report);
 }
 
-/* With only two mailboxes in use: what the others hold is neither sent nor overwritten. */
+/* Two mailboxes only, and no FIFO: what the others hold is neither sent nor overwritten, and is
+ * plain memory. */
+#define TEST_MCR (VERICAN_MCR_BCC_MASK | (uint32_t)TX)
+#define TEST_MCR_FROZEN (TEST_MCR | VERICAN_MCR_FRZ_MASK | VERICAN_MCR_HALT_MASK)
+
 static verican_result_t test_loop_back(verican_t *dev, verican_test_report_t *report) {
-  const uint32_t frozen = VERICAN_MCR_FRZ_MASK | VERICAN_MCR_HALT_MASK;
-  const uint32_t mcr = VERICAN_MCR_BCC_MASK | (uint32_t)TX;
-  verican_write(dev, VERICAN_MCR_OFFSET, mcr | frozen);
   verican_write(dev, VERICAN_CTRL1_OFFSET,
                 (dev->ctrl & ~VERICAN_CTRL1_LOM_MASK) | VERICAN_CTRL1_LPB_MASK);
   verican_write(dev, VERICAN_RXIMR_OFFSET(RX), MASK_IDE);
   verican_write(dev, VERICAN_MB_CS_OFFSET(TX), CS_CODE(TX_INACTIVE));
-  verican_write(dev, VERICAN_MCR_OFFSET, mcr);
+  verican_write(dev, VERICAN_MCR_OFFSET, TEST_MCR);
   verican_result_t result = verican_wait(dev, VERICAN_MCR_OFFSET, VERICAN_MCR_FRZ_ACK_MASK, 0);
   for (unsigned n = 0; result == VERICAN_OK && n < (unsigned)FRAMES; ++n)
     result = loop_frame(dev, n, report);
-  verican_write(dev, VERICAN_MCR_OFFSET, mcr | frozen);
+  verican_write(dev, VERICAN_MCR_OFFSET, TEST_MCR_FROZEN);
   const verican_result_t frozen_again =
       verican_wait(dev, VERICAN_MCR_OFFSET, VERICAN_MCR_FRZ_ACK_MASK, VERICAN_MCR_FRZ_ACK_MASK);
   return result != VERICAN_OK ? result : frozen_again;
@@ -96,14 +97,14 @@ verican_result_t verican_self_test(verican_t *dev, verican_test_report_t *report
   verican_result_t result = verican_check_stopped(dev);
   if (result != VERICAN_OK) return result;
   verican_test_report_t seen = {VERICAN_TEST_PASSED, 0, 0, 0};
-  uint32_t kept[WORDS];
+  const uint32_t first = VERICAN_MB_CS_OFFSET(RX);
   const uint32_t kept_mask = verican_read(dev, VERICAN_RXIMR_OFFSET(RX));
-  for (unsigned i = 0; i < (unsigned)WORDS; ++i)
-    kept[i] = verican_read(dev, VERICAN_MB_CS_OFFSET(RX) + 4u * i);
+  uint32_t kept[WORDS];
+  verican_write(dev, VERICAN_MCR_OFFSET, TEST_MCR_FROZEN);
+  for (unsigned i = 0; i < (unsigned)WORDS; ++i) kept[i] = verican_read(dev, first + 4u * i);
   result = test_memory(dev, &seen);
   if (result == VERICAN_OK) result = test_loop_back(dev, &seen);
-  for (unsigned i = (unsigned)WORDS; i-- > 0u;)
-    verican_write(dev, VERICAN_MB_CS_OFFSET(RX) + 4u * i, kept[i]);
+  for (unsigned i = (unsigned)WORDS; i-- > 0u;) verican_write(dev, first + 4u * i, kept[i]);
   verican_write(dev, VERICAN_RXIMR_OFFSET(RX), kept_mask);
   verican_write(dev, VERICAN_IFLAG1_OFFSET, verican_bit(RX) | verican_bit(TX));
   verican_write_settings(dev);

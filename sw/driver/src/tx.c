@@ -92,11 +92,13 @@ verican_result_t verican_tx_waiting(const verican_t *dev, uint8_t *count) {
 void verican_tx_report(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome,
                        uint64_t timestamp) {
   const verican_tx_event_t event = {timestamp, (uint8_t)mb, outcome};
+  const uint32_t token = verican_lock(dev);
   if (outcome == VERICAN_TX_SENT) {
     ++dev->stats.sent;
   } else {
     ++dev->stats.aborted;
   }
+  verican_unlock(dev, token);
   if (dev->callbacks.on_sent != NULL) dev->callbacks.on_sent(dev->callbacks.user, dev, &event);
 }
 

@@ -13,6 +13,7 @@
 #define VERICAN_VERICAN_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus

@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The interrupt handler on a core of plain memory: the order of its accesses, and flags that come
+// at awkward moments or for nothing.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "driver/driver_node.hpp"
+#include "driver/fake_core.hpp"
+
+namespace vericansim {
+namespace {
+
+using ::testing::ElementsAre;
+
+class DriverHandler : public ::testing::Test {
+ protected:
+  void up() {
+    config_.callbacks.user = this;
+    config_.callbacks.on_receive = [](void *self, verican_t *) {
+      ++static_cast<DriverHandler *>(self)->notified_;
+    };
+    config_.callbacks.on_sent = [](void *self, verican_t *, const verican_tx_event_t *event) {
+      static_cast<DriverHandler *>(self)->events_.push_back(*event);
+    };
+    ASSERT_EQ(verican_init(&dev_, &config_), VERICAN_OK);
+    ASSERT_EQ(verican_start(&dev_), VERICAN_OK);
+  }
+  // A frame in a mailbox, as the core leaves it.
+  void arrive(unsigned mb, std::uint32_t id, std::uint32_t stamp, std::uint32_t code = 2) {
+    core_.word(VERICAN_MB_CS_OFFSET(mb)) = code << 24 | 1u << 16 | stamp;
+    core_.word(VERICAN_MB_ID_OFFSET(mb)) = id << 18;
+    flag(mb);
+  }
+  void flag(unsigned mb) {
+    core_.word(mb < 32 ? VERICAN_IFLAG1_OFFSET : VERICAN_IFLAG2_OFFSET) |= 1u << (mb % 32);
+  }
+  std::vector<std::uint32_t> ids() {
+    std::vector<std::uint32_t> ids;
+    verican_frame_t frame;
+    while (verican_receive(&dev_, &frame) == VERICAN_OK) ids.push_back(frame.id);
+    return ids;
+  }
+
+  FakeCore core_;
+  verican_config_t config_ = core_.config();
+  verican_t dev_{};
+  unsigned notified_ = 0;
+  std::vector<verican_tx_event_t> events_;
+};
+
+TEST_F(DriverHandler, NothingToDoIsTold) {
+  up();
+  EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_ERR_EMPTY);
+  arrive(3, 0x123, 10);
+  EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+  EXPECT_EQ(notified_, 1u);
+  EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_ERR_EMPTY);
+}
+
+// flexcan.md 3.6: C/S locks; the flag is cleared before TIMER unlocks.
+TEST_F(DriverHandler, AMailboxIsReadInTheOrderOfTheManual) {
+  up();
+  arrive(3, 0x123, 10);
+  std::vector<std::uint32_t> accesses;
+  core_.on_read = [&](std::uint32_t offset) {
+    if (offset == VERICAN_TIMER_OFFSET || offset / 16 == VERICAN_MB_CS_OFFSET(3) / 16)
+      accesses.push_back(offset);
+  };
+  core_.on_write = [&](std::uint32_t offset, std::uint32_t value) {
+    EXPECT_TRUE(offset != VERICAN_IFLAG1_OFFSET || value == 8);
+    accesses.push_back(offset);
+  };
+  ASSERT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+  EXPECT_THAT(accesses,
+              ElementsAre(VERICAN_MB_CS_OFFSET(3), VERICAN_MB_ID_OFFSET(3),
+                          VERICAN_MB_DATA0_OFFSET(3), VERICAN_IFLAG1_OFFSET, VERICAN_TIMER_OFFSET));
+}
+
+TEST_F(DriverHandler, FramesLeaveInTheOrderOfTheirStampsAcrossTheWrap) {
+  up();
+  for (const std::uint32_t timer : {0x7000u, 0xE000u, 0xFFF0u}) {
+    core_.word(VERICAN_TIMER_OFFSET) = timer;
+    ASSERT_EQ(verican_poll(&dev_, 0), VERICAN_OK);
+  }
+  core_.word(VERICAN_TIMER_OFFSET) = 0x0100;
+  arrive(0, 5, 0x0040);
+  arrive(1, 2, 0xFFF8);
+  arrive(31, 4, 0x0004);
+  arrive(32, 1, 0xFFF1);
+  arrive(55, 3, 0xFFFF);
+  ASSERT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+  EXPECT_THAT(ids(), ElementsAre(1, 2, 3, 4, 5));
+  EXPECT_EQ(notified_, 1u);
+}
+
+// Of two frames that come while the flags are read, the younger in the upper half must not be
+// served a round before the older in the lower half.
+TEST_F(DriverHandler, FlagsAreTakenOfOneMoment) {
+  up();
+  core_.word(VERICAN_TIMER_OFFSET) = 0x40;
+  bool first = true;
+  core_.on_read = [&](std::uint32_t offset) {
+    if (offset != VERICAN_IFLAG2_OFFSET || !first) return;
+    first = false;  // between the reads of IFLAG1 and IFLAG2
+    arrive(2, 1, 0x10);
+    arrive(40, 2, 0x20);
+  };
+  ASSERT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+  EXPECT_THAT(ids(), ElementsAre(1, 2));
+  EXPECT_EQ(notified_, 1u);
+}
+
+TEST_F(DriverHandler, WithoutRoomTheOldestOfABatchStay) {
+  config_.rx_ring_size = 4;
+  up();
+  core_.word(VERICAN_TIMER_OFFSET) = 0x80;
+  arrive(0, 6, 0x60);
+  arrive(1, 1, 0x10);
+  arrive(2, 4, 0x40);
+  arrive(3, 2, 0x20);
+  arrive(4, 5, 0x50);
+  arrive(5, 3, 0x30);
+  ASSERT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+  EXPECT_THAT(ids(), ElementsAre(1, 2, 3));
+  EXPECT_EQ(dev_.stats.rx_dropped, 3u);
+}
+
+TEST_F(DriverHandler, AMailboxThatStaysBusyDoesNotHangTheHandler) {
+  up();
+  arrive(3, 0x123, 10, 3);
+  const unsigned reads = core_.reads;
+  EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+  EXPECT_LT(core_.reads - reads, 100u);
+  // BUSY with a frame in it: by then the move is over for any core that works.
+  EXPECT_TRUE(ids().empty());
+}
+
+TEST_F(DriverHandler, AFlagForNothingIsCleared) {
+  up();
+  core_.word(VERICAN_MB_CS_OFFSET(7)) = 0x04000000;
+  flag(7);   // receives, is empty
+  flag(60);  // transmits, holds nothing
+  EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+  EXPECT_EQ(core_.word(VERICAN_IFLAG1_OFFSET) | core_.word(VERICAN_IFLAG2_OFFSET), 0u);
+  EXPECT_TRUE(ids().empty());
+  EXPECT_TRUE(events_.empty());
+  EXPECT_EQ(notified_, 0u);
+}
+
+// A line that never falls: others get their turn.
+TEST_F(DriverHandler, TheHandlerComesToAnEnd) {
+  up();
+  core_.on_read = [this](std::uint32_t offset) {
+    if (offset == VERICAN_IFLAG1_OFFSET) flag(7);
+  };
+  core_.word(VERICAN_MB_CS_OFFSET(7)) = 0x02010010;
+  EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+  EXPECT_LE(core_.reads, 2000u);
+  EXPECT_EQ(ids().size(), 8u);
+}
+
+// FlexCAN2 raises no flag for an abort of a frame that still waits.
+TEST_F(DriverHandler, AnAbortWithoutAFlagIsToldToo) {
+  config_.abort = true;
+  up();
+  const verican_frame_t frame = driver_frame(0x123);
+  std::uint8_t mailbox = 0;
+  ASSERT_EQ(verican_send(&dev_, &frame, &mailbox), VERICAN_OK);
+  ASSERT_EQ(verican_abort(&dev_, mailbox), VERICAN_OK);
+  ASSERT_EQ(events_.size(), 1u);
+  EXPECT_EQ(events_[0].outcome, VERICAN_TX_ABORTED);
+  EXPECT_EQ(verican_abort(&dev_, mailbox), VERICAN_ERR_EMPTY);
+}
+
+// Sent in the very moment in which it is withdrawn.
+TEST_F(DriverHandler, AFrameThatIsOutAlreadyIsToldAsSent) {
+  up();
+  const verican_frame_t frame = driver_frame(0x123);
+  std::uint8_t mailbox = 0;
+  for (const bool late : {false, true}) {
+    events_.clear();
+    ASSERT_EQ(verican_send(&dev_, &frame, &mailbox), VERICAN_OK);
+    if (late) {
+      core_.on_write = [&](std::uint32_t offset, std::uint32_t) {
+        if (offset == VERICAN_MB_CS_OFFSET(mailbox)) flag(mailbox);
+      };
+    } else {
+      core_.word(VERICAN_MB_CS_OFFSET(mailbox)) = 0x08080020;
+      flag(mailbox);
+    }
+    ASSERT_EQ(verican_abort(&dev_, mailbox), VERICAN_OK);
+    core_.on_write = nullptr;
+    EXPECT_TRUE(events_.empty());
+    ASSERT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+    ASSERT_EQ(events_.size(), 1u);
+    EXPECT_EQ(events_[0].outcome, VERICAN_TX_SENT);
+    if (!late) {
+      EXPECT_EQ(events_[0].timestamp, 0x20u);
+    }
+  }
+}
+
+TEST_F(DriverHandler, StampsBeforeTheBeginningAreZero) {
+  up();
+  core_.word(VERICAN_TIMER_OFFSET) = 5;
+  arrive(3, 0x123, 0xFFF0);
+  ASSERT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+  verican_frame_t frame;
+  ASSERT_EQ(verican_receive(&dev_, &frame), VERICAN_OK);
+  EXPECT_EQ(frame.timestamp, 0u);
+}
+
+TEST_F(DriverHandler, TheFifoIsEmptiedAndItsFlagsCleared) {  // flexcan.md 4
+  config_.rx_mode = VERICAN_RX_FIFO;
+  up();
+  unsigned left = 3;
+  core_.word(VERICAN_MB_CS_OFFSET(0)) = 0x00010020;
+  core_.word(VERICAN_MB_ID_OFFSET(0)) = 0x100u << 18;
+  core_.word(VERICAN_IFLAG1_OFFSET) = 0xE0;
+  core_.on_write = [&](std::uint32_t offset, std::uint32_t value) {
+    if (offset != VERICAN_IFLAG1_OFFSET || (value & 0x20) == 0) return;
+    EXPECT_EQ(value, 0x20u) << "a pop and nothing else";
+    if (--left > 0) core_.word(VERICAN_IFLAG1_OFFSET) |= 0x20;
+  };
+  EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+  EXPECT_EQ(ids().size(), 3u);
+  EXPECT_EQ(core_.word(VERICAN_IFLAG1_OFFSET), 0u);
+  EXPECT_EQ(dev_.stats.rx_overruns, 1u);
+}
+
+}  // namespace
+}  // namespace vericansim
