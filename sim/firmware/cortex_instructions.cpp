@@ -40,6 +40,9 @@ constexpr bool is_wide_hint(std::uint32_t first, std::uint32_t second) {
   return first == 0xF3AF && (second & 0xFF00) == 0x8000;
 }
 
+// The engine would execute these, as if the CPU had a floating-point unit.
+constexpr bool is_coprocessor(std::uint32_t first) { return (first & 0xEC00) == 0xEC00; }
+
 }  // namespace
 
 /// True if the instruction at the PC is one of them, and has been executed.
@@ -88,6 +91,9 @@ bool CortexM3::wide_instruction(std::uint32_t first, std::uint32_t second) {
   } else if (is_wide_hint(first, second)) {
     finish_instruction(4);
     hint(second & 0xFF);
+  } else if (is_coprocessor(first)) {
+    const std::uint32_t pc = engine_.reg(kPc);
+    raise({FaultKind::kNoCoprocessor, pc}, pc);
   } else {
     return false;
   }
@@ -109,6 +115,7 @@ bool CortexM3::system_in_it(std::uint32_t it) const {
       at += 2;
       continue;
     }
+    if (is_coprocessor(*first)) return true;
     if (second && (is_mrs(*first, *second) || is_msr(*first, *second))) return true;
     at += 4;
   }

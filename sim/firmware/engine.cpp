@@ -17,7 +17,7 @@
 namespace vericansim::firmware {
 namespace {
 
-constexpr std::uint32_t kFlagsMask = 0xF800'0000;
+constexpr std::uint32_t kFlagsMask = 0xF800'0000, kThumb = 0x20;
 constexpr std::uint64_t kNowhere = 0xFFFF'FFFE;  // never reached: "run until"
 
 /// Exception numbers of QEMU's ARM target, as UC_HOOK_INTR gives them.
@@ -67,6 +67,7 @@ struct Engine::Impl {
   [[nodiscard]] Registers registers() const;
   void set_registers(const Registers &registers);
   [[nodiscard]] std::uint32_t pc() const;
+  [[nodiscard]] bool thumb() const;
 
   static void on_device(uc_engine *, uc_mem_type, std::uint64_t, int, std::int64_t, void *);
   static void on_store(uc_engine *, uc_mem_type, std::uint64_t, int, std::int64_t, void *);
@@ -181,7 +182,7 @@ void Engine::Impl::fail(FaultKind kind, std::uint32_t address, unsigned size, bo
 // one's and comes again, except that the CPU forgets that it has left Thumb state.
 void Engine::Impl::classify_stop(bool error) {
   const std::uint32_t at = pc();
-  if (exception == kQemuInvState) {
+  if (exception == kQemuInvState || !thumb()) {
     fault = Fault{FaultKind::kInvalidState, at, at, 0, false};
   } else if (at == before.r[kPc] && (error || exception != 0)) {
     const bool whole = memory(at, 4, false) != nullptr;
@@ -232,7 +233,7 @@ void Engine::Impl::set_registers(const Registers &registers) {
   std::uint32_t cpsr = 0;
   check(uc_reg_read(uc, UC_ARM_REG_CPSR, &cpsr), "flags");
   // Outside an IT block, in Thumb state.
-  constexpr std::uint32_t kItBits = 0x0600'FC00, kThumb = 0x20;
+  constexpr std::uint32_t kItBits = 0x0600'FC00;
   copy.flags = (cpsr & ~(kFlagsMask | kItBits)) | kThumb | (registers.flags & kFlagsMask);
   std::array<void *, 17> places{};
   for (unsigned i = 0; i < 16; ++i) places[i] = &copy.r[i];
@@ -245,6 +246,12 @@ std::uint32_t Engine::Impl::pc() const {
   std::uint32_t value = 0;
   check(uc_reg_read(uc, UC_ARM_REG_PC, &value), "PC");
   return value;
+}
+
+bool Engine::Impl::thumb() const {
+  std::uint32_t value = 0;
+  check(uc_reg_read(uc, UC_ARM_REG_CPSR, &value), "flags");
+  return (value & kThumb) != 0;
 }
 
 // ---- Engine

@@ -83,7 +83,8 @@ std::string fault_text(const Fault &fault, std::size_t cores) {
                          hex32(fault.address));
     case FaultKind::kNoCoprocessor: return "coprocessor instruction; this CPU has none";
     case FaultKind::kSystemInIt:
-      return "system instruction in an IT block, which this simulation does not support";
+      return "system or coprocessor instruction in an IT block, which this simulation does not "
+             "support";
     case FaultKind::kStacking:
       return fmt::format("exception entry: no memory for the stack frame at {}",
                          hex32(fault.address));

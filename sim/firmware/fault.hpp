@@ -21,7 +21,8 @@ enum class FaultKind : std::uint8_t {
   kInvalidState,   ///< branch to an even address: ARM code, which the CPU has not got
   kInvalidReturn,  ///< EXC_RETURN that does not fit the state
   kNoCoprocessor,
-  kSystemInIt,  ///< conditional system instruction; a limit of this simulation
+  kSystemInIt,  ///< conditional system or coprocessor instruction; a limit of this
+                ///< simulation
   kStacking,    ///< exception entry: no memory at the stack pointer
   kUnstacking,  ///< exception return: no memory at the stack pointer
   kVector,      ///< vector table cannot be read
