@@ -120,8 +120,7 @@ std::string Board::report() const {
   fmt::format_to(out, "  sp   {}  msp {}  psp {}\n", hex32(regs.r[kSp]), hex32(cpu_.msp()),
                  hex32(cpu_.psp()));
   for (unsigned i = 0; i <= 12; ++i)
-    fmt::format_to(out, "{}r{:<3} {}{}", i % 4 == 0 ? "  " : "  ", i, hex32(regs.r[i]),
-                   i % 4 == 3 || i == 12 ? "\n" : "");
+    fmt::format_to(out, "  r{:<3} {}{}", i, hex32(regs.r[i]), i % 4 == 3 || i == 12 ? "\n" : "");
   const unsigned handler = cpu_.ipsr();
   fmt::format_to(out, "  xpsr {}  {}  control {}  primask {}  faultmask {}  basepri 0x{:02X}\n",
                  hex32(cpu_.xpsr()),

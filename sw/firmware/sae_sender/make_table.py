@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes sae_table.c from a CSV file with the columns message, bytes, period_ms, rows in the order of
-their priority.
+"""Makes sae_table.c from a CSV file with the columns message, bytes, period_ms; rows in the order
+of their priority.
 
 usage: make_table.py sae17.csv >sae_table.c
 """
