@@ -108,6 +108,35 @@ TEST_P(ModeSweep, InEveryClockOfAFrame) {
   }
 }
 
+// A request taken back before, while or after it is acknowledged. Not so a soft reset.
+class TakenBack : public ModeSweep {};
+
+TEST_P(TakenBack, InEveryClockOfAFrame) {
+  const unsigned sender = transmitter_ ? ModeRig::kSubject : ModeRig::kPeer;
+  for (unsigned k = 0; k < (kFrameBits + 2) * kBit; ++k) {
+    SCOPED_TRACE("clock " + std::to_string(k));
+    tidy_up();
+    rig_.put_tx(sender, 8, first_frame(k));
+    mode_.run(k);
+    mode_.ask(how_);
+    mode_.run(1 + k % 13);
+    mode_.come_back(how_);
+    ASSERT_NO_FATAL_FAILURE(back_on_the_bus(k));
+    EXPECT_EQ(mode_.read(reg::kMcr) & (reg::kMcrFrzAck | reg::kMcrLpmAck), 0u);
+    others_are_undisturbed();
+    if (HasFailure()) return;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TakenBack,
+                         ::testing::Combine(::testing::Values(Leave::kFreeze, Leave::kDisable,
+                                                              Leave::kStop),
+                                            ::testing::Bool()),
+                         [](const auto &each) {
+                           return to_string(std::get<0>(each.param)) +
+                                  (std::get<1>(each.param) ? "AsTransmitter" : "AsReceiver");
+                         });
+
 INSTANTIATE_TEST_SUITE_P(All, ModeSweep,
                          ::testing::Combine(::testing::ValuesIn(kAllWays), ::testing::Bool()),
                          [](const auto &each) {
