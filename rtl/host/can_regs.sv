@@ -22,6 +22,7 @@ module can_regs #(
   output logic            run_o,
   output logic            clear_o,
   output logic            frz_ack_o,
+  output logic            lpm_ack_o,
   input  logic            stop_req_i,
   input  logic            wake_i,        // pulse: the bus ends stop mode
   output logic            wake_en_o,     // it may
@@ -92,15 +93,15 @@ module can_regs #(
   logic [31:0] ctrl1, ctrl2, xctrl;
 
   // MCR: mode requests.
-  logic mdis_q, frz_q, halt_q, soft_rst, soft_rst_busy, lpm_ack, disabled, in_stop, mcr_we;
+  logic mdis_q, frz_q, halt_q, soft_rst, soft_rst_busy, disabled, in_stop, mcr_we;
   assign mcr_we   = wr_i && addr_i == can_regs_pkg::McrAddr && !soft_rst_busy;
-  assign soft_rst = mcr_we && be_i[3] && wdata_i[can_regs_pkg::McrSoftRst] && !lpm_ack;
+  assign soft_rst = mcr_we && be_i[3] && wdata_i[can_regs_pkg::McrSoftRst] && !lpm_ack_o;
 
   can_mode u_mode (
     .clk_i, .rst_ni,
     .mdis_i(mdis_q), .freeze_i(frz_q && halt_q), .soft_rst_i(soft_rst), .stop_req_i, .wake_i,
     .running_i, .stop_ok_i, .transmitter_i, .busy_i(mb_busy_i), .scrub_i(mb_scrub_i),
-    .run_o, .clear_o, .lpm_ack_o(lpm_ack), .frz_ack_o, .soft_rst_o(soft_rst_busy),
+    .run_o, .clear_o, .lpm_ack_o, .frz_ack_o, .soft_rst_o(soft_rst_busy),
     .disabled_o(disabled), .stop_o(in_stop));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -130,7 +131,7 @@ module can_regs #(
     .Reset(can_regs_pkg::McrReset), .SoftReset(1'b1),
     .Any(can_regs_pkg::McrAny & ~ModeRequests), .Freeze(can_regs_pkg::McrFreeze)
   ) u_mcr (
-    .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack),
+    .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack_o),
     .wrn_en_i(wrn_en), .we_i(mcr_we && !soft_rst), .be_i, .wdata_i(mcr_wdata), .value_o(mcr_q));
   assign supv_o     = mcr_q[can_regs_pkg::McrSupv];
   assign wake_en_o  = mcr_q[can_regs_pkg::McrSlfWak] && in_stop;
@@ -178,7 +179,7 @@ module can_regs #(
   can_reg #(
     .Reset(can_regs_pkg::Ctrl2Reset), .Freeze(can_regs_pkg::Ctrl2Freeze)
   ) u_ctrl2 (
-    .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack),
+    .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack_o),
     .wrn_en_i(wrn_en), .we_i(wr_i && addr_i == can_regs_pkg::Ctrl2Addr), .be_i, .wdata_i,
     .value_o(ctrl2));
   assign rffn_o  = ctrl2[can_regs_pkg::Ctrl2Rffn +: can_regs_pkg::Ctrl2RffnW];
@@ -191,7 +192,7 @@ module can_regs #(
     .Reset(can_regs_pkg::XctrlReset), .Any(can_regs_pkg::XctrlAny),
     .Freeze(can_regs_pkg::XctrlFreeze)
   ) u_xctrl (
-    .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack),
+    .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack_o),
     .wrn_en_i(wrn_en), .we_i(wr_i && addr_i == can_regs_pkg::XctrlAddr), .be_i, .wdata_i,
     .value_o(xctrl));
   assign osmb_o        = xctrl[can_regs_pkg::XctrlOsmb];
@@ -239,10 +240,10 @@ module can_regs #(
           rdata_o[can_regs_pkg::McrMdis]    = mdis_q;
           rdata_o[can_regs_pkg::McrFrz]     = frz_q;
           rdata_o[can_regs_pkg::McrHalt]    = halt_q;
-          rdata_o[can_regs_pkg::McrNotRdy]  = lpm_ack || frz_ack_o;
+          rdata_o[can_regs_pkg::McrNotRdy]  = lpm_ack_o || frz_ack_o;
           rdata_o[can_regs_pkg::McrSoftRst] = soft_rst_busy;
           rdata_o[can_regs_pkg::McrFrzAck]  = frz_ack_o;
-          rdata_o[can_regs_pkg::McrLpmAck]  = lpm_ack;
+          rdata_o[can_regs_pkg::McrLpmAck]  = lpm_ack_o;
         end
         can_regs_pkg::Ctrl1Addr:    rdata_o = ctrl1;
         can_regs_pkg::EcrAddr: begin

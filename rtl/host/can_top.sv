@@ -102,7 +102,7 @@ module can_top #(
 
   // Wires between the blocks; names as at the blocks.
   logic        run, clear, running, stop_ok, mb_busy, mb_scrub;
-  logic        wake, wake_en, wake_filter, rx_level;
+  logic        wake, wake_en, wake_filter, rx_level, lpm_ack;
   logic        bcc, srx_dis, lbuf, tsyn, lprio_en, aen, eacen, rrs, oneshot, osmb, flag;
   logic        fen, mrp, fifo_clear, fifo_pop, fifo_avail, fifo_warn, fifo_ovf;
   logic [1:0]  idam;
@@ -132,7 +132,8 @@ module can_top #(
     .clk_i, .rst_ni,
     .rd_i(reg_rd_q), .wr_i(reg_wr_q), .addr_i(reg_addr_q), .be_i(reg_be_q), .wdata_i,
     .rdata_o(reg_rdata),
-    .run_o(run), .clear_o(clear), .frz_ack_o(frz_ack), .mb_busy_i(mb_busy), .mb_scrub_i(mb_scrub),
+    .run_o(run), .clear_o(clear), .frz_ack_o(frz_ack), .lpm_ack_o(lpm_ack),
+    .mb_busy_i(mb_busy), .mb_scrub_i(mb_scrub),
     .stop_req_i, .wake_i(wake), .wake_en_o(wake_en), .wake_filter_o(wake_filter), .supv_o,
     .bcc_o(bcc), .srx_dis_o(srx_dis), .lbuf_o(lbuf), .tsyn_o(tsyn),
     .lprio_en_o(lprio_en), .aen_o(aen), .eacen_o(eacen), .rrs_o(rrs), .oneshot_o(oneshot),
@@ -153,7 +154,7 @@ module can_top #(
 
   can_mailbox #(.NumMb(NumMb)) u_mailbox (
     .clk_i, .rst_ni,
-    .running_i(running), .clear_i(clear), .bcc_i(bcc),
+    .running_i(running), .lpm_i(lpm_ack), .clear_i(clear), .bcc_i(bcc),
     .eacen_i(eacen), .rrs_i(rrs),
     .srx_dis_i(srx_dis), .lbuf_i(lbuf), .tsyn_i(tsyn), .lprio_en_i(lprio_en), .aen_i(aen),
     .oneshot_i(oneshot), .osmb_i(osmb), .maxmb_i(maxmb),

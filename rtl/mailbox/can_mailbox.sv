@@ -18,6 +18,7 @@ module can_mailbox #(
   input  logic            rst_ni,
   // Mode and configuration.
   input  logic            running_i,     // the engine takes part in the bus
+  input  logic            lpm_i,         // disable or stop mode: no move begins
   input  logic            clear_i,       // soft reset
   input  logic            bcc_i,
   input  logic            eacen_i,
@@ -181,7 +182,7 @@ module can_mailbox #(
   logic [8:0] mv_top;
   can_mb_move #(.NumMb(NumMb)) u_move (
     .clk_i, .rst_ni, .clear_i(fifo_clear_i), .start_i, .rx_hdr_i,
-    .valid_i(rx_valid_i && !(transmitter_i && srx_dis_i)), .hold_i(flags_busy || svc_req),
+    .valid_i(rx_valid_i && !(transmitter_i && srx_dis_i)), .hold_i(flags_busy || svc_req || lpm_i),
     .smb_o(smb),
     .match_done_i(match_done), .hit_i(hit), .hit_idx_i(hit_idx), .hit_fifo_i(hit_fifo),
     .hit_ans_i(hit_ans), .idhit_i(idhit), .resolve_o(resolve),

@@ -21,7 +21,7 @@ module can_mb_move #(
   input  logic            start_i,
   input  logic            rx_hdr_i,
   input  logic            valid_i,
-  input  logic            hold_i,        // header bits or a serviced mark are still to be written
+  input  logic            hold_i,        // header or serviced mark still to be written; low power
   output logic            smb_o,         // row for the frame on the bus
   // Match.
   input  logic            match_done_i,

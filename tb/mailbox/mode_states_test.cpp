@@ -208,13 +208,17 @@ TEST_P(ModeStates, MovePendingToALockedBuffer) {
   ASSERT_NO_FATAL_FAILURE(expect_exit(mode, 2));
   EXPECT_EQ(rig.flags(kSubject), 0u);
   const bool dropped = how_ == Leave::kSoftReset;
-  if (how_ != Leave::kFreeze && !dropped) mode.come_back(how_);
   rig.read(kSubject, reg::kTimer);  // unlocks
   mode.run(20);
+  if (how_ == Leave::kDisable || how_ == Leave::kStop) {
+    EXPECT_EQ(rig.flags(kSubject), 0u) << "postponed in low power (3.6)";
+    mode.come_back(how_);
+    mode.run(20);
+  }
   EXPECT_EQ(rig.flags(kSubject), dropped ? 0u : 1u << ModeRig::kRxMb);
   EXPECT_EQ(mb_frame(rig.get(kSubject, ModeRig::kRxMb)), dropped ? first : second);
   rig.read(kSubject, reg::kTimer);
-  if (how_ != Leave::kDisable && how_ != Leave::kStop) expect_return(mode, 3);
+  expect_return(mode, 3);
 }
 
 // Two or three requests at once, taken back one by one: each leads on to the next.
