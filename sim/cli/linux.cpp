@@ -107,6 +107,7 @@ std::vector<std::string> kernel_command(const Options &options, const std::strin
                                  "con=null",
                                  "con0=null,fd:1",
                                  "quiet",
+                                 "uml_dir=" + sockets,
                                  "time-travel=ext:" + sockets + "/time",
                                  "VERICAN_SOCKETS=" + sockets,
                                  "VERICAN_DIR=" + options.board.directory};

@@ -241,6 +241,14 @@ def busoff(run):
     expect(run.bus("manual")["can0"]["busoff"], 2, "bus-off of the core")
 
 
+def stuck(run):
+    for number, level in enumerate(("dominant", "recessive"), 1):
+        expect(run.bus(level)["can0"]["attempts"], number - 1, f"attempts, {level}")
+        expect(run.state(f"after-{level}", "can0"), "ERROR-ACTIVE", f"after {level}")
+        expect(run.packets(f"after-{level}", "can0")[1], number, f"sent, after {level}")
+        expect(run.packets(f"after-{level}", "can1"), (number, 0), f"received, after {level}")
+
+
 def statistics(run):
     stages = ["start", "tx-bit", "tx-ack", "tx-form", "rx-crc", "rx-data", "rx-form", "clean"]
     for stage in stages:
