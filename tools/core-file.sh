@@ -27,12 +27,27 @@ parameters:
     description: Number of message buffers (16, 32 or 64)
     paramtype: vlogparam
     default: 64
+  RegionBits:
+    datatype: int
+    description: Address bits of the region that hsel stands for (13 to 32)
+    paramtype: vlogparam
+    default: 16
+  CheckHprot:
+    datatype: int
+    description: 1 to let MCR.SUPV close the registers to unprivileged accesses
+    paramtype: vlogparam
+    default: 0
+  WakeFilter:
+    datatype: int
+    description: Clocks of dominant level that wake the core with MCR.WAK_SRC (1 to 255)
+    paramtype: vlogparam
+    default: 6
 
 targets:
   default: &default
     filesets: [rtl]
     toplevel: can_ahb
-    parameters: [NumMb]
+    parameters: [NumMb, RegionBits, CheckHprot, WakeFilter]
   lint:
     <<: *default
     default_tool: verilator
