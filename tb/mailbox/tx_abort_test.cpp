@@ -26,7 +26,7 @@ void expect_over(TxRig &rig, unsigned starts) {
   EXPECT_EQ(rig.starts(), starts) << "sent again";
 }
 
-// MO-10, FX-3.4.a, FX-9.e2656: the buffer is written, `k` clocks later the abort request.
+// MO-10, FX-3.4.a, FX-3.4.c, FX-3.2.j: the buffer is written, `k` clocks later the abort request.
 TEST(Abort, AtEveryClockOfAFrameThatSucceeds) {
   TxRig rig;
   rig.join();
@@ -52,7 +52,8 @@ TEST(Abort, AtEveryClockOfAFrameThatSucceeds) {
   EXPECT_FALSE(rig.violated());
 }
 
-// MO-10: nobody acknowledges, so each attempt fails; the request ends with the one under way.
+// MO-10, FX-3.4.b, FX-9.e2656: nobody acknowledges, so each attempt fails; the request ends with
+// the one under way.
 TEST(Abort, AtEveryClockOfAFrameThatFails) {
   TxRig rig{1};
   rig.join();
@@ -78,7 +79,7 @@ TEST(Abort, AtEveryClockOfAFrameThatFails) {
   }
 }
 
-// MO-10: another node wins every arbitration.
+// MO-10, FX-3.4.b: another node wins every arbitration.
 TEST(Abort, AtEveryClockOfAFrameThatLosesArbitration) {
   TxRig rig;
   rig.join();
@@ -113,7 +114,7 @@ TEST(Abort, AtEveryClockOfAFrameThatLosesArbitration) {
   EXPECT_EQ(rig.flags(0), 0u);
 }
 
-// MO-10, FX-3.2.d: a request that comes while a remote frame is sent.
+// MO-10, FX-3.2.g: a request that comes while a remote frame is sent.
 TEST(Abort, OfARemoteFrameThatSucceedsLeavesAnEmptyBuffer) {
   TxRig rig;
   rig.join();
@@ -124,7 +125,8 @@ TEST(Abort, OfARemoteFrameThatSucceedsLeavesAnEmptyBuffer) {
   EXPECT_EQ(rig.code(kMb), 4u);
 }
 
-// FX-3.4.b: what the CPU writes to a buffer that has moved out is dropped, until IFLAG is cleared.
+// FX-3.4.d, FX-3.3.j: what the CPU writes to a buffer that has moved out is dropped, until IFLAG is
+// cleared.
 TEST(Guard, WordsOfABufferThatIsBeingSentAndAfterwards) {
   TxRig rig;
   rig.join();
@@ -152,7 +154,7 @@ TEST(Guard, WordsOfABufferThatIsBeingSentAndAfterwards) {
   EXPECT_EQ(rig.flags(0), 0u);
 }
 
-TEST(Guard, FlagsOfReceptionBlockNothing) {  // flexcan.md 3.3: only after a transmission
+TEST(Guard, FlagsOfReceptionBlockNothing) {  // FX-3.3.j: only after a transmission
   TxRig rig;
   rig.put_rx(0, 5, {.id = 0x77});
   rig.join();
@@ -164,7 +166,7 @@ TEST(Guard, FlagsOfReceptionBlockNothing) {  // flexcan.md 3.3: only after a tra
   EXPECT_EQ(rig.read(0, reg::mb(5, 2)), 0x12345678u);
 }
 
-TEST(Guard, NothingIsBlockedWithoutAen) {  // FX-MCR.AEN
+TEST(Guard, NothingIsBlockedWithoutAen) {  // FX-MCR.AEN, FX-3.3.i, FX-3.2.k
   TxRig rig{2, RigConfig{}};
   rig.join();
   rig.put_tx(0, kMb, kFrame);
@@ -198,7 +200,8 @@ TEST(Abort, ManyWaitingBuffersBackToBack) {
   EXPECT_EQ(rig.starts(), 0u);
 }
 
-// FX-3.4.a: freeze takes a frame back that has not begun; its buffer stays active, or is aborted.
+// FX-3.4.a, FX-3.4.b: freeze takes a frame back that has not begun; its buffer stays active, or is
+// aborted.
 TEST(Abort, InFreezeMode) {
   TxRig rig;
   rig.join();
@@ -219,7 +222,7 @@ TEST(Abort, InFreezeMode) {
   EXPECT_EQ(rig.starts(), 0u);
 }
 
-// FX-3.4.a: request and freeze at every distance; alone, so that no attempt succeeds.
+// FX-3.4.b: request and freeze at every distance; alone, so that no attempt succeeds.
 TEST(Abort, FreezeWhileARequestIsPending) {
   TxRig rig{1};
   rig.join();
@@ -270,7 +273,7 @@ TEST(Abort, InBusOff) {
   EXPECT_EQ(rig.flags(0), (1ull << kMb) | (1ull << (kMb + 2)));
 }
 
-// FX-3.4.c, FX-9.ERR006032: deactivation with AEN = 0 at every clock; then the words are cleared,
+// FX-3.4.f, FX-9.ERR006032: deactivation with AEN = 0 at every clock; then the words are cleared,
 // as drivers do. What is on the wire stays whole and leaves no trace in the buffer.
 TEST(Deactivate, AtEveryClockOfAFrame) {
   TxRig rig{2, RigConfig{}};
@@ -301,7 +304,8 @@ TEST(Deactivate, AtEveryClockOfAFrame) {
   EXPECT_GT(stopped, 2u);
 }
 
-// FX-9.ERR005829: the drivers' workaround writes, in every clock around the start of a frame.
+// FX-9.ERR005829, FX-3.3.g: the drivers' workaround writes, in every clock around the start of a
+// frame.
 TEST(Deactivate, WritesToOtherBuffersDelayNothing) {
   for (unsigned lbuf : {0u, 1u}) {
     RigConfig config;

@@ -265,5 +265,32 @@ TEST_F(CanField, EdgeRestartsIntegrationOfATolerantNode) {
   }
 }
 
+// IN-01: a code that stands for no field, as an upset flip-flop leaves it, leads to integration,
+// whatever the other registers hold; then the node is on the bus again.
+TEST_F(CanField, CodesOfNoFieldLeadToIntegration) {
+  for (const unsigned code : {0x05, 0x06, 0x07, 0x0E, 0x0F, 0x15, 0x16, 0x17}) {
+    for (const bool recessive : {false, true}) {
+      for (const unsigned left : {0u, 1u, 63u}) {
+        SCOPED_TRACE(testing::Message() << "code " << code << " left " << left);
+        to_idle();
+        field_->rootp->can_field__DOT__field_q = code;
+        field_->rootp->can_field__DOT__left_q = left;
+        field_->rootp->can_field__DOT__tx_q = 1;
+        field_.settle();
+        bit(recessive);
+        ASSERT_EQ(at(), Field::kInteg);
+        ASSERT_FALSE(field_->transmitter_o);
+        bits(10);
+        ASSERT_EQ(at(), Field::kInteg) << "all eleven bits";
+        bit(true);
+        ASSERT_EQ(at(), Field::kIdle);
+        field_->run_i = 0;
+        field_.clock();
+        field_->run_i = 1;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vericansim

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ESR2 and CRCR (flexcan.md 1.7, 1.8), against a model that looks at the codes, and the codec.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+
+#include "mailbox/tx_rig.hpp"
+#include "model/frame_codec.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr std::uint32_t kEsr2 = 0x038, kCrcr = 0x044, kVps = 1u << 14, kImb = 1u << 13;
+
+unsigned lptm(std::uint32_t esr2) { return (esr2 >> 16) & 0x7F; }
+
+TEST(Crcr, OfEveryFrameSent) {  // FX-CRCR.TXCRC, FX-CRCR.MBCRC, FX-MAP.CRCR, FX-MAP.ESR2
+  TxRig rig;
+  rig.join();
+  EXPECT_EQ(rig.read(0, kCrcr), 0u);
+  std::mt19937 rng{4};
+  for (unsigned i = 0; i < 40; ++i) {
+    Frame frame{.extended = rng() % 2 != 0, .remote = rng() % 4 == 0};
+    frame.id = static_cast<std::uint32_t>(rng()) & (frame.extended ? 0x1FFFFFFFu : 0x7FFu);
+    frame.dlc = rng() % 9;
+    for (unsigned b = 0; b < frame.payload_size(); ++b)
+      frame.data[b] = static_cast<std::uint8_t>(rng());
+    const unsigned mb = rng() % 64;
+    rig.put_tx(0, mb, frame);
+    ASSERT_TRUE(rig.wait_flag(0, mb));
+    ASSERT_EQ(rig.read(0, kCrcr), (mb << 16) | encode_frame(frame).crc);
+    rig.clear_flag(0, mb);
+    rig.write(0, reg::mb(mb), kInactiveWord);
+    // A frame that is received, or fails, is none that was sent.
+    if (i % 8 == 0) {
+      const std::uint32_t before = rig.read(0, kCrcr);
+      rig.put_tx(1, 30, {.id = 0x111});
+      ASSERT_TRUE(rig.wait_flag(1, 30));
+      rig.clear_flag(1, 30);
+      ASSERT_EQ(rig.read(0, kCrcr), before);
+    }
+  }
+  ASSERT_TRUE(rig.freeze(0));
+  EXPECT_NE(rig.read(0, kCrcr), 0u);
+  rig.write(0, kCrcr, 0);
+  EXPECT_NE(rig.read(0, kCrcr), 0u) << "read only";
+  rig.write(0, reg::kMcr, reg::kMcrSoftRst);
+  rig.run(20);
+  EXPECT_EQ(rig.read(0, kCrcr), 0u);
+  EXPECT_EQ(rig.read(0, kEsr2), 0u);
+}
+
+class Esr2 : public ::testing::Test {
+ protected:
+  void start(std::uint32_t mcr = 0, std::uint32_t ctrl = 0) {
+    RigConfig config;
+    config.mcr |= mcr;
+    config.ctrl |= ctrl;
+    rig_ = std::make_unique<TxRig>(2, config);
+    for (unsigned mb = 0; mb < 64; ++mb) set(mb, 0x4);
+  }
+  void set(unsigned mb, unsigned code, std::uint32_t id = 0) {
+    rig_->write(0, reg::mb(mb, 1), id);
+    rig_->write(0, reg::mb(mb), code << 24);
+    code_[mb] = code;
+    id_[mb] = id;
+  }
+  std::uint32_t scanned() {
+    rig_->run(150);
+    return rig_->read(0, kEsr2);
+  }
+  // Nodes that cannot send keep everything as it is: listen-only.
+  void expect_model(bool lprio, bool lbuf) {
+    unsigned inactive = 64, last = 0;
+    for (unsigned mb = 64; mb-- > 0;)
+      if ((code_[mb] & 7) == 0) inactive = mb;
+    std::uint64_t worst = 0;
+    for (unsigned mb = 0; mb < 64; ++mb) {
+      if (code_[mb] != 0xC && code_[mb] != 0xE) continue;
+      const std::uint64_t prio = lprio ? id_[mb] >> 29 : 0;
+      const std::uint64_t value = (prio << 32) | ((id_[mb] & 0x1FFC0000) << 1);
+      if (lbuf || value >= worst) last = mb;
+      worst = std::max(worst, value);
+    }
+    const std::uint32_t esr2 = scanned();
+    ASSERT_EQ(esr2 & kVps, kVps);
+    ASSERT_EQ(esr2 & kImb, inactive < 64 ? kImb : 0);
+    ASSERT_EQ(lptm(esr2), inactive < 64 ? inactive : last);
+    ASSERT_EQ(esr2 & ~(0x7Fu << 16 | kVps | kImb), 0u);
+  }
+  std::unique_ptr<TxRig> rig_;
+  std::array<unsigned, 64> code_{};
+  std::array<std::uint32_t, 64> id_{};
+};
+
+// FX-ESR2.LPTM, FX-ESR2.IMB, FX-ESR2.VPS
+TEST_F(Esr2, AfterAnyWrites) {
+  std::mt19937 rng{5};
+  for (unsigned mode = 0; mode < 4; ++mode) {
+    const bool lprio = (mode & 1) != 0, lbuf = (mode & 2) != 0;
+    start(lprio ? kMcrLprioEn : 0, reg::kCtrlLom | (lbuf ? reg::kCtrlLbuf : 0));
+    rig_->join();
+    for (unsigned round = 0; round < 60; ++round) {
+      SCOPED_TRACE(round);
+      constexpr std::array<unsigned, 6> kCodes{0x0, 0x8, 0x4, 0xC, 0xE, 0xA};
+      for (unsigned i = rng() % 6 + 1; i > 0; --i) {
+        const bool idle = round % 3 != 0;
+        set(rng() % 64, kCodes[idle ? 2 + rng() % 4 : rng() % 6], rng() & 0xFFFC0000);
+      }
+      expect_model(lprio, lbuf);
+      if (round % 3 == 0)
+        for (unsigned mb = 0; mb < 64; ++mb)
+          if ((code_[mb] & 7) == 0) set(mb, 0x4);
+    }
+  }
+}
+
+TEST_F(Esr2, VpsClearsWithEveryCsWriteAndComesBack) {  // FX-ESR2.VPS
+  start();
+  rig_->join();
+  ASSERT_EQ(scanned() & kVps, kVps);
+  for (unsigned mb : {0u, 5u, 63u}) {
+    const auto results =
+        rig_->burst(0, {{.address = reg::mb(mb), .write = true, .data = 0x04000000},
+                        {.address = kEsr2},
+                        {.address = kEsr2}});
+    EXPECT_EQ(results[2].data & kVps, 0u);
+    EXPECT_EQ(scanned() & kVps, kVps);
+    const auto other = rig_->burst(0, {{.address = reg::mb(mb, 2), .write = true, .data = 5},
+                                       {.address = kEsr2},
+                                       {.address = kEsr2}});
+    EXPECT_EQ(other[2].data & kVps, kVps) << "data words do not matter";
+  }
+}
+
+TEST_F(Esr2, BlockedWritesDoNotClearVps) {  // FX-ESR2.VPS
+  start(kMcrAen);
+  rig_->join();
+  set(7, 0xC, 0x100u << 18);
+  ASSERT_TRUE(rig_->run_until([&] { return rig_->field(0) == Field::kCrc; }, 2000));
+  EXPECT_EQ(rig_->read(0, kEsr2) & kVps, kVps);
+  const auto results =
+      rig_->burst(0, {{.address = reg::mb(7), .write = true, .data = kInactiveWord},
+                      {.address = kEsr2},
+                      {.address = kEsr2}});
+  EXPECT_EQ(results[2].data & kVps, kVps);
+}
+
+TEST_F(Esr2, CompletionFillsIn) {  // flexcan.md 1.7: IMB = 0 and a frame ends
+  start();
+  rig_->join();
+  set(9, 0xC, 0x100u << 18);
+  set(30, 0xC, 0x200u << 18);
+  ASSERT_TRUE(rig_->run_until([&] { return rig_->field(0) == Field::kCrc; }, 2000));
+  std::uint32_t esr2 = rig_->read(0, kEsr2);
+  EXPECT_EQ(esr2 & (kVps | kImb), kVps);
+  EXPECT_EQ(lptm(esr2), 30u) << "the one on the bus does not count";
+  ASSERT_TRUE(rig_->wait_flag(0, 9));
+  esr2 = rig_->read(0, kEsr2);
+  EXPECT_EQ(esr2 & (kVps | kImb), kVps | kImb);
+  EXPECT_EQ(lptm(esr2), 9u);
+}
+
+TEST_F(Esr2, BuffersOutsideTheArbitrationDoNotCount) {  // FX-MCR.MAXMB
+  start(0, reg::kCtrlLom);
+  set(50, 0x8);
+  rig_->write(0, reg::kMcr, reg::kMcrFrz | reg::kMcrHalt | 40);
+  rig_->join();
+  EXPECT_EQ(scanned() & (kVps | kImb), kVps);
+  set(40, 0x8);
+  EXPECT_EQ(scanned(), (40u << 16) | kVps | kImb);
+}
+
+}  // namespace
+}  // namespace vericansim
