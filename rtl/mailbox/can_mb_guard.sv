@@ -17,7 +17,8 @@ module can_mb_guard #(
   input  logic             clear_i,      // soft reset
   input  logic             aen_i,
   // CPU, data phase.
-  input  logic             wr_i,         // a write to a mailbox ends in this clock
+  input  logic             wr_i,         // a write ends in this clock or the next one
+  input  logic             mb_wr_i,      // ... in this clock, to a mailbox
   input  logic [1:0]       kind_i,       // as of can_mb_port; others than 0 and 1 pass
   input  logic [IdxW-1:0]  idx_i,
   input  logic             be3_i,        // it has bits 31:24
@@ -47,7 +48,7 @@ module can_mb_guard #(
   logic             active, abort, cur, cs_block, all_block;
 
   assign active    = !be3_i || code_i == 4'b1100 || code_i == 4'b1110;
-  assign abort     = wr_i && kind_i == KindCs && be3_i && code_i == 4'b1001 && aen_i;
+  assign abort     = wr_i && !area_i && kind_i == KindCs && be3_i && code_i == 4'b1001 && aen_i;
   assign cur       = idx_i == cur_idx_i;
   assign cs_block  = cur && (out_i || (kept_i && active));
   assign all_block = (ended_q[idx_i] && iflag_i[idx_i]) || (cur && done_i)
@@ -55,7 +56,7 @@ module can_mb_guard #(
   assign block_o   = aen_i && !area_i && ((kind_i == KindCs && (cs_block || all_block))
                                || (kind_i == KindMsg && all_block));
   assign abort_o   = abort && cs_block && !all_block;
-  assign stall_o   = flag_o && !gnt_i;
+  assign stall_o   = flag_o;
 
   // An abort done at once.
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -64,7 +65,7 @@ module can_mb_guard #(
       flag_idx_o <= '0;
     end else begin
       if (gnt_i) flag_o <= 1'b0;
-      if (abort && !cs_block && !all_block) begin
+      if (abort && mb_wr_i && !cs_block && !all_block) begin
         flag_o     <= 1'b1;
         flag_idx_o <= idx_i;
       end

@@ -33,7 +33,8 @@ module can_mb_load #(
   input  logic            csw_i,
   input  logic [IdxW-1:0] csw_idx_i,
   input  logic            csw_act_i,
-  // ... in this clock; abort_i: it asks to abort the frame that has moved out, and is not done.
+  // ... in this clock or the next one; abort_i: it asks to abort the frame that has moved out, and
+  // is not done.
   input  logic            cs_wr_i,
   input  logic [IdxW-1:0] cs_wr_idx_i,
   input  logic            abort_i,
@@ -83,17 +84,17 @@ module can_mb_load #(
   state_e state_q;
 
   logic       word_q, on_bus_q, end_q, failed_q, orphan_q, dropped_q, abort_q, shot_q, answer_q;
-  logic [1:0] tick_q, drop_q;
-  logic       head_ok, head_bad, head_taken, csw_cur, csw_ld, withdrawn;
+  logic [1:0] tick_q;
+  logic       pause_q, head_ok, head_bad, head_taken, csw_cur, csw_ld, withdrawn;
 
   assign csw_cur   = csw_i && csw_idx_i == cur_idx_o;
   assign csw_ld    = csw_i && csw_idx_i == ld_idx_o;
   assign started_o = start_i && transmitter_i && !on_bus_q;
 
   // A waiting frame is replaced only in the two clocks after a sample point, when the engine cannot
-  // be about to take it; a withdrawn one may have been taken in its last clock.
-  assign head_ok = !on_bus_q && !end_q && !retry_busy_i && drop_q == '0 && !abort_q && !mute_i
-                && (!tx_req_o || tick_q != '0);
+  // be about to take it; none is loaded (pause_q, a clock late) while one is sent, ends, waits for
+  // its retry or has just been withdrawn.
+  assign head_ok = !pause_q && (!tx_req_o || tick_q != '0);
   // ... and not while the CPU rewrites it, or asks to abort the one it would replace.
   assign head_bad = csw_ld || abort_q || (cs_wr_i && (cs_wr_idx_i == ld_idx_o
                                            || (aen_i && tx_req_o && cs_wr_idx_i == cur_idx_o)));
@@ -159,12 +160,13 @@ module can_mb_load #(
     if (!rst_ni) begin
       {tx_req_o, on_bus_q, orphan_q, dropped_q, word_q, word_o} <= '0;
       {end_q, failed_q, flag_o, retry_o, abort_q, shot_q, answer_q} <= '0;
-      {tick_q, drop_q} <= '0;
+      tick_q  <= '0;
+      pause_q <= 1'b0;
       cur_idx_o <= '0;
     end else begin
       {flag_o, retry_o} <= '0;
-      tick_q <= {tick_q[0], tick_i};
-      drop_q <= {drop_q[0], 1'b0};
+      tick_q  <= {tick_q[0], tick_i};
+      pause_q <= on_bus_q || end_q || retry_busy_i || abort_q || mute_i || (csw_cur && tx_req_o);
 
       if (head_taken) begin
         tx_req_o  <= 1'b1;
@@ -179,7 +181,6 @@ module can_mb_load #(
         if (tx_req_o && (!csw_act_i || !dropped_q)) begin
           tx_req_o  <= 1'b0;
           dropped_q <= 1'b1;
-          drop_q    <= 2'b11;
         end
       end
       if (started_o) begin

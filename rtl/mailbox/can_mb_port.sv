@@ -34,7 +34,8 @@ module can_mb_port #(
   output logic            ready_o,
   output logic [31:0]     rdata_o,      // of kinds 0..2
   output logic            rd_done_o,    // a read ends in this clock
-  output logic            wr_done_o,    // a write ends in this clock
+  output logic            wr_o,         // a write ends in this clock, or the next one
+  output logic            wr_done_o,    // ... in this clock
   output logic [1:0]      kind_o,
   output logic            rxfir_o,      // kind 0: RXFIR, not C/S
   output logic [IdxW-1:0] idx_o,
@@ -141,6 +142,7 @@ module can_mb_port #(
 
   assign ready_o   = !pend_q && !wr_waits;
   assign rd_done_o = rd_q && !pend_q;
+  assign wr_o      = wr_q;
   assign wr_done_o = wr_q && !wr_waits;
   assign kind_o    = kind_q;
   assign rxfir_o   = !word_q[1];

@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_mb_load alone, with AEN = 1 (flexcan.md 3.3, 3.4): the engine gets what was written last,
+// whole, and every request to send has one end, whenever the CPU writes and slots are granted.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <optional>
+#include <random>
+
+#include "Vcan_mb_load.h"
+#include "unit/leaf_model.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr unsigned kBuffers = 4, kBit = 8;
+constexpr unsigned kActive = 0xC, kInactive = 0x8, kAborted = 0x9, kAnswer = 0xE, kAnswers = 0xA;
+
+struct Buffer {
+  std::uint32_t cs = 0, id = 0, low = 0, high = 0;
+  bool pending = false, abort = false;
+  [[nodiscard]] unsigned code() const { return (cs >> 24) & 0xF; }
+  [[nodiscard]] bool active() const { return code() == kActive || code() == kAnswer; }
+};
+
+// RAM, arbitration by index, guard and engine around the block, each as simple as can be.
+class MbLoad : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    top_.reset();
+    top_->running_i = 1;
+    top_->aen_i = 1;
+  }
+
+  void clock(std::optional<unsigned> write = {}, unsigned code = 0) {
+    engine();
+    arbitrate();
+    top_.settle();
+    const bool accepted = write && cpu(*write, code);
+    top_.settle();
+    const Step next = grant();
+    finish();
+    if (!on_bus_ && now_ % kBit == 0 && now_ >= free_at_ && top_->tx_req_o != 0) take();
+    ++now_;
+    if (accepted) rewrite(*write, code);
+    top_.clock();
+    after(next);
+    top_->csw_i = accepted;
+    if (accepted) top_->csw_idx_i = *write;
+    top_->csw_act_i = code == kActive || code == kAnswer;
+    top_->cs_wr_i = top_->abort_i = 0;
+  }
+
+  struct Step {
+    bool data = false;
+    unsigned step = 0;
+    Buffer read;
+    std::uint32_t word = 0;
+  };
+
+  void arbitrate() {
+    top_->settled_i = 0;
+    for (unsigned i = kBuffers; i-- > 0;) {
+      if (!buffers_[i].active() || (top_->off_o != 0 && top_->cur_idx_o == i)) continue;
+      top_->settled_i = 1;
+      top_->best_idx_i = i;
+    }
+    top_->gap_i = !on_bus_;
+  }
+
+  // What can_mb_guard does; true if the word is written.
+  bool cpu(unsigned i, unsigned code) {
+    const bool active = code == kActive || code == kAnswer;
+    const bool cur = top_->cur_idx_o == i;
+    top_->cs_wr_i = 1;
+    top_->cs_wr_idx_i = i;
+    if (!cur || (top_->out_o == 0 && (top_->kept_o == 0 || !active))) return true;
+    if (code == kAborted && top_->done_o == 0) {
+      EXPECT_TRUE(buffers_[i].pending);
+      top_->abort_i = 1;
+      buffers_[i].abort = true;
+      starts_at_abort_ = starts_;
+    }
+    return false;
+  }
+
+  void rewrite(unsigned i, unsigned code) {
+    Buffer &b = buffers_[i];
+    b.cs = (code << 24) | (rng_() & 0x3F0000);
+    b.pending = b.active();
+    if (!b.pending) return;
+    b.id = rng_() & 0x1FFFFFFF;
+    b.low = rng_();
+    b.high = rng_();
+  }
+
+  // A read slot: the buffer as it is before this clock's write.
+  Step grant() {
+    Step next;
+    if (top_->req_o == 0 || step_.data || rng_() % 3 == 0) return next;
+    next = {true, top_->step_o, buffers_[top_->ld_idx_o], 0};
+    if (next.step == 0) next.word = hidden_[top_->row_o == 0][top_->word_o];
+    if (next.step == 1) next.read = buffers_[top_->cur_idx_o];
+    return next;
+  }
+
+  // Second half of the step under way.
+  void finish() {
+    if (!step_.data) return;
+    if (step_.step == 2) hidden_[top_->row_o][0] = step_.read.low;
+    if (step_.step == 3) hidden_[top_->row_o][1] = step_.read.high;
+    if (step_.step == 1 && top_->cancel_o == 0) end(buffers_[top_->cur_idx_o]);
+  }
+
+  void end(Buffer &b) {
+    const unsigned code = top_->code_o;
+    ASSERT_TRUE(b.pending) << "a second end";
+    ASSERT_FALSE(on_bus_);
+    if (result_ok_) {
+      const bool rtr = (b.cs & (1u << 20)) != 0;
+      ASSERT_EQ(code, b.code() == kAnswer ? kAnswers : rtr ? 4u : kInactive);
+    } else {
+      ASSERT_EQ(code, kAborted);
+      ASSERT_TRUE(b.abort);
+      ++aborted_;
+    }
+    if (b.abort) {
+      ASSERT_LE(starts_, starts_at_abort_ + 1) << "tried again after the request";
+    }
+    b.cs = (b.cs & 0x00FFFFFF) | (code << 24);
+    b.pending = b.abort = result_ok_ = false;
+    ++ends_;
+  }
+
+  // A frame starts at a sample point, takes its words in time, and ends some way or other.
+  void engine() {
+    top_->start_i = top_->tx_next_i = top_->tx_ok_i = top_->tx_fail_i = 0;
+    top_->transmitter_i = on_bus_;
+    top_->tick_i = top_->tick_req_o != 0 && now_ % kBit == 0;
+    if (taken_) {
+      top_->start_i = top_->tx_next_i = 1;
+      taken_ = false;
+    } else if (on_bus_) {
+      body();
+    }
+  }
+
+  void take() {
+    on_bus_ = taken_ = true;
+    began_ = now_;
+    ++starts_;
+    sending_ = buffers_[top_->cur_idx_o];
+    ASSERT_TRUE(sending_.pending);
+    const bool ide = (sending_.cs & (1u << 21)) != 0;
+    ASSERT_EQ(top_->tx_word_o, sending_.id & (ide ? 0x1FFFFFFFu : 0x1FFC0000u));
+    ASSERT_EQ((top_->tx_ide_o << 5) | (top_->tx_rtr_o << 4) | top_->tx_dlc_o,
+              (sending_.cs >> 16) & 0x3F);
+  }
+
+  void body() {
+    const unsigned at = now_ - began_;
+    if (at == 60 || at == 150) {  // the first word was asked for with the start
+      ASSERT_EQ(top_->tx_word_o, at == 60 ? sending_.low : sending_.high);
+      top_->tx_next_i = at == 60;
+    }
+    const bool fail = at % kBit == 0 && rng_() % 12 == 0;
+    if (!fail && at < 160) return;
+    on_bus_ = false;
+    free_at_ = now_ + 3 * kBit;
+    result_ok_ = !fail;
+    (fail ? top_->tx_fail_i : top_->tx_ok_i) = 1;
+  }
+
+  void after(const Step &next) {
+    step_ = next;
+    top_->data_i = top_->flight_i = next.data;
+    top_->data_step_i = next.step;
+    if (!next.data) return;
+    top_->cs_i = next.read.cs;
+    top_->msg_i = next.step == 0 ? next.word : next.step == 4 ? next.read.id : 0;
+  }
+
+  LeafModel<Vcan_mb_load> top_;
+  std::array<Buffer, kBuffers> buffers_{};
+  std::array<std::array<std::uint32_t, 2>, 2> hidden_{};
+  Buffer sending_;
+  Step step_;
+  bool on_bus_ = false, taken_ = false, result_ok_ = false;
+  unsigned now_ = 0, began_ = 0, free_at_ = 0, starts_ = 0, ends_ = 0, aborted_ = 0;
+  unsigned starts_at_abort_ = 0;
+  std::mt19937 rng_{11};
+};
+
+// MO-10, FX-3.4.b, FX-3.4.c, FX-9.ERR006032
+TEST_F(MbLoad, EveryRequestHasOneEndAndItsOwnContent) {
+  for (unsigned i = 0; i < 400000; ++i) {
+    const bool busy = (i >> 12) % 2 != 0;
+    if (rng_() % (busy ? 4 : 90) != 0) {
+      clock();
+    } else {
+      constexpr std::array<unsigned, 6> kCodes{kActive,   kActive,  kAnswer,
+                                               kInactive, kAborted, kAborted};
+      clock(rng_() % kBuffers, kCodes[rng_() % kCodes.size()]);
+    }
+    ASSERT_FALSE(HasFatalFailure()) << "clock " << i;
+  }
+  EXPECT_GT(ends_, 500u);
+  EXPECT_GT(aborted_, 50u);
+  // Left alone, everything ends.
+  for (unsigned i = 0; i < 20000; ++i) clock();
+  for (const Buffer &b : buffers_) EXPECT_FALSE(b.pending);
+}
+
+// FX-3.4.a: in bus-off and listen-only nothing moves out.
+TEST_F(MbLoad, NothingIsPresentedWhileTheEngineStartsNoFrame) {
+  top_->mute_i = 1;
+  clock(2, kActive);
+  for (unsigned i = 0; i < 100; ++i) {
+    clock();
+    ASSERT_EQ(top_->tx_req_o, 0);
+    ASSERT_EQ(top_->out_o, 0);
+  }
+  top_->mute_i = 0;
+  for (unsigned i = 0; i < 2000 && buffers_[2].pending; ++i) clock();
+  EXPECT_FALSE(buffers_[2].pending);
+}
+
+}  // namespace
+}  // namespace vericansim
