@@ -104,8 +104,8 @@ module can_mailbox #(
   end
 
   // CPU accesses and their side effects.
-  logic            cmd_wr, rd_done, wr, wr_done, mb_wr, block, stall, rxfir, raw, cs_rd, timer_rd,
-      cpu_busy;
+  logic            cmd_wr, rd_done, wr, wr_done, waited, mb_wr, block, stall;
+  logic            rxfir, raw, cs_rd, timer_rd, cpu_busy;
   logic [1:0]      cpu_kind;
   logic [IdxW-1:0] cmd_idx, cpu_idx;
   logic [3:0]      cpu_be;
@@ -233,8 +233,9 @@ module can_mailbox #(
 
   can_mb_guard #(.NumMb(NumMb)) u_guard (
     .clk_i, .rst_ni, .clear_i, .aen_i,
-    .wr_i(wr), .mb_wr_i(mb_wr), .kind_i(cpu_kind), .idx_i(cpu_idx), .be3_i(cpu_be[3]),
-    .code_i(wdata_i[27:24]), .area_i(raw), .block_o(block), .abort_o(abort), .stall_o(stall),
+    .wr_i(wr), .mb_wr_i(mb_wr), .waited_i(waited), .kind_i(cpu_kind),
+    .idx_i(cpu_idx), .be3_i(cpu_be[3]), .code_i(wdata_i[27:24]), .area_i(raw),
+    .block_o(block), .abort_o(abort), .stall_o(stall),
     .out_i(out), .kept_i(kept), .done_i(done), .cur_idx_i(cur_idx),
     .flag_o(ab_flag), .flag_idx_o(ab_idx), .gnt_i(!mv_flag && !ld_flag),
     .end_i(flag_o && !mv_flag), .end_idx_i(flag_idx_o), .iflag_i(iflag_i[NumMb-1:0]));
@@ -271,7 +272,7 @@ module can_mailbox #(
     .clk_i, .rst_ni,
     .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_kind_i, .cmd_word_i, .cmd_idx_i(cmd_idx), .cmd_be_i,
     .wdata_i, .raw_i(raw), .shot_i(osmb_i), .block_i(block), .stall_i(stall), .ready_o,
-    .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done),
+    .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done), .waited_o(waited),
     .kind_o(cpu_kind), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
     .eng_req_i(eng_req), .eng_lazy_i(eng_lazy), .eng_cs_row_i(eng_cs_row),

@@ -30,12 +30,13 @@ module can_mb_port #(
   input  logic            raw_i,        // a C/S word with all 32 bits (filter table)
   input  logic            shot_i,       // bit 28 of a Tx buffer's C/S word is kept
   input  logic            block_i,      // not to be written
-  input  logic            stall_i,      // a C/S write has to wait for a clock
+  input  logic            stall_i,      // it has to wait for a clock
   output logic            ready_o,
   output logic [31:0]     rdata_o,      // of kinds 0..2
   output logic            rd_done_o,    // a read ends in this clock
   output logic            wr_o,         // a write ends in this clock, or the next one
   output logic            wr_done_o,    // ... in this clock
+  output logic            waited_o,     // ... and has waited for one
   output logic [1:0]      kind_o,
   output logic            rxfir_o,      // kind 0: RXFIR, not C/S
   output logic [IdxW-1:0] idx_o,
@@ -133,8 +134,8 @@ module can_mb_port #(
   logic wait_q, w_gnt, ram_wr, wr_waits;
   assign ram_wr    = wr_q && kind_q != KindTimer;
   assign w_gnt     = ram_wr && (wait_q || !(copy_i || svc_req_i || ewr_owed_q
-                                            || (kind_q == KindCs
-                                                && ((csw_i && owed_q) || stall_i))));
+                                            || stall_i
+                                            || (kind_q == KindCs && csw_i && owed_q)));
   assign wr_waits  = ram_wr && !w_gnt;
   assign hold_o    = copy_i && wait_q;
   assign svc_gnt_o = svc_req_i && !copy_i && !w_gnt;
@@ -144,6 +145,7 @@ module can_mb_port #(
   assign rd_done_o = rd_q && !pend_q;
   assign wr_o      = wr_q;
   assign wr_done_o = wr_q && !wr_waits;
+  assign waited_o  = wait_q;
   assign kind_o    = kind_q;
   assign rxfir_o   = !word_q[1];
   assign idx_o     = idx_q;
@@ -253,7 +255,8 @@ module can_mb_port #(
     end else begin
       if (w_gnt) fwd_data_q <= kind_q == KindCs ? cs_wdata : wdata_i;
       if (cpu_gnt) begin
-        fwd_q <= (w_gnt && !block_i && {c_kind, c_word, c_idx} == {kind_q, word_q, idx_q}) ? be_q : 4'b0;
+        fwd_q <= (w_gnt && !block_i && {c_kind, c_word, c_idx} == {kind_q, word_q, idx_q})
+                 ? be_q : 4'b0;
       end
     end
   end
