@@ -18,7 +18,7 @@ module can_mb_cpu #(
   input  logic            scrub_i,
   input  logic            fen_i,
   input  logic [6:0]      first_i,       // first buffer that is a mailbox
-  input  logic [2:0]      head_i,        // row of the frame at the output, after a pop in this clock
+  input  logic [2:0]      head_i,        // row of the output, after a pop in this clock
   // Command, as of can_mailbox.
   input  logic            cmd_rd_i,
   input  logic            cmd_wr_i,

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // can_mb_filter: compares the frame being received with the filter table of the Rx FIFO, one word
-// of it a clock (flexcan.md section 4): one identifier (format A), two halves (B) or four bytes (C).
+// of it a clock (flexcan.md section 4): one identifier (format A), two halves (B), four bytes (C).
 //
 // The table begins at buffer 6; word 0 of a buffer lies in the C/S memory, words 1 to 3 in the MSG
 // memory. It ends at the last buffer if RFFN asks for more.

@@ -8,7 +8,7 @@
 // longest case (64 buffers, RFFN=15). A CPU that never pauses takes every second slot: 308. The
 // result is due when the header of the next frame is complete, after 47 bits at the least: 376
 // clocks at 8 clocks a bit. While another frame waits for a locked buffer it is due at the start of
-// the next frame, after 264 clocks: too late only for RFFN > 9, frames of the shortest kind in a row
+// the next frame, after 264 clocks: too late only for RFFN > 9 with the shortest frames in a row
 // and a CPU that uses the buffers in every clock.
 
 module can_mb_match #(

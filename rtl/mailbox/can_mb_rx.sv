@@ -62,7 +62,8 @@ module can_mb_rx #(
   assign rtr_ok  = !eacen_i || ans_o || cs_i[20] == rtr_o || !mask_i[31];
   assign id_ok   = ((id_i[28:18] ^ id_o[28:18]) & mask_i[28:18]) == '0
                 && (!ide_o || ((id_i[17:0] ^ id_o[17:0]) & mask_i[17:0]) == '0);
-  assign free    = (cs_i[26:24] == 3'b100 || cs_i[31] || ans_o) && !(lock_i && lock_idx_i == s1_idx_q);
+  assign free    = (cs_i[26:24] == 3'b100 || cs_i[31] || ans_o)
+                && !(lock_i && lock_idx_i == s1_idx_q);
   // written meanwhile: read it again
   assign skip    = s2_skip_q || (csw_i && csw_idx_i == s2_idx_q);
   assign last    = idx_o == IdxW'(NumMb - 1) || 7'(idx_o) == maxmb_i;

@@ -106,7 +106,8 @@ module can_mb_step #(
       msg_row_o = ld_step_i == StepWord ? hidden(1'b0, !ld_row_i, {ld_word_i, !ld_word_i})
                 : {ld_step_i == StepHead ? 2'd0 : {ld_step_i[0], !ld_step_i[0]}, ld_idx_i};
     end else if (step_req) begin
-      cs_row_o  = mv_step_i[0] == mv_step_i[1] ? {1'b0, mv_idx_i} : (IdxW+1)'(NumMb + 2) | (IdxW+1)'(mv_row_i);
+      cs_row_o  = mv_step_i[0] == mv_step_i[1] ? {1'b0, mv_idx_i}
+                : (IdxW+1)'(NumMb + 2) | (IdxW+1)'(mv_row_i);
       msg_row_o = hidden(1'b1, mv_row_i, mv_step_i);
     end
   end

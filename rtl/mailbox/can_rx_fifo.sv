@@ -15,7 +15,7 @@ module can_rx_fifo (
   input  logic       mrp_i,          // mailboxes before the FIFO
   // CPU.
   input  logic       pop_i,          // done with the frame at the output
-  output logic [2:0] head_o,         // row of the output; already the next one in a clock with pop_i
+  output logic [2:0] head_o,         // row of the output; the next one in the clock of pop_i
   output logic       avail_o,        // there is a frame at the output
   output logic       warn_o,         // pulse: the fill rises from 4 to 5
   output logic       ovf_o,          // pulse: a frame was lost
