@@ -120,9 +120,10 @@ void BufferModel::write_cs_aen(const BufferState &state, unsigned n, std::uint32
     next.moved_out_since = now;
     add(out, std::move(next));
   }
-  // Whether 1001 in a buffer with nothing to abort sets the flag is open.
+  // Whether 1001 in a buffer with nothing to abort, a waiting answer included, sets the flag is
+  // open.
   if (!abort || !code_sends(before)) take_write(state, n, data, lanes, now, out);
-  if (!abort || before == kTxAnswerWaits) return;
+  if (!abort) return;
   BufferState next = state;
   next.write(n, 0, data, lanes, config_, now);
   next.withdraw(n, now);
@@ -208,7 +209,7 @@ void BufferModel::read_flags(unsigned half, std::uint32_t value) {
        [&] {
          std::string expected;
          for (const BufferState &state : states_)
-           expected += fmt::format(" {:08X}", flags_of(state));
+           if (expected.size() < 200) expected += fmt::format(" {:08X}", flags_of(state));
          return fmt::format("IFLAG{} reads {:08X}; allowed:{}", half + 1, value, expected);
        });
 }

@@ -22,6 +22,9 @@ std::string name_of(const Frame &frame) {
   return text;
 }
 
+/// More possibilities than this say that a test leaves too much open.
+constexpr std::size_t kMostStates = 4096;
+
 std::string nothing() { return "no state is left"; }
 
 }  // namespace
@@ -57,6 +60,7 @@ void BufferModel::replace(const std::function<void(const BufferState &, States &
     failure_ = otherwise();
     return;
   }
+  if (next.size() > kMostStates) failure_ = "more is open than can be judged";
   states_ = std::move(next);
 }
 
@@ -124,6 +128,11 @@ void BufferModel::settle(std::uint64_t now) {
     return s.matching || s.released || s.ended || s.moved_out || !s.withdrawn.empty();
   });
   if (open) open_up(now);
+}
+
+bool BufferModel::sending() const {
+  return std::any_of(states_.begin(), states_.end(),
+                     [](const BufferState &state) { return state.flight.has_value(); });
 }
 
 bool BufferModel::must_send_since(std::uint64_t clock) const {

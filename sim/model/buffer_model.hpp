@@ -71,6 +71,8 @@ class BufferModel {
   [[nodiscard]] std::size_t possibilities() const { return states_.size(); }
   /// One of the states.
   [[nodiscard]] const BufferState &state() const { return states_.front(); }
+  /// In some state a frame is being sent.
+  [[nodiscard]] bool sending() const;
   /// In every state some buffer has waited to be sent since `clock` or earlier.
   [[nodiscard]] bool must_send_since(std::uint64_t clock) const;
 

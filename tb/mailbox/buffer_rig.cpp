@@ -101,8 +101,11 @@ void BufferRig::configure(const BufferConfig &config) {
 
 void BufferRig::go() {
   write(reg::kMcr, mcr_of(config()));
-  const auto idle = [&] { return field() == Field::kIdle; };
-  if (!run_until(idle, 4000)) throw std::runtime_error("the core does not integrate");
+  const auto integrated = [&] {
+    const Trace trace = decode_trace(node_->trace());
+    return trace.running && trace.field != Field::kInteg;
+  };
+  if (!run_until(integrated, 4000)) throw std::runtime_error("the core does not integrate");
 }
 
 bool BufferRig::freeze(unsigned clocks) {
@@ -115,6 +118,7 @@ void BufferRig::soft_reset() {
   const auto over = [&] { return (read(reg::kMcr) & reg::kMcrSoftRst) == 0; };
   ASSERT_TRUE(run_until(over, 2000));
   tell_model(true);
+  timer_ = 0;
   model.soft_reset(clock_);
 }
 

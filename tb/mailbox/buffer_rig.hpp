@@ -150,6 +150,7 @@ class BufferRig {
   std::uint64_t starts_ = 0, start_clock_ = 0, end_clock_ = 0, idle_since_ = 0;
   std::vector<Frame> sent_;
   std::optional<std::pair<unsigned, unsigned>> disturbance_;  // bit, times
+  bool was_running_ = false;
   bool failed_ = false;
 };
 

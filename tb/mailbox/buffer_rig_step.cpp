@@ -43,6 +43,9 @@ void BufferRig::step() {
   const Trace trace = decode_trace(word);
   if ((word & (kTraceEvents | kTraceBoundary)) != 0) bus_event(trace);
   if (trace.sample) sampled(trace);
+  // Stopped between the decision to send and the SOF: the attempt never was.
+  if (was_running_ && !trace.running && model.sending()) model.send_failed(clock_);
+  was_running_ = trace.running;
   collect_accesses();
   tell_model(false);
 }
@@ -89,6 +92,7 @@ void BufferRig::check_model() {
 void BufferRig::sampled(const Trace &trace) {
   if (!trace.running) return;
   ++timer_;
+  if (trace.field != Field::kIdle) idle_since_ = clock_;
   const Level wire = node_->tx() & peer_level_;
   if (!peer_.pending() && !peer_queue_.empty()) {
     peer_.request(peer_queue_.front());
@@ -137,7 +141,6 @@ void BufferRig::end_bit(Field field) {
   if (disturbance_ && in_frame_ && disturbance_->second != 0 && bit_ == disturbance_->first)
     if (--disturbance_->second == 0) disturbance_.reset();
   if (++bit_ == 1) stamp_ = timer_;
-  if (field != Field::kIdle) idle_since_ = clock_;
   if (field == Field::kIdle) in_frame_ = false;
 }
 
