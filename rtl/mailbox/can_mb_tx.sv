@@ -60,10 +60,10 @@ module can_mb_tx #(
   output logic            seen_free_o   // code is INACTIVE
 );
   logic            ins_q, ins_new, retry_q, retry_gnt, ans_q, ans_gnt;
-  logic            scan_q, look_q, dirty_q, wait_q, again_q, spoiled_q, last, change, restart;
+  logic            scan_q, look_q, dirty_q, wait_q, again_q, spoiled_q, last, change, restart_q;
   // Stage 1: the buffer is on the RAM outputs. Stage 2: its arbitration value is known.
   logic            s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q, s2_active_q, s2_free_q;
-  logic            best_q, s1_part;
+  logic            best_q, s1_part, s2_end;
   logic [IdxW-1:0] s1_idx_q, s2_idx_q, ans_idx_q;
   logic [34:0]     s2_val_q, best_val_q;
 
@@ -129,18 +129,23 @@ module can_mb_tx #(
   assign seen_val_o  = s2_val_q;
   assign seen_act_o  = candidate;
   assign seen_free_o = s2_free_q;
-  assign pass_o      = scan_gnt_i && scan_idx_o == '0;
-  assign pass_end_o  = s2_last_q && !dirty_q && !change && !gone;
+  assign pass_o      = s1_scan_q && s1_idx_q == '0;
+  assign s2_end      = s2_last_q && !restart_q;
+  assign pass_end_o  = s2_end && !dirty_q && !change && !gone;
 
   // A pass for ESR2 alone is started anew by whatever happens; one that looks for a winner is not.
   assign change  = csw_i || ans_i;
-  assign restart = look_q && !scan_q && (change || gone);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)                         {look_q, dirty_q} <= '0;
-    else if (!running_i)                 {look_q, dirty_q} <= '0;
-    else if (s2_last_q && !restart)      {look_q, dirty_q} <= {dirty_q || change, 1'b0};
-    else if (change)                     {look_q, dirty_q} <= {1'b1, scan_q};
+    if (!rst_ni) begin
+      {look_q, dirty_q, restart_q} <= '0;
+    end else if (!running_i) begin
+      {look_q, dirty_q, restart_q} <= '0;
+    end else begin
+      restart_q <= look_q && !scan_q && (change || gone);
+      if (s2_end)      {look_q, dirty_q} <= {dirty_q || change, 1'b0};
+      else if (change) {look_q, dirty_q} <= {1'b1, scan_q};
+    end
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -176,7 +181,7 @@ module can_mb_tx #(
         scan_idx_o <= scan_idx_o + 1'b1;
         wait_q     <= last;
       end
-      if (s2_last_q) begin              // every buffer has been looked at
+      if (s2_end) begin                 // every buffer has been looked at
         wait_q     <= 1'b0;
         scan_q     <= again_q || gone;
         again_q    <= 1'b0;
@@ -186,7 +191,7 @@ module can_mb_tx #(
         scan_q <= 1'b1;
         if (scan_q) {again_q, spoiled_q} <= '1;
       end
-      if (restart) begin
+      if (restart_q) begin
         scan_idx_o <= '0;
         wait_q     <= 1'b0;
         {s1_last_q, s2_last_q} <= '0;
