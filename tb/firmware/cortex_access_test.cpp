@@ -99,6 +99,11 @@ TEST(CortexAccess, UnprivilegedCodeShowsOnTheBus) {
   rig.go("sizes");
   ASSERT_TRUE(rig.finish());
   EXPECT_TRUE(rig.bus.privileged_log.front());
+  tb::CortexRig user;
+  user.go("unprivileged");
+  ASSERT_TRUE(user.finish());
+  EXPECT_FALSE(user.bus.privileged_log.front());
+  EXPECT_EQ(user.cpu.control(), 1U);
 }
 
 TEST(CortexAccess, DeviceErrorIsABusFault) {

@@ -54,7 +54,7 @@ void expect_refused(const std::string &arguments, const std::string &what) {
 
 TEST(Tool, HelpAndVersion) {
   EXPECT_EQ(tool("--help").code, 0);
-  for (const char *command : {"run", "replay", "decode", "bittime", "paper"}) {
+  for (const char *command : {"run", "replay", "decode", "bittime", "paper", "firmware"}) {
     const Result help = tool(std::string(command) + " --help");
     EXPECT_EQ(help.code, 0);
     EXPECT_THAT(help.out, HasSubstr("--json"));

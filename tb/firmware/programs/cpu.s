@@ -195,6 +195,17 @@ FUNCTION it_block
   movs r7, #1
   b idle
 
+@ As unprivileged code, which cannot get its privilege back.
+FUNCTION unprivileged
+  movs r0, #1
+  msr control, r0
+  movs r0, #0
+  msr control, r0
+  ldr r0, =CAN
+  ldr.w r1, [r0, #4]
+  movs r7, #1
+  b idle
+
 FUNCTION system_bytes
   ldr r0, =0xE000E400
   movs r1, #0x55
