@@ -17,16 +17,14 @@ ninja -C "$build" driver_coverage
 out=build/driver-coverage
 rm -rf "$out"
 mkdir -p "$out"
-objects=$(cd "$build" && find . -path '*verican_driver_coverage.dir*' -name '*.gcda')
-for data in $objects; do rm -f "$build/$data"; done
+counts() { find "$build" -path '*verican_driver_coverage.dir*' -name '*.gcda' "$@"; }
+counts -delete
 "$build/tb/driver_coverage" --gtest_brief=1 >"$out/tests.log" 2>&1 || {
   tail -n 40 "$out/tests.log" >&2
   echo "driver-coverage: a test fails" >&2
   exit 1
 }
-for data in $(find "$build" -path '*verican_driver_coverage.dir*' -name '*.gcda'); do
-  gcov --no-output "$data"
-done 2>/dev/null | awk -v limit="$limit" '
+counts -exec gcov --no-output {} + 2>/dev/null | awk -v limit="$limit" '
   /^File / {name = $2; gsub(/\x27/, "", name); wanted = name ~ /sw\/driver\/src\//
             sub(/.*\//, "", name)}
   /^Lines executed:/ && wanted {

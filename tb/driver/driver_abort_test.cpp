@@ -33,6 +33,7 @@ class DriverAbort : public ::testing::TestWithParam<bool> {
   DriverBus bus_{2};
 };
 
+// FX-3.4.a, FX-3.4.c, FX-3.4.f
 TEST_P(DriverAbort, AtEveryMomentOfAFrameTheReportIsTrue) {
   unsigned sent = 0, taken_back = 0;
   for (unsigned clock = 0; clock < 8 * 80; clock += clock < 64 || clock > 8 * 65 ? 1 : 5) {
@@ -103,7 +104,7 @@ TEST_P(DriverAbort, AFrameThatWaitsBehindAnotherNeverGetsOut) {
 }
 
 // The frame loses arbitration against another: it may be taken back before and after.
-TEST_P(DriverAbort, AroundALostArbitrationTheReportIsTrue) {
+TEST_P(DriverAbort, AroundALostArbitrationTheReportIsTrue) {  // FX-3.4.b, MO-10
   unsigned sent = 0, taken_back = 0;
   for (unsigned clock = 0; clock < 8 * 160; clock += 7) {
     SCOPED_TRACE("abort " + std::to_string(clock) + " clocks after the call");
@@ -193,7 +194,7 @@ TEST_P(DriverAbort, StoppingFreesAllMailboxes) {
   }
 }
 
-TEST_P(DriverAbort, RemoteFramesLeaveNoTrap) {  // flexcan.md 3.2: 1100 with RTR turns to 0100
+TEST_P(DriverAbort, RemoteFramesLeaveNoTrap) {  // FX-3.2.g, FX-3.7.a
   const verican_frame_t request = driver_frame(0x300, 2, VERICAN_FRAME_REMOTE);
   std::uint8_t mailbox = 0;
   ASSERT_EQ(verican_send(&bus_[0].dev, &request, &mailbox), VERICAN_OK);

@@ -76,6 +76,7 @@ class DriverFilters : public ::testing::TestWithParam<Case> {
   std::mt19937 random_{11};
 };
 
+// FX-3.5.c, FX-3.5.f, FX-4.d, FX-4.e, FX-4.f, FX-4.g, FX-4.h
 TEST_P(DriverFilters, AcceptWhatTheyAreDefinedToAccept) {
   set_up();
   unsigned accepted = 0;
@@ -197,7 +198,7 @@ TEST_F(DriverFilterLimits, FormatsThatCannotSayIt) {
   EXPECT_EQ(set({{0, 0x7F8, kBoth, kBoth}}), VERICAN_OK);
 }
 
-TEST_F(DriverFilterLimits, SizeOfTheTable) {  // flexcan.md 1.6, 4: 8 * (RFFN + 1) words
+TEST_F(DriverFilterLimits, SizeOfTheTable) {  // FX-CTRL2.RFFN, FX-4.a
   fifo(kA);
   EXPECT_EQ(set(exact(8, kStd, kData, 0x7FF)), VERICAN_OK);
   EXPECT_EQ(core_.word(VERICAN_CTRL2_OFFSET) >> 24, 0u);

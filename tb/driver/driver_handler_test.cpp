@@ -215,7 +215,7 @@ TEST_F(DriverHandler, StampsBeforeTheBeginningAreZero) {
   EXPECT_EQ(frame.timestamp, 0u);
 }
 
-TEST_F(DriverHandler, TheFifoIsEmptiedAndItsFlagsCleared) {  // flexcan.md 4
+TEST_F(DriverHandler, TheFifoIsEmptiedAndItsFlagsCleared) {  // FX-4.n, FX-4.r
   config_.rx_mode = VERICAN_RX_FIFO;
   up();
   unsigned left = 3;

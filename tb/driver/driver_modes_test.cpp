@@ -54,7 +54,7 @@ class DriverModes : public ::testing::Test {
   DriverBus bus_{3};
 };
 
-TEST_F(DriverModes, ListenOnlyHearsAndNeverDrivesTheBus) {  // MO-01, flexcan.md 2.4
+TEST_F(DriverModes, ListenOnlyHearsAndNeverDrivesTheBus) {  // MO-01, FX-2.4.a
   bus_[2].config.mode = VERICAN_MODE_LISTEN_ONLY;
   up({0, 1, 2});
   Activity activity{2};
@@ -74,7 +74,7 @@ TEST_F(DriverModes, ListenOnlyHearsAndNeverDrivesTheBus) {  // MO-01, flexcan.md
   EXPECT_TRUE(exchange(2));
 }
 
-TEST_F(DriverModes, LoopBackHearsItselfAndNobodyElse) {  // MO-02, flexcan.md 2.5
+TEST_F(DriverModes, LoopBackHearsItselfAndNobodyElse) {  // MO-04, FX-2.5.a
   bus_[2].config.mode = VERICAN_MODE_LOOP_BACK;
   up({0, 1, 2});
   Activity activity{2};
@@ -94,7 +94,7 @@ TEST_F(DriverModes, LoopBackHearsItselfAndNobodyElse) {  // MO-02, flexcan.md 2.
   bus_.bus.remove(activity);
 }
 
-TEST_F(DriverModes, SelfReceptionIsAnOption) {  // flexcan.md 2.6
+TEST_F(DriverModes, SelfReceptionIsAnOption) {  // MO-06, FX-2.6.a
   bus_[1].config.self_reception = true;
   up({0, 1});
   for (unsigned n = 0; n < 2; ++n) {
@@ -254,7 +254,7 @@ TEST_F(DriverModes, AFullRingDropsTheNewestAndCountsIt) {
   EXPECT_EQ(bus_[1].status().stats.received, 3u);
 }
 
-TEST_F(DriverModes, MailboxesThatOverflowMarkTheFrameAndCountIt) {  // flexcan.md 3.5
+TEST_F(DriverModes, MailboxesThatOverflowMarkTheFrameAndCountIt) {  // FX-3.5.m
   bus_[1].config.tx_mailboxes = 62;                                 // two receive
   up({0, 1});
   bus_[1].interrupts = false;
@@ -273,7 +273,7 @@ TEST_F(DriverModes, MailboxesThatOverflowMarkTheFrameAndCountIt) {  // flexcan.m
   EXPECT_EQ(bus_[1].status().stats.rx_overruns, 1u);
 }
 
-TEST_F(DriverModes, AFifoThatOverflowsCountsIt) {  // flexcan.md 4
+TEST_F(DriverModes, AFifoThatOverflowsCountsIt) {  // FX-4.m
   bus_[1].config.rx_mode = VERICAN_RX_FIFO;
   up({0, 1});
   bus_[1].interrupts = false;
@@ -290,7 +290,7 @@ TEST_F(DriverModes, AFifoThatOverflowsCountsIt) {  // flexcan.md 4
   EXPECT_EQ(bus_[1].status().stats.rx_overruns, 1u);
 }
 
-TEST_F(DriverModes, TheFifoTellsWhichFilterTookAFrame) {  // flexcan.md 1.8, RXFIR
+TEST_F(DriverModes, TheFifoTellsWhichFilterTookAFrame) {  // FX-MAP.RXFIR
   bus_[1].config.rx_mode = VERICAN_RX_FIFO;
   ASSERT_EQ(verican_init(&bus_[1].dev, &bus_[1].config), VERICAN_OK);
   verican_filter_t filters[5];
@@ -342,20 +342,20 @@ class DriverTxOrder : public DriverModes {
   }
 };
 
-TEST_F(DriverTxOrder, ByIdTheOneThatWinsOnTheBusGoesFirst) {  // flexcan.md 3.3, LBUF=0
+TEST_F(DriverTxOrder, ByIdTheOneThatWinsOnTheBusGoesFirst) {  // FX-3.3.c
   EXPECT_THAT(race(VERICAN_TX_BY_ID,
                    {driver_frame(0x300), driver_frame(0x100), driver_frame(0x400),
                     driver_frame(0x200), driver_frame(0x100 << 18, 8, VERICAN_FRAME_EXTENDED)}),
               ::testing::ElementsAre(0x100, 0x100 << 18, 0x200, 0x300, 0x400));
 }
 
-TEST_F(DriverTxOrder, InOrderTheFirstComesFirst) {  // LBUF=1
+TEST_F(DriverTxOrder, InOrderTheFirstComesFirst) {  // FX-3.3.b
   EXPECT_THAT(race(VERICAN_TX_IN_ORDER, {driver_frame(0x300), driver_frame(0x100),
                                          driver_frame(0x400), driver_frame(0x200)}),
               ::testing::ElementsAre(0x300, 0x100, 0x400, 0x200));
 }
 
-TEST_F(DriverTxOrder, ByPriorityTheLeastNumberGoesFirst) {  // LPRIO_EN=1
+TEST_F(DriverTxOrder, ByPriorityTheLeastNumberGoesFirst) {  // FX-3.3.d
   std::vector<verican_frame_t> frames{driver_frame(0x100), driver_frame(0x200), driver_frame(0x300),
                                       driver_frame(0x400)};
   for (unsigned k = 0; k < 4; ++k) frames[k].priority = static_cast<std::uint8_t>(6 - 2 * k);

@@ -59,7 +59,7 @@ class DriverState : public ::testing::Test {
   Deaf deaf_{0};
 };
 
-TEST_F(DriverState, AloneOnTheBusItTellsWarningThenPassiveAndStopsThere) {  // FC-05, FC-11
+TEST_F(DriverState, AloneOnTheBusItTellsWarningThenPassiveAndStopsThere) {  // FC-05, FX-7.a
   node_.config.clock_hz = 8'000'000;
   ASSERT_EQ(node_.up(), VERICAN_OK);  // nobody acknowledges
   send();
@@ -117,7 +117,7 @@ struct Kind {
 
 class DriverErrorKinds : public DriverState, public ::testing::WithParamInterface<Kind> {};
 
-TEST_P(DriverErrorKinds, IsReported) {  // ED-01 .. ED-05
+TEST_P(DriverErrorKinds, IsReported) {  // ED-01, ED-08, ED-09
   const Kind &kind = GetParam();
   up();
   ASSERT_EQ(bus_[2].up(), VERICAN_OK);  // acknowledges what the victim does not
@@ -184,7 +184,7 @@ TEST_F(DriverState, ItSeesTheStateImproveWhenPolled) {
   EXPECT_THAT(node_.states, ElementsAre(VERICAN_STATE_WARNING, VERICAN_STATE_PASSIVE));
 }
 
-TEST_F(DriverState, EveryStepToBusOffIsTold) {  // FC-13
+TEST_F(DriverState, EveryStepToBusOffIsTold) {  // FC-13, FX-7.d
   up();
   go_bus_off();
   EXPECT_THAT(node_.states,
@@ -193,7 +193,7 @@ TEST_F(DriverState, EveryStepToBusOffIsTold) {  // FC-13
   EXPECT_NE(node_.status().last_errors & VERICAN_ERROR_BIT0, 0);
 }
 
-TEST_F(DriverState, AutomaticRecoveryNeedsNobody) {  // BO-01
+TEST_F(DriverState, AutomaticRecoveryNeedsNobody) {  // FX-2.8.b, FX-2.8.e
   up(VERICAN_BUS_OFF_AUTOMATIC);
   go_bus_off();
   EXPECT_FALSE(sent());
@@ -208,7 +208,7 @@ TEST_F(DriverState, AutomaticRecoveryNeedsNobody) {  // BO-01
   EXPECT_EQ(bus_[1].received().size(), 1u);
 }
 
-TEST_F(DriverState, ManualRecoveryWaitsForTheCommandAndHoldsForOneBusOff) {  // BO-03
+TEST_F(DriverState, ManualRecoveryWaitsForTheCommandAndHoldsForOneBusOff) {  // BO-03, FX-2.8.c
   up(VERICAN_BUS_OFF_MANUAL);
   EXPECT_EQ(verican_recover(&node_.dev), VERICAN_ERR_STATE) << "not in bus-off";
   for (unsigned round = 1; round <= 2; ++round) {
@@ -228,7 +228,7 @@ TEST_F(DriverState, ManualRecoveryWaitsForTheCommandAndHoldsForOneBusOff) {  // 
 
 // The command is in force once only even if nobody polls in between: the errors themselves wake
 // the driver.
-TEST_F(DriverState, ASecondBusOffAfterARecoveryHoldsToo) {  // BO-03
+TEST_F(DriverState, ASecondBusOffAfterARecoveryHoldsToo) {  // FX-2.8.d
   up(VERICAN_BUS_OFF_MANUAL);
   go_bus_off();
   EXPECT_EQ(verican_recover(&node_.dev), VERICAN_OK);
@@ -277,7 +277,7 @@ TEST_F(DriverState, ARecoveryThatNobodySawIsToldAsBoth) {
   EXPECT_TRUE(sent());
 }
 
-TEST_F(DriverState, StoppingInBusOffIsPossible) {  // flexcan.md 9, ERR009595
+TEST_F(DriverState, StoppingInBusOffIsPossible) {  // FX-9.ERR009595
   up(VERICAN_BUS_OFF_MANUAL);
   go_bus_off();
   EXPECT_EQ(verican_stop(&node_.dev), VERICAN_OK);

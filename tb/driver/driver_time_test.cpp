@@ -37,7 +37,7 @@ class DriverTime : public ::testing::Test {
   DriverBus bus_{2};
 };
 
-TEST_F(DriverTime, CountsBitTimesAcrossWraps) {
+TEST_F(DriverTime, CountsBitTimesAcrossWraps) {  // FX-6.a
   const std::uint64_t start = now(0);
   const Time begin = bus_.bus.now();
   idle(200'000);  // three wraps and a bit
@@ -47,7 +47,7 @@ TEST_F(DriverTime, CountsBitTimesAcrossWraps) {
   EXPECT_GT(elapsed, 3u * 65'536);
 }
 
-TEST_F(DriverTime, FramesAreStampedAcrossWraps) {
+TEST_F(DriverTime, FramesAreStampedAcrossWraps) {  // FX-6.c
   std::uint64_t last_rx = 0, last_tx = 0;
   for (unsigned k = 0; k < 12; ++k) {
     idle(20'000);

@@ -192,9 +192,10 @@ typedef struct verican_tx_event {
 typedef struct verican verican_t;
 
 /**
- * Called from verican_irq_handler(), and the first two also from verican_abort(), verican_poll(),
- * verican_recover() and verican_stop(). Any may be NULL. All may call the driver's other functions
- * except verican_irq_handler().
+ * Called from verican_irq_handler(); on_sent also from verican_abort() and verican_stop(), on_state
+ * and on_error also from verican_poll(), verican_recover(), verican_get_status() and
+ * verican_stop(), on_receive also from verican_stop(). Any may be NULL. All may call the driver's
+ * other functions, but not verican_irq_handler().
  */
 typedef struct verican_callbacks {
   /** A mailbox is free again. */
