@@ -138,8 +138,10 @@ module can_mb_port #(
                                             || (kind_q == KindCs && csw_i && owed_q)));
   assign wr_waits  = ram_wr && !w_gnt;
   assign hold_o    = copy_i && wait_q;
-  assign svc_gnt_o = svc_req_i && !copy_i && !w_gnt;
-  assign ewr_gnt_o = ewr_req_i && !copy_i && !w_gnt && !svc_req_i;
+  // These do not look at w_gnt, which is late: a write that waits for another reason only puts the
+  // engine off once.
+  assign svc_gnt_o = svc_req_i && !copy_i && !(ram_wr && wait_q);
+  assign ewr_gnt_o = ewr_req_i && !copy_i && !svc_req_i && (!ram_wr || (ewr_owed_q && !wait_q));
 
   assign ready_o   = !pend_q && !wr_waits;
   assign rd_done_o = rd_q && !pend_q;
@@ -218,7 +220,7 @@ module can_mb_port #(
       cs_we    = 4'b1000;
       cs_waddr = {1'b0, svc_idx_i};
       cs_wdata = {4'b1000, 1'b0, svc_ovr_i, 2'b10, 24'b0};
-    end else if (ewr_req_i) begin
+    end else if (ewr_gnt_o) begin
       cs_we     = ewr_cs_we_i;
       cs_waddr  = ewr_cs_row_i;
       cs_wdata  = {8'b0, ewr_cs_i};
