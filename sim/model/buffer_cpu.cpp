@@ -15,6 +15,7 @@ namespace {
 using Kind = Destination::Kind;
 
 constexpr std::uint32_t kCodeLane = 0x0F000000;
+constexpr std::uint64_t kMoment = 4;  // clocks
 
 struct Place {
   unsigned n;
@@ -113,6 +114,8 @@ void BufferModel::write_cs_aen(const BufferState &state, unsigned n, std::uint32
   if (state.mb[n].guarded) add(out, state);
   if (state.mb[n].guarded && (before == kTxInactive || before == kTxAbort)) return;
   if (abort && before == kTxAnswerWaits) add(out, state);
+  // In the moment in which an attempt fails the buffer may still count as moved out.
+  if (state.mb[n].request && !abort && now <= ended_at_ + kMoment) add(out, state);
   if (state.mb[n].request && !state.moved_out && !state.flight) {
     BufferState next = state;
     next.moved_out = n;

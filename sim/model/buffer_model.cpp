@@ -128,6 +128,24 @@ void BufferModel::settle(std::uint64_t now) {
     return s.matching || s.released || s.ended || s.moved_out || !s.withdrawn.empty();
   });
   if (open) open_up(now);
+  if (states_.size() > 1) merge(now);
+}
+
+// States that differ in what no longer matters are one.
+void BufferModel::merge(std::uint64_t now) {
+  States merged;
+  for (BufferState &state : states_) {
+    if (!state.moved_out) {
+      state.moved_out_since = 0;
+      state.moved_out_abort = false;
+    }
+    if (!state.released) state.released_since = 0;
+    for (BufferContent &buffer : state.mb)
+      if (buffer.request && buffer.request->since + windows_.decision < now)
+        buffer.request->since = 0;
+    add(merged, std::move(state));
+  }
+  states_ = std::move(merged);
 }
 
 bool BufferModel::sending() const {

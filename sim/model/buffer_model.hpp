@@ -80,6 +80,7 @@ class BufferModel {
   using States = std::vector<BufferState>;
 
   void settle(std::uint64_t now);
+  void merge(std::uint64_t now);
   void open_up(std::uint64_t now);
   static void add(States &list, BufferState state);
   void steps_of(const BufferState &state, std::uint64_t now, States &out) const;
