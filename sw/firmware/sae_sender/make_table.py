@@ -16,6 +16,7 @@ HEAD = """/* SPDX-FileCopyrightText: 2026 The VeriCAN authors
  */
 #include "sae_table.h"
 
+/* clang-format off */
 const sae_message_t sae_table[SAE_MESSAGES] = {
 """
 
