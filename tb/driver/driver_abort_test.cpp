@@ -201,6 +201,7 @@ TEST_P(DriverAbort, RemoteFramesLeaveNoTrap) {  // FX-3.2.g, FX-3.7.a
   ASSERT_TRUE(bus_.run_until([&] { return !bus_[0].events.empty(); }));
   bus_.run(30 * kBit);
   ASSERT_EQ(arrived(0x300), 1u);
+  EXPECT_EQ(bus_[0].rtl().read32(0x80 + 16 * mailbox) >> 24, 0x8u) << "inactive";
   // The answer is received as any frame, by a mailbox that receives.
   const verican_frame_t answer = driver_frame(0x300, 2);
   ASSERT_EQ(verican_send(&bus_[1].dev, &answer, nullptr), VERICAN_OK);

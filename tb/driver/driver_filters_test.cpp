@@ -207,6 +207,9 @@ TEST_F(DriverFilterLimits, SizeOfTheTable) {  // FX-CTRL2.RFFN, FX-4.a
   EXPECT_EQ(set(exact(128, kExt, kData, 0x1FFFFFFF)), VERICAN_OK);
   EXPECT_EQ(core_.word(VERICAN_CTRL2_OFFSET) >> 24, 15u);
   EXPECT_EQ(set(exact(129, kExt, kData, 0x1FFFFFFF)), VERICAN_ERR_SPACE);
+  // Eleven masks need three blocks: one has 8 of them, two have 10, three 12.
+  EXPECT_EQ(set(exact(11, kStd, kBoth, 0x7F0)), VERICAN_OK);
+  EXPECT_EQ(core_.word(VERICAN_CTRL2_OFFSET) >> 24, 2u);
   // 32 words have masks of their own, others must be exact.
   EXPECT_EQ(set(exact(32, kStd, kBoth, 0x7F0)), VERICAN_OK);
   EXPECT_EQ(set(exact(33, kStd, kBoth, 0x7F0)), VERICAN_ERR_SPACE);

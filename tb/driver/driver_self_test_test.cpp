@@ -4,6 +4,9 @@
 // The driver's self-test: passes on the core, leaves no trace, and finds what is broken.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <vector>
+
 #include "driver/driver_node.hpp"
 #include "driver/fake_core.hpp"
 
@@ -14,9 +17,19 @@ TEST(DriverSelfTest, PassesWithIdlePinsAndLeavesTheConfigurationAlone) {
   DriverBus bus{2};
   for (unsigned n = 0; n < 2; ++n) ASSERT_EQ(verican_init(&bus[n].dev, &bus[n].config), VERICAN_OK);
   ASSERT_EQ(verican_start(&bus[1].dev), VERICAN_OK);
+  const auto registers = [&] {
+    std::vector<std::uint32_t> words;
+    for (const std::uint32_t offset : {0x000u, 0x004u, 0x034u, 0x880u, 0x884u})
+      words.push_back(bus[0].rtl().read32(offset));
+    for (std::uint32_t offset = 0x80; offset < 0x480; offset += 4)
+      words.push_back(bus[0].rtl().read32(offset));
+    return words;
+  };
+  const auto before = registers();
   verican_test_report_t report{};
   EXPECT_EQ(verican_self_test(&bus[0].dev, &report), VERICAN_OK);
   EXPECT_EQ(report.step, VERICAN_TEST_PASSED);
+  EXPECT_EQ(registers(), before);
   EXPECT_EQ(verican_self_test(&bus[0].dev, nullptr), VERICAN_OK);
   bus.run(100 * kMicrosecond);
   EXPECT_TRUE(bus[1].received().empty());
