@@ -43,7 +43,7 @@ def cases(short):
     few = {"VERICAN_RATES": "1000000", "VERICAN_FRAMES": "100"}
     many = {"VERICAN_RATES": RATES, "VERICAN_FRAMES": "400"}
     load = few if short else many
-    impatient = {**few, "VERICAN_PATIENCE": "1"}
+    impatient = {**few, "VERICAN_STEPS": "30"}
     everything = [
         Case("probe", "probe", short=True),
         Case("exchange", "exchange", load, short=True),

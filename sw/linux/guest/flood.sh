@@ -13,7 +13,7 @@ for rate in $(echo "$VERICAN_RATES" | tr , ' '); do
   listen can1 "$rate-can1.log"
   tell peer send "$VERICAN_FRAMES" 5A5#
   tell peer send "$VERICAN_FRAMES" 2AA#0000555555555555
-  while [ "$(sim peer pending)" = 1 ]; do sleep 0.001; done
+  wait_until 5 peer_is_done
   status "$rate"
   hush
   tell log off

@@ -9,15 +9,19 @@ PATH=/usr/sbin:/usr/bin:/sbin:/bin
 export PATH
 mount -t proc none /proc
 mount -t sysfs none /sys
-mount -t tmpfs none /tmp
-mkdir /tmp/out
-mount -t hostfs -o "$VERICAN_DIR" none /tmp/out
-cd /tmp/out || busybox poweroff -f
+# The root is read-only; the directory for results is mounted over itself to be written.
+mount -t hostfs -o "$VERICAN_DIR" none "$VERICAN_DIR"
+cd "$VERICAN_DIR" || busybox poweroff -f
 
 . "$VERICAN_GUEST/lib.sh"
 for module in can can-raw can-dev; do load $module; done
 load verican_glue sockets="$VERICAN_SOCKETS"
 load flexcan
+if [ ! -e /sys/class/net/can1 ]; then
+  echo "FAILED: no devices"
+  dmesg >dmesg.txt
+  busybox poweroff -f
+fi
 for script in $(echo "$VERICAN_SCRIPTS" | tr , ' '); do
   . "$VERICAN_GUEST/$script.sh"
 done

@@ -67,9 +67,9 @@ sent() {
 }
 
 # wait_until SECONDS COMMAND...: until the command succeeds; complains after that time, or after
-# VERICAN_PATIENCE seconds if that is set.
+# VERICAN_STEPS steps of 5 ms if that is set.
 wait_until() {
-  steps=$((${VERICAN_PATIENCE:-$1} * 200))
+  steps=${VERICAN_STEPS:-$(($1 * 200))}
   shift
   while ! "$@"; do
     steps=$((steps - 1))
@@ -83,6 +83,10 @@ wait_until() {
 
 has_sent() {
   [ "$(sent "$1")" -ge "$2" ]
+}
+
+peer_is_done() {
+  [ "$(sim peer pending)" = 0 ]
 }
 
 state_is() {

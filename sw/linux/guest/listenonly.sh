@@ -18,7 +18,7 @@ wait_until 2 has_sent can0 1
 cangen can0 -g 0 -n 50 -I i -L i -D i
 wait_until 2 has_sent can0 51
 tell peer send 20 701#0001
-while [ "$(sim peer pending)" = 1 ]; do sleep 0.001; done
+wait_until 5 peer_is_done
 sleep 0.001
 status heard
 hush
