@@ -87,7 +87,7 @@ module can_ahb #(
 
   can_top #(.NumMb(NumMb), .WakeFilter(WakeFilter)) u_top (
     .clk_i(hclk), .rst_ni(hresetn),
-    .req_i(taken && !bad && !denied), .we_i(hwrite), .addr_i(haddr[12:2]), .be_i(be),
+    .req_i(taken), .cancel_i(bad || denied), .we_i(hwrite), .addr_i(haddr[12:2]), .be_i(be),
     .wdata_i(hwdata),
     .rdata_o(rdata), .ready_o(ready),
     .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o,

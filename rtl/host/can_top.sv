@@ -15,6 +15,7 @@ module can_top #(
   input  logic        rst_ni,
   // Native port, window of 8 KiB.
   input  logic        req_i,
+  input  logic        cancel_i,        // the command is none after all; may come late in the clock
   input  logic        we_i,
   input  logic [12:2] addr_i,
   input  logic [3:0]  be_i,
@@ -43,11 +44,12 @@ module can_top #(
   end
 
   // Where a command goes: buffers, masks and TIMER to the mailbox, the rest to the registers.
-  logic       in_mb, in_mask, in_gmask, in_timer, in_rxfir, to_mb, wr_ok, frz_ack;
+  logic       req, in_mb, in_mask, in_gmask, in_timer, in_rxfir, to_mb, wr_ok, frz_ack;
   logic [1:0] kind, word;
   logic [3:0] hi;
   logic [6:0] mb_idx;
   logic [8:0] mask_idx;
+  assign req      = req_i && !cancel_i;
   assign hi       = addr_i[10:7] - 4'd1;            // buffers begin at 0x080, masks at 0x880
   assign mb_idx   = {hi, addr_i[6:4]};
   assign mask_idx = {hi, addr_i[6:2]};
@@ -89,9 +91,9 @@ module can_top #(
       reg_addr_q <= '0;
       reg_be_q <= '0;
     end else if (ready_o) begin
-      reg_rd_q <= req_i && !we_i && !to_mb;
-      reg_wr_q <= req_i && we_i && !to_mb;
-      if (req_i) begin
+      reg_rd_q <= req && !we_i && !to_mb;
+      reg_wr_q <= req && we_i && !to_mb;
+      if (req) begin
         reg_addr_q <= addr_i;
         reg_be_q   <= be_i;
       end
@@ -162,7 +164,8 @@ module can_top #(
     .fifo_pop_i(fifo_pop), .fifo_avail_o(fifo_avail), .fifo_warn_o(fifo_warn),
     .fifo_ovf_o(fifo_ovf), .iflag_i(iflag), .esr2_o(esr2), .crcr_o(crcr),
     .busy_o(mb_busy), .scrub_o(mb_scrub),
-    .cmd_rd_i(req_i && !we_i && to_mb), .cmd_wr_i(req_i && we_i && to_mb && wr_ok),
+    .cmd_slot_i(req_i && !we_i && !addr_i[12]),
+    .cmd_rd_i(req && !we_i && to_mb), .cmd_wr_i(req && we_i && to_mb && wr_ok),
     .cmd_kind_i(kind), .cmd_word_i(word), .cmd_idx_i(idx), .cmd_be_i(be_i),
     .wdata_i, .ready_o(mb_ready), .rdata_o(mb_rdata), .flag_o(flag), .flag_idx_o(flag_idx),
     .tick_req_o(tick_req), .tick_i(tick),

@@ -44,6 +44,7 @@ module can_mailbox #(
   output logic            busy_o,        // moves under way, or rows not cleared yet after reset
   output logic            scrub_o,       // ... the latter
   // CPU, see can_mb_port.
+  input  logic            cmd_slot_i,
   input  logic            cmd_rd_i,
   input  logic            cmd_wr_i,
   input  logic [1:0]      cmd_kind_i,
@@ -270,8 +271,8 @@ module can_mailbox #(
 
   can_mb_port #(.NumMb(NumMb)) u_port (
     .clk_i, .rst_ni,
-    .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_kind_i, .cmd_word_i, .cmd_idx_i(cmd_idx), .cmd_be_i,
-    .wdata_i, .raw_i(raw), .shot_i(osmb_i), .block_i(block), .stall_i(stall), .ready_o,
+    .cmd_slot_i, .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_kind_i, .cmd_word_i, .cmd_idx_i(cmd_idx),
+    .cmd_be_i, .wdata_i, .raw_i(raw), .shot_i(osmb_i), .block_i(block), .stall_i(stall), .ready_o,
     .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done), .waited_o(waited),
     .kind_o(cpu_kind), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),

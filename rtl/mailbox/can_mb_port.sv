@@ -19,6 +19,7 @@ module can_mb_port #(
   input  logic            rst_ni,
   // CPU, command: only while ready_o. kind: 0 C/S (word 3; 1: RXFIR, the same row), 1 ID or data
   // (word 0..2), 2 mask (word[0]: hidden row), 3 no RAM, but ordered like one (TIMER).
+  input  logic            cmd_slot_i,   // cmd_rd_i may be set: early, for who gets the read port
   input  logic            cmd_rd_i,
   input  logic            cmd_wr_i,
   input  logic [1:0]      cmd_kind_i,
@@ -126,9 +127,9 @@ module can_mb_port #(
   // each with its serviced mark, would keep it out otherwise.
   logic pend_q, owed_q, want, cpu_gnt, ewr_owed_q;
   assign want      = (eng_req_i && !eng_lazy_i) || ewr_owed_q;
-  assign cpu_gnt   = pend_q || (cmd_rd_i && !ins_req_i && !(want && owed_q) && !hold_o);
+  assign cpu_gnt   = pend_q || (cmd_slot_i && !ins_req_i && !(want && owed_q) && !hold_o);
   assign ins_gnt_o = ins_req_i && !pend_q;
-  assign eng_gnt_o = eng_req_i && !pend_q && !ins_req_i && (!cmd_rd_i || (want && owed_q));
+  assign eng_gnt_o = eng_req_i && !pend_q && !ins_req_i && (!cmd_slot_i || (want && owed_q));
 
   // Write port.
   logic wait_q, w_gnt, ram_wr, wr_waits;
@@ -158,7 +159,7 @@ module can_mb_port #(
       {pend_q, owed_q, wait_q, ewr_owed_q} <= '0;
     end else begin
       pend_q     <= cmd_rd_i && !cpu_gnt;
-      owed_q     <= want && (pend_q || ins_req_i || (cmd_rd_i && !owed_q));
+      owed_q     <= want && (pend_q || ins_req_i || (cmd_slot_i && !owed_q));
       wait_q     <= wr_waits;
       ewr_owed_q <= ewr_req_i && !ewr_gnt_o;
     end

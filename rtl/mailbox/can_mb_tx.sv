@@ -106,7 +106,12 @@ module can_mb_tx #(
   // The winner is no longer what it was.
   assign gone   = best_q && ((csw_i && csw_idx_i == best_idx_o)
                           || ((start_i || off_i) && cur_idx_i == best_idx_o));
-  assign better = lbuf_i ? s2_idx_q < best_idx_o : {s2_val_q, s2_idx_q} < {best_val_q, best_idx_o};
+  // In two halves side by side: one comparison of all bits is the longest path of the core.
+  logic high_less, high_equal, low_less;
+  assign high_less  = s2_val_q[34:17] < best_val_q[34:17];
+  assign high_equal = s2_val_q[34:17] == best_val_q[34:17];
+  assign low_less   = {s2_val_q[16:0], s2_idx_q} < {best_val_q[16:0], best_idx_o};
+  assign better = lbuf_i ? s2_idx_q < best_idx_o : high_less || (high_equal && low_less);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
