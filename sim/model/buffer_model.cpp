@@ -94,6 +94,14 @@ void BufferModel::steps_of(const BufferState &state, std::uint64_t now, States &
     out.push_back(state);
     out.back().release();
   }
+  // A frame that has moved out, but is not on the bus yet, can still be taken back.
+  if (state.moved_out && state.moved_out_abort) {
+    BufferState next = state;
+    next.moved_out.reset();
+    next.abort(*state.moved_out, now);
+    next.mb[*state.moved_out].words.known[0] &= 0x0F000000 | ~kCsStored;
+    out.push_back(std::move(next));
+  }
   if (state.ended) {
     BufferState next = state;
     next.ended.reset();

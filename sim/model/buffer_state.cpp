@@ -149,9 +149,9 @@ void BufferState::finish(const FlightEnd &end, std::uint64_t now) {
   }
   withdraw(flight_ended.mb, now);
   set_stamp(buffer.words, end.stamp);
-  if (answer && !flight_ended.abort) {
+  if (answer) {
     set_code(buffer.words, kTxAnswerWaits);
-  } else if (flight_ended.request.frame.remote && !answer && !flight_ended.abort) {
+  } else if (flight_ended.request.frame.remote) {
     set_code(buffer.words, kRxEmpty);
     buffer.serviced = Serviced::kNo;
   } else {

@@ -24,8 +24,9 @@ fail() {
 [ -f "$archive" ] || fail "$archive is missing; it is in Debian's package linux-source-6.1"
 
 version=$(dpkg-query -W -f '${Version}' linux-source-6.1)
-key=$({ grep '^CONFIG_' sw/linux/kernel.config; echo "$version"; gcc -dumpfullversion -dumpmachine; } |
-      sha256sum | cut -c 1-12)
+key=$({ grep '^CONFIG_' sw/linux/kernel.config
+        echo "$version"
+        gcc -dumpfullversion -dumpmachine; } | sha256sum | cut -c 1-12)
 kernel="$out/kernel-$key"
 source="$kernel/linux-source-6.1"
 log="$out/build.log"

@@ -102,7 +102,8 @@ void BufferRig::sampled(const Trace &trace) {
   peer_.sample(wire);
   peer_next_level_ = peer_.drive();
   if (in_frame_) bits_.push_back(wire);
-  const bool past_header = trace.field == Field::kData || trace.field == Field::kCrc;
+  // The match may begin with the last bits of the identifier.
+  const bool past_header = trace.field > Field::kId && trace.field <= Field::kCrc;
   if (in_frame_ && past_header && !header_told_) {
     header_told_ = true;
     model.header(trace.transmitter ? std::nullopt : std::optional{foreign_}, stamp_, clock_);
@@ -125,7 +126,10 @@ void BufferRig::bus_event(const Trace &trace) {
   }
   if (trace.errors != 0) model.receive_failed(clock_);
   if (trace.rx_valid) model.received(clock_);
-  if (trace.tx_fail) model.send_failed(clock_);
+  if (trace.tx_fail) {
+    model.send_failed(clock_);
+    header_told_ = false;  // the frame of the winner
+  }
   if (trace.tx_ok) {
     const DecodeResult wire = decode_frame(bits_);
     if (!wire.frame) ADD_FAILURE() << "what was sent is no frame: " << to_string(bits_);
