@@ -55,6 +55,12 @@ bool TxRig::watch_flag(unsigned mb, unsigned clocks) {
   return false;
 }
 
+unsigned TxRig::code(unsigned mb) {
+  const auto ticket = node(0).ahb().submit({.address = reg::mb(mb)});
+  while (!node(0).ahb().done(ticket)) watch(1);
+  return (node(0).ahb().result(ticket).data >> 24) & 0xF;
+}
+
 void TxRig::occupy(bool on) {
   occupied_ = on;
   if (on) put_tx(1, kOccupier, {.id = 0, .dlc = 8});

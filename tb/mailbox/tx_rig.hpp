@@ -43,8 +43,8 @@ class TxRig : public MailboxRig {
   [[nodiscard]] unsigned failed() const { return failed_; }
   void reset_counts() { starts_ = sent_ = failed_ = 0; }
 
-  /// Code of a buffer of node 0.
-  unsigned code(unsigned mb) { return (read(0, reg::mb(mb)) >> 24) & 0xF; }
+  /// Code of a buffer of node 0; counts meanwhile.
+  unsigned code(unsigned mb);
   /// Takes what buffer 1 of node 1 has received out of it.
   MbWords received();
 
