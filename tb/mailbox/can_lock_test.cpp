@@ -102,8 +102,7 @@ TEST_F(Reception, BuffersBeyondMaxmbDoNotMatch) {
 
 TEST_F(Reception, InactiveAndOtherCodesDoNotMatch) {  // 3.2
   for (unsigned code = 0; code < 16; ++code) {
-    if (code == kEmpty || code == kFull || code == kOverrun || code == 0xC || code == 0xE)
-      continue;
+    if (code == kEmpty || code == kFull || code == kOverrun || code == 0xC || code == 0xE) continue;
     MbWords words = mb_words({.id = 0x123}, code);
     rig_.put(0, code, words);
   }
