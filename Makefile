@@ -29,8 +29,8 @@ $(BUILD)/build.ninja: | packages
 build: packages $(BUILD)/build.ninja  ## Build the library, the tool and the tests
 	@$(QUIET) "Building ($(PRESET))" cmake --build $(BUILD) -j $(JOBS)
 
-demo: packages $(BUILD)/build.ninja  ## Controllers exchange frames: examples, the paper's experiments, a real recording
-	@$(QUIET) "Building the tool" cmake --build $(BUILD) -j $(JOBS) --target verican
+demo: packages $(BUILD)/build.ninja  ## Controllers exchange frames: examples, the paper's experiments, firmware, a real recording
+	@$(QUIET) "Building the tool" cmake --build $(BUILD) -j $(JOBS) --target verican firmware
 	@tools/demo.sh $(BUILD) $(OUT)
 
 test: build  ## Run every test and check that every protocol rule has one

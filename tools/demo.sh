@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# demo.sh BUILD OUT: the examples, the paper's experiments and a real recording through the tool;
-# waveforms and logs go to OUT.
+# demo.sh BUILD OUT: the examples, the paper's experiments, Cortex-M3 firmware and a real recording
+# through the tool; waveforms and logs go to OUT.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=$1
@@ -28,6 +28,16 @@ done
 
 headline "The paper's experiments (Son, Park, Kang 2016): what the core does, what they report"
 run "the paper's experiments" "$verican" paper --out "$out/paper"
+
+firmware() {  # NAME SCENARIO ELF...
+  local name=$1 scenario=sw/firmware/$2
+  shift 2
+  headline "Cortex-M3 firmware: $name"
+  run "firmware $name" "$verican" firmware "${@/#/$build/firmware/}" --bus "$scenario" \
+    --fst "$out/firmware-$name.fst" --candump "$out/firmware-$name.log"
+}
+firmware ping ping/ping.yaml ping.elf pong.elf
+firmware fault_demo fault_demo/faults.yaml fault_demo.elf
 
 if [ -f "$recording" ]; then
   headline "Replay of a real recording: a boat's NMEA 2000 network on four nodes"
