@@ -31,6 +31,12 @@ bool is_data_word(std::uint32_t offset) {
   return offset >= reg::mb(0) && offset < reg::mb(64) && (offset & 8) != 0;
 }
 
+// The frame in the buffer of a data word; a driver reads words of remote frames too.
+bool is_remote(RtlNode &core, std::uint32_t offset) {
+  constexpr std::uint32_t kRtr = 1u << 20;
+  return (core.read32(offset & ~0xFu) & kRtr) != 0;
+}
+
 }  // namespace
 
 Board::Board(const BoardConfig &config) : config_{config} {
@@ -124,9 +130,9 @@ std::uint32_t Board::transfer(RtlNode &core, const BoardAccess &access, std::uin
     return access.value;
   }
   if (sabotage_.frozen_errors && offset == reg::kEcr) return 0;
-  if (sabotage_.corrupt_data && is_data_word(offset)) {
+  if (sabotage_.corrupt_data && is_data_word(offset) && !is_remote(core, offset)) {
     sabotage_.corrupt_data = false;
-    return result.data ^ 1;
+    return result.data ^ (1u << 24);
   }
   return result.data;
 }

@@ -40,7 +40,7 @@ struct BoardAccess {
 /// Ways in which a Board can be made to lie to its guest, so that tests can be seen to fail.
 struct Sabotage {
   bool lose_frame = false;     ///< the next received frame is thrown away behind the driver's back
-  bool corrupt_data = false;   ///< the next data word that is read has its lowest bit inverted
+  bool corrupt_data = false;   ///< a bit is inverted in the first byte of the next data word read
   bool frozen_errors = false;  ///< ECR always reads 0
   bool deaf = false;           ///< the interrupt lines stay low
 };

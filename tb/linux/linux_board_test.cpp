@@ -177,7 +177,7 @@ TEST_F(BoardTest, SabotageLies) {
   send(0x124, 0x11223344);
   EXPECT_EQ(read1(reg::kIflag1), 2U) << "only one";
   board->command("sabotage corrupt-data");
-  EXPECT_EQ(read1(reg::mb(1, 2)), 0x11223345U);
+  EXPECT_EQ(read1(reg::mb(1, 2)), 0x10223344U);
   EXPECT_EQ(read1(reg::mb(1, 2)), 0x11223344U);
   EXPECT_NE(board->levels(), 0U);
   board->command("sabotage deaf");
