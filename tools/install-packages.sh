@@ -12,8 +12,9 @@ if ! command -v dpkg-query >/dev/null; then
   echo "install-packages: no dpkg here; please install the equivalents of $list yourself" >&2
   exit 0
 fi
-installed=$(dpkg-query -W -f '${db:Status-Abbrev}${Package}\n' "${wanted[@]}" 2>/dev/null |
-            sed -n 's/^ii //p' || true)
+# What another package provides is there too: some nodejs bring npm along and conflict with its own.
+installed=$(dpkg-query -W -f '${db:Status-Abbrev}${Package}, ${Provides}\n' 2>/dev/null |
+            sed -n 's/^ii //p' | sed 's/ *([^)]*)//g; s/, */\n/g' || true)
 missing=()
 for package in "${wanted[@]}"; do
   grep -qx "$package" <<<"$installed" || missing+=("$package")
