@@ -84,6 +84,7 @@ void AhbMaster::next_address_phase() {
 
 void AhbMaster::clock(const AhbResponse &response) {
   checker_.clock(request_, response);
+  if (watcher_) watcher_(request_, response);
   if (!response.hready) {
     if (!response.hresp) ++waits_;
     return;

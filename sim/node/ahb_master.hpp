@@ -7,6 +7,8 @@
 #include <coroutine>
 #include <cstdint>
 #include <deque>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "node/ahb_checker.hpp"
@@ -56,6 +58,11 @@ class AhbMaster {
   /// Forgets queued transfers and who waits for them (reset).
   void reset();
 
+  /// Called at the end of each clock cycle in which the master is active, with what it drove and
+  /// what it got; an empty function ends it.
+  using Watcher = std::function<void(const AhbRequest &, const AhbResponse &)>;
+  void watch(Watcher watcher) { watcher_ = std::move(watcher); }
+
   [[nodiscard]] const AhbChecker &checker() const { return checker_; }
   /// Statistics of the accesses and the protocol violations seen.
   [[nodiscard]] const AhbReport &report() const { return checker_.report(); }
@@ -98,6 +105,7 @@ class AhbMaster {
   Ticket completed_ = 0;
   std::vector<AhbResult> results_ = std::vector<AhbResult>(kKept);
   AhbChecker checker_;
+  Watcher watcher_;
 };
 
 }  // namespace vericansim

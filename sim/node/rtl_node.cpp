@@ -64,6 +64,21 @@ class RtlNodeOf final : public RtlNode {
     core_.touch();
   }
 
+  [[nodiscard]] AhbResult peek(const AhbTransfer &transfer) override {
+    const auto before = core_.save();
+    AhbMaster probe;
+    AhbTransfer read = transfer;
+    read.write = false;
+    const AhbMaster::Ticket ticket = probe.submit(read);
+    while (!probe.done(ticket)) {
+      AhbRequest request = probe.request();
+      request.hwdata = ahb().request().hwdata;  // of the transfer under way
+      probe.clock(cycle(request));
+    }
+    core_.restore(before);
+    return probe.result(ticket);
+  }
+
  private:
   void show(const AhbRequest &request) {
     top_.hsel = request.htrans != AhbTrans::kIdle;
@@ -77,8 +92,8 @@ class RtlNodeOf final : public RtlNode {
   }
 
   // HREADYOUT, HRESP and HRDATA are read as they have settled with this cycle's request.
-  void transfer_cycle() {
-    show(ahb().request());
+  AhbResponse cycle(const AhbRequest &request) {
+    show(request);
     top_.hready = top_.hreadyout;
     core_.settle();
     if (top_.hready != top_.hreadyout) {
@@ -87,7 +102,11 @@ class RtlNodeOf final : public RtlNode {
     }
     const AhbResponse response{top_.hrdata, top_.hreadyout != 0, top_.hresp != 0};
     core_.edge();
-    ahb().clock(response);
+    return response;
+  }
+
+  void transfer_cycle() {
+    ahb().clock(cycle(ahb().request()));
     if (!ahb().active()) {
       show(ahb().request());
       top_.hready = 1;

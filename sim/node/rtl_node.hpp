@@ -42,6 +42,9 @@ class RtlNode : public Node {
   /// Level of stop_req_i from the next clock edge on: the system asks for stop mode (flexcan.md
   /// 2.9). A reset does not change it.
   virtual void request_stop(bool stop) = 0;
+  /// What a read that began now would return. Nothing happens to the core: it is done on a copy,
+  /// behind a transfer that is under way; no time passes, no buffer is locked.
+  [[nodiscard]] virtual AhbResult peek(const AhbTransfer &transfer) = 0;
   [[nodiscard]] bool irq() const { return (irq_lines() & kIrqAll) != 0; }
   [[nodiscard]] unsigned num_mb() const { return num_mb_; }
   [[nodiscard]] AhbMaster &ahb() { return ahb_; }

@@ -79,6 +79,23 @@ class SplitCore {
     if (copy_to_core(engine_, *host_.rootp)) engine_.eval();
   }
 
+  /// Everything that the two models remember.
+  struct State {
+    std::unique_ptr<unsigned char[]> engine, host;
+    bool resting, host_settled, engine_settled;
+  };
+  [[nodiscard]] State save() const {
+    return {copy_of(*engine_.rootp), copy_of(*host_.rootp), resting_, host_settled_,
+            engine_settled_};
+  }
+  void restore(const State &state) {
+    std::memcpy(static_cast<void *>(engine_.rootp), state.engine.get(), sizeof(*engine_.rootp));
+    std::memcpy(static_cast<void *>(host_.rootp), state.host.get(), sizeof(Root));
+    resting_ = state.resting;
+    host_settled_ = state.host_settled;
+    engine_settled_ = state.engine_settled;
+  }
+
   void reset(bool active) {
     host_.hresetn = !active;
     engine_.rst_ni = !active;
@@ -86,6 +103,14 @@ class SplitCore {
   }
 
  private:
+  // A root holds plain bits, a pointer to its symbols and a name that never change.
+  template <typename T>
+  static std::unique_ptr<unsigned char[]> copy_of(const T &root) {
+    auto bytes = std::make_unique<unsigned char[]>(sizeof(T));
+    std::memcpy(bytes.get(), static_cast<const void *>(&root), sizeof(T));
+    return bytes;
+  }
+
   // Of the engine's inputs, can_rx_i alone changes without an eval(): only u_sync's first flip-flop
   // looks at it.
   void engine_edge() {
