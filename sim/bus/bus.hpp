@@ -57,6 +57,9 @@ class Bus {
   /// Calls `action` at `when` (ps, not before now()), before the clock edges of that instant.
   void at(Time when, std::function<void()> action);
 
+  /// True while an action is still to come.
+  [[nodiscard]] bool has_actions() const { return !actions_.empty(); }
+
   /// Tells the kernel that an oscillator was changed while the bus runs.
   void clocks_changed() { prepared_ = false; }
 

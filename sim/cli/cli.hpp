@@ -34,6 +34,7 @@ void add_bittime(CLI::App &app, int &exit_code);
 void add_paper(CLI::App &app, int &exit_code);
 void add_linux(CLI::App &app, int &exit_code);
 void add_firmware(CLI::App &app, int &exit_code);
+void add_bridge(CLI::App &app, int &exit_code);
 
 using Json = nlohmann::ordered_json;
 

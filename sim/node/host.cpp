@@ -102,6 +102,11 @@ bool Host::send_and_wait(const Frame &frame, Time limit) {
   return true;
 }
 
+void Host::recover() {
+  write(reg::kCtrl, ctrl() & ~reg::kCtrlBoffRec);
+  write(reg::kCtrl, ctrl());
+}
+
 // ---- Set-up
 
 Task<> Host::run() {
@@ -123,22 +128,24 @@ Task<> Host::poll(std::uint32_t address, std::uint32_t mask, std::uint32_t value
   }
 }
 
+std::uint32_t Host::ctrl() const {
+  return config_.timing.ctrl_fields() | reg::kCtrlBoffMsk | reg::kCtrlErrMsk |
+         (config_.loop_back ? reg::kCtrlLpb : 0) | (config_.triple_sampling ? reg::kCtrlSmp : 0) |
+         (config_.boff_rec ? reg::kCtrlBoffRec : 0) |
+         (config_.lowest_buffer_first ? reg::kCtrlLbuf : 0) |
+         (config_.listen_only ? reg::kCtrlLom : 0);
+}
+
 Task<> Host::set_up() {
   const std::uint32_t frozen = reg::kMcrFrz | reg::kMcrHalt;
   const std::uint32_t mode = reg::kMcrSupv | reg::kMcrWrnEn | reg::kMcrBcc | (node_.num_mb() - 1) |
                              (config_.self_reception || config_.loop_back ? 0 : reg::kMcrSrxDis);
-  const std::uint32_t ctrl = config_.timing.ctrl_fields() | reg::kCtrlBoffMsk | reg::kCtrlErrMsk |
-                             (config_.loop_back ? reg::kCtrlLpb : 0) |
-                             (config_.triple_sampling ? reg::kCtrlSmp : 0) |
-                             (config_.boff_rec ? reg::kCtrlBoffRec : 0) |
-                             (config_.lowest_buffer_first ? reg::kCtrlLbuf : 0) |
-                             (config_.listen_only ? reg::kCtrlLom : 0);
   write(reg::kMcr, frozen | 0xF);  // MDIS = 0
   co_await poll(reg::kMcr, reg::kMcrLpmAck, 0);
   write(reg::kMcr, reg::kMcrSoftRst);
   co_await poll(reg::kMcr, reg::kMcrSoftRst | reg::kMcrFrzAck, reg::kMcrFrzAck);
   write(reg::kMcr, frozen | mode);
-  write(reg::kCtrl, ctrl);
+  write(reg::kCtrl, ctrl());
   write(reg::kCtrl2, reg::kCtrl2Eacen | reg::kCtrl2Rrs);
   write(reg::kExtControl, config_.fd_tolerant ? 1 : 0);
   co_await set_up_buffers();

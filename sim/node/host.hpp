@@ -83,6 +83,9 @@ class Host {
   void send(const Frame &frame);
   /// send() and run the bus until the frame is out; false if `limit` (ps) passed first.
   bool send_and_wait(const Frame &frame, Time limit = kSecond);
+  /// With boff_rec: lets the node recover from the bus-off it is in (flexcan.md 2.8); the next one
+  /// holds it again.
+  void recover();
   /// Frames that have not left yet.
   [[nodiscard]] std::size_t pending() const { return queue_.size() + loaded_; }
 
@@ -104,6 +107,7 @@ class Host {
     Frame frame;
   };
 
+  [[nodiscard]] std::uint32_t ctrl() const;
   Task<> run();
   Task<> set_up();
   Task<> poll(std::uint32_t address, std::uint32_t mask, std::uint32_t value);

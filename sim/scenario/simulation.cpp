@@ -37,6 +37,8 @@ void Simulation::build_stations(const std::set<NodeId> &bare) {
       continue;
     }
     stations_.add(bus_, make_station(spec.name, spec.clock, config, spec.num_mb), spec.link);
+    // A run without end must not need memory without end.
+    if (!scenario_.expect.complete) stations_[id].host->on_received = [](const HostFrame &) {};
     stations_[id].host->on_sent = [this, id](const HostFrame &frame) { on_sent(id, frame.frame); };
   }
 }
@@ -51,6 +53,9 @@ void Simulation::observe() {
   monitor_ = std::make_unique<BusMonitor>(bus_, bit_time_,
                                           1.0 - static_cast<double>(first.ps2) / first.quanta());
   monitor_->on_frame = [this](const BusFrame &frame) { on_frame(frame); };
+  monitor_->on_event = [this](const BusEvent &event) {
+    if (on_bus_event) on_bus_event(event);
+  };
   bus_.add(*monitor_);
   outputs_ = std::make_unique<BusOutputs>(scenario_.outputs, bus_, longest_bit);
 }
@@ -97,8 +102,9 @@ void Simulation::start_traffic() {
 }
 
 void Simulation::on_frame(const BusFrame &frame) {
-  frames_.push_back(frame);
+  if (scenario_.expect.complete) frames_.push_back(frame);
   outputs_->write(frame);
+  if (on_bus_frame) on_bus_frame(frame);
   if (frame.sender == BusFrame::kNobody) return;
   for (const auto &traffic : traffic_)
     if (traffic->spec().node == frame.sender && traffic->matches(frame.frame))
@@ -108,6 +114,17 @@ void Simulation::on_frame(const BusFrame &frame) {
 void Simulation::on_sent(NodeId node, const Frame &frame) {
   for (const auto &traffic : traffic_)
     if (traffic->spec().node == node && traffic->matches(frame)) return traffic->on_sent();
+}
+
+bool Simulation::quiet() const {
+  for (NodeId id = 0; id < stations_.size(); ++id) {
+    const Station &station = stations_[id];
+    if (!station.host) continue;
+    const Field field = trace_field(station.node->trace());
+    const bool off = field == Field::kBusOff && scenario_.nodes[id].host.boff_rec;
+    if (!off && (field != Field::kIdle || station.host->pending() != 0)) return false;
+  }
+  return true;
 }
 
 void Simulation::drain() {
@@ -162,7 +179,7 @@ RunReport Simulation::collect() {
     const AhbReport &ahb = station.node->ahb().report();
     // What software of somebody else has read is not known; its core has accepted this much.
     const std::uint64_t received =
-        station.host ? station.received.size() : monitor_->node(id).delivered;
+        station.host ? station.host->stats().received : monitor_->node(id).delivered;
     report.nodes.push_back({scenario_.nodes[id].name, monitor_->node(id), received,
                             station.host ? station.host->stats().overruns : 0, ahb.transfers,
                             ahb.max_waits, ahb.violations, station.host != nullptr});

@@ -35,10 +35,19 @@ class Simulation {
   void start(Time when);
   /// Lets frames that wait go out, and the last one be received, for a limited time.
   void drain();
+  /// True while nothing is under way: the nodes with software are idle, or bus-off for good, and
+  /// have nothing to send. What the scenario will do later does not count: see Bus::has_actions().
+  [[nodiscard]] bool quiet() const;
+  /// On an idle bus: lets the monitor see the bus up to now, so that the last frame is told.
+  void settle() { monitor_->advance(bus_.now()); }
   /// Ends the waveforms and says what happened since start().
   [[nodiscard]] RunReport finish();
   /// Rethrows what went wrong in the software of a node.
   void check() { stations_.check(); }
+
+  /// Told of each frame and each event of the bus, besides the simulation's own use (BusMonitor).
+  std::function<void(const BusFrame &)> on_bus_frame;
+  std::function<void(const BusEvent &)> on_bus_event;
 
   [[nodiscard]] Bus &bus() { return bus_; }
   [[nodiscard]] RtlNode &node(NodeId id) { return *stations_[id].node; }

@@ -50,6 +50,13 @@ class CanPort {
   [[nodiscard]] virtual bool put(const PortMessage &message) = 0;
   /// False while nobody can be reached (interface down or gone); the bridge keeps its state.
   [[nodiscard]] virtual bool up() const = 0;
+  /// Simulated time since the bridge has started is now `now`; called once a round, before
+  /// poll_set().
+  virtual void tick(Time now) { (void)now; }
+  /// True: the port will do something at a later simulated time, so time has to go on.
+  [[nodiscard]] virtual bool awaits_time() const { return false; }
+  /// True: the programs want to hear of their own frames when these have really left (echo).
+  [[nodiscard]] virtual bool wants_echo() const { return false; }
   /// Messages that were lost on the way from a program to take(), where the operating system says
   /// so.
   [[nodiscard]] virtual std::uint64_t lost() const { return 0; }

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// verican bridge: CAN interfaces of the host as nodes of the simulated bus.
+#include "socketcan/bridge.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "cli/cli.hpp"
+#include "socketcan/raw_port.hpp"
+#include "trace/input_error.hpp"
+
+namespace vericansim::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> interfaces;
+  std::string monitor;
+  std::string bus;
+  double bitrate = 0;
+  double clock = 0;
+  unsigned nodes = 1;
+  Outputs outputs;
+  std::vector<std::string> filters;
+  std::string errors = "own";
+  unsigned restart_ms = 100;
+  RawPortOptions raw;
+  std::string time;
+  bool fast = false;
+  bool end_when_down = false;
+  bool json = false;
+};
+
+// The smallest clock that a bit of eight quanta allows: the fewer clocks, the faster the
+// simulation.
+constexpr double kClocksPerBit = 8;
+
+void say(const std::string &line) {
+  fmt::print(stderr, "verican bridge: {}\n", line);
+  std::fflush(stderr);
+}
+
+/// A bus of plain nodes that receive, and so acknowledge.
+Scenario plain_bus(const Options &options, double clock) {
+  Scenario scenario;
+  scenario.file = "--nodes";
+  scenario.name = "bridge";
+  for (unsigned i = 0; i < options.nodes; ++i) {
+    NodeSpec node;
+    node.name = fmt::format("node{}", i);
+    node.clock.frequency_hz = clock;
+    scenario.nodes.push_back(node);
+  }
+  return scenario;
+}
+
+void override_outputs(Outputs &outputs, const Outputs &wanted) {
+  const auto take = [](std::string &target, const std::string &source) {
+    if (!source.empty()) target = source;
+  };
+  take(outputs.vcd, wanted.vcd);
+  take(outputs.fst, wanted.fst);
+  take(outputs.candump, wanted.candump);
+  take(outputs.pcap, wanted.pcap);
+}
+
+/// Fills in scenario, bit rate and clock.
+void set_up_bus(BridgeSetup &setup, const Options &options) {
+  if (options.bus.empty()) {
+    setup.bitrate = options.bitrate != 0 ? options.bitrate : 500e3;
+    setup.port_clock_hz = options.clock != 0 ? options.clock : kClocksPerBit * setup.bitrate;
+    setup.scenario = plain_bus(options, setup.port_clock_hz);
+  } else {
+    setup.scenario = read_scenario(options.bus);
+    if (options.bitrate == 0 && setup.scenario.bitrates.size() != 1)
+      throw InputError(options.bus, 0, "has several bit rates; --bitrate says which");
+    setup.bitrate = options.bitrate != 0 ? options.bitrate : setup.scenario.bitrates.front();
+    setup.port_clock_hz = options.clock;
+    if (options.clock == 0)
+      setup.port_clock_hz = setup.scenario.nodes.empty()
+                                ? kClocksPerBit * setup.bitrate
+                                : setup.scenario.nodes.front().clock.frequency_hz;
+  }
+  override_outputs(setup.scenario.outputs, options.outputs);
+}
+
+void open_ports(BridgeSetup &setup, const Options &options) {
+  if (options.interfaces.empty())
+    throw InputError("--if", 0, "nothing to bridge; name a CAN interface, as in '--if vcan0'");
+  std::vector<std::string> names = options.interfaces;
+  if (!options.monitor.empty()) names.push_back(options.monitor);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+        names.begin() + static_cast<std::ptrdiff_t>(i))
+      throw InputError("--if", 0, vericansim::quoted(names[i]) + " is named twice");
+  for (const std::string &name : options.interfaces)
+    setup.ports.push_back(std::make_unique<RawCanPort>(name, options.raw));
+  if (options.monitor.empty()) return;
+  RawPortOptions monitor;
+  monitor.receives = false;
+  setup.monitor = std::make_unique<RawCanPort>(options.monitor, monitor);
+}
+
+BridgeSetup make_setup(const Options &options) {
+  BridgeSetup setup;
+  for (const std::string &filter : options.filters)
+    setup.options.filters.push_back(parse_filter(filter));
+  setup.options.errors = options.errors == "none"    ? ErrorChoice::kNone
+                         : options.errors == "state" ? ErrorChoice::kState
+                                                     : ErrorChoice::kOwn;
+  setup.options.restart = static_cast<Time>(options.restart_ms) * kMillisecond;
+  setup.fast = options.fast;
+  if (!options.time.empty()) setup.limit = time_option("--time", options.time);
+  setup.end_when_down = options.end_when_down;
+  setup.say = say;
+  set_up_bus(setup, options);
+  open_ports(setup, options);
+  return setup;
+}
+
+int run(const Options &options) {
+  BridgeSetup setup = make_setup(options);
+  HostWall wall;
+  BridgeReport report;
+  {
+    Bridge bridge{std::move(setup), wall};
+    bridge.start();
+    say("ready: " + bridge.description());
+    while (bridge.round()) {
+    }
+    report = bridge.finish();
+  }
+  if (options.json)
+    print_json(to_json(report));
+  else
+    fmt::print("{}{}", to_text(report), options.bus.empty() ? "" : "\n" + to_text(report.bus));
+  std::fflush(stdout);
+  return report.ok() ? kOk : kFailed;
+}
+
+void add_bus_options(CLI::App &command, Options &options) {
+  const std::map<std::string, double> units{{"k", 1e3}, {"M", 1e6}};
+  CLI::Option *nodes =
+      command
+          .add_option("--nodes", options.nodes,
+                      "Plain nodes on the bus, which receive and so acknowledge (1)")
+          ->check(CLI::Range(0, 60));
+  command
+      .add_option("--bus", options.bus,
+                  "Scenario file instead: nodes, traffic, faults; its duration does not count")
+      ->excludes(nodes);
+  command.add_option("--bitrate", options.bitrate, "Bit rate (500k, or the scenario's), bit/s")
+      ->transform(CLI::AsNumberWithUnit(units))
+      ->check(CLI::Range(1e3, 1e6));
+  command
+      .add_option("--clock", options.clock,
+                  "Clock of the nodes, Hz (8 clocks a bit, or that of the scenario's first node)")
+      ->transform(CLI::AsNumberWithUnit(units))
+      ->check(CLI::Range(8e3, 1e9));
+}
+
+void add_port_options(CLI::App &command, Options &options) {
+  command.add_option("--if", options.interfaces, "CAN interface that is a node; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--monitor", options.monitor,
+                     "CAN interface that gets everything that is on the bus, in bus order");
+  command.add_flag("--echo", options.raw.echo,
+                   "Give programs their own frames when these have really been sent");
+  command
+      .add_option("--filter", options.filters,
+                  "Frames of the bus for the programs, ID:MASK or ID~MASK; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      .add_option("--errors", options.errors,
+                  "Error messages: none, state (changes of state), own (and each error) (own)")
+      ->check(CLI::IsMember({"none", "state", "own"}));
+  command.add_option("--restart-ms", options.restart_ms,
+                     "Simulated ms from bus-off to the begin of recovery; 0: only SIGUSR1 or "
+                     "down and up again begin it (100)");
+  command
+      .add_option("--queue", options.raw.queue,
+                  "Frames of programs that may wait for the bus, each interface (100000)")
+      ->check(CLI::Range(1, 100'000'000));
+  command.add_flag("--end-when-down", options.end_when_down,
+                   "End when an interface goes down, instead of waiting for it");
+}
+
+void add_run_options(CLI::App &command, Options &options) {
+  command.add_flag("--fast", options.fast,
+                   "As fast as possible; without it simulated time is held to real time");
+  command.add_option("--time", options.time, "Simulated time to run, as in '10 s' (no end)");
+  command.add_option("--vcd", options.outputs.vcd, "Write the waveform as VCD");
+  command.add_option("--fst", options.outputs.fst, "Write the waveform as FST");
+  command.add_option("--candump", options.outputs.candump, "Write the frames as a candump log");
+  command.add_option("--pcap", options.outputs.pcap, "Write the frames as a capture for Wireshark");
+  command.add_flag("--json", options.json, "The report as JSON");
+}
+
+}  // namespace
+
+void add_bridge(CLI::App &app, int &exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand(
+      "bridge", "CAN interfaces of this computer as nodes of a simulated bus (docs/bridge.md)");
+  add_bus_options(*command, *options);
+  add_port_options(*command, *options);
+  add_run_options(*command, *options);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vericansim::cli
