@@ -1,10 +1,144 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The page: starts everything once the data is there.
-import uPlot from 'uplot';
+// The page: takes the data out of the file and puts the parts together.
+import {attachKeys, Steps} from './keys.js';
+import {attachPointer} from './pointer.js';
+import {attachSplitter} from './splitter.js';
+import {attachTooltip} from './tooltip.js';
+import {candumpLine, detailPanel} from './detail.js';
+import {checksTab, nodesTab} from './plain_tabs.js';
+import {CountersTab} from './counters_tab.js';
+import {el} from './dom.js';
+import {EventsTab} from './events_tab.js';
+import {FramesTab} from './frames_tab.js';
+import {goToStatement, header} from './header.js';
+import {helpDialog, legend, toolbar} from './toolbar.js';
+import {keepHash, readHash} from './hash.js';
+import {load, LoadError} from './load.js';
+import {LoadTab} from './load_tab.js';
+import {Overview} from './overview.js';
+import {Report} from './report.js';
+import {ResponseTab} from './response_tab.js';
+import {Scope} from './scope.js';
+import {Tabs} from './tabs.js';
+import {View} from './view.js';
 
-const meta = JSON.parse(document.getElementById('verican-meta').textContent);
-document.title = meta.title;
-document.getElementById('app').textContent = `${meta.title}: ${meta.summary.frames} frames`;
-window.verican = {meta, uPlot};
+/** The line of candump for what is selected, on the clipboard. */
+async function copySelection(report, view, say) {
+  const {selection} = view;
+  const index = selection?.kind === 'frame' ? selection.index
+    : selection?.kind === 'bit' ? report.segmentFrame[selection.segment] : -1;
+  if (index < 0) return say('Select a frame first.');
+  const line = candumpLine(report.frame(index));
+  try {
+    await navigator.clipboard.writeText(line);
+  } catch {
+    const area = el('textarea', {}, line);  // pages from a file may have no clipboard
+    document.body.append(area);
+    area.select();
+    document.execCommand('copy');
+    area.remove();
+  }
+  return say(`Copied: ${line}`);
+}
+
+function sayer(host) {
+  const box = el('div', {class: 'toast', role: 'status', hidden: true});
+  host.append(box);
+  let timer = 0;
+  return (text) => {
+    box.textContent = text;
+    box.hidden = false;
+    clearTimeout(timer);
+    timer = setTimeout(() => { box.hidden = true; }, 3000);
+  };
+}
+
+function tabsOf(report, view, steps, frames) {
+  return new Tabs([
+    {id: 'frames', name: 'Frames', title: 'All frames and errors; searchable', root: frames.root},
+    {id: 'events', name: `Errors (${report.events.count})`, title: 'Errors, overloads and lost arbitrations', root: new EventsTab(report, view, steps).root},
+    {id: 'counters', name: 'Error counters', title: 'TEC, REC and state of each node over time', root: new CountersTab(report, view).root},
+    {id: 'load', name: 'Bus load', title: 'How busy the bus is over time', root: new LoadTab(report, view).root},
+    {id: 'response', name: 'Response times', title: 'From the event that queues a frame to its end', root: new ResponseTab(report, view, steps).root},
+    {id: 'nodes', name: 'Nodes', title: 'Settings and counts of each node', root: nodesTab(report)},
+    {id: 'checks', name: 'Checks', title: 'What the scenario expected', root: checksTab(report)},
+  ]);
+}
+
+/** Where the page opens: the address, else the report's own wish, else the whole run. */
+function firstView(report, view) {
+  const wanted = readHash(location.hash);
+  if (wanted) {
+    view.set(wanted.from, wanted.to);
+    view.select(validSelection(report, wanted.selection));
+  } else if (report.meta.view) {
+    view.set(report.meta.view.from_ns, report.meta.view.to_ns);
+  } else {
+    view.set(-0.01 * report.duration, 1.01 * report.duration);
+  }
+}
+
+/** The selection, unless the address names what the report does not have. */
+function validSelection(report, selection) {
+  const counts = {frame: report.frames.count, event: report.events.count, loss: report.losses.count,
+                  segment: report.segments.count};
+  if (!selection) return null;
+  if (selection.kind === 'bit') {
+    const lane = report.lane(selection.segment, selection.lane);
+    return lane && selection.bit < lane.count ? selection : null;
+  }
+  return selection.index < counts[selection.kind] ? selection : null;
+}
+
+function build(report, app) {
+  const view = new View(report);
+  const steps = new Steps(report, view);
+  const help = helpDialog();
+  const say = sayer(document.body);
+  const frames = new FramesTab(report, view, steps);
+  const actions = {
+    help: () => help.showModal(),
+    copy: () => copySelection(report, view, say),
+    search: () => { tabs.show('frames'); frames.input.focus(); },
+    tab: (id) => tabs.show(id),
+  };
+  const tabs = tabsOf(report, view, steps, frames);
+  const scopeHost = el('section', {class: 'scope', 'aria-label': 'Oscilloscope'});
+  const overviewHost = el('div', {class: 'overview-host'});
+  const bottom = el('section', {class: 'bottom'}, tabs.root, detailPanel(report, view, actions));
+  app.replaceChildren(...header(report, view, actions), toolbar(report, view, steps, actions), overviewHost,
+                      scopeHost, legend(), attachSplitter(app), bottom, help);
+  const scope = new Scope(scopeHost, report, view);
+  const overview = new Overview(overviewHost, report, view);
+  attachPointer(scope, view);
+  attachTooltip(scope, document.body);
+  attachKeys(view, steps, scope, actions);
+  firstView(report, view);
+  keepHash(view);
+  window.addEventListener('hashchange', () => firstView(report, view));
+  return {report, view, steps, scope, overview, tabs, frames, goToStatement,
+          inspect: () => scope.inspect(), stats: scope.stats};
+}
+
+async function start() {
+  const app = document.getElementById('app');
+  const bar = el('progress', {max: 1, value: 0});
+  app.replaceChildren(el('p', {class: 'loading'}, 'Opening the report … ', bar));
+  const begin = performance.now();
+  try {
+    const data = await load(document, (part) => { bar.value = part; });
+    document.title = `${data.meta.title} – VeriCAN`;
+    const parts = build(new Report(data), app);
+    window.verican = {...parts, loadMs: performance.now() - begin};
+  } catch (error) {
+    const text = error instanceof LoadError ? error.message : `a mistake in the page: ${error.message}`;
+    app.replaceChildren(el('p', {class: 'loading error', role: 'alert'}, `The report cannot be shown: ${text}.`));
+    window.verican = {error};
+    if (!(error instanceof LoadError)) throw error;
+  }
+  document.documentElement.dataset.ready = 'yes';
+}
+
+start();

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Load of the bus over time: part of the time in which it is busy, and what errors took of it.
+import {el, swatch} from './dom.js';
+import {percent} from './format.js';
+import {Plot} from './plot.js';
+import {lastAtOrBelow} from './search.js';
+import {colors} from './theme.js';
+import uPlot from 'uplot';
+
+const kWindows = 160;
+
+/** Time in segments without a frame, up to each segment: what errors cost. */
+function wastedSums(report) {
+  const {segments} = report;
+  const sums = new Float64Array(segments.count + 1);
+  for (let i = 0; i < segments.count; ++i) {
+    const lost = report.segmentFrame[i] < 0 ? segments.end[i] - segments.start[i] : 0;
+    sums[i + 1] = sums[i] + lost;
+  }
+  return (ns) => {
+    const i = lastAtOrBelow(segments.start, ns);
+    if (i < 0) return 0;
+    const inside = report.segmentFrame[i] < 0 ? Math.min(ns, segments.end[i]) - segments.start[i] : 0;
+    return sums[i] + inside;
+  };
+}
+
+export class LoadTab {
+  constructor(report, view) {
+    const host = el('div', {class: 'plot'});
+    const wasted = wastedSums(report);
+    const {summary} = report.meta;
+    const bound = summary.analytic_load > 0 ? ` · worst case by analysis ${percent(summary.analytic_load)}` : '';
+    this.root = el('div', {class: 'tab-body column'},
+                   el('div', {class: 'legend'},
+                      el('span', {}, swatch(colors().load), 'busy: frames, errors and the three bits after each'),
+                      el('span', {}, swatch(colors().alarm), 'of it attempts that failed'),
+                      el('span', {class: 'dim'}, `whole run ${percent(summary.load)}${bound}`)),
+                   host);
+    this.plot = new Plot(host, report, view, {
+      data: (from, to) => {
+        const step = (to - from) / kWindows;
+        const x = [];
+        const busy = [];
+        const lost = [];
+        for (let i = 0; i <= kWindows; ++i) {
+          const a = from + i * step;
+          x.push(a);
+          busy.push(100 * report.loadIn(a, a + step));
+          lost.push((100 * (wasted(a + step) - wasted(a))) / step);
+        }
+        return [x, busy, lost];
+      },
+      options: () => ({
+        label: 'bus load, %',
+        scales: {y: {range: () => [0, 100]}},
+        axis: {space: 24},
+        series: [
+          {stroke: colors().load, fill: `${colors().load}66`, width: 1.5, paths: uPlot.paths.stepped({align: 1}), points: {show: false}},
+          {stroke: colors().alarm, fill: `${colors().alarm}88`, width: 1.5, paths: uPlot.paths.stepped({align: 1}), points: {show: false}},
+        ],
+      }),
+    });
+  }
+}

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scope: two pictures over one time scale. Above, ruler, decoded bar and bus, always in sight;
+// below, one lane for each node, which scroll if there are many.
+import {drawBar, drawRuler, kBarEnd, kRows} from './draw_bar.js';
+import {drawBus, drawNode} from './draw_traces.js';
+import {el} from './dom.js';
+import {Painter} from './painter.js';
+import {Scale, kGutter} from './scale.js';
+import {colors} from './theme.js';
+
+const kBus = 76;
+const kTopHeight = kBarEnd + kBus;
+const kLane = {least: 24, most: 60};
+
+export class Scope {
+  constructor(root, report, view) {
+    Object.assign(this, {root, report, view});
+    this.top = el('canvas', {class: 'scope-top', tabindex: 0, role: 'img',
+                             'aria-label': 'Bus over time; arrow keys move, plus and minus zoom'});
+    this.lanes = el('canvas', {class: 'scope-lanes'});
+    this.scroll = el('div', {class: 'lanes'}, this.lanes);
+    root.append(this.top, this.scroll);
+    this.topPainter = new Painter(this.top);
+    this.lanesPainter = new Painter(this.lanes);
+    this.hover = null;
+    this.box = null;
+    this.pending = 0;
+    this.stats = {redraws: 0, lastMs: 0, drawn: 0, times: []};
+    const later = () => this.invalidate();
+    view.addEventListener('move', later);
+    view.addEventListener('select', later);
+    new ResizeObserver(later).observe(root);
+    window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', later);
+  }
+
+  invalidate() {
+    this.pending ||= requestAnimationFrame(() => {
+      this.pending = 0;
+      this.draw();
+    });
+  }
+
+  get laneHeight() {
+    const room = this.root.clientHeight - kTopHeight - 2;
+    const each = Math.floor(room / Math.max(this.report.nodes.length, 1));
+    return Math.min(Math.max(each, kLane.least), kLane.most);
+  }
+
+  scale() { return new Scale(this.report, this.view, this.scroll.clientWidth || 800); }
+
+  draw() {
+    const begin = performance.now();
+    const theme = colors();
+    const scale = this.scale();
+    this.topPainter.begin(scale.width, kTopHeight, theme);
+    this.#drawTop(this.topPainter, scale);
+    const height = this.laneHeight;
+    const nodes = this.report.nodes.length;
+    this.lanesPainter.begin(scale.width, Math.max(nodes * height, 1), theme);
+    for (let node = 0; node < nodes; ++node) {
+      this.#drawLane(this.lanesPainter, scale, node, node * height, height);
+    }
+    this.#overlay(this.topPainter, scale);
+    this.#overlay(this.lanesPainter, scale);
+    this.#measure(performance.now() - begin, scale);
+  }
+
+  #measure(ms, scale) {
+    const {stats} = this;
+    ++stats.redraws;
+    stats.lastMs = ms;
+    stats.drawn = this.topPainter.drawn + this.lanesPainter.drawn;
+    stats.mode = scale.mode;
+    stats.times.push(ms);
+    if (stats.times.length > 1000) stats.times.shift();
+  }
+
+  #drawTop(p, scale) {
+    drawRuler(p, scale);
+    p.clip(scale.left, 0, scale.plot, p.height, () => {
+      drawBar(p, scale);
+      drawBus(p, scale, kBarEnd, kBus);
+    });
+    const note = {size: 11, color: 'dim'};
+    p.text(scale.mode === 'columns' ? 'load' : 'frames', 10, kRows.frame[0] + 10, note);
+    if (scale.fine) p.text('fields', 10, kRows.fields[0] + 13, note);
+    if (scale.mode === 'bits' || scale.mode === 'quanta') p.text('bits', 10, kRows.bits[0] + 9, note);
+    if (scale.mode === 'quanta') p.text('time quanta', 10, kRows.quanta[0] + 7, note);
+    p.text('bus', 10, kBarEnd + kBus / 2, {size: 13, bold: true});
+    p.text('CAN_H', scale.left - 8, kBarEnd + 14, {size: 10, color: 'dim', align: 'right'});
+    p.text('CAN_L', scale.left - 8, kBarEnd + kBus - 14, {size: 10, color: 'dim', align: 'right'});
+    if (scale.report.meta.detail_end_ns !== undefined) this.#drawEnd(p, scale);
+  }
+
+  /** Where bits and levels end, if a limit cut them off. */
+  #drawEnd(p, scale) {
+    const end = scale.report.meta.detail_end_ns;
+    const range = end < scale.report.duration ? scale.range(end, scale.to) : null;
+    if (!range) return;
+    p.rect(range[0], kRows.fields[0], range[1] - range[0], p.height, 'raised', 0.6);
+    p.fit(['no details were kept from here on'], (range[0] + range[1]) / 2, kBarEnd + kBus / 2,
+          range[1] - range[0], {color: 'dim'});
+  }
+
+  #drawLane(p, scale, node, y, h) {
+    p.line(0, y, p.width, y, 'grid');
+    p.clip(scale.left, y, scale.plot, h, () => drawNode(p, scale, node, y, h));
+    p.rect(0, y + 4, 4, h - 8, `n-${node % 16}`);
+    const name = this.report.nodes[node].name;
+    const at = this.hover ? scale.time(this.hover.x) : this.view.to;
+    const {tec, rec, state} = this.report.counters.at(node, at);
+    const small = h < 34;
+    const label = name.length > 15 ? `${name.slice(0, 14)}…` : name;
+    p.text(label, 10, y + (small ? h / 2 : 14), {size: 13, bold: true});
+    const text = state === 2 ? 'bus-off' : `TEC ${tec} REC ${rec}`;
+    const color = state === 0 ? 'dim' : 'alarm';
+    if (small) {
+      if (tec || rec) p.text(`${tec}/${rec}`, scale.left - 6, y + h / 2, {size: 10, color, align: 'right'});
+    } else {
+      p.text(text, 10, y + 30, {size: 11, color});
+    }
+  }
+
+  /** Selection, pointer and box over a picture. */
+  #overlay(p, scale) {
+    const span = this.view.selectionSpan?.();
+    if (span) {
+      const range = scale.range(span[0], span[1]);
+      if (range) {
+        p.rect(range[0], 0, Math.max(range[1] - range[0], 1.5), p.height, 'select', 0.14);
+        p.line(range[0], 0, range[0], p.height, 'select', 1.2);
+        p.line(range[1], 0, range[1], p.height, 'select', 1.2);
+        p.note('selection', {x0: range[0], x1: range[1]});
+      }
+    }
+    if (this.box) {
+      const [a, b] = this.box;
+      p.rect(Math.min(a, b), 0, Math.abs(b - a), p.height, 'select', 0.25);
+    } else if (this.hover && this.hover.x > scale.left) {
+      p.line(this.hover.x, 0, this.hover.x, p.height, 'dim', 1, [2, 3]);
+    }
+  }
+
+  /** What the picture shows: for the tests. Draws once more, keeping a list. */
+  inspect() {
+    this.topPainter.items = [];
+    this.lanesPainter.items = [];
+    this.draw();
+    const items = [...this.topPainter.items, ...this.lanesPainter.items];
+    this.topPainter.items = this.lanesPainter.items = null;
+    const {from, to} = this.view;
+    return {from, to, left: kGutter, width: this.scroll.clientWidth, mode: this.stats.mode,
+            drawn: this.stats.drawn, items};
+  }
+}
