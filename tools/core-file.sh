@@ -6,13 +6,14 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/common.sh
+version=$(sed -n 's/^project(verican VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 cat <<EOF
 CAPI=2:
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
 # can.core: FuseSoC description; written by tools/core-file.sh from rtl/can.f (make lint compares).
-name: verican:ip:can:0.1.0
+name: verican:ip:can:$version
 description: CAN 2.0 controller with FlexCAN registers on AHB-Lite
 
 filesets:

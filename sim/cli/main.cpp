@@ -9,6 +9,7 @@
 
 #include "cli/cli.hpp"
 #include "trace/input_error.hpp"
+#include "version/version.hpp"
 
 namespace {
 
@@ -17,7 +18,7 @@ using namespace vericansim;
 int run_tool(int argc, char **argv) {
   CLI::App app{"VeriCAN: CAN controllers in RTL on a simulated bus"};
   app.require_subcommand(1);
-  app.set_version_flag("--version", "verican 0.1.0");
+  app.set_version_flag("--version", fmt::format("verican {}", version()));
   app.footer(
       "Exit codes: 0 done, 1 a check failed, 2 bad input, 3 internal error, 4 firmware fault, 5 no "
       "end of the firmware in time. See docs/tool.md.");

@@ -1,0 +1,85 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# What `cmake --install` installs: the tool, the libraries with their headers, CMake package and
+# pkg-config files (docs/install.md), the driver's sources, the RTL and what belongs to it. Each
+# part is an install component of its own: tool, sim, systemc, driver, rtl, doc. Nothing in an
+# installed tree knows where it lies.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(VERICAN_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/verican")
+set(VERICAN_DATA_DIR "${CMAKE_INSTALL_DATADIR}/verican")
+foreach(dir LIBDIR INCLUDEDIR DATADIR)
+  if(IS_ABSOLUTE "${CMAKE_INSTALL_${dir}}")
+    message(FATAL_ERROR "CMAKE_INSTALL_${dir} is ${CMAKE_INSTALL_${dir}}: it must be relative to "
+                        "the prefix, so that an installed tree can be moved")
+  endif()
+endforeach()
+file(RELATIVE_PATH VERICAN_PREFIX_OF_PC "/p/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/p")
+string(REGEX REPLACE "/$" "" VERICAN_PREFIX_OF_PC "${VERICAN_PREFIX_OF_PC}")
+
+# verican_install_library(<component> <target> <pc file> <include dir, or several>): the archive,
+# its exported target verican::<component>, and its pkg-config file cmake/<pc file>.pc.in.
+function(verican_install_library component target pc)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
+  foreach(dir IN LISTS ARGN)
+    target_include_directories(${target} INTERFACE "$<INSTALL_INTERFACE:${dir}>")
+  endforeach()
+  install(TARGETS ${target} EXPORT verican-${component}
+          ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT ${component})
+  install(EXPORT verican-${component} NAMESPACE verican:: FILE verican-${component}.cmake
+          DESTINATION "${VERICAN_CMAKE_DIR}" COMPONENT ${component})
+  configure_file("${PROJECT_SOURCE_DIR}/cmake/${pc}.pc.in" "${PROJECT_BINARY_DIR}/${pc}.pc" @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/${pc}.pc"
+          DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT ${component})
+  # Every component is a package: the same files, whichever are installed.
+  install(FILES "${PROJECT_BINARY_DIR}/verican-config.cmake"
+                "${PROJECT_BINARY_DIR}/verican-config-version.cmake"
+          DESTINATION "${VERICAN_CMAKE_DIR}" COMPONENT ${component})
+endfunction()
+
+configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/verican-config.cmake.in"
+  "${PROJECT_BINARY_DIR}/verican-config.cmake" INSTALL_DESTINATION "${VERICAN_CMAKE_DIR}"
+  PATH_VARS VERICAN_DATA_DIR NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+# Before 1.0 a new minor version may change the interface.
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/verican-config-version.cmake"
+  COMPATIBILITY SameMinorVersion)
+
+# The simulator. Its headers are those of its folders, but for what only its own sources include
+# (Verilated classes, YAML) and for the peer of Linux's driver.
+set(include_dir "${CMAKE_INSTALL_INCLUDEDIR}/vericansim")
+verican_install_library(sim vericansim vericansim "${include_dir}" "${CMAKE_INSTALL_INCLUDEDIR}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/sim/" DESTINATION "${include_dir}" COMPONENT sim
+  FILES_MATCHING PATTERN "*.hpp"
+  PATTERN "cli" EXCLUDE PATTERN "linux" EXCLUDE PATTERN "systemc" EXCLUDE
+  PATTERN "split_core.hpp" EXCLUDE PATTERN "model_edge.hpp" EXCLUDE
+  PATTERN "yaml_value.hpp" EXCLUDE PATTERN "scenario_parts.hpp" EXCLUDE
+  PATTERN "paper_bench.hpp" EXCLUDE)
+install(FILES "${PROJECT_SOURCE_DIR}/sw/driver/include/verican/verican_regs.h"
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/verican" COMPONENT sim)
+
+if(TARGET vericansystemc)
+  verican_install_library(systemc vericansystemc vericansystemc "${include_dir}")
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/sim/systemc" DESTINATION "${include_dir}"
+          COMPONENT systemc FILES_MATCHING PATTERN "*.hpp")
+endif()
+
+# The driver: for programs of the host as a library, for a microcontroller as sources.
+verican_install_library(driver verican_driver verican-driver "${CMAKE_INSTALL_INCLUDEDIR}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/driver/include/verican"
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT driver)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/driver/src" "${PROJECT_SOURCE_DIR}/sw/driver/include"
+        DESTINATION "${VERICAN_DATA_DIR}/driver" COMPONENT driver)
+
+if(TARGET verican)
+  install(TARGETS verican RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tool)
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${VERICAN_DATA_DIR}"
+          COMPONENT tool FILES_MATCHING PATTERN "*.yaml")
+endif()
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/rtl" DESTINATION "${VERICAN_DATA_DIR}" COMPONENT rtl)
+install(FILES "${PROJECT_SOURCE_DIR}/sw/verican.svd" DESTINATION "${VERICAN_DATA_DIR}"
+        COMPONENT rtl)
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
+              "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/verican" COMPONENT doc)
