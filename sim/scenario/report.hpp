@@ -4,7 +4,7 @@
 // RunReport: what a simulation has shown, for people and for machines.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Test install.tree: installs, moves the tree, and looks at what is in it.
+"""usage: install_tree.py SOURCE BUILD SANITIZED"""
+import tree
+
+EXPECTED = [
+    "bin/verican", "include/vericansim/bus/bus.hpp", "include/vericansim/node/host.hpp",
+    "include/verican/verican.h", "include/verican/verican_regs.h", "share/verican/rtl/can.f",
+    "share/verican/rtl/host/can_ahb.sv", "share/verican/verican.svd",
+    "share/verican/driver/src/init.c", "share/verican/driver/include/verican/verican.h",
+    "share/verican/examples/two-nodes.yaml", "share/doc/verican/LICENSE",
+]
+TEXT = {".hpp", ".h", ".c", ".cmake", ".pc", ".f", ".sv", ".vlt", ".yaml", ".svd", ".md"}
+
+
+def look_for_paths(installed, first):
+    """No text file names the sources, the build, or the place of the installation."""
+    secrets = [str(path) for path in (installed.source, installed.build, first)]
+    for file in installed.prefix.rglob("*"):
+        if file.suffix in TEXT:
+            text = file.read_text(encoding="utf-8")
+            for secret in secrets:
+                tree.check(secret not in text, f"{file} names {secret}")
+
+
+def check_rtl(installed):
+    """can.f names files that are there, and nothing of the RTL is missing."""
+    rtl = installed.prefix / "share" / "verican" / "rtl"
+    lines = [line.split("#")[0].strip() for line in (rtl / "can.f").read_text().splitlines()]
+    for line in filter(None, lines):
+        tree.check((rtl / line).is_file(), f"{rtl / 'can.f'} names {line}, which is missing")
+
+
+def check_versions(installed):
+    """Tool, pkg-config files and project() agree."""
+    want = installed.project_version()
+    seen = {"the tool": installed.run([installed.prefix / "bin" / "verican", "--version"],
+                                      installed.root).split()[-1]}
+    for file in installed.prefix.rglob("*.pc"):
+        seen[file.name] = installed.run(["pkg-config", "--modversion", file], installed.root).strip()
+    tree.check(len(seen) >= 3, f"too few versions: {seen}")
+    for what, version in seen.items():
+        tree.check(version == want, f"version of {what} is {version}, of the project {want}")
+
+
+def test(installed):
+    """Installs to root/first, moves that to root/moved/here."""
+    root = installed.make_root()
+    first = root / "first"
+    installed.install(first)
+    installed.prefix.parent.mkdir()
+    first.rename(installed.prefix)
+    for name in EXPECTED:
+        tree.check((installed.prefix / name).is_file(), f"{name} is not installed")
+    look_for_paths(installed, first)
+    check_rtl(installed)
+    check_versions(installed)
+    scenario = installed.prefix / "share" / "verican" / "examples" / "two-nodes.yaml"
+    log = installed.work("tool") / "bus.log"
+    installed.run([installed.prefix / "bin" / "verican", "run", scenario, "--candump", log], root)
+    tree.check(log.read_text().count(" 123#") == 10,  # 50 ms, every 5 ms
+               f"{scenario} did not send 0x123 ten times:\n{log.read_text()}")
+
+
+tree.main(test)
