@@ -74,9 +74,9 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/driver/src" "${PROJECT_SOURCE_DIR}/s
 
 if(TARGET verican)
   install(TARGETS verican RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tool)
-  install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${VERICAN_DATA_DIR}"
-          COMPONENT tool FILES_MATCHING PATTERN "*.yaml")
 endif()
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${VERICAN_DATA_DIR}" COMPONENT doc
+        REGEX "/examples/systemc/CMakeLists.txt$" EXCLUDE)  # for the project's own build
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/rtl" DESTINATION "${VERICAN_DATA_DIR}" COMPONENT rtl)
 install(FILES "${PROJECT_SOURCE_DIR}/sw/verican.svd" DESTINATION "${VERICAN_DATA_DIR}"
         COMPONENT rtl)

@@ -8,9 +8,10 @@ import tree
 
 
 def copy_project(installed, name):
-    """A copy of examples/external outside of the source tree."""
+    """A copy of the installed example."""
     work = installed.work(name)
-    shutil.copytree(installed.source / "examples" / "external", work / "project")
+    shutil.copytree(installed.prefix / "share" / "verican" / "examples" / "external",
+                    work / "project")
     return work / "project"
 
 
@@ -39,3 +40,7 @@ def check_programs(installed, where):
     tree.check(answers == ["answer 201#EC00", "answer 201#EC01", "answer 201#EC02"] and
                "driver: 3 answers; partner: 3 sent, 3 received" in said,
                f"driver_node: unexpected output\n{said}")
+    if installed.has_systemc():
+        # Eight frames each way, whole and in order: else it ends with 1.
+        said = run("platform")
+        tree.check(said.count("sent 8, received 8") == 2, f"platform: unexpected output\n{said}")

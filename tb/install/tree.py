@@ -94,6 +94,13 @@ class Tree:
               f"{done.stdout}")
         return done.stdout
 
+    def has_systemc(self):
+        """True if the machine has SystemC; then the installation must have its library, too."""
+        found = subprocess.run(["pkg-config", "--exists", "systemc"], check=False).returncode == 0
+        check(not found or list(self.prefix.rglob("vericansystemc.pc")),
+              "SystemC is there, but vericansystemc is not installed")
+        return found
+
     def project_version(self):
         """The version in CMakeLists.txt, the one source of all others."""
         text = (self.source / "CMakeLists.txt").read_text(encoding="utf-8")

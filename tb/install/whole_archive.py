@@ -5,11 +5,14 @@
 """usage: whole_archive.py SOURCE BUILD SANITIZED"""
 import tree
 
+# SystemC's library asks every program for sc_main.
+MAIN = 'int main() {}\nextern "C" int sc_main(int, char **) { return 0; }\n'
+
 
 def test(installed):
     """Links each archive as a whole, as if a program used everything in it."""
     work = installed.work("archives")
-    (work / "main.cpp").write_text("int main() {}\n")
+    (work / "main.cpp").write_text(MAIN)
     env = installed.environment()
     packages = sorted(installed.prefix.rglob("*.pc"))
     tree.check(len(packages) >= 2, f"only {packages}")
