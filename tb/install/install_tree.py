@@ -39,7 +39,8 @@ def check_versions(installed):
     seen = {"the tool": installed.run([installed.prefix / "bin" / "verican", "--version"],
                                       installed.root).split()[-1]}
     for file in installed.prefix.rglob("*.pc"):
-        seen[file.name] = installed.run(["pkg-config", "--modversion", file], installed.root).strip()
+        said = installed.run(["pkg-config", "--modversion", file], installed.root)
+        seen[file.name] = said.strip()
     tree.check(len(seen) >= 3, f"too few versions: {seen}")
     for what, version in seen.items():
         tree.check(version == want, f"version of {what} is {version}, of the project {want}")

@@ -11,8 +11,8 @@ import tree
 def test(installed):
     """Every C++ block with a main() is a program; it ends with 0 if its frame has arrived."""
     page = (installed.source / "docs" / "simulator.md").read_text(encoding="utf-8")
-    programs = [block for block in re.findall(r"^```cpp\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
-                if "int main(" in block]
+    blocks = re.findall(r"^```cpp\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    programs = [block for block in blocks if "int main(" in block]
     tree.check(programs, "docs/simulator.md has no program")
     work = installed.work("simulator_page")
     env = installed.environment()
