@@ -8,10 +8,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 
+#include "cli/bridge_socketcand.hpp"
 #include "cli/cli.hpp"
 #include "socketcan/raw_port.hpp"
 #include "trace/input_error.hpp"
@@ -31,6 +33,7 @@ struct Options {
   std::string errors = "own";
   unsigned restart_ms = 100;
   RawPortOptions raw;
+  SocketcandOptions socketcand;
   std::string time;
   bool fast = false;
   bool end_when_down = false;
@@ -91,8 +94,10 @@ void set_up_bus(BridgeSetup &setup, const Options &options) {
 }
 
 void open_ports(BridgeSetup &setup, const Options &options) {
-  if (options.interfaces.empty())
-    throw InputError("--if", 0, "nothing to bridge; name a CAN interface, as in '--if vcan0'");
+  if (options.interfaces.empty() && options.socketcand.address.empty())
+    throw InputError("--if", 0,
+                     "nothing to bridge; name a CAN interface, as in '--if vcan0', or offer a bus "
+                     "by TCP, as in '--socketcand 29536'");
   std::vector<std::string> names = options.interfaces;
   if (!options.monitor.empty()) names.push_back(options.monitor);
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -124,24 +129,40 @@ BridgeSetup make_setup(const Options &options) {
   return setup;
 }
 
+void print(const Options &options, const BridgeReport &report, const SocketcandServer *server) {
+  if (options.json) {
+    Json json = to_json(report);
+    if (server != nullptr) json["socketcand"] = to_json(server->counts());
+    print_json(json);
+  } else {
+    fmt::print("{}{}{}", to_text(report), server != nullptr ? to_text(server->counts()) : "",
+               options.bus.empty() ? "" : "\n" + to_text(report.bus));
+  }
+  std::fflush(stdout);
+}
+
 int run(const Options &options) {
+  // Host time in which clients may take the last messages.
+  constexpr std::chrono::seconds kLastMessages{10};
   BridgeSetup setup = make_setup(options);
+  const auto server = open_socketcand(options.socketcand, setup);
   HostWall wall;
   BridgeReport report;
   {
     Bridge bridge{std::move(setup), wall};
+    if (server) {
+      say(description(*server));
+      wait_for_clients(*server, options.socketcand.wait_for_clients, wall);
+    }
     bridge.start();
     say("ready: " + bridge.description());
     while (bridge.round()) {
     }
     report = bridge.finish();
   }
-  if (options.json)
-    print_json(to_json(report));
-  else
-    fmt::print("{}{}", to_text(report), options.bus.empty() ? "" : "\n" + to_text(report.bus));
-  std::fflush(stdout);
-  return report.ok() ? kOk : kFailed;
+  if (server) server->finish(kLastMessages);
+  print(options, report, server.get());
+  return report.ok() && (!server || ok(server->counts())) ? kOk : kFailed;
 }
 
 void add_bus_options(CLI::App &command, Options &options) {
@@ -212,6 +233,7 @@ void add_bridge(CLI::App &app, int &exit_code) {
       "bridge", "CAN interfaces of this computer as nodes of a simulated bus (docs/bridge.md)");
   add_bus_options(*command, *options);
   add_port_options(*command, *options);
+  add_socketcand_options(*command, options->socketcand);
   add_run_options(*command, *options);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

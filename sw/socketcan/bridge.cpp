@@ -185,7 +185,7 @@ void Bridge::wait() {
   const auto ports = all_ports();
   std::vector<std::size_t> begin;
   for (CanPort *port : ports) {
-    port->tick(elapsed());
+    port->tick(simulation_->bus().now());
     begin.push_back(poll_set_.size());
     port->poll_set(poll_set_, refused_);
   }

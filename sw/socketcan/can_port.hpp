@@ -50,7 +50,7 @@ class CanPort {
   [[nodiscard]] virtual bool put(const PortMessage &message) = 0;
   /// False while nobody can be reached (interface down or gone); the bridge keeps its state.
   [[nodiscard]] virtual bool up() const = 0;
-  /// Simulated time since the bridge has started is now `now`; called once a round, before
+  /// Simulated time is now `now`, counted as in PortMessage; called once a round, before
   /// poll_set().
   virtual void tick(Time now) { (void)now; }
   /// True: the port will do something at a later simulated time, so time has to go on.

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// See bridge_socketcand.hpp.
+#include "cli/bridge_socketcand.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "trace/input_error.hpp"
+
+namespace vericansim::cli {
+
+void add_socketcand_options(CLI::App &command, SocketcandOptions &options) {
+  CLI::Option *address = command.add_option(
+      "--socketcand", options.address,
+      "Offer nodes by the socketcand protocol at [ADDRESS:]PORT (address 127.0.0.1; port 0: any "
+      "free one; usual: 29536)");
+  command
+      .add_option("--bus-name", options.buses,
+                  "Name of a bus for socketcand, each a node; may be repeated (can0)")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->needs(address);
+  command
+      .add_option("--wait-for-clients", options.wait_for_clients,
+                  "Begin when so many socketcand clients receive (0)")
+      ->check(CLI::Range(0, 64))
+      ->needs(address);
+}
+
+std::unique_ptr<SocketcandServer> open_socketcand(const SocketcandOptions &options,
+                                                  BridgeSetup &setup) {
+  if (options.address.empty()) return nullptr;
+  std::vector<std::string> buses = options.buses;
+  if (buses.empty()) buses = {"can0"};
+  for (const auto &port : setup.ports)
+    if (std::find(buses.begin(), buses.end(), port->name()) != buses.end())
+      throw InputError("--bus-name", 0,
+                       quoted(port->name()) + " is a CAN interface of --if too; take another name");
+  auto server = std::make_unique<SocketcandServer>(
+      SocketcandAddress::parse("--socketcand", options.address), std::move(buses));
+  for (auto &port : server->ports()) setup.ports.push_back(std::move(port));
+  return server;
+}
+
+std::string description(const SocketcandServer &server) {
+  return fmt::format("socketcand {} at {}", fmt::join(server.buses(), " "),
+                     server.address().text());
+}
+
+void wait_for_clients(SocketcandServer &server, std::size_t count, Wall &wall) {
+  while (server.receiving() < count && !wall.stop_requested())
+    server.serve([&wall](std::vector<pollfd> &set) { wall.wait(set, std::nullopt); });
+}
+
+bool ok(const SocketcandCounts &counts) { return counts.too_slow == 0; }
+
+std::string to_text(const SocketcandCounts &counts) {
+  std::string text =
+      fmt::format("socketcand: {} clients, {} frames from them, {} messages to them\n",
+                  counts.clients, counts.from_clients, counts.to_clients);
+  const auto add = [&text](std::uint64_t count, const char *what) {
+    if (count != 0) text += fmt::format("    {}: {}\n", what, count);
+  };
+  add(counts.refused, "clients that were one too many, refused");
+  add(counts.too_slow, "clients that did not read, disconnected; frames for them are LOST");
+  add(counts.undelivered, "messages for clients that were gone before they had read them");
+  add(counts.bad_commands, "commands answered by an error");
+  add(counts.missed, "periods of jobs left out because the bus was busy");
+  return text;
+}
+
+Json to_json(const SocketcandCounts &counts) {
+  return {{"clients", counts.clients},           {"refused", counts.refused},
+          {"too_slow", counts.too_slow},         {"bad_commands", counts.bad_commands},
+          {"from_clients", counts.from_clients}, {"to_clients", counts.to_clients},
+          {"undelivered", counts.undelivered},   {"missed", counts.missed}};
+}
+
+}  // namespace vericansim::cli

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// verican bridge --socketcand: options, start and report of the socketcand server.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/cli.hpp"
+#include "socketcan/bridge.hpp"
+#include "socketcan/socketcand_server.hpp"
+
+namespace vericansim::cli {
+
+struct SocketcandOptions {
+  std::string address;  ///< empty: no server
+  std::vector<std::string> buses;
+  unsigned wait_for_clients = 0;
+};
+
+void add_socketcand_options(CLI::App &command, SocketcandOptions &options);
+
+/// Starts the server and adds its buses to the ports of `setup`; nullptr if it is not wanted. The
+/// server has to outlive the bridge. InputError: options that cannot be used.
+[[nodiscard]] std::unique_ptr<SocketcandServer> open_socketcand(const SocketcandOptions &options,
+                                                                BridgeSetup &setup);
+
+/// "socketcand can0 can1 at 127.0.0.1:29536".
+[[nodiscard]] std::string description(const SocketcandServer &server);
+
+/// Serves until so many clients get frames, or somebody wants the end.
+void wait_for_clients(SocketcandServer &server, std::size_t count, Wall &wall);
+
+/// False if frames were lost for a client that did not read.
+[[nodiscard]] bool ok(const SocketcandCounts &counts);
+[[nodiscard]] std::string to_text(const SocketcandCounts &counts);
+[[nodiscard]] Json to_json(const SocketcandCounts &counts);
+
+}  // namespace vericansim::cli
