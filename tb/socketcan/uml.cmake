@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# `verican bridge` on the CAN of a real kernel, a user-mode Linux; recordings with outside tools.
+if(NOT TARGET verican OR NOT VERICAN_PYTHON)
+  return()
+endif()
+
+# Processors with AMX: see the source. Never sanitized, it goes into a kernel.
+add_library(wide_xstate MODULE "${PROJECT_SOURCE_DIR}/sw/linux/host/wide_xstate.c")
+set_target_properties(wide_xstate PROPERTIES PREFIX "" COMPILE_OPTIONS "" LINK_OPTIONS "")
+
+# verican_socketcan_case(NAME [REQUIRES CASE]): one case of uml/cases.py as a test; REQUIRES: it
+# judges again what that case left.
+function(verican_socketcan_case name)
+  cmake_parse_arguments(arg "" "REQUIRES" "" ${ARGN})
+  add_test(NAME socketcan.${name}
+           COMMAND "${VERICAN_PYTHON}" "${PROJECT_SOURCE_DIR}/tb/socketcan/uml/run.py" ${name}
+                   --verican $<TARGET_FILE:verican> --shim $<TARGET_FILE:wide_xstate>
+                   --out "${CMAKE_CURRENT_BINARY_DIR}/out")
+  set_tests_properties(socketcan.${name} PROPERTIES
+    LABELS socketcan TIMEOUT 300 SKIP_RETURN_CODE 77 FIXTURES_SETUP socketcan_${name})
+  if(arg_REQUIRES)
+    set_tests_properties(socketcan.${name} PROPERTIES
+                         FIXTURES_REQUIRED socketcan_${arg_REQUIRES})
+  endif()
+endfunction()
+
+verican_socketcan_case(guest-time-limit)
+verican_socketcan_case(guest-killed)
+verican_socketcan_case(recording-tshark)
+verican_socketcan_case(recording-asc)
+verican_socketcan_case(recording-canplayer)
+verican_socketcan_case(flood)
+verican_socketcan_case(duel)
+verican_socketcan_case(tools)
+verican_socketcan_case(errors)

@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""Logs of candump, with interfaces, and what two of them must have in common."""
+import re
+import sys
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "sw/linux"))
+from frames import Frame, length_in_bits  # noqa: E402,F401
+
+LINE = re.compile(r"\((\d+)\.(\d{6})\) (\S+) ([0-9A-F]{3}|[0-9A-F]{8})#"
+                  r"(?:(R)(\d?)|((?:[0-9A-F]{2}){0,8}))(?:_([9A-F]))?(?: [RT])?$")
+
+
+class Failed(Exception):
+    """A check failed; the text says what was expected and what was found."""
+
+
+def expect(found, wanted, what):
+    if found != wanted:
+        raise Failed(f"{what}: {found!r}, expected {wanted!r}")
+
+
+def expect_true(condition, what):
+    if not condition:
+        raise Failed(what)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One line of a log; time in us."""
+
+    time: int
+    interface: str
+    frame: Frame
+
+
+def parse(line):
+    """One line as candump -L and asc2log write it; ValueError if it is none."""
+    match = LINE.match(line.strip())
+    if not match:
+        raise ValueError(f"no line of a log: {line!r}")
+    seconds, micros, interface, ident, remote, asked, rest, raw_dlc = match.groups()
+    data = bytes.fromhex(rest or "")
+    dlc = int(raw_dlc, 16) if raw_dlc else (int(asked or "0") if remote else len(data))
+    frame = Frame(int(ident, 16), len(ident) == 8, bool(remote), dlc, data)
+    return Entry(int(seconds) * 1_000_000 + int(micros), interface, frame)
+
+
+def read(path):
+    """All entries, error messages too; Failed if the file is missing or has another line."""
+    path = Path(path)
+    expect_true(path.exists(), f"{path.name} is missing")
+    try:
+        return [parse(line) for line in path.read_text().splitlines()]
+    except ValueError as error:
+        raise Failed(f"{path.name}: {error}") from None
+
+
+def frames(entries):
+    """Their frames in order, error messages left out."""
+    return [entry.frame for entry in entries if not entry.frame.is_error]
+
+
+def errors(entries):
+    """Their error messages in order: (class bits, eight bytes)."""
+    return [(e.frame.ident & 0x1FFFFFFF, e.frame.data) for e in entries if e.frame.is_error]
+
+
+def candump(frame):
+    """As candump writes it."""
+    rest = f"R{frame.dlc or ''}" if frame.remote else frame.data.hex().upper()
+    return f"{frame.ident:0{8 if frame.extended else 3}X}#{rest}"
+
+
+def same(found, wanted, what):
+    """Every frame, in the same order, and nothing else; Failed says which kind of difference."""
+    if found == wanted:
+        return
+    lost = list((Counter(wanted) - Counter(found)).elements())
+    extra = list((Counter(found) - Counter(wanted)).elements())
+    if lost or extra:
+        known = set(wanted)
+        twice = [frame for frame in extra if frame in known]
+        raise Failed(f"{what}: {len(found)} frames for {len(wanted)}; lost {len(lost)} "
+                     f"{[candump(f) for f in lost[:3]]}, twice {len(twice)} "
+                     f"{[candump(f) for f in twice[:3]]}, added {len(extra) - len(twice)} "
+                     f"{[candump(f) for f in extra if f not in known][:3]}")
+    at = next(i for i, (a, b) in enumerate(zip(found, wanted)) if a != b)
+    raise Failed(f"{what}: another order from frame {at} on: {candump(found[at])}, "
+                 f"expected {candump(wanted[at])}")
+
+
+def merged(found, senders, what):
+    """`found` is the sequences of `senders` (name: frames), each complete and in its order, merged
+    in any way. The senders' frames must differ from each other's."""
+    owner = {frame: name for name, sent in senders.items() for frame in sent}
+    expect(sum(len(set(sent)) for sent in senders.values()), len(owner), f"{what}: owners")
+    parts = {name: [] for name in senders}
+    for frame in found:
+        expect_true(frame in owner, f"{what}: {candump(frame)} was sent by nobody")
+        parts[owner[frame]].append(frame)
+    for name, sent in senders.items():
+        same(parts[name], sent, f"{what}, sent by {name}")
