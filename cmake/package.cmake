@@ -52,7 +52,7 @@ set(include_dir "${CMAKE_INSTALL_INCLUDEDIR}/vericansim")
 verican_install_library(sim vericansim vericansim "${include_dir}" "${CMAKE_INSTALL_INCLUDEDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/sim/" DESTINATION "${include_dir}" COMPONENT sim
   FILES_MATCHING PATTERN "*.hpp"
-  PATTERN "cli" EXCLUDE PATTERN "linux" EXCLUDE PATTERN "systemc" EXCLUDE
+  PATTERN "cli" EXCLUDE PATTERN "linux" EXCLUDE PATTERN "systemc" EXCLUDE PATTERN "page" EXCLUDE
   PATTERN "split_core.hpp" EXCLUDE PATTERN "model_edge.hpp" EXCLUDE
   PATTERN "yaml_value.hpp" EXCLUDE PATTERN "scenario_parts.hpp" EXCLUDE
   PATTERN "paper_bench.hpp" EXCLUDE)
@@ -80,6 +80,8 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${VERICAN_DATA_D
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/rtl" DESTINATION "${VERICAN_DATA_DIR}" COMPONENT rtl)
 install(FILES "${PROJECT_SOURCE_DIR}/sw/verican.svd" DESTINATION "${VERICAN_DATA_DIR}"
         COMPONENT rtl)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/verican"
+        COMPONENT doc)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
               "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/verican" COMPONENT doc)

@@ -22,9 +22,20 @@ def check_compile_commands(installed, build):
     installed.check_outside(read, "the CMake project")
 
 
+def check_page(installed, project):
+    """What docs/install.md shows of a CMakeLists.txt is part of the one that is built here."""
+    page = (installed.source / "docs" / "install.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^```cmake\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    built = (project / "CMakeLists.txt").read_text(encoding="utf-8").splitlines()
+    tree.check(shown, "docs/install.md shows no CMake")
+    for line in "".join(shown).splitlines():
+        tree.check(line in built, f"docs/install.md: not in the example project: {line}")
+
+
 def test(installed):
     """Configures, builds, runs."""
     project = external.copy_project(installed, "cmake")
+    check_page(installed, project)
     build = project / "build"
     env = installed.environment()
     said = installed.run(["cmake", "-S", project, "-B", build, "-G", "Ninja",

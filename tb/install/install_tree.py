@@ -10,7 +10,8 @@ EXPECTED = [
     "include/verican/verican.h", "include/verican/verican_regs.h", "share/verican/rtl/can.f",
     "share/verican/rtl/host/can_ahb.sv", "share/verican/verican.svd",
     "share/verican/driver/src/init.c", "share/verican/driver/include/verican/verican.h",
-    "share/verican/examples/two-nodes.yaml", "share/doc/verican/LICENSE",
+    "share/verican/examples/two-nodes.yaml", "share/verican/examples/external/two_nodes.cpp",
+    "share/doc/verican/LICENSE", "share/doc/verican/docs/first-bus.md",
 ]
 TEXT = {".hpp", ".h", ".c", ".cmake", ".pc", ".f", ".sv", ".vlt", ".yaml", ".svd", ".md"}
 
@@ -55,6 +56,9 @@ def test(installed):
     first.rename(installed.prefix)
     for name in EXPECTED:
         tree.check((installed.prefix / name).is_file(), f"{name} is not installed")
+    empty = [str(path) for path in installed.prefix.rglob("*") if path.is_dir() and
+             not any(path.iterdir())]
+    tree.check(not empty, f"empty directories are installed: {', '.join(empty)}")
     look_for_paths(installed, first)
     check_rtl(installed)
     check_versions(installed)

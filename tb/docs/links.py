@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Test docs.links_lead_somewhere: what README.md and docs/ link to is there.
+"""usage: links.py SOURCE
+
+Checks links to files, and to headings (#...) of Markdown files. Addresses of the network are not
+followed.
+"""
+import pathlib
+import re
+import sys
+
+LINK = re.compile(r"\]\(([^()\s]+)\)")
+FENCE = re.compile(r"^```.*?^```$", re.DOTALL | re.MULTILINE)
+
+
+def anchors(page):
+    """The anchors that a Markdown page has, as GitHub and GitLab make them."""
+    text = FENCE.sub("", page.read_text(encoding="utf-8"))
+    titles = re.findall(r"^#+ +(.*)$", text, re.MULTILINE)
+    plain = [re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", title) for title in titles]
+    return {re.sub(r"[^\w\- ]", "", title.lower()).strip().replace(" ", "-") for title in plain}
+
+
+def broken(page):
+    """The links of a page that lead nowhere."""
+    for link in LINK.findall(FENCE.sub("", page.read_text(encoding="utf-8"))):
+        if re.match(r"\w+:", link):
+            continue
+        path, _, anchor = link.partition("#")
+        target = (page.parent / path).resolve() if path else page
+        if not target.exists():
+            yield f"{page}: {link}: no such file"
+        elif anchor and target.suffix == ".md" and anchor not in anchors(target):
+            yield f"{page}: {link}: no such heading"
+
+
+def main():
+    """All pages of the project."""
+    source = pathlib.Path(sys.argv[1])
+    pages = [source / "README.md", *sorted((source / "docs").glob("*.md"))]
+    wrong = [text for page in pages for text in broken(page)]
+    if wrong or len(pages) < 10:
+        sys.exit("\n".join(wrong) or f"only {len(pages)} pages")
+    print(f"{len(pages)} pages")
+
+
+main()
