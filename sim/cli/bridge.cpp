@@ -156,7 +156,7 @@ int run(const Options &options) {
     }
     bridge.start();
     say("ready: " + bridge.description());
-    while (bridge.round()) {
+    while (!wall.stop_requested() && bridge.round()) {
     }
     report = bridge.finish();
   }

@@ -109,6 +109,7 @@ void Bridge::start() {
   simulation_->start(bus.now() + kIntegration * bit_time_);
   begin_ = wall_.now();
   pacer_.start(begin_, bus.now());
+  exchange();  // what programs have sent before: nothing may come after it to wake the first round
 }
 
 std::string Bridge::description() const {
