@@ -85,3 +85,11 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DATA
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
               "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/verican" COMPONENT doc)
+
+# All that must be built before `cmake --install`.
+add_custom_target(installable)
+foreach(target verican vericansim vericansystemc verican_driver)
+  if(TARGET ${target})
+    add_dependencies(installable ${target})
+  endif()
+endforeach()
