@@ -53,6 +53,7 @@ class Bus {
   void add(BusObserver &observer);
   void remove(BusObserver &observer);
   void add(Fault &fault);
+  [[nodiscard]] bool has_faults() const { return !faults_.empty(); }
 
   /// Calls `action` at `when` (ps, not before now()), before the clock edges of that instant.
   void at(Time when, std::function<void()> action);

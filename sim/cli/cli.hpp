@@ -11,6 +11,7 @@
 
 #include "bus/types.hpp"
 #include "model/frame.hpp"
+#include "scenario/scenario.hpp"
 
 namespace vericansim::cli {
 
@@ -35,6 +36,18 @@ void add_paper(CLI::App &app, int &exit_code);
 void add_linux(CLI::App &app, int &exit_code);
 void add_firmware(CLI::App &app, int &exit_code);
 void add_bridge(CLI::App &app, int &exit_code);
+
+/// The files of an Outputs.
+inline constexpr std::string Outputs::*kOutputPaths[] = {
+    &Outputs::vcd, &Outputs::fst, &Outputs::candump, &Outputs::pcap, &Outputs::report};
+
+/// Adds an option for each of them; `report_names` are those of the page.
+void add_output_options(CLI::App &command, Outputs &outputs,
+                        const std::string &report_names = "--report,--report-page");
+/// What is given on the command line takes the place of what a scenario says.
+void override_outputs(Outputs &target, const Outputs &given);
+/// Names for one of several runs: "bus.vcd" becomes "bus-500k.vcd".
+[[nodiscard]] Outputs outputs_for(const Outputs &outputs, double bitrate);
 
 using Json = nlohmann::ordered_json;
 

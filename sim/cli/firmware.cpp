@@ -117,14 +117,7 @@ FirmwareSetup make_setup(const Options &options) {
   for (const std::string &file : options.files) setup.images.push_back(firmware::read_elf(file));
   setup.scenarios.push_back(read_scenario(options.bus));
   if (!options.second_bus.empty()) setup.scenarios.push_back(read_scenario(options.second_bus));
-  const auto take = [](std::string &target, const std::string &source) {
-    if (!source.empty()) target = source;
-  };
-  Outputs &outputs = setup.scenarios.front().outputs;
-  take(outputs.vcd, options.outputs.vcd);
-  take(outputs.fst, options.outputs.fst);
-  take(outputs.candump, options.outputs.candump);
-  take(outputs.pcap, options.outputs.pcap);
+  override_outputs(setup.scenarios.front().outputs, options.outputs);
   if (!options.limit.empty()) setup.limit = time_option("--time", options.limit);
   setup.cpu.catch_hard_fault = !options.run_hard_fault;
   return setup;
@@ -170,11 +163,9 @@ void add_bus_options(CLI::App &command, Options &options) {
       ->check(CLI::Range(1e3, 1e6));
 }
 
-void add_output_options(CLI::App &command, Options &options) {
-  command.add_option("--vcd", options.outputs.vcd, "Write the waveform as VCD");
-  command.add_option("--fst", options.outputs.fst, "Write the waveform as FST");
-  command.add_option("--candump", options.outputs.candump, "Write the frames as a candump log");
-  command.add_option("--pcap", options.outputs.pcap, "Write the frames as a capture for Wireshark");
+void add_result_options(CLI::App &command, Options &options) {
+  // --report prints.
+  cli::add_output_options(command, options.outputs, "--report-page");
   command.add_flag("--report", options.report, "Print what the buses saw, as 'verican run' does");
   command.add_flag("--json", options.json, "Everything as JSON, the firmware's output included");
 }
@@ -186,7 +177,7 @@ void add_firmware(CLI::App &app, int &exit_code) {
   CLI::App *command = app.add_subcommand(
       "firmware", "Run Cortex-M3 firmware on a simulated board (docs/firmware.md)");
   add_bus_options(*command, *options);
-  add_output_options(*command, *options);
+  add_result_options(*command, *options);
   command->add_option("--time", options->limit,
                       "Longest simulated time, as in '50 ms' (the scenario's duration and drain)");
   command->add_flag("--endless", options->setup.endless,

@@ -14,6 +14,7 @@ namespace {
 
 struct Options {
   std::string folder = "paper-waves";
+  std::string pages;
   bool fst = false;
   bool no_waves = false;
   bool json = false;
@@ -26,12 +27,17 @@ Json to_json(const PaperExperiment &experiment) {
                       {"reported", check.reported},
                       {"seen", check.seen},
                       {"ok", check.ok}});
-  return {{"name", experiment.name}, {"wave", experiment.wave}, {"checks", checks}};
+  return {{"name", experiment.name},
+          {"wave", experiment.files.wave},
+          {"page", experiment.files.page},
+          {"checks", checks}};
 }
 
+std::string in_brackets(const std::string &file) { return file.empty() ? "" : "  (" + file + ")"; }
+
 int run(const Options &options) {
-  const auto experiments =
-      run_paper(options.no_waves ? "" : options.folder, options.fst ? ".fst" : ".vcd");
+  const auto experiments = run_paper(
+      {options.no_waves ? "" : options.folder, options.fst ? ".fst" : ".vcd", options.pages});
   bool ok = true;
   Json list = Json::array();
   if (!options.json)
@@ -41,8 +47,8 @@ int run(const Options &options) {
   for (const PaperExperiment &experiment : experiments) {
     list.push_back(to_json(experiment));
     if (!options.json)
-      fmt::print("\n{}{}\n", experiment.name,
-                 experiment.wave.empty() ? "" : "  (" + experiment.wave + ")");
+      fmt::print("\n{}{}{}\n", experiment.name, in_brackets(experiment.files.wave),
+                 in_brackets(experiment.files.page));
     for (const PaperCheck &check : experiment.checks) {
       ok = ok && check.ok;
       if (!options.json)
@@ -64,6 +70,8 @@ void add_paper(CLI::App &app, int &exit_code) {
   CLI::App *command =
       app.add_subcommand("paper", "Repeat the published experiments and compare with the paper");
   command->add_option("--out", options->folder, "Folder for the waveforms (paper-waves)");
+  command->add_option("--report,--report-page", options->pages,
+                      "Folder for a page of each experiment, HTML (docs/report.md)");
   command->add_flag("--fst", options->fst, "FST instead of VCD");
   command->add_flag("--no-waves", options->no_waves, "Write no waveforms");
   command->add_flag("--json", options->json, "Results as JSON");

@@ -106,10 +106,7 @@ void add_replay(CLI::App &app, int &exit_code) {
       ->check(CLI::IsMember({16U, 32U, 64U}));
   command->add_option("--frames", replay.limit, "Take only so many frames from the log (all)");
   command->add_flag("--fast", replay.fast, "As fast as the bus allows, instead of as recorded");
-  command->add_option("--vcd", replay.outputs.vcd, "Write the waveform as VCD");
-  command->add_option("--fst", replay.outputs.fst, "Write the waveform as FST");
-  command->add_option("--candump", replay.outputs.candump, "Write the frames as a candump log");
-  command->add_option("--pcap", replay.outputs.pcap, "Write the frames as a capture for Wireshark");
+  add_output_options(*command, replay.outputs);
   command->add_flag("--json", options->json, "The report as JSON");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -21,23 +21,8 @@ struct Options {
   bool json = false;
 };
 
-/// A name for each of several runs: "bus.vcd" becomes "bus-500k.vcd".
-std::string name_for(const std::string &path, double bitrate, bool several) {
-  if (path.empty() || !several) return path;
-  const std::size_t dot = path.rfind('.');
-  const std::string stem = path.substr(0, dot);
-  return fmt::format("{}-{:g}k{}", stem, bitrate / 1e3,
-                     dot == std::string::npos ? "" : path.substr(dot));
-}
-
 void override_with(Scenario &scenario, const Options &options) {
-  const auto take = [](std::string &target, const std::string &source) {
-    if (!source.empty()) target = source;
-  };
-  take(scenario.outputs.vcd, options.outputs.vcd);
-  take(scenario.outputs.fst, options.outputs.fst);
-  take(scenario.outputs.candump, options.outputs.candump);
-  take(scenario.outputs.pcap, options.outputs.pcap);
+  override_outputs(scenario.outputs, options.outputs);
   if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
   if (!options.duration.empty()) scenario.duration = time_option("--duration", options.duration);
 }
@@ -50,9 +35,7 @@ int run(const Options &options) {
   bool ok = true;
   Json list = Json::array();
   for (const double bitrate : scenario.bitrates) {
-    scenario.outputs = {
-        name_for(outputs.vcd, bitrate, several), name_for(outputs.fst, bitrate, several),
-        name_for(outputs.candump, bitrate, several), name_for(outputs.pcap, bitrate, several)};
+    scenario.outputs = several ? outputs_for(outputs, bitrate) : outputs;
     RunReport report;
     {
       Progress progress{fmt::format("{:g} kbit/s", bitrate / 1e3)};
@@ -74,11 +57,7 @@ void add_run(CLI::App &app, int &exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App *command = app.add_subcommand("run", "Simulate a scenario file (docs/scenario.md)");
   command->add_option("scenario", options->scenario, "YAML file")->required();
-  command->add_option("--vcd", options->outputs.vcd, "Write the waveform as VCD");
-  command->add_option("--fst", options->outputs.fst, "Write the waveform as FST");
-  command->add_option("--candump", options->outputs.candump, "Write the frames as a candump log");
-  command->add_option("--pcap", options->outputs.pcap,
-                      "Write the frames as a capture for Wireshark");
+  add_output_options(*command, options->outputs);
   command->add_option("--duration", options->duration,
                       "Simulated time instead of the scenario's, as in '50 ms'");
   command->add_option("--bitrate", options->bitrate, "Bit rate instead of the scenario's, bit/s")

@@ -8,7 +8,8 @@
 
 namespace vericansim {
 
-BusOutputs::BusOutputs(const Outputs &outputs, Bus &bus, Time bit_time) {
+BusOutputs::BusOutputs(const Outputs &outputs, Bus &bus, Time bit_time)
+    : report_frames_{outputs.report_frames} {
   const auto add_wave = [&](std::unique_ptr<WaveSink> sink) {
     waves_.push_back(std::make_unique<BusWave>(bus, std::move(sink), bit_time));
     bus.add(*waves_.back());
@@ -21,16 +22,33 @@ BusOutputs::BusOutputs(const Outputs &outputs, Bus &bus, Time bit_time) {
     candump_ = std::make_unique<CandumpWriter>(candump_file_);
   }
   if (!outputs.pcap.empty()) pcap_ = std::make_unique<PcapWriter>(outputs.pcap);
+  if (!outputs.report.empty()) page_ = std::make_unique<ReportWriter>(outputs.report);
 }
 
-void BusOutputs::write(const BusFrame &frame) {
+void BusOutputs::record(Bus &bus, BusMonitor &monitor, const ReportSetup &setup) {
+  if (!page_) return;
+  recorder_ = std::make_unique<ReportRecorder>(bus, monitor, setup, report_frames_);
+  bus.add(*recorder_);
+}
+
+void BusOutputs::begin() {
+  if (recorder_) recorder_->begin();
+}
+
+void BusOutputs::write(const BusFrame &frame, const FrameOrigin &origin) {
   const LogEntry entry{frame.start, "can0", frame.frame};
   if (candump_) candump_->write(entry);
   if (pcap_) pcap_->write(entry);
+  if (recorder_) recorder_->add(frame, origin);
 }
 
 void BusOutputs::finish(Time time) {
   for (const auto &wave : waves_) wave->finish(time);
+  if (recorder_) recorder_->finish();
+}
+
+void BusOutputs::write_report(const ReportExtras &extras) {
+  if (recorder_) page_->write(*recorder_, extras);
 }
 
 }  // namespace vericansim

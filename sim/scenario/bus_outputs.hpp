@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "bus/bus.hpp"
+#include "report/report_recorder.hpp"
+#include "report/report_writer.hpp"
 #include "scenario/bus_monitor.hpp"
 #include "scenario/scenario.hpp"
 #include "trace/bus_wave.hpp"
@@ -17,23 +19,34 @@
 
 namespace vericansim {
 
-/// Open files of a run. Must outlive the bus.
+/// Open files of a run. Must outlive the bus. For a report: construct, record(), begin() when the
+/// scenario starts, write() each frame, finish(), write_report().
 class BusOutputs {
  public:
   /// Opens what `outputs` names and hangs the waveforms on the bus, which holds all its nodes by
   /// now. `bit_time` is that of the slowest node, ps. Throws InputError if a file cannot be
   /// written.
   BusOutputs(const Outputs &outputs, Bus &bus, Time bit_time);
+  /// Hangs the recorder of a report on the bus, if there is one to write. Puts itself
+  /// before `monitor.on_event`; the monitor must be on the bus already.
+  void record(Bus &bus, BusMonitor &monitor, const ReportSetup &setup);
+  /// The scenario starts now, with its faults on the bus.
+  void begin();
   /// Appends a frame to the logs.
-  void write(const BusFrame &frame);
-  /// Completes the waveforms at `time`.
+  void write(const BusFrame &frame, const FrameOrigin &origin = {});
+  /// Completes the waveforms at `time`, and the recording of the report.
   void finish(Time time);
+  /// Writes the page, if there is one to write. Throws InputError if it cannot be written.
+  void write_report(const ReportExtras &extras = {});
 
  private:
   std::ofstream candump_file_;
   std::unique_ptr<CandumpWriter> candump_;
   std::unique_ptr<PcapWriter> pcap_;
   std::vector<std::unique_ptr<BusWave>> waves_;
+  std::unique_ptr<ReportWriter> page_;
+  std::unique_ptr<ReportRecorder> recorder_;
+  std::uint64_t report_frames_;
 };
 
 }  // namespace vericansim

@@ -5,8 +5,11 @@
 // with it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "bus/types.hpp"
 
 namespace vericansim {
 
@@ -16,19 +19,32 @@ struct PaperCheck {
   std::string reported;  ///< by the paper, in our words
   std::string seen;
   bool ok = false;
+  std::optional<Time> time = {};  ///< of the bus, ps: the moment that shows it
 };
 
-/// One experiment: its statements and its waveform.
+/// Files of an experiment, empty: none.
+struct PaperFiles {
+  std::string wave;  ///< .vcd or .fst
+  std::string page;  ///< HTML (docs/report.md)
+};
+
+/// One experiment: its statements and its files.
 struct PaperExperiment {
   std::string name;
-  std::string wave;  ///< file, empty if none was asked for
-  std::vector<PaperCheck> checks;
+  PaperFiles files;
+  std::vector<PaperCheck> checks = {};
+};
+
+/// Where the experiments write, and what.
+struct PaperOutputs {
+  std::string wave_folder = {};  ///< empty: no waveforms
+  std::string suffix = ".vcd";   ///< of the waveforms, or ".fst"
+  std::string page_folder = {};  ///< empty: no pages
 };
 
 /// Runs all experiments at 50 kbit/s, 10 quanta of 2 us a bit (PROP 5, PS1 2, PS2 2, sample point
-/// 80 %) and writes a waveform of each below `folder` ("" for none). `suffix` is ".vcd" or ".fst".
-/// Throws InputError if a file cannot be written.
-[[nodiscard]] std::vector<PaperExperiment> run_paper(const std::string &folder,
-                                                     const std::string &suffix);
+/// 80 %) and writes a waveform and a page of each; folders are created. Throws InputError if a file
+/// cannot be written.
+[[nodiscard]] std::vector<PaperExperiment> run_paper(const PaperOutputs &outputs);
 
 }  // namespace vericansim

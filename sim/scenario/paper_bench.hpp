@@ -5,6 +5,7 @@
 // bit of both.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -60,21 +61,25 @@ class PaperBench {
   static constexpr NodeId kOther = 1;  ///< the paper's commercial node
   static constexpr Time kBit = 20 * kMicrosecond;
 
-  /// `wave`: file for the waveform, or empty. `alone`: no second node on the bus.
-  PaperBench(const std::string &wave, bool alone);
-  ~PaperBench();
+  /// `title` is that of the page. `alone`: no second node on the bus.
+  PaperBench(const PaperFiles &files, const std::string &title, bool alone);
 
   void send(NodeId node, const Frame &frame) { stations_[node].host->send(frame); }
-  void add(Fault &fault) { bus_.add(fault); }
+  /// Before anything is sent.
+  void add(Fault &fault);
   void run_bits(Time bits);
   /// Runs until `done()` or for `bits` at most; true if it was done.
   bool run_until(const std::function<bool()> &done, Time bits);
   [[nodiscard]] const std::vector<BitRecord> &bits(NodeId node) const { return log_.of(node); }
   [[nodiscard]] Station &station(NodeId node) { return stations_[node]; }
+  /// Completes the files. The page shows the statements of `experiment` and, at first, the time
+  /// from `from` to `to` (of the bus, ps).
+  void finish(const PaperExperiment &experiment, Time from, Time to);
 
  private:
   Stations stations_;
   BitLog log_;
+  std::unique_ptr<BusMonitor> monitor_;
   std::unique_ptr<BusOutputs> outputs_;
   Bus bus_;
 };
@@ -82,10 +87,20 @@ class PaperBench {
 /// The frame of all experiments: identifier 0b00000001010, one byte 0b10101010.
 inline constexpr Frame kPaperFrame{0b00000001010, false, false, 1, {0b10101010}};
 
-[[nodiscard]] PaperExperiment paper_reception(const std::string &wave);
-[[nodiscard]] PaperExperiment paper_transmission(const std::string &wave);
-[[nodiscard]] PaperExperiment paper_arbitration(const std::string &wave);
-[[nodiscard]] PaperExperiment paper_missing_ack(const std::string &wave);
-[[nodiscard]] PaperExperiment paper_bus_off(const std::string &wave);
+/// The first bit of a node for which `found` is true; the last one if there is none.
+template <class Predicate>
+Time time_of(const std::vector<BitRecord> &bits, Predicate found) {
+  const auto bit = std::find_if(bits.begin(), bits.end(), found);
+  return bit == bits.end() ? bits.back().time : bit->time;
+}
+
+/// Sample point of the first SOF that a node sees.
+[[nodiscard]] Time first_sof(const std::vector<BitRecord> &bits);
+
+[[nodiscard]] PaperExperiment paper_reception(const PaperFiles &files);
+[[nodiscard]] PaperExperiment paper_transmission(const PaperFiles &files);
+[[nodiscard]] PaperExperiment paper_arbitration(const PaperFiles &files);
+[[nodiscard]] PaperExperiment paper_missing_ack(const PaperFiles &files);
+[[nodiscard]] PaperExperiment paper_bus_off(const PaperFiles &files);
 
 }  // namespace vericansim

@@ -16,7 +16,7 @@ namespace {
 
 /// One error frame of the IP.
 struct ErrorFrame {
-  std::size_t at = 0;       ///< index of the bit that showed the error
+  Time time = 0;            ///< sample point of the bit that showed the error
   unsigned tec_before = 0;  ///< when the error was seen
   unsigned tec_after = 0;
   unsigned dominant = 0;     ///< dominant bits that the IP sends as its flag
@@ -28,7 +28,7 @@ std::vector<ErrorFrame> error_frames(const std::vector<BitRecord> &bits) {
   for (std::size_t i = 1; i < bits.size(); ++i) {
     if (bits[i].after.errors == 0) continue;
     ErrorFrame frame;
-    frame.at = i;
+    frame.time = bits[i].time;
     frame.tec_before = bits[i - 1].after.tec;
     frame.tec_after = bits[i].after.bus_off ? 256U : bits[i].after.tec;
     for (std::size_t k = i + 1; k < bits.size() && bits[k].at.field == Field::kErrFlag; ++k)
@@ -44,25 +44,30 @@ std::vector<ErrorFrame> error_frames(const std::vector<BitRecord> &bits) {
 PaperCheck check_flags(const std::vector<ErrorFrame> &frames) {
   unsigned active = 0, passive = 0;
   bool ok = frames.size() > 20;
+  std::optional<Time> first_passive;
   for (const ErrorFrame &f : frames) {
+    if (f.dominant != 6 && !first_passive) first_passive = f.time;
     (f.dominant == 6 ? active : passive) += 1;
     ok = ok && f.dominant == (f.tec_before < 0x80 ? 6U : 0U);
   }
   return {"14", "active error flags while the TEC is below 0x80, passive ones from 0x80 on",
-          fmt::format("{} active flags below, {} passive ones from 0x80 on", active, passive), ok};
+          fmt::format("{} active flags below, {} passive ones from 0x80 on", active, passive), ok,
+          first_passive};
 }
 
 PaperCheck check_counter(const std::vector<ErrorFrame> &frames) {
   std::string seen;
   bool ok = true;
+  std::optional<Time> full;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const unsigned wanted = std::min<unsigned>(8 * (static_cast<unsigned>(i) + 1), 128);  // FC-18
     ok = ok && frames[i].tec_after == wanted;
+    if (frames[i].tec_after == 128 && !full) full = frames[i].time;
     if (i < 2 || i == 15 || i == 16)
       seen += fmt::format("{}{}: 0x{:02X}", seen.empty() ? "after attempt " : ", ", i + 1,
                           frames[i].tec_after);
   }
-  return {"14", "each missing ACK adds 8 up to 0x80, where it stays", seen, ok};
+  return {"14", "each missing ACK adds 8 up to 0x80, where it stays", seen, ok, full};
 }
 
 /// Figure 15 / 16: the error frame and the retransmission after it (RO-04).
@@ -80,7 +85,7 @@ PaperCheck check_frame(const std::vector<ErrorFrame> &frames, bool passive) {
               ? "none"
               : fmt::format("{} dominant flag bits, next SOF {} bits after the ACK slot",
                             frame->dominant, frame->next_sof),
-          ok};
+          ok, frame == frames.end() ? std::nullopt : std::optional{frame->time}};
 }
 
 PaperCheck check_bus_off(const std::vector<BitRecord> &bits,
@@ -96,7 +101,7 @@ PaperCheck check_bus_off(const std::vector<BitRecord> &bits,
           fmt::format("TEC 0x{:02X} to 0x{:X} after {} errors, then {}", frames.back().tec_before,
                       frames.back().tec_after, frames.size(),
                       silent ? "nothing sent" : "dominant bits sent"),
-          was_passive && silent && frames.back().tec_after == 0x100};
+          was_passive && silent && frames.back().tec_after == 0x100, off->time};
 }
 
 PaperCheck check_recovery(const std::vector<BitRecord> &bits) {
@@ -114,28 +119,30 @@ PaperCheck check_recovery(const std::vector<BitRecord> &bits) {
           fmt::format("{} recessive bits = {:.2f} x 11, then {} with TEC {} and REC {}", count,
                       static_cast<double>(count) / 11.0, field_name(next.at.field), back->after.tec,
                       back->after.rec),
-          ok && (next.at.field == Field::kIdle || next.at.field == Field::kSof)};
+          ok && (next.at.field == Field::kIdle || next.at.field == Field::kSof), back->time};
 }
 
 }  // namespace
 
-PaperExperiment paper_missing_ack(const std::string &wave) {
+PaperExperiment paper_missing_ack(const PaperFiles &files) {
   constexpr Time kAttempts = 24;
   constexpr Time kLongestAttempt = 90;  // bits
-  PaperBench bench{wave, true};
+  PaperBench bench{files, "Figures 14 to 16: missing acknowledge", true};
   bench.send(PaperBench::kIp, kPaperFrame);
   bench.run_bits(kAttempts * kLongestAttempt);
-  const auto frames = error_frames(bench.bits(PaperBench::kIp));
-  PaperExperiment result{"missing-ack", wave, {}};
+  const auto &bits = bench.bits(PaperBench::kIp);
+  const auto frames = error_frames(bits);
+  PaperExperiment result{"missing-ack", files};
   result.checks = {check_flags(frames), check_counter(frames), check_frame(frames, false),
                    check_frame(frames, true)};
+  bench.finish(result, first_sof(bits) - 20 * PaperBench::kBit, bits.back().time);
   return result;
 }
 
-PaperExperiment paper_bus_off(const std::string &wave) {
+PaperExperiment paper_bus_off(const PaperFiles &files) {
   // A missing ACK alone never leads beyond 0x80 (FC-05): bit errors do.
   DataBitFault fault{PaperBench::kIp};
-  PaperBench bench{wave, true};
+  PaperBench bench{files, "Figures 17 and 18: bus-off and recovery", true};
   bench.add(fault);
   bench.send(PaperBench::kIp, kPaperFrame);
   const auto &bits = bench.bits(PaperBench::kIp);
@@ -145,23 +152,30 @@ PaperExperiment paper_bus_off(const std::string &wave) {
   const auto frames = error_frames(bits);
   bench.run_until([&] { return !off(); }, 1500);
   bench.run_bits(3);
-  PaperExperiment result{"bus-off", wave, {}};
+  PaperExperiment result{"bus-off", files};
   result.checks = {check_bus_off(bits, frames), check_recovery(bits)};
+  bench.finish(result, first_sof(bits) - 20 * PaperBench::kBit, bits.back().time);
   return result;
 }
 
-std::vector<PaperExperiment> run_paper(const std::string &folder, const std::string &suffix) {
-  if (!folder.empty()) {
+std::vector<PaperExperiment> run_paper(const PaperOutputs &outputs) {
+  for (const std::string &folder : {outputs.wave_folder, outputs.page_folder}) {
+    if (folder.empty()) continue;
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw InputError(folder, 0, "cannot be created: " + error.message());
   }
-  const auto wave = [&](const char *name) {
-    return folder.empty() ? "" : folder + "/" + name + suffix;
+  const auto file = [](const std::string &folder, const std::string &name) {
+    return folder.empty() ? std::string{} : folder + "/" + name;
   };
-  return {paper_reception(wave("fig11-reception")), paper_transmission(wave("fig12-transmission")),
-          paper_arbitration(wave("fig13-arbitration")),
-          paper_missing_ack(wave("fig14-16-missing-ack")), paper_bus_off(wave("fig17-18-bus-off"))};
+  const auto files = [&](const std::string &name) {
+    return PaperFiles{file(outputs.wave_folder, name + outputs.suffix),
+                      file(outputs.page_folder, name + ".html")};
+  };
+  return {
+      paper_reception(files("fig11-reception")), paper_transmission(files("fig12-transmission")),
+      paper_arbitration(files("fig13-arbitration")),
+      paper_missing_ack(files("fig14-16-missing-ack")), paper_bus_off(files("fig17-18-bus-off"))};
 }
 
 }  // namespace vericansim

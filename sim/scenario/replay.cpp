@@ -83,6 +83,10 @@ void Replay::build() {
   };
   bus_.add(*monitor_);
   outputs_ = std::make_unique<BusOutputs>(options_.outputs, bus_, bit_time_);
+  const std::vector<BitTiming> all(options_.nodes, config.timing);
+  outputs_->record(bus_, *monitor_,
+                   {"Replay", fmt::format("{} frames of a recording", count_), options_.bitrate,
+                    bit_time_, all});
 }
 
 // One identifier always has the same sender, as on a real bus; Fibonacci hashing spreads
@@ -185,12 +189,14 @@ ReplayReport Replay::execute(const std::function<void(double)> &progress) {
   stations_.join(bus_, bit_time_);
   start_ = bus_.now();
   if (options_.fault != nullptr) bus_.add(*options_.fault);
+  outputs_->begin();
   if (options_.fast)
     feed_all();
   else
     feed(0);
   run(progress);
   outputs_->finish(bus_.now());
+  outputs_->write_report();
   ReplayReport report = collect();
   report.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -168,6 +168,7 @@ void parse_outputs(const YamlValue &value, Outputs &outputs) {
   file("fst", outputs.fst);
   file("candump", outputs.candump);
   file("pcap", outputs.pcap);
+  file("report", outputs.report);
   map.finish();
 }
 

@@ -96,6 +96,8 @@ struct Expectations {
 /// Files to write; empty: none.
 struct Outputs {
   std::string vcd, fst, candump, pcap;
+  std::string report;                     ///< HTML page
+  std::uint64_t report_frames = 200'000;  ///< the report keeps the bits of so many frames
 };
 
 struct Scenario {

@@ -58,6 +58,21 @@ void Simulation::observe() {
   };
   bus_.add(*monitor_);
   outputs_ = std::make_unique<BusOutputs>(scenario_.outputs, bus_, longest_bit);
+  outputs_->record(bus_, *monitor_, report_setup());
+}
+
+ReportSetup Simulation::report_setup() const {
+  ReportSetup setup{scenario_.name, scenario_.file, bitrate_, bit_time_, {}};
+  for (NodeId id = 0; id < stations_.size(); ++id) setup.timings.push_back(stations_[id].timing);
+  return setup;
+}
+
+ReportExtras Simulation::report_extras(const RunReport &report) const {
+  ReportExtras extras;
+  extras.run = &report;
+  for (const TrafficSpec &spec : scenario_.traffic)
+    extras.messages.push_back({spec.node, spec.frame, spec.period});
+  return extras;
 }
 
 std::unique_ptr<Fault> Simulation::make_fault(const FaultSpec &spec) const {
@@ -103,12 +118,16 @@ void Simulation::start_traffic() {
 
 void Simulation::on_frame(const BusFrame &frame) {
   if (scenario_.expect.complete) frames_.push_back(frame);
-  outputs_->write(frame);
+  outputs_->write(frame, origin_of(frame));
   if (on_bus_frame) on_bus_frame(frame);
-  if (frame.sender == BusFrame::kNobody) return;
-  for (const auto &traffic : traffic_)
-    if (traffic->spec().node == frame.sender && traffic->matches(frame.frame))
-      return traffic->on_frame(frame.end);
+}
+
+FrameOrigin Simulation::origin_of(const BusFrame &frame) {
+  if (frame.sender == BusFrame::kNobody) return {};
+  for (std::size_t i = 0; i < traffic_.size(); ++i)
+    if (traffic_[i]->spec().node == frame.sender && traffic_[i]->matches(frame.frame))
+      return {static_cast<int>(i), traffic_[i]->on_frame(frame.end)};
+  return {};
 }
 
 void Simulation::on_sent(NodeId node, const Frame &frame) {
@@ -200,12 +219,15 @@ void Simulation::start(Time when) {
   bus_.run_until(when);
   start_ = bus_.now();
   add_faults();
+  outputs_->begin();
   start_traffic();
 }
 
 RunReport Simulation::finish() {
   outputs_->finish(bus_.now());
-  return collect();
+  RunReport report = collect();
+  outputs_->write_report(report_extras(report));
+  return report;
 }
 
 }  // namespace vericansim

@@ -60,6 +60,9 @@ class Simulation {
   std::unique_ptr<Fault> make_fault(const FaultSpec &spec) const;
   void start_traffic();
   void on_frame(const BusFrame &frame);
+  [[nodiscard]] FrameOrigin origin_of(const BusFrame &frame);
+  [[nodiscard]] ReportSetup report_setup() const;
+  [[nodiscard]] ReportExtras report_extras(const RunReport &report) const;
   void on_sent(NodeId node, const Frame &frame);
   RunReport collect();
   void add_bounds(RunReport &report) const;

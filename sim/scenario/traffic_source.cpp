@@ -60,14 +60,15 @@ void TrafficSource::on_sent() {
   if (spec_.saturated && bus_.now() < stop_) queue(bus_.now());
 }
 
-void TrafficSource::on_frame(Time end) {
-  if (waiting_.empty()) return;
+std::optional<Time> TrafficSource::on_frame(Time end) {
+  if (waiting_.empty()) return std::nullopt;
   const Time response = end - waiting_.front();
   waiting_.pop_front();
   ++report_.sent;
   report_.shortest = report_.sent == 1 ? response : std::min(report_.shortest, response);
   report_.longest = std::max(report_.longest, response);
   report_.sum += response;
+  return response;
 }
 
 }  // namespace vericansim

@@ -25,8 +25,9 @@ class TrafficSource {
   void start(Time start, Time stop);
   /// The host has sent a frame of this message (saturated messages queue the next one).
   void on_sent();
-  /// One of this message's frames has ended on the bus at `end`.
-  void on_frame(Time end);
+  /// One of this message's frames has ended on the bus at `end`; its response time, if a frame was
+  /// due.
+  std::optional<Time> on_frame(Time end);
 
   [[nodiscard]] const TrafficSpec &spec() const { return spec_; }
   /// True if `frame` could be one of this message.

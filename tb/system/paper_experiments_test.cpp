@@ -13,7 +13,7 @@ namespace vericansim {
 namespace {
 
 TEST(Paper, EveryExperimentAgrees) {
-  const auto experiments = run_paper("", ".vcd");
+  const auto experiments = run_paper({});
   ASSERT_EQ(experiments.size(), 5U);
   std::set<std::string> figures;
   for (const PaperExperiment &experiment : experiments)
@@ -28,9 +28,9 @@ TEST(Paper, EveryExperimentAgrees) {
 // The waveforms themselves, read by the passive decoder, show what the figures show.
 TEST(Paper, WaveformsShowTheFrames) {
   const std::string folder = ::testing::TempDir() + "paper";
-  const auto experiments = run_paper(folder, ".vcd");
+  const auto experiments = run_paper({.wave_folder = folder});
   const auto decode = [&](std::size_t i) {
-    return decode_wave(experiments.at(i).wave, {"bus.can", 50e3, 800}).events;
+    return decode_wave(experiments.at(i).files.wave, {"bus.can", 50e3, 800}).events;
   };
   const Frame frame{0b00000001010, false, false, 1, {0b10101010}};
   const auto reception = decode(0);

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The options of all subcommands that write what happens on a bus.
+#include <fmt/format.h>
+
+#include "cli/cli.hpp"
+
+namespace vericansim::cli {
+
+void add_output_options(CLI::App &command, Outputs &outputs, const std::string &report_names) {
+  command.add_option("--vcd", outputs.vcd, "Write the waveform as VCD");
+  command.add_option("--fst", outputs.fst, "Write the waveform as FST");
+  command.add_option("--candump", outputs.candump, "Write the frames as a candump log");
+  command.add_option("--pcap", outputs.pcap, "Write the frames as a capture for Wireshark");
+  command.add_option(report_names, outputs.report,
+                     "Write a page to look at, HTML (docs/report.md)");
+  command
+      .add_option("--report-frames", outputs.report_frames,
+                  "The page keeps bits and edges of so many frames (200000)")
+      ->check(CLI::Range(1U, 10'000'000U));
+}
+
+void override_outputs(Outputs &target, const Outputs &given) {
+  for (const auto path : kOutputPaths)
+    if (!(given.*path).empty()) target.*path = given.*path;
+  if (given.report_frames != Outputs{}.report_frames) target.report_frames = given.report_frames;
+}
+
+Outputs outputs_for(const Outputs &outputs, double bitrate) {
+  Outputs result = outputs;
+  for (const auto path : kOutputPaths) {
+    std::string &name = result.*path;
+    if (name.empty()) continue;
+    const std::size_t dot = name.rfind('.');
+    const std::size_t end = dot == std::string::npos ? name.size() : dot;
+    name.insert(end, fmt::format("-{:g}k", bitrate / 1e3));
+  }
+  return result;
+}
+
+}  // namespace vericansim::cli
