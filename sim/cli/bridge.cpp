@@ -63,16 +63,6 @@ Scenario plain_bus(const Options &options, double clock) {
   return scenario;
 }
 
-void override_outputs(Outputs &outputs, const Outputs &wanted) {
-  const auto take = [](std::string &target, const std::string &source) {
-    if (!source.empty()) target = source;
-  };
-  take(outputs.vcd, wanted.vcd);
-  take(outputs.fst, wanted.fst);
-  take(outputs.candump, wanted.candump);
-  take(outputs.pcap, wanted.pcap);
-}
-
 /// Fills in scenario, bit rate and clock.
 void set_up_bus(BridgeSetup &setup, const Options &options) {
   if (options.bus.empty()) {
@@ -218,10 +208,7 @@ void add_run_options(CLI::App &command, Options &options) {
   command.add_flag("--fast", options.fast,
                    "As fast as possible; without it simulated time is held to real time");
   command.add_option("--time", options.time, "Simulated time to run, as in '10 s' (no end)");
-  command.add_option("--vcd", options.outputs.vcd, "Write the waveform as VCD");
-  command.add_option("--fst", options.outputs.fst, "Write the waveform as FST");
-  command.add_option("--candump", options.outputs.candump, "Write the frames as a candump log");
-  command.add_option("--pcap", options.outputs.pcap, "Write the frames as a capture for Wireshark");
+  add_output_options(command, options.outputs);
   command.add_flag("--json", options.json, "The report as JSON");
 }
 

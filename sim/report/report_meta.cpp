@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+#include "version/version.hpp"
+
 namespace vericansim {
 namespace {
 
@@ -139,7 +141,7 @@ Json report_meta(const ReportRecorder &recorder, const ReportExtras &extras) {
   for (const auto &cause : data.causes)
     causes.push_back({{"text", cause.text}, {"rule", cause.rule}});
   return {{"format", 1},
-          {"tool", "verican 0.1.0"},
+          {"tool", "verican " + std::string{version()}},
           {"title", recorder.setup().title},
           {"note", recorder.setup().note},
           {"bitrate", recorder.setup().bitrate},
