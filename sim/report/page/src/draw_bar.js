@@ -118,7 +118,8 @@ function groupText(p, group, a, b, y, h, size) {
     return p.fit([group.text], middle, y + h / 2 + 8, b - a, {...options, size: size + 1});
   }
   const both = group.text ? `${group.label} ${group.text}` : group.label;
-  return p.fit([both, group.text, group.label], middle, y + h / 2, b - a, options);
+  const brief = group.field === F.ERROR_FLAG ? [`${group.text} flag`, 'flag'] : [group.text];
+  return p.fit([both, ...brief, group.label], middle, y + h / 2, b - a, options);
 }
 
 /** The fields of a lane between y and y + h: coloured, stuff bits marked, named where it fits. */
@@ -161,8 +162,10 @@ function drawBits(p, scale, lane) {
     if (lane.stuff(i)) p.hatch(a, y, width - 1, h, 'ink', 5);
     const level = String(lane.sampled(i));
     const title = lane.stuff(i) ? 'stuff bit' : bitTitle(lane.field(i), lane.place(i));
-    const texts = [`${title} = ${level}`, level];
-    const text = p.fit(texts, (a + b) / 2, y + h / 2, width, {size: 11});
+    const text = p.fit([`${title} = ${level}`, level], (a + b) / 2, y + h / 2, width, {size: 11});
+    if (text === level && width > 30 && !lane.stuff(i)) {
+      p.text(String(lane.number(i)), a + 3, y + h / 2, {size: 9, color: 'dim'});
+    }
     p.note('bit', {bit: i, field: fieldName(lane.field(i)), level: lane.sampled(i),
                    stuff: lane.stuff(i), q: lane.quanta[i], x0: a, x1: b, text,
                    sample: scale.x(lane.sample(i))});

@@ -115,7 +115,7 @@ export function drawBus(p, scale, y, h) {
     return;
   }
   drawDrivers(p, scale, middle - half, middle + half);
-  const width = scale.pxPerBit > 3 ? 1.7 : 1;
+  const width = scale.pxPerBit > 3 ? 1.7 : scale.pxPerBit > 1 ? 1 : 0.5;
   p.polyline(tracePoints(report.wire, scale, middle - 2, middle - half), 'trace', width);
   p.polyline(tracePoints(report.wire, scale, middle + 2, middle + half), 'trace', width);
   if (scale.pxPerBit >= 14) drawSamples(p, scale, middle, half);
@@ -127,9 +127,13 @@ function drawStates(p, scale, node, y, h) {
     const range = state === 0 ? null : scale.range(from, to);
     if (!range || range[1] - range[0] < 0.5 || ++drawn > 500) return;
     p.rect(range[0], y, range[1] - range[0], h, state === 1 ? 'passive' : 'off', 0.2);
-    const text = p.fit([state === 1 ? 'error passive' : 'bus-off'], (range[0] + range[1]) / 2,
-                       y + 7, range[1] - range[0], {size: 10, color: 'dim'});
-    p.note('state', {node, state, x0: range[0], x1: range[1], text});
+    const name = state === 1 ? 'error passive' : 'bus-off';
+    const wide = p.measure(name, 10) + 8;
+    if (h >= 30 && range[1] - range[0] > wide) {
+      p.rect(range[1] - wide - 2, y + h - 15, wide, 13, 'panel', 0.9);
+      p.text(name, range[1] - wide + 2, y + h - 8, {size: 10});
+    }
+    p.note('state', {node, state, x0: range[0], x1: range[1], name});
   });
 }
 
@@ -172,8 +176,7 @@ export function drawNode(p, scale, node, y, h) {
   const strip = scale.fine && h >= 34 ? kStrip : 0;
   const top = y + 5;
   const bottom = y + h - 4 - strip;
-  drawStates(p, scale, node, y + 1, h - 2);
-  if (!track) return;
+  if (!track) return drawStates(p, scale, node, y + 1, h - 2);
   if (edgesIn(track, scale) > kMaxEdges / 2) {
     p.line(scale.left, top, scale.width, top, color, 1);
     columns(track, scale, (x0, x1, density) => {
@@ -184,10 +187,11 @@ export function drawNode(p, scale, node, y, h) {
       const range = level === 0 ? scale.range(from, to) : null;
       if (range) p.rect(range[0], top, Math.max(range[1] - range[0], 0.6), bottom - top, color, 0.5);
     });
-    p.polyline(tracePoints(track, scale, top, bottom), color, 1.5);
+    p.polyline(tracePoints(track, scale, top, bottom), color, scale.pxPerBit > 1 ? 1.5 : 0.6);
   }
-  if (report.rx[node]) drawReceived(p, scale, report.rx[node], top, bottom - top);
+  drawStates(p, scale, node, y + 1, h - 2);
+  if (report.rx[node] && scale.fine) drawReceived(p, scale, report.rx[node], top, bottom - top);
   if (strip) drawOwnFields(p, scale, node, bottom + 3, strip - 2);
-  if (scale.mode !== 'columns') drawLosses(p, scale, node, y, h - strip);
-  p.note('node', {node, x0: scale.left, x1: scale.width, y0: y, y1: y + h});
+  if (scale.fine) drawLosses(p, scale, node, y, h - strip);
+  return p.note('node', {node, x0: scale.left, x1: scale.width, y0: y, y1: y + h});
 }

@@ -63,7 +63,7 @@ function columnsOf(report) {
      wide: isEvent, text: (row) => values(row).data, key: (row) => values(row).data},
     {name: 'message', title: 'Name in the scenario', width: 'minmax(90px, 1fr)',
      text: (row) => values(row).message, key: (row) => values(row).message},
-    {name: 'response ms', title: 'From the event that queued the frame to its end', width: '94px', numeric: true, mono: true,
+    {name: 'response', title: 'Milliseconds from the event that queued the frame to its end', width: '84px', numeric: true, mono: true,
      text: (row) => (isEvent(row) ? '' : milliseconds(frames.response[index(row)])),
      key: number(frames.response)},
     {name: 'retries', title: 'Attempts of the sender that failed since its frame before', width: '58px', numeric: true,

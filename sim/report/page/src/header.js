@@ -42,13 +42,14 @@ function verdict(report, actions) {
 function statementsBar(report, view) {
   const {statements} = report.meta;
   if (statements.length === 0) return null;
-  const out = el('p', {class: 'seen', 'aria-live': 'polite'}, 'Choose a statement of the paper to see the moment that shows it.');
+  const out = el('p', {class: 'seen', 'aria-live': 'polite', hidden: true});
   const buttons = statements.map((statement) => {
     const {figure, reported, seen, ok, time_ns} = statement;
     return el('button', {type: 'button', class: ok ? 'statement' : 'statement bad', 'aria-pressed': 'false',
                          title: `The paper reports: ${reported}\nHere: ${seen}`,
                          onclick: (event) => {
                            for (const b of buttons) b.setAttribute('aria-pressed', String(b === event.currentTarget));
+                           out.hidden = false;
                            out.replaceChildren(el('b', {}, `fig. ${figure}  `), `reported: ${reported}. `,
                                                el('b', {}, ok ? ' seen: ' : ' seen (differs): '), seen);
                            goToStatement(report, view, time_ns);
@@ -79,8 +80,8 @@ export function header(report, view, actions) {
        el('h1', {}, meta.title),
        verdict(report, actions),
        el('div', {class: 'facts'}, facts(report)),
+       meta.note ? el('p', {class: 'note'}, meta.note) : null,
        el('span', {class: 'tool'}, meta.tool)),
-    meta.note ? el('p', {class: 'note'}, meta.note) : null,
     meta.truncated ? el('p', {class: 'note warn'}, `Not everything is in this file: ${meta.truncated}`) : null,
     statementsBar(report, view),
   ].filter(Boolean);

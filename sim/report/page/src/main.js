@@ -110,6 +110,7 @@ function build(report, app) {
   const bottom = el('section', {class: 'bottom'}, tabs.root, detailPanel(report, view, actions));
   app.replaceChildren(...header(report, view, actions), toolbar(report, view, steps, actions), overviewHost,
                       scopeHost, legend(), attachSplitter(app), bottom, help);
+  app.classList.toggle('app-paper', report.meta.statements.length > 0);
   const scope = new Scope(scopeHost, report, view);
   const overview = new Overview(overviewHost, report, view);
   attachPointer(scope, view);

@@ -10,9 +10,8 @@ import {Painter} from './painter.js';
 import {Scale, kGutter} from './scale.js';
 import {colors} from './theme.js';
 
-const kBus = 76;
-const kTopHeight = kBarEnd + kBus;
-const kLane = {least: 24, most: 60};
+const kBus = {least: 76, most: 150};
+const kLane = {least: 20, usual: 46, most: 84};
 
 export class Scope {
   constructor(root, report, view) {
@@ -42,8 +41,15 @@ export class Scope {
     });
   }
 
+  /** Room that the lanes leave goes to the bus. */
+  get busHeight() {
+    const lanes = kLane.usual * this.report.nodes.length;
+    const room = this.root.clientHeight - kBarEnd - lanes - 2;
+    return Math.min(Math.max(room, kBus.least), kBus.most);
+  }
+
   get laneHeight() {
-    const room = this.root.clientHeight - kTopHeight - 2;
+    const room = this.root.clientHeight - kBarEnd - this.busHeight - 2;
     const each = Math.floor(room / Math.max(this.report.nodes.length, 1));
     return Math.min(Math.max(each, kLane.least), kLane.most);
   }
@@ -54,7 +60,7 @@ export class Scope {
     const begin = performance.now();
     const theme = colors();
     const scale = this.scale();
-    this.topPainter.begin(scale.width, kTopHeight, theme);
+    this.topPainter.begin(scale.width, kBarEnd + this.busHeight, theme);
     this.#drawTop(this.topPainter, scale);
     const height = this.laneHeight;
     const nodes = this.report.nodes.length;
@@ -78,19 +84,20 @@ export class Scope {
   }
 
   #drawTop(p, scale) {
+    const bus = this.busHeight;
     drawRuler(p, scale);
     p.clip(scale.left, 0, scale.plot, p.height, () => {
       drawBar(p, scale);
-      drawBus(p, scale, kBarEnd, kBus);
+      drawBus(p, scale, kBarEnd, bus);
     });
     const note = {size: 11, color: 'dim'};
     p.text(scale.mode === 'columns' ? 'load' : 'frames', 10, kRows.frame[0] + 10, note);
     if (scale.fine) p.text('fields', 10, kRows.fields[0] + 13, note);
     if (scale.mode === 'bits' || scale.mode === 'quanta') p.text('bits', 10, kRows.bits[0] + 9, note);
     if (scale.mode === 'quanta') p.text('time quanta', 10, kRows.quanta[0] + 7, note);
-    p.text('bus', 10, kBarEnd + kBus / 2, {size: 13, bold: true});
+    p.text('bus', 10, kBarEnd + bus / 2, {size: 13, bold: true});
     p.text('CAN_H', scale.left - 8, kBarEnd + 14, {size: 10, color: 'dim', align: 'right'});
-    p.text('CAN_L', scale.left - 8, kBarEnd + kBus - 14, {size: 10, color: 'dim', align: 'right'});
+    p.text('CAN_L', scale.left - 8, kBarEnd + bus - 14, {size: 10, color: 'dim', align: 'right'});
     if (scale.report.meta.detail_end_ns !== undefined) this.#drawEnd(p, scale);
   }
 
@@ -100,7 +107,7 @@ export class Scope {
     const range = end < scale.report.duration ? scale.range(end, scale.to) : null;
     if (!range) return;
     p.rect(range[0], kRows.fields[0], range[1] - range[0], p.height, 'raised', 0.6);
-    p.fit(['no details were kept from here on'], (range[0] + range[1]) / 2, kBarEnd + kBus / 2,
+    p.fit(['no details were kept from here on'], (range[0] + range[1]) / 2, kBarEnd + kBus.least / 2,
           range[1] - range[0], {color: 'dim'});
   }
 
@@ -129,7 +136,8 @@ export class Scope {
     if (span) {
       const range = scale.range(span[0], span[1]);
       if (range) {
-        p.rect(range[0], 0, Math.max(range[1] - range[0], 1.5), p.height, 'select', 0.14);
+        const whole = range[1] - range[0] > 0.98 * scale.plot;
+        p.rect(range[0], 0, Math.max(range[1] - range[0], 1.5), p.height, 'select', whole ? 0.03 : 0.1);
         p.line(range[0], 0, range[0], p.height, 'select', 1.2);
         p.line(range[1], 0, range[1], p.height, 'select', 1.2);
         p.note('selection', {x0: range[0], x1: range[1]});

@@ -131,16 +131,24 @@ export class Table {
   #row(at) {
     const row = this.rows[at];
     const style = ['row', this.options.style?.(row) ?? '', row === this.current ? 'current' : ''];
-    const cells = [];
-    for (const column of this.columns) {
-      const wide = column.wide?.(row);  // its text takes the rest of the row
-      const look = `cell${column.numeric ? ' right' : ''}${column.mono && !wide ? ' mono' : ''}${wide ? ' wide' : ''}`;
-      cells.push(el('span', {class: look, role: 'gridcell'}, column.node ? column.node(row) : column.text(row)));
-      if (wide) break;
-    }
+    const cells = this.#cells(row);
     const element = el('div', {class: style.join(' ').trim(), role: 'row', 'data-at': at,
                                'aria-rowindex': at + 1, 'aria-selected': String(row === this.current)}, cells);
     element.style.top = `${at * kRowHeight}px`;
     return element;
+  }
+
+  #cells(row) {
+    const cells = [];
+    for (const column of this.columns) {
+      const wide = column.wide?.(row);  // its text takes the rest of the row
+      const look = `cell${column.numeric ? ' right' : ''}${column.mono && !wide ? ' mono' : ''}`;
+      const cell = el('span', {class: look, role: 'gridcell'}, column.node ? column.node(row) : column.text(row));
+      cells.push(cell);
+      if (!wide) continue;
+      cell.style.gridColumn = `${cells.length} / -1`;
+      break;
+    }
+    return cells;
   }
 }
