@@ -118,10 +118,14 @@ export class Scene {
     return Object.fromEntries(nodes.map((node) => [node, {[slot]: 0}]));
   }
 
-  /** A frame that succeeds. Losers: nodes that lose against it, [{node, frame}]. */
-  frame(sender, frame, {losers = [], gap = 0, response = NaN, message = -1} = {}) {
+  /**
+   * A frame that succeeds. losers: nodes that lose against it, [{node, frame}]; resync: quanta that
+   * bits of the sender are longer, {bit: quanta}, their sum 0.
+   */
+  frame(sender, frame, {losers = [], gap = 0, response = NaN, message = -1, resync = {}} = {}) {
     this.now += gap * this.bit;
     const bits = [...Scene.sent(frame), ...times(3, {field: F.INT, sent: 1})];
+    for (const [i, q] of Object.entries(resync)) bits[i] = {...bits[i], q};
     const drives = this.#ack(bits, this.names.map((_, i) => i).filter((i) => i !== sender));
     const number = this.columns['s.start'].length;
     for (const loser of losers) this.#lose(loser, bits, drives, number, sender);
@@ -174,9 +178,6 @@ export class Scene {
       return {node, bits: [...mine, ...(node === culprit ? own : others)]};
     });
     lanes.sort((a, b) => (b.node === sender) - (a.node === sender));
-    const late = lanes.find(({node}) => node === culprit).bits;
-    late[12].q = 1;
-    late[30].q = -1;
     const number = this.segment(lanes);
     const at = this.now + (head.length - 1) * this.bit;
     this.#add({'e.kind': 0, 'e.start': at, 'e.end': at + 16 * this.bit, 'e.node': culprit, 'e.error': 4,

@@ -7,7 +7,8 @@ import {Scene} from './scene.mjs';
 /** A bit of everything: formats, arbitration, errors, overload; three nodes, 500 kbit/s. */
 export function smallScene(more = {}) {
   const scene = new Scene(['left', 'middle', 'right'], {title: 'A bit of everything'});
-  scene.frame(0, {id: 0x123, dlc: 2, data: [0xca, 0xfe]}, {message: 0, response: 110000});
+  scene.frame(0, {id: 0x123, dlc: 2, data: [0xca, 0xfe]},
+              {message: 0, response: 110000, resync: {12: 1, 14: -1}});
   scene.frame(1, {id: 0x00a, dlc: 8, data: [0, 0, 0, 0, 255, 255, 255, 255]}, {gap: 20, message: 1, response: 250000});
   scene.frame(2, {id: 0x12345678, extended: true, dlc: 3, data: [1, 2, 3]},
               {gap: 5, losers: [{node: 1, frame: {id: 0x18da00f1, extended: true, dlc: 0}}]});

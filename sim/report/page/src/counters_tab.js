@@ -90,7 +90,7 @@ export class CountersTab {
       },
       options: () => ({
         label: 'error counter',
-        scales: {y: {range: (u, min, max) => [0, Math.max(16, max * 1.08)]}},
+        scales: {y: {range: (u, min, max) => [0, Math.max(16, max * 1.3)]}},
         series: report.nodes.flatMap((_, i) => [
           {stroke: nodeColor(i), width: 1.8, paths: uPlot.paths.stepped({align: 1}), points: {show: false}},
           {stroke: nodeColor(i), width: 1.2, dash: [5, 4], paths: uPlot.paths.stepped({align: 1}), points: {show: false}},

@@ -90,7 +90,7 @@ function drawColumns(p, scale) {
     if (load > 0) p.rect(x, bottom - load * (bottom - top), step, load * (bottom - top), 'load');
     if (report.eventsIn(from, to) > 0) p.rect(x, top, step, 8, 'f-error');
   }
-  p.text('bus load', scale.left + 6, top + 14, {size: 11, color: 'dim'});
+  p.note('columns', {step});
 }
 
 function drawBlocks(p, scale) {
@@ -136,7 +136,7 @@ export function drawFields(p, scale, lane, y, h, size = 12) {
   for (const [group, a, b] of shown) {
     const text = b - a > 7 ? groupText(p, group, a, b, y, h, size) : '';
     p.note('field', {field: fieldName(group.field), value: group.text, text, x0: a, x1: b, y,
-                     node: lane.nodeIndex});
+                     node: lane.nodeIndex, own: size < 12});
   }
 }
 

@@ -80,8 +80,8 @@ export function header(report, view, actions) {
        el('h1', {}, meta.title),
        verdict(report, actions),
        el('div', {class: 'facts'}, facts(report)),
-       meta.note ? el('p', {class: 'note'}, meta.note) : null,
-       el('span', {class: 'tool'}, meta.tool)),
+       el('div', {class: 'about'}, el('span', {class: 'note', title: meta.note}, meta.note),
+          el('span', {class: 'tool'}, meta.tool))),
     meta.truncated ? el('p', {class: 'note warn'}, `Not everything is in this file: ${meta.truncated}`) : null,
     statementsBar(report, view),
   ].filter(Boolean);

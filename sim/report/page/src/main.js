@@ -55,13 +55,15 @@ function sayer(host) {
   };
 }
 
+const partsOf = ({root, plot}) => ({root, plot});
+
 function tabsOf(report, view, steps, frames) {
   return new Tabs([
     {id: 'frames', name: 'Frames', title: 'All frames and errors; searchable', root: frames.root},
     {id: 'events', name: `Errors (${report.events.count})`, title: 'Errors, overloads and lost arbitrations', root: new EventsTab(report, view, steps).root},
-    {id: 'counters', name: 'Error counters', title: 'TEC, REC and state of each node over time', root: new CountersTab(report, view).root},
-    {id: 'load', name: 'Bus load', title: 'How busy the bus is over time', root: new LoadTab(report, view).root},
-    {id: 'response', name: 'Response times', title: 'From the event that queues a frame to its end', root: new ResponseTab(report, view, steps).root},
+    {id: 'counters', name: 'Error counters', title: 'TEC, REC and state of each node over time', ...partsOf(new CountersTab(report, view))},
+    {id: 'load', name: 'Bus load', title: 'How busy the bus is over time', ...partsOf(new LoadTab(report, view))},
+    {id: 'response', name: 'Response times', title: 'From the event that queues a frame to its end', ...partsOf(new ResponseTab(report, view, steps))},
     {id: 'nodes', name: 'Nodes', title: 'Settings and counts of each node', root: nodesTab(report)},
     {id: 'checks', name: 'Checks', title: 'What the scenario expected', root: checksTab(report)},
   ]);

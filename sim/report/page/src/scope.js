@@ -91,7 +91,7 @@ export class Scope {
       drawBus(p, scale, kBarEnd, bus);
     });
     const note = {size: 11, color: 'dim'};
-    p.text(scale.mode === 'columns' ? 'load' : 'frames', 10, kRows.frame[0] + 10, note);
+    p.text(scale.mode === 'columns' ? 'bus load' : 'frames', 10, kRows.frame[0] + 10, note);
     if (scale.fine) p.text('fields', 10, kRows.fields[0] + 13, note);
     if (scale.mode === 'bits' || scale.mode === 'quanta') p.text('bits', 10, kRows.bits[0] + 9, note);
     if (scale.mode === 'quanta') p.text('time quanta', 10, kRows.quanta[0] + 7, note);
