@@ -12,13 +12,13 @@ message(STATUS "result: ${{verican_FOUND}}; ${{verican_driver_FOUND}}; ${{verica
 """
 
 
-def configure(installed, prefix, request, expect=0, languages="C"):
+def configure(installed, prefix, request, expect=0, languages="C", more=None):
     """What CMake prints, blanks folded: its messages are wrapped."""
     work = installed.work("components")
-    (work / "CMakeLists.txt").write_text(PROJECT.format(request=request, languages=languages))
+    (work / "CMakeLists.txt").write_text(PROJECT.format(languages=languages, request=request))
     said = installed.run(["cmake", "-S", work, "-B", work / "build", "-G", "Ninja",
                           f"-DCMAKE_PREFIX_PATH={prefix}"], work,
-                         installed.environment(prefix), expect)
+                         installed.environment(prefix) | (more or {}), expect)
     return " ".join(said.split())
 
 
@@ -29,18 +29,21 @@ def expect_text(said, *wanted):
 
 
 def check_dependency(installed):
-    """A library of Debian's that is not there, too, is named with its package."""
+    """A library of the system that is missing is named with its package; an optional component
+    that needs it is left out."""
     work = installed.work("no_unicorn")
-    (work / "CMakeLists.txt").write_text(PROJECT.format(request="REQUIRED COMPONENTS sim",
-                                                        languages="C CXX"))
-    env = installed.environment()
-    # pkg-config that knows this tree and libpcap only.
+    # A pkg-config that knows libpcap only.
     (work / "libpcap.pc").write_text("Name: libpcap\nDescription: x\nVersion: 1\n")
-    env["PKG_CONFIG_LIBDIR"] = str(work)
-    said = " ".join(installed.run(["cmake", "-S", work, "-B", work / "build", "-G", "Ninja",
-                                   f"-DCMAKE_PREFIX_PATH={installed.prefix}"], work, env,
-                                  1).split())
-    expect_text(said, "verican::sim needs unicorn (Debian: libunicorn-dev)")
+    env = {"PKG_CONFIG_LIBDIR": str(work)}
+    expect_text(configure(installed, installed.prefix, "REQUIRED COMPONENTS sim", 1, "C CXX", env),
+                'component "sim" needs unicorn (Debian: libunicorn-dev)')
+    if installed.has_systemc():
+        expect_text(configure(installed, installed.prefix, "REQUIRED COMPONENTS systemc", 1,
+                              "C CXX", env),
+                    'component "systemc" needs', "(Debian: lib")
+    expect_text(configure(installed, installed.prefix,
+                          "REQUIRED COMPONENTS driver OPTIONAL_COMPONENTS sim systemc",
+                          languages="C CXX", more=env), "result: 1; TRUE; --")
 
 
 def test(installed):
