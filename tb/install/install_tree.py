@@ -3,6 +3,8 @@
 #
 # Test install.tree: installs, moves the tree, and looks at what is in it.
 """usage: install_tree.py SOURCE BUILD SANITIZED"""
+import re
+
 import tree
 
 EXPECTED = [
@@ -47,6 +49,23 @@ def check_versions(installed):
         tree.check(version == want, f"version of {what} is {version}, of the project {want}")
 
 
+def check_tool(installed):
+    """The tool works from where it lies now, the page of reports included."""
+    work = installed.work("tool")
+    scenario = installed.prefix / "share" / "verican" / "examples" / "two-nodes.yaml"
+    command = [installed.prefix / "bin" / "verican", "run", scenario, "--candump", "bus.log"]
+    cache = (installed.build / "CMakeCache.txt").read_text(encoding="utf-8")
+    with_page = re.search(r"^VERICAN_REPORT_PAGE:INTERNAL=.+$", cache, re.MULTILINE)
+    installed.run(command + (["--report", "bus.html"] if with_page else []), work)
+    log = (work / "bus.log").read_text(encoding="utf-8")
+    tree.check(log.count(" 123#") == 10,  # 50 ms, every 5 ms
+               f"{scenario} did not send 0x123 ten times:\n{log}")
+    if with_page:
+        page = (work / "bus.html").read_text(encoding="utf-8")
+        tree.check("</html>" in page and f"verican {installed.project_version()}" in page,
+                   "the page of the report is not complete")
+
+
 def test(installed):
     """Installs to root/first, moves that to root/moved/here."""
     root = installed.make_root()
@@ -62,11 +81,7 @@ def test(installed):
     look_for_paths(installed, first)
     check_rtl(installed)
     check_versions(installed)
-    scenario = installed.prefix / "share" / "verican" / "examples" / "two-nodes.yaml"
-    log = installed.work("tool") / "bus.log"
-    installed.run([installed.prefix / "bin" / "verican", "run", scenario, "--candump", log], root)
-    tree.check(log.read_text().count(" 123#") == 10,  # 50 ms, every 5 ms
-               f"{scenario} did not send 0x123 ten times:\n{log.read_text()}")
+    check_tool(installed)
 
 
 tree.main(test)
