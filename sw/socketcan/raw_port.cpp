@@ -118,6 +118,10 @@ void RawCanPort::look_again() {
   const Interface found = look_at(fd_, name_);
   if (!found.can || !found.up) return;
   if (found.index != index_) {
+    // The kernel takes the filter from a socket whose interface goes away.
+    const can_filter everything{};
+    if (options_.receives)
+      ::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_FILTER, &everything, sizeof everything);
     sockaddr_can address{};
     address.can_family = AF_CAN;
     address.can_ifindex = found.index;

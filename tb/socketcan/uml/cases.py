@@ -8,8 +8,10 @@ from pathlib import Path
 
 import failures
 import guest
+import lifetimes
 import leftovers
 import recordings
+import red
 import tools
 import traffic
 from canlog import expect, expect_true
@@ -88,38 +90,56 @@ def canplayer(setup):
     recordings.canplayer(run)
 
 
-def flood(setup):
-    """10,000 frames each way through a vcan."""
-    return traffic.flood(setup.run("flood", {"flood.yaml": traffic.FLOOD}))
-
-
-def duel(setup):
-    """Two interfaces as two nodes of one bus, both flooding."""
-    return traffic.duel(setup.run("duel", traffic.duel_files()))
-
-
-def everyday_tools(setup):
-    """can-utils and python-can."""
+def tools_source(setup):
+    """A recording for canplayer, and its frames."""
     source = setup.directory("tools-source")
-    sent = recordings.record(setup.verican, source, raw_dlc=False)
-    run = setup.run("tools", **tools.settings(source, sent))
-    run.sent = sent
-    return tools.tools(run)
+    return source, recordings.record(setup.verican, source, raw_dlc=False)
 
 
-def errors(setup):
-    """Error messages: nobody acknowledges, bus-off and recovery, a receiver, arbitration."""
-    failures.errors(setup.run("errors", failures.files(), **failures.settings()))
+def judge_tools(run):
+    """The judge of `tools` wants to know what was recorded."""
+    run.sent = recordings.every_frame(raw_dlc=False)
+    tools.tools(run)
+
+
+# Of each guest script: what it finds in its directory, its variables, its judge.
+SCRIPTS = {
+    "flood": (lambda setup: ({"flood.yaml": traffic.FLOOD}, {}), traffic.flood),
+    "duel": (lambda setup: (traffic.duel_files(), {}), traffic.duel),
+    "tools": (lambda setup: ({}, tools.settings(*tools_source(setup))), judge_tools),
+    "errors": (lambda setup: (failures.files(), failures.settings()), failures.errors),
+    "interfaces": (lambda setup: (failures.files(), {}), lifetimes.interfaces),
+    "vxcan": (lambda setup: ({"vxcan.yaml": lifetimes.VXCAN}, {}), lifetimes.vxcan),
+    "signals": (lambda setup: ({}, {}), lifetimes.signals),
+}
+
+
+def _guest_case(script):
+    prepare, judge = SCRIPTS[script]
+
+    def case(setup):
+        files, settings = prepare(setup)
+        return judge(setup.run(script, files, **settings))
+    return case
+
+
+def _red_case(script):
+    judge = SCRIPTS[script][1]
+
+    def case(setup):
+        source = setup.out / script
+        expect_true((source / "ended").exists(), f"{script} has not run")
+        return red.notices(script, lambda directory: judge(Run(directory)), source,
+                           setup.out / f"red-{script}")
+    return case
 
 
 CASES = {
-    "errors": errors,
-    "flood": flood,
-    "duel": duel,
-    "tools": everyday_tools,
     "guest-time-limit": leftovers.time_limit,
     "guest-killed": leftovers.killed,
     "recording-tshark": tshark,
     "recording-asc": asc,
     "recording-canplayer": canplayer,
+    **{script: _guest_case(script) for script in SCRIPTS},
+    **{f"red-{script}": _red_case(script) for script in SCRIPTS},
 }

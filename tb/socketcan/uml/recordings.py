@@ -9,36 +9,37 @@ IDENTIFIERS = ((0x000, False), (0x123, False), (0x7FF, False),
                (0x00000000, True), (0x0ABCDEF1, True), (0x1FFFFFFF, True))
 
 
-def scenario(path, raw_dlc):
-    """Writes a scenario whose frames follow each other at known times; returns (start in us, frame).
-
-    Every DLC, data and remote, both formats; with raw_dlc also 9 to 15, which mean eight bytes.
-    """
+def every_frame(raw_dlc):
+    """[(start in us, frame)]: every DLC, data and remote, both formats; with raw_dlc also 9 to 15,
+    which mean eight bytes."""
     sent = []
-    lines = []
     for ident, extended in IDENTIFIERS:
         for dlc in range(16 if raw_dlc else 9):
             for remote in (False, True):
                 data = b"" if remote else bytes((ident + 17 * i + dlc) & 0xFF
                                                 for i in range(min(dlc, 8)))
-                offset = 400 * len(sent)
-                node = "a" if len(sent) % 2 else "b"
-                what = f"remote: true, dlc: {dlc}" if remote else (
-                    f"dlc: {dlc}" + (f", data: \"{data.hex(' ')}\"" if data else ""))
-                lines.append(f"  - {{node: {node}, name: m{len(sent)}, id: {ident:#x}, "
-                             f"extended: {str(extended).lower()}, {what}, count: 1, "
-                             f"offset: {offset} us}}")
-                sent.append((offset, Frame(ident, extended, remote, dlc, data)))
-    duration = 400 * len(sent)
-    path.write_text(f"name: every kind of frame\nbitrate: 1M\nduration: {duration} us\n"
-                    "nodes:\n  - {name: a}\n  - {name: b}\n"
-                    f"traffic:\n" + "\n".join(lines) + "\n")
+                sent.append((400 * len(sent), Frame(ident, extended, remote, dlc, data)))
     return sent
+
+
+def scenario(sent):
+    """A scenario in which two nodes in turn send these frames at these times."""
+    lines = []
+    for number, (offset, frame) in enumerate(sent):
+        kind = "remote: true, " if frame.remote else ""
+        data = f"data: \"{frame.data.hex(' ')}\", " if frame.data else ""
+        lines.append(f"  - {{node: {'ab'[number % 2]}, name: m{number}, id: {frame.ident:#x}, "
+                     f"extended: {str(frame.extended).lower()}, {kind}dlc: {frame.dlc}, {data}"
+                     f"count: 1, offset: {offset} us}}\n")
+    return ("name: every kind of frame\nbitrate: 1M\n"
+            f"duration: {400 * len(sent)} us\n"
+            "nodes:\n  - {name: a}\n  - {name: b}\ntraffic:\n" + "".join(lines))
 
 
 def record(verican, directory, raw_dlc):
     """Runs the scenario; returns the frames that it asks for. Leaves bus.log and bus.pcap."""
-    sent = scenario(directory / "every-frame.yaml", raw_dlc)
+    sent = every_frame(raw_dlc)
+    (directory / "every-frame.yaml").write_text(scenario(sent))
     subprocess.run([str(verican), "run", str(directory / "every-frame.yaml"), "--candump",
                     str(directory / "bus.log"), "--pcap", str(directory / "bus.pcap")],
                    check=True, stdout=subprocess.DEVNULL)
