@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 namespace vericansim {
 
@@ -31,7 +32,9 @@ NodeId CanBus::attach(VericanTlm &node, const Link &link) {
     loose_.push_back(&node);
     return kernel_.add(node.node(), link);
   }
-  const NodeId id = add_pins(node.basename(), link);
+  std::string pins = node.name();
+  std::replace(pins.begin(), pins.end(), '.', '_');
+  const NodeId id = add_pins(pins, link);
   node.can_tx.bind(nodes_[id].pins->tx);
   node.can_rx.bind(nodes_[id].pins->rx);
   return id;
