@@ -150,6 +150,14 @@ void CanBus::run_to(const sc_core::sc_time &time) {
   announce();
 }
 
+bool CanBus::shared_with_others(const VericanTlm &node) const {
+  const sc_core::sc_time now = sc_core::sc_time_stamp();
+  return std::any_of(loose_.begin(), loose_.end(), [&](const VericanTlm *other) {
+    return other != &node && other->idle_from_ != sc_core::SC_ZERO_TIME &&
+           other->idle_from_ + quantum_ > now;
+  });
+}
+
 void CanBus::run_until_done(RtlNode &node, AhbMaster::Ticket ticket) {
   while (!node.ahb().done(ticket)) kernel_.step();
   announce();

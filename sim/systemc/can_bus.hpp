@@ -24,10 +24,12 @@ namespace vericansim {
 /// recessive (true) while nobody drives.
 ///
 /// A bus is either for pins, of cycle-exact modules and anything else that has pins; or for loosely
-/// timed modules, whose clocks it then runs itself: exactly to the clock among each other, but
-/// not in step with SystemC. The bus is behind SystemC's time by at most one quantum, and ahead of
-/// it as far as the local time of an initiator that accesses a module. An access to a module of a
-/// bus that is ahead already takes place then: late by at most the quantum of the initiators.
+/// timed modules, whose clocks it then runs itself: exactly to the clock among each other, but not
+/// in step with SystemC. The bus is behind SystemC's time by at most one quantum, and ahead of it
+/// as far as the local time of an initiator that accesses a module. An access to a module of a bus
+/// that is ahead already takes place then: late by at most the quantum of the initiators. Where
+/// several modules are accessed within a quantum, the initiators do not run ahead (b_transport
+/// waits), so that nobody is made late again and again.
 class CanBus : public sc_core::sc_module {
  public:
   /// The pins of a node, as signals.
@@ -99,6 +101,7 @@ class CanBus : public sc_core::sc_module {
   void announce();
   void run_to(const sc_core::sc_time &time);
   void catch_up() { run_to(sc_core::sc_time_stamp()); }
+  [[nodiscard]] bool shared_with_others(const VericanTlm &node) const;
   void run_until_done(RtlNode &node, AhbMaster::Ticket ticket);
   [[nodiscard]] sc_core::sc_time kernel_time() const { return to_sc_time(kernel_.now()); }
 

@@ -41,8 +41,9 @@ struct TlmConfig {
 /// one that meets a reset is TLM_GENERIC_ERROR_RESPONSE.
 ///
 /// b_transport: cycle-exact, it waits for the annotated delay and then for its transfers; those of
-/// several threads run in the order of their calls, back to back. Loosely timed, it never waits:
-/// the delay grows by the clocks that the transfers took. nb_transport_fw is converted to
+/// several threads run in the order of their calls, back to back. Loosely timed, the delay
+/// grows by the clocks that the transfers took, and it waits only, for the annotated delay, while
+/// another module of the bus is accessed too (within a quantum). nb_transport_fw is converted to
 /// b_transport by the socket (tlm_utils::simple_target_socket). transport_dbg reads the window of
 /// 8 KiB, of any length and alignment, as a read that began now would, and changes nothing: no
 /// buffer is locked, no time passes; writes serve 0 bytes. DMI is refused for the whole region.
@@ -112,7 +113,8 @@ class VericanTlm : public sc_core::sc_module {
 
   TlmConfig config_;
   std::unique_ptr<RtlNode> node_;
-  CanBus *bus_ = nullptr;  // loosely timed
+  CanBus *bus_ = nullptr;       // loosely timed
+  sc_core::sc_time idle_from_;  // ... the end of the last transfer, zero: none so far
   std::vector<std::unique_ptr<sc_core::sc_signal<bool>>> open_ends_;
   Settled rx_{true}, reset_n_{true}, stop_{false};
   bool stop_given_ = false;

@@ -7,6 +7,12 @@
 #include "node/registers.hpp"
 
 namespace vericansim {
+namespace {
+
+// From the end of the set-up to the first frame: all others are on the bus by then.
+constexpr unsigned kJoinClocks = 8000;
+
+}  // namespace
 
 // ---- The program
 
@@ -23,11 +29,12 @@ void DriverProgram::send_more() {
   while (queued_ < settings_.frames) {
     if (!have_next_) {
       next_ = {};
-      next_.flags = (random_() & 3) == 0 ? VERICAN_FRAME_EXTENDED : 0;
-      next_.id = random_() & (next_.flags != 0 ? 0x1FFFFFFCu : 0x7FCu);
+      next_.flags = (contents_() & 3) == 0 ? VERICAN_FRAME_EXTENDED : 0;
+      next_.id = contents_() & (next_.flags != 0 ? 0x1FFFFFFCu : 0x7FCu);
       next_.id |= settings_.number;
-      next_.dlc = static_cast<std::uint8_t>(random_() % 9);
-      for (unsigned i = 0; i < next_.dlc; ++i) next_.data[i] = static_cast<std::uint8_t>(random_());
+      next_.dlc = static_cast<std::uint8_t>(contents_() % 9);
+      for (unsigned i = 0; i < next_.dlc; ++i)
+        next_.data[i] = static_cast<std::uint8_t>(contents_());
       have_next_ = true;
     }
     if (verican_send(&device_, &next_, nullptr) != VERICAN_OK) return;
@@ -73,6 +80,7 @@ void DriverProgram::run() {
   result = verican_init(&device_, &config);
   if (result == VERICAN_OK) result = verican_start(&device_);
   if (result != VERICAN_OK) return;
+  processor_.wait_clocks(kJoinClocks);
   for (;;) {
     send_more();
     if (settings_.odd_accesses) odd_access();
@@ -114,6 +122,8 @@ void NodeProcessor::give_way(Wish wish) {
 
 Task<> NodeProcessor::drive() {
   for (;;) {
+    // An access ends while its clock edge is still being counted.
+    const unsigned uncounted = wish_ == Wish::kAccess ? 1 : 0;
     swapcontext(&outside_, &inside_);
     switch (wish_) {
       case Wish::kAccess:
@@ -122,7 +132,7 @@ Task<> NodeProcessor::drive() {
         result_ = co_await node_.ahb().access(transfers_->back());
         break;
       case Wish::kInterrupt: co_await node_.interrupt(); break;
-      case Wish::kClocks: co_await node_.delay(clocks_); break;
+      case Wish::kClocks: co_await node_.delay(clocks_ + uncounted); break;
       case Wish::kEnd: co_return;
     }
   }

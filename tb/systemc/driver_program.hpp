@@ -43,7 +43,10 @@ class DriverProgram {
   };
 
   DriverProgram(Processor &processor, const Settings &settings)
-      : processor_{processor}, settings_{settings}, random_{settings.seed} {}
+      : processor_{processor},
+        settings_{settings},
+        random_{settings.seed},
+        contents_{~settings.seed} {}
 
   [[nodiscard]] const verican_stats_t &stats() const { return device_.stats; }
   /// Never returns, unless the driver's set-up fails.
@@ -61,7 +64,8 @@ class DriverProgram {
 
   Processor &processor_;
   Settings settings_;
-  std::mt19937_64 random_;
+  std::mt19937_64 random_;    // accesses
+  std::mt19937_64 contents_;  // frames
   verican_t device_{};
   std::vector<verican_frame_t> ring_ = std::vector<verican_frame_t>(128);
   verican_frame_t next_{};

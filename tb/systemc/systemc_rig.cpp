@@ -141,11 +141,12 @@ std::uint32_t Master::peek32(std::uint32_t address) {
 
 // ---- Junction
 
-Junction::Junction(const sc_core::sc_module_name &name) : sc_core::sc_module{name} {
-  for (int i = 0; i < 4; ++i) {
+Junction::Junction(const sc_core::sc_module_name &name, unsigned inputs)
+    : sc_core::sc_module{name} {
+  for (unsigned i = 0; i < inputs; ++i) {
     inputs_.push_back(std::make_unique<tlm_utils::simple_target_socket_tagged<Junction>>(
         ("input" + std::to_string(i)).c_str()));
-    inputs_.back()->register_b_transport(this, &Junction::b_transport, i);
+    inputs_.back()->register_b_transport(this, &Junction::b_transport, static_cast<int>(i));
   }
 }
 

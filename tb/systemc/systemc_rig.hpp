@@ -77,7 +77,7 @@ class Master : public sc_core::sc_module {
 /// Passes the calls of several initiators on to one target.
 class Junction : public sc_core::sc_module {
  public:
-  explicit Junction(const sc_core::sc_module_name &name);
+  Junction(const sc_core::sc_module_name &name, unsigned inputs);
   tlm_utils::simple_target_socket_tagged<Junction> &input(unsigned number) {
     return *inputs_[number];
   }

@@ -4,39 +4,16 @@
 // Two modules on a CanBus: a frame by plain register accesses, in both modes; pins and lines.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <memory>
 #include <string>
 
-#include "node/bit_timing.hpp"
 #include "node/registers.hpp"
 #include "systemc/can_bus.hpp"
+#include "systemc/register_software.hpp"
 #include "systemc/systemc_rig.hpp"
 #include "systemc/verican_tlm.hpp"
 
 namespace vericansim {
 namespace {
-
-constexpr BitTiming kTiming{.prescaler = 1, .prop = 7, .ps1 = 4, .ps2 = 4, .sjw = 2};
-constexpr std::uint32_t kRun = reg::kMcrSrxDis | 63;  // MCR of a node on the bus, 64 buffers
-
-// The way of docs/integration.md, "Registers": up to the bus.
-void join(Master &cpu) {
-  cpu.write32(reg::kMcr, reg::kMcrFrz | reg::kMcrHalt | kRun);  // MDIS off
-  while ((cpu.read32(reg::kMcr) & reg::kMcrLpmAck) != 0) {
-  }
-  while ((cpu.read32(reg::kMcr) & reg::kMcrFrzAck) == 0) {
-  }
-  cpu.write32(reg::kCtrl, kTiming.ctrl_fields());
-  for (unsigned n = 0; n < 64; ++n) cpu.write32(reg::mb(n), 0);
-  cpu.write32(reg::kRxgmask, 0);
-  cpu.write32(reg::mb(0), reg::kCodeRxEmpty);
-  cpu.write32(reg::mb(8), reg::kCodeTxInactive);
-  cpu.write32(reg::kImask1, 0x101);
-  cpu.write32(reg::kMcr, kRun);
-  while ((cpu.read32(reg::kMcr) & reg::kMcrFrzAck) != 0) {
-  }
-}
 
 class Exchange : public ::testing::TestWithParam<TlmTiming> {};
 
@@ -56,9 +33,7 @@ TEST_P(Exchange, AFrameGoesFromModuleToModule) {
     Master sender("sender", [&](Master &cpu) {
       join(cpu);
       cpu.pause(sc_core::sc_time(300, sc_core::SC_US));
-      cpu.write32(reg::mb(8, 1), 0x123u << 18);
-      cpu.write32(reg::mb(8, 2), 0xCAFE0000);
-      cpu.write32(reg::mb(8), reg::kCodeTxData | (2u << 16));
+      send_plain(cpu, 0x123, 0xCAFE);
       cpu.sync();
       while (!irq_a.read()) cpu.wait(irq_a.posedge_event());
       EXPECT_EQ(cpu.read32(reg::kIflag1), 0x100u);
