@@ -213,7 +213,7 @@ class Debugger : public sc_core::sc_module {
           target->socket.get_base_export().get_interface());
       EXPECT_EQ(socket->transport_dbg(payload), kSocketWindow);
     }
-    next_trigger(sc_core::sc_time(913'007, sc_core::SC_NS));
+    next_trigger(sc_core::sc_time(3'013'007, sc_core::SC_NS));
   }
   std::vector<VericanTlm *> targets_;
 };

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <ostream>
 #include <random>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ struct Refusal {
   Bytes enables;
   tlm::tlm_response_status status;
 };
+
+void PrintTo(const Refusal &refusal, std::ostream *out) { *out << refusal.name; }
 
 class Refused : public ::testing::TestWithParam<Refusal> {};
 
