@@ -125,11 +125,11 @@ test('the keyboard does it all', async () => {
   await page.keyboard.press('?');
   assert.ok(await page.isVisible('dialog.help'));
   await page.keyboard.press('Escape');
+  await page.waitForSelector('dialog.help', {state: 'hidden'});
   await page.keyboard.press('/');
+  await page.waitForSelector('#search:focus');
   await page.keyboard.type('333');
   await page.waitForFunction(() => document.querySelector('.found').textContent.startsWith('1 of 10'));
-  await page.keyboard.press('Tab');
-  await page.keyboard.press('Tab');
   await page.focus('#panel-frames .table');
   await page.keyboard.press('End');
   assert.deepEqual((await viewOf(page)).selection, {kind: 'frame', index: log.length - 1});

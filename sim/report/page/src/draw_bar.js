@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The decoded bar: ruler, frames, fields, bits, quanta.
-import {F, bitTitle, fieldColor, fieldName, errorKinds} from './fields.js';
+import {F, bitTitle, fieldColor, fieldName, errorKinds, kSingle} from './fields.js';
 import {formatTime, hex, niceStep} from './format.js';
 import {kNobody} from './report.js';
 
@@ -163,7 +163,7 @@ function drawBits(p, scale, lane) {
     const level = String(lane.sampled(i));
     const title = lane.stuff(i) ? 'stuff bit' : bitTitle(lane.field(i), lane.place(i));
     const text = p.fit([`${title} = ${level}`, level], (a + b) / 2, y + h / 2, width, {size: 11});
-    if (text === level && width > 30 && !lane.stuff(i)) {
+    if (text === level && width > 30 && !lane.stuff(i) && !kSingle.has(lane.field(i))) {
       p.text(String(lane.number(i)), a + 3, y + h / 2, {size: 9, color: 'dim'});
     }
     p.note('bit', {bit: i, field: fieldName(lane.field(i)), level: lane.sampled(i),

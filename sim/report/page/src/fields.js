@@ -67,7 +67,7 @@ export function bitNumber(field, index) {
   }
 }
 
-const kSingle = new Set([F.SOF, F.RTR, F.IDE, F.EXRTR, F.R1, F.R0, F.CRC_DEL, F.ACK, F.ACK_DEL]);
+export const kSingle = new Set([F.SOF, F.RTR, F.IDE, F.EXRTR, F.R1, F.R0, F.CRC_DEL, F.ACK, F.ACK_DEL]);
 
 /** The bit in words: "CRC 14", "ACK", "data byte 2 bit 7". */
 export function bitTitle(field, index) {
