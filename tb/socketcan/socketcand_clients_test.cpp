@@ -198,6 +198,26 @@ TEST_F(SocketcandClients, AHalfClosedClientIsAnsweredAndClosed) {
   EXPECT_EQ(bench_.sent.size(), 1U);
 }
 
+TEST_F(SocketcandClients, JobsEndWithTheirClientThoughItsFramesStillWait) {
+  SocketcandTestClient client(bench_.port());
+  ASSERT_TRUE(bench_.send(client, "< open can0 >< add 0 1000 001 0 >< echo >"));
+  ASSERT_TRUE(bench_.expect(client, "< echo >"));
+  bench_.room = 0;
+  const auto before = bench_.sent.size();
+  ASSERT_TRUE(bench_.send(client, "< send 002 0 >< send 003 0 >"));
+  client.half_close();
+  for (int i = 0; i < 20; ++i) bench_.step();
+  bench_.now += 50 * kMillisecond;
+  bench_.room = SIZE_MAX;
+  ASSERT_TRUE(bench_.until([&] {
+    client.read();
+    return client.closed();
+  }));
+  ASSERT_EQ(bench_.sent.size(), before + 2);
+  EXPECT_EQ(bench_.sent[before].message.frame.can_id, 2U);
+  EXPECT_EQ(bench_.sent[before + 1].message.frame.can_id, 3U);
+}
+
 TEST_F(SocketcandClients, FinishDeliversWhatIsQueued) {
   auto client = bench_.raw_client();
   for (int i = 0; i < 1000; ++i) bench_.frame_from_bus(0x123, {1, 2, 3});

@@ -17,6 +17,8 @@ using ::testing::Not;
 SocketcandLimits no_pause() {
   SocketcandLimits limits;
   limits.raw_pause = std::chrono::milliseconds(0);
+  // Nothing may depend on clients being thrown out after a while.
+  limits.farewell = std::chrono::hours(1);
   return limits;
 }
 
