@@ -15,22 +15,27 @@ const given = process.env.VERICAN_CHROMIUM ?? '';
 const chromiumPath = existsSync(given) ? given : '/usr/bin/chromium';
 export const outDir = process.env.VERICAN_OUT;
 export const template = process.env.VERICAN_REPORT_PAGE;
-const patience = 120000;  // for slow machines
+const patience = 120000; // for slow machines
 
 if (!existsSync(chromiumPath)) {
   console.log(`skipped: ${chromiumPath} is not there (Debian package chromium)`);
   process.exit(77);
 }
 mkdirSync(outDir, {recursive: true});
-const {chromium} = createRequire(join(process.env.VERICAN_REPORT_MODULES, 'x.js'))('playwright-core');
+const {chromium} = createRequire(join(process.env.VERICAN_REPORT_MODULES, 'x.js'))(
+  'playwright-core',
+);
 
 let browser = null;
 
 /** One browser for all tests of a file. */
 export async function openBrowser() {
   const root = process.getuid() === 0 ? ['--no-sandbox'] : [];
-  browser = await chromium.launch({executablePath: chromiumPath, timeout: patience,
-                                   args: [...root, '--disable-dev-shm-usage', '--disable-gpu']});
+  browser = await chromium.launch({
+    executablePath: chromiumPath,
+    timeout: patience,
+    args: [...root, '--disable-dev-shm-usage', '--disable-gpu'],
+  });
 }
 
 export const closeBrowser = () => browser.close();
@@ -47,14 +52,17 @@ export function writeScene(name, {meta, columns}, change = (packed) => packed) {
  * and exceptions), requests (addresses).
  */
 export async function openReport(path, {hash = '', width = 1280, height = 720, dark = false} = {}) {
-  const context = await browser.newContext({viewport: {width, height}, colorScheme: dark ? 'dark' : 'light',
-                                            reducedMotion: 'reduce'});
+  const context = await browser.newContext({
+    viewport: {width, height},
+    colorScheme: dark ? 'dark' : 'light',
+    reducedMotion: 'reduce',
+  });
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
   page.problems = [];
   page.requests = [];
   page.on('console', (message) => {
-    const ours = message.text().includes('getImageData');  // pixel() below, not the page
+    const ours = message.text().includes('getImageData'); // pixel() below, not the page
     if (['error', 'warning'].includes(message.type()) && !ours) page.problems.push(message.text());
   });
   page.on('pageerror', (error) => page.problems.push(error.stack));
@@ -67,7 +75,9 @@ export async function openReport(path, {hash = '', width = 1280, height = 720, d
 /** Ends a page; nothing went wrong in it and it asked for nothing but itself. */
 export async function closeReport(page) {
   assert.deepEqual(page.problems, []);
-  const others = page.requests.filter((url) => !url.startsWith('file:') && !url.startsWith('data:'));
+  const others = page.requests.filter(
+    (url) => !url.startsWith('file:') && !url.startsWith('data:'),
+  );
   assert.deepEqual(others, [], 'no request leaves the file');
   assert.equal(page.requests.filter((url) => url.startsWith('file:')).length, 1);
   await page.context().close();
@@ -76,28 +86,46 @@ export async function closeReport(page) {
 /** What the scope shows: {from, to, mode, items...}. */
 export const inspect = (page) => page.evaluate(() => window.verican.inspect());
 export const itemsOf = (picture, kind) => picture.items.filter((item) => item.kind === kind);
-export const setView = (page, from, to) => page.evaluate(([a, b]) => window.verican.view.set(a, b), [from, to]);
-export const viewOf = (page) => page.evaluate(() => ({
-  from: window.verican.view.from, to: window.verican.view.to, selection: window.verican.view.selection,
-}));
+export const setView = (page, from, to) =>
+  page.evaluate(([a, b]) => window.verican.view.set(a, b), [from, to]);
+export const viewOf = (page) =>
+  page.evaluate(() => ({
+    from: window.verican.view.from,
+    to: window.verican.view.to,
+    selection: window.verican.view.selection,
+  }));
 
 /** Texts of the rows in sight, by columns. */
-export const rowsOf = (page, panel) => page.$$eval(`#panel-${panel} .rows .row`, (rows) =>
-  rows.map((row) => [...row.children].map((cell) => cell.textContent)));
+export const rowsOf = (page, panel) =>
+  page.$$eval(`#panel-${panel} .rows .row`, (rows) =>
+    rows.map((row) => [...row.children].map((cell) => cell.textContent)),
+  );
 
 /** Colour of a point of a canvas: [r, g, b], x and y in CSS pixels. */
-export const pixel = (page, canvas, x, y) => page.$eval(canvas, (element, [px, py]) => {
-  const scale = window.devicePixelRatio;
-  return [...element.getContext('2d').getImageData(px * scale, py * scale, 1, 1).data].slice(0, 3);
-}, [x, y]);
+export const pixel = (page, canvas, x, y) =>
+  page.$eval(
+    canvas,
+    (element, [px, py]) => {
+      const scale = window.devicePixelRatio;
+      return [...element.getContext('2d').getImageData(px * scale, py * scale, 1, 1).data].slice(
+        0,
+        3,
+      );
+    },
+    [x, y],
+  );
 
 /** A colour of the style sheet: [r, g, b]. */
 export async function cssColor(page, name) {
-  const text = await page.evaluate((n) => getComputedStyle(document.documentElement).getPropertyValue(`--${n}`).trim(), name);
+  const text = await page.evaluate(
+    (n) => getComputedStyle(document.documentElement).getPropertyValue(`--${n}`).trim(),
+    name,
+  );
   return [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16));
 }
 
-export const blend = (color, ground, alpha) => color.map((c, i) => c * alpha + ground[i] * (1 - alpha));
+export const blend = (color, ground, alpha) =>
+  color.map((c, i) => c * alpha + ground[i] * (1 - alpha));
 
 export function assertColor(seen, wanted, text) {
   const near = seen.every((c, i) => Math.abs(c - wanted[i]) <= 8);

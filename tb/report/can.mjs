@@ -5,8 +5,25 @@
 
 /** Numbers of the fields in a report (docs/report-format.md). */
 export const F = {
-  INT: 3, SOF: 8, ID: 9, RTR: 10, IDE: 11, EXID: 12, EXRTR: 13, R1: 16, R0: 17, DLC: 18, DATA: 19,
-  CRC: 20, CRC_DEL: 24, ACK: 25, ACK_DEL: 26, EOF: 27, ERROR_FLAG: 28, DEL_WAIT: 29, DEL: 30,
+  INT: 3,
+  SOF: 8,
+  ID: 9,
+  RTR: 10,
+  IDE: 11,
+  EXID: 12,
+  EXRTR: 13,
+  R1: 16,
+  R0: 17,
+  DLC: 18,
+  DATA: 19,
+  CRC: 20,
+  CRC_DEL: 24,
+  ACK: 25,
+  ACK_DEL: 26,
+  EOF: 27,
+  ERROR_FLAG: 28,
+  DEL_WAIT: 29,
+  DEL: 30,
   OVERLOAD_FLAG: 31,
 };
 
@@ -19,7 +36,10 @@ export function crc(bits) {
   const polynomial = [1, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1];
   const work = [...bits, ...new Array(15).fill(0)];
   for (let i = 0; i < bits.length; ++i) {
-    if (work[i]) polynomial.forEach((p, j) => { work[i + j] ^= p; });
+    if (work[i])
+      polynomial.forEach((p, j) => {
+        work[i + j] ^= p;
+      });
   }
   return work.slice(-15).reduce((value, bit) => 2 * value + bit, 0);
 }
@@ -46,7 +66,7 @@ export function plainBits({id, extended = false, remote = false, dlc, data = []}
 /** The frame as it goes out, up to EOF: a stuff bit belongs to the field of the bit that was due. */
 export function encode(frame) {
   const plain = plainBits(frame);
-  plain.push({field: F.CRC_DEL, level: 1});  // only to take up a last stuff bit
+  plain.push({field: F.CRC_DEL, level: 1}); // only to take up a last stuff bit
   const bits = [];
   let run = 0;
   let last = -1;
@@ -61,8 +81,11 @@ export function encode(frame) {
     run = bit.level === last ? run + 1 : 1;
     last = bit.level;
   }
-  bits.push({field: F.CRC_DEL, level: 1, stuff: false}, {field: F.ACK, level: 1, stuff: false},
-            {field: F.ACK_DEL, level: 1, stuff: false});
+  bits.push(
+    {field: F.CRC_DEL, level: 1, stuff: false},
+    {field: F.ACK, level: 1, stuff: false},
+    {field: F.ACK_DEL, level: 1, stuff: false},
+  );
   for (let i = 0; i < 7; ++i) bits.push({field: F.EOF, level: 1, stuff: false});
   return bits;
 }

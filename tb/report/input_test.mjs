@@ -5,8 +5,20 @@
 import assert from 'node:assert/strict';
 import {after, before, test} from 'node:test';
 import {
-  assertColor, closeBrowser, closeReport, cssColor, inspect, itemsOf, openBrowser, openReport, pixel, rowsOf, screenshot,
-  setView, viewOf, writeScene,
+  assertColor,
+  closeBrowser,
+  closeReport,
+  cssColor,
+  inspect,
+  itemsOf,
+  openBrowser,
+  openReport,
+  pixel,
+  rowsOf,
+  screenshot,
+  setView,
+  viewOf,
+  writeScene,
 } from './browser.mjs';
 import {smallScene} from './scenes.mjs';
 
@@ -19,14 +31,19 @@ before(async () => {
 });
 after(closeBrowser);
 
-const near = (a, b, tolerance, text) => assert.ok(Math.abs(a - b) <= tolerance, `${text}: ${a}, wanted ${b}`);
+const near = (a, b, tolerance, text) =>
+  assert.ok(Math.abs(a - b) <= tolerance, `${text}: ${a}, wanted ${b}`);
 
 /** Box of the upper canvas on the screen, and the time under a point of it. */
 async function scopeBox(page) {
   const {left, width} = await inspect(page);
   const {from, to} = await viewOf(page);
-  return {left, plot: width - left, time: (x) => from + ((x - left) * (to - from)) / (width - left),
-          x: (ns) => left + ((ns - from) * (width - left)) / (to - from)};
+  return {
+    left,
+    plot: width - left,
+    time: (x) => from + ((x - left) * (to - from)) / (width - left),
+    x: (ns) => left + ((ns - from) * (width - left)) / (to - from),
+  };
 }
 
 test('the wheel zooms at the pointer, from the whole run to a single quantum', async () => {
@@ -43,14 +60,22 @@ test('the wheel zooms at the pointer, from the whole run to a single quantum', a
     await page.mouse.wheel(0, -200);
     await page.waitForFunction((span) => window.verican.view.span < span, b - a);
     const after = await scopeBox(page);
-    near(after.time(x), under, 0.01 * bit + 0.002 * (after.time(after.left + after.plot) - after.time(after.left)), 'time under the pointer');
+    near(
+      after.time(x),
+      under,
+      0.01 * bit + 0.002 * (after.time(after.left + after.plot) - after.time(after.left)),
+      'time under the pointer',
+    );
     const picture = await inspect(page);
     modes.add(picture.mode);
     if (picture.to - picture.from < 0.2 * bit) break;
   }
   assert.deepEqual([...modes], ['fields', 'bits', 'quanta']);
   const {from, to} = await viewOf(page);
-  assert.ok(to - from < 0.2 * bit && from < target && target < to, 'less than two quanta, and the place is in sight');
+  assert.ok(
+    to - from < 0.2 * bit && from < target && target < to,
+    'less than two quanta, and the place is in sight',
+  );
   await screenshot(page, 'input-quantum');
   await closeReport(page);
 });
@@ -70,7 +95,12 @@ test('dragging moves the view by as much as the pointer went; a box zooms to it'
   };
   await drag(700, 500);
   const after = await viewOf(page);
-  near(after.from, before.from + (200 * (before.to - before.from)) / box.plot, 0.01 * bit, 'view after a drag');
+  near(
+    after.from,
+    before.from + (200 * (before.to - before.from)) / box.plot,
+    0.01 * bit,
+    'view after a drag',
+  );
   near(after.to - after.from, before.to - before.from, 1, 'same scale');
   const again = await scopeBox(page);
   const [a, b] = [again.time(400), again.time(600)];
@@ -88,7 +118,11 @@ test('a row of the table moves the view; a click in the picture marks its row', 
   await page.click('#panel-frames .row:has-text("DE AD BE EF")');
   const frame = log.find(({id}) => id === 0x2aa);
   let view = await viewOf(page);
-  assert.ok(view.from < frame.time && view.to > frame.end && view.to - view.from < 1.5 * (frame.end - frame.time));
+  assert.ok(
+    view.from < frame.time &&
+      view.to > frame.end &&
+      view.to - view.from < 1.5 * (frame.end - frame.time),
+  );
   assert.deepEqual(view.selection, {kind: 'frame', index: log.indexOf(frame)});
   await page.keyboard.press('0');
   const box = await scopeBox(page);
@@ -96,7 +130,12 @@ test('a row of the table moves the view; a click in the picture marks its row', 
   await page.click('.scope-top', {position: {x: box.x((other.time + other.end) / 2), y: 60}});
   view = await viewOf(page);
   assert.deepEqual(view.selection, {kind: 'frame', index: 1});
-  assert.deepEqual(await page.$$eval('#panel-frames .row.current', (rows) => rows.map((row) => row.children[1].textContent)), ['00A']);
+  assert.deepEqual(
+    await page.$$eval('#panel-frames .row.current', (rows) =>
+      rows.map((row) => row.children[1].textContent),
+    ),
+    ['00A'],
+  );
   assert.match(await page.textContent('.details'), /Frame 00A/);
   assert.equal(itemsOf(await inspect(page), 'selection').length, 2, 'marked in both pictures');
   await closeReport(page);
@@ -129,7 +168,9 @@ test('the keyboard does it all', async () => {
   await page.keyboard.press('/');
   await page.waitForSelector('#search:focus');
   await page.keyboard.type('333');
-  await page.waitForFunction(() => document.querySelector('.found').textContent.startsWith('1 of 10'));
+  await page.waitForFunction(() =>
+    document.querySelector('.found').textContent.startsWith('1 of 10'),
+  );
   await page.focus('#panel-frames .table');
   await page.keyboard.press('End');
   assert.deepEqual((await viewOf(page)).selection, {kind: 'frame', index: log.length - 1});
@@ -164,7 +205,12 @@ test('the overview moves the view', async () => {
   await page.mouse.click(outer.x + 118 + 0.75 * (outer.width - 118), outer.y + 20);
   const view = await viewOf(page);
   const limits = await page.evaluate(() => [window.verican.view.least, window.verican.view.most]);
-  near((view.from + view.to) / 2, limits[0] + 0.75 * (limits[1] - limits[0]), 2 * bit, 'middle of the view');
+  near(
+    (view.from + view.to) / 2,
+    limits[0] + 0.75 * (limits[1] - limits[0]),
+    2 * bit,
+    'middle of the view',
+  );
   await closeReport(page);
 });
 
@@ -194,7 +240,12 @@ test('dark screens get dark pictures', async () => {
 });
 
 test('text of a scenario stays text', async () => {
-  const page = await openReport(writeScene('hostile', smallScene({title: '</script><img src=x onerror=alert(1)>', note: '<i>note</i>'})));
+  const page = await openReport(
+    writeScene(
+      'hostile',
+      smallScene({title: '</script><img src=x onerror=alert(1)>', note: '<i>note</i>'}),
+    ),
+  );
   assert.equal(await page.textContent('h1'), '</script><img src=x onerror=alert(1)>');
   assert.equal(await page.$$eval('#app img, #app .note i', (found) => found.length), 0);
   await page.fill('#search', 'door <b>');
@@ -204,16 +255,42 @@ test('text of a scenario stays text', async () => {
 });
 
 const spoiled = {
-  'not base64': [(p) => ({...p, text: `${p.text.slice(0, 100)}!${p.text.slice(101)}`}), /not base64/],
-  'cut short': [(p) => ({...p, text: p.text.slice(0, Math.floor(p.text.length / 8) * 4)}), /damaged|ends early/],
-  'one bit wrong': [(p) => ({...p, text: p.text.replace(/^(.{200})(.)/, (_, head, c) => head + (c === 'A' ? 'B' : 'A'))}), /damaged/],
-  'another format': [(p) => ({...p, meta: {...p.meta, format: 7}}), /format 7; this page reads format 1/],
-  'an array missing': [(p) => ({...p, meta: {...p.meta, arrays: p.meta.arrays.filter(({name}) => name !== 'f.dlc')}}), /no array f\.dlc/],
-  'longer than it is': [(p) => ({...p, meta: {...p.meta, arrays: p.meta.arrays.map((a) => ({...a, length: a.length + 1e5}))}}), /ends early/],
+  'not base64': [
+    (p) => ({...p, text: `${p.text.slice(0, 100)}!${p.text.slice(101)}`}),
+    /not base64/,
+  ],
+  'cut short': [
+    (p) => ({...p, text: p.text.slice(0, Math.floor(p.text.length / 8) * 4)}),
+    /damaged|ends early/,
+  ],
+  'one bit wrong': [
+    (p) => ({
+      ...p,
+      text: p.text.replace(/^(.{200})(.)/, (_, head, c) => head + (c === 'A' ? 'B' : 'A')),
+    }),
+    /damaged/,
+  ],
+  'another format': [
+    (p) => ({...p, meta: {...p.meta, format: 7}}),
+    /format 7; this page reads format 1/,
+  ],
+  'an array missing': [
+    (p) => ({...p, meta: {...p.meta, arrays: p.meta.arrays.filter(({name}) => name !== 'f.dlc')}}),
+    /no array f\.dlc/,
+  ],
+  'longer than it is': [
+    (p) => ({
+      ...p,
+      meta: {...p.meta, arrays: p.meta.arrays.map((a) => ({...a, length: a.length + 1e5}))},
+    }),
+    /ends early/,
+  ],
 };
 for (const [name, [change, message]] of Object.entries(spoiled)) {
   test(`a damaged file says so: ${name}`, async () => {
-    const page = await openReport(writeScene(`spoiled-${name.replaceAll(' ', '-')}`, small, change));
+    const page = await openReport(
+      writeScene(`spoiled-${name.replaceAll(' ', '-')}`, small, change),
+    );
     assert.match(await page.textContent('[role=alert]'), message);
     await closeReport(page);
   });
@@ -228,7 +305,9 @@ test('a page without a report says so', async () => {
 test('a browser that cannot decompress says so', async () => {
   const page = await openReport(file);
   const context = page.context();
-  await context.addInitScript(() => { delete globalThis.DecompressionStream; });
+  await context.addInitScript(() => {
+    delete globalThis.DecompressionStream;
+  });
   await page.reload();
   await page.waitForFunction(() => document.documentElement.dataset.ready);
   assert.match(await page.textContent('[role=alert]'), /cannot decompress/);

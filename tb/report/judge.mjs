@@ -34,7 +34,9 @@ export function expectedFields(frame) {
 /** Expected levels and stuff marks of the bits of a frame, up to the end of EOF. */
 export function expectedBits(frame) {
   return encode(frame).map(({field, level, stuff}) => ({
-    field: kNames[field], level: field === F.ACK ? 0 : level, stuff,
+    field: kNames[field],
+    level: field === F.ACK ? 0 : level,
+    stuff,
   }));
 }
 
@@ -45,11 +47,19 @@ export async function judgeFrame(page, frame, start, end) {
   const room = 0.01 * (end - start);
   await setView(page, start - room, end + room);
   const picture = await inspect(page);
-  assert.ok(['fields', 'bits', 'quanta'].includes(picture.mode), `fields are shown: ${picture.mode}`);
+  assert.ok(
+    ['fields', 'bits', 'quanta'].includes(picture.mode),
+    `fields are shown: ${picture.mode}`,
+  );
   const scale = (picture.width - picture.left) / (picture.to - picture.from);
   const x = (ns) => picture.left + (ns - picture.from) * scale;
-  const fields = itemsOf(picture, 'field').filter((f) => !f.own && centre(f) > x(start) && centre(f) < x(end));
-  assert.deepEqual(fields.map(({field, value}) => [field, value]), expectedFields(frame));
+  const fields = itemsOf(picture, 'field').filter(
+    (f) => !f.own && centre(f) > x(start) && centre(f) < x(end),
+  );
+  assert.deepEqual(
+    fields.map(({field, value}) => [field, value]),
+    expectedFields(frame),
+  );
   await judgeBits(page, frame, start, end);
 }
 
@@ -62,13 +72,17 @@ async function judgeBits(page, frame, start, end) {
     await setView(page, start + (first - 2) * bit, start + (first + 28) * bit);
     const picture = await inspect(page);
     for (const item of itemsOf(picture, 'bit')) {
-      const time = picture.from + ((centre(item) - picture.left) * (picture.to - picture.from)) / (picture.width - picture.left);
+      const time =
+        picture.from +
+        ((centre(item) - picture.left) * (picture.to - picture.from)) /
+          (picture.width - picture.left);
       const whole = item.x1 - item.x0 > 0.7 * ((picture.width - picture.left) / 30);
       const index = Math.floor((time - start) / bit);
       if (whole && index >= 0 && index < bits.length) seen.set(index, item);
     }
   }
-  const list = bits.map((_, i) => seen.get(i)).map((item) =>
-    item && {field: item.field, level: item.level, stuff: item.stuff});
+  const list = bits
+    .map((_, i) => seen.get(i))
+    .map((item) => item && {field: item.field, level: item.level, stuff: item.stuff});
   assert.deepEqual(list, bits);
 }

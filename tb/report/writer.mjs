@@ -6,7 +6,12 @@ import {deflateSync} from 'node:zlib';
 import {readFileSync, writeFileSync} from 'node:fs';
 
 const kTypes = {
-  u8: Uint8Array, i8: Int8Array, u16: Uint16Array, i16: Int16Array, u32: Uint32Array, f64: Float64Array,
+  u8: Uint8Array,
+  i8: Int8Array,
+  u16: Uint16Array,
+  i16: Int16Array,
+  u32: Uint32Array,
+  f64: Float64Array,
 };
 
 /** A list of numbers that grows into a typed array. */
@@ -29,15 +34,48 @@ export class Column {
 
 /** Names and types of all arrays but the edges. */
 export const kColumns = {
-  'f.start': 'f64', 'f.end': 'f64', 'f.sender': 'u8', 'f.id': 'u32', 'f.dlc': 'u8', 'f.data': 'u8',
-  'f.segment': 'u32', 'f.message': 'i16', 'f.response': 'f64', 'f.retries': 'u16', 'f.lost': 'u16',
-  'e.kind': 'u8', 'e.start': 'f64', 'e.end': 'f64', 'e.node': 'u8', 'e.error': 'u8', 'e.field': 'u8',
-  'e.index': 'u8', 'e.segment': 'u32', 'e.cause': 'u16',
-  'l.time': 'f64', 'l.node': 'u8', 'l.field': 'u8', 'l.index': 'u8', 'l.segment': 'u32', 'l.winner': 'u8',
-  'c.time': 'f64', 'c.node': 'u8', 'c.tec': 'u16', 'c.rec': 'u16', 'c.state': 'u8',
-  's.start': 'f64', 's.end': 'f64', 's.lane': 'u32', 's.lanes': 'u8',
-  'b.node': 'u8', 'b.start': 'f64', 'b.tq': 'f64', 'b.first': 'u32', 'b.count': 'u32',
-  bit: 'u8', 'bit.q': 'i8',
+  'f.start': 'f64',
+  'f.end': 'f64',
+  'f.sender': 'u8',
+  'f.id': 'u32',
+  'f.dlc': 'u8',
+  'f.data': 'u8',
+  'f.segment': 'u32',
+  'f.message': 'i16',
+  'f.response': 'f64',
+  'f.retries': 'u16',
+  'f.lost': 'u16',
+  'e.kind': 'u8',
+  'e.start': 'f64',
+  'e.end': 'f64',
+  'e.node': 'u8',
+  'e.error': 'u8',
+  'e.field': 'u8',
+  'e.index': 'u8',
+  'e.segment': 'u32',
+  'e.cause': 'u16',
+  'l.time': 'f64',
+  'l.node': 'u8',
+  'l.field': 'u8',
+  'l.index': 'u8',
+  'l.segment': 'u32',
+  'l.winner': 'u8',
+  'c.time': 'f64',
+  'c.node': 'u8',
+  'c.tec': 'u16',
+  'c.rec': 'u16',
+  'c.state': 'u8',
+  's.start': 'f64',
+  's.end': 'f64',
+  's.lane': 'u32',
+  's.lanes': 'u8',
+  'b.node': 'u8',
+  'b.start': 'f64',
+  'b.tq': 'f64',
+  'b.first': 'u32',
+  'b.count': 'u32',
+  bit: 'u8',
+  'bit.q': 'i8',
 };
 
 /** {meta, text}: the description with its list of arrays, and the data as base64. */
@@ -60,7 +98,13 @@ export function pack(meta, columns) {
 export function writeReport(template, out, {meta, text}) {
   const json = JSON.stringify(meta).replaceAll('<', '\\u003c');
   const page = readFileSync(template, 'utf8')
-    .replace('<!--VERICAN-META-->', () => `<script type="application/json" id="verican-meta">${json}</script>`)
-    .replace('<!--VERICAN-DATA-->', () => `<script type="text/plain" id="verican-data">${text}</script>`);
+    .replace(
+      '<!--VERICAN-META-->',
+      () => `<script type="application/json" id="verican-meta">${json}</script>`,
+    )
+    .replace(
+      '<!--VERICAN-DATA-->',
+      () => `<script type="text/plain" id="verican-data">${text}</script>`,
+    );
   writeFileSync(out, page);
 }

@@ -46,8 +46,9 @@ const fill = (text, mark, value) => {
 const script = bundle('main.js');
 const style = bundle('style.css');
 if (/<\/(script|style)/i.test(script + style)) throw new Error('an end tag in script or style');
-const policy = `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; ` +
-    `img-src data:; base-uri 'none'; form-action 'none'`;
+const policy =
+  `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; ` +
+  `img-src data:; base-uri 'none'; form-action 'none'`;
 const licence = readFileSync(join(modules, 'uplot', 'LICENSE'), 'utf8').trim();
 
 let page = readFileSync(join(here, 'src', 'page.html'), 'utf8');

@@ -7,8 +7,11 @@ import {lastAtOrBelow} from './search.js';
 /** Rows of one node: times rising, and the stretches of one state. */
 function nodeRows(counters, node, rows) {
   const out = {
-    time: new Float64Array(rows.length), tec: new Uint16Array(rows.length),
-    rec: new Uint16Array(rows.length), states: [], stateTimes: [],
+    time: new Float64Array(rows.length),
+    tec: new Uint16Array(rows.length),
+    rec: new Uint16Array(rows.length),
+    states: [],
+    stateTimes: [],
   };
   rows.forEach((row, i) => {
     out.time[i] = counters.time[row];
@@ -35,8 +38,11 @@ export class Counters {
     const rows = this.nodes[node];
     const i = lastAtOrBelow(rows.time, ns);
     const state = lastAtOrBelow(rows.stateTimes, ns);
-    return {tec: i < 0 ? 0 : rows.tec[i], rec: i < 0 ? 0 : rows.rec[i],
-            state: state < 0 ? 0 : rows.states[state].state};
+    return {
+      tec: i < 0 ? 0 : rows.tec[i],
+      rec: i < 0 ? 0 : rows.rec[i],
+      state: state < 0 ? 0 : rows.states[state].state,
+    };
   }
 
   /** Stretches of one state in a window: visit(from, to, state). */
@@ -44,7 +50,11 @@ export class Counters {
     const {states, stateTimes} = this.nodes[node];
     for (let i = Math.max(0, lastAtOrBelow(stateTimes, from)); i < states.length; ++i) {
       if (states[i].time > to) return;
-      visit(Math.max(from, states[i].time), Math.min(to, states[i + 1]?.time ?? to), states[i].state);
+      visit(
+        Math.max(from, states[i].time),
+        Math.min(to, states[i + 1]?.time ?? to),
+        states[i].state,
+      );
     }
   }
 }

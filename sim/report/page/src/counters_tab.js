@@ -8,18 +8,29 @@ import {lastAtOrBelow} from './search.js';
 import {colors, nodeColor} from './theme.js';
 import uPlot from 'uplot';
 
-const kStates = [['passive', 128, 255, 'error passive'], ['off', 256, 1e4, 'bus-off']];
+const kStates = [
+  ['passive', 128, 255, 'error passive'],
+  ['off', 256, 1e4, 'bus-off'],
+];
 
 /** Moments to plot: every change while there is room, else a grid that keeps the extremes. */
 function timesOf(report, from, to, columns) {
   const {nodes} = report.counters;
-  const ranges = nodes.map((rows) => [lastAtOrBelow(rows.time, from) + 1, lastAtOrBelow(rows.time, to)]);
+  const ranges = nodes.map((rows) => [
+    lastAtOrBelow(rows.time, from) + 1,
+    lastAtOrBelow(rows.time, to),
+  ]);
   const changes = ranges.reduce((sum, [a, b]) => sum + Math.max(0, b - a + 1), 0);
   if (changes > 2 * columns) {
-    return {grid: true, times: Array.from({length: columns + 1}, (_, i) => from + ((to - from) * i) / columns)};
+    return {
+      grid: true,
+      times: Array.from({length: columns + 1}, (_, i) => from + ((to - from) * i) / columns),
+    };
   }
   const times = new Set([from, to]);
-  ranges.forEach(([a, b], node) => { for (let i = a; i <= b; ++i) times.add(nodes[node].time[i]); });
+  ranges.forEach(([a, b], node) => {
+    for (let i = a; i <= b; ++i) times.add(nodes[node].time[i]);
+  });
   return {grid: false, times: [...times].sort((a, b) => a - b)};
 }
 
@@ -76,11 +87,22 @@ function drawStates(u, report, view) {
 export class CountersTab {
   constructor(report, view) {
     const host = el('div', {class: 'plot'});
-    const legend = el('div', {class: 'legend'},
-                      report.nodes.map(({name}, i) => el('span', {}, swatch(nodeColor(i)), name)),
-                      el('span', {class: 'dim', title: 'Transmit error counter: 8 more for each failed transmission, 1 less for each good one'}, '—— TEC'),
-                      el('span', {class: 'dim', title: 'Receive error counter'}, '- - - REC'),
-                      el('span', {class: 'dim'}, 'strips at the top: pale error passive, full bus-off'));
+    const legend = el(
+      'div',
+      {class: 'legend'},
+      report.nodes.map(({name}, i) => el('span', {}, swatch(nodeColor(i)), name)),
+      el(
+        'span',
+        {
+          class: 'dim',
+          title:
+            'Transmit error counter: 8 more for each failed transmission, 1 less for each good one',
+        },
+        '—— TEC',
+      ),
+      el('span', {class: 'dim', title: 'Receive error counter'}, '- - - REC'),
+      el('span', {class: 'dim'}, 'strips at the top: pale error passive, full bus-off'),
+    );
     this.root = el('div', {class: 'tab-body column'}, legend, host);
     this.plot = new Plot(host, report, view, {
       data: (from, to, columns) => {
@@ -92,8 +114,19 @@ export class CountersTab {
         label: 'error counter',
         scales: {y: {range: (u, min, max) => [0, Math.max(16, max * 1.3)]}},
         series: report.nodes.flatMap((_, i) => [
-          {stroke: nodeColor(i), width: 1.8, paths: uPlot.paths.stepped({align: 1}), points: {show: false}},
-          {stroke: nodeColor(i), width: 1.2, dash: [5, 4], paths: uPlot.paths.stepped({align: 1}), points: {show: false}},
+          {
+            stroke: nodeColor(i),
+            width: 1.8,
+            paths: uPlot.paths.stepped({align: 1}),
+            points: {show: false},
+          },
+          {
+            stroke: nodeColor(i),
+            width: 1.2,
+            dash: [5, 4],
+            paths: uPlot.paths.stepped({align: 1}),
+            points: {show: false},
+          },
         ]),
         hooks: {drawClear: [(u) => drawStates(u, report, view)]},
       }),

@@ -14,15 +14,22 @@ export function candumpLine(frame) {
   const id = hex(frame.id, frame.extended ? 8 : 3);
   const raw = frame.dlc > 8 ? `_${hex(frame.dlc, 1)}` : '';
   const length = Math.min(frame.dlc, 8);
-  const body = frame.remote ? `R${length > 0 || raw ? length : ''}${raw}`
-                            : [...frame.data].map((byte) => hex(byte, 2)).join('') + raw;
+  const body = frame.remote
+    ? `R${length > 0 || raw ? length : ''}${raw}`
+    : [...frame.data].map((byte) => hex(byte, 2)).join('') + raw;
   const micros = Math.round(frame.start / 1000);
   const seconds = `${Math.floor(micros / 1e6)}`.padStart(10, '0');
   return `(${seconds}.${String(micros % 1e6).padStart(6, '0')}) can0 ${id}#${body}`;
 }
 
-const lines = (pairs) => el('dl', {}, pairs.filter(Boolean).flatMap(([name, value, title]) =>
-  [el('dt', {title}, name), el('dd', {}, value)]));
+const lines = (pairs) =>
+  el(
+    'dl',
+    {},
+    pairs
+      .filter(Boolean)
+      .flatMap(([name, value, title]) => [el('dt', {title}, name), el('dd', {}, value)]),
+  );
 
 /** Nodes that drive the ACK slot dominant. */
 function acknowledgers(report, lane) {
@@ -33,25 +40,45 @@ function acknowledgers(report, lane) {
 }
 
 function nodeList(report, nodes) {
-  return nodes.length === 0 ? 'nobody' : el('span', {class: 'list'}, nodes.map((node) => nodeCell(report, node)));
+  return nodes.length === 0
+    ? 'nobody'
+    : el(
+        'span',
+        {class: 'list'},
+        nodes.map((node) => nodeCell(report, node)),
+      );
 }
 
 /** The fields as coloured pieces. */
 function fieldStrip(lane) {
-  return el('div', {class: 'strip'}, lane.groups.map((group) => {
-    const bits = [];
-    for (let i = group.first; i <= group.last; ++i) {
-      bits.push(el('i', {class: lane.stuff(i) ? 'stuff' : '', title: lane.stuff(i) ? 'stuff bit' : bitTitle(group.field, lane.place(i))},
-                   String(lane.sampled(i))));
-    }
-    const piece = el('span', {title: fieldText(group.field)}, el('b', {}, group.text ? `${group.label} ${group.text}` : group.label), el('code', {}, bits));
-    piece.style.setProperty('--field', `var(--${fieldColor(group.field)})`);
-    return piece;
-  }));
+  return el(
+    'div',
+    {class: 'strip'},
+    lane.groups.map((group) => {
+      const bits = [];
+      for (let i = group.first; i <= group.last; ++i) {
+        bits.push(
+          el(
+            'i',
+            {
+              class: lane.stuff(i) ? 'stuff' : '',
+              title: lane.stuff(i) ? 'stuff bit' : bitTitle(group.field, lane.place(i)),
+            },
+            String(lane.sampled(i)),
+          ),
+        );
+      }
+      const piece = el(
+        'span',
+        {title: fieldText(group.field)},
+        el('b', {}, group.text ? `${group.label} ${group.text}` : group.label),
+        el('code', {}, bits),
+      );
+      piece.style.setProperty('--field', `var(--${fieldColor(group.field)})`);
+      return piece;
+    }),
+  );
 }
-
-
-
 
 function crcText(decoded) {
   if (decoded.crc === null) return null;
@@ -66,23 +93,50 @@ function frameDetails(report, index, actions) {
   const acks = acknowledgers(report, lane);
   const bits = Math.round((frame.end - frame.start) / report.bitNs);
   return [
-    el('h3', {}, `Frame ${hex(frame.id, frame.extended ? 8 : 3)}`,
-       el('button', {type: 'button', onclick: () => actions.copy(), title: 'Copy as a line of candump (key c)'}, 'copy')),
+    el(
+      'h3',
+      {},
+      `Frame ${hex(frame.id, frame.extended ? 8 : 3)}`,
+      el(
+        'button',
+        {type: 'button', onclick: () => actions.copy(), title: 'Copy as a line of candump (key c)'},
+        'copy',
+      ),
+    ),
     el('code', {class: 'candump'}, candumpLine(frame)),
     lines([
-      ['start', formatTime(frame.start, 1)], ['end', formatTime(frame.end, 1)],
+      ['start', formatTime(frame.start, 1)],
+      ['end', formatTime(frame.end, 1)],
       ['length', `${bits} bits, ${formatTime(frame.end - frame.start, 100)}`],
-      ['identifier', `0x${hex(frame.id, frame.extended ? 8 : 3)} (${frame.extended ? 29 : 11} bits)`],
+      [
+        'identifier',
+        `0x${hex(frame.id, frame.extended ? 8 : 3)} (${frame.extended ? 29 : 11} bits)`,
+      ],
       ['type', frame.remote ? 'remote request' : 'data'],
       ['DLC', String(frame.dlc)],
-      frame.remote ? null : ['data', [...frame.data].map((byte) => hex(byte, 2)).join(' ') || 'none'],
+      frame.remote
+        ? null
+        : ['data', [...frame.data].map((byte) => hex(byte, 2)).join(' ') || 'none'],
       ['sender', frame.sender === kNobody ? 'not known' : nodeCell(report, frame.sender)],
       frame.message >= 0 ? ['message', report.meta.messages[frame.message]?.name ?? ''] : null,
-      ['response', Number.isNaN(frame.response) ? 'not known' : `${milliseconds(frame.response, 6)} ms`, 'From the event that queued it to the end of the frame'],
-      ['retries', String(frame.retries)], ['arbitrations lost', String(frame.lost)],
+      [
+        'response',
+        Number.isNaN(frame.response) ? 'not known' : `${milliseconds(frame.response, 6)} ms`,
+        'From the event that queued it to the end of the frame',
+      ],
+      ['retries', String(frame.retries)],
+      ['arbitrations lost', String(frame.lost)],
       decoded && crcText(decoded) ? ['CRC', crcText(decoded)] : null,
       decoded ? ['stuff bits', String(decoded.stuffBits)] : null,
-      acks ? ['acknowledged by', nodeList(report, acks.filter((node) => node !== frame.sender))] : null,
+      acks
+        ? [
+            'acknowledged by',
+            nodeList(
+              report,
+              acks.filter((node) => node !== frame.sender),
+            ),
+          ]
+        : null,
     ]),
     lane ? fieldStrip(lane) : el('p', {class: 'dim'}, 'No bits were kept of this frame.'),
   ];
@@ -93,9 +147,27 @@ function eventDetails(report, index) {
   const texts = kErrorTexts.filter((_, bit) => event.error & (1 << bit));
   const lanes = report.lanesOf(event.segment);
   return [
-    el('h3', {}, event.kind === 1 ? 'Overload frame' : event.kind === 2 ? 'Error with a passive flag' : 'Error frame'),
-    el('p', {class: event.kind === 1 ? 'cause overload' : 'cause error'}, event.cause.text,
-       event.cause.rule ? el('span', {class: 'rule', title: 'Rule of the protocol: docs/rules.md'}, event.cause.rule) : null),
+    el(
+      'h3',
+      {},
+      event.kind === 1
+        ? 'Overload frame'
+        : event.kind === 2
+          ? 'Error with a passive flag'
+          : 'Error frame',
+    ),
+    el(
+      'p',
+      {class: event.kind === 1 ? 'cause overload' : 'cause error'},
+      event.cause.text,
+      event.cause.rule
+        ? el(
+            'span',
+            {class: 'rule', title: 'Rule of the protocol: docs/rules.md'},
+            event.cause.rule,
+          )
+        : null,
+    ),
     lines([
       ['kind', event.kind === 1 ? kEventKinds[1] : `${errorKinds(event.error)} error`],
       texts.length > 0 ? ['meaning', texts.join('; ')] : null,
@@ -104,7 +176,10 @@ function eventDetails(report, index) {
       ['at', formatTime(event.start, 1)],
       ['over at', formatTime(event.end, 1)],
     ]),
-    ...lanes.flatMap((lane) => [el('h4', {}, lanes.length > 1 ? `as ${lane.node.name} sees it` : 'bits'), fieldStrip(lane)]),
+    ...lanes.flatMap((lane) => [
+      el('h4', {}, lanes.length > 1 ? `as ${lane.node.name} sees it` : 'bits'),
+      fieldStrip(lane),
+    ]),
   ];
 }
 
@@ -113,8 +188,13 @@ function lossDetails(report, index) {
   const winner = losses.winner[index];
   return [
     el('h3', {}, 'Arbitration lost'),
-    el('p', {class: 'cause'}, 'It sent recessive and read dominant: an identifier of higher priority is on the bus. ' +
-       'It goes on as a receiver and tries again.', el('span', {class: 'rule'}, 'AR-02')),
+    el(
+      'p',
+      {class: 'cause'},
+      'It sent recessive and read dominant: an identifier of higher priority is on the bus. ' +
+        'It goes on as a receiver and tries again.',
+      el('span', {class: 'rule'}, 'AR-02'),
+    ),
     lines([
       ['loser', nodeCell(report, losses.node[index])],
       ['winner', winner === kNobody ? 'not known' : nodeCell(report, winner)],
@@ -131,17 +211,33 @@ function bitDetails(report, {segment, lane: which, bit}) {
   const q = lane.quanta[bit];
   const level = (value) => (value ? 'recessive (1)' : 'dominant (0)');
   return [
-    el('h3', {}, lane.stuff(bit) ? `Stuff bit (${fieldName(field)})` : bitTitle(field, lane.place(bit))),
-    el('p', {}, lane.stuff(bit) ? 'After five equal bits the sender inserts one of the other level; receivers remove it (ST-01).' : fieldText(field)),
+    el(
+      'h3',
+      {},
+      lane.stuff(bit) ? `Stuff bit (${fieldName(field)})` : bitTitle(field, lane.place(bit)),
+    ),
+    el(
+      'p',
+      {},
+      lane.stuff(bit)
+        ? 'After five equal bits the sender inserts one of the other level; receivers remove it (ST-01).'
+        : fieldText(field),
+    ),
     lines([
       ['as seen by', nodeCell(report, lane.nodeIndex)],
       ['bit of the frame', `${bit + 1} of ${lane.count}, stuff bits counted`],
-      ['sampled', level(lane.sampled(bit))], ['sent', level(lane.sent(bit))],
+      ['sampled', level(lane.sampled(bit))],
+      ['sent', level(lane.sent(bit))],
       ['start', formatTime(lane.starts[bit], 1)],
       ['sample point', formatTime(lane.sample(bit), 1)],
       ['length', `${lane.node.quanta + q} quanta of ${+lane.tq.toFixed(3)} ns`],
-      q !== 0 ? ['resynchronised', `${Math.abs(q)} quanta ${q > 0 ? 'longer (PS1)' : 'shorter (PS2)'}`] : null,
-      ['driven dominant by', nodeList(report, report.driversAt((lane.starts[bit] + lane.starts[bit + 1]) / 2))],
+      q !== 0
+        ? ['resynchronised', `${Math.abs(q)} quanta ${q > 0 ? 'longer (PS1)' : 'shorter (PS2)'}`]
+        : null,
+      [
+        'driven dominant by',
+        nodeList(report, report.driversAt((lane.starts[bit] + lane.starts[bit + 1]) / 2)),
+      ],
     ]),
   ];
 }
@@ -158,8 +254,17 @@ export function detailPanel(report, view, actions) {
       bit: () => bitDetails(report, selection),
       segment: () => [el('h3', {}, 'Activity without a frame')],
     };
-    root.replaceChildren(...(selection ? kinds[selection.kind]?.() ?? [] : [
-      el('p', {class: 'dim'}, 'Click a frame, an error or, zoomed in, a single bit: here is what it is.')]));
+    root.replaceChildren(
+      ...(selection
+        ? (kinds[selection.kind]?.() ?? [])
+        : [
+            el(
+              'p',
+              {class: 'dim'},
+              'Click a frame, an error or, zoomed in, a single bit: here is what it is.',
+            ),
+          ]),
+    );
   };
   view.addEventListener('select', show);
   show();

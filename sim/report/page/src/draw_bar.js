@@ -24,7 +24,10 @@ export function drawRuler(p, scale) {
   for (let n = first; n <= last; ++n) {
     const x = scale.x(n * step);
     p.line(x, kRuler - 5, x, p.height, 'grid');
-    p.text(n === 0 ? '0' : formatTime(n * step, step / 2), x + 3, kRuler / 2, {size: 11, color: 'dim'});
+    p.text(n === 0 ? '0' : formatTime(n * step, step / 2), x + 3, kRuler / 2, {
+      size: 11,
+      color: 'dim',
+    });
   }
   p.note('ruler', {step, first, last});
 }
@@ -32,7 +35,9 @@ export function drawRuler(p, scale) {
 /** "0x123 [2] CA FE": the frame as the bar names it, in three lengths. */
 export function frameTexts(frame, report) {
   const id = frame.extended ? hex(frame.id, 8) : hex(frame.id, 3);
-  const data = frame.remote ? 'remote request' : [...frame.data].map((byte) => hex(byte, 2)).join(' ');
+  const data = frame.remote
+    ? 'remote request'
+    : [...frame.data].map((byte) => hex(byte, 2)).join(' ');
   const from = frame.sender === kNobody ? '' : `  ·  from ${report.nodeName(frame.sender)}`;
   const name = report.meta.messages[frame.message]?.name;
   const head = `0x${id}  [${frame.dlc}]  ${data}`;
@@ -46,15 +51,21 @@ function attemptTexts(segment, report) {
   const id = lane?.decode().id;
   const what = events.map((e) => (e.kind === 1 ? 'overload' : `${errorKinds(e.error)} error`));
   const cause = events[0]?.cause.text ?? '';
-  const head = id === null || id === undefined ? '' : `0x${hex(id, lane.decode().extended ? 8 : 3)}  `;
-  return [`${head}✗ ${what[0] ?? 'no frame'}: ${cause}`, `${head}✗ ${what[0] ?? 'no frame'}`,
-          `✗ ${what[0] ?? ''}`, '✗'];
+  const head =
+    id === null || id === undefined ? '' : `0x${hex(id, lane.decode().extended ? 8 : 3)}  `;
+  return [
+    `${head}✗ ${what[0] ?? 'no frame'}: ${cause}`,
+    `${head}✗ ${what[0] ?? 'no frame'}`,
+    `✗ ${what[0] ?? ''}`,
+    '✗',
+  ];
 }
 
 function segmentTexts(segment, report) {
   const frame = report.segmentFrame[segment];
   const events = report.segmentEvents.get(segment);
-  if (frame < 0) return {texts: attemptTexts(segment, report), bad: Boolean(events), sender: kNobody};
+  if (frame < 0)
+    return {texts: attemptTexts(segment, report), bad: Boolean(events), sender: kNobody};
   const plain = report.frame(frame);
   const texts = frameTexts(plain, report);
   return {texts, bad: false, sender: plain.sender, overload: Boolean(events)};
@@ -101,13 +112,19 @@ function drawBlocks(p, scale) {
     for (const event of scale.report.segmentEvents.get(i) ?? []) {
       const x = scale.x(scale.report.events.start[event]);
       const overload = scale.report.events.kind[event] === 1;
-      p.rect(Math.max(x - 1, scale.left), y, 3, kBarEnd - y - 4, overload ? 'f-overload' : 'f-error');
+      p.rect(
+        Math.max(x - 1, scale.left),
+        y,
+        3,
+        kBarEnd - y - 4,
+        overload ? 'f-overload' : 'f-error',
+      );
     }
   }
 }
 
 const inkOf = (field) =>
-  (field === F.ERROR_FLAG || field === F.OVERLOAD_FLAG ? 'onstrong' : 'onfield');
+  field === F.ERROR_FLAG || field === F.OVERLOAD_FLAG ? 'onstrong' : 'onfield';
 
 /** Name and value of a group, in two lines where there is height for them. */
 function groupText(p, group, a, b, y, h, size) {
@@ -135,8 +152,16 @@ export function drawFields(p, scale, lane, y, h, size = 12) {
   if (scale.pxPerBit >= 2) drawStuff(p, scale, lane, y, h);
   for (const [group, a, b] of shown) {
     const text = b - a > 7 ? groupText(p, group, a, b, y, h, size) : '';
-    p.note('field', {field: fieldName(group.field), value: group.text, text, x0: a, x1: b, y,
-                     node: lane.nodeIndex, own: size < 12});
+    p.note('field', {
+      field: fieldName(group.field),
+      value: group.text,
+      text,
+      x0: a,
+      x1: b,
+      y,
+      node: lane.nodeIndex,
+      own: size < 12,
+    });
   }
 }
 
@@ -166,9 +191,17 @@ function drawBits(p, scale, lane) {
     if (text === level && width > 30 && !lane.stuff(i) && !kSingle.has(lane.field(i))) {
       p.text(String(lane.number(i)), a + 3, y + h / 2, {size: 9, color: 'dim'});
     }
-    p.note('bit', {bit: i, field: fieldName(lane.field(i)), level: lane.sampled(i),
-                   stuff: lane.stuff(i), q: lane.quanta[i], x0: a, x1: b, text,
-                   sample: scale.x(lane.sample(i))});
+    p.note('bit', {
+      bit: i,
+      field: fieldName(lane.field(i)),
+      level: lane.sampled(i),
+      stuff: lane.stuff(i),
+      q: lane.quanta[i],
+      x0: a,
+      x1: b,
+      text,
+      sample: scale.x(lane.sample(i)),
+    });
   }
 }
 
@@ -176,9 +209,12 @@ function drawBits(p, scale, lane) {
 function partsOf(lane, i) {
   const {prop, ps1, ps2} = lane.node;
   const q = lane.quanta[i];
-  return [['SYNC', 1, 't-sync'], ['PROP', prop, 't-prop'],
-          [q > 0 ? `PS1 +${q}` : 'PS1', ps1 + Math.max(q, 0), 't-ps1'],
-          [q < 0 ? `PS2 −${-q}` : 'PS2', ps2 + Math.min(q, 0), 't-ps2']];
+  return [
+    ['SYNC', 1, 't-sync'],
+    ['PROP', prop, 't-prop'],
+    [q > 0 ? `PS1 +${q}` : 'PS1', ps1 + Math.max(q, 0), 't-ps1'],
+    [q < 0 ? `PS2 −${-q}` : 'PS2', ps2 + Math.min(q, 0), 't-ps2'],
+  ];
 }
 
 function drawBitQuanta(p, scale, lane, i, y, h) {
@@ -188,8 +224,13 @@ function drawBitQuanta(p, scale, lane, i, y, h) {
     const range = scale.range(time, end);
     if (range) {
       p.rect(range[0], y, range[1] - range[0], h, color);
-      const text = p.fit([name, name.replace(/ .*/, '')], (range[0] + range[1]) / 2, y + h / 2,
-                         range[1] - range[0], {size: 10, color: 'onfield'});
+      const text = p.fit(
+        [name, name.replace(/ .*/, '')],
+        (range[0] + range[1]) / 2,
+        y + h / 2,
+        range[1] - range[0],
+        {size: 10, color: 'onfield'},
+      );
       p.note('part', {bit: i, name, quanta, x0: range[0], x1: range[1], text});
     }
     for (let n = 0; n < quanta; ++n) {

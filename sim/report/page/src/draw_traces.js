@@ -4,15 +4,15 @@
 // The traces: the bus as an oscilloscope shows it, and what each node drives and sees.
 import {drawFields} from './draw_bar.js';
 
-const kMaxEdges = 2500;   // more in the window: columns instead of single edges
-const kColumn = 1;        // width of a column, px
+const kMaxEdges = 2500; // more in the window: columns instead of single edges
+const kColumn = 1; // width of a column, px
 export const kStrip = 13; // height of a node's own fields
 
 const edgesIn = (track, scale) => track.countAt(scale.to) - track.countAt(scale.from);
 
 /** Columns of a track that has too many edges to show each: visit(x0, x1, density 0..1). */
 function columns(track, scale, visit) {
-  const perColumn = (kColumn / scale.pxPerNs) / scale.report.bitNs;
+  const perColumn = kColumn / scale.pxPerNs / scale.report.bitNs;
   const full = Math.max(1, 0.5 * perColumn);
   let before = track.countAt(scale.from);
   let start = scale.left;
@@ -60,7 +60,12 @@ function driverStretches(scale, visit) {
   edges.sort((a, b) => a.time - b.time);
   let start = scale.from;
   const flush = (time) => {
-    if (driving.size > 0 && time > start) visit(start, time, [...driving].sort((a, b) => a - b));
+    if (driving.size > 0 && time > start)
+      visit(
+        start,
+        time,
+        [...driving].sort((a, b) => a - b),
+      );
     start = time;
   };
   for (const {time, node, level} of edges) {
@@ -77,7 +82,14 @@ function drawDrivers(p, scale, top, bottom) {
     if (!range) return;
     const band = (bottom - top) / nodes.length;
     nodes.forEach((node, i) => {
-      p.rect(range[0], top + i * band, Math.max(range[1] - range[0], 0.6), band, `n-${node % 16}`, 0.6);
+      p.rect(
+        range[0],
+        top + i * band,
+        Math.max(range[1] - range[0], 0.6),
+        band,
+        `n-${node % 16}`,
+        0.6,
+      );
     });
     p.note('drivers', {nodes, x0: range[0], x1: range[1], from, to});
   });
@@ -185,7 +197,8 @@ export function drawNode(p, scale, node, y, h) {
   } else {
     track.stretches(scale.from, scale.to, (from, to, level) => {
       const range = level === 0 ? scale.range(from, to) : null;
-      if (range) p.rect(range[0], top, Math.max(range[1] - range[0], 0.6), bottom - top, color, 0.5);
+      if (range)
+        p.rect(range[0], top, Math.max(range[1] - range[0], 0.6), bottom - top, color, 0.5);
     });
     p.polyline(tracePoints(track, scale, top, bottom), color, scale.pxPerBit > 1 ? 1.5 : 0.6);
   }

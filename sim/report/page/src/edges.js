@@ -4,7 +4,7 @@
 // EdgeTrack: a level over time, stored as distances between its changes. Searching starts at a
 // checkpoint every 64 changes, so millions of changes need little more memory than the file had.
 
-const kGap = 4294967295;  // so many ticks pass without a change
+const kGap = 4294967295; // so many ticks pass without a change
 const kStep = 64;
 
 export class EdgeTrack {
@@ -18,8 +18,8 @@ export class EdgeTrack {
     this.initial = initial;
     this.tickNs = tickNs;
     const checkpoints = Math.ceil(ticks.length / kStep) + 1;
-    this.time = new Float64Array(checkpoints);   // ticks, after the entries before this block
-    this.edges = new Uint32Array(checkpoints);   // changes in the entries before this block
+    this.time = new Float64Array(checkpoints); // ticks, after the entries before this block
+    this.edges = new Uint32Array(checkpoints); // changes in the entries before this block
     let time = 0;
     let edges = 0;
     for (let i = 0; i < ticks.length; ++i) {

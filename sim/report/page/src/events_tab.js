@@ -12,7 +12,9 @@ const kLoss = 0x80000000;
 
 /** Where an event was found: "CRC 3" of the lane of the node that found it. */
 export function placeOf(report, event) {
-  const lane = report.lanesOf(event.segment).find((l) => l.nodeIndex === event.node) ?? report.lane(event.segment);
+  const lane =
+    report.lanesOf(event.segment).find((l) => l.nodeIndex === event.node) ??
+    report.lane(event.segment);
   const bit = lane ? lane.bitAt(event.start + lane.tq / 2) : -1;
   if (bit >= 0) {
     return `${fieldName(lane.field(bit))} ${lane.number(bit)}${lane.stuff(bit) ? ' (stuff bit)' : ''}`;
@@ -34,28 +36,67 @@ function columnsOf(report) {
   const time = (row) => (loss(row) ? losses.time[index(row)] : events.start[index(row)]);
   const node = (row) => (loss(row) ? losses.node[index(row)] : events.node[index(row)]);
   const kind = (row) => (loss(row) ? 'lost arbitration' : kEventKinds[events.kind[index(row)]]);
-  const cause = (row) => (loss(row)
-    ? `another node's identifier has priority: ${report.nodeName(losses.winner[index(row)])} goes on`
-    : report.event(index(row)).cause.text);
-  const place = (row) => (loss(row)
-    ? fieldName(losses.field[index(row)]) : placeOf(report, report.event(index(row))));
+  const cause = (row) =>
+    loss(row)
+      ? `another node's identifier has priority: ${report.nodeName(losses.winner[index(row)])} goes on`
+      : report.event(index(row)).cause.text;
+  const place = (row) =>
+    loss(row) ? fieldName(losses.field[index(row)]) : placeOf(report, report.event(index(row)));
   const segment = (row) => (loss(row) ? losses.segment[index(row)] : events.segment[index(row)]);
   return [
-    {name: 'time ms', title: 'Start of the bit that showed it', width: '104px', numeric: true, mono: true,
-     text: (row) => milliseconds(time(row), 6), key: time},
-    {name: 'what', title: 'Error frame, overload frame or lost arbitration', width: '120px', text: kind, key: kind},
-    {name: 'error', title: kErrorKinds.map((name, i) => `${name}: ${kErrorTexts[i]}`).join('; '), width: '96px',
-     text: (row) => (loss(row) ? '' : events.kind[index(row)] === 1 ? '' : errorKinds(events.error[index(row)])),
-     key: (row) => (loss(row) ? '' : errorKinds(events.error[index(row)]))},
-    {name: 'cause', title: 'What happened, in words', width: 'minmax(260px, 3fr)', text: cause, key: cause},
-    {name: 'rule', title: 'Rule of the protocol: docs/rules.md', width: '64px',
-     text: (row) => (loss(row) ? 'AR-02' : report.event(index(row)).cause.rule),
-     key: (row) => (loss(row) ? 'AR-02' : report.event(index(row)).cause.rule)},
-    {name: 'found by', title: 'The node that found it first', width: 'minmax(90px, 1fr)',
-     node: (row) => nodeCell(report, node(row)), key: (row) => report.nodeName(node(row))},
+    {
+      name: 'time ms',
+      title: 'Start of the bit that showed it',
+      width: '104px',
+      numeric: true,
+      mono: true,
+      text: (row) => milliseconds(time(row), 6),
+      key: time,
+    },
+    {
+      name: 'what',
+      title: 'Error frame, overload frame or lost arbitration',
+      width: '120px',
+      text: kind,
+      key: kind,
+    },
+    {
+      name: 'error',
+      title: kErrorKinds.map((name, i) => `${name}: ${kErrorTexts[i]}`).join('; '),
+      width: '96px',
+      text: (row) =>
+        loss(row) ? '' : events.kind[index(row)] === 1 ? '' : errorKinds(events.error[index(row)]),
+      key: (row) => (loss(row) ? '' : errorKinds(events.error[index(row)])),
+    },
+    {
+      name: 'cause',
+      title: 'What happened, in words',
+      width: 'minmax(260px, 3fr)',
+      text: cause,
+      key: cause,
+    },
+    {
+      name: 'rule',
+      title: 'Rule of the protocol: docs/rules.md',
+      width: '64px',
+      text: (row) => (loss(row) ? 'AR-02' : report.event(index(row)).cause.rule),
+      key: (row) => (loss(row) ? 'AR-02' : report.event(index(row)).cause.rule),
+    },
+    {
+      name: 'found by',
+      title: 'The node that found it first',
+      width: 'minmax(90px, 1fr)',
+      node: (row) => nodeCell(report, node(row)),
+      key: (row) => report.nodeName(node(row)),
+    },
     {name: 'where', title: 'Field and bit', width: 'minmax(110px, 1fr)', text: place},
-    {name: 'id', title: 'Identifier on the bus, as far as it got', width: '84px', mono: true,
-     text: (row) => idOf(report, segment(row))},
+    {
+      name: 'id',
+      title: 'Identifier on the bus, as far as it got',
+      width: '84px',
+      mono: true,
+      text: (row) => idOf(report, segment(row)),
+    },
   ];
 }
 
@@ -68,12 +109,20 @@ export class EventsTab {
       pick: (row) => (row >= kLoss ? steps.showLoss(row - kLoss) : steps.showEvent(row)),
     });
     this.withLosses = el('input', {type: 'checkbox', checked: true, onchange: () => this.show()});
-    const counts = `${formatCount(report.events.count)} errors and overloads, ` +
-                   `${formatCount(report.losses.count)} lost arbitrations`;
-    this.root = el('div', {class: 'tab-body column'},
-                   el('div', {class: 'search'}, el('label', {}, this.withLosses, ' lost arbitrations too'),
-                      el('span', {class: 'found'}, counts)),
-                   this.table.root);
+    const counts =
+      `errors and overloads ${formatCount(report.events.count)}, ` +
+      `lost arbitrations ${formatCount(report.losses.count)}`;
+    this.root = el(
+      'div',
+      {class: 'tab-body column'},
+      el(
+        'div',
+        {class: 'search'},
+        el('label', {}, this.withLosses, ' lost arbitrations too'),
+        el('span', {class: 'found'}, counts),
+      ),
+      this.table.root,
+    );
     view.addEventListener('select', () => this.#mark());
     this.show();
   }

@@ -25,8 +25,13 @@ const kFields = {
   25: ['ACK', 'ACK', 'acknowledge slot: every receiver with a right CRC drives it dominant', 'ack'],
   26: ['ACK_DEL', 'del', 'ACK delimiter: always recessive', 'tail'],
   27: ['EOF', 'EOF', 'end of frame: seven recessive bits', 'tail'],
-  28: ['ERROR_FLAG', 'error flag', 'six equal bits that tell every node of the error: dominant if ' +
-       'the node is error active, recessive if it is error passive', 'error'],
+  28: [
+    'ERROR_FLAG',
+    'error flag',
+    'six equal bits that tell every node of the error: dominant if ' +
+      'the node is error active, recessive if it is error passive',
+    'error',
+  ],
   29: ['DEL_WAIT', 'wait', 'own flag sent; waits until all others have ended theirs', 'errordel'],
   30: ['DELIMITER', 'delimiter', 'eight recessive bits after a flag', 'errordel'],
   31: ['OVERLOAD_FLAG', 'overload flag', 'six dominant bits: asks for more time', 'overload'],
@@ -35,9 +40,30 @@ const kFields = {
 const kUnknown = ['?', '?', 'not a field', 'quiet'];
 
 export const F = {
-  INTEG: 0, BUS_OFF: 1, IDLE: 2, INT: 3, SUSPEND: 4, SOF: 8, ID: 9, RTR: 10, IDE: 11, EXID: 12,
-  EXRTR: 13, R1: 16, R0: 17, DLC: 18, DATA: 19, CRC: 20, CRC_DEL: 24, ACK: 25, ACK_DEL: 26, EOF: 27,
-  ERROR_FLAG: 28, DEL_WAIT: 29, DEL: 30, OVERLOAD_FLAG: 31,
+  INTEG: 0,
+  BUS_OFF: 1,
+  IDLE: 2,
+  INT: 3,
+  SUSPEND: 4,
+  SOF: 8,
+  ID: 9,
+  RTR: 10,
+  IDE: 11,
+  EXID: 12,
+  EXRTR: 13,
+  R1: 16,
+  R0: 17,
+  DLC: 18,
+  DATA: 19,
+  CRC: 20,
+  CRC_DEL: 24,
+  ACK: 25,
+  ACK_DEL: 26,
+  EOF: 27,
+  ERROR_FLAG: 28,
+  DEL_WAIT: 29,
+  DEL: 30,
+  OVERLOAD_FLAG: 31,
 };
 
 const row = (field) => kFields[field] ?? kUnknown;
@@ -48,26 +74,51 @@ export const fieldColor = (field) => `f-${row(field)[3]}`;
 
 /** What the legend shows, in the order of a frame. */
 export const kLegend = [
-  ['f-sof', 'start'], ['f-id', 'identifier'], ['f-control', 'control bits'], ['f-dlc', 'length'],
-  ['f-data', 'data'], ['f-crc', 'CRC'], ['f-ack', 'ACK'], ['f-tail', 'end of frame'],
-  ['f-error', 'error flag'], ['f-errordel', 'flag delimiter'], ['f-overload', 'overload flag'],
+  ['f-sof', 'start'],
+  ['f-id', 'identifier'],
+  ['f-control', 'control bits'],
+  ['f-dlc', 'length'],
+  ['f-data', 'data'],
+  ['f-crc', 'CRC'],
+  ['f-ack', 'ACK'],
+  ['f-tail', 'end of frame'],
+  ['f-error', 'error flag'],
+  ['f-errordel', 'flag delimiter'],
+  ['f-overload', 'overload flag'],
   ['f-quiet', 'intermission'],
 ];
 
 /** Number that the specification gives to bit `index` (from 0, without stuff bits) of a field. */
 export function bitNumber(field, index) {
   switch (field) {
-    case F.ID: return 28 - index;
-    case F.EXID: return 17 - index;
-    case F.DLC: return 3 - index;
-    case F.DATA: return 7 - (index % 8);
-    case F.CRC: return 14 - index;
-    case F.DEL: return index + 2;
-    default: return index + 1;
+    case F.ID:
+      return 28 - index;
+    case F.EXID:
+      return 17 - index;
+    case F.DLC:
+      return 3 - index;
+    case F.DATA:
+      return 7 - (index % 8);
+    case F.CRC:
+      return 14 - index;
+    case F.DEL:
+      return index + 2;
+    default:
+      return index + 1;
   }
 }
 
-export const kSingle = new Set([F.SOF, F.RTR, F.IDE, F.EXRTR, F.R1, F.R0, F.CRC_DEL, F.ACK, F.ACK_DEL]);
+export const kSingle = new Set([
+  F.SOF,
+  F.RTR,
+  F.IDE,
+  F.EXRTR,
+  F.R1,
+  F.R0,
+  F.CRC_DEL,
+  F.ACK,
+  F.ACK_DEL,
+]);
 
 /** The bit in words: "CRC 14", "ACK", "data byte 2 bit 7". */
 export function bitTitle(field, index) {

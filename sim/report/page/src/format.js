@@ -3,7 +3,12 @@
 //
 // Times and numbers for people.
 
-const kUnits = [[1e9, 's'], [1e6, 'ms'], [1e3, 'µs'], [1, 'ns']];
+const kUnits = [
+  [1e9, 's'],
+  [1e6, 'ms'],
+  [1e3, 'µs'],
+  [1, 'ns'],
+];
 
 /** The unit in which `ns` reads best: [nanoseconds, name]. */
 export function unitOf(ns) {
@@ -20,7 +25,8 @@ export function formatTime(ns, resolution = Math.abs(ns) / 1000) {
 }
 
 /** Milliseconds with a fixed number of digits: columns of tables line up. */
-export const milliseconds = (ns, digits = 3) => (Number.isFinite(ns) ? (ns / 1e6).toFixed(digits) : '–');
+export const milliseconds = (ns, digits = 3) =>
+  Number.isFinite(ns) ? (ns / 1e6).toFixed(digits) : '–';
 
 export function formatRate(bitrate) {
   if (bitrate >= 1e6) return `${+(bitrate / 1e6).toFixed(3)} Mbit/s`;

@@ -10,7 +10,7 @@ import {kNobody} from './report.js';
 import {Table} from './table.js';
 import {nodeColor} from './theme.js';
 
-const kEvent = 0x80000000;  // row numbers with this bit are events, others frames
+const kEvent = 0x80000000; // row numbers with this bit are events, others frames
 const isEvent = (row) => row >= kEvent;
 const index = (row) => row & 0x7fffffff;
 export const kEventKinds = ['error frame', 'overload frame', 'error, passive flag'];
@@ -32,15 +32,31 @@ function allRows(report) {
 export function rowValues(report, row) {
   if (isEvent(row)) {
     const event = report.event(index(row));
-    return {event, time: event.start, id: '', dlc: '', data: event.cause.text,
-            type: kEventKinds[event.kind], node: event.node, message: '',
-            words: `${errorKinds(event.error)} ${event.cause.rule}`};
+    return {
+      event,
+      time: event.start,
+      id: '',
+      dlc: '',
+      data: event.cause.text,
+      type: kEventKinds[event.kind],
+      node: event.node,
+      message: '',
+      words: `${errorKinds(event.error)} ${event.cause.rule}`,
+    };
   }
   const frame = report.frame(index(row));
   const type = `${frame.extended ? 'ext ' : ''}${frame.remote ? 'remote' : 'data'}`;
-  return {frame, time: frame.start, id: hex(frame.id, frame.extended ? 8 : 3), dlc: frame.dlc, type,
-          data: [...frame.data].map((byte) => hex(byte, 2)).join(' '), node: frame.sender,
-          message: report.meta.messages[frame.message]?.name ?? '', words: ''};
+  return {
+    frame,
+    time: frame.start,
+    id: hex(frame.id, frame.extended ? 8 : 3),
+    dlc: frame.dlc,
+    type,
+    data: [...frame.data].map((byte) => hex(byte, 2)).join(' '),
+    node: frame.sender,
+    message: report.meta.messages[frame.message]?.name ?? '',
+    words: '',
+  };
 }
 
 function columnsOf(report) {
@@ -48,28 +64,88 @@ function columnsOf(report) {
   const {frames, events} = report;
   const number = (array) => (row) => (isEvent(row) ? NaN : array[index(row)]);
   return [
-    {name: 'time ms', title: 'Start of the frame, milliseconds from the start', width: '104px', numeric: true, mono: true,
-     text: (row) => milliseconds(isEvent(row) ? events.start[index(row)] : frames.start[index(row)], 6),
-     key: (row) => (isEvent(row) ? events.start[index(row)] : frames.start[index(row)])},
-    {name: 'id', title: 'Identifier, hexadecimal: 3 digits are 11 bits, 8 digits 29 bits', width: '84px', mono: true,
-     text: (row) => values(row).id, key: (row) => (isEvent(row) ? NaN : frames.id[index(row)] & 0x1fffffff)},
-    {name: 'type', title: 'data or remote request; ext: 29-bit identifier', width: '118px',
-     text: (row) => values(row).type, key: (row) => values(row).type},
-    {name: 'dlc', title: 'Data length code; more than 8 means 8 bytes', width: '42px', numeric: true,
-     text: (row) => values(row).dlc, key: number(frames.dlc)},
-    {name: 'node', title: 'Who sent the frame or found the error', width: 'minmax(84px, .7fr)',
-     node: (row) => nodeCell(report, values(row).node), key: (row) => report.nodeName(values(row).node)},
-    {name: 'data', title: 'Data bytes, hexadecimal; for errors their cause', width: 'minmax(190px, 2fr)', mono: true,
-     wide: isEvent, text: (row) => values(row).data, key: (row) => values(row).data},
-    {name: 'message', title: 'Name in the scenario', width: 'minmax(90px, 1fr)',
-     text: (row) => values(row).message, key: (row) => values(row).message},
-    {name: 'response', title: 'Milliseconds from the event that queued the frame to its end', width: '84px', numeric: true, mono: true,
-     text: (row) => (isEvent(row) ? '' : milliseconds(frames.response[index(row)])),
-     key: number(frames.response)},
-    {name: 'retries', title: 'Attempts of the sender that failed since its frame before', width: '58px', numeric: true,
-     text: (row) => (isEvent(row) || !frames.retries[index(row)] ? '' : frames.retries[index(row)]), key: number(frames.retries)},
-    {name: 'lost', title: 'Arbitrations that the sender lost since its frame before', width: '46px', numeric: true,
-     text: (row) => (isEvent(row) || !frames.lost[index(row)] ? '' : frames.lost[index(row)]), key: number(frames.lost)},
+    {
+      name: 'time ms',
+      title: 'Start of the frame, milliseconds from the start',
+      width: '104px',
+      numeric: true,
+      mono: true,
+      text: (row) =>
+        milliseconds(isEvent(row) ? events.start[index(row)] : frames.start[index(row)], 6),
+      key: (row) => (isEvent(row) ? events.start[index(row)] : frames.start[index(row)]),
+    },
+    {
+      name: 'id',
+      title: 'Identifier, hexadecimal: 3 digits are 11 bits, 8 digits 29 bits',
+      width: '84px',
+      mono: true,
+      text: (row) => values(row).id,
+      key: (row) => (isEvent(row) ? NaN : frames.id[index(row)] & 0x1fffffff),
+    },
+    {
+      name: 'type',
+      title: 'data or remote request; ext: 29-bit identifier',
+      width: '118px',
+      text: (row) => values(row).type,
+      key: (row) => values(row).type,
+    },
+    {
+      name: 'dlc',
+      title: 'Data length code; more than 8 means 8 bytes',
+      width: '42px',
+      numeric: true,
+      text: (row) => values(row).dlc,
+      key: number(frames.dlc),
+    },
+    {
+      name: 'node',
+      title: 'Who sent the frame or found the error',
+      width: 'minmax(84px, .7fr)',
+      node: (row) => nodeCell(report, values(row).node),
+      key: (row) => report.nodeName(values(row).node),
+    },
+    {
+      name: 'data',
+      title: 'Data bytes, hexadecimal; for errors their cause',
+      width: 'minmax(190px, 2fr)',
+      mono: true,
+      wide: isEvent,
+      text: (row) => values(row).data,
+      key: (row) => values(row).data,
+    },
+    {
+      name: 'message',
+      title: 'Name in the scenario',
+      width: 'minmax(90px, 1fr)',
+      text: (row) => values(row).message,
+      key: (row) => values(row).message,
+    },
+    {
+      name: 'response',
+      title: 'Milliseconds from the event that queued the frame to its end',
+      width: '84px',
+      numeric: true,
+      mono: true,
+      text: (row) => (isEvent(row) ? '' : milliseconds(frames.response[index(row)])),
+      key: number(frames.response),
+    },
+    {
+      name: 'retries',
+      title: 'Attempts of the sender that failed since its frame before',
+      width: '58px',
+      numeric: true,
+      text: (row) =>
+        isEvent(row) || !frames.retries[index(row)] ? '' : frames.retries[index(row)],
+      key: number(frames.retries),
+    },
+    {
+      name: 'lost',
+      title: 'Arbitrations that the sender lost since its frame before',
+      width: '46px',
+      numeric: true,
+      text: (row) => (isEvent(row) || !frames.lost[index(row)] ? '' : frames.lost[index(row)]),
+      key: number(frames.lost),
+    },
   ];
 }
 
@@ -85,19 +161,35 @@ export class FramesTab {
     this.rows = allRows(report);
     this.table = new Table(columnsOf(report), {
       label: 'Frames and errors',
-      style: (row) => (isEvent(row) ? (report.events.kind[index(row)] === 1 ? 'overload' : 'error') : ''),
+      style: (row) =>
+        isEvent(row) ? (report.events.kind[index(row)] === 1 ? 'overload' : 'error') : '',
       pick: (row) => (isEvent(row) ? steps.showEvent(index(row)) : steps.showFrame(index(row))),
     });
-    this.input = el('input', {type: 'search', id: 'search', placeholder: 'Search: 123, CA FE, node, message, error, remote …',
-                              'aria-label': 'Search frames', spellcheck: 'false', autocomplete: 'off',
-                              title: 'Words that all must fit: identifier or data bytes in hex, name of a ' +
-                                     'node or message, error, overload, remote, data, ext, retry, lost'});
+    this.input = el('input', {
+      type: 'search',
+      id: 'search',
+      placeholder: 'Search: 123, CA FE, node, message, error, remote …',
+      'aria-label': 'Search frames',
+      spellcheck: 'false',
+      autocomplete: 'off',
+      title:
+        'Words that all must fit: identifier or data bytes in hex, name of a ' +
+        'node or message, error, overload, remote, data, ext, retry, lost',
+    });
     this.found = el('span', {class: 'found', 'aria-live': 'polite'});
-    this.root = el('div', {class: 'tab-body column'},
-                   el('div', {class: 'search'}, this.input, this.found), this.table.root);
+    this.root = el(
+      'div',
+      {class: 'tab-body column'},
+      el('div', {class: 'search'}, this.input, this.found),
+      this.table.root,
+    );
     this.input.addEventListener('input', () => this.#later());
     this.input.addEventListener('keydown', (event) => {
-      if (event.key === 'Escape') { this.input.value = ''; this.search(); this.input.blur(); }
+      if (event.key === 'Escape') {
+        this.input.value = '';
+        this.search();
+        this.input.blur();
+      }
     });
     view.addEventListener('select', () => this.#mark());
     this.search();
@@ -112,9 +204,10 @@ export class FramesTab {
   search() {
     const fits = compileQuery(this.input.value, this.report);
     const rows = fits ? this.rows.filter((row) => fits(rowValues(this.report, row))) : this.rows;
-    this.found.textContent = fits ? `${formatCount(rows.length)} of ${formatCount(this.rows.length)} found`
-                                  : `${formatCount(this.report.frames.count)} frames, ` +
-                                    `${formatCount(this.report.events.count)} errors and overloads`;
+    this.found.textContent = fits
+      ? `${formatCount(rows.length)} of ${formatCount(this.rows.length)} found`
+      : `${formatCount(this.report.frames.count)} frames, ` +
+        `errors and overloads ${formatCount(this.report.events.count)}`;
     this.table.show(rows);
   }
 

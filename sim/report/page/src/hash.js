@@ -32,11 +32,14 @@ export function keepHash(view) {
   const write = () => {
     timer = 0;
     const selection = selectionText(view.selection);
-    const hash = `#from=${+view.from.toFixed(3)}&to=${+view.to.toFixed(3)}` +
-                 (selection ? `&sel=${selection}` : '');
+    const hash =
+      `#from=${+view.from.toFixed(3)}&to=${+view.to.toFixed(3)}` +
+      (selection ? `&sel=${selection}` : '');
     if (hash !== location.hash) history.replaceState(null, '', hash);
   };
-  const later = () => { timer ||= setTimeout(write, 250); };
+  const later = () => {
+    timer ||= setTimeout(write, 250);
+  };
   view.addEventListener('move', later);
   view.addEventListener('select', later);
 }

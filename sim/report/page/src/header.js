@@ -15,27 +15,61 @@ function facts(report) {
   const list = [
     fact(formatRate(meta.bitrate), '', 'Bit rate'),
     fact(formatTime(meta.duration_ns, meta.duration_ns / 1000), '', 'Simulated time'),
-    fact(formatCount(report.nodes.length), report.nodes.length === 1 ? 'node' : 'nodes', 'Controllers on the bus'),
+    fact(
+      formatCount(report.nodes.length),
+      report.nodes.length === 1 ? 'node' : 'nodes',
+      'Controllers on the bus',
+    ),
     fact(formatCount(summary.frames), 'frames', 'Acknowledged frames'),
-    fact(formatCount(summary.error_frames), 'error frames', 'A node found an error and told all others', summary.error_frames ? 'alarm' : ''),
+    fact(
+      formatCount(summary.error_frames),
+      'error frames',
+      'A node found an error and told all others',
+      summary.error_frames ? 'alarm' : '',
+    ),
     fact(formatCount(summary.overload_frames), 'overload frames', 'A node asked for more time'),
     fact(percent(summary.load), 'load', 'Part of the time in which the bus is busy'),
   ];
-  if (summary.unacknowledged > 0) list.push(fact(formatCount(summary.unacknowledged), 'unacknowledged', 'Complete frames that nobody acknowledged', 'alarm'));
-  if (summary.pending > 0) list.push(fact(formatCount(summary.pending), 'still waiting', 'Frames that were queued and have not left', 'alarm'));
+  if (summary.unacknowledged > 0)
+    list.push(
+      fact(
+        formatCount(summary.unacknowledged),
+        'unacknowledged',
+        'Complete frames that nobody acknowledged',
+        'alarm',
+      ),
+    );
+  if (summary.pending > 0)
+    list.push(
+      fact(
+        formatCount(summary.pending),
+        'still waiting',
+        'Frames that were queued and have not left',
+        'alarm',
+      ),
+    );
   return list;
 }
 
 function verdict(report, actions) {
-  const failed = report.meta.checks.filter(({ok}) => !ok).length +
-                 report.meta.statements.filter(({ok}) => !ok).length;
+  const failed =
+    report.meta.checks.filter(({ok}) => !ok).length +
+    report.meta.statements.filter(({ok}) => !ok).length;
   const all = report.meta.checks.length + report.meta.statements.length;
   if (failed > 0) {
-    return el('button', {type: 'button', class: 'verdict bad', onclick: () => actions.tab('checks')},
-              `✗ ${failed} of ${all} checks failed`);
+    return el(
+      'button',
+      {type: 'button', class: 'verdict bad', onclick: () => actions.tab('checks')},
+      `✗ ${failed} of ${all} checks failed`,
+    );
   }
-  return all > 0 ? el('button', {type: 'button', class: 'verdict good', onclick: () => actions.tab('checks')},
-                      `✓ all ${all} checks`) : null;
+  return all > 0
+    ? el(
+        'button',
+        {type: 'button', class: 'verdict good', onclick: () => actions.tab('checks')},
+        `✓ all ${all} checks`,
+      )
+    : null;
 }
 
 /** One button for each statement of the paper. */
@@ -45,18 +79,36 @@ function statementsBar(report, view) {
   const out = el('p', {class: 'seen', 'aria-live': 'polite', hidden: true});
   const buttons = statements.map((statement) => {
     const {figure, reported, seen, ok, time_ns} = statement;
-    return el('button', {type: 'button', class: ok ? 'statement' : 'statement bad', 'aria-pressed': 'false',
-                         title: `The paper reports: ${reported}\nHere: ${seen}`,
-                         onclick: (event) => {
-                           for (const b of buttons) b.setAttribute('aria-pressed', String(b === event.currentTarget));
-                           out.hidden = false;
-                           out.replaceChildren(el('b', {}, `fig. ${figure}  `), `reported: ${reported}. `,
-                                               el('b', {}, ok ? ' seen: ' : ' seen (differs): '), seen);
-                           goToStatement(report, view, time_ns);
-                         }},
-              el('b', {}, `${ok ? '✓' : '✗'} fig. ${figure}`), el('span', {}, reported));
+    return el(
+      'button',
+      {
+        type: 'button',
+        class: ok ? 'statement' : 'statement bad',
+        'aria-pressed': 'false',
+        title: `The paper reports: ${reported}\nHere: ${seen}`,
+        onclick: (event) => {
+          for (const b of buttons)
+            b.setAttribute('aria-pressed', String(b === event.currentTarget));
+          out.hidden = false;
+          out.replaceChildren(
+            el('b', {}, `fig. ${figure}  `),
+            `reported: ${reported}. `,
+            el('b', {}, ok ? ' seen: ' : ' seen (differs): '),
+            seen,
+          );
+          goToStatement(report, view, time_ns);
+        },
+      },
+      el('b', {}, `${ok ? '✓' : '✗'} fig. ${figure}`),
+      el('span', {}, reported),
+    );
   });
-  return el('section', {class: 'statements', 'aria-label': 'Statements of the paper'}, el('div', {class: 'buttons'}, buttons), out);
+  return el(
+    'section',
+    {class: 'statements', 'aria-label': 'Statements of the paper'},
+    el('div', {class: 'buttons'}, buttons),
+    out,
+  );
 }
 
 /** The whole attempt around a moment, or some bits of silence. */
@@ -76,13 +128,22 @@ export function goToStatement(report, view, time) {
 export function header(report, view, actions) {
   const {meta} = report;
   return [
-    el('header', {class: 'head'},
-       el('h1', {}, meta.title),
-       verdict(report, actions),
-       el('div', {class: 'facts'}, facts(report)),
-       el('div', {class: 'about'}, el('span', {class: 'note', title: meta.note}, meta.note),
-          el('span', {class: 'tool'}, meta.tool))),
-    meta.truncated ? el('p', {class: 'note warn'}, `Not everything is in this file: ${meta.truncated}`) : null,
+    el(
+      'header',
+      {class: 'head'},
+      el('h1', {}, meta.title),
+      verdict(report, actions),
+      el('div', {class: 'facts'}, facts(report)),
+      el(
+        'div',
+        {class: 'about'},
+        el('span', {class: 'note', title: meta.note}, meta.note),
+        el('span', {class: 'tool'}, meta.tool),
+      ),
+    ),
+    meta.truncated
+      ? el('p', {class: 'note warn'}, `Not everything is in this file: ${meta.truncated}`)
+      : null,
     statementsBar(report, view),
   ].filter(Boolean);
 }

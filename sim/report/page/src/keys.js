@@ -17,7 +17,9 @@ export class Steps {
       : (this.view.from + this.view.to) / 2;
   }
 
-  all() { this.view.go(-0.01 * this.report.duration, 1.01 * this.report.duration); }
+  all() {
+    this.view.go(-0.01 * this.report.duration, 1.01 * this.report.duration);
+  }
 
   /** A window of so many bits around the middle. */
   bits(count) {
@@ -43,9 +45,10 @@ export class Steps {
     const {frames} = this.report;
     if (frames.count === 0) return;
     const selected = this.view.selection?.kind === 'frame' ? this.view.selection.index : null;
-    const index = selected !== null
-      ? Math.min(Math.max(selected + direction, 0), frames.count - 1)
-      : this.#next(frames.start, frames.count, direction);
+    const index =
+      selected !== null
+        ? Math.min(Math.max(selected + direction, 0), frames.count - 1)
+        : this.#next(frames.start, frames.count, direction);
     this.view.select({kind: 'frame', index});
     this.view.goTo(frames.start[index], frames.end[index], 0.08);
   }
@@ -54,9 +57,10 @@ export class Steps {
     const {events} = this.report;
     if (events.count === 0) return;
     const selected = this.view.selection?.kind === 'event' ? this.view.selection.index : null;
-    const index = selected !== null
-      ? Math.min(Math.max(selected + direction, 0), events.count - 1)
-      : this.#next(events.start, events.count, direction);
+    const index =
+      selected !== null
+        ? Math.min(Math.max(selected + direction, 0), events.count - 1)
+        : this.#next(events.start, events.count, direction);
     this.showEvent(index);
   }
 
@@ -81,8 +85,11 @@ export class Steps {
     this.view.select({kind: 'loss', index});
     const segment = losses.segment[index];
     const time = losses.time[index];
-    this.view.goTo(segments.start[segment] ?? time - 20 * this.report.bitNs,
-                   time + 8 * this.report.bitNs, 0.1);
+    this.view.goTo(
+      segments.start[segment] ?? time - 20 * this.report.bitNs,
+      time + 8 * this.report.bitNs,
+      0.1,
+    );
   }
 }
 
@@ -134,7 +141,11 @@ export function attachKeys(view, steps, scope, actions) {
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.target.closest?.('input, textarea, select, dialog')) return;
-    const moving = event.key.startsWith('Arrow') || event.key === 'Enter' || event.key === 'Home' || event.key === 'End';
+    const moving =
+      event.key.startsWith('Arrow') ||
+      event.key === 'Enter' ||
+      event.key === 'Home' ||
+      event.key === 'End';
     if (moving && event.target.closest?.('[role=grid], [role=tab], button, a')) return;
     const action = keys[event.key];
     if (!action) return;

@@ -37,14 +37,22 @@ function groupValue(group) {
   const {field, value, values} = group;
   if (field in kWidths && values < kWidths[field]) return '';
   switch (field) {
-    case F.ID: return hex(value, 3);
-    case F.EXID: return hex(value, 5);
-    case F.DLC: return String(value);
-    case F.DATA: return hex(value, 2);
-    case F.CRC: return hex(value, 4);
-    case F.ACK: return value === 0 ? '✓' : '✗';
-    case F.ERROR_FLAG: return group.sent === 0 ? 'active' : 'passive';
-    default: return '';
+    case F.ID:
+      return hex(value, 3);
+    case F.EXID:
+      return hex(value, 5);
+    case F.DLC:
+      return String(value);
+    case F.DATA:
+      return hex(value, 2);
+    case F.CRC:
+      return hex(value, 4);
+    case F.ACK:
+      return value === 0 ? '✓' : '✗';
+    case F.ERROR_FLAG:
+      return group.sent === 0 ? 'active' : 'passive';
+    default:
+      return '';
   }
 }
 
@@ -78,11 +86,21 @@ export class Lane {
     }
   }
 
-  get end() { return this.starts[this.count]; }
-  field(i) { return this.bits[i] & 31; }
-  stuff(i) { return isStuff(this.bits, i); }
-  sampled(i) { return (this.bits[i] >> 6) & 1; }
-  sent(i) { return this.bits[i] >> 7; }
+  get end() {
+    return this.starts[this.count];
+  }
+  field(i) {
+    return this.bits[i] & 31;
+  }
+  stuff(i) {
+    return isStuff(this.bits, i);
+  }
+  sampled(i) {
+    return (this.bits[i] >> 6) & 1;
+  }
+  sent(i) {
+    return this.bits[i] >> 7;
+  }
 
   /** When bit i was sampled: quanta that were added lie before the sample point, in PHASE_SEG1. */
   sample(i) {
@@ -103,7 +121,9 @@ export class Lane {
     return low;
   }
 
-  groupOf(i) { return this.groups.find((group) => i >= group.first && i <= group.last); }
+  groupOf(i) {
+    return this.groups.find((group) => i >= group.first && i <= group.last);
+  }
 
   /** Place of bit i in its field, from 0, stuff bits not counted. */
   place(i) {
@@ -113,13 +133,24 @@ export class Lane {
     return place;
   }
 
-  number(i) { return bitNumber(this.field(i), this.place(i)); }
+  number(i) {
+    return bitNumber(this.field(i), this.place(i));
+  }
 
   /** What the bits say, as far as they go: a frame that failed has only its first fields. */
   decode() {
     if (this.decoded) return this.decoded;
-    const out = {id: null, extended: false, remote: false, dlc: null, data: [], crc: null,
-                 computed: null, acked: null, stuffBits: 0};
+    const out = {
+      id: null,
+      extended: false,
+      remote: false,
+      dlc: null,
+      data: [],
+      crc: null,
+      computed: null,
+      acked: null,
+      stuffBits: 0,
+    };
     const covered = [];
     let base = null;
     for (let i = 0; i < this.count; ++i) {
@@ -133,12 +164,19 @@ export class Lane {
       if (!whole) continue;
       if (field === F.ID) out.id = base = value;
       if (field === F.RTR) out.remote = value === 1;
-      if (field === F.IDE && value === 1) { out.extended = true; out.id = null; out.remote = false; }
+      if (field === F.IDE && value === 1) {
+        out.extended = true;
+        out.id = null;
+        out.remote = false;
+      }
       if (field === F.EXID) out.id = base * 0x40000 + value;
       if (field === F.EXRTR) out.remote = value === 1;
       if (field === F.DLC) out.dlc = value;
       if (field === F.DATA) out.data.push(value);
-      if (field === F.CRC) { out.crc = value; out.computed = crc15(covered); }
+      if (field === F.CRC) {
+        out.crc = value;
+        out.computed = crc15(covered);
+      }
       if (field === F.ACK) out.acked = value === 0;
     }
     this.decoded = out;

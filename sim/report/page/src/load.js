@@ -6,11 +6,12 @@
 /** Bad or missing data; the message is for the person who opened the file. */
 export class LoadError extends Error {}
 
-const kSlice = 4 << 20;  // base64 characters between two looks at the clock
+const kSlice = 4 << 20; // base64 characters between two looks at the clock
 
 function metaOf(documentNode) {
   const element = documentNode.getElementById('verican-meta');
-  if (!element) throw new LoadError('this file has no report in it: element verican-meta is missing');
+  if (!element)
+    throw new LoadError('this file has no report in it: element verican-meta is missing');
   let meta;
   try {
     meta = JSON.parse(element.textContent);
@@ -93,8 +94,10 @@ export async function load(documentNode, progress = () => {}) {
   const element = documentNode.getElementById('verican-data');
   if (!element) throw new LoadError('the data of the report is missing');
   if (typeof DecompressionStream === 'undefined') {
-    throw new LoadError('this browser cannot decompress data (DecompressionStream); ' +
-                        'Chromium 80, Firefox 113, Safari 16.4 and later can');
+    throw new LoadError(
+      'this browser cannot decompress data (DecompressionStream); ' +
+        'Chromium 80, Firefox 113, Safari 16.4 and later can',
+    );
   }
   const size = sizeOf(meta);
   const buffer = await inflate(element.textContent.replace(/\s+/g, ''), size, progress);

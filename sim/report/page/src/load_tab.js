@@ -22,7 +22,8 @@ function wastedSums(report) {
   return (ns) => {
     const i = lastAtOrBelow(segments.start, ns);
     if (i < 0) return 0;
-    const inside = report.segmentFrame[i] < 0 ? Math.min(ns, segments.end[i]) - segments.start[i] : 0;
+    const inside =
+      report.segmentFrame[i] < 0 ? Math.min(ns, segments.end[i]) - segments.start[i] : 0;
     return sums[i] + inside;
   };
 }
@@ -32,13 +33,22 @@ export class LoadTab {
     const host = el('div', {class: 'plot'});
     const wasted = wastedSums(report);
     const {summary} = report.meta;
-    const bound = summary.analytic_load > 0 ? ` · worst case by analysis ${percent(summary.analytic_load)}` : '';
-    this.root = el('div', {class: 'tab-body column'},
-                   el('div', {class: 'legend'},
-                      el('span', {}, swatch(colors().load), 'busy: frames, errors and the three bits after each'),
-                      el('span', {}, swatch(colors().alarm), 'of it attempts that failed'),
-                      el('span', {class: 'dim'}, `whole run ${percent(summary.load)}${bound}`)),
-                   host);
+    const bound =
+      summary.analytic_load > 0
+        ? ` · worst case by analysis ${percent(summary.analytic_load)}`
+        : '';
+    this.root = el(
+      'div',
+      {class: 'tab-body column'},
+      el(
+        'div',
+        {class: 'legend'},
+        el('span', {}, swatch(colors().load), 'busy: frames, errors and the three bits after each'),
+        el('span', {}, swatch(colors().alarm), 'of it attempts that failed'),
+        el('span', {class: 'dim'}, `whole run ${percent(summary.load)}${bound}`),
+      ),
+      host,
+    );
     this.plot = new Plot(host, report, view, {
       data: (from, to) => {
         const step = (to - from) / kWindows;
@@ -58,8 +68,20 @@ export class LoadTab {
         scales: {y: {range: () => [0, 100]}},
         axis: {space: 24},
         series: [
-          {stroke: colors().load, fill: `${colors().load}66`, width: 1.5, paths: uPlot.paths.stepped({align: 1}), points: {show: false}},
-          {stroke: colors().alarm, fill: `${colors().alarm}88`, width: 1.5, paths: uPlot.paths.stepped({align: 1}), points: {show: false}},
+          {
+            stroke: colors().load,
+            fill: `${colors().load}66`,
+            width: 1.5,
+            paths: uPlot.paths.stepped({align: 1}),
+            points: {show: false},
+          },
+          {
+            stroke: colors().alarm,
+            fill: `${colors().alarm}88`,
+            width: 1.5,
+            paths: uPlot.paths.stepped({align: 1}),
+            points: {show: false},
+          },
         ],
       }),
     });

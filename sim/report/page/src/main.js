@@ -27,14 +27,18 @@ import {View} from './view.js';
 /** The line of candump for what is selected, on the clipboard. */
 async function copySelection(report, view, say) {
   const {selection} = view;
-  const index = selection?.kind === 'frame' ? selection.index
-    : selection?.kind === 'bit' ? report.segmentFrame[selection.segment] : -1;
+  const index =
+    selection?.kind === 'frame'
+      ? selection.index
+      : selection?.kind === 'bit'
+        ? report.segmentFrame[selection.segment]
+        : -1;
   if (index < 0) return say('Select a frame first.');
   const line = candumpLine(report.frame(index));
   try {
     await navigator.clipboard.writeText(line);
   } catch {
-    const area = el('textarea', {}, line);  // pages from a file may have no clipboard
+    const area = el('textarea', {}, line); // pages from a file may have no clipboard
     document.body.append(area);
     area.select();
     document.execCommand('copy');
@@ -51,7 +55,9 @@ function sayer(host) {
     box.textContent = text;
     box.hidden = false;
     clearTimeout(timer);
-    timer = setTimeout(() => { box.hidden = true; }, 3000);
+    timer = setTimeout(() => {
+      box.hidden = true;
+    }, 3000);
   };
 }
 
@@ -60,10 +66,30 @@ const partsOf = ({root, plot}) => ({root, plot});
 function tabsOf(report, view, steps, frames) {
   return new Tabs([
     {id: 'frames', name: 'Frames', title: 'All frames and errors; searchable', root: frames.root},
-    {id: 'events', name: `Errors (${report.events.count})`, title: 'Errors, overloads and lost arbitrations', root: new EventsTab(report, view, steps).root},
-    {id: 'counters', name: 'Error counters', title: 'TEC, REC and state of each node over time', ...partsOf(new CountersTab(report, view))},
-    {id: 'load', name: 'Bus load', title: 'How busy the bus is over time', ...partsOf(new LoadTab(report, view))},
-    {id: 'response', name: 'Response times', title: 'From the event that queues a frame to its end', ...partsOf(new ResponseTab(report, view, steps))},
+    {
+      id: 'events',
+      name: `Errors (${report.events.count})`,
+      title: 'Errors, overloads and lost arbitrations',
+      root: new EventsTab(report, view, steps).root,
+    },
+    {
+      id: 'counters',
+      name: 'Error counters',
+      title: 'TEC, REC and state of each node over time',
+      ...partsOf(new CountersTab(report, view)),
+    },
+    {
+      id: 'load',
+      name: 'Bus load',
+      title: 'How busy the bus is over time',
+      ...partsOf(new LoadTab(report, view)),
+    },
+    {
+      id: 'response',
+      name: 'Response times',
+      title: 'From the event that queues a frame to its end',
+      ...partsOf(new ResponseTab(report, view, steps)),
+    },
     {id: 'nodes', name: 'Nodes', title: 'Settings and counts of each node', root: nodesTab(report)},
     {id: 'checks', name: 'Checks', title: 'What the scenario expected', root: checksTab(report)},
   ]);
@@ -84,8 +110,12 @@ function firstView(report, view) {
 
 /** The selection, unless the address names what the report does not have. */
 function validSelection(report, selection) {
-  const counts = {frame: report.frames.count, event: report.events.count, loss: report.losses.count,
-                  segment: report.segments.count};
+  const counts = {
+    frame: report.frames.count,
+    event: report.events.count,
+    loss: report.losses.count,
+    segment: report.segments.count,
+  };
   if (!selection) return null;
   if (selection.kind === 'bit') {
     const lane = report.lane(selection.segment, selection.lane);
@@ -103,15 +133,26 @@ function build(report, app) {
   const actions = {
     help: () => help.showModal(),
     copy: () => copySelection(report, view, say),
-    search: () => { tabs.show('frames'); frames.input.focus(); },
+    search: () => {
+      tabs.show('frames');
+      frames.input.focus();
+    },
     tab: (id) => tabs.show(id),
   };
   const tabs = tabsOf(report, view, steps, frames);
   const scopeHost = el('section', {class: 'scope', 'aria-label': 'Oscilloscope'});
   const overviewHost = el('div', {class: 'overview-host'});
   const bottom = el('section', {class: 'bottom'}, tabs.root, detailPanel(report, view, actions));
-  app.replaceChildren(...header(report, view, actions), toolbar(report, view, steps, actions), overviewHost,
-                      scopeHost, legend(), attachSplitter(app), bottom, help);
+  app.replaceChildren(
+    ...header(report, view, actions),
+    toolbar(report, view, steps, actions),
+    overviewHost,
+    scopeHost,
+    legend(),
+    attachSplitter(app),
+    bottom,
+    help,
+  );
   app.classList.toggle('app-paper', report.meta.statements.length > 0);
   const scope = new Scope(scopeHost, report, view);
   const overview = new Overview(overviewHost, report, view);
@@ -121,8 +162,18 @@ function build(report, app) {
   firstView(report, view);
   keepHash(view);
   window.addEventListener('hashchange', () => firstView(report, view));
-  return {report, view, steps, scope, overview, tabs, frames, goToStatement,
-          inspect: () => scope.inspect(), stats: scope.stats};
+  return {
+    report,
+    view,
+    steps,
+    scope,
+    overview,
+    tabs,
+    frames,
+    goToStatement,
+    inspect: () => scope.inspect(),
+    stats: scope.stats,
+  };
 }
 
 async function start() {
@@ -131,13 +182,18 @@ async function start() {
   app.replaceChildren(el('p', {class: 'loading'}, 'Opening the report … ', bar));
   const begin = performance.now();
   try {
-    const data = await load(document, (part) => { bar.value = part; });
+    const data = await load(document, (part) => {
+      bar.value = part;
+    });
     document.title = `${data.meta.title} – VeriCAN`;
     const parts = build(new Report(data), app);
     window.verican = {...parts, loadMs: performance.now() - begin};
   } catch (error) {
-    const text = error instanceof LoadError ? error.message : `a mistake in the page: ${error.message}`;
-    app.replaceChildren(el('p', {class: 'loading error', role: 'alert'}, `The report cannot be shown: ${text}.`));
+    const text =
+      error instanceof LoadError ? error.message : `a mistake in the page: ${error.message}`;
+    app.replaceChildren(
+      el('p', {class: 'loading error', role: 'alert'}, `The report cannot be shown: ${text}.`),
+    );
     window.verican = {error};
     if (!(error instanceof LoadError)) throw error;
   }

@@ -13,8 +13,11 @@ const kColumn = 2;
 export class Overview {
   constructor(root, report, view) {
     Object.assign(this, {root, report, view});
-    this.canvas = el('canvas', {class: 'overview', role: 'img', 'aria-label':
-                                'The whole run; click or drag to move the view'});
+    this.canvas = el('canvas', {
+      class: 'overview',
+      role: 'img',
+      'aria-label': 'The whole run; click or drag to move the view',
+    });
     root.append(this.canvas);
     this.painter = new Painter(this.canvas);
     this.columns = null;
@@ -33,9 +36,15 @@ export class Overview {
     });
   }
 
-  get plot() { return Math.max(this.width - kGutter, 1); }
-  x(ns) { return kGutter + ((ns - this.view.least) / (this.view.most - this.view.least)) * this.plot; }
-  time(x) { return this.view.least + ((x - kGutter) / this.plot) * (this.view.most - this.view.least); }
+  get plot() {
+    return Math.max(this.width - kGutter, 1);
+  }
+  x(ns) {
+    return kGutter + ((ns - this.view.least) / (this.view.most - this.view.least)) * this.plot;
+  }
+  time(x) {
+    return this.view.least + ((x - kGutter) / this.plot) * (this.view.most - this.view.least);
+  }
 
   /** Load and errors of each column; the same until the width changes. */
   #columnsOf(width) {
@@ -55,7 +64,8 @@ export class Overview {
     const p = this.painter;
     p.begin(this.width, kHeight, colors());
     for (const {x, load, errors} of this.#columnsOf(this.width).list) {
-      if (load > 0) p.rect(x, kHeight - load * (kHeight - 10), kColumn, load * (kHeight - 10), 'load');
+      if (load > 0)
+        p.rect(x, kHeight - load * (kHeight - 10), kColumn, load * (kHeight - 10), 'load');
       if (errors > 0) p.rect(x, 0, kColumn, 7, 'f-error');
     }
     p.text('whole run', 10, kHeight / 2, {size: 11, color: 'dim'});
@@ -96,6 +106,9 @@ export class Overview {
       canvas.style.cursor = where === 'from' || where === 'to' ? 'ew-resize' : 'pointer';
       return undefined;
     });
-    for (const name of ['pointerup', 'pointercancel']) canvas.addEventListener(name, () => { grip = null; });
+    for (const name of ['pointerup', 'pointercancel'])
+      canvas.addEventListener(name, () => {
+        grip = null;
+      });
   }
 }

@@ -37,7 +37,9 @@ export class Painter {
     if (this.items) this.items.push({kind, ...data});
   }
 
-  color(name) { return this.colors[name] ?? name; }
+  color(name) {
+    return this.colors[name] ?? name;
+  }
 
   rect(x, y, w, h, color, alpha = 1) {
     ++this.drawn;

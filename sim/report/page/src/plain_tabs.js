@@ -10,7 +10,11 @@ const kNodeColumns = [
   ['node', 'Name in the scenario', (n, i) => [swatch(nodeColor(i)), n.name]],
   ['clock', 'Frequency of its oscillator', (n) => formatFrequency(n.clock_hz)],
   ['ppm', 'Error of the oscillator, millionths', (n) => n.error_ppm],
-  ['quanta', 'Time quanta a bit: SYNC + PROP + PS1 + PS2', (n) => `${n.quanta} (1+${n.prop}+${n.ps1}+${n.ps2})`],
+  [
+    'quanta',
+    'Time quanta a bit: SYNC + PROP + PS1 + PS2',
+    (n) => `${n.quanta} (1+${n.prop}+${n.ps1}+${n.ps2})`,
+  ],
   ['tq ns', 'Time quantum, error of the clock included', (n) => +n.tq_ns.toFixed(3)],
   ['SJW', 'Largest correction of a resynchronisation, quanta', (n) => n.sjw],
   ['sample point', 'Place in the bit where its level is read', (n) => percent(n.sample_point)],
@@ -26,20 +30,45 @@ const kNodeColumns = [
 ];
 
 export function nodesTab(report) {
-  const head = kNodeColumns.map(([name, title], i) => el('th', {title, class: i ? 'right' : ''}, name));
-  const rows = report.nodes.map((node, i) => el('tr', {}, kNodeColumns.map(([, , value], column) =>
-    el('td', {class: column ? 'right' : ''}, ...[value(node, i)].flat().map((x) => (x instanceof Node ? x : String(x)))))));
-  return el('div', {class: 'tab-body scroll'},
-            el('table', {class: 'plain'}, el('thead', {}, el('tr', {}, head)), el('tbody', {}, rows)));
+  const head = kNodeColumns.map(([name, title], i) =>
+    el('th', {title, class: i ? 'right' : ''}, name),
+  );
+  const rows = report.nodes.map((node, i) =>
+    el(
+      'tr',
+      {},
+      kNodeColumns.map(([, , value], column) =>
+        el(
+          'td',
+          {class: column ? 'right' : ''},
+          ...[value(node, i)].flat().map((x) => (x instanceof Node ? x : String(x))),
+        ),
+      ),
+    ),
+  );
+  return el(
+    'div',
+    {class: 'tab-body scroll'},
+    el('table', {class: 'plain'}, el('thead', {}, el('tr', {}, head)), el('tbody', {}, rows)),
+  );
 }
 
 /** What was expected; failures first. */
 export function checksTab(report) {
   const checks = [...report.meta.checks].sort((a, b) => a.ok - b.ok);
-  const rows = checks.map(({what, wanted, seen, ok}) => el('tr', {class: ok ? '' : 'failed'},
-    [ok ? '✓ ok' : '✗ failed', what, wanted, seen].map((text) => el('td', {}, text))));
+  const rows = checks.map(({what, wanted, seen, ok}) =>
+    el(
+      'tr',
+      {class: ok ? '' : 'failed'},
+      [ok ? '✓ ok' : '✗ failed', what, wanted, seen].map((text) => el('td', {}, text)),
+    ),
+  );
   const head = ['', 'what', 'wanted', 'seen'].map((name) => el('th', {}, name));
-  return el('div', {class: 'tab-body scroll'}, checks.length === 0
-    ? el('p', {class: 'dim'}, 'The scenario expects nothing in particular.')
-    : el('table', {class: 'plain'}, el('thead', {}, el('tr', {}, head)), el('tbody', {}, rows)));
+  return el(
+    'div',
+    {class: 'tab-body scroll'},
+    checks.length === 0
+      ? el('p', {class: 'dim'}, 'The scenario expects nothing in particular.')
+      : el('table', {class: 'plain'}, el('thead', {}, el('tr', {}, head)), el('tbody', {}, rows)),
+  );
 }

@@ -10,29 +10,46 @@ import {colors} from './theme.js';
 /** Options that all plots share. */
 function base(plot, extra) {
   const theme = colors();
-  const axis = {stroke: theme.dim, grid: {stroke: theme.grid, width: 1}, ticks: {stroke: theme.grid, width: 1},
-                font: `11px ${theme.sans}`, labelFont: `11px ${theme.sans}`, labelSize: 18};
+  const axis = {
+    stroke: theme.dim,
+    grid: {stroke: theme.grid, width: 1},
+    ticks: {stroke: theme.grid, width: 1},
+    font: `11px ${theme.sans}`,
+    labelFont: `11px ${theme.sans}`,
+    labelSize: 18,
+  };
   return {
-    width: 600, height: 200,
+    width: 600,
+    height: 200,
     padding: [8, 0, 0, 0],
     legend: {show: false},
     cursor: {y: false, drag: {x: true, y: false, setScale: false}, points: {show: false}},
     select: {show: true},
-    scales: {x: {time: false, auto: false, range: () => [plot.view.from, plot.view.to]}, ...extra.scales},
+    scales: {
+      x: {time: false, auto: false, range: () => [plot.view.from, plot.view.to]},
+      ...extra.scales,
+    },
     axes: [
-      {...axis, space: 110, size: 30,
-       values: (u, splits) => splits.map((v, i) => formatTime(v, (splits[1] - splits[0]) / 2 || 1))},
+      {
+        ...axis,
+        space: 110,
+        size: 30,
+        values: (u, splits) =>
+          splits.map((v, i) => formatTime(v, (splits[1] - splits[0]) / 2 || 1)),
+      },
       {...axis, size: kGutter - (extra.label ? 18 : 0), label: extra.label, ...extra.axis},
     ],
     series: [{}, ...extra.series],
     hooks: {
-      setSelect: [(u) => {
-        if (u.select.width < 3) return;
-        const a = u.posToVal(u.select.left, 'x');
-        const b = u.posToVal(u.select.left + u.select.width, 'x');
-        u.setSelect({left: 0, top: 0, width: 0, height: 0}, false);
-        plot.view.go(a, b);
-      }],
+      setSelect: [
+        (u) => {
+          if (u.select.width < 3) return;
+          const a = u.posToVal(u.select.left, 'x');
+          const b = u.posToVal(u.select.left + u.select.width, 'x');
+          u.setSelect({left: 0, top: 0, width: 0, height: 0}, false);
+          plot.view.go(a, b);
+        },
+      ],
       ...extra.hooks,
     },
   };
@@ -46,15 +63,21 @@ export class Plot {
     this.pending = 0;
     view.addEventListener('move', () => this.invalidate());
     new ResizeObserver(() => this.invalidate()).observe(root);
-    window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.rebuild());
-    root.addEventListener('wheel', (event) => {
-      event.preventDefault();
-      const u = this.plot;
-      if (!u) return;
-      const box = u.over.getBoundingClientRect();
-      if (event.shiftKey) view.pan(((event.deltaX || event.deltaY) / box.width) * view.span);
-      else view.zoom(Math.exp(0.002 * event.deltaY), u.posToVal(event.clientX - box.left, 'x'));
-    }, {passive: false});
+    window
+      .matchMedia('(prefers-color-scheme: dark)')
+      .addEventListener('change', () => this.rebuild());
+    root.addEventListener(
+      'wheel',
+      (event) => {
+        event.preventDefault();
+        const u = this.plot;
+        if (!u) return;
+        const box = u.over.getBoundingClientRect();
+        if (event.shiftKey) view.pan(((event.deltaX || event.deltaY) / box.width) * view.span);
+        else view.zoom(Math.exp(0.002 * event.deltaY), u.posToVal(event.clientX - box.left, 'x'));
+      },
+      {passive: false},
+    );
   }
 
   rebuild() {
@@ -77,10 +100,15 @@ export class Plot {
     if (width < 50 || height < 50) return;
     const data = this.parts.data(this.view.from, this.view.to, Math.min(800, width));
     if (!this.plot) {
-      this.plot = new uPlot({...base(this, this.parts.options(this)), width, height}, data, this.root);
+      this.plot = new uPlot(
+        {...base(this, this.parts.options(this)), width, height},
+        data,
+        this.root,
+      );
       return;
     }
-    if (this.plot.width !== width || this.plot.height !== height) this.plot.setSize({width, height});
+    if (this.plot.width !== width || this.plot.height !== height)
+      this.plot.setSize({width, height});
     this.plot.setData(data, false);
     this.plot.redraw(true, true);
     this.plot.setScale('x', {min: this.view.from, max: this.view.to});

@@ -3,7 +3,7 @@
 //
 // Mouse, touch and keyboard of the scope.
 
-const kDragPx = 4;  // less is a click
+const kDragPx = 4; // less is a click
 
 /** Wheel: zoom at the pointer; sideways or with shift: move. */
 function wheel(scope, view) {
@@ -16,7 +16,7 @@ function wheel(scope, view) {
       view.pan((unit * (event.deltaX || event.deltaY)) / scale.pxPerNs);
       return;
     }
-    const speed = event.ctrlKey ? 0.01 : 0.002;  // ctrl: what a pinch on a touchpad sends
+    const speed = event.ctrlKey ? 0.01 : 0.002; // ctrl: what a pinch on a touchpad sends
     view.zoom(Math.exp(speed * unit * event.deltaY), scale.time(event.offsetX));
   };
 }
@@ -37,8 +37,13 @@ class Gesture {
     if (event.button !== 0) return;
     this.canvas.setPointerCapture(event.pointerId);
     this.pointers.set(event.pointerId, event.offsetX);
-    this.start = {x: event.offsetX, from: this.view.from, to: this.view.to, moved: false,
-                  box: event.shiftKey};
+    this.start = {
+      x: event.offsetX,
+      from: this.view.from,
+      to: this.view.to,
+      moved: false,
+      box: event.shiftKey,
+    };
     if (this.pointers.size === 2) this.pinch = this.#pinchNow();
   }
 
@@ -117,12 +122,15 @@ function clicker(scope, view) {
     if (place.segment < 0) return view.select(null, 'scope');
     const scale = scope.scale();
     if (scale.pxPerBit >= 9 && place.bit >= 0) {
-      return view.select({kind: 'bit', segment: place.segment, lane: place.laneIndex, bit: place.bit},
-                         'scope');
+      return view.select(
+        {kind: 'bit', segment: place.segment, lane: place.laneIndex, bit: place.bit},
+        'scope',
+      );
     }
     const events = report.segmentEvents.get(place.segment) ?? [];
-    const on = events.find((i) => place.time >= report.events.start[i] &&
-                                  place.time <= report.events.end[i]);
+    const on = events.find(
+      (i) => place.time >= report.events.start[i] && place.time <= report.events.end[i],
+    );
     if (on !== undefined) return view.select({kind: 'event', index: on}, 'scope');
     const frame = report.segmentFrame[place.segment];
     if (frame >= 0) return view.select({kind: 'frame', index: frame}, 'scope');
@@ -137,7 +145,8 @@ export function attachPointer(scope, view) {
     canvas.addEventListener('wheel', wheel(scope, view), {passive: false});
     canvas.addEventListener('dblclick', (event) => {
       const {segment} = hit(scope, event.offsetX, event.offsetY, canvas);
-      if (segment >= 0) view.goTo(scope.report.segments.start[segment], scope.report.segments.end[segment], 0.05);
+      if (segment >= 0)
+        view.goTo(scope.report.segments.start[segment], scope.report.segments.end[segment], 0.05);
     });
     new Gesture(scope, view, canvas, clicker(scope, view));
   }

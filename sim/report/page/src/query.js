@@ -32,7 +32,8 @@ function wordTest(word, report) {
     return ({frame}) => frame?.id === id;
   }
   const digits = kHex.test(word);
-  return (row) => row.message.toLowerCase().includes(lower) ||
+  return (row) =>
+    row.message.toLowerCase().includes(lower) ||
     row.words.toLowerCase().includes(lower) ||
     (row.event !== undefined && row.data.toLowerCase().includes(lower)) ||
     (digits && row.frame !== undefined && (row.id.includes(upper) || hasBytes(row.data, upper)));

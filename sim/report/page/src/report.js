@@ -9,7 +9,11 @@ import {LoadError} from './load.js';
 import {lastAtOrBelow} from './search.js';
 
 const kTypes = {
-  u8: Uint8Array, i8: Int8Array, u16: Uint16Array, i16: Int16Array, u32: Uint32Array,
+  u8: Uint8Array,
+  i8: Int8Array,
+  u16: Uint16Array,
+  i16: Int16Array,
+  u32: Uint32Array,
   f64: Float64Array,
 };
 const kLanesKept = 600;
@@ -43,13 +47,35 @@ export class Report {
     this.nodes = meta.nodes;
     this.duration = meta.duration_ns;
     this.bitNs = 1e9 / meta.bitrate;
-    this.frames = need(arrays, 'f', ['start', 'end', 'sender', 'id', 'dlc', 'data', 'segment',
-                                     'message', 'response', 'retries', 'lost']);
-    this.events = need(arrays, 'e', ['start', 'end', 'kind', 'node', 'error', 'field', 'index',
-                                     'segment', 'cause']);
+    this.frames = need(arrays, 'f', [
+      'start',
+      'end',
+      'sender',
+      'id',
+      'dlc',
+      'data',
+      'segment',
+      'message',
+      'response',
+      'retries',
+      'lost',
+    ]);
+    this.events = need(arrays, 'e', [
+      'start',
+      'end',
+      'kind',
+      'node',
+      'error',
+      'field',
+      'index',
+      'segment',
+      'cause',
+    ]);
     this.losses = need(arrays, 'l', ['time', 'node', 'field', 'index', 'segment', 'winner']);
-    this.counters = new Counters(need(arrays, 'c', ['time', 'node', 'tec', 'rec', 'state']),
-                                 this.nodes.length);
+    this.counters = new Counters(
+      need(arrays, 'c', ['time', 'node', 'tec', 'rec', 'state']),
+      this.nodes.length,
+    );
     this.segments = need(arrays, 's', ['start', 'end', 'lane', 'lanes']);
     this.laneRows = need(arrays, 'b', ['start', 'node', 'tq', 'first', 'count']);
     this.laneRows.bits = arrays['b.count'];
@@ -148,8 +174,15 @@ export class Report {
     const first = laneRows.first[row];
     const end = first + laneRows.bits[row];
     const node = this.nodes[laneRows.node[row]] ?? this.nodes[0];
-    const lane = new Lane(row, laneRows.node[row], node, laneRows.start[row], laneRows.tq[row],
-                          this.bits.subarray(first, end), this.quanta.subarray(first, end));
+    const lane = new Lane(
+      row,
+      laneRows.node[row],
+      node,
+      laneRows.start[row],
+      laneRows.tq[row],
+      this.bits.subarray(first, end),
+      this.quanta.subarray(first, end),
+    );
     if (this.lanes.size >= kLanesKept) this.lanes.delete(this.lanes.keys().next().value);
     this.lanes.set(row, lane);
     return lane;
@@ -168,29 +201,52 @@ export class Report {
     const remote = (id & kRemote) !== 0;
     const length = remote ? 0 : Math.min(8, f.dlc[i]);
     return {
-      index: i, start: f.start[i], end: f.end[i], sender: f.sender[i],
-      id: id & 0x1fffffff, extended: (id & kExtended) !== 0, remote, dlc: f.dlc[i],
-      data: f.data.subarray(8 * i, 8 * i + length), segment: f.segment[i], message: f.message[i],
-      response: f.response[i], retries: f.retries[i], lost: f.lost[i],
+      index: i,
+      start: f.start[i],
+      end: f.end[i],
+      sender: f.sender[i],
+      id: id & 0x1fffffff,
+      extended: (id & kExtended) !== 0,
+      remote,
+      dlc: f.dlc[i],
+      data: f.data.subarray(8 * i, 8 * i + length),
+      segment: f.segment[i],
+      message: f.message[i],
+      response: f.response[i],
+      retries: f.retries[i],
+      lost: f.lost[i],
     };
   }
 
   event(i) {
     const e = this.events;
     return {
-      index: i, kind: e.kind[i], start: e.start[i], end: e.end[i], node: e.node[i],
-      error: e.error[i], field: e.field[i], place: e.index[i], segment: e.segment[i],
+      index: i,
+      kind: e.kind[i],
+      start: e.start[i],
+      end: e.end[i],
+      node: e.node[i],
+      error: e.error[i],
+      field: e.field[i],
+      place: e.index[i],
+      segment: e.segment[i],
       cause: this.meta.causes[e.cause[i]] ?? {text: 'unknown', rule: ''},
     };
   }
 
-  nodeName(node) { return this.nodes[node]?.name ?? 'nobody'; }
-  nodeIndex(name) { return this.nodes.findIndex((node) => node.name === name); }
+  nodeName(node) {
+    return this.nodes[node]?.name ?? 'nobody';
+  }
+  nodeIndex(name) {
+    return this.nodes.findIndex((node) => node.name === name);
+  }
 
   /** Nodes that drive dominant in the middle of a stretch of time. */
   driversAt(ns) {
     const list = [];
-    this.tx.forEach((track, node) => { if (track && track.levelAt(ns) === 0) list.push(node); });
+    this.tx.forEach((track, node) => {
+      if (track && track.levelAt(ns) === 0) list.push(node);
+    });
     return list;
   }
 }

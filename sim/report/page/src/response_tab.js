@@ -8,7 +8,7 @@ import {Plot} from './plot.js';
 import {lastAtOrBelow} from './search.js';
 import {colors, nodeColor} from './theme.js';
 
-const kPoints = 4000;  // more frames in the window: only the extremes of each column
+const kPoints = 4000; // more frames in the window: only the extremes of each column
 
 /** Sums that the report does not hold: retries and lost arbitrations of each message. */
 function sumsOf(report) {
@@ -28,7 +28,9 @@ function pointsOf(report, from, to, columns, only) {
   const {frames} = report;
   const first = Math.max(0, lastAtOrBelow(frames.start, from));
   const last = lastAtOrBelow(frames.start, to);
-  const wanted = (i) => frames.message[i] >= 0 && !Number.isNaN(frames.response[i]) &&
+  const wanted = (i) =>
+    frames.message[i] >= 0 &&
+    !Number.isNaN(frames.response[i]) &&
     (only < 0 || frames.message[i] === only);
   const points = [];
   if (last - first < kPoints) {
@@ -65,7 +67,10 @@ export class ResponseTab {
         for (const i of this.points) top = Math.max(top, report.frames.response[i]);
         const bound = this.only >= 0 ? report.meta.messages[this.only].bound_ns : null;
         this.top = Math.max(top, bound ?? 0, 1000) / 1e6;
-        return [[from, to], [0, this.top]];
+        return [
+          [from, to],
+          [0, this.top],
+        ];
       },
       options: () => ({
         label: 'response time, ms',
@@ -132,30 +137,68 @@ export class ResponseTab {
   #table() {
     const {messages} = this.report.meta;
     const head = ['message', 'id', 'count', 'min', 'mean', 'max', 'bound', 'retries', 'lost'];
-    const titles = ['Name in the scenario', 'Identifier, hexadecimal', 'Frames that were sent',
-                    'Shortest response time, ms: from the event that queues the frame to its end',
-                    'Mean response time, ms', 'Longest response time, ms',
-                    'Worst case by analysis, ms (needs analysis: true in the scenario)',
-                    'Attempts that failed', 'Arbitrations lost'];
+    const titles = [
+      'Name in the scenario',
+      'Identifier, hexadecimal',
+      'Frames that were sent',
+      'Shortest response time, ms: from the event that queues the frame to its end',
+      'Mean response time, ms',
+      'Longest response time, ms',
+      'Worst case by analysis, ms (needs analysis: true in the scenario)',
+      'Attempts that failed',
+      'Arbitrations lost',
+    ];
     const rows = messages.map((m, i) => {
       const late = m.bound_ns !== null && m.longest_ns > m.bound_ns;
-      const cells = [el('td', {}, swatch(messageColor(this.report, i)), m.name),
-                     ...[hex(m.id, m.extended ? 8 : 3), formatCount(m.sent),
-                         ...[m.shortest_ns, m.mean_ns, m.longest_ns].map((ns) => (m.sent ? milliseconds(ns) : '–')),
-                         m.bound_ns === null ? '–' : milliseconds(m.bound_ns),
-                         this.sums[i].retries || '', this.sums[i].lost || '']
-                       .map((text, column) => el('td', {class: column === 4 && late ? 'right alarm' : 'right'}, String(text)))];
-      return el('tr', {tabindex: 0, title: 'Show only this message', onclick: () => this.#only(i),
-                       onkeydown: (event) => { if (event.key === 'Enter') this.#only(i); }}, cells);
+      const cells = [
+        el('td', {}, swatch(messageColor(this.report, i)), m.name),
+        ...[
+          hex(m.id, m.extended ? 8 : 3),
+          formatCount(m.sent),
+          ...[m.shortest_ns, m.mean_ns, m.longest_ns].map((ns) =>
+            m.sent ? milliseconds(ns) : '–',
+          ),
+          m.bound_ns === null ? '–' : milliseconds(m.bound_ns),
+          this.sums[i].retries || '',
+          this.sums[i].lost || '',
+        ].map((text, column) =>
+          el('td', {class: column === 4 && late ? 'right alarm' : 'right'}, String(text)),
+        ),
+      ];
+      return el(
+        'tr',
+        {
+          tabindex: 0,
+          title: 'Show only this message',
+          onclick: () => this.#only(i),
+          onkeydown: (event) => {
+            if (event.key === 'Enter') this.#only(i);
+          },
+        },
+        cells,
+      );
     });
-    return el('table', {class: 'plain'},
-              el('thead', {}, el('tr', {}, head.map((name, i) => el('th', {class: i ? 'right' : '', title: titles[i]}, name)))),
-              el('tbody', {}, rows));
+    return el(
+      'table',
+      {class: 'plain'},
+      el(
+        'thead',
+        {},
+        el(
+          'tr',
+          {},
+          head.map((name, i) => el('th', {class: i ? 'right' : '', title: titles[i]}, name)),
+        ),
+      ),
+      el('tbody', {}, rows),
+    );
   }
 
   #only(index) {
     this.only = this.only === index ? -1 : index;
-    [...this.table.tBodies[0].rows].forEach((row, i) => row.classList.toggle('current', i === this.only));
+    [...this.table.tBodies[0].rows].forEach((row, i) =>
+      row.classList.toggle('current', i === this.only),
+    );
     this.plot.invalidate();
   }
 }

@@ -3,11 +3,11 @@
 //
 // Scale: from times to pixels of the scope, and how much detail the scale has room for.
 
-export const kGutter = 118;  // room for names at the left
-const kFieldPx = 0.55;       // a bit at least this wide: fields apart
-const kBitPx = 9;            // ... bits apart
-const kQuantumPx = 5;        // a quantum at least this wide: quanta apart
-const kBlockPx = 5;          // a segment at least this wide on average: segments apart
+export const kGutter = 118; // room for names at the left
+const kFieldPx = 0.55; // a bit at least this wide: fields apart
+const kBitPx = 9; // ... bits apart
+const kQuantumPx = 5; // a quantum at least this wide: quanta apart
+const kBlockPx = 5; // a segment at least this wide on average: segments apart
 
 export class Scale {
   constructor(report, view, width) {
@@ -33,10 +33,16 @@ export class Scale {
   }
 
   /** The mode shows fields, or more. */
-  get fine() { return this.mode === 'fields' || this.mode === 'bits' || this.mode === 'quanta'; }
+  get fine() {
+    return this.mode === 'fields' || this.mode === 'bits' || this.mode === 'quanta';
+  }
 
-  x(ns) { return this.left + (ns - this.from) * this.pxPerNs; }
-  time(x) { return this.from + (x - this.left) / this.pxPerNs; }
+  x(ns) {
+    return this.left + (ns - this.from) * this.pxPerNs;
+  }
+  time(x) {
+    return this.from + (x - this.left) / this.pxPerNs;
+  }
 
   /** Range of x that lies on the plot, or null. */
   range(fromNs, toNs) {

@@ -16,8 +16,12 @@ const kLane = {least: 20, usual: 46, most: 84};
 export class Scope {
   constructor(root, report, view) {
     Object.assign(this, {root, report, view});
-    this.top = el('canvas', {class: 'scope-top', tabindex: 0, role: 'img',
-                             'aria-label': 'Bus over time; arrow keys move, plus and minus zoom'});
+    this.top = el('canvas', {
+      class: 'scope-top',
+      tabindex: 0,
+      role: 'img',
+      'aria-label': 'Bus over time; arrow keys move, plus and minus zoom',
+    });
     this.lanes = el('canvas', {class: 'scope-lanes'});
     this.scroll = el('div', {class: 'lanes'}, this.lanes);
     root.append(this.top, this.scroll);
@@ -54,7 +58,9 @@ export class Scope {
     return Math.min(Math.max(each, kLane.least), kLane.most);
   }
 
-  scale() { return new Scale(this.report, this.view, this.scroll.clientWidth || 800); }
+  scale() {
+    return new Scale(this.report, this.view, this.scroll.clientWidth || 800);
+  }
 
   draw() {
     const begin = performance.now();
@@ -93,7 +99,8 @@ export class Scope {
     const note = {size: 11, color: 'dim'};
     p.text(scale.mode === 'columns' ? 'bus load' : 'frames', 10, kRows.frame[0] + 10, note);
     if (scale.fine) p.text('fields', 10, kRows.fields[0] + 13, note);
-    if (scale.mode === 'bits' || scale.mode === 'quanta') p.text('bits', 10, kRows.bits[0] + 9, note);
+    if (scale.mode === 'bits' || scale.mode === 'quanta')
+      p.text('bits', 10, kRows.bits[0] + 9, note);
     if (scale.mode === 'quanta') p.text('time quanta', 10, kRows.quanta[0] + 7, note);
     p.text('bus', 10, kBarEnd + bus / 2, {size: 13, bold: true});
     p.text('CAN_H', scale.left - 8, kBarEnd + 14, {size: 10, color: 'dim', align: 'right'});
@@ -107,8 +114,13 @@ export class Scope {
     const range = end < scale.report.duration ? scale.range(end, scale.to) : null;
     if (!range) return;
     p.rect(range[0], kRows.fields[0], range[1] - range[0], p.height, 'raised', 0.6);
-    p.fit(['no details were kept from here on'], (range[0] + range[1]) / 2, kBarEnd + kBus.least / 2,
-          range[1] - range[0], {color: 'dim'});
+    p.fit(
+      ['no details were kept from here on'],
+      (range[0] + range[1]) / 2,
+      kBarEnd + kBus.least / 2,
+      range[1] - range[0],
+      {color: 'dim'},
+    );
   }
 
   #drawLane(p, scale, node, y, h) {
@@ -124,7 +136,8 @@ export class Scope {
     const text = state === 2 ? 'bus-off' : `TEC ${tec} REC ${rec}`;
     const color = state === 0 ? 'dim' : 'alarm';
     if (small) {
-      if (tec || rec) p.text(`${tec}/${rec}`, scale.left - 6, y + h / 2, {size: 10, color, align: 'right'});
+      if (tec || rec)
+        p.text(`${tec}/${rec}`, scale.left - 6, y + h / 2, {size: 10, color, align: 'right'});
     } else {
       p.text(text, 10, y + 30, {size: 11, color});
     }
@@ -137,7 +150,14 @@ export class Scope {
       const range = scale.range(span[0], span[1]);
       if (range) {
         const whole = range[1] - range[0] > 0.98 * scale.plot;
-        p.rect(range[0], 0, Math.max(range[1] - range[0], 1.5), p.height, 'select', whole ? 0.03 : 0.1);
+        p.rect(
+          range[0],
+          0,
+          Math.max(range[1] - range[0], 1.5),
+          p.height,
+          'select',
+          whole ? 0.03 : 0.1,
+        );
         p.line(range[0], 0, range[0], p.height, 'select', 1.2);
         p.line(range[1], 0, range[1], p.height, 'select', 1.2);
         p.note('selection', {x0: range[0], x1: range[1]});
@@ -159,7 +179,14 @@ export class Scope {
     const items = [...this.topPainter.items, ...this.lanesPainter.items];
     this.topPainter.items = this.lanesPainter.items = null;
     const {from, to} = this.view;
-    return {from, to, left: kGutter, width: this.scroll.clientWidth, mode: this.stats.mode,
-            drawn: this.stats.drawn, items};
+    return {
+      from,
+      to,
+      left: kGutter,
+      width: this.scroll.clientWidth,
+      mode: this.stats.mode,
+      drawn: this.stats.drawn,
+      items,
+    };
   }
 }

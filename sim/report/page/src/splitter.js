@@ -8,8 +8,14 @@ const kLeast = 120;
 
 /** @param app gets the property --bottom, height of the part below in px */
 export function attachSplitter(app) {
-  const bar = el('div', {class: 'splitter', role: 'separator', tabindex: 0, 'aria-orientation': 'horizontal',
-                         'aria-label': 'Height of the tables', title: 'Drag to make room for lanes or tables'});
+  const bar = el('div', {
+    class: 'splitter',
+    role: 'separator',
+    tabindex: 0,
+    'aria-orientation': 'horizontal',
+    'aria-label': 'Height of the tables',
+    title: 'Drag to make room for lanes or tables',
+  });
   let height = 0;
   const set = (value) => {
     height = Math.min(Math.max(value, kLeast), window.innerHeight - 260);

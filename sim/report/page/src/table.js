@@ -5,7 +5,7 @@
 import {el} from './dom.js';
 
 export const kRowHeight = 24;
-const kSpare = 6;  // rows above and below what is in sight
+const kSpare = 6; // rows above and below what is in sight
 
 export class Table {
   /**
@@ -17,11 +17,19 @@ export class Table {
     this.rows = new Uint32Array(0);
     this.sorted = {column: null, up: true};
     this.current = -1;
-    this.head = el('div', {class: 'row head', role: 'row'}, columns.map((column, i) => this.#header(column, i)));
+    this.head = el(
+      'div',
+      {class: 'row head', role: 'row'},
+      columns.map((column, i) => this.#header(column, i)),
+    );
     this.space = el('div', {class: 'space'});
     this.body = el('div', {class: 'rows', role: 'rowgroup'}, this.space);
-    this.root = el('div', {class: 'table', role: 'grid', tabindex: 0, 'aria-label': options.label},
-                   this.head, this.body);
+    this.root = el(
+      'div',
+      {class: 'table', role: 'grid', tabindex: 0, 'aria-label': options.label},
+      this.head,
+      this.body,
+    );
     const template = columns.map((column) => column.width).join(' ');
     this.root.style.setProperty('--columns', template);
     this.root.addEventListener('scroll', () => this.#paint());
@@ -35,9 +43,19 @@ export class Table {
 
   #header(column, index) {
     const sortable = Boolean(column.key);
-    return el('button', {class: column.numeric ? 'cell right' : 'cell', role: 'columnheader', type: 'button',
-                         title: column.title, 'aria-sort': 'none', disabled: !sortable,
-                         onclick: () => this.#sortBy(index)}, column.name);
+    return el(
+      'button',
+      {
+        class: column.numeric ? 'cell right' : 'cell',
+        role: 'columnheader',
+        type: 'button',
+        title: column.title,
+        'aria-sort': 'none',
+        disabled: !sortable,
+        onclick: () => this.#sortBy(index),
+      },
+      column.name,
+    );
   }
 
   /** Shows these rows: numbers that the columns understand. */
@@ -90,7 +108,8 @@ export class Table {
     const top = at * kRowHeight;
     const view = this.root.clientHeight - kRowHeight;
     if (top < this.root.scrollTop) this.root.scrollTop = top;
-    else if (top + kRowHeight > this.root.scrollTop + view) this.root.scrollTop = top + 2 * kRowHeight - view;
+    else if (top + kRowHeight > this.root.scrollTop + view)
+      this.root.scrollTop = top + 2 * kRowHeight - view;
   }
 
   #choose(at) {
@@ -132,8 +151,17 @@ export class Table {
     const row = this.rows[at];
     const style = ['row', this.options.style?.(row) ?? '', row === this.current ? 'current' : ''];
     const cells = this.#cells(row);
-    const element = el('div', {class: style.join(' ').trim(), role: 'row', 'data-at': at,
-                               'aria-rowindex': at + 1, 'aria-selected': String(row === this.current)}, cells);
+    const element = el(
+      'div',
+      {
+        class: style.join(' ').trim(),
+        role: 'row',
+        'data-at': at,
+        'aria-rowindex': at + 1,
+        'aria-selected': String(row === this.current),
+      },
+      cells,
+    );
     element.style.top = `${at * kRowHeight}px`;
     return element;
   }
@@ -141,9 +169,13 @@ export class Table {
   #cells(row) {
     const cells = [];
     for (const column of this.columns) {
-      const wide = column.wide?.(row);  // its text takes the rest of the row
+      const wide = column.wide?.(row); // its text takes the rest of the row
       const look = `cell${column.numeric ? ' right' : ''}${column.mono && !wide ? ' mono' : ''}`;
-      const cell = el('span', {class: look, role: 'gridcell'}, column.node ? column.node(row) : column.text(row));
+      const cell = el(
+        'span',
+        {class: look, role: 'gridcell'},
+        column.node ? column.node(row) : column.text(row),
+      );
       cells.push(cell);
       if (!wide) continue;
       cell.style.gridColumn = `${cells.length} / -1`;

@@ -8,18 +8,33 @@ export class Tabs {
   /** @param entries [{id, name, title, root}] */
   constructor(entries) {
     this.entries = entries;
-    this.buttons = entries.map(({id, name, title}, i) => el('button', {
-      type: 'button', role: 'tab', id: `tab-${id}`, title, 'aria-controls': `panel-${id}`,
-      onclick: () => this.show(id),
-      onkeydown: (event) => this.#key(event, i),
-    }, name));
+    this.buttons = entries.map(({id, name, title}, i) =>
+      el(
+        'button',
+        {
+          type: 'button',
+          role: 'tab',
+          id: `tab-${id}`,
+          title,
+          'aria-controls': `panel-${id}`,
+          onclick: () => this.show(id),
+          onkeydown: (event) => this.#key(event, i),
+        },
+        name,
+      ),
+    );
     entries.forEach(({id, root}) => {
       root.id = `panel-${id}`;
       root.setAttribute('role', 'tabpanel');
       root.setAttribute('aria-labelledby', `tab-${id}`);
     });
     this.bar = el('div', {class: 'tabs', role: 'tablist'}, this.buttons);
-    this.root = el('div', {class: 'tab-area'}, this.bar, entries.map(({root}) => root));
+    this.root = el(
+      'div',
+      {class: 'tab-area'},
+      this.bar,
+      entries.map(({root}) => root),
+    );
     this.show(entries[0].id);
   }
 

@@ -13,13 +13,22 @@ function button(text, title, action) {
 
 /** The list of keys, as a dialog. */
 export function helpDialog() {
-  const rows = kKeys.map(([key, text]) => el('tr', {}, el('td', {}, el('kbd', {}, key)), el('td', {}, text)));
-  const dialog = el('dialog', {class: 'help'},
+  const rows = kKeys.map(([key, text]) =>
+    el('tr', {}, el('td', {}, el('kbd', {}, key)), el('td', {}, text)),
+  );
+  const dialog = el(
+    'dialog',
+    {class: 'help'},
     el('h2', {}, 'Keys and mouse'),
     el('table', {}, el('tbody', {}, rows)),
-    el('p', {}, 'Wheel or pinch: zoom at the pointer. Drag: move. Shift and drag: zoom to the box. ' +
-                'Shift and wheel: move. Double click: zoom to the frame. Click: select.'),
-    button('Close', 'Esc', () => dialog.close()));
+    el(
+      'p',
+      {},
+      'Wheel or pinch: zoom at the pointer. Drag: move. Shift and drag: zoom to the box. ' +
+        'Shift and wheel: move. Double click: zoom to the frame. Click: select.',
+    ),
+    button('Close', 'Esc', () => dialog.close()),
+  );
   return dialog;
 }
 
@@ -43,14 +52,30 @@ export function toolbar(report, view, steps, actions) {
   view.addEventListener('move', update);
   update();
   const group = (...children) => el('span', {class: 'group'}, children);
-  return el('div', {class: 'toolbar', role: 'toolbar', 'aria-label': 'View'},
-    group(button('−', 'Zoom out (key −)', () => view.zoom(1 / 0.6)), button('+', 'Zoom in (key +)', () => view.zoom(0.6))),
-    group(button('whole run', 'Key 0', () => steps.all()), button('frame', 'About a frame wide (key 1)', () => steps.bits(140)),
-          button('bits', 'About twenty bits wide (key 2)', () => steps.bits(20)),
-          button('quanta', 'Three bits with their time quanta (key 3)', () => steps.quanta())),
-    group(button('◂ frame', 'Previous frame (key p)', () => steps.frame(-1)), button('frame ▸', 'Next frame (key n)', () => steps.frame(1))),
-    report.events.count > 0 ? group(button('◂ error', 'Previous error or overload (Shift+E)', () => steps.event(-1)),
-                                    button('error ▸', 'Next error or overload (key e)', () => steps.event(1))) : null,
+  return el(
+    'div',
+    {class: 'toolbar', role: 'toolbar', 'aria-label': 'View'},
+    group(
+      button('−', 'Zoom out (key −)', () => view.zoom(1 / 0.6)),
+      button('+', 'Zoom in (key +)', () => view.zoom(0.6)),
+    ),
+    group(
+      button('whole run', 'Key 0', () => steps.all()),
+      button('frame', 'About a frame wide (key 1)', () => steps.bits(140)),
+      button('bits', 'About twenty bits wide (key 2)', () => steps.bits(20)),
+      button('quanta', 'Three bits with their time quanta (key 3)', () => steps.quanta()),
+    ),
+    group(
+      button('◂ frame', 'Previous frame (key p)', () => steps.frame(-1)),
+      button('frame ▸', 'Next frame (key n)', () => steps.frame(1)),
+    ),
+    report.events.count > 0
+      ? group(
+          button('◂ error', 'Previous error or overload (Shift+E)', () => steps.event(-1)),
+          button('error ▸', 'Next error or overload (key e)', () => steps.event(1)),
+        )
+      : null,
     where,
-    button('?', 'Keys and mouse', () => actions.help()));
+    button('?', 'Keys and mouse', () => actions.help()),
+  );
 }

@@ -15,9 +15,13 @@ function laneLines(place, report) {
   const title = bitTitle(field, lane.place(bit));
   const stuff = lane.stuff(bit) ? `stuff bit before ${title}` : title;
   const level = lane.sampled(bit) ? 'recessive (1)' : 'dominant (0)';
-  const lines = [['b', `${stuff}: ${level}`],
-                 ['p', lane.stuff(bit) ? 'inserted after five equal bits, removed by receivers'
-                                       : fieldText(field)]];
+  const lines = [
+    ['b', `${stuff}: ${level}`],
+    [
+      'p',
+      lane.stuff(bit) ? 'inserted after five equal bits, removed by receivers' : fieldText(field),
+    ],
+  ];
   const group = lane.groupOf(bit);
   if (group?.text) lines.push(['p', `${group.label} = ${group.text}`]);
   if (lane.sent(bit) !== lane.sampled(bit)) {
@@ -62,8 +66,10 @@ export function attachTooltip(scope, host) {
     box.hidden = false;
     const wide = box.offsetWidth;
     const high = box.offsetHeight;
-    const x = event.clientX + 16 + wide > innerWidth ? event.clientX - wide - 12 : event.clientX + 16;
-    const y = event.clientY + 20 + high > innerHeight ? event.clientY - high - 12 : event.clientY + 20;
+    const x =
+      event.clientX + 16 + wide > innerWidth ? event.clientX - wide - 12 : event.clientX + 16;
+    const y =
+      event.clientY + 20 + high > innerHeight ? event.clientY - high - 12 : event.clientY + 20;
     box.style.left = `${Math.max(0, x)}px`;
     box.style.top = `${Math.max(0, y)}px`;
   };

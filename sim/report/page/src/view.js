@@ -4,7 +4,7 @@
 // View: the window of time that the page shows and what is selected. All parts listen to it.
 
 const kAnimationMs = 180;
-const kMinQuanta = 0.4;  // narrowest window, in time quanta
+const kMinQuanta = 0.4; // narrowest window, in time quanta
 
 export class View extends EventTarget {
   /** @param report sets the limits; times in ns */
@@ -23,7 +23,9 @@ export class View extends EventTarget {
     this.still = window.matchMedia('(prefers-reduced-motion: reduce)');
   }
 
-  get span() { return this.to - this.from; }
+  get span() {
+    return this.to - this.from;
+  }
 
   /** Shows the window at once, moved and widened as far as the limits ask. */
   set(from, to) {
@@ -73,7 +75,9 @@ export class View extends EventTarget {
     this.set(at - part * span, at - part * span + span);
   }
 
-  pan(ns) { this.set(this.from + ns, this.to + ns); }
+  pan(ns) {
+    this.set(this.from + ns, this.to + ns);
+  }
 
   /** Brings a moment into view without a change of scale, if it is not there. */
   reveal(from, to) {
