@@ -184,6 +184,30 @@ bool Bus::run_until(const std::function<bool()> &done, Time limit) {
   return true;
 }
 
+bool Bus::may_skip() {
+  if (!prepared_) prepare();
+  const auto at_rest = [](const Receiver &receiver) {
+    return receiver.head == receiver.pending.size();
+  };
+  return faults_.empty() && driven_dominant_ == 0 && level_ == Level::kRecessive &&
+         at_rest(observer_point_) &&
+         std::all_of(nodes_.begin(), nodes_.end(), [&](const Entry &entry) {
+           return trace_field(entry.node->trace()) == Field::kIdle && at_rest(entry.receiver) &&
+                  !entry.node->oscillator_.wanders();
+         });
+}
+
+bool Bus::skip(Time until) {
+  if (!actions_.empty()) until = std::min(until, actions_.top().time - 1);
+  if (until <= now_ || !may_skip()) return false;
+  for (NodeId i = 0; i < size(); ++i) {
+    nodes_[i].node->oscillator_.skip(until);
+    next_[i] = nodes_[i].node->oscillator_.next();
+  }
+  now_ = until;
+  return true;
+}
+
 void Bus::run_instant(Time t) {
   now_ = t;
   if (direct_) {

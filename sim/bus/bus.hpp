@@ -75,6 +75,12 @@ class Bus {
   /// Lets the run_until() under way return after the current instant.
   void stop() { stopped_ = true; }
 
+  /// Lets time pass without clocking the nodes, as if their clocks were gated, up to `until` or to
+  /// the next action. Only where that cannot be seen on the bus: all nodes show an idle bus, drive
+  /// recessive and have clocks that do not wander, nothing is on its way, there are no faults. For
+  /// a caller who knows that no node has anything to send. False, and nothing done, otherwise.
+  bool skip(Time until);
+
   [[nodiscard]] Time now() const { return now_; }
   /// Level at the observation point, as known at now().
   [[nodiscard]] Level level() const { return level_; }
@@ -134,6 +140,7 @@ class Bus {
   [[nodiscard]] Level receive(NodeId id, Time t);
   [[nodiscard]] Level with_faults(NodeId id, Time t, std::uint64_t dominant);
   [[nodiscard]] Time next_edge() const;
+  [[nodiscard]] bool may_skip();
   [[nodiscard]] bool run_actions(Time until);
 
   std::vector<Entry> nodes_;

@@ -47,6 +47,17 @@ class Clock {
     if (--until_update_ == 0) update();
   }
 
+  /// Consumes all rising edges up to and including `until`, ps. Only for a clock that does not
+  /// wander.
+  void skip(Time until) {
+    if (until < next()) return;
+    const Fixed end = (static_cast<Fixed>(until) + 1) << 64;  // the first edge from here on stays
+    const Fixed edges = (end - edge_ + period_ - 1) / period_;
+    edge_ += edges * period_;
+    cycles_ += static_cast<std::uint64_t>(edges);
+  }
+  [[nodiscard]] bool wanders() const { return config_.wander != Wander::kNone; }
+
   /// Rising edges consumed so far.
   [[nodiscard]] std::uint64_t cycles() const { return cycles_; }
   /// Nominal frequency, Hz.

@@ -51,9 +51,8 @@ Bridge::Bridge(BridgeSetup setup, Wall &wall)
     : setup_{std::move(setup)},
       wall_{wall},
       bit_time_{static_cast<Time>(std::llround(1e12 / setup_.bitrate))} {
-  // Traffic and noise go on as long as the bridge does.
-  setup_.scenario.duration =
-      setup_.limit != 0 ? setup_.limit : std::numeric_limits<Time>::max() / 4;
+  // Its traffic goes on as long as the bridge does.
+  setup_.scenario.duration = std::numeric_limits<Time>::max() / 4;
   place_nodes();
   simulation_ = std::make_unique<Simulation>(setup_.scenario, setup_.bitrate,
                                              std::set<NodeId>{ids_.begin(), ids_.end()});
@@ -210,23 +209,33 @@ void Bridge::advance() {
   if (elapsed() >= setup_.limit && setup_.limit != 0) ended_ = true;
 }
 
-void Bridge::advance_fast(Time end) {
+// Runs the bus; where nothing is under way it lets time pass at no cost.
+void Bridge::run_until(Time target) {
   Bus &bus = simulation_->bus();
-  end = std::min(end, bus.now() + kFastStretch * bit_time_);
-  while (bus.now() < end && !quiet())
-    bus.run_until(std::min(end, bus.now() + kQuietLook * bit_time_));
-  if (idle()) simulation_->settle();
+  while (bus.now() < target) {
+    if (idle()) {
+      simulation_->settle();
+      if (bus.skip(target)) continue;
+    }
+    bus.run_until(std::min(target, bus.now() + kQuietLook * bit_time_));
+  }
+}
+
+void Bridge::advance_fast(Time end) {
+  const Time stretch = simulation_->bus().now() + kFastStretch * bit_time_;
+  if (quiet())
+    simulation_->settle();
+  else
+    run_until(std::min(end, stretch));
 }
 
 // What programs send is taken after this, so that no frame is on the bus before it was sent.
 void Bridge::advance_paced(Time end) {
-  Bus &bus = simulation_->bus();
+  const Time now = simulation_->bus().now();
   const Time due = pacer_.due(wall_.now());
-  const Time target = std::min({due, end, bus.now() + kLongestStretch});
-  if (target > bus.now()) bus.run_until(target);
-  if (idle()) simulation_->settle();
-  const bool begins = pacer_.reached(wall_.now(), bus.now());
-  if (begins)
+  const Time reach = quiet() ? due : now + kLongestStretch;
+  run_until(std::min({due, end, reach}));
+  if (pacer_.reached(wall_.now(), simulation_->bus().now()))
     setup_.say(
         fmt::format("the simulation lags {:.0f} ms behind real time; fewer nodes, a slower "
                     "clock or bit rate, or --fast help",
@@ -310,7 +319,8 @@ BridgeReport Bridge::finish() {
   report.largest_lag = pacer_.largest_lag();
   for (const auto &node : nodes_)
     report.ports.push_back({node->port().name(), false, node->port().up(), node->bus_off(),
-                            node->counts(), node->port().lost(), node->pending(), node->waiting()});
+                            node->counts(), node->port().lost(),
+                            node->pending() + node->port().waiting(), node->waiting()});
   if (setup_.monitor)
     report.ports.push_back({setup_.monitor->name(), true, setup_.monitor->up(), false,
                             monitor_counts_, setup_.monitor->lost(), 0, monitor_box_.size()});

@@ -76,6 +76,7 @@ class Bridge : private BusObserver {
   void wait();
   [[nodiscard]] std::optional<WallTime> patience();
   void advance();
+  void run_until(Time target);
   void advance_fast(Time end);
   void advance_paced(Time end);
   void give();

@@ -19,7 +19,7 @@ namespace vericansim {
 /// How the nodes of interfaces behave.
 struct PortOptions {
   ErrorChoice errors = ErrorChoice::kOwn;
-  std::vector<IdFilter> filters;  ///< frames of the bus for the programs; empty: all
+  std::vector<IdFilter> filters{};  ///< frames of the bus for the programs; empty: all
   Time restart = 0;  ///< simulated time from bus-off to the begin of recovery; 0: only restart()
 };
 

@@ -40,6 +40,7 @@ class RawCanPort : public CanPort {
   void poll_set(std::vector<pollfd> &set, bool wants_room) override;
   void service(std::span<const pollfd> ready) override;
   [[nodiscard]] std::optional<PortMessage> take() override;
+  [[nodiscard]] std::size_t waiting() const override { return waiting_.size(); }
   [[nodiscard]] bool put(const PortMessage &message) override;
   [[nodiscard]] bool up() const override { return up_; }
   [[nodiscard]] bool wants_echo() const override { return options_.echo; }
