@@ -99,6 +99,7 @@ void open_ports(BridgeSetup &setup, const Options &options) {
   if (options.monitor.empty()) return;
   RawPortOptions monitor;
   monitor.receives = false;
+  monitor.option = "--monitor";
   setup.monitor = std::make_unique<RawCanPort>(options.monitor, monitor);
 }
 

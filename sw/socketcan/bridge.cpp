@@ -317,10 +317,13 @@ BridgeReport Bridge::finish() {
   report.bus.wall_seconds = report.wall_seconds;
   report.lag = pacer_.lag();
   report.largest_lag = pacer_.largest_lag();
-  for (const auto &node : nodes_)
-    report.ports.push_back({node->port().name(), false, node->port().up(), node->bus_off(),
-                            node->counts(), node->port().lost(),
-                            node->pending() + node->port().waiting(), node->waiting()});
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const PortNode &node = *nodes_[i];
+    CanPort &port = *setup_.ports[i];
+    const std::uint64_t to_come = node.pending() + port.remaining();
+    report.ports.push_back({port.name(), false, port.up(), node.bus_off(), node.counts(),
+                            port.lost(), to_come, node.waiting()});
+  }
   if (setup_.monitor)
     report.ports.push_back({setup_.monitor->name(), true, setup_.monitor->up(), false,
                             monitor_counts_, setup_.monitor->lost(), 0, monitor_box_.size()});

@@ -46,8 +46,8 @@ class CanPort {
   /// The next message of a program, in their order; empty if there is none now. The bridge takes
   /// only what it has room for: what is not taken waits, and in the end the programs wait.
   [[nodiscard]] virtual std::optional<PortMessage> take() = 0;
-  /// Messages that the port has read and that wait to be taken.
-  [[nodiscard]] virtual std::size_t waiting() const { return 0; }
+  /// At the end: messages of programs that have not been taken.
+  [[nodiscard]] virtual std::size_t remaining() { return 0; }
   /// Hands a message to the programs. False: no room now; the bridge keeps it and tries again.
   [[nodiscard]] virtual bool put(const PortMessage &message) = 0;
   /// False while nobody can be reached (interface down or gone); the bridge keeps its state.

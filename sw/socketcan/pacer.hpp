@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "bus/types.hpp"
 
@@ -20,6 +21,8 @@ class Pacer {
   /// A lag from which on it says so, and below which it has caught up; ns.
   static constexpr WallTime kLagging = 20'000'000;
   static constexpr WallTime kCaughtUp = 2'000'000;
+  /// It does not say so again for this time, ns.
+  static constexpr WallTime kSayAgain = 10'000'000'000;
 
   /// From here on both times count.
   void start(WallTime wall, Time simulated) {
@@ -32,13 +35,17 @@ class Pacer {
   [[nodiscard]] WallTime wall_of(Time simulated) const {
     return wall_ + (simulated - simulated_ + kNanosecond - 1) / kNanosecond;
   }
-  /// The simulation has reached `simulated` at `wall`. True if it has just begun to lag.
+  /// The simulation has reached `simulated` at `wall`. True if it has just begun to lag, and this
+  /// is worth a word.
   bool reached(WallTime wall, Time simulated) {
     lag_ = std::max<WallTime>(0, (due(wall) - simulated) / kNanosecond);
     largest_ = std::max(largest_, lag_);
     if (lag_ < kCaughtUp) lagging_ = false;
     if (lagging_ || lag_ < kLagging) return false;
-    return lagging_ = true;
+    lagging_ = true;
+    const bool say = !said_ || wall - *said_ >= kSayAgain;
+    if (say) said_ = wall;
+    return say;
   }
 
   /// How far simulated time is behind real time, ns; 0 if it is not.
@@ -51,6 +58,7 @@ class Pacer {
   Time simulated_ = 0;
   WallTime lag_ = 0, largest_ = 0;
   bool lagging_ = false;
+  std::optional<WallTime> said_;
 };
 
 }  // namespace vericansim

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <linux/can/raw.h>
+#include <linux/sock_diag.h>
 #include <net/if.h>
 #include <net/if_arp.h>
 #include <sys/ioctl.h>
@@ -70,23 +71,23 @@ bool gone_or_down(int error) { return error == ENETDOWN || error == ENODEV || er
 RawCanPort::RawCanPort(std::string interface, const RawPortOptions &options)
     : name_{std::move(interface)}, options_{options} {
   if (name_.empty() || name_.size() >= IFNAMSIZ)
-    throw InputError("--if", 0,
+    throw InputError(options_.option, 0,
                      quoted(name_) + " is no name of an interface; allowed: 1 to 15 characters");
   open_socket();
   try {
     const Interface found = look_at(fd_, name_);
     if (found.index == 0)
-      throw InputError("--if " + name_, 0,
+      throw InputError(options_.option + " " + name_, 0,
                        fmt::format("there is no such interface; 'ip link add dev {0} type vcan; "
                                    "ip link set {0} up' makes one",
                                    name_));
-    if (!found.can) throw InputError("--if " + name_, 0, "is not a CAN interface");
+    if (!found.can) throw InputError(options_.option + " " + name_, 0, "is not a CAN interface");
     if (!found.up)
-      throw InputError("--if " + name_, 0,
+      throw InputError(options_.option + " " + name_, 0,
                        fmt::format("the interface is down; 'ip link set {} up'", name_));
     look_again();
     if (!up_)
-      throw InputError("--if " + name_, 0,
+      throw InputError(options_.option + " " + name_, 0,
                        fmt::format("cannot be bound: {}", std::strerror(errno)));
   } catch (...) {
     ::close(fd_);
@@ -98,10 +99,9 @@ RawCanPort::~RawCanPort() { ::close(fd_); }
 
 void RawCanPort::open_socket() {
   fd_ = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
-  if (fd_ < 0) throw InputError("--if " + name_, 0, socket_problem(errno));
-  const int off = 0, on = 1;
+  if (fd_ < 0) throw InputError(options_.option + " " + name_, 0, socket_problem(errno));
+  const int off = 0;
   ::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, &off, sizeof off);
-  ::setsockopt(fd_, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
   if (!options_.receives) ::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0);
   if (::setsockopt(fd_, SOL_SOCKET, SO_RCVBUFFORCE, &kReceiveBuffer, sizeof kReceiveBuffer) != 0)
     ::setsockopt(fd_, SOL_SOCKET, SO_RCVBUF, &kReceiveBuffer, sizeof kReceiveBuffer);
@@ -158,27 +158,28 @@ void RawCanPort::read_ahead() {
 
 bool RawCanPort::read_one() {
   can_frame frame{};
-  iovec part{&frame, sizeof frame};
-  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(std::uint32_t))];
-  msghdr header{};
-  header.msg_iov = &part;
-  header.msg_iovlen = 1;
-  header.msg_control = control;
-  header.msg_controllen = sizeof control;
-  const ssize_t got = ::recvmsg(fd_, &header, 0);
+  const ssize_t got = ::recv(fd_, &frame, sizeof frame, 0);
   if (got < 0) {
     if (gone_or_down(errno)) went_down();
     return errno == EINTR;
   }
-  for (cmsghdr *c = CMSG_FIRSTHDR(&header); c != nullptr; c = CMSG_NXTHDR(&header, c)) {
-    if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SO_RXQ_OVFL) continue;
-    std::uint32_t dropped = 0;
-    std::memcpy(&dropped, CMSG_DATA(c), sizeof dropped);
-    lost_ += dropped - dropped_;  // the kernel's counter wraps at 32 bits
-    dropped_ = dropped;
-  }
   if (got == sizeof frame && options_.receives) waiting_.push_back(frame);
   return true;
+}
+
+std::size_t RawCanPort::remaining() {
+  while (up_ && read_one()) {
+  }
+  return waiting_.size();
+}
+
+// The socket's own count is up to date, where SO_RXQ_OVFL tells of a loss only behind all that
+// waits.
+std::uint64_t RawCanPort::lost() const {
+  std::uint32_t info[SK_MEMINFO_VARS] = {};
+  socklen_t size = sizeof info;
+  if (::getsockopt(fd_, SOL_SOCKET, SO_MEMINFO, info, &size) != 0) return 0;
+  return info[SK_MEMINFO_DROPS];
 }
 
 std::optional<PortMessage> RawCanPort::take() {

@@ -17,6 +17,7 @@ namespace vericansim {
 struct RawPortOptions {
   bool echo = false;     ///< tell the programs when their frames have really left
   bool receives = true;  ///< false: a port to listen at alone; what programs send there is ignored
+  std::string option = "--if";  ///< by which the user has named the interface
   std::size_t queue = 100'000;  ///< frames of programs that wait here at most
 };
 
@@ -40,11 +41,11 @@ class RawCanPort : public CanPort {
   void poll_set(std::vector<pollfd> &set, bool wants_room) override;
   void service(std::span<const pollfd> ready) override;
   [[nodiscard]] std::optional<PortMessage> take() override;
-  [[nodiscard]] std::size_t waiting() const override { return waiting_.size(); }
+  [[nodiscard]] std::size_t remaining() override;
   [[nodiscard]] bool put(const PortMessage &message) override;
   [[nodiscard]] bool up() const override { return up_; }
   [[nodiscard]] bool wants_echo() const override { return options_.echo; }
-  [[nodiscard]] std::uint64_t lost() const override { return lost_; }
+  [[nodiscard]] std::uint64_t lost() const override;
 
  private:
   void open_socket();
@@ -60,8 +61,6 @@ class RawCanPort : public CanPort {
   bool up_ = false;
   WallTime next_look_ = 0;
   std::deque<can_frame> waiting_;
-  std::uint64_t lost_ = 0;     // on all sockets so far
-  std::uint32_t dropped_ = 0;  // as this socket counts
 };
 
 }  // namespace vericansim

@@ -53,7 +53,10 @@ TEST(Pacer, SaysOnceThatItLags) {
   EXPECT_TRUE(pacer.lagging());
   EXPECT_FALSE(pacer.reached(80 * kMs, 79 * kMillisecond));  // has caught up
   EXPECT_FALSE(pacer.lagging());
-  EXPECT_TRUE(pacer.reached(110 * kMs, 90 * kMillisecond));  // and lags again
+  EXPECT_FALSE(pacer.reached(110 * kMs, 90 * kMillisecond));  // lags again, said not long ago
+  EXPECT_TRUE(pacer.lagging());
+  EXPECT_FALSE(pacer.reached(11'000 * kMs, 11'000 * kMillisecond));
+  EXPECT_TRUE(pacer.reached(11'100 * kMs, 11'070 * kMillisecond));
   EXPECT_EQ(pacer.largest_lag(), 40 * kMs);
 }
 

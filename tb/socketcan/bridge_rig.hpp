@@ -23,7 +23,7 @@ class FakePort : public CanPort {
   void poll_set(std::vector<pollfd> &, bool) override {}
   void service(std::span<const pollfd>) override {}
   [[nodiscard]] std::optional<PortMessage> take() override;
-  [[nodiscard]] std::size_t waiting() const override { return outgoing.size(); }
+  [[nodiscard]] std::size_t remaining() override { return outgoing.size(); }
   [[nodiscard]] bool put(const PortMessage &message) override;
   [[nodiscard]] bool up() const override { return is_up; }
   [[nodiscard]] bool wants_echo() const override { return echo; }
