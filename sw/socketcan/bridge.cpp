@@ -320,9 +320,11 @@ BridgeReport Bridge::finish() {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const PortNode &node = *nodes_[i];
     CanPort &port = *setup_.ports[i];
-    const std::uint64_t to_come = node.pending() + port.remaining();
-    report.ports.push_back({port.name(), false, port.up(), node.bus_off(), node.counts(),
-                            port.lost(), to_come, node.waiting()});
+    const std::size_t left = port.remaining();
+    PortCounts counts = node.counts();
+    counts.from_host += left;
+    report.ports.push_back({port.name(), false, port.up(), node.bus_off(), counts, port.lost(),
+                            node.pending() + left, node.waiting()});
   }
   if (setup_.monitor)
     report.ports.push_back({setup_.monitor->name(), true, setup_.monitor->up(), false,

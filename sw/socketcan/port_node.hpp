@@ -25,7 +25,7 @@ struct PortOptions {
 
 /// What went through an interface.
 struct PortCounts {
-  std::uint64_t from_host = 0;  ///< frames that programs gave to the node
+  std::uint64_t from_host = 0;  ///< frames of programs: sent, and to come
   std::uint64_t sent = 0;       ///< of these, on the bus and acknowledged
   std::uint64_t rejected = 0;   ///< messages of programs that are no frames of CAN 2.0
   std::uint64_t received = 0;   ///< frames of other nodes

@@ -93,14 +93,15 @@ TEST(BridgeEngine, TimesAreThoseOfTheBus) {
 TEST(BridgeEngine, AloneNobodyAcknowledges) {
   BridgeRig rig{{.ports = 1, .nodes = 0, .monitor = true}};
   rig.port(0).echo = true;
-  rig.port(0).send(kFrame);
+  for (unsigned i = 0; i < 40; ++i) rig.port(0).send(kFrame);
   rig.run_for(20 * kMillisecond);
   EXPECT_THAT(rig.port(0).echoes(), IsEmpty());
   EXPECT_THAT(rig.monitor().frames(), IsEmpty());
   EXPECT_GT(rig.port(0).errors(CAN_ERR_ACK).size(), 16U);
   const BridgeReport report = rig.bridge().finish();
   EXPECT_EQ(report.ports[0].counts.sent, 0U);
-  EXPECT_EQ(report.ports[0].pending, 1U);
+  EXPECT_EQ(report.ports[0].pending, 40U);
+  EXPECT_EQ(report.ports[0].counts.from_host, 40U);
 }
 
 // What a program sends that is no frame of CAN 2.0 is refused and counted; what follows is sent.
