@@ -99,7 +99,7 @@ Seen run_in_simulator(const Story &story) {
       programs[i]->run();
     }));
   }
-  bus.add(spoiler);
+  if (!story.spoils.empty()) bus.add(spoiler);
   bus.add(recorder);
   for (auto &processor : processors) processor->start();
   bus.run_until(story.end);
@@ -126,13 +126,14 @@ class Station : public sc_core::sc_module, private Processor {
              },
              variant.timing == TlmTiming::kLooselyTimed ? to_sc_time(variant.quantum)
                                                         : sc_core::SC_ZERO_TIME},
-        period_{to_sc_time(static_cast<Time>(can.node().oscillator().period_ps()))} {
+        loose_{variant.timing == TlmTiming::kLooselyTimed},
+        edges_{node.clock} {
     cpu_.socket.bind(can.socket);
     can.irq.bind(irq_);
-    if (variant.timing == TlmTiming::kLooselyTimed) return;
+    if (!variant.clk_ports) return;
     clock_ = std::make_unique<NodeClock>("clock", node.clock);
     clock_->out.bind(clk_);
-    if (variant.clk_ports) can.clk.bind(clk_);
+    can.clk.bind(clk_);
   }
 
   VericanTlm can;
@@ -154,18 +155,22 @@ class Station : public sc_core::sc_module, private Processor {
     cpu_.sync();
     while (!irq_.read()) cpu_.wait(irq_.posedge_event());
   }
-  // The processor wakes with the clock; its next reading of the line is as of that clock.
+  // Until that many edges have been; what the processor reads then is as of the last one.
   void wait_clocks(unsigned count) override {
-    if (!clock_) {
-      cpu_.ahead += period_ * count;
+    if (loose_) {
+      cpu_.ahead += to_sc_time(static_cast<Time>(edges_.period_ps())) * count;
       return;
     }
-    for (unsigned i = 0; i < count; ++i) cpu_.wait(clk_.posedge_event());
+    const Time now = to_ps(sc_core::sc_time_stamp());
+    while (edges_.next() <= now) edges_.tick();
+    for (unsigned i = 1; i < count; ++i) edges_.tick();
+    cpu_.wait(to_sc_time(edges_.next() - now));
     for (int i = 0; i < 4; ++i) cpu_.wait(sc_core::SC_ZERO_TIME);
   }
 
   Master cpu_;
-  sc_core::sc_time period_;
+  bool loose_;
+  Clock edges_;
   sc_core::sc_signal<bool> irq_{"irq"};
   sc_core::sc_signal<bool> clk_{"clk"};
   std::unique_ptr<NodeClock> clock_;
@@ -260,7 +265,7 @@ Seen run_in_systemc(const Story &story, const SystemcVariant &variant) {
   Recorder recorder(seen);
   std::unique_ptr<Spoiler> spoiler;
   if (variant.timing == TlmTiming::kLooselyTimed) {
-    bus.kernel().add(loose_spoiler);
+    if (!story.spoils.empty()) bus.kernel().add(loose_spoiler);
     bus.kernel().add(recorder);
   } else {
     spoiler = std::make_unique<Spoiler>("spoiler", story);

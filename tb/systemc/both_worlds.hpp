@@ -53,7 +53,8 @@ struct ScenarioNode {
 struct Story {
   std::vector<ScenarioNode> nodes;
   ClockConfig spoiler_clock;
-  std::vector<std::pair<std::uint64_t, unsigned>> spoils;  ///< clock, length; in order
+  std::vector<std::pair<std::uint64_t, unsigned>> spoils;  ///< clock, length; in order; none:
+                                                           ///< no such node
   Time end = 0;
 };
 
