@@ -53,7 +53,7 @@ hush
 # The same choice of messages, but changes of state alone; then none.
 for choice in state none; do
   listen vcan0,$everything $choice.log
-  start_bridge $choice --if vcan0 --bitrate 500k --nodes 0 --fast --errors $choice --time "1 s"
+  start_bridge $choice --if vcan0 --bitrate 500k --nodes 0 --fast --errors $choice --time "100 ms"
   cansend vcan0 123#1122
   wait_until 60 has_ended "$bridge"
   await_bridge

@@ -75,6 +75,11 @@ hush() {
   listeners=
 }
 
+# has_passed INTERFACE PACKETS
+has_passed() {
+  [ "$(cat "/sys/class/net/$1/statistics/tx_packets")" -ge "$2" ]
+}
+
 # statistics INTERFACE FILE: what the kernel counted there.
 statistics() {
   ip -json -statistics link show "$1" >"$2"
