@@ -86,8 +86,9 @@ statistics() {
 }
 
 # start_bridge NAME OPTION...: returns when programs may send, or if it has ended before. Its output
-# is NAME.out and NAME.err.
+# is NAME.out and NAME.err. It runs under the command $as, if that is set.
 bridge=
+as=
 is_ready() {
   has_text "$bridge_name.err" "ready" || has_ended "$bridge"
 }
@@ -95,7 +96,7 @@ is_ready() {
 start_bridge() {
   bridge_name=$1
   shift
-  "$VERICAN" bridge "$@" >"$bridge_name.out" 2>"$bridge_name.err" &
+  $as "$VERICAN" bridge "$@" >"$bridge_name.out" 2>"$bridge_name.err" &
   bridge=$!
   wait_until 60 is_ready
 }

@@ -37,3 +37,17 @@ hush
 
 /usr/bin/python3 "$VERICAN_GUEST/programs.py" >programs.json || complain "programs.py"
 stop_bridge
+
+# The bridge's own filters, written as candump's: NUMBER:FRAMES of them.
+for choice in $VERICAN_OWN_FILTERS; do
+  number=${choice%:*}
+  options=$(echo "$VERICAN_FILTERS" | cut -d " " -f $((number + 1)) | sed 's/^\|,/ --filter /g')
+  listen vcan1 own$number.log
+  start_bridge own$number --if vcan0 --if vcan1 --nodes 0 --fast $options
+  for frame in $VERICAN_SENT; do
+    cansend vcan0 "$frame" || complain "cansend $frame"
+  done
+  wait_until 20 has_lines own$number.log "${choice#*:}"
+  stop_bridge
+  hush
+done

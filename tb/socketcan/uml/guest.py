@@ -21,7 +21,8 @@ KERNEL = Path("/usr/bin/linux.uml")
 MODULES = Path("/usr/lib/uml/modules")
 INIT = Path(__file__).resolve().parents[1] / "guest/init.sh"
 GUARD = Path(__file__).resolve().parent / "guard.py"
-TOOLS = ("busybox", "ip", "candump", "cansend", "cangen", "canplayer", "canbusload")
+TOOLS = ("busybox", "ip", "candump", "cansend", "cangen", "canplayer", "canbusload",
+         "setpriv")
 
 
 class Impossible(Exception):

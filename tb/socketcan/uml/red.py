@@ -91,6 +91,8 @@ TARGETS = {
                    "missing.code": (replace("2", "0"),),
                    "traffic.err": (replace("vcan0 is back\n", ""),),
                    "traffic.out": (replace('"away": 400', '"away": 399'),),
+                   "small.code": (replace("1", "0"),), "small-mon.log": LOG[1:],
+                   "small.out": (replace(r'"lost": \d', '"lost": 9'),),
                    "down.err": (replace("vcan7", "vcan0"),)},
     "vxcan": {"echo.log": LOG, "echo-bus.log": LOG, "silent.log": LOG},
     "signals": {"INT-bus.log": LOG, "TERM-mon.log": LOG},

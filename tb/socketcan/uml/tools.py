@@ -10,6 +10,7 @@ SENT = ("123#DEADBEEF", "124#01", "123#R2", "00000123#AA", "12345678#1122", "123
         "123#", "1FFFFFFF#R", "000#0102030405060708", "00000000#FF")
 FILTERS = ("123:7FF", "123:C00007FF", "12345678:DFFFFFFF", "123~7FF", "124:7FF,7FF:C00007FF",
            "000:1FFFFFFF", "00000000:DFFFFFFF")
+OWN_FILTERS = (3, 4, 6)  # of these, the bridge applies some itself (--filter)
 EXTENDED, REMOTE = 0x80000000, 0x40000000
 
 PROGRAMS = {
@@ -44,9 +45,17 @@ def passes(rules, frame):
     return False
 
 
+def passed(rules):
+    """What is left of SENT."""
+    return [frame for frame in (parse(f"(0.000000) vcan0 {text}").frame for text in SENT)
+            if passes(rules, frame)]
+
+
 def settings(source, recorded):
     """Variables of guest/tools.sh."""
+    own = (f"{number}:{len(passed(FILTERS[number]))}" for number in OWN_FILTERS)
     return {"VERICAN_SENT": " ".join(SENT), "VERICAN_FILTERS": " ".join(FILTERS),
+            "VERICAN_OWN_FILTERS": " ".join(own),
             "VERICAN_LOG": source / "bus.log", "VERICAN_FRAMES": len(recorded)}
 
 
@@ -66,9 +75,12 @@ def tools(run):
     sent = [parse(f"(0.000000) vcan0 {text}").frame for text in SENT]
     same(frames(read(run.dir / "all.log")), sent, "all.log")
     for number, rules in enumerate(FILTERS):
-        wanted = [frame for frame in sent if passes(rules, frame)]
+        wanted = passed(rules)
         expect_true(0 < len(wanted) < len(sent), f"filter {rules} tells nothing")
         same(frames(read(run.dir / f"filter{number}.log")), wanted, f"filter {rules}")
+        if number in OWN_FILTERS:
+            same(frames(read(run.dir / f"own{number}.log")), wanted, f"--filter {rules}")
+            run.ended(f"own{number}")
     recorded = [frame for _, frame in run.sent]
     same(frames(read(run.dir / "played.log")), recorded, "played.log")
     busload(run)
