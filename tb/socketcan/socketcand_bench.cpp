@@ -99,6 +99,12 @@ void SocketcandBench::exchange(CanPort &port) {
   }
 }
 
+bool SocketcandBench::busy() {
+  std::vector<pollfd> set;
+  for (const auto &port : ports_) port->poll_set(set, false);
+  return ::poll(set.data(), set.size(), 0) > 0;
+}
+
 bool SocketcandBench::until(const std::function<bool()> &done) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (!done()) {

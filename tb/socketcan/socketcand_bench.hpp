@@ -52,6 +52,8 @@ class SocketcandBench {
   [[nodiscard]] std::uint16_t port() const { return server_->address().port; }
   /// One round of the bridge.
   void step();
+  /// True if poll() would not wait now.
+  bool busy();
   /// Rounds until `done`; false after 20 s of host time.
   bool until(const std::function<bool()> &done);
   /// Rounds until `client` has received `text`, which is then forgotten with all before it.

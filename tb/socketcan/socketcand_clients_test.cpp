@@ -169,6 +169,22 @@ TEST_F(SocketcandClients, WhatAVanishedClientHasSentIsSent) {
   expect_in_order(500);
 }
 
+// poll() tells of a dead connection again and again: while its frames wait for the bus, the bridge
+// must not spin.
+TEST_F(SocketcandClients, AVanishedClientDoesNotKeepPollFromWaiting) {
+  for (const bool reset : {false, true}) {
+    auto client = bench_.raw_client();
+    bench_.room = 0;
+    ASSERT_TRUE(bench_.send(*client, "< send 001 0 >< send 002 0 >"));
+    client->vanish(reset);
+    EXPECT_TRUE(bench_.until([&] { return !bench_.busy(); }));
+    EXPECT_EQ(bench_.server().receiving(), 1U);
+    bench_.room = SIZE_MAX;
+    ASSERT_TRUE(bench_.until([&] { return bench_.server().receiving() == 0; }));
+  }
+  EXPECT_EQ(bench_.sent.size(), 4U);
+}
+
 TEST_F(SocketcandClients, AResetInTheMiddleOfACommandHurtsNobody) {
   auto other = bench_.raw_client();
   for (int i = 0; i < 20; ++i) {
