@@ -10,6 +10,11 @@ endif()
 add_library(wide_xstate MODULE "${PROJECT_SOURCE_DIR}/sw/linux/host/wide_xstate.c")
 set_target_properties(wide_xstate PROPERTIES PREFIX "" COMPILE_OPTIONS "" LINK_OPTIONS "")
 
+set(sanitized)
+if(VERICAN_ASAN)
+  set(sanitized --sanitized)
+endif()
+
 # verican_socketcan_case(NAME [REQUIRES CASE]): one case of uml/cases.py as a test; REQUIRES: it
 # judges again what that case left.
 function(verican_socketcan_case name)
@@ -17,7 +22,7 @@ function(verican_socketcan_case name)
   add_test(NAME socketcan.${name}
            COMMAND "${VERICAN_PYTHON}" "${PROJECT_SOURCE_DIR}/tb/socketcan/uml/run.py" ${name}
                    --verican $<TARGET_FILE:verican> --shim $<TARGET_FILE:wide_xstate>
-                   --out "${CMAKE_CURRENT_BINARY_DIR}/out")
+                   --out "${CMAKE_CURRENT_BINARY_DIR}/out" ${sanitized})
   set_tests_properties(socketcan.${name} PROPERTIES
     LABELS socketcan TIMEOUT 300 SKIP_RETURN_CODE 77 FIXTURES_SETUP socketcan_${name})
   if(arg_REQUIRES)

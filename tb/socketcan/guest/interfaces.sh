@@ -90,11 +90,11 @@ for way in up signal; do
   hush
 done
 
-# A user without rights gets a small buffer, and with a flood the kernel drops frames before the bridge
+# Without CAP_NET_ADMIN the bridge gets a small buffer, and with a flood the kernel drops frames before the bridge
 # can read them. It tells with the next frame, and the bridge counts them.
 echo 212992 >/proc/sys/net/core/rmem_max
 listen mon0 small-mon.log
-as="setpriv --reuid 65534 --clear-groups"
+as="setpriv --bounding-set -net_admin --inh-caps -net_admin"
 start_bridge small --if vcan0 --monitor mon0 --bitrate 1M --nodes 1 --fast --json --errors none
 accept vcan0 -n 2000 -I 7F0 -L 8 -D i
 kill -CONT "$bridge"

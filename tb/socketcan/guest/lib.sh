@@ -67,8 +67,15 @@ listen() {
   wait_until 20 has_sockets "$device" $((before + 1))
 }
 
+# A process that sleeps has read what there was.
+is_idle() {
+  read -r status <"/proc/$1/stat" 2>/dev/null || return 0
+  case $status in *") R "*) return 1 ;; esac
+}
+
 hush() {
   for pid in $listeners; do
+    wait_until 60 is_idle "$pid"
     kill -TERM "$pid" 2>/dev/null
     wait "$pid" 2>/dev/null
   done

@@ -25,6 +25,7 @@ class Setup:
         self.shim = args.shim
         self.out = args.out.resolve()
         self.limit = args.limit
+        self.sanitized = args.sanitized
 
     def directory(self, name):
         """An empty directory for the results of a case without a guest."""
@@ -32,6 +33,12 @@ class Setup:
         shutil.rmtree(path, ignore_errors=True)
         path.mkdir(parents=True)
         return path
+
+    def check_verican(self):
+        """Raises Impossible if it cannot run in a guest."""
+        if self.sanitized:
+            raise guest.Impossible("a verican with sanitizers needs more address space than "
+                                   "user-mode Linux gives its processes")
 
     def run(self, script, files=None, **settings):
         """A guest with guest/SCRIPT.sh, which finds `files` (name: text); returns what it left."""
@@ -118,6 +125,7 @@ def _guest_case(script):
     prepare, judge = SCRIPTS[script]
 
     def case(setup):
+        setup.check_verican()
         files, settings = prepare(setup)
         return judge(setup.run(script, files, **settings))
     return case
@@ -127,6 +135,7 @@ def _red_case(script):
     judge = SCRIPTS[script][1]
 
     def case(setup):
+        setup.check_verican()
         source = setup.out / script
         expect_true((source / "ended").exists(), f"{script} has not run")
         return red.notices(script, lambda directory: judge(Run(directory)), source,

@@ -14,6 +14,10 @@ from guest import session_members
 
 def end(session):
     """Kills until nobody is left: a process may be born between the look and the kill."""
+    try:
+        os.killpg(session, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
     while members := session_members(session):
         for pid in members:
             try:

@@ -105,6 +105,8 @@ def boot(script, directory, shim, settings=None, files=None, limit=240, memory="
     """
     check_machine()
     directory = Path(directory).resolve()
+    if " " in f"{directory}{INIT}":
+        raise Impossible(f"a blank in a path of the kernel's command line: {directory}, {INIT}")
     shutil.rmtree(directory, ignore_errors=True)
     directory.mkdir(parents=True)
     values = {"VERICAN_SCRIPT": script, **(settings or {})}

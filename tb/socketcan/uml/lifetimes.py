@@ -134,6 +134,8 @@ def signals(run):
         found, total = port(run, name, "vcan0")
         expect((found["sent"], total), (len(bus), len(bus)), f"{name}: frames in the account")
         expect(found["from_host"], found["sent"] + found["pending"], f"{name}: from the host")
+        if name == "TERM":
+            expect(found["from_host"], 10000, f"{name}: frames that the program has sent")
         expect((found["lost"], found["overruns"]), (0, 0), f"{name}: lost")
         lines.append(f"SIG{name}: {len(bus)} frames had left")
     return lines

@@ -26,6 +26,7 @@ def options():
     parser.add_argument("--verican", type=Path, required=True)
     parser.add_argument("--shim", type=Path, required=True, help="the library of wide_xstate.c")
     parser.add_argument("--out", type=Path, required=True, help="directory of all cases' results")
+    parser.add_argument("--sanitized", action="store_true", help="verican has sanitizers")
     parser.add_argument("--limit", type=int, default=240, help="seconds for the guest")
     args = parser.parse_args()
     args.verican = args.verican.resolve()
