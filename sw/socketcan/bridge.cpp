@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <set>
 
 #include "frame_form.hpp"
@@ -107,6 +108,7 @@ void Bridge::start() {
   if (!ready) throw std::runtime_error("the set-up of an interface's node takes above 100 ms");
   simulation_->start(bus.now() + kIntegration * bit_time_);
   begin_ = wall_.now();
+  cpu_begin_ = std::clock();
   pacer_.start(begin_, bus.now());
   exchange();  // what programs have sent before: nothing may come after it to wake the first round
 }
@@ -315,6 +317,7 @@ BridgeReport Bridge::finish() {
   report.fast = setup_.fast;
   report.wall_seconds = static_cast<double>(wall_.now() - begin_) / 1e9;
   report.bus.wall_seconds = report.wall_seconds;
+  report.cpu_seconds = static_cast<double>(std::clock() - cpu_begin_) / CLOCKS_PER_SEC;
   report.lag = pacer_.lag();
   report.largest_lag = pacer_.largest_lag();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {

@@ -5,6 +5,7 @@
 // that use them.
 #pragma once
 
+#include <ctime>
 #include <functional>
 #include <map>
 #include <memory>
@@ -102,6 +103,7 @@ class Bridge : private BusObserver {
   PortCounts monitor_counts_;
   Pacer pacer_;
   WallTime begin_ = 0;
+  std::clock_t cpu_begin_ = 0;
   std::vector<char> was_up_;
   std::vector<pollfd> poll_set_;
   bool refused_ = false;  // a port has no room for a message

@@ -67,9 +67,9 @@ bool BridgeReport::ok() const {
 }
 
 std::string to_text(const BridgeReport &report) {
-  std::string text = fmt::format("bridge: {:.3f} s of the bus in {:.3f} s, {}\n",
+  std::string text = fmt::format("bridge: {:.3f} s of the bus in {:.3f} s ({:.3f} s of CPU), {}\n",
                                  static_cast<double>(report.bus.duration) / kSecond,
-                                 report.wall_seconds, pace_text(report));
+                                 report.wall_seconds, report.cpu_seconds, pace_text(report));
   text += fmt::format("  {:<16} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8} {:>8}\n", "interface",
                       "from host", "sent", "to come", "received", "to host", "echoes", "errors");
   for (const PortReport &port : report.ports) {
@@ -88,6 +88,7 @@ nlohmann::ordered_json to_json(const BridgeReport &report) {
   return {{"ok", report.ok()},
           {"fast", report.fast},
           {"wall_seconds", report.wall_seconds},
+          {"cpu_seconds", report.cpu_seconds},
           {"lag_ns", report.lag},
           {"largest_lag_ns", report.largest_lag},
           {"ports", ports},

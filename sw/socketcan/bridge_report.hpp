@@ -32,6 +32,7 @@ struct BridgeReport {
   std::vector<PortReport> ports;
   bool fast = false;
   double wall_seconds = 0;
+  double cpu_seconds = 0;             ///< of this process
   WallTime lag = 0, largest_lag = 0;  ///< ns
   /// False if a frame was lost or an expectation of the scenario is not met.
   [[nodiscard]] bool ok() const;

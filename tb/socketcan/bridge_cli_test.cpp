@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command line of `verican bridge`: what it refuses, in one line, with exit code 2.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace vericansim {
+namespace {
+
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+struct Outcome {
+  int code = -1;
+  std::string output;
+};
+
+Outcome bridge(const std::string &arguments) {
+  FILE *pipe =
+      ::popen((std::string{VERICAN_BINARY} + " bridge " + arguments + " 2>&1").c_str(), "r");
+  Outcome outcome;
+  std::array<char, 256> part{};
+  while (std::fgets(part.data(), part.size(), pipe) != nullptr) outcome.output += part.data();
+  const int status = ::pclose(pipe);
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+/// Arguments, and what the line must say.
+struct Refusal {
+  const char *arguments;
+  const char *words;
+};
+
+class BridgeRefuses : public ::testing::TestWithParam<Refusal> {};
+
+TEST_P(BridgeRefuses, InOneLine) {
+  const Outcome outcome = bridge(GetParam().arguments);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.output, StartsWith("verican: "));
+  EXPECT_THAT(outcome.output, HasSubstr(GetParam().words));
+  EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    CommandLine, BridgeRefuses,
+    ::testing::Values(
+        Refusal{"", "nothing to bridge"}, Refusal{"--if a0 --if a0", "'a0' is named twice"},
+        Refusal{"--if a0 --monitor a0", "'a0' is named twice"},
+        Refusal{"--if a0 --filter 12G:7FF", "--filter: '12G:7FF'"},
+        Refusal{"--if a0 --errors some", "--errors"}, Refusal{"--if a0 --time 5", "--time: '5'"},
+        Refusal{"--if a0 --bitrate 2M", "--bitrate"}, Refusal{"--if a0 --nodes 61", "--nodes"},
+        Refusal{"--if a0 --nodes 1 --bus x.yaml", "--bus"},
+        Refusal{"--if a0 --bus nosuch.yaml", "nosuch.yaml"},
+        Refusal{"--socketcand 0 --bitrate 500k --clock 3M", "500000 bit/s"}));
+
+// With CAN in the kernel or without: the interface is named, and what helps.
+TEST(BridgeCommand, MissingInterfaceOrNoCan) {
+  const Outcome outcome = bridge("--if nosuchcan0");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.output, StartsWith("verican: --if nosuchcan0: "));
+  EXPECT_THAT(outcome.output, AnyOf(HasSubstr("--socketcand"), HasSubstr("ip link add")));
+}
+
+TEST(BridgeCommand, SeveralBitRatesNeedAChoice) {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("bridge-rates-" + std::to_string(::getpid()) + ".yaml");
+  std::ofstream{path} << "bitrate: [125k, 250k]\nnodes:\n  - name: a\n";
+  const Outcome refused = bridge("--socketcand 0 --bus " + path.string());
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.output, HasSubstr("several bit rates; --bitrate says which"));
+  const Outcome chosen = bridge("--socketcand 0 --bitrate 250k --time 5ms --bus " + path.string());
+  EXPECT_EQ(chosen.code, 0) << chosen.output;
+  std::filesystem::remove(path);
+}
+
+// A scenario of its own traffic: it runs for the time asked, its expectations decide the exit code.
+TEST(BridgeCommand, ExpectationsOfTheScenarioCount) {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("bridge-expect-" + std::to_string(::getpid()) + ".yaml");
+  for (const int wanted : {11, 12}) {  // at 0, 5, ... 50 ms
+    std::ofstream{path} << "bitrate: 500k\nduration: 1 ms\nnodes:\n  - {name: a, clock: 4 MHz}\n"
+                           "traffic:\n  - {node: a, id: 0x12, data: \"01\", period: 5 ms}\n"
+                           "expect:\n  frames: "
+                        << wanted << "\n";
+    const Outcome outcome = bridge("--socketcand 0 --fast --time 52ms --bus " + path.string());
+    EXPECT_EQ(outcome.code, wanted == 11 ? 0 : 1) << outcome.output;
+  }
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace vericansim
