@@ -4,6 +4,8 @@
 // Base64Stream: see base64_stream.hpp.
 #include "report/base64_stream.hpp"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -24,37 +26,37 @@ void append_group(std::string &text, const std::uint8_t *bytes, std::size_t size
 
 }  // namespace
 
-Base64Stream::Base64Stream(std::ostream &out) : out_{out}, buffer_(kBuffer) {
-  if (deflateInit(&zlib_, Z_DEFAULT_COMPRESSION) != Z_OK) throw std::runtime_error("zlib failed");
+Base64Stream::Base64Stream(std::ostream &out) : out_{out}, zlib_{std::make_unique<z_stream_s>()}, buffer_(kBuffer) {
+  if (deflateInit(zlib_.get(), Z_DEFAULT_COMPRESSION) != Z_OK) throw std::runtime_error("zlib failed");
 }
 
-Base64Stream::~Base64Stream() { deflateEnd(&zlib_); }
+Base64Stream::~Base64Stream() { deflateEnd(zlib_.get()); }
 
 void Base64Stream::write(const void *data, std::size_t size) {
   constexpr std::size_t kPart = std::size_t{1} << 30;  // zlib counts in unsigned int
   const auto *bytes = static_cast<const std::uint8_t *>(data);
   for (std::size_t done = 0; done < size;) {
     const std::size_t part = std::min(size - done, kPart);
-    zlib_.next_in = const_cast<std::uint8_t *>(bytes + done);
-    zlib_.avail_in = static_cast<unsigned>(part);
+    zlib_->next_in = const_cast<std::uint8_t *>(bytes + done);
+    zlib_->avail_in = static_cast<unsigned>(part);
     deflate_all(Z_NO_FLUSH);
     done += part;
   }
 }
 
 void Base64Stream::finish() {
-  zlib_.avail_in = 0;
+  zlib_->avail_in = 0;
   deflate_all(Z_FINISH);
   encode_rest();
 }
 
 void Base64Stream::deflate_all(int flush) {
   do {
-    zlib_.next_out = buffer_.data();
-    zlib_.avail_out = kBuffer;
-    deflate(&zlib_, flush);
-    encode(buffer_.data(), kBuffer - zlib_.avail_out);
-  } while (zlib_.avail_out == 0);
+    zlib_->next_out = buffer_.data();
+    zlib_->avail_out = kBuffer;
+    deflate(zlib_.get(), flush);
+    encode(buffer_.data(), kBuffer - zlib_->avail_out);
+  } while (zlib_->avail_out == 0);
 }
 
 void Base64Stream::encode(const std::uint8_t *data, std::size_t size) {

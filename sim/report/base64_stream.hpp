@@ -5,12 +5,13 @@
 // piece.
 #pragma once
 
-#include <zlib.h>
-
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <ostream>
 #include <vector>
+
+struct z_stream_s;  // zlib's state
 
 namespace vericansim {
 
@@ -31,7 +32,7 @@ class Base64Stream {
   void encode_rest();
 
   std::ostream &out_;
-  z_stream zlib_{};
+  std::unique_ptr<z_stream_s> zlib_;
   std::vector<std::uint8_t> buffer_;
   std::uint8_t rest_[3] = {};  // bytes that make no group of three yet
   std::size_t rest_size_ = 0;

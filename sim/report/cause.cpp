@@ -30,8 +30,6 @@ constexpr std::array kRules = {
     CauseRule{CauseKind::kLastStuff, "ST-04",
               "a receiver saw six equal bits at the stuff bit behind the CRC"},
     CauseRule{CauseKind::kCrc, "ED-14", "a receiver calculated another CRC than it received"},
-    CauseRule{CauseKind::kCrcAndForm, "ED-15",
-              "a receiver found a wrong CRC and saw dominant in {}: one flag for both"},
     CauseRule{CauseKind::kFormReceiver, "ED-09", "a receiver saw dominant in {}"},
     CauseRule{CauseKind::kOwnAck, "ED-07", "a receiver sent its acknowledge and saw recessive"},
     CauseRule{CauseKind::kErrorFlag, "EF-06",
@@ -102,8 +100,7 @@ CauseKind transmitter_kind(const Finding &finding) {
 
 CauseKind receiver_kind(const Finding &finding) {
   const TrackedBit &bit = finding.bit;
-  if ((finding.errors & kErrCrc) != 0)
-    return (finding.errors & kErrForm) != 0 ? CauseKind::kCrcAndForm : CauseKind::kCrc;
+  if ((finding.errors & kErrCrc) != 0) return CauseKind::kCrc;
   if (bit.field == Field::kAck) return CauseKind::kOwnAck;
   if (bit.field == Field::kCrcDel && bit.stuff) return CauseKind::kLastStuff;
   return bit.field >= Field::kCrcDel ? CauseKind::kFormReceiver : CauseKind::kStuff;
@@ -142,13 +139,24 @@ Cause fill(CauseKind kind, Field field) {
 
 std::span<const CauseRule> cause_rules() { return kRules; }
 
-Cause cause_of(const Finding &finding) {
+Cause cause_of(const Finding &finding, std::span<const Finding> others) {
   Cause cause = fill(kind_of(finding), finding.bit.field);
-  if (finding.to_bus_off) {
+  if (finding.passive && finding.errors != 0)
+    cause.text += "; it is error passive, its flag recessive";
+  bool to_bus_off = finding.to_bus_off;
+  CauseKind told = cause.kind;
+  for (const Finding &other : others) {
+    to_bus_off = to_bus_off || other.to_bus_off;
+    const CauseKind kind = kind_of(other);
+    const bool in_flag = kind == CauseKind::kErrorFlag || kind == CauseKind::kOverloadFlag;
+    if (!in_flag || kind == told) continue;
+    told = kind;
+    const CauseRule &rule = kRules[static_cast<std::size_t>(kind)];
+    cause.text += "; then " + std::string{rule.text} + " (" + std::string{rule.rule} + ")";
+  }
+  if (to_bus_off) {
     cause.text += "; its TEC reaches 256: bus-off";
     cause.rule = kBusOffRule;
-  } else if (finding.passive && finding.errors != 0) {
-    cause.text += "; it is error passive, its flag recessive";
   }
   return cause;
 }

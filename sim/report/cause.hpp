@@ -41,7 +41,6 @@ enum class CauseKind : std::uint8_t {
   kStuff,               ///< R: six equal bits
   kLastStuff,           ///< R: six equal bits at the stuff bit that follows CRC0
   kCrc,                 ///< R: wrong CRC
-  kCrcAndForm,          ///< R: wrong CRC and a dominant delimiter
   kFormReceiver,        ///< R: delimiter or EOF1..EOF6 dominant
   kOwnAck,              ///< R: acknowledge overwritten
   kErrorFlag,           ///< recessive in the own active error flag
@@ -73,8 +72,10 @@ struct Cause {
   std::string_view rule;
 };
 
-/// Why a node began a flag.
-[[nodiscard]] Cause cause_of(const Finding &finding);
+/// Why a node began a flag. `others` are later findings of the same error or overload frame, of any
+/// node: errors in a flag are told, and that one made its node bus-off; answers to the flag are
+/// not.
+[[nodiscard]] Cause cause_of(const Finding &finding, std::span<const Finding> others = {});
 /// What the wire shows, if no node says why: an error or overload frame, or a frame with a wrong
 /// CRC.
 [[nodiscard]] Cause cause_of(const BusEvent &event);

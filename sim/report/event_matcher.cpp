@@ -5,6 +5,7 @@
 #include "report/event_matcher.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace vericansim {
@@ -36,6 +37,8 @@ void EventMatcher::take(const BusEvent &event) {
   flush_hidden(static_cast<double>(event.start - kLatestSign * bit_time_));
   const Kind kind = event.kind == BusEventKind::kOverloadFrame ? kOverload : kError;
   const auto belongs = [&](const Finding &f) { return f.bit.time <= event.end; };
+  // A dominant level in a delimiter begins another error or overload frame.
+  const auto follows = [&](const Finding &f) { return belongs(f) && f.bit.field != Field::kDel; };
   if (findings_.empty() || !belongs(findings_.front())) {
     add(kind, static_cast<double>(event.start), static_cast<double>(event.end), cause_of(event));
     data_.events.node.push_back(kNoNode);
@@ -44,8 +47,12 @@ void EventMatcher::take(const BusEvent &event) {
     data_.events.index.push_back(event.index);
     return;
   }
-  add(kind, findings_.front(), static_cast<double>(event.end));
-  while (!findings_.empty() && belongs(findings_.front())) findings_.pop_front();
+  const Finding first = findings_.front();
+  findings_.pop_front();
+  std::vector<Finding> others;
+  std::copy_if(findings_.begin(), findings_.end(), std::back_inserter(others), follows);
+  std::erase_if(findings_, follows);
+  add(kind, first, others, static_cast<double>(event.end));
 }
 
 // Findings of several nodes within a few bits are answers to one disturbance.
@@ -54,7 +61,7 @@ void EventMatcher::flush_hidden(double before) {
   while (!findings_.empty() && is_old(findings_.front())) {
     const Finding first = findings_.front();
     const double length = kErrorFrame * first.bit.quanta * first.bit.tq;
-    add(kHidden, first, first.end != 0 ? first.end : first.bit.start + length);
+    add(kHidden, first, {}, first.end != 0 ? first.end : first.bit.start + length);
     const Time together = first.bit.time + kLatestSign * bit_time_;
     while (!findings_.empty() && is_old(findings_.front()) && findings_.front().bit.time < together)
       findings_.pop_front();
@@ -63,8 +70,9 @@ void EventMatcher::flush_hidden(double before) {
 
 void EventMatcher::finish() { flush_hidden(std::numeric_limits<double>::max()); }
 
-void EventMatcher::add(Kind kind, const Finding &finding, double end) {
-  add(kind, finding.bit.start, end, cause_of(finding));
+void EventMatcher::add(Kind kind, const Finding &finding, const std::vector<Finding> &others,
+                       double end) {
+  add(kind, finding.bit.start, end, cause_of(finding, others));
   data_.events.node.push_back(static_cast<std::uint8_t>(finding.node));
   data_.events.error.push_back(finding.errors);
   data_.events.field.push_back(static_cast<std::uint8_t>(finding.bit.field));

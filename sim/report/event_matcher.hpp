@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <vector>
 
 #include "model/bus_decoder.hpp"
 #include "report/cause.hpp"
@@ -36,7 +37,7 @@ class EventMatcher {
  private:
   void flush_hidden(double before);
   void add(Kind kind, double start, double end, const Cause &cause);
-  void add(Kind kind, const Finding &finding, double end);
+  void add(Kind kind, const Finding &finding, const std::vector<Finding> &others, double end);
   [[nodiscard]] std::uint16_t intern(const Cause &cause);
 
   Time bit_time_;
