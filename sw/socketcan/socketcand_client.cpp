@@ -74,6 +74,24 @@ std::optional<can_frame> SocketcandClient::take() {
   return frame;
 }
 
+std::size_t SocketcandClient::remaining() {
+  // More than TCP buffers hold: a client that goes on sending does not keep the bridge from ending.
+  constexpr std::size_t kMost = std::size_t{64} << 20U;
+  std::size_t count = 0;
+  for (std::size_t bytes = 0; bytes < kMost && !leaving_;) {
+    read();
+    bytes += splitter_.waiting();
+    if (splitter_.waiting() == 0 && !pending_) break;
+    for (work(); pending_; work()) {
+      ++count;
+      pending_.reset();
+    }
+  }
+  if (count != 0)
+    fail(fmt::format("the bus has ended; the last {} frames of this client were not sent", count));
+  return count;
+}
+
 void SocketcandClient::deliver(const PortMessage &message) {
   if (message.echo && message.client == id_ && !own_messages_) return;
   if (mode_ == kRaw) show(message);

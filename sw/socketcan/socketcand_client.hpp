@@ -54,6 +54,9 @@ class SocketcandClient {
   void work();
   /// The next frame for its bus.
   [[nodiscard]] std::optional<can_frame> take();
+  /// At the end: reads what the client has sent, counts the frames that will not be sent, and tells
+  /// the client.
+  [[nodiscard]] std::size_t remaining();
   /// A message of its bus.
   void deliver(const PortMessage &message);
   /// True when it has left, or was told to go, and nothing is left to be done.

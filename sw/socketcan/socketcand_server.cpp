@@ -54,6 +54,7 @@ class SocketcandServer::Bus : public CanPort {
     if (index_ == 0) server_.service(ready);
   }
   [[nodiscard]] std::optional<PortMessage> take() override { return server_.take(index_); }
+  [[nodiscard]] std::size_t remaining() override { return server_.remaining(index_); }
   [[nodiscard]] bool put(const PortMessage &message) override {
     server_.put(index_, message);
     return true;
@@ -179,6 +180,13 @@ std::optional<PortMessage> SocketcandServer::take(std::size_t bus) {
     return message;
   }
   return std::nullopt;
+}
+
+std::size_t SocketcandServer::remaining(std::size_t bus) {
+  std::size_t count = 0;
+  for (const auto &client : clients_)
+    if (client->bus() == bus) count += client->remaining();
+  return count;
 }
 
 void SocketcandServer::put(std::size_t bus, const PortMessage &message) {

@@ -57,6 +57,7 @@ class SocketcandServer {
   void set_timer() const;
   void service(std::span<const pollfd> ready);
   [[nodiscard]] std::optional<PortMessage> take(std::size_t bus);
+  [[nodiscard]] std::size_t remaining(std::size_t bus);
   void put(std::size_t bus, const PortMessage &message);
   void accept_clients();
   void remove_done();

@@ -52,6 +52,8 @@ class SocketcandBench {
   [[nodiscard]] std::uint16_t port() const { return server_->address().port; }
   /// One round of the bridge.
   void step();
+  /// Frames of clients of the first bus that have not been taken.
+  std::size_t remaining() { return ports_.front()->remaining(); }
   /// True if poll() would not wait now.
   bool busy();
   /// Rounds until `done`; false after 20 s of host time.

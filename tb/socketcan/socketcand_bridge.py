@@ -141,6 +141,13 @@ class Client:
             if message is None or message[0] != "error" or len(message) != 4:
                 raise AssertionError(f"expected nothing more, got {message}")
 
+    def last_words(self):
+        """The last message before the bridge has ended the connection."""
+        words = []
+        while (message := self.next()) is not None:
+            words = message
+        return " ".join(words)
+
     def close(self, reset=False):
         """Leaves; with a reset of the connection, as a program that crashes with unread data."""
         if reset:

@@ -234,6 +234,24 @@ TEST_F(SocketcandClients, JobsEndWithTheirClientThoughItsFramesStillWait) {
   EXPECT_EQ(bench_.sent[before + 1].message.frame.can_id, 3U);
 }
 
+TEST_F(SocketcandClients, FramesThatAreNotSentAtTheEndAreCountedAndToldOf) {
+  auto client = bench_.raw_client();
+  auto other = bench_.raw_client();
+  bench_.room = 0;
+  for (unsigned i = 0; i < 2000; ++i) ASSERT_TRUE(bench_.send(*client, send_text(i)));
+  ASSERT_TRUE(bench_.send(*client, "< echo >< send 800 0 >"));
+  bench_.step();
+  EXPECT_EQ(bench_.remaining(), 2000U);
+  EXPECT_EQ(bench_.remaining(), 0U);
+  bench_.server().finish(std::chrono::seconds(10));
+  client->read();
+  EXPECT_TRUE(client->received().ends_with(
+      "< error the bus has ended; the last 2000 frames of this client were not sent >"));
+  other->read();
+  EXPECT_EQ(other->received(), "");
+  EXPECT_TRUE(bench_.sent.empty());
+}
+
 TEST_F(SocketcandClients, FinishDeliversWhatIsQueued) {
   auto client = bench_.raw_client();
   for (int i = 0; i < 1000; ++i) bench_.frame_from_bus(0x123, {1, 2, 3});
