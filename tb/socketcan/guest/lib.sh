@@ -10,7 +10,7 @@ complain() {
 
 # wait_until SECONDS COMMAND...: until the command succeeds; complains after that time.
 wait_until() {
-  steps=$(($1 * 50))
+  steps=$(($1 * 10))
   shift
   while ! "$@"; do
     steps=$((steps - 1))
@@ -18,7 +18,7 @@ wait_until() {
       complain "waited for: $*"
       return 1
     fi
-    sleep 0.02
+    sleep 0.1
   done
 }
 
