@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Two interfaces are two nodes of one bus, on each two programs. The bridge is stopped until all have
-# sent everything, so that both nodes have a frame to send all the time: the bus decides which.
+# Two interfaces are two nodes of one bus, on each two programs. The bridge is stopped until all
+# have sent everything, so that both nodes have a frame to send all the time: the bus decides which.
 interface vcan0 vcan1
 listen vcan0 vcan0.log
 listen vcan1 vcan1.log

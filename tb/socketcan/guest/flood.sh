@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Both ways at once: 10,000 frames of cangen through vcan0 onto the bus, and 10,000 of the scenario's
-# nodes to vcan0. mon0 is told all that happens on the bus: its count tells when all is done.
+# Both ways at once: 10,000 frames of cangen through vcan0 onto the bus, and 10,000 of a node of the
+# scenario to vcan0. mon0 is told all that happens on the bus: its count tells when all is done.
 interface vcan0 mon0
 listen vcan0 vcan0.log
-start_bridge bridge --if vcan0 --monitor mon0 --bus flood.yaml --fast --errors none --candump bus.log
+start_bridge bridge --if vcan0 --monitor mon0 --bus flood.yaml --fast --errors none \
+  --candump bus.log
 send() {
   cangen vcan0 -g 0 "$@" || complain "cangen $*"
 }

@@ -90,8 +90,8 @@ for way in up signal; do
   hush
 done
 
-# Without CAP_NET_ADMIN the bridge gets a small buffer, and with a flood the kernel drops frames before the bridge
-# can read them. It tells with the next frame, and the bridge counts them.
+# Without CAP_NET_ADMIN the bridge gets a small buffer, and with a flood the kernel drops frames
+# before the bridge can read them. It tells with the next frame, and the bridge counts them.
 echo 212992 >/proc/sys/net/core/rmem_max
 listen mon0 small-mon.log
 as="setpriv --bounding-set -net_admin --inh-caps -net_admin"

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# A pair of interfaces, the programs at one end, the bridge at the other: programs that do without the
-# kernel's loop-back (cangen -x) see their frames when these have been on the bus. Once as fast as
-# possible, once in real time.
+# A pair of interfaces, the programs at one end, the bridge at the other: programs that do without
+# the kernel's loop-back (cangen -x) see their frames when these have been on the bus. Once as fast
+# as possible, once in real time.
 ip link add vx0 type vxcan peer name vx1 || complain "add vxcan"
 ip link set vx0 up
 ip link set vx1 up

@@ -4,7 +4,6 @@
 import json
 import re
 import shutil
-from pathlib import Path
 
 import failures
 import guest
@@ -44,7 +43,7 @@ class Setup:
         """A guest with guest/SCRIPT.sh, which finds `files` (name: text); returns what it left."""
         directory = self.out / script
         settings = {"VERICAN": self.verican, **settings}
-        console = guest.boot(script, directory, self.shim, settings, files, self.limit).console
+        console = guest.boot(script, directory, self.shim, settings, files, self.limit)
         run = Run(directory)
         bad = [line for line in console.splitlines() if "FAILED" in line]
         expect(bad, [], "the guest complains")

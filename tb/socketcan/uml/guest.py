@@ -14,7 +14,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from dataclasses import dataclass
 from pathlib import Path
 
 KERNEL = Path("/usr/bin/linux.uml")
@@ -31,13 +30,6 @@ class Impossible(Exception):
 
 class Failed(Exception):
     """The guest did not do its work; the text says what was seen."""
-
-
-@dataclass
-class Ended:
-    """What a guest that has ended left: its console."""
-
-    console: str
 
 
 def scratch():
@@ -96,17 +88,8 @@ def _explain_no_start(console):
     raise Failed(f"the guest did not start: {last[0]}")
 
 
-def boot(script, directory, shim, settings=None, files=None, limit=240, memory="192M"):
-    """Runs guest/SCRIPT.sh in a guest; its current directory is `directory`, which is emptied first.
-
-    settings: variables of the script. files: {name: text} that it finds there. limit: seconds of
-    real time. Raises Impossible or Failed.
-    guest.txt tells the directory of the guest's memory and its session while it runs.
-    """
-    check_machine()
-    directory = Path(directory).resolve()
-    if " " in f"{directory}{INIT}":
-        raise Impossible(f"a blank in a path of the kernel's command line: {directory}, {INIT}")
+def _furnish(directory, script, settings, files):
+    """An empty directory with what the guest's script finds there."""
     shutil.rmtree(directory, ignore_errors=True)
     directory.mkdir(parents=True)
     values = {"VERICAN_SCRIPT": script, **(settings or {})}
@@ -114,6 +97,10 @@ def boot(script, directory, shim, settings=None, files=None, limit=240, memory="
     (directory / "settings.sh").write_text("".join(lines))
     for name, text in (files or {}).items():
         (directory / name).write_text(text)
+
+
+def _run(directory, shim, limit, memory):
+    """From power-on to power-off, or to the limit."""
     temporary = tempfile.mkdtemp(prefix="verican-uml-", dir=scratch())
     console = directory / "console.txt"
     environment = {**os.environ, "TMPDIR": temporary, "LD_PRELOAD": str(shim)}
@@ -124,24 +111,39 @@ def boot(script, directory, shim, settings=None, files=None, limit=240, memory="
             guest = subprocess.Popen(_command(directory, temporary, memory), env=environment,
                                      stdin=subprocess.DEVNULL, stdout=output,
                                      stderr=subprocess.STDOUT, start_new_session=True)
-        (directory / "guest.txt").write_text(f"{temporary}\n{guest.pid}\n")
         guard.stdin.write(f"{guest.pid}\n".encode())
         guard.stdin.flush()
-        try:
-            guest.wait(limit)
-        except subprocess.TimeoutExpired:
-            raise Failed(f"the guest did not end within {limit} s; its last words: "
-                         f"{_last_words(console)}") from None
+        (directory / "guest.txt").write_text(f"{temporary}\n{guest.pid}\n")
+        guest.wait(limit)
+    except subprocess.TimeoutExpired:
+        raise Failed(f"the guest did not end within {limit} s; its last words: "
+                     f"{_last_words(console)}") from None
     finally:
         guard.stdin.close()  # from here the guard ends what still runs and removes the directory
         guard.stdout.read()  # until it is done
         guard.wait()
-    text = console.read_text(errors="replace")
+
+
+def boot(script, directory, shim, settings=None, files=None, limit=240, memory="192M"):
+    """Runs guest/SCRIPT.sh in a guest, in `directory`, which is emptied first; returns its console.
+
+    settings: variables of the script. files: {name: text} that it finds there. limit: seconds of
+    real time. Raises Impossible or Failed.
+    guest.txt tells the directory of the guest's memory and its session while it runs.
+    """
+    check_machine()
+    directory = Path(directory).resolve()
+    if " " in f"{directory}{INIT}":
+        raise Impossible(f"a blank in a path of the kernel's command line: {directory}, {INIT}")
+    _furnish(directory, script, settings, files)
+    _run(directory, shim, limit, memory)
+    console = (directory / "console.txt").read_text(errors="replace")
     if not (directory / "started").exists():
-        _explain_no_start(text)
-    if "Kernel panic" in text or not (directory / "ended").exists():
-        raise Failed(f"the guest did not end as it should: {_last_words(console)}")
-    return Ended(text)
+        _explain_no_start(console)
+    if "Kernel panic" in console or not (directory / "ended").exists():
+        raise Failed("the guest did not end as it should: "
+                     f"{_last_words(directory / 'console.txt')}")
+    return console
 
 
 def _last_words(console):

@@ -52,7 +52,7 @@ def refused(run):
 
 
 def come_and_go(run):
-    """Down and up, gone and back: what programs had sent before leaves; the bus goes on meanwhile."""
+    """Down and up, gone and back: what had been sent before leaves; the bus goes on meanwhile."""
     accepted = cangen(1000)
     meanwhile = cangen(300, extended=True)
     after = {"vcan0": cangen(100, ident=0x7F0, dlc=8), "vcan1": cangen(100, ident=0x7F1, dlc=8)}
