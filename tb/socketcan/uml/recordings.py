@@ -108,7 +108,3 @@ def canplayer(run):
     sent = [frame for _, frame in run.sent]
     for name in ("timed", "flat"):
         same(frames(read(run.dir / f"{name}.log")), sent, f"{name}.log")
-    # canplayer keeps the distances, but a guest may be slow: no frame comes early.
-    times = [entry.time for entry in read(run.dir / "timed.log")]
-    expect_true(times[-1] - times[0] >= 0.9 * run.sent[-1][0],
-                f"canplayer took {times[-1] - times[0]} us for {run.sent[-1][0]} us")
