@@ -10,15 +10,18 @@ export const kStrip = 13; // height of a node's own fields
 
 const edgesIn = (track, scale) => track.countAt(scale.to) - track.countAt(scale.from);
 
-/** Columns of a track that has too many edges to show each: visit(x0, x1, density 0..1). */
-function columns(track, scale, visit) {
+/**
+ * Columns of a track that has too many edges to show each: visit(x0, x1, density 0..1), density in
+ * `levels` steps, neighbours of one density together.
+ */
+function columns(track, scale, levels, visit) {
   const perColumn = kColumn / scale.pxPerNs / scale.report.bitNs;
   const full = Math.max(1, 0.5 * perColumn);
   let before = track.countAt(scale.from);
   let start = scale.left;
   let shade = -1;
   const flush = (x, next) => {
-    if (shade > 0 && x > start) visit(start, x, shade / 4);
+    if (shade > 0 && x > start) visit(start, x, shade / levels);
     start = x;
     shade = next;
   };
@@ -27,7 +30,8 @@ function columns(track, scale, visit) {
     const edges = count - before;
     before = count;
     const level = track.initial ^ (count & 1);
-    const next = edges === 0 ? (level === 0 ? 4 : 0) : Math.ceil(4 * Math.min(1, edges / full));
+    const density = edges === 0 ? 1 - level : Math.min(1, edges / full);
+    const next = Math.ceil(levels * density);
     if (next !== shade) flush(x, next);
   }
   flush(scale.width, 0);
@@ -121,7 +125,7 @@ export function drawBus(p, scale, y, h) {
   p.note('bus', {edges, exact: edges <= kMaxEdges});
   if (edges > kMaxEdges || drivers > 2 * kMaxEdges) {
     p.line(scale.left, middle, scale.width, middle, 'trace', 1);
-    columns(report.wire, scale, (x0, x1, density) => {
+    columns(report.wire, scale, 4, (x0, x1, density) => {
       p.rect(x0, middle - half, x1 - x0, 2 * half, 'trace', 0.2 + 0.7 * density);
     });
     return;
@@ -191,8 +195,10 @@ export function drawNode(p, scale, node, y, h) {
   if (!track) return drawStates(p, scale, node, y + 1, h - 2);
   if (edgesIn(track, scale) > kMaxEdges / 2) {
     p.line(scale.left, top, scale.width, top, color, 1);
-    columns(track, scale, (x0, x1, density) => {
-      p.rect(x0, top, x1 - x0, bottom - top, color, 0.25 + 0.75 * density);
+    const far = scale.mode === 'columns'; // too far away for single frames: height says how much
+    columns(track, scale, far ? 24 : 4, (x0, x1, density) => {
+      const high = far ? density * (bottom - top) : bottom - top;
+      p.rect(x0, bottom - high, x1 - x0, high, color, far ? 0.8 : 0.25 + 0.75 * density);
     });
   } else {
     track.stretches(scale.from, scale.to, (from, to, level) => {
@@ -203,7 +209,8 @@ export function drawNode(p, scale, node, y, h) {
     p.polyline(tracePoints(track, scale, top, bottom), color, scale.pxPerBit > 1 ? 1.5 : 0.6);
   }
   drawStates(p, scale, node, y + 1, h - 2);
-  if (report.rx[node] && scale.fine) drawReceived(p, scale, report.rx[node], top, bottom - top);
+  if (report.rx[node] && scale.pxPerBit >= 3)
+    drawReceived(p, scale, report.rx[node], top, bottom - top);
   if (strip) drawOwnFields(p, scale, node, bottom + 3, strip - 2);
   if (scale.fine) drawLosses(p, scale, node, y, h - strip);
   return p.note('node', {node, x0: scale.left, x1: scale.width, y0: y, y1: y + h});
