@@ -90,10 +90,12 @@ void open_ports(BridgeSetup &setup, const Options &options) {
                      "by TCP, as in '--socketcand 29536'");
   std::vector<std::string> names = options.interfaces;
   if (!options.monitor.empty()) names.push_back(options.monitor);
+  for (const std::string &bus : bus_names(options.socketcand)) names.push_back(bus);
   for (std::size_t i = 0; i < names.size(); ++i)
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
         names.begin() + static_cast<std::ptrdiff_t>(i))
-      throw InputError("--if", 0, vericansim::quoted(names[i]) + " is named twice");
+      throw InputError(options.socketcand.address.empty() ? "--if" : "--bus-name", 0,
+                       vericansim::quoted(names[i]) + " is named twice");
   for (const std::string &name : options.interfaces)
     setup.ports.push_back(std::make_unique<RawCanPort>(name, options.raw));
   if (options.monitor.empty()) return;

@@ -6,10 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "trace/input_error.hpp"
-
 namespace vericansim::cli {
 
 void add_socketcand_options(CLI::App &command, SocketcandOptions &options) {
@@ -30,17 +26,16 @@ void add_socketcand_options(CLI::App &command, SocketcandOptions &options) {
       ->needs(address);
 }
 
+std::vector<std::string> bus_names(const SocketcandOptions &options) {
+  if (options.address.empty()) return {};
+  return options.buses.empty() ? std::vector<std::string>{"can0"} : options.buses;
+}
+
 std::unique_ptr<SocketcandServer> open_socketcand(const SocketcandOptions &options,
                                                   BridgeSetup &setup) {
   if (options.address.empty()) return nullptr;
-  std::vector<std::string> buses = options.buses;
-  if (buses.empty()) buses = {"can0"};
-  for (const auto &port : setup.ports)
-    if (std::find(buses.begin(), buses.end(), port->name()) != buses.end())
-      throw InputError("--bus-name", 0,
-                       quoted(port->name()) + " is a CAN interface of --if too; take another name");
   auto server = std::make_unique<SocketcandServer>(
-      SocketcandAddress::parse("--socketcand", options.address), std::move(buses));
+      SocketcandAddress::parse("--socketcand", options.address), bus_names(options));
   for (auto &port : server->ports()) setup.ports.push_back(std::move(port));
   return server;
 }

@@ -22,6 +22,9 @@ struct SocketcandOptions {
 
 void add_socketcand_options(CLI::App &command, SocketcandOptions &options);
 
+/// Names of the buses, each a node; none if no server is wanted.
+[[nodiscard]] std::vector<std::string> bus_names(const SocketcandOptions &options);
+
 /// Starts the server and adds its buses to the ports of `setup`; nullptr if it is not wanted. The
 /// server has to outlive the bridge. InputError: options that cannot be used.
 [[nodiscard]] std::unique_ptr<SocketcandServer> open_socketcand(const SocketcandOptions &options,

@@ -35,7 +35,7 @@ void check_names(const std::vector<std::string> &names) {
                            " is not allowed; allowed: 1 to 16 printable characters "
                            "without blanks, '<' and '>'");
     if (std::find(names.begin(), name, *name) != name)
-      throw InputError("--bus-name", 0, quoted(*name) + " is there twice");
+      throw InputError("--bus-name", 0, quoted(*name) + " is named twice");
   }
 }
 

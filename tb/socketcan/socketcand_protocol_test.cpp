@@ -238,7 +238,7 @@ TEST(SocketcandServerNames, BadNamesAreNamed) {
     return "no error";
   };
   EXPECT_EQ(failure({"can0", "can1"}), "no error");
-  EXPECT_EQ(failure({"can0", "can0"}), "--bus-name: 'can0' is there twice");
+  EXPECT_EQ(failure({"can0", "can0"}), "--bus-name: 'can0' is named twice");
   for (const char *name : {"", "a b", "a<", "12345678901234567", "k\xC3\xA4n"})
     EXPECT_THAT(failure({name}), HasSubstr("is not allowed; allowed: 1 to 16 printable"));
 }
