@@ -133,7 +133,12 @@ class Station : public sc_core::sc_module, private Processor {
     if (!variant.clk_ports) return;
     clock_ = std::make_unique<NodeClock>("clock", node.clock);
     clock_->out.bind(clk_);
-    can.clk.bind(clk_);
+    if (variant.delta_lag == 0) {
+      can.clk.bind(clk_);
+    } else {
+      lag_ = std::make_unique<DeltaLag>("lag", clk_, variant.delta_lag * (1 + node.program.number));
+      can.clk.bind(lag_->out());
+    }
   }
 
   VericanTlm can;
@@ -165,7 +170,7 @@ class Station : public sc_core::sc_module, private Processor {
     while (edges_.next() <= now) edges_.tick();
     for (unsigned i = 1; i < count; ++i) edges_.tick();
     cpu_.wait(to_sc_time(edges_.next() - now));
-    for (int i = 0; i < 4; ++i) cpu_.wait(sc_core::SC_ZERO_TIME);
+    for (int i = 0; i < 40; ++i) cpu_.wait(sc_core::SC_ZERO_TIME);
   }
 
   Master cpu_;
@@ -174,6 +179,7 @@ class Station : public sc_core::sc_module, private Processor {
   sc_core::sc_signal<bool> irq_{"irq"};
   sc_core::sc_signal<bool> clk_{"clk"};
   std::unique_ptr<NodeClock> clock_;
+  std::unique_ptr<DeltaLag> lag_;
 };
 
 // Drives its pin as SpoilerNode does.

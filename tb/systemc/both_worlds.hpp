@@ -62,6 +62,7 @@ struct Story {
 struct SystemcVariant {
   TlmTiming timing = TlmTiming::kCycleExact;
   bool clk_ports = false;       ///< clocks come through clk; else the modules' own
+  unsigned delta_lag = 0;       ///< delta cycles by which node n's clock comes late, times n + 1
   Time quantum = kMicrosecond;  ///< loosely timed
   bool debugger = false;        ///< one reads all registers again and again
   unsigned shifted_start = 0;   ///< clocks by which the last node starts late

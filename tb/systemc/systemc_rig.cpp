@@ -139,6 +139,23 @@ std::uint32_t Master::peek32(std::uint32_t address) {
   return word;
 }
 
+// ---- DeltaLag
+
+DeltaLag::DeltaLag(const sc_core::sc_module_name &name, const sc_core::sc_signal_in_if<bool> &in,
+                   unsigned deltas)
+    : sc_core::sc_module{name} {
+  const sc_core::sc_signal_in_if<bool> *before = &in;
+  for (unsigned i = 0; i < deltas; ++i) {
+    stages_.push_back(std::make_unique<sc_core::sc_signal<bool>>());
+    sc_core::sc_spawn_options options;
+    options.spawn_method();
+    options.set_sensitivity(&before->value_changed_event());
+    sc_core::sc_spawn([before, stage = stages_.back().get()] { stage->write(before->read()); },
+                      sc_core::sc_gen_unique_name("lag"), &options);
+    before = stages_.back().get();
+  }
+}
+
 // ---- Junction
 
 Junction::Junction(const sc_core::sc_module_name &name, unsigned inputs)

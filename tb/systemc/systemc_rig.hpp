@@ -74,6 +74,18 @@ class Master : public sc_core::sc_module {
   sc_core::sc_time quantum_;
 };
 
+/// Passes a clock on, a number of delta cycles later.
+class DeltaLag : public sc_core::sc_module {
+ public:
+  DeltaLag(const sc_core::sc_module_name &name, const sc_core::sc_signal_in_if<bool> &in,
+           unsigned deltas);
+  /// The clock after the lag.
+  [[nodiscard]] sc_core::sc_signal<bool> &out() { return *stages_.back(); }
+
+ private:
+  std::vector<std::unique_ptr<sc_core::sc_signal<bool>>> stages_;
+};
+
 /// Passes the calls of several initiators on to one target.
 class Junction : public sc_core::sc_module {
  public:

@@ -73,6 +73,23 @@ INSTANTIATE_TEST_SUITE_P(Variants, Equality,
                                            Case{"UnderADebugger", 60, {.debugger = true}}),
                          [](const auto &param) { return std::string{param.param.name}; });
 
+// All edges at the same instants and no delay on the bus, but the clocks of the nodes come in
+// different delta cycles: an edge still sees what was before the instant.
+TEST(EqualityInStep, WhateverTheDeltaCyclesOfTheClocks) {
+  simulate([] {
+    Story both = story(40);
+    for (ScenarioNode &node : both.nodes) {
+      node.clock = {.phase = 1000};
+      node.link = {};
+    }
+    both.spoiler_clock = {.phase = 1000};
+    const Seen expected = run_in_simulator(both);
+    const Seen found = run_in_systemc(both, {.clk_ports = true, .delta_lag = 7});
+    EXPECT_EQ(first_difference(expected, found), "");
+    EXPECT_EQ(found.received[0].size(), 80u);
+  });
+}
+
 // The comparison can fail: software that starts one clock late is found out.
 TEST(EqualityFails, WhenTheSoftwareIsOneClockLate) {
   simulate([] {

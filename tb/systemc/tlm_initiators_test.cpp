@@ -115,6 +115,30 @@ TEST(Initiators, ThreadsKeepTheirDataApart) {
   });
 }
 
+// A call at the very instant of an edge is taken by the next one, whether the edge has been in this
+// instant or is still to come.
+TEST(Initiators, ACallAtTheInstantOfAnEdgeIsTakenByTheNext) {
+  simulate([] {
+    sc_core::sc_clock clock("clock", kClock);
+    DeltaLag lag("lag", clock, 5);
+    CanBus bus("bus");
+    VericanTlm can("can", {});
+    bus.attach(can);
+    can.clk.bind(lag.out());
+    Master cpu("cpu", [](Master &self) {
+      for (int deltas = 0; deltas < 10; ++deltas) {
+        self.pause(kClock * 10);
+        for (int i = 0; i < deltas; ++i) self.wait(sc_core::SC_ZERO_TIME);
+        std::uint32_t word = 0;
+        EXPECT_EQ(self.transport(kRead, kConfiguration, &word, 4).taken, kClock * 2) << deltas;
+      }
+    });
+    cpu.socket.bind(can.socket);
+    sc_core::sc_start(sc_time(1, sc_core::SC_MS));
+    EXPECT_TRUE(cpu.finished);
+  });
+}
+
 // The base protocol's four phases, by the socket's adapter.
 class NonBlocking : public sc_core::sc_module {
  public:
