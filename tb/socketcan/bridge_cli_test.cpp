@@ -77,7 +77,7 @@ TEST(BridgeCommand, SeveralBitRatesNeedAChoice) {
   const auto path = std::filesystem::temp_directory_path() /
                     ("bridge-rates-" + std::to_string(::getpid()) + ".yaml");
   std::ofstream{path} << "bitrate: [125k, 250k]\nnodes:\n  - name: a\n";
-  const Outcome refused = bridge("--socketcand 0 --bus " + path.string());
+  const Outcome refused = bridge("--socketcand 0 --time 5ms --bus " + path.string());
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.output, HasSubstr("several bit rates; --bitrate says which"));
   const Outcome chosen = bridge("--socketcand 0 --bitrate 250k --time 5ms --bus " + path.string());
