@@ -44,10 +44,37 @@ struct Options {
 // simulation.
 constexpr double kClocksPerBit = 8;
 
+/// On a terminal a line of its own for what is said, in place of the one that tells how far it is.
 void say(const std::string &line) {
-  fmt::print(stderr, "verican bridge: {}\n", line);
+  fmt::print(stderr, "{}verican bridge: {}\n", ::isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "",
+             line);
   std::fflush(stderr);
 }
+
+/// Twice a second, and only on a terminal: simulated time, and the lag as it is now.
+class StatusLine {
+ public:
+  StatusLine() : terminal_{::isatty(STDERR_FILENO) != 0} {}
+  ~StatusLine() {
+    if (terminal_) fmt::print(stderr, "\r\033[K");
+  }
+  StatusLine(const StatusLine &) = delete;
+  StatusLine &operator=(const StatusLine &) = delete;
+
+  void show(Bridge &bridge, const Options &options) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!terminal_ || now < next_) return;
+    next_ = now + std::chrono::milliseconds{500};
+    fmt::print(stderr, "\r\033[K{:.1f} s", static_cast<double>(bridge.elapsed()) / kSecond);
+    if (!options.fast)
+      fmt::print(stderr, ", lag {:.1f} ms", static_cast<double>(bridge.pacer().lag()) / 1e6);
+    std::fflush(stderr);
+  }
+
+ private:
+  bool terminal_;
+  std::chrono::steady_clock::time_point next_{};
+};
 
 /// A bus of plain nodes that receive, and so acknowledge.
 Scenario plain_bus(const Options &options, double clock) {
@@ -149,8 +176,8 @@ int run(const Options &options) {
     }
     bridge.start();
     say("ready: " + bridge.description());
-    while (!wall.stop_requested() && bridge.round()) {
-    }
+    StatusLine status;
+    while (!wall.stop_requested() && bridge.round()) status.show(bridge, options);
     report = bridge.finish();
   }
   if (server) server->finish(kLastMessages);
