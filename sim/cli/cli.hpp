@@ -35,6 +35,7 @@ void add_bittime(CLI::App &app, int &exit_code);
 void add_paper(CLI::App &app, int &exit_code);
 void add_linux(CLI::App &app, int &exit_code);
 void add_firmware(CLI::App &app, int &exit_code);
+void add_report(CLI::App &app, int &exit_code);
 void add_bridge(CLI::App &app, int &exit_code);
 
 /// The files of an Outputs.

@@ -30,6 +30,7 @@ int run_tool(int argc, char **argv) {
   cli::add_decode(app, exit_code);
   cli::add_linux(app, exit_code);
   cli::add_firmware(app, exit_code);
+  cli::add_report(app, exit_code);
   cli::add_bridge(app, exit_code);
   try {
     app.parse(argc, argv);

@@ -31,6 +31,10 @@ void BusOutputs::record(Bus &bus, BusMonitor &monitor, const ReportSetup &setup)
   bus.add(*recorder_);
 }
 
+void BusOutputs::on_level(Time time, Level level) {
+  if (recorder_) recorder_->on_level(time, level);
+}
+
 void BusOutputs::begin() {
   if (recorder_) recorder_->begin();
 }

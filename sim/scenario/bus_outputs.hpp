@@ -32,6 +32,8 @@ class BusOutputs {
   void record(Bus &bus, BusMonitor &monitor, const ReportSetup &setup);
   /// The scenario starts now, with its faults on the bus.
   void begin();
+  /// The wire has a new level, for a recording that plays outside the bus.
+  void on_level(Time time, Level level);
   /// Appends a frame to the logs.
   void write(const BusFrame &frame, const FrameOrigin &origin = {});
   /// Completes the waveforms at `time`, and the recording of the report.

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bus/types.hpp"
@@ -18,6 +19,18 @@ struct WaveDecodeOptions {
   std::optional<double> bitrate;  ///< bit/s; unset: detect
   int sample_point = 800;         ///< per mille of the bit
 };
+
+/// The wire of a waveform.
+struct Wave {
+  std::string signal;  ///< the one taken, full name
+  double bitrate = 0;  ///< bit/s, given or detected
+  Time end = 0;        ///< of the waveform, ps
+  std::vector<std::pair<Time, Level>> changes;
+};
+
+/// Reads one signal of a VCD file. Throws InputError if the file, the signal or the bit rate cannot
+/// be used.
+[[nodiscard]] Wave read_wave(const std::string &path, const WaveDecodeOptions &options);
 
 struct WaveDecodeResult {
   std::string signal;  ///< the one taken, full name

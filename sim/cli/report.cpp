@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// verican report: a page of a scenario, a recorded waveform or recorded traffic.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/cli.hpp"
+#include "scenario/replay.hpp"
+#include "scenario/runner.hpp"
+#include "scenario/wave_report.hpp"
+#include "trace/input_error.hpp"
+#include "trace/log.hpp"
+
+namespace vericansim::cli {
+namespace {
+
+struct Options {
+  std::string input;
+  Outputs outputs;
+  std::string signal;
+  double bitrate = 0;
+  ReplayOptions replay;
+};
+
+bool has_ending(const std::string &path, std::initializer_list<const char *> endings) {
+  return std::any_of(endings.begin(), endings.end(),
+                     [&](const char *ending) { return path.ends_with(ending); });
+}
+
+int report_scenario(const Options &options) {
+  Scenario scenario = read_scenario(options.input);
+  if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
+  bool ok = true;
+  for (const double bitrate : scenario.bitrates) {
+    scenario.outputs =
+        scenario.bitrates.size() > 1 ? outputs_for(options.outputs, bitrate) : options.outputs;
+    RunReport report;
+    {
+      Progress progress{fmt::format("{:g} kbit/s", bitrate / 1e3)};
+      report = run_scenario(scenario, bitrate, [&](double part) { progress.show(part); });
+    }
+    ok = ok && report.ok();
+    fmt::print("{}\n{}\n\n", to_text(report), scenario.outputs.report);
+  }
+  return ok ? kOk : kFailed;
+}
+
+int report_recorded_wave(const Options &options) {
+  WaveDecodeOptions decode;
+  decode.signal = options.signal;
+  if (options.bitrate != 0) decode.bitrate = options.bitrate;
+  const Wave wave = read_wave(options.input, decode);
+  WaveReport report;
+  {
+    Progress progress{"report"};
+    report = report_wave(wave, options.input, options.outputs,
+                         [&](double part) { progress.show(part); });
+  }
+  fmt::print(
+      "signal {}, {:.0f} bit/s: {} frames, {} without ACK, {} error frames, {} overload "
+      "frames in {}\n{}\n",
+      wave.signal, wave.bitrate, report.frames, report.unacknowledged, report.error_frames,
+      report.overload_frames, time_text(wave.end), options.outputs.report);
+  return kOk;
+}
+
+int report_log(const Options &options) {
+  const CanLog log = read_log(options.input);
+  ReplayOptions replay_options = options.replay;
+  if (options.bitrate != 0) replay_options.bitrate = options.bitrate;
+  replay_options.outputs = options.outputs;
+  ReplayReport report;
+  {
+    Progress progress{"report"};
+    report = replay(log, replay_options, [&](double part) { progress.show(part); });
+  }
+  fmt::print("{}: {} frames at {:.0f} bit/s through {} nodes, {} error frames\n{}\n", options.input,
+             report.on_bus, replay_options.bitrate, report.nodes.size(), report.error_frames,
+             options.outputs.report);
+  return report.ok() ? kOk : kFailed;
+}
+
+int report(Options &options) {
+  if (options.outputs.report.empty()) {
+    const std::size_t slash = options.input.rfind('/');
+    const std::size_t dot = options.input.rfind('.');
+    const bool ending = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+    options.outputs.report = options.input.substr(0, ending ? dot : std::string::npos) + ".html";
+  }
+  if (has_ending(options.input, {".yaml", ".yml"})) return report_scenario(options);
+  if (has_ending(options.input, {".vcd"})) return report_recorded_wave(options);
+  if (has_ending(options.input, {".fst"}))
+    throw InputError(options.input, 0,
+                     "FST cannot be read; allowed: a scenario (.yaml), a waveform (.vcd), a log of "
+                     "frames");
+  return report_log(options);
+}
+
+}  // namespace
+
+void add_report(CLI::App &app, int &exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand(
+      "report", "A page to look at, of a scenario, a waveform or a log (docs/report.md)");
+  const std::map<std::string, double> units{{"k", 1e3}, {"M", 1e6}};
+  command
+      ->add_option("input", options->input,
+                   "Scenario (.yaml), waveform (.vcd), or candump log, pcap, .trc, .csv")
+      ->required();
+  command->add_option("-o,--out", options->outputs.report, "HTML file (the input's name, .html)");
+  command->add_option("--signal,-s", options->signal,
+                      "Waveform: signal of the bus, or the end of its name (guessed)");
+  command
+      ->add_option("--bitrate,-b", options->bitrate,
+                   "Bit rate, bit/s (the scenario's; of a waveform detected; of a log 500k)")
+      ->transform(CLI::AsNumberWithUnit(units))
+      ->check(CLI::Range(1e3, 1e6));
+  command->add_option("--nodes,-n", options->replay.nodes, "Log: nodes that it is sent through (2)")
+      ->check(CLI::Range(2U, 64U));
+  command
+      ->add_option("--senders", options->replay.senders,
+                   "Log: nodes that share its identifiers (1)")
+      ->check(CLI::Range(1U, 64U));
+  command->add_flag("--fast", options->replay.fast,
+                    "Log: as fast as the bus allows, instead of as recorded");
+  command
+      ->add_option("--report-frames", options->outputs.report_frames,
+                   "The page keeps bits and edges of so many frames (200000)")
+      ->check(CLI::Range(1U, 10'000'000U));
+  command->callback([options, &exit_code] { exit_code = report(*options); });
+}
+
+}  // namespace vericansim::cli
