@@ -22,7 +22,7 @@ while read -r file; do
   grep -qF "\"file\": \"$PWD/$file\"" "$build/compile_commands.json" || continue
   key=$( { echo "$common"; cat "$file"; } | sha256sum | cut -c 1-32)
   [ -e "$stamps/$key" ] || todo+=("$key $file")
-done < <(our_files 'sim/*.cpp' 'tb/*.cpp')
+done < <(our_files 'sim/*.cpp' 'sw/*.cpp' 'tb/*.cpp')
 [ "${#todo[@]}" -eq 0 ] && exit 0
 
 tidy_one() {  # BUILD STAMPS "KEY FILE"

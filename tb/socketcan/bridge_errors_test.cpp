@@ -157,7 +157,7 @@ std::ostream &operator<<(std::ostream &out, const Contest &c) { return out << c.
 
 class LostArbitration : public ::testing::TestWithParam<Contest> {};
 
-// AR-02, AR-06, AR-12.
+// AR-02, AR-06.
 TEST_P(LostArbitration, TellsTheBit) {
   BridgeRig rig{{.ports = 2}};
   // Taken in the same round by nodes in step, so they start together.
