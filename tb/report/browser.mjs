@@ -47,26 +47,37 @@ export function writeScene(name, {meta, columns}, change = (packed) => packed) {
   return path;
 }
 
-/**
- * Opens a file. The page that comes back has what it said and asked for: problems (console errors
- * and exceptions), requests (addresses).
- */
-export async function openReport(path, {hash = '', width = 1280, height = 720, dark = false} = {}) {
-  const context = await browser.newContext({
-    viewport: {width, height},
-    colorScheme: dark ? 'dark' : 'light',
-    reducedMotion: 'reduce',
-  });
+const pages = new Map(); // by their size and colours; a new one costs more than a test
+
+/** A page that notes its problems and requests. */
+async function newPage({width, height}) {
+  const context = await browser.newContext({viewport: {width, height}, reducedMotion: 'reduce'});
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
-  page.problems = [];
-  page.requests = [];
   page.on('console', (message) => {
     const ours = message.text().includes('getImageData'); // pixel() below, not the page
     if (['error', 'warning'].includes(message.type()) && !ours) page.problems.push(message.text());
   });
   page.on('pageerror', (error) => page.problems.push(error.stack));
   page.on('request', (request) => page.requests.push(request.url()));
+  return page;
+}
+
+/**
+ * Opens a file. The page that comes back has what it said and asked for: problems (console errors
+ * and exceptions), requests (addresses).
+ */
+export async function openReport(path, options = {}) {
+  const {hash = '', width = 1280, height = 720, dark = false, fresh = false} = options;
+  const key = `${width} ${height}`;
+  const page = (!fresh && pages.get(key)) || (await newPage({width, height}));
+  pages.delete(key);
+  page.poolKey = fresh ? null : key;
+  page.problems = [];
+  page.requests = [];
+  await page.emulateMedia({colorScheme: dark ? 'dark' : 'light', reducedMotion: 'reduce'});
+  await page.goto('about:blank'); // else another part of the same file would not load it anew
+  page.requests = [];
   await page.goto(pathToFileURL(path).href + hash);
   await page.waitForFunction(() => document.documentElement.dataset.ready);
   return page;
@@ -80,7 +91,8 @@ export async function closeReport(page) {
   );
   assert.deepEqual(others, [], 'no request leaves the file');
   assert.equal(page.requests.filter((url) => url.startsWith('file:')).length, 1);
-  await page.context().close();
+  if (page.poolKey && !pages.has(page.poolKey)) pages.set(page.poolKey, page);
+  else await page.context().close();
 }
 
 /** What the scope shows: {from, to, mode, items...}. */

@@ -303,7 +303,7 @@ test('a page without a report says so', async () => {
 });
 
 test('a browser that cannot decompress says so', async () => {
-  const page = await openReport(file);
+  const page = await openReport(file, {fresh: true});
   const context = page.context();
   await context.addInitScript(() => {
     delete globalThis.DecompressionStream;

@@ -25,7 +25,7 @@ import {Tabs} from './tabs.js';
 import {View} from './view.js';
 
 /** The line of candump for what is selected, on the clipboard. */
-async function copySelection(report, view, say) {
+function copySelection(report, view, say) {
   const {selection} = view;
   const index =
     selection?.kind === 'frame'
@@ -35,15 +35,14 @@ async function copySelection(report, view, say) {
         : -1;
   if (index < 0) return say('Select a frame first.');
   const line = candumpLine(report.frame(index));
-  try {
-    await navigator.clipboard.writeText(line);
-  } catch {
-    const area = el('textarea', {}, line); // pages from a file may have no clipboard
-    document.body.append(area);
-    area.select();
-    document.execCommand('copy');
-    area.remove();
-  }
+  const focused = document.activeElement;
+  const area = el('textarea', {}, line); // works for pages from a file, and at once
+  document.body.append(area);
+  area.select();
+  const copied = document.execCommand('copy');
+  area.remove();
+  focused?.focus();
+  if (!copied) return say(`Not copied, the browser does not allow it: ${line}`);
   return say(`Copied: ${line}`);
 }
 
