@@ -26,8 +26,10 @@ void append_group(std::string &text, const std::uint8_t *bytes, std::size_t size
 
 }  // namespace
 
-Base64Stream::Base64Stream(std::ostream &out) : out_{out}, zlib_{std::make_unique<z_stream_s>()}, buffer_(kBuffer) {
-  if (deflateInit(zlib_.get(), Z_DEFAULT_COMPRESSION) != Z_OK) throw std::runtime_error("zlib failed");
+Base64Stream::Base64Stream(std::ostream &out)
+    : out_{out}, zlib_{std::make_unique<z_stream_s>()}, buffer_(kBuffer) {
+  if (deflateInit(zlib_.get(), Z_DEFAULT_COMPRESSION) != Z_OK)
+    throw std::runtime_error("zlib failed");
 }
 
 Base64Stream::~Base64Stream() { deflateEnd(zlib_.get()); }
