@@ -7,12 +7,13 @@
 PRESET ?= release
 JOBS   ?= 2
 LINUX  ?= build/linux
+PREFIX ?= /usr/local
 BUILD  := build/$(PRESET)
 OUT    := $(BUILD)/out
 QUIET  := $(if $(V),,tools/quiet.sh)
 
 .DEFAULT_GOAL := help
-.PHONY: help packages build demo test test-linux lint bench synth coverage size wave rules rows registers format clean
+.PHONY: help packages build install demo test test-linux lint bench synth coverage size wave rules rows registers format clean
 
 help:  ## List the targets
 	@echo "VeriCAN: a CAN 2.0 controller in RTL and its bus simulator"
@@ -28,6 +29,10 @@ $(BUILD)/build.ninja: | packages
 
 build: packages $(BUILD)/build.ninja  ## Build the library, the tool and the tests
 	@$(QUIET) "Building ($(PRESET))" cmake --build $(BUILD) -j $(JOBS)
+
+install: packages $(BUILD)/build.ninja  ## Install tool, libraries and RTL: make install PREFIX=/opt/verican
+	@$(QUIET) "Building what is installed" cmake --build $(BUILD) -j $(JOBS) --target installable
+	@$(QUIET) "Installing to $(PREFIX)" cmake --install $(BUILD) --prefix "$(PREFIX)"
 
 demo: packages $(BUILD)/build.ninja  ## Controllers exchange frames: examples, the paper's experiments, firmware, a real recording
 	@$(QUIET) "Building the tool" cmake --build $(BUILD) -j $(JOBS) --target verican firmware

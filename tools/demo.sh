@@ -23,11 +23,12 @@ run() {  # WHAT COMMAND...: goes on after a failure, and says so at the end
 for scenario in examples/*.yaml; do
   name=$(basename "$scenario" .yaml)
   headline "$scenario"
-  run "$scenario" "$verican" run "$scenario" --fst "$out/$name.fst" --candump "$out/$name.log"
+  run "$scenario" "$verican" run "$scenario" --fst "$out/$name.fst" --candump "$out/$name.log" \
+    --report "$out/$name.html"
 done
 
 headline "The paper's experiments (Son, Park, Kang 2016): what the core does, what they report"
-run "the paper's experiments" "$verican" paper --out "$out/paper"
+run "the paper's experiments" "$verican" paper --out "$out/paper" --report "$out/paper"
 
 firmware() {  # NAME SCENARIO ELF...
   local name=$1 scenario=sw/firmware/$2
@@ -39,6 +40,26 @@ firmware() {  # NAME SCENARIO ELF...
 firmware ping ping/ping.yaml ping.elf pong.elf
 firmware fault_demo fault_demo/faults.yaml fault_demo.elf
 
+# A program of this computer on the bus, by TCP: no CAN in the kernel is needed.
+bridge() {  # SCENARIO PROGRAM
+  local log=$out/python-can.txt bridge port="" tries=100
+  "$verican" bridge --socketcand 127.0.0.1:0 --bus "$1" --wait-for-clients 1 \
+    --errors state --candump "$out/python-can.log" --report "$out/python-can.html" >"$log.summary" 2>"$log" &
+  bridge=$!
+  while [ -z "$port" ] && [ "$((tries--))" -gt 0 ]; do
+    sleep 0.1
+    port=$(sed -n 's/.* at 127\.0\.0\.1:\([0-9]*\)$/\1/p' "$log")
+  done
+  local status=0
+  "$2" "${port:-0}" || status=$?
+  kill -TERM "$bridge"
+  wait "$bridge" || status=$?
+  cat "$log" "$log.summary"
+  return "$status"
+}
+headline "python-can on the simulated bus: examples/python_can.py"
+run "bridge" bridge examples/bridge.yaml examples/python_can.py
+
 if [ -f "$recording" ]; then
   headline "Replay of a real recording: a boat's NMEA 2000 network on four nodes"
   run "replay" "$verican" replay "$recording" --nodes 4 --bitrate 250k --fast \
@@ -49,6 +70,8 @@ headline "What is left to look at"
 waves() { find "$out" -name '*.fst' -o -name '*.vcd'; }
 echo "$(waves | wc -l) waveforms in $out and $out/paper, for example:"
 echo "  gtkwave $out/arbitration.fst"
+echo "$(find "$out" -name '*.html' | wc -l) pages for the browser, for example:"
+echo "  $out/faults.html"
 echo "$(find "$out" -name '*.log' | wc -l) logs in candump's format, for example:"
 echo "  $out/sixteen-nodes.log"
 if [ "${#failed[@]}" -ne 0 ]; then
