@@ -44,7 +44,8 @@ firmware fault_demo fault_demo/faults.yaml fault_demo.elf
 bridge() {  # SCENARIO PROGRAM
   local log=$out/python-can.txt bridge port="" tries=100
   "$verican" bridge --socketcand 127.0.0.1:0 --bus "$1" --wait-for-clients 1 \
-    --errors state --candump "$out/python-can.log" --report "$out/python-can.html" >"$log.summary" 2>"$log" &
+    --errors state --candump "$out/python-can.log" --report "$out/python-can.html" \
+    >"$log.summary" 2>"$log" &
   bridge=$!
   while [ -z "$port" ] && [ "$((tries--))" -gt 0 ]; do
     sleep 0.1
@@ -59,6 +60,9 @@ bridge() {  # SCENARIO PROGRAM
 }
 headline "python-can on the simulated bus: examples/python_can.py"
 run "bridge" bridge examples/bridge.yaml examples/python_can.py
+
+headline "A SystemC platform: two cores on TLM-2.0 sockets, each with the C driver"
+run "SystemC" env SYSTEMC_DISABLE_COPYRIGHT_MESSAGE=1 "$build/systemc_platform" --frames 4
 
 if [ -f "$recording" ]; then
   headline "Replay of a real recording: a boat's NMEA 2000 network on four nodes"
