@@ -129,11 +129,7 @@ void Bridge::on_bit(NodeId id, const BitRecord &bit) {
 
 void Bridge::on_frame(const BusFrame &frame) {
   ++monitor_counts_.received;
-  const can_frame message = to_can_frame(frame.frame);
-  if (passes(setup_.options.filters, message.can_id))
-    monitor_box_.push({.frame = message, .time = frame.end});
-  else
-    ++monitor_counts_.filtered;
+  monitor_box_.push({.frame = to_can_frame(frame.frame), .time = frame.end});
 }
 
 void Bridge::on_event(const BusEvent &event) {

@@ -43,8 +43,8 @@ TEST_P(Example, MeetsItsExpectations) {
 }
 INSTANTIATE_TEST_SUITE_P(All, Example,
                          ::testing::Values("two-nodes.yaml", "arbitration.yaml",
-                                           "sixteen-nodes.yaml", "faults.yaml",
-                                           "retry.yaml"));
+                                           "sixteen-nodes.yaml", "faults.yaml", "retry.yaml",
+                                           "bridge.yaml"));
 
 // All 17 messages queued at the same moment: no response beyond the bound of Davis et al. at any of
 // the four rates.
