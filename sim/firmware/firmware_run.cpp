@@ -17,20 +17,6 @@
 namespace vericansim::firmware {
 namespace {
 
-/// The node of that name, made if the scenario has none.
-NodeId find_or_add(Scenario &scenario, const std::string &name) {
-  for (NodeId id = 0; id < scenario.nodes.size(); ++id)
-    if (scenario.nodes[id].name == name) return id;
-  if (scenario.nodes.size() >= Bus::kMaxNodes)
-    throw InputError(
-        scenario.file, 0,
-        fmt::format("no room for node '{}': a bus takes {} nodes", name, Bus::kMaxNodes));
-  NodeSpec node;
-  node.name = name;
-  scenario.nodes.push_back(node);
-  return static_cast<NodeId>(scenario.nodes.size() - 1);
-}
-
 class Run {
  public:
   Run(const FirmwareSetup &setup, const std::function<void(std::size_t, std::string_view)> &output);
@@ -86,7 +72,7 @@ void Run::place_cores() {
   const std::size_t count = setup_.images.size() + (second ? 1 : 0);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t bus = second && i == 1 ? scenarios_.size() - 1 : 0;
-    cores_.push_back({bus, find_or_add(scenarios_[bus], firmware_node(i))});
+    cores_.push_back({bus, find_or_add_node(scenarios_[bus], firmware_node(i))});
   }
   if (second)
     scenarios_[cores_[1].bus].nodes[cores_[1].node].clock =

@@ -216,4 +216,18 @@ Scenario read_scenario(const std::string &path) {
   return parse_scenario(path, read_text_file(path));
 }
 
+NodeId find_or_add_node(Scenario &scenario, const std::string &name, double clock_hz) {
+  for (NodeId id = 0; id < scenario.nodes.size(); ++id)
+    if (scenario.nodes[id].name == name) return id;
+  if (scenario.nodes.size() >= Bus::kMaxNodes)
+    throw InputError(
+        scenario.file, 0,
+        fmt::format("no room for node '{}': a bus takes {} nodes", name, Bus::kMaxNodes));
+  NodeSpec node;
+  node.name = name;
+  node.clock.frequency_hz = clock_hz;
+  scenario.nodes.push_back(node);
+  return static_cast<NodeId>(scenario.nodes.size() - 1);
+}
+
 }  // namespace vericansim

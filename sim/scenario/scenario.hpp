@@ -121,4 +121,9 @@ struct Scenario {
 /// Reads `text` as if it stood in the file `path`.
 [[nodiscard]] Scenario parse_scenario(const std::string &path, const std::string &text);
 
+/// The node of that name, added with a clock of `clock_hz` if the scenario has none. Throws
+/// InputError if the bus is full (Bus::kMaxNodes).
+NodeId find_or_add_node(Scenario &scenario, const std::string &name,
+                        double clock_hz = ClockConfig{}.frequency_hz);
+
 }  // namespace vericansim

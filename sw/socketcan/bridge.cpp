@@ -30,20 +30,6 @@ constexpr Time kLongestStretch = 2 * kMillisecond;
 constexpr Time kFastStretch = 512;
 constexpr Time kQuietLook = 16;
 
-NodeId find_or_add(Scenario &scenario, const std::string &name, double clock_hz) {
-  for (NodeId id = 0; id < scenario.nodes.size(); ++id)
-    if (scenario.nodes[id].name == name) return id;
-  if (scenario.nodes.size() >= Bus::kMaxNodes)
-    throw InputError(
-        scenario.file, 0,
-        fmt::format("no room for node '{}': a bus takes {} nodes", name, Bus::kMaxNodes));
-  NodeSpec node;
-  node.name = name;
-  node.clock.frequency_hz = clock_hz;
-  scenario.nodes.push_back(node);
-  return static_cast<NodeId>(scenario.nodes.size() - 1);
-}
-
 }  // namespace
 
 // ---- Building
@@ -76,7 +62,7 @@ Bridge::~Bridge() { simulation_->bus().remove(*this); }
 
 void Bridge::place_nodes() {
   for (const auto &port : setup_.ports)
-    ids_.push_back(find_or_add(setup_.scenario, port->name(), setup_.port_clock_hz));
+    ids_.push_back(find_or_add_node(setup_.scenario, port->name(), setup_.port_clock_hz));
   for (const TrafficSpec &traffic : setup_.scenario.traffic)
     if (std::find(ids_.begin(), ids_.end(), traffic.node) != ids_.end())
       throw InputError(

@@ -22,14 +22,6 @@ using ::testing::SizeIs;
 constexpr Frame kFrame{.id = 0x123, .dlc = 2, .data = {0xCA, 0xFE}};
 
 /// A scenario's message of node 0, each `period`.
-TrafficSpec traffic(Time period) {
-  TrafficSpec spec;
-  spec.name = "beat";
-  spec.frame = {.id = 0x055, .dlc = 1, .data = {0x42}};
-  spec.period = period;
-  return spec;
-}
-
 // ---- Frames
 
 // The programs at two interfaces send to each other as fast as the bus allows: all frames arrive,
@@ -260,7 +252,7 @@ TEST(BridgeEngine, NodeOfTheScenarioTakesTheInterface) {
   setup.scenario.file = "bus.yaml";
   setup.scenario.nodes = {node};
   setup.ports.push_back(std::make_unique<FakePort>("can0"));
-  setup.scenario.traffic = {traffic(kMillisecond)};
+  setup.scenario.traffic = {beat(kMillisecond)};
   FakeWall wall;
   try {
     Bridge bridge{std::move(setup), wall};
@@ -271,7 +263,7 @@ TEST(BridgeEngine, NodeOfTheScenarioTakesTheInterface) {
 }
 
 TEST(BridgeEngine, RunsForTheTimeAsked) {
-  BridgeRig rig{{.traffic = {traffic(kMillisecond)}, .limit = 50 * kMillisecond}};
+  BridgeRig rig{{.traffic = {beat(kMillisecond)}, .limit = 50 * kMillisecond}};
   while (rig.bridge().round()) {
   }
   EXPECT_EQ(rig.bridge().elapsed(), 50 * kMillisecond);

@@ -22,14 +22,6 @@ using ::testing::SizeIs;
 constexpr WallTime kMs = 1'000'000;  // ns
 constexpr Frame kFrame{.id = 0x123, .dlc = 8, .data = {1, 2, 3, 4, 5, 6, 7, 8}};
 
-TrafficSpec traffic(Time period) {
-  TrafficSpec spec;
-  spec.name = "beat";
-  spec.frame = {.id = 0x055, .dlc = 1, .data = {0x42}};
-  spec.period = period;
-  return spec;
-}
-
 // ---- Pacer
 
 TEST(Pacer, TimesRunSideBySide) {
@@ -138,7 +130,7 @@ TEST(BridgePacing, FastWaitsForThePrograms) {
 
 // Traffic of the scenario, or a port with something planned, lets time go on.
 TEST(BridgePacing, FastGoesOnWithTraffic) {
-  BridgeRig rig{{.traffic = {traffic(10 * kMillisecond)}}};
+  BridgeRig rig{{.traffic = {beat(10 * kMillisecond)}}};
   EXPECT_TRUE(rig.run_until([&] { return rig.port(0).frames().size() == 100; }));
   EXPECT_EQ(rig.wall.endless_waits, 0U);
   EXPECT_GE(rig.bridge().elapsed(), 990 * kMillisecond);

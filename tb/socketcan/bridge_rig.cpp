@@ -138,4 +138,12 @@ Frame numbered_frame(unsigned number) {
   return frame;
 }
 
+TrafficSpec beat(Time period) {
+  TrafficSpec spec;
+  spec.name = "beat";
+  spec.frame = {.id = 0x055, .dlc = 1, .data = {0x42}};
+  spec.period = period;
+  return spec;
+}
+
 }  // namespace vericansim::test

@@ -110,4 +110,7 @@ class BridgeRig {
 /// odd numbers never have the same identifier, so that two senders may have them (AR-10).
 [[nodiscard]] Frame numbered_frame(unsigned number);
 
+/// A message of node 0, identifier 055, for RigOptions::traffic.
+[[nodiscard]] TrafficSpec beat(Time period);
+
 }  // namespace vericansim::test
