@@ -180,6 +180,19 @@ test('the keyboard does it all', async () => {
   await closeReport(page);
 });
 
+test('a key right after the help is closed counts', async () => {
+  const page = await openReport(file);
+  await page.keyboard.press('?');
+  await page.evaluate(() => {
+    // Until the browser has drawn the page anew, the focus may stay in the closed dialog.
+    const dialog = document.querySelector('dialog.help');
+    dialog.close();
+    dialog.dispatchEvent(new KeyboardEvent('keydown', {key: '/', bubbles: true}));
+  });
+  assert.ok(await page.isVisible('#search:focus'));
+  await closeReport(page);
+});
+
 test('the address keeps view and selection', async () => {
   const page = await openReport(file);
   await page.click('#panel-frames .row:has-text("DE AD BE EF")');

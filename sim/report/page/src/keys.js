@@ -140,7 +140,8 @@ export function attachKeys(view, steps, scope, actions) {
   };
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (event.target.closest?.('input, textarea, select, dialog')) return;
+    // A dialog that has just been closed may still have the focus.
+    if (event.target.closest?.('input, textarea, select, dialog[open]')) return;
     const moving =
       event.key.startsWith('Arrow') ||
       event.key === 'Enter' ||
