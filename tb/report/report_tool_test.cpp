@@ -117,6 +117,8 @@ TEST(ReportTool, AWaveformShowsTheSameFrames) {
   EXPECT_EQ(heard.meta.at("summary").at("error_frames"), run.report.error_frames);
   EXPECT_GT(run.report.error_frames, 0U);
   EXPECT_EQ(heard.meta.at("nodes").at(0).at("name"), "listener");
+  // The first frame begins with the first edge of the wire, behind its initial level.
+  EXPECT_NEAR(heard.at("f.start", 0), heard.edges("wire").at(1).first, 1.1);
   // A listener drives nothing and shows the bits of every frame.
   EXPECT_EQ(heard.size("tx0"), 0U);
   EXPECT_NE(heard.at("f.segment", 0), 4294967295.0);
