@@ -133,10 +133,11 @@ void RawCanPort::look_again() {
 
 // ---- From the programs
 
-void RawCanPort::poll_set(std::vector<pollfd> &set, bool wants_room) {
+// POLLOUT is of no use: a CAN socket is writable while its interface's queue is full (ENOBUFS), and
+// poll() would return at once, again and again. The bridge tries again by time.
+void RawCanPort::poll_set(std::vector<pollfd> &set, bool) {
   if (!up_) return;
-  short events = waiting_.size() < options_.queue ? POLLIN : 0;
-  if (wants_room) events |= POLLOUT;
+  const short events = waiting_.size() < options_.queue ? POLLIN : 0;
   set.push_back({fd_, events, 0});
 }
 
