@@ -61,7 +61,7 @@ function frameOf(text) {
   return {...base, data, dlc: raw ? parseInt(raw, 16) : data.length};
 }
 
-/** Goes through all rows of the table as the reader does, and takes what the panel says of each frame. */
+/** Goes through all rows of the table as the reader does, and takes what the panel says of each. */
 async function panelLines(page, count) {
   const lines = [];
   for (let i = 0; i < count; ++i) {
@@ -73,7 +73,7 @@ async function panelLines(page, count) {
     .map(([, time, text]) => ({time: Number(time) * 1e9, text}));
 }
 
-/** Same frames in the same order; times a constant apart: the page counts from the scenario's start. */
+/** Same frames in the same order; times a constant apart: the page counts from the start. */
 function assertSameLog(shown, logged) {
   assert.deepEqual(
     shown.map(({text}) => text),
@@ -181,12 +181,21 @@ const middleOf = (picture, name) => {
   return picture.from + ((item.x0 + item.x1) / 2 - picture.left) * perPx;
 };
 
+/** What is in sight before anything is touched: the names of the fields in the upper bar. */
+const firstSight = async (page) =>
+  itemsOf(await inspect(page), 'field')
+    .filter(({own}) => !own)
+    .map(({field}) => field);
+
 for (const [figure, name, sender, receiver] of [
   ['11', 'fig11-reception', 'other', 'ip'],
   ['12', 'fig12-transmission', 'ip', 'other'],
 ]) {
-  test(`figure ${figure}: identifier 00A with AA, ${sender} sends, ${receiver} drives the ACK slot`, async () => {
+  test(`figure ${figure}: 00A with AA, ${sender} sends, ${receiver} drives the ACK`, async () => {
     const page = await paper(name);
+    const fields = await firstSight(page);
+    for (const field of ['SOF', 'ID', 'DATA', 'CRC', 'ACK', 'EOF'])
+      assert.ok(fields.includes(field), `${field} is in sight at first`);
     const picture = await choose(page, 1);
     assert.deepEqual(await driversOf(page, picture, middleOf(picture, 'ACK')), [receiver]);
     const values = itemsOf(picture, 'field')
@@ -210,8 +219,11 @@ const middle = async (page) => {
   return (from + to) / 2;
 };
 
-test('figure 13: both drive until the eleventh bit, then the IP is silent and acknowledges', async () => {
+test('figure 13: both drive until the eleventh bit, then the IP is silent and ACKs', async () => {
   const page = await paper('fig13-arbitration');
+  const fields = await firstSight(page);
+  for (const field of ['SOF', 'ID', 'RTR'])
+    assert.ok(fields.includes(field), `${field} is in sight at first`);
   const picture = await choose(page, 0);
   const [loss] = itemsOf(picture, 'loss');
   assert.equal(
@@ -234,7 +246,7 @@ test('figure 13: both drive until the eleventh bit, then the IP is silent and ac
   await closeReport(page);
 });
 
-test('figures 14 to 16: sixteen active flags in steps of 8 to 128, passive ones from then on', async () => {
+test('figures 14 to 16: sixteen active flags, 8 each to 128, then passive ones', async () => {
   const page = await paper('fig14-16-missing-ack');
   const tec = await page.evaluate(() => [...window.verican.report.counters.nodes[0].tec]);
   assert.deepEqual(
