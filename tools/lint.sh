@@ -49,6 +49,7 @@ iverilog_elaborate() {  # TOP [NAME=VALUE]
 spdx() {
   local bad licence
   bad=$(our_files '*.sv' '*.v' '*.vlt' '*.cpp' '*.hpp' '*.c' '*.h' '*.py' '*.sh' '*.cmake' '*.tcl' \
+                  '*.js' '*.mjs' \
                   '*.sdc' '*.pdc' '*.pcf' '*.yaml' '*.core' '*CMakeLists.txt' Makefile .ci/run |
         while read -r file; do
           # The kernel module links with the kernel.
@@ -59,7 +60,8 @@ spdx() {
   [ -z "$bad" ]
 }
 line_length() {
-  ! our_files '*.sv' '*.cpp' '*.hpp' '*.c' '*.h' '*.py' '*.sh' '*.cmake' '*CMakeLists.txt' |
+  ! our_files '*.sv' '*.cpp' '*.hpp' '*.c' '*.h' '*.py' '*.sh' '*.cmake' '*CMakeLists.txt' \
+              '*.js' '*.mjs' |
     xargs -r awk 'length($0) > 100 {print FILENAME ":" FNR ": " length($0) " characters"}' | grep .
 }
 core_file() {

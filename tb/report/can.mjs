@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// An encoder of CAN 2.0 frames from the public definition alone: the judge of what the page decodes.
+// An encoder of CAN 2.0 frames from the public definition alone: the judge of what the page shows.
 
 /** Numbers of the fields in a report (docs/report-format.md). */
 export const F = {
@@ -63,7 +63,7 @@ export function plainBits({id, extended = false, remote = false, dlc, data = []}
   return bits;
 }
 
-/** The frame as it goes out, up to EOF: a stuff bit belongs to the field of the bit that was due. */
+/** The frame as it goes out, up to EOF: a stuff bit belongs to the field of the bit then due. */
 export function encode(frame) {
   const plain = plainBits(frame);
   plain.push({field: F.CRC_DEL, level: 1}); // only to take up a last stuff bit

@@ -188,7 +188,7 @@ test('an error shows its cause, its rule, who found it and what each node sees',
   await closeReport(page);
 });
 
-test('who drives what: colours of all nodes that drive at once, in the list and on the canvas', async () => {
+test('who drives what: colours of all nodes that drive at once, listed and drawn', async () => {
   const page = await openReport(file);
   const frame = log.at(-1);
   await setView(page, frame.time - 2 * bit, frame.time + 18 * bit);

@@ -83,7 +83,8 @@ function fieldStrip(lane) {
 function crcText(decoded) {
   if (decoded.crc === null) return null;
   const fits = decoded.crc === decoded.computed;
-  return `0x${hex(decoded.crc, 4)}, ${fits ? 'right' : `wrong: the bits before give 0x${hex(decoded.computed, 4)}`}`;
+  const verdict = fits ? 'right' : `wrong: the bits before give 0x${hex(decoded.computed, 4)}`;
+  return `0x${hex(decoded.crc, 4)}, ${verdict}`;
 }
 
 function frameDetails(report, index, actions) {
@@ -220,7 +221,8 @@ function bitDetails(report, {segment, lane: which, bit}) {
       'p',
       {},
       lane.stuff(bit)
-        ? 'After five equal bits the sender inserts one of the other level; receivers remove it (ST-01).'
+        ? 'After five equal bits the sender inserts one of the other level; receivers remove it ' +
+          '(ST-01).'
         : fieldText(field),
     ),
     lines([

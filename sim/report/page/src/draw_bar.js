@@ -10,7 +10,7 @@ export const kRuler = 22;
 export const kRows = {frame: [24, 20], fields: [45, 26], bits: [72, 19], quanta: [92, 15]};
 export const kBarEnd = 109;
 
-/** [top, height] of the row of fields: it takes the room of bits and quanta while they are not shown. */
+/** [top, height] of the row of fields: it has the room of bits and quanta if these are hidden. */
 function fieldRow(scale) {
   const [top, height] = kRows.fields;
   return scale.mode === 'fields' ? [top, kBarEnd - 4 - top] : [top, height];

@@ -17,7 +17,8 @@ export function placeOf(report, event) {
     report.lane(event.segment);
   const bit = lane ? lane.bitAt(event.start + lane.tq / 2) : -1;
   if (bit >= 0) {
-    return `${fieldName(lane.field(bit))} ${lane.number(bit)}${lane.stuff(bit) ? ' (stuff bit)' : ''}`;
+    const stuff = lane.stuff(bit) ? ' (stuff bit)' : '';
+    return `${fieldName(lane.field(bit))} ${lane.number(bit)}${stuff}`;
   }
   return fieldName(event.field);
 }
@@ -36,9 +37,10 @@ function columnsOf(report) {
   const time = (row) => (loss(row) ? losses.time[index(row)] : events.start[index(row)]);
   const node = (row) => (loss(row) ? losses.node[index(row)] : events.node[index(row)]);
   const kind = (row) => (loss(row) ? 'lost arbitration' : kEventKinds[events.kind[index(row)]]);
+  const winner = (row) => report.nodeName(losses.winner[index(row)]);
   const cause = (row) =>
     loss(row)
-      ? `another node's identifier has priority: ${report.nodeName(losses.winner[index(row)])} goes on`
+      ? `another node's identifier has priority: ${winner(row)} goes on`
       : report.event(index(row)).cause.text;
   const place = (row) =>
     loss(row) ? fieldName(losses.field[index(row)]) : placeOf(report, report.event(index(row)));

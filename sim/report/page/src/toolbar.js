@@ -47,7 +47,8 @@ export function toolbar(report, view, steps, actions) {
   const where = el('span', {class: 'where', 'aria-live': 'off', title: 'Window of time in sight'});
   const update = () => {
     const fine = view.span / 500;
-    where.textContent = `${formatTime(view.from, fine)} … ${formatTime(view.to, fine)}   (${formatTime(view.span)})`;
+    const [from, to] = [formatTime(view.from, fine), formatTime(view.to, fine)];
+    where.textContent = `${from} … ${to}   (${formatTime(view.span)})`;
   };
   view.addEventListener('move', update);
   update();
