@@ -4,7 +4,13 @@
 # verican_verilate(<target> TOP <module> [PARAMS Name=value ...] [REPLACE <file>]): a static library
 # with the Verilated model of any module of rtl/can.f; its class has the name of the target and its
 # header is <target>.h. REPLACE takes the place of the file of that name in rtl/can.f.
+#
+# VERICAN_RTL_TRANSFORM: a program that rewrites the RTL before it is Verilated (a netlist, mutants):
+#   <program> OUT.v TOP [Name=value ...] [--keep FILE] -- FILE...
+# It writes module TOP to OUT.v, instance names and hierarchy kept. The module of the file after
+# --keep stays as it is: C++ reaches its signals by name, and it is Verilated beside OUT.v.
 include_guard(GLOBAL)
+set(VERICAN_RTL_TRANSFORM "" CACHE FILEPATH "Program that rewrites the RTL before it is Verilated")
 find_program(VERILATOR verilator REQUIRED)
 execute_process(COMMAND "${VERILATOR}" --getenv VERILATOR_ROOT
                 OUTPUT_VARIABLE VERILATOR_ROOT OUTPUT_STRIP_TRAILING_WHITESPACE)
@@ -34,16 +40,30 @@ function(verican_verilate target)
   set(dir "${CMAKE_CURRENT_BINARY_DIR}/${target}.dir")
   set(all "${dir}/${target}__all.cpp")
   list(TRANSFORM ARG_PARAMS PREPEND "-G" OUTPUT_VARIABLE parameters)
+  set(verilated ${files})
+  set(transform "${CMAKE_COMMAND}" -E true)
+  if(VERICAN_RTL_TRANSFORM)
+    set(netlist "${CMAKE_CURRENT_BINARY_DIR}/${target}.transformed.v")
+    set(transform "${VERICAN_RTL_TRANSFORM}" "${netlist}" ${ARG_TOP} ${ARG_PARAMS})
+    if(ARG_REPLACE)
+      list(APPEND transform --keep "${ARG_REPLACE}")
+    endif()
+    list(APPEND transform -- ${files})
+    set(verilated "${VERICAN_RTL_DIR}/can_pkg.sv" "${netlist}" ${ARG_REPLACE})
+    # Bits of a vector that depend on one another are a loop for Verilator; it is only slower.
+    set(parameters -Wno-UNOPTFLAT)
+  endif()
   # One source file that includes the others: their number is known only after Verilator has run,
   # and the compiler sees the whole model at once.
   add_custom_command(
     OUTPUT "${all}" "${dir}/${target}.h"
     COMMAND "${CMAKE_COMMAND}" -E rm -rf "${dir}"
+    COMMAND ${transform}
     COMMAND "${VERILATOR}" ${VERICAN_VERILATOR_FLAGS} --prefix ${target} --Mdir "${dir}"
-            --top-module ${ARG_TOP} ${parameters} ${files}
+            --top-module ${ARG_TOP} ${parameters} ${verilated}
     COMMAND "${CMAKE_COMMAND}" -DDIR=${dir} -DNAME=${target} -DOUTPUT=${all}
             -P "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake"
-    DEPENDS ${files} "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake"
+    DEPENDS ${files} "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake" ${VERICAN_RTL_TRANSFORM}
     COMMENT "Verilating ${ARG_TOP} ${ARG_PARAMS}"
     VERBATIM)
   add_library(${target} STATIC "${all}")
