@@ -11,6 +11,9 @@
 # --keep stays as it is: C++ reaches its signals by name, and it is Verilated beside OUT.v.
 include_guard(GLOBAL)
 set(VERICAN_RTL_TRANSFORM "" CACHE FILEPATH "Program that rewrites the RTL before it is Verilated")
+# The short cuts of sim/node/model_edge.hpp need models without combinational loops. The RTL has
+# none; in a netlist bits of one vector that depend on one another are a loop for Verilator.
+option(VERICAN_PLAIN_EDGES "Clock transformed models by both edges, without short cuts" ON)
 find_program(VERILATOR verilator REQUIRED)
 execute_process(COMMAND "${VERILATOR}" --getenv VERILATOR_ROOT
                 OUTPUT_VARIABLE VERILATOR_ROOT OUTPUT_STRIP_TRAILING_WHITESPACE)
@@ -23,6 +26,9 @@ target_include_directories(verilated_runtime SYSTEM PUBLIC "${VERILATOR_ROOT}/in
                                                            "${VERILATOR_ROOT}/include/vltstd")
 target_compile_options(verilated_runtime PRIVATE -w)
 target_link_libraries(verilated_runtime PUBLIC Threads::Threads)
+if(VERICAN_RTL_TRANSFORM AND VERICAN_PLAIN_EDGES)
+  target_compile_definitions(verilated_runtime PUBLIC VERICAN_PLAIN_EDGES)
+endif()
 
 # Speed: no X, no assertions, no waves inside the model (observers read trace_o), and enabled blocks
 # stay whole, so that what changes once a bit is skipped in the clocks between; lint is `make
@@ -50,8 +56,11 @@ function(verican_verilate target)
     endif()
     list(APPEND transform -- ${files})
     set(verilated "${VERICAN_RTL_DIR}/can_pkg.sv" "${netlist}" ${ARG_REPLACE})
-    # Bits of a vector that depend on one another are a loop for Verilator; it is only slower.
-    set(parameters -Wno-UNOPTFLAT)
+    # All state must lie in the model's root, where sim/node/split_core.hpp looks for changes.
+    set(parameters --flatten)
+    if(VERICAN_PLAIN_EDGES)
+      list(APPEND parameters -Wno-UNOPTFLAT)
+    endif()
   endif()
   # One source file that includes the others: their number is known only after Verilator has run,
   # and the compiler sees the whole model at once.

@@ -12,6 +12,13 @@
 
 namespace vericansim {
 
+#ifdef VERICAN_PLAIN_EDGES
+/// No short cuts: for models of netlists (cmake/verilate.cmake).
+inline constexpr bool kPlainEdges = true;
+#else
+inline constexpr bool kPlainEdges = false;
+#endif
+
 /// Evaluates a rising edge of the model's clock, with its other inputs as they are now.
 ///
 /// Nothing in the design is clocked by the falling edge, so the eval() for it does no work but
@@ -20,8 +27,11 @@ namespace vericansim {
 /// is left out.
 template <typename Model, typename Signal>
 inline void rising_edge(Model &model, Signal &clock) {
-  auto &root = *model.rootp;
-  if constexpr (requires { root.__Vtrigrprev__TOP__clk_i; }) {
+  [[maybe_unused]] auto &root = *model.rootp;
+  if constexpr (kPlainEdges) {
+    clock = 0;
+    model.eval();
+  } else if constexpr (requires { root.__Vtrigrprev__TOP__clk_i; }) {
     root.__Vtrigrprev__TOP__clk_i = 0;
   } else if constexpr (requires { root.__Vtrigrprev__TOP__hclk; }) {
     root.__Vtrigrprev__TOP__hclk = 0;

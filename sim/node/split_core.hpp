@@ -68,7 +68,7 @@ class SplitCore {
       return;
     }
     std::memcpy(before_.get(), static_cast<const void *>(host_.rootp), sizeof(Root));
-    if (host_settled_)
+    if (host_settled_ && !kPlainEdges)
       settled_edge(host_);
     else
       rising_edge(host_, host_.hclk);
@@ -114,7 +114,7 @@ class SplitCore {
   // Of the engine's inputs, can_rx_i alone changes without an eval(): only u_sync's first flip-flop
   // looks at it.
   void engine_edge() {
-    if (engine_settled_)
+    if (engine_settled_ && !kPlainEdges)
       settled_edge(engine_);
     else
       rising_edge(engine_, engine_.clk_i);
