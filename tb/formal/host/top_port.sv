@@ -1,0 +1,21 @@
+  // SPDX-FileCopyrightText: 2026 The VeriCAN authors
+  // SPDX-License-Identifier: Apache-2.0
+  //
+  // Properties of can_top, spliced into it: the native port waits for one clock at most. Together
+  // with host.ahb this is the compliance of the whole slave.
+
+  logic f_first;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) f_first <= 1'b0;
+    else         f_first <= req_i && !cancel_i && ready_o;
+  end
+
+  always @(posedge clk_i) begin
+    m_reset: assume (rst_ni == !$initstate);
+    // Discharged by host.ahb, p_when_ready.
+    m_when_ready: assume (!(req_i && !cancel_i) || ready_o);
+    if (rst_ni) begin
+      // AHB-WAIT: the port is not ready in the clock after a command at most.
+      p_waits: assert (ready_o || f_first);
+    end
+  end
