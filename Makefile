@@ -13,7 +13,7 @@ OUT    := $(BUILD)/out
 QUIET  := $(if $(V),,tools/quiet.sh)
 
 .DEFAULT_GOAL := help
-.PHONY: help packages build install demo test test-linux lint bench synth coverage size wave rules rows registers format clean
+.PHONY: help packages build install demo test test-linux campaign lint bench synth coverage size wave rules rows registers format clean
 
 help:  ## List the targets
 	@echo "VeriCAN: a CAN 2.0 controller in RTL and its bus simulator"
@@ -43,6 +43,9 @@ test: build  ## Run every test and check that every protocol rule has one
 
 test-linux: packages $(BUILD)/build.ninja  ## Run Linux's own driver on the core (SHORT=1: fewer cases)
 	@tools/linux-test.sh $(BUILD) $(JOBS) $(LINUX) $(if $(SHORT),--short)
+
+campaign: packages  ## The whole verification campaign, hours: STAGES=matrix,formal SEED=1 SCALE=0.01 (docs/verification.md)
+	@SEED=$(SEED) SCALE=$(SCALE) JOBS=$(JOBS) tools/campaign.py --only "$(STAGES)"
 
 lint: packages  ## Check RTL with Verilator, Yosys, Icarus; C++ with clang-format and clang-tidy
 	@$(QUIET) "Configuring ($(PRESET))" cmake --preset $(PRESET)

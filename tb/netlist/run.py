@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""run.py [--kind gates] [--kind ice40] [--only TEST]: the tests of the RTL, on netlists of it.
+
+Every Verilated model is replaced by what Yosys makes of it (tools/netlist/netlist.sh), in a build
+directory of its own, and the tests of tb/protocol, tb/mailbox and of the leaf modules in tb/unit
+run unchanged. Writes figures to CAMPAIGN_OUT if that is set. Ends with status 1 if a test fails.
+"""
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+KINDS = {"gates": "generic gates", "ice40": "iCE40 cells"}
+# Minutes on iCE40 cells, and nothing in them that the other tests do not reach.
+TOO_LONG = {"ice40": {"can_saturation_test", "rx_fifo_saturation_test"}}
+
+
+def programs():
+    """The test programs that are about the RTL."""
+    modules = {path.stem for path in ROOT.glob("rtl/**/*.sv")}
+    leaves = [p for p in ROOT.glob("tb/unit/*_test.cpp") if p.stem.removesuffix("_test") in modules]
+    others = [p for folder in ("protocol", "mailbox") for p in (ROOT / "tb" / folder).glob("*_test.cpp")]
+    return sorted(path.stem for path in leaves + others)
+
+
+def quiet(log, *command):
+    with open(log, "w", encoding="utf-8") as file:
+        status = subprocess.run(command, cwd=ROOT, stdout=file, stderr=subprocess.STDOUT,
+                                stdin=subprocess.DEVNULL, check=False).returncode
+    if status:
+        sys.exit(f"netlist: {' '.join(command)} failed, see {log}")
+
+
+def build(kind, names, jobs, scratch):
+    start = time.monotonic()
+    quiet(scratch / f"{kind}.configure.log", "cmake", "--preset", kind)
+    quiet(scratch / f"{kind}.build.log", "cmake", "--build", f"build/{kind}", "-j", str(jobs),
+          "--target", *names)
+    return time.monotonic() - start
+
+
+def run(kind, name, scratch):
+    """One program: tests passed, tests failed (a crash counts as one)."""
+    log = scratch / f"{kind}.{name}.log"
+    with open(log, "w", encoding="utf-8") as file:
+        status = subprocess.run([f"build/{kind}/tb/{name}"], cwd=ROOT, stdout=file,
+                                stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                                check=False).returncode
+    text = log.read_text(errors="replace")
+    passed = re.search(r"^\[  PASSED  \] (\d+) tests?\.", text, re.MULTILINE)
+    failed = re.search(r"^ *(\d+) FAILED TEST", text, re.MULTILINE)
+    bad = int(failed[1]) if failed else 0
+    if status and not bad:
+        bad = 1
+    if bad:
+        print(f"{KINDS[kind]}: {name}: {bad} failed, see {log}", flush=True)
+    return int(passed[1]) if passed else 0, bad
+
+
+def area(kind):
+    """Cells of the whole core around its engine, as Yosys counted them."""
+    cells = {}
+    for model in ("Vcan_core", "Vcan_host64"):
+        stat = (ROOT / f"build/{kind}/sim/{model}.transformed.v.stat").read_text()
+        hierarchy = stat[stat.rindex("==="):]
+        for name, count in re.findall(r"^ +((?:SB_|\$_)\w+) +(\d+)$", hierarchy, re.MULTILINE):
+            cells[name] = cells.get(name, 0) + int(count)
+    flops = sum(n for name, n in cells.items() if "DFF" in name)
+    return flops, sum(cells.values()) - flops
+
+
+def campaign(kinds, only, jobs, scale, scratch):
+    figures, rows = [], []
+    for kind in kinds:
+        names = [n for n in programs() if n not in TOO_LONG.get(kind, ())]
+        names = [n for n in names if only in n][: max(1, round(len(names) * scale))]
+        if not names:
+            sys.exit(f"netlist: no test program has '{only}' in its name")
+        print(f"{KINDS[kind]}: building {len(names)} test programs", flush=True)
+        built = build(kind, names, jobs, scratch)
+        start = time.monotonic()
+        with ThreadPoolExecutor(jobs) as pool:
+            counts = list(pool.map(lambda name, kind=kind: run(kind, name, scratch), names))
+        passed, failed = (sum(column) for column in zip(*counts))
+        print(f"{KINDS[kind]}: {passed} passed, {failed} failed", flush=True)
+        figures.append({"name": f"tests passed on the netlist of {KINDS[kind]}", "value": passed,
+                        "text": f"{passed} of {passed + failed}", "bar": "all",
+                        "ok": failed == 0 and passed > 0})
+        flops, others = area(kind)
+        rows.append([KINDS[kind], len(names), flops, others, f"{built:.0f} s",
+                     f"{time.monotonic() - start:.0f} s"])
+    tables = [{"title": "Netlists", "columns": ["netlist", "test programs", "flip-flops",
+                                                "other cells", "build", "run"], "rows": rows}]
+    return {"figures": figures, "tables": tables, "notes": []}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--kind", action="append", choices=KINDS, help="netlist (default: both)")
+    parser.add_argument("--only", default="", help="only programs with this in their names")
+    arguments = parser.parse_args()
+    scratch = Path(os.environ.get("CAMPAIGN_DIR", ROOT / "build/netlist"))
+    scratch.mkdir(parents=True, exist_ok=True)
+    result = campaign(arguments.kind or list(KINDS), arguments.only,
+                      int(os.environ.get("CAMPAIGN_JOBS", "2")),
+                      float(os.environ.get("CAMPAIGN_SCALE", "1")), scratch)
+    if os.environ.get("CAMPAIGN_OUT"):
+        Path(os.environ["CAMPAIGN_OUT"]).write_text(json.dumps(result))
+    sys.exit(0 if all(figure["ok"] for figure in result["figures"]) else 1)
+
+
+if __name__ == "__main__":
+    main()
