@@ -78,6 +78,8 @@ class NodeModel {
   /// Takes the pending frame back; one on the wire goes on but is not retried (MO-10).
   void cancel();
   [[nodiscard]] bool pending() const { return pending_.has_value(); }
+  /// The own frame that is, or was last, on the wire.
+  [[nodiscard]] const Frame &own_frame() const { return active_; }
 
   [[nodiscard]] int tec() const { return confinement_.tec(); }  ///< 0..263; 256 and more: bus-off
   [[nodiscard]] int rec() const { return confinement_.rec(); }  ///< 0..135, holds from 128 on

@@ -21,13 +21,19 @@ constexpr Time kDirectClock = 125 * kNanosecond;
 // BusWave holds changes back for the longest bit: 256 clocks x 25 quanta at 8 MHz.
 constexpr Time kLongestBit = kMillisecond;
 
+std::string &run_name() {
+  static std::string name;
+  return name;
+}
+
 /// A file named after the running test, and numbered if the test has more than one bench; empty if
 /// no waveform is wanted.
 std::string wave_path() {
   const char *folder = std::getenv("VERICAN_WAVE_DIR");
   const ::testing::TestInfo *test = ::testing::UnitTest::GetInstance()->current_test_info();
-  if (folder == nullptr || test == nullptr) return {};
-  std::string name = std::string{test->test_suite_name()} + "." + test->name();
+  if (folder == nullptr || (test == nullptr && run_name().empty())) return {};
+  std::string name = run_name();
+  if (test != nullptr) name = std::string{test->test_suite_name()} + "." + test->name();
   for (char &c : name)
     if (c == '/') c = '_';
   static std::string last;
@@ -78,6 +84,8 @@ struct TestWave::Direct {
   Time now = 0;
   Level wire = Level::kRecessive;
 };
+
+void TestWave::name_run(const std::string &name) { run_name() = name; }
 
 TestWave::TestWave(Bus &bus) {
   const std::string path = wave_path();

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "bus/bus.hpp"
@@ -24,6 +25,8 @@ class TestWave {
   explicit TestWave(std::vector<const Node *> nodes);
   ~TestWave();
   TestWave(TestWave &&) noexcept;
+  /// Name of the file in a program that is no GoogleTest; without one it writes no waveform.
+  static void name_run(const std::string &name);
   TestWave &operator=(TestWave &&) = delete;
 
   /// The next clock begins; level of the wire in it.

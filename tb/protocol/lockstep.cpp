@@ -32,9 +32,10 @@ Lockstep::Lockstep(CoreBench &bench) : bench_{bench}, followers_(bench.size()) {
 
 void Lockstep::start() { bench_.start(); }
 
-void Lockstep::request(unsigned dut, const Frame &frame) {
+void Lockstep::request(unsigned dut, const Frame &frame, bool one_shot) {
   Follower &follower = followers_[dut];
-  bench_.dut(dut).request(frame);
+  bench_.dut(dut).request(frame, one_shot);
+  follower.model.config().one_shot = one_shot;
   if (follower.model.pending()) {
     follower.queue.push_back(frame);
   } else {

@@ -28,7 +28,8 @@ class Lockstep {
 
   /// Starts the bench and compares from its first bit on.
   void start();
-  void request(unsigned dut, const Frame &frame);
+  /// `one_shot`: tried once (MO-09), as all later requests of that DUT must be.
+  void request(unsigned dut, const Frame &frame, bool one_shot = false);
   void cancel(unsigned dut);
   /// Before start().
   void preset_counters(unsigned dut, std::uint8_t tec, std::uint8_t rec);
