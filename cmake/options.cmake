@@ -29,6 +29,8 @@ if(VERICAN_ASAN)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
+option(VERICAN_FUZZ "Build the libFuzzer programs of tb/fuzz and nothing else (needs clang)" OFF)
+
 # Warnings for our own sources; Verilated code is not ours to mend.
 function(verican_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)

@@ -63,7 +63,7 @@ void print_table(const BitTimingRequest &request, const std::vector<BitTimingRes
 int bittime(const Options &options) {
   BitTimingRequest request = options.request;
   const auto whole = [](double value, const char *name) {
-    if (value < 1 || value > 4e9)
+    if (!(value >= 1 && value <= 4e9))
       throw std::invalid_argument(fmt::format("{} {:g} is out of range", name, value));
     return static_cast<std::uint32_t>(std::llround(value));
   };

@@ -33,6 +33,7 @@ class Parser {
     check_header();
     read_segments();
     check_overlap();
+    copy_segments();
     check_vectors();
     read_symbols();
     return std::move(image_);
@@ -41,6 +42,9 @@ class Parser {
  private:
   struct Section {
     std::uint32_t type, offset, size, link;
+  };
+  struct Load {
+    std::uint32_t address, offset, size;
   };
 
   [[noreturn]] void fail(const std::string &what) const { throw InputError(image_.file, 0, what); }
@@ -58,6 +62,7 @@ class Parser {
   void read_segments();
   void read_segment(unsigned number, std::size_t at);
   void check_overlap() const;
+  void copy_segments();
   void check_vectors() const;
   void read_symbols();
   void read_symbol_table(const Section &symbols, const Section &names);
@@ -65,6 +70,7 @@ class Parser {
 
   const std::vector<std::uint8_t> &bytes_;
   ElfImage image_;
+  std::vector<Load> loads_;
   std::uint32_t program_headers_ = 0, program_count_ = 0;
 };
 
@@ -110,7 +116,7 @@ void Parser::read_segments() {
     const std::size_t at = program_headers_ + i * kProgramSize;
     if (u32(at) == kLoad) read_segment(i, at);
   }
-  if (image_.segments.empty()) fail("has no segment with bytes to load");
+  if (loads_.empty()) fail("has no segment with bytes to load");
 }
 
 void Parser::read_segment(unsigned number, std::size_t at) {
@@ -137,16 +143,23 @@ void Parser::read_segment(unsigned number, std::size_t at) {
   place("address", run, memory_size);
   if (file_size == 0) return;
   place("load address", load, file_size);
-  const auto begin = bytes_.begin() + offset;
-  image_.segments.push_back({load, {begin, begin + file_size}});
+  loads_.push_back({load, offset, file_size});
+}
+
+// Only what is in order is copied: many headers may name the same bytes of a small file.
+void Parser::copy_segments() {
+  for (const Load &segment : loads_) {
+    const auto begin = bytes_.begin() + segment.offset;
+    image_.segments.push_back({segment.address, {begin, begin + segment.size}});
+  }
 }
 
 void Parser::check_overlap() const {
-  auto sorted = image_.segments;
+  auto sorted = loads_;
   std::sort(sorted.begin(), sorted.end(),
             [](const auto &a, const auto &b) { return a.address < b.address; });
   for (std::size_t i = 1; i < sorted.size(); ++i)
-    if (sorted[i].address - sorted[i - 1].address < sorted[i - 1].bytes.size())
+    if (sorted[i].address - sorted[i - 1].address < sorted[i - 1].size)
       fail(fmt::format("segments overlap at load address {}", hex32(sorted[i].address)));
 }
 
@@ -192,6 +205,7 @@ void Parser::read_symbols() {
     const auto names = section(symbols->link);
     if (names && inside(symbols->offset, symbols->size) && inside(names->offset, names->size))
       read_symbol_table(*symbols, *names);
+    break;  // the specification allows one
   }
   std::sort(image_.functions.begin(), image_.functions.end(),
             [](const auto &a, const auto &b) { return a.address < b.address; });
@@ -199,11 +213,13 @@ void Parser::read_symbols() {
 
 void Parser::read_symbol_table(const Section &symbols, const Section &names) {
   constexpr unsigned kFunction = 2;
+  constexpr std::uint32_t kLongestName = 1024;  // longer ones are cut
   for (std::uint32_t at = 0; at + kSymbolSize <= symbols.size; at += kSymbolSize) {
     const std::size_t p = symbols.offset + at;
     if ((bytes_[p + 12] & 0xF) != kFunction || u32(p) >= names.size) continue;
     const auto begin = bytes_.begin() + names.offset + u32(p);
-    const auto end = std::find(begin, bytes_.begin() + names.offset + names.size, std::uint8_t{0});
+    const auto most = bytes_.begin() + names.offset + std::min(names.size, u32(p) + kLongestName);
+    const auto end = std::find(begin, most, std::uint8_t{0});
     image_.functions.push_back({u32(p + 4) & ~1U, u32(p + 8), {begin, end}});
   }
 }

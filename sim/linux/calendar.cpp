@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "trace/input_error.hpp"
+
 namespace vericansim {
 
 TimeMessage Calendar::answer(const TimeMessage &message, std::uint64_t now) {
@@ -23,8 +25,9 @@ TimeMessage Calendar::answer(const TimeMessage &message, std::uint64_t now) {
       break;
     case TimeOp::kGetTod: ack.time = time_of_day_ + guest_time_; break;
     default:
-      throw std::runtime_error("the guest kernel sent time message " + std::to_string(message.op) +
-                               ", which no guest sends");
+      throw InputError("the guest", 0,
+                       "sent time message " + std::to_string(message.op) +
+                           ", which no guest sends; allowed: 1 to 5, 8");
   }
   return ack;
 }

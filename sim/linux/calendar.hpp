@@ -44,7 +44,7 @@ class Calendar {
   explicit Calendar(std::uint64_t time_of_day) : time_of_day_{time_of_day} {}
 
   /// Takes a message of the guest and returns the acknowledgement. `now`: the simulator's time, ns.
-  /// Throws std::runtime_error for a message that a guest does not send.
+  /// Throws InputError for a message that a guest does not send.
   [[nodiscard]] TimeMessage answer(const TimeMessage &message, std::uint64_t now);
 
   /// True between the guest's kWait and run().

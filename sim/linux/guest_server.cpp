@@ -21,6 +21,10 @@ constexpr std::uint64_t kTimeOfDay = 1'767'225'600ULL * 1'000'000'000ULL;
 // A guest that waits this long without a timer of its own will never wake up.
 constexpr std::uint64_t kLongestSleep = 3600ULL * 1'000'000'000ULL;
 constexpr std::size_t kLongestCommand = 4096;
+// Within what the simulator's time holds (106 days).
+constexpr std::uint64_t kLongestRun = 100ULL * 24 * kLongestSleep;
+
+[[noreturn]] void refuse(const std::string &what) { throw InputError("the guest", 0, what); }
 
 }  // namespace
 
@@ -84,8 +88,9 @@ void GuestServer::serve_registers() {
   ++accesses_;
   if (static_cast<GuestOp>(request.op) != GuestOp::kCommand) {
     if (request.op > 1 || (request.size != 1 && request.size != 2 && request.size != 4))
-      throw std::runtime_error("the guest sent an access of " + std::to_string(request.size) +
-                               " bytes, operation " + std::to_string(request.op));
+      refuse("sent an access of " + std::to_string(request.size) + " bytes, operation " +
+             std::to_string(request.op) +
+             "; allowed: 1, 2 or 4 bytes, operation 0 (read) or 1 (write)");
     const std::uint32_t value =
         board_.access({request.address, request.op == static_cast<std::uint32_t>(GuestOp::kWrite),
                        request.value, request.size});
@@ -93,8 +98,8 @@ void GuestServer::serve_registers() {
     return;
   }
   if (request.size > kLongestCommand)
-    throw std::runtime_error("the guest sent a command of " + std::to_string(request.size) +
-                             " bytes");
+    refuse("sent a command of " + std::to_string(request.size) + " bytes; allowed: up to " +
+           std::to_string(kLongestCommand));
   std::string line(request.size, '\0');
   if (!registers_.read(line.data(), line.size())) return;
   std::string reply;
@@ -113,12 +118,13 @@ void GuestServer::let_time_pass() {
     const std::uint64_t goal = calendar_.goal();
     const bool for_ever = goal >= calendar_.guest_time() + kLongestSleep;
     const std::uint64_t until = for_ever ? board_.now() + kLongestSleep : goal;
+    if (goal > board_.now() && until > kLongestRun)
+      refuse("wants to sleep until " + std::to_string(until) + " ns; allowed: up to 100 days");
     if (goal > board_.now() && board_.run_until(until) && interrupt_.open()) {
       tell_interrupt();
       continue;
     }
-    if (for_ever && goal > board_.now())
-      throw std::runtime_error("the guest sleeps, and nothing will ever wake it");
+    if (for_ever && goal > board_.now()) refuse("sleeps, and nothing will ever wake it");
     time_.send(calendar_.run());
     TimeMessage ack;
     if (!time_.read(ack)) over_ = true;

@@ -24,8 +24,8 @@ class GuestServer {
   GuestServer(Board &board, const std::string &directory);
 
   /// Serves until the guest closes its time socket, or until `given_up` says so, which is asked
-  /// while nothing comes from the guest. Throws std::runtime_error if the guest breaks the rules,
-  /// or if it waits for something that cannot happen.
+  /// while nothing comes from the guest. Throws InputError if the guest breaks the rules, or if it
+  /// waits for something that cannot happen.
   void serve(const std::function<bool()> &given_up);
 
   /// True once a guest has asked for the time.

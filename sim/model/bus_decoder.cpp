@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -40,7 +41,23 @@ void BusDecoder::finish(Time time) {
   if (!first_) advance(time);
 }
 
-/// Takes every sample before `time` with the present level. Idle time is skipped, not stepped.
+/// A dominant level that lasts changes nothing but the length of the run: a bus that is stuck is
+/// not stepped through. Takes the bits up to the last one before `time`.
+void BusDecoder::skip_dominant(Time time) {
+  const bool stuck = stage_ == Stage::kFlag || (stage_ == Stage::kIntegrate && count_ == 0);
+  if (!stuck || line_ != Level::kDominant || sampled_ != Level::kDominant || !sampled_this_bit_)
+    return;
+  const Time next = bit_start_ + config_.bit_time + sample_offset_;
+  if (next >= time) return;
+  const Time bits = (time - next) / config_.bit_time;
+  bit_start_ += bits * config_.bit_time;
+  if (stage_ != Stage::kFlag) return;
+  constexpr Time kMost = std::numeric_limits<unsigned>::max();
+  run_ = static_cast<unsigned>(std::min(kMost, static_cast<Time>(run_) + bits));
+}
+
+/// Takes every sample before `time` with the present level. Idle time and a stuck bus are skipped,
+/// not stepped.
 void BusDecoder::advance(Time time) {
   while (true) {
     if (stage_ == Stage::kIdle && line_ == Level::kRecessive) {
@@ -48,6 +65,7 @@ void BusDecoder::advance(Time time) {
       sync_armed_ = true;
       return;
     }
+    skip_dominant(time);
     const Time next = bit_start_ + (sampled_this_bit_ ? config_.bit_time : 0) + sample_offset_;
     if (next >= time) return;
     if (sampled_this_bit_) bit_start_ += config_.bit_time;
@@ -115,7 +133,7 @@ void BusDecoder::condition(BusEventKind kind, BusProblem problem, Field field, u
 /// the decoder saw, or that no node answers: it waits for the bus to come to rest.
 void BusDecoder::sample_flag() {
   if (sampled_ == Level::kDominant) {
-    ++run_;
+    if (run_ != std::numeric_limits<unsigned>::max()) ++run_;
     return;
   }
   trouble_.flag_bits = run_;

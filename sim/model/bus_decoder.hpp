@@ -97,6 +97,7 @@ class BusDecoder {
   };
 
   void advance(Time time);
+  void skip_dominant(Time time);
   void synchronise(Time time);
   void sample();
   void sample_stuffed();

@@ -39,7 +39,8 @@ Columns parse_header(std::string_view line, const Place &place) {
 
 LogEntry parse_entry(const std::vector<std::string_view> &fields, const Columns &columns,
                      const Place &place) {
-  if (fields.size() <= columns.length) fail(place, "too few columns; see the header line");
+  if (fields.size() <= std::max({columns.length, columns.bus, std::size_t{2}}))
+    fail(place, "too few columns; see the header line");
   LogEntry entry;
   const auto id = text::parse_unsigned(fields[1], 16);
   if (!id || (fields[2] != "true" && fields[2] != "false"))

@@ -65,8 +65,7 @@ std::string read_text_file(const std::string &path) {
   return std::move(text).str();
 }
 
-LogFormat detect_log_format(const std::string &path) {
-  const std::string text = read_text_file(path);
+LogFormat detect_log_format(std::string_view text, const std::string &path) {
   if (looks_like_pcap(text)) return LogFormat::kPcap;
   const std::string_view line = first_line(text);
   if (line.starts_with(";")) return LogFormat::kTrc;
@@ -78,14 +77,20 @@ LogFormat detect_log_format(const std::string &path) {
                                   "PCAN-View .trc 1.1, SavvyCAN GVRET .csv");
 }
 
-CanLog read_log(const std::string &path) {
-  switch (detect_log_format(path)) {
-    case LogFormat::kPcap: return read_pcap(path);
-    case LogFormat::kTrc: return parse_trc(read_text_file(path), path);
-    case LogFormat::kGvret: return parse_gvret(read_text_file(path), path);
+LogFormat detect_log_format(const std::string &path) {
+  return detect_log_format(read_text_file(path), path);
+}
+
+CanLog parse_log(std::string_view text, const std::string &path) {
+  switch (detect_log_format(text, path)) {
+    case LogFormat::kPcap: return parse_pcap(text, path);
+    case LogFormat::kTrc: return parse_trc(text, path);
+    case LogFormat::kGvret: return parse_gvret(text, path);
     case LogFormat::kCandump: break;
   }
-  return parse_candump(read_text_file(path), path);
+  return parse_candump(text, path);
 }
+
+CanLog read_log(const std::string &path) { return parse_log(read_text_file(path), path); }
 
 }  // namespace vericansim

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bus/types.hpp"
@@ -38,10 +39,14 @@ enum class LogFormat { kCandump, kPcap, kTrc, kGvret };
 /// Reads a log of any known format; the format is taken from the first bytes.
 /// Throws InputError if the file cannot be read or parsed.
 [[nodiscard]] CanLog read_log(const std::string &path);
+/// Reads `text` as if it stood in the file `path`.
+[[nodiscard]] CanLog parse_log(std::string_view text, const std::string &path);
 
 /// The format that read_log() will take for `path`. Throws InputError if the file is of no known
 /// kind.
 [[nodiscard]] LogFormat detect_log_format(const std::string &path);
+/// The same for `text`, as if it stood in the file `path`.
+[[nodiscard]] LogFormat detect_log_format(std::string_view text, const std::string &path);
 
 /// Reads a whole file. Throws InputError if it cannot be opened.
 [[nodiscard]] std::string read_text_file(const std::string &path);

@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 #include <array>
+#include <cstdio>
 #include <cstring>
+#include <limits>
 #include <memory>
 
 #include "trace/input_error.hpp"
@@ -32,6 +34,41 @@ struct CloseFile {
   void operator()(pcap_t *file) const { pcap_close(file); }
 };
 using PcapFile = std::unique_ptr<pcap_t, CloseFile>;
+
+/// libpcap reads streams only: the bytes as one.
+PcapFile open_bytes(std::string_view bytes, const std::string &path) {
+  if (bytes.empty()) throw InputError(path, 0, "the file is empty");
+  // The stream is for reading; its interface has no const.
+  std::FILE *stream = ::fmemopen(const_cast<char *>(bytes.data()), bytes.size(), "rb");
+  if (stream == nullptr) throw InputError(path, 0, "no memory to read it");
+  std::array<char, PCAP_ERRBUF_SIZE> error{};
+  PcapFile file{
+      pcap_fopen_offline_with_tstamp_precision(stream, PCAP_TSTAMP_PRECISION_NANO, error.data())};
+  if (file) return file;
+  std::fclose(stream);
+  throw InputError(path, 0, quoted(error.data()) + " (libpcap)");
+}
+
+/// Time of a packet, ns since the epoch; with nanosecond precision tv_usec holds nanoseconds.
+std::int64_t nanoseconds(const pcap_pkthdr &header, const std::string &path, std::size_t number) {
+  constexpr std::int64_t kBillion = 1'000'000'000;
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max() / kBillion - 1;
+  if (header.ts.tv_sec < 0 || header.ts.tv_sec > kMost || header.ts.tv_usec < 0 ||
+      header.ts.tv_usec >= kBillion)
+    throw InputError(path, 0,
+                     fmt::format("packet {}: time {} s {} ns is not allowed; allowed: 0 to {} s",
+                                 number, header.ts.tv_sec, header.ts.tv_usec, kMost));
+  return std::int64_t{header.ts.tv_sec} * kBillion + header.ts.tv_usec;
+}
+
+/// `ns` on the time scale of the log, ps after `start_ns`.
+Time since(std::int64_t start_ns, std::int64_t ns, const std::string &path, std::size_t number) {
+  constexpr std::int64_t kMost = std::numeric_limits<Time>::max() / kNanosecond;
+  if (ns - start_ns > kMost || start_ns - ns > kMost)
+    throw InputError(
+        path, 0, fmt::format("packet {}: time is more than 106 days from the first one", number));
+  return (ns - start_ns) * kNanosecond;
+}
 
 /// True if the packet is a classical frame; throws if it is cut short or contradicts itself.
 bool decode_packet(const std::uint8_t *bytes, std::size_t size, Frame &frame,
@@ -67,30 +104,26 @@ bool decode_packet(const std::uint8_t *bytes, std::size_t size, Frame &frame,
 
 }  // namespace
 
-CanLog read_pcap(const std::string &path) {
-  std::array<char, PCAP_ERRBUF_SIZE> error{};
-  const PcapFile file{pcap_open_offline_with_tstamp_precision(
-      path.c_str(), PCAP_TSTAMP_PRECISION_NANO, error.data())};
-  if (!file) throw InputError(path, 0, quoted(error.data()) + " (libpcap)");
+CanLog parse_pcap(std::string_view bytes, const std::string &path) {
+  const PcapFile file = open_bytes(bytes, path);
   if (pcap_datalink(file.get()) != DLT_CAN_SOCKETCAN)
     throw InputError(path, 0,
                      fmt::format("link type {} is not CAN; allowed: 227 (SocketCAN)",
                                  pcap_datalink(file.get())));
   CanLog log;
   pcap_pkthdr *header = nullptr;
-  const std::uint8_t *bytes = nullptr;
+  const std::uint8_t *packet = nullptr;
   int status = 0;
-  for (std::size_t number = 1; (status = pcap_next_ex(file.get(), &header, &bytes)) == 1;
+  for (std::size_t number = 1; (status = pcap_next_ex(file.get(), &header, &packet)) == 1;
        ++number) {
     LogEntry entry;
-    if (!decode_packet(bytes, header->caplen, entry.frame, path, number)) {
+    if (!decode_packet(packet, header->caplen, entry.frame, path, number)) {
       ++log.skipped;
       continue;
     }
-    // With nanosecond precision tv_usec holds nanoseconds.
-    const std::int64_t ns = std::int64_t{header->ts.tv_sec} * 1'000'000'000 + header->ts.tv_usec;
+    const std::int64_t ns = nanoseconds(*header, path, number);
     if (log.entries.empty()) log.start_ns = ns;
-    entry.time = static_cast<Time>(static_cast<std::uint64_t>(ns - log.start_ns) * kNanosecond);
+    entry.time = since(log.start_ns, ns, path, number);
     log.entries.push_back(std::move(entry));
   }
   if (status != PCAP_ERROR_BREAK)
@@ -99,6 +132,8 @@ CanLog read_pcap(const std::string &path) {
                                  pcap_geterr(file.get())));
   return log;
 }
+
+CanLog read_pcap(const std::string &path) { return parse_pcap(read_text_file(path), path); }
 
 struct PcapWriter::Impl {
   std::string path;

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "trace/log.hpp"
 
@@ -16,6 +17,8 @@ namespace vericansim {
 /// are counted as skipped. Throws InputError (with the number of the packet) on a broken file or
 /// another link type.
 [[nodiscard]] CanLog read_pcap(const std::string &path);
+/// Reads `bytes` as if they were the file `path`.
+[[nodiscard]] CanLog parse_pcap(std::string_view bytes, const std::string &path);
 
 /// Writes captures with nanosecond stamps.
 class PcapWriter {

@@ -18,6 +18,9 @@
 namespace vericansim {
 namespace {
 
+/// A signal's name with its modules; many signals in deep modules must not fill the memory.
+constexpr std::size_t kLongestName = 1024;
+
 /// Words between white space, with the line of the last one.
 class Words {
  public:
@@ -137,7 +140,15 @@ void VcdFile::parse_var(const std::vector<std::string_view> &words, std::size_t 
     throw InputError(path_, line,
                      "width " + quoted(std::string(words[1])) + " is no number of bits");
   std::string name;
-  for (const std::string &scope : scopes_) name += scope + ".";
+  for (const std::string &scope : scopes_) {
+    name += scope + ".";
+    if (name.size() > kLongestName) break;
+  }
+  if (name.size() + words[3].size() > kLongestName)
+    throw InputError(
+        path_, line,
+        fmt::format("the name {} is too long; allowed: {} characters with its scopes",
+                    quoted(name + std::string(words[3].substr(0, kLongestName))), kLongestName));
   signals_.push_back({name + std::string(words[3]), std::string(words[0]),
                       static_cast<unsigned>(*width), std::string(words[2])});
 }
@@ -188,9 +199,13 @@ const VcdSignal &VcdFile::guess_bus() const {
 }
 
 Time VcdFile::stamp(std::string_view word, Time now, std::size_t line) const {
+  // Half of what Time holds: 53 days, and room for the bits behind the last edge.
+  constexpr Time kLatest = std::numeric_limits<Time>::max() / 2;
   const auto ticks = text::parse_unsigned(word.substr(1), 10);
-  if (!ticks || *ticks > static_cast<std::uint64_t>(std::numeric_limits<Time>::max() / unit_))
-    throw InputError(path_, line, "time " + quoted(std::string(word)) + " is no number");
+  if (!ticks || *ticks > static_cast<std::uint64_t>(kLatest / unit_))
+    throw InputError(path_, line,
+                     "time " + quoted(std::string(word)) +
+                         " is not allowed; allowed: a number of ticks, up to 53 days");
   const Time time = static_cast<Time>(*ticks) * unit_ / fraction_;
   if (time < now) throw InputError(path_, line, "time " + quoted(std::string(word)) + " goes back");
   return time;

@@ -4,17 +4,29 @@
 // Waveform to frames: signal, bit rate, bus decoder.
 #include "trace/wave_decode.hpp"
 
+#include <fmt/format.h>
 #include <cmath>
 #include <utility>
 
 #include "trace/bitrate.hpp"
 #include "trace/input_error.hpp"
+#include "trace/log.hpp"
 #include "trace/vcd_file.hpp"
 
 namespace vericansim {
+namespace {
+
+// Bit rates of classical CAN, as --bitrate takes them.
+constexpr double kSlowest = 1e3, kFastest = 1e6;
+
+}  // namespace
 
 Wave read_wave(const std::string &path, const WaveDecodeOptions &options) {
-  const VcdFile file{path};
+  return parse_wave(read_text_file(path), path, options);
+}
+
+Wave parse_wave(std::string text, const std::string &path, const WaveDecodeOptions &options) {
+  const VcdFile file{path, std::move(text)};
   const VcdSignal &signal = options.signal.empty() ? file.guess_bus() : file.find(options.signal);
   Wave wave;
   wave.signal = signal.name;
@@ -31,16 +43,24 @@ Wave read_wave(const std::string &path, const WaveDecodeOptions &options) {
     throw InputError(path, 0,
                      "the bit rate of signal " + quoted(signal.name) + " cannot be told from its " +
                          std::to_string(edges.size()) + " edges; give it with --bitrate");
+  if (*bitrate < kSlowest || *bitrate > kFastest)
+    throw InputError(path, 0,
+                     fmt::format("signal {} has edges as at {:g} bit/s; allowed: {:g} to {:g}; "
+                                 "give the bit rate with --bitrate",
+                                 quoted(signal.name), *bitrate, kSlowest, kFastest));
   wave.bitrate = *bitrate;
   return wave;
 }
 
 WaveDecodeResult decode_wave(const std::string &path, const WaveDecodeOptions &options) {
-  const Wave wave = read_wave(path, options);
+  return decode_wave(read_wave(path, options), options.sample_point);
+}
+
+WaveDecodeResult decode_wave(const Wave &wave, int sample_point) {
   WaveDecodeResult result{wave.signal, wave.bitrate, wave.end, {}};
   DecoderConfig config;
   config.bit_time = static_cast<Time>(std::llround(1e12 / result.bitrate));
-  config.sample_point = options.sample_point;
+  config.sample_point = sample_point;
   BusDecoder decoder{config, [&](const BusEvent &event) { result.events.push_back(event); }};
   for (const auto &[time, level] : wave.changes) decoder.on_level(time, level);
   // The last frame may end with the file: grant it the recessive bits that end it.

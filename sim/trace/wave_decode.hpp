@@ -31,6 +31,9 @@ struct Wave {
 /// Reads one signal of a VCD file. Throws InputError if the file, the signal or the bit rate cannot
 /// be used.
 [[nodiscard]] Wave read_wave(const std::string &path, const WaveDecodeOptions &options);
+/// Reads `text` as if it stood in the file `path`.
+[[nodiscard]] Wave parse_wave(std::string text, const std::string &path,
+                              const WaveDecodeOptions &options);
 
 struct WaveDecodeResult {
   std::string signal;  ///< the one taken, full name
@@ -43,5 +46,7 @@ struct WaveDecodeResult {
 /// cannot be used.
 [[nodiscard]] WaveDecodeResult decode_wave(const std::string &path,
                                            const WaveDecodeOptions &options);
+/// Decodes a signal that has been read; `sample_point` in per mille of the bit.
+[[nodiscard]] WaveDecodeResult decode_wave(const Wave &wave, int sample_point);
 
 }  // namespace vericansim

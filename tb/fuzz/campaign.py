@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""Stage `fuzz` of the campaign: every parser by libFuzzer, and the register interface.
+
+Builds the libFuzzer programs (cmake --preset fuzz, build/fuzz) and runs them two at a time, a million
+cases each at scale 1, then fuzz_registers of build/release. The result goes to CAMPAIGN_OUT.
+"""
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+FULL = 1_000_000
+# Longest input, bytes; those that need most time first.
+TARGETS = {"board": 160, "wave": 32, "guest": 200, "client": 200, "scenario": 300, "vcd": 400,
+           "splitter": 200, "elf": 400, "log": 256, "candump": 256, "gvret": 256, "trc": 256,
+           "pcap": 512, "options": 64, "words": 80, "can_frame": 16}
+LIMITS = ["-timeout=20", "-rss_limit_mb=600", "-malloc_limit_mb=64", "-print_final_stats=1"]
+REGISTER_JOBS = 2
+
+
+def build(log):
+    with open(log, "w", encoding="utf-8") as out:
+        for command in (["cmake", "--preset", "fuzz"], ["cmake", "--build", "build/fuzz", "-j2"]):
+            if subprocess.run(command, cwd=ROOT, stdout=out, stderr=out, check=False).returncode:
+                sys.exit(f"campaign fuzz: {' '.join(command)} failed; see {log}")
+
+
+def run_parser(name, runs, seed, directory):
+    """One libFuzzer program from the kept corpus on; what it finds is kept in `directory`."""
+    scratch = directory / f"corpus-{name}"
+    scratch.mkdir(parents=True, exist_ok=True)
+    corpus = ROOT / "tb/fuzz/corpus" / name
+    words = ROOT / "tb/fuzz/dict" / f"{name}.dict"
+    command = [ROOT / "build/fuzz/tb/fuzz" / f"fuzz_{name}", f"-runs={runs}", f"-seed={seed}",
+               f"-max_len={TARGETS[name]}", *LIMITS, f"-artifact_prefix={directory}/{name}-"]
+    command += [f"-dict={words}"] if words.exists() else []
+    start = time.monotonic()
+    environment = dict(os.environ, ASAN_OPTIONS="quarantine_size_mb=16")
+    log = directory / f"{name}.log"
+    with open(log, "w", encoding="utf-8") as out:
+        code = subprocess.run([*map(str, command), str(scratch), str(corpus)], stdout=out, stderr=out,
+                              env=environment, check=False).returncode
+    text = log.read_text(errors="replace")
+    covered = re.findall(r"cov: (\d+) ft: (\d+) corp: (\d+)", text)[-1:] or [("0", "0", "0")]
+    cases = re.search(r"number_of_executed_units:\s*(\d+)", text)
+    result = {"name": name, "cases": int(cases.group(1)) if cases else 0,
+              "seconds": time.monotonic() - start, "edges": int(covered[0][0]),
+              "features": int(covered[0][1]), "corpus": len(list(corpus.iterdir())),
+              "findings": 0 if code == 0 else 1}
+    print(f"{name}: {result['cases']} cases, {result['seconds']:.0f} s, "
+          f"{result['edges']} edges" + (f"; FINDING, see {log}" if code else ""), flush=True)
+    return result
+
+
+def run_registers(number, cases, seed, directory):
+    out = directory / f"registers-{number}.json"
+    log = directory / f"registers-{number}.log"
+    command = [ROOT / "build/release/tb/fuzz/fuzz_registers", "--cases", cases, "--seed",
+               seed * 1000 + number, "--out", out, "--keep", directory]
+    with open(log, "w", encoding="utf-8") as stream:
+        code = subprocess.run(list(map(str, command)), stdout=stream, stderr=stream,
+                              check=False).returncode
+    if not out.exists():
+        sys.exit(f"campaign fuzz: fuzz_registers ended with {code}; see {log}")
+    result = json.loads(out.read_text())
+    print(f"registers {number}: {result['cases']} cases, {result['seconds']:.0f} s"
+          + (f"; FINDING, see {log}" if code else ""), flush=True)
+    return result
+
+
+def add_up(parts):
+    """The sum of numbers, key by key; the largest of what is a maximum."""
+    total = {}
+    for part in parts:
+        for key, value in part.items():
+            if isinstance(value, dict):
+                total[key] = add_up([total.get(key, {}), value])
+            elif key in ("max_waits", "longest_acknowledge"):
+                total[key] = max(total.get(key, 0), value)
+            else:
+                total[key] = total.get(key, 0) + value
+    return total
+
+
+def figure(name, value, bar=None, ok=None, text=None):
+    result = {"name": name, "value": value, "bar": bar, "ok": ok}
+    return result | ({"text": text} if text else {})
+
+
+def summary(parsers, registers, wanted):
+    """The stage's figures and tables."""
+    findings = sum(p["findings"] for p in parsers)
+    fewest = min(p["cases"] for p in parsers)
+    transfers = sum(mode["transfers"] for mode in registers["modes"].values())
+    figures = [
+        figure("parsers fuzzed", len(parsers)),
+        figure("cases of the parser with fewest", fewest, f"{wanted:,}", fewest >= wanted),
+        figure("findings in parsers", findings, "0", findings == 0),
+        figure("register cases", registers["cases"], f"{wanted:,}", registers["cases"] >= wanted),
+        figure("register transfers", transfers),
+        figure("register cases that broke a rule or hung", registers["failed"], "0",
+               registers["failed"] == 0),
+        figure("most wait states of a transfer", registers["max_waits"], "1",
+               registers["max_waits"] <= 1),
+        figure("longest acknowledge, clocks at 8 a bit", registers["longest_acknowledge"]),
+    ]
+    rows = [[p["name"], p["cases"], round(p["seconds"]), p["edges"], p["features"], p["corpus"],
+             p["findings"]] for p in sorted(parsers, key=lambda p: p["name"])]
+    modes = [[name, mode["cases"], mode["transfers"]] for name, mode in registers["modes"].items()]
+    tables = [
+        {"title": "Parsers", "rows": rows,
+         "columns": ["target", "cases", "s", "edges", "features", "kept inputs", "findings"]},
+        {"title": "Register interface: mode of the core when the case began", "rows": modes,
+         "columns": ["mode", "cases", "transfers"]}]
+    notes = [f"Register interface: {registers['episodes']} episodes of 16 cases, each ended by a "
+             f"recovery that sends and receives a frame; {registers['clocks']} clocks, "
+             f"{registers['bus_frames']} frames on the bus, {registers['excused_errors']} error "
+             "frames that the core or the bench may cause.",
+             "A case: an input of libFuzzer; 8 to 64 AHB transfers under traffic."]
+    return {"figures": figures, "tables": tables, "notes": notes}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--only", nargs="*", help="these parsers alone, without the registers")
+    arguments = parser.parse_args()
+    scale = float(os.environ.get("CAMPAIGN_SCALE", "1"))
+    seed = int(os.environ.get("CAMPAIGN_SEED", "1"))
+    directory = Path(os.environ.get("CAMPAIGN_DIR", ROOT / "build/fuzz/campaign")).resolve()
+    directory.mkdir(parents=True, exist_ok=True)
+    wanted = max(1, round(FULL * scale))
+    build(directory / "build.log")
+    names = [name for name in TARGETS if not arguments.only or name in arguments.only]
+    with ThreadPoolExecutor(2) as pool:
+        jobs = [pool.submit(run_parser, name, wanted, seed, directory) for name in names]
+        registers = [] if arguments.only else [
+            pool.submit(run_registers, n, -(-wanted // REGISTER_JOBS), seed, directory)
+            for n in range(REGISTER_JOBS)]
+        parsers = [job.result() for job in jobs]
+        register_parts = [job.result() for job in registers]
+    if arguments.only:
+        return int(any(p["findings"] for p in parsers))
+    result = summary(parsers, add_up(register_parts), wanted)
+    for entry in result["figures"]:
+        print(f"{entry['name']}: {entry['value']}")
+    if "CAMPAIGN_OUT" in os.environ:
+        Path(os.environ["CAMPAIGN_OUT"]).write_text(json.dumps(result, indent=2) + "\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Nodes without a core behind them, in place of the Verilated ones: an RtlNode that remembers what
+// is written to it and never takes part, and a CoreNode that sends nothing. The readers that are
+// fuzzed are those of the board around them.
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "bus/bus.hpp"
+#include "node/core_node.hpp"
+#include "node/rtl_node.hpp"
+
+namespace vericansim {
+namespace {
+
+class PlainNode final : public RtlNode {
+ public:
+  PlainNode(std::string name, const ClockConfig &clock, unsigned num_mb)
+      : RtlNode{std::move(name), clock, num_mb} {}
+
+  void reset() override { ahb().reset(); }
+  void clock(Level) override {
+    if (ahb().active()) transfer();
+    after_edge();
+  }
+  [[nodiscard]] std::uint8_t irq_lines() const override { return words_[0] & kIrqAll; }
+  void request_stop(bool) override {}
+  [[nodiscard]] AhbResult peek(const AhbTransfer &) override { return {}; }
+
+ private:
+  // Each access is an address phase and a data phase.
+  void transfer() {
+    const AhbRequest request = ahb().request();
+    ahb().clock({words_[address_ / 4 % words_.size()], true, false});
+    if (writes_) words_[address_ / 4 % words_.size()] = request.hwdata;
+    writes_ = request.hwrite && request.htrans == AhbTrans::kNonseq;
+    address_ = request.haddr;
+  }
+
+  std::array<std::uint32_t, 64> words_{};
+  std::uint32_t address_ = 0;
+  bool writes_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<RtlNode> RtlNode::create(std::string name, const ClockConfig &clock,
+                                         unsigned num_mb) {
+  return std::make_unique<PlainNode>(std::move(name), clock, num_mb);
+}
+
+void RtlNode::Waiter::await_suspend(std::coroutine_handle<> handle) const {
+  node.waiter_ = handle;
+  node.wait_irq_ = for_irq;
+  node.wake_cycle_ = until;
+}
+
+void RtlNode::resume_waiter() { std::exchange(waiter_, nullptr).resume(); }
+
+void RtlNode::advance() {
+  if (bus() != nullptr) {
+    bus()->step();
+  } else {
+    clock(Level::kRecessive);
+    oscillator().tick();
+  }
+}
+
+AhbResult RtlNode::access(const AhbTransfer &transfer) {
+  const AhbMaster::Ticket ticket = ahb_.submit(transfer);
+  while (!ahb_.done(ticket)) advance();
+  return ahb_.result(ticket);
+}
+
+std::uint32_t RtlNode::read32(std::uint32_t address) { return access({.address = address}).data; }
+
+void RtlNode::write32(std::uint32_t address, std::uint32_t data) {
+  access({.address = address, .write = true, .data = data});
+}
+
+struct CoreNode::Impl {};
+
+CoreNode::CoreNode(std::string name, const CoreConfig &config, const ClockConfig &clock)
+    : Node{std::move(name), clock}, config_{config} {
+  config.timing.validate();
+}
+CoreNode::~CoreNode() = default;
+void CoreNode::clock(Level) {}
+std::uint64_t CoreNode::trace() const { return 0; }
+void CoreNode::configure(const CoreConfig &config) {
+  config.timing.validate();
+  config_ = config;
+}
+void CoreNode::start() {}
+void CoreNode::stop() {}
+bool CoreNode::running() const { return false; }
+void CoreNode::request(const Frame &, bool) {}
+void CoreNode::cancel() {}
+
+}  // namespace vericansim
