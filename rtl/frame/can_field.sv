@@ -124,7 +124,11 @@ module can_field (
         if (lost_i) tx_q <= 1'b0;
         if (!last_q) left_q <= left_q - 6'd1;
         case (field_q)
-          can_pkg::FldInteg, can_pkg::FldBusOff: if (last_q || !bit_i) left_q <= 6'd10;
+          can_pkg::FldInteg, can_pkg::FldBusOff: begin
+            if (last_q || !bit_i) left_q <= 6'd10;
+            // Without bus-off nothing would end its recovery: an upset flip-flop.
+            if (!boff_i) field_q <= can_pkg::FldInteg;
+          end
           can_pkg::FldInt: if (last_q) begin
             field_q <= can_pkg::FldSuspend;
             left_q  <= 6'd7;

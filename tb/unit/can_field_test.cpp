@@ -292,5 +292,23 @@ TEST_F(CanField, CodesOfNoFieldLeadToIntegration) {
   }
 }
 
+// IN-01: bus-off recovery without bus-off, as an upset flip-flop leaves it: no sequence would be
+// counted, so nothing would ever end it; the node integrates.
+TEST_F(CanField, RecoveryWithoutBusOffLeadsToIntegration) {
+  for (const bool recessive : {false, true}) {
+    to_idle();
+    field_->rootp->can_field__DOT__field_q = static_cast<unsigned>(Field::kBusOff);
+    field_->rootp->can_field__DOT__left_q = 10;
+    field_.settle();
+    bit(recessive);
+    ASSERT_EQ(at(), Field::kInteg);
+    bits(11);
+    ASSERT_EQ(at(), Field::kIdle);
+    field_->run_i = 0;
+    field_.clock();
+    field_->run_i = 1;
+  }
+}
+
 }  // namespace
 }  // namespace vericansim

@@ -9,8 +9,13 @@ from pathlib import Path
 import yaml
 
 METHODS = ("induction", "pdr", "bounded", "cover")
+<<<<<<< HEAD
 SOLVERS = ("z3", "boolector")
 RULE = re.compile(r"\b[A-Z]{2}-\d\d[a-z]?\b|\b(?:AHB|FX)-[A-Z0-9][\w.]*\w|\bflexcan\.md [0-9.]+\b")
+=======
+SOLVERS = ("z3", "boolector", "abc")
+RULE = re.compile(r"\b[A-Z]{2}-\d\d[a-z]?\b|\bAHB-[A-Z0-9]+\b|\bflexcan\.md [0-9.]+\b")
+>>>>>>> 2295558 (Engine: recovery without bus-off leads to integration, found by proof of the counters)
 LABEL = re.compile(r"^\s*([plmc]_[a-z0-9_]+)\s*:\s*(assert|assume|cover)\b")
 
 
@@ -96,19 +101,20 @@ def _no_more(entry, where):
 
 def read_properties(path):
     """The labelled statements of a file; the comment above one names its rules."""
-    found, comment = [], []
+    found, comment, used = [], [], False
     for line in path.read_text(encoding="utf-8").splitlines():
         label = LABEL.match(line)
         if label:
             text = " ".join(comment)
             kind = {"assert": "assert", "assume": "assume", "cover": "cover"}[label[2]]
             found.append(Property(label[1], kind, text, RULE.findall(text)))
-            comment = []
+            used = True
         elif line.strip().startswith("//"):
+            comment, used = ([] if used else comment), False
             comment.append(line.strip().lstrip("/ ").strip())
         elif re.match(r"^\s*(assert|assume|cover|restrict)\b", line):
             raise CatalogueError(f"{path}: a statement without a label: {line.strip()}")
-        else:
+        elif not used:
             comment = []
     return found
 
@@ -151,7 +157,11 @@ def _proof(entry, part, folder):
                      allowed=("pdr", "bmc", "smt")),
         timeout=_take(entry, where, "timeout", int, default=600))
     _no_more(entry, where)
-    for text in list(proof.splice.values()) + proof.files:
+    if proof.solver == "abc" and method != "bounded":
+        raise CatalogueError(f"{where}: solver abc is for method bounded")
+    proof.splice = {module: [files] if isinstance(files, str) else files
+                    for module, files in proof.splice.items()}
+    for text in [name for names in proof.splice.values() for name in names] + proof.files:
         if not (folder / text).is_file():
             raise CatalogueError(f"{where}: no file {folder.name}/{text}")
         proof.properties += read_properties(folder / text)

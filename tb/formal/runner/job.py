@@ -23,16 +23,17 @@ def prove(proof, rtl_root, scratch):
     out = scratch / proof.id
     try:
         names = model.write_sources(proof, rtl_root, out)
-        pdr = proof.method == "pdr"
+        pdr = proof.method == "pdr" or proof.solver == "abc"
         model.build(proof, names, out, smt=not pdr, aiger=pdr)
         if proof.method == "induction":
             answer = solve.induction(proof, out)
-        elif proof.method == "bounded":
+        elif proof.method == "bounded" and not pdr:
             answer = solve.bounded(proof, out)
         elif proof.method == "cover":
             answer = solve.covers(proof, out)
         else:
-            answer, _ = solve.abc(proof, out, "pdr", 0, len(proof.checked()))
+            answer = solve.abc(proof, out, *(("pdr", 0) if proof.method == "pdr"
+                                             else ("bmc", proof.depth + 1)))
             if answer.verdict == "refuted":
                 answer = _explain(proof, names, out, answer)
     except model.ModelError as error:
@@ -46,9 +47,8 @@ def prove(proof, rtl_root, scratch):
 
 def _explain(proof, names, out, answer):
     """A waveform of what pdr has found: bounded search to the clock that it names."""
-    clocks = [int(word) for word in answer.detail.replace(",", " ").split() if word.isdigit()]
     model.build(proof, names, out, smt=True, aiger=False)
-    found = solve.bounded(proof, out, depth=max(clocks, default=20) + 1)
+    found = solve.bounded(proof, out, depth=min(answer.refuted.values()) + 1)
     return found if found.verdict == "refuted" else answer
 
 
@@ -67,10 +67,11 @@ def kill(proof, mutant, rtl_root, scratch):
             if smt:
                 answer = solve.bounded(proof, out, depth)
             else:
-                answer, _ = solve.abc(proof, out, proof.search, depth, len(group))
+                answer = solve.abc(proof, out, proof.search, depth)
             seconds += answer.seconds
-            if answer.verdict != "refuted" or "see " in answer.detail:
-                missed.append(f"{', '.join(group)}: {answer.verdict} {answer.detail}")
+            caught = group if smt and answer.verdict == "refuted" else answer.refuted
+            if set(group) - set(caught):
+                missed.append(f"not refuted: {', '.join(group)}: {answer.detail}")
     except model.ModelError as error:
         return Result(proof, mutant, False, str(error), 0.0)
     return Result(proof, mutant, not missed, "; ".join(missed), seconds)

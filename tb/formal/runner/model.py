@@ -46,7 +46,8 @@ def write_sources(proof, rtl_root, out, mutant=None):
             done.add(mutant.file)
         for module, properties in proof.splice.items():
             if source.stem == module:
-                text = _spliced(text, module, (proof.folder / properties).read_text("utf-8"))
+                text = _spliced(text, module, "".join((proof.folder / file).read_text("utf-8")
+                                                      for file in properties))
                 done.add(module)
         (out / source.name).write_text(text, encoding="utf-8")
         names.append(source.name)
@@ -86,6 +87,8 @@ def build(proof, names, out, smt, aiger, only=None):
     if aiger:
         script += ["setundef -undriven -anyseq; setattr -unset keep; delete -output",
                    "opt -full; techmap; opt -fast; dffunmap; abc -g AND -fast; opt_clean",
+                   # In the order of the outputs of the AIGER file.
+                   "tee -q -o asserts.txt select -list t:$assert",
                    "write_aiger -I -B -zinit -no-startoffset -map model.aim model.aig"]
     (out / "model.ys").write_text("\n".join(script) + "\n", encoding="utf-8")
     run = subprocess.run(["yosys", "-q", "-l", "yosys.log", "model.ys"], cwd=out, text=True,

@@ -5,7 +5,7 @@
 import re
 import subprocess
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 
 @dataclass
@@ -15,6 +15,7 @@ class Answer:
     verdict: str
     detail: str
     seconds: float
+    refuted: dict = field(default_factory=dict)  # label: clock
 
 
 def _run(command, cwd, timeout, log):
@@ -66,19 +67,45 @@ def covers(proof, out):
                    "cover.log")
 
 
-def abc(proof, out, search, depth, outputs):
-    """pdr (unbounded) or bmc3 (to depth) on all outputs; how many were refuted counts."""
-    limit = f"-F {depth} " if depth else ""
-    engine = f"pdr -a {limit}" if search == "pdr" else f"bmc3 -a {limit or '-F 100 '}"
-    script = f"read_aiger model.aig; fold; strash; {engine}"
-    text, seconds = _run(["yosys-abc", "-c", script], out, proof.timeout, f"{search}.log")
-    refuted = len(set(re.findall(r"Output (\d+) was asserted in frame", text)))
-    frames = [int(f) for f in re.findall(r"was asserted in frame\s+(\d+)", text)]
-    detail = f"{refuted} of {outputs} outputs refuted" + (f" by clock {max(frames)}" if frames else "")
-    if refuted >= outputs:
-        return Answer("refuted", detail, seconds), refuted
-    if refuted == 0 and search == "pdr" and "Verification of invariant" in text \
-            and "was successful" in text:
-        return Answer("proven", "", seconds), refuted
-    return Answer("refuted" if refuted else "unknown", detail + f", see {out}/{search}.log",
-                  seconds), refuted
+def _labels(out):
+    lines = (out / "asserts.txt").read_text(encoding="utf-8").split()
+    return [line.split("/")[-1].split(".")[-1] for line in lines]
+
+
+# One output after the other; what one order of steps does not decide, another often does at once.
+PDR = ("pdr -T 20", "scleanup; pdr -T 40", "scleanup; pdr -r -T 80", "pdr -n -c -T 120")
+
+
+def _abc_output(out, steps, index, timeout):
+    """Decides one output, without bound or to that of bmc3: (proven?, clock of the counterexample or None, text)."""
+    text = ""
+    for step in steps:
+        merge = "scorr; " if step.startswith(("pdr", "scleanup")) else ""
+        script = f"read_aiger model.aig; fold; strash; {merge}cone -s -O {index}; {step}"
+        text, _ = _run(["yosys-abc", "-c", script], out, timeout, f"output{index}.log")
+        found = re.search(r"was asserted in frame\s+(\d+)", text)
+        if found:
+            return False, int(found[1]), text
+        if "Property proved" in text or re.search(r"No output asserted in \d+ frames", text):
+            return True, None, text
+    return False, None, text
+
+
+def abc(proof, out, search, depth):
+    """pdr (unbounded) or bmc3 (to depth) on each output; the answer names the refuted."""
+    limit = f" -F {depth}" if depth else ""
+    steps = [f"{step}{limit}" for step in PDR] if search == "pdr" else [f"bmc3{limit or ' -F 100'}"]
+    start = time.monotonic()
+    refuted, open_ = {}, []
+    for index, label in enumerate(_labels(out)):
+        proven, clock, _ = _abc_output(out, steps, index, proof.timeout)
+        if clock is not None:
+            refuted[label] = clock
+        elif not proven:
+            open_.append(label)
+    seconds = time.monotonic() - start
+    detail = ", ".join(f"{label} at clock {clock}" for label, clock in refuted.items())
+    if open_:
+        detail += ("; " if detail else "") + f"not decided: {', '.join(open_)}, see {out}"
+    verdict = "refuted" if refuted else "unknown" if open_ else "proven"
+    return Answer(verdict, detail, seconds, refuted)
