@@ -44,9 +44,10 @@ class ErrorMatrix : public ::testing::TestWithParam<Slice> {
   static void sample(const std::string &name, std::size_t count) {
     const Section &part = section(name);
     const Spread spread{part.grid().size(), count};
+    RuleBins bins;
     for (std::size_t i = GetParam().number; i < spread.count(); i += GetParam().of) {
       const std::size_t index = spread.at(i);
-      const Outcome outcome = part.run(part.grid().digits(index), nullptr);
+      const Outcome outcome = part.run(part.grid().digits(index), &bins);
       ASSERT_EQ(outcome.report, "")
           << "error_campaign --seed " << kSeed << " --run " << part.grid().id(index);
     }
