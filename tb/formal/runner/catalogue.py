@@ -9,13 +9,8 @@ from pathlib import Path
 import yaml
 
 METHODS = ("induction", "pdr", "bounded", "cover")
-<<<<<<< HEAD
-SOLVERS = ("z3", "boolector")
-RULE = re.compile(r"\b[A-Z]{2}-\d\d[a-z]?\b|\b(?:AHB|FX)-[A-Z0-9][\w.]*\w|\bflexcan\.md [0-9.]+\b")
-=======
 SOLVERS = ("z3", "boolector", "abc")
-RULE = re.compile(r"\b[A-Z]{2}-\d\d[a-z]?\b|\bAHB-[A-Z0-9]+\b|\bflexcan\.md [0-9.]+\b")
->>>>>>> 2295558 (Engine: recovery without bus-off leads to integration, found by proof of the counters)
+RULE = re.compile(r"\b[A-Z]{2}-\d\d[a-z]?\b|\b(?:AHB|FX)-[A-Z0-9][\w.]*\w|\bflexcan\.md [0-9.]+\b")
 LABEL = re.compile(r"^\s*([plmc]_[a-z0-9_]+)\s*:\s*(assert|assume|cover)\b")
 
 
