@@ -195,7 +195,7 @@ module can_mailbox #(
     .busy_o(mv_busy));
 
   // Transmission.
-  logic            ins_req, ins_gnt, scan_req, scan_lazy, scan_gnt, settled, retry, retry_busy;
+  logic            ins_req, ins_gnt, scan_req, scan_lazy, scan_gnt, settled, retry, retry_busy, bad;
   logic            started, off;
   logic [IdxW-1:0] ins_idx, scan_idx, best_idx, cur_idx;
   logic            pass, pass_end, seen, seen_act, seen_free;
@@ -204,7 +204,8 @@ module can_mailbox #(
   can_mb_tx #(.NumMb(NumMb)) u_tx (
     .clk_i, .rst_ni, .running_i, .lbuf_i, .lprio_en_i, .first_i(first), .maxmb_i,
     .csw_i(csw), .csw_idx_i(csw_idx), .csw_act_i(csw_act), .ans_i(ans), .ans_idx_i(mv_idx),
-    .off_i(off), .cur_idx_i(cur_idx), .start_i(started), .retry_i(retry),
+    .off_i(off), .cur_idx_i(cur_idx), .start_i(started), .retry_i(retry), .bad_i(bad),
+    .fresh_i(timer_i[9:0] == '0),
     .ins_req_o(ins_req), .ins_idx_o(ins_idx), .ins_gnt_i(ins_gnt),
     .scan_req_o(scan_req), .scan_lazy_o(scan_lazy), .scan_idx_o(scan_idx),
     .scan_gnt_i(scan_gnt), .stale_i(stale), .cs_i(cs), .id_i(msg),
@@ -222,6 +223,7 @@ module can_mailbox #(
   can_mb_load #(.NumMb(NumMb)) u_load (
     .clk_i, .rst_ni, .running_i, .mute_i, .gap_i, .oneshot_i, .aen_i,
     .settled_i(settled), .best_idx_i(best_idx), .retry_busy_i(retry_busy), .retry_o(retry),
+    .bad_o(bad),
     .csw_i(csw), .csw_idx_i(csw_idx), .csw_act_i(csw_act),
     .cs_wr_i(wr && cpu_kind == KindCs), .cs_wr_idx_i(cpu_idx), .abort_i(abort),
     .out_o(out), .kept_o(kept), .done_o(done), .off_o(off),

@@ -29,6 +29,7 @@ module can_mb_load #(
   input  logic [IdxW-1:0] best_idx_i,
   input  logic            retry_busy_i,
   output logic            retry_o,       // pulse: cur_idx_o is off the bus and may be active
+  output logic            bad_o,         // pulse: the winner is not active
   // C/S write by the CPU in the clock before.
   input  logic            csw_i,
   input  logic [IdxW-1:0] csw_idx_i,
@@ -85,11 +86,14 @@ module can_mb_load #(
 
   logic       word_q, on_bus_q, end_q, failed_q, orphan_q, dropped_q, abort_q, shot_q, answer_q;
   logic [1:0] tick_q;
-  logic       pause_q, head_ok, head_bad, head_taken, csw_cur, csw_ld, withdrawn;
+  logic       pause_q, head_ok, head_bad, head_seen, head_taken, lost, csw_cur, csw_ld, withdrawn;
 
   assign csw_cur   = csw_i && csw_idx_i == cur_idx_o;
   assign csw_ld    = csw_i && csw_idx_i == ld_idx_o;
-  assign started_o = start_i && transmitter_i && !on_bus_q;
+  // The engine takes the first word with the start; either pulse tells, should one be upset. And a
+  // frame that has ended without a pulse is not waited for.
+  assign started_o = (start_i || tx_next_i) && transmitter_i && !on_bus_q;
+  assign lost      = on_bus_q && gap_i && !tx_ok_i && !tx_fail_i;
 
   // A waiting frame is replaced only in the two clocks after a sample point, when the engine cannot
   // be about to take it; none is loaded (pause_q, a clock late) while one is sent, ends, waits for
@@ -98,8 +102,9 @@ module can_mb_load #(
   // ... and not while the CPU rewrites it, or asks to abort the one it would replace.
   assign head_bad = csw_ld || abort_q || (cs_wr_i && (cs_wr_idx_i == ld_idx_o
                                            || (aen_i && tx_req_o && cs_wr_idx_i == cur_idx_o)));
-  assign head_taken = data_i && data_step_i == StepHead && state_q == StHead && !on_bus_q
-                   && !started_o && !head_bad && cs_i[27:26] == 2'b11 && !cs_i[24];
+  assign head_seen  = data_i && data_step_i == StepHead && state_q == StHead && !on_bus_q
+                   && !started_o && !head_bad;
+  assign head_taken = head_seen && cs_i[27:26] == 2'b11 && !cs_i[24];
   assign req_o   = word_q || end_q || state_q == StLow || state_q == StHigh
                 || (state_q == StHead && head_ok);
   assign step_o  = word_q ? StepWord : end_q ? StepEnd : state_q == StLow ? StepLow
@@ -137,7 +142,7 @@ module can_mb_load #(
         StHigh: if (data_i && data_step_i == StepHigh) state_q <= StHead;
         StHead: begin
           if (data_i && data_step_i == StepHead) begin
-            if (!on_bus_q && !started_o && !head_bad) state_q <= StIdle;
+            if (head_seen) state_q <= StIdle;
             if (head_taken) begin
               row_o     <= !row_o;
               tx_ide_o  <= cs_i[21];
@@ -159,12 +164,13 @@ module can_mb_load #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {tx_req_o, on_bus_q, orphan_q, dropped_q, word_q, word_o} <= '0;
-      {end_q, failed_q, flag_o, retry_o, abort_q, shot_q, answer_q} <= '0;
+      {end_q, failed_q, flag_o, retry_o, bad_o, abort_q, shot_q, answer_q} <= '0;
       tick_q  <= '0;
       pause_q <= 1'b0;
       cur_idx_o <= '0;
     end else begin
       {flag_o, retry_o} <= '0;
+      bad_o <= head_seen && !head_taken;
       tick_q  <= {tick_q[0], tick_i};
       pause_q <= on_bus_q || end_q || retry_busy_i || abort_q || mute_i || (csw_cur && tx_req_o);
 
@@ -191,7 +197,7 @@ module can_mb_load #(
 
       // Words for the engine: the ID is taken first, then bytes 0-3, then 4-7.
       if (data_i && data_step_i == StepWord) {word_q, word_o} <= {1'b0, 1'b1};
-      if (tx_next_i) word_q <= 1'b1;
+      if (tx_next_i || started_o) word_q <= 1'b1;
 
       // The end.
       if (data_i && data_step_i == StepEnd) begin
@@ -209,6 +215,7 @@ module can_mb_load #(
           retry_o <= 1'b1;
         else end_q <= 1'b1;
       end
+      if (lost) {on_bus_q, word_q, retry_o} <= 3'b001;
       if (abort_i && !done_o) {abort_q, tx_req_o} <= 2'b10;
       if (withdrawn) {end_q, failed_q} <= '1;
       if (mute_i)    tx_req_o <= 1'b0;

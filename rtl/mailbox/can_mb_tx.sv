@@ -8,6 +8,9 @@
 // another change is followed by a new one; until a pass ends unspoiled the best of what was seen
 // may be sent, so that a CPU that writes C/S words for ever cannot hold up the others.
 //
+// An upset of a flip-flop must not stop transmission for ever: a winner that turns out not to be
+// active is dropped, and while there is none all buffers are looked at now and then (fresh_i).
+//
 // ESR2 tells what such a pass has seen (can_mb_status): a C/S write that needs none otherwise
 // starts one too, and starts it again.
 
@@ -35,6 +38,9 @@ module can_mb_tx #(
   input  logic [IdxW-1:0] cur_idx_i,
   input  logic            start_i,      // buffer cur_idx_i goes on the bus
   input  logic            retry_i,      // ... has left it, and may be active still
+  input  logic            bad_i,        // the winner was not active after all
+  // Now and then: look at all buffers again if there is no winner.
+  input  logic            fresh_i,
   // Read slots.
   output logic            ins_req_o,
   output logic [IdxW-1:0] ins_idx_o,
@@ -60,7 +66,7 @@ module can_mb_tx #(
   output logic            seen_free_o   // code is INACTIVE
 );
   logic            ins_q, ins_new, retry_q, retry_gnt, ans_q, ans_gnt;
-  logic            scan_q, look_q, dirty_q, wait_q, again_q, spoiled_q, last, change, restart_q;
+  logic            scan_q, look_q, quiet_q, dirty_q, again_q, spoiled_q, last, change, restart_q;
   // Stage 1: the buffer is on the RAM outputs. Stage 2: its arbitration value is known.
   logic            s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q, s2_active_q, s2_free_q;
   logic            best_q, s1_part, s2_end;
@@ -74,7 +80,7 @@ module can_mb_tx #(
   assign retry_gnt  = ins_gnt_i && !ins_new;
   assign ans_gnt    = ins_gnt_i && !ins_new && !retry_q;
   assign retry_o    = retry_q || retry_i;
-  assign scan_req_o = running_i && (scan_q || look_q) && !wait_q;
+  assign scan_req_o = running_i && (scan_q || look_q) && !s1_last_q && !s2_last_q;
   assign scan_lazy_o = !scan_q;
   assign settled_o  = best_q && (!scan_q || spoiled_q);
   assign last       = scan_idx_o == IdxW'(NumMb - 1) || 7'(scan_idx_o) == maxmb_i;
@@ -105,7 +111,7 @@ module can_mb_tx #(
                   && !((off_i || start_i) && s2_idx_q == cur_idx_i);
   // The winner is no longer what it was.
   assign gone   = best_q && ((csw_i && csw_idx_i == best_idx_o)
-                          || ((start_i || off_i) && cur_idx_i == best_idx_o));
+                          || ((start_i || off_i) && cur_idx_i == best_idx_o) || bad_i);
   // In two halves side by side: one comparison of all bits is the longest path of the core.
   logic high_less, high_equal, low_less;
   assign high_less  = s2_val_q[34:17] < best_val_q[34:17];
@@ -129,27 +135,31 @@ module can_mb_tx #(
     end
   end
 
-  assign seen_o      = s2_scan_q;
+  assign seen_o      = s2_scan_q && !quiet_q;
   assign seen_idx_o  = s2_idx_q;
   assign seen_val_o  = s2_val_q;
   assign seen_act_o  = candidate;
   assign seen_free_o = s2_free_q;
-  assign pass_o      = s1_scan_q && s1_idx_q == '0;
+  assign pass_o      = s1_scan_q && s1_idx_q == '0 && !quiet_q;
   assign s2_end      = s2_last_q && !restart_q;
-  assign pass_end_o  = s2_end && !dirty_q && !change && !gone;
+  assign pass_end_o  = s2_end && !dirty_q && !change && !gone && !quiet_q;
 
   // A pass for ESR2 alone is started anew by whatever happens; one that looks for a winner is not.
   assign change  = csw_i || ans_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {look_q, dirty_q, restart_q} <= '0;
+      {look_q, quiet_q, dirty_q, restart_q} <= '0;
     end else if (!running_i) begin
-      {look_q, dirty_q, restart_q} <= '0;
+      {look_q, quiet_q, dirty_q, restart_q} <= '0;
     end else begin
       restart_q <= look_q && !scan_q && (change || gone);
       if (s2_end)      {look_q, dirty_q} <= {dirty_q || change, 1'b0};
       else if (change) {look_q, dirty_q} <= {1'b1, scan_q};
+      else if (fresh_i && !best_q && !scan_q) look_q <= 1'b1;
+      // Such a pass is not for ESR2 unless something happens meanwhile.
+      quiet_q <= !s2_end && !change && !gone && !scan_q
+              && (quiet_q || (fresh_i && !best_q && !look_q));
     end
   end
 
@@ -163,12 +173,12 @@ module can_mb_tx #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {ins_q, retry_q, wait_q, again_q, spoiled_q} <= '0;
+      {ins_q, retry_q, again_q, spoiled_q} <= '0;
       {s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q} <= '0;
       scan_q <= 1'b1;
       {scan_idx_o, s1_idx_q} <= '0;
     end else if (!running_i) begin
-      {ins_q, retry_q, wait_q, again_q, spoiled_q} <= '0;
+      {ins_q, retry_q, again_q, spoiled_q} <= '0;
       {s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q} <= '0;
       scan_q     <= 1'b1;
       scan_idx_o <= '0;
@@ -182,12 +192,8 @@ module can_mb_tx #(
       s2_scan_q <= s1_scan_q;
       s2_last_q <= s1_last_q;
       s1_idx_q  <= ins_req_o ? ins_idx_o : scan_idx_o;
-      if (scan_gnt_i) begin
-        scan_idx_o <= scan_idx_o + 1'b1;
-        wait_q     <= last;
-      end
+      if (scan_gnt_i) scan_idx_o <= scan_idx_o + 1'b1;
       if (s2_end) begin                 // every buffer has been looked at
-        wait_q     <= 1'b0;
         scan_q     <= again_q || gone;
         again_q    <= 1'b0;
         spoiled_q  <= scan_q && (again_q || gone);
@@ -198,7 +204,6 @@ module can_mb_tx #(
       end
       if (restart_q) begin
         scan_idx_o <= '0;
-        wait_q     <= 1'b0;
         {s1_last_q, s2_last_q} <= '0;
       end
     end

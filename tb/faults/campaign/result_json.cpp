@@ -74,8 +74,7 @@ Json bin_table(const RuleBins &bins) {
     body.push_back({group.name, group.reached(), group.bins.size(), group.unreachable.size()});
   }
   return {{"title", "Functional coverage (TH-05)"},
-          {"columns",
-           {"cross", "bins hit", "bins that can be reached", "kinds left out, with reasons"}},
+          {"columns", {"cross", "bins hit", "bins that can be reached", "left out, with reason"}},
           {"rows", body}};
 }
 
