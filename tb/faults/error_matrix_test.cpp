@@ -8,6 +8,7 @@
 #include <ostream>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "faults/injection_axes.hpp"
 #include "faults/section.hpp"
@@ -43,9 +44,10 @@ class ErrorMatrix : public ::testing::TestWithParam<Slice> {
   static void sample(const std::string &name, std::size_t count) {
     const Section &part = section(name);
     const Spread spread{part.grid().size(), count};
+    RuleBins bins;
     for (std::size_t i = GetParam().number; i < spread.count(); i += GetParam().of) {
       const std::size_t index = spread.at(i);
-      const Outcome outcome = part.run(part.grid().digits(index), nullptr);
+      const Outcome outcome = part.run(part.grid().digits(index), &bins);
       ASSERT_EQ(outcome.report, "")
           << "error_campaign --seed " << kSeed << " --run " << part.grid().id(index);
     }
@@ -128,6 +130,27 @@ TEST(ErrorMatrixTable, HasAllValuesOfTheRuleBook) {
     EXPECT_TRUE(has(&StartCounters::tec)) << value;
     EXPECT_TRUE(has(&StartCounters::rec)) << value;
   }
+}
+
+// 19.1: base and extended, data and remote, DLC 0, 1, 8, 15; and bits behind 1 to 5 equal ones of
+// either level.
+TEST(ErrorMatrixTable, FramesHaveAllShapesOfTheRuleBook) {
+  std::set<std::pair<bool, bool>> kinds;
+  std::set<unsigned> lengths;
+  std::set<std::pair<Level, unsigned>> runs;
+  for (const Stream &stream : all_streams()) {
+    kinds.insert({stream.frame.extended, stream.frame.remote});
+    lengths.insert(stream.frame.dlc);
+    const EncodedFrame frame = encode_frame(stream.frame, stream.options);
+    unsigned run = 1;
+    for (std::size_t i = 1; i < frame.stuffed_length; ++i) {
+      runs.insert({frame.bits[i - 1].level, run});
+      run = frame.bits[i].level == frame.bits[i - 1].level ? run + 1 : 1;
+    }
+  }
+  EXPECT_EQ(kinds.size(), 4u);
+  for (const unsigned dlc : {0, 1, 8, 15}) EXPECT_EQ(lengths.count(dlc), 1u) << dlc;
+  EXPECT_EQ(runs.size(), 10u);
 }
 
 // Every case has a name of its own that leads back to it; a sample holds no case twice.

@@ -143,18 +143,26 @@ class Runs {
 void add_losses(BinGroup &group, bool extended) {
   constexpr const char *kRelations[] = {"no stuff bit near", "after a stuff bit", "at a stuff bit",
                                         "before a stuff bit"};
+  const std::string format = extended ? "extended" : "base";
+  std::string missing[4];
   Runs runs{extended};
   for (unsigned position = 0; position < runs.positions(); ++position) {
     const std::set<unsigned> reachable = runs.step();
     for (unsigned relation = 0; relation < 4; ++relation) {
-      const std::string name = std::string{extended ? "extended" : "base"} + " position " +
-                               std::to_string(position) + ", " + kRelations[relation];
+      const std::string number = std::to_string(position);
       if (reachable.count(relation) != 0) {
-        group.add(bin_key::loss(extended, position, relation), name);
+        group.add(bin_key::loss(extended, position, relation),
+                  format + " position " + number + ", " + kRelations[relation]);
       } else {
-        group.unreachable.push_back(name + ": no own bits lead there (ST-01, SRR and IDE are r)");
+        missing[relation] += " " + number;
       }
     }
+  }
+  for (unsigned relation = 0; relation < 4; ++relation) {
+    if (missing[relation].empty()) continue;
+    group.unreachable.push_back(format + ", " + kRelations[relation] + ", positions" +
+                                missing[relation] +
+                                ": no own bits lead there (ST-01; SRR and IDE are recessive)");
   }
 }
 

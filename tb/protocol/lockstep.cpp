@@ -17,6 +17,19 @@ NodeConfig model_config(const CoreConfig &config) {
           .boff_rec = config.boff_rec};
 }
 
+/// The bit of the trace that stands for an error.
+std::uint8_t trace_bit(NodeError error) {
+  switch (error) {
+    case NodeError::kBit0: return kErrBit0;
+    case NodeError::kBit1: return kErrBit1;
+    case NodeError::kAck: return kErrAck;
+    case NodeError::kCrc: return kErrCrc;
+    case NodeError::kForm: return kErrForm;
+    case NodeError::kStuff: return kErrStuff;
+    default: return 0;
+  }
+}
+
 std::string differs(const char *what, unsigned dut, unsigned model) {
   return std::string{what} + " " + std::to_string(dut) + ", the rules say " + std::to_string(model);
 }
@@ -90,6 +103,9 @@ void Lockstep::compare_events(unsigned i, const DutBit &bit) {
   const bool delivered = bit.delivered && !bit.transmitter;
   if (bit.sent != events.sent_ok) mismatch(i, differs("success", bit.sent, events.sent_ok));
   if (bit.failed != events.tx_fail) mismatch(i, differs("failure", bit.failed, events.tx_fail));
+  if (bit.errors != trace_bit(events.error)) {
+    mismatch(i, differs("error kinds", bit.errors, trace_bit(events.error)));
+  }
   const bool own = events.delivered && model.role() == Role::kTransmitter;
   if (own || (bit.delivered && bit.transmitter)) return;
   if (delivered != events.delivered) {

@@ -74,7 +74,8 @@ Json bin_table(const RuleBins &bins) {
     body.push_back({group.name, group.reached(), group.bins.size(), group.unreachable.size()});
   }
   return {{"title", "Functional coverage (TH-05)"},
-          {"columns", {"cross", "bins hit", "bins that can be reached", "left out, with reason"}},
+          {"columns",
+           {"cross", "bins hit", "bins that can be reached", "kinds left out, with reasons"}},
           {"rows", body}};
 }
 
