@@ -1,0 +1,136 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Proves that a mutant changes nothing: yosys makes a miter of original and mutant, abc proves it.
+"""Tries a mutant in its own module, its submodules cut off, and then in what surrounds it.
+
+A proof holds from every start that a reset can follow, for all inputs: outputs (and what goes to
+submodules that were cut off) are equal in every clock, for ever. No proof means nothing.
+"""
+import argparse
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import models
+from mutants import Design
+from schemata import rewrite
+
+# Module -> what surrounds it, from inside to outside.
+AROUND = {
+    "bit": ["can_core"], "frame": ["can_bsp", "can_core"], "mailbox": ["can_mailbox"],
+    "host": ["can_regs", "can_top"], "": []}
+RAM = "can_mb_ram"      # cut off always: its inputs must be equal
+
+
+class Plain:
+    """A mutant alone, without a selector."""
+
+    def __call__(self, mutants, inside, _):
+        for mutant in mutants:
+            if mutant.number:
+                return f"({mutant.mutated})"
+        return inside
+
+    @staticmethod
+    def test(mutant, _):
+        """The condition under which its statement does not happen."""
+        return "1"
+
+
+def children(design, module):
+    """Modules that it instantiates."""
+    text = next(file.text for file in design.files if file.module == module)
+    return [file.module for file in design.files
+            if file.module != module and not file.package and f"  {file.module} " in text]
+
+
+def script(design, directory, top, cut):
+    """Yosys' commands: gold and gate, flat, with equal inputs; one output: they differ."""
+    lines = []
+    text = next(file.text for file in design.files if file.module == top)
+    for side in ("gold", "gate"):
+        files = " ".join(str(directory / side / file.path.name) for file in design.files)
+        small = "-chparam NumMb 16" if "parameter int NumMb" in text else ""
+        lines += ["design -reset", f"read_verilog -sv {files}", f"hierarchy -top {top} {small}",
+                  "proc", "rename -top top_under_proof"]
+        lines += [f"blackbox *{module}*" for module in cut]
+        lines += ["flatten", "expose -evert top_under_proof/t:*can_*", "delete =A:blackbox",
+                  "opt -full", "memory", "async2sync", "dffunmap", "opt_clean",
+                  f"rename top_under_proof {side}", f"design -stash {side}"]
+    lines += ["design -reset", "design -copy-from gold gold", "design -copy-from gate gate",
+              "miter -equiv -flatten gold gate bad_miter", "hierarchy -top bad_miter",
+              "setundef -undriven -zero", "setundef -init -zero", "opt -full", "techmap",
+              "opt -fast", "dffunmap", "abc -g AND -fast", "opt_clean",
+              "write_aiger -zinit miter.aig"]
+    return "\n".join(lines) + "\n"
+
+
+def prove(design, mutant, top, cut, seconds):
+    """True if abc has proven it, False if it has found a difference, None if neither."""
+    with tempfile.TemporaryDirectory() as name:
+        directory = pathlib.Path(name)
+        for side, number in (("gold", 0), ("gate", 1)):
+            (directory / side).mkdir()
+            mutant.number = number
+            for file in design.files:
+                (directory / side / file.path.name).write_text(rewrite(file, Plain()),
+                                                               encoding="utf-8")
+        (directory / "miter.ys").write_text(script(design, directory, top, cut), encoding="utf-8")
+        built = subprocess.run(["yosys", "-q", "miter.ys"], cwd=directory, capture_output=True,
+                               text=True)
+        if built.returncode != 0:
+            return None, built.stdout[-500:] + built.stderr[-500:]
+        commands = f"read_aiger miter.aig; strash; scorr; dc2; scorr; print_stats; pdr -T {seconds}"
+        proof = subprocess.run(["yosys-abc", "-c", commands], cwd=directory, capture_output=True,
+                               text=True).stdout
+    if "Property proved" in proof or "is trivially" in proof or " 0 and" in proof:
+        return True, proof
+    if "Output 0 of miter" in proof or "was asserted" in proof:
+        return False, proof
+    return None, proof
+
+
+def attempts(design, mutant):
+    """(top, cut off) to try, small ones first."""
+    file = next(file for file in design.files if file.module == mutant.module)
+    folder = file.path.parent.name if file.path.parent.name in AROUND else ""
+    local = children(design, mutant.module)
+    yield mutant.module, local
+    if local and local != [RAM]:
+        yield mutant.module, [RAM]
+    for top in AROUND[folder]:
+        if top != mutant.module:
+            yield top, [RAM]
+
+
+def main():
+    """Entry point."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("mutant", nargs="+", help="such as can_fault:57.12:a")
+    parser.add_argument("--seconds", type=int, default=60, help="limit of one proof")
+    parser.add_argument("-v", action="store_true", help="show what abc says")
+    options = parser.parse_args()
+    design = Design(models.rtl_files())
+    everything = {mutant.name: mutant for mutant in design.candidates()}
+    for name in options.mutant:
+        if name not in everything:
+            sys.exit(f"equivalence.py: {name}: no such mutant")
+        mutant = everything[name]
+        answer = "nothing proven"
+        for top, cut in attempts(design, mutant):
+            result, text = prove(design, mutant, top, cut, options.seconds)
+            if options.v:
+                print(top, cut, result, text[-600:])
+            if result:
+                answer = f"proven equivalent in {top}" + (
+                    f", without {', '.join(cut)}" if cut else "")
+                break
+        mutant.number = 0
+        print(f"{name}  {mutant.shown()}: {answer}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

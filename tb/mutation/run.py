@@ -1,0 +1,213 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Mutation score: does the regression notice when the RTL is wrong? docs/mutation.md.
+"""Makes mutants of the RTL, runs the tests against each, and reports those that nobody noticed."""
+import argparse
+import json
+import os
+import pathlib
+import sys
+import time
+
+import models
+from known import Known
+from mutants import Design, choose
+from regression import Regression, in_parallel, programs
+from report import Report
+
+FULL = 1100            # mutants at scale 1
+
+
+def arguments():
+    """Options; the campaign's environment gives the defaults."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--scale", type=float, default=os.environ.get("CAMPAIGN_SCALE", 1.0),
+                        help=f"part of {FULL} mutants, above 0 up to 1")
+    parser.add_argument("--seed", type=int, default=os.environ.get("CAMPAIGN_SEED", 1))
+    parser.add_argument("--module", action="append", default=[], help="only mutants in it")
+    parser.add_argument("--mutant", action="append", default=[],
+                        help="only this one, such as can_fault:57.12:a")
+    parser.add_argument("--all", action="store_true", help="every mutant, not a sample")
+    parser.add_argument("--list", action="store_true", help="name the mutants and stop")
+    parser.add_argument("--budget", type=float, default=float("inf"),
+                        help="seconds of tests for one mutant; survivors then mean less")
+    parser.add_argument("--no-build", action="store_true", help="take the builds as they are")
+    parser.add_argument("--jobs", type=int, default=os.environ.get("CAMPAIGN_JOBS", 2))
+    parser.add_argument("--build", type=pathlib.Path, default=models.ROOT / "build" / "mutants",
+                        help="directory for the test programs")
+    parser.add_argument("--dir", type=pathlib.Path, help="directory for results",
+                        default=os.environ.get("CAMPAIGN_DIR"))
+    parser.add_argument("--out", default=os.environ.get("CAMPAIGN_OUT"), help="JSON of the results")
+    options = parser.parse_args()
+    if not 0 < options.scale <= 1:
+        parser.error(f"--scale {options.scale}: above 0 up to 1 is allowed")
+    if options.jobs < 1:
+        parser.error(f"--jobs {options.jobs}: at least 1 is needed")
+    options.build = options.build.resolve()
+    options.dir = pathlib.Path(options.dir or options.build / "results").resolve()
+    options.dir.mkdir(parents=True, exist_ok=True)
+    return options
+
+
+def wanted(options, design):
+    """(in the models, to run): the sample is in the models whatever is asked for of it."""
+    modules = {file.module for file in design.files}
+    for module in options.module:
+        if module not in modules:
+            sys.exit(f"run.py: --module {module}: there is {', '.join(sorted(modules))}")
+    if options.all:
+        chosen = design.candidates()
+        for number, mutant in enumerate(chosen, 1):
+            mutant.number = number
+    else:
+        chosen = choose(design, max(1, round(FULL * options.scale)), options.seed)
+    everything = {mutant.name: mutant for mutant in design.candidates()}
+    run = [m for m in chosen if not options.module or m.module in options.module]
+    if options.mutant:
+        missing = [name for name in options.mutant if name not in everything]
+        if missing:
+            sys.exit(f"run.py: --mutant {missing[0]}: no such mutant; --list --all names all")
+        run = [everything[name] for name in options.mutant]
+        for mutant in run:
+            if not mutant.number:
+                mutant.number = len(chosen) + 1
+                chosen.append(mutant)
+    return chosen, run
+
+
+class Campaign:
+    """One run: builds, what each test can see, and the verdict on each mutant."""
+
+    def __init__(self, options, chosen):
+        self.options, self.chosen = options, chosen
+        self.programs = programs(models.ROOT)
+        numbers = {mutant.name: mutant.number for mutant in chosen}
+        targets = [name for _, name in self.programs]
+        if not options.no_build:
+            self.say(f"building {len(targets)} test programs with {len(chosen)} mutants")
+            models.build(options.build, numbers, targets, options.jobs)
+        self.regression = Regression(models.ROOT, options.build)
+        self.seen = {}                       # mutant number -> [(program, test, seconds)]
+
+    @staticmethod
+    def say(text):
+        """One line of progress."""
+        print(f"mutation: {text}", flush=True)
+
+    def record(self):
+        """What each test can see; known from before while the programs are the same."""
+        stamp = [[name, stat.st_size, stat.st_mtime_ns] for _, name in self.programs
+                 for stat in [(self.regression.build / "tb" / name).stat()]]
+        path = self.options.dir / "seen.json"
+        if path.exists():
+            before = json.loads(path.read_text(encoding="utf-8"))
+            if before["stamp"] == stamp:
+                self.seen = {int(number): tests for number, tests in before["seen"].items()}
+                return
+        self.record_anew()
+        path.write_text(json.dumps({"stamp": stamp, "seen": self.seen}), encoding="utf-8")
+
+    def record_anew(self):
+        """Runs every test once and notes which mutants make a difference in it."""
+        tests = [(program, test) for _, program in self.programs
+                 for test in self.regression.tests_of(program)]
+        self.say(f"recording what {len(tests)} tests can see")
+        last = time.monotonic()
+
+        def one(item):
+            program, test = item
+            path = self.options.dir / f"seen-{abs(hash(item)):x}"
+            outcome = self.regression.run(program, [test],
+                                          {"VERICAN_MUTANT_RECORD": str(path)}, 600)
+            numbers = path.read_text().split() if path.exists() else []
+            path.unlink(missing_ok=True)
+            return outcome, [int(number) for number in numbers]
+
+        for done, (item, (outcome, numbers)) in enumerate(
+                in_parallel(self.options.jobs, one, tests), 1):
+            if not outcome.passed:
+                sys.exit(f"run.py: without a mutant {item[0]}: {item[1]} {outcome.reason}")
+            for number in numbers:
+                self.seen.setdefault(number, []).append((*item, outcome.seconds))
+            if time.monotonic() - last > 30:
+                last = time.monotonic()
+                self.say(f"recorded {done} of {len(tests)}")
+
+    def baseline(self):
+        """The same programs that run the mutants must pass without one."""
+        self.say("running the regression without a mutant")
+        begin = time.monotonic()
+        for item, outcome in in_parallel(
+                self.options.jobs, lambda item: self.regression.run(item[1], None, {}, 600),
+                self.programs):
+            if not outcome.passed:
+                sys.exit(f"run.py: without a mutant {item[1]} {outcome.reason}: {outcome.test}")
+        return time.monotonic() - begin
+
+    def judge(self, mutant):
+        """Runs the tests that can see a mutant, the quickest programs first."""
+        groups = {}
+        for program, test, seconds in self.seen.get(mutant.number, []):
+            groups.setdefault(program, []).append((test, seconds))
+        order = sorted(groups, key=lambda name: (sum(s for _, s in groups[name]), name))
+        used = planned = 0.0
+        for program in order:
+            planned += sum(seconds for _, seconds in groups[program])
+            if planned > self.options.budget:
+                return {"killed": False, "seen": True, "seconds": round(used, 3),
+                        "tests": sum(len(group) for group in groups.values()), "stopped": True}
+            tests = sorted(test for test, _ in groups[program])
+            expected = sum(seconds for _, seconds in groups[program])
+            outcome = self.regression.run(program, tests, {"VERICAN_MUTANT": str(mutant.number)},
+                                          expected)
+            used += outcome.seconds
+            if not outcome.passed:
+                return {"killed": True, "by": outcome.test, "reason": outcome.reason,
+                        "seconds": round(used, 3)}
+        return {"killed": False, "seen": bool(order), "seconds": round(used, 3),
+                "tests": sum(len(group) for group in groups.values())}
+
+
+def main():
+    """Entry point."""
+    options = arguments()
+    design = Design(models.rtl_files())
+    known = Known(models.HERE / "survivors.yaml")
+    chosen, run = wanted(options, design)
+    if options.list:
+        for mutant in run:
+            print(f"{mutant.name:28} {mutant.kind:20} {mutant.shown()}")
+        return
+    campaign = Campaign(options, chosen)
+    campaign.record()
+    baseline = campaign.baseline()
+    campaign.say(f"regression without a mutant: {baseline:.0f} s; {len(run)} mutants to run")
+    results, last = {}, time.monotonic()
+    # Scattered over the modules, so that an interrupted run says something of all.
+    scattered = sorted(run, key=lambda mutant: hash_of(mutant.name))
+    for done, (mutant, result) in enumerate(
+            in_parallel(options.jobs, campaign.judge, scattered), 1):
+        results[mutant.name] = result
+        with open(options.dir / "progress.jsonl", "a", encoding="utf-8") as file:
+            file.write(json.dumps({"name": mutant.name, **result}) + "\n")
+        if time.monotonic() - last > 15 or done == len(run):
+            last = time.monotonic()
+            alive = sum(not entry["killed"] for entry in results.values())
+            campaign.say(f"{done} of {len(run)}, {alive} not noticed")
+    report = Report(design, known, run, results, campaign.seen, campaign.programs)
+    report.show(options.mutant != [])
+    if options.out:
+        pathlib.Path(options.out).write_text(json.dumps(report.json(options), indent=1) + "\n",
+                                             encoding="utf-8")
+
+
+def hash_of(text):
+    """A number that is the same in every run, unlike hash()."""
+    import zlib
+    return zlib.crc32(text.encode())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,183 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Finds the expressions and assignments of a module: the places where a mutant can sit.
+"""read_module() returns the sites of one file of RTL."""
+from sv_tree import Node, Reader, Syntax, line_of, parse_expression
+
+
+class Site:
+    """A place of the text that may be mutated.
+
+    role: condition (of if), selector (of case), label (of case), value (assigned), target (left of
+    an assignment: only its index), input (connection of an input port).
+    timing: always_ff, always_comb, assign or function, for values.
+    """
+
+    def __init__(self, role, node, timing="", statement=None):
+        self.role, self.node, self.timing = role, node, timing
+        # Extent of the whole assignment, without its semicolon, if it can be dropped.
+        self.statement = statement
+
+
+class ModuleReader:
+    """Walks over one module and collects its sites."""
+
+    def __init__(self, text):
+        self.text, self.reader, self.sites = text, Reader(text), []
+
+    def read(self):
+        """All sites, in the order of the text."""
+        reader = self.reader
+        while reader.peek() != "module":
+            reader.take()
+        reader.skip_past(";")
+        while reader.peek() != "endmodule":
+            self.item()
+        return self.sites
+
+    def item(self):
+        """One item of a module."""
+        reader = self.reader
+        word = reader.peek()
+        if word == "assign":
+            reader.take()
+            self.assignment("assign")
+        elif word in ("always_ff", "always_comb"):
+            reader.take()
+            if word == "always_ff":
+                reader.take("@")
+                reader.take("(")
+                reader.skip_past(")")
+            self.statement(word)
+        elif word == "function":
+            reader.skip_past(";")
+            while reader.peek() != "endfunction":
+                self.statement("function")
+            reader.take()
+        elif word == "if":                  # checks of parameters
+            while reader.take().text != "end":
+                pass
+        elif word.startswith("can_") and not word.startswith("can_pkg::"):
+            self.instance()
+        else:                               # declarations
+            reader.skip_past(";")
+
+    def instance(self):
+        """An instance of another module: its input connections."""
+        reader = self.reader
+        reader.take()
+        if reader.peek() == "#":
+            reader.take()
+            self.connections("parameter")
+        reader.take()
+        self.connections("input")
+        reader.take(";")
+
+    def connections(self, role):
+        """A list of connections in brackets."""
+        reader = self.reader
+        reader.take("(")
+        while reader.peek() != ")":
+            reader.take(".")
+            name = reader.take()
+            node = None
+            if reader.peek() == "(":
+                reader.take()
+                if reader.peek() != ")":
+                    node = parse_expression(reader)
+                reader.take(")")
+            else:
+                node = Node("port", name.text, [], name.start, name.end)
+            wanted = name.text.endswith("_i") and name.text not in ("clk_i", "rst_ni")
+            if node and (role == "parameter" or wanted):
+                self.sites.append(Site(role, node))
+            if reader.peek() == ",":
+                reader.take()
+        reader.take(")")
+
+    def statement(self, timing):
+        """One statement."""
+        reader = self.reader
+        word = reader.peek()
+        if word == "begin":
+            reader.take()
+            if reader.peek() == ":":
+                reader.take()
+                reader.take()
+            while reader.peek() != "end":
+                self.statement(timing)
+            reader.take()
+        elif word == "if":
+            self.branch(timing)
+        elif word in ("case", "unique"):
+            self.cases(timing)
+        elif word == "for":
+            reader.take()
+            reader.take("(")
+            reader.skip_past(")")
+            self.statement(timing)
+        elif word == "logic":
+            reader.skip_past(";")
+        elif word == ";":
+            reader.take()
+        else:
+            self.assignment(timing)
+
+    def branch(self, timing):
+        """if and else."""
+        reader = self.reader
+        reader.take("if")
+        reader.take("(")
+        condition = parse_expression(reader)
+        reader.take(")")
+        if condition.source(self.text) != "!rst_ni":
+            self.sites.append(Site("condition", condition))
+        self.statement(timing)
+        if reader.peek() == "else":
+            reader.take()
+            self.statement(timing)
+
+    def cases(self, timing):
+        """case with its labels."""
+        reader = self.reader
+        if reader.peek() == "unique":
+            reader.take()
+        reader.take("case")
+        reader.take("(")
+        self.sites.append(Site("selector", parse_expression(reader)))
+        reader.take(")")
+        while reader.peek() != "endcase":
+            if reader.peek() == "default":
+                reader.take()
+            else:
+                self.sites.append(Site("label", parse_expression(reader)))
+                while reader.peek() == ",":
+                    reader.take()
+                    self.sites.append(Site("label", parse_expression(reader)))
+            reader.take(":")
+            self.statement(timing)
+        reader.take()
+
+    def assignment(self, timing):
+        """One assignment, blocking or not."""
+        reader = self.reader
+        target = self.target()
+        op = reader.take()
+        if op.text not in ("=", "<="):
+            raise Syntax(f"line {line_of(self.text, op.start)}: no assignment: {op.text!r}")
+        value = parse_expression(reader)
+        end = reader.take(";")
+        self.sites.append(Site("target", target))
+        extent = (target.start, end.end) if timing == "always_ff" else None
+        self.sites.append(Site("value", value, timing, extent))
+
+    def target(self):
+        """Left side of an assignment; `<=` after it is no comparison."""
+        from sv_tree import parse_postfix, parse_primary
+        return parse_postfix(self.reader, parse_primary(self.reader))
+
+
+def read_module(text):
+    """Sites of the one module in the text of a file."""
+    return ModuleReader(text).read()
