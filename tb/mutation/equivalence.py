@@ -26,18 +26,17 @@ RAM = "can_mb_ram"      # cut off always: its inputs must be equal
 
 
 class Plain:
-    """A mutant alone, without a selector."""
+    """One mutant alone, without a selector; None: the original."""
+
+    def __init__(self, wanted):
+        self.wanted = wanted
 
     def __call__(self, mutants, inside, _):
-        for mutant in mutants:
-            if mutant.number:
-                return f"({mutant.mutated})"
-        return inside
+        return f"({self.wanted.mutated})" if self.wanted in mutants else inside
 
-    @staticmethod
-    def test(mutant, _):
+    def test(self, mutant, _):
         """The condition under which its statement does not happen."""
-        return "1"
+        return "1'b1" if mutant is self.wanted else "1'b0"
 
 
 def children(design, module):
@@ -72,11 +71,10 @@ def prove(design, mutant, top, cut, seconds):
     """True if abc has proven it, False if it has found a difference, None if neither."""
     with tempfile.TemporaryDirectory() as name:
         directory = pathlib.Path(name)
-        for side, number in (("gold", 0), ("gate", 1)):
+        for side, wanted in (("gold", None), ("gate", mutant)):
             (directory / side).mkdir()
-            mutant.number = number
             for file in design.files:
-                (directory / side / file.path.name).write_text(rewrite(file, Plain()),
+                (directory / side / file.path.name).write_text(rewrite(file, Plain(wanted)),
                                                                encoding="utf-8")
         (directory / "miter.ys").write_text(script(design, directory, top, cut), encoding="utf-8")
         built = subprocess.run(["yosys", "-q", "miter.ys"], cwd=directory, capture_output=True,
@@ -106,6 +104,17 @@ def attempts(design, mutant):
             yield top, [RAM]
 
 
+def proof_of(design, mutant, seconds, show=lambda *_: None):
+    """Where the mutant is proven to change nothing, in words; None if it is not."""
+    mutant.number = mutant.number or 1
+    for top, cut in attempts(design, mutant):
+        result, text = prove(design, mutant, top, cut, seconds)
+        show(top, cut, result, text)
+        if result:
+            return f"in {top}" + (f" without {', '.join(cut)}" if cut else "")
+    return None
+
+
 def main():
     """Entry point."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -119,17 +128,10 @@ def main():
         if name not in everything:
             sys.exit(f"equivalence.py: {name}: no such mutant")
         mutant = everything[name]
-        answer = "nothing proven"
-        for top, cut in attempts(design, mutant):
-            result, text = prove(design, mutant, top, cut, options.seconds)
-            if options.v:
-                print(top, cut, result, text[-600:])
-            if result:
-                answer = f"proven equivalent in {top}" + (
-                    f", without {', '.join(cut)}" if cut else "")
-                break
-        mutant.number = 0
-        print(f"{name}  {mutant.shown()}: {answer}", flush=True)
+        show = print if options.v else lambda *_: None
+        where = proof_of(design, mutant, options.seconds, show)
+        print(f"{name}  {mutant.shown()}: "
+              + (f"proven equivalent {where}" if where else "nothing proven"), flush=True)
 
 
 if __name__ == "__main__":

@@ -19,10 +19,13 @@ class Report:
 
     def verdict(self, mutant):
         """killed, proven, argued or survivor; a killed one is killed whatever is known of it."""
-        if self.results[mutant.name]["killed"]:
+        result = self.results[mutant.name]
+        if result["killed"]:
             return "killed"
+        if "proven" in result:
+            return "proven"
         entry = self.known.find(mutant)
-        return entry["verdict"] if entry else "survivor"
+        return "argued" if entry and entry["verdict"] == "argued" else "survivor"
 
     def count(self, verdict, mutants=None):
         """Mutants with the verdict."""
@@ -66,6 +69,8 @@ class Report:
             if self.verdicts[mutant.name] == "survivor":
                 entry = self.known.find(mutant)
                 reason = entry["reason"] if entry else "not looked at"
+                if entry and entry["verdict"] == "proven":
+                    reason = "called proven, but the proof fails now"
                 rows.append([mutant.name, mutant.kind, mutant.shown(), " ".join(reason.split())])
         return rows
 

@@ -12,12 +12,14 @@ import sys
 import time
 
 import models
+from equivalence import proof_of
 from known import Known
 from mutants import Design, choose
 from regression import Regression, in_parallel, programs
 from report import Report
 
 FULL = 1100            # mutants at scale 1
+PROOF_SECONDS = 60     # limit of one proof
 
 
 def arguments():
@@ -80,8 +82,8 @@ def wanted(options, design):
 class Campaign:
     """One run: builds, what each test can see, and the verdict on each mutant."""
 
-    def __init__(self, options, chosen):
-        self.options, self.chosen = options, chosen
+    def __init__(self, options, design, known, chosen):
+        self.options, self.design, self.known, self.chosen = options, design, known, chosen
         self.programs = programs(models.ROOT)
         numbers = {mutant.name: mutant.number for mutant in chosen}
         targets = [name for _, name in self.programs]
@@ -147,7 +149,12 @@ class Campaign:
         return time.monotonic() - begin
 
     def judge(self, mutant):
-        """Runs the tests that can see a mutant, the quickest programs first."""
+        """Proves it again, or runs the tests that can see it, the quickest programs first."""
+        entry = self.known.find(mutant)
+        if entry and entry["verdict"] == "proven":
+            where = proof_of(self.design, mutant, PROOF_SECONDS)
+            if where:
+                return {"killed": False, "proven": where, "tests": 0, "seconds": 0}
         groups = {}
         for program, test, seconds in self.seen.get(mutant.number, []):
             groups.setdefault(program, []).append((test, seconds))
@@ -180,7 +187,7 @@ def main():
         for mutant in run:
             print(f"{mutant.name:28} {mutant.kind:20} {mutant.shown()}")
         return
-    campaign = Campaign(options, chosen)
+    campaign = Campaign(options, design, known, chosen)
     campaign.record()
     baseline = campaign.baseline()
     campaign.say(f"regression without a mutant: {baseline:.0f} s; {len(run)} mutants to run")
