@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Stage `fuzz` of the campaign: every parser by libFuzzer, and the register interface.
 
-Builds the libFuzzer programs (cmake --preset fuzz, build/fuzz) and runs them two at a time, a million
-cases each at scale 1, then fuzz_registers of build/release. The result goes to CAMPAIGN_OUT.
+Builds the libFuzzer programs (cmake --preset fuzz, build/fuzz) and runs them two at a time, a
+million cases each at scale 1, then fuzz_registers of build/release. The result goes to
+CAMPAIGN_OUT.
 """
 import argparse
 import json
@@ -46,8 +47,8 @@ def run_parser(name, runs, seed, directory):
     environment = dict(os.environ, ASAN_OPTIONS="quarantine_size_mb=16")
     log = directory / f"{name}.log"
     with open(log, "w", encoding="utf-8") as out:
-        code = subprocess.run([*map(str, command), str(scratch), str(corpus)], stdout=out, stderr=out,
-                              env=environment, check=False).returncode
+        code = subprocess.run([*map(str, command), str(scratch), str(corpus)], stdout=out,
+                              stderr=out, env=environment, check=False).returncode
     text = log.read_text(errors="replace")
     covered = re.findall(r"cov: (\d+) ft: (\d+) corp: (\d+)", text)[-1:] or [("0", "0", "0")]
     cases = re.search(r"number_of_executed_units:\s*(\d+)", text)
@@ -139,7 +140,7 @@ def main():
     wanted = max(1, round(FULL * scale))
     build(directory / "build.log")
     names = [name for name in TARGETS if not arguments.only or name in arguments.only]
-    with ThreadPoolExecutor(2) as pool:
+    with ThreadPoolExecutor(int(os.environ.get("CAMPAIGN_JOBS", "2"))) as pool:
         jobs = [pool.submit(run_parser, name, wanted, seed, directory) for name in names]
         registers = [] if arguments.only else [
             pool.submit(run_registers, n, -(-wanted // REGISTER_JOBS), seed, directory)

@@ -40,8 +40,10 @@ RegisterBench::RegisterBench(FuzzedCore::Kind kind, std::uint64_t seed)
     peers_[i]->start();
   }
   core_->ahb().watch([this](const AhbRequest &request, const AhbResponse &response) {
-    // The word of an MCR write follows its address; any word with the bit may be one.
-    if (response.hready && (request.hwdata & reg::kMcrSoftRst) != 0) reset_asked_ = clocks_;
+    if (!response.hready) return;
+    if (mcr_write_ && (request.hwdata & reg::kMcrSoftRst) != 0) reset_asked_ = clocks_;
+    mcr_write_ = request.htrans >= AhbTrans::kNonseq && request.hwrite &&
+                 (request.haddr & 0xFFFC) == reg::kMcr;
   });
 }
 

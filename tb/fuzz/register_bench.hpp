@@ -91,6 +91,7 @@ class RegisterBench {
   WireJudge judge_;
   std::string fault_;
   std::uint64_t clocks_ = 0;
+  bool mcr_write_ = false;         // the data phase is that of a write of MCR
   std::uint64_t reset_asked_ = 0;  // clock of the last soft reset that was asked for; 0: none
   std::uint64_t longest_acknowledge_ = 0;
   std::uint64_t frames_of_core_ = 0;

@@ -15,11 +15,11 @@ bool before_crc_end(Field field, bool stuff) {
   return (field >= Field::kSof && field <= Field::kCrc) || (field == Field::kCrcDel && stuff);
 }
 
-/// May a node be dominant there?
-bool dominant_place(const Trace &at) {
+/// May a node be dominant there? `active`: it was error active when it found the error.
+bool dominant_place(const Trace &at, bool active) {
   if (before_crc_end(at.field, at.stuff)) return at.transmitter;
   if (at.field == Field::kAck) return !at.transmitter;
-  if (at.field == Field::kErrFlag) return !at.passive;
+  if (at.field == Field::kErrFlag) return active;
   return at.field == Field::kOvlFlag;
 }
 
@@ -89,6 +89,7 @@ void WireJudge::clock(const Clock &now) {
     if (setup_.listen_only) break_rule("dominant in listen-only mode");
     if (setup_.loop_back) break_rule("dominant in loop-back");
   }
+  if (at.errors != 0) flag_active_ = !at.passive;  // as it was before the error was counted (EF-01)
   if (at.errors != 0 || at.tx_fail) was_transmitter_ = false;  // that frame is over
   if (at.sample && at.running) on_sample(now, at);
 }
@@ -106,7 +107,7 @@ void WireJudge::on_sample(const Clock &now, const Trace &at) {
   if (now.tx == Level::kDominant) {
     ++dominant_;
     if (at.bus_off) break_rule("dominant in bus-off");  // the bit that led there ends first
-    if (!dominant_place(at))
+    if (!dominant_place(at, flag_active_))
       break_rule(fmt::format("dominant in {}", std::string(field_name(at.field))));
   }
   if (at.bus_off || excused_) following_ = false;

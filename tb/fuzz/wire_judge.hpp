@@ -79,7 +79,8 @@ class WireJudge {
   bool on_bus_ = false;
   bool following_ = false;  // the model goes beside the core
   bool was_transmitter_ = false;
-  bool excused_ = true;  // until the bus has rested for the first time
+  bool flag_active_ = false;  // the error flag of the last error is an active one
+  bool excused_ = true;       // until the bus has rested for the first time
   std::uint64_t excused_count_ = 0;
   std::uint64_t dominant_ = 0;
   std::string fault_;
