@@ -89,4 +89,13 @@
     p_crc_zero: assert (!$past(run_i && sample_i && (take_tx || begin_rx)) || (crc_o == '0 && !mismatch));
     // FC-22: listen-only moves no counter.
     p_frozen: assert (f_silent != 2'b11 || !f_moved || boff_o || $past(boff_o));
+    // IF-01, IF-08, EF-01, OV-01, IN-01: no place between frames, in a flag or delimiter is longer than its rule.
+    p_places: assert (left_o <= (((&field_o[4:2]) && field_o[1:0] != 2'd2 && field_o[1:0] != 2'd1) ? 6'd5
+                      : field_o == can_pkg::FldDel ? 6'd6 : field_o == can_pkg::FldInt ? 6'd2
+                      : field_o == can_pkg::FldSuspend ? 6'd7 : field_o == can_pkg::FldInteg ? 6'd10
+                      : 6'd63));
+    // EF-01, EF-02, OV-01: between frames, in flags and delimiters the level is what the place wants.
+    p_level: assert (!judge_i || !$past(stay_i && run_i) || $past(field_o[4:3] != 2'b00 && !(&field_o[4:2]))
+                     || tx_o == !$past((field_o == can_pkg::FldErrFlag && !passive_flag)
+                                       || field_o == can_pkg::FldOvlFlag));
   end
