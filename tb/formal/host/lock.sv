@@ -1,0 +1,53 @@
+  // SPDX-FileCopyrightText: 2026 The VeriCAN authors
+  // SPDX-License-Identifier: Apache-2.0
+  //
+  // Properties of can_mb_move beside can_mb_lock (lock_move.sv), spliced into it. The moment of
+  // every read, write and frame is free, and so are the words of the RAM.
+
+  logic f_ran, f_moving_q, f_put, f_put_q, f_flag_fifo_q, f_ans_q;
+  logic [IdxW-1:0] f_idx_q;
+  // The C/S word is written (can_mb_step: step 2 with the data, step 3 the code alone).
+  assign f_put = data_i && step_o[1] && moving_o && !cancel_o;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {f_ran, f_moving_q, f_put_q, f_flag_fifo_q, f_ans_q} <= '0;
+      f_idx_q <= '0;
+    end else begin
+      f_ran         <= 1'b1;
+      f_moving_q    <= busy_mb_o;
+      f_put_q       <= f_put && !clear_i;
+      f_flag_fifo_q <= fifo;
+      f_ans_q       <= ans;
+      f_idx_q       <= idx_o;
+    end
+  end
+
+  always @(posedge clk_i) begin
+    // A move takes some ten clocks, a frame at least 47 bits of eight: the hidden row of the frame
+    // on the bus is free when that frame is good. The other may wait for a lock, and only one can.
+    m_time: assume (!(valid_i && (full_q[smb_o] || (mv_q && row_o == smb_o))));
+    if (rst_ni) begin
+      // flexcan.md 3.6: no buffer is both locked and moved into, but in the clock after the
+      // decision, in which nothing is read or written yet.
+      p_not_both: assert (!(lock_i && busy_mb_o && lock_idx_i == idx_o) || (arm_q && !req_o));
+      // flexcan.md 3.6: and so no word is written into a locked buffer.
+      p_locked: assert (!(lock_i && busy_mb_o && lock_idx_i == idx_o && data_i));
+      // flexcan.md 3.2: what a move leaves in the code: FULL, OVERRUN, or 1110 to be answered; in
+      // the FIFO the number of the filter.
+      p_code: assert (top_o[4:1] == 4'b0010 || top_o[4:1] == 4'b0110 || (ans && top_o[4:1] == 4'b1110)
+                      || fifo);
+      // flexcan.md 3.4: a C/S write of the CPU that is not EMPTY cancels the move.
+      p_cancel: assert (!(csw_i && csw_idx_i == idx_o && (!csw_empty_i || ans)) || cancel_o);
+      if (f_ran) begin
+        // flexcan.md 1.5, 3.2: IFLAG tells a frame stored in a mailbox, when its C/S word has been
+        // written; nothing else does.
+        p_flag: assert (flag_o == (f_put_q && !f_flag_fifo_q && !f_ans_q));
+        // flexcan.md 1.5: ... and of the buffer it was written to.
+        p_flag_idx: assert (!flag_o || idx_o == f_idx_q);
+        // flexcan.md 4: a frame is told to the FIFO once it is there.
+        p_stored: assert (stored_o == (f_put_q && f_flag_fifo_q));
+        // flexcan.md 3.7: a request is told to the arbitration once the code is 1110.
+        p_answer: assert (ans_o == (f_put_q && !f_flag_fifo_q && f_ans_q));
+      end
+    end
+  end

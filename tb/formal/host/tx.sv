@@ -1,0 +1,64 @@
+  // SPDX-FileCopyrightText: 2026 The VeriCAN authors
+  // SPDX-License-Identifier: Apache-2.0
+  //
+  // Properties of can_mb_tx, spliced into it. There is no reset: they hold from every state.
+
+  // The order of the bus (flexcan.md 3.3), smaller first: a base frame's bits end with IDE = 0.
+  function automatic logic [34:0] f_value(input logic [31:0] cs, input logic [31:0] id,
+                                          input logic prio);
+    logic [2:0] first;
+    first = prio ? id[31:29] : 3'd0;
+    if (cs[21]) f_value = {first, id[28:18], 1'b1, 1'b1, id[17:0], cs[20]};
+    else        f_value = {first, id[28:18], cs[20], 1'b0, 19'd0};
+  endfunction
+
+  logic f_ran = 1'b0;
+  logic [5:0] f_open = 6'd0;      // clocks that a pass has been under way in calm
+  logic f_calm;
+  assign f_calm = !csw_i && !ans_i && !start_i && !off_i && !bad_i && !retry_i && running_i
+               && ins_gnt_i == ins_req_o && scan_gnt_i == scan_req_o;
+  always @(posedge clk_i) begin
+    f_ran  <= 1'b1;
+    f_open <= !f_calm || s2_end || !(scan_q || look_q) || f_open == 6'd63 ? 6'd0 : f_open + 6'd1;
+  end
+
+  logic [39:0] f_cand, f_best, f_best_q, f_cand_q;
+  assign f_cand = {lbuf_i ? 35'd0 : s2_val_q, 1'b0, 4'(s2_idx_q)};
+  assign f_best = {lbuf_i ? 35'd0 : best_val_q, 1'b0, 4'(best_idx_o)};
+  logic f_lbuf_q, f_take_q, f_won_q;
+  always @(posedge clk_i) begin
+    f_cand_q <= f_cand;
+    f_best_q <= f_best;
+    f_lbuf_q <= lbuf_i;
+    f_take_q <= running_i && candidate;
+    f_won_q  <= best_q && !gone;
+  end
+
+  always @(posedge clk_i) begin
+    m_no_reset: assume (rst_ni);
+    // LBUF is written in freeze mode only (host.regs, p_ctrl1_freeze).
+    m_lbuf: assume (!f_ran || lbuf_i == f_lbuf_q);
+    if (f_ran) begin
+      // flexcan.md 3.3: the arbitration value is that of the order of the bus, with PRIO before it
+      // if LPRIO_EN is set.
+      p_value: assert (!$past(s1_q) || s2_val_q == f_value($past(cs_i), $past(id_i),
+                                                           $past(lprio_en_i)));
+      // flexcan.md 3.3: only codes 1100 and 1110 from the first mailbox to MAXMB take part.
+      p_part: assert (!$past(s1_q) || !s2_active_q
+                      || (($past(cs_i[27:24]) == 4'b1100 || $past(cs_i[27:24]) == 4'b1110)
+                          && 7'(s2_idx_q) >= $past(first_i) && 7'(s2_idx_q) <= $past(maxmb_i)));
+      // FX-9.ERR005829: a candidate without a winner becomes the winner.
+      p_first: assert (!(f_take_q && !f_won_q) || (best_q && f_best == f_cand_q));
+      // FX-9.ERR005829: without a candidate the winner stays as long as nothing touches it.
+      p_stays: assert (!$past(running_i && best_q && !gone && !candidate)
+                       || (best_q && f_best == f_best_q));
+      // FX-9.ERR005829: a winner that is touched makes a pass over all buffers begin.
+      p_pass_begins: assert (!$past(running_i && gone && !s2_end) || scan_q);
+      // FX-9.ERR005829: without a winner a pass begins whenever fresh_i says so.
+      p_fresh: assert (!$past(running_i && fresh_i && !best_q && !s2_end) || scan_q || look_q);
+      // FX-9.ERR005829: a winner that is not active is dropped.
+      p_dropped: assert (!$past(bad_i && running_i && !candidate) || !best_q);
+    end
+    // FX-9.ERR005829: a pass ends: in two turns of 16 buffers, from every state.
+    p_pass_ends: assert (f_open < 6'd40);
+  end
