@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What SoftDriver makes of the buffers and registers.
+#pragma once
+
+#include <cstdint>
+
+#include "node/registers.hpp"
+
+namespace vericansim::driver_map {
+
+inline constexpr unsigned kBuffers = 64;
+inline constexpr unsigned kFilters = 8;   ///< elements of the filter table: buffers 6 and 7
+inline constexpr unsigned kFirstRx = 8;   ///< mailboxes for base frames
+inline constexpr unsigned kFirstTx = 40;  ///< transmit buffers
+inline constexpr unsigned kEndTx = 48;    ///< from here on: unused
+
+/// MCR while all is well, with FRZ: FIFO, queue, AEN, warnings, no own frames.
+inline constexpr std::uint32_t kMode =
+    reg::kMcrSupv | reg::kMcrWrnEn | reg::kMcrFen | reg::kMcrBcc | reg::kMcrSrxDis |
+    VERICAN_MCR_AEN_MASK | VERICAN_MCR_IDAM_SET(VERICAN_MCR_IDAM_FORMAT_A) | (kBuffers - 1);
+/// CTRL1 beside the bit timing: all interrupts, recovery by itself.
+inline constexpr std::uint32_t kCtrlBits = reg::kCtrlBoffMsk | reg::kCtrlErrMsk |
+                                           VERICAN_CTRL1_TWRN_MSK_MASK |
+                                           VERICAN_CTRL1_RWRN_MSK_MASK;
+inline constexpr std::uint32_t kCtrl2 = reg::kCtrl2Eacen | reg::kCtrl2Rrs;
+/// Filter element and its mask: any frame that is extended.
+inline constexpr std::uint32_t kFilterExtended = 1u << 30;
+/// Mask of a mailbox: any base frame, data or remote.
+inline constexpr std::uint32_t kMaskFormat = 1u << 30;
+inline constexpr std::uint32_t kCodeAbort = VERICAN_MB_CS_CODE_SET(0x9);
+
+}  // namespace vericansim::driver_map
