@@ -52,9 +52,10 @@ module can_bit_timing (
   assign edge_o     = tq_i && falling;
   assign bit_o      = smp_i ? (rx_i && prev_q[0]) || (rx_i && prev_q[1]) || (&prev_q) : rx_i;
 
+  // In every clock: an upset flip-flop in it would spoil all bits until the next stop.
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)     tseg1_q <= 5'd2;
-    else if (!run_i) tseg1_q <= {2'b0, propseg_i} + {2'b0, pseg1_i} + 5'd2;
+    if (!rst_ni) tseg1_q <= 5'd2;
+    else         tseg1_q <= {2'b0, propseg_i} + {2'b0, pseg1_i} + 5'd2;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -82,7 +83,8 @@ module can_bit_timing (
       else if (seg2_q && ahead >= tseg2)   pos_q <= {4'b0, ahead != tseg2};
       else if (seg2_q)                     pos_q <= ahead + 5'd1;
       else if (late)                       pos_q <= (pos_q > sjw) ? pos_q + 5'd1 - sjw : 5'd1;
-      else                                 pos_q <= pos_q + 5'd1;
+      // Beyond the sample point by an upset flip-flop: sampled with the next quantum.
+      else                                 pos_q <= (pos_q >= tseg1_q) ? tseg1_q : pos_q + 5'd1;
     end
   end
 

@@ -19,19 +19,20 @@ module can_tq_gen #(
     PresdivWidth_must_be_4_to_16 u_stop ();
   end
 
-  logic [PresdivWidth-1:0] left_q;
+  logic [PresdivWidth-1:0] count_q;  // clocks of the quantum up to the next one
 
-  // tq_o is a register: it stands at the head of the longest paths of the core.
+  // tq_o is a register: it stands at the head of the longest paths of the core. Whatever an upset
+  // flip-flop makes of the count, the quantum ends no later than a whole one after that.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      left_q <= '0;
-      tq_o   <= 1'b0;
+      count_q <= '0;
+      tq_o    <= 1'b0;
     end else if (!run_i || tq_o) begin
-      left_q <= presdiv_i;
-      tq_o   <= (presdiv_i == '0);  // while stopped nobody looks at it
+      count_q <= PresdivWidth'(1);
+      tq_o    <= (presdiv_i == '0);  // while stopped nobody looks at it
     end else begin
-      left_q <= left_q - 1'b1;
-      tq_o   <= (left_q == PresdivWidth'(1));
+      count_q <= count_q + 1'b1;
+      tq_o    <= (count_q >= presdiv_i);
     end
   end
 

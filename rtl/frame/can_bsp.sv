@@ -108,7 +108,7 @@ module can_bsp (
   );
 
   can_tx_frame u_tx_frame (
-    .clk_i, .rst_ni, .boundary_i, .run_i(stay_i), .mute_i(lom_i || lpb_i),
+    .clk_i, .rst_ni, .active_i(run_i), .boundary_i, .run_i(stay_i), .mute_i(lom_i || lpb_i),
     .field_i(field_o), .transmitter_i(transmitter_o), .stuff_i(stuff_o), .prev_i(prev),
     .id_bit_i(id_bit), .ex_id_bit_i(ex_id_bit), .data_bit_i(data_bit), .crc_bit_i(crc_bit),
     .ide_i(rx_ide_o), .rtr_i(rx_rtr_o), .dlc_bit_i(rx_dlc_o[3]),

@@ -58,7 +58,9 @@ module can_field (
   assign passive_flag_o   = passive_flag_q;
   assign overload_frame_o = overload_q;
 
-  assign ends    = (left_q == '0);
+  // Flags and delimiters have less than eight bits: higher bits of the count, which only an upset
+  // flip-flop sets there (but see FldWait), must not make a dominant flag longer.
+  assign ends    = (left_q[2:0] == '0) && (left_q[5:3] == '0 || (&field_q[4:2]));
   assign suspend = tx_q && passive_i;                                        // IF-08, IF-11
 
   // May a frame begin after this bit? A recessive one lets an own frame begin, a dominant one is a
@@ -122,7 +124,8 @@ module can_field (
         left_q  <= 6'd10;
       end else if (!stuff_i) begin
         if (lost_i) tx_q <= 1'b0;
-        if (!last_q) left_q <= left_q - 6'd1;
+        if (!last_q) left_q <= {(&field_q[4:2]) ? 3'd0 : left_q[5:3] - 3'(left_q[2:0] == '0),
+                                left_q[2:0] - 3'd1};
         case (field_q)
           can_pkg::FldInteg, can_pkg::FldBusOff: begin
             if (last_q || !bit_i) left_q <= 6'd10;

@@ -35,7 +35,7 @@ module can_stuff (
       counts = field_i[4] ^ field_i[3];
       run    = (counts && bit_i == last_o) ? run_q + 3'd1 : 3'd1;
       run_q  <= run;
-      five_q <= counts && (run == 3'd5);
+      five_q <= counts && (run >= 3'd5);  // beyond five: an upset flip-flop
       last_o <= bit_i;
     end
   end

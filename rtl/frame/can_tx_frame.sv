@@ -7,6 +7,7 @@
 module can_tx_frame (
   input  logic            clk_i,
   input  logic            rst_ni,
+  input  logic            active_i,       // 0: the engine stands; no level, whatever was upset
   input  logic            boundary_i,     // last clock of a bit
   input  logic            run_i,          // 0: recessive from the next bit on (MO-13)
   input  logic            mute_i,         // listen-only or loop-back: the pin stays recessive
@@ -29,6 +30,9 @@ module can_tx_frame (
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
+      tx_o     <= can_pkg::Recessive;
+      can_tx_o <= can_pkg::Recessive;
+    end else if (!active_i) begin
       tx_o     <= can_pkg::Recessive;
       can_tx_o <= can_pkg::Recessive;
     end else if (boundary_i) begin : choose

@@ -23,6 +23,8 @@ namespace {
 constexpr unsigned kRounds = 20;
 constexpr unsigned kJobsPerRound = 24;
 constexpr unsigned kRamFlipsPerJob = 8;
+// Added to a seed it gives another moment of the same scene.
+constexpr std::uint64_t kOtherMoment = std::uint64_t{kScenes} * 5'000;
 
 /// What a child hands back.
 struct Shared {
@@ -104,7 +106,14 @@ std::vector<Job> plan_jobs(std::uint64_t seed, double share) {
   return jobs;
 }
 
-std::vector<Record> run_job(const Job &job) {
+namespace {
+
+/// A run without a flip that is not as it should be.
+struct UncleanScene : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+std::vector<Record> run_moment(const Job &job) {
   World world(job.seed);
   const std::uint64_t span = world.window_end() - world.window_begin();
   const std::uint64_t time =
@@ -114,7 +123,7 @@ std::vector<Record> run_job(const Job &job) {
   Outcome reference = in_child(world, {});
   const std::string wrong = complaint(reference);
   if (!wrong.empty()) {
-    throw std::runtime_error("seed " + std::to_string(job.seed) + " without a flip: " + wrong);
+    throw UncleanScene("seed " + std::to_string(job.seed) + " without a flip: " + wrong);
   }
   std::vector<Record> records;
   for (const Flip &flip : job.flips) {
@@ -125,6 +134,21 @@ std::vector<Record> run_job(const Job &job) {
     records.push_back(record);
   }
   return records;
+}
+
+}  // namespace
+
+// Two disturbances in the last bits of a frame may lose it (VA-03), without any flip. Then another
+// moment of the same scene is taken; only there can that be.
+std::vector<Record> run_job(const Job &job) {
+  try {
+    return run_moment(job);
+  } catch (const UncleanScene &) {
+    if (job.time || static_cast<Scene>(job.seed % kScenes) != Scene::kErrors) throw;
+    Job other = job;
+    other.seed += kOtherMoment;
+    return run_moment(other);
+  }
 }
 
 std::vector<Record> run_jobs(const std::vector<Job> &jobs, unsigned processes,

@@ -75,9 +75,9 @@ void World::plan() {
 Level World::dut_level(Level bus) const {
   if (clock_ >= deaf_from_ && clock_ < deaf_until_ && !was_off_) return Level::kRecessive;
   if (clock_ >= begin_ && clock_ < noise_until_) {
-    // One bit in 40 or so is wrong, as long as the flip is still to come.
+    // One bit in 100 or so is wrong until a little after the last moment of a flip.
     const std::uint64_t bit = clock_ / bit_clocks();
-    if (mix(seed_ ^ (bit << 20)) % 40 == 0) return !bus;
+    if (mix(seed_ ^ (bit << 20)) % 100 == 0) return !bus;
   }
   return bus;
 }

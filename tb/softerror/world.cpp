@@ -169,8 +169,8 @@ void World::watch() {
 }
 
 // The longest run of dominant bits that a node may send: five in a frame and the six of an active
-// flag that follows at once; each further error inside lets a new flag begin. One bit more for a
-// flip that comes inside a bit.
+// flag that follows at once; each further error inside lets a new flag of six begin, and the flip
+// itself counts as one (docs/soft-errors.md). One bit more for a flip that comes inside a bit.
 void World::watch_pin(std::uint64_t trace) {
   if (dut_->tx() == Level::kRecessive) {
     run_clocks_ = 0;
@@ -184,7 +184,7 @@ void World::watch_pin(std::uint64_t trace) {
   }
   const unsigned bit = dut_->bit_clocks();
   sight_.longest_run = std::max(sight_.longest_run, 10 * run_clocks_ / bit);
-  if (run_clocks_ > (5 + 6 * std::max(1u, run_errors_) + 1) * bit) sight_.run_too_long = true;
+  if (run_clocks_ > (5 + 6 * (run_errors_ + 1) + 1) * bit) sight_.run_too_long = true;
 }
 
 }  // namespace vericansim

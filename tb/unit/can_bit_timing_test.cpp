@@ -34,10 +34,7 @@ class BitTimer {
  public:
   explicit BitTimer(const BitTiming &timing, bool triple = false, unsigned clocks = 1)
       : clocks_{clocks} {
-    top_.propseg_i = timing.prop - 1;
-    top_.pseg1_i = timing.ps1 - 1;
-    top_.pseg2_i = timing.ps2 - 1;
-    top_.rjw_i = timing.sjw - 1;
+    set(timing);
     top_.smp_i = triple;
     top_.rx_i = 1;
     top_.tx_i = 1;
@@ -49,6 +46,13 @@ class BitTimer {
   }
   ~BitTimer() { top_.final(); }
 
+  /// The segments, also while it runs.
+  void set(const BitTiming &timing) {
+    top_.propseg_i = timing.prop - 1;
+    top_.pseg1_i = timing.ps1 - 1;
+    top_.pseg2_i = timing.ps2 - 1;
+    top_.rjw_i = timing.sjw - 1;
+  }
   /// Level that the node sends in the current bit, and whether the next one synchronises hard.
   void sends(Level level) { top_.tx_i = static_cast<unsigned>(level); }
   void next_hard(bool hard) { top_.hard_i = hard; }
@@ -352,6 +356,20 @@ TEST(CanBitTiming, FirstBitIsWhole) {
   const BitTiming t{.prop = 3, .ps1 = 2, .ps2 = 2, .sjw = 1};
   BitTimer timer{t};
   EXPECT_TRUE(timer.bit(kR, t.quanta()));
+}
+
+// BT-05: a position beyond the sample point, as an upset flip-flop makes it (here: segments that
+// shrink), is sampled at once, and the segments in use are always those of the inputs.
+TEST(CanBitTiming, PositionBeyondTheSamplePointEndsTheBit) {
+  BitTimer timer({.prop = 8, .ps1 = 8, .ps2 = 2});
+  for (int i = 0; i < 12; ++i) EXPECT_FALSE(timer.quantum(kR).sample);
+  timer.set({.prop = 2, .ps1 = 3, .ps2 = 2});
+  const Grid grid = run(timer, 24, 0, 0);
+  ASSERT_GE(grid.ends.size(), 3u);
+  EXPECT_LE(grid.samples[0], 3u);
+  EXPECT_EQ(grid.ends[0] - grid.samples[0], 3u);
+  EXPECT_EQ(grid.ends[1] - grid.ends[0], 8u);
+  EXPECT_EQ(grid.ends[2] - grid.ends[1], 8u);
 }
 
 }  // namespace

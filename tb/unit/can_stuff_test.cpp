@@ -99,5 +99,16 @@ TEST_F(CanStuff, RunOfAnAbortedFrameIsForgotten) {
   EXPECT_TRUE(bit(1, Field::kId));
 }
 
+// ST-01: a run that is longer than five, as an upset flip-flop can make it, does not go on until
+// the counter has wrapped: the next bit is a stuff bit in any case.
+TEST_F(CanStuff, RunBeyondFiveAsksForAStuffBitToo) {
+  idle(3);
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(bit(0, Field::kId)) << i;
+  EXPECT_TRUE(bit(0, Field::kId));
+  EXPECT_TRUE(bit(0, Field::kId));
+  EXPECT_TRUE(bit(1, Field::kId));
+  EXPECT_FALSE(bit(1, Field::kId));
+}
+
 }  // namespace
 }  // namespace vericansim

@@ -57,5 +57,18 @@ TEST_F(CanTqGen, QuantumAfterAStopIsWhole) {
   }
 }
 
+// BT-01: a count that is beyond the prescaler, as an upset flip-flop makes it (here: a prescaler
+// that shrinks), ends the quantum at once, and the next one is whole.
+TEST_F(CanTqGen, CountBeyondThePrescalerEndsTheQuantum) {
+  for (const unsigned prescaler : {1u, 2u, 5u, 100u}) {
+    start(256);
+    for (unsigned i = 0; i < 150; ++i) tq_.clock();
+    tq_->presdiv_i = prescaler - 1;
+    tq_.settle();
+    EXPECT_LE(quantum(), 2u) << prescaler;
+    EXPECT_EQ(quantum(), prescaler);
+  }
+}
+
 }  // namespace
 }  // namespace vericansim

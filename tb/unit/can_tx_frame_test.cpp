@@ -28,6 +28,7 @@ class CanTxFrame : public testing::Test {
   void SetUp() override {
     tx_.reset();
     tx_->run_i = 1;
+    tx_->active_i = 1;
   }
   /// Every bit source at `level`.
   void sources(bool level) {
@@ -150,6 +151,16 @@ TEST_F(CanTxFrame, StoppedNodeSendsRecessive) {
   EXPECT_FALSE(level(Field::kOvlFlag));
   tx_->rst_ni = 0;
   tx_.settle();
+  EXPECT_TRUE(tx_->can_tx_o);
+}
+
+// MO-13, TH-06: an engine that stands has no bit boundaries; a level that an upset flip-flop left
+// there must not stay.
+TEST_F(CanTxFrame, EngineThatStandsSendsRecessiveWithoutABoundary) {
+  ASSERT_FALSE(level(Field::kOvlFlag));
+  tx_->active_i = 0;
+  tx_.clock();
+  EXPECT_TRUE(tx_->tx_o);
   EXPECT_TRUE(tx_->can_tx_o);
 }
 
