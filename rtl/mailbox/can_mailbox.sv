@@ -150,6 +150,7 @@ module can_mailbox #(
   logic [1:0]      rx_word;
   logic [IdxW:0]   rx_mask_row;
   logic [8:0]      idhit;
+  logic [1:0]      way;
   can_mb_match #(.NumMb(NumMb)) u_match (
     .clk_i, .rst_ni, .clear_i(fifo_clear_i), .bcc_i, .eacen_i, .rrs_i, .maxmb_i,
     .fen_i, .idam_i, .rffn_i, .mrp_i, .first_i(first),
@@ -159,7 +160,8 @@ module can_mailbox #(
     .req_o(rx_req), .idx_o(rx_idx), .word_o(rx_word), .mask_row_o(rx_mask_row), .gnt_i(rx_gnt),
     .stale_i(stale), .cs_i(cs), .msg_i(msg), .mask_i(mask),
     .done_o(match_done), .hit_o(hit), .hit_idx_o(hit_idx), .hit_fifo_o(hit_fifo),
-    .hit_ans_o(hit_ans), .resolve_i(resolve), .stored_i(stored), .idhit_o(idhit),
+    .hit_ans_o(hit_ans), .resolve_i(resolve), .stored_i(stored), .way_i(way),
+    .idhit_o(idhit),
     .pop_i(fifo_pop_i), .head_o(fifo_head), .avail_o(fifo_avail_o), .warn_o(fifo_warn_o),
     .ovf_o(fifo_ovf_o));
 
@@ -191,7 +193,8 @@ module can_mailbox #(
     .csw_i(csw), .csw_idx_i(csw_idx), .csw_empty_i(csw_empty),
     .req_o(mv_req), .step_o(mv_step), .row_o(mv_row), .idx_o(mv_idx),
     .data_i(mv_data), .cs_i(cs), .top_o(mv_top), .cancel_o(mv_cancel),
-    .moving_o(moving), .busy_mb_o(mv_busy_mb), .flag_o(mv_flag), .stored_o(stored), .ans_o(ans),
+    .moving_o(moving), .busy_mb_o(mv_busy_mb), .flag_o(mv_flag), .stored_o(stored),
+    .way_o(way), .ans_o(ans),
     .busy_o(mv_busy));
 
   // Transmission.

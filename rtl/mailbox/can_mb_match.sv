@@ -59,6 +59,7 @@ module can_mb_match #(
   output logic            hit_ans_o,    // nowhere: the buffer answers it
   input  logic            resolve_i,    // the result is taken over
   input  logic            stored_i,     // the frame is in the FIFO
+  input  logic [1:0]      way_i,        // frames on their way there
   output logic [8:0]      idhit_o,      // filter element of the frame on its way there
   // CPU's side of the FIFO.
   input  logic            pop_i,
@@ -95,7 +96,7 @@ module can_mb_match #(
   can_rx_fifo u_fifo (
     .clk_i, .rst_ni, .clear_i, .bcc_i, .mrp_i, .pop_i, .head_o, .avail_o, .warn_o, .ovf_o,
     .rx_hdr_i, .filter_i(flt_hit), .idhit_i(idhit), .mb_hit_i(mb_hit), .mb_free_i(mb_free),
-    .enough_o(enough), .take_o(hit_fifo_o), .resolve_i, .stored_i, .tail_o(tail), .idhit_o);
+    .enough_o(enough), .take_o(hit_fifo_o), .resolve_i, .stored_i, .way_i, .tail_o(tail), .idhit_o);
 
   // Masks of mailboxes: their own, or RXGMASK, RX14MASK, RX15MASK; all ones where a remote frame
   // looks for its answer (a row that nobody writes).

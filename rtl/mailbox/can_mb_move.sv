@@ -50,6 +50,7 @@ module can_mb_move #(
   output logic            busy_mb_o,     // ... and is BUSY
   output logic            flag_o,        // pulse: set IFLAG of idx_o
   output logic            stored_o,      // pulse: the frame is in the Rx FIFO
+  output logic [1:0]      way_o,         // frames on their way there, for each row
   output logic            ans_o,         // pulse: buffer idx_o has code 1110 now
   output logic            busy_o         // something is still to be done
 );
@@ -63,6 +64,8 @@ module can_mb_move #(
   logic [1:0] ready, kill;
   assign ready[0] = full_q[0] && !(unres_q && !unres_row_q) && !(lock_i && lock_idx_i == tgt0_q);
   assign ready[1] = full_q[1] && !(unres_q && unres_row_q) && !(lock_i && lock_idx_i == tgt1_q);
+
+  assign way_o = full_q & fifo_q & ~{unres_q && unres_row_q, unres_q && !unres_row_q};
 
   // A C/S write cancels what waits for this buffer; EMPTY leaves an unlocked buffer a target.
   logic csw_cancels;

@@ -6,6 +6,9 @@
 //
 // The places are the rows of buffers 0 to 5, used in a ring; a frame is moved into its place like
 // into a mailbox. The output is the row head_o, so that taking a frame out moves nothing.
+//
+// What can be derived is not counted twice: where the next frame goes follows from the output, the
+// fill and the frames on their way, so that both ends agree again whatever an upset flip-flop did.
 
 module can_rx_fifo (
   input  logic       clk_i,
@@ -30,22 +33,27 @@ module can_rx_fifo (
   // Moves.
   input  logic       resolve_i,      // the frame is good; its place is decided in this clock
   input  logic       stored_i,       // it is there
+  input  logic [1:0] way_i,          // taken and not there yet: one bit for each that may be
   output logic [2:0] tail_o,         // its row, in the clock of resolve_i
   output logic [8:0] idhit_o         // its element, from then on until stored_i
 );
   localparam logic [2:0] Depth = 3'd6;
 
   function automatic logic [2:0] next(input logic [2:0] row);
-    next = row == Depth - 3'd1 ? 3'd0 : row + 3'd1;
+    next = row >= Depth - 3'd1 ? 3'd0 : row + 3'd1;
   endfunction
 
-  // Frames at the output or behind it; used_q counts the one on its way, too.
-  logic [2:0] head_q, fill_q, used_q;
+  // Frames at the output or behind it; those on their way are used places, too.
+  logic [2:0] head_q, fill_q, used;
+  logic [3:0] ring;
   logic       pop, put, full;
+  assign used    = fill_q + {2'b0, way_i[0]} + {2'b0, way_i[1]};
+  assign ring    = {1'b0, head_q} + {1'b0, used};
+  assign tail_o  = 3'(ring >= {1'b0, Depth} ? ring - {1'b0, Depth} : ring);
   assign avail_o = fill_q != '0;
   assign pop     = pop_i && avail_o;
   assign put     = resolve_i && take_o;
-  assign full    = used_q == Depth;
+  assign full    = used >= Depth;
   assign head_o  = pop ? next(head_q) : head_q;
 
   // Mailbox first: a free one, or with BCC=0 the first that fits.
@@ -57,20 +65,16 @@ module can_rx_fifo (
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {head_q, tail_o, fill_q, used_q} <= '0;
+      {head_q, fill_q} <= '0;
       enough_o <= 1'b0;
       idhit_o  <= '0;
     end else if (clear_i) begin
-      {head_q, tail_o, fill_q, used_q} <= '0;
+      {head_q, fill_q} <= '0;
       enough_o <= 1'b0;
     end else begin
-      head_q <= head_o;
+      head_q <= head_q >= Depth ? 3'd0 : head_o;
       fill_q <= fill_q + {2'b0, stored_i && !pop} - {2'b0, pop && !stored_i};
-      used_q <= used_q + {2'b0, put && !pop} - {2'b0, pop && !put};
-      if (put) begin
-        tail_o  <= next(tail_o);
-        idhit_o <= idhit_i;
-      end
+      if (put) idhit_o <= idhit_i;
       // Room now is room later: only this frame can take it.
       enough_o <= !rx_hdr_i && (enough_o || (filter_i && !mrp_i && !full));
     end

@@ -21,8 +21,10 @@ class RxFifoRing : public ::testing::Test {
  protected:
   RxFifoRing() { top_.reset(); }
 
-  /// One clock; the combinational outputs in it are left in the members.
+  /// One clock; the combinational outputs in it are left in the members. Beside the block, a frame
+  /// is on its way from the clock after it was taken to that after it was stored.
   void clock(bool pop, bool resolve, bool stored) {
+    top_->way_i = way_;
     top_->pop_i = pop;
     top_->resolve_i = resolve;
     top_->stored_i = stored;
@@ -32,11 +34,15 @@ class RxFifoRing : public ::testing::Test {
     ovf_ = top_->ovf_o;
     head_ = top_->head_o;
     tail_ = top_->tail_o;
+    if (resolve && take_) way_ = 1;
+    if (stored || top_->clear_i) way_ = 0;
     top_.clock();
+    top_->way_i = way_;
+    top_.settle();
   }
 
   bool take_ = false, warn_ = false, ovf_ = false;
-  unsigned head_ = 0, tail_ = 0;
+  unsigned head_ = 0, tail_ = 0, way_ = 0;
   std::mt19937 rng_{9};
   LeafModel<Vcan_rx_fifo> top_;
 };
@@ -105,6 +111,31 @@ TEST_F(RxFifoRing, ClearEmptiesIt) {  // FX-MCR.FEN
   }
   clock(false, true, false);
   EXPECT_TRUE(ovf_);
+}
+
+// A frame that is taken and, by an upset flip-flop, never stored: what comes later is found where
+// it was put, and there is room for as many as before.
+TEST_F(RxFifoRing, LostFrameDoesNotShiftTheRing) {  // FX-4.b
+  top_->filter_i = 1;
+  for (unsigned lost = 0; lost < 2 * kDepth + 1; ++lost) {
+    clock(false, true, false);
+    way_ = 0;
+    clock(false, false, false);
+    std::deque<unsigned> rows;
+    for (unsigned i = 0; i < kDepth; ++i) {
+      clock(false, true, false);
+      ASSERT_TRUE(take_) << i;
+      rows.push_back(tail_);
+      clock(false, false, true);
+    }
+    for (; !rows.empty(); rows.pop_front()) {
+      clock(false, false, false);
+      ASSERT_TRUE(top_->avail_o);
+      ASSERT_EQ(head_, rows.front());
+      clock(true, false, false);
+    }
+    ASSERT_FALSE(top_->avail_o);
+  }
 }
 
 // No search of the mailboxes: an element fits, there is room and the FIFO comes first.
