@@ -16,6 +16,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "softerror/wave.hpp"
+
 namespace vericansim {
 namespace {
 
@@ -42,14 +44,17 @@ Shared &shared() {
   return *page;
 }
 
-Outcome in_child(World &world, const Flip &flip) {
+Outcome in_child(World &world, const Flip &flip, const std::string &wave = {}) {
   Shared &page = shared();
   page.outcome = {};
   std::fflush(nullptr);
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("no process for a flip");
   if (child == 0) {
-    page.outcome = experiment(world, flip, page.reference);
+    if (!wave.empty()) open_wave(world, wave, flip.index);
+    const Outcome outcome = experiment(world, flip, page.reference);
+    close_wave(world);
+    page.outcome = outcome;
     _exit(0);
   }
   int status = 0;
@@ -128,7 +133,7 @@ std::vector<Record> run_moment(const Job &job) {
   std::vector<Record> records;
   for (const Flip &flip : job.flips) {
     Record record;
-    record.outcome = in_child(world, flip);
+    record.outcome = in_child(world, flip, job.wave);
     record.outcome.seed = job.seed;
     record.verdict = judge(record.outcome, reference);
     records.push_back(record);

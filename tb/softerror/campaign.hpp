@@ -26,6 +26,7 @@ struct Job {
   std::uint64_t seed = 0;
   std::optional<std::uint64_t> time;  ///< clocks; empty: chosen by the seed
   std::vector<Flip> flips;
+  std::string wave;  ///< VCD file of the (last) flip; empty: none
 };
 
 /// Jobs in which every flip-flop is flipped `rounds` times, each time in another job, and so many

@@ -20,6 +20,7 @@ struct Options {
   std::uint64_t seed = 1;
   std::uint64_t time = 0;
   int stuck = -1;
+  std::string wave;
   double scale = 1.0;
   unsigned jobs = 2;
   bool list = false;
@@ -39,6 +40,7 @@ int one_flip(const Options &options) {
   Job job;
   job.seed = options.seed;
   if (options.time != 0) job.time = options.time;
+  job.wave = options.wave;
   const auto kind = options.stuck < 0    ? Flip::Kind::kFlop
                     : options.stuck == 0 ? Flip::Kind::kStuckAt0
                                          : Flip::Kind::kStuckAt1;
@@ -64,6 +66,7 @@ int run(int argc, char **argv) {
   app.add_option("--time", options.time, "clock of the flip; default: chosen by the seed");
   app.add_option("--stuck", options.stuck, "with --flop: a defect, stuck at 0 or 1 from then on")
       ->check(CLI::Range(0, 1));
+  app.add_option("--wave", options.wave, "with --flop: VCD file of the run from the flip on");
   app.add_option("--scale", options.scale, "share of the whole campaign, above 0, at most 1")
       ->envname("CAMPAIGN_SCALE")
       ->check(CLI::Range(0.0, 1.0));

@@ -83,18 +83,24 @@ Value worst(const std::vector<Record> &records, Value Outcome::*member, Cure mos
 /// Variables whose flips came out as one of these classes: name, and how many flips of how many.
 json variables(const std::vector<Record> &records, const std::set<Verdict> &verdicts) {
   std::map<std::string, std::array<unsigned, 3>> found;
+  std::map<std::string, std::string> example;
   for (const Record &record : records) {
     if (is_ram(record)) continue;
     auto &entry = found[FlopNode::flops()[record.outcome.flip.index].variable];
     ++entry[1];
     if (verdicts.count(record.verdict) == 0) continue;
-    ++entry[0];
-    entry[2] = std::max(entry[2], static_cast<unsigned>(record.verdict));
+    if (entry[0]++ == 0 || static_cast<unsigned>(record.verdict) > entry[2]) {
+      entry[2] = static_cast<unsigned>(record.verdict);
+      example[FlopNode::flops()[record.outcome.flip.index].variable] =
+          "--flop " + name_of(record.outcome.flip) + " --seed " +
+          std::to_string(record.outcome.seed);
+    }
   }
   json rows = json::array();
   for (const auto &[name, entry] : found) {
     if (entry[0] != 0)
-      rows.push_back({name, entry[0], entry[1], to_string(static_cast<Verdict>(entry[2]))});
+      rows.push_back({name, entry[0], entry[1], to_string(static_cast<Verdict>(entry[2])),
+                      example[name]});
   }
   return rows;
 }
@@ -191,10 +197,10 @@ void write_json(const std::vector<Record> &records, const std::string &path) {
        {"columns", {"class", "C/S", "MSG", "MASK", "all"}},
        {"rows", table(records, true, {"C/S", "MSG", "MASK"})}},
       {{"title", "Registers that stay changed until software rewrites them"},
-       {"columns", {"variable", "flips", "of", "worst class"}},
+       {"columns", {"variable", "flips", "of", "worst class", "repeat with"}},
        {"rows", variables(records, {Verdict::kConfig, Verdict::kConfigBad})}},
       {{"title", "Variables whose flip stopped something until software acted"},
-       {"columns", {"variable", "flips", "of", "worst class"}},
+       {"columns", {"variable", "flips", "of", "worst class", "repeat with"}},
        {"rows", variables(records, {Verdict::kStuckRenew, Verdict::kStuckFreeze,
                                     Verdict::kStuckReset, Verdict::kBlocked, Verdict::kHang,
                                     Verdict::kBabble})}}};

@@ -121,6 +121,7 @@ void World::step() {
   if (clock_ % 1013 == 0) clock_neighbour(1, level_);
   ++clock_;
   watch();
+  if (on_clock) on_clock();
 }
 
 void World::clock_neighbour(unsigned n, Level rx) {

@@ -82,6 +82,9 @@ class World {
   /// The hang of an AHB access: HREADYOUT is low for longer than any access takes.
   [[nodiscard]] bool ahb_hangs() const { return dut_->longest_wait() > 64; }
 
+  /// Called after each clock, if set.
+  std::function<void()> on_clock;
+
  private:
   struct Neighbour {
     std::unique_ptr<CoreNode> node;
