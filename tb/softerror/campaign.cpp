@@ -36,8 +36,8 @@ struct Shared {
 
 Shared &shared() {
   static Shared *page = [] {
-    void *at = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
-                    -1, 0);
+    void *at =
+        mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (at == MAP_FAILED) throw std::runtime_error("no shared memory");
     return static_cast<Shared *>(at);
   }();
@@ -121,8 +121,7 @@ struct UncleanScene : std::runtime_error {
 std::vector<Record> run_moment(const Job &job) {
   World world(job.seed);
   const std::uint64_t span = world.window_end() - world.window_begin();
-  const std::uint64_t time =
-      job.time.value_or(world.window_begin() + mix(job.seed + 99) % span);
+  const std::uint64_t time = job.time.value_or(world.window_begin() + mix(job.seed + 99) % span);
   if (time < world.clock()) throw std::runtime_error("the time lies before the scene");
   world.run(time - world.clock());
   Outcome reference = in_child(world, {});

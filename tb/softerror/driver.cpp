@@ -179,18 +179,21 @@ Task<> SoftDriver::renew() {
 // The periodic check of docs/soft-errors.md, and the status registers.
 Task<> SoftDriver::look_at_everything() {
   const std::pair<std::uint32_t, std::uint32_t> written[] = {
-      {reg::kCtrl, timing_.ctrl_fields() | kCtrlBits}, {reg::kCtrl2, kCtrl2},
-      {reg::kExtControl, 0}, {reg::kImask1, ~0u}, {reg::kImask2, ~0u}};
-  constexpr std::uint32_t kModeBits = ~(VERICAN_MCR_NOT_RDY_MASK | VERICAN_MCR_SOFT_RST_MASK |
-                                        reg::kMcrFrzAck | reg::kMcrLpmAck);
+      {reg::kCtrl, timing_.ctrl_fields() | kCtrlBits},
+      {reg::kCtrl2, kCtrl2},
+      {reg::kExtControl, 0},
+      {reg::kImask1, ~0u},
+      {reg::kImask2, ~0u}};
+  constexpr std::uint32_t kModeBits =
+      ~(VERICAN_MCR_NOT_RDY_MASK | VERICAN_MCR_SOFT_RST_MASK | reg::kMcrFrzAck | reg::kMcrLpmAck);
   config_wrong_ = (co_await read(reg::kMcr) & kModeBits) != (kMode | reg::kMcrFrz) ? 1 : 0;
   for (const auto &[address, value] : written) {
     if (co_await read(address) != value) ++config_wrong_;
   }
   status_.clear();
-  for (const std::uint32_t address : {reg::kEcr, reg::kEsr, reg::kIflag1, reg::kIflag2,
-                                      std::uint32_t{VERICAN_ESR2_OFFSET},
-                                      std::uint32_t{VERICAN_CRCR_OFFSET}, reg::kTimer}) {
+  for (const std::uint32_t address :
+       {reg::kEcr, reg::kEsr, reg::kIflag1, reg::kIflag2, std::uint32_t{VERICAN_ESR2_OFFSET},
+        std::uint32_t{VERICAN_CRCR_OFFSET}, reg::kTimer}) {
     const std::uint32_t value = co_await read(address);
     status_.push_back(value);
   }

@@ -21,12 +21,12 @@ namespace vericansim {
 /// What the software is asked to do, beside its daily work.
 enum class Order : std::uint8_t {
   kNone,
-  kFreeze,      ///< and stay there
-  kRun,         ///< leave freeze or disable mode
-  kDisable,     ///< and stay there
-  kRenew,       ///< clear flags, unlock, give all buffers their codes again
-  kReconfigure, ///< freeze, write the whole configuration anew, run
-  kSoftReset,   ///< soft reset, then the set-up from the beginning
+  kFreeze,       ///< and stay there
+  kRun,          ///< leave freeze or disable mode
+  kDisable,      ///< and stay there
+  kRenew,        ///< clear flags, unlock, give all buffers their codes again
+  kReconfigure,  ///< freeze, write the whole configuration anew, run
+  kSoftReset,    ///< soft reset, then the set-up from the beginning
 };
 
 /// The registers that a driver writes once, and what they held when it looked again.

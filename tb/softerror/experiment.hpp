@@ -18,8 +18,8 @@ enum class Cure : std::uint8_t {
   kRenew,        ///< flags cleared, buffers given their codes again
   kReconfigure,  ///< freeze mode and the whole configuration again
   kSoftReset,
-  kHardReset,    ///< nothing that software can do helps
-  kNever,        ///< not even that: the test bench is wrong
+  kHardReset,  ///< nothing that software can do helps
+  kNever,      ///< not even that: the test bench is wrong
 };
 
 /// What is flipped.
@@ -43,7 +43,7 @@ struct Outcome {
   bool run_too_long = false;  ///< dominant for longer than any rule allows
   bool bus_blocked = false;   ///< the neighbours did not get through any more
   Cure cure = Cure::kNone;
-  std::uint32_t errors = 0;   ///< of all nodes, from the flip on
+  std::uint32_t errors = 0;  ///< of all nodes, from the flip on
   std::uint32_t bus_offs = 0;
   std::uint32_t wrong_sent = 0;      ///< frames that nobody was to send, at a neighbour
   std::uint32_t wrong_received = 0;  ///< ... in the driver

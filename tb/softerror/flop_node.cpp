@@ -138,9 +138,9 @@ AhbResponse FlopNode::cycle(const AhbRequest &request) {
     top.eval();
   }
   const AhbResponse response{top.hrdata, top.hreadyout != 0, top.hresp != 0};
-  look(host_seen_,
-       request.haddr | (std::uint64_t{request.hwrite} << 32) | (std::uint64_t{top.htrans} << 33) |
-       (std::uint64_t{response.hready} << 35) | (std::uint64_t{response.hresp} << 36));
+  look(host_seen_, request.haddr | (std::uint64_t{request.hwrite} << 32) |
+                       (std::uint64_t{top.htrans} << 33) | (std::uint64_t{response.hready} << 35) |
+                       (std::uint64_t{response.hresp} << 36));
   look(host_seen_, response.hrdata | (std::uint64_t{request.hwdata} << 32));
   return response;
 }
@@ -214,7 +214,7 @@ unsigned FlopNode::flip_ram(unsigned bit) {
 }
 
 unsigned FlopNode::bit_clocks() const {
-  const std::uint32_t ctrl = 
+  const std::uint32_t ctrl =
       impl_->top.rootp->can_ahb__DOT__u_top__DOT__u_regs__DOT__u_ctrl1__DOT__value_q;
   const unsigned quanta = 4 + (ctrl & 7) + ((ctrl >> 16) & 7) + ((ctrl >> 19) & 7);
   return ((ctrl >> 24) + 1) * quanta;

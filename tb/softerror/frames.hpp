@@ -22,8 +22,8 @@ inline constexpr unsigned kParties = 3;
 
 /// Who sends a frame, and which one.
 struct FrameTag {
-  unsigned source = 0;   ///< 0..2
-  unsigned number = 0;   ///< 0..65535
+  unsigned source = 0;  ///< 0..2
+  unsigned number = 0;  ///< 0..65535
   friend bool operator==(const FrameTag &, const FrameTag &) = default;
 };
 
@@ -37,9 +37,9 @@ struct FrameTag {
 /// What is known of one frame that was to be sent.
 struct Fate {
   std::array<std::uint8_t, kParties> received{};  ///< how often, by whom
-  bool sent = false;      ///< its sender says so
-  bool aborted = false;   ///< its sender says that it was given up
-  bool excused = false;   ///< the node under test was off the bus on purpose meanwhile
+  bool sent = false;                              ///< its sender says so
+  bool aborted = false;                           ///< its sender says that it was given up
+  bool excused = false;  ///< the node under test was off the bus on purpose meanwhile
 };
 
 /// Book of all frames of a run.

@@ -65,9 +65,9 @@ json table(const std::vector<Record> &records, bool ram, const std::vector<std::
 }
 
 unsigned count(const std::vector<Record> &records, bool ram, Verdict verdict) {
-  return static_cast<unsigned>(std::count_if(
-      records.begin(), records.end(),
-      [&](const Record &r) { return is_ram(r) == ram && r.verdict == verdict; }));
+  return static_cast<unsigned>(std::count_if(records.begin(), records.end(), [&](const Record &r) {
+    return is_ram(r) == ram && r.verdict == verdict;
+  }));
 }
 
 template <typename Value>
@@ -99,8 +99,8 @@ json variables(const std::vector<Record> &records, const std::set<Verdict> &verd
   json rows = json::array();
   for (const auto &[name, entry] : found) {
     if (entry[0] != 0)
-      rows.push_back({name, entry[0], entry[1], to_string(static_cast<Verdict>(entry[2])),
-                      example[name]});
+      rows.push_back(
+          {name, entry[0], entry[1], to_string(static_cast<Verdict>(entry[2])), example[name]});
   }
   return rows;
 }
@@ -158,10 +158,11 @@ void print_record(const Record &record) {
   std::printf("  bus %s, host %s, configuration %s, cure: %s\n", o.bus_differs ? "differs" : "same",
               o.host_differs ? "differs" : "same", o.config_changed ? "changed" : "same",
               kCures[static_cast<unsigned>(o.cure)]);
-  std::printf("  errors %u, bus-off %u, wrong sent %u, wrong received %u, lost sent %u, lost "
-              "received %u, told %u, twice %u, between the others %u\n",
-              o.errors, o.bus_offs, o.wrong_sent, o.wrong_received, o.lost_sent, o.lost_received,
-              o.told, o.twice, o.others);
+  std::printf(
+      "  errors %u, bus-off %u, wrong sent %u, wrong received %u, lost sent %u, lost "
+      "received %u, told %u, twice %u, between the others %u\n",
+      o.errors, o.bus_offs, o.wrong_sent, o.wrong_received, o.lost_sent, o.lost_received, o.told,
+      o.twice, o.others);
   std::printf("  longest dominant run %.1f own bits%s, longest gap %u bits, recovery %u bits%s\n",
               o.longest_run / 10.0, o.run_too_long ? " (TOO LONG)" : "", o.longest_gap, o.recovery,
               o.ahb_hangs ? ", AHB HANGS" : "");
@@ -189,21 +190,20 @@ void write_json(const std::vector<Record> &records, const std::string &path) {
   std::vector<std::string> columns = {"class"};
   columns.insert(columns.end(), blocks().begin(), blocks().end());
   columns.emplace_back("all");
-  const json tables = {
-      {{"title", "Flips of flip-flops: what came of them, by block"},
-       {"columns", columns},
-       {"rows", table(records, false, blocks())}},
-      {{"title", "Flips of RAM bits"},
-       {"columns", {"class", "C/S", "MSG", "MASK", "all"}},
-       {"rows", table(records, true, {"C/S", "MSG", "MASK"})}},
-      {{"title", "Registers that stay changed until software rewrites them"},
-       {"columns", {"variable", "flips", "of", "worst class", "repeat with"}},
-       {"rows", variables(records, {Verdict::kConfig, Verdict::kConfigBad})}},
-      {{"title", "Variables whose flip stopped something until software acted"},
-       {"columns", {"variable", "flips", "of", "worst class", "repeat with"}},
-       {"rows", variables(records, {Verdict::kStuckRenew, Verdict::kStuckFreeze,
-                                    Verdict::kStuckReset, Verdict::kBlocked, Verdict::kHang,
-                                    Verdict::kBabble})}}};
+  const json tables = {{{"title", "Flips of flip-flops: what came of them, by block"},
+                        {"columns", columns},
+                        {"rows", table(records, false, blocks())}},
+                       {{"title", "Flips of RAM bits"},
+                        {"columns", {"class", "C/S", "MSG", "MASK", "all"}},
+                        {"rows", table(records, true, {"C/S", "MSG", "MASK"})}},
+                       {{"title", "Registers that stay changed until software rewrites them"},
+                        {"columns", {"variable", "flips", "of", "worst class", "repeat with"}},
+                        {"rows", variables(records, {Verdict::kConfig, Verdict::kConfigBad})}},
+                       {{"title", "Variables whose flip stopped something until software acted"},
+                        {"columns", {"variable", "flips", "of", "worst class", "repeat with"}},
+                        {"rows", variables(records, {Verdict::kStuckRenew, Verdict::kStuckFreeze,
+                                                     Verdict::kStuckReset, Verdict::kBlocked,
+                                                     Verdict::kHang, Verdict::kBabble})}}};
   std::ofstream out(path);
   out << json{{"figures", figures(records)}, {"tables", tables}, {"notes", json::array()}}.dump(1)
       << "\n";

@@ -7,34 +7,32 @@
 namespace vericansim {
 
 const char *to_string(Verdict verdict) {
-  static constexpr const char *kNames[kVerdicts] = {
-      "no effect, gone",
-      "no effect, still there",
-      "status or interrupt",
-      "timing only",
-      "detected and retried",
-      "frame twice",
-      "bus-off and back",
-      "frame lost, told",
-      "frame lost silently",
-      "wrong frame accepted",
-      "wrong frame sent",
-      "configuration changed, harmless so far",
-      "configuration changed, harmful",
-      "stuck until buffers renewed",
-      "stuck until freeze and set-up",
-      "stuck until soft reset",
-      "bus blocked until software acts",
-      "hang",
-      "babbling"};
+  static constexpr const char *kNames[kVerdicts] = {"no effect, gone",
+                                                    "no effect, still there",
+                                                    "status or interrupt",
+                                                    "timing only",
+                                                    "detected and retried",
+                                                    "frame twice",
+                                                    "bus-off and back",
+                                                    "frame lost, told",
+                                                    "frame lost silently",
+                                                    "wrong frame accepted",
+                                                    "wrong frame sent",
+                                                    "configuration changed, harmless so far",
+                                                    "configuration changed, harmful",
+                                                    "stuck until buffers renewed",
+                                                    "stuck until freeze and set-up",
+                                                    "stuck until soft reset",
+                                                    "bus blocked until software acts",
+                                                    "hang",
+                                                    "babbling"};
   return kNames[static_cast<unsigned>(verdict)];
 }
 
 Verdict judge(const Outcome &out, const Outcome &reference) {
   if (out.run_too_long) return Verdict::kBabble;
   if (out.ahb_hangs || out.cure >= Cure::kHardReset) return Verdict::kHang;
-  if (out.vanished)
-    return out.bus_differs || out.host_differs ? Verdict::kStatus : Verdict::kGone;
+  if (out.vanished) return out.bus_differs || out.host_differs ? Verdict::kStatus : Verdict::kGone;
   const bool lost = out.lost_sent + out.lost_received + out.others > 0;
   const bool wrong = out.wrong_sent + out.wrong_received > 0;
   if (out.config_changed) {

@@ -89,8 +89,7 @@ bool World::order(Order what) {
   ledger_.excuse();
   excused_until_ = clock_ + kOrderLimit;
   driver_->give(what);
-  const bool done =
-      run_until([this] { return driver_->order() == Order::kNone; }, kOrderLimit);
+  const bool done = run_until([this] { return driver_->order() == Order::kNone; }, kOrderLimit);
   excused_until_ = clock_ + kBackBits * bit_clocks();
   return done;
 }

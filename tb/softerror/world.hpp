@@ -20,24 +20,24 @@ namespace vericansim {
 
 /// What goes on while the flip-flops flip.
 enum class Scene : std::uint8_t {
-  kTraffic,   ///< saturated bus, all three send
-  kRegisters, ///< the same, and a CPU that accesses buffers and registers all the time
-  kErrors,    ///< the same with bits of the node under test disturbed: flags, error passive
-  kModes,     ///< freeze, disable, stop, soft reset beside the traffic of the others
-  kIdle,      ///< bus idle, then traffic
-  kBusOff,    ///< the node under test goes bus-off and recovers
+  kTraffic,    ///< saturated bus, all three send
+  kRegisters,  ///< the same, and a CPU that accesses buffers and registers all the time
+  kErrors,     ///< the same with bits of the node under test disturbed: flags, error passive
+  kModes,      ///< freeze, disable, stop, soft reset beside the traffic of the others
+  kIdle,       ///< bus idle, then traffic
+  kBusOff,     ///< the node under test goes bus-off and recovers
 };
 inline constexpr unsigned kScenes = 6;
 [[nodiscard]] const char *to_string(Scene scene);
 
 /// Everything that the judges of a run look at, as counts since the beginning.
 struct Sight {
-  unsigned errors = 0;        ///< error pulses of all nodes
-  unsigned bus_offs = 0;      ///< of the node under test
-  std::uint64_t last_error = 0;  ///< clock
+  unsigned errors = 0;            ///< error pulses of all nodes
+  unsigned bus_offs = 0;          ///< of the node under test
+  std::uint64_t last_error = 0;   ///< clock
   std::uint64_t longest_gap = 0;  ///< clocks without a good frame while a neighbour waits
-  unsigned longest_run = 0;   ///< dominant at the pin, in tenths of the node's own bits
-  bool run_too_long = false;  ///< longer than its errors explain
+  unsigned longest_run = 0;       ///< dominant at the pin, in tenths of the node's own bits
+  bool run_too_long = false;      ///< longer than its errors explain
 };
 
 /// The three nodes on a wire, clock by clock. Their clocks differ by 0.1 %.
