@@ -28,7 +28,8 @@ def arguments():
     parser.add_argument("--only", action="append", metavar="NAME",
                         help="a proof (engine.crc15) or a part (engine); may be repeated")
     parser.add_argument("--quick", action="store_true", help="only proofs marked quick")
-    parser.add_argument("--mutants", action="store_true", help="also demand that mutants are caught")
+    parser.add_argument("--mutants", action="store_true", help="also demand that "
+                        "mutants are caught")
     parser.add_argument("--mutant", metavar="NAME", help="only this mutant, no proof")
     parser.add_argument("--jobs", type=int, default=2, help="at the same time (2)")
     parser.add_argument("--json", metavar="FILE", default=env.get("CAMPAIGN_OUT"),

@@ -31,7 +31,8 @@ proofs:
       - {{name: m, file: bit/can_sync.sv, old: "{old}", new: "{new}", breaks: [p_it]}}
 """
 TRUE = "rx_o == $past(meta_q) || !$past(rst_ni)"
-GOOD = {"method": "pdr", "more": "quick: true", "old": "{meta_q, can_rx_i}", "new": "{can_rx_i, meta_q}"}
+GOOD = {"method": "pdr", "more": "quick: true",
+        "old": "{meta_q, can_rx_i}", "new": "{can_rx_i, meta_q}"}
 
 
 class Runner(unittest.TestCase):

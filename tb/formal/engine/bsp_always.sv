@@ -59,8 +59,10 @@
     p_six_equal: assert (!(sample_i && f_frame_bit) || f_run < 3'd5 || f_level != tx_o);
     // TH-06: dominant only in the own frame, the ACK slot, an active flag, an overload flag.
     p_dominant_where: assert (!judge_i || tx_o || $past(f_may_drive));
-    // TH-06, BO-01, IF-16, MO-01: never dominant in bus-off, integration, between frames, listen-only.
-    p_dominant_never: assert (!judge_i || can_tx_o || !((boff_o || $past(f_gap || !run_i || lom_i || lpb_i))));
+    // TH-06, BO-01, IF-16, MO-01: never dominant in bus-off, integration, between frames,
+    // listen-only.
+    p_dominant_never: assert (!judge_i || can_tx_o || !((boff_o || $past(f_gap || !run_i
+        || lom_i || lpb_i))));
     // TH-06, BT-05: the output changes at bit boundaries alone.
     p_edges: assert ($past(boundary_i) || (tx_o == $past(tx_o) && can_tx_o == $past(can_tx_o)));
     // MO-01, MO-04: the pin is dominant only if the node is.
@@ -82,20 +84,26 @@
     p_end_once: assert (!((tx_ok_o || tx_fail_o) && $past(sample_i))
                         || ($past(f_attempt) && !(tx_ok_o && tx_fail_o)));
     // TH-06: an attempt that ends while the node runs is told.
-    p_end_told: assert (!($past(f_attempt && run_i && sample_i) && !f_attempt) || tx_ok_o != tx_fail_o);
+    p_end_told: assert (!($past(f_attempt && run_i && sample_i) && !f_attempt)
+        || tx_ok_o != tx_fail_o);
     // TH-06: and it does end, before the next begins.
     p_end_ever: assert (!(take_tx && sample_i && run_i) || !f_attempt);
     // TH-06, CR-05: the CRC register is 0 when a frame begins, whatever came before.
-    p_crc_zero: assert (!$past(run_i && sample_i && (take_tx || begin_rx)) || (crc_o == '0 && !mismatch));
+    p_crc_zero: assert (!$past(run_i && sample_i && (take_tx || begin_rx)) || (crc_o == '0
+        && !mismatch));
     // FC-22: listen-only moves no counter.
     p_frozen: assert (f_silent != 2'b11 || !f_moved || boff_o || $past(boff_o));
-    // IF-01, IF-08, EF-01, OV-01, IN-01: no place between frames, in a flag or delimiter is longer than its rule.
-    p_places: assert (left_o <= (((&field_o[4:2]) && field_o[1:0] != 2'd2 && field_o[1:0] != 2'd1) ? 6'd5
+    // IF-01, IF-08, EF-01, OV-01, IN-01: no place between frames, in a flag or delimiter is longer
+    // than its rule.
+    p_places: assert (left_o <= (((&field_o[4:2]) && field_o[1:0] != 2'd2
+        && field_o[1:0] != 2'd1) ? 6'd5
                       : field_o == can_pkg::FldDel ? 6'd6 : field_o == can_pkg::FldInt ? 6'd2
                       : field_o == can_pkg::FldSuspend ? 6'd7 : field_o == can_pkg::FldInteg ? 6'd10
                       : 6'd63));
-    // EF-01, EF-02, OV-01: between frames, in flags and delimiters the level is what the place wants.
-    p_level: assert (!judge_i || !$past(stay_i && run_i) || $past(field_o[4:3] != 2'b00 && !(&field_o[4:2]))
+    // EF-01, EF-02, OV-01: between frames, in flags and delimiters the level is what the place
+    // wants.
+    p_level: assert (!judge_i || !$past(stay_i && run_i) || $past(field_o[4:3] != 2'b00
+        && !(&field_o[4:2]))
                      || tx_o == !$past((field_o == can_pkg::FldErrFlag && !passive_flag)
                                        || field_o == can_pkg::FldOvlFlag));
   end

@@ -83,11 +83,13 @@
     // FC-05, FC-05a, FC-05b, FC-05c, FC-06, FC-08, FC-09, FC-16: steps of TEC, each with its cause.
     p_tec: assert (!f_check || tec_o == (f_t8_1 ? f_tec0 + 9'd8
                                          : (f_t1_1 && f_tec0 != '0) ? f_tec0 - 9'd1 : f_tec0));
-    // FC-02, FC-04, FC-07, FC-08, FC-10, FC-14: steps of REC; from 128 on it holds, down to 119..127.
+    // FC-02, FC-04, FC-07, FC-08, FC-10, FC-14: steps of REC; from 128 on it holds, down to
+    // 119..127.
     p_rec: assert (!f_check || (f_rec0 > 8'd127 ? (f_rdec_1 ? rec_o >= 8'd119 && rec_o <= 8'd127
                                                             : rec_o >= 8'd128)
                                 : rec_o == (f_r8_1 ? f_rec0 + 8'd8 : f_r1_1 ? f_rec0 + 8'd1
-                                            : (f_rdec_1 && f_rec0 != '0) ? f_rec0 - 8'd1 : f_rec0)));
+                                            : (f_rdec_1 && f_rec0 != '0) ? f_rec0 - 8'd1
+                                                : f_rec0)));
     // FC-01, FC-17: no other moment moves a counter; but recovery, and software while stopped.
     p_still: assert (f_s2 || !$past(run_i) || boff_o || $past(boff_o)
                      || {tec_o, rec_o} == $past({tec_o, rec_o}));

@@ -26,7 +26,8 @@
     // The others are silent; a frame is pending.
     m_quiet: assume (bit_i == tx_o && !edge_i && tx_req_i);
     m_modes: assume ($initstate || fd_tolerant_i == $past(fd_tolerant_i));
-    // Where the search begins: not in a frame, not in bus-off, the level sent as the place wants it.
+    // Where the search begins: not in a frame, not in bus-off, the level sent as the place wants
+    // it.
     m_start: assume (!$initstate || (f_place_ok && field_o != can_pkg::FldBusOff && !boff_o
                      && !boff_enter && (field_o[4:3] == 2'b00 || field_o[4:2] == 3'b111)
                      && tx_o == !((field_o == can_pkg::FldErrFlag && !passive_flag)
@@ -46,7 +47,8 @@
   end
 
   always @(posedge clk_i) if (f_phase == 2'd0) begin
-    // TH-07: SOF at the latest in the 27th bit, after 26: flag 6, delimiter 8, intermission 3, suspend 8, 1.
+    // TH-07: SOF at the latest in the 27th bit, after 26: flag 6, delimiter 8, intermission 3,
+    // suspend 8, 1.
     p_starts: assert (f_bits < 7'd26 || f_started || boff_o);
     // TH-07, IN-04: and after 12 when integrating.
     p_integrated: assert (f_bits < 7'd12 || !f_integrating || f_started || boff_o);

@@ -1,8 +1,10 @@
   // SPDX-FileCopyrightText: 2026 The VeriCAN authors
   // SPDX-License-Identifier: Apache-2.0
   //
-  // can_bsp leaves every state, spliced into it. No reset: every flip-flop starts with any value, as
-  // a flood of upsets would leave it. The bus is quiet: the node hears itself. Nothing is to be sent.
+  // can_bsp leaves every state, spliced into it. No reset: every flip-flop starts with any value,
+  // as
+  // a flood of upsets would leave it. The bus is quiet: the node hears itself. Nothing is to be
+  // sent.
   //
   // A rank, defined for every state, falls within two bits unless the node is idle. Two bits of
   // any past are left to settle first; as the first state is arbitrary, so is each later one, and
@@ -26,7 +28,8 @@
     m_quiet: assume (bit_i == tx_o && !edge_i && !tx_req_i);
     // Automatic recovery; the other kind waits for software by rule (BO-03).
     m_automatic: assume (!boff_rec_i);
-    m_modes: assume ($initstate || {lom_i, lpb_i, fd_tolerant_i} == $past({lom_i, lpb_i, fd_tolerant_i}));
+    m_modes: assume ($initstate
+        || {lom_i, lpb_i, fd_tolerant_i} == $past({lom_i, lpb_i, fd_tolerant_i}));
   end
 
   logic [15:0] f_rank, f_base;

@@ -9,10 +9,12 @@
       p_boundary: assert (boundary_o == (tq_i && !f_boundary
                           && f_now == (f_bound_set ? f_bound_q : f_bound)));
     end
-    // SY-01, SY-02, SY-03: one recessive to dominant edge a bit synchronises, after a recessive bit.
+    // SY-01, SY-02, SY-03: one recessive to dominant edge a bit synchronises, after a recessive
+    // bit.
     p_one_sync: assert (edge_o == (tq_i && f_edge));
     // BT-10: one sample, or the majority of three.
-    p_majority: assert (bit_o == (smp_i ? ({1'b0, rx_i} + {1'b0, prev_q[0]} + {1'b0, prev_q[1]} >= 2'd2)
+    p_majority: assert (bit_o == (smp_i ? ({1'b0, rx_i} + {1'b0, prev_q[0]} + {1'b0, prev_q[1]}
+        >= 2'd2)
                                         : rx_i));
     // BT-01, BT-05: one sample point, then one boundary; no sample in the first clock of a bit.
     p_one_sample: assert (!sample_o || !f_known || f_boundary);

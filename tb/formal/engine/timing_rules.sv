@@ -1,7 +1,8 @@
   // SPDX-FileCopyrightText: 2026 The VeriCAN authors
   // SPDX-License-Identifier: Apache-2.0
   //
-  // Assumptions about the inputs of can_bit_timing, and what the rules make of an edge. Times are in
+  // Assumptions about the inputs of can_bit_timing, and what the rules make of an edge. Times are
+  // in
   // quanta since the last sample point; nothing of the block's own position is used.
 
   always @(posedge clk_i) begin
@@ -13,7 +14,8 @@
     m_run: assume (run_i == f_started);
     // BT-03: SJW is at most PHASE_SEG1 and at most PHASE_SEG2.
     m_sjw: assume ({1'b0, rjw_i} <= pseg1_i && {1'b0, rjw_i} <= pseg2_i);
-    // The level sent changes at bit boundaries (p_edges of bsp_always), to recessive in the first bits.
+    // The level sent changes at bit boundaries (p_edges of bsp_always), to recessive in the first
+    // bits.
     m_tx: assume ($initstate || tx_i == $past(tx_i) || $past(boundary_o));
   end
 
@@ -48,8 +50,10 @@
   always_comb begin
     f_due_next = f_due;
     if (f_hard)                               f_due_next = f_now + f_prop + f_ps1;
-    else if (f_edge && f_now <= f_ps2)        f_due_next = f_nominal - (f_early < f_sjw ? f_early : f_sjw);
-    else if (f_edge && f_now > f_ps2 && tx_i) f_due_next = f_nominal + (f_late < f_sjw ? f_late : f_sjw);
+    else if (f_edge
+        && f_now <= f_ps2)        f_due_next = f_nominal - (f_early < f_sjw ? f_early : f_sjw);
+    else if (f_edge && f_now > f_ps2 && tx_i) f_due_next = f_nominal + (f_late < f_sjw ? f_late
+        : f_sjw);
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -78,7 +82,8 @@
 
   logic [5:0] f_bound;
   assign f_bound = f_hard ? f_now
-                   : f_edge && f_now <= f_ps2 ? (f_now > f_ps2 - f_sjw ? f_now : f_ps2 - f_sjw) : f_ps2;
+                   : f_edge && f_now <= f_ps2 ? (f_now > f_ps2 - f_sjw ? f_now : f_ps2 - f_sjw)
+                       : f_ps2;
   logic [5:0] f_bound_q;
   logic       f_bound_set;
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -9,7 +9,8 @@
   end
 
   always @(posedge clk_i) if (rst_ni && run_i && f_known) begin
-      // BT-05, BT-06, SY-06, SY-07, SY-08, SY-10: the sample point comes in its quantum, in no other.
+      // BT-05, BT-06, SY-06, SY-07, SY-08, SY-10: the sample point comes in its quantum, in no
+      // other.
       p_sample: assert (sample_o == (tq_i && f_now == f_due_next));
       // SY-08, SY-16: without hard synchronisation a bit is at most SJW off its length.
       p_length: assert (!sample_o || f_synced_hard || (f_now >= f_nominal - f_sjw

@@ -73,7 +73,8 @@ class Proof:
 
     def checked(self):
         """The statements that the solver has to decide."""
-        return [p for p in self.properties if p.kind == ("cover" if self.method == "cover" else "assert")]
+        kind = "cover" if self.method == "cover" else "assert"
+        return [p for p in self.properties if p.kind == kind]
 
 
 def _take(entry, where, key, kind, default=None, required=False, allowed=None):
