@@ -9,7 +9,10 @@
 #   <program> OUT.v TOP [Name=value ...] [--keep FILE] -- FILE...
 # It writes module TOP to OUT.v, instance names and hierarchy kept. The module of the file after
 # --keep stays as it is: C++ reaches its signals by name, and it is Verilated beside OUT.v.
+#
+# VERICAN_COVERAGE: the models count what of the RTL was run (docs/coverage.md).
 include_guard(GLOBAL)
+option(VERICAN_COVERAGE "Line, branch and toggle coverage of the Verilated RTL" OFF)
 set(VERICAN_RTL_TRANSFORM "" CACHE FILEPATH "Program that rewrites the RTL before it is Verilated")
 # The short cuts of sim/node/model_edge.hpp need models without combinational loops. The RTL has
 # none; in a netlist bits of one vector that depend on one another are a loop for Verilator.
@@ -25,6 +28,12 @@ add_library(verilated_runtime STATIC "${VERILATOR_ROOT}/include/verilated.cpp"
 target_include_directories(verilated_runtime SYSTEM PUBLIC "${VERILATOR_ROOT}/include"
                                                            "${VERILATOR_ROOT}/include/vltstd")
 target_compile_options(verilated_runtime PRIVATE -w)
+if(VERICAN_COVERAGE)
+  find_program(VERICAN_COVERAGE_PYTHON python3 REQUIRED)
+  target_sources(verilated_runtime PRIVATE "${PROJECT_SOURCE_DIR}/cmake/coverage_writer.cpp")
+  target_include_directories(verilated_runtime PUBLIC
+                             "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/cmake>")
+endif()
 target_link_libraries(verilated_runtime PUBLIC Threads::Threads)
 if(VERICAN_RTL_TRANSFORM AND VERICAN_PLAIN_EDGES)
   target_compile_definitions(verilated_runtime PUBLIC VERICAN_PLAIN_EDGES)
@@ -62,6 +71,15 @@ function(verican_verilate target)
       list(APPEND parameters -Wno-UNOPTFLAT)
     endif()
   endif()
+  set(coverage "${CMAKE_COMMAND}" -E true)
+  set(coverage_flags "")
+  set(coverage_script "")
+  if(VERICAN_COVERAGE)
+    set(coverage_flags --coverage-line --coverage-toggle)
+    set(coverage_script "${PROJECT_SOURCE_DIR}/cmake/coverage_model.py")
+    set(coverage "${VERICAN_COVERAGE_PYTHON}" "${coverage_script}" "${dir}" ${target}
+                 "${PROJECT_SOURCE_DIR}")
+  endif()
   # One source file that includes the others: their number is known only after Verilator has run,
   # and the compiler sees the whole model at once.
   add_custom_command(
@@ -69,14 +87,19 @@ function(verican_verilate target)
     COMMAND "${CMAKE_COMMAND}" -E rm -rf "${dir}"
     COMMAND ${transform}
     COMMAND "${VERILATOR}" ${VERICAN_VERILATOR_FLAGS} --prefix ${target} --Mdir "${dir}"
-            --top-module ${ARG_TOP} ${parameters} ${verilated}
+            --top-module ${ARG_TOP} ${parameters} ${coverage_flags} ${verilated}
+    COMMAND ${coverage}
     COMMAND "${CMAKE_COMMAND}" -DDIR=${dir} -DNAME=${target} -DOUTPUT=${all}
             -P "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake"
-    DEPENDS ${files} "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake" ${VERICAN_RTL_TRANSFORM}
+    DEPENDS ${files} "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake" ${VERICAN_RTL_TRANSFORM} ${coverage_script}
     COMMENT "Verilating ${ARG_TOP} ${ARG_PARAMS}"
     VERBATIM)
   add_library(${target} STATIC "${all}")
   target_compile_options(${target} PRIVATE -w)
+  if(VERICAN_COVERAGE)
+    # Thousands of small decisions: -O2 takes five times as long over them.
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
   target_include_directories(${target} SYSTEM PUBLIC "${dir}")
   target_link_libraries(${target} PUBLIC verilated_runtime)
 endfunction()

@@ -104,8 +104,28 @@ TEST_F(Access, ErrorForUnalignedTooWideAndBeyondTheWindow) {
 }
 
 TEST_F(Access, AddressBitsOfTheRegionDoNotMatter) {
-  rig_.write(0, 0x40020000 + reg::mb(3, 2), 0x12345678);
-  EXPECT_EQ(rig_.read(0, reg::mb(3, 2)), 0x12345678u);
+  for (unsigned bit = 16; bit < 32; ++bit) {
+    rig_.write(0, (1u << bit) + reg::mb(3, 2), 0x12345600u + bit);
+    EXPECT_EQ(rig_.read(0, reg::mb(3, 2)), 0x12345600u + bit) << "address bit " << bit;
+  }
+}
+
+TEST_F(Access, EveryWidthAboveAWordGetsAnError) {
+  for (unsigned size = 3; size < 8; ++size) {
+    const AhbTransfer transfer = write(reg::mb(3, 2), 0xFFFFFFFF, static_cast<AhbSize>(size));
+    EXPECT_TRUE(rig_.access(0, transfer).error) << "HSIZE " << size;
+  }
+  EXPECT_EQ(rig_.read(0, reg::mb(3, 2)), 0u);
+}
+
+TEST_F(Access, KindOfAccessDoesNotMatter) {  // HPROT with CheckHprot = 0
+  for (unsigned hprot = 0; hprot < 16; ++hprot) {
+    AhbTransfer transfer = write(reg::mb(3, 2), 0xA5A50000u + hprot);
+    transfer.hprot = static_cast<std::uint8_t>(hprot);
+    EXPECT_FALSE(rig_.access(0, transfer).error);
+    transfer.write = false;
+    EXPECT_EQ(rig_.access(0, transfer).data, 0xA5A50000u + hprot) << "HPROT " << hprot;
+  }
 }
 
 TEST_F(Access, ReservedOffsetsReadZeroWithoutError) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace vericansim {
 
@@ -35,12 +36,23 @@ Frame mb_frame(const MbWords &words) {
   return frame;
 }
 
-MailboxRig::MailboxRig(unsigned nodes, unsigned num_mb)
-    : num_mb_{num_mb}, hammers_(nodes), last_(nodes) {
-  for (unsigned n = 0; n < nodes; ++n) {
-    nodes_.push_back(RtlNode::create("node" + std::to_string(n), {}, num_mb));
-    bus_.add(*nodes_.back());
-  }
+namespace {
+std::vector<std::unique_ptr<RtlNode>> make_nodes(unsigned count, unsigned num_mb) {
+  std::vector<std::unique_ptr<RtlNode>> nodes;
+  for (unsigned n = 0; n < count; ++n)
+    nodes.push_back(RtlNode::create("node" + std::to_string(n), {}, num_mb));
+  return nodes;
+}
+}  // namespace
+
+MailboxRig::MailboxRig(unsigned nodes, unsigned num_mb) : MailboxRig{make_nodes(nodes, num_mb)} {}
+
+MailboxRig::MailboxRig(std::vector<std::unique_ptr<RtlNode>> nodes)
+    : num_mb_{nodes.front()->num_mb()},
+      nodes_{std::move(nodes)},
+      hammers_(nodes_.size()),
+      last_(nodes_.size()) {
+  for (auto &node : nodes_) bus_.add(*node);
   wave_.emplace(bus_);
 }
 

@@ -45,6 +45,8 @@ Frame mb_frame(const MbWords &words);
 class MailboxRig {
  public:
   explicit MailboxRig(unsigned nodes = 1, unsigned num_mb = 64);
+  /// With these nodes, all of the same size, at least one.
+  explicit MailboxRig(std::vector<std::unique_ptr<RtlNode>> nodes);
 
   RtlNode &node(unsigned n) { return *nodes_[n]; }
   Bus &bus() { return bus_; }

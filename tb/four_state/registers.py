@@ -1,0 +1,74 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""The flip-flops of can_ahb by name, from Yosys; and replay.sv's task that looks for X in them."""
+import json
+import subprocess
+
+
+# Registers that show what a RAM returns, and may be X as long as the RAM is being cleared: nobody
+# asks for it then. Those without a reset (the RAMs' read data) are found in the netlist.
+BEHIND_RAM = ["u_top.u_mailbox.u_match.u_filter.s2_equal_q"]
+
+
+class RegisterError(Exception):
+    """Yosys failed; the text says where its log is."""
+
+
+def run_yosys(rtl, num_mb, directory):
+    result = f"{directory}/registers.json"
+    script = (f"read_verilog -sv {' '.join(rtl)}; chparam -set NumMb {num_mb} can_ahb; "
+              f"hierarchy -check -top can_ahb; proc -norom; flatten; opt_clean; "
+              f"write_json {result}")
+    log = f"{directory}/yosys.log"
+    if subprocess.run(["yosys", "-q", "-l", log, "-p", script], check=False,
+                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode:
+        raise RegisterError(f"yosys failed, see {log}")
+    with open(result, encoding="utf-8") as file:
+        return json.load(file)["modules"]["can_ahb"]
+
+
+def flip_flops(module):
+    """Names of registers with a reset, and of those without one, as in the RTL's hierarchy."""
+    with_reset, without = set(), set()
+    for cell in module["cells"].values():
+        if cell["type"].startswith("$") and cell["type"].lstrip("$") in ("adff", "adffe", "aldff"):
+            with_reset.update(cell["connections"]["Q"])
+        elif cell["type"].lstrip("$") in ("dff", "dffe", "sdff", "sdffe", "dlatch"):
+            without.update(cell["connections"]["Q"])
+    names = {True: [], False: []}
+    covered = set()
+    # The name closest to the register: the deepest in the hierarchy that has all of its bits.
+    nets = sorted(module["netnames"].items(), key=lambda item: (-item[0].count("."), item[0]))
+    for name, net in nets:
+        bits = [bit for bit in net["bits"] if isinstance(bit, int)]
+        if net["hide_name"] or not bits or "$" in name or "\\" in name or "[" in name:
+            continue
+        for reset, pool in ((True, with_reset), (False, without)):
+            if set(bits) <= pool and not set(bits) <= covered:
+                names[reset].append(name)
+                covered |= set(bits)
+    missing = (with_reset | without) - covered
+    return sorted(names[True]), sorted(names[False]), len(missing)
+
+
+def write_task(name, signals, out):
+    """A task of replay.sv: one look at all signals, and at each of them only if there is an X."""
+    out.write(f"task {name};\n  begin\n")
+    for start in range(0, len(signals), 50):
+        group = signals[start:start + 50]
+        every = ", ".join(f"dut.{signal}" for signal in group)
+        out.write(f"    if (^{{{every}}} === 1'bx) begin\n")
+        for signal in group:
+            out.write(f'      if (^dut.{signal} === 1\'bx) unknown("{signal}");\n')
+        out.write("    end\n")
+    out.write("  end\nendtask\n")
+
+
+def write_tasks(with_reset, without, path):
+    """check_registers looks at all of them but those that check_behind_ram looks at."""
+    for name in BEHIND_RAM:
+        if name not in with_reset:
+            raise RegisterError(f"registers.py: there is no register {name}")
+    with open(path, "w", encoding="utf-8") as out:
+        write_task("check_registers", [n for n in with_reset if n not in BEHIND_RAM], out)
+        write_task("check_behind_ram", without + BEHIND_RAM, out)
