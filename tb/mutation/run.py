@@ -5,11 +5,13 @@
 # Mutation score: does the regression notice when the RTL is wrong? docs/mutation.md.
 """Makes mutants of the RTL, runs the tests against each, and reports those that nobody noticed."""
 import argparse
+import fnmatch
 import json
 import os
 import pathlib
 import sys
 import time
+import zlib
 
 import models
 from equivalence import proof_of
@@ -35,6 +37,8 @@ def arguments():
     parser.add_argument("--list", action="store_true", help="name the mutants and stop")
     parser.add_argument("--budget", type=float, default=float("inf"),
                         help="seconds of tests for one mutant; survivors then mean less")
+    parser.add_argument("--programs", default="*", metavar="PATTERN",
+                        help="only these test programs, such as 'can_*_test'")
     parser.add_argument("--no-build", action="store_true", help="take the builds as they are")
     parser.add_argument("--jobs", type=int, default=os.environ.get("CAMPAIGN_JOBS", 2))
     parser.add_argument("--build", type=pathlib.Path, default=models.ROOT / "build" / "mutants",
@@ -84,7 +88,10 @@ class Campaign:
 
     def __init__(self, options, design, known, chosen):
         self.options, self.design, self.known, self.chosen = options, design, known, chosen
-        self.programs = programs(models.ROOT)
+        self.programs = [(folder, name) for folder, name in programs(models.ROOT)
+                         if fnmatch.fnmatch(name, options.programs)]
+        if not self.programs:
+            sys.exit(f"run.py: --programs {options.programs}: no test program has such a name")
         numbers = {mutant.name: mutant.number for mutant in chosen}
         targets = [name for _, name in self.programs]
         if not options.no_build:
@@ -120,7 +127,7 @@ class Campaign:
 
         def one(item):
             program, test = item
-            path = self.options.dir / f"seen-{abs(hash(item)):x}"
+            path = self.options.dir / f"seen-{zlib.crc32(str(item).encode()):08x}"
             outcome = self.regression.run(program, [test],
                                           {"VERICAN_MUTANT_RECORD": str(path)}, 600)
             numbers = path.read_text().split() if path.exists() else []
@@ -193,7 +200,7 @@ def main():
     campaign.say(f"regression without a mutant: {baseline:.0f} s; {len(run)} mutants to run")
     results, last = {}, time.monotonic()
     # Scattered over the modules, so that an interrupted run says something of all.
-    scattered = sorted(run, key=lambda mutant: hash_of(mutant.name))
+    scattered = sorted(run, key=lambda mutant: zlib.crc32(mutant.name.encode()))
     for done, (mutant, result) in enumerate(
             in_parallel(options.jobs, campaign.judge, scattered), 1):
         results[mutant.name] = result
@@ -208,12 +215,6 @@ def main():
     if options.out:
         pathlib.Path(options.out).write_text(json.dumps(report.json(options), indent=1) + "\n",
                                              encoding="utf-8")
-
-
-def hash_of(text):
-    """A number that is the same in every run, unlike hash()."""
-    import zlib
-    return zlib.crc32(text.encode())
 
 
 if __name__ == "__main__":

@@ -4,15 +4,14 @@
 # Writes RTL that holds many mutants, of which a number in the environment selects one.
 """rewrite() returns the text of a file with its mutants.
 
-PACKAGE holds the selected number; PROGRAM is C++ that the top needs. When the model records, no
-mutant is active: it notes which of them would have made a difference. A test in which a mutant
-makes none cannot tell it from the original.
+package() and with_program() select: for each mutant 0 (off), 1 (on) or 2 (recording), so that it
+costs one comparison. When the model records, no mutant is active: it notes which of them would have
+made a difference. A test in which a mutant makes none cannot tell it from the original.
 """
 import re
 
 PACKAGE = """package can_mutant;
-  int id        = $c32("verican_mutant()");
-  int recording = $c32("verican_records()");
+  logic [1:0] on [0:%d];
 endpackage
 """
 
@@ -34,10 +33,10 @@ struct VericanMutants {
   }
 };
 inline VericanMutants verican_mutants;
-inline int verican_records() { return verican_mutants.name != nullptr; }
-inline int verican_mutant() {
-  const char *number = std::getenv("VERICAN_MUTANT");
-  return number == nullptr ? 0 : std::atoi(number);
+inline int verican_mutant(int number) {
+  static const char *selected = std::getenv("VERICAN_MUTANT");
+  if (verican_mutants.name != nullptr) return 2;
+  return selected != nullptr && number != 0 && std::atoi(selected) == number;
 }
 inline bool verican_seen(int number, bool differs) {
   if (differs) verican_mutants.seen[number] = true;
@@ -45,7 +44,20 @@ inline bool verican_seen(int number, bool differs) {
 }
 #endif
 `verilog
+  initial begin
+    for (int i = 0; i <= %d; i++) can_mutant::on[i] = 2'($c32("verican_mutant(", i, ")"));
+  end
 """
+
+
+def package(count):
+    """The package that chooses among mutants 1 to count; before all modules."""
+    return PACKAGE % count
+
+
+def with_program(text, count):
+    """The top, which fills in the package."""
+    return text.replace("endmodule", PROGRAM % count + "endmodule")
 
 
 class Wrap:
@@ -54,7 +66,8 @@ class Wrap:
     @staticmethod
     def test(mutant, differs):
         """Is this mutant the one?"""
-        return (f"(can_mutant::id == {mutant.number} || (can_mutant::recording != 0 && "
+        on = f"can_mutant::on[{mutant.number}]"
+        return (f"({on} != 0 && ({on} == 1 || "
                 f'$c1("verican_seen({mutant.number},", ({differs}), ")")))')
 
     def __call__(self, mutants, inside, original):

@@ -15,7 +15,7 @@ import re
 import sys
 
 from mutants import Design
-from schemata import PACKAGE, PROGRAM, Wrap, open_types, rewrite
+from schemata import Wrap, open_types, package, rewrite, with_program
 
 
 def with_parameters(text, parameters):
@@ -47,14 +47,14 @@ def main():
     kept = {pathlib.Path(name).stem for name in rest[keep + 1:]} | {"can_pkg"}
     design = Design(sys.argv[split + 1:])
     number_mutants(design, top, os.environ["VERICAN_MUTANT_LIST"])
-    texts = [PACKAGE]
+    count = max(mutant.number for mutant in design.candidates())
+    texts = [package(count)]
     for file in design.files:
         if file.module in kept:
             continue
         text = open_types(file.module, rewrite(file, Wrap()))
         if file.module == top:
-            text = with_parameters(text, rest[:keep])
-            text = text.replace("endmodule", PROGRAM + "endmodule")
+            text = with_program(with_parameters(text, rest[:keep]), count)
         texts.append(text)
     pathlib.Path(out).write_text("\n".join(texts), encoding="utf-8")
 
