@@ -4,12 +4,45 @@
 // Faults: see faults.hpp.
 #include "bus/faults.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "bus/bus.hpp"
 
 namespace vericansim {
+
+void ScheduledFaults::add(NodeId victim, Effect effect, Window window) {
+  const Entry entry{window, effect};
+  if (victim != kAllNodes) return insert(receiver(victim), entry);
+  for_everybody_.push_back(entry);
+  insert(point_, entry);
+  for (Receiver &receiver : receivers_) insert(receiver, entry);
+}
+
+void ScheduledFaults::insert(Receiver &receiver, const Entry &entry) {
+  const auto later = [](Time from, const Entry &e) { return from < e.window.from; };
+  auto &list = receiver.entries;
+  list.insert(std::upper_bound(list.begin(), list.end(), entry.window.from, later), entry);
+}
+
+ScheduledFaults::Receiver &ScheduledFaults::receiver(NodeId id) {
+  if (id == kBusPoint) return point_;
+  while (receivers_.size() <= id) {
+    receivers_.emplace_back();
+    for (const Entry &entry : for_everybody_) insert(receivers_.back(), entry);
+  }
+  return receivers_[id];
+}
+
+Level ScheduledFaults::level(NodeId id, Time t, Level level) {
+  Receiver &who = receiver(id);
+  const auto &list = who.entries;
+  while (who.head < list.size() && list[who.head].window.to <= t) ++who.head;
+  for (std::size_t i = who.head; i < list.size() && list[i].window.from <= t; ++i)
+    if (list[i].window.contains(t)) level = apply_effect(list[i].effect, level);
+  return level;
+}
 
 void ClockFault::attach(Bus &bus) {
   Node &node = bus.node(node_);

@@ -72,6 +72,31 @@ class LevelFault : public Fault {
   Window window_;
 };
 
+/// Any number of LevelFaults with an end, for less than one of them costs: windows that are over are
+/// not looked at again. Each receiver asks with times that do not go back.
+class ScheduledFaults : public Fault {
+ public:
+  void add(NodeId victim, Effect effect, Window window);
+  [[nodiscard]] Level level(NodeId receiver, Time t, Level level) override;
+
+ private:
+  struct Entry {
+    Window window;
+    Effect effect;
+  };
+  struct Receiver {
+    std::vector<Entry> entries;  // in the order of their beginnings
+    std::size_t head = 0;        // those before are over
+  };
+
+  static void insert(Receiver &receiver, const Entry &entry);
+  [[nodiscard]] Receiver &receiver(NodeId id);
+
+  Receiver point_;                    // the observation point
+  std::vector<Receiver> receivers_;
+  std::vector<Entry> for_everybody_;  // copied to receivers as they come
+};
+
 /// Opens the cable of one node: nobody hears it, and it hears only itself.
 class CutFault : public Fault {
  public:

@@ -148,7 +148,9 @@ bool BufferModel::fits(const KnownWords &words, unsigned word, std::uint32_t val
   if (word == 0 && words.stamped) {
     if ((known & 0xFFFF) == 0xFFFF) {
       const int offset = static_cast<std::int16_t>(value - words.word[0]);
-      if (stamp_offset_ ? offset != *stamp_offset_ : std::abs(offset) > 1) return false;
+      const bool exact = stamp_offset_ && !stamps_moved_;
+      if (exact ? offset != *stamp_offset_ : std::abs(offset) > (stamps_moved_ ? 2 : 1))
+        return false;
     }
     known &= ~0xFFFFu;
   }

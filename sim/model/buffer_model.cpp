@@ -169,6 +169,16 @@ bool BufferModel::must_send_since(std::uint64_t clock) const {
   });
 }
 
+std::vector<Frame> BufferModel::flights() const {
+  std::vector<Frame> frames;
+  for (const BufferState &state : states_) {
+    if (!state.flight) continue;
+    const Frame &frame = state.flight->request.frame;
+    if (std::find(frames.begin(), frames.end(), frame) == frames.end()) frames.push_back(frame);
+  }
+  return frames;
+}
+
 void BufferModel::start_own(const BufferState &state, std::uint64_t now, States &out) const {
   // The best of those that stand long enough must not be passed over by a worse one.
   std::uint64_t best = ~std::uint64_t{0};
@@ -224,6 +234,13 @@ void BufferModel::received(std::uint64_t now) {
   settle(now);
   received_at_ = now;
   for (BufferState &state : states_) state.valid = state.matching.has_value();
+}
+
+void BufferModel::received(const Frame &foreign, std::uint64_t now) {
+  settle(now);
+  for (BufferState &state : states_)
+    if (state.matching && !state.matching->own) state.matching->frame = foreign;
+  received(now);
 }
 
 void BufferModel::receive_failed(std::uint64_t now) {

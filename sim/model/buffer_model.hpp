@@ -56,6 +56,8 @@ class BufferModel {
   void header(const std::optional<Frame> &foreign, std::uint16_t stamp, std::uint64_t now);
   /// EOF6 without an error.
   void received(std::uint64_t now);
+  /// As header() and received() where the rest of the frame was not known at the header.
+  void received(const Frame &foreign, std::uint64_t now);
   /// The frame under way is destroyed.
   void receive_failed(std::uint64_t now);
   /// EOF7 of an own frame without an error; `wire`: the frame as it was on the wire.
@@ -75,6 +77,12 @@ class BufferModel {
   [[nodiscard]] bool sending() const;
   /// In every state some buffer has waited to be sent since `clock` or earlier.
   [[nodiscard]] bool must_send_since(std::uint64_t clock) const;
+  /// The frames that may be the one being sent, each once.
+  [[nodiscard]] std::vector<Frame> flights() const;
+  /// From here on stamps need not stand in the same relation to the reference count as before: the
+  /// CPU has written TIMER.
+  void timer_written() { stamps_moved_ = true; }
+  [[nodiscard]] const BufferWindows &windows() const { return windows_; }
 
  private:
   using States = std::vector<BufferState>;
@@ -116,6 +124,7 @@ class BufferModel {
   std::uint64_t received_at_ = 0;
   std::uint64_t ended_at_ = 0;
   std::optional<int> stamp_offset_;  ///< stamp as read less reference; one value for all frames
+  bool stamps_moved_ = false;
   std::string failure_;
 };
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bus/types.hpp"
+#include "judge/bus_judge.hpp"
 #include "scenario/bus_monitor.hpp"
 
 namespace vericansim {
@@ -65,6 +66,7 @@ struct RunReport {
   std::vector<MessageReport> messages;
   std::vector<NodeReport> nodes;
   std::vector<CheckResult> checks;
+  std::optional<JudgeCounts> judged;  ///< with `judge: lockstep`
   [[nodiscard]] bool ok() const;
 };
 

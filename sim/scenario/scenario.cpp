@@ -120,6 +120,10 @@ NodeSpec parse_node(const YamlValue &value, const Scenario &scenario) {
   parse_clock(map, node.clock);
   parse_link(map, node.link);
   parse_host(map, node.host);
+  map.with("software", [&](const YamlValue &v) {
+    if (v.text() != "host" && v.text() != "none") v.refuse("host, none");
+    node.software = v.text() == "host";
+  });
   map.with("timing", [&](const YamlValue &v) { node.timing = parse_timing(v); });
   map.with("bitrate", [&](const YamlValue &v) { node.bitrate = v.bitrate(); });
   map.with("sample_point", [&](const YamlValue &v) { node.sample_point = v.part(0.5, 0.9); });
@@ -204,6 +208,14 @@ Scenario parse_scenario(const std::string &path, const std::string &text) {
   map.with("faults", [&](const YamlValue &list) {
     for (const YamlValue &item : list.items())
       scenario.faults.push_back(detail::parse_fault(item, scenario));
+  });
+  map.with("accesses", [&](const YamlValue &list) {
+    for (const YamlValue &item : list.items())
+      scenario.accesses.push_back(detail::parse_access(item, scenario));
+  });
+  map.with("judge", [&](const YamlValue &v) {
+    if (v.text() != "lockstep" && v.text() != "none") v.refuse("lockstep, none");
+    scenario.lockstep = v.text() == "lockstep";
   });
   map.with("expect",
            [&](const YamlValue &v) { scenario.expect = detail::parse_expectations(v, scenario); });

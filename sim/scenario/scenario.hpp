@@ -25,6 +25,7 @@ struct NodeSpec {
   ClockConfig clock;
   Link link;
   unsigned num_mb = 64;
+  bool software = true;  ///< false: nothing but `accesses` drives the core
   HostConfig host;  ///< `timing` is filled for the bit rate; tx_buffers 0: as many as messages
   std::optional<BitTiming> timing;     ///< given segment by segment; unset: calculated
   std::optional<double> bitrate;       ///< own rate, bit/s; unset: that of the bus
@@ -66,6 +67,31 @@ struct FaultSpec {
       last_quantum;   ///< kPlace: part of the bit, tq of the watched node
   double ppm = 0;     ///< kClock
   NoiseConfig noise;  ///< kNoise
+};
+
+/// One thing that a script does with a register or a word of a buffer.
+struct AccessStep {
+  enum class Kind : std::uint8_t {
+    kRead,   ///< the value is of no interest (but a judge looks at it)
+    kWrite,  ///< `value`
+    kSet,    ///< the bits of `value`, by reading and writing
+    kClear,  ///< the same
+    kUntil,  ///< reads until the bits of `mask` are those of `value`
+    kIf,     ///< goes on only if the bits of `mask` are those of `value`
+    kCheck,  ///< the run fails unless the bits of `mask` are those of `value`
+  };
+  Kind kind = Kind::kRead;
+  std::uint32_t address = 0;
+  std::uint32_t value = 0;
+  std::uint32_t mask = 0xFFFFFFFF;
+  friend bool operator==(const AccessStep &, const AccessStep &) = default;
+};
+
+/// Accesses of a node's CPU, one after the other.
+struct AccessSpec {
+  NodeId node = 0;
+  Time at = 0;  ///< or as soon as the node's earlier ones are done
+  std::vector<AccessStep> steps;
 };
 
 /// Inclusive limits of a number.
@@ -112,9 +138,15 @@ struct Scenario {
   std::vector<NodeSpec> nodes;
   std::vector<TrafficSpec> traffic;
   std::vector<FaultSpec> faults;
+  std::vector<AccessSpec> accesses;
+  bool lockstep = false;  ///< judge: lockstep
   Expectations expect;
   Outputs outputs;
 };
+
+/// The scenario as a file that read_scenario() makes the same scenario of; paths of outputs and
+/// expectations of messages and nodes are left out.
+[[nodiscard]] std::string to_yaml(const Scenario &scenario);
 
 /// Reads a scenario file. Throws InputError that names file, line, key, value and what is allowed.
 [[nodiscard]] Scenario read_scenario(const std::string &path);

@@ -192,7 +192,10 @@ void parse_expected_responses(const YamlValue &value, const Scenario &scenario,
 TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario) {
   YamlMap map{value};
   TrafficSpec traffic;
-  traffic.node = parse_node_name(map.need("node"), scenario);
+  const YamlValue node = map.need("node");
+  traffic.node = parse_node_name(node, scenario);
+  if (!scenario.nodes[traffic.node].software)
+    node.fail("a node with 'software: none' sends by 'accesses' alone");
   Frame &frame = traffic.frame;
   map.with("extended", [&](const YamlValue &v) { frame.extended = v.boolean(); });
   map.with("remote", [&](const YamlValue &v) { frame.remote = v.boolean(); });

@@ -15,6 +15,7 @@ namespace vericansim::detail {
 [[nodiscard]] NodeSpec parse_node(const YamlValue &value, const Scenario &scenario);
 [[nodiscard]] TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario);
 [[nodiscard]] FaultSpec parse_fault(const YamlValue &value, const Scenario &scenario);
+[[nodiscard]] AccessSpec parse_access(const YamlValue &value, const Scenario &scenario);
 [[nodiscard]] Expectations parse_expectations(const YamlValue &value, const Scenario &scenario);
 
 inline constexpr Time kLongestTime = 1'000'000 * kSecond;

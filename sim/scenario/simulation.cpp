@@ -19,6 +19,7 @@ Simulation::Simulation(const Scenario &scenario, double bitrate, const std::set<
       bit_time_{static_cast<Time>(std::llround(1e12 / bitrate))} {
   build_stations(bare);
   observe();
+  if (scenario_.lockstep) set_up_judge();
 }
 
 void Simulation::build_stations(const std::set<NodeId> &bare) {
@@ -31,7 +32,7 @@ void Simulation::build_stations(const std::set<NodeId> &bare) {
     const auto receive = static_cast<unsigned>(std::max<std::size_t>(config.filters.size(), 8));
     if (config.tx_buffers == 0)
       config.tx_buffers = std::clamp(messages[id], 1U, spec.num_mb - receive);
-    if (bare.contains(id)) {
+    if (bare.contains(id) || !spec.software) {
       stations_.add(bus_, make_bare_station(spec.name, spec.clock, config.timing, spec.num_mb),
                     spec.link);
       continue;
@@ -100,10 +101,33 @@ std::unique_ptr<Fault> Simulation::make_fault(const FaultSpec &spec) const {
   return std::make_unique<PlaceFault>(spec.watched, place, spec.effect, spec.node);
 }
 
+// Level faults with an end are many in random scenarios and share one Fault.
 void Simulation::add_faults() {
+  std::unique_ptr<ScheduledFaults> scheduled;
   for (const FaultSpec &spec : scenario_.faults) {
+    const bool ends = spec.window.to != std::numeric_limits<Time>::max();
+    if (spec.kind == FaultSpec::Kind::kLevel && ends) {
+      if (!scheduled) scheduled = std::make_unique<ScheduledFaults>();
+      scheduled->add(spec.node, spec.effect,
+                     {spec.window.from + start_, spec.window.to + start_});
+      continue;
+    }
     faults_.push_back(make_fault(spec));
     bus_.add(*faults_.back());
+  }
+  if (!scheduled) return;
+  bus_.add(*scheduled);
+  faults_.push_back(std::move(scheduled));
+}
+
+void Simulation::start_accesses() {
+  std::vector<AccessScript *> script(scenario_.nodes.size());
+  for (const AccessSpec &spec : scenario_.accesses) {
+    if (script[spec.node] == nullptr) {
+      scripts_.push_back(std::make_unique<AccessScript>(*stations_[spec.node].node, bus_));
+      script[spec.node] = scripts_.back().get();
+    }
+    script[spec.node]->add(spec, start_ + spec.at);
   }
 }
 
@@ -119,6 +143,7 @@ void Simulation::start_traffic() {
 void Simulation::on_frame(const BusFrame &frame) {
   if (scenario_.expect.complete) frames_.push_back(frame);
   outputs_->write(frame, origin_of(frame));
+  if (judge_) judge_->on_wire(frame);
   if (on_bus_frame) on_bus_frame(frame);
 }
 
@@ -210,6 +235,9 @@ RunReport Simulation::collect() {
   if (!stations_.stores_remote())
     std::erase_if(frames_, [](const BusFrame &frame) { return frame.frame.remote; });
   report.checks = check_expectations(scenario_, report, frames_, received);
+  for (const auto &script : scripts_)
+    for (const CheckResult &failure : script->failures()) report.checks.push_back(failure);
+  if (judge_) add_judgement(report);
   return report;
 }
 
@@ -220,10 +248,13 @@ void Simulation::start(Time when) {
   start_ = bus_.now();
   add_faults();
   outputs_->begin();
+  if (judge_) add_disturbances();
   start_traffic();
+  start_accesses();
 }
 
 RunReport Simulation::finish() {
+  if (judge_) judge_->finish(bus_.now());
   outputs_->finish(bus_.now());
   RunReport report = collect();
   outputs_->write_report(report_extras(report));

@@ -10,6 +10,8 @@
 #include <set>
 #include <vector>
 
+#include "judge/bus_judge.hpp"
+#include "scenario/access_script.hpp"
 #include "scenario/bus_monitor.hpp"
 #include "scenario/bus_outputs.hpp"
 #include "scenario/report.hpp"
@@ -52,6 +54,8 @@ class Simulation {
   [[nodiscard]] Bus &bus() { return bus_; }
   [[nodiscard]] RtlNode &node(NodeId id) { return *stations_[id].node; }
   [[nodiscard]] Time started() const { return start_; }
+  /// The judges, if the scenario wants them.
+  [[nodiscard]] const BusJudge *judge() const { return judge_.get(); }
 
  private:
   void build_stations(const std::set<NodeId> &bare);
@@ -59,6 +63,11 @@ class Simulation {
   void add_faults();
   std::unique_ptr<Fault> make_fault(const FaultSpec &spec) const;
   void start_traffic();
+  void start_accesses();
+  void set_up_judge();
+  void add_disturbances();
+  void judge_software(NodeId id);
+  void add_judgement(RunReport &report) const;
   void on_frame(const BusFrame &frame);
   [[nodiscard]] FrameOrigin origin_of(const BusFrame &frame);
   [[nodiscard]] ReportSetup report_setup() const;
@@ -71,6 +80,8 @@ class Simulation {
   double bitrate_;
   Time bit_time_;
   Stations stations_;
+  std::vector<std::unique_ptr<AccessScript>> scripts_;  // one for each node that has accesses
+  std::unique_ptr<BusJudge> judge_;
   std::vector<std::unique_ptr<Fault>> faults_;
   std::vector<std::unique_ptr<TrafficSource>> traffic_;
   std::vector<BusFrame> frames_;

@@ -16,27 +16,6 @@ constexpr unsigned kClockLimit = 2 * 256 * 29;
 
 char to_char(Level level) { return level == Level::kDominant ? '0' : '1'; }
 
-DutBit to_bit(const BitRecord &record, Level tx) {
-  const Trace &at = record.at;
-  const Trace &after = record.after;
-  return {.tx = tx,
-          .sent_level = at.tx,
-          .rx = at.rx,
-          .field = at.field,
-          .left = at.left,
-          .stuff = at.stuff,
-          .transmitter = at.transmitter,
-          .errors = after.errors,
-          .started = after.start,
-          .delivered = after.rx_valid,
-          .sent = after.tx_ok,
-          .failed = after.tx_fail,
-          .tec = after.tec,
-          .rec = after.rec,
-          .passive = after.passive,
-          .bus_off = after.bus_off};
-}
-
 }  // namespace
 
 CoreBench::CoreBench(unsigned duts, const CoreConfig &config) : acknowledged_(duts, false) {
@@ -152,7 +131,7 @@ void CoreBench::after_clock(unsigned i) {
   dut.boundary = (word & kTraceBoundary) != 0;
   if ((word & kTraceSample) != 0) dut.tx = dut.node->tx();
   if (!dut.recorder.clocked(word, 0)) return;
-  dut.last = to_bit(dut.recorder.record(), dut.tx);
+  dut.last = node_bit(dut.recorder.record(), dut.tx);
   ++dut.samples;
   dut.tx_history.push_back(to_char(dut.last.tx));
   dut.rx_history.push_back(to_char(dut.last.rx));

@@ -15,30 +15,14 @@
 
 #include "bus/faults.hpp"
 #include "harness/test_wave.hpp"
+#include "judge/node_bit.hpp"
 #include "node/core_node.hpp"
 #include "node/trace.hpp"
 
 namespace vericansim {
 
-/// One bit of one DUT: what it sent and saw at its sample point, and what followed from that.
-struct DutBit {
-  Level tx = Level::kRecessive;          ///< level at the TX pin
-  Level sent_level = Level::kRecessive;  ///< the same before listen-only and loop-back gate it
-  Level rx = Level::kRecessive;          ///< level as sampled
-  Field field = Field::kInteg;
-  unsigned left = 0;  ///< bits of the field that follow
-  bool stuff = false;
-  bool transmitter = false;  ///< role in that bit
-  std::uint8_t errors = 0;   ///< TraceError bits raised by this bit
-  bool started = false;      ///< the next bit is ID28
-  bool delivered = false;    ///< rx_valid: VA-01 (own frames too)
-  bool sent = false;         ///< tx_ok: VA-02
-  bool failed = false;       ///< tx_fail
-  unsigned tec = 0;          ///< after this bit; recovery sequences in bus-off
-  unsigned rec = 0;
-  bool passive = false;
-  bool bus_off = false;
-};
+/// One bit of one DUT.
+using DutBit = NodeBit;
 
 /// The bench. All DUTs have one clock. Time advances by bits of DUT 0: a bit of LT lasts from one
 /// of its bit boundaries to the next, so LT is always in step with it and needs no bit timing of

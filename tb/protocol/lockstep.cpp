@@ -5,7 +5,8 @@
 #include "protocol/lockstep.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+
+#include "judge/rule_tolerance.hpp"
 
 namespace vericansim {
 namespace {
@@ -115,43 +116,17 @@ void Lockstep::compare_events(unsigned i, const DutBit &bit) {
   }
 }
 
-// FC-05b: both steps are allowed for the stuff bit right after RTR.
-bool Lockstep::settle_tec(Follower &follower, const DutBit &bit) {
-  const NodeEvents &events = follower.model.events();
-  const bool after_rtr = events.at.field == Field::kIde || events.at.field == Field::kR1;
-  const bool allowed = events.error == NodeError::kStuff && events.at.is_stuff && after_rtr &&
-                       std::abs(static_cast<int>(bit.tec) - follower.model.tec()) == 8;
-  if (allowed) follower.model.preset_counters(static_cast<int>(bit.tec), follower.model.rec());
-  return allowed;
-}
-
-// FC-10, FC-14 and 19.5 item 5.
-bool Lockstep::settle_rec(Follower &follower, const DutBit &bit) {
-  const int dut = static_cast<int>(bit.rec);
-  const int model = follower.model.rec();
-  if (dut >= 128 && model >= 128) return true;
-  const bool set_back = follower.last_rec >= 128 && model >= 119 && model <= 127;
-  if (set_back && dut >= 119 && dut <= 127) {
-    follower.model.preset_counters(follower.model.tec(), dut);
-    return true;
-  }
-  const bool crc = follower.model.events().error == NodeError::kCrc || (bit.errors & kErrCrc) != 0;
-  if (std::abs(dut - model) != 1 || !crc || follower.crc_step) return false;
-  follower.crc_step = true;
-  return true;
-}
-
 void Lockstep::compare_counters(unsigned i, const DutBit &bit) {
   Follower &follower = followers_[i];
   NodeModel &model = follower.model;
   const bool off = model.error_state() == ErrorState::kBusOff;
   if (bit.bus_off != off) mismatch(i, differs("bus-off", bit.bus_off, off));
   if (bit.bus_off || off) return;
-  if (static_cast<int>(bit.tec) != model.tec() && !settle_tec(follower, bit)) {
+  if (static_cast<int>(bit.tec) != model.tec() && !settle_tec(model, bit)) {
     mismatch(i, differs("TEC", bit.tec, static_cast<unsigned>(model.tec())));
   }
   const bool rec_equal = static_cast<int>(bit.rec) == model.rec();
-  if (!rec_equal && !settle_rec(follower, bit)) {
+  if (!rec_equal && !settle_rec(model, follower.last_rec, follower.crc_step, bit)) {
     mismatch(i, differs("REC", bit.rec, static_cast<unsigned>(model.rec())));
   }
   if (rec_equal) follower.crc_step = false;

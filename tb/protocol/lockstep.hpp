@@ -57,8 +57,6 @@ class Lockstep {
   void compare_place(unsigned i, const DutBit &bit);
   void compare_counters(unsigned i, const DutBit &bit);
   void compare_events(unsigned i, const DutBit &bit);
-  static bool settle_tec(Follower &follower, const DutBit &bit);
-  static bool settle_rec(Follower &follower, const DutBit &bit);
   void mismatch(unsigned i, const std::string &what);
 
   CoreBench &bench_;

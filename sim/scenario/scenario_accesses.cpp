@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenario files: accesses to registers and buffers.
+#include <fmt/format.h>
+
+#include "scenario/access_step.hpp"
+#include "scenario/quantity.hpp"
+#include "scenario/register_name.hpp"
+#include "scenario/scenario_parts.hpp"
+#include "trace/text.hpp"
+
+namespace vericansim {
+namespace {
+
+using Kind = AccessStep::Kind;
+
+struct Verb {
+  std::string_view name;
+  Kind kind;
+  unsigned words;  // with itself
+};
+
+constexpr Verb kVerbs[] = {
+    {"read", Kind::kRead, 2},   {"write", Kind::kWrite, 3}, {"set", Kind::kSet, 3},
+    {"clear", Kind::kClear, 3}, {"until", Kind::kUntil, 4}, {"if", Kind::kIf, 4},
+    {"check", Kind::kCheck, 4}};
+
+constexpr std::string_view kAllowed =
+    "read REG, write REG VALUE, set REG BITS, clear REG BITS, until REG MASK VALUE, "
+    "if REG MASK VALUE, check REG MASK VALUE";
+
+std::uint32_t parse_word(const YamlValue &value, std::string_view text) {
+  const auto number = parse_integer(text);
+  if (!number || *number > 0xFFFFFFFF)
+    value.fail(fmt::format("'{}' is no value; allowed: 0 to 0xFFFFFFFF", text));
+  return static_cast<std::uint32_t>(*number);
+}
+
+AccessStep parse_step(const YamlValue &value) {
+  const std::string line = value.text();
+  const auto words = text::split_blanks(line);
+  for (const Verb &verb : kVerbs) {
+    if (words.empty() || words[0] != verb.name || words.size() != verb.words) continue;
+    AccessStep step{.kind = verb.kind};
+    const auto address = register_address(words[1]);
+    if (!address)
+      value.fail(fmt::format(
+          "'{}' is no register; allowed: the names of docs/registers.md, MB0.CS to MB63.DATA1, "
+          "RXIMR0 to RXIMR63, FILTER0 to FILTER127, or an address, a multiple of 4 below 0x2000",
+          words[1]));
+    step.address = *address;
+    if (verb.words > 2) step.value = parse_word(value, words.back());
+    if (verb.words > 3) step.mask = parse_word(value, words[2]);
+    return step;
+  }
+  value.refuse(std::string{kAllowed});
+}
+
+}  // namespace
+
+std::string to_text(const AccessStep &step) {
+  for (const Verb &verb : kVerbs) {
+    if (verb.kind != step.kind) continue;
+    std::string text = fmt::format("{} {}", verb.name, register_name(step.address));
+    if (verb.words > 3) text += fmt::format(" 0x{:X}", step.mask);
+    if (verb.words > 2) text += fmt::format(" 0x{:X}", step.value);
+    return text;
+  }
+  return {};
+}
+
+AccessSpec detail::parse_access(const YamlValue &value, const Scenario &scenario) {
+  YamlMap map{value};
+  AccessSpec access;
+  access.node = parse_node_name(map.need("node"), scenario);
+  map.with("at", [&](const YamlValue &v) { access.at = v.time(0, kLongestTime); });
+  const YamlValue steps = map.need("do");
+  for (const YamlValue &item : steps.items()) access.steps.push_back(parse_step(item));
+  if (access.steps.empty()) steps.refuse(std::string{kAllowed});
+  map.finish();
+  return access;
+}
+
+}  // namespace vericansim

@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenario files: a scenario back to text.
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "scenario/access_step.hpp"
+#include "scenario/scenario.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr Time kEver = std::numeric_limits<Time>::max();
+
+std::string time_text(Time time) {
+  if (time % kMillisecond == 0) return fmt::format("{} ms", time / kMillisecond);
+  if (time % kMicrosecond == 0) return fmt::format("{} us", time / kMicrosecond);
+  if (time % kNanosecond == 0) return fmt::format("{} ns", time / kNanosecond);
+  return fmt::format("{} ps", time);
+}
+
+std::string clock_text(const ClockConfig &clock) {
+  std::string text;
+  const ClockConfig usual;
+  if (clock.frequency_hz != usual.frequency_hz)
+    text += fmt::format(", clock: {} Hz", clock.frequency_hz);
+  if (clock.error_ppm != 0) text += fmt::format(", ppm: {}", clock.error_ppm);
+  if (clock.phase != 0) text += fmt::format(", phase: {}", time_text(clock.phase));
+  if (clock.wander != Wander::kNone)
+    text += fmt::format(", wander: {{kind: {}, ppm: {}, period: {}}}",
+                        clock.wander == Wander::kSine ? "sine" : "walk", clock.wander_ppm,
+                        time_text(clock.wander_period));
+  return text;
+}
+
+std::string filters_text(const std::vector<RxFilter> &filters) {
+  std::string text;
+  for (const RxFilter &f : filters) {
+    text += fmt::format("{}{{id: 0x{:X}, mask: 0x{:X}", text.empty() ? "" : ", ", f.id, f.mask);
+    if (f.extended) text += ", extended: true";
+    if (f.match_format)
+      text += fmt::format(", match_format: true, remote: {}", f.remote ? "true" : "false");
+    text += "}";
+  }
+  return "[" + text + "]";
+}
+
+std::string host_text(const HostConfig &host) {
+  std::string text;
+  const auto flag = [&](const char *key, bool value) {
+    if (value) text += fmt::format(", {}: true", key);
+  };
+  if (host.tx_buffers != 0) text += fmt::format(", tx_buffers: {}", host.tx_buffers);
+  flag("lowest_buffer_first", host.lowest_buffer_first);
+  flag("listen_only", host.listen_only);
+  flag("loop_back", host.loop_back);
+  flag("self_reception", host.self_reception);
+  flag("triple_sampling", host.triple_sampling);
+  flag("fd_tolerant", host.fd_tolerant);
+  if (host.boff_rec) text += ", bus_off_recovery: never";
+  if (!host.filters.empty()) text += ", filters: " + filters_text(host.filters);
+  return text;
+}
+
+std::string node_text(const NodeSpec &node) {
+  std::string text = "  - {name: " + node.name + clock_text(node.clock);
+  const auto delay = [&](const char *key, Time value) {
+    if (value != 0) text += fmt::format(", {}: {}", key, time_text(value));
+  };
+  delay("delay", node.link.cable);
+  delay("tx_delay", node.link.transmitter);
+  delay("rx_delay", node.link.receiver);
+  if (node.timing)
+    text += fmt::format(", timing: {{brp: {}, prop: {}, ps1: {}, ps2: {}, sjw: {}}}",
+                        node.timing->prescaler, node.timing->prop, node.timing->ps1,
+                        node.timing->ps2, node.timing->sjw);
+  if (node.bitrate) text += fmt::format(", bitrate: {}", *node.bitrate);
+  if (node.sample_point) text += fmt::format(", sample_point: {}", *node.sample_point);
+  if (node.sjw) text += fmt::format(", sjw: {}", *node.sjw);
+  if (node.num_mb != 64) text += fmt::format(", mailboxes: {}", node.num_mb);
+  text += node.software ? host_text(node.host) : ", software: none";
+  return text + "}\n";
+}
+
+std::string payload_text(const TrafficSpec &traffic) {
+  const Frame &frame = traffic.frame;
+  if (traffic.data == DataKind::kCounter) return fmt::format(", data: counter, dlc: {}", frame.dlc);
+  if (traffic.data == DataKind::kRandom) return fmt::format(", data: random, dlc: {}", frame.dlc);
+  std::string bytes;
+  for (unsigned i = 0; i < frame.payload_size(); ++i)
+    bytes += fmt::format("{}0x{:02X}", i == 0 ? "" : ", ", frame.data[i]);
+  return (bytes.empty() ? "" : ", data: [" + bytes + "]") + fmt::format(", dlc: {}", frame.dlc);
+}
+
+std::string traffic_text(const Scenario &scenario, const TrafficSpec &traffic) {
+  const Frame &frame = traffic.frame;
+  std::string text = fmt::format("  - {{node: {}, name: {}, id: 0x{:X}",
+                                 scenario.nodes[traffic.node].name, traffic.name, frame.id);
+  if (frame.extended) text += ", extended: true";
+  if (frame.remote) text += ", remote: true";
+  text += payload_text(traffic);
+  if (traffic.saturated) text += ", period: saturated";
+  if (traffic.period != 0) text += ", period: " + time_text(traffic.period);
+  if (traffic.random_offset) text += ", offset: random";
+  if (traffic.offset != 0) text += ", offset: " + time_text(traffic.offset);
+  if (traffic.jitter != 0) text += ", jitter: " + time_text(traffic.jitter);
+  const bool repeats = traffic.saturated || traffic.period != 0;
+  if (repeats && traffic.count != std::numeric_limits<std::uint64_t>::max())
+    text += fmt::format(", count: {}", traffic.count);
+  return text + "}\n";
+}
+
+std::string effect_text(Effect effect) {
+  if (effect == Effect::kFlip) return "flip";
+  return effect == Effect::kDominant ? "dominant" : "recessive";
+}
+
+std::string place_text(const Scenario &scenario, const FaultSpec &fault) {
+  const PlaceSpec &place = fault.place;
+  std::string text = ", at: {node: " + scenario.nodes[fault.watched].name;
+  const auto number = [&](const char *key, const std::optional<unsigned> &value) {
+    if (value) text += fmt::format(", {}: {}", key, *value);
+  };
+  number("frame", place.frame);
+  if (place.field) text += fmt::format(", field: {}", field_name(*place.field));
+  number("bit", place.index);
+  number("bits_left", place.left);
+  if (place.stuff) text += fmt::format(", stuff: {}", *place.stuff ? "true" : "false");
+  number("first_tq", fault.first_quantum);
+  number("last_tq", fault.last_quantum);
+  return text + "}";
+}
+
+std::string window_text(const Window &window) {
+  std::string text;
+  if (window.from != 0) text += ", from: " + time_text(window.from);
+  if (window.to != kEver) text += ", for: " + time_text(window.to - window.from);
+  return text;
+}
+
+std::string fault_text(const Scenario &scenario, const FaultSpec &fault) {
+  using Kind = FaultSpec::Kind;
+  const std::string node =
+      ", node: " + (fault.node == kAllNodes ? "all" : scenario.nodes[fault.node].name);
+  std::string text = "  - {kind: ";
+  switch (fault.kind) {
+    case Kind::kLevel: text += effect_text(fault.effect) + node + window_text(fault.window); break;
+    case Kind::kPlace: text += effect_text(fault.effect) + node + place_text(scenario, fault); break;
+    case Kind::kCut: text += "cut" + node + window_text(fault.window); break;
+    case Kind::kShort: text += "short" + node + window_text(fault.window); break;
+    case Kind::kClock:
+      text += "clock" + node + window_text(fault.window) + fmt::format(", ppm: {}", fault.ppm);
+      break;
+    case Kind::kNoise:
+      text += "noise" + node + window_text(fault.window) +
+              fmt::format(", per_bit: {}, glitches_per_ms: {}, glitch: {}, seed: {}",
+                          fault.noise.per_bit, fault.noise.per_ns * 1e6,
+                          time_text(fault.noise.glitch), fault.noise.seed);
+      break;
+  }
+  return text + "}\n";
+}
+
+std::string access_text(const Scenario &scenario, const AccessSpec &access) {
+  std::string steps;
+  for (const AccessStep &step : access.steps)
+    steps += (steps.empty() ? "" : ", ") + to_text(step);
+  return fmt::format("  - {{node: {}, at: {}, do: [{}]}}\n", scenario.nodes[access.node].name,
+                     time_text(access.at), steps);
+}
+
+}  // namespace
+
+std::string to_yaml(const Scenario &scenario) {
+  std::string text = fmt::format("name: {}\n", scenario.name);
+  if (scenario.lockstep) text += "judge: lockstep\n";
+  std::string rates;
+  for (const double rate : scenario.bitrates)
+    rates += fmt::format("{}{}", rates.empty() ? "" : ", ", rate);
+  text += scenario.bitrates.size() == 1 ? "bitrate: " + rates + "\n" : "bitrate: [" + rates + "]\n";
+  if (scenario.sample_point) text += fmt::format("sample_point: {}\n", *scenario.sample_point);
+  text += "duration: " + time_text(scenario.duration) + "\n";
+  text += "drain: " + time_text(scenario.drain) + "\n";
+  text += fmt::format("seed: {}\n", scenario.seed);
+  if (scenario.analysis) text += "analysis: true\n";
+  text += "nodes:\n";
+  for (const NodeSpec &node : scenario.nodes) text += node_text(node);
+  if (!scenario.traffic.empty()) text += "traffic:\n";
+  for (const TrafficSpec &traffic : scenario.traffic) text += traffic_text(scenario, traffic);
+  if (!scenario.faults.empty()) text += "faults:\n";
+  for (const FaultSpec &fault : scenario.faults) text += fault_text(scenario, fault);
+  if (!scenario.accesses.empty()) text += "accesses:\n";
+  for (const AccessSpec &access : scenario.accesses) text += access_text(scenario, access);
+  return text;
+}
+
+}  // namespace vericansim

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// random_campaign: whole cores on random buses, judged in every bit (docs/lockstep.md).
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "random/campaign_run.hpp"
+
+int main(int argc, char **argv) {
+  using namespace vericansim;
+  CLI::App app{"Random buses of whole cores with all judges on (docs/lockstep.md)"};
+  CampaignOptions options = campaign_defaults();
+  app.add_option("--seed", options.seed, "First seed")->capture_default_str();
+  app.add_option("--runs", options.runs, "Seeds to run; 0: until there are --frames")
+      ->capture_default_str();
+  app.add_option("--frames", options.frames, "Frames on the buses in all")->capture_default_str();
+  app.add_option("--frames-a-run", options.frames_a_run, "Frames of one bus, about")
+      ->check(CLI::Range(10U, 1'000'000U))
+      ->capture_default_str();
+  app.add_option("--jobs", options.jobs, "Threads")->check(CLI::Range(1U, 64U));
+  app.add_option("--directory", options.directory, "Where scenarios of failing seeds go")
+      ->capture_default_str();
+  app.add_option("--json", options.json, "File for the result");
+  app.add_flag("--print", options.print, "Print the scenario of --seed, do not run it");
+  app.add_flag("--no-shrink", options.no_shrink, "Keep a failing scenario as it is");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return run_campaign(options);
+  } catch (const std::exception &error) {
+    fmt::print(stderr, "random_campaign: {}\n", error.what());
+    return 2;
+  }
+}

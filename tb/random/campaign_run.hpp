@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The random campaign: seeds to verdicts, with progress and a summary.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace vericansim {
+
+struct CampaignOptions {
+  std::uint64_t seed = 1;
+  std::uint64_t runs = 0;  ///< 0: as many as `frames` need
+  std::uint64_t frames = 10'000'000;
+  unsigned frames_a_run = 3000;
+  unsigned jobs = 2;
+  std::string directory = ".";
+  std::string json;
+  bool print = false;
+  bool no_shrink = false;
+};
+
+/// Defaults, with CAMPAIGN_SEED, CAMPAIGN_SCALE, CAMPAIGN_DIR and CAMPAIGN_OUT of the environment.
+/// Throws std::runtime_error if one of them is no number.
+[[nodiscard]] CampaignOptions campaign_defaults();
+
+/// Runs it; 0 if every seed passed, 1 otherwise.
+int run_campaign(const CampaignOptions &options);
+
+}  // namespace vericansim
