@@ -72,8 +72,8 @@ class LevelFault : public Fault {
   Window window_;
 };
 
-/// Any number of LevelFaults with an end, for less than one of them costs: windows that are over are
-/// not looked at again. Each receiver asks with times that do not go back.
+/// Any number of LevelFaults with an end, for less than one of them costs: windows that are over
+/// are not looked at again. Each receiver asks with times that do not go back.
 class ScheduledFaults : public Fault {
  public:
   void add(NodeId victim, Effect effect, Window window);
@@ -92,7 +92,7 @@ class ScheduledFaults : public Fault {
   static void insert(Receiver &receiver, const Entry &entry);
   [[nodiscard]] Receiver &receiver(NodeId id);
 
-  Receiver point_;                    // the observation point
+  Receiver point_;  // the observation point
   std::vector<Receiver> receivers_;
   std::vector<Entry> for_everybody_;  // copied to receivers as they come
 };

@@ -20,8 +20,7 @@ constexpr std::uint64_t kTraceRunning = 1ULL << 20;
 
 bool is_mask(std::uint32_t address) {
   return address == reg::kRxgmask || address == reg::kRx14mask || address == reg::kRx15mask ||
-         address == reg::kRxfgmask ||
-         (address >= reg::rximr(0) && address < reg::rximr(64));
+         address == reg::kRxfgmask || (address >= reg::rximr(0) && address < reg::rximr(64));
 }
 
 bool is_cs(std::uint32_t address) {
@@ -49,9 +48,8 @@ BufferJudge::BufferJudge(RtlNode &node, Report report)
       report_{std::move(report)},
       registers_{node.num_mb()},
       model_{registers_.buffers()} {
-  node_.ahb().watch([this](const AhbRequest &request, const AhbResponse &response) {
-    watch(request, response);
-  });
+  node_.ahb().watch(
+      [this](const AhbRequest &request, const AhbResponse &response) { watch(request, response); });
 }
 
 BufferJudge::~BufferJudge() { node_.ahb().watch({}); }
@@ -107,8 +105,7 @@ void BufferJudge::tell(const Access &access) {
 }
 
 void BufferJudge::write(const Access &access) {
-  const auto change =
-      registers_.write(access.address, access.data, access.lanes, access.running);
+  const auto change = registers_.write(access.address, access.data, access.lanes, access.running);
   const bool frozen = !access.running && !registers_.disabled();
   if (is_cs(access.address)) last_cs_write_ = access.clock;
   if (change.soft_reset) {

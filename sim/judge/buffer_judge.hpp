@@ -32,8 +32,8 @@ class BufferJudge {
 
   /// What the CPU's accesses have done to the node since the last call.
   struct Interference {
-    bool stopped = false;     ///< it has left the bus
-    bool soft_reset = false;  ///< counters 0
+    bool stopped = false;                                   ///< it has left the bus
+    bool soft_reset = false;                                ///< counters 0
     std::optional<std::pair<unsigned, unsigned>> counters;  ///< TEC and REC written
   };
 

@@ -50,6 +50,7 @@ void BusJudge::on_bit(NodeId id, const BitRecord &record) {
   // An edge at the sample point itself comes after it.
   const Level pin = side.pin_time < record.time ? side.pin : !side.pin;
   side.rules->bit(record, pin);
+  if (!record.after.running) return;  // stopped before the bit was over
   const NodeBit bit = node_bit(record, pin);
   if (side.rules->restarted()) {
     ++counts_.stops;
@@ -124,8 +125,6 @@ JudgeCounts BusJudge::counts() const {
   return counts;
 }
 
-void BusJudge::finding(const std::string &text) {
-  findings_.push_back(text);
-}
+void BusJudge::finding(const std::string &text) { findings_.push_back(text); }
 
 }  // namespace vericansim

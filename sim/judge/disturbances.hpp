@@ -21,8 +21,7 @@ class Disturbances {
     first_ = std::min(first_, window.from);
     longest_ = std::max(longest_, window.to - window.from);
     const auto later = [](const Entry &e, Time from) { return e.window.from < from; };
-    list_.insert(std::lower_bound(list_.begin(), list_.end(), window.from, later),
-                 {node, window});
+    list_.insert(std::lower_bound(list_.begin(), list_.end(), window.from, later), {node, window});
   }
 
   /// There is none before `time`.

@@ -119,9 +119,8 @@ void NodeAssertions::look_at_own_frame(const NodeBit &bit) {
 }
 
 void NodeAssertions::look_at_liveness(const NodeBit &bit, const Mode &mode, bool pending) {
-  const bool counts = pending && !mode.listen_only &&
-                      !bit.bus_off && !in_frame(bit) && bit.rx == Level::kRecessive &&
-                      bit.sent_level == Level::kRecessive;
+  const bool counts = pending && !mode.listen_only && !bit.bus_off && !in_frame(bit) &&
+                      bit.rx == Level::kRecessive && bit.sent_level == Level::kRecessive;
   silence_ = counts ? silence_ + 1 : 0;
   if (silence_ > kLongestSilence) broken_("does not start its frame on a quiet bus");
   if (silence_ > kLongestIntegration && bit.field == Field::kInteg) {

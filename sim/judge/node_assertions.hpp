@@ -23,7 +23,8 @@ class NodeAssertions {
     bool loop_back = false;
   };
 
-  /// `broken` is told one clause for each broken assertion, as in "delivers elsewhere than at EOF6".
+  /// `broken` is told one clause for each broken assertion, as in "delivers elsewhere than at
+  /// EOF6".
   explicit NodeAssertions(std::function<void(const std::string &)> broken)
       : broken_{std::move(broken)} {}
 

@@ -32,9 +32,9 @@ bool may_start_at(const NodeBit &bit) {
 }  // namespace
 
 NodeJudge::NodeJudge(BufferJudge &buffers, Report report)
-    : buffers_{buffers},
-      report_{std::move(report)},
-      assertions_{[this](const std::string &what) { report_(what); }} {}
+    : buffers_{buffers}, report_{std::move(report)}, assertions_{[this](const std::string &what) {
+        report_(what);
+      }} {}
 
 void NodeJudge::bit(const BitRecord &record, Level pin) {
   if (failed_) return;
@@ -124,8 +124,7 @@ std::string NodeJudge::follow(Follower &follower, const NodeBit &bit) const {
   const Level expected = model.internal_level();
   follower.last_rec = model.rec();
   if (bit.sent_level != expected) {
-    return differs("sends", static_cast<unsigned>(bit.sent_level),
-                   static_cast<unsigned>(expected));
+    return differs("sends", static_cast<unsigned>(bit.sent_level), static_cast<unsigned>(expected));
   }
   // A listening node may wait in other ways after an error (MO-02).
   if (!model.config().listen_only) {
@@ -184,9 +183,8 @@ std::string NodeJudge::compare_counters(Follower &follower, const NodeBit &bit) 
 // after the RTR of an extended frame.
 void NodeJudge::tell_buffers(const NodeBit &bit, bool own) {
   const NodeModel &model = followers_.front().model;
-  const bool ends_header =
-      !bit.stuff && (bit.field == Field::kExRtr ||
-                     (bit.field == Field::kIde && bit.rx == Level::kDominant));
+  const bool ends_header = !bit.stuff && (bit.field == Field::kExRtr ||
+                                          (bit.field == Field::kIde && bit.rx == Level::kDominant));
   if (bit.errors != 0 || bit.failed || bit.delivered || bit.sent)
     buffers_.end_bit(bit, model.received());
   if (own || bit.errors != 0) in_header_ = own;

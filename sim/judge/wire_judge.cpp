@@ -64,8 +64,7 @@ void WireJudge::settle(Time nodes_until, Time wire_until) {
     const Success &success = unseen_.front();
     if (clean(success.sof, success.end)) {
       report_(fmt::format("{} counts {} as sent {}, but it was not on the wire",
-                          nodes_[success.node].name, frame_text(success.frame),
-                          when(success.end)));
+                          nodes_[success.node].name, frame_text(success.frame), when(success.end)));
     }
     unseen_.pop_front();
   }
@@ -117,8 +116,8 @@ void WireJudge::judge_left_over(const Delivery &delivery) {
     if (!its_frame || node.failed_late || disturbed(id, delivery.sof, delivery.time)) continue;
     if (late < -bit_time_) continue;  // lost the arbitration long before
     report_(fmt::format("{} has received {} {}, whose sender {} failed before EOF7",
-                        nodes_[delivery.node].name, frame_text(delivery.frame),
-                        when(delivery.time), node.name));
+                        nodes_[delivery.node].name, frame_text(delivery.frame), when(delivery.time),
+                        node.name));
   }
 }
 

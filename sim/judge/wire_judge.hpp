@@ -57,8 +57,8 @@ class WireJudge {
 
   struct NodeView {
     std::string name;
-    Time sof = -kSecond;      // of the frame under way or the last one
-    Time failed = -kSecond;   // last attempt that failed
+    Time sof = -kSecond;       // of the frame under way or the last one
+    Time failed = -kSecond;    // last attempt that failed
     bool failed_late = false;  // ... at EOF7
   };
   struct Success {

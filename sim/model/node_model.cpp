@@ -108,7 +108,9 @@ unsigned NodeModel::left() const {
 void NodeModel::restart() {
   sending_ = false;
   events_ = NodeEvents{};
-  if (confinement_.off()) {
+  if (confinement_.off() && place_.field == Field::kBusOff) {
+    recessive_run_ = 0;  // the recovery sequences so far count
+  } else if (confinement_.off()) {
     enter_bus_off();
   } else {
     integrate();

@@ -84,11 +84,11 @@ Task<bool> AccessScript::step(AccessStep step) {
 
 void AccessScript::failed(const AccessStep &step, std::uint32_t seen) {
   if (failures_.size() >= kMostFailures) return;
-  failures_.push_back({fmt::format("{}: {}", node_.name(), to_text(step)),
-                       fmt::format("0x{:X}", step.value & step.mask),
-                       fmt::format("0x{:08X} at {:.3f} us", seen,
-                                   static_cast<double>(bus_.now()) / kMicrosecond),
-                       false});
+  failures_.push_back(
+      {fmt::format("{}: {}", node_.name(), to_text(step)),
+       fmt::format("0x{:X}", step.value & step.mask),
+       fmt::format("0x{:08X} at {:.3f} us", seen, static_cast<double>(bus_.now()) / kMicrosecond),
+       false});
 }
 
 std::vector<CheckResult> AccessScript::failures() const {

@@ -26,7 +26,7 @@ struct NodeSpec {
   Link link;
   unsigned num_mb = 64;
   bool software = true;  ///< false: nothing but `accesses` drives the core
-  HostConfig host;  ///< `timing` is filled for the bit rate; tx_buffers 0: as many as messages
+  HostConfig host;       ///< `timing` is filled for the bit rate; tx_buffers 0: as many as messages
   std::optional<BitTiming> timing;     ///< given segment by segment; unset: calculated
   std::optional<double> bitrate;       ///< own rate, bit/s; unset: that of the bus
   std::optional<double> sample_point;  ///< 0..1; unset: that of the bus, or CiA's

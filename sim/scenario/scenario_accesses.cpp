@@ -21,10 +21,10 @@ struct Verb {
   unsigned words;  // with itself
 };
 
-constexpr Verb kVerbs[] = {
-    {"read", Kind::kRead, 2},   {"write", Kind::kWrite, 3}, {"set", Kind::kSet, 3},
-    {"clear", Kind::kClear, 3}, {"until", Kind::kUntil, 4}, {"if", Kind::kIf, 4},
-    {"check", Kind::kCheck, 4}};
+constexpr Verb kVerbs[] = {{"read", Kind::kRead, 2},   {"write", Kind::kWrite, 3},
+                           {"set", Kind::kSet, 3},     {"clear", Kind::kClear, 3},
+                           {"until", Kind::kUntil, 4}, {"if", Kind::kIf, 4},
+                           {"check", Kind::kCheck, 4}};
 
 constexpr std::string_view kAllowed =
     "read REG, write REG VALUE, set REG BITS, clear REG BITS, until REG MASK VALUE, "

@@ -147,7 +147,9 @@ std::string fault_text(const Scenario &scenario, const FaultSpec &fault) {
   std::string text = "  - {kind: ";
   switch (fault.kind) {
     case Kind::kLevel: text += effect_text(fault.effect) + node + window_text(fault.window); break;
-    case Kind::kPlace: text += effect_text(fault.effect) + node + place_text(scenario, fault); break;
+    case Kind::kPlace:
+      text += effect_text(fault.effect) + node + place_text(scenario, fault);
+      break;
     case Kind::kCut: text += "cut" + node + window_text(fault.window); break;
     case Kind::kShort: text += "short" + node + window_text(fault.window); break;
     case Kind::kClock:
@@ -165,8 +167,7 @@ std::string fault_text(const Scenario &scenario, const FaultSpec &fault) {
 
 std::string access_text(const Scenario &scenario, const AccessSpec &access) {
   std::string steps;
-  for (const AccessStep &step : access.steps)
-    steps += (steps.empty() ? "" : ", ") + to_text(step);
+  for (const AccessStep &step : access.steps) steps += (steps.empty() ? "" : ", ") + to_text(step);
   return fmt::format("  - {{node: {}, at: {}, do: [{}]}}\n", scenario.nodes[access.node].name,
                      time_text(access.at), steps);
 }

@@ -108,8 +108,7 @@ void Simulation::add_faults() {
     const bool ends = spec.window.to != std::numeric_limits<Time>::max();
     if (spec.kind == FaultSpec::Kind::kLevel && ends) {
       if (!scheduled) scheduled = std::make_unique<ScheduledFaults>();
-      scheduled->add(spec.node, spec.effect,
-                     {spec.window.from + start_, spec.window.to + start_});
+      scheduled->add(spec.node, spec.effect, {spec.window.from + start_, spec.window.to + start_});
       continue;
     }
     faults_.push_back(make_fault(spec));

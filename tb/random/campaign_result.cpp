@@ -92,11 +92,12 @@ std::string CampaignResult::text() const {
   return text + fmt::format("{} of {} seeds failed\n", failures.size(), runs);
 }
 
-std::string CampaignResult::json(std::uint64_t first_seed) const {
+std::string CampaignResult::json(std::uint64_t first_seed, std::uint64_t least) const {
   const auto number = [](std::uint64_t n) { return static_cast<double>(n); };
   Json figures = Json::array();
-  figures.push_back(figure("frames on random buses", number(frames), "10,000,000",
-                           frames >= 10'000'000));
+  figures.push_back(figure("frames on random buses", number(frames),
+                           least == 0 ? "" : fmt::format("at least {}", least),
+                           least == 0 ? Json(nullptr) : Json(frames >= least)));
   figures.push_back(
       figure("seeds with a difference", number(failures.size()), "0", failures.empty()));
   figures.push_back(figure("seeds", number(runs)));
@@ -104,8 +105,8 @@ std::string CampaignResult::json(std::uint64_t first_seed) const {
   figures.push_back(figure("node-bits compared with the rules", number(counts.node_bits)));
   figures.push_back(figure("register accesses judged", number(counts.accesses)));
   figures.push_back(figure("exchanges compared between nodes", number(counts.wire.exchanges)));
-  figures.push_back(figure("... in which every node was held to the frame",
-                           number(counts.wire.strict)));
+  figures.push_back(
+      figure("... in which every node was held to the frame", number(counts.wire.strict)));
   figures.push_back(figure("... seen alike by the decoder", number(counts.wire.decoded)));
   figures.push_back(figure("deliveries compared", number(counts.wire.deliveries)));
   figures.push_back(figure("frames followed into software", number(counts.software)));

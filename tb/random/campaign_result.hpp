@@ -27,8 +27,8 @@ struct CampaignResult {
 
   void add(std::uint64_t seed, const Scenario &scenario, const JudgedRun &run);
   [[nodiscard]] std::string text() const;
-  /// As tools/campaign.py reads it.
-  [[nodiscard]] std::string json(std::uint64_t first_seed) const;
+  /// As tools/campaign.py reads it. `least`: frames that are demanded, 0: none.
+  [[nodiscard]] std::string json(std::uint64_t first_seed, std::uint64_t least) const;
 
  private:
   struct Bin {

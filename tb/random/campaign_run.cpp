@@ -54,7 +54,8 @@ class Campaign {
     for (std::thread &worker : workers) worker.join();
     result_.seconds = seconds();
     fmt::print("{}", result_.text());
-    if (!options_.json.empty()) write(options_.json, result_.json(options_.seed));
+    if (!options_.json.empty())
+      write(options_.json, result_.json(options_.seed, options_.runs == 0 ? options_.frames : 0));
     return result_.failures.empty() ? 0 : 1;
   }
 
@@ -62,8 +63,8 @@ class Campaign {
   void work() {
     for (;;) {
       const std::uint64_t seed = next_seed_++;
-      const bool enough = options_.runs != 0 ? seed >= options_.seed + options_.runs
-                                             : frames_ >= options_.frames;
+      const bool enough =
+          options_.runs != 0 ? seed >= options_.seed + options_.runs : frames_ >= options_.frames;
       if (enough) return;
       run(seed);
     }
@@ -86,9 +87,9 @@ class Campaign {
   void failed(std::uint64_t seed, const Scenario &scenario, const JudgedRun &run) {
     const std::string stem = fmt::format("{}/seed-{}", options_.directory, seed);
     write(stem + "-full.yaml", to_yaml(scenario));
-    std::string text = fmt::format("seed {} FAILED after {:.3f} ms: {}\n", seed,
-                                   static_cast<double>(run.failed_at) / kMillisecond,
-                                   run.findings.front());
+    std::string text =
+        fmt::format("seed {} FAILED after {:.3f} ms: {}\n", seed,
+                    static_cast<double>(run.failed_at) / kMillisecond, run.findings.front());
     if (!options_.no_shrink) {
       const Shrunk shrunk = shrink(scenario, run);
       write(stem + ".yaml", to_yaml(shrunk.scenario));
@@ -125,8 +126,7 @@ CampaignOptions campaign_defaults() {
   CampaignOptions options;
   options.seed = static_cast<std::uint64_t>(environment("CAMPAIGN_SEED", 1.0));
   const double scale = environment("CAMPAIGN_SCALE", 1.0);
-  // Somewhat more than asked for, so that the figure is never just below it.
-  options.frames = static_cast<std::uint64_t>(10'050'000 * scale);
+  options.frames = static_cast<std::uint64_t>(10'000'000 * scale);
   options.directory = environment("CAMPAIGN_DIR", std::string{"."});
   options.json = environment("CAMPAIGN_OUT", std::string{});
   return options;

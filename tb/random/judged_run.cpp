@@ -44,7 +44,8 @@ JudgedRun run_judged(const Scenario &scenario) {
     run.node_cycles = report.node_cycles;
     run.counts = *report.judged;
     for (const CheckResult &check : report.checks)
-      if (!check.ok && check.what != "lockstep") run.findings.push_back(check.what + ": " + check.seen);
+      if (!check.ok && check.what != "lockstep")
+        run.findings.push_back(check.what + ": " + check.seen);
   } catch (const std::exception &error) {
     run.findings.emplace_back(error.what());
   }

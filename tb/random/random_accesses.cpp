@@ -63,8 +63,7 @@ class Script {
 
   [[nodiscard]] unsigned mailbox() {
     const unsigned count = std::min(num_mb_ - first_, 12U);
-    return dice_.per_cent(50) ? first_ + dice_.below(count)
-                              : num_mb_ - 1 - dice_.below(count);
+    return dice_.per_cent(50) ? first_ + dice_.below(count) : num_mb_ - 1 - dice_.below(count);
   }
 
   [[nodiscard]] Steps set_up(bool from_reset) {
@@ -113,8 +112,9 @@ class Script {
     const bool extended = dice_.per_cent(30);
     const std::uint32_t id = draw_identifier(dice_, dice_.below(16), extended);
     write(steps, reg::mb(mb, 1), extended ? id : id << 18);
-    write(steps, reg::mb(mb), reg::kCodeRxEmpty | (extended ? reg::kCsIde : 0) |
-                                  (dice_.per_cent(20) ? reg::kCsRtr : 0));
+    write(
+        steps, reg::mb(mb),
+        reg::kCodeRxEmpty | (extended ? reg::kCsIde : 0) | (dice_.per_cent(20) ? reg::kCsRtr : 0));
   }
 
   void send(Steps &steps, unsigned mb) {
@@ -127,9 +127,9 @@ class Script {
     write(steps, reg::mb(mb, 1), (extended ? id : id << 18) | (dice_.below(8) << 29));
     const std::uint32_t code = dice_.per_cent(85) ? reg::kCodeTxData : kTxAnswerWaits << 24;
     const std::uint32_t dlc = dice_.per_cent(70) ? dice_.below(3) : dice_.below(16);
-    write(steps, reg::mb(mb), code | (dlc << 16) | (remote ? reg::kCsRtr : 0) |
-                                  (extended ? reg::kCsIde | reg::kCsSrr : 0) |
-                                  (dice_.per_cent(25) ? 1U << 28 : 0));
+    write(steps, reg::mb(mb),
+          code | (dlc << 16) | (remote ? reg::kCsRtr : 0) |
+              (extended ? reg::kCsIde | reg::kCsSrr : 0) | (dice_.per_cent(25) ? 1U << 28 : 0));
   }
 
   /// As drivers read a buffer.
@@ -183,7 +183,8 @@ class Script {
       case 0:
         write(steps, reg::kMcr, kFrozen | mcr_);
         until(steps, reg::kMcr, reg::kMcrFrzAck, reg::kMcrFrzAck);
-        for (unsigned n = dice_.below(20); n > 0; --n) read(steps, reg::mb(mailbox(), dice_.below(4)));
+        for (unsigned n = dice_.below(20); n > 0; --n)
+          read(steps, reg::mb(mailbox(), dice_.below(4)));
         write(steps, reg::kMcr, mcr_ | reg::kMcrFrz);
         until(steps, reg::kMcr, reg::kMcrFrzAck, 0);
         break;
@@ -218,9 +219,10 @@ void draw_reads(Dice &dice, Scenario &scenario, NodeId id) {
   for (Time at = bit * dice.in(1, 2000); at < scenario.duration; at += bit * dice.in(1, 2000)) {
     Steps steps;
     for (unsigned n = dice.in(1, 4); n > 0; --n) {
-      constexpr std::uint32_t kPlain[] = {reg::kMcr,   reg::kCtrl,   reg::kTimer, reg::kEcr,
-                                          reg::kEsr,   reg::kImask1, reg::kIflag1, reg::kIflag2,
-                                          reg::kCtrl2, VERICAN_ESR2_OFFSET, VERICAN_CRCR_OFFSET};
+      constexpr std::uint32_t kPlain[] = {reg::kMcr,           reg::kCtrl,         reg::kTimer,
+                                          reg::kEcr,           reg::kEsr,          reg::kImask1,
+                                          reg::kIflag1,        reg::kIflag2,       reg::kCtrl2,
+                                          VERICAN_ESR2_OFFSET, VERICAN_CRCR_OFFSET};
       const unsigned kind = dice.below(3);
       if (kind == 0) read(steps, kPlain[dice.below(std::size(kPlain))]);
       if (kind == 1) read(steps, reg::mb(dice.below(num_mb), dice.below(4)));

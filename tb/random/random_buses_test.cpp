@@ -19,7 +19,7 @@ INSTANTIATE_TEST_SUITE_P(Seed, RandomBus, ::testing::Range(1U, 41U),
 // clocks, delays, buffers, software and noise follow the rules bit by bit; what one sends the
 // others receive, once and in order.
 TEST_P(RandomBus, JudgesAgree) {
-  const Scenario scenario = random_scenario(GetParam(), 120);
+  const Scenario scenario = random_scenario(GetParam(), 250);
   const JudgedRun run = run_judged(scenario);
   for (const std::string &finding : run.findings) ADD_FAILURE() << finding;
   EXPECT_GT(run.frames, 0u);

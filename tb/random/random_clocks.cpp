@@ -19,8 +19,8 @@ constexpr double kInputClocks = 3;
 /// `quanta` shared out: PHASE_SEG2 a quarter or so, PHASE_SEG1 like it, the rest PROP_SEG.
 BitTiming draw_timing(Dice &dice, unsigned quanta) {
   BitTiming timing;
-  timing.ps2 = std::clamp(static_cast<unsigned>(std::lround(quanta * dice.in_span(0.18, 0.30))),
-                          2U, 8U);
+  timing.ps2 =
+      std::clamp(static_cast<unsigned>(std::lround(quanta * dice.in_span(0.18, 0.30))), 2U, 8U);
   timing.ps1 = std::clamp(dice.in(timing.ps2 > 2 ? timing.ps2 - 1 : 2, timing.ps2 + 1), 2U, 8U);
   timing.prop = quanta - 1 - std::min(timing.ps1 + timing.ps2, quanta - 2);
   while (timing.prop > 8) {

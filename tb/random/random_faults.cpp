@@ -17,12 +17,10 @@ struct Draw {
 
   [[nodiscard]] Time moment() {
     const Time tick = bit / 16;
-    return tick * static_cast<Time>(dice.below(static_cast<std::uint64_t>(scenario.duration /
-                                                                          tick)));
+    return tick *
+           static_cast<Time>(dice.below(static_cast<std::uint64_t>(scenario.duration / tick)));
   }
-  [[nodiscard]] NodeId node() {
-    return dice.below(scenario.nodes.size());
-  }
+  [[nodiscard]] NodeId node() { return dice.below(scenario.nodes.size()); }
   void add(FaultSpec::Kind kind, Effect effect, NodeId node, Time length) {
     FaultSpec fault;
     fault.kind = kind;

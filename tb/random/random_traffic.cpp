@@ -44,8 +44,8 @@ void draw_payload(Dice &dice, TrafficSpec &traffic) {
   if (!dice.per_cent(20)) return;
   traffic.data = DataKind::kFixed;  // long runs of equal bits
   for (unsigned i = 0; i < frame.payload_size(); ++i)
-    frame.data[i] = static_cast<std::uint8_t>(dice.per_cent(80) ? 0xFF * dice.below(2)
-                                                                : dice.below(256));
+    frame.data[i] =
+        static_cast<std::uint8_t>(dice.per_cent(80) ? 0xFF * dice.below(2) : dice.below(256));
 }
 
 void draw_filters(Dice &dice, HostConfig &host) {

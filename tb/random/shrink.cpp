@@ -73,7 +73,9 @@ class Shrinker {
       std::erase_if(s.faults, [&](const FaultSpec &f) { return f.window.from > end; });
     });
     for (const unsigned per_cent : {50, 75, 90})
-      attempt([&](Scenario &s) { s.duration = std::max<Time>(1'000'000, s.duration * per_cent / 100); });
+      attempt([&](Scenario &s) {
+        s.duration = std::max<Time>(1'000'000, s.duration * per_cent / 100);
+      });
   }
 
   using Drop = void (*)(Scenario &, std::size_t, std::size_t);
@@ -152,9 +154,7 @@ class Shrinker {
 
   void simplify_traffic() {
     for (std::size_t i = 0; i < best_.scenario.traffic.size(); ++i) {
-      const auto change = [&](auto edit) {
-        attempt([&](Scenario &s) { edit(s.traffic[i]); });
-      };
+      const auto change = [&](auto edit) { attempt([&](Scenario &s) { edit(s.traffic[i]); }); };
       change([](TrafficSpec &t) {
         t.saturated = t.random_offset = false;
         t.period = t.offset = t.jitter = 0;

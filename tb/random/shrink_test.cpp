@@ -22,8 +22,9 @@ using ::testing::HasSubstr;
 TEST(Shrink, LeavesWhatMatters) {
   Scenario scenario = random_scenario(16, 60);
   scenario.accesses.push_back(
-      {0, scenario.duration / 2, {{AccessStep::Kind::kRead, 0x20},
-                                  {AccessStep::Kind::kCheck, 0x000, 0x2000000, 0x2000000}}});
+      {0,
+       scenario.duration / 2,
+       {{AccessStep::Kind::kRead, 0x20}, {AccessStep::Kind::kCheck, 0x000, 0x2000000, 0x2000000}}});
   const JudgedRun run = run_judged(scenario);
   ASSERT_FALSE(run.ok());
   const Shrunk shrunk = shrink(scenario, run);
@@ -63,10 +64,9 @@ TEST(ScenarioAccesses, AreRead) {
   const AccessSpec &first = scenario.accesses[0];
   EXPECT_EQ(first.node, 1u);
   EXPECT_EQ(first.at, 2 * kMicrosecond);
-  const std::vector<AccessStep> expected = {
-      {AccessStep::Kind::kWrite, 0x0D0, 0x8000000},
-      {AccessStep::Kind::kUntil, 0x000, 0, 0x100000},
-      {AccessStep::Kind::kRead, 0x020}};
+  const std::vector<AccessStep> expected = {{AccessStep::Kind::kWrite, 0x0D0, 0x8000000},
+                                            {AccessStep::Kind::kUntil, 0x000, 0, 0x100000},
+                                            {AccessStep::Kind::kRead, 0x020}};
   EXPECT_EQ(first.steps, expected);
   EXPECT_EQ(scenario.accesses[1].steps[0].kind, AccessStep::Kind::kSet);
 }
@@ -98,7 +98,8 @@ TEST(ScenarioAccesses, DecideOverTheRun) {
       "  - {node: b, do: [write MCR 0x5000000F, until MCR 0x1000000 0x1000000, check MCR 0x100000 ";
   EXPECT_TRUE(run_scenario(read(text + "0]}\n"), 500e3).ok());
   EXPECT_FALSE(run_scenario(read(text + "0x100000]}\n"), 500e3).ok());
-  EXPECT_FALSE(run_scenario(read("accesses: [{node: b, do: [until MCR 0x80000000 0]}]"), 500e3).ok());
+  EXPECT_FALSE(
+      run_scenario(read("accesses: [{node: b, do: [until MCR 0x80000000 0]}]"), 500e3).ok());
 }
 
 }  // namespace
