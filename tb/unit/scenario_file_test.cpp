@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"NoMap", "nodes: 5", "s.yaml:1: nodes: '5' is not allowed; allowed: a map"},
         Mistake{"EmptyNodes", "nodes: []", "no node is given"},
         Mistake{"UnknownKey", "bitrat: 500k\n",
-                "s.yaml:2: unknown key 'bitrat'; allowed: analysis, bitrate, "},
+                "s.yaml:2: unknown key 'bitrat'; allowed: accesses, analysis, bitrate, "},
         Mistake{"TwiceAKey", "seed: 1\nseed: 2\n", "s.yaml:3: key 'seed' is given twice"},
         Mistake{"Bitrate", "bitrate: 2M\n",
                 "s.yaml:2: bitrate: '2M' is not allowed; allowed: 1 kbit/s to 1 Mbit/s"},
