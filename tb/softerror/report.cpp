@@ -44,7 +44,7 @@ std::string column_of(const Record &record) {
   return is_ram(record) ? ram_of(flip.index) : block_of(FlopNode::flops()[flip.index].variable);
 }
 
-/// Rows: classes that occur, worst last; columns: blocks.
+/// Rows: classes that occur and those that must not, worst last; columns: blocks.
 json table(const std::vector<Record> &records, bool ram, const std::vector<std::string> &columns) {
   std::array<std::map<std::string, unsigned>, kVerdicts> counts;
   for (const Record &record : records) {
@@ -52,6 +52,7 @@ json table(const std::vector<Record> &records, bool ram, const std::vector<std::
   }
   json rows = json::array();
   for (unsigned v = 0; v < kVerdicts; ++v) {
+    if (counts[v].empty() && v < static_cast<unsigned>(Verdict::kHang)) continue;
     json row = {to_string(static_cast<Verdict>(v))};
     unsigned sum = 0;
     for (const std::string &column : columns) {
@@ -80,27 +81,48 @@ Value worst(const std::vector<Record> &records, Value Outcome::*member, Cure mos
   return value;
 }
 
-/// Variables whose flips came out as one of these classes: name, and how many flips of how many.
+/// What is told of a variable in the tables of variables.
+struct Entry {
+  unsigned flips = 0;
+  unsigned hits = 0;
+  Verdict worst = Verdict::kGone;
+  std::set<unsigned> bits;  ///< that had the worst class
+  std::string example;
+};
+
+std::string ranges(const std::set<unsigned> &bits) {
+  std::string text;
+  for (auto first = bits.begin(); first != bits.end();) {
+    auto last = first;
+    while (std::next(last) != bits.end() && *std::next(last) == *last + 1) ++last;
+    text += (text.empty() ? "" : ", ") + std::to_string(*first);
+    if (last != first) text += "-" + std::to_string(*last);
+    first = std::next(last);
+  }
+  return text;
+}
+
+/// Variables whose flips came out as one of these classes.
 json variables(const std::vector<Record> &records, const std::set<Verdict> &verdicts) {
-  std::map<std::string, std::array<unsigned, 3>> found;
-  std::map<std::string, std::string> example;
+  std::map<std::string, Entry> found;
   for (const Record &record : records) {
     if (is_ram(record)) continue;
-    auto &entry = found[FlopNode::flops()[record.outcome.flip.index].variable];
-    ++entry[1];
+    const Flop &flop = FlopNode::flops()[record.outcome.flip.index];
+    Entry &entry = found[flop.variable];
+    ++entry.flips;
     if (verdicts.count(record.verdict) == 0) continue;
-    if (entry[0]++ == 0 || static_cast<unsigned>(record.verdict) > entry[2]) {
-      entry[2] = static_cast<unsigned>(record.verdict);
-      example[FlopNode::flops()[record.outcome.flip.index].variable] =
-          "--flop " + name_of(record.outcome.flip) + " --seed " +
-          std::to_string(record.outcome.seed);
+    if (entry.hits++ == 0 || record.verdict > entry.worst) {
+      entry.worst = record.verdict;
+      entry.bits.clear();
+      entry.example = "--flop " + flop.name() + " --seed " + std::to_string(record.outcome.seed);
     }
+    if (record.verdict == entry.worst) entry.bits.insert(flop.bit);
   }
   json rows = json::array();
   for (const auto &[name, entry] : found) {
-    if (entry[0] != 0)
-      rows.push_back(
-          {name, entry[0], entry[1], to_string(static_cast<Verdict>(entry[2])), example[name]});
+    if (entry.hits != 0)
+      rows.push_back({name, entry.hits, entry.flips, to_string(entry.worst), ranges(entry.bits),
+                      entry.example});
   }
   return rows;
 }
@@ -119,12 +141,22 @@ json figures(const std::vector<Record> &records) {
   for (const Record &record : records) {
     if (!is_ram(record)) flops.insert(record.outcome.flip.index);
   }
+  unsigned accesses = 0, stuck = 0;
+  for (const Record &record : records) {
+    accesses += record.outcome.ahb_hangs ? 1 : 0;
+    stuck += !is_ram(record) && record.verdict >= Verdict::kStuckRenew &&
+                     record.verdict <= Verdict::kBlocked
+                 ? 1
+                 : 0;
+  }
   const auto all = static_cast<double>(FlopNode::flops().size());
   return {figure("flip-flops of the core", all, nullptr, nullptr),
           figure("flip-flops flipped", static_cast<double>(flops.size()), nullptr, nullptr),
           figure("flips", static_cast<double>(records.size() - ram), nullptr, nullptr),
           bad_figure("hangs", count(records, false, Verdict::kHang)),
           bad_figure("babbling", count(records, false, Verdict::kBabble)),
+          bad_figure("CPU accesses that never ended", accesses),
+          figure("stopped until software acted", stuck, nullptr, nullptr),
           figure("longest dominant run of the node, own bits",
                  worst(records, &Outcome::longest_run, Cure::kNever) / 10.0, nullptr, nullptr),
           figure("worst recovery without software, bits",
@@ -190,22 +222,29 @@ void write_json(const std::vector<Record> &records, const std::string &path) {
   std::vector<std::string> columns = {"class"};
   columns.insert(columns.end(), blocks().begin(), blocks().end());
   columns.emplace_back("all");
-  const json tables = {{{"title", "Flips of flip-flops: what came of them, by block"},
-                        {"columns", columns},
-                        {"rows", table(records, false, blocks())}},
-                       {{"title", "Flips of RAM bits"},
-                        {"columns", {"class", "C/S", "MSG", "MASK", "all"}},
-                        {"rows", table(records, true, {"C/S", "MSG", "MASK"})}},
-                       {{"title", "Registers that stay changed until software rewrites them"},
-                        {"columns", {"variable", "flips", "of", "worst class", "repeat with"}},
-                        {"rows", variables(records, {Verdict::kConfig, Verdict::kConfigBad})}},
-                       {{"title", "Variables whose flip stopped something until software acted"},
-                        {"columns", {"variable", "flips", "of", "worst class", "repeat with"}},
-                        {"rows", variables(records, {Verdict::kStuckRenew, Verdict::kStuckFreeze,
-                                                     Verdict::kStuckReset, Verdict::kBlocked,
-                                                     Verdict::kHang, Verdict::kBabble})}}};
+  const json tables = {
+      {{"title", "Flips of flip-flops: what came of them, by block"},
+       {"columns", columns},
+       {"rows", table(records, false, blocks())}},
+      {{"title", "Flips of RAM bits"},
+       {"columns", {"class", "C/S", "MSG", "MASK", "all"}},
+       {"rows", table(records, true, {"C/S", "MSG", "MASK"})}},
+      {{"title", "Registers that stay changed until software rewrites them"},
+       {"columns", {"variable", "flips", "of", "worst class", "its bits", "repeat with"}},
+       {"rows", variables(records, {Verdict::kConfig, Verdict::kConfigBad})}},
+      {{"title", "Variables whose flip stopped something until software acted"},
+       {"columns", {"variable", "flips", "of", "worst class", "its bits", "repeat with"}},
+       {"rows",
+        variables(records, {Verdict::kStuckRenew, Verdict::kStuckFreeze, Verdict::kStuckReset,
+                            Verdict::kBlocked, Verdict::kHang, Verdict::kBabble})}}};
   std::ofstream out(path);
-  out << json{{"figures", figures(records)}, {"tables", tables}, {"notes", json::array()}}.dump(1)
+  out << json{{"figures", figures(records)},
+              {"tables", tables},
+              {"notes",
+               {"A flip is repeated by build/release/tb/softerror/softerror with the options in "
+                "the "
+                "column 'repeat with'; classes: docs/soft-errors.md."}}}
+             .dump(1)
       << "\n";
   if (!out.flush()) throw std::runtime_error("cannot write " + path);
 }
