@@ -18,8 +18,8 @@ struct Shrunk {
 };
 
 /// Drops nodes, messages, accesses and faults, shortens the run, and simplifies clocks, timings,
-/// buffers and frames, as long as some difference is left; at most `limit` runs. The result also
-/// fails after it was written and read as a file.
+/// buffers and frames, as long as a difference of the same kind is left; at most `limit` runs. The
+/// result also fails after it was written and read as a file.
 [[nodiscard]] Shrunk shrink(const Scenario &scenario, const JudgedRun &run, unsigned limit = 500);
 
 }  // namespace vericansim
