@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests of tools/coverage.py's machinery, on a module whose points are known (tiny.sv)."""
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -145,6 +146,17 @@ class Machinery(unittest.TestCase):
         for bad in ({"at": "3'd"}, {"toggle": "in_i", "wrong": 1}, {}, {"at": "x", "because": "y"}):
             with self.assertRaises(points.CoverageError):
                 problems(**bad)
+
+    def test_the_projects_exclusions_name_what_exists(self):
+        # That they are not hit is seen by the campaign; that they are about this RTL, here.
+        for entry in exclusions.load(f"{ROOT}/tb/coverage/exclusions.yaml"):
+            with open(f"{ROOT}/{entry.file}", encoding="utf-8") as file:
+                text = file.read()
+            if entry.at:
+                self.assertEqual(text.count(entry.at), 1, entry.name())
+            for signal in entry.toggle:
+                name = re.match(r"\w+", signal.pattern)[0]
+                self.assertRegex(text, rf"\b{name}\b", entry.name())
 
     def test_other_files_are_refused(self):
         path = f"{self.work}/no.dat"
