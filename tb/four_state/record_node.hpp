@@ -39,10 +39,11 @@ class RecordNode final : public RtlNode {
  public:
   RecordNode(const std::string &name, unsigned num_mb, std::FILE *file)
       : RtlNode{name, {}, num_mb}, file_{file} {
-    // Registers take their reset values at the falling edge of the reset, which a model that begins
-    // with 0 does not have; afterwards they are what the reset makes them.
-    top_.hresetn = 1;
+    // A model begins with 0 everywhere and sees no falling edge of the reset: an edge of the clock,
+    // not recorded, makes the registers what the reset makes them.
+    top_.hresetn = 0;
     top_.eval();
+    rising_edge(top_, top_.hclk);
     reset();
   }
   ~RecordNode() override { top_.final(); }
