@@ -39,9 +39,9 @@ MUTANTS = [
      "(field_q == can_pkg::FldIdle || (field_q == can_pkg::FldInt && !@))"),
     ("synchronisation", "early edges do not shorten the bit", "bit/can_bit_timing.sv",
      "assign early   = falling && seg2_q;", "assign early   = falling && seg2_q && !@;"),
-    ("lost-frame", "any C/S write cancels a move into that buffer", "mailbox/can_mb_move.sv",
-     "assign cancel_o = csw_hit && !(csw_empty_i && !ans);",
-     "assign cancel_o = csw_hit && (@ || !(csw_empty_i && !ans));"),
+    ("lost-frame", "a C/S write cancels what waits for another buffer", "mailbox/can_mb_move.sv",
+     "(csw_i && ans_q[0])) && csw_idx_i == tgt0_q",
+     "(csw_i && ans_q[0])) && (@ || csw_idx_i == tgt0_q)"),
     ("overrun", "a frame over an unread one counts as the first", "mailbox/can_mb_move.sv",
      "assign ovr      = ovr_q && !csw_hit;", "assign ovr      = ovr_q && !csw_hit && !@;"),
 ]
