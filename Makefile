@@ -13,7 +13,7 @@ OUT    := $(BUILD)/out
 QUIET  := $(if $(V),,tools/quiet.sh)
 
 .DEFAULT_GOAL := help
-.PHONY: help packages build install demo test test-linux campaign lint bench synth coverage size wave rules rows registers format clean
+.PHONY: help packages build install demo test test-linux campaign lint bench synth coverage coverage-rtl size wave rules rows registers format clean
 
 help:  ## List the targets
 	@echo "VeriCAN: a CAN 2.0 controller in RTL and its bus simulator"
@@ -60,6 +60,9 @@ synth: packages  ## Measure area and clock rate (iCE40, VersaTiles); writes docs
 
 coverage: packages $(BUILD)/build.ninja  ## Measure which lines of the C driver its tests run
 	@tools/driver-coverage.sh $(BUILD)
+
+coverage-rtl: packages  ## Measure line, branch and toggle coverage of the RTL over its tests
+	@tools/coverage.py --jobs $(JOBS)
 
 size: packages  ## Build the C driver for a Cortex-M3 and print its size, per function and in total
 	@tools/driver-size.sh

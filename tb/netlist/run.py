@@ -5,7 +5,9 @@
 
 Every Verilated model is replaced by what Yosys makes of it (tools/netlist/netlist.sh), in a build
 directory of its own, and the tests of tb/protocol, tb/mailbox and of the leaf modules in tb/unit
-run unchanged. Writes figures to CAMPAIGN_OUT if that is set. Ends with status 1 if a test fails.
+run unchanged. Then recorded pins are played in Icarus Verilog, with X before the reset, to the RTL and
+to netlists of the whole core. Writes figures to CAMPAIGN_OUT if that is set. Ends with status 1 if
+a test fails or an output differs.
 """
 import argparse
 import json
@@ -16,6 +18,8 @@ import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+
+from replay import netlist_of, replay
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 KINDS = {"gates": "generic gates", "ice40": "iCE40 cells"}
@@ -77,6 +81,39 @@ def area(kind):
     return flops, sum(cells.values()) - flops
 
 
+# What is replayed in four states: name, kind of netlist (None: the RTL), sizes.
+REPLAYS = [("RTL", None, [16, 64]), ("generic gates", "gates", [16, 64]),
+           ("iCE40 cells", "ice40", [16])]
+
+
+def four_states(kinds, jobs, scratch):
+    """Recorded pins on the RTL and on netlists: figures and the rows of one table."""
+    build = ROOT / "build/release"
+    figures, rows = [], []
+    for name, kind, sizes in REPLAYS:
+        if kind and kind not in kinds:
+            continue
+        bad = clocks = flops = 0
+        for size in sizes:
+            out, netlist = scratch / f"four_state.{kind}.{size}.json", None
+            if kind:
+                netlist = scratch / f"{kind}{size}.v"
+                netlist_of(kind, size, netlist)
+            out.unlink(missing_ok=True)
+            status, text = replay([], size, build, netlist, out, jobs)
+            if not out.exists():
+                sys.exit(f"netlist: replay on {name} ended with status {status}:\n{text}")
+            values = [figure["value"] for figure in json.loads(out.read_text())["figures"]]
+            clocks, flops, bad = clocks + values[0], max(flops, values[1]), bad + values[2]
+        print(f"four states, {name}: {clocks} clocks, {bad} differences", flush=True)
+        figures.append({"name": f"four states, {name}: unknown values after reset and outputs that "
+                        "differ", "value": bad, "bar": "0", "ok": bad == 0 and clocks > 0})
+        rows.append([name, " and ".join(map(str, sizes)), f"{clocks:,}", flops or "outputs only"])
+    table = {"title": "Recorded pins in Icarus Verilog, all X before the reset",
+             "columns": ["core", "buffers", "clocks", "flip-flops watched"], "rows": rows}
+    return figures, table
+
+
 def campaign(kinds, only, jobs, scale, scratch):
     figures, rows = [], []
     for kind in kinds:
@@ -99,7 +136,8 @@ def campaign(kinds, only, jobs, scale, scratch):
                      f"{time.monotonic() - start:.0f} s"])
     tables = [{"title": "Netlists", "columns": ["netlist", "test programs", "flip-flops",
                                                 "other cells", "build", "run"], "rows": rows}]
-    return {"figures": figures, "tables": tables, "notes": []}
+    more, table = four_states(kinds, jobs, scratch)
+    return {"figures": figures + more, "tables": tables + [table], "notes": []}
 
 
 def main():

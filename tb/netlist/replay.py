@@ -1,0 +1,30 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""Netlists of the whole core, and recorded pins on them (tb/four_state/run.py)."""
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+
+def netlist_of(kind, num_mb, path):
+    """Writes can_ahb with that many buffers as tools/netlist/KIND.sh makes it."""
+    lines = (line.split("#")[0].strip() for line in (ROOT / "rtl/can.f").read_text().splitlines())
+    files = [str(ROOT / "rtl" / line) for line in lines if line]
+    subprocess.run([ROOT / f"tools/netlist/{kind}.sh", path, "can_ahb", f"NumMb={num_mb}", "--",
+                    *files], check=True, stdin=subprocess.DEVNULL)
+
+
+def replay(recordings, num_mb, build, netlist=None, json=None, jobs=1):
+    """Plays recordings (all if there are none named) to the RTL or a netlist; status and text."""
+    command = [sys.executable, ROOT / "tb/four_state/run.py", *recordings, "--build", build,
+               "--jobs", str(jobs), "--num-mb", *map(str, num_mb if isinstance(num_mb, list)
+                                                     else [num_mb])]
+    if netlist:
+        command += ["--netlist", netlist]
+    if json:
+        command += ["--json", json]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False,
+                          stdin=subprocess.DEVNULL)
+    return done.returncode, done.stdout + done.stderr
