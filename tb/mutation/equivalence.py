@@ -18,10 +18,8 @@ import models
 from mutants import Design
 from schemata import rewrite
 
-# Module -> what surrounds it, from inside to outside.
-AROUND = {
-    "bit": ["can_core"], "frame": ["can_bsp", "can_core"], "mailbox": ["can_mailbox"],
-    "host": ["can_regs", "can_top"], "": []}
+# Tops to try, from inside to outside; only those that hold the mutated module.
+TOPS = ["can_bsp", "can_core", "can_mailbox", "can_regs", "can_top"]
 RAM = "can_mb_ram"      # cut off always: its inputs must be equal
 
 
@@ -91,16 +89,29 @@ def prove(design, mutant, top, cut, seconds):
     return None, proof
 
 
+def inside(design, top):
+    """All modules below a top, and itself."""
+    found, new = {top}, [top]
+    while new:
+        new = [child for module in new for child in children(design, module)
+               if child not in found]
+        found.update(new)
+    return found
+
+
 def attempts(design, mutant):
-    """(top, cut off) to try, small ones first."""
-    file = next(file for file in design.files if file.module == mutant.module)
-    folder = file.path.parent.name if file.path.parent.name in AROUND else ""
+    """(top, cut off) to try, small ones first. A package's constant may be used anywhere."""
+    if mutant.module.endswith("_pkg"):
+        yield "can_top", [RAM]
+        return
     local = children(design, mutant.module)
     yield mutant.module, local
-    if local and local != [RAM]:
+    if mutant.module == RAM:            # elsewhere it would be cut off, mutant and all
+        return
+    if local and local != [RAM] and mutant.module not in TOPS:
         yield mutant.module, [RAM]
-    for top in AROUND[folder]:
-        if top != mutant.module:
+    for top in TOPS:
+        if mutant.module in inside(design, top) and (top != mutant.module or local):
             yield top, [RAM]
 
 

@@ -13,7 +13,7 @@ import time
 
 # Folders of tb/ whose tests are about the RTL, and which programs in them are.
 FOLDERS = {"unit": "can_", "mailbox": "", "protocol": "", "driver": "", "system": "bus_",
-           "matrix": "", "lockstep": ""}
+           "faults": "", "random": ""}
 CPU_SECONDS = 6        # of one program, and more for tests that take long without a mutant
 CPU_FACTOR = 5
 MEMORY = 2 << 30       # bytes
