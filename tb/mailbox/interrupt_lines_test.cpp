@@ -4,6 +4,7 @@
 // Interrupt lines, row by row: condition, mask, level, OR (flexcan.md section 5).
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <memory>
 #include <vector>
 
@@ -128,6 +129,23 @@ TEST_P(InterruptLines, FlagHoldsItsLineAndNoOther) {
   rig_.write(0, row.flag_at, row.flag);
   const std::uint8_t left = before & ~row.line;
   EXPECT_EQ(lines(), left == kIrqAll ? 0 : left);
+}
+
+// A byte clears flags of its own lane, whatever stands on the other lanes (ones here: the master
+// drives the complement there).
+TEST_P(InterruptLines, AByteClearsFlagsInItsOwnLaneOnly) {
+  const Row &row = GetParam();
+  const auto flag_lane = static_cast<unsigned>(std::countr_zero(row.flag)) / 8;
+  const auto put_byte = [&](unsigned lane, std::uint32_t data) {
+    rig_.access(0, {.address = row.flag_at + lane,
+                    .write = true,
+                    .size = AhbSize::kByte,
+                    .data = data & 0xFF});
+  };
+  for (unsigned lane = 0; lane < 4; ++lane) put_byte(lane, 0);
+  EXPECT_EQ(rig_.read(0, row.flag_at) & row.flag, row.flag);
+  put_byte(flag_lane, row.flag >> (8 * flag_lane));
+  EXPECT_EQ(rig_.read(0, row.flag_at) & row.flag, 0u);
 }
 
 // The OR is high as long as any line is.

@@ -20,7 +20,23 @@ from schemata import rewrite
 
 # Tops to try, from inside to outside; only those that hold the mutated module.
 TOPS = ["can_bsp", "can_core", "can_mailbox", "can_regs", "can_top"]
-RAM = "can_mb_ram"      # cut off always: its inputs must be equal
+RAM = "can_mb_ram"      # cut off always: what goes into it must be equal
+CELL = """
+module can_ram_cell #(parameter int Depth = 64, localparam int AddrW = $clog2(Depth)) (
+  input logic clk_i, input logic re_i, input logic [AddrW-1:0] raddr_i, output logic [31:0] rdata_o,
+  input logic [3:0] we_i, input logic [AddrW-1:0] waddr_i, input logic [31:0] wdata_i);
+endmodule
+"""
+# Address and data count where they are read or written.
+USED = """
+module can_mb_ram #(parameter int Depth = 64, localparam int AddrW = $clog2(Depth)) (
+  input logic clk_i, input logic re_i, input logic [AddrW-1:0] raddr_i, output logic [31:0] rdata_o,
+  input logic [3:0] we_i, input logic [AddrW-1:0] waddr_i, input logic [31:0] wdata_i);
+  can_ram_cell #(.Depth(Depth)) u_cell (.clk_i, .re_i, .raddr_i(re_i ? raddr_i : '0), .rdata_o,
+    .we_i, .waddr_i(we_i != '0 ? waddr_i : '0),
+    .wdata_i(wdata_i & {{8{we_i[3]}}, {8{we_i[2]}}, {8{we_i[1]}}, {8{we_i[0]}}}));
+endmodule
+"""
 
 
 class Plain:
@@ -48,6 +64,7 @@ def script(design, directory, top, cut):
     """Yosys' commands: gold and gate, flat, with equal inputs; one output: they differ."""
     lines = []
     text = next(file.text for file in design.files if file.module == top)
+    cut = ["can_ram_cell"] + [module for module in cut if module != RAM]
     for side in ("gold", "gate"):
         files = " ".join(str(directory / side / file.path.name) for file in design.files)
         small = "-chparam NumMb 16" if "parameter int NumMb" in text else ""
@@ -72,8 +89,10 @@ def prove(design, mutant, top, cut, seconds):
         for side, wanted in (("gold", None), ("gate", mutant)):
             (directory / side).mkdir()
             for file in design.files:
-                (directory / side / file.path.name).write_text(rewrite(file, Plain(wanted)),
-                                                               encoding="utf-8")
+                text = rewrite(file, Plain(wanted))
+                if file.module == RAM and top != RAM:
+                    text = CELL + USED
+                (directory / side / file.path.name).write_text(text, encoding="utf-8")
         (directory / "miter.ys").write_text(script(design, directory, top, cut), encoding="utf-8")
         built = subprocess.run(["yosys", "-q", "miter.ys"], cwd=directory, capture_output=True,
                                text=True)
