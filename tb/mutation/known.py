@@ -9,6 +9,7 @@ import yaml
 
 VERDICTS = ("proven", "argued", "survivor")
 FIELDS = {"module", "line", "original", "mutated", "verdict", "reason"}
+OPTIONAL = {"occurrence"}
 
 
 class Known:
@@ -22,7 +23,7 @@ class Known:
         self.entries, self.used = {}, set()
         loaded = yaml.safe_load(path.read_text(encoding="utf-8")) or []
         for place, entry in enumerate(loaded, 1):
-            if not isinstance(entry, dict) or set(entry) != FIELDS:
+            if not isinstance(entry, dict) or set(entry) - OPTIONAL != FIELDS:
                 sys.exit(f"{path}: entry {place} needs exactly {', '.join(sorted(FIELDS))}")
             if entry["verdict"] not in VERDICTS:
                 sys.exit(f"{path}: entry {place}: verdict is one of {', '.join(VERDICTS)}")
@@ -31,14 +32,14 @@ class Known:
     @staticmethod
     def key(entry):
         """What an entry is found by."""
-        return tuple(" ".join(str(entry[field]).split())
-                     for field in ("module", "line", "original", "mutated"))
+        return tuple(" ".join(str(entry.get(field, 1)).split())
+                     for field in ("module", "line", "original", "mutated", "occurrence"))
 
     def entry_of(self, mutant):
         """The fields that name a mutant."""
-        return {"module": mutant.module,
-                "line": mutant.line_text,
-                "original": mutant.original, "mutated": " ".join(mutant.mutated.split())}
+        entry = {"module": mutant.module, "line": mutant.line_text,
+                 "original": mutant.original, "mutated": " ".join(mutant.mutated.split())}
+        return entry if mutant.occurrence == 1 else {**entry, "occurrence": mutant.occurrence}
 
     def find(self, mutant):
         """Its entry, or None."""

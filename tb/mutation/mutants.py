@@ -26,6 +26,7 @@ class Mutant:
         self.module, self.line, self.column, self.kind = module, line, column, kind
         self.original, self.mutated = " ".join(original.split()), mutated
         self.line_text = ""                 # that line of the RTL
+        self.occurrence = 1                 # the first such change of such a line in the file
         self.name, self.number = "", 0      # the number selects it in a model
 
     def draw(self, seed):
@@ -215,6 +216,8 @@ class Design:
         seen, lines = {}, file.text.split("\n")
         for mutant in file.mutants:
             mutant.line_text = " ".join(lines[mutant.line - 1].split())
+            same = (mutant.line_text, mutant.original, mutant.mutated)
+            mutant.occurrence = seen[same] = seen.get(same, 0) + 1
             place = f"{file.module}:{mutant.line}.{mutant.column}"
             count = seen.get(place, 0)
             seen[place] = count + 1
