@@ -115,6 +115,11 @@ void RawCanPort::went_down() {
 }
 
 void RawCanPort::look_again() {
+  // An interface that goes away leaves two errors, down and gone; the second may come after the
+  // first was read, and is not about the interface that is looked at now.
+  int old_error = 0;
+  socklen_t size = sizeof old_error;
+  ::getsockopt(fd_, SOL_SOCKET, SO_ERROR, &old_error, &size);
   const Interface found = look_at(fd_, name_);
   if (!found.can || !found.up) return;
   if (found.index != index_) {
