@@ -13,7 +13,7 @@ import time
 
 # Folders of tb/ whose tests are about the RTL, and which programs in them are.
 FOLDERS = {"unit": "can_", "mailbox": "", "protocol": "", "driver": "", "system": "bus_",
-           "faults": "", "random": ""}
+           "faults": "", "random": "random_"}
 CPU_SECONDS = 6        # of one program, and more for tests that take long without a mutant
 CPU_FACTOR = 5
 MEMORY = 2 << 30       # bytes
@@ -60,10 +60,18 @@ class Regression:
     def __init__(self, root, build):
         self.root, self.build = pathlib.Path(root), pathlib.Path(build)
 
+    def path(self, program):
+        """Where the build has put it: beside the others, or in a folder of its own."""
+        direct = self.build / "tb" / program
+        found = [direct] if direct.exists() else sorted(self.build.glob(f"tb/*/{program}"))
+        if not found:
+            raise FileNotFoundError(f"{self.build}: {program} has not been built")
+        return found[0]
+
     def run(self, program, tests, environment, expected):
         """Runs tests of a program until one fails; expected: CPU seconds without a mutant."""
         cpu = int(CPU_SECONDS + CPU_FACTOR * expected)
-        command = [self.build / "tb" / program, "--gtest_fail_fast", "--gtest_brief=0"]
+        command = [self.path(program), "--gtest_fail_fast", "--gtest_brief=0"]
         if tests is not None:
             command.append("--gtest_filter=" + ":".join(tests))
         sanitized = program.startswith("driver_")
@@ -89,7 +97,7 @@ class Regression:
 
     def tests_of(self, program):
         """Names of the tests of a program."""
-        text = subprocess.run([self.build / "tb" / program, "--gtest_list_tests"], check=True,
+        text = subprocess.run([self.path(program), "--gtest_list_tests"], check=True,
                               capture_output=True, text=True, cwd=self.root).stdout
         out, suite = [], ""
         for line in text.splitlines():

@@ -108,7 +108,7 @@ class Campaign:
     def record(self):
         """What each test can see; known from before while the programs are the same."""
         stamp = [[name, stat.st_size, stat.st_mtime_ns] for _, name in self.programs
-                 for stat in [(self.regression.build / "tb" / name).stat()]]
+                 for stat in [self.regression.path(name).stat()]]
         path = self.options.dir / "seen.json"
         if path.exists():
             before = json.loads(path.read_text(encoding="utf-8"))
