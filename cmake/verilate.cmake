@@ -5,7 +5,7 @@
 # with the Verilated model of any module of rtl/can.f; its class has the name of the target and its
 # header is <target>.h. REPLACE takes the place of the file of that name in rtl/can.f.
 #
-# VERICAN_RTL_TRANSFORM: a program that rewrites the RTL before it is Verilated (a netlist, mutants):
+# VERICAN_RTL_TRANSFORM: a program that rewrites the RTL before Verilation (a netlist, mutants):
 #   <program> OUT.v TOP [Name=value ...] [--keep FILE] -- FILE...
 # It writes module TOP to OUT.v, instance names and hierarchy kept. The module of the file after
 # --keep stays as it is: C++ reaches its signals by name, and it is Verilated beside OUT.v.
@@ -91,7 +91,8 @@ function(verican_verilate target)
     COMMAND ${coverage}
     COMMAND "${CMAKE_COMMAND}" -DDIR=${dir} -DNAME=${target} -DOUTPUT=${all}
             -P "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake"
-    DEPENDS ${files} "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake" ${VERICAN_RTL_TRANSFORM} ${coverage_script}
+    DEPENDS ${files} "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake" ${VERICAN_RTL_TRANSFORM}
+            ${coverage_script}
     COMMENT "Verilating ${ARG_TOP} ${ARG_PARAMS}"
     VERBATIM)
   add_library(${target} STATIC "${all}")

@@ -28,12 +28,9 @@ inline constexpr bool kPlainEdges = false;
 template <typename Model, typename Signal>
 inline void rising_edge(Model &model, Signal &clock) {
   [[maybe_unused]] auto &root = *model.rootp;
-  if constexpr (kPlainEdges) {
-    clock = 0;
-    model.eval();
-  } else if constexpr (requires { root.__Vtrigrprev__TOP__clk_i; }) {
+  if constexpr (!kPlainEdges && requires { root.__Vtrigrprev__TOP__clk_i; }) {
     root.__Vtrigrprev__TOP__clk_i = 0;
-  } else if constexpr (requires { root.__Vtrigrprev__TOP__hclk; }) {
+  } else if constexpr (!kPlainEdges && requires { root.__Vtrigrprev__TOP__hclk; }) {
     root.__Vtrigrprev__TOP__hclk = 0;
   } else {
     clock = 0;

@@ -5,9 +5,9 @@
 
 Every Verilated model is replaced by what Yosys makes of it (tools/netlist/netlist.sh), in a build
 directory of its own, and the tests of tb/protocol, tb/mailbox and of the leaf modules in tb/unit
-run unchanged. Then recorded pins are played in Icarus Verilog, with X before the reset, to the RTL and
-to netlists of the whole core. Writes figures to CAMPAIGN_OUT if that is set. Ends with status 1 if
-a test fails or an output differs.
+run unchanged. Then recorded pins are played in Icarus Verilog, with X before the reset, to the RTL
+and to netlists of the whole core. Writes figures to CAMPAIGN_OUT if that is set. Ends with status 1
+if a test fails or an output differs.
 """
 import argparse
 import json
@@ -31,7 +31,8 @@ def programs():
     """The test programs that are about the RTL."""
     modules = {path.stem for path in ROOT.glob("rtl/**/*.sv")}
     leaves = [p for p in ROOT.glob("tb/unit/*_test.cpp") if p.stem.removesuffix("_test") in modules]
-    others = [p for folder in ("protocol", "mailbox") for p in (ROOT / "tb" / folder).glob("*_test.cpp")]
+    others = [p for folder in ("protocol", "mailbox")
+              for p in (ROOT / "tb" / folder).glob("*_test.cpp")]
     return sorted(path.stem for path in leaves + others)
 
 

@@ -17,11 +17,10 @@ namespace vericansim {
 /// Follows the DUTs of a bench from start() on. Use request(), cancel() and preset_counters() of
 /// this class, so that DUT and model get the same.
 ///
-/// Compared after each sample point: level sent, kind of error, TEC, REC, error state, deliveries with their
-/// content, success, end of an attempt. Tolerated differences are those of 19.5 item 5: REC from
-/// 128 on is only
-/// ">= 128", set-back to any of 119..127, 0 or 8 for the stuff bit after RTR (FC-05b), the REC step
-/// of a CRC error one bit early or late.
+/// Compared after each sample point: level sent, kind of error, TEC, REC, error state, deliveries
+/// with their content, success, end of an attempt. Tolerated differences are those of 19.5 item 5:
+/// REC from 128 on is only ">= 128", set-back to any of 119..127, 0 or 8 for the stuff bit after
+/// RTR (FC-05b), the REC step of a CRC error one bit early or late.
 class Lockstep {
  public:
   explicit Lockstep(CoreBench &bench);

@@ -17,7 +17,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-BUILD = ROOT / "build/mutants"
+BUILD = ROOT / "build/random-mutants"
 VALUE = '(getenv(\\"VERICAN_MUTANT\\") ? std::atoi(getenv(\\"VERICAN_MUTANT\\")) : 0)'
 AWAKE = f'($c32("{VALUE}") == {{}})'
 

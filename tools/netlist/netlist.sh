@@ -35,8 +35,9 @@ read_rtl="$read_rtl; read_verilog -sv ${files[*]:1}; hierarchy -check -top $top 
 
 case $kind in
   word) map="proc; opt_clean" ;;
-  gates) map="synth -run begin:fine; opt -fast -full; techmap; opt -fast; dfflegalize -cell \$_DFF_?_ 01
-    -cell \$_DFF_???_ 01 -cell \$_DFFE_??_ 01 -cell \$_DFFE_????_ 01; abc -g AND,OR,XOR,MUX; opt_clean" ;;
+  gates) map="synth -run begin:fine; opt -fast -full; techmap; opt -fast; dfflegalize 
+    -cell \$_DFF_?_ 01 -cell \$_DFF_???_ 01 -cell \$_DFFE_??_ 01 -cell \$_DFFE_????_ 01;
+    abc -g AND,OR,XOR,MUX; opt_clean" ;;
   ice40) map="synth_ice40 -noflatten -top $top" ;;
   *)
     echo "netlist.sh: KIND is '$kind'; allowed: word, gates, ice40" >&2
@@ -45,7 +46,8 @@ case $kind in
 esac
 
 log=$out.log
-yosys -q -l "$log" -p "$read_rtl; ${map//$'\n'/ }; check -assert; tee -o $out.stat stat; write_verilog -noattr $out" >"$out.err" 2>&1 || {
+write_out="check -assert; tee -o $out.stat stat; write_verilog -noattr $out"
+yosys -q -l "$log" -p "$read_rtl; ${map//$'\n'/ }; $write_out" >"$out.err" 2>&1 || {
   tail -n 5 "$out.err" >&2
   echo "netlist.sh: yosys failed, see $log" >&2
   exit 1
@@ -53,5 +55,6 @@ yosys -q -l "$log" -p "$read_rtl; ${map//$'\n'/ }; check -assert; tee -o $out.st
 # Verilator takes no defaults at ports; Yosys connects every pin that matters.
 if [ "$kind" = ice40 ]; then
   { echo '`define NO_ICE40_DEFAULT_ASSIGNMENTS'
-    sed '/^`timescale/d' "$(dirname "$(command -v yosys)")/../share/yosys/ice40/cells_sim.v"; } >>"$out"
+    cells=$(dirname "$(command -v yosys)")/../share/yosys/ice40/cells_sim.v
+    sed '/^`timescale/d' "$cells"; } >>"$out"
 fi

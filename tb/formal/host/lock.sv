@@ -34,8 +34,8 @@
       p_locked: assert (!(lock_i && busy_mb_o && lock_idx_i == idx_o && data_i));
       // flexcan.md 3.2: what a move leaves in the code: FULL, OVERRUN, or 1110 to be answered; in
       // the FIFO the number of the filter.
-      p_code: assert (top_o[4:1] == 4'b0010 || top_o[4:1] == 4'b0110 || (ans && top_o[4:1] == 4'b1110)
-                      || fifo);
+      p_code: assert (top_o[4:1] == 4'b0010 || top_o[4:1] == 4'b0110 || fifo
+                      || (ans && top_o[4:1] == 4'b1110));
       // flexcan.md 3.4: a C/S write of the CPU that is not EMPTY cancels the move.
       p_cancel: assert (!(csw_i && csw_idx_i == idx_o && (!csw_empty_i || ans)) || cancel_o);
       if (f_ran) begin

@@ -29,7 +29,8 @@ module lock_move (
   can_mb_lock #(.NumMb(16)) u_lock (
     .clk_i, .rst_ni, .clear_i, .bcc_i, .cs_rd_i, .timer_rd_i, .idx_i, .cs_i(cpu_cs_i),
     .busy_i(busy_idx), .csw_i, .csw_idx_i, .lock_o(lock), .lock_idx_o(lock_idx),
-    .svc_req_o(svc_req), .svc_idx_o(svc_idx), .svc_ovr_o(svc_ovr), .svc_gnt_i(svc_gnt_i && svc_req));
+    .svc_req_o(svc_req), .svc_idx_o(svc_idx), .svc_ovr_o(svc_ovr),
+    .svc_gnt_i(svc_gnt_i && svc_req));
 
   can_mb_move #(.NumMb(16)) u_move (
     .clk_i, .rst_ni, .clear_i, .start_i, .rx_hdr_i, .valid_i, .hold_i(hold_i || svc_req),

@@ -17,7 +17,7 @@
 
   // Nothing holds the way to the wish up: on the bus, no frame is hurt; off it, the engine has
   // stopped and the buffers are quiet. How long that may take is the engine's and the buffers'
-  // matter (host.quiet).
+  // matter; not proven here.
   logic f_free, f_there;
   logic [2:0] f_wait = 3'd0;
   assign f_free  = !scrub_i && !soft_rst_i

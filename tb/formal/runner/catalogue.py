@@ -121,7 +121,8 @@ def _mutant(entry, where, labels):
     where = f"{where}, mutant {name}"
     mutant = Mutant(
         name, _take(entry, where, "file", str, required=True),
-        _take(entry, where, "old", str, required=True), _take(entry, where, "new", str, required=True),
+        _take(entry, where, "old", str, required=True),
+        _take(entry, where, "new", str, required=True),
         _take(entry, where, "breaks", list, required=True), _take(entry, where, "depth", int))
     _no_more(entry, where)
     for label in mutant.breaks:

@@ -78,8 +78,8 @@ def build(proof, names, out, smt, aiger, only=None):
     params = " ".join(f"-chparam {key} {value}" for key, value in proof.params.items())
     memory = "memory -nomap; memory_unpack" if proof.memories and not aiger else "memory"
     script = [f"read_verilog -sv -formal {' '.join(names)}",
-              f"hierarchy -check -top {proof.top} {params}", "proc", "flatten", _select(proof, only),
-              "opt_expr; opt_clean; check", memory, "async2sync; opt_clean",
+              f"hierarchy -check -top {proof.top} {params}", "proc", "flatten",
+              _select(proof, only), "opt_expr; opt_clean; check", memory, "async2sync; opt_clean",
               # One clock only, and no latches: else the model would not be the circuit.
               "select -assert-none t:$dlatch t:$adlatch t:$sr", "opt -fast; dffunmap"]
     if smt:

@@ -77,7 +77,10 @@ PDR = ("pdr -T 20", "scleanup; pdr -T 40", "scleanup; pdr -r -T 80", "pdr -n -c 
 
 
 def _abc_output(out, steps, index, timeout):
-    """Decides one output, without bound or to that of bmc3: (proven?, clock of the counterexample or None, text)."""
+    """Decides one output, without bound or to that of bmc3.
+
+    Returns (proven?, clock of the counterexample or None, text).
+    """
     text = ""
     for step in steps:
         merge = "scorr; " if step.startswith(("pdr", "scleanup")) else ""
