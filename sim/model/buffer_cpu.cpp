@@ -58,23 +58,23 @@ void BufferModel::write_buffer(unsigned n, unsigned word, std::uint32_t data, st
   settle(now);
   const bool cs = word == 0 && n >= config_.first_mailbox();
   replace(
-      [&](const BufferState &state, States &out) {
+      [&](const BufferState &state, DistinctStates &out) {
         if (cs && config_.aen) return write_cs_aen(state, n, data, lanes, now, out);
         if (cs) return write_cs(state, n, data, lanes, now, out);
         const bool guarded = config_.aen && state.mb[n].guarded;
-        if (guarded) add(out, state);
+        if (guarded) out.add(state);
         const unsigned code = state.mb[n].code();
         if (guarded && (code == kTxInactive || code == kTxAbort)) return;
         BufferState next = state;
         next.write(n, word, data, lanes, config_, now);
-        add(out, std::move(next));
+        out.add(std::move(next));
       },
       [] { return "no state is left"; });
 }
 
 // The write takes effect; a match that had chosen this buffer is lost or made again (3.5).
 void BufferModel::take_write(BufferState state, unsigned n, std::uint32_t data, std::uint32_t lanes,
-                             std::uint64_t now, States &out) const {
+                             std::uint64_t now, DistinctStates &out) const {
   const Destination &to = state.destination;
   const bool chosen = (to.kind == Kind::kMailbox || to.kind == Kind::kAnswer) && to.index == n;
   if (chosen && state.valid) {
@@ -88,40 +88,40 @@ void BufferModel::take_write(BufferState state, unsigned n, std::uint32_t data, 
   if (chosen) {
     BufferState again = state;
     again.destination = {};
-    add(out, std::move(again));
+    out.add(std::move(again));
     state.destination = {Kind::kNowhere, 0};
   }
-  add(out, std::move(state));
+  out.add(std::move(state));
 }
 
 void BufferModel::write_cs(const BufferState &state, unsigned n, std::uint32_t data,
-                           std::uint32_t lanes, std::uint64_t now, States &out) const {
+                           std::uint32_t lanes, std::uint64_t now, DistinctStates &out) const {
   take_write(state, n, data, lanes, now, out);
 }
 
 // AEN=1 (3.4): writes to a buffer that is moved out have no effect, but 1001 is remembered.
 void BufferModel::write_cs_aen(const BufferState &state, unsigned n, std::uint32_t data,
-                               std::uint32_t lanes, std::uint64_t now, States &out) const {
+                               std::uint32_t lanes, std::uint64_t now, DistinctStates &out) const {
   const unsigned before = state.mb[n].code();
   const bool abort = (lanes & kCodeLane) != 0 && cs_code(data) == kTxAbort;
   if (state.write_blocked(n)) {
     BufferState next = state;
     if (abort && next.flight) next.flight->abort = true;
     if (abort && next.moved_out == n) next.moved_out_abort = true;
-    return add(out, std::move(next));
+    return out.add(std::move(next));
   }
   // Whether the flag of an answer, or of a request that turned into an Rx buffer, protects is open.
-  if (state.mb[n].guarded) add(out, state);
+  if (state.mb[n].guarded) out.add(state);
   if (state.mb[n].guarded && (before == kTxInactive || before == kTxAbort)) return;
-  if (abort && before == kTxAnswerWaits) add(out, state);
+  if (abort && before == kTxAnswerWaits) out.add(state);
   // In the moment in which an attempt fails the buffer may still count as moved out.
-  if (state.mb[n].request && !abort && now <= ended_at_ + kMoment) add(out, state);
+  if (state.mb[n].request && !abort && now <= ended_at_ + kMoment) out.add(state);
   if (state.mb[n].request && !state.moved_out && !state.flight) {
     BufferState next = state;
     next.moved_out = n;
     next.moved_out_abort = abort;
     next.moved_out_since = now;
-    add(out, std::move(next));
+    out.add(std::move(next));
   }
   // Whether 1001 in a buffer with nothing to abort, a waiting answer included, sets the flag is
   // open.
@@ -132,7 +132,7 @@ void BufferModel::write_cs_aen(const BufferState &state, unsigned n, std::uint32
   next.withdraw(n, now);
   next.abort(n, now);
   next.mb[n].words.known[0] &= kCodeLane | ~kCsStored;
-  add(out, std::move(next));
+  out.add(std::move(next));
 }
 
 KnownWords BufferModel::words_of(const BufferState &state, unsigned n) const {
@@ -186,7 +186,7 @@ void BufferModel::learn_stamp(unsigned n, std::uint32_t value) {
 void BufferModel::read_cs(unsigned n, std::uint32_t value, std::uint64_t now) {
   const bool mailbox = n >= config_.first_mailbox();
   replace(
-      [&](const BufferState &state, States &out) {
+      [&](const BufferState &state, DistinctStates &out) {
         const KnownWords words = words_of(state, n);
         // A move in progress may show as BUSY; it does not lock then.
         const bool moving = (state.released && state.released->first == n) ||
@@ -195,12 +195,12 @@ void BufferModel::read_cs(unsigned n, std::uint32_t value, std::uint64_t now) {
         if (!busy && !fits(words, 0, value)) return;
         BufferState next = state;
         if (next.lock && next.lock != n) {
-          if (!mailbox) add(out, state);  // whether the FIFO's output ends a lock is open
+          if (!mailbox) out.add(state);  // whether the FIFO's output ends a lock is open
           next.unlock(true, now);
         }
-        if (busy) return add(out, std::move(next));
+        if (busy) return out.add(std::move(next));
         if (next.read_locks(n, config_)) next.lock_for_read(n);
-        add(out, std::move(next));
+        out.add(std::move(next));
       },
       [&] { return fmt::format("MB{} C/S reads {:08X}; allowed:{}", n, value, allowed(n, 0)); });
   learn_stamp(n, value);

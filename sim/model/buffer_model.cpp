@@ -47,21 +47,17 @@ void BufferModel::configure(const BufferConfig &config) {
   }
 }
 
-void BufferModel::add(States &list, BufferState state) {
-  if (std::find(list.begin(), list.end(), state) == list.end()) list.push_back(std::move(state));
-}
-
-void BufferModel::replace(const std::function<void(const BufferState &, States &)> &each,
+void BufferModel::replace(const std::function<void(const BufferState &, DistinctStates &)> &each,
                           const std::function<std::string()> &otherwise) {
   if (!ok()) return;
-  States next;
+  DistinctStates next;
   for (const BufferState &state : states_) each(state, next);
-  if (next.empty()) {
+  if (next.size() == 0) {
     failure_ = otherwise();
     return;
   }
   if (next.size() > kMostStates) failure_ = "more is open than can be judged";
-  states_ = std::move(next);
+  states_ = next.take();
 }
 
 void BufferModel::keep(const std::function<bool(const BufferState &)> &possible,
@@ -112,12 +108,14 @@ void BufferModel::steps_of(const BufferState &state, std::uint64_t now, States &
 
 // Adds the states that steps lead to; what is overdue has happened in all of them.
 void BufferModel::open_up(std::uint64_t now) {
-  States all = states_;
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  DistinctStates reached;
+  for (const BufferState &state : states_) reached.add(state);
+  for (std::size_t i = 0; i < reached.size(); ++i) {
     States next;
-    steps_of(all[i], now, next);
-    for (BufferState &state : next) add(all, std::move(state));
+    steps_of(reached[i], now, next);
+    for (BufferState &state : next) reached.add(std::move(state));
   }
+  States all = reached.take();
   const auto overdue = [&](const BufferState &state) {
     if (state.valid && now > received_at_ + windows_.move_in) return true;
     if (state.released && now > state.released_since + windows_.move_in) return true;
@@ -141,7 +139,7 @@ void BufferModel::settle(std::uint64_t now) {
 
 // States that differ in what no longer matters are one.
 void BufferModel::merge(std::uint64_t now) {
-  States merged;
+  DistinctStates merged;
   for (BufferState &state : states_) {
     if (!state.moved_out) {
       state.moved_out_since = 0;
@@ -151,9 +149,9 @@ void BufferModel::merge(std::uint64_t now) {
     for (BufferContent &buffer : state.mb)
       if (buffer.request && buffer.request->since + windows_.decision < now)
         buffer.request->since = 0;
-    add(merged, std::move(state));
+    merged.add(std::move(state));
   }
-  states_ = std::move(merged);
+  states_ = merged.take();
 }
 
 bool BufferModel::sending() const {
@@ -179,7 +177,8 @@ std::vector<Frame> BufferModel::flights() const {
   return frames;
 }
 
-void BufferModel::start_own(const BufferState &state, std::uint64_t now, States &out) const {
+void BufferModel::start_own(const BufferState &state, std::uint64_t now,
+                            DistinctStates &out) const {
   // The best of those that stand long enough must not be passed over by a worse one.
   std::uint64_t best = ~std::uint64_t{0};
   std::vector<std::pair<unsigned, SendRequest>> able;
@@ -199,19 +198,19 @@ void BufferModel::start_own(const BufferState &state, std::uint64_t now, States 
     next.flight->abort = state.moved_out && state.moved_out_abort;
     next.moved_out.reset();
     if (!orphan) next.mb[n].request.reset();
-    add(out, std::move(next));
+    out.add(std::move(next));
   }
 }
 
 void BufferModel::frame_started(bool transmitter, std::uint64_t now) {
   settle(now);
   replace(
-      [&](const BufferState &state, States &out) {
+      [&](const BufferState &state, DistinctStates &out) {
         if (transmitter) return start_own(state, now, out);
         BufferState next = state;
         if (state.moved_out && state.moved_out_abort) next.abort(*state.moved_out, now);
         next.moved_out.reset();
-        add(out, std::move(next));
+        out.add(std::move(next));
       },
       [] { return "a frame is being sent, but no buffer may be"; });
 }
@@ -246,13 +245,13 @@ void BufferModel::received(const Frame &foreign, std::uint64_t now) {
 void BufferModel::receive_failed(std::uint64_t now) {
   settle(now);
   replace(
-      [](const BufferState &state, States &out) {
+      [](const BufferState &state, DistinctStates &out) {
         BufferState next = state;
         if (!state.valid) {
           next.matching.reset();
           next.destination = {};
         }
-        add(out, std::move(next));
+        out.add(std::move(next));
       },
       nothing);
 }
@@ -265,12 +264,12 @@ void BufferModel::sent(const Frame &wire, std::uint64_t now) {
     if (state.flight)
       expected += fmt::format(" MB{} {};", state.flight->mb, name_of(state.flight->request.frame));
   replace(
-      [&](const BufferState &state, States &out) {
+      [&](const BufferState &state, DistinctStates &out) {
         if (!state.flight || state.flight->request.frame != wire) return;
         BufferState next = state;
         next.ended = FlightEnd{.flight = *state.flight, .success = true, .stamp = stamp_};
         next.flight.reset();
-        add(out, std::move(next));
+        out.add(std::move(next));
       },
       [&] { return fmt::format("{} was sent; allowed:{}", name_of(wire), expected); });
 }
@@ -279,7 +278,7 @@ void BufferModel::send_failed(std::uint64_t now) {
   settle(now);
   ended_at_ = now;
   replace(
-      [&](const BufferState &state, States &out) {
+      [&](const BufferState &state, DistinctStates &out) {
         if (!state.flight) return;
         BufferState next = state;
         const FlightEnd end{.flight = *state.flight, .success = false, .stamp = stamp_};
@@ -290,7 +289,7 @@ void BufferModel::send_failed(std::uint64_t now) {
         } else {
           next.finish(end, now);
         }
-        add(out, std::move(next));
+        out.add(std::move(next));
       },
       [] { return "a frame failed that was not being sent"; });
 }

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "model/buffer_state.hpp"
+#include "model/distinct_states.hpp"
 
 namespace vericansim {
 
@@ -90,9 +90,8 @@ class BufferModel {
   void settle(std::uint64_t now);
   void merge(std::uint64_t now);
   void open_up(std::uint64_t now);
-  static void add(States &list, BufferState state);
   void steps_of(const BufferState &state, std::uint64_t now, States &out) const;
-  void replace(const std::function<void(const BufferState &, States &)> &each,
+  void replace(const std::function<void(const BufferState &, DistinctStates &)> &each,
                const std::function<std::string()> &otherwise);
   void keep(const std::function<bool(const BufferState &)> &possible,
             const std::function<std::string()> &otherwise);
@@ -100,17 +99,17 @@ class BufferModel {
   void write_buffer(unsigned n, unsigned word, std::uint32_t data, std::uint32_t lanes,
                     std::uint64_t now);
   void write_cs(const BufferState &state, unsigned n, std::uint32_t data, std::uint32_t lanes,
-                std::uint64_t now, States &out) const;
+                std::uint64_t now, DistinctStates &out) const;
   void write_cs_aen(const BufferState &state, unsigned n, std::uint32_t data, std::uint32_t lanes,
-                    std::uint64_t now, States &out) const;
+                    std::uint64_t now, DistinctStates &out) const;
   void take_write(BufferState state, unsigned n, std::uint32_t data, std::uint32_t lanes,
-                  std::uint64_t now, States &out) const;
+                  std::uint64_t now, DistinctStates &out) const;
   void write_mask(std::uint32_t address, std::uint32_t data, std::uint32_t lanes);
   void read_cs(unsigned n, std::uint32_t value, std::uint64_t now);
   void learn_stamp(unsigned n, std::uint32_t value);
   void read_word(unsigned n, unsigned word, std::uint32_t value);
   void read_flags(unsigned half, std::uint32_t value);
-  void start_own(const BufferState &state, std::uint64_t now, States &out) const;
+  void start_own(const BufferState &state, std::uint64_t now, DistinctStates &out) const;
 
   [[nodiscard]] KnownWords words_of(const BufferState &state, unsigned n) const;
   [[nodiscard]] bool fits(const KnownWords &words, unsigned word, std::uint32_t value) const;

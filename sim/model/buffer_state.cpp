@@ -6,6 +6,7 @@
 #include "model/buffer_state.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace vericansim {
 namespace {
@@ -24,7 +25,39 @@ void set_stamp(KnownWords &words, std::uint16_t stamp) {
   words.stamped = true;
 }
 
+class Digest {
+ public:
+  Digest &operator<<(std::uint64_t value) {
+    sum_ = std::rotl((sum_ ^ value) * 0x9E3779B97F4A7C15, 29);
+    return *this;
+  }
+  template <std::size_t kSize>
+  Digest &operator<<(const std::array<std::uint32_t, kSize> &words) {
+    for (const std::uint32_t word : words) *this << word;
+    return *this;
+  }
+  [[nodiscard]] std::uint64_t sum() const { return sum_; }
+
+ private:
+  std::uint64_t sum_ = 0;
+};
+
 }  // namespace
+
+std::uint64_t BufferState::digest() const {
+  Digest digest;
+  for (const BufferContent &buffer : mb) {
+    digest << buffer.words.word << buffer.words.known
+           << (static_cast<unsigned>(buffer.serviced) << 1 | unsigned{buffer.guarded});
+    if (buffer.request) digest << buffer.request->value << buffer.request->since;
+  }
+  digest << iflag << lock.value_or(~0u) << fifo.size() << (flight ? flight->mb : ~0u)
+         << (waiting ? waiting->first : ~0u) << (released ? released->first : ~0u)
+         << static_cast<unsigned>(destination.kind) << destination.index << unsigned{valid}
+         << unsigned{matching.has_value()} << unsigned{ended.has_value()}
+         << moved_out.value_or(~0u);
+  return digest.sum();
+}
 
 SendRequest BufferState::request_of(unsigned n, const BufferConfig &config,
                                     std::uint64_t now) const {

@@ -136,6 +136,8 @@ class BufferState {
   /// Buffer n is no candidate any more.
   void withdraw(unsigned n, std::uint64_t now);
 
+  /// Equal states have equal digests; different ones nearly always different ones.
+  [[nodiscard]] std::uint64_t digest() const;
   /// IFLAG2:IFLAG1 as the CPU reads it.
   [[nodiscard]] std::uint64_t flags() const { return iflag | (fifo.empty() ? 0 : kFlagAvailable); }
 
