@@ -115,7 +115,7 @@ void BufferJudge::write(const Access &access) {
   }
   if (change.configuration) {
     const BufferConfig config = registers_.buffers();
-    if (!same(config, model_.config())) model_.configure(config);
+    if (!same(config, model_.config())) model_.configure(config, access.clock);
   } else if (access.address == reg::kTimer) {
     bits_ = static_cast<std::uint16_t>(access.data);
     model_.timer_written();

@@ -61,6 +61,8 @@ class BufferJudge {
 
   [[nodiscard]] const RegisterShadow &registers() const { return registers_; }
   [[nodiscard]] bool ok() const { return model_.ok(); }
+  /// Not ok only because the CPU left more open than can be followed.
+  [[nodiscard]] bool too_open() const { return model_.too_open(); }
   [[nodiscard]] std::uint64_t accesses() const { return accesses_; }
 
  private:

@@ -25,6 +25,7 @@ void BusJudge::add(RtlNode &node) {
   side->name = node.name();
   Side *target = side.get();
   const auto report = [this, target](const std::string &text) {
+    if (findings_.empty()) too_open_ = target->buffers->too_open();
     finding(fmt::format("{} at {:.3f} us: {}", target->name,
                         static_cast<double>(target->bit) / kMicrosecond, text));
   };
@@ -58,6 +59,10 @@ void BusJudge::on_bit(NodeId id, const BitRecord &record) {
   }
   if (bit.errors != 0) judge_errors(side, bit);
   if (bit.bus_off && !side.bus_off) ++counts_.bus_offs;
+  // Who comes back from bus-off may start where the others, and the decoder, expect no start: in
+  // the delimiter of an error passive transmitter that nobody acknowledges (BO-03).
+  if (!bit.bus_off && side.bus_off)
+    disturbances().add(kAllNodes, {record.time - bit_time_, record.time});
   side.bus_off = bit.bus_off;
   const Frame &frame = side.rules->model().received();
   wire_.bit(id, record.time, bit, frame);

@@ -57,6 +57,9 @@ class BusJudge : public BusObserver {
   /// Differences in the order in which they were seen. After the bit with the first one nothing is
   /// judged any more: what follows from a difference is none.
   [[nodiscard]] const std::vector<std::string> &findings() const { return findings_; }
+  /// The first difference is none of a core's: the software of a node leaves more open than the
+  /// judge of its buffers can follow.
+  [[nodiscard]] bool too_open() const { return too_open_; }
   [[nodiscard]] JudgeCounts counts() const;
 
  private:
@@ -80,6 +83,7 @@ class BusJudge : public BusObserver {
   WireJudge wire_;
   std::vector<std::unique_ptr<Side>> sides_;
   std::vector<std::string> findings_;
+  bool too_open_ = false;
   JudgeCounts counts_;
 };
 

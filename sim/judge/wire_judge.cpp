@@ -101,6 +101,7 @@ void WireJudge::judge_receiver(const Success &success, NodeId id, bool clean) {
 
 // A delivery that belongs to no success: the sender repeats the frame (VA-03).
 void WireJudge::judge_left_over(const Delivery &delivery) {
+  if (delivery.time > end_ - 3 * bit_time_) return;  // the run is over before the sender's EOF7
   ++counts_.duplicates;
   if (clean(delivery.sof, delivery.time)) {
     return report_(fmt::format("{} has received {} {}, which nobody sent",
@@ -119,6 +120,11 @@ void WireJudge::judge_left_over(const Delivery &delivery) {
                         nodes_[delivery.node].name, frame_text(delivery.frame), when(delivery.time),
                         node.name));
   }
+}
+
+void WireJudge::finish(Time now) {
+  end_ = now;
+  settle(now + 100 * bit_time_, now + kFar * bit_time_);
 }
 
 void WireJudge::on_wire(const BusFrame &frame) {

@@ -7,6 +7,7 @@
 
 #include <deque>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -47,8 +48,8 @@ class WireJudge {
   void bit(NodeId id, Time time, const NodeBit &bit, const Frame &frame);
   /// A frame that the decoder saw.
   void on_wire(const BusFrame &frame);
-  /// Judges what is still open.
-  void finish(Time now) { settle(now + 100 * bit_time_, now + kFar * bit_time_); }
+  /// Judges what is still open; but what was delivered last may be ended by its sender only later.
+  void finish(Time now);
 
   [[nodiscard]] const WireCounts &counts() const { return counts_; }
 
@@ -87,6 +88,7 @@ class WireJudge {
   std::deque<Success> successes_;  // their bit is over, the nodes' views are not complete
   std::deque<Delivery> deliveries_;
   std::deque<Success> unseen_;  // by the decoder
+  Time end_ = std::numeric_limits<Time>::max();  // of the run
   WireCounts counts_;
 };
 

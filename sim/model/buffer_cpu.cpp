@@ -38,6 +38,7 @@ void BufferModel::cpu_write(std::uint32_t address, std::uint32_t data, std::uint
     const std::uint64_t bits = std::uint64_t{data & lanes} << (address == reg::kIflag2 ? 32 : 0);
     for (BufferState &state : states_) state.clear_flags(bits, config_);
   } else {
+    settle(now);
     write_mask(address, data, lanes);
   }
 }

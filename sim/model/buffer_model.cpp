@@ -22,9 +22,6 @@ std::string name_of(const Frame &frame) {
   return text;
 }
 
-/// More possibilities than this say that a test leaves too much open.
-constexpr std::size_t kMostStates = 4096;
-
 std::string nothing() { return "no state is left"; }
 
 }  // namespace
@@ -32,7 +29,8 @@ std::string nothing() { return "no state is left"; }
 BufferModel::BufferModel(const BufferConfig &config, const BufferWindows &windows)
     : config_{config}, windows_{windows}, states_{BufferState{config.num_mb}} {}
 
-void BufferModel::configure(const BufferConfig &config) {
+void BufferModel::configure(const BufferConfig &config, std::uint64_t now) {
+  settle(now);
   if (config.fen != config_.fen)
     for (BufferState &state : states_) state.fen_changed();
   config_ = config;
@@ -56,8 +54,14 @@ void BufferModel::replace(const std::function<void(const BufferState &, Distinct
     failure_ = otherwise();
     return;
   }
-  if (next.size() > kMostStates) failure_ = "more is open than can be judged";
   states_ = next.take();
+  limit();
+}
+
+void BufferModel::limit() {
+  if (!ok() || states_.size() <= kMostStates) return;
+  too_open_ = true;
+  failure_ = "more is open than can be judged";
 }
 
 void BufferModel::keep(const std::function<bool(const BufferState &)> &possible,
@@ -79,12 +83,16 @@ void BufferModel::steps_of(const BufferState &state, std::uint64_t now, States &
       out.back().destination = to;
     }
   } else if (state.matching && state.valid) {
-    BufferState next = state;
-    next.matching.reset();
-    next.destination = {};
-    next.valid = false;
-    next.store(*state.matching, state.destination, now, config_);
-    out.push_back(std::move(next));
+    const auto arrive = [&](const Destination &to) {
+      out.push_back(state);
+      BufferState &next = out.back();
+      next.matching.reset();
+      next.destination = {};
+      next.valid = false;
+      next.store(*state.matching, to, now, config_);
+    };
+    arrive(state.destination);
+    if (const auto place = state.late_place(masks_, config_)) arrive(*place);
   }
   if (state.released) {
     out.push_back(state);
@@ -127,6 +135,7 @@ void BufferModel::open_up(std::uint64_t now) {
     std::erase_if(state.withdrawn,
                   [&](const auto &old) { return old.second.until + windows_.decision < now; });
   if (ok()) states_ = std::move(all);
+  limit();
 }
 
 void BufferModel::settle(std::uint64_t now) {
@@ -294,7 +303,8 @@ void BufferModel::send_failed(std::uint64_t now) {
       [] { return "a frame failed that was not being sent"; });
 }
 
-void BufferModel::soft_reset(std::uint64_t) {
+void BufferModel::soft_reset(std::uint64_t now) {
+  settle(now);
   for (BufferState &state : states_) state.soft_reset();
 }
 

@@ -34,7 +34,7 @@ class BufferModel {
   explicit BufferModel(const BufferConfig &config, const BufferWindows &windows = {});
 
   /// In freeze mode: new configuration. A change of FEN empties the FIFO.
-  void configure(const BufferConfig &config);
+  void configure(const BufferConfig &config, std::uint64_t now = 0);
   [[nodiscard]] const BufferConfig &config() const { return config_; }
 
   // ---- The CPU (`now`: clock of the data phase)
@@ -69,6 +69,8 @@ class BufferModel {
 
   [[nodiscard]] bool ok() const { return failure_.empty(); }
   [[nodiscard]] const std::string &failure() const { return failure_; }
+  /// It failed because the CPU left more open than can be followed: no fault of the core.
+  [[nodiscard]] bool too_open() const { return too_open_; }
   /// States still possible; 1 when nothing is open.
   [[nodiscard]] std::size_t possibilities() const { return states_.size(); }
   /// One of the states.
@@ -86,9 +88,11 @@ class BufferModel {
 
  private:
   using States = std::vector<BufferState>;
+  static constexpr std::size_t kMostStates = 1024;
 
   void settle(std::uint64_t now);
   void merge(std::uint64_t now);
+  void limit();
   void open_up(std::uint64_t now);
   void steps_of(const BufferState &state, std::uint64_t now, States &out) const;
   void replace(const std::function<void(const BufferState &, DistinctStates &)> &each,
@@ -125,6 +129,7 @@ class BufferModel {
   std::optional<int> stamp_offset_;  ///< stamp as read less reference; one value for all frames
   bool stamps_moved_ = false;
   std::string failure_;
+  bool too_open_ = false;
 };
 
 }  // namespace vericansim

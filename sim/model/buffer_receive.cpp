@@ -92,7 +92,7 @@ std::vector<Destination> BufferState::destinations(const ArrivedFrame &arrived,
     if (mailboxes.empty()) mailboxes.push_back({Kind::kNowhere, 0});
     return mailboxes;
   }
-  const bool full = fifo.size() == 6;
+  const bool full = fifo.size() == kFifoDepth;
   const Destination into_fifo{full ? Kind::kOverflow : Kind::kFifo, *hit};
   if (mailboxes.empty()) return {into_fifo};
   if (!config.mrp) return full ? mailboxes : std::vector{into_fifo};
@@ -106,6 +106,17 @@ std::vector<Destination> BufferState::destinations(const ArrivedFrame &arrived,
     if (taken || to.kind == Kind::kAnswer) add(out, into_fifo);
   }
   return out;
+}
+
+std::optional<Destination> BufferState::late_place(const BufferMasks &masks,
+                                                   const BufferConfig &config) const {
+  if (!config.fen || fifo.size() == kFifoDepth) return std::nullopt;
+  if (destination.kind == Kind::kOverflow) return Destination{Kind::kFifo, destination.index};
+  const bool overruns = destination.kind == Kind::kMailbox && config.bcc &&
+                        !free_to_receive(destination.index, false);
+  if (!overruns) return std::nullopt;
+  const auto hit = fifo_accepts(matching->frame, filter_table(*this, config), masks, config);
+  return hit ? std::optional{Destination{Kind::kFifo, *hit}} : std::nullopt;
 }
 
 void BufferState::move_in(unsigned n, const ArrivedFrame &arrived) {

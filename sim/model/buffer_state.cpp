@@ -25,38 +25,35 @@ void set_stamp(KnownWords &words, std::uint16_t stamp) {
   words.stamped = true;
 }
 
-class Digest {
- public:
-  Digest &operator<<(std::uint64_t value) {
-    sum_ = std::rotl((sum_ ^ value) * 0x9E3779B97F4A7C15, 29);
-    return *this;
-  }
-  template <std::size_t kSize>
-  Digest &operator<<(const std::array<std::uint32_t, kSize> &words) {
-    for (const std::uint32_t word : words) *this << word;
-    return *this;
-  }
-  [[nodiscard]] std::uint64_t sum() const { return sum_; }
+// Sums of products, so that a processor computes many at once.
+constexpr std::uint64_t kOdd[] = {0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9,
+                                  0xD6E8FEB86659FD93, 0xFF51AFD7ED558CCD};
 
- private:
-  std::uint64_t sum_ = 0;
-};
+std::uint64_t pair(const std::array<std::uint32_t, 4> &words, unsigned first) {
+  return std::uint64_t{words.at(first)} << 32 | words.at(first + 1);
+}
+
+std::uint64_t digest_of(const BufferContent &buffer) {
+  const KnownWords &words = buffer.words;
+  std::uint64_t sum = pair(words.word, 0) * kOdd[0] ^ pair(words.word, 2) * kOdd[1] ^
+                      pair(words.known, 0) * kOdd[2] ^ pair(words.known, 2) * kOdd[3];
+  if (buffer.request) sum ^= (buffer.request->value ^ buffer.request->since << 20) * kOdd[4];
+  return sum + (static_cast<unsigned>(buffer.serviced) << 1 | unsigned{buffer.guarded});
+}
 
 }  // namespace
 
 std::uint64_t BufferState::digest() const {
-  Digest digest;
-  for (const BufferContent &buffer : mb) {
-    digest << buffer.words.word << buffer.words.known
-           << (static_cast<unsigned>(buffer.serviced) << 1 | unsigned{buffer.guarded});
-    if (buffer.request) digest << buffer.request->value << buffer.request->since;
-  }
-  digest << iflag << lock.value_or(~0u) << fifo.size() << (flight ? flight->mb : ~0u)
-         << (waiting ? waiting->first : ~0u) << (released ? released->first : ~0u)
-         << static_cast<unsigned>(destination.kind) << destination.index << unsigned{valid}
-         << unsigned{matching.has_value()} << unsigned{ended.has_value()}
-         << moved_out.value_or(~0u);
-  return digest.sum();
+  std::uint64_t sum = 0;
+  const auto add = [&sum](std::uint64_t value) { sum = std::rotl((sum ^ value) * kOdd[0], 29); };
+  for (const BufferContent &buffer : mb) add(digest_of(buffer));
+  add(iflag);
+  add(std::uint64_t{lock.value_or(~0u)} << 32 | (flight ? flight->mb : ~0u));
+  add(std::uint64_t{waiting ? waiting->first : ~0u} << 32 | (released ? released->first : ~0u));
+  add(std::uint64_t{moved_out.value_or(~0u)} << 32 | destination.index);
+  add(fifo.size() << 8 | static_cast<unsigned>(destination.kind) << 4 |
+      unsigned{matching.has_value()} << 2 | unsigned{ended.has_value()} << 1 | unsigned{valid});
+  return sum;
 }
 
 SendRequest BufferState::request_of(unsigned n, const BufferConfig &config,
@@ -135,7 +132,7 @@ void BufferState::abort(unsigned n, std::uint64_t now) {
 
 void BufferState::clear_flags(std::uint64_t bits, const BufferConfig &config) {
   if (config.fen) {
-    if ((bits & kFlagAvailable) != 0 && !fifo.empty()) fifo.pop_front();
+    if ((bits & kFlagAvailable) != 0 && !fifo.empty()) fifo.erase(fifo.begin());
     bits &= ~kFlagAvailable;
   }
   iflag &= ~bits;

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <vector>
 
@@ -86,6 +85,9 @@ struct FifoEntry {
   friend bool operator==(const FifoEntry &, const FifoEntry &) = default;
 };
 
+/// Frames that the FIFO holds (flexcan.md 4).
+inline constexpr std::size_t kFifoDepth = 6;
+
 /// IFLAG1 bits of the FIFO.
 inline constexpr std::uint64_t kFlagAvailable = 1u << 5;
 inline constexpr std::uint64_t kFlagWarning = 1u << 6;
@@ -125,6 +127,11 @@ class BufferState {
   [[nodiscard]] std::vector<Destination> destinations(const ArrivedFrame &arrived,
                                                       const BufferMasks &masks,
                                                       const BufferConfig &config) const;
+  /// The place in the FIFO that became free after the match had found none: a frame that was to be
+  /// lost, or to overrun a mailbox, may take it (flexcan.md 4 does not say when room is looked
+  /// for).
+  [[nodiscard]] std::optional<Destination> late_place(const BufferMasks &masks,
+                                                      const BufferConfig &config) const;
   /// The frame is stored where `to` says, or waits there for the unlock.
   void store(const ArrivedFrame &arrived, const Destination &to, std::uint64_t now,
              const BufferConfig &config);
@@ -147,7 +154,7 @@ class BufferState {
   std::optional<std::pair<unsigned, ArrivedFrame>> waiting;   ///< for the locked buffer
   std::optional<std::pair<unsigned, ArrivedFrame>> released;  ///< waited, moves in now
   std::uint64_t released_since = 0;
-  std::deque<FifoEntry> fifo;
+  std::vector<FifoEntry> fifo;  ///< six at most; the first is the output
   std::optional<Flight> flight;
   std::vector<std::pair<unsigned, SendRequest>> withdrawn;  ///< lately
 

@@ -22,6 +22,8 @@ from report import Report
 
 FULL = 1100            # mutants at scale 1
 PROOF_SECONDS = 60     # limit of one proof
+# Programs that compare everything with a model: they notice more in a second than others.
+JUDGES = {"buffer_random_test": 10, "random_lockstep_test": 10, "random_buses_test": 4}
 
 
 def arguments():
@@ -39,6 +41,8 @@ def arguments():
                         help="seconds of tests for one mutant; survivors then mean less")
     parser.add_argument("--programs", default="*", metavar="PATTERN",
                         help="only these test programs, such as 'can_*_test'")
+    parser.add_argument("--resume", action="store_true",
+                        help="take what an interrupted run of the same builds has killed as killed")
     parser.add_argument("--no-build", action="store_true", help="take the builds as they are")
     parser.add_argument("--jobs", type=int, default=os.environ.get("CAMPAIGN_JOBS", 2))
     parser.add_argument("--build", type=pathlib.Path, default=models.ROOT / "build" / "mutants",
@@ -99,6 +103,7 @@ class Campaign:
             models.build(options.build, numbers, targets, options.jobs)
         self.regression = Regression(models.ROOT, options.build)
         self.seen = {}                       # mutant number -> [(program, test, seconds)]
+        self.same_builds = False             # as in the run before
 
     @staticmethod
     def say(text):
@@ -112,7 +117,8 @@ class Campaign:
         path = self.options.dir / "seen.json"
         if path.exists():
             before = json.loads(path.read_text(encoding="utf-8"))
-            if before["stamp"] == stamp:
+            self.same_builds = before["stamp"] == stamp
+            if self.same_builds:
                 self.seen = {int(number): tests for number, tests in before["seen"].items()}
                 return
         self.record_anew()
@@ -144,6 +150,17 @@ class Campaign:
                 last = time.monotonic()
                 self.say(f"recorded {done} of {len(tests)}")
 
+    def killed_before(self, run):
+        """Verdicts of an interrupted run on the same programs, of mutants that a test killed."""
+        path = self.options.dir / "progress.jsonl"
+        if not (self.options.resume and self.same_builds and path.exists()):
+            path.unlink(missing_ok=True)
+            return {}
+        names = {mutant.name for mutant in run}
+        before = map(json.loads, path.read_text(encoding="utf-8").splitlines())
+        return {entry.pop("name"): entry for entry in before
+                if entry["killed"] and entry["name"] in names}
+
     def baseline(self):
         """The same programs that run the mutants must pass without one."""
         self.say("running the regression without a mutant")
@@ -165,7 +182,8 @@ class Campaign:
         groups = {}
         for program, test, seconds in self.seen.get(mutant.number, []):
             groups.setdefault(program, []).append((test, seconds))
-        order = sorted(groups, key=lambda name: (sum(s for _, s in groups[name]), name))
+        order = sorted(groups, key=lambda name: (sum(s for _, s in groups[name])
+                                                 / JUDGES.get(name, 1), name))
         used = planned = 0.0
         for program in order:
             planned += sum(seconds for _, seconds in groups[program])
@@ -196,13 +214,15 @@ def main():
         return
     campaign = Campaign(options, design, known, chosen)
     campaign.record()
-    baseline = campaign.baseline()
-    campaign.say(f"regression without a mutant: {baseline:.0f} s; {len(run)} mutants to run")
-    results, last = {}, time.monotonic()
+    results, last = campaign.killed_before(run), time.monotonic()
+    if not results:
+        campaign.say(f"regression without a mutant: {campaign.baseline():.0f} s")
+    campaign.say(f"{len(run)} mutants, {len(results)} killed before")
     # Scattered over the modules, so that an interrupted run says something of all.
-    scattered = sorted(run, key=lambda mutant: zlib.crc32(mutant.name.encode()))
+    scattered = sorted((mutant for mutant in run if mutant.name not in results),
+                       key=lambda mutant: zlib.crc32(mutant.name.encode()))
     for done, (mutant, result) in enumerate(
-            in_parallel(options.jobs, campaign.judge, scattered), 1):
+            in_parallel(options.jobs, campaign.judge, scattered), len(results) + 1):
         results[mutant.name] = result
         with open(options.dir / "progress.jsonl", "a", encoding="utf-8") as file:
             file.write(json.dumps({"name": mutant.name, **result}) + "\n")

@@ -16,7 +16,7 @@ int main(int argc, char **argv) {
   app.add_option("--runs", options.runs, "Seeds to run; 0: until there are --frames")
       ->capture_default_str();
   app.add_option("--frames", options.frames, "Frames on the buses in all")->capture_default_str();
-  app.add_option("--frames-a-run", options.frames_a_run, "Frames of one bus, about")
+  app.add_option("--frames-a-run", options.frames_a_run, "Frames of one bus of middle size")
       ->check(CLI::Range(10U, 1'000'000U))
       ->capture_default_str();
   app.add_option("--jobs", options.jobs, "Threads")->check(CLI::Range(1U, 64U));

@@ -48,6 +48,7 @@ void CampaignResult::count(Histogram &histogram, const std::string &bin, const J
 
 void CampaignResult::add(std::uint64_t seed, const Scenario &scenario, const JudgedRun &run) {
   ++runs;
+  cut_short += run.cut_short ? 1 : 0;
   frames += run.frames;
   error_frames += run.error_frames;
   overload_frames += run.overload_frames;
@@ -89,7 +90,8 @@ std::string CampaignResult::text() const {
       counts.wire.duplicates);
   for (const Failure &failure : failures)
     text += fmt::format("FAILED seed {}: {}\n", failure.seed, failure.finding);
-  return text + fmt::format("{} of {} seeds failed\n", failures.size(), runs);
+  return text + fmt::format("{} of {} seeds failed, {} ended before their time\n", failures.size(),
+                            runs, cut_short);
 }
 
 std::string CampaignResult::json(std::uint64_t first_seed, std::uint64_t least) const {
@@ -101,6 +103,8 @@ std::string CampaignResult::json(std::uint64_t first_seed, std::uint64_t least) 
   figures.push_back(
       figure("seeds with a difference", number(failures.size()), "0", failures.empty()));
   figures.push_back(figure("seeds", number(runs)));
+  figures.push_back(
+      figure("... that ended before their time: too much left open", number(cut_short)));
   figures.push_back(figure("frames a second", number(frames) / seconds));
   figures.push_back(figure("node-bits compared with the rules", number(counts.node_bits)));
   figures.push_back(figure("register accesses judged", number(counts.accesses)));

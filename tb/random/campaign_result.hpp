@@ -20,7 +20,8 @@ struct CampaignResult {
     std::string finding;
   };
 
-  std::uint64_t runs = 0, frames = 0, error_frames = 0, overload_frames = 0, node_cycles = 0;
+  std::uint64_t runs = 0, cut_short = 0, frames = 0, error_frames = 0, overload_frames = 0,
+                node_cycles = 0;
   JudgeCounts counts;
   std::vector<Failure> failures;
   double seconds = 0;

@@ -49,6 +49,8 @@ JudgedRun run_judged(const Scenario &scenario) {
   } catch (const std::exception &error) {
     run.findings.emplace_back(error.what());
   }
+  run.cut_short = simulation.judge()->too_open();
+  if (run.cut_short) return run;
   const auto &findings = simulation.judge()->findings();
   run.findings.insert(run.findings.begin(), findings.begin(), findings.end());
   if (!run.ok() && run.failed_at < 0) run.failed_at = scenario.duration;

@@ -15,6 +15,7 @@ namespace vericansim {
 /// What came of a run.
 struct JudgedRun {
   std::vector<std::string> findings;  ///< empty: all judges agree with the core
+  bool cut_short = false;             ///< ended, without a finding: too much was open to judge on
   Time failed_at = -1;                ///< when the first was seen, in the scenario's time; -1: none
   std::uint64_t frames = 0;           ///< acknowledged on the bus
   std::uint64_t error_frames = 0, overload_frames = 0;

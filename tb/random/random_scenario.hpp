@@ -16,7 +16,8 @@ enum class NoiseLevel : std::uint8_t { kNone, kLight, kNoisy, kStorm };
 
 /// A bus of 2 to 16 nodes with everything random: clocks within the tolerance of BT-08, delays
 /// within BT-07, timings that agree on the bit rate, buffers, filters, traffic, register accesses,
-/// disturbances. A function of its arguments alone; about `frames` frames long.
+/// disturbances. A function of its arguments alone. `frames`: length of the run, in
+/// frames of a busy bus of middle size; small buses get more of them, large or idle ones fewer.
 [[nodiscard]] Scenario random_scenario(std::uint64_t seed, unsigned frames);
 
 /// What random_scenario() has drawn for a seed.

@@ -65,6 +65,14 @@ void draw_filters(Dice &dice, HostConfig &host) {
   }
 }
 
+// Buses get equal shares of the computer's time, so that large and idle ones do not take all of it.
+Time bits_of_run(const Scenario &scenario, unsigned frames) {
+  constexpr std::uint64_t kClocksAFrame = 3000;  // of all nodes together, on a bus of middle size
+  std::uint64_t clocks_a_bit = 0;
+  for (const NodeSpec &node : scenario.nodes) clocks_a_bit += node.timing->clocks_per_bit();
+  return static_cast<Time>(frames * kClocksAFrame / clocks_a_bit);
+}
+
 }  // namespace
 
 void draw_traffic(Dice &dice, Scenario &scenario, unsigned frames) {
@@ -72,7 +80,7 @@ void draw_traffic(Dice &dice, Scenario &scenario, unsigned frames) {
   const unsigned load = dice.in(10, 130);  // per cent, where nothing is saturated
   const bool saturated = dice.per_cent(60);
   std::set<Key> used;
-  std::uint64_t bits = 0, messages = 0;
+  std::uint64_t bits = 0;
   for (NodeId id = 0; id < scenario.nodes.size(); ++id) {
     NodeSpec &node = scenario.nodes[id];
     if (!node.software) continue;
@@ -86,13 +94,10 @@ void draw_traffic(Dice &dice, Scenario &scenario, unsigned frames) {
       traffic.frame = draw_frame(dice, id, used);
       draw_payload(dice, traffic);
       bits += about_bits(traffic.frame);
-      ++messages;
       scenario.traffic.push_back(traffic);
     }
   }
-  const std::uint64_t mean = bits / messages;
-  scenario.duration = bit * static_cast<Time>(frames * (mean + 6));
-  if (!saturated) scenario.duration = scenario.duration * 100 / std::min(load, 100U);
+  scenario.duration = bit * bits_of_run(scenario, frames);
   scenario.drain = bit * 20'000;
   for (TrafficSpec &traffic : scenario.traffic) {
     // With one buffer a saturated message would keep the others of its node waiting for ever.
