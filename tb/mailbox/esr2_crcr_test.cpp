@@ -136,6 +136,26 @@ TEST_F(Esr2, VpsClearsWithEveryCsWriteAndComesBack) {  // FX-ESR2.VPS
   }
 }
 
+// With the SOF the winner has left the buffers, and the next one is looked for.
+TEST_F(Esr2, VpsClearsAtTheStartOfAPassThatNoWriteCaused) {  // FX-ESR2.VPS
+  start();
+  rig_->join();
+  rig_->occupy(true);
+  set(9, 0xC, 0x100u << 18);
+  set(30, 0xC, 0x200u << 18);
+  ASSERT_EQ(scanned() & kVps, kVps);
+  rig_->occupy(false);
+  bool cleared = false, sent = false;
+  for (unsigned i = 0; i < 5000 && !sent; ++i) {
+    const auto results = rig_->burst(0, {{.address = kEsr2}, {.address = reg::kIflag1}});
+    cleared = cleared || (results[0].data & kVps) == 0;
+    sent = (results[1].data & (1u << 9)) != 0;
+  }
+  EXPECT_TRUE(sent);
+  EXPECT_TRUE(cleared);
+  EXPECT_EQ(scanned() & kVps, kVps);
+}
+
 TEST_F(Esr2, BlockedWritesDoNotClearVps) {  // FX-ESR2.VPS
   start(kMcrAen);
   rig_->join();

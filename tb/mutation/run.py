@@ -22,8 +22,11 @@ from report import Report
 
 FULL = 1100            # mutants at scale 1
 PROOF_SECONDS = 60     # limit of one proof
-# Programs that compare everything with a model: they notice more in a second than others.
-JUDGES = {"buffer_random_test": 10, "random_lockstep_test": 10, "random_buses_test": 4}
+# Of the tests of one program so many seconds are run for one mutant: of long sweeps a part.
+PROGRAM_SECONDS = 3
+# Programs that compare everything with a model notice more in a second: they come early, with more.
+JUDGES = {"buffer_random_test", "random_lockstep_test", "random_buses_test"}
+JUDGE_SECONDS = 10
 
 
 def arguments():
@@ -85,6 +88,16 @@ def wanted(options, design):
                 mutant.number = len(chosen) + 1
                 chosen.append(mutant)
     return chosen, run
+
+
+def part_of(tests, most):
+    """All of a program's (test, seconds), or evenly spaced ones that take `most` seconds."""
+    total = sum(seconds for _, seconds in tests)
+    if total <= most:
+        return tests
+    share = most / total
+    return [test for n, test in enumerate(tests)
+            if int((n + 1) * share) > int(n * share)] or tests[:1]
 
 
 class Campaign:
@@ -182,8 +195,10 @@ class Campaign:
         groups = {}
         for program, test, seconds in self.seen.get(mutant.number, []):
             groups.setdefault(program, []).append((test, seconds))
+        groups = {program: part_of(tests, JUDGE_SECONDS if program in JUDGES else PROGRAM_SECONDS)
+                  for program, tests in groups.items()}
         order = sorted(groups, key=lambda name: (sum(s for _, s in groups[name])
-                                                 / JUDGES.get(name, 1), name))
+                                                 / (10 if name in JUDGES else 1), name))
         used = planned = 0.0
         for program in order:
             planned += sum(seconds for _, seconds in groups[program])
