@@ -152,7 +152,7 @@ def shown(figure):
     if figure.get("text"):
         return figure["text"]
     value = figure["value"]
-    return f"{value:,}" if isinstance(value, int) else f"{value:,.2f}"
+    return f"{value:,.0f}" if value == int(value) else f"{value:,.2f}"
 
 
 def verdict(figure):
