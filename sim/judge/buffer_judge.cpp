@@ -82,6 +82,7 @@ void BufferJudge::look_at_run(std::uint64_t clock) {
     interference_.stopped = true;
     if (on_stop) on_stop();
     if (model_.sending()) model_.send_failed(clock);
+    if (std::exchange(reset_asked_, false)) soft_reset(clock);
     check();
   }
   was_running_ = running;
@@ -109,11 +110,10 @@ void BufferJudge::write(const Access &access) {
   const bool frozen = !access.running && !registers_.disabled();
   if (is_cs(access.address)) last_cs_write_ = access.clock;
   if (change.soft_reset) {
-    interference_.soft_reset = true;
-    bits_ = 0;
-    model_.soft_reset(access.clock);
-  }
-  if (change.configuration) {
+    // It lets the bits that are being sent dominant end; 2.3 gives it time.
+    reset_asked_ = was_running_;
+    if (!reset_asked_) soft_reset(access.clock);
+  } else if (change.configuration) {
     const BufferConfig config = registers_.buffers();
     if (!same(config, model_.config())) model_.configure(config, access.clock);
   } else if (access.address == reg::kTimer) {
@@ -126,13 +126,22 @@ void BufferJudge::write(const Access &access) {
   }
 }
 
+void BufferJudge::soft_reset(std::uint64_t clock) {
+  interference_.soft_reset = true;
+  bits_ = 0;
+  model_.soft_reset(clock);
+  model_.configure(registers_.buffers(), clock);
+}
+
 // Everything that has happened so far, the event of the last bit included.
 void BufferJudge::finish() { tell(node_.cycles() + kAccessLag); }
 
 // ---- The bus
 
-BufferJudge::Interference BufferJudge::begin_bit() {
+BufferJudge::Interference BufferJudge::begin_bit(const NodeBit &bit) {
   tell(node_.cycles());
+  model_.bus_free(bit.field == Field::kInteg || bit.field == Field::kIdle ||
+                  bit.field == Field::kInt || bit.field == Field::kSuspend);
   was_running_ = true;
   ++bits_;
   return std::exchange(interference_, {});

@@ -38,7 +38,7 @@ class BufferJudge {
   };
 
   /// A bit of the node is complete: tells the model what the CPU did before.
-  Interference begin_bit();
+  Interference begin_bit(const NodeBit &bit);
   /// The node has left the bus between a sample point and the end of its bit.
   void cut_bit() { bits_ += interference_.soft_reset ? 0 : 1; }
   /// A SOF was seen or is about to be sent. `own`: by this node; `sof_to_come`: it stands in the
@@ -77,6 +77,7 @@ class BufferJudge {
   void tell(std::uint64_t until);
   void tell(const Access &access);
   void write(const Access &access);
+  void soft_reset(std::uint64_t clock);
   void check();
 
   RtlNode &node_;
@@ -90,6 +91,7 @@ class BufferJudge {
   std::uint16_t stamp_ = 0;  // at the start of the identifier
   std::uint64_t last_cs_write_ = 0;
   bool was_running_ = false;
+  bool reset_asked_ = false;  // a soft reset waits for the node to stop
   bool reported_ = false;
   std::uint64_t accesses_ = 0;
 };

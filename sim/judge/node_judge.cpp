@@ -43,7 +43,7 @@ void NodeJudge::bit(const BitRecord &record, Level pin) {
   ++bits_;
   const NodeBit bit = node_bit(record, pin);
   const bool own = bit.started && record.after.transmitter;
-  interfere(buffers_.begin_bit());
+  interfere(buffers_.begin_bit(bit));
   prepare(bit, own);
   const NodeConfig &config = followers_.front().model.config();
   const bool waits = buffers_.must_send() || !buffers_.flights().empty();

@@ -88,6 +88,7 @@ void BufferModel::steps_of(const BufferState &state, std::uint64_t now, States &
       BufferState &next = out.back();
       next.matching.reset();
       next.destination = {};
+      next.left_round = 0;
       next.valid = false;
       next.store(*state.matching, to, now, config_);
     };
@@ -114,6 +115,14 @@ void BufferModel::steps_of(const BufferState &state, std::uint64_t now, States &
   }
 }
 
+// From the first intermission bit, or when the bus is idle, a buffer may have moved out, and is
+// locked in until it is sent (3.3): that it comes soon is for the rules to judge. An abort request
+// resolves at once.
+bool BufferModel::moved_out_too_long(const BufferState &state, std::uint64_t now) const {
+  if (!state.moved_out || (bus_free_ && !state.moved_out_abort)) return false;
+  return now > state.moved_out_since + windows_.decision;
+}
+
 // Adds the states that steps lead to; what is overdue has happened in all of them.
 void BufferModel::open_up(std::uint64_t now) {
   DistinctStates reached;
@@ -127,7 +136,7 @@ void BufferModel::open_up(std::uint64_t now) {
   const auto overdue = [&](const BufferState &state) {
     if (state.valid && now > received_at_ + windows_.move_in) return true;
     if (state.released && now > state.released_since + windows_.move_in) return true;
-    if (state.moved_out && now > state.moved_out_since + windows_.decision) return true;
+    if (moved_out_too_long(state, now)) return true;
     return state.ended && now > ended_at_ + windows_.completion;
   };
   std::erase_if(all, overdue);
@@ -234,6 +243,7 @@ void BufferModel::header(const std::optional<Frame> &foreign, std::uint16_t stam
                                   .stamp = stamp_,
                                   .own = !foreign};
     state.destination = {};
+    state.left_round = 0;
     state.valid = false;
   }
 }
@@ -259,6 +269,7 @@ void BufferModel::receive_failed(std::uint64_t now) {
         if (!state.valid) {
           next.matching.reset();
           next.destination = {};
+          next.left_round = 0;
         }
         out.add(std::move(next));
       },

@@ -49,6 +49,8 @@ class BufferModel {
 
   // ---- The bus
 
+  /// Whether the node could start a frame, or waits for that: no frame is on the bus.
+  void bus_free(bool now) { bus_free_ = now; }
   /// A SOF was seen or is about to be sent; `transmitter`: this node sends.
   void frame_started(bool transmitter, std::uint64_t now);
   /// The header is over. `foreign`: the frame under way if another node sends it;
@@ -94,6 +96,7 @@ class BufferModel {
   void merge(std::uint64_t now);
   void limit();
   void open_up(std::uint64_t now);
+  [[nodiscard]] bool moved_out_too_long(const BufferState &state, std::uint64_t now) const;
   void steps_of(const BufferState &state, std::uint64_t now, States &out) const;
   void replace(const std::function<void(const BufferState &, DistinctStates &)> &each,
                const std::function<std::string()> &otherwise);
@@ -128,6 +131,7 @@ class BufferModel {
   std::uint64_t ended_at_ = 0;
   std::optional<int> stamp_offset_;  ///< stamp as read less reference; one value for all frames
   bool stamps_moved_ = false;
+  bool bus_free_ = false;
   std::string failure_;
   bool too_open_ = false;
 };

@@ -51,59 +51,73 @@ bool BufferState::free_to_receive(unsigned n, bool open_as) const {
   return mb[n].serviced == Serviced::kYes;
 }
 
-// The mailbox that the rules of 3.5 name, if buffers whose service is open count as `open_as`.
+// The mailboxes that the rules of 3.5 may name, and kNowhere. Open are the service of some buffers,
+// and whether one that the CPU has written since the header is looked at still: the write takes it
+// out of the round (3.4), but how far the round was is not said.
 void BufferState::mailbox_choices(const ArrivedFrame &arrived, const BufferMasks &masks,
-                                  const BufferConfig &config, bool open_as,
-                                  std::vector<Destination> &out) const {
-  std::optional<unsigned> first, last, free;
+                                  const BufferConfig &config, std::vector<Destination> &out) const {
+  std::vector<unsigned> matches;
   for (unsigned n = config.first_mailbox(); n <= config.maxmb && n < config.num_mb; ++n) {
     const auto &words = mb[n].words.word;
     if (!code_receives(mb[n].code())) continue;
     const std::uint32_t mask = masks.of_mailbox(n, config.bcc);
-    if (!mailbox_accepts(arrived.frame, words[0], words[1], mask, config)) continue;
-    if (!first) first = n;
-    last = n;
-    if (!free && free_to_receive(n, open_as)) free = n;
+    if (mailbox_accepts(arrived.frame, words[0], words[1], mask, config)) matches.push_back(n);
   }
-  if (!first) return;
-  if (!config.bcc) return add(out, {Kind::kMailbox, *first});
-  add(out, {Kind::kMailbox, free ? *free : *last});
+  for (const unsigned n : matches) {  // BCC=1: the first free one; BCC=0: the first
+    if (config.bcc && !free_to_receive(n, true)) continue;
+    add(out, {Kind::kMailbox, n});
+    if (looked_at(n) && (!config.bcc || free_to_receive(n, false))) return;
+  }
+  if (config.bcc) {  // none is free: the last
+    for (auto n = matches.rbegin(); n != matches.rend(); ++n) {
+      const bool taken = !free_to_receive(*n, false);
+      if (taken) add(out, {Kind::kMailbox, *n});
+      if (taken && looked_at(*n)) return;
+    }
+  }
+  add(out, {Kind::kNowhere, 0});
+}
+
+// As above; where no mailbox stores the frame, the first one that waits with an answer to it (3.7).
+std::vector<Destination> BufferState::without_fifo(const ArrivedFrame &arrived,
+                                                   const BufferMasks &masks,
+                                                   const BufferConfig &config) const {
+  std::vector<Destination> out;
+  mailbox_choices(arrived, masks, config, out);
+  if (out.back().kind != Kind::kNowhere) return out;
+  out.pop_back();
+  for (unsigned n = config.first_mailbox(); n <= config.maxmb && n < config.num_mb; ++n) {
+    const auto &words = mb[n].words.word;
+    if (mb[n].code() != kTxAnswerWaits || !answer_fits(arrived.frame, words[0], words[1], config))
+      continue;
+    add(out, {Kind::kAnswer, n});
+    if (looked_at(n)) return out;
+  }
+  add(out, {Kind::kNowhere, 0});
+  return out;
 }
 
 std::vector<Destination> BufferState::destinations(const ArrivedFrame &arrived,
                                                    const BufferMasks &masks,
                                                    const BufferConfig &config) const {
-  std::vector<Destination> mailboxes;
   if (arrived.own && config.srx_dis) return {{Kind::kNowhere, 0}};
-  for (const bool open_as : {false, true})
-    mailbox_choices(arrived, masks, config, open_as, mailboxes);
-  for (unsigned n = config.first_mailbox(); n <= config.maxmb && n < config.num_mb; ++n) {
-    const auto &words = mb[n].words.word;
-    if (mb[n].code() != kTxAnswerWaits || !mailboxes.empty()) continue;
-    if (answer_fits(arrived.frame, words[0], words[1], config))
-      mailboxes.push_back({Kind::kAnswer, n});
-  }
-  if (!config.fen) {
-    if (mailboxes.empty()) mailboxes.push_back({Kind::kNowhere, 0});
-    return mailboxes;
-  }
+  const std::vector<Destination> mailboxes = without_fifo(arrived, masks, config);
+  if (!config.fen) return mailboxes;
   const auto hit = fifo_accepts(arrived.frame, filter_table(*this, config), masks, config);
-  if (!hit) {
-    if (mailboxes.empty()) mailboxes.push_back({Kind::kNowhere, 0});
-    return mailboxes;
-  }
+  if (!hit) return mailboxes;
   const bool full = fifo.size() == kFifoDepth;
   const Destination into_fifo{full ? Kind::kOverflow : Kind::kFifo, *hit};
-  if (mailboxes.empty()) return {into_fifo};
-  if (!config.mrp) return full ? mailboxes : std::vector{into_fifo};
-  if (!config.bcc || full) return mailboxes;
+  if (!config.mrp && !full) return {into_fifo};
   std::vector<Destination> out;
   for (const Destination &to : mailboxes) {
-    const bool free = to.kind == Kind::kMailbox && free_to_receive(to.index, true);
-    const bool taken = to.kind == Kind::kMailbox && !free_to_receive(to.index, false);
     // Whether an answer counts as a free mailbox is open.
-    if (free || to.kind == Kind::kAnswer) add(out, to);
-    if (taken || to.kind == Kind::kAnswer) add(out, into_fifo);
+    const bool answer = to.kind == Kind::kAnswer;
+    const bool nowhere = to.kind == Kind::kNowhere;
+    const bool queue = config.bcc && !full && !nowhere;
+    const bool free = queue && !answer && free_to_receive(to.index, true);
+    const bool taken = queue && !answer && !free_to_receive(to.index, false);
+    if (!nowhere && (!queue || free || answer)) add(out, to);
+    if (nowhere || taken || (queue && answer)) add(out, into_fifo);
   }
   return out;
 }

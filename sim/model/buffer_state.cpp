@@ -51,6 +51,7 @@ std::uint64_t BufferState::digest() const {
   add(std::uint64_t{lock.value_or(~0u)} << 32 | (flight ? flight->mb : ~0u));
   add(std::uint64_t{waiting ? waiting->first : ~0u} << 32 | (released ? released->first : ~0u));
   add(std::uint64_t{moved_out.value_or(~0u)} << 32 | destination.index);
+  add(left_round);
   add(fifo.size() << 8 | static_cast<unsigned>(destination.kind) << 4 |
       unsigned{matching.has_value()} << 2 | unsigned{ended.has_value()} << 1 | unsigned{valid});
   return sum;
@@ -83,6 +84,7 @@ void BufferState::write(unsigned n, unsigned word, std::uint32_t data, std::uint
   words.known[word] |= lanes;
   if (!cs) return;
   if ((lanes & kStampBits) != 0) words.stamped = false;
+  if (matching) left_round |= std::uint64_t{1} << n;
   // A C/S write ends the lock, the pending frame and the request of this buffer (3.4).
   if (lock == n) lock.reset();
   if (waiting && waiting->first == n) waiting.reset();
@@ -156,6 +158,7 @@ void BufferState::soft_reset() {
   moved_out.reset();
   matching.reset();
   destination = {};
+  left_round = 0;
   valid = false;
   for (BufferContent &buffer : mb) {
     buffer.serviced = Serviced::kNo;

@@ -161,6 +161,7 @@ class BufferState {
   // What has happened on the bus but perhaps not yet in the buffers.
   std::optional<ArrivedFrame> matching;  ///< header known, match not over
   Destination destination;               ///< result of the match
+  std::uint64_t left_round = 0;          ///< buffers written since the header: out of the match
   bool valid = false;                    ///< the frame has ended well
   std::optional<FlightEnd> ended;
   std::optional<unsigned> moved_out;  ///< AEN=1: fixed for the next start
@@ -170,8 +171,11 @@ class BufferState {
  private:
   [[nodiscard]] bool free_to_receive(unsigned n, bool open_as) const;
   void mailbox_choices(const ArrivedFrame &arrived, const BufferMasks &masks,
-                       const BufferConfig &config, bool open_as,
-                       std::vector<Destination> &out) const;
+                       const BufferConfig &config, std::vector<Destination> &out) const;
+  [[nodiscard]] std::vector<Destination> without_fifo(const ArrivedFrame &arrived,
+                                                      const BufferMasks &masks,
+                                                      const BufferConfig &config) const;
+  [[nodiscard]] bool looked_at(unsigned n) const { return ((left_round >> n) & 1) == 0; }
   void move_in(unsigned n, const ArrivedFrame &arrived);
   void push(const ArrivedFrame &arrived, unsigned id_hit);
 };
