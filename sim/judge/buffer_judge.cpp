@@ -79,6 +79,7 @@ void BufferJudge::look_at_run(std::uint64_t clock) {
   const bool running = (node_.trace() & kTraceRunning) != 0;
   if (was_running_ && !running) {
     tell(clock);
+    stopped_at_ = clock;
     interference_.stopped = true;
     if (on_stop) on_stop();
     if (model_.sending()) model_.send_failed(clock);
@@ -111,7 +112,7 @@ void BufferJudge::write(const Access &access) {
   if (is_cs(access.address)) last_cs_write_ = access.clock;
   if (change.soft_reset) {
     // It lets the bits that are being sent dominant end; 2.3 gives it time.
-    reset_asked_ = was_running_;
+    reset_asked_ = access.running && stopped_at_ < access.clock;
     if (!reset_asked_) soft_reset(access.clock);
   } else if (change.configuration) {
     const BufferConfig config = registers_.buffers();

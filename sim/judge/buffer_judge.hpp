@@ -91,6 +91,7 @@ class BufferJudge {
   std::uint16_t stamp_ = 0;  // at the start of the identifier
   std::uint64_t last_cs_write_ = 0;
   bool was_running_ = false;
+  std::uint64_t stopped_at_ = 0;
   bool reset_asked_ = false;  // a soft reset waits for the node to stop
   bool reported_ = false;
   std::uint64_t accesses_ = 0;
