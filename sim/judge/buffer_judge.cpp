@@ -4,6 +4,7 @@
 // BufferJudge: see buffer_judge.hpp.
 #include "judge/buffer_judge.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "node/registers.hpp"
@@ -157,6 +158,8 @@ void BufferJudge::started(bool own, bool sof_to_come) {
 bool BufferJudge::must_send() const {
   const std::uint64_t now = node_.cycles();
   const std::uint64_t window = model_.windows().decision;
+  const auto cs_write = [](const Access &access) { return access.write && is_cs(access.address); };
+  if (std::any_of(done_.begin(), done_.end(), cs_write)) return false;
   return now > last_cs_write_ + window && now > window && model_.must_send_since(now - window);
 }
 

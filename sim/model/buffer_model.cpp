@@ -86,10 +86,7 @@ void BufferModel::steps_of(const BufferState &state, std::uint64_t now, States &
     const auto arrive = [&](const Destination &to) {
       out.push_back(state);
       BufferState &next = out.back();
-      next.matching.reset();
-      next.destination = {};
-      next.left_round = 0;
-      next.valid = false;
+      next.end_round();
       next.store(*state.matching, to, now, config_);
     };
     arrive(state.destination);
@@ -239,12 +236,10 @@ void BufferModel::header(const std::optional<Frame> &foreign, std::uint16_t stam
   stamp_ = stamp;
   for (BufferState &state : states_) {
     if (!foreign && !state.flight) continue;
+    state.end_round();
     state.matching = ArrivedFrame{.frame = foreign ? *foreign : state.flight->request.frame,
                                   .stamp = stamp_,
                                   .own = !foreign};
-    state.destination = {};
-    state.left_round = 0;
-    state.valid = false;
   }
 }
 
@@ -266,11 +261,7 @@ void BufferModel::receive_failed(std::uint64_t now) {
   replace(
       [](const BufferState &state, DistinctStates &out) {
         BufferState next = state;
-        if (!state.valid) {
-          next.matching.reset();
-          next.destination = {};
-          next.left_round = 0;
-        }
+        if (!state.valid) next.end_round();
         out.add(std::move(next));
       },
       nothing);

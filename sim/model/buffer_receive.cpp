@@ -51,6 +51,12 @@ bool BufferState::free_to_receive(unsigned n, bool open_as) const {
   return mb[n].serviced == Serviced::kYes;
 }
 
+// As the match may find it, which looks at one buffer after the other (3.5): a lock or a mark that
+// the CPU has moved since the header stood or did not.
+bool BufferState::found_free(unsigned n, bool open_as) const {
+  return ((lock_moved >> n) & 1) != 0 ? open_as : free_to_receive(n, open_as);
+}
+
 // The mailboxes that the rules of 3.5 may name, and kNowhere. Open are the service of some buffers,
 // and whether one that the CPU has written since the header is looked at still: the write takes it
 // out of the round (3.4), but how far the round was is not said.
@@ -64,13 +70,13 @@ void BufferState::mailbox_choices(const ArrivedFrame &arrived, const BufferMasks
     if (mailbox_accepts(arrived.frame, words[0], words[1], mask, config)) matches.push_back(n);
   }
   for (const unsigned n : matches) {  // BCC=1: the first free one; BCC=0: the first
-    if (config.bcc && !free_to_receive(n, true)) continue;
+    if (config.bcc && !found_free(n, true)) continue;
     add(out, {Kind::kMailbox, n});
-    if (looked_at(n) && (!config.bcc || free_to_receive(n, false))) return;
+    if (looked_at(n) && (!config.bcc || found_free(n, false))) return;
   }
   if (config.bcc) {  // none is free: the last
     for (auto n = matches.rbegin(); n != matches.rend(); ++n) {
-      const bool taken = !free_to_receive(*n, false);
+      const bool taken = !found_free(*n, false);
       if (taken) add(out, {Kind::kMailbox, *n});
       if (taken && looked_at(*n)) return;
     }
@@ -114,8 +120,8 @@ std::vector<Destination> BufferState::destinations(const ArrivedFrame &arrived,
     const bool answer = to.kind == Kind::kAnswer;
     const bool nowhere = to.kind == Kind::kNowhere;
     const bool queue = config.bcc && !full && !nowhere;
-    const bool free = queue && !answer && free_to_receive(to.index, true);
-    const bool taken = queue && !answer && !free_to_receive(to.index, false);
+    const bool free = queue && !answer && found_free(to.index, true);
+    const bool taken = queue && !answer && !found_free(to.index, false);
     if (!nowhere && (!queue || free || answer)) add(out, to);
     if (nowhere || taken || (queue && answer)) add(out, into_fifo);
   }

@@ -51,7 +51,7 @@ std::uint64_t BufferState::digest() const {
   add(std::uint64_t{lock.value_or(~0u)} << 32 | (flight ? flight->mb : ~0u));
   add(std::uint64_t{waiting ? waiting->first : ~0u} << 32 | (released ? released->first : ~0u));
   add(std::uint64_t{moved_out.value_or(~0u)} << 32 | destination.index);
-  add(left_round);
+  add(left_round * kOdd[1] ^ lock_moved);
   add(fifo.size() << 8 | static_cast<unsigned>(destination.kind) << 4 |
       unsigned{matching.has_value()} << 2 | unsigned{ended.has_value()} << 1 | unsigned{valid});
   return sum;
@@ -109,9 +109,23 @@ bool BufferState::read_locks(unsigned n, const BufferConfig &config) const {
   return code == kRxFull || code == kRxOverrun || (!config.bcc && code == kRxEmpty);
 }
 
+void BufferState::lock_for_read(unsigned n) {
+  lock = n;
+  if (matching) lock_moved |= std::uint64_t{1} << n;
+}
+
+void BufferState::end_round() {
+  matching.reset();
+  destination = {};
+  valid = false;
+  left_round = 0;
+  lock_moved = 0;
+}
+
 void BufferState::unlock(bool read, std::uint64_t now) {
   if (!lock) return;
   if (read) mb[*lock].serviced = Serviced::kYes;
+  if (matching) lock_moved |= std::uint64_t{1} << *lock;
   lock.reset();
   if (!waiting) return;
   released = waiting;
@@ -156,10 +170,7 @@ void BufferState::soft_reset() {
   flight.reset();
   ended.reset();
   moved_out.reset();
-  matching.reset();
-  destination = {};
-  left_round = 0;
-  valid = false;
+  end_round();
   for (BufferContent &buffer : mb) {
     buffer.serviced = Serviced::kNo;
     buffer.guarded = false;

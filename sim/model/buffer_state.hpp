@@ -108,7 +108,7 @@ class BufferState {
   [[nodiscard]] bool write_blocked(unsigned n) const;
   /// Whether reading this C/S word locks its buffer.
   [[nodiscard]] bool read_locks(unsigned n, const BufferConfig &config) const;
-  void lock_for_read(unsigned n) { lock = n; }
+  void lock_for_read(unsigned n);
   /// Ends the lock; `read` marks the buffer as serviced. A waiting frame is released.
   void unlock(bool read, std::uint64_t now);
   /// The released frame has moved in.
@@ -118,6 +118,8 @@ class BufferState {
   /// IFLAG is written.
   void clear_flags(std::uint64_t bits, const BufferConfig &config);
   void fen_changed();
+  /// The frame under way is matched no longer.
+  void end_round();
   void soft_reset();
 
   // ---- The bus
@@ -162,6 +164,7 @@ class BufferState {
   std::optional<ArrivedFrame> matching;  ///< header known, match not over
   Destination destination;               ///< result of the match
   std::uint64_t left_round = 0;          ///< buffers written since the header: out of the match
+  std::uint64_t lock_moved = 0;          ///< ... locked or serviced: free or not
   bool valid = false;                    ///< the frame has ended well
   std::optional<FlightEnd> ended;
   std::optional<unsigned> moved_out;  ///< AEN=1: fixed for the next start
@@ -170,6 +173,7 @@ class BufferState {
 
  private:
   [[nodiscard]] bool free_to_receive(unsigned n, bool open_as) const;
+  [[nodiscard]] bool found_free(unsigned n, bool open_as) const;
   void mailbox_choices(const ArrivedFrame &arrived, const BufferMasks &masks,
                        const BufferConfig &config, std::vector<Destination> &out) const;
   [[nodiscard]] std::vector<Destination> without_fifo(const ArrivedFrame &arrived,
