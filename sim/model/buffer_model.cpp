@@ -176,9 +176,12 @@ bool BufferModel::sending() const {
 
 bool BufferModel::must_send_since(std::uint64_t clock) const {
   return std::all_of(states_.begin(), states_.end(), [&](const BufferState &state) {
-    return std::any_of(state.mb.begin(), state.mb.end(), [&](const BufferContent &buffer) {
-      return buffer.request && buffer.request->since <= clock;
-    });
+    for (unsigned n = 0; n < state.mb.size(); ++n) {
+      const auto &request = state.mb[n].request;
+      const bool given_up = state.moved_out == n && state.moved_out_abort;
+      if (request && request->since <= clock && !given_up) return true;
+    }
+    return false;
   });
 }
 

@@ -79,7 +79,8 @@ class BufferModel {
   [[nodiscard]] const BufferState &state() const { return states_.front(); }
   /// In some state a frame is being sent.
   [[nodiscard]] bool sending() const;
-  /// In every state some buffer has waited to be sent since `clock` or earlier.
+  /// In every state some buffer has waited to be sent since `clock` or earlier, and no abort of it
+  /// was asked for.
   [[nodiscard]] bool must_send_since(std::uint64_t clock) const;
   /// The frames that may be the one being sent, each once.
   [[nodiscard]] std::vector<Frame> flights() const;
