@@ -87,7 +87,7 @@ class WireJudge {
   std::vector<NodeView> nodes_;
   std::deque<Success> successes_;  // their bit is over, the nodes' views are not complete
   std::deque<Delivery> deliveries_;
-  std::deque<Success> unseen_;  // by the decoder
+  std::deque<Success> unseen_;                   // by the decoder
   Time end_ = std::numeric_limits<Time>::max();  // of the run
   WireCounts counts_;
 };
