@@ -142,6 +142,7 @@ void BufferJudge::finish() { tell(node_.cycles() + kAccessLag); }
 
 BufferJudge::Interference BufferJudge::begin_bit(const NodeBit &bit) {
   tell(node_.cycles());
+  // While the node integrates, too: the bits that it waits for are other nodes' intermission.
   model_.bus_free(bit.field == Field::kInteg || bit.field == Field::kIdle ||
                   bit.field == Field::kInt || bit.field == Field::kSuspend);
   was_running_ = true;
