@@ -3,6 +3,7 @@
 //
 // Random buses: what the CPUs do with registers and buffers, at any moment.
 #include <algorithm>
+#include <bit>
 
 #include "model/buffer_match.hpp"
 #include "node/registers.hpp"
@@ -18,6 +19,7 @@ constexpr std::uint32_t kSoftRst = reg::kMcrSoftRst;
 constexpr std::uint32_t kFrozen = reg::kMcrFrz | reg::kMcrHalt;
 constexpr std::uint32_t kCode = reg::kCodeMask;
 constexpr std::uint32_t kAen = 1U << 12;
+constexpr std::uint32_t kBcc = 1U << 16;
 
 void read(Steps &steps, std::uint32_t address) { steps.push_back({Kind::kRead, address}); }
 void write(Steps &steps, std::uint32_t address, std::uint32_t value) {
@@ -54,8 +56,10 @@ class Script {
     const Time apart = bit * 70 * dice_.in(1, 8);
     Time at = bit * dice_.in(1, 300);
     add(at, set_up(true));
-    for (at += apart; at < scenario_.duration; at += apart * dice_.in(20, 180) / 100 + 1)
+    for (at += apart; at < scenario_.duration; at += apart * dice_.in(20, 180) / 100 + 1) {
+      if (dice_.below(25) == 0) at = slow_reader(at, bit);
       add(at, dice_.below(400) == 0 ? interrupt() : something());
+    }
   }
 
  private:
@@ -66,8 +70,41 @@ class Script {
     return dice_.per_cent(50) ? first_ + dice_.below(count) : num_mb_ - 1 - dice_.below(count);
   }
 
+  /// The buffer that gets a frame when none is free.
+  [[nodiscard]] unsigned busy_receiver() const {
+    const bool last = (mcr_ & kBcc) != 0;
+    return static_cast<unsigned>(last ? std::bit_width(receives_) - 1
+                                      : std::countr_zero(receives_));
+  }
+
+  /// Keeps a buffer locked until a frame waits for it, does something else, and looks at the frame
+  /// when it must have moved in. Returns the end.
+  [[nodiscard]] Time slow_reader(Time at, Time bit) {
+    if (receives_ == 0) return at;
+    const unsigned mb = busy_receiver();
+    Steps lock;
+    read(lock, reg::mb(mb));
+    add(at, lock);
+    at += bit * dice_.in(60, 250);
+    Steps unlock;
+    const unsigned other = mailbox();
+    if (other != mb) {
+      receives_ &= ~(std::uint64_t{1} << other);
+      write(unlock, reg::mb(other), reg::kCodeTxInactive);
+    }
+    write(unlock, mb < 32 ? reg::kIflag1 : reg::kIflag2, 1U << (mb % 32));
+    read(unlock, reg::kTimer);
+    add(at, unlock);
+    at += bit * dice_.in(15, 25);
+    Steps look_at;
+    service(look_at, mb);
+    add(at, look_at);
+    return at + bit * 10;
+  }
+
   [[nodiscard]] Steps set_up(bool from_reset) {
     Steps steps;
+    receives_ = 0;
     if (from_reset) {
       write(steps, reg::kMcr, kFrozen | 0xF);
       until(steps, reg::kMcr, reg::kMcrLpmAck | reg::kMcrFrzAck, reg::kMcrFrzAck);
@@ -86,6 +123,7 @@ class Script {
         write(steps, reg::filter(n), static_cast<std::uint32_t>(dice_.word()) & 0x3FFFFFFF);
     for (unsigned n = first_; n < num_mb_; ++n) {
       const bool receives = dice_.per_cent(30);
+      if (receives) receives_ |= std::uint64_t{1} << n;
       write(steps, reg::mb(n, 1), draw_identifier(dice_, dice_.below(16), false) << 18);
       write(steps, reg::mb(n), receives ? reg::kCodeRxEmpty : 0);
     }
@@ -109,6 +147,7 @@ class Script {
 
   void receive_buffer(Steps &steps, unsigned mb) {
     inactivate(steps, mb, 0);
+    receives_ |= std::uint64_t{1} << mb;
     const bool extended = dice_.per_cent(30);
     const std::uint32_t id = draw_identifier(dice_, dice_.below(16), extended);
     write(steps, reg::mb(mb, 1), extended ? id : id << 18);
@@ -119,6 +158,7 @@ class Script {
 
   void send(Steps &steps, unsigned mb) {
     inactivate(steps, mb, reg::kCodeTxInactive);
+    receives_ &= ~(std::uint64_t{1} << mb);
     const bool extended = dice_.per_cent(30);
     const bool remote = dice_.per_cent(15);
     const std::uint32_t id = draw_identifier(dice_, id_, extended);
@@ -152,13 +192,17 @@ class Script {
     Steps steps;
     for (unsigned n = dice_.in(1, 3); n > 0; --n) {
       const unsigned mb = mailbox();
-      switch (dice_.below(13)) {
+      const std::uint64_t kind = dice_.below(13);
+      switch (kind) {
         case 0: receive_buffer(steps, mb); break;
         case 1:
         case 2:
         case 3: send(steps, mb); return steps;  // its `if` ends the list
-        case 4: write(steps, reg::mb(mb), reg::kCodeTxInactive); break;
-        case 5: write(steps, reg::mb(mb), kTxAbort << 24); break;
+        case 4:
+        case 5:
+          receives_ &= ~(std::uint64_t{1} << mb);
+          write(steps, reg::mb(mb), (kind == 4 ? kTxInactive : kTxAbort) << 24);
+          break;
         case 6: read(steps, reg::mb(mb)); break;
         case 7: read(steps, reg::kTimer); break;
         case 8: write(steps, mb < 32 ? reg::kIflag1 : reg::kIflag2, 1U << (mb % 32)); break;
@@ -208,7 +252,8 @@ class Script {
   Scenario &scenario_;
   NodeId id_;
   unsigned num_mb_;
-  unsigned first_ = 0;  // mailbox
+  unsigned first_ = 0;          // mailbox
+  std::uint64_t receives_ = 0;  // buffers that have been made ready to receive
   std::uint32_t mcr_ = 0, ctrl1_ = 0, ctrl2_ = 0, xctrl_ = 0;
 };
 
