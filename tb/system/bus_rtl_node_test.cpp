@@ -152,6 +152,24 @@ INSTANTIATE_TEST_SUITE_P(
                       Traffic{"Cable", {0, 0}, 60 * kNanosecond}),
     [](const auto &each) { return each.param.name; });
 
+// CTRL1.RJW reaches the engine: clocks 1.4 % apart, 16 tq, edges eight bits apart. BT-08 allows
+// +-1.2 % with SJW 4, and +-0.3 % with SJW 1.
+TEST(RtlNode, JumpWidthOfTheRegisterFollowsTheDrift) {  // BT-08, SY-06, SY-07, FX-CTRL1.RJW
+  for (const unsigned sjw : {4U, 1U}) {
+    Net net;
+    HostConfig host;
+    host.timing = {.prescaler = 1, .prop = 5, .ps1 = 5, .ps2 = 5, .sjw = sjw};
+    net.add({.frequency_hz = 16e6, .error_ppm = 7000}, host);
+    net.add({.frequency_hz = 16e6, .error_ppm = -7000}, host);
+    net.start();
+    Frame slow{.id = 0x0F0, .dlc = 8};
+    slow.data.fill(0x0F);
+    const bool sent = net.hosts[0]->send_and_wait(slow, 2 * kMillisecond);
+    for (auto &each : net.hosts) each->check();
+    EXPECT_EQ(sent && net.hosts[0]->stats().error_interrupts == 0, sjw == 4);
+  }
+}
+
 TEST(RtlNode, DisturbedFrameIsRepeated) {
   Net net;
   net.add({});
