@@ -38,6 +38,7 @@ void WireJudge::bit(NodeId id, Time time, const NodeBit &bit, const Frame &frame
   if (bit.failed) {
     node.failed = time;
     node.failed_late = bit.field == Field::kEof && bit.left == 0;
+    node.unheard = bit.passive && bit.errors == kErrAck;
   }
   if (bit.delivered && !bit.transmitter) {
     ++counts_.deliveries;
@@ -103,6 +104,12 @@ void WireJudge::judge_receiver(const Success &success, NodeId id, bool clean) {
 void WireJudge::judge_left_over(const Delivery &delivery) {
   if (delivery.time > end_ - 3 * bit_time_) return;  // the run is over before the sender's EOF7
   ++counts_.duplicates;
+  // What an error passive sender repeats for want of an acknowledge is complete for those who only
+  // listen (MO-03).
+  for (const NodeView &node : nodes_) {
+    const bool its_frame = std::abs(node.sof - delivery.sof) < 3 * bit_time_ / 2;
+    if (its_frame && node.unheard && node.failed > node.sof) return;
+  }
   if (clean(delivery.sof, delivery.time)) {
     return report_(fmt::format("{} has received {} {}, which nobody sent",
                                nodes_[delivery.node].name, frame_text(delivery.frame),

@@ -61,6 +61,7 @@ class WireJudge {
     Time sof = -kSecond;       // of the frame under way or the last one
     Time failed = -kSecond;    // last attempt that failed
     bool failed_late = false;  // ... at EOF7
+    bool unheard = false;      // ... error passive, for want of an acknowledge
   };
   struct Success {
     NodeId node;
