@@ -85,6 +85,7 @@ module can_mb_load #(
   state_e state_q;
 
   logic       word_q, on_bus_q, end_q, failed_q, orphan_q, dropped_q, abort_q, shot_q, answer_q;
+  logic       bad_q;
   logic [1:0] tick_q;
   logic       pause_q, head_ok, head_bad, head_seen, head_taken, lost, csw_cur, csw_ld, withdrawn;
 
@@ -105,6 +106,8 @@ module can_mb_load #(
   assign head_seen  = data_i && data_step_i == StepHead && state_q == StHead && !on_bus_q
                    && !started_o && !head_bad;
   assign head_taken = head_seen && cs_i[27:26] == 2'b11 && !cs_i[24];
+  // Not active: a winner by upset. But one that was aborted meanwhile has made way for another.
+  assign bad_o = bad_q && best_idx_i == ld_idx_o;
   assign req_o   = word_q || end_q || state_q == StLow || state_q == StHigh
                 || (state_q == StHead && head_ok);
   assign step_o  = word_q ? StepWord : end_q ? StepEnd : state_q == StLow ? StepLow
@@ -164,13 +167,13 @@ module can_mb_load #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {tx_req_o, on_bus_q, orphan_q, dropped_q, word_q, word_o} <= '0;
-      {end_q, failed_q, flag_o, retry_o, bad_o, abort_q, shot_q, answer_q} <= '0;
+      {end_q, failed_q, flag_o, retry_o, bad_q, abort_q, shot_q, answer_q} <= '0;
       tick_q  <= '0;
       pause_q <= 1'b0;
       cur_idx_o <= '0;
     end else begin
       {flag_o, retry_o} <= '0;
-      bad_o <= head_seen && !head_taken;
+      bad_q   <= head_seen && !head_taken;
       tick_q  <= {tick_q[0], tick_i};
       pause_q <= on_bus_q || end_q || retry_busy_i || abort_q || mute_i || (csw_cur && tx_req_o);
 
