@@ -91,7 +91,7 @@ class BufferModel {
 
  private:
   using States = std::vector<BufferState>;
-  static constexpr std::size_t kMostStates = 1024;
+  static constexpr std::size_t kMostStates = 4096;
 
   void settle(std::uint64_t now);
   void merge(std::uint64_t now);
