@@ -205,12 +205,12 @@ void Bridge::run_until(Time target) {
   }
 }
 
+// The bridge may wait without a limit as soon as all is quiet, so that by then the monitor must
+// have all frames.
 void Bridge::advance_fast(Time end) {
   const Time stretch = simulation_->bus().now() + kFastStretch * bit_time_;
-  if (quiet())
-    simulation_->settle();
-  else
-    run_until(std::min(end, stretch));
+  if (!quiet()) run_until(std::min(end, stretch));
+  if (quiet()) simulation_->settle();
 }
 
 // What programs send is taken after this, so that no frame is on the bus before it was sent.

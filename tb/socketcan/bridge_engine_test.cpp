@@ -80,6 +80,24 @@ TEST(BridgeEngine, TimesAreThoseOfTheBus) {
   }
 }
 
+// The bus may come to rest in any bit of what a fast bridge simulates at once. Before the bridge
+// waits for programs without a limit, the monitor has every frame: nothing else would wake it.
+TEST(BridgeEngine, NothingIsKeptFromTheMonitorWhileItWaits) {
+  BridgeRig rig{{.ports = 2, .nodes = 0, .monitor = true}};
+  std::size_t sent = 0;
+  for (unsigned burst = 0; burst < 200; ++burst) {
+    for (unsigned i = 0; i <= burst % 13; ++i, ++sent) rig.port(0).send(numbered_frame(2 * sent));
+    const unsigned before = rig.wall.endless_waits;
+    rig.bridge().round();  // at rest; it takes them
+    std::size_t seen = 0;
+    while (rig.wall.endless_waits <= before + 1) {
+      seen = rig.monitor().got.size();
+      rig.bridge().round();
+    }
+    ASSERT_EQ(seen, sent) << "burst " << burst;
+  }
+}
+
 // AK-03: with nobody else on the bus no frame is acknowledged; it stays with the node and is
 // neither sent nor lost.
 TEST(BridgeEngine, AloneNobodyAcknowledges) {
