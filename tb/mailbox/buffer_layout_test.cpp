@@ -59,6 +59,23 @@ TEST_P(BufferLayout, Received) {
   rig.compare();
 }
 
+// Nothing of an earlier frame is left where this one has no bytes.
+TEST_P(BufferLayout, BytesThatWereNotReceivedAreZero) {
+  BufferRig rig{kAll};
+  for (unsigned mb = 0; mb < 16; ++mb) rig.write(reg::rximr(mb), 0);
+  rig.put(7, {.cs = 0x04000000, .id = 0x1FFFFFFF, .low = ~0u, .high = ~0u});
+  rig.go();
+  Frame earlier{.id = 0x123, .dlc = 8};
+  earlier.data.fill(0xFF);
+  rig.receive(earlier);
+  EXPECT_EQ(rig.read(reg::mb(7, 2)) & rig.read(reg::mb(7, 3)), 0xFFFFFFFFu);
+  rig.receive(frame());
+  for (unsigned i = 0; i < 8; ++i)
+    EXPECT_EQ((rig.read(reg::mb(7, 2 + i / 4)) >> (24 - 8 * (i % 4))) & 0xFF,
+              i < frame().payload_size() ? 0x11 * (i + 1) : 0u)
+        << i;
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryFormatAndLength, BufferLayout, ::testing::Range(0u, 64u));
 
 }  // namespace

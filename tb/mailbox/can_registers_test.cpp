@@ -155,6 +155,21 @@ TEST_F(Mcr, ByteWritesReachTheirByteOnly) {
   EXPECT_EQ(rig_.read(0, reg::kEcr), 0x5634u);
 }
 
+TEST_F(Mcr, SoftResetIsAskedForByItsByteAlone) {  // FX-2.3.a
+  const auto part = [&](std::uint32_t offset, AhbSize size, std::uint32_t value) {
+    rig_.access(0, {.address = reg::kMcr + offset, .write = true, .size = size, .data = value});
+    rig_.run(10);
+  };
+  for (const bool half : {false, true}) {
+    rig_.configure(0);
+    EXPECT_NE(mcr() & 0x7F, 0x0Fu);
+    part(0, half ? AhbSize::kHalf : AhbSize::kByte, 0x02 * 0x0101);
+    EXPECT_NE(mcr() & 0x7F, 0x0Fu);
+    part(half ? 2 : 3, half ? AhbSize::kHalf : AhbSize::kByte, half ? 0x0200 : 0x02);
+    EXPECT_EQ(mcr(), 0x5980000Fu);
+  }
+}
+
 TEST_F(Mcr, WarningMasksNeedWrnEn) {  // 1.1 bit 21
   rig_.configure(0);
   rig_.write(0, reg::kCtrl, 0x0C00);

@@ -151,6 +151,17 @@ TEST_P(HardReset, CoreIsLikeNewWhateverItWasDoing) {
   }
 }
 
+// Pulses that last for a clock, RO-05: none of them is left over.
+TEST(HardResetMoment, InTheClockInWhichAFrameIsAccepted) {
+  std::mt19937 random{3};
+  MailboxRig used{2, 16}, fresh{2, 16};
+  bring_up(used, false, random);
+  for (unsigned n = 0; n < 2; ++n) used.go(n);
+  used.put_tx(0, 12, {.id = 0x123});
+  ASSERT_TRUE(used.run_until([&] { return decode_trace(used.node(1).trace()).rx_valid; }, 4000));
+  EXPECT_EQ(afterwards(used, false, 5), afterwards(fresh, false, 5));
+}
+
 INSTANTIATE_TEST_SUITE_P(Lives, HardReset, ::testing::Range(0u, 8u));
 
 }  // namespace

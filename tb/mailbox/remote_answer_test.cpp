@@ -114,6 +114,8 @@ TEST_F(RemoteAnswer, NeedsTheExactIdentifierWhateverTheMask) {  // FX-3.5.d, FX-
       rig_.freeze(kAnswerer);
       rig_.write(kAnswerer, reg::kCtrl2, eacen);
       rig_.write(kAnswerer, reg::rximr(kWait), 0);
+      for (std::uint32_t mask : {reg::kRxgmask, reg::kRx14mask, reg::kRx15mask, reg::kRxfgmask})
+        rig_.write(kAnswerer, mask, 0);
       wait_with(kWait, frame);
       join();
       for (unsigned bit = 0; bit < (extended ? 29 : 11); bit += 3) {
@@ -121,9 +123,11 @@ TEST_F(RemoteAnswer, NeedsTheExactIdentifierWhateverTheMask) {  // FX-3.5.d, FX-
         near.id ^= 1u << bit;
         ask(request_of(near, 2));
         EXPECT_FALSE(answer()) << "bit " << bit;
+        EXPECT_EQ(rig_.flags(kAnswerer), 0u) << "not sent either, bit " << bit;
       }
       ask(request_of(frame, 2));
       EXPECT_EQ(answer(), frame);
+      rig_.clear_flag(kAnswerer, kWait);
     }
   }
 }

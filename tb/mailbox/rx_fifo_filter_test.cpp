@@ -304,8 +304,16 @@ TEST(FilterTable, EndsAtTheLastBufferOfASmallCore) {  // FX-4.a
     rig.pop();
     rig.send(base(words + 1));
     EXPECT_FALSE(rig.available());
-    rig.send(base(1));
+    // Nor do the places of the FIFO follow the table: here they hold what would be an element.
+    Frame bait = base(1);
+    bait.dlc = 8;
+    for (unsigned i = 0; i < 8; ++i)
+      bait.data[i] = static_cast<std::uint8_t>(element_a(base(words + 2)) >> (24 - 8 * (i % 4)));
+    rig.send(bait);
     EXPECT_EQ(rig.output().idhit, 0u);
+    rig.pop();
+    rig.send(base(words + 2));
+    EXPECT_FALSE(rig.available());
   }
 }
 

@@ -4,6 +4,7 @@
 // can_field alone: it must walk through frames, delimiters and gaps as the frame format says.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
 #include <string>
 
@@ -65,9 +66,15 @@ class CanField : public testing::Test {
   /// Walks SOF to EOF7 of a frame and compares the place of each bit; `sof`: place of its SOF.
   void walk(const Frame &frame, Field sof) {
     unsigned dlc = 0;
-    for (const WireBit &b : encode_frame(frame).bits) {
+    std::map<Field, unsigned> left;
+    const auto wire = encode_frame(frame).bits;
+    for (const WireBit &b : wire) left[b.field] += b.is_stuff ? 0 : 1;
+    for (const WireBit &b : wire) {
       const Field want = b.field == Field::kSof ? sof : b.field;
       ASSERT_EQ(field_name(at()), field_name(want)) << +b.index;
+      if (!b.is_stuff) {
+        ASSERT_EQ(field_->left_o, --left[b.field]) << field_name(want);
+      }
       const bool recessive = b.level == Level::kRecessive;
       if (b.field == Field::kDlc && b.index == 3 && !b.is_stuff) field_->dlc_i = dlc & 7;
       bit(recessive, {}, b.is_stuff);
@@ -149,6 +156,21 @@ TEST_F(CanField, DominantThirdIntermissionBitIsAStartOfFrame) {
   }
 }
 
+// IF-14: a frame that was pending when another node begins in idle joins it.
+TEST_F(CanField, PendingFrameJoinsAStartOfFrameInIdle) {
+  for (const bool pending : {false, true}) {
+    to_idle();
+    bits(3);
+    field_->tx_req_i = pending;
+    bit(false);
+    EXPECT_EQ(at(), Field::kId);
+    EXPECT_EQ(field_->transmitter_o != 0, pending);
+    field_->run_i = field_->tx_req_i = 0;
+    field_.clock();
+    field_->run_i = 1;
+  }
+}
+
 // IF-08, IF-10: a passive transmitter waits eight bits more, and does not join.
 TEST_F(CanField, PassiveTransmitterSuspends) {
   to_idle();
@@ -173,6 +195,20 @@ TEST_F(CanField, LostArbitrationChangesTheRole) {
   EXPECT_EQ(at(), Field::kId);
 }
 
+// IF-16, IN-01: in reset the node takes no part, and eleven bits are to come.
+TEST_F(CanField, HardResetEndsWhateverIsUnderWay) {
+  to_idle();
+  field_->tx_req_i = 1;
+  bit(true);
+  bits(4, false);
+  ASSERT_TRUE(field_->transmitter_o);
+  field_->rst_ni = 0;
+  field_.settle();
+  EXPECT_EQ(at(), Field::kInteg);
+  EXPECT_EQ(field_->left_o, 10);
+  EXPECT_FALSE(field_->transmitter_o);
+}
+
 // EF-01, EF-08, EF-10, OV-01, OV-07: six flag bits, delimiter of eight, three of intermission.
 TEST_F(CanField, ErrorAndOverloadFrames) {
   for (const bool overload : {false, true}) {
@@ -181,7 +217,7 @@ TEST_F(CanField, ErrorAndOverloadFrames) {
     bit(true, {.error = !overload, .overload = overload});
     EXPECT_EQ(at(), overload ? Field::kOvlFlag : Field::kErrFlag);
     EXPECT_EQ(field_->overload_frame_o != 0, overload);
-    bits(6, false);
+    for (unsigned left = 6; left-- > 0; bit(false)) EXPECT_EQ(field_->left_o, left);
     EXPECT_EQ(at(), Field::kWait);
     bits(20, false);
     EXPECT_EQ(at(), Field::kWait);

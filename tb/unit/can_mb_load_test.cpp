@@ -8,6 +8,7 @@
 #include <array>
 #include <optional>
 #include <random>
+#include <vector>
 
 #include "Vcan_mb_load.h"
 #include "unit/leaf_model.hpp"
@@ -225,6 +226,119 @@ TEST_F(MbLoad, NothingIsPresentedWhileTheEngineStartsNoFrame) {
   top_->mute_i = 0;
   for (unsigned i = 0; i < 2000 && buffers_[2].pending; ++i) clock();
   EXPECT_FALSE(buffers_[2].pending);
+}
+
+// One buffer after the other, signal by signal.
+class MbLoadSteps : public ::testing::Test {
+ protected:
+  MbLoadSteps() {
+    load_->rst_ni = load_->running_i = load_->aen_i = load_->gap_i = 1;
+    load_.reset();
+    load_.settle();
+  }
+  /// One clock; every step is granted, the buffer that is read is active.
+  void clock() {
+    load_.settle();
+    const bool step = load_->req_o != 0 && load_->data_i == 0;
+    const unsigned number = load_->step_o;
+    load_.clock();
+    load_->data_i = load_->flight_i = step;
+    load_->data_step_i = number;
+    load_->cs_i = kActive << 24;
+    load_->start_i = load_->tx_ok_i = load_->tx_fail_i = load_->csw_i = 0;
+    load_.settle();
+    if (load_->data_i != 0) steps_.push_back(number);
+    retries_ += load_->retry_o;
+  }
+  void clocks(unsigned count) {
+    for (unsigned i = 0; i < count; ++i) clock();
+  }
+  void winner(unsigned buffer, bool settled = true) {
+    load_->best_idx_i = buffer;
+    load_->settled_i = settled;
+  }
+  void present(unsigned buffer) {
+    winner(buffer);
+    for (unsigned i = 0; i < 20 && load_->tx_req_o == 0; ++i) clock();
+    ASSERT_TRUE(load_->tx_req_o);
+    ASSERT_EQ(load_->cur_idx_o, buffer);
+  }
+  void start() {
+    load_->start_i = load_->transmitter_i = 1;
+    load_->gap_i = 0;
+    clock();
+    winner(0, false);
+    clocks(10);
+  }
+  LeafModel<Vcan_mb_load> load_;
+  std::vector<unsigned> steps_;
+  unsigned retries_ = 0;
+};
+
+// FX-3.4.a: the write before has taken the frame back; the next one finds nothing moved out.
+TEST_F(MbLoadSteps, FrameThatIsTakenBackHasNotMovedOut) {
+  load_->gap_i = 0;
+  present(2);
+  EXPECT_FALSE(load_->out_o);
+  load_->csw_i = 1;
+  load_->csw_idx_i = 2;
+  load_->csw_act_i = 0;
+  load_->gap_i = 1;
+  load_.settle();
+  EXPECT_FALSE(load_->out_o);
+  clock();
+  EXPECT_FALSE(load_->tx_req_o || load_->out_o);
+  present(2);
+  EXPECT_TRUE(load_->out_o);
+}
+
+// FX-3.2.f, FX-3.3.f: what was sent is not tried again; what was not is, if its end is seen or not.
+TEST_F(MbLoadSteps, OnlyWhatWasNotSentIsTriedAgain) {
+  for (const unsigned end : {0u, 1u, 2u}) {
+    present(2);
+    start();
+    retries_ = 0;
+    load_->gap_i = 1;
+    load_->tx_ok_i = end == 0;
+    load_->tx_fail_i = end == 1;
+    unsigned flags = 0;
+    for (unsigned i = 0; i < 10; ++i) {
+      clock();
+      flags += load_->flag_o;
+    }
+    EXPECT_EQ(retries_, end == 0 ? 0u : 1u) << end;
+    EXPECT_EQ(flags, end == 0 ? 1u : 0u) << end;
+  }
+}
+
+// FX-3.3.f: a frame that is loaded while another is sent makes way for a better one; what is still
+// being looked for is none.
+TEST_F(MbLoadSteps, BetterFrameReplacesTheOneThatIsLoadedAhead) {
+  present(2);
+  start();
+  winner(3);
+  clocks(10);
+  EXPECT_EQ(load_->ld_idx_o, 3);
+  steps_.clear();
+  winner(1, false);
+  clocks(10);
+  EXPECT_EQ(load_->ld_idx_o, 3);
+  winner(3);
+  clocks(10);
+  EXPECT_TRUE(steps_.empty()) << "loaded already";
+  winner(1);
+  clocks(10);
+  EXPECT_EQ(load_->ld_idx_o, 1);
+  load_->gap_i = load_->tx_fail_i = 1;
+  clock();
+  present(1);
+}
+
+TEST_F(MbLoadSteps, NothingIsPresentedInReset) {
+  present(2);
+  load_->rst_ni = 0;
+  load_.settle();
+  EXPECT_FALSE(load_->tx_req_o || load_->req_o || load_->out_o || load_->kept_o || load_->busy_o);
 }
 
 }  // namespace

@@ -211,6 +211,54 @@ TEST_P(MbTx, AnswerTakesPartAtEveryMomentOfAPass) {  // flexcan.md 3.7: as if wr
   }
 }
 
+// Read slots are for others: the answer waits, also behind a buffer that the CPU has written.
+TEST_P(MbTx, AnswerWaitsForItsSlot) {  // flexcan.md 3.7
+  settle();
+  buffers_[20] = {kAnswer << 24, 0x100 << 18};
+  for (unsigned i = 0; i < 30; ++i) {
+    top_.ans_i = i == 0;
+    top_.ans_idx_i = i == 0 ? 20 : 0;
+    top_.csw_i = top_.csw_act_i = i == 5;
+    top_.csw_idx_i = 41;
+    top_.ins_gnt_i = i == 10;
+    top_.scan_gnt_i = 0;
+    top_.clk_i = 1;
+    top_.eval();
+    top_.clk_i = 0;
+    top_.ins_gnt_i = 0;
+    top_.eval();
+    ASSERT_TRUE(top_.ins_req_o) << i;
+    ASSERT_EQ(top_.ins_idx_o, i >= 5 && i < 10 ? 41 : 20) << i;
+    top_.csw_i = 0;
+  }
+}
+
+// ESR2 (flexcan.md 1.7): a pass that changes of the buffers ask for is announced once; one that
+// only looks for what an upset may have lost is not.
+TEST_P(MbTx, PassesThatNobodyAskedForAreQuiet) {
+  unsigned begun = 0, ended = 0, seen = 0;
+  const auto run = [&](bool fresh) {
+    for (unsigned i = 0; i < 400; ++i) {
+      top_.fresh_i = fresh && i < 8;
+      clock({}, 0, 100);
+      top_.eval();
+      begun += top_.pass_o;
+      ended += top_.pass_end_o;
+      seen += top_.seen_o;
+    }
+  };
+  run(false);
+  EXPECT_EQ(begun, 1u);
+  EXPECT_EQ(ended, 1u);
+  EXPECT_EQ(seen, kBuffers);
+  run(true);
+  EXPECT_EQ(begun + ended + seen, 2 + kBuffers);
+  clock(3, 0x08000000, 100);
+  run(false);
+  EXPECT_EQ(begun, 2u);
+  EXPECT_EQ(ended, 2u);
+}
+
 TEST_P(MbTx, BufferThatEndsWithoutHavingStartedIsNoWinner) {  // an abort request, flexcan.md 3.4
   buffers_[7] = {kActive << 24, 0x100 << 18};
   buffers_[9] = {kActive << 24, 0x200 << 18};

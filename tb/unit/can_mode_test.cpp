@@ -194,6 +194,15 @@ TEST_F(CanMode, LowPowerFromFreezeWaitsForAMove) {
   }
 }
 
+// FX-2.2.d: leaving freeze mode waits for nothing, a move under way included.
+TEST_F(CanMode, FreezeIsLeftDuringAMove) {
+  enter(kFrozen);
+  mode_->busy_i = 1;
+  request(false, false, false);
+  clock();
+  EXPECT_EQ(mode(), kRunning);
+}
+
 // Withdrawn before it was acknowledged.
 TEST_F(CanMode, AWithdrawnRequestLeadsBack) {
   enter(kHalting);
@@ -221,6 +230,21 @@ TEST_F(CanMode, WakeUpHoldsUntilTheRequestGoes) {
     clock(4);
     EXPECT_EQ(mode(), kStopped);
   }
+}
+
+// FX-2.9.a: a hard reset forgets the wake-up, though the request has stayed.
+TEST_F(CanMode, RequestCountsAgainAfterAHardReset) {
+  enter(kStopped);
+  mode_->wake_i = 1;
+  clock();
+  mode_->wake_i = 0;
+  clock(2);
+  EXPECT_EQ(mode(), kRunning);
+  mode_->rst_ni = 0;
+  clock();
+  mode_->rst_ni = 1;
+  clock(2);
+  EXPECT_EQ(mode(), kStopped);
 }
 
 // FX-9.ERR008341: codes that are no state lead to freeze mode, everything cleared, off the bus.

@@ -138,6 +138,35 @@ TEST_F(RxFifoRing, LostFrameDoesNotShiftTheRing) {  // FX-4.b
   }
 }
 
+// The element belongs to the frame that was taken, until that is stored.
+TEST_F(RxFifoRing, ElementOfATakenFrameStays) {  // FX-RXFIR.IDHIT
+  top_->filter_i = 1;
+  top_->idhit_i = 5;
+  clock(false, true, false);
+  ASSERT_TRUE(take_);
+  top_->filter_i = 0;
+  top_->idhit_i = 9;
+  clock(false, true, false);
+  ASSERT_FALSE(take_);
+  for (unsigned i = 0; i < 5; ++i) {
+    EXPECT_EQ(top_->idhit_o, 5);
+    clock(false, false, false);
+  }
+}
+
+TEST_F(RxFifoRing, IsEmptyAfterAHardReset) {  // FX-4.b
+  top_->filter_i = 1;
+  for (unsigned i = 0; i < 4; ++i) {
+    clock(false, true, false);
+    clock(false, false, true);
+  }
+  EXPECT_TRUE(top_->avail_o);
+  top_->rst_ni = 0;
+  top_.settle();
+  EXPECT_FALSE(top_->avail_o);
+  EXPECT_EQ(top_->head_o, 0);
+}
+
 // No search of the mailboxes: an element fits, there is room and the FIFO comes first.
 TEST_F(RxFifoRing, MailboxesAreSearchedIfTheyCouldGetTheFrame) {  // FX-4.k, FX-4.l
   for (bool mrp : {false, true}) {

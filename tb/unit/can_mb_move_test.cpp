@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_mb_move alone (flexcan.md 3.4 to 3.6): two frames on their way, each bound to its buffer,
+// and what C/S writes do to them, in both rows.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "Vcan_mb_move.h"
+#include "unit/leaf_model.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr std::uint32_t kInactiveWord = 0, kFullWord = 0x2u << 24, kEmptyWord = 0x4u << 24;
+constexpr unsigned kFull = 0x2, kOverrun = 0x6;
+
+class MbMove : public ::testing::Test {
+ protected:
+  MbMove() {
+    move_.reset();
+    move_.settle();
+    move_->match_done_i = move_->hit_i = 1;
+  }
+  /// One clock; steps are granted at once, their data follows a clock later.
+  void clock() {
+    move_.settle();
+    const bool step = move_->req_o != 0 && move_->data_i == 0;
+    if (move_->data_i != 0 && move_->step_o == 2) code_ = (move_->top_o >> 1) & 0xF;
+    if (step) move_->cs_i = ram_cs_;
+    move_.clock();
+    move_->data_i = step;
+    move_->csw_i = move_->csw_empty_i = move_->start_i = move_->valid_i = 0;
+    move_.settle();
+    if (move_->flag_o || move_->ans_o) stored_.push_back(move_->idx_o);
+  }
+  /// A frame that belongs to the buffer; `known`: the match is over when the frame is.
+  void frame(unsigned buffer, bool known = true) {
+    move_->start_i = 1;
+    clock();
+    clock();
+    move_->hit_idx_i = buffer;
+    move_->match_done_i = known;
+    move_->valid_i = 1;
+    clock();
+    if (known) clock();
+  }
+  /// Two frames wait, in row 0 for buffer 10 and in row 1 for buffer 20.
+  void two_wait() {
+    move_->hold_i = 1;
+    frame(10);
+    frame(20);
+    EXPECT_EQ(move_->smb_o, 1);
+  }
+  /// The CPU writes the C/S word of a buffer, which is known in the clock after.
+  void write(unsigned buffer, bool empty) {
+    clock();
+    written(buffer, empty);
+  }
+  void written(unsigned buffer, bool empty) {
+    ram_cs_ = empty ? kEmptyWord : kInactiveWord;
+    move_->csw_i = 1;
+    move_->csw_idx_i = buffer;
+    move_->csw_empty_i = empty;
+    clock();
+  }
+  std::vector<unsigned> all_that_moves() {
+    move_->hold_i = 0;
+    for (unsigned i = 0; i < 60; ++i) clock();
+    EXPECT_FALSE(move_->busy_o);
+    return stored_;
+  }
+  LeafModel<Vcan_mb_move> move_;
+  std::vector<unsigned> stored_;
+  std::uint32_t ram_cs_ = kInactiveWord;  // of whatever buffer is read
+  unsigned code_ = 0;
+};
+
+using Buffers = std::vector<unsigned>;
+
+TEST_F(MbMove, CsWriteCancelsTheFrameThatWaitsForItsBuffer) {  // FX-3.4.g
+  for (const unsigned cancelled : {10u, 20u}) {
+    stored_.clear();
+    move_.reset();
+    two_wait();
+    write(cancelled, false);
+    EXPECT_EQ(all_that_moves(), Buffers{30 - cancelled});
+  }
+}
+
+TEST_F(MbMove, CsWriteOfAnotherBufferCancelsNothing) {  // FX-3.4.g
+  two_wait();
+  write(11, false);
+  move_->csw_idx_i = 20;  // no write
+  clock();
+  move_->csw_idx_i = 10;
+  clock();
+  EXPECT_EQ(all_that_moves(), (Buffers{10, 20}));
+}
+
+TEST_F(MbMove, WritingEmptyCancelsForALockedBufferAlone) {  // FX-3.4.g
+  for (const unsigned locked : {10u, 20u}) {
+    stored_.clear();
+    move_.reset();
+    two_wait();
+    move_->lock_i = 1;
+    move_->lock_idx_i = locked;
+    write(10, true);
+    write(20, true);
+    move_->lock_i = 0;
+    EXPECT_EQ(all_that_moves(), Buffers{30 - locked});
+  }
+}
+
+TEST_F(MbMove, AnswerIsCancelledByAnyCsWriteAndByNothingElse) {  // FX-3.4.g, FX-3.7.b
+  for (const bool written : {false, true}) {
+    for (const unsigned buffer : {10u, 20u}) {
+      stored_.clear();
+      move_.reset();
+      move_->hit_ans_i = 1;
+      two_wait();
+      move_->csw_idx_i = buffer;  // the last one written was this one
+      clock();
+      if (written) write(buffer, true);
+      EXPECT_EQ(all_that_moves(), written ? Buffers{30 - buffer} : (Buffers{10, 20}));
+    }
+  }
+}
+
+// The buffer of a frame whose match is not over yet is that of an earlier one.
+TEST_F(MbMove, CsWriteCancelsWhileTheOtherRowIsUnresolved) {  // FX-3.4.g
+  two_wait();
+  write(10, false);
+  frame(30, false);
+  EXPECT_EQ(move_->smb_o, 0);
+  write(20, false);
+  move_->match_done_i = 1;
+  clock();
+  EXPECT_EQ(all_that_moves(), Buffers{30});
+}
+
+TEST_F(MbMove, EmptyWrittenWhileTheFrameIsMovedIsNoOverrun) {  // FX-3.2.c, FX-3.4.g
+  for (unsigned wait = 1;; ++wait) {
+    move_.reset();
+    ram_cs_ = kFullWord;
+    frame(10);
+    for (unsigned i = 0; i < wait; ++i) clock();
+    if (!stored_.empty()) {
+      EXPECT_GT(wait, 3u);
+      EXPECT_EQ(code_, kOverrun) << "without such a write it is one";
+      break;
+    }
+    written(10, true);
+    EXPECT_EQ(all_that_moves(), Buffers{10});
+    EXPECT_EQ(code_, kFull) << wait;
+    stored_.clear();
+  }
+}
+
+// From the clock after the decision until it is stored, whatever the other row does.
+TEST_F(MbMove, FramesOnTheirWayIntoTheFifoAreCounted) {  // FX-4.b
+  move_->hit_fifo_i = move_->hold_i = 1;
+  EXPECT_EQ(move_->way_o, 0);
+  frame(0);
+  EXPECT_EQ(move_->way_o, 1);
+  frame(1, false);
+  for (unsigned i = 0; i < 5; ++i, clock())
+    EXPECT_EQ(move_->way_o, 1) << "the other one may not fit";
+  move_->match_done_i = 1;
+  clock();
+  EXPECT_EQ(move_->way_o, 3);
+  move_->hold_i = 0;
+  unsigned stored = 0;
+  for (unsigned i = 0; i < 60; ++i, clock()) {
+    EXPECT_EQ(move_->way_o, stored == 0 ? 3 : stored == 1 ? 2 : 0);
+    if (move_->stored_o != 0) ++stored;
+  }
+  EXPECT_EQ(stored, 2u);
+  // Rows that were the FIFO's before are not counted before the decision.
+  frame(2, false);
+  EXPECT_EQ(move_->way_o, 0);
+}
+
+}  // namespace
+}  // namespace vericansim
