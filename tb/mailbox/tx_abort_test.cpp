@@ -52,6 +52,36 @@ TEST(Abort, AtEveryClockOfAFrameThatSucceeds) {
   EXPECT_FALSE(rig.violated());
 }
 
+// FX-3.4.a: the same around the clock in which the engine takes it from an idle bus, wherever in a
+// bit it is written.
+TEST(Abort, AtEveryClockAroundTheStart) {
+  TxRig rig;
+  rig.put(0, kMb, mb_words(kFrame, kCodeInactive));
+  rig.join();
+  unsigned aborted = 0, sent = 0;
+  for (unsigned k = 0; k < 20; ++k) {
+    for (unsigned phase = 0; phase < 8; ++phase) {
+      SCOPED_TRACE(::testing::Message() << "after " << k << " clocks, phase " << phase);
+      ASSERT_TRUE(rig.run_until([&] { return decode_trace(rig.node(0).trace()).sample; }, 20));
+      rig.run(phase);
+      rig.reset_counts();
+      const std::uint32_t word = mb_words(kFrame, kCodeData).cs;
+      rig.burst(0, {{.address = reg::mb(kMb), .write = true, .data = word},
+                    {.address = reg::mb(kMb), .write = true, .data = kAbortWord, .pause = k}});
+      ASSERT_TRUE(rig.watch_flag(kMb, 1200));
+      const unsigned code = rig.code(kMb);
+      ASSERT_TRUE(code == kCodeInactive || code == kCodeAborted);
+      ++(code == kCodeInactive ? sent : aborted);
+      rig.clear_flag(0, kMb);
+      rig.watch(kGrace);
+      ASSERT_EQ(rig.sent(), code == kCodeInactive ? 1u : 0u);
+      ASSERT_EQ(rig.flags(0), 0u) << "a second end";
+    }
+  }
+  EXPECT_GT(aborted, 10u);
+  EXPECT_GT(sent, 10u);
+}
+
 // MO-10, FX-3.4.b, FX-9.e2656: nobody acknowledges, so each attempt fails; the request ends with
 // the one under way.
 TEST(Abort, AtEveryClockOfAFrameThatFails) {
