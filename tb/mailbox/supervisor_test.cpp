@@ -122,6 +122,20 @@ TEST_F(Supervisor, ADeniedReadTouchesNothing) {
   EXPECT_EQ(read(reg::kTimer, kPrivileged), 0x4321u);
 }
 
+// The word that was read last by right is BUSY for some clocks; a user does not see that either.
+TEST_F(Supervisor, ADeniedReadIsZeroWhileABufferIsMoved) {
+  write(reg::kMcr, kFrozen | reg::kMcrSupv | reg::kMcrBcc | 15, kPrivileged);
+  write(reg::kCtrl, (2u << 19) | (1u << 16) | 1u | reg::kCtrlLpb, kPrivileged);
+  write(reg::mb(8, 1), 0x123u << 18, kPrivileged);
+  write(reg::mb(8), 0x0C000000, kPrivileged);
+  write(reg::mb(5, 1), 0x123u << 18, kPrivileged);
+  write(reg::mb(5), 0x04000000, kPrivileged);
+  EXPECT_EQ(read(reg::mb(5), kPrivileged), 0x04000000u);
+  write(reg::kMcr, reg::kMcrSupv | reg::kMcrBcc | 15, kPrivileged);
+  for (unsigned i = 0; i < 1000; ++i) ASSERT_EQ(read(reg::mb(5), kUser), 0u) << i;
+  EXPECT_EQ(read(reg::kIflag1, kPrivileged), (1u << 5) | (1u << 8));
+}
+
 // Back to back, in every order: each access by its own privilege. A word of a buffer stays at the
 // output of the RAM.
 TEST_F(Supervisor, PrivilegeBelongsToTheTransfer) {

@@ -72,6 +72,14 @@ class BitTimer {
     edge();
     return event;
   }
+  /// Stops for a clock, by reset or not: SYNC_SEG follows.
+  void stop(bool reset) {
+    top_.tq_i = 0;
+    top_.run_i = reset;
+    top_.rst_ni = !reset;
+    edge();
+    top_.rst_ni = top_.run_i = 1;
+  }
   /// Runs to the start of the next bit with a quiet bus.
   void finish_bit() {
     for (int i = 0; i < 30; ++i) {
@@ -127,6 +135,19 @@ std::vector<BitTiming> settings() {
     }
   }
   return all;
+}
+
+// BT-03: stopped anywhere in a bit, by reset or without, it goes on with a whole one.
+TEST(CanBitTiming, BitAfterAStopIsWhole) {
+  const BitTiming timing{.prescaler = 1, .prop = 3, .ps1 = 2, .ps2 = 4, .sjw = 1};
+  for (const bool reset : {false, true}) {
+    for (unsigned at = 0; at < 10; ++at) {
+      BitTimer timer{timing};
+      for (unsigned i = 0; i < at; ++i) timer.quantum(kR);
+      timer.stop(reset);
+      EXPECT_TRUE(timer.bit(kR, 10)) << at << (reset ? " reset" : " stopped");
+    }
+  }
 }
 
 // BT-01, BT-02, BT-05: every setting of the three segments, 4 to 25 quanta.

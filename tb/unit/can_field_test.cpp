@@ -297,7 +297,14 @@ TEST_F(CanField, EdgeRestartsIntegrationOfATolerantNode) {
     field_.clock();
     field_->sample_i = 0;
     EXPECT_EQ(at(), Field::kInteg) << (first_clock ? "edge in the first clock" : "edge later");
-    bit(false);
+    // That bit was the first of eleven.
+    bits(9);
+    EXPECT_EQ(at(), Field::kInteg);
+    bit(true);
+    EXPECT_EQ(at(), Field::kIdle);
+    field_->run_i = 0;
+    field_.clock();
+    field_->run_i = 1;
   }
 }
 

@@ -136,6 +136,50 @@ TEST_F(MbGuard, ProtectsWhatHasEndedUntilItsFlagIsCleared) {  // FX-3.3.j
   EXPECT_FALSE(guard_->stall_o);
 }
 
+// In the clock in which a frame ends, and while it is about to, nothing is known by IFLAG yet.
+TEST_F(MbGuard, ProtectsWhatIsAboutToEnd) {  // FX-3.3.j
+  for (const unsigned kind : {kCs, kMsg, 2u, 3u}) {
+    for (const unsigned idx : {4u, 5u}) {
+      guard_->cur_idx_i = 5;
+      guard_->done_i = 1;
+      cs_write(idx, 0);
+      guard_->kind_i = kind;
+      guard_.settle();
+      EXPECT_EQ(guard_->block_o != 0, idx == 5 && kind <= kMsg) << kind << " " << idx;
+      clock();
+      guard_->done_i = 0;
+      // The end is told in the clock in which the write looks its buffer up.
+      guard_->waited_i = 0;
+      guard_->wr_i = 1;
+      guard_->end_i = 1;
+      guard_->end_idx_i = 5;
+      clock();
+      guard_->wr_i = guard_->waited_i = 1;
+      guard_.settle();
+      EXPECT_EQ(guard_->block_o != 0, idx == 5 && kind <= kMsg) << kind << " " << idx;
+      guard_->waited_i = 0;
+      clock();
+      clock();
+    }
+  }
+}
+
+// Its flag is not set yet, because that of a reception comes first.
+TEST_F(MbGuard, ProtectsWhatWasAbortedAtOnce) {  // FX-3.3.j
+  guard_->gnt_i = 0;
+  cs_write(3, kAbort);
+  clock();
+  for (const unsigned idx : {0u, 3u, 4u}) {
+    cs_write(idx, 0);
+    EXPECT_EQ(guard_->block_o != 0, idx == 3) << idx;
+    clock();
+  }
+  guard_->gnt_i = 1;
+  clock();
+  cs_write(3, 0);
+  EXPECT_FALSE(guard_->block_o);
+}
+
 TEST_F(MbGuard, WritesWaitOnlyForEndedBuffers) {  // FX-3.3.j
   for (unsigned i = 0; i < 5; ++i, clock()) EXPECT_FALSE(guard_->stall_o);
   guard_->iflag_i = 1u << 9;  // of a buffer that has received

@@ -237,14 +237,14 @@ class MbLoadSteps : public ::testing::Test {
     load_.settle();
   }
   /// One clock; every step is granted, the buffer that is read is active.
-  void clock() {
+  void clock(unsigned code = kActive) {
     load_.settle();
     const bool step = load_->req_o != 0 && load_->data_i == 0;
     const unsigned number = load_->step_o;
     load_.clock();
     load_->data_i = load_->flight_i = step;
     load_->data_step_i = number;
-    load_->cs_i = kActive << 24;
+    load_->cs_i = code << 24;
     load_->start_i = load_->tx_ok_i = load_->tx_fail_i = load_->csw_i = 0;
     load_.settle();
     if (load_->data_i != 0) steps_.push_back(number);
@@ -332,6 +332,44 @@ TEST_F(MbLoadSteps, BetterFrameReplacesTheOneThatIsLoadedAhead) {
   load_->gap_i = load_->tx_fail_i = 1;
   clock();
   present(1);
+}
+
+// FX-3.4.g: what the CPU has written while the end of the frame was on its way stays.
+TEST_F(MbLoadSteps, EndOfARewrittenFrameIsNotWritten) {
+  for (const bool rewritten : {false, true}) {
+    present(2);
+    start();
+    load_->gap_i = load_->tx_ok_i = 1;
+    clock();
+    for (unsigned i = 0; i < 5 && load_->data_i == 0; ++i) clock();
+    ASSERT_TRUE(load_->data_i);
+    load_->csw_i = rewritten;
+    load_->csw_idx_i = 2;
+    load_.settle();
+    EXPECT_EQ(load_->cancel_o != 0, rewritten);
+    clock();
+    EXPECT_EQ(load_->flag_o != 0, !rewritten);
+    clocks(5);
+  }
+}
+
+// A winner that is not active, as an upset flip-flop makes it, is told of once; an active one not.
+TEST_F(MbLoadSteps, WinnerThatIsNotActiveIsDropped) {
+  for (const unsigned code : {0x8u, 0x9u, 0xAu, kActive, kAnswer}) {
+    winner(3);
+    unsigned bad = 0;
+    for (unsigned i = 0; i < 12; ++i) {
+      clock(code);
+      bad += load_->bad_o;
+      if (load_->bad_o != 0) winner(0, false);
+    }
+    const bool active = code == kActive || code == kAnswer;
+    EXPECT_EQ(bad, active ? 0u : 1u) << code;
+    EXPECT_EQ(load_->tx_req_o != 0, active) << code;
+    load_->running_i = 0;
+    clock();
+    load_->running_i = 1;
+  }
 }
 
 TEST_F(MbLoadSteps, NothingIsPresentedInReset) {

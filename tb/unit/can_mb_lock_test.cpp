@@ -82,6 +82,18 @@ TEST_F(MbLock, MarkWaitsUntilItIsGranted) {  // FX-3.6.g, FX-3.4.g
   }
 }
 
+TEST_F(MbLock, OneMarkForEachLock) {  // FX-3.6.g
+  read(5, kFull);
+  read_timer();
+  EXPECT_TRUE(lock_->svc_req_o);
+  lock_->svc_gnt_i = 1;
+  clock();
+  read_timer();
+  EXPECT_FALSE(lock_->svc_req_o);
+  read(9, kEmpty);
+  EXPECT_FALSE(lock_->svc_req_o);
+}
+
 TEST_F(MbLock, NoMarkWithoutAnUnreadFrame) {  // FX-3.6.g
   read(5, kFull, true);
   EXPECT_TRUE(lock_->lock_o);

@@ -158,6 +158,43 @@ TEST_F(MbMove, EmptyWrittenWhileTheFrameIsMovedIsNoOverrun) {  // FX-3.2.c, FX-3
   }
 }
 
+// The row's own lock holds it up, no other one; while it moves the CPU sees BUSY, but for answers.
+TEST_F(MbMove, OnlyTheLockOfItsBufferHoldsAFrameUp) {  // FX-3.5.o, FX-3.6.b
+  for (const unsigned locked : {10u, 20u, 30u}) {
+    for (const bool answer : {false, true}) {
+      stored_.clear();
+      move_.reset();
+      move_->hit_ans_i = answer;
+      two_wait();
+      move_->hold_i = 0;
+      move_->lock_i = 1;
+      move_->lock_idx_i = locked;
+      for (unsigned i = 0; i < 60; ++i) {
+        clock();
+        EXPECT_EQ(move_->busy_mb_o != 0, move_->moving_o != 0 && !answer);
+        EXPECT_FALSE(move_->resolve_o);
+      }
+      EXPECT_EQ(stored_, locked == 30 ? (Buffers{10, 20}) : Buffers{30 - locked});
+      move_->lock_i = 0;
+      for (unsigned i = 0; i < 60; ++i) clock();
+      EXPECT_EQ(stored_.size(), 2u);
+    }
+  }
+}
+
+// FX-3.4.g: EMPTY written while the answer is being prepared is no request for one.
+TEST_F(MbMove, AnswerUnderWayIsCancelledByEmpty) {
+  move_->hit_ans_i = 1;
+  move_->csw_idx_i = 10;
+  frame(10);
+  while (move_->moving_o == 0) clock();
+  ram_cs_ = kEmptyWord;
+  move_->csw_i = move_->csw_empty_i = 1;
+  move_.settle();
+  EXPECT_TRUE(move_->cancel_o);
+  EXPECT_EQ(all_that_moves(), Buffers{});
+}
+
 // From the clock after the decision until it is stored, whatever the other row does.
 TEST_F(MbMove, FramesOnTheirWayIntoTheFifoAreCounted) {  // FX-4.b
   move_->hit_fifo_i = move_->hold_i = 1;

@@ -102,6 +102,17 @@ TEST_F(MbPort, SecondHalfOfACopyComesBeforeAWriteThatHasNotWaited) {
   EXPECT_TRUE(port_->ready_o);
 }
 
+TEST_F(MbPort, NobodyWaitsInReset) {
+  engine(true);
+  reads(true);
+  clock();
+  clock();
+  EXPECT_FALSE(port_->ready_o);
+  port_->rst_ni = 0;
+  port_.settle();
+  EXPECT_TRUE(port_->ready_o);
+}
+
 TEST_F(MbPort, EngineWriteThatWasRefusedComesBeforeTheCpu) {
   writes(true);
   clock();

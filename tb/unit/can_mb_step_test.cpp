@@ -50,6 +50,19 @@ TEST_F(MbStep, ASlotHasOneOwner) {
   EXPECT_TRUE(step_->scan_gnt_o);
 }
 
+// Only a pass for ESR2 gives way to the CPU every time.
+TEST_F(MbStep, LazyIsWhatNobodyElseWaitsFor) {
+  for (unsigned asks = 0; asks < 16; ++asks) {
+    step_->ld_req_i = asks & 1;
+    step_->rx_req_i = (asks & 2) != 0;
+    step_->scan_req_i = 1;
+    step_->scan_lazy_i = (asks & 4) != 0;
+    step_->mv_req_i = (asks & 8) != 0;
+    step_.settle();
+    EXPECT_EQ(step_->lazy_o != 0, asks == 4) << asks;
+  }
+}
+
 // Passes get the clocks between; they do not change whose turn it is.
 TEST_F(MbStep, LoadsAndMovesTakeTurns) {
   step_->ld_req_i = step_->mv_req_i = step_->rx_req_i = 1;

@@ -211,25 +211,30 @@ TEST_P(MbTx, AnswerTakesPartAtEveryMomentOfAPass) {  // flexcan.md 3.7: as if wr
   }
 }
 
-// Read slots are for others: the answer waits, also behind a buffer that the CPU has written.
-TEST_P(MbTx, AnswerWaitsForItsSlot) {  // flexcan.md 3.7
-  settle();
-  buffers_[20] = {kAnswer << 24, 0x100 << 18};
-  for (unsigned i = 0; i < 30; ++i) {
-    top_.ans_i = i == 0;
-    top_.ans_idx_i = i == 0 ? 20 : 0;
-    top_.csw_i = top_.csw_act_i = i == 5;
-    top_.csw_idx_i = 41;
-    top_.ins_gnt_i = i == 10;
-    top_.scan_gnt_i = 0;
-    top_.clk_i = 1;
-    top_.eval();
-    top_.clk_i = 0;
-    top_.ins_gnt_i = 0;
-    top_.eval();
-    ASSERT_TRUE(top_.ins_req_o) << i;
-    ASSERT_EQ(top_.ins_idx_o, i >= 5 && i < 10 ? 41 : 20) << i;
-    top_.csw_i = 0;
+// Read slots are for others: an answer or a retry waits, also behind a buffer that the CPU has
+// written.
+TEST_P(MbTx, AnswersAndRetriesWaitForTheirSlot) {  // flexcan.md 3.7
+  for (const bool answer : {false, true}) {
+    settle();
+    buffers_[20] = {kAnswer << 24, 0x100 << 18};
+    top_.cur_idx_i = 20;
+    for (unsigned i = 0; i < 30; ++i) {
+      top_.ans_i = answer && i == 0;
+      top_.ans_idx_i = i == 0 ? 20 : 0;
+      top_.retry_i = !answer && i == 0;
+      top_.csw_i = top_.csw_act_i = i == 5;
+      top_.csw_idx_i = 41;
+      top_.ins_gnt_i = i == 10;
+      top_.scan_gnt_i = 0;
+      top_.clk_i = 1;
+      top_.eval();
+      top_.clk_i = 0;
+      top_.ins_gnt_i = 0;
+      top_.eval();
+      ASSERT_TRUE(top_.ins_req_o) << i;
+      ASSERT_EQ(top_.ins_idx_o, i >= 5 && i < 10 ? 41 : 20) << i;
+      top_.csw_i = 0;
+    }
   }
 }
 

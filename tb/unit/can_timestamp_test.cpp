@@ -56,6 +56,9 @@ TEST_F(CanTimestamp, WritesByByte) {
   EXPECT_EQ(after({.write = true, .lanes = 1}), 0x0034u);
   EXPECT_EQ(after({.write = true, .lanes = 2}), 0x1234u);
   EXPECT_EQ(after({.write = true, .lanes = 0}), 0x1234u);
+  timer_->wdata_i = 0xABCD;
+  EXPECT_EQ(after({.write = true, .lanes = 2}), 0xAB34u);
+  EXPECT_EQ(after({.write = true, .lanes = 0}), 0xAB34u);
 }
 
 }  // namespace

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_mb_status alone (flexcan.md 1.7): ESR2 where things meet in one clock.
+#include <gtest/gtest.h>
+
+#include "Vcan_mb_status.h"
+#include "unit/leaf_model.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr unsigned kVps = 2, kImb = 1;
+
+class MbStatus : public ::testing::Test {
+ protected:
+  MbStatus() { status_.reset(); }
+  void see(unsigned idx, bool free, bool active) {
+    status_->seen_i = 1;
+    status_->seen_idx_i = idx;
+    status_->seen_free_i = free;
+    status_->seen_act_i = active;
+  }
+  unsigned clock() {
+    status_.settle();
+    status_.clock();
+    status_->seen_i = status_->sent_i = status_->pass_end_i = 0;
+    status_.settle();
+    return status_->esr2_o;
+  }
+  static unsigned esr2(unsigned lptm, unsigned bits) { return (lptm << 2) | bits; }
+  LeafModel<Vcan_mb_status> status_;
+};
+
+TEST_F(MbStatus, FrameThatEndsFillsInWhereNothingIsFree) {  // FX-ESR2.LPTM, FX-ESR2.IMB
+  see(0, false, true);
+  EXPECT_EQ(clock(), esr2(0, 0));
+  status_->cur_idx_i = 9;
+  status_->sent_i = 1;
+  EXPECT_EQ(clock(), esr2(9, kVps | kImb));
+}
+
+// Found in the clock in which a frame ends: the lowest inactive buffer, as the pass finds them.
+TEST_F(MbStatus, InactiveBufferThatIsSeenInThatClockStays) {  // FX-ESR2.LPTM
+  see(0, false, true);
+  clock();
+  see(3, true, false);
+  status_->cur_idx_i = 9;
+  status_->sent_i = 1;
+  EXPECT_EQ(clock(), esr2(3, kImb));
+  status_->pass_end_i = 1;
+  EXPECT_EQ(clock(), esr2(3, kVps | kImb));
+}
+
+TEST_F(MbStatus, PassForgetsTheOneBefore) {  // FX-ESR2.LPTM
+  see(5, true, false);
+  EXPECT_EQ(clock() >> 2, 5u);
+  see(0, false, false);
+  EXPECT_EQ(clock(), esr2(0, 0));
+}
+
+}  // namespace
+}  // namespace vericansim
