@@ -78,9 +78,9 @@ void BufferModel::take_write(BufferState state, unsigned n, std::uint32_t data, 
                              std::uint64_t now, DistinctStates &out) const {
   const Destination &to = state.destination;
   const bool chosen = (to.kind == Kind::kMailbox || to.kind == Kind::kAnswer) && to.index == n;
-  if (chosen && state.valid) {
-    // The frame may have been on its way in: words that nobody promises from here on.
-    const KnownWords arriving = received_words(*state.matching);
+  if (const ArrivedFrame *const arrived = state.on_its_way(n)) {
+    // Cut short: words that nobody promises from here on.
+    const KnownWords arriving = received_words(*arrived);
     KnownWords &words = state.mb[n].words;
     for (unsigned i = 1; i < 4; ++i)
       words.known[i] &= arriving.known[i] & ~(words.word[i] ^ arriving.word[i]);
@@ -168,12 +168,22 @@ std::string BufferModel::allowed(unsigned n, unsigned word) const {
   return text;
 }
 
+// A frame on its way in replaces one word after the other; the flag is set after the last (3.5).
 void BufferModel::read_word(unsigned n, unsigned word, std::uint32_t value) {
-  keep([&](const BufferState &state) { return fits(words_of(state, n), word, value); },
+  const auto stands = [&](const BufferState &state) {
+    return fits(words_of(state, n), word, value);
+  };
+  const auto replaced = [&](const BufferState &state) {
+    const ArrivedFrame *const arrived = state.on_its_way(n);
+    return arrived != nullptr && fits(received_words(*arrived), word, value);
+  };
+  keep([&](const BufferState &state) { return stands(state) || replaced(state); },
        [&] {
          return fmt::format("MB{} word {} reads {:08X}; allowed:{}", n, word, value,
                             allowed(n, word));
        });
+  for (BufferState &state : states_)
+    if (!stands(state)) state.show_move(n);
 }
 
 // All stamps stand in the same relation to the reference count; the first one read says in which.
@@ -190,11 +200,11 @@ void BufferModel::read_cs(unsigned n, std::uint32_t value, std::uint64_t now) {
       [&](const BufferState &state, DistinctStates &out) {
         const KnownWords words = words_of(state, n);
         // A move in progress may show as BUSY; it does not lock then.
-        const bool moving = (state.released && state.released->first == n) ||
-                            (state.valid && state.destination == Destination{Kind::kMailbox, n});
-        const bool busy = mailbox && moving && ((value >> 24) & 9) == 1;
-        if (!busy && !fits(words, 0, value)) return;
+        const bool moves = state.on_its_way(n) != nullptr;
+        const bool busy = mailbox && moves && ((value >> 24) & 9) == 1;
+        if (!busy && (state.move_shown(n) || !fits(words, 0, value))) return;
         BufferState next = state;
+        if (busy) next.show_move(n);
         if (next.lock && next.lock != n) {
           if (!mailbox) out.add(state);  // whether the FIFO's output ends a lock is open
           next.unlock(true, now);

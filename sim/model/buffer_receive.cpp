@@ -133,7 +133,8 @@ std::optional<Destination> BufferState::late_place(const BufferMasks &masks,
   if (!config.fen || fifo.size() == kFifoDepth) return std::nullopt;
   if (destination.kind == Kind::kOverflow) return Destination{Kind::kFifo, destination.index};
   const bool overruns = destination.kind == Kind::kMailbox && config.bcc &&
-                        !free_to_receive(destination.index, false);
+                        !free_to_receive(destination.index, false) &&
+                        !move_shown(destination.index);
   if (!overruns) return std::nullopt;
   const auto hit = fifo_accepts(matching->frame, filter_table(*this, config), masks, config);
   return hit ? std::optional{Destination{Kind::kFifo, *hit}} : std::nullopt;
@@ -148,6 +149,7 @@ void BufferState::move_in(unsigned n, const ArrivedFrame &arrived) {
   buffer.words.word[0] |= (overrun ? kRxOverrun : kRxFull) << 24;
   if (open) buffer.words.known[0] &= ~(1u << 26);  // FULL or OVERRUN
   buffer.serviced = Serviced::kNo;
+  moving &= ~(std::uint64_t{1} << n);
   iflag |= std::uint64_t{1} << n;
 }
 

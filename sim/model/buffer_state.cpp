@@ -51,7 +51,7 @@ std::uint64_t BufferState::digest() const {
   add(std::uint64_t{lock.value_or(~0u)} << 32 | (flight ? flight->mb : ~0u));
   add(std::uint64_t{waiting ? waiting->first : ~0u} << 32 | (released ? released->first : ~0u));
   add(std::uint64_t{moved_out.value_or(~0u)} << 32 | destination.index);
-  add(left_round * kOdd[1] ^ lock_moved);
+  add(left_round * kOdd[1] ^ lock_moved ^ moving * kOdd[2]);
   add(fifo.size() << 8 | static_cast<unsigned>(destination.kind) << 4 |
       unsigned{matching.has_value()} << 2 | unsigned{ended.has_value()} << 1 | unsigned{valid});
   return sum;
@@ -89,6 +89,7 @@ void BufferState::write(unsigned n, unsigned word, std::uint32_t data, std::uint
   if (lock == n) lock.reset();
   if (waiting && waiting->first == n) waiting.reset();
   if (released && released->first == n) released.reset();
+  moving &= ~(std::uint64_t{1} << n);
   if (flight && flight->mb == n) flight->orphan = true;
   if (ended && ended->flight.mb == n) ended->flight.orphan = true;
   withdraw(n, now);
@@ -112,6 +113,15 @@ bool BufferState::read_locks(unsigned n, const BufferConfig &config) const {
 void BufferState::lock_for_read(unsigned n) {
   lock = n;
   if (matching) lock_moved |= std::uint64_t{1} << n;
+  if (!released || released->first != n) return;
+  waiting = released;  // locked again before it moved
+  released.reset();
+}
+
+const ArrivedFrame *BufferState::on_its_way(unsigned n) const {
+  if (lock == n) return nullptr;
+  if (released && released->first == n) return &released->second;
+  return valid && destination == Destination{Destination::Kind::kMailbox, n} ? &*matching : nullptr;
 }
 
 void BufferState::end_round() {
@@ -166,6 +176,7 @@ void BufferState::soft_reset() {
   lock.reset();
   waiting.reset();
   released.reset();
+  moving = 0;
   fifo.clear();
   flight.reset();
   ended.reset();

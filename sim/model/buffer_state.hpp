@@ -109,6 +109,11 @@ class BufferState {
   /// Whether reading this C/S word locks its buffer.
   [[nodiscard]] bool read_locks(unsigned n, const BufferConfig &config) const;
   void lock_for_read(unsigned n);
+  /// The frame that may be on its way into buffer n, word by word.
+  [[nodiscard]] const ArrivedFrame *on_its_way(unsigned n) const;
+  /// ... and has changed a word that the CPU saw, or showed BUSY.
+  void show_move(unsigned n) { moving |= std::uint64_t{1} << n; }
+  [[nodiscard]] bool move_shown(unsigned n) const { return ((moving >> n) & 1) != 0; }
   /// Ends the lock; `read` marks the buffer as serviced. A waiting frame is released.
   void unlock(bool read, std::uint64_t now);
   /// The released frame has moved in.
@@ -156,6 +161,7 @@ class BufferState {
   std::optional<std::pair<unsigned, ArrivedFrame>> waiting;   ///< for the locked buffer
   std::optional<std::pair<unsigned, ArrivedFrame>> released;  ///< waited, moves in now
   std::uint64_t released_since = 0;
+  std::uint64_t moving = 0;     ///< buffers seen while a frame was moving in
   std::vector<FifoEntry> fifo;  ///< six at most; the first is the output
   std::optional<Flight> flight;
   std::vector<std::pair<unsigned, SendRequest>> withdrawn;  ///< lately

@@ -127,5 +127,38 @@ INSTANTIATE_TEST_SUITE_P(
                        ::testing::Range(0u, 4u)),
     race_name);
 
+// Whether BCC is set, and the word of the buffer that the CPU reads.
+class MoveRace : public ::testing::TestWithParam<std::tuple<bool, unsigned>> {};
+
+// FX-3.5.q: words, then code, then flag. FX-3.6.d: a read and a write, each at every clock after
+// the unlock that sets a waiting frame free. FX-3.4.g: a C/S write cuts its move short.
+TEST_P(MoveRace, EveryClock) {
+  const auto [bcc, word] = GetParam();
+  BufferRig rig{{.num_mb = 16, .maxmb = 15, .bcc = bcc}};
+  rig.go();
+  for (unsigned offset = 1; offset <= 20; ++offset) {
+    for (unsigned pause = 1; pause <= 5 && !HasFailure(); ++pause) {
+      for (const auto &[address, data] : {std::pair{reg::kIflag1, 1u << kMb}, {reg::mb(kMb), 0u}}) {
+        SCOPED_TRACE(testing::Message() << "read " << offset << " clocks after the unlock, write "
+                                        << pause << " after the read");
+        prepare(rig, State::kLockedWaiting);
+        rig.write(reg::kIflag1, 1u << kMb);
+        const std::uint64_t start = rig.clocks() + 2;
+        rig.at(start, {.address = reg::kTimer});
+        rig.at(start + offset, {.address = reg::mb(kMb, word)});
+        rig.at(start + offset + pause, {.address = address, .write = true, .data = data});
+        rig.at(start + offset + pause, {.address = reg::kIflag1});
+        rig.at(start + offset + pause, {.address = reg::mb(kMb, word)});
+        rig.run(60);
+        rig.compare_quietly();
+        rig.compare();
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MoveRace,
+                         ::testing::Combine(::testing::Bool(), ::testing::Range(0u, 4u)));
+
 }  // namespace
 }  // namespace vericansim
