@@ -180,6 +180,14 @@ TEST_F(Mcr, WarningMasksNeedWrnEn) {  // 1.1 bit 21
   EXPECT_EQ(rig_.read(0, reg::kCtrl), 0u);
 }
 
+TEST_F(Mcr, WarningMasksWrittenWithoutWrnEnAreNotKept) {  // 1.1 bit 21
+  rig_.configure(0);
+  rig_.write(0, reg::kMcr, kFreezeRequest | 0x3F);
+  rig_.write(0, reg::kCtrl, 0x0C00);
+  rig_.write(0, reg::kMcr, kFreezeRequest | reg::kMcrWrnEn | 0x3F);
+  EXPECT_EQ(rig_.read(0, reg::kCtrl), 0u);
+}
+
 class Size : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(Size, BuffersBeyondNumMbAreReserved) {

@@ -3,6 +3,7 @@
 //
 // Abort and deactivation (flexcan.md 3.4, MO-10): at every clock of a frame, however it goes on,
 // a request has exactly one end.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -80,6 +81,41 @@ TEST(Abort, AtEveryClockAroundTheStart) {
   }
   EXPECT_GT(aborted, 10u);
   EXPECT_GT(sent, 10u);
+}
+
+// FX-3.4.a, FX-3.4.c: a request in the clock in which a better frame takes the place of the one
+// that waits for the end of the intermission: it is for the buffer that it names.
+TEST(Abort, AtEveryClockAroundAReplacement) {
+  constexpr unsigned kBetter = kMb + 1;
+  const Frame better{.id = 0x1A5, .dlc = 1, .data = {0x3C}};
+  TxRig rig;
+  rig.join();
+  unsigned aborted = 0;
+  for (unsigned wait = 36; wait < 72; ++wait) {
+    for (unsigned distance = 0; distance < 14; ++distance) {
+      SCOPED_TRACE(::testing::Message() << wait << " " << distance);
+      rig.put(0, kBetter, mb_words(better, kCodeInactive));
+      rig.put_tx(1, 30, {.id = 0});
+      ASSERT_TRUE(rig.run_until([&] { return rig.field(0) == Field::kDlc; }, 400));
+      rig.put_tx(0, kMb, kFrame);
+      ASSERT_TRUE(rig.run_until([&] { return rig.field(0) == Field::kEof; }, 400));
+      rig.run(wait);
+      const std::uint32_t word = mb_words(better, kCodeData).cs;
+      rig.burst(0,
+                {{.address = reg::mb(kBetter), .write = true, .data = word},
+                 {.address = reg::mb(kMb), .write = true, .data = kAbortWord, .pause = distance}});
+      ASSERT_TRUE(rig.wait_flag(0, kBetter));
+      ASSERT_TRUE(rig.wait_flag(0, kMb));
+      ASSERT_EQ(rig.code(kBetter), kCodeInactive) << "nobody asked to abort it";
+      ASSERT_THAT(rig.code(kMb), ::testing::AnyOf(kCodeInactive, kCodeAborted));
+      aborted += rig.code(kMb) == kCodeAborted;
+      rig.clear_flag(0, kBetter);
+      rig.clear_flag(0, kMb);
+      rig.clear_flag(1, 30);
+      rig.run(30);
+    }
+  }
+  EXPECT_GT(aborted, 300u);
 }
 
 // MO-10, FX-3.4.b, FX-9.e2656: nobody acknowledges, so each attempt fails; the request ends with

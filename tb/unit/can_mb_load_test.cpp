@@ -372,6 +372,55 @@ TEST_F(MbLoadSteps, WinnerThatIsNotActiveIsDropped) {
   }
 }
 
+// FX-3.4.a: with AEN = 1 the frame that is presented is not replaced in the clock in which the CPU
+// writes its C/S word, for that may ask to abort it.
+TEST_F(MbLoadSteps, FrameThatIsWrittenIsNotReplaced) {
+  for (const bool aen : {false, true}) {
+    load_->aen_i = aen;
+    present(2);
+    winner(3);
+    clocks(10);
+    EXPECT_TRUE(load_->tick_req_o);
+    load_->tick_i = 1;
+    clock();
+    load_->tick_i = 0;
+    clock();
+    ASSERT_TRUE(load_->data_i);
+    ASSERT_EQ(load_->data_step_i, 4);
+    load_->cs_wr_i = 1;
+    load_->cs_wr_idx_i = 2;
+    clock();
+    load_->cs_wr_i = 0;
+    EXPECT_EQ(load_->cur_idx_o, aen ? 2 : 3);
+    winner(0, false);
+    load_->running_i = 0;
+    clocks(5);
+    load_->running_i = 1;
+  }
+}
+
+// A step that was granted is over when its data is there, not before: the copy may be held up.
+TEST_F(MbLoadSteps, StepsWaitForTheirData) {
+  winner(3);
+  for (const unsigned step : {2u, 3u, 4u}) {
+    for (unsigned i = 0; i < 5 && load_->step_o != step; ++i) clock();
+    load_->data_i = 0;
+    load_->flight_i = 1;
+    load_->data_step_i = step;
+    for (unsigned i = 0; i < 5; ++i) {
+      load_.settle();
+      EXPECT_EQ(load_->step_o, step);
+      EXPECT_FALSE(load_->tx_req_o);
+      load_.clock();
+    }
+    load_->data_i = 1;
+    load_.clock();
+    load_->data_i = load_->flight_i = 0;
+    load_.settle();
+  }
+  EXPECT_TRUE(load_->tx_req_o);
+}
+
 TEST_F(MbLoadSteps, NothingIsPresentedInReset) {
   present(2);
   load_->rst_ni = 0;

@@ -46,12 +46,11 @@ class MbMove : public ::testing::Test {
     clock();
     if (known) clock();
   }
-  /// Two frames wait, in row 0 for buffer 10 and in row 1 for buffer 20.
+  /// Two frames wait, after a reset in row 0 for buffer 10 and in row 1 for buffer 20.
   void two_wait() {
     move_->hold_i = 1;
     frame(10);
     frame(20);
-    EXPECT_EQ(move_->smb_o, 1);
   }
   /// The CPU writes the C/S word of a buffer, which is known in the clock after.
   void write(unsigned buffer, bool empty) {
@@ -81,11 +80,13 @@ using Buffers = std::vector<unsigned>;
 
 TEST_F(MbMove, CsWriteCancelsTheFrameThatWaitsForItsBuffer) {  // FX-3.4.g
   for (const unsigned cancelled : {10u, 20u}) {
-    stored_.clear();
     move_.reset();
-    two_wait();
-    write(cancelled, false);
-    EXPECT_EQ(all_that_moves(), Buffers{30 - cancelled});
+    for (unsigned round = 0; round < 4; ++round) {  // the rows take turns
+      stored_.clear();
+      two_wait();
+      write(cancelled, false);
+      EXPECT_EQ(all_that_moves(), Buffers{30 - cancelled}) << round;
+    }
   }
 }
 

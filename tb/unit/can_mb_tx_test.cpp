@@ -279,6 +279,31 @@ TEST_P(MbTx, BufferThatEndsWithoutHavingStartedIsNoWinner) {  // an abort reques
   check();
 }
 
+// A pass that was spoiled lets the best so far be sent; the next one is waited for again.
+TEST_P(MbTx, PassIsWaitedForAgainAfterASpoiledOne) {
+  for (const unsigned i : {7u, 9u, 40u, 50u}) buffers_[i] = {kActive << 24, i << 18};
+  settle();
+  check();
+  clock(7, 0x08000000, 100);
+  for (unsigned i = 0; i < 20; ++i) clock({}, 0, 100);
+  clock(9, 0x08000000, 100);
+  for (unsigned i = 0; i < 60; ++i) clock({}, 0, 100);
+  EXPECT_TRUE(top_.settled_o) << "spoiled";
+  settle();
+  check();
+  top_.cur_idx_i = top_.best_idx_o;
+  top_.start_i = 1;
+  clock({}, 0, 100);
+  top_.off_i = 1;
+  for (unsigned i = 0; i < kBuffers - 2; ++i) {
+    top_.eval();
+    ASSERT_FALSE(top_.settled_o) << i;
+    clock({}, 0, 100);
+  }
+  settle();
+  check();
+}
+
 TEST_P(MbTx, WritingForEverStarvesNobody) {
   buffers_[40] = {kActive << 24, 0x7FF << 18};
   settle();
