@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_mb_match alone: when its result is one.
+#include <gtest/gtest.h>
+
+#include "Vcan_mb_match.h"
+#include "unit/leaf_model.hpp"
+
+namespace vericansim {
+namespace {
+
+class MbMatch : public ::testing::Test {
+ protected:
+  MbMatch() {
+    match_->fen_i = 1;
+    match_->msg_i = match_->cs_i = match_->mask_i = ~0u;  // no element fits
+    match_.reset();
+  }
+  void clock(bool grant) {
+    match_.settle();
+    match_->gnt_i = grant && match_->req_o != 0;
+    match_.settle();
+    match_.clock();
+    match_->rx_hdr_i = match_->gnt_i = 0;
+    match_.settle();
+  }
+  LeafModel<Vcan_mb_match> match_;
+};
+
+// All of the table first, however long its slots take, whether mailboxes follow or not.
+TEST_F(MbMatch, IsDoneWhenTheLastWordHasBeenCompared) {  // FX-4.a, FX-4.k
+  for (const unsigned first : {8u, 62u, 64u}) {
+    match_->first_i = first;
+    match_->maxmb_i = 63;
+    match_->rx_hdr_i = 1;
+    clock(false);
+    const unsigned slots = 8 + 64 - first;
+    unsigned granted = 0;
+    for (unsigned i = 0; granted < slots; ++i) {
+      ASSERT_FALSE(match_->done_o) << granted << " of " << slots;
+      granted += i % 3 == 0 && match_->req_o != 0;
+      clock(i % 3 == 0);
+      ASSERT_LT(i, 1000u);
+    }
+    for (unsigned i = 0; i < 4; ++i) clock(true);
+    EXPECT_TRUE(match_->done_o);
+    EXPECT_FALSE(match_->hit_o);
+  }
+}
+
+}  // namespace
+}  // namespace vericansim
