@@ -148,5 +148,20 @@ TEST_F(Timer, WriteBesideTsyn) {
   EXPECT_GT(late, 4 * kBit);
 }
 
+// CTRL1.PRESDIV: clocks of a time quantum less one; with TIMER, which counts bits, as the measure.
+TEST(TimerRate, FollowsPresdiv) {  // FX-CTRL1.PRESDIV, FX-6.a, BT-02
+  for (const unsigned presdiv : {0u, 1u, 2u, 4u, 9u, 30u}) {
+    MailboxRig rig{1};
+    RigConfig config;
+    config.ctrl |= presdiv << 24;
+    rig.configure(0, config);
+    rig.go(0);
+    const unsigned bit = 8 * (presdiv + 1);
+    rig.write(0, reg::kTimer, 0);
+    rig.run(50 * bit);
+    EXPECT_NEAR(rig.read(0, reg::kTimer), 50, 1) << presdiv;
+  }
+}
+
 }  // namespace
 }  // namespace vericansim

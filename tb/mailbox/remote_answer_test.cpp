@@ -143,6 +143,24 @@ TEST_F(RemoteAnswer, NeedsTheSameKindOfIdentifier) {  // FX-3.5.d
   EXPECT_EQ(code(kAnswerer, kWait), kRanswer);
 }
 
+// With nothing else to send it follows after the three bits of intermission, from any buffer.
+TEST_F(RemoteAnswer, FollowsTheRequestAtOnce) {  // FX-3.3.g, FX-3.7.b, IF-03
+  join();
+  for (unsigned mb : {2u, 20u, 62u}) {
+    const Frame frame = frame_of(0x300 + mb, 1);
+    wait_with(mb, frame);
+    rig_.put_tx(kAsker, kAsk, request_of(frame, 1));
+    ASSERT_TRUE(rig_.run_until([&] { return rig_.field(kAnswerer) == Field::kEof; }, 2000));
+    ASSERT_TRUE(rig_.run_until([&] { return rig_.field(kAnswerer) == Field::kInt; }, 100));
+    ASSERT_TRUE(rig_.run_until([&] { return rig_.field(kAnswerer) != Field::kInt; }, 100));
+    EXPECT_EQ(field_name(rig_.field(kAnswerer)), field_name(Field::kSof)) << mb;
+    ASSERT_TRUE(rig_.wait_flag(kAnswerer, mb));
+    rig_.clear_flag(kAnswerer, mb);
+    rig_.run(200);
+    rig_.write(kAnswerer, reg::mb(mb), 0);
+  }
+}
+
 TEST_F(RemoteAnswer, DataFramesAreNoRequests) {  // FX-3.5.a
   const Frame frame = frame_of(0x30F, 2);
   wait_with(kWait, frame);

@@ -45,5 +45,20 @@ TEST_F(MbCpu, PartsOfAWordAreNotTakenForMore) {  // FX-3.4.g
   }
 }
 
+// Words of the filter table are no C/S words, whatever they hold.
+TEST_F(MbCpu, FilterWordsAreNoCsWords) {  // FX-4.a, FX-ESR2.VPS
+  cpu_->fen_i = cpu_->cmd_mb_i = cpu_->ready_i = 1;
+  cpu_->first_i = 10;
+  for (unsigned idx = 6; idx < 14; ++idx) {
+    cpu_->cmd_wr_i = 1;
+    cpu_->cmd_idx_i = idx;
+    cpu_.clock();
+    cpu_->cmd_wr_i = 0;
+    write(idx, 15, 0xC);
+    EXPECT_EQ(cpu_->csw_o != 0, idx >= 10) << idx;
+    cpu_.clock();
+  }
+}
+
 }  // namespace
 }  // namespace vericansim
