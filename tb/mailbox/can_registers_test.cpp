@@ -170,6 +170,18 @@ TEST_F(Mcr, SoftResetIsAskedForByItsByteAlone) {  // FX-2.3.a
   }
 }
 
+// The zeros of FRZ and HALT that come with the request are not taken over, from the start.
+TEST_F(Mcr, SoftResetBeatsWhatIsWrittenWithIt) {  // FX-2.3.f
+  rig_.configure(0);
+  rig_.go(0);
+  const auto results = rig_.burst(
+      0, {{.address = reg::kMcr, .write = true, .data = reg::kMcrSoftRst}, {.address = reg::kMcr}});
+  const std::uint32_t frozen = reg::kMcrFrz | reg::kMcrHalt;
+  EXPECT_EQ(results[1].data & (reg::kMcrSoftRst | frozen), reg::kMcrSoftRst | frozen);
+  rig_.run(20);
+  EXPECT_EQ(mcr() & (reg::kMcrSoftRst | frozen), frozen);
+}
+
 TEST_F(Mcr, WarningMasksNeedWrnEn) {  // 1.1 bit 21
   rig_.configure(0);
   rig_.write(0, reg::kCtrl, 0x0C00);

@@ -353,6 +353,38 @@ TEST_F(MbLoadSteps, EndOfARewrittenFrameIsNotWritten) {
   }
 }
 
+// The same before that step has its slot: nothing is written, and the buffer contends again.
+TEST_F(MbLoadSteps, FrameThatIsRewrittenBeforeItsEndContendsAgain) {
+  present(2);
+  start();
+  load_->gap_i = load_->tx_ok_i = 1;
+  clock();
+  retries_ = 0;
+  load_->csw_i = 1;
+  load_->csw_idx_i = 2;
+  clock();
+  unsigned flags = load_->flag_o;
+  for (unsigned i = 0; i < 6; ++i, flags += load_->flag_o) clock();
+  EXPECT_EQ(retries_, 1u);
+  EXPECT_EQ(flags, 0u);
+}
+
+// FX-3.4.a: a frame presented again after it was rewritten is kept, but for the clock in which the
+// CPU has rewritten it once more.
+TEST_F(MbLoadSteps, FrameThatWasRewrittenIsKept) {
+  load_->gap_i = 0;
+  for (const bool again : {false, true}) {
+    present(2);
+    EXPECT_EQ(load_->kept_o != 0, again);
+    load_->csw_i = load_->csw_act_i = 1;
+    load_->csw_idx_i = 2;
+    load_.settle();
+    EXPECT_FALSE(load_->kept_o);
+    clock();
+    EXPECT_EQ(load_->tx_req_o != 0, again) << "once";
+  }
+}
+
 // A winner that is not active, as an upset flip-flop makes it, is told of once; an active one not.
 TEST_F(MbLoadSteps, WinnerThatIsNotActiveIsDropped) {
   for (const unsigned code : {0x8u, 0x9u, 0xAu, kActive, kAnswer}) {
