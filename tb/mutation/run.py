@@ -21,7 +21,7 @@ from regression import Regression, in_parallel, programs
 from report import Report
 
 FULL = 1100            # mutants at scale 1
-PROOF_SECONDS = 60     # limit of one proof
+PROOF_SECONDS = 120    # limit of one proof
 # Of the tests of one program so many seconds are run for one mutant: of long sweeps a part.
 PROGRAM_SECONDS = 3
 # Programs that compare everything with a model notice more in a second: they come early, with more.
