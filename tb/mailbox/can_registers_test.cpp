@@ -163,7 +163,7 @@ TEST_F(Mcr, SoftResetIsAskedForByItsByteAlone) {  // FX-2.3.a
   for (const bool half : {false, true}) {
     rig_.configure(0);
     EXPECT_NE(mcr() & 0x7F, 0x0Fu);
-    part(0, half ? AhbSize::kHalf : AhbSize::kByte, 0x02 * 0x0101);
+    part(0, half ? AhbSize::kHalf : AhbSize::kByte, 0x0202);
     EXPECT_NE(mcr() & 0x7F, 0x0Fu);
     part(half ? 2 : 3, half ? AhbSize::kHalf : AhbSize::kByte, half ? 0x0200 : 0x02);
     EXPECT_EQ(mcr(), 0x5980000Fu);
