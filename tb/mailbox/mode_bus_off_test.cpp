@@ -76,6 +76,24 @@ TEST_F(BusOffRecovery, CountsASequenceEveryElevenBits) {  // FX-2.8.a, BO-02
   }
 }
 
+// What software writes to TEC cannot shorten it.
+TEST_F(BusOffRecovery, WritingEcrLeavesTheSequencesCounted) {  // BO-02, FX-ECR.TEC
+  ASSERT_NO_FATAL_FAILURE(enter(1));
+  rig_.run(kSlack + 20 * 11 * kBit);
+  ASSERT_TRUE(rig_.freeze(0));
+  const std::uint32_t before = ecr();
+  ASSERT_NEAR(before, 20, 3);
+  rig_.write(0, reg::kEcr, 0x557F);
+  EXPECT_EQ(ecr(), 0x5500 | before);
+  rig_.write(0, reg::kEcr, 0);
+  EXPECT_EQ(ecr(), before);
+  EXPECT_TRUE(off());
+  rig_.write(0, reg::kMcr, rig_.read(0, reg::kMcr) & ~(reg::kMcrFrz | reg::kMcrHalt));
+  rig_.run((kRecovery / 128) * 100);
+  EXPECT_TRUE(off());
+  EXPECT_LT(ecr() & 0xFF, 128u);
+}
+
 TEST_F(BusOffRecovery, AutomaticWithoutBoffRec) {  // FX-2.8.b, FX-2.8.e, BO-05, BO-07
   ASSERT_NO_FATAL_FAILURE(enter(0));
   const unsigned clocks = over(kRecovery + kSlack);

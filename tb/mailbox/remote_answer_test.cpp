@@ -146,7 +146,7 @@ TEST_F(RemoteAnswer, NeedsTheSameKindOfIdentifier) {  // FX-3.5.d
 // With nothing else to send it follows after the three bits of intermission, from any buffer.
 TEST_F(RemoteAnswer, FollowsTheRequestAtOnce) {  // FX-3.3.g, FX-3.7.b, IF-03
   join();
-  for (unsigned mb : {2u, 20u, 62u}) {
+  for (unsigned mb : {2u, 20u, 62u, 33u, 4u}) {
     const Frame frame = frame_of(0x300 + mb, 1);
     wait_with(mb, frame);
     rig_.put_tx(kAsker, kAsk, request_of(frame, 1));

@@ -155,9 +155,50 @@ TEST(FilterTable, EveryWordOfTheLongestTableIsLookedAt) {  // FX-4.a, FX-4.c, FX
   EXPECT_FALSE(rig.available());
 }
 
+// The same with two and four elements in a word, upper bits first.
+TEST(FilterTable, EveryHalfOfTheLongestTableIsLookedAt) {  // FX-4.e, FX-RXFIR.IDHIT
+  RxFifoRig rig{{.format = 1, .rffn = 15}};
+  const auto half = [](unsigned e) { return element_a(base(0x400 + e)) >> 16; };
+  for (unsigned k = 0; k < 128; ++k)
+    rig.set_filter(k, {half(2 * k) << 16 | half(2 * k + 1), kAll});
+  rig.write(kReceiver, reg::kRxfgmask, kAll);
+  rig.join();
+  for (unsigned e = 0; e < 256; ++e) {
+    rig.send(base(0x400 + e));
+    ASSERT_TRUE(rig.available()) << e;
+    ASSERT_EQ(rig.output().idhit, e);
+    rig.pop();
+  }
+}
+
+// An element of format C is eight bits, so each half of the table in turn has all values.
+TEST(FilterTable, EveryByteOfTheLongestTableIsLookedAt) {  // FX-4.f, FX-RXFIR.IDHIT
+  RxFifoRig rig{{.format = 2, .rffn = 15}};
+  rig.write(kReceiver, reg::kRxfgmask, kAll);
+  for (const unsigned from : {0u, 256u}) {
+    for (unsigned k = 0; k < 128; ++k) {
+      const unsigned value = 4 * k - from;
+      const bool here = value < 256;
+      rig.set_filter(k, {here ? 0x00010203 + 0x01010101 * value : kFar, kAll});
+    }
+    rig.go(kReceiver);
+    if (from == 0) rig.go(RxFifoRig::kSender);
+    for (unsigned value = 0; value < 256; ++value) {
+      rig.send(base(value << 3));
+      ASSERT_TRUE(rig.available()) << value;
+      const unsigned expected = from != 0 && value == (kFar & 0xFF) ? 0 : from + value;
+      ASSERT_EQ(rig.output().idhit, expected) << value;
+      rig.pop();
+    }
+    ASSERT_TRUE(rig.freeze(kReceiver));
+  }
+}
+
 TEST(FilterTable, EndsWhereRffnSays) {  // FX-4.a, FX-CTRL2.RFFN
-  for (unsigned rffn : {0u, 1u, 7u, 14u}) {
-    RxFifoRig rig{{.format = 0, .rffn = rffn, .bcc = false}};
+  RxFifoRig rig;
+  for (unsigned rffn : {0u, 1u, 7u, 14u, 4u, 12u}) {
+    ASSERT_TRUE(rig.freeze(kReceiver));
+    rig.set({.format = 0, .rffn = rffn, .bcc = false});
     const unsigned words = 8 * (rffn + 1);
     for (unsigned k = 0; k <= words; ++k)
       rig.write(kReceiver, reg::filter(k), element_a(base(0x100 + k)));
@@ -167,6 +208,7 @@ TEST(FilterTable, EndsWhereRffnSays) {  // FX-4.a, FX-CTRL2.RFFN
     EXPECT_FALSE(rig.available()) << "that is a mailbox";
     rig.send(base(0x100 + words - 1));
     EXPECT_TRUE(rig.available());
+    rig.pop();
   }
 }
 

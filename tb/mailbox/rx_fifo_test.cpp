@@ -55,6 +55,20 @@ TEST_F(RxFifo, FramesComeOutInTheOrderTheyCameIn) {  // FX-4.b, FX-4.c, FX-4.n
   EXPECT_FALSE(rig_.available());
 }
 
+TEST_F(RxFifo, WorksWithoutAnyMailboxAboveIt) {  // FX-4.a, FX-MCR.MAXMB
+  for (const unsigned maxmb : {7u, 5u, 0u}) {
+    ASSERT_TRUE(rig_.freeze(kReceiver));
+    rig_.write(kReceiver, reg::kMcr, (rig_.read(kReceiver, reg::kMcr) & ~0x7Fu) | maxmb);
+    rig_.join();
+    send(0, kDepth);
+    for (unsigned n = 0; n < kDepth; ++n) {
+      ASSERT_TRUE(rig_.available()) << "MAXMB " << maxmb;
+      expect_output(n);
+      rig_.pop();
+    }
+  }
+}
+
 TEST_F(RxFifo, RingGoesRoundWithAnyFill) {  // FX-4.b
   rig_.join();
   unsigned in = 0, out = 0;

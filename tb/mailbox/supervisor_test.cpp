@@ -97,6 +97,15 @@ TEST_F(Supervisor, ResetClosesTheRegistersToUsers) {
   EXPECT_FALSE(error_) << "OKAY, as unimplemented space";
 }
 
+// HPROT[1] is the privilege; the other bits say nothing about it.
+TEST_F(Supervisor, OnlyThePrivilegeBitOfHprotCounts) {  // FX-MCR.SUPV
+  write(reg::kImask1, 0x1234, kPrivileged);
+  for (unsigned hprot = 16; hprot-- > 0;) {
+    const auto bits = static_cast<std::uint8_t>(hprot);
+    EXPECT_EQ(read(reg::kImask1, bits), (hprot & 2) != 0 ? 0x1234u : 0u) << hprot;
+  }
+}
+
 TEST_F(Supervisor, WithoutSupvUsersMay) {
   write(reg::kMcr, kFrozen | 15, kPrivileged);
   EXPECT_EQ(read(reg::kMcr, kUser) & reg::kMcrSupv, 0u);

@@ -227,6 +227,24 @@ TEST(SplitCoreStop, WakesInTheSameClock) {
   }
 }
 
+// The counters in the trace, each bit of them.
+TEST(SplitCoreCounters, ShowInTheSameClock) {  // FX-ECR.TEC, FX-ECR.REC
+  Bus bus;
+  TwinNode node{"a", {}};
+  bus.add(node);
+  bus.run_for(100 * kMicrosecond);
+  node.write32(reg::kMcr, reg::kMcrFrz | reg::kMcrHalt | 0x3F);
+  bus.run_for(10 * kMicrosecond);
+  for (unsigned bit = 0; bit < 16; ++bit) {
+    node.write32(reg::kEcr, 1u << bit);
+    bus.run_for(kMicrosecond);
+    EXPECT_EQ(decode_trace(node.trace()).tec, 1u << bit & 0xFF);
+    EXPECT_EQ(decode_trace(node.trace()).rec, 1u << bit >> 8);
+    node.write32(reg::kEcr, 0);
+  }
+  EXPECT_EQ(node.differences(), 0u) << node.first();
+}
+
 INSTANTIATE_TEST_SUITE_P(Cases, SplitCoreTest,
                          ::testing::Values(SplitCase{"Saturated", 1, 0},
                                            SplitCase{"Noisy", 1, 0.002},

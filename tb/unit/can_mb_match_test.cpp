@@ -28,9 +28,9 @@ class MbMatch : public ::testing::Test {
   LeafModel<Vcan_mb_match> match_;
 };
 
-// All of the table first, however long its slots take, whether mailboxes follow or not.
+// All of the table first, however long its slots take.
 TEST_F(MbMatch, IsDoneWhenTheLastWordHasBeenCompared) {  // FX-4.a, FX-4.k
-  for (const unsigned first : {8u, 62u, 64u}) {
+  for (const unsigned first : {8u, 38u}) {
     match_->first_i = first;
     match_->maxmb_i = 63;
     match_->rx_hdr_i = 1;
@@ -47,6 +47,15 @@ TEST_F(MbMatch, IsDoneWhenTheLastWordHasBeenCompared) {  // FX-4.a, FX-4.k
     EXPECT_TRUE(match_->done_o);
     EXPECT_FALSE(match_->hit_o);
   }
+}
+
+TEST_F(MbMatch, EndsIfTheFifoLeavesNoMailbox) {  // FX-4.a, FX-MCR.MAXMB
+  match_->first_i = 38;
+  match_->maxmb_i = 37;
+  match_->rx_hdr_i = 1;
+  for (unsigned i = 0; i < 100; ++i) clock(true);
+  EXPECT_TRUE(match_->done_o);
+  EXPECT_FALSE(match_->hit_o);
 }
 
 }  // namespace

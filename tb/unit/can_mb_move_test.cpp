@@ -196,6 +196,32 @@ TEST_F(MbMove, AnswerUnderWayIsCancelledByEmpty) {
   EXPECT_EQ(all_that_moves(), Buffers{});
 }
 
+// The search for a buffer has the time of a whole frame: until the next header, or until the next
+// frame has no row to go to. The start of a frame that has one changes nothing.
+TEST_F(MbMove, AFrameWithoutABufferByThenIsLost) {
+  move_->hold_i = 1;
+  frame(10, false);
+  move_->start_i = 1;
+  clock();
+  move_->match_done_i = 1;
+  clock();
+  EXPECT_EQ(all_that_moves(), Buffers{10}) << "a start alone";
+  for (const bool no_row : {false, true}) {
+    stored_.clear();
+    move_.reset();
+    move_->hold_i = 1;
+    if (no_row) frame(10);
+    frame(20, false);
+    (no_row ? move_->start_i : move_->rx_hdr_i) = 1;
+    clock();
+    move_->rx_hdr_i = 0;
+    move_->match_done_i = 1;
+    move_.settle();
+    EXPECT_FALSE(move_->resolve_o);
+    EXPECT_EQ(all_that_moves(), no_row ? Buffers{10} : Buffers{});
+  }
+}
+
 // From the clock after the decision until it is stored, whatever the other row does.
 TEST_F(MbMove, FramesOnTheirWayIntoTheFifoAreCounted) {  // FX-4.b
   move_->hit_fifo_i = move_->hold_i = 1;
