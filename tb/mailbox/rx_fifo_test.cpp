@@ -55,9 +55,11 @@ TEST_F(RxFifo, FramesComeOutInTheOrderTheyCameIn) {  // FX-4.b, FX-4.c, FX-4.n
   EXPECT_FALSE(rig_.available());
 }
 
-TEST_F(RxFifo, WorksWithoutAnyMailboxAboveIt) {  // FX-4.a, FX-MCR.MAXMB
+// Mailboxes first (MRP) all the same: the search for one has to end.
+TEST_F(RxFifo, WorksWithoutAnyMailboxAboveIt) {  // FX-4.a, FX-4.l, FX-MCR.MAXMB
   for (const unsigned maxmb : {7u, 5u, 0u}) {
     ASSERT_TRUE(rig_.freeze(kReceiver));
+    rig_.write(kReceiver, reg::kCtrl2, maxmb == 5 ? 0 : reg::kCtrl2Mrp);
     rig_.write(kReceiver, reg::kMcr, (rig_.read(kReceiver, reg::kMcr) & ~0x7Fu) | maxmb);
     rig_.join();
     send(0, kDepth);

@@ -53,7 +53,7 @@ TEST_F(MbMatch, EndsIfTheFifoLeavesNoMailbox) {  // FX-4.a, FX-MCR.MAXMB
   match_->first_i = 38;
   match_->maxmb_i = 37;
   match_->rx_hdr_i = 1;
-  for (unsigned i = 0; i < 100; ++i) clock(true);
+  for (unsigned i = 0; i < 8 + 64 - 38 + 6; ++i) clock(true);
   EXPECT_TRUE(match_->done_o);
   EXPECT_FALSE(match_->hit_o);
 }
