@@ -54,6 +54,7 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/sim/" DESTINATION "${include_dir}" COMP
   FILES_MATCHING PATTERN "*.hpp"
   PATTERN "cli" EXCLUDE PATTERN "linux" EXCLUDE PATTERN "systemc" EXCLUDE PATTERN "page" EXCLUDE
   PATTERN "split_core.hpp" EXCLUDE PATTERN "model_edge.hpp" EXCLUDE
+  PATTERN "model_pins.hpp" EXCLUDE
   PATTERN "yaml_value.hpp" EXCLUDE PATTERN "scenario_parts.hpp" EXCLUDE
   PATTERN "paper_bench.hpp" EXCLUDE)
 install(FILES "${PROJECT_SOURCE_DIR}/sw/driver/include/verican/verican_regs.h"

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "node/model_edge.hpp"
+#include "node/model_pins.hpp"
 #include "node/rtl_node.hpp"
 
 namespace vericansim {
@@ -81,23 +82,12 @@ class RecordNode final : public RtlNode {
   }
   void request_stop(bool stop) override { top_.stop_req_i = stop; }
   [[nodiscard]] std::uint64_t trace() const override { return top_.trace_o; }
-  [[nodiscard]] std::uint8_t irq_lines() const override {
-    return static_cast<std::uint8_t>(top_.irq_o | (top_.irq_mb_o << 1) | (top_.irq_boff_o << 2) |
-                                     (top_.irq_err_o << 3) | (top_.irq_twrn_o << 4) |
-                                     (top_.irq_rwrn_o << 5) | (top_.irq_wak_o << 6));
-  }
+  [[nodiscard]] std::uint8_t irq_lines() const override { return model_irq_lines(top_); }
 
  private:
   void show(const AhbRequest &r, bool ready) {
     shown_ = r;
-    top_.hsel = r.htrans != AhbTrans::kIdle;
-    top_.haddr = r.haddr;
-    top_.htrans = static_cast<std::uint8_t>(r.htrans);
-    top_.hwrite = r.hwrite;
-    top_.hsize = static_cast<std::uint8_t>(r.hsize);
-    top_.hburst = static_cast<std::uint8_t>(r.hburst);
-    top_.hprot = r.hprot;
-    top_.hwdata = r.hwdata;
+    show_request(top_, r);
     top_.hready = ready;
   }
 

@@ -14,6 +14,7 @@
 #include "bus/types.hpp"
 #include "node/ahb_master.hpp"
 #include "node/model_edge.hpp"
+#include "node/model_pins.hpp"
 #include "verilated.h"
 
 namespace vericansim::fuzz {
@@ -69,7 +70,7 @@ class FuzzedCoreOf final : public FuzzedCore {
 
   void reset() override {
     ahb_.reset();
-    show(ahb_.request());
+    show_request(top_, ahb_.request());
     top_.hready = 1;
     top_.hresetn = 0;
     for (int i = 0; i < 2; ++i) edge();
@@ -106,17 +107,6 @@ class FuzzedCoreOf final : public FuzzedCore {
   }
 
  private:
-  void show(const AhbRequest &request) {
-    top_.hsel = request.htrans != AhbTrans::kIdle;
-    top_.haddr = request.haddr;
-    top_.htrans = static_cast<std::uint8_t>(request.htrans);
-    top_.hwrite = request.hwrite;
-    top_.hsize = static_cast<std::uint8_t>(request.hsize);
-    top_.hburst = static_cast<std::uint8_t>(request.hburst);
-    top_.hprot = request.hprot;
-    top_.hwdata = request.hwdata;
-  }
-
   // IDLE for us, or a transfer for another slave, which may let it wait.
   void show_others() {
     const std::uint32_t any = idle_();
@@ -133,7 +123,7 @@ class FuzzedCoreOf final : public FuzzedCore {
 
   // HREADYOUT, HRESP and HRDATA as they have settled with this cycle's request.
   AhbResponse cycle(const AhbRequest &request) {
-    show(request);
+    show_request(top_, request);
     top_.hready = top_.hreadyout;
     top_.eval();
     if (top_.hready != top_.hreadyout) {

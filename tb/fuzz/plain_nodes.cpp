@@ -5,10 +5,8 @@
 // is written to it and never takes part, and a CoreNode that sends nothing. The readers that are
 // fuzzed are those of the board around them.
 #include <array>
-#include <stdexcept>
 #include <utility>
 
-#include "bus/bus.hpp"
 #include "node/core_node.hpp"
 #include "node/rtl_node.hpp"
 
@@ -49,35 +47,6 @@ class PlainNode final : public RtlNode {
 std::unique_ptr<RtlNode> RtlNode::create(std::string name, const ClockConfig &clock,
                                          unsigned num_mb) {
   return std::make_unique<PlainNode>(std::move(name), clock, num_mb);
-}
-
-void RtlNode::Waiter::await_suspend(std::coroutine_handle<> handle) const {
-  node.waiter_ = handle;
-  node.wait_irq_ = for_irq;
-  node.wake_cycle_ = until;
-}
-
-void RtlNode::resume_waiter() { std::exchange(waiter_, nullptr).resume(); }
-
-void RtlNode::advance() {
-  if (bus() != nullptr) {
-    bus()->step();
-  } else {
-    clock(Level::kRecessive);
-    oscillator().tick();
-  }
-}
-
-AhbResult RtlNode::access(const AhbTransfer &transfer) {
-  const AhbMaster::Ticket ticket = ahb_.submit(transfer);
-  while (!ahb_.done(ticket)) advance();
-  return ahb_.result(ticket);
-}
-
-std::uint32_t RtlNode::read32(std::uint32_t address) { return access({.address = address}).data; }
-
-void RtlNode::write32(std::uint32_t address, std::uint32_t data) {
-  access({.address = address, .write = true, .data = data});
 }
 
 struct CoreNode::Impl {};

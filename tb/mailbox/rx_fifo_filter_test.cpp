@@ -159,8 +159,7 @@ TEST(FilterTable, EveryWordOfTheLongestTableIsLookedAt) {  // FX-4.a, FX-4.c, FX
 TEST(FilterTable, EveryHalfOfTheLongestTableIsLookedAt) {  // FX-4.e, FX-RXFIR.IDHIT
   RxFifoRig rig{{.format = 1, .rffn = 15}};
   const auto half = [](unsigned e) { return element_a(base(0x400 + e)) >> 16; };
-  for (unsigned k = 0; k < 128; ++k)
-    rig.set_filter(k, {half(2 * k) << 16 | half(2 * k + 1), kAll});
+  for (unsigned k = 0; k < 128; ++k) rig.set_filter(k, {half(2 * k) << 16 | half(2 * k + 1), kAll});
   rig.write(kReceiver, reg::kRxfgmask, kAll);
   rig.join();
   for (unsigned e = 0; e < 256; ++e) {

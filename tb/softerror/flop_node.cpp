@@ -12,6 +12,7 @@
 #include "Vcan_ahb_flops.h"
 #include "Vcan_ahb_flops___024root.h"
 #include "node/model_edge.hpp"
+#include "node/model_pins.hpp"
 
 // Verilator's own (5.006): evaluates all logic that is not clocked.
 void Vcan_ahb_flops___024root___eval_settle(Vcan_ahb_flops___024root *root);
@@ -123,14 +124,7 @@ void FlopNode::reset() {
 
 AhbResponse FlopNode::cycle(const AhbRequest &request) {
   auto &top = impl_->top;
-  top.hsel = request.htrans != AhbTrans::kIdle;
-  top.haddr = request.haddr;
-  top.htrans = static_cast<std::uint8_t>(request.htrans);
-  top.hwrite = request.hwrite;
-  top.hsize = static_cast<std::uint8_t>(request.hsize);
-  top.hburst = static_cast<std::uint8_t>(request.hburst);
-  top.hprot = request.hprot;
-  top.hwdata = request.hwdata;
+  show_request(top, request);
   top.hready = top.hreadyout;
   top.eval();
   if (top.hready != top.hreadyout) {
@@ -170,12 +164,7 @@ void FlopNode::clock(Level rx) {
 
 std::uint64_t FlopNode::trace() const { return impl_->top.trace_o; }
 
-std::uint8_t FlopNode::irq_lines() const {
-  const auto &top = impl_->top;
-  return static_cast<std::uint8_t>(top.irq_o | (top.irq_mb_o << 1) | (top.irq_boff_o << 2) |
-                                   (top.irq_err_o << 3) | (top.irq_twrn_o << 4) |
-                                   (top.irq_rwrn_o << 5) | (top.irq_wak_o << 6));
-}
+std::uint8_t FlopNode::irq_lines() const { return model_irq_lines(impl_->top); }
 
 void FlopNode::request_stop(bool stop) { impl_->top.stop_req_i = stop; }
 

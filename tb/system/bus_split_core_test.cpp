@@ -19,6 +19,7 @@
 #include "bus/bus.hpp"
 #include "bus/faults.hpp"
 #include "node/host.hpp"
+#include "node/model_pins.hpp"
 #include "node/registers.hpp"
 #include "node/rtl_node.hpp"
 
@@ -84,28 +85,14 @@ class TwinNode : public RtlNode {
   }
 
   [[nodiscard]] std::uint64_t trace() const override { return whole_.trace_o; }
-  [[nodiscard]] std::uint8_t irq_lines() const override { return lines(whole_); }
+  [[nodiscard]] std::uint8_t irq_lines() const override { return model_irq_lines(whole_); }
   [[nodiscard]] unsigned differences() const { return differences_; }
   [[nodiscard]] const std::string &first() const { return first_; }
 
  private:
   template <typename Model>
-  static std::uint8_t lines(const Model &m) {
-    return static_cast<std::uint8_t>(m.irq_o | (m.irq_mb_o << 1) | (m.irq_boff_o << 2) |
-                                     (m.irq_err_o << 3) | (m.irq_twrn_o << 4) |
-                                     (m.irq_rwrn_o << 5) | (m.irq_wak_o << 6));
-  }
-
-  template <typename Model>
   static void show_to(Model &m, const AhbRequest &r, bool ready) {
-    m.hsel = r.htrans != AhbTrans::kIdle;
-    m.haddr = r.haddr;
-    m.htrans = static_cast<std::uint8_t>(r.htrans);
-    m.hwrite = r.hwrite;
-    m.hsize = static_cast<std::uint8_t>(r.hsize);
-    m.hburst = static_cast<std::uint8_t>(r.hburst);
-    m.hprot = r.hprot;
-    m.hwdata = r.hwdata;
+    show_request(m, r);
     m.hready = ready;
   }
   void show(const AhbRequest &request, bool ready) {
@@ -127,7 +114,7 @@ class TwinNode : public RtlNode {
     check("HREADYOUT", whole_.hreadyout, host.hreadyout);
     check("HRESP", whole_.hresp, host.hresp);
     check("HRDATA", whole_.hrdata, host.hrdata);
-    check("interrupts", lines(whole_), lines(host));
+    check("interrupts", model_irq_lines(whole_), model_irq_lines(host));
     check("can_tx_o", whole_.can_tx_o, engine.can_tx_o);
     check("trace_o", whole_.trace_o, engine.trace_o);
   }
