@@ -186,6 +186,27 @@ def page_block(result):
     return "\n".join(lines)
 
 
+def summary(stage, result):
+    """The stage's line in the table at the head of the page."""
+    figures = {figure["name"]: shown(figure).split(" (")[0] for figure in result["figures"]}
+
+    def value(match):
+        if match[1] not in figures:
+            fail(f"{PLAN}: stage {stage['name']} has no figure '{match[1]}'; figures: "
+                 + ", ".join(figures))
+        return figures[match[1]]
+    return re.sub("{(.*?)}", value, stage["summary"])
+
+
+def replace(text, begin, end, content):
+    """The page with what stands between the two marks replaced."""
+    text, count = re.subn(re.escape(begin) + ".*?" + re.escape(end),
+                          lambda _: begin + content + end, text, flags=re.DOTALL)
+    if count != 1:
+        fail(f"{PAGE}: {count} places {begin} ... {end}, not one")
+    return text
+
+
 def write_page(stages):
     text = PAGE.read_text()
     for stage in stages:
@@ -195,16 +216,12 @@ def write_page(stages):
         result = json.loads(path.read_text())
         if result.get("scale") != 1:
             continue
-        begin, end = f"<!-- campaign {stage['name']} -->", f"<!-- end {stage['name']} -->"
-        block = f"{begin}\n{page_block(result)}\n{end}"
-        text, count = re.subn(re.escape(begin) + ".*?" + re.escape(end), lambda _: block, text,
-                              flags=re.DOTALL)
-        if count != 1:
-            fail(f"{PAGE}: no place for stage {stage['name']}: {begin} ... {end}")
+        name = stage["name"]
+        text = replace(text, f"<!-- campaign {name} -->", f"<!-- end {name} -->",
+                       f"\n{page_block(result)}\n")
+        text = replace(text, f"<!-- summary {name} -->", "<!-- end -->", summary(stage, result))
         tools = ", ".join(f"{name} {version}" for name, version in result["versions"].items())
-        text = re.sub("<!-- tools -->.*?<!-- end tools -->",
-                      lambda _: f"<!-- tools -->\n{tools}.\n<!-- end tools -->", text,
-                      flags=re.DOTALL)
+        text = replace(text, "<!-- tools -->", "<!-- end tools -->", f"\n{tools}.\n")
     PAGE.write_text(text)
 
 
@@ -222,6 +239,10 @@ def report(stages, results):
             bar = f"  (bar: {figure['bar']}: {verdict(figure)})" if figure["bar"] else ""
             print(f"{stage['name']:<10} {figure['name']}: {shown(figure)}{bar}")
         good &= result["status"] == 0 and all(f["ok"] is not False for f in result["figures"])
+    print("\n== In short")
+    for stage in stages:
+        result = results[stage["name"]]
+        print(f"{stage['name']:<10} {summary(stage, result) if result else 'FAILED'}")
     return good
 
 
