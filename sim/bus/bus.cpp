@@ -92,6 +92,12 @@ void Bus::remove(BusObserver &observer) {
 
 void Bus::add(Fault &fault) {
   faults_.push_back(&fault);
+  const unsigned hooks = fault.hooks();
+  if ((hooks & Fault::kUnheard) != 0) with_unheard_.push_back(&fault);
+  if ((hooks & Fault::kBabbling) != 0) with_babbling_.push_back(&fault);
+  if ((hooks & Fault::kLevel) != 0) with_level_.push_back(&fault);
+  if ((hooks & Fault::kClocked) != 0) with_clocked_.push_back(&fault);
+  levels_disturbed_ = levels_disturbed_ || (hooks & ~Fault::kClocked) != 0;
   prepared_ = false;
   fault.attach(*this);
 }
@@ -124,7 +130,7 @@ void Bus::prepare() {
       delayed = delayed || delay(i, to) > 0;
     }
   }
-  const bool direct = together_ && !delayed && faults_.empty();
+  const bool direct = together_ && !delayed && !levels_disturbed_;
   if (direct_ && !direct) {
     for (Entry &entry : nodes_) entry.receiver.dominant = driven_dominant_;
     observer_point_.dominant = driven_dominant_;
@@ -236,7 +242,7 @@ void Bus::clock_node(NodeId id, Time t, Level rx) {
   node.oscillator_.tick();
   next_[id] = node.oscillator_.next();
   if (node.tx() != nodes_[id].tx) driven(id, t, node.tx());
-  if (interests_ != 0 || !faults_.empty()) watch(id, t, rx);
+  if (interests_ != 0 || !with_clocked_.empty()) watch(id, t, rx);
 }
 
 void Bus::driven(NodeId id, Time t, Level level) {
@@ -254,15 +260,14 @@ void Bus::driven(NodeId id, Time t, Level level) {
 Level Bus::receive(NodeId id, Time t) {
   Receiver &receiver = nodes_[id].receiver;
   receiver.collect(t);
-  if (faults_.empty()) return wired_and(receiver.dominant);
-  return with_faults(id, t, receiver.dominant);
+  return levels_disturbed_ ? with_faults(id, t, receiver.dominant) : wired_and(receiver.dominant);
 }
 
 Level Bus::with_faults(NodeId id, Time t, std::uint64_t dominant) {
-  for (Fault *fault : faults_) dominant |= fault->babbling(t);
-  for (Fault *fault : faults_) dominant &= ~fault->unheard(id, t);
+  for (Fault *fault : with_babbling_) dominant |= fault->babbling(t);
+  for (Fault *fault : with_unheard_) dominant &= ~fault->unheard(id, t);
   Level level = wired_and(dominant);
-  for (Fault *fault : faults_) level = fault->level(id, t, level);
+  for (Fault *fault : with_level_) level = fault->level(id, t, level);
   return level;
 }
 
@@ -296,10 +301,10 @@ void Bus::observe(Time before) {
     const Time t = point.pending[point.head].time;
     point.collect(t + 1);
     const Level level =
-        faults_.empty() ? wired_and(point.dominant) : with_faults(kBusPoint, t, point.dominant);
+        levels_disturbed_ ? with_faults(kBusPoint, t, point.dominant) : wired_and(point.dominant);
     if (level != level_) set_level(t, level);
   }
-  if (faults_.empty()) return;
+  if (!levels_disturbed_) return;
   const Level level = with_faults(kBusPoint, now_, point.dominant);
   if (level != level_) set_level(now_, level);
 }
@@ -319,9 +324,9 @@ void Bus::watch(NodeId id, Time t, Level rx) {
     }
   }
   constexpr unsigned kTraceUsers = BusObserver::kBits | BusObserver::kClocks;
-  if ((interests_ & kTraceUsers) == 0 && faults_.empty()) return;
+  if ((interests_ & kTraceUsers) == 0 && with_clocked_.empty()) return;
   const std::uint64_t word = entry.node->trace();
-  for (Fault *fault : faults_) fault->clocked(id, t, word);
+  for (Fault *fault : with_clocked_) fault->clocked(id, t, word);
   if ((interests_ & BusObserver::kBits) != 0 && entry.bits.clocked(word, next_[id])) {
     for (BusObserver *observer : observers_) observer->on_bit(id, entry.bits.record());
   }

@@ -150,6 +150,8 @@ class Bus {
   Receiver observer_point_;
   std::vector<BusObserver *> observers_;
   std::vector<Fault *> faults_;
+  // Those of them that have the hook.
+  std::vector<Fault *> with_unheard_, with_babbling_, with_level_, with_clocked_;
   std::priority_queue<Action> actions_;
   std::uint64_t action_order_ = 0;
   std::uint64_t driven_dominant_ = 0;  // lockstep: bit i set while node i drives dominant
@@ -157,8 +159,9 @@ class Bus {
   Level level_ = Level::kRecessive;
   unsigned interests_ = 0;
   bool prepared_ = false;
-  bool together_ = false;  // all oscillators in step
-  bool direct_ = false;    // and neither delays nor faults: one AND for everybody
+  bool together_ = false;          // all oscillators in step
+  bool direct_ = false;            // and neither delays nor faults in levels: one AND for all
+  bool levels_disturbed_ = false;  // some fault has more than clocked()
   bool stopped_ = false;
 };
 

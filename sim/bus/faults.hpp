@@ -42,7 +42,13 @@ struct Window {
 /// exists.
 class Fault {
  public:
+  /// The functions below that do something; the bus, which has them to call in every clock of every
+  /// node, calls no others.
+  enum Hook : unsigned { kUnheard = 1, kBabbling = 2, kLevel = 4, kClocked = 8, kAllHooks = 15 };
+
   virtual ~Fault() = default;
+  /// The Hooks that this kind of fault has, always the same.
+  [[nodiscard]] virtual unsigned hooks() const { return kAllHooks; }
   /// Called once by Bus::add.
   virtual void attach(Bus &) {}
   /// Bit i set: what node i drives does not reach this receiver.
@@ -61,6 +67,7 @@ class LevelFault : public Fault {
  public:
   LevelFault(NodeId victim, Effect effect, Window window)
       : victim_{victim}, effect_{effect}, window_{window} {}
+  [[nodiscard]] unsigned hooks() const override { return kLevel; }
   [[nodiscard]] Level level(NodeId receiver, Time t, Level level) override {
     const bool hit = (receiver == victim_ || victim_ == kAllNodes) && window_.contains(t);
     return hit ? apply_effect(effect_, level) : level;
@@ -77,6 +84,7 @@ class LevelFault : public Fault {
 class ScheduledFaults : public Fault {
  public:
   void add(NodeId victim, Effect effect, Window window);
+  [[nodiscard]] unsigned hooks() const override { return kLevel; }
   [[nodiscard]] Level level(NodeId receiver, Time t, Level level) override;
 
  private:
@@ -101,6 +109,7 @@ class ScheduledFaults : public Fault {
 class CutFault : public Fault {
  public:
   CutFault(NodeId node, Window window) : node_{node}, window_{window} {}
+  [[nodiscard]] unsigned hooks() const override { return kUnheard; }
   [[nodiscard]] std::uint64_t unheard(NodeId receiver, Time t) override {
     if (!window_.contains(t)) return 0;
     const std::uint64_t self = 1ULL << node_;
@@ -116,6 +125,7 @@ class CutFault : public Fault {
 class ShortFault : public Fault {
  public:
   ShortFault(NodeId node, Window window) : node_{node}, window_{window} {}
+  [[nodiscard]] unsigned hooks() const override { return kBabbling; }
   [[nodiscard]] std::uint64_t babbling(Time t) override {
     return window_.contains(t) ? 1ULL << node_ : 0;
   }
@@ -130,6 +140,7 @@ class ClockFault : public Fault {
  public:
   ClockFault(NodeId node, Time when, double error_ppm)
       : node_{node}, when_{when}, error_ppm_{error_ppm} {}
+  [[nodiscard]] unsigned hooks() const override { return 0; }
   void attach(Bus &bus) override;
 
  private:
@@ -189,6 +200,7 @@ class PlaceFault : public Fault {
   PlaceFault(NodeId watched, const PlaceSpec &place, Effect effect,
              std::optional<NodeId> victim = {})
       : watched_{watched}, victim_{victim.value_or(watched)}, place_{place}, effect_{effect} {}
+  [[nodiscard]] unsigned hooks() const override { return kLevel | kClocked; }
   [[nodiscard]] Level level(NodeId receiver, Time t, Level level) override;
   void clocked(NodeId node, Time t, std::uint64_t word) override;
   /// Bits that have been hit so far.
@@ -218,6 +230,7 @@ struct NoiseConfig {
 class NoiseFault : public Fault {
  public:
   explicit NoiseFault(const NoiseConfig &config);
+  [[nodiscard]] unsigned hooks() const override { return kLevel | kClocked; }
   [[nodiscard]] Level level(NodeId receiver, Time t, Level level) override;
   void clocked(NodeId node, Time t, std::uint64_t word) override;
   /// Flipped bits and glitches so far.

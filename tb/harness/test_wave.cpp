@@ -73,7 +73,7 @@ struct TestWave::Direct {
   struct Watched {
     const Node *node;
     std::unique_ptr<NamedNode> stand_in;
-    BitRecorder recorder;
+    BitRecorder recorder{};
     Level tx = Level::kRecessive;
     Level rx = Level::kRecessive;
   };

@@ -228,6 +228,47 @@ TEST(PlaceFault, MayHitSomebodyElse) {
 
 // ---- Noise
 
+// Counts the calls of each of its functions, and asks for some of them.
+class CountingFault : public Fault {
+ public:
+  explicit CountingFault(unsigned hooks) : hooks_{hooks} {}
+  [[nodiscard]] unsigned hooks() const override { return hooks_; }
+  [[nodiscard]] std::uint64_t unheard(NodeId, Time) override {
+    called_ |= kUnheard;
+    return 0;
+  }
+  [[nodiscard]] std::uint64_t babbling(Time) override {
+    called_ |= kBabbling;
+    return 0;
+  }
+  [[nodiscard]] Level level(NodeId, Time, Level level) override {
+    called_ |= kLevel;
+    return level;
+  }
+  void clocked(NodeId, Time, std::uint64_t) override { called_ |= kClocked; }
+  [[nodiscard]] unsigned called() const { return called_; }
+
+ private:
+  unsigned hooks_;
+  unsigned called_ = 0;
+};
+
+// A fault that leaves the levels alone does not keep the bus from its fast way either.
+TEST(FaultHooks, NoOthersAreCalled) {
+  for (unsigned hooks = 0; hooks <= Fault::kAllHooks; ++hooks) {
+    Bus bus;
+    StandIn a{"a", "110011"}, b{"b"};
+    bus.add(a);
+    bus.add(b);
+    CountingFault fault{hooks};
+    bus.add(fault);
+    bus.run_for(10 * kMicrosecond);
+    EXPECT_EQ(fault.called(), hooks);
+    EXPECT_EQ(bus.lockstep(), (hooks & ~Fault::kClocked) == 0) << hooks;
+    EXPECT_EQ(b.seen().substr(0, 8), "11100111");
+  }
+}
+
 TEST(Noise, GlitchesComeAtTheirRateAndOnlyAtTheVictim) {
   Bus bus;
   StandIn a{"a"};
