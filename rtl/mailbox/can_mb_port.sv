@@ -29,7 +29,7 @@ module can_mb_port #(
   // CPU, data: from the next clock until ready_o.
   input  logic [31:0]     wdata_i,
   input  logic            raw_i,        // a C/S word with all 32 bits (filter table)
-  input  logic            shot_i,       // bit 28 of a Tx buffer's C/S word is kept
+  input  logic            shot_i,       // bit 28 of a C/S word is kept with code 1100
   input  logic            block_i,      // not to be written
   input  logic            stall_i,      // it has to wait for a clock
   output logic            ready_o,
@@ -194,7 +194,7 @@ module can_mb_port #(
     cs_wdata  = wdata_i;
     if (!raw_i) begin                                          // these read as zero
       {cs_wdata[31:28], cs_wdata[23]} = '0;
-      cs_wdata[28] = shot_i && wdata_i[28] && wdata_i[27];
+      cs_wdata[28] = shot_i && wdata_i[28] && wdata_i[27:24] == 4'b1100;  // not for an answer
     end
     msg_wdata = wdata_i;
     mask_wdata = wdata_i;

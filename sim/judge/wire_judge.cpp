@@ -37,6 +37,7 @@ void WireJudge::bit(NodeId id, Time time, const NodeBit &bit, const Frame &frame
   if (bit.started) node.sof = time + (bit.rx == Level::kRecessive ? bit_time_ : 0);
   if (bit.failed) {
     node.failed = time;
+    node.failed_eof6 = bit.field == Field::kEof && bit.left == 1;
     node.failed_late = bit.field == Field::kEof && bit.left == 0;
     node.unheard = bit.passive && bit.errors == kErrAck;
   }
@@ -122,6 +123,7 @@ void WireJudge::judge_left_over(const Delivery &delivery) {
     const bool its_frame = std::abs(node.sof - delivery.sof) < 3 * bit_time_ / 2 &&
                            node.failed > node.sof && late < 2 * bit_time_;
     if (!its_frame || node.failed_late || disturbed(id, delivery.sof, delivery.time)) continue;
+    if (node.failed_eof6 && late > 0) continue;
     if (late < -bit_time_) continue;  // lost the arbitration long before
     report_(fmt::format("{} has received {} {}, whose sender {} failed before EOF7",
                         nodes_[delivery.node].name, frame_text(delivery.frame), when(delivery.time),

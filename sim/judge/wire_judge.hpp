@@ -31,7 +31,8 @@ struct WireCounts {
 /// frame that one node counts as sent is delivered once by every other node on the bus, and stands
 /// on the wire; a delivery without a success is none. In disturbed times two nodes that are not
 /// disturbed themselves agree on the content, and a delivery without a success needs a sender that
-/// failed at EOF7, or a disturbance.
+/// failed at EOF7, or a disturbance; or one that failed at EOF6 after the receiver had sampled it:
+/// a node that does not hear the others starts where it likes, between two sample points too.
 class WireJudge {
  public:
   using Report = std::function<void(const std::string &)>;
@@ -60,6 +61,7 @@ class WireJudge {
     std::string name;
     Time sof = -kSecond;       // of the frame under way or the last one
     Time failed = -kSecond;    // last attempt that failed
+    bool failed_eof6 = false;  // ... at EOF6
     bool failed_late = false;  // ... at EOF7
     bool unheard = false;      // ... error passive, for want of an acknowledge
   };

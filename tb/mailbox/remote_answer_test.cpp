@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "mailbox/buffer_rig.hpp"
 #include "mailbox/mailbox_rig.hpp"
 
 namespace vericansim {
@@ -204,6 +205,22 @@ TEST_F(RemoteAnswer, HasNoPriorityOfItsOwn) {  // FX-3.7.b
   rig_.put_tx(kAnswerer, kOther, urgent);
   ASSERT_TRUE(rig_.wait_flag(kAsker, kOther));
   EXPECT_EQ(code(kAnswerer, kWait), kTanswer) << "waits for its turn";
+  rig_.clear_flag(kAsker, kAsk);
+  EXPECT_EQ(answer(), frame);
+}
+
+// Bit 28 of C/S asks for one-shot along with code 1100 only: an answer that loses comes later.
+TEST_F(RemoteAnswer, IsNoOneShotWhateverIsWrittenWithItsCode) {  // FX-3.7.b, RO-03
+  const Frame frame = frame_of(0x500, 1), urgent = frame_of(0x400, 2);
+  rig_.write(kAnswerer, reg::kExtControl, reg::kXctrlOsmb);
+  MbWords words = mb_words(frame, kRanswer);
+  words.cs |= reg::kCsOneShot;
+  rig_.put(kAnswerer, kWait, words);
+  join();
+  rig_.put_tx(kAsker, kAsk, request_of(frame, 1));
+  ASSERT_TRUE(rig_.run_until([&] { return rig_.field(kAsker) == Field::kCrc; }, 2000));
+  rig_.put_tx(kAsker, kOther, urgent);
+  ASSERT_TRUE(rig_.wait_flag(kAsker, kOther));
   rig_.clear_flag(kAsker, kAsk);
   EXPECT_EQ(answer(), frame);
 }

@@ -205,6 +205,22 @@ TEST(WireJudgeAlone, SeesLossesDoublesAndChanges) {
               receive(w, frame);
             }),
             "");
+  // A third node, disturbed, starts between the sample points of EOF6 at receiver and sender.
+  const auto third_starts = [&](unsigned left, Time after) {
+    return judge([&](WireJudge &w) {
+      w.add_node("c");
+      w.disturbances().add(2, {eof6 - 10 * kMicrosecond, eof6 + kMicrosecond});
+      receive(w, frame);
+      const auto bits = static_cast<std::uint8_t>(left);
+      w.bit(0, eof6 + after,
+            {.field = Field::kEof, .left = bits, .transmitter = true, .failed = true}, {});
+    });
+  };
+  constexpr Time kPart = kMicrosecond / 5;
+  EXPECT_EQ(third_starts(1, kPart), "");
+  EXPECT_EQ(third_starts(0, kMicrosecond), "") << "VA-03";
+  EXPECT_THAT(third_starts(1, -kPart), HasSubstr("failed before EOF7")) << "seen by the receiver";
+  EXPECT_THAT(third_starts(2, kPart), HasSubstr("failed before EOF7"));
 }
 
 }  // namespace
