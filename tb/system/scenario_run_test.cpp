@@ -150,7 +150,10 @@ class WrittenFiles : public ::testing::Test {
     // ctest runs tests of one file side by side: a name for each.
     const std::string stem =
         ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    scenario.outputs = {stem + ".vcd", stem + ".fst", stem + ".log", stem + ".pcap"};
+    scenario.outputs.vcd = stem + ".vcd";
+    scenario.outputs.fst = stem + ".fst";
+    scenario.outputs.candump = stem + ".log";
+    scenario.outputs.pcap = stem + ".pcap";
     report_ = run_scenario(scenario, 500e3);
     outputs_ = scenario.outputs;
     log_ = read_log(outputs_.candump);
