@@ -210,7 +210,7 @@ TEST_F(RemoteAnswer, HasNoPriorityOfItsOwn) {  // FX-3.7.b
 }
 
 // Bit 28 of C/S asks for one-shot along with code 1100 only: an answer that loses comes later.
-TEST_F(RemoteAnswer, IsNoOneShotWhateverIsWrittenWithItsCode) {  // FX-3.7.b, RO-03
+TEST_F(RemoteAnswer, IsNoOneShotWhateverIsWrittenWithItsCode) {  // FX-3.7.b, RO-03, MO-09
   const Frame frame = frame_of(0x500, 1), urgent = frame_of(0x400, 2);
   rig_.write(kAnswerer, reg::kExtControl, reg::kXctrlOsmb);
   MbWords words = mb_words(frame, kRanswer);
