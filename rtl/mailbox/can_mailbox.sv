@@ -56,6 +56,7 @@ module can_mailbox #(
   output logic [31:0]     rdata_o,
   // IFLAG, and ESR2: LPTM, VPS, IMB.
   input  logic [63:0]     iflag_i,
+  input  logic            flag_again_i, // the flag that flag_o sets is cleared in this very clock
   output logic [8:0]      esr2_o,
   output logic [21:0]     crcr_o,        // CRCR: MBCRC, TXCRC
   output logic            flag_o,
@@ -244,7 +245,8 @@ module can_mailbox #(
     .block_o(block), .abort_o(abort), .stall_o(stall),
     .out_i(out), .kept_i(kept), .done_i(done), .cur_idx_i(cur_idx),
     .flag_o(ab_flag), .flag_idx_o(ab_idx), .gnt_i(!mv_flag && !ld_flag),
-    .end_i(flag_o && !mv_flag), .end_idx_i(flag_idx_o), .iflag_i(iflag_i[NumMb-1:0]));
+    .end_i(flag_o && !mv_flag), .end_idx_i(flag_idx_o), .again_i(flag_again_i),
+    .iflag_i(iflag_i[NumMb-1:0]));
 
   can_mb_status #(.NumMb(NumMb)) u_status (
     .clk_i, .rst_ni, .clear_i, .lbuf_i, .csw_i(csw),

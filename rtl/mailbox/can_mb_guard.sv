@@ -43,6 +43,7 @@ module can_mb_guard #(
   // IFLAG, and transmissions that end: it is set in the next clock.
   input  logic             end_i,
   input  logic [IdxW-1:0]  end_idx_i,
+  input  logic             again_i,      // the CPU clears it while a reception sets it, or an end
   input  logic [NumMb-1:0] iflag_i
 );
   localparam logic [1:0] KindCs  = 2'd0;
@@ -85,7 +86,8 @@ module can_mb_guard #(
       any_q <= aen_i && (ended_q != '0 || end_i || at_once || flag_o);
       hit_q <= (ended_q[idx_i] && iflag_i[idx_i]) || (end_i && end_idx_i == idx_i);
       for (int n = 0; n < NumMb; n++) begin
-        ended_q[n] <= (ended_q[n] && iflag_i[n]) || (end_i && end_idx_i == IdxW'(n));
+        if ((end_i || again_i) && end_idx_i == IdxW'(n)) ended_q[n] <= end_i;
+        else                                             ended_q[n] <= ended_q[n] && iflag_i[n];
       end
     end
   end

@@ -90,5 +90,28 @@ TEST_F(Reply, RequestSentLeavesAnEmptyBuffer) {
   ASSERT_TRUE(rig_.wait_flag(0, kMb + 1)) << "no answer holds nothing up";
 }
 
+// FX-3.3.j: the flag of the request is cleared, so the buffer may be written: also if its answer
+// comes in that very clock and sets the flag again.
+TEST_F(ReplyWithAen, RequestWhoseFlagIsClearedInAnyClockOfTheAnswer) {
+  rig_.join();
+  unsigned both = 0;
+  for (unsigned k = 0; k < 620; ++k) {
+    rig_.put_tx(0, kMb, {.id = 0x155, .remote = true});
+    ASSERT_TRUE(rig_.wait_flag(0, kMb));
+    ASSERT_EQ(rig_.code(kMb), 4u);
+    rig_.put_tx(1, kAsker, {.id = 0x155, .dlc = 0});
+    rig_.run(k);
+    rig_.clear_flag(0, kMb);
+    both += rig_.flags(0) != 0 ? 1 : 0;
+    rig_.write(0, reg::mb(kMb), kInactiveWord);
+    ASSERT_TRUE(rig_.wait_flag(1, kAsker));
+    rig_.run(100);
+    ASSERT_EQ(rig_.code(kMb), 8u) << "after " << k << " clocks";
+    rig_.clear_flag(0, kMb);
+    rig_.clear_flag(1, kAsker);
+  }
+  EXPECT_GT(both, 0u) << "the case this test is for";
+}
+
 }  // namespace
 }  // namespace vericansim

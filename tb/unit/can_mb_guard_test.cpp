@@ -136,6 +136,33 @@ TEST_F(MbGuard, ProtectsWhatHasEndedUntilItsFlagIsCleared) {  // FX-3.3.j
   EXPECT_FALSE(guard_->stall_o);
 }
 
+// A frame that is received sets the flag in the clock in which the CPU clears it: it is never seen
+// down. Of other buffers, and for an end, that changes nothing.
+TEST_F(MbGuard, ClearedFlagEndsItThoughAReceptionSetsItAgain) {  // FX-3.3.j
+  for (const bool again : {false, true}) {
+    for (const unsigned cleared : {5u, 6u}) {
+      for (const bool ends : {false, true}) {
+        guard_.reset();
+        end(5);
+        guard_->again_i = again;
+        guard_->end_i = ends;
+        guard_->end_idx_i = cleared;
+        clock();
+        guard_->again_i = 0;
+        cs_write(5, 8);
+        guard_->mb_wr_i = 0;
+        clock();
+        cs_write(5, 8);
+        guard_->waited_i = 1;
+        guard_.settle();
+        EXPECT_EQ(guard_->block_o != 0, !(again && cleared == 5 && !ends));
+        guard_->waited_i = 0;
+        guard_->iflag_i = 0;
+      }
+    }
+  }
+}
+
 // In the clock in which a frame ends, and while it is about to, nothing is known by IFLAG yet.
 TEST_F(MbGuard, ProtectsWhatIsAboutToEnd) {  // FX-3.3.j
   for (const unsigned kind : {kCs, kMsg, 2u, 3u}) {
