@@ -85,7 +85,7 @@ module can_mb_load #(
   state_e state_q;
 
   logic       word_q, on_bus_q, end_q, failed_q, orphan_q, dropped_q, abort_q, shot_q, answer_q;
-  logic       bad_q;
+  logic       bad_q, swap, swapped_q;
   logic [1:0] tick_q;
   logic       pause_q, head_ok, head_bad, head_seen, head_taken, lost, csw_cur, csw_ld, withdrawn;
 
@@ -126,6 +126,10 @@ module can_mb_load #(
   // An abort request that need not wait for the end of an attempt, because none is under way.
   assign withdrawn = abort_q && !tx_req_o && !on_bus_q && !started_o && !end_q;
 
+  // A better one came while this one was being copied: once, or a buffer that is written over and
+  // over would keep all others off the bus.
+  assign swap = settled_i && best_idx_i != ld_idx_o && !swapped_q;
+
   // Loading.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -134,6 +138,7 @@ module can_mb_load #(
       row_o    <= 1'b0;
       {tx_ide_o, tx_rtr_o, tx_dlc_o} <= '0;
       tx_word_o <= '0;
+      swapped_q <= 1'b0;
     end else begin
       if (data_i && data_step_i == StepWord) tx_word_o <= msg_i;
       case (state_q)
@@ -159,6 +164,11 @@ module can_mb_load #(
         end
         default: state_q <= StIdle;
       endcase
+      if (head_taken) swapped_q <= 1'b0;
+      if ((state_q == StLow || state_q == StHigh) && swap) begin
+        state_q   <= StIdle;
+        swapped_q <= 1'b1;
+      end
       if (csw_ld || !running_i) state_q <= StIdle;
     end
   end

@@ -24,6 +24,9 @@ bool is_mask(std::uint32_t address) {
          address == reg::kRxfgmask || (address >= reg::rximr(0) && address < reg::rximr(64));
 }
 
+// Bits after the start of a frame in which its stamp may be taken.
+constexpr unsigned kStampBits = 2;
+
 bool is_cs(std::uint32_t address) {
   return address >= reg::mb(0) && address < reg::mb(64) && address % 16 == 0;
 }
@@ -120,6 +123,8 @@ void BufferJudge::write(const Access &access) {
     if (!same(config, model_.config())) model_.configure(config, access.clock);
   } else if (access.address == reg::kTimer) {
     bits_ = static_cast<std::uint16_t>(access.data);
+    // The core may have taken the stamp before or after.
+    if (since_stamp_ <= kStampBits) stamp_.reset();
     model_.timer_written();
   } else if (access.address == reg::kEcr) {
     if (frozen) interference_.counters = {access.data & 0xFF, (access.data >> 8) & 0xFF};
@@ -147,11 +152,13 @@ BufferJudge::Interference BufferJudge::begin_bit(const NodeBit &bit) {
                   bit.field == Field::kInt || bit.field == Field::kSuspend);
   was_running_ = true;
   ++bits_;
+  ++since_stamp_;
   return std::exchange(interference_, {});
 }
 
 void BufferJudge::started(bool own, bool sof_to_come) {
   stamp_ = static_cast<std::uint16_t>(bits_ + (sof_to_come ? 1 : 0));
+  since_stamp_ = 0;
   model_.frame_started(own, node_.cycles());
   check();
 }

@@ -87,8 +87,9 @@ class BufferJudge {
   std::optional<AhbRequest> phase_;  // of which the data phase is under way
   std::deque<Access> done_;          // not yet told
   Interference interference_;
-  std::uint16_t bits_ = 0;   // bit times, modulo 2^16: the reference for stamps
-  std::uint16_t stamp_ = 0;  // at the start of the identifier
+  std::uint16_t bits_ = 0;    // bit times, modulo 2^16: the reference for stamps
+  Stamp stamp_ = 0;           // at the start of the identifier
+  unsigned since_stamp_ = 0;  // bits
   std::uint64_t last_cs_write_ = 0;
   bool was_running_ = false;
   std::uint64_t stopped_at_ = 0;

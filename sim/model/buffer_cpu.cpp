@@ -126,14 +126,16 @@ void BufferModel::write_cs_aen(const BufferState &state, unsigned n, std::uint32
   }
   // Whether 1001 in a buffer with nothing to abort, a waiting answer included, sets the flag is
   // open.
-  if (!abort || !code_sends(before)) take_write(state, n, data, lanes, now, out);
-  if (!abort) return;
-  BufferState next = state;
-  next.write(n, 0, data, lanes, config_, now);
-  next.withdraw(n, now);
-  next.abort(n, now);
-  next.mb[n].words.known[0] &= kCodeLane | ~kCsStored;
-  out.add(std::move(next));
+  DistinctStates written;
+  take_write(state, n, data, lanes, now, written);
+  for (BufferState &next : written.take()) {
+    if (!abort || !code_sends(before)) out.add(next);
+    if (!abort) continue;
+    next.withdraw(n, now);
+    next.abort(n, now);
+    next.mb[n].words.known[0] &= kCodeLane | ~kCsStored;
+    out.add(std::move(next));
+  }
 }
 
 KnownWords BufferModel::words_of(const BufferState &state, unsigned n) const {

@@ -96,7 +96,12 @@ void BufferModel::steps_of(const BufferState &state, std::uint64_t now, States &
     out.push_back(state);
     out.back().release();
   }
-  // A frame that has moved out, but is not on the bus yet, can still be taken back.
+  // A frame that has moved out, but is not on the bus yet, can still be taken back: for an abort,
+  // or because the others begin one, or an overload frame.
+  if (state.moved_out && !state.moved_out_abort && !bus_free_) {
+    out.push_back(state);
+    out.back().moved_out.reset();
+  }
   if (state.moved_out && state.moved_out_abort) {
     BufferState next = state;
     next.moved_out.reset();
@@ -195,6 +200,14 @@ std::vector<Frame> BufferModel::flights() const {
   return frames;
 }
 
+// What has moved out is sent next, unless a better one comes before its SOF; but an attempt that is
+// to be aborted is not put off.
+bool BufferModel::may_start(const BufferState &state, unsigned n, const SendRequest &request) {
+  if (!state.moved_out || state.moved_out == n) return true;
+  const auto &other = state.mb[*state.moved_out].request;
+  return !state.moved_out_abort && other && request.value < other->value;
+}
+
 void BufferModel::start_own(const BufferState &state, std::uint64_t now,
                             DistinctStates &out) const {
   // The best of those that stand long enough must not be passed over by a worse one.
@@ -209,7 +222,7 @@ void BufferModel::start_own(const BufferState &state, std::uint64_t now,
   if (!config_.aen)
     for (const auto &old : state.withdrawn) able.push_back(old);
   for (const auto &[n, request] : able) {
-    if (request.value > best || (state.moved_out && state.moved_out != n)) continue;
+    if (request.value > best || !may_start(state, n, request)) continue;
     BufferState next = state;
     const bool orphan = request.until != ~std::uint64_t{0};
     next.flight = Flight{.mb = n, .request = request, .orphan = orphan};
@@ -233,8 +246,7 @@ void BufferModel::frame_started(bool transmitter, std::uint64_t now) {
       [] { return "a frame is being sent, but no buffer may be"; });
 }
 
-void BufferModel::header(const std::optional<Frame> &foreign, std::uint16_t stamp,
-                         std::uint64_t now) {
+void BufferModel::header(const std::optional<Frame> &foreign, Stamp stamp, std::uint64_t now) {
   settle(now);
   stamp_ = stamp;
   for (BufferState &state : states_) {

@@ -55,7 +55,7 @@ class BufferModel {
   void frame_started(bool transmitter, std::uint64_t now);
   /// The header is over. `foreign`: the frame under way if another node sends it;
   /// `stamp`: reference count of bit times at the start of the identifier.
-  void header(const std::optional<Frame> &foreign, std::uint16_t stamp, std::uint64_t now);
+  void header(const std::optional<Frame> &foreign, Stamp stamp, std::uint64_t now);
   /// EOF6 without an error.
   void received(std::uint64_t now);
   /// As header() and received() where the rest of the frame was not known at the header.
@@ -117,6 +117,8 @@ class BufferModel {
   void learn_stamp(unsigned n, std::uint32_t value);
   void read_word(unsigned n, unsigned word, std::uint32_t value);
   void read_flags(unsigned half, std::uint32_t value);
+  [[nodiscard]] static bool may_start(const BufferState &state, unsigned n,
+                                      const SendRequest &request);
   void start_own(const BufferState &state, std::uint64_t now, DistinctStates &out) const;
 
   [[nodiscard]] KnownWords words_of(const BufferState &state, unsigned n) const;
@@ -127,7 +129,7 @@ class BufferModel {
   BufferWindows windows_;
   BufferMasks masks_;
   States states_;
-  std::uint16_t stamp_ = 0;
+  Stamp stamp_ = 0;
   std::uint64_t received_at_ = 0;
   std::uint64_t ended_at_ = 0;
   std::optional<int> stamp_offset_;  ///< stamp as read less reference; one value for all frames

@@ -28,7 +28,7 @@ std::vector<std::uint32_t> filter_table(const BufferState &state, const BufferCo
 KnownWords received_words(const ArrivedFrame &arrived) {
   const Frame &frame = arrived.frame;
   KnownWords words;
-  words.word[0] = (std::uint32_t{frame.dlc} << 16) | arrived.stamp;
+  words.word[0] = (std::uint32_t{frame.dlc} << 16) | arrived.stamp.value_or(0);
   if (frame.remote) words.word[0] |= 1u << 20;
   if (frame.extended) words.word[0] |= (1u << 21) | (1u << 22);
   if (!frame.extended) words.known[0] &= ~(1u << 22);  // SRR of a standard frame: open
@@ -40,7 +40,8 @@ KnownWords received_words(const ArrivedFrame &arrived) {
     words.word[2 + i / 4] |= std::uint32_t{frame.data[i]} << shift;
     words.known[2 + i / 4] |= 0xFFu << shift;
   }
-  words.stamped = true;
+  words.stamped = arrived.stamp.has_value();
+  if (!words.stamped) words.known[0] &= ~0xFFFFu;
   return words;
 }
 

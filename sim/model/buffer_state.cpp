@@ -19,10 +19,10 @@ void set_code(KnownWords &words, unsigned code) {
   words.known[0] |= 0x0F000000;
 }
 
-void set_stamp(KnownWords &words, std::uint16_t stamp) {
-  words.word[0] = (words.word[0] & ~kStampBits) | stamp;
-  words.known[0] |= kStampBits;
-  words.stamped = true;
+void set_stamp(KnownWords &words, Stamp stamp) {
+  words.word[0] = (words.word[0] & ~kStampBits) | stamp.value_or(0);
+  words.known[0] = stamp ? words.known[0] | kStampBits : words.known[0] & ~kStampBits;
+  words.stamped = stamp.has_value();
 }
 
 // Sums of products, so that a processor computes many at once.

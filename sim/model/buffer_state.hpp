@@ -15,11 +15,15 @@
 
 namespace vericansim {
 
+/// Reference count of bit times; none: the CPU wrote TIMER meanwhile, and which of the two counts
+/// the frame got is open.
+using Stamp = std::optional<std::uint16_t>;
+
 /// A frame from the bus, as it comes to the buffers.
 struct ArrivedFrame {
   Frame frame;
-  std::uint16_t stamp = 0;  ///< reference count of bit times at the start of the identifier
-  bool own = false;         ///< sent by this node
+  Stamp stamp = 0;   ///< at the start of the identifier
+  bool own = false;  ///< sent by this node
   friend bool operator==(const ArrivedFrame &, const ArrivedFrame &) = default;
 };
 
@@ -75,7 +79,7 @@ struct Flight {
 struct FlightEnd {
   Flight flight;
   bool success = false;
-  std::uint16_t stamp = 0;
+  Stamp stamp = 0;
   friend bool operator==(const FlightEnd &, const FlightEnd &) = default;
 };
 

@@ -334,6 +334,28 @@ TEST_F(MbLoadSteps, BetterFrameReplacesTheOneThatIsLoadedAhead) {
   present(1);
 }
 
+// FX-3.3.f: also one that comes while another is copied to be presented, in any clock of that; but
+// not a second one, or writing one buffer over and over would keep all others off the bus.
+TEST_F(MbLoadSteps, BetterFrameIsCopiedInsteadOnce) {
+  for (const bool twice : {false, true}) {
+    for (unsigned k = 1; k < 5; ++k) {
+      load_->running_i = 0;
+      clocks(2);
+      load_->running_i = 1;
+      winner(3);
+      clocks(k);
+      ASSERT_FALSE(load_->tx_req_o);
+      winner(2);
+      clocks(4);
+      EXPECT_EQ(load_->ld_idx_o, 2) << k;
+      if (twice) winner(1);
+      for (unsigned i = 0; i < 20 && load_->tx_req_o == 0; ++i) clock();
+      ASSERT_TRUE(load_->tx_req_o);
+      EXPECT_EQ(load_->cur_idx_o, 2) << k;
+    }
+  }
+}
+
 // FX-3.4.g: what the CPU has written while the end of the frame was on its way stays.
 TEST_F(MbLoadSteps, EndOfARewrittenFrameIsNotWritten) {
   for (const bool rewritten : {false, true}) {
