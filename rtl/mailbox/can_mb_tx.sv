@@ -55,7 +55,7 @@ module can_mb_tx #(
   // Winner.
   output logic            settled_o,    // it may be sent
   output logic [IdxW-1:0] best_idx_o,
-  output logic            retry_o,      // a retry has not been looked at yet
+  output logic            retry_o,      // a retry is not in the winner yet
   // Pass, for can_mb_status.
   output logic            pass_o,       // it begins
   output logic            pass_end_o,   // it is over, and nothing has changed meanwhile
@@ -65,7 +65,7 @@ module can_mb_tx #(
   output logic            seen_act_o,   // code is active, not on the bus
   output logic            seen_free_o   // code is INACTIVE
 );
-  logic            ins_q, ins_new, retry_q, retry_gnt, ans_q, ans_gnt;
+  logic            ins_q, ins_new, retry_q, retry_gnt, s1_retry_q, s2_retry_q, ans_q, ans_gnt;
   logic            scan_q, look_q, quiet_q, dirty_q, again_q, spoiled_q, last, change, restart_q;
   // Stage 1: the buffer is on the RAM outputs. Stage 2: its arbitration value is known.
   logic            s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q, s2_active_q, s2_free_q;
@@ -79,7 +79,7 @@ module can_mb_tx #(
   assign ins_idx_o  = ins_new ? csw_idx_i : retry_q ? cur_idx_i : ans_idx_q;
   assign retry_gnt  = ins_gnt_i && !ins_new;
   assign ans_gnt    = ins_gnt_i && !ins_new && !retry_q;
-  assign retry_o    = retry_q || retry_i;
+  assign retry_o    = retry_q || retry_i || s1_retry_q || s2_retry_q;
   assign scan_req_o = running_i && (scan_q || look_q) && !s1_last_q && !s2_last_q;
   assign scan_lazy_o = !scan_q;
   assign settled_o  = best_q && (!scan_q || spoiled_q);
@@ -173,18 +173,19 @@ module can_mb_tx #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {ins_q, retry_q, again_q, spoiled_q} <= '0;
+      {ins_q, retry_q, s1_retry_q, s2_retry_q, again_q, spoiled_q} <= '0;
       {s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q} <= '0;
       scan_q <= 1'b1;
       {scan_idx_o, s1_idx_q} <= '0;
     end else if (!running_i) begin
-      {ins_q, retry_q, again_q, spoiled_q} <= '0;
+      {ins_q, retry_q, s1_retry_q, s2_retry_q, again_q, spoiled_q} <= '0;
       {s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q} <= '0;
       scan_q     <= 1'b1;
       scan_idx_o <= '0;
     end else begin
       ins_q     <= ins_new && !ins_gnt_i;
       retry_q   <= retry_i || (retry_q && !retry_gnt);
+      {s1_retry_q, s2_retry_q} <= {retry_q && retry_gnt, s1_retry_q};
       s1_q      <= ins_gnt_i || scan_gnt_i;
       s1_scan_q <= scan_gnt_i;
       s1_last_q <= scan_gnt_i && last;

@@ -188,7 +188,8 @@ TEST_P(Pounce, Lockstep) {  // FX-3.4.b, FX-3.5.o, FX-3.3.j
 INSTANTIATE_TEST_SUITE_P(Seeds, Pounce, ::testing::Range(1u, 61u));
 // Each has found something, in the core or in the model.
 INSTANTIATE_TEST_SUITE_P(Found, Pounce,
-                         ::testing::Values(582u, 759u, 1350u, 1462u, 1797u, 2171u, 2297u));
+                         ::testing::Values(582u, 759u, 1350u, 1462u, 1797u, 2171u, 2297u, 4309u,
+                                           4824u));
 
 }  // namespace
 }  // namespace vericansim
