@@ -211,6 +211,26 @@ TEST_P(MbTx, AnswerTakesPartAtEveryMomentOfAPass) {  // flexcan.md 3.7: as if wr
   }
 }
 
+// FX-3.3.f: who waits for a retry waits until it is in the winner.
+TEST_P(MbTx, RetryIsToldUntilItIsInTheWinner) {
+  buffers_[7] = {kActive << 24, 0};
+  buffers_[9] = {kActive << 24, 5u << 18};
+  top_.cur_idx_i = 7;
+  top_.off_i = 1;
+  settle();
+  ASSERT_EQ(top_.best_idx_o, 9);
+  top_.off_i = 0;
+  top_.retry_i = 1;
+  unsigned clocks = 0;
+  do {
+    clock({}, 0, 50);
+    top_.eval();
+    ASSERT_LT(++clocks, 20u);
+  } while (top_.retry_o != 0);
+  EXPECT_EQ(top_.best_idx_o, 7);
+  EXPECT_GT(clocks, 1u);
+}
+
 // Read slots are for others: an answer or a retry waits, also behind a buffer that the CPU has
 // written.
 TEST_P(MbTx, AnswersAndRetriesWaitForTheirSlot) {  // flexcan.md 3.7
