@@ -239,7 +239,10 @@ void BufferModel::frame_started(bool transmitter, std::uint64_t now) {
       [&](const BufferState &state, DistinctStates &out) {
         if (transmitter) return start_own(state, now, out);
         BufferState next = state;
-        if (state.moved_out && state.moved_out_abort) next.abort(*state.moved_out, now);
+        if (state.moved_out && state.moved_out_abort) {
+          out.add(state);  // not just yet
+          next.abort(*state.moved_out, now);
+        }
         next.moved_out.reset();
         out.add(std::move(next));
       },
