@@ -8,7 +8,8 @@ STAGE.log, prints all figures, and puts those of a whole run (SCALE=1) into docs
 between the lines <!-- campaign STAGE --> and <!-- end STAGE -->. --page only writes the page, from
 the results that are there. Ends with status 1 if a stage failed or a figure misses its bar.
 
-Environment: SEED (1), SCALE (1: everything; 0.01: a hundredth of it), JOBS (2).
+Environment: SEED (1), SCALE (1: everything; 0.01: a hundredth of it), JOBS (2),
+RESUME (0; 1: lockstep and mutation go on where the same programs were interrupted).
 """
 import argparse
 import datetime
@@ -56,7 +57,8 @@ def number(name, convert, default, allowed, text):
 def settings():
     return {"seed": number("SEED", int, "1", lambda v: 0 <= v < 2**31, "0 to 2147483647"),
             "scale": number("SCALE", float, "1", lambda v: 0 < v <= 1, "above 0 up to 1"),
-            "jobs": number("JOBS", int, "2", lambda v: 1 <= v <= 256, "1 to 256")}
+            "jobs": number("JOBS", int, "2", lambda v: 1 <= v <= 256, "1 to 256"),
+            "resume": number("RESUME", int, "0", lambda v: v in (0, 1), "0 and 1")}
 
 
 def versions():
@@ -101,7 +103,8 @@ def run_command(stage, options, out):
     scratch.mkdir(parents=True, exist_ok=True)
     environment = dict(os.environ, CAMPAIGN_OUT=str(out), CAMPAIGN_DIR=str(scratch),
                        CAMPAIGN_SEED=str(options["seed"]), CAMPAIGN_SCALE=str(options["scale"]),
-                       CAMPAIGN_JOBS=str(options["jobs"]))
+                       CAMPAIGN_JOBS=str(options["jobs"]),
+                       CAMPAIGN_RESUME=str(options["resume"]))
     with open(OUT / f"{stage['name']}.log", "w", encoding="utf-8") as log:
         process = subprocess.Popen(["bash", "-c", stage["command"]], cwd=ROOT, env=environment,
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,

@@ -4,9 +4,10 @@
 // can_mb_tx: transmit arbitration; keeps the winner among the active buffers (flexcan.md 3.3).
 //
 // A C/S write is compared at once with the winner so far. When the winner itself is changed, taken
-// away or goes on the bus, one pass over all buffers finds the next. A pass that was spoiled by
-// another change is followed by a new one; until a pass ends unspoiled the best of what was seen
-// may be sent, so that a CPU that writes C/S words for ever cannot hold up the others.
+// away or goes on the bus, one pass over all buffers finds the next. A pass that finds a winner
+// which is lost meanwhile has forgotten the second best: it is started anew. After MaxSpoils such
+// losses the best of what was seen may be sent until a pass ends unspoilt, so that a CPU that
+// writes C/S words for ever cannot hold up the others.
 //
 // An upset of a flip-flop must not stop transmission for ever: a winner that turns out not to be
 // active is dropped, and while there is none all buffers are looked at now and then (fresh_i).
@@ -65,8 +66,11 @@ module can_mb_tx #(
   output logic            seen_act_o,   // code is active, not on the bus
   output logic            seen_free_o   // code is INACTIVE
 );
+  localparam logic [1:0] MaxSpoils = 2'd3;
+
   logic            ins_q, ins_new, retry_q, retry_gnt, s1_retry_q, s2_retry_q, ans_q, ans_gnt;
-  logic            scan_q, look_q, quiet_q, dirty_q, again_q, spoiled_q, last, change, restart_q;
+  logic            scan_q, look_q, quiet_q, dirty_q, again_q, spoilt, last, change, restart_q;
+  logic [1:0]      spoils_q;
   // Stage 1: the buffer is on the RAM outputs. Stage 2: its arbitration value is known.
   logic            s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q, s2_active_q, s2_free_q;
   logic            best_q, s1_part, s2_end;
@@ -82,7 +86,8 @@ module can_mb_tx #(
   assign retry_o    = retry_q || retry_i || s1_retry_q || s2_retry_q;
   assign scan_req_o = running_i && (scan_q || look_q) && !s1_last_q && !s2_last_q;
   assign scan_lazy_o = !scan_q;
-  assign settled_o  = best_q && (!scan_q || spoiled_q);
+  assign spoilt     = spoils_q == MaxSpoils;
+  assign settled_o  = best_q && (!scan_q || spoilt);
   assign last       = scan_idx_o == IdxW'(NumMb - 1) || 7'(scan_idx_o) == maxmb_i;
   assign s1_part    = 7'(s1_idx_q) >= first_i && 7'(s1_idx_q) <= maxmb_i
                    && !stale_i && !(csw_i && csw_idx_i == s1_idx_q);
@@ -144,7 +149,8 @@ module can_mb_tx #(
   assign s2_end      = s2_last_q && !restart_q;
   assign pass_end_o  = s2_end && !dirty_q && !change && !gone && !quiet_q;
 
-  // A pass for ESR2 alone is started anew by whatever happens; one that looks for a winner is not.
+  // A pass for ESR2 alone is started anew by whatever happens; one that looks for a winner by the
+  // loss of a winner, and not for ever.
   assign change  = csw_i || ans_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -153,7 +159,7 @@ module can_mb_tx #(
     end else if (!running_i) begin
       {look_q, quiet_q, dirty_q, restart_q} <= '0;
     end else begin
-      restart_q <= look_q && !scan_q && (change || gone);
+      restart_q <= scan_q ? gone && !spoilt : look_q && (change || gone);
       if (s2_end)      {look_q, dirty_q} <= {dirty_q || change, 1'b0};
       else if (change) {look_q, dirty_q} <= {1'b1, scan_q};
       else if (fresh_i && !best_q && !scan_q) look_q <= 1'b1;
@@ -173,12 +179,12 @@ module can_mb_tx #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {ins_q, retry_q, s1_retry_q, s2_retry_q, again_q, spoiled_q} <= '0;
+      {ins_q, retry_q, s1_retry_q, s2_retry_q, again_q, spoils_q} <= '0;
       {s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q} <= '0;
       scan_q <= 1'b1;
       {scan_idx_o, s1_idx_q} <= '0;
     end else if (!running_i) begin
-      {ins_q, retry_q, s1_retry_q, s2_retry_q, again_q, spoiled_q} <= '0;
+      {ins_q, retry_q, s1_retry_q, s2_retry_q, again_q, spoils_q} <= '0;
       {s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q} <= '0;
       scan_q     <= 1'b1;
       scan_idx_o <= '0;
@@ -197,12 +203,13 @@ module can_mb_tx #(
       if (s2_end) begin                 // every buffer has been looked at
         scan_q     <= again_q || gone;
         again_q    <= 1'b0;
-        spoiled_q  <= scan_q && (again_q || gone);
+        if (!again_q && !gone) spoils_q <= '0;
         scan_idx_o <= '0;
       end else if (gone) begin
-        scan_q <= 1'b1;
-        if (scan_q) {again_q, spoiled_q} <= '1;
+        scan_q  <= 1'b1;
+        again_q <= spoilt;
       end
+      if (gone && scan_q && !spoilt) spoils_q <= spoils_q + 1'b1;
       if (restart_q) begin
         scan_idx_o <= '0;
         {s1_last_q, s2_last_q} <= '0;

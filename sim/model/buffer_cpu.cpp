@@ -81,7 +81,7 @@ void BufferModel::take_write(BufferState state, unsigned n, std::uint32_t data, 
   if (const ArrivedFrame *const arrived = state.on_its_way(n)) {
     // Cut short: words that nobody promises from here on.
     const KnownWords arriving = received_words(*arrived);
-    KnownWords &words = state.mb[n].words;
+    KnownWords &words = state.mb.change(n).words;
     for (unsigned i = 1; i < 4; ++i)
       words.known[i] &= arriving.known[i] & ~(words.word[i] ^ arriving.word[i]);
   }
@@ -133,7 +133,7 @@ void BufferModel::write_cs_aen(const BufferState &state, unsigned n, std::uint32
     if (!abort) continue;
     next.withdraw(n, now);
     next.abort(n, now);
-    next.mb[n].words.known[0] &= kCodeLane | ~kCsStored;
+    next.mb.change(n).words.known[0] &= kCodeLane | ~kCsStored;
     out.add(std::move(next));
   }
 }

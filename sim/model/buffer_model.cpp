@@ -36,7 +36,7 @@ void BufferModel::configure(const BufferConfig &config, std::uint64_t now) {
   config_ = config;
   for (BufferState &state : states_) {
     for (unsigned n = 0; n < config.num_mb; ++n) {
-      BufferContent &buffer = state.mb[n];
+      BufferContent &buffer = state.mb.change(n);
       const bool sends = code_sends(buffer.code()) && config.takes_part(n);
       if (!sends) buffer.request.reset();
       if (sends) buffer.request = state.request_of(n, config, 0);
@@ -106,7 +106,7 @@ void BufferModel::steps_of(const BufferState &state, std::uint64_t now, States &
     BufferState next = state;
     next.moved_out.reset();
     next.abort(*state.moved_out, now);
-    next.mb[*state.moved_out].words.known[0] &= 0x0F000000 | ~kCsStored;
+    next.mb.change(*state.moved_out).words.known[0] &= 0x0F000000 | ~kCsStored;
     out.push_back(std::move(next));
   }
   if (state.ended) {
@@ -166,9 +166,11 @@ void BufferModel::merge(std::uint64_t now) {
       state.moved_out_abort = false;
     }
     if (!state.released) state.released_since = 0;
-    for (BufferContent &buffer : state.mb)
-      if (buffer.request && buffer.request->since + windows_.decision < now)
-        buffer.request->since = 0;
+    for (unsigned n = 0; n < state.mb.size(); ++n) {
+      const auto &request = state.mb[n].request;
+      if (request && request->since != 0 && request->since + windows_.decision < now)
+        state.mb.change(n).request->since = 0;
+    }
     merged.add(std::move(state));
   }
   states_ = merged.take();
@@ -228,7 +230,7 @@ void BufferModel::start_own(const BufferState &state, std::uint64_t now,
     next.flight = Flight{.mb = n, .request = request, .orphan = orphan};
     next.flight->abort = state.moved_out && state.moved_out_abort;
     next.moved_out.reset();
-    if (!orphan) next.mb[n].request.reset();
+    if (!orphan) next.mb.change(n).request.reset();
     out.add(std::move(next));
   }
 }

@@ -142,7 +142,7 @@ std::optional<Destination> BufferState::late_place(const BufferMasks &masks,
 }
 
 void BufferState::move_in(unsigned n, const ArrivedFrame &arrived) {
-  BufferContent &buffer = mb[n];
+  BufferContent &buffer = mb.change(n);
   const bool was_empty = buffer.code() == kRxEmpty;
   const bool overrun = !was_empty && buffer.serviced != Serviced::kYes;
   const bool open = !was_empty && buffer.serviced == Serviced::kOpen;
@@ -167,7 +167,7 @@ void BufferState::store(const ArrivedFrame &arrived, const Destination &to, std:
     case Kind::kFifo: push(arrived, to.index); break;
     case Kind::kOverflow: iflag |= kFlagOverflow; break;
     case Kind::kAnswer: {
-      BufferContent &buffer = mb[to.index];
+      BufferContent &buffer = mb.change(to.index);
       buffer.words.word[0] = (buffer.words.word[0] & ~0x0F000000u) | (kTxAnswer << 24);
       buffer.words.known[0] &= ~0xFFFFu;  // whether the request leaves its stamp is open
       buffer.request = request_of(to.index, config, now);

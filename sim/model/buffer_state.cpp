@@ -25,33 +25,17 @@ void set_stamp(KnownWords &words, Stamp stamp) {
   words.stamped = stamp.has_value();
 }
 
-// Sums of products, so that a processor computes many at once.
-constexpr std::uint64_t kOdd[] = {0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9,
-                                  0xD6E8FEB86659FD93, 0xFF51AFD7ED558CCD};
-
-std::uint64_t pair(const std::array<std::uint32_t, 4> &words, unsigned first) {
-  return std::uint64_t{words.at(first)} << 32 | words.at(first + 1);
-}
-
-std::uint64_t digest_of(const BufferContent &buffer) {
-  const KnownWords &words = buffer.words;
-  std::uint64_t sum = pair(words.word, 0) * kOdd[0] ^ pair(words.word, 2) * kOdd[1] ^
-                      pair(words.known, 0) * kOdd[2] ^ pair(words.known, 2) * kOdd[3];
-  if (buffer.request) sum ^= (buffer.request->value ^ buffer.request->since << 20) * kOdd[4];
-  return sum + (static_cast<unsigned>(buffer.serviced) << 1 | unsigned{buffer.guarded});
-}
-
 }  // namespace
 
 std::uint64_t BufferState::digest() const {
-  std::uint64_t sum = 0;
-  const auto add = [&sum](std::uint64_t value) { sum = std::rotl((sum ^ value) * kOdd[0], 29); };
-  for (const BufferContent &buffer : mb) add(digest_of(buffer));
+  constexpr std::uint64_t kFactor = 0x9E3779B97F4A7C15;
+  std::uint64_t sum = mb.digest();
+  const auto add = [&sum](std::uint64_t value) { sum = std::rotl((sum ^ value) * kFactor, 29); };
   add(iflag);
   add(std::uint64_t{lock.value_or(~0u)} << 32 | (flight ? flight->mb : ~0u));
   add(std::uint64_t{waiting ? waiting->first : ~0u} << 32 | (released ? released->first : ~0u));
   add(std::uint64_t{moved_out.value_or(~0u)} << 32 | destination.index);
-  add(left_round * kOdd[1] ^ lock_moved ^ moving * kOdd[2]);
+  add(left_round * 3 ^ lock_moved * 5 ^ moving * 7);
   add(fifo.size() << 8 | static_cast<unsigned>(destination.kind) << 4 |
       unsigned{matching.has_value()} << 2 | unsigned{ended.has_value()} << 1 | unsigned{valid});
   return sum;
@@ -68,14 +52,15 @@ SendRequest BufferState::request_of(unsigned n, const BufferConfig &config,
 
 void BufferState::withdraw(unsigned n, std::uint64_t now) {
   if (!mb[n].request) return;
-  mb[n].request->until = now;
-  withdrawn.emplace_back(n, *mb[n].request);
-  mb[n].request.reset();
+  auto &request = mb.change(n).request;
+  request->until = now;
+  withdrawn.emplace_back(n, *request);
+  request.reset();
 }
 
 void BufferState::write(unsigned n, unsigned word, std::uint32_t data, std::uint32_t lanes,
                         const BufferConfig &config, std::uint64_t now) {
-  BufferContent &buffer = mb[n];
+  BufferContent &buffer = mb.change(n);
   KnownWords &words = buffer.words;
   const bool mailbox = n >= config.first_mailbox();
   const bool cs = word == 0 && mailbox;
@@ -134,7 +119,7 @@ void BufferState::end_round() {
 
 void BufferState::unlock(bool read, std::uint64_t now) {
   if (!lock) return;
-  if (read) mb[*lock].serviced = Serviced::kYes;
+  if (read) mb.change(*lock).serviced = Serviced::kYes;
   if (matching) lock_moved |= std::uint64_t{1} << *lock;
   lock.reset();
   if (!waiting) return;
@@ -151,9 +136,10 @@ void BufferState::release() {
 
 void BufferState::abort(unsigned n, std::uint64_t now) {
   withdraw(n, now);
-  set_code(mb[n].words, kTxAbort);
+  BufferContent &buffer = mb.change(n);
+  set_code(buffer.words, kTxAbort);
+  buffer.guarded = true;
   iflag |= std::uint64_t{1} << n;
-  mb[n].guarded = true;
 }
 
 void BufferState::clear_flags(std::uint64_t bits, const BufferConfig &config) {
@@ -163,7 +149,7 @@ void BufferState::clear_flags(std::uint64_t bits, const BufferConfig &config) {
   }
   iflag &= ~bits;
   for (unsigned n = 0; n < mb.size(); ++n)
-    if (((bits >> n) & 1) != 0) mb[n].guarded = false;
+    if (((bits >> n) & 1) != 0 && mb[n].guarded) mb.change(n).guarded = false;
 }
 
 void BufferState::fen_changed() {
@@ -182,7 +168,8 @@ void BufferState::soft_reset() {
   ended.reset();
   moved_out.reset();
   end_round();
-  for (BufferContent &buffer : mb) {
+  for (unsigned n = 0; n < mb.size(); ++n) {
+    BufferContent &buffer = mb.change(n);
     buffer.serviced = Serviced::kNo;
     buffer.guarded = false;
   }
@@ -191,7 +178,7 @@ void BufferState::soft_reset() {
 void BufferState::finish(const FlightEnd &end, std::uint64_t now) {
   const Flight &flight_ended = end.flight;
   if (flight_ended.orphan) return;
-  BufferContent &buffer = mb[flight_ended.mb];
+  BufferContent &buffer = mb.change(flight_ended.mb);
   const bool answer = buffer.code() == kTxAnswer;
   if (!end.success) {
     if (flight_ended.abort || flight_ended.request.one_shot) {

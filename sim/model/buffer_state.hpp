@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/buffer_match.hpp"
+#include "model/message_buffers.hpp"
 
 namespace vericansim {
 
@@ -25,37 +26,6 @@ struct ArrivedFrame {
   Stamp stamp = 0;   ///< at the start of the identifier
   bool own = false;  ///< sent by this node
   friend bool operator==(const ArrivedFrame &, const ArrivedFrame &) = default;
-};
-
-/// Words as they should read. `known` marks the bits that the specification promises.
-struct KnownWords {
-  std::array<std::uint32_t, 4> word{};
-  std::array<std::uint32_t, 4> known{~0u, ~0u, ~0u, ~0u};
-  bool stamped = false;  ///< the stamp is a reference count, not what the CPU wrote
-  friend bool operator==(const KnownWords &, const KnownWords &) = default;
-};
-
-/// Whether a buffer has been serviced since its last frame; kOpen: the specification does not say.
-enum class Serviced : std::uint8_t { kNo, kYes, kOpen };
-
-/// A request to send: the buffer as it was when its C/S word was written.
-struct SendRequest {
-  Frame frame;
-  std::uint64_t value = 0;                  ///< arbitration_value()
-  std::uint64_t since = 0;                  ///< clock of the activation
-  std::uint64_t until = ~std::uint64_t{0};  ///< clock of the deactivation
-  bool one_shot = false;
-  friend bool operator==(const SendRequest &, const SendRequest &) = default;
-};
-
-/// One buffer.
-struct BufferContent {
-  KnownWords words;
-  Serviced serviced = Serviced::kNo;
-  bool guarded = false;  ///< its flag tells the end of a transmission and stands (AEN=1)
-  std::optional<SendRequest> request;
-  friend bool operator==(const BufferContent &, const BufferContent &) = default;
-  [[nodiscard]] unsigned code() const { return cs_code(words.word[0]); }
 };
 
 /// Where a received frame goes.
@@ -159,7 +129,7 @@ class BufferState {
   /// IFLAG2:IFLAG1 as the CPU reads it.
   [[nodiscard]] std::uint64_t flags() const { return iflag | (fifo.empty() ? 0 : kFlagAvailable); }
 
-  std::vector<BufferContent> mb;
+  MessageBuffers mb;
   std::uint64_t iflag = 0;
   std::optional<unsigned> lock;
   std::optional<std::pair<unsigned, ArrivedFrame>> waiting;   ///< for the locked buffer

@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Pounce, ::testing::Range(1u, 61u));
 // Each has found something, in the core or in the model.
 INSTANTIATE_TEST_SUITE_P(Found, Pounce,
                          ::testing::Values(582u, 759u, 1350u, 1462u, 1797u, 2171u, 2297u, 4309u,
-                                           4824u, 6087u));
+                                           4824u, 6087u, 14147u, 17127u, 17728u));
 
 }  // namespace
 }  // namespace vericansim

@@ -45,6 +45,7 @@ def arguments():
     parser.add_argument("--programs", default="*", metavar="PATTERN",
                         help="only these test programs, such as 'can_*_test'")
     parser.add_argument("--resume", action="store_true",
+                        default=os.environ.get("CAMPAIGN_RESUME", "0") not in ("", "0"),
                         help="take what an interrupted run of the same builds has killed as killed")
     parser.add_argument("--no-build", action="store_true", help="take the builds as they are")
     parser.add_argument("--jobs", type=int, default=os.environ.get("CAMPAIGN_JOBS", 2))

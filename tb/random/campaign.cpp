@@ -20,11 +20,14 @@ int main(int argc, char **argv) {
       ->check(CLI::Range(10U, 1'000'000U))
       ->capture_default_str();
   app.add_option("--jobs", options.jobs, "Threads")->check(CLI::Range(1U, 64U));
-  app.add_option("--directory", options.directory, "Where scenarios of failing seeds go")
+  app.add_option("--directory", options.directory,
+                 "Where the journal and scenarios of failing seeds go")
       ->capture_default_str();
   app.add_option("--json", options.json, "File for the result");
   app.add_flag("--print", options.print, "Print the scenario of --seed, do not run it");
   app.add_flag("--no-shrink", options.no_shrink, "Keep a failing scenario as it is");
+  app.add_flag("--resume", options.resume,
+               "Go on after an interruption: seeds that passed with this program count");
   CLI11_PARSE(app, argc, argv);
   try {
     return run_campaign(options);

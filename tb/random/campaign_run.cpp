@@ -17,6 +17,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "random/campaign_journal.hpp"
 #include "random/campaign_result.hpp"
 #include "random/judged_run.hpp"
 #include "random/random_scenario.hpp"
@@ -45,10 +46,19 @@ std::string environment(const char *name, const std::string &otherwise) {
 class Campaign {
  public:
   explicit Campaign(const CampaignOptions &options)
-      : options_{options}, next_seed_{options.seed}, begin_{Clock::now()} {}
+      : options_{options},
+        journal_{in_directory(options, "journal.jsonl"),
+                 fmt::format("{} {} {}", program_key(), options.frames_a_run, options.seed),
+                 options.resume},
+        next_seed_{options.seed},
+        begin_{Clock::now()} {}
 
   int run() {
-    std::filesystem::create_directories(options_.directory);
+    for (const auto &[seed, run] : journal_.before()) {
+      frames_ += run.frames;
+      result_.add(seed, random_scenario(seed, options_.frames_a_run), run);
+    }
+    if (result_.runs != 0) fmt::print("{} seeds, {} frames before\n", result_.runs, frames_.load());
     std::vector<std::thread> workers;
     for (unsigned i = 0; i < options_.jobs; ++i) workers.emplace_back([this] { work(); });
     for (std::thread &worker : workers) worker.join();
@@ -66,7 +76,7 @@ class Campaign {
       const bool enough =
           options_.runs != 0 ? seed >= options_.seed + options_.runs : frames_ >= options_.frames;
       if (enough) return;
-      run(seed);
+      if (journal_.before().count(seed) == 0) run(seed);
     }
   }
 
@@ -77,6 +87,7 @@ class Campaign {
     if (!run.ok()) failed(seed, scenario, run);
     const std::lock_guard lock{mutex_};
     result_.add(seed, scenario, run);
+    if (run.ok()) journal_.add(seed, run, seconds());
     if (seconds() < next_report_) return;
     next_report_ = seconds() + 10;
     fmt::print("{} seeds, {} frames, {:.0f} frames/s, {} failed\n", result_.runs, frames_.load(),
@@ -107,17 +118,25 @@ class Campaign {
     if (!file.flush()) throw std::runtime_error("cannot write " + path);
   }
 
+  /// The name of a file in the directory, which is made.
+  static std::string in_directory(const CampaignOptions &options, const std::string &name) {
+    std::filesystem::create_directories(options.directory);
+    return options.directory + "/" + name;
+  }
+
+  /// Wall time, with that before an interruption.
   [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(Clock::now() - begin_).count();
+    return journal_.seconds_before() + std::chrono::duration<double>(Clock::now() - begin_).count();
   }
 
   CampaignOptions options_;
+  CampaignJournal journal_;
   std::atomic<std::uint64_t> next_seed_;
   std::atomic<std::uint64_t> frames_ = 0;
   std::mutex mutex_;  // of result_ and of the output
   CampaignResult result_;
   Clock::time_point begin_;
-  double next_report_ = 10;
+  double next_report_ = 0;
 };
 
 }  // namespace
@@ -127,8 +146,9 @@ CampaignOptions campaign_defaults() {
   options.seed = static_cast<std::uint64_t>(environment("CAMPAIGN_SEED", 1.0));
   const double scale = environment("CAMPAIGN_SCALE", 1.0);
   options.frames = static_cast<std::uint64_t>(10'000'000 * scale);
-  options.directory = environment("CAMPAIGN_DIR", std::string{"."});
+  options.directory = environment("CAMPAIGN_DIR", std::string{"build/random"});
   options.json = environment("CAMPAIGN_OUT", std::string{});
+  options.resume = environment("CAMPAIGN_RESUME", 0.0) != 0;
   return options;
 }
 

@@ -15,14 +15,15 @@ struct CampaignOptions {
   std::uint64_t frames = 10'000'000;
   unsigned frames_a_run = 3000;
   unsigned jobs = 2;
-  std::string directory = ".";
+  std::string directory = ".";  ///< for the journal and scenarios of failing seeds; is made
   std::string json;
   bool print = false;
   bool no_shrink = false;
+  bool resume = false;  ///< seeds that passed before an interruption, with this program, count
 };
 
-/// Defaults, with CAMPAIGN_SEED, CAMPAIGN_SCALE, CAMPAIGN_DIR and CAMPAIGN_OUT of the environment.
-/// Throws std::runtime_error if one of them is no number.
+/// Defaults, with CAMPAIGN_SEED, CAMPAIGN_SCALE, CAMPAIGN_DIR, CAMPAIGN_OUT and CAMPAIGN_RESUME of
+/// the environment. Throws std::runtime_error if one of them is no number.
 [[nodiscard]] CampaignOptions campaign_defaults();
 
 /// Runs it; 0 if every seed passed, 1 otherwise.
