@@ -151,6 +151,12 @@ def duration(seconds):
     return f"{seconds // 60} min {seconds % 60} s" if seconds >= 60 else f"{seconds} s"
 
 
+def grouped(cell):
+    """A cell of a table; whole numbers with commas."""
+    text = str(cell)
+    return f"{int(text):,}" if re.fullmatch("[1-9][0-9]{3,}", text) else text
+
+
 def shown(figure):
     if figure.get("text"):
         return figure["text"]
@@ -171,7 +177,7 @@ def rows(figures):
 def table(content):
     lines = ["", f"**{content['title']}**", "", "| " + " | ".join(content["columns"]) + " |",
              "|" + "---|" * len(content["columns"])]
-    lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in content["rows"]]
+    lines += ["| " + " | ".join(grouped(cell) for cell in row) + " |" for row in content["rows"]]
     return lines
 
 

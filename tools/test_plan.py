@@ -129,7 +129,9 @@ class Plan:
 
     def table(self, entries, cited):
         """The page as text."""
-        required = [name for name, entry in entries.items() if entry[2]]
+        counts = f"{share(required(entries), cited)} {self.key} have a test"
+        if optional(entries):
+            counts += f", and {share(optional(entries), cited)} optional ones"
         tests = {test for files in cited.values() for names in files.values() for test in names}
         name = self.file.relative_to(ROOT)
         out = [f"# {self.heading}", "",
@@ -137,8 +139,7 @@ class Plan:
                "ids that",
                f"the tests cite; `make test` fails if a {self.noun} lacks a test or this page is "
                "stale.", "",
-               f"{sum(has_test(name, cited) for name in required)} of {len(required)} {self.key} "
-               f"have a test; {sum(entry[1] is not None for entry in entries.values())} {self.key} "
+               f"{counts}; {sum(entry[1] is not None for entry in entries.values())} {self.key} "
                f"do not apply; {len(tests)} tests cite {self.key}."]
         for section in self.sections():
             note = " (optional)" if section.get("optional") else ""
@@ -153,6 +154,21 @@ class Plan:
 def has_test(name, cited):
     """Whether a test that is not only about a judge cites the id."""
     return any(not JUDGE.search(path) for path in cited.get(name, ()))
+
+
+def required(entries):
+    """Ids that need a test."""
+    return [name for name, (_, _, needed) in entries.items() if needed]
+
+
+def optional(entries):
+    """Ids that may be cited but need no test."""
+    return [name for name, (_, reason, needed) in entries.items() if reason is None and not needed]
+
+
+def share(names, cited):
+    """How many of the ids have a test, as "5 of 7"."""
+    return f"{sum(has_test(name, cited) for name in names)} of {len(names)}"
 
 
 def cell(name, reason, cited):
@@ -181,6 +197,5 @@ def main(plan, description, more_problems=lambda entries: ()):
         found.append(f"{page} is stale: run `{plan.command}` and commit it")
     for line in found:
         print(f"{plan.key}: {line}", file=sys.stderr)
-    tested = sum(has_test(name, cited) for name in entries)
-    print(f"{plan.key}: {tested} of {len(entries)} have a test, {len(found)} problems")
+    print(f"{plan.key}: {share(entries, cited)} have a test, {len(found)} problems")
     return 1 if found else 0

@@ -5,6 +5,8 @@
 #include "random/campaign_result.hpp"
 
 #include <fmt/format.h>
+
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "random/random_scenario.hpp"
@@ -34,7 +36,6 @@ Json figure(const std::string &name, double value, const std::string &bar = {},
             const Json &ok = nullptr) {
   return {{"name", name},
           {"value", value},
-          {"text", fmt::format("{:.0f}", value)},
           {"bar", bar.empty() ? Json(nullptr) : Json(bar)},
           {"ok", ok}};
 }
@@ -105,7 +106,7 @@ std::string CampaignResult::json(std::uint64_t first_seed, std::uint64_t least) 
   figures.push_back(figure("seeds", number(runs)));
   figures.push_back(
       figure("... that ended before their time: too much left open", number(cut_short)));
-  figures.push_back(figure("frames a second", number(frames) / seconds));
+  figures.push_back(figure("frames a second", std::round(number(frames) / seconds)));
   figures.push_back(figure("node-bits compared with the rules", number(counts.node_bits)));
   figures.push_back(figure("register accesses judged", number(counts.accesses)));
   figures.push_back(figure("exchanges compared between nodes", number(counts.wire.exchanges)));
