@@ -29,6 +29,7 @@ module can_mode (
   output logic disabled_o,      // disable mode
   output logic stop_o           // stop mode
 );
+  localparam logic [1:0] SettleClocks = 2'd3;
   typedef enum logic [2:0] {
     StDisable,     // low power, registers readable
     StFreeze,      // engine stopped, configuration writable
@@ -54,7 +55,15 @@ module can_mode (
   // Low power drops a frame that is only received: the driver gives us 250 us, less than a frame.
   logic may_stop, stopped;
   assign may_stop = stop_ok_i || ((mdis_i || stop) && !transmitter_i);
-  assign stopped  = !running_i && !busy_i;
+
+  // What the engine told in its last clock makes the buffers busy some clocks later (SettleClocks).
+  logic [1:0] settle_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)                  settle_q <= '0;
+    else if (running_i || busy_i) settle_q <= '0;
+    else if (!stopped)            settle_q <= settle_q + 1'b1;
+  end
+  assign stopped = !running_i && !busy_i && settle_q == SettleClocks;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

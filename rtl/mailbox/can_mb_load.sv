@@ -88,9 +88,11 @@ module can_mb_load #(
   logic       bad_q, swap, swapped_q;
   logic [1:0] tick_q;
   logic       pause_q, head_ok, head_bad, head_seen, head_taken, lost, csw_cur, csw_ld, withdrawn;
+  logic       csw_best;
 
   assign csw_cur   = csw_i && csw_idx_i == cur_idx_o;
   assign csw_ld    = csw_i && csw_idx_i == ld_idx_o;
+  assign csw_best  = csw_i && csw_idx_i == best_idx_i;   // settled_i falls in the next clock only
   // The engine takes the first word with the start; either pulse tells, should one be upset. And a
   // frame that has ended without a pulse is not waited for.
   assign started_o = (start_i || tx_next_i) && transmitter_i && !on_bus_q;
@@ -142,7 +144,8 @@ module can_mb_load #(
     end else begin
       if (data_i && data_step_i == StepWord) tx_word_o <= msg_i;
       case (state_q)
-        StIdle: if (settled_i && !flight_i && !(tx_req_o && best_idx_i == cur_idx_o)) begin
+        StIdle: if (settled_i && !flight_i && !csw_best
+                    && !(tx_req_o && best_idx_i == cur_idx_o)) begin
           state_q  <= StLow;
           ld_idx_o <= best_idx_i;
         end

@@ -99,6 +99,57 @@ TEST_P(BufferCodes, EverySequenceOfThreeEvents) {
   }
 }
 
+// The frame in buffer 9 is the one with this number on the bus, and begins by then.
+void expect_frame(BufferRig &rig, unsigned number, unsigned clocks) {
+  EXPECT_TRUE(rig.run_until([&] { return rig.frames_started() == number; }, clocks));
+  rig.quiet();
+  ASSERT_FALSE(rig.sent().empty());
+  EXPECT_EQ(rig.sent().back(), kOther);
+  EXPECT_EQ(rig.frames_started(), number);
+  rig.write(reg::kIflag1, 0xFFFF);
+}
+
+constexpr unsigned kSettle = 100 + BufferRig::kBit;  // docs/integration.md, and a bit
+
+// A code that does not send, 1101 and 1111 too, neither goes on the bus nor keeps another buffer
+// off it, although its identifier and its number would win: found when the node joins, standing
+// while another buffer is activated, written after that.
+TEST(InactiveCodes, NeitherSendNorDelay) {  // FX-3.2.m, FX-3.3.a, FX-3.3.g
+  for (const unsigned code : {0x0u, 0x1u, 0x5u, 0x8u, 0x9u, 0xAu, 0xBu, 0xDu, 0xFu}) {
+    for (const bool lbuf : {false, true}) {
+      SCOPED_TRACE(testing::Message() << "code " << code << ", LBUF " << lbuf);
+      BufferRig rig{{.num_mb = 16, .maxmb = 15, .lbuf = lbuf}};
+      rig.put_tx(kMb, {.id = 0}, code);
+      rig.put_tx(9, kOther);
+      rig.go();
+      expect_frame(rig, 1, kSettle);
+      rig.put_tx(9, kOther);
+      expect_frame(rig, 2, kSettle);
+      rig.peer_sends(kData);
+      ASSERT_TRUE(rig.run_until([&] { return rig.frames_started() == 3; }, 400));
+      const std::uint64_t before = rig.end_clock();
+      rig.put_tx(9, kOther);
+      rig.put_tx(kMb, {.id = 0}, code);
+      ASSERT_TRUE(rig.run_until([&] { return rig.end_clock() > before; }, 2000));
+      expect_frame(rig, 4, 6 * BufferRig::kBit);  // EOF7, intermission, SOF
+      rig.compare();
+    }
+  }
+}
+
+// Bits 31:28 and 23 mean nothing in a C/S word that sends.
+TEST(InactiveCodes, ReservedBitsDoNotStopAFrame) {  // FX-3.3.a, flexcan.md section 0, item 5
+  for (const unsigned bit : {23u, 28u, 29u, 30u, 31u}) {
+    BufferRig rig{{.num_mb = 16, .maxmb = 15}};
+    rig.go();
+    MbWords words = mb_words(kOther, kTxActive);
+    words.cs |= 1u << bit;
+    rig.put(9, words);
+    expect_frame(rig, 1, kSettle);
+    rig.compare();
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, BufferCodes,
                          ::testing::Combine(::testing::Range(0u, 16u),
                                             ::testing::Range(0u, unsigned{std::size(kSettings)})),

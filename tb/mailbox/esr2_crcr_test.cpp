@@ -194,5 +194,26 @@ TEST_F(Esr2, BuffersOutsideTheArbitrationDoNotCount) {  // FX-MCR.MAXMB
   EXPECT_EQ(scanned(), (40u << 16) | kVps | kImb);
 }
 
+// Neither the places of the Rx FIFO nor words of its filter table that look like C/S words are
+// buffers.
+TEST_F(Esr2, AreaOfTheRxFifoDoesNotCount) {  // FX-ESR2.IMB, FX-ESR2.LPTM, flexcan.md section 4
+  for (const unsigned rffn : {0u, 1u, 15u}) {
+    SCOPED_TRACE(rffn);
+    start(reg::kMcrFen, reg::kCtrlLom);
+    rig_->write(0, reg::kCtrl2, reg::ctrl2_rffn(rffn));
+    const unsigned first = 8 + 2 * rffn;
+    for (unsigned mb = 6; mb < first; ++mb) set(mb, mb % 3 * 4 + 4, 0x7FFu << 18);  // 4, 8, 12
+    rig_->join();
+    for (const unsigned code : {0x4u, 0xCu, 0x0u, 0x8u}) {
+      set(first - 1, code, 0x7FFu << 18);
+      EXPECT_EQ(scanned(), kVps) << code;
+    }
+    set(50, 0xC, 0x100u << 18);
+    EXPECT_EQ(scanned(), (50u << 16) | kVps);
+    set(first, 0x8);
+    EXPECT_EQ(scanned(), (first << 16) | kVps | kImb);
+  }
+}
+
 }  // namespace
 }  // namespace vericansim

@@ -8,6 +8,7 @@
 
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "mailbox/mode_rig.hpp"
 
@@ -127,6 +128,97 @@ TEST_P(TakenBack, InEveryClockOfAFrame) {
     if (HasFailure()) return;
   }
 }
+
+// flexcan.md 2.1, 2.2: the acknowledge comes when moves are over, of the frame that the core
+// receives or of its own (SRX_DIS = 0): what the CPU finds with it is whole and stays, back on the
+// bus too. The CPU uses every clock; a third of its accesses are to the memory of the buffers.
+class MovesAreOver : public ModeSweep {
+ protected:
+  static constexpr unsigned kOwnMb = 8, kOtherMb = 12;
+  const unsigned sender_ = transmitter_ ? ModeRig::kSubject : ModeRig::kPeer;
+  Frame stored_;  // in buffer kRxMb before the frame
+  Frame found_;   // ... with the acknowledge
+
+  void SetUp() override {
+    ASSERT_TRUE(rig_.freeze(ModeRig::kSubject));
+    return_to_the_bus();
+  }
+
+  void return_to_the_bus() {
+    rig_.node(ModeRig::kSubject).request_stop(false);
+    for (const std::uint32_t freeze : {reg::kMcrFrz | reg::kMcrHalt, 0u})
+      rig_.write(ModeRig::kSubject, reg::kMcr, (ModeRig::kRunMcr & ~reg::kMcrSrxDis) | freeze);
+    ASSERT_TRUE(mode_.quiet());
+    stored_ = received();
+    tidy_up();
+  }
+
+  Frame received() {
+    const Frame frame = mb_frame(rig_.get(ModeRig::kSubject, ModeRig::kRxMb));
+    mode_.read(reg::kTimer);  // unlocks
+    return frame;
+  }
+
+  // IFLAG1 as the access after the one that shows the acknowledge reads it.
+  std::uint32_t flags_with_acknowledge() {
+    std::vector<AhbTransfer> poll;
+    for (unsigned i = 0; i < 40; ++i)
+      for (const std::uint32_t address : {reg::mb(kOtherMb, 2), reg::kMcr, reg::kIflag1})
+        poll.push_back({.address = address});
+    const std::vector<AhbResult> results = rig_.burst(ModeRig::kSubject, poll);
+    for (unsigned i = 1; i < results.size(); i += 3)
+      if ((results[i].data & (reg::kMcrFrzAck | reg::kMcrLpmAck)) != 0) return results[i + 1].data;
+    ADD_FAILURE() << "no acknowledge";
+    return 0;
+  }
+
+  void expect_whole(std::uint32_t flags, const Frame &sent) {
+    constexpr std::uint32_t kReceived = 1u << ModeRig::kRxMb;
+    const Frame found = received();
+    if (how_ == Leave::kSoftReset) {
+      EXPECT_EQ(flags, 0u);
+      EXPECT_TRUE(found == sent || found == stored_) << "a mixture";
+    } else {
+      EXPECT_EQ(found, (flags & kReceived) != 0 ? sent : stored_);
+    }
+    if (waits_for_frame()) {
+      EXPECT_EQ(flags, kReceived | (transmitter_ ? 1u << kOwnMb : 0u));
+    }
+    mode_.run(2 * kBit);
+    EXPECT_EQ(mode_.read(reg::kIflag1), flags) << "after the acknowledge";
+    EXPECT_EQ(received(), found);
+    found_ = found;
+  }
+
+  void leave_at_the_end(unsigned k) {
+    const Frame frame = k % 2 != 0 ? first_frame(k) : second_frame(k);
+    rig_.put_tx(sender_, kOwnMb, frame);
+    const auto ending = [&] { return rig_.field(ModeRig::kSubject) == Field::kEof; };
+    ASSERT_TRUE(rig_.run_until(ending, kFrameBits * kBit));
+    rig_.run(k);
+    mode_.ask(how_);
+    expect_whole(flags_with_acknowledge(), frame);
+    rig_.write(sender_, reg::mb(kOwnMb), reg::kCodeTxInactive);  // cut by a soft reset
+  }
+};
+
+// FX-2.1.a, FX-2.2.a, FX-2.3.a.
+TEST_P(MovesAreOver, InEveryClockOfTheEnd) {
+  for (unsigned k = 0; k < 9 * kBit; ++k) {
+    SCOPED_TRACE("clock " + std::to_string(k) + " of EOF");
+    ASSERT_NO_FATAL_FAILURE(leave_at_the_end(k));
+    ASSERT_NO_FATAL_FAILURE(return_to_the_bus());
+    EXPECT_EQ(stored_, found_) << "a frame that came late";
+    if (HasFailure()) return;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MovesAreOver,
+                         ::testing::Combine(::testing::ValuesIn(kAllWays), ::testing::Bool()),
+                         [](const auto &each) {
+                           return to_string(std::get<0>(each.param)) +
+                                  (std::get<1>(each.param) ? "AsTransmitter" : "AsReceiver");
+                         });
 
 INSTANTIATE_TEST_SUITE_P(All, TakenBack,
                          ::testing::Combine(::testing::Values(Leave::kFreeze, Leave::kDisable,

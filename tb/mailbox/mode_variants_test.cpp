@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Normal mode and its variants: listen-only, loop-back, self-reception, triple sampling (flexcan.md
-// 2.4 to 2.7).
+// 2.4 to 2.7), tolerance of CAN FD frames (XCTRL).
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
 
 #include "bus/faults.hpp"
 #include "mailbox/mailbox_rig.hpp"
+#include "model/frame_codec.hpp"
 
 namespace vericansim {
 namespace {
@@ -136,6 +140,95 @@ TEST_F(ModeVariants, TripleSamplingOutvotesAWrongSample) {
       errors += (rig.read(0, reg::kEsr) & 0xFC00) != 0 || rig.read(1, reg::kEcr) != 0;
     }
     EXPECT_EQ(errors != 0, !triple) << errors;
+  }
+}
+
+constexpr std::uint32_t kFdTol = 1u << 0;                   // XCTRL
+constexpr unsigned kTec = 17, kRec = 33;                    // node 0 begins with them
+constexpr std::uint32_t kErrors = 0xFC00, kStf = 1u << 10;  // ESR1
+
+// Frames with a recessive FDF bit, which nobody here can send: a script drives the bus.
+class FdTolerance : public ModeVariants {
+ protected:
+  FdTolerance() {
+    start({});
+    rig_.put_rx(0, 4, kExtended);
+    rig_.bus().add(script_);
+  }
+  void prepare(bool tolerant) {
+    ASSERT_TRUE(rig_.freeze(0));
+    rig_.write(0, reg::kExtControl, tolerant ? kFdTol : 0);
+    rig_.write(0, reg::kEcr, kRec << 8 | kTec);
+    rig_.write(0, reg::kIflag1, 0xFFFF);
+    rig_.go(0);
+    esr();  // clears the error bits
+  }
+  // The frame with its FDF bit, which is r0 or, if it is extended, r1; nobody has acknowledged it.
+  static std::vector<WireBit> fd_bits(const Frame &frame) {
+    const Level r = Level::kRecessive;
+    return encode_frame(frame, {.r0 = frame.extended ? Level::kDominant : r,
+                                .r1 = frame.extended ? r : Level::kDominant,
+                                .ack_slot = r})
+        .bits;
+  }
+  static bool is_fdf(const WireBit &bit) {
+    return !bit.is_stuff && bit.level == Level::kRecessive &&
+           (bit.field == Field::kR0 || bit.field == Field::kR1);
+  }
+  // On the whole bus; returns the dominant clocks of node 0 until the bus has long been idle.
+  unsigned play(const std::vector<WireBit> &bits) {
+    Time at = rig_.bus().now();
+    for (const WireBit &bit : bits) {
+      const Time end = at + kBit * kClock;
+      if (bit.level == Level::kDominant) script_.add(kAllNodes, Effect::kDominant, {at, end});
+      at = end;
+    }
+    return dominant((static_cast<unsigned>(bits.size()) + 40) * kBit);
+  }
+  void expect_counters(unsigned rec) { EXPECT_EQ(rig_.read(0, reg::kEcr), rec << 8 | kTec); }
+  void expect_next_frame_received() {
+    rig_.put_tx(1, 8, {.id = 0x2AA, .dlc = 1, .data = {7}});
+    EXPECT_TRUE(rig_.wait_flag(0, 3));
+    EXPECT_EQ(esr() & kErrors, 0u);
+  }
+  static constexpr Frame kBase{.id = 0x155, .dlc = 2, .data = {0xA5, 0x3C}};
+  static constexpr Frame kExtended{
+      .id = 0x12345678, .extended = true, .dlc = 2, .data = {0xA5, 0x3C}};
+  ScheduledFaults script_;
+};
+
+// Classic nodes take either level of the reserved bit (FF-05), a tolerant one stays out: no
+// acknowledge, no reception, not even REC - 1.
+TEST_F(FdTolerance, RecessiveReservedBit) {  // FF-05, FF-06
+  for (const bool tolerant : {false, true}) {
+    for (const Frame &frame : {kBase, kExtended}) {
+      SCOPED_TRACE(testing::Message() << "FDTOL " << tolerant << ", IDE " << frame.extended);
+      prepare(tolerant);
+      EXPECT_EQ(play(fd_bits(frame)), tolerant ? 0u : kBit);
+      EXPECT_EQ(rig_.flags(0), tolerant ? 0u : frame.extended ? 1u << 4 : 1u << 3);
+      EXPECT_EQ(esr() & kErrors, 0u);
+      expect_counters(tolerant ? kRec : kRec - 1);
+      expect_next_frame_received();
+    }
+  }
+}
+
+// What follows the FDF bit is no CAN 2.0 frame: six dominant bits are a stuff error for classic
+// nodes, which they flag, and nothing for a tolerant one.
+TEST_F(FdTolerance, FormOfAnotherProtocol) {  // FF-06, ST-06, IN-05
+  for (const bool tolerant : {false, true}) {
+    for (const Frame &frame : {kBase, kExtended}) {
+      SCOPED_TRACE(testing::Message() << "FDTOL " << tolerant << ", IDE " << frame.extended);
+      prepare(tolerant);
+      std::vector<WireBit> bits = fd_bits(frame);
+      bits.erase(std::find_if(bits.begin(), bits.end(), is_fdf) + 1, bits.end());
+      bits.insert(bits.end(), 6, {.level = Level::kDominant});
+      EXPECT_EQ(play(bits), tolerant ? 0u : 6 * kBit) << "error flag";
+      EXPECT_EQ(rig_.flags(0), 0u);
+      EXPECT_EQ(esr() & kErrors, tolerant ? 0u : kStf);
+      expect_counters(tolerant ? kRec : kRec + 1);
+      expect_next_frame_received();
+    }
   }
 }
 

@@ -192,6 +192,22 @@ TEST_F(RxFifo, EngineAreaCannotBeWritten) {  // FX-4.a
   EXPECT_EQ(rig_.read(RxFifoRig::kSender, reg::kIflag1), 0u);
 }
 
+// ... and is buffers like any other once FEN is 0: for all transfers but the one that is on its way
+// while FEN is written (docs/integration.md). FX-MCR.FEN
+TEST_F(RxFifo, EngineAreaIsBuffersOnceFenIsZero) {
+  const std::uint32_t mcr = rig_.read(kReceiver, reg::kMcr);
+  for (unsigned later = 1; later < 5; ++later) {
+    const std::uint32_t word = reg::mb(3, 2), value = 0x1234'5600 + later;
+    rig_.write(kReceiver, reg::kMcr, mcr);
+    std::vector<AhbTransfer> transfers{
+        {.address = reg::kMcr, .write = true, .data = mcr & ~reg::kMcrFen}};
+    transfers.resize(1 + later, {.address = reg::kCtrl});
+    transfers.push_back({.address = word, .write = true, .data = value});
+    rig_.burst(kReceiver, transfers);
+    EXPECT_EQ(rig_.read(kReceiver, word), value) << later << " transfers later";
+  }
+}
+
 TEST_F(RxFifo, ReadingTheOutputLocksNothing) {  // FX-4.c
   rig_.join();
   send(0, 1);

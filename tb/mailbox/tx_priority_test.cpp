@@ -141,6 +141,36 @@ TEST_F(Order, LateWinnerIsSentFirst) {
   EXPECT_EQ(sent_order(2), (std::vector<unsigned>{30, 20}));
 }
 
+// FX-3.3.f, FX-3.3.g: the CPU activates a buffer that would be next, changes its mind about the
+// identifier and activates it again, a transfer later or some. What has stood all the time is
+// better now and goes first, at every moment before the start.
+TEST(OrderOfTwo, ActivatedAgainWithAWorseIdentifier) {
+  TxRig rig{2, RigConfig{}};
+  rig.join();
+  constexpr unsigned kRewritten = 2, kStands = 40, kPeer = 30;
+  for (unsigned pause = 0; pause < 4; ++pause) {
+    for (unsigned wait = 0; wait < 80; ++wait) {
+      rig.put_tx(1, kPeer, {.id = 0});
+      ASSERT_TRUE(rig.run_until([&] { return rig.field(0) == Field::kDlc; }, 400));
+      rig.put_tx(0, kStands, {.id = 0x200});
+      ASSERT_TRUE(rig.run_until([&] { return rig.field(0) == Field::kEof; }, 400));
+      rig.run(wait);
+      const std::uint32_t active = mb_words({.id = 0x300}, 0xC).cs;
+      rig.put(0, kRewritten, mb_words({.id = 0x100}, 0x8));
+      rig.burst(0,
+                {{.address = reg::mb(kRewritten), .write = true, .data = active},
+                 {.address = reg::mb(kRewritten, 1), .write = true, .data = 0x300u << 18},
+                 {.address = reg::mb(kRewritten), .write = true, .data = active, .pause = pause}});
+      ASSERT_TRUE(rig.run_until([&] { return rig.flags(0) != 0; }, 2000));
+      ASSERT_EQ(rig.flags(0), 1ull << kStands) << "pause " << pause << ", " << wait << " into EOF";
+      ASSERT_TRUE(rig.wait_flag(0, kRewritten));
+      for (const unsigned mb : {kStands, kRewritten}) rig.clear_flag(0, mb);
+      rig.clear_flag(1, kPeer);
+      rig.run(30);
+    }
+  }
+}
+
 // FX-MCR.FEN, FX-3.3.a, flexcan.md section 4: the FIFO and its filters are no buffers, whatever
 // they hold.
 TEST_F(Order, BuffersOfTheRxFifoAreNotSent) {

@@ -23,7 +23,7 @@ from report import Report
 FULL = 1100            # mutants at scale 1
 PROOF_SECONDS = 120    # limit of one proof
 # Of the tests of one program so many seconds are run for one mutant: of long sweeps a part.
-PROGRAM_SECONDS = 3
+PROGRAM_SECONDS = 5
 # Programs that compare everything with a model notice more in a second: they come early, with more.
 JUDGES = {"buffer_random_test", "random_lockstep_test", "random_buses_test"}
 JUDGE_SECONDS = 10

@@ -4,6 +4,8 @@
 // can_core alone: what it tells the buffers and others only if they ask for it.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "Vcan_core.h"
 #include "node/trace.hpp"
 #include "unit/leaf_model.hpp"
@@ -18,6 +20,12 @@ class CanCore : public ::testing::Test {
     core_->propseg_i = core_->pseg1_i = core_->pseg2_i = 2;
     core_.reset();
     core_->run_i = 1;
+  }
+  /// What the core tells in single clocks of a frame that goes well.
+  [[nodiscard]] std::array<bool, 7> pulses() {
+    return {core_->start_o != 0,  core_->stamp_o != 0,      core_->tx_next_o != 0,
+            core_->rx_hdr_o != 0, core_->rx_byte_we_o != 0, core_->rx_valid_o != 0,
+            core_->tx_ok_o != 0};
   }
   LeafModel<Vcan_core> core_;
 };
@@ -42,6 +50,21 @@ TEST_F(CanCore, LevelOfTheBusIsRecessiveUnlessAskedFor) {  // FX-2.9.a
   core_->rx_req_i = 1;
   core_.settle();
   EXPECT_FALSE(core_->rx_level_o);
+}
+
+// A hard reset in the very clock of a pulse ends it: the engine stands then, and a pulse that
+// stayed would last until it runs again. In loop-back mode (MO-04) one frame gives them all.
+TEST_F(CanCore, ResetEndsEveryPulse) {
+  constexpr unsigned kFrame = 1000;  // clocks: 11 bits of integration, a frame with one byte
+  for (unsigned kind = 0; kind < pulses().size(); ++kind) {
+    core_->lpb_i = core_->run_i = core_->tx_req_i = 1;
+    core_->tx_dlc_i = 1;
+    unsigned waited = 0;
+    for (; waited < kFrame && !pulses()[kind]; ++waited) core_.clock();
+    ASSERT_LT(waited, kFrame) << "pulse " << kind << " never came";
+    core_.reset();
+    EXPECT_EQ(pulses(), (std::array<bool, 7>{})) << "pulse " << kind;
+  }
 }
 
 }  // namespace

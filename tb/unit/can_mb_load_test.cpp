@@ -356,6 +356,25 @@ TEST_F(MbLoadSteps, BetterFrameIsCopiedInsteadOnce) {
   }
 }
 
+// FX-3.3.f: but what a pass that is not over has seen so far is no better frame: the one that is
+// being copied is presented, in one go.
+TEST_F(MbLoadSteps, UnfinishedPassReplacesNothing) {
+  for (unsigned k = 1; k < 5; ++k) {
+    load_->running_i = 0;
+    clocks(2);
+    load_->running_i = 1;
+    steps_.clear();
+    winner(3);
+    clocks(k);
+    ASSERT_FALSE(load_->tx_req_o);
+    winner(2, false);
+    for (unsigned i = 0; i < 20 && load_->tx_req_o == 0; ++i) clock();
+    ASSERT_TRUE(load_->tx_req_o) << k;
+    EXPECT_EQ(load_->cur_idx_o, 3) << k;
+    EXPECT_EQ(steps_, (std::vector<unsigned>{2, 3, 4})) << "copied once, " << k;
+  }
+}
+
 // FX-3.4.g: what the CPU has written while the end of the frame was on its way stays.
 TEST_F(MbLoadSteps, EndOfARewrittenFrameIsNotWritten) {
   for (const bool rewritten : {false, true}) {

@@ -49,6 +49,29 @@ TEST_F(MbMatch, IsDoneWhenTheLastWordHasBeenCompared) {  // FX-4.a, FX-4.k
   }
 }
 
+// In a core of 16 or 32 buffers the table can reach the last one. That there is no mailbox to look
+// at is no result before the last word, which may be the one that fits.
+TEST_F(MbMatch, IsNotDoneBeforeTheTableBecauseThereAreNoMailboxes) {  // FX-4.a, FX-4.k
+  for (const bool fits : {false, true}) {
+    match_.reset();
+    match_->first_i = 64;
+    match_->maxmb_i = 63;
+    match_->rx_hdr_i = 1;
+    match_->msg_i = match_->cs_i = ~0u;
+    clock(false);
+    for (unsigned granted = 0; granted < 8; ++granted) {
+      for (unsigned wait = 0; wait < 3; ++wait, clock(false)) ASSERT_FALSE(match_->done_o);
+      ASSERT_TRUE(match_->req_o);
+      clock(true);
+    }
+    if (fits) match_->msg_i = match_->cs_i = 0;
+    for (unsigned i = 0; i < 4; ++i) clock(false);
+    EXPECT_TRUE(match_->done_o);
+    EXPECT_EQ(match_->hit_o != 0, fits);
+    EXPECT_EQ(match_->hit_fifo_o != 0, fits);
+  }
+}
+
 TEST_F(MbMatch, EndsIfTheFifoLeavesNoMailbox) {  // FX-4.a, FX-MCR.MAXMB
   match_->first_i = 38;
   match_->maxmb_i = 37;

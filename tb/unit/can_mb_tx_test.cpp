@@ -211,6 +211,30 @@ TEST_P(MbTx, AnswerTakesPartAtEveryMomentOfAPass) {  // flexcan.md 3.7: as if wr
   }
 }
 
+// Other codes are inactive, 1101 and 1111 too, whatever their priority: in a pass that finds one,
+// in those that the writes of it and of its rival start.
+TEST_P(MbTx, OtherCodesNeverWin) {  // FX-3.2.m
+  for (unsigned code = 0; code < 16; ++code) {
+    if (code == kActive || code == kAnswer) continue;
+    top_.running_i = 0;
+    buffers_[20] = {code << 24, 0};
+    buffers_[40] = {kActive << 24, 0x200 << 18};
+    clock({}, 0, 100);
+    top_.running_i = 1;
+    for (unsigned i = 0; i < 600; ++i) {
+      const unsigned written = i < 200 ? 20 : 40;
+      if (i % 200 == 100)
+        clock(written, buffers_[written].cs, 100);
+      else
+        clock({}, 0, 100);
+      top_.eval();
+      ASSERT_FALSE(top_.settled_o != 0 && top_.best_idx_o != 40) << code;
+      ASSERT_FALSE(top_.seen_o != 0 && top_.seen_act_o != 0 && top_.seen_idx_o == 20) << code;
+    }
+    check();
+  }
+}
+
 // FX-3.3.f: who waits for a retry waits until it is in the winner.
 TEST_P(MbTx, RetryIsToldUntilItIsInTheWinner) {
   buffers_[7] = {kActive << 24, 0};
@@ -388,7 +412,7 @@ TEST_P(MbTx, WinnerLostInEveryClockOfAPass) {
 TEST_P(MbTx, SpoiltPassesAreNotWaitedForOneByOne) {
   buffers_[1] = {kActive << 24, 0x300 << 18};
   settle();
-  unsigned barren = 0;  // losses in a row without
+  unsigned barren = 0;  // losses in a row without a settled clock between
   for (unsigned loss = 0; loss < 20; ++loss) {
     clock(0, kActive << 24, 100);
     for (unsigned i = 0; i < 4; ++i) clock({}, 0, 100);
@@ -401,7 +425,9 @@ TEST_P(MbTx, SpoiltPassesAreNotWaitedForOneByOne) {
     }
     barren = settled != 0 ? 0 : barren + 1;
     // Buffer 1 may have been looked at just before the loss, and so in the next pass.
-    if (loss >= 3) ASSERT_LE(barren, 2u) << loss;
+    if (loss >= 3) {
+      ASSERT_LE(barren, 2u) << loss;
+    }
   }
 }
 

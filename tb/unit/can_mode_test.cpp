@@ -17,6 +17,7 @@ enum Mode { kDisabled, kFrozen, kRunning, kHalting, kResetting, kStopped };
 
 class CanMode : public testing::Test {
  protected:
+  static constexpr unsigned kSettle = 3;  // quiet clocks before the engine counts as stopped
   void SetUp() override {
     mode_->scrub_i = 0;
     mode_->stop_ok_i = 1;
@@ -92,7 +93,7 @@ TEST_F(CanMode, EveryModeLeadsToTheOneAskedFor) {
       const bool mdis = requests & 1, stop = requests & 2, freeze = requests & 4;
       request(mdis, stop, freeze);
       stops_ = true;
-      clock(4);
+      clock(4 + kSettle);
       EXPECT_EQ(mode(), mdis ? kDisabled : stop ? kStopped : freeze ? kFrozen : kRunning);
       EXPECT_EQ(mode_->lpm_ack_o, mdis || stop);
       EXPECT_EQ(clears_, 0u);
@@ -123,7 +124,7 @@ TEST_F(CanMode, SoftResetFromEveryMode) {
     EXPECT_EQ(mode(), kResetting);
     EXPECT_FALSE(mode_->run_o);
     stops_ = true;
-    clock(3);
+    clock(3 + kSettle);
     EXPECT_EQ(mode(), kFrozen);
     EXPECT_EQ(clears_, 1u);
   }
@@ -143,7 +144,7 @@ TEST_F(CanMode, SoftResetWaitsForEngineAndMoves) {
   EXPECT_EQ(mode(), kResetting);
   EXPECT_EQ(clears_, 0u);
   mode_->busy_i = 0;
-  clock(2);
+  clock(2 + kSettle);
   EXPECT_EQ(mode(), kFrozen);
   EXPECT_EQ(clears_, 1u);
 }
@@ -164,7 +165,7 @@ TEST_F(CanMode, WhoWaitsForAFrame) {
     clock(20);
     EXPECT_EQ(mode() == kRunning, c.waits);
     mode_->stop_ok_i = 1;
-    clock(4);
+    clock(4 + kSettle);
     EXPECT_EQ(mode(), c.mdis ? kDisabled : c.stop ? kStopped : kFrozen);
   }
 }
@@ -177,8 +178,30 @@ TEST_F(CanMode, AcknowledgeWaitsForMoves) {
   clock(20);
   EXPECT_EQ(mode(), kHalting);
   mode_->busy_i = 0;
+  clock(kSettle);
+  EXPECT_EQ(mode(), kHalting);
   clock();
   EXPECT_EQ(mode(), kFrozen);
+}
+
+// FX-2.1.a, FX-2.2.a, FX-2.3.d: ... which may begin some clocks after the engine has stopped.
+TEST_F(CanMode, AcknowledgeWaitsForAMoveThatBeginsLate) {
+  for (const Mode from : {kHalting, kResetting}) {
+    for (unsigned late = 0; late < kSettle; ++late) {
+      SCOPED_TRACE(testing::Message() << "from " << from << " after " << late);
+      enter(from);
+      mode_->freeze_i = 1;
+      stops_ = true;
+      clock(1 + late);
+      ASSERT_EQ(mode_->running_i, 0);
+      mode_->busy_i = 1;
+      clock(20);
+      EXPECT_EQ(mode(), from);
+      mode_->busy_i = 0;
+      clock(1 + kSettle);
+      EXPECT_EQ(mode(), kFrozen);
+    }
+  }
 }
 
 TEST_F(CanMode, LowPowerFromFreezeWaitsForAMove) {
@@ -210,7 +233,7 @@ TEST_F(CanMode, AWithdrawnRequestLeadsBack) {
   clock(2);
   EXPECT_EQ(mode(), kHalting) << "the engine has not stopped yet";
   stops_ = true;
-  clock(3);
+  clock(3 + kSettle);
   EXPECT_EQ(mode(), kRunning);
 }
 
@@ -227,7 +250,7 @@ TEST_F(CanMode, WakeUpHoldsUntilTheRequestGoes) {
     mode_->stop_req_i = 0;
     clock();
     mode_->stop_req_i = 1;
-    clock(4);
+    clock(4 + kSettle);
     EXPECT_EQ(mode(), kStopped);
   }
 }

@@ -15,13 +15,24 @@
   assign f_want_run     = !mdis_i && !f_want_stop && !freeze_i;
   assign f_low          = f_want_disable || f_want_stop;
 
+  // The clocks before this one in which the engine has stopped and the buffers are quiet, up to
+  // three: that long the last things it has told them may need to show.
+  logic [1:0] f_quiet = 2'd0;
+  logic [2:0] f_age = 3'd0;
+  always @(posedge clk_i) begin
+    f_quiet <= running_i || busy_i ? 2'd0 : f_quiet == 2'd3 ? 2'd3 : f_quiet + 2'd1;
+    f_age   <= f_age == 3'd4 ? 3'd4 : f_age + 3'd1;
+  end
+  logic f_stopped;
+  assign f_stopped = !running_i && !busy_i && f_quiet == 2'd3;
+
   // Nothing holds the way to the wish up: on the bus, no frame is hurt; off it, the engine has
   // stopped and the buffers are quiet. How long that may take is the engine's and the buffers'
   // matter; not proven here.
   logic f_free, f_there;
   logic [2:0] f_wait = 3'd0;
   assign f_free  = !scrub_i && !soft_rst_i
-                && (run_o ? stop_ok_i || (f_low && !transmitter_i) : !running_i && !busy_i);
+                && (run_o ? stop_ok_i || (f_low && !transmitter_i) : f_stopped);
   assign f_there = (f_want_disable && disabled_o) || (f_want_stop && stop_o)
                 || (f_want_freeze && frz_ack_o) || (f_want_run && run_o);
   logic f_same;
@@ -34,7 +45,7 @@
 
   // Clocks that a soft reset has lasted although engine and buffers were quiet.
   logic f_reset_q = 1'b0;
-  always @(posedge clk_i) f_reset_q <= soft_rst_o && !running_i && !busy_i;
+  always @(posedge clk_i) f_reset_q <= soft_rst_o && f_stopped;
 
   always @(posedge clk_i) begin
     // No reset.
@@ -65,6 +76,10 @@
       p_no_reset_asleep: assert (!$past(lpm_ack_o) || !soft_rst_o);
       // FX-MCR.FRZ_ACK: nobody gets onto the bus who is not wanted there.
       p_run_wanted: assert (!run_o || $past(run_o) || $past(f_want_run));
+      // flexcan.md 2.1, 2.2: acknowledged, and cleared, only after the last moves; once the
+      // counter is no longer what an upset has left.
+      p_settles: assert (f_age < 3'd4 || !$past(state_q == StHalt || state_q == StReset)
+                         || state_q == StHalt || state_q == StReset || $past(f_stopped));
       // flexcan.md 2.2: freeze is left in the next clock when nothing asks for it.
       p_freeze_left: assert (!$past(frz_ack_o && f_want_run && !soft_rst_i) || run_o);
       // flexcan.md 2.2: the bus is left for a wish only, and not in a frame that would be hurt.
