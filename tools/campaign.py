@@ -152,8 +152,8 @@ def duration(seconds):
 
 
 def grouped(cell):
-    """A cell of a table; whole numbers with commas."""
-    text = str(cell)
+    """A cell of a table; whole numbers with commas, bars escaped."""
+    text = str(cell).replace("|", "\\|")
     return f"{int(text):,}" if re.fullmatch("[1-9][0-9]{3,}", text) else text
 
 

@@ -72,6 +72,27 @@ TEST_F(MbMatch, IsNotDoneBeforeTheTableBecauseThereAreNoMailboxes) {  // FX-4.a,
   }
 }
 
+// A soft reset or a change of FEN ends the search, in the table or in the mailboxes behind it.
+TEST_F(MbMatch, ClearEndsTheSearch) {  // FX-2.3.b, FX-MCR.FEN
+  for (unsigned granted = 0; granted < 40; granted += 3) {
+    SCOPED_TRACE(granted);
+    match_.reset();
+    match_->first_i = 8;
+    match_->maxmb_i = 63;
+    match_->rx_hdr_i = 1;
+    clock(false);
+    for (unsigned i = 0; i < granted; ++i) clock(true);
+    ASSERT_FALSE(match_->done_o);
+    match_->clear_i = 1;
+    clock(false);
+    match_->clear_i = 0;
+    for (unsigned i = 0; i < 100; ++i) {
+      clock(true);
+      ASSERT_FALSE(match_->req_o || match_->hit_o) << i;
+    }
+  }
+}
+
 TEST_F(MbMatch, EndsIfTheFifoLeavesNoMailbox) {  // FX-4.a, FX-MCR.MAXMB
   match_->first_i = 38;
   match_->maxmb_i = 37;
