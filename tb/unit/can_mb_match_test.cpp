@@ -69,6 +69,8 @@ TEST_F(MbMatch, IsNotDoneBeforeTheTableBecauseThereAreNoMailboxes) {  // FX-4.a,
     EXPECT_TRUE(match_->done_o);
     EXPECT_EQ(match_->hit_o != 0, fits);
     EXPECT_EQ(match_->hit_fifo_o != 0, fits);
+    match_->first_i = 38;
+    clock(false);
   }
 }
 
