@@ -248,19 +248,27 @@ module can_mb_port #(
     .clk_i, .re_i(re), .raddr_i(mask_raddr), .rdata_o(mask_o),
     .we_i(mask_we), .waddr_i(mask_waddr), .wdata_i(mask_wdata));
 
-  // A CPU read in the very clock of a CPU write to the same word takes the written bytes from here.
-  logic [3:0]  fwd_q;
+  // A CPU read in the very clock of a write to the same word, whoever writes, takes the written
+  // bytes from here.
+  logic [3:0]  fwd_we, fwd_q;
   logic [31:0] fwd_data_q;
+  always_comb begin
+    fwd_we = '0;
+    case (c_kind)
+      KindCs:   if (cs_waddr == {1'b0, c_idx})        fwd_we = cs_we;
+      KindMsg:  if (msg_waddr == {c_word, c_idx})     fwd_we = msg_we;
+      KindMask: if (mask_waddr == {c_word[0], c_idx}) fwd_we = mask_we;
+      default:  ;
+    endcase
+  end
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      fwd_q <= '0;
+      fwd_q      <= '0;
       fwd_data_q <= '0;
-    end else begin
-      if (w_gnt) fwd_data_q <= kind_q == KindCs ? cs_wdata : wdata_i;
-      if (cpu_gnt) begin
-        fwd_q <= (w_gnt && !block_i && {c_kind, c_word, c_idx} == {kind_q, word_q, idx_q})
-                 ? be_q : 4'b0;
-      end
+    end else if (cpu_gnt) begin
+      fwd_q      <= fwd_we;
+      fwd_data_q <= c_kind == KindCs ? cs_wdata : c_kind == KindMsg ? msg_wdata : mask_wdata;
     end
   end
 

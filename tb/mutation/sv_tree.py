@@ -6,7 +6,7 @@
 import re
 
 TOKEN = re.compile(r"""
-    (?P<skip>\s+|//[^\n]*|/\*.*?\*/|\(\*.*?\*\))
+    (?P<skip>\s+|//[^\n]*|/\*.*?\*/|\(\*.*?\*\)|`ifndef\ SYNTHESIS\n.*?\n`endif)
   | (?P<number>\d*'[bodh][0-9a-fA-F_]+|'[01](?![0-9])|\d+)
   | (?P<name>[A-Za-z_$][\w$]*(?:::[A-Za-z_]\w*)*)
   | (?P<op>\|\||&&|==|!=|<=|>=|<<|>>|~\^|\+:|-:|\+\+|\*\*|[-+*/%&|^~!<>=?:;,.(){}\[\]'@\#])
@@ -29,7 +29,7 @@ class Token:
 
 
 def tokens_of(text):
-    """All tokens of a file; comments and attributes are no tokens."""
+    """All tokens of a file; comments, attributes and what is for simulation only are no tokens."""
     out, at = [], 0
     while at < len(text):
         match = TOKEN.match(text, at)

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_port alone: who comes first at the read port and at the write port.
+// can_mb_port alone: who comes first at the read port and at the write port, and what the CPU reads
+// of a word that is written in that clock.
 #include <gtest/gtest.h>
 
 #include "Vcan_mb_port.h"
@@ -123,6 +124,171 @@ TEST_F(MbPort, EngineWriteThatWasRefusedComesBeforeTheCpu) {
   clock();
   EXPECT_TRUE(port_->ewr_gnt_o);
   EXPECT_FALSE(port_->ready_o);
+}
+
+// A block RAM answers nothing certain to a read of a word that is being written; the CPU gets the
+// written bytes with the others as they were.
+class MbPortCollision : public MbPort {
+ protected:
+  static constexpr unsigned Cs = 0, Msg = 1, Mask = 2;
+  /// The CPU writes `value` to buffer 5's word of `kind`, unmasked.
+  void fill(unsigned kind, unsigned word, unsigned value) {
+    command(kind, word, 5);
+    port_->raw_i = 1;
+    writes(true);
+    clock();
+    writes(false);
+    port_->wdata_i = value;
+    clock();
+  }
+  /// Puts the CPU's read of a word into this clock.
+  void read(unsigned kind, unsigned word, unsigned idx = 5) {
+    command(kind, word, idx);
+    reads(true);
+  }
+  /// What that read gives, one clock later.
+  unsigned answer() {
+    clock();
+    reads(false);
+    EXPECT_TRUE(port_->ready_o && port_->rd_done_o);
+    return port_->rdata_o;
+  }
+  /// A write of the engine in this clock, of the bytes `we`.
+  void engine_writes(unsigned kind, unsigned row, unsigned we, unsigned value) {
+    port_->ewr_req_i = 1;
+    port_->ewr_cs_we_i = kind == Cs ? we : 0;
+    port_->ewr_msg_we_i = kind == Msg ? we : 0;
+    port_->ewr_cs_row_i = port_->ewr_msg_row_i = row;
+    port_->ewr_cs_i = value & 0xFFFFFF;
+    port_->ewr_msg_i = value;
+    port_.settle();
+    EXPECT_TRUE(port_->ewr_gnt_o);
+  }
+
+ private:
+  void command(unsigned kind, unsigned word, unsigned idx) {
+    port_->cmd_kind_i = kind;
+    port_->cmd_word_i = word;
+    port_->cmd_idx_i = idx;
+  }
+};
+
+TEST_F(MbPortCollision, ReadMeetsAnEngineWriteOfTheControlWord) {
+  fill(Cs, 3, 0x01234567);
+  read(Cs, 3);
+  engine_writes(Cs, 5, 0b0101, 0x89ABCD);
+  EXPECT_EQ(answer(), 0x018945CDu);
+}
+
+TEST_F(MbPortCollision, ReadMeetsAnEngineWriteOfEachDataWord) {
+  for (unsigned word = 0; word < 3; ++word) {
+    fill(Msg, word, 0x01234567);
+    read(Msg, word);
+    engine_writes(Msg, word * 64 + 5, 0b1010, 0x89ABCDEF);
+    EXPECT_EQ(answer(), 0x8923CD67u) << "word " << word;
+    port_->ewr_req_i = 0;
+  }
+}
+
+TEST_F(MbPortCollision, ReadOfAnotherRowIsNotTouched) {
+  fill(Cs, 3, 0x01234567);
+  read(Cs, 3);
+  engine_writes(Cs, 64 + 5, 0b1111, 0x89ABCD);  // the hidden row
+  EXPECT_EQ(answer(), 0x01234567u);
+  port_->ewr_req_i = 0;
+  fill(Msg, 1, 0x76543210);
+  read(Msg, 1);
+  engine_writes(Msg, 5, 0b1111, 0x89ABCDEF);  // word 0
+  EXPECT_EQ(answer(), 0x76543210u);
+  read(Msg, 1);
+  engine_writes(Msg, 64 + 4, 0b1111, 0x89ABCDEF);
+  EXPECT_EQ(answer(), 0x76543210u);
+  read(Msg, 1);
+  engine_writes(Cs, 5, 0b1111, 0x89ABCD);  // the same row number in the other RAM
+  EXPECT_EQ(answer(), 0x76543210u);
+}
+
+TEST_F(MbPortCollision, OnlyTheReadInThatVeryClock) {
+  fill(Msg, 2, 0x01234567);
+  engine_writes(Msg, 128 + 5, 0b0011, 0x89ABCDEF);
+  clock();
+  port_->ewr_req_i = 0;
+  fill(Msg, 2, 0x76543210);
+  read(Msg, 2);
+  EXPECT_EQ(answer(), 0x76543210u);
+}
+
+TEST_F(MbPortCollision, ReadThatHasWaitedMeetsAnEngineWrite) {
+  fill(Msg, 0, 0x01234567);
+  port_->ins_req_i = 1;
+  read(Msg, 0);
+  clock();
+  port_->ins_req_i = 0;
+  read(Msg, 1, 9);  // the next command does not count yet
+  EXPECT_FALSE(port_->ready_o);
+  engine_writes(Msg, 5, 0b0110, 0x89ABCDEF);
+  EXPECT_EQ(answer(), 0x01ABCD67u);
+}
+
+TEST_F(MbPortCollision, ReadMeetsTheServicedMark) {  // FX-3.6.g
+  fill(Cs, 3, 0x01234567);
+  read(Cs, 3);
+  port_->svc_req_i = 1;
+  port_->svc_idx_i = 5;
+  port_->svc_ovr_i = 1;
+  port_.settle();
+  EXPECT_TRUE(port_->svc_gnt_o);
+  EXPECT_EQ(answer(), 0x86234567u);
+}
+
+TEST_F(MbPortCollision, ReadMeetsTheSecondHalfOfACopy) {
+  fill(Cs, 3, 0x01234567);
+  fill(Msg, 0, 0x00112233);
+  port_->ins_req_i = 1;  // reads the row that is copied
+  port_->ins_idx_i = 5;
+  port_.settle();
+  clock();
+  port_->ins_req_i = 0;
+  EXPECT_EQ(port_->msg_o, 0x00112233u);
+  read(Cs, 3);
+  port_->copy_i = 1;
+  port_->copy_cs_we_i = 0b1100;
+  port_->copy_cs_row_i = 5;
+  port_->copy_cs_i = 0x89ABCDEF;
+  EXPECT_EQ(answer(), 0x89AB4567u);
+  port_->copy_i = 0;
+  read(Msg, 0);
+  (void)answer();
+  read(Msg, 2);
+  port_->copy_i = 1;
+  port_->copy_cs_we_i = 0;
+  port_->copy_msg_we_i = 1;
+  port_->copy_msg_row_i = 128 + 5;
+  EXPECT_EQ(answer(), 0x00112233u);
+}
+
+TEST_F(MbPortCollision, ReadMeetsAWriteOfTheCpu) {
+  for (unsigned kind : {Cs, Msg, Mask}) {
+    fill(kind, 1, 0x01234567);
+    writes(true);
+    clock();
+    writes(false);
+    port_->wdata_i = 0x89ABCDEF;
+    read(kind, 1);
+    EXPECT_EQ(answer(), 0x89ABCDEFu) << "kind " << kind;
+    EXPECT_EQ((read(kind, 1), answer()), 0x89ABCDEFu) << "kind " << kind;
+  }
+}
+
+TEST_F(MbPortCollision, WriteThatIsRefusedIsNotRead) {
+  fill(Msg, 1, 0x01234567);
+  writes(true);
+  clock();
+  writes(false);
+  port_->wdata_i = 0x89ABCDEF;
+  port_->block_i = 1;
+  read(Msg, 1);
+  EXPECT_EQ(answer(), 0x01234567u);
 }
 
 }  // namespace
