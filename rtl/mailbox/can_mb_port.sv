@@ -268,7 +268,8 @@ module can_mb_port #(
       fwd_data_q <= '0;
     end else if (cpu_gnt) begin
       fwd_q      <= fwd_we;
-      fwd_data_q <= c_kind == KindCs ? cs_wdata : c_kind == KindMsg ? msg_wdata : mask_wdata;
+      // Masks are written by the CPU alone, and its data is in msg_wdata as well.
+      fwd_data_q <= c_kind == KindCs ? cs_wdata : msg_wdata;
     end
   end
 
