@@ -43,7 +43,8 @@ module can_field (
   output logic            take_tx_o        // at this sample point an own frame begins
 );
 
-  can_pkg::field_t field_q;
+  // As written here, so that codes of no field lead to integration (default below).
+  (* fsm_encoding = "none", syn_encoding = "safe" *) can_pkg::field_t field_q;
   logic [5:0]      left_q;
   logic            tx_q, passive_flag_q, overload_q;
 

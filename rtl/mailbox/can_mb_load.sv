@@ -82,7 +82,8 @@ module can_mb_load #(
   localparam logic [2:0] StepHigh = 3'd3;
   localparam logic [2:0] StepHead = 3'd4;
   typedef enum logic [1:0] {StIdle, StLow, StHigh, StHead} state_e;
-  state_e state_q;
+  // As written here: with all four codes in use no flipped flip-flop leads to one of no state.
+  (* fsm_encoding = "none", syn_encoding = "safe" *) state_e state_q;
 
   logic       word_q, on_bus_q, end_q, failed_q, orphan_q, dropped_q, abort_q, shot_q, answer_q;
   logic       bad_q, swap, swapped_q;

@@ -198,12 +198,13 @@ void BufferModel::learn_stamp(unsigned n, std::uint32_t value) {
 
 void BufferModel::read_cs(unsigned n, std::uint32_t value, std::uint64_t now) {
   const bool mailbox = n >= config_.first_mailbox();
+  const bool shows_busy = mailbox && ((value >> 24) & 9) == 1;
   replace(
       [&](const BufferState &state, DistinctStates &out) {
         const KnownWords words = words_of(state, n);
         // A move in progress may show as BUSY; it does not lock then.
         const bool moves = state.on_its_way(n) != nullptr;
-        const bool busy = mailbox && moves && ((value >> 24) & 9) == 1;
+        const bool busy = shows_busy && moves;
         if (!busy && (state.move_shown(n) || !fits(words, 0, value))) return;
         BufferState next = state;
         if (busy) next.show_move(n);
@@ -216,7 +217,7 @@ void BufferModel::read_cs(unsigned n, std::uint32_t value, std::uint64_t now) {
         out.add(std::move(next));
       },
       [&] { return fmt::format("MB{} C/S reads {:08X}; allowed:{}", n, value, allowed(n, 0)); });
-  learn_stamp(n, value);
+  if (!shows_busy) learn_stamp(n, value);  // beside BUSY the stamp may be the new frame's already
 }
 
 void BufferModel::read_flags(unsigned half, std::uint32_t value) {

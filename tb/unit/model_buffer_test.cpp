@@ -125,6 +125,27 @@ TEST_F(MoveIn, NotBusyWhileLocked) {
   EXPECT_FALSE(model_.ok());
 }
 
+// BUSY says that the word is not to be relied on: its stamp may be either frame's and does not tell
+// how stamps stand to the reference count.
+TEST(MoveInUnlocked, StampBesideBusyIsOfEitherFrame) {
+  for (const std::uint32_t shown : {0x07080000u, 0x07080048u}) {
+    BufferModel model{BufferConfig{.num_mb = 16, .maxmb = 15}};
+    model.cpu_write(reg::mb(kMb, 1), 0x123u << 18, 2);
+    model.cpu_write(reg::mb(kMb), kRxEmpty << 24, 4);
+    std::uint64_t now = 1000;
+    for (const std::uint16_t stamp : {0x0, 0x48}) {
+      model.frame_started(false, now += 500);
+      model.header(kOld, stamp, now += 100);
+      model.received(kOld, now += 500);
+    }
+    model.cpu_read(reg::mb(kMb), shown, now + 10);
+    model.cpu_read(reg::mb(kMb), 0x06080048, now + 300);
+    EXPECT_TRUE(model.ok()) << model.failure();
+    model.cpu_read(reg::mb(kMb), 0x06080047, now + 400);
+    EXPECT_FALSE(model.ok()) << "this one told how stamps stand";
+  }
+}
+
 // A C/S write cuts the move short: words of either frame, but no flag.
 TEST_F(MoveIn, CutShort) {
   read_cs(kOldCs | kBusy);
