@@ -8,12 +8,16 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 
 
+def rtl_files():
+    """The files of rtl/can.f."""
+    lines = (line.split("#")[0].strip() for line in (ROOT / "rtl/can.f").read_text().splitlines())
+    return [str(ROOT / "rtl" / line) for line in lines if line]
+
+
 def netlist_of(kind, num_mb, path):
     """Writes can_ahb with that many buffers as tools/netlist/KIND.sh makes it."""
-    lines = (line.split("#")[0].strip() for line in (ROOT / "rtl/can.f").read_text().splitlines())
-    files = [str(ROOT / "rtl" / line) for line in lines if line]
     subprocess.run([ROOT / f"tools/netlist/{kind}.sh", path, "can_ahb", f"NumMb={num_mb}", "--",
-                    *files], check=True, stdin=subprocess.DEVNULL)
+                    *rtl_files()], check=True, stdin=subprocess.DEVNULL)
 
 
 def replay(recordings, num_mb, build, netlist=None, json=None, jobs=1):

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""sample.py BUILD: recorded pins on a netlist of gates in Icarus Verilog: no output differs. The
-same netlist with one AND turned into an OR must differ, or the comparison is blind."""
+"""sample.py BUILD: recorded pins on a netlist of gates in Icarus Verilog: no output differs, and
+each module is proven equal to its RTL. The same netlist with one AND turned into an OR must differ
+for both, or they are blind."""
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
+import equal
 from replay import netlist_of, replay
 
 
@@ -31,6 +33,12 @@ def main():
         status, text = replay(["frames"], 16, build, netlist=bad)
         if status == 0 or "DIFF" not in text:
             sys.exit(f"netlist: a wrong gate was not noticed (status {status}):\n{text}")
+        modules, faults = equal.compare(good, 16, Path(scratch) / "good")
+        if faults or modules < 30:
+            sys.exit(f"netlist: of {modules} modules differ from the RTL: {faults}")
+        modules, faults = equal.compare(bad, 16, Path(scratch) / "bad", only="can_bsp")
+        if modules != 1 or not faults:
+            sys.exit("netlist: no proof noticed a wrong gate")
         print("a wrong gate is noticed")
 
 

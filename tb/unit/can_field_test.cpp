@@ -20,6 +20,20 @@ void Vcan_field___024root___eval_settle(Vcan_field___024root *root);
 namespace vericansim {
 namespace {
 
+/// Overwrites registers as upset flip-flops do. Not in a netlist of cells, which has no variables
+/// for them: false. (tb/netlist/equal.py proves that such a netlist is equal in every state.)
+template <typename Root>
+bool upset(Root *root, unsigned field, unsigned left, bool transmitter) {
+  if constexpr (requires { root->can_field__DOT__field_q; }) {
+    root->can_field__DOT__field_q = field;
+    root->can_field__DOT__left_q = left;
+    root->can_field__DOT__tx_q = transmitter;
+    Vcan_field___024root___eval_settle(root);
+    return true;
+  }
+  return false;
+}
+
 /// What can_error says of a bit.
 struct Finding {
   bool error = false;
@@ -320,10 +334,7 @@ TEST_F(CanField, CodesOfNoFieldLeadToIntegration) {
       for (const unsigned left : {0u, 1u, 63u}) {
         SCOPED_TRACE(testing::Message() << "code " << code << " left " << left);
         to_idle();
-        field_->rootp->can_field__DOT__field_q = code;
-        field_->rootp->can_field__DOT__left_q = left;
-        field_->rootp->can_field__DOT__tx_q = 1;
-        Vcan_field___024root___eval_settle(field_->rootp);
+        if (!upset(field_->rootp, code, left, true)) GTEST_SKIP();
         bit(recessive);
         ASSERT_EQ(at(), Field::kInteg);
         ASSERT_FALSE(field_->transmitter_o);
@@ -344,9 +355,7 @@ TEST_F(CanField, CodesOfNoFieldLeadToIntegration) {
 TEST_F(CanField, RecoveryWithoutBusOffLeadsToIntegration) {
   for (const bool recessive : {false, true}) {
     to_idle();
-    field_->rootp->can_field__DOT__field_q = static_cast<unsigned>(Field::kBusOff);
-    field_->rootp->can_field__DOT__left_q = 10;
-    Vcan_field___024root___eval_settle(field_->rootp);
+    if (!upset(field_->rootp, static_cast<unsigned>(Field::kBusOff), 10, false)) GTEST_SKIP();
     bit(recessive);
     ASSERT_EQ(at(), Field::kInteg);
     bits(11);

@@ -19,6 +19,18 @@ namespace {
 // What software and the system can see.
 enum Mode { kDisabled, kFrozen, kRunning, kHalting, kResetting, kStopped };
 
+/// Overwrites the state as upset flip-flops do. Not in a netlist of cells, which has no variable
+/// for it: false. (tb/netlist/equal.py proves that such a netlist is equal in every state.)
+template <typename Root>
+bool upset(Root *root, unsigned state) {
+  if constexpr (requires { root->can_mode__DOT__state_q; }) {
+    root->can_mode__DOT__state_q = state;
+    Vcan_mode___024root___eval_settle(root);
+    return true;
+  }
+  return false;
+}
+
 class CanMode : public testing::Test {
  protected:
   static constexpr unsigned kSettle = 3;  // quiet clocks before the engine counts as stopped
@@ -278,8 +290,7 @@ TEST_F(CanMode, RequestCountsAgainAfterAHardReset) {
 TEST_F(CanMode, IllegalStateRecoversThroughASoftReset) {
   for (const unsigned code : {6u, 7u}) {
     enter(kRunning);
-    mode_->rootp->can_mode__DOT__state_q = code;
-    Vcan_mode___024root___eval_settle(mode_->rootp);
+    if (!upset(mode_->rootp, code)) GTEST_SKIP();
     mode_.clock();
     EXPECT_EQ(mode(), kResetting) << code;
     mode_->freeze_i = 1;  // what can_regs does with the clear pulse
