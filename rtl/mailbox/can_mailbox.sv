@@ -146,7 +146,8 @@ module can_mailbox #(
 
   // Reception.
   logic [31:0]     cs, msg, mask;
-  logic            stale, rx_req, rx_gnt, match_done, hit, hit_fifo, hit_ans, resolve, stored;
+  logic            stale, id_stale, rx_req, rx_gnt, match_done, hit, hit_fifo, hit_ans, resolve;
+  logic            stored;
   logic [IdxW-1:0] rx_idx, hit_idx;
   logic [1:0]      rx_word;
   logic [IdxW:0]   rx_mask_row;
@@ -159,7 +160,7 @@ module can_mailbox #(
     .lock_i(lock), .lock_idx_i(lock_idx),
     .csw_i(csw), .csw_idx_i(csw_idx), .csw_empty_i(csw_empty), .csw_ide_i(csw_ide),
     .req_o(rx_req), .idx_o(rx_idx), .word_o(rx_word), .mask_row_o(rx_mask_row), .gnt_i(rx_gnt),
-    .stale_i(stale), .cs_i(cs), .msg_i(msg), .mask_i(mask),
+    .stale_i(stale || id_stale), .cs_i(cs), .msg_i(msg), .mask_i(mask),
     .done_o(match_done), .hit_o(hit), .hit_idx_o(hit_idx), .hit_fifo_o(hit_fifo),
     .hit_ans_o(hit_ans), .resolve_i(resolve), .stored_i(stored), .way_i(way),
     .idhit_o(idhit),
@@ -285,7 +286,7 @@ module can_mailbox #(
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
     .eng_req_i(eng_req), .eng_lazy_i(eng_lazy), .eng_cs_row_i(eng_cs_row),
     .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_gnt_o(eng_gnt),
-    .hold_o(hold), .stale_o(stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
+    .hold_o(hold), .stale_o(stale), .id_stale_o(id_stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
     .copy_i(copy), .copy_cs_we_i(copy_cs_we), .copy_cs_row_i(copy_cs_row), .copy_cs_i(copy_cs),
     .copy_msg_we_i(copy_msg_we), .copy_msg_row_i(copy_msg_row),
     .svc_req_i(svc_req), .svc_idx_i(svc_idx), .svc_ovr_i(svc_ovr), .svc_gnt_o(svc_gnt),

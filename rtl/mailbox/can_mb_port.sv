@@ -53,6 +53,7 @@ module can_mb_port #(
   input  logic [IdxW:0]   eng_mask_row_i,
   output logic            eng_gnt_o,
   output logic            stale_o,      // with the data: this C/S row was being written when read
+  output logic            id_stale_o,   // the same of the MSG row
   output logic [31:0]     cs_o,
   output logic [31:0]     msg_o,
   output logic [31:0]     mask_o,
@@ -232,8 +233,12 @@ module can_mb_port #(
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) stale_o <= 1'b0;
-    else         stale_o <= cs_we[3] && cs_waddr == cs_raddr;
+    if (!rst_ni) begin
+      {stale_o, id_stale_o} <= '0;
+    end else begin
+      stale_o    <= cs_we[3] && cs_waddr == cs_raddr;
+      id_stale_o <= msg_we != '0 && msg_waddr == msg_raddr;
+    end
   end
 
   logic re;

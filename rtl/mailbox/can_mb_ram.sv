@@ -20,7 +20,7 @@ module can_mb_ram #(
 );
   // What a read of a byte being written returns is different in every block RAM; nobody above
   // relies on it, and the attribute saves the logic that would pretend otherwise. Simulation
-  // returns a byte that was never there, so that every test would see it.
+  // returns a byte made of the old one and the last one read, so that every test would see it.
   (* no_rw_check *) logic [31:0] mem [Depth];
 
   always_ff @(posedge clk_i) begin
@@ -29,7 +29,7 @@ module can_mb_ram #(
       if (we_i[b]) mem[waddr_i][8*b +: 8] <= wdata_i[8*b +: 8];
 `ifndef SYNTHESIS
       if (re_i && we_i[b] && waddr_i == raddr_i) begin
-        rdata_o[8*b +: 8] <= mem[raddr_i][8*b +: 8] ^ 8'hA5;
+        rdata_o[8*b +: 8] <= ~(mem[raddr_i][8*b +: 8] ^ rdata_o[8*b +: 8]);
       end
 `endif
     end

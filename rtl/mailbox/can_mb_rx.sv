@@ -35,7 +35,7 @@ module can_mb_rx #(
   output logic            req_o,
   output logic [IdxW-1:0] idx_o,
   input  logic            gnt_i,
-  input  logic            stale_i,      // the C/S word was being written
+  input  logic            stale_i,      // a word of it was being written
   input  logic [31:0]     cs_i,
   input  logic [31:0]     id_i,
   input  logic [31:0]     mask_i,

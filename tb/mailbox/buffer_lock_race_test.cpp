@@ -160,5 +160,41 @@ TEST_P(MoveRace, EveryClock) {
 INSTANTIATE_TEST_SUITE_P(All, MoveRace,
                          ::testing::Combine(::testing::Bool(), ::testing::Range(0u, 4u)));
 
+// What the CPU does, BCC, and whether a second buffer fits as well.
+class MatchRace : public ::testing::TestWithParam<std::tuple<Action, bool, bool>> {};
+
+// FX-3.6.d, FX-3.5.a: the frame that waited moves in while the next one for the same buffer looks
+// for it; the words that the move writes are the ones that the match reads.
+TEST_P(MatchRace, EveryClock) {
+  const auto [action, bcc, two] = GetParam();
+  BufferRig rig{{.num_mb = 16, .maxmb = 15, .bcc = bcc}};
+  rig.go();
+  for (unsigned offset = 0; offset < 60 && !HasFailure(); ++offset) {
+    SCOPED_TRACE(testing::Message() << offset << " clocks behind the start of the last ID bit");
+    prepare(rig, State::kLockedWaiting);
+    rig.put(kOtherMb, {.cs = two ? kRxEmpty << 24 : 0, .id = 0x123u << 18});
+    const std::uint64_t frames = rig.frames_started();
+    rig.peer_sends(kThird);
+    ASSERT_TRUE(rig.run_until([&] { return rig.frames_started() > frames; }, 400));
+    act(rig, action, rig.start_clock() + 11 * BufferRig::kBit + offset);
+    rig.quiet();
+    rig.compare_quietly();
+    rig.compare();
+  }
+}
+
+std::string match_race_name(const ::testing::TestParamInfo<std::tuple<Action, bool, bool>> &test) {
+  const auto [action, bcc, two] = test.param;
+  return std::string{kActions[static_cast<unsigned>(action)]} + (bcc ? "_Queue" : "_NoQueue") +
+         (two ? "_Two" : "_One");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MatchRace,
+                         ::testing::Combine(::testing::Values(Action::kReadTimer,
+                                                              Action::kReadOtherCs,
+                                                              Action::kReadCsAndTimer),
+                                            ::testing::Bool(), ::testing::Bool()),
+                         match_race_name);
+
 }  // namespace
 }  // namespace vericansim

@@ -5,6 +5,8 @@
 // of a word that is written in that clock.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "Vcan_mb_port.h"
 #include "unit/leaf_model.hpp"
 
@@ -278,6 +280,29 @@ TEST_F(MbPortCollision, ReadMeetsAWriteOfTheCpu) {
     EXPECT_EQ(answer(), 0x89ABCDEFu) << "kind " << kind;
     EXPECT_EQ((read(kind, 1), answer()), 0x89ABCDEFu) << "kind " << kind;
   }
+}
+
+TEST_F(MbPortCollision, EngineIsToldThatAWordWasBeingWritten) {
+  const auto read = [this](unsigned kind, unsigned row, unsigned written, unsigned we) {
+    port_->eng_req_i = 1;
+    port_->eng_cs_row_i = port_->eng_msg_row_i = row;
+    engine_writes(kind, written, we, 0);
+    EXPECT_TRUE(port_->eng_gnt_o);
+    clock();
+    const std::pair told{port_->stale_o != 0, port_->id_stale_o != 0};
+    port_->ewr_req_i = 0;
+    clock();
+    EXPECT_FALSE(port_->stale_o || port_->id_stale_o) << "one clock later";
+    return told;
+  };
+  EXPECT_EQ(read(Cs, 5, 5, 0b1000), (std::pair{true, false}));
+  EXPECT_EQ(read(Cs, 5, 5, 0b0111), (std::pair{false, false})) << "the code stays";
+  EXPECT_EQ(read(Cs, 5, 6, 0b1111), (std::pair{false, false}));
+  for (unsigned we = 1; we < 16; we <<= 1)
+    EXPECT_EQ(read(Msg, 5, 5, we), (std::pair{false, true})) << we;
+  EXPECT_EQ(read(Msg, 5, 64 + 5, 0b1111), (std::pair{false, false})) << "another word";
+  EXPECT_EQ(read(Msg, 5, 4, 0b1111), (std::pair{false, false}));
+  EXPECT_EQ(read(Msg, 5, 5, 0), (std::pair{false, false}));
 }
 
 TEST_F(MbPortCollision, WriteThatIsRefusedIsNotRead) {
