@@ -41,8 +41,8 @@ def plain_names(text):
 
 
 def read_both(netlist, num_mb, folder):
-    """Writes rtl.il and net.il: RTL and netlist of can_ahb, modules apart. The modules: name in
-    the files and name of the RTL's file."""
+    """Writes rtl.il and net.il: RTL and netlist of can_ahb, modules apart. The modules: file of the
+    RTL and name in what was written."""
     raw = folder / "raw.il"
     yosys(f"read_verilog -sv {' '.join(rtl_files())}; hierarchy -check -top can_ahb "
           f"-chparam NumMb {num_mb}; proc; write_rtlil {raw}", folder / "rtl.log")
