@@ -66,7 +66,8 @@ def versions():
     found = {
         "Verilator": output("verilator", "--version").removeprefix("Verilator "),
         "Yosys": output("yosys", "-V").removeprefix("Yosys ").split(" (")[0],
-        "Icarus Verilog": output("iverilog", "-V").removeprefix("Icarus Verilog version "),
+        "Icarus Verilog": output("iverilog", "-V").removeprefix("Icarus Verilog version ")
+                          .split(" ")[0],
         "Z3": output("z3", "--version").removeprefix("Z3 version ").split(" - ")[0],
         "Boolector": output("boolector", "--version"),
         "g++": output("g++", "-dumpfullversion"),
