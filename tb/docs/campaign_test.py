@@ -1,0 +1,95 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""The campaign's own words: what it says of figures that are there, or are not, and of options."""
+
+import contextlib
+import io
+import os
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+TOOLS = Path(__file__).resolve().parents[2] / "tools"
+sys.path.insert(0, str(TOOLS))
+import campaign  # pylint: disable=wrong-import-position
+
+STAGE = {"name": "formal", "title": "t", "summary": "{proven} proven, {bounded} to a bound"}
+
+
+def result(scale, *figures, ok=True):
+    return {"scale": scale, "status": 0,
+            "figures": [{"name": name, "value": 7, "text": text, "bar": "all", "ok": ok}
+                        for name, text in figures]}
+
+
+def printed(function, *arguments):
+    with contextlib.redirect_stdout(io.StringIO()) as text:
+        value = function(*arguments)
+    return value, text.getvalue()
+
+
+class Summary(unittest.TestCase):
+    """The line of a stage at the head of the page."""
+
+    def test_whole(self):
+        found = result(1, ("proven", "3 of 3"), ("bounded", "1 of 1 (z3)"))
+        self.assertEqual(campaign.summary(STAGE, found), "3 of 3 proven, 1 of 1 to a bound")
+
+    def test_a_part_may_leave_a_figure_out(self):
+        found = result(0.01, ("proven", "3 of 3"))
+        self.assertEqual(campaign.summary(STAGE, found), "3 of 3 proven, none to a bound")
+
+    def test_the_whole_may_not(self):
+        with contextlib.redirect_stderr(io.StringIO()), contextlib.redirect_stdout(io.StringIO()):
+            with self.assertRaises(SystemExit) as stop:
+                campaign.summary(STAGE, result(1, ("proven", "3 of 3")))
+        self.assertIn("stage formal has no figure 'bounded'; figures: proven", str(stop.exception))
+
+
+class Report(unittest.TestCase):
+    """What is printed at the end."""
+
+    FIGURES = (("proven", "3 of 3"), ("bounded", "1 of 1"))
+
+    def test_met_and_missed(self):
+        for ok, word in ((True, "met"), (False, "MISSED")):
+            found = {"formal": result(1, *self.FIGURES, ok=ok)}
+            good, text = printed(campaign.report, [STAGE], found)
+            self.assertEqual(good, ok)
+            self.assertIn(f"proven: 3 of 3  (bar: all: {word})", text)
+
+    def test_a_bar_that_a_part_cannot_meet(self):
+        found = {"formal": result(0.5, *self.FIGURES, ok=None)}
+        good, text = printed(campaign.report, [STAGE], found)
+        self.assertTrue(good)
+        self.assertIn("(bar: all: not for a part of the campaign)", text)
+
+    def test_a_stage_that_failed(self):
+        good, text = printed(campaign.report, [STAGE], {"formal": None})
+        self.assertFalse(good)
+        self.assertIn("formal     FAILED", text)
+
+
+class Options(unittest.TestCase):
+    """Mistakes get one line that says what is allowed."""
+
+    def check(self, said, *arguments, **environment):
+        run = subprocess.run([TOOLS / "campaign.py", *arguments], capture_output=True, text=True,
+                             env={**os.environ, **environment}, check=False)
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn(said, run.stdout + run.stderr)
+
+    def test_stage(self):
+        self.check("there is no stage 'formula'; stages: matrix, lockstep", "--only", "formula")
+
+    def test_scale(self):
+        self.check("allowed: above 0 up to 1", "--only", "formal", SCALE="2")
+
+    def test_seed(self):
+        self.check("allowed: 0 to 2147483647", "--only", "formal", SEED="one")
+
+
+if __name__ == "__main__":
+    unittest.main()
