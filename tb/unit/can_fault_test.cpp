@@ -44,6 +44,11 @@ class CanFault : public testing::Test {
     fault_.clock();
   }
   void bit(const Bit &b) {
+    sample(b);
+    for (int i = 0; i < 4; ++i) fault_.clock();
+  }
+  /// The clock of the sample point alone: decided, and not counted yet.
+  void sample(const Bit &b) {
     fault_->field_i = static_cast<unsigned>(b.field);
     fault_->transmitter_i = b.transmitter;
     fault_->error_i = b.error;
@@ -60,7 +65,6 @@ class CanFault : public testing::Test {
     fault_->sample_i = 1;
     fault_.clock();
     fault_->sample_i = 0;
-    for (int i = 0; i < 4; ++i) fault_.clock();
   }
   /// Changes of {TEC, REC} by a bit, from the given start.
   void expect_change(const Bit &b, int tec, int rec, unsigned from_tec = 40,
@@ -285,6 +289,20 @@ TEST_F(CanFault, ListenOnlyCountsNothing) {
   expect_change({.error = true}, 0, 0);
   expect_change({.field = Field::kWait, .seen = false, .after_flag = 1}, 0, 0);
   expect_change({.field = Field::kAck, .seen = false, .sent = false}, 0, 0);
+}
+
+// FC-01: what was decided when a hard reset came is not counted, neither then nor later.
+TEST_F(CanFault, HardResetForgetsWhatWasDecided) {
+  for (const bool transmitter : {false, true}) {
+    for (const Field field : {Field::kData, Field::kOvlFlag}) {
+      preset(40, 40);
+      sample({.field = field, .transmitter = transmitter, .error = true, .sent = false});
+      fault_.reset();
+      for (int i = 0; i < 4; ++i) fault_.clock();
+      EXPECT_EQ(fault_->tec_o, 0);
+      EXPECT_EQ(fault_->rec_o, 0);
+    }
+  }
 }
 
 // TH-02: the host's write takes effect only while the node is stopped.

@@ -15,8 +15,9 @@ constexpr unsigned kVps = 2, kImb = 1;
 class MbStatus : public ::testing::Test {
  protected:
   MbStatus() { status_.reset(); }
-  void see(unsigned idx, bool free, bool active) {
+  void see(unsigned idx, bool free, bool active, unsigned value = 0) {
     status_->seen_i = 1;
+    status_->seen_val_i = value;
     status_->seen_idx_i = idx;
     status_->seen_free_i = free;
     status_->seen_act_i = active;
@@ -56,6 +57,18 @@ TEST_F(MbStatus, PassForgetsTheOneBefore) {  // FX-ESR2.LPTM
   see(5, true, false);
   EXPECT_EQ(clock() >> 2, 5u);
   see(0, false, false);
+  EXPECT_EQ(clock(), esr2(0, 0));
+}
+
+// Buffer 0 counts like any other, although a lower inactive one was known before: none is lower.
+TEST_F(MbStatus, FirstBufferCountsInEveryPass) {  // FX-ESR2.IMB, FX-ESR2.LPTM
+  see(5, true, false);
+  clock();
+  see(0, true, false);
+  EXPECT_EQ(clock(), esr2(0, kImb));
+  see(0, false, true, 7);
+  clock();
+  see(1, false, true, 3);  // would be sent before buffer 0
   EXPECT_EQ(clock(), esr2(0, 0));
 }
 
