@@ -291,7 +291,7 @@ TEST_F(CanFault, ListenOnlyCountsNothing) {
   expect_change({.field = Field::kAck, .seen = false, .sent = false}, 0, 0);
 }
 
-// FC-01: what was decided when a hard reset came is not counted, neither then nor later.
+// FC-21: what was decided when a hard reset came is not counted, neither then nor later.
 TEST_F(CanFault, HardResetForgetsWhatWasDecided) {
   for (const bool transmitter : {false, true}) {
     for (const Field field : {Field::kData, Field::kOvlFlag}) {
