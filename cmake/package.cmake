@@ -76,6 +76,10 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/driver/src" "${PROJECT_SOURCE_DIR}/s
 if(TARGET verican)
   install(TARGETS verican RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tool)
 endif()
+# The tool's helpers in Python; programs that link the library find them beside themselves or by
+# VERICAN_PYTHON_DIR (sim/trace/python_helper.hpp).
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/sim/python" DESTINATION "${VERICAN_DATA_DIR}"
+        COMPONENT tool FILES_MATCHING PATTERN "*.py")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${VERICAN_DATA_DIR}" COMPONENT doc
         REGEX "/examples/systemc/CMakeLists.txt$" EXCLUDE)  # for the project's own build
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/rtl" DESTINATION "${VERICAN_DATA_DIR}" COMPONENT rtl)

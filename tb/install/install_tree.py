@@ -12,10 +12,11 @@ EXPECTED = [
     "include/verican/verican.h", "include/verican/verican_regs.h", "share/verican/rtl/can.f",
     "share/verican/rtl/host/can_ahb.sv", "share/verican/verican.svd",
     "share/verican/driver/src/init.c", "share/verican/driver/include/verican/verican.h",
-    "share/verican/examples/two-nodes.yaml", "share/verican/examples/external/two_nodes.cpp",
+    "share/verican/python/verican_helper.py", "share/verican/examples/two-nodes.yaml",
+    "share/verican/examples/external/two_nodes.cpp",
     "share/doc/verican/LICENSE", "share/doc/verican/docs/first-bus.md",
 ]
-TEXT = {".hpp", ".h", ".c", ".cmake", ".pc", ".f", ".sv", ".vlt", ".yaml", ".svd", ".md"}
+TEXT = {".hpp", ".h", ".c", ".cmake", ".pc", ".f", ".sv", ".vlt", ".yaml", ".svd", ".md", ".py"}
 
 
 def look_for_paths(installed, first):
