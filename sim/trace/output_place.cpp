@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// OutputPlace: see output_place.hpp.
+#include "trace/output_place.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "trace/output_file.hpp"
+
+namespace vericansim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kCannotOpen = "cannot be opened for writing";
+constexpr const char *kCannotPlace = "cannot be put in its place";
+
+/// What `path` leads to: a link is written through, not replaced.
+std::string behind_links(const std::string &path) {
+  constexpr int kMostLinks = 40;  // as the kernel's
+  fs::path target = path;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(target, error); ++i) {
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) break;
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  return target.string();
+}
+
+std::string own_name(const fs::path &folder) {
+  static std::atomic<unsigned> count{0};
+  return (folder / fmt::format(".verican-{}-{}.part", ::getpid(), count++)).string();
+}
+
+std::optional<struct stat> status_of(const std::string &path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return status;
+}
+
+}  // namespace
+
+bool is_standard_output(const std::string &path) {
+  return path == "-" || path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
+}
+
+OutputPlace::OutputPlace(const std::string &path) : path_{path}, target_{behind_links(path)} {
+  const auto status = status_of(path);
+  if (is_standard_output(path) ||
+      (status && !S_ISREG(status->st_mode) && !S_ISDIR(status->st_mode)))
+    open_directly();
+  else
+    open_aside();
+}
+
+OutputPlace::~OutputPlace() {
+  if (!aside_.empty()) ::unlink(aside_.c_str());
+}
+
+void OutputPlace::open_directly() {
+  descriptor_ = is_standard_output(path_) ? ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)
+                                          : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor_ < 0) throw OutputError(path_, kCannotOpen, errno);
+}
+
+void OutputPlace::open_aside() {
+  const auto before = status_of(target_);
+  if (before && S_ISDIR(before->st_mode)) throw OutputError(path_, kCannotOpen, EISDIR);
+  // A file that its owner has made read-only is not replaced.
+  if (before && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0)
+    throw OutputError(path_, kCannotOpen, errno);
+  if (target_.empty() || target_.back() == '/') throw OutputError(path_, kCannotOpen, EISDIR);
+  std::string name = own_name(fs::path{target_}.parent_path());
+  constexpr mode_t kMode = 0666;
+  ::unlink(name.c_str());  // of a process that had this number and was killed
+  descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
+  if (descriptor_ < 0) throw OutputError(path_, kCannotOpen, errno);
+  aside_ = std::move(name);
+  if (before) ::fchmod(descriptor_, before->st_mode & 07777);
+}
+
+void OutputPlace::replace(const std::string &scratch) {
+  if (::rename(scratch.c_str(), aside_.c_str()) != 0) throw OutputError(path_, kCannotPlace, errno);
+}
+
+void OutputPlace::rename() {
+  if (direct()) return;
+  if (::rename(aside_.c_str(), target_.c_str()) != 0) throw OutputError(path_, kCannotPlace, errno);
+  aside_.clear();
+}
+
+std::string OutputPlace::scratch_name() const {
+  return own_name(direct() ? fs::temp_directory_path() : fs::path{target_}.parent_path());
+}
+
+}  // namespace vericansim

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// OutputFile: whole or not at all, and every failed write is told.
+#include "trace/output_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <thread>
+
+#include "harness/small_disk.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace vericansim;
+using ::testing::HasSubstr;
+
+std::string slurp(const std::string &path) {
+  std::ifstream file{path, std::ios::binary};
+  return {std::istreambuf_iterator<char>{file}, {}};
+}
+
+/// The message and errno of the failure that `act` must end in.
+void expect_failure(const std::function<void()> &act, const std::string &message, int code) {
+  try {
+    act();
+    ADD_FAILURE() << "no failure; expected: " << message;
+  } catch (const OutputError &error) {
+    EXPECT_EQ(error.what(), message);
+    EXPECT_EQ(error.code(), code);
+  }
+}
+
+class OutputFileTest : public ::testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+  [[nodiscard]] std::string in(const std::string &name) const { return folder + "/" + name; }
+  [[nodiscard]] std::size_t files() const {
+    const fs::directory_iterator all{folder};
+    return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+  }
+  void write(const std::string &name, const std::string &text) const {
+    OutputFile file{in(name)};
+    file.stream() << text;
+    file.commit();
+  }
+
+  std::string folder = ::testing::TempDir() + "output-" +
+                       ::testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+TEST_F(OutputFileTest, IsThereOnlyAfterCommit) {
+  {
+    OutputFile file{in("a")};
+    file.stream() << "half" << std::flush;
+    EXPECT_FALSE(fs::exists(in("a")));
+    file.stream() << " and half\n";
+    file.commit();
+    EXPECT_EQ(slurp(in("a")), "half and half\n");
+  }
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(OutputFileTest, WithoutCommitTheOldFileStays) {
+  std::ofstream(in("a")) << "old";
+  {
+    OutputFile file{in("a")};
+    file.stream() << "new";
+    EXPECT_EQ(slurp(in("a")), "old");
+  }
+  EXPECT_EQ(slurp(in("a")), "old");
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(OutputFileTest, KeepsTheModeOfTheFileThatItReplaces) {
+  std::ofstream(in("a")) << "old";
+  ASSERT_EQ(::chmod(in("a").c_str(), 0640), 0);
+  write("a", "new");
+  struct stat status {};
+  ASSERT_EQ(::stat(in("a").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 07777, 0640U);
+}
+
+TEST_F(OutputFileTest, NewFilesHaveTheUsersMask) {
+  const mode_t before = ::umask(027);
+  write("a", "new");
+  ::umask(before);
+  struct stat status {};
+  ASSERT_EQ(::stat(in("a").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 07777, 0640U);
+}
+
+TEST_F(OutputFileTest, WritesThroughLinks) {
+  fs::create_directories(in("other"));
+  fs::create_symlink("other/new", in("dangling"));
+  fs::create_symlink("dangling", in("twice"));
+  write("twice", "text");
+  EXPECT_TRUE(fs::is_symlink(in("twice")));
+  EXPECT_TRUE(fs::is_symlink(in("dangling")));
+  EXPECT_EQ(slurp(in("other/new")), "text");
+}
+
+// What gunzip makes of it, and no name inside.
+TEST_F(OutputFileTest, GzAtTheEndCompresses) {
+  std::string text;
+  for (int i = 0; i < 20'000; ++i) text += "line " + std::to_string(i) + "\n";
+  write("a.log.gz", text);
+  EXPECT_LT(fs::file_size(in("a.log.gz")), text.size() / 3);
+  ASSERT_EQ(std::system(("gunzip -c " + in("a.log.gz") + " > " + in("a.log")).c_str()), 0);
+  EXPECT_EQ(slurp(in("a.log")), text);
+}
+
+TEST_F(OutputFileTest, AFinishedFileTakesItsPlace) {
+  for (const char *name : {"plain", "packed.gz"}) {
+    OutputFile file{in(name)};
+    const std::string scratch = file.scratch_name();
+    EXPECT_EQ(fs::path{scratch}.parent_path(), folder);
+    std::ofstream(scratch) << "made by a library";
+    file.commit(scratch);
+  }
+  EXPECT_EQ(slurp(in("plain")), "made by a library");
+  ASSERT_EQ(std::system(("gunzip -c " + in("packed.gz") + " > " + in("unpacked")).c_str()), 0);
+  EXPECT_EQ(slurp(in("unpacked")), "made by a library");
+  EXPECT_EQ(files(), 3U);
+}
+
+TEST_F(OutputFileTest, PathsThatCannotBeWrittenAreRefusedAtOnce) {
+  const auto open = [](const std::string &path) { return [path] { OutputFile file{path}; }; };
+  expect_failure(open("/no/such/a"),
+                 "/no/such/a: cannot be opened for writing: No such file or directory", ENOENT);
+  expect_failure(open(folder), folder + ": cannot be opened for writing: Is a directory", EISDIR);
+  expect_failure(open(in("new/")), in("new/") + ": cannot be opened for writing: Is a directory",
+                 EISDIR);
+  std::ofstream(in("file")) << "";
+  expect_failure(open(in("file/a")),
+                 in("file/a") + ": cannot be opened for writing: Not a directory", ENOTDIR);
+}
+
+TEST_F(OutputFileTest, AReadOnlyFileIsNotReplaced) {
+  std::ofstream(in("a")) << "old";
+  ASSERT_EQ(::chmod(in("a").c_str(), 0444), 0);
+  ASSERT_EQ(::chmod(folder.c_str(), 0777), 0);
+  constexpr uid_t kNobody = 65534;
+  const uid_t before = ::geteuid();
+  if (before == 0) ASSERT_EQ(::seteuid(kNobody), 0);  // root may write everything
+  expect_failure([&] { OutputFile file{in("a")}; },
+                 in("a") + ": cannot be opened for writing: Permission denied", EACCES);
+  ASSERT_EQ(::seteuid(before), 0);
+}
+
+TEST_F(OutputFileTest, APlaceThatIsTakenMeanwhileIsNoticed) {
+  OutputFile file{in("a")};
+  fs::create_directories(in("a"));
+  expect_failure([&] { file.commit(); }, in("a") + ": cannot be put in its place: Is a directory",
+                 EISDIR);
+}
+
+TEST_F(OutputFileTest, AFullDeviceIsNoticed) {
+  const std::string message = "/dev/full: cannot be written to its end: No space left on device";
+  expect_failure(
+      [] {
+        OutputFile file{"/dev/full"};
+        file.stream() << "short";
+        file.commit();
+      },
+      message, ENOSPC);
+  expect_failure(
+      [] {
+        OutputFile file{"/dev/full"};
+        file.stream() << "a whole line\n";  // goes out at once
+      },
+      message, ENOSPC);
+}
+
+TEST_F(OutputFileTest, AFullDiskIsNoticedAndNothingIsLeft) {
+  const test::SmallDisk disk{in("disk"), 64};
+  if (!disk.mounted()) GTEST_SKIP() << disk.why();
+  for (const char *name : {"a", "a.gz"}) {
+    const std::string path = disk.file(name);
+    expect_failure(
+        [&] {
+          OutputFile file{path};
+          std::uint32_t noise = 1;  // does not get smaller
+          for (int i = 0; i < 1'000'000; ++i)
+            file.stream() << (noise = noise * 1664525 + 1013904223);
+          file.commit();
+        },
+        path + ": cannot be written to its end: No space left on device", ENOSPC);
+    EXPECT_EQ(disk.files(), 0U) << name;
+  }
+}
+
+// The last bytes are written by commit() alone.
+TEST_F(OutputFileTest, ADiskThatIsFullAtTheEndIsNoticed) {
+  const test::SmallDisk disk{in("disk"), 64};
+  if (!disk.mounted()) GTEST_SKIP() << disk.why();
+  std::ofstream(disk.file("filler")) << std::string(64 << 10, 'x');
+  expect_failure(
+      [&] {
+        OutputFile file{disk.file("a")};
+        file.stream() << "text";
+        file.commit();
+      },
+      disk.file("a") + ": cannot be written to its end: No space left on device", ENOSPC);
+  EXPECT_EQ(disk.files(), 1U);
+}
+
+TEST_F(OutputFileTest, APipeIsWrittenToDirectly) {
+  ASSERT_EQ(::mkfifo(in("pipe").c_str(), 0600), 0);
+  std::string seen;
+  std::thread reader{[&] { seen = slurp(in("pipe")); }};
+  write("pipe", "through the pipe\n");
+  reader.join();
+  EXPECT_EQ(seen, "through the pipe\n");
+  EXPECT_TRUE(fs::is_fifo(in("pipe")));
+}
+
+TEST_F(OutputFileTest, MinusIsTheStandardOutput) {
+  for (const char *name : {"-", "/dev/stdout"}) {
+    ::testing::internal::CaptureStdout();
+    {
+      OutputFile file{name};
+      file.stream() << "text\n";
+      file.commit();
+    }
+    EXPECT_EQ(::testing::internal::GetCapturedStdout(), "text\n");
+  }
+}
+
+}  // namespace
