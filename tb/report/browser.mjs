@@ -8,6 +8,7 @@ import assert from 'node:assert/strict';
 import {existsSync, mkdirSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {join} from 'node:path';
+import {after, before} from 'node:test';
 import {pathToFileURL} from 'node:url';
 import {pack, writeReport} from './writer.mjs';
 
@@ -45,6 +46,16 @@ export function writeScene(name, {meta, columns}, change = (packed) => packed) {
   const path = join(outDir, `${name}.html`);
   writeReport(template, path, change(pack(meta, columns)));
   return path;
+}
+
+/** A browser for all tests of a file, and the report of a scene for them: its path. */
+export function reportFor(name, scene) {
+  before(async () => {
+    await openBrowser();
+    writeScene(name, scene);
+  });
+  after(closeBrowser);
+  return join(outDir, `${name}.html`);
 }
 
 const pages = new Map(); // by their size and colours; a new one costs more than a test

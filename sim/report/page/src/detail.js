@@ -6,6 +6,7 @@ import {el, swatch} from './dom.js';
 import {F, bitTitle, errorKinds, fieldColor, fieldName, fieldText, kErrorTexts} from './fields.js';
 import {formatTime, hex, milliseconds} from './format.js';
 import {placeOf} from './events_tab.js';
+import {faultDetails} from './faults_tab.js';
 import {kEventKinds, nodeCell} from './frames_tab.js';
 import {kNobody} from './report.js';
 
@@ -143,7 +144,24 @@ function frameDetails(report, index, actions) {
   ];
 }
 
-function eventDetails(report, index) {
+/** Faults that acted during the attempt, up to the error: each a button that goes there. */
+function faultsAt(report, event, actions) {
+  const from = report.segments.start[event.segment] ?? event.start - 30 * report.bitNs;
+  const first = new Map();
+  for (const {fault, hit} of report.faults.in(from, event.start + 2 * report.bitNs))
+    first.set(fault, hit);
+  if (first.size === 0) return null;
+  const buttons = [...first].map(([fault, hit]) =>
+    el(
+      'button',
+      {type: 'button', class: 'link', onclick: () => actions.fault(fault, hit)},
+      report.faults.list[fault].name,
+    ),
+  );
+  return ['faults before it', el('span', {class: 'list'}, buttons)];
+}
+
+function eventDetails(report, index, actions) {
   const event = report.event(index);
   const texts = kErrorTexts.filter((_, bit) => event.error & (1 << bit));
   const lanes = report.lanesOf(event.segment);
@@ -176,6 +194,7 @@ function eventDetails(report, index) {
       ['where', placeOf(report, event)],
       ['at', formatTime(event.start, 1)],
       ['over at', formatTime(event.end, 1)],
+      faultsAt(report, event, actions),
     ]),
     ...lanes.flatMap((lane) => [
       el('h4', {}, lanes.length > 1 ? `as ${lane.node.name} sees it` : 'bits'),
@@ -251,8 +270,9 @@ export function detailPanel(report, view, actions) {
     const {selection} = view;
     const kinds = {
       frame: () => frameDetails(report, selection.index, actions),
-      event: () => eventDetails(report, selection.index),
+      event: () => eventDetails(report, selection.index, actions),
       loss: () => lossDetails(report, selection.index),
+      fault: () => faultDetails(report, selection, actions),
       bit: () => bitDetails(report, selection),
       segment: () => [el('h3', {}, 'Activity without a frame')],
     };

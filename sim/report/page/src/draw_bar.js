@@ -20,14 +20,18 @@ export function drawRuler(p, scale) {
   const step = niceStep(scale.to - scale.from, scale.plot / 110);
   const first = Math.ceil(scale.from / step);
   const last = Math.floor(scale.to / step);
+  let free = 0;
   p.rect(0, 0, p.width, kRuler, 'raised');
   for (let n = first; n <= last; ++n) {
     const x = scale.x(n * step);
     p.line(x, kRuler - 5, x, p.height, 'grid');
-    p.text(n === 0 ? '0' : formatTime(n * step, step / 2), x + 3, kRuler / 2, {
-      size: 11,
-      color: 'dim',
-    });
+    const text = n === 0 ? '0' : formatTime(n * step, step / 2);
+    const wide = p.measure(text, 11);
+    const at = Math.min(x + 3, p.width - wide - 2); // the last one whole, beside its line
+    if (at < free) continue;
+    p.text(text, at, kRuler / 2, {size: 11, color: 'dim'});
+    p.note('label', {text, x0: at, x1: at + wide});
+    free = at + wide + 6;
   }
   p.note('ruler', {step, first, last});
 }

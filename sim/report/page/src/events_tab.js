@@ -47,7 +47,7 @@ function columnsOf(report) {
   const segment = (row) => (loss(row) ? losses.segment[index(row)] : events.segment[index(row)]);
   return [
     {
-      name: 'time ms',
+      name: 'time, ms',
       title: 'Start of the bit that showed it',
       width: '104px',
       numeric: true,

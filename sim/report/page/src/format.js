@@ -34,10 +34,6 @@ export function formatRate(bitrate) {
   return `${bitrate} bit/s`;
 }
 
-export function formatFrequency(hertz) {
-  return hertz >= 1e6 ? `${+(hertz / 1e6).toFixed(3)} MHz` : `${+(hertz / 1e3).toFixed(3)} kHz`;
-}
-
 export const formatCount = (n) => String(n).replace(/\B(?=(\d{3})+$)/g, ' ');
 export const percent = (x, digits = 1) => `${(100 * x).toFixed(digits)} %`;
 export const hex = (value, digits) => value.toString(16).toUpperCase().padStart(digits, '0');

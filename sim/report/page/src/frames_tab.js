@@ -65,7 +65,7 @@ function columnsOf(report) {
   const number = (array) => (row) => (isEvent(row) ? NaN : array[index(row)]);
   return [
     {
-      name: 'time ms',
+      name: 'time, ms',
       title: 'Start of the frame, milliseconds from the start',
       width: '104px',
       numeric: true,
@@ -121,9 +121,9 @@ function columnsOf(report) {
       key: (row) => values(row).message,
     },
     {
-      name: 'response',
+      name: 'response, ms',
       title: 'Milliseconds from the event that queued the frame to its end',
-      width: '84px',
+      width: '104px',
       numeric: true,
       mono: true,
       text: (row) => (isEvent(row) ? '' : milliseconds(frames.response[index(row)])),

@@ -5,7 +5,8 @@
 
 function selectionText(selection) {
   if (!selection) return '';
-  const {kind, index, segment, lane, bit} = selection;
+  const {kind, index, hit, segment, lane, bit} = selection;
+  if (kind === 'fault') return `fault.${index}.${hit}`;
   return kind === 'bit' ? `bit.${segment}.${lane}.${bit}` : `${kind}.${index}`;
 }
 
@@ -14,6 +15,7 @@ function selectionOf(text) {
   const [a, b, c] = numbers.map(Number);
   if (numbers.length === 0 || [a, b, c].some((n) => n !== undefined && !(n >= 0))) return null;
   if (kind === 'bit') return {kind, segment: a, lane: b, bit: c};
+  if (kind === 'fault') return {kind, index: a, hit: b ?? 0};
   return ['frame', 'event', 'loss', 'segment'].includes(kind) ? {kind, index: a} : null;
 }
 

@@ -80,6 +80,19 @@ export class Steps {
     this.view.goTo(frames.start[index], frames.end[index], 0.08);
   }
 
+  /** A moment of a fault; without a number the next one, or the first if it is not selected. */
+  showFault(index, hit = null) {
+    const {faults} = this.report;
+    const {selection} = this.view;
+    const same = selection?.kind === 'fault' && selection.index === index;
+    const count = faults.list[index].times.length;
+    const next = hit ?? (same && count > 0 ? (selection.hit + 1) % count : 0);
+    this.view.select({kind: 'fault', index, hit: next});
+    const span = faults.span(index, next);
+    const room = 40 * this.report.bitNs;
+    if (span) this.view.goTo(span[0] - room, span[1] + room, 0.1);
+  }
+
   showLoss(index) {
     const {losses, segments} = this.report;
     this.view.select({kind: 'loss', index});

@@ -11,6 +11,7 @@ import {checksTab, nodesTab} from './plain_tabs.js';
 import {CountersTab} from './counters_tab.js';
 import {el} from './dom.js';
 import {EventsTab} from './events_tab.js';
+import {FaultsTab} from './faults_tab.js';
 import {FramesTab} from './frames_tab.js';
 import {goToStatement, header} from './header.js';
 import {helpDialog, legend, toolbar} from './toolbar.js';
@@ -62,6 +63,19 @@ function sayer(host) {
 
 const partsOf = ({root, plot}) => ({root, plot});
 
+/** The tab of the faults, if the scenario has any. */
+function faultsEntry(report, view, steps) {
+  if (report.faults.count === 0) return [];
+  return [
+    {
+      id: 'faults',
+      name: `Faults (${report.faults.count})`,
+      title: 'Disturbances of the scenario, and when they took effect',
+      root: new FaultsTab(report, view, steps).root,
+    },
+  ];
+}
+
 function tabsOf(report, view, steps, frames) {
   return new Tabs([
     {id: 'frames', name: 'Frames', title: 'All frames and errors; searchable', root: frames.root},
@@ -71,6 +85,7 @@ function tabsOf(report, view, steps, frames) {
       title: 'Errors, overloads and lost arbitrations',
       root: new EventsTab(report, view, steps).root,
     },
+    ...faultsEntry(report, view, steps),
     {
       id: 'counters',
       name: 'Error counters',
@@ -116,6 +131,8 @@ function validSelection(report, selection) {
     segment: report.segments.count,
   };
   if (!selection) return null;
+  if (selection.kind === 'fault')
+    return report.faults.span(selection.index, selection.hit) ? selection : null;
   if (selection.kind === 'bit') {
     const lane = report.lane(selection.segment, selection.lane);
     return lane && selection.bit < lane.count ? selection : null;
@@ -137,6 +154,7 @@ function build(report, app) {
       frames.input.focus();
     },
     tab: (id) => tabs.show(id),
+    fault: (index, hit) => steps.showFault(index, hit),
   };
   const tabs = tabsOf(report, view, steps, frames);
   const scopeHost = el('section', {class: 'scope', 'aria-label': 'Oscilloscope'});

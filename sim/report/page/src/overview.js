@@ -53,7 +53,12 @@ export class Overview {
     for (let x = kGutter; x < width; x += kColumn) {
       const from = this.time(x);
       const to = this.time(x + kColumn);
-      list.push({x, load: this.report.loadIn(from, to), errors: this.report.eventsIn(from, to)});
+      list.push({
+        x,
+        load: this.report.loadIn(from, to),
+        errors: this.report.eventsIn(from, to),
+        fault: this.report.faults.any(from, to),
+      });
     }
     this.columns = {width, list};
     return this.columns;
@@ -63,10 +68,14 @@ export class Overview {
     this.width = this.root.clientWidth;
     const p = this.painter;
     p.begin(this.width, kHeight, colors());
-    for (const {x, load, errors} of this.#columnsOf(this.width).list) {
+    for (const {x, load, errors, fault} of this.#columnsOf(this.width).list) {
       if (load > 0)
         p.rect(x, kHeight - load * (kHeight - 10), kColumn, load * (kHeight - 10), 'load');
       if (errors > 0) p.rect(x, 0, kColumn, 7, 'f-error');
+      if (fault) {
+        p.rect(x, kHeight - 6, kColumn, 6, 'fault');
+        p.note('fault', {x});
+      }
     }
     p.text('whole run', 10, kHeight / 2, {size: 11, color: 'dim'});
     const a = this.x(this.view.from);

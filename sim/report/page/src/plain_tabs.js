@@ -3,21 +3,21 @@
 //
 // Plain tables: the nodes with their settings and counts, and what was checked.
 import {el, swatch} from './dom.js';
-import {formatCount, formatFrequency, percent} from './format.js';
+import {formatCount} from './format.js';
 import {nodeColor} from './theme.js';
 
 const kNodeColumns = [
   ['node', 'Name in the scenario', (n, i) => [swatch(nodeColor(i)), n.name]],
-  ['clock', 'Frequency of its oscillator', (n) => formatFrequency(n.clock_hz)],
-  ['ppm', 'Error of the oscillator, millionths', (n) => n.error_ppm],
+  ['clock, MHz', 'Frequency of its oscillator', (n) => +(n.clock_hz / 1e6).toFixed(6)],
+  ['error, ppm', 'Error of the oscillator, millionths', (n) => n.error_ppm],
   [
-    'quanta',
+    'bit, quanta',
     'Time quanta a bit: SYNC + PROP + PS1 + PS2',
     (n) => `${n.quanta} (1+${n.prop}+${n.ps1}+${n.ps2})`,
   ],
-  ['tq ns', 'Time quantum, error of the clock included', (n) => +n.tq_ns.toFixed(3)],
-  ['SJW', 'Largest correction of a resynchronisation, quanta', (n) => n.sjw],
-  ['sample point', 'Place in the bit where its level is read', (n) => percent(n.sample_point)],
+  ['quantum, ns', 'Time quantum, error of the clock included', (n) => +n.tq_ns.toFixed(3)],
+  ['SJW, quanta', 'Largest correction of a resynchronisation, quanta', (n) => n.sjw],
+  ['sample point, %', 'Place in the bit where its level is read', (n) => (100 * n.sample_point).toFixed(1)],
   ['sent', 'Frames sent', (n) => formatCount(n.sent)],
   ['received', 'Frames received', (n) => formatCount(n.received)],
   ['retries', 'Attempts that failed', (n) => n.retries],

@@ -7,6 +7,8 @@ import {formatTime} from './format.js';
 import {kGutter} from './scale.js';
 import {colors} from './theme.js';
 
+const kLabelRoom = 40; // at the right, so that the last label of the time axis is whole
+
 /** Options that all plots share. */
 function base(plot, extra) {
   const theme = colors();
@@ -21,7 +23,7 @@ function base(plot, extra) {
   return {
     width: 600,
     height: 200,
-    padding: [8, 0, 0, 0],
+    padding: [8, kLabelRoom, 0, 0],
     legend: {show: false},
     cursor: {y: false, drag: {x: true, y: false, setScale: false}, points: {show: false}},
     select: {show: true},

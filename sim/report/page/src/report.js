@@ -4,6 +4,7 @@
 // Report: the data of the page, with searches over it. Names and units: docs/report-format.md.
 import {Counters} from './counters.js';
 import {EdgeTrack} from './edges.js';
+import {Faults} from './faults.js';
 import {Lane} from './lane.js';
 import {LoadError} from './load.js';
 import {lastAtOrBelow} from './search.js';
@@ -82,6 +83,10 @@ export class Report {
     this.laneRows.count = this.laneRows.start.length;
     this.bits = arrays.bit ?? new Uint8Array(0);
     this.quanta = arrays['bit.q'] ?? new Int8Array(0);
+    this.faults = new Faults(
+      meta.faults ?? [],
+      this.nodes.map(({name}) => name),
+    );
     this.#tracks(arrays);
     this.#sums();
     this.lanes = new Map();

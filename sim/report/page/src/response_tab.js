@@ -136,7 +136,8 @@ export class ResponseTab {
 
   #table() {
     const {messages} = this.report.meta;
-    const head = ['message', 'id', 'count', 'min', 'mean', 'max', 'bound', 'retries', 'lost'];
+    const times = ['min, ms', 'mean, ms', 'max, ms', 'bound, ms'];
+    const head = ['message', 'id', 'count', ...times, 'retries', 'lost'];
     const titles = [
       'Name in the scenario',
       'Identifier, hexadecimal',

@@ -4,8 +4,10 @@
 // Scope: two pictures over one time scale. Above, ruler, decoded bar and bus, always in sight;
 // below, one lane for each node, which scroll if there are many.
 import {drawBar, drawRuler, kBarEnd, kRows} from './draw_bar.js';
+import {drawFaultRow, drawFaultShade, kFaultRow} from './draw_faults.js';
 import {drawBus, drawNode} from './draw_traces.js';
 import {el} from './dom.js';
+import {LaneHint} from './lane_hint.js';
 import {Painter} from './painter.js';
 import {Scale, kGutter} from './scale.js';
 import {colors} from './theme.js';
@@ -24,7 +26,9 @@ export class Scope {
     });
     this.lanes = el('canvas', {class: 'scope-lanes'});
     this.scroll = el('div', {class: 'lanes'}, this.lanes);
-    root.append(this.top, this.scroll);
+    this.hint = new LaneHint(this.scroll);
+    const host = el('div', {class: 'lanes-host'}, this.scroll, this.hint.above, this.hint.below);
+    root.append(this.top, host);
     this.topPainter = new Painter(this.top);
     this.lanesPainter = new Painter(this.lanes);
     this.hover = null;
@@ -48,12 +52,20 @@ export class Scope {
   /** Room that the lanes leave goes to the bus. */
   get busHeight() {
     const lanes = kLane.usual * this.report.nodes.length;
-    const room = this.root.clientHeight - kBarEnd - lanes - 2;
+    const room = this.root.clientHeight - kBarEnd - this.faultRow - lanes - 2;
     return Math.min(Math.max(room, kBus.least), kBus.most);
   }
 
+  /** Height of the upper picture: the bar, the bus, and the faults if there are any. */
+  get topHeight() {
+    return kBarEnd + this.busHeight + this.faultRow;
+  }
+  get faultRow() {
+    return this.report.faults.count > 0 ? kFaultRow : 0;
+  }
+
   get laneHeight() {
-    const room = this.root.clientHeight - kBarEnd - this.busHeight - 2;
+    const room = this.root.clientHeight - this.topHeight - 2;
     const each = Math.floor(room / Math.max(this.report.nodes.length, 1));
     return Math.min(Math.max(each, kLane.least), kLane.most);
   }
@@ -66,7 +78,7 @@ export class Scope {
     const begin = performance.now();
     const theme = colors();
     const scale = this.scale();
-    this.topPainter.begin(scale.width, kBarEnd + this.busHeight, theme);
+    this.topPainter.begin(scale.width, this.topHeight, theme);
     this.#drawTop(this.topPainter, scale);
     const height = this.laneHeight;
     const nodes = this.report.nodes.length;
@@ -76,6 +88,7 @@ export class Scope {
     }
     this.#overlay(this.topPainter, scale);
     this.#overlay(this.lanesPainter, scale);
+    this.hint.update(height);
     this.#measure(performance.now() - begin, scale);
   }
 
@@ -95,6 +108,8 @@ export class Scope {
     p.clip(scale.left, 0, scale.plot, p.height, () => {
       drawBar(p, scale);
       drawBus(p, scale, kBarEnd, bus);
+      drawFaultShade(p, scale, -1, kBarEnd, bus);
+      if (this.faultRow) drawFaultRow(p, scale, kBarEnd + bus);
     });
     const note = {size: 11, color: 'dim'};
     p.text(scale.mode === 'columns' ? 'bus load' : 'frames', 10, kRows.frame[0] + 10, note);
@@ -103,6 +118,7 @@ export class Scope {
       p.text('bits', 10, kRows.bits[0] + 9, note);
     if (scale.mode === 'quanta') p.text('time quanta', 10, kRows.quanta[0] + 7, note);
     p.text('bus', 10, kBarEnd + bus / 2, {size: 13, bold: true});
+    if (this.faultRow) p.text('faults', 10, kBarEnd + bus + kFaultRow / 2, note);
     p.text('CAN_H', scale.left - 8, kBarEnd + 14, {size: 10, color: 'dim', align: 'right'});
     p.text('CAN_L', scale.left - 8, kBarEnd + bus - 14, {size: 10, color: 'dim', align: 'right'});
     if (scale.report.meta.detail_end_ns !== undefined) this.#drawEnd(p, scale);
@@ -125,7 +141,10 @@ export class Scope {
 
   #drawLane(p, scale, node, y, h) {
     p.line(0, y, p.width, y, 'grid');
-    p.clip(scale.left, y, scale.plot, h, () => drawNode(p, scale, node, y, h));
+    p.clip(scale.left, y, scale.plot, h, () => {
+      drawNode(p, scale, node, y, h);
+      drawFaultShade(p, scale, node, y, h);
+    });
     p.rect(0, y + 4, 4, h - 8, `n-${node % 16}`);
     const name = this.report.nodes[node].name;
     const at = this.hover ? scale.time(this.hover.x) : this.view.to;

@@ -16,6 +16,8 @@ const kNames = [
   'alarm',
   'passive',
   'off',
+  'fault',
+  'onfault',
   'onfield',
   'stuff',
   'onstrong',

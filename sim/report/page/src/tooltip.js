@@ -35,6 +35,20 @@ function laneLines(place, report) {
   return lines;
 }
 
+/** Faults under the pointer; a short one also where it is drawn wider than it is. */
+function faultLines(place, report, scale) {
+  const reach = 3 / scale.pxPerNs;
+  const seen = new Set();
+  for (const {fault, from, to} of report.faults.in(place.time - reach, place.time + reach)) {
+    if (from <= place.time && (to >= place.time || place.time - from <= reach)) seen.add(fault);
+  }
+  return [...seen].map((index) => {
+    const {name, text, hits} = report.faults.list[index];
+    const cause = text && text !== name ? `: ${text}` : '';
+    return ['fault', `fault ${name}${cause} (took effect ${hits} times)`];
+  });
+}
+
 function driverLine(place, report, scale) {
   if (scale.pxPerBit < 0.5) return [];
   const names = report.driversAt(place.time).map((node) => report.nodeName(node));
@@ -60,6 +74,7 @@ export function attachTooltip(scope, host) {
       const {cause} = report.event(i);
       lines.push(['alarm', `${cause.text} (${cause.rule})`]);
     }
+    lines.push(...faultLines(place, report, scale));
     if (scale.fine) lines.push(...laneLines(place, report));
     lines.push(...driverLine(place, report, scale));
     box.replaceChildren(...lines.map(([style, text]) => el('div', {class: style}, text)));

@@ -97,6 +97,7 @@ export class View extends EventTarget {
     if (kind === 'frame') return [report.frames.start[index], report.frames.end[index]];
     if (kind === 'event') return [report.events.start[index], report.events.end[index]];
     if (kind === 'segment') return [report.segments.start[index], report.segments.end[index]];
+    if (kind === 'fault') return report.faults.span(index, selection.hit);
     if (kind === 'loss') {
       const time = report.losses.time[index];
       return [time - report.bitNs / 2, time + report.bitNs / 2];
@@ -106,7 +107,7 @@ export class View extends EventTarget {
     return [lane.starts[selection.bit], lane.starts[selection.bit + 1]];
   }
 
-  /** @param selection {kind: 'frame'|'event'|'loss'|'bit', ...} or null */
+  /** @param selection {kind: 'frame'|'event'|'loss'|'fault'|'bit', ...} or null */
   select(selection, origin = '') {
     this.selection = selection;
     const event = new Event('select');

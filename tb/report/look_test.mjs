@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How the page looks: units, whole labels, lanes that scroll, colours that all people tell apart.
+import assert from 'node:assert/strict';
+import {test} from 'node:test';
+import * as browser from './browser.mjs';
+import {distance, lab, visions} from './colour.mjs';
+import {Scene} from './scene.mjs';
+import {smallScene} from './scenes.mjs';
+
+const {closeReport, cssColor, inspect, itemsOf, openReport, screenshot, setView, writeScene} =
+  browser;
+
+const small = smallScene();
+const {log, bit} = small.scene;
+const file = browser.reportFor('look', small);
+
+test('the distance of colours is CIEDE2000: pairs of Sharma, Wu and Dalal', () => {
+  const pairs = [
+    [[50, 2.6772, -79.7751], [50, 0, -82.7485], 2.0425],
+    [[50, 2.5, 0], [73, 25, -18], 27.1492],
+    [[60.2574, -34.0099, 36.2677], [60.4626, -34.1751, 39.4387], 1.2644],
+    [[6.7747, -0.2908, -2.4247], [5.8714, -0.0985, -2.2286], 0.6377],
+    [[2.0776, 0.0795, -1.135], [0.9033, -0.0636, -0.5514], 0.9082],
+  ];
+  for (const [a, b, wanted] of pairs) assert.ok(Math.abs(distance(a, b) - wanted) < 5e-5);
+});
+
+for (const dark of [false, true]) {
+  test(`errors are apart from every node for all eyes, ${dark ? 'dark' : 'light'}`, async () => {
+    const page = await openReport(file, {dark});
+    const nodes = [];
+    for (let i = 0; i < 16; ++i) nodes.push(await cssColor(page, `n-${i}`));
+    for (const name of ['f-error', 'alarm']) {
+      const error = await cssColor(page, name);
+      for (const vision of visions) {
+        nodes.forEach((node, i) => {
+          const apart = distance(lab(error, vision), lab(node, vision));
+          assert.ok(apart >= 15, `${name} and n-${i}, ${vision}: ${apart.toFixed(1)}, 15 needed`);
+        });
+      }
+    }
+    await closeReport(page);
+  });
+}
+
+test('what has a unit says it: headings of tables and axes', async () => {
+  const page = await openReport(file);
+  const heads = async (panel, selector) => {
+    await page.click(`#tab-${panel}`);
+    return page.$$eval(`#panel-${panel} ${selector}`, (cells) => cells.map((c) => c.textContent));
+  };
+  const frames = await heads('frames', '.head .cell');
+  assert.ok(frames.includes('time, ms') && frames.includes('response, ms'), frames.join('|'));
+  assert.ok((await heads('events', '.head .cell')).includes('time, ms'));
+  const response = await heads('response', 'th');
+  for (const name of ['min, ms', 'mean, ms', 'max, ms', 'bound, ms'])
+    assert.ok(response.includes(name), response.join('|'));
+  const nodes = await heads('nodes', 'th');
+  for (const name of ['clock, MHz', 'error, ppm', 'quantum, ns', 'sample point, %'])
+    assert.ok(nodes.includes(name), nodes.join('|'));
+  const labels = await page.evaluate(() =>
+    ['load', 'response'].map((id) => {
+      const {plot} = window.verican.tabs.entries.find((entry) => entry.id === id);
+      return plot.parts.options(plot).label;
+    }),
+  );
+  assert.deepEqual(labels, ['bus load, %', 'response time, ms']);
+  await closeReport(page);
+});
+
+test('every label of the ruler is whole, wherever the view ends', async () => {
+  const late = new Scene(['a', 'b']);
+  late.frame(0, {id: 1, dlc: 0}, {gap: 1.9e6}); // after seconds: long labels
+  const page = await openReport(writeScene('look-late', late.finish()));
+  const {time} = late.log[0];
+  for (let i = 0; i < 40; ++i) {
+    await setView(page, time + i * 0.37 * bit, time + (i * 0.37 + 3 + 9 * i) * bit);
+    const picture = await inspect(page);
+    const labels = itemsOf(picture, 'label');
+    assert.ok(labels.length > 2, `${labels.length} labels`);
+    labels.forEach(({text, x0, x1}, n) => {
+      assert.ok(x1 <= picture.width - 1, `${text} ends at ${x1} of ${picture.width}`);
+      assert.ok(n === 0 || x0 > labels[n - 1].x1, `${text} stands on the label before`);
+    });
+  }
+  await closeReport(page);
+});
+
+test('the last label of a plot over time is whole', async () => {
+  const page = await openReport(file);
+  await page.click('#tab-load');
+  const room = await page
+    .waitForFunction(() => {
+      const u = window.verican.tabs.entries.find((e) => e.id === 'load').plot.plot;
+      return u && u.root.clientWidth - u.over.offsetLeft - u.over.offsetWidth;
+    })
+    .then((handle) => handle.jsonValue());
+  assert.ok(room >= 36, `${room} px beside the plot; half of "12345.678 ms" needs 36`);
+  await closeReport(page);
+});
+
+test('lanes say that there are more of them, on both sides', async () => {
+  const names = Array.from({length: 24}, (_, i) => `node ${i}`);
+  const scene = new Scene(names, {title: 'Many nodes'});
+  scene.frame(3, {id: 0x111, dlc: 1, data: [1]});
+  const page = await openReport(writeScene('look-many', scene.finish()));
+  const below = '.lane-hint.below:visible';
+  const above = '.lane-hint.above:visible';
+  await page.waitForSelector(below);
+  const shown = await page.evaluate(() => {
+    const {scroll, laneHeight} = window.verican.scope;
+    return scroll.clientHeight / laneHeight;
+  });
+  const text = await page.textContent(below);
+  const hidden = Number(text.match(/^▾ (\d+) more nodes$/)?.[1]);
+  assert.ok(Math.abs(hidden - (24 - shown)) < 1, `${text}, ${shown} of 24 in sight`);
+  assert.equal(await page.$(above), null);
+  await screenshot(page, 'look-lanes');
+  await page.click(below);
+  await page.waitForSelector(above);
+  await page.evaluate(() => window.verican.scope.scroll.scrollTo(0, 1e6));
+  await page.waitForSelector(below, {state: 'hidden'});
+  await closeReport(page);
+  const few = await openReport(file);
+  assert.equal(await few.$(below), null, 'three nodes fit');
+  await closeReport(few);
+});
