@@ -10,6 +10,7 @@
 
 #include "cli/cli.hpp"
 #include "firmware/firmware_run.hpp"
+#include "scenario/stop_request.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -63,6 +64,7 @@ const char *end_text(BoardReport::End end) {
   switch (end) {
     case BoardReport::End::kExit: return "exit";
     case BoardReport::End::kFault: return "fault";
+    case BoardReport::End::kInterrupted: return "interrupted";
     default: return "limit";
   }
 }
@@ -91,6 +93,8 @@ void complain(const FirmwareReport &report) {
                  b.exit_code, time_text(b.time));
     if (b.end == BoardReport::End::kFault)
       fmt::print(stderr, "verican: stopped by a fault after {}\n{}", time_text(b.time), b.state);
+    if (b.end == BoardReport::End::kInterrupted)
+      fmt::print(stderr, "verican: interrupted after {}\n{}", time_text(b.time), b.state);
     if (b.end == BoardReport::End::kLimit && !report.endless)
       fmt::print(stderr, "verican: no end within the limit of {} (--time, --endless)\n{}",
                  time_text(b.time), b.state);
@@ -124,6 +128,7 @@ FirmwareSetup make_setup(const Options &options) {
 }
 
 int run(const Options &options) {
+  const StopSignals signals;
   const FirmwareSetup setup = make_setup(options);
   FirmwareReport report;
   {
@@ -142,7 +147,7 @@ int run(const Options &options) {
     for (const RunReport &bus : report.buses) fmt::print("\n{}", to_text(bus));
   std::fflush(stdout);
   complain(report);
-  return exit_code_of(report);
+  return exit_code_after(exit_code_of(report));
 }
 
 void add_bus_options(CLI::App &command, Options &options) {

@@ -11,6 +11,7 @@
 #include <cstdlib>
 
 #include "scenario/quantity.hpp"
+#include "scenario/stop_request.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::cli {
@@ -41,6 +42,11 @@ Time time_option(const std::string &option, const std::string &text) {
 }
 
 void print_json(const Json &json) { fmt::print("{}\n", json.dump(2)); }
+
+int exit_code_after(int code) {
+  constexpr int kSignal = 128;
+  return stop_requested() ? kSignal + stop_signal() : code;
+}
 
 Progress::Progress(std::string title)
     : title_{std::move(title)}, terminal_{isatty(STDERR_FILENO) != 0} {}

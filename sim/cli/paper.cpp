@@ -8,6 +8,7 @@
 
 #include "cli/cli.hpp"
 #include "scenario/paper.hpp"
+#include "scenario/stop_request.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -36,9 +37,10 @@ Json to_json(const PaperExperiment &experiment) {
 std::string in_brackets(const std::string &file) { return file.empty() ? "" : "  (" + file + ")"; }
 
 int run(const Options &options) {
+  const StopSignals signals;
   const auto experiments = run_paper(
       {options.no_waves ? "" : options.folder, options.fst ? ".fst" : ".vcd", options.pages});
-  bool ok = true;
+  bool ok = !stop_requested();
   Json list = Json::array();
   if (!options.json)
     fmt::print(
@@ -57,10 +59,12 @@ int run(const Options &options) {
     }
   }
   if (options.json)
-    print_json({{"ok", ok}, {"experiments", list}});
+    print_json({{"ok", ok}, {"interrupted", stop_requested()}, {"experiments", list}});
   else
-    fmt::print("\n{}\n", ok ? "All as the paper reports." : "Not all is as the paper reports.");
-  return ok ? kOk : kFailed;
+    fmt::print("\n{}\n", stop_requested() ? "Interrupted; these are not all experiments."
+                         : ok             ? "All as the paper reports."
+                                          : "Not all is as the paper reports.");
+  return exit_code_after(ok ? kOk : kFailed);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "cli/cli.hpp"
 #include "scenario/replay.hpp"
+#include "scenario/stop_request.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -38,6 +39,7 @@ Json to_json(const ReplayReport &report) {
           {"wall_seconds", report.wall_seconds},
           {"node_cycles", report.node_cycles},
           {"nodes", nodes},
+          {"interrupted", report.interrupted},
           {"ok", report.ok()}};
 }
 
@@ -57,12 +59,15 @@ void print(const Options &options, const ReplayReport &report) {
     fmt::print("  {:<8} {:>8} {:>9} {:>9} {:>9} {:>8}  {}\n", n.name, n.sent, n.expected,
                n.received, n.counts.lost_arbitration, n.counts.errors,
                n.complete ? "yes" : "NO: " + n.first_difference);
+  if (report.interrupted)
+    fmt::print("  interrupted; what had not come by then is not counted as missing\n");
   fmt::print("  {:.1f} million node-cycles in {:.2f} s: {:.1f} million a second\n",
              static_cast<double>(report.node_cycles) / 1e6, report.wall_seconds,
              static_cast<double>(report.node_cycles) / 1e6 / std::max(report.wall_seconds, 1e-9));
 }
 
 int run(const Options &options) {
+  const StopSignals signals;
   const CanLog log = read_log(options.log);
   ReplayReport report;
   {
@@ -73,7 +78,7 @@ int run(const Options &options) {
     print_json(to_json(report));
   else
     print(options, report);
-  return report.ok() ? kOk : kFailed;
+  return exit_code_after(report.ok() ? kOk : kFailed);
 }
 
 }  // namespace

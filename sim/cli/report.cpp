@@ -10,6 +10,7 @@
 #include "cli/cli.hpp"
 #include "scenario/replay.hpp"
 #include "scenario/runner.hpp"
+#include "scenario/stop_request.hpp"
 #include "scenario/wave_report.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
@@ -30,6 +31,8 @@ bool has_ending(const std::string &path, std::initializer_list<const char *> end
                      [&](const char *ending) { return path.ends_with(ending); });
 }
 
+const char *interrupted_text(bool interrupted) { return interrupted ? "; interrupted" : ""; }
+
 int report_scenario(const Options &options) {
   Scenario scenario = read_scenario(options.input);
   if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
@@ -44,6 +47,7 @@ int report_scenario(const Options &options) {
     }
     ok = ok && report.ok();
     fmt::print("{}\n{}\n\n", to_text(report), scenario.outputs.report);
+    if (stop_requested()) break;
   }
   return ok ? kOk : kFailed;
 }
@@ -61,9 +65,10 @@ int report_recorded_wave(const Options &options) {
   }
   fmt::print(
       "signal {}, {:.0f} bit/s: {} frames, {} without ACK, {} error frames, {} overload "
-      "frames in {}\n{}\n",
+      "frames in {}{}\n{}\n",
       wave.signal, wave.bitrate, report.frames, report.unacknowledged, report.error_frames,
-      report.overload_frames, time_text(wave.end), options.outputs.report);
+      report.overload_frames, time_text(wave.end), interrupted_text(report.interrupted),
+      options.outputs.report);
   return kOk;
 }
 
@@ -77,26 +82,28 @@ int report_log(const Options &options) {
     Progress progress{"report"};
     report = replay(log, replay_options, [&](double part) { progress.show(part); });
   }
-  fmt::print("{}: {} frames at {:.0f} bit/s through {} nodes, {} error frames\n{}\n", options.input,
-             report.on_bus, replay_options.bitrate, report.nodes.size(), report.error_frames,
-             options.outputs.report);
+  fmt::print("{}: {} frames at {:.0f} bit/s through {} nodes, {} error frames{}\n{}\n",
+             options.input, report.on_bus, replay_options.bitrate, report.nodes.size(),
+             report.error_frames, interrupted_text(report.interrupted), options.outputs.report);
   return report.ok() ? kOk : kFailed;
 }
 
 int report(Options &options) {
+  const StopSignals signals;
   if (options.outputs.report.empty()) {
     const std::size_t slash = options.input.rfind('/');
     const std::size_t dot = options.input.rfind('.');
     const bool ending = dot != std::string::npos && (slash == std::string::npos || dot > slash);
     options.outputs.report = options.input.substr(0, ending ? dot : std::string::npos) + ".html";
   }
-  if (has_ending(options.input, {".yaml", ".yml"})) return report_scenario(options);
-  if (has_ending(options.input, {".vcd"})) return report_recorded_wave(options);
+  if (has_ending(options.input, {".yaml", ".yml"}))
+    return exit_code_after(report_scenario(options));
+  if (has_ending(options.input, {".vcd"})) return exit_code_after(report_recorded_wave(options));
   if (has_ending(options.input, {".fst"}))
     throw InputError(options.input, 0,
                      "FST cannot be read; allowed: a scenario (.yaml), a waveform (.vcd), a log of "
                      "frames");
-  return report_log(options);
+  return exit_code_after(report_log(options));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "cli/cli.hpp"
 #include "scenario/runner.hpp"
+#include "scenario/stop_request.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::cli {
@@ -28,6 +29,7 @@ void override_with(Scenario &scenario, const Options &options) {
 }
 
 int run(const Options &options) {
+  const StopSignals signals;
   Scenario scenario = read_scenario(options.scenario);
   override_with(scenario, options);
   const Outputs outputs = scenario.outputs;
@@ -46,9 +48,10 @@ int run(const Options &options) {
       list.push_back(to_json(report));
     else
       fmt::print("{}\n", to_text(report));
+    if (stop_requested()) break;
   }
   if (options.json) print_json({{"ok", ok}, {"runs", list}});
-  return ok ? kOk : kFailed;
+  return exit_code_after(ok ? kOk : kFailed);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "scenario/simulation.hpp"
+#include "scenario/stop_request.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::firmware {
@@ -45,7 +46,8 @@ class Run {
   std::vector<std::unique_ptr<Board>> boards_;
   std::vector<std::string> printed_;
   std::vector<Time> ended_;
-  Time start_ = 0, limit_ = 0;
+  Time start_ = 0, limit_ = 0, stopped_ = 0;
+  bool interrupted_ = false;
 };
 
 Run::Run(const FirmwareSetup &setup,
@@ -132,7 +134,7 @@ bool Run::all_ended() const {
 void Run::run(const std::function<void(double)> &progress) {
   constexpr Time kPart = kMillisecond;
   Time shown = start_;
-  while (!all_ended()) {
+  while (!all_ended() && !stop_requested()) {
     const Time next = next_edge();
     if (next > limit_) break;
     clock_boards(next);
@@ -165,9 +167,10 @@ BoardReport Run::describe(std::size_t index) const {
   report.instructions = board.cpu().instructions();
   report.output = printed_[index];
   report.state = board.report();
-  report.time = board.ended() ? ended_[index] : limit_ - start_;
+  report.time = board.ended() ? ended_[index] : (interrupted_ ? stopped_ : limit_) - start_;
   report.end = board.exit_code()      ? BoardReport::End::kExit
                : board.cpu().halted() ? BoardReport::End::kFault
+               : interrupted_         ? BoardReport::End::kInterrupted
                                       : BoardReport::End::kLimit;
   report.exit_code = board.exit_code().value_or(0);
   return report;
@@ -177,11 +180,13 @@ FirmwareReport Run::execute(const std::function<void(double)> &progress) {
   const auto begin = std::chrono::steady_clock::now();
   start();
   run(progress);
+  interrupted_ = stop_requested();
+  stopped_ = buses_.front()->bus().now();
   FirmwareReport report;
   report.endless = setup_.endless;
   for (const auto &bus : buses_) {
     bus->drain();
-    report.buses.push_back(bus->finish());
+    report.buses.push_back(bus->finish(interrupted_));
     report.buses.back().wall_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }

@@ -30,7 +30,7 @@ struct FirmwareSetup {
 
 /// How a board has ended.
 struct BoardReport {
-  enum class End { kExit, kFault, kLimit };
+  enum class End { kExit, kFault, kLimit, kInterrupted };
   std::string node;
   std::string file;
   End end = End::kLimit;
@@ -54,7 +54,8 @@ struct FirmwareReport {
 /// one is added.
 [[nodiscard]] std::string firmware_node(std::size_t index);
 
-/// Runs until every board has ended, or the limit. `output(board, text)` gets what a board prints
+/// Runs until every board has ended, the limit, or until the user wants the end
+/// (stop_request.hpp). `output(board, text)` gets what a board prints
 /// as it is printed; `progress` (0..1) may be empty. Throws InputError if set-up and scenario do
 /// not fit together.
 [[nodiscard]] FirmwareReport run_firmware(

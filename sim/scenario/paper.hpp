@@ -43,8 +43,9 @@ struct PaperOutputs {
 };
 
 /// Runs all experiments at 50 kbit/s, 10 quanta of 2 us a bit (PROP 5, PS1 2, PS2 2, sample point
-/// 80 %) and writes a waveform and a page of each; folders are created. Throws InputError if a file
-/// cannot be written.
+/// 80 %) and writes a waveform and a page of each; folders are created. When
+/// the user wants the end (stop_request.hpp), those that are done are all. Throws InputError if a
+/// file cannot be written.
 [[nodiscard]] std::vector<PaperExperiment> run_paper(const PaperOutputs &outputs);
 
 }  // namespace vericansim

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "scenario/paper_bench.hpp"
+#include "scenario/stop_request.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim {
@@ -172,10 +174,16 @@ std::vector<PaperExperiment> run_paper(const PaperOutputs &outputs) {
     return PaperFiles{file(outputs.wave_folder, name + outputs.suffix),
                       file(outputs.page_folder, name + ".html")};
   };
-  return {
-      paper_reception(files("fig11-reception")), paper_transmission(files("fig12-transmission")),
-      paper_arbitration(files("fig13-arbitration")),
-      paper_missing_ack(files("fig14-16-missing-ack")), paper_bus_off(files("fig17-18-bus-off"))};
+  constexpr std::pair<PaperExperiment (*)(const PaperFiles &), const char *> kAll[] = {
+      {paper_reception, "fig11-reception"},
+      {paper_transmission, "fig12-transmission"},
+      {paper_arbitration, "fig13-arbitration"},
+      {paper_missing_ack, "fig14-16-missing-ack"},
+      {paper_bus_off, "fig17-18-bus-off"}};
+  std::vector<PaperExperiment> done;
+  for (const auto &[experiment, name] : kAll)
+    if (!stop_requested()) done.push_back(experiment(files(name)));
+  return done;
 }
 
 }  // namespace vericansim

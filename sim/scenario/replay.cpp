@@ -14,6 +14,7 @@
 #include "scenario/bittime.hpp"
 #include "scenario/bus_outputs.hpp"
 #include "scenario/station.hpp"
+#include "scenario/stop_request.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim {
@@ -42,6 +43,7 @@ class Replay {
   std::unique_ptr<BusMonitor> monitor_;
   std::unique_ptr<BusOutputs> outputs_;
   std::size_t on_bus_ = 0;
+  bool interrupted_ = false;
   Bus bus_;
   Time start_ = 0;
 };
@@ -122,7 +124,7 @@ void Replay::run(const std::function<void(double)> &progress) {
   const Time last = options_.fast || count_ == 0 ? 0 : log_.entries[count_ - 1].time;
   std::uint64_t before = 0;
   Time silence = 0;
-  while (sent() < count_ && silence < kPatience * bit_time_) {
+  while (sent() < count_ && silence < kPatience * bit_time_ && !stop_requested()) {
     bus_.run_for(50 * bit_time_);
     stations_.check();
     silence = sent() != before || stations_.pending() == 0 ? 0 : silence + 50 * bit_time_;
@@ -130,6 +132,7 @@ void Replay::run(const std::function<void(double)> &progress) {
     if (progress) progress(static_cast<double>(before) / static_cast<double>(count_));
     if (stations_.pending() == 0 && bus_.now() > start_ + last + 1000 * bit_time_) break;
   }
+  interrupted_ = stop_requested();
   bus_.run_for(20 * bit_time_);
   stations_.check();
   monitor_->advance(bus_.now());
@@ -162,7 +165,8 @@ ReplayNode Replay::judge(NodeId node) const {
           fmt::format("received frame {}: {}", i + 1, candump_frame(received[i]));
     ++next[sender];
   }
-  for (NodeId sender = 0; sender < options_.senders && result.first_difference.empty(); ++sender)
+  for (NodeId sender = 0;
+       sender < options_.senders && result.first_difference.empty() && !interrupted_; ++sender)
     if (next[sender] != wanted[sender].size())
       result.first_difference = fmt::format("frame {} of node{} has not come: {}", next[sender] + 1,
                                             sender, candump_frame(wanted[sender][next[sender]]));
@@ -173,6 +177,7 @@ ReplayNode Replay::judge(NodeId node) const {
 ReplayReport Replay::collect() {
   ReplayReport report;
   report.frames = count_;
+  report.interrupted = interrupted_;
   report.on_bus = on_bus_;
   report.error_frames = monitor_->error_frames();
   report.skipped = log_.skipped;
@@ -206,7 +211,7 @@ ReplayReport Replay::execute(const std::function<void(double)> &progress) {
 }  // namespace
 
 bool ReplayReport::ok() const {
-  return on_bus == frames && error_frames == 0 &&
+  return !interrupted && on_bus == frames && error_frames == 0 &&
          std::all_of(nodes.begin(), nodes.end(), [](const ReplayNode &n) { return n.complete; });
 }
 

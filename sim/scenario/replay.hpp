@@ -50,11 +50,13 @@ struct ReplayReport {
   double load = 0;
   double wall_seconds = 0;
   std::uint64_t node_cycles = 0;
+  bool interrupted = false;  ///< the user has ended it; what had not come by then is not missing
   std::vector<ReplayNode> nodes;
   [[nodiscard]] bool ok() const;
 };
 
-/// Simulates. Throws InputError if no bit timing fits or an output cannot be written.
+/// Simulates, or ends early when the user wants it (stop_request.hpp). Throws InputError if no bit
+/// timing fits or an output cannot be written.
 [[nodiscard]] ReplayReport replay(const CanLog &log, const ReplayOptions &options,
                                   const std::function<void(double)> &progress = {});
 

@@ -99,7 +99,8 @@ std::string NodeReport::state() const {
 }
 
 bool RunReport::ok() const {
-  return std::all_of(checks.begin(), checks.end(), [](const CheckResult &c) { return c.ok; });
+  return !interrupted &&
+         std::all_of(checks.begin(), checks.end(), [](const CheckResult &c) { return c.ok; });
 }
 
 std::string to_text(const RunReport &report) {
@@ -117,6 +118,7 @@ std::string to_text(const RunReport &report) {
   text += "\n\n";
   if (!report.messages.empty()) text += messages_text(report) + "\n";
   text += nodes_text(report) + "\n";
+  if (report.interrupted) text += "  interrupted; expectations were not checked\n";
   for (const CheckResult &check : report.checks)
     fmt::format_to(out, "  {}  {}: {} (expected {})\n", check.ok ? "ok  " : "FAIL", check.what,
                    check.seen, check.wanted);
@@ -147,6 +149,7 @@ Json to_json(const RunReport &report) {
           {"messages", messages},
           {"nodes", nodes},
           {"checks", checks},
+          {"interrupted", report.interrupted},
           {"ok", report.ok()}};
 }
 

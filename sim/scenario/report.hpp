@@ -66,7 +66,9 @@ struct RunReport {
   std::vector<MessageReport> messages;
   std::vector<NodeReport> nodes;
   std::vector<CheckResult> checks;
+  bool interrupted = false;  ///< the user has ended it before its time; nothing was checked then
   std::optional<JudgeCounts> judged;  ///< with `judge: lockstep`
+  /// Not interrupted, and all checks are well.
   [[nodiscard]] bool ok() const;
 };
 

@@ -11,10 +11,10 @@
 
 namespace vericansim {
 
-/// Simulates `scenario` at one of its bit rates and checks its expectations. `progress` (0..1) may
-/// be empty. Times of the scenario count from the moment when all nodes are on the bus. Throws
-/// InputError if a node cannot have the bit rate or an output cannot be written; std::runtime_error
-/// if the software of a node fails.
+/// Simulates `scenario` at one of its bit rates and checks its expectations, or ends early when the
+/// user wants it (stop_request.hpp). `progress` (0..1) may be empty. Times of the scenario count
+/// from the moment when all nodes are on the bus. Throws InputError if a node cannot have the bit
+/// rate or an output cannot be written; std::runtime_error if the software of a node fails.
 [[nodiscard]] RunReport run_scenario(const Scenario &scenario, double bitrate,
                                      const std::function<void(double)> &progress = {});
 

@@ -10,6 +10,7 @@
 #include "scenario/analysis.hpp"
 #include "scenario/expectations.hpp"
 #include "scenario/runner.hpp"
+#include "scenario/stop_request.hpp"
 
 namespace vericansim {
 
@@ -172,7 +173,7 @@ bool Simulation::quiet() const {
 
 void Simulation::drain() {
   const Time limit = bus_.now() + scenario_.drain;
-  while (bus_.now() < limit && stations_.pending() != 0)
+  while (bus_.now() < limit && stations_.pending() != 0 && !stop_requested())
     bus_.run_until(std::min(limit, bus_.now() + 20 * bit_time_));
   bus_.run_for(16 * bit_time_);
   stations_.check();
@@ -205,8 +206,9 @@ void Simulation::add_bounds(RunReport &report) const {
   report.analytic_load = worst_case_load(set, bit_time_);
 }
 
-RunReport Simulation::collect() {
+RunReport Simulation::collect(bool interrupted) {
   RunReport report;
+  report.interrupted = interrupted;
   report.name = scenario_.name;
   report.bitrate = bitrate_;
   report.duration = bus_.now() - start_;
@@ -229,6 +231,11 @@ RunReport Simulation::collect() {
   }
   report.node_cycles = stations_.cycles();
   if (scenario_.analysis || scenario_.expect.within_bound) add_bounds(report);
+  if (!interrupted) check_all(report);
+  return report;
+}
+
+void Simulation::check_all(RunReport &report) {
   std::vector<std::vector<Frame>> received;
   for (NodeId id = 0; id < stations_.size(); ++id) received.push_back(stations_[id].received);
   if (!stations_.stores_remote())
@@ -237,7 +244,6 @@ RunReport Simulation::collect() {
   for (const auto &script : scripts_)
     for (const CheckResult &failure : script->failures()) report.checks.push_back(failure);
   if (judge_) add_judgement(report);
-  return report;
 }
 
 void Simulation::join() { stations_.join(bus_, bit_time_); }
@@ -252,10 +258,10 @@ void Simulation::start(Time when) {
   start_accesses();
 }
 
-RunReport Simulation::finish() {
+RunReport Simulation::finish(bool interrupted) {
   if (judge_) judge_->finish(bus_.now());
   outputs_->finish(bus_.now());
-  RunReport report = collect();
+  RunReport report = collect(interrupted);
   outputs_->write_report(report_extras(report));
   return report;
 }

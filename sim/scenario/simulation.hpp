@@ -42,8 +42,9 @@ class Simulation {
   [[nodiscard]] bool quiet() const;
   /// On an idle bus: lets the monitor see the bus up to now, so that the last frame is told.
   void settle() { monitor_->advance(bus_.now()); }
-  /// Ends the waveforms and says what happened since start().
-  [[nodiscard]] RunReport finish();
+  /// Ends the waveforms and says what happened since start(). `interrupted`: before its time, so
+  /// that its expectations are not judged.
+  [[nodiscard]] RunReport finish(bool interrupted = false);
   /// Rethrows what went wrong in the software of a node.
   void check() { stations_.check(); }
 
@@ -73,7 +74,8 @@ class Simulation {
   [[nodiscard]] ReportSetup report_setup() const;
   [[nodiscard]] ReportExtras report_extras(const RunReport &report) const;
   void on_sent(NodeId node, const Frame &frame);
-  RunReport collect();
+  RunReport collect(bool interrupted);
+  void check_all(RunReport &report);
   void add_bounds(RunReport &report) const;
 
   const Scenario &scenario_;

@@ -13,6 +13,7 @@
 #include "bus/faults.hpp"
 #include "node/host.hpp"
 #include "scenario/bus_outputs.hpp"
+#include "scenario/stop_request.hpp"
 
 namespace vericansim {
 namespace {
@@ -87,20 +88,23 @@ void Player::next(std::size_t change) {
 }
 
 WaveReport Player::play(const std::function<void(double)> &progress) {
-  constexpr Time kSteps = 100, kRest = 24;  // bits: what ends a last frame may be cut off
+  constexpr Time kPart = 1'000, kRest = 24;  // bits: what ends a last frame may be cut off
   start_ = bus_.now();
   outputs_->begin();
   if (!wave_.changes.empty()) bus_.at(start_ + wave_.changes.front().first, [this] { next(0); });
-  for (Time step = 1; step <= kSteps; ++step) {
-    bus_.run_until(start_ + wave_.end / kSteps * step + wave_.end % kSteps * step / kSteps);
+  const Time end = start_ + wave_.end;
+  while (bus_.now() < end && !stop_requested()) {
+    bus_.run_until(std::min(end, bus_.now() + kPart * bit_time_));
     host_->check();
-    if (progress) progress(static_cast<double>(step) / kSteps);
+    if (progress)
+      progress(static_cast<double>(bus_.now() - start_) / static_cast<double>(wave_.end));
   }
+  const bool interrupted = bus_.now() < end;
   bus_.run_for(kRest * bit_time_);
   monitor_->advance(bus_.now());
   outputs_->finish(bus_.now());
   outputs_->write_report();
-  return {monitor_->frames(), monitor_->unacknowledged(), monitor_->error_frames(),
+  return {monitor_->frames(), interrupted, monitor_->unacknowledged(), monitor_->error_frames(),
           monitor_->overload_frames()};
 }
 

@@ -15,6 +15,7 @@ namespace vericansim {
 /// What a listener has heard.
 struct WaveReport {
   std::uint64_t frames = 0;  ///< acknowledged
+  bool interrupted = false;  ///< the user has ended it before the end of the recording
   std::uint64_t unacknowledged = 0, error_frames = 0, overload_frames = 0;
 };
 

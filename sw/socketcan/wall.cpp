@@ -7,7 +7,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -19,22 +18,14 @@
 namespace vericansim {
 namespace {
 
-constexpr std::array kSignals{SIGINT, SIGTERM, SIGUSR1};
-
 // What a signal handler may touch; a pipe wakes poll() without a race.
-volatile std::sig_atomic_t stop_wanted = 0;
 volatile std::sig_atomic_t restart_wanted = 0;
 int wake_pipe[2] = {-1, -1};
-std::array<struct sigaction, kSignals.size()> before;
+struct sigaction before;
 
-void handle(int signal) {
+void handle_restart(int) {
   const int kept = errno;
-  if (signal == SIGUSR1) {
-    restart_wanted = 1;
-  } else {
-    if (stop_wanted != 0) ::_exit(128 + signal);
-    stop_wanted = 1;
-  }
+  restart_wanted = 1;
   const char byte = 0;
   [[maybe_unused]] const auto ignored = ::write(wake_pipe[1], &byte, 1);
   errno = kept;
@@ -46,15 +37,16 @@ HostWall::HostWall() {
   if (wake_pipe[0] >= 0) throw std::logic_error("one HostWall at a time");
   if (::pipe2(wake_pipe, O_CLOEXEC | O_NONBLOCK) != 0)
     throw std::runtime_error(std::string{"no pipe for signals: "} + std::strerror(errno));
-  stop_wanted = 0;
+  wake_on_stop(wake_pipe[1]);
   restart_wanted = 0;
   struct sigaction action {};
-  action.sa_handler = handle;
-  for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &action, &before[i]);
+  action.sa_handler = handle_restart;
+  ::sigaction(SIGUSR1, &action, &before);
 }
 
 HostWall::~HostWall() {
-  for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &before[i], nullptr);
+  ::sigaction(SIGUSR1, &before, nullptr);
+  wake_on_stop(-1);
   for (int &fd : wake_pipe) {
     ::close(fd);
     fd = -1;
@@ -84,7 +76,7 @@ void HostWall::wait(std::vector<pollfd> &set, std::optional<WallTime> timeout) {
   set.pop_back();
 }
 
-bool HostWall::stop_requested() { return stop_wanted != 0; }
+bool HostWall::stop_requested() { return vericansim::stop_requested(); }
 
 bool HostWall::restart_requested() {
   const bool wanted = restart_wanted != 0;

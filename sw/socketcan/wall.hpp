@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pacer.hpp"
+#include "scenario/stop_request.hpp"
 
 namespace vericansim {
 
@@ -27,9 +28,8 @@ class Wall {
   [[nodiscard]] virtual bool restart_requested() { return false; }
 };
 
-/// The steady clock, poll(), and signals: SIGINT and SIGTERM ask for the end, a second one ends the
-/// process at once with 128 + its number; SIGUSR1 restarts bus-off nodes. One at a time; the
-/// destructor puts back what the signals did before.
+/// The steady clock, poll(), and signals: SIGINT and SIGTERM ask for the end (StopSignals), SIGUSR1
+/// restarts bus-off nodes. One at a time; the destructor puts back what the signals did before.
 class HostWall : public Wall {
  public:
   HostWall();
@@ -40,6 +40,9 @@ class HostWall : public Wall {
   void wait(std::vector<pollfd> &set, std::optional<WallTime> timeout) override;
   [[nodiscard]] bool stop_requested() override;
   [[nodiscard]] bool restart_requested() override;
+
+ private:
+  StopSignals signals_;
 };
 
 }  // namespace vericansim

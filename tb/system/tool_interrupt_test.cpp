@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// SIGINT and SIGTERM end long work cleanly: whole outputs, the summary so far, 128 + the signal.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sys/stat.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "system/running_tool.hpp"
+#include "trace/log.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace tb;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+/// A folder of the test's own.
+class ToolInterrupt : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+  [[nodiscard]] std::string in(const std::string &name) const { return folder + "/" + name; }
+
+  [[nodiscard]] std::string file_with(const std::string &name, const std::string &text) const {
+    std::ofstream{in(name)} << text;
+    return in(name);
+  }
+  /// Two nodes and a frame every millisecond for a day.
+  [[nodiscard]] std::string long_scenario() const {
+    return file_with("long.yaml",
+                     "bitrate: 500k\nduration: 90000 s\nnodes:\n  - name: a\n  - name: b\n"
+                     "traffic:\n  - {node: a, id: 0x123, data: counter, dlc: 2, period: 1 ms}\n"
+                     "expect: {frames: 7}\n");
+  }
+  /// As much, recorded.
+  [[nodiscard]] std::string long_log() const {
+    std::string text;
+    for (int i = 0; i < 100'000; ++i)
+      text += "(" + std::to_string(1'000'000'000 + i) + ".000000) can0 123#1122\n";
+    return file_with("long.log", text);
+  }
+  /// The tool has opened its outputs, and begins to simulate.
+  [[nodiscard]] bool writes(std::size_t inputs) const {
+    const fs::directory_iterator all{folder};
+    return static_cast<std::size_t>(std::distance(begin(all), end(all))) > inputs;
+  }
+  [[nodiscard]] std::uintmax_t bytes() const {
+    std::uintmax_t sum = 0;
+    for (const auto &file : fs::directory_iterator{folder}) {
+      std::error_code gone;  // renamed meanwhile
+      const std::uintmax_t size = file.file_size(gone);
+      if (!gone) sum += size;
+    }
+    return sum;
+  }
+  /// Runs the tool, ends it by `signal` once it writes beside its `inputs` files.
+  [[nodiscard]] ToolResult interrupt(const std::vector<std::string> &arguments, int signal,
+                                     std::size_t inputs = 1) const {
+    RunningTool tool{arguments};
+    if (!tool.wait_until([&] { return writes(inputs); })) ADD_FAILURE() << "ended by itself";
+    tool.signal(signal);
+    return tool.wait();
+  }
+
+  std::string folder = temporary(".d");
+};
+
+TEST_F(ToolInterrupt, ARunEndsWithWholeOutputs) {
+  RunningTool tool{{"run", long_scenario(), "--json", "--candump", in("bus.log"), "--pcap",
+                    in("bus.pcap"), "--vcd", in("bus.vcd"), "--report", in("bus.html")}};
+  ASSERT_TRUE(tool.wait_until([&] { return bytes() > 500'000; }));  // some frames in the waveform
+  tool.signal(SIGINT);
+  const ToolResult result = tool.wait();
+  EXPECT_EQ(result.code, 130) << result.error;
+  const Json json = Json::parse(result.out);
+  EXPECT_FALSE(json["ok"].get<bool>());
+  const Json &run = json["runs"][0];
+  EXPECT_TRUE(run["interrupted"].get<bool>());
+  EXPECT_TRUE(run["checks"].empty());  // what a run of its whole length must show
+  const auto frames = run["frames"].get<std::size_t>();
+  EXPECT_EQ(vericansim::read_log(in("bus.log")).entries.size(), frames);
+  EXPECT_EQ(vericansim::read_log(in("bus.pcap")).entries.size(), frames);
+  EXPECT_THAT(slurp(in("bus.html")), EndsWith("</html>\n"));
+  const ToolResult decoded = run_tool("decode " + in("bus.vcd") + " --bitrate 500k --json");
+  EXPECT_EQ(Json::parse(decoded.out)["frames"], frames);
+}
+
+TEST_F(ToolInterrupt, ARunSaysSoInItsText) {
+  const ToolResult result =
+      interrupt({"run", long_scenario(), "--candump", in("bus.log")}, SIGTERM);
+  EXPECT_EQ(result.code, 143) << result.error;
+  EXPECT_THAT(result.out, HasSubstr("interrupted; expectations were not checked"));
+  EXPECT_THAT(result.out, Not(HasSubstr("FAIL")));
+}
+
+// The runs that would have followed are left out.
+TEST_F(ToolInterrupt, NoFurtherBitRateIsBegun) {
+  std::string text = slurp(long_scenario());
+  text.replace(text.find("500k"), 4, "[500k, 250k]");
+  const ToolResult result = interrupt(
+      {"run", file_with("long.yaml", text), "--json", "--candump", in("bus.log")}, SIGINT);
+  EXPECT_EQ(result.code, 130) << result.error;
+  EXPECT_EQ(Json::parse(result.out)["runs"].size(), 1U);
+  EXPECT_TRUE(fs::exists(in("bus-500k.log")));
+  EXPECT_FALSE(fs::exists(in("bus-250k.log")));
+}
+
+TEST_F(ToolInterrupt, AReplayDoesNotMissWhatHasNotComeYet) {
+  for (const bool json : {true, false}) {
+    std::vector<std::string> arguments{"replay", long_log(), "--candump", in("bus.log")};
+    if (json) arguments.push_back("--json");
+    const ToolResult result = interrupt(arguments, SIGTERM);
+    EXPECT_EQ(result.code, 143) << result.error;
+    fs::remove(in("bus.log"));
+    if (!json) {
+      EXPECT_THAT(result.out, HasSubstr("interrupted"));
+      EXPECT_THAT(result.out, Not(HasSubstr("NO: ")));
+      continue;
+    }
+    EXPECT_TRUE(Json::parse(result.out)["interrupted"].get<bool>());
+    EXPECT_FALSE(Json::parse(result.out)["ok"].get<bool>());
+  }
+}
+
+TEST_F(ToolInterrupt, PagesAreWhole) {
+  std::string wave = "$timescale 1 us $end\n$var wire 1 ! can $end\n$enddefinitions $end\n";
+  for (int i = 0; i < 400'000; ++i)
+    wave += "#" + std::to_string(1000 * i) + "\n" + std::to_string(i % 2) + "!\n";
+  const std::string recorded = file_with("wave.vcd", wave);
+  const std::string inputs[] = {long_scenario(), long_log(), recorded};
+  for (const std::string &input : inputs) {
+    const ToolResult result =
+        interrupt({"report", input, "-o", in("page.html"), "--bitrate", "500k"}, SIGINT, 3);
+    EXPECT_EQ(result.code, 130) << result.error;
+    EXPECT_THAT(result.out, HasSubstr("interrupted")) << input;
+    EXPECT_THAT(slurp(in("page.html")), EndsWith("</html>\n"));
+    fs::remove(in("page.html"));
+  }
+}
+
+TEST_F(ToolInterrupt, FirmwareIsToldWhereItWas) {
+  const std::string bus = file_with(
+      "bus.yaml", "bitrate: 500k\nduration: 90000 s\nnodes:\n  - {name: firmware, clock: 8 MHz}\n");
+  const ToolResult result = interrupt(
+      {"firmware", example_elf("pong"), "--bus", bus, "--json", "--candump", in("bus.log")},
+      SIGINT);
+  EXPECT_EQ(result.code, 130) << result.error;
+  const Json json = Json::parse(result.out);
+  EXPECT_EQ(json["boards"][0]["end"], "interrupted");
+  EXPECT_TRUE(json["buses"][0]["interrupted"].get<bool>());
+  EXPECT_THAT(result.error, HasSubstr("interrupted after"));
+}
+
+TEST_F(ToolInterrupt, ThePaperStopsBehindAnExperiment) {
+  const ToolResult result = interrupt({"paper", "--json", "--out", in("waves")}, SIGINT, 0);
+  EXPECT_EQ(result.code, 130) << result.error;
+  const Json json = Json::parse(result.out);
+  EXPECT_TRUE(json["interrupted"].get<bool>());
+  EXPECT_FALSE(json["ok"].get<bool>());
+  EXPECT_LT(json["experiments"].size(), 5U);
+  for (const Json &experiment : json["experiments"])
+    EXPECT_TRUE(fs::exists(experiment["wave"].get<std::string>()));
+}
+
+// What hangs can be ended: here the page's name is a pipe that nobody reads.
+TEST_F(ToolInterrupt, TheSecondSignalEndsAtOnce) {
+  const std::string scenario = long_scenario();
+  ASSERT_EQ(::mkfifo(in("pipe").c_str(), 0600), 0);
+  RunningTool tool{{"run", scenario, "--candump", in("bus.log"), "--report", in("pipe")}};
+  ASSERT_TRUE(tool.wait_until([&] { return writes(2); }));
+  tool.signal(SIGINT);
+  tool.signal(SIGTERM);
+  const int code = tool.wait().code;
+  EXPECT_TRUE(code == 143 || code == 130) << code;  // two that come together may swap
+}
+
+}  // namespace
