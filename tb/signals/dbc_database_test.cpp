@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// DBC files: what is read, how frames find their message, what is refused. Expected values are what
+// the file says, by the rules of the format.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "signals/dbc_fixture.hpp"
+#include "trace/input_error.hpp"
+
+namespace vericansim {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const Signal &signal(const std::string &message_name, const std::string &name) {
+  return *message(message_name).find(name);
+}
+
+TEST(DbcDatabase, HoldsTheSignalsOfTheFile) {
+  EXPECT_EQ(features().messages().size(), 12U);
+  const Signal &torque = signal("EngineData", "Torque");
+  EXPECT_EQ(torque.start, 16U);
+  EXPECT_EQ(torque.length, 12U);
+  EXPECT_TRUE(torque.little_endian);
+  EXPECT_TRUE(torque.is_signed);
+  EXPECT_EQ(torque.factor, 0.5);
+  EXPECT_EQ(torque.offset, -100);
+  EXPECT_EQ(torque.minimum, -1000);
+  EXPECT_EQ(torque.maximum, 923.5);
+  EXPECT_EQ(torque.unit, "Nm");
+  EXPECT_EQ(torque.start_value, 200);
+  EXPECT_EQ(signal("Motorola", "Temperature").start, 0U);
+  EXPECT_FALSE(signal("Motorola", "Temperature").little_endian);
+  EXPECT_EQ(signal("EngineData", "Mode").choices.back().second, "Not \"available\"");
+  EXPECT_TRUE(signal("Floats", "Single").is_float);
+}
+
+TEST(DbcDatabase, LongNamesTakeThePlaceOfShortOnes) {
+  EXPECT_EQ(message("Double").signals[0].name, "ValueWithANameThatIsLongerThanThirtyTwoCharacters");
+}
+
+TEST(DbcDatabase, LimitsThatAreZeroAreNone) {
+  EXPECT_EQ(signal("Wide", "Count").minimum, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(signal("EngineData", "Odometer").maximum, std::numeric_limits<double>::infinity());
+}
+
+TEST(DbcDatabase, FramesFindTheMessageOfTheirIdentifier) {
+  EXPECT_EQ(features().find(256, false)->name, "EngineData");
+  EXPECT_EQ(features().find(256, true), nullptr);
+  EXPECT_EQ(features().find(0x18FEEF00, true)->name, "Floats");
+  EXPECT_EQ(features().find(0x7FF, false), nullptr);
+}
+
+// J1939-21: the parameter group is bits 8 to 25; below PDU format 240 bits 8 to 15 are the
+// destination. EEC1 is group 61444, Proprietary A 61184.
+TEST(DbcDatabase, J1939MessagesStandForTheirParameterGroup) {
+  EXPECT_EQ(parameter_group(0x0CF004FE), 61444U);
+  EXPECT_EQ(parameter_group(0x18EAFF00), 0xEA00U);
+  EXPECT_EQ(features().find(0x18F00431, true)->name, "EEC1");
+  EXPECT_EQ(features().find(0x18EF0027, true)->name, "ProprietaryA");
+  EXPECT_EQ(features().find(0x18F00531, true), nullptr);
+  EXPECT_EQ(features().find(0x0DF00431, true), nullptr) << "another data page";
+}
+
+TEST(DbcDatabase, TheExactIdentifierGoesBeforeTheGroup) {
+  EXPECT_EQ(features().find(0x0CF00400, true)->name, "FlagForgotten");
+}
+
+TEST(DbcDatabase, MessagesThatAreNotJ1939NeedTheirIdentifier) {
+  EXPECT_EQ(features().find(0x110, true)->name, "PlainExtended");
+  EXPECT_EQ(features().find(0x04000110, true), nullptr);
+}
+
+TEST(DbcDatabase, OfOneGroupTheSameSourceIsTaken) {
+  Database database;
+  database.add_text("two.dbc",
+                    "BO_ 2364540158 Any: 8 X\nBO_ 2364539929 From25: 8 X\n"
+                    "BA_DEF_ \"ProtocolType\" STRING ;\nBA_DEF_DEF_ \"ProtocolType\" \"\";\n"
+                    "BA_ \"ProtocolType\" \"J1939\";\n");
+  EXPECT_EQ(database.find(0x18F00419, true)->name, "From25");
+  EXPECT_EQ(database.find(0x18F00420, true)->name, "Any");
+}
+
+TEST(DbcDatabase, UnitsAreReadInBothEncodings) {
+  for (const char *degree : {"\xC2\xB0", "\xB0"}) {
+    Database database;
+    database.add_text("unit.dbc", "BO_ 1 A: 8 X\n SG_ S : 0|8@1+ (1,0) [0|0] \"" +
+                                      std::string(degree) + "C\" X\n");
+    EXPECT_EQ(database.messages()[0]->signals[0].unit,
+              "\xC2\xB0"
+              "C");
+  }
+}
+
+/// The message of the InputError that this text gives as file bad.dbc.
+std::string refusal(const std::string &text) {
+  try {
+    Database database;
+    database.add_text("bad.dbc", text);
+    return "read";
+  } catch (const InputError &error) {
+    return error.what();
+  }
+}
+
+const std::string kMessage = "BO_ 1 A: 8 X\n";
+
+TEST(DbcDatabase, WhatIsNoDatabaseIsRefused) {
+  EXPECT_THAT(refusal(""), HasSubstr("bad.dbc: no message in it"));
+  EXPECT_THAT(refusal("{\"json\": 1}"), HasSubstr("bad.dbc:1: unknown statement: {"));
+  EXPECT_THAT(refusal(kMessage + "\nSQ_ Speed : 0|8@1+\n"),
+              HasSubstr("bad.dbc:3: unknown statement: SQ_ Speed"));
+}
+
+TEST(DbcDatabase, BadStatementsAreRefusedWithLineAndForm) {
+  EXPECT_THAT(refusal("BO_ one A: 8 X\n"),
+              AllOf(StartsWith("bad.dbc:1: not understood: BO_ one A: 8 X"),
+                    HasSubstr("allowed: BO_ <id> <name>: <bytes> <sender>")));
+  EXPECT_THAT(refusal(kMessage + "\n SG_ S : 0|8@1+ (1) [0|0] \"\" X\n"),
+              StartsWith("bad.dbc:3: not understood: SG_ S"));
+  EXPECT_THAT(refusal(" SG_ S : 0|8@1+ (1,0) [0|0] \"\" X\n" + kMessage),
+              StartsWith("bad.dbc:1: "));
+  EXPECT_THAT(refusal(kMessage + "CM_ \"open\nBO_ 2 B: 8 X\n"),
+              HasSubstr("bad.dbc:2: a string that begins here has no end"));
+  EXPECT_THAT(refusal(kMessage + " SG_ S : 0|8@1+ (1.2.3,0) [0|0] \"\" X\n"),
+              StartsWith("bad.dbc:2: not understood"));
+}
+
+TEST(DbcDatabase, SignalsThatNoFrameCanHoldAreRefused) {
+  const auto with = [](const std::string &line) {
+    return refusal(kMessage + " SG_ " + line + "\n");
+  };
+  EXPECT_THAT(with("S : 57|8@1+ (1,0) [0|0] \"\" X"),
+              HasSubstr("bad.dbc:2: signal S does not fit the 8 bytes of message A: it needs 9"));
+  EXPECT_THAT(with("S : 56|9@0+ (1,0) [0|0] \"\" X"), HasSubstr("it needs 9"));
+  EXPECT_THAT(with("S : 0|65@1+ (1,0) [0|0] \"\" X"), HasSubstr("has 65 bits; allowed: 1 to 64"));
+  EXPECT_THAT(with("S : 0|0@1+ (1,0) [0|0] \"\" X"), HasSubstr("has 0 bits; allowed: 1 to 64"));
+  EXPECT_THAT(with("S : 0|8@1+ (0,0) [0|0] \"\" X"), HasSubstr("has the factor 0"));
+  EXPECT_THAT(with("S m1 : 0|8@1+ (1,0) [0|0] \"\" X"), HasSubstr("is multiplexed, but"));
+  EXPECT_THAT(with("S m1M : 0|8@1+ (1,0) [0|0] \"\" X"),
+              HasSubstr("needs a statement SG_MUL_VAL_"));
+  EXPECT_THAT(with("S m1M : 0|8@1+ (1,0) [0|0] \"\" X\nSG_MUL_VAL_ 1 S S 1-1;"),
+              HasSubstr("is multiplexed by itself"));
+  EXPECT_THAT(with("S : 0|16@1- (1,0) [0|0] \"\" X\nSIG_VALTYPE_ 1 S : 1;"),
+              HasSubstr("floating-point number of 16 bits; allowed: 32, 64"));
+}
+
+TEST(DbcDatabase, OneIdentifierHasOneMessage) {
+  EXPECT_THAT(refusal(kMessage + kMessage),
+              HasSubstr("bad.dbc:2: message 1 is there twice; first in "
+                        "line 1"));
+  const std::string signal = " SG_ S : 0|8@1+ (1,0) [0|0] \"\" X\n";
+  EXPECT_THAT(refusal(kMessage + signal + signal), HasSubstr("bad.dbc:3: signal S is there twice"));
+  Database database;
+  database.add_text("a.dbc", kMessage);
+  try {
+    database.add_text("b.dbc", "BO_ 1 B: 8 X\n");
+    FAIL() << "two messages for one identifier";
+  } catch (const InputError &error) {
+    EXPECT_STREQ(
+        error.what(),
+        "b.dbc: message B has the identifier 001 of A in a.dbc; allowed: one message for an "
+        "identifier");
+  }
+}
+
+// CANdb++ and others write files that are not quite what the format says; each of these has one
+// meaning only.
+TEST(DbcDatabase, HarmlessMistakesAreUnderstood) {
+  Database database;
+  database.add_text("odd.dbc",
+                    "BO_ 1 A: 8 X\n SG_ S : 0|8@1+\n (1,0) [0|0] \"\" X\n"
+                    "VAL_ 1 S 0 \"Off\" 1\n\"On\"\n"
+                    "VAL_ 1 Gone 0 \"Off\" ;\nVAL_ 99 Gone 0 \"Off\" ;\n"
+                    "BA_ \"GenSigStartValue\" SG_ 99 Gone 5;\n// end\n");
+  const Signal &read = database.messages()[0]->signals.at(0);
+  ASSERT_EQ(read.choices.size(), 2U);
+  EXPECT_EQ(read.choices[1].second, "On");
+}
+
+}  // namespace
+}  // namespace vericansim
