@@ -59,10 +59,12 @@ module can_bsp (
   logic       passive_flag, overload_frame, boff_enter, boff_end;
   logic       id_bit, ex_id_bit, data_bit;
   logic [5:0] kind;
+  logic [2:0] ones;
   logic       error, exempt, lost, overload, word_end;
 
   can_stuff u_stuff (
-    .clk_i, .rst_ni, .sample_i, .bit_i, .field_i(field_o), .stuff_o, .last_o(prev)
+    .clk_i, .rst_ni, .sample_i, .bit_i, .field_i(field_o), .stuff_o, .last_o(prev),
+    .ones_o(ones)
   );
 
   can_crc15 u_crc15 (
@@ -78,8 +80,8 @@ module can_bsp (
   );
 
   can_field u_field (
-    .clk_i, .rst_ni, .run_i, .sample_i, .bit_i, .judge_i, .stuff_i(stuff_o), .prev_i(prev), .edge_i,
-    .error_i(error), .lost_i(lost), .overload_i(overload),
+    .clk_i, .rst_ni, .run_i, .sample_i, .bit_i, .judge_i, .stuff_i(stuff_o), .prev_i(prev),
+    .ones_i(ones), .edge_i, .error_i(error), .lost_i(lost), .overload_i(overload),
     .passive_i(passive_o), .boff_i(boff_o), .boff_enter_i(boff_enter), .boff_end_i(boff_end),
     .tx_req_i(tx_req_i && !lom_i), .ide_i(rx_ide_o), .rtr_i(rx_rtr_o), .dlc_i(rx_dlc_o[2:0]),
     .lom_i, .fd_tolerant_i,

@@ -14,6 +14,7 @@ module can_field (
   input  logic            judge_i,         // first clock of a bit, see can_error
   input  logic            stuff_i,         // current bit is a stuff bit: the field stands still
   input  logic            prev_i,          // level of the bit before
+  input  logic [2:0]      ones_i,          // recessive bits up to the one before, see can_stuff
   input  logic            edge_i,          // synchronising edge
   // What can_error found in this bit
   input  logic            error_i,
@@ -115,11 +116,16 @@ module can_field (
         field_q <= !bit_i ? can_pkg::FldId : take_tx_o ? can_pkg::FldSof : can_pkg::FldIdle;
         left_q  <= bit_i ? 6'd0 : 6'd10;
       end else if (error_i || overload_i) begin
-        // Listen-only answers everything with a passive flag: six equal bits (MO-02).
-        field_q        <= (error_i || lom_i) ? can_pkg::FldErrFlag : can_pkg::FldOvlFlag;
+        field_q        <= error_i ? can_pkg::FldErrFlag : can_pkg::FldOvlFlag;
         left_q         <= 6'd5;
-        passive_flag_q <= passive_i || lom_i;
-        overload_q     <= !error_i && !lom_i;
+        passive_flag_q <= passive_i;
+        overload_q     <= !error_i;
+        // Listen-only owes nobody a flag: it integrates, and the recessive bits that it has just
+        // seen are the first of the eleven (MO-02).
+        if (lom_i) begin
+          field_q <= can_pkg::FldInteg;
+          left_q  <= bit_i ? 6'd9 - {3'd0, ones_i} : 6'd10;
+        end
       end else if (fd_frame) begin
         field_q <= can_pkg::FldInteg;
         left_q  <= 6'd10;

@@ -126,13 +126,10 @@ std::string NodeJudge::follow(Follower &follower, const NodeBit &bit) const {
   if (bit.sent_level != expected) {
     return differs("sends", static_cast<unsigned>(bit.sent_level), static_cast<unsigned>(expected));
   }
-  // A listening node may wait in other ways after an error (MO-02).
-  if (!model.config().listen_only) {
-    std::string difference = compare_place(model, bit);
-    if (!difference.empty()) return difference;
-  }
+  std::string difference = compare_place(model, bit);
+  if (!difference.empty()) return difference;
   model.sample(bit.rx);
-  std::string difference = compare_events(model, bit);
+  difference = compare_events(model, bit);
   return difference.empty() ? compare_counters(follower, bit) : difference;
 }
 

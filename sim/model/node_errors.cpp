@@ -14,14 +14,22 @@ void NodeModel::error(NodeError kind, bool exempt) {
   const bool withheld = kind == NodeError::kAck && passive;  // FC-05 exception 1
   confinement_.error(role_, exempt || withheld);
   if (sending_) end_attempt(false);
-  start_flag(Field::kErrFlag, passive || config_.listen_only);
+  if (config_.listen_only) return rejoin();
+  start_flag(Field::kErrFlag, passive);
   withheld_ack_step_ = withheld;
 }
 
 /// OV-01, OV-03: dominant from passive nodes too, but never from a listening one (EF-13).
 void NodeModel::overload() {
+  if (config_.listen_only) return rejoin();
   events_.overload = true;
-  start_flag(Field::kOvlFlag, config_.listen_only);
+  start_flag(Field::kOvlFlag, false);
+}
+
+/// MO-02: no flag, no delimiter; eleven recessive bits, those just seen among them.
+void NodeModel::rejoin() {
+  integrate();
+  recessive_run_ = recessive_bits_;
 }
 
 void NodeModel::start_flag(Field field, bool silent) {

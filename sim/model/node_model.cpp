@@ -5,6 +5,7 @@
 // 5, 7, 12).
 #include "model/node_model.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace vericansim {
@@ -14,6 +15,7 @@ void NodeModel::sample(Level bus) {
   events_ = NodeEvents{};
   events_.at = place_;
   events_.level = level;
+  recessive_bits_ = level == Level::kRecessive ? std::min(recessive_bits_ + 1, 11) : 0;
   confinement_.freeze(config_.listen_only);  // FC-22
   dispatch(level);
   if (confinement_.off() && place_.field != Field::kBusOff) enter_bus_off();

@@ -135,6 +135,7 @@ class NodeModel {
   // node_errors.cpp: flags and delimiters
   void error(NodeError kind, bool exempt = false);
   void overload();
+  void rejoin();
   void start_flag(Field field, bool silent);
   void sample_flag(Level level);
   void sample_silent_flag(Level level);
@@ -154,11 +155,12 @@ class NodeModel {
   bool sending_ = false;            ///< active_ neither succeeded nor failed yet
   bool active_is_pending_ = false;  ///< active_ is a copy of pending_, not of an older request
 
-  int recessive_run_ = 0;  ///< integration and bus-off: r in a row, 0..10
+  int recessive_bits_ = 0;  ///< r in a row up to the last sample, in any place, 0..11
+  int recessive_run_ = 0;   ///< integration and bus-off: r in a row, 0..10
   int sequences_ = 0;
   bool hold_bus_off_ = false;
 
-  bool silent_flag_ = false;        ///< passive flag, or any flag in listen-only
+  bool silent_flag_ = false;        ///< passive flag
   Level flag_level_{};              ///< last level in a silent flag
   bool withheld_ack_step_ = false;  ///< FC-05a
   bool after_error_flag_ = false;   ///< flag before kWait was an error flag (FC-04)

@@ -24,8 +24,6 @@ bool normal_mode(const CoreConfig &config) {
 
 InjectionRig::InjectionRig(const StartCounters &counters, const CoreConfig &config, RuleBins *bins)
     : bench{1, config}, judge{bench}, assertions{bench} {
-  // A listening node answers an overload condition as it does an error: the name differs (MO-02).
-  if (config.listen_only) judge.compare_places(false);
   judge.preset_counters(0, counters.tec, counters.rec);
   if (bins != nullptr && normal_mode(config)) watch(*bins);
 }

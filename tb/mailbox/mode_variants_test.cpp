@@ -68,6 +68,27 @@ TEST_F(ModeVariants, ListenOnlyFreezesTheCounters) {  // FX-2.4.a, FC-22
   EXPECT_EQ(esr() & 0x30, 0x10u) << "FX-2.4.b";
 }
 
+// MO-02, FX-ESR1.SYNCH, FX-ESR1.IDLE, FX-ESR1.RX, FX-ESR1.STF_ERR: a listener that joins anew.
+TEST_F(ModeVariants, ListenOnlyIsNotInStepAfterAnError) {
+  start({.ctrl = kTiming8 | reg::kCtrlLom});
+  ASSERT_TRUE(rig_.run_until([&] { return rig_.field(0) == Field::kIdle; }, 30 * kBit));
+  rig_.put_tx(1, 8, {.id = 0x155, .dlc = 8, .data = {0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55}});
+  rig_.put_tx(1, 9, {.id = 0x156, .dlc = 1, .data = {2}});
+  ASSERT_TRUE(rig_.run_until([&] { return rig_.field(0) == Field::kData; }, 60 * kBit));
+  const Time now = rig_.bus().now();
+  LevelFault noise{0, Effect::kRecessive, {now, now + 7 * kBit * kClock}};
+  rig_.bus().add(noise);
+  constexpr std::uint32_t kLive = 1u << 18 | 1u << 7 | 1u << 6 | 1u << 3;  // SYNCH, IDLE, TX, RX
+  constexpr std::uint32_t kStuff = 1u << 10;
+  EXPECT_EQ(esr() & (kLive | kStuff), 1u << 18 | 1u << 3);
+  rig_.run(10 * kBit);
+  EXPECT_EQ(esr() & (kLive | kStuff), kStuff);
+  ASSERT_TRUE(rig_.wait_flag(1, 8));
+  rig_.put_rx(0, 3, {.id = 0x156}, 0);
+  EXPECT_TRUE(rig_.run_until([&] { return (esr() & kLive) == (1u << 18 | 1u << 3); }, 20 * kBit));
+  EXPECT_TRUE(rig_.wait_flag(0, 3)) << "the next frame";
+}
+
 TEST_F(ModeVariants, LoopBackReceivesOwnFramesAndLeavesThePinsAlone) {  // FX-2.5.a, MO-04
   start({.mcr = kNoSrxDis, .ctrl = kTiming8 | reg::kCtrlLpb});
   const Time now = rig_.bus().now();

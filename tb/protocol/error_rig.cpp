@@ -18,8 +18,6 @@ std::string bits(std::string_view text) {
 
 ErrorRig::ErrorRig(Counters counters, const CoreConfig &config)
     : bench{1, config}, judge{bench}, assertions{bench} {
-  // A listening node answers an overload condition as it does an error: the name differs (MO-02).
-  if (config.listen_only) judge.compare_places(false);
   judge.preset_counters(0, counters.tec, counters.rec);
   judge.start();
 }

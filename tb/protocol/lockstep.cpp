@@ -78,7 +78,7 @@ void Lockstep::follow(unsigned i, const DutBit &bit) {
     mismatch(i, differs("sends", static_cast<unsigned>(bit.sent_level),
                         static_cast<unsigned>(expected)));
   }
-  if (compare_places_) compare_place(i, bit);
+  compare_place(i, bit);
   model.sample(bit.rx);
   compare_events(i, bit);
   compare_counters(i, bit);

@@ -39,8 +39,6 @@ class Lockstep {
   [[nodiscard]] const std::vector<std::string> &mismatches() const { return mismatches_; }
   /// All of them in one text, with the levels seen up to the first one; empty if there is none.
   [[nodiscard]] std::string report() const;
-  /// Also compare the names of the places (field, stuff bit); on by default.
-  void compare_places(bool on) { compare_places_ = on; }
 
  private:
   static constexpr std::size_t kMaxReports = 20;
@@ -62,7 +60,6 @@ class Lockstep {
   std::vector<Follower> followers_;
   std::vector<std::string> mismatches_;
   std::string history_;
-  bool compare_places_ = true;
 };
 
 }  // namespace vericansim

@@ -81,7 +81,6 @@ class Storm {
     bench.dut(i).configure(config);
     judge.model(i).config().listen_only = config.listen_only;
     judge.model(i).config().fd_tolerant = config.fd_tolerant;
-    judge.compare_places(!config.listen_only);
   }
 
   void request(unsigned i) {

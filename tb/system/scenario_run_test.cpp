@@ -125,6 +125,28 @@ TEST(Run, ListenOnlyNodesHearAndSaySilence) {
   EXPECT_EQ(failures(report), "");
 }
 
+// MO-02: on a bus without a pause one bit that only the listener sees wrong costs it one frame.
+TEST(Run, AListenerLosesOneFrameForOneError) {
+  constexpr const char *kFields[] = {"ID", "DATA", "CRC"};
+  std::string faults;
+  for (int n = 0; n < 20; ++n) {
+    if (n != 0) faults += ", ";
+    faults += "{kind: flip, node: ear, at: {node: a, frame: " + std::to_string(25 + 50 * n) +
+              ", field: " + kFields[n % 3] + ", bit: " + std::to_string((7 * n) % 11) +
+              ", stuff: false}}";
+  }
+  const RunReport report = run_text(
+      "duration: 260 ms\nseed: 5\n"
+      "nodes: [{name: a}, {name: b}, {name: ear, mailboxes: 16, listen_only: true}]\n"
+      "traffic: [{node: a, id: 0x2A5, dlc: 8, data: random, period: saturated, count: 1000}]\n"
+      "faults: [" +
+      faults +
+      "]\n"
+      "expect: {frames: 1000, error_frames: 0, nodes: {b: {received: 1000, errors: 0},\n"
+      "         ear: {received: 980, errors: 20}}}\n");
+  EXPECT_EQ(failures(report), "");
+}
+
 TEST(Run, RunsAreRepeatable) {
   Scenario scenario = read_scenario("examples/faults.yaml");
   scenario.duration = 20 * kMillisecond;

@@ -251,6 +251,25 @@ TEST_F(CanField, ErrorAndOverloadFrames) {
   }
 }
 
+// MO-02: listen-only integrates instead, with the recessive bits that it has just seen.
+TEST_F(CanField, ListenOnlyIntegratesAfterErrorAndOverload) {
+  field_->lom_i = 1;
+  for (const bool overload : {false, true}) {
+    for (const unsigned seen : {0U, 1U, 6U}) {
+      to_idle();
+      bit(false);
+      field_->ones_i = seen == 0 ? 3 : seen - 1;  // before this bit
+      bit(seen != 0, {.error = !overload, .overload = overload});
+      EXPECT_EQ(at(), Field::kInteg);
+      EXPECT_EQ(bits_here(), 11 - seen);
+      EXPECT_EQ(at(), Field::kIdle);
+      field_->run_i = 0;
+      field_.clock();
+      field_->run_i = 1;
+    }
+  }
+}
+
 // EF-02, EF-03, PF-48: a passive flag ends after six equal bits.
 TEST_F(CanField, PassiveFlagEndsAfterSixEqualBits) {
   to_idle();

@@ -88,6 +88,22 @@ TEST_F(CanStuff, NoStuffBitsInFixedForm) {
   }
 }
 
+// MO-02: recessive bits up to the last one, from SOF to the ACK delimiter.
+TEST_F(CanStuff, CountsRecessiveBitsToTheAckDelimiter) {
+  bit(0, Field::kIdle);
+  EXPECT_EQ(stuff_->ones_o, 0u);
+  for (unsigned n = 1; n <= 4; ++n) {
+    bit(1, Field::kCrc);
+    EXPECT_EQ(stuff_->ones_o, n);
+  }
+  bit(1, Field::kCrcDel);
+  bit(1, Field::kAck);
+  bit(1, Field::kAckDel);
+  EXPECT_EQ(stuff_->ones_o, 7u);
+  bit(0, Field::kEof);
+  EXPECT_EQ(stuff_->ones_o, 0u);
+}
+
 // CR-05, PF-58: a run that an error cut short does not reach into the next frame.
 TEST_F(CanStuff, RunOfAnAbortedFrameIsForgotten) {
   bit(0, Field::kIdle);

@@ -54,6 +54,16 @@
     end
   end
 
+  // Recessive samples in a row while the node runs, up to eleven; and it runs in listen-only.
+  logic [3:0] f_ones;
+  logic       f_listens;
+  assign f_listens = run_i && lom_i && f_silent[0];
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)       f_ones <= 4'd0;
+    else if (!run_i)   f_ones <= 4'd0;
+    else if (sample_i) f_ones <= !bit_i ? 4'd0 : f_ones == 4'd11 ? 4'd11 : f_ones + 4'd1;
+  end
+
   always @(posedge clk_i) if (rst_ni && !$initstate && $past(rst_ni)) begin
     // TH-06, ST-01: never six equal bits SOF..CRC on the own output.
     p_six_equal: assert (!(sample_i && f_frame_bit) || f_run < 3'd5 || f_level != tx_o);
@@ -93,6 +103,18 @@
         && !mismatch));
     // FC-22: listen-only moves no counter.
     p_frozen: assert (f_silent != 2'b11 || !f_moved || boff_o || $past(boff_o));
+    // MO-02: listen-only is never in a flag or a delimiter.
+    p_no_flag: assert (!f_listens || !(&field_o[4:2]));
+    // MO-02, IN-01: after eleven recessive bits it is idle, whatever went wrong before, unless a
+    // good frame that nobody acknowledged ends.
+    p_rejoin: assert (!f_listens || fd_tolerant_i || f_ones != 4'd11
+        || field_o == can_pkg::FldIdle || field_o == can_pkg::FldEof || field_o == can_pkg::FldInt
+        || field_o == can_pkg::FldBusOff);
+    // What it integrates with and what it counts in a frame are these bits.
+    l_integ_ones: assert (!f_listens || fd_tolerant_i || field_o != can_pkg::FldInteg
+        || left_o == 6'd10 - {2'd0, f_ones});
+    l_frame_ones: assert (!f_listens || field_o[4:3] == 2'b00
+        || field_o[4:2] == 3'b111 || field_o == can_pkg::FldEof || {1'b0, ones} == f_ones);
     // IF-01, IF-08, EF-01, OV-01, IN-01: no place between frames, in a flag or delimiter is longer
     // than its rule.
     p_places: assert (left_o <= (((&field_o[4:2]) && field_o[1:0] != 2'd2
