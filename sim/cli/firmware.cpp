@@ -4,11 +4,11 @@
 // verican firmware: Cortex-M3 binaries on simulated buses.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include "cli/cli.hpp"
+#include "cli/console.hpp"
 #include "firmware/firmware_run.hpp"
 #include "scenario/stop_request.hpp"
 
@@ -30,90 +30,21 @@ struct Options {
   bool json = false;
 };
 
-/// Prints what boards print; with several boards whole lines, each with the name of its board.
-class Console {
- public:
-  explicit Console(std::size_t boards) : lines_(boards) {}
-  ~Console() {
-    for (std::size_t i = 0; i < lines_.size(); ++i)
-      if (!lines_[i].empty()) print(i, "\n");
-  }
-  Console(const Console &) = delete;
-  Console &operator=(const Console &) = delete;
-
-  void print(std::size_t board, std::string_view text) {
-    if (lines_.size() == 1) {
-      std::fwrite(text.data(), 1, text.size(), stdout);
-      std::fflush(stdout);
-      return;
-    }
-    for (const char c : text) {
-      lines_[board] += c;
-      if (c != '\n') continue;
-      fmt::print("{}: {}", firmware::firmware_node(board), lines_[board]);
-      lines_[board].clear();
-    }
-    std::fflush(stdout);
-  }
-
- private:
-  std::vector<std::string> lines_;
-};
-
-const char *end_text(BoardReport::End end) {
-  switch (end) {
-    case BoardReport::End::kExit: return "exit";
-    case BoardReport::End::kFault: return "fault";
-    case BoardReport::End::kInterrupted: return "interrupted";
-    default: return "limit";
-  }
-}
-
 Json to_json(const FirmwareReport &report) {
   Json boards = Json::array(), buses = Json::array();
-  for (const BoardReport &b : report.boards)
-    boards.push_back({{"node", b.node},
-                      {"file", b.file},
-                      {"end", end_text(b.end)},
-                      {"exit_code", b.exit_code},
-                      {"time_ps", b.time},
-                      {"clocks", b.clocks},
-                      {"instructions", b.instructions},
-                      {"output", b.output},
-                      {"state", b.state}});
+  for (const BoardReport &b : report.boards) boards.push_back(firmware::to_json(b));
   for (const RunReport &bus : report.buses) buses.push_back(vericansim::to_json(bus));
   return {{"ok", report.ok()}, {"boards", boards}, {"buses", buses}};
 }
 
 /// What did not end well, on stderr.
 void complain(const FirmwareReport &report) {
-  for (const BoardReport &b : report.boards) {
-    if (b.end == BoardReport::End::kExit && b.exit_code != 0)
-      fmt::print(stderr, "verican: {} ({}) ended with exit code {} after {}\n", b.node, b.file,
-                 b.exit_code, time_text(b.time));
-    if (b.end == BoardReport::End::kFault)
-      fmt::print(stderr, "verican: stopped by a fault after {}\n{}", time_text(b.time), b.state);
-    if (b.end == BoardReport::End::kInterrupted)
-      fmt::print(stderr, "verican: interrupted after {}\n{}", time_text(b.time), b.state);
-    if (b.end == BoardReport::End::kLimit && !report.endless)
-      fmt::print(stderr, "verican: no end within the limit of {} (--time, --endless)\n{}",
-                 time_text(b.time), b.state);
-  }
+  cli::complain(report.boards);
   for (const RunReport &bus : report.buses)
     for (const CheckResult &check : bus.checks)
       if (!check.ok)
         fmt::print(stderr, "verican: {}: {}: {} (expected {})\n", bus.name, check.what, check.seen,
                    check.wanted);
-}
-
-int exit_code_of(const FirmwareReport &report) {
-  const auto any = [&](BoardReport::End end) {
-    return std::any_of(report.boards.begin(), report.boards.end(),
-                       [end](const BoardReport &b) { return b.end == end; });
-  };
-  if (any(BoardReport::End::kFault)) return kFault;
-  if (!report.endless && any(BoardReport::End::kLimit)) return kLimit;
-  return report.ok() ? kOk : kFailed;
 }
 
 FirmwareSetup make_setup(const Options &options) {
@@ -132,12 +63,12 @@ int run(const Options &options) {
   const FirmwareSetup setup = make_setup(options);
   FirmwareReport report;
   {
-    Console console{setup.images.size()};
+    Console console{setup.images.size() == 1};
     Progress progress{"firmware"};
     report = run_firmware(
         setup,
         [&](std::size_t board, std::string_view text) {
-          if (!options.json) console.print(board, text);
+          if (!options.json) console.print(firmware::firmware_node(board), text);
         },
         [&](double part) { progress.show(part); });
   }
@@ -147,7 +78,7 @@ int run(const Options &options) {
     for (const RunReport &bus : report.buses) fmt::print("\n{}", to_text(bus));
   std::fflush(stdout);
   complain(report);
-  return exit_code_after(exit_code_of(report));
+  return exit_code_after(exit_code_of(report.boards, report.ok() ? kOk : kFailed));
 }
 
 void add_bus_options(CLI::App &command, Options &options) {

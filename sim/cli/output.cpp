@@ -26,12 +26,7 @@ Json to_json(const Frame &frame) {
           {"data", data}};
 }
 
-std::string time_text(Time time) {
-  const double seconds = static_cast<double>(time) / kSecond;
-  if (std::llabs(time) >= kSecond) return fmt::format("{:.3f} s", seconds);
-  if (std::llabs(time) >= kMillisecond) return fmt::format("{:.3f} ms", seconds * 1e3);
-  return fmt::format("{:.3f} us", seconds * 1e6);
-}
+std::string time_text(Time time) { return readable_time(time); }
 
 Time time_option(const std::string &option, const std::string &text) {
   const auto time = parse_time(text);

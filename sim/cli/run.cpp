@@ -4,11 +4,14 @@
 // verican run: simulates a scenario file.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <memory>
 
 #include "cli/cli.hpp"
-#include "scenario/runner.hpp"
+#include "cli/console.hpp"
 #include "scenario/stop_request.hpp"
+#include "session/session.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::cli {
@@ -25,7 +28,21 @@ struct Options {
 void override_with(Scenario &scenario, const Options &options) {
   override_outputs(scenario.outputs, options.outputs);
   if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
-  if (!options.duration.empty()) scenario.duration = time_option("--duration", options.duration);
+  if (options.duration.empty()) return;
+  scenario.duration = time_option("--duration", options.duration);
+  scenario.endless = false;
+}
+
+RunReport simulate(const Scenario &scenario, double bitrate, const Options &options) {
+  Console console{false};
+  Progress progress{fmt::format("{:g} kbit/s", bitrate / 1e3)};
+  SessionOptions session;
+  session.progress = [&](double part) { progress.show(part); };
+  session.output = [&](std::string_view node, std::string_view text) {
+    if (!options.json) console.print(node, text);
+  };
+  session.say = [](const std::string &line) { fmt::print(stderr, "verican: {}\n", line); };
+  return Session{{{scenario, bitrate}}, std::move(session)}.run().front();
 }
 
 int run(const Options &options) {
@@ -34,24 +51,22 @@ int run(const Options &options) {
   override_with(scenario, options);
   const Outputs outputs = scenario.outputs;
   const bool several = scenario.bitrates.size() > 1;
-  bool ok = true;
+  int code = kOk;
   Json list = Json::array();
   for (const double bitrate : scenario.bitrates) {
     scenario.outputs = several ? outputs_for(outputs, bitrate) : outputs;
-    RunReport report;
-    {
-      Progress progress{fmt::format("{:g} kbit/s", bitrate / 1e3)};
-      report = run_scenario(scenario, bitrate, [&](double part) { progress.show(part); });
-    }
-    ok = ok && report.ok();
+    const RunReport report = simulate(scenario, bitrate, options);
+    code = std::max(code, exit_code_of(report.boards, report.ok() ? kOk : kFailed));
     if (options.json)
       list.push_back(to_json(report));
     else
       fmt::print("{}\n", to_text(report));
+    std::fflush(stdout);
+    complain(report.boards);
     if (stop_requested()) break;
   }
-  if (options.json) print_json({{"ok", ok}, {"runs", list}});
-  return exit_code_after(ok ? kOk : kFailed);
+  if (options.json) print_json({{"ok", code == kOk}, {"runs", list}});
+  return exit_code_after(code);
 }
 
 }  // namespace

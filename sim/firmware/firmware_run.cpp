@@ -7,202 +7,59 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
-#include <set>
+#include <stdexcept>
 
-#include "scenario/simulation.hpp"
-#include "scenario/stop_request.hpp"
+#include "session/session.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::firmware {
 namespace {
 
-class Run {
- public:
-  Run(const FirmwareSetup &setup, const std::function<void(std::size_t, std::string_view)> &output);
-  FirmwareReport execute(const std::function<void(double)> &progress);
+FirmwareRole role_of(const FirmwareSetup &setup, const ElfImage &image) {
+  FirmwareRole role;
+  role.file = image.file;
+  role.image = std::make_shared<const ElfImage>(image);
+  role.clocks_per_instruction = setup.cpu.clocks_per_instruction;
+  role.run_hard_fault_handler = !setup.cpu.catch_hard_fault;
+  role.endless = setup.endless;
+  return role;
+}
 
- private:
-  struct Place {
-    std::size_t bus;
-    NodeId node;
-  };
-
-  void place_cores();
-  void check_traffic() const;
-  void build_boards(const std::function<void(std::size_t, std::string_view)> &output);
-  void start();
-  void run(const std::function<void(double)> &progress);
-  void clock_boards(Time now);
-  [[nodiscard]] Time next_edge() const;
-  [[nodiscard]] bool all_ended() const;
-  [[nodiscard]] BoardReport describe(std::size_t board) const;
-
-  const FirmwareSetup &setup_;
-  std::vector<Scenario> scenarios_;
-  std::vector<Place> cores_;
-  std::vector<std::unique_ptr<Simulation>> buses_;
-  std::vector<std::unique_ptr<Board>> boards_;
-  std::vector<std::string> printed_;
-  std::vector<Time> ended_;
-  Time start_ = 0, limit_ = 0, stopped_ = 0;
-  bool interrupted_ = false;
-};
-
-Run::Run(const FirmwareSetup &setup,
-         const std::function<void(std::size_t, std::string_view)> &output)
-    : setup_{setup}, scenarios_{setup.scenarios} {
-  place_cores();
-  check_traffic();
-  for (std::size_t bus = 0; bus < scenarios_.size(); ++bus) {
-    std::set<NodeId> bare;
-    for (const Place &place : cores_)
-      if (place.bus == bus) bare.insert(place.node);
-    const double bitrate =
-        bus == 0 && setup.bitrate != 0 ? setup.bitrate : scenarios_[bus].bitrates.front();
-    buses_.push_back(std::make_unique<Simulation>(scenarios_[bus], bitrate, bare));
-  }
-  build_boards(output);
+/// Gives the node `name` to firmware.
+NodeSpec &place(Scenario &scenario, const std::string &name, NodeRole role) {
+  const NodeId id = find_or_add_node(scenario, name);
+  for (const TrafficSpec &traffic : scenario.traffic)
+    if (traffic.node == id)
+      throw InputError(scenario.file, 0,
+                       fmt::format("traffic '{}' is that of node '{}', which runs firmware; "
+                                   "allowed: the other nodes",
+                                   traffic.name, name));
+  NodeSpec &node = scenario.nodes[id];
+  node.role = std::move(role);
+  return node;
 }
 
 // One core for each board, and perhaps a second one for the only board, with the same clock.
-void Run::place_cores() {
-  const bool second = setup_.second_core || scenarios_.size() > 1;
-  if (second && setup_.images.size() != 1)
+std::vector<Scenario> place_cores(const FirmwareSetup &setup) {
+  std::vector<Scenario> scenarios = setup.scenarios;
+  const bool second = setup.second_core || scenarios.size() > 1;
+  if (second && setup.images.size() != 1)
     throw std::invalid_argument("a second core needs exactly one firmware file");
-  const std::size_t count = setup_.images.size() + (second ? 1 : 0);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t bus = second && i == 1 ? scenarios_.size() - 1 : 0;
-    cores_.push_back({bus, find_or_add_node(scenarios_[bus], firmware_node(i))});
-  }
-  if (second)
-    scenarios_[cores_[1].bus].nodes[cores_[1].node].clock =
-        scenarios_[cores_[0].bus].nodes[cores_[0].node].clock;
-}
-
-void Run::check_traffic() const {
-  for (std::size_t bus = 0; bus < scenarios_.size(); ++bus)
-    for (const TrafficSpec &traffic : scenarios_[bus].traffic)
-      for (const Place &core : cores_)
-        if (core.bus == bus && core.node == traffic.node)
-          throw InputError(scenarios_[bus].file, 0,
-                           fmt::format("traffic '{}' is that of node '{}', which runs firmware; "
-                                       "allowed: the other nodes",
-                                       traffic.name, firmware_node(&core - cores_.data())));
-}
-
-void Run::build_boards(const std::function<void(std::size_t, std::string_view)> &output) {
-  printed_.resize(setup_.images.size());
-  ended_.resize(setup_.images.size());
-  for (std::size_t i = 0; i < setup_.images.size(); ++i) {
-    std::vector<RtlNode *> nodes{&buses_[cores_[i].bus]->node(cores_[i].node)};
-    if (cores_.size() > setup_.images.size())
-      nodes.push_back(&buses_[cores_[1].bus]->node(cores_[1].node));
-    boards_.push_back(
-        std::make_unique<Board>(firmware_node(i), setup_.images[i], std::move(nodes), setup_.cpu));
-    boards_.back()->set_output([this, i, output](std::string_view text) {
-      printed_[i] += text;
-      if (output) output(i, text);
-    });
-  }
-}
-
-// The other nodes are on their buses before the CPUs begin, all at the same time.
-void Run::start() {
-  for (const auto &bus : buses_) {
-    bus->join();
-    start_ = std::max(start_, bus->bus().now());
-  }
-  for (const auto &bus : buses_) bus->start(start_);
-  const Scenario &first = scenarios_.front();
-  limit_ = start_ + (setup_.limit != 0 ? setup_.limit : first.duration + first.drain);
-}
-
-Time Run::next_edge() const {
-  Time next = std::numeric_limits<Time>::max();
-  for (const auto &board : boards_)
-    if (!board->ended()) next = std::min(next, board->cores()[0]->oscillator().next());
-  return next;
-}
-
-bool Run::all_ended() const {
-  return std::all_of(boards_.begin(), boards_.end(), [](const auto &b) { return b->ended(); });
-}
-
-// At each edge of a board's clock the buses come first, then the CPU (board.hpp).
-void Run::run(const std::function<void(double)> &progress) {
-  constexpr Time kPart = kMillisecond;
-  Time shown = start_;
-  while (!all_ended() && !stop_requested()) {
-    const Time next = next_edge();
-    if (next > limit_) break;
-    clock_boards(next);
-    if (next < shown) continue;
-    for (const auto &bus : buses_) bus->check();
-    if (progress)
-      progress(static_cast<double>(next - start_) / static_cast<double>(limit_ - start_));
-    shown = next + kPart;
-  }
-}
-
-void Run::clock_boards(Time now) {
-  std::uint64_t due = 0;
-  for (std::size_t i = 0; i < boards_.size(); ++i)
-    if (boards_[i]->cores()[0]->oscillator().next() == now) due |= 1ULL << i;
-  for (const auto &bus : buses_) bus->bus().run_until(now);
-  for (std::size_t i = 0; i < boards_.size(); ++i) {
-    if ((due >> i & 1) == 0 || boards_[i]->ended()) continue;
-    boards_[i]->clock();
-    if (boards_[i]->ended()) ended_[i] = now - start_;
-  }
-}
-
-BoardReport Run::describe(std::size_t index) const {
-  const Board &board = *boards_[index];
-  BoardReport report;
-  report.node = board.name();
-  report.file = board.image().file;
-  report.clocks = board.cpu().cycles();
-  report.instructions = board.cpu().instructions();
-  report.output = printed_[index];
-  report.state = board.report();
-  report.time = board.ended() ? ended_[index] : (interrupted_ ? stopped_ : limit_) - start_;
-  report.end = board.exit_code()      ? BoardReport::End::kExit
-               : board.cpu().halted() ? BoardReport::End::kFault
-               : interrupted_         ? BoardReport::End::kInterrupted
-                                      : BoardReport::End::kLimit;
-  report.exit_code = board.exit_code().value_or(0);
-  return report;
-}
-
-FirmwareReport Run::execute(const std::function<void(double)> &progress) {
-  const auto begin = std::chrono::steady_clock::now();
-  start();
-  run(progress);
-  interrupted_ = stop_requested();
-  stopped_ = buses_.front()->bus().now();
-  FirmwareReport report;
-  report.endless = setup_.endless;
-  for (const auto &bus : buses_) {
-    bus->drain();
-    report.buses.push_back(bus->finish(interrupted_));
-    report.buses.back().wall_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  }
-  for (std::size_t i = 0; i < boards_.size(); ++i) report.boards.push_back(describe(i));
-  return report;
+  for (std::size_t i = 0; i < setup.images.size(); ++i)
+    place(scenarios.front(), firmware_node(i), role_of(setup, setup.images[i]));
+  if (!second) return scenarios;
+  NodeSpec &other = place(scenarios.back(), firmware_node(1), SecondCoreRole{firmware_node(0)});
+  const Scenario &first = scenarios.front();
+  for (const NodeSpec &node : first.nodes)
+    if (node.name == firmware_node(0)) other.clock = node.clock;
+  return scenarios;
 }
 
 }  // namespace
 
 bool FirmwareReport::ok() const {
-  const bool ended = std::all_of(boards.begin(), boards.end(), [this](const BoardReport &board) {
-    return board.end == BoardReport::End::kLimit
-               ? endless
-               : board.end == BoardReport::End::kExit && board.exit_code == 0;
-  });
-  return ended && std::all_of(buses.begin(), buses.end(), [](const auto &b) { return b.ok(); });
+  return std::all_of(buses.begin(), buses.end(), [](const RunReport &bus) { return bus.ok(); });
 }
 
 std::string firmware_node(std::size_t index) {
@@ -212,7 +69,24 @@ std::string firmware_node(std::size_t index) {
 FirmwareReport run_firmware(const FirmwareSetup &setup,
                             const std::function<void(std::size_t, std::string_view)> &output,
                             const std::function<void(double)> &progress) {
-  return Run{setup, output}.execute(progress);
+  std::vector<SessionBus> buses;
+  for (Scenario &scenario : place_cores(setup)) buses.push_back({std::move(scenario)});
+  Scenario &first = buses.front().scenario;
+  buses.front().bitrate = setup.bitrate;
+  first.until_done = true;
+  SessionOptions options;
+  options.limit = setup.limit != 0 ? setup.limit : first.duration + first.drain;
+  options.progress = progress;
+  if (output)
+    options.output = [&](std::string_view node, std::string_view text) {
+      for (std::size_t i = 0; i < setup.images.size(); ++i)
+        if (firmware_node(i) == node) output(i, text);
+    };
+  Session session{std::move(buses), std::move(options)};
+  FirmwareReport report;
+  report.buses = session.run();
+  report.boards = report.buses.front().boards;
+  return report;
 }
 
 }  // namespace vericansim::firmware

@@ -10,7 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "firmware/board.hpp"
+#include "firmware/board_report.hpp"
+#include "firmware/cortex_m3.hpp"
 #include "scenario/report.hpp"
 #include "scenario/scenario.hpp"
 
@@ -28,23 +29,9 @@ struct FirmwareSetup {
   CortexConfig cpu;
 };
 
-/// How a board has ended.
-struct BoardReport {
-  enum class End { kExit, kFault, kLimit, kInterrupted };
-  std::string node;
-  std::string file;
-  End end = End::kLimit;
-  int exit_code = 0;  ///< with kExit
-  Time time = 0;      ///< since the start of the firmware
-  std::uint64_t clocks = 0, instructions = 0;
-  std::string state;   ///< PC, registers and so on, several lines
-  std::string output;  ///< all that it has printed
-};
-
 struct FirmwareReport {
   std::vector<BoardReport> boards;
   std::vector<RunReport> buses;
-  bool endless = false;
   /// Every board has ended as it should, with exit code 0, and all expectations hold.
   [[nodiscard]] bool ok() const;
 };

@@ -8,6 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
+#include <string_view>
+
+#include "trace/input_error.hpp"
 
 namespace vericansim {
 namespace {
@@ -44,6 +48,30 @@ double node_number(const NodeReport &node, const std::string &key) {
   if (key == "lost") return static_cast<double>(c.lost_arbitration);
   if (key == "retries") return static_cast<double>(node.retries());
   return static_cast<double>(c.bus_off);
+}
+
+/// What firmware has to print and how it has to end.
+void check_board(const NodeExpectation &node, const firmware::BoardReport &board,
+                 std::vector<CheckResult> &results) {
+  using End = firmware::BoardReport::End;
+  const std::string_view printed = board.output;
+  if (node.exit_code)
+    results.push_back({board.node + ".exit_code", fmt::format("{}", *node.exit_code),
+                       board.end == End::kExit    ? fmt::format("{}", board.exit_code)
+                       : board.end == End::kFault ? "a fault"
+                                                  : "no end in time",
+                       board.end == End::kExit && board.exit_code == *node.exit_code});
+  const auto seen = [&](bool found) {
+    return fmt::format("{}in {} bytes printed", found ? "" : "not ", printed.size());
+  };
+  for (const std::string &text : node.output) {
+    const bool found = printed.find(text) != std::string_view::npos;
+    results.push_back({board.node + ".output", quoted(text), seen(found), found});
+  }
+  for (const std::string &pattern : node.matches) {
+    const bool found = std::regex_search(board.output, std::regex{pattern});
+    results.push_back({board.node + ".output", "matches " + quoted(pattern), seen(found), found});
+  }
 }
 
 /// Every node that takes any frame must have all frames of the others, bit-exact and in their
@@ -104,6 +132,8 @@ std::vector<CheckResult> check_expectations(const Scenario &scenario, const RunR
     if (node.state)
       results.push_back(
           {seen.name + ".state", *node.state, seen.state(), *node.state == seen.state()});
+    for (const firmware::BoardReport &board : report.boards)
+      if (board.node == seen.name) check_board(node, board, results);
   }
   if (expect.complete)
     for (NodeId id = 0; id < scenario.nodes.size(); ++id)

@@ -4,8 +4,11 @@
 // Quantities with units.
 #include "scenario/quantity.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <span>
 
 #include "trace/text.hpp"
@@ -64,6 +67,13 @@ std::optional<std::uint64_t> parse_integer(std::string_view text) {
   if (text.starts_with("0b") || text.starts_with("0B"))
     return text::parse_unsigned(text.substr(2), 2);
   return text::parse_unsigned(text, 10);
+}
+
+std::string readable_time(Time time) {
+  const double seconds = static_cast<double>(time) / kSecond;
+  if (std::llabs(time) >= kSecond) return fmt::format("{:.3f} s", seconds);
+  if (std::llabs(time) >= kMillisecond) return fmt::format("{:.3f} ms", seconds * 1e3);
+  return fmt::format("{:.3f} us", seconds * 1e6);
 }
 
 }  // namespace vericansim

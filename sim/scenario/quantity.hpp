@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "bus/types.hpp"
@@ -26,5 +27,8 @@ namespace vericansim {
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 /// Decimal, 0x or 0b.
 [[nodiscard]] std::optional<std::uint64_t> parse_integer(std::string_view text);
+
+/// "12.345 ms" with the unit that suits.
+[[nodiscard]] std::string readable_time(Time time);
 
 }  // namespace vericansim

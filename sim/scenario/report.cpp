@@ -99,8 +99,10 @@ std::string NodeReport::state() const {
 }
 
 bool RunReport::ok() const {
+  const auto good = [](const auto &part) { return part.ok(); };
   return !interrupted &&
-         std::all_of(checks.begin(), checks.end(), [](const CheckResult &c) { return c.ok; });
+         std::all_of(checks.begin(), checks.end(), [](const CheckResult &c) { return c.ok; }) &&
+         std::all_of(boards.begin(), boards.end(), good);
 }
 
 std::string to_text(const RunReport &report) {
@@ -119,6 +121,7 @@ std::string to_text(const RunReport &report) {
   if (!report.messages.empty()) text += messages_text(report) + "\n";
   text += nodes_text(report) + "\n";
   if (report.interrupted) text += "  interrupted; expectations were not checked\n";
+  if (!report.boards.empty()) text += firmware::to_text(report.boards) + "\n";
   for (const CheckResult &check : report.checks)
     fmt::format_to(out, "  {}  {}: {} (expected {})\n", check.ok ? "ok  " : "FAIL", check.what,
                    check.seen, check.wanted);
@@ -135,22 +138,24 @@ Json to_json(const RunReport &report) {
   for (const NodeReport &n : report.nodes) nodes.push_back(node_json(n));
   for (const CheckResult &c : report.checks)
     checks.push_back({{"what", c.what}, {"expected", c.wanted}, {"seen", c.seen}, {"ok", c.ok}});
-  return {{"name", report.name},
-          {"bitrate", report.bitrate},
-          {"duration_ps", report.duration},
-          {"frames", report.frames},
-          {"unacknowledged", report.unacknowledged},
-          {"error_frames", report.error_frames},
-          {"overload_frames", report.overload_frames},
-          {"pending", report.pending},
-          {"load", report.load},
-          {"wall_seconds", report.wall_seconds},
-          {"node_cycles", report.node_cycles},
-          {"messages", messages},
-          {"nodes", nodes},
-          {"checks", checks},
-          {"interrupted", report.interrupted},
-          {"ok", report.ok()}};
+  Json json{{"name", report.name},
+            {"bitrate", report.bitrate},
+            {"duration_ps", report.duration},
+            {"frames", report.frames},
+            {"unacknowledged", report.unacknowledged},
+            {"error_frames", report.error_frames},
+            {"overload_frames", report.overload_frames},
+            {"pending", report.pending},
+            {"load", report.load},
+            {"wall_seconds", report.wall_seconds},
+            {"node_cycles", report.node_cycles},
+            {"messages", messages},
+            {"nodes", nodes},
+            {"checks", checks},
+            {"interrupted", report.interrupted},
+            {"ok", report.ok()}};
+  for (const firmware::BoardReport &b : report.boards) json["boards"].push_back(to_json(b));
+  return json;
 }
 
 }  // namespace vericansim

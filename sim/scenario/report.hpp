@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bus/types.hpp"
+#include "firmware/board_report.hpp"
 #include "judge/bus_judge.hpp"
 #include "scenario/bus_monitor.hpp"
 
@@ -65,6 +66,7 @@ struct RunReport {
   std::uint64_t node_cycles = 0;
   std::vector<MessageReport> messages;
   std::vector<NodeReport> nodes;
+  std::vector<firmware::BoardReport> boards;
   std::vector<CheckResult> checks;
   bool interrupted = false;  ///< the user has ended it before its time; nothing was checked then
   std::optional<JudgeCounts> judged;  ///< with `judge: lockstep`

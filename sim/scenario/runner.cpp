@@ -6,13 +6,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "scenario/bittime.hpp"
-#include "scenario/simulation.hpp"
-#include "scenario/stop_request.hpp"
+#include "session/session.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim {
@@ -36,38 +33,12 @@ BitTiming timing_of(const Scenario &scenario, const NodeSpec &node, double bitra
   return results.front().timing;
 }
 
-namespace {
-
-/// Runs for the scenario's duration, or until the user wants the end.
-void run_duration(Simulation &simulation, Time duration, Time bit_time,
-                  const std::function<void(double)> &progress) {
-  const Time part = std::min(duration / 100 + 1, 1'000 * bit_time);
-  const Time end = simulation.started() + duration;
-  while (simulation.bus().now() < end && !stop_requested()) {
-    const Time now = simulation.bus().now();
-    simulation.bus().run_until(end - now > part ? now + part : end);
-    simulation.check();
-    if (progress)
-      progress(1 -
-               static_cast<double>(end - simulation.bus().now()) / static_cast<double>(duration));
-  }
-}
-
-}  // namespace
-
 RunReport run_scenario(const Scenario &scenario, double bitrate,
                        const std::function<void(double)> &progress) {
-  Simulation simulation{scenario, bitrate};
-  const auto begin = std::chrono::steady_clock::now();
-  simulation.join();
-  simulation.start(simulation.bus().now());
-  const auto bit_time = static_cast<Time>(std::llround(1e12 / bitrate));
-  run_duration(simulation, scenario.duration, bit_time, progress);
-  simulation.drain();
-  RunReport report = simulation.finish(stop_requested());
-  report.wall_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return report;
+  SessionOptions options;
+  options.progress = progress;
+  Session session{{{scenario, bitrate}}, std::move(options)};
+  return session.run().front();
 }
 
 }  // namespace vericansim

@@ -79,7 +79,8 @@ void parse_link(YamlMap &map, Link &link) {
   map.with("rx_delay", [&](const YamlValue &v) { link.receiver = v.time(0, kMillisecond); });
 }
 
-void parse_host(YamlMap &map, HostConfig &host) {
+void parse_host(YamlMap &map, NodeSpec &node) {
+  HostConfig &host = node.host;
   const auto flag = [&](const char *key, bool &target) {
     map.with(key, [&](const YamlValue &v) { target = v.boolean(); });
   };
@@ -96,6 +97,12 @@ void parse_host(YamlMap &map, HostConfig &host) {
   map.with("filters", [&](const YamlValue &v) {
     for (const YamlValue &item : v.items()) host.filters.push_back(parse_filter(item));
   });
+  map.with("software", [&](const YamlValue &v) {
+    if (v.text() != "host" && v.text() != "none") v.refuse("host, none");
+    node.software = v.text() == "host";
+  });
+  map.with("tx_buffers",
+           [&](const YamlValue &v) { host.tx_buffers = static_cast<unsigned>(v.integer(1, 62)); });
 }
 
 void check_buffers(const YamlValue &value, const NodeSpec &node) {
@@ -119,11 +126,8 @@ NodeSpec parse_node(const YamlValue &value, const Scenario &scenario) {
   node.clock.seed = scenario.seed * 1000 + scenario.nodes.size();
   parse_clock(map, node.clock);
   parse_link(map, node.link);
-  parse_host(map, node.host);
-  map.with("software", [&](const YamlValue &v) {
-    if (v.text() != "host" && v.text() != "none") v.refuse("host, none");
-    node.software = v.text() == "host";
-  });
+  node.role = parse_role(map, scenario);
+  if (std::holds_alternative<TrafficRole>(node.role)) parse_host(map, node);
   map.with("timing", [&](const YamlValue &v) { node.timing = parse_timing(v); });
   map.with("bitrate", [&](const YamlValue &v) { node.bitrate = v.bitrate(); });
   map.with("sample_point", [&](const YamlValue &v) { node.sample_point = v.part(0.5, 0.9); });
@@ -133,10 +137,10 @@ NodeSpec parse_node(const YamlValue &value, const Scenario &scenario) {
     if (count != 16 && count != 32 && count != 64) v.refuse("16, 32, 64");
     node.num_mb = static_cast<unsigned>(count);
   });
-  map.with("tx_buffers", [&](const YamlValue &v) {
-    node.host.tx_buffers = static_cast<unsigned>(v.integer(1, 62));
-  });
   map.finish();
+  if (const auto *second = std::get_if<SecondCoreRole>(&node.role))
+    for (const NodeSpec &board : scenario.nodes)
+      if (board.name == second->board) node.clock = board.clock;
   check_buffers(value, node);
   return node;
 }

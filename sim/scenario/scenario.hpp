@@ -16,6 +16,7 @@
 #include "bus/faults.hpp"
 #include "model/frame.hpp"
 #include "node/host.hpp"
+#include "scenario/node_role.hpp"
 
 namespace vericansim {
 
@@ -26,12 +27,15 @@ struct NodeSpec {
   Link link;
   unsigned num_mb = 64;
   bool software = true;  ///< false: nothing but `accesses` drives the core
+  NodeRole role;         ///< what works the core
   HostConfig host;       ///< `timing` is filled for the bit rate; tx_buffers 0: as many as messages
   std::optional<BitTiming> timing;     ///< given segment by segment; unset: calculated
   std::optional<double> bitrate;       ///< own rate, bit/s; unset: that of the bus
   std::optional<double> sample_point;  ///< 0..1; unset: that of the bus, or CiA's
   std::optional<unsigned> sjw;
   std::size_t line = 0;  ///< in the file
+  /// True if the simulation's own software works the core.
+  [[nodiscard]] bool hosted() const { return software && has_host(role); }
 };
 
 enum class DataKind : std::uint8_t {
@@ -107,6 +111,9 @@ struct NodeExpectation {
   std::map<std::string, Range> numbers;  ///< sent, received, overruns, tec, rec, max_tec, max_rec,
                                          ///< errors, lost, retries, bus_off
   std::optional<std::string> state;      ///< active, passive, bus-off
+  std::optional<int> exit_code;          ///< of firmware
+  std::vector<std::string> output;       ///< firmware: each is somewhere in what it prints
+  std::vector<std::string> matches;      ///< firmware: each, a regular expression, is found there
 };
 
 /// What must be true at the end.
@@ -126,12 +133,21 @@ struct Outputs {
   std::uint64_t report_frames = 200'000;  ///< the report keeps the bits of so many frames
 };
 
+/// How simulated time goes on.
+enum class Pacing : std::uint8_t {
+  kFast,      ///< as fast as the computer can
+  kRealTime,  ///< held to real time
+};
+
 struct Scenario {
   std::string file;
   std::string name;
   std::vector<double> bitrates = {500e3};  ///< one run for each
   std::optional<double> sample_point;
   Time duration = 100 * kMillisecond;
+  bool endless = false;     ///< `duration` is that of the traffic alone
+  bool until_done = false;  ///< ends as soon as no node has anything left to do
+  Pacing pacing = Pacing::kFast;
   Time drain = 20 * kMillisecond;  ///< at most, after the duration, for frames that still wait
   std::uint64_t seed = 1;
   bool analysis = false;  ///< print the analytic bound beside the measured response times

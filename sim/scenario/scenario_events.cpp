@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenario files: traffic, faults, expectations.
+// Scenario files: traffic and faults.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -134,59 +134,6 @@ void parse_noise(YamlMap &map, NoiseConfig &noise, std::uint64_t seed) {
   map.with("seed", [&](const YamlValue &v) { noise.seed = v.integer(0, 0xFFFFFFFF); });
 }
 
-Range parse_range(const YamlValue &value) {
-  if (!value.is_map()) {
-    const double exact = value.number(-1e15, 1e15);
-    return {exact, exact};
-  }
-  Range range;
-  YamlMap map{value};
-  map.with("min", [&](const YamlValue &v) { range.least = v.number(-1e15, 1e15); });
-  map.with("max", [&](const YamlValue &v) { range.most = v.number(-1e15, 1e15); });
-  map.finish();
-  if (range.least > range.most) value.fail("min is above max");
-  return range;
-}
-
-NodeExpectation parse_node_expectation(const YamlValue &value, NodeId node) {
-  NodeExpectation expectation;
-  expectation.node = node;
-  YamlMap map{value};
-  for (const char *key : {"sent", "received", "overruns", "tec", "rec", "max_tec", "max_rec",
-                          "errors", "lost", "retries", "bus_off"})
-    map.with(key, [&](const YamlValue &v) { expectation.numbers[key] = parse_range(v); });
-  map.with("state", [&](const YamlValue &v) {
-    if (v.text() != "active" && v.text() != "passive" && v.text() != "bus-off")
-      v.refuse("active, passive, bus-off");
-    expectation.state = v.text();
-  });
-  map.finish();
-  return expectation;
-}
-
-void parse_expected_nodes(const YamlValue &value, const Scenario &scenario, Expectations &expect) {
-  YamlMap map{value};
-  for (NodeId id = 0; id < scenario.nodes.size(); ++id)
-    map.with(scenario.nodes[id].name,
-             [&](const YamlValue &v) { expect.nodes.push_back(parse_node_expectation(v, id)); });
-  // `all` stands for every node.
-  map.with("all", [&](const YamlValue &v) {
-    for (NodeId id = 0; id < scenario.nodes.size(); ++id)
-      expect.nodes.push_back(parse_node_expectation(v, id));
-  });
-  map.finish();
-}
-
-void parse_expected_responses(const YamlValue &value, const Scenario &scenario,
-                              Expectations &expect) {
-  YamlMap map{value};
-  for (const TrafficSpec &traffic : scenario.traffic)
-    map.with(traffic.name, [&](const YamlValue &v) {
-      expect.response_times[traffic.name] = v.time(1, kLongestTime);
-    });
-  map.finish();
-}
-
 }  // namespace
 
 TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario) {
@@ -194,6 +141,10 @@ TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario) {
   TrafficSpec traffic;
   const YamlValue node = map.need("node");
   traffic.node = parse_node_name(node, scenario);
+  const NodeRole &role = scenario.nodes[traffic.node].role;
+  if (!std::holds_alternative<TrafficRole>(role))
+    node.fail(
+        fmt::format("a node with '{}' sends of its own; allowed: the other nodes", name_of(role)));
   if (!scenario.nodes[traffic.node].software)
     node.fail("a node with 'software: none' sends by 'accesses' alone");
   Frame &frame = traffic.frame;
@@ -247,20 +198,6 @@ FaultSpec parse_fault(const YamlValue &value, const Scenario &scenario) {
   fault.noise.window = fault.window;
   map.finish();
   return fault;
-}
-
-Expectations parse_expectations(const YamlValue &value, const Scenario &scenario) {
-  YamlMap map{value};
-  Expectations expect;
-  for (const char *key : {"frames", "error_frames", "overload_frames", "load", "pending"})
-    map.with(key, [&](const YamlValue &v) { expect.numbers[key] = parse_range(v); });
-  map.with("complete", [&](const YamlValue &v) { expect.complete = v.boolean(); });
-  map.with("within_bound", [&](const YamlValue &v) { expect.within_bound = v.boolean(); });
-  map.with("nodes", [&](const YamlValue &v) { parse_expected_nodes(v, scenario, expect); });
-  map.with("response_times",
-           [&](const YamlValue &v) { parse_expected_responses(v, scenario, expect); });
-  map.finish();
-  return expect;
 }
 
 }  // namespace vericansim::detail

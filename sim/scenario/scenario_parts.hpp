@@ -12,6 +12,8 @@ namespace vericansim::detail {
 /// A node by its name; refuses others with a list of the names.
 [[nodiscard]] NodeId parse_node_name(const YamlValue &value, const Scenario &scenario);
 
+/// What kind of node it is, with the keys of that kind.
+[[nodiscard]] NodeRole parse_role(YamlMap &map, const Scenario &scenario);
 [[nodiscard]] NodeSpec parse_node(const YamlValue &value, const Scenario &scenario);
 [[nodiscard]] TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario);
 [[nodiscard]] FaultSpec parse_fault(const YamlValue &value, const Scenario &scenario);

@@ -14,16 +14,16 @@
 
 namespace vericansim {
 
-Simulation::Simulation(const Scenario &scenario, double bitrate, const std::set<NodeId> &bare)
+Simulation::Simulation(const Scenario &scenario, double bitrate)
     : scenario_{scenario},
       bitrate_{bitrate},
       bit_time_{static_cast<Time>(std::llround(1e12 / bitrate))} {
-  build_stations(bare);
+  build_stations();
   observe();
   if (scenario_.lockstep) set_up_judge();
 }
 
-void Simulation::build_stations(const std::set<NodeId> &bare) {
+void Simulation::build_stations() {
   std::vector<unsigned> messages(scenario_.nodes.size());
   for (const TrafficSpec &traffic : scenario_.traffic) ++messages[traffic.node];
   for (NodeId id = 0; id < scenario_.nodes.size(); ++id) {
@@ -33,7 +33,7 @@ void Simulation::build_stations(const std::set<NodeId> &bare) {
     const auto receive = static_cast<unsigned>(std::max<std::size_t>(config.filters.size(), 8));
     if (config.tx_buffers == 0)
       config.tx_buffers = std::clamp(messages[id], 1U, spec.num_mb - receive);
-    if (bare.contains(id) || !spec.software) {
+    if (!spec.hosted()) {
       stations_.add(bus_, make_bare_station(spec.name, spec.clock, config.timing, spec.num_mb),
                     spec.link);
       continue;
@@ -231,6 +231,7 @@ RunReport Simulation::collect(bool interrupted) {
   }
   report.node_cycles = stations_.cycles();
   if (scenario_.analysis || scenario_.expect.within_bound) add_bounds(report);
+  if (on_report) on_report(report);
   if (!interrupted) check_all(report);
   return report;
 }
@@ -240,7 +241,8 @@ void Simulation::check_all(RunReport &report) {
   for (NodeId id = 0; id < stations_.size(); ++id) received.push_back(stations_[id].received);
   if (!stations_.stores_remote())
     std::erase_if(frames_, [](const BusFrame &frame) { return frame.frame.remote; });
-  report.checks = check_expectations(scenario_, report, frames_, received);
+  for (CheckResult &check : check_expectations(scenario_, report, frames_, received))
+    report.checks.push_back(std::move(check));
   for (const auto &script : scripts_)
     for (const CheckResult &failure : script->failures()) report.checks.push_back(failure);
   if (judge_) add_judgement(report);

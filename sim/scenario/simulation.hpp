@@ -7,7 +7,6 @@
 
 #include <functional>
 #include <memory>
-#include <set>
 #include <vector>
 
 #include "judge/bus_judge.hpp"
@@ -25,11 +24,11 @@ namespace vericansim {
 /// their lifetimes: the bus refers to all others.
 class Simulation {
  public:
-  /// Builds the bus at one of the scenario's bit rates and opens its outputs. The nodes in `bare`
-  /// get no software of ours: somebody else drives their registers. The scenario must outlive the
-  /// simulation. Throws InputError if a node cannot have the bit rate or an output cannot be
+  /// Builds the bus at one of the scenario's bit rates and opens its outputs. Nodes whose role says
+  /// so get no software of ours: somebody else drives their registers. The scenario must outlive
+  /// the simulation. Throws InputError if a node cannot have the bit rate or an output cannot be
   /// written.
-  Simulation(const Scenario &scenario, double bitrate, const std::set<NodeId> &bare = {});
+  Simulation(const Scenario &scenario, double bitrate);
 
   /// Runs until the nodes with software are on the bus. std::runtime_error if one fails.
   void join();
@@ -51,15 +50,19 @@ class Simulation {
   /// Told of each frame and each event of the bus, besides the simulation's own use (BusMonitor).
   std::function<void(const BusFrame &)> on_bus_frame;
   std::function<void(const BusEvent &)> on_bus_event;
+  /// Adds what others know to the report, before the expectations are checked.
+  std::function<void(RunReport &)> on_report;
 
   [[nodiscard]] Bus &bus() { return bus_; }
   [[nodiscard]] RtlNode &node(NodeId id) { return *stations_[id].node; }
+  [[nodiscard]] const Scenario &scenario() const { return scenario_; }
+  [[nodiscard]] double bitrate() const { return bitrate_; }
   [[nodiscard]] Time started() const { return start_; }
   /// The judges, if the scenario wants them.
   [[nodiscard]] const BusJudge *judge() const { return judge_.get(); }
 
  private:
-  void build_stations(const std::set<NodeId> &bare);
+  void build_stations();
   void observe();
   void add_faults();
   std::unique_ptr<Fault> make_fault(const FaultSpec &spec) const;

@@ -72,7 +72,7 @@ void Simulation::add_disturbances() {
     judge_->disturbances().add(one ? fault.node : kAllNodes, window);
   }
   const bool all = std::all_of(scenario_.nodes.begin(), scenario_.nodes.end(),
-                               [](const NodeSpec &node) { return node.software; });
+                               [](const NodeSpec &node) { return node.hosted(); });
   const auto talkers = std::count_if(
       scenario_.nodes.begin(), scenario_.nodes.end(),
       [](const NodeSpec &node) { return !node.host.listen_only && !node.host.loop_back; });

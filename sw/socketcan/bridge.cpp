@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <set>
 
 #include "frame_form.hpp"
 #include "scenario/runner.hpp"
@@ -41,8 +40,8 @@ Bridge::Bridge(BridgeSetup setup, Wall &wall)
   // Its traffic goes on as long as the bridge does.
   setup_.scenario.duration = std::numeric_limits<Time>::max() / 4;
   place_nodes();
-  simulation_ = std::make_unique<Simulation>(setup_.scenario, setup_.bitrate,
-                                             std::set<NodeId>{ids_.begin(), ids_.end()});
+  for (const NodeId id : ids_) setup_.scenario.nodes[id].role = OwnRole{};
+  simulation_ = std::make_unique<Simulation>(setup_.scenario, setup_.bitrate);
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     const NodeSpec &spec = setup_.scenario.nodes[ids_[i]];
     nodes_.push_back(std::make_unique<PortNode>(*setup_.ports[i], simulation_->node(ids_[i]),

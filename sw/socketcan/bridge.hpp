@@ -17,7 +17,7 @@
 #include "can_port.hpp"
 #include "port_node.hpp"
 #include "scenario/simulation.hpp"
-#include "wall.hpp"
+#include "session/wall.hpp"
 
 namespace vericansim {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "pacer.hpp"
 #include "port_node.hpp"
 #include "scenario/report.hpp"
+#include "session/pacer.hpp"
 
 namespace vericansim {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "can_port.hpp"
-#include "pacer.hpp"
+#include "session/pacer.hpp"
 
 namespace vericansim {
 

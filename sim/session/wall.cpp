@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // HostWall: see wall.hpp.
-#include "wall.hpp"
+#include "session/wall.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -53,14 +53,13 @@ HostWall::~HostWall() {
   }
 }
 
-WallTime HostWall::now() {
+WallTime SteadyWall::now() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
              std::chrono::steady_clock::now().time_since_epoch())
       .count();
 }
 
-void HostWall::wait(std::vector<pollfd> &set, std::optional<WallTime> timeout) {
-  set.push_back({wake_pipe[0], POLLIN, 0});
+void SteadyWall::wait(std::vector<pollfd> &set, std::optional<WallTime> timeout) {
   timespec limit{};
   if (timeout) {
     constexpr WallTime kSecondNs = 1'000'000'000;
@@ -70,13 +69,18 @@ void HostWall::wait(std::vector<pollfd> &set, std::optional<WallTime> timeout) {
   const int ready = ::ppoll(set.data(), set.size(), timeout ? &limit : nullptr, nullptr);
   if (ready < 0)
     for (pollfd &entry : set) entry.revents = 0;  // a signal: nothing is known to be ready
+}
+
+void HostWall::wait(std::vector<pollfd> &set, std::optional<WallTime> timeout) {
+  set.push_back({wake_pipe[0], POLLIN, 0});
+  SteadyWall::wait(set, timeout);
   char bytes[16];
   while (::read(wake_pipe[0], bytes, sizeof bytes) > 0) {
   }
   set.pop_back();
 }
 
-bool HostWall::stop_requested() { return vericansim::stop_requested(); }
+bool SteadyWall::stop_requested() { return vericansim::stop_requested(); }
 
 bool HostWall::restart_requested() {
   const bool wanted = restart_wanted != 0;

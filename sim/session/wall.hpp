@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "pacer.hpp"
 #include "scenario/stop_request.hpp"
+#include "session/pacer.hpp"
 
 namespace vericansim {
 
@@ -28,17 +28,23 @@ class Wall {
   [[nodiscard]] virtual bool restart_requested() { return false; }
 };
 
+/// The steady clock and poll(); the end is wanted when stop_requested() of stop_request.hpp says so.
+class SteadyWall : public Wall {
+ public:
+  [[nodiscard]] WallTime now() override;
+  void wait(std::vector<pollfd> &set, std::optional<WallTime> timeout) override;
+  [[nodiscard]] bool stop_requested() override;
+};
+
 /// The steady clock, poll(), and signals: SIGINT and SIGTERM ask for the end (StopSignals), SIGUSR1
 /// restarts bus-off nodes. One at a time; the destructor puts back what the signals did before.
-class HostWall : public Wall {
+class HostWall : public SteadyWall {
  public:
   HostWall();
   ~HostWall() override;
   HostWall(const HostWall &) = delete;
   HostWall &operator=(const HostWall &) = delete;
-  [[nodiscard]] WallTime now() override;
   void wait(std::vector<pollfd> &set, std::optional<WallTime> timeout) override;
-  [[nodiscard]] bool stop_requested() override;
   [[nodiscard]] bool restart_requested() override;
 
  private:

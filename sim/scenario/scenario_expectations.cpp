@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenario files: expectations.
+#include <fmt/format.h>
+
+#include <regex>
+
+#include "scenario/scenario_parts.hpp"
+#include "trace/input_error.hpp"
+
+namespace vericansim::detail {
+namespace {
+
+Range parse_range(const YamlValue &value) {
+  if (!value.is_map()) {
+    const double exact = value.number(-1e15, 1e15);
+    return {exact, exact};
+  }
+  Range range;
+  YamlMap map{value};
+  map.with("min", [&](const YamlValue &v) { range.least = v.number(-1e15, 1e15); });
+  map.with("max", [&](const YamlValue &v) { range.most = v.number(-1e15, 1e15); });
+  map.finish();
+  if (range.least > range.most) value.fail("min is above max");
+  return range;
+}
+
+/// Keys of a node that are numbers, and what is not known of nodes with somebody else's software.
+constexpr const char *kNumbers[] = {"sent", "received", "overruns", "tec",
+                                    "rec",  "max_tec",  "max_rec",  "errors",
+                                    "lost", "retries",  "bus_off"};
+constexpr std::string_view kOfOurSoftware = "overruns";
+
+void parse_pattern(const YamlValue &value, NodeExpectation &expectation) {
+  try {
+    static_cast<void>(std::regex{value.text()});
+  } catch (const std::regex_error &) {
+    value.refuse("a regular expression (ECMAScript)");
+  }
+  expectation.matches.push_back(value.text());
+}
+
+void parse_firmware_expectation(YamlMap &map, NodeExpectation &expectation) {
+  map.with("exit_code", [&](const YamlValue &v) {
+    expectation.exit_code = static_cast<int>(v.integer(0, 0x7FFFFFFF));
+  });
+  map.with("output", [&](const YamlValue &v) {
+    for (const YamlValue &item : v.items()) expectation.output.push_back(item.text());
+  });
+  map.with("matches", [&](const YamlValue &v) {
+    for (const YamlValue &item : v.items()) parse_pattern(item, expectation);
+  });
+}
+
+/// `several`: for all nodes; what one of them does not have is left out.
+NodeExpectation parse_node_expectation(const YamlValue &value, const Scenario &scenario,
+                                       NodeId node, bool several) {
+  const NodeSpec &spec = scenario.nodes[node];
+  NodeExpectation expectation;
+  expectation.node = node;
+  YamlMap map{value};
+  for (const char *key : kNumbers) {
+    const bool known = key != kOfOurSoftware || !std::holds_alternative<FirmwareRole>(spec.role);
+    if (!known && !several) continue;
+    map.with(key, [&](const YamlValue &v) {
+      const Range range = parse_range(v);
+      if (known) expectation.numbers[key] = range;
+    });
+  }
+  map.with("state", [&](const YamlValue &v) {
+    if (v.text() != "active" && v.text() != "passive" && v.text() != "bus-off")
+      v.refuse("active, passive, bus-off");
+    expectation.state = v.text();
+  });
+  if (std::holds_alternative<FirmwareRole>(spec.role)) parse_firmware_expectation(map, expectation);
+  map.finish();
+  return expectation;
+}
+
+void parse_expected_nodes(const YamlValue &value, const Scenario &scenario, Expectations &expect) {
+  YamlMap map{value};
+  for (NodeId id = 0; id < scenario.nodes.size(); ++id)
+    map.with(scenario.nodes[id].name, [&](const YamlValue &v) {
+      expect.nodes.push_back(parse_node_expectation(v, scenario, id, false));
+    });
+  // `all` stands for every node.
+  map.with("all", [&](const YamlValue &v) {
+    for (NodeId id = 0; id < scenario.nodes.size(); ++id)
+      expect.nodes.push_back(parse_node_expectation(v, scenario, id, true));
+  });
+  map.finish();
+}
+
+void parse_expected_responses(const YamlValue &value, const Scenario &scenario,
+                              Expectations &expect) {
+  YamlMap map{value};
+  for (const TrafficSpec &traffic : scenario.traffic)
+    map.with(traffic.name, [&](const YamlValue &v) {
+      expect.response_times[traffic.name] = v.time(1, kLongestTime);
+    });
+  map.finish();
+}
+
+}  // namespace
+
+Expectations parse_expectations(const YamlValue &value, const Scenario &scenario) {
+  YamlMap map{value};
+  Expectations expect;
+  for (const char *key : {"frames", "error_frames", "overload_frames", "load", "pending"})
+    map.with(key, [&](const YamlValue &v) { expect.numbers[key] = parse_range(v); });
+  map.with("complete", [&](const YamlValue &v) { expect.complete = v.boolean(); });
+  map.with("within_bound", [&](const YamlValue &v) { expect.within_bound = v.boolean(); });
+  map.with("nodes", [&](const YamlValue &v) { parse_expected_nodes(v, scenario, expect); });
+  map.with("response_times",
+           [&](const YamlValue &v) { parse_expected_responses(v, scenario, expect); });
+  map.finish();
+  return expect;
+}
+
+}  // namespace vericansim::detail

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// LiveBus: see live_bus.hpp.
+#include "session/live_bus.hpp"
+
+namespace vericansim {
+
+LiveBus::LiveBus(SessionBus bus)
+    : scenario_{std::move(bus.scenario)},
+      simulation_{scenario_, bus.bitrate != 0 ? bus.bitrate : scenario_.bitrates.front()},
+      by_node_(scenario_.nodes.size()) {
+  simulation_.on_bus_frame = [this](const BusFrame &frame) {
+    for (Operator *op : all_) op->on_frame(frame);
+  };
+  simulation_.on_bus_event = [this](const BusEvent &event) {
+    for (Operator *op : all_) op->on_event(event);
+  };
+}
+
+LiveBus::~LiveBus() {
+  if (observes_) simulation_.bus().remove(*this);
+}
+
+void LiveBus::add(NodeId id, Operator &op) {
+  all_.push_back(&op);
+  if (!op.wants_bits()) return;
+  by_node_[id] = &op;
+  if (!observes_) simulation_.bus().add(*this);
+  observes_ = true;
+}
+
+void LiveBus::on_bit(NodeId id, const BitRecord &bit) {
+  if (by_node_[id] != nullptr) by_node_[id]->on_bit(bit);
+}
+
+}  // namespace vericansim
