@@ -20,40 +20,44 @@ filesets:
   rtl:
     file_type: systemVerilogSource
     files:
+      - rtl/lint.vlt: {file_type: vlt}
 $(rtl_files | sed 's/^/      - /')
 
+# Without a value here each has the default of the RTL.
 parameters:
   NumMb:
     datatype: int
     description: Number of message buffers (16, 32 or 64)
     paramtype: vlogparam
-    default: 64
   RegionBits:
     datatype: int
     description: Address bits of the region that hsel stands for (13 to 32)
     paramtype: vlogparam
-    default: 16
   CheckHprot:
     datatype: int
     description: 1 to let MCR.SUPV close the registers to unprivileged accesses
     paramtype: vlogparam
-    default: 0
   WakeFilter:
     datatype: int
     description: Clocks of dominant level that wake the core with MCR.WAK_SRC (1 to 255)
     paramtype: vlogparam
-    default: 6
 
+# Top and parameters are those of this core alone: a design that depends on it has its own.
 targets:
   default: &default
+    description: The RTL, for designs that depend on it
     filesets: [rtl]
-    toplevel: can_ahb
-    parameters: [NumMb, RegionBits, CheckHprot, WakeFilter]
+    toplevel: ["is_toplevel? (can_ahb)"]
+    parameters:
+      - "is_toplevel? (NumMb)"
+      - "is_toplevel? (RegionBits)"
+      - "is_toplevel? (CheckHprot)"
+      - "is_toplevel? (WakeFilter)"
   lint:
     <<: *default
-    default_tool: verilator
-    tools:
-      verilator:
-        mode: lint-only
-        verilator_options: [-Wall, rtl/lint.vlt]
+    description: Lint with Verilator, all warnings
+    flow: lint
+    flow_options:
+      tool: verilator
+      verilator_options: [-Wall]
 EOF

@@ -4,10 +4,13 @@
 # can.mk: bitstream of can_ahb for an HX8K, to see it placed and timed as it is, without a harness:
 #   make -f constraints/ice40/can.mk            in the project's root
 # A design of your own takes the Yosys line, adds its own files and replaces the top.
+# With plain abc: abc9 stops at some sizes ("Boxes are not in a topological order"), a fault of abc's.
+# Newer Yosys take abc9 unless told not to.
 RTL   := $(addprefix rtl/,$(shell sed 's/\#.*//' rtl/can.f))
 TOP   ?= can_ahb
 NUMMB ?= 32
 OUT   := build/ice40
+PLAIN := $(shell yosys -p 'help synth_ice40' | grep -o -m 1 -e -noabc9)
 
 $(OUT)/$(TOP).bin: $(OUT)/$(TOP).asc
 	icepack $< $@
@@ -19,4 +22,4 @@ $(OUT)/$(TOP).asc: $(OUT)/$(TOP).json constraints/ice40/can.pcf
 $(OUT)/$(TOP).json: $(RTL)
 	mkdir -p $(OUT)
 	yosys -q -p "read_verilog -sv $(RTL); hierarchy -check -top $(TOP) -chparam NumMb $(NUMMB); \
-	  synth_ice40 -abc9 -device hx -top $(TOP) -json $@"
+	  synth_ice40 $(PLAIN) -device hx -top $(TOP) -json $@"

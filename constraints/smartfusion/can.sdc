@@ -3,6 +3,7 @@
 #
 # can.sdc: timing of can_ahb in the fabric of an A2F500M3G. HCLK of the fabric is 50 MHz here; a bit of
 # 1 Mbit/s needs at least 8 clocks, so anything from 8 MHz will do.
+# Not run by Libero; tb/integration/smartfusion.py checks the names in it.
 create_clock -name hclk -period 20.000 [get_ports {hclk}]
 
 # The CAN bus has no clock: can_sync takes can_rx_i through two flip-flops. The reset is asynchronous.

@@ -4,6 +4,7 @@
 # libero.tcl: makes a Libero SoC project for an A2F500M3G-FG484 from rtl/can.f, with can_ahb as root.
 # Use: libero SCRIPT:constraints/smartfusion/libero.tcl   (in the project's root)
 # Add the microcontroller subsystem and its AHB-Lite fabric master in SmartDesign afterwards.
+# Not run by Libero; tb/integration/smartfusion.py checks the names in it.
 set root [file normalize [file join [file dirname [info script]] .. ..]]
 set project [file join $root build libero]
 

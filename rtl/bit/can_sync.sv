@@ -11,11 +11,18 @@ module can_sync (
   output logic rx_o       // settled level, recessive after reset
 );
 
-  logic meta_q;
+  // A synchroniser: side by side, neither merged nor copied nor made a shift register.
+  // For Vivado, for Quartus, for Synplify (Libero) and Gowin.
+  (* ASYNC_REG = "TRUE" *)
+  (* altera_attribute = "-name SYNCHRONIZER_IDENTIFICATION FORCED_IF_ASYNCHRONOUS" *)
+  (* syn_preserve = 1, syn_replicate = 0 *)
+  logic meta_q, settled_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) {rx_o, meta_q} <= {2{can_pkg::Recessive}};
-    else         {rx_o, meta_q} <= {meta_q, can_rx_i};
+    if (!rst_ni) {settled_q, meta_q} <= {2{can_pkg::Recessive}};
+    else         {settled_q, meta_q} <= {meta_q, can_rx_i};
   end
+
+  assign rx_o = settled_q;
 
 endmodule

@@ -1,0 +1,175 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""can.core: what it says of the RTL is so, its targets work in a folder of their own as FuseSoC
+runs them, and a design that depends on it keeps its own top and parameters. With FUSESOC=program
+in the environment FuseSoC itself runs the same."""
+
+import os
+import re
+import shlex
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+
+import yaml
+
+import design
+
+CONDITION = re.compile(r"is_toplevel\? \((\w+)\)")
+USER_CORE = """\
+CAPI=2:
+name: ::user:0
+filesets:
+  rtl: {files: [user_top.sv], file_type: systemVerilogSource, depend: ["verican:ip:can"]}
+targets:
+  default: {filesets: [rtl], toplevel: user_top}
+  lint:
+    filesets: [rtl]
+    toplevel: user_top
+    flow: lint
+    flow_options: {tool: verilator, verilator_options: [-Wall]}
+  sim:
+    filesets: [rtl]
+    toplevel: user_top
+    flow: sim
+    flow_options: {tool: icarus, iverilog_options: [-g2012]}
+"""
+
+
+def description():
+    """can.core as YAML."""
+    first, _, rest = (design.ROOT / "can.core").read_text(encoding="utf-8").partition("\n")
+    if first != "CAPI=2:":
+        raise AssertionError(f"can.core begins with {first}, not with CAPI=2:")
+    return yaml.safe_load(rest)
+
+
+def files_of(core):
+    """Verilator's configuration files and the sources of the core, in their order."""
+    waivers, sources = [], []
+    for entry in core["filesets"]["rtl"]["files"]:
+        if isinstance(entry, dict):
+            (name, options), = entry.items()
+            (waivers if options == {"file_type": "vlt"} else sources).append(name)
+        else:
+            sources.append(entry)
+    return waivers, sources
+
+
+def chosen(entries, is_toplevel):
+    """A list of FuseSoC's with its conditions decided."""
+    entries = [entries] if isinstance(entries, str) else entries
+    names = []
+    for entry in entries:
+        condition = CONDITION.fullmatch(entry)
+        if not condition:
+            names.append(entry)
+        elif is_toplevel:
+            names.append(condition[1])
+    return names
+
+
+class CoreDescription(unittest.TestCase):
+    """The file itself, and the tools' commands that it leads to."""
+
+    maxDiff = None
+
+    def setUp(self):
+        self.core = description()
+        self.waivers, self.sources = files_of(self.core)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.work = Path(folder.name)
+
+    def export(self):
+        """Copies the listed files, and nothing else, to where a tool will run."""
+        for name in self.waivers + self.sources:
+            target = self.work / "src/verican_ip_can" / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(design.ROOT / name, target)
+        (self.work / "user_top.sv").write_text(design.user_top(), encoding="utf-8")
+
+    def listed(self, names):
+        return [f"src/verican_ip_can/{name}" for name in names]
+
+    def lint(self, tops, parameters, *more):
+        options = self.core["targets"]["lint"]["flow_options"]
+        self.assertEqual(options["tool"], "verilator")
+        command = ["verilator", "--lint-only", *options["verilator_options"]]
+        command += [word for top in tops for word in ("--top-module", top)]
+        command += [f"-G{name}={value}" for name, value in parameters.items()]
+        return design.run(*command, *self.listed(self.waivers), *self.listed(self.sources), *more,
+                          cwd=self.work)
+
+    def test_files_are_those_of_the_list(self):
+        self.assertEqual(self.sources, design.rtl_files())
+        self.assertEqual(self.waivers, ["rtl/lint.vlt"])
+
+    def test_version_is_the_projects(self):
+        cmake = (design.ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+        version = re.search(r"project\(verican VERSION ([\d.]+)", cmake)[1]
+        self.assertEqual(self.core["name"], f"verican:ip:can:{version}")
+
+    def test_parameters_are_those_of_the_top(self):
+        text = (design.ROOT / "rtl/host/can_ahb.sv").read_text(encoding="utf-8")
+        names = re.findall(r"^\s*parameter\s+(?:int|bit|logic)?\s*(\w+)\s*=", text, re.MULTILINE)
+        self.assertEqual(list(self.core["parameters"]), names)
+        for name, options in self.core["parameters"].items():
+            self.assertEqual((options["datatype"], options["paramtype"]), ("int", "vlogparam"), name)
+            self.assertNotIn("default", options, "the RTL has the defaults")
+
+    def test_top_and_parameters_are_its_own(self):
+        for name, target in self.core["targets"].items():
+            self.assertEqual(chosen(target["toplevel"], True), ["can_ahb"], name)
+            self.assertEqual(chosen(target["parameters"], True), list(self.core["parameters"]))
+            self.assertEqual(chosen(target["toplevel"], False), [], name)
+            self.assertEqual(chosen(target["parameters"], False), [], name)
+
+    def test_lint_target_is_clean_elsewhere(self):
+        self.export()
+        for parameters in ({}, {"NumMb": 16}):
+            self.assertEqual(self.lint(["can_ahb"], parameters), (0, ""), parameters)
+        code, text = self.lint(["can_ahb"], {"NumMb": 17})
+        self.assertNotEqual(code, 0)
+        self.assertIn("NumMb_must_be_16_32_or_64", text)
+
+    def test_dependent_design_has_its_own_top(self):
+        self.export()
+        target = self.core["targets"]["default"]
+        tops = chosen(target["toplevel"], False) + ["user_top"]
+        parameters = dict.fromkeys(chosen(target["parameters"], False), 64)
+        self.assertEqual(self.lint(tops, parameters, "user_top.sv"), (0, ""))
+
+    def fusesoc(self, *words):
+        program = os.environ.get("FUSESOC")
+        if not program:
+            self.skipTest("FUSESOC=program is not set: can.core is checked without FuseSoC")
+        (self.work / "user.core").write_text(USER_CORE, encoding="utf-8")
+        (self.work / "user_top.sv").write_text(design.user_top(), encoding="utf-8")
+        shutil.copy(design.ROOT / "can.core", self.work)
+        (self.work / "rtl").symlink_to(design.ROOT / "rtl")
+        code, text = design.run(*shlex.split(program), "--cores-root", ".", "run", *words,
+                                cwd=self.work)
+        self.assertEqual(code, 0, text)
+        return text
+
+    def test_fusesoc_lints_it(self):
+        self.assertNotIn("Warning", self.fusesoc("--target", "lint", "verican:ip:can"))
+
+    def test_fusesoc_passes_a_parameter(self):
+        self.fusesoc("--target", "lint", "verican:ip:can", "--NumMb", "16")
+        files = list(self.work.glob("build/**/*.vc"))
+        self.assertEqual(len(files), 1)
+        self.assertIn("-GNumMb=16", files[0].read_text(encoding="utf-8"))
+
+    def test_fusesoc_lints_a_design_that_depends_on_it(self):
+        self.assertNotIn("Warning", self.fusesoc("--target", "lint", "::user:0"))
+
+    def test_fusesoc_builds_a_simulation_that_depends_on_it(self):
+        self.fusesoc("--setup", "--build", "--target", "sim", "::user:0")
+
+
+if __name__ == "__main__":
+    unittest.main()

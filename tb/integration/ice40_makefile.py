@@ -1,0 +1,30 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""constraints/ice40/can.mk, as its head says to run it, makes a bitstream in time for 12 MHz."""
+
+import re
+import tempfile
+import unittest
+from pathlib import Path
+
+import design
+
+
+class Ice40Makefile(unittest.TestCase):
+    """The default build: all defaults, in a folder of its own."""
+
+    def test_makes_a_bitstream(self):
+        with tempfile.TemporaryDirectory() as name:
+            code, text = design.run("make", "-s", "-f", "constraints/ice40/can.mk", f"OUT={name}")
+            self.assertEqual(code, 0, text)
+            image = (Path(name) / "can_ahb.bin").read_bytes()
+            self.assertIn(bytes.fromhex("7EAA997E"), image[:300], "the preamble of iCE40 images")
+            log = (Path(name) / "nextpnr.log").read_text(encoding="utf-8")
+            rates = re.findall(r"Max frequency for clock .*: ([\d.]+) MHz", log)
+            self.assertTrue(rates, log[-2000:])
+            self.assertGreater(float(rates[-1]), 12.0)
+
+
+if __name__ == "__main__":
+    unittest.main()
