@@ -5,7 +5,7 @@
 // VERICAN_REPORT_PAGE template of the page, VERICAN_REPORT_MODULES npm packages,
 // VERICAN_CHROMIUM the browser, VERICAN_OUT folder for pages and screenshots.
 import assert from 'node:assert/strict';
-import {existsSync, mkdirSync} from 'node:fs';
+import {existsSync, mkdirSync, readFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {join} from 'node:path';
 import {after, before} from 'node:test';
@@ -156,3 +156,12 @@ export function assertColor(seen, wanted, text) {
 }
 
 export const screenshot = (page, name) => page.screenshot({path: join(outDir, `${name}.png`)});
+
+/** Presses a button that saves a file; its name, bytes and text. */
+export async function saved(page, selector) {
+  const waiting = page.waitForEvent('download');
+  await page.click(selector);
+  const download = await waiting;
+  const bytes = readFileSync(await download.path());
+  return {name: download.suggestedFilename(), bytes, text: bytes.toString()};
+}

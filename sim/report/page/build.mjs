@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // build.mjs MODULES OUT: makes one HTML file of the page. MODULES is the node_modules folder with
-// esbuild and uPlot, OUT the file to write. Script and style are inlined and named by their hashes
+// esbuild, uPlot and candied, OUT the file to write. Script and style are inlined and named by their hashes
 // in a content security policy that allows nothing else: the page cannot reach a network.
 import {createHash} from 'node:crypto';
 import {readFileSync, writeFileSync} from 'node:fs';
@@ -49,7 +49,9 @@ if (/<\/(script|style)/i.test(script + style)) throw new Error('an end tag in sc
 const policy =
   `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; ` +
   `img-src data:; base-uri 'none'; form-action 'none'`;
-const licence = readFileSync(join(modules, 'uplot', 'LICENSE'), 'utf8').trim();
+const licence = ['uplot', 'candied']
+  .map((name) => `${name}: ${readFileSync(join(modules, name, 'LICENSE'), 'utf8').trim()}`)
+  .join('\n\n');
 
 let page = readFileSync(join(here, 'src', 'page.html'), 'utf8');
 page = fill(page, '{{policy}}', policy);

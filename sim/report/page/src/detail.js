@@ -7,8 +7,9 @@ import {F, bitTitle, errorKinds, fieldColor, fieldName, fieldText, kErrorTexts} 
 import {formatTime, hex, milliseconds} from './format.js';
 import {placeOf} from './events_tab.js';
 import {faultDetails} from './faults_tab.js';
-import {kEventKinds, nodeCell} from './frames_tab.js';
+import {kEventKinds, messageName, nodeCell} from './frames_tab.js';
 import {kNobody} from './report.js';
+import {signalTable} from './signal_details.js';
 
 /** A frame as a line of candump -l. */
 export function candumpLine(frame) {
@@ -120,7 +121,7 @@ function frameDetails(report, index, actions) {
         ? null
         : ['data', [...frame.data].map((byte) => hex(byte, 2)).join(' ') || 'none'],
       ['sender', frame.sender === kNobody ? 'not known' : nodeCell(report, frame.sender)],
-      frame.message >= 0 ? ['message', report.meta.messages[frame.message]?.name ?? ''] : null,
+      messageName(report, frame) ? ['message', messageName(report, frame)] : null,
       [
         'response',
         Number.isNaN(frame.response) ? 'not known' : `${milliseconds(frame.response, 6)} ms`,
@@ -140,6 +141,7 @@ function frameDetails(report, index, actions) {
           ]
         : null,
     ]),
+    signalTable(report, frame),
     lane ? fieldStrip(lane) : el('p', {class: 'dim'}, 'No bits were kept of this frame.'),
   ];
 }
@@ -278,7 +280,7 @@ export function detailPanel(report, view, actions) {
     };
     root.replaceChildren(
       ...(selection
-        ? (kinds[selection.kind]?.() ?? [])
+        ? (kinds[selection.kind]?.() ?? []).filter(Boolean)
         : [
             el(
               'p',
@@ -289,6 +291,7 @@ export function detailPanel(report, view, actions) {
     );
   };
   view.addEventListener('select', show);
+  report.databases.addEventListener('change', show);
   show();
   return root;
 }

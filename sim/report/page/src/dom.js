@@ -15,6 +15,21 @@ export function el(tag, attributes = {}, ...children) {
   return element;
 }
 
+/** A tab with a bar of fields and buttons above its table. */
+export const tabWithBar = (bar, ...rest) =>
+  el('div', {class: 'tab-body column'}, el('div', {class: 'search'}, ...bar), ...rest);
+
+/** A field to search with. */
+export const searchField = (label, placeholder, more = {}) =>
+  el('input', {
+    type: 'search',
+    placeholder,
+    'aria-label': label,
+    spellcheck: 'false',
+    autocomplete: 'off',
+    ...more,
+  });
+
 /** A small square in the colour of a node. */
 export function swatch(color) {
   const square = el('span', {class: 'swatch', 'aria-hidden': 'true'});

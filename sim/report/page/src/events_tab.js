@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Error and overload frames with their causes in words, and lost arbitrations.
-import {el} from './dom.js';
+import {csvButton, tableRows} from './csv.js';
+import {el, tabWithBar} from './dom.js';
 import {errorKinds, fieldName, kErrorKinds, kErrorTexts} from './fields.js';
 import {formatCount, hex, milliseconds} from './format.js';
-import {kEventKinds, nodeCell} from './frames_tab.js';
+import {kEventKinds, nodeCell, nodeText} from './frames_tab.js';
 import {Table} from './table.js';
 
 const kLoss = 0x80000000;
@@ -89,6 +90,7 @@ function columnsOf(report) {
       title: 'The node that found it first',
       width: 'minmax(90px, 1fr)',
       node: (row) => nodeCell(report, node(row)),
+      csv: (row) => nodeText(report, node(row)),
       key: (row) => report.nodeName(node(row)),
     },
     {name: 'where', title: 'Field and bit', width: 'minmax(110px, 1fr)', text: place},
@@ -114,15 +116,12 @@ export class EventsTab {
     const counts =
       `errors and overloads ${formatCount(report.events.count)}, ` +
       `lost arbitrations ${formatCount(report.losses.count)}`;
-    this.root = el(
-      'div',
-      {class: 'tab-body column'},
-      el(
-        'div',
-        {class: 'search'},
+    this.root = tabWithBar(
+      [
         el('label', {}, this.withLosses, ' lost arbitrations too'),
+        csvButton(report, 'errors', () => tableRows(this.table)),
         el('span', {class: 'found'}, counts),
-      ),
+      ],
       this.table.root,
     );
     view.addEventListener('select', () => this.#mark());

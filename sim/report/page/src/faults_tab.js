@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The faults of the scenario: what they are, how often and when they took effect.
+import {csvButton, tableRows} from './csv.js';
 import {el} from './dom.js';
 import {faultPlace} from './faults.js';
 import {formatCount, formatTime, milliseconds} from './format.js';
-import {Table} from './table.js';
+import {Table, timeColumn} from './table.js';
 
 const kListed = 500; // moments of one fault that the details name
 
@@ -19,12 +20,6 @@ function hitsText({hits, times, more}) {
 function columnsOf(report) {
   const {list} = report.faults;
   const text = (value) => ({text: (row) => value(list[row]), key: (row) => value(list[row])});
-  const time = (pick) => ({
-    numeric: true,
-    mono: true,
-    text: (row) => (list[row].times.length ? milliseconds(pick(list[row].times), 6) : '–'),
-    key: (row) => (list[row].times.length ? pick(list[row].times) : NaN),
-  });
   return [
     {
       name: 'fault',
@@ -46,13 +41,13 @@ function columnsOf(report) {
       name: 'first, ms',
       title: 'When it took effect first, milliseconds from the start',
       width: '104px',
-      ...time((times) => times[0][0]),
+      ...timeColumn((row) => list[row].times[0]?.[0] ?? NaN, 6),
     },
     {
       name: 'last, ms',
       title: 'When the last effect that is kept began',
       width: '104px',
-      ...time((times) => times.at(-1)[0]),
+      ...timeColumn((row) => list[row].times.at(-1)?.[0] ?? NaN, 6),
     },
     {
       name: 'what it does',
@@ -82,6 +77,7 @@ export class FaultsTab {
     const note = el(
       'div',
       {class: 'search'},
+      csvButton(report, 'faults', () => tableRows(this.table)),
       el('span', {class: 'dim'}, 'A click goes to the first moment, another one to the next.'),
       never
         ? el('span', {class: 'alarm'}, `${never} of ${report.faults.count} never took effect`)

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Frames and errors in one list, by time, with the search over it.
-import {el, swatch} from './dom.js';
+import {csvButton, tableRows} from './csv.js';
+import {el, searchField, swatch, tabWithBar} from './dom.js';
 import {errorKinds} from './fields.js';
 import {formatCount, hex, milliseconds} from './format.js';
 import {compileQuery} from './query.js';
 import {kNobody} from './report.js';
+import {choiceOf, rawText} from './signal_codec.js';
 import {Table} from './table.js';
 import {nodeColor} from './theme.js';
 
@@ -28,6 +30,13 @@ function allRows(report) {
   return rows;
 }
 
+/** Name of a frame's message: that of the scenario, of the database, or both if they differ. */
+export function messageName(report, frame) {
+  const own = report.meta.messages[frame.message]?.name ?? '';
+  const given = report.signals.messageOf(frame)?.name ?? '';
+  return own && given && own !== given ? `${own} · ${given}` : own || given;
+}
+
 /** Texts of a row; the search looks at the same. */
 export function rowValues(report, row) {
   if (isEvent(row)) {
@@ -41,6 +50,7 @@ export function rowValues(report, row) {
       type: kEventKinds[event.kind],
       node: event.node,
       message: '',
+      signals: '',
       words: `${errorKinds(event.error)} ${event.cause.rule}`,
     };
   }
@@ -54,10 +64,20 @@ export function rowValues(report, row) {
     type,
     data: [...frame.data].map((byte) => hex(byte, 2)).join(' '),
     node: frame.sender,
-    message: report.meta.messages[frame.message]?.name ?? '',
+    message: messageName(report, frame),
+    signals: report.signals.textOf(frame),
     words: '',
   };
 }
+
+/** The column of decoded signals, if there is a database. */
+const signalColumn = (values) => ({
+  name: 'signals',
+  title: 'Signals by the databases: name and value',
+  width: 'minmax(260px, 4fr)',
+  text: (row) => values(row).signals,
+  key: (row) => values(row).signals,
+});
 
 function columnsOf(report) {
   const values = (row) => rowValues(report, row);
@@ -102,6 +122,7 @@ function columnsOf(report) {
       title: 'Who sent the frame or found the error',
       width: 'minmax(84px, .7fr)',
       node: (row) => nodeCell(report, values(row).node),
+      csv: (row) => nodeText(report, values(row).node),
       key: (row) => report.nodeName(values(row).node),
     },
     {
@@ -115,11 +136,12 @@ function columnsOf(report) {
     },
     {
       name: 'message',
-      title: 'Name in the scenario',
+      title: 'Name in the scenario, or in a database',
       width: 'minmax(90px, 1fr)',
       text: (row) => values(row).message,
       key: (row) => values(row).message,
     },
+    ...(report.signals.any ? [signalColumn(values)] : []),
     {
       name: 'response, ms',
       title: 'Milliseconds from the event that queued the frame to its end',
@@ -149,6 +171,8 @@ function columnsOf(report) {
   ];
 }
 
+export const nodeText = (report, node) => (node === kNobody ? '' : report.nodeName(node));
+
 export function nodeCell(report, node) {
   if (node === kNobody) return '';
   return el('span', {}, swatch(nodeColor(node)), report.nodeName(node));
@@ -165,22 +189,16 @@ export class FramesTab {
         isEvent(row) ? (report.events.kind[index(row)] === 1 ? 'overload' : 'error') : '',
       pick: (row) => (isEvent(row) ? steps.showEvent(index(row)) : steps.showFrame(index(row))),
     });
-    this.input = el('input', {
-      type: 'search',
+    const example = 'Search: 123, CA FE, node, message, error, remote …';
+    this.input = searchField('Search frames', example, {
       id: 'search',
-      placeholder: 'Search: 123, CA FE, node, message, error, remote …',
-      'aria-label': 'Search frames',
-      spellcheck: 'false',
-      autocomplete: 'off',
       title:
         'Words that all must fit: identifier or data bytes in hex, name of a ' +
         'node or message, error, overload, remote, data, ext, retry, lost',
     });
     this.found = el('span', {class: 'found', 'aria-live': 'polite'});
-    this.root = el(
-      'div',
-      {class: 'tab-body column'},
-      el('div', {class: 'search'}, this.input, this.found),
+    this.root = tabWithBar(
+      [this.input, csvButton(report, 'frames', () => this.#csv()), this.found],
       this.table.root,
     );
     this.input.addEventListener('input', () => this.#later());
@@ -192,12 +210,22 @@ export class FramesTab {
       }
     });
     view.addEventListener('select', () => this.#mark());
+    report.databases.addEventListener('change', () => {
+      this.table.setColumns(columnsOf(report));
+      this.search();
+    });
     this.search();
   }
 
   #later() {
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.search(), 120);
+  }
+
+  /** Filters by a text, as if somebody had typed it. */
+  show(text) {
+    this.input.value = text;
+    this.search();
   }
 
   /** Filters by what the field holds. */
@@ -209,6 +237,31 @@ export class FramesTab {
       : `${formatCount(this.report.frames.count)} frames, ` +
         `errors and overloads ${formatCount(this.report.events.count)}`;
     this.table.show(rows);
+  }
+
+  /** The table as rows of a CSV file, and a column for each signal that is in it. */
+  #csv() {
+    const {report, table} = this;
+    const columns = new Map(); // by signal
+    const values = new Map(); // by row: Map of signal to text
+    for (const row of table.rows) {
+      if (isEvent(row) || !report.signals.any) continue;
+      const frame = report.frame(index(row));
+      const message = report.signals.messageOf(frame);
+      const texts = new Map();
+      for (const decoded of report.signals.valuesOf(frame)) {
+        const {signal} = decoded;
+        texts.set(signal, choiceOf(decoded) ?? rawText(decoded));
+        const unit = signal.unit && `, ${signal.unit}`;
+        columns.set(signal, `${message.name}.${signal.name}${unit}`);
+      }
+      values.set(row, texts);
+    }
+    const more = [...columns].map(([signal, name]) => ({
+      name,
+      text: (row) => values.get(row)?.get(signal) ?? '',
+    }));
+    return tableRows(table, more);
   }
 
   #mark() {

@@ -14,14 +14,18 @@ import {EventsTab} from './events_tab.js';
 import {FaultsTab} from './faults_tab.js';
 import {FramesTab} from './frames_tab.js';
 import {goToStatement, header} from './header.js';
+import {idText, IdsTab} from './ids_tab.js';
 import {helpDialog, legend, toolbar} from './toolbar.js';
 import {keepHash, readHash} from './hash.js';
+import {DbcOpener} from './open_dbc.js';
 import {load, LoadError} from './load.js';
 import {LoadTab} from './load_tab.js';
 import {Overview} from './overview.js';
 import {Report} from './report.js';
 import {ResponseTab} from './response_tab.js';
 import {Scope} from './scope.js';
+import {Chosen} from './signals.js';
+import {SignalsTab} from './signals_tab.js';
 import {Tabs} from './tabs.js';
 import {View} from './view.js';
 
@@ -76,7 +80,7 @@ function faultsEntry(report, view, steps) {
   ];
 }
 
-function tabsOf(report, view, steps, frames) {
+function tabsOf(report, view, steps, {frames, signals, ids}) {
   return new Tabs([
     {id: 'frames', name: 'Frames', title: 'All frames and errors; searchable', root: frames.root},
     {
@@ -85,7 +89,15 @@ function tabsOf(report, view, steps, frames) {
       title: 'Errors, overloads and lost arbitrations',
       root: new EventsTab(report, view, steps).root,
     },
+    {
+      id: 'ids',
+      name: 'Identifiers',
+      title: 'How often and how regularly each identifier is on the bus',
+      root: ids.root,
+      shown: () => ids.fill(),
+    },
     ...faultsEntry(report, view, steps),
+    {id: 'signals', name: 'Signals', title: 'By DBC databases', root: signals.root},
     {
       id: 'counters',
       name: 'Error counters',
@@ -156,13 +168,24 @@ function build(report, app) {
     tab: (id) => tabs.show(id),
     fault: (index, hit) => steps.showFault(index, hit),
   };
-  const tabs = tabsOf(report, view, steps, frames);
+  const chosen = new Chosen(report.signals);
+  const opener = new DbcOpener(report.databases);
+  opener.embedded(report.meta.databases ?? []);
+  opener.attach(document.documentElement);
+  const signals = new SignalsTab(report.signals, chosen, opener);
+  const ids = new IdsTab(report, (entry) => {
+    tabs.show('frames');
+    frames.show(`0x${idText(entry)}`);
+    steps.showFrame(entry.frames[0]);
+  });
+  const tabs = tabsOf(report, view, steps, {frames, signals, ids});
   const scopeHost = el('section', {class: 'scope', 'aria-label': 'Oscilloscope'});
   const overviewHost = el('div', {class: 'overview-host'});
   const bottom = el('section', {class: 'bottom'}, tabs.root, detailPanel(report, view, actions));
   app.replaceChildren(
     ...header(report, view, actions),
     toolbar(report, view, steps, actions),
+    opener.alert,
     overviewHost,
     scopeHost,
     legend(),
@@ -171,7 +194,7 @@ function build(report, app) {
     help,
   );
   app.classList.toggle('app-paper', report.meta.statements.length > 0);
-  const scope = new Scope(scopeHost, report, view);
+  const scope = new Scope(scopeHost, report, view, chosen);
   const overview = new Overview(overviewHost, report, view);
   attachPointer(scope, view);
   attachTooltip(scope, document.body);
@@ -187,6 +210,8 @@ function build(report, app) {
     overview,
     tabs,
     frames,
+    chosen,
+    opener,
     goToStatement,
     inspect: () => scope.inspect(),
     stats: scope.stats,

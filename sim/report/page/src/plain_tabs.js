@@ -17,7 +17,11 @@ const kNodeColumns = [
   ],
   ['quantum, ns', 'Time quantum, error of the clock included', (n) => +n.tq_ns.toFixed(3)],
   ['SJW, quanta', 'Largest correction of a resynchronisation, quanta', (n) => n.sjw],
-  ['sample point, %', 'Place in the bit where its level is read', (n) => (100 * n.sample_point).toFixed(1)],
+  [
+    'sample point, %',
+    'Place in the bit where its level is read',
+    (n) => (100 * n.sample_point).toFixed(1),
+  ],
   ['sent', 'Frames sent', (n) => formatCount(n.sent)],
   ['received', 'Frames received', (n) => formatCount(n.received)],
   ['retries', 'Attempts that failed', (n) => n.retries],

@@ -141,7 +141,7 @@ function clicker(scope, view) {
 
 /** Connects the scope with mouse, touch and pen. */
 export function attachPointer(scope, view) {
-  for (const canvas of [scope.top, scope.lanes]) {
+  for (const canvas of [scope.top, scope.signals.canvas, scope.lanes]) {
     canvas.addEventListener('wheel', wheel(scope, view), {passive: false});
     canvas.addEventListener('dblclick', (event) => {
       const {segment} = hit(scope, event.offsetX, event.offsetY, canvas);

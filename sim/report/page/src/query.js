@@ -29,12 +29,14 @@ function wordTest(word, report) {
   if (node >= 0) return (row) => row.node === node;
   if (/^0x/i.test(word) && kHex.test(word)) {
     const id = parseInt(word, 16);
-    return ({frame}) => frame?.id === id;
+    const format = {5: false, 10: true}[word.length]; // 0x123: 11 bits, 0x00000123: 29 bits
+    return ({frame}) => frame?.id === id && (format ?? frame.extended) === frame.extended;
   }
   const digits = kHex.test(word);
   return (row) =>
     row.message.toLowerCase().includes(lower) ||
     row.words.toLowerCase().includes(lower) ||
+    row.signals.toLowerCase().includes(lower) ||
     (row.event !== undefined && row.data.toLowerCase().includes(lower)) ||
     (digits && row.frame !== undefined && (row.id.includes(upper) || hasBytes(row.data, upper)));
 }

@@ -3,11 +3,13 @@
 //
 // Report: the data of the page, with searches over it. Names and units: docs/report-format.md.
 import {Counters} from './counters.js';
+import {Databases} from './databases.js';
 import {EdgeTrack} from './edges.js';
 import {Faults} from './faults.js';
 import {Lane} from './lane.js';
 import {LoadError} from './load.js';
 import {lastAtOrBelow} from './search.js';
+import {Signals} from './signals.js';
 
 const kTypes = {
   u8: Uint8Array,
@@ -90,6 +92,8 @@ export class Report {
     this.#tracks(arrays);
     this.#sums();
     this.lanes = new Map();
+    this.databases = new Databases();
+    this.signals = new Signals(this, this.databases);
   }
 
   #tracks(arrays) {

@@ -10,14 +10,17 @@ import {el} from './dom.js';
 import {LaneHint} from './lane_hint.js';
 import {Painter} from './painter.js';
 import {Scale, kGutter} from './scale.js';
+import {SignalLanes} from './signal_lanes.js';
 import {colors} from './theme.js';
 
 const kBus = {least: 76, most: 150};
 const kLane = {least: 20, usual: 46, most: 84};
 
 export class Scope {
-  constructor(root, report, view) {
+  /** @param chosen signals.js: what is plotted below the bus */
+  constructor(root, report, view, chosen) {
     Object.assign(this, {root, report, view});
+    this.signals = new SignalLanes(report, chosen);
     this.top = el('canvas', {
       class: 'scope-top',
       tabindex: 0,
@@ -28,7 +31,7 @@ export class Scope {
     this.scroll = el('div', {class: 'lanes'}, this.lanes);
     this.hint = new LaneHint(this.scroll);
     const host = el('div', {class: 'lanes-host'}, this.scroll, this.hint.above, this.hint.below);
-    root.append(this.top, host);
+    root.append(this.top, this.signals.root, host);
     this.topPainter = new Painter(this.top);
     this.lanesPainter = new Painter(this.lanes);
     this.hover = null;
@@ -38,6 +41,7 @@ export class Scope {
     const later = () => this.invalidate();
     view.addEventListener('move', later);
     view.addEventListener('select', later);
+    chosen.addEventListener('change', later);
     new ResizeObserver(later).observe(root);
     window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', later);
   }
@@ -52,7 +56,7 @@ export class Scope {
   /** Room that the lanes leave goes to the bus. */
   get busHeight() {
     const lanes = kLane.usual * this.report.nodes.length;
-    const room = this.root.clientHeight - kBarEnd - this.faultRow - lanes - 2;
+    const room = this.root.clientHeight - kBarEnd - this.faultRow - this.signalHeight - lanes - 2;
     return Math.min(Math.max(room, kBus.least), kBus.most);
   }
 
@@ -60,12 +64,15 @@ export class Scope {
   get topHeight() {
     return kBarEnd + this.busHeight + this.faultRow;
   }
+  get signalHeight() {
+    return this.signals.shown(this.root.clientHeight);
+  }
   get faultRow() {
     return this.report.faults.count > 0 ? kFaultRow : 0;
   }
 
   get laneHeight() {
-    const room = this.root.clientHeight - this.topHeight - 2;
+    const room = this.root.clientHeight - this.topHeight - this.signalHeight - 2;
     const each = Math.floor(room / Math.max(this.report.nodes.length, 1));
     return Math.min(Math.max(each, kLane.least), kLane.most);
   }
@@ -80,6 +87,7 @@ export class Scope {
     const scale = this.scale();
     this.topPainter.begin(scale.width, this.topHeight, theme);
     this.#drawTop(this.topPainter, scale);
+    this.#drawSignals(scale, theme);
     const height = this.laneHeight;
     const nodes = this.report.nodes.length;
     this.lanesPainter.begin(scale.width, Math.max(nodes * height, 1), theme);
@@ -92,11 +100,27 @@ export class Scope {
     this.#measure(performance.now() - begin, scale);
   }
 
+  #drawSignals(scale, theme) {
+    const {signals, signalHeight} = this;
+    signals.root.hidden = signalHeight === 0;
+    signals.root.style.height = `${signalHeight}px`;
+    if (signalHeight === 0) return;
+    signals.painter.begin(scale.width, signals.height, theme);
+    signals.draw(signals.painter, scale, 0, this.moment(scale));
+    this.#overlay(signals.painter, scale);
+  }
+
+  /** The time of the values in the gutter: under the pointer, else at the right end. */
+  moment(scale) {
+    return this.hover ? scale.time(this.hover.x) : this.view.to;
+  }
+
   #measure(ms, scale) {
     const {stats} = this;
     ++stats.redraws;
     stats.lastMs = ms;
-    stats.drawn = this.topPainter.drawn + this.lanesPainter.drawn;
+    const signals = this.signals.root.hidden ? 0 : this.signals.painter.drawn;
+    stats.drawn = this.topPainter.drawn + signals + this.lanesPainter.drawn;
     stats.mode = scale.mode;
     stats.times.push(ms);
     if (stats.times.length > 1000) stats.times.shift();
@@ -147,7 +171,7 @@ export class Scope {
     });
     p.rect(0, y + 4, 4, h - 8, `n-${node % 16}`);
     const name = this.report.nodes[node].name;
-    const at = this.hover ? scale.time(this.hover.x) : this.view.to;
+    const at = this.moment(scale);
     const {tec, rec, state} = this.report.counters.at(node, at);
     const small = h < 34;
     const label = name.length > 15 ? `${name.slice(0, 14)}…` : name;
@@ -192,11 +216,11 @@ export class Scope {
 
   /** What the picture shows: for the tests. Draws once more, keeping a list. */
   inspect() {
-    this.topPainter.items = [];
-    this.lanesPainter.items = [];
+    const painters = [this.topPainter, this.signals.painter, this.lanesPainter];
+    for (const painter of painters) painter.items = [];
     this.draw();
-    const items = [...this.topPainter.items, ...this.lanesPainter.items];
-    this.topPainter.items = this.lanesPainter.items = null;
+    const items = painters.flatMap((painter) => painter.items);
+    for (const painter of painters) painter.items = null;
     const {from, to} = this.view;
     return {
       from,

@@ -3,9 +3,18 @@
 //
 // Table: rows of any number; only those in sight are elements.
 import {el} from './dom.js';
+import {milliseconds} from './format.js';
 
 export const kRowHeight = 24;
 const kSpare = 6; // rows above and below what is in sight
+
+/** What columns of times have in common; value(row) is in ns, or not finite: there is none. */
+export const timeColumn = (value, digits = 3) => ({
+  numeric: true,
+  mono: true,
+  text: (row) => milliseconds(value(row), digits),
+  key: (row) => (Number.isFinite(value(row)) ? value(row) : NaN),
+});
 
 export class Table {
   /**
@@ -17,11 +26,7 @@ export class Table {
     this.rows = new Uint32Array(0);
     this.sorted = {column: null, up: true};
     this.current = -1;
-    this.head = el(
-      'div',
-      {class: 'row head', role: 'row'},
-      columns.map((column, i) => this.#header(column, i)),
-    );
+    this.head = el('div', {class: 'row head', role: 'row'});
     this.space = el('div', {class: 'space'});
     this.body = el('div', {class: 'rows', role: 'rowgroup'}, this.space);
     this.root = el(
@@ -30,8 +35,7 @@ export class Table {
       this.head,
       this.body,
     );
-    const template = columns.map((column) => column.width).join(' ');
-    this.root.style.setProperty('--columns', template);
+    this.setColumns(columns);
     this.root.addEventListener('scroll', () => this.#paint());
     this.root.addEventListener('keydown', (event) => this.#key(event));
     this.body.addEventListener('click', (event) => {
@@ -39,6 +43,21 @@ export class Table {
       if (row) this.#choose(Number(row.dataset.at));
     });
     new ResizeObserver(() => this.#paint()).observe(this.root);
+  }
+
+  /** Other columns for the same rows; the order of rows stays if its column does. */
+  setColumns(columns) {
+    this.columns = columns;
+    this.head.replaceChildren(...columns.map((column, i) => this.#header(column, i)));
+    const {column} = this.sorted;
+    this.sorted.column = columns.find(({name}) => name === column?.name) ?? null;
+    this.#showOrder();
+    this.root.style.setProperty('--columns', columns.map(({width}) => width).join(' '));
+    const least = columns.reduce(
+      (sum, {width}) => sum + parseFloat(width.replace('minmax(', '')),
+      0,
+    );
+    this.root.style.setProperty('--least', `${Math.max(least, 760)}px`);
   }
 
   #header(column, index) {
@@ -69,11 +88,15 @@ export class Table {
     const column = this.columns[index];
     const same = this.sorted.column === column;
     this.sorted = same && !this.sorted.up ? {column: null, up: true} : {column, up: !same};
+    this.#showOrder();
+    this.#sort();
+  }
+
+  #showOrder() {
     [...this.head.children].forEach((cell, i) => {
       const on = this.sorted.column === this.columns[i];
       cell.setAttribute('aria-sort', !on ? 'none' : this.sorted.up ? 'ascending' : 'descending');
     });
-    this.#sort();
   }
 
   #sort() {

@@ -5,7 +5,7 @@
 import {el} from './dom.js';
 
 export class Tabs {
-  /** @param entries [{id, name, title, root}] */
+  /** @param entries [{id, name, title, root, shown()}]; shown: called when it comes into sight */
   constructor(entries) {
     this.entries = entries;
     this.buttons = entries.map(({id, name, title}, i) =>
@@ -53,6 +53,7 @@ export class Tabs {
     this.entries.forEach((entry, i) => {
       const on = entry.id === id;
       entry.root.hidden = !on;
+      if (on) entry.shown?.();
       this.buttons[i].setAttribute('aria-selected', String(on));
       this.buttons[i].tabIndex = on ? 0 : -1;
     });

@@ -7,6 +7,7 @@ import {el} from './dom.js';
 import {formatTime} from './format.js';
 import {hit} from './pointer.js';
 import {frameTexts} from './draw_bar.js';
+import {axisText, valueAt} from './draw_signal.js';
 
 function laneLines(place, report) {
   const {lane, bit, segment} = place;
@@ -49,6 +50,17 @@ function faultLines(place, report, scale) {
   });
 }
 
+/** The signal under the pointer and its value then. */
+function signalLines(place, scope, y) {
+  const found = scope.signals.at(y);
+  if (!found) return [];
+  const {message, signal, series} = found;
+  const value = valueAt(series, place.time);
+  const unit = signal.unit ? ` ${signal.unit}` : '';
+  const text = Number.isNaN(value) ? 'no value yet' : `${axisText(signal, value)}${unit}`;
+  return [['b', `${message.name}.${signal.name}: ${text}`]];
+}
+
 function driverLine(place, report, scale) {
   if (scale.pxPerBit < 0.5) return [];
   const names = report.driversAt(place.time).map((node) => report.nodeName(node));
@@ -76,6 +88,8 @@ export function attachTooltip(scope, host) {
     }
     lines.push(...faultLines(place, report, scale));
     if (scale.fine) lines.push(...laneLines(place, report));
+    if (event.target === scope.signals.canvas)
+      lines.push(...signalLines(place, scope, event.offsetY));
     lines.push(...driverLine(place, report, scale));
     box.replaceChildren(...lines.map(([style, text]) => el('div', {class: style}, text)));
     box.hidden = false;

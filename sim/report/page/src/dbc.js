@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A DBC file as messages with signals. candied parses the statements; what it does not understand,
+// and what no frame can hold, is refused with its line.
+import {ASTKinds, Parser} from 'candied/lib/parser/parser';
+import {DbcError, kForms, statementsOf} from './dbc_statements.js';
+
+const kExtended = 0x80000000;
+const kIndependent = new Set([0x40000000, 0xc0000000]); // holds the signals of no message
+const kKinds = {
+  [ASTKinds.CanMessage]: 'BO_',
+  [ASTKinds.CanSignal]: 'SG_',
+  [ASTKinds.Val]: 'VAL_',
+  [ASTKinds.SigValType]: 'SIG_VALTYPE_',
+  [ASTKinds.SignalMultiplexVal]: 'SG_MUL_VAL_',
+  [ASTKinds.GlobalAttribute]: 'BA_DEF_',
+  [ASTKinds.MessageAttribute]: 'BA_DEF_',
+  [ASTKinds.SignalAttribute]: 'BA_DEF_',
+  [ASTKinds.AttributeDefault]: 'BA_DEF_DEF_',
+  [ASTKinds.AttributeValue]: 'BA_',
+};
+
+/** What candied makes of a statement. */
+function parsed({line, keyword, text, strings}) {
+  const {ast, errs} = new Parser(text).parse();
+  if (!ast || errs?.length || kKinds[ast.kind] !== keyword) {
+    const shown = text.replace(/"(\d+)"/g, (whole, n) => `"${strings[n] ?? n}"`);
+    throw new DbcError(line, `not understood: ${shown.slice(0, 120)}; allowed: ${kForms[keyword]}`);
+  }
+  return ast;
+}
+
+/** An identifier with bit 31 where it is extended; many files leave the bit out above 7FF. */
+function keyOf(id) {
+  if (id <= 0x7ff || kIndependent.has(id)) return id;
+  return (id % 0x20000000) + kExtended;
+}
+
+const decimalsOf = (text) => text.split('.')[1]?.length ?? 0;
+
+/** Bits from the most significant one on: 8 * byte + weight in it. */
+function placesOf(start, length, littleEndian) {
+  if (littleEndian) return Array.from({length}, (_, i) => start + length - 1 - i);
+  const places = [start];
+  while (places.length < length) {
+    const place = places.at(-1);
+    places.push(place % 8 === 0 ? place + 15 : place - 1);
+  }
+  return places;
+}
+
+function signalOf(ast, line, strings) {
+  const littleEndian = ast.endian === 'Intel';
+  const places = ast.length <= 64 ? placesOf(ast.start_bit, ast.length, littleEndian) : [];
+  return {
+    name: ast.name,
+    line,
+    start: ast.start_bit,
+    length: ast.length,
+    littleEndian,
+    signed: ast.signed,
+    float: false,
+    factor: ast.factor,
+    offset: ast.offset,
+    decimals: Math.max(decimalsOf(ast.raw_factor), decimalsOf(ast.raw_offset)),
+    minimum: ast.min < ast.max ? ast.min : -Infinity, // [0|0] stands for no limits
+    maximum: ast.min < ast.max ? ast.max : Infinity,
+    unit: strings[Number(ast.unit)] ?? '',
+    choices: new Map(),
+    multiplexer: ast.multiplex.endsWith('M'),
+    value: /^m(\d+)/.exec(ast.multiplex)?.[1] ?? null,
+    nested: /^m\d+M$/.test(ast.multiplex),
+    selection: null, // {multiplexer: signal, ranges: [[first, last]]}: when it is there
+    places,
+    bytes: Math.max(-1, ...places) / 8 + 1, // that a frame needs to hold it, when rounded down
+  };
+}
+
+/** Collects messages from statements. */
+class Reader {
+  constructor() {
+    this.messages = new Map(); // by key
+    this.message = null;
+    this.formats = ['', '', '', 'J1939PG']; // of VFrameFormat, unless the file names them
+    this.attributes = {};
+  }
+
+  take(statement) {
+    const ast = parsed(statement);
+    const {line, strings, keyword, text} = statement;
+    if (keyword === 'BO_') this.#addMessage(ast, line, text);
+    else if (keyword === 'SG_') this.#addSignal(ast, line, strings);
+    else if (keyword === 'VAL_') this.#addChoices(ast, strings);
+    else if (keyword === 'SIG_VALTYPE_') this.#setFloat(ast);
+    else if (keyword === 'SG_MUL_VAL_') this.#setSelection(ast, line);
+    else this.#attribute(keyword, ast);
+  }
+
+  #addMessage({id, name}, line, text) {
+    if (id > 0x1fffffff && id < kExtended && !kIndependent.has(id))
+      throw new DbcError(
+        line,
+        `message ${name} has the identifier ${id}; allowed: 0 to 2047, and of 29 bits with bit 31 set`,
+      );
+    const key = keyOf(id);
+    const known = this.messages.get(key);
+    if (known && !kIndependent.has(key))
+      throw new DbcError(line, `message ${id} is there twice; first in line ${known.line}`);
+    this.message = {
+      name,
+      key,
+      id: key % kExtended,
+      extended: key >= kExtended,
+      length: Number(/: (\d+)/.exec(text)[1]),
+      j1939: false,
+      signals: [],
+      line,
+    };
+    this.messages.set(key, this.message);
+  }
+
+  #addSignal(ast, line, strings) {
+    if (!this.message) throw new DbcError(line, `signal ${ast.name} stands before any message`);
+    const known = this.message.signals.find(({name}) => name === ast.name);
+    if (known && !kIndependent.has(this.message.key))
+      throw new DbcError(line, `signal ${ast.name} is there twice; first in line ${known.line}`);
+    this.message.signals.push(signalOf(ast, line, strings));
+  }
+
+  #find(id, name) {
+    return this.messages.get(keyOf(id))?.signals.find((signal) => signal.name === name);
+  }
+
+  #addChoices({id, name, enum: table}, strings) {
+    const signal = this.#find(id, name);
+    table.forEach((text, raw) => signal?.choices.set(raw, strings[Number(text)]));
+  }
+
+  #setFloat({id, name}) {
+    const signal = this.#find(id, name);
+    if (signal) signal.float = true;
+  }
+
+  #setSelection({id, name, switch_name: by, value_ranges: ranges}, line) {
+    const signal = this.#find(id, name);
+    if (!signal) return;
+    const multiplexer = this.#find(id, by);
+    if (!multiplexer?.multiplexer)
+      throw new DbcError(
+        line,
+        `signal ${name} is multiplexed by ${by}, which is no multiplexer (M) of the message`,
+      );
+    signal.selection = {multiplexer, ranges: ranges.map(([a, b = a]) => [Number(a), Number(b)])};
+  }
+
+  #attribute(keyword, ast) {
+    const {name} = ast;
+    if (keyword === 'BA_DEF_') {
+      if (name === 'VFrameFormat' && ast.enum?.length) this.formats = ast.enum;
+    } else if (keyword === 'BA_DEF_DEF_') {
+      this.attributes[name] ??= ast.value;
+    } else if (name === 'ProtocolType') {
+      this.attributes[name] = ast.value;
+    } else {
+      const message = this.messages.get(keyOf(ast.id));
+      if (name === 'VFrameFormat' && message) message.format = ast.value;
+      if (name === 'SystemMessageLongSymbol' && message) message.long = ast.value;
+      const signal = name === 'SystemSignalLongSymbol' && this.#find(ast.id, ast.signal);
+      if (signal) signal.long = ast.value;
+    }
+  }
+
+  /** A message that stands for its parameter group, whatever priority and addresses. */
+  #isJ1939({extended, format = this.attributes.VFrameFormat}) {
+    if (!extended) return false;
+    if (format === undefined) return (this.attributes.ProtocolType ?? '').includes('J1939');
+    return (this.formats[Number(format)] ?? format) === 'J1939PG' || format === 'J1939PG';
+  }
+
+  finish() {
+    const list = [...this.messages.values()].filter(({key}) => !kIndependent.has(key));
+    if (list.length === 0)
+      throw new DbcError(0, 'no message in it; allowed: a DBC file with BO_ and SG_');
+    for (const message of list) {
+      message.j1939 = this.#isJ1939(message);
+      for (const signal of message.signals) select(signal, message);
+      for (const signal of message.signals) check(signal, message);
+      message.name = message.long ?? message.name;
+      for (const signal of message.signals) signal.name = signal.long ?? signal.name;
+    }
+    return list;
+  }
+}
+
+/** What must be in which signal for a multiplexed one to be there. */
+function select(signal, message) {
+  if (signal.value === null || signal.selection) return;
+  if (signal.nested)
+    throw new DbcError(
+      signal.line,
+      `signal ${signal.name} is multiplexed and a multiplexer, which needs a statement SG_MUL_VAL_`,
+    );
+  const [multiplexer, another] = message.signals.filter((other) => other.multiplexer);
+  if (!multiplexer || another)
+    throw new DbcError(
+      signal.line,
+      `signal ${signal.name} is multiplexed, but the message has no or more than one multiplexer ` +
+        '(M); allowed: one, or SG_MUL_VAL_ for each signal',
+    );
+  const value = Number(signal.value);
+  signal.selection = {multiplexer, ranges: [[value, value]]};
+}
+
+/** What is wrong with a signal; null: nothing. */
+function problemOf(signal, message) {
+  const {length, float, factor} = signal;
+  if (length < 1 || length > 64) return `has ${length} bits; allowed: 1 to 64`;
+  if (float && length !== 32 && length !== 64)
+    return `is a floating-point number of ${length} bits; allowed: 32, 64`;
+  if (factor === 0) return 'has the factor 0';
+  if (signal.bytes > message.length)
+    return `does not fit the ${message.length} bytes of message ${message.name}: it needs ${signal.bytes}`;
+  const seen = new Set();
+  for (let at = signal; at; at = at.selection?.multiplexer) {
+    if (seen.has(at)) return 'is multiplexed by itself';
+    seen.add(at);
+  }
+  return null;
+}
+
+function check(signal, message) {
+  signal.bytes = Math.floor(signal.bytes);
+  const problem = problemOf(signal, message);
+  if (problem) throw new DbcError(signal.line, `signal ${signal.name} ${problem}`);
+}
+
+/**
+ * The messages of a DBC file.
+ * @throws DbcError in words for people
+ */
+export function parseDbc(text) {
+  const reader = new Reader();
+  for (const statement of statementsOf(text)) reader.take(statement);
+  return reader.finish();
+}
