@@ -40,6 +40,15 @@ to it or keeps it, as the tables say; *state* is a bit that shows what is going 
 `NumMb` is the number of message buffers of the core, 16, 32 or 64; XCONFIG.NUM_MB tells.
 """
 
+RECIPES = """
+## Recipes
+
+Access by access, in the words of a scenario's [`accesses`](scenario.md#accesses), so that they can be
+tried as they are: `until REG MASK VALUE` reads until the bits of MASK are those of VALUE, `check`
+says what they are then, `A..B` is every register from A to B. In C the [driver](driver.md) does all
+this. What each bit, read and write does besides: the tables below.
+"""
+
 SUMMARY = """
 ## Overview
 
@@ -124,10 +133,16 @@ def layout_section(layout):
             (overlay(layout) if layout.overlay else ""))
 
 
+def recipes_section(regmap):
+    text = [f"\n### {one.title}\n\n{one.doc}\n\n```text\n{one.steps}```\n"
+            for one in regmap.recipes]
+    return RECIPES + "".join(text)
+
+
 def buffers_section(regmap):
     block = regmap.buffers
     text = [f"\n## Message buffers\n\nBuffer n, n = 0 to NumMb - 1, has four words from offset "
-            f"{offset_of(block)} on.\n"]
+            f"{offset_of(block)} on.\n\n{regmap.buffers_doc}\n"]
     for word in regmap.words:
         text.append(register_section(word, "###", f"mb_{word.name}",
                                      f"Offset 0x{block.offset + word.offset:03X} + "
@@ -149,7 +164,7 @@ def render(regmap):
                                  f"Offset {offset_of(one)}, reset {reset_word(one)}")
                 for one in regmap.registers]
     page = HEAD.format(title=regmap.title, window=regmap.window // 1024) + summary(regmap) + \
-        "".join(sections) + buffers_section(regmap) + fifo_section(regmap)
+        recipes_section(regmap) + "".join(sections) + buffers_section(regmap) + fifo_section(regmap)
     files = {PAGE: page}
     words = [(one.name, one.fields) for one in regmap.registers + regmap.formats]
     words += [(f"mb_{one.name}", one.fields) for one in regmap.words]

@@ -125,6 +125,13 @@ class Register:
 
 
 @dataclass
+class Recipe:
+    title: str
+    doc: str
+    steps: str                    # lines of accesses, each with a comment
+
+
+@dataclass
 class RegisterMap:
     name: str
     title: str
@@ -136,6 +143,8 @@ class RegisterMap:
     filter_offset: int
     fifo_depth: int
     formats: list                 # Registers without an address
+    recipes: list
+    buffers_doc: str
 
 
 FIELD_KEYS = ("access", "write", "reset", "soft_reset", "live", "after_soft_reset", "values")
@@ -200,9 +209,13 @@ def load(path: Path):
         data = yaml.safe_load(path.read_text())
     except yaml.YAMLError as error:
         raise MapError(str(error)) from None
-    take(data, "map", ("name", "title", "window", "num_mb", "registers", "buffers", "fifo"))
+    take(data, "map", ("name", "title", "window", "num_mb", "registers", "recipes", "buffers",
+                       "fifo"))
     registers = [read_register(entry, "registers:") for entry in data["registers"]]
-    part = take(data["buffers"], "buffers", ("name", "offset", "stride", "count", "title", "words"))
+    recipes = [Recipe(**take(entry, "recipes", ("title", "doc", "steps")))
+               for entry in data["recipes"]]
+    part = take(data["buffers"], "buffers",
+                ("name", "offset", "stride", "count", "title", "doc", "words"))
     buffers = Register(part["name"], part["offset"], part["title"], [], [], part["count"],
                        part["stride"])
     words = [read_register(entry, "buffers:") for entry in part["words"]]
@@ -210,4 +223,5 @@ def load(path: Path):
     fifo = take(data["fifo"], "fifo", ("filter_offset", "depth", "formats"))
     formats = [read_register(entry, "fifo:", ()) for entry in fifo["formats"]]
     return RegisterMap(data["name"], data["title"], data["window"], data["num_mb"], registers,
-                       buffers, words, fifo["filter_offset"], fifo["depth"], formats)
+                       buffers, words, fifo["filter_offset"], fifo["depth"], formats,
+                       recipes, part["doc"])

@@ -71,7 +71,8 @@
 /* DOZE: Doze mode allowed; stored, without effect. */
 #define VERICAN_MCR_DOZE_MASK                   0x00040000u
 #define VERICAN_MCR_DOZE_SHIFT                  18u
-/* SRX_DIS: The node's own frames are not received into its own buffers. */
+/* SRX_DIS: The node's own frames are not received into its own buffers; 0, as after reset,
+   receives them like any other. */
 #define VERICAN_MCR_SRX_DIS_MASK                0x00020000u
 #define VERICAN_MCR_SRX_DIS_SHIFT               17u
 /* BCC: Individual masks (RXIMR) and the queue of several matching buffers; 0 is the older way
@@ -81,7 +82,9 @@
 /* LPRIO_EN: The PRIO field of the ID word takes part in the choice of the next frame to send. */
 #define VERICAN_MCR_LPRIO_EN_MASK               0x00002000u
 #define VERICAN_MCR_LPRIO_EN_SHIFT              13u
-/* AEN: Buffers that send can be aborted with code 1001. */
+/* AEN: Buffers that send can be aborted with code 1001. The C/S word of a frame on its way can
+   then not be overwritten, and once it has ended no word of its buffer can be written until its
+   IFLAG is cleared. */
 #define VERICAN_MCR_AEN_MASK                    0x00001000u
 #define VERICAN_MCR_AEN_SHIFT                   12u
 /* IDAM: Format of the filters of the receive FIFO. */
@@ -93,7 +96,8 @@
 #define VERICAN_MCR_IDAM_FORMAT_B               0x1u /* two identifiers of at most 14 bits a word */
 #define VERICAN_MCR_IDAM_FORMAT_C               0x2u /* four identifiers of 8 bits a word */
 #define VERICAN_MCR_IDAM_REJECT                 0x3u /* no frame passes */
-/* MAXMB: Last buffer that takes part in sending and receiving. */
+/* MAXMB: Last buffer that takes part in sending and receiving; 15 after reset, however many
+   there are. */
 #define VERICAN_MCR_MAXMB_MASK                  0x0000007Fu
 #define VERICAN_MCR_MAXMB_SHIFT                 0u
 #define VERICAN_MCR_MAXMB_GET(word)             (((uint32_t)(word) >> 0) & 0x7Fu)
@@ -173,7 +177,8 @@
 /* RXGMASK: Receive mask of all buffers but 14 and 15. */
 #define VERICAN_RXGMASK_OFFSET                  0x010u
 #define VERICAN_RXGMASK_RESET                   0xFFFFFFFFu
-/* MG: Used with MCR.BCC = 0; a 1 compares the bit of the ID word, 31 is RTR, 30 is IDE. */
+/* MG: Used with MCR.BCC = 0; a 1 compares the bit of the ID word, and with CTRL2.EACEN 31 is
+   RTR, 30 is IDE. As after reset: a buffer takes exactly the identifier that it holds. */
 #define VERICAN_RXGMASK_MG_MASK                 0xFFFFFFFFu
 #define VERICAN_RXGMASK_MG_SHIFT                0u
 #define VERICAN_RXGMASK_MG_GET(word)            (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
@@ -339,11 +344,12 @@
 /* MRP: Looks for a receiver among the mailboxes first, then in the FIFO. */
 #define VERICAN_CTRL2_MRP_MASK                  0x00040000u
 #define VERICAN_CTRL2_MRP_SHIFT                 18u
-/* RRS: Remote frames are stored like data frames; 0 lets buffers answer them. */
+/* RRS: Remote frames are stored like data frames; 0, as after reset, stores none in a mailbox
+   and lets buffers with code 1010 answer them. */
 #define VERICAN_CTRL2_RRS_MASK                  0x00020000u
 #define VERICAN_CTRL2_RRS_SHIFT                 17u
-/* EACEN: Mailboxes compare IDE and RTR as bits 30 and 31 of the mask say; 0 always compares IDE
-   and never RTR. */
+/* EACEN: Mailboxes compare IDE and RTR as bits 30 and 31 of the mask say; 0, as after reset,
+   always compares IDE, whatever the mask, and never RTR: a buffer takes base or extended frames. */
 #define VERICAN_CTRL2_EACEN_MASK                0x00010000u
 #define VERICAN_CTRL2_EACEN_SHIFT               16u
 
@@ -476,14 +482,14 @@
 #define VERICAN_MB_CS_CODE_SET(value)           (((uint32_t)(value) & 0xFu) << 24)
 #define VERICAN_MB_CS_CODE_RX_INACTIVE          0x0u /* takes no part */
 #define VERICAN_MB_CS_CODE_RX_FULL              0x2u /* holds a frame */
-#define VERICAN_MB_CS_CODE_RX_EMPTY             0x4u /* waits for a frame */
+#define VERICAN_MB_CS_CODE_RX_EMPTY             0x4u /* waits for a frame; so after a remote frame was sent */
 #define VERICAN_MB_CS_CODE_RX_OVERRUN           0x6u /* holds a frame that replaced an unread one */
-#define VERICAN_MB_CS_CODE_TX_INACTIVE          0x8u /* takes no part; so after a frame was sent */
+#define VERICAN_MB_CS_CODE_TX_INACTIVE          0x8u /* takes no part; so after a data frame was sent */
 #define VERICAN_MB_CS_CODE_TX_ABORT             0x9u /* abort; the frame was not sent */
 #define VERICAN_MB_CS_CODE_TX_ANSWER            0xAu /* waits for its remote frame */
 #define VERICAN_MB_CS_CODE_TX_DATA              0xCu /* send; a remote frame if RTR is set */
 #define VERICAN_MB_CS_CODE_TX_ANSWERING         0xEu /* a remote frame came, the answer is sent */
-/* SRR: Substitute remote request; write 1 with IDE. */
+/* SRR: Substitute remote request; write 1 with IDE. Reads 1 in a received base frame. */
 #define VERICAN_MB_CS_SRR_MASK                  0x00400000u
 #define VERICAN_MB_CS_SRR_SHIFT                 22u
 /* IDE: Extended frame. */
