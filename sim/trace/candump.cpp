@@ -6,9 +6,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
-#include <limits>
 
+#include <cctype>
+#include <utility>
+
+#include "trace/candump_screen.hpp"
 #include "trace/input_error.hpp"
+#include "trace/log_builder.hpp"
 
 namespace vericansim {
 namespace {
@@ -67,40 +71,52 @@ void parse_data(std::string_view rest, Frame &frame, const Place &place) {
   if (!rest.empty()) parse_raw_dlc(rest.substr(1), frame, place);
 }
 
-/// "(1436509052.249713)" in nanoseconds since the epoch.
-std::int64_t parse_stamp(std::string_view field, const Place &place) {
-  const bool framed = field.size() > 2 && field.front() == '(' && field.back() == ')';
-  const auto ns =
-      framed ? text::parse_decimal(field.substr(1, field.size() - 2), 1'000'000'000) : std::nullopt;
-  if (!ns)
+/// What stands behind "##" or behind an error message's '#': bytes, and for CAN FD flags in front.
+std::string checked_digits(std::string_view digits, std::size_t most, const Place &place) {
+  std::string result;
+  for (const char c : digits) {
+    if (c == '.') continue;
+    if (!text::parse_unsigned({&c, 1}, 16))
+      fail(place, "data " + quoted(std::string(digits)) + " is not hexadecimal");
+    result += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
+  if (result.size() > most)
     fail(place,
-         "time " + quoted(std::string(field)) + " is not allowed; allowed: (seconds.microseconds)");
-  return *ns;
+         fmt::format("{} data digits are not allowed; allowed: up to {}", result.size(), most));
+  return result;
 }
 
-/// Screen output after the channel: "123   [2]  11 22", "123   [0]  remote request".
-bool parse_screen(const std::vector<std::string_view> &fields, std::size_t at, Frame &frame,
-                  const Place &place) {
-  if (fields.size() < at + 2 || fields[at + 1].size() != 3 || fields[at + 1].front() != '[')
-    fail(place,
-         fields.size() > at + 1 && fields[at + 1].size() == 4
-             ? "CAN FD length " + quoted(std::string(fields[at + 1])) + "; allowed: [0] to [8]"
-             : "expected IDENTIFIER [LENGTH] BYTES" + std::string(kFrameForm));
-  if (!parse_id(fields[at], frame, place)) return false;
-  const auto length = text::parse_unsigned(fields[at + 1].substr(1, 1), 10);
-  if (!length || *length > 8)
-    fail(place,
-         "length " + quoted(std::string(fields[at + 1])) + " is not allowed; allowed: [0] to [8]");
-  frame.dlc = static_cast<std::uint8_t>(*length);
-  if (fields.size() > at + 2 && fields[at + 2] == "remote") {
-    frame.remote = true;
-    return true;
-  }
-  if (fields.size() < at + 2 + frame.dlc)
-    fail(place,
-         fmt::format("{} data bytes where the length says {}", fields.size() - at - 2, frame.dlc));
-  for (std::size_t i = 0; i < frame.dlc; ++i) text::set_byte(frame, i, fields[at + 2 + i], place);
-  return true;
+/// A CAN FD frame or error message in the one form that candump writes.
+ForeignEntry foreign_entry(std::string_view text, const Place &place) {
+  constexpr std::size_t kFdDigits = 1 + 2 * 64, kErrorDigits = 2 * 8;
+  const std::size_t hash = text.find('#');
+  const bool fd = text.substr(hash).starts_with("##");
+  ForeignEntry entry;
+  entry.kind = fd ? ForeignEntry::Kind::kFd : ForeignEntry::Kind::kError;
+  // An error message of Linux always has eight bytes; a raw DLC says nothing about it.
+  const std::string_view data = text.substr(hash + (fd ? 2 : 1));
+  const std::string digits =
+      checked_digits(data.substr(0, data.find('_')), fd ? kFdDigits : kErrorDigits, place);
+  if (digits.size() % 2 != (fd ? 1 : 0))
+    fail(place, fd ? "CAN FD frame without flags or with half a byte; allowed: 123##<flags><data>"
+                   : "odd number of data digits");
+  entry.text = checked_digits(text.substr(0, hash), 8, place) + (fd ? "##" : "#") + digits;
+  return entry;
+}
+
+/// One line of a log: "(TIME) INTERFACE FRAME", with " R" or " T" behind it from `candump -x`.
+void parse_log_line(const std::vector<std::string_view> &fields, LogBuilder &log,
+                    const Place &place) {
+  const bool stamped = fields[0].front() == '(';
+  const std::size_t at = stamped ? 2 : 1;  // the frame follows the channel
+  const std::string_view last = fields.size() > at + 1 ? fields[at + 1] : std::string_view{};
+  CandumpLine line;
+  line.ns = stamped ? parse_candump_stamp(fields[0], place) : 0;
+  line.channel = fields[at - 1];
+  line.frame = fields[at];
+  if (last == "R") line.direction = Direction::kReceived;
+  if (last == "T") line.direction = Direction::kSent;
+  add_candump_line(line, log, place);
 }
 
 }  // namespace
@@ -120,39 +136,48 @@ bool parse_candump_frame(std::string_view text, Frame &frame, const Place &place
   return true;
 }
 
-bool looks_like_candump_text(std::string_view line) {
-  const auto fields = text::split_blanks(line);
-  return fields.size() >= 3 && fields[2].size() >= 3 && fields[2].front() == '[' &&
-         fields[2].back() == ']';
+std::int64_t parse_candump_stamp(std::string_view field, const Place &place) {
+  const bool framed = field.size() > 2 && field.front() == '(' && field.back() == ')';
+  const auto ns =
+      framed ? text::parse_decimal(field.substr(1, field.size() - 2), 1'000'000'000) : std::nullopt;
+  if (!ns)
+    fail(place,
+         "time " + quoted(std::string(field)) + " is not allowed; allowed: (seconds.microseconds)");
+  return *ns;
+}
+
+std::optional<ForeignEntry::Kind> add_candump_line(const CandumpLine &line, LogBuilder &log,
+                                                   const Place &place) {
+  LogEntry entry{0, line.channel, {}, line.direction};
+  if (parse_candump_frame(line.frame, entry.frame, place)) {
+    log.add(line.ns, std::move(entry), place);
+    return {};
+  }
+  ForeignEntry other = foreign_entry(line.frame, place);
+  other.channel = line.channel;
+  other.direction = line.direction;
+  const ForeignEntry::Kind kind = other.kind;
+  log.add(line.ns, std::move(other), place);
+  return kind;
 }
 
 CanLog parse_candump(std::string_view text, const std::string &file) {
-  CanLog log;
+  LogBuilder log;
+  CandumpScreen screen{text};
   text::for_each_line(text, file, [&](std::string_view line, const Place &place) {
     const auto fields = text::split_blanks(line);
     if (fields.empty() || fields[0].front() == '#') return;
-    const bool stamped = fields[0].front() == '(';
-    const std::int64_t ns = stamped ? parse_stamp(fields[0], place) : 0;
-    const std::size_t at = stamped ? 2 : 1;  // the frame follows the channel
-    if (fields.size() <= at)
-      fail(place, "expected (TIME) INTERFACE FRAME" + std::string(kFrameForm));
-    LogEntry entry;
-    const bool classical = fields[at].find('#') != std::string_view::npos
-                               ? parse_candump_frame(fields[at], entry.frame, place)
-                               : parse_screen(fields, at, entry.frame, place);
-    if (!classical) {
-      ++log.skipped;
+    if (fields[0] == "DROPCOUNT:") {  // candump -d: frames that its computer has lost
+      log.skip();
       return;
     }
-    if (log.entries.empty()) log.start_ns = ns;
-    if (ns - log.start_ns > std::numeric_limits<Time>::max() / kNanosecond ||
-        log.start_ns - ns > std::numeric_limits<Time>::max() / kNanosecond)
-      fail(place, "time is more than 106 days from the first one");
-    entry.time = (ns - log.start_ns) * kNanosecond;
-    entry.channel = std::string(fields[at - 1]);
-    log.entries.push_back(std::move(entry));
+    const std::size_t at = fields[0].front() == '(' ? 2 : 1;
+    if (fields.size() > at && fields[at].find('#') != std::string_view::npos)
+      parse_log_line(fields, log, place);
+    else
+      screen.parse(line, log, place);
   });
-  return log;
+  return log.finish(true);
 }
 
 std::string candump_frame(const Frame &frame) {
@@ -168,9 +193,24 @@ std::string candump_frame(const Frame &frame) {
 }
 
 void CandumpWriter::write(const LogEntry &entry) {
-  const std::int64_t us = start_ns_ / 1000 + entry.time / kMicrosecond;
-  fmt::print(out_, "({:010d}.{:06d}) {} {}\n", us / 1'000'000, us % 1'000'000,
-             entry.channel.empty() ? "can0" : entry.channel, candump_frame(entry.frame));
+  write(entry.time, entry.channel, candump_frame(entry.frame), entry.direction);
+}
+
+void CandumpWriter::write(const ForeignEntry &entry) {
+  write(entry.time, entry.channel, entry.text, entry.direction);
+}
+
+void CandumpWriter::write(Time time, const std::string &channel, const std::string &frame,
+                          Direction direction) {
+  const std::int64_t ns = start_ns_ + time / kNanosecond;
+  const std::int64_t fraction = ns % 1'000'000'000;
+  fmt::print(
+      out_, "({:010d}.{}) {} {}{}\n", ns / 1'000'000'000,
+      nanoseconds_ ? fmt::format("{:09d}", fraction) : fmt::format("{:06d}", fraction / 1000),
+      channel.empty() ? "can0" : channel, frame,
+      direction == Direction::kUnknown ? ""
+      : direction == Direction::kSent  ? " T"
+                                       : " R");
 }
 
 }  // namespace vericansim

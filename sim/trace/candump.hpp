@@ -4,6 +4,7 @@
 // The log format of can-utils' candump, in and out: "(1436509052.249713) can0 123#11223344".
 #pragma once
 
+#include <optional>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -13,10 +14,10 @@
 
 namespace vericansim {
 
-/// Parses a whole log: lines of `candump -l`, or of candump's screen output ("can0  123   [2]  11
-/// 22", also with a time in front, then without times all entries are at 0). Empty lines and '#'
-/// comments are skipped; CAN FD frames ("##") and error messages (identifier with bit 29) are
-/// counted as skipped. Throws InputError with the line of the first mistake.
+/// Parses a whole log: lines of `candump -l` (with -x also the direction behind the frame), or of
+/// candump's screen output (candump_screen.hpp). Empty lines and '#' comments are left out; CAN FD
+/// frames ("##") and error messages (identifier with bit 29) are counted as skipped and kept in
+/// CanLog::others. Throws InputError with the line of the first mistake.
 [[nodiscard]] CanLog parse_candump(std::string_view text, const std::string &file);
 
 /// Parses "123#1122", "12345678#R8", "123#1122334455667788_F" (raw DLC 9..15 after '_').
@@ -26,21 +27,41 @@ bool parse_candump_frame(std::string_view text, Frame &frame, const text::Place 
 /// The inverse of parse_candump_frame().
 [[nodiscard]] std::string candump_frame(const Frame &frame);
 
-/// True if `line` could be screen output of candump.
-[[nodiscard]] bool looks_like_candump_text(std::string_view line);
+/// "(1436509052.249713)" in nanoseconds; throws InputError if it is no such time.
+[[nodiscard]] std::int64_t parse_candump_stamp(std::string_view field, const text::Place &place);
+
+class LogBuilder;
+
+/// A line of a log, taken apart.
+struct CandumpLine {
+  std::int64_t ns = 0;  ///< since the Unix epoch, or whatever the log counts from
+  std::string channel;
+  std::string frame;  ///< "123#1122"
+  Direction direction = Direction::kUnknown;
+};
+/// Adds it as what it is: a classical frame, or what is returned. Throws InputError if its frame
+/// cannot be read.
+std::optional<ForeignEntry::Kind> add_candump_line(const CandumpLine &line, LogBuilder &log,
+                                                   const text::Place &place);
 
 /// Writes candump logs.
 class CandumpWriter {
  public:
-  /// `start_ns` is added to each time; the stream must outlive the writer.
-  explicit CandumpWriter(std::ostream &out, std::int64_t start_ns = 0)
-      : out_{out}, start_ns_{start_ns} {}
-  /// Appends one frame; times are cut to microseconds.
+  /// `start_ns` is added to each time; the stream must outlive the writer. `nanoseconds`: nine
+  /// decimals, as of `candump -N`, instead of six.
+  explicit CandumpWriter(std::ostream &out, std::int64_t start_ns = 0, bool nanoseconds = false)
+      : out_{out}, start_ns_{start_ns}, nanoseconds_{nanoseconds} {}
+  /// Appends one frame; times are cut to microseconds or nanoseconds.
   void write(const LogEntry &entry);
+  /// The same for what is no classical frame.
+  void write(const ForeignEntry &entry);
 
  private:
+  void write(Time time, const std::string &channel, const std::string &frame, Direction direction);
+
   std::ostream &out_;
   std::int64_t start_ns_;
+  bool nanoseconds_;
 };
 
 }  // namespace vericansim

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "trace/input_error.hpp"
+#include "trace/log_builder.hpp"
 #include "trace/text.hpp"
 
 namespace vericansim {
@@ -18,6 +19,7 @@ using text::Place;
 
 /// Places of the columns that differ between versions of the format.
 struct Columns {
+  std::size_t direction = 0;  ///< 0: none
   std::size_t bus = 3;
   std::size_t length = 4;
   std::size_t data = 5;
@@ -28,9 +30,12 @@ Columns parse_header(std::string_view line, const Place &place) {
   Columns columns;
   const auto length = std::find(names.begin(), names.end(), "LEN");
   const auto bus = std::find(names.begin(), names.end(), "Bus");
+  const auto direction = std::find(names.begin(), names.end(), "Dir");
   if (names.size() < 5 || names[1] != "ID" || names[2] != "Extended" || length == names.end() ||
       bus == names.end())
     fail(place, "expected the columns Time Stamp,ID,Extended,Bus,LEN,D1,...");
+  if (direction != names.end())
+    columns.direction = static_cast<std::size_t>(direction - names.begin());
   columns.bus = static_cast<std::size_t>(bus - names.begin());
   columns.length = static_cast<std::size_t>(length - names.begin());
   columns.data = columns.length + 1;
@@ -39,7 +44,7 @@ Columns parse_header(std::string_view line, const Place &place) {
 
 LogEntry parse_entry(const std::vector<std::string_view> &fields, const Columns &columns,
                      const Place &place) {
-  if (fields.size() <= std::max({columns.length, columns.bus, std::size_t{2}}))
+  if (fields.size() <= std::max({columns.length, columns.bus, columns.direction, std::size_t{2}}))
     fail(place, "too few columns; see the header line");
   LogEntry entry;
   const auto id = text::parse_unsigned(fields[1], 16);
@@ -57,6 +62,10 @@ LogEntry parse_entry(const std::vector<std::string_view> &fields, const Columns 
   entry.frame.dlc = static_cast<std::uint8_t>(*length);
   for (std::size_t i = 0; i < *length; ++i)
     text::set_byte(entry.frame, i, text::trimmed(fields[columns.data + i]), place);
+  const std::string_view direction =
+      columns.direction != 0 ? text::trimmed(fields[columns.direction]) : std::string_view{};
+  if (direction == "Rx") entry.direction = Direction::kReceived;
+  if (direction == "Tx") entry.direction = Direction::kSent;
   entry.channel = "can" + std::string(text::trimmed(fields[columns.bus]));
   return entry;
 }
@@ -64,10 +73,9 @@ LogEntry parse_entry(const std::vector<std::string_view> &fields, const Columns 
 }  // namespace
 
 CanLog parse_gvret(std::string_view text, const std::string &file) {
-  CanLog log;
+  LogBuilder log;
   Columns columns;
   bool header = false;
-  std::int64_t first_us = 0;
   text::for_each_line(text, file, [&](std::string_view line, const Place &place) {
     if (text::trimmed(line).empty()) return;
     if (!header) {
@@ -76,17 +84,12 @@ CanLog parse_gvret(std::string_view text, const std::string &file) {
       return;
     }
     const auto fields = text::split_commas(line);
-    const auto time = text::parse_decimal(text::trimmed(fields[0]), 1);
-    if (!time)
+    const auto ns = text::parse_decimal(text::trimmed(fields[0]), 1000);
+    if (!ns)
       fail(place, "time " + quoted(std::string(fields[0])) + " is no number of microseconds");
-    LogEntry entry = parse_entry(fields, columns, place);
-    if (log.entries.empty()) first_us = *time;
-    if (std::abs(*time - first_us) > std::numeric_limits<Time>::max() / kMicrosecond)
-      fail(place, "time is more than 106 days from the first one");
-    entry.time = (*time - first_us) * kMicrosecond;
-    log.entries.push_back(std::move(entry));
+    log.add(*ns, parse_entry(fields, columns, place), place);
   });
-  return log;
+  return log.finish(false);
 }
 
 }  // namespace vericansim

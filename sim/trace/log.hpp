@@ -6,49 +6,60 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bus/types.hpp"
 #include "model/frame.hpp"
+#include "trace/input_file.hpp"
+#include "trace/log_format.hpp"
 
 namespace vericansim {
+
+/// Whether the recording computer sent the frame or received it.
+enum class Direction : std::uint8_t { kUnknown, kReceived, kSent };
 
 /// One recorded frame.
 struct LogEntry {
   Time time = 0;        ///< picoseconds since the first entry of the log
   std::string channel;  ///< interface name ("can0"); empty where the format has none
   Frame frame;
+  Direction direction = Direction::kUnknown;
 };
 
-/// A recording. Entries that classical CAN cannot carry (CAN FD frames, error messages of a driver,
-/// status lines) are counted, not kept.
+/// What classical CAN cannot carry: a CAN FD frame or an error message of a driver. `convert` takes
+/// it along; a replay passes over it.
+struct ForeignEntry {
+  enum class Kind : std::uint8_t { kFd, kError };
+  std::size_t before = 0;  ///< index in CanLog::entries of the frame that follows
+  Time time = 0;           ///< as LogEntry::time; negative before the first classical frame
+  std::string channel;
+  Kind kind = Kind::kError;
+  std::string text;  ///< as candump writes it: "123##1AABB", "20000080#0000000000000000"
+  Direction direction = Direction::kUnknown;
+};
+
+/// A recording. Entries that classical CAN cannot carry are in `others`; status lines and what else
+/// is no frame are only counted.
 struct CanLog {
   std::vector<LogEntry> entries;
   std::size_t skipped = 0;    ///< lines or packets that hold no classical data or remote frame
   std::int64_t start_ns = 0;  ///< absolute time of the first entry (Unix epoch), 0 if unknown
+  std::vector<ForeignEntry> others;  ///< counted in `skipped`, too
+
+  /// How many of `skipped` are of this kind.
+  [[nodiscard]] std::size_t count(ForeignEntry::Kind kind) const;
 };
 
-/// Formats by what the file holds, never by its name.
-enum class LogFormat { kCandump, kPcap, kTrc, kGvret };
+/// "3 CAN FD frames, 2 error messages, 1 other line or packet"; empty if nothing was skipped.
+[[nodiscard]] std::string skipped_text(const CanLog &log);
 
-/// "candump", "pcap", "PCAN-View trc" or "GVRET csv".
-[[nodiscard]] const char *name_of(LogFormat format);
-
-/// Reads a log of any known format; the format is taken from the first bytes.
-/// Throws InputError if the file cannot be read or parsed.
+/// Reads a log of any known format ("-": standard input, .gz is unpacked); the format is taken from
+/// the first bytes. Throws InputError if the file cannot be read or parsed.
 [[nodiscard]] CanLog read_log(const std::string &path);
 /// Reads `text` as if it stood in the file `path`.
 [[nodiscard]] CanLog parse_log(std::string_view text, const std::string &path);
-
-/// The format that read_log() will take for `path`. Throws InputError if the file is of no known
-/// kind.
-[[nodiscard]] LogFormat detect_log_format(const std::string &path);
-/// The same for `text`, as if it stood in the file `path`.
-[[nodiscard]] LogFormat detect_log_format(std::string_view text, const std::string &path);
-
-/// Reads a whole file. Throws InputError if it cannot be opened.
-[[nodiscard]] std::string read_text_file(const std::string &path);
 
 }  // namespace vericansim

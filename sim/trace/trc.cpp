@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "trace/input_error.hpp"
+#include "trace/log_builder.hpp"
 #include "trace/text.hpp"
 
 namespace vericansim {
@@ -48,24 +49,23 @@ Frame parse_frame(const std::vector<std::string_view> &fields, const Place &plac
 }  // namespace
 
 CanLog parse_trc(std::string_view text, const std::string &file) {
-  CanLog log;
-  std::int64_t first = 0;
+  LogBuilder log;
   text::for_each_line(text, file, [&](std::string_view line, const Place &place) {
     check_version(line, place);
     const auto fields = text::split_blanks(line);
     if (fields.empty() || fields[0].front() == ';') return;
     if (fields.size() < 5) fail(place, "expected NUMBER) TIME TYPE IDENTIFIER LENGTH BYTES");
     if (fields[2] != "Rx" && fields[2] != "Tx") {
-      ++log.skipped;
+      log.skip();
       return;
     }
-    const auto time = text::parse_decimal(fields[1], kMillisecond);
-    if (!time)
+    const auto ns = text::parse_decimal(fields[1], 1'000'000);
+    if (!ns)
       fail(place, "time " + quoted(std::string(fields[1])) + " is no number of milliseconds");
-    if (log.entries.empty()) first = *time;
-    log.entries.push_back({*time - first, "", parse_frame(fields, place)});
+    const Direction direction = fields[2] == "Tx" ? Direction::kSent : Direction::kReceived;
+    log.add(*ns, {0, "", parse_frame(fields, place), direction}, place);
   });
-  return log;
+  return log.finish(false);
 }
 
 }  // namespace vericansim

@@ -6,12 +6,13 @@
 
 #include <algorithm>
 
+#include "trace/id_filter.hpp"
+
 namespace vericansim {
 
 can_frame to_can_frame(const Frame &frame) {
   can_frame message{};
-  message.can_id =
-      frame.id | (frame.extended ? CAN_EFF_FLAG : 0) | (frame.remote ? CAN_RTR_FLAG : 0);
+  message.can_id = can_id_of(frame);
   message.len = std::min<std::uint8_t>(frame.dlc, CAN_MAX_DLEN);
   message.len8_dlc = frame.dlc > CAN_MAX_DLEN ? frame.dlc : 0;
   std::copy_n(frame.data.begin(), frame.payload_size(), message.data);

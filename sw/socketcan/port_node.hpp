@@ -11,8 +11,8 @@
 #include "bus/bus.hpp"
 #include "can_port.hpp"
 #include "error_messages.hpp"
-#include "id_filter.hpp"
 #include "node/host.hpp"
+#include "trace/id_filter.hpp"
 
 namespace vericansim {
 

@@ -12,6 +12,7 @@
 #include "trace/gvret.hpp"
 #include "trace/input_error.hpp"
 #include "trace/pcap_file.hpp"
+#include "trace/pcapng_file.hpp"
 #include "trace/trc.hpp"
 
 namespace vericansim::fuzz {
@@ -40,6 +41,12 @@ void candump_round_trip(const CanLog &log) {
     require(again.entries[i].channel == log.entries[i].channel, "the channel that was written");
     require(!whole || again.entries[i].time == log.entries[i].time, "the time that was written");
   }
+}
+
+void require_same_others(const CanLog &written, const CanLog &read) {
+  require(read.others.size() == written.others.size(), "as many other entries as were written");
+  for (std::size_t i = 0; i < written.others.size(); ++i)
+    require(read.others[i].text == written.others[i].text, "the other entry that was written");
 }
 
 /// The same through a capture; of the first frames, because each needs a file in memory.
@@ -111,8 +118,26 @@ void fuzz_pcap(Bytes input) {
   }
 }
 
+void fuzz_pcapng(Bytes input) {
+  try {
+    const CanLog log = parse_pcapng(text_of(input), kFile);
+    require_valid(log);
+    if (log.start_ns < 0) return;  // the writer's stamps have no sign
+    for (const LogEntry &entry : log.entries)
+      if (log.start_ns + entry.time / kNanosecond < 0) return;
+    for (const ForeignEntry &entry : log.others)
+      if (log.start_ns + entry.time / kNanosecond < 0) return;
+    const CanLog again = parse_pcapng(pcapng_bytes(log), kFile);
+    require_same_frames(log, again);
+    require_same_others(log, again);
+  } catch (const InputError &) {
+  }
+}
+
 void fuzz_log(Bytes input) {
   try {
+    // python-can is a process of its own, and not ours to fuzz.
+    if (traits_of(detect_log_format(text_of(input), kFile)).python) return;
     require_valid(parse_log(text_of(input), kFile));
   } catch (const InputError &) {
   }

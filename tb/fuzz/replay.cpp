@@ -24,14 +24,13 @@ struct Entry {
   void (*run)(Bytes);
 };
 
-constexpr Entry kTargets[] = {{"candump", fuzz_candump},   {"gvret", fuzz_gvret},
-                              {"trc", fuzz_trc},           {"pcap", fuzz_pcap},
-                              {"log", fuzz_log},           {"vcd", fuzz_vcd},
-                              {"wave", fuzz_wave},         {"scenario", fuzz_scenario},
-                              {"options", fuzz_options},   {"elf", fuzz_elf},
-                              {"splitter", fuzz_splitter}, {"words", fuzz_words},
-                              {"client", fuzz_client},     {"can_frame", fuzz_can_frame},
-                              {"board", fuzz_board},       {"guest", fuzz_guest}};
+constexpr Entry kTargets[] = {
+    {"candump", fuzz_candump}, {"gvret", fuzz_gvret},   {"trc", fuzz_trc},
+    {"pcap", fuzz_pcap},       {"pcapng", fuzz_pcapng}, {"log", fuzz_log},
+    {"vcd", fuzz_vcd},         {"wave", fuzz_wave},     {"scenario", fuzz_scenario},
+    {"options", fuzz_options}, {"elf", fuzz_elf},       {"splitter", fuzz_splitter},
+    {"words", fuzz_words},     {"client", fuzz_client}, {"can_frame", fuzz_can_frame},
+    {"board", fuzz_board},     {"guest", fuzz_guest}};
 
 std::vector<std::filesystem::path> files_of(const std::filesystem::path &path) {
   if (!std::filesystem::is_directory(path)) return {path};

@@ -10,8 +10,8 @@
 #include "scenario/bittime.hpp"
 #include "scenario/quantity.hpp"
 #include "scenario/scenario.hpp"
-#include "socketcan/id_filter.hpp"
 #include "socketcan/socketcand_listener.hpp"
+#include "trace/id_filter.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::fuzz {

@@ -70,6 +70,7 @@ void fuzz_candump(Bytes input);
 void fuzz_gvret(Bytes input);
 void fuzz_trc(Bytes input);
 void fuzz_pcap(Bytes input);
+void fuzz_pcapng(Bytes input);
 void fuzz_log(Bytes input);
 void fuzz_vcd(Bytes input);
 void fuzz_wave(Bytes input);

@@ -7,7 +7,7 @@
 #include <linux/can/error.h>
 
 #include "socketcan/frame_form.hpp"
-#include "socketcan/id_filter.hpp"
+#include "trace/id_filter.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim {

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "model/frame.hpp"
+
 namespace vericansim {
 
 /// A frame matches if (can_id & mask) == (id & mask), or, inverted, if that is not so. The flags of
@@ -27,6 +29,9 @@ struct IdFilter {
 /// Reads candump's "id:mask" and "id~mask" (inverted), hexadecimal; an id of eight digits means 29
 /// bits and has CAN_EFF_FLAG. Throws InputError that shows `text` and what is allowed.
 [[nodiscard]] IdFilter parse_filter(const std::string &text);
+
+/// The identifier of `frame` with SocketCAN's flags, as filters see it.
+[[nodiscard]] canid_t can_id_of(const Frame &frame);
 
 /// True if one of the filters matches, or if there is none.
 [[nodiscard]] bool passes(const std::vector<IdFilter> &filters, canid_t can_id);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // IdFilter: see id_filter.hpp.
-#include "id_filter.hpp"
+#include "trace/id_filter.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -38,6 +38,10 @@ IdFilter parse_filter(const std::string &text) {
                    quoted(text) +
                        " is not allowed; allowed: ID:MASK or ID~MASK (all but these), "
                        "hexadecimal, as in 100:7F0");
+}
+
+canid_t can_id_of(const Frame &frame) {
+  return frame.id | (frame.extended ? CAN_EFF_FLAG : 0) | (frame.remote ? CAN_RTR_FLAG : 0);
 }
 
 bool passes(const std::vector<IdFilter> &filters, canid_t can_id) {

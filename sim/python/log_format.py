@@ -1,0 +1,290 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# log_format: recordings in python-can's formats, to and from lines of a candump log with nine
+# decimals ("-" is no interface). Times pass through python-can as short numbers of seconds since a
+# whole millisecond, so that its floats cannot round them.
+"""usage: log_format.py read|write asc|blf|csv|sqlite <IN >OUT"""
+import io
+import logging
+import pathlib
+import re
+import sys
+import tempfile
+import time
+
+from verican_helper import BadInput, need, run
+
+can = need("can", "python3-can")
+SECOND = 1_000_000_000
+MILLISECOND = 1_000_000
+ERROR_FLAG = 0x20000000  # SocketCAN's mark of an error message
+
+
+class Kept(io.BytesIO):
+    """A file whose bytes outlive the writer that closes it."""
+
+    def close(self):
+        self.seek(0)
+
+
+# -- lines ------------------------------------------------------------------------------------
+
+def stamp(nanoseconds):
+    """(1436509052.249713000)"""
+    return f"({nanoseconds // SECOND}.{nanoseconds % SECOND:09d})"
+
+
+def frame_text(message, number, raw_dlc):
+    """A message as candump writes it; `raw_dlc` is the DLC of the bus."""
+    data = bytes(message.data)
+    if message.is_error_frame:
+        return f"{ERROR_FLAG | message.arbitration_id & 0x1FFFFFFF:08X}#{data[:8].hex().upper()}"
+    if not 0 <= message.arbitration_id <= (0x1FFFFFFF if message.is_extended_id else 0x7FF):
+        raise BadInput(f"message {number}: identifier {message.arbitration_id:X} is not allowed; "
+                       f"allowed: 11 bits, extended 29 bits")
+    head = f"{message.arbitration_id:0{8 if message.is_extended_id else 3}X}#"
+    if message.is_fd or len(data) > 8:
+        flags = message.bitrate_switch | message.error_state_indicator << 1
+        return f"{head}#{flags:X}{data.hex().upper()}"
+    if not 0 <= raw_dlc <= 15 or len(data) < min(raw_dlc, 8) and not message.is_remote_frame:
+        raise BadInput(f"message {number}: DLC {raw_dlc} with {len(data)} bytes; allowed: 0 to 15 "
+                       f"and as many bytes, up to 8")
+    body = f"R{min(raw_dlc, 8)}" if message.is_remote_frame else data[:raw_dlc].hex().upper()
+    return head + body + (f"_{raw_dlc:X}" if raw_dlc > 8 else "")
+
+
+def line_of(nanoseconds, message, number, raw_dlc, directed=True):
+    """A message as a line of the log."""
+    known = isinstance(message.channel, int) and message.channel >= 0
+    channel = f"can{message.channel}" if known else "-"
+    way = (" R" if message.is_rx else " T") if directed and not message.is_error_frame else ""
+    return f"{stamp(nanoseconds)} {channel} {frame_text(message, number, raw_dlc)}{way}\n"
+
+
+def parse_line(line, base):
+    """A line of the log as a message, its time in seconds since `base`."""
+    when, channel, text, *way = line.split()
+    head, _, tail = text.partition("#")
+    number = int(head, 16)
+    message = can.Message(
+        timestamp=(nanoseconds_of(when) - base) / SECOND, arbitration_id=number & 0x1FFFFFFF,
+        is_extended_id=len(head) == 8, is_rx=way != ["T"],
+        channel=int(channel[3:]) if channel != "-" else None)
+    if number & ERROR_FLAG:
+        message.is_error_frame, message.is_extended_id = True, False
+    elif tail.startswith("#"):
+        message.is_fd = True
+        message.bitrate_switch = bool(int(tail[1], 16) & 1)
+        message.error_state_indicator = bool(int(tail[1], 16) & 2)
+        tail = tail[2:]
+    elif tail.startswith("R"):
+        message.is_remote_frame = True
+    body, _, raw_dlc = tail.partition("_")
+    message.data = bytearray() if message.is_remote_frame else bytearray.fromhex(body)
+    length = int(body[1:] or "0") if message.is_remote_frame else len(message.data)
+    message.dlc = int(raw_dlc, 16) if raw_dlc else length
+    return message
+
+
+def nanoseconds_of(when):
+    """The time of a line."""
+    seconds, _, fraction = when.strip("()").partition(".")
+    return int(seconds) * SECOND + int(fraction)
+
+
+# -- readers: each yields (nanoseconds, message, DLC of the bus) ---------------------------------
+
+class AscLines:
+    """The lines of an ASC file for python-can, which loses the first line of a file that says
+    nothing of internal events, and does not count what it passes over."""
+
+    def __init__(self, data):
+        self.lines = as_text(data).splitlines(keepends=True)
+        self.date = ""
+        self.events = 0
+
+    def __iter__(self):
+        body = False
+        for line in self.lines:
+            text = line.strip().lower()
+            if text.startswith(("date ", "begin triggerblock ")):
+                self.date = line.split(None, 3 if text.startswith("begin") else 2)[-1].strip()
+            if not body and re.match(r"\d|begin", text):
+                body = True
+                yield "no internal events logged\n"
+            if re.match(r"\d", text) and not text.endswith("start of measurement"):
+                self.events += 1
+            yield line
+
+    def read(self):
+        """Only says that this is a file."""
+
+    write = read
+
+    def close(self):
+        """Nothing to close."""
+
+
+def read_asc(data):
+    """ASC: times since the date of the header, or of the trigger block."""
+    lines = AscLines(data)
+    reader = can.io.ASCReader(lines)
+    count = 0
+    for message in reader:
+        count += 1
+        # For classical frames python-can makes a length of CAN FD of a DLC above 8.
+        dlc = message.dlc if message.is_fd else can.util.len2dlc(message.dlc)
+        yield asc_origin(lines.date) + round(message.timestamp * SECOND), message, dlc
+    if reader.timestamps_format == "relative":
+        raise BadInput("times relative to the event before are not known; allowed: 'timestamps "
+                       "absolute'")
+    yield from [None] * (lines.events - count)
+
+
+def asc_origin(date):
+    """A date of ASC in nanoseconds; 0 if it cannot be read."""
+    try:
+        seconds = can.io.ASCReader._datetime_to_timestamp(date)  # pylint: disable=protected-access
+        return round(seconds * 1000) * MILLISECOND
+    except (ValueError, OverflowError):
+        return 0
+
+
+def read_blf(data):
+    """BLF: nanoseconds since the millisecond of the header."""
+    reader = can.io.BLFReader(io.BytesIO(data))
+    if reader.file_size > len(data):
+        raise BadInput(f"cut short: {len(data)} bytes where its header says {reader.file_size}")
+    origin = round(reader.start_timestamp * 1000) * MILLISECOND
+    reader.start_timestamp = 0.0
+    for message in reader:
+        yield origin + round(message.timestamp * SECOND), message, message.dlc
+
+
+def read_csv(data):
+    """python-can's own CSV."""
+    return read_floats(can.io.CSVReader(io.StringIO(as_text(data))))
+
+
+def read_sqlite(data):
+    """python-can's database; SQLite opens files by name only."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "log.db"
+        path.write_bytes(data)
+        yield from read_floats(can.io.SqliteReader(str(path)))
+
+
+def read_floats(reader):
+    """Seconds as floating-point numbers: what they hold is microseconds since the epoch, or
+    nanoseconds since a start that is weeks away."""
+    for message in reader:
+        digits = 9 if abs(message.timestamp) < 1e6 else 6
+        exact = round(round(message.timestamp, digits) * 10 ** digits) * 10 ** (9 - digits)
+        yield exact, message, message.dlc
+
+
+# -- writers ------------------------------------------------------------------------------------
+
+def write_asc(lines, base):
+    """ASC, whose header is made here: python-can's has the time of writing, and takes the first
+    frame's time for the smallest."""
+    file = io.StringIO()
+    file.close = lambda: None
+    writer = can.io.ASCWriter(file)
+    local = time.strftime("%a %b %d %I:%M:%S.{:03d} %p %Y", time.localtime(base // SECOND))
+    date = local.format(base // MILLISECOND % 1000)
+    file.write(f"Begin Triggerblock {date}\n")
+    writer.header_written = True
+    writer.log_event("Start of measurement", 0.0)
+    for line in lines:
+        message = parse_line(line, base)
+        writer.channel = (message.channel or 0) + 1  # of error frames
+        writer.on_message_received(message)
+    writer.stop()
+    return re.sub(r"\Adate .*", f"date {date}", file.getvalue()).encode()
+
+
+def write_blf(lines, base):
+    """BLF; the writer cuts its times to nanoseconds, so they get half of one more."""
+    file = Kept()
+    writer = can.io.BLFWriter(file)
+    writer.start_timestamp = 0.0
+    last = 0.0
+    for line in lines:
+        message = parse_line(line, base)
+        message.timestamp += 0.5 / SECOND
+        last = max(last, message.timestamp)
+        writer.on_message_received(message)
+    writer.start_timestamp = base / SECOND
+    writer.stop_timestamp = base / SECOND + last
+    writer.stop()
+    return file.getvalue()
+
+
+def write_csv(lines, _base):
+    """python-can's own CSV."""
+    file = io.StringIO()
+    file.close = lambda: None
+    writer = can.io.CSVWriter(file)
+    for line in lines:
+        writer.on_message_received(parse_line(line, 0))
+    writer.stop()
+    return file.getvalue().encode()
+
+
+def write_sqlite(lines, _base):
+    """python-can's database."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "log.db"
+        writer = can.io.SqliteWriter(str(path))
+        for line in lines:
+            writer.on_message_received(parse_line(line, 0))
+        writer.stop()
+        return path.read_bytes()
+
+
+# -- the program --------------------------------------------------------------------------------
+
+def as_text(data):
+    """Text files of other systems: UTF-8, else Latin-1."""
+    try:
+        return data.decode()
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
+
+
+def read(name, data):
+    """All messages as lines. Whatever python-can raises means that the file is damaged."""
+    reader = {"asc": read_asc, "blf": read_blf, "csv": read_csv, "sqlite": read_sqlite}[name]
+    lines, skipped = [], 0
+    try:
+        for item in reader(data):
+            if item is None:
+                skipped += 1
+            else:
+                lines.append(line_of(*item[:2], len(lines) + 1, item[2], name in ("asc", "blf")))
+    except BadInput:
+        raise
+    except Exception as error:  # pylint: disable=broad-except
+        raise BadInput(f"damaged behind message {len(lines)}: {type(error).__name__} {error} "
+                       f"(python-can)") from error
+    return f"# skipped {skipped}\n" + "".join(lines)
+
+
+def write(name, data):
+    """The file that holds the lines."""
+    writer = {"asc": write_asc, "blf": write_blf, "csv": write_csv, "sqlite": write_sqlite}[name]
+    lines = data.decode().splitlines()
+    earliest = min((nanoseconds_of(line.split(None, 1)[0]) for line in lines), default=0)
+    return writer(lines, earliest // MILLISECOND * MILLISECOND)
+
+
+def main(arguments):
+    """`read` or `write`."""
+    logging.disable()  # python-can's own remarks
+    way, name = arguments
+    return {"read": read, "write": write}[way](name, sys.stdin.buffer.read())
+
+
+run(main)

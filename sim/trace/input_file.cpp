@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Input files: see input_file.hpp.
+#include "trace/input_file.hpp"
+
+#include <sys/stat.h>
+#include <zlib.h>
+
+#include <array>
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <sstream>
+
+#include "trace/input_error.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr std::size_t kMostUnpacked = std::size_t{1} << 30;
+
+/// zlib's state, freed at the end.
+class Inflater {
+ public:
+  explicit Inflater(std::string &bytes) {
+    constexpr int kGzipOnly = 16 + MAX_WBITS;
+    stream_.next_in = reinterpret_cast<Bytef *>(bytes.data());
+    stream_.avail_in = static_cast<uInt>(bytes.size());
+    good_ = inflateInit2(&stream_, kGzipOnly) == Z_OK;
+  }
+  ~Inflater() { inflateEnd(&stream_); }
+  Inflater(const Inflater &) = delete;
+  Inflater &operator=(const Inflater &) = delete;
+
+  /// Appends the next piece to `text`; false at the end. Several members follow each other, as with
+  /// cat; what follows the last one and is none is ignored, as gzip does.
+  bool next(std::string &text, const std::string &path) {
+    std::array<char, 65536> piece{};
+    stream_.next_out = reinterpret_cast<Bytef *>(piece.data());
+    stream_.avail_out = static_cast<uInt>(piece.size());
+    const int status = good_ ? inflate(&stream_, Z_NO_FLUSH) : Z_MEM_ERROR;
+    if (status != Z_OK && status != Z_STREAM_END)
+      throw InputError(path, 0, status == Z_BUF_ERROR ? "cut short (gzip)" : "damaged (gzip)");
+    text.append(piece.data(), piece.size() - stream_.avail_out);
+    if (text.size() > kMostUnpacked) throw InputError(path, 0, "unpacks to more than 1 GiB (gzip)");
+    if (status == Z_OK) return true;
+    const bool more =
+        stream_.avail_in >= 2 && stream_.next_in[0] == 0x1F && stream_.next_in[1] == 0x8B;
+    return more && inflateReset(&stream_) == Z_OK;
+  }
+
+ private:
+  z_stream stream_{};
+  bool good_ = false;
+};
+
+}  // namespace
+
+std::string unpacked(std::string bytes, const std::string &path) {
+  if (!bytes.starts_with("\x1f\x8b")) return bytes;
+  if (bytes.size() > std::numeric_limits<uInt>::max())
+    throw InputError(path, 0, "is larger than 4 GiB (gzip)");
+  std::string text;
+  Inflater inflater{bytes};
+  while (inflater.next(text, path)) {
+  }
+  return text;
+}
+
+std::string read_text_file(const std::string &path) {
+  std::ostringstream text;
+  if (path == "-") {
+    text << std::cin.rdbuf();
+    return unpacked(std::move(text).str(), path);
+  }
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) throw InputError(path, 0, "no such file");
+  if (S_ISDIR(status.st_mode)) throw InputError(path, 0, "is a directory, not a file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path, 0, "cannot be opened for reading");
+  text << file.rdbuf();
+  return unpacked(std::move(text).str(), path);
+}
+
+std::string_view without_gz(std::string_view path) {
+  if (path.ends_with(".gz")) path.remove_suffix(3);
+  return path;
+}
+
+}  // namespace vericansim

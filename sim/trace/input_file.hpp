@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Input files: plain, packed with gzip, or standard input.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace vericansim {
+
+/// Reads a whole file; "-" is standard input. What begins as gzip does is unpacked, whatever its
+/// name. Throws InputError if it cannot be opened or unpacked.
+[[nodiscard]] std::string read_text_file(const std::string &path);
+
+/// `bytes` without gzip's packing, or as they are. Throws InputError naming `path` if they are
+/// damaged or unpack to more than 1 GiB.
+[[nodiscard]] std::string unpacked(std::string bytes, const std::string &path);
+
+/// `path` without a last ".gz".
+[[nodiscard]] std::string_view without_gz(std::string_view path);
+
+}  // namespace vericansim

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// python-can's formats: ASC texts as Vector's tools write them, there and back through each format,
+// and python-can itself, called apart, as judge of what was written.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "harness/scratch_folder.hpp"
+#include "trace/candump.hpp"
+#include "trace/input_error.hpp"
+#include "trace/log_walk.hpp"
+#include "trace/python_log.hpp"
+
+namespace vericansim {
+namespace {
+
+using ::testing::HasSubstr;
+
+bool has_python_can() { return shell("/usr/bin/python3 -c 'import can' 2>&1").code == 0; }
+
+class PythonLog : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_python_can()) GTEST_SKIP() << "python3-can is not installed";
+  }
+};
+
+std::string lines_of(const CanLog &log) {
+  std::ostringstream text;
+  CandumpWriter writer{text, log.start_ns, true};
+  const auto write = [&writer](const auto &entry) { writer.write(entry); };
+  walk(log, write, write);
+  return text.str();
+}
+
+std::string error_of(const std::string &bytes) {
+  try {
+    static_cast<void>(parse_log(bytes, "a.log"));
+  } catch (const InputError &error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// Frame lines without "internal events logged", a raw DLC, remote frames, CAN FD, error frames, and
+// lines that are no frames.
+TEST_F(PythonLog, ReadsAsc) {
+  const CanLog log = parse_log(
+      "base hex  timestamps absolute\n"
+      "   0.000100 1  64              Rx   d 4 64 00 00 00  Length = 0 BitCount = 0 ID = 100\n"
+      "   0.000200 2  18EBFF00x       Tx   d D 55 AA 01 02 03 04 05 06  Length = 232016\n"
+      "   0.000300 1  300 Rx r 8 Length = 1704000 BitCount = 145 ID = 88888888x\n"
+      "   0.000400 CANFD   1 Rx        30a  Name  1 0 8  8 01 02 03 04 05 06 07 08   102203  133\n"
+      "   0.000500 2 ErrorFrame\n"
+      "   1.000500 2  Statistic: D 0 R 0 XD 0 XR 0 E 0 O 0 B 0.00%\n",
+      "a.asc");
+  EXPECT_EQ(lines_of(log),
+            "(0000000000.000100000) can0 064#64000000 R\n"
+            "(0000000000.000200000) can1 18EBFF00#55AA010203040506_D T\n"
+            "(0000000000.000300000) can0 300#R8 R\n"
+            "(0000000000.000400000) can0 30A##10102030405060708 R\n"
+            "(0000000000.000500000) can1 20000000#\n");
+  EXPECT_EQ(skipped_text(log), "1 CAN FD frame, 1 error message, 1 other line or packet");
+}
+
+const std::string kFrames =
+    "(1700000000.123456789) can0 123#1122 R\n"
+    "(1700000000.123456790) can1 12345678#0102030405060708_B T\n"
+    "(1700000000.123456000) can0 7FF#R3 R\n"  // earlier than the first
+    "(1700000003.000000001) can0 00000000# T\n";
+const std::string kFd = "(1700000003.500000001) can1 1ABCDEF0##3AABBCCDD R\n";
+
+// BLF has nanoseconds and everything else.
+TEST_F(PythonLog, BlfHoldsFramesToTheNanosecond) {
+  const CanLog log = parse_candump(kFrames + kFd, "log");
+  const std::string bytes = python_log_bytes(log, LogFormat::kBlf, "a.blf");
+  EXPECT_EQ(detect_log_format(bytes, "a.blf"), LogFormat::kBlf);
+  EXPECT_EQ(lines_of(parse_log(bytes, "a.blf")), kFrames + kFd);
+}
+
+// Times that a floating-point number of seconds does not meet.
+TEST_F(PythonLog, BlfHoldsEveryNanosecond) {
+  std::string text;
+  for (int i = 0; i < 2000; ++i)
+    text += fmt::format("(17000{:05d}.{:09d}) can0 123# R\n", i, i * 7'654'321LL % 1'000'000'000);
+  const std::string bytes = python_log_bytes(parse_candump(text, "log"), LogFormat::kBlf, "a.blf");
+  EXPECT_EQ(lines_of(parse_log(bytes, "a.blf")), text);
+}
+
+// ASC as python-can writes it has microseconds.
+TEST_F(PythonLog, AscHoldsFramesToTheMicrosecond) {
+  const std::string whole =
+      "(1700000000.123457000) can0 123#1122 R\n(1700000000.123456000) can1 1ABCDEF0##3AABBCCDD T\n"
+      "(1700000000.223456000) can3 7FF#R3 R\n(1700000000.323456000) can2 "
+      "20000000#\n(1700086400.000001000) can0 "
+      "00000001#0102030405060708_F "
+      "R\n";
+  const CanLog log = parse_candump(whole, "log");
+  const std::string bytes = python_log_bytes(log, LogFormat::kAsc, "a.asc");
+  EXPECT_EQ(lines_of(parse_log(bytes, "a.asc")), whole);
+}
+
+// CSV and SQLite have no interfaces, no directions and no CAN FD.
+TEST_F(PythonLog, CsvAndSqliteHoldFramesToTheMicrosecond) {
+  const std::string text =
+      "(1700000000.123457000) can0 123#1122\n(1700000000.123456000) can0 12345678#R3\n"
+      "(1700000000.223456000) can0 20000080#0001020304050607\n"
+      "(1700086400.000001000) can0 00000001#0102030405060708_F\n";
+  for (const LogFormat format : {LogFormat::kCsv, LogFormat::kSqlite}) {
+    const std::string bytes = python_log_bytes(parse_candump(text, "log"), format, "a");
+    EXPECT_EQ(detect_log_format(bytes, "a"), format);
+    const CanLog again = parse_log(bytes, "a");
+    EXPECT_EQ(lines_of(again), text);
+    EXPECT_EQ(again.entries.at(0).channel, "");
+  }
+}
+
+// python-can's own tool reads what was written: the same frames.
+TEST_F(PythonLog, PythonCanReadsTheFiles) {
+  const ScratchFolder folder;
+  const CanLog log =
+      parse_candump("(1700000000.25) can0 123#1122\n(1700000000.5) can2 12345678#R3 T\n", "log");
+  const std::string show =
+      "/usr/bin/python3 -c 'import can, sys\nfor m in can.LogReader(sys.argv[1]): "
+      "print(hex(m.arbitration_id), m.is_extended_id, m.is_remote_frame, m.dlc, m.data.hex(), "
+      "m.channel, m.is_rx)' ";
+  for (const auto &[name, format] :
+       {std::pair{"a.blf", LogFormat::kBlf}, std::pair{"a.asc", LogFormat::kAsc}})
+    EXPECT_EQ(shell(show + folder.file(name, python_log_bytes(log, format, name))).text,
+              "0x123 False False 2 1122 0 True\n0x12345678 True True 3  2 False\n");
+  for (const auto &[name, format] :
+       {std::pair{"a.csv", LogFormat::kCsv}, std::pair{"a.db", LogFormat::kSqlite}})
+    EXPECT_EQ(shell(show + folder.file(name, python_log_bytes(log, format, name))).text,
+              "0x123 False False 2 1122 None True\n0x12345678 True True 3  None True\n");
+}
+
+TEST_F(PythonLog, DamagedFilesGiveOneLine) {
+  const std::string blf =
+      python_log_bytes(parse_candump(kFrames + kFd, "log"), LogFormat::kBlf, "a.blf");
+  for (const std::size_t cut : {10UL, 100UL, 150UL, blf.size() - 10, blf.size() - 1})
+    EXPECT_THAT(error_of(blf.substr(0, cut)), HasSubstr("a.log: ")) << cut;
+  EXPECT_THAT(error_of(blf.substr(0, 200)),
+              HasSubstr("cut short: 200 bytes where its header says"));
+  std::string rubbish = blf;
+  for (std::size_t i = 170; i < 180; ++i) rubbish[i] ^= 0x55;
+  EXPECT_THAT(error_of(rubbish), HasSubstr("damaged behind message 0: error"));  // zlib's
+  EXPECT_THAT(error_of("timestamp,arbitration_id,extended,remote,error,dlc,data\n1.0,0x1\n"),
+              HasSubstr("damaged behind message 0: ValueError"));
+  EXPECT_THAT(error_of("timestamp,arbitration_id,extended,remote,error,dlc,data\n"
+                       "1.0,0x1,0,0,0,0,\n1.0,0x800,0,0,0,0,\n"),
+              HasSubstr("message 2: identifier 800 is not allowed"));
+  EXPECT_THAT(error_of("SQLite format 3 but no more"), HasSubstr("DatabaseError"));
+  EXPECT_THAT(error_of("base hex  timestamps relative\n0.1 1 64 Rx d 0\n"),
+              HasSubstr("times relative to the event before are not known"));
+  EXPECT_THAT(error_of("base hex  timestamps absolute\n0.1 1 64 Rx d 2 11\n"),
+              HasSubstr("message 1: DLC 2 with 1 bytes"));
+}
+
+}  // namespace
+}  // namespace vericansim
