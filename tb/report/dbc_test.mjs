@@ -137,6 +137,10 @@ test('CSV has a column for each signal that the table shows', async () => {
   );
   assert.match(first, /,"Page 1, Pressure 100 kPa",.*,1,100,,,$/);
   assert.match(second, /,2,,1\.5,,$/);
+  await page.fill('#search', 'enginedata');
+  await page.waitForFunction(() => document.querySelector('.found').textContent.startsWith('4 of'));
+  const quoted = await saved(page, '#panel-frames button.csv');
+  assert.ok(quoted.text.includes(',"EngineData.Torque, Nm; 100""%""",'), quoted.text);
   await closeReport(page);
 });
 

@@ -69,6 +69,8 @@ test('count, period, jitter, data and changed bytes are those of the scene', asy
     list.map((row) => [...row.querySelectorAll('.changed')].map((b) => b.textContent)),
   );
   assert.deepEqual(marked, [['02', '04'], [], []], 'bytes that were not the same in all frames');
+  const ground = await page.$eval('.changed', (b) => getComputedStyle(b).backgroundColor);
+  assert.notEqual(ground, 'rgba(0, 0, 0, 0)', 'they stand on a colour');
   await screenshot(page, 'ids');
   await closeReport(page);
 });

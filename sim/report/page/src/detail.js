@@ -243,7 +243,7 @@ function bitDetails(report, {segment, lane: which, bit}) {
       {},
       lane.stuff(bit)
         ? 'After five equal bits the sender inserts one of the other level; receivers remove it ' +
-          '(ST-01).'
+            '(ST-01).'
         : fieldText(field),
     ),
     lines([

@@ -100,7 +100,7 @@ function columnsOf(tab) {
     {
       name: 'changed bytes',
       title: 'Numbers of the bytes that were not the same in all data frames, from 0',
-      width: '104px',
+      width: '118px',
       text: (row) => changedText(entries[row]),
       key: (row) => changedText(entries[row]),
     },

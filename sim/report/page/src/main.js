@@ -21,6 +21,7 @@ import {DbcOpener} from './open_dbc.js';
 import {load, LoadError} from './load.js';
 import {LoadTab} from './load_tab.js';
 import {Overview} from './overview.js';
+import {savePicture} from './picture.js';
 import {Report} from './report.js';
 import {ResponseTab} from './response_tab.js';
 import {Scope} from './scope.js';
@@ -166,6 +167,7 @@ function build(report, app) {
       frames.input.focus();
     },
     tab: (id) => tabs.show(id),
+    picture: (kind) => savePicture(scope, kind),
     fault: (index, hit) => steps.showFault(index, hit),
   };
   const chosen = new Chosen(report.signals);

@@ -13,8 +13,7 @@ export class Painter {
   }
 
   /** Starts a new picture of the given size; colors is the theme of the moment. */
-  begin(width, height, colors) {
-    const scale = window.devicePixelRatio || 1;
+  begin(width, height, colors, scale = window.devicePixelRatio || 1) {
     const wide = Math.round(width * scale);
     const high = Math.round(height * scale);
     if (this.canvas.width !== wide || this.canvas.height !== high) {
@@ -145,6 +144,17 @@ export class Painter {
       }
     }
     return '';
+  }
+
+  /** Paints a picture of the given height that begins `y` further down. */
+  shifted(y, height, paint) {
+    const {height: before} = this;
+    this.height = height;
+    this.context.save();
+    this.context.translate(0, y);
+    paint();
+    this.context.restore();
+    this.height = before;
   }
 
   clip(x, y, w, h, paint) {

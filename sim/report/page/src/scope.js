@@ -88,15 +88,11 @@ export class Scope {
     this.topPainter.begin(scale.width, this.topHeight, theme);
     this.#drawTop(this.topPainter, scale);
     this.#drawSignals(scale, theme);
-    const height = this.laneHeight;
-    const nodes = this.report.nodes.length;
-    this.lanesPainter.begin(scale.width, Math.max(nodes * height, 1), theme);
-    for (let node = 0; node < nodes; ++node) {
-      this.#drawLane(this.lanesPainter, scale, node, node * height, height);
-    }
+    this.lanesPainter.begin(scale.width, Math.max(this.lanesHeight, 1), theme);
+    this.#drawLanes(this.lanesPainter, scale);
     this.#overlay(this.topPainter, scale);
     this.#overlay(this.lanesPainter, scale);
-    this.hint.update(height);
+    this.hint.update(this.laneHeight);
     this.#measure(performance.now() - begin, scale);
   }
 
@@ -105,7 +101,7 @@ export class Scope {
     signals.root.hidden = signalHeight === 0;
     signals.root.style.height = `${signalHeight}px`;
     if (signalHeight === 0) return;
-    signals.painter.begin(scale.width, signals.height, theme);
+    signals.painter.begin(scale.width, signals.wanted, theme);
     signals.draw(signals.painter, scale, 0, this.moment(scale));
     this.#overlay(signals.painter, scale);
   }
@@ -113,6 +109,39 @@ export class Scope {
   /** The time of the values in the gutter: under the pointer, else at the right end. */
   moment(scale) {
     return this.hover ? scale.time(this.hover.x) : this.view.to;
+  }
+
+  #drawLanes(p, scale) {
+    const height = this.laneHeight;
+    for (let node = 0; node < this.report.nodes.length; ++node)
+      this.#drawLane(p, scale, node, node * height, height);
+  }
+
+  get lanesHeight() {
+    return this.laneHeight * this.report.nodes.length;
+  }
+
+  /** Height of all of it, with what is scrolled away. */
+  get wholeHeight() {
+    return this.topHeight + this.signals.wanted + this.lanesHeight;
+  }
+
+  /** Paints all of it, one below the other, for a picture file. */
+  paint(p, scale) {
+    const {topHeight, signals} = this;
+    const parts = [
+      [topHeight, () => this.#drawTop(p, scale)],
+      [signals.wanted, () => signals.draw(p, scale, 0, this.moment(scale))],
+      [this.lanesHeight, () => this.#drawLanes(p, scale)],
+    ];
+    let y = 0;
+    for (const [height, draw] of parts) {
+      p.shifted(y, height, () => {
+        draw();
+        this.#overlay(p, scale);
+      });
+      y += height;
+    }
   }
 
   #measure(ms, scale) {

@@ -18,15 +18,16 @@ export class SignalLanes {
     this.painter = new Painter(this.canvas);
   }
 
-  get height() {
-    return Math.max(1, kSignalLane * this.chosen.list.length);
+  /** Height of all of them, px. */
+  get wanted() {
+    return kSignalLane * this.chosen.list.length;
   }
 
   /** Height on the page, in a scope of `room` pixels. */
   shown(room) {
     return this.chosen.list.length === 0
       ? 0
-      : Math.min(this.height, Math.max(kSignalLane, Math.floor(room * kPart)));
+      : Math.min(this.wanted, Math.max(kSignalLane, Math.floor(room * kPart)));
   }
 
   /** Signals have the colour of the node that sends them. */
@@ -36,7 +37,7 @@ export class SignalLanes {
     return sender === kNobody ? 'trace' : `n-${sender % 16}`;
   }
 
-  /** Draws all of them with another painter too, for a picture. */
+  /** Draws all of them from `y` on; the values in the gutter are those at `at`. */
   draw(p, scale, y, at) {
     this.chosen.list.forEach((entry, i) => {
       const series = this.chosen.signals.seriesOf(entry.message, entry.signal);

@@ -77,6 +77,10 @@ export function toolbar(report, view, steps, actions) {
         )
       : null,
     where,
+    group(
+      button('PNG', 'Save this view as a picture', () => actions.picture('png')),
+      button('SVG', 'Save this view as a drawing', () => actions.picture('svg')),
+    ),
     button('?', 'Keys and mouse', () => actions.help()),
   );
 }
