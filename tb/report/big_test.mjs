@@ -8,6 +8,7 @@ import {
   closeBrowser,
   closeReport,
   inspect,
+  itemsOf,
   openBrowser,
   openReport,
   screenshot,
@@ -86,6 +87,74 @@ test('a hundred thousand frames open, pan, zoom and are searched', async () => {
     .then((handle) => handle.jsonValue());
   assert.ok(points <= 1700, `${points} points in a plot`);
   await screenshot(page, 'big-counters');
+  await closeReport(page);
+});
+
+/** A database for the identifiers of the scene: two signals in each of 16 messages. */
+const database = Array.from(
+  {length: 16},
+  (_, i) =>
+    `BO_ ${0x100 + 16 * i} M${i}: 8 X\n` +
+    ' SG_ A : 0|16@1+ (0.1,0) [0|0] "V" X\n SG_ B : 23|12@0- (1,0) [0|0] "" X\n',
+).join('');
+
+/** Bars of the first signal, message 0: each has the extremes of its column and the value before. */
+function judgeBars(picture) {
+  const scale = (picture.width - picture.left) / (picture.to - picture.from);
+  const wanted = new Map();
+  let before = NaN;
+  for (const {id, end, data} of scene.scene.log) {
+    if (id !== 0x100) continue;
+    const value = Math.round(data[0] + 256 * data[1]) / 10;
+    const x = Math.floor(picture.left + (end - picture.from) * scale);
+    const old = wanted.get(x) ?? {low: before, high: before};
+    wanted.set(x, {
+      low: Math.min(Number.isNaN(old.low) ? value : old.low, value),
+      high: Math.max(Number.isNaN(old.high) ? value : old.high, value),
+    });
+    before = value;
+  }
+  const lanes = itemsOf(picture, 'bar');
+  const own = lanes.slice(0, wanted.size);
+  assert.ok(wanted.size > 500);
+  assert.deepEqual(
+    own.map(({x, low, high}) => [x, low, high]),
+    [...wanted].map(([x, {low, high}]) => [x, low, high]),
+  );
+}
+
+test('signals of a hundred thousand frames are plotted, searched, and bounded', async () => {
+  const page = await openReport(file, {width: 1600, height: 900});
+  const ms = await page.evaluate((text) => {
+    const begin = performance.now();
+    const {report, chosen} = window.verican;
+    report.databases.add('big.dbc', text);
+    for (const message of report.databases.messages.slice(0, 6))
+      chosen.toggle(message, message.signals[0]);
+    window.verican.scope.draw();
+    return performance.now() - begin;
+  }, database);
+  console.log(`# six signals decoded and drawn in ${Math.round(ms)} ms`);
+  const {width, left} = await inspect(page);
+  const bound = 4 * 6 * (width - left) + 6 * 11 * (width - left); // and six lines
+  judgeBars(await inspect(page));
+  await redraws(page);
+  for (let i = 0; i < 40; ++i) {
+    await page.keyboard.press(i % 4 ? '+' : 'ArrowRight');
+    await settle(page);
+    const drawn = await page.evaluate(() => window.verican.stats.drawn);
+    assert.ok(drawn <= bound, `${drawn} things drawn, allowed ${bound}`);
+    if (i === 0) say('whole run with six signals', await redraws(page));
+  }
+  say('all scales with six signals', await redraws(page));
+  const found = await page.evaluate(() => {
+    const begin = performance.now();
+    window.verican.frames.show('m3');
+    return [performance.now() - begin, document.querySelector('.found').textContent];
+  });
+  console.log(`# searched signals in ${Math.round(found[0])} ms`);
+  const count = scene.scene.log.filter(({id}) => id === 0x130).length;
+  assert.ok(found[1].replace(/ (?=\d{3}\b)/g, '').startsWith(`${count} of`), found[1]);
   await closeReport(page);
 });
 

@@ -83,6 +83,24 @@ test('every kind of signal has the value that its bits say', async () => {
   await closeReport(page);
 });
 
+test('blanks do not matter, nor how the lines of the file end', async () => {
+  const dense = dbc
+    .replace(/^ SG_ (.*)$/gm, (line, rest) => `\tSG_  ${rest.replace(/ ([:([])/g, '$1')}`)
+    .replace(/,([0-9.]+)\) ?\[/g, ', +$1 )  [')
+    .replaceAll('\n', '\r\n');
+  assert.ok(dense.includes('Torque: 19|12@0-(1E-1, +0.0 )  [-3.0E2|300]'), 'the text is another');
+  const databases = [{name: 'dense.dbc', text: dense}];
+  const page = await openReport(writeScene('dbc-dense', sceneOf(frames, {databases})), {
+    height: 1400,
+  });
+  assert.equal(await page.textContent('[role=alert] span'), '');
+  assert.deepEqual(
+    await shown(page),
+    frames.map(([, , message, signals]) => [message, signals]),
+  );
+  await closeReport(page);
+});
+
 test('the details of a frame list its signals with units and raw values', async () => {
   const page = await openReport(file);
   await page.click('#panel-frames .row:has-text("25 80 0A BC")');
@@ -200,7 +218,7 @@ test('choices are plotted as words; what is not ticked any more goes', async () 
     ['Gear'],
   );
   await page.click('button:has-text("plot none")');
-  assert.equal(await page.isVisible('.signal-lanes'), false);
+  await page.waitForSelector('.signal-lanes', {state: 'hidden'});
   await closeReport(page);
 });
 
@@ -230,7 +248,7 @@ test('a file is opened by the button, closed again, and replaced by one of its n
     'the plot follows the new file',
   );
   await page.click('[aria-label="Close opened.dbc"]');
-  assert.equal(await page.isVisible('.signal-lanes'), false);
+  await page.waitForSelector('.signal-lanes', {state: 'hidden'});
   await page.click('#tab-frames');
   assert.equal((await rowsOf(page, 'frames'))[0].length, 10);
   await closeReport(page);

@@ -186,8 +186,8 @@ class Reader {
       message.j1939 = this.#isJ1939(message);
       for (const signal of message.signals) select(signal, message);
       for (const signal of message.signals) check(signal, message);
-      message.name = message.long ?? message.name;
-      for (const signal of message.signals) signal.name = signal.long ?? signal.name;
+      message.name = message.long || message.name;
+      for (const signal of message.signals) signal.name = signal.long || signal.name;
     }
     return list;
   }

@@ -32,25 +32,26 @@ function corners(scale, {times, values}, first, last, y) {
   return points;
 }
 
-/** Too many values for a corner each: of every column the first, the extremes and the last. */
-function columns(scale, {times, values}, first, last, y) {
-  const points = [];
+/** Too many values for a corner each: a bar for each column, from the value before on. */
+function drawColumns(p, scale, signal, {times, values}, first, last, y, color) {
+  let before = NaN;
+  let right = scale.left;
   for (let i = first; i <= last;) {
     const x = Math.max(Math.floor(scale.x(times[i])), scale.left);
-    const end = lastAtOrBelow(times, scale.time(x + 1), last + 1);
-    let low = values[i];
+    const end = Math.max(i, lastAtOrBelow(times, scale.time(x + 1), last + 1));
+    if (x > right && !Number.isNaN(before)) p.rect(right, y(before) - 0.7, x - right, 1.4, color);
+    let low = Number.isNaN(before) ? values[i] : before;
     let high = low;
-    for (let j = i; j <= end; ++j) {
-      if (values[j] < low) low = values[j];
-      else if (values[j] > high) high = values[j];
+    for (; i <= end; ++i) {
+      if (values[i] < low) low = values[i];
+      else if (values[i] > high) high = values[i];
     }
-    if (points.length) points.push(x, points.at(-1));
-    points.push(x, y(values[i]));
-    if (high > low) points.push(x, y(high), x, y(low), x, y(values[Math.max(end, i)]));
-    i = Math.max(end, i) + 1;
+    before = values[end];
+    p.rect(x, y(high) - 0.7, 1, y(low) - y(high) + 1.4, color);
+    p.note('bar', {signal: signal.name, x, low, high});
+    right = x + 1;
   }
-  if (points.length) points.push(scale.width, points.at(-1));
-  return points;
+  if (scale.width > right) p.rect(right, y(before) - 0.7, scale.width - right, 1.4, color);
 }
 
 /** Values that are the same for long have their text in the line's place. */
@@ -75,9 +76,11 @@ function drawLine(p, scale, entry, series, first, last, y0, h, color) {
   const bottom = y0 + h - 7;
   const y = (value) =>
     flat ? y0 + h / 2 : bottom - ((value - series.least) / (series.most - series.least)) * (h - 14);
-  const many = last - first > 2 * scale.plot;
-  const points = (many ? columns : corners)(scale, series, first, last, y);
-  p.polyline(points, color, 1.4);
+  if (last - first > 2 * scale.plot) {
+    drawColumns(p, scale, signal, series, first, last, y, color);
+    return;
+  }
+  p.polyline(corners(scale, series, first, last, y), color, 1.4);
   for (let i = first; i <= last && last - first < kDots; ++i) {
     const x = scale.x(series.times[i]);
     if (x < scale.left) continue;
