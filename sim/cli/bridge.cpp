@@ -15,6 +15,7 @@
 
 #include "cli/bridge_socketcand.hpp"
 #include "cli/cli.hpp"
+#include "cli/output_files.hpp"
 #include "socketcan/raw_port.hpp"
 #include "trace/input_error.hpp"
 
@@ -158,13 +159,14 @@ void print(const Options &options, const BridgeReport &report, const SocketcandS
     fmt::print("{}{}{}", to_text(report), server != nullptr ? to_text(server->counts()) : "",
                options.bus.empty() ? "" : "\n" + to_text(report.bus));
   }
-  std::fflush(stdout);
+  flush_standard_output();
 }
 
 int run(const Options &options) {
   // Host time in which clients may take the last messages.
   constexpr std::chrono::seconds kLastMessages{10};
   BridgeSetup setup = make_setup(options);
+  claim_files(inputs_of(setup.scenario), files_of(setup.scenario.outputs));
   const auto server = open_socketcand(options.socketcand, setup);
   HostWall wall;
   BridgeReport report;

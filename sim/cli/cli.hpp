@@ -52,8 +52,8 @@ void override_outputs(Outputs &target, const Outputs &given);
 
 using Json = nlohmann::ordered_json;
 
-/// The exit code of work that has seen to its end: `code`, or that of the signal that ended it early
-/// (128 + its number, as a shell says it).
+/// The exit code of work that has seen to its end: `code`, or that of the signal that ended it
+/// early (128 + its number, as a shell says it).
 [[nodiscard]] int exit_code_after(int code);
 
 /// A frame as an object: id, extended, remote, dlc, data (hexadecimal).

@@ -10,6 +10,7 @@
 #include <cstdio>
 
 #include "cli/cli.hpp"
+#include "cli/output_files.hpp"
 
 namespace vericansim::cli {
 
@@ -17,14 +18,14 @@ using firmware::BoardReport;
 
 Console::~Console() {
   for (const auto &[node, line] : lines_)
-    if (!line.empty()) fmt::print("{}: {}\n", node, line);
-  std::fflush(stdout);
+    if (!line.empty()) std::fputs((node + ": " + line + "\n").c_str(), stdout);
+  (void)try_flush_standard_output();  // who ends the command asks again
 }
 
 void Console::print(std::string_view node, std::string_view text) {
   if (alone_) {
     std::fwrite(text.data(), 1, text.size(), stdout);
-    std::fflush(stdout);
+    flush_standard_output();
     return;
   }
   std::string &line = lines_[std::string{node}];
@@ -34,7 +35,7 @@ void Console::print(std::string_view node, std::string_view text) {
     fmt::print("{}: {}", node, line);
     line.clear();
   }
-  std::fflush(stdout);
+  flush_standard_output();
 }
 
 void complain(const std::vector<BoardReport> &boards) {

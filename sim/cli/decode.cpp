@@ -4,12 +4,12 @@
 // verican decode: a bus waveform to frames and error frames.
 #include <fmt/format.h>
 
-#include <fstream>
 #include <memory>
 
 #include "cli/cli.hpp"
+#include "cli/output_files.hpp"
 #include "trace/candump.hpp"
-#include "trace/input_error.hpp"
+#include "trace/output_file.hpp"
 #include "trace/pcap_file.hpp"
 #include "trace/wave_decode.hpp"
 
@@ -65,24 +65,30 @@ Json event_json(const BusEvent &event) {
 }
 
 void write_logs(const Options &options, const WaveDecodeResult &result) {
-  std::ofstream file;
+  std::unique_ptr<OutputFile> file;
+  std::unique_ptr<CandumpWriter> candump;
   std::unique_ptr<PcapWriter> pcap;
   if (!options.candump.empty()) {
-    file.open(options.candump);
-    if (!file) throw InputError(options.candump, 0, "cannot be opened for writing");
+    file = std::make_unique<OutputFile>(options.candump);
+    candump = std::make_unique<CandumpWriter>(file->stream());
   }
   if (!options.pcap.empty()) pcap = std::make_unique<PcapWriter>(options.pcap);
-  CandumpWriter candump{file};
   for (const BusEvent &event : result.events) {
     if (!is_frame(event)) continue;
     const LogEntry entry{event.start, "can0", event.frame};
-    if (file.is_open()) candump.write(entry);
+    if (candump) candump->write(entry);
     if (pcap) pcap->write(entry);
   }
+  if (file) file->commit();
+  if (pcap) pcap->commit();
 }
 
 int decode(Options &options) {
   if (options.bitrate != 0) options.decode.bitrate = options.bitrate;
+  std::vector<NamedFile> outputs;
+  if (!options.candump.empty()) outputs.push_back({"--candump", options.candump});
+  if (!options.pcap.empty()) outputs.push_back({"--pcap", options.pcap});
+  claim_files({{"the waveform", options.wave}}, outputs);
   options.decode.sample_point = static_cast<int>(options.sample_point * 10);
   const WaveDecodeResult result = decode_wave(options.wave, options.decode);
   write_logs(options, result);

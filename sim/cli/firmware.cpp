@@ -9,6 +9,7 @@
 
 #include "cli/cli.hpp"
 #include "cli/console.hpp"
+#include "cli/output_files.hpp"
 #include "firmware/firmware_run.hpp"
 #include "scenario/stop_request.hpp"
 
@@ -58,9 +59,20 @@ FirmwareSetup make_setup(const Options &options) {
   return setup;
 }
 
+void claim_files_of(const Options &options, const FirmwareSetup &setup) {
+  std::vector<NamedFile> inputs, outputs;
+  for (const std::string &file : options.files) inputs.push_back({"the firmware", file});
+  for (const Scenario &scenario : setup.scenarios) {
+    for (NamedFile &file : inputs_of(scenario)) inputs.push_back(std::move(file));
+    for (NamedFile &file : files_of(scenario.outputs)) outputs.push_back(std::move(file));
+  }
+  claim_files(inputs, outputs);
+}
+
 int run(const Options &options) {
   const StopSignals signals;
   const FirmwareSetup setup = make_setup(options);
+  claim_files_of(options, setup);
   FirmwareReport report;
   {
     Console console{setup.images.size() == 1};
@@ -76,7 +88,7 @@ int run(const Options &options) {
     print_json(to_json(report));
   else if (options.report)
     for (const RunReport &bus : report.buses) fmt::print("\n{}", to_text(bus));
-  std::fflush(stdout);
+  flush_standard_output();
   complain(report);
   return exit_code_after(exit_code_of(report.boards, report.ok() ? kOk : kFailed));
 }

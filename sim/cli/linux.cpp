@@ -132,6 +132,7 @@ int run(const Options &options) {
     return late || guest.over();
   });
   const std::chrono::duration<double> wall = Wall::now() - start;
+  board.close_logs();
   fmt::print(stderr,
              "verican linux: {:.3f} s of guest time ({:.3f} s asleep), {} accesses, {} interrupts, "
              "{:.1f} s\n",

@@ -4,11 +4,18 @@
 // verican: what a user does with the simulator without writing C++.
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <exception>
+#include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "cli/cli.hpp"
+#include "cli/output_files.hpp"
 #include "trace/input_error.hpp"
+#include "trace/output_error.hpp"
 #include "version/version.hpp"
 
 namespace {
@@ -32,10 +39,18 @@ int run_tool(int argc, char **argv) {
   cli::add_firmware(app, exit_code);
   cli::add_report(app, exit_code);
   cli::add_bridge(app, exit_code);
+  for (CLI::App *command : app.get_subcommands({})) {
+    CLI::Option *quiet = command->add_flag_callback(
+        "-q,--quiet", cli::be_quiet, "Print nothing but errors; the exit code tells the result");
+    if (CLI::Option *json = command->get_option_no_throw("--json")) quiet->excludes(json);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success &request) {  // --help, --version
-    return app.exit(request);
+    std::ostringstream text;
+    app.exit(request, text, text);
+    fmt::print("{}", text.str());
+    return cli::kOk;
   } catch (const CLI::ParseError &error) {
     fmt::print(stderr, "verican: {}; try 'verican --help'\n", error.what());
     return cli::kBadInput;
@@ -43,11 +58,31 @@ int run_tool(int argc, char **argv) {
   return exit_code;
 }
 
+/// An output could not be written. Who has closed the pipe behind us knows why.
+int refuse(const OutputError &error) {
+  constexpr int kBrokenPipe = 128 + SIGPIPE;  // what a shell says of a process that it has ended
+  if (error.code() == EPIPE) return kBrokenPipe;
+  fmt::print(stderr, "verican: {}\n", error.what());
+  return cli::kBadInput;
+}
+
+/// A closed pipe is an error of the write, so that files written aside are cleaned up.
+void keep_pipe_errors() {
+  struct sigaction action {};
+  action.sa_handler = [](int) {};  // SIG_IGN would be inherited by programs that are started
+  ::sigaction(SIGPIPE, &action, nullptr);
+}
+
 }  // namespace
 
 int main(int argc, char **argv) {
+  keep_pipe_errors();
   try {
-    return run_tool(argc, argv);
+    const int code = run_tool(argc, argv);
+    cli::flush_standard_output();
+    return code;
+  } catch (const OutputError &error) {
+    return refuse(error);
   } catch (const InputError &error) {
     fmt::print(stderr, "verican: {}\n", error.what());
     return cli::kBadInput;
@@ -55,6 +90,9 @@ int main(int argc, char **argv) {
     fmt::print(stderr, "verican: {}\n", error.what());
     return cli::kBadInput;
   } catch (const std::exception &error) {
+    const auto *system = dynamic_cast<const std::system_error *>(&error);
+    if (system != nullptr && std::ferror(stdout) != 0)  // fmt::print() failed
+      return refuse({"-", "cannot be written to its end", system->code().value()});
     fmt::print(stderr, "verican: internal error: {}\n", error.what());
     return cli::kInternal;
   }

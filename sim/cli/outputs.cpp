@@ -4,9 +4,24 @@
 // The options of all subcommands that write what happens on a bus.
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "cli/cli.hpp"
+#include "trace/input_error.hpp"
+#include "trace/output_file.hpp"
 
 namespace vericansim::cli {
+
+namespace {
+
+/// Length of a path without its ending, of which ".gz" is a part: "a.b/bus.vcd.gz" gives 7.
+std::size_t stem_length(const std::string &path) {
+  std::filesystem::path stem = path;
+  if (stem.extension() == ".gz") stem.replace_extension();
+  return stem.replace_extension().string().size();
+}
+
+}  // namespace
 
 void add_output_options(CLI::App &command, Outputs &outputs, const std::string &report_names) {
   command.add_option("--vcd", outputs.vcd, "Write the waveform as VCD");
@@ -31,10 +46,15 @@ Outputs outputs_for(const Outputs &outputs, double bitrate) {
   Outputs result = outputs;
   for (const auto path : kOutputPaths) {
     std::string &name = result.*path;
-    if (name.empty()) continue;
-    const std::size_t dot = name.rfind('.');
-    const std::size_t end = dot == std::string::npos ? name.size() : dot;
-    name.insert(end, fmt::format("-{:g}k", bitrate / 1e3));
+    std::error_code error;
+    const auto type = std::filesystem::status(name, error).type();
+    const bool device = type == std::filesystem::file_type::character;
+    if (name.empty() || device) continue;
+    if (is_standard_output(name) || type == std::filesystem::file_type::fifo)
+      throw InputError(name, 0,
+                       "cannot take the outputs of several bit rates; allowed: a file's name, or "
+                       "one bit rate");
+    name.insert(stem_length(name), fmt::format("-{:g}k", bitrate / 1e3));
   }
   return result;
 }

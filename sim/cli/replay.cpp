@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/cli.hpp"
+#include "cli/output_files.hpp"
 #include "scenario/replay.hpp"
 #include "scenario/stop_request.hpp"
 
@@ -68,6 +69,7 @@ void print(const Options &options, const ReplayReport &report) {
 
 int run(const Options &options) {
   const StopSignals signals;
+  claim_files({{"the log", options.log}}, files_of(options.replay.outputs));
   const CanLog log = read_log(options.log);
   ReplayReport report;
   {

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cli/cli.hpp"
+#include "cli/output_files.hpp"
 #include "scenario/replay.hpp"
 #include "scenario/runner.hpp"
 #include "scenario/stop_request.hpp"
@@ -36,6 +37,7 @@ const char *interrupted_text(bool interrupted) { return interrupted ? "; interru
 int report_scenario(const Options &options) {
   Scenario scenario = read_scenario(options.input);
   if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
+  claim_files(inputs_of(scenario), files_of(options.outputs, scenario.bitrates));
   bool ok = true;
   for (const double bitrate : scenario.bitrates) {
     scenario.outputs =
@@ -56,6 +58,7 @@ int report_recorded_wave(const Options &options) {
   WaveDecodeOptions decode;
   decode.signal = options.signal;
   if (options.bitrate != 0) decode.bitrate = options.bitrate;
+  claim_files({{"the waveform", options.input}}, files_of(options.outputs));
   const Wave wave = read_wave(options.input, decode);
   WaveReport report;
   {
@@ -73,6 +76,7 @@ int report_recorded_wave(const Options &options) {
 }
 
 int report_log(const Options &options) {
+  claim_files({{"the log", options.input}}, files_of(options.outputs));
   const CanLog log = read_log(options.input);
   ReplayOptions replay_options = options.replay;
   if (options.bitrate != 0) replay_options.bitrate = options.bitrate;

@@ -10,6 +10,7 @@
 
 #include "cli/cli.hpp"
 #include "cli/console.hpp"
+#include "cli/output_files.hpp"
 #include "scenario/stop_request.hpp"
 #include "session/session.hpp"
 #include "trace/input_error.hpp"
@@ -51,6 +52,7 @@ int run(const Options &options) {
   override_with(scenario, options);
   const Outputs outputs = scenario.outputs;
   const bool several = scenario.bitrates.size() > 1;
+  claim_files(inputs_of(scenario), files_of(outputs, scenario.bitrates));
   int code = kOk;
   Json list = Json::array();
   for (const double bitrate : scenario.bitrates) {
@@ -61,7 +63,7 @@ int run(const Options &options) {
       list.push_back(to_json(report));
     else
       fmt::print("{}\n", to_text(report));
-    std::fflush(stdout);
+    flush_standard_output();
     complain(report.boards);
     if (stop_requested()) break;
   }

@@ -8,10 +8,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <stdexcept>
 
 #include "node/registers.hpp"
-#include "trace/input_error.hpp"
+#include "trace/output_error.hpp"
 
 namespace vericansim {
 namespace {
@@ -151,6 +152,16 @@ void Board::log_access(unsigned n, std::uint32_t offset, const BoardAccess &acce
                        std::uint32_t value) {
   access_logs_[n] << fmt::format("{:.3f} {} {:03x} {:08x} {:d}\n", static_cast<double>(now()) / 1e3,
                                  access.write ? 'W' : 'R', offset, value, cores_[n]->irq());
+}
+
+void Board::close_logs() {
+  close_frame_log();
+  for (unsigned n = 0; n < access_logs_.size(); ++n) {
+    access_logs_[n].close();
+    if (!access_logs_[n])
+      throw OutputError(fmt::format("{}/access-{}.txt", config_.directory, n),
+                        "cannot be written to its end", errno);
+  }
 }
 
 }  // namespace vericansim

@@ -66,6 +66,8 @@ class Board {
   /// A line of text from a test script (docs/software.md); the answer, of one or more lines. Throws
   /// InputError if it is none that exists or if a value is out of range.
   std::string command(const std::string &text);
+  /// Closes the logs; throws OutputError if not all could be written.
+  void close_logs();
 
   [[nodiscard]] const RtlNode &controller(unsigned n) const { return *cores_[n]; }
   /// Time that has passed without clock edges, ns.
@@ -79,6 +81,7 @@ class Board {
   [[nodiscard]] std::uint32_t lines() const;
   [[nodiscard]] bool idle() const;
   std::uint32_t transfer(RtlNode &core, const BoardAccess &access, std::uint32_t offset);
+  void close_frame_log();
   void lose_frame(RtlNode &core, std::uint32_t offset);
   void log_access(unsigned n, std::uint32_t offset, const BoardAccess &access, std::uint32_t value);
 
@@ -101,6 +104,7 @@ class Board {
   std::unique_ptr<CoreNode> peer_;
   SwitchFault fault_;
   std::unique_ptr<BusMonitor> monitor_;
+  std::string log_path_;
   std::ofstream log_file_;
   std::unique_ptr<CandumpWriter> log_;
   std::vector<std::ofstream> access_logs_;

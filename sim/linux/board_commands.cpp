@@ -6,12 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <optional>
 
 #include "linux/board.hpp"
 #include "scenario/bittime.hpp"
 #include "scenario/quantity.hpp"
-#include "trace/input_error.hpp"
+#include "trace/output_error.hpp"
 
 namespace vericansim {
 namespace {
@@ -111,17 +112,23 @@ std::string Board::observe(const Words &words) {
   return "ok\n";
 }
 
-std::string Board::log(const Words &words) {
-  const std::string name{word(words, 1, "a name, or off")};
+void Board::close_frame_log() {
   monitor_->advance(now_);
+  if (!log_) return;
   log_.reset();
   log_file_.close();
+  if (!log_file_) throw OutputError(log_path_, "cannot be written to its end", errno);
+}
+
+std::string Board::log(const Words &words) {
+  const std::string name{word(words, 1, "a name, or off")};
+  close_frame_log();
   if (name == "off") return "ok\n";
   if (name.find('/') != std::string::npos || config_.directory.empty())
     refuse("a log is a file in the directory of logs, of which there must be one");
-  const std::string path = config_.directory + "/" + name;
-  log_file_.open(path);
-  if (!log_file_) refuse(path + " cannot be opened for writing");
+  log_path_ = config_.directory + "/" + name;
+  log_file_.open(log_path_);
+  if (!log_file_) refuse(log_path_ + " cannot be opened for writing");
   log_ = std::make_unique<CandumpWriter>(log_file_);
   return "ok\n";
 }

@@ -140,12 +140,10 @@ std::pair<std::string_view, std::string_view> split(std::string_view text, std::
 
 }  // namespace
 
-ReportWriter::ReportWriter(std::string path) : path_{std::move(path)} {
+ReportWriter::ReportWriter(std::string path) : file_{std::move(path)} {
   if (page_template().empty())
-    throw InputError(path_, 0,
+    throw InputError(file_.path(), 0,
                      "this build has no report page (it was configured with -DVERICAN_REPORT=OFF)");
-  file_.open(path_, std::ios::binary | std::ios::trunc);
-  if (!file_) throw InputError(path_, 0, "cannot be opened for writing");
 }
 
 void ReportWriter::write(const ReportRecorder &recorder, const ReportExtras &extras) {
@@ -155,15 +153,15 @@ void ReportWriter::write(const ReportRecorder &recorder, const ReportExtras &ext
   meta["arrays"] = arrays.json();
   const auto [head, rest] = split(page_template(), kMetaPlace);
   const auto [middle, tail] = split(rest, kDataPlace);
-  file_ << head << "<script type=\"application/json\" id=\"verican-meta\">" << script_json(meta)
-        << "</script>" << middle << "<script type=\"text/plain\" id=\"verican-data\">";
-  Base64Stream data{file_};
+  std::ostream &out = file_.stream();
+  out << head << "<script type=\"application/json\" id=\"verican-meta\">" << script_json(meta)
+      << "</script>" << middle << "<script type=\"text/plain\" id=\"verican-data\">";
+  Base64Stream data{out};
   arrays.write_to(data);
   visit(arrays, recorder.data());
   data.finish();
-  file_ << "</script>" << tail;
-  file_.close();
-  if (!file_) throw InputError(path_, 0, "cannot be written to its end");
+  out << "</script>" << tail;
+  file_.commit();
 }
 
 }  // namespace vericansim

@@ -4,7 +4,6 @@
 // ReportWriter: one self-contained HTML file from recorded columns (docs/report-format.md).
 #pragma once
 
-#include <fstream>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +11,7 @@
 
 #include "report/report_recorder.hpp"
 #include "scenario/report.hpp"
+#include "trace/output_file.hpp"
 
 namespace vericansim {
 
@@ -41,14 +41,14 @@ struct ReportExtras {
 /// runs.
 class ReportWriter {
  public:
-  /// Throws InputError if `path` cannot be written or the library was built without the page.
+  /// Throws OutputError if `path` cannot be written, InputError if the library was built without
+  /// the page.
   explicit ReportWriter(std::string path);
-  /// Writes the page of a finished recording. Throws InputError if the disk is full.
+  /// Writes the page of a finished recording. Throws OutputError.
   void write(const ReportRecorder &recorder, const ReportExtras &extras = {});
 
  private:
-  std::string path_;
-  std::ofstream file_;
+  OutputFile file_;
 };
 
 }  // namespace vericansim

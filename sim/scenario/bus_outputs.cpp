@@ -4,7 +4,7 @@
 // BusOutputs.
 #include "scenario/bus_outputs.hpp"
 
-#include "trace/input_error.hpp"
+#include "trace/output_file.hpp"
 
 namespace vericansim {
 
@@ -17,9 +17,8 @@ BusOutputs::BusOutputs(const Outputs &outputs, Bus &bus, Time bit_time)
   if (!outputs.vcd.empty()) add_wave(open_vcd(outputs.vcd));
   if (!outputs.fst.empty()) add_wave(open_fst(outputs.fst));
   if (!outputs.candump.empty()) {
-    candump_file_.open(outputs.candump);
-    if (!candump_file_) throw InputError(outputs.candump, 0, "cannot be opened for writing");
-    candump_ = std::make_unique<CandumpWriter>(candump_file_);
+    candump_file_ = std::make_unique<OutputFile>(outputs.candump);
+    candump_ = std::make_unique<CandumpWriter>(candump_file_->stream());
   }
   if (!outputs.pcap.empty()) pcap_ = std::make_unique<PcapWriter>(outputs.pcap);
   if (!outputs.report.empty()) page_ = std::make_unique<ReportWriter>(outputs.report);
@@ -48,6 +47,8 @@ void BusOutputs::write(const BusFrame &frame, const FrameOrigin &origin) {
 
 void BusOutputs::finish(Time time) {
   for (const auto &wave : waves_) wave->finish(time);
+  if (candump_file_) candump_file_->commit();
+  if (pcap_) pcap_->commit();
   if (recorder_) recorder_->finish();
 }
 

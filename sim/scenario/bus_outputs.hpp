@@ -4,7 +4,6 @@
 // BusOutputs: the files that a simulation writes: waveforms and logs.
 #pragma once
 
-#include <fstream>
 #include <memory>
 #include <vector>
 
@@ -24,8 +23,7 @@ namespace vericansim {
 class BusOutputs {
  public:
   /// Opens what `outputs` names and hangs the waveforms on the bus, which holds all its nodes by
-  /// now. `bit_time` is that of the slowest node, ps. Throws InputError if a file cannot be
-  /// written.
+  /// now. `bit_time` is that of the slowest node, ps. Throws OutputError.
   BusOutputs(const Outputs &outputs, Bus &bus, Time bit_time);
   /// Hangs the recorder of a report on the bus, if there is one to write. Puts itself
   /// before `monitor.on_event`; the monitor must be on the bus already.
@@ -36,13 +34,14 @@ class BusOutputs {
   void on_level(Time time, Level level);
   /// Appends a frame to the logs.
   void write(const BusFrame &frame, const FrameOrigin &origin = {});
-  /// Completes the waveforms at `time`, and the recording of the report.
+  /// Ends the waveforms at `time`, and the recording of the report; puts all files but the page in
+  /// their places, where they are not before. Throws OutputError.
   void finish(Time time);
-  /// Writes the page, if there is one to write. Throws InputError if it cannot be written.
+  /// Writes the page, if there is one to write. Throws OutputError.
   void write_report(const ReportExtras &extras = {});
 
  private:
-  std::ofstream candump_file_;
+  std::unique_ptr<OutputFile> candump_file_;
   std::unique_ptr<CandumpWriter> candump_;
   std::unique_ptr<PcapWriter> pcap_;
   std::vector<std::unique_ptr<BusWave>> waves_;

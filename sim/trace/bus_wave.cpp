@@ -61,10 +61,6 @@ BusWave::BusWave(const Bus &bus, std::unique_ptr<WaveSink> sink, Time bit_time)
   }
 }
 
-BusWave::~BusWave() {
-  if (!finished_) drain(std::numeric_limits<Time>::max());
-}
-
 void BusWave::declare(const Node &node) {
   const std::string scope = scope_name(node.name());
   NodeSignals signals{};
@@ -142,7 +138,6 @@ void BusWave::drain(Time before) {
 void BusWave::finish(Time time) {
   drain(std::numeric_limits<Time>::max());
   sink_->finish(time);
-  finished_ = true;
 }
 
 std::unique_ptr<WaveSink> open_wave(const std::string &path) {

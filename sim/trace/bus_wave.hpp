@@ -24,7 +24,6 @@ class BusWave : public BusObserver {
  public:
   /// `bus` must hold all its nodes already; `bit_time` is the longest bit of a node, ps.
   BusWave(const Bus &bus, std::unique_ptr<WaveSink> sink, Time bit_time);
-  ~BusWave() override;
 
   [[nodiscard]] unsigned interests() const override {
     return kLevels | kNodeLevels | kBits | kClocks;
@@ -35,7 +34,7 @@ class BusWave : public BusObserver {
   void on_bit(NodeId node, const BitRecord &bit) override;
   void on_clock(NodeId node, Time time, std::uint64_t trace) override;
 
-  /// Writes what is still held back and ends the file at `time`.
+  /// Writes what is still held back and ends the file at `time` (WaveSink::finish()).
   void finish(Time time);
 
  private:
@@ -75,7 +74,6 @@ class BusWave : public BusObserver {
   WaveSink::Signal can_ = 0;
   std::vector<NodeSignals> nodes_;
   std::priority_queue<Change> changes_;
-  bool finished_ = false;
 };
 
 /// Opens a VCD or FST file by its suffix ".vcd" or ".fst". Throws InputError for any other.

@@ -124,6 +124,8 @@ void OutputFile::commit(const std::string &scratch) {
   commit();
 }
 
+bool OutputFile::direct() const { return impl_->place.direct(); }
+
 const std::string &OutputFile::path() const { return impl_->path; }
 
 std::string OutputFile::scratch_name() const { return impl_->place.scratch_name(); }

@@ -15,6 +15,12 @@ namespace vericansim {
 /// True if `path` means the standard output: "-" or one of its names below /dev.
 [[nodiscard]] bool is_standard_output(const std::string &path);
 
+/// The open file that "-" means from now on; 1 if this is never called.
+void set_standard_output(int descriptor);
+
+/// What `path` leads to behind symbolic links, which need not exist.
+[[nodiscard]] std::string behind_links(const std::string &path);
+
 /// An output that somebody has named. A file is written under another name in the same folder and
 /// takes its place with commit(); without commit() nothing of it is left, and an older file of that
 /// name stays as it was. The standard output ("-"), devices, pipes and sockets are written to
@@ -38,6 +44,8 @@ class OutputFile {
   /// The same with the finished file `scratch`, which is gone then, as the whole content.
   void commit(const std::string &scratch);
 
+  /// True for what is written to directly: somebody may be reading it now.
+  [[nodiscard]] bool direct() const;
   /// As it was given.
   [[nodiscard]] const std::string &path() const;
   /// A name beside the file, in its folder, for what a library writes by name; in the folder for

@@ -25,18 +25,7 @@ namespace fs = std::filesystem;
 constexpr const char *kCannotOpen = "cannot be opened for writing";
 constexpr const char *kCannotPlace = "cannot be put in its place";
 
-/// What `path` leads to: a link is written through, not replaced.
-std::string behind_links(const std::string &path) {
-  constexpr int kMostLinks = 40;  // as the kernel's
-  fs::path target = path;
-  std::error_code error;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(target, error); ++i) {
-    const fs::path next = fs::read_symlink(target, error);
-    if (error) break;
-    target = next.is_absolute() ? next : target.parent_path() / next;
-  }
-  return target.string();
-}
+int standard_output = STDOUT_FILENO;
 
 std::string own_name(const fs::path &folder) {
   static std::atomic<unsigned> count{0};
@@ -55,9 +44,25 @@ bool is_standard_output(const std::string &path) {
   return path == "-" || path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
 }
 
+void set_standard_output(int descriptor) { standard_output = descriptor; }
+
+// A link is written through, not replaced.
+std::string behind_links(const std::string &path) {
+  constexpr int kMostLinks = 40;  // as the kernel's
+  fs::path target = path;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(target, error); ++i) {
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) break;
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  return target.string();
+}
+
 OutputPlace::OutputPlace(const std::string &path) : path_{path}, target_{behind_links(path)} {
   const auto status = status_of(path);
-  if (is_standard_output(path) ||
+  const bool own = path.starts_with("/proc/") || path.starts_with("/dev/fd/");  // open already
+  if (is_standard_output(path) || own ||
       (status && !S_ISREG(status->st_mode) && !S_ISDIR(status->st_mode)))
     open_directly();
   else
@@ -69,8 +74,8 @@ OutputPlace::~OutputPlace() {
 }
 
 void OutputPlace::open_directly() {
-  descriptor_ = is_standard_output(path_) ? ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)
-                                          : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+  descriptor_ = is_standard_output(path_) ? ::fcntl(standard_output, F_DUPFD_CLOEXEC, 0)
+                                          : ::open(path_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
   if (descriptor_ < 0) throw OutputError(path_, kCannotOpen, errno);
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "trace/can_packet.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log_builder.hpp"
+#include "trace/output_file.hpp"
 
 namespace vericansim {
 namespace {
@@ -82,25 +84,55 @@ CanLog parse_pcap(std::string_view bytes, const std::string &path) {
 
 CanLog read_pcap(const std::string &path) { return parse_pcap(read_text_file(path), path); }
 
+namespace {
+
+/// What libpcap writes goes to the stream; false if that failed, which the stream remembers.
+ssize_t write_to_stream(void *stream, const char *bytes, std::size_t size) {
+  try {
+    static_cast<std::ostream *>(stream)->write(bytes, static_cast<std::streamsize>(size));
+    return static_cast<ssize_t>(size);
+  } catch (const OutputError &error) {
+    errno = error.code();
+    return -1;
+  }
+}
+
+}  // namespace
+
 struct PcapWriter::Impl {
-  std::string path;
-  std::int64_t start_ns = 0;
+  Impl(const std::string &path, std::int64_t start) : file{path}, start_ns{start} {}
+  OutputFile file;
+  std::int64_t start_ns;
   PcapFile dead;
   pcap_dumper_t *out = nullptr;
+
+  void check(bool well) const {
+    if (!well) throw OutputError(file.path(), "cannot be written to its end", errno);
+  }
 };
 
 PcapWriter::PcapWriter(const std::string &path, std::int64_t start_ns)
-    : impl_{std::make_unique<Impl>()} {
+    : impl_{std::make_unique<Impl>(path, start_ns)} {
   constexpr int kLongestPacket = 16;
-  impl_->path = path;
-  impl_->start_ns = start_ns;
   impl_->dead.reset(pcap_open_dead_with_tstamp_precision(DLT_CAN_SOCKETCAN, kLongestPacket,
                                                          PCAP_TSTAMP_PRECISION_NANO));
-  impl_->out = pcap_dump_open(impl_->dead.get(), path.c_str());
-  if (impl_->out == nullptr) throw InputError(path, 0, "cannot be opened for writing");
+  std::FILE *stream =
+      ::fopencookie(&impl_->file.stream(), "wb", {nullptr, write_to_stream, nullptr, nullptr});
+  if (stream != nullptr) impl_->out = pcap_dump_fopen(impl_->dead.get(), stream);
+  if (impl_->out == nullptr) throw OutputError(path, "cannot be opened for writing", ENOMEM);
 }
 
-PcapWriter::~PcapWriter() { pcap_dump_close(impl_->out); }
+PcapWriter::~PcapWriter() {
+  if (impl_->out != nullptr) pcap_dump_close(impl_->out);
+}
+
+void PcapWriter::commit() {
+  errno = 0;
+  impl_->check(pcap_dump_flush(impl_->out) == 0);
+  pcap_dump_close(impl_->out);
+  impl_->out = nullptr;
+  impl_->file.commit();
+}
 
 void PcapWriter::write(const LogEntry &entry) {
   const std::string packet = can_packet(entry.frame);
@@ -111,6 +143,10 @@ void PcapWriter::write(const LogEntry &entry) {
   header.caplen = header.len = static_cast<bpf_u_int32>(packet.size());
   pcap_dump(reinterpret_cast<u_char *>(impl_->out), &header,
             reinterpret_cast<const u_char *>(packet.data()));
+  impl_->check(std::ferror(pcap_dump_file(impl_->out)) == 0);
+  if (!impl_->file.direct()) return;
+  impl_->check(pcap_dump_flush(impl_->out) == 0);
+  impl_->file.stream().flush();
 }
 
 }  // namespace vericansim

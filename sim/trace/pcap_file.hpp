@@ -20,16 +20,18 @@ namespace vericansim {
 /// Reads `bytes` as if they were the file `path`.
 [[nodiscard]] CanLog parse_pcap(std::string_view bytes, const std::string &path);
 
-/// Writes captures with nanosecond stamps.
+/// Writes captures with nanosecond stamps to an OutputFile.
 class PcapWriter {
  public:
-  /// Throws InputError if the file cannot be written. `start_ns` is added to each time.
+  /// Throws OutputError, its methods too. `start_ns` is added to each time.
   explicit PcapWriter(const std::string &path, std::int64_t start_ns = 0);
   ~PcapWriter();
   PcapWriter(const PcapWriter &) = delete;
   PcapWriter &operator=(const PcapWriter &) = delete;
   /// Appends one frame; times are cut to nanoseconds.
   void write(const LogEntry &entry);
+  /// Puts the file in its place, where it is not before; nothing may follow.
+  void commit();
 
  private:
   struct Impl;

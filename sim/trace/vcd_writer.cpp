@@ -5,11 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string_view>
 #include <vector>
 
-#include "trace/input_error.hpp"
+#include "trace/output_file.hpp"
 #include "trace/wave_sink.hpp"
 
 namespace vericansim {
@@ -42,11 +41,9 @@ std::string code_of(std::size_t index) {
 
 class VcdWriter : public WaveSink {
  public:
-  VcdWriter(const std::string &path, Time unit) : file_{path, std::ios::binary}, unit_{unit} {
-    if (!file_) throw InputError(path, 0, "cannot be opened for writing");
+  VcdWriter(const std::string &path, Time unit) : file_{path}, unit_{unit} {
     print("$comment written by VeriCAN $end\n$timescale {} $end\n", timescale_name(unit));
   }
-  ~VcdWriter() override { flush(); }
 
   Signal add_wire(const std::string &scope, const std::string &name, unsigned width) override {
     const std::string range = width == 1 ? "" : fmt::format(" [{}:0]", width - 1);
@@ -78,6 +75,7 @@ class VcdWriter : public WaveSink {
   void finish(Time time) override {
     advance(time);
     flush();
+    file_.commit();
   }
 
  private:
@@ -95,8 +93,7 @@ class VcdWriter : public WaveSink {
   }
 
   void flush() {
-    file_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
-    file_.flush();
+    file_.stream().write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
     buffer_.clear();
   }
 
@@ -120,7 +117,7 @@ class VcdWriter : public WaveSink {
     print("#{}\n", stamp);
   }
 
-  std::ofstream file_;
+  OutputFile file_;
   Time unit_;
   Time stamp_ = -1;
   std::string scope_;

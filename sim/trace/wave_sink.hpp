@@ -29,15 +29,16 @@ class WaveSink {
   /// A signal has a new value from `time` on; `time` may not go back.
   virtual void set(Time time, Signal signal, std::uint64_t value) = 0;
   virtual void set(Time time, Signal signal, std::string_view text) = 0;
-  /// Marks the end of time; also done, at the last change, by the destructor.
+  /// Marks the end of time and puts the file in its place, where it is not before; nothing may
+  /// follow.
   virtual void finish(Time time) = 0;
 };
 
 /// A VCD file. Texts are `$var string` (GTKWave), blanks in them become '_'. `unit` is the
-/// timescale in picoseconds: 1, 10, 100, ... Throws InputError if the file cannot be written.
+/// timescale in picoseconds: 1, 10, 100, ... Throws OutputError, its methods too.
 [[nodiscard]] std::unique_ptr<WaveSink> open_vcd(const std::string &path, Time unit = kNanosecond);
 
-/// An FST file, compressed, with a resolution of 1 ps. Throws InputError if it cannot be written.
+/// An FST file, compressed, with a resolution of 1 ps. Throws OutputError, its methods too.
 [[nodiscard]] std::unique_ptr<WaveSink> open_fst(const std::string &path);
 
 }  // namespace vericansim

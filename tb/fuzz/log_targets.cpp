@@ -63,6 +63,7 @@ void pcap_round_trip(const CanLog &log) {
   {
     PcapWriter writer{path, log.start_ns};
     for (const LogEntry &entry : written.entries) writer.write(entry);
+    writer.commit();
   }
   std::string bytes(4096, '\0');
   const ssize_t size = ::pread(file, bytes.data(), bytes.size(), 0);

@@ -13,6 +13,7 @@
 #include "node/registers.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
+#include "trace/output_error.hpp"
 
 namespace vericansim {
 namespace {
@@ -114,6 +115,23 @@ TEST_F(BoardTest, TheLogHoldsWhatTheDecoderSaw) {
   EXPECT_EQ(log.entries[0].frame.id, 0x123U);
   EXPECT_EQ(log.entries[0].frame.data[3], 0x44);
   EXPECT_THAT(board->command("report"), HasSubstr("bus frames=1 unacked=0 errors=0"));
+}
+
+TEST_F(BoardTest, AFullDiskIsNoticed) {
+  std::filesystem::create_symlink("/dev/full", directory + "/bus.log");
+  bring_up();
+  board->command("log bus.log");
+  send(0x123, 0x11223344);
+  (void)board->run_until(board->now() + kMs);
+  EXPECT_THAT([&] { board->command("log off"); },
+              ::testing::ThrowsMessage<OutputError>(
+                  directory + "/bus.log: cannot be written to its end: No space left on device"));
+  config.directory = directory + "/full";
+  std::filesystem::create_directories(config.directory);
+  std::filesystem::create_symlink("/dev/full", config.directory + "/access-0.txt");
+  board = std::make_unique<Board>(config);
+  (void)port.read(0);
+  EXPECT_THROW(board->close_logs(), OutputError);
 }
 
 TEST_F(BoardTest, AccessesAreLogged) {

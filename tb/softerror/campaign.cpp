@@ -51,9 +51,9 @@ Outcome in_child(World &world, const Flip &flip, const std::string &wave = {}) {
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("no process for a flip");
   if (child == 0) {
-    if (!wave.empty()) open_wave(world, wave, flip.index);
+    const auto file = wave.empty() ? nullptr : open_wave(world, wave, flip.index);
     const Outcome outcome = experiment(world, flip, page.reference);
-    close_wave(world);
+    close_wave(world, file);
     page.outcome = outcome;
     _exit(0);
   }

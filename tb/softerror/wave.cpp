@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "node/trace.hpp"
-#include "trace/wave_sink.hpp"
 
 namespace vericansim {
 namespace {
@@ -15,7 +14,7 @@ namespace {
 constexpr Time kClock = 125 * kNanosecond;
 
 struct Wave {
-  std::unique_ptr<WaveSink> sink;
+  std::shared_ptr<WaveSink> sink;
   WaveSink::Signal bus, pin, neighbour[2], flop, field, role, tec, rec, off, error, irq;
 };
 
@@ -56,13 +55,17 @@ void show(Wave &wave, World &world, unsigned flop) {
 
 }  // namespace
 
-void open_wave(World &world, const std::string &path, unsigned flop) {
+std::shared_ptr<WaveSink> open_wave(World &world, const std::string &path, unsigned flop) {
   auto wave = std::make_shared<Wave>();
   wave->sink = open_vcd(path);
   declare(*wave);
   world.on_clock = [wave, &world, flop] { show(*wave, world, flop); };
+  return wave->sink;
 }
 
-void close_wave(World &world) { world.on_clock = nullptr; }
+void close_wave(World &world, const std::shared_ptr<WaveSink> &wave) {
+  world.on_clock = nullptr;
+  if (wave) wave->finish(static_cast<Time>(world.clock()) * kClock);
+}
 
 }  // namespace vericansim

@@ -4,8 +4,11 @@
 // FST files: GTKWave's own reader must give back what was written.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <thread>
 
 #include "trace/bus_wave.hpp"
 #include "trace/input_error.hpp"
@@ -39,6 +42,40 @@ TEST(FstWriter, Fst2vcdGivesTheSameChanges) {
   EXPECT_THAT(text, HasSubstr("#2000001\n0!"));
   EXPECT_THAT(text, HasSubstr("sERROR_FLAG"));
   EXPECT_THAT(text, HasSubstr("#3000000\nb100000010"));
+}
+
+// What cannot be written by name, or not as it is: the same bytes.
+TEST(FstWriter, ToAPipeAndCompressed) {
+  const std::string folder = ::testing::TempDir() + "fst-ways";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  const auto write = [](const std::string &path) {
+    const auto sink = open_fst(path);
+    const auto can = sink->add_wire("bus", "can", 1);
+    sink->start();
+    for (Time time = 0; time < 100; ++time) sink->set(time, can, time & 1);
+    sink->finish(100);
+  };
+  const auto text_of = [](const std::string &path) {
+    EXPECT_EQ(std::system(("fst2vcd " + path + " > " + path + ".vcd").c_str()), 0);
+    const std::string text = read_text_file(path + ".vcd");
+    return text.substr(text.find("$timescale"));  // behind the date
+  };
+  write(folder + "/file");
+  write(folder + "/packed.gz");
+  ASSERT_EQ(std::system(("gunzip " + folder + "/packed.gz").c_str()), 0);
+  ASSERT_EQ(::mkfifo((folder + "/pipe").c_str(), 0600), 0);
+  std::thread reader{[&] {
+    EXPECT_EQ(std::system(("cat " + folder + "/pipe > " + folder + "/piped").c_str()), 0);
+  }};
+  write(folder + "/pipe");
+  reader.join();
+  if (std::system("command -v fst2vcd > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "fst2vcd (GTKWave) is not installed";
+  const std::string expected = text_of(folder + "/file");
+  EXPECT_THAT(expected, HasSubstr("#99\n1!"));
+  EXPECT_EQ(text_of(folder + "/packed"), expected);
+  EXPECT_EQ(text_of(folder + "/piped"), expected);
 }
 
 TEST(FstWriter, AFolderThatIsNotThere) {

@@ -152,7 +152,9 @@ TEST_F(OutputFileTest, AReadOnlyFileIsNotReplaced) {
   ASSERT_EQ(::chmod(folder.c_str(), 0777), 0);
   constexpr uid_t kNobody = 65534;
   const uid_t before = ::geteuid();
-  if (before == 0) ASSERT_EQ(::seteuid(kNobody), 0);  // root may write everything
+  if (before == 0) {  // root may write everything
+    ASSERT_EQ(::seteuid(kNobody), 0);
+  }
   expect_failure([&] { OutputFile file{in("a")}; },
                  in("a") + ": cannot be opened for writing: Permission denied", EACCES);
   ASSERT_EQ(::seteuid(before), 0);

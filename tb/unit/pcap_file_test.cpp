@@ -137,6 +137,7 @@ TEST(Pcap, WritesWhatItReads) {
   {
     PcapWriter writer{path, 1'700'000'000'000'000'000};
     for (const LogEntry &entry : entries) writer.write(entry);
+    writer.commit();
   }
   const CanLog log = read_pcap(path);
   ASSERT_EQ(log.entries.size(), entries.size());
@@ -157,6 +158,7 @@ TEST(Pcap, TsharkReadsIt) {
     PcapWriter writer{path};
     writer.write({0, "", {0x123, false, false, 2, {0xAB, 0xCD}}});
     writer.write({kMillisecond, "", {0x12345678, true, true, 4, {}}});
+    writer.commit();
   }
   const std::string command =
       "tshark -r " + path +

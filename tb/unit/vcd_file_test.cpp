@@ -155,6 +155,7 @@ TEST(VcdWriter, CodesStayUniqueBeyond94Signals) {
     const auto sink = open_vcd(path);
     for (int i = 0; i < 9000; ++i) sink->add_wire("m", "s" + std::to_string(i), 1);
     sink->start();
+    sink->finish(0);
   }
   const VcdFile file{path};
   std::vector<std::string> codes;

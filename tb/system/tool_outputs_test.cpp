@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the tool writes: whole or not at all, to files, pipes and standard output; never over what
+// it reads.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "firmware/tool_run.hpp"
+#include "harness/small_disk.hpp"
+#include "trace/log.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace tb;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using Json = nlohmann::json;
+
+const std::string kRun = "run examples/two-nodes.yaml ";
+const std::string kFull = ": cannot be written to its end: No space left on device\n";
+
+class ToolOutputs : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+  [[nodiscard]] std::string in(const std::string &name) const { return folder + "/" + name; }
+  [[nodiscard]] std::string file_with(const std::string &name, const std::string &text) const {
+    std::ofstream{in(name)} << text;
+    return in(name);
+  }
+  [[nodiscard]] std::size_t files() const {
+    const fs::directory_iterator all{folder};
+    return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+  }
+  [[nodiscard]] std::string log() const {
+    return file_with("in.log", "(1.000000) can0 123#112233\n(1.001000) can0 456#\n");
+  }
+  /// Of the two frames of log().
+  [[nodiscard]] std::string wave() const {
+    EXPECT_EQ(run_tool("replay " + log() + " --vcd " + in("in.vcd")).code, 0);
+    return in("in.vcd");
+  }
+  /// What a shell makes of `command`, in which TOOL is the tool.
+  [[nodiscard]] ToolResult shell(std::string command) const {
+    for (std::size_t at = 0; (at = command.find("TOOL")) != std::string::npos;)
+      command.replace(at, 4, VERICAN_BINARY);
+    const int status = std::system(("(" + command + ") 2> " + temporary(".err")).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", slurp(temporary(".err"))};
+  }
+  /// Exit code 2 and nothing but the message.
+  static void expect_refused(const ToolResult &result, const std::string &message) {
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.error, "verican: " + message);
+  }
+
+  std::string folder = temporary(".d");
+};
+
+TEST_F(ToolOutputs, EveryOutputToAFullDeviceFails) {
+  for (const char *option : {"--vcd", "--fst", "--candump", "--pcap", "--report"})
+    expect_refused(run_tool(kRun + option + " /dev/full"), "/dev/full" + kFull);
+  expect_refused(run_tool("decode " + wave() + " --candump /dev/full"), "/dev/full" + kFull);
+  expect_refused(run_tool("decode " + wave() + " --pcap /dev/full"), "/dev/full" + kFull);
+}
+
+// A disk without a free byte, and an older file on it, which stays.
+TEST_F(ToolOutputs, EveryOutputOnAFullDiskFails) {
+  const vericansim::test::SmallDisk disk{in("disk"), 64};
+  if (!disk.mounted()) GTEST_SKIP() << disk.why();
+  const std::string input = wave(), path = disk.file("out");
+  std::ofstream{path} << "old";
+  std::ofstream{disk.file("filler")} << std::string(64 << 10, 'x');
+  for (const char *option : {"--vcd", "--fst", "--candump", "--pcap", "--report"})
+    for (const std::string &command : {kRun, "replay " + log() + " "})
+      expect_refused(run_tool(command + option + " " + path), path + kFull);
+  expect_refused(run_tool("report " + input + " --bitrate 500k -o " + path), path + kFull);
+  expect_refused(run_tool("decode " + input + " --candump " + path), path + kFull);
+  EXPECT_EQ(slurp(path), "old");
+  EXPECT_EQ(disk.files(), 2U);
+}
+
+TEST_F(ToolOutputs, APaperThatFindsNoRoomFails) {
+  const vericansim::test::SmallDisk disk{in("disk"), 64};
+  if (!disk.mounted()) GTEST_SKIP() << disk.why();
+  const ToolResult result = run_tool("paper --out " + disk.file("waves"));
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.error, StartsWith("verican: " + disk.file("waves/fig")));
+  EXPECT_THAT(result.error, EndsWith(kFull));
+}
+
+TEST_F(ToolOutputs, StandardOutputThatIsFullFails) {
+  for (const std::string &command :
+       {kRun, kRun + "--json", "replay " + log(), "replay " + log() + " --json", "decode " + wave(),
+        std::string{"bittime -b 500k"}, std::string{"bittime -b 500k --json"},
+        std::string{"--help"}, std::string{"run --help"}, std::string{"--version"},
+        kRun + "--candump -", kRun + "--report -"})
+    expect_refused(shell("TOOL " + command + " > /dev/full"), "standard output" + kFull);
+}
+
+// Who reads only the first lines wants no message; what was written aside is gone.
+TEST_F(ToolOutputs, AReaderThatGoesEndsItSilently) {
+  const ToolResult result = shell("{ TOOL " + kRun + "--vcd - --candump " + in("a.log") + " 2> " +
+                                  in("err") + "; echo $? > " + in("code") + "; } | true");
+  EXPECT_EQ(slurp(in("code")), "141\n");
+  EXPECT_EQ(slurp(in("err")), "");
+  EXPECT_EQ(files(), 2U);
+}
+
+TEST_F(ToolOutputs, MinusIsStandardOutput) {
+  ASSERT_EQ(run_tool(kRun + "--candump " + in("a.log") + " --vcd " + in("a.vcd") + " --pcap " +
+                     in("a.pcap"))
+                .code,
+            0);
+  for (const auto &[option, name] :
+       {std::pair{"--candump", "a.log"}, {"--vcd", "a.vcd"}, {"--pcap", "a.pcap"}}) {
+    const ToolResult result = run_tool(kRun + option + " -");
+    EXPECT_EQ(result.code, 0);
+    EXPECT_EQ(result.out, slurp(in(name)));
+    EXPECT_THAT(result.error, HasSubstr("frames 13"));  // the summary
+  }
+  const ToolResult page = run_tool(kRun + "--report - --json");
+  EXPECT_TRUE(page.out.starts_with("<!DOCTYPE html>"));
+  EXPECT_TRUE(page.out.ends_with("</html>\n"));
+  EXPECT_EQ(Json::parse(page.error)["runs"][0]["frames"], 13);
+  const ToolResult fst = run_tool("replay " + log() + " --fst -");
+  EXPECT_EQ(fst.out.substr(0, 9), std::string("\0\0\0\0\0\0\0\x01\x49", 9));  // its header block
+  const ToolResult decoded = run_tool("decode " + in("a.vcd") + " --candump - --quiet");
+  EXPECT_EQ(std::count(decoded.out.begin(), decoded.out.end(), '\n'), 13);
+  EXPECT_EQ(decoded.error, "");
+}
+
+TEST_F(ToolOutputs, GzIsCompressed) {
+  ASSERT_EQ(run_tool(kRun + "--candump " + in("a.log") + " --vcd " + in("a.vcd") + " --report " +
+                     in("a.html"))
+                .code,
+            0);
+  ASSERT_EQ(run_tool(kRun + "--candump " + in("b.log.gz") + " --vcd " + in("b.vcd.gz") +
+                     " --pcap " + in("b.pcap.gz"))
+                .code,
+            0);
+  for (const char *name : {"b.log", "b.vcd", "b.pcap"})
+    ASSERT_EQ(std::system(("gunzip " + in(name) + ".gz").c_str()), 0);
+  EXPECT_EQ(slurp(in("b.log")), slurp(in("a.log")));
+  EXPECT_EQ(slurp(in("b.vcd")), slurp(in("a.vcd")));
+  EXPECT_EQ(vericansim::read_log(in("b.pcap")).entries.size(), 13U);
+}
+
+TEST_F(ToolOutputs, NoInputIsWrittenOver) {
+  const std::string scenario = file_with("a.yaml", slurp("examples/two-nodes.yaml"));
+  const std::string recorded = log(), text = slurp(recorded);
+  fs::create_hard_link(recorded, in("hard.log"));
+  fs::create_symlink("in.log", in("soft.log"));
+  const std::string refused = " is the file of the log and of --vcd; allowed: a file of its own\n";
+  for (const std::string &name :
+       {in("in.log"), in("hard.log"), in("soft.log"), folder + "/./in.log",
+        folder + "/../" + fs::path{folder}.filename().string() + "/in.log"})
+    expect_refused(run_tool("replay " + recorded + " --vcd " + name), name + ":" + refused);
+  expect_refused(
+      run_tool("report " + recorded + " -o " + in("hard.log")),
+      in("hard.log") + ": is the file of the log and of --report; allowed: a file of its own\n");
+  expect_refused(run_tool("run " + scenario + " --candump " + scenario),
+                 scenario +
+                     ": is the file of the scenario and of --candump; allowed: a file of its "
+                     "own\n");
+  EXPECT_EQ(slurp(recorded), text);
+}
+
+TEST_F(ToolOutputs, NoFileIsWrittenTwice) {
+  const auto refused = [](const std::string &path, const std::string &first) {
+    return path + ": is the file of " + first + " and of --pcap; allowed: a file of its own\n";
+  };
+  fs::create_symlink("new", in("link"));  // to a file that is not there yet
+  expect_refused(run_tool(kRun + "--candump " + in("new") + " --pcap " + in("new")),
+                 refused(in("new"), "--candump"));
+  expect_refused(run_tool(kRun + "--vcd " + in("new") + " --pcap " + in("link")),
+                 refused(in("link"), "--vcd"));
+  expect_refused(run_tool(kRun + "--candump - --pcap /dev/stdout"),
+                 refused("standard output", "--candump"));
+  EXPECT_EQ(files(), 1U);
+  EXPECT_EQ(run_tool(kRun + "--candump /dev/null --pcap /dev/null").code, 0);
+}
+
+TEST_F(ToolOutputs, SeveralBitRatesHaveSeveralFiles) {
+  std::string text = slurp("examples/two-nodes.yaml");
+  text.replace(text.find("500k"), 4, "[500k, 250k]");
+  const std::string run = "run " + file_with("a.yaml", text) + " --duration '5 ms' --candump ";
+  fs::create_directories(in("b.d"));
+  EXPECT_EQ(run_tool(run + in("b.d/bus")).code, 1);  // fewer frames than expected
+  EXPECT_EQ(run_tool(run + in("bus.log.gz")).code, 1);
+  for (const char *name : {"b.d/bus-500k", "b.d/bus-250k", "bus-500k.log.gz", "bus-250k.log.gz"})
+    EXPECT_TRUE(fs::exists(in(name))) << name;
+  expect_refused(run_tool(run + "-"),
+                 "-: cannot take the outputs of several bit rates; allowed: a file's name, or one "
+                 "bit rate\n");
+}
+
+TEST_F(ToolOutputs, QuietPrintsErrorsAlone) {
+  for (const std::string &command :
+       {kRun, "replay " + log(), "decode " + wave(), "report " + log() + " -o " + in("a.html"),
+        "paper --no-waves --out " + in("waves")}) {
+    const ToolResult result = run_tool(command + " --quiet");
+    EXPECT_EQ(result.code, 0) << command;
+    EXPECT_EQ(result.out + result.error, "") << command;
+  }
+  const ToolResult failed = run_tool(kRun + "-q --duration '10 ms'");
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_EQ(failed.out + failed.error, "");
+  expect_refused(run_tool("run -q /no/such.yaml"), "/no/such.yaml: no such file\n");
+  EXPECT_EQ(run_tool(kRun + "--quiet --json").code, 2);
+}
+
+}  // namespace
