@@ -9,7 +9,7 @@ import {Scene} from './scene.mjs';
 
 const {closeReport, openReport, rowsOf, saved, screenshot, viewOf} = browser;
 
-/** Four frames of 123 at uneven distances, two of the extended 123, a request and its answer. */
+/** Four frames of 123 at uneven distances, two of the extended 123, two requests and an answer. */
 function periodScene() {
   const scene = new Scene(['left', 'right'], {title: 'Periods, "quoted"'});
   const at = (bits) => ({gap: bits - scene.now / scene.bit});
@@ -19,8 +19,9 @@ function periodScene() {
   scene.frame(1, {id: 0x123, extended: true, ...data(9)}, at(1200));
   scene.frame(0, {id: 0x123, ...data(1, 7, 3)}, {...at(1500), message: 0});
   scene.frame(0, {id: 0x7f0, remote: true, dlc: 2}, at(1700));
+  scene.frame(1, {id: 0x7f0, ...data(0xab, 0xcd)}, at(1900));
   scene.frame(0, {id: 0x123, ...data(1, 7, 3)}, {...at(2100), message: 0});
-  scene.frame(1, {id: 0x7f0, ...data(0xab, 0xcd)}, at(2300));
+  scene.frame(0, {id: 0x7f0, remote: true, dlc: 2}, at(2300));
   scene.frame(0, {id: 0x123, ...data(1, 2, 3, 4)}, {...at(2500), message: 0});
   scene.frame(1, {id: 0x123, extended: true, ...data(9)}, at(2700));
   const full = messages.map((m) => ({
@@ -40,6 +41,7 @@ function periodScene() {
 
 // Periods of 123 in bits of 2 us: 500, 600, 400. Mean 500, variance (0 + 100^2 + 100^2) / 3.
 const jitter = ((Math.sqrt(20000 / 3) * 2) / 1000).toFixed(4);
+const single = ['–', '–', '–', '–'];
 const wanted = [
   [
     '123',
@@ -55,8 +57,9 @@ const wanted = [
     '2.000',
     '5.000',
   ],
-  ['7F0', '', 'leftright', '2', '1.200', '1.200', '1.200', '0.0000', 'AB CD', '', '3.400', '4.600'],
+  ['7F0', '', 'right', '1', ...single, 'AB CD', '', '3.800', '3.800'],
   ['00000123', '', 'right', '2', '3.000', '3.000', '3.000', '0.0000', '09', '', '2.400', '5.400'],
+  ['7F0', '', 'left', '2', '1.200', '1.200', '1.200', '0.0000', 'remote', '', '3.400', '4.600'],
 ];
 const file = browser.reportFor('ids', periodScene());
 
@@ -68,7 +71,11 @@ test('count, period, jitter, data and changed bytes are those of the scene', asy
   const marked = await page.$$eval('#panel-ids .rows .row', (list) =>
     list.map((row) => [...row.querySelectorAll('.changed')].map((b) => b.textContent)),
   );
-  assert.deepEqual(marked, [['02', '04'], [], []], 'bytes that were not the same in all frames');
+  assert.deepEqual(
+    marked,
+    [['02', '04'], [], [], []],
+    'bytes that were not the same in all frames',
+  );
   const ground = await page.$eval('.changed', (b) => getComputedStyle(b).backgroundColor);
   assert.notEqual(ground, 'rgba(0, 0, 0, 0)', 'they stand on a colour');
   await screenshot(page, 'ids');
@@ -80,11 +87,11 @@ test('it sorts, filters, and leads to the frames of an identifier', async () => 
   await page.click('#tab-ids');
   const ids = async () => (await rowsOf(page, 'ids')).map(([id]) => id);
   await page.click('#panel-ids .head button:has-text("period")');
-  assert.deepEqual(await ids(), ['123', '7F0', '00000123']);
+  assert.deepEqual(await ids(), ['123', '7F0', '00000123', '7F0']);
   await page.click('#panel-ids .head button:has-text("period")');
-  assert.deepEqual(await ids(), ['00000123', '7F0', '123']);
+  assert.deepEqual(await ids(), ['00000123', '7F0', '123', '7F0']);
   for (const [text, list] of [
-    ['7f', ['7F0']],
+    ['7f', ['7F0', '7F0']],
     ['speed', ['123']],
     ['right', ['00000123', '7F0']],
     ['0x123', ['00000123', '123']],
@@ -100,7 +107,7 @@ test('it sorts, filters, and leads to the frames of an identifier', async () => 
     (await rowsOf(page, 'frames')).map((row) => [row[1], row[2]]),
     [
       ['7F0', 'remote'],
-      ['7F0', 'data'],
+      ['7F0', 'remote'],
     ],
   );
   assert.deepEqual((await viewOf(page)).selection, {kind: 'frame', index: 3});
@@ -127,12 +134,12 @@ test('CSV holds what the table shows: filter, order, bytes', async () => {
   assert.deepEqual(text.split('\r\n'), [heads, wanted[0].join(','), wanted[2].join(','), '']);
   await page.click('#tab-frames');
   await page.fill('#search', 'remote');
-  await page.waitForFunction(() => document.querySelector('.found').textContent.startsWith('1 of'));
+  await page.waitForFunction(() => document.querySelector('.found').textContent.startsWith('2 of'));
   const frames = await saved(page, '#panel-frames button.csv');
   assert.equal(
     frames.text,
     '"time, ms",id,type,dlc,node,data,message,"response, ms",retries,lost\r\n' +
-      '3.400000,7F0,remote,2,left,,,–,,\r\n',
+      '3.400000,7F0,remote,2,left,,,–,,\r\n4.600000,7F0,remote,2,left,,,–,,\r\n',
   );
   await closeReport(page);
 });

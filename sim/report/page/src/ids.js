@@ -3,11 +3,12 @@
 //
 // What the report says about each identifier: how often, how regularly, and what changes in it.
 
-const kRemote = 0x40000000; // in f.id
+const kExtended = 0x80000000; // in f.id
+const kRemote = 0x40000000;
 
 class Identifier {
-  constructor(id, extended) {
-    Object.assign(this, {id, extended, count: 0, remote: 0});
+  constructor(id, extended, remote) {
+    Object.assign(this, {id, extended, remote, count: 0});
     this.frames = []; // their indices
     this.senders = new Set();
     this.last = null; // index of the last data frame
@@ -23,10 +24,7 @@ class Identifier {
     ++this.count;
     this.frames.push(i);
     this.senders.add(frames.sender[i]);
-    if (frames.id[i] & kRemote) {
-      ++this.remote;
-      return;
-    }
+    if (this.remote) return;
     const data = dataOf(i);
     const before = this.last === null ? data : dataOf(this.last);
     for (let at = 0; at < Math.max(data.length, before.length); ++at) {
@@ -49,19 +47,21 @@ class Identifier {
   }
 }
 
-/** One entry for each identifier, by identifier; periods are between starts of its frames, ns. */
+/** One entry for each identifier, remote requests apart; periods are between starts of frames, ns. */
 export function identifiersOf(report) {
   const {frames} = report;
   const dataOf = (i) => frames.data.subarray(8 * i, 8 * i + Math.min(8, frames.dlc[i]));
   const found = new Map();
   for (let i = 0; i < frames.count; ++i) {
-    const key = frames.id[i] & ~kRemote;
+    const key = frames.id[i];
     let entry = found.get(key);
     if (!entry) {
-      entry = new Identifier(key & 0x1fffffff, key < 0);
+      entry = new Identifier(key & 0x1fffffff, key >= kExtended, (key & kRemote) !== 0);
       found.set(key, entry);
     }
     entry.add(i, frames, dataOf);
   }
-  return [...found.values()].sort((a, b) => a.extended - b.extended || a.id - b.id);
+  return [...found.values()].sort(
+    (a, b) => a.remote - b.remote || a.extended - b.extended || a.id - b.id,
+  );
 }

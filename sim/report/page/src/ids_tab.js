@@ -13,7 +13,7 @@ export const idText = ({id, extended}) => hex(id, extended ? 8 : 3);
 
 /** Bytes of the last data frame; those that are not the same in all frames are marked. */
 function dataCell(report, entry) {
-  if (entry.last === null) return entry.remote ? 'remote requests' : '';
+  if (entry.remote) return 'remote';
   const bytes = [...report.frame(entry.last).data].map((byte, i) =>
     entry.changed & (1 << i)
       ? el('b', {class: 'changed', title: `byte ${i} changes`}, hex(byte, 2))
@@ -23,7 +23,7 @@ function dataCell(report, entry) {
 }
 
 const dataText = (report, {last}) =>
-  last === null ? '' : [...report.frame(last).data].map((byte) => hex(byte, 2)).join(' ');
+  last === null ? 'remote' : [...report.frame(last).data].map((byte) => hex(byte, 2)).join(' ');
 
 const changedText = ({changed}) =>
   Array.from({length: 8}, (_, i) => i)
@@ -77,7 +77,7 @@ function columnsOf(tab) {
     },
     {
       name: 'count',
-      title: 'Frames, remote requests included',
+      title: 'Frames',
       width: '66px',
       numeric: true,
       text: (row) => formatCount(entries[row].count),
@@ -90,7 +90,7 @@ function columnsOf(tab) {
     time('jitter', 'Standard deviation of the periods', (e) => e.jitter, 4),
     {
       name: 'last data',
-      title: 'Of its last data frame; marked: bytes that were not the same in all frames',
+      title: 'Of its last frame; marked: bytes that were not the same in all frames',
       width: '190px',
       mono: true,
       node: (row) => dataCell(report, entries[row]),

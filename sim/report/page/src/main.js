@@ -177,7 +177,7 @@ function build(report, app) {
   const signals = new SignalsTab(report.signals, chosen, opener);
   const ids = new IdsTab(report, (entry) => {
     tabs.show('frames');
-    frames.show(`0x${idText(entry)}`);
+    frames.show(`0x${idText(entry)} ${entry.remote ? 'remote' : 'data'}`);
     steps.showFrame(entry.frames[0]);
   });
   const tabs = tabsOf(report, view, steps, {frames, signals, ids});
