@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <queue>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -26,8 +27,12 @@ struct Link {
   Time receiver = 0;     ///< transceiver, wire to RX pin
 };
 
-/// Propagation on copper, 5 ns/m, for those who think in metres.
-constexpr Time cable_delay(double metres) { return static_cast<Time>(metres * 5000.0); }
+/// Propagation on copper, 5 ns/m, for those who think in metres: 0 to 1,000,000
+/// (std::invalid_argument otherwise).
+constexpr Time cable_delay(double metres) {
+  if (!(metres >= 0 && metres <= 1e6)) throw std::invalid_argument("a cable has 0 to 1000000 m");
+  return static_cast<Time>(metres * 5000.0);
+}
 
 /// The bus. Nodes, observers and faults are referred to, not owned, and must outlive it.
 ///

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "bus/range.hpp"
+
 namespace vericansim {
 namespace {
 
@@ -55,6 +57,13 @@ constexpr Format kFormats[4] = {{1, accepts_a}, {2, accepts_b}, {4, accepts_c}, 
 
 }  // namespace
 
+void BufferConfig::validate() const {
+  require_range("message buffers", num_mb, 16, 64);
+  require_range("MCR.MAXMB", maxmb, 0, 127);
+  require_range("MCR.IDAM", idam, 0, 3);
+  require_range("CTRL2.RFFN", rffn, 0, 15);
+}
+
 std::uint32_t BufferMasks::of_mailbox(unsigned mb, bool bcc) const {
   if (bcc) return individual[mb];
   if (mb == 14) return mb14;
@@ -68,6 +77,7 @@ std::uint32_t BufferMasks::of_element(unsigned element, const BufferConfig &conf
 
 bool mailbox_accepts(const Frame &frame, std::uint32_t cs, std::uint32_t id, std::uint32_t mask,
                      const BufferConfig &config) {
+  frame.validate();
   if (frame.remote && !config.rrs) return false;
   const bool compare_ide = !config.eacen || (mask & kMaskIde) != 0;
   const bool compare_rtr = config.eacen && (mask & kMaskRtr) != 0;
@@ -78,12 +88,16 @@ bool mailbox_accepts(const Frame &frame, std::uint32_t cs, std::uint32_t id, std
 
 bool answer_fits(const Frame &frame, std::uint32_t cs, std::uint32_t id,
                  const BufferConfig &config) {
+  frame.validate();
   return frame.remote && !config.rrs && cs_ide(cs) == frame.extended &&
          same(id, id_word(frame), id_bits(frame));
 }
 
 std::optional<unsigned> fifo_accepts(const Frame &frame, std::span<const std::uint32_t> table,
                                      const BufferMasks &masks, const BufferConfig &config) {
+  frame.validate();
+  config.validate();
+  require_range("words of the filter table", table.size(), config.filter_elements(), 128);
   const Format &format = kFormats[config.idam];
   const unsigned width = 32 / format.parts;
   for (unsigned element = 0; element < config.filter_elements(); ++element) {

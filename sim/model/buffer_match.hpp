@@ -17,7 +17,7 @@ namespace vericansim {
 /// The configuration that the buffers depend on; everything is written in freeze mode.
 struct BufferConfig {
   unsigned num_mb = 64;   ///< 16, 32 or 64
-  unsigned maxmb = 63;    ///< MCR.MAXMB
+  unsigned maxmb = 63;    ///< MCR.MAXMB, 0..127
   bool bcc = true;        ///< MCR.BCC: individual masks and reception queue
   bool srx_dis = true;    ///< MCR.SRX_DIS: own frames are not received
   bool aen = false;       ///< MCR.AEN
@@ -32,6 +32,8 @@ struct BufferConfig {
   bool one_shot = false;  ///< XCTRL.ONESHOT: for all buffers
   bool osmb = false;      ///< XCTRL.OSMB: C/S bit 28 asks for one-shot
 
+  /// Throws std::invalid_argument if a number is out of range.
+  void validate() const;
   /// First buffer that is a mailbox.
   [[nodiscard]] unsigned first_mailbox() const { return fen ? 8 + 2 * rffn : 0; }
   [[nodiscard]] unsigned filter_elements() const { return 8 * (rffn + 1); }
@@ -72,6 +74,8 @@ constexpr bool code_receives(unsigned code) {
   return code == kRxFull || code == kRxEmpty || code == kRxOverrun;
 }
 constexpr bool code_sends(unsigned code) { return code == kTxActive || code == kTxAnswer; }
+
+// A frame that is none makes these throw as Frame::validate() does.
 
 /// A row of the table in 3.5: does the mailbox accept the frame for storing?
 [[nodiscard]] bool mailbox_accepts(const Frame &frame, std::uint32_t cs, std::uint32_t id,

@@ -27,9 +27,12 @@ std::string nothing() { return "no state is left"; }
 }  // namespace
 
 BufferModel::BufferModel(const BufferConfig &config, const BufferWindows &windows)
-    : config_{config}, windows_{windows}, states_{BufferState{config.num_mb}} {}
+    : config_{config}, windows_{windows}, states_{BufferState{config.num_mb}} {
+  config.validate();
+}
 
 void BufferModel::configure(const BufferConfig &config, std::uint64_t now) {
+  config.validate();
   settle(now);
   if (config.fen != config_.fen)
     for (BufferState &state : states_) state.fen_changed();
@@ -252,6 +255,7 @@ void BufferModel::frame_started(bool transmitter, std::uint64_t now) {
 }
 
 void BufferModel::header(const std::optional<Frame> &foreign, Stamp stamp, std::uint64_t now) {
+  if (foreign) foreign->validate();
   settle(now);
   stamp_ = stamp;
   for (BufferState &state : states_) {
@@ -270,6 +274,7 @@ void BufferModel::received(std::uint64_t now) {
 }
 
 void BufferModel::received(const Frame &foreign, std::uint64_t now) {
+  foreign.validate();
   settle(now);
   for (BufferState &state : states_)
     if (state.matching && !state.matching->own) state.matching->frame = foreign;
@@ -288,6 +293,7 @@ void BufferModel::receive_failed(std::uint64_t now) {
 }
 
 void BufferModel::sent(const Frame &wire, std::uint64_t now) {
+  wire.validate();
   settle(now);
   ended_at_ = now;
   std::string expected;

@@ -31,6 +31,7 @@ struct BufferWindows {
 /// have shown something else; when none is left the core is wrong and failure() says why.
 class BufferModel {
  public:
+  /// Throws as BufferConfig::validate(), and so does configure().
   explicit BufferModel(const BufferConfig &config, const BufferWindows &windows = {});
 
   /// In freeze mode: new configuration. A change of FEN empties the FIFO.
@@ -47,7 +48,7 @@ class BufferModel {
   void cpu_read(std::uint32_t address, std::uint32_t value, std::uint64_t now);
   void soft_reset(std::uint64_t now);
 
-  // ---- The bus
+  // ---- The bus (frames: throws as Frame::validate())
 
   /// Whether the node could start a frame, or waits for that: no frame is on the bus.
   void bus_free(bool now) { bus_free_ = now; }

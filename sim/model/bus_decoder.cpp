@@ -14,12 +14,16 @@ namespace vericansim {
 
 BusDecoder::BusDecoder(const DecoderConfig &config, Sink sink)
     : config_(config), sink_(std::move(sink)) {
-  if (config.bit_time <= 0) throw std::invalid_argument("bit time must be above 0");
+  if (config.bit_time <= 0 || config.bit_time > kSecond)
+    throw std::invalid_argument("bit time must be above 0 and at most 1 s, got " +
+                                std::to_string(config.bit_time) + " ps");
   if (config.sample_point < 1 || config.sample_point > 999) {
-    throw std::invalid_argument("sample point must be 1..999 per mille");
+    throw std::invalid_argument("sample point must be 1..999 per mille, got " +
+                                std::to_string(config.sample_point));
   }
   if (config.sync_jump < 0 || config.sync_jump > 500) {
-    throw std::invalid_argument("synchronisation jump must be 0..500 per mille");
+    throw std::invalid_argument("synchronisation jump must be 0..500 per mille, got " +
+                                std::to_string(config.sync_jump));
   }
   sample_offset_ = config.bit_time * config.sample_point / 1000;
   largest_shift_ = config.bit_time * config.sync_jump / 1000;

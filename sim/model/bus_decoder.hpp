@@ -17,7 +17,7 @@ namespace vericansim {
 
 /// What a BusDecoder looks at, and how.
 struct DecoderConfig {
-  Time bit_time = kMicrosecond;  ///< nominal, ps; above 0
+  Time bit_time = kMicrosecond;  ///< nominal, ps; above 0, at most 1 s
   int sample_point = 800;        ///< per mille of the bit, 1..999
   int sync_jump = 200;           ///< largest shift of the bit grid by one edge, per mille, 0..500
   bool starts_idle = false;      ///< true: the first falling edge is a SOF; false: IN-01 first

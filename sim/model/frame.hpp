@@ -9,6 +9,17 @@
 
 namespace vericansim {
 
+/// The largest identifier of a format.
+constexpr std::uint32_t highest_id(bool extended) { return extended ? 0x1FFFFFFF : 0x7FF; }
+
+/// Throws std::invalid_argument that says what `id` was and what is allowed.
+[[noreturn]] void refuse_id(const char *what, std::uint32_t id, bool extended);
+
+/// As refuse_id() unless `id` fits 11 or, if `extended`, 29 bits.
+constexpr void require_id(const char *what, std::uint32_t id, bool extended) {
+  if (id > highest_id(extended)) refuse_id(what, id, extended);
+}
+
 /// A data or remote frame. `dlc` is the raw code on the wire, 0..15 (FF-07); only payload_size()
 /// bytes of `data` mean something and the others are zero.
 struct Frame {
@@ -23,6 +34,10 @@ struct Frame {
     if (remote) return 0;
     return dlc > 8 ? 8u : dlc;
   }
+
+  /// Throws std::invalid_argument if the identifier does not fit its format or dlc > 15. All that
+  /// takes frames does so with this, and cuts nothing off.
+  void validate() const;
 
   friend bool operator==(const Frame &, const Frame &) = default;
 };

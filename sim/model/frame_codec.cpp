@@ -60,14 +60,6 @@ class PlainBits {
   std::uint16_t crc_ = 0;
 };
 
-void check(const Frame &frame) {
-  if (frame.id > (frame.extended ? 0x1FFFFFFFu : 0x7FFu)) {
-    throw std::invalid_argument(frame.extended ? "identifier above 0x1FFFFFFF (29 bits)"
-                                               : "identifier above 0x7FF (11 bits)");
-  }
-  if (frame.dlc > 15) throw std::invalid_argument("DLC above 15");
-}
-
 /// The bits of `plain` with a complement after every five equal ones (ST-01, ST-03).
 std::vector<WireBit> stuffed(const std::vector<WireBit> &plain) {
   std::vector<WireBit> out;
@@ -104,7 +96,7 @@ std::uint16_t crc15(std::span<const std::uint8_t> bits) {
 }
 
 EncodedFrame encode_frame(const Frame &frame, const EncodeOptions &options) {
-  check(frame);
+  frame.validate();
   const PlainBits plain(frame, options);
   EncodedFrame out;
   out.bits = stuffed(plain.bits());

@@ -63,10 +63,7 @@ Level NodeModel::next_level() const {
 }
 
 void NodeModel::request(const Frame &frame) {
-  if (frame.id > (frame.extended ? 0x1FFFFFFFu : 0x7FFu)) {
-    throw std::invalid_argument("identifier does not fit its format");
-  }
-  if (frame.dlc > 15) throw std::invalid_argument("DLC above 15");
+  frame.validate();
   pending_ = frame;
   active_is_pending_ = false;
 }

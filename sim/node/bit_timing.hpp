@@ -20,7 +20,8 @@ struct BitTiming {
   [[nodiscard]] constexpr unsigned clocks_per_bit() const { return prescaler * quanta(); }
   /// Throws std::invalid_argument naming the first value that is out of range (BT-02; 4..25 tq).
   void validate() const;
-  /// The timing fields of CTRL: PRESDIV, RJW, PSEG1, PSEG2, PROPSEG (flexcan.md 1.2).
+  /// The timing fields of CTRL: PRESDIV, RJW, PSEG1, PSEG2, PROPSEG (flexcan.md 1.2). Throws as
+  /// validate().
   [[nodiscard]] std::uint32_t ctrl_fields() const;
 
   friend bool operator==(const BitTiming &, const BitTiming &) = default;

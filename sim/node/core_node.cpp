@@ -97,6 +97,7 @@ void CoreNode::preset_counters(std::uint8_t tec, std::uint8_t rec) {
 }
 
 void CoreNode::request(const Frame &frame, bool one_shot) {
+  frame.validate();
   requests_.push_back({frame, one_shot, false});
   if (requests_.size() == 1) present();
 }

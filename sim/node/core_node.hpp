@@ -65,7 +65,8 @@ class CoreNode : public Node {
   /// running.
   void preset_counters(std::uint8_t tec, std::uint8_t rec);
 
-  /// Queues a frame; it is retried until it succeeds (one_shot: tried once).
+  /// Queues a frame; it is retried until it succeeds (one_shot: tried once). Throws as
+  /// Frame::validate().
   void request(const Frame &frame, bool one_shot = false);
   /// Withdraws all frames that wait; one on the wire goes on but is not retried (MO-10).
   void cancel();

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bus/bus.hpp"
+#include "bus/range.hpp"
 #include "node/registers.hpp"
 
 namespace vericansim {
@@ -46,17 +47,20 @@ std::uint32_t mask_word(const RxFilter &filter) {
 
 }  // namespace
 
+void RxFilter::validate() const {
+  require_id("filter: identifier", id, extended);
+  require_id("filter: mask", mask, extended);
+}
+
 Host::Host(RtlNode &node, HostConfig config)
     : node_{node}, config_{std::move(config)}, first_tx_{node.num_mb() - config_.tx_buffers} {
   config_.timing.validate();
-  if (config_.tx_buffers < 1 || config_.tx_buffers >= node.num_mb()) {
-    throw std::invalid_argument("transmit buffers must be 1 to " +
-                                std::to_string(node.num_mb() - 1));
-  }
+  require_range("transmit buffers", config_.tx_buffers, 1, node.num_mb() - 1);
   if (config_.filters.size() > first_tx_) {
     throw std::invalid_argument("at most " + std::to_string(first_tx_) + " filters fit beside " +
                                 std::to_string(config_.tx_buffers) + " transmit buffers");
   }
+  for (const RxFilter &filter : config_.filters) filter.validate();
   if (config_.filters.empty()) {
     // Without CTRL2.EACEN a buffer takes either base or extended frames, so there are both.
     config_.filters.resize(first_tx_);
@@ -87,6 +91,7 @@ void Host::check() {
 }
 
 void Host::send(const Frame &frame) {
+  frame.validate();
   queue_.push_back(frame);
   node_.wake();
 }

@@ -25,11 +25,14 @@ struct RxFilter {
   bool extended = false;
   bool match_format = false;  ///< compare base/extended and data/remote too
   bool remote = false;        ///< with match_format
+
+  /// Throws std::invalid_argument if `id` or `mask` do not fit the format.
+  void validate() const;
 };
 
 /// How a Host sets its core up.
 struct HostConfig {
-  BitTiming timing;
+  BitTiming timing = {};
   bool triple_sampling = false;
   bool listen_only = false;
   bool loop_back = false;
@@ -41,7 +44,7 @@ struct HostConfig {
   unsigned tx_buffers = 1;
   /// One per receive buffer from MB0 on; empty: every buffer below the transmit ones takes any
   /// frame.
-  std::vector<RxFilter> filters;
+  std::vector<RxFilter> filters = {};
 };
 
 /// A frame received or sent, as the software found it.
@@ -67,6 +70,7 @@ struct HostStats {
 /// many hosts run at the same time. It must not outlive its node.
 class Host {
  public:
+  /// Throws std::invalid_argument if timing, buffers or filters are out of range.
   Host(RtlNode &node, HostConfig config);
   ~Host();
   Host(const Host &) = delete;
@@ -79,7 +83,7 @@ class Host {
   /// True once the core takes part (it still integrates then).
   [[nodiscard]] bool ready() const { return ready_; }
 
-  /// Queues a frame for transmission.
+  /// Queues a frame for transmission. Throws as Frame::validate().
   void send(const Frame &frame);
   /// send() and run the bus until the frame is out; false if `limit` (ps) passed first.
   bool send_and_wait(const Frame &frame, Time limit = kSecond);

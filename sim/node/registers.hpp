@@ -6,6 +6,8 @@
 
 #include <cstdint>
 
+#include "bus/range.hpp"
+
 #include "verican/verican_regs.h"
 
 namespace vericansim::reg {
@@ -27,11 +29,19 @@ inline constexpr std::uint32_t kRxfgmask = VERICAN_RXFGMASK_OFFSET;
 inline constexpr std::uint32_t kRxfir = VERICAN_RXFIR_OFFSET;
 inline constexpr std::uint32_t kExtControl = VERICAN_XCTRL_OFFSET;
 
-/// Word 0..3 (C/S, ID, data, data) of message buffer n.
+// These throw std::invalid_argument if a number is out of range.
+
+/// Word 0..3 (C/S, ID, data, data) of message buffer n, 0..63; mb(64) is the end of the buffers.
 constexpr std::uint32_t mb(unsigned n, unsigned word = 0) {
+  require_range("message buffer", n, 0, word == 0 ? 64 : 63);
+  require_range("word of a message buffer", word, 0, 3);
   return VERICAN_MB_OFFSET(n) + 4 * word;
 }
-constexpr std::uint32_t rximr(unsigned n) { return VERICAN_RXIMR_OFFSET(n); }
+/// Mask of buffer n, 0..63; rximr(64) is their end.
+constexpr std::uint32_t rximr(unsigned n) {
+  require_range("mask register RXIMR", n, 0, 64);
+  return VERICAN_RXIMR_OFFSET(n);
+}
 
 inline constexpr std::uint32_t kMcrMdis = VERICAN_MCR_MDIS_MASK;
 inline constexpr std::uint32_t kMcrFrz = VERICAN_MCR_FRZ_MASK;
@@ -46,7 +56,10 @@ inline constexpr std::uint32_t kMcrSrxDis = VERICAN_MCR_SRX_DIS_MASK;
 inline constexpr std::uint32_t kMcrBcc = VERICAN_MCR_BCC_MASK;
 
 /// MCR.IDAM: format of the filter table, 0 A to 3 D.
-constexpr std::uint32_t mcr_idam(unsigned format) { return VERICAN_MCR_IDAM_SET(format); }
+constexpr std::uint32_t mcr_idam(unsigned format) {
+  require_range("MCR.IDAM", format, 0, 3);
+  return VERICAN_MCR_IDAM_SET(format);
+}
 
 inline constexpr std::uint32_t kCtrlBoffMsk = VERICAN_CTRL1_BOFF_MSK_MASK;
 inline constexpr std::uint32_t kCtrlErrMsk = VERICAN_CTRL1_ERR_MSK_MASK;
@@ -60,10 +73,16 @@ inline constexpr std::uint32_t kCtrl2Eacen = VERICAN_CTRL2_EACEN_MASK;
 inline constexpr std::uint32_t kCtrl2Rrs = VERICAN_CTRL2_RRS_MASK;
 
 inline constexpr std::uint32_t kCtrl2Mrp = VERICAN_CTRL2_MRP_MASK;
-/// CTRL2.RFFN: 8 x (n + 1) words of filter table.
-constexpr std::uint32_t ctrl2_rffn(unsigned n) { return VERICAN_CTRL2_RFFN_SET(n); }
-/// Word n of the filter table of the Rx FIFO.
-constexpr std::uint32_t filter(unsigned n) { return VERICAN_FIFO_FILTER_OFFSET(n); }
+/// CTRL2.RFFN, 0..15: 8 x (n + 1) words of filter table.
+constexpr std::uint32_t ctrl2_rffn(unsigned n) {
+  require_range("CTRL2.RFFN", n, 0, 15);
+  return VERICAN_CTRL2_RFFN_SET(n);
+}
+/// Word n, 0..127, of the filter table of the Rx FIFO.
+constexpr std::uint32_t filter(unsigned n) {
+  require_range("word of the filter table", n, 0, 127);
+  return VERICAN_FIFO_FILTER_OFFSET(n);
+}
 
 inline constexpr std::uint32_t kIflagFifo =
     VERICAN_IFLAG1_FIFO_AVAILABLE_MASK;  ///< a frame is at the output

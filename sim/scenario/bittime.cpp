@@ -82,12 +82,26 @@ void search_prescaler(const BitTimingRequest &r, unsigned quanta, unsigned presc
 
 }  // namespace
 
+BitTimingRequest bit_timing_request(double clock_hz, double bitrate) {
+  const auto whole = [](const char *name, double value, double low, double high) {
+    if (!(value >= low && value <= high))
+      throw std::invalid_argument(fmt::format("{} {} Hz is out of range; allowed: {:.0f} to {:.0f}",
+                                              name, value, low, high));
+    return static_cast<std::uint32_t>(std::llround(value));
+  };
+  BitTimingRequest request;
+  request.clock_hz = whole("clock", clock_hz, 1e3, 1e9);
+  request.bitrate = whole("bit rate", bitrate, 1e3, 1e6);
+  return request;
+}
+
 double recommended_sample_point(std::uint32_t bitrate) {
   if (bitrate > 800'000) return 0.75;
   return bitrate > 500'000 ? 0.80 : 0.875;
 }
 
 double oscillator_tolerance(const BitTiming &timing) {
+  timing.validate();
   const double nbt = timing.quanta();
   const double phase = std::min(timing.ps1, timing.ps2);
   return std::min(phase / (2 * (13 * nbt - timing.ps2)), timing.sjw / (20 * nbt));

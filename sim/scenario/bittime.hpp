@@ -26,6 +26,10 @@ struct BitTimingRequest {
       50'000.0;  ///< settings beyond it are left out, as can-utils' calculator does
 };
 
+/// The request for a clock and a bit rate, Hz and bit/s, rounded. Throws std::invalid_argument if one
+/// is out of range.
+[[nodiscard]] BitTimingRequest bit_timing_request(double clock_hz, double bitrate);
+
 /// One setting and what follows from it.
 struct BitTimingResult {
   BitTiming timing;
@@ -50,7 +54,8 @@ struct BitTimingResult {
 [[nodiscard]] BitTimingResult rate_bit_timing(const BitTiming &timing,
                                               const BitTimingRequest &request);
 
-/// Largest tolerance of each node's oscillator, as a part of 1 (BT-08).
+/// Largest tolerance of each node's oscillator, as a part of 1 (BT-08). Throws as
+/// BitTiming::validate().
 [[nodiscard]] double oscillator_tolerance(const BitTiming &timing);
 
 }  // namespace vericansim

@@ -4,7 +4,10 @@
 // BusMonitor: from levels and traces to counts.
 #include "scenario/bus_monitor.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <stdexcept>
 
 namespace vericansim {
 namespace {
@@ -12,6 +15,9 @@ namespace {
 DecoderConfig decoder_config(Time bit_time, double sample_point) {
   DecoderConfig config;
   config.bit_time = bit_time;
+  if (!(sample_point > 0 && sample_point < 1))
+    throw std::invalid_argument(
+        fmt::format("sample point must be above 0 and below 1, got {:g}", sample_point));
   config.sample_point = std::clamp(static_cast<int>(sample_point * 1000), 1, 999);
   return config;
 }

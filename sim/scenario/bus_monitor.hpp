@@ -44,7 +44,8 @@ struct BusFrame {
 /// An observer that counts. Add it to a bus after its nodes.
 class BusMonitor : public BusObserver {
  public:
-  /// `bit_time` of the bus, ps; `sample_point` of its decoder, 0..1.
+  /// `bit_time` of the bus, ps; `sample_point` of its decoder, above 0 and below 1
+  /// (std::invalid_argument otherwise).
   BusMonitor(const Bus &bus, Time bit_time, double sample_point);
 
   [[nodiscard]] unsigned interests() const override { return kLevels | kBits; }

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <memory>
 
+#include "bus/range.hpp"
 #include "scenario/bittime.hpp"
 #include "scenario/bus_outputs.hpp"
 #include "scenario/station.hpp"
@@ -52,14 +53,12 @@ Replay::Replay(const CanLog &log, const ReplayOptions &options)
     : log_{log},
       options_{options},
       count_{options.limit == 0 ? log.entries.size() : std::min(options.limit, log.entries.size())},
-      bit_time_{static_cast<Time>(std::llround(1e12 / options.bitrate))} {
+      bit_time_{bit_time_of(options.bitrate)} {
   build();
 }
 
 void Replay::build() {
-  BitTimingRequest request;
-  request.clock_hz = static_cast<std::uint32_t>(std::llround(options_.clock_hz));
-  request.bitrate = static_cast<std::uint32_t>(std::llround(options_.bitrate));
+  const BitTimingRequest request = bit_timing_request(options_.clock_hz, options_.bitrate);
   const auto timings = find_bit_timings(request);
   if (timings.empty())
     throw InputError("--clock", 0,

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "scenario/bittime.hpp"
 #include "session/session.hpp"
 #include "trace/input_error.hpp"
@@ -16,9 +14,8 @@ namespace vericansim {
 
 BitTiming timing_of(const Scenario &scenario, const NodeSpec &node, double bitrate) {
   if (node.timing) return *node.timing;
-  BitTimingRequest request;
-  request.clock_hz = static_cast<std::uint32_t>(std::llround(node.clock.frequency_hz));
-  request.bitrate = static_cast<std::uint32_t>(std::llround(node.bitrate.value_or(bitrate)));
+  BitTimingRequest request =
+      bit_timing_request(node.clock.frequency_hz, node.bitrate.value_or(bitrate));
   request.sample_point = node.sample_point ? node.sample_point : scenario.sample_point;
   request.sjw = node.sjw;
   constexpr double kLargestError = 2'000;  // ppm; beyond it the bus would not work

@@ -47,8 +47,8 @@ enum class DataKind : std::uint8_t {
 /// A message: one frame, or one frame again and again.
 struct TrafficSpec {
   NodeId node = 0;
-  std::string name;
-  Frame frame;
+  std::string name = {};
+  Frame frame = {};
   DataKind data = DataKind::kFixed;
   Time period = 0;             ///< 0: once
   Time offset = 0;             ///< of the first frame

@@ -5,8 +5,8 @@
 #include "scenario/simulation.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "bus/range.hpp"
 #include "scenario/analysis.hpp"
 #include "scenario/expectations.hpp"
 #include "scenario/runner.hpp"
@@ -15,9 +15,7 @@
 namespace vericansim {
 
 Simulation::Simulation(const Scenario &scenario, double bitrate)
-    : scenario_{scenario},
-      bitrate_{bitrate},
-      bit_time_{static_cast<Time>(std::llround(1e12 / bitrate))} {
+    : scenario_{scenario}, bitrate_{bitrate}, bit_time_{bit_time_of(bitrate)} {
   build_stations();
   observe();
   if (scenario_.lockstep) set_up_judge();

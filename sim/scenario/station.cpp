@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "bus/range.hpp"
 #include "node/registers.hpp"
 
 namespace vericansim {
@@ -24,6 +25,7 @@ std::vector<RxFilter> any_frame(unsigned buffers) {
 
 std::unique_ptr<Station> make_station(const std::string &name, const ClockConfig &clock,
                                       HostConfig config, unsigned num_mb) {
+  require_range("transmit buffers", config.tx_buffers, 1, num_mb - 1);
   if (config.filters.empty()) config.filters = any_frame(num_mb - config.tx_buffers);
   auto station = std::make_unique<Station>();
   station->timing = config.timing;
@@ -37,6 +39,7 @@ std::unique_ptr<Station> make_station(const std::string &name, const ClockConfig
 
 std::unique_ptr<Station> make_bare_station(const std::string &name, const ClockConfig &clock,
                                            const BitTiming &timing, unsigned num_mb) {
+  timing.validate();
   auto station = std::make_unique<Station>();
   station->timing = timing;
   station->node = RtlNode::create(name, clock, num_mb);

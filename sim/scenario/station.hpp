@@ -21,12 +21,14 @@ struct Station {
   std::vector<Frame> received;
 };
 
-/// Creates core and software. Without filters every free buffer takes any frame.
+/// Creates core and software. Without filters every free buffer takes any frame. Throws as Host's
+/// constructor.
 [[nodiscard]] std::unique_ptr<Station> make_station(const std::string &name,
                                                     const ClockConfig &clock, HostConfig config,
                                                     unsigned num_mb = 64);
 
-/// Creates a core alone. `timing`: what it is expected to be set to.
+/// Creates a core alone. `timing`: what it is expected to be set to; throws as
+/// BitTiming::validate().
 [[nodiscard]] std::unique_ptr<Station> make_bare_station(const std::string &name,
                                                          const ClockConfig &clock,
                                                          const BitTiming &timing,

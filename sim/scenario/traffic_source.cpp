@@ -5,11 +5,17 @@
 #include "scenario/traffic_source.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace vericansim {
 
 TrafficSource::TrafficSource(const TrafficSpec &spec, Bus &bus, Host &host, std::uint64_t seed)
     : spec_{spec}, bus_{bus}, host_{host}, random_{seed} {
+  spec.frame.validate();
+  if (spec.period < 0 || spec.offset < 0 || spec.jitter < 0)
+    throw std::invalid_argument("traffic: no time may be negative");
+  if (spec.random_offset && spec.period == 0)
+    throw std::invalid_argument("traffic: a random offset needs a period");
   report_.name = spec.name;
   report_.node = host.node().name();
 }

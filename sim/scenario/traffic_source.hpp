@@ -19,6 +19,7 @@ namespace vericansim {
 /// One message. It must outlive the bus's actions, that is: the run.
 class TrafficSource {
  public:
+  /// Throws std::invalid_argument if a time is out of range, or as Frame::validate().
   TrafficSource(const TrafficSpec &spec, Bus &bus, Host &host, std::uint64_t seed);
 
   /// Begins to queue at `start`; nothing new is queued from `stop` on.

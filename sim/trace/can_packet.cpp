@@ -140,6 +140,7 @@ void add_can_packet(Bytes bytes, const PacketSource &source, std::int64_t ns, Lo
 }
 
 std::string can_packet(const Frame &frame) {
+  frame.validate();
   return packet(can_id_of(frame), frame.dlc > 8 ? 8 : frame.dlc, 0, frame.dlc > 8 ? frame.dlc : 0,
                 Bytes{frame.data}.first(frame.payload_size()));
 }

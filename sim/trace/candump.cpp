@@ -181,6 +181,7 @@ CanLog parse_candump(std::string_view text, const std::string &file) {
 }
 
 std::string candump_frame(const Frame &frame) {
+  frame.validate();
   std::string text =
       frame.extended ? fmt::format("{:08X}#", frame.id) : fmt::format("{:03X}#", frame.id);
   const unsigned length = frame.dlc > 8 ? 8U : frame.dlc;

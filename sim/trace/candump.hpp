@@ -24,7 +24,7 @@ namespace vericansim {
 /// Returns false for a CAN FD frame or an error message, which are no classical frames.
 bool parse_candump_frame(std::string_view text, Frame &frame, const text::Place &place);
 
-/// The inverse of parse_candump_frame().
+/// The inverse of parse_candump_frame(). Throws as Frame::validate().
 [[nodiscard]] std::string candump_frame(const Frame &frame);
 
 /// "(1436509052.249713)" in nanoseconds; throws InputError if it is no such time.
@@ -51,7 +51,8 @@ class CandumpWriter {
   /// decimals, as of `candump -N`, instead of six.
   explicit CandumpWriter(std::ostream &out, std::int64_t start_ns = 0, bool nanoseconds = false)
       : out_{out}, start_ns_{start_ns}, nanoseconds_{nanoseconds} {}
-  /// Appends one frame; times are cut to microseconds or nanoseconds.
+  /// Appends one frame; times are cut to microseconds or nanoseconds. Throws as
+  /// Frame::validate().
   void write(const LogEntry &entry);
   /// The same for what is no classical frame.
   void write(const ForeignEntry &entry);

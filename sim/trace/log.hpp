@@ -23,9 +23,9 @@ enum class Direction : std::uint8_t { kUnknown, kReceived, kSent };
 
 /// One recorded frame.
 struct LogEntry {
-  Time time = 0;        ///< picoseconds since the first entry of the log
-  std::string channel;  ///< interface name ("can0"); empty where the format has none
-  Frame frame;
+  Time time = 0;             ///< picoseconds since the first entry of the log
+  std::string channel = {};  ///< interface name ("can0"); empty where the format has none
+  Frame frame = {};
   Direction direction = Direction::kUnknown;
 };
 

@@ -28,7 +28,7 @@ class PcapWriter {
   ~PcapWriter();
   PcapWriter(const PcapWriter &) = delete;
   PcapWriter &operator=(const PcapWriter &) = delete;
-  /// Appends one frame; times are cut to nanoseconds.
+  /// Appends one frame; times are cut to nanoseconds. Throws as Frame::validate().
   void write(const LogEntry &entry);
   /// Puts the file in its place, where it is not before; nothing may follow.
   void commit();

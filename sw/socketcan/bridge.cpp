@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
 
+#include "bus/range.hpp"
 #include "frame_form.hpp"
 #include "scenario/runner.hpp"
 #include "trace/input_error.hpp"
@@ -34,9 +34,7 @@ constexpr Time kQuietLook = 16;
 // ---- Building
 
 Bridge::Bridge(BridgeSetup setup, Wall &wall)
-    : setup_{std::move(setup)},
-      wall_{wall},
-      bit_time_{static_cast<Time>(std::llround(1e12 / setup_.bitrate))} {
+    : setup_{std::move(setup)}, wall_{wall}, bit_time_{bit_time_of(setup_.bitrate)} {
   // Its traffic goes on as long as the bridge does.
   setup_.scenario.duration = std::numeric_limits<Time>::max() / 4;
   place_nodes();

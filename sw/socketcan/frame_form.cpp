@@ -11,6 +11,7 @@
 namespace vericansim {
 
 can_frame to_can_frame(const Frame &frame) {
+  frame.validate();
   can_frame message{};
   message.can_id = can_id_of(frame);
   message.len = std::min<std::uint8_t>(frame.dlc, CAN_MAX_DLEN);

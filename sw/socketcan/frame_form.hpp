@@ -14,6 +14,7 @@ namespace vericansim {
 
 /// A data or remote frame as the programs of a host have it (linux/can.h): flags in can_id, and a
 /// raw DLC of 9 to 15 in len8_dlc. Bytes beyond the payload are zero.
+/// Throws as Frame::validate().
 [[nodiscard]] can_frame to_can_frame(const Frame &frame);
 
 /// What a program has sent, as a frame of the bus. Empty if it is none: an error message, more than

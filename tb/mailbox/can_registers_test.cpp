@@ -207,7 +207,7 @@ TEST_P(Size, BuffersBeyondNumMbAreReserved) {
   MailboxRig rig{1, num_mb};
   rig.configure(0);
   EXPECT_EQ(rig.read(0, 0x1008) & 0xFF, num_mb);
-  for (std::uint32_t address : {reg::mb(num_mb), reg::mb(num_mb, 1), reg::rximr(num_mb)}) {
+  for (std::uint32_t address : {reg::mb(num_mb), reg::mb(num_mb) + 4, reg::rximr(num_mb)}) {
     rig.write(0, address, 0x04FFFFFF);
     EXPECT_EQ(rig.read(0, address), 0u) << std::hex << address;
   }
