@@ -4,6 +4,7 @@
 // verican bittime: clock and bit rate to register settings.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -33,16 +34,22 @@ Json to_json(const BitTimingResult &result) {
           {"quanta", t.quanta()},
           {"bitrate", result.bitrate},
           {"rate_error_ppm", result.rate_error_ppm},
+          {"rate_fits", result.rate_fits()},
           {"sample_point", result.sample_point},
           {"oscillator_tolerance_percent", result.oscillator_tolerance * 100},
           {"cable_m", result.cable_m},
           {"ctrl", fmt::format("0x{:08X}", t.ctrl_fields())}};
 }
 
+/// A number that is promised is not rounded up.
+double cut(double value, double unit) { return std::floor(value / unit * (1 + 1e-12)) * unit; }
+
 void print_table(const BitTimingRequest &request, const std::vector<BitTimingResult> &results,
                  unsigned rows) {
-  fmt::print("{} Hz, {} bit/s, {:g} ns from a node's logic to the cable or back\n\n",
-             request.clock_hz, request.bitrate, request.node_delay_ns);
+  fmt::print(
+      "{} Hz, {} bit/s, {:g} m of cable; delays: transceiver {:g} ns, controller {:g} ns\n\n",
+      request.clock_hz, request.bitrate, request.cable_m, request.node_delay_ns,
+      results.front().controller_delay_ns);
   fmt::print("{:>4} {:>4} {:>4} {:>4} {:>4} {:>4} {:>7} {:>11} {:>9} {:>9} {:>8}  {}\n", "BRP",
              "PROP", "PS1", "PS2", "SJW", "tq", "sample", "bit/s", "error", "clock", "cable",
              "CTRL");
@@ -51,13 +58,52 @@ void print_table(const BitTimingRequest &request, const std::vector<BitTimingRes
     const BitTiming &t = r.timing;
     fmt::print(
         "{:>4} {:>4} {:>4} {:>4} {:>4} {:>4} {:>5.1f} % {:>11.1f} {:>5.0f} ppm {:>7.3f} % {:>6.0f} "
-        "m  0x{:08X}\n",
+        "m  0x{:08X}{}\n",
         t.prescaler, t.prop, t.ps1, t.ps2, t.sjw, t.quanta(), r.sample_point * 100, r.bitrate,
-        r.rate_error_ppm, r.oscillator_tolerance * 100, std::max(0.0, r.cable_m), t.ctrl_fields());
+        r.rate_error_ppm, cut(r.oscillator_tolerance * 100, 0.001), cut(r.cable_m, 1),
+        t.ctrl_fields(), r.rate_fits() ? "" : "  rate is off by more than clock");
   }
   if (results.size() > rows) fmt::print("... and {} more (--rows)\n", results.size() - rows);
   fmt::print(
-      "\nclock: largest error of each node's clock (BT-08); cable: longest at 5 ns/m (BT-07).\n");
+      "\nclock: largest error of each node's clock, that of the bit rate included (BT-08);\n"
+      "cable: longest at 5 ns/m that goes with it (BT-07).\n");
+}
+
+/// Why there is nothing to show.
+void explain_nothing(const BitTimingRequest &request, bool found) {
+  if (found)
+    fmt::print(
+        stderr,
+        "verican: {} m of cable and the delays of the nodes ({:g} ns a transceiver, {:g} ns a "
+        "controller) are too long for {} bit/s from {} Hz\n",
+        request.cable_m, request.node_delay_ns,
+        request.controller_delay_ns.value_or(core_delay_ns(request.clock_hz)), request.bitrate,
+        request.clock_hz);
+  else
+    fmt::print(stderr,
+               "verican: no setting of 8 to 25 quanta gives {} bit/s within {:g} ppm from {} Hz\n",
+               request.bitrate, request.max_rate_error_ppm, request.clock_hz);
+}
+
+void warn_of_rate(const BitTimingRequest &request, const BitTimingResult &best) {
+  if (best.rate_fits()) return;
+  fmt::print(
+      stderr,
+      "verican: warning: the nearest rate is off by {:+.0f} ppm, and a node's clock may be by "
+      "{:.0f}: no bus with nodes at {} bit/s\n",
+      best.rate_error_ppm, best.oscillator_tolerance * 1e6, request.bitrate);
+}
+
+Json to_json(const BitTimingRequest &request, const std::vector<BitTimingResult> &results) {
+  Json list = Json::array();
+  for (const auto &result : results) list.push_back(to_json(result));
+  return {{"clock_hz", request.clock_hz},
+          {"bitrate", request.bitrate},
+          {"cable_m", request.cable_m},
+          {"node_delay_ns", request.node_delay_ns},
+          {"controller_delay_ns",
+           request.controller_delay_ns.value_or(core_delay_ns(request.clock_hz))},
+          {"settings", list}};
 }
 
 int bittime(const Options &options) {
@@ -73,20 +119,19 @@ int bittime(const Options &options) {
     request.sample_point =
         options.sample_point > 1 ? options.sample_point / 100 : options.sample_point;
   if (options.sjw != 0) request.sjw = options.sjw;
-  const auto results = find_bit_timings(request);
-  if (options.json) {
-    Json list = Json::array();
-    for (const auto &result : results) list.push_back(to_json(result));
-    print_json({{"clock_hz", request.clock_hz}, {"bitrate", request.bitrate}, {"settings", list}});
-  } else if (!results.empty()) {
+  auto results = find_bit_timings(request);
+  const bool found = !results.empty();
+  std::erase_if(results, [](const BitTimingResult &result) { return !result.usable(); });
+  if (options.json)
+    print_json(to_json(request, results));
+  else if (!results.empty())
     print_table(request, results, options.rows);
+  if (results.empty()) {
+    explain_nothing(request, found);
+    return kBadInput;
   }
-  if (!results.empty()) return kOk;
-  fmt::print(stderr,
-             "verican: no setting of 8 to 25 quanta gives {} bit/s within {:g} ppm from {} Hz{}\n",
-             request.bitrate, request.max_rate_error_ppm, request.clock_hz,
-             request.cable_m > 0 ? fmt::format(" with {:g} m of cable", request.cable_m) : "");
-  return kBadInput;
+  warn_of_rate(request, results.front());
+  return kOk;
 }
 
 }  // namespace
@@ -108,9 +153,12 @@ void add_bittime(CLI::App &app, int &exit_code) {
       ->add_option("--sjw", options->sjw,
                    "Resynchronisation jump width, 1..4 tq (default: the largest)")
       ->check(CLI::Range(1U, 4U));
-  command->add_option("--cable", options->request.cable_m, "Length that PROP_SEG must cover, m");
+  command->add_option("--cable", options->request.cable_m,
+                      "Length between the ends of the bus, m (0)");
   command->add_option("--node-delay", options->request.node_delay_ns,
-                      "One way through driver, comparator and controller, ns (100)");
+                      "Driver and comparator of a transceiver together, ns (100)");
+  command->add_option("--controller-delay", options->request.controller_delay_ns,
+                      "Of another controller, in and out, ns (default: this core, 2 clocks)");
   command->add_option("--max-error", options->request.max_rate_error_ppm,
                       "Largest bit-rate error, ppm (50000)");
   command->add_option("--rows", options->rows, "Lines of the table (10)");

@@ -38,19 +38,48 @@ void check(const BitTimingRequest &r) {
           fmt::format("cable {} m is out of range; allowed: 0 to 10000", r.cable_m));
   require(r.node_delay_ns >= 0 && r.node_delay_ns <= 100'000,
           fmt::format("node delay {} ns is out of range; allowed: 0 to 100000", r.node_delay_ns));
+  const double controller = r.controller_delay_ns.value_or(0);
+  require(controller >= 0 && controller <= 100'000,
+          fmt::format("controller delay {} ns is out of range; allowed: 0 to 100000", controller));
 }
 
-/// How TSEG1 is shared between PROP and PS1. Nothing if the cable does not fit.
-std::optional<unsigned> choose_prop(const BitTimingRequest &r, unsigned prescaler, unsigned tseg1) {
+double controller_delay(const BitTimingRequest &r) {
+  return r.controller_delay_ns.value_or(core_delay_ns(r.clock_hz));
+}
+
+/// What of TSEG1 is lost to delays (BT-07), ns: there and back on the cable and through the
+/// transceivers, and the controllers. Derived in docs/integration.md: of its own delay, which
+/// counts twice, this core gets a quantum back by SYNC_SEG.
+double loop_ns(const BitTimingRequest &r, double quantum_ns) {
+  const double controller = controller_delay(r);
+  const double returned = r.controller_delay_ns ? 0 : std::min(quantum_ns, controller);
+  return 2 * (r.cable_m * kDelayPerMetreNs + r.node_delay_ns + controller) - returned;
+}
+
+/// How TSEG1 is shared between PROP and PS1.
+unsigned choose_prop(const BitTimingRequest &r, unsigned prescaler, unsigned tseg1) {
   const unsigned least = tseg1 > kMaxSegment ? tseg1 - kMaxSegment : 1;
   const unsigned most = std::min(kMaxSegment, tseg1 - 1);
   if (r.cable_m == 0) return std::clamp(tseg1 / 2, least, most);
   const double quantum_ns = 1e9 * prescaler / r.clock_hz;
-  const double loop_ns = 2 * (r.cable_m * kDelayPerMetreNs + r.node_delay_ns);  // BT-07
-  const auto needed = static_cast<unsigned>(std::ceil(loop_ns / quantum_ns - 1e-9));
-  if (needed > most) return std::nullopt;
-  return std::clamp(needed, least, most);
+  const double needed = std::ceil(loop_ns(r, quantum_ns) / quantum_ns - 1e-9);
+  return static_cast<unsigned>(std::clamp<double>(needed, least, most));
 }
+
+/// How far the clocks may be off if sampling must not come too late: nodes measure an edge to the
+/// quantum, and one that follows another takes over from it up to a quantum early, less its delay.
+double latest_sample(const BitTiming &t, const BitTimingRequest &r, double quantum_ns) {
+  const double early = std::max(0.0, 1 - controller_delay(r) / quantum_ns);
+  return (t.ps2 - early) / (20.0 * t.quanta() - t.ps2 - early);
+}
+
+/// As BT-08, exactly: the sum of both clocks' errors over ten bits is SJW, over 13 bits PS2.
+double synchronised(const BitTiming &t) {
+  return std::min(t.sjw / (20.0 * t.quanta() + t.sjw), t.ps2 / (26.0 * t.quanta() - t.ps2));
+}
+
+/// Time in which both clocks may part for one hundred per cent of error, quanta (BT-08).
+double drift_quanta(const BitTiming &t) { return 2 * (13.0 * t.quanta() - t.ps2); }
 
 /// Order of preference; smaller is better.
 auto rank(const BitTimingResult &result, const BitTimingRequest &r) {
@@ -69,9 +98,8 @@ void search_prescaler(const BitTimingRequest &r, unsigned quanta, unsigned presc
   for (unsigned tseg2 = kMinTseg2; tseg2 <= kMaxTseg2; ++tseg2) {
     if (quanta < 1 + tseg2 + kMinTseg1 || quanta > 1 + tseg2 + kMaxTseg1) continue;
     const unsigned tseg1 = quanta - 1 - tseg2;
-    const auto prop = choose_prop(r, prescaler, tseg1);
-    if (!prop) continue;
-    BitTiming timing{prescaler, *prop, tseg1 - *prop, tseg2, 1};
+    const unsigned prop = choose_prop(r, prescaler, tseg1);
+    BitTiming timing{prescaler, prop, tseg1 - prop, tseg2, 1};
     const unsigned widest = std::min({kMaxSjw, timing.ps1, timing.ps2});  // BT-03
     timing.sjw = std::min(r.sjw.value_or(kMaxSjw), widest);
     if (r.sjw && *r.sjw > widest) continue;
@@ -107,6 +135,18 @@ double oscillator_tolerance(const BitTiming &timing) {
   return std::min(phase / (2 * (13 * nbt - timing.ps2)), timing.sjw / (20 * nbt));
 }
 
+std::string rate_mismatch(const BitTiming &timing, double clock_hz, double bitrate) {
+  const double rate = clock_hz / timing.clocks_per_bit();
+  const double tolerance = oscillator_tolerance(timing);
+  if (std::abs(rate / bitrate - 1) <= tolerance) return {};
+  return fmt::format("gives {:.0f} bit/s from {:.0f} Hz; allowed: {:.0f} bit/s within {:.2f} %",
+                     rate, clock_hz, bitrate, tolerance * 100);
+}
+
+bool BitTimingResult::rate_fits() const {
+  return std::abs(rate_error_ppm) <= oscillator_tolerance * 1e6;
+}
+
 BitTimingResult rate_bit_timing(const BitTiming &timing, const BitTimingRequest &request) {
   timing.validate();
   BitTimingResult result;
@@ -114,9 +154,16 @@ BitTimingResult rate_bit_timing(const BitTiming &timing, const BitTimingRequest 
   result.bitrate = static_cast<double>(request.clock_hz) / timing.clocks_per_bit();
   result.rate_error_ppm = (result.bitrate / request.bitrate - 1.0) * 1e6;
   result.sample_point = 1.0 - static_cast<double>(timing.ps2) / timing.quanta();
-  result.oscillator_tolerance = oscillator_tolerance(timing);
-  const double prop_ns = 1e9 * timing.prop * timing.prescaler / request.clock_hz;
-  result.cable_m = (prop_ns / 2 - request.node_delay_ns) / kDelayPerMetreNs;
+  result.controller_delay_ns = controller_delay(request);
+  const double quantum_ns = 1e9 * timing.prescaler / request.clock_hz;
+  // What delays leave of the time to the sample point is for the clocks (BT-07, BT-08).
+  const double left = timing.prop + timing.ps1 - loop_ns(request, quantum_ns) / quantum_ns;
+  const double drift = drift_quanta(timing);
+  result.oscillator_tolerance =
+      std::max(0.0, std::min({left / drift, latest_sample(timing, request, quantum_ns),
+                              synchronised(timing), oscillator_tolerance(timing)}));
+  const double spare_ns = (left - result.oscillator_tolerance * drift) * quantum_ns;
+  result.cable_m = request.cable_m + spare_ns / 2 / kDelayPerMetreNs;
   return result;
 }
 

@@ -13,7 +13,14 @@
 namespace vericansim {
 
 BitTiming timing_of(const Scenario &scenario, const NodeSpec &node, double bitrate) {
-  if (node.timing) return *node.timing;
+  if (node.timing) {
+    const std::string wrong =
+        rate_mismatch(*node.timing, node.clock.frequency_hz, node.bitrate.value_or(bitrate));
+    if (!wrong.empty())
+      throw InputError(scenario.file, node.line,
+                       fmt::format("node '{}': timing {}", node.name, wrong));
+    return *node.timing;
+  }
   BitTimingRequest request =
       bit_timing_request(node.clock.frequency_hz, node.bitrate.value_or(bitrate));
   request.sample_point = node.sample_point ? node.sample_point : scenario.sample_point;

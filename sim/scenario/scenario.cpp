@@ -29,23 +29,6 @@ void parse_wander(const YamlValue &value, ClockConfig &clock) {
   map.finish();
 }
 
-BitTiming parse_timing(const YamlValue &value) {
-  YamlMap map{value};
-  BitTiming timing;
-  timing.prescaler = static_cast<unsigned>(map.need("brp").integer(1, 256));
-  timing.prop = static_cast<unsigned>(map.need("prop").integer(1, 8));
-  timing.ps1 = static_cast<unsigned>(map.need("ps1").integer(1, 8));
-  timing.ps2 = static_cast<unsigned>(map.need("ps2").integer(2, 8));
-  timing.sjw = static_cast<unsigned>(map.need("sjw").integer(1, 4));
-  map.finish();
-  try {
-    timing.validate();
-  } catch (const std::invalid_argument &error) {
-    value.fail(error.what());
-  }
-  return timing;
-}
-
 RxFilter parse_filter(const YamlValue &value) {
   YamlMap map{value};
   RxFilter filter;
@@ -74,7 +57,10 @@ void parse_clock(YamlMap &map, ClockConfig &clock) {
 
 void parse_link(YamlMap &map, Link &link) {
   map.with("cable", [&](const YamlValue &v) { link.cable = cable_delay(v.length(10'000)); });
-  map.with("delay", [&](const YamlValue &v) { link.cable = v.time(0, kMillisecond); });
+  map.with("delay", [&](const YamlValue &v) {
+    if (map.find("cable")) v.fail("'cable' is given too; allowed: one of them");
+    link.cable = v.time(0, kMillisecond);
+  });
   map.with("tx_delay", [&](const YamlValue &v) { link.transmitter = v.time(0, kMillisecond); });
   map.with("rx_delay", [&](const YamlValue &v) { link.receiver = v.time(0, kMillisecond); });
 }
@@ -128,10 +114,7 @@ NodeSpec parse_node(const YamlValue &value, const Scenario &scenario) {
   parse_link(map, node.link);
   node.role = parse_role(map, scenario);
   if (std::holds_alternative<TrafficRole>(node.role)) parse_host(map, node);
-  map.with("timing", [&](const YamlValue &v) { node.timing = parse_timing(v); });
-  map.with("bitrate", [&](const YamlValue &v) { node.bitrate = v.bitrate(); });
-  map.with("sample_point", [&](const YamlValue &v) { node.sample_point = v.part(0.5, 0.9); });
-  map.with("sjw", [&](const YamlValue &v) { node.sjw = static_cast<unsigned>(v.integer(1, 4)); });
+  parse_bit(map, node, scenario.bitrates);
   map.with("mailboxes", [&](const YamlValue &v) {
     const std::uint64_t count = v.integer(16, 64);
     if (count != 16 && count != 32 && count != 64) v.refuse("16, 32, 64");

@@ -14,6 +14,8 @@ namespace vericansim::detail {
 
 /// What kind of node it is, with the keys of that kind.
 [[nodiscard]] NodeRole parse_role(YamlMap &map, const Scenario &scenario);
+/// Keys `timing`, `bitrate`, `sample_point`, `sjw` of a node whose clock is known.
+void parse_bit(YamlMap &map, NodeSpec &node, const std::vector<double> &bitrates);
 [[nodiscard]] NodeSpec parse_node(const YamlValue &value, const Scenario &scenario);
 [[nodiscard]] TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario);
 [[nodiscard]] FaultSpec parse_fault(const YamlValue &value, const Scenario &scenario);

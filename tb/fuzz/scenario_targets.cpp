@@ -34,6 +34,7 @@ void check_bit_timings(Reader &input) {
   if ((given & 4) != 0) request.cable_m = take_double(input);
   if ((given & 8) != 0) request.node_delay_ns = take_double(input);
   if ((given & 16) != 0) request.max_rate_error_ppm = take_double(input);
+  if ((given & 32) != 0) request.controller_delay_ns = take_double(input);
   try {
     for (const BitTimingResult &result : find_bit_timings(request)) result.timing.validate();
   } catch (const std::invalid_argument &error) {

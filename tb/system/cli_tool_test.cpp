@@ -130,6 +130,28 @@ TEST(Tool, BittimeJson) {
   EXPECT_EQ(json["settings"][0]["ctrl"], "0x00310005");  // what can-utils prints
 }
 
+// 8 MHz in nine clocks is 888.9 kbit/s, in eight 1 Mbit/s: 970 kbit/s is 3 % off at best.
+TEST(Tool, BittimeWarnsOfARateThatNoClockMayHave) {
+  const Result warned = tool("bittime -c 8M -b 970k --json");
+  EXPECT_EQ(warned.code, 0);
+  EXPECT_THAT(warned.error, HasSubstr("warning: the nearest rate is off by +30928 ppm"));
+  EXPECT_FALSE(nlohmann::json::parse(warned.out)["settings"][0]["rate_fits"].get<bool>());
+  const Result fits = tool("bittime -c 8M -b 500k --json");
+  EXPECT_EQ(fits.error, "");
+  EXPECT_TRUE(nlohmann::json::parse(fits.out)["settings"][0]["rate_fits"].get<bool>());
+}
+
+TEST(Tool, BittimeShowsOnlyWhatTheDelaysAllow) {
+  const auto json = nlohmann::json::parse(tool("bittime -c 8M -b 1M --json").out);
+  EXPECT_EQ(json["controller_delay_ns"], 250.0);
+  for (const auto &setting : json["settings"]) EXPECT_GE(setting["cable_m"], 0.0);
+  expect_refused("bittime -c 8M -b 1M --cable 40",
+                 "40 m of cable and the delays of the nodes (100 ns a transceiver, 250 ns a "
+                 "controller) are too long for 1000000 bit/s from 8000000 Hz");
+  EXPECT_EQ(tool("bittime -c 8M -b 1M --cable 5 --node-delay 40").code, 0);
+  expect_refused("bittime -c 8M -b 1M --controller-delay 400", "400 ns a controller");
+}
+
 TEST(Tool, PaperAgrees) {
   const Result result = tool("paper --json --out " + ::testing::TempDir() + "waves");
   EXPECT_EQ(result.code, 0);

@@ -53,13 +53,55 @@ TEST(BitTime, BT_08_OscillatorTolerance) {
 
 // 1 Mbit/s at 40 m: 2 x (200 + 50) ns = 4 quanta of 125 ns.
 TEST(BitTime, BT_07_PropCoversTheCable) {
-  const auto results = find_bit_timings(
-      {.clock_hz = 8'000'000, .bitrate = 1'000'000, .cable_m = 40, .node_delay_ns = 50});
+  BitTimingRequest request{.clock_hz = 8'000'000,
+                           .bitrate = 1'000'000,
+                           .cable_m = 40,
+                           .node_delay_ns = 50,
+                           .controller_delay_ns = 0};
+  const auto results = find_bit_timings(request);
   ASSERT_FALSE(results.empty());
   EXPECT_EQ(results.front().timing.prop, 4U);
+  EXPECT_TRUE(results.front().usable());
   EXPECT_NEAR(results.front().cable_m, 40.0, 1e-9);
-  EXPECT_TRUE(
-      find_bit_timings({.clock_hz = 8'000'000, .bitrate = 1'000'000, .cable_m = 200}).empty());
+  request.cable_m = 200;
+  for (const BitTimingResult &result : find_bit_timings(request)) EXPECT_FALSE(result.usable());
+}
+
+BitTimingResult rated(std::uint32_t clock, std::uint32_t rate, const BitTiming &timing,
+                      std::optional<double> controller_ns = {}) {
+  return rate_bit_timing(
+      timing, {.clock_hz = clock, .bitrate = rate, .controller_delay_ns = controller_ns});
+}
+
+// docs/integration.md: this core takes two clocks, which count twice, less what SYNC_SEG gives
+// back.
+TEST(BitTime, BT_07_TheCoreItselfTakesTime) {
+  EXPECT_DOUBLE_EQ(core_delay_ns(8e6), 250);
+  // 13 quanta of 125 ns; 2 x (100 + 250) - 125 ns for delays, 0.483 % of 412 quanta for the clocks.
+  const BitTimingResult cia = rated(8'000'000, 500'000, {1, 6, 7, 2, 2});
+  EXPECT_NEAR(cia.oscillator_tolerance, 2.0 / 414, 1e-12);
+  EXPECT_NEAR(cia.cable_m, (1625 - 575 - 2.0 / 414 * 412 * 125) / 10, 1e-6);
+  // Another controller of 250 ns gets nothing back: 12.5 m less.
+  EXPECT_LT(rated(8'000'000, 500'000, {1, 6, 7, 2, 2}, 250).cable_m, cia.cable_m - 12);
+  EXPECT_FALSE(rated(8'000'000, 1'000'000, {1, 2, 2, 3, 2}).usable());
+  // One quantum is left for the clocks, and nothing for a cable.
+  const BitTimingResult tight = rated(10'000'000, 1'000'000, {1, 3, 3, 3, 3});
+  EXPECT_NEAR(tight.oscillator_tolerance, 1.0 / 254, 1e-12);
+  EXPECT_NEAR(tight.cable_m, 0, 1e-9);
+}
+
+// Sixteen clocks a quantum: another node may be 14 of them early, so PS2 bears less.
+TEST(BitTime, BT_08_QuantaAreWide) {
+  EXPECT_NEAR(rated(16'000'000, 125'000, {16, 3, 2, 2, 2}).oscillator_tolerance,
+              (2 - 0.875) / (160 - 2 - 0.875), 1e-12);
+}
+
+TEST(BitTime, RatesThatNoClockMayHave) {
+  EXPECT_TRUE(rated(8'000'000, 500'000, {1, 6, 7, 2, 2}).rate_fits());
+  EXPECT_TRUE(rated(8'000'000, 498'000, {1, 6, 7, 2, 2}).rate_fits());   // 0.40 %
+  EXPECT_FALSE(rated(8'000'000, 497'000, {1, 6, 7, 2, 2}).rate_fits());  // 0.60 %
+  EXPECT_EQ(rate_mismatch({1, 6, 6, 3, 3}, 8e6, 503e3), "");
+  EXPECT_NE(rate_mismatch({1, 6, 6, 3, 3}, 8e6, 505e3), "");
 }
 
 TEST(BitTime, CtrlRegisterHoldsEachValueMinusOne) {
@@ -75,6 +117,8 @@ TEST(BitTime, ValuesOutOfRangeAreRefused) {
   EXPECT_THROW(static_cast<void>(find_bit_timings({.sample_point = 0.95})), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(find_bit_timings({.sjw = 5})), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(find_bit_timings({.cable_m = -1})), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(find_bit_timings({.controller_delay_ns = -1})),
+               std::invalid_argument);
   EXPECT_TRUE(
       find_bit_timings({.clock_hz = 8'000'000, .bitrate = 999'000, .max_rate_error_ppm = 10})
           .empty());

@@ -56,6 +56,7 @@ nodes:
     cable: 10 m
     tx_delay: 50 ns
     rx_delay: 60 ns
+    bitrate: 500k
     timing: {brp: 2, prop: 5, ps1: 4, ps2: 6, sjw: 3}
     mailboxes: 32
     tx_buffers: 4
@@ -115,6 +116,20 @@ TEST(ScenarioFile, BitTimingOfANode) {
   EXPECT_EQ(calculated.ps2 * 4, calculated.quanta());
 }
 
+// A bit rate that comes from elsewhere is held against the timing of a node too.
+TEST(ScenarioFile, TimingOfANodeFitsTheRateOfTheRun) {
+  const Scenario s = parse_scenario(
+      "s.yaml", "nodes:\n  - {name: a, timing: {brp: 1, prop: 6, ps1: 6, ps2: 3, sjw: 3}}\n");
+  EXPECT_EQ(timing_of(s, s.nodes[0], 500e3).clocks_per_bit(), 16U);
+  EXPECT_EQ(timing_of(s, s.nodes[0], 503e3).clocks_per_bit(), 16U);  // 0.6 % off, 0.73 % may be
+  try {
+    static_cast<void>(timing_of(s, s.nodes[0], 505e3));
+    FAIL() << "no error";
+  } catch (const InputError &error) {
+    EXPECT_THAT(error.what(), HasSubstr("s.yaml:2: node 'a': timing gives 500000 bit/s"));
+  }
+}
+
 struct Mistake {
   const char *name;
   const char *text;
@@ -157,10 +172,41 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Segment",
                 "nodes:\n  - {name: a, timing: {brp: 1, prop: 9, ps1: 1, ps2: 2, sjw: 1}}\n",
                 "timing.prop: '9' is not allowed; allowed: 1 to 8"},
+        Mistake{"Quanta",
+                "nodes:\n  - {name: a, timing: {brp: 1, prop: 8, ps1: 8, ps2: 8, sjw: 1}, "
+                "bitrate: 320k, clok: 1}\n",
+                "unknown key 'clok'"},
+        Mistake{"FewQuanta",
+                "nodes:\n  - {name: a, timing: {brp: 2, prop: 2, ps1: 2, ps2: 2, sjw: 1}}\n",
+                "s.yaml:2: nodes[0].timing: 7 time quanta a bit are not allowed; allowed: 8 to 25"},
+        Mistake{"SjwAbovePs2",
+                "nodes:\n  - {name: a, timing: {brp: 1, prop: 6, ps1: 6, ps2: 3, sjw: 4}}\n",
+                "s.yaml:2: nodes[0].timing.sjw: 4 is above ps1 or ps2; allowed: 1 to 3"},
+        Mistake{"SjwAbovePs1",
+                "nodes:\n  - {name: a, timing: {brp: 1, prop: 8, ps1: 2, ps2: 5, sjw: 3}}\n",
+                "s.yaml:2: nodes[0].timing.sjw: 3 is above ps1 or ps2; allowed: 1 to 2"},
+        Mistake{"OtherRate",
+                "nodes:\n  - {name: a, timing: {brp: 2, prop: 6, ps1: 6, ps2: 3, sjw: 3}}\n",
+                "s.yaml:2: nodes[0].timing: gives 250000 bit/s from 8000000 Hz; allowed: 500000 "
+                "bit/s within 0.73 %"},
+        Mistake{"OneOfTheRates",
+                "bitrate: [500k, 250k]\n"
+                "nodes:\n  - {name: a, timing: {brp: 1, prop: 6, ps1: 6, ps2: 3, sjw: 3}}\n",
+                "s.yaml:3: nodes[0].timing: gives 500000 bit/s from 8000000 Hz; allowed: 250000"},
+        Mistake{"NotItsOwnRate",
+                "nodes:\n  - {name: a, timing: {brp: 1, prop: 6, ps1: 6, ps2: 3, sjw: 3}, "
+                "bitrate: 250k}\n",
+                "gives 500000 bit/s from 8000000 Hz; allowed: 250000"},
+        Mistake{"TimingAndSamplePoint",
+                "nodes:\n  - {name: a, timing: {brp: 1, prop: 6, ps1: 6, ps2: 3, sjw: 3},\n"
+                "     sample_point: 80 %}\n",
+                "s.yaml:3: nodes[0].sample_point: 'timing' is given too; allowed: one of them"},
         Mistake{
-            "Quanta",
-            "nodes:\n  - {name: a, timing: {brp: 1, prop: 8, ps1: 8, ps2: 8, sjw: 1}, clok: 1}\n",
-            "unknown key 'clok'"},
+            "TimingAndSjw",
+            "nodes:\n  - {name: a, timing: {brp: 1, prop: 6, ps1: 6, ps2: 3, sjw: 3}, sjw: 1}\n",
+            "nodes[0].sjw: 'timing' is given too; allowed: one of them"},
+        Mistake{"CableAndDelay", "nodes:\n  - {name: a, cable: 5 m,\n     delay: 20 ns}\n",
+                "s.yaml:3: nodes[0].delay: 'cable' is given too; allowed: one of them"},
         Mistake{"Mailboxes", "nodes: [{name: a, mailboxes: 20}]", "allowed: 16, 32, 64"},
         Mistake{"ImpossibleRate", "bitrate: 1M\nnodes:\n  - {name: slow, clock: 4 MHz}\n",
                 "s.yaml:3: node 'slow': no setting of 8 to 25 quanta gives 1000000 bit/s"},
