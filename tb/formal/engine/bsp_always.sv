@@ -96,8 +96,9 @@
     // TH-06: an attempt that ends while the node runs is told.
     p_end_told: assert (!($past(f_attempt && run_i && sample_i) && !f_attempt)
         || tx_ok_o != tx_fail_o);
-    // TH-06: and it does end, before the next begins.
-    p_end_ever: assert (!(take_tx && sample_i && run_i) || !f_attempt);
+    // TH-06: and it does end, before the next begins: it is under way while its frame is.
+    p_end_ever: assert ((!(take_tx && sample_i && run_i) || !f_attempt)
+                        && f_attempt == (transmitter_o && in_frame));
     // TH-06, CR-05: the CRC register is 0 when a frame begins, whatever came before.
     p_crc_zero: assert (!$past(run_i && sample_i && (take_tx || begin_rx)) || (crc_o == '0
         && !mismatch));
