@@ -73,6 +73,10 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/driver/include/verican"
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/driver/src" "${PROJECT_SOURCE_DIR}/sw/driver/include"
         DESTINATION "${VERICAN_DATA_DIR}/driver" COMPONENT driver)
 
+# For firmware on the simulated board: start-up code, vectors, linker script, semihosting.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/firmware/common"
+        DESTINATION "${VERICAN_DATA_DIR}/firmware" COMPONENT driver)
+
 if(TARGET verican)
   install(TARGETS verican RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tool)
 endif()
@@ -90,6 +94,19 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DATA
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
               "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/verican" COMPONENT doc)
+
+# Links of the pages lead to what is installed, once all of it is there.
+set(VERICAN_DOC_PLACES
+  "sim=${include_dir}" "rtl=${VERICAN_DATA_DIR}/rtl" "examples=${VERICAN_DATA_DIR}/examples"
+  "sw/driver=${VERICAN_DATA_DIR}/driver" "sw/firmware/common=${VERICAN_DATA_DIR}/firmware/common"
+  "sw/verican.svd=${VERICAN_DATA_DIR}/verican.svd")
+list(TRANSFORM VERICAN_DOC_PLACES REPLACE "=" "=\${root}/")
+list(JOIN VERICAN_DOC_PLACES "\" \"" doc_places)
+install(CODE "
+  set(root \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")
+  execute_process(COMMAND \"${VERICAN_PYTHON3}\" \"${PROJECT_SOURCE_DIR}/cmake/installed_docs.py\"
+    \"${PROJECT_SOURCE_DIR}\" \"\${root}/${CMAKE_INSTALL_DATADIR}/doc/verican\" \"${doc_places}\"
+    COMMAND_ERROR_IS_FATAL ANY)" COMPONENT doc)
 
 # All that must be built before `cmake --install`.
 add_custom_target(installable)

@@ -21,6 +21,7 @@ run() {  # WHAT COMMAND...: goes on after a failure, and says so at the end
 }
 
 for scenario in examples/*.yaml; do
+  if [ "$scenario" = examples/mixed.yaml ]; then continue; fi  # waits for a program: below
   name=$(basename "$scenario" .yaml)
   headline "$scenario"
   run "$scenario" "$verican" run "$scenario" --fst "$out/$name.fst" --candump "$out/$name.log" \
@@ -41,25 +42,31 @@ firmware ping ping/ping.yaml ping.elf pong.elf
 firmware fault_demo fault_demo/faults.yaml fault_demo.elf
 
 # A program of this computer on the bus, by TCP: no CAN in the kernel is needed.
-bridge() {  # SCENARIO PROGRAM
-  local log=$out/python-can.txt bridge port="" tries=100
-  "$verican" bridge --socketcand 127.0.0.1:0 --bus "$1" --wait-for-clients 1 \
-    --errors state --candump "$out/python-can.log" --report "$out/python-can.html" \
-    >"$log.summary" 2>"$log" &
-  bridge=$!
+with_python_can() {  # NAME SIGNAL COMMAND...: SIGNAL ends the command when the program is done
+  local log=$out/$1.txt signal=$2 tool port="" tries=100 status=0
+  shift 2
+  "$@" >"$log.summary" 2>"$log" &
+  tool=$!
   while [ -z "$port" ] && [ "$((tries--))" -gt 0 ]; do
     sleep 0.1
     port=$(sed -n 's/.* at 127\.0\.0\.1:\([0-9]*\)$/\1/p' "$log")
   done
-  local status=0
-  "$2" "${port:-0}" || status=$?
-  kill -TERM "$bridge"
-  wait "$bridge" || status=$?
+  examples/python_can.py "${port:-0}" || status=$?
+  if [ -n "$signal" ]; then kill -"$signal" "$tool"; fi
+  wait "$tool" || status=$?
   cat "$log" "$log.summary"
   return "$status"
 }
 headline "python-can on the simulated bus: examples/python_can.py"
-run "bridge" bridge examples/bridge.yaml examples/python_can.py
+run "bridge" with_python_can python-can TERM "$verican" bridge --socketcand 127.0.0.1:0 \
+  --bus examples/bridge.yaml --wait-for-clients 1 --errors state \
+  --candump "$out/python-can.log" --report "$out/python-can.html"
+
+headline "Two boards, a recording of a boat and python-can on one bus with a fault"
+sed -e 's/socketcand: 29536/socketcand: "127.0.0.1:0"/' -e "s|\.\./build/release|$(realpath "$build")|" \
+  -e "s|boat.log|$PWD/examples/boat.log|" examples/mixed.yaml >"$out/mixed.yaml"
+run "mixed" with_python_can mixed "" "$verican" run "$out/mixed.yaml" --fst "$out/mixed.fst" \
+  --candump "$out/mixed.log" --report "$out/mixed.html"
 
 headline "A SystemC platform: two cores on TLM-2.0 sockets, each with the C driver"
 run "SystemC" env SYSTEMC_DISABLE_COPYRIGHT_MESSAGE=1 "$build/systemc_platform" --frames 4

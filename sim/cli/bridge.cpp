@@ -184,7 +184,7 @@ int run(const Options &options) {
   }
   if (server) server->finish(kLastMessages);
   print(options, report, server.get());
-  return report.ok() && (!server || ok(server->counts())) ? kOk : kFailed;
+  return report.ok() && (!server || server->counts().ok()) ? kOk : kFailed;
 }
 
 void add_bus_options(CLI::App &command, Options &options) {

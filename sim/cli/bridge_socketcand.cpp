@@ -50,28 +50,4 @@ void wait_for_clients(SocketcandServer &server, std::size_t count, Wall &wall) {
     server.serve([&wall](std::vector<pollfd> &set) { wall.wait(set, std::nullopt); });
 }
 
-bool ok(const SocketcandCounts &counts) { return counts.too_slow == 0; }
-
-std::string to_text(const SocketcandCounts &counts) {
-  std::string text =
-      fmt::format("socketcand: {} clients, {} frames from them, {} messages to them\n",
-                  counts.clients, counts.from_clients, counts.to_clients);
-  const auto add = [&text](std::uint64_t count, const char *what) {
-    if (count != 0) text += fmt::format("    {}: {}\n", what, count);
-  };
-  add(counts.refused, "clients that were one too many, refused");
-  add(counts.too_slow, "clients that did not read, disconnected; frames for them are LOST");
-  add(counts.undelivered, "messages for clients that were gone before they had read them");
-  add(counts.bad_commands, "commands answered by an error");
-  add(counts.missed, "periods of jobs left out because the bus was busy");
-  return text;
-}
-
-Json to_json(const SocketcandCounts &counts) {
-  return {{"clients", counts.clients},           {"refused", counts.refused},
-          {"too_slow", counts.too_slow},         {"bad_commands", counts.bad_commands},
-          {"from_clients", counts.from_clients}, {"to_clients", counts.to_clients},
-          {"undelivered", counts.undelivered},   {"missed", counts.missed}};
-}
-
 }  // namespace vericansim::cli

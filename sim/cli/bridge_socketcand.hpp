@@ -36,9 +36,4 @@ void add_socketcand_options(CLI::App &command, SocketcandOptions &options);
 /// Serves until so many clients get frames, or somebody wants the end.
 void wait_for_clients(SocketcandServer &server, std::size_t count, Wall &wall);
 
-/// False if frames were lost for a client that did not read.
-[[nodiscard]] bool ok(const SocketcandCounts &counts);
-[[nodiscard]] std::string to_text(const SocketcandCounts &counts);
-[[nodiscard]] Json to_json(const SocketcandCounts &counts);
-
 }  // namespace vericansim::cli

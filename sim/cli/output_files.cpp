@@ -70,9 +70,12 @@ std::vector<NamedFile> files_of(const Outputs &outputs, const std::vector<double
 
 std::vector<NamedFile> inputs_of(const Scenario &scenario) {
   std::vector<NamedFile> inputs{{"the scenario", scenario.file}};
-  for (const NodeSpec &node : scenario.nodes)
+  for (const NodeSpec &node : scenario.nodes) {
     if (const auto *firmware = std::get_if<FirmwareRole>(&node.role))
       inputs.push_back({"the firmware of node '" + node.name + "'", firmware->file});
+    if (const auto *replay = std::get_if<ReplayRole>(&node.role))
+      inputs.push_back({"the recording of node '" + node.name + "'", replay->file});
+  }
   return inputs;
 }
 

@@ -24,6 +24,7 @@ Json to_json(const ReplayReport &report) {
   Json nodes = Json::array();
   for (const ReplayNode &node : report.nodes)
     nodes.push_back({{"name", node.name},
+                     {"to_send", node.to_send},
                      {"sent", node.sent},
                      {"expected", node.expected},
                      {"received", node.received},
@@ -41,6 +42,8 @@ Json to_json(const ReplayReport &report) {
           {"node_cycles", report.node_cycles},
           {"nodes", nodes},
           {"interrupted", report.interrupted},
+          {"failure", report.failure},
+          {"bus", vericansim::to_json(report.run)},
           {"ok", report.ok()}};
 }
 
@@ -54,12 +57,15 @@ void print(const Options &options, const ReplayReport &report) {
       "  recorded {}, simulated {}, load {:.1f} %, {} frames and {} error frames on the bus\n",
       time_text(report.recorded), time_text(report.duration), report.load * 100, report.on_bus,
       report.error_frames);
-  fmt::print("  {:<8} {:>8} {:>9} {:>9} {:>9} {:>8}  {}\n", "node", "sent", "to come", "received",
-             "arb lost", "errors", "every frame, bit-exact and in order");
+  fmt::print("  {:<8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>8}  {}\n", "node", "to send", "sent",
+             "to come", "received", "arb lost", "errors", "every frame, bit-exact and in order");
   for (const ReplayNode &n : report.nodes)
-    fmt::print("  {:<8} {:>8} {:>9} {:>9} {:>9} {:>8}  {}\n", n.name, n.sent, n.expected,
-               n.received, n.counts.lost_arbitration, n.counts.errors,
+    fmt::print("  {:<8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>8}  {}\n", n.name, n.to_send, n.sent,
+               n.expected, n.received, n.counts.lost_arbitration, n.counts.errors,
                n.complete ? "yes" : "NO: " + n.first_difference);
+  if (report.longest_gap >= kLongGap)
+    fmt::print("  a gap of {} was passed over\n", long_time(report.longest_gap));
+  if (!report.failure.empty()) fmt::print("  FAIL  {}\n", report.failure);
   if (report.interrupted)
     fmt::print("  interrupted; what had not come by then is not counted as missing\n");
   fmt::print("  {:.1f} million node-cycles in {:.2f} s: {:.1f} million a second\n",

@@ -13,6 +13,7 @@
 #include "cli/output_files.hpp"
 #include "scenario/stop_request.hpp"
 #include "session/session.hpp"
+#include "socketcan/host_ports.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::cli {
@@ -34,16 +35,44 @@ void override_with(Scenario &scenario, const Options &options) {
   scenario.endless = false;
 }
 
+void say(const std::string &line) {
+  fmt::print(stderr, "verican: {}\n", line);
+  std::fflush(stderr);
+}
+
+/// Programs are told where they find the bus, and may come before it begins.
+void open_to_programs(HostPorts &ports, Wall &wall) {
+  for (const std::string &line : ports.descriptions()) say(line);
+  ports.wait_for_clients(wall);
+}
+
 RunReport simulate(const Scenario &scenario, double bitrate, const Options &options) {
   Console console{false};
   Progress progress{fmt::format("{:g} kbit/s", bitrate / 1e3)};
-  SessionOptions session;
-  session.progress = [&](double part) { progress.show(part); };
-  session.output = [&](std::string_view node, std::string_view text) {
+  HostPorts ports;
+  HostWall wall;
+  SessionOptions setup;
+  setup.factories = {&ports};
+  setup.wall = &wall;
+  setup.say = say;
+  if (!scenario.endless || scenario.until_done)
+    setup.progress = [&](double part) { progress.show(part); };
+  setup.output = [&](std::string_view node, std::string_view text) {
     if (!options.json) console.print(node, text);
   };
-  session.say = [](const std::string &line) { fmt::print(stderr, "verican: {}\n", line); };
-  return Session{{{scenario, bitrate}}, std::move(session)}.run().front();
+  Session session{{{scenario, bitrate}}, std::move(setup)};
+  open_to_programs(ports, wall);
+  session.start();
+  if (session.has_outlets()) say("ready");
+  while (session.round()) {
+  }
+  return session.finish().front();
+}
+
+/// With programs as nodes the user's wish is an end like others.
+int exit_code_of(const RunReport &report) {
+  const int code = exit_code_of(report.boards, report.ok() ? kOk : kFailed);
+  return report.interrupted ? exit_code_after(code) : code;
 }
 
 int run(const Options &options) {
@@ -58,7 +87,7 @@ int run(const Options &options) {
   for (const double bitrate : scenario.bitrates) {
     scenario.outputs = several ? outputs_for(outputs, bitrate) : outputs;
     const RunReport report = simulate(scenario, bitrate, options);
-    code = std::max(code, exit_code_of(report.boards, report.ok() ? kOk : kFailed));
+    code = std::max(code, exit_code_of(report));
     if (options.json)
       list.push_back(to_json(report));
     else
@@ -68,7 +97,7 @@ int run(const Options &options) {
     if (stop_requested()) break;
   }
   if (options.json) print_json({{"ok", code == kOk}, {"runs", list}});
-  return exit_code_after(code);
+  return code;
 }
 
 }  // namespace

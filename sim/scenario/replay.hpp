@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scenario/bus_monitor.hpp"
+#include "scenario/report.hpp"
 #include "scenario/scenario.hpp"
 #include "trace/log.hpp"
 
@@ -33,7 +34,8 @@ struct ReplayOptions {
 struct ReplayNode {
   std::string name;
   NodeCounts counts;
-  std::uint64_t sent = 0;      ///< frames of the log that it had to send
+  std::uint64_t to_send = 0;   ///< frames of the log that it had to send
+  std::uint64_t sent = 0;      ///< of these, on the bus and acknowledged
   std::uint64_t expected = 0;  ///< frames of the others
   std::uint64_t received = 0;
   bool complete = false;  ///< all of them, bit-exact; those of one sender in the order of the log
@@ -51,9 +53,17 @@ struct ReplayReport {
   double wall_seconds = 0;
   std::uint64_t node_cycles = 0;
   bool interrupted = false;  ///< the user has ended it; what had not come by then is not missing
+  std::string failure;       ///< why not all was sent; empty: all was
+  Time longest_gap = 0;      ///< between two frames of the log
   std::vector<ReplayNode> nodes;
+  RunReport run;  ///< the same run, as that of any scenario
   [[nodiscard]] bool ok() const;
 };
+
+/// The scenario that `options` stand for: plain nodes, of which the first ones send the log.
+/// Throws InputError if no bit timing fits; std::invalid_argument for a number of nodes or senders
+/// that a bus cannot have.
+[[nodiscard]] Scenario replay_scenario(const CanLog &log, const ReplayOptions &options);
 
 /// Simulates, or ends early when the user wants it (stop_request.hpp). Throws InputError if no bit
 /// timing fits or an output cannot be written.

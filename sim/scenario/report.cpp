@@ -53,6 +53,17 @@ std::string nodes_text(const RunReport &report) {
   return text;
 }
 
+/// The parts that only some kinds of nodes have.
+std::string parts_text(const RunReport &report) {
+  std::string text;
+  if (!report.boards.empty()) text += firmware::to_text(report.boards) + "\n";
+  if (!report.replays.empty()) text += to_text(report.replays) + "\n";
+  if (!report.ports.empty()) text += to_text(report.ports);
+  for (const SocketcandCounts &counts : report.servers) text += "  " + to_text(counts);
+  if (report.pace) text += "  " + to_text(*report.pace) + "\n\n";
+  return text;
+}
+
 Json message_json(const MessageReport &m) {
   Json json{{"name", m.name},
             {"node", m.node},
@@ -102,7 +113,10 @@ bool RunReport::ok() const {
   const auto good = [](const auto &part) { return part.ok(); };
   return !interrupted &&
          std::all_of(checks.begin(), checks.end(), [](const CheckResult &c) { return c.ok; }) &&
-         std::all_of(boards.begin(), boards.end(), good);
+         std::all_of(boards.begin(), boards.end(), good) &&
+         std::all_of(replays.begin(), replays.end(), good) &&
+         std::all_of(ports.begin(), ports.end(), good) &&
+         std::all_of(servers.begin(), servers.end(), good);
 }
 
 std::string to_text(const RunReport &report) {
@@ -121,7 +135,7 @@ std::string to_text(const RunReport &report) {
   if (!report.messages.empty()) text += messages_text(report) + "\n";
   text += nodes_text(report) + "\n";
   if (report.interrupted) text += "  interrupted; expectations were not checked\n";
-  if (!report.boards.empty()) text += firmware::to_text(report.boards) + "\n";
+  text += parts_text(report);
   for (const CheckResult &check : report.checks)
     fmt::format_to(out, "  {}  {}: {} (expected {})\n", check.ok ? "ok  " : "FAIL", check.what,
                    check.seen, check.wanted);
@@ -155,6 +169,10 @@ Json to_json(const RunReport &report) {
             {"interrupted", report.interrupted},
             {"ok", report.ok()}};
   for (const firmware::BoardReport &b : report.boards) json["boards"].push_back(to_json(b));
+  for (const ReplayResult &r : report.replays) json["replays"].push_back(to_json(r));
+  for (const PortReport &p : report.ports) json["ports"].push_back(to_json(p));
+  for (const SocketcandCounts &c : report.servers) json["socketcand"].push_back(to_json(c));
+  if (report.pace) json["pace"] = to_json(*report.pace);
   return json;
 }
 

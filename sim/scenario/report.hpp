@@ -15,6 +15,8 @@
 #include "firmware/board_report.hpp"
 #include "judge/bus_judge.hpp"
 #include "scenario/bus_monitor.hpp"
+#include "session/port_report.hpp"
+#include "session/replay_result.hpp"
 
 namespace vericansim {
 
@@ -67,6 +69,10 @@ struct RunReport {
   std::vector<MessageReport> messages;
   std::vector<NodeReport> nodes;
   std::vector<firmware::BoardReport> boards;
+  std::vector<ReplayResult> replays;
+  std::vector<PortReport> ports;          ///< with programs of the host as nodes
+  std::vector<SocketcandCounts> servers;  ///< one for each address
+  std::optional<PaceReport> pace;         ///< held to real time, or with programs of the host
   std::vector<CheckResult> checks;
   bool interrupted = false;  ///< the user has ended it before its time; nothing was checked then
   std::optional<JudgeCounts> judged;  ///< with `judge: lockstep`

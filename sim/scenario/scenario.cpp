@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scenario/scenario_parts.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
@@ -83,12 +85,23 @@ void parse_host(YamlMap &map, NodeSpec &node) {
   map.with("filters", [&](const YamlValue &v) {
     for (const YamlValue &item : v.items()) host.filters.push_back(parse_filter(item));
   });
+}
+
+void parse_software(YamlMap &map, NodeSpec &node) {
   map.with("software", [&](const YamlValue &v) {
     if (v.text() != "host" && v.text() != "none") v.refuse("host, none");
     node.software = v.text() == "host";
   });
-  map.with("tx_buffers",
-           [&](const YamlValue &v) { host.tx_buffers = static_cast<unsigned>(v.integer(1, 62)); });
+  map.with("tx_buffers", [&](const YamlValue &v) {
+    node.host.tx_buffers = static_cast<unsigned>(v.integer(1, 62));
+  });
+}
+
+// A node that hears and says nothing.
+void parse_monitor(YamlMap &map, HostConfig &host) {
+  map.with("monitor", [&](const YamlValue &v) {
+    if (v.boolean()) host.listen_only = true;
+  });
 }
 
 void check_buffers(const YamlValue &value, const NodeSpec &node) {
@@ -113,7 +126,11 @@ NodeSpec parse_node(const YamlValue &value, const Scenario &scenario) {
   parse_clock(map, node.clock);
   parse_link(map, node.link);
   node.role = parse_role(map, scenario);
-  if (std::holds_alternative<TrafficRole>(node.role)) parse_host(map, node);
+  if (node.hosted()) parse_host(map, node);
+  if (std::holds_alternative<TrafficRole>(node.role)) {
+    parse_software(map, node);
+    parse_monitor(map, node.host);
+  }
   parse_bit(map, node, scenario.bitrates);
   map.with("mailboxes", [&](const YamlValue &v) {
     const std::uint64_t count = v.integer(16, 64);
@@ -143,6 +160,10 @@ namespace {
 
 void parse_nodes(const YamlValue &list, Scenario &scenario) {
   for (const YamlValue &item : list.items()) {
+    if (auto listener = detail::parse_listener(item)) {
+      scenario.listeners.push_back(std::move(*listener));
+      continue;
+    }
     if (scenario.nodes.size() >= Bus::kMaxNodes)
       item.fail(fmt::format("more than {} nodes", Bus::kMaxNodes));
     scenario.nodes.push_back(detail::parse_node(item, scenario));
@@ -179,6 +200,41 @@ void parse_general(YamlMap &map, Scenario &scenario) {
   map.with("analysis", [&](const YamlValue &v) { scenario.analysis = v.boolean(); });
 }
 
+bool any_programs(const Scenario &scenario) {
+  return !scenario.listeners.empty() ||
+         std::any_of(scenario.nodes.begin(), scenario.nodes.end(),
+                     [](const NodeSpec &node) { return has_programs(node.role); });
+}
+
+// With programs as nodes a scenario is held to real time and has no end, with a recording it ends
+// when that has been sent, unless the file says otherwise.
+void parse_end(YamlMap &map, Scenario &scenario) {
+  const bool programs = any_programs(scenario);
+  scenario.pacing = programs ? Pacing::kRealTime : Pacing::kFast;
+  map.with("pacing", [&](const YamlValue &v) {
+    if (v.text() != "real_time" && v.text() != "fast") v.refuse("real_time, fast");
+    scenario.pacing = v.text() == "real_time" ? Pacing::kRealTime : Pacing::kFast;
+  });
+  bool finite = false, looped = false, firmware = false;
+  for (const NodeSpec &node : scenario.nodes) {
+    const auto *replay = std::get_if<ReplayRole>(&node.role);
+    if (replay != nullptr) (replay->loop ? looped : finite) = true;
+    firmware = firmware || std::holds_alternative<FirmwareRole>(node.role);
+  }
+  const bool limited = map.find("duration").has_value();
+  scenario.endless = !limited && (programs || finite);
+  scenario.until_done = !limited && finite && !programs;
+  if (looped && !limited && !scenario.endless)
+    map.value().fail("a recording in a loop has no end; the scenario needs a 'duration'");
+  map.with("end", [&](const YamlValue &v) {
+    if (v.text() != "time" && v.text() != "done") v.refuse("time, done");
+    scenario.until_done = v.text() == "done";
+    if (scenario.until_done && !finite && !firmware)
+      v.fail("'done' needs a node that comes to an end: with firmware, or a replay without loop");
+    if (!scenario.until_done && !limited && !programs) v.fail("'time' needs a 'duration'");
+  });
+}
+
 }  // namespace
 
 Scenario parse_scenario(const std::string &path, const std::string &text) {
@@ -188,6 +244,7 @@ Scenario parse_scenario(const std::string &path, const std::string &text) {
   scenario.name = path;
   parse_general(map, scenario);
   parse_nodes(map.need("nodes"), scenario);
+  parse_end(map, scenario);
   map.with("traffic", [&](const YamlValue &list) {
     for (const YamlValue &item : list.items())
       scenario.traffic.push_back(detail::parse_traffic(item, scenario));

@@ -38,6 +38,13 @@ struct NodeSpec {
   [[nodiscard]] bool hosted() const { return software && has_host(role); }
 };
 
+/// Somebody who hears all of the bus and is no node of it.
+struct ListenerSpec {
+  std::string name;
+  NodeRole role;
+  std::size_t line = 0;  ///< in the file
+};
+
 enum class DataKind : std::uint8_t {
   kFixed,
   kCounter,  ///< the number of the frame, little-endian
@@ -152,6 +159,7 @@ struct Scenario {
   std::uint64_t seed = 1;
   bool analysis = false;  ///< print the analytic bound beside the measured response times
   std::vector<NodeSpec> nodes;
+  std::vector<ListenerSpec> listeners;
   std::vector<TrafficSpec> traffic;
   std::vector<FaultSpec> faults;
   std::vector<AccessSpec> accesses;

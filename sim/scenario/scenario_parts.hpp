@@ -12,6 +12,8 @@ namespace vericansim::detail {
 /// A node by its name; refuses others with a list of the names.
 [[nodiscard]] NodeId parse_node_name(const YamlValue &value, const Scenario &scenario);
 
+/// An item of `nodes` that is no node: `{monitor: vcan1}`; nothing if it is one.
+[[nodiscard]] std::optional<ListenerSpec> parse_listener(const YamlValue &value);
 /// What kind of node it is, with the keys of that kind.
 [[nodiscard]] NodeRole parse_role(YamlMap &map, const Scenario &scenario);
 /// Keys `timing`, `bitrate`, `sample_point`, `sjw` of a node whose clock is known.

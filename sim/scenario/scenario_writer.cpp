@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <stdexcept>
 
 #include "scenario/access_step.hpp"
 #include "scenario/scenario.hpp"
@@ -65,6 +66,9 @@ std::string host_text(const HostConfig &host) {
 }
 
 std::string node_text(const NodeSpec &node) {
+  if (!std::holds_alternative<TrafficRole>(node.role))
+    throw std::invalid_argument(
+        fmt::format("a node with '{}' cannot be written as text", name_of(node.role)));
   std::string text = "  - {name: " + node.name + clock_text(node.clock);
   const auto delay = [&](const char *key, Time value) {
     if (value != 0) text += fmt::format(", {}: {}", key, time_text(value));

@@ -37,8 +37,11 @@ void Simulation::build_stations() {
       continue;
     }
     stations_.add(bus_, make_station(spec.name, spec.clock, config, spec.num_mb), spec.link);
-    // A run without end must not need memory without end.
-    if (!scenario_.expect.complete) stations_[id].host->on_received = [](const HostFrame &) {};
+    stations_[id].host->on_received = [this, id](const HostFrame &frame) {
+      // A run without end must not need memory without end.
+      if (scenario_.expect.complete) stations_[id].received.push_back(frame.frame);
+      if (on_host_received) on_host_received(id, frame.frame);
+    };
     stations_[id].host->on_sent = [this, id](const HostFrame &frame) { on_sent(id, frame.frame); };
   }
 }
@@ -154,6 +157,7 @@ FrameOrigin Simulation::origin_of(const BusFrame &frame) {
 }
 
 void Simulation::on_sent(NodeId node, const Frame &frame) {
+  if (on_host_sent) on_host_sent(node);
   for (const auto &traffic : traffic_)
     if (traffic->spec().node == node && traffic->matches(frame)) return traffic->on_sent();
 }

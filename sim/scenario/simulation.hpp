@@ -50,11 +50,19 @@ class Simulation {
   /// Told of each frame and each event of the bus, besides the simulation's own use (BusMonitor).
   std::function<void(const BusFrame &)> on_bus_frame;
   std::function<void(const BusEvent &)> on_bus_event;
+  /// Told of each frame that the simulation's own software of a node has received, and sent.
+  std::function<void(NodeId, const Frame &)> on_host_received;
+  std::function<void(NodeId)> on_host_sent;
   /// Adds what others know to the report, before the expectations are checked.
   std::function<void(RunReport &)> on_report;
 
   [[nodiscard]] Bus &bus() { return bus_; }
   [[nodiscard]] RtlNode &node(NodeId id) { return *stations_[id].node; }
+  /// The simulation's own software of a node that has it (NodeSpec::hosted()).
+  [[nodiscard]] Host &host(NodeId id) { return *stations_[id].host; }
+  [[nodiscard]] const NodeCounts &counts(NodeId id) const { return monitor_->node(id); }
+  /// Whether the cores store remote frames in receive buffers; valid after join().
+  [[nodiscard]] bool stores_remote() const { return stations_.stores_remote(); }
   [[nodiscard]] const Scenario &scenario() const { return scenario_; }
   [[nodiscard]] double bitrate() const { return bitrate_; }
   [[nodiscard]] Time started() const { return start_; }

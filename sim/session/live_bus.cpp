@@ -9,12 +9,19 @@ namespace vericansim {
 LiveBus::LiveBus(SessionBus bus)
     : scenario_{std::move(bus.scenario)},
       simulation_{scenario_, bus.bitrate != 0 ? bus.bitrate : scenario_.bitrates.front()},
-      by_node_(scenario_.nodes.size()) {
+      by_node_(scenario_.nodes.size()),
+      want_bits_(scenario_.nodes.size()) {
   simulation_.on_bus_frame = [this](const BusFrame &frame) {
     for (Operator *op : all_) op->on_frame(frame);
   };
   simulation_.on_bus_event = [this](const BusEvent &event) {
     for (Operator *op : all_) op->on_event(event);
+  };
+  simulation_.on_host_received = [this](NodeId node, const Frame &frame) {
+    for (Operator *op : all_) op->on_received(node, frame);
+  };
+  simulation_.on_host_sent = [this](NodeId node) {
+    if (by_node_[node] != nullptr) by_node_[node]->on_sent();
   };
 }
 
@@ -24,14 +31,16 @@ LiveBus::~LiveBus() {
 
 void LiveBus::add(NodeId id, Operator &op) {
   all_.push_back(&op);
-  if (!op.wants_bits()) return;
+  if (id == kAllNodes) return;
   by_node_[id] = &op;
+  if (!op.wants_bits()) return;
+  want_bits_[id] = &op;
   if (!observes_) simulation_.bus().add(*this);
   observes_ = true;
 }
 
 void LiveBus::on_bit(NodeId id, const BitRecord &bit) {
-  if (by_node_[id] != nullptr) by_node_[id]->on_bit(bit);
+  if (want_bits_[id] != nullptr) want_bits_[id]->on_bit(bit);
 }
 
 }  // namespace vericansim

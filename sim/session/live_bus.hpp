@@ -19,7 +19,7 @@ class LiveBus : private BusObserver {
   LiveBus(const LiveBus &) = delete;
   LiveBus &operator=(const LiveBus &) = delete;
 
-  /// `op` works node `id`.
+  /// `op` works node `id`, or listens (kAllNodes).
   void add(NodeId id, Operator &op);
   [[nodiscard]] Simulation &simulation() { return simulation_; }
   [[nodiscard]] const Scenario &scenario() const { return scenario_; }
@@ -31,7 +31,8 @@ class LiveBus : private BusObserver {
   Scenario scenario_;
   Simulation simulation_;
   std::vector<Operator *> all_;
-  std::vector<Operator *> by_node_;  // of those who want bits; nullptr: nobody
+  std::vector<Operator *> by_node_;    // nullptr: nobody
+  std::vector<Operator *> want_bits_;  // the same
   bool observes_ = false;
 };
 

@@ -8,6 +8,7 @@
 
 #include "firmware/firmware_operator.hpp"
 #include "scenario/simulation.hpp"
+#include "session/replay_operator.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim {
@@ -18,18 +19,19 @@ const NodeSpec &OperatorContext::spec() const { return scenario().nodes[id]; }
 
 std::unique_ptr<Operator> make_operator(const OperatorContext &context,
                                         std::span<OperatorFactory *const> factories) {
-  const NodeRole &role = context.spec().role;
+  const NodeRole &role = context.role;
   // The firmware's node looks after a second core.
   if (std::holds_alternative<TrafficRole>(role) || std::holds_alternative<SecondCoreRole>(role))
     return nullptr;
   if (const auto *own = std::get_if<OwnRole>(&role)) return own->make(context);
   if (std::holds_alternative<FirmwareRole>(role))
     return std::make_unique<firmware::FirmwareOperator>(context);
+  if (std::holds_alternative<ReplayRole>(role)) return std::make_unique<ReplayOperator>(context);
   for (OperatorFactory *factory : factories)
     if (auto made = factory->make(context)) return made;
-  throw InputError(context.scenario().file, context.spec().line,
-                   fmt::format("node '{}': this program cannot make a node with '{}'",
-                               context.spec().name, name_of(role)));
+  throw InputError(context.scenario().file, context.line,
+                   fmt::format("node '{}': this program cannot make a node with '{}'", context.name,
+                               name_of(role)));
 }
 
 }  // namespace vericansim

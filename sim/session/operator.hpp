@@ -29,9 +29,14 @@ inline constexpr Time kNever = std::numeric_limits<Time>::max();
 struct OperatorContext {
   std::span<Simulation *const> simulations;  ///< all buses of the session, built
   std::size_t bus = 0;                       ///< of `simulations`
-  NodeId id = 0;                             ///< on that bus
+  NodeId id = 0;                             ///< on that bus; kAllNodes: a listener
+  std::string name;                          ///< of node or listener
+  NodeRole role;
+  std::size_t line = 0;  ///< in the scenario's file
   /// A node's software prints: name of the node, text.
   std::function<void(std::string_view, std::string_view)> output;
+  /// A line for the user.
+  std::function<void(const std::string &)> say;
 
   [[nodiscard]] Simulation &simulation() const { return *simulations[bus]; }
   [[nodiscard]] const Scenario &scenario() const;
@@ -63,11 +68,20 @@ class Operator {
   virtual void on_bit(const BitRecord &bit) { (void)bit; }
   /// A frame on its bus, as the monitor of the bus tells it.
   virtual void on_frame(const BusFrame &frame) { (void)frame; }
+  /// The simulation's own software of any node of its bus has received a frame.
+  virtual void on_received(NodeId node, const Frame &frame) {
+    (void)node;
+    (void)frame;
+  }
+  /// The simulation's own software of its own node has sent its oldest frame.
+  virtual void on_sent() {}
   /// Any event of its bus.
   virtual void on_event(const BusEvent &event) { (void)event; }
 
   /// True while it needs no simulated time: time may be passed over up to what the bus has planned.
   [[nodiscard]] virtual bool idle() const { return true; }
+  /// True if time in which nothing happens is to be passed over at no cost.
+  [[nodiscard]] virtual bool passes_time() const { return false; }
   /// True if it has nothing left to do, whatever comes.
   [[nodiscard]] virtual bool done() const { return true; }
   /// Part of its work that is done, 0..1.
@@ -89,8 +103,8 @@ class OperatorFactory {
   [[nodiscard]] virtual std::unique_ptr<Operator> make(const OperatorContext &context) = 0;
 };
 
-/// The operator of a node, from the library's own kinds, then from `factories`; nullptr for a node
-/// that needs none. Throws InputError if no factory knows the kind.
+/// The operator of a node or listener, from the library's own kinds, then from `factories`; nullptr
+/// for a node that needs none. Throws InputError if no factory knows the kind.
 [[nodiscard]] std::unique_ptr<Operator> make_operator(const OperatorContext &context,
                                                       std::span<OperatorFactory *const> factories);
 

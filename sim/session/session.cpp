@@ -16,7 +16,11 @@ namespace vericansim {
 Session::Session(std::vector<SessionBus> buses, SessionOptions options)
     : options_{std::move(options)},
       wall_{options_.wall != nullptr ? *options_.wall : static_cast<Wall &>(steady_)} {
-  for (SessionBus &bus : buses) buses_.push_back(std::make_unique<LiveBus>(std::move(bus)));
+  for (SessionBus &bus : buses) {
+    // Traffic goes on as long as the session does.
+    if (bus.scenario.endless) bus.scenario.duration = kNoLimit / 2;
+    buses_.push_back(std::make_unique<LiveBus>(std::move(bus)));
+  }
   bit_time_ = static_cast<Time>(std::llround(1e12 / simulation().bitrate()));
   build_workers();
   set_limits();
@@ -27,14 +31,19 @@ Session::~Session() = default;
 void Session::build_workers() {
   std::vector<Simulation *> simulations;
   for (const auto &bus : buses_) simulations.push_back(&bus->simulation());
-  for (std::size_t index = 0; index < buses_.size(); ++index) {
-    for (NodeId id = 0; id < buses_[index]->scenario().nodes.size(); ++id) {
-      auto op = make_operator({simulations, index, id, options_.output}, options_.factories);
-      if (!op) continue;
-      buses_[index]->add(id, *op);
-      if (Outlet *outlet = op->outlet()) outlets_.push_back(outlet);
-      workers_.push_back({std::move(op), index});
-    }
+  const auto add = [&](std::size_t bus, NodeId id, const auto &spec) {
+    auto op = make_operator(
+        {simulations, bus, id, spec.name, spec.role, spec.line, options_.output, options_.say},
+        options_.factories);
+    if (!op) return;
+    buses_[bus]->add(id, *op);
+    if (Outlet *outlet = op->outlet()) outlets_.push_back(outlet);
+    workers_.push_back({std::move(op), bus});
+  };
+  for (std::size_t bus = 0; bus < buses_.size(); ++bus) {
+    const Scenario &scenario = buses_[bus]->scenario();
+    for (NodeId id = 0; id < scenario.nodes.size(); ++id) add(bus, id, scenario.nodes[id]);
+    for (const ListenerSpec &listener : scenario.listeners) add(bus, kAllNodes, listener);
   }
   was_up_.assign(outlets_.size(), 1);
 }
@@ -51,7 +60,10 @@ void Session::set_limits() {
   stretch_ = kFewFrames * bit_time_;
   if (outlets_.empty()) stretch_ = std::max(stretch_, std::min(kLongest, limit_ / kParts));
   // A judge counts the bits of every node; who looks at a timer would see that it stood still.
-  passes_ = buses_.size() == 1 && !scenario.lockstep && !outlets_.empty();
+  const bool wanted =
+      !outlets_.empty() || std::any_of(workers_.begin(), workers_.end(),
+                                       [](const Worker &w) { return w.op->passes_time(); });
+  passes_ = buses_.size() == 1 && !scenario.lockstep && wanted;
 }
 
 Simulation &Session::simulation(std::size_t bus) { return buses_[bus]->simulation(); }
@@ -114,6 +126,9 @@ std::vector<RunReport> Session::finish() {
 
 void Session::describe(std::size_t bus, RunReport &report) {
   report.wall_seconds = static_cast<double>(wall_.now() - begin_) / 1e9;
+  if (paced_ || !outlets_.empty())
+    report.pace = {!paced_, static_cast<double>(std::clock() - cpu_begin_) / CLOCKS_PER_SEC,
+                   pacer_.lag(), pacer_.largest_lag()};
   for (const Worker &worker : workers_)
     if (worker.bus == bus) worker.op->report(report);
 }

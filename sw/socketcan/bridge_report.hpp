@@ -9,31 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "port_node.hpp"
 #include "scenario/report.hpp"
-#include "session/pacer.hpp"
+#include "session/port_report.hpp"
 
 namespace vericansim {
-
-/// One interface.
-struct PortReport {
-  std::string name;
-  bool monitor = false;
-  bool up = true;
-  bool bus_off = false;
-  PortCounts counts;
-  std::uint64_t lost = 0;     ///< by the operating system, on the way to the bridge
-  std::uint64_t pending = 0;  ///< frames of programs that have not left
-  std::uint64_t waiting = 0;  ///< messages that the programs have not taken
-};
 
 struct BridgeReport {
   RunReport bus;
   std::vector<PortReport> ports;
-  bool fast = false;
+  PaceReport pace;
   double wall_seconds = 0;
-  double cpu_seconds = 0;             ///< of this process
-  WallTime lag = 0, largest_lag = 0;  ///< ns
   /// False if a frame was lost or an expectation of the scenario is not met.
   [[nodiscard]] bool ok() const;
 };

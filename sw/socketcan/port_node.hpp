@@ -12,6 +12,7 @@
 #include "can_port.hpp"
 #include "error_messages.hpp"
 #include "node/host.hpp"
+#include "session/port_report.hpp"
 #include "trace/id_filter.hpp"
 
 namespace vericansim {
@@ -21,22 +22,6 @@ struct PortOptions {
   ErrorChoice errors = ErrorChoice::kOwn;
   std::vector<IdFilter> filters{};  ///< frames of the bus for the programs; empty: all
   Time restart = 0;  ///< simulated time from bus-off to the begin of recovery; 0: only restart()
-};
-
-/// What went through an interface.
-struct PortCounts {
-  std::uint64_t from_host = 0;  ///< frames of programs: sent, and to come
-  std::uint64_t sent = 0;       ///< of these, on the bus and acknowledged
-  std::uint64_t rejected = 0;   ///< messages of programs that are no frames of CAN 2.0
-  std::uint64_t received = 0;   ///< frames of other nodes
-  std::uint64_t filtered = 0;   ///< of these, kept from the programs by a filter
-  std::uint64_t to_host = 0;    ///< frames given to the programs, echoes not counted
-  std::uint64_t echoes = 0;
-  std::uint64_t errors = 0;    ///< error messages given to the programs
-  std::uint64_t away = 0;      ///< messages for the programs while nobody could be reached
-  std::uint64_t overruns = 0;  ///< frames that the node's software was too slow for
-  std::uint64_t bus_off = 0;
-  std::uint64_t restarts = 0;
 };
 
 /// Messages that wait for the programs, in the order of the bus. A received frame has its place

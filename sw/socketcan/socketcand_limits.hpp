@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a socketcand server allows and what it has counted.
+// What a socketcand server allows.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+
+#include "session/port_report.hpp"
 
 namespace vericansim {
 
@@ -21,17 +23,6 @@ struct SocketcandLimits {
   std::chrono::milliseconds raw_pause{100};
   /// Host time that a client which was told to be too slow has to read that.
   std::chrono::milliseconds farewell{10'000};
-};
-
-struct SocketcandCounts {
-  std::uint64_t clients = 0;       ///< served
-  std::uint64_t refused = 0;       ///< too many at once
-  std::uint64_t too_slow = 0;      ///< closed because they did not read
-  std::uint64_t bad_commands = 0;  ///< answered by an error
-  std::uint64_t from_clients = 0;  ///< frames handed to the bus, of jobs too
-  std::uint64_t to_clients = 0;    ///< frames and error messages, each client counted
-  std::uint64_t undelivered = 0;   ///< messages for clients that were gone before they took them
-  std::uint64_t missed = 0;        ///< periods of jobs for which the bus was too busy
 };
 
 /// Traffic of one bus, for "< stat ... >": data bytes and frames, received and sent.

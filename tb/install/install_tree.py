@@ -14,6 +14,7 @@ EXPECTED = [
     "share/verican/driver/src/init.c", "share/verican/driver/include/verican/verican.h",
     "share/verican/python/verican_helper.py", "share/verican/examples/two-nodes.yaml",
     "share/verican/examples/external/two_nodes.cpp",
+    "share/verican/firmware/common/a2f500.ld", "share/verican/firmware/common/semihost.h",
     "share/doc/verican/LICENSE", "share/doc/verican/docs/first-bus.md",
 ]
 TEXT = {".hpp", ".h", ".c", ".cmake", ".pc", ".f", ".sv", ".vlt", ".yaml", ".svd", ".md", ".py"}
@@ -35,6 +36,16 @@ def check_rtl(installed):
     lines = [line.split("#")[0].strip() for line in (rtl / "can.f").read_text().splitlines()]
     for line in filter(None, lines):
         tree.check((rtl / line).is_file(), f"{rtl / 'can.f'} names {line}, which is missing")
+
+
+def check_links(installed):
+    """Every link of the pages leads to something that is installed."""
+    pages = list((installed.prefix / "share" / "doc").rglob("*.md"))
+    tree.check(len(pages) > 20, f"only {len(pages)} pages are installed")
+    for page in pages:
+        for target in re.findall(r"\]\(([^)\s#]+)[^)]*\)", page.read_text(encoding="utf-8")):
+            tree.check(":" in target or (page.parent / target).exists(),
+                       f"{page} has a link to {target}, which is not installed")
 
 
 def check_versions(installed):
@@ -81,6 +92,7 @@ def test(installed):
     tree.check(not empty, f"empty directories are installed: {', '.join(empty)}")
     look_for_paths(installed, first)
     check_rtl(installed)
+    check_links(installed)
     check_versions(installed)
     check_tool(installed)
 

@@ -109,10 +109,44 @@ TEST(Replay, RefusesImpossibleSettings) {
   EXPECT_THROW(static_cast<void>(replay(log, {.nodes = 2, .senders = 3})), std::invalid_argument);
 }
 
-TEST(Replay, AnEmptyLogIsNoError) {
-  const ReplayReport report = replay(CanLog{}, {.nodes = 2});
-  EXPECT_TRUE(report.ok());
-  EXPECT_EQ(report.on_bus, 0U);
+// A replay of nothing is no success, and says why.
+TEST(Replay, NothingToReplayIsAFailure) {
+  const ReplayReport none = replay(CanLog{}, {.nodes = 2});
+  EXPECT_FALSE(none.ok());
+  EXPECT_EQ(none.on_bus, 0U);
+  EXPECT_NE(none.failure.find("holds no classical CAN frame"), std::string::npos) << none.failure;
+  const CanLog foreign =
+      parse_candump("(1.0) can0 123##1AABB\n(1.1) can0 20000080#0000000000000000\n", "log");
+  const ReplayReport other = replay(foreign, {.nodes = 2});
+  EXPECT_FALSE(other.ok());
+  EXPECT_NE(other.failure.find("2 entries are none"), std::string::npos) << other.failure;
+}
+
+// An hour without a frame is passed over: its 57,600 million node-cycles are not simulated. Time is
+// kept all the same.
+TEST(Replay, GapsArePassedOver) {
+  const ReplayReport report =
+      replay(parse_candump("(1.0) can0 123#11\n(3601.0) can0 124#22\n", "log"), {.nodes = 2});
+  EXPECT_TRUE(report.ok()) << differences(report);
+  EXPECT_EQ(report.on_bus, 2U);
+  EXPECT_GE(report.duration, 3600 * kSecond);
+  EXPECT_LE(report.duration, 3601 * kSecond);
+  EXPECT_LT(report.node_cycles, 100'000U);
+  EXPECT_EQ(report.longest_gap, 3600 * kSecond);
+}
+
+// AK-03: with the cable of the sender open nobody acknowledges. What was not on the bus is not
+// counted as sent.
+TEST(Replay, GivesUpAndSaysWhy) {
+  CutFault cut{0, {0, 1000 * kSecond}};
+  const ReplayReport report = replay(parse_candump("(1.0) can0 123#11\n(1.1) can0 124#\n", "log"),
+                                     {.nodes = 2, .bitrate = 500e3, .fast = true, .fault = &cut});
+  EXPECT_FALSE(report.ok());
+  EXPECT_EQ(report.nodes.at(0).to_send, 2U);
+  EXPECT_EQ(report.nodes.at(0).sent, 0U);
+  EXPECT_NE(report.failure.find("gave up after "), std::string::npos) << report.failure;
+  EXPECT_NE(report.failure.find("with 0 of 2 frames sent: nobody acknowledges"), std::string::npos)
+      << report.failure;
 }
 
 }  // namespace

@@ -53,8 +53,10 @@ static bool ping(uint8_t number) {
 }
 
 int main(void) {
+  const verican_filter_t pongs = {
+      .id = PONG_ID, .mask = 0x7FF, .ide = VERICAN_SELECT_ONLY_0, .rtr = VERICAN_SELECT_ONLY_0};
   const verican_config_t config = can_config(&can, 0, BITRATE);
-  can_open(&can, &config, NULL, 0);
+  can_open(&can, &config, &pongs, 1);
   can_start(&can, 0);
   board_systick_start(TICK_US);
   while (ticks < PAUSE_MS) board_wait();  // the other side gets ready
