@@ -4,6 +4,7 @@
 // verican replay: recorded traffic to a bus of simulated nodes.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "cli/cli.hpp"
@@ -77,10 +78,12 @@ int run(const Options &options) {
   const StopSignals signals;
   claim_files({{"the log", options.log}}, files_of(options.replay.outputs));
   const CanLog log = read_log(options.log);
+  ReplayOptions replay_options = options.replay;
+  replay_options.file = std::filesystem::path(options.log).filename().string();
   ReplayReport report;
   {
     Progress progress{"replay"};
-    report = replay(log, options.replay, [&](double part) { progress.show(part); });
+    report = replay(log, replay_options, [&](double part) { progress.show(part); });
   }
   if (options.json)
     print_json(to_json(report));

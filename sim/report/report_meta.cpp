@@ -88,6 +88,11 @@ Json checks_json(const ReportExtras &extras) {
   if (extras.run == nullptr) return list;
   for (const CheckResult &c : extras.run->checks)
     list.push_back({{"what", c.what}, {"wanted", c.wanted}, {"seen", c.seen}, {"ok", c.ok}});
+  for (const ReplayResult &r : extras.run->replays)
+    list.push_back({{"what", fmt::format("{}: replay of {}", r.node, r.file)},
+                    {"wanted", fmt::format("{} frames, bit-exact and in order", r.frames)},
+                    {"seen", fmt::format("{} sent; {}", r.sent, verdict(r))},
+                    {"ok", r.ok()}});
   return list;
 }
 

@@ -99,7 +99,7 @@ Scenario replay_scenario(const CanLog &log, const ReplayOptions &options) {
       options.senders > options.nodes)
     throw std::invalid_argument("a replay needs 2 to 64 nodes and 1 to that many senders");
   Scenario scenario;
-  scenario.name = "Replay";
+  scenario.name = options.file.empty() ? "Replay" : "Replay of " + options.file;
   scenario.file = fmt::format(
       "{} frames of a recording",
       options.limit == 0 ? log.entries.size() : std::min(options.limit, log.entries.size()));
@@ -108,7 +108,7 @@ Scenario replay_scenario(const CanLog &log, const ReplayOptions &options) {
   scenario.until_done = true;
   scenario.outputs = options.outputs;
   ReplayRole role;
-  role.file = "the recording";
+  role.file = options.file.empty() ? "the recording" : options.file;
   role.log = std::make_shared<const CanLog>(log);
   role.saturated = options.fast;
   role.frames = options.limit;

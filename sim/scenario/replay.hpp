@@ -28,6 +28,7 @@ struct ReplayOptions {
   std::size_t limit = 0;  ///< frames to take from the log, 0: all
   Outputs outputs = {};
   Fault *fault = nullptr;  ///< put on the bus, to see that a lost frame is noticed
+  std::string file = {};   ///< name of the recording, for people; may be empty
 };
 
 /// What one node has received.

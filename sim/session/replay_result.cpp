@@ -12,7 +12,6 @@
 #include "scenario/quantity.hpp"
 
 namespace vericansim {
-namespace {
 
 std::string verdict(const ReplayResult &replay) {
   if (!replay.failure.empty()) return "NO: " + replay.failure;
@@ -23,8 +22,6 @@ std::string verdict(const ReplayResult &replay) {
   return fmt::format("yes, at {} node{}", replay.receivers.size(),
                      replay.receivers.size() == 1 ? "" : "s");
 }
-
-}  // namespace
 
 bool ReplayResult::ok() const {
   return failure.empty() && late == 0 &&

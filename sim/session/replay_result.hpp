@@ -41,6 +41,9 @@ struct ReplayResult {
 /// Gaps from this one on are told to people.
 inline constexpr Time kLongGap = 3600 * kSecond;
 
+/// "yes, at 2 nodes", or "NO: " and why: whether every frame came, bit-exact and in order.
+[[nodiscard]] std::string verdict(const ReplayResult &replay);
+
 /// Lines for people.
 [[nodiscard]] std::string to_text(const std::vector<ReplayResult> &replays);
 /// Everything, times in picoseconds.

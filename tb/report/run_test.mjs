@@ -4,8 +4,8 @@
 // Reports of real runs: what the page shows is what the log of the same run says, and the pages of
 // the paper's experiments show what its figures show.
 import assert from 'node:assert/strict';
-import {execFileSync} from 'node:child_process';
-import {readFileSync, mkdirSync} from 'node:fs';
+import {execFileSync, spawnSync} from 'node:child_process';
+import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import {
@@ -147,6 +147,35 @@ test('faults: why a frame was retried can be seen', async () => {
   const all = await page.evaluate(() => [...window.verican.report.events.kind]);
   assert.equal(all.filter((kind) => kind === 0).length, result.error_frames);
   assert.ok(kinds.includes('error frame'));
+  await closeReport(page);
+});
+
+/** Replays a log of these lines into a page: {page, code}. */
+async function replayed(name, lines) {
+  const log = join(outDir, `${name}.log`);
+  const file = join(outDir, `${name}.html`);
+  writeFileSync(log, `${lines.join('\n')}\n`);
+  const {status} = spawnSync(process.env.VERICAN_BINARY, ['replay', log, '--report', file]);
+  return {page: await openReport(file), status};
+}
+
+test('a replay says which recording it was, and that every frame came', async () => {
+  const {page, status} = await replayed('boat', ['(1.0) can0 123#CAFE', '(1.1) can0 124#01']);
+  assert.equal(status, 0);
+  assert.equal(await page.textContent('h1'), 'Replay of boat.log');
+  assert.match(await page.textContent('.verdict'), /^✓ all \d+ checks$/);
+  await page.click('#tab-checks');
+  const checks = await page.textContent('#panel-checks');
+  assert.match(checks, /replay of boat\.log2 frames, bit-exact and in order2 sent; yes/);
+  await closeReport(page);
+});
+
+test('a replay of nothing says so, and why', async () => {
+  const {page, status} = await replayed('fd-only', ['(1.0) can0 123##1112233']);
+  assert.equal(status, 1);
+  assert.match(await page.textContent('.verdict'), /^✗ \d+ of \d+ checks failed$/);
+  await page.click('#tab-checks');
+  assert.match(await page.textContent('#panel-checks'), /✗ failed.*replay of fd-only\.log.*NO: /);
   await closeReport(page);
 });
 
