@@ -37,16 +37,24 @@ void add_linux(CLI::App &app, int &exit_code);
 void add_firmware(CLI::App &app, int &exit_code);
 void add_report(CLI::App &app, int &exit_code);
 void add_bridge(CLI::App &app, int &exit_code);
+void add_signals(CLI::App &app, int &exit_code);
 
 /// The files of an Outputs.
-inline constexpr std::string Outputs::*kOutputPaths[] = {
-    &Outputs::vcd, &Outputs::fst, &Outputs::candump, &Outputs::pcap, &Outputs::report};
+inline constexpr std::string Outputs::*kOutputPaths[] = {&Outputs::vcd,     &Outputs::fst,
+                                                         &Outputs::candump, &Outputs::pcap,
+                                                         &Outputs::report,  &Outputs::signals_csv};
 
 /// Adds an option for each of them; `report_names` are those of the page.
 void add_output_options(CLI::App &command, Outputs &outputs,
                         const std::string &report_names = "--report,--report-page");
-/// What is given on the command line takes the place of what a scenario says.
+/// What is given on the command line takes the place of what a scenario says; databases are added
+/// and read. Throws InputError.
 void override_outputs(Outputs &target, const Outputs &given);
+/// Adds --dbc.
+void add_database_option(CLI::App &command, std::vector<std::string> &files);
+/// Reads the databases that the command line names. Throws InputError, also if there is none and
+/// something needs one.
+void load_databases(Outputs &outputs, const std::vector<std::string> &files);
 /// Names for one of several runs: "bus.vcd" becomes "bus-500k.vcd".
 [[nodiscard]] Outputs outputs_for(const Outputs &outputs, double bitrate);
 

@@ -8,6 +8,7 @@
 
 #include "cli/cli.hpp"
 #include "cli/output_files.hpp"
+#include "signals/signal_output.hpp"
 #include "trace/candump.hpp"
 #include "trace/output_file.hpp"
 #include "trace/pcap_file.hpp"
@@ -23,6 +24,8 @@ struct Options {
   double sample_point = 80;  // per cent
   std::string candump;
   std::string pcap;
+  std::vector<std::string> databases;
+  std::shared_ptr<const Database> database;
   bool json = false;
 };
 
@@ -48,12 +51,14 @@ const char *name_of(BusProblem problem) {
 
 bool is_frame(const BusEvent &event) { return event.kind == BusEventKind::kFrame; }
 
-Json event_json(const BusEvent &event) {
+Json event_json(const BusEvent &event, const Database *database) {
   Json json{{"kind", name_of(event.kind)}, {"start_ps", event.start}, {"end_ps", event.end}};
   if (is_frame(event) || event.kind == BusEventKind::kBadFrame) {
     json["frame"] = to_json(event.frame);
     json["acked"] = event.acked;
     json["stuffed_length"] = event.stuffed_length;
+    if (database != nullptr)
+      vericansim::add_signals(json, vericansim::decode(*database, event.frame));
   }
   if (!is_frame(event)) {
     json["problem"] = name_of(event.problem);
@@ -62,6 +67,12 @@ Json event_json(const BusEvent &event) {
     json["flag_bits"] = event.flag_bits;
   }
   return json;
+}
+
+std::string line_of(const BusEvent &event, const Database *database) {
+  if (database == nullptr || !is_frame(event)) return to_string(event);
+  return to_string(event) +
+         " :: " + to_text(vericansim::decode(*database, event.frame), event.frame);
 }
 
 void write_logs(const Options &options, const WaveDecodeResult &result) {
@@ -90,6 +101,7 @@ int decode(Options &options) {
   if (!options.pcap.empty()) outputs.push_back({"--pcap", options.pcap});
   claim_files({{"the waveform", options.wave}}, outputs);
   options.decode.sample_point = static_cast<int>(options.sample_point * 10);
+  options.database = with_files(nullptr, options.databases);
   const WaveDecodeResult result = decode_wave(options.wave, options.decode);
   write_logs(options, result);
   std::size_t frames = 0, errors = 0, overloads = 0;
@@ -100,9 +112,9 @@ int decode(Options &options) {
         event.kind == BusEventKind::kErrorFrame || event.kind == BusEventKind::kBadFrame ? 1 : 0;
     overloads += event.kind == BusEventKind::kOverloadFrame ? 1 : 0;
     if (options.json)
-      list.push_back(event_json(event));
+      list.push_back(event_json(event, options.database.get()));
     else
-      fmt::print("{}\n", to_string(event));
+      fmt::print("{}\n", line_of(event, options.database.get()));
   }
   if (options.json)
     print_json({{"signal", result.signal},
@@ -135,6 +147,7 @@ void add_decode(CLI::App &app, int &exit_code) {
       ->check(CLI::Range(1.0, 99.0));
   command->add_option("--candump", options->candump, "Write the frames as a candump log");
   command->add_option("--pcap", options->pcap, "Write the frames as a capture for Wireshark");
+  add_database_option(*command, options->databases);
   command->add_flag("--json", options->json, "Events as JSON");
   command->callback([options, &exit_code] { exit_code = decode(*options); });
 }

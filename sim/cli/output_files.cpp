@@ -58,11 +58,9 @@ std::vector<NamedFile> files_of(const Outputs &outputs, const std::vector<double
         wanted.push_back(std::move(file));
     return wanted;
   }
-  const NamedFile all[] = {{"--vcd", outputs.vcd},
-                           {"--fst", outputs.fst},
-                           {"--candump", outputs.candump},
-                           {"--pcap", outputs.pcap},
-                           {"--report", outputs.report}};
+  const NamedFile all[] = {{"--vcd", outputs.vcd},         {"--fst", outputs.fst},
+                           {"--candump", outputs.candump}, {"--pcap", outputs.pcap},
+                           {"--report", outputs.report},   {"--signals-csv", outputs.signals_csv}};
   for (const NamedFile &file : all)
     if (!file.path.empty()) wanted.push_back(file);
   return wanted;
@@ -70,6 +68,9 @@ std::vector<NamedFile> files_of(const Outputs &outputs, const std::vector<double
 
 std::vector<NamedFile> inputs_of(const Scenario &scenario) {
   std::vector<NamedFile> inputs{{"the scenario", scenario.file}};
+  if (scenario.outputs.database)
+    for (const DatabaseFile &file : scenario.outputs.database->files())
+      inputs.push_back({"the database", file.path});
   for (const NodeSpec &node : scenario.nodes) {
     if (const auto *firmware = std::get_if<FirmwareRole>(&node.role))
       inputs.push_back({"the firmware of node '" + node.name + "'", firmware->file});

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "cli/cli.hpp"
 #include "trace/input_error.hpp"
@@ -34,11 +35,31 @@ void add_output_options(CLI::App &command, Outputs &outputs, const std::string &
       .add_option("--report-frames", outputs.report_frames,
                   "The page keeps bits and edges of so many frames (200000)")
       ->check(CLI::Range(1U, 10'000'000U));
+  add_database_option(command, outputs.dbc);
+  command.add_flag("--signals", outputs.signals, "A table of the signals (docs/signals.md)");
+  command.add_option("--signals-csv", outputs.signals_csv, "Write the signals of all frames, CSV");
+}
+
+void add_database_option(CLI::App &command, std::vector<std::string> &files) {
+  command
+      .add_option("--dbc", files, "Database of signals, DBC; may be given again (docs/signals.md)")
+      ->allow_extra_args(false);
+}
+
+void load_databases(Outputs &outputs, const std::vector<std::string> &files) {
+  outputs.database = with_files(outputs.database, files);
+  if (outputs.database) return;
+  for (const auto &[wanted, option] :
+       {std::pair{outputs.signals, "--signals"}, {!outputs.signals_csv.empty(), "--signals-csv"}})
+    if (wanted)
+      throw InputError(option, 0, "needs a database; allowed: --dbc FILE, dbc in the scenario");
 }
 
 void override_outputs(Outputs &target, const Outputs &given) {
   for (const auto path : kOutputPaths)
     if (!(given.*path).empty()) target.*path = given.*path;
+  target.signals = given.signals;
+  load_databases(target, given.dbc);
   if (given.report_frames != Outputs{}.report_frames) target.report_frames = given.report_frames;
 }
 

@@ -11,6 +11,7 @@
 #include "cli/output_files.hpp"
 #include "scenario/replay.hpp"
 #include "scenario/stop_request.hpp"
+#include "signals/signal_output.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -74,7 +75,8 @@ void print(const Options &options, const ReplayReport &report) {
              static_cast<double>(report.node_cycles) / 1e6 / std::max(report.wall_seconds, 1e-9));
 }
 
-int run(const Options &options) {
+int run(Options &options) {
+  load_databases(options.replay.outputs, options.replay.outputs.dbc);
   const StopSignals signals;
   claim_files({{"the log", options.log}}, files_of(options.replay.outputs));
   const CanLog log = read_log(options.log);
@@ -89,6 +91,8 @@ int run(const Options &options) {
     print_json(to_json(report));
   else
     print(options, report);
+  if (!options.json && options.replay.outputs.signals)
+    fmt::print("\n{}", to_text(report.run.signals));
   return exit_code_after(report.ok() ? kOk : kFailed);
 }
 

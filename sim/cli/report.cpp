@@ -38,10 +38,12 @@ int report_scenario(const Options &options) {
   Scenario scenario = read_scenario(options.input);
   if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
   claim_files(inputs_of(scenario), files_of(options.outputs, scenario.bitrates));
+  const auto database = with_files(scenario.outputs.database, options.outputs.dbc);
   bool ok = true;
   for (const double bitrate : scenario.bitrates) {
     scenario.outputs =
         scenario.bitrates.size() > 1 ? outputs_for(options.outputs, bitrate) : options.outputs;
+    scenario.outputs.database = database;
     RunReport report;
     {
       Progress progress{fmt::format("{:g} kbit/s", bitrate / 1e3)};
@@ -102,6 +104,7 @@ int report(Options &options) {
   }
   if (has_ending(options.input, {".yaml", ".yml"}))
     return exit_code_after(report_scenario(options));
+  load_databases(options.outputs, options.outputs.dbc);
   if (has_ending(options.input, {".vcd"})) return exit_code_after(report_recorded_wave(options));
   if (has_ending(options.input, {".fst"}))
     throw InputError(options.input, 0,
@@ -141,6 +144,7 @@ void add_report(CLI::App &app, int &exit_code) {
       ->add_option("--report-frames", options->outputs.report_frames,
                    "The page keeps bits and edges of so many frames (200000)")
       ->check(CLI::Range(1U, 10'000'000U));
+  add_database_option(*command, options->outputs.dbc);
   command->callback([options, &exit_code] { exit_code = report(*options); });
 }
 

@@ -45,13 +45,14 @@ STRING = re.compile(r'"(?:\\.|[^"\\])*"')
 
 
 def decoded(data):
-    """The text of a file: UTF-8, or the code page of Western Windows, which CANdb++ writes."""
+    """The text of a file, and whether it is UTF-8; else it is in the code page of Western Windows,
+    which CANdb++ writes."""
     for encoding in ("utf-8-sig", "cp1252"):
         try:
-            return data.decode(encoding)
+            return data.decode(encoding), encoding != "cp1252"
         except UnicodeDecodeError:
             pass
-    return data.decode("iso-8859-1")
+    return data.decode("iso-8859-1"), False
 
 
 def keyword_of(line):

@@ -109,7 +109,8 @@ def message_json(frame, database):
 
 def to_json(data):
     places = Places()
-    given = [s for s in relevant(statements(decoded(data))) if places.keep(*s)]
+    text, is_utf8 = decoded(data)
+    given = [s for s in relevant(statements(text)) if places.keep(*s)]
     places.finish()
     if not places.messages:
         raise DbcError(0, "no message in it; allowed: a DBC file with BO_ and SG_")
@@ -119,7 +120,7 @@ def to_json(data):
         message = message_json(frame, database)
         check_message(message, places)
         messages.append(message)
-    return {"messages": messages}
+    return {"messages": messages} if is_utf8 else {"messages": messages, "text": text}
 
 
 def work(_):

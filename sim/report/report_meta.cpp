@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "version/version.hpp"
 
@@ -136,6 +137,16 @@ Json truncated_json(const ReportRecorder &recorder) {
       recorder.limit());
 }
 
+/// For the page, which reads them as if they were dropped onto it.
+Json databases_json(const ReportExtras &extras) {
+  Json list = Json::array();
+  if (extras.database == nullptr) return list;
+  for (const DatabaseFile &file : extras.database->files())
+    list.push_back(
+        {{"name", std::filesystem::path(file.path).filename().string()}, {"text", file.text}});
+  return list;
+}
+
 }  // namespace
 
 Json report_meta(const ReportRecorder &recorder, const ReportExtras &extras) {
@@ -158,6 +169,7 @@ Json report_meta(const ReportRecorder &recorder, const ReportExtras &extras) {
           {"summary", summary_json(recorder, extras)},
           {"checks", checks_json(extras)},
           {"causes", causes},
+          {"databases", databases_json(extras)},
           {"statements", statements_json(recorder, extras)},
           {"view", view_json(recorder, extras)},
           {"truncated", truncated_json(recorder)},

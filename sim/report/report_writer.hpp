@@ -35,6 +35,7 @@ struct ReportExtras {
   std::vector<ReportMessage> messages;  ///< one for each message of `run`
   std::vector<ReportStatement> statements;
   std::optional<std::pair<Time, Time>> view;  ///< of the bus, ps: what the page shows first
+  const Database *database = nullptr;         ///< of signals
 };
 
 /// Opens the file at once, so that a path that cannot be written is refused before a simulation

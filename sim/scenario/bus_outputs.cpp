@@ -9,7 +9,7 @@
 namespace vericansim {
 
 BusOutputs::BusOutputs(const Outputs &outputs, Bus &bus, Time bit_time)
-    : report_frames_{outputs.report_frames} {
+    : database_{outputs.database}, report_frames_{outputs.report_frames} {
   const auto add_wave = [&](std::unique_ptr<WaveSink> sink) {
     waves_.push_back(std::make_unique<BusWave>(bus, std::move(sink), bit_time));
     bus.add(*waves_.back());
@@ -21,6 +21,7 @@ BusOutputs::BusOutputs(const Outputs &outputs, Bus &bus, Time bit_time)
     candump_ = std::make_unique<CandumpWriter>(candump_file_->stream());
   }
   if (!outputs.pcap.empty()) pcap_ = std::make_unique<PcapWriter>(outputs.pcap);
+  if (database_) signals_ = std::make_unique<SignalRecorder>(database_, outputs.signals_csv);
   if (!outputs.report.empty()) page_ = std::make_unique<ReportWriter>(outputs.report);
 }
 
@@ -42,6 +43,7 @@ void BusOutputs::write(const BusFrame &frame, const FrameOrigin &origin) {
   const LogEntry entry{frame.start, "can0", frame.frame};
   if (candump_) candump_->write(entry);
   if (pcap_) pcap_->write(entry);
+  if (signals_) signals_->add(entry);
   if (recorder_) recorder_->add(frame, origin);
 }
 
@@ -49,10 +51,12 @@ void BusOutputs::finish(Time time) {
   for (const auto &wave : waves_) wave->finish(time);
   if (candump_file_) candump_file_->commit();
   if (pcap_) pcap_->commit();
+  if (signals_) signals_->finish();
   if (recorder_) recorder_->finish();
 }
 
-void BusOutputs::write_report(const ReportExtras &extras) {
+void BusOutputs::write_report(ReportExtras extras) {
+  extras.database = database_.get();
   if (recorder_) page_->write(*recorder_, extras);
 }
 

@@ -12,6 +12,7 @@
 #include "report/report_writer.hpp"
 #include "scenario/bus_monitor.hpp"
 #include "scenario/scenario.hpp"
+#include "signals/signal_output.hpp"
 #include "trace/bus_wave.hpp"
 #include "trace/candump.hpp"
 #include "trace/pcap_file.hpp"
@@ -38,13 +39,17 @@ class BusOutputs {
   /// their places, where they are not before. Throws OutputError.
   void finish(Time time);
   /// Writes the page, if there is one to write. Throws OutputError.
-  void write_report(const ReportExtras &extras = {});
+  void write_report(ReportExtras extras = {});
+  /// What the signals of the databases did; nullptr without databases.
+  [[nodiscard]] const SignalRecorder *signals() const { return signals_.get(); }
 
  private:
   std::unique_ptr<OutputFile> candump_file_;
   std::unique_ptr<CandumpWriter> candump_;
   std::unique_ptr<PcapWriter> pcap_;
   std::vector<std::unique_ptr<BusWave>> waves_;
+  std::unique_ptr<SignalRecorder> signals_;
+  std::shared_ptr<const Database> database_;
   std::unique_ptr<ReportWriter> page_;
   std::unique_ptr<ReportRecorder> recorder_;
   std::uint64_t report_frames_;

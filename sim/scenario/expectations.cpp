@@ -13,6 +13,8 @@
 
 #include "trace/input_error.hpp"
 
+#include "scenario/signal_expectations.hpp"
+
 namespace vericansim {
 namespace {
 
@@ -21,10 +23,6 @@ std::string to_text(const Range &range) {
   if (std::isinf(range.least)) return fmt::format("at most {:g}", range.most);
   if (std::isinf(range.most)) return fmt::format("at least {:g}", range.least);
   return fmt::format("{:g} to {:g}", range.least, range.most);
-}
-
-CheckResult check_number(const std::string &what, double seen, const Range &range) {
-  return {what, to_text(range), fmt::format("{:.10g}", seen), range.contains(seen)};
 }
 
 double bus_number(const RunReport &report, const std::string &key) {
@@ -116,6 +114,10 @@ CheckResult check_response(const RunReport &report, const std::string &name, Tim
 
 }  // namespace
 
+CheckResult check_number(const std::string &what, double seen, const Range &range) {
+  return {what, to_text(range), fmt::format("{:.10g}", seen), range.contains(seen)};
+}
+
 std::vector<CheckResult> check_expectations(const Scenario &scenario, const RunReport &report,
                                             const std::vector<BusFrame> &frames,
                                             const std::vector<std::vector<Frame>> &received) {
@@ -144,6 +146,8 @@ std::vector<CheckResult> check_expectations(const Scenario &scenario, const RunR
       if (message.sent != 0) results.push_back(check_bound(message));
   for (const auto &[name, limit] : expect.response_times)
     results.push_back(check_response(report, name, limit));
+  const auto signals = check_signals(expect.signals, report.signals);
+  results.insert(results.end(), signals.begin(), signals.end());
   return results;
 }
 

@@ -18,4 +18,7 @@ namespace vericansim {
     const Scenario &scenario, const RunReport &report, const std::vector<BusFrame> &frames,
     const std::vector<std::vector<Frame>> &received);
 
+/// Whether the number `seen` is in `range`.
+[[nodiscard]] CheckResult check_number(const std::string &what, double seen, const Range &range);
+
 }  // namespace vericansim

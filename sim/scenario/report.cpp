@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "signals/signal_output.hpp"
+
 namespace vericansim {
 namespace {
 
@@ -134,6 +136,7 @@ std::string to_text(const RunReport &report) {
   text += "\n\n";
   if (!report.messages.empty()) text += messages_text(report) + "\n";
   text += nodes_text(report) + "\n";
+  if (report.show_signals) text += to_text(report.signals) + "\n";
   if (report.interrupted) text += "  interrupted; expectations were not checked\n";
   text += parts_text(report);
   for (const CheckResult &check : report.checks)
@@ -173,6 +176,7 @@ Json to_json(const RunReport &report) {
   for (const PortReport &p : report.ports) json["ports"].push_back(to_json(p));
   for (const SocketcandCounts &c : report.servers) json["socketcand"].push_back(to_json(c));
   if (report.pace) json["pace"] = to_json(*report.pace);
+  if (report.signals.database) json["signals"] = to_json(report.signals);
   return json;
 }
 

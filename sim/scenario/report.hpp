@@ -17,6 +17,7 @@
 #include "scenario/bus_monitor.hpp"
 #include "session/port_report.hpp"
 #include "session/replay_result.hpp"
+#include "signals/signal_statistics.hpp"
 
 namespace vericansim {
 
@@ -74,7 +75,9 @@ struct RunReport {
   std::vector<SocketcandCounts> servers;  ///< one for each address
   std::optional<PaceReport> pace;         ///< held to real time, or with programs of the host
   std::vector<CheckResult> checks;
-  bool interrupted = false;  ///< the user has ended it before its time; nothing was checked then
+  bool interrupted = false;   ///< the user has ended it before its time; nothing was checked then
+  bool show_signals = false;  ///< in the text
+  SignalReport signals;       ///< with databases
   std::optional<JudgeCounts> judged;  ///< with `judge: lockstep`
   /// Not interrupted, and all checks are well.
   [[nodiscard]] bool ok() const;

@@ -181,6 +181,10 @@ void parse_outputs(const YamlValue &value, Outputs &outputs) {
   file("candump", outputs.candump);
   file("pcap", outputs.pcap);
   file("report", outputs.report);
+  map.with("signals_csv", [&](const YamlValue &v) {
+    if (!outputs.database) v.fail("needs a database; allowed: 'dbc' in the scenario");
+    outputs.signals_csv = v.text();
+  });
   map.finish();
 }
 
@@ -243,6 +247,7 @@ Scenario parse_scenario(const std::string &path, const std::string &text) {
   scenario.file = path;
   scenario.name = path;
   parse_general(map, scenario);
+  detail::parse_databases(map, scenario);
   parse_nodes(map.need("nodes"), scenario);
   parse_end(map, scenario);
   map.with("traffic", [&](const YamlValue &list) {

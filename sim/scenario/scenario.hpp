@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "model/frame.hpp"
 #include "node/host.hpp"
 #include "scenario/node_role.hpp"
+#include "signals/database.hpp"
 
 namespace vericansim {
 
@@ -123,6 +125,15 @@ struct NodeExpectation {
   std::vector<std::string> matches;      ///< firmware: each, a regular expression, is found there
 };
 
+/// What must be true of one signal on the bus.
+struct SignalExpectation {
+  std::string name;  ///< message.signal
+  const Signal *signal = nullptr;
+  Range all;                   ///< every value
+  std::optional<Range> count;  ///< frames that hold it
+  std::optional<Range> first, last, mean;
+};
+
 /// What must be true at the end.
 struct Expectations {
   std::map<std::string, Range>
@@ -131,13 +142,18 @@ struct Expectations {
   bool within_bound = false;                   ///< no response time above the analytic bound
   std::map<std::string, Time> response_times;  ///< message name: largest allowed
   std::vector<NodeExpectation> nodes;
+  std::vector<SignalExpectation> signals;  ///< of the database in `outputs`
 };
 
 /// Files to write; empty: none.
 struct Outputs {
   std::string vcd, fst, candump, pcap;
-  std::string report;                     ///< HTML page
-  std::uint64_t report_frames = 200'000;  ///< the report keeps the bits of so many frames
+  std::string report;                        ///< HTML page
+  std::uint64_t report_frames = 200'000;     ///< the report keeps the bits of so many frames
+  std::shared_ptr<const Database> database;  ///< of the signals in `signals_csv`, `report` and JSON
+  std::string signals_csv;
+  std::vector<std::string> dbc;  ///< files that a command line adds to `database`
+  bool signals = false;          ///< a command line wants them as a table
 };
 
 /// How simulated time goes on.

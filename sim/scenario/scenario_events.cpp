@@ -8,6 +8,7 @@
 #include <cctype>
 
 #include "scenario/scenario_parts.hpp"
+#include "signals/signal_codec.hpp"
 #include "trace/input_error.hpp"
 #include "trace/text.hpp"
 
@@ -34,25 +35,38 @@ void parse_data_bytes(const YamlValue &value, Frame &frame) {
   frame.dlc = static_cast<std::uint8_t>(count);
 }
 
-void parse_payload(YamlMap &map, TrafficSpec &traffic) {
+void parse_payload(YamlMap &map, TrafficSpec &traffic, const SignalMessage *message) {
   Frame &frame = traffic.frame;
   const auto dlc = map.find("dlc");
   const auto data = map.find("data");
+  if (message != nullptr && !data && !frame.remote) frame.data = encode(*message, {});
   if (data) {
-    if (data->is_scalar() && data->text() == "counter")
+    if (data->is_map() && message == nullptr) data->fail("signals need a 'message' of a database");
+    if (data->is_map())
+      parse_signals(*data, *message, frame);
+    else if (data->is_scalar() && data->text() == "counter")
       traffic.data = DataKind::kCounter;
     else if (data->is_scalar() && data->text() == "random")
       traffic.data = DataKind::kRandom;
     else
       parse_data_bytes(*data, frame);
     if (frame.remote) data->fail("a remote frame has no data");
-    if (traffic.data != DataKind::kFixed) frame.dlc = 8;
+    if (traffic.data != DataKind::kFixed && message == nullptr) frame.dlc = 8;
   }
   if (!dlc) return;
   const auto code = static_cast<std::uint8_t>(dlc->integer(0, 15));
   if (data && traffic.data == DataKind::kFixed && std::min<unsigned>(code, 8) != frame.dlc)
     dlc->fail(fmt::format("{} does not fit the {} bytes of data", code, frame.dlc));
   frame.dlc = code;
+  for (unsigned i = frame.payload_size(); i < frame.data.size(); ++i) frame.data[i] = 0;
+}
+
+void parse_identifier(YamlMap &map, TrafficSpec &traffic) {
+  Frame &frame = traffic.frame;
+  map.with("extended", [&](const YamlValue &v) { frame.extended = v.boolean(); });
+  frame.id =
+      static_cast<std::uint32_t>(map.need("id").integer(0, frame.extended ? 0x1FFFFFFF : 0x7FF));
+  traffic.name = frame.extended ? fmt::format("{:08X}", frame.id) : fmt::format("{:03X}", frame.id);
 }
 
 void parse_times(YamlMap &map, TrafficSpec &traffic) {
@@ -147,17 +161,14 @@ TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario) {
         fmt::format("a node with '{}' sends of its own; allowed: the other nodes", name_of(role)));
   if (!scenario.nodes[traffic.node].software)
     node.fail("a node with 'software: none' sends by 'accesses' alone");
-  Frame &frame = traffic.frame;
-  map.with("extended", [&](const YamlValue &v) { frame.extended = v.boolean(); });
-  map.with("remote", [&](const YamlValue &v) { frame.remote = v.boolean(); });
-  frame.id =
-      static_cast<std::uint32_t>(map.need("id").integer(0, frame.extended ? 0x1FFFFFFF : 0x7FF));
-  traffic.name = frame.extended ? fmt::format("{:08X}", frame.id) : fmt::format("{:03X}", frame.id);
+  map.with("remote", [&](const YamlValue &v) { traffic.frame.remote = v.boolean(); });
+  const SignalMessage *message = parse_message(map, scenario, traffic);
+  if (message == nullptr) parse_identifier(map, traffic);
   map.with("name", [&](const YamlValue &v) { traffic.name = v.text(); });
   for (const TrafficSpec &other : scenario.traffic)
     if (other.name == traffic.name)
       value.fail("message name " + quoted(traffic.name) + " is used twice; give one with 'name'");
-  parse_payload(map, traffic);
+  parse_payload(map, traffic, message);
   parse_times(map, traffic);
   map.finish();
   return traffic;

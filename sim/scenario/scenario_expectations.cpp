@@ -12,20 +12,6 @@
 namespace vericansim::detail {
 namespace {
 
-Range parse_range(const YamlValue &value) {
-  if (!value.is_map()) {
-    const double exact = value.number(-1e15, 1e15);
-    return {exact, exact};
-  }
-  Range range;
-  YamlMap map{value};
-  map.with("min", [&](const YamlValue &v) { range.least = v.number(-1e15, 1e15); });
-  map.with("max", [&](const YamlValue &v) { range.most = v.number(-1e15, 1e15); });
-  map.finish();
-  if (range.least > range.most) value.fail("min is above max");
-  return range;
-}
-
 /// Keys of a node that are numbers, and what is not known of nodes with somebody else's software.
 constexpr const char *kNumbers[] = {"sent", "received", "overruns", "tec",
                                     "rec",  "max_tec",  "max_rec",  "errors",
@@ -104,6 +90,20 @@ void parse_expected_responses(const YamlValue &value, const Scenario &scenario,
 
 }  // namespace
 
+Range parse_range(const YamlValue &value) {
+  if (!value.is_map()) {
+    const double exact = value.number(-1e15, 1e15);
+    return {exact, exact};
+  }
+  Range range;
+  YamlMap map{value};
+  map.with("min", [&](const YamlValue &v) { range.least = v.number(-1e15, 1e15); });
+  map.with("max", [&](const YamlValue &v) { range.most = v.number(-1e15, 1e15); });
+  map.finish();
+  if (range.least > range.most) value.fail("min is above max");
+  return range;
+}
+
 Expectations parse_expectations(const YamlValue &value, const Scenario &scenario) {
   YamlMap map{value};
   Expectations expect;
@@ -114,6 +114,7 @@ Expectations parse_expectations(const YamlValue &value, const Scenario &scenario
   map.with("nodes", [&](const YamlValue &v) { parse_expected_nodes(v, scenario, expect); });
   map.with("response_times",
            [&](const YamlValue &v) { parse_expected_responses(v, scenario, expect); });
+  map.with("signals", [&](const YamlValue &v) { parse_expected_signals(v, scenario, expect); });
   map.finish();
   return expect;
 }

@@ -24,6 +24,17 @@ void parse_bit(YamlMap &map, NodeSpec &node, const std::vector<double> &bitrates
 [[nodiscard]] AccessSpec parse_access(const YamlValue &value, const Scenario &scenario);
 [[nodiscard]] Expectations parse_expectations(const YamlValue &value, const Scenario &scenario);
 
+/// A number, or {min, max}.
+[[nodiscard]] Range parse_range(const YamlValue &value);
+
+/// Reads the databases of `dbc`.
+void parse_databases(YamlMap &map, Scenario &scenario);
+/// `message`: sets name, identifier and length as the database has them; nullptr without.
+const SignalMessage *parse_message(YamlMap &map, const Scenario &scenario, TrafficSpec &traffic);
+/// `data` as values of signals.
+void parse_signals(const YamlValue &value, const SignalMessage &message, Frame &frame);
+void parse_expected_signals(const YamlValue &value, const Scenario &scenario, Expectations &expect);
+
 inline constexpr Time kLongestTime = 1'000'000 * kSecond;
 
 }  // namespace vericansim::detail

@@ -239,6 +239,8 @@ RunReport Simulation::collect(bool interrupted) {
 }
 
 void Simulation::check_all(RunReport &report) {
+  if (outputs_->signals() != nullptr) report.signals = outputs_->signals()->report();
+  report.show_signals = scenario_.outputs.signals;
   std::vector<std::vector<Frame>> received;
   for (NodeId id = 0; id < stations_.size(); ++id) received.push_back(stations_[id].received);
   if (!stations_.stores_remote())

@@ -38,8 +38,9 @@ void Database::add_file(const std::string &path) { add_text(path, read_text_file
 
 void Database::add_text(const std::string &path, const std::string &text) {
   const std::string json = run_python({"dbc_to_json.py", {}, text, path});
-  for (SignalMessage &message : messages_of_json(path, json)) add(std::move(message));
-  files_.push_back({path, text});
+  DatabaseContent content = parse_database_json(path, json);
+  for (SignalMessage &message : content.messages) add(std::move(message));
+  files_.push_back({path, content.text.empty() ? text : std::move(content.text)});
 }
 
 void Database::add(SignalMessage message) {
@@ -51,7 +52,7 @@ void Database::add(SignalMessage message) {
                                  "message for an identifier",
                                  message.name, message.id, message.extended ? 8 : 3,
                                  place->second->name, place->second->file));
-  messages_.push_back(std::make_unique<const SignalMessage>(std::move(message)));
+  messages_.push_back(std::make_shared<const SignalMessage>(std::move(message)));
   const SignalMessage *added = messages_.back().get();
   place->second = added;
   if (added->j1939) by_group_[parameter_group(added->id)].push_back(added);
@@ -77,11 +78,12 @@ std::vector<const SignalMessage *> Database::named(std::string_view name) const 
   return found;
 }
 
-std::shared_ptr<const Database> read_databases(const std::vector<std::string> &paths) {
-  if (paths.empty()) return nullptr;
-  auto database = std::make_shared<Database>();
-  for (const std::string &path : paths) database->add_file(path);
-  return database;
+std::shared_ptr<const Database> with_files(std::shared_ptr<const Database> database,
+                                           const std::vector<std::string> &paths) {
+  if (paths.empty()) return database;
+  auto larger = database ? std::make_shared<Database>(*database) : std::make_shared<Database>();
+  for (const std::string &path : paths) larger->add_file(path);
+  return larger;
 }
 
 }  // namespace vericansim

@@ -58,17 +58,17 @@ struct SignalMessage {
   [[nodiscard]] const Signal *find(std::string_view signal) const;
 };
 
-/// A database as it was read.
+/// A file that was read.
 struct DatabaseFile {
   std::string path;
-  std::string text;
+  std::string text;  ///< UTF-8
 };
 
 /// The parameter group of an extended identifier of J1939: without priority and source address and,
 /// where bits 16 to 23 are below 240, without the destination address.
 [[nodiscard]] std::uint32_t parameter_group(std::uint32_t id);
 
-/// All messages of one or more files. Messages keep their place in memory.
+/// All messages of one or more files. A copy has the same messages in memory.
 class Database {
  public:
   /// Reads a DBC file and adds its messages. Throws InputError: the file cannot be read or used, or
@@ -83,7 +83,7 @@ class Database {
   /// The messages of that name; databases of several files may have more than one.
   [[nodiscard]] std::vector<const SignalMessage *> named(std::string_view name) const;
 
-  [[nodiscard]] const std::vector<std::unique_ptr<const SignalMessage>> &messages() const {
+  [[nodiscard]] const std::vector<std::shared_ptr<const SignalMessage>> &messages() const {
     return messages_;
   }
   [[nodiscard]] const std::vector<DatabaseFile> &files() const { return files_; }
@@ -92,12 +92,14 @@ class Database {
   void add(SignalMessage message);
 
   std::vector<DatabaseFile> files_;
-  std::vector<std::unique_ptr<const SignalMessage>> messages_;
+  std::vector<std::shared_ptr<const SignalMessage>> messages_;
   std::unordered_map<std::uint32_t, const SignalMessage *> by_id_;  // bit 31: extended
   std::unordered_map<std::uint32_t, std::vector<const SignalMessage *>> by_group_;
 };
 
-/// The database of these files, nullptr for none. Throws as Database::add_file().
-[[nodiscard]] std::shared_ptr<const Database> read_databases(const std::vector<std::string> &paths);
+/// `database` (nullptr: an empty one) and these files; `database` itself if there is no file.
+/// Throws as Database::add_file().
+[[nodiscard]] std::shared_ptr<const Database> with_files(std::shared_ptr<const Database> database,
+                                                         const std::vector<std::string> &paths);
 
 }  // namespace vericansim

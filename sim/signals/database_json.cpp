@@ -80,14 +80,16 @@ SignalMessage message_of(const std::string &path, const Json &json) {
 
 }  // namespace
 
-std::vector<SignalMessage> messages_of_json(const std::string &path, const std::string &json) {
+DatabaseContent parse_database_json(const std::string &path, const std::string &json) {
   const Json database = Json::parse(json);
   if (const auto error = database.find("error"); error != database.end())
     throw InputError(path, error->at("line").get<std::size_t>(),
                      error->at("message").get<std::string>());
-  std::vector<SignalMessage> messages;
-  for (const Json &message : database.at("messages")) messages.push_back(message_of(path, message));
-  return messages;
+  DatabaseContent content;
+  content.text = database.value("text", "");
+  for (const Json &message : database.at("messages"))
+    content.messages.push_back(message_of(path, message));
+  return content;
 }
 
 }  // namespace vericansim

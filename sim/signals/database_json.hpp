@@ -11,9 +11,13 @@
 
 namespace vericansim {
 
-/// The messages of the file `path`. Throws InputError with the script's line and message if that is
+struct DatabaseContent {
+  std::vector<SignalMessage> messages;
+  std::string text;  ///< the file in UTF-8, if it was in another encoding
+};
+
+/// The content of the file `path`. Throws InputError with the script's line and message if that is
 /// what the JSON holds.
-[[nodiscard]] std::vector<SignalMessage> messages_of_json(const std::string &path,
-                                                          const std::string &json);
+[[nodiscard]] DatabaseContent parse_database_json(const std::string &path, const std::string &json);
 
 }  // namespace vericansim

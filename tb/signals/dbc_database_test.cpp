@@ -67,7 +67,7 @@ TEST(DbcDatabase, J1939MessagesStandForTheirParameterGroup) {
 }
 
 TEST(DbcDatabase, TheExactIdentifierGoesBeforeTheGroup) {
-  EXPECT_EQ(features().find(0x0CF00400, true)->name, "FlagForgotten");
+  EXPECT_EQ(features().find(0x0CF00400, true)->name, "EEC1FromEngine");
 }
 
 TEST(DbcDatabase, MessagesThatAreNotJ1939NeedTheirIdentifier) {
@@ -173,13 +173,15 @@ TEST(DbcDatabase, OneIdentifierHasOneMessage) {
 TEST(DbcDatabase, HarmlessMistakesAreUnderstood) {
   Database database;
   database.add_text("odd.dbc",
-                    "BO_ 1 A: 8 X\n SG_ S : 0|8@1+\n (1,0) [0|0] \"\" X\n"
+                    "BO_ 1 A: 8 X\n SG_ S : 0|8@1+\n (1,0) [0|0] \"\"\n"
                     "VAL_ 1 S 0 \"Off\" 1\n\"On\"\n"
                     "VAL_ 1 Gone 0 \"Off\" ;\nVAL_ 99 Gone 0 \"Off\" ;\n"
-                    "BA_ \"GenSigStartValue\" SG_ 99 Gone 5;\n// end\n");
+                    "BA_ \"GenSigStartValue\" SG_ 99 Gone 5;\n"
+                    "BO_ 217056256 FlagForgotten: 2 X\n// end\n");
   const Signal &read = database.messages()[0]->signals.at(0);
   ASSERT_EQ(read.choices.size(), 2U);
   EXPECT_EQ(read.choices[1].second, "On");
+  EXPECT_EQ(database.find(0x0CF00400, true)->name, "FlagForgotten") << "above 7FF: extended";
 }
 
 }  // namespace

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// verican signals: recorded frames as the messages and signals of databases.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/cli.hpp"
+#include "cli/output_files.hpp"
+#include "signals/signal_output.hpp"
+#include "trace/candump.hpp"
+#include "trace/input_error.hpp"
+#include "trace/log.hpp"
+
+namespace vericansim::cli {
+namespace {
+
+struct Options {
+  std::string log;
+  std::vector<std::string> databases;
+  std::string csv;
+  bool table = false;
+  bool json = false;
+};
+
+std::string line_of(const LogEntry &entry, std::int64_t start_ns, const DecodedFrame &decoded) {
+  const std::int64_t us = start_ns / 1000 + entry.time / kMicrosecond;
+  return fmt::format("({:010d}.{:06d}) {} {} :: {}", us / 1'000'000, us % 1'000'000,
+                     entry.channel.empty() ? "can0" : entry.channel, candump_frame(entry.frame),
+                     to_text(decoded, entry.frame));
+}
+
+Json json_of(const LogEntry &entry, const DecodedFrame &decoded) {
+  Json json{{"time_ps", entry.time}, {"channel", entry.channel}, {"frame", to_json(entry.frame)}};
+  vericansim::add_signals(json, decoded);
+  return json;
+}
+
+int signals(const Options &options) {
+  std::vector<NamedFile> inputs{{"the log", options.log}}, outputs;
+  for (const std::string &path : options.databases) inputs.push_back({"the database", path});
+  if (!options.csv.empty()) outputs.push_back({"--csv", options.csv});
+  claim_files(inputs, outputs);
+  const auto database = with_files(nullptr, options.databases);
+  const CanLog log = read_log(options.log);
+  const bool lines = !options.json && !options.table && options.csv.empty();
+  std::unique_ptr<SignalCsv> csv;
+  if (!options.csv.empty()) csv = std::make_unique<SignalCsv>(options.csv, log.start_ns);
+  SignalStatistics statistics{database};
+  Json list = Json::array();
+  for (const LogEntry &entry : log.entries) {
+    const DecodedFrame decoded = decode(*database, entry.frame);
+    statistics.add(decoded.message, decoded.values);
+    if (csv) csv->write(entry, decoded);
+    if (lines) fmt::print("{}\n", line_of(entry, log.start_ns, decoded));
+    if (options.json) list.push_back(json_of(entry, decoded));
+  }
+  if (csv) csv->finish();
+  const SignalReport report = statistics.report();
+  if (options.json) {
+    Json json = to_json(report);
+    json["entries"] = list;
+    print_json(json);
+  }
+  if (options.table) fmt::print("{}", to_text(report));
+  if (report.known != 0) return kOk;
+  fmt::print(stderr, "verican: {}: none of its {} frames is in the database\n", options.log,
+             log.entries.size());
+  return kFailed;
+}
+
+}  // namespace
+
+void add_signals(CLI::App &app, int &exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand(
+      "signals", "Recorded frames as messages and signals of databases (docs/signals.md)");
+  command->add_option("log", options->log, "Log of frames, as for replay")->required();
+  add_database_option(*command, options->databases);
+  command->get_option("--dbc")->required();
+  command->add_option("--csv", options->csv, "Write the signals of all frames, CSV");
+  command->add_flag("--table", options->table, "Last, smallest, largest and mean value of each");
+  command->add_flag("--json", options->json, "Frames and table as JSON");
+  command->callback([options, &exit_code] { exit_code = signals(*options); });
+}
+
+}  // namespace vericansim::cli

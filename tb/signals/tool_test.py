@@ -1,0 +1,159 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# tool_test VERICAN: signals in the tool as a user meets them: scenario, log, waveform, page.
+"""Expected bytes are worked out by hand from examples/engine.dbc."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOL = sys.argv.pop(1)
+SCENARIO = "examples/signals.yaml"
+DBC = "examples/engine.dbc"
+# 9600 = 0x2580, Mode 2 from bit 28 on, start value 60 = 0x3C.
+ENGINE_DATA = "100#802500203C000000"
+DASHBOARD = "200#017D0000"  # page 1, 125 = 0x7D
+EEC1 = "0CF00400#000000004B000000"  # 19200 = 0x4B00
+
+
+class Signals(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = pathlib.Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def tool(self, *arguments):
+        return subprocess.run([TOOL, *map(str, arguments)], capture_output=True, text=True)
+
+    def passes(self, *arguments, code=0):
+        result = self.tool(*arguments)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        return result.stdout
+
+    def refused(self, *arguments):
+        result = self.tool(*arguments)
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        return result.stderr
+
+    def log(self, *frames):
+        path = self.path / "frames.log"
+        path.write_text("".join(f"({1 + i}.000000) can0 {f}\n" for i, f in enumerate(frames)))
+        return path
+
+    def scenario(self, old, new):
+        """The example with a part replaced; a line of its own for each key that is of interest."""
+        text = pathlib.Path(SCENARIO).read_text()
+        self.assertIn(old, text)
+        (self.path / "engine.dbc").write_bytes(pathlib.Path(DBC).read_bytes())
+        path = self.path / "scenario.yaml"
+        path.write_text(text.replace(old, new))
+        return path
+
+    def test_scenario_sends_what_its_signals_say(self):
+        log = self.path / "out.log"
+        text = self.passes("run", SCENARIO, "--candump", log)
+        self.assertIn("ok    EngineData.EngineSpeed count: 10 (expected 10)", text)
+        self.assertIn("ok    EngineData.Mode: 2 (expected 2)", text)
+        frames = [line.split()[2] for line in log.read_text().splitlines()]
+        self.assertEqual(sorted(set(frames)), sorted([ENGINE_DATA, DASHBOARD, EEC1]))
+        self.assertEqual([frames.count(f) for f in (ENGINE_DATA, DASHBOARD, EEC1)], [10, 2, 5])
+
+    def test_expectations_of_signals_fail(self):
+        for old, new, said in [
+                ("EngineData.Mode: Sport", "EngineData.Mode: Eco", "FAIL  EngineData.Mode: 2"),
+                ("{last: 62.5}", "{last: 62}", "FAIL  Dashboard.FuelLevel last: 62.5 %"),
+                ("{count: 0}", "{min: 0}", "FAIL  Dashboard.Odometer: never there"),
+                ("count: 10, min: 2400", "count: 9, min: 2400", "count: 10 (expected 9)"),
+                ("max: 2400}", "max: 2400}\n    EngineData.Torque: {min: 1}",
+                 "FAIL  EngineData.Torque: 0 (expected at least 1)")]:
+            with self.subTest(new):
+                self.assertIn(said, self.passes("run", self.scenario(old, new), code=1))
+
+    def test_bad_signals_are_refused_with_line_and_what_is_allowed(self):
+        for old, new, said in [
+                ("EngineSpeed: 2400, Mode", "EngineSpeed: 9000, Mode",
+                 "scenario.yaml:11: traffic[0].data.EngineSpeed: '9000' is not allowed; allowed: "
+                 "0 to 8000 rpm in steps of 0.25"),
+                ("Mode: Sport}", "Mode: Fast}", "allowed: 0 to 6 in steps of 1, Off, Eco, Sport"),
+                ("Mode: Sport}", "Gear: 1}", "message EngineData has no such signal; allowed: "),
+                ("{Page: 1, FuelLevel", "{Page: 0, FuelLevel",
+                 "FuelLevel: is there only while Page has the raw value 1"),
+                ("message: Dashboard", "message: Dashbord", "no message 'Dashbord'"),
+                ("id: 0x0CF00400", "id: 0x0CF00500", "an identifier of its parameter group 61444"),
+                ("dbc: engine.dbc", "dbc: gone.dbc", "gone.dbc: no such file"),
+                ("dbc: engine.dbc\n", "", "needs a database; allowed: 'dbc' in the scenario"),
+                ("EngineData.Mode: Sport", "EngineData.Moode: 1", "has no signal 'Moode'"),
+                ("EngineData.Mode: Sport", "EngineData: 1", "is no signal; allowed: message.signal")]:
+            with self.subTest(new):
+                self.assertIn(said, self.refused("run", self.scenario(old, new)))
+
+    def test_signals_of_a_log(self):
+        log = self.log(ENGINE_DATA, DASHBOARD, EEC1, "18F00431#0000001027000000", "123#00", "100#R8")
+        self.assertEqual(self.passes("signals", log, "--dbc", DBC).splitlines(), [
+            f"(0000000001.000000) can0 {ENGINE_DATA} :: EngineData(EngineSpeed: 2400 rpm, "
+            "Torque: 0 Nm, Mode: Sport, CoolantTemperature: 20 degC)",
+            f"(0000000002.000000) can0 {DASHBOARD} :: Dashboard(Page: 1, FuelLevel: 62.5 %)",
+            f"(0000000003.000000) can0 {EEC1} :: EEC1(EngineSpeed: 2400 rpm)",
+            "(0000000004.000000) can0 18F00431#0000001027000000 :: EEC1(EngineSpeed: 1250 rpm)",
+            "(0000000005.000000) can0 123#00 :: unknown",
+            "(0000000006.000000) can0 100#R8 :: EngineData, remote"])
+
+    def test_table_json_and_csv_of_a_log(self):
+        log = self.log(EEC1, "18F00431#0000001027000000", "123#00")
+        table = self.passes("signals", log, "--dbc", DBC, "--table").splitlines()
+        self.assertIn("2 frames of the database's messages, 1 others", table[0])
+        self.assertEqual(table[2].split(),
+                         ["EEC1.EngineSpeed", "2", "1250", "1250", "2400", "1825", "rpm"])
+        data = json.loads(self.passes("signals", log, "--dbc", DBC, "--json"))
+        self.assertEqual(data["frames"], {"known": 2, "unknown": 1})
+        self.assertEqual(data["signals"][0]["first"], {"value": 2400.0, "unit": "rpm"})
+        self.assertEqual(data["entries"][1]["signals"],
+                         {"EngineSpeed": {"value": 1250.0, "unit": "rpm"}})
+        self.assertNotIn("message", data["entries"][2])
+        self.assertEqual(self.passes("signals", log, "--dbc", DBC, "--csv", "-").splitlines(), [
+            "time,interface,id,message,signal,raw,value,unit,choice",
+            "1.000000000,can0,0CF00400,EEC1,EngineSpeed,19200,2400,rpm,",
+            "2.000000000,can0,18F00431,EEC1,EngineSpeed,10000,1250,rpm,"])
+
+    def test_a_log_without_any_message_of_the_database_is_a_failure(self):
+        result = self.tool("signals", self.log("123#00"), "--dbc", DBC)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("none of its 1 frames is in the database", result.stderr)
+
+    def test_replay_decode_and_page(self):
+        log = self.log(ENGINE_DATA, DASHBOARD, EEC1)
+        vcd, csv, page = (self.path / name for name in ("bus.vcd", "s.csv", "page.html"))
+        text = self.passes("replay", log, "-b", "250k", "--fast", "--dbc", DBC, "--signals",
+                           "--vcd", vcd, "--signals-csv", csv)
+        self.assertIn("EngineData.Mode", text)
+        self.assertEqual(len(csv.read_text().splitlines()), 8)
+        decoded = self.passes("decode", vcd, "--dbc", DBC)
+        self.assertIn(" :: Dashboard(Page: 1, FuelLevel: 62.5 %)", decoded)
+        events = json.loads(self.passes("decode", vcd, "--dbc", DBC, "--json"))["events"]
+        self.assertEqual([e["message"] for e in events], ["EngineData", "Dashboard", "EEC1"])
+        self.passes("report", log, "-o", page, "--dbc", DBC, "--fast")
+        self.assertIn('"databases":[{"name":"engine.dbc","text":"VERSION', page.read_text())
+
+    def test_json_of_a_run(self):
+        run = json.loads(self.passes("run", SCENARIO, "--json"))["runs"][0]
+        summary = {f"{s['message']}.{s['signal']}": s for s in run["signals"]["signals"]}
+        self.assertEqual(summary["EngineData.Mode"]["last"], {"value": 2, "text": "Sport"})
+        self.assertEqual(summary["EEC1.EngineSpeed"]["count"], 5)
+
+    def test_options_that_need_a_database(self):
+        for option in (["--signals"], ["--signals-csv", self.path / "x.csv"]):
+            said = self.refused("run", "examples/two-nodes.yaml", *option)
+            self.assertIn(f"{option[0]}: needs a database; allowed: --dbc FILE", said)
+        self.assertIn("--dbc is required", self.refused("signals", self.log(EEC1)))
+        self.assertIn("allowed: one message for an identifier",
+                      self.refused("signals", self.log(EEC1), "--dbc", DBC, "--dbc", DBC))
+
+
+if __name__ == "__main__":
+    unittest.main()
