@@ -38,6 +38,8 @@ void add_firmware(CLI::App &app, int &exit_code);
 void add_report(CLI::App &app, int &exit_code);
 void add_bridge(CLI::App &app, int &exit_code);
 void add_signals(CLI::App &app, int &exit_code);
+void add_convert(CLI::App &app, int &exit_code);
+void add_ids(CLI::App &app, int &exit_code);
 
 /// The files of an Outputs.
 inline constexpr std::string Outputs::*kOutputPaths[] = {&Outputs::vcd,     &Outputs::fst,

@@ -66,6 +66,10 @@ std::vector<NamedFile> files_of(const Outputs &outputs, const std::vector<double
   return wanted;
 }
 
+void add_file(std::vector<NamedFile> &files, const std::string &role, const std::string &path) {
+  if (!path.empty()) files.push_back({role, path});
+}
+
 std::vector<NamedFile> inputs_of(const Scenario &scenario) {
   std::vector<NamedFile> inputs{{"the scenario", scenario.file}};
   if (scenario.outputs.database)

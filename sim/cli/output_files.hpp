@@ -22,6 +22,9 @@ struct NamedFile {
 [[nodiscard]] std::vector<NamedFile> files_of(const Outputs &outputs,
                                               const std::vector<double> &bitrates = {});
 
+/// Adds `path` to `files`, unless it is empty.
+void add_file(std::vector<NamedFile> &files, const std::string &role, const std::string &path);
+
 /// The scenario's file and those that it names.
 [[nodiscard]] std::vector<NamedFile> inputs_of(const Scenario &scenario);
 

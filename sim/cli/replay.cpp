@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cli/cli.hpp"
+#include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
 #include "scenario/replay.hpp"
 #include "scenario/stop_request.hpp"
@@ -19,6 +20,8 @@ namespace {
 struct Options {
   std::string log;
   ReplayOptions replay;
+  LogSelection selection;
+  IdsOutput ids;
   bool json = false;
 };
 
@@ -78,21 +81,30 @@ void print(const Options &options, const ReplayReport &report) {
 int run(Options &options) {
   load_databases(options.replay.outputs, options.replay.outputs.dbc);
   const StopSignals signals;
-  claim_files({{"the log", options.log}}, files_of(options.replay.outputs));
-  const CanLog log = read_log(options.log);
+  std::vector<NamedFile> outputs = files_of(options.replay.outputs);
+  add_file(outputs, "--ids-csv", options.ids.csv);
+  claim_files({{"the log", options.log}}, outputs);
+  const SelectedLog selected = read_selected(options.log, options.selection, false);
   ReplayOptions replay_options = options.replay;
   replay_options.file = std::filesystem::path(options.log).filename().string();
   ReplayReport report;
   {
     Progress progress{"replay"};
-    report = replay(log, replay_options, [&](double part) { progress.show(part); });
+    report = replay(selected.log, replay_options, [&](double part) { progress.show(part); });
   }
-  if (options.json)
-    print_json(to_json(report));
-  else
+  const IdentifierTable ids = identifiers_of(selected.log);
+  write_ids_csv(ids, options.ids);
+  if (options.json) {
+    Json json = to_json(report);
+    json["interfaces"] = selected.interfaces;
+    json["identifiers"] = vericansim::to_json(ids);
+    print_json(json);
+  } else {
     print(options, report);
-  if (!options.json && options.replay.outputs.signals)
-    fmt::print("\n{}", to_text(report.run.signals));
+    if (const std::string note = selected.note(); !note.empty()) fmt::print("  {}\n", note);
+    if (options.ids.text) fmt::print("{}", to_text(ids));
+    if (options.replay.outputs.signals) fmt::print("\n{}", to_text(report.run.signals));
+  }
   return exit_code_after(report.ok() ? kOk : kFailed);
 }
 
@@ -105,7 +117,7 @@ void add_replay(CLI::App &app, int &exit_code) {
       "replay", "Recorded traffic through simulated nodes; each must receive every frame");
   const CLI::AsNumberWithUnit with_unit(std::map<std::string, double>{
       {"k", 1e3}, {"M", 1e6}, {"kHz", 1e3}, {"MHz", 1e6}, {"Hz", 1.0}});
-  command->add_option("log", options->log, "candump log, pcap, PCAN-View .trc or SavvyCAN .csv")
+  command->add_option("log", options->log, "Recording of any known format; - is standard input")
       ->required();
   command->add_option("--nodes,-n", replay.nodes, "Nodes on the bus (2)")
       ->check(CLI::Range(2U, 64U));
@@ -126,6 +138,8 @@ void add_replay(CLI::App &app, int &exit_code) {
       ->check(CLI::IsMember({16U, 32U, 64U}));
   command->add_option("--frames", replay.limit, "Take only so many frames from the log (all)");
   command->add_flag("--fast", replay.fast, "As fast as the bus allows, instead of as recorded");
+  add_selection(*command, options->selection);
+  add_ids_options(*command, options->ids);
   add_output_options(*command, replay.outputs);
   command->add_flag("--json", options->json, "The report as JSON");
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cli/cli.hpp"
+#include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
 #include "scenario/replay.hpp"
 #include "scenario/runner.hpp"
@@ -25,11 +26,12 @@ struct Options {
   std::string signal;
   double bitrate = 0;
   ReplayOptions replay;
+  LogSelection selection;
 };
 
 bool has_ending(const std::string &path, std::initializer_list<const char *> endings) {
   return std::any_of(endings.begin(), endings.end(),
-                     [&](const char *ending) { return path.ends_with(ending); });
+                     [&](const char *ending) { return without_gz(path).ends_with(ending); });
 }
 
 const char *interrupted_text(bool interrupted) { return interrupted ? "; interrupted" : ""; }
@@ -79,18 +81,19 @@ int report_recorded_wave(const Options &options) {
 
 int report_log(const Options &options) {
   claim_files({{"the log", options.input}}, files_of(options.outputs));
-  const CanLog log = read_log(options.input);
+  const SelectedLog selected = read_selected(options.input, options.selection, false);
   ReplayOptions replay_options = options.replay;
   if (options.bitrate != 0) replay_options.bitrate = options.bitrate;
   replay_options.outputs = options.outputs;
   ReplayReport report;
   {
     Progress progress{"report"};
-    report = replay(log, replay_options, [&](double part) { progress.show(part); });
+    report = replay(selected.log, replay_options, [&](double part) { progress.show(part); });
   }
   fmt::print("{}: {} frames at {:.0f} bit/s through {} nodes, {} error frames{}\n{}\n",
              options.input, report.on_bus, replay_options.bitrate, report.nodes.size(),
              report.error_frames, interrupted_text(report.interrupted), options.outputs.report);
+  if (const std::string note = selected.note(); !note.empty()) fmt::print("{}\n", note);
   return report.ok() ? kOk : kFailed;
 }
 
@@ -140,6 +143,7 @@ void add_report(CLI::App &app, int &exit_code) {
       ->check(CLI::Range(1U, 64U));
   command->add_flag("--fast", options->replay.fast,
                     "Log: as fast as the bus allows, instead of as recorded");
+  add_selection(*command, options->selection);
   command
       ->add_option("--report-frames", options->outputs.report_frames,
                    "The page keeps bits and edges of so many frames (200000)")

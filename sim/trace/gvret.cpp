@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <iterator>
+
+#include "trace/channel_numbers.hpp"
 
 #include "trace/input_error.hpp"
 #include "trace/log_builder.hpp"
@@ -90,6 +93,22 @@ CanLog parse_gvret(std::string_view text, const std::string &file) {
     log.add(*ns, parse_entry(fields, columns, place), place);
   });
   return log.finish(false);
+}
+
+std::string gvret_text(const CanLog &log) {
+  const auto numbers = channel_numbers(log);
+  std::string text = "Time Stamp,ID,Extended,Dir,Bus,LEN,D1,D2,D3,D4,D5,D6,D7,D8\n";
+  for (const LogEntry &entry : log.entries) {
+    const std::int64_t ns = log.start_ns + entry.time / kNanosecond;
+    fmt::format_to(std::back_inserter(text), "{},{:08X},{},{},{},{}", ns / 1000, entry.frame.id,
+                   entry.frame.extended, entry.direction == Direction::kSent ? "Tx" : "Rx",
+                   entry.channel.empty() ? 0 : numbers.at(entry.channel),
+                   entry.frame.payload_size());
+    for (std::size_t i = 0; i < 8; ++i)
+      text += i < entry.frame.payload_size() ? fmt::format(",{:02X}", entry.frame.data[i]) : ",";
+    text += '\n';
+  }
+  return text;
 }
 
 }  // namespace vericansim

@@ -20,6 +20,10 @@ namespace vericansim {
 /// Reads `bytes` as if they were the file `path`.
 [[nodiscard]] CanLog parse_pcap(std::string_view bytes, const std::string &path);
 
+/// A capture of all that `log` holds, but for interfaces and directions; nanoseconds. Times before
+/// 1970 cannot be told.
+[[nodiscard]] std::string pcap_bytes(const CanLog &log);
+
 /// Writes captures with nanosecond stamps to an OutputFile.
 class PcapWriter {
  public:

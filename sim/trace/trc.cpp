@@ -1,71 +1,182 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// PCAN-View trace files: parser.
+// PCAN-View trace files: parser. Each version is a list of columns.
 #include "trace/trc.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
+#include "trace/candump.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log_builder.hpp"
 #include "trace/text.hpp"
+#include "trace/trc_format.hpp"
 
 namespace vericansim {
 namespace {
 
 using text::fail;
 using text::Place;
+using Fields = std::vector<std::string_view>;
 
-/// ";$FILEVERSION=1.1"; the columns of other versions differ.
-void check_version(std::string_view line, const Place &place) {
-  constexpr std::string_view kKey = ";$FILEVERSION=";
-  if (line.starts_with(kKey) && text::trimmed(line.substr(kKey.size())) != "1.1")
-    fail(place, "version " + quoted(std::string(line.substr(kKey.size()))) +
-                    " is not known; allowed: 1.1");
-}
+struct Version {
+  std::string_view number;
+  std::string_view columns;  ///< letters of $COLUMNS
+};
+constexpr std::array<Version, 6> kVersions = {{{"1.0", "NOILD"},
+                                               {"1.1", "NOTILD"},
+                                               {"1.2", "NOBTILD"},
+                                               {"1.3", "NOBTIRLD"},
+                                               {"2.0", "NOTIdlD"},
+                                               {"2.1", "NOTBIdRLD"}}};
 
-/// Columns: number, milliseconds, type, identifier, length, then bytes or "RTR".
-Frame parse_frame(const std::vector<std::string_view> &fields, const Place &place) {
-  Frame frame;
-  const auto id = text::parse_unsigned(fields[3], 16);
-  if (!id || (fields[3].size() != 4 && fields[3].size() != 8))
-    fail(place, "identifier " + quoted(std::string(fields[3])) +
-                    " is not allowed; allowed: 4 or 8 hexadecimal digits");
-  text::set_id(frame, *id, fields[3].size() == 8, place);
-  const auto length = text::parse_unsigned(fields[4], 10);
-  if (!length || *length > 8)
-    fail(place, "length " + quoted(std::string(fields[4])) + " is not allowed; allowed: 0 to 8");
-  frame.dlc = static_cast<std::uint8_t>(*length);
-  if (fields.size() > 5 && fields[5] == "RTR") {
-    frame.remote = true;
-    return frame;
+/// Which kind of frame a type is.
+struct Type {
+  std::string_view name;
+  bool fd = false;
+  unsigned fd_flags = 0;
+  bool remote = false;
+  Direction direction = Direction::kUnknown;
+};
+constexpr std::array<Type, 8> kTypes = {{{"Rx", false, 0, false, Direction::kReceived},
+                                         {"Tx", false, 0, false, Direction::kSent},
+                                         {"DT"},
+                                         {"RR", false, 0, true},
+                                         {"FD", true, 0},
+                                         {"FB", true, 1},
+                                         {"FE", true, 2},
+                                         {"BI", true, 3}}};
+
+/// Reads the lines of one file.
+class Reader {
+ public:
+  void line(std::string_view line, const Place &place) {
+    const Fields fields = text::split_blanks(line);
+    if (fields.empty()) return;
+    if (fields[0].front() == ';')
+      header(text::trimmed(line), place);
+    else
+      entry(fields, place);
   }
-  if (fields.size() < 5 + *length)
-    fail(place, fmt::format("{} data bytes where the length says {}", fields.size() - 5, *length));
-  for (std::size_t i = 0; i < *length; ++i) text::set_byte(frame, i, fields[5 + i], place);
-  return frame;
-}
+  CanLog finish() { return log_.finish(start_ns_ != 0); }
+
+ private:
+  void header(std::string_view line, const Place &place) {
+    const std::size_t sign = line.find('=');
+    if (sign == std::string_view::npos) return;
+    const std::string_view value = text::trimmed(line.substr(sign + 1));
+    if (line.starts_with(";$FILEVERSION=")) {
+      const auto *version = std::find_if(kVersions.begin(), kVersions.end(),
+                                         [value](const Version &v) { return v.number == value; });
+      if (version == kVersions.end())
+        fail(place, "version " + quoted(std::string(value)) +
+                        " is not known; allowed: 1.0, 1.1, 1.2, 1.3, 2.0, 2.1");
+      columns_ = version->columns;
+    }
+    if (line.starts_with(";$COLUMNS=")) {
+      columns_.clear();
+      for (const std::string_view letter : text::split_commas(value))
+        columns_ += text::trimmed(letter);
+      if (columns_.find_first_not_of("NOTBIdRlLD") != std::string::npos ||
+          columns_.find('I') == std::string::npos || columns_.find('O') == std::string::npos)
+        fail(place, "columns " + quoted(std::string(value)) +
+                        " are not known; allowed: N,O,T,B,I,d,R,l,L,D, with O and I");
+    }
+    if (line.starts_with(";$STARTTIME=")) start_ns_ = trc::start_ns(value);
+  }
+
+  /// The field of column `letter`; empty if there is none.
+  [[nodiscard]] std::string_view field(const Fields &fields, char letter) const {
+    const std::size_t at = columns_.find(letter);
+    return at < fields.size() ? fields[at] : std::string_view{};
+  }
+
+  void entry(const Fields &fields, const Place &place) {
+    // A file that tells no version is of the first one, or of 1.1 without its header.
+    if (columns_.empty())
+      columns_ = fields.size() > 2 && fields[2].find_first_of("xgn") != std::string_view::npos
+                     ? kVersions[1].columns
+                     : kVersions[0].columns;
+    if (fields.size() < 3) fail(place, "expected NUMBER TIME TYPE IDENTIFIER LENGTH BYTES");
+    const std::string_view name =
+        columns_.find('T') == std::string::npos ? "DT" : field(fields, 'T');
+    const auto *type = std::find_if(kTypes.begin(), kTypes.end(),
+                                    [name](const Type &t) { return t.name == name; });
+    if (type == kTypes.end() || field(fields, 'I') == "FFFFFFFF") return log_.skip();
+    const auto ns = text::parse_decimal(field(fields, 'O'), 1'000'000);
+    if (!ns)
+      fail(place,
+           "time " + quoted(std::string(field(fields, 'O'))) + " is no number of milliseconds");
+    CandumpLine result;
+    if (__builtin_add_overflow(start_ns_, *ns, &result.ns)) fail(place, "time is out of range");
+    result.frame = frame(fields, *type, place);
+    result.direction = type->direction;
+    if (field(fields, 'd') == "Rx") result.direction = Direction::kReceived;
+    if (field(fields, 'd') == "Tx") result.direction = Direction::kSent;
+    const auto bus = text::parse_unsigned(field(fields, 'B'), 10);
+    if (bus && *bus != 0) result.channel = fmt::format("can{}", *bus - 1);
+    add_candump_line(result, log_, place);
+  }
+
+  /// The frame as candump writes it.
+  [[nodiscard]] std::string frame(const Fields &fields, const Type &type,
+                                  const Place &place) const {
+    const std::string_view id = field(fields, 'I');
+    if (id.size() != 4 && id.size() != 7 && id.size() != 8)
+      fail(place, "identifier " + quoted(std::string(id)) +
+                      " is not allowed; allowed: 4 or 8 hexadecimal digits");
+    const auto number = text::parse_unsigned(id, 16);
+    Frame checked;
+    if (!number) fail(place, "identifier " + quoted(std::string(id)) + " is not hexadecimal");
+    text::set_id(checked, *number, id.size() != 4, place);
+    const bool told = columns_.find('l') != std::string::npos;  // a length, no DLC
+    const std::string_view text = field(fields, told ? 'l' : 'L');
+    const auto dlc = text::parse_unsigned(text, 10);
+    if (!dlc || *dlc > (told ? (type.fd ? 64U : 8U) : 15U))
+      fail(place, "length " + quoted(std::string(text)) +
+                      (told ? " is not allowed; allowed: 0 to 8, CAN FD to 64"
+                            : " is not allowed; allowed: 0 to 15"));
+    const std::string head = fmt::format("{:0{}X}#", *number, checked.extended ? 8 : 3) +
+                             (type.fd ? fmt::format("#{:X}", type.fd_flags) : std::string{});
+    const std::string raw = !type.fd && *dlc > 8 ? fmt::format("_{:X}", *dlc) : std::string{};
+    if (type.remote || field(fields, 'D') == "RTR")
+      return head + fmt::format("R{}", std::min<std::uint64_t>(*dlc, 8)) + raw;
+    const std::size_t length =
+        type.fd && !told ? trc::kFdLengths[*dlc] : std::min<std::size_t>(*dlc, type.fd ? 64 : 8);
+    return head + bytes(fields, length, place) + raw;
+  }
+
+  [[nodiscard]] std::string bytes(const Fields &fields, std::size_t length,
+                                  const Place &place) const {
+    const std::size_t first = std::min(columns_.find('D'), fields.size());
+    if (fields.size() < first + length)
+      fail(place,
+           fmt::format("{} data bytes where the length says {}", fields.size() - first, length));
+    std::string digits;
+    for (std::size_t i = first; i < first + length; ++i) {
+      if (fields[i].size() != 2)
+        fail(place, "data byte " + quoted(std::string(fields[i])) +
+                        " is not allowed; allowed: two hexadecimal digits");
+      digits += fields[i];
+    }
+    return digits;
+  }
+
+  LogBuilder log_;
+  std::string columns_;
+  std::int64_t start_ns_ = 0;
+};
 
 }  // namespace
 
 CanLog parse_trc(std::string_view text, const std::string &file) {
-  LogBuilder log;
-  text::for_each_line(text, file, [&](std::string_view line, const Place &place) {
-    check_version(line, place);
-    const auto fields = text::split_blanks(line);
-    if (fields.empty() || fields[0].front() == ';') return;
-    if (fields.size() < 5) fail(place, "expected NUMBER) TIME TYPE IDENTIFIER LENGTH BYTES");
-    if (fields[2] != "Rx" && fields[2] != "Tx") {
-      log.skip();
-      return;
-    }
-    const auto ns = text::parse_decimal(fields[1], 1'000'000);
-    if (!ns)
-      fail(place, "time " + quoted(std::string(fields[1])) + " is no number of milliseconds");
-    const Direction direction = fields[2] == "Tx" ? Direction::kSent : Direction::kReceived;
-    log.add(*ns, {0, "", parse_frame(fields, place), direction}, place);
-  });
-  return log.finish(false);
+  Reader reader;
+  text::for_each_line(text, file,
+                      [&](std::string_view line, const Place &place) { reader.line(line, place); });
+  return reader.finish();
 }
 
 }  // namespace vericansim

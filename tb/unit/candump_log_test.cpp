@@ -130,7 +130,7 @@ TEST(Trc, ReadsPcanViewVersion11) {
   EXPECT_EQ(log.entries[0].frame, (Frame{0x09F11201, true, false, 2, {0xFF, 0x50}}));
   EXPECT_EQ(log.entries[1].frame, (Frame{0x123, false, true, 4, {}}));
   EXPECT_EQ(log.entries[1].time, 600 * kMicrosecond);
-  EXPECT_THROW(static_cast<void>(parse_trc(";$FILEVERSION=2.0\n", "b.trc")), InputError);
+  EXPECT_THROW(static_cast<void>(parse_trc(";$FILEVERSION=3.0\n", "b.trc")), InputError);
 }
 
 TEST(Gvret, ReadsBothVersionsOfTheColumns) {

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// verican convert: a recording in another format, and what that cannot hold.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/cli.hpp"
+#include "cli/log_options.hpp"
+#include "cli/output_files.hpp"
+#include "trace/log_convert.hpp"
+#include "trace/output_file.hpp"
+
+namespace vericansim::cli {
+namespace {
+
+struct Options {
+  std::string in, out, format;
+  LogSelection selection;
+  IdsOutput ids;
+};
+
+int run(const Options &options) {
+  const LogFormat format = output_format(options.format, options.out);
+  std::vector<NamedFile> outputs{{"the new file", options.out}};
+  add_file(outputs, "--ids-csv", options.ids.csv);
+  claim_files({{"the recording", options.in}}, outputs);
+  const SelectedLog selected = read_selected(options.in, options.selection, true);
+  const Conversion result = convert(selected.log, format, options.out);
+  OutputFile file{options.out};
+  file.stream() << result.bytes;
+  file.commit();
+  fmt::print("{} -> {} ({}): {} frames\n", options.in, options.out, name_of(format), result.frames);
+  if (options.ids.wanted()) {
+    const IdentifierTable table = identifiers_of(selected.log);
+    write_ids_csv(table, options.ids);
+    if (options.ids.text) fmt::print("{}", to_text(table));
+  }
+  for (const std::string &loss : result.lost) fmt::print(stderr, "lost: {}\n", loss);
+  if (result.frames == 0)
+    fmt::print(stderr, "verican: {}: no frame to convert{}\n", options.in,
+               selected.log.skipped == 0 ? "" : ": only " + skipped_text(selected.log));
+  if (!result.faithful)
+    fmt::print(stderr, "verican: {}: read again, its frames are not those of {}\n", options.out,
+               options.in);
+  return result.faithful && result.frames != 0 ? kOk : kFailed;
+}
+
+}  // namespace
+
+void add_convert(CLI::App &app, int &exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand(
+      "convert", "A recording in another format; what that cannot hold is counted and told");
+  command->add_option("in", options->in, "Recording of any known format; - is standard input")
+      ->required();
+  command->add_option("out", options->out, "New file, its ending tells the format; - is stdout")
+      ->required();
+  command->add_option("--format", options->format,
+                      "Format: candump, pcap, pcapng, asc, blf, trc, csv, gvret, sqlite");
+  add_selection(*command, options->selection);
+  add_ids_options(*command, options->ids);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vericansim::cli

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// verican ids: the identifiers of a recording, without a simulation.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/cli.hpp"
+#include "cli/log_options.hpp"
+#include "cli/output_files.hpp"
+
+namespace vericansim::cli {
+namespace {
+
+struct Options {
+  std::string log;
+  LogSelection selection;
+  IdsOutput output;
+  bool json = false;
+};
+
+int run(const Options &options) {
+  std::vector<NamedFile> outputs;
+  add_file(outputs, "--csv", options.output.csv);
+  claim_files({{"the recording", options.log}}, outputs);
+  const SelectedLog selected = read_selected(options.log, options.selection, true);
+  const IdentifierTable table = identifiers_of(selected.log);
+  write_ids_csv(table, options.output);
+  const std::string skipped = skipped_text(selected.log);
+  if (options.json) {
+    print_json({{"frames", selected.log.entries.size()},
+                {"skipped", selected.log.skipped},
+                {"interfaces", selected.interfaces},
+                {"identifiers", to_json(table)}});
+  } else {
+    fmt::print("{}: {} frames, {} identifiers{}\n{}", options.log, selected.log.entries.size(),
+               table.rows().size(), skipped.empty() ? "" : "; without " + skipped, to_text(table));
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void add_ids(CLI::App &app, int &exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand(
+      "ids", "For each identifier of a recording: count, period, jitter, last data, changed bytes");
+  command->add_option("log", options->log, "Recording of any known format; - is standard input")
+      ->required();
+  add_selection(*command, options->selection);
+  command->add_option("--csv", options->output.csv,
+                      "The table as a CSV file; - is standard output");
+  command->add_flag("--json", options->json, "The table as JSON");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vericansim::cli

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Options that commands which read recordings share: the part of it, and the table of identifiers.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "trace/identifiers.hpp"
+#include "trace/log.hpp"
+#include "trace/log_filter.hpp"
+
+namespace vericansim::cli {
+
+/// What of a recording is wanted, as it was typed.
+struct LogSelection {
+  std::string interface;
+  std::vector<std::string> filters;  ///< candump's ID:MASK and ID~MASK
+  std::string from, to;
+};
+
+/// Adds --interface, --filter, --from and --to.
+void add_selection(CLI::App &command, LogSelection &selection);
+
+/// A recording, or the wanted part of it.
+struct SelectedLog {
+  CanLog log;
+  std::map<std::string, std::size_t> interfaces;  ///< of the part
+  /// "all interfaces as one bus: can0 (2 frames), can1 (1 frame)"; empty with one.
+  [[nodiscard]] std::string note() const;
+};
+
+/// Reads `path`. Unless `several`, a recording of several interfaces needs a choice. Throws
+/// InputError.
+[[nodiscard]] SelectedLog read_selected(const std::string &path, const LogSelection &selection,
+                                        bool several);
+
+/// Where the table of identifiers goes.
+struct IdsOutput {
+  bool text = false;
+  std::string csv;  ///< file name, "-" for stdout; empty: none
+  [[nodiscard]] bool wanted() const { return text || !csv.empty(); }
+};
+
+/// Adds --ids and --ids-csv.
+void add_ids_options(CLI::App &command, IdsOutput &output);
+
+/// The table of a recording.
+[[nodiscard]] IdentifierTable identifiers_of(const CanLog &log);
+
+/// Writes the CSV, if one is wanted. Throws OutputError.
+void write_ids_csv(const IdentifierTable &table, const IdsOutput &output);
+
+}  // namespace vericansim::cli

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// convert(): write what the format can hold, read it again, compare.
+#include "trace/log_convert.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+
+#include "trace/candump.hpp"
+#include "trace/gvret.hpp"
+#include "trace/log_walk.hpp"
+#include "trace/pcap_file.hpp"
+#include "trace/pcapng_file.hpp"
+#include "trace/python_log.hpp"
+#include "trace/trc.hpp"
+
+namespace vericansim {
+namespace {
+
+/// Losses by their phrase, in the order in which they were first seen.
+class Losses {
+ public:
+  void count(const std::string &phrase, std::size_t number = 1) {
+    if (number == 0) return;
+    const auto at = std::find_if(list_.begin(), list_.end(),
+                                 [&](const auto &item) { return item.first == phrase; });
+    if (at == list_.end())
+      list_.emplace_back(phrase, number);
+    else
+      at->second += number;
+  }
+  [[nodiscard]] std::vector<std::string> texts() const {
+    std::vector<std::string> texts;
+    for (const auto &[phrase, number] : list_)
+      texts.push_back(fmt::format("{} {}", number, phrase));
+    return texts;
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::size_t>> list_;
+};
+
+/// What of `log` the format has room for at all.
+CanLog that_fits(const CanLog &log, const LogFormatTraits &traits, Losses &losses) {
+  CanLog result;
+  result.start_ns = log.start_ns;
+  losses.count("other lines or packets", log.skipped - log.others.size());
+  walk(
+      log,
+      [&](const LogEntry &entry) {
+        if (entry.frame.remote && !traits.remote) return losses.count("remote frames");
+        result.entries.push_back(entry);
+        Frame &frame = result.entries.back().frame;
+        if (frame.dlc <= 8 || traits.raw_dlc) return;
+        losses.count("DLCs of 9 to 15 (8 now)");
+        frame.dlc = 8;
+      },
+      [&](const ForeignEntry &entry) {
+        const bool fd = entry.kind == ForeignEntry::Kind::kFd;
+        if (!(fd ? traits.fd : traits.errors))
+          return losses.count(fd ? "CAN FD frames" : "error messages");
+        result.others.push_back(entry);
+        result.others.back().before = result.entries.size();
+        ++result.skipped;
+      });
+  return result;
+}
+
+std::string bytes_of(const CanLog &log, LogFormat format, const std::string &path) {
+  switch (format) {
+    case LogFormat::kPcap: return pcap_bytes(log);
+    case LogFormat::kPcapng: return pcapng_bytes(log);
+    case LogFormat::kTrc: return trc_text(log);
+    case LogFormat::kGvret: return gvret_text(log);
+    case LogFormat::kAsc:
+    case LogFormat::kBlf:
+    case LogFormat::kCsv:
+    case LogFormat::kSqlite: return python_log_bytes(log, format, path);
+    case LogFormat::kCandump: break;
+  }
+  const auto below_us = [](const auto &entry) { return entry.time % kMicrosecond != 0; };
+  const bool nanoseconds = log.start_ns % 1000 != 0 ||
+                           std::any_of(log.entries.begin(), log.entries.end(), below_us) ||
+                           std::any_of(log.others.begin(), log.others.end(), below_us);
+  std::ostringstream text;
+  CandumpWriter writer{text, log.start_ns, nanoseconds};
+  const auto write = [&writer](const auto &entry) { writer.write(entry); };
+  walk(log, write, write);
+  return std::move(text).str();
+}
+
+/// One entry of either kind, as text.
+struct Item {
+  Time time;
+  std::string channel;
+  Direction direction;
+  std::string frame;
+  bool error;
+};
+
+std::vector<Item> items_of(const CanLog &log) {
+  std::vector<Item> items;
+  walk(
+      log,
+      [&](const LogEntry &e) {
+        items.push_back({e.time, e.channel, e.direction, candump_frame(e.frame), false});
+      },
+      [&](const ForeignEntry &e) {
+        items.push_back(
+            {e.time, e.channel, e.direction, e.text, e.kind == ForeignEntry::Kind::kError});
+      });
+  return items;
+}
+
+/// What the entry that was read lacks of the one that was written; false if it is another frame.
+bool compare(const Item &written, const Item &read, Losses &losses) {
+  if (written.channel != read.channel && !written.channel.empty())
+    losses.count(fmt::format("interfaces {} ({} now)", written.channel,
+                             read.channel.empty() ? "none" : read.channel));
+  if (written.direction != read.direction && written.direction != Direction::kUnknown)
+    losses.count("directions");
+  if (written.error && read.error && written.frame != read.frame) {
+    losses.count("contents of error messages");
+    return true;
+  }
+  return written.frame == read.frame && written.error == read.error;
+}
+
+/// Differences of the times since the first frame.
+void compare_times(const std::vector<Item> &written, const std::vector<Item> &read,
+                   Losses &losses) {
+  std::size_t count = 0;
+  Time most = 0;
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    const Time difference = std::abs(written[i].time - read[i].time);
+    if (difference != 0) ++count;
+    most = std::max(most, difference);
+  }
+  if (count != 0)
+    losses.count(fmt::format("times since the first frame, by up to {} ns", most / kNanosecond),
+                 count);
+}
+
+}  // namespace
+
+Conversion convert(const CanLog &log, LogFormat format, const std::string &path) {
+  Conversion result;
+  Losses losses;
+  const CanLog fitting = that_fits(log, traits_of(format), losses);
+  result.bytes = bytes_of(fitting, format, path);
+  const CanLog again = parse_log(result.bytes, path);
+  const auto written = items_of(fitting), read = items_of(again);
+  result.frames = written.size();
+  result.faithful = written.size() == read.size();
+  if (result.faithful) {
+    for (std::size_t i = 0; i < written.size(); ++i)
+      result.faithful = compare(written[i], read[i], losses) && result.faithful;
+    compare_times(written, read, losses);
+  }
+  if (fitting.start_ns != again.start_ns && fitting.start_ns != 0 && result.frames != 0)
+    losses.count(again.start_ns == 0 ? "time of day"
+                                     : fmt::format("time of day, by {} ns",
+                                                   std::abs(fitting.start_ns - again.start_ns)));
+  result.lost = losses.texts();
+  return result;
+}
+
+}  // namespace vericansim

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Recordings from one format to another, with what the other one cannot hold.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trace/log.hpp"
+
+namespace vericansim {
+
+/// What came of a conversion.
+struct Conversion {
+  std::string bytes;              ///< the new file
+  std::size_t frames = 0;         ///< entries of all kinds in it
+  std::vector<std::string> lost;  ///< one phrase for each kind of loss, with its count
+  bool faithful = true;           ///< identifier, data and order of all frames in it are the same
+};
+
+/// `log` in `format`. The new file is read again and compared entry by entry, so that `lost` is
+/// what a reader of it really misses. `path` is for messages. Throws InputError if python-can is
+/// needed and not there.
+[[nodiscard]] Conversion convert(const CanLog &log, LogFormat format, const std::string &path);
+
+}  // namespace vericansim

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The tool on recordings: convert, ids, and the choice of an interface in replay.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/scratch_folder.hpp"
+
+namespace vericansim {
+namespace {
+
+using ::testing::HasSubstr;
+
+Said run_tool(const std::string &arguments) {
+  return shell(std::string{VERICAN_BINARY} + " " + arguments + " 2>&1");
+}
+
+const std::string kTwoBuses =
+    "(100.000000) can0 123#11\n(100.001000) can1 124#22\n(100.002000) can0 123#12\n";
+
+TEST(ToolRecordings, ConvertReadsStandardInputAndGzip) {
+  const ScratchFolder folder;
+  const std::string log = folder.file("a.log", kTwoBuses);
+  const Said out = run_tool("convert " + log + " - --format pcapng | " + VERICAN_BINARY +
+                            " convert - - --format candump 2> /dev/null");
+  EXPECT_THAT(out.text, HasSubstr(kTwoBuses));
+  ASSERT_EQ(run_tool("convert " + log + " " + (folder / "b.log.gz")).code, 0);
+  EXPECT_EQ(shell("gzip -dc " + (folder / "b.log.gz")).text, kTwoBuses);
+  EXPECT_THAT(run_tool("ids " + (folder / "b.log.gz")).text, HasSubstr("3 frames, 2 identifiers"));
+}
+
+TEST(ToolRecordings, ConvertTellsLossesAndRefusesItsInputAsOutput) {
+  const ScratchFolder folder;
+  const std::string log = folder.file("a.log", kTwoBuses);
+  const Said said = run_tool("convert " + log + " " + (folder / "a.pcap") + " --filter 123:7FF");
+  EXPECT_EQ(said.code, 0);
+  EXPECT_THAT(said.text, HasSubstr("(pcap): 2 frames\nlost: 2 interfaces can0 (none now)\n"));
+  const Said same = run_tool("convert " + log + " " + log);
+  EXPECT_EQ(same.code, 2);
+  EXPECT_THAT(same.text, HasSubstr("is the file of the recording and of the new file"));
+  const Said none = run_tool("convert " + log + " " + (folder / "none"));
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.text, HasSubstr("the name tells no format; allowed: --format with one of"));
+  const Said empty = run_tool("convert " + log + " " + (folder / "e.log") + " --from '1 s'");
+  EXPECT_EQ(empty.code, 1);
+  EXPECT_THAT(empty.text, HasSubstr("no frame to convert"));
+}
+
+TEST(ToolRecordings, ReplayAsksForOneOfSeveralInterfaces) {
+  const ScratchFolder folder;
+  const std::string replay = "replay --fast " + folder.file("a.log", kTwoBuses);
+  const Said asked = run_tool(replay);
+  EXPECT_EQ(asked.code, 2);
+  EXPECT_THAT(asked.text, HasSubstr("holds several interfaces: can0 (2 frames), can1 (1 frame)"));
+  const Said all = run_tool(replay + " --interface all --ids");
+  EXPECT_EQ(all.code, 0) << all.text;
+  EXPECT_THAT(all.text, HasSubstr("all interfaces as one bus: can0 (2 frames), can1 (1 frame)"));
+  EXPECT_THAT(all.text, HasSubstr("can0       123            2      2.000"));
+  const Said one = run_tool(replay + " --interface can0 --json");
+  EXPECT_EQ(one.code, 0) << one.text;
+  const auto json = nlohmann::json::parse(one.text);
+  EXPECT_EQ(json["frames"], 2);
+  EXPECT_EQ(json["identifiers"].size(), 1U);
+  EXPECT_EQ(json["identifiers"][0]["count"], 2);
+}
+
+TEST(ToolRecordings, IdsAsCsvAndJson) {
+  const ScratchFolder folder;
+  const std::string log = folder.file("a.log", kTwoBuses);
+  const Said csv = shell(std::string{VERICAN_BINARY} + " ids " + log + " --csv - 2> /dev/null");
+  EXPECT_THAT(csv.text, HasSubstr("interface,id,extended,remote,count,"));
+  EXPECT_THAT(csv.text, HasSubstr("\ncan1,124,0,0,1,"));
+  const auto json = nlohmann::json::parse(run_tool("ids --json " + log).text);
+  EXPECT_EQ(json["interfaces"]["can0"], 2);
+  EXPECT_EQ(json["identifiers"][0]["period_mean_ps"], 2e9);
+}
+
+}  // namespace
+}  // namespace vericansim

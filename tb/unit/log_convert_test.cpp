@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Conversions: what each format keeps and what is told as lost; recordings of others there and
+// back.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "harness/scratch_folder.hpp"
+#include "trace/candump.hpp"
+#include "trace/input_error.hpp"
+#include "trace/log_convert.hpp"
+#include "trace/trc.hpp"
+
+namespace vericansim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+bool has_python_can() { return shell("/usr/bin/python3 -c 'import can' 2>&1").code == 0; }
+
+CanLog sample() {
+  return parse_candump(
+      "(1700000000.000000500) vcan3 123#1122 T\n(1700000000.5) vcan3 12345678#R3 R\n"
+      "(1700000001.0) vcan3 123#0102030405060708_C R\n(1700000002.0) vcan3 123##1AABB R\n"
+      "(1700000003.0) vcan3 20000080#0001020304050607\n",
+      "log");
+}
+
+std::vector<std::string> lost(LogFormat format) {
+  const Conversion result = convert(sample(), format, "out");
+  EXPECT_TRUE(result.faithful) << name_of(format);
+  return result.lost;
+}
+
+TEST(Convert, CandumpAndPcapngLoseNothing) {
+  EXPECT_THAT(lost(LogFormat::kCandump), IsEmpty());
+  EXPECT_THAT(lost(LogFormat::kPcapng), IsEmpty());
+  EXPECT_THAT(lost(LogFormat::kPcap), ElementsAre("5 interfaces vcan3 (none now)", "4 directions"));
+}
+
+TEST(Convert, TrcAndGvretTellWhatTheyCannotHold) {
+  EXPECT_THAT(
+      lost(LogFormat::kTrc),
+      ElementsAre("1 error messages", "4 interfaces vcan3 (can3 now)",
+                  "3 times since the first frame, by up to 500 ns", "1 time of day, by 500 ns"));
+  EXPECT_THAT(lost(LogFormat::kGvret),
+              ElementsAre("1 remote frames", "1 DLCs of 9 to 15 (8 now)", "1 CAN FD frames",
+                          "1 error messages", "2 interfaces vcan3 (can3 now)",
+                          "1 times since the first frame, by up to 500 ns", "1 time of day"));
+}
+
+TEST(Convert, PythonCansFormatsTellWhatTheyCannotHold) {
+  if (!has_python_can()) GTEST_SKIP() << "python3-can is not installed";
+  EXPECT_THAT(lost(LogFormat::kBlf), ElementsAre("5 interfaces vcan3 (can3 now)"));
+  EXPECT_THAT(lost(LogFormat::kAsc), testing::Contains("1 contents of error messages"));
+  EXPECT_THAT(lost(LogFormat::kCsv), testing::Contains("1 CAN FD frames"));
+  EXPECT_THAT(lost(LogFormat::kSqlite), testing::Contains("4 interfaces vcan3 (none now)"));
+}
+
+// Versions as PEAK's description shows them.
+TEST(Convert, ReadsEveryVersionOfTrc) {
+  const auto only = [](const std::string &text) {
+    const CanLog log = parse_trc(text, "a.trc");
+    return log.entries.size() == 1
+               ? candump_frame(log.entries[0].frame) + " " + log.entries[0].channel
+               : std::to_string(log.entries.size());
+  };
+  const std::string v = ";$FILEVERSION=";
+  EXPECT_EQ(only(";\n 1)  17535  00000100  2  01 02\n 2) 17540 FFFFFFFF 4 00 00 00 08\n"),
+            "00000100#0102 ");
+  EXPECT_EQ(only(v + "1.2\n 1) 17535.4 2 Rx 0100 2 01 02\n"), "100#0102 can1");
+  EXPECT_EQ(only(v + "1.3\n 1) 17535.4 1 Tx 00000100 - 0\n 2) 1 1 Warng FFFFFFFF - 4 00 00\n"),
+            "00000100# can0");
+  EXPECT_EQ(only(v + "2.0\n;$COLUMNS=N,O,T,I,d,l,D\n 1 17535.400 DT 0100 Tx 2 01 02\n"
+                     " 2 17540.300 ST          Rx    00 00 00 08\n"),
+            "100#0102 ");
+  EXPECT_EQ(only(v + "2.1\n 1 17535.400 RR 3 00000100 Rx - 4\n"), "00000100#R4 can2");
+  EXPECT_EQ(only(v + "2.1\n 1 1.0 DT 1 0100 Rx - 15 01 02 03 04 05 06 07 08\n"),
+            "100#0102030405060708_F can0");
+  const CanLog fd =
+      parse_trc(v + "2.1\n 1 1.0 BI 1 0100 Rx - 9 00 01 02 03 04 05 06 07 08 09 0A 0B\n", "a.trc");
+  EXPECT_EQ(fd.others.at(0).text, "100##3000102030405060708090A0B");
+  EXPECT_THROW(static_cast<void>(parse_trc(v + "2.1\n;$COLUMNS=N,X\n", "a.trc")), InputError);
+}
+
+// Our reader and python-can's must see the same frames in a file of ours.
+TEST(Convert, PythonCanReadsOurTrc) {
+  if (!has_python_can()) GTEST_SKIP() << "python3-can is not installed";
+  const ScratchFolder folder;
+  const std::string path = folder.file(
+      "a.trc", trc_text(parse_candump("(1700000000.25) can0 123#1122\n(1700000000.50025) can1 "
+                                      "12345678# T\n",
+                                      "log")));
+  EXPECT_EQ(shell("/usr/bin/python3 -c 'import can, sys\nfor m in can.LogReader(sys.argv[1]): "
+                  "print(round(m.timestamp, 6), hex(m.arbitration_id), m.is_extended_id, "
+                  "m.data.hex(), m.channel, m.is_rx)' " +
+                  path)
+                .text,
+            "0.0 0x123 False 1122 1 True\n0.25025 0x12345678 True  2 False\n");
+}
+
+/// Files of the folder that VERICAN_RECORDINGS names, else of ../shared/data/traffic.
+std::vector<std::string> recordings() {
+  const char *given = std::getenv("VERICAN_RECORDINGS");
+  std::vector<std::string> files;
+  std::error_code error;
+  for (const auto &entry : std::filesystem::directory_iterator{
+           given != nullptr ? given : "../shared/data/traffic", error})
+    if (entry.is_regular_file() && entry.path().extension() != ".md") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Held-out recordings: through every format of ours and back, all frames are the same.
+TEST(Convert, RecordingsOfOthersThereAndBack) {
+  const auto files = recordings();
+  if (files.empty()) GTEST_SKIP() << "no recordings; VERICAN_RECORDINGS=FOLDER names some";
+  for (const std::string &file : files) {
+    CanLog log;
+    try {
+      log = read_log(file);
+    } catch (const InputError &error) {
+      std::printf("  %s\n", error.what());
+      continue;
+    }
+    for (const LogFormat format : {LogFormat::kCandump, LogFormat::kPcap, LogFormat::kPcapng,
+                                   LogFormat::kTrc, LogFormat::kGvret})
+      EXPECT_TRUE(convert(log, format, file).faithful) << file << " " << name_of(format);
+  }
+}
+
+}  // namespace
+}  // namespace vericansim
