@@ -264,9 +264,18 @@ Level Bus::receive(NodeId id, Time t) {
 }
 
 Level Bus::with_faults(NodeId id, Time t, std::uint64_t dominant) {
-  for (Fault *fault : with_babbling_) dominant |= fault->babbling(t);
-  for (Fault *fault : with_unheard_) dominant &= ~fault->unheard(id, t);
-  Level level = wired_and(dominant);
+  std::uint64_t unheard = 0;
+  for (Fault *fault : with_unheard_) unheard |= fault->unheard(id, t);
+  for (Fault *fault : with_babbling_) {
+    const std::uint64_t babbling = fault->babbling(t);
+    if ((dominant & ~unheard) == 0 && (babbling & ~unheard) != 0) fault->took_effect(id, t);
+    dominant |= babbling;
+  }
+  Level level = wired_and(dominant & ~unheard);
+  if (level != wired_and(dominant)) {
+    for (Fault *fault : with_unheard_)
+      if ((fault->unheard(id, t) & dominant) != 0) fault->took_effect(id, t);
+  }
   for (Fault *fault : with_level_) level = fault->level(id, t, level);
   return level;
 }

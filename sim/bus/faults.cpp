@@ -12,8 +12,8 @@
 
 namespace vericansim {
 
-void ScheduledFaults::add(NodeId victim, Effect effect, Window window) {
-  const Entry entry{window, effect};
+void ScheduledFaults::add(NodeId victim, Effect effect, Window window, FaultLog *log) {
+  const Entry entry{window, effect, log};
   if (victim != kAllNodes) return insert(receiver(victim), entry);
   for_everybody_.push_back(entry);
   insert(point_, entry);
@@ -39,15 +39,21 @@ Level ScheduledFaults::level(NodeId id, Time t, Level level) {
   Receiver &who = receiver(id);
   const auto &list = who.entries;
   while (who.head < list.size() && list[who.head].window.to <= t) ++who.head;
-  for (std::size_t i = who.head; i < list.size() && list[i].window.from <= t; ++i)
-    if (list[i].window.contains(t)) level = apply_effect(list[i].effect, level);
+  for (std::size_t i = who.head; i < list.size() && list[i].window.from <= t; ++i) {
+    const Entry &entry = list[i];
+    if (!entry.window.contains(t)) continue;
+    const Level changed = apply_effect(entry.effect, level);
+    if (changed != level && entry.log != nullptr && id != kBusPoint) entry.log->mark(t);
+    level = changed;
+  }
   return level;
 }
 
 void ClockFault::attach(Bus &bus) {
   Node &node = bus.node(node_);
-  bus.at(when_, [&bus, &node, ppm = error_ppm_] {
-    node.oscillator().set_error_ppm(ppm);
+  bus.at(when_, [this, &bus, &node] {
+    if (node.oscillator().config().error_ppm != error_ppm_) took_effect(node_, when_);
+    node.oscillator().set_error_ppm(error_ppm_);
     bus.clocks_changed();
   });
 }
@@ -90,9 +96,11 @@ bool PlaceSpec::matches(const PlaceTracker &at) const {
          at.clocks() <= last_clock;
 }
 
-Level PlaceFault::level(NodeId receiver, Time, Level level) {
-  const bool hit = active_ && (receiver == victim_ || victim_ == kAllNodes);
-  return hit ? apply_effect(effect_, level) : level;
+Level PlaceFault::level(NodeId receiver, Time t, Level level) {
+  if (!active_ || (receiver != victim_ && victim_ != kAllNodes)) return level;
+  const Level changed = apply_effect(effect_, level);
+  if (changed != level) took_effect(receiver, t);
+  return changed;
 }
 
 void PlaceFault::clocked(NodeId node, Time, std::uint64_t word) {
@@ -136,7 +144,9 @@ Level NoiseFault::level(NodeId receiver, Time t, Level level) {
     who.next_glitch += config_.glitch + draw_gap(who);
     ++hits_;
   }
-  return (who.bit_hit || t < who.glitch_end) ? !level : level;
+  if (!who.bit_hit && t >= who.glitch_end) return level;
+  if (log() != nullptr) log()->mark(t, receiver);
+  return !level;
 }
 
 void NoiseFault::clocked(NodeId node, Time, std::uint64_t word) {

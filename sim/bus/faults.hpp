@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "bus/fault_log.hpp"
 #include "bus/node.hpp"
 #include "bus/types.hpp"
 #include "node/trace.hpp"
@@ -30,13 +31,6 @@ constexpr Level apply_effect(Effect effect, Level level) {
   if (effect == Effect::kFlip) return !level;
   return effect == Effect::kDominant ? Level::kDominant : Level::kRecessive;
 }
-
-/// Half-open span of simulated time, [from, to).
-struct Window {
-  Time from = 0;
-  Time to = std::numeric_limits<Time>::max();
-  [[nodiscard]] constexpr bool contains(Time t) const { return t >= from && t < to; }
-};
 
 /// Base of all faults. The kernel asks at every clock edge of every node, and only if a fault
 /// exists.
@@ -59,6 +53,20 @@ class Fault {
   [[nodiscard]] virtual Level level(NodeId, Time, Level level) { return level; }
   /// A node has been clocked and shows this trace word.
   virtual void clocked(NodeId, Time, std::uint64_t) {}
+
+  /// Where this fault notes when it took effect; it must outlive the fault. Without: nowhere.
+  void log_to(FaultLog &log) { log_ = &log; }
+  /// The receiver has another level at this clock edge than without the fault. The bus says so of
+  /// unheard() and babbling(), level() for itself.
+  void took_effect(NodeId receiver, Time t) {
+    if (log_ != nullptr && receiver != kBusPoint) log_->mark(t);
+  }
+
+ protected:
+  [[nodiscard]] FaultLog *log() const { return log_; }
+
+ private:
+  FaultLog *log_ = nullptr;
 };
 
 /// Forces or flips the level at one receiver (`victim`), or on the whole bus (kAllNodes), for a
@@ -69,8 +77,10 @@ class LevelFault : public Fault {
       : victim_{victim}, effect_{effect}, window_{window} {}
   [[nodiscard]] unsigned hooks() const override { return kLevel; }
   [[nodiscard]] Level level(NodeId receiver, Time t, Level level) override {
-    const bool hit = (receiver == victim_ || victim_ == kAllNodes) && window_.contains(t);
-    return hit ? apply_effect(effect_, level) : level;
+    if ((receiver != victim_ && victim_ != kAllNodes) || !window_.contains(t)) return level;
+    const Level changed = apply_effect(effect_, level);
+    if (changed != level) took_effect(receiver, t);
+    return changed;
   }
 
  private:
@@ -83,7 +93,8 @@ class LevelFault : public Fault {
 /// are not looked at again. Each receiver asks with times that do not go back.
 class ScheduledFaults : public Fault {
  public:
-  void add(NodeId victim, Effect effect, Window window);
+  /// `log`: where this one notes when it took effect.
+  void add(NodeId victim, Effect effect, Window window, FaultLog *log = nullptr);
   [[nodiscard]] unsigned hooks() const override { return kLevel; }
   [[nodiscard]] Level level(NodeId receiver, Time t, Level level) override;
 
@@ -91,6 +102,7 @@ class ScheduledFaults : public Fault {
   struct Entry {
     Window window;
     Effect effect;
+    FaultLog *log;
   };
   struct Receiver {
     std::vector<Entry> entries;  // in the order of their beginnings
@@ -203,7 +215,7 @@ class PlaceFault : public Fault {
   [[nodiscard]] unsigned hooks() const override { return kLevel | kClocked; }
   [[nodiscard]] Level level(NodeId receiver, Time t, Level level) override;
   void clocked(NodeId node, Time t, std::uint64_t word) override;
-  /// Bits that have been hit so far.
+  /// Bits at the place so far, whether the level there was another one or not.
   [[nodiscard]] unsigned hits() const { return hits_; }
 
  private:
@@ -233,7 +245,7 @@ class NoiseFault : public Fault {
   [[nodiscard]] unsigned hooks() const override { return kLevel | kClocked; }
   [[nodiscard]] Level level(NodeId receiver, Time t, Level level) override;
   void clocked(NodeId node, Time t, std::uint64_t word) override;
-  /// Flipped bits and glitches so far.
+  /// Flipped bits and glitches drawn so far, whether they were seen or not.
   [[nodiscard]] unsigned hits() const { return hits_; }
 
  private:

@@ -168,6 +168,7 @@ Json report_meta(const ReportRecorder &recorder, const ReportExtras &extras) {
           {"messages", messages_json(extras)},
           {"summary", summary_json(recorder, extras)},
           {"checks", checks_json(extras)},
+          {"faults", extras.run != nullptr ? faults_meta(extras.run->faults) : Json::array()},
           {"causes", causes},
           {"databases", databases_json(extras)},
           {"statements", statements_json(recorder, extras)},

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <regex>
 #include <string_view>
 
@@ -75,8 +76,8 @@ void check_board(const NodeExpectation &node, const firmware::BoardReport &board
 /// Every node that takes any frame must have all frames of the others, bit-exact and in their
 /// order.
 CheckResult check_complete(const Scenario &scenario, NodeId node,
-                           const std::vector<BusFrame> &frames,
-                           const std::vector<Frame> &received) {
+                           const std::vector<BusFrame> &frames, const std::vector<Frame> &received,
+                           std::size_t &compared) {
   const HostConfig &host = scenario.nodes[node].host;
   std::vector<Frame> wanted;
   for (const BusFrame &frame : frames)
@@ -86,19 +87,47 @@ CheckResult check_complete(const Scenario &scenario, NodeId node,
   const auto [seen, due] =
       std::mismatch(received.begin(), received.end(), wanted.begin(), wanted.end());
   result.ok = seen == received.end() && due == wanted.end();
+  compared += wanted.size();
   result.seen = result.ok ? fmt::format("{} frames", received.size())
                           : fmt::format("{} frames, the first {} as they should be",
                                         received.size(), seen - received.begin());
   return result;
 }
 
+// Where there was nothing to receive nothing has been shown.
+void check_all_complete(const Scenario &scenario, const RunReport &report,
+                        const std::vector<BusFrame> &frames,
+                        const std::vector<std::vector<Frame>> &received,
+                        std::vector<CheckResult> &results) {
+  std::size_t compared = 0;
+  for (NodeId id = 0; id < scenario.nodes.size(); ++id)
+    if (report.nodes[id].own_software && scenario.nodes[id].host.filters.empty())
+      results.push_back(check_complete(scenario, id, frames, received[id], compared));
+  if (compared == 0)
+    results.push_back({"complete", "a data frame, and another node without filters",
+                       "nothing to compare", false});
+}
+
 CheckResult check_bound(const MessageReport &message) {
   const auto ms = [](Time t) {
     return fmt::format("{:.3f} ms", static_cast<double>(t) / kMillisecond);
   };
+  const bool sent = message.sent != 0;
   return {"response of " + message.name,
           message.bound ? "at most the bound, " + ms(*message.bound) : "a bound",
-          ms(message.longest), message.bound && message.longest <= *message.bound};
+          sent ? ms(message.longest) : "not sent",
+          sent && message.bound && message.longest <= *message.bound};
+}
+
+// A message that nobody has queued has no response time; without any nothing has been shown.
+void check_bounds(const RunReport &report, std::vector<CheckResult> &results) {
+  bool any = false;
+  for (const MessageReport &message : report.messages) {
+    if (message.queued == 0) continue;
+    any = true;
+    results.push_back(check_bound(message));
+  }
+  if (!any) results.push_back({"within_bound", "a message that is sent", "none", false});
 }
 
 CheckResult check_response(const RunReport &report, const std::string &name, Time limit) {
@@ -110,6 +139,18 @@ CheckResult check_response(const RunReport &report, const std::string &name, Tim
           seen ? fmt::format("{:.3f} ms", static_cast<double>(message->longest) / kMillisecond)
                : "not sent",
           seen && message->longest <= limit};
+}
+
+/// How often a fault took effect; at least once if the scenario says what it expects.
+void check_fault(const Expectations &expect, const FaultSpec &spec, const FaultReport &fault,
+                 std::vector<CheckResult> &results) {
+  constexpr Range kEffect{1, std::numeric_limits<double>::infinity()};
+  if (spec.hits)
+    results.push_back(
+        check_number(fault.name + ".hits", static_cast<double>(fault.hits), *spec.hits));
+  else if (expect.given)
+    results.push_back(
+        check_number(fault.name + " took effect", static_cast<double>(fault.hits), kEffect));
 }
 
 }  // namespace
@@ -137,17 +178,14 @@ std::vector<CheckResult> check_expectations(const Scenario &scenario, const RunR
     for (const firmware::BoardReport &board : report.boards)
       if (board.node == seen.name) check_board(node, board, results);
   }
-  if (expect.complete)
-    for (NodeId id = 0; id < scenario.nodes.size(); ++id)
-      if (report.nodes[id].own_software && scenario.nodes[id].host.filters.empty())
-        results.push_back(check_complete(scenario, id, frames, received[id]));
-  if (expect.within_bound)
-    for (const MessageReport &message : report.messages)
-      if (message.sent != 0) results.push_back(check_bound(message));
+  if (expect.complete) check_all_complete(scenario, report, frames, received, results);
+  if (expect.within_bound) check_bounds(report, results);
   for (const auto &[name, limit] : expect.response_times)
     results.push_back(check_response(report, name, limit));
   const auto signals = check_signals(expect.signals, report.signals);
   results.insert(results.end(), signals.begin(), signals.end());
+  for (std::size_t i = 0; i < report.faults.size(); ++i)
+    check_fault(expect, scenario.faults[i], report.faults[i], results);
   return results;
 }
 

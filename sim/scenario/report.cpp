@@ -137,6 +137,7 @@ std::string to_text(const RunReport &report) {
   if (!report.messages.empty()) text += messages_text(report) + "\n";
   text += nodes_text(report) + "\n";
   if (report.show_signals) text += to_text(report.signals) + "\n";
+  if (!report.faults.empty()) text += faults_text(report.faults) + "\n";
   if (report.interrupted) text += "  interrupted; expectations were not checked\n";
   text += parts_text(report);
   for (const CheckResult &check : report.checks)
@@ -168,6 +169,7 @@ Json to_json(const RunReport &report) {
             {"node_cycles", report.node_cycles},
             {"messages", messages},
             {"nodes", nodes},
+            {"faults", faults_json(report.faults)},
             {"checks", checks},
             {"interrupted", report.interrupted},
             {"ok", report.ok()}};

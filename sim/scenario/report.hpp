@@ -15,6 +15,7 @@
 #include "firmware/board_report.hpp"
 #include "judge/bus_judge.hpp"
 #include "scenario/bus_monitor.hpp"
+#include "scenario/fault_report.hpp"
 #include "session/port_report.hpp"
 #include "session/replay_result.hpp"
 #include "signals/signal_statistics.hpp"
@@ -74,6 +75,7 @@ struct RunReport {
   std::vector<PortReport> ports;          ///< with programs of the host as nodes
   std::vector<SocketcandCounts> servers;  ///< one for each address
   std::optional<PaceReport> pace;         ///< held to real time, or with programs of the host
+  std::vector<FaultReport> faults;
   std::vector<CheckResult> checks;
   bool interrupted = false;   ///< the user has ended it before its time; nothing was checked then
   bool show_signals = false;  ///< in the text

@@ -257,6 +257,7 @@ Scenario parse_scenario(const std::string &path, const std::string &text) {
   map.with("faults", [&](const YamlValue &list) {
     for (const YamlValue &item : list.items())
       scenario.faults.push_back(detail::parse_fault(item, scenario));
+    detail::check_fault_names(scenario);
   });
   map.with("accesses", [&](const YamlValue &list) {
     for (const YamlValue &item : list.items())

@@ -67,6 +67,13 @@ struct TrafficSpec {
   bool saturated = false;  ///< always one more waiting, as fast as the bus allows
 };
 
+/// Inclusive limits of a number.
+struct Range {
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  [[nodiscard]] bool contains(double value) const { return value >= least && value <= most; }
+};
+
 /// A fault, as Bus knows them.
 struct FaultSpec {
   enum class Kind : std::uint8_t { kLevel, kPlace, kCut, kShort, kClock, kNoise };
@@ -77,9 +84,12 @@ struct FaultSpec {
   NodeId watched = 0;  ///< kPlace: the node whose place counts
   PlaceSpec place;     ///< kPlace
   std::optional<unsigned> first_quantum,
-      last_quantum;   ///< kPlace: part of the bit, tq of the watched node
-  double ppm = 0;     ///< kClock
-  NoiseConfig noise;  ///< kNoise
+      last_quantum;           ///< kPlace: part of the bit, tq of the watched node
+  double ppm = 0;             ///< kClock
+  NoiseConfig noise;          ///< kNoise
+  std::string name;           ///< empty: "fault 3", by its place in the list
+  std::optional<Range> hits;  ///< how often it must take effect; unset: Expectations::given
+  std::size_t line = 0;       ///< in the file
 };
 
 /// One thing that a script does with a register or a word of a buffer.
@@ -107,13 +117,6 @@ struct AccessSpec {
   std::vector<AccessStep> steps;
 };
 
-/// Inclusive limits of a number.
-struct Range {
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
-  [[nodiscard]] bool contains(double value) const { return value >= least && value <= most; }
-};
-
 /// What must be true of one node at the end.
 struct NodeExpectation {
   NodeId node = 0;
@@ -136,6 +139,7 @@ struct SignalExpectation {
 
 /// What must be true at the end.
 struct Expectations {
+  bool given = false;  ///< there are any; then every fault must take effect at least once
   std::map<std::string, Range>
       numbers;            ///< frames, error_frames, overload_frames, load (per cent), pending
   bool complete = false;  ///< every node without filters has every frame of the others, in order

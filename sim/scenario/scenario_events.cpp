@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenario files: traffic and faults.
+// Scenario files: traffic.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "scenario/scenario_parts.hpp"
 #include "signals/signal_codec.hpp"
@@ -94,60 +93,6 @@ void parse_times(YamlMap &map, TrafficSpec &traffic) {
     traffic.count = std::min<std::uint64_t>(traffic.count, 1);
 }
 
-std::string lower(std::string text) {
-  for (char &c : text)
-    c = c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-Field parse_field(const YamlValue &value) {
-  std::string names;
-  for (unsigned code = 0; code < 32; ++code) {
-    const std::string name{field_name(static_cast<Field>(code))};
-    if (name == "?") continue;
-    if (lower(name) == lower(value.text())) return static_cast<Field>(code);
-    names += (names.empty() ? "" : ", ") + name;
-  }
-  value.refuse(names);
-}
-
-void parse_window(YamlMap &map, Window &window) {
-  map.with("from", [&](const YamlValue &v) { window.from = v.time(0, kLongestTime); });
-  const auto to = map.find("to");
-  const auto length = map.find("for");
-  if (to && length) length->fail("either 'to' or 'for', not both");
-  if (to) window.to = to->time(window.from + 1, kLongestTime);
-  if (length) window.to = window.from + length->time(1, kLongestTime);
-}
-
-void parse_place(const YamlValue &value, const Scenario &scenario, FaultSpec &fault) {
-  YamlMap map{value};
-  fault.kind = FaultSpec::Kind::kPlace;
-  fault.watched = parse_node_name(map.need("node"), scenario);
-  fault.node = fault.watched;
-  const auto number = [&](const char *key, std::optional<unsigned> &target, std::uint64_t least,
-                          std::uint64_t most) {
-    map.with(key,
-             [&](const YamlValue &v) { target = static_cast<unsigned>(v.integer(least, most)); });
-  };
-  map.with("field", [&](const YamlValue &v) { fault.place.field = parse_field(v); });
-  number("frame", fault.place.frame, 1, 1'000'000'000);
-  number("bit", fault.place.index, 0, 127);
-  number("bits_left", fault.place.left, 0, 63);
-  number("first_tq", fault.first_quantum, 0, 24);
-  number("last_tq", fault.last_quantum, 0, 24);
-  map.with("stuff", [&](const YamlValue &v) { fault.place.stuff = v.boolean(); });
-  map.finish();
-}
-
-void parse_noise(YamlMap &map, NoiseConfig &noise, std::uint64_t seed) {
-  noise.seed = seed;
-  map.with("per_bit", [&](const YamlValue &v) { noise.per_bit = v.number(0, 1); });
-  map.with("glitches_per_ms", [&](const YamlValue &v) { noise.per_ns = v.number(0, 1e6) / 1e6; });
-  map.with("glitch", [&](const YamlValue &v) { noise.glitch = v.time(1, kSecond); });
-  map.with("seed", [&](const YamlValue &v) { noise.seed = v.integer(0, 0xFFFFFFFF); });
-}
-
 }  // namespace
 
 TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario) {
@@ -172,43 +117,6 @@ TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario) {
   parse_times(map, traffic);
   map.finish();
   return traffic;
-}
-
-FaultSpec parse_fault(const YamlValue &value, const Scenario &scenario) {
-  YamlMap map{value};
-  FaultSpec fault;
-  const YamlValue kind = map.need("kind");
-  const std::string word = kind.text();
-  const bool level = word == "flip" || word == "dominant" || word == "recessive";
-  if (level) {
-    fault.effect = word == "flip"       ? Effect::kFlip
-                   : word == "dominant" ? Effect::kDominant
-                                        : Effect::kRecessive;
-    map.with("at", [&](const YamlValue &v) { parse_place(v, scenario, fault); });
-  } else if (word == "noise") {
-    fault.kind = FaultSpec::Kind::kNoise;
-    parse_noise(map, fault.noise, scenario.seed);
-  } else if (word == "clock") {
-    fault.kind = FaultSpec::Kind::kClock;
-    fault.ppm = map.need("ppm").number(-50'000, 50'000);
-  } else if (word == "cut" || word == "short") {
-    fault.kind = word == "cut" ? FaultSpec::Kind::kCut : FaultSpec::Kind::kShort;
-  } else {
-    kind.refuse("flip, dominant, recessive, cut, short, clock, noise");
-  }
-  if (fault.kind != FaultSpec::Kind::kPlace) parse_window(map, fault.window);
-  const bool everyone = level || fault.kind == FaultSpec::Kind::kNoise;  // others need one node
-  const auto node = map.find("node");
-  if (node && everyone && node->is_scalar() && node->text() == "all")
-    fault.node = kAllNodes;
-  else if (node)
-    fault.node = parse_node_name(*node, scenario);
-  else if (!everyone)
-    value.fail("key 'node' is missing");
-  fault.noise.victim = fault.node;
-  fault.noise.window = fault.window;
-  map.finish();
-  return fault;
 }
 
 }  // namespace vericansim::detail

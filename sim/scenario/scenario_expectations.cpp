@@ -107,6 +107,7 @@ Range parse_range(const YamlValue &value) {
 Expectations parse_expectations(const YamlValue &value, const Scenario &scenario) {
   YamlMap map{value};
   Expectations expect;
+  expect.given = true;
   for (const char *key : {"frames", "error_frames", "overload_frames", "load", "pending"})
     map.with(key, [&](const YamlValue &v) { expect.numbers[key] = parse_range(v); });
   map.with("complete", [&](const YamlValue &v) { expect.complete = v.boolean(); });

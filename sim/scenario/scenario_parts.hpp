@@ -14,6 +14,9 @@ namespace vericansim::detail {
 
 /// An item of `nodes` that is no node: `{monitor: vcan1}`; nothing if it is one.
 [[nodiscard]] std::optional<ListenerSpec> parse_listener(const YamlValue &value);
+
+/// A number, or `{min: 1, max: 9}`.
+[[nodiscard]] Range parse_range(const YamlValue &value);
 /// What kind of node it is, with the keys of that kind.
 [[nodiscard]] NodeRole parse_role(YamlMap &map, const Scenario &scenario);
 /// Keys `timing`, `bitrate`, `sample_point`, `sjw` of a node whose clock is known.
@@ -21,6 +24,8 @@ void parse_bit(YamlMap &map, NodeSpec &node, const std::vector<double> &bitrates
 [[nodiscard]] NodeSpec parse_node(const YamlValue &value, const Scenario &scenario);
 [[nodiscard]] TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario);
 [[nodiscard]] FaultSpec parse_fault(const YamlValue &value, const Scenario &scenario);
+/// Refuses two faults of one name.
+void check_fault_names(const Scenario &scenario);
 [[nodiscard]] AccessSpec parse_access(const YamlValue &value, const Scenario &scenario);
 [[nodiscard]] Expectations parse_expectations(const YamlValue &value, const Scenario &scenario);
 

@@ -4,6 +4,7 @@
 // Scenario files: a scenario back to text.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 #include <stdexcept>
 
@@ -144,7 +145,23 @@ std::string window_text(const Window &window) {
   return text;
 }
 
-std::string fault_text(const Scenario &scenario, const FaultSpec &fault) {
+/// In quotes, since people choose the words.
+std::string name_text(const std::string &name) {
+  std::string text;
+  for (const char c : name) text += c == '\'' ? "''" : std::string(1, c);
+  return name.empty() ? "" : ", name: '" + text + "'";
+}
+
+std::string range_text(const Range &range) {
+  if (range.least == range.most) return fmt::format("{}", range.least);
+  std::string text;
+  if (!std::isinf(range.least)) text += fmt::format("min: {}", range.least);
+  if (!std::isinf(range.most))
+    text += fmt::format("{}max: {}", text.empty() ? "" : ", ", range.most);
+  return "{" + text + "}";
+}
+
+std::string fault_line(const Scenario &scenario, const FaultSpec &fault) {
   using Kind = FaultSpec::Kind;
   const std::string node =
       ", node: " + (fault.node == kAllNodes ? "all" : scenario.nodes[fault.node].name);
@@ -166,6 +183,8 @@ std::string fault_text(const Scenario &scenario, const FaultSpec &fault) {
                           time_text(fault.noise.glitch), fault.noise.seed);
       break;
   }
+  text += name_text(fault.name);
+  if (fault.hits) text += ", hits: " + range_text(*fault.hits);
   return text + "}\n";
 }
 
@@ -195,7 +214,7 @@ std::string to_yaml(const Scenario &scenario) {
   if (!scenario.traffic.empty()) text += "traffic:\n";
   for (const TrafficSpec &traffic : scenario.traffic) text += traffic_text(scenario, traffic);
   if (!scenario.faults.empty()) text += "faults:\n";
-  for (const FaultSpec &fault : scenario.faults) text += fault_text(scenario, fault);
+  for (const FaultSpec &fault : scenario.faults) text += fault_line(scenario, fault);
   if (!scenario.accesses.empty()) text += "accesses:\n";
   for (const AccessSpec &access : scenario.accesses) text += access_text(scenario, access);
   return text;

@@ -15,7 +15,7 @@
 namespace vericansim {
 
 Simulation::Simulation(const Scenario &scenario, double bitrate)
-    : scenario_{scenario}, bitrate_{bitrate}, bit_time_{bit_time_of(bitrate)} {
+    : scenario_{scenario}, bitrate_{bitrate}, bit_time_{bit_time_of(bitrate)}, faults_{scenario} {
   build_stations();
   observe();
   if (scenario_.lockstep) set_up_judge();
@@ -76,49 +76,6 @@ ReportExtras Simulation::report_extras(const RunReport &report) const {
   for (const TrafficSpec &spec : scenario_.traffic)
     extras.messages.push_back({spec.node, spec.frame, spec.period});
   return extras;
-}
-
-std::unique_ptr<Fault> Simulation::make_fault(const FaultSpec &spec) const {
-  Window window = spec.window;
-  window.from += start_;
-  if (window.to != std::numeric_limits<Time>::max()) window.to += start_;
-  switch (spec.kind) {
-    case FaultSpec::Kind::kLevel:
-      return std::make_unique<LevelFault>(spec.node, spec.effect, window);
-    case FaultSpec::Kind::kCut: return std::make_unique<CutFault>(spec.node, window);
-    case FaultSpec::Kind::kShort: return std::make_unique<ShortFault>(spec.node, window);
-    case FaultSpec::Kind::kClock:
-      return std::make_unique<ClockFault>(spec.node, window.from, spec.ppm);
-    case FaultSpec::Kind::kNoise: {
-      NoiseConfig noise = spec.noise;
-      noise.window = window;
-      return std::make_unique<NoiseFault>(noise);
-    }
-    case FaultSpec::Kind::kPlace: break;
-  }
-  PlaceSpec place = spec.place;
-  const unsigned clocks = stations_[spec.watched].timing.prescaler;
-  if (spec.first_quantum) place.first_clock = *spec.first_quantum * clocks;
-  if (spec.last_quantum) place.last_clock = (*spec.last_quantum + 1) * clocks - 1;
-  return std::make_unique<PlaceFault>(spec.watched, place, spec.effect, spec.node);
-}
-
-// Level faults with an end are many in random scenarios and share one Fault.
-void Simulation::add_faults() {
-  std::unique_ptr<ScheduledFaults> scheduled;
-  for (const FaultSpec &spec : scenario_.faults) {
-    const bool ends = spec.window.to != std::numeric_limits<Time>::max();
-    if (spec.kind == FaultSpec::Kind::kLevel && ends) {
-      if (!scheduled) scheduled = std::make_unique<ScheduledFaults>();
-      scheduled->add(spec.node, spec.effect, {spec.window.from + start_, spec.window.to + start_});
-      continue;
-    }
-    faults_.push_back(make_fault(spec));
-    bus_.add(*faults_.back());
-  }
-  if (!scheduled) return;
-  bus_.add(*scheduled);
-  faults_.push_back(std::move(scheduled));
 }
 
 void Simulation::start_accesses() {
@@ -231,6 +188,7 @@ RunReport Simulation::collect(bool interrupted) {
                             station.host ? station.host->stats().overruns : 0, ahb.transfers,
                             ahb.max_waits, ahb.violations, station.host != nullptr});
   }
+  report.faults = faults_.report(bus_.now());
   report.node_cycles = stations_.cycles();
   if (scenario_.analysis || scenario_.expect.within_bound) add_bounds(report);
   if (on_report) on_report(report);
@@ -257,7 +215,8 @@ void Simulation::join() { stations_.join(bus_, bit_time_); }
 void Simulation::start(Time when) {
   bus_.run_until(when);
   start_ = bus_.now();
-  add_faults();
+  faults_.add_to(bus_, start_, bit_time_,
+                 [this](NodeId id) { return stations_[id].timing.prescaler; });
   outputs_->begin();
   if (judge_) add_disturbances();
   start_traffic();

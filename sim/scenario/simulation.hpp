@@ -13,6 +13,7 @@
 #include "scenario/access_script.hpp"
 #include "scenario/bus_monitor.hpp"
 #include "scenario/bus_outputs.hpp"
+#include "scenario/fault_set.hpp"
 #include "scenario/report.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/station.hpp"
@@ -72,8 +73,6 @@ class Simulation {
  private:
   void build_stations();
   void observe();
-  void add_faults();
-  std::unique_ptr<Fault> make_fault(const FaultSpec &spec) const;
   void start_traffic();
   void start_accesses();
   void set_up_judge();
@@ -95,7 +94,7 @@ class Simulation {
   Stations stations_;
   std::vector<std::unique_ptr<AccessScript>> scripts_;  // one for each node that has accesses
   std::unique_ptr<BusJudge> judge_;
-  std::vector<std::unique_ptr<Fault>> faults_;
+  FaultSet faults_;
   std::vector<std::unique_ptr<TrafficSource>> traffic_;
   std::vector<BusFrame> frames_;
   std::unique_ptr<BusMonitor> monitor_;

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Faults in words, as text and as JSON.
+#include "scenario/fault_report.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iterator>
+
+namespace vericansim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Kind = FaultSpec::Kind;
+
+std::string milliseconds(Time time) {
+  return fmt::format("{:.10g} ms", static_cast<double>(time) / kMillisecond);
+}
+
+std::string node_name(const Scenario &scenario, NodeId node) {
+  return node == kAllNodes ? "every node" : scenario.nodes[node].name;
+}
+
+std::string window_text(const Window &window) {
+  const bool ends = window.to != std::numeric_limits<Time>::max();
+  if (ends) return fmt::format(", {} to {}", milliseconds(window.from), milliseconds(window.to));
+  return window.from == 0 ? "" : fmt::format(", from {} on", milliseconds(window.from));
+}
+
+std::string place_text(const Scenario &scenario, const FaultSpec &fault) {
+  const PlaceSpec &place = fault.place;
+  std::string text = " while " + scenario.nodes[fault.watched].name + " is in";
+  text += place.field ? fmt::format(" {}", field_name(*place.field)) : " any field";
+  if (place.index) text += fmt::format(", bit {}", *place.index);
+  if (place.left) text += fmt::format(", {} bits before the last", *place.left);
+  if (place.stuff) text += *place.stuff ? ", stuff bits" : ", no stuff bits";
+  if (fault.first_quantum || fault.last_quantum)
+    text += fmt::format(
+        ", quanta {} to {}", fault.first_quantum.value_or(0),
+        fault.last_quantum ? std::to_string(*fault.last_quantum) : "the end of the bit");
+  if (place.frame) text += fmt::format(", frame {}", *place.frame);
+  return text;
+}
+
+std::string noise_text(const NoiseConfig &noise) {
+  std::string text;
+  if (noise.per_bit > 0) text += fmt::format(", each bit flipped with {:g}", noise.per_bit);
+  if (noise.per_ns > 0)
+    text += fmt::format(", {:.10g} glitches of {:.10g} ns a millisecond", noise.per_ns * 1e6,
+                        static_cast<double>(noise.glitch) / kNanosecond);
+  return text;
+}
+
+Json times_json(const FaultReport &fault, double unit) {
+  Json times = Json::array();
+  for (const Window &time : fault.times) {
+    if (unit == 1)
+      times.push_back({time.from, time.to});
+    else
+      times.push_back({static_cast<double>(time.from) / unit, static_cast<double>(time.to) / unit});
+  }
+  return times;
+}
+
+}  // namespace
+
+std::string fault_name(const Scenario &scenario, std::size_t index) {
+  const std::string &name = scenario.faults[index].name;
+  return name.empty() ? fmt::format("fault {}", index + 1) : name;
+}
+
+std::string fault_kind(const FaultSpec &fault) {
+  switch (fault.kind) {
+    case Kind::kCut: return "cut";
+    case Kind::kShort: return "short";
+    case Kind::kClock: return "clock";
+    case Kind::kNoise: return "noise";
+    default: break;
+  }
+  if (fault.effect == Effect::kFlip) return "flip";
+  return fault.effect == Effect::kDominant ? "dominant" : "recessive";
+}
+
+std::string fault_text(const Scenario &scenario, const FaultSpec &fault) {
+  const std::string node = node_name(scenario, fault.node);
+  switch (fault.kind) {
+    case Kind::kCut: return "cable of " + node + " open" + window_text(fault.window);
+    case Kind::kShort:
+      return "transmitter of " + node + " shorted to dominant" + window_text(fault.window);
+    case Kind::kClock:
+      return fmt::format("clock of {} off by {:g} ppm{}", node, fault.ppm,
+                         window_text(fault.window));
+    case Kind::kNoise:
+      return "noise at " + node + noise_text(fault.noise) + window_text(fault.window);
+    default: break;
+  }
+  const std::string what =
+      (fault.effect == Effect::kFlip ? "flipped" : fault_kind(fault)) + " at " + node;
+  return what +
+         (fault.kind == Kind::kPlace ? place_text(scenario, fault) : window_text(fault.window));
+}
+
+std::string faults_text(const std::vector<FaultReport> &faults) {
+  if (faults.empty()) return "";
+  std::size_t width = 14;
+  for (const FaultReport &fault : faults) width = std::max(width, fault.name.size());
+  std::string text;
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "  {:<{}} {:>8} {:>11}  {}\n", "fault", width, "hits", "first ms", "what");
+  for (const FaultReport &fault : faults) {
+    const std::string first =
+        fault.times.empty()
+            ? "never"
+            : fmt::format("{:.3f}", static_cast<double>(fault.times.front().from) / kMillisecond);
+    fmt::format_to(out, "  {:<{}} {:>8} {:>11}  {}\n", fault.name, width, fault.hits, first,
+                   fault.text);
+  }
+  for (const FaultReport &fault : faults)
+    if (fault.unsaid)
+      fmt::format_to(out, "  warning: {} (line {}) never took effect\n", fault.name, fault.line);
+  return text;
+}
+
+Json faults_json(const std::vector<FaultReport> &faults) {
+  Json list = Json::array();
+  for (const FaultReport &fault : faults)
+    list.push_back({{"name", fault.name},
+                    {"kind", fault.kind},
+                    {"node", fault.node},
+                    {"text", fault.text},
+                    {"line", fault.line},
+                    {"hits", fault.hits},
+                    {"took_effect", fault.hits != 0},
+                    {"times_ps", times_json(fault, 1)},
+                    {"more", fault.more}});
+  return list;
+}
+
+Json faults_meta(const std::vector<FaultReport> &faults) {
+  Json list = Json::array();
+  for (const FaultReport &fault : faults)
+    list.push_back({{"name", fault.name},
+                    {"kind", fault.kind},
+                    {"node", fault.id == kAllNodes ? Json(nullptr) : Json(fault.id)},
+                    {"text", fault.text},
+                    {"line", fault.line},
+                    {"hits", fault.hits},
+                    {"times_ns", times_json(fault, kNanosecond)},
+                    {"more", fault.more}});
+  return list;
+}
+
+}  // namespace vericansim
