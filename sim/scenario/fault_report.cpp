@@ -65,11 +65,16 @@ Json times_json(const FaultReport &fault, double unit) {
   return times;
 }
 
+Json fault_json(const FaultReport &fault, const Json &node) {
+  return {{"name", fault.name}, {"kind", fault.kind}, {"node", node},      {"text", fault.text},
+          {"line", fault.line}, {"hits", fault.hits}, {"more", fault.more}};
+}
+
 }  // namespace
 
 std::string fault_name(const Scenario &scenario, std::size_t index) {
-  const std::string &name = scenario.faults[index].name;
-  return name.empty() ? fmt::format("fault {}", index + 1) : name;
+  const FaultSpec &fault = scenario.faults[index];
+  return fault.name.empty() ? fmt::format("{} {}", fault_kind(fault), index + 1) : fault.name;
 }
 
 std::string fault_kind(const FaultSpec &fault) {
@@ -126,30 +131,22 @@ std::string faults_text(const std::vector<FaultReport> &faults) {
 
 Json faults_json(const std::vector<FaultReport> &faults) {
   Json list = Json::array();
-  for (const FaultReport &fault : faults)
-    list.push_back({{"name", fault.name},
-                    {"kind", fault.kind},
-                    {"node", fault.node},
-                    {"text", fault.text},
-                    {"line", fault.line},
-                    {"hits", fault.hits},
-                    {"took_effect", fault.hits != 0},
-                    {"times_ps", times_json(fault, 1)},
-                    {"more", fault.more}});
+  for (const FaultReport &fault : faults) {
+    Json json = fault_json(fault, fault.node);
+    json["took_effect"] = fault.hits != 0;
+    json["times_ps"] = times_json(fault, 1);
+    list.push_back(std::move(json));
+  }
   return list;
 }
 
 Json faults_meta(const std::vector<FaultReport> &faults) {
   Json list = Json::array();
-  for (const FaultReport &fault : faults)
-    list.push_back({{"name", fault.name},
-                    {"kind", fault.kind},
-                    {"node", fault.id == kAllNodes ? Json(nullptr) : Json(fault.id)},
-                    {"text", fault.text},
-                    {"line", fault.line},
-                    {"hits", fault.hits},
-                    {"times_ns", times_json(fault, kNanosecond)},
-                    {"more", fault.more}});
+  for (const FaultReport &fault : faults) {
+    Json json = fault_json(fault, fault.id == kAllNodes ? Json(nullptr) : Json(fault.id));
+    json["times_ns"] = times_json(fault, kNanosecond);
+    list.push_back(std::move(json));
+  }
   return list;
 }
 

@@ -29,7 +29,7 @@ struct FaultReport {
   bool more = false;          ///< there are more times
 };
 
-/// The name of a fault: its own, or "fault 3".
+/// The name of a fault: its own, or kind and place in the list, "flip 3".
 [[nodiscard]] std::string fault_name(const Scenario &scenario, std::size_t index);
 /// The word for the kind of a fault in a scenario file.
 [[nodiscard]] std::string fault_kind(const FaultSpec &fault);

@@ -87,7 +87,7 @@ struct FaultSpec {
       last_quantum;           ///< kPlace: part of the bit, tq of the watched node
   double ppm = 0;             ///< kClock
   NoiseConfig noise;          ///< kNoise
-  std::string name;           ///< empty: "fault 3", by its place in the list
+  std::string name;           ///< empty: kind and place in the list, "flip 3"
   std::optional<Range> hits;  ///< how often it must take effect; unset: Expectations::given
   std::size_t line = 0;       ///< in the file
 };

@@ -43,6 +43,15 @@ void parse_window(YamlMap &map, Window &window) {
   if (length) window.to = window.from + length->time(1, kLongestTime);
 }
 
+/// ": DLC has 4 bits", for a field that has a length.
+std::string length_text(Field field) {
+  const FieldBits bits = field_bits(field);
+  const unsigned length = bits.most_before + 1;
+  if (field == Field::kData) return ": DATA has 64 bits at most";
+  if (!bits.fixed) return "";
+  return fmt::format(": {} has {} bit{}", field_name(field), length, length == 1 ? "" : "s");
+}
+
 /// A number of bits, at most `most` of them where the field has an end.
 std::optional<unsigned> parse_bit(YamlMap &map, const char *key, const PlaceSpec &place,
                                   unsigned most) {
@@ -50,9 +59,7 @@ std::optional<unsigned> parse_bit(YamlMap &map, const char *key, const PlaceSpec
   if (!value) return std::nullopt;
   const auto number = static_cast<unsigned>(value->integer(0, FieldBits::kNoEnd));
   if (number > most)
-    value->refuse(fmt::format("{}: {} has {} bits at most",
-                              most == 0 ? "0" : fmt::format("0 to {}", most),
-                              field_name(*place.field), most + 1));
+    value->refuse((most == 0 ? "0" : fmt::format("0 to {}", most)) + length_text(*place.field));
   return number;
 }
 
@@ -63,7 +70,7 @@ void check_length(YamlMap &map, const PlaceSpec &place) {
   const FieldBits bits = field_bits(*place.field);
   const YamlValue value = map.need("bits_left");
   if (bits.fixed && length != bits.most_before + 1)
-    value.refuse(fmt::format("{}: behind bit {} of the {} of {}", bits.most_before - *place.index,
+    value.refuse(fmt::format("{}, behind bit {} of the {} of {}", bits.most_before - *place.index,
                              *place.index, bits.most_before + 1, field_name(*place.field)));
   if (place.field == Field::kData && (length % 8 != 0 || length > 64))
     value.fail(fmt::format("bit {} with {} bits left makes {} bits of data; allowed: 8, 16, ... 64",
@@ -81,10 +88,8 @@ void check_stuff(const YamlValue &value, const PlaceSpec &place) {
   const unsigned before =
       place.left ? bits.most_before - *place.left : place.index.value_or(bits.most_before);
   if (bits.fixed && before < bits.before_stuff)
-    value.fail(
-        fmt::format("bit {} of {} comes before the fifth bit of the frame; allowed: a stuff "
-                    "bit from bit {} on",
-                    before, field_name(*place.field), bits.before_stuff));
+    value.fail(fmt::format("no stuff bit comes before bit {} of {}; allowed: bit {} or later",
+                           before, field_name(*place.field), bits.before_stuff));
 }
 
 void parse_quanta(YamlMap &map, FaultSpec &fault) {

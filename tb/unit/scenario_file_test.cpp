@@ -3,6 +3,7 @@
 //
 // Scenario files: what is read, and that every mistake is named with its line, value and what is
 // allowed.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -232,11 +233,94 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"FaultNode", "faults: [{kind: cut}]", "key 'node' is missing"},
         Mistake{"FaultTimes", "faults: [{kind: dominant, from: 2 ms, to: 1 ms}]",
                 "faults[0].to: '1 ms' is not allowed"},
+        Mistake{"FaultBit",
+                "faults:\n  - kind: flip\n    at:\n      node: a\n      field: DLC\n      bit: 4\n",
+                "s.yaml:7: faults[0].at.bit: '4' is not allowed; allowed: 0 to 3: DLC has 4 bits"},
+        Mistake{"FaultBitOfOne", "faults: [{kind: flip, at: {node: a, field: IDE, bit: 1}}]",
+                "'1' is not allowed; allowed: 0: IDE has 1 bit"},
+        Mistake{"FaultDataBit", "faults: [{kind: flip, at: {node: a, field: DATA, bit: 64}}]",
+                "allowed: 0 to 63: DATA has 64 bits at most"},
+        Mistake{"FaultBitsLeft", "faults: [{kind: flip, at: {node: a, field: EOF, bits_left: 7}}]",
+                "at.bits_left: '7' is not allowed; allowed: 0 to 6: EOF has 7 bits"},
+        Mistake{"FaultIdleLeft", "faults: [{kind: flip, at: {node: a, field: IDLE, bits_left: 1}}]",
+                "at.bits_left: '1' is not allowed; allowed: 0"},
+        Mistake{"FaultBothEnds",
+                "faults: [{kind: flip, at: {node: a, field: CRC, bit: 3, bits_left: 12}}]",
+                "at.bits_left: '12' is not allowed; allowed: 11, behind bit 3 of the 15 of CRC"},
+        Mistake{
+            "FaultDataEnds",
+            "faults: [{kind: flip, at: {node: a, field: DATA, bit: 3, bits_left: 3}}]",
+            "at.bits_left: bit 3 with 3 bits left makes 7 bits of data; allowed: 8, 16, ... 64"},
+        Mistake{"FaultStuff", "faults: [{kind: flip, at: {node: a, field: ACK, stuff: true}}]",
+                "at.stuff: ACK has no stuff bits; allowed: ID to CRC"},
+        Mistake{"FaultEarlyStuff",
+                "faults: [{kind: flip, at: {node: a, field: ID, bit: 3, stuff: true}}]",
+                "no stuff bit comes before bit 3 of ID; allowed: bit 4 or later"},
+        Mistake{"FaultLateStuff",
+                "faults: [{kind: flip, at: {node: a, field: ID, bits_left: 7, stuff: true}}]",
+                "no stuff bit comes before bit 3 of ID; allowed: bit 4 or later"},
+        Mistake{"FaultQuanta", "faults: [{kind: flip, at: {node: a, first_tq: 5, last_tq: 4}}]",
+                "at.last_tq: '4' is not allowed; allowed: 5 to 24"},
+        Mistake{"FaultSilentNoise", "faults: [{kind: noise, per_bit: 0}]",
+                "noise without 'per_bit' and 'glitches_per_ms' changes nothing"},
+        Mistake{"FaultSameClock", "faults: [{kind: clock, node: b, ppm: 0}]",
+                "faults[0].ppm: the clock of 'b' has 0 ppm already"},
+        Mistake{"FaultSameClockLater",
+                "faults: [{kind: clock, node: b, from: 1 ms, ppm: 5}, {kind: clock, node: b, from: "
+                "2 ms, ppm: 5}]",
+                "faults[1].ppm: the clock of 'b' has 5 ppm already"},
+        Mistake{"FaultClockEnd", "faults: [{kind: clock, node: b, ppm: 5, to: 1 ms}]",
+                "unknown key 'to'; allowed: from, hits, kind, name, node, ppm"},
+        Mistake{"FaultName",
+                "faults:\n  - {kind: short, node: a, name: cut 2}\n  - {kind: cut, node: a}\n",
+                "s.yaml:4: faults[1]: fault name 'cut 2' is used twice"},
+        Mistake{"FaultNoName", "faults: [{kind: short, node: a, name: ''}]", "faults[0].name: ''"},
+        Mistake{"FaultHits", "faults: [{kind: short, node: a, hits: some}]",
+                "faults[0].hits: 'some'"},
         Mistake{"Expectation", "expect: {nodes: {c: {tec: 0}}}",
                 "unknown key 'c'; allowed: a, all, b"},
         Mistake{"RangeUpsideDown", "expect: {frames: {min: 2, max: 1}}", "min is above max"},
         Mistake{"AListForANumber", "seed: [1, 2]\n", "a list is not allowed"}),
     [](const auto &item) { return std::string(item.param.name); });
+
+// Every bit that the rule book gives a field may be named (FF-01 to FF-12, IF-01, IF-08, EF-08).
+TEST(ScenarioFile, EveryBitOfAFieldMayBeNamed) {
+  const std::pair<const char *, unsigned> kLengths[] = {
+      {"SOF", 1},       {"ID", 11},           {"RTR", 1},     {"IDE", 1},
+      {"EXID", 18},     {"EXRTR", 1},         {"R1", 1},      {"R0", 1},
+      {"DLC", 4},       {"CRC", 15},          {"CRC_DEL", 1}, {"ACK", 1},
+      {"ACK_DEL", 1},   {"EOF", 7},           {"INT", 3},     {"SUSPEND", 8},
+      {"DELIMITER", 7}, {"OVERLOAD_FLAG", 6}, {"DATA", 64}};
+  const auto read = [](const char *field, unsigned bit, unsigned left) {
+    static_cast<void>(parse_scenario(
+        "s.yaml", fmt::format("{}faults: [{{kind: flip, at: {{node: a, field: {}, bit: {}, "
+                              "bits_left: {}}}}}]\n",
+                              kTwo, field, bit, left)));
+  };
+  for (const auto &[field, length] : kLengths)
+    for (unsigned bit = 0; bit < length; ++bit) {
+      EXPECT_NO_THROW(read(field, bit, length - 1 - bit)) << field << bit;
+      EXPECT_THROW(read(field, bit, length - bit), InputError) << field << bit;
+    }
+}
+
+// A scenario with every kind of fault as text is the same scenario again.
+TEST(ScenarioFile, FaultsAreWrittenAsTheyAreRead) {
+  const std::string text = to_yaml(parse_scenario(
+      "s.yaml", std::string(kTwo) +
+                    "faults:\n"
+                    "  - {kind: flip, at: {node: a, frame: 2, field: ID, bits_left: 3}, hits: 1}\n"
+                    "  - {kind: noise, per_bit: 0.1, name: \"it's\", hits: {min: 2, max: 9}}\n"
+                    "  - {kind: cut, node: b, from: 1 ms, name: \"a: b\", hits: {max: 3}}\n"
+                    "  - {kind: clock, node: b, from: 2 ms, ppm: 3}\n"));
+  const Scenario read = parse_scenario("s.yaml", text);
+  EXPECT_EQ(to_yaml(read), text);
+  EXPECT_EQ(read.faults.at(1).name, "it's");
+  EXPECT_EQ(read.faults.at(2).name, "a: b");
+  EXPECT_EQ(read.faults.at(0).hits->least, 1);
+  EXPECT_EQ(read.faults.at(1).hits->most, 9);
+  EXPECT_FALSE(read.faults.at(3).hits);
+}
 
 // Whatever is done to a good file, it is read or refused, and nothing else happens.
 TEST(ScenarioFile, DamagedInputNeverCrashes) {

@@ -10,10 +10,10 @@ import {Table, timeColumn} from './table.js';
 
 const kListed = 500; // moments of one fault that the details name
 
-/** "3", "0: never took effect", "12 000, the first 10 000 listed". */
+/** "3", "0, never", "12 000, 10 000 kept"; a moment may count several times. */
 function hitsText({hits, times, more}) {
   if (hits === 0) return '0, never';
-  const listed = more || times.length < hits ? `, ${formatCount(times.length)} kept` : '';
+  const listed = more ? `, ${formatCount(times.length)} kept` : '';
   return `${formatCount(hits)}${listed}`;
 }
 
@@ -106,7 +106,7 @@ export function faultDetails(report, {index, hit}, actions) {
       `${milliseconds(from, 6)} ms`,
     ),
   );
-  const rest = fault.hits - moments.length;
+  const rest = fault.times.length - moments.length;
   return [
     el('h3', {}, `Fault ${fault.name}`),
     el('p', {class: 'cause'}, fault.text || fault.kind),
@@ -125,5 +125,6 @@ export function faultDetails(report, {index, hit}, actions) {
     moments.length ? el('h4', {}, 'moments') : null,
     el('div', {class: 'moments'}, moments),
     rest > 0 ? el('p', {class: 'dim'}, `and ${formatCount(rest)} more`) : null,
+    fault.more ? el('p', {class: 'dim'}, 'and more that are not kept') : null,
   ].filter(Boolean);
 }
