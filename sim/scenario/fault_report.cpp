@@ -21,6 +21,7 @@ std::string milliseconds(Time time) {
 }
 
 std::string node_name(const Scenario &scenario, NodeId node) {
+  if (node == kBusPoint) return "the observation point";
   return node == kAllNodes ? "every node" : scenario.nodes[node].name;
 }
 
@@ -143,7 +144,7 @@ Json faults_json(const std::vector<FaultReport> &faults) {
 Json faults_meta(const std::vector<FaultReport> &faults) {
   Json list = Json::array();
   for (const FaultReport &fault : faults) {
-    Json json = fault_json(fault, fault.id == kAllNodes ? Json(nullptr) : Json(fault.id));
+    Json json = fault_json(fault, fault.id >= Bus::kMaxNodes ? Json(nullptr) : Json(fault.id));
     json["times_ns"] = times_json(fault, kNanosecond);
     list.push_back(std::move(json));
   }

@@ -19,7 +19,7 @@ namespace vericansim {
 struct FaultReport {
   std::string name;
   std::string kind;           ///< the word in the file
-  std::string node;           ///< victim, or "all"
+  std::string node;           ///< victim, "all", or "wire" for the observation point
   NodeId id = kAllNodes;      ///< the same
   std::string text;           ///< what it does, where and when
   std::size_t line = 0;       ///< in the file; 0: in none

@@ -73,6 +73,11 @@ Time FaultSet::clock_until(const FaultSpec &spec, Time end) const {
   return end;
 }
 
+std::string FaultSet::victim(NodeId node) const {
+  if (node == kBusPoint) return "wire";
+  return node == kAllNodes ? "all" : scenario_.nodes[node].name;
+}
+
 std::vector<FaultReport> FaultSet::report(Time end) const {
   std::vector<FaultReport> list;
   for (std::size_t i = 0; i < logs_.size(); ++i) {
@@ -80,7 +85,7 @@ std::vector<FaultReport> FaultSet::report(Time end) const {
     const FaultLog &log = logs_[i];
     FaultReport fault{fault_name(scenario_, i),
                       fault_kind(spec),
-                      spec.node == kAllNodes ? "all" : scenario_.nodes[spec.node].name,
+                      victim(spec.node),
                       spec.node,
                       fault_text(scenario_, spec),
                       spec.line,

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "bus/bus.hpp"
@@ -29,6 +30,7 @@ class FaultSet {
  private:
   [[nodiscard]] std::unique_ptr<Fault> make(const FaultSpec &spec,
                                             const std::function<unsigned(NodeId)> &prescaler) const;
+  [[nodiscard]] std::string victim(NodeId node) const;
   [[nodiscard]] Window on_bus(const Window &window) const;
   [[nodiscard]] Time clock_until(const FaultSpec &spec, Time end) const;
 

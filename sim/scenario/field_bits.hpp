@@ -30,7 +30,7 @@ constexpr FieldBits field_bits(Field field) {
     case Field::kWait: return {7, 39, false};  // dominant bits after a flag are counted by eights
     case Field::kInt: return {2, 2};
     case Field::kSuspend: return {7, 7};
-    case Field::kEof: return {6, 6};
+    case Field::kEof:
     case Field::kDel: return {6, 6};
     case Field::kOvlFlag: return {5, 5};
     case Field::kId: return {10, 10, true, true, 4};  // SOF is the first of five equal bits

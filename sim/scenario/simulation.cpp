@@ -9,6 +9,7 @@
 #include "bus/range.hpp"
 #include "scenario/analysis.hpp"
 #include "scenario/expectations.hpp"
+#include "scenario/fault_check.hpp"
 #include "scenario/runner.hpp"
 #include "scenario/stop_request.hpp"
 
@@ -16,6 +17,7 @@ namespace vericansim {
 
 Simulation::Simulation(const Scenario &scenario, double bitrate)
     : scenario_{scenario}, bitrate_{bitrate}, bit_time_{bit_time_of(bitrate)}, faults_{scenario} {
+  check_faults(scenario_, bitrate_);
   build_stations();
   observe();
   if (scenario_.lockstep) set_up_judge();

@@ -101,15 +101,19 @@ class Shrinker {
   void shorten() {
     const Time end = best_.run.failed_at;
     attempt([&](Scenario &s) {
-      s.duration = std::min(s.duration, end);
       s.drain = 0;
+      cut_to(s, std::min(s.duration, end));
       std::erase_if(s.accesses, [&](const AccessSpec &a) { return a.at > end; });
-      std::erase_if(s.faults, [&](const FaultSpec &f) { return f.window.from > end; });
     });
     for (const unsigned per_cent : {50, 75, 90})
-      attempt([&](Scenario &s) {
-        s.duration = std::max<Time>(1'000'000, s.duration * per_cent / 100);
-      });
+      attempt([&](Scenario &s) { cut_to(s, s.duration * per_cent / 100); });
+  }
+
+  /// A fault that would begin behind the end is refused.
+  static void cut_to(Scenario &s, Time duration) {
+    s.duration = std::max<Time>(1'000'000, duration);
+    std::erase_if(s.faults,
+                  [&](const FaultSpec &f) { return f.window.from >= s.duration + s.drain; });
   }
 
   using Drop = void (*)(Scenario &, std::size_t, std::size_t);
