@@ -106,6 +106,15 @@ Json to_json(const BitTimingRequest &request, const std::vector<BitTimingResult>
           {"settings", list}};
 }
 
+/// A part of one as it is, per cent as a part.
+double part_of_bit(double given) {
+  constexpr double kLeast = 50, kMost = 90;  // per cent
+  if (given <= 1) return given;
+  if (given >= kLeast && given <= kMost) return given / 100;
+  throw std::invalid_argument(fmt::format(
+      "sample point {:g} % is out of range; allowed: 50 to 90 %, or 0.5 to 0.9", given));
+}
+
 int bittime(const Options &options) {
   BitTimingRequest request = options.request;
   const auto whole = [](double value, const char *name) {
@@ -115,9 +124,7 @@ int bittime(const Options &options) {
   };
   request.clock_hz = whole(options.clock, "clock");
   request.bitrate = whole(options.bitrate, "bit rate");
-  if (options.sample_point != 0)
-    request.sample_point =
-        options.sample_point > 1 ? options.sample_point / 100 : options.sample_point;
+  if (options.sample_point != 0) request.sample_point = part_of_bit(options.sample_point);
   if (options.sjw != 0) request.sjw = options.sjw;
   auto results = find_bit_timings(request);
   const bool found = !results.empty();
@@ -144,7 +151,7 @@ void add_bittime(CLI::App &app, int &exit_code) {
       {"k", 1e3}, {"M", 1e6}, {"kHz", 1e3}, {"MHz", 1e6}, {"Hz", 1.0}});
   command->add_option("--clock,-c", options->clock, "Clock of the controller, Hz (8M)")
       ->transform(with_unit);
-  command->add_option("--bitrate,-b", options->bitrate, "Bit rate, bit/s (500k)")
+  command->add_option("--bitrate,-b", options->bitrate, "Bit rate, bit/s, as in 500k")
       ->required()
       ->transform(with_unit);
   command->add_option("--sample-point,-s", options->sample_point,

@@ -60,6 +60,9 @@ void load_databases(Outputs &outputs, const std::vector<std::string> &files);
 /// Names for one of several runs: "bus.vcd" becomes "bus-500k.vcd".
 [[nodiscard]] Outputs outputs_for(const Outputs &outputs, double bitrate);
 
+/// A check of CLI11 for counts: what is wrong with `value`, or nothing.
+[[nodiscard]] std::string at_least_one(const std::string &value);
+
 using Json = nlohmann::ordered_json;
 
 /// The exit code of work that has seen to its end: `code`, or that of the signal that ended it

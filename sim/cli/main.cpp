@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
@@ -21,6 +22,20 @@
 namespace {
 
 using namespace vericansim;
+
+/// CLI11 writes the ends of ranges as "1e+06" and "1000.000000".
+std::string plain_digits(const std::string &text) {
+  static const std::regex kNumber{R"([0-9]+\.0+(?![0-9.])|[0-9]+(\.[0-9]+)?e\+[0-9]+)"};
+  std::string plain;
+  auto rest = text.begin();
+  for (std::sregex_iterator number{text.begin(), text.end(), kNumber}, end; number != end;
+       ++number) {
+    plain.append(rest, text.begin() + number->position());
+    plain += fmt::format("{:.15g}", std::stod(number->str()));
+    rest = text.begin() + number->position() + number->length();
+  }
+  return plain.append(rest, text.end());
+}
 
 int run_tool(int argc, char **argv) {
   CLI::App app{"VeriCAN: CAN controllers in RTL on a simulated bus"};
@@ -52,10 +67,10 @@ int run_tool(int argc, char **argv) {
   } catch (const CLI::Success &request) {  // --help, --version
     std::ostringstream text;
     app.exit(request, text, text);
-    fmt::print("{}", text.str());
+    fmt::print("{}", plain_digits(text.str()));
     return cli::kOk;
   } catch (const CLI::ParseError &error) {
-    fmt::print(stderr, "verican: {}; try 'verican --help'\n", error.what());
+    fmt::print(stderr, "verican: {}; try 'verican --help'\n", plain_digits(error.what()));
     return cli::kBadInput;
   }
   return exit_code;

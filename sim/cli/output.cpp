@@ -38,6 +38,11 @@ Time time_option(const std::string &option, const std::string &text) {
 
 void print_json(const Json &json) { fmt::print("{}\n", json.dump(2)); }
 
+std::string at_least_one(const std::string &value) {
+  const bool zero = value.find_first_not_of('0') == std::string::npos;
+  return zero ? quoted(value) + " is not allowed; allowed: 1 or more" : "";
+}
+
 int exit_code_after(int code) {
   constexpr int kSignal = 128;
   return stop_requested() ? kSignal + stop_signal() : code;

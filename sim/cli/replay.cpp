@@ -136,7 +136,8 @@ void add_replay(CLI::App &app, int &exit_code) {
       ->check(CLI::Range(0.0, 1e4));
   command->add_option("--mailboxes", replay.num_mb, "Message buffers of each node (64)")
       ->check(CLI::IsMember({16U, 32U, 64U}));
-  command->add_option("--frames", replay.limit, "Take only so many frames from the log (all)");
+  command->add_option("--frames", replay.limit, "Take only so many frames from the log (all)")
+      ->check(at_least_one);
   command->add_flag("--fast", replay.fast, "As fast as the bus allows, instead of as recorded");
   add_selection(*command, options->selection);
   add_ids_options(*command, options->ids);

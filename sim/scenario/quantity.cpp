@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <span>
+#include <utility>
 
 #include "trace/text.hpp"
 
@@ -74,6 +75,15 @@ std::string readable_time(Time time) {
   if (std::llabs(time) >= kSecond) return fmt::format("{:.3f} s", seconds);
   if (std::llabs(time) >= kMillisecond) return fmt::format("{:.3f} ms", seconds * 1e3);
   return fmt::format("{:.3f} us", seconds * 1e6);
+}
+
+std::string exact_time(Time time) {
+  constexpr std::pair<Time, const char *> kUnits[] = {
+      {kSecond, "s"}, {kMillisecond, "ms"}, {kMicrosecond, "us"}, {kNanosecond, "ns"}};
+  if (time == 0) return "0";
+  for (const auto &[unit, name] : kUnits)
+    if (time % unit == 0) return fmt::format("{} {}", time / unit, name);
+  return fmt::format("{} ps", time);
 }
 
 }  // namespace vericansim

@@ -28,6 +28,8 @@ namespace vericansim {
 /// Decimal, 0x or 0b.
 [[nodiscard]] std::optional<std::uint64_t> parse_integer(std::string_view text);
 
+/// "100 s", "1 us": nothing is rounded, in the largest unit that leaves a whole number.
+[[nodiscard]] std::string exact_time(Time time);
 /// "12.345 ms" with the unit that suits.
 [[nodiscard]] std::string readable_time(Time time);
 

@@ -119,7 +119,9 @@ NodeSpec parse_node(const YamlValue &value, const Scenario &scenario) {
   node.line = value.line();
   node.host.tx_buffers = 0;               // one for each message of the node
   node.host.lowest_buffer_first = false;  // lowest identifier first, as on the bus
-  node.name = map.need("name").text();
+  const YamlValue name = map.need("name");
+  node.name = name.text();
+  if (node.name.empty()) name.refuse("a name of at least one letter");
   for (const NodeSpec &other : scenario.nodes)
     if (other.name == node.name) value.fail("node name " + quoted(node.name) + " is used twice");
   node.clock.seed = scenario.seed * 1000 + scenario.nodes.size();

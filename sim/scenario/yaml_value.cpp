@@ -51,15 +51,16 @@ std::string YamlValue::text() const {
 std::uint64_t YamlValue::integer(std::uint64_t least, std::uint64_t most) const {
   const auto value = node_.IsScalar() ? parse_integer(node_.Scalar()) : std::nullopt;
   if (!value || *value < least || *value > most)
-    refuse(most > 0xFFFF ? fmt::format("0x{:X} to 0x{:X}", least, most)
-                         : fmt::format("{} to {}", least, most));
+    refuse(node_.IsScalar() && node_.Scalar().starts_with("0x")  // as the user writes it
+               ? fmt::format("0x{:X} to 0x{:X}", least, most)
+               : fmt::format("{} to {}", least, most));
   return *value;
 }
 
 double YamlValue::number(double least, double most) const {
   const auto value = node_.IsScalar() ? parse_number(node_.Scalar()) : std::nullopt;
   if (!value || *value < least || *value > most)
-    refuse(fmt::format("a number from {:g} to {:g}", least, most));
+    refuse(fmt::format("a number from {:.15g} to {:.15g}", least, most));
   return *value;
 }
 
@@ -73,7 +74,7 @@ bool YamlValue::boolean() const {
 double YamlValue::frequency(double least, double most) const {
   const auto value = node_.IsScalar() ? parse_frequency(node_.Scalar()) : std::nullopt;
   if (!value || *value < least || *value > most)
-    refuse(fmt::format("{:g} to {:g} Hz, as in '8 MHz'", least, most));
+    refuse(fmt::format("{:.15g} to {:.15g} Hz, as in '8 MHz'", least, most));
   return *value;
 }
 
@@ -86,10 +87,8 @@ double YamlValue::bitrate() const {
 Time YamlValue::time(Time least, Time most) const {
   const auto value = node_.IsScalar() ? parse_time(node_.Scalar()) : std::nullopt;
   if (!value || *value < least || *value > most) {
-    const auto words = [](Time t) {
-      return t == 0 ? "0" : fmt::format("{:g} us", static_cast<double>(t) / 1e6);
-    };
-    refuse(fmt::format("{} to {}, as in '10 ms' (ps, ns, us, ms, s)", words(least), words(most)));
+    refuse(fmt::format("{} to {}, as in '10 ms' (ps, ns, us, ms, s)", exact_time(least),
+                       exact_time(most)));
   }
   return *value;
 }

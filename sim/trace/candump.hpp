@@ -49,7 +49,8 @@ class CandumpWriter {
  public:
   /// `start_ns` is added to each time; the stream must outlive the writer. `nanoseconds`: nine
   /// decimals, as of `candump -N`, instead of six.
-  explicit CandumpWriter(std::ostream &out, std::int64_t start_ns = 0, bool nanoseconds = false)
+  explicit CandumpWriter(std::ostream &out, std::int64_t start_ns = kLogOriginNs,
+                         bool nanoseconds = false)
       : out_{out}, start_ns_{start_ns}, nanoseconds_{nanoseconds} {}
   /// Appends one frame; times are cut to microseconds or nanoseconds. Throws as
   /// Frame::validate().

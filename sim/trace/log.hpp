@@ -41,6 +41,10 @@ struct ForeignEntry {
   Direction direction = Direction::kUnknown;
 };
 
+/// What a simulation's time 0 is in the logs that it writes: 1 s, ns. can-utils' log2asc takes
+/// times below 1 s for "no frame yet".
+inline constexpr std::int64_t kLogOriginNs = 1'000'000'000;
+
 /// A recording. Entries that classical CAN cannot carry are in `others`; status lines and what else
 /// is no frame are only counted.
 struct CanLog {

@@ -28,7 +28,7 @@ namespace vericansim {
 class PcapWriter {
  public:
   /// Throws OutputError, its methods too. `start_ns` is added to each time.
-  explicit PcapWriter(const std::string &path, std::int64_t start_ns = 0);
+  explicit PcapWriter(const std::string &path, std::int64_t start_ns = kLogOriginNs);
   ~PcapWriter();
   PcapWriter(const PcapWriter &) = delete;
   PcapWriter &operator=(const PcapWriter &) = delete;

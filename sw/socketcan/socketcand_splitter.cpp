@@ -39,7 +39,8 @@ std::optional<CommandSplitter::Item> CommandSplitter::outside(char c) {
     command_.clear();
     state_ = State::kInside;
   } else if (!is_blank(c) && state_ == State::kOutside) {
-    return complain(State::kRubbish, "a command begins with '<', got " + quoted({c}));
+    return complain(State::kRubbish, "text outside of a command: " + quoted({c}) +
+                                         "; allowed: commands, each in angle brackets");
   }
   return std::nullopt;
 }

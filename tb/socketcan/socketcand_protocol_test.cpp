@@ -99,7 +99,7 @@ TEST_F(SocketcandProtocol, ABadCommandDoesNotStopTheNextOne) {
             "< error send: identifier '800' is not allowed; allowed: 000 to 7FF, or 8 digits, "
             "00000000 to 1FFFFFFF >"
             "< error send: DLC '9' is not allowed; allowed: a hexadecimal number, 0 to 8 >"
-            "< error a command begins with '(', got 'x' >");
+            "< error text outside of a command: 'x'; allowed: commands, each in angle brackets >");
   ASSERT_EQ(bench_.sent.size(), 1U);
   EXPECT_EQ(bench_.sent[0].message.frame.can_id, 2U);
   EXPECT_EQ(bench_.server().counts().bad_commands, 3U);

@@ -72,6 +72,10 @@ TEST(Tool, BadOptionsAreRefused) {
   expect_refused("bittime -b 500k -s 0.3", "sample point 0.3 is out of range; allowed: 0.5 to 0.9");
   expect_refused("bittime -b 999k --max-error 1",
                  "no setting of 8 to 25 quanta gives 999000 bit/s");
+  expect_refused("bittime -b 500k -s 200",
+                 "sample point 200 % is out of range; allowed: 50 to 90 %, or 0.5 to 0.9");
+  expect_refused("replay x.log --frames 0", "--frames: '0' is not allowed; allowed: 1 or more");
+  expect_refused("run x.yaml --bitrate 5M", "Value 5000000 not in range 1000 to 1000000;");
   expect_refused("replay x.log --nodes 1", "--nodes");
   expect_refused("decode x.vcd --bitrate 1", "--bitrate");
 }

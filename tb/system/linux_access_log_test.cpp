@@ -21,6 +21,9 @@ struct LinuxLog {
   unsigned received;
 };
 
+/// GoogleTest shows it where a test is listed or skipped.
+void PrintTo(const LinuxLog &log, std::ostream *out) { *out << log.name; }
+
 class LinuxAccessLog : public ::testing::TestWithParam<LinuxLog> {};
 
 // FX-4.q FX-4.r

@@ -49,6 +49,9 @@ struct Recording {
   unsigned senders;
 };
 
+/// GoogleTest shows it where a test is listed or skipped.
+void PrintTo(const Recording &recording, std::ostream *out) { *out << recording.name; }
+
 class Recordings : public ::testing::TestWithParam<Recording> {};
 
 // Of the others as many frames as take some seconds, from several senders at once: arbitration in
