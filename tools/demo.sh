@@ -63,7 +63,8 @@ run "bridge" with_python_can python-can TERM "$verican" bridge --socketcand 127.
   --candump "$out/python-can.log" --report "$out/python-can.html"
 
 headline "Two boards, a recording of a boat and python-can on one bus with a fault"
-sed -e 's/socketcand: 29536/socketcand: "127.0.0.1:0"/' -e "s|\.\./build/release|$(realpath "$build")|" \
+sed -e 's/socketcand: 29536/socketcand: "127.0.0.1:0"/' \
+  -e "s|\.\./build/release|$(realpath "$build")|" \
   -e "s|boat.log|$PWD/examples/boat.log|" examples/mixed.yaml >"$out/mixed.yaml"
 run "mixed" with_python_can mixed "" "$verican" run "$out/mixed.yaml" --fst "$out/mixed.fst" \
   --candump "$out/mixed.log" --report "$out/mixed.html"

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # dbc_statements: the statements of a DBC file, each on one line, with the line where it begins.
-"""canmatrix reads a file line by line and passes over what it does not know. So that nothing is lost
-in silence, the file is cut into its statements first, and what is none is refused."""
+"""canmatrix reads a file line by line and passes over what it does not know. So that nothing is
+lost in silence, the file is cut into its statements first, and what is none is refused."""
 import re
 
 

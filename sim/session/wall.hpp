@@ -28,7 +28,8 @@ class Wall {
   [[nodiscard]] virtual bool restart_requested() { return false; }
 };
 
-/// The steady clock and poll(); the end is wanted when stop_requested() of stop_request.hpp says so.
+/// The steady clock and poll(); the end is wanted when stop_requested() of stop_request.hpp says
+/// so.
 class SteadyWall : public Wall {
  public:
   [[nodiscard]] WallTime now() override;

@@ -117,7 +117,8 @@ class CoreDescription(unittest.TestCase):
         names = re.findall(r"^\s*parameter\s+(?:int|bit|logic)?\s*(\w+)\s*=", text, re.MULTILINE)
         self.assertEqual(list(self.core["parameters"]), names)
         for name, options in self.core["parameters"].items():
-            self.assertEqual((options["datatype"], options["paramtype"]), ("int", "vlogparam"), name)
+            kind = options["datatype"], options["paramtype"]
+            self.assertEqual(kind, ("int", "vlogparam"), name)
             self.assertNotIn("default", options, "the RTL has the defaults")
 
     def test_top_and_parameters_are_its_own(self):

@@ -98,7 +98,7 @@ const database = Array.from(
     ' SG_ A : 0|16@1+ (0.1,0) [0|0] "V" X\n SG_ B : 23|12@0- (1,0) [0|0] "" X\n',
 ).join('');
 
-/** Bars of the first signal, message 0: each has the extremes of its column and the value before. */
+/** Bars of the first signal, message 0: extremes of its column, and the value before. */
 function judgeBars(picture) {
   const scale = (picture.width - picture.left) / (picture.to - picture.from);
   const wanted = new Map();

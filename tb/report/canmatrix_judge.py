@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# canmatrix_judge.py FILE.dbc: what Debian's canmatrix says of the signals of frames, as a judge of the page.
-"""stdin: JSON [{"id", "extended", "data"}], data as long as the message, in hexadecimal; stdout: for each a JSON
-object of raw values as text by the signal's name; a signal that is not there is not in it."""
+# canmatrix_judge.py FILE.dbc: what Debian's canmatrix says of the signals of frames, as a judge of
+# the page.
+"""stdin: JSON [{"id", "extended", "data"}], data as long as the message, in hexadecimal;
+stdout: for each a JSON object of raw values as text by the signal's name; a signal that is not
+there is not in it."""
 import json
 import pathlib
 import struct

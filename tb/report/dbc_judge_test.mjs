@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The page against a second library, Debian's canmatrix: every message of the databases of the tests,
+// The page against a second library, Debian's canmatrix: every message of the tests' databases,
 // its layout, and what is in frames of random bytes.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// DBC files on the page: signals decoded to values that were worked out by hand, shown in the table,
+// DBC files on the page: signals decoded to values that were worked out by hand, in the table,
 // the details and below the bus; files that are opened, dropped, and of no use.
 import assert from 'node:assert/strict';
 import {readFileSync, writeFileSync} from 'node:fs';
@@ -270,7 +270,7 @@ const drop = (page, name, text) =>
     [name, text],
   );
 
-test('a file is dropped onto the page; with one that has the same messages it is refused', async () => {
+test('a file is dropped; with one that has the same messages it is refused', async () => {
   const page = await openReport(writeScene('dbc-open', plain));
   assert.equal(await drop(page, 'dropped.dbc', dbc), false, 'the browser does not open it itself');
   await page.waitForFunction(() => window.verican.report.databases.count === 1);
@@ -279,7 +279,8 @@ test('a file is dropped onto the page; with one that has the same messages it is
   await page.waitForSelector('[role=alert]:visible');
   assert.match(
     await page.textContent('[role=alert]'),
-    /again\.dbc cannot be used: line 11: message EngineData has the identifier 123 of EngineData in dropped\.dbc; allowed: one message for an identifier/,
+    new RegExp('again\\.dbc cannot be used: line 11: message EngineData has the identifier 123 ' +
+      'of EngineData in dropped\\.dbc; allowed: one message for an identifier'),
   );
   assert.equal(await page.evaluate(() => window.verican.report.databases.count), 1);
   await closeReport(page);

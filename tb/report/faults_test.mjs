@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faults on the page: where they are drawn, what is said of them, and how one gets to their moments.
+// Faults on the page: where they are drawn, what is said of them, how one gets to their moments.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import * as browser from './browser.mjs';
@@ -92,7 +92,7 @@ test('a fault is drawn where it acts, with its name, over the node that it touch
   await closeReport(page);
 });
 
-test('a fault of no particular node shades all lanes; a short one is still seen from afar', async () => {
+test('a fault of no particular node shades all lanes; a short one is seen from afar', async () => {
   const page = await openReport(file);
   await setView(page, -5 * bit, 15 * bit);
   const lanes = itemsOf(await inspect(page), 'faultshade').map(({node}) => node);

@@ -29,7 +29,7 @@ async function openView() {
   return page;
 }
 
-/** Saves the view as a file and returns it with colours of its points: at(x, y), in pixels of the page. */
+/** Saves the view and returns it with colours of its points: at(x, y), in pixels of the page. */
 async function picture(page, kind) {
   const download = await saved(page, `button:text-is("${kind.toUpperCase()}")`);
   writeFileSync(join(outDir, `view.${kind}`), download.bytes);
@@ -57,7 +57,7 @@ async function picture(page, kind) {
 }
 
 for (const kind of ['png', 'svg']) {
-  test(`${kind.toUpperCase()}: fields, bus, signal and lanes are where the page has them`, async () => {
+  test(`${kind.toUpperCase()}: bus, signal and lanes are where the page has them`, async () => {
     const page = await openView();
     const view = await inspect(page);
     const {name, size, at} = await picture(page, kind);

@@ -51,8 +51,8 @@ class Case:
                 log.write(f"({1 + i // 1000000:010}.{i % 1000000:06}) can0 "
                           f"{identifier & ~EXTENDED:0{width}X}#{data.hex()}\n")
             log.flush()
-            result = subprocess.run([self.tool, "signals", log.name, "--dbc", self.path, "--csv", "-"],
-                                    capture_output=True, text=True)
+            command = [self.tool, "signals", log.name, "--dbc", self.path, "--csv", "-"]
+            result = subprocess.run(command, capture_output=True, text=True)
         if result.returncode not in (0, 1):
             raise RuntimeError(result.stderr.strip())
         self.ours = [{} for _ in self.frames]

@@ -89,12 +89,14 @@ class Signals(unittest.TestCase):
                 ("dbc: engine.dbc", "dbc: gone.dbc", "gone.dbc: no such file"),
                 ("dbc: engine.dbc\n", "", "needs a database; allowed: 'dbc' in the scenario"),
                 ("EngineData.Mode: Sport", "EngineData.Moode: 1", "has no signal 'Moode'"),
-                ("EngineData.Mode: Sport", "EngineData: 1", "is no signal; allowed: message.signal")]:
+                ("EngineData.Mode: Sport", "EngineData: 1",
+                 "is no signal; allowed: message.signal")]:
             with self.subTest(new):
                 self.assertIn(said, self.refused("run", self.scenario(old, new)))
 
     def test_signals_of_a_log(self):
-        log = self.log(ENGINE_DATA, DASHBOARD, EEC1, "18F00431#0000001027000000", "123#00", "100#R8")
+        log = self.log(ENGINE_DATA, DASHBOARD, EEC1, "18F00431#0000001027000000", "123#00",
+                       "100#R8")
         self.assertEqual(self.passes("signals", log, "--dbc", DBC).splitlines(), [
             f"(0000000001.000000) can0 {ENGINE_DATA} :: EngineData(EngineSpeed: 2400 rpm, "
             "Torque: 0 Nm, Mode: Sport, CoolantTemperature: 20 degC)",

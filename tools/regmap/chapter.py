@@ -43,8 +43,8 @@ to it or keeps it, as the tables say; *state* is a bit that shows what is going 
 RECIPES = """
 ## Recipes
 
-Access by access, in the words of a scenario's [`accesses`](scenario.md#accesses), so that they can be
-tried as they are: `until REG MASK VALUE` reads until the bits of MASK are those of VALUE, `check`
+Access by access, in the words of a scenario's [`accesses`](scenario.md#accesses), to be tried
+as they are: `until REG MASK VALUE` reads until the bits of MASK are those of VALUE, `check`
 says what they are then, `A..B` is every register from A to B. In C the [driver](driver.md) does all
 this. What each bit, read and write does besides: the tables below.
 """

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // build.mjs MODULES OUT: makes one HTML file of the page. MODULES is the node_modules folder with
-// esbuild, uPlot and candied, OUT the file to write. Script and style are inlined and named by their hashes
+// esbuild, uPlot and candied, OUT the file to write. Script and style are inlined and named by
+// their hashes
 // in a content security policy that allows nothing else: the page cannot reach a network.
 import {createHash} from 'node:crypto';
 import {readFileSync, writeFileSync} from 'node:fs';

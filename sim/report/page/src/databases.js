@@ -76,7 +76,7 @@ export class Databases extends EventTarget {
     return this.files.flatMap(({messages}) => messages);
   }
 
-  /** The message with exactly this identifier, else of its J1939 group, of its source if possible. */
+  /** The message with this very identifier, else of its J1939 group, of its source if possible. */
   find(id, extended) {
     const key = id + (extended ? kExtended : 0);
     let message = this.known.get(key);

@@ -101,7 +101,8 @@ class Reader {
     if (id > 0x1fffffff && id < kExtended && !kIndependent.has(id))
       throw new DbcError(
         line,
-        `message ${name} has the identifier ${id}; allowed: 0 to 2047, and of 29 bits with bit 31 set`,
+        `message ${name} has the identifier ${id}; ` +
+          'allowed: 0 to 2047, and of 29 bits with bit 31 set',
       );
     const key = keyOf(id);
     const known = this.messages.get(key);
@@ -220,7 +221,8 @@ function problemOf(signal, message) {
     return `is a floating-point number of ${length} bits; allowed: 32, 64`;
   if (factor === 0) return 'has the factor 0';
   if (signal.bytes > message.length)
-    return `does not fit the ${message.length} bytes of message ${message.name}: it needs ${signal.bytes}`;
+    return `does not fit the ${message.length} bytes of message ${message.name}: ` +
+      `it needs ${signal.bytes}`;
   const seen = new Set();
   for (let at = signal; at; at = at.selection?.multiplexer) {
     if (seen.has(at)) return 'is multiplexed by itself';

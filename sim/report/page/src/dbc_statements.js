@@ -110,7 +110,8 @@ export function plainNumber(text) {
 
 const kNumber = '([+-]?[\\d.]+(?:[eE][+-]?\\d+)?)';
 const kSignal = new RegExp(
-  `^SG_ (\\w+) ?(M|m\\d+M?|) ?: ?(\\d+) ?\\| ?(\\d+) ?@ ?([01]) ?([+-]) ?\\( ?${kNumber} ?, ?${kNumber} ?\\)` +
+  `^SG_ (\\w+) ?(M|m\\d+M?|) ?: ?(\\d+) ?\\| ?(\\d+) ?@ ?([01]) ?([+-])` +
+  ` ?\\( ?${kNumber} ?, ?${kNumber} ?\\)` +
     ` ?\\[ ?${kNumber} ?\\| ?${kNumber} ?\\] ?("\\d+") ?(.*)$`,
 );
 
@@ -127,7 +128,7 @@ function signalLine(text) {
   );
 }
 
-/** One blank between words; strings by their number in `strings`, so that they may hold anything. */
+/** One blank between words; strings by their number in `strings`, so that they hold anything. */
 function canonical({line, keyword, text}) {
   const strings = [];
   const keep = keyword.startsWith('BA_'); // names and values that are of use here are plain words

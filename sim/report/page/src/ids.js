@@ -47,7 +47,7 @@ class Identifier {
   }
 }
 
-/** One entry for each identifier, remote requests apart; periods are between starts of frames, ns. */
+/** One entry for each identifier, remote requests apart; periods are between starts, ns. */
 export function identifiersOf(report) {
   const {frames} = report;
   const dataOf = (i) => frames.data.subarray(8 * i, 8 * i + Math.min(8, frames.dlc[i]));

@@ -21,7 +21,8 @@ export class DbcOpener {
   constructor(databases) {
     this.databases = databases;
     this.text = el('span', {});
-    const close = el('button', {type: 'button', title: 'Close', onclick: () => this.quiet()}, '✕');
+    const closing = {type: 'button', title: 'Close', onclick: () => this.quiet()};
+    const close = el('button', closing, '✕');
     this.alert = el('div', {class: 'alert', role: 'alert', hidden: true}, this.text, close);
     this.input = el('input', {
       type: 'file',

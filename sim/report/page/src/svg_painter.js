@@ -101,7 +101,8 @@ export class SvgPainter extends Painter {
     const id = `c${++this.clips}`;
     const box = [x, y, Math.max(w, 0), Math.max(h, 0)].map(short);
     this.parts.push(
-      `<clipPath id="${id}"><rect x="${box[0]}" y="${box[1]}" width="${box[2]}" height="${box[3]}"/></clipPath>`,
+      `<clipPath id="${id}"><rect x="${box[0]}" y="${box[1]}" width="${box[2]}" ` +
+        `height="${box[3]}"/></clipPath>`,
     );
     this.#group(`clip-path="url(#${id})"`, paint);
   }

@@ -482,9 +482,9 @@
 #define VERICAN_MB_CS_CODE_SET(value)           (((uint32_t)(value) & 0xFu) << 24)
 #define VERICAN_MB_CS_CODE_RX_INACTIVE          0x0u /* takes no part */
 #define VERICAN_MB_CS_CODE_RX_FULL              0x2u /* holds a frame */
-#define VERICAN_MB_CS_CODE_RX_EMPTY             0x4u /* waits for a frame; so after a remote frame was sent */
+#define VERICAN_MB_CS_CODE_RX_EMPTY             0x4u /* waits for a frame, also for an answer */
 #define VERICAN_MB_CS_CODE_RX_OVERRUN           0x6u /* holds a frame that replaced an unread one */
-#define VERICAN_MB_CS_CODE_TX_INACTIVE          0x8u /* takes no part; so after a data frame was sent */
+#define VERICAN_MB_CS_CODE_TX_INACTIVE          0x8u /* takes no part, as after a sent data frame */
 #define VERICAN_MB_CS_CODE_TX_ABORT             0x9u /* abort; the frame was not sent */
 #define VERICAN_MB_CS_CODE_TX_ANSWER            0xAu /* waits for its remote frame */
 #define VERICAN_MB_CS_CODE_TX_DATA              0xCu /* send; a remote frame if RTR is set */
