@@ -153,7 +153,9 @@ Conversion convert(const CanLog &log, LogFormat format, const std::string &path)
   Losses losses;
   const CanLog fitting = that_fits(log, traits_of(format), losses);
   result.bytes = bytes_of(fitting, format, path);
-  const CanLog again = parse_log(result.bytes, path);
+  // A file of some formats without a frame is no file of that format to a reader.
+  const bool empty = fitting.entries.empty() && fitting.others.empty();
+  const CanLog again = empty ? fitting : parse_log(result.bytes, path);
   const auto written = items_of(fitting), read = items_of(again);
   result.frames = written.size();
   result.faithful = written.size() == read.size();

@@ -94,7 +94,7 @@ TEST(MixedExample, MissingInterfaceIsTold) {
   std::ofstream(path) << "nodes:\n  - {name: a}\n  - {name: pc, interface: nocan7}\n";
   const auto result = tb::run_tool("run " + path);
   EXPECT_EQ(result.code, 2);
-  EXPECT_THAT(result.error, HasSubstr(path + ":3: interface: "));
+  EXPECT_THAT(result.error, HasSubstr(path + ":3: interface nocan7: "));
 }
 
 }  // namespace

@@ -50,7 +50,9 @@ TEST(SocketcandSplitter, ACommandWaitsForItsEnd) {
 
 TEST(SocketcandSplitter, RubbishIsNamedOnceAndSkipped) {
   EXPECT_THAT(split("xyz 12 > > < echo >"),
-              ElementsAre("!a command begins with '<', got 'x'", " echo "));
+              ElementsAre("!text outside of a command: 'x'; allowed: commands, each in angle "
+                          "brackets",
+                          " echo "));
 }
 
 TEST(SocketcandSplitter, ACommandInsideACommandEndsTheFirst) {
