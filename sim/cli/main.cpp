@@ -4,6 +4,7 @@
 // verican: what a user does with the simulator without writing C++.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -23,15 +24,18 @@ namespace {
 
 using namespace vericansim;
 
-/// CLI11 writes the ends of ranges as "1e+06" and "1000.000000".
+/// CLI11 writes the ends of ranges as "1e+06" and "1000.000000"; versions and addresses stay.
 std::string plain_digits(const std::string &text) {
-  static const std::regex kNumber{R"([0-9]+\.0+(?![0-9.])|[0-9]+(\.[0-9]+)?e\+[0-9]+)"};
+  static const std::regex kNumber{
+      R"([0-9]+(?:\.[0-9]+){2,}|[0-9]+\.0+(?![0-9.])|[0-9]+(?:\.[0-9]+)?e\+[0-9]+)"};
   std::string plain;
   auto rest = text.begin();
   for (std::sregex_iterator number{text.begin(), text.end(), kNumber}, end; number != end;
        ++number) {
     plain.append(rest, text.begin() + number->position());
-    plain += fmt::format("{:.15g}", std::stod(number->str()));
+    const std::string found = number->str();
+    const bool dots = std::count(found.begin(), found.end(), '.') > 1;
+    plain += dots ? found : fmt::format("{:.15g}", std::stod(found));
     rest = text.begin() + number->position() + number->length();
   }
   return plain.append(rest, text.end());

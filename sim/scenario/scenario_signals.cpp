@@ -85,10 +85,11 @@ SignalExpectation parse_expected_signal(const YamlValue &value, const std::strin
   });
   map.with("count", [&](const YamlValue &v) { expectation.count = parse_range(v); });
   map.with("mean", [&](const YamlValue &v) { expectation.mean = parse_range(v); });
-  for (const auto &[key, target] :
-       {std::pair{"first", &expectation.first}, {"last", &expectation.last}})
-    map.with(key,
-             [&](const YamlValue &v) { *target = parse_signal_range(v, *expectation.signal); });
+  const auto range = [&](const char *key, auto &target) {
+    map.with(key, [&](const YamlValue &v) { target = parse_signal_range(v, *expectation.signal); });
+  };
+  range("first", expectation.first);
+  range("last", expectation.last);
   map.finish();
   if (expectation.all.least > expectation.all.most) value.fail("min is above max");
   return expectation;

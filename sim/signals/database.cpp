@@ -40,7 +40,8 @@ void Database::add_text(const std::string &path, const std::string &text) {
   const std::string json = run_python({"dbc_to_json.py", {}, text, path});
   DatabaseContent content = parse_database_json(path, json);
   for (SignalMessage &message : content.messages) add(std::move(message));
-  files_.push_back({path, content.text.empty() ? text : std::move(content.text)});
+  if (content.text.empty()) content.text = text;
+  files_.push_back({path, std::move(content.text)});
 }
 
 void Database::add(SignalMessage message) {

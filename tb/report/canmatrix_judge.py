@@ -26,7 +26,7 @@ def raw_text(signal, decoded):
 
 
 def main():
-    text = dbc_statements.decoded(pathlib.Path(sys.argv[1]).read_bytes())
+    text, _ = dbc_statements.decoded(pathlib.Path(sys.argv[1]).read_bytes())
     places = dbc_statements.Places()
     given = [s for s in dbc_statements.relevant(dbc_statements.statements(text)) if places.keep(*s)]
     database = dbc_to_json.load(given)

@@ -20,6 +20,9 @@ RunningTool::RunningTool(std::vector<std::string> arguments)
   for (std::string &argument : arguments) words.push_back(argument.data());
   words.push_back(nullptr);
   constexpr int kNew = O_WRONLY | O_CREAT | O_TRUNC;
+  // What an earlier run has left must not be taken for words of this one.
+  ::unlink(out_.c_str());
+  ::unlink(error_.c_str());
   process_ = ::fork();
   if (process_ != 0) return;
   ::dup2(::open(out_.c_str(), kNew, 0600), STDOUT_FILENO);
