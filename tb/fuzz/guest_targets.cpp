@@ -24,7 +24,7 @@ namespace {
 class Directory {
  public:
   Directory() {
-    std::string name = "/tmp/verican-fuzz-XXXXXX";
+    std::string name = std::filesystem::temp_directory_path() / "verican-fuzz-XXXXXX";
     require(::mkdtemp(name.data()) != nullptr, "a directory for sockets");
     path_ = name;
   }

@@ -11,6 +11,7 @@ it passes, with a wrong rule it fails, and a mutant that changes nothing passes.
 import os
 import subprocess
 import sys
+import tempfile
 
 import models
 from mutants import Design
@@ -36,12 +37,13 @@ SPARED = [
 
 def passes(program, number):
     """Do all tests pass with this mutant?"""
-    environment = {**os.environ, "VERICAN_MUTANT": str(number)}
-    try:
-        return subprocess.run([program, "--gtest_brief=1"], env=environment, capture_output=True,
-                              timeout=120).returncode == 0
-    except subprocess.TimeoutExpired:
-        return False
+    with tempfile.TemporaryDirectory() as work:              # a mutant that hangs is killed
+        environment = {**os.environ, "VERICAN_MUTANT": str(number), "TMPDIR": work}
+        try:
+            return subprocess.run([program, "--gtest_brief=1"], env=environment,
+                                  capture_output=True, timeout=120).returncode == 0
+        except subprocess.TimeoutExpired:
+            return False
 
 
 def main():
