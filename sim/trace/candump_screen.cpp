@@ -41,22 +41,6 @@ std::int64_t parse_date(std::string_view date, std::string_view time, const Plac
   return seconds * kSecondNs + parse_candump_stamp("(0" + std::string(fraction), place);
 }
 
-/// The bytes behind the length as digits; what follows them is no data.
-std::string digits_of(const Fields &fields, std::size_t first, std::size_t count,
-                      const Place &place) {
-  if (fields.size() < first + count)
-    fail(place,
-         fmt::format("{} data bytes where the length says {}", fields.size() - first, count));
-  std::string digits;
-  for (std::size_t i = first; i < first + count; ++i) {
-    if (fields[i].size() != 2)
-      fail(place, "data byte " + quoted(std::string(fields[i])) +
-                      " is not allowed; allowed: two hexadecimal digits");
-    digits += fields[i];
-  }
-  return digits;
-}
-
 /// Identifier, length and bytes from `at` on, as a log has them. `fd_flags`: of a CAN FD frame.
 std::string log_frame(const Fields &fields, std::size_t at, unsigned fd_flags, const Place &place) {
   if (fields.size() < at + 2 || !is_length(fields[at + 1]))
@@ -74,7 +58,7 @@ std::string log_frame(const Fields &fields, std::size_t at, unsigned fd_flags, c
   if (fields.size() > at + 2 && fields[at + 2] == "remote")
     return id + fmt::format("#R{}", *count) + tail;
   return id + (fd ? fmt::format("##{:X}", fd_flags) : "#") +
-         digits_of(fields, at + 2, *count, place) + tail;
+         text::byte_digits(fields, at + 2, *count, place) + tail;
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 // Lines, fields and numbers of the text formats.
 #include "trace/text.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <limits>
 
@@ -86,6 +88,21 @@ void set_byte(Frame &frame, std::size_t index, std::string_view digits, const Pl
     fail(place, "data byte " + quoted(std::string(digits)) +
                     " is not allowed; allowed are up to 8 bytes of two hexadecimal digits");
   frame.data[index] = static_cast<std::uint8_t>(*value);
+}
+
+std::string byte_digits(const std::vector<std::string_view> &fields, std::size_t first,
+                        std::size_t count, const Place &place) {
+  if (fields.size() < first + count)
+    fail(place,
+         fmt::format("{} data bytes where the length says {}", fields.size() - first, count));
+  std::string digits;
+  for (std::size_t i = first; i < first + count; ++i) {
+    if (fields[i].size() != 2)
+      fail(place, "data byte " + quoted(std::string(fields[i])) +
+                      " is not allowed; allowed: two hexadecimal digits");
+    digits += fields[i];
+  }
+  return digits;
 }
 
 }  // namespace vericansim::text

@@ -146,23 +146,8 @@ class Reader {
       return head + fmt::format("R{}", std::min<std::uint64_t>(*dlc, 8)) + raw;
     const std::size_t length =
         type.fd && !told ? trc::kFdLengths[*dlc] : std::min<std::size_t>(*dlc, type.fd ? 64 : 8);
-    return head + bytes(fields, length, place) + raw;
-  }
-
-  [[nodiscard]] std::string bytes(const Fields &fields, std::size_t length,
-                                  const Place &place) const {
     const std::size_t first = std::min(columns_.find('D'), fields.size());
-    if (fields.size() < first + length)
-      fail(place,
-           fmt::format("{} data bytes where the length says {}", fields.size() - first, length));
-    std::string digits;
-    for (std::size_t i = first; i < first + length; ++i) {
-      if (fields[i].size() != 2)
-        fail(place, "data byte " + quoted(std::string(fields[i])) +
-                        " is not allowed; allowed: two hexadecimal digits");
-      digits += fields[i];
-    }
-    return digits;
+    return head + text::byte_digits(fields, first, length, place) + raw;
   }
 
   LogBuilder log_;

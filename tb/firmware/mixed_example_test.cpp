@@ -14,6 +14,7 @@
 #include <regex>
 
 #include "firmware/tool_run.hpp"
+#include "harness/shell.hpp"
 #include "system/running_tool.hpp"
 #include "trace/log.hpp"
 
@@ -53,8 +54,7 @@ std::vector<Frame> chosen(const std::vector<LogEntry> &log, Wanted wanted) {
 // What was on the bus, by an independent reading of its log: the recording whole and in order, the
 // eleven questions and answers, the program's three frames; and the expectations of the example.
 TEST(MixedExample, EveryKindOfNodeOnOneBus) {
-  if (std::system("/usr/bin/python3 -c 'import can' 2> /dev/null") != 0)
-    GTEST_SKIP() << "python-can is not installed";
+  if (!has_python_can()) GTEST_SKIP() << "python-can is not installed";
   const std::string log = tb::temporary(".log");
   tb::RunningTool tool{{"run", example(log), "--json"}};
   std::smatch port;

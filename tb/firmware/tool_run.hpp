@@ -16,7 +16,7 @@ struct ToolResult {
 
 /// The contents of a file; empty if there is none.
 [[nodiscard]] std::string slurp(const std::string &path);
-/// A name in the temporary folder that belongs to the running test.
+/// A name in the test program's own temporary folder that belongs to the running test.
 [[nodiscard]] std::string temporary(const std::string &suffix);
 /// Runs `verican ARGUMENTS`.
 [[nodiscard]] ToolResult run_tool(const std::string &arguments);

@@ -4,12 +4,12 @@
 // ScratchFolder: a folder for the files of one test.
 #pragma once
 
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace vericansim {
 
@@ -28,6 +28,8 @@ class ScratchFolder {
   ScratchFolder(const ScratchFolder &) = delete;
   ScratchFolder &operator=(const ScratchFolder &) = delete;
 
+  /// Its own path, without a slash at the end.
+  [[nodiscard]] const std::string &path() const { return path_; }
   /// The path of `name` in it.
   [[nodiscard]] std::string operator/(const std::string &name) const { return path_ + "/" + name; }
   /// Writes a file; returns its path.
@@ -35,24 +37,14 @@ class ScratchFolder {
     std::ofstream(*this / name, std::ios::binary) << bytes;
     return *this / name;
   }
+  /// Number of files and folders in it, hidden ones too.
+  [[nodiscard]] std::size_t files() const {
+    const std::filesystem::directory_iterator all{path_};
+    return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+  }
 
  private:
   std::string path_;
 };
-
-/// What a shell command prints on stdout and its exit code.
-struct Said {
-  std::string text;
-  int code = 0;
-};
-inline Said shell(const std::string &command) {
-  Said said;
-  std::FILE *pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) throw std::runtime_error("popen");
-  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) said.text += static_cast<char>(c);
-  const int status = ::pclose(pipe);
-  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return said;
-}
 
 }  // namespace vericansim

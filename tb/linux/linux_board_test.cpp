@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "harness/scratch_folder.hpp"
 #include "linux/board.hpp"
 #include "linux/board_rig.hpp"
 #include "node/registers.hpp"
@@ -26,19 +27,13 @@ constexpr std::uint32_t kReset = 0xD890000F;  // flexcan.md 1.1
 class BoardTest : public ::testing::Test {
  protected:
   BoardTest() {
-    std::string path = (std::filesystem::temp_directory_path() / "board-XXXXXX").string();
-    directory = ::mkdtemp(path.data());
-    config.directory = directory;
+    config.directory = folder.path();
     config.access_logs = true;
     board = std::make_unique<Board>(config);
     port = {[this](std::uint32_t address) { return board->access({.address = address}); },
             [this](std::uint32_t address, std::uint32_t value) {
               board->access({.address = address, .write = true, .value = value});
             }};
-  }
-  ~BoardTest() override {
-    board.reset();
-    std::filesystem::remove_all(directory);
   }
 
   // Both controllers on the bus and integrated.
@@ -57,7 +52,7 @@ class BoardTest : public ::testing::Test {
   std::uint32_t read1(std::uint32_t offset) { return port.read(0x1000 + offset); }
 
   BoardConfig config;
-  std::string directory;
+  const ScratchFolder folder;
   std::unique_ptr<Board> board;
   test::RegisterPort port;
 };
@@ -110,7 +105,7 @@ TEST_F(BoardTest, TheLogHoldsWhatTheDecoderSaw) {
   send(0x123, 0x11223344);
   (void)board->run_until(board->now() + kMs);
   board->command("log off");
-  const CanLog log = read_log(directory + "/bus.log");
+  const CanLog log = read_log(folder / "bus.log");
   ASSERT_EQ(log.entries.size(), 1U);
   EXPECT_EQ(log.entries[0].frame.id, 0x123U);
   EXPECT_EQ(log.entries[0].frame.data[3], 0x44);
@@ -118,15 +113,16 @@ TEST_F(BoardTest, TheLogHoldsWhatTheDecoderSaw) {
 }
 
 TEST_F(BoardTest, AFullDiskIsNoticed) {
-  std::filesystem::create_symlink("/dev/full", directory + "/bus.log");
+  std::filesystem::create_symlink("/dev/full", folder / "bus.log");
   bring_up();
   board->command("log bus.log");
   send(0x123, 0x11223344);
   (void)board->run_until(board->now() + kMs);
-  EXPECT_THAT([&] { board->command("log off"); },
-              ::testing::ThrowsMessage<OutputError>(
-                  directory + "/bus.log: cannot be written to its end: No space left on device"));
-  config.directory = directory + "/full";
+  EXPECT_THAT(
+      [&] { board->command("log off"); },
+      ::testing::ThrowsMessage<OutputError>(
+          (folder / "bus.log") + ": cannot be written to its end: No space left on device"));
+  config.directory = folder / "full";
   std::filesystem::create_directories(config.directory);
   std::filesystem::create_symlink("/dev/full", config.directory + "/access-0.txt");
   board = std::make_unique<Board>(config);
@@ -138,7 +134,7 @@ TEST_F(BoardTest, AccessesAreLogged) {
   (void)port.read(0x1000);
   port.write(0x1004, 0x00010000);
   board.reset();
-  const std::string log = read_text_file(directory + "/access-1.txt");
+  const std::string log = read_text_file(folder / "access-1.txt");
   EXPECT_THAT(log, HasSubstr(" R 000 d890000f 0\n"));
   EXPECT_THAT(log, HasSubstr(" W 004 00010000 0\n"));
 }
@@ -180,7 +176,7 @@ TEST_F(BoardTest, APeerSendsNumberedFrames) {
   }
   EXPECT_EQ(board->command("peer pending"), "0\n");
   board->command("log off");
-  const CanLog log = read_log(directory + "/bus.log");
+  const CanLog log = read_log(folder / "bus.log");
   ASSERT_EQ(log.entries.size(), 3U);
   EXPECT_EQ(log.entries[2].frame.data[1], 11);
   EXPECT_EQ(log.entries[2].frame.data[2], 0xAA);

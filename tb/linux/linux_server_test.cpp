@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "harness/scratch_folder.hpp"
 #include "linux/board_rig.hpp"
 #include "linux/guest_server.hpp"
 
@@ -39,9 +40,7 @@ Channel connect_to(const std::string &path) {
 class GuestServerTest : public ::testing::Test {
  protected:
   GuestServerTest() {
-    std::string path = (std::filesystem::temp_directory_path() / "guest-XXXXXX").string();
-    directory = ::mkdtemp(path.data());
-    server = std::make_unique<GuestServer>(board, directory);
+    server = std::make_unique<GuestServer>(board, folder.path());
     thread = std::thread{[this] {
       try {
         server->serve([] { return false; });
@@ -49,9 +48,9 @@ class GuestServerTest : public ::testing::Test {
         complaint = error.what();
       }
     }};
-    time = connect_to(directory + "/time");
-    registers = connect_to(directory + "/registers");
-    interrupts = connect_to(directory + "/interrupts");
+    time = connect_to(folder / "time");
+    registers = connect_to(folder / "registers");
+    interrupts = connect_to(folder / "interrupts");
     port = {[this](std::uint32_t address) { return access(GuestOp::kRead, address, 0).value; },
             [this](std::uint32_t address, std::uint32_t value) {
               (void)access(GuestOp::kWrite, address, value);
@@ -60,7 +59,6 @@ class GuestServerTest : public ::testing::Test {
   ~GuestServerTest() override {
     leave();
     server.reset();
-    std::filesystem::remove_all(directory);
   }
   // The guest ends, and with it the server.
   void leave() {
@@ -110,7 +108,7 @@ class GuestServerTest : public ::testing::Test {
   }
 
   Board board{BoardConfig{}};
-  std::string directory;
+  const ScratchFolder folder;
   std::unique_ptr<GuestServer> server;
   std::thread thread;
   std::string complaint;
@@ -204,18 +202,16 @@ TEST_F(GuestServerTest, ASleepBeyondTheSimulatorsTimeEndsTheRun) {
 }
 
 TEST(GuestServer, GivesUpWhenTold) {
-  std::string path = (std::filesystem::temp_directory_path() / "guest-XXXXXX").string();
-  const std::string directory = ::mkdtemp(path.data());
+  const ScratchFolder folder;
   {
     Board board{BoardConfig{}};
-    GuestServer server{board, directory};
+    GuestServer server{board, folder.path()};
     int asked = 0;
     server.serve([&] { return ++asked == 2; });
     EXPECT_EQ(asked, 2);
-    EXPECT_THROW(GuestServer(board, directory + std::string(120, 'x')), std::invalid_argument);
+    EXPECT_THROW(GuestServer(board, folder.path() + std::string(120, 'x')), std::invalid_argument);
   }
-  EXPECT_TRUE(std::filesystem::is_empty(directory)) << "the sockets are removed";
-  std::filesystem::remove(directory);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "the sockets are removed";
 }
 
 }  // namespace

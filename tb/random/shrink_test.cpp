@@ -7,11 +7,11 @@
 
 #include <algorithm>
 
+#include "harness/input_error_of.hpp"
 #include "random/random_scenario.hpp"
 #include "random/shrink.hpp"
 #include "scenario/register_name.hpp"
 #include "scenario/runner.hpp"
-#include "trace/input_error.hpp"
 
 namespace vericansim {
 namespace {
@@ -44,12 +44,7 @@ constexpr const char *kHead = "nodes: [{name: a}, {name: b, software: none}]\n";
 Scenario read(const std::string &text) { return parse_scenario("s.yaml", kHead + text); }
 
 std::string refusal(const std::string &text) {
-  try {
-    (void)read(text);
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "";
+  return input_error_of([&] { return read(text); });
 }
 
 TEST(ScenarioAccesses, AreRead) {

@@ -3,17 +3,16 @@
 //
 // The page under hands: wheel, drag, keys, touch of the address, dark screens, and broken files.
 import assert from 'node:assert/strict';
-import {after, before, test} from 'node:test';
+import {test} from 'node:test';
 import {
   assertColor,
-  closeBrowser,
   closeReport,
   cssColor,
   inspect,
   itemsOf,
-  openBrowser,
   openReport,
   pixel,
+  reportFor,
   rowsOf,
   screenshot,
   setView,
@@ -24,12 +23,7 @@ import {smallScene} from './scenes.mjs';
 
 const small = smallScene();
 const {log, bit} = small.scene;
-let file;
-before(async () => {
-  await openBrowser();
-  file = writeScene('input', small);
-});
-after(closeBrowser);
+const file = reportFor('input', small);
 
 const near = (a, b, tolerance, text) =>
   assert.ok(Math.abs(a - b) <= tolerance, `${text}: ${a}, wanted ${b}`);

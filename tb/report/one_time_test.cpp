@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/shell.hpp"
 #include "report/report_run.hpp"
 #include "scenario/runner.hpp"
 #include "trace/log.hpp"
@@ -72,8 +73,7 @@ TEST(OneTime, EveryFrameHasTheSameTimeEverywhere) {
 
 // log2asc takes times below 1 s for "no frame yet": a header for each frame, all at 0.
 TEST(OneTime, Log2ascReadsTheLog) {
-  if (std::system("command -v log2asc > /dev/null 2>&1") != 0)
-    GTEST_SKIP() << "log2asc (can-utils) is not installed";
+  if (!has_program("log2asc")) GTEST_SKIP() << "log2asc (can-utils) is not installed";
   const std::string log = report_file(".log");
   Scenario scenario = busy_scenario();
   scenario.outputs.candump = log;

@@ -3,18 +3,17 @@
 //
 // The page against scenes of which everything is known: decoding, pictures, tables, search.
 import assert from 'node:assert/strict';
-import {after, before, test} from 'node:test';
+import {test} from 'node:test';
 import {
   assertColor,
   blend,
-  closeBrowser,
   closeReport,
   cssColor,
   inspect,
   itemsOf,
-  openBrowser,
   openReport,
   pixel,
+  reportFor,
   rowsOf,
   screenshot,
   setView,
@@ -26,12 +25,7 @@ import {lonelyScene, smallScene} from './scenes.mjs';
 
 const small = smallScene();
 const {log, bit} = small.scene;
-let file;
-before(async () => {
-  await openBrowser();
-  file = writeScene('small', small);
-});
-after(closeBrowser);
+const file = reportFor('small', small);
 
 const hex = (value, digits) => value.toString(16).toUpperCase().padStart(digits, '0');
 const idText = ({id, extended}) => hex(id, extended ? 8 : 3);

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/input_error_of.hpp"
 #include "signals/dbc_fixture.hpp"
-#include "trace/input_error.hpp"
 
 namespace vericansim {
 namespace {
@@ -98,13 +98,10 @@ TEST(DbcDatabase, UnitsAreReadInBothEncodings) {
 
 /// The message of the InputError that this text gives as file bad.dbc.
 std::string refusal(const std::string &text) {
-  try {
+  return input_error_of([&] {
     Database database;
     database.add_text("bad.dbc", text);
-    return "read";
-  } catch (const InputError &error) {
-    return error.what();
-  }
+  });
 }
 
 const std::string kMessage = "BO_ 1 A: 8 X\n";
@@ -157,15 +154,9 @@ TEST(DbcDatabase, OneIdentifierHasOneMessage) {
   EXPECT_THAT(refusal(kMessage + signal + signal), HasSubstr("bad.dbc:3: signal S is there twice"));
   Database database;
   database.add_text("a.dbc", kMessage);
-  try {
-    database.add_text("b.dbc", "BO_ 1 B: 8 X\n");
-    FAIL() << "two messages for one identifier";
-  } catch (const InputError &error) {
-    EXPECT_STREQ(
-        error.what(),
-        "b.dbc: message B has the identifier 001 of A in a.dbc; allowed: one message for an "
-        "identifier");
-  }
+  EXPECT_EQ(input_error_of([&] { database.add_text("b.dbc", "BO_ 1 B: 8 X\n"); }),
+            "b.dbc: message B has the identifier 001 of A in a.dbc; allowed: one message for an "
+            "identifier");
 }
 
 // CANdb++ and others write files that are not quite what the format says; each of these has one

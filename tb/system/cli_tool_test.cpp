@@ -6,45 +6,23 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <sys/wait.h>
-#include <cstdio>
-#include <fstream>
 #include <string>
+
+#include "firmware/tool_run.hpp"
+#include "harness/scratch_test.hpp"
 
 namespace {
 
+using namespace tb;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-struct Result {
-  int code = -1;
-  std::string out;    // stdout
-  std::string error;  // stderr
-};
-
-std::string slurp(const std::string &path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-Result tool(const std::string &arguments) {
-  const std::string stem =
-      ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  const std::string command =
-      std::string(VERICAN_BINARY) + " " + arguments + " > " + stem + ".out 2> " + stem + ".err";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(stem + ".out"), slurp(stem + ".err")};
-}
-
-std::string file_with(const std::string &name, const std::string &text) {
-  const std::string path = ::testing::TempDir() + name;
-  std::ofstream(path) << text;
-  return path;
-}
+/// The tool, with files of the test.
+using Tool = vericansim::ScratchTest;
 
 /// Bad input: exit code 2, nothing on stdout, one line on stderr that says `what`.
 void expect_refused(const std::string &arguments, const std::string &what) {
-  const Result result = tool(arguments);
+  const ToolResult result = run_tool(arguments);
   EXPECT_EQ(result.code, 2) << arguments;
   EXPECT_EQ(result.out, "") << arguments;
   EXPECT_THAT(result.error, StartsWith("verican: "));
@@ -52,17 +30,17 @@ void expect_refused(const std::string &arguments, const std::string &what) {
   EXPECT_EQ(result.error.find('\n'), result.error.size() - 1) << result.error;
 }
 
-TEST(Tool, HelpAndVersion) {
-  EXPECT_EQ(tool("--help").code, 0);
+TEST_F(Tool, HelpAndVersion) {
+  EXPECT_EQ(run_tool("--help").code, 0);
   for (const char *command : {"run", "replay", "decode", "bittime", "paper", "firmware"}) {
-    const Result help = tool(std::string(command) + " --help");
+    const ToolResult help = run_tool(std::string(command) + " --help");
     EXPECT_EQ(help.code, 0);
     EXPECT_THAT(help.out, HasSubstr("--json"));
   }
-  EXPECT_THAT(tool("--version").out, HasSubstr("verican"));
+  EXPECT_THAT(run_tool("--version").out, HasSubstr("verican"));
 }
 
-TEST(Tool, BadOptionsAreRefused) {
+TEST_F(Tool, BadOptionsAreRefused) {
   expect_refused("", "subcommand");
   expect_refused("runn", "");
   expect_refused("run", "scenario is required");
@@ -80,7 +58,7 @@ TEST(Tool, BadOptionsAreRefused) {
   expect_refused("decode x.vcd --bitrate 1", "--bitrate");
 }
 
-TEST(Tool, BadFilesAreRefused) {
+TEST_F(Tool, BadFilesAreRefused) {
   expect_refused("run /no/such.yaml", "/no/such.yaml: no such file");
   expect_refused("run /tmp", "is a directory");
   expect_refused("run " + file_with("bad.yaml", "nodes:\n  - {name: a, clock: 8 Mhz}\n"),
@@ -100,28 +78,27 @@ TEST(Tool, BadFilesAreRefused) {
                  "'5' is not allowed; allowed: a time above 0");
 }
 
-TEST(Tool, RunReportsAndExitsByTheExpectations) {
-  const Result good = tool("run examples/two-nodes.yaml --json");
+TEST_F(Tool, RunReportsAndExitsByTheExpectations) {
+  const ToolResult good = run_tool("run examples/two-nodes.yaml --json");
   EXPECT_EQ(good.code, 0) << good.error;
   EXPECT_EQ(good.error, "");  // no progress bar where there is no terminal
   const auto json = nlohmann::json::parse(good.out);
   EXPECT_TRUE(json["ok"].get<bool>());
   EXPECT_EQ(json["runs"][0]["frames"], 13);
-  const Result bad = tool("run examples/two-nodes.yaml --duration '10 ms'");
+  const ToolResult bad = run_tool("run examples/two-nodes.yaml --duration '10 ms'");
   EXPECT_EQ(bad.code, 1);
   EXPECT_THAT(bad.out, HasSubstr("FAIL  frames: 3 (expected 13)"));
 }
 
-TEST(Tool, ReplayThenDecodeGivesTheLogBack) {
+TEST_F(Tool, ReplayThenDecodeGivesTheLogBack) {
   const std::string log =
       file_with("round.log",
                 "(0000000001.000000) can0 123#112233\n(0000000001.001000) can0 12345678#\n"
                 "(0000000001.002000) can0 7FF#0102030405060708_C\n");
-  const std::string vcd = ::testing::TempDir() + "round.vcd",
-                    back = ::testing::TempDir() + "round.back";
-  const Result replayed = tool("replay " + log + " --vcd " + vcd + " --json");
+  const std::string vcd = in("round.vcd"), back = in("round.back");
+  const ToolResult replayed = run_tool("replay " + log + " --vcd " + vcd + " --json");
   EXPECT_EQ(replayed.code, 0) << replayed.out;
-  const Result decoded = tool("decode " + vcd + " --candump " + back + " --json");
+  const ToolResult decoded = run_tool("decode " + vcd + " --candump " + back + " --json");
   EXPECT_EQ(decoded.code, 0);
   EXPECT_EQ(nlohmann::json::parse(decoded.out)["frames"], 3);
   const std::string frames = slurp(back);
@@ -129,38 +106,38 @@ TEST(Tool, ReplayThenDecodeGivesTheLogBack) {
     EXPECT_THAT(frames, HasSubstr(frame));
 }
 
-TEST(Tool, BittimeJson) {
-  const auto json = nlohmann::json::parse(tool("bittime -c 8M -b 500k --sjw 1 --json").out);
+TEST_F(Tool, BittimeJson) {
+  const auto json = nlohmann::json::parse(run_tool("bittime -c 8M -b 500k --sjw 1 --json").out);
   EXPECT_EQ(json["settings"][0]["ctrl"], "0x00310005");  // what can-utils prints
 }
 
 // 8 MHz in nine clocks is 888.9 kbit/s, in eight 1 Mbit/s: 970 kbit/s is 3 % off at best.
-TEST(Tool, BittimeWarnsOfARateThatNoClockMayHave) {
-  const Result warned = tool("bittime -c 8M -b 970k --json");
+TEST_F(Tool, BittimeWarnsOfARateThatNoClockMayHave) {
+  const ToolResult warned = run_tool("bittime -c 8M -b 970k --json");
   EXPECT_EQ(warned.code, 0);
   EXPECT_THAT(warned.error, HasSubstr("warning: the nearest rate is off by +30928 ppm"));
   EXPECT_FALSE(nlohmann::json::parse(warned.out)["settings"][0]["rate_fits"].get<bool>());
-  const Result fits = tool("bittime -c 8M -b 500k --json");
+  const ToolResult fits = run_tool("bittime -c 8M -b 500k --json");
   EXPECT_EQ(fits.error, "");
   EXPECT_TRUE(nlohmann::json::parse(fits.out)["settings"][0]["rate_fits"].get<bool>());
 }
 
-TEST(Tool, BittimeShowsOnlyWhatTheDelaysAllow) {
-  const auto json = nlohmann::json::parse(tool("bittime -c 8M -b 1M --json").out);
+TEST_F(Tool, BittimeShowsOnlyWhatTheDelaysAllow) {
+  const auto json = nlohmann::json::parse(run_tool("bittime -c 8M -b 1M --json").out);
   EXPECT_EQ(json["controller_delay_ns"], 250.0);
   for (const auto &setting : json["settings"]) EXPECT_GE(setting["cable_m"], 0.0);
   expect_refused("bittime -c 8M -b 1M --cable 40",
                  "40 m of cable and the delays of the nodes (100 ns a transceiver, 250 ns a "
                  "controller) are too long for 1000000 bit/s from 8000000 Hz");
-  EXPECT_EQ(tool("bittime -c 8M -b 1M --cable 5 --node-delay 40").code, 0);
+  EXPECT_EQ(run_tool("bittime -c 8M -b 1M --cable 5 --node-delay 40").code, 0);
   expect_refused("bittime -c 8M -b 1M --controller-delay 400", "400 ns a controller");
 }
 
-TEST(Tool, PaperAgrees) {
-  const Result result = tool("paper --json --out " + ::testing::TempDir() + "waves");
+TEST_F(Tool, PaperAgrees) {
+  const ToolResult result = run_tool("paper --json --out " + in("waves"));
   EXPECT_EQ(result.code, 0);
   EXPECT_TRUE(nlohmann::json::parse(result.out)["ok"].get<bool>());
-  EXPECT_THAT(slurp(::testing::TempDir() + "waves/fig13-arbitration.vcd"), HasSubstr("sID "));
+  EXPECT_THAT(slurp(in("waves/fig13-arbitration.vcd")), HasSubstr("sID "));
 }
 
 }  // namespace

@@ -5,11 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <fstream>
-
+#include "harness/input_error_of.hpp"
+#include "harness/scratch_test.hpp"
 #include "scenario/runner.hpp"
-#include "trace/input_error.hpp"
 #include "trace/log.hpp"
 
 namespace vericansim {
@@ -22,27 +20,19 @@ constexpr const char *kLog =
     "(100.000000) can0 120#01\n(100.005000) can1 00000120#0203\n(100.010000) can0 120#04\n"
     "(100.020000) can0 120#05\n";
 
-/// A log and a scenario beside it, in the temporary folder; removed at the end.
-class ReplayNodes : public ::testing::Test {
+/// A log and a scenario beside it.
+class ReplayNodes : public ScratchTest {
  protected:
-  void SetUp() override {
-    stem_ = ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::ofstream(stem_ + ".log") << kLog;
-  }
-  void TearDown() override {
-    std::remove((stem_ + ".log").c_str());
-    std::remove((stem_ + ".out").c_str());
-  }
+  void SetUp() override { file_with("boat.log", kLog); }
 
   [[nodiscard]] Scenario scenario(const std::string &node, const std::string &rest = "") const {
-    const std::string name = stem_.substr(stem_.rfind('/') + 1);
-    return parse_scenario(stem_ + ".yaml", "nodes:\n  - {name: boat, replay: " + name + ".log" +
-                                               node + "}\n  - {name: other}\n" + rest);
+    return parse_scenario(in("bus.yaml"), "nodes:\n  - {name: boat, replay: boat.log" + node +
+                                              "}\n  - {name: other}\n" + rest);
   }
   /// Runs it and reads what was on the bus.
   RunReport run(const std::string &node, const std::string &rest = "") {
     Scenario wanted = scenario(node, rest);
-    wanted.outputs.candump = stem_ + ".out";
+    wanted.outputs.candump = in("out.log");
     const RunReport report = run_scenario(wanted, 500e3);
     seen_ = read_log(wanted.outputs.candump).entries;
     return report;
@@ -52,7 +42,6 @@ class ReplayNodes : public ::testing::Test {
     return static_cast<double>(seen_.at(to).time - seen_.at(from).time) / kMillisecond;
   }
 
-  std::string stem_;
   std::vector<LogEntry> seen_;
 };
 
@@ -119,9 +108,8 @@ TEST_F(ReplayNodes, DurationEndsItEarly) {
 
 // Shares of the identifiers: each frame once, from one of the nodes.
 TEST_F(ReplayNodes, SharesAreDisjointAndWhole) {
-  const std::string log = stem_.substr(stem_.rfind('/') + 1) + ".log";
   const RunReport report =
-      run(", share: 1/2", "  - {name: second, replay: " + log + ", share: 2/2}\n");
+      run(", share: 1/2", "  - {name: second, replay: boat.log, share: 2/2}\n");
   EXPECT_TRUE(report.ok()) << to_text(report);
   EXPECT_EQ(seen_.size(), 4U);
   EXPECT_EQ(report.replays.at(0).sent + report.replays.at(1).sent, 4U);
@@ -159,12 +147,8 @@ TEST_F(ReplayNodes, NothingToSendFails) {
 TEST_F(ReplayNodes, BadSettingsAreRefused) {
   const auto refused = [this](const std::string &node, const std::string &rest,
                               const std::string &what) {
-    try {
-      static_cast<void>(scenario(node, rest));
-      ADD_FAILURE() << node << rest << " is accepted";
-    } catch (const InputError &error) {
-      EXPECT_THAT(error.what(), HasSubstr(what));
-    }
+    EXPECT_THAT(input_error_of([&] { return scenario(node, rest); }), HasSubstr(what))
+        << node << rest;
   };
   refused(", rate: 0", "", "rate: '0' is not allowed");
   refused(", share: 3/2", "", "share: '3/2' is not allowed; allowed: a part of 1 to 64");
@@ -178,20 +162,16 @@ TEST_F(ReplayNodes, BadSettingsAreRefused) {
   refused("", "end: time\n", "needs a 'duration'");
   refused("", "pacing: slow\n", "'slow' is not allowed; allowed: real_time, fast");
   refused("", "  - {name: pc, interface: vcan0, echo: 3}\n", "echo: '3' is not allowed");
-  EXPECT_THROW(static_cast<void>(run_scenario(
-                   parse_scenario("x.yaml", "nodes: [{name: a, replay: no_such.log}]\n"), 5e5)),
-               InputError);
+  const Scenario none = parse_scenario("x.yaml", "nodes: [{name: a, replay: no_such.log}]\n");
+  EXPECT_THAT(input_error_of([&] { return run_scenario(none, 5e5); }),
+              HasSubstr("no_such.log: no such file"));
 }
 
 // A program of the caller's own has no CAN interfaces unless it is given a factory.
 TEST_F(ReplayNodes, InterfacesNeedAFactory) {
-  try {
-    run("", "  - {name: pc, interface: vcan0}\n");
-    ADD_FAILURE() << "accepted";
-  } catch (const InputError &error) {
-    EXPECT_THAT(error.what(), HasSubstr("node 'pc': this program cannot make a node with "
-                                        "'interface'"));
-  }
+  EXPECT_THAT(input_error_of([&] { return run("", "  - {name: pc, interface: vcan0}\n"); }),
+              HasSubstr("node 'pc': this program cannot make a node with "
+                        "'interface'"));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "harness/shell.hpp"
 #include "model/frame_codec.hpp"
 #include "scenario/runner.hpp"
 #include "trace/log.hpp"
@@ -169,9 +170,7 @@ class WrittenFiles : public ::testing::Test {
         "ms}\n"
         "  - {node: right, id: 0x7F0, remote: true, offset: 0.5 ms}\n"
         "faults: [{kind: flip, node: left, at: {node: left, frame: 2, field: CRC, bit: 1}}]\n");
-    // ctest runs tests of one file side by side: a name for each.
-    const std::string stem =
-        ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    const std::string stem = ::testing::TempDir() + "all";
     scenario.outputs.vcd = stem + ".vcd";
     scenario.outputs.fst = stem + ".fst";
     scenario.outputs.candump = stem + ".log";
@@ -218,7 +217,7 @@ TEST_F(WrittenFiles, WaveformNamesFieldsRolesAndErrors) {
 
 // GTKWave's own tools must read both files and give the same wire.
 TEST_F(WrittenFiles, GtkwaveReadsBothFiles) {
-  if (std::system("command -v fst2vcd vcd2fst > /dev/null 2>&1") != 0)
+  if (!has_program("fst2vcd") || !has_program("vcd2fst"))
     GTEST_SKIP() << "GTKWave's tools are not installed";
   ASSERT_EQ(std::system(("fst2vcd " + outputs_.fst + " > " + outputs_.fst + ".vcd").c_str()), 0);
   ASSERT_EQ(std::system(("vcd2fst " + outputs_.vcd + " " + outputs_.vcd + ".fst").c_str()), 0);
@@ -248,22 +247,16 @@ std::string sigrok_words(const Frame &frame) {
 
 /// What sigrok's CAN decoder says about a signal of the waveform.
 std::string sigrok(const std::string &vcd, const std::string &signal, int bitrate) {
-  const std::string command = "sigrok-cli -i " + vcd +
-                              " -I vcd:downsample=50 -P can:can_rx=" + signal +
-                              ":nominal_bitrate=" + std::to_string(bitrate) + ":sample_point=80" +
-                              " -A can=id:full-id:dlc:data 2> /dev/null | sed 's/^can-1: //'";
-  FILE *pipe = popen(command.c_str(), "r");
-  std::string text;
-  for (int c = 0; pipe != nullptr && (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
-  if (pipe != nullptr) pclose(pipe);
-  return text;
+  return shell("sigrok-cli -i " + vcd + " -I vcd:downsample=50 -P can:can_rx=" + signal +
+               ":nominal_bitrate=" + std::to_string(bitrate) + ":sample_point=80" +
+               " -A can=id:full-id:dlc:data 2> /dev/null | sed 's/^can-1: //'")
+      .text;
 }
 
 // An outside judge: sigrok's CAN decoder. It knows no error frames, so this run has none; and it
 // takes the DLC of a remote frame for data, so remote frames have DLC 0.
 TEST(Sigrok, SeesTheSameFrames) {
-  if (std::system("command -v sigrok-cli > /dev/null 2>&1") != 0)
-    GTEST_SKIP() << "sigrok-cli is not installed";
+  if (!has_program("sigrok-cli")) GTEST_SKIP() << "sigrok-cli is not installed";
   Scenario scenario = parse_scenario(
       "test.yaml",
       "bitrate: 250k\nduration: 30 ms\nnodes: [{name: left, ppm: 200}, {name: right, ppm: -200, "

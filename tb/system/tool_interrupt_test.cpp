@@ -10,9 +10,9 @@
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 
+#include "harness/scratch_test.hpp"
 #include "system/running_tool.hpp"
 #include "trace/log.hpp"
 
@@ -23,22 +23,11 @@ using namespace tb;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using vericansim::ScratchTest;
 using Json = nlohmann::json;
 
-/// A folder of the test's own.
-class ToolInterrupt : public ::testing::Test {
+class ToolInterrupt : public ScratchTest {
  protected:
-  void SetUp() override {
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
-  [[nodiscard]] std::string in(const std::string &name) const { return folder + "/" + name; }
-
-  [[nodiscard]] std::string file_with(const std::string &name, const std::string &text) const {
-    std::ofstream{in(name)} << text;
-    return in(name);
-  }
   /// Two nodes and a frame every millisecond for a day.
   [[nodiscard]] std::string long_scenario() const {
     return file_with("long.yaml",
@@ -54,13 +43,10 @@ class ToolInterrupt : public ::testing::Test {
     return file_with("long.log", text);
   }
   /// The tool has opened its outputs, and begins to simulate.
-  [[nodiscard]] bool writes(std::size_t inputs) const {
-    const fs::directory_iterator all{folder};
-    return static_cast<std::size_t>(std::distance(begin(all), end(all))) > inputs;
-  }
+  [[nodiscard]] bool writes(std::size_t inputs) const { return files() > inputs; }
   [[nodiscard]] std::uintmax_t bytes() const {
     std::uintmax_t sum = 0;
-    for (const auto &file : fs::directory_iterator{folder}) {
+    for (const auto &file : fs::directory_iterator{folder.path()}) {
       std::error_code gone;  // renamed meanwhile
       const std::uintmax_t size = file.file_size(gone);
       if (!gone) sum += size;
@@ -75,8 +61,6 @@ class ToolInterrupt : public ::testing::Test {
     tool.signal(signal);
     return tool.wait();
   }
-
-  std::string folder = temporary(".d");
 };
 
 TEST_F(ToolInterrupt, ARunEndsWithWholeOutputs) {

@@ -13,6 +13,7 @@
 #include <fstream>
 
 #include "firmware/tool_run.hpp"
+#include "harness/scratch_test.hpp"
 #include "harness/small_disk.hpp"
 #include "trace/log.hpp"
 
@@ -23,27 +24,14 @@ using namespace tb;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+using vericansim::ScratchTest;
 using Json = nlohmann::json;
 
 const std::string kRun = "run examples/two-nodes.yaml ";
 const std::string kFull = ": cannot be written to its end: No space left on device\n";
 
-class ToolOutputs : public ::testing::Test {
+class ToolOutputs : public ScratchTest {
  protected:
-  void SetUp() override {
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
-  [[nodiscard]] std::string in(const std::string &name) const { return folder + "/" + name; }
-  [[nodiscard]] std::string file_with(const std::string &name, const std::string &text) const {
-    std::ofstream{in(name)} << text;
-    return in(name);
-  }
-  [[nodiscard]] std::size_t files() const {
-    const fs::directory_iterator all{folder};
-    return static_cast<std::size_t>(std::distance(begin(all), end(all)));
-  }
   [[nodiscard]] std::string log() const {
     return file_with("in.log", "(1.000000) can0 123#112233\n(1.001000) can0 456#\n");
   }
@@ -64,8 +52,6 @@ class ToolOutputs : public ::testing::Test {
     EXPECT_EQ(result.code, 2);
     EXPECT_EQ(result.error, "verican: " + message);
   }
-
-  std::string folder = temporary(".d");
 };
 
 TEST_F(ToolOutputs, EveryOutputToAFullDeviceFails) {
@@ -164,8 +150,8 @@ TEST_F(ToolOutputs, NoInputIsWrittenOver) {
   fs::create_symlink("in.log", in("soft.log"));
   const std::string refused = " is the file of the log and of --vcd; allowed: a file of its own\n";
   for (const std::string &name :
-       {in("in.log"), in("hard.log"), in("soft.log"), folder + "/./in.log",
-        folder + "/../" + fs::path{folder}.filename().string() + "/in.log"})
+       {in("in.log"), in("hard.log"), in("soft.log"), in("./in.log"),
+        in("../" + fs::path{folder.path()}.filename().string() + "/in.log")})
     expect_refused(run_tool("replay " + recorded + " --vcd " + name), name + ":" + refused);
   expect_refused(
       run_tool("report " + recorded + " -o " + in("hard.log")),

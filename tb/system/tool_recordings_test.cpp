@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/scratch_folder.hpp"
+#include "harness/shell.hpp"
 
 namespace vericansim {
 namespace {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <sstream>
 
+#include "harness/shell.hpp"
 #include "scenario/bittime.hpp"
 
 namespace vericansim {
@@ -130,12 +131,8 @@ std::optional<BitTiming> can_utils_choice(std::uint32_t clock, std::uint32_t rat
   std::ostringstream command;
   command << "can-calc-bit-timing -q -c " << clock << " -b " << rate << " -s " << sample_permille
           << " flexcan 2> /dev/null";
-  FILE *pipe = popen(command.str().c_str(), "r");
-  std::string text;
-  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
-  pclose(pipe);
   // Last line: rate, tq in ns, PropSeg, PhaseSeg1, PhaseSeg2, SJW, BRP, ...
-  std::istringstream words{text};
+  std::istringstream words{shell(command.str()).text};
   unsigned bit_rate = 0, quantum = 0;
   BitTiming t;
   if (!(words >> bit_rate >> quantum >> t.prop >> t.ps1 >> t.ps2 >> t.sjw >> t.prescaler))
@@ -149,8 +146,7 @@ class CanUtils : public ::testing::TestWithParam<std::uint32_t> {};
 // is exact. (Among inexact settings that are equal in both, can-utils takes the coarsest quantum
 // and we take the finest.)
 TEST_P(CanUtils, BT_01_BT_02_SameSettingAsTheKernelsCalculator) {
-  if (std::system("command -v can-calc-bit-timing > /dev/null 2>&1") != 0)
-    GTEST_SKIP() << "can-utils is not installed";
+  if (!has_program("can-calc-bit-timing")) GTEST_SKIP() << "can-utils is not installed";
   const std::uint32_t clock = GetParam();
   for (const std::uint32_t rate : {10'000U, 20'000U, 33'333U, 50'000U, 83'333U, 100'000U, 125'000U,
                                    250'000U, 500'000U, 800'000U, 1'000'000U})

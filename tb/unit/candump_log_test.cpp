@@ -8,6 +8,7 @@
 
 #include <sstream>
 
+#include "harness/input_error_of.hpp"
 #include "trace/candump.hpp"
 #include "trace/gvret.hpp"
 #include "trace/input_error.hpp"
@@ -25,12 +26,7 @@ Frame frame_of(const std::string &text) {
 }
 
 std::string error_of(const std::string &text) {
-  try {
-    static_cast<void>(parse_candump(text, "log"));
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "no error";
+  return input_error_of([&] { return parse_candump(text, "log"); });
 }
 
 // Forms of a frame as `man candump` and lib.h of can-utils describe them.

@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "harness/input_error_of.hpp"
 #include "trace/candump.hpp"
-#include "trace/input_error.hpp"
 
 namespace vericansim {
 namespace {
@@ -18,12 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string error_of(const std::string &text) {
-  try {
-    static_cast<void>(parse_candump(text, "log"));
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "no error";
+  return input_error_of([&] { return parse_candump(text, "log"); });
 }
 
 std::vector<Time> times_of(const CanLog &log) {

@@ -7,9 +7,10 @@
 #include <sys/stat.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <thread>
 
+#include "harness/scratch_folder.hpp"
+#include "harness/shell.hpp"
 #include "trace/bus_wave.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
@@ -21,8 +22,7 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(FstWriter, Fst2vcdGivesTheSameChanges) {
-  if (std::system("command -v fst2vcd > /dev/null 2>&1") != 0)
-    GTEST_SKIP() << "fst2vcd (GTKWave) is not installed";
+  if (!has_program("fst2vcd")) GTEST_SKIP() << "fst2vcd (GTKWave) is not installed";
   const std::string path = ::testing::TempDir() + "w.fst";
   {
     const auto sink = open_fst(path);
@@ -46,9 +46,7 @@ TEST(FstWriter, Fst2vcdGivesTheSameChanges) {
 
 // What cannot be written by name, or not as it is: the same bytes.
 TEST(FstWriter, ToAPipeAndCompressed) {
-  const std::string folder = ::testing::TempDir() + "fst-ways";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const ScratchFolder folder;
   const auto write = [](const std::string &path) {
     const auto sink = open_fst(path);
     const auto can = sink->add_wire("bus", "can", 1);
@@ -61,21 +59,20 @@ TEST(FstWriter, ToAPipeAndCompressed) {
     const std::string text = read_text_file(path + ".vcd");
     return text.substr(text.find("$timescale"));  // behind the date
   };
-  write(folder + "/file");
-  write(folder + "/packed.gz");
-  ASSERT_EQ(std::system(("gunzip " + folder + "/packed.gz").c_str()), 0);
-  ASSERT_EQ(::mkfifo((folder + "/pipe").c_str(), 0600), 0);
+  write(folder / "file");
+  write(folder / "packed.gz");
+  ASSERT_EQ(std::system(("gunzip " + (folder / "packed.gz")).c_str()), 0);
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   std::thread reader{[&] {
-    EXPECT_EQ(std::system(("cat " + folder + "/pipe > " + folder + "/piped").c_str()), 0);
+    EXPECT_EQ(std::system(("cat " + (folder / "pipe") + " > " + (folder / "piped")).c_str()), 0);
   }};
-  write(folder + "/pipe");
+  write(folder / "pipe");
   reader.join();
-  if (std::system("command -v fst2vcd > /dev/null 2>&1") != 0)
-    GTEST_SKIP() << "fst2vcd (GTKWave) is not installed";
-  const std::string expected = text_of(folder + "/file");
+  if (!has_program("fst2vcd")) GTEST_SKIP() << "fst2vcd (GTKWave) is not installed";
+  const std::string expected = text_of(folder / "file");
   EXPECT_THAT(expected, HasSubstr("#99\n1!"));
-  EXPECT_EQ(text_of(folder + "/packed"), expected);
-  EXPECT_EQ(text_of(folder + "/piped"), expected);
+  EXPECT_EQ(text_of(folder / "packed"), expected);
+  EXPECT_EQ(text_of(folder / "piped"), expected);
 }
 
 TEST(FstWriter, AFolderThatIsNotThere) {

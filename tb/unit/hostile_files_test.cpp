@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "firmware/elf_image.hpp"
+#include "harness/input_error_of.hpp"
 #include "trace/gvret.hpp"
-#include "trace/input_error.hpp"
 #include "trace/pcap_file.hpp"
 #include "trace/vcd_file.hpp"
 #include "trace/wave_decode.hpp"
@@ -18,16 +18,6 @@ namespace vericansim {
 namespace {
 
 using ::testing::HasSubstr;
-
-template <typename Act>
-std::string error_of(Act act) {
-  try {
-    act();
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 void append32(std::string &file, std::uint32_t value) {
   for (unsigned i = 0; i < 4; ++i) file += static_cast<char>(value >> 8 * i);
@@ -41,8 +31,8 @@ TEST(HostileVcd, LongNamesAreRefused) {
   std::string text = "$timescale 1 ps $end\n$scope module " + std::string(60'000, 's') + " $end\n";
   for (int i = 0; i < 2000; ++i) text += "$var wire 1 ! c $end\n";
   const auto read = [&] { static_cast<void>(VcdFile{"a.vcd", text + "$enddefinitions $end\n"}); };
-  EXPECT_THAT(error_of(read), HasSubstr("a.vcd:3: the name 's"));
-  EXPECT_THAT(error_of(read), HasSubstr("allowed: 1024 characters"));
+  EXPECT_THAT(input_error_of(read), HasSubstr("a.vcd:3: the name 's"));
+  EXPECT_THAT(input_error_of(read), HasSubstr("allowed: 1024 characters"));
 }
 
 // Ten bits of rest, then dominant for 40 days: not a loop over 1.7e12 bits.
@@ -77,15 +67,16 @@ TEST(HostileVcd, TimesBeyondTheClockAreRefused) {
     static_cast<void>(
         parse_wave(std::string{kOneWire} + time, "a.vcd", {.signal = "", .bitrate = 500e3}));
   };
-  EXPECT_EQ(error_of([&] { read("#4000000000000000000\n0!\n"); }), "no error");
-  EXPECT_THAT(error_of([&] { read("#9000000000000000000\n0!\n"); }), HasSubstr("up to 53 days"));
+  EXPECT_EQ(input_error_of([&] { read("#4000000000000000000\n0!\n"); }), "no error");
+  EXPECT_THAT(input_error_of([&] { read("#9000000000000000000\n0!\n"); }),
+              HasSubstr("up to 53 days"));
 }
 
 // Edges of a clock, not of a bus.
 TEST(HostileVcd, RatesOfNoBusAreRefused) {
   std::string text = kOneWire;
   for (int i = 1; i < 40; ++i) text += fmt::format("#{}\n{}!\n", i * 10, i % 2);
-  EXPECT_THAT(error_of([&] { static_cast<void>(parse_wave(text, "a.vcd", {})); }),
+  EXPECT_THAT(input_error_of([&] { static_cast<void>(parse_wave(text, "a.vcd", {})); }),
               HasSubstr("allowed: 1000 to 1e+06"));
 }
 
@@ -94,7 +85,7 @@ TEST(HostileGvret, EveryColumnOfTheHeaderIsNeeded) {
   const auto read = [] {
     static_cast<void>(parse_gvret("Time Stamp,ID,Extended,LEN,Bus\n1,1,true,0\n", "a.csv"));
   };
-  EXPECT_EQ(error_of(read), "a.csv:2: too few columns; see the header line");
+  EXPECT_EQ(input_error_of(read), "a.csv:2: too few columns; see the header line");
 }
 
 // pcapng with stamps of 64 bits in units of a second.
@@ -110,7 +101,7 @@ TEST(HostilePcap, TimesBeyondTheClockAreRefused) {
   append32(file, 0x01000000);
   append32(file, 0);
   append32(file, 40);
-  EXPECT_THAT(error_of([&] { static_cast<void>(parse_pcap(file, "a.pcap")); }),
+  EXPECT_THAT(input_error_of([&] { static_cast<void>(parse_pcap(file, "a.pcap")); }),
               HasSubstr("packet 1: time 9223372"));
 }
 
@@ -141,7 +132,7 @@ TEST(HostileElf, OverlappingSegmentsAreNotCopied) {
   append32(file, 9);
   file.resize(file.size() + 300'000);
   const auto read = [&] { static_cast<void>(firmware::parse_elf("a.elf", bytes_of(file))); };
-  EXPECT_THAT(error_of(read), HasSubstr("segments overlap at load address 0x00000000"));
+  EXPECT_THAT(input_error_of(read), HasSubstr("segments overlap at load address 0x00000000"));
 }
 
 // 500 symbol tables that are the same 1000 functions, each with a name of 20 kB: 10 GB.

@@ -5,8 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/input_error_of.hpp"
 #include "harness/scratch_folder.hpp"
-#include "trace/input_error.hpp"
+#include "harness/shell.hpp"
 #include "trace/input_file.hpp"
 #include "trace/log.hpp"
 
@@ -16,12 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string error_of(const std::string &path) {
-  try {
-    static_cast<void>(read_text_file(path));
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "no error";
+  return input_error_of([&] { return read_text_file(path); });
 }
 
 TEST(InputFile, GzipIsUnpackedWhateverTheName) {

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "harness/scratch_folder.hpp"
+#include "harness/shell.hpp"
 #include "trace/candump.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log_convert.hpp"
@@ -21,8 +22,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-bool has_python_can() { return shell("/usr/bin/python3 -c 'import can' 2>&1").code == 0; }
 
 CanLog sample() {
   return parse_candump(

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "harness/input_error_of.hpp"
 #include "trace/candump.hpp"
 #include "trace/identifiers.hpp"
-#include "trace/input_error.hpp"
 #include "trace/log_filter.hpp"
 
 namespace vericansim {
@@ -26,12 +26,7 @@ CanLog sample() {
 }
 
 std::string error_of(const LogFilter &filter) {
-  try {
-    static_cast<void>(filtered(sample(), filter, "a.log"));
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "no error";
+  return input_error_of([&] { return filtered(sample(), filter, "a.log"); });
 }
 
 TEST(LogFilter, SeveralInterfacesMustBeChosen) {

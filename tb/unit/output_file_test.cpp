@@ -16,6 +16,8 @@
 #include <functional>
 #include <thread>
 
+#include "firmware/tool_run.hpp"
+#include "harness/scratch_test.hpp"
 #include "harness/small_disk.hpp"
 
 namespace {
@@ -23,11 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace vericansim;
 using ::testing::HasSubstr;
-
-std::string slurp(const std::string &path) {
-  std::ifstream file{path, std::ios::binary};
-  return {std::istreambuf_iterator<char>{file}, {}};
-}
 
 /// The message and errno of the failure that `act` must end in.
 void expect_failure(const std::function<void()> &act, const std::string &message, int code) {
@@ -40,23 +37,13 @@ void expect_failure(const std::function<void()> &act, const std::string &message
   }
 }
 
-class OutputFileTest : public ::testing::Test {
+class OutputFileTest : public ScratchTest {
  protected:
-  void SetUp() override { fs::create_directories(folder); }
-  void TearDown() override { fs::remove_all(folder); }
-  [[nodiscard]] std::string in(const std::string &name) const { return folder + "/" + name; }
-  [[nodiscard]] std::size_t files() const {
-    const fs::directory_iterator all{folder};
-    return static_cast<std::size_t>(std::distance(begin(all), end(all)));
-  }
   void write(const std::string &name, const std::string &text) const {
     OutputFile file{in(name)};
     file.stream() << text;
     file.commit();
   }
-
-  std::string folder = ::testing::TempDir() + "output-" +
-                       ::testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(OutputFileTest, IsThereOnlyAfterCommit) {
@@ -66,7 +53,7 @@ TEST_F(OutputFileTest, IsThereOnlyAfterCommit) {
     EXPECT_FALSE(fs::exists(in("a")));
     file.stream() << " and half\n";
     file.commit();
-    EXPECT_EQ(slurp(in("a")), "half and half\n");
+    EXPECT_EQ(tb::slurp(in("a")), "half and half\n");
   }
   EXPECT_EQ(files(), 1U);
 }
@@ -76,9 +63,9 @@ TEST_F(OutputFileTest, WithoutCommitTheOldFileStays) {
   {
     OutputFile file{in("a")};
     file.stream() << "new";
-    EXPECT_EQ(slurp(in("a")), "old");
+    EXPECT_EQ(tb::slurp(in("a")), "old");
   }
-  EXPECT_EQ(slurp(in("a")), "old");
+  EXPECT_EQ(tb::slurp(in("a")), "old");
   EXPECT_EQ(files(), 1U);
 }
 
@@ -107,7 +94,7 @@ TEST_F(OutputFileTest, WritesThroughLinks) {
   write("twice", "text");
   EXPECT_TRUE(fs::is_symlink(in("twice")));
   EXPECT_TRUE(fs::is_symlink(in("dangling")));
-  EXPECT_EQ(slurp(in("other/new")), "text");
+  EXPECT_EQ(tb::slurp(in("other/new")), "text");
 }
 
 // What gunzip makes of it, and no name inside.
@@ -117,20 +104,20 @@ TEST_F(OutputFileTest, GzAtTheEndCompresses) {
   write("a.log.gz", text);
   EXPECT_LT(fs::file_size(in("a.log.gz")), text.size() / 3);
   ASSERT_EQ(std::system(("gunzip -c " + in("a.log.gz") + " > " + in("a.log")).c_str()), 0);
-  EXPECT_EQ(slurp(in("a.log")), text);
+  EXPECT_EQ(tb::slurp(in("a.log")), text);
 }
 
 TEST_F(OutputFileTest, AFinishedFileTakesItsPlace) {
   for (const char *name : {"plain", "packed.gz"}) {
     OutputFile file{in(name)};
     const std::string scratch = file.scratch_name();
-    EXPECT_EQ(fs::path{scratch}.parent_path(), folder);
+    EXPECT_EQ(fs::path{scratch}.parent_path(), folder.path());
     std::ofstream(scratch) << "made by a library";
     file.commit(scratch);
   }
-  EXPECT_EQ(slurp(in("plain")), "made by a library");
+  EXPECT_EQ(tb::slurp(in("plain")), "made by a library");
   ASSERT_EQ(std::system(("gunzip -c " + in("packed.gz") + " > " + in("unpacked")).c_str()), 0);
-  EXPECT_EQ(slurp(in("unpacked")), "made by a library");
+  EXPECT_EQ(tb::slurp(in("unpacked")), "made by a library");
   EXPECT_EQ(files(), 3U);
 }
 
@@ -138,7 +125,8 @@ TEST_F(OutputFileTest, PathsThatCannotBeWrittenAreRefusedAtOnce) {
   const auto open = [](const std::string &path) { return [path] { OutputFile file{path}; }; };
   expect_failure(open("/no/such/a"),
                  "/no/such/a: cannot be opened for writing: No such file or directory", ENOENT);
-  expect_failure(open(folder), folder + ": cannot be opened for writing: Is a directory", EISDIR);
+  expect_failure(open(folder.path()),
+                 folder.path() + ": cannot be opened for writing: Is a directory", EISDIR);
   expect_failure(open(in("new/")), in("new/") + ": cannot be opened for writing: Is a directory",
                  EISDIR);
   std::ofstream(in("file")) << "";
@@ -149,7 +137,8 @@ TEST_F(OutputFileTest, PathsThatCannotBeWrittenAreRefusedAtOnce) {
 TEST_F(OutputFileTest, AReadOnlyFileIsNotReplaced) {
   std::ofstream(in("a")) << "old";
   ASSERT_EQ(::chmod(in("a").c_str(), 0444), 0);
-  ASSERT_EQ(::chmod(folder.c_str(), 0777), 0);
+  for (const std::string &way : {::testing::TempDir(), folder.path()})
+    ASSERT_EQ(::chmod(way.c_str(), 0777), 0);
   constexpr uid_t kNobody = 65534;
   const uid_t before = ::geteuid();
   if (before == 0) {  // root may write everything
@@ -220,7 +209,7 @@ TEST_F(OutputFileTest, ADiskThatIsFullAtTheEndIsNoticed) {
 TEST_F(OutputFileTest, APipeIsWrittenToDirectly) {
   ASSERT_EQ(::mkfifo(in("pipe").c_str(), 0600), 0);
   std::string seen;
-  std::thread reader{[&] { seen = slurp(in("pipe")); }};
+  std::thread reader{[&] { seen = tb::slurp(in("pipe")); }};
   write("pipe", "through the pipe\n");
   reader.join();
   EXPECT_EQ(seen, "through the pipe\n");

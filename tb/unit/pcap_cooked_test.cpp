@@ -6,7 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/input_error_of.hpp"
 #include "harness/scratch_folder.hpp"
+#include "harness/shell.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
 
@@ -84,7 +86,7 @@ TEST_P(Cooked, ReadsFramesDirectionsAndInterfaces) {
 }
 
 TEST_P(Cooked, TsharkSeesTheSame) {
-  if (shell("command -v tshark").code != 0) GTEST_SKIP() << "tshark is not installed";
+  if (!has_program("tshark")) GTEST_SKIP() << "tshark is not installed";
   const ScratchFolder folder;
   const std::string path =
       folder.file("any.pcap", file({{0, 0x0C, can_frame(0x123, "\x11\x22", big())},
@@ -103,12 +105,8 @@ INSTANTIATE_TEST_SUITE_P(All, Cooked, ::testing::Combine(::testing::Bool(), ::te
 
 TEST(CookedErrors, ShortPacketsAreNamed) {
   const auto error_of = [](unsigned link_type, const std::string &packet) {
-    try {
-      static_cast<void>(parse_log(capture(link_type, false, {packet}), "any.pcap"));
-    } catch (const InputError &error) {
-      return std::string(error.what());
-    }
-    return std::string("no error");
+    return input_error_of(
+        [&] { return parse_log(capture(link_type, false, {packet}), "any.pcap"); });
   };
   EXPECT_EQ(error_of(113, std::string(15, '\0')),
             "any.pcap: packet 1: 15 bytes; at least 16 are needed");

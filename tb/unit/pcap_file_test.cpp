@@ -6,10 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
+#include "harness/input_error_of.hpp"
+#include "harness/shell.hpp"
 #include "trace/input_error.hpp"
 #include "trace/pcap_file.hpp"
 
@@ -59,12 +60,7 @@ class CaptureBuilder {
 std::string packet(std::initializer_list<int> bytes) { return {bytes.begin(), bytes.end()}; }
 
 std::string error_of(const std::string &path) {
-  try {
-    static_cast<void>(read_pcap(path));
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "no error";
+  return input_error_of([&] { return read_pcap(path); });
 }
 
 class PcapReader : public ::testing::TestWithParam<std::tuple<bool, bool>> {};
@@ -151,8 +147,7 @@ TEST(Pcap, WritesWhatItReads) {
 
 // An outside judge, where there is one: Wireshark's dissector must see the same frames.
 TEST(Pcap, TsharkReadsIt) {
-  if (std::system("command -v tshark > /dev/null 2>&1") != 0)
-    GTEST_SKIP() << "tshark is not installed";
+  if (!has_program("tshark")) GTEST_SKIP() << "tshark is not installed";
   const std::string path = ::testing::TempDir() + "tshark.pcap";
   {
     PcapWriter writer{path};
@@ -160,16 +155,11 @@ TEST(Pcap, TsharkReadsIt) {
     writer.write({kMillisecond, "", {0x12345678, true, true, 4, {}}});
     writer.commit();
   }
-  const std::string command =
-      "tshark -r " + path +
-      " -T fields -E separator=, -e can.id -e can.flags.xtd -e can.flags.rtr -e can.len"
-      " -e frame.time_relative 2> /dev/null";
-  FILE *pipe = popen(command.c_str(), "r");
-  ASSERT_NE(pipe, nullptr);
-  std::string text;
-  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
-  pclose(pipe);
-  EXPECT_EQ(text, "291,0,0,2,0.000000000\n305419896,1,1,4,0.001000000\n");
+  EXPECT_EQ(shell("tshark -r " + path +
+                  " -T fields -E separator=, -e can.id -e can.flags.xtd -e can.flags.rtr -e can.len"
+                  " -e frame.time_relative 2> /dev/null")
+                .text,
+            "291,0,0,2,0.000000000\n305419896,1,1,4,0.001000000\n");
 }
 
 }  // namespace

@@ -6,9 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/input_error_of.hpp"
 #include "harness/scratch_folder.hpp"
+#include "harness/shell.hpp"
 #include "trace/candump.hpp"
-#include "trace/input_error.hpp"
 #include "trace/pcapng_file.hpp"
 
 namespace vericansim {
@@ -59,12 +60,7 @@ class Blocks {
 const std::string kFrame{"\0\0\x01\x23\x01\0\0\0\x77", 9};  // 123#77
 
 std::string error_of(const std::string &bytes) {
-  try {
-    static_cast<void>(parse_log(bytes, "a.pcapng"));
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "no error";
+  return input_error_of([&] { return parse_log(bytes, "a.pcapng"); });
 }
 
 class Pcapng : public ::testing::TestWithParam<bool> {};
@@ -150,7 +146,7 @@ TEST(Pcapng, HoldsAllThatALogHolds) {
 
 // tshark as judge, both ways.
 TEST(Pcapng, TsharkReadsAndWritesTheSame) {
-  if (shell("command -v tshark").code != 0) GTEST_SKIP() << "tshark is not installed";
+  if (!has_program("tshark")) GTEST_SKIP() << "tshark is not installed";
   const ScratchFolder folder;
   const std::string ours = folder.file("ours.pcapng", pcapng_bytes(parse_candump(kAll, "log")));
   EXPECT_EQ(shell("tshark -r " + ours +

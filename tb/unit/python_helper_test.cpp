@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "harness/input_error_of.hpp"
+#include "harness/scratch_test.hpp"
 #include "trace/input_error.hpp"
 #include "trace/python_helper.hpp"
 
@@ -19,39 +21,30 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// A folder with scripts of the test in place of the tool's.
-class PythonHelper : public testing::Test {
+class PythonHelper : public ScratchTest {
  protected:
   PythonHelper() {
-    folder_ = testing::TempDir() + "python_helper_" + std::to_string(::getpid());
-    std::filesystem::create_directory(folder_);
-    std::filesystem::copy(VERICAN_PYTHON_SOURCES "/verican_helper.py", folder_);
+    std::filesystem::copy(VERICAN_PYTHON_SOURCES "/verican_helper.py", folder.path());
     ::unsetenv("PYTHONDONTWRITEBYTECODE");
-    ::setenv("VERICAN_PYTHON_DIR", folder_.c_str(), 1);
+    ::setenv("VERICAN_PYTHON_DIR", folder.path().c_str(), 1);
   }
   ~PythonHelper() override {
     ::unsetenv("VERICAN_PYTHON_DIR");
     ::unsetenv("VERICAN_PYTHON");
-    std::filesystem::remove_all(folder_);
   }
   PythonHelper(const PythonHelper &) = delete;
   PythonHelper &operator=(const PythonHelper &) = delete;
 
   void script(const std::string &body) const {
-    std::ofstream{folder_ + "/probe.py"} << "import sys, verican_helper\n" << body;
+    file_with("probe.py", "import sys, verican_helper\n" + body);
   }
   [[nodiscard]] static std::string run(std::string_view input = {}) {
     return run_python({"probe.py", {"one", "two words"}, input, "engine.dbc"});
   }
   /// The message of the InputError that running the script gives.
   [[nodiscard]] static std::string refusal() {
-    try {
-      return "no error, but " + run();
-    } catch (const InputError &error) {
-      return error.what();
-    }
+    return input_error_of([] { return run(); });
   }
-
-  std::string folder_;
 };
 
 TEST_F(PythonHelper, HandsOverArgumentsInputAndOutput) {
@@ -63,7 +56,7 @@ TEST_F(PythonHelper, HandsOverArgumentsInputAndOutput) {
   for (int i = 0; i < 300'000; ++i) input += static_cast<char>(i);
   const std::string output = run(input);
   EXPECT_EQ(output, "one|two words" + std::string(input.rbegin(), input.rend()));
-  EXPECT_FALSE(std::filesystem::exists(folder_ + "/__pycache__"));
+  EXPECT_FALSE(std::filesystem::exists(in("__pycache__")));
 }
 
 TEST_F(PythonHelper, RefusedInputIsOneLineBehindTheSubject) {

@@ -7,9 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/input_error_of.hpp"
 #include "harness/scratch_folder.hpp"
+#include "harness/shell.hpp"
 #include "trace/candump.hpp"
-#include "trace/input_error.hpp"
 #include "trace/log_walk.hpp"
 #include "trace/python_log.hpp"
 
@@ -17,8 +18,6 @@ namespace vericansim {
 namespace {
 
 using ::testing::HasSubstr;
-
-bool has_python_can() { return shell("/usr/bin/python3 -c 'import can' 2>&1").code == 0; }
 
 class PythonLog : public ::testing::Test {
  protected:
@@ -36,12 +35,7 @@ std::string lines_of(const CanLog &log) {
 }
 
 std::string error_of(const std::string &bytes) {
-  try {
-    static_cast<void>(parse_log(bytes, "a.log"));
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "no error";
+  return input_error_of([&] { return parse_log(bytes, "a.log"); });
 }
 
 // Frame lines without "internal events logged", a raw DLC, remote frames, CAN FD, error frames, and

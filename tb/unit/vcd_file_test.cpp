@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "harness/input_error_of.hpp"
+#include "harness/shell.hpp"
 #include "trace/bitrate.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
@@ -34,16 +36,6 @@ std::vector<std::pair<Time, Level>> changes_of(const VcdFile &file, const std::s
   return changes;
 }
 
-template <typename Act>
-std::string error_of(Act act) {
-  try {
-    act();
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(VcdFile, ReadsTimescaleHierarchyAndUnknowns) {
   const VcdFile file{
       "a.vcd",
@@ -65,11 +57,11 @@ TEST(VcdFile, ScaleBelowAPicosecond) {
 TEST(VcdFile, NamesTheChoiceWhenASignalIsUnclear) {
   const VcdFile file{"a.vcd", kHeader};
   EXPECT_THAT(
-      error_of([&] { static_cast<void>(file.find("rx")); }),
+      input_error_of([&] { static_cast<void>(file.find("rx")); }),
       HasSubstr("a.vcd: signal 'rx' is not unique; one-bit signals are top.node.rx, top.rx"));
-  EXPECT_THAT(error_of([&] { static_cast<void>(file.find("nosuch")); }),
+  EXPECT_THAT(input_error_of([&] { static_cast<void>(file.find("nosuch")); }),
               HasSubstr("no signal is called 'nosuch'"));
-  EXPECT_THAT(error_of([&] { static_cast<void>(file.find("data")); }),
+  EXPECT_THAT(input_error_of([&] { static_cast<void>(file.find("data")); }),
               HasSubstr("has 8 bits; allowed: 1"));
 }
 
@@ -95,7 +87,7 @@ TEST(VcdFile, DamagedInputNeverCrashes) {
       std::string bad = good;
       bad[at] = byte;
       for (const std::string &text : {bad, good.substr(0, at)}) {
-        const std::string error = error_of([&] {
+        const std::string error = input_error_of([&] {
           const VcdFile file{"a.vcd", text};
           for (const VcdSignal &signal : file.signals()) file.read(signal, [](Time, Level) {});
         });
@@ -105,13 +97,13 @@ TEST(VcdFile, DamagedInputNeverCrashes) {
 }
 
 TEST(VcdFile, ErrorsNameTheLine) {
-  EXPECT_THAT(error_of([] { VcdFile("a.vcd", "$timescale 3 ns $end"); }),
+  EXPECT_THAT(input_error_of([] { VcdFile("a.vcd", "$timescale 3 ns $end"); }),
               HasSubstr("a.vcd:1: timescale '3ns'"));
-  EXPECT_THAT(error_of([] { VcdFile("a.vcd", "hello"); }),
+  EXPECT_THAT(input_error_of([] { VcdFile("a.vcd", "hello"); }),
               HasSubstr("a.vcd:1: expected a VCD keyword"));
-  EXPECT_THAT(error_of([] { VcdFile("a.vcd", ""); }), HasSubstr("is no VCD file"));
+  EXPECT_THAT(input_error_of([] { VcdFile("a.vcd", ""); }), HasSubstr("is no VCD file"));
   const VcdFile file{"a.vcd", std::string(kHeader) + "#9 1!\n#3 0!\n"};
-  EXPECT_THAT(error_of([&] { file.read(file.find("top.rx"), [](Time, Level) {}); }),
+  EXPECT_THAT(input_error_of([&] { file.read(file.find("top.rx"), [](Time, Level) {}); }),
               HasSubstr("a.vcd:7: time '#3' goes back"));
 }
 
@@ -165,8 +157,7 @@ TEST(VcdWriter, CodesStayUniqueBeyond94Signals) {
 }
 
 TEST(VcdWriter, GtkwaveReadsIt) {
-  if (std::system("command -v vcd2fst > /dev/null 2>&1") != 0)
-    GTEST_SKIP() << "vcd2fst (GTKWave) is not installed";
+  if (!has_program("vcd2fst")) GTEST_SKIP() << "vcd2fst (GTKWave) is not installed";
   const std::string vcd = write_sample("g.vcd");
   const std::string command =
       "vcd2fst " + vcd + " " + vcd + ".fst && fst2vcd " + vcd + ".fst > " + vcd + ".back";
