@@ -78,7 +78,7 @@ class Signals(unittest.TestCase):
     def test_bad_signals_are_refused_with_line_and_what_is_allowed(self):
         for old, new, said in [
                 ("EngineSpeed: 2400, Mode", "EngineSpeed: 9000, Mode",
-                 "scenario.yaml:11: traffic[0].data.EngineSpeed: '9000' is not allowed; allowed: "
+                 "scenario.yaml:14: traffic[0].data.EngineSpeed: '9000' is not allowed; allowed: "
                  "0 to 8000 rpm in steps of 0.25"),
                 ("Mode: Sport}", "Mode: Fast}", "allowed: 0 to 6 in steps of 1, Off, Eco, Sport"),
                 ("Mode: Sport}", "Gear: 1}", "message EngineData has no such signal; allowed: "),
