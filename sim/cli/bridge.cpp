@@ -16,7 +16,6 @@
 #include "cli/bridge_socketcand.hpp"
 #include "cli/cli.hpp"
 #include "cli/output_files.hpp"
-#include "signals/signal_output.hpp"
 #include "socketcan/raw_port.hpp"
 #include "trace/input_error.hpp"
 
@@ -159,8 +158,8 @@ void print(const Options &options, const BridgeReport &report, const SocketcandS
   } else {
     fmt::print("{}{}{}", to_text(report), server != nullptr ? to_text(server->counts()) : "",
                options.bus.empty() ? "" : "\n" + to_text(report.bus));
-    if (options.bus.empty() && report.bus.show_signals)
-      fmt::print("\n{}", to_text(report.bus.signals));
+    const std::string tables = options.bus.empty() ? tables_text(report.bus) : "";
+    if (!tables.empty()) fmt::print("\n{}", tables);
   }
   flush_standard_output();
 }

@@ -42,9 +42,9 @@ void add_convert(CLI::App &app, int &exit_code);
 void add_ids(CLI::App &app, int &exit_code);
 
 /// The files of an Outputs.
-inline constexpr std::string Outputs::*kOutputPaths[] = {&Outputs::vcd,     &Outputs::fst,
-                                                         &Outputs::candump, &Outputs::pcap,
-                                                         &Outputs::report,  &Outputs::signals_csv};
+inline constexpr std::string Outputs::*kOutputPaths[] = {
+    &Outputs::vcd,    &Outputs::fst,         &Outputs::candump, &Outputs::pcap,
+    &Outputs::report, &Outputs::signals_csv, &Outputs::ids_csv};
 
 /// Adds an option for each of them; `report_names` are those of the page.
 void add_output_options(CLI::App &command, Outputs &outputs,

@@ -54,6 +54,7 @@ FirmwareSetup make_setup(const Options &options) {
   setup.scenarios.push_back(read_scenario(options.bus));
   if (!options.second_bus.empty()) setup.scenarios.push_back(read_scenario(options.second_bus));
   override_outputs(setup.scenarios.front().outputs, options.outputs);
+  for (Scenario &scenario : setup.scenarios) scenario.outputs.ids = options.outputs.ids;
   if (!options.limit.empty()) setup.limit = time_option("--time", options.limit);
   setup.cpu.catch_hard_fault = !options.run_hard_fault;
   return setup;
@@ -67,6 +68,15 @@ void claim_files_of(const Options &options, const FirmwareSetup &setup) {
     for (NamedFile &file : files_of(scenario.outputs)) outputs.push_back(std::move(file));
   }
   claim_files(inputs, outputs);
+}
+
+/// The report, or only the tables that are wanted.
+void print(const Options &options, const std::vector<RunReport> &buses) {
+  for (const RunReport &bus : buses) {
+    const std::string text = options.report ? to_text(bus) : tables_text(bus);
+    if (text.empty()) continue;
+    fmt::print("\n{}{}", options.report ? "" : bus.name + "\n", text);
+  }
 }
 
 int run(const Options &options) {
@@ -86,8 +96,8 @@ int run(const Options &options) {
   }
   if (options.json)
     print_json(to_json(report));
-  else if (options.report)
-    for (const RunReport &bus : report.buses) fmt::print("\n{}", to_text(bus));
+  else
+    print(options, report.buses);
   flush_standard_output();
   complain(report);
   return exit_code_after(exit_code_of(report.boards, report.ok() ? kOk : kFailed));

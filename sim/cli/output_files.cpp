@@ -60,7 +60,8 @@ std::vector<NamedFile> files_of(const Outputs &outputs, const std::vector<double
   }
   const NamedFile all[] = {{"--vcd", outputs.vcd},         {"--fst", outputs.fst},
                            {"--candump", outputs.candump}, {"--pcap", outputs.pcap},
-                           {"--report", outputs.report},   {"--signals-csv", outputs.signals_csv}};
+                           {"--report", outputs.report},   {"--signals-csv", outputs.signals_csv},
+                           {"--ids-csv", outputs.ids_csv}};
   for (const NamedFile &file : all)
     if (!file.path.empty()) wanted.push_back(file);
   return wanted;

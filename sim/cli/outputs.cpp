@@ -38,6 +38,10 @@ void add_output_options(CLI::App &command, Outputs &outputs, const std::string &
   add_database_option(command, outputs.dbc);
   command.add_flag("--signals", outputs.signals, "A table of the signals (docs/signals.md)");
   command.add_option("--signals-csv", outputs.signals_csv, "Write the signals of all frames, CSV");
+  command.add_flag(
+      "--ids", outputs.ids,
+      "For each identifier on the bus: count, period, jitter, last data, changed bytes");
+  command.add_option("--ids-csv", outputs.ids_csv, "The same as a CSV file");
 }
 
 void add_database_option(CLI::App &command, std::vector<std::string> &files) {
@@ -59,6 +63,7 @@ void override_outputs(Outputs &target, const Outputs &given) {
   for (const auto path : kOutputPaths)
     if (!(given.*path).empty()) target.*path = given.*path;
   target.signals = given.signals;
+  target.ids = given.ids;
   load_databases(target, given.dbc);
   if (given.report_frames != Outputs{}.report_frames) target.report_frames = given.report_frames;
 }

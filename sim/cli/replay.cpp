@@ -12,7 +12,6 @@
 #include "cli/output_files.hpp"
 #include "scenario/replay.hpp"
 #include "scenario/stop_request.hpp"
-#include "signals/signal_output.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -21,7 +20,6 @@ struct Options {
   std::string log;
   ReplayOptions replay;
   LogSelection selection;
-  IdsOutput ids;
   bool json = false;
 };
 
@@ -82,7 +80,6 @@ int run(Options &options) {
   load_databases(options.replay.outputs, options.replay.outputs.dbc);
   const StopSignals signals;
   std::vector<NamedFile> outputs = files_of(options.replay.outputs);
-  add_file(outputs, "--ids-csv", options.ids.csv);
   claim_files({{"the log", options.log}}, outputs);
   const SelectedLog selected = read_selected(options.log, options.selection, false);
   ReplayOptions replay_options = options.replay;
@@ -92,18 +89,16 @@ int run(Options &options) {
     Progress progress{"replay"};
     report = replay(selected.log, replay_options, [&](double part) { progress.show(part); });
   }
-  const IdentifierTable ids = identifiers_of(selected.log);
-  write_ids_csv(ids, options.ids);
   if (options.json) {
     Json json = to_json(report);
     json["interfaces"] = selected.interfaces;
-    json["identifiers"] = vericansim::to_json(ids);
+    json["identifiers"] = vericansim::to_json(identifiers_of(selected.log));
     print_json(json);
   } else {
     print(options, report);
     if (const std::string note = selected.note(); !note.empty()) fmt::print("  {}\n", note);
-    if (options.ids.text) fmt::print("{}", to_text(ids));
-    if (options.replay.outputs.signals) fmt::print("\n{}", to_text(report.run.signals));
+    const std::string tables = tables_text(report.run);
+    if (!tables.empty()) fmt::print("\n{}", tables);
   }
   return exit_code_after(report.ok() ? kOk : kFailed);
 }
@@ -140,7 +135,6 @@ void add_replay(CLI::App &app, int &exit_code) {
       ->check(at_least_one);
   command->add_flag("--fast", replay.fast, "As fast as the bus allows, instead of as recorded");
   add_selection(*command, options->selection);
-  add_ids_options(*command, options->ids);
   add_output_options(*command, replay.outputs);
   command->add_flag("--json", options->json, "The report as JSON");
   command->callback([options, &exit_code] { exit_code = run(*options); });

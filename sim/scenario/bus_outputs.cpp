@@ -22,6 +22,7 @@ BusOutputs::BusOutputs(const Outputs &outputs, Bus &bus, Time bit_time)
   }
   if (!outputs.pcap.empty()) pcap_ = std::make_unique<PcapWriter>(outputs.pcap);
   if (database_) signals_ = std::make_unique<SignalRecorder>(database_, outputs.signals_csv);
+  if (!outputs.ids_csv.empty()) ids_file_ = std::make_unique<OutputFile>(outputs.ids_csv);
   if (!outputs.report.empty()) page_ = std::make_unique<ReportWriter>(outputs.report);
 }
 
@@ -35,7 +36,8 @@ void BusOutputs::on_level(Time time, Level level) {
   if (recorder_) recorder_->on_level(time, level);
 }
 
-void BusOutputs::begin() {
+void BusOutputs::begin(Time now) {
+  start_ = now;
   if (recorder_) recorder_->begin();
 }
 
@@ -44,6 +46,7 @@ void BusOutputs::write(const BusFrame &frame, const FrameOrigin &origin) {
   if (candump_) candump_->write(entry);
   if (pcap_) pcap_->write(entry);
   if (signals_) signals_->add(entry);
+  identifiers_.add(entry.channel, frame.frame, frame.start - start_);
   if (recorder_) recorder_->add(frame, origin);
 }
 
@@ -52,6 +55,10 @@ void BusOutputs::finish(Time time) {
   if (candump_file_) candump_file_->commit();
   if (pcap_) pcap_->commit();
   if (signals_) signals_->finish();
+  if (ids_file_) {
+    write_csv(identifiers_, ids_file_->stream());
+    ids_file_->commit();
+  }
   if (recorder_) recorder_->finish();
 }
 

@@ -15,6 +15,7 @@
 #include "signals/signal_output.hpp"
 #include "trace/bus_wave.hpp"
 #include "trace/candump.hpp"
+#include "trace/identifiers.hpp"
 #include "trace/pcap_file.hpp"
 
 namespace vericansim {
@@ -29,8 +30,8 @@ class BusOutputs {
   /// Hangs the recorder of a report on the bus, if there is one to write. Puts itself
   /// before `monitor.on_event`; the monitor must be on the bus already.
   void record(Bus &bus, BusMonitor &monitor, const ReportSetup &setup);
-  /// The scenario starts now, with its faults on the bus.
-  void begin();
+  /// The scenario starts at `now`, with its faults on the bus.
+  void begin(Time now);
   /// The wire has a new level, for a recording that plays outside the bus.
   void on_level(Time time, Level level);
   /// Appends a frame to the logs.
@@ -42,8 +43,13 @@ class BusOutputs {
   void write_report(ReportExtras extras = {});
   /// What the signals of the databases did; nullptr without databases.
   [[nodiscard]] const SignalRecorder *signals() const { return signals_.get(); }
+  /// The identifiers of the frames so far; times count from begin().
+  [[nodiscard]] const IdentifierTable &identifiers() const { return identifiers_; }
 
  private:
+  Time start_ = 0;
+  IdentifierTable identifiers_;
+  std::unique_ptr<OutputFile> ids_file_;
   std::unique_ptr<OutputFile> candump_file_;
   std::unique_ptr<CandumpWriter> candump_;
   std::unique_ptr<PcapWriter> pcap_;

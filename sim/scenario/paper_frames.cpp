@@ -82,12 +82,12 @@ PaperBench::PaperBench(const PaperFiles &files, const std::string &title, bool a
   const std::vector<BitTiming> timings(stations_.size(), kPaperTiming);
   outputs_->record(bus_, *monitor_, {title, kPaperNote, 1e12 / kBit, kBit, timings});
   stations_.join(bus_, kBit);
-  outputs_->begin();
+  outputs_->begin(bus_.now());
 }
 
 void PaperBench::add(Fault &fault) {
   bus_.add(fault);
-  outputs_->begin();
+  outputs_->begin(bus_.now());
 }
 
 void PaperBench::finish(const PaperExperiment &experiment, Time from, Time to) {

@@ -121,6 +121,13 @@ bool RunReport::ok() const {
          std::all_of(servers.begin(), servers.end(), good);
 }
 
+std::string tables_text(const RunReport &report) {
+  std::string text;
+  if (report.show_signals) text += to_text(report.signals) + "\n";
+  if (report.show_identifiers) text += to_text(report.identifiers) + "\n";
+  return text;
+}
+
 std::string to_text(const RunReport &report) {
   std::string text;
   auto out = std::back_inserter(text);
@@ -136,7 +143,7 @@ std::string to_text(const RunReport &report) {
   text += "\n\n";
   if (!report.messages.empty()) text += messages_text(report) + "\n";
   text += nodes_text(report) + "\n";
-  if (report.show_signals) text += to_text(report.signals) + "\n";
+  text += tables_text(report);
   if (!report.faults.empty()) text += faults_text(report.faults) + "\n";
   if (report.interrupted) text += "  interrupted; expectations were not checked\n";
   text += parts_text(report);
@@ -169,6 +176,7 @@ Json to_json(const RunReport &report) {
             {"node_cycles", report.node_cycles},
             {"messages", messages},
             {"nodes", nodes},
+            {"identifiers", to_json(report.identifiers)},
             {"faults", faults_json(report.faults)},
             {"checks", checks},
             {"interrupted", report.interrupted},

@@ -19,6 +19,7 @@
 #include "session/port_report.hpp"
 #include "session/replay_result.hpp"
 #include "signals/signal_statistics.hpp"
+#include "trace/identifiers.hpp"
 
 namespace vericansim {
 
@@ -80,11 +81,15 @@ struct RunReport {
   bool interrupted = false;   ///< the user has ended it before its time; nothing was checked then
   bool show_signals = false;  ///< in the text
   SignalReport signals;       ///< with databases
+  bool show_identifiers = false;  ///< in the text
+  IdentifierTable identifiers;    ///< of the acknowledged frames; times since the scenario's start
   std::optional<JudgeCounts> judged;  ///< with `judge: lockstep`
   /// Not interrupted, and all checks are well.
   [[nodiscard]] bool ok() const;
 };
 
+/// The tables that the user has asked for: signals, identifiers. Each ends with an empty line.
+[[nodiscard]] std::string tables_text(const RunReport &report);
 /// A table for people, as lines.
 [[nodiscard]] std::string to_text(const RunReport &report);
 /// Everything, times in picoseconds.

@@ -183,6 +183,7 @@ void parse_outputs(const YamlValue &value, Outputs &outputs) {
   file("candump", outputs.candump);
   file("pcap", outputs.pcap);
   file("report", outputs.report);
+  file("ids_csv", outputs.ids_csv);
   map.with("signals_csv", [&](const YamlValue &v) {
     if (!outputs.database) v.fail("needs a database; allowed: 'dbc' in the scenario");
     outputs.signals_csv = v.text();

@@ -158,6 +158,8 @@ struct Outputs {
   std::string signals_csv;
   std::vector<std::string> dbc;  ///< files that a command line adds to `database`
   bool signals = false;          ///< a command line wants them as a table
+  std::string ids_csv;           ///< the table of identifiers
+  bool ids = false;              ///< a command line wants it as text
 };
 
 /// How simulated time goes on.

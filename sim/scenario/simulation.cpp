@@ -190,6 +190,10 @@ RunReport Simulation::collect(bool interrupted) {
                             station.host ? station.host->stats().overruns : 0, ahb.transfers,
                             ahb.max_waits, ahb.violations, station.host != nullptr});
   }
+  if (outputs_->signals() != nullptr) report.signals = outputs_->signals()->report();
+  report.show_signals = scenario_.outputs.signals;
+  report.identifiers = outputs_->identifiers();
+  report.show_identifiers = scenario_.outputs.ids;
   report.faults = faults_.report(bus_.now());
   report.node_cycles = stations_.cycles();
   if (scenario_.analysis || scenario_.expect.within_bound) add_bounds(report);
@@ -199,8 +203,6 @@ RunReport Simulation::collect(bool interrupted) {
 }
 
 void Simulation::check_all(RunReport &report) {
-  if (outputs_->signals() != nullptr) report.signals = outputs_->signals()->report();
-  report.show_signals = scenario_.outputs.signals;
   std::vector<std::vector<Frame>> received;
   for (NodeId id = 0; id < stations_.size(); ++id) received.push_back(stations_[id].received);
   if (!stations_.stores_remote())
@@ -219,7 +221,7 @@ void Simulation::start(Time when) {
   start_ = bus_.now();
   faults_.add_to(bus_, start_, bit_time_,
                  [this](NodeId id) { return stations_[id].timing.prescaler; });
-  outputs_->begin();
+  outputs_->begin(start_);
   if (judge_) add_disturbances();
   start_traffic();
   start_accesses();

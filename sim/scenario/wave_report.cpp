@@ -90,7 +90,7 @@ void Player::next(std::size_t change) {
 WaveReport Player::play(const std::function<void(double)> &progress) {
   constexpr Time kPart = 1'000, kRest = 24;  // bits: what ends a last frame may be cut off
   start_ = bus_.now();
-  outputs_->begin();
+  outputs_->begin(start_);
   if (!wave_.changes.empty()) bus_.at(start_ + wave_.changes.front().first, [this] { next(0); });
   const Time end = start_ + wave_.end;
   while (bus_.now() < end && !stop_requested()) {

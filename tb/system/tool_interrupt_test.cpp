@@ -64,8 +64,11 @@ class ToolInterrupt : public ScratchTest {
 };
 
 TEST_F(ToolInterrupt, ARunEndsWithWholeOutputs) {
+  const std::string database =
+      file_with("a.dbc", "VERSION \"\"\nBO_ 291 M: 2 a\n SG_ S : 0|16@1+ (1,0) [0|65535] \"\" b\n");
   RunningTool tool{{"run", long_scenario(), "--json", "--candump", in("bus.log"), "--pcap",
-                    in("bus.pcap"), "--vcd", in("bus.vcd"), "--report", in("bus.html")}};
+                    in("bus.pcap"), "--vcd", in("bus.vcd"), "--report", in("bus.html"), "--dbc",
+                    database}};
   ASSERT_TRUE(tool.wait_until([&] { return bytes() > 500'000; }));  // some frames in the waveform
   tool.signal(SIGINT);
   const ToolResult result = tool.wait();
@@ -76,6 +79,8 @@ TEST_F(ToolInterrupt, ARunEndsWithWholeOutputs) {
   EXPECT_TRUE(run["interrupted"].get<bool>());
   EXPECT_TRUE(run["checks"].empty());  // what a run of its whole length must show
   const auto frames = run["frames"].get<std::size_t>();
+  EXPECT_EQ(run["identifiers"][0]["count"], frames);
+  EXPECT_EQ(run["signals"]["frames"]["known"], frames);
   EXPECT_EQ(vericansim::read_log(in("bus.log")).entries.size(), frames);
   EXPECT_EQ(vericansim::read_log(in("bus.pcap")).entries.size(), frames);
   EXPECT_THAT(slurp(in("bus.html")), EndsWith("</html>\n"));
