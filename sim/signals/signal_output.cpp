@@ -129,7 +129,7 @@ void SignalCsv::finish() { file_.commit(); }
 
 SignalRecorder::SignalRecorder(std::shared_ptr<const Database> database, const std::string &csv)
     : database_{database}, statistics_{std::move(database)} {
-  if (!csv.empty()) csv_ = std::make_unique<SignalCsv>(csv);
+  if (!csv.empty()) csv_ = std::make_unique<SignalCsv>(csv, kLogOriginNs);
 }
 
 void SignalRecorder::add(const LogEntry &entry) {

@@ -3,14 +3,15 @@
 #
 # tool_test VERICAN: signals in the tool as a user meets them: scenario, log, waveform, page.
 """Expected bytes are worked out by hand from examples/engine.dbc."""
+import csv
 import json
 import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
-TOOL = sys.argv.pop(1)
+sys.path.insert(0, "tb/harness")
+from tool_case import ToolCase
+
 SCENARIO = "examples/signals.yaml"
 DBC = "examples/engine.dbc"
 # 9600 = 0x2580, Mode 2 from bit 28 on, start value 60 = 0x3C.
@@ -19,28 +20,7 @@ DASHBOARD = "200#017D0000"  # page 1, 125 = 0x7D
 EEC1 = "0CF00400#000000004B000000"  # 19200 = 0x4B00
 
 
-class Signals(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.path = pathlib.Path(self.folder.name)
-
-    def tearDown(self):
-        self.folder.cleanup()
-
-    def tool(self, *arguments):
-        return subprocess.run([TOOL, *map(str, arguments)], capture_output=True, text=True)
-
-    def passes(self, *arguments, code=0):
-        result = self.tool(*arguments)
-        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
-        return result.stdout
-
-    def refused(self, *arguments):
-        result = self.tool(*arguments)
-        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
-        return result.stderr
-
+class Signals(ToolCase):
     def log(self, *frames):
         path = self.path / "frames.log"
         path.write_text("".join(f"({1 + i}.000000) can0 {f}\n" for i, f in enumerate(frames)))
@@ -130,17 +110,26 @@ class Signals(unittest.TestCase):
 
     def test_replay_decode_and_page(self):
         log = self.log(ENGINE_DATA, DASHBOARD, EEC1)
-        vcd, csv, page = (self.path / name for name in ("bus.vcd", "s.csv", "page.html"))
+        vcd, table, page = (self.path / name for name in ("bus.vcd", "s.csv", "page.html"))
         text = self.passes("replay", log, "-b", "250k", "--fast", "--dbc", DBC, "--signals",
-                           "--vcd", vcd, "--signals-csv", csv)
+                           "--vcd", vcd, "--signals-csv", table)
         self.assertIn("EngineData.Mode", text)
-        self.assertEqual(len(csv.read_text().splitlines()), 8)
+        self.assertEqual(len(table.read_text().splitlines()), 8)
         decoded = self.passes("decode", vcd, "--dbc", DBC)
         self.assertIn(" :: Dashboard(Page: 1, FuelLevel: 62.5 %)", decoded)
         events = json.loads(self.passes("decode", vcd, "--dbc", DBC, "--json"))["events"]
         self.assertEqual([e["message"] for e in events], ["EngineData", "Dashboard", "EEC1"])
         self.passes("report", log, "-o", page, "--dbc", DBC, "--fast")
         self.assertIn('"databases":[{"name":"engine.dbc","text":"VERSION', page.read_text())
+
+    def test_times_of_the_csv_are_those_of_the_log(self):
+        log, table = self.path / "bus.log", self.path / "s.csv"
+        self.passes("run", SCENARIO, "--candump", log, "--signals-csv", table)
+        logged = [int(line.split()[0].strip("()").replace(".", ""))  # microseconds
+                  for line in log.read_text().splitlines()]
+        rows = csv.DictReader(table.read_text().splitlines())
+        times = dict.fromkeys(int(row["time"].replace(".", "")) // 1000 for row in rows)
+        self.assertEqual(list(times), logged)
 
     def test_json_of_a_run(self):
         run = json.loads(self.passes("run", SCENARIO, "--json"))["runs"][0]

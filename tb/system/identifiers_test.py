@@ -9,12 +9,13 @@ import json
 import math
 import pathlib
 import re
-import subprocess
 import sys
-import tempfile
 import unittest
 
-TOOL, ELF_FOLDER = sys.argv.pop(1), sys.argv.pop(1)
+sys.path.insert(0, "tb/harness")
+from tool_case import ToolCase
+
+ELF_FOLDER = sys.argv.pop(1)
 LINE = re.compile(r"\((\d+)\.(\d{6})\) can0 ([0-9A-F]+)#(R?)([0-9A-F]*)(?:_([9A-F]))?$")
 SECOND = 10**12  # ps
 MICROSECOND = 10**6  # ps; a log has no more
@@ -71,23 +72,7 @@ def count_again(log):
     return table
 
 
-class Identifiers(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.path = pathlib.Path(self.folder.name)
-
-    def tearDown(self):
-        self.folder.cleanup()
-
-    def tool(self, *arguments):
-        result = subprocess.run([TOOL, *map(str, arguments)], capture_output=True, text=True)
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        return result.stdout
-
-    def file(self, name, text):
-        (self.path / name).write_text(text)
-        return self.path / name
-
+class Identifiers(ToolCase):
     def assert_same(self, table, judged, origin):
         """Times of a log are cut to microseconds and count from `origin`, ps, of the table's."""
         self.assertEqual(len(table), len(judged))
@@ -106,7 +91,7 @@ class Identifiers(unittest.TestCase):
 
     def test_run_has_the_periods_of_its_scenario(self):
         scenario = self.file("a.yaml", SCENARIO)
-        table = json.loads(self.tool("run", scenario, "--json"))["runs"][0]["identifiers"]
+        table = json.loads(self.passes("run", scenario, "--json"))["runs"][0]["identifiers"]
         rows = {(row["id"], row["remote"]): row for row in table}
         self.assertEqual([(row["id"], row["count"], row["last_data"], row["changed_bytes"])
                           for row in table],
@@ -127,21 +112,21 @@ class Identifiers(unittest.TestCase):
 
     def test_run_has_what_its_log_has(self):
         scenario, log = self.file("a.yaml", SCENARIO), self.path / "a.log"
-        run = json.loads(self.tool("run", scenario, "--candump", log, "--json"))["runs"][0]
+        run = json.loads(self.passes("run", scenario, "--candump", log, "--json"))["runs"][0]
         judged = count_again(log)
         self.assert_same(run["identifiers"], judged, self.origin_of(run["identifiers"], judged))
-        of_log = json.loads(self.tool("ids", log, "--json"))["identifiers"]
+        of_log = json.loads(self.passes("ids", log, "--json"))["identifiers"]
         first = min(row["first_ps"] for row in judged)
         self.assert_same(of_log, judged, first)
 
     def test_text_and_csv_of_a_run(self):
         scenario, table = self.file("a.yaml", SCENARIO), self.path / "ids.csv"
-        self.assertNotIn("last data", self.tool("run", scenario))
-        text = self.tool("run", scenario, "--ids", "--ids-csv", table)
+        self.assertNotIn("last data", self.passes("run", scenario))
+        text = self.passes("run", scenario, "--ids", "--ids-csv", table)
         self.assertRegex(text, r"\n  can0 +080 +3 +20\.00\d +\d+\.\d+ +\d+\.\d+ .* 02\* 00\n")
         self.assertRegex(text, r"\n  can0 +1ABCDEF0 +1 +- +- +- +- +0\.005\d+ +0\.005\d+ +AA\n")
         rows = list(csv.DictReader(table.read_text().splitlines()))
-        run = json.loads(self.tool("run", scenario, "--json"))["runs"][0]["identifiers"]
+        run = json.loads(self.passes("run", scenario, "--json"))["runs"][0]["identifiers"]
         for row, want in zip(rows, run, strict=True):
             self.assertEqual((int(row["id"], 16), int(row["count"]), row["last_data"]),
                              (want["id"], want["count"], want["last_data"]))
@@ -151,7 +136,7 @@ class Identifiers(unittest.TestCase):
     def test_outputs_of_the_scenario_and_of_several_bit_rates(self):
         table = self.path / "ids.csv"
         text = SCENARIO.replace("500k", "[250k, 500k]") + f"outputs: {{ids_csv: {table}}}\n"
-        run = json.loads(self.tool("run", self.file("a.yaml", text), "--json"))["runs"]
+        run = json.loads(self.passes("run", self.file("a.yaml", text), "--json"))["runs"]
         self.assertEqual([len(r["identifiers"]) for r in run], [4, 4])
         for rate in ("250k", "500k"):
             self.assertEqual(len((self.path / f"ids-{rate}.csv").read_text().splitlines()), 5)
@@ -159,31 +144,32 @@ class Identifiers(unittest.TestCase):
     def test_replay_has_the_table_of_its_bus_beside_that_of_the_recording(self):
         log, sent = self.path / "sent.log", self.path / "bus.log"
         log.write_text("".join(f"({100 + i // 40}.{i % 40 * 25000:06}) vcan0 "
-                               f"{0x100 + i % 3:03X}#{i:04X}\n" for i in range(90)))
+                               f"{0x100 + i % 3:03X}#{i:04X}{'AB'[i > 20] * 2}\n"
+                               for i in range(90)))
         args = ["replay", log, "--candump", sent]
-        replayed = json.loads(self.tool(*args, "--json"))
+        replayed = json.loads(self.passes(*args, "--json"))
         bus, judged = replayed["bus"]["identifiers"], count_again(sent)
         self.assert_same(bus, judged, self.origin_of(bus, judged))
-        recorded = json.loads(self.tool("ids", log, "--json"))["identifiers"]
+        recorded = json.loads(self.passes("ids", log, "--json"))["identifiers"]
         self.assertEqual(replayed["identifiers"], recorded)
         for row, want in zip(bus, recorded, strict=True):
             self.assertEqual((row["id"], row["count"], row["last_data"], row["changed_bytes"]),
                              (want["id"], want["count"], want["last_data"], want["changed_bytes"]))
             self.assertEqual(want["period_mean_ps"], 0.075 * SECOND)
             self.assertAlmostEqual(row["period_mean_ps"], 0.075 * SECOND, delta=2 * BIT)
-        fast = self.tool(*args, "--fast", "--ids")
+        fast = self.passes(*args, "--fast", "--ids")
         self.assertRegex(fast, r"\n  can0 +100 +30 +0\.\d+ ")
 
     def test_bridge(self):
         log = self.path / "a.log"
-        report = json.loads(self.tool("bridge", "--socketcand", "0", "--time", "60ms",
+        report = json.loads(self.passes("bridge", "--socketcand", "0", "--time", "60ms",
                                       "--bus", self.file("a.yaml", SCENARIO), "--candump", log,
                                       "--json"))["bus"]
         judged = count_again(log)
         self.assertEqual(len(judged), 4)
         self.assert_same(report["identifiers"], judged,
                          self.origin_of(report["identifiers"], judged))
-        plain = self.tool("bridge", "--socketcand", "0", "--time", "1ms", "--ids",
+        plain = self.passes("bridge", "--socketcand", "0", "--time", "1ms", "--ids",
                           "--ids-csv", self.path / "ids.csv")
         self.assertIn("last data, * changes", plain)
         self.assertEqual(len((self.path / "ids.csv").read_text().splitlines()), 1)
@@ -192,16 +178,16 @@ class Identifiers(unittest.TestCase):
         log, table = self.path / "a.log", self.path / "ids.csv"
         args = ["firmware", f"{ELF_FOLDER}/ping.elf", f"{ELF_FOLDER}/pong.elf", "--bus",
                 "sw/firmware/ping/ping.yaml", "--candump", log]
-        bus = json.loads(self.tool(*args, "--json"))["buses"][0]
+        bus = json.loads(self.passes(*args, "--json"))["buses"][0]
         judged = count_again(log)
         self.assertGreater(len(judged), 1)
         self.assert_same(bus["identifiers"], judged, self.origin_of(bus["identifiers"], judged))
-        text = self.tool(*args, "--ids", "--ids-csv", table)
+        text = self.passes(*args, "--ids", "--ids-csv", table)
         self.assertIn("last data, * changes", text)
         self.assertNotIn("TEC (max)", text)
         self.assertEqual(len(table.read_text().splitlines()), 1 + len(judged))
         database = self.file("a.dbc", DATABASE)
-        signals = self.tool(*args, "--signals", "--dbc", database)
+        signals = self.passes(*args, "--signals", "--dbc", database)
         self.assertIn("frames of the database's messages", signals)
 
 
