@@ -26,19 +26,21 @@ struct Options {
 
 Json to_json(const BitTimingResult &result) {
   const BitTiming &t = result.timing;
-  return {{"brp", t.prescaler},
-          {"prop", t.prop},
-          {"ps1", t.ps1},
-          {"ps2", t.ps2},
-          {"sjw", t.sjw},
-          {"quanta", t.quanta()},
-          {"bitrate", result.bitrate},
-          {"rate_error_ppm", result.rate_error_ppm},
-          {"rate_fits", result.rate_fits()},
-          {"sample_point", result.sample_point},
-          {"oscillator_tolerance_percent", result.oscillator_tolerance * 100},
-          {"cable_m", result.cable_m},
-          {"ctrl", fmt::format("0x{:08X}", t.ctrl_fields())}};
+  return {
+      {"brp", t.prescaler},
+      {"prop", t.prop},
+      {"ps1", t.ps1},
+      {"ps2", t.ps2},
+      {"sjw", t.sjw},
+      {"quanta", t.quanta()},
+      {"bitrate", result.bitrate},
+      {"rate_error_ppm", result.rate_error_ppm},
+      {"rate_fits", result.rate_fits()},
+      {"sample_point", result.sample_point},
+      {"oscillator_tolerance_percent", result.oscillator_tolerance * 100},
+      {"cable_m", result.cable_m},
+      {"crystal_cable_m", result.crystal_cable_m ? Json(*result.crystal_cable_m) : Json(nullptr)},
+      {"ctrl", fmt::format("0x{:08X}", t.ctrl_fields())}};
 }
 
 /// A number that is promised is not rounded up.
@@ -50,23 +52,25 @@ void print_table(const BitTimingRequest &request, const std::vector<BitTimingRes
       "{} Hz, {} bit/s, {:g} m of cable; delays: transceiver {:g} ns, controller {:g} ns\n\n",
       request.clock_hz, request.bitrate, request.cable_m, request.node_delay_ns,
       results.front().controller_delay_ns);
-  fmt::print("{:>4} {:>4} {:>4} {:>4} {:>4} {:>4} {:>7} {:>11} {:>9} {:>9} {:>8}  {}\n", "BRP",
-             "PROP", "PS1", "PS2", "SJW", "tq", "sample", "bit/s", "error", "clock", "cable",
-             "CTRL");
+  fmt::print("{:>4} {:>4} {:>4} {:>4} {:>4} {:>4} {:>7} {:>11} {:>9} {:>9} {:>8} {:>8}  {}\n",
+             "BRP", "PROP", "PS1", "PS2", "SJW", "tq", "sample", "bit/s", "error", "clock", "cable",
+             fmt::format("{:g} ppm", request.clock_error_ppm), "CTRL");
   for (std::size_t i = 0; i < results.size() && i < rows; ++i) {
     const BitTimingResult &r = results[i];
     const BitTiming &t = r.timing;
     fmt::print(
         "{:>4} {:>4} {:>4} {:>4} {:>4} {:>4} {:>5.1f} % {:>11.1f} {:>5.0f} ppm {:>7.3f} % {:>6.0f} "
-        "m  0x{:08X}{}\n",
+        "m {:>8}  0x{:08X}{}\n",
         t.prescaler, t.prop, t.ps1, t.ps2, t.sjw, t.quanta(), r.sample_point * 100, r.bitrate,
         r.rate_error_ppm, cut(r.oscillator_tolerance * 100, 0.001), cut(r.cable_m, 1),
+        r.crystal_cable_m ? fmt::format("{:.0f} m", cut(*r.crystal_cable_m, 1)) : "-",
         t.ctrl_fields(), r.rate_fits() ? "" : "  rate is off by more than clock");
   }
   if (results.size() > rows) fmt::print("... and {} more (--rows)\n", results.size() - rows);
   fmt::print(
       "\nclock: largest error of each node's clock, that of the bit rate included (BT-08);\n"
-      "cable: longest at 5 ns/m that goes with it (BT-07).\n");
+      "cable: longest at 5 ns/m that goes with it (BT-07); {:g} ppm: with clocks of that error.\n",
+      request.clock_error_ppm);
 }
 
 /// Why there is nothing to show.
@@ -101,6 +105,7 @@ Json to_json(const BitTimingRequest &request, const std::vector<BitTimingResult>
           {"bitrate", request.bitrate},
           {"cable_m", request.cable_m},
           {"node_delay_ns", request.node_delay_ns},
+          {"clock_error_ppm", request.clock_error_ppm},
           {"controller_delay_ns",
            request.controller_delay_ns.value_or(core_delay_ns(request.clock_hz))},
           {"settings", list}};
@@ -166,6 +171,8 @@ void add_bittime(CLI::App &app, int &exit_code) {
                       "Driver and comparator of a transceiver together, ns (100)");
   command->add_option("--controller-delay", options->request.controller_delay_ns,
                       "Of another controller, in and out, ns (default: this core, 2 clocks)");
+  command->add_option("--clock-error", options->request.clock_error_ppm,
+                      "Error of each node's clock, for the longest cable, ppm (100)");
   command->add_option("--max-error", options->request.max_rate_error_ppm,
                       "Largest bit-rate error, ppm (50000)");
   command->add_option("--rows", options->rows, "Lines of the table (10)");

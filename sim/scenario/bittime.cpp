@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "scenario/timing_limits.hpp"
+
 namespace vericansim {
 namespace {
 
@@ -41,19 +43,48 @@ void check(const BitTimingRequest &r) {
   const double controller = r.controller_delay_ns.value_or(0);
   require(controller >= 0 && controller <= 100'000,
           fmt::format("controller delay {} ns is out of range; allowed: 0 to 100000", controller));
+  require(
+      r.clock_error_ppm >= 0 && r.clock_error_ppm <= 50'000,
+      fmt::format("clock error {} ppm is out of range; allowed: 0 to 50000", r.clock_error_ppm));
 }
 
 double controller_delay(const BitTimingRequest &r) {
   return r.controller_delay_ns.value_or(core_delay_ns(r.clock_hz));
 }
 
-/// What of TSEG1 is lost to delays (BT-07), ns: there and back on the cable and through the
-/// transceivers, and the controllers. Derived in docs/integration.md: of its own delay, which
-/// counts twice, this core gets a quantum back by SYNC_SEG.
-double loop_ns(const BitTimingRequest &r, double quantum_ns) {
-  const double controller = controller_delay(r);
-  const double returned = r.controller_delay_ns ? 0 : std::min(quantum_ns, controller);
-  return 2 * (r.cable_m * kDelayPerMetreNs + r.node_delay_ns + controller) - returned;
+BusDelays delays_of(const BitTimingRequest &r, double cable_m) {
+  return {.one_way_ns = cable_m * kDelayPerMetreNs + r.node_delay_ns,
+          .core_ns = controller_delay(r),
+          .this_core = !r.controller_delay_ns};
+}
+
+/// The largest value from `low` to `high` with which `holds` is true; `low` if there is none.
+template <typename Holds>
+double largest(double low, double high, Holds holds) {
+  constexpr int kHalvings = 48;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (low + high) / 2;
+    (holds(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+bool holds(const BitTiming &timing, const BitTimingRequest &r, double error, double cable_m) {
+  const double quantum_ns = 1e9 * timing.prescaler / r.clock_hz;
+  return clocks_hold(timing, quantum_ns, delays_of(r, cable_m), error);
+}
+
+/// Largest error of the clocks with the cable asked for.
+double largest_error(const BitTiming &timing, const BitTimingRequest &r) {
+  return largest(0, textbook_limit(timing),
+                 [&](double error) { return holds(timing, r, error, r.cable_m); });
+}
+
+/// Longest cable with clocks of this error, m, from the one asked for on.
+double longest_cable(const BitTiming &timing, const BitTimingRequest &r, double error) {
+  const double bit_m = timing.clocks_per_bit() * 1e9 / r.clock_hz / kDelayPerMetreNs;
+  return largest(r.cable_m, r.cable_m + bit_m,
+                 [&](double cable_m) { return holds(timing, r, error, cable_m); });
 }
 
 /// How TSEG1 is shared between PROP and PS1.
@@ -62,24 +93,12 @@ unsigned choose_prop(const BitTimingRequest &r, unsigned prescaler, unsigned tse
   const unsigned most = std::min(kMaxSegment, tseg1 - 1);
   if (r.cable_m == 0) return std::clamp(tseg1 / 2, least, most);
   const double quantum_ns = 1e9 * prescaler / r.clock_hz;
-  const double needed = std::ceil(loop_ns(r, quantum_ns) / quantum_ns - 1e-9);
+  const BusDelays delays = delays_of(r, r.cable_m);
+  const double returned = delays.this_core ? std::min(quantum_ns, delays.core_ns) : 0;
+  const double loop = 2 * (delays.one_way_ns + delays.core_ns) - returned;
+  const double needed = std::ceil(loop / quantum_ns - 1e-9);
   return static_cast<unsigned>(std::clamp<double>(needed, least, most));
 }
-
-/// How far the clocks may be off if sampling must not come too late: nodes measure an edge to the
-/// quantum, and one that follows another takes over from it up to a quantum early, less its delay.
-double latest_sample(const BitTiming &t, const BitTimingRequest &r, double quantum_ns) {
-  const double early = std::max(0.0, 1 - controller_delay(r) / quantum_ns);
-  return (t.ps2 - early) / (20.0 * t.quanta() - t.ps2 - early);
-}
-
-/// As BT-08, exactly: the sum of both clocks' errors over ten bits is SJW, over 13 bits PS2.
-double synchronised(const BitTiming &t) {
-  return std::min(t.sjw / (20.0 * t.quanta() + t.sjw), t.ps2 / (26.0 * t.quanta() - t.ps2));
-}
-
-/// Time in which both clocks may part for one hundred per cent of error, quanta (BT-08).
-double drift_quanta(const BitTiming &t) { return 2 * (13.0 * t.quanta() - t.ps2); }
 
 /// Order of preference; smaller is better.
 auto rank(const BitTimingResult &result, const BitTimingRequest &r) {
@@ -130,9 +149,7 @@ double recommended_sample_point(std::uint32_t bitrate) {
 
 double oscillator_tolerance(const BitTiming &timing) {
   timing.validate();
-  const double nbt = timing.quanta();
-  const double phase = std::min(timing.ps1, timing.ps2);
-  return std::min(phase / (2 * (13 * nbt - timing.ps2)), timing.sjw / (20 * nbt));
+  return textbook_limit(timing);
 }
 
 std::string rate_mismatch(const BitTiming &timing, double clock_hz, double bitrate) {
@@ -155,15 +172,11 @@ BitTimingResult rate_bit_timing(const BitTiming &timing, const BitTimingRequest 
   result.rate_error_ppm = (result.bitrate / request.bitrate - 1.0) * 1e6;
   result.sample_point = 1.0 - static_cast<double>(timing.ps2) / timing.quanta();
   result.controller_delay_ns = controller_delay(request);
-  const double quantum_ns = 1e9 * timing.prescaler / request.clock_hz;
-  // What delays leave of the time to the sample point is for the clocks (BT-07, BT-08).
-  const double left = timing.prop + timing.ps1 - loop_ns(request, quantum_ns) / quantum_ns;
-  const double drift = drift_quanta(timing);
-  result.oscillator_tolerance =
-      std::max(0.0, std::min({left / drift, latest_sample(timing, request, quantum_ns),
-                              synchronised(timing), oscillator_tolerance(timing)}));
-  const double spare_ns = (left - result.oscillator_tolerance * drift) * quantum_ns;
-  result.cable_m = request.cable_m + spare_ns / 2 / kDelayPerMetreNs;
+  result.oscillator_tolerance = largest_error(timing, request);
+  result.cable_m = longest_cable(timing, request, result.oscillator_tolerance);
+  const double crystal = request.clock_error_ppm * 1e-6;
+  if (crystal <= result.oscillator_tolerance)
+    result.crystal_cable_m = longest_cable(timing, request, crystal);
   return result;
 }
 

@@ -25,6 +25,7 @@ struct BitTimingRequest {
   double node_delay_ns = 100.0;  ///< driver and comparator of a transceiver together
   std::optional<double> controller_delay_ns =
       {};  ///< from a pin's edge to the controller's bit, and out; unset: this core's
+  double clock_error_ppm = 100.0;  ///< of the nodes' clocks, for crystal_cable_m; 0 to 50,000
   double max_rate_error_ppm =
       50'000.0;  ///< settings beyond it are left out, as can-utils' calculator does
 };
@@ -43,6 +44,8 @@ struct BitTimingResult {
   double oscillator_tolerance = 0;  ///< largest relative error of each node's clock at the cable
                                     ///< asked for; the error of the bit rate counts as part of it
   double cable_m = 0;               ///< longest cable between two nodes at that tolerance
+  std::optional<double> crystal_cable_m = {};  ///< the same with clocks of clock_error_ppm; unset
+                                               ///< if that is more than oscillator_tolerance
 
   /// False: the delays of nodes and cable are too long for it, even with perfect clocks.
   [[nodiscard]] bool usable() const { return oscillator_tolerance > 0; }

@@ -23,22 +23,28 @@ bool traffic_is_all(const Scenario &scenario) {
          });
 }
 
-/// Half of what the clocks may differ by, and cables that PROP covers, leave nothing to be misread.
-bool reads_all_bits(const Scenario &scenario, double bitrate) {
-  Time longest = 0, second = 0;  // one way
-  double cable_m = std::numeric_limits<double>::max();
+/// Delay between the two nodes that are farthest apart, from pin to pin, ns.
+double farthest_ns(const Scenario &scenario) {
+  Time longest = 0, second = 0;
   for (const NodeSpec &node : scenario.nodes) {
-    const BitTimingResult result = rate_bit_timing(
-        timing_of(scenario, node, bitrate), bit_timing_request(node.clock.frequency_hz, bitrate));
-    const double ppm = std::abs(node.clock.error_ppm) + std::abs(node.clock.wander_ppm) +
-                       std::abs(result.rate_error_ppm);
-    if (2e-6 * ppm > result.oscillator_tolerance) return false;
     const Time delay = node.link.cable + node.link.transmitter + node.link.receiver;
     second = std::max(second, std::min(longest, delay));
     longest = std::max(longest, delay);
-    cable_m = std::min(cable_m, result.cable_m);
   }
-  return longest + second == 0 || longest + second <= cable_delay(cable_m);
+  return static_cast<double>(longest + second) / kNanosecond;
+}
+
+/// Half of what the clocks may differ by, with the delays there are, leaves nothing to be misread.
+bool reads_all_bits(const Scenario &scenario, double bitrate) {
+  const double delay_ns = farthest_ns(scenario);
+  return std::all_of(scenario.nodes.begin(), scenario.nodes.end(), [&](const NodeSpec &node) {
+    BitTimingRequest request = bit_timing_request(node.clock.frequency_hz, bitrate);
+    request.node_delay_ns = delay_ns;
+    const BitTimingResult result = rate_bit_timing(timing_of(scenario, node, bitrate), request);
+    const double ppm = std::abs(node.clock.error_ppm) + std::abs(node.clock.wander_ppm) +
+                       std::abs(result.rate_error_ppm);
+    return result.usable() && 2e-6 * ppm <= result.oscillator_tolerance;
+  });
 }
 
 /// Others than the sender acknowledge, so that no frame is sent again.

@@ -32,9 +32,16 @@ ThreeNodes bus_of(const RowPromise &promise, unsigned number, std::uint64_t seed
 
 }  // namespace
 
-RowPromise promise_of(const BitTimingResult &row, const BitTimingRequest &request) {
-  return {row.timing, static_cast<double>(request.clock_hz), row.oscillator_tolerance, row.cable_m,
-          request.node_delay_ns};
+std::vector<RowPromise> promises_of(const BitTimingResult &row, const BitTimingRequest &request) {
+  RowPromise promise{row.timing, static_cast<double>(request.clock_hz), row.oscillator_tolerance,
+                     row.cable_m, request.node_delay_ns};
+  std::vector<RowPromise> promises{promise};
+  if (row.crystal_cable_m) {
+    promise.tolerance = request.clock_error_ppm * 1e-6;
+    promise.cable_m = *row.crystal_cable_m;
+    promises.push_back(promise);
+  }
+  return promises;
 }
 
 RowProof prove_row(const RowPromise &promise, unsigned frames, std::uint64_t seed) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "scenario/bittime.hpp"
 
@@ -19,8 +20,10 @@ struct RowPromise {
   double node_delay_ns = 0;  ///< of a transceiver
 };
 
-/// What rate_bit_timing() says of a setting, as a promise.
-[[nodiscard]] RowPromise promise_of(const BitTimingResult &row, const BitTimingRequest &request);
+/// What rate_bit_timing() says of a setting: the worst clocks with their cable and, if it is
+/// another promise, clocks of the request's error with theirs.
+[[nodiscard]] std::vector<RowPromise> promises_of(const BitTimingResult &row,
+                                                  const BitTimingRequest &request);
 
 /// Sums over all buses.
 struct RowProof {

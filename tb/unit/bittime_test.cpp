@@ -63,7 +63,7 @@ TEST(BitTime, BT_07_PropCoversTheCable) {
   ASSERT_FALSE(results.empty());
   EXPECT_EQ(results.front().timing.prop, 4U);
   EXPECT_TRUE(results.front().usable());
-  EXPECT_NEAR(results.front().cable_m, 40.0, 1e-9);
+  EXPECT_GE(results.front().cable_m, 40.0);
   request.cable_m = 200;
   for (const BitTimingResult &result : find_bit_timings(request)) EXPECT_FALSE(result.usable());
 }
@@ -74,33 +74,47 @@ BitTimingResult rated(std::uint32_t clock, std::uint32_t rate, const BitTiming &
       timing, {.clock_hz = clock, .bitrate = rate, .controller_delay_ns = controller_ns});
 }
 
-// docs/integration.md: this core takes two clocks, which count twice, less what SYNC_SEG gives
-// back.
+// docs/integration.md, "Clocks and delays", by hand: this core takes two clocks, which count twice.
+// 8 MHz, 500 kbit/s: a quantum is 125 ns, the loop delay 2 x (100 + 250) ns or 5.6 quanta. With
+// errors near the limit edges of the far end are 6 quanta late: three moves of SJW, four drifts of
+// 320 quanta each, and 2 + 1 quanta for them.
 TEST(BitTime, BT_07_TheCoreItselfTakesTime) {
   EXPECT_DOUBLE_EQ(core_delay_ns(8e6), 250);
-  // 13 quanta of 125 ns; 2 x (100 + 250) - 125 ns for delays, 0.483 % of 412 quanta for the clocks.
   const BitTimingResult cia = rated(8'000'000, 500'000, {1, 6, 7, 2, 2});
-  EXPECT_NEAR(cia.oscillator_tolerance, 2.0 / 414, 1e-12);
-  EXPECT_NEAR(cia.cable_m, (1625 - 575 - 2.0 / 414 * 412 * 125) / 10, 1e-6);
+  EXPECT_NEAR(cia.oscillator_tolerance, 3.0 / (4 * 320 - 1), 1e-9);
+  // The loop may grow until they are 8 late.
+  EXPECT_NEAR(cia.cable_m, (8 - 5.6 - 320 * 3.0 / 1279) * 12.5, 1e-3);
+  // With crystals BT-07 is the limit: 13 quanta, less 5.6 and the one that SYNC_SEG gives back.
+  ASSERT_TRUE(cia.crystal_cable_m);
+  EXPECT_NEAR(*cia.crystal_cable_m, (13 - 4.6 - 1e-4 * 412) * 12.5, 1e-3);
   // Another controller of 250 ns gets nothing back: 12.5 m less.
-  EXPECT_LT(rated(8'000'000, 500'000, {1, 6, 7, 2, 2}, 250).cable_m, cia.cable_m - 12);
+  EXPECT_NEAR(*rated(8'000'000, 500'000, {1, 6, 7, 2, 2}, 250).crystal_cable_m,
+              (13 - 5.6 - 1e-4 * 412) * 12.5, 1e-3);
   EXPECT_FALSE(rated(8'000'000, 1'000'000, {1, 2, 2, 3, 2}).usable());
   // One quantum is left for the clocks, and nothing for a cable.
   const BitTimingResult tight = rated(10'000'000, 1'000'000, {1, 3, 3, 3, 3});
-  EXPECT_NEAR(tight.oscillator_tolerance, 1.0 / 254, 1e-12);
-  EXPECT_NEAR(tight.cable_m, 0, 1e-9);
+  EXPECT_NEAR(tight.oscillator_tolerance, 1.0 / 254, 1e-9);
+  EXPECT_NEAR(tight.cable_m, 0, 1e-3);
 }
 
-// Sixteen clocks a quantum: another node may be 14 of them early, so PS2 bears less.
+// Sixteen clocks a quantum: another node may be 14 of them early, so PS2 bears less. Edges are one
+// quantum late with the drift of 160 quanta: 2 a - 1 + 0.875 <= 2.
 TEST(BitTime, BT_08_QuantaAreWide) {
   EXPECT_NEAR(rated(16'000'000, 125'000, {16, 3, 2, 2, 2}).oscillator_tolerance,
-              (2 - 0.875) / (160 - 2 - 0.875), 1e-12);
+              2.125 / (320 - 2 - 0.875), 1e-9);
+}
+
+// What 508 m at 125 kbit/s bear: 11 quanta late, five moves, six drifts, and 1.5 quanta for them.
+TEST(BitTime, LongBusesNeedBetterClocks) {
+  const BitTiming timing{4, 6, 7, 2, 2};
+  const BitTimingRequest request{.clock_hz = 8'000'000, .bitrate = 125'000, .cable_m = 508};
+  EXPECT_NEAR(rate_bit_timing(timing, request).oscillator_tolerance, 1.5 / (6 * 320 - 2.5), 1e-9);
 }
 
 TEST(BitTime, RatesThatNoClockMayHave) {
   EXPECT_TRUE(rated(8'000'000, 500'000, {1, 6, 7, 2, 2}).rate_fits());
-  EXPECT_TRUE(rated(8'000'000, 498'000, {1, 6, 7, 2, 2}).rate_fits());   // 0.40 %
-  EXPECT_FALSE(rated(8'000'000, 497'000, {1, 6, 7, 2, 2}).rate_fits());  // 0.60 %
+  EXPECT_TRUE(rated(8'000'000, 499'000, {1, 6, 7, 2, 2}).rate_fits());   // 0.20 %
+  EXPECT_FALSE(rated(8'000'000, 498'500, {1, 6, 7, 2, 2}).rate_fits());  // 0.30 %
   EXPECT_EQ(rate_mismatch({1, 6, 6, 3, 3}, 8e6, 503e3), "");
   EXPECT_NE(rate_mismatch({1, 6, 6, 3, 3}, 8e6, 505e3), "");
 }
