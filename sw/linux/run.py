@@ -14,6 +14,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -86,7 +87,7 @@ def scratch():
     shm = Path("/dev/shm")
     if os.access(shm, os.W_OK) and shutil.disk_usage(shm).free > 512 * 2**20:
         return str(shm)
-    return "/tmp"
+    return tempfile.gettempdir()
 
 
 def boot(args, case, chip, directory):

@@ -78,7 +78,9 @@ class Regression:
         environment = {**os.environ, **environment,
                        "ASAN_OPTIONS": f"hard_rss_limit_mb={MEMORY >> 20}"}
         begin = time.monotonic()
-        with tempfile.TemporaryFile() as output:
+        # A killed program cannot clear up after itself.
+        with tempfile.TemporaryFile() as output, tempfile.TemporaryDirectory() as work:
+            environment["TMPDIR"] = work
             result = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT,
                                       stdin=subprocess.DEVNULL, cwd=self.root,
                                       env=environment,
