@@ -66,8 +66,9 @@ void RemoteProducers::trigger(bool operate) {
 }
 
 void RemoteProducers::event(unsigned k, bool operate) {
+  Timer &timer = timers_.at(k);
   const Entry one = entry(k);
-  if (one.on && (one.row || operate)) timers_.at(k).due = true;
+  if (one.on && (one.row || operate)) timer.due = true;
 }
 
 void RemoteProducers::clear_due() {
