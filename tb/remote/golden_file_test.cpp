@@ -7,9 +7,9 @@
 
 #include <fstream>
 
+#include "harness/input_error_of.hpp"
 #include "remote/golden_vectors.hpp"
 #include "trace/candump.hpp"
-#include "trace/input_error.hpp"
 
 namespace vericansim {
 namespace {
@@ -41,6 +41,13 @@ TEST(GoldenFile, AVectorIsReadAsItIsWritten) {
   EXPECT_FALSE(life.vectors.at(20).status->at(3).has_value());
   EXPECT_EQ(life.vectors.at(10).status->at(0), 0x06);
   EXPECT_TRUE(life.vectors.at(21).steps.at(0).from_node);
+  const golden::Call &call = life.vectors.at(2).calls.at(0);
+  EXPECT_EQ(call.what, "read");
+  EXPECT_EQ(call.address, 0x20U);
+  EXPECT_THAT(call.gives_with("small"), ElementsAre(0x5A, 1, 2, 3, 4));
+  EXPECT_EQ(text_of(life.vectors.at(15).calls.at(0).frame), "000#02");
+  EXPECT_TRUE(life.vectors.at(15).calls.at(1).here);
+  EXPECT_EQ(life.vectors.at(4).calls.at(0).gives_with("standard").at(1), 0x1F);
   EXPECT_EQ(text_of(life.vectors.at(14).steps.at(0).others.at(7)), "7C0#00000000");
 }
 
@@ -59,12 +66,7 @@ TEST(GoldenFile, AMistakeIsToldWithItsLine) {
                            "    boot: \"5FE#\"\n    vectors:\n      - vector: 1\n"
                            "        what: x\n        steps:\n          - "
                         << step << "\n";
-    try {
-      golden::load(path);
-    } catch (const InputError &error) {
-      return std::string{error.what()};
-    }
-    return std::string{"no error"};
+    return input_error_of([&] { return golden::load(path); });
   };
   EXPECT_THAT(message("{send: \"1A0#5\"}"), HasSubstr("vectors.yaml:10:"));
   EXPECT_THAT(message("{send: \"1A0#\", answer: []}"), HasSubstr("unknown key 'answer'"));

@@ -91,6 +91,51 @@ Step read_step(const YamlValue &value) {
   return step;
 }
 
+/// What a call gives: bytes, bytes by profile, bytes by number, or "here".
+void read_gives(const YamlValue &gives, Call &call) {
+  if (call.what == "select") {
+    call.here = gives.text() == "here";
+    if (!call.here && gives.text() != "nobody") gives.refuse("here, nobody");
+  } else if (!gives.is_map()) {
+    call.gives[""] = read_bytes(gives);
+  } else if (YamlMap map{gives}; call.what == "poll") {
+    for (const std::string &key : map.keys())
+      call.nodes[numeric_key(map, key, 31)] = read_bytes(map.need(key));
+  } else {
+    for (const auto &[name, features] : kProfiles) call.gives[name] = read_bytes(map.need(name));
+    map.finish();
+  }
+}
+
+Call read_call(const YamlValue &value) {
+  YamlMap map{value};
+  Call call;
+  if (const auto frame = map.find("frame")) {
+    call.what = "frame";
+    call.frame = read_frame(*frame);
+    map.finish();
+    return call;
+  }
+  call.what = map.need("do").text();
+  const auto number = [&](const char *key, unsigned most, auto &into) {
+    map.with(key, [&](const YamlValue &given) {
+      into = static_cast<std::uint32_t>(given.integer(0, most));
+    });
+  };
+  number("node", 31, call.node);
+  number("address", 0xFFF, call.address);
+  number("length", 0x1000, call.length);
+  number("count", 255, call.count);
+  number("tag", 255, call.tag);
+  number("value", 0xFFFFFFFF, call.value);
+  number("mask", 0xFFFFFFFF, call.mask);
+  map.with("command", [&](const YamlValue &command) { call.command = command.text(); });
+  map.with("data", [&](const YamlValue &data) { call.data = read_bytes(data); });
+  map.with("gives", [&](const YamlValue &gives) { read_gives(gives, call); });
+  map.finish();
+  return call;
+}
+
 void read_expectations(YamlMap &map, Vector &vector) {
   map.with("memory", [&](const YamlValue &memory) {
     YamlMap places{memory};
@@ -122,6 +167,9 @@ Vector read_vector(const YamlValue &value) {
     }
   });
   for (const YamlValue &item : map.need("steps").items()) vector.steps.push_back(read_step(item));
+  map.with("calls", [&](const YamlValue &calls) {
+    for (const YamlValue &item : calls.items()) vector.calls.push_back(read_call(item));
+  });
   read_expectations(map, vector);
   map.finish();
   return vector;
@@ -147,6 +195,12 @@ const std::vector<Frame> &Step::answers_of(const std::string &profile) const {
   const auto alone = answers.find("");
   if (alone != answers.end()) return alone->second;
   return answers.empty() ? none : answers.at(profile);
+}
+
+std::vector<std::uint8_t> Call::gives_with(const std::string &profile) const {
+  if (gives.empty()) return {};
+  const auto alone = gives.find("");
+  return alone != gives.end() ? alone->second : gives.at(profile);
 }
 
 std::vector<Vector> Life::for_features(const std::set<std::string> &features) const {

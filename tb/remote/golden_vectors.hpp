@@ -29,12 +29,34 @@ struct Step {
   [[nodiscard]] const std::vector<Frame> &answers_of(const std::string &profile) const;
 };
 
+/// What a client is asked; members that a call does not have are 0 or empty.
+struct Call {
+  std::string what;  ///< as in the file's head; "frame": `frame` as it is
+  Frame frame;
+  unsigned node = 0;
+  unsigned address = 0;
+  unsigned length = 0;
+  unsigned count = 0;
+  unsigned tag = 0;
+  std::uint32_t value = 0;
+  std::uint32_t mask = 0;
+  std::string command;  ///< of state
+  std::vector<std::uint8_t> data;
+  bool here = false;                                       ///< what select gives
+  std::map<std::string, std::vector<std::uint8_t>> gives;  ///< by profile, or alone under ""
+  std::map<unsigned, std::vector<std::uint8_t>> nodes;     ///< what poll gives, by number
+
+  /// What it gives with a node of `profile`; empty: nothing.
+  [[nodiscard]] std::vector<std::uint8_t> gives_with(const std::string &profile) const;
+};
+
 /// A group of steps with what holds when the last has been carried out.
 struct Vector {
   unsigned number = 0;
   std::string what;
   std::set<std::string> needs;  ///< features, as features_of() names them
   std::vector<Step> steps;
+  std::vector<Call> calls;  ///< in place of the steps, for clients; none: nobody calls that
   std::map<std::uint16_t, std::vector<std::uint8_t>> memory;         ///< address, bytes from there
   std::optional<std::array<std::optional<std::uint8_t>, 8>> status;  ///< row of STATUS; none: any
   std::optional<unsigned> node;                                      ///< the node's number

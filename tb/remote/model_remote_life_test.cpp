@@ -4,7 +4,7 @@
 // Start, watchdog, bus-off and automatic rate, on the model: RN-60, RN-62, RN-70 to RN-73.
 #include <array>
 
-#include "remote/model_node.hpp"
+#include "remote/model_test.hpp"
 
 namespace vericansim {
 namespace {
@@ -12,24 +12,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-RemoteConfig full(std::uint32_t serial = 0xCAFE1234) {
-  RemoteConfig config = RemoteConfig::profile("full");
-  config.serial = serial;
-  return config;
-}
-
-/// Node 3, in SAFE, nothing to say.
-class RemoteModelLife : public ::testing::Test {
- protected:
-  RemoteModelLife() { node.started(); }
-
-  [[nodiscard]] unsigned state() const { return static_cast<unsigned>(node.model.state()); }
-  ModelNode node{full()};
-};
-
-constexpr unsigned kListen = 1;
-constexpr unsigned kSafe = 2;
-constexpr unsigned kOperate = 3;
+class RemoteModelLife : public RemoteModelTest {};
 
 // RN-70: off the bus nothing is heard and nothing said.
 TEST_F(RemoteModelLife, InitIsOffTheBus) {

@@ -165,6 +165,18 @@ TEST_F(RemoteModelMaps, Stale) {
   EXPECT_TRUE(node.model.safe());  // it does not come back by itself
 }
 
+// RN-60, RN-66: RESTART begins the time-outs anew.
+TEST_F(RemoteModelMaps, RestartBeginsTheTimeOutsAnew) {
+  map(0, 0x6A0, 0x7FF, 0x300, 2, 3);
+  (void)node.wait(20);
+  (void)node.send("000#81");
+  node.model.stopped();
+  (void)node.wait(20);
+  EXPECT_FALSE(node.model.status().stale);
+  (void)node.wait(11);
+  EXPECT_TRUE(node.model.status().stale);
+}
+
 // RN-66, RN-70: with AUTO_OP it does.
 TEST_F(RemoteModelMaps, StaleWithAutoOperate) {
   ModelNode self{RemoteConfig::profile("full")};

@@ -3,7 +3,7 @@
 //
 // What waits to be sent, on the model: RN-15, RN-30, RN-54.
 
-#include "remote/model_node.hpp"
+#include "remote/model_test.hpp"
 
 namespace vericansim {
 namespace {
@@ -11,19 +11,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-RemoteConfig full(std::uint32_t serial = 0xCAFE1234) {
-  RemoteConfig config = RemoteConfig::profile("full");
-  config.serial = serial;
-  return config;
-}
-
-/// Node 3, in SAFE, nothing to say.
-class RemoteModelOutbox : public ::testing::Test {
- protected:
-  RemoteModelOutbox() { node.started(); }
-
-  ModelNode node{full()};
-};
+class RemoteModelOutbox : public RemoteModelTest {};
 
 // RN-54: a queue of TxDepth snapshots, in the order of the requests.
 TEST_F(RemoteModelOutbox, AnswersAreSnapshotsInOrder) {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <set>
 
-#include "remote/model_node.hpp"
+#include "remote/model_test.hpp"
 
 namespace vericansim {
 namespace {
@@ -13,18 +13,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-RemoteConfig full(std::uint32_t serial = 0xCAFE1234) {
-  RemoteConfig config = RemoteConfig::profile("full");
-  config.serial = serial;
-  return config;
-}
-
-/// Node 3, in SAFE, nothing to say.
-class RemoteModelSystem : public ::testing::Test {
+class RemoteModelSystem : public RemoteModelTest {
  protected:
-  RemoteModelSystem() { node.started(); }
-
-  [[nodiscard]] unsigned state() const { return static_cast<unsigned>(node.model.state()); }
   /// Code and A of the last request, and whether it was counted as refused.
   void expect_refused(const char *text, unsigned code) {
     const auto refused = node.model.status().refused;
@@ -32,12 +22,7 @@ class RemoteModelSystem : public ::testing::Test {
     EXPECT_EQ(node.model.status().refused, static_cast<std::uint8_t>(refused + 1)) << text;
     EXPECT_EQ(node.last().first, code) << text;
   }
-
-  ModelNode node{full()};
 };
-
-constexpr unsigned kSafe = 2;
-constexpr unsigned kOperate = 3;
 
 // RN-31: illegal function and value of name 0 are counted by every node and answered by none.
 TEST_F(RemoteModelSystem, SystemFunctionsThatAreWrong) {

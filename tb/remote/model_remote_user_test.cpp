@@ -147,6 +147,13 @@ TEST_F(RemoteModelUser, HoldDelaysWritesAndSnapshots) {
   node.model.hold(false);
   EXPECT_EQ(node.bytes(0x20, 1)[0], 2);
   EXPECT_THAT(node.model.take_pulses(), ElementsAre(written(0x20, 1), written(0x20, 1)));
+  (void)node.send("1FA#027700030200");
+  node.model.hold(true);
+  node.hear("1FB#000A0B");
+  EXPECT_THAT(node.model.take_pulses(), IsEmpty());
+  node.model.hold(false);
+  EXPECT_THAT(node.model.take_pulses(), ElementsAre(written(0x300, 2)));
+  EXPECT_THAT(node.drain(), ElementsAre("5FA#027700000200"));
   node.model.hold(true);
   node.hear("1A0#R1");
   EXPECT_FALSE(node.model.wants());

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The C client's SocketCAN back end on a pair of sockets that carry struct can_frame (RN-90,
+// RN-91). On a real kernel's CAN: tb/socketcan.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <linux/can.h>
+#include <linux/can/error.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <thread>
+
+#include "verican_remote_socketcan.h"
+
+namespace vericansim {
+namespace {
+
+class ClientSocketCan : public ::testing::Test {
+ protected:
+  ClientSocketCan() {
+    int ends[2];
+    EXPECT_EQ(::socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends), 0);
+    verican_remote_socketcan_attach(&socket, ends[0]);
+    other = ends[1];
+    port = verican_remote_socketcan_port(&socket);
+    EXPECT_EQ(verican_remote_init(&client, &port, 3), VERICAN_REMOTE_OK);
+  }
+  ~ClientSocketCan() override {
+    verican_remote_socketcan_close(&socket);
+    if (other >= 0) ::close(other);
+  }
+
+  void say(canid_t id, std::initializer_list<unsigned> bytes) const {
+    can_frame frame{};
+    frame.can_id = id;
+    frame.can_dlc = static_cast<std::uint8_t>(bytes.size());
+    unsigned i = 0;
+    for (const unsigned byte : bytes) frame.data[i++] = static_cast<std::uint8_t>(byte);
+    ASSERT_EQ(::write(other, &frame, sizeof frame), static_cast<ssize_t>(sizeof frame));
+  }
+  [[nodiscard]] can_frame heard() const {
+    can_frame frame{};
+    EXPECT_EQ(::read(other, &frame, sizeof frame), static_cast<ssize_t>(sizeof frame));
+    return frame;
+  }
+
+  verican_remote_socketcan_t socket{};
+  verican_remote_port_t port{};
+  verican_remote_t client{};
+  int other = -1;
+};
+
+TEST_F(ClientSocketCan, FramesLeaveAsTheyAre) {
+  const std::uint8_t bytes[] = {1, 2, 3};
+  EXPECT_EQ(verican_remote_write(&client, 3, 0x20, bytes, 3), VERICAN_REMOTE_OK);
+  const can_frame data = heard();
+  EXPECT_EQ(data.can_id, 0x1A0U);
+  EXPECT_EQ(data.can_dlc, 3);
+  EXPECT_EQ(std::memcmp(data.data, bytes, 3), 0);
+  client.timeout_us = 1000;
+  client.tries = 1;
+  std::uint8_t byte = 0;
+  EXPECT_EQ(verican_remote_read(&client, 3, 0x21, &byte, 1), VERICAN_REMOTE_TIMEOUT);
+  const can_frame remote = heard();
+  EXPECT_EQ(remote.can_id, 0x1A1U | CAN_RTR_FLAG);
+  EXPECT_EQ(remote.can_dlc, 1);
+}
+
+TEST_F(ClientSocketCan, TheAnswerIsFoundAmongOthers) {
+  std::thread node{[this] {
+    (void)heard();
+    say(0x5A0U | CAN_EFF_FLAG, {1});
+    say(0x5A0U | CAN_RTR_FLAG, {0});
+    say(CAN_ERR_FLAG | CAN_ERR_CRTL, {0, 0, 0, 0, 0, 0, 0, 0});
+    say(0x5A1U, {2});
+    say(0x5A0U, {3});
+  }};
+  std::uint8_t byte = 0;
+  EXPECT_EQ(verican_remote_read(&client, 3, 0x20, &byte, 1), VERICAN_REMOTE_OK);
+  EXPECT_EQ(byte, 3);
+  node.join();
+}
+
+TEST_F(ClientSocketCan, BusOffIsToldByTheKernel) {
+  say(CAN_ERR_FLAG | CAN_ERR_BUSOFF, {0, 0, 0, 0, 0, 0, 0, 0});
+  std::uint8_t byte = 0;
+  EXPECT_EQ(verican_remote_read(&client, 3, 0x20, &byte, 1), VERICAN_REMOTE_BUS_OFF);
+}
+
+TEST_F(ClientSocketCan, AnInterfaceThatGoesAway) {
+  ::close(other);
+  other = -1;
+  std::uint8_t byte = 0;
+  EXPECT_EQ(verican_remote_read(&client, 3, 0x20, &byte, 1), VERICAN_REMOTE_BUS_OFF);
+}
+
+TEST_F(ClientSocketCan, AnInterfaceThatIsNotThere) {
+  verican_remote_socketcan_t none;
+  EXPECT_NE(verican_remote_socketcan_open(&none, "nocan"), 0);
+  EXPECT_EQ(verican_remote_socketcan_open(&none, "a name that no interface has"), ENODEV);
+}
+
+}  // namespace
+}  // namespace vericansim
