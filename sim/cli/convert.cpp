@@ -11,6 +11,7 @@
 #include "cli/output_files.hpp"
 #include "trace/log_convert.hpp"
 #include "trace/output_file.hpp"
+#include "trace/text.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -31,7 +32,8 @@ int run(const Options &options) {
   OutputFile file{options.out};
   file.stream() << result.bytes;
   file.commit();
-  fmt::print("{} -> {} ({}): {} frames\n", options.in, options.out, name_of(format), result.frames);
+  fmt::print("{} -> {} ({}): {}\n", options.in, options.out, name_of(format),
+             text::counted(result.frames, "frame", "frames"));
   if (options.ids.wanted()) {
     const IdentifierTable table = identifiers_of(selected.log);
     write_ids_csv(table, options.ids);

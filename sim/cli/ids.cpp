@@ -9,6 +9,7 @@
 #include "cli/cli.hpp"
 #include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
+#include "trace/text.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -34,8 +35,10 @@ int run(const Options &options) {
                 {"interfaces", selected.interfaces},
                 {"identifiers", to_json(table)}});
   } else {
-    fmt::print("{}: {} frames, {} identifiers{}\n{}", options.log, selected.log.entries.size(),
-               table.rows().size(), skipped.empty() ? "" : "; without " + skipped, to_text(table));
+    fmt::print("{}: {}, {}{}\n{}", options.log,
+               text::counted(selected.log.entries.size(), "frame", "frames"),
+               text::counted(table.rows().size(), "identifier", "identifiers"),
+               skipped.empty() ? "" : "; without " + skipped, to_text(table));
   }
   return kOk;
 }

@@ -13,6 +13,7 @@
 #include "trace/pcap_file.hpp"
 #include "trace/pcapng_file.hpp"
 #include "trace/python_log.hpp"
+#include "trace/text.hpp"
 #include "trace/trc.hpp"
 
 namespace vericansim {
@@ -27,8 +28,7 @@ std::string skipped_text(const CanLog &log) {
   const std::size_t errors = log.count(ForeignEntry::Kind::kError);
   std::string text;
   const auto add = [&text](std::size_t count, const char *one, const char *many) {
-    if (count != 0)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, count == 1 ? one : many);
+    if (count != 0) text += (text.empty() ? "" : ", ") + text::counted(count, one, many);
   };
   add(fd, "CAN FD frame", "CAN FD frames");
   add(errors, "error message", "error messages");

@@ -17,15 +17,22 @@
 #include "trace/pcap_file.hpp"
 #include "trace/pcapng_file.hpp"
 #include "trace/python_log.hpp"
+#include "trace/text.hpp"
 #include "trace/trc.hpp"
 
 namespace vericansim {
 namespace {
 
+/// What is lost, in the words for one and for several of it.
+struct Phrase {
+  std::string one, many;
+  friend bool operator==(const Phrase &, const Phrase &) = default;
+};
+
 /// Losses by their phrase, in the order in which they were first seen.
 class Losses {
  public:
-  void count(const std::string &phrase, std::size_t number = 1) {
+  void count(const Phrase &phrase, std::size_t number = 1) {
     if (number == 0) return;
     const auto at = std::find_if(list_.begin(), list_.end(),
                                  [&](const auto &item) { return item.first == phrase; });
@@ -37,33 +44,40 @@ class Losses {
   [[nodiscard]] std::vector<std::string> texts() const {
     std::vector<std::string> texts;
     for (const auto &[phrase, number] : list_)
-      texts.push_back(fmt::format("{} {}", number, phrase));
+      texts.push_back(text::counted(number, phrase.one, phrase.many));
     return texts;
   }
 
  private:
-  std::vector<std::pair<std::string, std::size_t>> list_;
+  std::vector<std::pair<Phrase, std::size_t>> list_;
 };
+
+/// With words behind the noun: "interface can3 (none now)", "interfaces can3 (none now)".
+Phrase phrase(const std::string &one, const std::string &many, const std::string &rest) {
+  return {one + rest, many + rest};
+}
 
 /// What of `log` the format has room for at all.
 CanLog that_fits(const CanLog &log, const LogFormatTraits &traits, Losses &losses) {
   CanLog result;
   result.start_ns = log.start_ns;
-  losses.count("other lines or packets", log.skipped - log.others.size());
+  losses.count({"other line or packet", "other lines or packets"}, log.skipped - log.others.size());
   walk(
       log,
       [&](const LogEntry &entry) {
-        if (entry.frame.remote && !traits.remote) return losses.count("remote frames");
+        if (entry.frame.remote && !traits.remote)
+          return losses.count({"remote frame", "remote frames"});
         result.entries.push_back(entry);
         Frame &frame = result.entries.back().frame;
         if (frame.dlc <= 8 || traits.raw_dlc) return;
-        losses.count("DLCs of 9 to 15 (8 now)");
+        losses.count(phrase("DLC", "DLCs", " of 9 to 15 (8 now)"));
         frame.dlc = 8;
       },
       [&](const ForeignEntry &entry) {
         const bool fd = entry.kind == ForeignEntry::Kind::kFd;
         if (!(fd ? traits.fd : traits.errors))
-          return losses.count(fd ? "CAN FD frames" : "error messages");
+          return losses.count(fd ? Phrase{"CAN FD frame", "CAN FD frames"}
+                                 : Phrase{"error message", "error messages"});
         result.others.push_back(entry);
         result.others.back().before = result.entries.size();
         ++result.skipped;
@@ -120,12 +134,13 @@ std::vector<Item> items_of(const CanLog &log) {
 /// What the entry that was read lacks of the one that was written; false if it is another frame.
 bool compare(const Item &written, const Item &read, Losses &losses) {
   if (written.channel != read.channel && !written.channel.empty())
-    losses.count(fmt::format("interfaces {} ({} now)", written.channel,
-                             read.channel.empty() ? "none" : read.channel));
+    losses.count(phrase("interface", "interfaces",
+                        fmt::format(" {} ({} now)", written.channel,
+                                    read.channel.empty() ? "none" : read.channel)));
   if (written.direction != read.direction && written.direction != Direction::kUnknown)
-    losses.count("directions");
+    losses.count({"direction", "directions"});
   if (written.error && read.error && written.frame != read.frame) {
-    losses.count("contents of error messages");
+    losses.count({"content of an error message", "contents of error messages"});
     return true;
   }
   return written.frame == read.frame && written.error == read.error;
@@ -142,7 +157,8 @@ void compare_times(const std::vector<Item> &written, const std::vector<Item> &re
     most = std::max(most, difference);
   }
   if (count != 0)
-    losses.count(fmt::format("times since the first frame, by up to {} ns", most / kNanosecond),
+    losses.count(phrase("time", "times",
+                        fmt::format(" since the first frame, by up to {} ns", most / kNanosecond)),
                  count);
 }
 
@@ -165,9 +181,10 @@ Conversion convert(const CanLog &log, LogFormat format, const std::string &path)
     compare_times(written, read, losses);
   }
   if (fitting.start_ns != again.start_ns && fitting.start_ns != 0 && result.frames != 0)
-    losses.count(again.start_ns == 0 ? "time of day"
-                                     : fmt::format("time of day, by {} ns",
-                                                   std::abs(fitting.start_ns - again.start_ns)));
+    losses.count(phrase("time of day", "times of day",
+                        again.start_ns == 0 ? ""
+                                            : fmt::format(", by {} ns", std::abs(fitting.start_ns -
+                                                                                 again.start_ns))));
   result.lost = losses.texts();
   return result;
 }

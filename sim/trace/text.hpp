@@ -46,6 +46,9 @@ void for_each_line(std::string_view text, const std::string &file, Use use) {
 /// Without blanks at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
+/// "1 frame", "2 frames".
+[[nodiscard]] std::string counted(std::size_t count, std::string_view one, std::string_view many);
+
 /// A whole unsigned number in `base`, or nothing if there is any other character or more than 64
 /// bits.
 [[nodiscard]] std::optional<std::uint64_t> parse_unsigned(std::string_view text, int base);

@@ -5,9 +5,9 @@
 #include "trace/wave_decode.hpp"
 
 #include <fmt/format.h>
-#include <cmath>
 #include <utility>
 
+#include "bus/range.hpp"
 #include "trace/bitrate.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
@@ -44,10 +44,11 @@ Wave parse_wave(std::string text, const std::string &path, const WaveDecodeOptio
                      "the bit rate of signal " + quoted(signal.name) + " cannot be told from its " +
                          std::to_string(edges.size()) + " edges; give it with --bitrate");
   if (*bitrate < kSlowest || *bitrate > kFastest)
-    throw InputError(path, 0,
-                     fmt::format("signal {} has edges as at {:g} bit/s; allowed: {:g} to {:g}; "
-                                 "give the bit rate with --bitrate",
-                                 quoted(signal.name), *bitrate, kSlowest, kFastest));
+    throw InputError(
+        path, 0,
+        fmt::format("signal {} has edges as at {:.{}f} bit/s; allowed: {:.0f} to {:.0f}; "
+                    "give the bit rate with --bitrate",
+                    quoted(signal.name), *bitrate, *bitrate < 10 ? 3 : 0, kSlowest, kFastest));
   wave.bitrate = *bitrate;
   return wave;
 }
@@ -59,7 +60,7 @@ WaveDecodeResult decode_wave(const std::string &path, const WaveDecodeOptions &o
 WaveDecodeResult decode_wave(const Wave &wave, int sample_point) {
   WaveDecodeResult result{wave.signal, wave.bitrate, wave.end, {}};
   DecoderConfig config;
-  config.bit_time = static_cast<Time>(std::llround(1e12 / result.bitrate));
+  config.bit_time = bit_time_of(result.bitrate);
   config.sample_point = sample_point;
   BusDecoder decoder{config, [&](const BusEvent &event) { result.events.push_back(event); }};
   for (const auto &[time, level] : wave.changes) decoder.on_level(time, level);

@@ -54,6 +54,28 @@ TEST(ToolRecordings, ConvertTellsLossesAndRefusesItsInputAsOutput) {
   EXPECT_THAT(empty.text, HasSubstr("no frame to convert"));
 }
 
+// One of a thing is told in the singular.
+TEST(ToolRecordings, ConvertTellsSingleLosses) {
+  const ScratchFolder folder;
+  const std::string log = folder.file("a.log",
+                                      "(0000000100.000000) vcan3 123#11\n"
+                                      "(0000000100.0010005) vcan3 20000004#0010000000000000\n"
+                                      "(0000000100.002000) vcan3 124##122\n"
+                                      "(0000000100.003000) vcan3 124#R\n");
+  const Said csv = run_tool("convert " + log + " " + (folder / "a.csv"));
+  EXPECT_THAT(csv.text, HasSubstr("lost: 1 CAN FD frame\n"));
+  EXPECT_THAT(csv.text, HasSubstr("lost: 3 interfaces vcan3 (none now)\n"));
+  const Said trc = run_tool("convert " + log + " " + (folder / "a.trc") + " --to '0 s'");
+  EXPECT_THAT(trc.text, HasSubstr("(PCAN-View trc): 1 frame\n"));
+  EXPECT_THAT(trc.text, HasSubstr("lost: 1 interface vcan3 (can3 now)\n"));
+  const Said all = run_tool("convert " + log + " " + (folder / "b.trc"));
+  EXPECT_THAT(all.text, HasSubstr("lost: 1 error message\n"));
+  const Said gvret = run_tool("convert " + log + " " + (folder / "b.csv") + " --format gvret");
+  EXPECT_THAT(gvret.text, HasSubstr("lost: 1 remote frame\n"));
+  EXPECT_THAT(run_tool("ids " + log + " --filter 123:7FF").text,
+              HasSubstr(": 1 frame, 1 identifier\n"));
+}
+
 TEST(ToolRecordings, ReplayAsksForOneOfSeveralInterfaces) {
   const ScratchFolder folder;
   const std::string replay = "replay --fast " + folder.file("a.log", kTwoBuses);

@@ -77,7 +77,7 @@ TEST(HostileVcd, RatesOfNoBusAreRefused) {
   std::string text = kOneWire;
   for (int i = 1; i < 40; ++i) text += fmt::format("#{}\n{}!\n", i * 10, i % 2);
   EXPECT_THAT(input_error_of([&] { static_cast<void>(parse_wave(text, "a.vcd", {})); }),
-              HasSubstr("allowed: 1000 to 1e+06"));
+              HasSubstr("has edges as at 100000000000 bit/s; allowed: 1000 to 1000000; give"));
 }
 
 // The column Bus behind the last one that a line has.

@@ -46,19 +46,19 @@ TEST(Convert, CandumpAndPcapngLoseNothing) {
 TEST(Convert, TrcAndGvretTellWhatTheyCannotHold) {
   EXPECT_THAT(
       lost(LogFormat::kTrc),
-      ElementsAre("1 error messages", "4 interfaces vcan3 (can3 now)",
+      ElementsAre("1 error message", "4 interfaces vcan3 (can3 now)",
                   "3 times since the first frame, by up to 500 ns", "1 time of day, by 500 ns"));
   EXPECT_THAT(lost(LogFormat::kGvret),
-              ElementsAre("1 remote frames", "1 DLCs of 9 to 15 (8 now)", "1 CAN FD frames",
-                          "1 error messages", "2 interfaces vcan3 (can3 now)",
-                          "1 times since the first frame, by up to 500 ns", "1 time of day"));
+              ElementsAre("1 remote frame", "1 DLC of 9 to 15 (8 now)", "1 CAN FD frame",
+                          "1 error message", "2 interfaces vcan3 (can3 now)",
+                          "1 time since the first frame, by up to 500 ns", "1 time of day"));
 }
 
 TEST(Convert, PythonCansFormatsTellWhatTheyCannotHold) {
   if (!has_python_can()) GTEST_SKIP() << "python3-can is not installed";
   EXPECT_THAT(lost(LogFormat::kBlf), ElementsAre("5 interfaces vcan3 (can3 now)"));
-  EXPECT_THAT(lost(LogFormat::kAsc), testing::Contains("1 contents of error messages"));
-  EXPECT_THAT(lost(LogFormat::kCsv), testing::Contains("1 CAN FD frames"));
+  EXPECT_THAT(lost(LogFormat::kAsc), testing::Contains("1 content of an error message"));
+  EXPECT_THAT(lost(LogFormat::kCsv), testing::Contains("1 CAN FD frame"));
   EXPECT_THAT(lost(LogFormat::kSqlite), testing::Contains("4 interfaces vcan3 (none now)"));
 }
 
