@@ -18,7 +18,7 @@ void refuse_range(const char *what, std::uint64_t value, std::uint64_t low, std:
 Time bit_time_of(double bitrate) {
   if (!(bitrate >= 1e3 && bitrate <= 1e6))
     throw std::invalid_argument(
-        fmt::format("bit rate must be 1000 to 1000000 bit/s, got {:g}", bitrate));
+        fmt::format("bit rate must be 1000 to 1000000 bit/s, got {}", bitrate));
   return static_cast<Time>(std::llround(1e12 / bitrate));
 }
 

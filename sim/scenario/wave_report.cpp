@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "bus/faults.hpp"
+#include "bus/range.hpp"
 #include "node/host.hpp"
 #include "scenario/bus_outputs.hpp"
 #include "scenario/stop_request.hpp"
@@ -58,7 +58,7 @@ HostConfig listener() {
 
 // The core is on the bus, and integrates, when the recording begins.
 Player::Player(const Wave &wave, const std::string &title, const Outputs &outputs)
-    : wave_{wave}, bit_time_{static_cast<Time>(std::llround(1e12 / wave.bitrate))} {
+    : wave_{wave}, bit_time_{bit_time_of(wave.bitrate)} {
   ClockConfig clock;
   clock.frequency_hz = wave.bitrate * kTiming.clocks_per_bit();
   node_ = RtlNode::create("listener", clock, 16);

@@ -4,11 +4,23 @@
 // LiveBus: see live_bus.hpp.
 #include "session/live_bus.hpp"
 
+#include <stdexcept>
+
 namespace vericansim {
+namespace {
+
+double chosen(double bitrate, const Scenario &scenario) {
+  if (bitrate != 0) return bitrate;
+  if (scenario.bitrates.empty())
+    throw std::invalid_argument("neither the session nor the scenario has a bit rate");
+  return scenario.bitrates.front();
+}
+
+}  // namespace
 
 LiveBus::LiveBus(SessionBus bus)
     : scenario_{std::move(bus.scenario)},
-      simulation_{scenario_, bus.bitrate != 0 ? bus.bitrate : scenario_.bitrates.front()},
+      simulation_{scenario_, chosen(bus.bitrate, scenario_)},
       by_node_(scenario_.nodes.size()),
       want_bits_(scenario_.nodes.size()) {
   simulation_.on_bus_frame = [this](const BusFrame &frame) {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "bus/range.hpp"
 #include "scenario/quantity.hpp"
 #include "scenario/simulation.hpp"
 #include "trace/candump.hpp"
@@ -30,7 +30,7 @@ ReplayOperator::ReplayOperator(const OperatorContext &context)
     : simulation_{context.simulation()},
       id_{context.id},
       name_{context.spec().name},
-      bit_time_{static_cast<Time>(std::llround(1e12 / context.simulation().bitrate()))} {
+      bit_time_{bit_time_of(context.simulation().bitrate())} {
   const auto &role = std::get<ReplayRole>(context.spec().role);
   file_ = role.file;
   saturated_ = role.saturated;

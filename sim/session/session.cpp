@@ -5,9 +5,9 @@
 #include "session/session.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
+#include "bus/range.hpp"
 #include "session/live_bus.hpp"
 
 namespace vericansim {
@@ -16,12 +16,13 @@ namespace vericansim {
 Session::Session(std::vector<SessionBus> buses, SessionOptions options)
     : options_{std::move(options)},
       wall_{options_.wall != nullptr ? *options_.wall : static_cast<Wall &>(steady_)} {
+  if (buses.empty()) throw std::invalid_argument("a session needs a bus");
   for (SessionBus &bus : buses) {
     // Traffic goes on as long as the session does.
     if (bus.scenario.endless) bus.scenario.duration = kNoLimit / 2;
     buses_.push_back(std::make_unique<LiveBus>(std::move(bus)));
   }
-  bit_time_ = static_cast<Time>(std::llround(1e12 / simulation().bitrate()));
+  bit_time_ = bit_time_of(simulation().bitrate());
   build_workers();
   set_limits();
 }

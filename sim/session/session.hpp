@@ -47,7 +47,8 @@ struct SessionOptions {
 class Session {
  public:
   /// Builds the buses (usually one; firmware may have cores on two). Throws InputError if a
-  /// scenario cannot have these nodes or a bit rate.
+  /// scenario cannot have these nodes or a bit rate; std::invalid_argument without a bus, or for a
+  /// bit rate outside 1000 to 1,000,000 bit/s.
   explicit Session(std::vector<SessionBus> buses, SessionOptions options = {});
   ~Session();
   Session(const Session &) = delete;

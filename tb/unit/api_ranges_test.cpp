@@ -23,7 +23,10 @@
 #include "scenario/runner.hpp"
 #include "scenario/station.hpp"
 #include "scenario/traffic_source.hpp"
+#include "scenario/wave_report.hpp"
+#include "session/session.hpp"
 #include "trace/candump.hpp"
+#include "trace/wave_decode.hpp"
 
 namespace vericansim {
 namespace {
@@ -168,6 +171,31 @@ TEST(ApiRanges, TrafficThatCannotBeTimed) {
   Bus bus;
   expect_refused([&] { TrafficSource({.random_offset = true}, bus, host, 1); }, "needs a period");
   expect_refused([&] { TrafficSource({.period = -1}, bus, host, 1); }, "no time may be negative");
+}
+
+TEST(ApiRanges, ASessionNeedsABusAndABitRate) {
+  Scenario scenario;
+  scenario.nodes.resize(1);
+  expect_refused([] { Session{{}}; }, "a session needs a bus");
+  for (const double bitrate : {1.0, 999.0, 1'000'001.0, -5e5, std::nan("")})
+    expect_refused([&] { Session{{{scenario, bitrate}}}; }, "1000 to 1000000");
+  scenario.bitrates = {};
+  expect_refused(
+      [&] {
+        Session{{{scenario, 0}}};
+      },
+      "neither the session nor the scenario has a bit rate");
+  scenario.bitrates = {2e6};
+  expect_refused([&] { Session{{{scenario, 0}}}; }, "1000 to 1000000");
+  EXPECT_NO_THROW((Session{{{scenario, 1e6}}}));
+}
+
+TEST(ApiRanges, ARecordedWaveNeedsABitRate) {
+  for (const double bitrate : {0.0, -1.0, 1e7, std::nan("")}) {
+    const Wave wave{"can", bitrate, kMillisecond, {{0, Level::kRecessive}}};
+    expect_refused([&] { static_cast<void>(decode_wave(wave, 800)); }, "1000 to 1000000");
+    expect_refused([&] { static_cast<void>(report_wave(wave, "wave", {})); }, "1000 to 1000000");
+  }
 }
 
 }  // namespace
