@@ -5,6 +5,7 @@
 # decimals ("-" is no interface). Times pass through python-can as short numbers of seconds since a
 # whole millisecond, so that its floats cannot round them.
 """usage: log_format.py read|write asc|blf|csv|sqlite <IN >OUT"""
+import decimal
 import io
 import logging
 import pathlib
@@ -97,12 +98,15 @@ def nanoseconds_of(when):
 
 class AscLines:
     """The lines of an ASC file for python-can, which loses the first line of a file that says
-    nothing of internal events, and does not count what it passes over."""
+    nothing of internal events, does not count what it passes over, and takes times since the event
+    before ("timestamps relative") for times since the start."""
 
     def __init__(self, data):
         self.lines = as_text(data).splitlines(keepends=True)
         self.date = ""
         self.events = 0
+        self.relative = False
+        self.now = decimal.Decimal(0)
 
     def __iter__(self):
         body = False
@@ -115,7 +119,18 @@ class AscLines:
                 yield "no internal events logged\n"
             if re.match(r"\d", text) and not text.endswith("start of measurement"):
                 self.events += 1
-            yield line
+            yield self.absolute(line)
+
+    def absolute(self, line):
+        """The line with the time since the start."""
+        if header := re.match(r"(\s*base\s+\w+\s+timestamps\s+)relative\b", line, re.IGNORECASE):
+            self.relative = True
+            return header[1] + "absolute" + line[header.end():]
+        event = re.match(r"\s*(\d+(\.\d*)?)(?=\s)", line)
+        if not self.relative or not event:
+            return line
+        self.now += decimal.Decimal(event[1])
+        return f"{self.now}{line[event.end():]}"
 
     def read(self):
         """Only says that this is a file."""
@@ -136,9 +151,6 @@ def read_asc(data):
         # For classical frames python-can makes a length of CAN FD of a DLC above 8.
         dlc = message.dlc if message.is_fd else can.util.len2dlc(message.dlc)
         yield asc_origin(lines.date) + round(message.timestamp * SECOND), message, dlc
-    if reader.timestamps_format == "relative":
-        raise BadInput("times relative to the event before are not known; allowed: 'timestamps "
-                       "absolute'")
     yield from [None] * (lines.events - count)
 
 

@@ -130,6 +130,48 @@ TEST_F(PythonLog, PythonCanReadsTheFiles) {
               "0x123 False False 2 1122 None True\n0x12345678 True True 3  None True\n");
 }
 
+std::string asc(const std::string &timestamps, const std::vector<std::string> &events) {
+  std::string text = "date Fri Mar 8 09:41:17.123 am 2024\nbase hex  timestamps " + timestamps +
+                     "\ninternal events logged\n"
+                     "Begin Triggerblock Fri Mar 8 09:41:17.123 am 2024\n"
+                     "   0.000000 Start of measurement\n";
+  for (const std::string &event : events) text += "   " + event + "\n";
+  return text + "End TriggerBlock\n";
+}
+
+// Each time is the distance from the event before, whatever that was.
+TEST_F(PythonLog, AscWithTimesSinceTheEventBefore) {
+  const CanLog relative = parse_log(
+      asc("relative", {"0.250000 1  123             Rx   d 2 11 22",
+                       "0.001500 CAN 1 Status:chip status error active",
+                       "0.100500 2  18EF1234x       Tx   d 1 FF", "0.000010 1  ErrorFrame",
+                       "900000.000001 1  124             Rx   r"}),
+      "a.asc");
+  const CanLog absolute = parse_log(
+      asc("absolute", {"0.250000 1  123             Rx   d 2 11 22",
+                       "0.251500 CAN 1 Status:chip status error active",
+                       "0.352000 2  18EF1234x       Tx   d 1 FF", "0.352010 1  ErrorFrame",
+                       "900000.352011 1  124             Rx   r"}),
+      "a.asc");
+  EXPECT_EQ(relative.entries.size(), 3U);
+  EXPECT_EQ(relative.skipped, 2U);
+  EXPECT_EQ(lines_of(relative), lines_of(absolute));
+}
+
+// can-utils adds the times of frames up; to compare, from the first frame on.
+TEST_F(PythonLog, Asc2logReadsTheSameRelativeTimes) {
+  if (shell("command -v asc2log").code != 0) GTEST_SKIP() << "asc2log (can-utils) is not installed";
+  const ScratchFolder folder;
+  const std::string text = asc("relative", {"0.250000 1  123             Rx   d 2 11 22",
+                                            "0.100500 2  18EF1234x       Tx   d 1 FF",
+                                            "1.000009 1  124             Rx   r"});
+  CanLog ours = parse_log(text, "a.asc");
+  CanLog theirs =
+      parse_log(shell("asc2log -I " + folder.file("a.asc", text) + " 2> /dev/null").text, "a.log");
+  ours.start_ns = theirs.start_ns = 0;
+  EXPECT_EQ(lines_of(ours), lines_of(theirs));
+}
+
 TEST_F(PythonLog, DamagedFilesGiveOneLine) {
   const std::string blf =
       python_log_bytes(parse_candump(kFrames + kFd, "log"), LogFormat::kBlf, "a.blf");
@@ -146,8 +188,6 @@ TEST_F(PythonLog, DamagedFilesGiveOneLine) {
                        "1.0,0x1,0,0,0,0,\n1.0,0x800,0,0,0,0,\n"),
               HasSubstr("message 2: identifier 800 is not allowed"));
   EXPECT_THAT(error_of("SQLite format 3 but no more"), HasSubstr("DatabaseError"));
-  EXPECT_THAT(error_of("base hex  timestamps relative\n0.1 1 64 Rx d 0\n"),
-              HasSubstr("times relative to the event before are not known"));
   EXPECT_THAT(error_of("base hex  timestamps absolute\n0.1 1 64 Rx d 2 11\n"),
               HasSubstr("message 1: DLC 2 with 1 bytes"));
 }
