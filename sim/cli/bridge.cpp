@@ -15,6 +15,7 @@
 
 #include "cli/bridge_socketcand.hpp"
 #include "cli/cli.hpp"
+#include "cli/live_run.hpp"
 #include "cli/output_files.hpp"
 #include "socketcan/raw_port.hpp"
 #include "trace/input_error.hpp"
@@ -99,9 +100,7 @@ void set_up_bus(BridgeSetup &setup, const Options &options) {
     setup.scenario = plain_bus(options, setup.port_clock_hz);
   } else {
     setup.scenario = read_scenario(options.bus);
-    if (options.bitrate == 0 && setup.scenario.bitrates.size() != 1)
-      throw InputError(options.bus, 0, "has several bit rates; --bitrate says which");
-    setup.bitrate = options.bitrate != 0 ? options.bitrate : setup.scenario.bitrates.front();
+    setup.bitrate = only_bitrate(setup.scenario, options.bitrate);
     setup.port_clock_hz = options.clock;
     if (options.clock == 0)
       setup.port_clock_hz = setup.scenario.nodes.empty()

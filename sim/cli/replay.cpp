@@ -8,6 +8,8 @@
 #include <memory>
 
 #include "cli/cli.hpp"
+#include "cli/console.hpp"
+#include "cli/live_run.hpp"
 #include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
 #include "scenario/replay.hpp"
@@ -17,7 +19,8 @@ namespace vericansim::cli {
 namespace {
 
 struct Options {
-  std::string log;
+  std::string log, bus;
+  double bitrate = 0;
   ReplayOptions replay;
   LogSelection selection;
   bool json = false;
@@ -76,31 +79,60 @@ void print(const Options &options, const ReplayReport &report) {
              static_cast<double>(report.node_cycles) / 1e6 / std::max(report.wall_seconds, 1e-9));
 }
 
-int run(Options &options) {
-  load_databases(options.replay.outputs, options.replay.outputs.dbc);
-  const StopSignals signals;
-  std::vector<NamedFile> outputs = files_of(options.replay.outputs);
-  claim_files({{"the log", options.log}}, outputs);
-  const SelectedLog selected = read_selected(options.log, options.selection, false);
-  ReplayOptions replay_options = options.replay;
-  replay_options.file = std::filesystem::path(options.log).filename().string();
-  ReplayReport report;
-  {
-    Progress progress{"replay"};
-    report = replay(selected.log, replay_options, [&](double part) { progress.show(part); });
-  }
+/// Prints what both forms of the command say of the recording itself.
+int finish(const Options &options, const SelectedLog &selected, Json json, int code) {
   if (options.json) {
-    Json json = to_json(report);
     json["interfaces"] = selected.interfaces;
     json["identifiers"] = vericansim::to_json(identifiers_of(selected.log));
     print_json(json);
-  } else {
-    print(options, report);
-    if (const std::string note = selected.note(); !note.empty()) fmt::print("  {}\n", note);
-    const std::string tables = tables_text(report.run);
-    if (!tables.empty()) fmt::print("\n{}", tables);
+  } else if (const std::string note = selected.note(); !note.empty()) {
+    fmt::print("  {}\n", note);
   }
-  return exit_code_after(report.ok() ? kOk : kFailed);
+  return code;
+}
+
+/// Through plain nodes, which do nothing else.
+int replay_alone(Options &options) {
+  if (options.bitrate != 0) options.replay.bitrate = options.bitrate;
+  load_databases(options.replay.outputs, options.replay.outputs.dbc);
+  claim_files({{"the log", options.log}}, files_of(options.replay.outputs));
+  const SelectedLog selected = read_selected(options.log, options.selection, false);
+  ReplayReport report;
+  {
+    Progress progress{"replay"};
+    report = replay(selected.log, options.replay, [&](double part) { progress.show(part); });
+  }
+  if (!options.json) print(options, report);
+  const int code = finish(options, selected, options.json ? to_json(report) : Json{},
+                          exit_code_after(report.ok() ? kOk : kFailed));
+  const std::string tables = options.json ? "" : tables_text(report.run);
+  if (!tables.empty()) fmt::print("\n{}", tables);
+  return code;
+}
+
+/// Among the nodes of a scenario.
+int replay_on_bus(const Options &options) {
+  Scenario bus = read_scenario(options.bus);
+  const double bitrate = only_bitrate(bus, options.bitrate);
+  override_outputs(bus.outputs, options.replay.outputs);
+  std::vector<NamedFile> inputs = inputs_of(bus);
+  add_file(inputs, "the log", options.log);
+  claim_files(inputs, files_of(bus.outputs));
+  const SelectedLog selected = read_selected(options.log, options.selection, false);
+  const RunReport report =
+      simulate(replay_scenario(bus, selected.log, options.replay), bitrate, !options.json);
+  if (!options.json) fmt::print("{}", to_text(report));
+  const int code = exit_code_of(report);
+  finish(options, selected, {{"bus", vericansim::to_json(report)}, {"ok", code == kOk}}, code);
+  flush_standard_output();
+  complain(report.boards);
+  return code;
+}
+
+int run(Options &options) {
+  const StopSignals signals;
+  options.replay.file = std::filesystem::path(options.log).filename().string();
+  return options.bus.empty() ? replay_alone(options) : replay_on_bus(options);
 }
 
 }  // namespace
@@ -114,23 +146,32 @@ void add_replay(CLI::App &app, int &exit_code) {
       {"k", 1e3}, {"M", 1e6}, {"kHz", 1e3}, {"MHz", 1e6}, {"Hz", 1.0}});
   command->add_option("log", options->log, "Recording of any known format; - is standard input")
       ->required();
+  CLI::Option *bus = command->add_option(
+      "--bus", options->bus,
+      "Scenario file: other nodes, traffic, faults, expectations; its duration does not count");
   command->add_option("--nodes,-n", replay.nodes, "Nodes on the bus (2)")
-      ->check(CLI::Range(2U, 64U));
+      ->check(CLI::Range(2U, 64U))
+      ->excludes(bus);
   command
       ->add_option("--senders", replay.senders, "Nodes that share the identifiers of the log (1)")
       ->check(CLI::Range(1U, 64U));
-  command->add_option("--bitrate,-b", replay.bitrate, "Bit rate, bit/s (500k)")
+  command->add_option("--bitrate,-b", options->bitrate, "Bit rate, bit/s (500k, or the scenario's)")
       ->transform(with_unit)
       ->check(CLI::Range(1e3, 1e6));
-  command->add_option("--clock,-c", replay.clock_hz, "Clock of each node, Hz (8M)")
+  command
+      ->add_option("--clock,-c", replay.clock_hz,
+                   "Clock of each node, of a scenario those that it lacks, Hz (8M)")
       ->transform(with_unit)
       ->check(CLI::Range(1e5, 1e9));
   command->add_option("--ppm", replay.ppm, "Clocks are spread over +- this error (100)")
-      ->check(CLI::Range(0.0, 5e3));
+      ->check(CLI::Range(0.0, 5e3))
+      ->excludes(bus);
   command->add_option("--cable", replay.cable_m, "Length of the bus, m (0)")
-      ->check(CLI::Range(0.0, 1e4));
+      ->check(CLI::Range(0.0, 1e4))
+      ->excludes(bus);
   command->add_option("--mailboxes", replay.num_mb, "Message buffers of each node (64)")
-      ->check(CLI::IsMember({16U, 32U, 64U}));
+      ->check(CLI::IsMember({16U, 32U, 64U}))
+      ->excludes(bus);
   command->add_option("--frames", replay.limit, "Take only so many frames from the log (all)")
       ->check(at_least_one);
   command->add_flag("--fast", replay.fast, "As fast as the bus allows, instead of as recorded");

@@ -8,10 +8,11 @@
 #include <memory>
 
 #include "cli/cli.hpp"
+#include "cli/console.hpp"
+#include "cli/live_run.hpp"
 #include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
 #include "scenario/replay.hpp"
-#include "scenario/runner.hpp"
 #include "scenario/stop_request.hpp"
 #include "scenario/wave_report.hpp"
 #include "trace/input_error.hpp"
@@ -41,21 +42,19 @@ int report_scenario(const Options &options) {
   if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
   claim_files(inputs_of(scenario), files_of(options.outputs, scenario.bitrates));
   const auto database = with_files(scenario.outputs.database, options.outputs.dbc);
-  bool ok = true;
+  int code = kOk;
   for (const double bitrate : scenario.bitrates) {
     scenario.outputs =
         scenario.bitrates.size() > 1 ? outputs_for(options.outputs, bitrate) : options.outputs;
     scenario.outputs.database = database;
-    RunReport report;
-    {
-      Progress progress{fmt::format("{:g} kbit/s", bitrate / 1e3)};
-      report = run_scenario(scenario, bitrate, [&](double part) { progress.show(part); });
-    }
-    ok = ok && report.ok();
+    const RunReport report = simulate(scenario, bitrate, true);
+    code = std::max(code, exit_code_of(report));
     fmt::print("{}\n{}\n\n", to_text(report), scenario.outputs.report);
+    flush_standard_output();
+    complain(report.boards);
     if (stop_requested()) break;
   }
-  return ok ? kOk : kFailed;
+  return code;
 }
 
 int report_recorded_wave(const Options &options) {
@@ -105,8 +104,7 @@ int report(Options &options) {
     const bool ending = dot != std::string::npos && (slash == std::string::npos || dot > slash);
     options.outputs.report = options.input.substr(0, ending ? dot : std::string::npos) + ".html";
   }
-  if (has_ending(options.input, {".yaml", ".yml"}))
-    return exit_code_after(report_scenario(options));
+  if (has_ending(options.input, {".yaml", ".yml"})) return report_scenario(options);
   load_databases(options.outputs, options.outputs.dbc);
   if (has_ending(options.input, {".vcd"})) return exit_code_after(report_recorded_wave(options));
   if (has_ending(options.input, {".fst"}))

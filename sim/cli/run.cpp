@@ -5,16 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 
 #include "cli/cli.hpp"
 #include "cli/console.hpp"
+#include "cli/live_run.hpp"
 #include "cli/output_files.hpp"
 #include "scenario/stop_request.hpp"
-#include "session/session.hpp"
-#include "socketcan/host_ports.hpp"
-#include "trace/input_error.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -35,46 +32,6 @@ void override_with(Scenario &scenario, const Options &options) {
   scenario.endless = false;
 }
 
-void say(const std::string &line) {
-  fmt::print(stderr, "verican: {}\n", line);
-  std::fflush(stderr);
-}
-
-/// Programs are told where they find the bus, and may come before it begins.
-void open_to_programs(HostPorts &ports, Wall &wall) {
-  for (const std::string &line : ports.descriptions()) say(line);
-  ports.wait_for_clients(wall);
-}
-
-RunReport simulate(const Scenario &scenario, double bitrate, const Options &options) {
-  Console console{false};
-  Progress progress{fmt::format("{:g} kbit/s", bitrate / 1e3)};
-  HostPorts ports;
-  HostWall wall;
-  SessionOptions setup;
-  setup.factories = {&ports};
-  setup.wall = &wall;
-  setup.say = say;
-  if (!scenario.endless || scenario.until_done)
-    setup.progress = [&](double part) { progress.show(part); };
-  setup.output = [&](std::string_view node, std::string_view text) {
-    if (!options.json) console.print(node, text);
-  };
-  Session session{{{scenario, bitrate}}, std::move(setup)};
-  open_to_programs(ports, wall);
-  session.start();
-  if (session.has_outlets()) say("ready");
-  while (session.round()) {
-  }
-  return session.finish().front();
-}
-
-/// With programs as nodes the user's wish is an end like others.
-int exit_code_of(const RunReport &report) {
-  const int code = exit_code_of(report.boards, report.ok() ? kOk : kFailed);
-  return report.interrupted ? exit_code_after(code) : code;
-}
-
 int run(const Options &options) {
   const StopSignals signals;
   Scenario scenario = read_scenario(options.scenario);
@@ -86,7 +43,7 @@ int run(const Options &options) {
   Json list = Json::array();
   for (const double bitrate : scenario.bitrates) {
     scenario.outputs = several ? outputs_for(outputs, bitrate) : outputs;
-    const RunReport report = simulate(scenario, bitrate, options);
+    const RunReport report = simulate(scenario, bitrate, !options.json);
     code = std::max(code, exit_code_of(report));
     if (options.json)
       list.push_back(to_json(report));

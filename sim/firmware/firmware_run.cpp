@@ -28,14 +28,7 @@ FirmwareRole role_of(const FirmwareSetup &setup, const ElfImage &image) {
 
 /// Gives the node `name` to firmware.
 NodeSpec &place(Scenario &scenario, const std::string &name, NodeRole role) {
-  const NodeId id = find_or_add_node(scenario, name);
-  for (const TrafficSpec &traffic : scenario.traffic)
-    if (traffic.node == id)
-      throw InputError(scenario.file, 0,
-                       fmt::format("traffic '{}' is that of node '{}', which runs firmware; "
-                                   "allowed: the other nodes",
-                                   traffic.name, name));
-  NodeSpec &node = scenario.nodes[id];
+  NodeSpec &node = scenario.nodes[take_node(scenario, name, "runs firmware")];
   node.role = std::move(role);
   return node;
 }

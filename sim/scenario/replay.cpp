@@ -40,6 +40,17 @@ NodeSpec node_for(const ReplayOptions &options, NodeId id) {
   return node;
 }
 
+/// The first of `options.senders` nodes that share the log.
+ReplayRole role_for(const CanLog &log, const ReplayOptions &options) {
+  ReplayRole role;
+  role.file = options.file.empty() ? "the recording" : options.file;
+  role.log = std::make_shared<const CanLog>(log);
+  role.saturated = options.fast;
+  role.frames = options.limit;
+  role.shares = options.senders;
+  return role;
+}
+
 /// What node `id` sends has come to all others, and nothing else has.
 ReplayNode node_report(const RunReport &run, NodeId id) {
   const NodeReport &seen = run.nodes[id];
@@ -107,12 +118,7 @@ Scenario replay_scenario(const CanLog &log, const ReplayOptions &options) {
   scenario.endless = true;
   scenario.until_done = true;
   scenario.outputs = options.outputs;
-  ReplayRole role;
-  role.file = options.file.empty() ? "the recording" : options.file;
-  role.log = std::make_shared<const CanLog>(log);
-  role.saturated = options.fast;
-  role.frames = options.limit;
-  role.shares = options.senders;
+  ReplayRole role = role_for(log, options);
   for (NodeId id = 0; id < options.nodes; ++id) {
     scenario.nodes.push_back(node_for(options, id));
     scenario.nodes.back().timing = timing_for(options);
@@ -120,6 +126,23 @@ Scenario replay_scenario(const CanLog &log, const ReplayOptions &options) {
     if (id < options.senders) scenario.nodes.back().role = role;
   }
   return scenario;
+}
+
+Scenario replay_scenario(Scenario bus, const CanLog &log, const ReplayOptions &options) {
+  ReplayRole role = role_for(log, options);
+  for (; role.share < options.senders; ++role.share) {
+    const std::string name = role.share == 0 ? "replay" : fmt::format("replay{}", role.share + 1);
+    NodeSpec &node = bus.nodes[take_node(bus, name, "sends the recording", options.clock_hz)];
+    if (!node.software)
+      throw InputError(bus.file, node.line,
+                       fmt::format("node '{}', which sends the recording, has 'software: none'; "
+                                   "allowed: 'host'",
+                                   name));
+    node.role = role;
+  }
+  bus.endless = true;
+  bus.until_done = true;
+  return bus;
 }
 
 ReplayReport replay(const CanLog &log, const ReplayOptions &options,

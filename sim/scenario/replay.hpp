@@ -66,6 +66,13 @@ struct ReplayReport {
 /// that a bus cannot have.
 [[nodiscard]] Scenario replay_scenario(const CanLog &log, const ReplayOptions &options);
 
+/// The scenario `bus` with nodes that send the log: `replay`, `replay2`..., which it may have or
+/// not. Its traffic goes on until all is sent and firmware has ended; its own duration does not
+/// count. Of `options` only clock, senders, limit, pace and name count. Throws InputError if
+/// traffic is that of such a node, or the bus is full.
+[[nodiscard]] Scenario replay_scenario(Scenario bus, const CanLog &log,
+                                       const ReplayOptions &options);
+
 /// Simulates, or ends early when the user wants it (stop_request.hpp). Throws InputError if no bit
 /// timing fits or an output cannot be written.
 [[nodiscard]] ReplayReport replay(const CanLog &log, const ReplayOptions &options,

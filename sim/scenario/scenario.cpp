@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "scenario/scenario_parts.hpp"
+#include "scenario/scenario_text.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
 
@@ -207,25 +208,20 @@ void parse_general(YamlMap &map, Scenario &scenario) {
   map.with("analysis", [&](const YamlValue &v) { scenario.analysis = v.boolean(); });
 }
 
-bool any_programs(const Scenario &scenario) {
-  return !scenario.listeners.empty() ||
-         std::any_of(scenario.nodes.begin(), scenario.nodes.end(),
-                     [](const NodeSpec &node) { return has_programs(node.role); });
-}
-
 // With programs as nodes a scenario is held to real time and has no end, with a recording it ends
 // when that has been sent, unless the file says otherwise.
 void parse_end(YamlMap &map, Scenario &scenario) {
-  const bool programs = any_programs(scenario);
+  const bool programs = detail::any_programs(scenario);
   scenario.pacing = programs ? Pacing::kRealTime : Pacing::kFast;
   map.with("pacing", [&](const YamlValue &v) {
     if (v.text() != "real_time" && v.text() != "fast") v.refuse("real_time, fast");
     scenario.pacing = v.text() == "real_time" ? Pacing::kRealTime : Pacing::kFast;
   });
-  bool finite = false, looped = false, firmware = false;
+  const bool finite = detail::any_finite_replay(scenario);
+  bool looped = false, firmware = false;
   for (const NodeSpec &node : scenario.nodes) {
     const auto *replay = std::get_if<ReplayRole>(&node.role);
-    if (replay != nullptr) (replay->loop ? looped : finite) = true;
+    looped = looped || (replay != nullptr && replay->loop);
     firmware = firmware || std::holds_alternative<FirmwareRole>(node.role);
   }
   const bool limited = map.find("duration").has_value();
@@ -293,6 +289,25 @@ NodeId find_or_add_node(Scenario &scenario, const std::string &name, double cloc
   node.clock.frequency_hz = clock_hz;
   scenario.nodes.push_back(node);
   return static_cast<NodeId>(scenario.nodes.size() - 1);
+}
+
+NodeId take_node(Scenario &scenario, const std::string &name, const std::string &user,
+                 double clock_hz) {
+  const NodeId id = find_or_add_node(scenario, name, clock_hz);
+  const NodeSpec &node = scenario.nodes[id];
+  if (!std::holds_alternative<TrafficRole>(node.role))
+    throw InputError(
+        scenario.file, node.line,
+        fmt::format("node '{}', which {}, has '{}' in the file; allowed: a plain node, "
+                    "or none of this name",
+                    name, user, name_of(node.role)));
+  for (const TrafficSpec &traffic : scenario.traffic)
+    if (traffic.node == id)
+      throw InputError(scenario.file, 0,
+                       fmt::format("traffic '{}' is that of node '{}', which {}; allowed: the "
+                                   "other nodes",
+                                   traffic.name, name, user));
+  return id;
 }
 
 }  // namespace vericansim

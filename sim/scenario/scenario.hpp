@@ -190,8 +190,9 @@ struct Scenario {
   Outputs outputs;
 };
 
-/// The scenario as a file that read_scenario() makes the same scenario of; paths of outputs and
-/// expectations of messages and nodes are left out.
+/// The scenario as a file that read_scenario() makes the same scenario of, in any folder: paths are
+/// absolute. Outputs, databases and expectations are left out. Throws std::invalid_argument for
+/// what no file can say: a program that works a node by itself (OwnRole), a recording in memory.
 [[nodiscard]] std::string to_yaml(const Scenario &scenario);
 
 /// Reads a scenario file. Throws InputError that names file, line, key, value and what is allowed.
@@ -203,5 +204,9 @@ struct Scenario {
 /// InputError if the bus is full (Bus::kMaxNodes).
 NodeId find_or_add_node(Scenario &scenario, const std::string &name,
                         double clock_hz = ClockConfig{}.frequency_hz);
+/// The same for a node that something else works, which `user` tells: "runs firmware". Throws
+/// InputError also if the node is of a kind of its own, or traffic of the scenario is its.
+NodeId take_node(Scenario &scenario, const std::string &name, const std::string &user,
+                 double clock_hz = ClockConfig{}.frequency_hz);
 
 }  // namespace vericansim

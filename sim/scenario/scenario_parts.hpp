@@ -29,9 +29,6 @@ void check_fault_names(const Scenario &scenario);
 [[nodiscard]] AccessSpec parse_access(const YamlValue &value, const Scenario &scenario);
 [[nodiscard]] Expectations parse_expectations(const YamlValue &value, const Scenario &scenario);
 
-/// A number, or {min, max}.
-[[nodiscard]] Range parse_range(const YamlValue &value);
-
 /// Reads the databases of `dbc`.
 void parse_databases(YamlMap &map, Scenario &scenario);
 /// `message`: sets name, identifier and length as the database has them; nullptr without.

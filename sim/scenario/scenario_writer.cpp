@@ -6,21 +6,20 @@
 
 #include <cmath>
 #include <iterator>
-#include <stdexcept>
 
 #include "scenario/access_step.hpp"
-#include "scenario/scenario.hpp"
+#include "scenario/quantity.hpp"
+#include "scenario/scenario_text.hpp"
 
 namespace vericansim {
 namespace {
 
+using namespace detail;
+
 constexpr Time kEver = std::numeric_limits<Time>::max();
 
-std::string time_text(Time time) {
-  if (time % kMillisecond == 0) return fmt::format("{} ms", time / kMillisecond);
-  if (time % kMicrosecond == 0) return fmt::format("{} us", time / kMicrosecond);
-  if (time % kNanosecond == 0) return fmt::format("{} ns", time / kNanosecond);
-  return fmt::format("{} ps", time);
+std::string name_of(const Scenario &scenario, NodeId node) {
+  return yaml_text(scenario.nodes[node].name);
 }
 
 std::string clock_text(const ClockConfig &clock) {
@@ -29,11 +28,11 @@ std::string clock_text(const ClockConfig &clock) {
   if (clock.frequency_hz != usual.frequency_hz)
     text += fmt::format(", clock: {} Hz", clock.frequency_hz);
   if (clock.error_ppm != 0) text += fmt::format(", ppm: {}", clock.error_ppm);
-  if (clock.phase != 0) text += fmt::format(", phase: {}", time_text(clock.phase));
+  if (clock.phase != 0) text += fmt::format(", phase: {}", exact_time(clock.phase));
   if (clock.wander != Wander::kNone)
     text += fmt::format(", wander: {{kind: {}, ppm: {}, period: {}}}",
                         clock.wander == Wander::kSine ? "sine" : "walk", clock.wander_ppm,
-                        time_text(clock.wander_period));
+                        exact_time(clock.wander_period));
   return text;
 }
 
@@ -67,12 +66,10 @@ std::string host_text(const HostConfig &host) {
 }
 
 std::string node_text(const NodeSpec &node) {
-  if (!std::holds_alternative<TrafficRole>(node.role))
-    throw std::invalid_argument(
-        fmt::format("a node with '{}' cannot be written as text", name_of(node.role)));
-  std::string text = "  - {name: " + node.name + clock_text(node.clock);
+  std::string text = "  - {name: " + yaml_text(node.name) + role_text(node);
+  text += clock_text(node.clock);
   const auto delay = [&](const char *key, Time value) {
-    if (value != 0) text += fmt::format(", {}: {}", key, time_text(value));
+    if (value != 0) text += fmt::format(", {}: {}", key, exact_time(value));
   };
   delay("delay", node.link.cable);
   delay("tx_delay", node.link.transmitter);
@@ -85,7 +82,8 @@ std::string node_text(const NodeSpec &node) {
   if (node.sample_point) text += fmt::format(", sample_point: {}", *node.sample_point);
   if (node.sjw) text += fmt::format(", sjw: {}", *node.sjw);
   if (node.num_mb != 64) text += fmt::format(", mailboxes: {}", node.num_mb);
-  text += node.software ? host_text(node.host) : ", software: none";
+  if (node.hosted()) text += host_text(node.host);
+  if (!node.software) text += ", software: none";
   return text + "}\n";
 }
 
@@ -101,16 +99,17 @@ std::string payload_text(const TrafficSpec &traffic) {
 
 std::string traffic_text(const Scenario &scenario, const TrafficSpec &traffic) {
   const Frame &frame = traffic.frame;
-  std::string text = fmt::format("  - {{node: {}, name: {}, id: 0x{:X}",
-                                 scenario.nodes[traffic.node].name, traffic.name, frame.id);
+  std::string text =
+      fmt::format("  - {{node: {}, name: {}, id: 0x{:X}", name_of(scenario, traffic.node),
+                  yaml_text(traffic.name), frame.id);
   if (frame.extended) text += ", extended: true";
   if (frame.remote) text += ", remote: true";
   text += payload_text(traffic);
   if (traffic.saturated) text += ", period: saturated";
-  if (traffic.period != 0) text += ", period: " + time_text(traffic.period);
+  if (traffic.period != 0) text += ", period: " + exact_time(traffic.period);
   if (traffic.random_offset) text += ", offset: random";
-  if (traffic.offset != 0) text += ", offset: " + time_text(traffic.offset);
-  if (traffic.jitter != 0) text += ", jitter: " + time_text(traffic.jitter);
+  if (traffic.offset != 0) text += ", offset: " + exact_time(traffic.offset);
+  if (traffic.jitter != 0) text += ", jitter: " + exact_time(traffic.jitter);
   const bool repeats = traffic.saturated || traffic.period != 0;
   if (repeats && traffic.count != std::numeric_limits<std::uint64_t>::max())
     text += fmt::format(", count: {}", traffic.count);
@@ -124,7 +123,7 @@ std::string effect_text(Effect effect) {
 
 std::string place_text(const Scenario &scenario, const FaultSpec &fault) {
   const PlaceSpec &place = fault.place;
-  std::string text = ", at: {node: " + scenario.nodes[fault.watched].name;
+  std::string text = ", at: {node: " + name_of(scenario, fault.watched);
   const auto number = [&](const char *key, const std::optional<unsigned> &value) {
     if (value) text += fmt::format(", {}: {}", key, *value);
   };
@@ -140,16 +139,9 @@ std::string place_text(const Scenario &scenario, const FaultSpec &fault) {
 
 std::string window_text(const Window &window) {
   std::string text;
-  if (window.from != 0) text += ", from: " + time_text(window.from);
-  if (window.to != kEver) text += ", for: " + time_text(window.to - window.from);
+  if (window.from != 0) text += ", from: " + exact_time(window.from);
+  if (window.to != kEver) text += ", for: " + exact_time(window.to - window.from);
   return text;
-}
-
-/// In quotes, since people choose the words.
-std::string name_text(const std::string &name) {
-  std::string text;
-  for (const char c : name) text += c == '\'' ? "''" : std::string(1, c);
-  return name.empty() ? "" : ", name: '" + text + "'";
 }
 
 std::string range_text(const Range &range) {
@@ -164,7 +156,7 @@ std::string range_text(const Range &range) {
 std::string fault_line(const Scenario &scenario, const FaultSpec &fault) {
   using Kind = FaultSpec::Kind;
   const std::string node =
-      ", node: " + (fault.node == kAllNodes ? "all" : scenario.nodes[fault.node].name);
+      ", node: " + (fault.node == kAllNodes ? "all" : name_of(scenario, fault.node));
   std::string text = "  - {kind: ";
   switch (fault.kind) {
     case Kind::kLevel: text += effect_text(fault.effect) + node + window_text(fault.window); break;
@@ -180,10 +172,10 @@ std::string fault_line(const Scenario &scenario, const FaultSpec &fault) {
       text += "noise" + node + window_text(fault.window) +
               fmt::format(", per_bit: {}, glitches_per_ms: {}, glitch: {}, seed: {}",
                           fault.noise.per_bit, fault.noise.per_ns * 1e6,
-                          time_text(fault.noise.glitch), fault.noise.seed);
+                          exact_time(fault.noise.glitch), fault.noise.seed);
       break;
   }
-  text += name_text(fault.name);
+  if (!fault.name.empty()) text += ", name: " + yaml_text(fault.name);
   if (fault.hits) text += ", hits: " + range_text(*fault.hits);
   return text + "}\n";
 }
@@ -191,26 +183,27 @@ std::string fault_line(const Scenario &scenario, const FaultSpec &fault) {
 std::string access_text(const Scenario &scenario, const AccessSpec &access) {
   std::string steps;
   for (const AccessStep &step : access.steps) steps += (steps.empty() ? "" : ", ") + to_text(step);
-  return fmt::format("  - {{node: {}, at: {}, do: [{}]}}\n", scenario.nodes[access.node].name,
-                     time_text(access.at), steps);
+  return fmt::format("  - {{node: {}, at: {}, do: [{}]}}\n", name_of(scenario, access.node),
+                     exact_time(access.at), steps);
 }
 
 }  // namespace
 
 std::string to_yaml(const Scenario &scenario) {
-  std::string text = fmt::format("name: {}\n", scenario.name);
+  std::string text = "name: " + yaml_text(scenario.name) + "\n";
   if (scenario.lockstep) text += "judge: lockstep\n";
   std::string rates;
   for (const double rate : scenario.bitrates)
     rates += fmt::format("{}{}", rates.empty() ? "" : ", ", rate);
   text += scenario.bitrates.size() == 1 ? "bitrate: " + rates + "\n" : "bitrate: [" + rates + "]\n";
   if (scenario.sample_point) text += fmt::format("sample_point: {}\n", *scenario.sample_point);
-  text += "duration: " + time_text(scenario.duration) + "\n";
-  text += "drain: " + time_text(scenario.drain) + "\n";
+  text += end_text(scenario);
+  text += "drain: " + exact_time(scenario.drain) + "\n";
   text += fmt::format("seed: {}\n", scenario.seed);
   if (scenario.analysis) text += "analysis: true\n";
   text += "nodes:\n";
   for (const NodeSpec &node : scenario.nodes) text += node_text(node);
+  for (const ListenerSpec &listener : scenario.listeners) text += listener_text(listener);
   if (!scenario.traffic.empty()) text += "traffic:\n";
   for (const TrafficSpec &traffic : scenario.traffic) text += traffic_text(scenario, traffic);
   if (!scenario.faults.empty()) text += "faults:\n";

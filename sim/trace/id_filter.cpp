@@ -4,6 +4,8 @@
 // IdFilter: see id_filter.hpp.
 #include "trace/id_filter.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <optional>
@@ -38,6 +40,12 @@ IdFilter parse_filter(const std::string &text) {
                    quoted(text) +
                        " is not allowed; allowed: ID:MASK or ID~MASK (all but these), "
                        "hexadecimal, as in 100:7F0");
+}
+
+std::string to_text(const IdFilter &filter) {
+  const bool extended = (filter.id & CAN_EFF_FLAG) != 0;
+  return fmt::format("{:0{}X}{}{:X}", extended ? filter.id & ~CAN_EFF_FLAG : filter.id,
+                     extended ? 8 : 1, filter.inverted ? '~' : ':', filter.mask);
 }
 
 canid_t can_id_of(const Frame &frame) {

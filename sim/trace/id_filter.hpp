@@ -30,6 +30,9 @@ struct IdFilter {
 /// bits and has CAN_EFF_FLAG. Throws InputError that shows `text` and what is allowed.
 [[nodiscard]] IdFilter parse_filter(const std::string &text);
 
+/// The same as text.
+[[nodiscard]] std::string to_text(const IdFilter &filter);
+
 /// The identifier of `frame` with SocketCAN's flags, as filters see it.
 [[nodiscard]] canid_t can_id_of(const Frame &frame);
 

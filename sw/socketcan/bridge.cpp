@@ -9,24 +9,9 @@
 #include <utility>
 
 #include "port_operator.hpp"
-#include "trace/input_error.hpp"
 
 namespace vericansim {
 namespace {
-
-/// The node of a port: that of its name, or a new one.
-NodeId place(BridgeSetup &setup, const std::string &name) {
-  Scenario &scenario = setup.scenario;
-  const NodeId id = find_or_add_node(scenario, name, setup.port_clock_hz);
-  for (const TrafficSpec &traffic : scenario.traffic)
-    if (traffic.node == id)
-      throw InputError(
-          scenario.file, 0,
-          fmt::format("traffic '{}' is that of node '{}', which programs of the host work; "
-                      "allowed: the other nodes",
-                      traffic.name, name));
-  return id;
-}
 
 std::string describe(const BridgeSetup &setup, const std::string &names) {
   const std::size_t count = setup.scenario.nodes.size();
@@ -54,7 +39,8 @@ OwnRole monitor_role(const BridgeSetup &setup, std::shared_ptr<CanPort> port) {
 Bridge::Bridge(BridgeSetup setup, Wall &wall) {
   std::string names;
   for (auto &port : setup.ports) {
-    const NodeId id = place(setup, port->name());
+    const NodeId id =
+        take_node(setup.scenario, port->name(), "programs of the host work", setup.port_clock_hz);
     names += (names.empty() ? "" : ", ") + port->name();
     setup.scenario.nodes[id].role = role_of(setup, std::move(port));
   }

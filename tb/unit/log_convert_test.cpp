@@ -44,10 +44,9 @@ TEST(Convert, CandumpAndPcapngLoseNothing) {
 }
 
 TEST(Convert, TrcAndGvretTellWhatTheyCannotHold) {
-  EXPECT_THAT(
-      lost(LogFormat::kTrc),
-      ElementsAre("1 error message", "4 interfaces vcan3 (can3 now)",
-                  "3 times since the first frame, by up to 500 ns", "1 time of day, by 500 ns"));
+  EXPECT_THAT(lost(LogFormat::kTrc), ElementsAre("1 error message", "4 interfaces vcan3 (can3 now)",
+                                                 "3 times since the first frame, by up to 500 ns",
+                                                 "1 time of day, by 500 ns"));
   EXPECT_THAT(lost(LogFormat::kGvret),
               ElementsAre("1 remote frame", "1 DLC of 9 to 15 (8 now)", "1 CAN FD frame",
                           "1 error message", "2 interfaces vcan3 (can3 now)",

@@ -309,24 +309,6 @@ TEST(ScenarioFile, EveryBitOfAFieldMayBeNamed) {
     }
 }
 
-// A scenario with every kind of fault as text is the same scenario again.
-TEST(ScenarioFile, FaultsAreWrittenAsTheyAreRead) {
-  const std::string text = to_yaml(parse_scenario(
-      "s.yaml", std::string(kTwo) +
-                    "faults:\n"
-                    "  - {kind: flip, at: {node: a, frame: 2, field: ID, bits_left: 3}, hits: 1}\n"
-                    "  - {kind: noise, per_bit: 0.1, name: \"it's\", hits: {min: 2, max: 9}}\n"
-                    "  - {kind: cut, node: b, from: 1 ms, name: \"a: b\", hits: {max: 3}}\n"
-                    "  - {kind: clock, node: b, from: 2 ms, ppm: 3}\n"));
-  const Scenario read = parse_scenario("s.yaml", text);
-  EXPECT_EQ(to_yaml(read), text);
-  EXPECT_EQ(read.faults.at(1).name, "it's");
-  EXPECT_EQ(read.faults.at(2).name, "a: b");
-  EXPECT_EQ(read.faults.at(0).hits->least, 1);
-  EXPECT_EQ(read.faults.at(1).hits->most, 9);
-  EXPECT_FALSE(read.faults.at(3).hits);
-}
-
 // Whatever is done to a good file, it is read or refused, and nothing else happens.
 TEST(ScenarioFile, DamagedInputNeverCrashes) {
   const std::string good = kGood;

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// See live_run.hpp.
+#include "cli/live_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/cli.hpp"
+#include "cli/console.hpp"
+#include "session/session.hpp"
+#include "socketcan/host_ports.hpp"
+#include "trace/input_error.hpp"
+
+namespace vericansim::cli {
+namespace {
+
+void say(const std::string &line) {
+  fmt::print(stderr, "verican: {}\n", line);
+  std::fflush(stderr);
+}
+
+/// Programs are told where they find the bus, and may come before it begins.
+void open_to_programs(HostPorts &ports, Wall &wall) {
+  for (const std::string &line : ports.descriptions()) say(line);
+  ports.wait_for_clients(wall);
+}
+
+}  // namespace
+
+RunReport simulate(const Scenario &scenario, double bitrate, bool prints) {
+  Console console{false};
+  Progress progress{fmt::format("{:g} kbit/s", bitrate / 1e3)};
+  HostPorts ports;
+  HostWall wall;
+  SessionOptions setup;
+  setup.factories = {&ports};
+  setup.wall = &wall;
+  setup.say = say;
+  if (!scenario.endless || scenario.until_done)
+    setup.progress = [&](double part) { progress.show(part); };
+  setup.output = [&](std::string_view node, std::string_view text) {
+    if (prints) console.print(node, text);
+  };
+  Session session{{{scenario, bitrate}}, std::move(setup)};
+  open_to_programs(ports, wall);
+  session.start();
+  if (session.has_outlets()) say("ready");
+  while (session.round()) {
+  }
+  return session.finish().front();
+}
+
+int exit_code_of(const RunReport &report) {
+  const int code = exit_code_of(report.boards, report.ok() ? kOk : kFailed);
+  return report.interrupted ? exit_code_after(code) : code;
+}
+
+double only_bitrate(const Scenario &scenario, double wanted) {
+  if (wanted != 0) return wanted;
+  if (scenario.bitrates.size() != 1)
+    throw InputError(scenario.file, 0, "has several bit rates; --bitrate says which");
+  return scenario.bitrates.front();
+}
+
+}  // namespace vericansim::cli

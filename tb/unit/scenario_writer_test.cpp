@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// to_yaml(): a scenario as text is the same scenario again.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "scenario/scenario.hpp"
+#include "trace/log.hpp"
+
+namespace vericansim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// A scenario with every kind of fault as text is the same scenario again.
+TEST(ScenarioWriter, FaultsAreWrittenAsTheyAreRead) {
+  const std::string text = to_yaml(parse_scenario(
+      "s.yaml", std::string("nodes: [{name: a}, {name: b}]\n") +
+                    "faults:\n"
+                    "  - {kind: flip, at: {node: a, frame: 2, field: ID, bits_left: 3}, hits: 1}\n"
+                    "  - {kind: noise, per_bit: 0.1, name: \"it's\", hits: {min: 2, max: 9}}\n"
+                    "  - {kind: cut, node: b, from: 1 ms, name: \"a: b\", hits: {max: 3}}\n"
+                    "  - {kind: clock, node: b, from: 2 ms, ppm: 3}\n"));
+  const Scenario read = parse_scenario("s.yaml", text);
+  EXPECT_EQ(to_yaml(read), text);
+  EXPECT_EQ(read.faults.at(1).name, "it's");
+  EXPECT_EQ(read.faults.at(2).name, "a: b");
+  EXPECT_EQ(read.faults.at(0).hits->least, 1);
+  EXPECT_EQ(read.faults.at(1).hits->most, 9);
+  EXPECT_FALSE(read.faults.at(3).hits);
+}
+
+constexpr const char *kEveryKind =
+    "name: 'every: kind'\nduration: 3 s\npacing: fast\nend: done\n"
+    "nodes:\n"
+    "  - {name: board, firmware: f/app.elf, clocks_per_instruction: 3,\n"
+    "     run_hard_fault_handler: true, clock: 16 MHz}\n"
+    "  - {name: second, second_core_of: board}\n"
+    "  - {name: 'boat, left', replay: boat.log, channel: can1, start: 5 ms, from: 1 s, to: 2500 "
+    "ms,\n"
+    "     rate: 0.5, loop: true, filter: [100:7F0, 00000123~1FFFFFFF], frames: 7, share: 2/3,\n"
+    "     listen_only: false, filters: [{id: 1, mask: 2}]}\n"
+    "  - {name: all, replay: /logs/b.log, rate: saturated}\n"
+    "  - {name: pc, interface: vcan0, filter: 7E8:7FF, errors: state, restart: 0, echo: true,\n"
+    "     queue: 9, end_when_down: true}\n"
+    "  - {name: tcp, socketcand: '127.0.0.1:29536', errors: none, wait_for_clients: 2}\n"
+    "  - {name: ear, monitor: true}\n"
+    "  - {name: '#1', monitor: vcan1}\n"
+    "  - {monitor: vcan2}\n"
+    "traffic:\n  - {node: ear, id: 1, name: \"null\"}\n";
+
+std::string here(const std::string &path) {
+  return (std::filesystem::current_path() / path).string();
+}
+
+// Every kind of node as text is the same scenario again, whatever folder the text is in.
+TEST(ScenarioWriter, KindsOfNodesAreWrittenAsTheyAreRead) {
+  const std::string text = to_yaml(parse_scenario("s.yaml", kEveryKind));
+  const Scenario read = parse_scenario("elsewhere/t.yaml", text);
+  EXPECT_EQ(to_yaml(read), text);
+  EXPECT_EQ(read.name, "every: kind");
+  ASSERT_EQ(read.nodes.size(), 7U);
+  const auto &firmware = std::get<FirmwareRole>(read.nodes[0].role);
+  EXPECT_EQ(firmware.file, here("f/app.elf"));
+  EXPECT_EQ(firmware.clocks_per_instruction, 3U);
+  EXPECT_TRUE(firmware.run_hard_fault_handler);
+  EXPECT_EQ(std::get<SecondCoreRole>(read.nodes[1].role).board, "board");
+  EXPECT_EQ(read.nodes[1].clock.frequency_hz, 16e6);
+  EXPECT_TRUE(read.nodes[6].host.listen_only);
+  EXPECT_EQ(read.traffic[0].name, "null");
+}
+
+TEST(ScenarioWriter, ARecordingIsWrittenAsItIsRead) {
+  const Scenario read =
+      parse_scenario("elsewhere/t.yaml", to_yaml(parse_scenario("s.yaml", kEveryKind)));
+  EXPECT_EQ(read.nodes[2].name, "boat, left");
+  const auto &replay = std::get<ReplayRole>(read.nodes[2].role);
+  EXPECT_EQ(replay.file, here("boat.log"));
+  EXPECT_EQ(replay.channel, "can1");
+  EXPECT_EQ(replay.start, 5 * kMillisecond);
+  EXPECT_EQ(replay.from, kSecond);
+  EXPECT_EQ(replay.to, 2500 * kMillisecond);
+  EXPECT_EQ(replay.rate, 0.5);
+  EXPECT_TRUE(replay.loop);
+  EXPECT_THAT(replay.filters, ElementsAre(IdFilter{0x100, 0x7F0, false},
+                                          IdFilter{0x123 | CAN_EFF_FLAG, 0x1FFFFFFF, true}));
+  EXPECT_EQ(replay.frames, 7U);
+  EXPECT_EQ(replay.share, 1U);
+  EXPECT_EQ(replay.shares, 3U);
+  EXPECT_EQ(read.nodes[2].host.filters.size(), 1U);
+  EXPECT_EQ(std::get<ReplayRole>(read.nodes[3].role).file, "/logs/b.log");
+  EXPECT_TRUE(std::get<ReplayRole>(read.nodes[3].role).saturated);
+}
+
+TEST(ScenarioWriter, ProgramsAndTheEndAreWrittenAsTheyAreRead) {
+  const Scenario read =
+      parse_scenario("elsewhere/t.yaml", to_yaml(parse_scenario("s.yaml", kEveryKind)));
+  const auto &interface = std::get<InterfaceRole>(read.nodes[4].role);
+  EXPECT_EQ(interface.interface, "vcan0");
+  EXPECT_THAT(interface.programs.filters, ElementsAre(IdFilter{0x7E8, 0x7FF, false}));
+  EXPECT_EQ(interface.programs.errors, "state");
+  EXPECT_EQ(interface.programs.restart, 0);
+  EXPECT_TRUE(interface.echo && interface.end_when_down);
+  EXPECT_EQ(interface.queue, 9U);
+  const auto &socketcand = std::get<SocketcandRole>(read.nodes[5].role);
+  EXPECT_EQ(socketcand.address, "127.0.0.1:29536");
+  EXPECT_EQ(socketcand.programs.errors, "none");
+  EXPECT_EQ(socketcand.wait_for_clients, 2U);
+  ASSERT_EQ(read.listeners.size(), 2U);
+  EXPECT_EQ(read.listeners[0].name, "#1");
+  EXPECT_EQ(std::get<MonitorRole>(read.listeners[0].role).interface, "vcan1");
+  EXPECT_EQ(read.listeners[1].name, "vcan2");
+  EXPECT_EQ(read.duration, 3 * kSecond);
+  EXPECT_EQ(read.pacing, Pacing::kFast);
+  EXPECT_TRUE(read.until_done);
+}
+
+// What ends by itself, or not at all, still does.
+TEST(ScenarioWriter, EndsThatAreNotWrittenAreTheSame) {
+  for (const char *nodes : {"  - {name: r, replay: a.log}\n", "  - {name: t, socketcand: 29536}\n",
+                            "  - {name: t, socketcand: 29536}\n  - {name: r, replay: a.log}\n"}) {
+    const std::string list = std::string("nodes:\n") + nodes;
+    for (const std::string &text : {list, list + "pacing: fast\n", list + "duration: 7 ms\n"}) {
+      const Scenario first = parse_scenario("s.yaml", text);
+      const Scenario again = parse_scenario("s.yaml", to_yaml(first));
+      EXPECT_EQ(again.endless, first.endless) << text;
+      EXPECT_EQ(again.until_done, first.until_done) << text;
+      EXPECT_EQ(again.pacing, first.pacing) << text;
+      EXPECT_EQ(again.duration, first.duration) << text;
+    }
+  }
+}
+
+std::string refusal_of(const NodeRole &role) {
+  Scenario scenario = parse_scenario("s.yaml", "nodes:\n  - name: n\n");
+  scenario.nodes[0].role = role;
+  try {
+    return to_yaml(scenario);
+  } catch (const std::invalid_argument &error) {
+    return error.what();
+  }
+}
+
+TEST(ScenarioWriter, WhatNoFileCanSayIsRefusedWithTheReason) {
+  EXPECT_EQ(refusal_of(OwnRole{}),
+            "node 'n' cannot be written as text: a program works it by itself");
+  ReplayRole replay;
+  replay.log = std::make_shared<const CanLog>();
+  EXPECT_EQ(refusal_of(replay),
+            "node 'n' cannot be written as text: its recording is in memory, not in a file");
+  FirmwareRole firmware;
+  firmware.endless = false;
+  EXPECT_THAT(refusal_of(firmware), HasSubstr("its firmware must end"));
+  Scenario scenario = parse_scenario("s.yaml", "name: x\nnodes:\n  - name: n\n");
+  scenario.endless = true;
+  EXPECT_THROW((void)to_yaml(scenario), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace vericansim
