@@ -37,3 +37,17 @@ host/can_flags.sv
 host/can_regs.sv
 host/can_top.sv
 host/can_ahb.sv
+# A node without a processor: can_core, can_mb_ram and these.
+remote/can_rn_pkg.sv
+remote/can_rn_head.sv
+remote/can_rn_check.sv
+remote/can_rn_tick.sv
+remote/can_rn_off.sv
+remote/can_rn_state.sv
+remote/can_rn_step.sv
+remote/can_rn_move.sv
+remote/can_rn_cell.sv
+remote/can_rn_data.sv
+remote/can_rn_port.sv
+remote/can_rn_tx.sv
+remote/can_remote.sv

@@ -58,7 +58,7 @@ class ModuleReader:
         elif word == "if":                  # checks of parameters
             while reader.take().text != "end":
                 pass
-        elif word.startswith("can_") and not word.startswith("can_pkg::"):
+        elif word.startswith("can_") and "_pkg::" not in word:
             self.instance()
         else:                               # declarations
             reader.skip_past(";")

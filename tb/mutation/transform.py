@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Program for VERICAN_RTL_TRANSFORM (cmake/verilate.cmake): RTL with mutants in it.
-"""usage: transform.py OUT.v TOP [Name=value ...] [--keep FILE] -- FILE...
+"""usage: transform.py OUT.v TOP [Name=value ...] [--keep FILE ...] -- FILE...
 
 Environment: VERICAN_MUTANT_LIST names a file with the list of mutants that run.py has written, or
 is "module": all mutants of TOP.

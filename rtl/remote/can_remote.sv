@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_remote: a node without a processor: frames read and write a block RAM that user logic shares.
+// The engine can_core, the RAM, and the blocks between; docs/remote.md.
+
+module can_remote #(
+  /// Bits of the name in an identifier, 3 or 5; the same on the whole bus.
+  parameter int NameBits = 3,
+  /// Bytes of the RAM: 1,024, 2,048 or 4,096.
+  parameter int MemBytes = 4096,
+  /// Bytes that become visible by TRIGGER: 0, 8 or 16, from address 0x010.
+  parameter int StageBytes = 8,
+  /// Answers that may wait: 1 or 4.
+  parameter int TxDepth = 1,
+  /// Serial number, 32 bits, different in each device.
+  parameter int Serial = 0,
+  /// Clocks per millisecond, 8,000 to 131,071.
+  parameter int ClocksPerMs = 8000,
+  /// Bit timing as `verican bittime` prints it: clocks per quantum, quanta per segment.
+  parameter int Brp = 1,
+  parameter int Prop = 1,
+  parameter int Ps1 = 4,
+  parameter int Ps2 = 2,
+  parameter int Sjw = 1
+) (
+  input  logic                clk_i,
+  input  logic                rst_ni,
+  // Set-up
+  input  logic                start_i,        // the RAM is set up: join the bus
+  input  logic [NameBits-1:0] node_i,         // number; 0, 1: none
+  // User logic: one access a clock while usr_ready_o; data in the clock after
+  input  logic                usr_req_i,
+  input  logic                usr_we_i,
+  input  logic [3:0]          usr_be_i,       // byte 0 is bits 7:0
+  input  logic [9:0]          usr_addr_i,     // words
+  input  logic [31:0]         usr_wdata_i,
+  output logic                usr_ready_o,
+  output logic [31:0]         usr_rdata_o,
+  input  logic                usr_hold_i,     // nothing becomes visible, for 64 clocks at most
+  // What became visible
+  output logic                written_o,      // pulse: a write,
+  output logic [11:0]         written_addr_o, // its first address
+  output logic [3:0]          written_len_o,  // and length
+  output logic                apply_o,        // pulse: the staged bytes
+  // State
+  output logic                safe_o,         // 0 in OPERATE only
+  output logic [1:0]          state_o,
+  // Pins and observers
+  input  logic                can_rx_i,
+  output logic                can_tx_o,
+  output logic [can_pkg::TraceWidth-1:0] trace_o
+);
+  localparam int AddrBits = 10 - NameBits;
+  localparam int Features = (StageBytes != 0 ? 1 : 0) + (TxDepth == 4 ? 8 : 0);
+
+  if (NameBits != 3 && NameBits != 5) begin : gen_check_name_bits
+    NameBits_must_be_3_or_5 u_stop ();
+  end
+  if (MemBytes != 1024 && MemBytes != 2048 && MemBytes != 4096) begin : gen_check_mem_bytes
+    MemBytes_must_be_1024_2048_or_4096 u_stop ();
+  end
+  if (StageBytes != 0 && StageBytes != 8 && StageBytes != 16) begin : gen_check_stage_bytes
+    StageBytes_must_be_0_8_or_16 u_stop ();
+  end
+  if (TxDepth != 1 && TxDepth != 4) begin : gen_check_tx_depth
+    TxDepth_must_be_1_or_4 u_stop ();
+  end
+
+  // A constant, but for the simulator, which makes nodes that differ in it alone.
+  logic [31:0] serial /* verilator public_flat_rw */;
+  assign serial = 32'(Serial);
+
+  // Engine
+  logic        run, gap, boff, passive, transmitter, tick;
+  logic        tx_req, tx_next, tx_ok, tx_fail, rx_hdr, rx_ide, rx_rtr, rx_byte_we, rx_valid;
+  logic [3:0]  tx_dlc, rx_dlc;
+  logic [31:0] tx_word;
+  logic [28:0] rx_id;
+  logic [7:0]  tec, rec, rx_byte;
+  // Jobs
+  can_rn_pkg::job_t job;
+  logic [1:0]  phase;
+  logic        timer, take, request, begins, release_off, ms;
+  // Request
+  logic        hdr, ours, has_byte, live, valid, sys, all, dup, port, key, refused;
+  logic        value_bad, high_bad, mismatch, write, read, trigger, select, assign_number;
+  logic        set_state, setup, far, info;
+  logic [AddrBits-1:0] a;
+  logic [4:0]  op;
+  logic [3:0]  code;
+  // Addresses and data
+  logic [11:0] start, mem;
+  logic [3:0]  row, row_end;
+  logic        ended, staged, cleared, re, we, zero, one;
+  logic [8:0]  cell_addr;
+  logic [1:0]  lane;
+  logic [31:0] rdata;
+  logic [7:0]  read_byte, wbyte, status;
+  // Queue
+  logic [2:0]  tail, head;
+  logic [1:0]  word;
+  logic        full, some, load, try_due, flush, tx_status, gone, gone_status, gone_here;
+  logic        new_tries;
+  // Node
+  logic [NameBits-1:0] number;
+  logic        off_entry, off_exit, carry;
+  logic        operate, numbered, selected, unlocked, lock_reset, off, restart;
+  logic        owe_status, owe_here, owe_feed, nothing;
+
+  can_core u_core (
+    .clk_i, .rst_ni,
+    .run_i(run), .running_o(), .stop_ok_o(), .gap_o(gap),
+    .presdiv_i(8'(Brp - 1)), .rjw_i(2'(Sjw - 1)), .pseg1_i(3'(Ps1 - 1)), .pseg2_i(3'(Ps2 - 1)),
+    .propseg_i(3'(Prop - 1)), .smp_i(1'b0), .lom_i(1'b0), .lpb_i(1'b0), .fd_tolerant_i(1'b0),
+    .boff_rec_i(!release_off),
+    .ec_clear_i(1'b1), .ec_we_i(1'b0), .ec_wdata_i(16'd0), .tec_o(tec), .rec_o(rec),
+    .passive_o(passive), .boff_o(boff), .err_o(),
+    .idle_o(), .transmitter_o(transmitter), .receiver_o(), .synch_o(),
+    .tick_req_i(1'b1), .tick_o(tick), .rx_req_i(1'b0), .rx_level_o(),
+    .timer_clear_i(1'b0), .timer_we_i(1'b0), .timer_be_i(2'b00), .timer_wdata_i(16'd0),
+    .timer_o(),
+    .tx_req_i(tx_req), .tx_ide_i(1'b0), .tx_rtr_i(1'b0), .tx_dlc_i(tx_dlc), .tx_word_i(tx_word),
+    .tx_next_o(tx_next), .tx_ok_o(tx_ok), .tx_fail_o(tx_fail),
+    .start_o(), .stamp_o(), .rx_hdr_o(rx_hdr), .rx_id_o(rx_id), .rx_ide_o(rx_ide), .rx_srr_o(),
+    .rx_rtr_o(rx_rtr), .rx_dlc_o(rx_dlc), .rx_byte_we_o(rx_byte_we), .rx_byte_o(rx_byte),
+    .rx_valid_o(rx_valid), .crc_o(),
+    .can_rx_i, .can_tx_o, .trace_o
+  );
+
+  can_rn_head #(.NameBits(NameBits)) u_head (
+    .clk_i, .rst_ni,
+    .hdr_i(rx_hdr), .transmitter_i(transmitter), .ide_i(rx_ide), .rtr_i(rx_rtr),
+    .id_i(rx_id[28:18]), .byte_we_i(rx_byte_we), .byte_i(rx_byte), .valid_i(rx_valid),
+    .gap_i(gap), .number_i(number), .numbered_i(numbered),
+    .serial_i(serial), .job_i(job), .phase_i(phase), .take_i(take), .row_i(row),
+    .read_i(read_byte),
+    .hdr_o(hdr), .ours_o(ours), .byte_o(has_byte), .live_o(live), .sys_o(sys), .all_o(all),
+    .dup_o(dup), .a_o(a), .port_o(port), .key_o(key), .op_o(op), .value_bad_o(value_bad),
+    .high_bad_o(high_bad), .mismatch_o(mismatch)
+  );
+
+  can_rn_check #(.NameBits(NameBits), .MemBytes(MemBytes)) u_check (
+    .clk_i, .rst_ni,
+    .sys_i(sys), .all_i(all), .port_i(port), .a_i(a), .rtr_i(rx_rtr), .dlc_i(rx_dlc),
+    .unlock_i(op[2:0] == 3'd1), .value_bad_i(value_bad), .high_bad_i(high_bad),
+    .mismatch_i(mismatch), .start_i(start), .end_i(row_end),
+    .selected_i(selected), .operate_i(operate), .unlocked_i(unlocked),
+    .lock_reset_i(lock_reset), .full_i(full),
+    .write_o(write), .read_o(read), .trigger_o(trigger), .select_o(select),
+    .assign_o(assign_number), .state_o(set_state), .setup_o(setup), .far_o(far), .info_o(info),
+    .code_o(code)
+  );
+  assign valid   = rx_valid && live;
+  // A system function for other nodes, a read that a node without a number does not answer.
+  assign nothing = select || (set_state && mismatch) || (assign_number && !selected)
+                   || (read && !numbered);
+  assign refused = code != can_rn_pkg::CodeOk;
+
+  can_rn_step u_step (
+    .clk_i, .rst_ni,
+    .hdr_i(hdr), .ours_i(ours), .byte_i(has_byte), .live_i(live), .valid_i(valid),
+    .tick_i(tick), .dup_i(dup), .key_i(key), .refused_i(refused), .write_i(write), .read_i(read),
+    .trigger_i(trigger), .nothing_i(nothing), .restart_i(restart), .operate_i(operate),
+    .hold_i(usr_hold_i),
+    .ended_i(ended), .cleared_i(cleared), .row_i(row), .carry_i(carry),
+    .ms_i(ms), .boff_i(boff), .off_i(off), .try_i(try_due), .load_i(load), .some_i(some),
+    .gone_i(gone), .owe_feed_i(owe_feed), .start_i, .run_i(run),
+    .job_o(job), .phase_o(phase), .timer_o(timer), .request_o(request), .begin_o(begins),
+    .take_o(take), .new_tries_o(new_tries),
+    .written_o, .apply_o
+  );
+
+  // A of STATUS and IDENT as with NameBits 3.
+  logic [6:0] row_a;
+  assign row_a = NameBits == 5 ? {info, info, 5'd0} : 7'd0;
+
+  can_rn_move #(.StageBytes(StageBytes)) u_move (
+    .clk_i, .rst_ni,
+    .job_i(job), .phase_i(phase), .request_i(request), .begin_i(begins), .take_i(take),
+    .read_i(read), .trigger_i(trigger), .far_i(far), .info_i(info), .key_i(key),
+    .a_i(7'(a) | row_a), .dlc_i(rx_dlc), .count_i(op[2:0]),
+    .byte_i(rx_byte), .start_o(start), .mem_o(mem), .row_o(row), .end_o(row_end),
+    .ended_o(ended), .staged_o(staged), .cleared_o(cleared)
+  );
+  assign written_addr_o = start;
+  assign written_len_o  = row_end - {2'b00, far, 1'b0};
+
+  can_rn_cell u_cell (
+    .job_i(job), .phase_i(phase), .read_i(read), .trigger_i(trigger), .none_i(rx_dlc == 4'd0),
+    .refused_i(refused), .setup_i(setup), .off_i(off), .status_i(tx_status), .row_i(row),
+    .tail_i(tail), .head_i(head),
+    .word_i(word), .timer_i(timer), .new_tries_i(new_tries), .zero_i(zero),
+    .cell_o(cell_addr), .re_o(re), .we_o(we)
+  );
+
+  can_rn_data #(
+    .NameBits(NameBits), .MemBytes(MemBytes), .StageBytes(StageBytes), .Features(Features)
+  ) u_data (
+    .clk_i, .rst_ni,
+    .job_i(job), .none_i(rx_dlc == 4'd0), .read_i(re), .lane_i(lane),
+    .rdata_i(rdata), .frame_i(rx_byte), .mem_i(mem), .node_i,
+    .serial_i(serial),
+    .byte_o(read_byte), .zero_o(zero), .one_o(one), .wbyte_o(wbyte)
+  );
+
+  can_rn_port #(.MemBytes(MemBytes)) u_port (
+    .clk_i, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger),
+    .cell_i(cell_addr), .re_i(re), .we_i(we), .mem_i(mem), .staged_i(staged), .wbyte_i(wbyte),
+    .a_i(7'(a)), .end_i(row_end), .code_i(code), .status_i(status), .tec_i(tec), .rec_i(rec),
+    .lane_o(lane), .rdata_o(rdata),
+    .usr_req_i, .usr_we_i, .usr_be_i, .usr_addr_i, .usr_wdata_i, .usr_ready_o
+  );
+  assign usr_rdata_o = rdata;
+
+  can_rn_tx #(.NameBits(NameBits), .TxDepth(TxDepth)) u_tx (
+    .clk_i, .rst_ni,
+    .job_i(job), .phase_i(phase), .flush_i(flush), .number_i(number), .owe_status_i(owe_status),
+    .owe_here_i(owe_here), .zero_i(zero), .one_i(one), .rdata_i(rdata), .tail_o(tail),
+    .head_o(head), .word_o(word), .status_o(tx_status), .full_o(full), .some_o(some),
+    .load_o(load), .try_o(try_due), .gone_o(gone), .gone_status_o(gone_status),
+    .gone_here_o(gone_here), .tx_req_o(tx_req), .tx_dlc_o(tx_dlc), .tx_word_o(tx_word),
+    .tx_next_i(tx_next), .tx_ok_i(tx_ok), .tx_fail_i(tx_fail), .transmitter_i(transmitter)
+  );
+
+  can_rn_state #(.NameBits(NameBits)) u_state (
+    .clk_i, .rst_ni,
+    .job_i(job), .phase_i(phase), .accept_i(begins && !refused),
+    .dup_i(valid && dup), .refused_i(refused), .all_i(all || sys), .write_i(write),
+    .select_i(select), .assign_i(assign_number), .state_i(set_state), .setup_i(setup),
+    .match_i(!mismatch), .new_i(a[2]), .op_i(op), .timer_i(timer), .zero_i(zero),
+    .byte_i(read_byte), .off_entry_i(off_entry), .off_exit_i(off_exit), .gap_i(gap),
+    .passive_i(passive),
+    .node_o(state_o), .operate_o(operate), .number_o(number), .numbered_o(numbered),
+    .selected_o(selected), .unlocked_o(unlocked), .lock_reset_o(lock_reset), .run_o(run),
+    .restart_o(restart), .flush_o(flush), .gone_status_i(gone_status),
+    .gone_here_i(gone_here), .owe_status_o(owe_status), .owe_here_o(owe_here),
+    .owe_feed_o(owe_feed), .status_o(status)
+  );
+  assign safe_o = !operate;
+
+  can_rn_off u_off (
+    .clk_i, .rst_ni, .job_i(job), .last_i(phase[1]), .timer_i(timer), .byte_i(read_byte),
+    .zero_i(zero), .off_o(off), .entry_o(off_entry), .exit_o(off_exit), .carry_o(carry),
+    .release_o(release_off)
+  );
+
+  can_rn_tick #(.ClocksPerMs(ClocksPerMs)) u_tick (.clk_i, .rst_ni, .kick_i(!run), .ms_o(ms));
+
+endmodule

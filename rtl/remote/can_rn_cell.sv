@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_rn_cell: which byte of the upper 512 a job reads or writes in each of its phases.
+//   0x000 variables                       0x100 configuration
+//   0x010 shadow of the stage             0x1F0 STATUS, IDENT
+//   0x080 rows of 16 bytes: the frame that is received or the answer that is made, and the queue;
+//         0..7 data, 8 A, 9 length, A life
+
+module can_rn_cell (
+  input  can_rn_pkg::job_t job_i,
+  input  logic [1:0]       phase_i,
+  input  logic             read_i,       // JobMove: memory to row
+  input  logic             trigger_i,    // JobMove: shadow to memory
+  input  logic             none_i,       // the frame has no byte
+  input  logic             refused_i,
+  input  logic             setup_i,
+  input  logic             off_i,        // bus-off
+  input  logic             status_i,     // the word for the engine is one of STATUS
+  input  logic [3:0]       row_i,        // byte of the row
+  input  logic [2:0]       tail_i,       // row of the frame
+  input  logic [2:0]       head_i,       // row at the head of the queue
+  input  logic [1:0]       word_i,       // word for the engine
+  input  logic             timer_i,
+  input  logic             new_tries_i,  // JobRow: attempts are written, too
+  input  logic             zero_i,       // byte read is 0
+  output logic [8:0]       cell_o,
+  output logic             re_o,
+  output logic             we_o
+);
+  // Variables: 0, 1 watchdog; 2 counts ms; 3 rest of the back-off, or of 10 s; 4 constant: 10 s;
+  // 5 attempts of the frame that is offered
+  localparam logic [1:0] PageVar    = 2'd0;
+  localparam logic [1:0] PageRow    = 2'd1;
+  localparam logic [1:0] PageConfig = 2'd2;
+  localparam logic [1:0] PageStatus = 2'd3;
+  logic [1:0] page;
+  logic [3:0] place;
+  logic [2:0] row;
+  logic       last;
+  assign last = phase_i[1];
+
+  always_comb begin
+    page  = PageRow;
+    place = row_i;
+    case (job_i)
+      can_rn_pkg::JobByte: if (phase_i != 2'd0) place[0] = row_i[0] && setup_i;
+      can_rn_pkg::JobMove: if (trigger_i) page = PageVar;
+      can_rn_pkg::JobLoad: begin
+        page  = status_i || phase_i == 2'd0 ? PageStatus : PageRow;
+        place = phase_i == 2'd0 ? 4'd0 : {word_i, 2'd0};
+      end
+      can_rn_pkg::JobPush: place = 4'd8;
+      can_rn_pkg::JobFresh: begin
+        page  = PageStatus;
+        place = 4'd0;
+      end
+      can_rn_pkg::JobTrigger: begin
+        page  = none_i || last ? PageStatus : PageRow;
+        place = none_i || last ? 4'd7 : 4'd0;
+      end
+      can_rn_pkg::JobTurn: begin
+        page  = last || off_i ? PageVar : PageConfig;
+        place = last ? 4'd3 : 4'd4;
+      end
+      can_rn_pkg::JobLow, can_rn_pkg::JobHigh: begin
+        page  = PageVar;
+        place = {2'b00, timer_i, job_i[0]};
+      end
+      can_rn_pkg::JobTry: begin
+        page  = PageVar;
+        place = 4'd5;
+      end
+      can_rn_pkg::JobAge: place = 4'd10;
+      can_rn_pkg::JobCount: begin
+        page  = PageStatus;
+        place = (&phase_i) ? 4'd0 : {2'b01, refused_i, !refused_i};
+      end
+      can_rn_pkg::JobRow: begin
+        page  = !last ? PageConfig : phase_i[0] ? PageVar : PageRow;
+        place = last && !phase_i[0] ? 4'd10 : {2'b01, phase_i[0] && !last, 1'b1};
+      end
+      can_rn_pkg::JobConfig: begin
+        page  = PageConfig;
+        place = {3'b000, phase_i[0]};
+      end
+      can_rn_pkg::JobFeed: begin
+        page  = last ? PageVar : PageConfig;
+        place = {2'b00, !last, phase_i[0]};
+      end
+      default: ;
+    endcase
+  end
+
+  assign row = job_i == can_rn_pkg::JobLoad || job_i == can_rn_pkg::JobAge ? head_i : tail_i;
+  always_comb begin
+    case (page)
+      PageVar:    cell_o = {4'h0, job_i == can_rn_pkg::JobMove, place};
+      PageRow:    cell_o = {2'b01, row, place};
+      PageConfig: cell_o = {5'h10, place};
+      default:    cell_o = {5'h1F, place};
+    endcase
+  end
+
+  always_comb begin
+    re_o = job_i[4] && !last;
+    we_o = job_i[4] && last;
+    case (job_i)
+      can_rn_pkg::JobByte: begin
+        re_o = phase_i != 2'd0;
+        we_o = phase_i == 2'd0;
+      end
+      can_rn_pkg::JobMove: begin
+        re_o = 1'b1;
+        we_o = last && !(read_i && phase_i[0]);
+      end
+      can_rn_pkg::JobLoad: begin
+        re_o = phase_i[0];
+        we_o = phase_i == 2'd0;
+      end
+      can_rn_pkg::JobPush, can_rn_pkg::JobFresh, can_rn_pkg::JobClear: we_o = 1'b1;
+      can_rn_pkg::JobHigh, can_rn_pkg::JobTry, can_rn_pkg::JobAge:     we_o = last && !zero_i;
+      can_rn_pkg::JobConfig: we_o = 1'b0;
+      can_rn_pkg::JobRow:    we_o = last && (new_tries_i || !phase_i[0]);
+      default: ;
+    endcase
+  end
+
+endmodule

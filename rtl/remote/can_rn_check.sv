@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_rn_check: what a request asks for, and whether it may (RN-32): its code is there before the
+// frame is valid.
+
+module can_rn_check #(
+  parameter int NameBits = 3,
+  parameter int MemBytes = 4096,
+  /// Derived, do not override.
+  localparam int AddrBits = 10 - NameBits
+) (
+  input  logic                clk_i,
+  input  logic                rst_ni,
+  // Request
+  input  logic                sys_i,
+  input  logic                all_i,
+  input  logic                port_i,
+  input  logic [AddrBits-1:0] a_i,
+  input  logic                rtr_i,
+  input  logic [3:0]          dlc_i,
+  input  logic                unlock_i,       // SETUP is UNLOCK
+  input  logic                value_bad_i,
+  input  logic                high_bad_i,
+  input  logic                mismatch_i,
+  input  logic [11:0]         start_i,        // first address
+  input  logic [3:0]          end_i,          // end of its bytes in the row
+  // Node
+  input  logic                selected_i,
+  input  logic                operate_i,
+  input  logic                unlocked_i,
+  input  logic                lock_reset_i,   // locked until reset
+  input  logic                full_i,         // no room for an answer
+  // Kind of request, while its code is 0
+  output logic                write_o,
+  output logic                read_o,
+  output logic                trigger_o,
+  output logic                select_o,
+  output logic                assign_o,
+  output logic                state_o,
+  output logic                setup_o,
+  output logic                far_o,          // READ or WRITE: the row begins with the address
+  output logic                info_o,         // STATUS or IDENT
+  output logic [3:0]          code_o          // registered
+);
+  logic near, is_write;
+  assign near      = !sys_i && !port_i;
+  assign far_o     = port_i && !(|a_i[2:1]);
+  assign info_o    = port_i && (&a_i[2:1]);
+  assign is_write  = far_o && a_i[0];
+  assign write_o   = is_write || (near && !rtr_i);
+  assign read_o    = (far_o && !a_i[0]) || (near && rtr_i) || info_o;
+  assign setup_o   = port_i && a_i[2:1] == 2'd2;
+  assign state_o   = sys_i && !(|a_i[2:0]);
+  assign trigger_o = sys_i && a_i[1:0] == 2'd1;
+  assign assign_o  = sys_i && (&a_i[1:0]);
+  assign select_o  = sys_i && !a_i[0] && (|a_i[2:1]);
+
+  // RN-32: function, value
+  logic bad_function, bad_value, none, long, third;
+  assign none  = !(|dlc_i);
+  assign long  = dlc_i[3] && (|dlc_i[2:0]);
+  assign third = dlc_i[3:2] != 2'b00;   // 4 or more
+  always_comb begin
+    bad_function = port_i && (info_o ? !rtr_i : rtr_i || a_i[1] || (a_i[2] && (a_i[0] || all_i)));
+    bad_value    = none || long;
+    if (sys_i) begin
+      bad_function = rtr_i || (|a_i[AddrBits-1:3]) || (a_i[2] && (|a_i[1:0]));
+      if (trigger_o)      bad_value = third || dlc_i[1];
+      else if (select_o)  bad_value = !dlc_i[3] || long;
+      else                bad_value = third || (assign_o ? dlc_i[1:0] != 2'd1
+                                                         : !(dlc_i[1] ^ dlc_i[0]));
+    end
+    if (far_o && !(&dlc_i[1:0] && !third)) bad_value = !is_write || long || !third;
+    if (setup_o) bad_value = dlc_i[3] || dlc_i[1] || !dlc_i[0] || dlc_i[2] != unlock_i;
+    if (value_bad_i && !(state_o && mismatch_i)) bad_value = 1'b1;
+  end
+
+  // Addresses: the access may end in the block of eight bytes behind that of its first byte; where
+  // legal areas end, it may not.
+  logic       crosses, top, config_area, fixed_area, outside, last, bad_address;
+  logic [3:0] reach;
+  assign reach       = {1'b0, start_i[2:0]} + end_i;
+  assign crosses     = reach[3] && (far_o ? reach[2] || (&reach[1:0]) : (|reach[2:0]));
+  assign top         = &start_i[11:8];
+  assign config_area = top && !(|start_i[7:5]);
+  assign fixed_area  = top && (&start_i[7:4]);
+  if (MemBytes == 4096) begin : gen_whole
+    assign outside = (&start_i[11:9]) && !config_area && !fixed_area;
+    assign last    = (&start_i[11:10]) && (&start_i[8:3]);
+  end else begin : gen_part
+    assign outside = (&start_i[11:9]) ? !config_area && !fixed_area
+                                      : start_i[11:9] >= 3'(MemBytes / 512 - 1);
+    assign last    = ((&start_i[11:9]) || start_i[11:9] == 3'(MemBytes / 512 - 2))
+                     && (&start_i[8:3]);
+  end
+  always_comb begin
+    if (far_o) bad_address = high_bad_i || outside
+                             || (crosses && (last || (top && start_i[7:3] == 5'b00011)));
+    else       bad_address = near && crosses && (&start_i[AddrBits-1:4]) && !start_i[3];
+  end
+
+  logic locked;
+  assign locked = (is_write && config_area && !unlocked_i)
+                  || (setup_o && unlock_i && (mismatch_i || operate_i || lock_reset_i))
+                  || (assign_o && selected_i && operate_i);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)                        code_o <= can_rn_pkg::CodeOk;
+    else if (bad_function)              code_o <= can_rn_pkg::CodeFunction;
+    else if (bad_value)                 code_o <= can_rn_pkg::CodeValue;
+    else if (bad_address)               code_o <= can_rn_pkg::CodeAddress;
+    else if (locked)                    code_o <= can_rn_pkg::CodeLocked;
+    else if (is_write && fixed_area)    code_o <= can_rn_pkg::CodeProtected;
+    else if (read_o && full_i)          code_o <= can_rn_pkg::CodeBusy;
+    else                                code_o <= can_rn_pkg::CodeOk;
+  end
+
+endmodule

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_rn_data: the byte that was read, registered before anything is decided on it (RN-81), and
+// the byte that is written: this one, one more, one less, one of the frame, or the first contents.
+
+module can_rn_data #(
+  parameter int NameBits = 3,
+  parameter int MemBytes = 4096,
+  parameter int StageBytes = 8,
+  parameter int Features = 1
+) (
+  input  logic                clk_i,
+  input  logic                rst_ni,
+  input  can_rn_pkg::job_t    job_i,
+  input  logic                none_i,       // JobTrigger: the frame has no byte
+  input  logic                read_i,       // a byte is read in this clock ..
+  input  logic [1:0]          lane_i,       // .. of this place
+  input  logic [31:0]         rdata_i,
+  input  logic [7:0]          frame_i,      // byte of the frame on the bus
+  input  logic [11:0]         mem_i,        // JobClear: the byte that is written
+  input  logic [NameBits-1:0] node_i,
+  input  logic [31:0]         serial_i,
+  output logic [7:0]          byte_o,       // read
+  output logic                zero_o,       // it is 0, 1
+  output logic                one_o,
+  output logic [7:0]          wbyte_o
+);
+  logic [7:0] byte_q, lane_byte;
+  logic [1:0] lane_q;
+  logic       read_q;
+
+  always_comb begin
+    case (lane_q)
+      2'd0:    lane_byte = rdata_i[7:0];
+      2'd1:    lane_byte = rdata_i[15:8];
+      2'd2:    lane_byte = rdata_i[23:16];
+      default: lane_byte = rdata_i[31:24];
+    endcase
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      read_q <= 1'b0;
+      lane_q <= '0;
+      byte_q <= '0;
+    end else begin
+      read_q <= read_i;
+      lane_q <= lane_i;
+      if (read_q) byte_q <= lane_byte;
+    end
+  end
+
+  logic few;
+  assign few    = !(|byte_q[7:1]);
+  assign zero_o = few && !byte_q[0];
+  assign one_o  = few && byte_q[0];
+  assign byte_o = byte_q;
+
+  // First contents (RN-60). What is not named is 0.
+  function automatic logic [7:0] first_byte(input logic [11:0] address);
+    first_byte = 8'h00;
+    case (address)
+      12'hE04: first_byte = 8'd40;                                 // x 256 ms = 10.2 s
+      12'hF00: first_byte = 8'(node_i);
+      12'hF01: first_byte = 8'h05;                                 // FLAGS: ERRS, BOOT
+      12'hF04: first_byte = 8'h0A;                                 // BOFF
+      12'hF05: first_byte = 8'h0A;                                 // LIFE
+      12'hF06: first_byte = 8'h32;                                 // BLKTO
+      12'hF07: first_byte = 8'h08;                                 // RETRY
+      12'hFF8: first_byte = 8'h01;                                 // IDENT (RN-25)
+      12'hFF9: first_byte = 8'(Features);
+      12'hFFA: first_byte = {4'(NameBits), 4'($clog2(MemBytes))};
+      12'hFFB: first_byte = 8'(StageBytes);
+      12'hFFC: first_byte = serial_i[7:0];
+      12'hFFD: first_byte = serial_i[15:8];
+      12'hFFE: first_byte = serial_i[23:16];
+      12'hFFF: first_byte = serial_i[31:24];
+      default: ;
+    endcase
+  endfunction
+
+  logic less, more;
+  assign less = job_i == can_rn_pkg::JobLow || job_i == can_rn_pkg::JobHigh
+                || job_i == can_rn_pkg::JobTry || job_i == can_rn_pkg::JobAge;
+  assign more = job_i == can_rn_pkg::JobCount
+                || (job_i == can_rn_pkg::JobTrigger && none_i);
+
+  always_comb begin
+    case (job_i)
+      can_rn_pkg::JobByte:  wbyte_o = frame_i;
+      can_rn_pkg::JobClear: wbyte_o = first_byte(mem_i);
+      default:              wbyte_o = byte_q + {8{less}} + 8'(more);
+    endcase
+  end
+
+endmodule

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_rn_head: what the frame on the bus is to this node, from its header (RN-01 to RN-03), and
+// what its bytes say as they pass: everything about a request but its address.
+
+module can_rn_head #(
+  parameter int NameBits = 3,
+  /// Derived, do not override.
+  localparam int AddrBits = 10 - NameBits
+) (
+  input  logic                clk_i,
+  input  logic                rst_ni,
+  // Engine
+  input  logic                hdr_i,          // header complete
+  input  logic                transmitter_i,
+  input  logic                ide_i,
+  input  logic                rtr_i,
+  input  logic [10:0]         id_i,           // stays for 3 bits
+  input  logic                byte_we_i,
+  input  logic [7:0]          byte_i,         // stays for a bit
+  input  logic                valid_i,
+  input  logic                gap_i,          // no frame on the bus: the one before is over
+  // Node
+  input  logic [NameBits-1:0] number_i,
+  input  logic                numbered_i,     // the number is one
+  input  logic [31:0]         serial_i,
+  // Steps
+  input  can_rn_pkg::job_t    job_i,
+  input  logic [1:0]          phase_i,
+  input  logic                take_i,         // header is taken over
+  input  logic [3:0]          row_i,          // number of the byte
+  input  logic [7:0]          read_i,         // byte read from the RAM
+  output logic                hdr_o,          // a header waits
+  output logic                ours_o,         // and matters to this node
+  output logic                byte_o,         // a byte waits
+  output logic                live_o,         // a frame for this node is under way
+  output logic                sys_o,          // system function (name 0)
+  output logic                all_o,          // for all nodes (name 1)
+  output logic                dup_o,          // a statement under our number (RN-11)
+  output logic [AddrBits-1:0] a_o,
+  output logic                port_o,         // one of the last eight A
+  output logic                key_o,          // this byte is compared with the serial number
+  output logic [4:0]          op_o,           // operation, number, or count of READ
+  output logic                value_bad_o,    // a byte has no legal value
+  output logic                high_bad_o,     // address beyond 12 bits
+  output logic                mismatch_o      // serial number or number is another
+);
+  logic                hdr_q, byte_q, live_q;
+  logic [1:0]          class_q;
+  logic [AddrBits-1:0] a_q;
+  logic                bad_q, high_q, mismatch_q;
+  logic [4:0]          op_q;
+
+  // Bit 1: name 0 or 1, bit 0 of the name; or a statement.
+  localparam logic [1:0] ClassOwn = 2'd0;
+  localparam logic [1:0] ClassDup = 2'd1;
+  localparam logic [1:0] ClassSys = 2'd2;
+  localparam logic [1:0] ClassAll = 2'd3;
+
+  // Header
+  logic [NameBits-1:0] name;
+  logic                low, own;
+  assign name    = id_i[9 -: NameBits];
+  assign low     = !(|name[NameBits-1:1]);
+  assign own     = numbered_i && name == number_i;
+  assign ours_o  = own && !(id_i[10] && rtr_i) || (low && !id_i[10]);
+
+  assign hdr_o  = hdr_q;
+  assign byte_o = byte_q || (byte_we_i && live_q);
+  assign live_o = live_q;
+  assign sys_o  = class_q == ClassSys;
+  assign all_o  = class_q == ClassAll;
+  assign dup_o  = class_q == ClassDup;
+  assign a_o    = a_q;
+  assign port_o = !sys_o && (&a_q[AddrBits-1:3]);
+
+  // Bytes
+  logic state, select, setup, get, top, first, second, third, key_byte;
+  assign state  = sys_o && a_q[1:0] == 2'd0 && !a_q[2];
+  assign select = sys_o && !a_q[0];
+  assign setup  = port_o && a_q[2];
+  assign get    = port_o && !(|a_q[2:0]);
+  assign top    = |byte_i[6:3];
+  assign first  = row_i == 4'd0;
+  assign second = row_i == 4'd1;
+  assign third  = row_i == 4'd2;
+
+  // STATE 01, 02, 81; SETUP 1 to 4; READ 1 to 6.
+  logic state_bad, setup_bad, get_bad, bad, other;
+  assign state_bad = byte_i[2] || !(byte_i[1] ^ byte_i[0]) || (byte_i[7] && byte_i[1]);
+  assign setup_bad = byte_i[7] || (byte_i[2] ? |byte_i[1:0] : !(|byte_i[1:0]));
+  assign get_bad   = byte_i[7] || (&byte_i[2:0]) || !(|byte_i[2:0]);
+  assign bad       = (first && ((state && (top || state_bad)) || (setup && (top || setup_bad))))
+                     || (third && get && (top || get_bad));
+  assign other     = second && (|byte_i) && !(numbered_i && byte_i == 8'(number_i));
+
+  // SELECT compares after each mask, UNLOCK each byte of the key.
+  logic [1:0] index;
+  logic [7:0] differ;
+  assign key_o  = select ? row_i[0] : setup && !first;
+  assign index  = select ? row_i[2:1] : row_i[1:0] - 2'd1;
+  assign differ = (read_i ^ serial_i[8*index +: 8]) & (byte_i | {8{setup}});
+
+  assign op_o        = op_q;
+  assign value_bad_o = bad_q;
+  assign high_bad_o  = high_q;
+  assign mismatch_o  = mismatch_q;
+  assign key_byte    = job_i == can_rn_pkg::JobByte;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {hdr_q, byte_q, live_q} <= '0;
+    end else begin
+      hdr_q  <= (hdr_i && !transmitter_i && !ide_i) || (hdr_q && !take_i && !gap_i);
+      byte_q <= byte_o && job_i != can_rn_pkg::JobIdle;
+      if (gap_i || valid_i) live_q <= 1'b0;
+      else if (take_i)      live_q <= ours_o;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      class_q <= ClassOwn;
+      a_q     <= '0;
+    end else if (take_i) begin
+      class_q <= {low && !id_i[10], low ? name[0] : id_i[10]};
+      a_q     <= id_i[AddrBits-1:0];
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {bad_q, high_q, mismatch_q} <= '0;
+      op_q <= '0;
+    end else if (job_i == can_rn_pkg::JobHead) begin
+      {bad_q, high_q, mismatch_q} <= '0;
+    end else if (key_byte) begin
+      bad_q  <= bad_q || bad;
+      high_q <= high_q || (second && (|byte_i[7:4]));
+      if (state ? other : (&phase_i) && (|differ)) mismatch_q <= 1'b1;
+      if (get ? third : first)
+        op_q <= {byte_i[4:3], byte_i[2] || (byte_i[7] && state), byte_i[1:0]};
+    end
+  end
+
+endmodule

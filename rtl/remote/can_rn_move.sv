@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_rn_move: the addresses of a request: where it starts in the memory, where the mover is in the
+// memory and in the row of the frame, where the bytes of the row end.
+
+module can_rn_move #(
+  parameter int StageBytes = 8
+) (
+  input  logic             clk_i,
+  input  logic             rst_ni,
+  input  can_rn_pkg::job_t job_i,
+  input  logic [1:0]       phase_i,
+  input  logic             request_i,  // a request is valid
+  input  logic             begin_i,    // its work begins
+  input  logic             take_i,     // a header is taken over
+  input  logic             read_i,     // memory to row, else row to memory
+  input  logic             trigger_i,
+  input  logic             far_i,      // READ, WRITE
+  input  logic             info_i,     // STATUS, IDENT
+  input  logic             key_i,
+  input  logic [6:0]       a_i,
+  input  logic [3:0]       dlc_i,
+  input  logic [2:0]       count_i,    // of READ
+  input  logic [7:0]       byte_i,     // byte of the frame
+  output logic [11:0]      start_o,    // first address
+  output logic [11:0]      mem_o,      // where the mover is
+  output logic [3:0]       row_o,
+  output logic [3:0]       end_o,      // end of the bytes in the row
+  output logic             ended_o,    // row_o is there
+  output logic             staged_o,   // mem_o lies in the stage (RN-46)
+  output logic             cleared_o   // mem_o is the last address
+);
+  logic [11:0] start_q;
+  logic [3:0]  low_q, row_q;
+  logic [8:0]  high;
+  logic        head, far_byte, clear, move;
+
+  assign start_o   = start_q;
+  assign row_o     = row_q;
+  assign clear     = job_i == can_rn_pkg::JobClear;
+  assign move      = job_i == can_rn_pkg::JobMove;
+  assign cleared_o = &mem_o;
+  if (StageBytes == 0) begin : gen_no_stage
+    assign staged_o = 1'b0;
+    assign ended_o  = row_q == end_o;
+  end else begin : gen_stage
+    assign staged_o = mem_o[11:4] == 8'h01 && (StageBytes == 16 || !mem_o[3]);
+    assign ended_o  = trigger_i ? (StageBytes == 16 ? row_q == 4'd0 : row_q[3]) : row_q == end_o;
+  end
+
+  // An access reaches into the next block of eight bytes at most: only the place in the block is
+  // counted. JobClear goes on from block to block.
+  assign high  = start_q[11:3] + {8'd0, low_q[3]};
+  assign mem_o = {high, low_q[2:0]};
+
+  // The start is A itself, the row of STATUS or IDENT, the stage, or what the first bytes say.
+  logic [7:0] near;
+  assign head     = job_i == can_rn_pkg::JobHead;
+  assign far_byte = job_i == can_rn_pkg::JobByte && far_i && !(|row_q[3:1]);
+  assign near     = {info_i, a_i[6:5], a_i[4] || trigger_i, info_i ? a_i[0] : a_i[3],
+                     a_i[2:1] & {2{!info_i}}, a_i[0] && !info_i && !trigger_i};
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      start_q <= '0;
+    end else if (clear) begin
+      start_q[11:3] <= high;
+    end else begin
+      if (head || (far_byte && !row_q[0])) start_q[7:0]  <= head ? near : byte_i;
+      if (head || (far_byte && row_q[0]))  start_q[11:8] <= head ? {4{info_i}} : byte_i[3:0];
+    end
+  end
+
+  logic step_mem;
+  assign step_mem = clear || (move && (read_i || phase_i[1]));
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)       low_q <= '0;
+    else if (begin_i)  low_q <= {1'b0, start_q[2:0]};
+    else if (step_mem) low_q <= {low_q[3] && !clear, low_q[2:0]} + 4'd1;
+  end
+
+  logic step_row;
+  always_comb begin
+    case (job_i)
+      can_rn_pkg::JobBegin: step_row = &phase_i;
+      can_rn_pkg::JobByte:  step_row = !key_i || (&phase_i);
+      can_rn_pkg::JobMove:  step_row = read_i ? phase_i[1] && !ended_o
+                                              : phase_i == 2'd0 || !ended_o;
+      default:              step_row = 1'b0;
+    endcase
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)                  row_q <= '0;
+    else if (take_i || request_i) row_q <= '0;
+    else if (begin_i)             row_q <= {2'b00, far_i, 1'b0};
+    else if (step_row)            row_q <= row_q + 4'd1;
+  end
+
+  // READ says how much in its third byte; its answer begins with the address.
+  assign end_o = far_i && !a_i[0] ? {1'b0, count_i} + 4'd2 : dlc_i;
+
+endmodule

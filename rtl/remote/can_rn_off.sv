@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_rn_off: bus-off (RN-72): recovery has to wait for BOFF x 2^k ms; k grows each time and is 0
+// again 10 s after the last recovery. One byte counts both, each 2^k or 256 ms.
+
+module can_rn_off (
+  input  logic             clk_i,
+  input  logic             rst_ni,
+  input  can_rn_pkg::job_t job_i,
+  input  logic             last_i,      // last phase
+  input  logic             timer_i,
+  input  logic [7:0]       byte_i,      // byte read
+  input  logic             zero_i,
+  output logic             off_o,       // bus-off, as far as it has been noticed
+  output logic             entry_o,     // it begins
+  output logic             exit_o,      // it ends
+  output logic             carry_o,     // JobLow: the high byte counts
+  output logic             release_o    // recovery may go on
+);
+  logic       off_q, turn, over;
+  logic [2:0] k_q;
+  logic [7:0] mask;
+
+  assign turn      = job_i == can_rn_pkg::JobTurn && last_i;
+  assign entry_o   = turn && !off_q;
+  assign exit_o    = turn && off_q;
+  assign over      = job_i == can_rn_pkg::JobHigh && timer_i && last_i && zero_i;
+  assign release_o = over && off_q;
+  assign off_o     = off_q;
+
+  always_comb begin
+    for (int i = 0; i < 7; i++) mask[i] = !off_q || k_q > 3'(i);
+    mask[7] = !off_q;
+  end
+  assign carry_o = timer_i ? !(|(byte_i & mask)) : zero_i;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      off_q <= 1'b0;
+      k_q   <= '0;
+    end else begin
+      off_q <= off_q ^ turn;
+      if (over && !off_q)             k_q <= '0;
+      else if (exit_o && !(&k_q))     k_q <= k_q + 3'd1;
+    end
+  end
+
+endmodule

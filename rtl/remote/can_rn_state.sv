@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_rn_state: what the node is: its state, number, lock, flags (RN-24, RN-61, RN-70), whether it
+// is on the bus, and what it owes: a STATUS frame, the watchdog's food.
+
+module can_rn_state #(
+  parameter int NameBits = 3
+) (
+  input  logic                clk_i,
+  input  logic                rst_ni,
+  input  can_rn_pkg::job_t    job_i,
+  input  logic [1:0]          phase_i,
+  // Request that is carried out
+  input  logic                accept_i,      // request begins, code 0
+  input  logic                dup_i,         // a statement under our number has come
+  input  logic                refused_i,
+  input  logic                all_i,         // no STATUS frame for it
+  input  logic                write_i,
+  input  logic                select_i,
+  input  logic                assign_i,
+  input  logic                state_i,
+  input  logic                setup_i,
+  input  logic                match_i,       // SELECT matches the serial number
+  input  logic                new_i,         // SELECT NEW
+  input  logic [4:0]          op_i,
+  // Time and bus
+  input  logic                timer_i,
+  input  logic                zero_i,        // byte read is 0
+  input  logic [7:0]          byte_i,        // byte read
+  input  logic                off_entry_i,   // bus-off begins
+  input  logic                off_exit_i,    // bus-off ends
+  input  logic                gap_i,         // no frame on the bus
+  input  logic                passive_i,
+  output logic [1:0]          node_o,        // state
+  output logic                operate_o,
+  output logic [NameBits-1:0] number_o,
+  output logic                numbered_o,    // it is one
+  output logic                selected_o,
+  output logic                unlocked_o,
+  output logic                lock_reset_o,
+  output logic                run_o,
+  output logic                restart_o,
+  output logic                flush_o,
+  input  logic                gone_status_i, // STATUS, HERE is sent or dropped
+  input  logic                gone_here_i,
+  output logic                owe_status_o,
+  output logic                owe_here_o,
+  output logic                owe_feed_o,
+  output logic [7:0]          status_o
+);
+  logic [1:0]          node_q;
+  logic [NameBits-1:0] number_q;
+  logic                unlocked_q, lock_reset_q, selected_q, run_q;
+  logic                dup_q, watchdog_q, boff_seen_q, armed_q;
+  logic                owe_status_q, owe_here_q, owe_feed_q;
+  logic                errs_q, ackw_q, boot_q, auto_q;
+
+  logic counts, act, to_operate, to_safe, expired, number_we, hit;
+  assign hit        = match_i && !(new_i && numbered_o);
+  assign counts     = job_i == can_rn_pkg::JobCount && phase_i == 2'd2;
+  assign act        = counts && !refused_i;
+  assign to_operate = act && state_i && op_i[0] && !op_i[2];
+  assign to_safe    = act && state_i && op_i[1];
+  assign restart_o  = !refused_i && state_i && op_i[0] && op_i[2];
+  assign expired    = job_i == can_rn_pkg::JobHigh && phase_i[1] && !timer_i && zero_i
+                      && armed_q;
+
+  assign node_o       = node_q;
+  assign operate_o    = node_q == can_rn_pkg::NodeOperate;
+  assign number_o     = number_q;
+  assign numbered_o   = |number_q[NameBits-1:1];
+  assign selected_o   = selected_q;
+  assign unlocked_o   = unlocked_q;
+  assign lock_reset_o = lock_reset_q;
+  assign run_o        = run_q;
+  assign flush_o      = !run_q || off_entry_i || (act && assign_i);
+  assign owe_status_o = owe_status_q && numbered_o;
+  assign owe_here_o   = owe_here_q;
+  assign owe_feed_o   = owe_feed_q;
+  assign status_o     = {boff_seen_q, watchdog_q, 1'b0, dup_q, passive_i, unlocked_q, node_q};
+
+  logic begins;
+  assign begins = job_i == can_rn_pkg::JobConfig && (&phase_i);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)         node_q <= can_rn_pkg::NodeInit;
+    else if (!run_q)     node_q <= begins ? {1'b1, byte_i[3]} : can_rn_pkg::NodeInit;
+    else if (off_entry_i || to_safe || expired) node_q <= can_rn_pkg::NodeSafe;
+    else if (to_operate || (off_exit_i && auto_q && !watchdog_q))
+      node_q <= can_rn_pkg::NodeOperate;
+  end
+
+  assign number_we = (job_i == can_rn_pkg::JobConfig && phase_i == 2'd2) || (act && assign_i);
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)        number_q <= '0;
+    else if (number_we) number_q <= assign_i && run_q ? op_i[NameBits-1:0] : byte_i[NameBits-1:0];
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)     {auto_q, boot_q, ackw_q, errs_q} <= '0;
+    else if (begins) {auto_q, boot_q, ackw_q, errs_q} <= byte_i[3:0];
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {unlocked_q, lock_reset_q, selected_q} <= '0;
+    end else begin
+      if (!run_q || to_operate)    unlocked_q <= 1'b0;
+      else if (act && setup_i && op_i[2:1] != 2'd2 && !op_i[2]) unlocked_q <= !op_i[1];
+      if (act && setup_i && (&op_i[1:0])) lock_reset_q <= 1'b1;
+      if (!run_q || (accept_i && select_i)) selected_q <= hit && run_q;
+    end
+  end
+
+  logic clear;
+  assign clear = act && setup_i && op_i[2];
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {dup_q, watchdog_q, boff_seen_q, armed_q, run_q} <= '0;
+    end else begin
+      dup_q       <= dup_i || (dup_q && !clear);
+      watchdog_q  <= expired || (watchdog_q && !clear);
+      boff_seen_q <= off_entry_i || (boff_seen_q && !clear);
+      // A watchdog of 0 ms is none.
+      if (job_i == can_rn_pkg::JobFeed && phase_i[1]) armed_q <= !zero_i || (armed_q && phase_i[0]);
+      if (begins)                                              run_q <= 1'b1;
+      else if (job_i == can_rn_pkg::JobStart && gap_i)     run_q <= 1'b0;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {owe_status_q, owe_here_q, owe_feed_q} <= '0;
+    end else begin
+      if (begins)                  owe_status_q <= byte_i[2];
+      else if (off_exit_i)         owe_status_q <= boot_q;
+      else if (counts && (refused_i ? errs_q && !all_i : (ackw_q && write_i && !all_i) || assign_i))
+                                   owe_status_q <= 1'b1;
+      else if (gone_status_i || off_entry_i) owe_status_q <= 1'b0;
+      if (accept_i && select_i)    owe_here_q <= hit;
+      else if (gone_here_i || flush_o) owe_here_q <= 1'b0;
+      owe_feed_q <= accept_i || (owe_feed_q && job_i != can_rn_pkg::JobFeed);
+    end
+  end
+
+endmodule

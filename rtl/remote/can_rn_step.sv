@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_rn_step: the order of work: what to do next, and how long. A request comes before everything
+// else; nothing else begins between its header and its end but timers, right behind a sample
+// point: they are over before the next one.
+
+module can_rn_step (
+  input  logic             clk_i,
+  input  logic             rst_ni,
+  // Frame
+  input  logic             hdr_i,         // a header waits
+  input  logic             ours_i,
+  input  logic             byte_i,        // a byte waits
+  input  logic             live_i,        // a frame for this node is under way
+  input  logic             valid_i,       // it is valid
+  input  logic             tick_i,        // sample point
+  // Request
+  input  logic             dup_i,
+  input  logic             key_i,
+  input  logic             refused_i,
+  input  logic             write_i,
+  input  logic             read_i,
+  input  logic             trigger_i,
+  input  logic             nothing_i,     // nothing more to do for it
+  input  logic             restart_i,
+  input  logic             operate_i,
+  input  logic             hold_i,
+  // Mover and data
+  input  logic             ended_i,
+  input  logic             cleared_i,
+  input  logic [3:0]       row_i,
+  input  logic             carry_i,       // JobLow: the high byte counts
+  // What else there is to do
+  input  logic             ms_i,
+  input  logic             boff_i,
+  input  logic             off_i,         // bus-off, as far as it has been noticed
+  input  logic             try_i,
+  input  logic             load_i,
+  input  logic             some_i,
+  input  logic             gone_i,        // what was offered to the engine
+  input  logic             owe_feed_i,
+  input  logic             start_i,
+  input  logic             run_i,
+  output can_rn_pkg::job_t job_o,
+  output logic [1:0]       phase_o,
+  output logic             timer_o,
+  output logic             request_o,     // a request is valid
+  output logic             begin_o,       // its work begins
+  output logic             take_o,        // header is taken over
+  output logic             new_tries_o,   // JobRow: the attempts count from the start
+  output logic             written_o,     // pulses for user logic (RN-45)
+  output logic             apply_o
+);
+  // As written here, so that codes of no job lead back.
+  (* fsm_encoding = "none", syn_encoding = "safe" *) can_rn_pkg::job_t job_q;
+  can_rn_pkg::job_t job_d, work, next;
+  logic [1:0] phase_q, int2_q;
+  logic [3:0] ten_q;
+  logic       tick_q, timer_q, ms_q, aged_q, row_ready_q, try_ready_q;
+  logic       keep, idle, wait_user, quiet, due, int2, ended_timer;
+
+  assign job_o   = job_q;
+  assign phase_o = phase_q;
+  assign timer_o = timer_q;
+  assign new_tries_o = !try_ready_q;
+
+  assign idle      = job_q == can_rn_pkg::JobIdle;
+  assign quiet     = !live_i;
+  assign due       = quiet || tick_q;
+  assign request_o = idle && valid_i && !dup_i;
+  assign take_o    = idle && hdr_i;
+  assign int2      = int2_q == 2'd0 || (int2_q == 2'd1 && tick_i);
+  assign wait_user = hold_i && !refused_i && (write_i || read_i || trigger_i)
+                     && !((&row_i) && (&phase_q));
+  assign begin_o   = job_q == can_rn_pkg::JobBegin && !wait_user;
+
+  // What comes next when nothing is under way.
+  always_comb begin
+    next = can_rn_pkg::JobIdle;
+    if (valid_i)                             next = {4'b0000, !dup_i};   // JobBegin
+    else if (hdr_i)                          next = {1'b0, ours_i, 3'b000};   // JobHead
+    else if (byte_i)                         next = can_rn_pkg::JobByte;
+    else if (due && ms_q)                    next = can_rn_pkg::JobLow;
+    else if (due && aged_q)                  next = can_rn_pkg::JobAge;
+    else if (quiet) begin
+      if (try_i)                             next = can_rn_pkg::JobTry;
+      else if (load_i)                       next = can_rn_pkg::JobLoad;
+      else if (!row_ready_q || !try_ready_q) next = can_rn_pkg::JobRow;
+      else if (boff_i ^ off_i)               next = can_rn_pkg::JobTurn;
+      else if (owe_feed_i)                   next = can_rn_pkg::JobFeed;
+    end
+  end
+
+  // What a request leads to.
+  always_comb begin
+    work = can_rn_pkg::JobCount;
+    if (!refused_i) begin
+      if (write_i)   work = can_rn_pkg::JobMove;
+      if (read_i)    work = can_rn_pkg::JobFresh;
+      if (trigger_i) work = can_rn_pkg::JobTrigger;
+      if (nothing_i) work = can_rn_pkg::JobIdle;
+    end
+  end
+
+  // keep: the job goes on with its next phase; else it is followed by job_d.
+  always_comb begin
+    keep  = job_q[4] && !(phase_q[1] && (phase_q[0] || !job_q[3]));
+    job_d = can_rn_pkg::JobIdle;
+    case (job_q)
+      can_rn_pkg::JobIdle:  job_d = next;
+      can_rn_pkg::JobBegin: begin
+        keep  = wait_user;
+        job_d = work;
+      end
+      can_rn_pkg::JobInt2:  keep = !int2;
+      can_rn_pkg::JobStart: begin
+        keep  = run_i || !start_i;
+        job_d = can_rn_pkg::JobConfig;
+      end
+      can_rn_pkg::JobByte:  keep = key_i && !(&phase_q);
+      can_rn_pkg::JobMove: begin
+        keep  = read_i ? !(ended_i && phase_q[1]) : !(&phase_q);
+        job_d = read_i ? can_rn_pkg::JobPush : trigger_i ? can_rn_pkg::JobInt2
+                                                         : can_rn_pkg::JobCount;
+      end
+      can_rn_pkg::JobClear: begin
+        keep  = !cleared_i;
+        job_d = can_rn_pkg::JobStart;
+      end
+      can_rn_pkg::JobLoad:  keep = !phase_q[1];
+      can_rn_pkg::JobFresh:   job_d = can_rn_pkg::JobMove;
+      can_rn_pkg::JobTrigger: if (operate_i) job_d = can_rn_pkg::JobMove;
+      can_rn_pkg::JobLow:     if (carry_i) job_d = can_rn_pkg::JobHigh;
+      can_rn_pkg::JobCount: begin
+        if (restart_i)                  job_d = can_rn_pkg::JobStart;
+        else if (!refused_i && write_i) job_d = can_rn_pkg::JobInt2;
+      end
+      default: ;
+    endcase
+  end
+
+  assign ended_timer = (job_q == can_rn_pkg::JobLow && phase_q[1] && !carry_i)
+                       || (job_q == can_rn_pkg::JobHigh && phase_q[1]);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      job_q   <= can_rn_pkg::JobClear;
+      phase_q <= '0;
+    end else begin
+      if (!keep) job_q <= job_d;
+      if (!keep) phase_q <= '0;
+      else if (job_q == can_rn_pkg::JobMove && phase_q != 2'd0)
+                 phase_q <= {1'b1, ended_i && !read_i};
+      else       phase_q <= phase_q + 2'd1;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      ten_q <= 4'd1;
+      {timer_q, ms_q, aged_q, row_ready_q, try_ready_q} <= '0;
+    end else begin
+      // 10 of the 15 states of x^4 + x + 1.
+      if (ms_i) ten_q <= {ten_q[2], ten_q[1], ten_q[0] ^ ten_q[3], ten_q[3]};
+      timer_q     <= timer_q ^ ended_timer;
+      ms_q        <= ms_i || (ms_q && !(ended_timer && timer_q));
+      aged_q      <= (ms_i && ten_q == 4'd1) || (aged_q && some_i && job_q != can_rn_pkg::JobAge);
+      row_ready_q <= job_q == can_rn_pkg::JobRow
+                     || (row_ready_q && job_q != can_rn_pkg::JobPush);
+      try_ready_q <= !gone_i && (try_ready_q || (job_q == can_rn_pkg::JobRow && (&phase_q)));
+    end
+  end
+
+  // The third sample point from the end of a valid frame is that of INT2.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      int2_q <= '0;
+      tick_q <= 1'b0;
+      {written_o, apply_o} <= '0;
+    end else begin
+      tick_q <= tick_i;
+      if (valid_i)                         int2_q <= 2'd3;
+      else if (tick_i && int2_q != 2'd0)   int2_q <= int2_q - 2'd1;
+      written_o <= job_q == can_rn_pkg::JobInt2 && int2 && write_i;
+      apply_o   <= job_q == can_rn_pkg::JobInt2 && int2 && trigger_i;
+    end
+  end
+
+endmodule

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_rn_tx: what is sent: HERE, STATUS, or the first of the queue of answers, which are rows of
+// the RAM. A frame is received into the row behind the queue; an answer is made there and stays.
+
+module can_rn_tx #(
+  parameter int NameBits = 3,
+  /// Answers, 1 or 4.
+  parameter int TxDepth = 1
+) (
+  input  logic                clk_i,
+  input  logic                rst_ni,
+  input  can_rn_pkg::job_t    job_i,
+  input  logic [1:0]          phase_i,
+  input  logic                flush_i,       // nothing is sent any more
+  input  logic [NameBits-1:0] number_i,
+  input  logic                owe_status_i,
+  input  logic                owe_here_i,
+  input  logic                zero_i,        // byte read is 0, 1
+  input  logic                one_i,
+  input  logic [31:0]         rdata_i,
+  output logic [2:0]          tail_o,
+  output logic [2:0]          head_o,
+  output logic [1:0]          word_o,        // word that is wanted next
+  output logic                status_o,      // it is one of STATUS
+  output logic                full_o,
+  output logic                some_o,        // the queue holds an answer
+  output logic                load_o,        // a word is wanted
+  output logic                try_o,         // an attempt has failed
+  output logic                gone_o,        // pulse: sent or dropped
+  output logic                gone_status_o, // it was STATUS, HERE
+  output logic                gone_here_o,
+  // Engine
+  output logic                tx_req_o,
+  output logic [3:0]          tx_dlc_o,
+  output logic [31:0]         tx_word_o,
+  input  logic                tx_next_i,
+  input  logic                tx_ok_i,
+  input  logic                tx_fail_i,
+  input  logic                transmitter_i  // beside tx_fail_i: an error, else lost arbitration
+);
+  localparam int PtrWidth = TxDepth == 1 ? 1 : 3;
+
+  logic [PtrWidth-1:0] tail_q, head_q;
+  logic [1:0]          src_q;    // what is offered, once its header has been loaded
+  logic [1:0]          word_q;   // 2: header, 0 and 1: data; bits 3:2 of the place in the row
+  logic                load_q, try_q;
+  logic [31:0]         hold_q;
+  logic                loading, gone, stale, recalled, drop;
+
+  assign tail_o   = 3'(tail_q);
+  assign head_o   = 3'(head_q);
+  assign word_o   = word_q;
+  assign status_o = src_q == can_rn_pkg::SrcStatus;
+  assign some_o   = tail_q != head_q;
+  if (TxDepth == 1) begin : gen_single
+    assign full_o = some_o;
+  end else begin : gen_queue
+    assign full_o = tail_q == {~head_q[2], head_q[1:0]};
+  end
+  assign load_o  = load_q && (some_o || owe_status_i || owe_here_i);
+  assign try_o   = try_q;
+  assign loading = job_i == can_rn_pkg::JobLoad;
+
+  // Sent, or too many attempts; or its life is over. A frame that the engine has just taken stays,
+  // and so does what is behind one that has gone while its life was read.
+  assign gone  = tx_ok_i || (job_i == can_rn_pkg::JobTry && phase_i[1] && one_i);
+  assign stale = job_i == can_rn_pkg::JobAge && (&phase_i) && zero_i && word_q[1] && !tx_next_i
+                 && (|src_q);
+  // A SELECT that does not select takes back a HERE that waits.
+  assign recalled = (&src_q) && !owe_here_i;
+  assign drop     = flush_i || gone || stale || recalled;
+  assign gone_o        = gone;
+  assign gone_status_o = gone && status_o;
+  assign gone_here_o   = gone && (&src_q);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      tail_q <= '0;
+      head_q <= '0;
+    end else begin
+      if (job_i == can_rn_pkg::JobPush)             tail_q <= tail_q + 1'b1;
+      if (flush_i)                                  head_q <= tail_q;
+      else if (stale || (gone && src_q == can_rn_pkg::SrcQueue)) head_q <= head_q + 1'b1;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      src_q  <= can_rn_pkg::SrcNone;
+      word_q <= 2'd2;
+      load_q <= 1'b1;
+      try_q  <= 1'b0;
+    end else begin
+      if (drop)                                   src_q <= can_rn_pkg::SrcNone;
+      else if (loading && src_q == can_rn_pkg::SrcNone)
+        src_q <= owe_here_i ? can_rn_pkg::SrcHere
+                            : owe_status_i ? can_rn_pkg::SrcStatus : can_rn_pkg::SrcQueue;
+      if (flush_i || tx_ok_i || tx_fail_i)        word_q <= 2'd2;
+      else if (tx_next_i)                         word_q <= {1'b0, !word_q[1]};
+      if (drop || tx_fail_i || tx_next_i || (job_i == can_rn_pkg::JobAge && phase_i[1]))
+                                                  load_q <= 1'b1;
+      else if (loading && phase_i[0])             load_q <= 1'b0;
+      try_q <= (tx_fail_i && transmitter_i) || (try_q && job_i != can_rn_pkg::JobTry);
+    end
+  end
+
+  // The read register of the RAM is shared, so the word is kept here.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)                     hold_q <= '0;
+    else if (loading && phase_i[1])  hold_q <= rdata_i;
+  end
+
+  // Header: A in byte 0, length in byte 1. STATUS is 7E with eight bytes, HERE 0x402 with none.
+  localparam int AddrBits = 10 - NameBits;
+  logic                own;
+  logic [AddrBits-1:0] a;
+  logic [10:0]         id;
+  assign own = src_q[1];
+  assign a   = own ? {{AddrBits-2{!src_q[0]}}, 2'b10} : hold_q[AddrBits-1:0];
+  assign id  = {1'b1, number_i & {NameBits{!(&src_q)}}, a};
+
+  assign tx_req_o  = !load_q && word_q[1] && !loading;
+  assign tx_dlc_o  = own ? {!src_q[0], 3'd0} : hold_q[11:8];
+  assign tx_word_o = {hold_q[7:5], word_q[1] ? id : {hold_q[4:0], hold_q[15:10]},
+                      hold_q[9:8], hold_q[23:16], hold_q[31:24]};
+
+endmodule

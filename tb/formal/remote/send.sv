@@ -1,0 +1,60 @@
+  // SPDX-FileCopyrightText: 2026 The VeriCAN authors
+  // SPDX-License-Identifier: Apache-2.0
+  //
+  // Properties of can_rn_tx, spliced into it: any order of jobs, any content of the RAM.
+
+  logic f_ran, f_sending;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) {f_ran, f_sending} <= '0;
+    else begin
+      f_ran     <= 1'b1;
+      f_sending <= (f_sending || tx_next_i) && !tx_ok_i && !tx_fail_i;
+    end
+  end
+
+  // The phase of JobAge that comes next; 0: none.
+  logic [1:0] f_aging;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) f_aging <= '0;
+    else         f_aging <= job_i == can_rn_pkg::JobAge ? phase_i + 2'd1 : 2'd0;
+  end
+
+  // Answers that wait: what has been pushed and has not gone.
+  logic [2:0] f_fill;
+  assign f_fill = 3'(PtrWidth'(tail_q - head_q));
+
+  logic f_here;
+  assign f_here = tx_word_o[28:18] == 11'h402 && tx_dlc_o == 4'd0;
+
+  always @(posedge clk_i) begin
+    // Reset in the first clock, none later.
+    m_reset: assume (rst_ni == !$initstate);
+    // A frame is taken when one is offered (AR-13), and ends after that.
+    m_taken: assume (!tx_next_i || f_sending || tx_req_o);
+    m_ends: assume (!(tx_ok_i || tx_fail_i) || f_sending);
+    m_one_end: assume ($countones({tx_next_i, tx_ok_i, tx_fail_i}) <= 1);
+    // can_rn_check refuses a read for which there is no room (can_remote, node.p_no_overflow).
+    m_room: assume (job_i != can_rn_pkg::JobPush || !full_o);
+    // What is flushed is not under way: RESTART, ASSIGN and bus-off come when nothing is sent.
+    m_flush: assume (!flush_i || (!f_sending && !tx_next_i && !tx_ok_i));
+    // JobTry and JobAge begin when they are asked for, JobLoad when there is something to load.
+    m_load: assume (job_i != can_rn_pkg::JobLoad || some_o || owe_status_i || owe_here_i);
+    m_try: assume (job_i != can_rn_pkg::JobTry || (!f_sending && !tx_next_i && !flush_i));
+    // No job writes the queue while it is flushed.
+    m_flush_alone: assume (!flush_i || (job_i != can_rn_pkg::JobPush
+                                        && job_i != can_rn_pkg::JobLoad));
+    // JobAge has four phases, and begins when there is an answer.
+    m_age: assume (job_i != can_rn_pkg::JobAge
+                   || (phase_i == f_aging && (some_o || f_aging != 2'd0)));
+    m_age_ends: assume (f_aging == 2'd0 || job_i == can_rn_pkg::JobAge);
+    if (f_ran) begin
+      // RN-102 P-4, RN-10, RN-11: an identifier that is sent has dir 1 and the own number, or is
+      // HERE.
+      p_own_id: assert (!tx_req_o || f_here
+                        || tx_word_o[28:18] >> AddrBits == {1'b1, number_i});
+      // RN-102 P-3, RN-54: nothing goes that is not there.
+      p_no_underflow: assert (head_q == $past(head_q) || $past(flush_i || some_o));
+      // RN-31, RN-102 P-3: full is told exactly when no more can be taken.
+      p_full: assert (full_o == (f_fill == 3'(TxDepth)));
+    end
+  end

@@ -1,0 +1,37 @@
+  // SPDX-FileCopyrightText: 2026 The VeriCAN authors
+  // SPDX-License-Identifier: Apache-2.0
+  //
+  // Properties of can_rn_step, spliced into it: any frames, any answers of the other blocks.
+
+  // Sample points since a frame was valid, and whether it has been told.
+  logic [1:0] f_ticks;
+  logic       f_shown, f_ran;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      f_ticks <= '0;
+      {f_shown, f_ran} <= '0;
+    end else begin
+      f_ran <= 1'b1;
+      if (valid_i)     f_ticks <= '0;
+      else if (tick_i) f_ticks <= f_ticks + {1'b0, !(&f_ticks)};
+      f_shown <= !valid_i && (f_shown || written_o || apply_o);
+    end
+  end
+
+  always @(posedge clk_i) begin
+    // Reset in the first clock, none later.
+    m_reset: assume (rst_ni == !$initstate);
+    // A frame is valid at a sample point, one clock behind it; the next is far away.
+    m_valid: assume (!(valid_i && tick_i));
+    // One kind of request, the same until it has been told; none while the one before is at work.
+    m_kind: assume (!(write_i && trigger_i));
+    m_apart: assume (!valid_i || job_q == can_rn_pkg::JobIdle || !live_i);
+    if (f_ran) begin
+      // RN-102 P-7, RN-45: what became visible is told at the third sample point or later.
+      p_int2: assert (!(written_o || apply_o) || f_ticks == 2'd3 || $past(valid_i));
+      // RN-102 P-7, RN-46: never as both.
+      p_one_kind: assert (!(written_o && apply_o));
+      // RN-102 P-7, RN-45: only for a request that writes, or for TRIGGER.
+      p_asked: assert (!written_o || $past(write_i, 1) || $past(write_i, 2));
+    end
+  end
