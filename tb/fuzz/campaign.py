@@ -22,7 +22,8 @@ FULL = 1_000_000
 # Longest input, bytes; those that need most time first.
 TARGETS = {"board": 160, "wave": 32, "guest": 200, "client": 200, "scenario": 300, "vcd": 400,
            "splitter": 200, "elf": 400, "log": 256, "candump": 256, "gvret": 256, "trc": 256,
-           "pcap": 512, "pcapng": 512, "options": 64, "words": 80, "can_frame": 16}
+           "capture": 200, "gzip": 200, "screen": 200, "pcap": 512, "pcapng": 512, "options": 64,
+           "words": 80, "can_frame": 16}
 LIMITS = ["-timeout=20", "-rss_limit_mb=600", "-malloc_limit_mb=64", "-print_final_stats=1"]
 REGISTER_JOBS = 2
 

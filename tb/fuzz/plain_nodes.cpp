@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "node/core_node.hpp"
+#include "node/remote_node.hpp"
 #include "node/rtl_node.hpp"
 
 namespace vericansim {
@@ -57,6 +58,8 @@ CoreNode::CoreNode(std::string name, const CoreConfig &config, const ClockConfig
 }
 CoreNode::~CoreNode() = default;
 void CoreNode::clock(Level) {}
+std::uint64_t CoreNode::quiet() const { return 0; }
+void CoreNode::pass(std::uint64_t) {}
 std::uint64_t CoreNode::trace() const { return 0; }
 void CoreNode::configure(const CoreConfig &config) {
   config.timing.validate();
@@ -67,5 +70,8 @@ void CoreNode::stop() {}
 bool CoreNode::running() const { return false; }
 void CoreNode::request(const Frame &, bool) {}
 void CoreNode::cancel() {}
+
+bool RemoteNode::has(const RemoteConfig &) { return true; }
+std::string RemoteNode::available() { return "all"; }
 
 }  // namespace vericansim

@@ -30,7 +30,8 @@ constexpr Entry kTargets[] = {
     {"vcd", fuzz_vcd},         {"wave", fuzz_wave},     {"scenario", fuzz_scenario},
     {"options", fuzz_options}, {"elf", fuzz_elf},       {"splitter", fuzz_splitter},
     {"words", fuzz_words},     {"client", fuzz_client}, {"can_frame", fuzz_can_frame},
-    {"board", fuzz_board},     {"guest", fuzz_guest}};
+    {"board", fuzz_board},     {"guest", fuzz_guest},   {"screen", fuzz_screen},
+    {"capture", fuzz_capture}, {"gzip", fuzz_gzip}};
 
 std::vector<std::filesystem::path> files_of(const std::filesystem::path &path) {
   if (!std::filesystem::is_directory(path)) return {path};
