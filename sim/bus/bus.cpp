@@ -12,25 +12,14 @@
 #include "bus/faults.hpp"
 
 namespace vericansim {
-namespace {
-
-constexpr Level wired_and(std::uint64_t dominant) {
-  return dominant == 0 ? Level::kRecessive : Level::kDominant;
-}
-
-void set_bit(std::uint64_t &mask, unsigned bit, bool value) {
-  mask = (mask & ~(1ULL << bit)) | (static_cast<std::uint64_t>(value) << bit);
-}
-
-}  // namespace
-
 Node::~Node() {
   if (bus_ != nullptr) bus_->detach(*this);
 }
 
 Bus::~Bus() {
-  for (Entry &entry : nodes_) {
-    if (entry.node != nullptr) entry.node->bus_ = nullptr;
+  for (NodeId id = 0; id < size(); ++id) {
+    end_rest(id);
+    if (nodes_[id].node != nullptr) nodes_[id].node->bus_ = nullptr;
   }
 }
 
@@ -54,19 +43,20 @@ NodeId Bus::add(Node &node, const Link &link) {
     throw std::invalid_argument("first clock edge of " + node.name() +
                                 " lies in the past of the bus");
   }
+  unprepare();
   node.bus_ = this;
+  node.id_ = size();
   Entry entry;
   entry.node = &node;
   entry.link = link;
   nodes_.push_back(std::move(entry));
-  prepared_ = false;
   return size() - 1;
 }
 
 void Bus::set_delay(NodeId from, NodeId to, Time delay) {
   if (delay < 0) throw std::invalid_argument("a delay must not be negative");
+  unprepare();
   delay_override_[{from, to}] = delay;
-  prepared_ = false;
 }
 
 // A node hears itself through its own transceiver, others through both stubs as well.
@@ -80,17 +70,20 @@ Time Bus::delay(NodeId from, NodeId to) const {
 }
 
 void Bus::add(BusObserver &observer) {
+  unprepare();
   observers_.push_back(&observer);
   interests_ |= observer.interests();
 }
 
 void Bus::remove(BusObserver &observer) {
+  unprepare();
   std::erase(observers_, &observer);
   interests_ = 0;
   for (const BusObserver *other : observers_) interests_ |= other->interests();
 }
 
 void Bus::add(Fault &fault) {
+  unprepare();
   faults_.push_back(&fault);
   const unsigned hooks = fault.hooks();
   if ((hooks & Fault::kUnheard) != 0) with_unheard_.push_back(&fault);
@@ -98,7 +91,6 @@ void Bus::add(Fault &fault) {
   if ((hooks & Fault::kLevel) != 0) with_level_.push_back(&fault);
   if ((hooks & Fault::kClocked) != 0) with_clocked_.push_back(&fault);
   levels_disturbed_ = levels_disturbed_ || (hooks & ~Fault::kClocked) != 0;
-  prepared_ = false;
   fault.attach(*this);
 }
 
@@ -136,6 +128,7 @@ void Bus::prepare() {
     observer_point_.dominant = driven_dominant_;
   }
   direct_ = direct;
+  resting_ = may_rest_ && faults_.empty() && (interests_ & BusObserver::kClocks) == 0;
   prepared_ = true;
 }
 
@@ -143,12 +136,14 @@ void Bus::prepare() {
 
 Time Bus::next_edge() const {
   if (next_.empty()) return std::numeric_limits<Time>::max();
-  return together_ ? next_[0] : *std::min_element(next_.begin(), next_.end());
+  return together_ && !resting_ ? next_[0] : *std::min_element(next_.begin(), next_.end());
 }
 
 bool Bus::run_actions(Time until) {
   if (actions_.empty() || actions_.top().time > until) return false;
   now_ = std::max(now_, actions_.top().time);
+  catch_up_all(std::max(done_before_, now_));
+  observe(passed_);
   const auto run = actions_.top().run;
   actions_.pop();
   run();
@@ -156,10 +151,12 @@ bool Bus::run_actions(Time until) {
 }
 
 void Bus::step() {
+  end_all_rest();
   do {
     if (!prepared_) prepare();
   } while (run_actions(next_edge()));
   if (!next_.empty()) run_instant(next_edge());
+  catch_up_all(done_before_);
 }
 
 void Bus::run_until(Time until) {
@@ -170,17 +167,20 @@ void Bus::run_until(Time until) {
     if (run_actions(std::min(t, until))) continue;
     if (t > until) {
       now_ = std::max(now_, until);
+      catch_up_all(until + 1);
       observe(until + 1);
       return;
     }
     run_instant(t);
   }
+  catch_up_all(done_before_);
 }
 
 bool Bus::run_until(const std::function<bool()> &done, Time limit) {
   const Time end = now_ + limit;
   stopped_ = false;
   while (!done()) {
+    end_all_rest();
     if (!prepared_) prepare();
     const Time t = next_edge();
     if (run_actions(std::min(t, end))) continue;
@@ -205,143 +205,27 @@ bool Bus::may_skip() {
 
 bool Bus::skip(Time until) {
   if (!actions_.empty()) until = std::min(until, actions_.top().time - 1);
+  end_all_rest();
   if (until <= now_ || !may_skip()) return false;
   for (NodeId i = 0; i < size(); ++i) {
     nodes_[i].node->oscillator_.skip(until);
     next_[i] = nodes_[i].node->oscillator_.next();
   }
   now_ = until;
+  done_before_ = until + 1;
   return true;
 }
 
 void Bus::run_instant(Time t) {
-  now_ = t;
+  now_ = done_before_ = t;
   if (direct_) {
     clock_together(t);
-    return;
+  } else {
+    observe(t);
+    clock_due(t, [this, t](NodeId id) { return receive(id, t); });
   }
-  observe(t);
-  for (NodeId i = 0; i < next_.size(); ++i) {
-    if (next_[i] == t) clock_node(i, t, receive(i, t));
-  }
-}
-
-// ---- Levels
-
-// All nodes sample the AND of what was driven before t; what they drive now shows from t on.
-void Bus::clock_together(Time t) {
-  const Level rx = wired_and(driven_dominant_);
-  for (NodeId i = 0; i < next_.size(); ++i) clock_node(i, t, rx);
-  const Level level = wired_and(driven_dominant_);
-  if (level != level_) set_level(t, level);
-}
-
-void Bus::clock_node(NodeId id, Time t, Level rx) {
-  Node &node = *nodes_[id].node;
-  node.clock(rx);
-  node.oscillator_.tick();
-  next_[id] = node.oscillator_.next();
-  if (node.tx() != nodes_[id].tx) driven(id, t, node.tx());
-  if (interests_ != 0 || !with_clocked_.empty()) watch(id, t, rx);
-}
-
-void Bus::driven(NodeId id, Time t, Level level) {
-  nodes_[id].tx = level;
-  set_bit(driven_dominant_, id, level == Level::kDominant);
-  if ((interests_ & BusObserver::kNodeLevels) != 0) {
-    for (BusObserver *observer : observers_) observer->on_node_tx(id, t, level);
-  }
-  if (direct_) return;
-  const Time *delay = &delay_[static_cast<std::size_t>(id) * size()];
-  for (NodeId to = 0; to < size(); ++to) nodes_[to].receiver.push({t + delay[to], id, level});
-  observer_point_.push({t + nodes_[id].link.transmitter + nodes_[id].link.cable, id, level});
-}
-
-Level Bus::receive(NodeId id, Time t) {
-  Receiver &receiver = nodes_[id].receiver;
-  receiver.collect(t);
-  return levels_disturbed_ ? with_faults(id, t, receiver.dominant) : wired_and(receiver.dominant);
-}
-
-Level Bus::with_faults(NodeId id, Time t, std::uint64_t dominant) {
-  std::uint64_t unheard = 0;
-  for (Fault *fault : with_unheard_) unheard |= fault->unheard(id, t);
-  for (Fault *fault : with_babbling_) {
-    const std::uint64_t babbling = fault->babbling(t);
-    if ((dominant & ~unheard) == 0 && (babbling & ~unheard) != 0) fault->took_effect(id, t);
-    dominant |= babbling;
-  }
-  Level level = wired_and(dominant & ~unheard);
-  if (level != wired_and(dominant)) {
-    for (Fault *fault : with_unheard_)
-      if ((fault->unheard(id, t) & dominant) != 0) fault->took_effect(id, t);
-  }
-  for (Fault *fault : with_level_) level = fault->level(id, t, level);
-  return level;
-}
-
-// Arrivals keep their order in time; those of one source never overtake each other.
-void Bus::Receiver::push(const Arrival &arrival) {
-  auto place = pending.end();
-  while (place - pending.begin() > static_cast<std::ptrdiff_t>(head) &&
-         (place - 1)->time > arrival.time) {
-    --place;
-  }
-  pending.insert(place, arrival);
-}
-
-void Bus::Receiver::collect(Time before) {
-  while (head < pending.size() && pending[head].time < before) {
-    set_bit(dominant, pending[head].source, pending[head].level == Level::kDominant);
-    ++head;
-  }
-  if (head == pending.size() && head != 0) {
-    pending.clear();
-    head = 0;
-  }
-}
-
-// ---- Observers
-
-void Bus::observe(Time before) {
-  if (direct_) return;
-  Receiver &point = observer_point_;
-  while (point.head < point.pending.size() && point.pending[point.head].time < before) {
-    const Time t = point.pending[point.head].time;
-    point.collect(t + 1);
-    const Level level =
-        levels_disturbed_ ? with_faults(kBusPoint, t, point.dominant) : wired_and(point.dominant);
-    if (level != level_) set_level(t, level);
-  }
-  if (!levels_disturbed_) return;
-  const Level level = with_faults(kBusPoint, now_, point.dominant);
-  if (level != level_) set_level(now_, level);
-}
-
-void Bus::set_level(Time t, Level level) {
-  level_ = level;
-  if ((interests_ & BusObserver::kLevels) == 0) return;
-  for (BusObserver *observer : observers_) observer->on_level(t, level);
-}
-
-void Bus::watch(NodeId id, Time t, Level rx) {
-  Entry &entry = nodes_[id];
-  if (rx != entry.rx) {
-    entry.rx = rx;
-    if ((interests_ & BusObserver::kNodeLevels) != 0) {
-      for (BusObserver *observer : observers_) observer->on_node_rx(id, t, rx);
-    }
-  }
-  constexpr unsigned kTraceUsers = BusObserver::kBits | BusObserver::kClocks;
-  if ((interests_ & kTraceUsers) == 0 && with_clocked_.empty()) return;
-  const std::uint64_t word = entry.node->trace();
-  for (Fault *fault : with_clocked_) fault->clocked(id, t, word);
-  if ((interests_ & BusObserver::kBits) != 0 && entry.bits.clocked(word, next_[id])) {
-    for (BusObserver *observer : observers_) observer->on_bit(id, entry.bits.record());
-  }
-  if ((interests_ & BusObserver::kClocks) != 0) {
-    for (BusObserver *observer : observers_) observer->on_clock(id, t, word);
-  }
+  done_before_ = t + 1;
+  clocked_ = 0;
 }
 
 }  // namespace vericansim

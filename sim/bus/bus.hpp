@@ -67,7 +67,15 @@ class Bus {
   [[nodiscard]] bool has_actions() const { return !actions_.empty(); }
 
   /// Tells the kernel that an oscillator was changed while the bus runs.
-  void clocks_changed() { prepared_ = false; }
+  void clocks_changed() { unprepare(); }
+
+  /// Whether nodes may rest: edges at which nothing moves in a node but the place in the bit
+  /// (Node::quiet()) are not clocked one by one but made good in closed form, before anybody looks.
+  /// All results are the same. On by default; faults and observers of single clocks turn it off
+  /// while they are there.
+  void let_rest(bool allowed);
+  /// Edges of all nodes that were made good in closed form so far.
+  [[nodiscard]] std::uint64_t edges_passed() const { return edges_passed_; }
 
   /// Runs all clock edges of the next instant that has any.
   void step();
@@ -135,8 +143,22 @@ class Bus {
 
   void detach(const Node &node);
   void prepare();
+  void unprepare();
+  void catch_up(NodeId id);
+  void catch_up(NodeId id, Time before);
+  void catch_up_all(Time before);
+  void end_rest(NodeId id);
+  void end_all_rest();
+  void rest(NodeId id);
+  void wake_at(NodeId id, Time arrival);
   void run_instant(Time t);
   void clock_together(Time t);
+  /// Clocks the nodes whose turn is at `t`, with the level that `level_for` gives.
+  template <typename LevelFor>
+  void clock_due(Time t, LevelFor &&level_for) {
+    for (clocked_ = 0; clocked_ < next_.size(); ++clocked_)
+      if (next_[clocked_] == t) clock_node(clocked_, t, level_for(clocked_));
+  }
   void clock_node(NodeId id, Time t, Level rx);
   void driven(NodeId id, Time t, Level level);
   void watch(NodeId id, Time t, Level rx);
@@ -149,7 +171,7 @@ class Bus {
   [[nodiscard]] bool run_actions(Time until);
 
   std::vector<Entry> nodes_;
-  std::vector<Time> next_;  // next edge of each node, contiguous for the scan
+  std::vector<Time> next_;  // next edge of each node that is clocked, contiguous for the scan
   std::map<std::pair<NodeId, NodeId>, Time> delay_override_;
   std::vector<Time> delay_;  // [from * size + to], valid while prepared_
   Receiver observer_point_;
@@ -168,6 +190,12 @@ class Bus {
   bool direct_ = false;            // and neither delays nor faults in levels: one AND for all
   bool levels_disturbed_ = false;  // some fault has more than clocked()
   bool stopped_ = false;
+  bool may_rest_ = true;  // as the user has it
+  bool resting_ = false;  // and nothing speaks against it now
+  std::uint64_t edges_passed_ = 0;
+  Time passed_ = 0;       // latest of the edges that were made good
+  Time done_before_ = 0;  // all edges before it have been, or have to be made good
+  NodeId clocked_ = 0;    // and in an instant those of the nodes before this one at it
 };
 
 }  // namespace vericansim

@@ -66,6 +66,7 @@ void Clock::set_period(double ppm) {
   const long long ppb = 1'000'000'000 + std::llround(ppm * 1e3);
   constexpr Fixed kTera = 1'000'000'000'000ULL;
   period_ = divide(kTera * kTera, millihertz * static_cast<Fixed>(ppb));
+  period_ps_ = std::ldexp(static_cast<double>(period_), -64);
 }
 
 void Clock::update() {
@@ -92,8 +93,6 @@ double Clock::next_walk_ppm() {
   if (moved < -bound) return -2.0 * bound - moved;
   return moved;
 }
-
-double Clock::period_ps() const { return std::ldexp(static_cast<double>(period_), -64); }
 
 bool Clock::in_step_with(const Clock &other) const {
   return edge_ == other.edge_ && period_ == other.period_ && config_.wander == Wander::kNone &&

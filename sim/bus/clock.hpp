@@ -56,6 +56,27 @@ class Clock {
     edge_ += edges * period_;
     cycles_ += static_cast<std::uint64_t>(edges);
   }
+
+  /// Time of the edge that comes `edges` after the next one; exact for up to steady_edges().
+  [[nodiscard]] Time after(std::uint64_t edges) const {
+    return static_cast<Time>((edge_ + edges * period_) >> 64);
+  }
+  /// Edges to come before the period may change; the edge after them is at after(steady_edges()).
+  [[nodiscard]] std::uint64_t steady_edges() const { return until_update_ - 1; }
+  /// Edges up to and including `until`, ps, as long as there are at most steady_edges() of them.
+  [[nodiscard]] std::uint64_t edges_until(Time until) const {
+    if (until < next()) return 0;
+    const auto guess = static_cast<std::uint64_t>(static_cast<double>(until - next()) / period_ps_);
+    std::uint64_t edges = guess < 2 ? 0 : guess - 1;  // the quotient may be off by one
+    while (after(edges) <= until) ++edges;
+    return edges;
+  }
+  /// Consumes `edges` rising edges, at most steady_edges().
+  void advance(std::uint64_t edges) {
+    edge_ += edges * period_;
+    cycles_ += edges;
+    until_update_ -= edges;
+  }
   [[nodiscard]] bool wanders() const { return config_.wander != Wander::kNone; }
 
   /// Rising edges consumed so far.
@@ -65,7 +86,7 @@ class Clock {
   /// Error in force now (constant part and wander), ppm.
   [[nodiscard]] double error_ppm() const { return momentary_ppm_; }
   /// Length of the current period, ps.
-  [[nodiscard]] double period_ps() const;
+  [[nodiscard]] double period_ps() const { return period_ps_; }
   [[nodiscard]] const ClockConfig &config() const { return config_; }
 
   /// Sets a new constant error, in force from the edge after the next one (clock drift fault).
@@ -84,6 +105,7 @@ class Clock {
   ClockConfig config_;
   Fixed edge_ = 0;    // 64.64 fixed point, ps
   Fixed period_ = 0;  // 64.64 fixed point, ps
+  double period_ps_ = 1.0;
   std::uint64_t cycles_ = 0;
   std::uint64_t until_update_ = 0;  // edges until the wander is evaluated again; 0 wraps: never
   std::uint64_t random_ = 0;

@@ -30,14 +30,26 @@ class Node {
   /// One rising clock edge. `rx` is the level at the receive pin.
   virtual void clock(Level rx) = 0;
 
+  /// Clock edges to come, the next one first, that change nothing but what pass() makes good, as
+  /// long as the receive pin keeps its level and nobody calls the node. 0: clock me every time.
+  [[nodiscard]] virtual std::uint64_t quiet() const { return 0; }
+  /// `edges` of those at once, never more than quiet() has said.
+  virtual void pass(std::uint64_t edges) { (void)edges; }
+
   /// The observer's view after the last edge (trace_o, see node/trace.hpp); 0 if the node has none.
   [[nodiscard]] virtual std::uint64_t trace() const { return 0; }
 
   /// Level at the transmit pin since the last edge.
   [[nodiscard]] Level tx() const { return tx_; }
   [[nodiscard]] const std::string &name() const { return name_; }
-  [[nodiscard]] Clock &oscillator() { return oscillator_; }
-  [[nodiscard]] const Clock &oscillator() const { return oscillator_; }
+  [[nodiscard]] Clock &oscillator() {
+    disturbed();
+    return oscillator_;
+  }
+  [[nodiscard]] const Clock &oscillator() const {
+    catch_up();
+    return oscillator_;
+  }
 
   /// The bus the node has been added to, or nullptr.
   [[nodiscard]] Bus *bus() const { return bus_; }
@@ -45,10 +57,25 @@ class Node {
  protected:
   void drive(Level level) { tx_ = level; }
 
+  /// To be called before a state is read that pass() changes: makes the edges good that the bus has
+  /// left out up to now.
+  void catch_up() const {
+    if (resting_) make_good();
+  }
+  /// To be called before an input other than the receive pin changes: the next edge is clocked.
+  void disturbed() {
+    if (resting_) end_rest();
+  }
+
  private:
   friend class Bus;
 
+  void make_good() const;
+  void end_rest();
+
   Level tx_ = Level::kRecessive;
+  bool resting_ = false;  // on a bus that has put off edges of this node
+  NodeId id_ = 0;         // there
   Bus *bus_ = nullptr;
   std::string name_;
   Clock oscillator_;

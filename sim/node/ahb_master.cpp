@@ -35,6 +35,7 @@ std::uint32_t from_lanes(const AhbTransfer &transfer, std::uint32_t word) {
 }  // namespace
 
 AhbMaster::Ticket AhbMaster::enqueue(const AhbTransfer &transfer, std::coroutine_handle<> waiter) {
+  if (announce_) announce_();
   queue_.push_back({transfer, waiter});
   if (!driving_) next_address_phase();
   return submitted_++;

@@ -42,6 +42,9 @@ class AhbMaster {
   /// Identifies a submitted transfer; its result stays available while the next 255 are submitted.
   using Ticket = std::uint64_t;
 
+  /// `announce` is called before a transfer is queued.
+  explicit AhbMaster(std::function<void()> announce = {}) : announce_{std::move(announce)} {}
+
   Ticket submit(const AhbTransfer &transfer) { return enqueue(transfer, nullptr); }
   /// Submits a burst of words; `data` is written, or only gives the number of beats if `write` is
   /// false. Returns the ticket of the first beat, those of the others follow it.
@@ -106,6 +109,7 @@ class AhbMaster {
   std::vector<AhbResult> results_ = std::vector<AhbResult>(kKept);
   AhbChecker checker_;
   Watcher watcher_;
+  std::function<void()> announce_;
 };
 
 }  // namespace vericansim

@@ -14,7 +14,6 @@ void BitTiming::validate() const {
   require_range("bit timing: PHASE_SEG1", ps1, 1, 8);
   require_range("bit timing: PHASE_SEG2", ps2, 1, 8);
   require_range("bit timing: SJW", sjw, 1, 4);
-  require_range("bit timing: time quanta per bit", quanta(), 4, 25);
 }
 
 std::uint32_t BitTiming::ctrl_fields() const {

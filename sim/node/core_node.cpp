@@ -10,6 +10,7 @@
 #include "Vcan_core.h"
 #include "Vcan_core___024root.h"
 #include "node/model_edge.hpp"
+#include "node/quiet_engine.hpp"
 #include "verilated.h"
 
 namespace vericansim {
@@ -26,6 +27,7 @@ std::uint32_t data_word(const Frame &frame, unsigned first) {
 struct CoreNode::Impl {
   VerilatedContext context;
   Vcan_core top{&context, "can_core"};
+  QuietEngine quiet;
   void edge() { rising_edge(top, top.clk_i); }
 };
 
@@ -37,8 +39,15 @@ CoreNode::CoreNode(std::string name, const CoreConfig &config, const ClockConfig
 
 CoreNode::~CoreNode() { impl_->top.final(); }
 
+// An input is about to change.
+void CoreNode::input_changes() {
+  disturbed();
+  impl_->quiet.disturbed();
+}
+
 void CoreNode::configure(const CoreConfig &config) {
   config.timing.validate();
+  input_changes();
   config_ = config;
   auto &top = impl_->top;
   top.presdiv_i = config.timing.prescaler - 1;
@@ -54,6 +63,7 @@ void CoreNode::configure(const CoreConfig &config) {
 }
 
 void CoreNode::reset() {
+  input_changes();
   auto &top = impl_->top;
   requests_.clear();
   on_wire_ = false;
@@ -72,12 +82,16 @@ void CoreNode::reset() {
 
 // A frame that was under way at the stop begins anew: its ID word is due.
 void CoreNode::start() {
+  input_changes();
   on_wire_ = false;
   word_ = 0;
   present();
   impl_->top.run_i = 1;
 }
-void CoreNode::stop() { impl_->top.run_i = 0; }
+void CoreNode::stop() {
+  input_changes();
+  impl_->top.run_i = 0;
+}
 bool CoreNode::running() const { return impl_->top.running_o; }
 bool CoreNode::idle() const { return impl_->top.running_o && impl_->top.idle_o; }
 bool CoreNode::integrated() const { return impl_->top.synch_o; }
@@ -89,6 +103,7 @@ void CoreNode::preset_counters(std::uint8_t tec, std::uint8_t rec) {
   auto &top = impl_->top;
   if (top.run_i || top.running_o)
     throw std::logic_error("counters can only be preset while stopped");
+  input_changes();
   top.ec_wdata_i = static_cast<std::uint16_t>((rec << 8) | tec);
   top.ec_we_i = 1;
   impl_->edge();
@@ -114,6 +129,7 @@ void CoreNode::cancel() {
 
 // Shows the front request, and the word of it that is due, at the inputs.
 void CoreNode::present() {
+  input_changes();
   auto &top = impl_->top;
   top.tx_req_i = !requests_.empty() && !requests_.front().cancelled;
   if (requests_.empty()) return;
@@ -141,9 +157,13 @@ void CoreNode::clock(Level rx) {
   auto &top = impl_->top;
   top.can_rx_i = static_cast<std::uint8_t>(rx);
   impl_->edge();
+  impl_->quiet.clocked(top);
   drive(static_cast<Level>(top.can_tx_o));
   if ((top.trace_o & kTraceEvents) | top.tx_next_o | top.rx_hdr_o | top.rx_byte_we_o) collect();
 }
+
+std::uint64_t CoreNode::quiet() const { return impl_->quiet.edges(impl_->top); }
+void CoreNode::pass(std::uint64_t edges) { QuietEngine::pass(impl_->top, edges); }
 
 void CoreNode::collect() {
   auto &top = impl_->top;
@@ -151,19 +171,11 @@ void CoreNode::collect() {
   if (top.start_o) {
     ++events_.started;
     on_wire_ = top.transmitter_o;
-    bytes_ = 0;
-    receiving_ = {};
   }
-  if (top.rx_byte_we_o && bytes_ < 8) receiving_.data[bytes_++] = top.rx_byte_o;
-  if (top.rx_hdr_o) {
-    receiving_.extended = top.rx_ide_o;
-    receiving_.remote = top.rx_rtr_o;
-    receiving_.id = top.rx_ide_o ? top.rx_id_o : top.rx_id_o >> 18;
-  }
+  receiving_.clocked(top);
   if (top.rx_valid_o) {
-    receiving_.dlc = top.rx_dlc_o;
     if (!top.transmitter_o) ++events_.delivered;
-    if (!top.transmitter_o || config_.loop_back) received_.push_back(receiving_);
+    if (!top.transmitter_o || config_.loop_back) received_.push_back(receiving_.frame());
   }
   if (top.tx_next_o) {
     on_wire_ = true;

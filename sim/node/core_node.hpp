@@ -14,6 +14,7 @@
 #include "bus/node.hpp"
 #include "model/frame.hpp"
 #include "node/bit_timing.hpp"
+#include "node/engine_frame.hpp"
 #include "node/trace.hpp"
 
 namespace vericansim {
@@ -45,6 +46,8 @@ class CoreNode : public Node {
   ~CoreNode() override;
 
   void clock(Level rx) override;
+  [[nodiscard]] std::uint64_t quiet() const override;
+  void pass(std::uint64_t edges) override;
   [[nodiscard]] std::uint64_t trace() const override;
 
   /// Asynchronous reset; the node is stopped after it and has no request.
@@ -87,6 +90,7 @@ class CoreNode : public Node {
   };
   struct Impl;  // keeps the Verilated header out of this one
 
+  void input_changes();
   void present();
   void collect();
   void finish_request(bool success);
@@ -96,8 +100,7 @@ class CoreNode : public Node {
   std::deque<Request> requests_;
   unsigned word_ = 0;  // word of the front request that is presented: 0 = ID, 1 = data 0-3, 2 = 4-7
   bool on_wire_ = false;  // the front request is being sent
-  Frame receiving_;
-  unsigned bytes_ = 0;
+  EngineFrame receiving_;
   std::vector<Frame> received_;
   std::vector<Frame> sent_;
   CoreEvents events_;

@@ -4,6 +4,7 @@
 // RtlNode::create(): one class template for the three Verilated sizes of can_ahb.
 #include "node/rtl_node.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "Vcan_host64.h"
 #include "Vcan_host64___024root.h"
 #include "node/model_pins.hpp"
+#include "node/quiet_engine.hpp"
 #include "node/split_core.hpp"
 
 namespace vericansim {
@@ -28,6 +30,8 @@ class RtlNodeOf final : public RtlNode {
   }
 
   void reset() override {
+    disturbed();
+    quiet_.disturbed();
     ahb().reset();
     show_request(top_, ahb().request());
     top_.hready = 1;
@@ -47,8 +51,20 @@ class RtlNodeOf final : public RtlNode {
     } else {
       core_.edge();
     }
+    if (!core_.resting()) quiet_.disturbed();
+    quiet_.clocked(core_.engine());
     drive(static_cast<Level>(core_.engine().can_tx_o));
     after_edge();
+  }
+
+  [[nodiscard]] std::uint64_t quiet() const override {
+    if (ahb().active() || !core_.resting()) return 0;
+    return std::min(quiet_.edges(core_.engine()), edges_to_waiter());
+  }
+
+  void pass(std::uint64_t edges) override {
+    QuietEngine::pass(core_.engine(), edges);
+    passed(edges);
   }
 
   [[nodiscard]] std::uint64_t trace() const override { return core_.engine().trace_o; }
@@ -56,11 +72,13 @@ class RtlNodeOf final : public RtlNode {
   [[nodiscard]] std::uint8_t irq_lines() const override { return model_irq_lines(top_); }
 
   void request_stop(bool stop) override {
+    disturbed();
     top_.stop_req_i = stop;
     core_.touch();
   }
 
   [[nodiscard]] AhbResult peek(const AhbTransfer &transfer) override {
+    catch_up();
     const auto before = core_.save();
     AhbMaster probe;
     AhbTransfer read = transfer;
@@ -101,6 +119,7 @@ class RtlNodeOf final : public RtlNode {
 
   SplitCore<HostModel> core_;
   HostModel &top_ = core_.host();
+  QuietEngine quiet_;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 namespace vericansim {
 
 void RtlNode::Waiter::await_suspend(std::coroutine_handle<> handle) const {
+  node.disturbed();
   node.waiter_ = handle;
   node.wait_irq_ = for_irq;
   node.wake_cycle_ = until;

@@ -50,7 +50,10 @@ class RtlNode : public Node {
   [[nodiscard]] AhbMaster &ahb() { return ahb_; }
   [[nodiscard]] const AhbMaster &ahb() const { return ahb_; }
   /// Clock edges since the constructor.
-  [[nodiscard]] std::uint64_t cycles() const { return cycles_; }
+  [[nodiscard]] std::uint64_t cycles() const {
+    catch_up();
+    return cycles_;
+  }
 
   // ---- Coroutines
 
@@ -66,10 +69,13 @@ class RtlNode : public Node {
   };
   [[nodiscard]] Waiter interrupt() { return {*this, true, ~0ULL}; }
   /// Also goes on after `limit` clocks without an interrupt, or on wake().
-  [[nodiscard]] Waiter interrupt(std::uint64_t limit) { return {*this, true, cycles_ + limit}; }
-  [[nodiscard]] Waiter delay(std::uint64_t clocks) { return {*this, false, cycles_ + clocks}; }
+  [[nodiscard]] Waiter interrupt(std::uint64_t limit) { return {*this, true, cycles() + limit}; }
+  [[nodiscard]] Waiter delay(std::uint64_t clocks) { return {*this, false, cycles() + clocks}; }
   /// Lets a coroutine that waits for an interrupt or a delay go on at the next clock.
-  void wake() { wake_cycle_ = 0; }
+  void wake() {
+    disturbed();
+    wake_cycle_ = 0;
+  }
   /// Forgets a coroutine that waits (before it is destroyed).
   void forget_waiter() { waiter_ = nullptr; }
 
@@ -86,12 +92,20 @@ class RtlNode : public Node {
 
  protected:
   RtlNode(std::string name, const ClockConfig &clock, unsigned num_mb)
-      : Node{std::move(name), clock}, num_mb_{num_mb} {}
+      : Node{std::move(name), clock}, ahb_{[this] { disturbed(); }}, num_mb_{num_mb} {}
   /// To be called after each clock edge.
   void after_edge() {
     ++cycles_;
     if (waiter_ && (cycles_ >= wake_cycle_ || (wait_irq_ && irq()))) resume_waiter();
   }
+
+  /// Edges before the one at which a coroutine goes on in any case.
+  [[nodiscard]] std::uint64_t edges_to_waiter() const {
+    if (!waiter_) return ~0ULL;
+    return wake_cycle_ > cycles_ ? wake_cycle_ - cycles_ - 1 : 0;
+  }
+  /// Edges that pass() has made good.
+  void passed(std::uint64_t edges) { cycles_ += edges; }
 
  private:
   void resume_waiter();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// SplitCore: can_ahb as two Verilated models, so that the host side rests while nothing happens to
-// it.
+// SplitCore: can_ahb or can_remote as two Verilated models, so that the host side rests while
+// nothing happens to it.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +18,13 @@
 
 namespace vericansim {
 
-/// The engine (Vcan_core) and a can_ahb whose engine is hollow (HostModel, cmake/split_core.py),
-/// clocked together. Registers and buffers are three quarters of the work of a clock and idle in
-/// most of them: when a clock edge has left every bit of the model as it was, no further edge can
-/// change anything until an input does, and the model is not evaluated. The result is that of the
-/// whole core in every clock (tb/system/bus_split_core_test.cpp).
-template <typename HostModel>
+/// The engine (Vcan_core) and a top whose engine is hollow (HostModel, cmake/split_core.py),
+/// clocked together; `Ports` knows where in the top the engine is. Registers and buffers are three
+/// quarters of the work of a clock and idle in most of them: when a clock edge has left every bit
+/// of the model as it was, no further edge can change anything until an input does, and the model
+/// is not evaluated. The result is that of the whole core in every clock
+/// (tb/system/bus_split_core_test.cpp).
+template <typename HostModel, typename Ports = AhbPorts>
 class SplitCore {
  public:
   using Root = std::remove_reference_t<decltype(*std::declval<HostModel &>().rootp)>;
@@ -45,15 +46,18 @@ class SplitCore {
   /// The host side's inputs have changed.
   void touch() { resting_ = host_settled_ = false; }
 
+  /// The host side rests: nothing in it moves until an input of it does.
+  [[nodiscard]] bool resting() const { return resting_; }
+
   /// Lets combinational outputs follow the inputs, across both models.
   void settle() {
     resting_ = false;
     host_settled_ = true;
-    copy_to_host(engine_, *host_.rootp);
+    Ports::to_host(engine_, *host_.rootp);
     host_.eval();
-    while (copy_to_core(engine_, *host_.rootp)) {
+    while (Ports::to_core(engine_, *host_.rootp)) {
       engine_.eval();
-      if (!copy_to_host(engine_, *host_.rootp)) return;
+      if (!Ports::to_host(engine_, *host_.rootp)) return;
       host_.eval();
     }
   }
@@ -61,7 +65,7 @@ class SplitCore {
   /// One rising edge of the clock.
   void edge() {
     const bool changed =
-        resting_ ? wakes_host(engine_, *host_.rootp) : copy_to_host(engine_, *host_.rootp);
+        resting_ ? Ports::wakes_host(engine_, *host_.rootp) : Ports::to_host(engine_, *host_.rootp);
     if (changed) settle();
     if (resting_) {
       engine_edge();
@@ -71,12 +75,12 @@ class SplitCore {
     if (host_settled_ && !kPlainEdges)
       settled_edge(host_);
     else
-      rising_edge(host_, host_.hclk);
+      rising_edge(host_, host_clock());
     host_settled_ = true;
     resting_ =
         std::memcmp(before_.get(), static_cast<const void *>(host_.rootp), sizeof(Root)) == 0;
     engine_edge();
-    if (copy_to_core(engine_, *host_.rootp)) engine_.eval();
+    if (Ports::to_core(engine_, *host_.rootp)) engine_.eval();
   }
 
   /// Everything that the two models remember.
@@ -97,12 +101,22 @@ class SplitCore {
   }
 
   void reset(bool active) {
-    host_.hresetn = !active;
+    if constexpr (requires { host_.hresetn; })
+      host_.hresetn = !active;
+    else
+      host_.rst_ni = !active;
     engine_.rst_ni = !active;
     resting_ = host_settled_ = engine_settled_ = false;
   }
 
  private:
+  auto &host_clock() {
+    if constexpr (requires { host_.hclk; })
+      return host_.hclk;
+    else
+      return host_.clk_i;
+  }
+
   // A root holds plain bits, a pointer to its symbols and a name that never change.
   template <typename T>
   static std::unique_ptr<unsigned char[]> copy_of(const T &root) {

@@ -50,6 +50,7 @@ struct Trace {
 /// Single bits of the raw word, for code that looks at every clock.
 inline constexpr std::uint64_t kTraceSample = 1ULL << 48;
 inline constexpr std::uint64_t kTraceBoundary = 1ULL << 47;
+inline constexpr std::uint64_t kTraceTx = 1ULL << 45;
 inline constexpr std::uint64_t kTraceStart = 1ULL << 22;
 inline constexpr std::uint64_t kTraceEvents =
     0xFFC00000ULL;  ///< errors, rx_valid, tx_ok, tx_fail, start
@@ -114,6 +115,8 @@ class BitRecorder {
     return complete;
   }
   [[nodiscard]] const BitRecord &record() const { return record_; }
+  /// True while a record waits for what follows from its sample.
+  [[nodiscard]] bool pending() const { return wait_ != 0; }
 
  private:
   BitRecord record_;

@@ -114,6 +114,39 @@ TEST(Clock, InStepOnlyIfAllEdgesCoincide) {
   EXPECT_FALSE((Clock{{.wander = Wander::kSine, .wander_ppm = 1}}.in_step_with(Clock{{}})));
 }
 
+// advance(), after() and edges_until() against edge by edge, with a clock that changes its period.
+TEST(Clock, ManyEdgesAtOnceAreThoseOneByOne) {
+  const ClockConfig config{.frequency_hz = 37.7e6,
+                           .error_ppm = -321,
+                           .wander = Wander::kWalk,
+                           .wander_ppm = 500,
+                           .wander_period = 64 * kMicrosecond};
+  Clock many{config}, single{config};
+  unsigned rounds = 0;
+  for (std::uint64_t edges = 1; edges < 5000; edges = edges * 3 + 1) {
+    const std::uint64_t steady = std::min(edges, many.steady_edges());
+    const Time last = steady == 0 ? 0 : many.after(steady - 1);
+    if (steady != 0) {
+      EXPECT_EQ(many.edges_until(last), steady);
+      EXPECT_EQ(many.edges_until(last - 1), steady - 1);
+      ++rounds;
+    }
+    many.advance(steady);
+    for (std::uint64_t i = 0; i < steady; ++i) {
+      if (i == steady - 1) {
+        EXPECT_EQ(single.next(), last);
+      }
+      single.tick();
+    }
+    ASSERT_EQ(many.next(), single.next());
+    ASSERT_EQ(many.cycles(), single.cycles());
+    many.tick();
+    single.tick();
+  }
+  EXPECT_GE(rounds, 5u);
+  EXPECT_EQ(many.error_ppm(), single.error_ppm());
+}
+
 TEST(Clock, RefusesWhatNoOscillatorCanDo) {
   EXPECT_THROW(Clock{{.frequency_hz = 0}}, std::invalid_argument);
   EXPECT_THROW(Clock{{.frequency_hz = 2e10}}, std::invalid_argument);

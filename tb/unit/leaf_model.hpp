@@ -19,6 +19,8 @@ class LeafModel {
   LeafModel &operator=(const LeafModel &) = delete;
 
   Model *operator->() { return &top_; }
+  /// Signals inside, of blocks that show them.
+  auto &root() { return *top_.rootp; }
   /// Rising edge with the inputs as they are.
   void clock() { rising_edge(top_, top_.clk_i); }
   /// Lets outputs follow the inputs without a clock edge.

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// QuietEngine: the clocks of a Verilated can_core in which only the place in the bit moves.
+#pragma once
+
+#include <cstdint>
+
+#include "Vcan_core.h"
+#include "Vcan_core___024root.h"
+#include "node/model_edge.hpp"
+#include "node/trace.hpp"
+
+namespace vericansim {
+
+/// Watches an engine edge by edge, says how many edges to come only count quanta and positions, and
+/// does them at once. Everything but prescaler, position and the levels of the last quanta moves
+/// within kSettle edges of a sample point, a bit boundary or an edge that synchronises; after that,
+/// until the next of them, these only count and follow (rtl/bit/can_tq_gen.sv, can_bit_timing.sv).
+/// Proven bit by bit in tb/system/bus_rest_test.cpp.
+///
+/// Needs the members that Verilator 5.006 gives the model; without them nothing is ever quiet.
+class QuietEngine {
+ public:
+  /// Edges from the clock that shows a sample point, a boundary or a synchronising edge until all
+  /// has followed.
+  static constexpr unsigned kSettle = 2;
+
+  /// After each edge of `engine` that was evaluated.
+  void clocked(const Vcan_core &engine) { clocked_(engine); }
+
+  /// The engine's inputs may have changed, other than can_rx_i.
+  void disturbed() { settled_ = 0; }
+
+  /// Edges to come that only count, as long as no input changes. The one after them is that which
+  /// makes the sample point or the boundary show.
+  [[nodiscard]] std::uint64_t edges(const Vcan_core &engine) const { return edges_(engine); }
+
+  /// Does `edges` of them.
+  static void pass(Vcan_core &engine, std::uint64_t edges) { pass_(engine, edges); }
+
+ private:
+  // The place in the bit, as the RTL has it.
+  struct Place {
+    std::uint64_t clocks_of_tq;  // presdiv + 1
+    std::uint64_t to_tick;       // edges until tq_o is 1; 0: it is
+  };
+
+  template <typename Root>
+  static constexpr bool kKnown = !kPlainEdges && requires(Root & root) {
+    root.can_core__DOT__tq;
+    root.can_core__DOT__active_q;
+    root.can_core__DOT__u_sync__DOT__meta_q;
+    root.can_core__DOT__u_sync__DOT__settled_q;
+    root.can_core__DOT__u_tq_gen__DOT__count_q;
+    root.can_core__DOT__u_bit_timing__DOT__seg2_q;
+    root.can_core__DOT__u_bit_timing__DOT__pos_q;
+    root.can_core__DOT__u_bit_timing__DOT__prev_q;
+    root.can_core__DOT__u_bit_timing__DOT__tseg1_q;
+    root.can_core__DOT__u_bit_timing__DOT__ahead;
+    root.can_core__DOT__u_bit_timing__DOT__falling;
+  };
+
+  template <typename Engine>
+  void clocked_(const Engine &engine) {
+    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
+      const auto &root = *engine.rootp;
+      const bool moving =
+          (engine.trace_o & (kTraceSample | kTraceBoundary)) != 0 ||
+          (root.can_core__DOT__u_bit_timing__DOT__falling != 0 && root.can_core__DOT__tq != 0);
+      settled_ = moving ? 0 : settled_ + 1;
+    }
+  }
+
+  template <typename Engine>
+  [[nodiscard]] std::uint64_t edges_(const Engine &engine) const {
+    using Root = std::remove_reference_t<decltype(*engine.rootp)>;
+    if constexpr (kKnown<Root>) {
+      if (settled_ < kSettle) return 0;
+      const auto &root = *engine.rootp;
+      if (root.can_core__DOT__u_sync__DOT__meta_q != engine.can_rx_i ||
+          root.can_core__DOT__u_sync__DOT__settled_q != engine.can_rx_i)
+        return 0;
+      if (root.can_core__DOT__active_q == 0) return kStopped;
+      const Place place = place_of(engine);
+      const std::uint64_t to_event = place.to_tick + quanta(engine) * place.clocks_of_tq;
+      return to_event == 0 ? 0 : to_event - 1;
+    } else {
+      return 0;
+    }
+  }
+
+  // Whole quanta from the next tick until the one at which more happens than counting.
+  template <typename Engine>
+  static std::uint64_t quanta(const Engine &engine) {
+    const auto &root = *engine.rootp;
+    // Of three samples the trace shows the majority, which changes with the levels before.
+    const unsigned levels = level_of(engine) ? 3 : 0;
+    const bool following =
+        engine.smp_i != 0 && root.can_core__DOT__u_bit_timing__DOT__prev_q != levels;
+    if (root.can_core__DOT__u_bit_timing__DOT__falling != 0 || following) return 0;
+    const unsigned pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
+    const unsigned last = root.can_core__DOT__u_bit_timing__DOT__seg2_q != 0
+                              ? engine.pseg2_i + 1U
+                              : root.can_core__DOT__u_bit_timing__DOT__tseg1_q;
+    return pos < last ? last - pos : 0;
+  }
+
+  template <typename Engine>
+  static Place place_of(const Engine &engine) {
+    const auto &root = *engine.rootp;
+    const std::uint64_t clocks = engine.presdiv_i + 1U;
+    const std::uint64_t count = root.can_core__DOT__u_tq_gen__DOT__count_q;
+    if (root.can_core__DOT__tq != 0) return {clocks, 0};
+    return {clocks, count >= clocks ? 1 : clocks - count};
+  }
+
+  // What the bit timing block sees: the settled pin, in loop-back what the node sends.
+  template <typename Engine>
+  static bool level_of(const Engine &engine) {
+    if (engine.lpb_i != 0) return (engine.trace_o & kTraceTx) != 0;
+    return engine.rootp->can_core__DOT__u_sync__DOT__settled_q != 0;
+  }
+
+  template <typename Engine>
+  static void pass_(Engine &engine, std::uint64_t edges) {
+    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
+      auto &root = *engine.rootp;
+      if (root.can_core__DOT__active_q == 0) return;
+      const Place place = place_of(engine);
+      auto &count = root.can_core__DOT__u_tq_gen__DOT__count_q;
+      if (edges < place.to_tick) {
+        count += static_cast<CData>(edges);
+        return;
+      }
+      const std::uint64_t ticks_and_rest = edges - place.to_tick;
+      const std::uint64_t ticks = (ticks_and_rest + place.clocks_of_tq - 1) / place.clocks_of_tq;
+      const std::uint64_t rest = ticks * place.clocks_of_tq - ticks_and_rest;  // to the next tick
+      count = static_cast<CData>(place.clocks_of_tq - rest);
+      root.can_core__DOT__tq = rest == 0;
+      auto &pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
+      pos = static_cast<CData>(pos + ticks);
+      root.can_core__DOT__u_bit_timing__DOT__ahead = pos;
+      const unsigned level = level_of(engine) ? 1 : 0;
+      auto &prev = root.can_core__DOT__u_bit_timing__DOT__prev_q;
+      if (ticks == 1) prev = static_cast<CData>(((prev << 1) & 3U) | level);
+      if (ticks > 1) prev = static_cast<CData>(3U * level);
+    }
+  }
+
+  static constexpr std::uint64_t kStopped = ~0ULL >> 1;  // until an input changes
+  unsigned settled_ = 0;
+};
+
+}  // namespace vericansim

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// RemoteNode::create(): one class template for the Verilated profiles of can_remote.
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "Vcan_remote_small_3.h"
+#include "Vcan_remote_small_3___024root.h"
+#include "Vcan_remote_small_5.h"
+#include "Vcan_remote_small_5___024root.h"
+#include "node/engine_frame.hpp"
+#include "node/remote_node.hpp"
+#include "node/split_core.hpp"
+
+namespace vericansim {
+namespace {
+
+template <typename Model>
+class RemoteNodeOf final : public RemoteNode {
+ public:
+  RemoteNodeOf(std::string name, const RemoteConfig &config, unsigned number,
+               const BitTiming &timing, const ClockConfig &clock)
+      : RemoteNode{std::move(name), clock},
+        clocks_per_ms_{static_cast<std::uint64_t>(std::llround(clock.frequency_hz / 1000))},
+        to_ms_{clocks_per_ms_} {
+    auto &engine = core_.engine();
+    engine.presdiv_i = timing.prescaler - 1;
+    engine.propseg_i = timing.prop - 1;
+    engine.pseg1_i = timing.ps1 - 1;
+    engine.pseg2_i = timing.ps2 - 1;
+    engine.rjw_i = timing.sjw - 1;
+    engine.can_rx_i = 1;
+    top_.eval();
+    root().can_remote__DOT__serial = config.serial;
+    top_.node_i = static_cast<std::uint8_t>(number & config.highest_number());
+    reset();
+  }
+
+  void start() override { starts_ = true; }
+
+  void clock(Level rx) override {
+    count_edge();
+    core_.engine().can_rx_i = static_cast<std::uint8_t>(rx);
+    const bool taken = show_next();
+    count_ms();
+    core_.edge();
+    drive(static_cast<Level>(core_.engine().can_tx_o));
+    const auto &engine = core_.engine();
+    if (EngineFrame::concerns(engine)) frame_.clocked(engine);
+    quiet_ = ready() && engine.idle_o && !engine.tx_req_i ? quiet_ + 1 : 0;
+    if (top_.written_o | top_.apply_o) tell_pulse();
+    if (taken) finish_access();
+  }
+
+  [[nodiscard]] std::uint64_t trace() const override { return core_.engine().trace_o; }
+  [[nodiscard]] RemoteState state() const override {
+    return static_cast<RemoteState>(top_.state_o);
+  }
+  [[nodiscard]] bool ready() const override { return top_.usr_ready_o != 0; }
+  [[nodiscard]] const Frame &frame() const override { return frame_.frame(); }
+
+  void hold(bool on) override {
+    top_.usr_hold_i = on;
+    core_.touch();
+  }
+  void event(unsigned) override {}
+
+  [[nodiscard]] bool idle() const override {
+    if (state() == RemoteState::kInit) return top_.start_i == 0 && !starts_ && accesses_.empty();
+    constexpr unsigned kBetweenJobs = 24, kHold = 64;  // clocks
+    return accesses_.empty() && quiet_ > (top_.usr_hold_i ? kHold : 0) + kBetweenJobs;
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> peek_words(unsigned first, unsigned n) const override {
+    const auto before = core_.save();
+    std::vector<std::uint32_t> words;
+    for (unsigned word = first; word < first + n; ++word) {
+      const UserAccess read{false, 0, word, 0};
+      show_access(top_, &read);
+      core_.touch();
+      while (!ready()) core_.edge();
+      core_.edge();
+      words.push_back(top_.usr_rdata_o);
+    }
+    core_.restore(before);
+    return words;
+  }
+
+  [[nodiscard]] std::uint8_t peek(unsigned address) const override {
+    const bool hidden = address >= remote_map::kHidden && address < remote_map::kNode;
+    const auto &engine = core_.engine();
+    switch (address) {
+      case remote_map::kStatus: return status();
+      case remote_map::kStatus + 1: return engine.tec_o;
+      case remote_map::kStatus + 2: return engine.rec_o;
+      default: return hidden ? 0 : byte_of(address);
+    }
+  }
+
+ private:
+  auto &root() { return *top_.rootp; }
+
+  void reset() {
+    core_.reset(true);
+    for (int i = 0; i < 4; ++i) core_.edge();
+    core_.reset(false);
+    core_.settle();
+    constexpr unsigned kClearing = 4200;  // RN-60
+    for (unsigned waited = 0; !ready(); ++waited) {
+      if (waited == kClearing) throw std::logic_error(name() + ": the RAM is not cleared");
+      core_.edge();
+    }
+    drive(static_cast<Level>(core_.engine().can_tx_o));
+  }
+
+  // Shows the next access; true if it is carried out at the coming edge.
+  bool show_next() {
+    const UserAccess *next = accesses_.empty() ? nullptr : &accesses_.front().access;
+    if (next == nullptr && starts_) join();
+    if (next == nullptr && !shown_) return false;
+    show_access(top_, next);
+    shown_ = next != nullptr;
+    core_.touch();
+    return shown_ && ready();
+  }
+
+  // Behind what user logic has written before.
+  void join() {
+    starts_ = false;
+    top_.start_i = 1;
+    core_.touch();
+  }
+
+  void finish_access() {
+    const Waiting done = std::move(accesses_.front());
+    accesses_.pop_front();
+    if (on_access) on_access(done.access);
+    if (done.done) done.done(top_.usr_rdata_o);
+  }
+
+  void count_ms() {
+    const bool ends = --to_ms_ == 0;
+    if (ends) to_ms_ = clocks_per_ms_;
+    if (ends == (root().can_remote__DOT__u_tick__DOT__ms_v != 0)) return;
+    root().can_remote__DOT__u_tick__DOT__ms_v = ends;
+    core_.touch();
+    if (ends && on_ms) on_ms();
+  }
+
+  void tell_pulse() {
+    if (!on_pulse) return;
+    if (top_.apply_o) on_pulse({true, 0, 0});
+    if (top_.written_o) on_pulse({false, top_.written_addr_o, top_.written_len_o});
+  }
+
+  [[nodiscard]] std::uint8_t byte_of(unsigned address) const {
+    return static_cast<std::uint8_t>(peek_words(address / 4, 1)[0] >> 8 * (address % 4));
+  }
+
+  // Byte 0 of STATUS; a netlist shows only what it has at its pins, the rest as the bus last saw
+  // it.
+  [[nodiscard]] std::uint8_t status() const {
+    const auto &r = *top_.rootp;
+    const unsigned pins = top_.state_o | core_.engine().passive_o << 3U;
+    if constexpr (requires { r.can_remote__DOT__u_state__DOT__unlocked_q; }) {
+      return static_cast<std::uint8_t>(pins | r.can_remote__DOT__u_state__DOT__unlocked_q << 2U |
+                                       r.can_remote__DOT__u_state__DOT__dup_q << 4U |
+                                       r.can_remote__DOT__u_state__DOT__watchdog_q << 6U |
+                                       r.can_remote__DOT__u_state__DOT__boff_seen_q << 7U);
+    } else {
+      return static_cast<std::uint8_t>(pins | (byte_of(remote_map::kStatus) & 0xF4));
+    }
+  }
+
+  mutable SplitCore<Model, RemotePorts> core_;  // peek_word() puts it back
+  Model &top_ = core_.host();
+  EngineFrame frame_;
+  std::uint64_t clocks_per_ms_;
+  std::uint64_t to_ms_;
+  std::uint64_t quiet_ = 0;  // clocks without work, on an idle bus
+  bool shown_ = false;
+  bool starts_ = false;  // start_i waits for the accesses before it
+};
+
+RemoteConfig plain(RemoteConfig config) {
+  const RemoteConfig defaults;
+  config.name_bits = defaults.name_bits;
+  config.serial = defaults.serial;
+  config.rate_rows = defaults.rate_rows;
+  return config;
+}
+
+bool is(const RemoteConfig &config, const char *profile, unsigned name_bits) {
+  return config.name_bits == name_bits && plain(config) == plain(RemoteConfig::profile(profile));
+}
+
+}  // namespace
+
+bool RemoteNode::has(const RemoteConfig &config) {
+  return is(config, "small", 3) || is(config, "small", 5);
+}
+
+std::string RemoteNode::available() { return "profile small with its parameters"; }
+
+std::unique_ptr<RemoteNode> RemoteNode::create(std::string name, const RemoteConfig &config,
+                                               unsigned number, const BitTiming &timing,
+                                               const ClockConfig &clock) {
+  config.validate();
+  timing.validate();
+  const auto make = [&]<typename Model>(std::type_identity<Model>) {
+    return std::make_unique<RemoteNodeOf<Model>>(std::move(name), config, number, timing, clock);
+  };
+  if (is(config, "small", 3)) return make(std::type_identity<Vcan_remote_small_3>{});
+  if (is(config, "small", 5)) return make(std::type_identity<Vcan_remote_small_5>{});
+  throw std::invalid_argument("no RTL is built with these parameters; allowed: " + available());
+}
+
+}  // namespace vericansim
