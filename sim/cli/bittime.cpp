@@ -10,6 +10,7 @@
 
 #include "cli/cli.hpp"
 #include "scenario/bittime.hpp"
+#include "scenario/quantity.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -48,13 +49,13 @@ double cut(double value, double unit) { return std::floor(value / unit * (1 + 1e
 
 void print_table(const BitTimingRequest &request, const std::vector<BitTimingResult> &results,
                  unsigned rows) {
-  fmt::print(
-      "{} Hz, {} bit/s, {:g} m of cable; delays: transceiver {:g} ns, controller {:g} ns\n\n",
-      request.clock_hz, request.bitrate, request.cable_m, request.node_delay_ns,
-      results.front().controller_delay_ns);
+  fmt::print("{} Hz, {} bit/s, {} m of cable; delays: transceiver {} ns, controller {} ns\n\n",
+             request.clock_hz, request.bitrate, plain_number(request.cable_m),
+             plain_number(request.node_delay_ns),
+             plain_number(results.front().controller_delay_ns));
   fmt::print("{:>4} {:>4} {:>4} {:>4} {:>4} {:>4} {:>7} {:>11} {:>9} {:>9} {:>8} {:>8}  {}\n",
              "BRP", "PROP", "PS1", "PS2", "SJW", "tq", "sample", "bit/s", "error", "clock", "cable",
-             fmt::format("{:g} ppm", request.clock_error_ppm), "CTRL");
+             plain_number(request.clock_error_ppm) + " ppm", "CTRL");
   for (std::size_t i = 0; i < results.size() && i < rows; ++i) {
     const BitTimingResult &r = results[i];
     const BitTiming &t = r.timing;
@@ -76,17 +77,16 @@ void print_table(const BitTimingRequest &request, const std::vector<BitTimingRes
 /// Why there is nothing to show.
 void explain_nothing(const BitTimingRequest &request, bool found) {
   if (found)
-    fmt::print(
-        stderr,
-        "verican: {} m of cable and the delays of the nodes ({:g} ns a transceiver, {:g} ns a "
-        "controller) are too long for {} bit/s from {} Hz\n",
-        request.cable_m, request.node_delay_ns,
-        request.controller_delay_ns.value_or(core_delay_ns(request.clock_hz)), request.bitrate,
-        request.clock_hz);
+    fmt::print(stderr,
+               "verican: {} m of cable and the delays of the nodes ({} ns a transceiver, {} ns a "
+               "controller) are too long for {} bit/s from {} Hz\n",
+               plain_number(request.cable_m), plain_number(request.node_delay_ns),
+               plain_number(request.controller_delay_ns.value_or(core_delay_ns(request.clock_hz))),
+               request.bitrate, request.clock_hz);
   else
     fmt::print(stderr,
-               "verican: no setting of 8 to 25 quanta gives {} bit/s within {:g} ppm from {} Hz\n",
-               request.bitrate, request.max_rate_error_ppm, request.clock_hz);
+               "verican: no setting of 8 to 25 quanta gives {} bit/s within {} ppm from {} Hz\n",
+               request.bitrate, plain_number(request.max_rate_error_ppm), request.clock_hz);
 }
 
 void warn_of_rate(const BitTimingRequest &request, const BitTimingResult &best) {
@@ -116,19 +116,16 @@ double part_of_bit(double given) {
   constexpr double kLeast = 50, kMost = 90;  // per cent
   if (given <= 1) return given;
   if (given >= kLeast && given <= kMost) return given / 100;
-  throw std::invalid_argument(fmt::format(
-      "sample point {:g} % is out of range; allowed: 50 to 90 %, or 0.5 to 0.9", given));
+  throw std::invalid_argument(
+      fmt::format("sample point {} % is out of range; allowed: 50 to 90 %, or 0.5 to 0.9",
+                  plain_number(given)));
 }
 
 int bittime(const Options &options) {
   BitTimingRequest request = options.request;
-  const auto whole = [](double value, const char *name) {
-    if (!(value >= 1 && value <= 4e9))
-      throw std::invalid_argument(fmt::format("{} {:g} is out of range", name, value));
-    return static_cast<std::uint32_t>(std::llround(value));
-  };
-  request.clock_hz = whole(options.clock, "clock");
-  request.bitrate = whole(options.bitrate, "bit rate");
+  const BitTimingRequest whole = bit_timing_request(options.clock, options.bitrate);
+  request.clock_hz = whole.clock_hz;
+  request.bitrate = whole.bitrate;
   if (options.sample_point != 0) request.sample_point = part_of_bit(options.sample_point);
   if (options.sjw != 0) request.sjw = options.sjw;
   auto results = find_bit_timings(request);

@@ -40,6 +40,7 @@ void add_bridge(CLI::App &app, int &exit_code);
 void add_signals(CLI::App &app, int &exit_code);
 void add_convert(CLI::App &app, int &exit_code);
 void add_ids(CLI::App &app, int &exit_code);
+void add_memory(CLI::App &app, int &exit_code);
 
 /// The files of an Outputs.
 inline constexpr std::string Outputs::*kOutputPaths[] = {

@@ -96,12 +96,13 @@ void write_logs(const Options &options, const WaveDecodeResult &result) {
 
 int decode(Options &options) {
   if (options.bitrate != 0) options.decode.bitrate = options.bitrate;
-  std::vector<NamedFile> outputs;
+  options.database = with_files(nullptr, options.databases);
+  std::vector<NamedFile> inputs{{"the waveform", options.wave}}, outputs;
+  add_databases(inputs, options.database);
   if (!options.candump.empty()) outputs.push_back({"--candump", options.candump});
   if (!options.pcap.empty()) outputs.push_back({"--pcap", options.pcap});
-  claim_files({{"the waveform", options.wave}}, outputs);
+  claim_files(inputs, outputs);
   options.decode.sample_point = static_cast<int>(options.sample_point * 10);
-  options.database = with_files(nullptr, options.databases);
   const WaveDecodeResult result = decode_wave(options.wave, options.decode);
   write_logs(options, result);
   std::size_t frames = 0, errors = 0, overloads = 0;

@@ -71,11 +71,14 @@ void add_file(std::vector<NamedFile> &files, const std::string &role, const std:
   if (!path.empty()) files.push_back({role, path});
 }
 
+void add_databases(std::vector<NamedFile> &files, const std::shared_ptr<const Database> &database) {
+  if (!database) return;
+  for (const DatabaseFile &file : database->files()) files.push_back({"the database", file.path});
+}
+
 std::vector<NamedFile> inputs_of(const Scenario &scenario) {
   std::vector<NamedFile> inputs{{"the scenario", scenario.file}};
-  if (scenario.outputs.database)
-    for (const DatabaseFile &file : scenario.outputs.database->files())
-      inputs.push_back({"the database", file.path});
+  add_databases(inputs, scenario.outputs.database);
   for (const NodeSpec &node : scenario.nodes) {
     if (const auto *firmware = std::get_if<FirmwareRole>(&node.role))
       inputs.push_back({"the firmware of node '" + node.name + "'", firmware->file});

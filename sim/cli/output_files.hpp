@@ -4,6 +4,7 @@
 // What a command reads and writes, before it begins; and its standard output.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct NamedFile {
 
 /// Adds `path` to `files`, unless it is empty.
 void add_file(std::vector<NamedFile> &files, const std::string &role, const std::string &path);
+
+/// Adds the files of `database`, if there is one.
+void add_databases(std::vector<NamedFile> &files, const std::shared_ptr<const Database> &database);
 
 /// The scenario's file and those that it names.
 [[nodiscard]] std::vector<NamedFile> inputs_of(const Scenario &scenario);

@@ -95,7 +95,9 @@ int finish(const Options &options, const SelectedLog &selected, Json json, int c
 int replay_alone(Options &options) {
   if (options.bitrate != 0) options.replay.bitrate = options.bitrate;
   load_databases(options.replay.outputs, options.replay.outputs.dbc);
-  claim_files({{"the log", options.log}}, files_of(options.replay.outputs));
+  std::vector<NamedFile> inputs{{"the log", options.log}};
+  add_databases(inputs, options.replay.outputs.database);
+  claim_files(inputs, files_of(options.replay.outputs));
   const SelectedLog selected = read_selected(options.log, options.selection, false);
   ReplayReport report;
   {

@@ -40,8 +40,9 @@ const char *interrupted_text(bool interrupted) { return interrupted ? "; interru
 int report_scenario(const Options &options) {
   Scenario scenario = read_scenario(options.input);
   if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
-  claim_files(inputs_of(scenario), files_of(options.outputs, scenario.bitrates));
   const auto database = with_files(scenario.outputs.database, options.outputs.dbc);
+  scenario.outputs.database = database;
+  claim_files(inputs_of(scenario), files_of(options.outputs, scenario.bitrates));
   int code = kOk;
   for (const double bitrate : scenario.bitrates) {
     scenario.outputs =
@@ -57,11 +58,18 @@ int report_scenario(const Options &options) {
   return code;
 }
 
+/// No output is the input or a database.
+void claim(const char *role, const Options &options) {
+  std::vector<NamedFile> inputs{{role, options.input}};
+  add_databases(inputs, options.outputs.database);
+  claim_files(inputs, files_of(options.outputs));
+}
+
 int report_recorded_wave(const Options &options) {
   WaveDecodeOptions decode;
   decode.signal = options.signal;
   if (options.bitrate != 0) decode.bitrate = options.bitrate;
-  claim_files({{"the waveform", options.input}}, files_of(options.outputs));
+  claim("the waveform", options);
   const Wave wave = read_wave(options.input, decode);
   WaveReport report;
   {
@@ -79,7 +87,7 @@ int report_recorded_wave(const Options &options) {
 }
 
 int report_log(const Options &options) {
-  claim_files({{"the log", options.input}}, files_of(options.outputs));
+  claim("the log", options);
   const SelectedLog selected = read_selected(options.input, options.selection, false);
   ReplayOptions replay_options = options.replay;
   if (options.bitrate != 0) replay_options.bitrate = options.bitrate;

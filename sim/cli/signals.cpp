@@ -39,10 +39,10 @@ Json json_of(const LogEntry &entry, const DecodedFrame &decoded) {
 
 int signals(const Options &options) {
   std::vector<NamedFile> inputs{{"the log", options.log}}, outputs;
-  for (const std::string &path : options.databases) inputs.push_back({"the database", path});
-  if (!options.csv.empty()) outputs.push_back({"--csv", options.csv});
-  claim_files(inputs, outputs);
   const auto database = with_files(nullptr, options.databases);
+  add_databases(inputs, database);
+  add_file(outputs, "--csv", options.csv);
+  claim_files(inputs, outputs);
   const CanLog log = read_log(options.log);
   const bool lines = !options.json && !options.table && options.csv.empty();
   std::unique_ptr<SignalCsv> csv;

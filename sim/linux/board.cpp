@@ -8,11 +8,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <stdexcept>
 
 #include "node/registers.hpp"
-#include "trace/output_error.hpp"
 
 namespace vericansim {
 namespace {
@@ -52,11 +50,9 @@ Board::Board(const BoardConfig &config) : config_{config} {
   }
   watch_bus();
   if (!config.access_logs || config.directory.empty()) return;
-  for (unsigned n = 0; n < config.controllers; ++n) {
-    const std::string path = fmt::format("{}/access-{}.txt", config.directory, n);
-    access_logs_.emplace_back(path);
-    if (!access_logs_.back()) throw InputError(path, 0, "cannot be opened for writing");
-  }
+  for (unsigned n = 0; n < config.controllers; ++n)
+    access_logs_.push_back(
+        std::make_unique<OutputFile>(fmt::format("{}/access-{}.txt", config.directory, n)));
 }
 
 // ---- Time
@@ -150,18 +146,15 @@ void Board::lose_frame(RtlNode &core, std::uint32_t offset) {
 // The format of recorded driver accesses: time in us, direction, offset, value, interrupt level.
 void Board::log_access(unsigned n, std::uint32_t offset, const BoardAccess &access,
                        std::uint32_t value) {
-  access_logs_[n] << fmt::format("{:.3f} {} {:03x} {:08x} {:d}\n", static_cast<double>(now()) / 1e3,
-                                 access.write ? 'W' : 'R', offset, value, cores_[n]->irq());
+  access_logs_[n]->stream() << fmt::format(
+      "{:.3f} {} {:03x} {:08x} {:d}\n", static_cast<double>(now()) / 1e3, access.write ? 'W' : 'R',
+      offset, value, cores_[n]->irq());
 }
 
 void Board::close_logs() {
   close_frame_log();
-  for (unsigned n = 0; n < access_logs_.size(); ++n) {
-    access_logs_[n].close();
-    if (!access_logs_[n])
-      throw OutputError(fmt::format("{}/access-{}.txt", config_.directory, n),
-                        "cannot be written to its end", errno);
-  }
+  for (const auto &log : access_logs_) log->commit();
+  access_logs_.clear();
 }
 
 }  // namespace vericansim

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -18,6 +17,7 @@
 #include "node/rtl_node.hpp"
 #include "scenario/bus_monitor.hpp"
 #include "trace/candump.hpp"
+#include "trace/output_file.hpp"
 
 namespace vericansim {
 
@@ -25,7 +25,7 @@ namespace vericansim {
 struct BoardConfig {
   unsigned controllers = 2;  ///< 1..8; each has a window of 4 KiB, and the line of its number
   double clock_hz = 8e6;     ///< of the controllers, 1 kHz to 10 GHz
-  std::string directory;     ///< for logs; empty: none are written
+  std::string directory;     ///< for logs, there when they are whole; empty: none are written
   bool access_logs = false;  ///< write each access to access-<n>.txt
 };
 
@@ -49,7 +49,8 @@ struct Sabotage {
 /// and passes without a clock edge while no controller is enabled and nothing else happens.
 class Board {
  public:
-  /// Throws std::invalid_argument if a setting is out of range.
+  /// Throws std::invalid_argument if a setting is out of range, OutputError if a log of accesses
+  /// cannot be written.
   explicit Board(const BoardConfig &config);
 
   /// One AHB transfer, now. All ones for an address outside the windows and for an ERROR response.
@@ -66,7 +67,7 @@ class Board {
   /// A line of text from a test script (docs/software.md); the answer, of one or more lines. Throws
   /// InputError if it is none that exists or if a value is out of range.
   std::string command(const std::string &text);
-  /// Closes the logs; throws OutputError if not all could be written.
+  /// Puts the logs in their place; throws OutputError if not all could be written.
   void close_logs();
 
   [[nodiscard]] const RtlNode &controller(unsigned n) const { return *cores_[n]; }
@@ -104,10 +105,9 @@ class Board {
   std::unique_ptr<CoreNode> peer_;
   SwitchFault fault_;
   std::unique_ptr<BusMonitor> monitor_;
-  std::string log_path_;
-  std::ofstream log_file_;
+  std::unique_ptr<OutputFile> log_file_;
   std::unique_ptr<CandumpWriter> log_;
-  std::vector<std::ofstream> access_logs_;
+  std::vector<std::unique_ptr<OutputFile>> access_logs_;
   Sabotage sabotage_;
   bool faulty_ = false;  // fault_ is on the bus
   std::uint32_t bitrate_ = 500'000;

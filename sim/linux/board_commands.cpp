@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <optional>
 
 #include "linux/board.hpp"
@@ -116,8 +115,8 @@ void Board::close_frame_log() {
   monitor_->advance(now_);
   if (!log_) return;
   log_.reset();
-  log_file_.close();
-  if (!log_file_) throw OutputError(log_path_, "cannot be written to its end", errno);
+  log_file_->commit();
+  log_file_.reset();
 }
 
 std::string Board::log(const Words &words) {
@@ -126,10 +125,12 @@ std::string Board::log(const Words &words) {
   if (name == "off") return "ok\n";
   if (name.find('/') != std::string::npos || config_.directory.empty())
     refuse("a log is a file in the directory of logs, of which there must be one");
-  log_path_ = config_.directory + "/" + name;
-  log_file_.open(log_path_);
-  if (!log_file_) refuse(log_path_ + " cannot be opened for writing");
-  log_ = std::make_unique<CandumpWriter>(log_file_);
+  try {
+    log_file_ = std::make_unique<OutputFile>(config_.directory + "/" + name);
+  } catch (const OutputError &error) {
+    refuse(error.what());
+  }
+  log_ = std::make_unique<CandumpWriter>(log_file_->stream());
   return "ok\n";
 }
 

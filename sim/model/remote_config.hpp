@@ -44,6 +44,7 @@ inline constexpr unsigned kLabel = 0xF18;
 inline constexpr unsigned kConfigEnd = 0xF20;
 inline constexpr unsigned kProducers = 0xF40;
 inline constexpr unsigned kMaps = 0xF80;
+inline constexpr unsigned kTablesEnd = 0xFC0;
 inline constexpr unsigned kCounters = 0xFE8;
 inline constexpr unsigned kStatus = 0xFF0;
 inline constexpr unsigned kIdent = 0xFF8;
@@ -90,6 +91,8 @@ struct RemoteConfig {
   [[nodiscard]] static RemoteConfig profile(const std::string &name);
   /// Throws std::invalid_argument that names the parameter and what is allowed.
   void validate() const;
+
+  friend bool operator==(const RemoteConfig &, const RemoteConfig &) = default;
 
   [[nodiscard]] unsigned address_bits() const { return 10 - name_bits; }
   /// The first A that is a port: beyond the window.

@@ -174,7 +174,7 @@ Json report_meta(const ReportRecorder &recorder, const ReportExtras &extras) {
           {"statements", statements_json(recorder, extras)},
           {"view", view_json(recorder, extras)},
           {"truncated", truncated_json(recorder)},
-          {"origin_ns", ns(recorder.started())},
+          {"origin_ns", ns(recorder.started() - extras.zero)},
           {"detail_end_ns", ns(recorder.details_ended() - recorder.started())}};
 }
 

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "scenario/quantity.hpp"
 #include "scenario/timing_limits.hpp"
 
 namespace vericansim {
@@ -130,15 +131,15 @@ void search_prescaler(const BitTimingRequest &r, unsigned quanta, unsigned presc
 }  // namespace
 
 BitTimingRequest bit_timing_request(double clock_hz, double bitrate) {
-  const auto whole = [](const char *name, double value, double low, double high) {
+  const auto whole = [](const char *name, const char *unit, double value, double low, double high) {
     if (!(value >= low && value <= high))
-      throw std::invalid_argument(fmt::format("{} {} Hz is out of range; allowed: {:.0f} to {:.0f}",
-                                              name, value, low, high));
+      throw std::invalid_argument(fmt::format("{} {} {} is out of range; allowed: {:.0f} to {:.0f}",
+                                              name, plain_number(value), unit, low, high));
     return static_cast<std::uint32_t>(std::llround(value));
   };
   BitTimingRequest request;
-  request.clock_hz = whole("clock", clock_hz, 1e3, 1e9);
-  request.bitrate = whole("bit rate", bitrate, 1e3, 1e6);
+  request.clock_hz = whole("clock", "Hz", clock_hz, 1e3, 1e9);
+  request.bitrate = whole("bit rate", "bit/s", bitrate, 1e3, 1e6);
   return request;
 }
 

@@ -12,6 +12,7 @@
 #include <regex>
 #include <string_view>
 
+#include "scenario/quantity.hpp"
 #include "trace/input_error.hpp"
 
 #include "scenario/signal_expectations.hpp"
@@ -20,10 +21,10 @@ namespace vericansim {
 namespace {
 
 std::string to_text(const Range &range) {
-  if (range.least == range.most) return fmt::format("{:g}", range.least);
-  if (std::isinf(range.least)) return fmt::format("at most {:g}", range.most);
-  if (std::isinf(range.most)) return fmt::format("at least {:g}", range.least);
-  return fmt::format("{:g} to {:g}", range.least, range.most);
+  if (range.least == range.most) return plain_number(range.least);
+  if (std::isinf(range.least)) return "at most " + plain_number(range.most);
+  if (std::isinf(range.most)) return "at least " + plain_number(range.least);
+  return plain_number(range.least) + " to " + plain_number(range.most);
 }
 
 double bus_number(const RunReport &report, const std::string &key) {
@@ -156,7 +157,7 @@ void check_fault(const Expectations &expect, const FaultSpec &spec, const FaultR
 }  // namespace
 
 CheckResult check_number(const std::string &what, double seen, const Range &range) {
-  return {what, to_text(range), fmt::format("{:.10g}", seen), range.contains(seen)};
+  return {what, to_text(range), plain_number(seen), range.contains(seen)};
 }
 
 std::vector<CheckResult> check_expectations(const Scenario &scenario, const RunReport &report,

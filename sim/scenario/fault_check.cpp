@@ -11,6 +11,7 @@
 
 #include "scenario/expected_frames.hpp"
 #include "scenario/fault_report.hpp"
+#include "scenario/quantity.hpp"
 #include "scenario/runner.hpp"
 #include "trace/input_error.hpp"
 
@@ -61,8 +62,8 @@ std::string never_there(const Scenario &scenario, const FaultSpec &fault, double
   const unsigned most =
       synchronises_hard(field) ? 2 * timing.quanta() : timing.quanta() + timing.sjw;
   if (fault.first_quantum.value_or(0) >= most)
-    return fmt::format("a bit of '{}' has {} quanta at {:g} bit/s; allowed: first_tq 0 to {}",
-                       node.name, timing.quanta(), bitrate, timing.quanta() - 1);
+    return fmt::format("a bit of '{}' has {} quanta at {} bit/s; allowed: first_tq 0 to {}",
+                       node.name, timing.quanta(), plain_number(bitrate), timing.quanta() - 1);
   return "";
 }
 

@@ -14,6 +14,7 @@ const char *name(const ReplayRole &) { return "replay"; }
 const char *name(const InterfaceRole &) { return "interface"; }
 const char *name(const MonitorRole &) { return "monitor"; }
 const char *name(const SocketcandRole &) { return "socketcand"; }
+const char *name(const RemoteRole &) { return "type: remote"; }
 const char *name(const OwnRole &) { return "an operator of its own"; }
 
 }  // namespace

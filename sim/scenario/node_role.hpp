@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "bus/types.hpp"
+#include "model/remote_config.hpp"
 #include "trace/id_filter.hpp"
 
 namespace vericansim {
@@ -87,13 +89,25 @@ struct SocketcandRole {
   unsigned wait_for_clients = 0;  ///< the bus begins when so many of the server's clients receive
 };
 
+/// A node without a processor (docs/remote.md): no registers, nothing works it but the bus and user
+/// logic.
+struct RemoteRole {
+  /// What it is made of: the RTL where there is a Verilated one with these parameters, else the
+  /// model of its rules on the RTL's engine; or one of the two.
+  enum class Body { kBest, kRtl, kModel };
+  RemoteConfig config;
+  Body body = Body::kBest;
+  unsigned number = 0;                                   ///< node_i
+  std::map<unsigned, std::vector<std::uint8_t>> memory;  ///< by address; written before the start
+};
+
 /// A kind of the caller's own: makes what works the node's registers.
 struct OwnRole {
   std::function<std::unique_ptr<Operator>(const OperatorContext &)> make;
 };
 
 using NodeRole = std::variant<TrafficRole, FirmwareRole, SecondCoreRole, ReplayRole, InterfaceRole,
-                              MonitorRole, SocketcandRole, OwnRole>;
+                              MonitorRole, SocketcandRole, RemoteRole, OwnRole>;
 
 /// True if the simulation's own software (Host) works a node of this kind.
 [[nodiscard]] bool has_host(const NodeRole &role);

@@ -86,4 +86,10 @@ std::string exact_time(Time time) {
   return fmt::format("{} ps", time);
 }
 
+std::string plain_number(double value) {
+  constexpr double kExact = 1e15;
+  const bool whole = std::abs(value) < kExact && value == std::trunc(value);
+  return whole ? fmt::format("{:.0f}", value + 0.0) : fmt::format("{:.10g}", value);
+}
+
 }  // namespace vericansim

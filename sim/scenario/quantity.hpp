@@ -33,4 +33,7 @@ namespace vericansim {
 /// "12.345 ms" with the unit that suits.
 [[nodiscard]] std::string readable_time(Time time);
 
+/// A number as people write it: whole ones with all their digits, others with ten significant ones.
+[[nodiscard]] std::string plain_number(double value);
+
 }  // namespace vericansim

@@ -143,6 +143,7 @@ std::string to_text(const RunReport &report) {
   text += "\n\n";
   if (!report.messages.empty()) text += messages_text(report) + "\n";
   text += nodes_text(report) + "\n";
+  if (!report.remote.empty()) text += to_text(report.remote);
   text += tables_text(report);
   if (!report.faults.empty()) text += faults_text(report.faults) + "\n";
   if (report.interrupted) text += "  interrupted; expectations were not checked\n";
@@ -181,6 +182,7 @@ Json to_json(const RunReport &report) {
             {"checks", checks},
             {"interrupted", report.interrupted},
             {"ok", report.ok()}};
+  if (!report.remote.empty()) json["remote"] = to_json(report.remote);
   for (const firmware::BoardReport &b : report.boards) json["boards"].push_back(to_json(b));
   for (const ReplayResult &r : report.replays) json["replays"].push_back(to_json(r));
   for (const PortReport &p : report.ports) json["ports"].push_back(to_json(p));

@@ -16,6 +16,7 @@
 #include "judge/bus_judge.hpp"
 #include "scenario/bus_monitor.hpp"
 #include "scenario/fault_report.hpp"
+#include "scenario/remote_report.hpp"
 #include "session/port_report.hpp"
 #include "session/replay_result.hpp"
 #include "signals/signal_statistics.hpp"
@@ -77,6 +78,7 @@ struct RunReport {
   std::vector<SocketcandCounts> servers;  ///< one for each address
   std::optional<PaceReport> pace;         ///< held to real time, or with programs of the host
   std::vector<FaultReport> faults;
+  RemoteReport remote;  ///< with remote nodes
   std::vector<CheckResult> checks;
   bool interrupted = false;   ///< the user has ended it before its time; nothing was checked then
   bool show_signals = false;  ///< in the text

@@ -105,6 +105,14 @@ void parse_monitor(YamlMap &map, HostConfig &host) {
   });
 }
 
+void parse_mailboxes(YamlMap &map, NodeSpec &node) {
+  map.with("mailboxes", [&](const YamlValue &v) {
+    const std::uint64_t count = v.integer(16, 64);
+    if (count != 16 && count != 32 && count != 64) v.refuse("16, 32, 64");
+    node.num_mb = static_cast<unsigned>(count);
+  });
+}
+
 void check_buffers(const YamlValue &value, const NodeSpec &node) {
   const std::size_t receive = node.host.filters.empty() ? 1 : node.host.filters.size();
   if (node.host.tx_buffers + receive > node.num_mb)
@@ -135,11 +143,7 @@ NodeSpec parse_node(const YamlValue &value, const Scenario &scenario) {
     parse_monitor(map, node.host);
   }
   parse_bit(map, node, scenario.bitrates);
-  map.with("mailboxes", [&](const YamlValue &v) {
-    const std::uint64_t count = v.integer(16, 64);
-    if (count != 16 && count != 32 && count != 64) v.refuse("16, 32, 64");
-    node.num_mb = static_cast<unsigned>(count);
-  });
+  if (!std::holds_alternative<RemoteRole>(node.role)) parse_mailboxes(map, node);
   map.finish();
   if (const auto *second = std::get_if<SecondCoreRole>(&node.role))
     for (const NodeSpec &board : scenario.nodes)
@@ -238,6 +242,14 @@ void parse_end(YamlMap &map, Scenario &scenario) {
   });
 }
 
+template <typename Item>
+void parse_each(YamlMap &map, const char *key, const Scenario &scenario, std::vector<Item> &items,
+                Item (*parse)(const YamlValue &, const Scenario &)) {
+  map.with(key, [&](const YamlValue &list) {
+    for (const YamlValue &item : list.items()) items.push_back(parse(item, scenario));
+  });
+}
+
 }  // namespace
 
 Scenario parse_scenario(const std::string &path, const std::string &text) {
@@ -249,23 +261,16 @@ Scenario parse_scenario(const std::string &path, const std::string &text) {
   detail::parse_databases(map, scenario);
   parse_nodes(map.need("nodes"), scenario);
   parse_end(map, scenario);
-  map.with("traffic", [&](const YamlValue &list) {
-    for (const YamlValue &item : list.items())
-      scenario.traffic.push_back(detail::parse_traffic(item, scenario));
-  });
+  parse_each(map, "traffic", scenario, scenario.traffic, detail::parse_traffic);
   map.with("faults", [&](const YamlValue &list) {
     for (const YamlValue &item : list.items())
       scenario.faults.push_back(detail::parse_fault(item, scenario));
     detail::check_fault_names(scenario);
   });
-  map.with("accesses", [&](const YamlValue &list) {
-    for (const YamlValue &item : list.items())
-      scenario.accesses.push_back(detail::parse_access(item, scenario));
-  });
-  map.with("judge", [&](const YamlValue &v) {
-    if (v.text() != "lockstep" && v.text() != "none") v.refuse("lockstep, none");
-    scenario.lockstep = v.text() == "lockstep";
-  });
+  parse_each(map, "accesses", scenario, scenario.accesses, detail::parse_access);
+  parse_each(map, "commands", scenario, scenario.commands, detail::parse_commands);
+  parse_each(map, "user", scenario, scenario.user, detail::parse_user);
+  map.with("judge", [&](const YamlValue &v) { detail::parse_judge(v, scenario); });
   map.with("expect",
            [&](const YamlValue &v) { scenario.expect = detail::parse_expectations(v, scenario); });
   map.with("outputs", [&](const YamlValue &v) { parse_outputs(v, scenario.outputs); });

@@ -18,6 +18,8 @@
 #include "model/frame.hpp"
 #include "node/host.hpp"
 #include "scenario/node_role.hpp"
+#include "scenario/number_range.hpp"
+#include "scenario/remote_spec.hpp"
 #include "signals/database.hpp"
 
 namespace vericansim {
@@ -65,13 +67,6 @@ struct TrafficSpec {
   Time jitter = 0;             ///< each frame is queued up to this much later
   std::uint64_t count = std::numeric_limits<std::uint64_t>::max();  ///< frames at most
   bool saturated = false;  ///< always one more waiting, as fast as the bus allows
-};
-
-/// Inclusive limits of a number.
-struct Range {
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
-  [[nodiscard]] bool contains(double value) const { return value >= least && value <= most; }
 };
 
 /// A fault, as Bus knows them.
@@ -147,6 +142,7 @@ struct Expectations {
   std::map<std::string, Time> response_times;  ///< message name: largest allowed
   std::vector<NodeExpectation> nodes;
   std::vector<SignalExpectation> signals;  ///< of the database in `outputs`
+  RemoteExpectations remote;
 };
 
 /// Files to write; empty: none.
@@ -185,7 +181,9 @@ struct Scenario {
   std::vector<TrafficSpec> traffic;
   std::vector<FaultSpec> faults;
   std::vector<AccessSpec> accesses;
-  bool lockstep = false;  ///< judge: lockstep
+  std::vector<RemoteCommandSpec> commands;  ///< of hosts to remote nodes
+  std::vector<UserSpec> user;               ///< logic of remote nodes
+  bool lockstep = false;                    ///< judge: lockstep
   Expectations expect;
   Outputs outputs;
 };

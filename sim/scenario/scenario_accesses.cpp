@@ -8,6 +8,7 @@
 #include "scenario/quantity.hpp"
 #include "scenario/register_name.hpp"
 #include "scenario/scenario_parts.hpp"
+#include "trace/input_error.hpp"
 #include "trace/text.hpp"
 
 namespace vericansim {
@@ -73,7 +74,10 @@ std::string to_text(const AccessStep &step) {
 AccessSpec detail::parse_access(const YamlValue &value, const Scenario &scenario) {
   YamlMap map{value};
   AccessSpec access;
-  access.node = parse_node_name(map.need("node"), scenario);
+  const YamlValue node = map.need("node");
+  access.node = parse_node_name(node, scenario);
+  if (std::holds_alternative<RemoteRole>(scenario.nodes[access.node].role))
+    node.fail(quoted(node.text()) + " is a remote node and has no registers; allowed: other nodes");
   map.with("at", [&](const YamlValue &v) { access.at = v.time(0, kLongestTime); });
   const YamlValue steps = map.need("do");
   for (const YamlValue &item : steps.items()) access.steps.push_back(parse_step(item));

@@ -115,6 +115,7 @@ Expectations parse_expectations(const YamlValue &value, const Scenario &scenario
   map.with("nodes", [&](const YamlValue &v) { parse_expected_nodes(v, scenario, expect); });
   map.with("response_times",
            [&](const YamlValue &v) { parse_expected_responses(v, scenario, expect); });
+  parse_remote_expectations(map, scenario, expect.remote);
   map.with("signals", [&](const YamlValue &v) { parse_expected_signals(v, scenario, expect); });
   map.finish();
   return expect;

@@ -19,6 +19,8 @@ namespace vericansim::detail {
 [[nodiscard]] Range parse_range(const YamlValue &value);
 /// What kind of node it is, with the keys of that kind.
 [[nodiscard]] NodeRole parse_role(YamlMap &map, const Scenario &scenario);
+/// The keys of a node of `type: remote`.
+[[nodiscard]] RemoteRole parse_remote(const YamlValue &value, YamlMap &map);
 /// Keys `timing`, `bitrate`, `sample_point`, `sjw` of a node whose clock is known.
 void parse_bit(YamlMap &map, NodeSpec &node, const std::vector<double> &bitrates);
 [[nodiscard]] NodeSpec parse_node(const YamlValue &value, const Scenario &scenario);
@@ -26,6 +28,12 @@ void parse_bit(YamlMap &map, NodeSpec &node, const std::vector<double> &bitrates
 [[nodiscard]] FaultSpec parse_fault(const YamlValue &value, const Scenario &scenario);
 /// Refuses two faults of one name.
 void check_fault_names(const Scenario &scenario);
+/// `judge`: refused where a node has no registers to be judged.
+void parse_judge(const YamlValue &value, Scenario &scenario);
+[[nodiscard]] RemoteCommandSpec parse_commands(const YamlValue &value, const Scenario &scenario);
+[[nodiscard]] UserSpec parse_user(const YamlValue &value, const Scenario &scenario);
+/// The keys of `expect` that are about remote nodes.
+void parse_remote_expectations(YamlMap &map, const Scenario &scenario, RemoteExpectations &expect);
 [[nodiscard]] AccessSpec parse_access(const YamlValue &value, const Scenario &scenario);
 [[nodiscard]] Expectations parse_expectations(const YamlValue &value, const Scenario &scenario);
 

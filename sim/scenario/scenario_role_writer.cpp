@@ -99,6 +99,8 @@ struct RoleWriter {
     return text;
   }
 
+  std::string operator()(const RemoteRole &role) const { return remote_text(role); }
+
   std::string operator()(const OwnRole & /*role*/) const { refuse("a program works it by itself"); }
 };
 

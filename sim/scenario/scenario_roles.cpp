@@ -143,6 +143,7 @@ NodeRole parse_role(YamlMap &map, const Scenario &scenario) {
   is("replay", [&](const YamlValue &v) { return parse_replay(v, map); });
   is("interface", [&](const YamlValue &v) { return parse_interface(v, map); });
   is("socketcand", [&](const YamlValue &v) { return parse_socketcand(v, map); });
+  is("type", [&](const YamlValue &v) { return parse_remote(v, map); });
   is("second_core_of", [&](const YamlValue &v) { return parse_second_core(v, scenario); });
   return role;
 }

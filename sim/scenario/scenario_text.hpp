@@ -17,6 +17,9 @@ namespace vericansim::detail {
 /// names the node, if no file can say it.
 [[nodiscard]] std::string role_text(const NodeSpec &node);
 
+/// The same of a remote node.
+[[nodiscard]] std::string remote_text(const RemoteRole &role);
+
 /// A line of `nodes` for who is no node. Throws the same.
 [[nodiscard]] std::string listener_text(const ListenerSpec &listener);
 

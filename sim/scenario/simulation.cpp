@@ -19,6 +19,7 @@ Simulation::Simulation(const Scenario &scenario, double bitrate)
     : scenario_{scenario}, bitrate_{bitrate}, bit_time_{bit_time_of(bitrate)}, faults_{scenario} {
   check_faults(scenario_, bitrate_);
   build_stations();
+  remote_ = std::make_unique<RemoteBench>(scenario_, stations_, bus_);
   observe();
   if (scenario_.lockstep) set_up_judge();
 }
@@ -26,6 +27,8 @@ Simulation::Simulation(const Scenario &scenario, double bitrate)
 void Simulation::build_stations() {
   std::vector<unsigned> messages(scenario_.nodes.size());
   for (const TrafficSpec &traffic : scenario_.traffic) ++messages[traffic.node];
+  // Commands leave in their order (RN-94).
+  for (const RemoteCommandSpec &commands : scenario_.commands) messages[commands.node] = 1;
   for (NodeId id = 0; id < scenario_.nodes.size(); ++id) {
     const NodeSpec &spec = scenario_.nodes[id];
     HostConfig config = spec.host;
@@ -33,6 +36,11 @@ void Simulation::build_stations() {
     const auto receive = static_cast<unsigned>(std::max<std::size_t>(config.filters.size(), 8));
     if (config.tx_buffers == 0)
       config.tx_buffers = std::clamp(messages[id], 1U, spec.num_mb - receive);
+    if (const auto *remote = std::get_if<RemoteRole>(&spec.role)) {
+      stations_.add(bus_, make_remote_station(spec.name, spec.clock, config.timing, *remote),
+                    spec.link);
+      continue;
+    }
     if (!spec.hosted()) {
       stations_.add(bus_, make_bare_station(spec.name, spec.clock, config.timing, spec.num_mb),
                     spec.link);
@@ -42,6 +50,7 @@ void Simulation::build_stations() {
     stations_[id].host->on_received = [this, id](const HostFrame &frame) {
       // A run without end must not need memory without end.
       if (scenario_.expect.complete) stations_[id].received.push_back(frame.frame);
+      remote_->on_received(id, frame.frame);
       if (on_host_received) on_host_received(id, frame.frame);
     };
     stations_[id].host->on_sent = [this, id](const HostFrame &frame) { on_sent(id, frame.frame); };
@@ -103,6 +112,7 @@ void Simulation::start_traffic() {
 void Simulation::on_frame(const BusFrame &frame) {
   if (scenario_.expect.complete) frames_.push_back(frame);
   outputs_->write(frame, origin_of(frame));
+  remote_->on_frame(frame);
   if (judge_) judge_->on_wire(frame);
   if (on_bus_frame) on_bus_frame(frame);
 }
@@ -124,6 +134,7 @@ void Simulation::on_sent(NodeId node, const Frame &frame) {
 bool Simulation::quiet() const {
   for (NodeId id = 0; id < stations_.size(); ++id) {
     const Station &station = stations_[id];
+    if (station.remote && !station.remote->idle()) return false;
     if (!station.host) continue;
     const Field field = trace_field(station.node->trace());
     const bool off = field == Field::kBusOff && scenario_.nodes[id].host.boff_rec;
@@ -182,7 +193,7 @@ RunReport Simulation::collect(bool interrupted) {
   for (const auto &traffic : traffic_) report.messages.push_back(traffic->report());
   for (NodeId id = 0; id < stations_.size(); ++id) {
     const Station &station = stations_[id];
-    const AhbReport &ahb = station.node->ahb().report();
+    const AhbReport ahb = station.node ? station.node->ahb().report() : AhbReport{};
     // What software of somebody else has read is not known; its core has accepted this much.
     const std::uint64_t received =
         station.host ? station.host->stats().received : monitor_->node(id).delivered;
@@ -197,6 +208,7 @@ RunReport Simulation::collect(bool interrupted) {
   report.faults = faults_.report(bus_.now());
   report.node_cycles = stations_.cycles();
   if (scenario_.analysis || scenario_.expect.within_bound) add_bounds(report);
+  remote_->describe(report);
   if (on_report) on_report(report);
   if (!interrupted) check_all(report);
   return report;
@@ -211,6 +223,7 @@ void Simulation::check_all(RunReport &report) {
     report.checks.push_back(std::move(check));
   for (const auto &script : scripts_)
     for (const CheckResult &failure : script->failures()) report.checks.push_back(failure);
+  remote_->check(report);
   if (judge_) add_judgement(report);
 }
 
@@ -223,8 +236,10 @@ void Simulation::start(Time when) {
                  [this](NodeId id) { return stations_[id].timing.prescaler; });
   outputs_->begin(start_);
   if (judge_) add_disturbances();
+  stations_.start_remote_nodes();
   start_traffic();
   start_accesses();
+  remote_->start(start_, start_ + scenario_.duration);
 }
 
 RunReport Simulation::finish(bool interrupted) {

@@ -14,6 +14,7 @@
 #include "scenario/bus_monitor.hpp"
 #include "scenario/bus_outputs.hpp"
 #include "scenario/fault_set.hpp"
+#include "scenario/remote_bench.hpp"
 #include "scenario/report.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/station.hpp"
@@ -58,7 +59,10 @@ class Simulation {
   std::function<void(RunReport &)> on_report;
 
   [[nodiscard]] Bus &bus() { return bus_; }
+  /// The core of a node; not of a remote node.
   [[nodiscard]] RtlNode &node(NodeId id) { return *stations_[id].node; }
+  /// The remote node with this number; nullptr: it is a core.
+  [[nodiscard]] RemoteUnit *remote(NodeId id) { return stations_[id].remote.get(); }
   /// The simulation's own software of a node that has it (NodeSpec::hosted()).
   [[nodiscard]] Host &host(NodeId id) { return *stations_[id].host; }
   [[nodiscard]] const NodeCounts &counts(NodeId id) const { return monitor_->node(id); }
@@ -96,6 +100,7 @@ class Simulation {
   std::unique_ptr<BusJudge> judge_;
   FaultSet faults_;
   std::vector<std::unique_ptr<TrafficSource>> traffic_;
+  std::unique_ptr<RemoteBench> remote_;
   std::vector<BusFrame> frames_;
   std::unique_ptr<BusMonitor> monitor_;
   std::unique_ptr<BusOutputs> outputs_;

@@ -9,6 +9,8 @@
 
 #include "bus/range.hpp"
 #include "node/registers.hpp"
+#include "node/remote_model_node.hpp"
+#include "node/remote_node.hpp"
 
 namespace vericansim {
 namespace {
@@ -46,8 +48,34 @@ std::unique_ptr<Station> make_bare_station(const std::string &name, const ClockC
   return station;
 }
 
+std::unique_ptr<Station> make_remote_station(const std::string &name, const ClockConfig &clock,
+                                             const BitTiming &timing, const RemoteRole &role) {
+  auto station = std::make_unique<Station>();
+  station->timing = timing;
+  const bool rtl = role.body == RemoteRole::Body::kRtl ||
+                   (role.body == RemoteRole::Body::kBest && RemoteNode::has(role.config));
+  station->remote_is_rtl = rtl;
+  if (rtl)
+    station->remote = RemoteNode::create(name, role.config, role.number, timing, clock);
+  else
+    station->remote =
+        std::make_unique<RemoteModelNode>(name, role.config, role.number, timing, clock);
+  for (const auto &[first, bytes] : role.memory) {
+    unsigned address = first;
+    for (const std::uint8_t byte : bytes) {
+      const unsigned lane = address % 4;
+      station->remote->user_write(address / 4, std::uint32_t{byte} << (8 * lane), 1U << lane);
+      ++address;
+    }
+  }
+  return station;
+}
+
 void Stations::add(Bus &bus, std::unique_ptr<Station> station, const Link &link) {
-  bus.add(*station->node, link);
+  if (station->remote)
+    bus.add(*station->remote, link);
+  else
+    bus.add(*station->node, link);
   stations_.push_back(std::move(station));
 }
 
@@ -70,6 +98,11 @@ void Stations::join(Bus &bus, Time bit_time) {
   bus.run_for(kIntegration * bit_time);
 }
 
+void Stations::start_remote_nodes() {
+  for (const auto &station : stations_)
+    if (station->remote) station->remote->start();
+}
+
 void Stations::check() {
   for (const auto &station : stations_)
     if (station->host) station->host->check();
@@ -84,7 +117,8 @@ std::uint64_t Stations::pending() const {
 
 std::uint64_t Stations::cycles() const {
   std::uint64_t sum = 0;
-  for (const auto &station : stations_) sum += station->node->cycles();
+  for (const auto &station : stations_)
+    sum += station->remote ? station->remote->cycles() : station->node->cycles();
   return sum;
 }
 

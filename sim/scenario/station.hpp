@@ -10,13 +10,17 @@
 
 #include "bus/bus.hpp"
 #include "node/host.hpp"
+#include "node/remote_unit.hpp"
+#include "scenario/node_role.hpp"
 
 namespace vericansim {
 
-/// Core, software, and what the software has received.
+/// Core, software, and what the software has received; or a node without a processor.
 struct Station {
-  std::unique_ptr<RtlNode> node;
-  std::unique_ptr<Host> host;  ///< none: somebody else drives the core
+  std::unique_ptr<RtlNode> node;       ///< none: a remote node
+  std::unique_ptr<RemoteUnit> remote;  ///< none: a core
+  bool remote_is_rtl = false;          ///< else the model of its rules
+  std::unique_ptr<Host> host;          ///< none: somebody else drives the core
   BitTiming timing;
   std::vector<Frame> received;
 };
@@ -34,6 +38,12 @@ struct Station {
                                                          const BitTiming &timing,
                                                          unsigned num_mb = 64);
 
+/// Creates a remote node with its first memory. Throws as RemoteModelNode's constructor.
+[[nodiscard]] std::unique_ptr<Station> make_remote_station(const std::string &name,
+                                                           const ClockConfig &clock,
+                                                           const BitTiming &timing,
+                                                           const RemoteRole &role);
+
 /// The stations of one bus; they must outlive it.
 class Stations {
  public:
@@ -45,6 +55,8 @@ class Stations {
   /// Sets all nodes with software up and lets them integrate: runs `bus` until then. `bit_time` in
   /// ps. Throws std::runtime_error if a node's set-up fails or takes longer than 100 ms.
   void join(Bus &bus, Time bit_time);
+  /// Lets the remote nodes join.
+  void start_remote_nodes();
   /// Whether the cores store remote frames in receive buffers; valid after join().
   [[nodiscard]] bool stores_remote() const { return stores_remote_; }
   /// Rethrows what went wrong in a node's software.

@@ -103,7 +103,9 @@ WaveReport Player::play(const std::function<void(double)> &progress) {
   bus_.run_for(kRest * bit_time_);
   monitor_->advance(bus_.now());
   outputs_->finish(bus_.now());
-  outputs_->write_report();
+  ReportExtras extras;
+  extras.zero = start_;
+  outputs_->write_report(extras);
   return {monitor_->frames(), interrupted, monitor_->unacknowledged(), monitor_->error_frames(),
           monitor_->overload_frames()};
 }

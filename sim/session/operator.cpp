@@ -21,7 +21,8 @@ std::unique_ptr<Operator> make_operator(const OperatorContext &context,
                                         std::span<OperatorFactory *const> factories) {
   const NodeRole &role = context.role;
   // The firmware's node looks after a second core.
-  if (std::holds_alternative<TrafficRole>(role) || std::holds_alternative<SecondCoreRole>(role))
+  if (std::holds_alternative<TrafficRole>(role) || std::holds_alternative<SecondCoreRole>(role) ||
+      std::holds_alternative<RemoteRole>(role))
     return nullptr;
   if (const auto *own = std::get_if<OwnRole>(&role)) return own->make(context);
   if (std::holds_alternative<FirmwareRole>(role))

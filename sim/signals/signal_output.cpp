@@ -58,7 +58,7 @@ std::string to_text(const SignalReport &report) {
     fmt::format_to(out, "  {:<36} {:>8} {:>14} {:>14} {:>14} {:>14}  {}\n",
                    s.message->name + "." + signal.name, s.count,
                    choice ? std::string(*choice) : number_text(s.last), number_text(s.least),
-                   number_text(s.most), fmt::format("{:.6g}", s.mean()), signal.unit);
+                   number_text(s.most), fmt::format("{:.10g}", s.mean()), signal.unit);
   }
   return text;
 }

@@ -67,7 +67,7 @@ std::string allowed_values(const Signal &signal) {
   if (signal.is_float) {
     text = "a number";
     if (signal.minimum > -std::numeric_limits<double>::infinity())
-      text += fmt::format(" from {:g} to {:g}", signal.minimum, signal.maximum);
+      text += fmt::format(" from {:.15g} to {:.15g}", signal.minimum, signal.maximum);
   } else {
     const auto [low, high] = range_of(signal);
     text = number_text(signal, std::max(low, signal.minimum)) + " to " +

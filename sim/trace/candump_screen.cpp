@@ -37,8 +37,13 @@ std::int64_t parse_date(std::string_view date, std::string_view time, const Plac
   const std::time_t seconds = rest == nullptr ? -1 : std::mktime(&fields);
   const std::string_view fraction = rest == nullptr ? "" : rest;
   if (seconds < 0 || fraction.size() < 3 || fraction.front() != '.' || fraction.back() != ')')
-    fail(place, "time " + quoted(text) + " is not allowed; allowed: (YYYY-MM-DD HH:MM:SS.ffffff)");
-  return seconds * kSecondNs + parse_candump_stamp("(0" + std::string(fraction), place);
+    fail(place,
+         "time " + quoted("(" + text) + " is not allowed; allowed: (YYYY-MM-DD HH:MM:SS.ffffff)");
+  std::int64_t ns = 0;
+  if (__builtin_mul_overflow(seconds, kSecondNs, &ns) ||
+      __builtin_add_overflow(ns, parse_candump_stamp("(0" + std::string(fraction), place), &ns))
+    fail(place, "time " + quoted("(" + text) + " is out of range; allowed: up to the year 2262");
+  return ns;
 }
 
 /// Identifier, length and bytes from `at` on, as a log has them. `fd_flags`: of a CAN FD frame.

@@ -4,10 +4,12 @@
 // Input files: see input_file.hpp.
 #include "trace/input_file.hpp"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <zlib.h>
 
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <iostream>
 #include <limits>
@@ -17,8 +19,6 @@
 
 namespace vericansim {
 namespace {
-
-constexpr std::size_t kMostUnpacked = std::size_t{1} << 30;
 
 /// zlib's state, freed at the end.
 class Inflater {
@@ -35,7 +35,7 @@ class Inflater {
 
   /// Appends the next piece to `text`; false at the end. Several members follow each other, as with
   /// cat; what follows the last one and is none is ignored, as gzip does.
-  bool next(std::string &text, const std::string &path) {
+  bool next(std::string &text, const std::string &path, std::size_t most) {
     std::array<char, 65536> piece{};
     stream_.next_out = reinterpret_cast<Bytef *>(piece.data());
     stream_.avail_out = static_cast<uInt>(piece.size());
@@ -43,7 +43,8 @@ class Inflater {
     if (status != Z_OK && status != Z_STREAM_END)
       throw InputError(path, 0, status == Z_BUF_ERROR ? "cut short (gzip)" : "damaged (gzip)");
     text.append(piece.data(), piece.size() - stream_.avail_out);
-    if (text.size() > kMostUnpacked) throw InputError(path, 0, "unpacks to more than 1 GiB (gzip)");
+    if (text.size() > most)
+      throw InputError(path, 0, fmt::format("unpacks to more than {} MiB (gzip)", most >> 20));
     if (status == Z_OK) return true;
     const bool more =
         stream_.avail_in >= 2 && stream_.next_in[0] == 0x1F && stream_.next_in[1] == 0x8B;
@@ -57,13 +58,13 @@ class Inflater {
 
 }  // namespace
 
-std::string unpacked(std::string bytes, const std::string &path) {
+std::string unpacked(std::string bytes, const std::string &path, std::size_t most) {
   if (!bytes.starts_with("\x1f\x8b")) return bytes;
   if (bytes.size() > std::numeric_limits<uInt>::max())
     throw InputError(path, 0, "is larger than 4 GiB (gzip)");
   std::string text;
   Inflater inflater{bytes};
-  while (inflater.next(text, path)) {
+  while (inflater.next(text, path, most)) {
   }
   return text;
 }
@@ -75,7 +76,8 @@ std::string read_text_file(const std::string &path) {
     return unpacked(std::move(text).str(), path);
   }
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) throw InputError(path, 0, "no such file");
+  if (::stat(path.c_str(), &status) != 0)
+    throw InputError(path, 0, errno == EACCES ? "cannot be opened for reading" : "no such file");
   if (S_ISDIR(status.st_mode)) throw InputError(path, 0, "is a directory, not a file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path, 0, "cannot be opened for reading");

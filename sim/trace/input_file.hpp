@@ -4,10 +4,14 @@
 // Input files: plain, packed with gzip, or standard input.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace vericansim {
+
+/// Bytes to which a compressed file may unpack: 1 GiB.
+inline constexpr std::size_t kMostUnpacked = std::size_t{1} << 30;
 
 /// Reads a whole file; "-" is standard input. What begins as gzip does is unpacked, whatever its
 /// name. Throws InputError if it cannot be opened or unpacked.
@@ -15,7 +19,8 @@ namespace vericansim {
 
 /// `bytes` without gzip's packing, or as they are. Throws InputError naming `path` if they are
 /// damaged or unpack to more than 1 GiB.
-[[nodiscard]] std::string unpacked(std::string bytes, const std::string &path);
+[[nodiscard]] std::string unpacked(std::string bytes, const std::string &path,
+                                   std::size_t most = kMostUnpacked);
 
 /// `path` without a last ".gz".
 [[nodiscard]] std::string_view without_gz(std::string_view path);

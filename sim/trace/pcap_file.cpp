@@ -49,10 +49,12 @@ PcapFile open_bytes(std::string_view bytes, const std::string &path) {
 std::int64_t nanoseconds(const pcap_pkthdr &header, const text::Place &place) {
   constexpr std::int64_t kBillion = 1'000'000'000;
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max() / kBillion - 1;
-  if (header.ts.tv_sec < 0 || header.ts.tv_sec > kMost || header.ts.tv_usec < 0 ||
-      header.ts.tv_usec >= kBillion)
-    text::fail(place, fmt::format("time {} s {} ns is not allowed; allowed: 0 to {} s",
-                                  header.ts.tv_sec, header.ts.tv_usec, kMost));
+  if (header.ts.tv_sec < 0 || header.ts.tv_sec > kMost)
+    text::fail(place, fmt::format("time {} s is not allowed; allowed: 0 to {} s", header.ts.tv_sec,
+                                  kMost));
+  if (header.ts.tv_usec < 0 || header.ts.tv_usec >= kBillion)
+    text::fail(place, fmt::format("{} ns of a second are not allowed; allowed: 0 to 999999999",
+                                  header.ts.tv_usec));
   return std::int64_t{header.ts.tv_sec} * kBillion + header.ts.tv_usec;
 }
 

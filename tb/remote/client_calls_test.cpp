@@ -132,6 +132,13 @@ TEST_F(ClientCalls, AHeartbeatRefusesNothing) {
       const auto said = bus.take_said();
       EXPECT_THAT(said.front(), HasSubstr("5FE#0200000320"));
       EXPECT_EQ(said.back(), "5A0#00");
+      if (!known) continue;
+      // Nor does it if there is no answer.
+      bus.filter = [&](const RemoteModel *to, const Frame &frame) {
+        return to != nullptr || frame.id != 0x5A0;
+      };
+      std::uint8_t byte = 0;
+      EXPECT_EQ(verican_remote_read(&client, 3, 0x20, &byte, 1), VERICAN_REMOTE_TIMEOUT);
     }
   }
 }

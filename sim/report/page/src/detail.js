@@ -11,17 +11,26 @@ import {kEventKinds, messageName, nodeCell} from './frames_tab.js';
 import {kNobody} from './report.js';
 import {signalTable} from './signal_details.js';
 
-/** A frame as a line of candump -l. */
-export function candumpLine(frame) {
+/** Logs of simulations start at 1 s (docs/scenario.md, Outputs). */
+const kLogOriginUs = 1e6;
+
+/** A time of the page as the stamp of a log: cut to microseconds, as the tool writes it. */
+function stampOf(report, ns) {
+  const ps = Math.round((ns + report.meta.origin_ns) * 1000); // no sum lacks a trifle of its us
+  const micros = Math.floor(ps / 1e6) + kLogOriginUs;
+  const seconds = `${Math.floor(micros / 1e6)}`.padStart(10, '0');
+  return `(${seconds}.${String(micros % 1e6).padStart(6, '0')})`;
+}
+
+/** A frame as its line in the tool's candump log of the run. */
+export function candumpLine(report, frame) {
   const id = hex(frame.id, frame.extended ? 8 : 3);
   const raw = frame.dlc > 8 ? `_${hex(frame.dlc, 1)}` : '';
   const length = Math.min(frame.dlc, 8);
   const body = frame.remote
     ? `R${length > 0 || raw ? length : ''}${raw}`
     : [...frame.data].map((byte) => hex(byte, 2)).join('') + raw;
-  const micros = Math.round(frame.start / 1000);
-  const seconds = `${Math.floor(micros / 1e6)}`.padStart(10, '0');
-  return `(${seconds}.${String(micros % 1e6).padStart(6, '0')}) can0 ${id}#${body}`;
+  return `${stampOf(report, frame.start)} can0 ${id}#${body}`;
 }
 
 const lines = (pairs) =>
@@ -106,7 +115,7 @@ function frameDetails(report, index, actions) {
         'copy',
       ),
     ),
-    el('code', {class: 'candump'}, candumpLine(frame)),
+    el('code', {class: 'candump'}, candumpLine(report, frame)),
     lines([
       ['start', formatTime(frame.start, 1)],
       ['end', formatTime(frame.end, 1)],

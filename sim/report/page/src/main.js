@@ -40,7 +40,7 @@ function copySelection(report, view, say) {
         ? report.segmentFrame[selection.segment]
         : -1;
   if (index < 0) return say('Select a frame first.');
-  const line = candumpLine(report.frame(index));
+  const line = candumpLine(report, report.frame(index));
   const focused = document.activeElement;
   const area = el('textarea', {}, line); // works for pages from a file, and at once
   document.body.append(area);

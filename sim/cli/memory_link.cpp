@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// See memory_link.hpp. The protocol of socketcand: its doc/protocol.md, rawmode.
+#include "cli/memory_link.hpp"
+
+#include <fmt/format.h>
+#include <netdb.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <deque>
+
+#include "socketcan/socketcand_listener.hpp"
+#include "socketcan/socketcand_splitter.hpp"
+#include "trace/input_error.hpp"
+#include "trace/text.hpp"
+#include "verican_remote_socketcan.h"
+
+namespace vericansim::cli {
+namespace {
+
+class InterfaceLink : public MemoryLink {
+ public:
+  explicit InterfaceLink(const std::string &name) {
+    const int error = verican_remote_socketcan_open(&socket_, name.c_str());
+    if (error != 0)
+      throw InputError("--if", 0,
+                       fmt::format("{}: {}; allowed: a CAN interface that is up", quoted(name),
+                                   std::strerror(error)));
+  }
+  ~InterfaceLink() override { verican_remote_socketcan_close(&socket_); }
+  InterfaceLink(const InterfaceLink &) = delete;
+  InterfaceLink &operator=(const InterfaceLink &) = delete;
+
+  verican_remote_port_t port() override { return verican_remote_socketcan_port(&socket_); }
+  [[nodiscard]] bool remote_frames() const override { return true; }
+
+ private:
+  verican_remote_socketcan_t socket_{};
+};
+
+std::uint32_t now_us() {
+  using std::chrono::microseconds;
+  return static_cast<std::uint32_t>(
+      std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now().time_since_epoch())
+          .count());
+}
+
+/// A connected socket; -1: nobody is there.
+int connect_to(const SocketcandAddress &address) {
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo *found = nullptr;
+  if (::getaddrinfo(address.host.c_str(), std::to_string(address.port).c_str(), &hints, &found) !=
+      0)
+    return -1;
+  int fd = -1;
+  for (const addrinfo *one = found; one != nullptr && fd < 0; one = one->ai_next) {
+    fd = ::socket(one->ai_family, one->ai_socktype | SOCK_CLOEXEC, one->ai_protocol);
+    if (fd >= 0 && ::connect(fd, one->ai_addr, one->ai_addrlen) != 0) {
+      ::close(fd);
+      fd = -1;
+    }
+  }
+  ::freeaddrinfo(found);
+  return fd;
+}
+
+/// "frame ID TIME BYTES" as a frame; false: nothing of a bus of remote nodes.
+bool read_frame(const std::string &text, verican_remote_frame_t &frame) {
+  const auto words = text::split_blanks(text);
+  if (words.size() < 3 || (words[0] != "frame" && words[0] != "rtr") || words[1].size() > 3)
+    return false;
+  const auto id = text::parse_unsigned(words[1], 16);
+  std::string digits;
+  for (std::size_t i = 3; i < words.size(); ++i) digits += words[i];
+  if (!id || *id > 0x7FF || digits.size() > 16 || digits.size() % 2 != 0) return false;
+  frame = {};
+  frame.id = static_cast<std::uint16_t>(*id);
+  frame.remote = words[0] == "rtr";
+  if (frame.remote) return true;
+  for (std::size_t i = 0; i < digits.size(); i += 2) {
+    const auto byte = text::parse_unsigned(std::string_view{digits}.substr(i, 2), 16);
+    if (!byte) return false;
+    frame.data[frame.dlc++] = static_cast<std::uint8_t>(*byte);
+  }
+  return true;
+}
+
+class SocketcandLink : public MemoryLink {
+ public:
+  SocketcandLink(const std::string &address, const std::string &bus)
+      : fd_{connect_to(SocketcandAddress::parse("--socketcand", address))} {
+    if (fd_ < 0)
+      throw InputError("--socketcand", 0,
+                       "nobody answers at " + quoted(address) + "; allowed: a socketcand server");
+    expect("hi", address);
+    say("< open " + bus + " >");
+    expect("ok", address);
+    say("< rawmode >");
+    expect("ok", address);
+  }
+  ~SocketcandLink() override { ::close(fd_); }
+  SocketcandLink(const SocketcandLink &) = delete;
+  SocketcandLink &operator=(const SocketcandLink &) = delete;
+
+  verican_remote_port_t port() override {
+    return {.send =
+                [](void *self, const verican_remote_frame_t *frame) {
+                  return static_cast<SocketcandLink *>(self)->send(*frame);
+                },
+            .receive =
+                [](void *self, verican_remote_frame_t *frame, std::uint32_t timeout_us) {
+                  return static_cast<SocketcandLink *>(self)->receive(*frame, timeout_us);
+                },
+            .now_us = [](void *) { return now_us(); },
+            .context = this};
+  }
+  // Servers write them as data frames, or not at all.
+  [[nodiscard]] bool remote_frames() const override { return false; }
+
+ private:
+  verican_remote_result_t send(const verican_remote_frame_t &frame) {
+    std::string text = fmt::format("< send {:03X} {} ", frame.id, frame.dlc);
+    for (unsigned i = 0; i < frame.dlc; ++i) text += fmt::format("{:02X} ", frame.data[i]);
+    return say(text + ">") ? VERICAN_REMOTE_OK : VERICAN_REMOTE_BUS_OFF;
+  }
+
+  verican_remote_result_t receive(verican_remote_frame_t &frame, std::uint32_t timeout_us) {
+    const std::uint32_t begin = now_us();
+    for (;;) {
+      const std::uint32_t passed = now_us() - begin;
+      const auto text = next(passed < timeout_us ? timeout_us - passed : 0);
+      if (gone_) return VERICAN_REMOTE_BUS_OFF;
+      if (!text) return VERICAN_REMOTE_TIMEOUT;
+      if (read_frame(*text, frame)) return VERICAN_REMOTE_OK;
+    }
+  }
+
+  bool say(const std::string &text) {
+    std::string_view rest = text;
+    while (!rest.empty()) {
+      const ssize_t n = ::send(fd_, rest.data(), rest.size(), MSG_NOSIGNAL);
+      if (n <= 0) return false;
+      rest.remove_prefix(static_cast<std::size_t>(n));
+    }
+    return true;
+  }
+
+  // The next message; nothing: none in time.
+  std::optional<std::string> next(std::uint32_t timeout_us) {
+    for (;;) {
+      if (const auto item = splitter_.next()) {
+        if (item->good) return item->text;
+        continue;
+      }
+      pollfd one{fd_, POLLIN, 0};
+      if (::poll(&one, 1, static_cast<int>((timeout_us + 999) / 1000)) <= 0) return std::nullopt;
+      std::array<char, 4096> buffer{};
+      const ssize_t n = ::recv(fd_, buffer.data(), buffer.size(), 0);
+      gone_ = n <= 0;
+      if (gone_) return std::nullopt;
+      splitter_.feed({buffer.data(), static_cast<std::size_t>(n)});
+    }
+  }
+
+  void expect(const std::string &answer, const std::string &address) {
+    constexpr std::uint32_t kPatience = 5'000'000;  // us
+    const auto seen = next(kPatience);
+    if (!seen || text::trimmed(*seen) != answer)
+      throw InputError("--socketcand", 0,
+                       fmt::format("the server at {} says {}; allowed: socketcand with this bus",
+                                   quoted(address),
+                                   quoted(std::string{text::trimmed(seen.value_or("nothing"))})));
+  }
+
+  int fd_;
+  CommandSplitter splitter_;
+  bool gone_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<MemoryLink> open_interface(const std::string &name) {
+  return std::make_unique<InterfaceLink>(name);
+}
+
+std::unique_ptr<MemoryLink> open_socketcand(const std::string &address, const std::string &bus) {
+  return std::make_unique<SocketcandLink>(address, bus);
+}
+
+}  // namespace vericansim::cli

@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// See memory_work.hpp.
+#include "cli/memory_work.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "cli/cli.hpp"
+#include "cli/memory_map.hpp"
+#include "model/remote_config.hpp"
+#include "scenario/quantity.hpp"
+#include "trace/input_error.hpp"
+#include "trace/input_file.hpp"
+#include "trace/output_file.hpp"
+#include "trace/remote_words.hpp"
+#include "trace/text.hpp"
+
+namespace vericansim::cli {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+[[noreturn]] void refuse(const char *what, const std::string &value, const std::string &allowed) {
+  throw InputError(what, 0, fmt::format("{} is not allowed; allowed: {}", quoted(value), allowed));
+}
+
+/// The node that NODE means.
+unsigned node_of(const MemoryCalls &calls, const MemoryOptions &options, bool or_all = false) {
+  if (or_all && options.node == "all") return VERICAN_REMOTE_ALL;
+  const auto number = parse_integer(options.node);
+  if (!number || *number < 2 || *number > calls.highest_number())
+    refuse("NODE", options.node,
+           fmt::format("2 to {}{}", calls.highest_number(), or_all ? ", all" : ""));
+  return static_cast<unsigned>(*number);
+}
+
+void check_range(unsigned address, std::size_t length) {
+  if (length == 0 || address + length > remote_map::kSize)
+    refuse("LENGTH", std::to_string(length),
+           fmt::format("1 to {} from 0x{:03X} on", remote_map::kSize - address, address));
+}
+
+Bytes bytes_of(const std::string &digits) {
+  Bytes bytes;
+  for (std::size_t i = 0; i + 1 < digits.size(); i += 2) {
+    const auto byte = text::parse_unsigned(std::string_view{digits}.substr(i, 2), 16);
+    if (!byte) break;
+    bytes.push_back(static_cast<std::uint8_t>(*byte));
+  }
+  if (bytes.empty() || 2 * bytes.size() != digits.size())
+    refuse("BYTES", digits, "hexadecimal bytes, 5A 01 or 5A01");
+  return bytes;
+}
+
+std::string hex(const Bytes &bytes) { return fmt::format("{:02X}", fmt::join(bytes, " ")); }
+
+constexpr const char *kFeatures[] = {
+    "stage", "producers", "map", "queue of 4", "protection", "block", "automatic rate", "counters"};
+
+std::string features_text(unsigned features) {
+  std::vector<std::string> names;
+  for (unsigned i = 0; i < std::size(kFeatures); ++i)
+    if ((features >> i & 1) != 0) names.emplace_back(kFeatures[i]);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+Json to_json(unsigned number, const verican_remote_status_t &s) {
+  return {{"number", number},       {"state", remote_state_name(s.state)},
+          {"unlocked", s.unlocked}, {"error_passive", s.error_passive},
+          {"doubled", s.duplicate}, {"stale", s.stale},
+          {"watchdog", s.watchdog}, {"was_bus_off", s.bus_off},
+          {"tec", s.tec},           {"rec", s.rec},
+          {"code", s.code},         {"a", s.a},
+          {"accepted", s.accepted}, {"refused", s.refused},
+          {"trigger", s.trigger}};
+}
+
+std::string to_text(unsigned number, const verican_remote_status_t &s) {
+  std::string text =
+      fmt::format("{:>4}  {:<8} {:>4} {:>4} {:>9} {:>8} {:>8}", number, remote_state_name(s.state),
+                  s.tec, s.rec, s.accepted, s.refused, s.trigger);
+  const std::pair<bool, const char *> flags[] = {
+      {s.unlocked, "unlocked"}, {s.error_passive, "error passive"}, {s.duplicate, "number doubled"},
+      {s.stale, "stale"},       {s.watchdog, "watchdog"},           {s.bus_off, "was bus-off"}};
+  for (const auto &[set, name] : flags)
+    if (set) text += std::string("  ") + name;
+  if (s.code != 0)
+    text += fmt::format("  code {:02X} ({}) at {:02X}", s.code, remote_code_name(s.code), s.a);
+  return text + "\n";
+}
+
+std::string dump_text(unsigned first, const Bytes &bytes) {
+  constexpr std::size_t kRow = 16;
+  std::string text;
+  for (std::size_t at = 0; at < bytes.size(); at += kRow) {
+    const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+    const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(at + kRow, bytes.size()));
+    text += fmt::format("{:03X}  {:02X}\n", first + at, fmt::join(begin, end, " "));
+  }
+  return text;
+}
+
+}  // namespace
+
+int memory_scan(MemoryCalls &calls, const MemoryOptions &options) {
+  const auto nodes = calls.scan();
+  Json list = Json::array();
+  if (!options.json) fmt::print("node  serial    memory  stage  features\n");
+  for (const verican_remote_identity_t &n : nodes) {
+    if (options.json)
+      list.push_back({{"number", n.number},
+                      {"serial", n.serial},
+                      {"memory", n.memory},
+                      {"stage", n.stage},
+                      {"features", n.features}});
+    else if (n.number == 0)
+      fmt::print("none  {:08X}\n", n.serial);
+    else
+      fmt::print("{:>4}  {:08X}  {:>6}  {:>5}  {}\n", n.number, n.serial, n.memory, n.stage,
+                 features_text(n.features));
+  }
+  if (options.json) print_json({{"nodes", list}});
+  return kOk;
+}
+
+int memory_assign(MemoryCalls &calls, const MemoryOptions &options) {
+  const auto serial = text::parse_unsigned(options.serial, 16);
+  if (!serial || *serial > 0xFFFFFFFF)
+    refuse("SERIAL", options.serial, "up to 8 hexadecimal digits");
+  if (options.number == 1 || options.number > calls.highest_number())
+    refuse("NUMBER", std::to_string(options.number),
+           fmt::format("0 (none), 2 to {}", calls.highest_number()));
+  calls.assign(static_cast<std::uint32_t>(*serial), options.number);
+  if (options.json) print_json({{"serial", *serial}, {"number", options.number}});
+  return kOk;
+}
+
+int memory_read(MemoryCalls &calls, const MemoryOptions &options) {
+  const unsigned node = node_of(calls, options);
+  check_range(options.address, options.length);
+  const Bytes bytes = calls.read(node, options.address, options.length);
+  if (options.json)
+    print_json({{"number", node}, {"address", options.address}, {"bytes", hex(bytes)}});
+  else
+    fmt::print("{}\n", hex(bytes));
+  return kOk;
+}
+
+int memory_write(MemoryCalls &calls, const MemoryOptions &options) {
+  const unsigned node = node_of(calls, options, true);
+  const Bytes bytes = bytes_of(fmt::format("{}", fmt::join(options.bytes, "")));
+  check_range(options.address, bytes.size());
+  calls.write(node, options.address, bytes);
+  if (options.json)
+    print_json({{"number", node},
+                {"address", options.address},
+                {"bytes", hex(bytes)},
+                {"confirmed", node != VERICAN_REMOTE_ALL}});
+  return kOk;
+}
+
+int memory_poll(MemoryCalls &calls, const MemoryOptions &options) {
+  constexpr unsigned kMost = 6;
+  check_range(options.address, options.length);
+  if (options.length > kMost) refuse("LENGTH", std::to_string(options.length), "1 to 6");
+  const verican_remote_answers_t answers = calls.poll(options.address, options.length);
+  Json list = Json::array();
+  for (unsigned node = 0; node < VERICAN_REMOTE_NUMBERS; ++node) {
+    if ((answers.answered >> node & 1) == 0) continue;
+    const Bytes bytes(answers.data[node], answers.data[node] + options.length);
+    if (options.json)
+      list.push_back({{"number", node}, {"bytes", hex(bytes)}});
+    else
+      fmt::print("{:>4}  {}\n", node, hex(bytes));
+  }
+  if (options.json) print_json({{"address", options.address}, {"answers", list}});
+  return kOk;
+}
+
+int memory_trigger(MemoryCalls &calls, const MemoryOptions &options) {
+  calls.trigger(options.count);
+  if (options.json) print_json({{"count", options.count}});
+  return kOk;
+}
+
+int memory_state(MemoryCalls &calls, const MemoryOptions &options) {
+  const unsigned command = options.command == "operate" ? VERICAN_REMOTE_OPERATE
+                           : options.command == "safe"  ? VERICAN_REMOTE_SAFE
+                                                        : VERICAN_REMOTE_RESTART;
+  const unsigned node = options.node == "all" ? 0 : node_of(calls, options, true);
+  calls.state(node, command);
+  if (options.json) print_json({{"number", node}, {"command", options.command}});
+  return kOk;
+}
+
+int memory_status(MemoryCalls &calls, const MemoryOptions &options) {
+  std::vector<unsigned> numbers;
+  if (options.node == "all")
+    for (const auto &node : calls.numbered()) numbers.push_back(node.number);
+  else
+    numbers.push_back(node_of(calls, options));
+  Json list = Json::array();
+  if (!options.json) fmt::print("node  state     TEC  REC  accepted  refused  TRIGGER\n");
+  for (const unsigned number : numbers) {
+    const verican_remote_status_t status = calls.status(number);
+    if (options.json)
+      list.push_back(to_json(number, status));
+    else
+      fmt::print("{}", to_text(number, status));
+  }
+  if (options.json) print_json({{"nodes", list}});
+  return kOk;
+}
+
+int memory_map(MemoryCalls &calls, const MemoryOptions &options) {
+  std::vector<NodeTables> nodes;
+  for (const verican_remote_identity_t &node : calls.numbered()) {
+    // Entries that a node does not have are reserved, and an access to them is refused.
+    NodeTables tables;
+    tables.number = node.number;
+    const auto half = [&](unsigned bit, unsigned at) {
+      if ((node.features >> bit & 1) == 0) return;
+      const Bytes bytes = calls.read(node.number, at, remote_map::kMaps - remote_map::kProducers);
+      Bytes whole(remote_map::kTablesEnd - remote_map::kProducers);
+      std::copy(bytes.begin(), bytes.end(),
+                whole.begin() + static_cast<std::ptrdiff_t>(at - remote_map::kProducers));
+      const NodeTables part = read_tables(node.number, whole);
+      tables.producers.insert(tables.producers.end(), part.producers.begin(), part.producers.end());
+      tables.maps.insert(tables.maps.end(), part.maps.begin(), part.maps.end());
+    };
+    half(1, remote_map::kProducers);
+    half(2, remote_map::kMaps);
+    tables.doubled = calls.status(node.number).duplicate;
+    nodes.push_back(std::move(tables));
+  }
+  const std::vector<std::string> wrong = complaints(nodes, calls.name_bits());
+  if (options.json)
+    print_json({{"nodes", to_json(nodes)}, {"complaints", wrong}});
+  else
+    fmt::print("{}", to_text(nodes, calls.name_bits()));
+  if (!options.json)
+    for (const std::string &line : wrong) fmt::print("wrong: {}\n", line);
+  return wrong.empty() ? kOk : kFailed;
+}
+
+int memory_dump(MemoryCalls &calls, const MemoryOptions &options) {
+  const unsigned node = node_of(calls, options);
+  check_range(options.address, options.table);
+  const Bytes bytes = calls.read(node, options.address, options.table);
+  if (options.file.empty()) {
+    fmt::print("{}", dump_text(options.address, bytes));
+    return kOk;
+  }
+  OutputFile file{options.file};
+  file.stream().write(reinterpret_cast<const char *>(bytes.data()),
+                      static_cast<std::streamsize>(bytes.size()));
+  file.commit();
+  return kOk;
+}
+
+int memory_load(MemoryCalls &calls, const MemoryOptions &options) {
+  const unsigned node = node_of(calls, options);
+  const std::string content = read_text_file(options.file);
+  if (content.empty() || options.address + content.size() > remote_map::kSize)
+    throw InputError(options.file, 0,
+                     fmt::format("{} bytes; allowed: 1 to {} from 0x{:03X} on", content.size(),
+                                 remote_map::kSize - options.address, options.address));
+  calls.write(node, options.address, {content.begin(), content.end()});
+  return kOk;
+}
+
+}  // namespace vericansim::cli

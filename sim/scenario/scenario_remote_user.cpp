@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenario files: user logic of remote nodes, and what is expected of them.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scenario/quantity.hpp"
+#include "scenario/scenario_remote_parts.hpp"
+#include "trace/input_error.hpp"
+
+namespace vericansim::detail {
+namespace {
+
+unsigned memory_end(const RemoteConfig &config) { return config.mem_bytes - 512; }
+
+unsigned parse_place(const YamlValue &value, unsigned length, unsigned end) {
+  return static_cast<unsigned>(value.integer(0, end - length));
+}
+
+void parse_plant(const YamlValue &value, const RemoteConfig &config, UserSpec &user) {
+  YamlMap map{value};
+  PlantSpec plant;
+  const unsigned end = memory_end(config);
+  plant.set_point = parse_place(map.need("set_point"), 2, end);
+  const YamlValue measured = map.need("measured");
+  plant.measured = parse_place(measured, 4, end);
+  if (plant.measured % 4 != 0) measured.refuse("a multiple of 4: current and voltage are one word");
+  map.finish();
+  user.plant = plant;
+}
+
+void parse_when(YamlMap &map, UserSpec &user) {
+  map.with("after", [&](const YamlValue &v) {
+    if (v.text() != "apply") v.refuse("apply");
+    user.after_apply = true;
+  });
+  if (user.after_apply) {
+    map.with("delay", [&](const YamlValue &v) { user.at = v.time(1, kSecond); });
+    user.at = std::max(user.at, Time{1});
+  } else {
+    map.with("at", [&](const YamlValue &v) { user.at = v.time(0, kLongestTime); });
+    map.with("period",
+             [&](const YamlValue &v) { user.period = v.time(kMicrosecond, kLongestTime); });
+  }
+  map.with("count", [&](const YamlValue &v) { user.count = v.integer(1, 1'000'000'000); });
+}
+
+void parse_actions(YamlMap &map, const RemoteConfig &config, UserSpec &user) {
+  const unsigned end = memory_end(config);
+  map.with("write", [&](const YamlValue &v) {
+    YamlMap bytes{v};
+    for (const std::string &key : bytes.keys()) {
+      const YamlValue one = bytes.need(key);
+      const unsigned at = parse_address(key, one, end);
+      user.write[at] = parse_bytes(one, end - at);
+    }
+  });
+  map.with("ramp", [&](const YamlValue &v) { user.ramp = parse_place(v, 2, end); });
+  if (user.ramp) {
+    map.with("from",
+             [&](const YamlValue &v) { user.from = static_cast<unsigned>(v.integer(0, 0xFFFF)); });
+    map.with("step",
+             [&](const YamlValue &v) { user.step = static_cast<unsigned>(v.integer(1, 0xFFFF)); });
+  }
+  map.with("plant", [&](const YamlValue &v) { parse_plant(v, config, user); });
+  map.with("event", [&](const YamlValue &v) {
+    if (config.num_prod == 0) v.fail("this node has no producers");
+    user.event = static_cast<unsigned>(v.integer(0, config.num_prod - 1));
+  });
+}
+
+}  // namespace
+
+NodeId parse_remote_name(const YamlValue &value, const Scenario &scenario) {
+  const NodeId id = parse_node_name(value, scenario);
+  if (!std::holds_alternative<RemoteRole>(scenario.nodes[id].role))
+    value.fail(quoted(value.text()) + " is no remote node; allowed: nodes of 'type: remote'");
+  return id;
+}
+
+UserSpec parse_user(const YamlValue &value, const Scenario &scenario) {
+  YamlMap map{value};
+  UserSpec user;
+  user.node = parse_remote_name(map.need("node"), scenario);
+  const RemoteConfig &config = std::get<RemoteRole>(scenario.nodes[user.node].role).config;
+  parse_when(map, user);
+  parse_actions(map, config, user);
+  map.finish();
+  if (user.write.empty() && !user.ramp && !user.plant && !user.event)
+    value.fail("nothing to do; allowed: write, ramp, plant, event");
+  return user;
+}
+
+void parse_remote_expectations(YamlMap &map, const Scenario &scenario, RemoteExpectations &expect) {
+  map.with("memory", [&](const YamlValue &v) {
+    YamlMap nodes{v};
+    for (const std::string &name : nodes.keys()) {
+      const YamlValue bytes = nodes.need(name);
+      const NodeId node =
+          parse_remote_name({v.file(), v.key(), YAML::Node(name), bytes.line()}, scenario);
+      YamlMap places{bytes};
+      for (const std::string &key : places.keys()) {
+        const YamlValue one = places.need(key);
+        const unsigned at = parse_address(key, one, remote_map::kSize);
+        expect.memory.push_back({node, at, parse_bytes(one, remote_map::kSize - at)});
+      }
+    }
+  });
+  for (const char *key : {"refused", "triggers", "lost_set_points", "late_statements"})
+    map.with(key, [&](const YamlValue &v) { expect.numbers[key] = parse_range(v); });
+  map.with("trigger_skew", [&](const YamlValue &v) {
+    if (v.text() == "bound")
+      expect.skew_within_bound = true;
+    else
+      expect.trigger_skew = v.time(1, kSecond);
+  });
+  map.with("states", [&](const YamlValue &v) {
+    YamlMap nodes{v};
+    for (const std::string &name : nodes.keys()) {
+      const YamlValue state = nodes.need(name);
+      const NodeId node =
+          parse_remote_name({v.file(), v.key(), YAML::Node(name), state.line()}, scenario);
+      const std::string text = state.text();
+      if (text != "INIT" && text != "LISTEN" && text != "SAFE" && text != "OPERATE")
+        state.refuse("INIT, LISTEN, SAFE, OPERATE");
+      expect.states[node] = text;
+    }
+  });
+}
+
+}  // namespace vericansim::detail

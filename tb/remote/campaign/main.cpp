@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// remote_campaign: remote nodes of the RTL beside their model on random buses, and the skew of
+// triggers (RN-47, RN-101).
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <fstream>
+#include <mutex>
+
+#include "harness/campaign_settings.hpp"
+#include "remote/random_remotes.hpp"
+#include "remote/trigger_skew.hpp"
+
+namespace {
+
+using namespace vericansim;
+using Json = nlohmann::ordered_json;
+
+constexpr unsigned kBusCommands = 100'000, kOfBus = 50;
+constexpr unsigned kTriggers = 10'000, kOfLine = 25;
+const std::vector<std::string> kProfiles = {"small"};
+
+/// What the buses add up to.
+struct Sum {
+  std::uint64_t runs = 0, commands = 0, answers = 0, disturbed = 0;
+  std::vector<std::string> differences;
+};
+
+class Campaign {
+ public:
+  explicit Campaign(const CampaignSettings &settings) : settings_{settings} {}
+
+  void buses() {
+    each(kBusCommands, kOfBus, [&](const std::string &profile, unsigned seed) {
+      RandomRemotes remotes{profile, seed};
+      unsigned done = 0;
+      while (done < kOfBus && remotes.step()) ++done;
+      const std::lock_guard guard{lock_};
+      ++buses_.runs;
+      buses_.commands += done;
+      buses_.answers += remotes.answers();
+      buses_.disturbed += remotes.disturbed();
+      if (!remotes.difference().empty())
+        buses_.differences.push_back(profile + ", seed " + std::to_string(seed) + ": " +
+                                     remotes.difference());
+    });
+  }
+  void triggers() {
+    each(kTriggers, kOfLine, [&](const std::string &profile, unsigned seed) {
+      const TriggerSkew skew = measure_triggers(profile, seed, kOfLine);
+      const std::lock_guard guard{lock_};
+      skew_ += skew;
+    });
+  }
+
+  [[nodiscard]] Json result() const;
+
+ private:
+  // Runs of `length` until there are `whole` in all, the profiles in turn.
+  template <typename Run>
+  void each(unsigned whole, unsigned length, const Run &run) {
+    const auto count = static_cast<std::size_t>(std::ceil(whole * settings_.scale / length));
+    run_jobs(count, settings_.jobs, [&](std::size_t n) {
+      run(kProfiles[n % kProfiles.size()], static_cast<unsigned>(settings_.seed * 1'000'000 + n));
+    });
+  }
+
+  const CampaignSettings &settings_;
+  std::mutex lock_;
+  Sum buses_;
+  TriggerSkew skew_;
+};
+
+Json Campaign::result() const {
+  const bool whole = settings_.scale >= 1;
+  const auto enough = [&](const char *name, std::uint64_t value, unsigned bar) {
+    return campaign_figure(name, value, fmt::format(">= {}", bar),
+                           whole ? Json(value >= bar) : Json(nullptr));
+  };
+  const auto none = [](const char *name, std::uint64_t value) {
+    return campaign_figure(name, value, "0", value == 0);
+  };
+  Json notes = Json::array();
+  for (const std::string &text : buses_.differences) notes.push_back(text);
+  notes.push_back(
+      fmt::format("nearest to its bound: {:.0f} % of it, {}", 100 * skew_.part, skew_.worst));
+  return {{"figures",
+           {enough("commands on buses", buses_.commands, kBusCommands),
+            campaign_figure("buses of two to eight nodes", buses_.runs),
+            campaign_figure("answers of nodes", buses_.answers),
+            campaign_figure("disturbances", buses_.disturbed),
+            none("buses with a difference", buses_.differences.size()),
+            enough("triggers", skew_.triggers, kTriggers),
+            campaign_figure("pairs of nodes at a trigger", skew_.pairs),
+            none("triggers that a node missed", skew_.lost),
+            none("pairs beyond the bound of RN-47", skew_.above),
+            campaign_figure("largest skew, ns", static_cast<double>(skew_.largest) / kNanosecond),
+            campaign_figure("largest part of the bound, %", std::round(1000 * skew_.part) / 10)}},
+          {"tables", Json::array()},
+          {"notes", notes}};
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  CLI::App app{"Remote nodes of the RTL beside their model"};
+  try {
+    CampaignSettings settings;
+    settings.add_to(app, "100,000 commands on buses and 10,000 triggers");
+    CLI11_PARSE(app, argc, argv);
+    Campaign campaign{settings};
+    campaign.triggers();
+    campaign.buses();
+    const Json result = campaign.result();
+    bool good = true;
+    for (const Json &figure : result["figures"]) {
+      fmt::print("{}: {}\n", figure["name"].get<std::string>(), figure["value"].dump());
+      good = good && figure["ok"] != Json(false);
+    }
+    for (const Json &note : result["notes"]) fmt::print("{}\n", note.get<std::string>());
+    if (!settings.json.empty()) std::ofstream{settings.json} << result.dump(1) << '\n';
+    return good ? 0 : 1;
+  } catch (const std::exception &error) {
+    fmt::print(stderr, "remote_campaign: {}\n", error.what());
+    return 2;
+  }
+}

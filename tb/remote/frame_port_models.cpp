@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// FramePort::create(): one class template for the Verilated profiles of can_remote.
+#include <stdexcept>
+
+#include "Vcan_remote_small_3.h"
+#include "Vcan_remote_small_3___024root.h"
+#include "Vcan_remote_small_5.h"
+#include "Vcan_remote_small_5___024root.h"
+#include "node/model_edge.hpp"
+#include "remote/frame_port.hpp"
+
+namespace vericansim {
+namespace {
+
+template <typename Model>
+class FramePortOf final : public FramePort {
+ public:
+  FramePortOf(std::uint32_t serial, unsigned number) {
+    top_.eval();
+    root().can_remote__DOT__serial = serial;
+    top_.node_i = static_cast<std::uint8_t>(number);
+    top_.rst_ni = 0;
+    clocks(2);
+    top_.rst_ni = 1;
+    for (unsigned waited = 0; !ready(); ++waited) {
+      if (waited == 4200) throw std::logic_error("the RAM is not cleared in 4,200 clocks");
+      clock();
+    }
+  }
+  ~FramePortOf() override { top_.final(); }
+
+  void start() override {
+    top_.start_i = 1;
+    clocks(16);
+  }
+  void set_counters(unsigned tec, unsigned rec, bool passive, bool bus_off) override {
+    root().can_remote__DOT__u_core__DOT__tec_o_v = static_cast<std::uint8_t>(tec);
+    root().can_remote__DOT__u_core__DOT__rec_o_v = static_cast<std::uint8_t>(rec);
+    root().can_remote__DOT__u_core__DOT__passive_o_v = passive;
+    root().can_remote__DOT__u_core__DOT__boff_o_v = bus_off;
+  }
+  [[nodiscard]] bool take_release() override {
+    const bool seen = released_;
+    released_ = false;
+    return seen;
+  }
+  [[nodiscard]] bool running() const override {
+    return root().can_remote__DOT__u_core__DOT__run_i_v != 0;
+  }
+
+  void show(const std::optional<UserAccess> &access) override {
+    show_access(top_, access ? &*access : nullptr);
+  }
+  [[nodiscard]] bool ready() const override { return top_.usr_ready_o != 0; }
+  [[nodiscard]] std::uint32_t read_data() const override { return top_.usr_rdata_o; }
+  void hold(bool on) override { top_.usr_hold_i = on; }
+  void event(unsigned) override {}
+
+  [[nodiscard]] std::uint8_t peek(unsigned address) const override {
+    const auto &memory = root().can_remote__DOT__u_port__DOT__u_ram__DOT__mem;
+    return static_cast<std::uint8_t>(memory[address / 4] >> (8 * (address % 4)));
+  }
+  void poke(unsigned address, std::uint8_t byte) override {
+    auto &word = root().can_remote__DOT__u_port__DOT__u_ram__DOT__mem[address / 4];
+    const unsigned shift = 8 * (address % 4);
+    word = (word & ~(0xFFU << shift)) | static_cast<unsigned>(byte) << shift;
+  }
+  [[nodiscard]] RemoteState state() const override {
+    return static_cast<RemoteState>(top_.state_o);
+  }
+  [[nodiscard]] bool safe() const override { return top_.safe_o != 0; }
+  [[nodiscard]] bool idle() const override {
+    return root().can_remote__DOT__u_step__DOT__job_q == 0;
+  }
+
+ protected:
+  void edge(const Engine &engine) override {
+    auto &r = root();
+    r.can_remote__DOT__u_core__DOT__tick_o_v = engine.tick;
+    r.can_remote__DOT__u_core__DOT__rx_hdr_o_v = engine.hdr;
+    r.can_remote__DOT__u_core__DOT__rx_byte_we_o_v = engine.byte_we;
+    r.can_remote__DOT__u_core__DOT__rx_valid_o_v = engine.valid;
+    r.can_remote__DOT__u_core__DOT__tx_next_o_v = engine.next;
+    r.can_remote__DOT__u_core__DOT__tx_ok_o_v = engine.ok;
+    r.can_remote__DOT__u_core__DOT__tx_fail_o_v = engine.fail;
+    r.can_remote__DOT__u_core__DOT__gap_o_v = engine.gap;
+    r.can_remote__DOT__u_core__DOT__transmitter_o_v = engine.transmitter;
+    r.can_remote__DOT__u_core__DOT__rx_ide_o_v = engine.ide;
+    r.can_remote__DOT__u_core__DOT__rx_rtr_o_v = engine.rtr;
+    r.can_remote__DOT__u_core__DOT__rx_id_o_v = engine.id << 18;
+    r.can_remote__DOT__u_core__DOT__rx_dlc_o_v = static_cast<std::uint8_t>(engine.dlc);
+    r.can_remote__DOT__u_core__DOT__rx_byte_o_v = static_cast<std::uint8_t>(engine.byte);
+    r.can_remote__DOT__u_tick__DOT__ms_v = engine.ms;
+    rising_edge(top_, top_.clk_i);
+    if (r.can_remote__DOT__u_core__DOT__boff_rec_i_v == 0) released_ = true;
+  }
+  [[nodiscard]] Asked asked() const override {
+    return {root().can_remote__DOT__u_core__DOT__tx_req_i_v != 0,
+            root().can_remote__DOT__u_core__DOT__tx_dlc_i_v,
+            root().can_remote__DOT__u_core__DOT__tx_word_i_v};
+  }
+  [[nodiscard]] std::optional<RemotePulse> pulse() const override {
+    if (top_.apply_o) return RemotePulse{true, 0, 0};
+    if (top_.written_o) return RemotePulse{false, top_.written_addr_o, top_.written_len_o};
+    return std::nullopt;
+  }
+
+ private:
+  auto &root() { return *top_.rootp; }
+  [[nodiscard]] const auto &root() const { return *top_.rootp; }
+
+  VerilatedContext context_;
+  Model top_{&context_, "can_remote"};
+  bool released_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<FramePort> FramePort::create(const std::string &profile, unsigned name_bits,
+                                             std::uint32_t serial, unsigned number) {
+  if (profile == "small" && name_bits == 3)
+    return std::make_unique<FramePortOf<Vcan_remote_small_3>>(serial, number);
+  if (profile == "small" && name_bits == 5)
+    return std::make_unique<FramePortOf<Vcan_remote_small_5>>(serial, number);
+  throw std::invalid_argument("no model of profile " + profile + " with NameBits " +
+                              std::to_string(name_bits));
+}
+
+}  // namespace vericansim

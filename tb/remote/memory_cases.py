@@ -1,0 +1,206 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""`verican memory` on nodes of the simulated bus, by `verican bridge --socketcand` (RN-95). Run by
+ctest, one case each:
+VERICAN_BINARY=build/release/verican python3 -m unittest memory_cases.Commands.test_scan
+"""
+import json
+import os
+import pathlib
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tb/socketcan")]
+
+from socketcand_bridge import Bridge  # noqa: E402  pylint: disable=wrong-import-position
+
+PATIENCE = 120
+NODES = """bitrate: 500k
+nodes:
+  - {name: a, type: remote, number: 3, serial: 0xCAFE1234, memory: {0x40: 01 02, 0x200: 0A 0B 0C},
+     config: {producers: [{send: 0x40, length: 2, period: 30 s, gap: 5 ms}],
+              map: [{id: 0x640, to: 0x300, length: 2, time_out: 50 ms}, {id: 0x610, to: 0x301},
+                    {id: 0x190, to: 0x20}]}}
+  - {name: b, type: remote, number: 4, profile: small, serial: 0xBEEF0000, memory: {0x40: 03 04}}
+  - {name: c, type: remote, serial: 0x00000005}
+"""
+
+
+class Commands(unittest.TestCase):
+    """RN-95: each subcommand, on a full node, a small one, and one without a number."""
+
+    def setUp(self):
+        self.bridge = Bridge("--fast", "--errors", "none", scenario=NODES)
+        self.bridge.__enter__()  # pylint: disable=unnecessary-dunder-call
+        self.addCleanup(self.bridge.__exit__, None, None, None)
+
+    def memory(self, *words, code=0, error="", timeout=2000):
+        """Standard output of `verican memory`."""
+        done = subprocess.run(
+            [os.environ["VERICAN_BINARY"], "memory", "--socketcand",
+             f"127.0.0.1:{self.bridge.port}", "--timeout", str(timeout), *map(str, words)],
+            capture_output=True, text=True, timeout=PATIENCE, check=False)
+        self.assertEqual((done.returncode, done.stderr), (code, error), done.stdout)
+        return done.stdout
+
+    def json(self, *words, **keys):
+        """The same with --json."""
+        return json.loads(self.memory(*words, "--json", **keys))
+
+    def test_read_and_write(self):
+        """By number and address, long ones too, and to all."""
+        self.assertEqual(self.memory("read", 3, "0x40", 2), "01 02\n")
+        self.assertEqual(self.memory("read", 3, 0x200, 3), "0A 0B 0C\n")
+        self.assertEqual(self.memory("write", 3, "0x70", *(f"{i:02x}" for i in range(20))), "")
+        self.assertEqual(self.json("read", 3, "0x70", 20)["bytes"],
+                         " ".join(f"{i:02X}" for i in range(20)))
+        self.memory("write", "all", "0x40", "AABB")
+        self.assertEqual(self.json("poll", "0x40", 2), {
+            "address": 0x40,
+            "answers": [{"number": 3, "bytes": "AA BB"}, {"number": 4, "bytes": "AA BB"}]})
+        self.assertEqual(self.memory("poll", "0x40", 1), "   3  AA\n   4  AA\n")
+
+    def test_scan_and_assign(self):
+        """Nodes with a number, then those without."""
+        nodes = self.json("scan")["nodes"]
+        self.assertEqual([(n["number"], n["serial"]) for n in nodes],
+                         [(3, 0xCAFE1234), (4, 0xBEEF0000), (0, 5)])
+        self.assertEqual((nodes[0]["memory"], nodes[0]["stage"], nodes[0]["features"]),
+                         (4096, 8, 0xFF))
+        text = self.memory("scan")
+        self.assertIn("   4  BEEF0000    4096      8  stage\n", text)
+        self.assertIn("none  00000005\n", text)
+        self.memory("assign", "5", 6)
+        self.assertEqual([n["number"] for n in self.json("scan")["nodes"]], [3, 4, 6])
+
+    def test_states_and_trigger(self):
+        """Staged bytes become visible in OPERATE; STATUS tells state and count."""
+        self.memory("state", "operate", 3)
+        self.memory("write", 3, "0x10", "5A")
+        self.assertEqual(self.memory("read", 3, "0x10"), "00\n")
+        self.memory("trigger", 9)
+        self.assertEqual(self.memory("read", 3, "0x10"), "5A\n")
+        seen = self.json("status")["nodes"]
+        self.assertEqual([(n["number"], n["state"], n["trigger"]) for n in seen],
+                         [(3, "OPERATE", 9), (4, "SAFE", 9)])
+        self.memory("state", "safe")
+        self.assertIn("   3  SAFE ", self.memory("status", 3))
+        self.memory("state", "operate")
+        self.assertEqual([n["state"] for n in self.json("status")["nodes"]], 2 * ["OPERATE"])
+
+    def test_map(self):
+        """Tables in words; overlaps and identifiers that nobody sends are complained of."""
+        text = self.memory("map", code=1)
+        self.assertEqual(text.splitlines(), [
+            "node 3",
+            "  sends 5C0: 2 bytes of 40, every 30000 ms, 5 ms apart at least",
+            "  takes 640 under 7FF to 300, late after 50 ms",
+            "  takes 610 under 7FF to 301",
+            "  takes 190 under 7FF to 020",
+            "node 4",
+            "wrong: node 3: entries for 640 and 610 overlap at 301",
+            "wrong: node 3: waits for 640 under 7FF, which nobody sends",
+            "wrong: node 3: waits for 610 under 7FF, which nobody sends"])
+        self.assertEqual(len(self.json("map", code=1)["complaints"]), 3)
+
+    def test_dump_and_load(self):
+        """A table of bytes; a file and back."""
+        self.assertEqual(self.memory("dump", 3, "0x1F8", 24),
+                         "1F8  00 00 00 00 00 00 00 00 0A 0B 0C 00 00 00 00 00\n"
+                         "208  00 00 00 00 00 00 00 00\n")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "memory.bin"
+            path.write_bytes(bytes(range(100)))
+            self.memory("load", 4, "0x180", path)
+            other = pathlib.Path(folder) / "other.bin"
+            self.memory("dump", 4, "0x180", 100, "-o", other)
+            self.assertEqual(other.read_bytes(), bytes(range(100)))
+            self.memory("load", 4, "0xFC0", path, code=2, error=f"verican: {path}: 100 bytes; "
+                        "allowed: 1 to 64 from 0xFC0 on\n")
+
+    def test_watch(self):
+        """RN-97: each frame with its command in words; after so many the end."""
+        lines = []
+        watch = threading.Thread(
+            target=lambda: lines.extend(self.memory("watch", "--frames", 2).splitlines()))
+        watch.start()
+        while watch.is_alive():
+            self.memory("read", 3, "0x40", 2)
+        watch.join()
+        words = {tuple(line.split(maxsplit=2)[1:]) for line in lines}
+        self.assertEqual(words, {("1F8#400002", "3: read 040, 2 bytes"),
+                                 ("5F8#40000102", "3 says 040 = 01 02")})
+
+    def test_refusals(self):
+        """One line on stderr, exit code 1; the node's code in words."""
+        self.memory("read", 3, "0xE00", code=1,
+                    error="verican: memory: node 3 refuses: code 02, illegal address\n")
+        self.memory("write", 3, "0xF02", "01", code=1,
+                    error="verican: memory: node 3 refuses: code 11, locked\n")
+        self.memory("read", 7, "0x20", code=1, timeout=50,
+                    error="verican: memory: node 7 does not answer\n")
+        self.memory("assign", "77", 7, code=1, timeout=50,
+                    error="verican: memory: the node with serial number 00000077 does not answer\n")
+
+    def test_arguments(self):
+        """Exit code 2, and what is allowed."""
+        for words, error in (
+                (("read", 8, 0), "NODE: '8' is not allowed; allowed: 2 to 7"),
+                (("write", "no", 0, "1"), "NODE: 'no' is not allowed; allowed: 2 to 7, all"),
+                (("write", 3, 0, "5AG1"), "BYTES: '5AG1' is not allowed; allowed: hexadecimal "
+                                          "bytes, 5A 01 or 5A01"),
+                (("read", 3, "0xFFF", 2), "LENGTH: '2' is not allowed; allowed: 1 to 1 from 0xFFF "
+                                          "on"),
+                (("poll", 0, 7), "LENGTH: '7' is not allowed; allowed: 1 to 6"),
+                (("assign", "xyz", 3), "SERIAL: 'xyz' is not allowed; allowed: up to 8 "
+                                       "hexadecimal digits"),
+                (("assign", "5", 1), "NUMBER: '1' is not allowed; allowed: 0 (none), 2 to 7")):
+            self.memory(*words, code=2, error=f"verican: {error}\n")
+
+
+class WithoutABus(unittest.TestCase):
+    """What is wrong with the way to the bus."""
+
+    def fails(self, *options):
+        """The message."""
+        done = subprocess.run([os.environ["VERICAN_BINARY"], "memory", *options],
+                              capture_output=True, text=True, timeout=PATIENCE, check=False)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertEqual(done.stderr.count("\n"), 1)
+        return done.stderr
+
+    def test_ways_that_are_none(self):
+        """Neither, both, nobody there, no such interface, another server."""
+        self.assertIn("either --if or --socketcand", self.fails("scan"))
+        self.assertIn("excludes", self.fails("--if", "a", "--socketcand", "1", "scan"))
+        self.assertIn("--if: 'nocan0': ", self.fails("--if", "nocan0", "scan"))
+        self.assertIn("'127.0.0.1:no'", self.fails("--socketcand", "127.0.0.1:no", "scan"))
+        with socket.create_server(("127.0.0.1", 0)) as server:
+            port = server.getsockname()[1]
+
+            def answer():
+                with server.accept()[0] as client:
+                    client.sendall(b"< bye >")
+                    client.recv(100)
+
+            thread = threading.Thread(target=answer)
+            thread.start()
+            self.assertIn("says 'bye'", self.fails("--socketcand", f"127.0.0.1:{port}", "scan"))
+            thread.join()
+        self.assertIn("nobody answers", self.fails("--socketcand", f"127.0.0.1:{port}", "scan"))
+
+    def test_options(self):
+        """CLI11's own checks."""
+        self.assertIn("--name-bits", self.fails("--name-bits", "4", "scan"))
+        self.assertIn("subcommand", self.fails())
+        self.assertIn("0 to 255", self.fails("--if", "x", "trigger", "256"))
+
+
+if __name__ == "__main__":
+    assert os.environ["VERICAN_BINARY"]
+    unittest.main()

@@ -1,0 +1,391 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""The Python client of remote nodes over python-can, on nodes of the simulated bus by
+`verican bridge --socketcand` (RN-92, RN-93). Run by ctest, one case each:
+VERICAN_BINARY=build/release/verican python3 -m unittest python_client_cases.Golden.test_vectors
+"""
+import os
+import pathlib
+import sys
+import time
+import unittest
+
+import can
+import yaml
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "sw/remote"), str(ROOT / "tb/socketcan")]
+
+import verican_remote as remote  # noqa: E402  pylint: disable=wrong-import-position
+from socketcand_bridge import Bridge  # noqa: E402  pylint: disable=wrong-import-position
+
+# Longer than the client's own: the simulation shares the computer with others.
+TIMEOUT = 5.0
+
+
+def scenario(*nodes):
+    """A bus at 500 kbit/s with remote nodes, each given by its keys."""
+    text = "bitrate: 500k\nnodes:\n"
+    for i, keys in enumerate(nodes):
+        text += f"  - {{name: unit{i}, type: remote, {keys}}}\n"
+    return text
+
+
+class Lossy:
+    """A python-can bus that loses frames: those for which `loses(message, sent)` is true."""
+
+    def __init__(self, bus):
+        self.bus, self.loses, self.sent = bus, lambda message, sent: False, []
+
+    def send(self, message, timeout=None):
+        """As can.Bus."""
+        self.sent.append(message)
+        if not self.loses(message, True):
+            self.bus.send(message, timeout)
+
+    def recv(self, timeout=None):
+        """As can.Bus."""
+        until = time.monotonic() + timeout
+        while True:
+            message = self.bus.recv(max(0.0, until - time.monotonic()))
+            if message is None or not self.loses(message, False):
+                return message
+
+
+class OnBus(unittest.TestCase):
+    """A client on a bus with remote nodes."""
+
+    def open(self, *nodes, name_bits=3, **options):
+        """Starts the bus; self.client and, between it and python-can, self.link."""
+        self.bridge = self.enterContext(
+            Bridge("--fast", "--errors", "none", scenario=scenario(*nodes), clients=1))
+        bus = self.enterContext(can.Bus(interface="socketcand", channel="can0", host="127.0.0.1",
+                                        port=self.bridge.port))
+        self.link = Lossy(bus)
+        # As the client would find without the losses in between.
+        Lossy.__module__ = type(bus).__module__
+        options = {"timeout": TIMEOUT, "select_wait": 0.5, "rtr": "never"} | options
+        self.client = remote.Client(self.link, name_bits, **options)
+        for _ in nodes:
+            bus.recv(TIMEOUT)  # BOOT
+
+    def enterContext(self, manager):  # pylint: disable=invalid-name
+        """As unittest has it from Python 3.11 on."""
+        value = manager.__enter__()
+        self.addCleanup(manager.__exit__, None, None, None)
+        return value
+
+
+def frame_of(text):
+    """A frame as cansend has it."""
+    identifier, data = text.split("#")
+    if data.startswith("R"):
+        return can.Message(arbitration_id=int(identifier, 16), is_remote_frame=True,
+                           dlc=int(data[1:] or 0), is_extended_id=False)
+    return can.Message(arbitration_id=int(identifier, 16), data=bytes.fromhex(data),
+                       is_extended_id=len(identifier) == 8)
+
+
+def hexadecimal(text):
+    """Bytes as the vectors have them."""
+    return bytes.fromhex(text.replace(" ", ""))
+
+
+class Golden(OnBus):
+    """sw/remote/vectors.yaml (RN-92, RN-93)."""
+
+    def test_vectors(self):
+        """Every vector: as a call where it is one, else its frames; what they give, and STATUS."""
+        lives = yaml.safe_load((ROOT / "sw/remote/vectors.yaml").read_text(encoding="utf-8"))
+        for life in lives["lives"]:
+            self.open(f"number: {life['number']}, name_bits: {life['name_bits']}, "
+                      f"serial: 0x{life['serial']:X}", name_bits=life["name_bits"])
+            self.number = life["number"]
+            for vector in life["vectors"]:
+                with self.subTest(vector=vector["vector"], what=vector["what"]):
+                    self.carry_out(vector)
+
+    def carry_out(self, vector):
+        """One vector."""
+        if "calls" not in vector:
+            for step in vector["steps"]:
+                self.frames(step)
+        self.link.sent.clear()
+        for call in vector.get("calls", ()):
+            self.call(**call)
+        wanted = [frame_of(step["send"]) for step in vector["steps"]]
+        if "calls" in vector and not any(frame.is_remote_frame for frame in wanted):
+            self.assertEqual(*([(frame.arbitration_id, bytes(frame.data)) for frame in frames]
+                               for frames in (wanted, self.link.sent)))
+        self.number = vector.get("number", self.number)
+        for address, data in vector.get("memory", {}).items():
+            wanted = hexadecimal(data)
+            self.assertEqual(self.client.read(self.number, address, len(wanted)), wanted)
+        row = self.client.read(self.number, 0xFF0, 8)
+        for byte, wanted in zip(row, vector["status"].split()):
+            self.assertIn(wanted, ("--", f"{byte:02X}"), f"STATUS {row.hex(' ')}")
+
+    def frames(self, step):
+        """The frame of a step, and its answers. A remote frame, which socketcand does not send, is
+        a request for STATUS: READ gives the same."""
+        frame = frame_of(step["send"])
+        if frame.is_remote_frame:
+            row = self.client.read(self.number, 0xFF0, 8)
+            self.assertEqual(row, bytes(frame_of(step["answers"][0]).data))
+            return
+        self.link.send(frame)
+        for wanted in map(frame_of, step.get("answers", ())):
+            message = self.link.recv(TIMEOUT)
+            self.assertEqual((message.arbitration_id, bytes(message.data)),
+                             (wanted.arbitration_id, bytes(wanted.data)))
+
+    def call(self, do=None, frame=None, gives=None, **keys):
+        """A call as the vectors name it."""
+        client = self.client
+        if isinstance(gives, dict) and "full" in gives:
+            gives = gives["full"]
+        data = hexadecimal(keys["data"]) if "data" in keys else None
+        if frame:
+            self.link.send(frame_of(frame))
+        elif do == "write":
+            client.write(keys["node"], keys["address"], data)
+        elif do == "read":
+            self.assertEqual(client.read(keys["node"], keys["address"], keys["length"]),
+                             hexadecimal(gives))
+        elif do == "status":
+            self.assertEqual(client.status(keys["node"]), remote.Status.of(hexadecimal(gives)))
+        elif do == "identity":
+            self.assertEqual(client.identity(keys["node"]),
+                             remote.Identity.of(keys["node"], hexadecimal(gives)))
+        elif do == "state":
+            client.state({"operate": remote.OPERATE, "safe": remote.SAFE}[keys["command"]],
+                         keys["node"])
+        elif do == "trigger":
+            client.trigger(keys["count"])
+        elif do == "poll":
+            self.assertEqual(client.poll(keys["address"], keys["length"], gives),
+                             {number: hexadecimal(text) for number, text in gives.items()})
+        elif do == "select":
+            self.assertEqual(client.select(keys["value"], keys["mask"]), gives == "here")
+        elif do == "block_read":
+            client.tag = keys["tag"] - 1
+            self.assertEqual(client.block_read(keys["node"], keys["address"], keys["length"]),
+                             hexadecimal(gives))
+        elif do == "block_write":
+            client.tag = keys["tag"] - 1
+            client.block_write(keys["node"], keys["address"], data)
+        else:
+            self.fail(f"no call {do}")
+
+
+class Calls(OnBus):
+    """What the calls do beyond the vectors."""
+
+    def setUp(self):
+        self.open("number: 3, serial: 0xCAFE1233", "number: 4, serial: 0xCAFE1234, profile: small")
+        for number in (3, 4):
+            self.client.status(number)  # from now on refusals are known at once
+        self.link.sent.clear()
+
+    def sent(self):
+        """Identifiers sent since the last look."""
+        ids = [message.arbitration_id for message in self.link.sent]
+        self.link.sent.clear()
+        return ids
+
+    def test_long_accesses_are_split(self):
+        """At the window, at eight bytes there and six beyond."""
+        data = bytes(range(1, 41))
+        self.client.write(3, 0x60, data)
+        self.assertEqual(self.sent(), [0x1E0, 0x1E8, 0x1F0, 0x1F9, 0x1F9, 0x1F9])
+        self.assertEqual(self.client.read(3, 0x60, 40), data)
+        self.assertEqual(self.sent(), 7 * [0x1F8])
+
+    def test_confirmed_writes(self):
+        """1,000 bytes, with a frame lost on the way."""
+        lost = [1]
+        self.link.loses = lambda message, sent: message.arbitration_id == 0x1F9 and lost.pop()
+        data = bytes(i % 251 for i in range(1000))
+        lost[:] = [False] * 1000
+        lost[-30] = True
+        self.client.write_confirmed(3, 0x100, data)
+        self.link.loses = lambda message, sent: False
+        self.assertEqual(self.client.read(3, 0x100, 1000), data)
+
+    def test_refusals(self):
+        """They have their code, and the client goes on."""
+        for act, code in ((lambda: self.client.read(3, 0xE00, 1), 0x02),
+                          (lambda: self.client.write_confirmed(3, 0xF02, b"\1"), 0x11),
+                          (lambda: self.client.write_confirmed(3, 0xFF0, b"\1"), 0x10),
+                          (lambda: self.client.block_read(4, 0x20, 1), 0x01),
+                          (lambda: self.client.block_read(3, 0xE00, 1), 0x02),
+                          (lambda: self.client.block_write(3, 0xF00, b"\1"), 0x11)):
+            with self.assertRaises(remote.Refused) as refused:
+                act()
+            self.assertEqual(refused.exception.code, code)
+        self.assertEqual(self.client.read(3, 0x20, 1), b"\0")
+
+    def test_tries(self):
+        """A node that is not there is asked three times; an answer that is lost, once more."""
+        self.client.timeout = 0.1
+        with self.assertRaises(remote.Timeout):
+            self.client.read(2, 0x20, 1)
+        self.assertEqual(self.sent(), 3 * [0x178])
+        self.client.timeout = 1
+        lost = [True]
+        self.link.loses = lambda message, sent: not sent and bool(lost) and lost.pop()
+        self.assertEqual(self.client.read(3, 0x20, 1), b"\0")
+
+    def test_a_busy_node_is_asked_again(self):
+        """Its queue of one answer is full while requests follow each other."""
+        for _ in range(20):
+            self.link.send(frame_of("278#300001"))
+        self.sent()
+        self.assertEqual(self.client.read(4, 0x20, 1), b"\0")
+        self.assertGreater(len(self.sent()), 1)
+
+    def test_polls(self):
+        """All nodes at one moment; a node that does not answer is missed."""
+        self.client.write(3, 0x40, b"\3")
+        self.client.write(4, 0x40, b"\4")
+        self.assertEqual(self.client.poll(0x40, 1, (3, 4)), {3: b"\3", 4: b"\4"})
+        self.client.timeout = 0.5
+        self.assertEqual(self.client.poll(0x40, 1), {3: b"\3", 4: b"\4"})
+        with self.assertRaises(remote.Timeout):
+            self.client.poll(0x40, 1, (3, 5))
+
+    def test_configure(self):
+        """Unlocks, writes, locks; locks again after a refusal."""
+        self.client.configure(3, 0xCAFE1233, [(0xF18, b"pfc"), (0xF02, b"\x14\0")])
+        self.assertEqual(self.client.read(3, 0xF18, 3), b"pfc")
+        self.assertFalse(self.client.status(3).unlocked)
+        with self.assertRaises(remote.Refused):
+            self.client.configure(3, 0xCAFE1233, [(0xF30, b"\0")])
+        self.assertFalse(self.client.status(3).unlocked)
+        with self.assertRaises(remote.Refused) as refused:
+            self.client.configure(3, 0xCAFE1234, [(0xF18, b"pfc")])
+        self.assertEqual(refused.exception.code, 0x11)
+
+    def test_blocks(self):
+        """Both ways, with each frame lost once."""
+        data = bytes(range(40))
+        self.client.timeout = 0.5
+        for loss in range(1, 7):
+            for identifier, sent in ((0x1FB, True), (0x5FB, False)):
+                count = [0]
+
+                def loses(message, is_sent, count=count, key=(identifier, sent), loss=loss):
+                    if (message.arbitration_id, is_sent) != key:
+                        return False
+                    count[0] += 1
+                    return count[0] == loss
+
+                self.link.loses = loses
+                shown = bytes((byte + loss) % 256 for byte in data)
+                self.client.block_write(3, 0x300, shown)
+                self.assertEqual(self.client.block_read(3, 0x300, 40), shown)
+
+    def test_blocks_given_up(self):
+        """Lost in every try: Sequence; nobody there: Timeout."""
+        self.client.timeout = 0.3
+        self.link.loses = lambda message, sent: (
+            message.arbitration_id in (0x1FB, 0x5FB) and message.data[0] == 1)
+        with self.assertRaises(remote.Sequence):
+            self.client.block_read(3, 0x300, 40)
+        with self.assertRaises(remote.RemoteError):
+            self.client.block_write(3, 0x300, bytes(40))
+        with self.assertRaises(remote.Timeout):
+            self.client.block_read(2, 0x300, 40)
+
+    def test_arguments(self):
+        """Nothing is sent for what cannot be."""
+        client = self.client
+        for act in (lambda: client.read(1, 0, 1), lambda: client.read(8, 0, 1),
+                    lambda: client.read(3, 0, 0), lambda: client.read(3, 0xFFF, 2),
+                    lambda: client.write(0, 0, b"\0"), lambda: client.write(3, 0, b""),
+                    lambda: client.poll(0x40, 7), lambda: client.trigger(256),
+                    lambda: client.state(3), lambda: client.state(remote.SAFE, 8),
+                    lambda: client.assign(0, 1), lambda: client.block_write(3, 0xFFF, b"\0\0"),
+                    lambda: remote.Client(self.link, 4),
+                    lambda: remote.Client(self.link, rtr="maybe")):
+            self.assertRaises(ValueError, act)
+        self.assertEqual(self.sent(), [])
+
+    def test_remote_frames(self):
+        """python-can's socketcand cannot send them, other interfaces can: `auto` knows."""
+        self.assertFalse(remote.Client(self.link.bus).remote_frames)
+        with can.Bus(interface="virtual") as virtual:
+            self.assertTrue(remote.Client(virtual).remote_frames)
+            self.assertFalse(remote.Client(virtual, rtr="never").remote_frames)
+
+
+class Nodes(OnBus):
+    """Who is there."""
+
+    def test_scan_and_assign(self):
+        """Nodes with a number and without; one gets a number."""
+        self.open("number: 3, serial: 0xCAFE1233", select_wait=0.2, timeout=1.5)
+        self.assertEqual([(node.number, node.serial) for node in self.client.scan()],
+                         [(3, 0xCAFE1233)])
+        self.client.assign(0xCAFE1233, 5)
+        self.assertEqual(self.client.identity(5).serial, 0xCAFE1233)
+        self.client.assign(0xCAFE1233, 0)
+        self.assertEqual([(node.number, node.serial) for node in self.client.scan()],
+                         [(0, 0xCAFE1233)])
+        with self.assertRaises(remote.Timeout):
+            self.client.assign(0xCAFE1234, 5)
+
+    def test_statements_are_passed_on(self):
+        """What nobody waits for goes to the caller."""
+        heard = []
+        self.open("number: 3, config: {producers: [{send: status, length: 1, period: 20 ms}]}",
+                  on_statement=lambda message: heard.append(message.arbitration_id))
+        for _ in range(200):
+            self.client.read(3, 0x20, 1)
+            if heard:
+                break
+        self.assertEqual(set(heard), {0x5FE})
+
+
+    def test_a_heartbeat_refuses_nothing(self):
+        """It repeats the code of the last refusal for ever."""
+        heard = []
+        self.open("number: 3, config: {producers: [{send: status, length: 8, period: 1 ms}]}",
+                  on_statement=lambda message: heard.append(message.data[3]))
+        with self.assertRaises(remote.Refused):
+            self.client.read(3, 0xE00, 1)
+        for _ in range(100):
+            self.assertEqual(self.client.read(3, 0x20, 1), b"\0")
+        self.assertIn(2, heard)
+        # Nor does it if there is no answer.
+        self.link.loses = lambda message, sent: not sent and message.arbitration_id == 0x5F8
+        self.client.timeout, self.client.tries = 0.2, 1
+        for _ in range(20):
+            self.assertRaises(remote.Timeout, lambda: self.client.read(3, 0x20, 1))
+
+
+class RemoteFrames(OnBus):
+    """What the client sends where remote frames go."""
+
+    def test_on_a_virtual_bus(self):
+        """Read, STATUS and poll are remote frames; the answers are found."""
+        with can.Bus(interface="virtual", channel="vr") as bus, \
+                can.Bus(interface="virtual", channel="vr") as node:
+            client = remote.Client(bus, timeout=1)
+            answers = {0x1A0: (0x5A0, b"\7"), 0x1FE: (0x5FE, bytes([2, 0, 0, 0, 0, 1, 0, 9]))}
+
+            def answer(message):
+                self.assertTrue(message.is_remote_frame)
+                identifier, data = answers[message.arbitration_id]
+                self.assertEqual(message.dlc, len(data))
+                node.send(can.Message(arbitration_id=identifier, data=data, is_extended_id=False))
+
+            notifier = can.Notifier(node, [answer])
+            self.assertEqual(client.read(3, 0x20, 1), b"\7")
+            self.assertEqual(client.status(3).trigger, 9)
+            notifier.stop()
+
+
+if __name__ == "__main__":
+    assert os.environ["VERICAN_BINARY"]
+    unittest.main()

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// When a remote node does what: RN-21, RN-37, RN-45, RN-52, RN-55, RN-60, RN-70, RN-72.
+#include <gmock/gmock.h>
+
+#include "bus/faults.hpp"
+#include "remote/rtl_bus.hpp"
+
+namespace vericansim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr Time kClock = 125 * kNanosecond;
+
+class RtlInstants : public ::testing::Test {
+ protected:
+  RtlInstants() {
+    (void)bus.start();
+    bus.node().on_pulse = [this](const RemotePulse &pulse) {
+      pulses.push_back(pulse);
+      shown.push_back(bus.bus.now());
+    };
+  }
+  [[nodiscard]] Trace trace() { return decode_trace(bus.node().trace()); }
+  void write_config(unsigned address, unsigned byte) {
+    bus.node().user_write(address / 4, byte << 8 * (address % 4), 1U << address % 4);
+  }
+
+  RtlBus bus{std::vector<unsigned>{3}};
+  std::vector<RemotePulse> pulses;
+  std::vector<Time> shown;
+};
+
+// RN-45: the register that is written at the clock edge of the sample point of INT2 shows it.
+TEST_F(RtlInstants, PulsesBeginInTheClockAfterInt2) {
+  (void)bus.send("1A0#0102");
+  ASSERT_EQ(pulses.size(), 1U);
+  EXPECT_EQ(pulses[0], (RemotePulse{false, 0x20, 2}));
+  EXPECT_EQ(shown[0], bus.places.int2);
+  (void)bus.send("000#01");
+  (void)bus.send("001#01");
+  ASSERT_EQ(pulses.size(), 2U);
+  EXPECT_TRUE(pulses[1].apply);
+  EXPECT_EQ(shown[1], bus.places.int2);
+}
+
+// RN-45: and the bytes are in the RAM before that, at 8 clocks a bit, whatever their number.
+TEST_F(RtlInstants, BytesAreInTheRamBeforeInt2) {
+  for (const char *frame : {"1A0#11", "1A3#1122334455667788", "1F9#0002112233445566"}) {
+    SCOPED_TRACE(frame);
+    const Frame sent = bus_frame(frame);
+    const bool far = (sent.id & 0x7F) == 0x79;
+    const unsigned address = far ? 0x200 : sent.id & 0x7F;
+    bus.node().user_write(address / 4, 0, 0xF);
+    std::vector<std::uint8_t> seen;
+    bus.node().on_pulse = [&](const RemotePulse &pulse) {
+      for (unsigned i = 0; i < pulse.length; ++i) seen.push_back(bus.node().peek(address + i));
+    };
+    (void)bus.send(frame);
+    const std::vector<std::uint8_t> wanted{sent.data.begin() + (far ? 2 : 0),
+                                           sent.data.begin() + sent.dlc};
+    EXPECT_EQ(seen, wanted);
+  }
+}
+
+// RN-55: SOF five bits after EOF6 (EOF7, INT1 to INT3), at 8 clocks a bit; RN-21.
+TEST_F(RtlInstants, TheAnswerFollowsTheIntermissionAtOnce) {
+  for (const char *request : {"1A0#R1", "1A0#R8", "1F8#000206", "1FE#R8", "1FF#R8", "1A0#"}) {
+    SCOPED_TRACE(request);
+    bus.places.valid = bus.places.sof = 0;
+    bus.host.request(bus_frame(request));
+    while (bus.places.valid == 0) bus.run_bits(1);
+    const Time valid = bus.places.valid;
+    bus.places.sof = 0;
+    for (unsigned i = 0; i < 50 && bus.places.sof == 0; ++i) bus.run_bits(1);
+    EXPECT_EQ(bus.places.sof - valid, 5 * UnitBus::kBit);
+    (void)bus.settle();
+  }
+}
+
+// RN-52: a hold delays the work; after 64 clocks it is ignored.
+TEST_F(RtlInstants, HoldIsHonouredFor64Clocks) {
+  bus.node().hold(true);
+  (void)bus.send("1A0#5A");
+  ASSERT_EQ(shown.size(), 1U);
+  EXPECT_GE(shown[0] - bus.places.valid, 64 * kClock);
+  EXPECT_LE(shown[0] - bus.places.valid, (64 + 22) * kClock);
+  EXPECT_EQ(bus.node().peek(0x20), 0x5A);
+}
+
+// RN-52: nothing becomes visible while user logic holds, and soon after it does.
+TEST_F(RtlInstants, HoldThatEndsLetsGo) {
+  bus.node().hold(true);
+  bus.places.valid = 0;
+  bus.host.request(bus_frame("1A0#5A"));
+  while (bus.places.valid == 0) bus.run_bits(1);
+  bus.run_bits(4);
+  EXPECT_THAT(shown, IsEmpty());
+  EXPECT_EQ(bus.node().peek(0x20), 0);
+  bus.node().hold(false);
+  const Time released = bus.bus.now();
+  (void)bus.settle();
+  ASSERT_EQ(shown.size(), 1U);
+  EXPECT_LE(shown[0] - released, 22 * kClock);
+}
+
+// RN-60, RN-62: RESTART keeps the memory and reads the number again.
+TEST_F(RtlInstants, RestartKeepsTheMemory) {
+  (void)bus.send("1A0#5A");
+  write_config(remote_map::kNode, 5);
+  EXPECT_THAT(bus.send("000#8103"), ElementsAre("6FE#0200000000020000"));
+  EXPECT_THAT(bus.send("2A0#R1"), ElementsAre("6A0#5A"));
+  EXPECT_THAT(bus.send("1A0#R1"), IsEmpty());
+}
+
+// RN-60: a RESTART waits until nothing is under way: the frame that follows at once is not hurt.
+TEST_F(RtlInstants, RestartDisturbsNoFrame) {
+  bus.host.request(bus_frame("000#8103"));
+  bus.other.request(bus_frame("7A0#0102"));
+  EXPECT_THAT(bus.settle(), ElementsAre("7A0#0102", "5FE#0200000000010000"));
+  EXPECT_EQ(decode_trace(bus.host.trace()).tec, 0);
+  EXPECT_EQ(decode_trace(bus.other.trace()).tec, 0);
+}
+
+// RN-70, RN-71: the watchdog, from the last accepted request on, to the millisecond.
+TEST_F(RtlInstants, WatchdogToTheMillisecond) {
+  for (const unsigned ms : {1U, 2U, 10U, 255U, 256U, 300U}) {
+    SCOPED_TRACE(ms);
+    write_config(remote_map::kWatchdog, ms & 0xFF);
+    write_config(remote_map::kWatchdog + 1, ms >> 8);
+    bus.host.request(bus_frame("1FC#04"));
+    bus.host.request(bus_frame("000#01"));
+    bus.run_bits(150);
+    ASSERT_EQ(bus.node().state(), RemoteState::kOperate);
+    const Time fed = bus.places.valid;
+    const auto safe = [&] { return bus.node().safe(); };
+    ASSERT_TRUE(bus.bus.run_until(safe, (ms + 2) * kMillisecond));
+    EXPECT_GE(bus.bus.now() - fed, (ms - 1) * kMillisecond - 20 * UnitBus::kBit);
+    EXPECT_LE(bus.bus.now() - fed, (ms + 1) * kMillisecond);
+    EXPECT_EQ(bus.node().peek(remote_map::kStatus) & 0x43, 0x42);
+  }
+}
+
+// RN-72: ten times bus-off in a row; the back-off doubles each time, seven times at most, and is
+// not shorter than that, but may be a step longer. STATUS tells of it, and the state is SAFE.
+TEST_F(RtlInstants, BackOffDoublesWithEachBusOff) {
+  ScheduledFaults deaf;
+  bus.bus.add(deaf);
+  write_config(remote_map::kBackOff, 2);
+  write_config(remote_map::kRetry, 0);
+  (void)bus.send("1A0#R1");  // RETRY holds from the next frame on
+  const auto off = [&] { return trace().bus_off; };
+  for (unsigned n = 0; n < 10; ++n) {
+    SCOPED_TRACE(n);
+    (void)bus.send("000#01");
+    bus.places.valid = 0;
+    bus.host.request(bus_frame("1A0#R1"));
+    while (bus.places.valid == 0) bus.run_bits(1);
+    const Time from = bus.bus.now() + 3 * UnitBus::kBit;
+    deaf.add(2, Effect::kRecessive, {from, from + 2 * kMillisecond});
+    ASSERT_TRUE(bus.bus.run_until(off, 2 * kMillisecond));
+    const Time begin = bus.bus.now();
+    bus.run_bits(20);
+    EXPECT_EQ(bus.node().state(), RemoteState::kSafe);
+    ASSERT_TRUE(bus.bus.run_until([&] { return !off(); }, 400 * kMillisecond));
+    const Time step = (1 << std::min(n, 7U)) * kMillisecond;
+    EXPECT_GE(bus.bus.now() - begin, 2 * step);
+    EXPECT_LE(bus.bus.now() - begin, 3 * step + kMillisecond + 128 * 11 * UnitBus::kBit);
+    const auto said = bus.settle();
+    ASSERT_EQ(said.size(), 1U);
+    EXPECT_EQ(said[0].substr(0, 6), "5FE#82");
+  }
+}
+
+}  // namespace
+}  // namespace vericansim
