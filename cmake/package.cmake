@@ -53,10 +53,11 @@ verican_install_library(sim vericansim vericansim "${include_dir}" "${CMAKE_INST
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/sim/" DESTINATION "${include_dir}" COMPONENT sim
   FILES_MATCHING PATTERN "*.hpp"
   PATTERN "cli" EXCLUDE PATTERN "linux" EXCLUDE PATTERN "systemc" EXCLUDE PATTERN "page" EXCLUDE
-  PATTERN "python" EXCLUDE
-  PATTERN "split_core.hpp" EXCLUDE PATTERN "model_edge.hpp" EXCLUDE
-  PATTERN "model_pins.hpp" EXCLUDE
+  PATTERN "python" EXCLUDE PATTERN "hollow" EXCLUDE
+  PATTERN "split_core.hpp" EXCLUDE PATTERN "quiet_engine.hpp" EXCLUDE
+  PATTERN "model_edge.hpp" EXCLUDE PATTERN "model_pins.hpp" EXCLUDE
   PATTERN "yaml_value.hpp" EXCLUDE PATTERN "scenario_parts.hpp" EXCLUDE
+  PATTERN "scenario_remote_parts.hpp" EXCLUDE
   PATTERN "paper_bench.hpp" EXCLUDE)
 install(FILES "${PROJECT_SOURCE_DIR}/sw/driver/include/verican/verican_regs.h"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/verican" COMPONENT sim)

@@ -6,7 +6,7 @@
 
 The simulator runs engine and host side as two Verilated models, so that the host side rests while
 nothing changes for it (sim/node/split_core.hpp). Ports are read from the module itself: a new one
-needs no change here.
+needs no change here. The C++ is a struct for each top that has an engine.
 """
 import re
 import sys
@@ -18,7 +18,55 @@ SKIPPED = {"clk_i", "rst_ni", "can_rx_i", "can_tx_o", "trace_o"}
 QUIET = {"rx_id_o", "rx_ide_o", "rx_srr_o", "rx_rtr_o", "rx_dlc_o", "rx_byte_o", "timer_o",
          "crc_o", "gap_o"}
 PORT = re.compile(r"^\s*(input|output)\s+logic\s*(\[[^\]]*\])?\s*(\w+),?", re.MULTILINE)
-ROOT = "can_ahb__DOT__u_top__DOT__u_core__DOT__"
+# Struct, the engine in that top, inputs of the engine that C++ drives.
+TIMING = {"presdiv_i", "rjw_i", "pseg1_i", "pseg2_i", "propseg_i"}
+TOPS = (("AhbPorts", "can_ahb__DOT__u_top__DOT__u_core__DOT__", set()),
+        ("RemotePorts", "can_remote__DOT__u_core__DOT__", TIMING))
+
+
+def hollow(header, ports):
+    """can_core.sv without contents, whose outputs C++ sets and whose inputs it reads."""
+    lines = ["// Generated from can_core.sv: its ports, for C++.", header]
+    for direction, width, name in ports:
+        if name in ("can_tx_o", "trace_o"):
+            lines.append(f"  assign {name} = '0;")
+        if name in SKIPPED:
+            continue
+        if direction == "output":
+            lines.append(f"  logic {width} {name}_v /* verilator public_flat_rw */;")
+            lines.append(f"  assign {name} = {name}_v;")
+        else:
+            lines.append(f"  logic {width} {name}_v /* verilator public_flat_rd */;")
+            lines.append(f"  assign {name}_v = {name};")
+    return lines + ["endmodule"]
+
+
+def copies(struct, root, into, back):
+    """The struct that copies the engine's ports between the two models of a top."""
+    lines = [f"struct {struct} {{",
+             "  /// Engine outputs to the host side; true if any has changed.",
+             "  template <typename Core, typename Host>",
+             "  static bool to_host(const Core &core, Host &host) {",
+             "    unsigned changed = 0;"]
+    lines += [f"    changed |= host.{root}{name}_v ^ core.{name};" for name in into]
+    lines.append("    if (changed == 0) return false;")
+    lines += [f"    host.{root}{name}_v = core.{name};" for name in into]
+    lines += ["    return true;", "  }", "",
+              "  /// True if an engine output has changed that a resting host side must see.",
+              "  template <typename Core, typename Host>",
+              "  static bool wakes_host(const Core &core, const Host &host) {",
+              "    unsigned changed = 0;"]
+    lines += [f"    changed |= host.{root}{name}_v ^ core.{name};" for name in into
+              if name not in QUIET]
+    lines += ["    return changed != 0;", "  }", "",
+              "  /// Host side to engine inputs; true if any has changed.",
+              "  template <typename Core, typename Host>",
+              "  static bool to_core(Core &core, const Host &host) {",
+              "    unsigned changed = 0;"]
+    lines += [f"    changed |= core.{name} ^ host.{root}{name}_v;" for name in back]
+    lines.append("    if (changed == 0) return false;")
+    lines += [f"    core.{name} = host.{root}{name}_v;" for name in back]
+    return lines + ["    return true;", "  }", "};", ""]
 
 
 def main():
@@ -29,55 +77,17 @@ def main():
     ports = PORT.findall(header)
     if not ports:
         sys.exit(f"{source}: no ports found in can_core")
-    sv = ["// Generated from can_core.sv: its ports, for C++.", header]
-    into, back = [], []
-    for direction, width, name in ports:
-        if name in ("can_tx_o", "trace_o"):
-            sv.append(f"  assign {name} = '0;")
-        if name in SKIPPED:
-            continue
-        if direction == "output":
-            sv.append(f"  logic {width} {name}_v /* verilator public_flat_rw */;")
-            sv.append(f"  assign {name} = {name}_v;")
-            into.append(name)
-        else:
-            sv.append(f"  logic {width} {name}_v /* verilator public_flat_rd */;")
-            sv.append(f"  assign {name}_v = {name};")
-            back.append(name)
-    sv.append("endmodule")
+    names = [(direction, name) for direction, _, name in ports if name not in SKIPPED]
+    into = [name for direction, name in names if direction == "output"]
+    back = [name for direction, name in names if direction == "input"]
     hpp = ["// Generated from can_core.sv: copies its ports between the two models.",
-           "#pragma once", "",
-           "namespace vericansim {", "",
-           "/// Engine outputs to the host side; true if any has changed.",
-           "template <typename Core, typename Host>",
-           "bool copy_to_host(const Core &core, Host &host) {",
-           "  unsigned changed = 0;"]
-    for name in into:
-        hpp.append(f"  changed |= host.{ROOT}{name}_v ^ core.{name};")
-    hpp.append("  if (changed == 0) return false;")
-    for name in into:
-        hpp.append(f"  host.{ROOT}{name}_v = core.{name};")
-    hpp += ["  return true;", "}", "",
-            "/// True if an engine output has changed that a resting host side must see.",
-            "template <typename Core, typename Host>",
-            "bool wakes_host(const Core &core, const Host &host) {",
-            "  unsigned changed = 0;"]
-    for name in into:
-        if name not in QUIET:
-            hpp.append(f"  changed |= host.{ROOT}{name}_v ^ core.{name};")
-    hpp += ["  return changed != 0;", "}", "",
-             "/// Host side to engine inputs; true if any has changed.",
-            "template <typename Core, typename Host>",
-            "bool copy_to_core(Core &core, const Host &host) {",
-            "  unsigned changed = 0;"]
-    for name in back:
-        hpp.append(f"  changed |= core.{name} ^ host.{ROOT}{name}_v;")
-    hpp.append("  if (changed == 0) return false;")
-    for name in back:
-        hpp.append(f"  core.{name} = host.{ROOT}{name}_v;")
-    hpp += ["  return true;", "}", "", "}  // namespace vericansim", ""]
-    open(out_sv, "w", encoding="utf-8").write("\n".join(sv) + "\n")
+           "#pragma once", "", "namespace vericansim {", ""]
+    for struct, root, driven in TOPS:
+        hpp += copies(struct, root, into, [name for name in back if name not in driven])
+    hpp += ["}  // namespace vericansim", ""]
+    open(out_sv, "w", encoding="utf-8").write("\n".join(hollow(header, ports)) + "\n")
     open(out_hpp, "w", encoding="utf-8").write("\n".join(hpp))
 
 
-main()
+if __name__ == "__main__":
+    main()

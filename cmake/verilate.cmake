@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# verican_verilate(<target> TOP <module> [PARAMS Name=value ...] [REPLACE <file>]): a static library
-# with the Verilated model of any module of rtl/can.f; its class has the name of the target and its
-# header is <target>.h. REPLACE takes the place of the file of that name in rtl/can.f.
+# verican_verilate(<target> TOP <module> [PARAMS Name=value ...] [REPLACE <file> ...]): a static
+# library with the Verilated model of any module of rtl/can.f; its class has the name of the target
+# and its header is <target>.h. REPLACE files take the places of those of their names in rtl/can.f.
 #
 # VERICAN_RTL_TRANSFORM: a program that rewrites the RTL before Verilation (a netlist, mutants):
-#   <program> OUT.v TOP [Name=value ...] [--keep FILE] -- FILE...
-# It writes module TOP to OUT.v, instance names and hierarchy kept. The module of the file after
-# --keep stays as it is: C++ reaches its signals by name, and it is Verilated beside OUT.v.
+#   <program> OUT.v TOP [Name=value ...] [--keep FILE ...] -- FILE...
+# It writes module TOP to OUT.v, instance names and hierarchy kept. The modules of the files after
+# --keep stay as they are: C++ reaches their signals by name, and they are Verilated beside OUT.v.
 #
 # VERICAN_COVERAGE: the models count what of the RTL was run (docs/coverage.md).
 include_guard(GLOBAL)
@@ -46,12 +46,12 @@ set(VERICAN_VERILATOR_FLAGS --cc -O3 -fno-split --x-assign fast --x-initial fast
     --output-split 0 --no-timing -Wno-lint -Wno-style)
 
 function(verican_verilate target)
-  cmake_parse_arguments(ARG "" "TOP;REPLACE" "PARAMS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TOP" "PARAMS;REPLACE" ${ARGN})
   set(files ${VERICAN_RTL})
-  if(ARG_REPLACE)
-    get_filename_component(name "${ARG_REPLACE}" NAME)
-    list(TRANSFORM files REPLACE "^.*/${name}$" "${ARG_REPLACE}")
-  endif()
+  foreach(file IN LISTS ARG_REPLACE)
+    get_filename_component(name "${file}" NAME)
+    list(TRANSFORM files REPLACE "^.*/${name}$" "${file}")
+  endforeach()
   set(dir "${CMAKE_CURRENT_BINARY_DIR}/${target}.dir")
   set(all "${dir}/${target}__all.cpp")
   list(TRANSFORM ARG_PARAMS PREPEND "-G" OUTPUT_VARIABLE parameters)
@@ -61,7 +61,7 @@ function(verican_verilate target)
     set(netlist "${CMAKE_CURRENT_BINARY_DIR}/${target}.transformed.v")
     set(transform "${VERICAN_RTL_TRANSFORM}" "${netlist}" ${ARG_TOP} ${ARG_PARAMS})
     if(ARG_REPLACE)
-      list(APPEND transform --keep "${ARG_REPLACE}")
+      list(APPEND transform --keep ${ARG_REPLACE})
     endif()
     list(APPEND transform -- ${files})
     set(verilated "${VERICAN_RTL_DIR}/can_pkg.sv" "${netlist}" ${ARG_REPLACE})

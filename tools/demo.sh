@@ -28,6 +28,14 @@ for scenario in examples/*.yaml; do
     --report "$out/$name.html"
 done
 
+headline "The cabinet: five nodes without a processor, 10,000 cycles of a millisecond"
+run "the cabinet" examples/remote/cabinet.py --verican "$verican"
+for variant in plug noise stage; do
+  headline "The cabinet: variant $variant"
+  run "the cabinet, $variant" examples/remote/cabinet.py --verican "$verican" \
+    --variant "$variant" -- --report "$out/cabinet-$variant.html"
+done
+
 headline "The paper's experiments (Son, Park, Kang 2016): what the core does, what they report"
 run "the paper's experiments" "$verican" paper --out "$out/paper" --report "$out/paper"
 

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # lint.sh BUILD: everything that can be said about the sources without running them. BUILD is a
-# configured build directory, for clang-tidy.
+# configured build directory, for clang-tidy. TIDY=--sample: see tidy.py.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 . tools/common.sh
@@ -28,6 +28,9 @@ mapfile -t rtl < <(rtl_files)
 tops=()
 has_module can_core && tops+=("can_core")
 has_module can_ahb && tops+=("can_ahb NumMb=16" "can_ahb NumMb=32" "can_ahb NumMb=64")
+has_module can_remote && tops+=("can_remote" "can_remote NameBits=5" "can_remote MemBytes=1024"
+                                "can_remote StageBytes=0" "can_remote StageBytes=16"
+                                "can_remote TxDepth=4")
 
 verilator_lint() {  # TOP [NAME=VALUE]
   verilator --lint-only -Wall --top-module "$1" ${2:+-G"$2"} rtl/lint.vlt "${rtl[@]}"
@@ -83,7 +86,7 @@ check "can.core agrees with rtl/can.f" core_file
 check "licence heads" spdx
 check "lines of at most 100 characters" line_length
 check "clang-format" format
-check "clang-tidy" tools/tidy.sh "$build"
+check "clang-tidy ${TIDY:-}" tools/tidy.py "$build" ${TIDY:+"$TIDY"}
 
 if [ "$failures" -ne 0 ]; then
   echo "lint: $failures checks failed" >&2

@@ -5,13 +5,15 @@
 A test cites an id where it stands in the body of a TEST, TEST_F or TEST_P block, in the comment
 lines directly above it, or directly above or inside an INSTANTIATE_TEST_SUITE_P (then for every
 TEST_P of that suite). DISABLED_ tests do not count. A range such as "SY-05..SY-09" cites its two
-ends only. Tests of the judges (model_*_test.cpp) are listed, but what they cite still needs a test
-of the core.
+ends only. In a unittest module (*_cases.py) a test cites what stands in its text, and what stands
+in the docstring of its class. Tests of the judges (model_*_test.cpp) are listed, but what they cite
+still needs a test of the core.
 
 The plan is a list of sections: `section`, `name`, `optional` (ids may be cited but need no test)
 and the ids with their titles; an id with {title, not_applicable: reason} must not be cited.
 """
 import argparse
+import ast
 import re
 import sys
 from collections import defaultdict
@@ -77,6 +79,19 @@ def citations(path, ids):
                 yield cited, f"{match.group(1)}.{name}"
 
 
+def python_citations(path, ids):
+    """Yields (id, "Class.test_name") for every citation in a unittest module."""
+    text = path.read_text()
+    for group in ast.parse(text).body:
+        if not isinstance(group, ast.ClassDef):
+            continue
+        shared = ids.findall(ast.get_docstring(group) or "")
+        for test in group.body:
+            if isinstance(test, ast.FunctionDef) and test.name.startswith("test_"):
+                for cited in shared + ids.findall(ast.get_source_segment(text, test)):
+                    yield cited, f"{group.name}.{test.name}"
+
+
 @dataclass
 class Plan:
     """One plan, its page, and how to speak of it."""
@@ -112,6 +127,9 @@ class Plan:
         cited = defaultdict(lambda: defaultdict(set))
         for path in sorted((ROOT / "tb").glob("*/*_test.cpp")):
             for name, test in citations(path, self.ids):
+                cited[name][path.relative_to(ROOT).as_posix()].add(test)
+        for path in sorted((ROOT / "tb").glob("*/*_cases.py")):
+            for name, test in python_citations(path, self.ids):
                 cited[name][path.relative_to(ROOT).as_posix()].add(test)
         return cited
 

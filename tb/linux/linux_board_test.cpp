@@ -7,6 +7,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "harness/scratch_folder.hpp"
 #include "linux/board.hpp"
@@ -126,14 +128,33 @@ TEST_F(BoardTest, AFullDiskIsNoticed) {
   std::filesystem::create_directories(config.directory);
   std::filesystem::create_symlink("/dev/full", config.directory + "/access-0.txt");
   board = std::make_unique<Board>(config);
-  (void)port.read(0);
+  EXPECT_THROW((void)port.read(0), OutputError);
   EXPECT_THROW(board->close_logs(), OutputError);
+}
+
+// A board that ends early leaves no half of a log, and an older one as it was.
+TEST_F(BoardTest, LogsAreWholeOrAbsent) {
+  bring_up();
+  std::ofstream(folder / "old.log") << "old";
+  for (const char *name : {"bus.log", "old.log"}) {
+    board->command("log " + std::string(name));
+    send(0x123, 0x11223344);
+    (void)board->run_until(board->now() + kMs);
+    EXPECT_FALSE(std::filesystem::exists(folder / "bus.log")) << name;
+    board = std::make_unique<Board>(config);
+    bring_up();
+  }
+  board.reset();
+  EXPECT_EQ(read_text_file(folder / "old.log"), "old");
+  const std::filesystem::directory_iterator files{folder.path()};
+  EXPECT_EQ(std::distance(begin(files), end(files)), 1);
 }
 
 TEST_F(BoardTest, AccessesAreLogged) {
   (void)port.read(0x1000);
   port.write(0x1004, 0x00010000);
-  board.reset();
+  EXPECT_FALSE(std::filesystem::exists(folder / "access-1.txt"));
+  board->close_logs();
   const std::string log = read_text_file(folder / "access-1.txt");
   EXPECT_THAT(log, HasSubstr(" R 000 d890000f 0\n"));
   EXPECT_THAT(log, HasSubstr(" W 004 00010000 0\n"));
@@ -243,7 +264,7 @@ TEST(Board, SettingsOutOfRangeAreRefused) {
   BoardConfig nowhere = with(2, 8e6);
   nowhere.directory = "/nowhere/at/all";
   nowhere.access_logs = true;
-  EXPECT_THROW(Board{nowhere}, InputError);
+  EXPECT_THROW(Board{nowhere}, OutputError);
 }
 
 }  // namespace

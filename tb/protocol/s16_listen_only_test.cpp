@@ -74,7 +74,9 @@ TEST_P(ListenOnlyError, WrongBitInTheGapCostsTheNextFrame) {
     const bool valid = n >= delimiter + 7;
     ASSERT_EQ(rig.delivered(), valid ? 2u : 1u);
     EXPECT_EQ(rig.dut().received().back(), kNext);
-    if (valid) EXPECT_EQ(rig.dut().received().front(), kGv1);
+    if (valid) {
+      EXPECT_EQ(rig.dut().received().front(), kGv1);
+    }
   }
 }
 

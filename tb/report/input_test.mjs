@@ -226,10 +226,26 @@ test('a frame is copied as a line of candump', async () => {
   await page.click('#panel-frames .row:has-text("CA FE")');
   await page.keyboard.press('c');
   await page.waitForSelector('.toast:visible');
-  assert.equal(await page.textContent('.toast'), 'Copied: (0000000000.000020) can0 123#CAFE');
+  assert.equal(await page.textContent('.toast'), 'Copied: (0000000001.000020) can0 123#CAFE');
   const lines = await page.evaluate(() => window.verican.report.frames.count);
   assert.equal(lines, log.length);
   await closeReport(page);
+});
+
+test('its time is that of the log of the run, cut to microseconds', async () => {
+  for (const [origin, text] of [
+    [88875.25, '0000000001.000108'],
+    [88999.999, '0000000001.000108'],
+    [89000, '0000000001.000109'],
+    [3600e9, '0000003601.000020'],
+  ]) {
+    const scene = smallScene();
+    scene.meta.origin_ns = origin;
+    const page = await openReport(writeScene('origin', scene));
+    await page.click('#panel-frames .row:has-text("CA FE")');
+    assert.equal(await page.textContent('.details .candump'), `(${text}) can0 123#CAFE`);
+    await closeReport(page);
+  }
 });
 
 test('dark screens get dark pictures', async () => {

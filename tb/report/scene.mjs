@@ -371,6 +371,7 @@ export class Scene {
       statements: [],
       view: null,
       truncated: null,
+      origin_ns: 0,
       detail_end_ns: duration,
       ...more,
     };

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# tool_test VERICAN: signals in the tool as a user meets them: scenario, log, waveform, page.
+# tool_test VERICAN ELF_FOLDER: signals in the tool as a user meets them: scenario, log, waveform,
+# page, firmware, bridge.
 """Expected bytes are worked out by hand from examples/engine.dbc."""
 import csv
 import json
@@ -12,6 +13,7 @@ import unittest
 sys.path.insert(0, "tb/harness")
 from tool_case import ToolCase
 
+ELF_FOLDER = sys.argv.pop(1)
 SCENARIO = "examples/signals.yaml"
 DBC = "examples/engine.dbc"
 # 9600 = 0x2580, Mode 2 from bit 28 on, start value 60 = 0x3C.
@@ -130,6 +132,43 @@ class Signals(ToolCase):
         rows = csv.DictReader(table.read_text().splitlines())
         times = dict.fromkeys(int(row["time"].replace(".", "")) // 1000 for row in rows)
         self.assertEqual(list(times), logged)
+
+    def test_firmware(self):
+        # ping.c: byte i of ping n is n + 17 i; each byte of its answer is the complement.
+        database = self.file("ping.dbc", 'VERSION ""\n' + "".join(
+            f"BO_ {ident} {name}: 8 a\n SG_ N : 0|8@1+ (1,0) [0|255] \"\" b\n"
+            ' SG_ Third : 24|8@1+ (1,-51) [-51|204] "x" b\n'
+            for ident, name in [(0x100, "Ping"), (0x101, "Pong")]))
+        args = ["firmware", f"{ELF_FOLDER}/ping.elf", f"{ELF_FOLDER}/pong.elf", "--bus",
+                "sw/firmware/ping/ping.yaml", "--dbc", database]
+        signals = json.loads(self.passes(*args, "--json"))["buses"][0]["signals"]
+        # 22 frames: ten pings and answers; the eleventh of each has no data.
+        self.assertEqual(signals["frames"], {"known": 22, "unknown": 0})
+        self.assertEqual(
+            [(s["message"], s["signal"], s["count"], s["first"]["value"], s["last"]["value"],
+              s["min"], s["max"]) for s in signals["signals"]],
+            [("Ping", "N", 10, 0, 9, 0, 9), ("Ping", "Third", 10, 0, 9, 0, 9),
+             ("Pong", "N", 10, 255, 246, 246, 255), ("Pong", "Third", 10, 153, 144, 144, 153)])
+        text = self.passes(*args, "--signals")
+        self.assertRegex(text, r"\n  Pong\.Third +10 +144 +144 +153 +148\.5  x\n")
+
+    def test_bridge(self):
+        bus = self.file("bus.yaml", "nodes:\n  - {name: engine}\n  - {name: display}\ntraffic:\n"
+                        "  - {node: engine, id: 0x100, data: 80 25 00 20 3C 00 00 00, count: 3,"
+                        " period: 5 ms}\n  - {node: display, id: 0x300}\n")
+        args = ["bridge", "--socketcand", "0", "--time", "20ms", "--bus", bus, "--dbc", DBC]
+        table, page = self.path / "s.csv", self.path / "page.html"
+        report = json.loads(self.passes(*args, "--json", "--signals-csv", table, "--report", page))
+        signals = report["bus"]["signals"]
+        self.assertEqual(signals["frames"], {"known": 3, "unknown": 1})
+        last = {s["signal"]: (s["count"], s["last"]["value"]) for s in signals["signals"]}
+        self.assertEqual(last,
+                         {"EngineSpeed": (3, 2400), "Torque": (3, 0), "Mode": (3, 2),
+                          "CoolantTemperature": (3, 20)})
+        self.assertEqual(len(table.read_text().splitlines()), 1 + 3 * 4)
+        self.assertIn('"databases":[{"name":"engine.dbc","text":"VERSION', page.read_text())
+        self.assertRegex(self.passes(*args, "--signals"),
+                         r"\n  EngineData\.EngineSpeed +3 +2400 +2400 +2400 +2400  rpm\n")
 
     def test_json_of_a_run(self):
         run = json.loads(self.passes("run", SCENARIO, "--json"))["runs"][0]

@@ -14,7 +14,9 @@
 namespace {
 
 using namespace tb;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 /// The tool, with files of the test.
@@ -36,6 +38,7 @@ TEST_F(Tool, HelpAndVersion) {
     const ToolResult help = run_tool(std::string(command) + " --help");
     EXPECT_EQ(help.code, 0);
     EXPECT_THAT(help.out, HasSubstr("--json"));
+    EXPECT_THAT(help.out, Not(ContainsRegex("[0-9]e[+]|[0-9][.]0")));  // ends of ranges
   }
   EXPECT_THAT(run_tool("--version").out, HasSubstr("verican"));
 }
@@ -47,6 +50,10 @@ TEST_F(Tool, BadOptionsAreRefused) {
   expect_refused("run x.yaml --bitrate 5M", "--bitrate");
   expect_refused("bittime", "--bitrate is required");
   expect_refused("bittime -b fast", "--bitrate");
+  expect_refused("bittime -b 5M",
+                 "bit rate 5000000 bit/s is out of range; allowed: 1000 to 1000000");
+  expect_refused("bittime -b 500k -c 10000M",
+                 "clock 10000000000 Hz is out of range; allowed: 1000 to 1000000000");
   expect_refused("bittime -b 500k -s 0.3", "sample point 0.3 is out of range; allowed: 0.5 to 0.9");
   expect_refused("bittime -b 999k --max-error 1",
                  "no setting of 8 to 25 quanta gives 999000 bit/s");
@@ -55,6 +62,7 @@ TEST_F(Tool, BadOptionsAreRefused) {
   expect_refused("replay x.log --frames 0", "--frames: '0' is not allowed; allowed: 1 or more");
   expect_refused("run x.yaml --bitrate 5M", "Value 5000000 not in range 1000 to 1000000;");
   expect_refused("replay x.log --nodes 1", "--nodes");
+  expect_refused("replay x.log --frames 10.0.0", "--frames = 10.0.0");
   expect_refused("decode x.vcd --bitrate 1", "--bitrate");
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "harness/input_error_of.hpp"
+#include "scenario/bittime.hpp"
 #include "scenario/simulation.hpp"
 #include "trace/input_error.hpp"
 
@@ -59,6 +60,10 @@ INSTANTIATE_TEST_SUITE_P(
                    "traffic: [{node: a, id: 1, period: 1 ms}]\n"
                    "faults: [{kind: flip, name: x, at: {node: b, field: SOF}}]\n",
                    "'x' can never hit: SOF is a place of senders, and 'b' has no traffic"},
+        Impossible{"SuspendOfAReceiver",
+                   "traffic: [{node: a, id: 1, period: 1 ms}]\n"
+                   "faults: [{kind: flip, at: {node: b, field: SUSPEND}}]\n",
+                   "SUSPEND is a place of senders, and 'b' has no traffic"},
         Impossible{"Quanta",
                    "traffic: [{node: a, id: 1, period: 1 ms}]\n"
                    "faults: [{kind: flip, at: {node: b, field: CRC, first_tq: 20}}]\n",
@@ -89,6 +94,14 @@ INSTANTIATE_TEST_SUITE_P(
                    "traffic: [{node: a, id: 1, period: 2 ms, offset: 1 ms}, {node: b, id: 2}]\n"
                    "faults: [{kind: flip, at: {node: b, frame: 7}}]\n",
                    "frame 7 does not come; allowed: 1 to 6, all that is sent"},
+        Impossible{"FrameAtTheEnd",
+                   "duration: 10 ms\ntraffic: [{node: a, id: 1, period: 2 ms}]\n"
+                   "faults: [{kind: flip, at: {node: b, frame: 6}}]\n",
+                   "frame 6 does not come; allowed: 1 to 5"},
+        Impossible{"TrafficAtTheEnd",
+                   "duration: 10 ms\ntraffic: [{node: a, id: 1, offset: 10 ms}]\n"
+                   "faults: [{kind: flip, at: {node: b, field: ID}}]\n",
+                   "no frame is sent"},
         Impossible{"Silence", "faults: [{kind: flip, at: {node: b, field: ID}}]\n",
                    "no frame is sent; allowed: a scenario with traffic"}),
     [](const auto &item) { return std::string(item.param.name); });
@@ -106,6 +119,24 @@ TEST(ImpossibleFault, ANodeThatNobodyWorks) {
   EXPECT_EQ(refusal(bus + "accesses: [{node: c, do: read MCR}]\n"), "no error");
 }
 
+// A bit of 8 quanta and a SJW of 1 has up to 9 within a frame, and up to 16 while the bus is idle,
+// where an edge begins the bit anew.
+TEST(ImpossibleFault, QuantaThatABitMayHave) {
+  const auto at = [](const char *field, unsigned quantum) {
+    return refusal(fmt::format(
+        "nodes: [{{name: a, timing: {{brp: 2, prop: 2, ps1: 3, ps2: 2, sjw: 1}}}}, {{name: b}}]\n"
+        "traffic: [{{node: b, id: 1}}]\n"
+        "faults: [{{kind: flip, at: {{node: a, field: {}, first_tq: {}}}}}]\n",
+        field, quantum));
+  };
+  EXPECT_EQ(at("CRC", 8), "no error");
+  EXPECT_THAT(at("CRC", 9),
+              HasSubstr("a bit of 'a' has 8 quanta at 500000 bit/s; allowed: first_tq "
+                        "0 to 7"));
+  EXPECT_EQ(at("IDLE", 15), "no error");
+  EXPECT_THAT(at("IDLE", 16), HasSubstr("a bit of 'a' has 8 quanta"));
+}
+
 // What makes it possible, one thing each.
 TEST(PossibleFault, IsNotRefused) {
   const std::string place = "faults: [{kind: flip, at: {node: b, field: EXID}}";
@@ -115,6 +146,13 @@ TEST(PossibleFault, IsNotRefused) {
   EXPECT_EQ(refusal(base + place + ", {kind: cut, node: a}]\n"), "no error");
   EXPECT_EQ(refusal(base + place + ", {kind: noise, per_bit: 0.1}]\n"), "no error");
   EXPECT_EQ(refusal(base + place + "]\naccesses: [{node: b, do: read MCR}]\n"), "no error");
+  EXPECT_EQ(refusal(std::string(kTwo) + "faults: [{kind: flip, at: {node: b, field: SOF}}]\n"
+                                        "accesses: [{node: b, do: read MCR}]\n"),
+            "no error");
+  // A board may go on behind the end of the traffic.
+  EXPECT_EQ(refusal("duration: 5 ms\nnodes: [{name: a}, {name: b, firmware: b.elf}]\n"
+                    "faults: [{kind: cut, node: a, from: 6 s}]\n"),
+            "no error");
   // Clocks and rates with which bits are misread.
   EXPECT_EQ(
       refusal("nodes: [{name: a}, {name: b, ppm: 9000}]\n" + std::string(kBase) + place + "]\n"),
@@ -127,6 +165,32 @@ TEST(PossibleFault, IsNotRefused) {
       "no error");
 }
 
+TEST(PossibleFault, BehindTheTrafficOfABusWithoutEnd) {
+  Scenario scenario = parse_scenario("s.yaml", "duration: 5 ms\n" + std::string(kTwo) +
+                                                   "faults: [{kind: cut, node: a, from: 6 s}]\n");
+  EXPECT_THROW(check_faults(scenario, 500e3), InputError);
+  scenario.endless = true;
+  EXPECT_NO_THROW(check_faults(scenario, 500e3));
+}
+
+// Below half of the timing's tolerance no bit is misread, whatever the other clock's error.
+TEST(PossibleFault, ClocksOffByHalfTheTolerance) {
+  BitTimingRequest request = bit_timing_request(8e6, 500e3);
+  request.node_delay_ns = 0;
+  const double tolerance = rate_bit_timing({1, 6, 6, 3, 3}, request).oscillator_tolerance;
+  const int half = static_cast<int>(tolerance * 1e6 / 2);
+  const auto with = [](int ppm) {
+    return refusal(fmt::format(
+        "nodes: [{{name: a}}, {{name: b, ppm: {}, timing: {{brp: 1, prop: 6, ps1: 6, ps2: 3, "
+        "sjw: 3}}}}]\n{}faults: [{{kind: flip, at: {{node: b, field: EXID}}}}]\n",
+        ppm, kBase));
+  };
+  EXPECT_THAT(with(half - 10), HasSubstr("EXID is in extended frames"));
+  EXPECT_THAT(with(10 - half), HasSubstr("EXID is in extended frames"));
+  EXPECT_EQ(with(half + 10), "no error");
+  EXPECT_EQ(with(-half - 10), "no error");
+}
+
 // Without an acknowledgement a frame is sent again and again.
 TEST(PossibleFault, RetransmissionsAreFrames) {
   const std::string rest =
@@ -134,6 +198,7 @@ TEST(PossibleFault, RetransmissionsAreFrames) {
   EXPECT_NE(refusal(kTwo + rest), "no error");
   EXPECT_EQ(refusal("nodes: [{name: a}]\n" + rest), "no error");
   EXPECT_EQ(refusal("nodes: [{name: a}, {name: b, listen_only: true}]\n" + rest), "no error");
+  EXPECT_EQ(refusal("nodes: [{name: a}, {name: b, loop_back: true}]\n" + rest), "no error");
 }
 
 // ---- Nothing that happens is refused

@@ -151,7 +151,9 @@ TEST_F(ReplayNodes, BadSettingsAreRefused) {
         << node << rest;
   };
   refused(", rate: 0", "", "rate: '0' is not allowed");
-  refused(", share: 3/2", "", "share: '3/2' is not allowed; allowed: a part of 1 to 64");
+  for (const std::string share : {"3/2", "0/2", "1/65", "2"})
+    refused(", share: " + share, "",
+            "share: '" + share + "' is not allowed; allowed: a part of 1 to 64");
   refused(", filter: 12G:7", "", "'12G:7' is not allowed; allowed: ID:MASK");
   refused(", from: 5 ms, to: 4 ms", "", "to: '4 ms' is not allowed");
   refused(", loop: true", "", "needs a 'duration'");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Real recordings through whole cores: every node has every frame, bit-exact and in order.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -108,8 +109,56 @@ TEST(Replay, NoticesALostFrame) {
 
 TEST(Replay, RefusesImpossibleSettings) {
   const CanLog log = parse_candump("(1.0) can0 123#11\n", "log");
-  EXPECT_THROW(static_cast<void>(replay(log, {.nodes = 1})), std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(replay(log, {.nodes = 2, .senders = 3})), std::invalid_argument);
+  for (const ReplayOptions &options :
+       {ReplayOptions{.nodes = 1}, ReplayOptions{.nodes = 65},
+        ReplayOptions{.nodes = 2, .senders = 0}, ReplayOptions{.nodes = 2, .senders = 3}})
+    EXPECT_THAT([&] { static_cast<void>(replay(log, options)); },
+                ::testing::ThrowsMessage<std::invalid_argument>(
+                    "a replay needs 2 to 64 nodes and 1 to that many senders"));
+}
+
+// Every identifier has one sender, and all of them have some.
+TEST(Replay, SendersShareTheIdentifiers) {
+  std::string text;
+  for (int id = 100; id < 130; ++id) text += "(1.0) can0 " + std::to_string(id) + "#\n";
+  const ReplayReport report = replay(parse_candump(text, "log"),
+                                     {.nodes = 3, .senders = 3, .bitrate = 500e3, .fast = true});
+  EXPECT_TRUE(report.ok()) << differences(report);
+  std::uint64_t sum = 0;
+  for (const ReplayNode &node : report.nodes) {
+    EXPECT_GT(node.sent, 0U);
+    sum += node.sent;
+  }
+  EXPECT_EQ(sum, 30U);
+}
+
+// All frames have arrived, but only at the second attempt.
+TEST(Replay, AnErrorFrameIsNoSuccess) {
+  PlaceSpec place;
+  place.field = Field::kCrc;
+  place.index = 3;
+  place.frame = 1;
+  PlaceFault flip{0, place, Effect::kFlip};
+  const ReplayReport report = replay(parse_candump("(1.0) can0 123#11\n", "log"),
+                                     {.nodes = 2, .bitrate = 500e3, .fast = true, .fault = &flip});
+  EXPECT_EQ(differences(report), "");
+  EXPECT_EQ(report.on_bus, 1U);
+  EXPECT_EQ(report.error_frames, 1U);
+  EXPECT_FALSE(report.ok());
+}
+
+// VA-03: an error in the last bit of EOF repeats a frame that receivers have already.
+TEST(Replay, AFrameThatComesTwiceIsNoticed) {
+  PlaceSpec place;
+  place.field = Field::kEof;
+  place.index = 6;
+  place.frame = 1;
+  PlaceFault flip{0, place, Effect::kFlip};
+  const ReplayReport report = replay(parse_candump("(1.0) can0 123#11\n", "log"),
+                                     {.nodes = 2, .bitrate = 500e3, .fast = true, .fault = &flip});
+  EXPECT_EQ(report.nodes.at(1).received, 2U);
+  EXPECT_EQ(report.nodes.at(1).first_difference, "1 frames more than were sent");
+  EXPECT_FALSE(report.ok());
 }
 
 // A replay of nothing is no success, and says why.

@@ -14,6 +14,7 @@
 
 #include "firmware/tool_run.hpp"
 #include "harness/scratch_test.hpp"
+#include "harness/shell.hpp"
 #include "harness/small_disk.hpp"
 #include "trace/log.hpp"
 
@@ -34,6 +35,22 @@ class ToolOutputs : public ScratchTest {
  protected:
   [[nodiscard]] std::string log() const {
     return file_with("in.log", "(1.000000) can0 123#112233\n(1.001000) can0 456#\n");
+  }
+  /// Commands that write a table or a recording, each to the path that follows.
+  [[nodiscard]] std::vector<std::string> writers() const {
+    const std::string signals = "--dbc tb/signals/features.dbc --signals-csv ";
+    std::vector<std::string> commands{kRun + signals,
+                                      "replay " + log() + " " + signals,
+                                      "replay " + log() + " --ids-csv ",
+                                      "ids " + log() + " --csv ",
+                                      "signals " + log() + " --dbc tb/signals/features.dbc --csv ",
+                                      "convert " + log() + " " + in("other.log") + " --ids-csv "};
+    for (const char *format : {"candump", "pcap", "pcapng", "trc", "gvret"})
+      commands.push_back("convert " + log() + " --format " + format + " ");
+    if (!vericansim::has_python_can()) return commands;
+    for (const char *format : {"asc", "blf", "csv", "sqlite"})
+      commands.push_back("convert " + log() + " --format " + format + " ");
+    return commands;
   }
   /// Of the two frames of log().
   [[nodiscard]] std::string wave() const {
@@ -59,6 +76,8 @@ TEST_F(ToolOutputs, EveryOutputToAFullDeviceFails) {
     expect_refused(run_tool(kRun + option + " /dev/full"), "/dev/full" + kFull);
   expect_refused(run_tool("decode " + wave() + " --candump /dev/full"), "/dev/full" + kFull);
   expect_refused(run_tool("decode " + wave() + " --pcap /dev/full"), "/dev/full" + kFull);
+  for (const std::string &command : writers())
+    expect_refused(run_tool(command + "/dev/full"), "/dev/full" + kFull);
 }
 
 // A disk without a free byte, and an older file on it, which stays.
@@ -72,7 +91,10 @@ TEST_F(ToolOutputs, EveryOutputOnAFullDiskFails) {
     for (const std::string &command : {kRun, "replay " + log() + " "})
       expect_refused(run_tool(command + option + " " + path), path + kFull);
   expect_refused(run_tool("report " + input + " --bitrate 500k -o " + path), path + kFull);
-  expect_refused(run_tool("decode " + input + " --candump " + path), path + kFull);
+  for (const char *option : {" --candump ", " --pcap "})
+    expect_refused(run_tool("decode " + input + option + path), path + kFull);
+  for (const std::string &command : writers())
+    expect_refused(run_tool(command + path), path + kFull);
   EXPECT_EQ(slurp(path), "old");
   EXPECT_EQ(disk.files(), 2U);
 }
@@ -163,6 +185,34 @@ TEST_F(ToolOutputs, NoInputIsWrittenOver) {
   EXPECT_EQ(slurp(recorded), text);
 }
 
+// A database is an input, too, whichever way it was named.
+TEST_F(ToolOutputs, NoDatabaseIsWrittenOver) {
+  const std::string text = slurp("tb/signals/features.dbc"), dbc = file_with("a.dbc", text);
+  const std::string waveform = wave();
+  for (const auto &[command, role] : {std::pair{kRun + "--candump ", "--candump"},
+                                      {"replay " + log() + " --vcd ", "--vcd"},
+                                      {"report examples/two-nodes.yaml -o ", "--report"},
+                                      {"report " + log() + " -o ", "--report"},
+                                      {"report " + waveform + " --bitrate 500k -o ", "--report"},
+                                      {"decode " + waveform + " --pcap ", "--pcap"},
+                                      {"signals " + log() + " --csv ", "--csv"}})
+    expect_refused(
+        run_tool(command + dbc + " --dbc " + dbc),
+        dbc + ": is the file of the database and of " + role + "; allowed: a file of its own\n");
+  EXPECT_EQ(slurp(dbc), text);
+}
+
+TEST_F(ToolOutputs, NoRecordingIsWrittenOverByATable) {
+  const std::string recorded = log(), text = slurp(recorded);
+  const std::string refused =
+      recorded + ": is the file of the recording and of --csv; allowed: a file of its own\n";
+  expect_refused(run_tool("ids " + recorded + " --csv " + recorded), refused);
+  expect_refused(
+      run_tool("decode " + wave() + " --pcap " + in("in.vcd")),
+      in("in.vcd") + ": is the file of the waveform and of --pcap; allowed: a file of its own\n");
+  EXPECT_EQ(slurp(recorded), text);
+}
+
 TEST_F(ToolOutputs, NoFileIsWrittenTwice) {
   const auto refused = [](const std::string &path, const std::string &first) {
     return path + ": is the file of " + first + " and of --pcap; allowed: a file of its own\n";
@@ -187,6 +237,9 @@ TEST_F(ToolOutputs, SeveralBitRatesHaveSeveralFiles) {
   EXPECT_EQ(run_tool(run + in("bus.log.gz")).code, 1);
   for (const char *name : {"b.d/bus-500k", "b.d/bus-250k", "bus-500k.log.gz", "bus-250k.log.gz"})
     EXPECT_TRUE(fs::exists(in(name))) << name;
+  // A device has no second name.
+  EXPECT_EQ(run_tool(run + "/dev/null").code, 1);
+  EXPECT_FALSE(fs::exists("/dev/null-500k"));
   expect_refused(run_tool(run + "-"),
                  "-: cannot take the outputs of several bit rates; allowed: a file's name, or one "
                  "bit rate\n");

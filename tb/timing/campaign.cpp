@@ -7,15 +7,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "harness/campaign_settings.hpp"
 #include "timing/far_winner.hpp"
 #include "timing/row_proof.hpp"
 
@@ -24,43 +22,32 @@ namespace {
 using namespace vericansim;
 using Json = nlohmann::ordered_json;
 
-constexpr unsigned kFrames = 10'000;  // of a row in a whole campaign
-constexpr unsigned kPrinted = 10;     // rows of a table, without --rows
-constexpr std::uint32_t kMegahertz[] = {8, 10, 12, 16, 20, 24, 40, 48, 50};
+constexpr unsigned kPrinted = 10;  // rows of a table, without --rows
+/// A clock, and the frames of each of its rows in a whole campaign. A bit of a fast clock costs
+/// more clocks, and its rows share PROP, PS1, PS2 and SJW with those of a slow one.
+struct ClockRate {
+  std::uint32_t megahertz;
+  unsigned frames;
+};
+constexpr ClockRate kClocks[] = {{8, 10'000}, {10, 10'000}, {12, 10'000}, {16, 10'000}, {20, 1'000},
+                                 {24, 1'000}, {40, 1'000},  {48, 1'000},  {50, 1'000}};
 constexpr std::uint32_t kRates[] = {1'000'000, 800'000, 500'000, 250'000, 125'000};
 
-struct Options {
-  std::uint64_t seed = 1;
-  double scale = 1;
-  unsigned jobs = 2;
-  std::string json;
-};
-
 struct Row {
+  unsigned frames;
   BitTimingRequest request;
   BitTimingResult rated;
   RowProof proof = {};
 };
 
-/// What the environment of tools/campaign.py says.
-Options defaults() {
-  const auto value = [](const char *name, const char *otherwise) {
-    const char *text = std::getenv(name);
-    return std::string{text != nullptr ? text : otherwise};
-  };
-  return {std::stoull(value("CAMPAIGN_SEED", "1")), std::stod(value("CAMPAIGN_SCALE", "1")),
-          static_cast<unsigned>(std::stoul(value("CAMPAIGN_JOBS", "2"))),
-          value("CAMPAIGN_OUT", "")};
-}
-
 std::vector<Row> printed_rows() {
   std::vector<Row> rows;
-  for (const std::uint32_t megahertz : kMegahertz)
+  for (const ClockRate &clock : kClocks)
     for (const std::uint32_t rate : kRates) {
-      const BitTimingRequest request{.clock_hz = megahertz * 1'000'000, .bitrate = rate};
+      const BitTimingRequest request{.clock_hz = clock.megahertz * 1'000'000, .bitrate = rate};
       unsigned printed = 0;
       for (const BitTimingResult &rated : find_bit_timings(request))
-        if (rated.usable() && printed++ < kPrinted) rows.push_back({request, rated});
+        if (rated.usable() && printed++ < kPrinted) rows.push_back({clock.frames, request, rated});
     }
   return rows;
 }
@@ -82,16 +69,15 @@ RowProof prove(const Row &row, unsigned frames, std::uint64_t seed) {
   return all;
 }
 
-void prove(std::vector<Row> &rows, const Options &options) {
-  const auto frames = static_cast<unsigned>(std::ceil(kFrames * options.scale));
-  std::atomic<std::size_t> next{0};
-  std::vector<std::thread> threads;
-  for (unsigned job = 0; job < options.jobs; ++job)
-    threads.emplace_back([&] {
-      for (std::size_t n = next++; n < rows.size(); n = next++)
-        rows[n].proof = prove(rows[n], frames, options.seed * 1000 * rows.size() + 1000 * n);
-    });
-  for (std::thread &thread : threads) thread.join();
+unsigned due(unsigned frames, const CampaignSettings &options) {
+  return static_cast<unsigned>(std::ceil(frames * options.scale));
+}
+
+void prove(std::vector<Row> &rows, const CampaignSettings &options) {
+  run_jobs(rows.size(), options.jobs, [&](std::size_t n) {
+    rows[n].proof =
+        prove(rows[n], due(rows[n].frames, options), options.seed * 1000 * rows.size() + 1000 * n);
+  });
 }
 
 std::string name_of(const Row &row) {
@@ -101,40 +87,50 @@ std::string name_of(const Row &row) {
                      t.ps1, t.ps2, t.sjw, row.rated.oscillator_tolerance * 100, row.rated.cable_m);
 }
 
-Json figure(const char *name, std::uint64_t value, const Json &bar = nullptr,
-            const Json &ok = nullptr) {
-  return {{"name", name}, {"value", value}, {"bar", bar}, {"ok", ok}};
+/// What the rows of one clock came to.
+struct Sum {
+  std::uint64_t rows = 0, frames = 0, least = ~0ULL, buses = 0, bad = 0;
+
+  void add(const RowProof &proof) {
+    ++rows;
+    frames += proof.frames;
+    least = std::min(least, proof.frames);
+    buses += proof.buses;
+    bad += proof.dirty != 0;
+  }
+};
+
+Sum sum_of(const std::vector<Row> &rows, const ClockRate &clock) {
+  Sum sum;
+  for (const Row &row : rows)
+    if (row.request.clock_hz == clock.megahertz * 1'000'000) sum.add(row.proof);
+  return sum;
 }
 
-Json result_of(const std::vector<Row> &rows, const Options &options) {
-  std::uint64_t frames = 0, least = ~0ULL, buses = 0, bad = 0;
+Json result_of(const std::vector<Row> &rows, const CampaignSettings &options) {
+  Sum all;
   Json notes = Json::array(), clocks = Json::array();
-  for (const std::uint32_t megahertz : kMegahertz) {
-    std::uint64_t own = 0, own_frames = 0, own_bad = 0;
-    for (const Row &row : rows) {
-      if (row.request.clock_hz != megahertz * 1'000'000) continue;
-      ++own;
-      own_frames += row.proof.frames;
-      own_bad += row.proof.dirty != 0;
-      least = std::min(least, row.proof.frames);
-      buses += row.proof.buses;
-      if (row.proof.dirty != 0)
-        notes.push_back(fmt::format("{}: errors on {} buses", name_of(row), row.proof.dirty));
-    }
-    clocks.push_back({fmt::format("{} MHz", megahertz), own, own_frames, own_bad});
-    frames += own_frames;
-    bad += own_bad;
+  std::size_t short_of = 0;
+  for (const Row &row : rows) {
+    all.add(row.proof);
+    short_of += row.proof.frames < due(row.frames, options);
+    if (row.proof.dirty != 0)
+      notes.push_back(fmt::format("{}: errors on {} buses", name_of(row), row.proof.dirty));
   }
-  const bool whole = options.scale >= 1;
-  Json figures = {figure("settings", rows.size()), figure("buses of three nodes", buses),
-                  figure("frames", frames),
-                  figure("frames of the setting with fewest", least, fmt::format(">= {}", kFrames),
-                         whole ? Json(least >= kFrames) : Json(nullptr)),
-                  figure("settings with an error", bad, "0", bad == 0)};
+  for (const ClockRate &clock : kClocks) {
+    const Sum own = sum_of(rows, clock);
+    clocks.push_back(
+        {fmt::format("{} MHz", clock.megahertz), own.rows, own.frames, own.least, own.bad});
+  }
+  Json figures = {
+      campaign_figure("settings", rows.size()), campaign_figure("buses of three nodes", all.buses),
+      campaign_figure("frames", all.frames),
+      campaign_figure("settings with fewer frames than due", short_of, "0", short_of == 0),
+      campaign_figure("settings with an error", all.bad, "0", all.bad == 0)};
   return {{"figures", figures},
           {"tables",
            {{{"title", "Settings that bittime prints, by clock"},
-             {"columns", {"clock", "settings", "frames", "with an error"}},
+             {"columns", {"clock", "settings", "frames", "least of a setting", "with an error"}},
              {"rows", clocks}}}},
           {"notes", notes}};
 }
@@ -144,13 +140,8 @@ Json result_of(const std::vector<Row> &rows, const Options &options) {
 int main(int argc, char **argv) {
   CLI::App app{"Every setting that verican bittime prints, on buses of three nodes"};
   try {
-    Options options = defaults();
-    app.add_option("--seed", options.seed, "Seed")->capture_default_str();
-    app.add_option("--scale", options.scale, "Part of 10,000 frames a setting")
-        ->check(CLI::Range(0.0001, 1.0))
-        ->capture_default_str();
-    app.add_option("--jobs", options.jobs, "Threads")->check(CLI::Range(1U, 64U));
-    app.add_option("--json", options.json, "File for the result");
+    CampaignSettings options;
+    options.add_to(app, "the frames that each setting is due");
     CLI11_PARSE(app, argc, argv);
     std::vector<Row> rows = printed_rows();
     prove(rows, options);

@@ -25,6 +25,7 @@
 #include "scenario/traffic_source.hpp"
 #include "scenario/wave_report.hpp"
 #include "session/session.hpp"
+#include "trace/can_packet.hpp"
 #include "trace/candump.hpp"
 #include "trace/wave_decode.hpp"
 
@@ -62,6 +63,7 @@ void expect_frame_refused(const Frame &frame, const std::string &what) {
       [&] { core.request(frame); },
       [&] { model.request(frame); },
       [&] { static_cast<void>(candump_frame(frame)); },
+      [&] { static_cast<void>(can_packet(frame)); },
       [&] { CandumpWriter{log}.write({.frame = frame}); },
       [&] { TrafficSource({.frame = frame}, bus, host, 1); },
       [&] { buffers.header(frame, {}, 0); },
@@ -99,6 +101,8 @@ TEST(ApiRanges, FiltersAndBuffersOfAHost) {
   expect_refused(host({.filters = {{.id = 0x20000000, .extended = true}}}), "got 0x20000000");
   expect_refused(host({.tx_buffers = 0}), "transmit buffers must be 1 to 15, got 0");
   expect_refused(host({.tx_buffers = 16}), "transmit buffers must be 1 to 15, got 16");
+  expect_refused(host({.tx_buffers = 4, .filters = std::vector<RxFilter>(13)}),
+                 "at most 12 filters fit beside 4 transmit buffers");
   expect_refused([] { static_cast<void>(make_station("a", {}, {.tx_buffers = 65}, 64)); },
                  "transmit buffers must be 1 to 63, got 65");
 }
@@ -149,7 +153,13 @@ TEST(ApiRanges, DecodersAndMonitors) {
   for (const double point : {0.0, 1.0, 80.0, std::nan("")})
     expect_refused([&] { BusMonitor(bus, kMicrosecond, point); }, "above 0 and below 1");
   expect_refused([] { BusDecoder({.bit_time = 2 * kSecond}, {}); }, "at most 1 s, got 2000000");
-  expect_refused([] { BusDecoder({.sample_point = 1000}, {}); }, "1..999 per mille, got 1000");
+  expect_refused([] { BusDecoder({.bit_time = 0}, {}); }, "above 0 and at most 1 s, got 0");
+  for (const int point : {0, 1000})
+    expect_refused([&] { BusDecoder({.sample_point = point}, {}); },
+                   "1..999 per mille, got " + std::to_string(point));
+  for (const int jump : {-1, 501})
+    expect_refused([&] { BusDecoder({.sync_jump = jump}, {}); },
+                   "0..500 per mille, got " + std::to_string(jump));
 }
 
 TEST(ApiRanges, RegistersThatDoNotExist) {
@@ -160,9 +170,28 @@ TEST(ApiRanges, RegistersThatDoNotExist) {
   expect_refused([] { static_cast<void>(reg::filter(128)); }, "must be 0 to 127, got 128");
   expect_refused([] { static_cast<void>(reg::mcr_idam(4)); }, "MCR.IDAM must be 0 to 3, got 4");
   expect_refused([] { static_cast<void>(reg::ctrl2_rffn(16)); }, "RFFN must be 0 to 15, got 16");
-  expect_refused([] { BufferModel({.idam = 4}); }, "MCR.IDAM must be 0 to 3, got 4");
-  expect_refused([] { BufferModel({.rffn = 16}); }, "CTRL2.RFFN must be 0 to 15, got 16");
   static_assert(reg::mb(63, 3) == 0x80 + 16 * 63 + 12);
+}
+
+TEST(ApiRanges, BuffersThatNoCoreHas) {
+  const std::pair<BufferConfig, const char *> cases[] = {
+      {{.num_mb = 15}, "message buffers must be 16 to 64, got 15"},
+      {{.num_mb = 65}, "message buffers must be 16 to 64, got 65"},
+      {{.maxmb = 128}, "MCR.MAXMB must be 0 to 127, got 128"},
+      {{.idam = 4}, "MCR.IDAM must be 0 to 3, got 4"},
+      {{.rffn = 16}, "CTRL2.RFFN must be 0 to 15, got 16"},
+  };
+  for (const auto &[config, what] : cases) {
+    expect_refused([&, c = config] { BufferModel{c}; }, what);
+    expect_refused([&, c = config] { BufferModel{{}}.configure(c, 0); }, what);
+    expect_refused(
+        [&, c = config] {
+          static_cast<void>(fifo_accepts({}, std::vector<std::uint32_t>(128), {}, c));
+        },
+        what);
+  }
+  expect_refused([] { static_cast<void>(fifo_accepts({}, std::vector<std::uint32_t>(7), {}, {})); },
+                 "words of the filter table must be 8 to 128, got 7");
 }
 
 TEST(ApiRanges, TrafficThatCannotBeTimed) {
@@ -170,7 +199,9 @@ TEST(ApiRanges, TrafficThatCannotBeTimed) {
   Host host{*node, {}};
   Bus bus;
   expect_refused([&] { TrafficSource({.random_offset = true}, bus, host, 1); }, "needs a period");
-  expect_refused([&] { TrafficSource({.period = -1}, bus, host, 1); }, "no time may be negative");
+  for (const TrafficSpec &spec :
+       {TrafficSpec{.period = -1}, TrafficSpec{.offset = -1}, TrafficSpec{.jitter = -1}})
+    expect_refused([&] { TrafficSource(spec, bus, host, 1); }, "no time may be negative");
 }
 
 TEST(ApiRanges, ASessionNeedsABusAndABitRate) {

@@ -8,6 +8,7 @@
 
 #include <cstdlib>
 #include <ctime>
+#include <optional>
 
 #include "harness/input_error_of.hpp"
 #include "trace/candump.hpp"
@@ -58,6 +59,14 @@ TEST(CandumpScreen, ExtraColumnsSayDirectionAndFdFlags) {
   EXPECT_EQ(log.others.at(0).before, 2U);
 }
 
+// The kind of a file is seen by its first line, here one without a time.
+TEST(CandumpScreen, ExtraColumnsWithoutTimesAreRecognised) {
+  const CanLog log = parse_log("  can0  TX - -  123   [2]  11 22\n", "log");
+  ASSERT_EQ(log.entries.size(), 1U);
+  EXPECT_EQ(log.entries[0].frame, (Frame{0x123, false, false, 2, {0x11, 0x22}}));
+  EXPECT_EQ(log.entries[0].direction, Direction::kSent);
+}
+
 // candump -l -x of newer can-utils, and python-can.
 TEST(CandumpScreen, LogLinesHaveTheDirectionBehindTheFrame) {
   const CanLog log =
@@ -68,22 +77,58 @@ TEST(CandumpScreen, LogLinesHaveTheDirectionBehindTheFrame) {
   EXPECT_EQ(log.entries[2].direction, Direction::kUnknown);
 }
 
+/// The time zone of this computer for a while.
+class TimeZone {
+ public:
+  explicit TimeZone(const char *name) {
+    const char *before = std::getenv("TZ");
+    if (before != nullptr) before_ = before;
+    ::setenv("TZ", name, 1);
+    ::tzset();
+  }
+  ~TimeZone() {
+    before_ ? ::setenv("TZ", before_->c_str(), 1) : ::unsetenv("TZ");
+    ::tzset();
+  }
+  TimeZone(const TimeZone &) = delete;
+  TimeZone &operator=(const TimeZone &) = delete;
+
+ private:
+  std::optional<std::string> before_;
+};
+
+/// The log as a computer of that time zone reads it.
+CanLog read_in_zone(const char *wanted, const std::string &text) {
+  const TimeZone zone{wanted};
+  return parse_log(text, "log");
+}
+
 // -tA is local time; the zone is that of the computer that reads.
 TEST(CandumpScreen, AbsoluteDates) {
-  const char *zone = std::getenv("TZ");
-  const std::string before = zone != nullptr ? zone : "";
-  ::setenv("TZ", "XYZ-2", 1);  // two hours east
-  ::tzset();
-  const CanLog log = parse_log(
-      " (2023-01-15 02:00:01.000250)  can0  123   [1]  11\n"
-      " (2023-01-15 02:00:02.000251)  can0  123   [1]  12\n",
-      "log");
-  zone != nullptr ? ::setenv("TZ", before.c_str(), 1) : ::unsetenv("TZ");
-  ::tzset();
+  const CanLog log = read_in_zone("XYZ-2",  // two hours east
+                                  " (2023-01-15 02:00:01.000250)  can0  123   [1]  11\n"
+                                  " (2023-01-15 02:00:02.000251)  can0  123   [1]  12\n");
   EXPECT_EQ(times_of(log), (std::vector<Time>{0, kSecond + kMicrosecond}));
   EXPECT_EQ(log.start_ns, 1'673'740'801'000'250'000);  // date -u -d '2023-01-15 00:00:01' +%s
-  EXPECT_THAT(error_of(" (2023-13-15 02:00:01.000250)  can0  123   [1]  11\n"),
-              HasSubstr("log:1: time '2023-13-15 02:00:01.000250)' is not allowed"));
+  // In summer the clocks of Berlin are two hours ahead: date -u -d '2023-07-15 00:00:01' +%s
+  EXPECT_EQ(read_in_zone("CET-1CEST,M3.5.0,M10.5.0/3",
+                         " (2023-07-15 02:00:01.000000)  can0  123   [1]  11\n")
+                .start_ns,
+            1'689'379'201'000'000'000);
+  // 2^63 ns are over on 2262-04-11 at 23:47.
+  EXPECT_EQ(read_in_zone("UTC", " (2262-04-11 23:47:16.850000)  can0  123   [1]  11\n").start_ns,
+            9'223'372'036'850'000'000);
+  const TimeZone zone{"UTC"};
+  for (const char *stamp : {"2262-04-11 23:47:16.860000)", "2262-04-11 23:47:17.000000)",
+                            "9999-01-01 00:00:00.000000)"})
+    EXPECT_EQ(
+        error_of(" (" + std::string(stamp) + "  can0  123   [1]  11\n"),
+        "log:1: time '(" + std::string(stamp) + "' is out of range; allowed: up to the year 2262");
+  for (const char *stamp : {"2023-13-15 02:00:01.000250)", "2023-01-15 02:00:01)",
+                            "2023-01-15 02:00:01.000250", "2023-01-15 02:00:01,25)"})
+    EXPECT_EQ(error_of(" (" + std::string(stamp) + "  can0  123   [1]  11\n"),
+              "log:1: time '(" + std::string(stamp) +
+                  "' is not allowed; allowed: (YYYY-MM-DD HH:MM:SS.ffffff)");
 }
 
 TEST(CandumpScreen, TimesSinceTheFirstLineAndSinceTheLineBefore) {
@@ -92,6 +137,9 @@ TEST(CandumpScreen, TimesSinceTheFirstLineAndSinceTheLineBefore) {
             (std::vector<Time>{0, 100 * kMicrosecond, 300 * kMicrosecond}));  // -tz
   EXPECT_EQ(times_of(parse_log(zero + " (000.000050)  can0  003   [0]\n", "log")),
             (std::vector<Time>{0, 100 * kMicrosecond, 150 * kMicrosecond}));  // -td
+  EXPECT_EQ(
+      error_of(zero + " (000.000050)  can0  003   [0]\n (9223372036.854775)  can0  004   [0]\n"),
+      "log:4: times are too far apart");
   // Absolute times may go back a little: several interfaces.
   EXPECT_EQ(
       times_of(parse_log(" (10.000100)  can0  001   [0]\n (10.000090)  can1  002   [0]\n", "log")),

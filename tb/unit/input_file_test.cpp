@@ -4,6 +4,8 @@
 // Inputs packed by gzip itself, damaged ones, and those that are no files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "harness/input_error_of.hpp"
 #include "harness/scratch_folder.hpp"
@@ -31,6 +33,9 @@ TEST(InputFile, GzipIsUnpackedWhateverTheName) {
   // Two packed files one behind the other are their texts one behind the other.
   ASSERT_EQ(shell("cat " + path + ".packed " + path + ".packed > " + path + ".two").code, 0);
   EXPECT_EQ(read_text_file(path + ".two"), text + text);
+  // As gzip does it: what fills the last block of a tape is no third one.
+  ASSERT_EQ(shell("head -c 512 /dev/zero >> " + path + ".two").code, 0);
+  EXPECT_EQ(read_text_file(path + ".two"), text + text);
 }
 
 TEST(InputFile, DamagedGzipIsOneLine) {
@@ -39,10 +44,37 @@ TEST(InputFile, DamagedGzipIsOneLine) {
   ASSERT_EQ(shell("gzip < " + path + " > " + path + ".gz").code, 0);
   const std::string packed = shell("cat " + path + ".gz").text;
   for (std::size_t cut = 2; cut < packed.size(); ++cut)
-    EXPECT_THAT(error_of(folder.file("cut.gz", packed.substr(0, cut))), HasSubstr("(gzip)")) << cut;
+    EXPECT_EQ(error_of(folder.file("cut.gz", packed.substr(0, cut))),
+              folder / "cut.gz: cut short (gzip)")
+        << cut;
   std::string wrong = packed;
   wrong[packed.size() - 8] ^= 1;  // the sum of the bytes
   EXPECT_EQ(error_of(folder.file("wrong.gz", wrong)), folder / "wrong.gz: damaged (gzip)");
+}
+
+TEST(InputFile, UnpacksUpToALimit) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("log", std::string(3 << 20, 'x'));
+  ASSERT_EQ(shell("gzip " + path).code, 0);
+  const std::string packed = shell("cat " + path + ".gz").text;
+  EXPECT_EQ(unpacked(packed, "a.gz", 3 << 20).size(), 3U << 20);
+  EXPECT_EQ(input_error_of([&] { return unpacked(packed, "a.gz", 2 << 20); }),
+            "a.gz: unpacks to more than 2 MiB (gzip)");
+}
+
+TEST(InputFile, AFileThatMayNotBeReadIsRefused) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("secret", "x");
+  ASSERT_EQ(::chmod(path.c_str(), 0), 0);
+  for (const std::string &way : {::testing::TempDir(), folder.path()})
+    ASSERT_EQ(::chmod(way.c_str(), 0755), 0);
+  constexpr uid_t kNobody = 65534;
+  const uid_t before = ::geteuid();
+  if (before == 0) {  // root may read everything
+    ASSERT_EQ(::seteuid(kNobody), 0);
+  }
+  EXPECT_EQ(error_of(path), path + ": cannot be opened for reading");
+  ASSERT_EQ(::seteuid(before), 0);
 }
 
 TEST(InputFile, WhatIsNoFileIsRefused) {

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "harness/input_error_of.hpp"
 #include "harness/scratch_folder.hpp"
 #include "harness/shell.hpp"
 #include "trace/candump.hpp"
@@ -41,6 +42,52 @@ TEST(Convert, CandumpAndPcapngLoseNothing) {
   EXPECT_THAT(lost(LogFormat::kCandump), IsEmpty());
   EXPECT_THAT(lost(LogFormat::kPcapng), IsEmpty());
   EXPECT_THAT(lost(LogFormat::kPcap), ElementsAre("5 interfaces vcan3 (none now)", "4 directions"));
+}
+
+// Nine decimals if any time needs them: that of day, of a frame, of another entry.
+TEST(Convert, CandumpHasTheDecimalsThatTimesNeed) {
+  for (const char *text :
+       {"(1.000000001) can0 123#11\n", "(1.0) can0 123#11\n(1.000000001) can0 123#11\n",
+        "(1.0) can0 123#11\n(1.000000001) can0 123##1AA\n"}) {
+    const Conversion result = convert(parse_candump(text, "log"), LogFormat::kCandump, "out");
+    EXPECT_THAT(result.lost, IsEmpty()) << text;
+    EXPECT_THAT(result.bytes, HasSubstr("1.000000001)"));
+  }
+  EXPECT_THAT(
+      convert(parse_candump("(1.5) can0 123#11\n", "log"), LogFormat::kCandump, "out").bytes,
+      HasSubstr("(0000000001.500000) "));
+}
+
+// What was not known is not lost: an interface without a name, a direction that nobody told.
+TEST(Convert, OnlyWhatIsThereCanBeLost) {
+  CanLog log = parse_candump("(1.0) can0 123#11\n", "log");
+  log.entries[0].channel = "";
+  const Conversion result = convert(log, LogFormat::kTrc, "out");
+  EXPECT_THAT(result.lost, IsEmpty());
+  EXPECT_EQ(parse_log(result.bytes, "out").entries.at(0).direction, Direction::kReceived);
+}
+
+TEST(Convert, CountsWhatIsNoFrameAndTellsTheLargestError) {
+  const CanLog log = parse_candump(
+      "(1.0) can0 123#\n(2.0000007) can0 123#\n(3.0000002) can0 123#\n"
+      "DROPCOUNT: dropped 3 CAN frames on 'can0' socket\n",
+      "log");
+  EXPECT_THAT(convert(log, LogFormat::kGvret, "out").lost,
+              ElementsAre("1 other line or packet",
+                          "2 times since the first frame, by up to 700 ns",  // whole microseconds
+                          "1 time of day"));
+}
+
+// The check of the new file: entries that no reader gives come back as others, or not at all.
+TEST(Convert, AFileThatHoldsOtherFramesIsNoticed) {
+  CanLog log = parse_candump("(1.0) can0 123#11\n(1.1) can0 123##1AABB\n", "log");
+  EXPECT_TRUE(convert(log, LogFormat::kPcapng, "out").faithful);
+  log.others[0].text = "123##1aabb";
+  EXPECT_FALSE(convert(log, LogFormat::kPcapng, "out").faithful);
+  log.others[0].text = "123##1" + std::string(2 * 65, '0');  // too long for CAN FD
+  const Conversion missing = convert(log, LogFormat::kPcapng, "out");
+  EXPECT_FALSE(missing.faithful);
+  EXPECT_EQ(missing.frames, 2U);
 }
 
 TEST(Convert, TrcAndGvretTellWhatTheyCannotHold) {
@@ -84,7 +131,22 @@ TEST(Convert, ReadsEveryVersionOfTrc) {
   const CanLog fd =
       parse_trc(v + "2.1\n 1 1.0 BI 1 0100 Rx - 9 00 01 02 03 04 05 06 07 08 09 0A 0B\n", "a.trc");
   EXPECT_EQ(fd.others.at(0).text, "100##3000102030405060708090A0B");
-  EXPECT_THROW(static_cast<void>(parse_trc(v + "2.1\n;$COLUMNS=N,X\n", "a.trc")), InputError);
+}
+
+TEST(Convert, BadTrcIsRefused) {
+  const auto refusal = [](const std::string &lines) {
+    return input_error_of([&] { return parse_trc(";$FILEVERSION=2.1\n" + lines, "a.trc"); });
+  };
+  for (const char *columns : {"N,O,T,I,X", "N,O,T,D", "N,T,I,D"})
+    EXPECT_EQ(refusal(";$COLUMNS=" + std::string(columns) + "\n"),
+              "a.trc:2: columns '" + std::string(columns) +
+                  "' are not known; allowed: N,O,T,B,I,d,R,l,L,D, with O and I");
+  EXPECT_THAT(refusal(" 1 1.0 DT 1 100 Rx - 1 11\n"),
+              HasSubstr("a.trc:2: identifier '100' is not allowed; allowed: 4 or 8"));
+  EXPECT_THAT(refusal(" 1 1.0 DT 1 0100 Rx - 16 01 02 03 04 05 06 07 08\n"),
+              HasSubstr("length '16' is not allowed; allowed: 0 to 15"));
+  EXPECT_THAT(refusal(";$COLUMNS=N,O,T,I,l,D\n 1 1.0 DT 0100 9 01 02 03 04 05 06 07 08 09\n"),
+              HasSubstr("a.trc:3: length '9' is not allowed; allowed: 0 to 8, CAN FD to 64"));
 }
 
 // Our reader and python-can's must see the same frames in a file of ours.

@@ -46,6 +46,51 @@ TEST(LogFilter, SeveralInterfacesMustBeChosen) {
   EXPECT_EQ(one.others.at(1).before, 1U);
 }
 
+// What is no frame of SocketCAN at all (here: frames that the recording computer has lost) has no
+// interface, identifier or time; it stays counted.
+TEST(LogFilter, OneInterfaceNeedsNoChoiceAndOtherLinesStayCounted) {
+  const CanLog log = parse_candump(
+      "(100.0) can0 123#11\nDROPCOUNT: dropped 3 CAN frames on 'can0' socket\n"
+      "(100.1) can0 123##1AA\n",
+      "log");
+  const CanLog all = filtered(log, {}, "a.log");
+  EXPECT_EQ(all.entries.size(), 1U);
+  EXPECT_EQ(all.others.size(), 1U);
+  EXPECT_EQ(all.skipped, 2U);
+}
+
+TEST(LogFilter, WithoutATimeOfDayThereIsNoneLater) {
+  CanLog log = sample();
+  log.start_ns = 0;
+  const CanLog part = filtered(log, {.interface = "can1"}, "a.log");
+  EXPECT_EQ(part.start_ns, 0);
+  EXPECT_EQ(part.entries.at(0).time, 0);
+}
+
+TEST(LogFilter, TimesCountFromTheFirstEntryIfNoClassicalFrameIsLeft) {
+  const CanLog part =
+      filtered(sample(), {.interface = "can1", .ids = {parse_filter("123:7FF")}}, "a.log");
+  EXPECT_TRUE(part.entries.empty());
+  ASSERT_EQ(part.others.size(), 1U);
+  EXPECT_EQ(part.others[0].time, 0);
+  EXPECT_EQ(part.start_ns, 100'100'000'000);
+}
+
+// 29 bits are a flag of CAN FD frames too, and none of error messages, whatever their digits.
+TEST(LogFilter, OtherEntriesByMask) {
+  const CanLog log = parse_candump(
+      "(1.0) can0 00000123##1AA\n(1.1) can0 123##1BB\n(1.2) can0 20000123#0000000000000000\n",
+      "log");
+  const auto texts = [&](const char *filter) {
+    std::string text;
+    for (const ForeignEntry &entry : filtered(log, {.ids = {parse_filter(filter)}}, "a.log").others)
+      text += entry.text + " ";
+    return text;
+  };
+  EXPECT_EQ(texts("00000123:9FFFFFFF"), "00000123##1AA ");
+  EXPECT_EQ(texts("123:800007FF"), "123##1BB 20000123#0000000000000000 ");
+}
+
 // candump's filters, which see 29-bit identifiers and remote frames by SocketCAN's flags.
 TEST(LogFilter, IdentifiersByMask) {
   const auto ids = [](const char *text) {
@@ -74,15 +119,22 @@ TEST(LogFilter, TimesCountFromTheFirstFrameAndIncludeBothEnds) {
   EXPECT_THAT(error_of(filter), HasSubstr("--from: is behind --to"));
 }
 
-/// Periods of 10, 12 and 8 ms: mean 10, deviations 0, 2, -2, jitter sqrt(8 / 3).
+/// Periods of 10, 8, 12 and 10 ms: mean 10, deviations 0, -2, 2, 0, jitter sqrt(8 / 4). The second
+/// byte changes once, the fourth comes and goes.
 IdentifierTable table() {
   IdentifierTable result;
-  const Time at[] = {5 * kMillisecond, 15 * kMillisecond, 27 * kMillisecond, 35 * kMillisecond};
-  for (std::uint8_t i = 0; i < 4; ++i)
-    result.add("can0", {0x123, false, false, 3, {7, i, 9}}, at[i]);
+  const Time at[] = {5, 15, 23, 35, 45};
+  for (std::uint8_t i = 0; i < 5; ++i)
+    result.add("can0",
+               {0x123,
+                false,
+                false,
+                static_cast<std::uint8_t>(i == 2 ? 4 : 3),
+                {7, static_cast<std::uint8_t>(i == 0 ? 0 : 3), 9}},
+               at[i] * kMillisecond);
   result.add("can0", {0x123, false, true, 3, {}}, 0);
   result.add("", {0x1, true, false, 1, {5}}, 0);
-  result.add("", {0x1, true, false, 2, {5, 6}}, kSecond);
+  result.add("", {0x1, true, false, 2, {5, 0}}, kSecond);
   return result;
 }
 
@@ -90,35 +142,40 @@ TEST(Identifiers, CountPeriodJitterAndChangedBytes) {
   const IdentifierTable all = table();
   ASSERT_EQ(all.rows().size(), 3U);
   const IdentifierRow &row = all.rows().at({"can0", false, false, 0x123});
-  EXPECT_EQ(row.count, 4U);
+  EXPECT_EQ(row.count, 5U);
   EXPECT_DOUBLE_EQ(row.mean_period, 10e9);
   EXPECT_EQ(row.shortest_period, 8 * kMillisecond);
   EXPECT_EQ(row.longest_period, 12 * kMillisecond);
-  EXPECT_NEAR(row.jitter(), 1.632993e9, 1e4);
+  EXPECT_NEAR(row.jitter(), 1.414214e9, 1e4);
   EXPECT_EQ(row.first, 5 * kMillisecond);
-  EXPECT_EQ(row.last, 35 * kMillisecond);
+  EXPECT_EQ(row.last, 45 * kMillisecond);
   EXPECT_EQ(row.last_frame.data[1], 3);
-  EXPECT_EQ(row.changed, (std::array<bool, 8>{false, true}));
+  EXPECT_EQ(row.changed, (std::array<bool, 8>{false, true, false, true}));
   // A byte that was not there before has changed.
   EXPECT_EQ(all.rows().at({"", false, true, 1}).changed, (std::array<bool, 8>{false, true}));
 }
 
 TEST(Identifiers, TextJsonAndCsv) {
   EXPECT_THAT(to_text(table()),
-              HasSubstr("can0       123            4     10.000      8.000     "
-                        "12.000      1.633    0.005000    0.035000  07 03* 09\n"));
+              HasSubstr("can0       123            5     10.000      8.000     "
+                        "12.000      1.414    0.005000    0.045000  07 03* 09\n"));
   EXPECT_THAT(to_text(table()), HasSubstr("00000001"));
   const auto json = to_json(table());
   ASSERT_EQ(json.size(), 3U);
   EXPECT_EQ(json[1]["interface"], "can0");
   EXPECT_EQ(json[1]["id"], 0x123);
   EXPECT_EQ(json[1]["period_max_ps"], 12 * kMillisecond);
-  EXPECT_EQ(json[1]["changed_bytes"].dump(), "[1]");
+  EXPECT_EQ(json[1]["changed_bytes"].dump(), "[1,3]");
+  EXPECT_EQ(json[1]["last_data"], "07 03 09");
+  EXPECT_EQ(json[2]["last_data"], "");  // the remote frame
+  EXPECT_EQ(json[2]["last_dlc"], 3);
   std::ostringstream csv;
   write_csv(table(), csv);
-  EXPECT_THAT(csv.str(), HasSubstr("\ncan0,123,0,0,4,0.010000000,0.008000000,0.012000000,"
-                                   "0.001632993,0.005000000,0.035000000,3,07 03 09,1\n"));
-  EXPECT_THAT(csv.str(), HasSubstr("\ncan0,123,0,1,1,0.000000000"));
+  EXPECT_THAT(csv.str(), HasSubstr("\ncan0,123,0,0,5,0.010000000,0.008000000,0.012000000,"
+                                   "0.001414214,0.005000000,0.045000000,3,07 03 09,1 3\n"));
+  EXPECT_THAT(csv.str(),
+              HasSubstr("\ncan0,123,0,1,1,0.000000000,0.000000000,0.000000000,0.000000000,"
+                        "0.000000000,0.000000000,3,,\n"));
 }
 
 }  // namespace

@@ -173,6 +173,14 @@ TEST_F(OutputFileTest, AFullDeviceIsNoticed) {
       message, ENOSPC);
 }
 
+// Who caught the first failure learns of it again at the end.
+TEST_F(OutputFileTest, AFailureIsNotForgotten) {
+  const std::string message = "/dev/full: cannot be written to its end: No space left on device";
+  OutputFile file{"/dev/full"};
+  expect_failure([&] { file.stream() << "a whole line\n"; }, message, ENOSPC);
+  expect_failure([&] { file.commit(); }, message, ENOSPC);
+}
+
 TEST_F(OutputFileTest, AFullDiskIsNoticedAndNothingIsLeft) {
   const test::SmallDisk disk{in("disk"), 64};
   if (!disk.mounted()) GTEST_SKIP() << disk.why();

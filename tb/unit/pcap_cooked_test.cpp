@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/capture_files.hpp"
 #include "harness/input_error_of.hpp"
 #include "harness/scratch_folder.hpp"
 #include "harness/shell.hpp"
@@ -16,14 +17,6 @@ namespace vericansim {
 namespace {
 
 using ::testing::HasSubstr;
-
-/// `value` in `count` bytes of the byte order.
-std::string number(std::uint64_t value, unsigned count, bool big) {
-  std::string bytes;
-  for (unsigned i = 0; i < count; ++i)
-    bytes += static_cast<char>(value >> 8 * (big ? count - 1 - i : i));
-  return bytes;
-}
 
 /// A frame as the recording computer has it in its memory: identifier in its byte order.
 std::string can_frame(std::uint32_t id, const std::string &data, bool big) {
@@ -38,15 +31,6 @@ std::string cooked(unsigned type, unsigned protocol, const std::string &frame) {
 std::string cooked2(unsigned type, unsigned protocol, unsigned index, const std::string &frame) {
   return number(protocol, 2, true) + number(0, 2, true) + number(index, 4, true) +
          number(280, 2, true) + number(type, 1, true) + std::string(9, '\0') + frame;
-}
-
-std::string capture(unsigned link_type, bool big, const std::vector<std::string> &packets) {
-  std::string bytes = number(0xA1B2C3D4, 4, big) + number(2, 2, big) + number(4, 2, big) +
-                      std::string(8, '\0') + number(65535, 4, big) + number(link_type, 4, big);
-  for (const std::string &packet : packets)
-    bytes += number(1000, 4, big) + number(7, 4, big) + number(packet.size(), 4, big) +
-             number(packet.size(), 4, big) + packet;
-  return bytes;
 }
 
 /// Byte order of the recording computer, version of the header.

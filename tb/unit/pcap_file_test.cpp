@@ -105,6 +105,37 @@ TEST(Pcap, RubbishBehindTheLengthIsIgnored) {
   EXPECT_EQ(log.entries[1].frame.dlc, 8);
 }
 
+// DLCs of 9 to 15 stand in the last byte of the header, where the data are eight bytes.
+TEST(Pcap, RawDlcs) {
+  CaptureBuilder file{false, false};
+  for (const int raw : {8, 9, 15, 16})
+    file.packet(1, 0, packet({0, 0, 1, 0x23, 8, 0, 0, raw, 1, 2, 3, 4, 5, 6, 7, 8}));
+  file.packet(1, 0, packet({0, 0, 1, 0x23, 1, 0, 0, 9, 1}));
+  const CanLog log = read_pcap(file.write("raw.pcap"));
+  std::vector<unsigned> seen;
+  for (const LogEntry &entry : log.entries) seen.push_back(entry.frame.dlc);
+  EXPECT_EQ(seen, (std::vector<unsigned>{8, 9, 15, 8, 1}));
+}
+
+// Without the flag of CAN FD more than 8 bytes tell; more than 64 are of nobody. An error message
+// has 8 bytes, whatever else is there.
+TEST(Pcap, LengthsBeyondThoseOfClassicalFrames) {
+  const auto with = [](std::initializer_list<int> head, int length) {
+    return packet(head) + static_cast<char>(length) + std::string(3, '\0') +
+           std::string(static_cast<std::size_t>(length), 'U');
+  };
+  CaptureBuilder file{false, false};
+  file.packet(1, 0, with({0, 0, 1, 0x23}, 12));
+  file.packet(1, 0, with({0, 0, 1, 0x24}, 65));
+  file.packet(1, 0, with({0x20, 0, 0, 4}, 12));
+  const CanLog log = read_pcap(file.write("long.pcap"));
+  EXPECT_TRUE(log.entries.empty());
+  EXPECT_EQ(log.skipped, 3U);
+  ASSERT_EQ(log.others.size(), 2U);
+  EXPECT_EQ(log.others[0].text, "123##0555555555555555555555555");
+  EXPECT_EQ(log.others[1].text, "20000004#5555555555555555");
+}
+
 TEST(Pcap, BrokenFilesGiveOneLine) {
   CaptureBuilder ethernet{false, false, 1};
   EXPECT_THAT(error_of(ethernet.write("eth.pcap")),
@@ -116,6 +147,16 @@ TEST(Pcap, BrokenFilesGiveOneLine) {
   lying.packet(1, 0, packet({0, 0, 1, 0x23, 4, 0, 0, 0, 1}));
   EXPECT_THAT(error_of(lying.write("lying.pcap")),
               HasSubstr("1 data bytes where the length says 4"));
+  CaptureBuilder identifier{false, false};
+  identifier.packet(1, 0, packet({0, 0, 8, 0, 0, 0, 0, 0}));
+  EXPECT_THAT(error_of(identifier.write("identifier.pcap")),
+              HasSubstr("packet 1: identifier 800 is above 7FF and has no extended flag"));
+  for (const bool nanoseconds : {false, true}) {
+    CaptureBuilder time{false, nanoseconds};
+    time.packet(1, nanoseconds ? 1'000'000'000 : 1'000'000, packet({0, 0, 1, 0x23, 0, 0, 0, 0}));
+    EXPECT_THAT(error_of(time.write("time.pcap")),
+                HasSubstr("packet 1: 1000000000 ns of a second are not allowed"));
+  }
   CaptureBuilder whole{false, false};
   whole.packet(1, 0, packet({0, 0, 1, 0x23, 0, 0, 0, 0}));
   for (std::size_t cut = 0; cut < whole.size(); ++cut) {

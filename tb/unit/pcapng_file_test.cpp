@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/capture_files.hpp"
 #include "harness/input_error_of.hpp"
 #include "harness/scratch_folder.hpp"
 #include "harness/shell.hpp"
@@ -16,46 +17,6 @@ namespace vericansim {
 namespace {
 
 using ::testing::HasSubstr;
-
-/// Puts a file together.
-class Blocks {
- public:
-  explicit Blocks(bool big) : big_{big} {}
-  [[nodiscard]] std::string number(std::uint64_t value, unsigned count) const {
-    std::string field;
-    for (unsigned i = 0; i < count; ++i)
-      field += static_cast<char>(value >> 8 * (big_ ? count - 1 - i : i));
-    return field;
-  }
-  [[nodiscard]] std::string option(unsigned code, std::string value) const {
-    const std::string head = number(code, 2) + number(value.size(), 2);
-    value.resize((value.size() + 3) / 4 * 4, '\0');
-    return head + value;
-  }
-  Blocks &block(std::uint32_t type, std::string body) {
-    body.resize((body.size() + 3) / 4 * 4, '\0');
-    bytes += number(type, 4) + number(body.size() + 12, 4) + body + number(body.size() + 12, 4);
-    return *this;
-  }
-  Blocks &section() {
-    return block(0x0A0D0D0A,
-                 number(0x1A2B3C4D, 4) + number(1, 2) + number(0, 2) + number(~0ULL, 8));
-  }
-  Blocks &interface(unsigned link_type, const std::string &options = {}) {
-    return block(1, number(link_type, 2) + number(0, 2) + number(0, 4) + options);
-  }
-  Blocks &packet(unsigned interface, std::uint64_t ticks, std::string data,
-                 const std::string &options = {}) {
-    const std::string head = number(interface, 4) + number(ticks >> 32, 4) + number(ticks, 4) +
-                             number(data.size(), 4) + number(data.size(), 4);
-    if (!options.empty()) data.resize((data.size() + 3) / 4 * 4, '\0');
-    return block(6, head + data + options);
-  }
-  std::string bytes;
-
- private:
-  bool big_;
-};
 
 const std::string kFrame{"\0\0\x01\x23\x01\0\0\0\x77", 9};  // 123#77
 
@@ -69,23 +30,30 @@ TEST_P(Pcapng, ReadsInterfacesResolutionsAndDirections) {
   Blocks file{GetParam()};
   file.section()
       .interface(227, file.option(2, "can0") + file.option(9, "\x09") + file.option(0, ""))
-      .interface(227, file.option(2, "my can") + file.option(14, file.number(1000, 8)))
+      .interface(227, file.option(2, "my can\x7F") + file.option(14, file.number(1000, 8)))
       .interface(1)
       .block(0x0BAD, "not known")
       .packet(0, 1'000'000'001'500, kFrame, file.option(2, file.number(2, 4)) + file.option(0, ""))
       .packet(1, 7, kFrame)
-      .packet(2, 0, "Ethernet")
-      .block(3, file.number(kFrame.size(), 4) + kFrame);
+      .packet(2, 1'000'000'000, "Ethernet")
+      .block(3, file.number(kFrame.size(), 4) + kFrame)
+      .block(2, file.number(1, 2) + file.number(0, 2) + file.number(0, 4) + file.number(8, 4) +
+                    file.number(kFrame.size(), 4) + file.number(kFrame.size(), 4) + kFrame);
   const CanLog log = parse_log(file.bytes, "a.pcapng");
-  ASSERT_EQ(log.entries.size(), 3U);
+  ASSERT_EQ(log.entries.size(), 4U);
   EXPECT_EQ(log.entries[0].frame, (Frame{0x123, false, false, 1, {0x77}}));
   EXPECT_EQ(log.entries[0].channel, "can0");
   EXPECT_EQ(log.entries[0].direction, Direction::kSent);
   EXPECT_EQ(log.start_ns, 1'000'000'001'500);
-  EXPECT_EQ(log.entries[1].channel, "my_can");
+  EXPECT_EQ(log.entries[1].channel, "my_can_");
   EXPECT_EQ(log.entries[1].time, 5'500 * kNanosecond);  // 1000 s + 7 us
   EXPECT_EQ(log.entries[1].direction, Direction::kUnknown);
+  // The simple block: the first interface, and the time of the packet before it.
   EXPECT_EQ(log.entries[2].channel, "can0");
+  EXPECT_EQ(log.entries[2].time, -1'500 * kNanosecond);
+  // The block that was in use before.
+  EXPECT_EQ(log.entries[3].channel, "my_can_");
+  EXPECT_EQ(log.entries[3].time, 6'500 * kNanosecond);
   EXPECT_EQ(skipped_text(log), "1 other line or packet");
 }
 INSTANTIATE_TEST_SUITE_P(ByteOrders, Pcapng, ::testing::Bool());
@@ -118,9 +86,36 @@ TEST(Pcapng, DamagedFilesGiveOneLine) {
   std::string lengths = whole.bytes;
   lengths[24] ^= 4;
   EXPECT_EQ(error_of(lengths), "a.pcapng: block 1: its two lengths differ");
+  for (const unsigned length : {0U, 8U, 10U, 13U}) {
+    std::string other = whole.bytes;
+    other[4] = static_cast<char>(length);
+    EXPECT_EQ(error_of(other), "a.pcapng: block 1: length " + std::to_string(length) +
+                                   " is not allowed; allowed: 12 and more, by four");
+  }
   std::string mark = whole.bytes;
   mark[8] ^= 4;
   EXPECT_EQ(error_of(mark), "a.pcapng: block 1: the section has no byte-order mark");
+}
+
+// Stamps of 64 bits in whole seconds, and an offset of as many, lead beyond what 64 bits of
+// nanoseconds hold.
+TEST(Pcapng, TimesOutOfRangeAreRefused) {
+  const auto refusal = [](std::uint64_t ticks, std::uint64_t offset) {
+    Blocks file{false};
+    file.section()
+        .interface(227,
+                   file.option(9, std::string(1, '\0')) + file.option(14, file.number(offset, 8)))
+        .packet(0, ticks, kFrame);
+    return error_of(file.bytes);
+  };
+  const std::string words = "a.pcapng: block 3: time is out of range; allowed: up to the year 2262";
+  constexpr std::uint64_t kLast = 9'223'372'036;  // 2^63 ns in seconds
+  EXPECT_EQ(refusal(kLast, 0), "no error");
+  EXPECT_EQ(refusal(kLast + 1, 0), words);
+  EXPECT_EQ(refusal(~0ULL, 0), words);
+  EXPECT_EQ(refusal(0, kLast), "no error");
+  EXPECT_EQ(refusal(0, kLast + 1), words);
+  EXPECT_EQ(refusal(1, kLast), words);
 }
 
 const std::string kAll =

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scenario/expectations.hpp"
 #include "scenario/quantity.hpp"
 #include "scenario/runner.hpp"
 #include "scenario/scenario.hpp"
@@ -39,6 +40,22 @@ TEST(Quantity, EverythingElseIsRefused) {
   EXPECT_FALSE(parse_integer("0x"));
   EXPECT_FALSE(parse_integer("-1"));
   EXPECT_FALSE(parse_integer("99999999999999999999"));
+}
+
+TEST(Quantity, NumbersInMessagesHaveTheirDigits) {
+  EXPECT_EQ(plain_number(0), "0");
+  EXPECT_EQ(plain_number(-0.0), "0");
+  EXPECT_EQ(plain_number(1e6), "1000000");
+  EXPECT_EQ(plain_number(-12'345'678'901'234), "-12345678901234");
+  EXPECT_EQ(plain_number(87.5), "87.5");
+  EXPECT_EQ(plain_number(100.0 / 3), "33.33333333");
+  const double none = std::numeric_limits<double>::infinity();
+  const auto expected = [](Range range) { return check_number("frames", 1, range).wanted; };
+  EXPECT_EQ(expected({1'234'567, 1'234'567}), "1234567");
+  EXPECT_EQ(expected({1'234'567, none}), "at least 1234567");
+  EXPECT_EQ(expected({-none, 1'234'567}), "at most 1234567");
+  EXPECT_EQ(expected({1'234'567, 2'000'000}), "1234567 to 2000000");
+  EXPECT_EQ(check_number("frames", 20'000'000'000, {0, 1}).seen, "20000000000");
 }
 
 constexpr const char *kGood = R"(name: all keys
@@ -177,6 +194,27 @@ INSTANTIATE_TEST_SUITE_P(
                 "nodes:\n  - {name: a, timing: {brp: 1, prop: 8, ps1: 8, ps2: 8, sjw: 1}, "
                 "bitrate: 320k, clok: 1}\n",
                 "unknown key 'clok'"},
+        Mistake{"NoPrescaler",
+                "nodes:\n  - {name: a, timing: {brp: 0, prop: 8, ps1: 4, ps2: 3, sjw: 1}}\n",
+                "timing.brp: '0' is not allowed; allowed: 1 to 256"},
+        Mistake{"LargePrescaler",
+                "nodes:\n  - {name: a, timing: {brp: 257, prop: 8, ps1: 4, ps2: 3, sjw: 1}}\n",
+                "timing.brp: '257' is not allowed; allowed: 1 to 256"},
+        Mistake{"LongPs1",
+                "nodes:\n  - {name: a, timing: {brp: 1, prop: 8, ps1: 9, ps2: 3, sjw: 1}}\n",
+                "timing.ps1: '9' is not allowed; allowed: 1 to 8"},
+        Mistake{"ShortPs2",
+                "nodes:\n  - {name: a, timing: {brp: 1, prop: 8, ps1: 4, ps2: 1, sjw: 1}}\n",
+                "timing.ps2: '1' is not allowed; allowed: 2 to 8"},
+        Mistake{"NoSjw",
+                "nodes:\n  - {name: a, timing: {brp: 1, prop: 8, ps1: 4, ps2: 3, sjw: 0}}\n",
+                "timing.sjw: '0' is not allowed; allowed: 1 to 4"},
+        Mistake{"LongSjw", "nodes: [{name: a, sjw: 5}]\n",
+                "sjw: '5' is not allowed; allowed: 1 to 4"},
+        Mistake{"EarlySample", "nodes: [{name: a, sample_point: 49 %}]\n",
+                "sample_point: '49 %' is not allowed; allowed: 50 % to 90 %"},
+        Mistake{"LateSample", "sample_point: 0.91\n",
+                "sample_point: '0.91' is not allowed; allowed: 50 % to 90 %"},
         Mistake{"FewQuanta",
                 "nodes:\n  - {name: a, timing: {brp: 2, prop: 2, ps1: 2, ps2: 2, sjw: 1}}\n",
                 "s.yaml:2: nodes[0].timing: 7 time quanta a bit are not allowed; allowed: 8 to 25"},
@@ -238,6 +276,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"FaultNode", "faults: [{kind: cut}]", "key 'node' is missing"},
         Mistake{"FaultTimes", "faults: [{kind: dominant, from: 2 ms, to: 1 ms}]",
                 "faults[0].to: '1 ms' is not allowed"},
+        Mistake{"FaultTwoEnds", "faults: [{kind: dominant, from: 1 ms, to: 2 ms, for: 1 ms}]",
+                "faults[0].for: either 'to' or 'for', not both"},
         Mistake{"FaultBit",
                 "faults:\n  - kind: flip\n    at:\n      node: a\n      field: DLC\n      bit: 4\n",
                 "s.yaml:7: faults[0].at.bit: '4' is not allowed; allowed: 0 to 3: DLC has 4 bits"},
@@ -252,6 +292,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"FaultBothEnds",
                 "faults: [{kind: flip, at: {node: a, field: CRC, bit: 3, bits_left: 12}}]",
                 "at.bits_left: '12' is not allowed; allowed: 11, behind bit 3 of the 15 of CRC"},
+        Mistake{"FaultEndsTooNear",
+                "faults: [{kind: flip, at: {node: a, field: CRC, bit: 3, bits_left: 10}}]",
+                "at.bits_left: '10' is not allowed; allowed: 11, behind bit 3 of the 15 of CRC"},
         Mistake{
             "FaultDataEnds",
             "faults: [{kind: flip, at: {node: a, field: DATA, bit: 3, bits_left: 3}}]",

@@ -51,6 +51,8 @@ constexpr const char *kEveryKind =
     "     queue: 9, end_when_down: true}\n"
     "  - {name: tcp, socketcand: '127.0.0.1:29536', errors: none, wait_for_clients: 2}\n"
     "  - {name: ear, monitor: true}\n"
+    "  - {name: pfc, type: remote, profile: standard, number: 9, name_bits: 5, serial: 0x12,\n"
+    "     memory: {0x40: 01 A5, 0xF02: 14}, config: {producers: [{send: 0, length: 1}]}}\n"
     "  - {name: '#1', monitor: vcan1}\n"
     "  - {monitor: vcan2}\n"
     "traffic:\n  - {node: ear, id: 1, name: \"null\"}\n";
@@ -65,7 +67,7 @@ TEST(ScenarioWriter, KindsOfNodesAreWrittenAsTheyAreRead) {
   const Scenario read = parse_scenario("elsewhere/t.yaml", text);
   EXPECT_EQ(to_yaml(read), text);
   EXPECT_EQ(read.name, "every: kind");
-  ASSERT_EQ(read.nodes.size(), 7U);
+  ASSERT_EQ(read.nodes.size(), 8U);
   const auto &firmware = std::get<FirmwareRole>(read.nodes[0].role);
   EXPECT_EQ(firmware.file, here("f/app.elf"));
   EXPECT_EQ(firmware.clocks_per_instruction, 3U);
@@ -73,6 +75,13 @@ TEST(ScenarioWriter, KindsOfNodesAreWrittenAsTheyAreRead) {
   EXPECT_EQ(std::get<SecondCoreRole>(read.nodes[1].role).board, "board");
   EXPECT_EQ(read.nodes[1].clock.frequency_hz, 16e6);
   EXPECT_TRUE(read.nodes[6].host.listen_only);
+  const auto &remote = std::get<RemoteRole>(read.nodes[7].role);
+  EXPECT_EQ(remote.number, 9U);
+  EXPECT_EQ(remote.config.features(), 0x1F);
+  EXPECT_EQ(remote.config.serial, 0x12U);
+  EXPECT_THAT(remote.memory.at(0x40), ElementsAre(1, 0xA5));
+  EXPECT_THAT(remote.memory.at(0xF02), ElementsAre(0x14));
+  EXPECT_THAT(remote.memory.at(0xF41), ElementsAre(0x81));
   EXPECT_EQ(read.traffic[0].name, "null");
 }
 
@@ -157,6 +166,9 @@ TEST(ScenarioWriter, WhatNoFileCanSayIsRefusedWithTheReason) {
   FirmwareRole firmware;
   firmware.endless = false;
   EXPECT_THAT(refusal_of(firmware), HasSubstr("its firmware must end"));
+  RemoteRole remote;
+  remote.config.block = true;
+  EXPECT_THAT(refusal_of(remote), HasSubstr("of no profile"));
   Scenario scenario = parse_scenario("s.yaml", "name: x\nnodes:\n  - name: n\n");
   scenario.endless = true;
   EXPECT_THROW((void)to_yaml(scenario), std::invalid_argument);

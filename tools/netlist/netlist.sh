@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# netlist.sh KIND OUT.v TOP [Name=value ...] [--keep FILE] -- FILE...: the RTL as a netlist, for
-# VERICAN_RTL_TRANSFORM (cmake/verilate.cmake). KIND:
+# netlist.sh KIND OUT.v TOP [Name=value ...] [--keep FILE ...] -- FILE...: the RTL as a netlist,
+# for VERICAN_RTL_TRANSFORM (cmake/verilate.cmake). KIND:
 #   word   after Yosys' front end: what Yosys reads, nothing mapped
 #   gates  generic gates and flip-flops; memories stay memories
 #   ice40  iCE40 cells, block RAMs too, with Yosys' simulation models of them
@@ -12,25 +12,24 @@ set -euo pipefail
 
 kind=$1 out=$2 top=$3
 shift 3
-parameters="" keep=""
+parameters="" keep=()
+while [ "$1" != -- ] && [ "$1" != --keep ]; do
+  parameters="$parameters -chparam ${1%%=*} ${1#*=}"
+  shift
+done
 while [ "$1" != -- ]; do
-  if [ "$1" = --keep ]; then
-    keep=$2
-    shift 2
-  else
-    parameters="$parameters -chparam ${1%%=*} ${1#*=}"
-    shift
-  fi
+  [ "$1" = --keep ] || keep+=("$1")
+  shift
 done
 shift
 files=()
 for file in "$@"; do
-  [ "$file" = "$keep" ] || files+=("$file")
+  [[ " ${keep[*]} " == *" $file "* ]] || files+=("$file")
 done
 
 read_rtl="read_verilog -sv ${files[0]}"
 # With its contents replaced by nothing: only its ports matter here.
-[ -z "$keep" ] || read_rtl="$read_rtl; read_verilog -sv -lib $keep"
+[ ${#keep[@]} -eq 0 ] || read_rtl="$read_rtl; read_verilog -sv -lib ${keep[*]}"
 read_rtl="$read_rtl; read_verilog -sv ${files[*]:1}; hierarchy -check -top $top $parameters"
 
 case $kind in

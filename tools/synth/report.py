@@ -24,6 +24,10 @@ RAM_SHAPES = ((512, 9), (256, 18), (1024, 4), (2048, 2), (4096, 1))  # depth x w
 ENGINES = (("OpenCores CAN", 942, 340, None), ("canola", 1110, 593, 83), ("noasic", 1066, 404, 73))
 CORES = (("CTU CAN FD, two Tx buffers", 4596, 44), ("OpenCores CAN", 4539, 65))
 
+# Where synth.sh notes that abc9 stopped, and the figures that come from that netlist.
+NETLISTS = (("ice40.plain", "LUT4, FF, carry, block RAM"), ("ice40_wrapped.plain", "Fmax"))
+PLAIN = "abc9 stopped at the {}: {} with plain abc."
+
 METHOD = """\
 LUT4, flip-flops and RAM: Yosys `synth_ice40 -abc9 -device hx` of the bare block. Fmax: nextpnr on
 an HX8K (ct256), the block between shift registers. VersaTiles: LUT3 and flip-flops after `abc
@@ -113,6 +117,7 @@ def measurement(directory):
         "lut3": kinds["$lut"], "tile_ff": prefixed(kinds, "$_DFF"),
         "tiles": kinds["$lut"] + prefixed(kinds, "$_DFF") + prefixed(kinds, "$_DLATCH"),
         "blocks": sum(ram_blocks(memory) for memory in memories),
+        "plain": [figure for file, figure in NETLISTS if (directory / file).exists()],
     }
 
 
@@ -137,8 +142,9 @@ def version(command):
 
 
 def title(block):
-    return {"can_core": "protocol engine `can_core`"}.get(
-        block, f"whole core `can_ahb`, NumMb={block.rpartition('_')[2]}")
+    if block.startswith("can_ahb_"):
+        return f"whole core `can_ahb`, NumMb={block.rpartition('_')[2]}"
+    return f"protocol engine `{block}`"
 
 
 def page(out, blocks):
@@ -156,7 +162,11 @@ def page(out, blocks):
             f"{row['fmax']:.1f} MHz ({seeds}) | "
             f"{row['tiles']} ({row['lut3']} + {row['tile_ff']}) | "
             f"{100 * row['tiles'] / TILES:.1f} % | {row['blocks']} of {RAM_BLOCKS} |")
-    text += ["", METHOD, "", "## Other cores, by the same steps", "",
+    text += ["", METHOD]
+    for block, row in rows.items():
+        if row["plain"]:
+            text += ["", PLAIN.format(title(block), " and ".join(row["plain"]))]
+    text += ["", "## Other cores, by the same steps", "",
              "| engine | LUT4 | FF | Fmax |", "|---|---|---|---|"]
     if "can_core" in rows:
         own = rows["can_core"]
