@@ -54,7 +54,7 @@ module can_rn_state #(
   logic                unlocked_q, lock_reset_q, selected_q, run_q;
   logic                dup_q, watchdog_q, boff_seen_q, armed_q;
   logic                owe_status_q, owe_here_q, owe_feed_q;
-  logic                errs_q, ackw_q, boot_q, auto_q;
+  logic                errs_q, ackw_q, boot_q, auto_q, may_q;
 
   logic counts, act, to_operate, to_safe, expired, number_we, hit;
   assign hit        = match_i && !(new_i && numbered_o);
@@ -86,9 +86,16 @@ module can_rn_state #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)         node_q <= can_rn_pkg::NodeInit;
     else if (!run_q)     node_q <= begins ? {1'b1, byte_i[3]} : can_rn_pkg::NodeInit;
-    else if (off_entry_i || to_safe || expired) node_q <= can_rn_pkg::NodeSafe;
-    else if (to_operate || (off_exit_i && auto_q && !watchdog_q))
-      node_q <= can_rn_pkg::NodeOperate;
+    // RN-70: the codes of INIT and LISTEN are illegal in a node that is on the bus.
+    else if (off_entry_i || to_safe || expired || !node_q[1]) node_q <= can_rn_pkg::NodeSafe;
+    else if (to_operate || (off_exit_i && auto_q && may_q))   node_q <= can_rn_pkg::NodeOperate;
+  end
+
+  // RN-70: AUTO_OP returns unless the watchdog or STATE 02 has ended OPERATE; STATE 01 mends that.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)                   may_q <= 1'b0;
+    else if (to_safe || expired)   may_q <= 1'b0;
+    else if (!run_q || to_operate) may_q <= 1'b1;
   end
 
   assign number_we = (job_i == can_rn_pkg::JobConfig && phase_i == 2'd2) || (act && assign_i);
@@ -105,7 +112,7 @@ module can_rn_state #(
     if (!rst_ni) begin
       {unlocked_q, lock_reset_q, selected_q} <= '0;
     end else begin
-      if (!run_q || to_operate)    unlocked_q <= 1'b0;
+      if (!run_q || operate_o)     unlocked_q <= 1'b0;
       else if (act && setup_i && op_i[2:1] != 2'd2 && !op_i[2]) unlocked_q <= !op_i[1];
       if (act && setup_i && (&op_i[1:0])) lock_reset_q <= 1'b1;
       if (!run_q || (accept_i && select_i)) selected_q <= hit && run_q;

@@ -19,6 +19,7 @@ class RtlInstants : public ::testing::Test {
  protected:
   RtlInstants() {
     (void)bus.start();
+    bus.bus.add(deaf);
     bus.node().on_pulse = [this](const RemotePulse &pulse) {
       pulses.push_back(pulse);
       shown.push_back(bus.bus.now());
@@ -29,7 +30,19 @@ class RtlInstants : public ::testing::Test {
     bus.node().user_write(address / 4, byte << 8 * (address % 4), 1U << address % 4);
   }
 
+  /// The node does not hear its own answer to a request, until it is off the bus; when that is.
+  Time bus_off() {
+    bus.places.valid = 0;
+    bus.host.request(bus_frame("1A0#R1"));
+    while (bus.places.valid == 0) bus.run_bits(1);
+    const Time from = bus.bus.now() + 3 * UnitBus::kBit;
+    deaf.add(2, Effect::kRecessive, {from, from + 2 * kMillisecond});
+    EXPECT_TRUE(bus.bus.run_until([this] { return trace().bus_off; }, 2 * kMillisecond));
+    return bus.bus.now();
+  }
+
   RtlBus bus{std::vector<unsigned>{3}};
+  ScheduledFaults deaf;
   std::vector<RemotePulse> pulses;
   std::vector<Time> shown;
 };
@@ -147,25 +160,16 @@ TEST_F(RtlInstants, WatchdogToTheMillisecond) {
 // RN-72: ten times bus-off in a row; the back-off doubles each time, seven times at most, and is
 // not shorter than that, but may be a step longer. STATUS tells of it, and the state is SAFE.
 TEST_F(RtlInstants, BackOffDoublesWithEachBusOff) {
-  ScheduledFaults deaf;
-  bus.bus.add(deaf);
   write_config(remote_map::kBackOff, 2);
   write_config(remote_map::kRetry, 0);
   (void)bus.send("1A0#R1");  // RETRY holds from the next frame on
-  const auto off = [&] { return trace().bus_off; };
   for (unsigned n = 0; n < 10; ++n) {
     SCOPED_TRACE(n);
     (void)bus.send("000#01");
-    bus.places.valid = 0;
-    bus.host.request(bus_frame("1A0#R1"));
-    while (bus.places.valid == 0) bus.run_bits(1);
-    const Time from = bus.bus.now() + 3 * UnitBus::kBit;
-    deaf.add(2, Effect::kRecessive, {from, from + 2 * kMillisecond});
-    ASSERT_TRUE(bus.bus.run_until(off, 2 * kMillisecond));
-    const Time begin = bus.bus.now();
+    const Time begin = bus_off();
     bus.run_bits(20);
     EXPECT_EQ(bus.node().state(), RemoteState::kSafe);
-    ASSERT_TRUE(bus.bus.run_until([&] { return !off(); }, 400 * kMillisecond));
+    ASSERT_TRUE(bus.bus.run_until([&] { return !trace().bus_off; }, 400 * kMillisecond));
     const Time step = (1 << std::min(n, 7U)) * kMillisecond;
     EXPECT_GE(bus.bus.now() - begin, 2 * step);
     EXPECT_LE(bus.bus.now() - begin, 3 * step + kMillisecond + 128 * 11 * UnitBus::kBit);
@@ -173,6 +177,36 @@ TEST_F(RtlInstants, BackOffDoublesWithEachBusOff) {
     ASSERT_EQ(said.size(), 1U);
     EXPECT_EQ(said[0].substr(0, 6), "5FE#82");
   }
+}
+
+// RN-70: AUTO_OP acts after the start and after each recovery, unless STATE 02 or the watchdog has
+// ended OPERATE, whose flag CLEAR takes away; STATE 01 mends that.
+TEST_F(RtlInstants, AutoOpReturnsUnlessStateForbids) {
+  const auto recovered = [this] {
+    (void)bus_off();
+    EXPECT_TRUE(bus.bus.run_until([this] { return !trace().bus_off; }, 400 * kMillisecond));
+    (void)bus.settle();
+    return bus.node().state();
+  };
+  write_config(remote_map::kBackOff, 1);
+  write_config(remote_map::kRetry, 0);
+  write_config(remote_map::kFlags, 0x0D);
+  (void)bus.send("000#8103");
+  EXPECT_EQ(bus.node().state(), RemoteState::kOperate) << "start";
+  EXPECT_EQ(recovered(), RemoteState::kOperate) << "nothing forbids it";
+  (void)bus.send("000#02");
+  EXPECT_EQ(bus.node().state(), RemoteState::kSafe);
+  EXPECT_EQ(recovered(), RemoteState::kSafe) << "STATE 02";
+  (void)bus.send("000#01");
+  EXPECT_EQ(recovered(), RemoteState::kOperate) << "STATE 01";
+  write_config(remote_map::kWatchdog, 2);
+  (void)bus.send("1A0#5A");
+  bus.run_bits(5000);
+  EXPECT_EQ(bus.node().state(), RemoteState::kSafe);
+  write_config(remote_map::kWatchdog, 0);
+  (void)bus.send("1FC#04");
+  EXPECT_EQ(bus.node().peek(remote_map::kStatus) & 0x40, 0) << "CLEAR";
+  EXPECT_EQ(recovered(), RemoteState::kSafe) << "watchdog";
 }
 
 }  // namespace

@@ -12,8 +12,17 @@
   assign f_state_command = counts && !refused_i && state_i && op_i[1:0] == 2'b01 && !op_i[2];
   assign f_auto          = (begins && byte_i[3]) || (off_exit_i && auto_q);
 
+  // No watchdog and no STATE 02 since STATE 01 or the start.
+  logic f_may;
+  always @(posedge clk_i) begin
+    if (expired || to_safe)              f_may <= 1'b0;
+    else if (!run_o || f_state_command) f_may <= 1'b1;
+  end
+
   always @(posedge clk_i) begin
     m_no_reset: assume (rst_ni);
+    // What was before the first clock only the flip-flop tells.
+    m_may: assume (f_ran || f_may == may_q);
     // SETUP has ops 1 to 4: can_rn_head tells others, and can_rn_check refuses them.
     m_op: assume (!setup_i || refused_i || (op_i[2] ? op_i[1:0] == 2'b00 : op_i[1:0] != 2'b00));
     // RN-07, RN-102 P-5: no STATUS without a number.
@@ -27,8 +36,16 @@
       p_watchdog: assert (!$past(run_o && expired) || !operate_o);
       // RN-70, RN-72: so does bus-off.
       p_bus_off: assert (!$past(run_o && off_entry_i) || !operate_o);
-      // RN-61: STATE to OPERATE locks.
-      p_locks: assert (!$past(run_o && f_state_command) || !unlocked_o);
+      // RN-70: AUTO_OP does not undo the watchdog or STATE 02.
+      p_may: assert (!$past(run_o) || !operate_o || $past(operate_o || f_state_command || f_may));
+      // RN-70: but it does return after bus-off where neither has been.
+      p_auto: assert (!$past(run_o && off_exit_i && auto_q && f_may && node_q[1] && !off_entry_i
+                             && !expired && !to_safe) || operate_o);
+      // RN-70, RN-102 P-11: an illegal code leads to SAFE.
+      p_illegal: assert (!$past(run_o && !node_o[1]) || node_o == can_rn_pkg::NodeSafe || !run_o
+                         || $past(begins));
+      // RN-61: OPERATE, however entered, locks.
+      p_locks: assert (!$past(operate_o) || !unlocked_o);
       // RN-61: only UNLOCK, and only one that is not refused, opens.
       p_unlock: assert (!unlocked_o || $past(unlocked_o)
                         || $past(counts && !refused_i && setup_i && op_i[1:0] == 2'b01));
