@@ -41,32 +41,28 @@ def hollow(header, ports):
     return lines + ["endmodule"]
 
 
+def function(comment, signature, root, compared, copied):
+    """A function that is true if one of the ports `compared` differs, and then does `copied`."""
+    lines = [f"  /// {comment}", "  template <typename Core, typename Host>",
+             f"  static bool {signature} {{", "    unsigned changed = 0;"]
+    lines += [f"    changed |= host.{root}{name}_v ^ core.{name};" for name in compared]
+    lines.append("    if (changed == 0) return false;")
+    return lines + [f"    {line};" for line in copied] + ["    return true;", "  }", ""]
+
+
 def copies(struct, root, into, back):
     """The struct that copies the engine's ports between the two models of a top."""
-    lines = [f"struct {struct} {{",
-             "  /// Engine outputs to the host side; true if any has changed.",
-             "  template <typename Core, typename Host>",
-             "  static bool to_host(const Core &core, Host &host) {",
-             "    unsigned changed = 0;"]
-    lines += [f"    changed |= host.{root}{name}_v ^ core.{name};" for name in into]
-    lines.append("    if (changed == 0) return false;")
-    lines += [f"    host.{root}{name}_v = core.{name};" for name in into]
-    lines += ["    return true;", "  }", "",
-              "  /// True if an engine output has changed that a resting host side must see.",
-              "  template <typename Core, typename Host>",
-              "  static bool wakes_host(const Core &core, const Host &host) {",
-              "    unsigned changed = 0;"]
-    lines += [f"    changed |= host.{root}{name}_v ^ core.{name};" for name in into
-              if name not in QUIET]
-    lines += ["    return changed != 0;", "  }", "",
-              "  /// Host side to engine inputs; true if any has changed.",
-              "  template <typename Core, typename Host>",
-              "  static bool to_core(Core &core, const Host &host) {",
-              "    unsigned changed = 0;"]
-    lines += [f"    changed |= core.{name} ^ host.{root}{name}_v;" for name in back]
-    lines.append("    if (changed == 0) return false;")
-    lines += [f"    core.{name} = host.{root}{name}_v;" for name in back]
-    return lines + ["    return true;", "  }", "};", ""]
+    lines = [f"struct {struct} {{"]
+    lines += function("Engine outputs to the host side; true if any has changed.",
+                      "to_host(const Core &core, Host &host)", root, into,
+                      [f"host.{root}{name}_v = core.{name}" for name in into])
+    lines += function("True if an engine output has changed that a resting host side must see.",
+                      "wakes_host(const Core &core, const Host &host)", root,
+                      [name for name in into if name not in QUIET], [])
+    lines += function("Host side to engine inputs; true if any has changed.",
+                      "to_core(Core &core, const Host &host)", root, back,
+                      [f"core.{name} = host.{root}{name}_v" for name in back])
+    return lines[:-1] + ["};", ""]
 
 
 def main():

@@ -39,8 +39,12 @@ class ZlibBuffer : public std::streambuf {
   ZlibBuffer(const ZlibBuffer &) = delete;
   ZlibBuffer &operator=(const ZlibBuffer &) = delete;
 
-  void close() {
+  /// Who caught a failure learns of it again, also where the disk has room by then: bytes are lost.
+  void remember() const {
     if (failed_) throw OutputError(path_, kCannotWrite, *failed_);
+  }
+  void close() {
+    remember();
     errno = 0;
     const gzFile file = file_;
     file_ = nullptr;
@@ -106,7 +110,10 @@ OutputFile::OutputFile(std::string path) : impl_{std::make_unique<Impl>(std::mov
 
 OutputFile::~OutputFile() = default;
 
-std::ostream &OutputFile::stream() { return impl_->stream; }
+std::ostream &OutputFile::stream() {
+  impl_->buffer.remember();
+  return impl_->stream;
+}
 
 void OutputFile::commit() {
   impl_->buffer.close();

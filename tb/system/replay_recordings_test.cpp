@@ -132,15 +132,20 @@ TEST(Replay, SendersShareTheIdentifiers) {
   EXPECT_EQ(sum, 30U);
 }
 
-// All frames have arrived, but only at the second attempt.
-TEST(Replay, AnErrorFrameIsNoSuccess) {
+/// Of one frame, in which node 0 sees bit `index` of `field` flipped.
+ReplayReport replay_with_flip(Field field, unsigned index) {
   PlaceSpec place;
-  place.field = Field::kCrc;
-  place.index = 3;
+  place.field = field;
+  place.index = index;
   place.frame = 1;
   PlaceFault flip{0, place, Effect::kFlip};
-  const ReplayReport report = replay(parse_candump("(1.0) can0 123#11\n", "log"),
-                                     {.nodes = 2, .bitrate = 500e3, .fast = true, .fault = &flip});
+  return replay(parse_candump("(1.0) can0 123#11\n", "log"),
+                {.nodes = 2, .bitrate = 500e3, .fast = true, .fault = &flip});
+}
+
+// All frames have arrived, but only at the second attempt.
+TEST(Replay, AnErrorFrameIsNoSuccess) {
+  const ReplayReport report = replay_with_flip(Field::kCrc, 3);
   EXPECT_EQ(differences(report), "");
   EXPECT_EQ(report.on_bus, 1U);
   EXPECT_EQ(report.error_frames, 1U);
@@ -149,13 +154,7 @@ TEST(Replay, AnErrorFrameIsNoSuccess) {
 
 // VA-03: an error in the last bit of EOF repeats a frame that receivers have already.
 TEST(Replay, AFrameThatComesTwiceIsNoticed) {
-  PlaceSpec place;
-  place.field = Field::kEof;
-  place.index = 6;
-  place.frame = 1;
-  PlaceFault flip{0, place, Effect::kFlip};
-  const ReplayReport report = replay(parse_candump("(1.0) can0 123#11\n", "log"),
-                                     {.nodes = 2, .bitrate = 500e3, .fast = true, .fault = &flip});
+  const ReplayReport report = replay_with_flip(Field::kEof, 6);
   EXPECT_EQ(report.nodes.at(1).received, 2U);
   EXPECT_EQ(report.nodes.at(1).first_difference, "1 frames more than were sent");
   EXPECT_FALSE(report.ok());

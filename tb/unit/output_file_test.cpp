@@ -173,11 +173,27 @@ TEST_F(OutputFileTest, AFullDeviceIsNoticed) {
       message, ENOSPC);
 }
 
-// Who caught the first failure learns of it again at the end.
+// Who caught the first failure learns of it again: at the next write, and at the end.
 TEST_F(OutputFileTest, AFailureIsNotForgotten) {
   const std::string message = "/dev/full: cannot be written to its end: No space left on device";
   OutputFile file{"/dev/full"};
   expect_failure([&] { file.stream() << "a whole line\n"; }, message, ENOSPC);
+  expect_failure([&] { file.stream() << "another\n"; }, message, ENOSPC);
+  expect_failure([&] { file.commit(); }, message, ENOSPC);
+}
+
+// Bytes are missing although the disk has room again at the end.
+TEST_F(OutputFileTest, AFailureIsNotForgottenWhenRoomComes) {
+  const test::SmallDisk disk{in("disk"), 1024};
+  if (!disk.mounted()) GTEST_SKIP() << disk.why();
+  const std::string message = disk.file("b") +
+                              ": cannot be written to its end: "
+                              "No space left on device";
+  std::ofstream{disk.file("filler")} << std::string(900 * 1024, '-');
+  OutputFile file{disk.file("b")};
+  const std::string part(300 * 1024, '+');
+  expect_failure([&] { file.stream() << part; }, message, ENOSPC);
+  std::filesystem::remove(disk.file("filler"));
   expect_failure([&] { file.commit(); }, message, ENOSPC);
 }
 
