@@ -13,7 +13,7 @@ OUT    := $(BUILD)/out
 QUIET  := $(if $(V),,tools/quiet.sh)
 
 .DEFAULT_GOAL := help
-.PHONY: help packages build install demo test test-linux campaign lint bench synth coverage coverage-rtl size wave rules rows registers format clean
+.PHONY: help packages build install demo test test-linux campaign lint bench synth boards coverage coverage-rtl size wave rules rows registers format clean
 
 help:  ## List the targets
 	@echo "VeriCAN: a CAN 2.0 controller in RTL and its bus simulator"
@@ -55,8 +55,14 @@ bench: packages $(BUILD)/build.ninja  ## Measure the simulator's speed; writes d
 	@$(QUIET) "Building" cmake --build $(BUILD) -j $(JOBS)
 	@tools/bench.sh $(BUILD)
 
-synth: packages  ## Measure area and clock rate (iCE40, VersaTiles); writes docs/synthesis.md
+synth: boards  ## Measure area and clock rate (iCE40, VersaTiles); writes docs/synthesis.md
 	@tools/synth.sh
+
+boards: packages  ## Bitstreams of the boards with a remote node; netlists and bitstreams run on the simulated bus
+	@tools/boards.sh build/boards
+	@$(QUIET) "Configuring ($(PRESET))" cmake --preset $(PRESET) -DVERICAN_BOARDS=$(CURDIR)/build/boards
+	@$(QUIET) "Building the boards' tests" cmake --build $(BUILD) -j $(JOBS) --target boards_tests
+	@ctest --test-dir $(BUILD) -L boards --output-on-failure | tail -n 40
 
 coverage: packages $(BUILD)/build.ninja  ## Measure which lines of the C driver its tests run
 	@tools/driver-coverage.sh $(BUILD)

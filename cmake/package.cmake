@@ -54,7 +54,8 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/sim/" DESTINATION "${include_dir}" COMP
   FILES_MATCHING PATTERN "*.hpp"
   PATTERN "cli" EXCLUDE PATTERN "linux" EXCLUDE PATTERN "systemc" EXCLUDE PATTERN "page" EXCLUDE
   PATTERN "python" EXCLUDE PATTERN "hollow" EXCLUDE
-  PATTERN "split_core.hpp" EXCLUDE PATTERN "quiet_engine.hpp" EXCLUDE
+  PATTERN "model_context.hpp" EXCLUDE PATTERN "split_core.hpp" EXCLUDE
+  PATTERN "quiet_engine.hpp" EXCLUDE
   PATTERN "model_edge.hpp" EXCLUDE PATTERN "model_pins.hpp" EXCLUDE
   PATTERN "yaml_value.hpp" EXCLUDE PATTERN "scenario_parts.hpp" EXCLUDE
   PATTERN "scenario_remote_parts.hpp" EXCLUDE

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# verican_verilate(<target> TOP <module> [PARAMS Name=value ...] [REPLACE <file> ...]): a static
-# library with the Verilated model of any module of rtl/can.f; its class has the name of the target
-# and its header is <target>.h. REPLACE files take the places of those of their names in rtl/can.f.
+# verican_verilate(<target> TOP <module> [PARAMS Name=value ...] [REPLACE <file> ...]
+#                  [FILES <file> ...]): a static library with the Verilated model of any module of
+# rtl/can.f; its class has the name of the target and its header is <target>.h. REPLACE files take
+# the places of those of their names in rtl/can.f; FILES are taken instead of all of rtl/can.f.
 #
 # VERICAN_RTL_TRANSFORM: a program that rewrites the RTL before Verilation (a netlist, mutants):
 #   <program> OUT.v TOP [Name=value ...] [--keep FILE ...] -- FILE...
@@ -46,8 +47,11 @@ set(VERICAN_VERILATOR_FLAGS --cc -O3 -fno-split --x-assign fast --x-initial fast
     --output-split 0 --no-timing -Wno-lint -Wno-style)
 
 function(verican_verilate target)
-  cmake_parse_arguments(ARG "" "TOP" "PARAMS;REPLACE" ${ARGN})
+  cmake_parse_arguments(ARG "" "TOP" "PARAMS;REPLACE;FILES" ${ARGN})
   set(files ${VERICAN_RTL})
+  if(ARG_FILES)
+    set(files ${ARG_FILES})
+  endif()
   foreach(file IN LISTS ARG_REPLACE)
     get_filename_component(name "${file}" NAME)
     list(TRANSFORM files REPLACE "^.*/${name}$" "${file}")

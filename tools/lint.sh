@@ -49,6 +49,10 @@ iverilog_elaborate() {  # TOP [NAME=VALUE]
   printf '%s' "$output"
   [ "$status" -eq 0 ] && [ -z "$output" ]
 }
+board_lint() {  # TOP
+  verilator --lint-only -Wall --top-module "$1" rtl/lint.vlt "${rtl[@]}" \
+    examples/remote/board/remote_io.sv "examples/remote/board/$1.sv"
+}
 spdx() {
   local bad licence
   bad=$(our_files '*.sv' '*.v' '*.vlt' '*.cpp' '*.hpp' '*.c' '*.h' '*.py' '*.sh' '*.cmake' '*.tcl' \
@@ -80,6 +84,9 @@ for top in "${tops[@]}"; do
   check "verilator -Wall $top" verilator_lint $top
   check "yosys           $top" yosys_check $top
   check "iverilog        $top" iverilog_elaborate $top
+done
+for top in remote_icestick remote_hx8k; do
+  check "verilator -Wall $top" board_lint "$top"
 done
 echo "Sources"
 check "can.core agrees with rtl/can.f" core_file

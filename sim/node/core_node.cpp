@@ -9,6 +9,7 @@
 
 #include "Vcan_core.h"
 #include "Vcan_core___024root.h"
+#include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "node/quiet_engine.hpp"
 #include "verilated.h"
@@ -27,6 +28,7 @@ std::uint32_t data_word(const Frame &frame, unsigned first) {
 struct CoreNode::Impl {
   VerilatedContext context;
   Vcan_core top{&context, "can_core"};
+  ModelContext model_context{context};
   QuietEngine quiet;
   void edge() { rising_edge(top, top.clk_i); }
 };

@@ -13,6 +13,7 @@
 #include "Vcan_core.h"
 #include "Vcan_core___024root.h"
 #include "core_ports.hpp"
+#include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "verilated.h"
 
@@ -138,6 +139,7 @@ class SplitCore {
   VerilatedContext context_;
   Vcan_core engine_{&context_, "engine"};
   HostModel host_{&context_, "host"};
+  ModelContext model_context_{context_};
   std::unique_ptr<unsigned char[]> before_ = std::make_unique<unsigned char[]>(sizeof(Root));
   bool resting_ = false;
   bool host_settled_ = false;
