@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// remote_campaign: remote nodes of the RTL beside their model on random buses, and the skew of
-// triggers (RN-47, RN-101).
+// remote_campaign: remote nodes of the RTL beside their model, every frame and random commands at
+// the engine's port and on random buses, and the skew of triggers (RN-47, RN-101).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -11,6 +11,8 @@
 #include <mutex>
 
 #include "harness/campaign_settings.hpp"
+#include "remote/port_every_frame.hpp"
+#include "remote/random_port.hpp"
 #include "remote/random_remotes.hpp"
 #include "remote/trigger_skew.hpp"
 
@@ -21,11 +23,19 @@ using Json = nlohmann::ordered_json;
 
 constexpr unsigned kBusCommands = 100'000, kOfBus = 50;
 constexpr unsigned kTriggers = 10'000, kOfLine = 25;
+constexpr unsigned kPortCommands = 1'000'000, kOfPort = 1'000;
+constexpr unsigned kFrames = 1'048'576, kAccesses = 524'288, kStride = 16;
 const std::vector<std::string> kProfiles = {"small"};
 
 /// What the buses add up to.
 struct Sum {
   std::uint64_t runs = 0, commands = 0, answers = 0, disturbed = 0;
+  std::vector<std::string> differences;
+};
+
+/// What the runs at the port add up to.
+struct PortSum {
+  std::uint64_t frames = 0, answers = 0;
   std::vector<std::string> differences;
 };
 
@@ -56,9 +66,49 @@ class Campaign {
     });
   }
 
+  /// All of them at any scale: a minute a profile.
+  void every_frame() {
+    at_port(frames_, kPortSettings * kStride, [&](const std::string &profile, unsigned n) {
+      return run_every_frame(port_setting(profile, n / kStride), kStride, n % kStride, seed(n));
+    });
+    at_port(accesses_, 4 * kStride, [&](const std::string &profile, unsigned n) {
+      return run_every_access({profile, n & 1 ? 7U : 3U, (n & 2) != 0}, kStride, n / 4, seed(n));
+    });
+  }
+  void port_commands() {
+    each(kPortCommands, kOfPort, [&](const std::string &profile, unsigned seed) {
+      PortLockstep pair{profile, 3, 3};
+      RandomHost host{seed};
+      PortRun run;
+      while (run.frames < kOfPort && pair.compare().empty())
+        if (random_port_step(pair, host)) ++run.frames;
+      if (!pair.difference().empty())
+        run.difference =
+            fmt::format("{}, seed {}: {}\n{}", profile, seed, pair.difference(), pair.history());
+      add(port_, run);
+    });
+  }
+
   [[nodiscard]] Json result() const;
 
  private:
+  [[nodiscard]] unsigned seed(unsigned n) const {
+    return static_cast<unsigned>(settings_.seed * 1'000'000 + n);
+  }
+  void add(PortSum &sum, const PortRun &run) {
+    const std::lock_guard guard{lock_};
+    sum.frames += run.frames;
+    sum.answers += run.answers;
+    if (!run.difference.empty()) sum.differences.push_back(run.difference);
+  }
+  // The runs 0 to count - 1 of every profile.
+  template <typename Run>
+  void at_port(PortSum &sum, unsigned count, const Run &run) {
+    for (const std::string &profile : kProfiles)
+      run_jobs(count, settings_.jobs,
+               [&](std::size_t n) { add(sum, run(profile, static_cast<unsigned>(n))); });
+  }
+
   // Runs of `length` until there are `whole` in all, the profiles in turn.
   template <typename Run>
   void each(unsigned whole, unsigned length, const Run &run) {
@@ -71,6 +121,7 @@ class Campaign {
   const CampaignSettings &settings_;
   std::mutex lock_;
   Sum buses_;
+  PortSum frames_, accesses_, port_;
   TriggerSkew skew_;
 };
 
@@ -84,23 +135,35 @@ Json Campaign::result() const {
     return campaign_figure(name, value, "0", value == 0);
   };
   Json notes = Json::array();
-  for (const std::string &text : buses_.differences) notes.push_back(text);
+  for (const auto *differences :
+       {&buses_.differences, &frames_.differences, &accesses_.differences, &port_.differences})
+    for (const std::string &text : *differences) notes.push_back(text);
   notes.push_back(
       fmt::format("nearest to its bound: {:.0f} % of it, {}", 100 * skew_.part, skew_.worst));
-  return {{"figures",
-           {enough("commands on buses", buses_.commands, kBusCommands),
-            campaign_figure("buses of two to eight nodes", buses_.runs),
-            campaign_figure("answers of nodes", buses_.answers),
-            campaign_figure("disturbances", buses_.disturbed),
-            none("buses with a difference", buses_.differences.size()),
-            enough("triggers", skew_.triggers, kTriggers),
-            campaign_figure("pairs of nodes at a trigger", skew_.pairs),
-            none("triggers that a node missed", skew_.lost),
-            none("pairs beyond the bound of RN-47", skew_.above),
-            campaign_figure("largest skew, ns", static_cast<double>(skew_.largest) / kNanosecond),
-            campaign_figure("largest part of the bound, %", std::round(1000 * skew_.part) / 10)}},
-          {"tables", Json::array()},
-          {"notes", notes}};
+  const auto profiles = static_cast<unsigned>(kProfiles.size());
+  return {
+      {"figures",
+       {enough("frames at the port: every one of each number, locked or not", frames_.frames,
+               profiles * kFrames),
+        enough("accesses at the port: every address and length", accesses_.frames,
+               profiles * kAccesses),
+        enough("random commands at the port", port_.frames, kPortCommands),
+        campaign_figure("answers at the port", frames_.answers + accesses_.answers + port_.answers),
+        none("differences at the port",
+             frames_.differences.size() + accesses_.differences.size() + port_.differences.size()),
+        enough("commands on buses", buses_.commands, kBusCommands),
+        campaign_figure("buses of two to eight nodes", buses_.runs),
+        campaign_figure("answers of nodes", buses_.answers),
+        campaign_figure("disturbances", buses_.disturbed),
+        none("buses with a difference", buses_.differences.size()),
+        enough("triggers", skew_.triggers, kTriggers),
+        campaign_figure("pairs of nodes at a trigger", skew_.pairs),
+        none("triggers that a node missed", skew_.lost),
+        none("pairs beyond the bound of RN-47", skew_.above),
+        campaign_figure("largest skew, ns", static_cast<double>(skew_.largest) / kNanosecond),
+        campaign_figure("largest part of the bound, %", std::round(1000 * skew_.part) / 10)}},
+      {"tables", Json::array()},
+      {"notes", notes}};
 }
 
 }  // namespace
@@ -109,9 +172,11 @@ int main(int argc, char **argv) {
   CLI::App app{"Remote nodes of the RTL beside their model"};
   try {
     CampaignSettings settings;
-    settings.add_to(app, "100,000 commands on buses and 10,000 triggers");
+    settings.add_to(app, "1,000,000 commands at the port, 100,000 on buses and 10,000 triggers");
     CLI11_PARSE(app, argc, argv);
     Campaign campaign{settings};
+    campaign.every_frame();
+    campaign.port_commands();
     campaign.triggers();
     campaign.buses();
     const Json result = campaign.result();
