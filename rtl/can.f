@@ -50,4 +50,5 @@ remote/can_rn_cell.sv
 remote/can_rn_data.sv
 remote/can_rn_port.sv
 remote/can_rn_tx.sv
+remote/can_rn_produce.sv
 remote/can_remote.sv

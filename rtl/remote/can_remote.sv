@@ -13,6 +13,8 @@ module can_remote #(
   parameter int StageBytes = 8,
   /// Answers that may wait: 1 or 4.
   parameter int TxDepth = 1,
+  /// Entries of producers: 0, 4 or 8.
+  parameter int NumProd = 0,
   /// Serial number, 32 bits, different in each device.
   parameter int Serial = 0,
   /// Clocks per millisecond, 8,000 to 131,071.
@@ -22,7 +24,9 @@ module can_remote #(
   parameter int Prop = 1,
   parameter int Ps1 = 4,
   parameter int Ps2 = 2,
-  parameter int Sjw = 1
+  parameter int Sjw = 1,
+  /// Derived, do not override.
+  localparam int Events = NumProd == 0 ? 1 : NumProd
 ) (
   input  logic                clk_i,
   input  logic                rst_ni,
@@ -43,6 +47,8 @@ module can_remote #(
   output logic [11:0]         written_addr_o, // its first address
   output logic [3:0]          written_len_o,  // and length
   output logic                apply_o,        // pulse: the staged bytes
+  // Statements; without producers tied to 0
+  input  logic [Events-1:0]   event_i,        // send this entry now
   // State
   output logic                safe_o,         // 0 in OPERATE only
   output logic [1:0]          state_o,
@@ -52,7 +58,8 @@ module can_remote #(
   output logic [can_pkg::TraceWidth-1:0] trace_o
 );
   localparam int AddrBits = 10 - NameBits;
-  localparam int Features = (StageBytes != 0 ? 1 : 0) + (TxDepth == 4 ? 8 : 0);
+  localparam int Features = (StageBytes != 0 ? 1 : 0) + (NumProd != 0 ? 2 : 0)
+                            + (TxDepth == 4 ? 8 : 0);
 
   if (NameBits != 3 && NameBits != 5) begin : gen_check_name_bits
     NameBits_must_be_3_or_5 u_stop ();
@@ -65,6 +72,9 @@ module can_remote #(
   end
   if (TxDepth != 1 && TxDepth != 4) begin : gen_check_tx_depth
     TxDepth_must_be_1_or_4 u_stop ();
+  end
+  if (NumProd != 0 && NumProd != 4 && NumProd != 8) begin : gen_check_num_prod
+    NumProd_must_be_0_4_or_8 u_stop ();
   end
 
   // A constant, but for the simulator, which makes nodes that differ in it alone.
@@ -92,7 +102,7 @@ module can_remote #(
   // Addresses and data
   logic [11:0] start, mem;
   logic [3:0]  row, row_end;
-  logic        ended, staged, cleared, re, we, zero, one;
+  logic        ended, staged, cleared, zero, one;
   logic [8:0]  cell_addr;
   logic [1:0]  lane;
   logic [31:0] rdata;
@@ -101,7 +111,13 @@ module can_remote #(
   logic [2:0]  tail, head;
   logic [1:0]  word;
   logic        full, some, load, try_due, flush, tx_status, gone, gone_status, gone_here;
-  logic        new_tries;
+  logic        new_tries, popped;
+  // Producers
+  logic        want, visit, keep_same, job_ends, same, cell_own, no_write, less, differ;
+  can_rn_pkg::job_t then_job;
+  logic        rtr, cell_we, cell_re;
+  logic [3:0]  dlc;
+  logic [8:0]  own_cell;
   // Node
   logic [NameBits-1:0] number;
   logic        off_entry, off_exit, carry;
@@ -128,7 +144,7 @@ module can_remote #(
     .can_rx_i, .can_tx_o, .trace_o
   );
 
-  can_rn_head #(.NameBits(NameBits)) u_head (
+  can_rn_head #(.NameBits(NameBits), .NumProd(NumProd)) u_head (
     .clk_i, .rst_ni,
     .hdr_i(rx_hdr), .transmitter_i(transmitter), .ide_i(rx_ide), .rtr_i(rx_rtr),
     .id_i(rx_id[28:18]), .byte_we_i(rx_byte_we), .byte_i(rx_byte), .valid_i(rx_valid),
@@ -140,13 +156,17 @@ module can_remote #(
     .high_bad_o(high_bad), .mismatch_o(mismatch)
   );
 
-  can_rn_check #(.NameBits(NameBits), .MemBytes(MemBytes)) u_check (
+  // What an entry asks for is a remote frame, but for a watchdog and where there is no room.
+  assign rtr = rx_rtr || visit;
+  assign dlc = visit ? op[3:0] : rx_dlc;
+
+  can_rn_check #(.NameBits(NameBits), .MemBytes(MemBytes), .NumProd(NumProd)) u_check (
     .clk_i, .rst_ni,
-    .sys_i(sys), .all_i(all), .port_i(port), .a_i(a), .rtr_i(rx_rtr), .dlc_i(rx_dlc),
+    .sys_i(sys), .all_i(all), .port_i(port), .a_i(a), .rtr_i(rtr), .dlc_i(dlc),
     .unlock_i(op[2:0] == 3'd1), .value_bad_i(value_bad), .high_bad_i(high_bad),
     .mismatch_i(mismatch), .start_i(start), .end_i(row_end),
     .selected_i(selected), .operate_i(operate), .unlocked_i(unlocked),
-    .lock_reset_i(lock_reset), .full_i(full),
+    .lock_reset_i(lock_reset), .full_i(full && !visit),
     .write_o(write), .read_o(read), .trigger_o(trigger), .select_o(select),
     .assign_o(assign_number), .state_o(set_state), .setup_o(setup), .far_o(far), .info_o(info),
     .code_o(code)
@@ -166,8 +186,9 @@ module can_remote #(
     .ended_i(ended), .cleared_i(cleared), .row_i(row), .carry_i(carry),
     .ms_i(ms), .boff_i(boff), .off_i(off), .try_i(try_due), .load_i(load), .some_i(some),
     .gone_i(gone), .owe_feed_i(owe_feed), .start_i, .run_i(run),
+    .want_i(want), .visit_i(visit), .then_i(then_job), .same_i(keep_same),
     .job_o(job), .phase_o(phase), .timer_o(timer), .request_o(request), .begin_o(begins),
-    .take_o(take), .new_tries_o(new_tries),
+    .take_o(take), .end_o(job_ends), .new_tries_o(new_tries),
     .written_o, .apply_o
   );
 
@@ -175,11 +196,11 @@ module can_remote #(
   logic [6:0] row_a;
   assign row_a = NameBits == 5 ? {info, info, 5'd0} : 7'd0;
 
-  can_rn_move #(.StageBytes(StageBytes)) u_move (
+  can_rn_move #(.StageBytes(StageBytes), .NumProd(NumProd)) u_move (
     .clk_i, .rst_ni,
     .job_i(job), .phase_i(phase), .request_i(request), .begin_i(begins), .take_i(take),
     .read_i(read), .trigger_i(trigger), .far_i(far), .info_i(info), .key_i(key),
-    .a_i(7'(a) | row_a), .dlc_i(rx_dlc), .count_i(op[2:0]),
+    .a_i(7'(a) | row_a), .dlc_i(dlc), .count_i(op[2:0]),
     .byte_i(rx_byte), .start_o(start), .mem_o(mem), .row_o(row), .end_o(row_end),
     .ended_o(ended), .staged_o(staged), .cleared_o(cleared)
   );
@@ -191,22 +212,24 @@ module can_remote #(
     .refused_i(refused), .setup_i(setup), .off_i(off), .status_i(tx_status), .row_i(row),
     .tail_i(tail), .head_i(head),
     .word_i(word), .timer_i(timer), .new_tries_i(new_tries), .zero_i(zero),
-    .cell_o(cell_addr), .re_o(re), .we_o(we)
+    .cell_o(cell_addr), .re_o(cell_re), .we_o(cell_we)
   );
 
   can_rn_data #(
-    .NameBits(NameBits), .MemBytes(MemBytes), .StageBytes(StageBytes), .Features(Features)
+    .NameBits(NameBits), .MemBytes(MemBytes), .StageBytes(StageBytes), .Features(Features),
+    .NumProd(NumProd)
   ) u_data (
     .clk_i, .rst_ni,
-    .job_i(job), .none_i(rx_dlc == 4'd0), .read_i(re), .lane_i(lane),
+    .job_i(job), .none_i(rx_dlc == 4'd0), .read_i(cell_re || same), .lane_i(lane),
     .rdata_i(rdata), .frame_i(rx_byte), .mem_i(mem), .node_i,
-    .serial_i(serial),
-    .byte_o(read_byte), .zero_o(zero), .one_o(one), .wbyte_o(wbyte)
+    .serial_i(serial), .less_i(less),
+    .byte_o(read_byte), .zero_o(zero), .one_o(one), .differ_o(differ), .wbyte_o(wbyte)
   );
 
   can_rn_port #(.MemBytes(MemBytes)) u_port (
     .clk_i, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger),
-    .cell_i(cell_addr), .re_i(re), .we_i(we), .mem_i(mem), .staged_i(staged), .wbyte_i(wbyte),
+    .same_i(same && !phase[0]), .cell_i(cell_own ? own_cell : cell_addr), .re_i(cell_re || same),
+    .we_i(cell_we && !no_write), .mem_i(mem), .staged_i(staged), .wbyte_i(wbyte),
     .a_i(7'(a)), .end_i(row_end), .code_i(code), .status_i(status), .tec_i(tec), .rec_i(rec),
     .lane_o(lane), .rdata_o(rdata),
     .usr_req_i, .usr_we_i, .usr_be_i, .usr_addr_i, .usr_wdata_i, .usr_ready_o
@@ -219,13 +242,14 @@ module can_remote #(
     .owe_here_i(owe_here), .zero_i(zero), .one_i(one), .rdata_i(rdata), .tail_o(tail),
     .head_o(head), .word_o(word), .status_o(tx_status), .full_o(full), .some_o(some),
     .load_o(load), .try_o(try_due), .gone_o(gone), .gone_status_o(gone_status),
-    .gone_here_o(gone_here), .tx_req_o(tx_req), .tx_dlc_o(tx_dlc), .tx_word_o(tx_word),
+    .gone_here_o(gone_here), .popped_o(popped),
+    .tx_req_o(tx_req), .tx_dlc_o(tx_dlc), .tx_word_o(tx_word),
     .tx_next_i(tx_next), .tx_ok_i(tx_ok), .tx_fail_i(tx_fail), .transmitter_i(transmitter)
   );
 
   can_rn_state #(.NameBits(NameBits)) u_state (
     .clk_i, .rst_ni,
-    .job_i(job), .phase_i(phase), .accept_i(begins && !refused),
+    .job_i(job), .phase_i(phase), .accept_i(begins && !refused && !visit),
     .dup_i(valid && dup), .refused_i(refused), .all_i(all || sys), .write_i(write),
     .select_i(select), .assign_i(assign_number), .state_i(set_state), .setup_i(setup),
     .match_i(!mismatch), .new_i(a[2]), .op_i(op), .timer_i(timer), .zero_i(zero),
@@ -238,6 +262,26 @@ module can_remote #(
     .owe_feed_o(owe_feed), .status_o(status)
   );
   assign safe_o = !operate;
+
+  if (NumProd == 0) begin : gen_no_produce
+    logic unused;
+    assign unused = &{1'b0, event_i, job_ends, differ, popped};
+    assign {want, visit, keep_same, same, cell_own, own_cell, no_write, less} = '0;
+    assign then_job = can_rn_pkg::JobIdle;
+  end else begin : gen_produce
+    can_rn_produce #(.NumProd(NumProd)) u_produce (
+      .clk_i, .rst_ni,
+      .job_i(job), .phase_i(phase), .end_i(job_ends), .event_i, .ms_i(ms),
+      .run_i(run), .forget_i(!run || off_entry),
+      .closed_i(some || off || !numbered), .popped_i(popped),
+      .operate_i(operate),
+      .refused_i(refused), .info_i(info), .mode_i(read_byte[7:4]), .zero_i(zero), .one_i(one),
+      .row_i(row[2:0]), .first_i(row == 4'd0), .ended_i(ended), .differ_i(differ), .hdr_i(hdr),
+      .word_i(word), .status_i(tx_status),
+      .want_o(want), .visit_o(visit), .then_o(then_job), .keep_o(keep_same), .same_o(same),
+      .cell_own_o(cell_own), .cell_o(own_cell), .no_write_o(no_write), .less_o(less)
+    );
+  end
 
   can_rn_off u_off (
     .clk_i, .rst_ni, .job_i(job), .last_i(phase[1]), .timer_i(timer), .byte_i(read_byte),

@@ -7,6 +7,8 @@
 module can_rn_check #(
   parameter int NameBits = 3,
   parameter int MemBytes = 4096,
+  parameter int NumProd = 0,
+  parameter int NumMap = 0,
   /// Derived, do not override.
   localparam int AddrBits = 10 - NameBits
 ) (
@@ -78,13 +80,22 @@ module can_rn_check #(
 
   // Addresses: the access may end in the block of eight bytes behind that of its first byte; where
   // legal areas end, it may not.
-  logic       crosses, top, config_area, fixed_area, outside, last, bad_address;
+  logic       crosses, top, producer, map, config_area, ends, fixed_area, outside, last;
+  logic       bad_address;
   logic [3:0] reach;
   assign reach       = {1'b0, start_i[2:0]} + end_i;
   assign crosses     = reach[3] && (far_o ? reach[2] || (&reach[1:0]) : (|reach[2:0]));
   assign top         = &start_i[11:8];
-  assign config_area = top && !(|start_i[7:5]);
+  assign config_area = top && (!(|start_i[7:5]) || producer || map);
   assign fixed_area  = top && (&start_i[7:4]);
+  // Tables of eight bytes an entry, and the last entry of each that is followed by nothing.
+  assign producer = NumProd != 0 && start_i[7:6] == 2'd1 && (NumProd == 8 || !start_i[5]);
+  assign map      = NumMap != 0 && start_i[7:6] == 2'd2 && (NumMap == 8 || !start_i[5]);
+  assign ends     = top && (start_i[7:3] == 5'b00011
+                            || (NumProd == 4 && start_i[7:3] == 5'b01011)
+                            || (NumProd == 8 && NumMap == 0 && start_i[7:3] == 5'b01111)
+                            || (NumMap == 4 && start_i[7:3] == 5'b10011)
+                            || (NumMap == 8 && start_i[7:3] == 5'b10111));
   if (MemBytes == 4096) begin : gen_whole
     assign outside = (&start_i[11:9]) && !config_area && !fixed_area;
     assign last    = (&start_i[11:10]) && (&start_i[8:3]);
@@ -96,7 +107,7 @@ module can_rn_check #(
   end
   always_comb begin
     if (far_o) bad_address = high_bad_i || outside
-                             || (crosses && (last || (top && start_i[7:3] == 5'b00011)));
+                             || (crosses && (last || ends));
     else       bad_address = near && crosses && (&start_i[AddrBits-1:4]) && !start_i[3];
   end
 

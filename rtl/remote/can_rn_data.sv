@@ -8,7 +8,8 @@ module can_rn_data #(
   parameter int NameBits = 3,
   parameter int MemBytes = 4096,
   parameter int StageBytes = 8,
-  parameter int Features = 1
+  parameter int Features = 1,
+  parameter int NumProd = 0
 ) (
   input  logic                clk_i,
   input  logic                rst_ni,
@@ -21,9 +22,11 @@ module can_rn_data #(
   input  logic [11:0]         mem_i,        // JobClear: the byte that is written
   input  logic [NameBits-1:0] node_i,
   input  logic [31:0]         serial_i,
+  input  logic                less_i,       // one less is written
   output logic [7:0]          byte_o,       // read
   output logic                zero_o,       // it is 0, 1
   output logic                one_o,
+  output logic                differ_o,     // from the one before
   output logic [7:0]          wbyte_o
 );
   logic [7:0] byte_q, lane_byte;
@@ -56,6 +59,17 @@ module can_rn_data #(
   assign one_o  = few && byte_q[0];
   assign byte_o = byte_q;
 
+  if (NumProd == 0) begin : gen_alone
+    assign differ_o = 1'b0;
+  end else begin : gen_compare
+    logic [7:0] before_q;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni)     before_q <= '0;
+      else if (read_q) before_q <= byte_q;
+    end
+    assign differ_o = before_q != byte_q;
+  end
+
   // First contents (RN-60). What is not named is 0.
   function automatic logic [7:0] first_byte(input logic [11:0] address);
     first_byte = 8'h00;
@@ -81,7 +95,7 @@ module can_rn_data #(
 
   logic less, more;
   assign less = job_i == can_rn_pkg::JobLow || job_i == can_rn_pkg::JobHigh
-                || job_i == can_rn_pkg::JobTry || job_i == can_rn_pkg::JobAge;
+                || job_i == can_rn_pkg::JobTry || job_i == can_rn_pkg::JobAge || less_i;
   assign more = job_i == can_rn_pkg::JobCount
                 || (job_i == can_rn_pkg::JobTrigger && none_i);
 

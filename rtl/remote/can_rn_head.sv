@@ -6,6 +6,7 @@
 
 module can_rn_head #(
   parameter int NameBits = 3,
+  parameter int NumProd = 0,
   /// Derived, do not override.
   localparam int AddrBits = 10 - NameBits
 ) (
@@ -108,6 +109,10 @@ module can_rn_head #(
   assign mismatch_o  = mismatch_q;
   assign key_byte    = job_i == can_rn_pkg::JobByte;
 
+  // An entry of a producer: A, then mode and length.
+  logic entry;
+  assign entry = NumProd != 0 && job_i == can_rn_pkg::JobEntry;
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {hdr_q, byte_q, live_q} <= '0;
@@ -123,6 +128,10 @@ module can_rn_head #(
     if (!rst_ni) begin
       class_q <= ClassOwn;
       a_q     <= '0;
+    end else if (entry && !phase_i[0]) begin
+      // Beyond the window and the ports there is nothing to ask for.
+      class_q <= {|read_i[7:AddrBits], 1'b0};
+      a_q     <= read_i[AddrBits-1:0];
     end else if (take_i) begin
       class_q <= {low && !id_i[10], low ? name[0] : id_i[10]};
       a_q     <= id_i[AddrBits-1:0];
@@ -133,8 +142,9 @@ module can_rn_head #(
     if (!rst_ni) begin
       {bad_q, high_q, mismatch_q} <= '0;
       op_q <= '0;
-    end else if (job_i == can_rn_pkg::JobHead) begin
+    end else if (job_i == can_rn_pkg::JobHead || entry) begin
       {bad_q, high_q, mismatch_q} <= '0;
+      if (entry) op_q[3:0] <= read_i[3:0] & {4{read_i[7]}};   // one that is off has no length
     end else if (key_byte) begin
       bad_q  <= bad_q || bad;
       high_q <= high_q || (second && (|byte_i[7:4]));

@@ -5,7 +5,8 @@
 // memory and in the row of the frame, where the bytes of the row end.
 
 module can_rn_move #(
-  parameter int StageBytes = 8
+  parameter int StageBytes = 8,
+  parameter int NumProd = 0
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
@@ -34,13 +35,20 @@ module can_rn_move #(
   logic [11:0] start_q;
   logic [3:0]  low_q, row_q;
   logic [8:0]  high;
-  logic        head, far_byte, clear, move;
+  logic        head, far_byte, clear, move, entry, fresh, same;
 
   assign start_o   = start_q;
   assign row_o     = row_q;
   assign clear     = job_i == can_rn_pkg::JobClear;
   assign move      = job_i == can_rn_pkg::JobMove;
   assign cleared_o = &mem_o;
+  if (NumProd == 0) begin : gen_no_produce
+    assign {entry, fresh, same} = '0;
+  end else begin : gen_produce
+    assign entry = job_i == can_rn_pkg::JobEntry;
+    assign fresh = job_i == can_rn_pkg::JobFresh;
+    assign same  = job_i == can_rn_pkg::JobSame;
+  end
   if (StageBytes == 0) begin : gen_no_stage
     assign staged_o = 1'b0;
     assign ended_o  = row_q == end_o;
@@ -56,7 +64,7 @@ module can_rn_move #(
 
   // The start is A itself, the row of STATUS or IDENT, the stage, or what the first bytes say.
   logic [7:0] near;
-  assign head     = job_i == can_rn_pkg::JobHead;
+  assign head     = job_i == can_rn_pkg::JobHead || entry;
   assign far_byte = job_i == can_rn_pkg::JobByte && far_i && !(|row_q[3:1]);
   assign near     = {info_i, a_i[6:5], a_i[4] || trigger_i, info_i ? a_i[0] : a_i[3],
                      a_i[2:1] & {2{!info_i}}, a_i[0] && !info_i && !trigger_i};
@@ -72,10 +80,10 @@ module can_rn_move #(
   end
 
   logic step_mem;
-  assign step_mem = clear || (move && (read_i || phase_i[1]));
+  assign step_mem = clear || (move && (read_i || phase_i[1])) || (same && phase_i[0]);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)       low_q <= '0;
-    else if (begin_i)  low_q <= {1'b0, start_q[2:0]};
+    else if (begin_i || fresh) low_q <= {1'b0, start_q[2:0]};
     else if (step_mem) low_q <= {low_q[3] && !clear, low_q[2:0]} + 4'd1;
   end
 
@@ -86,12 +94,12 @@ module can_rn_move #(
       can_rn_pkg::JobByte:  step_row = !key_i || (&phase_i);
       can_rn_pkg::JobMove:  step_row = read_i ? phase_i[1] && !ended_o
                                               : phase_i == 2'd0 || !ended_o;
-      default:              step_row = 1'b0;
+      default:              step_row = same && phase_i[0];
     endcase
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)                  row_q <= '0;
-    else if (take_i || request_i) row_q <= '0;
+    else if (take_i || request_i || entry) row_q <= '0;
     else if (begin_i)             row_q <= {2'b00, far_i, 1'b0};
     else if (step_row)            row_q <= row_q + 4'd1;
   end

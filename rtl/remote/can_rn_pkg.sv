@@ -22,18 +22,25 @@ package can_rn_pkg;
   localparam logic [4:0] JobHead    = 5'b01000;   // A of the header is where the access starts
   localparam logic [4:0] JobFresh   = 5'b01001;   // state, TEC, REC into the row of STATUS
   localparam logic [4:0] JobPush    = 5'b01010;   // the answer is complete: its A and length
+  // As long as it takes: bytes of a producer beside those sent last.
+  localparam logic [4:0] JobSame    = 5'b01011;
   // 10xxx: three phases: a byte is read in the first and written in the third.
   localparam logic [4:0] JobTrigger = 5'b10000;   // TRIGGER count
   localparam logic [4:0] JobTurn    = 5'b10001;   // bus-off begins or ends (RN-72)
   localparam logic [4:0] JobLow     = 5'b10010;   // low byte of a timer
   localparam logic [4:0] JobHigh    = 5'b10011;   // high byte of a timer
   localparam logic [4:0] JobTry     = 5'b10100;   // an attempt has failed (RN-15)
+  localparam logic [4:0] JobGap     = 5'b10101;   // what is left of the gap of a producer
+  localparam logic [4:0] JobKeep    = 5'b10110;   // its gap begins
   // 11xxx: four phases: two bytes are read and two written.
   localparam logic [4:0] JobAge     = 5'b11000;   // the answer has aged by 10 ms (RN-54)
   localparam logic [4:0] JobCount   = 5'b11001;   // code, A and count of a request (RN-24)
   localparam logic [4:0] JobRow     = 5'b11010;   // life of the next answer, attempts
   localparam logic [4:0] JobConfig  = 5'b11011;   // number and flags
   localparam logic [4:0] JobFeed    = 5'b11100;   // watchdog from its configuration
+  localparam logic [4:0] JobEntry   = 5'b11101;   // A and mode of a producer
+  localparam logic [4:0] JobDown    = 5'b11110;   // its period goes on
+  localparam logic [4:0] JobRenew   = 5'b11111;   // its period begins
 
   // What is offered to the engine (can_rn_tx).
   localparam logic [1:0] SrcNone    = 2'd0;

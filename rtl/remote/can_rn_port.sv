@@ -11,6 +11,7 @@ module can_rn_port #(
   input  can_rn_pkg::job_t job_i,
   input  logic             odd_i,       // phase 1 or 3
   input  logic             read_i,      // JobMove: memory to row
+  input  logic             same_i,      // JobSame: memory
   input  logic             trigger_i,
   input  logic [8:0]       cell_i,
   input  logic             re_i,
@@ -49,7 +50,7 @@ module can_rn_port #(
   assign usr_write = usr_req_i && usr_we_i
                      && !((&usr_addr_i[9:7]) && (!usr_addr_i[6] || (&usr_addr_i[5:3])));
 
-  assign from_mem = job_i == can_rn_pkg::JobMove && read_i;
+  assign from_mem = (job_i == can_rn_pkg::JobMove && read_i) || same_i;
   assign to_mem   = (job_i == can_rn_pkg::JobMove && !read_i) || job_i == can_rn_pkg::JobClear;
   assign target   = {mem_i[11:9] | {3{staged_i && !trigger_i && !job_i[1]}}, mem_i[8:2]};
   assign address  = user ? usr_addr_i : {3'b111, cell_i[8:2]};

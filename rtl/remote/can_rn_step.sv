@@ -42,12 +42,18 @@ module can_rn_step (
   input  logic             owe_feed_i,
   input  logic             start_i,
   input  logic             run_i,
+  // Producers
+  input  logic             want_i,        // an entry is to be looked at
+  input  logic             visit_i,       // this is being done
+  input  can_rn_pkg::job_t then_i,        // what follows the present job then
+  input  logic             same_i,        // JobSame goes on
   output can_rn_pkg::job_t job_o,
   output logic [1:0]       phase_o,
   output logic             timer_o,
   output logic             request_o,     // a request is valid
   output logic             begin_o,       // its work begins
   output logic             take_o,        // header is taken over
+  output logic             end_o,         // a job ends, and none follows it
   output logic             new_tries_o,   // JobRow: the attempts count from the start
   output logic             written_o,     // pulses for user logic (RN-45)
   output logic             apply_o
@@ -89,6 +95,7 @@ module can_rn_step (
       else if (!row_ready_q || !try_ready_q) next = can_rn_pkg::JobRow;
       else if (boff_i ^ off_i)               next = can_rn_pkg::JobTurn;
       else if (owe_feed_i)                   next = can_rn_pkg::JobFeed;
+      else if (want_i)                       next = can_rn_pkg::JobEntry;
     end
   end
 
@@ -138,7 +145,18 @@ module can_rn_step (
       end
       default: ;
     endcase
+    // The answer that nobody has asked for gives way to a request.
+    if (visit_i && !idle) begin
+      if (job_q == can_rn_pkg::JobSame)  keep = same_i;
+      if (job_q == can_rn_pkg::JobBegin) begin
+        keep  = wait_user && !hdr_i;
+        job_d = hdr_i ? can_rn_pkg::JobIdle : can_rn_pkg::JobFresh;
+      end else if (job_q != can_rn_pkg::JobMove) begin
+        job_d = then_i;
+      end
+    end
   end
+  assign end_o = !keep && job_d == can_rn_pkg::JobIdle;
 
   assign ended_timer = (job_q == can_rn_pkg::JobLow && phase_q[1] && !carry_i)
                        || (job_q == can_rn_pkg::JobHigh && phase_q[1]);

@@ -31,6 +31,7 @@ module can_rn_tx #(
   output logic                gone_o,        // pulse: sent or dropped
   output logic                gone_status_o, // it was STATUS, HERE
   output logic                gone_here_o,
+  output logic                popped_o,      // the head of the queue has gone
   // Engine
   output logic                tx_req_o,
   output logic [3:0]          tx_dlc_o,
@@ -75,6 +76,9 @@ module can_rn_tx #(
   assign gone_status_o = gone && status_o;
   assign gone_here_o   = gone && (&src_q);
 
+  logic first_gone;
+  assign first_gone = stale || (gone && src_q == can_rn_pkg::SrcQueue);
+  assign popped_o   = flush_i || first_gone;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       tail_q <= '0;
@@ -82,7 +86,7 @@ module can_rn_tx #(
     end else begin
       if (job_i == can_rn_pkg::JobPush)             tail_q <= tail_q + 1'b1;
       if (flush_i)                                  head_q <= tail_q;
-      else if (stale || (gone && src_q == can_rn_pkg::SrcQueue)) head_q <= head_q + 1'b1;
+      else if (first_gone)                          head_q <= head_q + 1'b1;
     end
   end
 

@@ -40,7 +40,7 @@ void RemoteModel::begin() {
   outbox_.clear();
   under_way_.reset();
   transfer_ = {};
-  producers_.restart();
+  producers_.clear_due();
   maps_.restart();
   if (search_) {
     rate_.restart();
@@ -182,7 +182,7 @@ void RemoteModel::hold_expired() {
 }
 
 void RemoteModel::event(unsigned k) {
-  producers_.event(k, operating());
+  producers_.event(k);
   if (on_bus()) fill_queue();
 }
 

@@ -4,8 +4,6 @@
 // Statements that a node makes by itself.
 #include "model/remote_producers.hpp"
 
-#include <algorithm>
-
 namespace vericansim {
 
 RemoteProducers::RemoteProducers(const RemoteConfig &config, const RemoteMemory &memory)
@@ -27,7 +25,8 @@ RemoteProducers::Entry RemoteProducers::entry(unsigned k) const {
   entry.address = entry.row ? remote_map::kStatus + 8 * (entry.a - status) : entry.a;
   // RN-06: what is sent at A is what is there, so none reaches beyond the window.
   const bool place = entry.row || entry.a + entry.length <= config_.first_port();
-  entry.on = (mode & 0x80) != 0 && entry.length >= 1 && entry.length <= 8 && place;
+  entry.off = (mode & 0x80) == 0;
+  entry.on = !entry.off && entry.length >= 1 && entry.length <= 8 && place;
   return entry;
 }
 
@@ -37,54 +36,46 @@ bool RemoteProducers::changed(const Entry &entry, const Timer &timer) const {
   return false;
 }
 
+// A period that is over begins anew with its next tick; an entry that is off has none.
 void RemoteProducers::step(const Entry &entry, Timer &timer, bool allowed) {
-  if (++timer.count < entry.period) return;
-  timer.count = 0;
-  if (entry.period != 0 && allowed) timer.due = true;
+  if (!entry.on) timer.left = 0;
+  if (!entry.on) return;
+  if (timer.left == 0) timer.left = entry.period;
+  if (timer.left != 0 && --timer.left == 0 && allowed) timer.due = true;
 }
 
 void RemoteProducers::tick(bool operate) {
   for (unsigned k = 0; k < timers_.size(); ++k) {
     const Entry one = entry(k);
     Timer &timer = timers_[k];
-    timer.since = std::min(timer.since + 1, 0xFFFFU);
-    if (!one.on) {
-      timer.count = 0;
-      continue;
-    }
+    if (timer.gap_left != 0) --timer.gap_left;
     const bool allowed = one.row || operate;
-    if (one.cyclic && !one.by_trigger) step(one, timer, allowed);
-    if (one.on_change && allowed && changed(one, timer)) timer.due = true;
+    if (one.off || (one.cyclic && !one.by_trigger)) step(one, timer, allowed);
+    if (one.on && one.on_change && allowed && changed(one, timer)) timer.due = true;
   }
 }
 
 void RemoteProducers::trigger(bool operate) {
   for (unsigned k = 0; k < timers_.size(); ++k) {
     const Entry one = entry(k);
-    if (one.on && one.cyclic && one.by_trigger) step(one, timers_[k], one.row || operate);
+    if (one.cyclic && one.by_trigger) step(one, timers_[k], one.row || operate);
   }
 }
 
-void RemoteProducers::event(unsigned k, bool operate) {
-  Timer &timer = timers_.at(k);
-  const Entry one = entry(k);
-  if (one.on && (one.row || operate)) timer.due = true;
-}
+void RemoteProducers::event(unsigned k) { timers_.at(k).due = true; }
 
 void RemoteProducers::clear_due() {
   for (Timer &timer : timers_) timer.due = false;
 }
-
-void RemoteProducers::restart() { timers_.assign(timers_.size(), {}); }
 
 std::optional<Frame> RemoteProducers::take(unsigned number, bool operate) {
   for (unsigned k = 0; k < timers_.size(); ++k) {
     const Entry one = entry(k);
     Timer &timer = timers_[k];
     if (!one.on || !(one.row || operate)) timer.due = false;
-    if (!timer.due || timer.since < one.gap) continue;
+    if (!timer.due || timer.gap_left != 0) continue;
     timer.due = false;
-    timer.since = 0;
+    timer.gap_left = one.gap;
     Frame frame;
     frame.id = config_.id(1, number, one.a);
     frame.dlc = static_cast<std::uint8_t>(one.length);

@@ -24,12 +24,11 @@ class RemoteProducers {
   void tick(bool operate);
   /// A TRIGGER has been obeyed.
   void trigger(bool operate);
-  /// User logic wants entry `k` sent. Throws std::out_of_range if there is none.
-  void event(unsigned k, bool operate);
+  /// User logic wants entry `k` sent; take() knows whether it may. Throws std::out_of_range if
+  /// there is none.
+  void event(unsigned k);
   /// Nothing is due any longer.
   void clear_due();
-  /// All timers as after a start.
-  void restart();
 
   /// The statement of the lowest entry that is due and may be sent, which is then no longer due;
   /// `number`: of the node.
@@ -37,7 +36,8 @@ class RemoteProducers {
 
  private:
   struct Entry {
-    bool on = false;
+    bool off = true;  ///< switched off
+    bool on = false;  ///< not, and all its fields are legal
     bool by_trigger = false;
     bool on_change = false;
     bool cyclic = false;
@@ -50,8 +50,8 @@ class RemoteProducers {
   };
   struct Timer {
     bool due = false;
-    unsigned count = 0;                  // of ms or TRIGGERs in this period
-    unsigned since = 0xFFFF;             // ms since the last statement
+    unsigned left = 0;                   // ms or TRIGGERs of this period; 0: it has not begun
+    unsigned gap_left = 0;               // ms
     std::array<std::uint8_t, 8> last{};  // bytes last sent
   };
   [[nodiscard]] Entry entry(unsigned k) const;

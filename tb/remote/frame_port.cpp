@@ -152,8 +152,8 @@ std::vector<Frame> FramePort::drain() {
 }
 
 void FramePort::ms() {
-  engine_.ms = true;
-  clocks(64);
+  pulse_ms();
+  clocks(640);
 }
 
 std::uint32_t FramePort::user(const UserAccess &access) {

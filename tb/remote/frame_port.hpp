@@ -50,8 +50,10 @@ class FramePort {
   Frame send(End end = End::kSent);
   /// Sends everything that is asked for within the next bits.
   std::vector<Frame> drain();
-  /// A pulse of the millisecond, and time to work.
+  /// A pulse of the millisecond, and time to work: for all producers, too.
   void ms();
+  /// A pulse of the millisecond in the next clock.
+  void pulse_ms() { engine_.ms = true; }
   virtual void set_counters(unsigned tec, unsigned rec, bool passive, bool bus_off) = 0;
   /// boff_rec_i has been 0 since the last call.
   [[nodiscard]] virtual bool take_release() = 0;
@@ -71,6 +73,7 @@ class FramePort {
   [[nodiscard]] virtual bool ready() const = 0;
   [[nodiscard]] virtual std::uint32_t read_data() const = 0;
   virtual void hold(bool on) = 0;
+  /// event_i in the next clock.
   virtual void event(unsigned events) = 0;
   [[nodiscard]] std::vector<RemotePulse> take_pulses();
   /// Clock of the last pulse.

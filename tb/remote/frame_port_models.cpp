@@ -8,6 +8,10 @@
 #include "Vcan_remote_small_3___024root.h"
 #include "Vcan_remote_small_5.h"
 #include "Vcan_remote_small_5___024root.h"
+#include "Vcan_remote_standard_3.h"
+#include "Vcan_remote_standard_3___024root.h"
+#include "Vcan_remote_standard_5.h"
+#include "Vcan_remote_standard_5___024root.h"
 #include "node/model_edge.hpp"
 #include "remote/frame_port.hpp"
 
@@ -56,7 +60,7 @@ class FramePortOf final : public FramePort {
   [[nodiscard]] bool ready() const override { return top_.usr_ready_o != 0; }
   [[nodiscard]] std::uint32_t read_data() const override { return top_.usr_rdata_o; }
   void hold(bool on) override { top_.usr_hold_i = on; }
-  void event(unsigned) override {}
+  void event(unsigned events) override { top_.event_i = static_cast<std::uint8_t>(events); }
 
   [[nodiscard]] std::uint8_t peek(unsigned address) const override {
     const auto &memory = root().can_remote__DOT__u_port__DOT__u_ram__DOT__mem;
@@ -94,6 +98,7 @@ class FramePortOf final : public FramePort {
     r.can_remote__DOT__u_core__DOT__rx_byte_o_v = static_cast<std::uint8_t>(engine.byte);
     r.can_remote__DOT__u_tick__DOT__ms_v = engine.ms;
     rising_edge(top_, top_.clk_i);
+    top_.event_i = 0;
     if (r.can_remote__DOT__u_core__DOT__boff_rec_i_v == 0) released_ = true;
   }
   [[nodiscard]] Asked asked() const override {
@@ -124,6 +129,10 @@ std::unique_ptr<FramePort> FramePort::create(const std::string &profile, unsigne
     return std::make_unique<FramePortOf<Vcan_remote_small_3>>(serial, number);
   if (profile == "small" && name_bits == 5)
     return std::make_unique<FramePortOf<Vcan_remote_small_5>>(serial, number);
+  if (profile == "standard" && name_bits == 3)
+    return std::make_unique<FramePortOf<Vcan_remote_standard_3>>(serial, number);
+  if (profile == "standard" && name_bits == 5)
+    return std::make_unique<FramePortOf<Vcan_remote_standard_5>>(serial, number);
   throw std::invalid_argument("no model of profile " + profile + " with NameBits " +
                               std::to_string(name_bits));
 }

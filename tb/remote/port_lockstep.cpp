@@ -12,12 +12,15 @@ namespace vericansim {
 namespace {
 
 constexpr std::uint32_t kSerial = 0xCAFE1234;
-constexpr unsigned kBits = 8;  // within which an answer is offered
+constexpr unsigned kBits = 8;   // within which an answer is offered
+constexpr unsigned kAll = 240;  // clocks in which a node with producers has looked at all of them
 
 RemoteConfig config_of(const std::string &profile, unsigned name_bits) {
   RemoteConfig config = RemoteConfig::profile(profile);
   config.name_bits = name_bits;
   config.serial = kSerial;
+  config.num_map = 0;
+  config.protect = false;
   return config;
 }
 
@@ -47,8 +50,14 @@ void PortLockstep::differ(const std::string &what, const std::string &rtl,
   if (difference_.empty()) difference_ = what + ": " + rtl + ", model: " + model;
 }
 
+// The model needs no time for its producers.
+void PortLockstep::work() {
+  if (config_.num_prod != 0) port_->clocks(kAll);
+}
+
 void PortLockstep::receive(const Frame &frame) {
   note(candump_frame(frame));
+  work();
   port_->receive(frame);
   model_.receive(frame);
   model_.intermission();
@@ -64,10 +73,12 @@ void PortLockstep::restart() {
 
 void PortLockstep::receive_broken(const Frame &frame, unsigned bytes) {
   note(fmt::format("broken {}, {} bytes", candump_frame(frame), bytes));
+  work();
   port_->receive_broken(frame, bytes);
 }
 
 bool PortLockstep::turn(FramePort::End end) {
+  work();
   for (unsigned bits = 0; bits < kBits && !port_->asks(); ++bits) port_->bit();
   const std::optional<Frame> wanted = model_.wants();
   if (!port_->asks()) {
@@ -116,6 +127,14 @@ void PortLockstep::hold(bool on) {
   model_.hold(on);
 }
 
+void PortLockstep::event(unsigned k) {
+  note(fmt::format("event {}", k));
+  work();
+  port_->event(1U << k);
+  work();
+  model_.event(k);
+}
+
 void PortLockstep::set_counters(unsigned tec, unsigned rec) {
   note(fmt::format("TEC {}, REC {}", tec, rec));
   port_->set_counters(tec, rec, tec > 127 || rec > 127, false);
@@ -140,6 +159,8 @@ const std::string &PortLockstep::compare() {
   for (unsigned address = 0; address < remote_map::kHidden; ++address) compare_byte(address);
   for (unsigned address = remote_map::kNode; address < remote_map::kConfigEnd; ++address)
     compare_byte(address);
+  const unsigned producers = remote_map::kProducers;
+  for (unsigned i = 0; i < 8 * config_.num_prod; ++i) compare_byte(producers + i);
   // State, TEC and REC are brought up to date before anybody on the bus sees them.
   for (unsigned address = remote_map::kStatus + 3; address < remote_map::kSize; ++address)
     compare_byte(address);

@@ -31,6 +31,8 @@ class PortLockstep {
   void ms();
   void user_write(unsigned word, std::uint32_t data, unsigned lanes);
   void hold(bool on);
+  /// User logic wants producer entry `k` sent.
+  void event(unsigned k);
   void set_counters(unsigned tec, unsigned rec);
 
   /// Compares memory, state and pulses; empty: equal.
@@ -47,6 +49,7 @@ class PortLockstep {
   void differ(const std::string &what, const std::string &rtl, const std::string &model);
   void compare_byte(unsigned address);
   void restart();
+  void work();
 
   RemoteConfig config_;
   std::unique_ptr<FramePort> port_;

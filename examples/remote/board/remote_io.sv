@@ -44,6 +44,7 @@ module remote_io #(
     .usr_addr_i(due_q ? OutputWord : InputWord), .usr_wdata_i(32'(in_q)),
     .usr_ready_o(ready), .usr_rdata_o(rdata), .usr_hold_i(1'b0),
     .written_o(written), .written_addr_o(), .written_len_o(), .apply_o(apply),
+    .event_i(1'b0),
     .safe_o(safe), .state_o, .can_rx_i, .can_tx_o, .trace_o()
   );
 

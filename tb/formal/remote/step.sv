@@ -18,6 +18,16 @@
     end
   end
 
+  logic f_visit, f_visiting;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) f_visiting <= 1'b0;
+    else         f_visiting <= job_q == can_rn_pkg::JobEntry || (f_visiting && !idle);
+  end
+  assign f_visit = then_i == can_rn_pkg::JobFresh || then_i == can_rn_pkg::JobMove
+                   || then_i == can_rn_pkg::JobSame || then_i == can_rn_pkg::JobGap
+                   || then_i == can_rn_pkg::JobKeep || then_i == can_rn_pkg::JobDown
+                   || then_i == can_rn_pkg::JobRenew;
+
   always @(posedge clk_i) begin
     // Reset in the first clock, none later.
     m_reset: assume (rst_ni == !$initstate);
@@ -26,6 +36,11 @@
     // One kind of request, the same until it has been told; none while the one before is at work.
     m_kind: assume (!(write_i && trigger_i));
     m_apart: assume (!valid_i || job_q == can_rn_pkg::JobIdle || !live_i);
+    // What an entry of a producer leads to (produce.p_then), and that it asks as a read does.
+    m_then: assume (then_i == can_rn_pkg::JobIdle || then_i == can_rn_pkg::JobBegin || f_visit);
+    m_read: assume (!visit_i || (read_i && !write_i && !trigger_i));
+    // It begins with JobEntry and ends where a job is followed by none.
+    m_visit: assume (visit_i == f_visiting);
     if (f_ran) begin
       // RN-102 P-7, RN-45: what became visible is told at the third sample point or later.
       p_int2: assert (!(written_o || apply_o) || f_ticks == 2'd3 || $past(valid_i));
