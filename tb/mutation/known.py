@@ -49,6 +49,10 @@ class Known:
         return self.entries.get(key)
 
     def stale(self, design):
-        """Entries that fit no mutant of the RTL."""
+        """Entries that fit no mutant of the RTL, of the modules that are looked at."""
         there = {self.key(self.entry_of(mutant)) for mutant in design.candidates()}
-        return [entry for key, entry in self.entries.items() if key not in there]
+        modules = {file.module for file in design.part}
+        gone = {entry["module"] for entry in self.entries.values()} - {
+            file.module for file in design.files}
+        return [entry for key, entry in self.entries.items()
+                if key not in there and entry["module"] in modules | gone]

@@ -21,6 +21,12 @@ def rtl_files():
     return [ROOT / "rtl" / line.strip() for line in lines if line.strip().endswith(".sv")]
 
 
+def modules_of(part):
+    """Modules of a part: of the node without a processor (rtl/remote), or of the rest, the core."""
+    return {path.stem for path in rtl_files()
+            if (path.parent.name == "remote") == (part == "remote")}
+
+
 def write_if_new(path, text):
     """Leaves the time of a file alone that has this text already."""
     if not path.exists() or path.read_text(encoding="utf-8") != text:

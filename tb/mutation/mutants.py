@@ -167,10 +167,11 @@ class File:
 
 
 class Design:
-    """All files of the RTL and their mutants."""
+    """All files of the RTL and their mutants; modules: only theirs are candidates."""
 
-    def __init__(self, paths):
+    def __init__(self, paths, modules=None):
         self.files = [File(pathlib.Path(path)) for path in paths]
+        self.part = [file for file in self.files if modules is None or file.module in modules]
         for file in self.files:
             file.find()
         for package in (file for file in self.files if file.package):
@@ -225,7 +226,7 @@ class Design:
 
     def candidates(self):
         """All mutants."""
-        return [mutant for file in self.files for mutant in file.mutants]
+        return [mutant for file in self.part for mutant in file.mutants]
 
 
 def choose(design, wanted, seed):
@@ -234,7 +235,7 @@ def choose(design, wanted, seed):
     With the same seed fewer mutants are a part of more.
     """
     floor = 10
-    offers = {file.module: file.mutants for file in design.files}
+    offers = {file.module: file.mutants for file in design.part}
     total = sum(len(mutants) for mutants in offers.values())
     spare = max(wanted - sum(min(floor, len(m)) for m in offers.values()), 0)
     chosen = []

@@ -11,19 +11,21 @@ import subprocess
 import tempfile
 import time
 
-# Folders of tb/ whose tests are about the RTL, and which programs in them are.
-FOLDERS = {"unit": "can_", "mailbox": "", "protocol": "", "driver": "", "system": "bus_",
-           "faults": "", "random": "random_"}
+# Folders of tb/ whose tests are about a part of the RTL, and which programs in them are.
+FOLDERS = {
+    "core": [("unit", "can_"), ("mailbox", ""), ("protocol", ""), ("driver", ""),
+             ("system", "bus_"), ("faults", ""), ("random", "random_")],
+    "remote": [("unit", "can_rn_"), ("remote", "port_"), ("remote", "rtl_")]}
 CPU_SECONDS = 6        # of one program, and more for tests that take long without a mutant
 CPU_FACTOR = 5
 MEMORY = 2 << 30       # bytes
 OUTPUT = 16 << 20      # bytes, of one program
 
 
-def programs(root):
-    """(folder, name) of all test programs, in a fixed order."""
+def programs(root, part="core"):
+    """(folder, name) of the test programs of a part, in a fixed order."""
     out = []
-    for folder, prefix in FOLDERS.items():
+    for folder, prefix in FOLDERS[part]:
         for source in sorted((root / "tb" / folder).glob(f"{prefix}*_test.cpp")):
             out.append((folder, source.stem))
     return out

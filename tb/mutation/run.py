@@ -20,12 +20,13 @@ from mutants import Design, choose
 from regression import Regression, in_parallel, programs
 from report import Report
 
-FULL = 1100            # mutants at scale 1
+FULL = {"core": 1100, "remote": 330}   # mutants at scale 1
 PROOF_SECONDS = 120    # limit of one proof
 # Of the tests of one program so many seconds are run for one mutant: of long sweeps a part.
 PROGRAM_SECONDS = 5
 # Programs that compare everything with a model notice more in a second: they come early, with more.
-JUDGES = {"buffer_random_test", "random_lockstep_test", "random_buses_test"}
+JUDGES = {"buffer_random_test", "random_lockstep_test", "random_buses_test",
+          "port_every_frame_test", "port_random_test", "rtl_random_test"}
 JUDGE_SECONDS = 10
 
 
@@ -33,7 +34,9 @@ def arguments():
     """Options; the campaign's environment gives the defaults."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--scale", type=float, default=os.environ.get("CAMPAIGN_SCALE", 1.0),
-                        help=f"part of {FULL} mutants, above 0 up to 1")
+                        help="part of 1,100 mutants (330 of remote), above 0 up to 1")
+    parser.add_argument("--part", choices=sorted(FULL), default="core",
+                        help="core: all but rtl/remote, the node without a processor (core)")
     parser.add_argument("--seed", type=int, default=os.environ.get("CAMPAIGN_SEED", 1))
     parser.add_argument("--module", action="append", default=[], help="only mutants in it")
     parser.add_argument("--mutant", action="append", default=[],
@@ -49,8 +52,8 @@ def arguments():
                         help="take what an interrupted run of the same builds has killed as killed")
     parser.add_argument("--no-build", action="store_true", help="take the builds as they are")
     parser.add_argument("--jobs", type=int, default=os.environ.get("CAMPAIGN_JOBS", 2))
-    parser.add_argument("--build", type=pathlib.Path, default=models.ROOT / "build" / "mutants",
-                        help="directory for the test programs")
+    parser.add_argument("--build", type=pathlib.Path,
+                        help="directory for the test programs (build/mutants, -remote)")
     parser.add_argument("--dir", type=pathlib.Path, help="directory for results",
                         default=os.environ.get("CAMPAIGN_DIR"))
     parser.add_argument("--out", default=os.environ.get("CAMPAIGN_OUT"), help="JSON of the results")
@@ -59,7 +62,9 @@ def arguments():
         parser.error(f"--scale {options.scale}: above 0 up to 1 is allowed")
     if options.jobs < 1:
         parser.error(f"--jobs {options.jobs}: at least 1 is needed")
-    options.build = options.build.resolve()
+    options.full = FULL[options.part]
+    options.build = (options.build or models.ROOT / "build" / {
+        "core": "mutants", "remote": "mutants-remote"}[options.part]).resolve()
     options.dir = pathlib.Path(options.dir or options.build / "results").resolve()
     options.dir.mkdir(parents=True, exist_ok=True)
     return options
@@ -67,7 +72,7 @@ def arguments():
 
 def wanted(options, design):
     """(in the models, to run): the sample is in the models whatever is asked for of it."""
-    modules = {file.module for file in design.files}
+    modules = {file.module for file in design.part}
     for module in options.module:
         if module not in modules:
             sys.exit(f"run.py: --module {module}: there is {', '.join(sorted(modules))}")
@@ -76,7 +81,7 @@ def wanted(options, design):
         for number, mutant in enumerate(chosen, 1):
             mutant.number = number
     else:
-        chosen = choose(design, max(1, round(FULL * options.scale)), options.seed)
+        chosen = choose(design, max(1, round(options.full * options.scale)), options.seed)
     everything = {mutant.name: mutant for mutant in design.candidates()}
     run = [m for m in chosen if not options.module or m.module in options.module]
     if options.mutant:
@@ -106,7 +111,7 @@ class Campaign:
 
     def __init__(self, options, design, known, chosen):
         self.options, self.design, self.known, self.chosen = options, design, known, chosen
-        self.programs = [(folder, name) for folder, name in programs(models.ROOT)
+        self.programs = [(folder, name) for folder, name in programs(models.ROOT, options.part)
                          if fnmatch.fnmatch(name, options.programs)]
         if not self.programs:
             sys.exit(f"run.py: --programs {options.programs}: no test program has such a name")
@@ -221,7 +226,7 @@ class Campaign:
 def main():
     """Entry point."""
     options = arguments()
-    design = Design(models.rtl_files())
+    design = Design(models.rtl_files(), models.modules_of(options.part))
     known = Known(models.HERE / "survivors.yaml")
     chosen, run = wanted(options, design)
     if options.list:
