@@ -101,6 +101,7 @@ class Plan:
     ids: re.Pattern     # one id, without groups
     heading: str        # of the page
     command: str        # that writes the page
+    book: Path = None   # the page that says in full what the ids say; each is an anchor there
 
     @property
     def key(self):
@@ -108,6 +109,18 @@ class Plan:
 
     def sections(self):
         return yaml.safe_load(self.file.read_text())
+
+    def in_book(self):
+        """The ids that the book says."""
+        if self.book is None:
+            return set()
+        return set(re.findall(r'<a id="[^"]+"></a>\*\*\[([^\]]+)\]', self.book.read_text()))
+
+    def differences_from_the_book(self, entries):
+        """One line for every id that only the book or only the plan has."""
+        book = {name for name in self.in_book() if self.ids.fullmatch(name)}
+        for name in sorted(book ^ set(entries) if self.book else ()):
+            yield f"{name}: in {self.book.name} or in {self.file.name}, but not in both"
 
     def load(self):
         """id -> (title, reason or None, required); exits with one line if the plan is bad."""
@@ -145,6 +158,13 @@ class Plan:
         for name in sorted(set(cited) - set(entries)):
             yield f"{name}: cited by {sorted(cited[name])[0]}, but not in {where}"
 
+    def linked(self, name, book):
+        """The id, an anchor itself, as a link to where the book says it."""
+        if name not in book:
+            return name
+        anchor = name.lower()
+        return f'<a id="{anchor}"></a>[{name}]({self.book.name}#{anchor})'
+
     def table(self, entries, cited):
         """The page as text."""
         counts = f"{share(required(entries), cited)} {self.key} have a test"
@@ -159,13 +179,15 @@ class Plan:
                "stale.", "",
                f"{counts}; {sum(entry[1] is not None for entry in entries.values())} {self.key} "
                f"do not apply; {len(tests)} tests cite {self.key}."]
+        book = self.in_book()
         for section in self.sections():
             note = " (optional)" if section.get("optional") else ""
             out += ["", f"## {section['section']} {section['name']}{note}", "",
                     f"| {self.noun} | title | tests |", "|---|---|---|"]
             for name in section[self.key]:
                 title, reason, _ = entries[name]
-                out.append(f"| {name} | {title} | {cell(name, reason, cited)} |")
+                out.append(f"| {self.linked(name, book)} | {title} | "
+                           f"{cell(name, reason, cited)} |")
         return "\n".join(out) + "\n"
 
 
@@ -200,13 +222,13 @@ def cell(name, reason, cited):
     return "<br>".join(parts) or "–"
 
 
-def main(plan, description, more_problems=lambda entries: ()):
+def main(plan, description):
     """Checks the plan and writes its page, or with --check compares it; the exit status."""
     parser = argparse.ArgumentParser(description=description.split("\n")[0])
     parser.add_argument("--check", action="store_true", help="only compare the page")
     check = parser.parse_args().check
     entries, cited = plan.load(), plan.citations()
-    found = [*plan.problems(entries, cited), *more_problems(entries)]
+    found = [*plan.problems(entries, cited), *plan.differences_from_the_book(entries)]
     text = plan.table(entries, cited)
     if not check:
         plan.page.write_text(text)

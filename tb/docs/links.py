@@ -7,6 +7,7 @@
 Checks links to files, and to headings (#...) of Markdown files. Addresses of the network are not
 followed.
 """
+import functools
 import pathlib
 import re
 import sys
@@ -15,12 +16,15 @@ LINK = re.compile(r"\]\(([^()\s]+)\)")
 FENCE = re.compile(r"^```.*?^```$", re.DOTALL | re.MULTILINE)
 
 
+@functools.lru_cache(maxsize=None)
 def anchors(page):
-    """The anchors that a Markdown page has, as GitHub and GitLab make them."""
+    """The anchors that a Markdown page has: ids, and headings as GitHub and GitLab make them."""
     text = FENCE.sub("", page.read_text(encoding="utf-8"))
     titles = re.findall(r"^#+ +(.*)$", text, re.MULTILINE)
     plain = [re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", title) for title in titles]
-    return {re.sub(r"[^\w\- ]", "", title.lower()).strip().replace(" ", "-") for title in plain}
+    ids = set(re.findall(r'<a id="([^"]+)"', text))
+    return ids | {re.sub(r"[^\w\- ]", "", title.lower()).strip().replace(" ", "-")
+                  for title in plain}
 
 
 def broken(page):

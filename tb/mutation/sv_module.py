@@ -3,7 +3,13 @@
 #
 # Finds the expressions and assignments of a module: the places where a mutant can sit.
 """read_module() returns the sites of one file of RTL."""
+import re
+
 from sv_tree import Node, Reader, Syntax, line_of, parse_expression
+
+
+FUNCTION = re.compile(r"function\s+automatic\s[^;(]*?(\w+)\s*\(")
+CONSTANT = re.compile(r"\blocalparam\b[^;]*;")
 
 
 class Site:
@@ -51,10 +57,7 @@ class ModuleReader:
                 reader.skip_past(")")
             self.statement(word)
         elif word == "function":
-            reader.skip_past(";")
-            while reader.peek() != "endfunction":
-                self.statement("function")
-            reader.take()
+            self.function()
         elif word == "if":                  # checks of parameters
             while reader.take().text != "end":
                 pass
@@ -62,6 +65,20 @@ class ModuleReader:
             self.instance()
         else:                               # declarations
             reader.skip_past(";")
+
+    def function(self):
+        """A function; one of constants is worked out before the simulation, and cannot be mutated."""
+        reader = self.reader
+        name = FUNCTION.match(self.text, reader.take().start).group(1)
+        constants = "".join(CONSTANT.findall(self.text))
+        if re.search(rf"\b{name}\s*\(", constants):
+            while reader.peek() != "endfunction":
+                reader.take()
+        else:
+            reader.skip_past(";")
+            while reader.peek() != "endfunction":
+                self.statement("function")
+        reader.take()
 
     def instance(self):
         """An instance of another module: its input connections."""
