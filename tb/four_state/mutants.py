@@ -11,20 +11,27 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 
-# File, text, what takes its place, recording, what the report says of it.
+# Device, file, text, what takes its place, recording, what the report says of it.
 MUTANTS = {
     "a register without reset": (
-        "bit/can_timestamp.sv",
+        "ahb", "bit/can_timestamp.sv",
         "always_ff @(posedge clk_i or negedge rst_ni) begin\n    if (!rst_ni) begin\n"
         "      timer_o <= '0;\n    end else if (clear_i)",
         "always_ff @(posedge clk_i) begin\n    if (clear_i)", "registers", "timer"),
     "RAM that is not cleared": (
-        "mailbox/can_mb_port.sv", "scrub_o     <= 1'b1;", "scrub_o     <= 1'b0;",
+        "ahb", "mailbox/can_mb_port.sv", "scrub_o     <= 1'b1;", "scrub_o     <= 1'b0;",
         "registers", "hrdata is xxxxxxxx"),
     "no stuff bits sent": (
-        "frame/can_tx_frame.sv", "(stuff_i ? !prev_i : level)", "level", "arbitration",
+        "ahb", "frame/can_tx_frame.sv", "(stuff_i ? !prev_i : level)", "level", "arbitration",
         "can_tx_o is"),
+    "a register of the remote node without reset": (
+        "remote", "remote/can_rn_step.sv", "      ten_q <= 4'd1;\n", "", "vectors", "ten_q"),
+    "RAM of the remote node that is not cleared": (
+        "remote", "remote/can_rn_step.sv", "job_q   <= can_rn_pkg::JobClear;",
+        "job_q   <= can_rn_pkg::JobStart;", "commands", "X clock"),
 }
+
+OPTIONS = {"ahb": ["--num-mb", "16"], "remote": ["--device", "remote"]}
 
 
 def mutated(work, file, old, new):
@@ -42,10 +49,10 @@ def mutated(work, file, old, new):
 
 def main():
     bad = 0
-    for name, (file, old, new, recording, sign) in MUTANTS.items():
+    for name, (device, file, old, new, recording, sign) in MUTANTS.items():
         with tempfile.TemporaryDirectory() as work:
             done = subprocess.run(
-                [f"{HERE}/run.py", recording, "--num-mb", "16", "--build", sys.argv[1], "--rtl",
+                [f"{HERE}/run.py", recording, *OPTIONS[device], "--build", sys.argv[1], "--rtl",
                  mutated(work, file, old, new), "--work", f"{work}/run"],
                 capture_output=True, text=True, check=False)
         seen = done.returncode == 1 and sign in done.stdout

@@ -1,30 +1,26 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""The flip-flops of can_ahb by name, from Yosys; and replay.sv's task that looks for X in them."""
+"""A top's flip-flops by name, from Yosys; and the task of its bench that looks for X in them."""
 import json
 import subprocess
-
-
-# Registers that show what a RAM returns, and may be X as long as the RAM is being cleared: nobody
-# asks for it then. Those without a reset (the RAMs' read data) are found in the netlist.
-BEHIND_RAM = ["u_top.u_mailbox.u_match.u_filter.s2_equal_q"]
 
 
 class RegisterError(Exception):
     """Yosys failed; the text says where its log is."""
 
 
-def run_yosys(rtl, num_mb, directory):
+def run_yosys(rtl, top, parameters, directory):
     result = f"{directory}/registers.json"
-    script = (f"read_verilog -sv {' '.join(rtl)}; chparam -set NumMb {num_mb} can_ahb; "
-              f"hierarchy -check -top can_ahb; proc -norom; flatten; opt_clean; "
+    values = " ".join(f"-set {name} {value}" for name, value in parameters.items())
+    script = (f"read_verilog -sv {' '.join(rtl)}; chparam {values} {top}; "
+              f"hierarchy -check -top {top}; proc -norom; flatten; opt_clean; "
               f"write_json {result}")
     log = f"{directory}/yosys.log"
     if subprocess.run(["yosys", "-q", "-l", log, "-p", script], check=False,
                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode:
         raise RegisterError(f"yosys failed, see {log}")
     with open(result, encoding="utf-8") as file:
-        return json.load(file)["modules"]["can_ahb"]
+        return json.load(file)["modules"][top]
 
 
 def flip_flops(module):
@@ -64,11 +60,12 @@ def write_task(name, signals, out):
     out.write("  end\nendtask\n")
 
 
-def write_tasks(with_reset, without, path):
-    """check_registers looks at all of them but those that check_behind_ram looks at."""
-    for name in BEHIND_RAM:
+def write_tasks(with_reset, without, behind_ram, path):
+    """check_registers looks at all of them but those that check_behind_ram looks at: those without
+    reset, the RAMs' read data, and the names of behind_ram, which show what a RAM returns."""
+    for name in behind_ram:
         if name not in with_reset:
             raise RegisterError(f"registers.py: there is no register {name}")
     with open(path, "w", encoding="utf-8") as out:
-        write_task("check_registers", [n for n in with_reset if n not in BEHIND_RAM], out)
-        write_task("check_behind_ram", without + BEHIND_RAM, out)
+        write_task("check_registers", [n for n in with_reset if n not in behind_ram], out)
+        write_task("check_behind_ram", without + behind_ram, out)

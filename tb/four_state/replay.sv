@@ -8,8 +8,8 @@
 // Plus arguments: +rows=FILE, +count=NUMBER of rows in it. Prints DIFF and X lines, at most 20
 // each, and a last line "END clocks ... diffs ... xs ...".
 `timescale 1ns / 1ps
-`ifndef NUM_MB
-`define NUM_MB 64
+`ifndef PARAMETERS
+`define PARAMETERS .NumMb(64)
 `endif
 
 module replay;
@@ -41,7 +41,7 @@ module replay;
 `ifdef NETLIST
   can_ahb dut (
 `else
-  can_ahb #(.NumMb(`NUM_MB)) dut (
+  can_ahb #(`PARAMETERS) dut (
 `endif
     .hclk(clk), .hresetn(hresetn), .hsel(hsel), .haddr(haddr), .htrans(htrans), .hwrite(hwrite),
     .hsize(hsize), .hburst(hburst), .hprot(hprot), .hready(hready), .hwdata(hwdata),

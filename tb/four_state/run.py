@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plays recorded pins to the RTL in Icarus Verilog, with everything unknown before the reset.
 
-For each recording (four_state_record --list) and size: record with Verilator, replay with Icarus,
+For each recording (the recorder's --list) and size: record with Verilator, replay with Icarus,
 compare every output in every clock, look for X in outputs and in every flip-flop after the reset.
 Exits with 1 if there is a difference or an X. docs/netlist.md has the details.
 """
@@ -17,10 +17,10 @@ import sys
 import tempfile
 
 import registers
+from devices import DEVICES
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
-SIZES = (16, 64)
 
 
 class ReplayError(Exception):
@@ -31,14 +31,20 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("recordings", nargs="*", help="names; default: all")
     parser.add_argument("--build", default="build/release", help="where four_state_record is")
-    parser.add_argument("--num-mb", type=int, nargs="+", choices=SIZES, default=list(SIZES))
+    parser.add_argument("--device", choices=sorted(DEVICES), default="ahb",
+                        help="ahb: the core; remote: the node without a processor (ahb)")
+    parser.add_argument("--num-mb", type=int, nargs="+", choices=DEVICES["ahb"].sizes,
+                        help="of the core (16 64)")
     parser.add_argument("--netlist", nargs="+", metavar="FILE", help="a netlist of can_ahb "
                         "of that size in place of the RTL; its registers are not looked at")
     parser.add_argument("--rtl", default="rtl", metavar="DIR", help="another copy of rtl/")
     parser.add_argument("--work", metavar="DIR", help="keep the intermediate files there")
     parser.add_argument("--json", metavar="FILE", help="write the figures there")
     parser.add_argument("--jobs", type=int, default=1)
-    return parser.parse_args()
+    options = parser.parse_args()
+    options.device = DEVICES[options.device]
+    options.sizes = options.num_mb or list(options.device.sizes)
+    return options
 
 
 def call(command, log):
@@ -69,37 +75,43 @@ def for_icarus(files, target):
     return copies
 
 
-def compile_bench(args, num_mb, work):
+def compile_bench(args, size, work):
     """Returns the compiled bench and how many registers it looks at."""
-    target = f"{work}/replay{num_mb}"
+    device = args.device
+    parameters = device.parameters(size)
+    target = f"{work}/replay{size}"
     os.makedirs(target, exist_ok=True)
     command = ["iverilog", "-g2012", "-s", "replay", "-o", f"{target}/replay.vvp", "-I", target,
-               f"-DNUM_MB={num_mb}"]
+               "-DPARAMETERS=" + ", ".join(f".{n}({v})" for n, v in parameters.items())]
     files, names = args.netlist, []
     if args.netlist:
         command.append("-DNETLIST")
     else:
         files = rtl_files(args.rtl)
-        module = registers.run_yosys(files, num_mb, target)
+        module = registers.run_yosys(files, device.top, parameters, target)
         reset, free, missing = registers.flip_flops(module)
         if missing:
             raise ReplayError(f"{missing} flip-flop bits have no name in {target}/registers.json")
         names = reset + free
-        registers.write_tasks(reset, free, f"{target}/registers.vh")
+        behind_ram = list(device.behind_ram)
+        registers.write_tasks(reset, free, behind_ram, f"{target}/registers.vh")
         command.append("-DREGISTERS")
         files = for_icarus(files, target)
-    call(command + [f"{HERE}/replay.sv"] + files, f"{target}/iverilog.log")
+    call(command + [f"{HERE}/{device.bench}"] + files, f"{target}/iverilog.log")
     return f"{target}/replay.vvp", names
 
 
-def replay(args, name, num_mb, bench, work):
+def recorder(args):
+    return f"{args.build}/tb/four_state/{args.device.recorder}"
+
+
+def replay(args, name, size, bench, work):
     """Records and replays; returns (clocks, differences, unknown values, lines to show)."""
-    rows = f"{work}/{name}{num_mb}.rows"
-    record = f"{args.build}/tb/four_state/four_state_record"
-    call([record, name, str(num_mb), rows], f"{work}/{name}{num_mb}.record.log")
+    rows = f"{work}/{name}{size}.rows"
+    call([recorder(args), name, str(size), rows], f"{work}/{name}{size}.record.log")
     with open(rows, encoding="utf-8") as file:
         count = sum(1 for _ in file)
-    log = f"{work}/{name}{num_mb}.log"
+    log = f"{work}/{name}{size}.log"
     call(["vvp", "-n", bench, f"+rows={rows}", f"+count={count}"], log)
     with open(log, encoding="utf-8") as file:
         lines = file.read().splitlines()
@@ -124,25 +136,24 @@ def write_json(path, rows, registers_seen):
 
 
 def run(args, work):
-    record = f"{args.build}/tb/four_state/four_state_record"
-    known = subprocess.run([record, "--list"], capture_output=True, text=True,
+    known = subprocess.run([recorder(args), "--list"], capture_output=True, text=True,
                            check=True).stdout.split()
     names = args.recordings or known
     for name in names:
         if name not in known:
             raise ReplayError(f"no recording {name}; there are: {' '.join(known)}")
     rows, seen = [], 0
-    for num_mb in args.num_mb:
-        bench, watched = compile_bench(args, num_mb, work)
+    for size in args.sizes:
+        bench, watched = compile_bench(args, size, work)
         seen = max(seen, len(watched))
         with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
-            tasks = [(name, pool.submit(replay, args, name, num_mb, bench, work))
+            tasks = [(name, pool.submit(replay, args, name, size, bench, work))
                      for name in names]
             for name, task in tasks:
                 count, diffs, unknown, shown = task.result()
-                rows.append([name, num_mb, count, diffs, unknown])
-                print(f"{name} NumMb={num_mb}: {count} clocks, {diffs} differences, {unknown} X",
-                      flush=True)
+                rows.append([name, size, count, diffs, unknown])
+                print(f"{name} {args.device.shown(size)}: {count} clocks, "
+                      f"{diffs} differences, {unknown} X", flush=True)
                 for line in shown:
                     print(f"  {line}")
     if args.json:
@@ -153,7 +164,7 @@ def run(args, work):
 def main():
     args = arguments()
     os.chdir(ROOT)
-    if args.netlist and len(args.num_mb) != 1:
+    if args.netlist and len(args.sizes) != 1:
         raise ReplayError("--netlist needs --num-mb with one size")
     if args.work:
         os.makedirs(args.work, exist_ok=True)

@@ -67,7 +67,7 @@ class ModuleReader:
             reader.skip_past(";")
 
     def function(self):
-        """A function; one of constants is worked out before the simulation, and cannot be mutated."""
+        """A function; one of constants is worked out before the simulation: no mutants."""
         reader = self.reader
         name = FUNCTION.match(self.text, reader.take().start).group(1)
         constants = "".join(CONSTANT.findall(self.text))

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A part of every frame and every access at the engine's port: RN-101. All of them: remote_campaign.
+// A part of every frame and every access at the engine's port: RN-101. All: remote_campaign.
 #include <gtest/gtest.h>
 
 #include "remote/port_every_frame.hpp"
