@@ -90,7 +90,9 @@ module can_rn_step (
     else if (due && ms_q)                    next = can_rn_pkg::JobLow;
     else if (due && aged_q)                  next = can_rn_pkg::JobAge;
     else if (quiet) begin
-      if (try_i)                             next = can_rn_pkg::JobTry;
+      // RN-103: nothing leads here with the node off the bus but an upset.
+      if (!run_i)                            next = can_rn_pkg::JobStart;
+      else if (try_i)                        next = can_rn_pkg::JobTry;
       else if (load_i)                       next = can_rn_pkg::JobLoad;
       else if (!row_ready_q || !try_ready_q) next = can_rn_pkg::JobRow;
       else if (boff_i ^ off_i)               next = can_rn_pkg::JobTurn;

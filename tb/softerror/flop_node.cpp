@@ -11,6 +11,7 @@
 
 #include "Vcan_ahb_flops.h"
 #include "Vcan_ahb_flops___024root.h"
+#include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "node/model_pins.hpp"
 
@@ -66,6 +67,7 @@ constexpr unsigned kCsWords = 128, kMsgWords = 256, kMaskWords = 128;
 struct FlopNode::Impl {
   VerilatedContext context;
   Vcan_ahb_flops top{&context, "can_ahb"};
+  ModelContext model_context{context};
   std::vector<std::pair<unsigned, bool>> stuck;
 
   unsigned char *bytes() { return reinterpret_cast<unsigned char *>(top.rootp); }
@@ -96,9 +98,7 @@ FlopNode::FlopNode(std::string name)
   reset();
 }
 
-// The scopes that Verilator 5.006 makes for open variables lock for ever in their destructor; a
-// process that ends needs none.
-FlopNode::~FlopNode() { static_cast<void>(impl_.release()); }
+FlopNode::~FlopNode() = default;
 
 void FlopNode::edge() {
   rising_edge(impl_->top, impl_->top.hclk);

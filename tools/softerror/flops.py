@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# The flip-flops of the core for the soft-error campaign (docs/soft-errors.md): their list, a
+# The flip-flops of a top for the soft-error campaign (docs/soft-errors.md): their list, a
 # Verilator configuration that opens them to C++, and C++ that knows where they are.
-"""usage: flops.py OUT_VLT OUT_INC SCRATCH_DIR NUM_MB MODEL FILE...
+"""usage: flops.py OUT_VLT OUT_INC SCRATCH_DIR TOP NAME=VALUE[,NAME=VALUE] FILE...
 
 Two tools find the flip-flops independently of each other and must agree variable by variable and
 bit by bit: Yosys' front end (what synthesis makes of the RTL) and Verilator's (what the simulation
@@ -18,7 +18,6 @@ import sys
 import xml.etree.ElementTree as xml
 from collections import defaultdict
 
-TOP = "can_ahb"
 MEMORY = "mem"  # the arrays of can_mb_ram: not flip-flops
 CELL = re.compile(r"cell \$_[A-Z]*DFF[A-Z]*_")
 PIN_Q = re.compile(r"connect \\Q (\S+)(?: \[(\d+)\])?$")
@@ -55,19 +54,22 @@ def mark_cells(text):
     return "\n".join(out), bits
 
 
-def from_yosys(files, num_mb, scratch):
+def from_yosys(files, top, parameters, scratch):
     """All flip-flops, and those that are left after optimisation: {variable: {bit, ...}}."""
-    yosys(f"read_verilog -sv {' '.join(files)}\nhierarchy -check -top {TOP} -chparam NumMb {num_mb}"
+    values = " ".join(f"-chparam {name} {value}" for name, value in parameters)
+    yosys(f"read_verilog -sv {' '.join(files)}\nhierarchy -check -top {top} {values}"
           "\nproc\nflatten\nsimplemap t:$dff t:$adff t:$dffe t:$adffe t:$sdff\n"
           f"write_rtlil {scratch}/all.il\n", scratch, "all")
     with open(f"{scratch}/all.il", encoding="utf-8") as source:
         text, everything = mark_cells(source.read())
     with open(f"{scratch}/marked.il", "w", encoding="utf-8") as out:
         out.write(text)
-    yosys(f"read_rtlil {scratch}/marked.il\nopt\nopt_clean\nwrite_json {scratch}/real.json\n",
-          scratch, "real")
+    # Without opt_merge: of two flip-flops that are always equal both must flip, or none is flipped.
+    remove = "opt_expr\nopt_dff\nopt_clean\n" * 4
+    yosys(f"read_rtlil {scratch}/marked.il\n{remove}write_json {scratch}/real.json\n", scratch,
+          "real")
     with open(f"{scratch}/real.json", encoding="utf-8") as source:
-        cells = json.load(source)["modules"][TOP]["cells"]
+        cells = json.load(source)["modules"][top]["cells"]
     real = defaultdict(set)
     for name, cell in cells.items():
         if "DFF" in cell["type"]:
@@ -101,30 +103,62 @@ def target(node):
     return [references[0].get("name")]
 
 
-def from_verilator(files, num_mb, scratch):
+def from_verilator(files, top, parameters, scratch):
     """{path of the variable: bits}, {path: module}, of all that is assigned at a clock edge."""
     path = f"{scratch}/rtl.xml"
     run(["verilator", "--xml-only", "--xml-output", path, "-Mdir", scratch, "-Wno-lint",
-         "-Wno-style", "--top-module", TOP, f"-GNumMb={num_mb}", *files], f"{scratch}/xml.log")
+         "-Wno-style", "--top-module", top, *(f"-G{name}={value}" for name, value in parameters),
+         *files], f"{scratch}/xml.log")
     root = xml.parse(path).getroot()
     width = widths(root)
-    modules = {}
-    for module in root.find("netlist").iter("module"):
-        assigned = {name for node in module.iter("assigndly") for name in target(node)}
-        variables = {v.get("name"): width[v.get("dtype_id")] for v in module.iter("var")}
-        modules[module.get("name")] = (module.get("origName"), assigned, variables)
+    modules = {module.get("name"): read_module(module, width)
+               for module in root.find("netlist").iter("module")}
     bits, origin = {}, {}
 
     def walk(cell, prefix):
-        original, assigned, variables = modules[cell.get("submodname")]
-        for name in assigned - {MEMORY}:
-            bits[prefix + name] = variables[name]
-            origin[prefix + name] = original
+        original, assigned, places = modules[cell.get("submodname")]
+        for name, size in assigned.items():
+            if name.split(".")[-1] != MEMORY:
+                bits[prefix + name] = size
+                origin[prefix + name] = original
         for inner in cell.findall("cell"):
-            walk(inner, f"{prefix}{inner.get('name')}.")
+            walk(inner, f"{prefix}{places[inner.get('name')]}.")
 
     walk(root.find("cells").find("cell"), "")
     return bits, origin
+
+
+def read_module(module, width):
+    """A module's name in the RTL, {variable that is assigned at a clock edge: bits}, and {instance:
+    its name with those of the generate blocks around it}."""
+    variables, places, assigned = {}, {}, {}
+
+    def declared(node, scope):
+        for child in node:
+            if child.tag == "var":
+                variables[(*scope, child.get("name"))] = width[child.get("dtype_id")]
+            elif child.tag == "instance":
+                places[child.get("name")] = ".".join((*scope, child.get("name")))
+            declared(child, inside(child, scope))
+
+    def clocked(node, scope):
+        for child in node:
+            if child.tag == "assigndly":
+                for name in target(child):
+                    place = next((*scope[:n], name) for n in range(len(scope), -1, -1)
+                                 if (*scope[:n], name) in variables)
+                    assigned[".".join(place)] = variables[place]
+            clocked(child, inside(child, scope))
+
+    declared(module, ())
+    clocked(module, ())
+    return module.get("origName"), assigned, places
+
+
+def inside(node, scope):
+    """The generate blocks around what is in a node."""
+    block = node.get("name", "") if node.tag == "begin" else ""
+    return (*scope, block) if block.startswith("gen_") else scope
 
 
 def compare(everything, real, bits):
@@ -141,10 +175,11 @@ def compare(everything, real, bits):
 def main():
     if len(sys.argv) < 7:
         sys.exit(__doc__)
-    out_vlt, out_inc, scratch, num_mb, model = sys.argv[1:6]
+    out_vlt, out_inc, scratch, top = sys.argv[1:5]
+    parameters = [word.split("=", 1) for word in sys.argv[5].split(",")]
     files = sys.argv[6:]
-    everything, real = from_yosys(files, num_mb, scratch)
-    bits, origin = from_verilator(files, num_mb, scratch)
+    everything, real = from_yosys(files, top, parameters, scratch)
+    bits, origin = from_verilator(files, top, parameters, scratch)
     compare(everything, real, bits)
     opened = sorted({(origin[name], name.split(".")[-1]) for name in real})
     with open(out_vlt, "w", encoding="utf-8") as out:
@@ -155,10 +190,10 @@ def main():
     with open(out_inc, "w", encoding="utf-8") as out:
         out.write("// Generated by flops.py: FLOP(name, member, bits that are flip-flops).\n")
         for name in sorted(real):
-            member = f"{TOP}__DOT__" + name.replace(".", "__DOT__")
+            member = f"{top}__DOT__" + name.replace(".", "__DOT__")
             mask = sum(1 << bit for bit in real[name])
             out.write(f'FLOP("{name}", {member}, 0x{mask:X}ULL)\n')
-    print(f"{model}: {sum(map(len, real.values()))} flip-flops in {len(real)} variables; "
+    print(f"{top}: {sum(map(len, real.values()))} flip-flops in {len(real)} variables; "
           f"{sum(bits.values())} bits before optimisation, Yosys and Verilator agree")
 
 

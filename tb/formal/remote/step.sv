@@ -46,6 +46,9 @@
       p_int2: assert (!(written_o || apply_o) || f_ticks == 2'd3 || $past(valid_i));
       // RN-102 P-7, RN-46: never as both.
       p_one_kind: assert (!(written_o && apply_o));
+      // RN-102 P-9, RN-103: a node that an upset has taken off the bus starts anew.
+      p_rejoins: assert (!$past(idle && quiet && !run_i && !valid_i && !hdr_i && !byte_i && !ms_q
+                                && !aged_q) || job_q == can_rn_pkg::JobStart);
       // RN-102 P-7, RN-45: only for a request that writes, or for TRIGGER.
       p_asked: assert (!written_o || $past(write_i, 1) || $past(write_i, 2));
     end

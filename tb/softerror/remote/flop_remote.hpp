@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// FlopRemote: a Verilated can_remote (producers, queue of four; number 3) one of whose flip-flops
+// flips at a clock, or is stuck from then on.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/node.hpp"
+
+namespace vericansim {
+
+/// What happens to which flip-flop, when.
+struct RemoteFlip {
+  unsigned flop = 0;          ///< of FlopRemote::flops()
+  std::uint64_t clock = 0;    ///< since the node's first
+  std::optional<bool> stuck;  ///< at this level from then on
+};
+
+class FlopRemote final : public Node {
+ public:
+  FlopRemote(const ClockConfig &clock, const RemoteFlip &flip);
+  ~FlopRemote() override;
+
+  void clock(Level rx) override;
+  [[nodiscard]] std::uint64_t trace() const override;
+  /// Clocks of rst_ni = 0; the memory is cleared, the node joins again.
+  void reset();
+
+  /// Names of all flip-flops, each with its bit, in the order of flops.py.
+  [[nodiscard]] static const std::vector<std::string> &flops();
+  /// The longest time for which the node has sent dominant, clocks.
+  [[nodiscard]] unsigned longest_run() const { return longest_run_; }
+
+ private:
+  struct Impl;  // keeps the Verilated header out of this one
+  void edge();
+
+  std::unique_ptr<Impl> impl_;
+  RemoteFlip flip_;
+  std::uint64_t clocks_ = 0;
+  unsigned run_ = 0;
+  unsigned longest_run_ = 0;
+};
+
+}  // namespace vericansim
