@@ -20,6 +20,12 @@ namespace vericansim::detail {
 /// The same of a remote node.
 [[nodiscard]] std::string remote_text(const RemoteRole &role);
 
+/// A line of `commands`.
+[[nodiscard]] std::string commands_text(const Scenario &scenario,
+                                        const RemoteCommandSpec &commands);
+/// A line of `user`.
+[[nodiscard]] std::string user_text(const Scenario &scenario, const UserSpec &user);
+
 /// A line of `nodes` for who is no node. Throws the same.
 [[nodiscard]] std::string listener_text(const ListenerSpec &listener);
 

@@ -210,6 +210,11 @@ std::string to_yaml(const Scenario &scenario) {
   for (const FaultSpec &fault : scenario.faults) text += fault_line(scenario, fault);
   if (!scenario.accesses.empty()) text += "accesses:\n";
   for (const AccessSpec &access : scenario.accesses) text += access_text(scenario, access);
+  if (!scenario.commands.empty()) text += "commands:\n";
+  for (const RemoteCommandSpec &commands : scenario.commands)
+    text += commands_text(scenario, commands);
+  if (!scenario.user.empty()) text += "user:\n";
+  for (const UserSpec &user : scenario.user) text += user_text(scenario, user);
   return text;
 }
 

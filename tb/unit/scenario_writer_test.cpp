@@ -130,6 +130,61 @@ TEST(ScenarioWriter, ProgramsAndTheEndAreWrittenAsTheyAreRead) {
   EXPECT_TRUE(read.until_done);
 }
 
+constexpr const char *kRemote =
+    "nodes:\n"
+    "  - {name: host}\n"
+    "  - {name: 'p f c', type: remote, profile: standard, number: 6}\n"
+    "commands:\n"
+    "  - {node: host, at: 1500 us, do: [operate, 'read 6 0x20 2 = 5A 00', trigger]}\n"
+    "  - {node: host, period: 2 ms, count: 3, do: [write all 0x10 round FF]}\n"
+    "user:\n"
+    "  - {node: 'p f c', at: 1 ms, period: 3 ms, count: 4, write: {0x40: 01 A5, 0x203: 07}}\n"
+    "  - {node: 'p f c', ramp: 0x50, from: 9, step: 3}\n"
+    "  - {node: 'p f c', after: apply, delay: 10 us, count: 2,\n"
+    "     plant: {set_point: 0x12, measured: 0x44}, event: 7}\n";
+
+// RN-96.
+TEST(ScenarioWriter, CommandsAreWrittenAsTheyAreRead) {
+  const std::string text = to_yaml(parse_scenario("s.yaml", kRemote));
+  const Scenario read = parse_scenario("s.yaml", text);
+  EXPECT_EQ(to_yaml(read), text);
+  ASSERT_EQ(read.commands.size(), 2U);
+  EXPECT_EQ(read.commands[0].node, 0U);
+  EXPECT_EQ(read.commands[0].at, 1500 * kMicrosecond);
+  EXPECT_EQ(read.commands[0].period, 0);
+  ASSERT_EQ(read.commands[0].steps.size(), 3U);
+  EXPECT_EQ(read.commands[0].steps[1].frame.id, 0x320U);
+  ASSERT_TRUE(read.commands[0].steps[1].wanted);
+  EXPECT_THAT(*read.commands[0].steps[1].wanted, ElementsAre(0x5A, 0));
+  EXPECT_TRUE(read.commands[0].steps[2].counts);
+  EXPECT_EQ(read.commands[1].period, 2 * kMillisecond);
+  EXPECT_EQ(read.commands[1].count, 3U);
+  EXPECT_THAT(read.commands[1].steps.at(0).rounds, ElementsAre(0U));
+}
+
+// RN-96.
+TEST(ScenarioWriter, UserLogicIsWrittenAsItIsRead) {
+  const Scenario read = parse_scenario("t.yaml", to_yaml(parse_scenario("s.yaml", kRemote)));
+  ASSERT_EQ(read.user.size(), 3U);
+  for (const UserSpec &user : read.user) EXPECT_EQ(user.node, 1U);
+  EXPECT_EQ(read.user[0].at, kMillisecond);
+  EXPECT_EQ(read.user[0].period, 3 * kMillisecond);
+  EXPECT_EQ(read.user[0].count, 4U);
+  EXPECT_THAT(read.user[0].write.at(0x40), ElementsAre(1, 0xA5));
+  EXPECT_THAT(read.user[0].write.at(0x203), ElementsAre(7));
+  EXPECT_FALSE(read.user[0].ramp || read.user[0].plant || read.user[0].event);
+  EXPECT_EQ(read.user[1].ramp, 0x50U);
+  EXPECT_EQ(read.user[1].from, 9U);
+  EXPECT_EQ(read.user[1].step, 3U);
+  EXPECT_TRUE(read.user[2].after_apply);
+  EXPECT_EQ(read.user[2].at, 10 * kMicrosecond);
+  EXPECT_EQ(read.user[2].count, 2U);
+  ASSERT_TRUE(read.user[2].plant);
+  EXPECT_EQ(read.user[2].plant->set_point, 0x12U);
+  EXPECT_EQ(read.user[2].plant->measured, 0x44U);
+  EXPECT_EQ(read.user[2].event, 7U);
+}
+
 // What ends by itself, or not at all, still does.
 TEST(ScenarioWriter, EndsThatAreNotWrittenAreTheSame) {
   for (const char *nodes : {"  - {name: r, replay: a.log}\n", "  - {name: t, socketcand: 29536}\n",
