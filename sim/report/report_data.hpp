@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -63,6 +64,22 @@ struct LaneColumns {
   std::vector<std::uint32_t> first, count;
   std::vector<std::uint8_t> bit;
   std::vector<std::int8_t> q;
+};
+
+/// Remote nodes: their frames in words, their states and the bytes of their windows.
+struct RemoteColumns {
+  struct Unit {
+    std::size_t node;
+    unsigned number, window;  ///< window: its bytes
+  };
+  std::vector<Unit> units;           ///< none: nothing else is there
+  std::vector<std::uint32_t> words;  ///< of each frame: which line of `text`
+  std::uint32_t texts = 0;           ///< lines of `text`
+  std::vector<std::uint8_t> text;    ///< each line once, with its end
+  std::vector<double> state_time;
+  std::vector<std::uint8_t> state_node, state;
+  std::vector<double> byte_time;
+  std::vector<std::uint8_t> byte_node, byte_address, byte;
 };
 
 /// Everything. Times are ns from the start of the scenario.

@@ -147,6 +147,15 @@ Json databases_json(const ReportExtras &extras) {
   return list;
 }
 
+/// null without remote nodes.
+Json remote_json(const ReportExtras &extras) {
+  if (extras.remote == nullptr) return nullptr;
+  Json units = Json::array();
+  for (const RemoteColumns::Unit &unit : extras.remote->units)
+    units.push_back({{"node", unit.node}, {"number", unit.number}, {"window", unit.window}});
+  return {{"units", units}};
+}
+
 }  // namespace
 
 Json report_meta(const ReportRecorder &recorder, const ReportExtras &extras) {
@@ -172,6 +181,7 @@ Json report_meta(const ReportRecorder &recorder, const ReportExtras &extras) {
           {"causes", causes},
           {"databases", databases_json(extras)},
           {"statements", statements_json(recorder, extras)},
+          {"remote", remote_json(extras)},
           {"view", view_json(recorder, extras)},
           {"truncated", truncated_json(recorder)},
           {"origin_ns", ns(recorder.started() - extras.zero)},

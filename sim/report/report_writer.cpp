@@ -123,11 +123,24 @@ void visit_edges(ArrayList &list, const ReportData &data) {
     list(fmt::format("rx{}", i), data.rx[i].distances());
 }
 
-void visit(ArrayList &list, const ReportData &data) {
+void visit_remote(ArrayList &list, const RemoteColumns &remote) {
+  list("f.words", remote.words);
+  list("words", remote.text);
+  list("n.time", remote.state_time);
+  list("n.node", remote.state_node);
+  list("n.state", remote.state);
+  list("m.time", remote.byte_time);
+  list("m.node", remote.byte_node);
+  list("m.address", remote.byte_address);
+  list("m.byte", remote.byte);
+}
+
+void visit(ArrayList &list, const ReportData &data, const ReportExtras &extras) {
   visit_frames(list, data.frames);
   visit_events(list, data);
   visit_bits(list, data);
   visit_edges(list, data);
+  if (extras.remote != nullptr) visit_remote(list, *extras.remote);
 }
 
 /// The template up to and behind a place, which it must have.
@@ -148,7 +161,7 @@ ReportWriter::ReportWriter(std::string path) : file_{std::move(path)} {
 
 void ReportWriter::write(const ReportRecorder &recorder, const ReportExtras &extras) {
   ArrayList arrays;
-  visit(arrays, recorder.data());
+  visit(arrays, recorder.data(), extras);
   Json meta = report_meta(recorder, extras);
   meta["arrays"] = arrays.json();
   const auto [head, rest] = split(page_template(), kMetaPlace);
@@ -158,7 +171,7 @@ void ReportWriter::write(const ReportRecorder &recorder, const ReportExtras &ext
       << "</script>" << middle << "<script type=\"text/plain\" id=\"verican-data\">";
   Base64Stream data{out};
   arrays.write_to(data);
-  visit(arrays, recorder.data());
+  visit(arrays, recorder.data(), extras);
   data.finish();
   out << "</script>" << tail;
   file_.commit();

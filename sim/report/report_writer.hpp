@@ -36,6 +36,7 @@ struct ReportExtras {
   std::vector<ReportStatement> statements;
   std::optional<std::pair<Time, Time>> view;  ///< of the bus, ps: what the page shows first
   const Database *database = nullptr;         ///< of signals
+  const RemoteColumns *remote = nullptr;      ///< of remote nodes, if there are any
   Time zero = 0;  ///< of the bus, ps: time 0 of the waveform, and 1 s of logs
 };
 

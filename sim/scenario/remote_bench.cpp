@@ -46,6 +46,7 @@ RemoteBench::RemoteBench(const Scenario &scenario, Stations &stations, Bus &bus)
   for (const UserSpec &spec : scenario.user) add_user(spec, bus);
   for (std::size_t index = 0; index < nodes_.size(); ++index)
     stations[nodes_[index]].remote->on_pulse = [this, index](const RemotePulse &pulse) {
+      story_->written(index);
       if (!pulse.apply) return;
       watch_->applied(index);
       for (const auto &user : users_)
@@ -64,9 +65,14 @@ void RemoteBench::watch(Bus &bus) {
     units.push_back(
         {id, stations_[id].remote.get(), role->config, role->number, stations_[id].remote_is_rtl});
   }
-  watch_ = std::make_unique<RemoteWatch>(bus, std::move(units), std::move(timings),
-                                         largest_ppm(scenario_));
-  if (!nodes_.empty()) bus.add(*watch_);
+  watch_ = std::make_unique<RemoteWatch>(bus, units, std::move(timings), largest_ppm(scenario_));
+  if (nodes_.empty()) return;
+  bus.add(*watch_);
+  story_ = std::make_unique<RemoteStory>(bus, units, !scenario_.outputs.report.empty());
+  bus.add(*story_);
+  watch_->on_cycle = [this](const BusFrame &trigger, std::size_t nodes, Time skew) {
+    story_->on_cycle(trigger, nodes, skew);
+  };
 }
 
 std::size_t RemoteBench::unit_of(NodeId node) const {
@@ -75,6 +81,8 @@ std::size_t RemoteBench::unit_of(NodeId node) const {
 
 void RemoteBench::add_user(const UserSpec &spec, Bus &bus) {
   users_.push_back(std::make_unique<RemoteUser>(spec, *stations_[spec.node].remote, bus));
+  if (story_->for_page())
+    users_.back()->on_written = [this, index = unit_of(spec.node)] { story_->written(index); };
   if (!spec.plant || !spec.event) return;
   users_.back()->on_measured = [this, index = unit_of(spec.node), address = spec.plant->measured](
                                    std::uint32_t word) { watch_->measured(index, address, word); };
@@ -82,6 +90,7 @@ void RemoteBench::add_user(const UserSpec &spec, Bus &bus) {
 
 void RemoteBench::start(Time start, Time stop) {
   watch_->begin(start);
+  if (story_) story_->begin();
   for (const RemoteCommandSpec &spec : scenario_.commands)
     for (const auto &script : scripts_)
       if (script->node() == spec.node) script->add(spec, start, stop);
@@ -96,10 +105,15 @@ void RemoteBench::on_received(NodeId node, const Frame &frame) {
 void RemoteBench::on_frame(const BusFrame &frame) {
   for (const auto &script : scripts_) script->on_frame(frame);
   watch_->on_frame(frame);
+  if (story_) story_->on_frame(frame);
 }
 
 void RemoteBench::describe(RunReport &report) {
   report.remote = watch_->report();
+  if (story_) {
+    story_->finish();
+    story_->describe(report.remote);
+  }
   for (const auto &script : scripts_) {
     report.remote.commands += script->done();
     for (MessageReport &message : script->messages()) report.messages.push_back(message);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scenario/remote_script.hpp"
+#include "scenario/remote_story.hpp"
 #include "scenario/remote_user.hpp"
 #include "scenario/remote_watch.hpp"
 #include "scenario/report.hpp"
@@ -31,6 +32,10 @@ class RemoteBench {
   void describe(RunReport &report);
   /// Adds what was expected, and commands that have failed.
   void check(RunReport &report) const;
+  /// For the page of a report; nullptr without remote nodes.
+  [[nodiscard]] const RemoteColumns *columns() const {
+    return story_ ? &story_->columns() : nullptr;
+  }
 
  private:
   void watch(Bus &bus);
@@ -45,6 +50,7 @@ class RemoteBench {
   std::vector<std::unique_ptr<RemoteScript>> scripts_;
   std::vector<std::unique_ptr<RemoteUser>> users_;
   std::unique_ptr<RemoteWatch> watch_;
+  std::unique_ptr<RemoteStory> story_;  // if there are remote nodes
 };
 
 }  // namespace vericansim

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iterator>
 
 #include "scenario/quantity.hpp"
@@ -22,6 +23,31 @@ std::uint64_t RemoteReport::total(const std::string &key) const {
                                       : node.late_statements;
   return sum;
 }
+
+namespace {
+
+/// The first frames: enough to see what goes on.
+std::string frames_text(const RemoteReport &report) {
+  constexpr std::size_t kListed = 20;
+  std::string text;
+  auto out = std::back_inserter(text);
+  const std::size_t listed = std::min(kListed, report.frames.size());
+  for (std::size_t i = 0; i < listed; ++i)
+    fmt::format_to(out, "  {:>14}  {}\n", readable_time(report.frames[i].start),
+                   report.frames[i].words);
+  const std::uint64_t more = report.frames.size() - listed + report.more_frames;
+  if (more != 0) fmt::format_to(out, "  {:>14}  and {} more frames\n", "", more);
+  return text;
+}
+
+nlohmann::ordered_json frames_json(const RemoteReport &report) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const RemoteFrameReport &frame : report.frames)
+    list.push_back({{"start_ps", frame.start}, {"words", frame.words}});
+  return list;
+}
+
+}  // namespace
 
 std::string to_text(const RemoteReport &report) {
   std::string text;
@@ -49,7 +75,7 @@ std::string to_text(const RemoteReport &report) {
                    report.triggers, readable_time(report.skew_mean),
                    readable_time(report.skew_longest), readable_time(report.skew_bound),
                    readable_time(report.period_shortest), readable_time(report.period_longest));
-  return text + "\n";
+  return text + frames_text(report) + "\n";
 }
 
 nlohmann::ordered_json to_json(const RemoteReport &report) {
@@ -82,7 +108,9 @@ nlohmann::ordered_json to_json(const RemoteReport &report) {
           {"above_bound", report.above_bound},
           {"period_shortest_ps", report.period_shortest},
           {"period_longest_ps", report.period_longest},
-          {"commands", report.commands}};
+          {"commands", report.commands},
+          {"frames", frames_json(report)},
+          {"more_frames", report.more_frames}};
 }
 
 }  // namespace vericansim

@@ -32,6 +32,12 @@ struct RemoteNodeReport {
   std::optional<Time> bound;  ///< analytic worst case of that
 };
 
+/// A frame on a bus of remote nodes.
+struct RemoteFrameReport {
+  Time start = 0;     ///< from the start of the scenario, ps
+  std::string words;  ///< "3: write 020 <- 5A"; empty: nothing to such nodes
+};
+
 struct RemoteReport {
   std::vector<RemoteNodeReport> nodes;
   std::uint64_t triggers = 0;            ///< on the bus
@@ -41,6 +47,8 @@ struct RemoteReport {
   std::uint64_t above_bound = 0;         ///< TRIGGERs after which a pair was further apart
   Time period_shortest = 0, period_longest = 0;  ///< from action to action
   std::uint64_t commands = 0;                    ///< steps of hosts that are done
+  std::vector<RemoteFrameReport> frames;         ///< the first ones
+  std::uint64_t more_frames = 0;                 ///< that `frames` leaves out
   [[nodiscard]] bool empty() const { return nodes.empty(); }
   /// Sums over the nodes: refused, lost_set_points, late_statements; or triggers.
   [[nodiscard]] std::uint64_t total(const std::string &key) const;

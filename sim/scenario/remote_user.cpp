@@ -32,11 +32,14 @@ void RemoteUser::act() {
   if (spec_.ramp) write(*spec_.ramp, 2, (spec_.from + times_ * spec_.step) & 0xFFFF);
   if (spec_.plant) step_plant(*spec_.plant);
   ++times_;
-  if (!spec_.event) return;
+  if (!spec_.event && !on_written) return;
   // User logic waits for its port at most 24 clocks in a row (RN-50), so this is behind the write.
   constexpr double kClocks = 64;
   const auto wait = static_cast<Time>(kClocks * 1e12 / unit_.oscillator().config().frequency_hz);
-  bus_.at(bus_.now() + wait, [this] { unit_.event(*spec_.event); });
+  bus_.at(bus_.now() + wait, [this] {
+    if (on_written) on_written();
+    if (spec_.event) unit_.event(*spec_.event);
+  });
 }
 
 // Bytes of one word go in one access (RN-51).

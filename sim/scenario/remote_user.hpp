@@ -30,6 +30,8 @@ class RemoteUser {
   [[nodiscard]] const UserSpec &spec() const { return spec_; }
   /// Called with the four bytes of each measurement of a plant when they are written.
   std::function<void(std::uint32_t)> on_measured;
+  /// Called each time what it writes is in the memory.
+  std::function<void()> on_written;
 
  private:
   void schedule(Time when);

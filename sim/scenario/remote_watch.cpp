@@ -166,7 +166,18 @@ void RemoteWatch::end_cycle(Time until) {
                                    [&](const Action &action) { return action.unit == i; });
     if (expected_[i] != 0 && !acted) ++units_[i].report.lost_set_points;
   }
+  tell_cycle(actions);
   if (!actions.empty()) compare_actions(actions);
+}
+
+void RemoteWatch::tell_cycle(const std::vector<Action> &actions) const {
+  if (!on_cycle) return;
+  Time first = actions.empty() ? 0 : actions.front().time, last = first;
+  for (const Action &action : actions) {
+    first = std::min(first, action.time);
+    last = std::max(last, action.time);
+  }
+  on_cycle(*trigger_, actions.size(), last - first);
 }
 
 void RemoteWatch::compare_actions(const std::vector<Action> &actions) {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -57,6 +58,9 @@ class RemoteWatch : public BusObserver {
   /// A plant has written a measurement, which a statement must tell before the next TRIGGER.
   void measured(std::size_t index, unsigned address, std::uint32_t word);
 
+  /// What a TRIGGER has done, once that is known: how many nodes have acted, and how far apart.
+  std::function<void(const BusFrame &trigger, std::size_t nodes, Time skew)> on_cycle;
+
   /// What was seen up to now.
   [[nodiscard]] RemoteReport report();
 
@@ -86,6 +90,7 @@ class RemoteWatch : public BusObserver {
   void take_trigger(const BusFrame &frame);
   void compare_stage(std::size_t index, const std::array<int, kStageBytes> &wanted);
   void end_cycle(Time until);
+  void tell_cycle(const std::vector<Action> &actions) const;
   void compare_actions(const std::vector<Action> &actions);
   void look(Unit &unit);
 

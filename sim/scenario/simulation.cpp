@@ -84,6 +84,7 @@ ReportSetup Simulation::report_setup() const {
 ReportExtras Simulation::report_extras(const RunReport &report) const {
   ReportExtras extras;
   extras.run = &report;
+  extras.remote = remote_->columns();
   for (const TrafficSpec &spec : scenario_.traffic)
     extras.messages.push_back({spec.node, spec.frame, spec.period});
   return extras;

@@ -98,6 +98,12 @@ function crcText(decoded) {
   return `0x${hex(decoded.crc, 4)}, ${verdict}`;
 }
 
+/** What a frame means to remote nodes; null: nothing. */
+function commandOf(report, index) {
+  const words = report.remote?.wordsOf(index);
+  return words ? ['command', words, 'What it means to remote nodes (docs/remote.md)'] : null;
+}
+
 function frameDetails(report, index, actions) {
   const frame = report.frame(index);
   const lane = report.lane(frame.segment);
@@ -130,6 +136,7 @@ function frameDetails(report, index, actions) {
         ? null
         : ['data', [...frame.data].map((byte) => hex(byte, 2)).join(' ') || 'none'],
       ['sender', frame.sender === kNobody ? 'not known' : nodeCell(report, frame.sender)],
+      commandOf(report, index),
       messageName(report, frame) ? ['message', messageName(report, frame)] : null,
       [
         'response',

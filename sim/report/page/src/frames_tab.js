@@ -66,7 +66,7 @@ export function rowValues(report, row) {
     node: frame.sender,
     message: messageName(report, frame),
     signals: report.signals.textOf(frame),
-    words: '',
+    words: report.remote?.wordsOf(frame.index) ?? '',
   };
 }
 
@@ -77,6 +77,15 @@ const signalColumn = (values) => ({
   width: 'minmax(260px, 4fr)',
   text: (row) => values(row).signals,
   key: (row) => values(row).signals,
+});
+
+/** What the frame means to remote nodes, if there are any. */
+const commandColumn = (values) => ({
+  name: 'command',
+  title: 'What the frame means to remote nodes (docs/remote.md)',
+  width: 'minmax(190px, 2fr)',
+  text: (row) => (isEvent(row) ? '' : values(row).words),
+  key: (row) => (isEvent(row) ? '' : values(row).words),
 });
 
 function columnsOf(report) {
@@ -141,6 +150,7 @@ function columnsOf(report) {
       text: (row) => values(row).message,
       key: (row) => values(row).message,
     },
+    ...(report.remote ? [commandColumn(values)] : []),
     ...(report.signals.any ? [signalColumn(values)] : []),
     {
       name: 'response, ms',

@@ -22,6 +22,7 @@ import {load, LoadError} from './load.js';
 import {LoadTab} from './load_tab.js';
 import {Overview} from './overview.js';
 import {savePicture} from './picture.js';
+import {RemoteTab} from './remote_tab.js';
 import {Report} from './report.js';
 import {ResponseTab} from './response_tab.js';
 import {Scope} from './scope.js';
@@ -81,6 +82,21 @@ function faultsEntry(report, view, steps) {
   ];
 }
 
+/** The tab of the remote nodes, if the scenario has any. */
+function remoteEntry(report, view) {
+  if (!report.remote) return [];
+  const tab = new RemoteTab(report, view);
+  return [
+    {
+      id: 'remote',
+      name: 'Remote nodes',
+      title: 'State and memory of the nodes without a processor at a moment',
+      root: tab.root,
+      shown: () => tab.show(),
+    },
+  ];
+}
+
 function tabsOf(report, view, steps, {frames, signals, ids}) {
   return new Tabs([
     {id: 'frames', name: 'Frames', title: 'All frames and errors; searchable', root: frames.root},
@@ -98,6 +114,7 @@ function tabsOf(report, view, steps, {frames, signals, ids}) {
       shown: () => ids.fill(),
     },
     ...faultsEntry(report, view, steps),
+    ...remoteEntry(report, view),
     {id: 'signals', name: 'Signals', title: 'By DBC databases', root: signals.root},
     {
       id: 'counters',

@@ -8,6 +8,7 @@ import {EdgeTrack} from './edges.js';
 import {Faults} from './faults.js';
 import {Lane} from './lane.js';
 import {LoadError} from './load.js';
+import {Remote} from './remote.js';
 import {lastAtOrBelow} from './search.js';
 import {Signals} from './signals.js';
 
@@ -89,6 +90,7 @@ export class Report {
       meta.faults ?? [],
       this.nodes.map(({name}) => name),
     );
+    this.remote = meta.remote ? new Remote(meta.remote, arrays) : null;
     this.#tracks(arrays);
     this.#sums();
     this.lanes = new Map();
