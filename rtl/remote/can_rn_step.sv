@@ -181,8 +181,9 @@ module can_rn_step (
       ten_q <= 4'd1;
       {timer_q, ms_q, aged_q, row_ready_q, try_ready_q} <= '0;
     end else begin
-      // 10 of the 15 states of x^4 + x + 1.
-      if (ms_i) ten_q <= {ten_q[2], ten_q[1], ten_q[0] ^ ten_q[3], ten_q[3]};
+      // 10 of the 15 states of x^4 + x + 1: 1, 2, 4, 8, 3, 6, 12, 11, 5, 10.
+      if (ms_i) ten_q <= ten_q == 4'd10 ? 4'd1
+                                        : {ten_q[2], ten_q[1], ten_q[0] ^ ten_q[3], ten_q[3]};
       timer_q     <= timer_q ^ ended_timer;
       ms_q        <= ms_i || (ms_q && !(ended_timer && timer_q));
       aged_q      <= (ms_i && ten_q == 4'd1) || (aged_q && some_i && job_q != can_rn_pkg::JobAge);

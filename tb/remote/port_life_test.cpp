@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Answers that wait, at the engine's port: RN-54.
+#include <gmock/gmock.h>
+
+#include "remote/frame_port.hpp"
+#include "remote/remote_text.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr unsigned kLife = 3;  // x 10 ms
+
+class PortLife : public ::testing::Test {
+ protected:
+  PortLife() {
+    port->user_write(remote_map::kLife / 4, kLife << 8 * (remote_map::kLife % 4),
+                     1U << remote_map::kLife % 4);
+    port->start();
+    (void)port->drain();
+    port->receive(read());  // the new LIFE holds from the frame behind this one on
+    (void)port->drain();
+  }
+  void wait(unsigned ms) {
+    for (; ms != 0; --ms) port->ms();
+  }
+  static Frame read() {
+    Frame frame;
+    frame.id = 0x1A0;
+    frame.remote = true;
+    frame.dlc = 2;
+    return frame;
+  }
+  std::unique_ptr<FramePort> port = FramePort::create("small", 3, 1, 3);
+};
+
+// RN-54: an answer that the bus does not take is dropped after LIFE, counted in steps of 10 ms, and
+// not before.
+TEST_F(PortLife, AnAnswerOlderThanLifeIsDropped) {
+  port->receive(read());
+  port->clocks(64);
+  ASSERT_TRUE(port->asks());
+  wait(10 * kLife - 1);
+  EXPECT_TRUE(port->asks());
+  wait(1 + 10);
+  EXPECT_FALSE(port->asks());
+  port->receive(read());
+  EXPECT_EQ(port->drain().size(), 1U) << "the next one is answered";
+}
+
+// RN-54: one that was sent is gone, whatever its age.
+TEST_F(PortLife, TheQueueIsEmptyAfterTheAnswer) {
+  port->receive(read());
+  wait(10);
+  EXPECT_EQ(port->drain().size(), 1U);
+  wait(100);
+  EXPECT_FALSE(port->asks());
+}
+
+}  // namespace
+}  // namespace vericansim
