@@ -51,4 +51,6 @@ remote/can_rn_data.sv
 remote/can_rn_port.sv
 remote/can_rn_tx.sv
 remote/can_rn_produce.sv
+remote/can_rn_map.sv
+remote/can_rn_guard.sv
 remote/can_remote.sv

@@ -15,6 +15,10 @@ module can_remote #(
   parameter int TxDepth = 1,
   /// Entries of producers: 0, 4 or 8.
   parameter int NumProd = 0,
+  /// Map entries: 0, 4 or 8.
+  parameter int NumMap = 0,
+  /// 1: pages may be protected against writes and reads of the bus.
+  parameter int Protect = 0,
   /// Serial number, 32 bits, different in each device.
   parameter int Serial = 0,
   /// Clocks per millisecond, 8,000 to 131,071.
@@ -59,7 +63,8 @@ module can_remote #(
 );
   localparam int AddrBits = 10 - NameBits;
   localparam int Features = (StageBytes != 0 ? 1 : 0) + (NumProd != 0 ? 2 : 0)
-                            + (TxDepth == 4 ? 8 : 0);
+                            + (NumMap != 0 ? 4 : 0) + (TxDepth == 4 ? 8 : 0)
+                            + (Protect != 0 ? 16 : 0);
 
   if (NameBits != 3 && NameBits != 5) begin : gen_check_name_bits
     NameBits_must_be_3_or_5 u_stop ();
@@ -75,6 +80,12 @@ module can_remote #(
   end
   if (NumProd != 0 && NumProd != 4 && NumProd != 8) begin : gen_check_num_prod
     NumProd_must_be_0_4_or_8 u_stop ();
+  end
+  if (Protect != 0 && Protect != 1) begin : gen_check_protect
+    Protect_must_be_0_or_1 u_stop ();
+  end
+  if (NumMap != 0 && NumMap != 4 && NumMap != 8) begin : gen_check_num_map
+    NumMap_must_be_0_4_or_8 u_stop ();
   end
 
   // A constant, but for the simulator, which makes nodes that differ in it alone.
@@ -118,6 +129,15 @@ module can_remote #(
   logic        rtr, cell_we, cell_re;
   logic [3:0]  dlc;
   logic [8:0]  own_cell;
+  // Map entries
+  logic        search, find, hit, aim, mapped, act, watch, anew, map_own, map_re, map_we, more;
+  logic        above, stale, unsafe, told, ten, short, acts;
+  // Protection
+  logic        crosses, denied, guard;
+  logic [8:0]  guard_cell;
+  logic [8:0]  map_cell;
+  logic [10:0] id;
+  can_rn_pkg::job_t watch_job;
   // Node
   logic [NameBits-1:0] number;
   logic        off_entry, off_exit, carry;
@@ -144,13 +164,16 @@ module can_remote #(
     .can_rx_i, .can_tx_o, .trace_o
   );
 
-  can_rn_head #(.NameBits(NameBits), .NumProd(NumProd)) u_head (
+  can_rn_head #(.NameBits(NameBits), .NumProd(NumProd), .NumMap(NumMap)) u_head (
     .clk_i, .rst_ni,
     .hdr_i(rx_hdr), .transmitter_i(transmitter), .ide_i(rx_ide), .rtr_i(rx_rtr),
     .id_i(rx_id[28:18]), .byte_we_i(rx_byte_we), .byte_i(rx_byte), .valid_i(rx_valid),
     .gap_i(gap), .number_i(number), .numbered_i(numbered),
     .serial_i(serial), .job_i(job), .phase_i(phase), .take_i(take), .row_i(row),
     .read_i(read_byte),
+    .search_o(search), .id_o(id), .lost_i(job == can_rn_pkg::JobFind && !find && !hit),
+    .hit_i(hit), .mask_i(rdata[22:16]), .aim_i(aim), .aim_at_i({rdata[15:12], rdata[19:16]}),
+    .mapped_i(mapped),
     .hdr_o(hdr), .ours_o(ours), .byte_o(has_byte), .live_o(live), .sys_o(sys), .all_o(all),
     .dup_o(dup), .a_o(a), .port_o(port), .key_o(key), .op_o(op), .value_bad_o(value_bad),
     .high_bad_o(high_bad), .mismatch_o(mismatch)
@@ -158,15 +181,20 @@ module can_remote #(
 
   // What an entry asks for is a remote frame, but for a watchdog and where there is no room.
   assign rtr = rx_rtr || visit;
-  assign dlc = visit ? op[3:0] : rx_dlc;
+  assign dlc = visit || (mapped && (|op[3:0])) ? op[3:0] : rx_dlc;
+  assign short = rx_dlc < op[3:0] || (rx_dlc[3] && (|rx_dlc[2:0]));
 
-  can_rn_check #(.NameBits(NameBits), .MemBytes(MemBytes), .NumProd(NumProd)) u_check (
+  can_rn_check #(
+    .NameBits(NameBits), .MemBytes(MemBytes), .NumProd(NumProd), .NumMap(NumMap)
+  ) u_check (
     .clk_i, .rst_ni,
     .sys_i(sys), .all_i(all), .port_i(port), .a_i(a), .rtr_i(rtr), .dlc_i(dlc),
-    .unlock_i(op[2:0] == 3'd1), .value_bad_i(value_bad), .high_bad_i(high_bad),
+    .mapped_i(mapped), .short_i(short), .unlock_i(op[2:0] == 3'd1),
+    .value_bad_i(value_bad), .high_bad_i(high_bad),
     .mismatch_i(mismatch), .start_i(start), .end_i(row_end),
     .selected_i(selected), .operate_i(operate), .unlocked_i(unlocked),
     .lock_reset_i(lock_reset), .full_i(full && !visit),
+    .denied_i(denied), .crosses_o(crosses),
     .write_o(write), .read_o(read), .trigger_o(trigger), .select_o(select),
     .assign_o(assign_number), .state_o(set_state), .setup_o(setup), .far_o(far), .info_o(info),
     .code_o(code)
@@ -175,18 +203,21 @@ module can_remote #(
   // A system function for other nodes, a read that a node without a number does not answer.
   assign nothing = select || (set_state && mismatch) || (assign_number && !selected)
                    || (read && !numbered);
-  assign refused = code != can_rn_pkg::CodeOk;
+  assign refused = code != can_rn_pkg::CodeOk || denied;
 
-  can_rn_step u_step (
+  can_rn_step #(.Protect(Protect != 0)) u_step (
     .clk_i, .rst_ni,
     .hdr_i(hdr), .ours_i(ours), .byte_i(has_byte), .live_i(live), .valid_i(valid),
-    .tick_i(tick), .dup_i(dup), .key_i(key), .refused_i(refused), .write_i(write), .read_i(read),
-    .trigger_i(trigger), .nothing_i(nothing), .restart_i(restart), .operate_i(operate),
+    .tick_i(tick), .dup_i(dup && !mapped), .key_i(key), .refused_i(refused),
+    .write_i(write), .read_i(read),
+    .trigger_i(trigger || acts), .nothing_i(nothing), .restart_i(restart), .operate_i(operate),
     .hold_i(usr_hold_i),
     .ended_i(ended), .cleared_i(cleared), .row_i(row), .carry_i(carry),
     .ms_i(ms), .boff_i(boff), .off_i(off), .try_i(try_due), .load_i(load), .some_i(some),
     .gone_i(gone), .owe_feed_i(owe_feed), .start_i, .run_i(run),
     .want_i(want), .visit_i(visit), .then_i(then_job), .same_i(keep_same),
+    .search_i(search), .find_i(find), .hit_i(hit), .mapped_i(mapped), .act_i(act),
+    .watch_i(watch), .watch_job_i(watch_job), .anew_i(anew), .ten_o(ten),
     .job_o(job), .phase_o(phase), .timer_o(timer), .request_o(request), .begin_o(begins),
     .take_o(take), .end_o(job_ends), .new_tries_o(new_tries),
     .written_o, .apply_o
@@ -196,10 +227,14 @@ module can_remote #(
   logic [6:0] row_a;
   assign row_a = NameBits == 5 ? {info, info, 5'd0} : 7'd0;
 
-  can_rn_move #(.StageBytes(StageBytes), .NumProd(NumProd)) u_move (
+  can_rn_move #(
+    .StageBytes(StageBytes), .NumProd(NumProd), .NumMap(NumMap), .Protect(Protect != 0)
+  ) u_move (
     .clk_i, .rst_ni,
     .job_i(job), .phase_i(phase), .request_i(request), .begin_i(begins), .take_i(take),
-    .read_i(read), .trigger_i(trigger), .far_i(far), .info_i(info), .key_i(key),
+    .read_i(read), .trigger_i(trigger || acts), .far_i(far), .info_i(info), .key_i(key),
+    .crosses_i(crosses), .mapped_i(mapped), .find_i(find), .act_i(acts),
+    .aim_i(aim), .aim_at_i(rdata[11:0]),
     .a_i(7'(a) | row_a), .dlc_i(dlc), .count_i(op[2:0]),
     .byte_i(rx_byte), .start_o(start), .mem_o(mem), .row_o(row), .end_o(row_end),
     .ended_o(ended), .staged_o(staged), .cleared_o(cleared)
@@ -208,7 +243,8 @@ module can_remote #(
   assign written_len_o  = row_end - {2'b00, far, 1'b0};
 
   can_rn_cell u_cell (
-    .job_i(job), .phase_i(phase), .read_i(read), .trigger_i(trigger), .none_i(rx_dlc == 4'd0),
+    .job_i(job), .phase_i(phase), .read_i(read), .trigger_i(trigger || acts),
+    .none_i(rx_dlc == 4'd0 || mapped),
     .refused_i(refused), .setup_i(setup), .off_i(off), .status_i(tx_status), .row_i(row),
     .tail_i(tail), .head_i(head),
     .word_i(word), .timer_i(timer), .new_tries_i(new_tries), .zero_i(zero),
@@ -217,19 +253,23 @@ module can_remote #(
 
   can_rn_data #(
     .NameBits(NameBits), .MemBytes(MemBytes), .StageBytes(StageBytes), .Features(Features),
-    .NumProd(NumProd)
+    .Compare(NumProd != 0 || NumMap != 0)
   ) u_data (
     .clk_i, .rst_ni,
-    .job_i(job), .none_i(rx_dlc == 4'd0), .read_i(cell_re || same), .lane_i(lane),
+    .job_i(job), .none_i(rx_dlc == 4'd0 || mapped),
+    .read_i(cell_re || same || map_re), .lane_i(lane),
     .rdata_i(rdata), .frame_i(rx_byte), .mem_i(mem), .node_i,
-    .serial_i(serial), .less_i(less),
-    .byte_o(read_byte), .zero_o(zero), .one_o(one), .differ_o(differ), .wbyte_o(wbyte)
+    .serial_i(serial), .less_i(less), .more_i(more),
+    .byte_o(read_byte), .zero_o(zero), .one_o(one), .differ_o(differ), .above_o(above),
+    .wbyte_o(wbyte)
   );
 
   can_rn_port #(.MemBytes(MemBytes)) u_port (
-    .clk_i, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger),
-    .same_i(same && !phase[0]), .cell_i(cell_own ? own_cell : cell_addr), .re_i(cell_re || same),
-    .we_i(cell_we && !no_write), .mem_i(mem), .staged_i(staged), .wbyte_i(wbyte),
+    .clk_i, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger || acts),
+    .same_i(same && !phase[0]), .cell_i(guard ? guard_cell : map_own ? map_cell
+                                              : cell_own ? own_cell : cell_addr),
+    .re_i(cell_re || same || map_re), .we_i((cell_we && !no_write && !guard) || map_we),
+    .mem_i(mem), .staged_i(staged), .wbyte_i(wbyte),
     .a_i(7'(a)), .end_i(row_end), .code_i(code), .status_i(status), .tec_i(tec), .rec_i(rec),
     .lane_o(lane), .rdata_o(rdata),
     .usr_req_i, .usr_we_i, .usr_be_i, .usr_addr_i, .usr_wdata_i, .usr_ready_o
@@ -249,12 +289,12 @@ module can_remote #(
 
   can_rn_state #(.NameBits(NameBits)) u_state (
     .clk_i, .rst_ni,
-    .job_i(job), .phase_i(phase), .accept_i(begins && !refused && !visit),
+    .job_i(job), .phase_i(phase), .accept_i(begins && !refused && !visit && !mapped),
     .dup_i(valid && dup), .refused_i(refused), .all_i(all || sys), .write_i(write),
     .select_i(select), .assign_i(assign_number), .state_i(set_state), .setup_i(setup),
     .match_i(!mismatch), .new_i(a[2]), .op_i(op), .timer_i(timer), .zero_i(zero),
     .byte_i(read_byte), .off_entry_i(off_entry), .off_exit_i(off_exit), .gap_i(gap),
-    .passive_i(passive),
+    .passive_i(passive), .stale_i(stale), .unsafe_i(unsafe), .told_i(told),
     .node_o(state_o), .operate_o(operate), .number_o(number), .numbered_o(numbered),
     .selected_o(selected), .unlocked_o(unlocked), .lock_reset_o(lock_reset), .run_o(run),
     .restart_o(restart), .flush_o(flush), .gone_status_i(gone_status),
@@ -280,6 +320,38 @@ module can_remote #(
       .word_i(word), .status_i(tx_status),
       .want_o(want), .visit_o(visit), .then_o(then_job), .keep_o(keep_same), .same_o(same),
       .cell_own_o(cell_own), .cell_o(own_cell), .no_write_o(no_write), .less_o(less)
+    );
+  end
+
+  if (NumMap == 0) begin : gen_no_map
+    logic unused;
+    assign unused = &{1'b0, id, above, ten};
+    assign {find, hit, aim, mapped, act, acts, watch, anew, map_own, map_cell} = '0;
+    assign {map_re, map_we, more, stale, unsafe, told} = '0;
+    assign watch_job = can_rn_pkg::JobIdle;
+  end else begin : gen_map
+    can_rn_map #(.NameBits(NameBits), .NumMap(NumMap)) u_map (
+      .clk_i, .rst_ni,
+      .job_i(job), .phase_i(phase), .run_i(run), .visit_i(visit), .ten_i(ten),
+      .take_i(take), .id_i(id),
+      .row_i(row), .begin_i(begins), .refused_i(refused), .rdata_i(rdata), .zero_i(zero),
+      .above_i(above), .equal_i(!differ), .find_o(find), .hit_o(hit), .aim_o(aim),
+      .mapped_o(mapped), .act_o(act),
+      .acts_o(acts), .want_o(watch), .next_o(watch_job), .zero_o(anew), .cell_own_o(map_own),
+      .cell_o(map_cell), .more_o(more), .re_o(map_re), .we_o(map_we),
+      .stale_o(stale), .unsafe_o(unsafe), .told_o(told)
+    );
+  end
+
+  if (Protect == 0) begin : gen_no_guard
+    logic unused;
+    assign unused = &{1'b0, crosses};
+    assign {guard, guard_cell, denied} = '0;
+  end else begin : gen_guard
+    can_rn_guard u_guard (
+      .clk_i, .rst_ni,
+      .job_i(job), .late_i(phase[1]), .memory_i(read || write), .read_i(read), .mem_i(mem[11:4]),
+      .byte_i(read_byte), .guard_o(guard), .cell_o(guard_cell), .denied_o(denied)
     );
   end
 

@@ -21,6 +21,8 @@ module can_rn_check #(
   input  logic [AddrBits-1:0] a_i,
   input  logic                rtr_i,
   input  logic [3:0]          dlc_i,
+  input  logic                mapped_i,       // a map entry has taken the frame ..
+  input  logic                short_i,        // .. and it is too short or too long for that
   input  logic                unlock_i,       // SETUP is UNLOCK
   input  logic                value_bad_i,
   input  logic                high_bad_i,
@@ -33,6 +35,7 @@ module can_rn_check #(
   input  logic                unlocked_i,
   input  logic                lock_reset_i,   // locked until reset
   input  logic                full_i,         // no room for an answer
+  input  logic                denied_i,       // protected
   // Kind of request, while its code is 0
   output logic                write_o,
   output logic                read_o,
@@ -43,14 +46,15 @@ module can_rn_check #(
   output logic                setup_o,
   output logic                far_o,          // READ or WRITE: the row begins with the address
   output logic                info_o,         // STATUS or IDENT
+  output logic                crosses_o,      // it ends in the next block of eight bytes
   output logic [3:0]          code_o          // registered
 );
-  logic near, is_write;
+  logic near, is_write, none;
   assign near      = !sys_i && !port_i;
   assign far_o     = port_i && !(|a_i[2:1]);
   assign info_o    = port_i && (&a_i[2:1]);
   assign is_write  = far_o && a_i[0];
-  assign write_o   = is_write || (near && !rtr_i);
+  assign write_o   = is_write || (near && !rtr_i && !(mapped_i && none));
   assign read_o    = (far_o && !a_i[0]) || (near && rtr_i) || info_o;
   assign setup_o   = port_i && a_i[2:1] == 2'd2;
   assign state_o   = sys_i && !(|a_i[2:0]);
@@ -59,13 +63,13 @@ module can_rn_check #(
   assign select_o  = sys_i && !a_i[0] && (|a_i[2:1]);
 
   // RN-32: function, value
-  logic bad_function, bad_value, none, long, third;
+  logic bad_function, bad_value, long, third;
   assign none  = !(|dlc_i);
   assign long  = dlc_i[3] && (|dlc_i[2:0]);
   assign third = dlc_i[3:2] != 2'b00;   // 4 or more
   always_comb begin
     bad_function = port_i && (info_o ? !rtr_i : rtr_i || a_i[1] || (a_i[2] && (a_i[0] || all_i)));
-    bad_value    = none || long;
+    bad_value    = mapped_i ? short_i : none || long;
     if (sys_i) begin
       bad_function = rtr_i || (|a_i[AddrBits-1:3]) || (a_i[2] && (|a_i[1:0]));
       if (trigger_o)      bad_value = third || dlc_i[1];
@@ -85,6 +89,7 @@ module can_rn_check #(
   logic [3:0] reach;
   assign reach       = {1'b0, start_i[2:0]} + end_i;
   assign crosses     = reach[3] && (far_o ? reach[2] || (&reach[1:0]) : (|reach[2:0]));
+  assign crosses_o   = crosses;
   assign top         = &start_i[11:8];
   assign config_area = top && (!(|start_i[7:5]) || producer || map);
   assign fixed_area  = top && (&start_i[7:4]);
@@ -106,13 +111,13 @@ module can_rn_check #(
                      && (&start_i[8:3]);
   end
   always_comb begin
-    if (far_o) bad_address = high_bad_i || outside
+    if (far_o || mapped_i) bad_address = high_bad_i || outside
                              || (crosses && (last || ends));
     else       bad_address = near && crosses && (&start_i[AddrBits-1:4]) && !start_i[3];
   end
 
   logic locked;
-  assign locked = (is_write && config_area && !unlocked_i)
+  assign locked = ((is_write || mapped_i) && config_area && !unlocked_i)
                   || (setup_o && unlock_i && (mismatch_i || operate_i || lock_reset_i))
                   || (assign_o && selected_i && operate_i);
 
@@ -122,7 +127,8 @@ module can_rn_check #(
     else if (bad_value)                 code_o <= can_rn_pkg::CodeValue;
     else if (bad_address)               code_o <= can_rn_pkg::CodeAddress;
     else if (locked)                    code_o <= can_rn_pkg::CodeLocked;
-    else if (is_write && fixed_area)    code_o <= can_rn_pkg::CodeProtected;
+    else if (denied_i || ((is_write || mapped_i) && fixed_area))
+                                        code_o <= can_rn_pkg::CodeProtected;
     else if (read_o && full_i)          code_o <= can_rn_pkg::CodeBusy;
     else                                code_o <= can_rn_pkg::CodeOk;
   end

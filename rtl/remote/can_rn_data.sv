@@ -9,7 +9,7 @@ module can_rn_data #(
   parameter int MemBytes = 4096,
   parameter int StageBytes = 8,
   parameter int Features = 1,
-  parameter int NumProd = 0
+  parameter bit Compare = 1'b0
 ) (
   input  logic                clk_i,
   input  logic                rst_ni,
@@ -22,11 +22,13 @@ module can_rn_data #(
   input  logic [11:0]         mem_i,        // JobClear: the byte that is written
   input  logic [NameBits-1:0] node_i,
   input  logic [31:0]         serial_i,
-  input  logic                less_i,       // one less is written
+  input  logic                less_i,       // one less is written,
+  input  logic                more_i,       // one more
   output logic [7:0]          byte_o,       // read
   output logic                zero_o,       // it is 0, 1
   output logic                one_o,
   output logic                differ_o,     // from the one before
+  output logic                above_o,      // it is more, or 255
   output logic [7:0]          wbyte_o
 );
   logic [7:0] byte_q, lane_byte;
@@ -59,8 +61,8 @@ module can_rn_data #(
   assign one_o  = few && byte_q[0];
   assign byte_o = byte_q;
 
-  if (NumProd == 0) begin : gen_alone
-    assign differ_o = 1'b0;
+  if (!Compare) begin : gen_alone
+    assign {differ_o, above_o} = '0;
   end else begin : gen_compare
     logic [7:0] before_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -68,6 +70,7 @@ module can_rn_data #(
       else if (read_q) before_q <= byte_q;
     end
     assign differ_o = before_q != byte_q;
+    assign above_o  = byte_q > before_q || (&byte_q);
   end
 
   // First contents (RN-60). What is not named is 0.
@@ -96,7 +99,7 @@ module can_rn_data #(
   logic less, more;
   assign less = job_i == can_rn_pkg::JobLow || job_i == can_rn_pkg::JobHigh
                 || job_i == can_rn_pkg::JobTry || job_i == can_rn_pkg::JobAge || less_i;
-  assign more = job_i == can_rn_pkg::JobCount
+  assign more = job_i == can_rn_pkg::JobCount || more_i
                 || (job_i == can_rn_pkg::JobTrigger && none_i);
 
   always_comb begin

@@ -7,6 +7,7 @@
 module can_rn_head #(
   parameter int NameBits = 3,
   parameter int NumProd = 0,
+  parameter int NumMap = 0,
   /// Derived, do not override.
   localparam int AddrBits = 10 - NameBits
 ) (
@@ -34,6 +35,14 @@ module can_rn_head #(
   input  logic [7:0]          read_i,         // byte read from the RAM
   output logic                hdr_o,          // a header waits
   output logic                ours_o,         // and matters to this node
+  output logic                search_o,       // or may matter to a map entry
+  output logic [10:0]         id_o,           // of the frame that was taken over
+  input  logic                lost_i,         // no entry takes it
+  input  logic                hit_i,          // one does, whose mask is ..
+  input  logic [6:0]          mask_i,
+  input  logic                aim_i,          // what it says of its place: ..
+  input  logic [7:0]          aim_at_i,       // bits 15:12, length
+  input  logic                mapped_i,       // it is carried out for that one
   output logic                byte_o,         // a byte waits
   output logic                live_o,         // a frame for this node is under way
   output logic                sys_o,          // system function (name 0)
@@ -66,6 +75,19 @@ module can_rn_head #(
   assign low     = !(|name[NameBits-1:1]);
   assign own     = numbered_i && name == number_i;
   assign ours_o  = own && !(id_i[10] && rtr_i) || (low && !id_i[10]);
+  assign search_o = NumMap != 0 && !rtr_i && (id_i[10] || !(low || own));
+  if (NumMap == 0) begin : gen_no_map
+    logic unused;
+    assign unused = &{1'b0, mask_i, aim_at_i};
+    assign id_o   = '0;
+  end else begin : gen_map
+    logic [NameBits:0] who_q;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni)     who_q <= '0;
+      else if (take_i) who_q <= id_i[10 -: NameBits+1];
+    end
+    assign id_o = {who_q, a_q};
+  end
 
   assign hdr_o  = hdr_q;
   assign byte_o = byte_q || (byte_we_i && live_q);
@@ -119,8 +141,8 @@ module can_rn_head #(
     end else begin
       hdr_q  <= (hdr_i && !transmitter_i && !ide_i) || (hdr_q && !take_i && !gap_i);
       byte_q <= byte_o && job_i != can_rn_pkg::JobIdle;
-      if (gap_i || valid_i) live_q <= 1'b0;
-      else if (take_i)      live_q <= ours_o;
+      if (gap_i || valid_i || (lost_i && !dup_o)) live_q <= 1'b0;
+      else if (take_i)      live_q <= ours_o || search_o;
     end
   end
 
@@ -133,8 +155,11 @@ module can_rn_head #(
       class_q <= {|read_i[7:AddrBits], 1'b0};
       a_q     <= read_i[AddrBits-1:0];
     end else if (take_i) begin
-      class_q <= {low && !id_i[10], low ? name[0] : id_i[10]};
+      class_q <= {low && !id_i[10],
+                  low ? name[0] && !search_o : id_i[10] && (own || NumMap == 0)};
       a_q     <= id_i[AddrBits-1:0];
+    end else if (hit_i) begin
+      a_q <= a_q & ~mask_i[AddrBits-1:0];   // is added to the address
     end
   end
 
@@ -142,10 +167,11 @@ module can_rn_head #(
     if (!rst_ni) begin
       {bad_q, high_q, mismatch_q} <= '0;
       op_q <= '0;
-    end else if (job_i == can_rn_pkg::JobHead || entry) begin
-      {bad_q, high_q, mismatch_q} <= '0;
+    end else if (job_i == can_rn_pkg::JobHead || entry || aim_i) begin
+      {bad_q, high_q, mismatch_q} <= {1'b0, aim_i && (|aim_at_i[7:4]), 1'b0};
+      if (aim_i) op_q[3:0] <= aim_at_i[3:0];
       if (entry) op_q[3:0] <= read_i[3:0] & {4{read_i[7]}};   // one that is off has no length
-    end else if (key_byte) begin
+    end else if (key_byte && !mapped_i) begin
       bad_q  <= bad_q || bad;
       high_q <= high_q || (second && (|byte_i[7:4]));
       if (state ? other : (&phase_i) && (|differ)) mismatch_q <= 1'b1;

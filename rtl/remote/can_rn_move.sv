@@ -6,7 +6,9 @@
 
 module can_rn_move #(
   parameter int StageBytes = 8,
-  parameter int NumProd = 0
+  parameter int NumProd = 0,
+  parameter int NumMap = 0,
+  parameter bit Protect = 1'b0
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
@@ -20,6 +22,12 @@ module can_rn_move #(
   input  logic             far_i,      // READ, WRITE
   input  logic             info_i,     // STATUS, IDENT
   input  logic             key_i,
+  input  logic             crosses_i,  // the access ends in the next block of eight bytes
+  input  logic             mapped_i,   // the frame is taken by a map entry
+  input  logic             find_i,     // JobFind goes on
+  input  logic             act_i,      // JobMove: the stage, whatever the start is
+  input  logic             aim_i,      // the start is in the word read, and in A
+  input  logic [11:0]      aim_at_i,
   input  logic [6:0]       a_i,
   input  logic [3:0]       dlc_i,
   input  logic [2:0]       count_i,    // of READ
@@ -35,13 +43,16 @@ module can_rn_move #(
   logic [11:0] start_q;
   logic [3:0]  low_q, row_q;
   logic [8:0]  high;
-  logic        head, far_byte, clear, move, entry, fresh, same;
+  logic        head, far_byte, clear, move, entry, fresh, same, find, found, acts;
 
   assign start_o   = start_q;
   assign row_o     = row_q;
   assign clear     = job_i == can_rn_pkg::JobClear;
   assign move      = job_i == can_rn_pkg::JobMove;
   assign cleared_o = &mem_o;
+  assign find = NumMap != 0 && job_i == can_rn_pkg::JobFind;
+  assign found = find && !find_i;
+  assign acts = NumMap != 0 && job_i == can_rn_pkg::JobTrigger && mapped_i;
   if (NumProd == 0) begin : gen_no_produce
     assign {entry, fresh, same} = '0;
   end else begin : gen_produce
@@ -59,12 +70,12 @@ module can_rn_move #(
 
   // An access reaches into the next block of eight bytes at most: only the place in the block is
   // counted. JobClear goes on from block to block.
-  assign high  = start_q[11:3] + {8'd0, low_q[3]};
+  assign high  = (act_i ? 9'h002 : start_q[11:3]) + {8'd0, low_q[3]};
   assign mem_o = {high, low_q[2:0]};
 
   // The start is A itself, the row of STATUS or IDENT, the stage, or what the first bytes say.
   logic [7:0] near;
-  assign head     = job_i == can_rn_pkg::JobHead || entry;
+  assign head     = job_i == can_rn_pkg::JobHead || entry || aim_i;
   assign far_byte = job_i == can_rn_pkg::JobByte && far_i && !(|row_q[3:1]);
   assign near     = {info_i, a_i[6:5], a_i[4] || trigger_i, info_i ? a_i[0] : a_i[3],
                      a_i[2:1] & {2{!info_i}}, a_i[0] && !info_i && !trigger_i};
@@ -74,8 +85,10 @@ module can_rn_move #(
     end else if (clear) begin
       start_q[11:3] <= high;
     end else begin
-      if (head || (far_byte && !row_q[0])) start_q[7:0]  <= head ? near : byte_i;
-      if (head || (far_byte && row_q[0]))  start_q[11:8] <= head ? {4{info_i}} : byte_i[3:0];
+      if (head || (far_byte && !row_q[0]))
+        start_q[7:0]  <= head ? near | (aim_at_i[7:0] & {8{aim_i}}) : byte_i;
+      if (head || (far_byte && row_q[0]))
+        start_q[11:8] <= head ? {4{info_i}} | (aim_at_i[11:8] & {4{aim_i}}) : byte_i[3:0];
     end
   end
 
@@ -84,6 +97,10 @@ module can_rn_move #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)       low_q <= '0;
     else if (begin_i || fresh) low_q <= {1'b0, start_q[2:0]};
+    else if (acts)     low_q <= '0;
+    // First and last byte in turn.
+    else if (Protect && (request_i || job_i == can_rn_pkg::JobGuard))
+                       low_q <= {crosses_i && !request_i && !phase_i[0], 3'd0};
     else if (step_mem) low_q <= {low_q[3] && !clear, low_q[2:0]} + 4'd1;
   end
 
@@ -94,12 +111,12 @@ module can_rn_move #(
       can_rn_pkg::JobByte:  step_row = !key_i || (&phase_i);
       can_rn_pkg::JobMove:  step_row = read_i ? phase_i[1] && !ended_o
                                               : phase_i == 2'd0 || !ended_o;
-      default:              step_row = same && phase_i[0];
+      default:              step_row = (same || find) && phase_i[0];
     endcase
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)                  row_q <= '0;
-    else if (take_i || request_i || entry) row_q <= '0;
+    else if (take_i || request_i || entry || found || acts) row_q <= '0;
     else if (begin_i)             row_q <= {2'b00, far_i, 1'b0};
     else if (step_row)            row_q <= row_q + 4'd1;
   end

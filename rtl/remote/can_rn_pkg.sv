@@ -24,6 +24,11 @@ package can_rn_pkg;
   localparam logic [4:0] JobPush    = 5'b01010;   // the answer is complete: its A and length
   // As long as it takes: bytes of a producer beside those sent last.
   localparam logic [4:0] JobSame    = 5'b01011;
+  // Two clocks, or as long as it takes: map entries.
+  localparam logic [4:0] JobFind    = 5'b01100;   // one that takes the frame
+  localparam logic [4:0] JobAim     = 5'b01101;   // where it puts it
+  localparam logic [4:0] JobLook    = 5'b01110;   // whether it is on
+  localparam logic [4:0] JobLate    = 5'b01111;   // four clocks: its time-out
   // 10xxx: three phases: a byte is read in the first and written in the third.
   localparam logic [4:0] JobTrigger = 5'b10000;   // TRIGGER count
   localparam logic [4:0] JobTurn    = 5'b10001;   // bus-off begins or ends (RN-72)
@@ -31,7 +36,9 @@ package can_rn_pkg;
   localparam logic [4:0] JobHigh    = 5'b10011;   // high byte of a timer
   localparam logic [4:0] JobTry     = 5'b10100;   // an attempt has failed (RN-15)
   localparam logic [4:0] JobGap     = 5'b10101;   // what is left of the gap of a producer
-  localparam logic [4:0] JobKeep    = 5'b10110;   // its gap begins
+  localparam logic [4:0] JobKeep    = 5'b10110;   // its gap begins, or the time of a map entry
+  // Four phases: two bytes are read.
+  localparam logic [4:0] JobGuard   = 5'b10111;   // protection of first and last byte
   // 11xxx: four phases: two bytes are read and two written.
   localparam logic [4:0] JobAge     = 5'b11000;   // the answer has aged by 10 ms (RN-54)
   localparam logic [4:0] JobCount   = 5'b11001;   // code, A and count of a request (RN-24)

@@ -32,6 +32,9 @@ module can_rn_state #(
   input  logic                off_exit_i,    // bus-off ends
   input  logic                gap_i,         // no frame on the bus
   input  logic                passive_i,
+  input  logic                stale_i,       // a map entry has waited too long
+  input  logic                unsafe_i,      // one that leads to SAFE
+  input  logic                told_i,        // pulse: both are known anew
   output logic [1:0]          node_o,        // state
   output logic                operate_o,
   output logic [NameBits-1:0] number_o,
@@ -78,17 +81,20 @@ module can_rn_state #(
   assign owe_status_o = owe_status_q && numbered_o;
   assign owe_here_o   = owe_here_q;
   assign owe_feed_o   = owe_feed_q;
-  assign status_o     = {boff_seen_q, watchdog_q, 1'b0, dup_q, passive_i, unlocked_q, node_q};
+  assign status_o     = {boff_seen_q, watchdog_q, stale_i, dup_q, passive_i, unlocked_q, node_q};
 
-  logic begins;
+  logic begins, leave;
+  assign leave  = told_i && unsafe_i;
   assign begins = job_i == can_rn_pkg::JobConfig && (&phase_i);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)         node_q <= can_rn_pkg::NodeInit;
     else if (!run_q)     node_q <= begins ? {1'b1, byte_i[3]} : can_rn_pkg::NodeInit;
     // RN-70: the codes of INIT and LISTEN are illegal in a node that is on the bus.
-    else if (off_entry_i || to_safe || expired || !node_q[1]) node_q <= can_rn_pkg::NodeSafe;
-    else if (to_operate || (off_exit_i && auto_q && may_q))   node_q <= can_rn_pkg::NodeOperate;
+    else if (off_entry_i || to_safe || expired || leave || !node_q[1])
+                         node_q <= can_rn_pkg::NodeSafe;
+    else if (to_operate || ((off_exit_i || told_i) && auto_q && may_q && !unsafe_i))
+                         node_q <= can_rn_pkg::NodeOperate;
   end
 
   // RN-70: AUTO_OP returns unless the watchdog or STATE 02 has ended OPERATE; STATE 01 mends that.

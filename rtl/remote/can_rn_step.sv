@@ -5,7 +5,9 @@
 // else; nothing else begins between its header and its end but timers, right behind a sample
 // point: they are over before the next one.
 
-module can_rn_step (
+module can_rn_step #(
+  parameter bit Protect = 1'b0
+) (
   input  logic             clk_i,
   input  logic             rst_ni,
   // Frame
@@ -47,6 +49,15 @@ module can_rn_step (
   input  logic             visit_i,       // this is being done
   input  can_rn_pkg::job_t then_i,        // what follows the present job then
   input  logic             same_i,        // JobSame goes on
+  // Map entries
+  input  logic             search_i,      // a header that one may take waits
+  input  logic             find_i,        // JobFind goes on
+  input  logic             hit_i,         // and has found one
+  input  logic             mapped_i,      // the frame is taken by one
+  input  logic             act_i,         // as a TRIGGER, too
+  input  logic             watch_i,       // a time-out is to be looked at
+  input  can_rn_pkg::job_t watch_job_i,   // by this
+  input  logic             anew_i,        // JobLate: it begins anew
   output can_rn_pkg::job_t job_o,
   output logic [1:0]       phase_o,
   output logic             timer_o,
@@ -54,6 +65,7 @@ module can_rn_step (
   output logic             begin_o,       // its work begins
   output logic             take_o,        // header is taken over
   output logic             end_o,         // a job ends, and none follows it
+  output logic             ten_o,         // 10 ms have passed
   output logic             new_tries_o,   // JobRow: the attempts count from the start
   output logic             written_o,     // pulses for user logic (RN-45)
   output logic             apply_o
@@ -64,28 +76,30 @@ module can_rn_step (
   logic [1:0] phase_q, int2_q;
   logic [3:0] ten_q;
   logic       tick_q, timer_q, ms_q, aged_q, row_ready_q, try_ready_q;
-  logic       keep, idle, wait_user, quiet, due, int2, ended_timer;
+  logic       guard, keep, idle, wait_user, quiet, due, int2, ended_timer;
 
   assign job_o   = job_q;
   assign phase_o = phase_q;
   assign timer_o = timer_q;
   assign new_tries_o = !try_ready_q;
 
+  assign guard     = Protect;
   assign idle      = job_q == can_rn_pkg::JobIdle;
   assign quiet     = !live_i;
   assign due       = quiet || tick_q;
   assign request_o = idle && valid_i && !dup_i;
   assign take_o    = idle && hdr_i;
+  assign ten_o     = ms_i && ten_q == 4'd1;
   assign int2      = int2_q == 2'd0 || (int2_q == 2'd1 && tick_i);
-  assign wait_user = hold_i && !refused_i && (write_i || read_i || trigger_i)
+  assign wait_user = hold_i && !refused_i && (write_i || read_i || trigger_i || act_i)
                      && !((&row_i) && (&phase_q));
   assign begin_o   = job_q == can_rn_pkg::JobBegin && !wait_user;
 
   // What comes next when nothing is under way.
   always_comb begin
     next = can_rn_pkg::JobIdle;
-    if (valid_i)                             next = {4'b0000, !dup_i};   // JobBegin
-    else if (hdr_i)                          next = {1'b0, ours_i, 3'b000};   // JobHead
+    if (valid_i) next = {guard && !dup_i, 1'b0, {2{guard && !dup_i}}, !dup_i};   // JobBegin
+    else if (hdr_i)                          next = {1'b0, ours_i || search_i, search_i, 2'b00};
     else if (byte_i)                         next = can_rn_pkg::JobByte;
     else if (due && ms_q)                    next = can_rn_pkg::JobLow;
     else if (due && aged_q)                  next = can_rn_pkg::JobAge;
@@ -97,6 +111,7 @@ module can_rn_step (
       else if (!row_ready_q || !try_ready_q) next = can_rn_pkg::JobRow;
       else if (boff_i ^ off_i)               next = can_rn_pkg::JobTurn;
       else if (owe_feed_i)                   next = can_rn_pkg::JobFeed;
+      else if (watch_i)                      next = watch_job_i;
       else if (want_i)                       next = can_rn_pkg::JobEntry;
     end
   end
@@ -112,6 +127,11 @@ module can_rn_step (
     end
   end
 
+  // What a frame that acts as a TRIGGER has written is copied, too; user logic is told of both.
+  can_rn_pkg::job_t moved, told;
+  assign told  = write_i ? can_rn_pkg::JobInt2 : can_rn_pkg::JobIdle;
+  assign moved = act_i ? can_rn_pkg::JobTrigger : told;
+
   // keep: the job goes on with its next phase; else it is followed by job_d.
   always_comb begin
     keep  = job_q[4] && !(phase_q[1] && (phase_q[0] || !job_q[3]));
@@ -123,6 +143,10 @@ module can_rn_step (
         job_d = work;
       end
       can_rn_pkg::JobInt2:  keep = !int2;
+      can_rn_pkg::JobGuard: if (Protect) begin
+        keep  = !(&phase_q);
+        job_d = can_rn_pkg::JobBegin;
+      end
       can_rn_pkg::JobStart: begin
         keep  = run_i || !start_i;
         job_d = can_rn_pkg::JobConfig;
@@ -147,6 +171,34 @@ module can_rn_step (
       end
       default: ;
     endcase
+    // Map entries
+    if (mapped_i) begin
+      case (job_q)
+        can_rn_pkg::JobBegin:   job_d = refused_i ? can_rn_pkg::JobIdle
+                                        : write_i ? can_rn_pkg::JobMove : moved;
+        can_rn_pkg::JobMove:    if (!trigger_i) job_d = moved;
+        can_rn_pkg::JobTrigger: if (!operate_i) job_d = told;
+        default: ;
+      endcase
+    end
+    if (watch_job_i != can_rn_pkg::JobIdle) begin
+      case (job_q)
+        can_rn_pkg::JobFind: begin
+          keep = find_i;
+          if (hit_i) job_d = can_rn_pkg::JobAim;
+        end
+        can_rn_pkg::JobAim:  keep = !phase_q[0];
+        can_rn_pkg::JobLook: begin
+          keep  = !phase_q[0];
+          job_d = can_rn_pkg::JobLate;
+        end
+        can_rn_pkg::JobLate: begin
+          keep = !(&phase_q);
+          if (anew_i) job_d = can_rn_pkg::JobKeep;
+        end
+        default: ;
+      endcase
+    end
     // The answer that nobody has asked for gives way to a request.
     if (visit_i && !idle) begin
       if (job_q == can_rn_pkg::JobSame)  keep = same_i;
@@ -186,7 +238,7 @@ module can_rn_step (
                                         : {ten_q[2], ten_q[1], ten_q[0] ^ ten_q[3], ten_q[3]};
       timer_q     <= timer_q ^ ended_timer;
       ms_q        <= ms_i || (ms_q && !(ended_timer && timer_q));
-      aged_q      <= (ms_i && ten_q == 4'd1) || (aged_q && some_i && job_q != can_rn_pkg::JobAge);
+      aged_q      <= ten_o || (aged_q && some_i && job_q != can_rn_pkg::JobAge);
       row_ready_q <= job_q == can_rn_pkg::JobRow
                      || (row_ready_q && job_q != can_rn_pkg::JobPush);
       try_ready_q <= !gone_i && (try_ready_q || (job_q == can_rn_pkg::JobRow && (&phase_q)));
@@ -204,7 +256,7 @@ module can_rn_step (
       if (valid_i)                         int2_q <= 2'd3;
       else if (tick_i && int2_q != 2'd0)   int2_q <= int2_q - 2'd1;
       written_o <= job_q == can_rn_pkg::JobInt2 && int2 && write_i;
-      apply_o   <= job_q == can_rn_pkg::JobInt2 && int2 && trigger_i;
+      apply_o   <= job_q == can_rn_pkg::JobInt2 && int2 && trigger_i && (operate_i || !mapped_i);
     end
   end
 

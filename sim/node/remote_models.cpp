@@ -10,6 +10,12 @@
 #include "Vcan_remote_small_3___024root.h"
 #include "Vcan_remote_small_5.h"
 #include "Vcan_remote_small_5___024root.h"
+#include "Vcan_remote_standard16_3.h"
+#include "Vcan_remote_standard16_3___024root.h"
+#include "Vcan_remote_standard_3.h"
+#include "Vcan_remote_standard_3___024root.h"
+#include "Vcan_remote_standard_5.h"
+#include "Vcan_remote_standard_5___024root.h"
 #include "node/engine_frame.hpp"
 #include "node/remote_node.hpp"
 #include "node/split_core.hpp"
@@ -46,6 +52,7 @@ class RemoteNodeOf final : public RemoteNode {
     const bool taken = show_next();
     count_ms();
     core_.edge();
+    forget_events();
     drive(static_cast<Level>(core_.engine().can_tx_o));
     const auto &engine = core_.engine();
     if (EngineFrame::concerns(engine)) frame_.clocked(engine);
@@ -65,7 +72,10 @@ class RemoteNodeOf final : public RemoteNode {
     top_.usr_hold_i = on;
     core_.touch();
   }
-  void event(unsigned) override {}
+  void event(unsigned k) override {
+    top_.event_i = static_cast<std::uint8_t>(top_.event_i | 1U << k);
+    core_.touch();
+  }
 
   [[nodiscard]] bool idle() const override {
     if (state() == RemoteState::kInit) return top_.start_i == 0 && !starts_ && accesses_.empty();
@@ -126,6 +136,12 @@ class RemoteNodeOf final : public RemoteNode {
     return shown_ && ready();
   }
 
+  void forget_events() {
+    if (top_.event_i == 0) return;
+    top_.event_i = 0;
+    core_.touch();
+  }
+
   // Behind what user logic has written before.
   void join() {
     starts_ = false;
@@ -151,8 +167,8 @@ class RemoteNodeOf final : public RemoteNode {
 
   void tell_pulse() {
     if (!on_pulse) return;
-    if (top_.apply_o) on_pulse({true, 0, 0});
     if (top_.written_o) on_pulse({false, top_.written_addr_o, top_.written_len_o});
+    if (top_.apply_o) on_pulse({true, 0, 0});
   }
 
   [[nodiscard]] std::uint8_t byte_of(unsigned address) const {
@@ -163,7 +179,9 @@ class RemoteNodeOf final : public RemoteNode {
   // it.
   [[nodiscard]] std::uint8_t status() const {
     const auto &r = *top_.rootp;
-    const unsigned pins = top_.state_o | core_.engine().passive_o << 3U;
+    unsigned pins = top_.state_o | core_.engine().passive_o << 3U;
+    if constexpr (requires { r.can_remote__DOT__gen_map__DOT__u_map__DOT__stale_q; })
+      pins |= r.can_remote__DOT__gen_map__DOT__u_map__DOT__stale_q << 5U;
     if constexpr (requires { r.can_remote__DOT__u_state__DOT__unlocked_q; }) {
       return static_cast<std::uint8_t>(pins | r.can_remote__DOT__u_state__DOT__unlocked_q << 2U |
                                        r.can_remote__DOT__u_state__DOT__dup_q << 4U |
@@ -196,13 +214,23 @@ bool is(const RemoteConfig &config, const char *profile, unsigned name_bits) {
   return config.name_bits == name_bits && plain(config) == plain(RemoteConfig::profile(profile));
 }
 
+// Standard with the most staged bytes: five set points of the cabinet (section 13).
+bool is_standard16(const RemoteConfig &config) {
+  RemoteConfig standard16 = RemoteConfig::profile("standard");
+  standard16.stage_bytes = 16;
+  return config.name_bits == 3 && plain(config) == plain(standard16);
+}
+
 }  // namespace
 
 bool RemoteNode::has(const RemoteConfig &config) {
-  return is(config, "small", 3) || is(config, "small", 5);
+  return is(config, "small", 3) || is(config, "small", 5) || is(config, "standard", 3) ||
+         is(config, "standard", 5) || is_standard16(config);
 }
 
-std::string RemoteNode::available() { return "profile small with its parameters"; }
+std::string RemoteNode::available() {
+  return "profile small or standard with its parameters, standard also with 16 staged bytes";
+}
 
 std::unique_ptr<RemoteNode> RemoteNode::create(std::string name, const RemoteConfig &config,
                                                unsigned number, const BitTiming &timing,
@@ -214,6 +242,9 @@ std::unique_ptr<RemoteNode> RemoteNode::create(std::string name, const RemoteCon
   };
   if (is(config, "small", 3)) return make(std::type_identity<Vcan_remote_small_3>{});
   if (is(config, "small", 5)) return make(std::type_identity<Vcan_remote_small_5>{});
+  if (is(config, "standard", 3)) return make(std::type_identity<Vcan_remote_standard_3>{});
+  if (is(config, "standard", 5)) return make(std::type_identity<Vcan_remote_standard_5>{});
+  if (is_standard16(config)) return make(std::type_identity<Vcan_remote_standard16_3>{});
   throw std::invalid_argument("no RTL is built with these parameters; allowed: " + available());
 }
 

@@ -25,8 +25,8 @@ void FramePort::clock() {
   ++clocks_;
   engine_.tick = engine_.hdr = engine_.byte_we = engine_.valid = false;
   engine_.next = engine_.ok = engine_.fail = engine_.ms = false;
-  if (const auto seen = pulse()) {
-    pulses_.push_back(*seen);
+  for (const RemotePulse &seen : pulses()) {
+    pulses_.push_back(seen);
     pulse_clock_ = clocks_;
   }
 }

@@ -110,8 +110,8 @@ class FramePort {
   };
   virtual void edge(const Engine &engine) = 0;
   [[nodiscard]] virtual Asked asked() const = 0;
-  /// written_o, apply_o of the clock that has just passed.
-  [[nodiscard]] virtual std::optional<RemotePulse> pulse() const = 0;
+  /// written_o, then apply_o, of the clock that has just passed.
+  [[nodiscard]] virtual std::vector<RemotePulse> pulses() const = 0;
 
  private:
   void pulses_in(bool Engine::*event);

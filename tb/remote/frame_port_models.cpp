@@ -106,10 +106,11 @@ class FramePortOf final : public FramePort {
             root().can_remote__DOT__u_core__DOT__tx_dlc_i_v,
             root().can_remote__DOT__u_core__DOT__tx_word_i_v};
   }
-  [[nodiscard]] std::optional<RemotePulse> pulse() const override {
-    if (top_.apply_o) return RemotePulse{true, 0, 0};
-    if (top_.written_o) return RemotePulse{false, top_.written_addr_o, top_.written_len_o};
-    return std::nullopt;
+  [[nodiscard]] std::vector<RemotePulse> pulses() const override {
+    std::vector<RemotePulse> seen;
+    if (top_.written_o) seen.push_back({false, top_.written_addr_o, top_.written_len_o});
+    if (top_.apply_o) seen.push_back({true, 0, 0});
+    return seen;
   }
 
  private:

@@ -19,8 +19,6 @@ RemoteConfig config_of(const std::string &profile, unsigned name_bits) {
   RemoteConfig config = RemoteConfig::profile(profile);
   config.name_bits = name_bits;
   config.serial = kSerial;
-  config.num_map = 0;
-  config.protect = false;
   return config;
 }
 
@@ -118,6 +116,7 @@ void PortLockstep::ms() {
 
 void PortLockstep::user_write(unsigned word, std::uint32_t data, unsigned lanes) {
   note(fmt::format("user writes {:03X} {:08X} {:X}", 4 * word, data, lanes));
+  work();
   port_->user_write(word, data, lanes);
   model_.user_write(word, data, lanes);
 }
@@ -161,6 +160,7 @@ const std::string &PortLockstep::compare() {
     compare_byte(address);
   const unsigned producers = remote_map::kProducers;
   for (unsigned i = 0; i < 8 * config_.num_prod; ++i) compare_byte(producers + i);
+  for (unsigned i = 0; i < 8 * config_.num_map; ++i) compare_byte(remote_map::kMaps + i);
   // State, TEC and REC are brought up to date before anybody on the bus sees them.
   for (unsigned address = remote_map::kStatus + 3; address < remote_map::kSize; ++address)
     compare_byte(address);

@@ -4,8 +4,7 @@
 // Producers of the RTL at the engine's port: RN-06, RN-63, RN-64.
 #include <algorithm>
 
-#include "remote/frame_port.hpp"
-#include "remote/model_node.hpp"
+#include "remote/port_fixture.hpp"
 
 namespace vericansim {
 namespace {
@@ -19,24 +18,12 @@ constexpr unsigned kTriggers = 0x40;
 constexpr unsigned kChange = 0x20;
 constexpr unsigned kCyclic = 0x10;
 
-/// Node 3 in OPERATE; entries are written by user logic.
-class PortProducers : public ::testing::Test {
+/// Entries are written by user logic.
+class PortProducers : public PortFixture {
  protected:
   explicit PortProducers(unsigned name_bits = 3, unsigned number = 3)
-      : port{FramePort::create("standard", name_bits, 0xCAFE1234, number)} {
-    port->start();
-    (void)port->drain();
-    operate(true);
-  }
+      : PortFixture{name_bits, number} {}
 
-  void hear(const std::string &text) { port->receive(frame_of(text)); }
-  void operate(bool on) {
-    hear(on ? "000#01" : "000#02");
-    (void)port->drain();
-  }
-  void write(unsigned address, unsigned byte) {
-    port->user_write(address / 4, byte << 8 * (address % 4), 1U << address % 4);
-  }
   void produce(unsigned k, unsigned a, unsigned mode, unsigned period, unsigned gap = 0) {
     port->user_write((0xF40 + 8 * k) / 4, a | mode << 8 | period << 16);
     write(0xF44 + 8 * k, gap);
@@ -45,21 +32,6 @@ class PortProducers : public ::testing::Test {
     port->event(events);
     port->clocks(64);
   }
-  Texts drain() {
-    Texts texts;
-    for (const Frame &frame : port->drain()) texts.push_back(candump_frame(frame));
-    return texts;
-  }
-  Texts wait(unsigned ms) {
-    Texts all;
-    for (; ms != 0; --ms) {
-      port->ms();
-      for (const std::string &text : drain()) all.push_back(text);
-    }
-    return all;
-  }
-
-  std::unique_ptr<FramePort> port;
 };
 
 class PortProducersFive : public PortProducers {

@@ -29,7 +29,9 @@
     // The last eight A are ports (can_rn_head).
     m_port: assume (port_i == (!sys_i && (&a_i[AddrBits-1:3])));
     // A direct access starts at A.
-    m_start: assume (!near || start_i == 12'(a_i));
+    m_start: assume (!near || mapped_i || start_i == 12'(a_i));
+    // A map entry takes data frames that are no requests, of eight bytes at most.
+    m_mapped: assume (!mapped_i || (near && !rtr_i && (short_i || dlc_i <= 4'd8)));
     if (f_ran) begin
       // RN-102 P-6, RN-61: locked, the configuration is not written.
       p_locked: assert (code_o != can_rn_pkg::CodeOk || !$past(f_write && f_last >= 13'hE00)
@@ -38,11 +40,16 @@
       p_write: assert (code_o != can_rn_pkg::CodeOk || !$past(f_write)
                        || $past(f_memory || f_config));
       // RN-32: a direct access that is not refused lies in the window.
-      p_window: assert (code_o != can_rn_pkg::CodeOk || !$past(near && (f_write || f_read))
+      p_window: assert (code_o != can_rn_pkg::CodeOk
+                        || !$past(near && !mapped_i && (f_write || f_read))
                         || $past(f_window));
       // RN-33: no more than eight bytes, and not none but by TRIGGER.
       p_length: assert (code_o != can_rn_pkg::CodeOk
-                        || $past(dlc_i <= 4'd8 && (dlc_i != 4'd0 || trigger_o)));
+                        || $past(dlc_i <= 4'd8 && (dlc_i != 4'd0 || trigger_o || mapped_i)));
+      // RN-65: nor fewer than a map entry wants.
+      p_short: assert (code_o != can_rn_pkg::CodeOk || !$past(mapped_i && short_i));
+      // RN-32: what is protected is refused.
+      p_denied: assert (code_o != can_rn_pkg::CodeOk || !$past(denied_i));
       // RN-102 P-3, RN-54: a read for which there is no room is refused.
       p_room: assert (code_o != can_rn_pkg::CodeOk || !$past(read_o && full_i));
       // RN-30, RN-32: a remote frame asks for memory, STATUS or IDENT alone.

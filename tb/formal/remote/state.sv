@@ -10,7 +10,8 @@
 
   logic f_state_command, f_auto;
   assign f_state_command = counts && !refused_i && state_i && op_i[1:0] == 2'b01 && !op_i[2];
-  assign f_auto          = (begins && byte_i[3]) || (off_exit_i && auto_q);
+  assign f_auto          = (begins && byte_i[3]) || (off_exit_i && auto_q)
+                           || (told_i && auto_q && !unsafe_i);
 
   // No watchdog and no STATE 02 since STATE 01 or the start.
   logic f_may;
@@ -34,13 +35,15 @@
       p_operate: assert (!operate_o || $past(operate_o) || $past(f_state_command || f_auto));
       // RN-70: a watchdog that has expired ends it.
       p_watchdog: assert (!$past(run_o && expired) || !operate_o);
+      // RN-66, RN-70: so does a map entry that has waited too long.
+      p_stale: assert (!$past(run_o && told_i && unsafe_i) || !operate_o);
       // RN-70, RN-72: so does bus-off.
       p_bus_off: assert (!$past(run_o && off_entry_i) || !operate_o);
       // RN-70: AUTO_OP does not undo the watchdog or STATE 02.
       p_may: assert (!$past(run_o) || !operate_o || $past(operate_o || f_state_command || f_may));
       // RN-70: but it does return after bus-off where neither has been.
       p_auto: assert (!$past(run_o && off_exit_i && auto_q && f_may && node_q[1] && !off_entry_i
-                             && !expired && !to_safe) || operate_o);
+                             && !expired && !to_safe && !unsafe_i) || operate_o);
       // RN-70, RN-102 P-11: an illegal code leads to SAFE.
       p_illegal: assert (!$past(run_o && !node_o[1]) || node_o == can_rn_pkg::NodeSafe || !run_o
                          || $past(begins));

@@ -34,18 +34,21 @@
     // A frame is valid at a sample point, one clock behind it; the next is far away.
     m_valid: assume (!(valid_i && tick_i));
     // One kind of request, the same until it has been told; none while the one before is at work.
-    m_kind: assume (!(write_i && trigger_i));
+    m_kind: assume (!(write_i && trigger_i) || mapped_i);
     m_apart: assume (!valid_i || job_q == can_rn_pkg::JobIdle || !live_i);
     // What an entry of a producer leads to (produce.p_then), and that it asks as a read does.
     m_then: assume (then_i == can_rn_pkg::JobIdle || then_i == can_rn_pkg::JobBegin || f_visit);
     m_read: assume (!visit_i || (read_i && !write_i && !trigger_i));
     // It begins with JobEntry and ends where a job is followed by none.
     m_visit: assume (visit_i == f_visiting);
+    // A map entry takes no read; its time-outs are looked at by jobs of their own.
+    m_mapped: assume (!mapped_i || (!visit_i && !read_i));
+    m_watch: assume (watch_job_i == can_rn_pkg::JobLook || watch_job_i == can_rn_pkg::JobKeep);
     if (f_ran) begin
       // RN-102 P-7, RN-45: what became visible is told at the third sample point or later.
       p_int2: assert (!(written_o || apply_o) || f_ticks == 2'd3 || $past(valid_i));
-      // RN-102 P-7, RN-46: never as both.
-      p_one_kind: assert (!(written_o && apply_o));
+      // RN-102 P-7, RN-46, RN-65: never as both, but for a frame that a map entry makes a TRIGGER.
+      p_one_kind: assert (!(written_o && apply_o) || $past(mapped_i));
       // RN-102 P-9, RN-103: a node that an upset has taken off the bus starts anew.
       p_rejoins: assert (!$past(idle && quiet && !run_i && !valid_i && !hdr_i && !byte_i && !ms_q
                                 && !aged_q) || job_q == can_rn_pkg::JobStart);
