@@ -96,12 +96,24 @@ class Golden(OnBus):
 
     def test_vectors(self):
         """Every vector: as a call where it is one, else its frames; what they give, and STATUS."""
+        self.run_vectors("full")
+
+    def test_vectors_on_the_rtl(self):
+        """RN-93: the vectors of profile small on can_remote itself."""
+        self.run_vectors("small", "made_of: rtl, ", {"stage"})
+
+    def run_vectors(self, profile, keys="", features=None):
+        """The vectors of a profile; `features`: those that its nodes have, None: all."""
+        self.profile = profile
         lives = yaml.safe_load((ROOT / "sw/remote/vectors.yaml").read_text(encoding="utf-8"))
         for life in lives["lives"]:
-            self.open(f"number: {life['number']}, name_bits: {life['name_bits']}, "
-                      f"serial: 0x{life['serial']:X}", name_bits=life["name_bits"])
+            self.open(f"{keys}profile: {profile}, number: {life['number']}, "
+                      f"name_bits: {life['name_bits']}, serial: 0x{life['serial']:X}",
+                      name_bits=life["name_bits"])
             self.number = life["number"]
             for vector in life["vectors"]:
+                if features is not None and not set(vector.get("needs", ())) <= features:
+                    continue
                 with self.subTest(vector=vector["vector"], what=vector["what"]):
                     self.carry_out(vector)
 
@@ -134,7 +146,9 @@ class Golden(OnBus):
             self.assertEqual(row, bytes(frame_of(step["answers"][0]).data))
             return
         self.link.send(frame)
-        for wanted in map(frame_of, step.get("answers", ())):
+        answers = step.get("answers", ())
+        answers = answers[self.profile] if isinstance(answers, dict) else answers
+        for wanted in map(frame_of, answers):
             message = self.link.recv(TIMEOUT)
             self.assertEqual((message.arbitration_id, bytes(message.data)),
                              (wanted.arbitration_id, bytes(wanted.data)))
@@ -142,8 +156,8 @@ class Golden(OnBus):
     def call(self, do=None, frame=None, gives=None, **keys):
         """A call as the vectors name it."""
         client = self.client
-        if isinstance(gives, dict) and "full" in gives:
-            gives = gives["full"]
+        if isinstance(gives, dict) and self.profile in gives:
+            gives = gives[self.profile]
         data = hexadecimal(keys["data"]) if "data" in keys else None
         if frame:
             self.link.send(frame_of(frame))

@@ -22,6 +22,7 @@ function(verican_socketcan_case name)
   add_test(NAME socketcan.${name}
            COMMAND "${VERICAN_PYTHON}" "${PROJECT_SOURCE_DIR}/tb/socketcan/uml/run.py" ${name}
                    --verican $<TARGET_FILE:verican> --shim $<TARGET_FILE:wide_xstate>
+                   --client $<TARGET_FILE:remote_golden_client>
                    --out "${CMAKE_CURRENT_BINARY_DIR}/out" ${sanitized})
   set_tests_properties(socketcan.${name} PROPERTIES
     LABELS socketcan TIMEOUT 300 SKIP_RETURN_CODE 77 FIXTURES_SETUP socketcan_${name})
@@ -35,7 +36,7 @@ foreach(case guest-time-limit guest-killed recording-tshark recording-asc record
   verican_socketcan_case(${case})
 endforeach()
 # Each red case spoils what its case has left: the judge must notice.
-foreach(case flood duel tools errors interfaces vxcan signals)
+foreach(case flood duel tools errors interfaces vxcan signals remote)
   verican_socketcan_case(${case})
   verican_socketcan_case(red-${case} REQUIRES ${case})
 endforeach()

@@ -11,6 +11,7 @@ import lifetimes
 import leftovers
 import recordings
 import red
+import remote
 import tools
 import traffic
 from canlog import expect, expect_true
@@ -22,6 +23,7 @@ class Setup:
     def __init__(self, args):
         self.verican = args.verican
         self.shim = args.shim
+        self.client = args.client and args.client.resolve()
         self.out = args.out.resolve()
         self.limit = args.limit
         self.sanitized = args.sanitized
@@ -117,6 +119,7 @@ SCRIPTS = {
     "interfaces": (lambda setup: (failures.files(), {}), lifetimes.interfaces),
     "vxcan": (lambda setup: ({"vxcan.yaml": lifetimes.VXCAN}, {}), lifetimes.vxcan),
     "signals": (lambda setup: ({}, {}), lifetimes.signals),
+    "remote": (remote.files, remote.remote),
 }
 
 

@@ -97,6 +97,9 @@ TARGETS = {
                    "small.out": (replace('"lost": ', '"lost": 1'),),
                    "down.err": (replace("vcan7", "vcan0"),)},
     "vxcan": {"echo.log": LOG, "echo-bus.log": LOG, "silent.log": LOG},
+    "remote": {"life0.log": (replace("1A1#01020304", "1A1#01020305"),),
+               "life1.client": CODE, "memory.code": CODE, "refused.code": (replace("1", "0"),),
+               "read.out": (replace("(?i)A5|165", "A4"),)},
     "signals": {"INT-bus.log": LOG, "TERM-mon.log": LOG},
 }
 

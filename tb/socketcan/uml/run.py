@@ -25,6 +25,7 @@ def options():
                         help=", ".join(sorted(cases.CASES)))
     parser.add_argument("--verican", type=Path, required=True)
     parser.add_argument("--shim", type=Path, required=True, help="the library of wide_xstate.c")
+    parser.add_argument("--client", type=Path, help="remote_golden_client")
     parser.add_argument("--out", type=Path, required=True, help="directory of all cases' results")
     parser.add_argument("--sanitized", action="store_true", help="verican has sanitizers")
     parser.add_argument("--limit", type=int, default=240, help="seconds for the guest")
