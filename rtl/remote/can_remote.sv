@@ -142,7 +142,7 @@ module can_remote #(
   logic [NameBits-1:0] number;
   logic        off_entry, off_exit, carry;
   logic        operate, numbered, selected, unlocked, lock_reset, off, restart;
-  logic        owe_status, owe_here, owe_feed, nothing;
+  logic        owe_status, owe_here, owe_feed, feed_less, nothing;
 
   can_core u_core (
     .clk_i, .rst_ni,
@@ -259,7 +259,7 @@ module can_remote #(
     .job_i(job), .none_i(rx_dlc == 4'd0 || mapped),
     .read_i(cell_re || same || map_re), .lane_i(lane),
     .rdata_i(rdata), .frame_i(rx_byte), .mem_i(mem), .node_i,
-    .serial_i(serial), .less_i(less), .more_i(more),
+    .serial_i(serial), .less_i(less || feed_less), .more_i(more),
     .byte_o(read_byte), .zero_o(zero), .one_o(one), .differ_o(differ), .above_o(above),
     .wbyte_o(wbyte)
   );
@@ -299,7 +299,7 @@ module can_remote #(
     .selected_o(selected), .unlocked_o(unlocked), .lock_reset_o(lock_reset), .run_o(run),
     .restart_o(restart), .flush_o(flush), .gone_status_i(gone_status),
     .gone_here_i(gone_here), .owe_status_o(owe_status), .owe_here_o(owe_here),
-    .owe_feed_o(owe_feed), .status_o(status)
+    .owe_feed_o(owe_feed), .feed_less_o(feed_less), .status_o(status)
   );
   assign safe_o = !operate;
 
