@@ -8,7 +8,8 @@
 #               inputs and outputs are flip-flops)
 #   VersaTiles  of ProASIC3/SmartFusion: LUT3 + flip-flop after abc -lut 3, memories kept apart
 # Writes docs/synthesis.md. SEEDS="1 2 3" (nextpnr), OUT=build/synth (intermediate files),
-# BLOCKS="can_core can_ahb_32 can_ahb_64" (what is measured), PAGE=docs/synthesis.md.
+# BLOCKS="can_core remote_small ... can_ahb_32 can_ahb_64" (what is measured, all profiles of
+# can_remote among them), PAGE=docs/synthesis.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/common.sh
@@ -76,9 +77,11 @@ place_and_route() {  # DIR
   done
 }
 
-measure() {  # NAME TOP [PARAMETER VALUE]
-  local name=$1 top=$2 dir=$out/$1 parameters="" start=$SECONDS
-  [ $# -ge 4 ] && parameters="-chparam $3 $4"
+measure() {  # NAME TOP [PARAMETER=VALUE ...]
+  local name=$1 top=$2 dir=$out/$1 parameters="" start=$SECONDS setting
+  for setting in "${@:3}"; do
+    parameters="$parameters -chparam ${setting%%=*} ${setting#*=}"
+  done
   rm -rf "$dir"
   mkdir -p "$dir"
   elaborate "$dir" "$top" "$parameters"
@@ -93,10 +96,28 @@ measure() {  # NAME TOP [PARAMETER VALUE]
   echo "Measured $name in $((SECONDS - start)) s"
 }
 
-read -r -a blocks <<<"${BLOCKS:-can_core can_ahb_32 can_ahb_64}"
+# Profiles of can_remote (RN-85), PROFILE PARAMETER=VALUE ..: the list that the simulator builds,
+# without variants, whose names have digits.
+profiles() {
+  sed -n 's/^set(remote_\([a-z]*\) "*\([^")]*\)"*)$/\1 \2/p' sim/CMakeLists.txt
+}
+
+measure_profile() {  # BLOCK
+  local line settings
+  line=$(profiles | grep "^${1#remote_} ") || {
+    echo "synth: sim/CMakeLists.txt has no profile ${1#remote_} of can_remote" >&2
+    exit 1
+  }
+  read -r -a settings <<<"${line#* }"
+  measure "$1" can_remote "${settings[@]}"
+}
+
+remotes=$(profiles | sed 's/^\([a-z]*\) .*/remote_\1/' | tr '\n' ' ')
+read -r -a blocks <<<"${BLOCKS:-can_core ${remotes}can_ahb_32 can_ahb_64}"
 for block in "${blocks[@]}"; do
   case $block in
-    can_ahb_*) measure "$block" can_ahb NumMb "${block#can_ahb_}" ;;
+    can_ahb_*) measure "$block" can_ahb "NumMb=${block#can_ahb_}" ;;
+    remote_*) measure_profile "$block" ;;
     *) measure "$block" "$block" ;;
   esac
 done

@@ -144,6 +144,8 @@ def version(command):
 def title(block):
     if block.startswith("can_ahb_"):
         return f"whole core `can_ahb`, NumMb={block.rpartition('_')[2]}"
+    if block.startswith("remote_"):
+        return f"node without a processor `can_remote`, profile {block.partition('_')[2]}"
     return f"protocol engine `{block}`"
 
 
