@@ -91,6 +91,9 @@ TEST_F(Board, RandomCommandsAreAnsweredAsByTheModel) {
   config.serial = 0xCAFE1234;
   RemoteModelNode model{"model", config, 3, BoardBus::timing(), BoardBus::clock()};
   BoardBus beside{model};
+  model.on_pulse = [&](const RemotePulse &pulse) {
+    if (pulse.apply && BOARD_PROFILE == std::string{"standard"}) model.event(0);
+  };
   model.start();
   (void)beside.settle();
   RandomHost dice{7};

@@ -40,7 +40,7 @@ void need(bool done, const char *what) {
 void vectors(Rig &rig) {
   unsigned answers = 0;
   for (const golden::Vector &vector :
-       golden::load().front().for_features(golden::features_of("small")))
+       golden::load().front().for_features(golden::features_of("standard")))
     for (const golden::Step &step : vector.steps)
       answers += static_cast<unsigned>(rig.bus.send(step.send, step.from_node).size());
   need(answers > 10, "golden vectors are not answered");

@@ -7,6 +7,8 @@
 module remote_io #(
   /// Serial number of this board.
   parameter int Serial = 1,
+  /// 0: profile small; 1: standard, with producers, map, a queue of four and protection.
+  parameter bit Standard = 1'b0,
   /// Outputs and inputs, at most 8 of each.
   parameter int Outputs = 4,
   parameter int Inputs = 2
@@ -26,6 +28,7 @@ module remote_io #(
   assign rst_n = reset_q[3];
   always_ff @(posedge clk_i) reset_q <= {reset_q[2:0], 1'b1};
 
+  localparam int Events = Standard ? 8 : 1;
   localparam logic [9:0] OutputWord = 10'h010 / 10'd4;
   localparam logic [9:0] InputWord  = 10'h040 / 10'd4;
 
@@ -37,14 +40,16 @@ module remote_io #(
 
   // 12 quanta a bit, sample point 75 %, as in the paper: 1 + 5 + 3 and 3.
   can_remote #(
-    .Serial(Serial), .ClocksPerMs(12000), .Brp(1), .Prop(5), .Ps1(3), .Ps2(3), .Sjw(3)
+    .TxDepth(Standard ? 4 : 1), .NumProd(Standard ? 8 : 0), .NumMap(Standard ? 8 : 0),
+    .Protect(Standard ? 1 : 0), .Serial(Serial),
+    .ClocksPerMs(12000), .Brp(1), .Prop(5), .Ps1(3), .Ps2(3), .Sjw(3)
   ) u_node (
     .clk_i, .rst_ni(rst_n), .start_i(1'b1), .node_i(number_i),
     .usr_req_i(1'b1), .usr_we_i(!due_q), .usr_be_i(4'b0001),
     .usr_addr_i(due_q ? OutputWord : InputWord), .usr_wdata_i(32'(in_q)),
     .usr_ready_o(ready), .usr_rdata_o(rdata), .usr_hold_i(1'b0),
     .written_o(written), .written_addr_o(), .written_len_o(), .apply_o(apply),
-    .event_i(1'b0),
+    .event_i(Events'(Standard && take_q)),   // producer 0 tells what the inputs are then
     .safe_o(safe), .state_o, .can_rx_i, .can_tx_o, .trace_o()
   );
 
