@@ -279,7 +279,7 @@ module can_remote #(
   can_rn_tx #(.NameBits(NameBits), .TxDepth(TxDepth)) u_tx (
     .clk_i, .rst_ni,
     .job_i(job), .phase_i(phase), .flush_i(flush), .number_i(number), .owe_status_i(owe_status),
-    .owe_here_i(owe_here), .zero_i(zero), .one_i(one), .rdata_i(rdata), .tail_o(tail),
+    .owe_here_i(owe_here), .one_i(one), .rdata_i(rdata), .tail_o(tail),
     .head_o(head), .word_o(word), .status_o(tx_status), .full_o(full), .some_o(some),
     .load_o(load), .try_o(try_due), .gone_o(gone), .gone_status_o(gone_status),
     .gone_here_o(gone_here), .popped_o(popped),

@@ -17,8 +17,7 @@ module can_rn_tx #(
   input  logic [NameBits-1:0] number_i,
   input  logic                owe_status_i,
   input  logic                owe_here_i,
-  input  logic                zero_i,        // byte read is 0, 1
-  input  logic                one_i,
+  input  logic                one_i,         // byte read is 1
   input  logic [31:0]         rdata_i,
   output logic [2:0]          tail_o,
   output logic [2:0]          head_o,
@@ -67,7 +66,7 @@ module can_rn_tx #(
   // Sent, or too many attempts; or its life is over. A frame that the engine has just taken stays,
   // and so does what is behind one that has gone while its life was read.
   assign gone  = tx_ok_i || (job_i == can_rn_pkg::JobTry && phase_i[1] && one_i);
-  assign stale = job_i == can_rn_pkg::JobAge && (&phase_i) && zero_i && word_q[1] && !tx_next_i
+  assign stale = job_i == can_rn_pkg::JobAge && (&phase_i) && one_i && word_q[1] && !tx_next_i
                  && (|src_q);
   // A SELECT that does not select takes back a HERE that waits.
   assign recalled = (&src_q) && !owe_here_i;

@@ -15,12 +15,15 @@ constexpr unsigned kLife = 3;  // x 10 ms
 class PortLife : public ::testing::Test {
  protected:
   PortLife() {
-    port->user_write(remote_map::kLife / 4, kLife << 8 * (remote_map::kLife % 4),
-                     1U << remote_map::kLife % 4);
+    set_life(kLife);
     port->start();
     (void)port->drain();
     port->receive(read());  // the new LIFE holds from the frame behind this one on
     (void)port->drain();
+  }
+  void set_life(unsigned steps) {
+    port->user_write(remote_map::kLife / 4, steps << 8 * (remote_map::kLife % 4),
+                     1U << remote_map::kLife % 4);
   }
   void wait(unsigned ms) {
     for (; ms != 0; --ms) port->ms();
@@ -35,18 +38,30 @@ class PortLife : public ::testing::Test {
   std::unique_ptr<FramePort> port = FramePort::create("small", 3, 1, 3);
 };
 
-// RN-54: an answer that the bus does not take is dropped after LIFE, counted in steps of 10 ms, and
-// not before.
+// RN-54: an answer that the bus does not take is dropped before it is older than LIFE, which is
+// counted in steps of 10 ms.
 TEST_F(PortLife, AnAnswerOlderThanLifeIsDropped) {
   port->receive(read());
   port->clocks(64);
   ASSERT_TRUE(port->asks());
-  wait(10 * kLife - 1);
+  wait(10 * (kLife - 1) - 1);
   EXPECT_TRUE(port->asks());
   wait(1 + 10);
   EXPECT_FALSE(port->asks());
   port->receive(read());
   EXPECT_EQ(port->drain().size(), 1U) << "the next one is answered";
+}
+
+// RN-54: 0 is no limit.
+TEST_F(PortLife, NoLimitIsNone) {
+  set_life(0);
+  for (unsigned i = 0; i < 2; ++i) {
+    port->receive(read());
+    EXPECT_EQ(port->drain().size(), 1U);
+  }
+  port->receive(read());
+  wait(3000);
+  EXPECT_TRUE(port->asks());
 }
 
 // RN-54: one that was sent is gone, whatever its age.
