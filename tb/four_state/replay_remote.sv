@@ -47,19 +47,7 @@ module replay;
     .apply_o(apply), .safe_o(safe), .state_o(state),
     .can_rx_i(can_rx), .can_tx_o(can_tx), .trace_o(trace));
 
-  task unknown(input [8*100-1:0] name);
-    begin
-      xs = xs + 1;
-      if (xs <= 20) $display("X clock %0d %0s", row, name);
-    end
-  endtask
-
-  task check(input [8*12-1:0] name, input [48:0] seen, input [48:0] want);
-    if (seen !== want) begin
-      diffs = diffs + 1;
-      if (diffs <= 20) $display("DIFF clock %0d %0s is %0h, recorded %0h", row, name, seen, want);
-    end
-  endtask
+`include "replay_player.svh"
 
   // Registers by name: check_registers and check_behind_ram, made by registers.py.
   integer cleared;   // clocks since user logic has had access: the RAM is clear
@@ -98,32 +86,10 @@ module replay;
     end
   endtask
 
-  initial begin
-    diffs = 0;
-    xs = 0;
-    cleared = 0;
-    if (!$value$plusargs("rows=%s", path) || !$value$plusargs("count=%d", count)
-        || count > MaxRows) begin
-      $display("replay: +rows=FILE +count=NUMBER, at most %0d", MaxRows);
-      $finish;
+  task power_up;   // no reset yet, nothing is known
+    begin
+      {start, node, req, we, be, addr, wdata, hold, events, can_rx} = 'x;
+      rst_n = 1;
     end
-    $readmemh(path, rows, 0, count - 1);
-    // Power-up: no reset yet, nothing is known.
-    clk = 0;
-    row = -1;
-    {start, node, req, we, be, addr, wdata, hold, events, can_rx} = 'x;
-    rst_n = 1;
-    repeat (3) begin
-      #5 clk = 1;
-      #5 clk = 0;
-    end
-    for (row = 0; row < count; row = row + 1) begin
-      take_row;
-      #4 check_outputs;
-      #1 clk = 1;
-      #5 clk = 0;
-    end
-    $display("END clocks %0d diffs %0d xs %0d", count, diffs, xs);
-    $finish;
-  end
+  endtask
 endmodule

@@ -81,7 +81,8 @@ def compile_bench(args, size, work):
     parameters = device.parameters(size)
     target = f"{work}/replay{size}"
     os.makedirs(target, exist_ok=True)
-    command = ["iverilog", "-g2012", "-s", "replay", "-o", f"{target}/replay.vvp", "-I", target,
+    command = ["iverilog", "-g2012", "-s", "replay", "-o", f"{target}/replay.vvp",
+               "-I", target, "-I", HERE,
                "-DPARAMETERS=" + ", ".join(f".{n}({v})" for n, v in parameters.items())]
     files, names = args.netlist, []
     if args.netlist:
