@@ -58,11 +58,9 @@ bench: packages $(BUILD)/build.ninja  ## Measure the simulator's speed; writes d
 synth: boards  ## Measure area and clock rate (iCE40, VersaTiles); writes docs/synthesis.md
 	@tools/synth.sh
 
-boards: packages  ## Bitstreams of the boards with a remote node; netlists and bitstreams run on the simulated bus
+boards: packages $(BUILD)/build.ninja  ## Bitstreams of the boards with a remote node; netlists and bitstreams run on the simulated bus
 	@tools/boards.sh build/boards
-	@$(QUIET) "Configuring ($(PRESET))" cmake --preset $(PRESET) -DVERICAN_BOARDS=$(CURDIR)/build/boards
-	@$(QUIET) "Building the boards' tests" cmake --build $(BUILD) -j $(JOBS) --target boards_tests
-	@ctest --test-dir $(BUILD) -L boards --output-on-failure | tail -n 40
+	@tools/boards-test.sh $(BUILD) build/boards $(JOBS)
 
 coverage: packages $(BUILD)/build.ninja  ## Measure which lines of the C driver its tests run
 	@tools/driver-coverage.sh $(BUILD)

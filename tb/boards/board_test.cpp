@@ -109,9 +109,9 @@ TEST_F(Board, RandomCommandsAreAnsweredAsByTheModel) {
   EXPECT_GT(answers, 200U);
 }
 
+#if BOARD_NUMBER_PINS
 // RN-07: no number, no answer; the pins of the HX8K board are its number.
 TEST_F(Board, NumberComesFromPins) {
-  if (!Device::kNumberPins) GTEST_SKIP() << "this board's number is fixed";
   for (const unsigned number : {0U, 1U, 5U, 7U}) {
     Device other{"board", BoardBus::clock()};
     other.set_number(number);
@@ -123,6 +123,7 @@ TEST_F(Board, NumberComesFromPins) {
       EXPECT_THAT(said, ElementsAre(number == 5 ? "6C0#00" : "7C0#00"));
   }
 }
+#endif
 
 }  // namespace
 }  // namespace vericansim

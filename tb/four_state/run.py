@@ -42,6 +42,8 @@ def arguments():
     parser.add_argument("--json", metavar="FILE", help="write the figures there")
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
+    if options.num_mb and options.device != "ahb":
+        parser.error("--num-mb is for --device ahb: there is no other choice of buffers")
     options.device = DEVICES[options.device]
     options.sizes = options.num_mb or list(options.device.sizes)
     return options
