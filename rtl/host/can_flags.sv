@@ -15,7 +15,6 @@ module can_flags #(
   // Events.
   input  logic             flag_i,         // a buffer is done
   input  logic [IdxW-1:0]  flag_idx_i,
-  output logic             again_o,        // the CPU clears that buffer's flag in this very clock
   // Rx FIFO: IFLAG1[4:0] are unused then, [5] is the level fifo_avail_i.
   input  logic             fen_i,
   input  logic             fifo_clear_i,
@@ -82,11 +81,6 @@ module can_flags #(
       if (fifo_clear_i) iflag_q[7:5] <= '0;
     end
   end
-
-  logic [5:0] at;
-  assign at      = 6'(flag_idx_i);
-  assign again_o = flag_i && (at[5] ? iflag_hi_we_i : iflag_lo_we_i) && be_i[at[4:3]]
-                && wdata_i[at[4:0]];
 
   // Error bits, cleared by the read that returns them.
   logic [5:0] errors_q;

@@ -44,7 +44,6 @@ module can_regs #(
   output logic [6:0]      maxmb_o,
   input  logic            flag_i,
   input  logic [IdxW-1:0] flag_idx_i,
-  output logic            flag_again_o,   // see can_flags
   output logic [63:0]     iflag_o,
   input  logic [8:0]      esr2_i,        // LPTM, VPS, IMB
   input  logic [21:0]     crcr_i,        // MBCRC, TXCRC
@@ -217,7 +216,7 @@ module can_regs #(
   assign esr1_at = addr_i == can_regs_pkg::Esr1Addr;
   can_flags #(.NumMb(NumMb)) u_flags (
     .clk_i, .rst_ni, .clear_i(clear_o), .flag_i, .flag_idx_i,
-    .again_o(flag_again_o), .err_i, .boff_i,
+    .err_i, .boff_i,
     .fen_i(fen_o), .fifo_clear_i(fifo_clear_o), .fifo_avail_i, .fifo_warn_i, .fifo_ovf_i,
     .tx_wrn_i(tx_wrn), .rx_wrn_i(rx_wrn), .wrn_en_i(wrn_en),
     .iflag_lo_we_i(wr_i && addr_i == can_regs_pkg::Iflag1Addr),

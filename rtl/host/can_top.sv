@@ -105,7 +105,7 @@ module can_top #(
   // Wires between the blocks; names as at the blocks.
   logic        run, clear, running, stop_ok, mb_busy, mb_scrub;
   logic        wake, wake_en, wake_filter, rx_level, lpm_ack;
-  logic        bcc, srx_dis, lbuf, tsyn, lprio_en, aen, eacen, rrs, oneshot, osmb, flag, flag_again;
+  logic        bcc, srx_dis, lbuf, tsyn, lprio_en, aen, eacen, rrs, oneshot, osmb, flag;
   logic        fen, mrp, fifo_clear, fifo_pop, fifo_avail, fifo_warn, fifo_ovf;
   logic [1:0]  idam;
   logic [3:0]  rffn;
@@ -140,7 +140,7 @@ module can_top #(
     .bcc_o(bcc), .srx_dis_o(srx_dis), .lbuf_o(lbuf), .tsyn_o(tsyn),
     .lprio_en_o(lprio_en), .aen_o(aen), .eacen_o(eacen), .rrs_o(rrs), .oneshot_o(oneshot),
     .osmb_o(osmb), .maxmb_o(maxmb),
-    .flag_i(flag), .flag_idx_i(flag_idx), .flag_again_o(flag_again), .iflag_o(iflag),
+    .flag_i(flag), .flag_idx_i(flag_idx), .iflag_o(iflag),
     .esr2_i(esr2), .crcr_i(crcr),
     .fen_o(fen), .idam_o(idam), .rffn_o(rffn), .mrp_o(mrp), .fifo_clear_o(fifo_clear),
     .fifo_pop_o(fifo_pop), .fifo_avail_i(fifo_avail), .fifo_warn_i(fifo_warn),
@@ -163,7 +163,7 @@ module can_top #(
     .oneshot_i(oneshot), .osmb_i(osmb), .maxmb_i(maxmb),
     .fen_i(fen), .idam_i(idam), .rffn_i(rffn), .mrp_i(mrp), .fifo_clear_i(fifo_clear),
     .fifo_pop_i(fifo_pop), .fifo_avail_o(fifo_avail), .fifo_warn_o(fifo_warn),
-    .fifo_ovf_o(fifo_ovf), .iflag_i(iflag), .flag_again_i(flag_again), .esr2_o(esr2), .crcr_o(crcr),
+    .fifo_ovf_o(fifo_ovf), .iflag_i(iflag), .esr2_o(esr2), .crcr_o(crcr),
     .busy_o(mb_busy), .scrub_o(mb_scrub),
     .cmd_slot_i(req_i && !we_i && !addr_i[12]),
     .cmd_rd_i(req && !we_i && to_mb), .cmd_wr_i(req && we_i && to_mb && wr_ok),

@@ -4,7 +4,7 @@
 // can_mailbox: the message buffers: RAM, transmit arbitration, receive matching and the moves
 // between them, the engine's and the CPU's side.
 //
-// Hidden rows behind the buffers. C/S: NumMb + 0 stamp of the frame sent, + 2/3 frames received.
+// Hidden rows behind the buffers. C/S: NumMb + 0 the frame sent, + 2/3 frames received.
 // MSG (from 3 * NumMb): 4 * (0/1 frames to send, 2/3 frames received) + (0 ID, 1 bytes 0-3, 2 bytes
 // 4-7). MASK: NumMb + 0 RXGMASK, + 1 RX14MASK, + 2 RX15MASK, + 3 RXFGMASK, + 4 all ones.
 
@@ -56,7 +56,6 @@ module can_mailbox #(
   output logic [31:0]     rdata_o,
   // IFLAG, and ESR2: LPTM, VPS, IMB.
   input  logic [63:0]     iflag_i,
-  input  logic            flag_again_i, // the flag that flag_o sets is cleared in this very clock
   output logic [8:0]      esr2_o,
   output logic [21:0]     crcr_o,        // CRCR: MBCRC, TXCRC
   output logic            flag_o,
@@ -106,27 +105,28 @@ module can_mailbox #(
   end
 
   // CPU accesses and their side effects.
-  logic            cmd_wr, rd_done, wr, wr_done, waited, mb_wr, block, stall;
+  logic            cmd_wr, cmd_look, rd_done, wr, wr_done, mb_wr, block;
   logic            rxfir, raw, cs_rd, timer_rd, cpu_busy;
   logic [1:0]      cpu_kind;
   logic [IdxW-1:0] cmd_idx, cpu_idx;
   logic [3:0]      cpu_be;
-  logic [31:0]     ram_rdata;
+  logic [31:0]     ram_rdata, ram_wdata;
   logic            csw, csw_act, csw_empty, csw_ide;
   logic [IdxW-1:0] csw_idx;
   logic            mv_busy_mb, mv_flag;
   logic [IdxW-1:0] mv_idx;
   logic [2:0]      fifo_head;
   can_mb_cpu #(.NumMb(NumMb)) u_cpu (
-    .clk_i, .rst_ni, .scrub_i(scrub_o), .fen_i, .first_i(first), .head_i(fifo_head),
+    .clk_i, .rst_ni, .scrub_i(scrub_o), .fen_i, .aen_i, .osmb_i, .first_i(first),
+    .head_i(fifo_head),
     .cmd_rd_i, .cmd_wr_i, .cmd_mb_i(!cmd_kind_i[1]), .cmd_idx_i,
-    .cmd_wr_o(cmd_wr), .cmd_idx_o(cmd_idx),
+    .cmd_wr_o(cmd_wr), .cmd_look_o(cmd_look), .cmd_idx_o(cmd_idx),
     .ready_i(ready_o), .rd_done_i(rd_done), .wr_done_i(wr_done), .block_i(block),
     .kind_i(cpu_kind),
-    .rxfir_i(rxfir), .idx_i(cpu_idx), .be_i(cpu_be), .code_i(wdata_i[27:24]),
-    .ide_i(wdata_i[21]), .ram_rdata_i(ram_rdata), .timer_i,
+    .rxfir_i(rxfir), .idx_i(cpu_idx), .be_i(cpu_be), .wdata_i, .ram_rdata_i(ram_rdata), .timer_i,
     .moving_i(mv_busy_mb), .mv_idx_i(mv_idx),
-    .mb_wr_o(mb_wr), .raw_o(raw), .rdata_o, .timer_rd_o(timer_rd), .timer_wr_o(timer_we_o),
+    .mb_wr_o(mb_wr), .raw_o(raw), .wdata_o(ram_wdata), .rdata_o,
+    .timer_rd_o(timer_rd), .timer_wr_o(timer_we_o),
     .cs_rd_o(cs_rd), .busy_o(cpu_busy),
     .csw_o(csw), .csw_idx_o(csw_idx), .csw_act_o(csw_act), .csw_empty_o(csw_empty),
     .csw_ide_o(csw_ide));
@@ -167,22 +167,20 @@ module can_mailbox #(
     .pop_i(fifo_pop_i), .head_o(fifo_head), .avail_o(fifo_avail_o), .warn_o(fifo_warn_o),
     .ovf_o(fifo_ovf_o));
 
-  logic            smb, ewr_req, ewr_gnt, flags_busy;
-  logic [3:0]      ewr_cs_we, ewr_msg_we;
-  logic [IdxW:0]   ewr_cs_row;
-  logic [IdxW+1:0] ewr_msg_row;
-  logic [23:0]     ewr_cs;
-  logic [31:0]     ewr_msg;
+  logic            smb, ewr_req, ewr_gnt, ewr_owed, ewr_cs, flags_busy;
+  logic [3:0]      ewr_be;
+  logic [IdxW+1:0] ewr_row;
+  logic [31:0]     ewr_data;
   can_mb_smb #(.NumMb(NumMb)) u_smb (
     .clk_i, .rst_ni, .smb_i(smb), .timer_i,
     .start_i, .stamp_i, .transmitter_i, .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_srr_i, .rx_rtr_i,
     .rx_dlc_i,
     .rx_byte_we_i, .rx_byte_i, .rx_valid_i,
-    .req_o(ewr_req), .cs_we_o(ewr_cs_we), .cs_row_o(ewr_cs_row), .cs_o(ewr_cs),
-    .msg_we_o(ewr_msg_we), .msg_row_o(ewr_msg_row), .msg_o(ewr_msg), .gnt_i(ewr_gnt),
+    .req_o(ewr_req), .cs_o(ewr_cs), .be_o(ewr_be), .row_o(ewr_row), .data_o(ewr_data),
+    .gnt_i(ewr_gnt),
     .flags_busy_o(flags_busy));
 
-  logic       mv_req, mv_row, mv_data, mv_cancel, mv_busy, moving, ans;
+  logic       mv_req, mv_row, mv_data, mv_cancel, mv_busy, moving, ans, mv_answer;
   logic [1:0] mv_step;
   logic [8:0] mv_top;
   can_mb_move #(.NumMb(NumMb)) u_move (
@@ -195,7 +193,8 @@ module can_mailbox #(
     .csw_i(csw), .csw_idx_i(csw_idx), .csw_empty_i(csw_empty),
     .req_o(mv_req), .step_o(mv_step), .row_o(mv_row), .idx_o(mv_idx),
     .data_i(mv_data), .cs_i(cs), .top_o(mv_top), .cancel_o(mv_cancel),
-    .moving_o(moving), .busy_mb_o(mv_busy_mb), .flag_o(mv_flag), .stored_o(stored),
+    .moving_o(moving), .busy_mb_o(mv_busy_mb), .answer_o(mv_answer), .flag_o(mv_flag),
+    .stored_o(stored),
     .way_o(way), .ans_o(ans),
     .busy_o(mv_busy));
 
@@ -219,7 +218,7 @@ module can_mailbox #(
     .seen_val_o(seen_val), .seen_act_o(seen_act), .seen_free_o(seen_free));
 
   logic            hold, eng_gnt, flight;
-  logic            ld_req, ld_row, ld_word, ld_data, ld_cancel, ld_flag, ld_busy;
+  logic            ld_req, ld_row, ld_word, ld_data, ld_cancel, ld_flag, ld_take, ld_busy;
   logic            out, kept, done, sent, abort, ab_flag;
   logic [IdxW-1:0] ab_idx;
   logic [2:0]      ld_step, data_step;
@@ -237,17 +236,17 @@ module can_mailbox #(
     .started_o(started), .cur_idx_o(cur_idx),
     .req_o(ld_req), .step_o(ld_step), .row_o(ld_row), .ld_idx_o(ld_idx), .word_o(ld_word),
     .flight_i(flight), .data_i(ld_data), .data_step_i(data_step), .cs_i(cs), .msg_i(msg),
-    .cancel_o(ld_cancel), .code_o(ld_code), .flag_o(ld_flag), .sent_o(sent), .busy_o(ld_busy));
+    .cancel_o(ld_cancel), .code_o(ld_code), .flag_o(ld_flag), .sent_o(sent), .take_o(ld_take),
+    .busy_o(ld_busy));
 
   can_mb_guard #(.NumMb(NumMb)) u_guard (
     .clk_i, .rst_ni, .clear_i, .aen_i,
-    .wr_i(wr), .mb_wr_i(mb_wr), .waited_i(waited), .kind_i(cpu_kind),
-    .idx_i(cpu_idx), .be3_i(cpu_be[3]), .code_i(wdata_i[27:24]), .area_i(raw),
-    .block_o(block), .abort_o(abort), .stall_o(stall),
+    .mb_wr_i(mb_wr), .kind_i(cpu_kind), .idx_i(cpu_idx), .be3_i(cpu_be[3]),
+    .code_i(wdata_i[27:24]), .area_i(raw), .ended_i(cs[30]),
+    .block_o(block), .abort_o(abort),
     .out_i(out), .kept_i(kept), .done_i(done), .cur_idx_i(cur_idx),
     .flag_o(ab_flag), .flag_idx_o(ab_idx), .gnt_i(!mv_flag && !ld_flag),
-    .end_i(flag_o && !mv_flag), .end_idx_i(flag_idx_o), .again_i(flag_again_i),
-    .iflag_i(iflag_i[NumMb-1:0]));
+    .end_i(flag_o && !mv_flag), .end_idx_i(flag_idx_o), .iflag_i(iflag_i[NumMb-1:0]));
 
   can_mb_status #(.NumMb(NumMb)) u_status (
     .clk_i, .rst_ni, .clear_i, .lbuf_i, .csw_i(csw),
@@ -255,44 +254,45 @@ module can_mailbox #(
     .seen_val_i(seen_val), .seen_act_i(seen_act), .seen_free_i(seen_free),
     .sent_i(sent), .tx_ok_i, .cur_idx_i(cur_idx), .crc_i, .esr2_o, .crcr_o);
 
-  logic            copy, copy_msg_we, eng_req, eng_lazy;
-  logic [3:0]      copy_cs_we;
-  logic [IdxW:0]   copy_cs_row, eng_cs_row, eng_mask_row;
-  logic [IdxW+1:0] copy_msg_row, eng_msg_row;
-  logic [31:0]     copy_cs;
+  logic            copy, copy_cs, eng_req, eng_lazy;
+  logic [3:0]      copy_be;
+  logic [IdxW:0]   eng_cs_row, eng_mask_row;
+  logic [IdxW+1:0] copy_row, eng_msg_row;
+  logic [31:0]     copy_data;
   can_mb_step #(.NumMb(NumMb)) u_step (
     .clk_i, .rst_ni,
     .ld_req_i(ld_req), .ld_step_i(ld_step), .ld_row_i(ld_row), .ld_word_i(ld_word),
     .ld_idx_i(ld_idx),
-    .cur_idx_i(cur_idx), .ld_cancel_i(ld_cancel), .ld_code_i(ld_code),
+    .cur_idx_i(cur_idx), .ld_cancel_i(ld_cancel), .ld_code_i(ld_code), .ld_take_i(ld_take),
     .ld_data_o(ld_data), .ld_data_step_o(data_step),
     .mv_req_i(mv_req), .mv_step_i(mv_step), .mv_row_i(mv_row), .mv_idx_i(mv_idx), .moving_i(moving),
+    .mv_answer_i(mv_answer),
     .mv_cancel_i(mv_cancel), .mv_top_i(mv_top), .mv_data_o(mv_data), .flight_o(flight),
     .rx_req_i(rx_req), .rx_idx_i(rx_idx), .rx_word_i(rx_word),
     .rx_mask_row_i(rx_mask_row), .rx_gnt_o(rx_gnt),
     .scan_req_i(scan_req), .scan_lazy_i(scan_lazy), .scan_idx_i(scan_idx), .scan_gnt_o(scan_gnt),
     .req_o(eng_req), .lazy_o(eng_lazy),
     .cs_row_o(eng_cs_row), .msg_row_o(eng_msg_row), .mask_row_o(eng_mask_row),
-    .gnt_i(eng_gnt), .hold_i(hold), .cs_i(cs),
-    .copy_o(copy), .copy_cs_we_o(copy_cs_we), .copy_cs_row_o(copy_cs_row), .copy_cs_o(copy_cs),
-    .copy_msg_we_o(copy_msg_we), .copy_msg_row_o(copy_msg_row));
+    .gnt_i(eng_gnt), .hold_i(hold), .yield_i(ewr_owed), .cs_i(cs), .msg_i(msg),
+    .copy_o(copy), .copy_cs_o(copy_cs), .copy_be_o(copy_be), .copy_row_o(copy_row),
+    .copy_data_o(copy_data));
 
   can_mb_port #(.NumMb(NumMb)) u_port (
     .clk_i, .rst_ni,
-    .cmd_slot_i, .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_kind_i, .cmd_word_i, .cmd_idx_i(cmd_idx),
-    .cmd_be_i, .wdata_i, .raw_i(raw), .shot_i(osmb_i), .block_i(block), .stall_i(stall), .ready_o,
-    .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done), .waited_o(waited),
+    .cmd_slot_i, .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_look_i(cmd_look), .cmd_kind_i, .cmd_word_i,
+    .cmd_idx_i(cmd_idx), .cmd_be_i, .look_i(aen_i), .wdata_i(ram_wdata),
+    .block_i(block), .ready_o,
+    .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done),
     .kind_o(cpu_kind), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
     .eng_req_i(eng_req), .eng_lazy_i(eng_lazy), .eng_cs_row_i(eng_cs_row),
     .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_gnt_o(eng_gnt),
     .hold_o(hold), .stale_o(stale), .id_stale_o(id_stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
-    .copy_i(copy), .copy_cs_we_i(copy_cs_we), .copy_cs_row_i(copy_cs_row), .copy_cs_i(copy_cs),
-    .copy_msg_we_i(copy_msg_we), .copy_msg_row_i(copy_msg_row),
+    .copy_i(copy), .copy_cs_i(copy_cs), .copy_be_i(copy_be), .copy_row_i(copy_row),
+    .copy_data_i(copy_data),
     .svc_req_i(svc_req), .svc_idx_i(svc_idx), .svc_ovr_i(svc_ovr), .svc_gnt_o(svc_gnt),
-    .ewr_req_i(ewr_req), .ewr_cs_we_i(ewr_cs_we), .ewr_cs_row_i(ewr_cs_row), .ewr_cs_i(ewr_cs),
-    .ewr_msg_we_i(ewr_msg_we), .ewr_msg_row_i(ewr_msg_row), .ewr_msg_i(ewr_msg),
-    .ewr_gnt_o(ewr_gnt),
+    .ewr_req_i(ewr_req), .ewr_cs_i(ewr_cs), .ewr_be_i(ewr_be), .ewr_row_i(ewr_row),
+    .ewr_data_i(ewr_data), .ewr_gnt_o(ewr_gnt), .ewr_owed_o(ewr_owed),
     .scrub_o, .csw_i(csw));
 
   assign flag_o     = mv_flag || ld_flag || ab_flag;

@@ -17,6 +17,8 @@ module can_mb_cpu #(
   input  logic            rst_ni,
   input  logic            scrub_i,
   input  logic            fen_i,
+  input  logic            aen_i,
+  input  logic            osmb_i,        // bit 28 of a C/S word is kept with code 1100
   input  logic [6:0]      first_i,       // first buffer that is a mailbox
   input  logic [2:0]      head_i,        // row of the output, after a pop in this clock
   // Command, as of can_mailbox.
@@ -25,6 +27,7 @@ module can_mb_cpu #(
   input  logic            cmd_mb_i,      // a word of a buffer, or RXFIR
   input  logic [IdxW-1:0] cmd_idx_i,
   output logic            cmd_wr_o,      // without those that are ignored
+  output logic            cmd_look_o,    // it is a mailbox: AEN may keep it from being written
   output logic [IdxW-1:0] cmd_idx_o,     // row
   // Data phase, see can_mb_port.
   input  logic            ready_i,
@@ -35,14 +38,14 @@ module can_mb_cpu #(
   input  logic            rxfir_i,
   input  logic [IdxW-1:0] idx_i,
   input  logic [3:0]      be_i,
-  input  logic [3:0]      code_i,        // bits 27:24 of the word written
-  input  logic            ide_i,         // ... and 21
+  input  logic [31:0]     wdata_i,
   input  logic [31:0]     ram_rdata_i,
   input  logic [15:0]     timer_i,
   input  logic            moving_i,      // buffer mv_idx_i is BUSY
   input  logic [IdxW-1:0] mv_idx_i,
   output logic            mb_wr_o,       // a write to a mailbox ends in this clock
-  output logic            raw_o,         // a filter word: all 32 bits are kept
+  output logic            raw_o,         // it belongs to the filter table
+  output logic [31:0]     wdata_o,       // as it is kept
   output logic [31:0]     rdata_o,
   output logic            timer_rd_o,
   output logic            timer_wr_o,
@@ -63,6 +66,7 @@ module can_mb_cpu #(
   assign in_area   = fen_i && cmd_mb_i && 7'(cmd_idx_i) < first_i;
   assign in_ring   = in_area && cmd_idx_i[IdxW-1:3] == '0 && cmd_idx_i[2:1] != 2'b11;
   assign cmd_wr_o  = cmd_wr_i && !in_ring;
+  assign cmd_look_o = cmd_mb_i && !in_area;
   assign cmd_idx_o = fen_i && cmd_mb_i && cmd_idx_i == '0 ? IdxW'(head_i) : cmd_idx_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -71,8 +75,10 @@ module can_mb_cpu #(
   end
 
   // Data.
-  logic is_cs, cs_wr;
+  logic       is_cs, cs_wr;
+  logic [3:0] code;
   assign is_cs      = kind_i == KindCs;
+  assign code       = wdata_i[27:24];
   assign raw_o      = area_q && !ring_q;
   assign timer_rd_o = rd_done_i && kind_i == KindTimer;
   assign timer_wr_o = wr_done_i && kind_i == KindTimer;
@@ -80,6 +86,17 @@ module can_mb_cpu #(
   assign mb_wr_o    = wr_done_i && !area_q && !scrub_i;
   assign cs_wr      = mb_wr_o && is_cs && !block_i;
   assign busy_o     = moving_i && mv_idx_i == idx_i && !area_q;
+
+  // Of a C/S word all bits are kept in the filter table alone. Bit 30 of a mailbox marks the end of
+  // a transmission: an abort is one (can_mb_guard). An answer is never one-shot.
+  always_comb begin
+    wdata_o = wdata_i;
+    if (is_cs && !raw_o) begin
+      {wdata_o[31:28], wdata_o[23]} = '0;
+      wdata_o[30] = aen_i && code == 4'b1001;
+      wdata_o[28] = osmb_i && wdata_i[28] && code == 4'b1100;
+    end
+  end
 
   always_comb begin
     rdata_o = ram_rdata_i;
@@ -101,9 +118,9 @@ module can_mb_cpu #(
       csw_o <= cs_wr;
       if (cs_wr) begin
         csw_idx_o   <= idx_i;
-        csw_act_o   <= !be_i[3] || code_i == 4'b1100 || code_i == 4'b1110;
-        csw_empty_o <= be_i == '1 && code_i == 4'b0100;
-        csw_ide_o   <= ide_i;
+        csw_act_o   <= !be_i[3] || code == 4'b1100 || code == 4'b1110;
+        csw_empty_o <= be_i == '1 && code == 4'b0100;
+        csw_ide_o   <= wdata_i[21];
       end
     end
   end

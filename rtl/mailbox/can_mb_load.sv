@@ -74,6 +74,7 @@ module can_mb_load #(
   output logic [3:0]      code_o,        // step 1: new code
   output logic            flag_o,        // pulse: set IFLAG of cur_idx_o
   output logic            sent_o,        // pulse with it: sent, not given up
+  output logic            take_o,        // step 4: the frame is presented
   output logic            busy_o
 );
   localparam logic [2:0] StepWord = 3'd0;
@@ -121,6 +122,7 @@ module can_mb_load #(
   assign code_o   = failed_q ? 4'b1001 : answer_q ? 4'b1010 : tx_rtr_o ? 4'b0100 : 4'b1000;
   assign busy_o   = end_q || flag_o || abort_q;
   assign sent_o   = flag_o && !failed_q;
+  assign take_o   = head_taken;
 
   assign out_o    = off_o || started_o || (tx_req_o && gap_i && !csw_cur);
   assign kept_o   = tx_req_o && dropped_q && !csw_cur;

@@ -37,7 +37,8 @@ module can_mb_move #(
   input  logic            csw_i,
   input  logic [IdxW-1:0] csw_idx_i,
   input  logic            csw_empty_i,
-  // One copy a step: 0 ID (and the old C/S word), 1 bytes 0-3, 2 bytes 4-7 and C/S; 3 code only.
+  // One copy a step: 0 ID (and the old C/S word), 1 bytes 0-3, 2 bytes 4-7, 3 C/S; of an answer
+  // only its code.
   output logic            req_o,
   output logic [1:0]      step_o,
   output logic            row_o,         // from this row
@@ -48,6 +49,7 @@ module can_mb_move #(
   output logic            cancel_o,      // do not write
   output logic            moving_o,      // buffer idx_o changes
   output logic            busy_mb_o,     // ... and is BUSY
+  output logic            answer_o,      // ... or is to answer
   output logic            flag_o,        // pulse: set IFLAG of idx_o
   output logic            stored_o,      // pulse: the frame is in the Rx FIFO
   output logic [1:0]      way_o,         // frames on their way there, for each row
@@ -83,9 +85,10 @@ module can_mb_move #(
   assign fifo     = fifo_q[row_o];
   assign ans      = ans_q[row_o];
   assign idx_o    = row_o ? tgt1_q : tgt0_q;
-  assign req_o    = mv_q && !arm_q && !end_q;
+  assign req_o    = mv_q && !end_q;
   assign moving_o = mv_q;
   assign busy_mb_o = mv_q && !ans;
+  assign answer_o = ans;
   assign resolve_o = unres_q && match_done_i && !valid_i && !clear_i;
   assign busy_o   = unres_q || mv_q || ready != '0;
 
@@ -116,7 +119,7 @@ module can_mb_move #(
         step_o <= step_o + 1'b1;
         // FULL or OVERRUN, unread
         if (step_o == 2'd0) ovr_q <= (cs_i[25] && !cs_i[31]) && !csw_hit;
-        if (step_o[1]) begin
+        if (step_o == 2'd3) begin
           end_q <= 1'b1;
           {flag_o, stored_o, ans_o} <= {!fifo && !ans, fifo, ans};
         end

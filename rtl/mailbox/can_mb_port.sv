@@ -8,7 +8,11 @@
 // refused before; the CPU; the engine. Writes: a CPU write that has waited; the second half of a
 // copy (its data is on the RAM outputs only now); a serviced mark; the engine if it was refused
 // before; the CPU; the engine. C/S writes in a row make room for engine reads, because each brings
-// an insertion.
+// an insertion. One word of one RAM is written in a clock.
+//
+// A block RAM returns nothing certain for a word that is being written. The engine is told (stale);
+// a read of the CPU is made again in the next clock, in which nobody writes that word but a copy:
+// then the RAM is not read at all, because its outputs show what is being copied (can_mb_step).
 
 module can_mb_port #(
   parameter int NumMb = 64,
@@ -22,22 +26,20 @@ module can_mb_port #(
   input  logic            cmd_slot_i,   // cmd_rd_i may be set: early, for who gets the read port
   input  logic            cmd_rd_i,
   input  logic            cmd_wr_i,
+  input  logic            cmd_look_i,   // a write that first reads its buffer's C/S word ...
   input  logic [1:0]      cmd_kind_i,
   input  logic [1:0]      cmd_word_i,
   input  logic [IdxW-1:0] cmd_idx_i,
   input  logic [3:0]      cmd_be_i,
   // CPU, data: from the next clock until ready_o.
+  input  logic            look_i,       // ... if this is set
   input  logic [31:0]     wdata_i,
-  input  logic            raw_i,        // a C/S word with all 32 bits (filter table)
-  input  logic            shot_i,       // bit 28 of a C/S word is kept with code 1100
   input  logic            block_i,      // not to be written
-  input  logic            stall_i,      // it has to wait for a clock
   output logic            ready_o,
   output logic [31:0]     rdata_o,      // of kinds 0..2
   output logic            rd_done_o,    // a read ends in this clock
   output logic            wr_o,         // a write ends in this clock, or the next one
-  output logic            wr_done_o,    // ... in this clock
-  output logic            waited_o,     // ... and has waited for one
+  output logic            wr_done_o,    // ... in this clock; cs_o is what it has read
   output logic [1:0]      kind_o,
   output logic            rxfir_o,      // kind 0: RXFIR, not C/S
   output logic [IdxW-1:0] idx_o,
@@ -61,25 +63,23 @@ module can_mb_port #(
   // RAM outputs stay as they are then: nobody reads.
   input  logic            copy_i,
   output logic            hold_o,
-  input  logic [3:0]      copy_cs_we_i,
-  input  logic [IdxW:0]   copy_cs_row_i,
-  input  logic [31:0]     copy_cs_i,
-  input  logic            copy_msg_we_i,
-  input  logic [IdxW+1:0] copy_msg_row_i,
+  input  logic            copy_cs_i,    // C/S memory, not MSG
+  input  logic [3:0]      copy_be_i,
+  input  logic [IdxW+1:0] copy_row_i,
+  input  logic [31:0]     copy_data_i,
   // Serviced mark: top byte of a C/S word.
   input  logic            svc_req_i,
   input  logic [IdxW-1:0] svc_idx_i,
   input  logic            svc_ovr_i,
   output logic            svc_gnt_o,
-  // Engine writes.
+  // Engine writes, to hidden rows.
   input  logic            ewr_req_i,
-  input  logic [3:0]      ewr_cs_we_i,
-  input  logic [IdxW:0]   ewr_cs_row_i,
-  input  logic [23:0]     ewr_cs_i,
-  input  logic [3:0]      ewr_msg_we_i,
-  input  logic [IdxW+1:0] ewr_msg_row_i,
-  input  logic [31:0]     ewr_msg_i,
+  input  logic            ewr_cs_i,
+  input  logic [3:0]      ewr_be_i,
+  input  logic [IdxW+1:0] ewr_row_i,
+  input  logic [31:0]     ewr_data_i,
   output logic            ewr_gnt_o,
+  output logic            ewr_owed_o,   // one was refused: no copy is to begin
   // After a hard reset: every row is written once, whatever else goes on.
   output logic            scrub_o,
   input  logic            csw_i         // a C/S write ended in the clock before
@@ -126,52 +126,43 @@ module can_mb_port #(
 
   // Read port. An engine write that was refused claims a slot too: reads of C/S words in a row,
   // each with its serviced mark, would keep it out otherwise.
-  logic pend_q, owed_q, want, cpu_gnt, ewr_owed_q;
+  logic pend_q, pend, owed_q, want, cpu_gnt, ewr_owed_q;
+  assign pend      = pend_q && !(wr_q && !look_i);
   assign want      = (eng_req_i && !eng_lazy_i) || ewr_owed_q;
-  assign cpu_gnt   = pend_q || (cmd_slot_i && !ins_req_i && !(want && owed_q) && !hold_o);
-  assign ins_gnt_o = ins_req_i && !pend_q;
-  assign eng_gnt_o = eng_req_i && !pend_q && !ins_req_i && (!cmd_slot_i || (want && owed_q));
+  assign cpu_gnt   = pend || (cmd_slot_i && !ins_req_i && !(want && owed_q) && !hold_o);
+  assign ins_gnt_o = ins_req_i && !pend;
+  assign eng_gnt_o = eng_req_i && !pend && !ins_req_i && (!cmd_slot_i || (want && owed_q));
 
   // Write port.
   logic wait_q, w_gnt, ram_wr, wr_waits;
   assign ram_wr    = wr_q && kind_q != KindTimer;
-  assign w_gnt     = ram_wr && (wait_q || !(copy_i || svc_req_i || ewr_owed_q
-                                            || stall_i
+  assign w_gnt     = ram_wr && (wait_q || !(pend || copy_i || svc_req_i || ewr_owed_q
                                             || (kind_q == KindCs && csw_i && owed_q)));
   assign wr_waits  = ram_wr && !w_gnt;
   assign hold_o    = copy_i && wait_q;
   // These do not look at w_gnt, which is late: a write that waits for another reason only puts the
-  // engine off once.
-  assign svc_gnt_o = svc_req_i && !copy_i && !(ram_wr && wait_q);
+  // engine off once. No mark while its word is read for the second time.
+  assign svc_gnt_o = svc_req_i && !copy_i && !(ram_wr && wait_q) && !(pend && svc_idx_i == idx_q);
   assign ewr_gnt_o = ewr_req_i && !copy_i && !svc_req_i && (!ram_wr || (ewr_owed_q && !wait_q));
 
-  assign ready_o   = !pend_q && !wr_waits;
-  assign rd_done_o = rd_q && !pend_q;
+  assign ewr_owed_o = ewr_owed_q;
+
+  assign ready_o   = !pend && !wr_waits;
+  assign rd_done_o = rd_q && !pend;
   assign wr_o      = wr_q;
   assign wr_done_o = wr_q && !wr_waits;
-  assign waited_o  = wait_q;
   assign kind_o    = kind_q;
   assign rxfir_o   = !word_q[1];
   assign idx_o     = idx_q;
   assign be_o      = be_q;
 
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      {pend_q, owed_q, wait_q, ewr_owed_q} <= '0;
-    end else begin
-      pend_q     <= cmd_rd_i && !cpu_gnt;
-      owed_q     <= want && (pend_q || ins_req_i || (cmd_slot_i && !owed_q));
-      wait_q     <= wr_waits;
-      ewr_owed_q <= ewr_req_i && !ewr_gnt_o;
-    end
-  end
-
-  // Addresses of the CPU: from the command, or held if it waits.
+  // Addresses of the CPU: from the command, or held if it waits. A write that waits reads the C/S
+  // word.
   logic [1:0]      c_kind, c_word;
   logic [IdxW-1:0] c_idx;
-  assign c_kind = pend_q ? kind_q : cmd_kind_i;
-  assign c_word = pend_q ? word_q : cmd_word_i;
-  assign c_idx  = pend_q ? idx_q : cmd_idx_i;
+  assign c_kind = !pend ? cmd_kind_i : wr_q ? KindCs : kind_q;
+  assign c_word = pend ? word_q : cmd_word_i;
+  assign c_idx  = pend ? idx_q : cmd_idx_i;
 
   logic [IdxW:0]   cs_raddr, mask_raddr;
   logic [IdxW+1:0] msg_raddr;
@@ -179,104 +170,74 @@ module can_mb_port #(
   assign msg_raddr  = cpu_gnt ? {c_word, c_idx} : ins_gnt_o ? {2'b00, ins_idx_i} : eng_msg_row_i;
   assign mask_raddr = cpu_gnt ? {c_word[0], c_idx} : eng_mask_row_i;
 
-  // Write data and addresses.
-  logic [3:0]      cs_we, msg_we, mask_we;
-  logic [IdxW:0]   cs_waddr, mask_waddr;
-  logic [IdxW+1:0] msg_waddr;
-  logic [31:0]     cs_wdata, msg_wdata, mask_wdata;
+  // The word that is written: memory, row, byte lanes, data.
+  logic            w_cs, w_msg, w_mask;
+  logic [IdxW+1:0] w_row;
+  logic [3:0]      w_be;
+  logic [31:0]     w_data;
 
   always_comb begin
-    cs_we     = '0;
-    msg_we    = '0;
-    mask_we   = '0;
-    cs_waddr  = {1'b0, idx_q};
-    msg_waddr = {word_q, idx_q};
-    mask_waddr = {word_q[0], idx_q};
-    cs_wdata  = wdata_i;
-    if (!raw_i) begin                                          // these read as zero
-      {cs_wdata[31:28], cs_wdata[23]} = '0;
-      cs_wdata[28] = shot_i && wdata_i[28] && wdata_i[27:24] == 4'b1100;  // not for an answer
-    end
-    msg_wdata = wdata_i;
-    mask_wdata = wdata_i;
+    {w_cs, w_msg, w_mask} = {kind_q == KindCs, kind_q == KindMsg, kind_q == KindMask};
+    w_row  = {kind_q == KindMsg && word_q[1], kind_q != KindCs && word_q[0], idx_q};
+    w_be   = be_q & {4{w_gnt && !block_i}};
+    w_data = wdata_i;
     if (scrub_o) begin
-      {cs_we, msg_we, mask_we} = '1;
-      cs_waddr   = scrub_row_q[IdxW:0];
-      msg_waddr  = scrub_row_q;
-      mask_waddr = scrub_row_q[IdxW:0];
-      cs_wdata   = '0;
-      msg_wdata  = '0;
-      mask_wdata = {32{scrub_row_q[IdxW]}};   // RXGMASK, RX14MASK, RX15MASK: ones
+      // RXGMASK, RX14MASK, RX15MASK are ones; the C/S rows were zeroed in the first half.
+      {w_cs, w_msg, w_mask} = {!scrub_row_q[IdxW+1], 2'b11};
+      w_row  = scrub_row_q;
+      w_be   = '1;
+      w_data = {32{&scrub_row_q[IdxW+1:IdxW]}};
     end else if (copy_i && !hold_o) begin
-      cs_we     = copy_cs_we_i;
-      cs_waddr  = copy_cs_row_i;
-      cs_wdata  = copy_cs_i;
-      msg_we    = {4{copy_msg_we_i}};
-      msg_waddr = copy_msg_row_i;
-      msg_wdata = msg_o;
-    end else if (w_gnt) begin
-      if (kind_q == KindCs)   cs_we = be_q & {4{!block_i}};
-      if (kind_q == KindMsg)  msg_we = be_q & {4{!block_i}};
-      if (kind_q == KindMask) mask_we = be_q;
-    end else if (svc_req_i) begin
-      cs_we    = 4'b1000;
-      cs_waddr = {1'b0, svc_idx_i};
-      cs_wdata = {4'b1000, 1'b0, svc_ovr_i, 2'b10, 24'b0};
+      {w_cs, w_msg, w_mask} = {copy_cs_i, !copy_cs_i, 1'b0};
+      w_row  = copy_row_i;
+      w_be   = copy_be_i;
+      w_data = copy_data_i;
+    end else if (!w_gnt && svc_req_i) begin
+      {w_cs, w_msg, w_mask} = 3'b100;
+      w_row  = {2'b00, svc_idx_i};
+      w_be   = {svc_gnt_o, 3'b000};
+      w_data[31:24] = {4'b1000, 1'b0, svc_ovr_i, 2'b10};
     end else if (ewr_gnt_o) begin
-      cs_we     = ewr_cs_we_i;
-      cs_waddr  = ewr_cs_row_i;
-      cs_wdata  = {8'b0, ewr_cs_i};
-      msg_we    = ewr_msg_we_i;
-      msg_waddr = ewr_msg_row_i;
-      msg_wdata = ewr_msg_i;
+      {w_cs, w_msg, w_mask} = {ewr_cs_i, !ewr_cs_i, 1'b0};
+      w_row  = ewr_row_i;
+      w_be   = ewr_be_i;
+      w_data = ewr_data_i;
     end
   end
 
+  // Does it meet the CPU's read? Its lanes do not count: they come late.
+  logic meets, shown;
+  assign meets = (copy_i || ram_wr || svc_req_i)
+              && ((w_cs && c_kind == KindCs && w_row[IdxW-1:0] == c_idx && !w_row[IdxW])
+                  || (w_msg && c_kind == KindMsg && w_row == {c_word, c_idx})
+                  || (w_mask && c_kind == KindMask && w_row[IdxW:0] == {c_word[0], c_idx}));
+  assign shown = pend && copy_i && meets;
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
+      {pend_q, owed_q, wait_q, ewr_owed_q} <= '0;
       {stale_o, id_stale_o} <= '0;
     end else begin
-      stale_o    <= cs_we[3] && cs_waddr == cs_raddr;
-      id_stale_o <= msg_we != '0 && msg_waddr == msg_raddr;
+      pend_q     <= (cmd_rd_i && (!cpu_gnt || meets)) || (cmd_wr_i && cmd_look_i);
+      owed_q     <= want && (pend || ins_req_i || (cmd_slot_i && !owed_q));
+      wait_q     <= wr_waits;
+      ewr_owed_q <= ewr_req_i && !ewr_gnt_o;
+      stale_o    <= w_cs && w_be[3] && w_row[IdxW:0] == cs_raddr;
+      id_stale_o <= w_msg && w_be != '0 && w_row == msg_raddr;
     end
   end
 
   logic re;
-  assign re = cpu_gnt || ins_gnt_o || eng_gnt_o;
+  assign re = (cpu_gnt && !shown) || ins_gnt_o || eng_gnt_o;
   can_mb_ram #(.Depth(2 * NumMb)) u_cs (
     .clk_i, .re_i(re), .raddr_i(cs_raddr), .rdata_o(cs_o),
-    .we_i(cs_we), .waddr_i(cs_waddr), .wdata_i(cs_wdata));
+    .we_i(w_be & {4{w_cs}}), .waddr_i(w_row[IdxW:0]), .wdata_i(w_data));
   can_mb_ram #(.Depth(4 * NumMb)) u_msg (
     .clk_i, .re_i(re), .raddr_i(msg_raddr), .rdata_o(msg_o),
-    .we_i(msg_we), .waddr_i(msg_waddr), .wdata_i(msg_wdata));
+    .we_i(w_be & {4{w_msg}}), .waddr_i(w_row), .wdata_i(w_data));
   can_mb_ram #(.Depth(2 * NumMb)) u_mask (
     .clk_i, .re_i(re), .raddr_i(mask_raddr), .rdata_o(mask_o),
-    .we_i(mask_we), .waddr_i(mask_waddr), .wdata_i(mask_wdata));
-
-  // A CPU read in the very clock of a write to the same word, whoever writes, takes the written
-  // bytes from here.
-  logic [3:0]  fwd_we, fwd_q;
-  logic [31:0] fwd_data_q;
-  always_comb begin
-    fwd_we = '0;
-    case (c_kind)
-      KindCs:   if (cs_waddr == {1'b0, c_idx})        fwd_we = cs_we;
-      KindMsg:  if (msg_waddr == {c_word, c_idx})     fwd_we = msg_we;
-      KindMask: if (mask_waddr == {c_word[0], c_idx}) fwd_we = mask_we;
-      default:  ;
-    endcase
-  end
-
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      fwd_q      <= '0;
-      fwd_data_q <= '0;
-    end else if (cpu_gnt) begin
-      fwd_q      <= fwd_we;
-      // Masks are written by the CPU alone, and its data is in msg_wdata as well.
-      fwd_data_q <= c_kind == KindCs ? cs_wdata : msg_wdata;
-    end
-  end
+    .we_i(w_be & {4{w_mask}}), .waddr_i(w_row[IdxW:0]), .wdata_i(w_data));
 
   always_comb begin
     rdata_o = '0;
@@ -287,7 +248,6 @@ module can_mb_port #(
         KindMask: rdata_o = mask_o;
         default:  ;
       endcase
-      for (int b = 0; b < 4; b++) if (fwd_q[b]) rdata_o[8*b +: 8] = fwd_data_q[8*b +: 8];
     end
   end
 endmodule

@@ -64,8 +64,9 @@ module can_mb_rx #(
                 && (!ide_o || ((id_i[17:0] ^ id_o[17:0]) & mask_i[17:0]) == '0);
   assign free    = (cs_i[26:24] == 3'b100 || cs_i[31] || ans_o)
                 && !(lock_i && lock_idx_i == s1_idx_q);
-  // written meanwhile: read it again
-  assign skip    = s2_skip_q || (csw_i && csw_idx_i == s2_idx_q);
+  // Read it again: it was being written then, or it fitted and has been written since. One that did
+  // not fit was looked at before that write.
+  assign skip    = s2_skip_q || (s2_match_q && csw_i && csw_idx_i == s2_idx_q);
   assign last    = idx_o == IdxW'(NumMb - 1) || 7'(idx_o) == maxmb_i;
 
   // The CPU took the chosen buffer away: look again. Writing EMPTY leaves one that stores a

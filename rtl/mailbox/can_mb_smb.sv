@@ -28,12 +28,10 @@ module can_mb_smb #(
   input  logic            rx_valid_i,
   // Write port.
   output logic            req_o,
-  output logic [3:0]      cs_we_o,
-  output logic [IdxW:0]   cs_row_o,
-  output logic [23:0]     cs_o,
-  output logic [3:0]      msg_we_o,
-  output logic [IdxW+1:0] msg_row_o,
-  output logic [31:0]     msg_o,
+  output logic            cs_o,          // C/S memory, not MSG
+  output logic [3:0]      be_o,
+  output logic [IdxW+1:0] row_o,
+  output logic [31:0]     data_o,
   input  logic            gnt_i,
   output logic            flags_busy_o   // header bits not written yet
 );
@@ -43,30 +41,24 @@ module can_mb_smb #(
   assign req_o = stamp_q || tx_stamp_q || flags_q || id_q || zero0_q || zero1_q || byte_q;
   assign flags_busy_o = flags_q;
 
-  // SRR of a base frame is kept as 1; byte lanes select what is written.
-  assign cs_o     = {1'b0, rx_srr_i || !rx_ide_i, rx_ide_i, rx_rtr_i, rx_dlc_i, timer_i};
-  assign cs_row_o = (stamp_q || !tx_stamp_q) ? (IdxW+1)'(NumMb + 2) | (IdxW+1)'(smb_i)
-                                             : (IdxW+1)'(NumMb);
-
+  assign cs_o = stamp_q || tx_stamp_q || flags_q;
   always_comb begin
-    cs_we_o   = '0;
-    msg_we_o  = '0;
-    msg_row_o = (IdxW+2)'(3 * NumMb) | (IdxW+2)'({1'b1, smb_i, 2'd0});
-    msg_o     = {3'b0, rx_id_i};
-    if (stamp_q || tx_stamp_q) begin
-      cs_we_o = 4'b0011;
-    end else if (flags_q) begin
-      cs_we_o = 4'b0100;
-    end else if (id_q) begin
-      msg_we_o = 4'b1111;
-    end else if (zero0_q || zero1_q) begin   // bytes beyond the DLC read as zero
-      msg_we_o = 4'b1111;
-      msg_o    = '0;
-      msg_row_o[1:0] = zero0_q ? 2'd1 : 2'd2;
-    end else if (byte_q) begin
-      msg_we_o = 4'b1000 >> count_q[1:0];
-      msg_o    = {4{rx_byte_i}};
-      msg_row_o[1:0] = count_q[2] ? 2'd2 : 2'd1;
+    be_o   = '1;
+    row_o  = (IdxW+2)'(3 * NumMb) | (IdxW+2)'({1'b1, smb_i, 2'd0});
+    data_o = {3'b0, rx_id_i};
+    if (cs_o) begin
+      be_o   = stamp_q || tx_stamp_q ? 4'b0011 : 4'b0100;
+      row_o  = stamp_q || !tx_stamp_q ? (IdxW+2)'(NumMb + 2) | (IdxW+2)'(smb_i)
+                                      : (IdxW+2)'(NumMb);
+      // SRR of a base frame is kept as 1.
+      data_o = {9'b0, rx_srr_i || !rx_ide_i, rx_ide_i, rx_rtr_i, rx_dlc_i, timer_i};
+    end else if (!id_q && (zero0_q || zero1_q)) begin   // bytes beyond the DLC read as zero
+      data_o = '0;
+      row_o[1:0] = zero0_q ? 2'd1 : 2'd2;
+    end else if (!id_q) begin
+      be_o   = 4'b1000 >> count_q[1:0];
+      data_o = {4{rx_byte_i}};
+      row_o[1:0] = count_q[2] ? 2'd2 : 2'd1;
     end
   end
 

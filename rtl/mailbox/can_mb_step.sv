@@ -22,6 +22,7 @@ module can_mb_step #(
   input  logic [IdxW-1:0] cur_idx_i,
   input  logic            ld_cancel_i,
   input  logic [3:0]      ld_code_i,
+  input  logic            ld_take_i,
   output logic            ld_data_o,       // data of ld_data_step_o is there
   output logic [2:0]      ld_data_step_o,
   // Steps of can_mb_move.
@@ -30,6 +31,7 @@ module can_mb_step #(
   input  logic            mv_row_i,
   input  logic [IdxW-1:0] mv_idx_i,
   input  logic            moving_i,
+  input  logic            mv_answer_i,
   input  logic            mv_cancel_i,
   input  logic [8:0]      mv_top_i,        // bits 31:23 of the new C/S word
   output logic            mv_data_o,
@@ -52,14 +54,15 @@ module can_mb_step #(
   output logic [IdxW:0]   mask_row_o,
   input  logic            gnt_i,
   input  logic            hold_i,
+  input  logic            yield_i,         // an engine write waits for a clock without a copy
   input  logic [31:0]     cs_i,
+  input  logic [31:0]     msg_i,
   // Write port: second half of a copy.
   output logic            copy_o,
-  output logic [3:0]      copy_cs_we_o,
-  output logic [IdxW:0]   copy_cs_row_o,
-  output logic [31:0]     copy_cs_o,
-  output logic            copy_msg_we_o,
-  output logic [IdxW+1:0] copy_msg_row_o
+  output logic            copy_cs_o,       // C/S memory, not MSG
+  output logic [3:0]      copy_be_o,
+  output logic [IdxW+1:0] copy_row_o,
+  output logic [31:0]     copy_data_o
 );
   localparam logic [2:0] StepWord = 3'd0;   // as in can_mb_load
   localparam logic [2:0] StepEnd  = 3'd1;
@@ -67,7 +70,7 @@ module can_mb_step #(
   localparam logic [2:0] StepHead = 3'd4;
 
   logic step_req, take_ld, data_q, data_ld_q;
-  assign step_req   = (ld_req_i || mv_req_i) && !data_q;
+  assign step_req   = (ld_req_i || mv_req_i) && !data_q && !yield_i;
   assign take_ld    = ld_req_i && !(mv_req_i && data_ld_q);   // in turn if both want
   assign req_o      = (step_req || rx_req_i || scan_req_i) && !hold_i;
   assign lazy_o     = !step_req && !rx_req_i && scan_lazy_i;
@@ -106,33 +109,43 @@ module can_mb_step #(
       msg_row_o = ld_step_i == StepWord ? hidden(1'b0, !ld_row_i, {ld_word_i, !ld_word_i})
                 : {ld_step_i == StepHead ? 2'd0 : {ld_step_i[0], !ld_step_i[0]}, ld_idx_i};
     end else if (step_req) begin
-      cs_row_o  = mv_step_i[0] == mv_step_i[1] ? {1'b0, mv_idx_i}
+      cs_row_o  = mv_step_i == 2'd0 || mv_answer_i ? {1'b0, mv_idx_i}
                 : (IdxW+1)'(NumMb + 2) | (IdxW+1)'(mv_row_i);
       msg_row_o = hidden(1'b1, mv_row_i, mv_step_i);
     end
   end
   assign mask_row_o = rx_mask_row_i;
 
+  // Data of a C/S copy: what the RAM shows, under a new code. Should the CPU read the word that is
+  // being written it gets what the RAM shows (can_mb_port): of a frame received, the hidden word
+  // with BUSY; of an answer, the word as it was; of a frame sent, a copy of its buffer's word that
+  // was made when it was presented, with its stamp. Bit 30: a transmission has ended.
+  logic       is_ld;
+  logic [8:0] top;
+  assign is_ld     = data_q && data_ld_q;
+  assign copy_o    = is_ld ? ld_data_step_o != StepWord : data_q && moving_i;
+  assign copy_cs_o = is_ld ? !ld_data_step_o[1] : mv_step_i == 2'd3;
+
   always_comb begin
-    copy_o         = 1'b0;
-    copy_cs_we_o   = '0;
-    copy_msg_we_o  = 1'b0;
-    copy_cs_row_o  = {1'b0, mv_idx_i};
-    copy_msg_row_o = {mv_step_i, mv_idx_i};
-    copy_cs_o      = {mv_top_i, cs_i[22:0]};
-    if (mv_step_i == 2'd3) copy_cs_o[31:28] = cs_i[31:28];
-    if (data_q && data_ld_q) begin
-      copy_o         = ld_data_step_o != StepWord && ld_data_step_o != StepHead;
-      copy_cs_we_o   = ld_data_step_o == StepEnd && !ld_cancel_i ? 4'b1011 : 4'b0000;
-      copy_cs_row_o  = {1'b0, cur_idx_i};
-      copy_cs_o      = {4'b0, ld_code_i, 1'b0, cs_i[22:0]};
-      copy_msg_we_o  = ld_data_step_o[1];
-      copy_msg_row_o = hidden(1'b0, ld_row_i, {ld_data_step_o != StepLow,
-          ld_data_step_o == StepLow});
-    end else if (data_q && moving_i) begin
-      copy_o        = 1'b1;
-      copy_cs_we_o  = {mv_step_i[1], {3{mv_step_i == 2'd2}}} & {4{!mv_cancel_i}};
-      copy_msg_we_o = mv_step_i != 2'd3 && !mv_cancel_i;
+    copy_row_o = {copy_cs_o ? 2'b00 : mv_step_i, mv_idx_i};
+    top        = mv_top_i;
+    if (mv_answer_i) top[8:5] = cs_i[31:28];
+    if (is_ld) begin
+      copy_row_o = hidden(1'b0, ld_row_i, {ld_data_step_o != StepLow, ld_data_step_o == StepLow});
+      top        = cs_i[31:23];
+      if (ld_data_step_o == StepHead) copy_row_o = (IdxW+2)'(NumMb);
+      if (ld_data_step_o == StepEnd) begin
+        copy_row_o = {2'b00, cur_idx_i};
+        top        = {4'b0100, ld_code_i, 1'b0};
+      end
     end
+    copy_data_o = copy_cs_o ? {top, cs_i[22:0]} : msg_i;
+  end
+
+  always_comb begin
+    copy_be_o = {4{!mv_cancel_i}} & {1'b1, {3{!(mv_answer_i && copy_cs_o)}}};
+    if (is_ld) copy_be_o = '1;
+    if (is_ld && ld_data_step_o == StepHead) copy_be_o = {4{ld_take_i}};
+    if (is_ld && ld_data_step_o == StepEnd)  copy_be_o = {4{!ld_cancel_i}} & 4'b1011;
   end
 endmodule

@@ -43,6 +43,16 @@ void BufferModel::cpu_write(std::uint32_t address, std::uint32_t data, std::uint
   }
 }
 
+namespace {
+
+/// A write that was taken shows that the buffer is not protected, where that is open.
+BufferState unguarded(BufferState state, unsigned n) {
+  if (state.mb[n].guarded) state.mb.change(n).guarded = false;
+  return state;
+}
+
+}  // namespace
+
 void BufferModel::write_mask(std::uint32_t address, std::uint32_t data, std::uint32_t lanes) {
   std::uint32_t *mask = nullptr;
   if (address == reg::kRxgmask) mask = &masks_.global;
@@ -66,7 +76,7 @@ void BufferModel::write_buffer(unsigned n, unsigned word, std::uint32_t data, st
         if (guarded) out.add(state);
         const unsigned code = state.mb[n].code();
         if (guarded && (code == kTxInactive || code == kTxAbort)) return;
-        BufferState next = state;
+        BufferState next = unguarded(state, n);
         next.write(n, word, data, lanes, config_, now);
         out.add(std::move(next));
       },
@@ -101,19 +111,20 @@ void BufferModel::write_cs(const BufferState &state, unsigned n, std::uint32_t d
 }
 
 // AEN=1 (3.4): writes to a buffer that is moved out have no effect, but 1001 is remembered.
-void BufferModel::write_cs_aen(const BufferState &state, unsigned n, std::uint32_t data,
+void BufferModel::write_cs_aen(const BufferState &before_it, unsigned n, std::uint32_t data,
                                std::uint32_t lanes, std::uint64_t now, DistinctStates &out) const {
-  const unsigned before = state.mb[n].code();
+  const unsigned before = before_it.mb[n].code();
   const bool abort = (lanes & kCodeLane) != 0 && cs_code(data) == kTxAbort;
-  if (state.write_blocked(n)) {
-    BufferState next = state;
+  if (before_it.write_blocked(n)) {
+    BufferState next = before_it;
     if (abort && next.flight) next.flight->abort = true;
     if (abort && next.moved_out == n) next.moved_out_abort = true;
     return out.add(std::move(next));
   }
   // Whether the flag of an answer, or of a request that turned into an Rx buffer, protects is open.
-  if (state.mb[n].guarded) out.add(state);
-  if (state.mb[n].guarded && (before == kTxInactive || before == kTxAbort)) return;
+  if (before_it.mb[n].guarded) out.add(before_it);
+  if (before_it.mb[n].guarded && (before == kTxInactive || before == kTxAbort)) return;
+  const BufferState state = unguarded(before_it, n);
   if (abort && before == kTxAnswerWaits) out.add(state);
   // In the moment in which an attempt fails the buffer may still count as moved out.
   if (state.mb[n].request && !abort && now <= ended_at_ + kMoment) out.add(state);

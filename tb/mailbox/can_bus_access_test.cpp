@@ -60,7 +60,9 @@ TEST_F(Access, ReadRightAfterAWriteSeesIt) {
     const auto results = rig_.burst(0, {write(address, value), read(address), read(address)});
     EXPECT_EQ(results[1].data, value);
     EXPECT_EQ(results[2].data, value);
-    EXPECT_EQ(results[0].waits + results[1].waits + results[2].waits, 0u);
+    // The RAM cannot be read and written at one place in one clock (PK-39).
+    EXPECT_EQ(results[0].waits + results[2].waits, 0u);
+    EXPECT_EQ(results[1].waits, 1u);
   }
 }
 

@@ -18,7 +18,7 @@ class MbCpu : public ::testing::Test {
     cpu_->kind_i = 0;
     cpu_->idx_i = idx;
     cpu_->be_i = lanes;
-    cpu_->code_i = code;
+    cpu_->wdata_i = code << 24;
     cpu_.settle();
     cpu_.clock();
     cpu_->wr_done_i = 0;
@@ -57,6 +57,62 @@ TEST_F(MbCpu, FilterWordsAreNoCsWords) {  // FX-4.a, FX-ESR2.VPS
     write(idx, 15, 0xC);
     EXPECT_EQ(cpu_->csw_o != 0, idx >= 10) << idx;
     cpu_.clock();
+  }
+}
+
+/// The word 0xFFFFFFFF with another code as it is kept.
+class MbCpuKeeps : public MbCpu {
+ protected:
+  unsigned kept(unsigned kind, unsigned code) {
+    cpu_->kind_i = kind;
+    cpu_->wdata_i = 0xF0FFFFFF | code << 24;
+    cpu_.settle();
+    return cpu_->wdata_o;
+  }
+};
+
+// Bit 28 is one-shot (XCTRL.OSMB), bit 30 the mark of an end, which an abort is; the other bits
+// that read as zero are zero.
+TEST_F(MbCpuKeeps, OfAMailboxesCsWordWhatCanBeSeenAndTwoMarks) {  // FX-3.3.j, FX-3.4.a
+  for (unsigned code = 0; code < 16; ++code) {
+    for (const bool aen : {false, true}) {
+      for (const bool osmb : {false, true}) {
+        cpu_->aen_i = aen;
+        cpu_->osmb_i = osmb;
+        const unsigned marks =
+            (aen && code == 9 ? 1u << 30 : 0) | (osmb && code == 12 ? 1u << 28 : 0);
+        EXPECT_EQ(kept(0, code), marks | code << 24 | 0x7FFFFF) << code;
+        EXPECT_EQ(kept(1, code), 0xF0FFFFFF | code << 24) << code;
+        EXPECT_EQ(kept(2, code), 0xF0FFFFFF | code << 24) << code;
+      }
+    }
+  }
+}
+
+TEST_F(MbCpuKeeps, AWordOfTheFilterTableWhole) {  // FX-4.a
+  cpu_->fen_i = cpu_->cmd_mb_i = cpu_->ready_i = 1;
+  cpu_->first_i = 10;
+  cpu_->cmd_wr_i = 1;
+  cpu_->cmd_idx_i = 7;
+  cpu_.clock();
+  cpu_->cmd_wr_i = 0;
+  for (unsigned code = 0; code < 16; ++code)
+    EXPECT_EQ(kept(0, code), 0xF0FFFFFF | code << 24) << code;
+}
+
+// Only a mailbox has a C/S word that says whether it may be written.
+TEST_F(MbCpu, LooksAtTheCsWordOfAMailboxAlone) {  // FX-3.3.j
+  cpu_->first_i = 10;
+  for (const bool mailbox : {false, true}) {
+    for (const bool fifo : {false, true}) {
+      for (const unsigned idx : {0u, 7u, 9u, 10u}) {
+        cpu_->cmd_mb_i = mailbox;
+        cpu_->fen_i = fifo;
+        cpu_->cmd_idx_i = idx;
+        cpu_.settle();
+        EXPECT_EQ(cpu_->cmd_look_o != 0, mailbox && !(fifo && idx < 10)) << idx;
+      }
+    }
   }
 }
 

@@ -27,10 +27,11 @@ class MbMove : public ::testing::Test {
   void clock() {
     move_.settle();
     const bool step = move_->req_o != 0 && move_->data_i == 0;
-    if (move_->data_i != 0 && move_->step_o == 2) code_ = (move_->top_o >> 1) & 0xF;
+    if (move_->data_i != 0 && move_->step_o == 3) code_ = (move_->top_o >> 1) & 0xF;
     if (step) move_->cs_i = ram_cs_;
     move_.clock();
-    move_->data_i = step;
+    move_.settle();
+    move_->data_i = step && move_->moving_o != 0;  // as can_mb_step does it
     move_->csw_i = move_->csw_empty_i = move_->start_i = move_->valid_i = 0;
     move_.settle();
     if (move_->flag_o || move_->ans_o) stored_.push_back(move_->idx_o);

@@ -128,15 +128,29 @@ TEST_F(MbPort, EngineWriteThatWasRefusedComesBeforeTheCpu) {
   EXPECT_FALSE(port_->ready_o);
 }
 
-// A block RAM answers nothing certain to a read of a word that is being written; the CPU gets the
-// written bytes with the others as they were.
+TEST_F(MbPort, WriteThatLooksAtItsCsWordWaitsForOneClock) {  // FX-3.3.j
+  for (const bool look : {true, false, true}) {
+    port_->cmd_look_i = 1;
+    port_->look_i = !look;  // AEN is written in the clock of the command
+    writes(true);
+    clock();
+    port_->look_i = look;
+    writes(false);  // a command only where it is taken
+    EXPECT_EQ(port_->ready_o && port_->wr_done_o, !look);
+    if (!look) continue;
+    clock();
+    EXPECT_TRUE(port_->ready_o && port_->wr_done_o);
+  }
+}
+
+// A block RAM answers nothing certain to a read of a word that is being written; the CPU reads it
+// again, but for the word that a copy shows.
 class MbPortCollision : public MbPort {
  protected:
   static constexpr unsigned Cs = 0, Msg = 1, Mask = 2;
-  /// The CPU writes `value` to buffer 5's word of `kind`, unmasked.
+  /// The CPU writes `value` to buffer 5's word of `kind`.
   void fill(unsigned kind, unsigned word, unsigned value) {
     command(kind, word, 5);
-    port_->raw_i = 1;
     writes(true);
     clock();
     writes(false);
@@ -148,26 +162,39 @@ class MbPortCollision : public MbPort {
     command(kind, word, idx);
     reads(true);
   }
-  /// What that read gives, one clock later.
-  unsigned answer() {
+  /// What that read gives, one clock later; or another one, if it is read again.
+  unsigned answer(bool again = false) {
     clock();
-    reads(false);
+    nothing_is_written();
+    EXPECT_EQ(port_->ready_o && port_->rd_done_o, !again);
+    if (again) clock();
     EXPECT_TRUE(port_->ready_o && port_->rd_done_o);
     return port_->rdata_o;
+  }
+  void nothing_is_written() {
+    reads(false);
+    port_->ewr_req_i = port_->svc_req_i = port_->copy_i = 0;
+    port_.settle();
   }
   /// A write of the engine in this clock, of the bytes `we`.
   void engine_writes(unsigned kind, unsigned row, unsigned we, unsigned value) {
     port_->ewr_req_i = 1;
-    port_->ewr_cs_we_i = kind == Cs ? we : 0;
-    port_->ewr_msg_we_i = kind == Msg ? we : 0;
-    port_->ewr_cs_row_i = port_->ewr_msg_row_i = row;
-    port_->ewr_cs_i = value & 0xFFFFFF;
-    port_->ewr_msg_i = value;
+    port_->ewr_cs_i = kind == Cs;
+    port_->ewr_be_i = we;
+    port_->ewr_row_i = row;
+    port_->ewr_data_i = value;
     port_.settle();
     EXPECT_TRUE(port_->ewr_gnt_o);
   }
-
- private:
+  /// A copy of the word on the RAM outputs in this clock, of the bytes `we`.
+  void copies(unsigned kind, unsigned row, unsigned we, unsigned value) {
+    port_->copy_i = 1;
+    port_->copy_cs_i = kind == Cs;
+    port_->copy_be_i = we;
+    port_->copy_row_i = row;
+    port_->copy_data_i = value;
+    port_.settle();
+  }
   void command(unsigned kind, unsigned word, unsigned idx) {
     port_->cmd_kind_i = kind;
     port_->cmd_word_i = word;
@@ -175,66 +202,52 @@ class MbPortCollision : public MbPort {
   }
 };
 
-TEST_F(MbPortCollision, ReadMeetsAnEngineWriteOfTheControlWord) {
+TEST_F(MbPortCollision, ReadMeetsACopyOfTheControlWord) {
   fill(Cs, 3, 0x01234567);
   read(Cs, 3);
-  engine_writes(Cs, 5, 0b0101, 0x89ABCD);
-  EXPECT_EQ(answer(), 0x018945CDu);
+  copies(Cs, 5, 0b1011, 0x89ABCDEF);
+  EXPECT_EQ(answer(true), 0x8923CDEFu);
 }
 
-TEST_F(MbPortCollision, ReadMeetsAnEngineWriteOfEachDataWord) {
+TEST_F(MbPortCollision, ReadMeetsACopyOfEachDataWord) {
   for (unsigned word = 0; word < 3; ++word) {
     fill(Msg, word, 0x01234567);
     read(Msg, word);
-    engine_writes(Msg, word * 64 + 5, 0b1010, 0x89ABCDEF);
-    EXPECT_EQ(answer(), 0x8923CD67u) << "word " << word;
-    port_->ewr_req_i = 0;
+    copies(Msg, word * 64 + 5, 0b1111, 0x89ABCDEF);
+    EXPECT_EQ(answer(true), 0x89ABCDEFu) << "word " << word;
   }
 }
 
-TEST_F(MbPortCollision, ReadOfAnotherRowIsNotTouched) {
+TEST_F(MbPortCollision, ReadOfAnotherRowDoesNotWait) {
   fill(Cs, 3, 0x01234567);
   fill(Msg, 1, 0x76543210);
   const auto written = [](unsigned row) { return row % 2 != 0 ? 0xFFFFFFFF : 0x00000000; };
-  for (unsigned row = 0; row < 128; ++row) {  // the hidden ones behind the buffers', too
-    if (row == 5) continue;
-    SCOPED_TRACE(row);
-    read(Cs, 3);
-    engine_writes(Cs, row, row % 2 != 0 ? 0b1111 : 0b0111, written(row));
-    ASSERT_EQ(answer(), 0x01234567u);
-  }
-  for (unsigned row = 0; row < 256; ++row) {
-    if (row == 64 + 5) continue;
-    SCOPED_TRACE(row);
+  for (const bool copy : {false, true}) {
+    const auto write = [&](unsigned kind, unsigned row) {
+      if (copy)
+        copies(kind, row, 0b1111, written(row));
+      else
+        engine_writes(kind, row, 0b1111, written(row));
+    };
+    for (unsigned row = 0; row < 128; ++row) {  // the hidden ones behind the buffers', too
+      if (row == 5) continue;
+      SCOPED_TRACE(row);
+      read(Cs, 3);
+      write(Cs, row);
+      ASSERT_EQ(answer(), 0x01234567u);
+    }
+    for (unsigned row = 0; row < 256; ++row) {
+      if (row == 64 + 5) continue;
+      SCOPED_TRACE(row);
+      read(Msg, 1);
+      write(Msg, row);
+      ASSERT_EQ(answer(), 0x76543210u);
+    }
     read(Msg, 1);
-    engine_writes(Msg, row, 0b1111, written(row));
-    ASSERT_EQ(answer(), 0x76543210u);
+    write(Cs, 5);  // the same buffer in the other RAM
+    EXPECT_EQ(answer(), 0x76543210u);
+    fill(Cs, 3, 0x01234567);
   }
-  read(Msg, 1);
-  engine_writes(Cs, 5, 0b1111, 0x89ABCD);  // the same buffer in the other RAM
-  EXPECT_EQ(answer(), 0x76543210u);
-}
-
-TEST_F(MbPortCollision, OnlyTheReadInThatVeryClock) {
-  fill(Msg, 2, 0x01234567);
-  engine_writes(Msg, 128 + 5, 0b0011, 0x89ABCDEF);
-  clock();
-  port_->ewr_req_i = 0;
-  fill(Msg, 2, 0x76543210);
-  read(Msg, 2);
-  EXPECT_EQ(answer(), 0x76543210u);
-}
-
-TEST_F(MbPortCollision, ReadThatHasWaitedMeetsAnEngineWrite) {
-  fill(Msg, 0, 0x01234567);
-  port_->ins_req_i = 1;
-  read(Msg, 0);
-  clock();
-  port_->ins_req_i = 0;
-  read(Msg, 1, 9);  // the next command does not count yet
-  EXPECT_FALSE(port_->ready_o);
-  engine_writes(Msg, 5, 0b0110, 0x89ABCDEF);
-  EXPECT_EQ(answer(), 0x01ABCD67u);
 }
 
 TEST_F(MbPortCollision, ReadMeetsTheServicedMark) {  // FX-3.6.g
@@ -245,33 +258,55 @@ TEST_F(MbPortCollision, ReadMeetsTheServicedMark) {  // FX-3.6.g
   port_->svc_ovr_i = 1;
   port_.settle();
   EXPECT_TRUE(port_->svc_gnt_o);
-  EXPECT_EQ(answer(), 0x86234567u);
+  EXPECT_EQ(answer(true), 0x86234567u);
 }
 
-TEST_F(MbPortCollision, ReadMeetsTheSecondHalfOfACopy) {
+// In the second clock of a read its word is not marked; another one is.
+TEST_F(MbPortCollision, ServicedMarkWaitsForAReadThatHasWaited) {  // FX-3.6.g
+  for (const unsigned marked : {4u, 5u}) {
+    fill(Cs, 3, 0x01234567);
+    port_->ins_req_i = 1;
+    read(Cs, 3);
+    clock();
+    port_->ins_req_i = 0;
+    reads(false);
+    port_->svc_req_i = 1;
+    port_->svc_idx_i = marked;
+    port_.settle();
+    EXPECT_EQ(port_->svc_gnt_o != 0, marked != 5);
+    clock();
+    EXPECT_TRUE(port_->svc_gnt_o) << "now at the latest";
+    EXPECT_EQ(port_->rdata_o, 0x01234567u);
+    clock();
+    nothing_is_written();
+  }
+}
+
+// What a copy writes stands on the RAM outputs: a read that has waited gets it from there.
+TEST_F(MbPortCollision, ReadThatHasWaitedMeetsTheSecondHalfOfACopy) {
   fill(Cs, 3, 0x01234567);
-  fill(Msg, 0, 0x00112233);
-  port_->ins_req_i = 1;  // reads the row that is copied
-  port_->ins_idx_i = 5;
-  port_.settle();
-  clock();
-  port_->ins_req_i = 0;
-  EXPECT_EQ(port_->msg_o, 0x00112233u);
-  read(Cs, 3);
-  port_->copy_i = 1;
-  port_->copy_cs_we_i = 0b1100;
-  port_->copy_cs_row_i = 5;
-  port_->copy_cs_i = 0x89ABCDEF;
-  EXPECT_EQ(answer(), 0x89AB4567u);
-  port_->copy_i = 0;
-  read(Msg, 0);
-  (void)answer();
+  fill(Msg, 2, 0x00112233);
+  command(Msg, 2, 5);
+  fill(Msg, 0, 0x44556677);
+  for (const bool same : {false, true}) {
+    port_->eng_req_i = port_->ins_req_i = 0;
+    port_->ins_req_i = 1;  // reads the row that is copied
+    port_->ins_idx_i = 5;
+    read(Msg, 2);
+    clock();
+    port_->ins_req_i = 0;
+    reads(false);
+    EXPECT_EQ(port_->msg_o, 0x44556677u);
+    EXPECT_FALSE(port_->ready_o);
+    copies(Msg, (same ? 128 : 64) + 5, 0b1111, 0x44556677);
+    clock();
+    nothing_is_written();
+    EXPECT_TRUE(port_->ready_o && port_->rd_done_o);
+    EXPECT_EQ(port_->rdata_o, same ? 0x44556677u : 0x00112233u);
+    clock();
+  }
   read(Msg, 2);
-  port_->copy_i = 1;
-  port_->copy_cs_we_i = 0;
-  port_->copy_msg_we_i = 1;
-  port_->copy_msg_row_i = 128 + 5;
-  EXPECT_EQ(answer(), 0x00112233u);
+  EXPECT_EQ(answer(), 0x44556677u) << "and it is there";
 }
 
 TEST_F(MbPortCollision, ReadMeetsAWriteOfTheCpu) {
@@ -282,7 +317,8 @@ TEST_F(MbPortCollision, ReadMeetsAWriteOfTheCpu) {
     writes(false);
     port_->wdata_i = 0x89ABCDEF;
     read(kind, 1);
-    EXPECT_EQ(answer(), 0x89ABCDEFu) << "kind " << kind;
+    EXPECT_EQ(answer(true), 0x89ABCDEFu) << "kind " << kind;
+    clock();
     EXPECT_EQ((read(kind, 1), answer()), 0x89ABCDEFu) << "kind " << kind;
   }
 }
@@ -318,7 +354,22 @@ TEST_F(MbPortCollision, WriteThatIsRefusedIsNotRead) {
   port_->wdata_i = 0x89ABCDEF;
   port_->block_i = 1;
   read(Msg, 1);
-  EXPECT_EQ(answer(), 0x01234567u);
+  EXPECT_EQ(answer(true), 0x01234567u);
+}
+
+// A write's look at the C/S word: what the RAM holds, with the outputs kept if a copy writes it.
+TEST_F(MbPortCollision, WriteLooksAtItsCsWord) {  // FX-3.3.j
+  fill(Cs, 3, 0x41234567);
+  for (const unsigned kind : {Cs, Msg}) {
+    command(kind, 1, 5);
+    port_->cmd_look_i = port_->look_i = port_->block_i = 1;
+    writes(true);
+    clock();
+    writes(false);
+    clock();
+    EXPECT_EQ(port_->cs_o, 0x41234567u) << kind;
+    clock();
+  }
 }
 
 }  // namespace

@@ -99,7 +99,9 @@ TEST_F(MbStep, DataWaitWhileTheCopyIsHeld) {
   }
 }
 
+// The header is copied when its frame is presented: into the hidden word of the frame sent.
 TEST_F(MbStep, OnlyCopiesTakeTheWritePort) {
+  step_->ld_take_i = 1;
   for (const unsigned step : {kStepWord, kStepEnd, kStepLow, kStepHigh, kStepHead}) {
     step_->ld_req_i = 1;
     step_->ld_step_i = step;
@@ -108,11 +110,55 @@ TEST_F(MbStep, OnlyCopiesTakeTheWritePort) {
     step_.settle();
     EXPECT_TRUE(step_->ld_data_o);
     EXPECT_EQ(step_->ld_data_step_o, step);
-    EXPECT_EQ(step_->copy_o != 0, step != kStepWord && step != kStepHead) << step;
-    EXPECT_EQ(step_->copy_msg_we_o != 0, step == kStepLow || step == kStepHigh) << step;
-    EXPECT_EQ(step_->copy_cs_we_o != 0, step == kStepEnd) << step;
+    EXPECT_EQ(step_->copy_o != 0, step != kStepWord) << step;
+    if (step_->copy_o != 0) {
+      EXPECT_EQ(step_->copy_cs_o != 0, step == kStepEnd || step == kStepHead) << step;
+      EXPECT_EQ(step_->copy_be_o, step == kStepEnd ? 0b1011 : 0b1111) << step;
+    }
     clock();
   }
+}
+
+TEST_F(MbStep, HeaderThatIsNotTakenIsNotCopied) {
+  step_->ld_req_i = 1;
+  step_->ld_step_i = kStepHead;
+  clock();
+  step_.settle();
+  EXPECT_EQ(step_->copy_be_o, 0);
+}
+
+// What a copy writes and where: the words of a frame received, then its C/S word; of an answer the
+// code alone, and bits 31:28 as they were.
+TEST_F(MbStep, MovesCopyWordForWord) {  // FX-3.5.b, FX-3.7.b
+  step_->mv_idx_i = 9;
+  step_->cs_i = 0xA5123456;
+  step_->msg_i = 0x89ABCDEF;
+  step_->mv_top_i = 0x004;  // FULL
+  for (unsigned word = 0; word < 4; ++word) {
+    step_->mv_req_i = 1;
+    step_->mv_step_i = word;
+    clock();
+    step_->mv_req_i = 0;
+    step_.settle();
+    EXPECT_TRUE(step_->copy_o);
+    EXPECT_EQ(step_->copy_be_o, 0b1111);
+    EXPECT_EQ(step_->copy_cs_o != 0, word == 3);
+    EXPECT_EQ(step_->copy_row_o, word == 3 ? 9u : word * 64 + 9);
+    EXPECT_EQ(step_->copy_data_o, word == 3 ? 0x02123456u : 0x89ABCDEFu);
+    step_->mv_cancel_i = 1;
+    step_.settle();
+    EXPECT_EQ(step_->copy_be_o, 0) << "rewritten by the CPU";
+    step_->mv_cancel_i = 0;
+    clock();
+  }
+  step_->mv_req_i = step_->mv_answer_i = 1;
+  step_->mv_step_i = 3;
+  step_->mv_top_i = 0x01C;  // 1110
+  step_.settle();
+  EXPECT_EQ(step_->cs_row_o, 9) << "its own word, not the hidden one";
+  clock();
+  EXPECT_EQ(step_->copy_be_o, 0b1000);
+  EXPECT_EQ(step_->copy_data_o >> 24, 0xAEu);
 }
 
 TEST_F(MbStep, NoStepIsUnderWayInReset) {
