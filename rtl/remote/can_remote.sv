@@ -294,7 +294,7 @@ module can_remote #(
     .select_i(select), .assign_i(assign_number), .state_i(set_state), .setup_i(setup),
     .match_i(!mismatch), .new_i(a[2]), .op_i(op), .timer_i(timer), .zero_i(zero),
     .byte_i(read_byte), .off_entry_i(off_entry), .off_exit_i(off_exit), .gap_i(gap),
-    .passive_i(passive), .stale_i(stale), .unsafe_i(unsafe), .told_i(told),
+    .passive_i(passive), .stale_i(stale), .unsafe_i(unsafe), .told_i(told && !off),
     .node_o(state_o), .operate_o(operate), .number_o(number), .numbered_o(numbered),
     .selected_o(selected), .unlocked_o(unlocked), .lock_reset_o(lock_reset), .run_o(run),
     .restart_o(restart), .flush_o(flush), .gone_status_i(gone_status),

@@ -34,7 +34,7 @@ module can_rn_state #(
   input  logic                passive_i,
   input  logic                stale_i,       // a map entry has waited too long
   input  logic                unsafe_i,      // one that leads to SAFE
-  input  logic                told_i,        // pulse: both are known anew
+  input  logic                told_i,        // pulse, on the bus: both are known anew
   output logic [1:0]          node_o,        // state
   output logic                operate_o,
   output logic [NameBits-1:0] number_o,
@@ -68,7 +68,7 @@ module can_rn_state #(
   assign to_safe    = act && state_i && op_i[1];
   assign restart_o  = !refused_i && state_i && op_i[0] && op_i[2];
   assign expired    = job_i == can_rn_pkg::JobHigh && phase_i[1] && !timer_i && zero_i
-                      && armed_q;
+                      && armed_q && operate_o;
 
   assign node_o       = node_q;
   assign operate_o    = node_q == can_rn_pkg::NodeOperate;
@@ -155,7 +155,9 @@ module can_rn_state #(
       else if (gone_status_i || off_entry_i) owe_status_q <= 1'b0;
       if (accept_i && select_i)    owe_here_q <= hit;
       else if (gone_here_i || flush_o) owe_here_q <= 1'b0;
-      owe_feed_q <= accept_i || (owe_feed_q && job_i != can_rn_pkg::JobFeed);
+      // RN-71: where AUTO_OP leads to OPERATE the time begins, too, and it runs there alone.
+      owe_feed_q <= accept_i || begins || off_exit_i || (told_i && !operate_o)
+                    || (owe_feed_q && job_i != can_rn_pkg::JobFeed);
     end
   end
 

@@ -20,6 +20,18 @@ unsigned bytes_of(const Frame &frame) {
 
 }  // namespace
 
+void FramePort::reset() {
+  engine_ = {};
+  hold_reset(true);
+  clocks(2);
+  hold_reset(false);
+  for (unsigned waited = 0; !ready(); ++waited) {
+    if (waited == 4200) throw std::logic_error("the RAM is not cleared in 4,200 clocks");
+    clock();
+  }
+  pulses_.clear();
+}
+
 void FramePort::clock() {
   edge(engine_);
   ++clocks_;

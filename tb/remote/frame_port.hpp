@@ -31,6 +31,9 @@ class FramePort {
 
   // ---- Bus
 
+  /// A reset in the midst of whatever is going on, of the engine too; after it the RAM is clear and
+  /// start_i = 0.
+  void reset();
   /// start_i = 1.
   virtual void start() = 0;
   /// A frame that somebody else sends, from its header to the sample point of INT3: `bits` bits for
@@ -95,6 +98,8 @@ class FramePort {
   }
 
  protected:
+  /// rst_ni, and with it what else is not driven yet.
+  virtual void hold_reset(bool on) = 0;
   /// What the engine tells in one clock.
   struct Engine {
     bool tick = false, hdr = false, byte_we = false, valid = false;

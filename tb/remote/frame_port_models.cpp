@@ -25,13 +25,7 @@ class FramePortOf final : public FramePort {
     top_.eval();
     root().can_remote__DOT__serial = serial;
     top_.node_i = static_cast<std::uint8_t>(number);
-    top_.rst_ni = 0;
-    clocks(2);
-    top_.rst_ni = 1;
-    for (unsigned waited = 0; !ready(); ++waited) {
-      if (waited == 4200) throw std::logic_error("the RAM is not cleared in 4,200 clocks");
-      clock();
-    }
+    reset();
   }
   ~FramePortOf() override { top_.final(); }
 
@@ -80,6 +74,14 @@ class FramePortOf final : public FramePort {
   }
 
  protected:
+  void hold_reset(bool on) override {
+    top_.rst_ni = !on;
+    if (!on) return;
+    top_.start_i = 0;
+    show(std::nullopt);
+    hold(false);
+    set_counters(0, 0, false, false);
+  }
   void edge(const Engine &engine) override {
     auto &r = root();
     r.can_remote__DOT__u_core__DOT__tick_o_v = engine.tick;

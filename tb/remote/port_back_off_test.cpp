@@ -39,5 +39,18 @@ TEST(PortBackOff, DoublesUpTo128TimesAndIsShortAgainAfterTenSeconds) {
   EXPECT_LE(back_off(*port), 3U);
 }
 
+// RN-60: and after a reset, one during bus-off.
+TEST(PortBackOff, IsShortAfterAReset) {
+  const auto port = FramePort::create("small", 3, 1, 3);
+  port->start();
+  port->set_counters(0, 0, false, true);
+  port->clocks(64);
+  port->reset();
+  port->user_write(0xF04 / 4, 4, 1);
+  port->start();
+  (void)port->drain();
+  EXPECT_LE(back_off(*port), 5U);
+}
+
 }  // namespace
 }  // namespace vericansim

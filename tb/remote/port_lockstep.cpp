@@ -26,10 +26,21 @@ RemoteConfig config_of(const std::string &profile, unsigned name_bits) {
 
 PortLockstep::PortLockstep(const std::string &profile, unsigned name_bits, unsigned number)
     : config_{config_of(profile, name_bits)},
+      number_{number},
       port_{FramePort::create(profile, name_bits, kSerial, number)},
-      model_{config_, number} {
+      model_{std::make_unique<RemoteModel>(config_, number)} {
+  start();
+}
+
+void PortLockstep::reset() {
+  note("reset");
+  port_->reset();
+  model_ = std::make_unique<RemoteModel>(config_, number_);
+}
+
+void PortLockstep::start() {
   port_->start();
-  model_.start();
+  model_->start();
 }
 
 void PortLockstep::note(const std::string &step) {
@@ -57,16 +68,16 @@ void PortLockstep::receive(const Frame &frame) {
   note(candump_frame(frame));
   work();
   port_->receive(frame);
-  model_.receive(frame);
-  model_.intermission();
+  model_->receive(frame);
+  model_->intermission();
   restart();
 }
 
 // The RTL has been off the bus and is back by itself.
 void PortLockstep::restart() {
-  if (!model_.restarting()) return;
+  if (!model_->restarting()) return;
   port_->clocks(32);
-  model_.stopped();
+  model_->stopped();
 }
 
 void PortLockstep::receive_broken(const Frame &frame, unsigned bytes) {
@@ -78,7 +89,7 @@ void PortLockstep::receive_broken(const Frame &frame, unsigned bytes) {
 bool PortLockstep::turn(FramePort::End end) {
   work();
   for (unsigned bits = 0; bits < kBits && !port_->asks(); ++bits) port_->bit();
-  const std::optional<Frame> wanted = model_.wants();
+  const std::optional<Frame> wanted = model_->wants();
   if (!port_->asks()) {
     if (wanted) differ("offers nothing", "-", text_of(wanted));
     return false;
@@ -87,7 +98,7 @@ bool PortLockstep::turn(FramePort::End end) {
     differ("offers", text_of(port_->send(end)), "nothing");
     return false;
   }
-  model_.attempt();
+  model_->attempt();
   const Frame sent = port_->send(end);
   note(fmt::format("{} {}",
                    end == FramePort::End::kSent    ? "sends"
@@ -97,9 +108,9 @@ bool PortLockstep::turn(FramePort::End end) {
   const bool head_only = end == FramePort::End::kLost;
   if (head_only ? sent.id != wanted->id || sent.dlc != wanted->dlc : sent != *wanted)
     differ("sends", text_of(sent), text_of(wanted));
-  if (end == FramePort::End::kSent) model_.sent();
-  if (end == FramePort::End::kError) model_.failed();
-  if (end == FramePort::End::kLost) model_.lost_arbitration();
+  if (end == FramePort::End::kSent) model_->sent();
+  if (end == FramePort::End::kError) model_->failed();
+  if (end == FramePort::End::kLost) model_->lost_arbitration();
   return true;
 }
 
@@ -111,19 +122,19 @@ void PortLockstep::drain() {
 void PortLockstep::ms() {
   note("ms");
   port_->ms();
-  model_.tick();
+  model_->tick();
 }
 
 void PortLockstep::user_write(unsigned word, std::uint32_t data, unsigned lanes) {
   note(fmt::format("user writes {:03X} {:08X} {:X}", 4 * word, data, lanes));
   work();
   port_->user_write(word, data, lanes);
-  model_.user_write(word, data, lanes);
+  model_->user_write(word, data, lanes);
 }
 
 void PortLockstep::hold(bool on) {
   port_->hold(on);
-  model_.hold(on);
+  model_->hold(on);
 }
 
 void PortLockstep::event(unsigned k) {
@@ -131,29 +142,38 @@ void PortLockstep::event(unsigned k) {
   work();
   port_->event(1U << k);
   work();
-  model_.event(k);
+  model_->event(k);
 }
 
 void PortLockstep::set_counters(unsigned tec, unsigned rec) {
   note(fmt::format("TEC {}, REC {}", tec, rec));
   port_->set_counters(tec, rec, tec > 127 || rec > 127, false);
-  model_.set_errors(tec, rec);
+  model_->set_errors(tec, rec);
+}
+
+void PortLockstep::bus_off(bool off) {
+  note(off ? "bus-off" : "recovered");
+  work();
+  port_->set_counters(0, 0, false, off);
+  port_->clocks(64);
+  model_->set_errors(0, 0);
+  off ? model_->went_bus_off() : model_->recovered();
 }
 
 void PortLockstep::compare_byte(unsigned address) {
   const unsigned rtl = port_->peek(address);
-  const unsigned model = model_.memory()[address];
+  const unsigned model = model_->memory()[address];
   if (rtl != model)
     differ(fmt::format("byte {:03X}", address), fmt::format("{:02X}", rtl),
            fmt::format("{:02X}", model));
 }
 
 const std::string &PortLockstep::compare() {
-  if (port_->state() != model_.state())
+  if (port_->state() != model_->state())
     differ("state", std::to_string(static_cast<int>(port_->state())),
-           std::to_string(static_cast<int>(model_.state())));
+           std::to_string(static_cast<int>(model_->state())));
   const std::string pulses = text_of(port_->take_pulses());
-  const std::string expected = text_of(model_.take_pulses());
+  const std::string expected = text_of(model_->take_pulses());
   if (pulses != expected) differ("pulses", pulses, expected);
   for (unsigned address = 0; address < remote_map::kHidden; ++address) compare_byte(address);
   for (unsigned address = remote_map::kNode; address < remote_map::kConfigEnd; ++address)

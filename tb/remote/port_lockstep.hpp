@@ -20,6 +20,9 @@ class PortLockstep {
   /// Profile and parameters as FramePort::create(). The node has joined the bus.
   PortLockstep(const std::string &profile, unsigned name_bits, unsigned number);
 
+  /// A reset now; what user logic writes then it writes before start().
+  void reset();
+  void start();
   /// A frame that somebody else sends is valid.
   void receive(const Frame &frame);
   /// One that an error ends.
@@ -34,13 +37,15 @@ class PortLockstep {
   /// User logic wants producer entry `k` sent.
   void event(unsigned k);
   void set_counters(unsigned tec, unsigned rec);
+  /// The engine goes bus-off, or has recovered.
+  void bus_off(bool off);
 
   /// Compares memory, state and pulses; empty: equal.
   [[nodiscard]] const std::string &compare();
   [[nodiscard]] const std::string &difference() const { return difference_; }
 
   [[nodiscard]] FramePort &port() { return *port_; }
-  [[nodiscard]] RemoteModel &model() { return model_; }
+  [[nodiscard]] RemoteModel &model() { return *model_; }
   /// The last steps, for a message.
   [[nodiscard]] std::string history() const;
 
@@ -52,8 +57,9 @@ class PortLockstep {
   void work();
 
   RemoteConfig config_;
+  unsigned number_;
   std::unique_ptr<FramePort> port_;
-  RemoteModel model_;
+  std::unique_ptr<RemoteModel> model_;
   std::string difference_;
   std::vector<std::string> steps_;
 };

@@ -211,6 +211,19 @@ TEST_F(PortMaps, StaleWithAutoOperate) {
   EXPECT_FALSE(port->safe());
 }
 
+// RN-70, RN-72: but not while the node is bus-off.
+TEST_F(PortMaps, NoAutoOperateInBusOff) {
+  write(0xF01, 9);
+  hear("000#81");
+  port->clocks(300);
+  port->set_counters(0, 0, false, true);
+  (void)wait(25);
+  EXPECT_TRUE(port->safe());
+  port->set_counters(0, 0, false, false);
+  port->clocks(64);
+  EXPECT_FALSE(port->safe());
+}
+
 // RN-32: each bit of WP and RP protects its bytes, of the first and of the last byte of an access.
 TEST_F(PortMaps, EveryBitProtects) {
   for (unsigned bit = 0; bit < 40; ++bit) {

@@ -25,5 +25,26 @@ TEST_F(PortWatchdog, EndsToTheTick) {
   EXPECT_FALSE(port->safe());
 }
 
+// RN-70, RN-71: without any request, too, where AUTO_OP leads to OPERATE.
+TEST_F(PortWatchdog, RunsFromAutoOperateOn) {
+  port->reset();
+  port->user_write(0xF00 / 4, 0x0003'0D03);  // AUTO_OP, 3 ms
+  port->start();
+  EXPECT_FALSE(port->safe());
+  (void)wait(2);
+  EXPECT_FALSE(port->safe());
+  (void)wait(1);
+  EXPECT_TRUE(port->safe());
+}
+
+// RN-71: in SAFE it does not run, so it says nothing there.
+TEST_F(PortWatchdog, RestsInSafe) {
+  operate(false);
+  write(0xF02, {2, 0});
+  (void)send("001#");
+  (void)wait(600);
+  EXPECT_EQ(send("1FE#R1"), Texts{"5FE#02"});
+}
+
 }  // namespace
 }  // namespace vericansim
