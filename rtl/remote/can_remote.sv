@@ -29,6 +29,8 @@ module can_remote #(
   parameter int Ps1 = 4,
   parameter int Ps2 = 2,
   parameter int Sjw = 1,
+  /// 1: trace_o shows the engine to an observer; else it is 0 and costs nothing.
+  parameter int Trace = 0,
   /// Derived, do not override.
   localparam int Events = NumProd == 0 ? 1 : NumProd
 ) (
@@ -93,6 +95,7 @@ module can_remote #(
   assign serial = 32'(Serial);
 
   // Engine
+  logic [can_pkg::TraceWidth-1:0] trace;
   logic        run, gap, boff, passive, transmitter, tick;
   logic        tx_req, tx_next, tx_ok, tx_fail, rx_hdr, rx_ide, rx_rtr, rx_byte_we, rx_valid;
   logic [3:0]  tx_dlc, rx_dlc;
@@ -124,7 +127,7 @@ module can_remote #(
   logic        full, some, load, try_due, flush, tx_status, gone, gone_status, gone_here;
   logic        new_tries, popped;
   // Producers
-  logic        want, visit, keep_same, job_ends, same, cell_own, no_write, less, differ;
+  logic        want, visit, keep_same, same, cell_own, no_write, differ;
   can_rn_pkg::job_t then_job;
   logic        rtr, cell_we, cell_re;
   logic [3:0]  dlc;
@@ -142,7 +145,7 @@ module can_remote #(
   logic [NameBits-1:0] number;
   logic        off_entry, off_exit, carry;
   logic        operate, numbered, selected, unlocked, lock_reset, off, restart;
-  logic        owe_status, owe_here, owe_feed, feed_less, nothing;
+  logic        owe_status, owe_here, owe_feed, nothing;
 
   can_core u_core (
     .clk_i, .rst_ni,
@@ -161,8 +164,9 @@ module can_remote #(
     .start_o(), .stamp_o(), .rx_hdr_o(rx_hdr), .rx_id_o(rx_id), .rx_ide_o(rx_ide), .rx_srr_o(),
     .rx_rtr_o(rx_rtr), .rx_dlc_o(rx_dlc), .rx_byte_we_o(rx_byte_we), .rx_byte_o(rx_byte),
     .rx_valid_o(rx_valid), .crc_o(),
-    .can_rx_i, .can_tx_o, .trace_o
+    .can_rx_i, .can_tx_o, .trace_o(trace)
   );
+  assign trace_o = Trace != 0 ? trace : '0;
 
   can_rn_head #(.NameBits(NameBits), .NumProd(NumProd), .NumMap(NumMap)) u_head (
     .clk_i, .rst_ni,
@@ -219,7 +223,7 @@ module can_remote #(
     .search_i(search), .find_i(find), .hit_i(hit), .mapped_i(mapped), .act_i(act),
     .watch_i(watch), .watch_job_i(watch_job), .anew_i(anew), .ten_o(ten),
     .job_o(job), .phase_o(phase), .timer_o(timer), .request_o(request), .begin_o(begins),
-    .take_o(take), .end_o(job_ends), .new_tries_o(new_tries),
+    .take_o(take), .new_tries_o(new_tries),
     .written_o, .apply_o
   );
 
@@ -259,7 +263,7 @@ module can_remote #(
     .job_i(job), .none_i(rx_dlc == 4'd0 || mapped),
     .read_i(cell_re || same || map_re), .lane_i(lane),
     .rdata_i(rdata), .frame_i(rx_byte), .mem_i(mem), .node_i,
-    .serial_i(serial), .less_i(less || feed_less), .more_i(more),
+    .serial_i(serial), .last_i(phase[1]), .more_i(more),
     .byte_o(read_byte), .zero_o(zero), .one_o(one), .differ_o(differ), .above_o(above),
     .wbyte_o(wbyte)
   );
@@ -299,19 +303,19 @@ module can_remote #(
     .selected_o(selected), .unlocked_o(unlocked), .lock_reset_o(lock_reset), .run_o(run),
     .restart_o(restart), .flush_o(flush), .gone_status_i(gone_status),
     .gone_here_i(gone_here), .owe_status_o(owe_status), .owe_here_o(owe_here),
-    .owe_feed_o(owe_feed), .feed_less_o(feed_less), .status_o(status)
+    .owe_feed_o(owe_feed), .status_o(status)
   );
   assign safe_o = !operate;
 
   if (NumProd == 0) begin : gen_no_produce
     logic unused;
-    assign unused = &{1'b0, event_i, job_ends, differ, popped};
-    assign {want, visit, keep_same, same, cell_own, own_cell, no_write, less} = '0;
+    assign unused = &{1'b0, event_i, differ, popped};
+    assign {want, visit, keep_same, same, cell_own, own_cell, no_write} = '0;
     assign then_job = can_rn_pkg::JobIdle;
   end else begin : gen_produce
     can_rn_produce #(.NumProd(NumProd)) u_produce (
       .clk_i, .rst_ni,
-      .job_i(job), .phase_i(phase), .end_i(job_ends), .event_i, .ms_i(ms),
+      .job_i(job), .phase_i(phase), .event_i, .ms_i(ms),
       .run_i(run), .forget_i(!run || off_entry),
       .closed_i(some || off || !numbered), .popped_i(popped),
       .operate_i(operate),
@@ -319,7 +323,7 @@ module can_remote #(
       .row_i(row[2:0]), .first_i(row == 4'd0), .ended_i(ended), .differ_i(differ), .hdr_i(hdr),
       .word_i(word), .status_i(tx_status),
       .want_o(want), .visit_o(visit), .then_o(then_job), .keep_o(keep_same), .same_o(same),
-      .cell_own_o(cell_own), .cell_o(own_cell), .no_write_o(no_write), .less_o(less)
+      .cell_own_o(cell_own), .cell_o(own_cell), .no_write_o(no_write)
     );
   end
 
@@ -361,6 +365,6 @@ module can_remote #(
     .release_o(release_off)
   );
 
-  can_rn_tick #(.ClocksPerMs(ClocksPerMs)) u_tick (.clk_i, .rst_ni, .kick_i(!run), .ms_o(ms));
+  can_rn_tick #(.ClocksPerMs(ClocksPerMs)) u_tick (.clk_i, .rst_ni, .ms_o(ms));
 
 endmodule

@@ -22,8 +22,8 @@ module can_rn_data #(
   input  logic [11:0]         mem_i,        // JobClear: the byte that is written
   input  logic [NameBits-1:0] node_i,
   input  logic [31:0]         serial_i,
-  input  logic                less_i,       // one less is written,
-  input  logic                more_i,       // one more
+  input  logic                last_i,       // phase 2 or 3
+  input  logic                more_i,       // one more is written
   output logic [7:0]          byte_o,       // read
   output logic                zero_o,       // it is 0, 1
   output logic                one_o,
@@ -96,17 +96,28 @@ module can_rn_data #(
     endcase
   endfunction
 
-  logic less, more;
-  assign less = job_i == can_rn_pkg::JobLow || job_i == can_rn_pkg::JobHigh
-                || job_i == can_rn_pkg::JobTry || job_i == can_rn_pkg::JobAge || less_i;
-  assign more = job_i == can_rn_pkg::JobCount || more_i
+  // Known a clock before the byte is written: a job writes in its third phase at the earliest. The
+  // high byte of two is one less if the low one was 0.
+  logic less_q, more_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {less_q, more_q} <= '0;
+    end else begin
+      less_q <= job_i == can_rn_pkg::JobLow || job_i == can_rn_pkg::JobHigh
+                || job_i == can_rn_pkg::JobTry || job_i == can_rn_pkg::JobAge
+                || (Compare && job_i == can_rn_pkg::JobGap)
+                || ((job_i == can_rn_pkg::JobFeed || (Compare && job_i == can_rn_pkg::JobDown))
+                    && (!last_i || zero_o));
+      more_q <= job_i == can_rn_pkg::JobCount || more_i
                 || (job_i == can_rn_pkg::JobTrigger && none_i);
+    end
+  end
 
   always_comb begin
     case (job_i)
       can_rn_pkg::JobByte:  wbyte_o = frame_i;
       can_rn_pkg::JobClear: wbyte_o = first_byte(mem_i);
-      default:              wbyte_o = byte_q + {8{less}} + 8'(more);
+      default:              wbyte_o = byte_q + {8{less_q}} + 8'(more_q);
     endcase
   end
 

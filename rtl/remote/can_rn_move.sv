@@ -49,7 +49,7 @@ module can_rn_move #(
   assign row_o     = row_q;
   assign clear     = job_i == can_rn_pkg::JobClear;
   assign move      = job_i == can_rn_pkg::JobMove;
-  assign cleared_o = &mem_o;
+  assign cleared_o = (&start_q[11:3]) && (&low_q[2:0]);
   assign find = NumMap != 0 && job_i == can_rn_pkg::JobFind;
   assign found = find && !find_i;
   assign acts = NumMap != 0 && job_i == can_rn_pkg::JobTrigger && mapped_i;
@@ -64,7 +64,11 @@ module can_rn_move #(
     assign staged_o = 1'b0;
     assign ended_o  = row_q == end_o;
   end else begin : gen_stage
-    assign staged_o = mem_o[11:4] == 8'h01 && (StageBytes == 16 || !mem_o[3]);
+    // From the block of the start, as mem_o comes late.
+    logic stage_here, stage_behind;
+    assign stage_here   = start_q[4] && (StageBytes == 16 || !start_q[3]);
+    assign stage_behind = start_q[4] ? StageBytes == 16 && !start_q[3] : start_q[3];
+    assign staged_o = !(|start_q[11:5]) && (low_q[3] ? stage_behind : stage_here);
     assign ended_o  = trigger_i ? (StageBytes == 16 ? row_q == 4'd0 : row_q[3]) : row_q == end_o;
   end
 

@@ -18,7 +18,6 @@ module can_rn_produce #(
   input  logic               rst_ni,
   input  can_rn_pkg::job_t   job_i,
   input  logic [1:0]         phase_i,
-  input  logic               end_i,        // a job ends, and none follows it
   input  logic [NumProd-1:0] event_i,      // user logic: due now
   input  logic               ms_i,
   // Node
@@ -47,8 +46,7 @@ module can_rn_produce #(
   output logic               same_o,       // JobSame
   output logic               cell_own_o,   // the byte that is meant is ..
   output logic [8:0]         cell_o,
-  output logic               no_write_o,
-  output logic               less_o        // one less is written
+  output logic               no_write_o
 );
   localparam logic [1:0] PassPeriod  = 2'd0;
   localparam logic [1:0] PassChange  = 2'd1;
@@ -59,10 +57,11 @@ module can_rn_produce #(
   logic [1:0]            pass_q;
   logic [IndexWidth-1:0] k_q, head_q;
   logic [NumProd-1:0]    due_q, here;
-  logic                  ms_q, trigger_q, send_q, visit_q, statement_q, low_zero_q, low_one_q;
+  logic ms_q, trigger_q, send_q, visit_q, given_q, statement_q, low_zero_q, low_one_q;
 
-  logic idle, entry, down, renew, gap, same, send, last;
+  logic idle, stand, entry, down, renew, gap, same, send, last;
   assign idle  = job_i == can_rn_pkg::JobIdle;
+  assign stand = idle && !visit_q;   // no visit, and none that has just ended
   assign entry = job_i == can_rn_pkg::JobEntry;
   assign down  = job_i == can_rn_pkg::JobDown;
   assign renew = job_i == can_rn_pkg::JobRenew;
@@ -76,9 +75,9 @@ module can_rn_produce #(
   assign begins = job_i == can_rn_pkg::JobBegin;
   assign first  = k_q == '0;
   assign rest   = send && first && (closed_i || !send_q);
-  assign want_o = !send || (!rest && !closed_i && due_q[k_q]);
-  assign skip   = idle && send && !rest && !closed_i && !due_q[k_q];
-  assign next   = skip || (visit_q && !idle && end_i && !(hdr_i && (same || begins)));
+  assign want_o = !visit_q && (!send || (!rest && !closed_i && due_q[k_q]));
+  assign skip   = stand && send && !rest && !closed_i && !due_q[k_q];
+  assign next   = skip || (visit_q && idle && !given_q);
   assign wrap   = next && (&k_q);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -86,22 +85,25 @@ module can_rn_produce #(
       pass_q <= PassSend;
       k_q    <= '0;
     end else begin
-      if (idle && send && closed_i) k_q <= '0;
-      else if (next)                k_q <= k_q + 1'b1;
-      if (wrap)                     pass_q <= pass_q == PassPeriod ? PassChange : PassSend;
-      else if (idle && rest && ms_q)      pass_q <= PassPeriod;
-      else if (idle && rest && trigger_q) pass_q <= PassTrigger;
+      if (stand && send && closed_i) k_q <= '0;
+      else if (next)                 k_q <= k_q + 1'b1;
+      if (wrap)                      pass_q <= pass_q == PassPeriod ? PassChange : PassSend;
+      else if (stand && rest && ms_q)      pass_q <= PassPeriod;
+      else if (stand && rest && trigger_q) pass_q <= PassTrigger;
     end
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {ms_q, trigger_q, send_q, visit_q} <= '0;
+      {ms_q, trigger_q, send_q, visit_q, given_q} <= '0;
     end else begin
-      ms_q      <= run_i && (ms_i || (ms_q && !(idle && rest)));
-      trigger_q <= job_i == can_rn_pkg::JobTrigger || (trigger_q && (ms_q || !(idle && rest)));
-      send_q    <= popped_i || (|event_i) || (wrap && !send) || (idle && send && closed_i && !first)
+      ms_q      <= run_i && (ms_i || (ms_q && !(stand && rest)));
+      trigger_q <= job_i == can_rn_pkg::JobTrigger || (trigger_q && (ms_q || !(stand && rest)));
+      send_q    <= popped_i || (|event_i) || (wrap && !send)
+                   || (stand && send && closed_i && !first)
                    || (send_q && !(next && send && first));
       visit_q   <= entry || (visit_q && !idle);
+      // The visit gives way to a frame, and comes again.
+      given_q   <= hdr_i && (same || begins);
     end
   end
   assign visit_o = visit_q;
@@ -182,7 +184,6 @@ module can_rn_produce #(
                                && job_i != can_rn_pkg::JobPush) || entry;
   // The mover writes a byte more than it is told: behind eight that would be the first again.
   assign no_write_o = entry || (visit_q && copy && ended_i) || (gap && (zero_i || send));
-  assign less_o     = gap || (down && (!phase_i[0] || low_zero_q));
   always_comb begin
     cell_o = {4'b0001, k, gap || job_i == can_rn_pkg::JobKeep, phase_i[0] && !gap};
     if (load || copy)                            cell_o = {3'b001, k, row_i};

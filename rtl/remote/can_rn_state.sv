@@ -50,7 +50,6 @@ module can_rn_state #(
   output logic                owe_status_o,
   output logic                owe_here_o,
   output logic                owe_feed_o,
-  output logic                feed_less_o,   // JobFeed: one less is written
   output logic [7:0]          status_o
 );
   logic [1:0]          node_q;
@@ -82,8 +81,6 @@ module can_rn_state #(
   assign owe_status_o = owe_status_q && numbered_o;
   assign owe_here_o   = owe_here_q;
   assign owe_feed_o   = owe_feed_q;
-  // The tick that finds 0 ends the time, so it begins with one less, of 16 bits.
-  assign feed_less_o  = job_i == can_rn_pkg::JobFeed && (!phase_i[0] || !armed_q);
   assign status_o     = {boff_seen_q, watchdog_q, stale_i, dup_q, passive_i, unlocked_q, node_q};
 
   logic begins, leave;

@@ -64,7 +64,6 @@ module can_rn_step #(
   output logic             request_o,     // a request is valid
   output logic             begin_o,       // its work begins
   output logic             take_o,        // header is taken over
-  output logic             end_o,         // a job ends, and none follows it
   output logic             ten_o,         // 10 ms have passed
   output logic             new_tries_o,   // JobRow: the attempts count from the start
   output logic             written_o,     // pulses for user logic (RN-45)
@@ -90,7 +89,9 @@ module can_rn_step #(
   assign request_o = idle && valid_i && !dup_i;
   assign take_o    = idle && hdr_i;
   assign ten_o     = ms_i && ten_q == 4'd1;
-  assign int2      = int2_q == 2'd0 || (int2_q == 2'd1 && tick_i);
+  // Told in the clock behind the sample point; the job ends one later, so that the sample point
+  // does not lead through what comes next.
+  assign int2      = int2_q == 2'd0 ? !(written_o || apply_o) : int2_q == 2'd1 && tick_i;
   assign wait_user = hold_i && !refused_i && (write_i || read_i || trigger_i || act_i)
                      && !((&row_i) && (&phase_q));
   assign begin_o   = job_q == can_rn_pkg::JobBegin && !wait_user;
@@ -142,7 +143,7 @@ module can_rn_step #(
         keep  = wait_user;
         job_d = work;
       end
-      can_rn_pkg::JobInt2:  keep = !int2;
+      can_rn_pkg::JobInt2:  keep = int2_q != 2'd0;
       can_rn_pkg::JobGuard: if (Protect) begin
         keep  = !(&phase_q);
         job_d = can_rn_pkg::JobBegin;
@@ -210,7 +211,6 @@ module can_rn_step #(
       end
     end
   end
-  assign end_o = !keep && job_d == can_rn_pkg::JobIdle;
 
   assign ended_timer = (job_q == can_rn_pkg::JobLow && phase_q[1] && !carry_i)
                        || (job_q == can_rn_pkg::JobHigh && phase_q[1]);

@@ -5,7 +5,7 @@ import dataclasses
 
 # The bit timing and the serial number of the recorded remote node (record_remote.cpp).
 REMOTE = {"NumProd": 8, "NumMap": 8, "TxDepth": 4, "Protect": 1, "Serial": "32'hCAFE1234",
-          "ClocksPerMs": 12000, "Prop": 5, "Ps1": 3, "Ps2": 3, "Sjw": 3}
+          "ClocksPerMs": 12000, "Prop": 5, "Ps1": 3, "Ps2": 3, "Sjw": 3, "Trace": 1}
 
 
 @dataclasses.dataclass(frozen=True)

@@ -8,7 +8,6 @@ module can_rn_tick #(
 ) (
   input  logic clk_i,
   input  logic rst_ni,
-  input  logic kick_i,
   output logic ms_o
 );
   logic ms_v /* verilator public_flat_rw */;

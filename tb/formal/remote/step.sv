@@ -49,6 +49,8 @@
       p_int2: assert (!(written_o || apply_o) || f_ticks == 2'd3 || $past(valid_i));
       // RN-102 P-7, RN-46, RN-65: never as both, but for a frame that a map entry makes a TRIGGER.
       p_one_kind: assert (!(written_o && apply_o) || $past(mapped_i));
+      // RN-102 P-7: and once.
+      p_once: assert (!(written_o || apply_o) || !f_shown || $past(valid_i));
       // RN-102 P-9, RN-103: a node that an upset has taken off the bus starts anew.
       p_rejoins: assert (!$past(idle && quiet && !run_i && !valid_i && !hdr_i && !byte_i && !ms_q
                                 && !aged_q) || job_q == can_rn_pkg::JobStart);
