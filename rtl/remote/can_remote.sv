@@ -122,9 +122,9 @@ module can_remote #(
   logic [31:0] rdata;
   logic [7:0]  read_byte, wbyte, status;
   // Queue
-  logic [2:0]  tail, head;
+  logic [2:0]  tail, head, age;
   logic [1:0]  word;
-  logic        full, some, load, try_due, flush, tx_status, gone, gone_status, gone_here;
+  logic        full, some, ages, load, try_due, flush, tx_status, gone, gone_status, gone_here;
   logic        new_tries, popped;
   // Producers
   logic        want, visit, keep_same, same, cell_own, no_write, differ;
@@ -218,6 +218,7 @@ module can_remote #(
     .hold_i(usr_hold_i),
     .ended_i(ended), .cleared_i(cleared), .row_i(row), .carry_i(carry),
     .ms_i(ms), .boff_i(boff), .off_i(off), .try_i(try_due), .load_i(load), .some_i(some),
+    .more_i(ages),
     .gone_i(gone), .owe_feed_i(owe_feed), .start_i, .run_i(run),
     .want_i(want), .visit_i(visit), .then_i(then_job), .same_i(keep_same),
     .search_i(search), .find_i(find), .hit_i(hit), .mapped_i(mapped), .act_i(act),
@@ -250,8 +251,8 @@ module can_remote #(
     .job_i(job), .phase_i(phase), .read_i(read), .trigger_i(trigger || acts),
     .none_i(rx_dlc == 4'd0 || mapped),
     .refused_i(refused), .setup_i(setup), .off_i(off), .status_i(tx_status), .row_i(row),
-    .tail_i(tail), .head_i(head),
-    .word_i(word), .timer_i(timer), .new_tries_i(new_tries), .zero_i(zero),
+    .tail_i(tail), .head_i(head), .age_i(age),
+    .word_i(word), .timer_i(timer), .new_tries_i(new_tries), .zero_i(zero), .one_i(one),
     .cell_o(cell_addr), .re_o(cell_re), .we_o(cell_we)
   );
 
@@ -284,7 +285,8 @@ module can_remote #(
     .clk_i, .rst_ni,
     .job_i(job), .phase_i(phase), .flush_i(flush), .number_i(number), .owe_status_i(owe_status),
     .owe_here_i(owe_here), .one_i(one), .rdata_i(rdata), .tail_o(tail),
-    .head_o(head), .word_o(word), .status_o(tx_status), .full_o(full), .some_o(some),
+    .head_o(head), .age_o(age), .more_o(ages), .word_o(word), .status_o(tx_status),
+    .full_o(full), .some_o(some),
     .load_o(load), .try_o(try_due), .gone_o(gone), .gone_status_o(gone_status),
     .gone_here_o(gone_here), .popped_o(popped),
     .tx_req_o(tx_req), .tx_dlc_o(tx_dlc), .tx_word_o(tx_word),

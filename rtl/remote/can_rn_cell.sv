@@ -20,10 +20,12 @@ module can_rn_cell (
   input  logic [3:0]       row_i,        // byte of the row
   input  logic [2:0]       tail_i,       // row of the frame
   input  logic [2:0]       head_i,       // row at the head of the queue
+  input  logic [2:0]       age_i,        // row whose life goes on
   input  logic [1:0]       word_i,       // word for the engine
   input  logic             timer_i,
   input  logic             new_tries_i,  // JobRow: attempts are written, too
-  input  logic             zero_i,       // byte read is 0
+  input  logic             zero_i,       // byte read is 0, 1
+  input  logic             one_i,
   output logic [8:0]       cell_o,
   output logic             re_o,
   output logic             we_o
@@ -92,7 +94,8 @@ module can_rn_cell (
     endcase
   end
 
-  assign row = job_i == can_rn_pkg::JobLoad || job_i == can_rn_pkg::JobAge ? head_i : tail_i;
+  assign row = job_i == can_rn_pkg::JobLoad ? head_i
+               : job_i == can_rn_pkg::JobAge ? age_i : tail_i;
   always_comb begin
     case (page)
       PageVar:    cell_o = {4'h0, job_i == can_rn_pkg::JobMove, place};
@@ -119,7 +122,9 @@ module can_rn_cell (
         we_o = phase_i == 2'd0;
       end
       can_rn_pkg::JobPush, can_rn_pkg::JobFresh, can_rn_pkg::JobClear: we_o = 1'b1;
-      can_rn_pkg::JobHigh, can_rn_pkg::JobTry, can_rn_pkg::JobAge:     we_o = last && !zero_i;
+      can_rn_pkg::JobHigh, can_rn_pkg::JobTry: we_o = last && !zero_i;
+      // 0 would be no limit: what is on its way stays, and is asked again.
+      can_rn_pkg::JobAge:    we_o = last && !zero_i && !one_i;
       can_rn_pkg::JobConfig: we_o = 1'b0;
       can_rn_pkg::JobRow:    we_o = last && (new_tries_i || !phase_i[0]);
       default: ;

@@ -40,6 +40,7 @@ module can_rn_step #(
   input  logic             try_i,
   input  logic             load_i,
   input  logic             some_i,
+  input  logic             more_i,        // JobAge: another answer has aged
   input  logic             gone_i,        // what was offered to the engine
   input  logic             owe_feed_i,
   input  logic             start_i,
@@ -238,7 +239,8 @@ module can_rn_step #(
                                         : {ten_q[2], ten_q[1], ten_q[0] ^ ten_q[3], ten_q[3]};
       timer_q     <= timer_q ^ ended_timer;
       ms_q        <= ms_i || (ms_q && !(ended_timer && timer_q));
-      aged_q      <= ten_o || (aged_q && some_i && job_q != can_rn_pkg::JobAge);
+      aged_q      <= ten_o || (aged_q && some_i && (job_q != can_rn_pkg::JobAge || more_i
+                                                          || !(&phase_q)));
       row_ready_q <= job_q == can_rn_pkg::JobRow
                      || (row_ready_q && job_q != can_rn_pkg::JobPush);
       try_ready_q <= !gone_i && (try_ready_q || (job_q == can_rn_pkg::JobRow && (&phase_q)));

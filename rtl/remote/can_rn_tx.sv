@@ -21,6 +21,8 @@ module can_rn_tx #(
   input  logic [31:0]         rdata_i,
   output logic [2:0]          tail_o,
   output logic [2:0]          head_o,
+  output logic [2:0]          age_o,         // JobAge: row that it looks at
+  output logic                more_o,        // and another one after it
   output logic [1:0]          word_o,        // word that is wanted next
   output logic                status_o,      // it is one of STATUS
   output logic                full_o,
@@ -47,7 +49,9 @@ module can_rn_tx #(
   logic [1:0]          word_q;   // 2: header, 0 and 1: data; bits 3:2 of the place in the row
   logic                load_q, try_q;
   logic [31:0]         hold_q;
-  logic                loading, gone, stale, recalled, drop;
+  logic                loading, gone, stale, recalled, drop, first_gone;
+  logic                first_q;  // JobAge: what it looks at has not gone
+  logic [2:0]          skip;     // answers that JobAge has behind it
 
   assign tail_o   = 3'(tail_q);
   assign head_o   = 3'(head_q);
@@ -56,9 +60,25 @@ module can_rn_tx #(
   assign some_o   = tail_q != head_q;
   if (TxDepth == 1) begin : gen_single
     assign full_o = some_o;
+    assign skip   = '0;
+    assign more_o = 1'b0;
   end else begin : gen_queue
     assign full_o = tail_q == {~head_q[2], head_q[1:0]};
+    // RN-54: all of them grow old, the first first; only the first is dropped, the others wait for
+    // it with 10 ms left.
+    logic [2:0] skip_q, skip_d;
+    logic       ages;
+    assign ages   = job_i == can_rn_pkg::JobAge && (&phase_i);
+    assign skip_d = skip_q + {2'b00, ages} - {2'b00, first_gone && (ages || (|skip_q))};
+    assign more_o = head_q + {2'b00, first_gone} + skip_d != tail_q;
+    assign skip   = skip_q;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni)                                skip_q <= '0;
+      else if (flush_i || (ages && !more_o))      skip_q <= '0;
+      else                                        skip_q <= skip_d;
+    end
   end
+  assign age_o = 3'(head_q) + skip;
   assign load_o  = load_q && (some_o || owe_status_i || owe_here_i);
   assign try_o   = try_q;
   assign loading = job_i == can_rn_pkg::JobLoad;
@@ -67,7 +87,7 @@ module can_rn_tx #(
   // and so does what is behind one that has gone while its life was read.
   assign gone  = tx_ok_i || (job_i == can_rn_pkg::JobTry && phase_i[1] && one_i);
   assign stale = job_i == can_rn_pkg::JobAge && (&phase_i) && one_i && word_q[1] && !tx_next_i
-                 && (|src_q);
+                 && first_q && !(|skip);
   // A SELECT that does not select takes back a HERE that waits.
   assign recalled = (&src_q) && !owe_here_i;
   assign drop     = flush_i || gone || stale || recalled;
@@ -75,7 +95,6 @@ module can_rn_tx #(
   assign gone_status_o = gone && status_o;
   assign gone_here_o   = gone && (&src_q);
 
-  logic first_gone;
   assign first_gone = stale || (gone && src_q == can_rn_pkg::SrcQueue);
   assign popped_o   = flush_i || first_gone;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -95,7 +114,9 @@ module can_rn_tx #(
       word_q <= 2'd2;
       load_q <= 1'b1;
       try_q  <= 1'b0;
+      first_q <= 1'b0;
     end else begin
+      first_q <= !popped_o && (job_i == can_rn_pkg::JobAge && phase_i == 2'd0 ? some_o : first_q);
       if (drop)                                   src_q <= can_rn_pkg::SrcNone;
       else if (loading && src_q == can_rn_pkg::SrcNone)
         src_q <= owe_here_i ? can_rn_pkg::SrcHere

@@ -73,5 +73,26 @@ TEST_F(PortLife, TheQueueIsEmptyAfterTheAnswer) {
   EXPECT_FALSE(port->asks());
 }
 
+// RN-54: each answer of the queue has its own age.
+TEST_F(PortLife, AllOfTheQueueGrowsOld) {
+  port = FramePort::create("standard", 3, 1, 3);
+  set_life(kLife);
+  port->start();
+  (void)port->drain();
+  port->receive(read());
+  (void)port->drain();
+  for (unsigned i = 0; i < 4; ++i) port->receive(read());
+  wait(10 * (kLife - 1) - 1);
+  EXPECT_EQ(port->drain().size(), 4U) << "they are young enough";
+  for (unsigned i = 0; i < 4; ++i) port->receive(read());
+  wait(10 * kLife + 10);
+  EXPECT_TRUE(port->drain().empty());
+  port->receive(read());
+  wait(15);
+  port->receive(read());
+  wait(10 * kLife - 10);
+  EXPECT_EQ(port->drain().size(), 1U);
+}
+
 }  // namespace
 }  // namespace vericansim

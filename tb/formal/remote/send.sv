@@ -43,9 +43,8 @@
     // No job writes the queue while it is flushed.
     m_flush_alone: assume (!flush_i || (job_i != can_rn_pkg::JobPush
                                         && job_i != can_rn_pkg::JobLoad));
-    // JobAge has four phases, and begins when there is an answer.
-    m_age: assume (job_i != can_rn_pkg::JobAge
-                   || (phase_i == f_aging && (some_o || f_aging != 2'd0)));
+    // JobAge has four phases.
+    m_age: assume (job_i != can_rn_pkg::JobAge || phase_i == f_aging);
     m_age_ends: assume (f_aging == 2'd0 || job_i == can_rn_pkg::JobAge);
     if (f_ran) begin
       // RN-102 P-4, RN-10, RN-11: an identifier that is sent has dir 1 and the own number, or is
