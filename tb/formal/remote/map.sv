@@ -1,0 +1,55 @@
+  // SPDX-FileCopyrightText: 2026 The VeriCAN authors
+  // SPDX-License-Identifier: Apache-2.0
+  //
+  // Properties of can_rn_map, spliced into it: any order of jobs, any entries in the RAM.
+
+  logic f_ran;
+  always_ff @(posedge clk_i or negedge rst_ni)
+    if (!rst_ni) f_ran <= 1'b0;
+    else         f_ran <= 1'b1;
+
+  // Whether the entry that has been read takes the identifier: RN-65, bit by bit.
+  logic        f_takes;
+  logic [10:0] f_same;
+  always_comb begin
+    for (int i = 0; i < 11; i++) f_same[i] = !rdata_i[16 + i] || rdata_i[i] == id_i[i];
+    f_takes = rdata_i[15] && (&f_same);
+    // The last eight values of A are ports.
+    if (id_i[AddrBits-1:0] >= AddrBits'((1 << AddrBits) - 8))
+      for (int i = 0; i < AddrBits; i++) f_takes = f_takes && rdata_i[16 + i];
+  end
+
+  // Whether an entry was late in this pass over all of them.
+  logic f_late, f_unsafe;
+  assign f_late = late && (&phase_i) && watch_q && (above_i || (count_q && equal_i));
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)             f_unsafe <= 1'b0;
+    else if (ends || !run_i) f_unsafe <= 1'b0;
+    else                     f_unsafe <= f_unsafe || (f_late && leads_q);
+  end
+
+  always @(posedge clk_i) begin
+    // Reset in the first clock, none later.
+    m_reset: assume (rst_ni == !$initstate);
+    if (f_ran) begin
+      // RN-65: the search ends with an entry that takes the frame,
+      p_takes: assert (!hit_o || $past(find && phase_i[0] && f_takes));
+      // RN-65: the first that does: it does not go on behind one.
+      p_first: assert (!$past(find && phase_i[0] && f_takes) || !find || phase_i[0] || !find_o);
+      // RN-65: which one it was is kept until the next search.
+      p_found: assert (!hit_o || found_q == $past(row_i[IndexWidth-1:0]));
+      // RN-65: a frame is taken by an entry only where one has been found.
+      p_mapped: assert (!mapped_q || $past(mapped_q && !take_i) || $past(hit_o));
+      // RN-46, RN-65: it acts as a TRIGGER only where the entry says so.
+      p_acts: assert (!act_q || $past(act_q && !take_i) || $past(aim_o && rdata_i[21]));
+      // RN-66: STALE is told at the end of a pass, and not off the bus.
+      p_stale: assert (stale_o == $past(stale_o) || $past(ends || !run_i));
+      p_off: assert (!$past(!run_i) || (!stale_o && !unsafe_o)); // RN-60, RN-66
+      // RN-66, RN-70: only an entry that is late and has its flag leads to SAFE.
+      p_unsafe: assert (!unsafe_o || stale_o);
+      p_leads: assert (!(unsafe_o && !$past(unsafe_o))                    // RN-70
+                       || $past(f_unsafe || (f_late && leads_q)));
+      // RN-66: tens of milliseconds do not begin anew behind 255.
+      p_no_wrap: assert (!we_o || !above_i);
+    end
+  end
