@@ -3,14 +3,14 @@
 //
 // record_remote: writes the pins of a node without a processor down, clock by clock, for
 // replay_remote.sv.
-//   record_remote --list | record_remote RECORDING SIZE FILE    (SIZE: 0, there is but one)
+//   record_remote RECORDING SIZE FILE    (SIZE: 0, there is but one)
 #include <cstdio>
-#include <cstring>
-#include <exception>
 #include <stdexcept>
+#include <string>
 
 #include "Vcan_remote_pins.h"
 #include "boards/board_bus.hpp"
+#include "four_state/record_main.hpp"
 #include "four_state/record_remote_node.hpp"
 #include "remote/golden_vectors.hpp"
 #include "remote/random_host.hpp"
@@ -78,50 +78,19 @@ void producers(Rig &rig) {
   need(!rig.device.operates(), "the watchdog does not end OPERATE");
 }
 
-struct Recording {
-  const char *name;
-  void (*run)(Rig &rig);
-};
-constexpr Recording kRecordings[] = {
-    {"vectors", vectors}, {"commands", commands}, {"producers", producers}};
-
-int usage() {
-  std::fprintf(stderr, "usage: record_remote --list | record_remote RECORDING 0 FILE\n");
-  return 2;
-}
-
-int run(int argc, char **argv) {
-  if (argc == 2 && std::strcmp(argv[1], "--list") == 0) {
-    for (const Recording &recording : kRecordings) std::printf("%s\n", recording.name);
-    return 0;
-  }
-  if (argc != 4) return usage();
-  for (const Recording &recording : kRecordings) {
-    if (std::strcmp(recording.name, argv[1]) != 0) continue;
-    std::FILE *file = std::fopen(argv[3], "w");
-    if (file == nullptr) {
-      std::perror(argv[3]);
-      return 1;
-    }
-    {
-      Rig rig{file};
-      recording.run(rig);
-    }
-    if (std::fclose(file) == 0) return 0;
-    std::perror(argv[3]);
-    return 1;
-  }
-  return usage();
+RecordTask task(const char *name, void (*run)(Rig &rig)) {
+  return {name, [run](unsigned, std::FILE *file) {
+            Rig rig{file};
+            run(rig);
+          }};
 }
 
 }  // namespace
 }  // namespace vericansim
 
 int main(int argc, char **argv) {
-  try {
-    return vericansim::run(argc, argv);
-  } catch (const std::exception &error) {
-    std::fprintf(stderr, "record_remote: %s\n", error.what());
-    return 1;
-  }
+  using namespace vericansim;
+  return record_main(
+      argc, argv, {0},
+      {task("vectors", vectors), task("commands", commands), task("producers", producers)});
 }
