@@ -74,7 +74,7 @@ class ModelNode {
     return bytes;
   }
   /// User logic writes bytes, one access each.
-  void user_write(unsigned address, std::initializer_list<unsigned> bytes) {
+  void user_write(unsigned address, const std::vector<unsigned> &bytes) {
     for (const unsigned byte : bytes) {
       model.user_write(address / 4, byte << 8 * (address % 4), 1U << address % 4);
       ++address;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "remote/model_node.hpp"
+#include "remote/remote_entries.hpp"
 
 namespace vericansim {
 namespace {
@@ -23,10 +24,9 @@ class RemoteModelMaps : public ::testing::Test {
     node.hear("000#01");
   }
 
-  void map(unsigned k, unsigned id, unsigned mask, unsigned address, unsigned flags,
-           unsigned time_out = 0) {
-    node.user_write(0xF80 + 8 * k, {id & 0xFF, id >> 8 | 0x80, mask & 0xFF, mask >> 8,
-                                    address & 0xFF, address >> 8, flags, time_out});
+  template <typename... Fields>
+  void map(unsigned k, Fields... fields) {
+    node.user_write(map_at(k), map_bytes(fields...));
   }
 
   ModelNode node{RemoteConfig::profile("full")};

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "remote/model_node.hpp"
+#include "remote/remote_entries.hpp"
 
 namespace vericansim {
 namespace {
@@ -13,10 +14,10 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr unsigned kOn = 0x80;
-constexpr unsigned kTriggers = 0x40;
-constexpr unsigned kChange = 0x20;
-constexpr unsigned kCyclic = 0x10;
+using mode::kChange;
+using mode::kCyclic;
+using mode::kOn;
+using mode::kTriggers;
 
 /// Node 3 in OPERATE; entries are written by user logic.
 class RemoteModelProducers : public ::testing::Test {
@@ -26,8 +27,9 @@ class RemoteModelProducers : public ::testing::Test {
     node.hear("000#01");
   }
 
-  void produce(unsigned k, unsigned a, unsigned mode, unsigned period, unsigned gap = 0) {
-    node.user_write(0xF40 + 8 * k, {a, mode, period & 0xFF, period >> 8, gap});
+  template <typename... Fields>
+  void produce(unsigned k, Fields... fields) {
+    node.user_write(producer_at(k), producer_bytes(fields...));
   }
   ModelNode node{RemoteConfig::profile("full")};
 };

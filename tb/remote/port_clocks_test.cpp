@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "remote/port_fixture.hpp"
+#include "remote/remote_entries.hpp"
 
 namespace vericansim {
 namespace {
@@ -31,7 +32,7 @@ class PortClocks : public PortFixture {
   unsigned shown_after(const std::string &text) { return shown_after(frame_of(text)); }
   // The same of a frame of `n` bytes that entry 7, the last that is searched, takes.
   unsigned mapped(unsigned n, unsigned address, unsigned flags) {
-    write(0xFB8, {0xA0, 0x86, 0xFF, 0x07, address & 0xFF, address >> 8, flags, 0});
+    write(map_at(7), map_bytes(0x6A0, 0x7FF, address, flags));
     Frame frame = frame_of("6A0#0102030405060708");
     frame.dlc = static_cast<std::uint8_t>(n);
     std::fill(frame.data.begin() + n, frame.data.end(), std::uint8_t{0});

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "remote/port_fixture.hpp"
+#include "remote/remote_entries.hpp"
 
 namespace vericansim {
 namespace {
@@ -16,10 +17,9 @@ using ::testing::IsEmpty;
 
 class PortMaps : public PortFixture {
  protected:
-  void map(unsigned k, unsigned id, unsigned mask, unsigned address, unsigned flags,
-           unsigned time_out = 0) {
-    write(0xF80 + 8 * k, {id & 0xFF, id >> 8 | 0x80, mask & 0xFF, mask >> 8, address & 0xFF,
-                          address >> 8, flags, time_out});
+  template <typename... Fields>
+  void map(unsigned k, Fields... fields) {
+    write(map_at(k), map_bytes(fields...));
   }
 };
 

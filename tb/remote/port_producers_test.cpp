@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "remote/port_fixture.hpp"
+#include "remote/remote_entries.hpp"
 
 namespace vericansim {
 namespace {
@@ -13,10 +14,10 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr unsigned kOn = 0x80;
-constexpr unsigned kTriggers = 0x40;
-constexpr unsigned kChange = 0x20;
-constexpr unsigned kCyclic = 0x10;
+using mode::kChange;
+using mode::kCyclic;
+using mode::kOn;
+using mode::kTriggers;
 
 /// Entries are written by user logic.
 class PortProducers : public PortFixture {
@@ -24,9 +25,9 @@ class PortProducers : public PortFixture {
   explicit PortProducers(unsigned name_bits = 3, unsigned number = 3)
       : PortFixture{name_bits, number} {}
 
-  void produce(unsigned k, unsigned a, unsigned mode, unsigned period, unsigned gap = 0) {
-    port->user_write((0xF40 + 8 * k) / 4, a | mode << 8 | period << 16);
-    write(0xF44 + 8 * k, gap);
+  template <typename... Fields>
+  void produce(unsigned k, Fields... fields) {
+    write(producer_at(k), producer_bytes(fields...));
   }
   void event(unsigned events) {
     port->event(events);
