@@ -33,7 +33,8 @@ module can_rn_off (
     for (int i = 0; i < 7; i++) mask[i] = !off_q || k_q > 3'(i);
     mask[7] = !off_q;
   end
-  assign carry_o = timer_i ? !(|(byte_i & mask)) : zero_i;
+  // JobLow counts the watchdog, too, whose time begins anew when bus-off ends.
+  assign carry_o = !(|(byte_i & mask));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

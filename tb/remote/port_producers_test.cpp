@@ -62,6 +62,7 @@ TEST_F(PortProducers, CyclicByTime) {
   EXPECT_THAT(wait(2), IsEmpty());
   produce(0, 0x30, kOn | kCyclic | 1, 0);
   EXPECT_THAT(wait(1000), IsEmpty());
+  EXPECT_THAT(send("1A0#R1"), SizeIs(1));  // and others do not wait for it
 }
 
 // RN-63: the period counts TRIGGERs, those of SAFE too.

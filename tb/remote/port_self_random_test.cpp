@@ -15,7 +15,7 @@ void produce(PortLockstep &pair, RandomHost &host) {
   const unsigned at = 0xF40 / 4 + 2 * host.upto(8);
   const unsigned a = host.once_in(4) ? 0x70 + host.upto(0x20) : host.upto(0x70);
   const unsigned mode = (host.once_in(4) ? 0U : 0x80U) | host.upto(8) << 4 | (1 + host.upto(8));
-  pair.user_write(at, a | mode << 8 | (1 + host.upto(5)) << 16, 0xF);
+  pair.user_write(at, a | mode << 8 | host.upto(6) << 16, 0xF);
   pair.user_write(at + 1, host.once_in(2) ? 0 : host.upto(4), 1);
 }
 
