@@ -115,7 +115,7 @@ module can_remote #(
   logic [3:0]  code;
   // Addresses and data
   logic [11:0] start, mem;
-  logic [3:0]  row, row_end;
+  logic [3:0]  place, row, row_end;
   logic        ended, staged, cleared, zero, one;
   logic [8:0]  cell_addr;
   logic [1:0]  lane;
@@ -241,7 +241,7 @@ module can_remote #(
     .crosses_i(crosses), .mapped_i(mapped), .find_i(find), .act_i(acts),
     .aim_i(aim), .aim_at_i(rdata[11:0]),
     .a_i(7'(a) | row_a), .dlc_i(dlc), .count_i(op[2:0]),
-    .byte_i(rx_byte), .start_o(start), .mem_o(mem), .row_o(row), .end_o(row_end),
+    .byte_i(rx_byte), .start_o(start), .mem_o(mem), .place_o(place), .row_o(row), .end_o(row_end),
     .ended_o(ended), .staged_o(staged), .cleared_o(cleared)
   );
   assign written_addr_o = start;
@@ -263,16 +263,19 @@ module can_remote #(
     .clk_i, .rst_ni,
     .job_i(job), .none_i(rx_dlc == 4'd0 || mapped),
     .read_i(cell_re || same || map_re), .lane_i(lane),
-    .rdata_i(rdata), .frame_i(rx_byte), .mem_i(mem), .node_i,
+    .rdata_i(rdata), .frame_i(rx_byte), .block_i(start[11:3]),
+    .place_i(place), .node_i,
     .serial_i(serial), .last_i(phase[1]), .more_i(more),
     .byte_o(read_byte), .zero_o(zero), .one_o(one), .differ_o(differ), .above_o(above),
     .wbyte_o(wbyte)
   );
 
+  // Who names the byte that is meant: 0 from all others, so that an OR is enough.
+  logic own;
+  assign own = guard || map_own || cell_own;
   can_rn_port #(.MemBytes(MemBytes)) u_port (
     .clk_i, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger || acts),
-    .same_i(same && !phase[0]), .cell_i(guard ? guard_cell : map_own ? map_cell
-                                              : cell_own ? own_cell : cell_addr),
+    .same_i(same && !phase[0]), .cell_i((cell_addr & {9{!own}}) | guard_cell | map_cell | own_cell),
     .re_i(cell_re || same || map_re), .we_i((cell_we && !no_write && !guard) || map_we),
     .mem_i(mem), .staged_i(staged), .wbyte_i(wbyte),
     .a_i(7'(a)), .end_i(row_end), .code_i(code), .status_i(status), .tec_i(tec), .rec_i(rec),

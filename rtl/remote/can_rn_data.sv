@@ -19,7 +19,8 @@ module can_rn_data #(
   input  logic [1:0]          lane_i,       // .. of this place
   input  logic [31:0]         rdata_i,
   input  logic [7:0]          frame_i,      // byte of the frame on the bus
-  input  logic [11:0]         mem_i,        // JobClear: the byte that is written
+  input  logic [8:0]          block_i,      // JobClear: the byte that is written
+  input  logic [3:0]          place_i,
   input  logic [NameBits-1:0] node_i,
   input  logic [31:0]         serial_i,
   input  logic                last_i,       // phase 2 or 3
@@ -73,25 +74,26 @@ module can_rn_data #(
     assign above_o  = byte_q > before_q || (&byte_q);
   end
 
-  // First contents (RN-60). What is not named is 0.
-  function automatic logic [7:0] first_byte(input logic [11:0] address);
+  // First contents (RN-60) of a byte: its block of eight, and where it is there. The first byte of
+  // a block is 8 behind the block before, as the mover counts it. What is not named is 0.
+  function automatic logic [7:0] first_byte(input logic [8:0] block, input logic [3:0] place);
     first_byte = 8'h00;
-    case (address)
-      12'hE04: first_byte = 8'd40;                                 // x 256 ms = 10.2 s
-      12'hF00: first_byte = 8'(node_i);
-      12'hF01: first_byte = 8'h05;                                 // FLAGS: ERRS, BOOT
-      12'hF04: first_byte = 8'h0A;                                 // BOFF
-      12'hF05: first_byte = 8'h0A;                                 // LIFE
-      12'hF06: first_byte = 8'h32;                                 // BLKTO
-      12'hF07: first_byte = 8'h08;                                 // RETRY
-      12'hFF8: first_byte = 8'h01;                                 // IDENT (RN-25)
-      12'hFF9: first_byte = 8'(Features);
-      12'hFFA: first_byte = {4'(NameBits), 4'($clog2(MemBytes))};
-      12'hFFB: first_byte = 8'(StageBytes);
-      12'hFFC: first_byte = serial_i[7:0];
-      12'hFFD: first_byte = serial_i[15:8];
-      12'hFFE: first_byte = serial_i[23:16];
-      12'hFFF: first_byte = serial_i[31:24];
+    case ({block, place})
+      {9'h1C0, 4'd4}: first_byte = 8'd40;                          // E04: x 256 ms = 10.2 s
+      {9'h1DF, 4'd8}: first_byte = 8'(node_i);                     // F00
+      {9'h1E0, 4'd1}: first_byte = 8'h05;                          // FLAGS: ERRS, BOOT
+      {9'h1E0, 4'd4}: first_byte = 8'h0A;                          // BOFF
+      {9'h1E0, 4'd5}: first_byte = 8'h0A;                          // LIFE
+      {9'h1E0, 4'd6}: first_byte = 8'h32;                          // BLKTO
+      {9'h1E0, 4'd7}: first_byte = 8'h08;                          // RETRY
+      {9'h1FE, 4'd8}: first_byte = 8'h01;                          // FF8: IDENT (RN-25)
+      {9'h1FF, 4'd1}: first_byte = 8'(Features);
+      {9'h1FF, 4'd2}: first_byte = {4'(NameBits), 4'($clog2(MemBytes))};
+      {9'h1FF, 4'd3}: first_byte = 8'(StageBytes);
+      {9'h1FF, 4'd4}: first_byte = serial_i[7:0];
+      {9'h1FF, 4'd5}: first_byte = serial_i[15:8];
+      {9'h1FF, 4'd6}: first_byte = serial_i[23:16];
+      {9'h1FF, 4'd7}: first_byte = serial_i[31:24];
       default: ;
     endcase
   endfunction
@@ -116,7 +118,7 @@ module can_rn_data #(
   always_comb begin
     case (job_i)
       can_rn_pkg::JobByte:  wbyte_o = frame_i;
-      can_rn_pkg::JobClear: wbyte_o = first_byte(mem_i);
+      can_rn_pkg::JobClear: wbyte_o = first_byte(block_i, place_i);
       default:              wbyte_o = byte_q + {8{less_q}} + 8'(more_q);
     endcase
   end

@@ -24,7 +24,8 @@ module can_rn_guard (
   assign config_area = &mem_i[11:9];
   assign index       = first_page ? mem_i[6:4] : mem_i[9:7];
   assign guard_o     = job_i == can_rn_pkg::JobGuard;
-  assign cell_o      = {4'b1000, read_i, !read_i, first_page, mem_i[11:10] & {2{!first_page}}};
+  assign cell_o      = {4'b1000, read_i, !read_i, first_page, mem_i[11:10] & {2{!first_page}}}
+                       & {9{guard_o}};
   assign denied_o    = denied_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -149,5 +149,6 @@ module can_rn_map #(
     if (zero && !last)                cell_o = 9'h006;
     if (last ? zero : late && phase_i[0]) cell_o = {2'b01, k, 4'hC};
     if (late && last)                 cell_o = {2'b01, k, 4'hC};
+    if (!cell_own_o)                  cell_o = '0;
   end
 endmodule

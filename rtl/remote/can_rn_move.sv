@@ -34,6 +34,7 @@ module can_rn_move #(
   input  logic [7:0]       byte_i,     // byte of the frame
   output logic [11:0]      start_o,    // first address
   output logic [11:0]      mem_o,      // where the mover is
+  output logic [3:0]       place_o,    // the same from the block of the start on
   output logic [3:0]       row_o,
   output logic [3:0]       end_o,      // end of the bytes in the row
   output logic             ended_o,    // row_o is there
@@ -47,6 +48,7 @@ module can_rn_move #(
 
   assign start_o   = start_q;
   assign row_o     = row_q;
+  assign place_o   = low_q;
   assign clear     = job_i == can_rn_pkg::JobClear;
   assign move      = job_i == can_rn_pkg::JobMove;
   assign cleared_o = (&start_q[11:3]) && (&low_q[2:0]);
@@ -126,6 +128,12 @@ module can_rn_move #(
   end
 
   // READ says how much in its third byte; its answer begins with the address.
-  assign end_o = far_i && !a_i[0] ? {1'b0, count_i} + 4'd2 : dlc_i;
+  // It is known long before the first byte moves.
+  logic [3:0] end_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) end_q <= '0;
+    else         end_q <= far_i && !a_i[0] ? {1'b0, count_i} + 4'd2 : dlc_i;
+  end
+  assign end_o = end_q;
 
 endmodule

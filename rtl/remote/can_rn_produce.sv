@@ -193,5 +193,6 @@ module can_rn_produce #(
                                                            entry && phase_i[0]};
     if (renew && !last)                          cell_o = refused_i ? 9'h006
                                                           : {3'b101, k, 2'b01, phase_i[0]};
+    if (!cell_own_o) cell_o = '0;
   end
 endmodule
