@@ -53,4 +53,7 @@ remote/can_rn_tx.sv
 remote/can_rn_produce.sv
 remote/can_rn_map.sv
 remote/can_rn_guard.sv
+remote/can_rn_rate.sv
+remote/can_rn_block.sv
+remote/can_rn_tally.sv
 remote/can_remote.sv

@@ -32,7 +32,9 @@ has_module can_remote && tops+=("can_remote" "can_remote NameBits=5" "can_remote
                                 "can_remote StageBytes=0" "can_remote StageBytes=16"
                                 "can_remote TxDepth=4" "can_remote NumProd=4"
                                 "can_remote NumProd=8" "can_remote NumMap=4"
-                                "can_remote NumMap=8" "can_remote Protect=1")
+                                "can_remote NumMap=8" "can_remote Protect=1"
+                                "can_remote Block=1" "can_remote AutoRate=1"
+                                "can_remote Counters=1")
 
 verilator_lint() {  # TOP [NAME=VALUE]
   verilator --lint-only -Wall --top-module "$1" ${2:+-G"$2"} rtl/lint.vlt "${rtl[@]}"

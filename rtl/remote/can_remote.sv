@@ -19,6 +19,12 @@ module can_remote #(
   parameter int NumMap = 0,
   /// 1: pages may be protected against writes and reads of the bus.
   parameter int Protect = 0,
+  /// 1: block transfers.
+  parameter int Block = 0,
+  /// 1: the bit rate is a row of RateTable, and may be searched for.
+  parameter int AutoRate = 0,
+  /// 1: eight counters at 0xFE8 tell what happened.
+  parameter int Counters = 0,
   /// Serial number, 32 bits, different in each device.
   parameter int Serial = 0,
   /// Clocks per millisecond, 8,000 to 131,071.
@@ -31,6 +37,16 @@ module can_remote #(
   parameter int Sjw = 1,
   /// 1: trace_o shows the engine to an observer; else it is 0 and costs nothing.
   parameter int Trace = 0,
+  /// Rows of RateTable, 1 to 15, and the rows, the first at the right, each 19 bits: clocks per
+  /// quantum, SJW, Ps1, Ps2, Prop, each minus one. As `verican bittime --table` prints them for a
+  /// clock; here 8 MHz: 1000, 800, 500, 250, 125, 50, 20 and 10 kbit/s.
+  parameter int RateRows = 8,
+  parameter logic [284:0] RateTable = {
+    133'd0,
+    8'd49, 2'd1, 3'd7, 3'd1, 3'd4,   8'd24, 2'd1, 3'd7, 3'd1, 3'd4,
+    8'd9,  2'd1, 3'd7, 3'd1, 3'd4,   8'd3,  2'd1, 3'd7, 3'd1, 3'd4,
+    8'd1,  2'd1, 3'd7, 3'd1, 3'd4,   8'd0,  2'd1, 3'd7, 3'd1, 3'd4,
+    8'd0,  2'd1, 3'd3, 3'd1, 3'd2,   8'd0,  2'd1, 3'd3, 3'd1, 3'd0},
   /// Derived, do not override.
   localparam int Events = NumProd == 0 ? 1 : NumProd
 ) (
@@ -39,6 +55,7 @@ module can_remote #(
   // Set-up
   input  logic                start_i,        // the RAM is set up: join the bus
   input  logic [NameBits-1:0] node_i,         // number; 0, 1: none
+  input  logic [3:0]          rate_i,         // with AutoRate: row of RateTable; F: search
   // User logic: one access a clock while usr_ready_o; data in the clock after
   input  logic                usr_req_i,
   input  logic                usr_we_i,
@@ -66,7 +83,8 @@ module can_remote #(
   localparam int AddrBits = 10 - NameBits;
   localparam int Features = (StageBytes != 0 ? 1 : 0) + (NumProd != 0 ? 2 : 0)
                             + (NumMap != 0 ? 4 : 0) + (TxDepth == 4 ? 8 : 0)
-                            + (Protect != 0 ? 16 : 0);
+                            + (Protect != 0 ? 16 : 0) + (Block != 0 ? 32 : 0)
+                            + (AutoRate != 0 ? 64 : 0) + (Counters != 0 ? 128 : 0);
 
   if (NameBits != 3 && NameBits != 5) begin : gen_check_name_bits
     NameBits_must_be_3_or_5 u_stop ();
@@ -86,6 +104,18 @@ module can_remote #(
   if (Protect != 0 && Protect != 1) begin : gen_check_protect
     Protect_must_be_0_or_1 u_stop ();
   end
+  if (Block != 0 && Block != 1) begin : gen_check_block
+    Block_must_be_0_or_1 u_stop ();
+  end
+  if (AutoRate != 0 && AutoRate != 1) begin : gen_check_auto_rate
+    AutoRate_must_be_0_or_1 u_stop ();
+  end
+  if (RateRows < 1 || RateRows > 15) begin : gen_check_rate_rows
+    RateRows_must_be_1_to_15 u_stop ();
+  end
+  if (Counters != 0 && Counters != 1) begin : gen_check_counters
+    Counters_must_be_0_or_1 u_stop ();
+  end
   if (NumMap != 0 && NumMap != 4 && NumMap != 8) begin : gen_check_num_map
     NumMap_must_be_0_4_or_8 u_stop ();
   end
@@ -102,6 +132,12 @@ module can_remote #(
   logic [31:0] tx_word;
   logic [28:0] rx_id;
   logic [7:0]  tec, rec, rx_byte;
+  // Bit rate
+  logic        start_now, listen, listen_run, synch;
+  logic [5:0]  err;
+  logic [7:0]  presdiv;
+  logic [1:0]  rjw, node;
+  logic [2:0]  pseg1, pseg2, propseg;
   // Jobs
   can_rn_pkg::job_t job;
   logic [1:0]  phase;
@@ -141,6 +177,18 @@ module can_remote #(
   logic [8:0]  map_cell;
   logic [10:0] id;
   can_rn_pkg::job_t watch_job;
+  // Block transfers
+  logic        block, data, make, answer, load_at, busy, part, order, again, excess, claims;
+  logic        block_want, add_on, closes, timeout, block_own, block_re, block_we, block_no_write;
+  logic        block_less, block_more, equal;
+  logic [2:0]  add;
+  logic [3:0]  length, shown;
+  logic [8:0]  block_cell, sum;
+  can_rn_pkg::job_t block_job, begun, block_then;
+  // Counters
+  logic        count, in_order, over, dropped, clear, tally, tally_own, tally_more, wide;
+  logic        tally_no_write;
+  logic [8:0]  tally_cell;
   // Node
   logic [NameBits-1:0] number;
   logic        off_entry, off_exit, carry;
@@ -149,13 +197,13 @@ module can_remote #(
 
   can_core u_core (
     .clk_i, .rst_ni,
-    .run_i(run), .running_o(), .stop_ok_o(), .gap_o(gap),
-    .presdiv_i(8'(Brp - 1)), .rjw_i(2'(Sjw - 1)), .pseg1_i(3'(Ps1 - 1)), .pseg2_i(3'(Ps2 - 1)),
-    .propseg_i(3'(Prop - 1)), .smp_i(1'b0), .lom_i(1'b0), .lpb_i(1'b0), .fd_tolerant_i(1'b0),
+    .run_i(run || listen_run), .running_o(), .stop_ok_o(), .gap_o(gap),
+    .presdiv_i(presdiv), .rjw_i(rjw), .pseg1_i(pseg1), .pseg2_i(pseg2),
+    .propseg_i(propseg), .smp_i(1'b0), .lom_i(listen), .lpb_i(1'b0), .fd_tolerant_i(1'b0),
     .boff_rec_i(!release_off),
     .ec_clear_i(1'b1), .ec_we_i(1'b0), .ec_wdata_i(16'd0), .tec_o(tec), .rec_o(rec),
-    .passive_o(passive), .boff_o(boff), .err_o(),
-    .idle_o(), .transmitter_o(transmitter), .receiver_o(), .synch_o(),
+    .passive_o(passive), .boff_o(boff), .err_o(err),
+    .idle_o(), .transmitter_o(transmitter), .receiver_o(), .synch_o(synch),
     .tick_req_i(1'b1), .tick_o(tick), .rx_req_i(1'b0), .rx_level_o(),
     .timer_clear_i(1'b0), .timer_we_i(1'b0), .timer_be_i(2'b00), .timer_wdata_i(16'd0),
     .timer_o(),
@@ -168,7 +216,10 @@ module can_remote #(
   );
   assign trace_o = Trace != 0 ? trace : '0;
 
-  can_rn_head #(.NameBits(NameBits), .NumProd(NumProd), .NumMap(NumMap)) u_head (
+  can_rn_head #(
+    .NameBits(NameBits), .NumProd(NumProd), .NumMap(NumMap), .Counters(Counters != 0),
+    .Block(Block != 0)
+  ) u_head (
     .clk_i, .rst_ni,
     .hdr_i(rx_hdr), .transmitter_i(transmitter), .ide_i(rx_ide), .rtr_i(rx_rtr),
     .id_i(rx_id[28:18]), .byte_we_i(rx_byte_we), .byte_i(rx_byte), .valid_i(rx_valid),
@@ -177,39 +228,45 @@ module can_remote #(
     .read_i(read_byte),
     .search_o(search), .id_o(id), .lost_i(job == can_rn_pkg::JobFind && !find && !hit),
     .hit_i(hit), .mask_i(rdata[22:16]), .aim_i(aim), .aim_at_i({rdata[15:12], rdata[19:16]}),
-    .mapped_i(mapped),
+    .mapped_i(mapped), .load_i(load_at), .load_at_i(rdata[15:12]), .make_i(make),
+    .answer_i(answer), .length_i(length),
     .hdr_o(hdr), .ours_o(ours), .byte_o(has_byte), .live_o(live), .sys_o(sys), .all_o(all),
-    .dup_o(dup), .a_o(a), .port_o(port), .key_o(key), .op_o(op), .value_bad_o(value_bad),
+    .dup_o(dup), .a_o(a), .port_o(port), .key_o(key), .count_o(count), .op_o(op),
+    .value_bad_o(value_bad),
     .high_bad_o(high_bad), .mismatch_o(mismatch)
   );
 
   // What an entry asks for is a remote frame, but for a watchdog and where there is no room.
-  assign rtr = rx_rtr || visit;
-  assign dlc = visit || (mapped && (|op[3:0])) ? op[3:0] : rx_dlc;
+  assign rtr = (rx_rtr || visit) && !make;
+  assign dlc = visit || make || (mapped && (|op[3:0])) ? op[3:0] : rx_dlc;
   assign short = rx_dlc < op[3:0] || (rx_dlc[3] && (|rx_dlc[2:0]));
 
   can_rn_check #(
-    .NameBits(NameBits), .MemBytes(MemBytes), .NumProd(NumProd), .NumMap(NumMap)
+    .NameBits(NameBits), .MemBytes(MemBytes), .NumProd(NumProd), .NumMap(NumMap),
+    .Counters(Counters != 0), .Block(Block != 0)
   ) u_check (
     .clk_i, .rst_ni,
     .sys_i(sys), .all_i(all), .port_i(port), .a_i(a), .rtr_i(rtr), .dlc_i(dlc),
     .mapped_i(mapped), .short_i(short), .unlock_i(op[2:0] == 3'd1),
+    .op_i(|op[1:0]), .make_i(make), .busy_i(busy), .order_i(order), .again_i(again),
+    .over_i(excess),
     .value_bad_i(value_bad), .high_bad_i(high_bad),
     .mismatch_i(mismatch), .start_i(start), .end_i(row_end),
     .selected_i(selected), .operate_i(operate), .unlocked_i(unlocked),
-    .lock_reset_i(lock_reset), .full_i(full && !visit),
+    .lock_reset_i(lock_reset), .full_i(full && !visit && !make),
     .denied_i(denied), .crosses_o(crosses),
     .write_o(write), .read_o(read), .trigger_o(trigger), .select_o(select),
     .assign_o(assign_number), .state_o(set_state), .setup_o(setup), .far_o(far), .info_o(info),
+    .block_o(block), .data_o(data),
     .code_o(code)
   );
   assign valid   = rx_valid && live;
   // A system function for other nodes, a read that a node without a number does not answer.
   assign nothing = select || (set_state && mismatch) || (assign_number && !selected)
-                   || (read && !numbered);
-  assign refused = code != can_rn_pkg::CodeOk || denied;
+                   || (read && !numbered) || again;
+  assign refused = code != can_rn_pkg::CodeOk || (denied && !again);
 
-  can_rn_step #(.Protect(Protect != 0)) u_step (
+  can_rn_step #(.Protect(Protect != 0), .Block(Block != 0)) u_step (
     .clk_i, .rst_ni,
     .hdr_i(hdr), .ours_i(ours), .byte_i(has_byte), .live_i(live), .valid_i(valid),
     .tick_i(tick), .dup_i(dup && !mapped), .key_i(key), .refused_i(refused),
@@ -219,11 +276,16 @@ module can_remote #(
     .ended_i(ended), .cleared_i(cleared), .row_i(row), .carry_i(carry),
     .ms_i(ms), .boff_i(boff), .off_i(off), .try_i(try_due), .load_i(load), .some_i(some),
     .more_i(ages),
-    .gone_i(gone), .owe_feed_i(owe_feed), .start_i, .run_i(run),
-    .want_i(want), .visit_i(visit), .then_i(then_job), .same_i(keep_same),
+    .gone_i(gone), .owe_feed_i(owe_feed), .tally_i(tally), .start_i(start_now), .run_i(run),
+    .want_i(want), .visit_i(visit || make), .then_i(make ? block_then : then_job),
+    .begun_i(make ? begun : can_rn_pkg::JobFresh), .same_i(keep_same),
+    .fetch_i(data), .block_i(block_want), .block_job_i(block_job),
+    .opens_i(block && !refused && (|op[1:0])), .ends_i(part && refused),
+    .on_i(add_on), .closes_i(closes),
     .search_i(search), .find_i(find), .hit_i(hit), .mapped_i(mapped), .act_i(act),
     .watch_i(watch), .watch_job_i(watch_job), .anew_i(anew), .ten_o(ten),
     .job_o(job), .phase_o(phase), .timer_o(timer), .request_o(request), .begin_o(begins),
+    .over_o(over),
     .take_o(take), .new_tries_o(new_tries),
     .written_o, .apply_o
   );
@@ -238,6 +300,7 @@ module can_remote #(
     .clk_i, .rst_ni,
     .job_i(job), .phase_i(phase), .request_i(request), .begin_i(begins), .take_i(take),
     .read_i(read), .trigger_i(trigger || acts), .far_i(far), .info_i(info), .key_i(key),
+    .data_i(data), .load_i(load_at), .answer_i(answer),
     .crosses_i(crosses), .mapped_i(mapped), .find_i(find), .act_i(acts),
     .aim_i(aim), .aim_at_i(rdata[11:0]),
     .a_i(7'(a) | row_a), .dlc_i(dlc), .count_i(op[2:0]),
@@ -245,7 +308,7 @@ module can_remote #(
     .ended_o(ended), .staged_o(staged), .cleared_o(cleared)
   );
   assign written_addr_o = start;
-  assign written_len_o  = row_end - {2'b00, far, 1'b0};
+  assign written_len_o  = row_end - {2'b00, far, data};
 
   can_rn_cell u_cell (
     .job_i(job), .phase_i(phase), .read_i(read), .trigger_i(trigger || acts),
@@ -262,23 +325,29 @@ module can_remote #(
   ) u_data (
     .clk_i, .rst_ni,
     .job_i(job), .none_i(rx_dlc == 4'd0 || mapped),
-    .read_i(cell_re || same || map_re), .lane_i(lane),
+    .read_i(cell_re || same || map_re || block_re), .lane_i(lane),
     .rdata_i(rdata), .frame_i(rx_byte), .block_i(start[11:3]),
     .place_i(place), .node_i,
-    .serial_i(serial), .last_i(phase[1]), .more_i(more),
+    .serial_i(serial), .last_i(phase[1]), .less_i(block_less),
+    .more_i(more || tally_more || block_more), .add_i(add), .code_i(shown),
     .byte_o(read_byte), .zero_o(zero), .one_o(one), .differ_o(differ), .above_o(above),
-    .wbyte_o(wbyte)
+    .sum_o(sum), .same_o(in_order), .equal_o(equal), .wbyte_o(wbyte)
   );
 
   // Who names the byte that is meant: 0 from all others, so that an OR is enough.
   logic own;
-  assign own = guard || map_own || cell_own;
+  assign own = guard || map_own || cell_own || tally_own || block_own;
   can_rn_port #(.MemBytes(MemBytes)) u_port (
     .clk_i, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger || acts),
-    .same_i(same && !phase[0]), .cell_i((cell_addr & {9{!own}}) | guard_cell | map_cell | own_cell),
-    .re_i(cell_re || same || map_re), .we_i((cell_we && !no_write && !guard) || map_we),
+    .same_i(same && !phase[0]), .cell_i((cell_addr & {9{!own}}) | guard_cell | map_cell | own_cell
+                                        | (tally_cell & {9{tally_own}})
+                                        | (block_cell & {9{block_own}})),
+    .re_i(cell_re || same || map_re || block_re),
+    .we_i((cell_we && !no_write && !tally_no_write && !block_no_write && !guard) || map_we
+          || block_we),
+    .wide_i(wide),
     .mem_i(mem), .staged_i(staged), .wbyte_i(wbyte),
-    .a_i(7'(a)), .end_i(row_end), .code_i(code), .status_i(status), .tec_i(tec), .rec_i(rec),
+    .a_i(7'(a)), .end_i(row_end), .code_i(shown), .status_i(status), .tec_i(tec), .rec_i(rec),
     .lane_o(lane), .rdata_o(rdata),
     .usr_req_i, .usr_we_i, .usr_be_i, .usr_addr_i, .usr_wdata_i, .usr_ready_o
   );
@@ -291,30 +360,32 @@ module can_remote #(
     .head_o(head), .age_o(age), .more_o(ages), .word_o(word), .status_o(tx_status),
     .full_o(full), .some_o(some),
     .load_o(load), .try_o(try_due), .gone_o(gone), .gone_status_o(gone_status),
-    .gone_here_o(gone_here), .popped_o(popped),
+    .gone_here_o(gone_here), .popped_o(popped), .dropped_o(dropped),
     .tx_req_o(tx_req), .tx_dlc_o(tx_dlc), .tx_word_o(tx_word),
     .tx_next_i(tx_next), .tx_ok_i(tx_ok), .tx_fail_i(tx_fail), .transmitter_i(transmitter)
   );
 
   can_rn_state #(.NameBits(NameBits)) u_state (
     .clk_i, .rst_ni,
-    .job_i(job), .phase_i(phase), .accept_i(begins && !refused && !visit && !mapped),
-    .dup_i(valid && dup), .refused_i(refused), .all_i(all || sys), .write_i(write),
+    .job_i(job), .phase_i(phase),
+    .accept_i(begins && !refused && !visit && !make && !mapped && !again),
+    .dup_i(valid && dup), .refused_i(refused), .all_i(all || sys || part), .write_i(write),
     .select_i(select), .assign_i(assign_number), .state_i(set_state), .setup_i(setup),
     .match_i(!mismatch), .new_i(a[2]), .op_i(op), .timer_i(timer), .zero_i(zero),
     .byte_i(read_byte), .off_entry_i(off_entry), .off_exit_i(off_exit), .gap_i(gap),
     .passive_i(passive), .stale_i(stale), .unsafe_i(unsafe), .told_i(told && !off),
-    .node_o(state_o), .operate_o(operate), .number_o(number), .numbered_o(numbered),
+    .node_o(node), .operate_o(operate), .number_o(number), .numbered_o(numbered),
     .selected_o(selected), .unlocked_o(unlocked), .lock_reset_o(lock_reset), .run_o(run),
     .restart_o(restart), .flush_o(flush), .gone_status_i(gone_status),
     .gone_here_i(gone_here), .owe_status_o(owe_status), .owe_here_o(owe_here),
-    .owe_feed_o(owe_feed), .status_o(status)
+    .owe_feed_o(owe_feed), .clear_o(clear), .status_o(status)
   );
-  assign safe_o = !operate;
+  assign safe_o  = !operate;
+  assign state_o = {node[1], node[0] || listen};
 
   if (NumProd == 0) begin : gen_no_produce
     logic unused;
-    assign unused = &{1'b0, event_i, differ, popped};
+    assign unused = &{1'b0, event_i, differ, popped, claims};
     assign {want, visit, keep_same, same, cell_own, own_cell, no_write} = '0;
     assign then_job = can_rn_pkg::JobIdle;
   end else begin : gen_produce
@@ -322,7 +393,7 @@ module can_remote #(
       .clk_i, .rst_ni,
       .job_i(job), .phase_i(phase), .event_i, .ms_i(ms),
       .run_i(run), .forget_i(!run || off_entry),
-      .closed_i(some || off || !numbered), .popped_i(popped),
+      .closed_i(some || off || !numbered || claims), .popped_i(popped),
       .operate_i(operate),
       .refused_i(refused), .info_i(info), .mode_i(read_byte[7:4]), .zero_i(zero), .one_i(one),
       .row_i(row[2:0]), .first_i(row == 4'd0), .ended_i(ended), .differ_i(differ), .hdr_i(hdr),
@@ -361,6 +432,68 @@ module can_remote #(
       .clk_i, .rst_ni,
       .job_i(job), .late_i(phase[1]), .memory_i(read || write), .read_i(read), .mem_i(mem[11:4]),
       .byte_i(read_byte), .guard_o(guard), .cell_o(guard_cell), .denied_o(denied)
+    );
+  end
+
+  if (Block == 0) begin : gen_no_block
+    logic unused;
+    assign unused = &{1'b0, block, in_order, equal, sum};
+    assign {make, answer, load_at, busy, part, order, again, excess, claims} = '0;
+    assign {block_want, add_on, closes, timeout, block_own, block_cell, block_re, block_we} = '0;
+    assign {block_no_write, block_less, block_more, add, length} = '0;
+    assign {block_job, begun, block_then} = {3{can_rn_pkg::JobIdle}};
+    assign shown = code;
+  end else begin : gen_block
+    can_rn_block #(.Protect(Protect != 0)) u_block (
+      .clk_i, .rst_ni,
+      .job_i(job), .phase_i(phase), .flush_i(flush), .ms_i(ms), .ten_i(ten),
+      .ready_i(run && !off && numbered), .full_i(full), .some_i(some),
+      .live_i(live), .block_i(block), .data_i(data), .first_i(row == 4'd0),
+      .refused_i(refused), .code_i(code), .op_i(op[1:0]), .dlc_i(dlc), .row_i(row),
+      .end_i(row_end[2:0]), .zero_i(zero), .one_i(one), .same_i(in_order), .equal_i(equal),
+      .sum_i(sum),
+      .visit_o(make), .answer_o(answer), .load_o(load_at), .length_o(length), .busy_o(busy),
+      .order_o(order), .again_o(again), .over_o(excess), .part_o(part), .claims_o(claims),
+      .want_o(block_want), .next_o(block_job), .begun_o(begun), .then_o(block_then),
+      .on_o(add_on), .closes_o(closes), .timeout_o(timeout), .code_o(shown),
+      .cell_own_o(block_own), .cell_o(block_cell), .re_o(block_re), .we_o(block_we),
+      .no_write_o(block_no_write), .add_o(add), .less_o(block_less), .more_o(block_more)
+    );
+  end
+
+  if (AutoRate == 0) begin : gen_no_rate
+    logic unused;
+    assign unused     = &{1'b0, rate_i, err, synch};
+    assign start_now  = start_i;
+    assign {listen, listen_run} = '0;
+    assign {presdiv, rjw} = {8'(Brp - 1), 2'(Sjw - 1)};
+    assign {pseg1, pseg2, propseg} = {3'(Ps1 - 1), 3'(Ps2 - 1), 3'(Prop - 1)};
+  end else begin : gen_rate
+    logic [3:0]   rate_row;
+    logic [284:0] rates;
+    assign rates = RateTable;
+    can_rn_rate #(.Rows(RateRows)) u_rate (
+      .clk_i, .rst_ni, .start_i, .rate_i, .run_i(run), .error_i(|err), .valid_i(rx_valid),
+      .synch_i(synch && tick), .ms_i(ms), .start_o(start_now), .listen_o(listen),
+      .run_o(listen_run),
+      .row_o(rate_row)
+    );
+    assign {presdiv, rjw, pseg1, pseg2, propseg} = rates[19 * 9'(rate_row) +: 19];
+  end
+
+  if (Counters == 0) begin : gen_no_tally
+    logic unused;
+    assign unused = &{1'b0, count, over, dropped, clear, timeout};
+    assign {tally, tally_own, tally_cell, tally_more, wide, tally_no_write} = '0;
+  end else begin : gen_tally
+    can_rn_tally u_tally (
+      .clk_i, .rst_ni,
+      .job_i(job), .phase_i(phase), .count_i(count), .same_i(in_order),
+      .none_i(rx_dlc == 4'd0 || mapped), .refused_i(refused), .code_i(code),
+      .dup_i(valid && dup), .dropped_i(dropped), .off_entry_i(off_entry), .over_i(over),
+      .timeout_i(timeout), .clear_i(clear), .byte_i(read_byte),
+      .want_o(tally), .cell_own_o(tally_own), .cell_o(tally_cell), .more_o(tally_more),
+      .wide_o(wide), .no_write_o(tally_no_write)
     );
   end
 

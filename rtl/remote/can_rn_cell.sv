@@ -53,6 +53,7 @@ module can_rn_cell (
         place = phase_i == 2'd0 ? 4'd0 : {word_i, 2'd0};
       end
       can_rn_pkg::JobPush: place = 4'd8;
+      can_rn_pkg::JobSeq:  place = 4'd0;
       can_rn_pkg::JobFresh: begin
         page  = PageStatus;
         place = 4'd0;

@@ -9,6 +9,8 @@ module can_rn_check #(
   parameter int MemBytes = 4096,
   parameter int NumProd = 0,
   parameter int NumMap = 0,
+  parameter bit Counters = 1'b0,
+  parameter bit Block = 1'b0,
   /// Derived, do not override.
   localparam int AddrBits = 10 - NameBits
 ) (
@@ -24,11 +26,18 @@ module can_rn_check #(
   input  logic                mapped_i,       // a map entry has taken the frame ..
   input  logic                short_i,        // .. and it is too short or too long for that
   input  logic                unlock_i,       // SETUP is UNLOCK
+  input  logic                op_i,           // BLOCK is no abort
   input  logic                value_bad_i,
   input  logic                high_bad_i,
   input  logic                mismatch_i,
   input  logic [11:0]         start_i,        // first address
   input  logic [3:0]          end_i,          // end of its bytes in the row
+  // Block transfer
+  input  logic                make_i,         // a frame is made for one
+  input  logic                busy_i,         // one is open
+  input  logic                order_i,        // the frame of data is the next,
+  input  logic                again_i,        // or the last once more
+  input  logic                over_i,         // it has more bytes than are left
   // Node
   input  logic                selected_i,
   input  logic                operate_i,
@@ -46,16 +55,21 @@ module can_rn_check #(
   output logic                setup_o,
   output logic                far_o,          // READ or WRITE: the row begins with the address
   output logic                info_o,         // STATUS or IDENT
+  output logic                block_o,        // BLOCK, DATA
+  output logic                data_o,
   output logic                crosses_o,      // it ends in the next block of eight bytes
   output logic [3:0]          code_o          // registered
 );
-  logic near, is_write, none;
+  logic near, is_write, none, make;
+  assign make      = Block && make_i;
   assign near      = !sys_i && !port_i;
   assign far_o     = port_i && !(|a_i[2:1]);
   assign info_o    = port_i && (&a_i[2:1]);
-  assign is_write  = far_o && a_i[0];
+  assign block_o   = Block && port_i && a_i[2:0] == 3'd2;
+  assign data_o    = Block && port_i && a_i[2:0] == 3'd3;
+  assign is_write  = (far_o && a_i[0]) || (data_o && !make);
   assign write_o   = is_write || (near && !rtr_i && !(mapped_i && none));
-  assign read_o    = (far_o && !a_i[0]) || (near && rtr_i) || info_o;
+  assign read_o    = (far_o && !a_i[0]) || (near && rtr_i) || info_o || make;
   assign setup_o   = port_i && a_i[2:1] == 2'd2;
   assign state_o   = sys_i && !(|a_i[2:0]);
   assign trigger_o = sys_i && a_i[1:0] == 2'd1;
@@ -68,7 +82,8 @@ module can_rn_check #(
   assign long  = dlc_i[3] && (|dlc_i[2:0]);
   assign third = dlc_i[3:2] != 2'b00;   // 4 or more
   always_comb begin
-    bad_function = port_i && (info_o ? !rtr_i : rtr_i || a_i[1] || (a_i[2] && (a_i[0] || all_i)));
+    bad_function = port_i && (info_o ? !rtr_i : rtr_i || (a_i[1] && (!Block || all_i))
+                                                || (a_i[2] && (a_i[0] || all_i)));
     bad_value    = mapped_i ? short_i : none || long;
     if (sys_i) begin
       bad_function = rtr_i || (|a_i[AddrBits-1:3]) || (a_i[2] && (|a_i[1:0]));
@@ -79,6 +94,8 @@ module can_rn_check #(
     end
     if (far_o && !(&dlc_i[1:0] && !third)) bad_value = !is_write || long || !third;
     if (setup_o) bad_value = dlc_i[3] || dlc_i[1] || !dlc_i[0] || dlc_i[2] != unlock_i;
+    if (data_o) bad_value = long || !(third || dlc_i[1]) || (over_i && !again_i && !make);
+    if (block_o && !make) bad_value = dlc_i[3] || !(&dlc_i[2:1]) || (op_i && !mismatch_i);
     if (value_bad_i && !(state_o && mismatch_i)) bad_value = 1'b1;
   end
 
@@ -88,11 +105,13 @@ module can_rn_check #(
   logic       bad_address;
   logic [3:0] reach;
   assign reach       = {1'b0, start_i[2:0]} + end_i;
-  assign crosses     = reach[3] && (far_o ? reach[2] || (&reach[1:0]) : (|reach[2:0]));
+  assign crosses     = reach[3] && (reach[2] || (reach[1] && (!far_o || reach[0]))
+                                    || (reach[0] && !far_o && !data_o));
   assign crosses_o   = crosses;
   assign top         = &start_i[11:8];
   assign config_area = top && (!(|start_i[7:5]) || producer || map);
-  assign fixed_area  = top && (&start_i[7:4]);
+  assign fixed_area  = top && ((&start_i[7:4])
+                               || (Counters && (&start_i[7:5]) && !start_i[4] && start_i[3]));
   // Tables of eight bytes an entry, and the last entry of each that is followed by nothing.
   assign producer = NumProd != 0 && start_i[7:6] == 2'd1 && (NumProd == 8 || !start_i[5]);
   assign map      = NumMap != 0 && start_i[7:6] == 2'd2 && (NumMap == 8 || !start_i[5]);
@@ -111,7 +130,7 @@ module can_rn_check #(
                      && (&start_i[8:3]);
   end
   always_comb begin
-    if (far_o || mapped_i) bad_address = high_bad_i || outside
+    if (far_o || data_o || mapped_i) bad_address = high_bad_i || outside
                              || (crosses && (last || ends));
     else       bad_address = near && crosses && (&start_i[AddrBits-1:4]) && !start_i[3];
   end
@@ -125,11 +144,14 @@ module can_rn_check #(
     if (!rst_ni)                        code_o <= can_rn_pkg::CodeOk;
     else if (bad_function)              code_o <= can_rn_pkg::CodeFunction;
     else if (bad_value)                 code_o <= can_rn_pkg::CodeValue;
+    else if (Block && again_i)          code_o <= can_rn_pkg::CodeOk;
+    else if (data_o && !make && !order_i) code_o <= can_rn_pkg::CodeSequence;
     else if (bad_address)               code_o <= can_rn_pkg::CodeAddress;
     else if (locked)                    code_o <= can_rn_pkg::CodeLocked;
     else if (denied_i || ((is_write || mapped_i) && fixed_area))
                                         code_o <= can_rn_pkg::CodeProtected;
     else if (read_o && full_i)          code_o <= can_rn_pkg::CodeBusy;
+    else if (block_o && !make && op_i && (busy_i || full_i)) code_o <= can_rn_pkg::CodeBusy;
     else                                code_o <= can_rn_pkg::CodeOk;
   end
 

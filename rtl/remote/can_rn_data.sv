@@ -24,12 +24,18 @@ module can_rn_data #(
   input  logic [NameBits-1:0] node_i,
   input  logic [31:0]         serial_i,
   input  logic                last_i,       // phase 2 or 3
-  input  logic                more_i,       // one more is written
+  input  logic                less_i,       // one less is written in the clock after,
+  input  logic                more_i,       // one more
+  input  logic [2:0]          add_i,        // or this more, now
+  input  logic [3:0]          code_i,       // JobClose
   output logic [7:0]          byte_o,       // read
   output logic                zero_o,       // it is 0, 1
   output logic                one_o,
   output logic                differ_o,     // from the one before
   output logic                above_o,      // it is more, or 255
+  output logic [8:0]          sum_o,        // byte that is written, with carry
+  output logic                same_o,       // the byte of the frame is that,
+  output logic                equal_o,      // or the one read
   output logic [7:0]          wbyte_o
 );
   logic [7:0] byte_q, lane_byte;
@@ -109,17 +115,24 @@ module can_rn_data #(
                 || job_i == can_rn_pkg::JobTry || job_i == can_rn_pkg::JobAge
                 || (Compare && job_i == can_rn_pkg::JobGap)
                 || ((job_i == can_rn_pkg::JobFeed || (Compare && job_i == can_rn_pkg::JobDown))
-                    && (!last_i || zero_o));
+                    && (!last_i || zero_o))
+                || less_i;
       more_q <= job_i == can_rn_pkg::JobCount || more_i
                 || (job_i == can_rn_pkg::JobTrigger && none_i);
     end
   end
 
+  logic [8:0] sum;
+  assign sum     = {1'b0, byte_q} + {1'b0, {8{less_q}} ^ {5'd0, add_i}} + 9'(more_q);
+  assign sum_o   = sum;
+  assign same_o  = sum[7:0] == frame_i;
+  assign equal_o = byte_q == frame_i;
   always_comb begin
     case (job_i)
       can_rn_pkg::JobByte:  wbyte_o = frame_i;
       can_rn_pkg::JobClear: wbyte_o = first_byte(block_i, place_i);
-      default:              wbyte_o = byte_q + {8{less_q}} + 8'(more_q);
+      can_rn_pkg::JobClose: wbyte_o = {3'd0, code_i[3], 1'b0, code_i[2:0]};
+      default:              wbyte_o = sum[7:0];
     endcase
   end
 

@@ -8,6 +8,8 @@ module can_rn_head #(
   parameter int NameBits = 3,
   parameter int NumProd = 0,
   parameter int NumMap = 0,
+  parameter bit Counters = 1'b0,
+  parameter bit Block = 1'b0,
   /// Derived, do not override.
   localparam int AddrBits = 10 - NameBits
 ) (
@@ -43,6 +45,12 @@ module can_rn_head #(
   input  logic                aim_i,          // what it says of its place: ..
   input  logic [7:0]          aim_at_i,       // bits 15:12, length
   input  logic                mapped_i,       // it is carried out for that one
+  // Block transfers
+  input  logic                load_i,         // where one goes on: bits 15:12,
+  input  logic [3:0]          load_at_i,
+  input  logic                make_i,         // a frame is made for one,
+  input  logic                answer_i,       // of BLOCK,
+  input  logic [3:0]          length_i,       // of this length
   output logic                byte_o,         // a byte waits
   output logic                live_o,         // a frame for this node is under way
   output logic                sys_o,          // system function (name 0)
@@ -50,7 +58,8 @@ module can_rn_head #(
   output logic                dup_o,          // a statement under our number (RN-11)
   output logic [AddrBits-1:0] a_o,
   output logic                port_o,         // one of the last eight A
-  output logic                key_o,          // this byte is compared with the serial number
+  output logic                key_o,          // this byte is compared with the serial number,
+  output logic                count_o,        // or as the count of a TRIGGER
   output logic [4:0]          op_o,           // operation, number, or count of READ
   output logic                value_bad_o,    // a byte has no legal value
   output logic                high_bad_o,     // address beyond 12 bits
@@ -115,13 +124,20 @@ module can_rn_head #(
   assign setup_bad = byte_i[7] || (byte_i[2] ? |byte_i[1:0] : !(|byte_i[1:0]));
   assign get_bad   = byte_i[7] || (&byte_i[2:0]) || !(|byte_i[2:0]);
   assign bad       = (first && ((state && (top || state_bad)) || (setup && (top || setup_bad))))
-                     || (third && get && (top || get_bad));
+                     || (third && get && (top || get_bad))
+                     || (first && block && (top || byte_i[7] || byte_i[2] || (&byte_i[1:0])));
   assign other     = second && (|byte_i) && !(numbered_i && byte_i == 8'(number_i));
 
-  // SELECT compares after each mask, UNLOCK each byte of the key.
+  // BLOCK: op 0 to 2, a count that is not 0. The first byte of DATA is compared with the seq.
+  logic block, data;
+  assign block = Block && port_o && a_q[2:0] == 3'd2;
+  assign data  = Block && port_o && a_q[2:0] == 3'd3;
+
+  // SELECT compares after each mask, UNLOCK each byte of the key; with counters TRIGGER its count.
+  assign count_o = Counters && sys_o && a_q[1:0] == 2'd1;
   logic [1:0] index;
   logic [7:0] differ;
-  assign key_o  = select ? row_i[0] : setup && !first;
+  assign key_o  = select ? row_i[0] : (setup && !first) || (first && (count_o || data));
   assign index  = select ? row_i[2:1] : row_i[1:0] - 2'd1;
   assign differ = (read_i ^ serial_i[8*index +: 8]) & (byte_i | {8{setup}});
 
@@ -154,6 +170,9 @@ module can_rn_head #(
       // Beyond the window and the ports there is nothing to ask for.
       class_q <= {|read_i[7:AddrBits], 1'b0};
       a_q     <= read_i[AddrBits-1:0];
+    end else if (make_i && job_i == can_rn_pkg::JobFetch) begin
+      class_q <= ClassOwn;
+      a_q     <= {{AddrBits-3{1'b1}}, 2'b01, !answer_i};
     end else if (take_i) begin
       class_q <= {low && !id_i[10],
                   low ? name[0] && !search_o : id_i[10] && (own || NumMap == 0)};
@@ -167,14 +186,17 @@ module can_rn_head #(
     if (!rst_ni) begin
       {bad_q, high_q, mismatch_q} <= '0;
       op_q <= '0;
-    end else if (job_i == can_rn_pkg::JobHead || entry || aim_i) begin
-      {bad_q, high_q, mismatch_q} <= {1'b0, aim_i && (|aim_at_i[7:4]), 1'b0};
+    end else if (job_i == can_rn_pkg::JobHead || entry || aim_i || load_i) begin
+      {bad_q, high_q, mismatch_q} <= {1'b0, (aim_i && (|aim_at_i[7:4]))
+                                            || (load_i && !answer_i && (|load_at_i)), 1'b0};
+      if (load_i) op_q[3:0] <= length_i;
       if (aim_i) op_q[3:0] <= aim_at_i[3:0];
       if (entry) op_q[3:0] <= read_i[3:0] & {4{read_i[7]}};   // one that is off has no length
     end else if (key_byte && !mapped_i) begin
       bad_q  <= bad_q || bad;
-      high_q <= high_q || (second && (|byte_i[7:4]));
-      if (state ? other : (&phase_i) && (|differ)) mismatch_q <= 1'b1;
+      high_q <= high_q || (second && !data && (|byte_i[7:4]));
+      if (state ? other : ((&phase_i) && (|differ))
+                          || (block && row_i[2] && !row_i[1] && (|byte_i))) mismatch_q <= 1'b1;
       if (get ? third : first)
         op_q <= {byte_i[4:3], byte_i[2] || (byte_i[7] && state), byte_i[1:0]};
     end

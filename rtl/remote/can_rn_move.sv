@@ -21,6 +21,9 @@ module can_rn_move #(
   input  logic             trigger_i,
   input  logic             far_i,      // READ, WRITE
   input  logic             info_i,     // STATUS, IDENT
+  input  logic             data_i,     // DATA
+  input  logic             load_i,     // the start is in the word read,
+  input  logic             answer_i,   // or that of the answer of BLOCK
   input  logic             key_i,
   input  logic             crosses_i,  // the access ends in the next block of eight bytes
   input  logic             mapped_i,   // the frame is taken by a map entry
@@ -80,11 +83,16 @@ module can_rn_move #(
   assign mem_o = {high, low_q[2:0]};
 
   // The start is A itself, the row of STATUS or IDENT, the stage, or what the first bytes say.
-  logic [7:0] near;
-  assign head     = job_i == can_rn_pkg::JobHead || entry || aim_i;
+  logic [7:0]  near;
+  logic [11:0] at;
+  logic        fetched;
+  assign head     = job_i == can_rn_pkg::JobHead || entry || aim_i || load_i;
+  assign fetched  = load_i && !answer_i;
+  assign at       = aim_at_i & {12{aim_i || fetched}};
   assign far_byte = job_i == can_rn_pkg::JobByte && far_i && !(|row_q[3:1]);
-  assign near     = {info_i, a_i[6:5], a_i[4] || trigger_i, info_i ? a_i[0] : a_i[3],
-                     a_i[2:1] & {2{!info_i}}, a_i[0] && !info_i && !trigger_i};
+  assign near     = {info_i, a_i[6:5] & {2{!answer_i}}, (a_i[4] && !answer_i) || trigger_i,
+                     info_i ? a_i[0] : a_i[3], a_i[2:1] & {2{!info_i}},
+                     a_i[0] && !info_i && !trigger_i};
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       start_q <= '0;
@@ -92,9 +100,10 @@ module can_rn_move #(
       start_q[11:3] <= high;
     end else begin
       if (head || (far_byte && !row_q[0]))
-        start_q[7:0]  <= head ? near | (aim_at_i[7:0] & {8{aim_i}}) : byte_i;
+        start_q[7:0]  <= head ? (near & {8{!fetched}}) | at[7:0] : byte_i;
       if (head || (far_byte && row_q[0]))
-        start_q[11:8] <= head ? {4{info_i}} | (aim_at_i[11:8] & {4{aim_i}}) : byte_i[3:0];
+        start_q[11:8] <= head ? {{3{info_i || answer_i}}, info_i} | at[11:8]
+                              : byte_i[3:0];
     end
   end
 
@@ -103,7 +112,7 @@ module can_rn_move #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)       low_q <= '0;
     else if (begin_i || fresh) low_q <= {1'b0, start_q[2:0]};
-    else if (acts)     low_q <= '0;
+    else if (acts || load_i) low_q <= '0;
     // First and last byte in turn.
     else if (Protect && (request_i || job_i == can_rn_pkg::JobGuard))
                        low_q <= {crosses_i && !request_i && !phase_i[0], 3'd0};
@@ -117,13 +126,14 @@ module can_rn_move #(
       can_rn_pkg::JobByte:  step_row = !key_i || (&phase_i);
       can_rn_pkg::JobMove:  step_row = read_i ? phase_i[1] && !ended_o
                                               : phase_i == 2'd0 || !ended_o;
+      can_rn_pkg::JobOpen:  step_row = !phase_i[1];
       default:              step_row = (same || find) && phase_i[0];
     endcase
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)                  row_q <= '0;
-    else if (take_i || request_i || entry || found || acts) row_q <= '0;
-    else if (begin_i)             row_q <= {2'b00, far_i, 1'b0};
+    else if (take_i || request_i || entry || found || acts || load_i) row_q <= '0;
+    else if (begin_i)             row_q <= {2'b00, far_i, data_i};
     else if (step_row)            row_q <= row_q + 4'd1;
   end
 

@@ -16,6 +16,7 @@ module can_rn_port #(
   input  logic [8:0]       cell_i,
   input  logic             re_i,
   input  logic             we_i,
+  input  logic             wide_i,      // all bytes of the word
   input  logic [11:0]      mem_i,
   input  logic             staged_i,
   input  logic [7:0]       wbyte_i,
@@ -43,7 +44,7 @@ module can_rn_port #(
   logic [31:0] wdata;
   logic [1:0]  lane;
 
-  assign user        = job_i[4:2] == 3'd0;
+  assign user        = job_i[5:2] == 4'd0;
   assign usr_ready_o = user;
 
   // E00..EFF and FE0..FFF belong to the node.
@@ -67,6 +68,7 @@ module can_rn_port #(
     if (push)   lanes[1:0] = 2'b11;
     if (count)  lanes[0]   = 1'b1;
     if (status) lanes = {count, 3'b111};
+    if (wide_i) lanes = 4'b1111;
     we = user ? usr_be_i & {4{usr_write}} : lanes & {4{we_i}};
   end
   always_comb begin

@@ -50,6 +50,7 @@ module can_rn_state #(
   output logic                owe_status_o,
   output logic                owe_here_o,
   output logic                owe_feed_o,
+  output logic                clear_o,       // pulse: SETUP CLEAR
   output logic [7:0]          status_o
 );
   logic [1:0]          node_q;
@@ -126,7 +127,8 @@ module can_rn_state #(
   end
 
   logic clear;
-  assign clear = act && setup_i && op_i[2];
+  assign clear   = act && setup_i && op_i[2];
+  assign clear_o = clear;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {dup_q, watchdog_q, boff_seen_q, armed_q, run_q} <= '0;

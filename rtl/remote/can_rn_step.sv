@@ -6,7 +6,8 @@
 // point: they are over before the next one.
 
 module can_rn_step #(
-  parameter bit Protect = 1'b0
+  parameter bit Protect = 1'b0,
+  parameter bit Block = 1'b0
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
@@ -43,6 +44,7 @@ module can_rn_step #(
   input  logic             more_i,        // JobAge: another answer has aged
   input  logic             gone_i,        // what was offered to the engine
   input  logic             owe_feed_i,
+  input  logic             tally_i,       // something has happened that is counted
   input  logic             start_i,
   input  logic             run_i,
   // Producers
@@ -50,6 +52,15 @@ module can_rn_step #(
   input  logic             visit_i,       // this is being done
   input  can_rn_pkg::job_t then_i,        // what follows the present job then
   input  logic             same_i,        // JobSame goes on
+  input  can_rn_pkg::job_t begun_i,       // what follows JobBegin then
+  // Block transfers
+  input  logic             fetch_i,       // this frame goes on with one: JobHead is followed
+  input  logic             block_i,       // something is to be done for one
+  input  can_rn_pkg::job_t block_job_i,   // by this
+  input  logic             opens_i,       // JobCount: one is opened
+  input  logic             ends_i,        // or ended by a frame that is refused
+  input  logic             on_i,          // JobAdd goes on
+  input  logic             closes_i,      // and the transfer is closed then
   // Map entries
   input  logic             search_i,      // a header that one may take waits
   input  logic             find_i,        // JobFind goes on
@@ -64,6 +75,7 @@ module can_rn_step #(
   output logic             timer_o,
   output logic             request_o,     // a request is valid
   output logic             begin_o,       // its work begins
+  output logic             over_o,        // pulse: the hold has lasted too long (RN-52)
   output logic             take_o,        // header is taken over
   output logic             ten_o,         // 10 ms have passed
   output logic             new_tries_o,   // JobRow: the attempts count from the start
@@ -76,7 +88,7 @@ module can_rn_step #(
   logic [1:0] phase_q, int2_q;
   logic [3:0] ten_q;
   logic       tick_q, timer_q, ms_q, aged_q, row_ready_q, try_ready_q;
-  logic       guard, keep, idle, wait_user, quiet, due, int2, ended_timer;
+  logic       guard, keep, idle, held, over, wait_user, quiet, due, int2, ended_timer;
 
   assign job_o   = job_q;
   assign phase_o = phase_q;
@@ -93,16 +105,19 @@ module can_rn_step #(
   // Told in the clock behind the sample point; the job ends one later, so that the sample point
   // does not lead through what comes next.
   assign int2      = int2_q == 2'd0 ? !(written_o || apply_o) : int2_q == 2'd1 && tick_i;
-  assign wait_user = hold_i && !refused_i && (write_i || read_i || trigger_i || act_i)
-                     && !((&row_i) && (&phase_q));
+  assign held      = hold_i && !refused_i && (write_i || read_i || trigger_i || act_i);
+  assign over      = (&row_i) && (&phase_q);
+  assign wait_user = held && !over;
+  assign over_o    = job_q == can_rn_pkg::JobBegin && held && over && !visit_i;
   assign begin_o   = job_q == can_rn_pkg::JobBegin && !wait_user;
 
   // What comes next when nothing is under way.
   always_comb begin
     next = can_rn_pkg::JobIdle;
-    if (valid_i) next = {guard && !dup_i, 1'b0, {2{guard && !dup_i}}, !dup_i};   // JobBegin
-    else if (hdr_i)                          next = {1'b0, ours_i || search_i, search_i, 2'b00};
+    if (valid_i) next = {1'b0, guard && !dup_i, 1'b0, {2{guard && !dup_i}}, !dup_i};  // JobBegin
+    else if (hdr_i)                          next = {2'b00, ours_i || search_i, search_i, 2'b00};
     else if (byte_i)                         next = can_rn_pkg::JobByte;
+    else if (due && tally_i)                 next = can_rn_pkg::JobTally;
     else if (due && ms_q)                    next = can_rn_pkg::JobLow;
     else if (due && aged_q)                  next = can_rn_pkg::JobAge;
     else if (quiet) begin
@@ -113,6 +128,7 @@ module can_rn_step #(
       else if (!row_ready_q || !try_ready_q) next = can_rn_pkg::JobRow;
       else if (boff_i ^ off_i)               next = can_rn_pkg::JobTurn;
       else if (owe_feed_i)                   next = can_rn_pkg::JobFeed;
+      else if (Block && block_i)             next = block_job_i;
       else if (watch_i)                      next = watch_job_i;
       else if (want_i)                       next = can_rn_pkg::JobEntry;
     end
@@ -173,6 +189,22 @@ module can_rn_step #(
       end
       default: ;
     endcase
+    if (Block) begin
+      case (job_q)
+        can_rn_pkg::JobHead:  if (fetch_i) job_d = can_rn_pkg::JobFetch;
+        can_rn_pkg::JobFetch: keep = !(&phase_q);
+        can_rn_pkg::JobCount: begin
+          if (opens_i) job_d = can_rn_pkg::JobOpen;
+          if (ends_i)  job_d = can_rn_pkg::JobClose;
+        end
+        can_rn_pkg::JobOpen:  keep = !((&phase_q) && row_i[3] && row_i[1]);
+        can_rn_pkg::JobAdd: begin
+          keep = on_i;
+          if (closes_i) job_d = can_rn_pkg::JobClose;
+        end
+        default: ;
+      endcase
+    end
     // Map entries
     if (mapped_i) begin
       case (job_q)
@@ -206,7 +238,7 @@ module can_rn_step #(
       if (job_q == can_rn_pkg::JobSame)  keep = same_i;
       if (job_q == can_rn_pkg::JobBegin) begin
         keep  = wait_user && !hdr_i;
-        job_d = hdr_i ? can_rn_pkg::JobIdle : can_rn_pkg::JobFresh;
+        job_d = hdr_i ? can_rn_pkg::JobIdle : begun_i;
       end else if (job_q != can_rn_pkg::JobMove) begin
         job_d = then_i;
       end

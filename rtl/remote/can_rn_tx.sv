@@ -33,6 +33,7 @@ module can_rn_tx #(
   output logic                gone_status_o, // it was STATUS, HERE
   output logic                gone_here_o,
   output logic                popped_o,      // the head of the queue has gone
+  output logic                dropped_o,     // pulse: something has gone and was not sent
   // Engine
   output logic                tx_req_o,
   output logic [3:0]          tx_dlc_o,
@@ -92,6 +93,7 @@ module can_rn_tx #(
   assign recalled = (&src_q) && !owe_here_i;
   assign drop     = flush_i || gone || stale || recalled;
   assign gone_o        = gone;
+  assign dropped_o     = stale || (gone && !tx_ok_i);
   assign gone_status_o = gone && status_o;
   assign gone_here_o   = gone && (&src_q);
 

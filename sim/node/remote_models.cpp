@@ -6,6 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "Vcan_remote_full_3.h"
+#include "Vcan_remote_full_3___024root.h"
+#include "Vcan_remote_full_5.h"
+#include "Vcan_remote_full_5___024root.h"
 #include "Vcan_remote_small_3.h"
 #include "Vcan_remote_small_3___024root.h"
 #include "Vcan_remote_small_5.h"
@@ -31,13 +35,8 @@ class RemoteNodeOf final : public RemoteNode {
       : RemoteNode{std::move(name), clock},
         clocks_per_ms_{static_cast<std::uint64_t>(std::llround(clock.frequency_hz / 1000))},
         to_ms_{clocks_per_ms_} {
-    auto &engine = core_.engine();
-    engine.presdiv_i = timing.prescaler - 1;
-    engine.propseg_i = timing.prop - 1;
-    engine.pseg1_i = timing.ps1 - 1;
-    engine.pseg2_i = timing.ps2 - 1;
-    engine.rjw_i = timing.sjw - 1;
-    engine.can_rx_i = 1;
+    set(timing);
+    core_.engine().can_rx_i = 1;
     top_.eval();
     root().can_remote__DOT__serial = config.serial;
     top_.node_i = static_cast<std::uint8_t>(number & config.highest_number());
@@ -46,12 +45,26 @@ class RemoteNodeOf final : public RemoteNode {
 
   void start() override { starts_ = true; }
 
+  void search(std::vector<BitTiming> rates) override {
+    if constexpr (requires { top_.rootp->can_remote__DOT__gen_rate__DOT__u_rate__DOT__row_q; }) {
+      rates_ = std::move(rates);
+      top_.rate_i = 0xF;
+      core_.touch();
+      set(rates_.at(0));
+      core_.engine().eval();
+    } else {
+      throw std::logic_error(name() + " has one bit rate");
+    }
+  }
+  [[nodiscard]] unsigned rate_row() const override { return row_; }
+
   void clock(Level rx) override {
     count_edge();
     core_.engine().can_rx_i = static_cast<std::uint8_t>(rx);
     const bool taken = show_next();
     count_ms();
     core_.edge();
+    if (!rates_.empty()) follow_rate();
     forget_events();
     drive(static_cast<Level>(core_.engine().can_tx_o));
     const auto &engine = core_.engine();
@@ -123,6 +136,26 @@ class RemoteNodeOf final : public RemoteNode {
       core_.edge();
     }
     drive(static_cast<Level>(core_.engine().can_tx_o));
+  }
+
+  void set(const BitTiming &timing) {
+    auto &engine = core_.engine();
+    engine.presdiv_i = timing.prescaler - 1;
+    engine.propseg_i = timing.prop - 1;
+    engine.pseg1_i = timing.ps1 - 1;
+    engine.pseg2_i = timing.ps2 - 1;
+    engine.rjw_i = timing.sjw - 1;
+  }
+
+  // The rows of the RTL's own table are for one clock; here the clock may be any.
+  void follow_rate() {
+    if constexpr (requires { top_.rootp->can_remote__DOT__gen_rate__DOT__u_rate__DOT__row_q; }) {
+      const unsigned row = root().can_remote__DOT__gen_rate__DOT__u_rate__DOT__row_q;
+      if (row == row_) return;
+      row_ = row;
+      set(rates_.at(row));
+      core_.engine().eval();
+    }
   }
 
   // Shows the next access; true if it is carried out at the coming edge.
@@ -197,7 +230,9 @@ class RemoteNodeOf final : public RemoteNode {
   EngineFrame frame_;
   std::uint64_t clocks_per_ms_;
   std::uint64_t to_ms_;
-  std::uint64_t quiet_ = 0;  // clocks without work, on an idle bus
+  std::uint64_t quiet_ = 0;       // clocks without work, on an idle bus
+  std::vector<BitTiming> rates_;  // of a search
+  unsigned row_ = 0;
   bool shown_ = false;
   bool starts_ = false;  // start_i waits for the accesses before it
 };
@@ -225,11 +260,12 @@ bool is_standard16(const RemoteConfig &config) {
 
 bool RemoteNode::has(const RemoteConfig &config) {
   return is(config, "small", 3) || is(config, "small", 5) || is(config, "standard", 3) ||
-         is(config, "standard", 5) || is_standard16(config);
+         is(config, "standard", 5) || is_standard16(config) || is(config, "full", 3) ||
+         is(config, "full", 5);
 }
 
 std::string RemoteNode::available() {
-  return "profile small or standard with its parameters, standard also with 16 staged bytes";
+  return "profile small, standard or full with its parameters, standard also with 16 staged bytes";
 }
 
 std::unique_ptr<RemoteNode> RemoteNode::create(std::string name, const RemoteConfig &config,
@@ -244,6 +280,8 @@ std::unique_ptr<RemoteNode> RemoteNode::create(std::string name, const RemoteCon
   if (is(config, "small", 5)) return make(std::type_identity<Vcan_remote_small_5>{});
   if (is(config, "standard", 3)) return make(std::type_identity<Vcan_remote_standard_3>{});
   if (is(config, "standard", 5)) return make(std::type_identity<Vcan_remote_standard_5>{});
+  if (is(config, "full", 3)) return make(std::type_identity<Vcan_remote_full_3>{});
+  if (is(config, "full", 5)) return make(std::type_identity<Vcan_remote_full_5>{});
   if (is_standard16(config)) return make(std::type_identity<Vcan_remote_standard16_3>{});
   throw std::invalid_argument("no RTL is built with these parameters; allowed: " + available());
 }

@@ -31,6 +31,12 @@ class RemoteNode : public RemoteUnit {
   /// The parameters of which there is one, for messages.
   [[nodiscard]] static std::string available();
 
+  /// rate_i = F: start() looks for the bit rate first (RN-73), among `rates`, eight of them, the
+  /// first first. Throws std::logic_error for a node without AutoRate.
+  virtual void search(std::vector<BitTiming> rates) = 0;
+  /// Row that is tried, or was right; 0 without search().
+  [[nodiscard]] virtual unsigned rate_row() const = 0;
+
   /// Called with the data of a read.
   using ReadDone = std::function<void(std::uint32_t data)>;
   /// An access of user logic, as soon as its port is ready, in the order of the calls.

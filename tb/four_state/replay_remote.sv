@@ -40,7 +40,7 @@ module replay;
   reg  [51:0] trace_digits;
 
   can_remote #(`PARAMETERS) dut (
-    .clk_i(clk), .rst_ni(rst_n), .start_i(start), .node_i(node),
+    .clk_i(clk), .rst_ni(rst_n), .start_i(start), .node_i(node), .rate_i(4'd0),
     .usr_req_i(req), .usr_we_i(we), .usr_be_i(be), .usr_addr_i(addr), .usr_wdata_i(wdata),
     .usr_ready_o(ready), .usr_rdata_o(rdata), .usr_hold_i(hold), .event_i(events),
     .written_o(written), .written_addr_o(written_addr), .written_len_o(written_len),

@@ -4,6 +4,10 @@
 // FramePort::create(): one class template for the Verilated profiles of can_remote.
 #include <stdexcept>
 
+#include "Vcan_remote_full_3.h"
+#include "Vcan_remote_full_3___024root.h"
+#include "Vcan_remote_full_5.h"
+#include "Vcan_remote_full_5___024root.h"
 #include "Vcan_remote_small_3.h"
 #include "Vcan_remote_small_3___024root.h"
 #include "Vcan_remote_small_5.h"
@@ -136,6 +140,10 @@ std::unique_ptr<FramePort> FramePort::create(const std::string &profile, unsigne
     return std::make_unique<FramePortOf<Vcan_remote_standard_3>>(serial, number);
   if (profile == "standard" && name_bits == 5)
     return std::make_unique<FramePortOf<Vcan_remote_standard_5>>(serial, number);
+  if (profile == "full" && name_bits == 3)
+    return std::make_unique<FramePortOf<Vcan_remote_full_3>>(serial, number);
+  if (profile == "full" && name_bits == 5)
+    return std::make_unique<FramePortOf<Vcan_remote_full_5>>(serial, number);
   throw std::invalid_argument("no model of profile " + profile + " with NameBits " +
                               std::to_string(name_bits));
 }

@@ -35,7 +35,7 @@ TEST_P(PortEveryFrame, AccessHasTheEffectOfTheModel) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, PortEveryFrame, ::testing::Values("small", "standard"),
+INSTANTIATE_TEST_SUITE_P(Profiles, PortEveryFrame, ::testing::Values("small", "standard", "full"),
                          [](const auto &test) { return std::string{test.param}; });
 
 }  // namespace

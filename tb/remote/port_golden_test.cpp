@@ -86,7 +86,7 @@ TEST_P(GoldenOnPort, EveryVectorTwiceHasTheEffectOfOne) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, GoldenOnPort, ::testing::Values("small", "standard"),
+INSTANTIATE_TEST_SUITE_P(Profiles, GoldenOnPort, ::testing::Values("small", "standard", "full"),
                          [](const auto &test) { return std::string{test.param}; });
 
 }  // namespace

@@ -59,7 +59,7 @@ void PortLockstep::differ(const std::string &what, const std::string &rtl,
   if (difference_.empty()) difference_ = what + ": " + rtl + ", model: " + model;
 }
 
-// The model needs no time for its producers.
+// The model needs no time for its producers and block transfers.
 void PortLockstep::work() {
   if (config_.num_prod != 0) port_->clocks(kAll);
 }
@@ -121,6 +121,7 @@ void PortLockstep::drain() {
 
 void PortLockstep::ms() {
   note("ms");
+  work();
   port_->ms();
   model_->tick();
 }
@@ -181,6 +182,8 @@ const std::string &PortLockstep::compare() {
   const unsigned producers = remote_map::kProducers;
   for (unsigned i = 0; i < 8 * config_.num_prod; ++i) compare_byte(producers + i);
   for (unsigned i = 0; i < 8 * config_.num_map; ++i) compare_byte(remote_map::kMaps + i);
+  const unsigned counters = config_.counters ? 8 : 0;
+  for (unsigned i = 0; i < counters; ++i) compare_byte(remote_map::kCounters + i);
   // State, TEC and REC are brought up to date before anybody on the bus sees them.
   for (unsigned address = remote_map::kStatus + 3; address < remote_map::kSize; ++address)
     compare_byte(address);

@@ -22,7 +22,7 @@ TEST_P(PortRandom, CommandsHaveTheEffectsOfTheModel) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, PortRandom, ::testing::Values("small", "standard"),
+INSTANTIATE_TEST_SUITE_P(Profiles, PortRandom, ::testing::Values("small", "standard", "full"),
                          [](const auto &test) { return std::string{test.param}; });
 
 }  // namespace

@@ -78,7 +78,7 @@ TEST_P(PortSelfRandom, StatementsAreThoseOfTheModel) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, PortSelfRandom, ::testing::Values("standard"),
+INSTANTIATE_TEST_SUITE_P(Profiles, PortSelfRandom, ::testing::Values("standard", "full"),
                          [](const auto &test) { return std::string{test.param}; });
 
 }  // namespace

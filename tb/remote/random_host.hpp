@@ -38,6 +38,7 @@ class RandomHost {
     if (name != 0 && (a == 0x78 || a == 0x79)) address(frame);
     if (name == 0) system(frame, a);
     if (a == 0x7C && !once_in(4)) setup(frame);
+    if (name != 0 && a == 0x7A && !once_in(4)) block(frame);
     if (frame.remote) frame.data = {};
     for (unsigned i = frame.dlc; i < 8; ++i) frame.data[i] = 0;
     if (once_in(50)) {
@@ -85,6 +86,18 @@ class RandomHost {
         if (once_in(2)) frame.data[2 * i + 1] = 0xFF;
       }
     }
+  }
+  // Short transfers mostly: of the window, and where areas end.
+  void block(Frame &frame) {
+    address(frame);
+    frame.data = {static_cast<std::uint8_t>(once_in(8) ? upto(4) : 1 + upto(2)),
+                  frame.data[7],
+                  frame.data[0],
+                  frame.data[1],
+                  static_cast<std::uint8_t>(upto(30)),
+                  static_cast<std::uint8_t>(once_in(20)),
+                  static_cast<std::uint8_t>(upto(4))};
+    frame.dlc = static_cast<std::uint8_t>(6 + upto(2));
   }
   void setup(Frame &frame) {
     static constexpr std::array<std::uint8_t, 5> kUnlock = {1, 0x34, 0x12, 0xFE, 0xCA};

@@ -104,6 +104,7 @@ const std::string &RemoteShadow::compare(bool all) {
   compare_words(remote_map::kNode / 4, (remote_map::kConfigEnd - remote_map::kNode) / 4);
   for (unsigned i = 0; i < 3; ++i)
     compare_byte(remote_map::kStatus + i, node_.peek(remote_map::kStatus + i));
+  if (model_.config().counters) compare_words(remote_map::kCounters / 4, 2);
   const std::vector<std::uint32_t> rows = node_.peek_words(remote_map::kStatus / 4, 4);
   for (unsigned i = 3; i < 16; ++i)
     compare_byte(remote_map::kStatus + i, rows[i / 4] >> 8 * (i % 4) & 0xFF);

@@ -76,7 +76,7 @@ TEST_P(GoldenOnBus, EveryVectorTwiceHasTheEffectOfOne) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, GoldenOnBus, ::testing::Values("small", "standard"),
+INSTANTIATE_TEST_SUITE_P(Profiles, GoldenOnBus, ::testing::Values("small", "standard", "full"),
                          [](const auto &test) { return std::string{test.param}; });
 
 }  // namespace

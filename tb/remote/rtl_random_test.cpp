@@ -21,7 +21,7 @@ TEST_P(RtlRandom, NodesDoWhatTheModelDoes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, RtlRandom, ::testing::Values("small", "standard"),
+INSTANTIATE_TEST_SUITE_P(Profiles, RtlRandom, ::testing::Values("small", "standard", "full"),
                          [](const auto &test) { return std::string{test.param}; });
 
 }  // namespace

@@ -44,7 +44,7 @@ module remote_io #(
     .Protect(Standard ? 1 : 0), .Serial(Serial),
     .ClocksPerMs(12000), .Brp(1), .Prop(5), .Ps1(3), .Ps2(3), .Sjw(3)
   ) u_node (
-    .clk_i, .rst_ni(rst_n), .start_i(1'b1), .node_i(number_i),
+    .clk_i, .rst_ni(rst_n), .start_i(1'b1), .node_i(number_i), .rate_i(4'd0),
     .usr_req_i(1'b1), .usr_we_i(!due_q), .usr_be_i(4'b0001),
     .usr_addr_i(due_q ? OutputWord : InputWord), .usr_wdata_i(32'(in_q)),
     .usr_ready_o(ready), .usr_rdata_o(rdata), .usr_hold_i(1'b0),

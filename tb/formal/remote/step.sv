@@ -38,6 +38,7 @@
     m_apart: assume (!valid_i || job_q == can_rn_pkg::JobIdle || !live_i);
     // What an entry of a producer leads to (produce.p_then), and that it asks as a read does.
     m_then: assume (then_i == can_rn_pkg::JobIdle || then_i == can_rn_pkg::JobBegin || f_visit);
+    m_begun: assume (begun_i == can_rn_pkg::JobFresh);
     m_read: assume (!visit_i || (read_i && !write_i && !trigger_i));
     // It begins with JobEntry and ends where a job is followed by none.
     m_visit: assume (visit_i == f_visiting);
@@ -53,7 +54,7 @@
       p_once: assert (!(written_o || apply_o) || !f_shown || $past(valid_i));
       // RN-102 P-9, RN-103: a node that an upset has taken off the bus starts anew.
       p_rejoins: assert (!$past(idle && quiet && !run_i && !valid_i && !hdr_i && !byte_i && !ms_q
-                                && !aged_q) || job_q == can_rn_pkg::JobStart);
+                                && !aged_q && !tally_i) || job_q == can_rn_pkg::JobStart);
       // RN-102 P-7, RN-45: only for a request that writes, or for TRIGGER.
       p_asked: assert (!written_o || $past(write_i, 1) || $past(write_i, 2));
     end

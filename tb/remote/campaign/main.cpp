@@ -25,7 +25,7 @@ constexpr unsigned kBusCommands = 100'000, kOfBus = 50;
 constexpr unsigned kTriggers = 10'000, kOfLine = 25;
 constexpr unsigned kPortCommands = 1'000'000, kOfPort = 1'000;
 constexpr unsigned kFrames = 1'048'576, kAccesses = 524'288, kStride = 16;
-const std::vector<std::string> kProfiles = {"small", "standard"};
+const std::vector<std::string> kProfiles = {"small", "standard", "full"};
 
 /// What the buses add up to.
 struct Sum {
