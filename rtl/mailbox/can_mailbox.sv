@@ -105,7 +105,7 @@ module can_mailbox #(
   end
 
   // CPU accesses and their side effects.
-  logic            cmd_wr, cmd_look, rd_done, wr, wr_done, mb_wr, block;
+  logic            cmd_wr, cmd_look, rd_done, wr, wr_done, waited, block;
   logic            rxfir, raw, cs_rd, timer_rd, cpu_busy;
   logic [1:0]      cpu_kind;
   logic [IdxW-1:0] cmd_idx, cpu_idx;
@@ -125,7 +125,7 @@ module can_mailbox #(
     .kind_i(cpu_kind),
     .rxfir_i(rxfir), .idx_i(cpu_idx), .be_i(cpu_be), .wdata_i, .ram_rdata_i(ram_rdata), .timer_i,
     .moving_i(mv_busy_mb), .mv_idx_i(mv_idx),
-    .mb_wr_o(mb_wr), .raw_o(raw), .wdata_o(ram_wdata), .rdata_o,
+    .raw_o(raw), .wdata_o(ram_wdata), .rdata_o,
     .timer_rd_o(timer_rd), .timer_wr_o(timer_we_o),
     .cs_rd_o(cs_rd), .busy_o(cpu_busy),
     .csw_o(csw), .csw_idx_o(csw_idx), .csw_act_o(csw_act), .csw_empty_o(csw_empty),
@@ -199,7 +199,8 @@ module can_mailbox #(
     .busy_o(mv_busy));
 
   // Transmission.
-  logic            ins_req, ins_gnt, scan_req, scan_lazy, scan_gnt, settled, retry, retry_busy, bad;
+  logic            ins_req, ins_gnt, scan_req, scan_lazy, scan_gnt, settled, retry;
+  logic            retry_busy, bad;
   logic            started, off;
   logic [IdxW-1:0] ins_idx, scan_idx, best_idx, cur_idx;
   logic            pass, pass_end, seen, seen_act, seen_free;
@@ -217,7 +218,7 @@ module can_mailbox #(
     .pass_o(pass), .pass_end_o(pass_end), .seen_o(seen), .seen_idx_o(seen_idx),
     .seen_val_o(seen_val), .seen_act_o(seen_act), .seen_free_o(seen_free));
 
-  logic            hold, eng_gnt, flight;
+  logic            hold, eng_slot, flight;
   logic            ld_req, ld_row, ld_word, ld_data, ld_cancel, ld_flag, ld_take, ld_busy;
   logic            out, kept, done, sent, abort, ab_flag;
   logic [IdxW-1:0] ab_idx;
@@ -241,7 +242,7 @@ module can_mailbox #(
 
   can_mb_guard #(.NumMb(NumMb)) u_guard (
     .clk_i, .rst_ni, .clear_i, .aen_i,
-    .mb_wr_i(mb_wr), .kind_i(cpu_kind), .idx_i(cpu_idx), .be3_i(cpu_be[3]),
+    .waited_i(waited), .kind_i(cpu_kind), .idx_i(cpu_idx), .be3_i(cpu_be[3]),
     .code_i(wdata_i[27:24]), .area_i(raw), .ended_i(cs[30]),
     .block_o(block), .abort_o(abort),
     .out_i(out), .kept_i(kept), .done_i(done), .cur_idx_i(cur_idx),
@@ -273,7 +274,7 @@ module can_mailbox #(
     .scan_req_i(scan_req), .scan_lazy_i(scan_lazy), .scan_idx_i(scan_idx), .scan_gnt_o(scan_gnt),
     .req_o(eng_req), .lazy_o(eng_lazy),
     .cs_row_o(eng_cs_row), .msg_row_o(eng_msg_row), .mask_row_o(eng_mask_row),
-    .gnt_i(eng_gnt), .hold_i(hold), .yield_i(ewr_owed), .cs_i(cs), .msg_i(msg),
+    .slot_i(eng_slot), .hold_i(hold), .yield_i(ewr_owed), .cs_i(cs), .msg_i(msg),
     .copy_o(copy), .copy_cs_o(copy_cs), .copy_be_o(copy_be), .copy_row_o(copy_row),
     .copy_data_o(copy_data));
 
@@ -282,11 +283,11 @@ module can_mailbox #(
     .cmd_slot_i, .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_look_i(cmd_look), .cmd_kind_i, .cmd_word_i,
     .cmd_idx_i(cmd_idx), .cmd_be_i, .look_i(aen_i), .wdata_i(ram_wdata),
     .block_i(block), .ready_o,
-    .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done),
+    .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done), .waited_o(waited),
     .kind_o(cpu_kind), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
     .eng_req_i(eng_req), .eng_lazy_i(eng_lazy), .eng_cs_row_i(eng_cs_row),
-    .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_gnt_o(eng_gnt),
+    .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_slot_o(eng_slot),
     .hold_o(hold), .stale_o(stale), .id_stale_o(id_stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
     .copy_i(copy), .copy_cs_i(copy_cs), .copy_be_i(copy_be), .copy_row_i(copy_row),
     .copy_data_i(copy_data),

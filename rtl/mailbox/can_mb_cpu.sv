@@ -43,7 +43,6 @@ module can_mb_cpu #(
   input  logic [15:0]     timer_i,
   input  logic            moving_i,      // buffer mv_idx_i is BUSY
   input  logic [IdxW-1:0] mv_idx_i,
-  output logic            mb_wr_o,       // a write to a mailbox ends in this clock
   output logic            raw_o,         // it belongs to the filter table
   output logic [31:0]     wdata_o,       // as it is kept
   output logic [31:0]     rdata_o,
@@ -75,7 +74,7 @@ module can_mb_cpu #(
   end
 
   // Data.
-  logic       is_cs, cs_wr;
+  logic       is_cs, mb_wr, cs_wr;
   logic [3:0] code;
   assign is_cs      = kind_i == KindCs;
   assign code       = wdata_i[27:24];
@@ -83,8 +82,8 @@ module can_mb_cpu #(
   assign timer_rd_o = rd_done_i && kind_i == KindTimer;
   assign timer_wr_o = wr_done_i && kind_i == KindTimer;
   assign cs_rd_o    = rd_done_i && is_cs && !area_q;
-  assign mb_wr_o    = wr_done_i && !area_q && !scrub_i;
-  assign cs_wr      = mb_wr_o && is_cs && !block_i;
+  assign mb_wr      = wr_done_i && !area_q && !scrub_i;
+  assign cs_wr      = mb_wr && is_cs && !block_i;
   assign busy_o     = moving_i && mv_idx_i == idx_i && !area_q;
 
   // Of a C/S word all bits are kept in the filter table alone. Bit 30 of a mailbox marks the end of

@@ -21,7 +21,7 @@ module can_mb_guard #(
   input  logic             clear_i,      // soft reset
   input  logic             aen_i,
   // CPU, data phase.
-  input  logic             mb_wr_i,      // a write to a mailbox ends in this clock
+  input  logic             waited_i,     // a write ends in this clock, its second one
   input  logic [1:0]       kind_i,       // as of can_mb_port; others than 0 and 1 pass
   input  logic [IdxW-1:0]  idx_i,
   input  logic             be3_i,        // it has bits 31:24
@@ -49,7 +49,7 @@ module can_mb_guard #(
 
   logic active_q, abort_q, iflag_q, abort, at_once, cur, cs_block, all_block;
 
-  assign abort     = aen_i && mb_wr_i && kind_i == KindCs && abort_q;
+  assign abort     = aen_i && waited_i && !area_i && kind_i == KindCs && abort_q;
   assign cur       = idx_i == cur_idx_i;
   assign cs_block  = cur && (out_i || (kept_i && active_q));
   assign all_block = (ended_i && iflag_q) || (cur && done_i) || (flag_o && idx_i == flag_idx_o);

@@ -39,7 +39,8 @@ module can_mb_port #(
   output logic [31:0]     rdata_o,      // of kinds 0..2
   output logic            rd_done_o,    // a read ends in this clock
   output logic            wr_o,         // a write ends in this clock, or the next one
-  output logic            wr_done_o,    // ... in this clock; cs_o is what it has read
+  output logic            wr_done_o,    // ... in this clock
+  output logic            waited_o,     // ... and has waited for it; cs_o is what it has read
   output logic [1:0]      kind_o,
   output logic            rxfir_o,      // kind 0: RXFIR, not C/S
   output logic [IdxW-1:0] idx_o,
@@ -53,7 +54,7 @@ module can_mb_port #(
   input  logic [IdxW:0]   eng_cs_row_i,
   input  logic [IdxW+1:0] eng_msg_row_i,
   input  logic [IdxW:0]   eng_mask_row_i,
-  output logic            eng_gnt_o,
+  output logic            eng_slot_o,   // the slot is the engine's, whether it asks or not
   output logic            stale_o,      // with the data: this C/S row was being written when read
   output logic            id_stale_o,   // the same of the MSG row
   output logic [31:0]     cs_o,
@@ -129,9 +130,9 @@ module can_mb_port #(
   logic pend_q, pend, owed_q, want, cpu_gnt, ewr_owed_q;
   assign pend      = pend_q && !(wr_q && !look_i);
   assign want      = (eng_req_i && !eng_lazy_i) || ewr_owed_q;
-  assign cpu_gnt   = pend || (cmd_slot_i && !ins_req_i && !(want && owed_q) && !hold_o);
+  assign cpu_gnt   = pend || (cmd_slot_i && !ins_req_i && !owed_q && !hold_o);
   assign ins_gnt_o = ins_req_i && !pend;
-  assign eng_gnt_o = eng_req_i && !pend && !ins_req_i && (!cmd_slot_i || (want && owed_q));
+  assign eng_slot_o = !pend && !ins_req_i && !hold_o && (!cmd_slot_i || owed_q);
 
   // Write port.
   logic wait_q, w_gnt, ram_wr, wr_waits;
@@ -151,16 +152,15 @@ module can_mb_port #(
   assign rd_done_o = rd_q && !pend;
   assign wr_o      = wr_q;
   assign wr_done_o = wr_q && !wr_waits;
+  assign waited_o  = wait_q;
   assign kind_o    = kind_q;
   assign rxfir_o   = !word_q[1];
   assign idx_o     = idx_q;
   assign be_o      = be_q;
 
-  // Addresses of the CPU: from the command, or held if it waits. A write that waits reads the C/S
-  // word.
-  logic [1:0]      c_kind, c_word;
+  // Addresses of the CPU: from the command, or held if it waits.
+  logic [1:0]      c_word;
   logic [IdxW-1:0] c_idx;
-  assign c_kind = !pend ? cmd_kind_i : wr_q ? KindCs : kind_q;
   assign c_word = pend ? word_q : cmd_word_i;
   assign c_idx  = pend ? idx_q : cmd_idx_i;
 
@@ -170,48 +170,53 @@ module can_mb_port #(
   assign msg_raddr  = cpu_gnt ? {c_word, c_idx} : ins_gnt_o ? {2'b00, ins_idx_i} : eng_msg_row_i;
   assign mask_raddr = cpu_gnt ? {c_word[0], c_idx} : eng_mask_row_i;
 
-  // The word that is written: memory, row, byte lanes, data.
-  logic            w_cs, w_msg, w_mask;
+  // The word that is written: memory, row, byte lanes, data. Who writes is known early; whether it
+  // is written at all, late.
+  logic            by_copy, w_cs, w_msg, w_mask;
   logic [IdxW+1:0] w_row;
   logic [3:0]      w_be;
   logic [31:0]     w_data;
+  assign by_copy = copy_i && !wait_q;
 
   always_comb begin
-    {w_cs, w_msg, w_mask} = {kind_q == KindCs, kind_q == KindMsg, kind_q == KindMask};
-    w_row  = {kind_q == KindMsg && word_q[1], kind_q != KindCs && word_q[0], idx_q};
-    w_be   = be_q & {4{w_gnt && !block_i}};
-    w_data = wdata_i;
+    // The engine, unless it is somebody else.
+    {w_cs, w_msg, w_mask} = {ewr_cs_i, !ewr_cs_i, 1'b0};
+    w_row  = ewr_row_i;
+    w_data = ewr_data_i;
     if (scrub_o) begin
       // RXGMASK, RX14MASK, RX15MASK are ones; the C/S rows were zeroed in the first half.
       {w_cs, w_msg, w_mask} = {!scrub_row_q[IdxW+1], 2'b11};
       w_row  = scrub_row_q;
-      w_be   = '1;
       w_data = {32{&scrub_row_q[IdxW+1:IdxW]}};
-    end else if (copy_i && !hold_o) begin
+    end else if (by_copy) begin
       {w_cs, w_msg, w_mask} = {copy_cs_i, !copy_cs_i, 1'b0};
       w_row  = copy_row_i;
-      w_be   = copy_be_i;
       w_data = copy_data_i;
-    end else if (!w_gnt && svc_req_i) begin
+    end else if (w_gnt) begin
+      {w_cs, w_msg, w_mask} = {kind_q == KindCs, kind_q == KindMsg, kind_q == KindMask};
+      w_row  = {kind_q == KindMsg && word_q[1], kind_q != KindCs && word_q[0], idx_q};
+      w_data = wdata_i;
+    end else if (svc_req_i) begin
       {w_cs, w_msg, w_mask} = 3'b100;
       w_row  = {2'b00, svc_idx_i};
-      w_be   = {svc_gnt_o, 3'b000};
       w_data[31:24] = {4'b1000, 1'b0, svc_ovr_i, 2'b10};
-    end else if (ewr_gnt_o) begin
-      {w_cs, w_msg, w_mask} = {ewr_cs_i, !ewr_cs_i, 1'b0};
-      w_row  = ewr_row_i;
-      w_be   = ewr_be_i;
-      w_data = ewr_data_i;
     end
   end
 
-  // Does it meet the CPU's read? Its lanes do not count: they come late.
+  assign w_be = {4{scrub_o}} | (copy_be_i & {4{by_copy}}) | (be_q & {4{w_gnt && !block_i}})
+              | {svc_gnt_o, 3'b000} | (ewr_be_i & {4{ewr_gnt_o}});
+
+  // Does it meet the CPU's read? Its lanes do not count: they come late. A read that has waited
+  // meets a copy alone; a write that waits reads its C/S word.
   logic meets, shown;
   assign meets = (copy_i || ram_wr || svc_req_i)
-              && ((w_cs && c_kind == KindCs && w_row[IdxW-1:0] == c_idx && !w_row[IdxW])
-                  || (w_msg && c_kind == KindMsg && w_row == {c_word, c_idx})
-                  || (w_mask && c_kind == KindMask && w_row[IdxW:0] == {c_word[0], c_idx}));
-  assign shown = pend && copy_i && meets;
+              && ((w_cs && cmd_kind_i == KindCs && w_row[IdxW:0] == {1'b0, cmd_idx_i})
+                  || (w_msg && cmd_kind_i == KindMsg && w_row == {cmd_word_i, cmd_idx_i})
+                  || (w_mask && cmd_kind_i == KindMask
+                      && w_row[IdxW:0] == {cmd_word_i[0], cmd_idx_i}));
+  assign shown = pend && copy_i && copy_row_i[IdxW-1:0] == idx_q
+              && (copy_cs_i ? (wr_q || kind_q == KindCs) && !copy_row_i[IdxW]
+                            : !wr_q && kind_q == KindMsg && copy_row_i[IdxW+1:IdxW] == word_q);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -227,8 +232,9 @@ module can_mb_port #(
     end
   end
 
+  // Who reads nothing does not mind; that the outputs stay is asked for by those who say so.
   logic re;
-  assign re = (cpu_gnt && !shown) || ins_gnt_o || eng_gnt_o;
+  assign re = !hold_o && !shown;
   can_mb_ram #(.Depth(2 * NumMb)) u_cs (
     .clk_i, .re_i(re), .raddr_i(cs_raddr), .rdata_o(cs_o),
     .we_i(w_be & {4{w_cs}}), .waddr_i(w_row[IdxW:0]), .wdata_i(w_data));

@@ -52,7 +52,7 @@ module can_mb_step #(
   output logic [IdxW:0]   cs_row_o,
   output logic [IdxW+1:0] msg_row_o,
   output logic [IdxW:0]   mask_row_o,
-  input  logic            gnt_i,
+  input  logic            slot_i,          // the slot is the engine's
   input  logic            hold_i,
   input  logic            yield_i,         // an engine write waits for a clock without a copy
   input  logic [31:0]     cs_i,
@@ -72,10 +72,10 @@ module can_mb_step #(
   logic step_req, take_ld, data_q, data_ld_q;
   assign step_req   = (ld_req_i || mv_req_i) && !data_q && !yield_i;
   assign take_ld    = ld_req_i && !(mv_req_i && data_ld_q);   // in turn if both want
-  assign req_o      = (step_req || rx_req_i || scan_req_i) && !hold_i;
+  assign req_o      = step_req || rx_req_i || scan_req_i;
   assign lazy_o     = !step_req && !rx_req_i && scan_lazy_i;
-  assign rx_gnt_o   = gnt_i && !step_req && rx_req_i;
-  assign scan_gnt_o = gnt_i && !step_req && !rx_req_i;
+  assign rx_gnt_o   = slot_i && !step_req && rx_req_i;
+  assign scan_gnt_o = slot_i && !step_req && !rx_req_i && scan_req_i;
   assign flight_o   = data_q;
   assign ld_data_o  = data_q && data_ld_q && !hold_i;
   assign mv_data_o  = data_q && !data_ld_q && moving_i && !hold_i;
@@ -85,8 +85,8 @@ module can_mb_step #(
       {data_q, data_ld_q} <= '0;
       ld_data_step_o <= '0;
     end else begin
-      data_q <= (gnt_i && step_req) || hold_i;
-      if (gnt_i && step_req) begin
+      data_q <= (slot_i && step_req) || hold_i;
+      if (slot_i && step_req) begin
         data_ld_q      <= take_ld;
         ld_data_step_o <= ld_step_i;
       end

@@ -185,5 +185,35 @@ TEST_F(Access, BuffersReadZeroAfterReset) {
     for (unsigned word = 0; word < 4; ++word) EXPECT_EQ(rig_.read(0, reg::mb(mb, word)), 0u);
 }
 
+// A CPU that reads a C/S word in every clock meets the core's write of it when the frame has been
+// sent: the word is the one before or the one after, never a mixture.
+TEST(AccessWhileSending, ControlWordIsTheOldOrTheNewOne) {  // FX-3.2.f, FX-3.3.j
+  MailboxRig rig{2};
+  for (unsigned n = 0; n < 2; ++n) rig.configure(n), rig.go(n);
+  const std::vector<AhbTransfer> reads(200, {.address = reg::mb(5)});
+  constexpr std::uint32_t kHeader = 0x007F0000, kStamp = 0x0000FFFF;
+  for (unsigned alignment = 0; alignment < 4; ++alignment) {
+    rig.put_tx(0, 5, {.id = 0x1234567 + alignment, .extended = true, .dlc = 5});
+    const std::uint32_t header = rig.read(0, reg::mb(5)) & kHeader;
+    rig.run(alignment);
+    std::vector<AhbResult> results;
+    while (results.size() < 1400)
+      for (const AhbResult &result : rig.burst(0, reads)) results.push_back(result);
+    const std::uint32_t last = results.back().data;
+    ASSERT_EQ(last >> 24, 0x8u) << "sent";
+    unsigned changes = 0;
+    for (std::size_t i = 1; i < results.size(); ++i) {
+      const std::uint32_t word = results[i].data;
+      changes += (word ^ results[i - 1].data) >> 24 != 0;
+      ASSERT_EQ(word & kHeader, header) << i;
+      ASSERT_TRUE(word >> 24 == 0xC || word == last) << i << ": " << std::hex << word;
+      ASSERT_TRUE((word & kStamp) == 0 || (word & kStamp) == (last & kStamp)) << i;
+      ASSERT_LE(results[i].waits, 1u);
+    }
+    EXPECT_EQ(changes, 1u);
+    rig.clear_flag(0, 5);
+  }
+}
+
 }  // namespace
 }  // namespace vericansim

@@ -19,12 +19,12 @@ class MbGuard : public ::testing::Test {
  protected:
   MbGuard() {
     guard_->aen_i = guard_->gnt_i = 1;
-    guard_->mb_wr_i = 0;
+    guard_->waited_i = 0;
     guard_.reset();
   }
   /// A write in its first clock, in which its buffer is looked up.
   void look(unsigned kind, unsigned idx, unsigned code) {
-    guard_->mb_wr_i = 0;
+    guard_->waited_i = 0;
     guard_->be3_i = 1;
     guard_->kind_i = kind;
     guard_->idx_i = idx;
@@ -34,7 +34,7 @@ class MbGuard : public ::testing::Test {
   void ends() {
     guard_.clock();
     guard_->end_i = 0;
-    guard_->mb_wr_i = 1;
+    guard_->waited_i = 1;
     guard_.settle();
   }
   void cs_write(unsigned idx, unsigned code) {
@@ -43,7 +43,7 @@ class MbGuard : public ::testing::Test {
   }
   void clock() {
     guard_.clock();
-    guard_->mb_wr_i = guard_->end_i = 0;
+    guard_->waited_i = guard_->end_i = 0;
     guard_.settle();
   }
   LeafModel<Vcan_mb_guard> guard_;
@@ -66,7 +66,7 @@ TEST_F(MbGuard, RequestForTheFrameThatHasMovedOut) {  // FX-3.4.b, FX-3.4.d
   ends();
   EXPECT_TRUE(guard_->abort_o);
   EXPECT_TRUE(guard_->block_o);
-  guard_->mb_wr_i = 0;  // a read; the data lines show anything
+  guard_->waited_i = 0;  // a read; the data lines show anything
   guard_.settle();
   EXPECT_FALSE(guard_->abort_o);
   for (const auto &change : kNoRequest) {

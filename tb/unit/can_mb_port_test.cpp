@@ -45,9 +45,9 @@ class MbPort : public ::testing::Test {
 
 TEST_F(MbPort, CpuReadsBeforeAnEngineThatWasNotRefused) {
   engine(true);
-  for (unsigned i = 0; i < 3; ++i, clock()) EXPECT_TRUE(port_->eng_gnt_o);
+  for (unsigned i = 0; i < 3; ++i, clock()) EXPECT_TRUE(port_->eng_slot_o);
   reads(true);
-  EXPECT_FALSE(port_->eng_gnt_o);
+  EXPECT_FALSE(port_->eng_slot_o);
   clock();
   EXPECT_TRUE(port_->ready_o) << "no wait state";
 }
@@ -57,7 +57,7 @@ TEST_F(MbPort, EngineThatWasRefusedReadsBeforeTheCpu) {
   reads(true);
   unsigned grants = 0;
   for (unsigned i = 0; i < 30; ++i, clock()) {
-    grants += port_->eng_gnt_o;
+    grants += port_->eng_slot_o;
     reads(port_->ready_o != 0);  // a command only where it is taken
   }
   EXPECT_GE(grants, 10u) << "one slot in three at the least";
@@ -69,11 +69,11 @@ TEST_F(MbPort, EngineRefusedByAnInsertionReadsBeforeTheCpu) {
   port_->ins_req_i = 1;
   port_.settle();
   EXPECT_TRUE(port_->ins_gnt_o);
-  EXPECT_FALSE(port_->eng_gnt_o);
+  EXPECT_FALSE(port_->eng_slot_o);
   clock();
   port_->ins_req_i = 0;
   reads(true);
-  EXPECT_TRUE(port_->eng_gnt_o);
+  EXPECT_TRUE(port_->eng_slot_o);
   clock();
   EXPECT_FALSE(port_->ready_o) << "the CPU waits for one clock";
   clock();
@@ -328,7 +328,7 @@ TEST_F(MbPortCollision, EngineIsToldThatAWordWasBeingWritten) {
     port_->eng_req_i = 1;
     port_->eng_cs_row_i = port_->eng_msg_row_i = row;
     engine_writes(kind, written, we, 0);
-    EXPECT_TRUE(port_->eng_gnt_o);
+    EXPECT_TRUE(port_->eng_slot_o);
     clock();
     const std::pair told{port_->stale_o != 0, port_->id_stale_o != 0};
     port_->ewr_req_i = 0;
