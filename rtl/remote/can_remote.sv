@@ -223,8 +223,7 @@ module can_remote #(
     .clk_i, .rst_ni,
     .hdr_i(rx_hdr), .transmitter_i(transmitter), .ide_i(rx_ide), .rtr_i(rx_rtr),
     .id_i(rx_id[28:18]), .byte_we_i(rx_byte_we), .byte_i(rx_byte), .valid_i(rx_valid),
-    // RN-103: off the bus no frame is under way, also where an upset took the node off in one.
-    .gap_i(gap || !run), .number_i(number), .numbered_i(numbered),
+    .gap_i(gap), .number_i(number), .numbered_i(numbered),
     .serial_i(serial), .job_i(job), .phase_i(phase), .take_i(take), .row_i(row),
     .read_i(read_byte),
     .search_o(search), .id_o(id), .lost_i(job == can_rn_pkg::JobFind && !find && !hit),

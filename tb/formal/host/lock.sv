@@ -6,8 +6,8 @@
 
   logic f_ran, f_moving_q, f_put, f_put_q, f_flag_fifo_q, f_ans_q;
   logic [IdxW-1:0] f_idx_q;
-  // The C/S word is written (can_mb_step: step 2 with the data, step 3 the code alone).
-  assign f_put = data_i && step_o[1] && moving_o && !cancel_o;
+  // The C/S word is written (can_mb_step: step 3).
+  assign f_put = data_i && step_o == 2'd3 && moving_o && !cancel_o;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {f_ran, f_moving_q, f_put_q, f_flag_fifo_q, f_ans_q} <= '0;
@@ -28,8 +28,8 @@
     m_time: assume (!(valid_i && (full_q[smb_o] || (mv_q && row_o == smb_o))));
     if (rst_ni) begin
       // flexcan.md 3.6: no buffer is both locked and moved into, but in the clock after the
-      // decision, in which nothing is read or written yet.
-      p_not_both: assert (!(lock_i && busy_mb_o && lock_idx_i == idx_o) || (arm_q && !req_o));
+      // decision, in which nothing is written yet.
+      p_not_both: assert (!(lock_i && busy_mb_o && lock_idx_i == idx_o) || (arm_q && !data_i));
       // flexcan.md 3.6: and so no word is written into a locked buffer.
       p_locked: assert (!(lock_i && busy_mb_o && lock_idx_i == idx_o && data_i));
       // flexcan.md 3.2: what a move leaves in the code: FULL, OVERRUN, or 1110 to be answered; in
