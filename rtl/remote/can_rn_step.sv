@@ -160,7 +160,8 @@ module can_rn_step #(
         keep  = wait_user;
         job_d = work;
       end
-      can_rn_pkg::JobInt2:  keep = int2_q != 2'd0;
+      // RN-103: an upset that takes the node off the bus leaves no sample points to wait for.
+      can_rn_pkg::JobInt2:  keep = int2_q != 2'd0 && run_i;
       can_rn_pkg::JobGuard: if (Protect) begin
         keep  = !(&phase_q);
         job_d = can_rn_pkg::JobBegin;

@@ -76,6 +76,14 @@ std::vector<RemoteFlip> plan(const CampaignSettings &settings) {
   return flips;
 }
 
+/// One flip-flop, flipped anew every so many clocks of the traffic.
+std::vector<RemoteFlip> sweep(unsigned flop, std::uint64_t every) {
+  std::vector<RemoteFlip> flips;
+  for (std::uint64_t clock = kFlipFrom; clock < kFlipTo; clock += every)
+    flips.push_back({flop, clock, {}});
+  return flips;
+}
+
 }  // namespace
 
 int main(int argc, char **argv) {
@@ -84,14 +92,21 @@ int main(int argc, char **argv) {
     CampaignSettings settings;
     std::string flop;
     int stuck = 0;
+    std::uint64_t every = 0;
     settings.add_to(app, "20 flips of every flip-flop");
-    app.add_option("--flop", flop, "Only this one, stuck from the start of the traffic on");
-    app.add_option("--stuck", stuck, "At this level")->check(CLI::Range(0, 1));
+    auto *only =
+        app.add_option("--flop", flop, "Only this one, stuck from the start of the traffic on");
+    auto *level = app.add_option("--stuck", stuck, "At this level")->check(CLI::Range(0, 1));
+    app.add_option("--every", every, "Not stuck: flipped once, in runs this many clocks apart")
+        ->check(CLI::Range(1, 100'000))
+        ->needs(only)
+        ->excludes(level);
     CLI11_PARSE(app, argc, argv);
     if (run_flip({0, ~0ULL, {}}).cure != RemoteCure::kNone)
       throw std::runtime_error("the node does not work without a flip");
     std::vector<RemoteFlip> flips = plan(settings);
     if (!flop.empty()) flips = {{flop_of(flop), kFlipFrom, stuck != 0}};
+    if (every != 0) flips = sweep(flop_of(flop), every);
     Sum sum;
     std::mutex lock;
     run_jobs(flips.size(), settings.jobs, [&](std::size_t n) {
