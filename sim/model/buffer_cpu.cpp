@@ -111,20 +111,20 @@ void BufferModel::write_cs(const BufferState &state, unsigned n, std::uint32_t d
 }
 
 // AEN=1 (3.4): writes to a buffer that is moved out have no effect, but 1001 is remembered.
-void BufferModel::write_cs_aen(const BufferState &before_it, unsigned n, std::uint32_t data,
+void BufferModel::write_cs_aen(const BufferState &given, unsigned n, std::uint32_t data,
                                std::uint32_t lanes, std::uint64_t now, DistinctStates &out) const {
-  const unsigned before = before_it.mb[n].code();
+  const unsigned before = given.mb[n].code();
   const bool abort = (lanes & kCodeLane) != 0 && cs_code(data) == kTxAbort;
-  if (before_it.write_blocked(n)) {
-    BufferState next = before_it;
+  if (given.write_blocked(n)) {
+    BufferState next = given;
     if (abort && next.flight) next.flight->abort = true;
     if (abort && next.moved_out == n) next.moved_out_abort = true;
     return out.add(std::move(next));
   }
   // Whether the flag of an answer, or of a request that turned into an Rx buffer, protects is open.
-  if (before_it.mb[n].guarded) out.add(before_it);
-  if (before_it.mb[n].guarded && (before == kTxInactive || before == kTxAbort)) return;
-  const BufferState state = unguarded(before_it, n);
+  if (given.mb[n].guarded) out.add(given);
+  if (given.mb[n].guarded && (before == kTxInactive || before == kTxAbort)) return;
+  const BufferState state = unguarded(given, n);
   if (abort && before == kTxAnswerWaits) out.add(state);
   // In the moment in which an attempt fails the buffer may still count as moved out.
   if (state.mb[n].request && !abort && now <= ended_at_ + kMoment) out.add(state);

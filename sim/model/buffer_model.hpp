@@ -109,8 +109,8 @@ class BufferModel {
                     std::uint64_t now);
   void write_cs(const BufferState &state, unsigned n, std::uint32_t data, std::uint32_t lanes,
                 std::uint64_t now, DistinctStates &out) const;
-  void write_cs_aen(const BufferState &before_it, unsigned n, std::uint32_t data,
-                    std::uint32_t lanes, std::uint64_t now, DistinctStates &out) const;
+  void write_cs_aen(const BufferState &given, unsigned n, std::uint32_t data, std::uint32_t lanes,
+                    std::uint64_t now, DistinctStates &out) const;
   void take_write(BufferState state, unsigned n, std::uint32_t data, std::uint32_t lanes,
                   std::uint64_t now, DistinctStates &out) const;
   void write_mask(std::uint32_t address, std::uint32_t data, std::uint32_t lanes);
