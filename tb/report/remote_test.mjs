@@ -95,7 +95,7 @@ test('states and memory are those of the end of what is selected', async () => {
     const all = Array.from({length: Math.min(16, 0x78 - at)}, (_, i) => bytes[at + i] ?? '00');
     return `${at.toString(16).toUpperCase().padStart(3, '0')} ${all.join(' ')}`;
   };
-  await page.waitForFunction(() => document.querySelector('#panel-remote tbody b'));
+  await page.waitForFunction(() => document.querySelectorAll('#panel-remote tbody b').length === 1);
   assert.deepEqual(await cells(page), [
     ['pfc', '6', 'SAFE', 'SAFE', line(0x20, {0x20: '5A'})],
     ['dab', '7', 'INIT', 'INIT', line(0x40, {0x40: 'EE'})],
