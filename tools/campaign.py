@@ -4,9 +4,10 @@
 """campaign.py [--only STAGE,...] [--page]: the verification campaign of tb/campaign.yaml.
 
 Builds and runs every stage, keeps its result in build/campaign/STAGE.json and its output in
-STAGE.log, prints all figures, and puts those of a whole run (SCALE=1) into docs/verification.md,
-between the lines <!-- campaign STAGE --> and <!-- end STAGE -->. --page only writes the page, from
-the results that are there. Ends with status 1 if a stage failed or a figure misses its bar.
+STAGE.log, prints all figures, and writes those of a whole run (SCALE=1) to
+docs/campaign/STAGE.md, with a line in docs/verification.md between <!-- campaign STAGE --> and
+<!-- end STAGE -->. --page only writes the pages, from the results that are there. Ends with
+status 1 if a stage failed or a figure misses its bar.
 
 Environment: SEED (1), SCALE (1: everything; 0.01: a hundredth of it), JOBS (2),
 RESUME (0; 1: lockstep and mutation go on where the same programs were interrupted).
@@ -27,6 +28,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PLAN = ROOT / "tb/campaign.yaml"
 OUT = ROOT / "build/campaign"
 PAGE = ROOT / "docs/verification.md"
+STAGE_PAGES = ROOT / "docs/campaign"
 
 
 def fail(text):
@@ -182,18 +184,25 @@ def table(content):
     return lines
 
 
-def page_block(result):
-    """The text of a stage on the page."""
-    lines = [f"`make campaign STAGES={result['stage']} SEED={result['seed']}`, commit "
-             f"{result['commit']}, {result['date']}, {duration(result['seconds'])} on "
-             f"{result['cpus']} cores.", ""]
+def origin(result):
+    """How to repeat a stage's result, and of what it is one."""
+    return (f"`make campaign STAGES={result['stage']} SEED={result['seed']}`, commit "
+            f"{result['commit']}, {result['date']}, {duration(result['seconds'])} on "
+            f"{result['cpus']} cores.")
+
+
+def stage_page(stage, result):
+    """A page of its own: all figures and tables of a stage."""
+    lines = [f"# Campaign: {stage['title']}", "",
+             "Written by `make campaign`. What it means: "
+             "[verification report](../verification.md).", "", origin(result), ""]
     lines += rows(result["figures"])
     for content in result.get("tables", []):
         lines += table(content)
     notes = result.get("notes", [])
     if notes:
         lines += [""] + [f"- {note}" for note in notes]
-    return "\n".join(lines)
+    return "\n".join(lines) + "\n"
 
 
 def summary(stage, result):
@@ -221,6 +230,7 @@ def replace(text, begin, end, content):
 
 def write_page(stages):
     text = PAGE.read_text()
+    STAGE_PAGES.mkdir(exist_ok=True)
     for stage in stages:
         path = OUT / f"{stage['name']}.json"
         if not path.exists():
@@ -229,8 +239,9 @@ def write_page(stages):
         if result.get("scale") != 1:
             continue
         name = stage["name"]
+        (STAGE_PAGES / f"{name}.md").write_text(stage_page(stage, result))
         text = replace(text, f"<!-- campaign {name} -->", f"<!-- end {name} -->",
-                       f"\n{page_block(result)}\n")
+                       f"\n[Figures and tables](campaign/{name}.md): {origin(result)}\n")
         text = replace(text, f"<!-- summary {name} -->", "<!-- end -->", summary(stage, result))
         tools = ", ".join(f"{name} {version}" for name, version in result["versions"].items())
         text = replace(text, "<!-- tools -->", "<!-- end tools -->", f"\n{tools}.\n")
@@ -262,7 +273,7 @@ def report(stages, results):
 def main():
     parser = argparse.ArgumentParser(description="The verification campaign.")
     parser.add_argument("--only", default="", help="stages, with commas between")
-    parser.add_argument("--page", action="store_true", help="only write docs/verification.md")
+    parser.add_argument("--page", action="store_true", help="only write the pages in docs")
     arguments = parser.parse_args()
     stages = yaml.safe_load(PLAN.read_text())["stages"]
     names = [stage["name"] for stage in stages]

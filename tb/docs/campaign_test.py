@@ -5,10 +5,13 @@
 
 import contextlib
 import io
+import json
 import os
 import subprocess
 import sys
+import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
@@ -70,6 +73,47 @@ class Report(unittest.TestCase):
         good, text = printed(campaign.report, [STAGE], {"formal": None})
         self.assertFalse(good)
         self.assertIn("formal     FAILED", text)
+
+
+class Pages(unittest.TestCase):
+    """What is written of a stage: all figures on a page of its own, one line in the report."""
+
+    ABOUT = {"stage": "formal", "seed": 5, "commit": "abc", "date": "2026-01-02", "seconds": 61,
+             "cpus": 2, "versions": {"Yosys": "9"}}
+
+    def written(self, scale):
+        """The report and the stage's page, "" if there is none, after a run of that scale."""
+        with tempfile.TemporaryDirectory() as name:
+            place = Path(name)
+            found = self.ABOUT | result(scale, ("proven", "3 of 3"), ("bounded", "1 of 1"))
+            found["tables"] = [{"title": "T", "columns": ["a"], "rows": [["x|y"]]}]
+            (place / "formal.json").write_text(json.dumps(found))
+            report = place / "report.md"
+            report.write_text("| <!-- summary formal -->old<!-- end --> |\n"
+                              "<!-- tools --><!-- end tools -->\n"
+                              "<!-- campaign formal -->old<!-- end formal -->\n")
+            pages = {"OUT": place, "PAGE": report, "STAGE_PAGES": place / "pages"}
+            with unittest.mock.patch.multiple(campaign, **pages):
+                campaign.write_page([STAGE])
+            page = place / "pages/formal.md"
+            return report.read_text(), page.read_text() if page.exists() else ""
+
+    def test_whole(self):
+        report, page = self.written(1)
+        origin = ("`make campaign STAGES=formal SEED=5`, commit abc, 2026-01-02, 1 min 1 s on "
+                  "2 cores.")
+        self.assertIn("3 of 3 proven, 1 of 1 to a bound", report)
+        self.assertIn(f"[Figures and tables](campaign/formal.md): {origin}", report)
+        self.assertIn("Yosys 9.", report)
+        self.assertNotIn("old", report)
+        self.assertIn(origin, page)
+        self.assertIn("| proven | 3 of 3 | all | met |", page)
+        self.assertIn("| x\\|y |", page)
+
+    def test_a_part_changes_nothing(self):
+        report, page = self.written(0.5)
+        self.assertEqual(report.count("old"), 2)
+        self.assertEqual(page, "")
 
 
 class Options(unittest.TestCase):

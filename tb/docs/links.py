@@ -43,7 +43,7 @@ def broken(page):
 def main():
     """All pages of the project."""
     source = pathlib.Path(sys.argv[1])
-    pages = [source / "README.md", *sorted((source / "docs").glob("*.md"))]
+    pages = [source / "README.md", *sorted((source / "docs").rglob("*.md"))]
     wrong = [text for page in pages for text in broken(page)]
     if wrong or len(pages) < 10:
         sys.exit("\n".join(wrong) or f"only {len(pages)} pages")
