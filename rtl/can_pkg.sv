@@ -49,7 +49,7 @@ package can_pkg;
   localparam int ErrForm  = 1;  // fixed-form bit wrong
   localparam int ErrStuff = 0;  // sixth equal bit
 
-  // can_core.trace_o: what an observer sees; decoded by sim/node/trace.hpp, open in synthesis.
+  // can_core.trace_o: what an observer sees; decoded by sim/bus/trace.hpp, open in synthesis.
   // While `sample` is 1 all other level and position fields describe the bit that is being sampled;
   // `err`, `rx_valid`, `tx_ok`, `tx_fail`, `start` are pulses in the clock after their sample;
   // `tec`, `rec` and `passive` follow one clock later.

@@ -96,6 +96,7 @@ echo "Sources"
 check "can.core agrees with rtl/can.f" core_file
 check "licence heads" spdx
 check "lines of at most 100 characters" line_length
+check "folders of sim/ include downwards only" tools/layers.py
 check "clang-format" format
 check "clang-tidy ${TIDY:-}" tools/tidy.py "$build" ${TIDY:+"$TIDY"}
 

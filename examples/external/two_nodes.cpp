@@ -7,8 +7,8 @@
 #include <iostream>
 
 #include "bus/bus.hpp"
+#include "model/bus_monitor.hpp"
 #include "node/host.hpp"
-#include "scenario/bus_monitor.hpp"
 #include "trace/candump.hpp"
 
 using namespace vericansim;

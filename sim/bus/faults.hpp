@@ -12,8 +12,8 @@
 
 #include "bus/fault_log.hpp"
 #include "bus/node.hpp"
+#include "bus/trace.hpp"
 #include "bus/types.hpp"
-#include "node/trace.hpp"
 
 namespace vericansim {
 

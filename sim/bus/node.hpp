@@ -36,7 +36,7 @@ class Node {
   /// `edges` of those at once, never more than quiet() has said.
   virtual void pass(std::uint64_t edges) { (void)edges; }
 
-  /// The observer's view after the last edge (trace_o, see node/trace.hpp); 0 if the node has none.
+  /// The observer's view after the last edge (trace_o, see bus/trace.hpp); 0 if the node has none.
   [[nodiscard]] virtual std::uint64_t trace() const { return 0; }
 
   /// Level at the transmit pin since the last edge.

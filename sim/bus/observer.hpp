@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "bus/node.hpp"
+#include "bus/trace.hpp"
 #include "bus/types.hpp"
-#include "node/trace.hpp"
 
 namespace vericansim {
 

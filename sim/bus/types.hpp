@@ -11,6 +11,9 @@ namespace vericansim {
 /// Simulated time in picoseconds; 2^63 ps are 106 days.
 using Time = std::int64_t;
 
+/// Real time in nanoseconds, of any clock that never goes back.
+using WallTime = std::int64_t;
+
 inline constexpr Time kPicosecond = 1;
 inline constexpr Time kNanosecond = 1'000;
 inline constexpr Time kMicrosecond = 1'000'000;

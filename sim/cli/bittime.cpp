@@ -9,8 +9,8 @@
 #include <memory>
 
 #include "cli/cli.hpp"
-#include "scenario/bittime.hpp"
-#include "scenario/quantity.hpp"
+#include "timing/bittime.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim::cli {
 namespace {

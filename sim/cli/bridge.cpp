@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // verican bridge: CAN interfaces of the host as nodes of the simulated bus.
-#include "socketcan/bridge.hpp"
+#include "bridge/bridge.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -13,11 +13,11 @@
 #include <cstdio>
 #include <memory>
 
+#include "bridge/raw_port.hpp"
 #include "cli/bridge_socketcand.hpp"
 #include "cli/cli.hpp"
 #include "cli/live_run.hpp"
 #include "cli/output_files.hpp"
-#include "socketcan/raw_port.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::cli {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "bridge/bridge.hpp"
+#include "bridge/socketcand_server.hpp"
 #include "cli/cli.hpp"
-#include "socketcan/bridge.hpp"
-#include "socketcan/socketcand_server.hpp"
 
 namespace vericansim::cli {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "firmware/board_report.hpp"
+#include "results/board_report.hpp"
 
 namespace vericansim::cli {
 

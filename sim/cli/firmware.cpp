@@ -10,8 +10,8 @@
 #include "cli/cli.hpp"
 #include "cli/console.hpp"
 #include "cli/output_files.hpp"
-#include "firmware/firmware_run.hpp"
-#include "scenario/stop_request.hpp"
+#include "session/firmware_run.hpp"
+#include "simulation/stop_request.hpp"
 
 namespace vericansim::cli {
 namespace {

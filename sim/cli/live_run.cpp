@@ -8,10 +8,10 @@
 
 #include <cstdio>
 
+#include "bridge/host_ports.hpp"
 #include "cli/cli.hpp"
 #include "cli/console.hpp"
 #include "session/session.hpp"
-#include "socketcan/host_ports.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::cli {

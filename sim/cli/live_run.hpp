@@ -4,7 +4,7 @@
 // Scenarios with every kind of node, as several subcommands run them.
 #pragma once
 
-#include "scenario/report.hpp"
+#include "results/report.hpp"
 #include "scenario/scenario.hpp"
 
 namespace vericansim::cli {

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "cli/cli.hpp"
-#include "scenario/quantity.hpp"
 #include "trace/input_error.hpp"
 #include "trace/output_file.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim::cli {
 namespace {

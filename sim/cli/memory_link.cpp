@@ -16,8 +16,8 @@
 #include <cstring>
 #include <deque>
 
-#include "socketcan/socketcand_listener.hpp"
-#include "socketcan/socketcand_splitter.hpp"
+#include "bridge/socketcand_listener.hpp"
+#include "bridge/socketcand_splitter.hpp"
 #include "trace/input_error.hpp"
 #include "trace/text.hpp"
 #include "verican_remote_socketcan.h"

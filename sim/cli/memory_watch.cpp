@@ -10,7 +10,7 @@
 
 #include "cli/cli.hpp"
 #include "cli/memory_work.hpp"
-#include "scenario/stop_request.hpp"
+#include "simulation/stop_request.hpp"
 #include "trace/candump.hpp"
 #include "trace/remote_words.hpp"
 

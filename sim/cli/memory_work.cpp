@@ -12,10 +12,10 @@
 #include "cli/cli.hpp"
 #include "cli/memory_map.hpp"
 #include "model/remote_config.hpp"
-#include "scenario/quantity.hpp"
 #include "trace/input_error.hpp"
 #include "trace/input_file.hpp"
 #include "trace/output_file.hpp"
+#include "trace/quantity.hpp"
 #include "trace/remote_words.hpp"
 #include "trace/text.hpp"
 

@@ -10,9 +10,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "scenario/quantity.hpp"
-#include "scenario/stop_request.hpp"
+#include "simulation/stop_request.hpp"
 #include "trace/input_error.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim::cli {
 

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "cli/cli.hpp"
-#include "scenario/paper.hpp"
-#include "scenario/stop_request.hpp"
+#include "paper/paper.hpp"
+#include "simulation/stop_request.hpp"
 
 namespace vericansim::cli {
 namespace {

@@ -12,8 +12,8 @@
 #include "cli/live_run.hpp"
 #include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
-#include "scenario/replay.hpp"
-#include "scenario/stop_request.hpp"
+#include "session/replay.hpp"
+#include "simulation/stop_request.hpp"
 
 namespace vericansim::cli {
 namespace {

@@ -12,9 +12,9 @@
 #include "cli/live_run.hpp"
 #include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
-#include "scenario/replay.hpp"
-#include "scenario/stop_request.hpp"
-#include "scenario/wave_report.hpp"
+#include "session/replay.hpp"
+#include "simulation/stop_request.hpp"
+#include "simulation/wave_report.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
 

@@ -11,7 +11,7 @@
 #include "cli/console.hpp"
 #include "cli/live_run.hpp"
 #include "cli/output_files.hpp"
-#include "scenario/stop_request.hpp"
+#include "simulation/stop_request.hpp"
 
 namespace vericansim::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 
 namespace vericansim {
 namespace {

@@ -4,7 +4,7 @@
 // NodeBit: one bit of one node as the judges look at it.
 #pragma once
 
-#include "node/trace.hpp"
+#include "bus/trace.hpp"
 
 namespace vericansim {
 

@@ -4,7 +4,7 @@
 // RegisterShadow: see register_shadow.hpp.
 #include "judge/register_shadow.hpp"
 
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 
 namespace vericansim {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "judge/disturbances.hpp"
 #include "judge/node_bit.hpp"
+#include "model/bus_monitor.hpp"
 #include "model/frame.hpp"
-#include "scenario/bus_monitor.hpp"
 
 namespace vericansim {
 

@@ -10,7 +10,7 @@
 #include <bit>
 #include <stdexcept>
 
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 
 namespace vericansim {
 namespace {

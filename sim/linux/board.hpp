@@ -13,9 +13,9 @@
 
 #include "bus/bus.hpp"
 #include "linux/switch_fault.hpp"
+#include "model/bus_monitor.hpp"
 #include "node/core_node.hpp"
 #include "node/rtl_node.hpp"
-#include "scenario/bus_monitor.hpp"
 #include "trace/candump.hpp"
 #include "trace/output_file.hpp"
 

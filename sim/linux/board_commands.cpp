@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "linux/board.hpp"
-#include "scenario/bittime.hpp"
-#include "scenario/quantity.hpp"
+#include "timing/bittime.hpp"
 #include "trace/output_error.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim {
 namespace {

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "model/buffer_model.hpp"
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 
 namespace vericansim {
 namespace {

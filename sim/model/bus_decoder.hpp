@@ -9,8 +9,8 @@
 #include <functional>
 #include <string>
 
+#include "bus/field.hpp"
 #include "bus/types.hpp"
-#include "model/field.hpp"
 #include "model/frame.hpp"
 
 namespace vericansim {

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bus/field.hpp"
 #include "bus/types.hpp"
-#include "model/field.hpp"
 #include "model/frame.hpp"
 
 namespace vericansim {

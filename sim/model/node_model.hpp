@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "bus/field.hpp"
 #include "bus/types.hpp"
 #include "model/fault_confinement.hpp"
-#include "model/field.hpp"
 #include "model/frame.hpp"
 #include "model/node_receive.hpp"
 

@@ -7,8 +7,8 @@
 
 #include <cstdint>
 
+#include "bus/field.hpp"
 #include "bus/types.hpp"
-#include "model/field.hpp"
 #include "model/frame.hpp"
 
 namespace vericansim {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "bus/node.hpp"
+#include "bus/trace.hpp"
 #include "model/frame.hpp"
 #include "node/bit_timing.hpp"
 #include "node/engine_frame.hpp"
-#include "node/trace.hpp"
 
 namespace vericansim {
 

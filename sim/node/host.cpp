@@ -11,7 +11,7 @@
 
 #include "bus/bus.hpp"
 #include "bus/range.hpp"
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 
 namespace vericansim {
 namespace {

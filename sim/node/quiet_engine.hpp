@@ -8,8 +8,8 @@
 
 #include "Vcan_core.h"
 #include "Vcan_core___024root.h"
+#include "bus/trace.hpp"
 #include "node/model_edge.hpp"
-#include "node/trace.hpp"
 
 namespace vericansim {
 

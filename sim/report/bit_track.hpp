@@ -7,9 +7,9 @@
 #include <cstdint>
 
 #include "bus/clock.hpp"
+#include "bus/trace.hpp"
 #include "bus/types.hpp"
 #include "node/bit_timing.hpp"
-#include "node/trace.hpp"
 
 namespace vericansim {
 

@@ -14,11 +14,11 @@
 
 #include "bus/bus.hpp"
 #include "bus/observer.hpp"
+#include "model/bus_monitor.hpp"
 #include "report/bit_track.hpp"
 #include "report/event_matcher.hpp"
 #include "report/report_data.hpp"
 #include "report/segment_builder.hpp"
-#include "scenario/bus_monitor.hpp"
 
 namespace vericansim {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "report/report_recorder.hpp"
-#include "scenario/report.hpp"
+#include "results/report.hpp"
 #include "trace/output_file.hpp"
 
 namespace vericansim {

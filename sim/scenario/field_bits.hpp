@@ -4,7 +4,7 @@
 // FieldBits: which bits a field of the bit stream can have, for places of faults.
 #pragma once
 
-#include "model/field.hpp"
+#include "bus/field.hpp"
 
 namespace vericansim {
 

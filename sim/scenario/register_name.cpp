@@ -8,8 +8,8 @@
 
 #include <array>
 
-#include "node/registers.hpp"
-#include "scenario/quantity.hpp"
+#include "model/registers.hpp"
+#include "trace/quantity.hpp"
 #include "trace/text.hpp"
 
 namespace vericansim {

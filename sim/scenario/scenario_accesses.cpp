@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "scenario/access_step.hpp"
-#include "scenario/quantity.hpp"
 #include "scenario/register_name.hpp"
 #include "scenario/scenario_parts.hpp"
 #include "trace/input_error.hpp"
+#include "trace/quantity.hpp"
 #include "trace/text.hpp"
 
 namespace vericansim {

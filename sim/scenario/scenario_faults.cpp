@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "scenario/fault_report.hpp"
+#include "scenario/fault_words.hpp"
 #include "scenario/field_bits.hpp"
 #include "scenario/scenario_parts.hpp"
 #include "trace/input_error.hpp"

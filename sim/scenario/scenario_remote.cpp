@@ -8,9 +8,9 @@
 #include <stdexcept>
 
 #include "node/remote_node.hpp"
-#include "scenario/quantity.hpp"
 #include "scenario/scenario_remote_parts.hpp"
 #include "trace/input_error.hpp"
+#include "trace/quantity.hpp"
 #include "trace/text.hpp"
 
 namespace vericansim::detail {

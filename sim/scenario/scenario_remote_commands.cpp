@@ -6,10 +6,10 @@
 
 #include <algorithm>
 
-#include "scenario/quantity.hpp"
 #include "scenario/scenario_remote_parts.hpp"
 #include "trace/candump.hpp"
 #include "trace/input_error.hpp"
+#include "trace/quantity.hpp"
 #include "trace/text.hpp"
 
 namespace vericansim::detail {

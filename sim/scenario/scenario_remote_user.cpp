@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-#include "scenario/quantity.hpp"
 #include "scenario/scenario_remote_parts.hpp"
 #include "trace/input_error.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim::detail {
 namespace {

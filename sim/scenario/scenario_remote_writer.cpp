@@ -9,8 +9,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "scenario/quantity.hpp"
 #include "scenario/scenario_text.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim::detail {
 namespace {

@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "scenario/quantity.hpp"
 #include "scenario/scenario_text.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim::detail {
 namespace {

@@ -4,9 +4,9 @@
 // Scenario files: the kinds of nodes.
 #include <filesystem>
 
-#include "scenario/quantity.hpp"
 #include "scenario/scenario_parts.hpp"
 #include "trace/input_error.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim::detail {
 namespace {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "scenario/bittime.hpp"
 #include "scenario/scenario_parts.hpp"
+#include "timing/bittime.hpp"
 
 namespace vericansim::detail {
 namespace {

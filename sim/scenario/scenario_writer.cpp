@@ -8,8 +8,8 @@
 #include <iterator>
 
 #include "scenario/access_step.hpp"
-#include "scenario/quantity.hpp"
 #include "scenario/scenario_text.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim {
 namespace {

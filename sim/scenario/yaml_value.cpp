@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "scenario/quantity.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "scenario/simulation.hpp"
 #include "session/session.hpp"
+#include "simulation/simulation.hpp"
 
 namespace vericansim {
 

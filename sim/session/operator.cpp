@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "firmware/firmware_operator.hpp"
-#include "scenario/simulation.hpp"
+#include "session/firmware_operator.hpp"
 #include "session/replay_operator.hpp"
+#include "simulation/simulation.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "bus/observer.hpp"
-#include "scenario/bus_monitor.hpp"
-#include "scenario/report.hpp"
+#include "model/bus_monitor.hpp"
+#include "results/report.hpp"
 #include "scenario/scenario.hpp"
 #include "session/outlet.hpp"
 

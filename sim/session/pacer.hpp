@@ -12,9 +12,6 @@
 
 namespace vericansim {
 
-/// Real time in nanoseconds, of any clock that never goes back.
-using WallTime = std::int64_t;
-
 /// Simulated and real time run side by side from start() on. Knows no clock: it is told the time.
 class Pacer {
  public:

@@ -9,9 +9,9 @@
 #include <algorithm>
 
 #include "bus/range.hpp"
-#include "scenario/quantity.hpp"
-#include "scenario/simulation.hpp"
+#include "simulation/simulation.hpp"
 #include "trace/candump.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "results/replay_result.hpp"
 #include "session/operator.hpp"
 #include "session/replay_plan.hpp"
-#include "session/replay_result.hpp"
 
 namespace vericansim {
 

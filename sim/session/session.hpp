@@ -12,10 +12,10 @@
 #include <string_view>
 #include <vector>
 
-#include "scenario/simulation.hpp"
 #include "session/operator.hpp"
 #include "session/pacer.hpp"
 #include "session/wall.hpp"
+#include "simulation/simulation.hpp"
 
 namespace vericansim {
 

@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "scenario/stop_request.hpp"
 #include "session/pacer.hpp"
+#include "simulation/stop_request.hpp"
 
 namespace vericansim {
 

@@ -11,8 +11,8 @@
 #include <random>
 #include <string>
 
+#include "bus/trace.hpp"
 #include "driver/driver_node.hpp"
-#include "node/trace.hpp"
 
 namespace vericansim {
 namespace {

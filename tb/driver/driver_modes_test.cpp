@@ -9,8 +9,8 @@
 #include <algorithm>
 
 #include "bus/faults.hpp"
+#include "bus/trace.hpp"
 #include "driver/driver_node.hpp"
-#include "node/trace.hpp"
 
 namespace vericansim {
 namespace {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "bus/faults.hpp"
-#include "node/trace.hpp"
+#include "bus/trace.hpp"
 
 namespace vericansim {
 namespace {

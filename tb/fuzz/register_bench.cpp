@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 
 namespace vericansim::fuzz {
 namespace {

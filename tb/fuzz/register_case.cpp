@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 #include "trace/input_error.hpp"
 #include "trace/text.hpp"
 

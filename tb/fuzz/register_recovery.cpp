@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "fuzz/register_bench.hpp"
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 
 namespace vericansim::fuzz {
 namespace {

@@ -6,13 +6,13 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "bridge/socketcand_listener.hpp"
 #include "fuzz/target.hpp"
-#include "scenario/bittime.hpp"
-#include "scenario/quantity.hpp"
 #include "scenario/scenario.hpp"
-#include "socketcan/socketcand_listener.hpp"
+#include "timing/bittime.hpp"
 #include "trace/id_filter.hpp"
 #include "trace/input_error.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim::fuzz {
 namespace {

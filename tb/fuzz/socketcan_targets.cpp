@@ -11,11 +11,11 @@
 #include <cstring>
 #include <vector>
 
+#include "bridge/frame_form.hpp"
+#include "bridge/socketcand_client.hpp"
+#include "bridge/socketcand_splitter.hpp"
+#include "bridge/socketcand_words.hpp"
 #include "fuzz/target.hpp"
-#include "socketcan/frame_form.hpp"
-#include "socketcan/socketcand_client.hpp"
-#include "socketcan/socketcand_splitter.hpp"
-#include "socketcan/socketcand_words.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::fuzz {

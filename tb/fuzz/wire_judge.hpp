@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <string>
 
+#include "bus/trace.hpp"
 #include "model/bus_decoder.hpp"
 #include "model/node_model.hpp"
-#include "node/trace.hpp"
 
 namespace vericansim::fuzz {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "node/trace.hpp"
+#include "bus/trace.hpp"
 #include "trace/bus_wave.hpp"
 
 namespace vericansim {

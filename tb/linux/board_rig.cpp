@@ -4,8 +4,8 @@
 // See board_rig.hpp. The sequence is that of flexcan.md 8.2, shortened.
 #include "linux/board_rig.hpp"
 
+#include "model/registers.hpp"
 #include "node/bit_timing.hpp"
-#include "node/registers.hpp"
 
 namespace vericansim::test {
 

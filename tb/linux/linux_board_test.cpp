@@ -13,7 +13,7 @@
 #include "harness/scratch_folder.hpp"
 #include "linux/board.hpp"
 #include "linux/board_rig.hpp"
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
 #include "trace/output_error.hpp"

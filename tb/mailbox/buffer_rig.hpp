@@ -15,13 +15,13 @@
 #include <optional>
 #include <vector>
 
+#include "bus/trace.hpp"
 #include "harness/test_wave.hpp"
 #include "mailbox/mailbox_rig.hpp"
 #include "model/buffer_model.hpp"
 #include "model/frame_codec.hpp"
 #include "model/node_model.hpp"
 #include "node/rtl_node.hpp"
-#include "node/trace.hpp"
 
 namespace vericansim {
 

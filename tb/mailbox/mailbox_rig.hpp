@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "bus/bus.hpp"
+#include "bus/trace.hpp"
 #include "harness/test_wave.hpp"
 #include "model/frame.hpp"
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 #include "node/rtl_node.hpp"
-#include "node/trace.hpp"
 
 namespace vericansim {
 

@@ -7,8 +7,8 @@
 
 #include "Vcan_ahb_user.h"
 #include "Vcan_ahb_user___024root.h"
+#include "model/registers.hpp"
 #include "node/model_edge.hpp"
-#include "node/registers.hpp"
 #include "node/rtl_node.hpp"
 
 namespace vericansim {

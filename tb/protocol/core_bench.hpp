@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "bus/faults.hpp"
+#include "bus/trace.hpp"
 #include "harness/test_wave.hpp"
 #include "judge/node_bit.hpp"
 #include "node/core_node.hpp"
-#include "node/trace.hpp"
 
 namespace vericansim {
 

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "bus/faults.hpp"
+#include "bus/trace.hpp"
 #include "harness/test_wave.hpp"
 #include "node/core_node.hpp"
-#include "node/trace.hpp"
 
 namespace vericansim {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <exception>
 
-#include "scenario/simulation.hpp"
+#include "simulation/simulation.hpp"
 
 namespace vericansim {
 namespace {

@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "model/buffer_match.hpp"
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 #include "random/random_scenario.hpp"
 
 namespace vericansim {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 #include "random/random_scenario.hpp"
 
 namespace vericansim {

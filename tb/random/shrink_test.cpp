@@ -11,7 +11,7 @@
 #include "random/random_scenario.hpp"
 #include "random/shrink.hpp"
 #include "scenario/register_name.hpp"
-#include "scenario/runner.hpp"
+#include "session/runner.hpp"
 
 namespace vericansim {
 namespace {

@@ -8,10 +8,10 @@
 #include <ostream>
 #include <sstream>
 
-#include "scenario/quantity.hpp"
 #include "scenario/yaml_value.hpp"
 #include "trace/candump.hpp"
 #include "trace/input_error.hpp"
+#include "trace/quantity.hpp"
 #include "trace/text.hpp"
 
 namespace vericansim::golden {

@@ -10,7 +10,7 @@
 #include "bus/bus.hpp"
 #include "node/core_node.hpp"
 #include "node/remote_node.hpp"
-#include "scenario/bittime.hpp"
+#include "timing/bittime.hpp"
 
 namespace vericansim {
 namespace {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/input_error_of.hpp"
-#include "scenario/simulation.hpp"
+#include "simulation/simulation.hpp"
 #include "trace/candump.hpp"
 
 namespace vericansim {

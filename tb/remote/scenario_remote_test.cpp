@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "harness/input_error_of.hpp"
-#include "scenario/runner.hpp"
-#include "scenario/simulation.hpp"
+#include "session/runner.hpp"
+#include "simulation/simulation.hpp"
 
 namespace vericansim {
 namespace {

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "scenario/runner.hpp"
-#include "scenario/simulation.hpp"
-#include "scenario/station.hpp"
+#include "session/runner.hpp"
+#include "simulation/simulation.hpp"
+#include "simulation/station.hpp"
 
 namespace vericansim {
 namespace {

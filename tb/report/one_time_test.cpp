@@ -13,7 +13,7 @@
 
 #include "harness/shell.hpp"
 #include "report/report_run.hpp"
-#include "scenario/runner.hpp"
+#include "session/runner.hpp"
 #include "trace/log.hpp"
 #include "trace/wave_decode.hpp"
 

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "bus/field.hpp"
 #include "bus/types.hpp"
-#include "model/field.hpp"
 #include "model/frame.hpp"
 
 namespace vericansim {

@@ -13,7 +13,7 @@
 #include "model/bus_decoder.hpp"
 #include "model/frame_codec.hpp"
 #include "report/report_run.hpp"
-#include "scenario/simulation.hpp"
+#include "simulation/simulation.hpp"
 
 namespace vericansim {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenario/runner.hpp"
+#include "session/runner.hpp"
 
 namespace vericansim {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "report/report_reader.hpp"
-#include "scenario/report.hpp"
+#include "results/report.hpp"
 #include "scenario/scenario.hpp"
 #include "trace/log.hpp"
 

@@ -9,9 +9,9 @@
 #include <iterator>
 
 #include "firmware/tool_run.hpp"
+#include "paper/paper.hpp"
 #include "report/page_template.hpp"
 #include "report/report_run.hpp"
-#include "scenario/paper.hpp"
 
 namespace vericansim {
 namespace {

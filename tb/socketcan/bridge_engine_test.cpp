@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
+#include "bridge/frame_form.hpp"
 #include "socketcan/bridge_rig.hpp"
-#include "socketcan/frame_form.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::test {

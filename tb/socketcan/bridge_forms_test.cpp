@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <linux/can/error.h>
 
-#include "socketcan/frame_form.hpp"
+#include "bridge/frame_form.hpp"
 #include "trace/id_filter.hpp"
 #include "trace/input_error.hpp"
 

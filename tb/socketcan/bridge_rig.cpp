@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "socketcan/frame_form.hpp"
+#include "bridge/frame_form.hpp"
 
 namespace vericansim::test {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "socketcan/bridge.hpp"
+#include "bridge/bridge.hpp"
 
 namespace vericansim::test {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "socketcan/socketcand_server.hpp"
+#include "bridge/socketcand_server.hpp"
 
 namespace vericansim {
 

@@ -3,12 +3,12 @@
 //
 // Jobs and filters of BCM mode in simulated time. Examples of filters: socketcand's
 // doc/protocol.md; semantics: Linux, Documentation/networking/can.rst.
-#include "socketcan/socketcand_broadcast.hpp"
+#include "bridge/socketcand_broadcast.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "socketcan/socketcand_words.hpp"
+#include "bridge/socketcand_words.hpp"
 
 namespace vericansim {
 namespace {

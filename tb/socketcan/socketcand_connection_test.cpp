@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // One connection: messages that the socket takes in parts, a peer that is gone.
-#include "socketcan/socketcand_connection.hpp"
+#include "bridge/socketcand_connection.hpp"
 
 #include <gtest/gtest.h>
 #include <poll.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The splitter: the same commands however the bytes were cut; rubbish is named once.
-#include "socketcan/socketcand_splitter.hpp"
+#include "bridge/socketcand_splitter.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

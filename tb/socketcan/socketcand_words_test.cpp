@@ -3,7 +3,7 @@
 //
 // The words of commands, and messages as text. Expected texts: socketcand's doc/protocol.md, and
 // what python-can's client writes and reads.
-#include "socketcan/socketcand_words.hpp"
+#include "bridge/socketcand_words.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

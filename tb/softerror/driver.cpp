@@ -7,7 +7,7 @@
 
 #include <utility>
 
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 #include "softerror/driver_map.hpp"
 
 namespace vericansim {

@@ -5,7 +5,7 @@
 #include <bit>
 #include <utility>
 
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 #include "softerror/driver.hpp"
 #include "softerror/driver_map.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 
 namespace vericansim::driver_map {
 

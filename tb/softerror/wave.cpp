@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "node/trace.hpp"
+#include "bus/trace.hpp"
 
 namespace vericansim {
 namespace {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "node/trace.hpp"
+#include "bus/trace.hpp"
 
 namespace vericansim {
 namespace {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "bus/bus.hpp"
+#include "model/registers.hpp"
 #include "node/core_node.hpp"
 #include "node/host.hpp"
-#include "node/registers.hpp"
 
 namespace vericansim {
 namespace {

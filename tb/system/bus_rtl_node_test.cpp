@@ -10,8 +10,8 @@
 
 #include "bus/bus.hpp"
 #include "bus/faults.hpp"
+#include "model/registers.hpp"
 #include "node/host.hpp"
-#include "node/registers.hpp"
 #include "node/rtl_node.hpp"
 
 namespace vericansim {

@@ -18,9 +18,9 @@
 #include "Vcan_host64___024root.h"
 #include "bus/bus.hpp"
 #include "bus/faults.hpp"
+#include "model/registers.hpp"
 #include "node/host.hpp"
 #include "node/model_pins.hpp"
-#include "node/registers.hpp"
 #include "node/rtl_node.hpp"
 
 namespace vericansim {

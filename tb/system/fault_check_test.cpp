@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Faults that can never hit: what is refused, and that nothing is refused that happens.
-#include "scenario/fault_check.hpp"
+#include "simulation/fault_check.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "harness/input_error_of.hpp"
-#include "scenario/bittime.hpp"
-#include "scenario/simulation.hpp"
+#include "simulation/simulation.hpp"
+#include "timing/bittime.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim {

@@ -6,7 +6,7 @@
 
 #include <set>
 
-#include "scenario/paper.hpp"
+#include "paper/paper.hpp"
 #include "trace/wave_decode.hpp"
 
 namespace vericansim {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/runner.hpp"
+#include "session/runner.hpp"
 
 namespace vericansim {
 namespace {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "harness/scratch_test.hpp"
-#include "scenario/runner.hpp"
+#include "session/runner.hpp"
 
 namespace vericansim {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "harness/input_error_of.hpp"
 #include "harness/scratch_test.hpp"
-#include "scenario/runner.hpp"
+#include "session/runner.hpp"
 #include "trace/log.hpp"
 
 namespace vericansim {

@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-#include "scenario/replay.hpp"
+#include "session/replay.hpp"
 #include "trace/candump.hpp"
 
 namespace vericansim {

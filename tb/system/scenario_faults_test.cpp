@@ -12,7 +12,7 @@
 #include <string>
 
 #include "report/report_run.hpp"
-#include "scenario/runner.hpp"
+#include "session/runner.hpp"
 #include "trace/vcd_file.hpp"
 
 namespace vericansim {

@@ -13,7 +13,7 @@
 
 #include "harness/shell.hpp"
 #include "model/frame_codec.hpp"
-#include "scenario/runner.hpp"
+#include "session/runner.hpp"
 #include "trace/log.hpp"
 #include "trace/vcd_file.hpp"
 #include "trace/wave_decode.hpp"

@@ -4,7 +4,7 @@
 // DriverProgram: see driver_program.hpp.
 #include "systemc/driver_program.hpp"
 
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 
 namespace vericansim {
 namespace {

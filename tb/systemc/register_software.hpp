@@ -6,8 +6,8 @@
 
 #include <cstdint>
 
+#include "model/registers.hpp"
 #include "node/bit_timing.hpp"
-#include "node/registers.hpp"
 #include "systemc/systemc_rig.hpp"
 
 namespace vericansim {

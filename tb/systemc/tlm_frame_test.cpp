@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 #include "systemc/can_bus.hpp"
 #include "systemc/register_software.hpp"
 #include "systemc/systemc_rig.hpp"

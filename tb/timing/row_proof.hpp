@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scenario/bittime.hpp"
+#include "timing/bittime.hpp"
 
 namespace vericansim {
 

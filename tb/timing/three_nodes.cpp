@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "bus/bus.hpp"
-#include "node/trace.hpp"
+#include "bus/trace.hpp"
 #include "timing/hard_frames.hpp"
 
 namespace vericansim {

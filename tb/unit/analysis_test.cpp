@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "scenario/analysis.hpp"
+#include "timing/analysis.hpp"
 
 namespace vericansim {
 namespace {

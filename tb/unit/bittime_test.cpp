@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "harness/shell.hpp"
-#include "scenario/bittime.hpp"
+#include "timing/bittime.hpp"
 
 namespace vericansim {
 namespace {

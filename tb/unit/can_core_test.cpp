@@ -7,7 +7,7 @@
 #include <array>
 
 #include "Vcan_core.h"
-#include "node/trace.hpp"
+#include "bus/trace.hpp"
 #include "unit/leaf_model.hpp"
 
 namespace vericansim {

@@ -10,7 +10,7 @@
 
 #include "Vcan_crc15.h"
 #include "Vcan_crc15___024root.h"
-#include "model/field.hpp"
+#include "bus/field.hpp"
 #include "model/frame_codec.hpp"
 #include "unit/leaf_model.hpp"
 

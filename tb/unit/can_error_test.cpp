@@ -9,8 +9,8 @@
 
 #include "Vcan_error.h"
 #include "Vcan_error___024root.h"
-#include "model/field.hpp"
-#include "node/trace.hpp"
+#include "bus/field.hpp"
+#include "bus/trace.hpp"
 #include "unit/leaf_model.hpp"
 
 namespace vericansim {

@@ -6,7 +6,7 @@
 
 #include "Vcan_fault.h"
 #include "Vcan_fault___024root.h"
-#include "model/field.hpp"
+#include "bus/field.hpp"
 #include "unit/leaf_model.hpp"
 
 namespace vericansim {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "Vcan_top.h"
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 #include "unit/leaf_model.hpp"
 
 namespace vericansim {

@@ -6,7 +6,7 @@
 
 #include "Vcan_tx_frame.h"
 #include "Vcan_tx_frame___024root.h"
-#include "model/field.hpp"
+#include "bus/field.hpp"
 #include "unit/leaf_model.hpp"
 
 namespace vericansim {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "model/buffer_model.hpp"
-#include "node/registers.hpp"
+#include "model/registers.hpp"
 
 namespace vericansim {
 namespace {

@@ -7,11 +7,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scenario/expectations.hpp"
-#include "scenario/quantity.hpp"
-#include "scenario/runner.hpp"
 #include "scenario/scenario.hpp"
+#include "simulation/expectations.hpp"
+#include "simulation/node_timing.hpp"
 #include "trace/input_error.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim {
 namespace {

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Expectations of a scenario.
+#include "simulation/expectations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <regex>
+#include <string_view>
+
+#include "trace/input_error.hpp"
+#include "trace/quantity.hpp"
+
+#include "simulation/signal_expectations.hpp"
+
+namespace vericansim {
+namespace {
+
+std::string to_text(const Range &range) {
+  if (range.least == range.most) return plain_number(range.least);
+  if (std::isinf(range.least)) return "at most " + plain_number(range.most);
+  if (std::isinf(range.most)) return "at least " + plain_number(range.least);
+  return plain_number(range.least) + " to " + plain_number(range.most);
+}
+
+double bus_number(const RunReport &report, const std::string &key) {
+  if (key == "frames") return static_cast<double>(report.frames);
+  if (key == "error_frames") return static_cast<double>(report.error_frames);
+  if (key == "overload_frames") return static_cast<double>(report.overload_frames);
+  if (key == "pending") return static_cast<double>(report.pending);
+  return report.load * 100;
+}
+
+double node_number(const NodeReport &node, const std::string &key) {
+  const NodeCounts &c = node.counts;
+  if (key == "tec") return c.tec;
+  if (key == "rec") return c.rec;
+  if (key == "max_tec") return c.max_tec;
+  if (key == "max_rec") return c.max_rec;
+  if (key == "sent") return static_cast<double>(c.sent);
+  if (key == "received") return static_cast<double>(node.received);
+  if (key == "overruns") return static_cast<double>(node.overruns);
+  if (key == "errors") return static_cast<double>(c.errors);
+  if (key == "lost") return static_cast<double>(c.lost_arbitration);
+  if (key == "retries") return static_cast<double>(node.retries());
+  return static_cast<double>(c.bus_off);
+}
+
+/// What firmware has to print and how it has to end.
+void check_board(const NodeExpectation &node, const firmware::BoardReport &board,
+                 std::vector<CheckResult> &results) {
+  using End = firmware::BoardReport::End;
+  const std::string_view printed = board.output;
+  if (node.exit_code)
+    results.push_back({board.node + ".exit_code", fmt::format("{}", *node.exit_code),
+                       board.end == End::kExit    ? fmt::format("{}", board.exit_code)
+                       : board.end == End::kFault ? "a fault"
+                                                  : "no end in time",
+                       board.end == End::kExit && board.exit_code == *node.exit_code});
+  const auto seen = [&](bool found) {
+    return fmt::format("{}in {} bytes printed", found ? "" : "not ", printed.size());
+  };
+  for (const std::string &text : node.output) {
+    const bool found = printed.find(text) != std::string_view::npos;
+    results.push_back({board.node + ".output", quoted(text), seen(found), found});
+  }
+  for (const std::string &pattern : node.matches) {
+    const bool found = std::regex_search(board.output, std::regex{pattern});
+    results.push_back({board.node + ".output", "matches " + quoted(pattern), seen(found), found});
+  }
+}
+
+/// Every node that takes any frame must have all frames of the others, bit-exact and in their
+/// order.
+CheckResult check_complete(const Scenario &scenario, NodeId node,
+                           const std::vector<BusFrame> &frames, const std::vector<Frame> &received,
+                           std::size_t &compared) {
+  const HostConfig &host = scenario.nodes[node].host;
+  std::vector<Frame> wanted;
+  for (const BusFrame &frame : frames)
+    if (frame.sender != node || host.self_reception) wanted.push_back(frame.frame);
+  CheckResult result{scenario.nodes[node].name + " has every frame of the others",
+                     fmt::format("{} frames, the same and in order", wanted.size()), "", false};
+  const auto [seen, due] =
+      std::mismatch(received.begin(), received.end(), wanted.begin(), wanted.end());
+  result.ok = seen == received.end() && due == wanted.end();
+  compared += wanted.size();
+  result.seen = result.ok ? fmt::format("{} frames", received.size())
+                          : fmt::format("{} frames, the first {} as they should be",
+                                        received.size(), seen - received.begin());
+  return result;
+}
+
+// Where there was nothing to receive nothing has been shown.
+void check_all_complete(const Scenario &scenario, const RunReport &report,
+                        const std::vector<BusFrame> &frames,
+                        const std::vector<std::vector<Frame>> &received,
+                        std::vector<CheckResult> &results) {
+  std::size_t compared = 0;
+  for (NodeId id = 0; id < scenario.nodes.size(); ++id)
+    if (report.nodes[id].own_software && scenario.nodes[id].host.filters.empty())
+      results.push_back(check_complete(scenario, id, frames, received[id], compared));
+  if (compared == 0)
+    results.push_back({"complete", "a data frame, and another node without filters",
+                       "nothing to compare", false});
+}
+
+CheckResult check_bound(const MessageReport &message) {
+  const auto ms = [](Time t) {
+    return fmt::format("{:.3f} ms", static_cast<double>(t) / kMillisecond);
+  };
+  const bool sent = message.sent != 0;
+  return {"response of " + message.name,
+          message.bound ? "at most the bound, " + ms(*message.bound) : "a bound",
+          sent ? ms(message.longest) : "not sent",
+          sent && message.bound && message.longest <= *message.bound};
+}
+
+// A message that nobody has queued has no response time; without any nothing has been shown.
+void check_bounds(const RunReport &report, std::vector<CheckResult> &results) {
+  bool any = false;
+  for (const MessageReport &message : report.messages) {
+    if (message.queued == 0) continue;
+    any = true;
+    results.push_back(check_bound(message));
+  }
+  if (!any) results.push_back({"within_bound", "a message that is sent", "none", false});
+}
+
+CheckResult check_response(const RunReport &report, const std::string &name, Time limit) {
+  const auto message = std::find_if(report.messages.begin(), report.messages.end(),
+                                    [&](const MessageReport &m) { return m.name == name; });
+  const bool seen = message != report.messages.end() && message->sent > 0;
+  return {"response of " + name,
+          fmt::format("at most {:.3f} ms", static_cast<double>(limit) / kMillisecond),
+          seen ? fmt::format("{:.3f} ms", static_cast<double>(message->longest) / kMillisecond)
+               : "not sent",
+          seen && message->longest <= limit};
+}
+
+/// How often a fault took effect; at least once if the scenario says what it expects.
+void check_fault(const Expectations &expect, const FaultSpec &spec, const FaultReport &fault,
+                 std::vector<CheckResult> &results) {
+  constexpr Range kEffect{1, std::numeric_limits<double>::infinity()};
+  if (spec.hits)
+    results.push_back(
+        check_number(fault.name + ".hits", static_cast<double>(fault.hits), *spec.hits));
+  else if (expect.given)
+    results.push_back(
+        check_number(fault.name + " took effect", static_cast<double>(fault.hits), kEffect));
+}
+
+}  // namespace
+
+CheckResult check_number(const std::string &what, double seen, const Range &range) {
+  return {what, to_text(range), plain_number(seen), range.contains(seen)};
+}
+
+std::vector<CheckResult> check_expectations(const Scenario &scenario, const RunReport &report,
+                                            const std::vector<BusFrame> &frames,
+                                            const std::vector<std::vector<Frame>> &received) {
+  const Expectations &expect = scenario.expect;
+  std::vector<CheckResult> results;
+  for (const auto &[key, range] : expect.numbers) {
+    const std::string what = key == "load" ? "load in per cent" : key;
+    results.push_back(check_number(what, bus_number(report, key), range));
+  }
+  for (const NodeExpectation &node : expect.nodes) {
+    const NodeReport &seen = report.nodes[node.node];
+    for (const auto &[key, range] : node.numbers)
+      results.push_back(check_number(seen.name + "." + key, node_number(seen, key), range));
+    if (node.state)
+      results.push_back(
+          {seen.name + ".state", *node.state, seen.state(), *node.state == seen.state()});
+    for (const firmware::BoardReport &board : report.boards)
+      if (board.node == seen.name) check_board(node, board, results);
+  }
+  if (expect.complete) check_all_complete(scenario, report, frames, received, results);
+  if (expect.within_bound) check_bounds(report, results);
+  for (const auto &[name, limit] : expect.response_times)
+    results.push_back(check_response(report, name, limit));
+  const auto signals = check_signals(expect.signals, report.signals);
+  results.insert(results.end(), signals.begin(), signals.end());
+  for (std::size_t i = 0; i < report.faults.size(); ++i)
+    check_fault(expect, scenario.faults[i], report.faults[i], results);
+  return results;
+}
+
+}  // namespace vericansim

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// check_faults: see fault_check.hpp.
+#include "simulation/fault_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "results/fault_report.hpp"
+#include "scenario/fault_words.hpp"
+#include "simulation/expected_frames.hpp"
+#include "simulation/node_timing.hpp"
+#include "trace/input_error.hpp"
+#include "trace/quantity.hpp"
+
+namespace vericansim {
+namespace {
+
+using Kind = FaultSpec::Kind;
+
+std::string ms(Time time) {
+  return fmt::format("{:.10g} ms", static_cast<double>(time) / kMillisecond);
+}
+
+bool has_accesses(const Scenario &scenario, NodeId node) {
+  return std::any_of(scenario.accesses.begin(), scenario.accesses.end(),
+                     [node](const AccessSpec &access) { return access.node == node; });
+}
+
+bool has_traffic(const Scenario &scenario, NodeId node) {
+  return std::any_of(scenario.traffic.begin(), scenario.traffic.end(),
+                     [node](const TrafficSpec &traffic) { return traffic.node == node; });
+}
+
+/// The node does nothing but what the scenario says of its traffic.
+bool is_plain(const Scenario &scenario, NodeId node) {
+  return scenario.nodes[node].hosted() && !has_accesses(scenario, node);
+}
+
+/// Between frames a bit may begin anew with every edge; within them it can be longer by SJW.
+bool synchronises_hard(const std::optional<Field> &field) { return !field || *field < Field::kSof; }
+
+/// Why the node of a place never comes to it, whatever happens on the bus; empty if it may.
+std::string never_there(const Scenario &scenario, const FaultSpec &fault, double bitrate) {
+  const NodeSpec &node = scenario.nodes[fault.watched];
+  const std::optional<Field> &field = fault.place.field;
+  const bool alone = std::holds_alternative<TrafficRole>(node.role) && !node.software &&
+                     !has_accesses(scenario, fault.watched);
+  if (alone && field != Field::kInteg)
+    return fmt::format(
+        "nobody works '{}', so it never joins the bus; allowed: a node with software", node.name);
+  if (!is_plain(scenario, fault.watched)) return "";
+  const bool sends = has_traffic(scenario, fault.watched);
+  if (!sends && (field == Field::kSof || field == Field::kSuspend))
+    return fmt::format(
+        "{} is a place of senders, and '{}' has no traffic; allowed: a node that "
+        "sends, or the fields of receivers, from ID on",
+        field_name(*field), node.name);
+  const BitTiming timing = timing_of(scenario, node, bitrate);
+  const unsigned most =
+      synchronises_hard(field) ? 2 * timing.quanta() : timing.quanta() + timing.sjw;
+  if (fault.first_quantum.value_or(0) >= most)
+    return fmt::format("a bit of '{}' has {} quanta at {} bit/s; allowed: first_tq 0 to {}",
+                       node.name, timing.quanta(), plain_number(bitrate), timing.quanta() - 1);
+  return "";
+}
+
+/// Why a fault can have no effect, whatever else happens on the bus; empty if it may.
+std::string impossible(const Scenario &scenario, const FaultSpec &fault, double bitrate) {
+  if (fault.kind == Kind::kPlace) return never_there(scenario, fault, bitrate);
+  const bool all_plain = std::all_of(
+      scenario.nodes.begin(), scenario.nodes.end(),
+      [](const NodeSpec &node) { return std::holds_alternative<TrafficRole>(node.role); });
+  const Time end = scenario.duration + scenario.drain;
+  if (all_plain && !scenario.endless && fault.window.from >= end)
+    return fmt::format(
+        "it begins at {}, and the run is over after {}; allowed: 'from' below "
+        "duration and drain, {}",
+        ms(fault.window.from), ms(end), ms(end));
+  if (fault.kind == Kind::kCut && scenario.nodes.size() == 1)
+    return fmt::format("'{}' is alone on the bus; allowed: a bus of two nodes or more",
+                       scenario.nodes.front().name);
+  return "";
+}
+
+}  // namespace
+
+void check_faults(const Scenario &scenario, double bitrate) {
+  const auto refuse = [&](std::size_t index, const std::string &why) {
+    throw InputError(
+        scenario.file, scenario.faults[index].line,
+        fmt::format("faults[{}]: '{}' can never hit: {}", index, fault_name(scenario, index), why));
+  };
+  for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
+    const std::string why = impossible(scenario, scenario.faults[i], bitrate);
+    if (!why.empty()) refuse(i, why);
+  }
+  if (scenario.faults.empty()) return;
+  const ExpectedFrames frames{scenario, bitrate};
+  if (!frames.known()) return;
+  // None of them is the first to hit if all need what undisturbed frames do not have.
+  std::string first;
+  for (const FaultSpec &fault : scenario.faults) {
+    const std::string why = fault.kind == Kind::kPlace ? frames.missing(fault.place) : "";
+    if (why.empty()) return;
+    if (first.empty()) first = why;
+  }
+  refuse(0, first);
+}
+
+}  // namespace vericansim

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// TrafficSource: queues the frames of one message at a node when they are due, and measures their
+// response times.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <random>
+
+#include "bus/bus.hpp"
+#include "node/host.hpp"
+#include "results/report.hpp"
+#include "scenario/scenario.hpp"
+
+namespace vericansim {
+
+/// One message. It must outlive the bus's actions, that is: the run.
+class TrafficSource {
+ public:
+  /// Throws std::invalid_argument if a time is out of range, or as Frame::validate().
+  TrafficSource(const TrafficSpec &spec, Bus &bus, Host &host, std::uint64_t seed);
+
+  /// Begins to queue at `start`; nothing new is queued from `stop` on.
+  void start(Time start, Time stop);
+  /// The host has sent a frame of this message (saturated messages queue the next one).
+  void on_sent();
+  /// One of this message's frames has ended on the bus at `end`; its response time, if a frame was
+  /// due.
+  std::optional<Time> on_frame(Time end);
+
+  [[nodiscard]] const TrafficSpec &spec() const { return spec_; }
+  /// True if `frame` could be one of this message.
+  [[nodiscard]] bool matches(const Frame &frame) const;
+  [[nodiscard]] const MessageReport &report() const { return report_; }
+
+ private:
+  void schedule(Time event);
+  void queue(Time event);
+  [[nodiscard]] Frame next_frame();
+
+  TrafficSpec spec_;
+  Bus &bus_;
+  Host &host_;
+  std::mt19937_64 random_;
+  Time stop_ = 0;
+  std::deque<Time> waiting_;  // events whose frames have not ended yet
+  MessageReport report_;
+};
+
+}  // namespace vericansim
