@@ -39,14 +39,19 @@ module can_remote #(
   parameter int Trace = 0,
   /// Rows of RateTable, 1 to 15, and the rows, the first at the right, each 19 bits: clocks per
   /// quantum, SJW, Ps1, Ps2, Prop, each minus one. As `verican bittime --table` prints them for a
-  /// clock; here 8 MHz: 1000, 800, 500, 250, 125, 50, 20 and 10 kbit/s.
+  /// clock; here 8 MHz.
   parameter int RateRows = 8,
   parameter logic [284:0] RateTable = {
     133'd0,
-    8'd49, 2'd1, 3'd7, 3'd1, 3'd4,   8'd24, 2'd1, 3'd7, 3'd1, 3'd4,
-    8'd9,  2'd1, 3'd7, 3'd1, 3'd4,   8'd3,  2'd1, 3'd7, 3'd1, 3'd4,
-    8'd1,  2'd1, 3'd7, 3'd1, 3'd4,   8'd0,  2'd1, 3'd7, 3'd1, 3'd4,
-    8'd0,  2'd1, 3'd3, 3'd1, 3'd2,   8'd0,  2'd1, 3'd3, 3'd1, 3'd0},
+    8'd49, 2'd1, 3'd6, 3'd1, 3'd5,  // 10 kbit/s
+    8'd24, 2'd1, 3'd6, 3'd1, 3'd5,  // 20 kbit/s
+    8'd9, 2'd1, 3'd6, 3'd1, 3'd5,  // 50 kbit/s
+    8'd3, 2'd1, 3'd6, 3'd1, 3'd5,  // 125 kbit/s
+    8'd1, 2'd1, 3'd6, 3'd1, 3'd5,  // 250 kbit/s
+    8'd0, 2'd1, 3'd6, 3'd1, 3'd5,  // 500 kbit/s
+    8'd0, 2'd1, 3'd3, 3'd1, 3'd2,  // 800 kbit/s
+    8'd0, 2'd1, 3'd2, 3'd1, 3'd1  // 1000 kbit/s
+  },
   /// Derived, do not override.
   localparam int Events = NumProd == 0 ? 1 : NumProd
 ) (
@@ -55,7 +60,7 @@ module can_remote #(
   // Set-up
   input  logic                start_i,        // the RAM is set up: join the bus
   input  logic [NameBits-1:0] node_i,         // number; 0, 1: none
-  input  logic [3:0]          rate_i,         // with AutoRate: row of RateTable; F: search
+  input  logic [3:0]          rate_i,         // with AutoRate: row of RateTable; none: search
   // User logic: one access a clock while usr_ready_o; data in the clock after
   input  logic                usr_req_i,
   input  logic                usr_we_i,
@@ -133,7 +138,7 @@ module can_remote #(
   logic [28:0] rx_id;
   logic [7:0]  tec, rec, rx_byte;
   // Bit rate
-  logic        start_now, listen, listen_run, synch;
+  logic        start_now, listen, listen_run, level;
   logic [5:0]  err;
   logic [7:0]  presdiv;
   logic [1:0]  rjw, node;
@@ -203,8 +208,8 @@ module can_remote #(
     .boff_rec_i(!release_off),
     .ec_clear_i(1'b1), .ec_we_i(1'b0), .ec_wdata_i(16'd0), .tec_o(tec), .rec_o(rec),
     .passive_o(passive), .boff_o(boff), .err_o(err),
-    .idle_o(), .transmitter_o(transmitter), .receiver_o(), .synch_o(synch),
-    .tick_req_i(1'b1), .tick_o(tick), .rx_req_i(1'b0), .rx_level_o(),
+    .idle_o(), .transmitter_o(transmitter), .receiver_o(), .synch_o(),
+    .tick_req_i(1'b1), .tick_o(tick), .rx_req_i(listen), .rx_level_o(level),
     .timer_clear_i(1'b0), .timer_we_i(1'b0), .timer_be_i(2'b00), .timer_wdata_i(16'd0),
     .timer_o(),
     .tx_req_i(tx_req), .tx_ide_i(1'b0), .tx_rtr_i(1'b0), .tx_dlc_i(tx_dlc), .tx_word_i(tx_word),
@@ -463,7 +468,7 @@ module can_remote #(
 
   if (AutoRate == 0) begin : gen_no_rate
     logic unused;
-    assign unused     = &{1'b0, rate_i, err, synch};
+    assign unused     = &{1'b0, rate_i, err, level};
     assign start_now  = start_i;
     assign {listen, listen_run} = '0;
     assign {presdiv, rjw} = {8'(Brp - 1), 2'(Sjw - 1)};
@@ -474,9 +479,8 @@ module can_remote #(
     assign rates = RateTable;
     can_rn_rate #(.Rows(RateRows)) u_rate (
       .clk_i, .rst_ni, .start_i, .rate_i, .run_i(run), .error_i(|err), .valid_i(rx_valid),
-      .synch_i(synch && tick), .ms_i(ms), .start_o(start_now), .listen_o(listen),
-      .run_o(listen_run),
-      .row_o(rate_row)
+      .tick_i(tick), .level_i(level), .start_o(start_now), .listen_o(listen),
+      .run_o(listen_run), .row_o(rate_row)
     );
     assign {presdiv, rjw, pseg1, pseg2, propseg} = rates[19 * 9'(rate_row) +: 19];
   end

@@ -10,6 +10,7 @@
 
 #include "cli/cli.hpp"
 #include "timing/bittime.hpp"
+#include "timing/rate_table.hpp"
 #include "trace/quantity.hpp"
 
 namespace vericansim::cli {
@@ -23,6 +24,7 @@ struct Options {
   unsigned sjw = 0;
   unsigned rows = 10;
   bool json = false;
+  bool table = false;
 };
 
 Json to_json(const BitTimingResult &result) {
@@ -121,7 +123,35 @@ double part_of_bit(double given) {
                   plain_number(given)));
 }
 
+Json to_json(const std::vector<RateRow> &rows) {
+  Json list = Json::array();
+  for (const RateRow &row : rows) {
+    const BitTiming &t = row.timing;
+    list.push_back({{"bitrate", row.bitrate},
+                    {"brp", t.prescaler},
+                    {"prop", t.prop},
+                    {"ps1", t.ps1},
+                    {"ps2", t.ps2},
+                    {"sjw", t.sjw}});
+  }
+  return list;
+}
+
+/// RateTable of can_remote (RN-73).
+int rate_rows(const Options &options) {
+  const std::vector<RateRow> rows = rate_table(options.clock);
+  if (options.json)
+    print_json({{"clock_hz", options.clock}, {"rows", to_json(rows)}});
+  else if (!rows.empty())
+    fmt::print("// {} Hz\n{}", plain_number(options.clock), rate_parameters(rows));
+  if (!rows.empty()) return kOk;
+  fmt::print(stderr, "verican: no rate of the table can be made from {} Hz\n",
+             plain_number(options.clock));
+  return kBadInput;
+}
+
 int bittime(const Options &options) {
+  if (options.table) return rate_rows(options);
   BitTimingRequest request = options.request;
   const BitTimingRequest whole = bit_timing_request(options.clock, options.bitrate);
   request.clock_hz = whole.clock_hz;
@@ -153,9 +183,12 @@ void add_bittime(CLI::App &app, int &exit_code) {
       {"k", 1e3}, {"M", 1e6}, {"kHz", 1e3}, {"MHz", 1e6}, {"Hz", 1.0}});
   command->add_option("--clock,-c", options->clock, "Clock of the controller, Hz (8M)")
       ->transform(with_unit);
-  command->add_option("--bitrate,-b", options->bitrate, "Bit rate, bit/s, as in 500k")
-      ->required()
-      ->transform(with_unit);
+  auto *rate = command->add_option("--bitrate,-b", options->bitrate, "Bit rate, bit/s, as in 500k")
+                   ->transform(with_unit);
+  command
+      ->add_flag("--table", options->table,
+                 "Rows of a remote node's RateTable for this clock, as parameters")
+      ->excludes(rate);
   command->add_option("--sample-point,-s", options->sample_point,
                       "Wanted sample point, 0.5..0.9 or 50..90 % (default: CiA's recommendation)");
   command
@@ -174,7 +207,10 @@ void add_bittime(CLI::App &app, int &exit_code) {
                       "Largest bit-rate error, ppm (50000)");
   command->add_option("--rows", options->rows, "Lines of the table (10)");
   command->add_flag("--json", options->json, "All settings as JSON");
-  command->callback([options, &exit_code] { exit_code = bittime(*options); });
+  command->callback([options, rate, &exit_code] {
+    if (!options->table && rate->empty()) throw CLI::RequiredError("--bitrate");
+    exit_code = bittime(*options);
+  });
 }
 
 }  // namespace vericansim::cli

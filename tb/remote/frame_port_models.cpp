@@ -16,6 +16,7 @@
 #include "Vcan_remote_standard_3___024root.h"
 #include "Vcan_remote_standard_5.h"
 #include "Vcan_remote_standard_5___024root.h"
+#include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "remote/frame_port.hpp"
 
@@ -125,6 +126,7 @@ class FramePortOf final : public FramePort {
 
   VerilatedContext context_;
   Model top_{&context_, "can_remote"};
+  ModelContext model_context_{context_};
   bool released_ = false;
 };
 

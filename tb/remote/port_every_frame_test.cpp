@@ -25,7 +25,7 @@ TEST_P(PortEveryFrame, HasTheEffectOfTheModel) {
   EXPECT_GT(answers, 1'000U);
 }
 
-// RN-22, RN-32: memory, what is locked or protected, and where areas end.
+// RN-05, RN-22, RN-32: memory, what is locked or protected, and where areas end.
 TEST_P(PortEveryFrame, AccessHasTheEffectOfTheModel) {
   for (const unsigned index : {6U, 7U}) {
     const PortRun run = run_every_access(port_setting(GetParam(), index), 17, index, 1);

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // remote_campaign: remote nodes of the RTL beside their model, every frame and random commands at
-// the engine's port and on random buses, and the skew of triggers (RN-47, RN-101).
+// the engine's port and on random buses, the skew of triggers, searches for the bit rate (RN-47,
+// RN-73, RN-101).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,7 @@
 #include "remote/port_every_frame.hpp"
 #include "remote/random_port.hpp"
 #include "remote/random_remotes.hpp"
+#include "remote/rate_search.hpp"
 #include "remote/trigger_skew.hpp"
 
 namespace {
@@ -24,6 +26,7 @@ using Json = nlohmann::ordered_json;
 constexpr unsigned kBusCommands = 100'000, kOfBus = 50;
 constexpr unsigned kTriggers = 10'000, kOfLine = 25;
 constexpr unsigned kPortCommands = 1'000'000, kOfPort = 1'000;
+constexpr unsigned kSearches = 10'000;
 constexpr unsigned kFrames = 1'048'576, kAccesses = 524'288, kStride = 16;
 const std::vector<std::string> kProfiles = {"small", "standard", "full"};
 
@@ -37,6 +40,25 @@ struct Sum {
 struct PortSum {
   std::uint64_t frames = 0, answers = 0;
   std::vector<std::string> differences;
+};
+
+/// What the searches for the bit rate add up to.
+struct RateSum {
+  unsigned runs = 0, wrong = 0, lost = 0;
+  unsigned frames = 0, frames_alone = 0;  // most, without noise; alone: with a single sender
+  std::vector<std::string> failures;
+
+  void add(const RateTrial &trial) {
+    ++runs;
+    wrong += trial.right ? 0 : 1;
+    lost += trial.found ? 0 : 1;
+    if (!trial.right || !trial.found)
+      failures.push_back(fmt::format("search, seed {}: {}", trial.setting.seed,
+                                     trial.found ? "wrong rate" : "no rate"));
+    if (trial.setting.noise_per_bit != 0) return;
+    unsigned &most = trial.setting.hosts == 1 ? frames_alone : frames;
+    most = std::max(most, trial.frames);
+  }
 };
 
 class Campaign {
@@ -63,6 +85,15 @@ class Campaign {
       const TriggerSkew skew = measure_triggers(profile, seed, kOfLine);
       const std::lock_guard guard{lock_};
       skew_ += skew;
+    });
+  }
+
+  void searches() {
+    const auto count = static_cast<std::size_t>(std::ceil(kSearches * settings_.scale));
+    run_jobs(count, settings_.jobs, [&](std::size_t n) {
+      const RateTrial trial = random_rate_trial(seed(static_cast<unsigned>(n)));
+      const std::lock_guard guard{lock_};
+      rates_.add(trial);
     });
   }
 
@@ -123,6 +154,7 @@ class Campaign {
   Sum buses_;
   PortSum frames_, accesses_, port_;
   TriggerSkew skew_;
+  RateSum rates_;
 };
 
 Json Campaign::result() const {
@@ -138,9 +170,13 @@ Json Campaign::result() const {
   for (const auto *differences :
        {&buses_.differences, &frames_.differences, &accesses_.differences, &port_.differences})
     for (const std::string &text : *differences) notes.push_back(text);
+  for (const std::string &text : rates_.failures) notes.push_back(text);
   notes.push_back(
       fmt::format("nearest to its bound: {:.0f} % of it, {}", 100 * skew_.part, skew_.worst));
   const auto profiles = static_cast<unsigned>(kProfiles.size());
+  const auto within = [](const char *name, unsigned value, unsigned bar) {
+    return campaign_figure(name, value, fmt::format("<= {}", bar), value <= bar);
+  };
   return {
       {"figures",
        {enough("frames at the port: every one of each number, locked or not", frames_.frames,
@@ -156,6 +192,11 @@ Json Campaign::result() const {
         campaign_figure("answers of nodes", buses_.answers),
         campaign_figure("disturbances", buses_.disturbed),
         none("buses with a difference", buses_.differences.size()),
+        enough("searches for the bit rate", rates_.runs, kSearches),
+        none("searches that took a wrong rate", rates_.wrong),
+        none("searches that found none", rates_.lost),
+        within("frames until it was found, at most, without noise", rates_.frames, 40),
+        within("the same with a single sender", rates_.frames_alone, 56),
         enough("triggers", skew_.triggers, kTriggers),
         campaign_figure("pairs of nodes at a trigger", skew_.pairs),
         none("triggers that a node missed", skew_.lost),
@@ -172,13 +213,20 @@ int main(int argc, char **argv) {
   CLI::App app{"Remote nodes of the RTL beside their model"};
   try {
     CampaignSettings settings;
-    settings.add_to(app, "1,000,000 commands at the port, 100,000 on buses and 10,000 triggers");
+    settings.add_to(app,
+                    "1,000,000 commands at the port, 100,000 on buses, 10,000 triggers and 10,000 "
+                    "searches for the bit rate");
+    bool searches = false;
+    app.add_flag("--searches", searches, "Only the searches for the bit rate");
     CLI11_PARSE(app, argc, argv);
     Campaign campaign{settings};
-    campaign.every_frame();
-    campaign.port_commands();
-    campaign.triggers();
-    campaign.buses();
+    campaign.searches();
+    if (!searches) {
+      campaign.every_frame();
+      campaign.port_commands();
+      campaign.triggers();
+      campaign.buses();
+    }
     const Json result = campaign.result();
     bool good = true;
     for (const Json &figure : result["figures"]) {
