@@ -1,22 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// NodeJudge: see node_judge.hpp. The tolerated differences are in rule_tolerance.hpp.
+// NodeJudge: see node_judge.hpp.
 #include "judge/node_judge.hpp"
-
-#include "judge/rule_tolerance.hpp"
 
 namespace vericansim {
 namespace {
-
-std::string differs(const char *what, unsigned node, unsigned model) {
-  return std::string{what} + " " + std::to_string(node) + ", the rules say " +
-         std::to_string(model);
-}
-
-std::string name_of(Field field, bool stuff) {
-  return std::string{field_name(field)} + (stuff ? " (stuff bit)" : "");
-}
 
 /// Places where a frame that waits may start, or joins a foreign SOF.
 bool may_start_at(const NodeBit &bit) {
@@ -45,7 +34,7 @@ void NodeJudge::bit(const BitRecord &record, Level pin) {
   const bool own = bit.started && record.after.transmitter;
   interfere(buffers_.begin_bit(bit));
   prepare(bit, own);
-  const NodeConfig &config = followers_.front().model.config();
+  const NodeConfig &config = followers_.front().model().config();
   const bool waits = buffers_.must_send() || !buffers_.flights().empty();
   assertions_.look(bit, {config.listen_only, config.loop_back}, waits);
   compare(bit);
@@ -56,8 +45,8 @@ void NodeJudge::bit(const BitRecord &record, Level pin) {
 void NodeJudge::interfere(const BufferJudge::Interference &what) {
   restarted_ = what.stopped;
   const NodeConfig config = buffers_.registers().node();
-  for (Follower &follower : followers_) {
-    NodeModel &model = follower.model;
+  for (RuleFollower &follower : followers_) {
+    NodeModel &model = follower.model();
     model.config() = config;
     if (what.soft_reset) model.preset_counters(0, 0);
     if (what.counters) {
@@ -79,36 +68,36 @@ void NodeJudge::prepare(const NodeBit &bit, bool own) {
   }
   if (own) {
     const std::vector<Frame> flights = buffers_.flights();
-    std::vector<Follower> next;
+    std::vector<RuleFollower> next;
     // Between frames the models differ in nothing that matters.
     for (const Frame &frame : flights) {
       next.push_back(followers_.front());
-      next.back().model.request(frame);
+      next.back().model().request(frame);
     }
     if (!next.empty()) followers_ = next;
     return;
   }
   const bool must = may_start_at(bit) && buffers_.must_send();
-  for (Follower &follower : followers_) {
+  for (RuleFollower &follower : followers_) {
     if (must) {
-      follower.model.request({});
+      follower.model().request({});
     } else {
-      follower.model.cancel();
+      follower.model().cancel();
     }
   }
 }
 
 void NodeJudge::compare(const NodeBit &bit) {
   std::string first;
-  const BitPlace at = followers_.front().model.state();
+  const BitPlace at = followers_.front().model().state();
   std::size_t kept = 0;
-  for (Follower &follower : followers_) {
-    const std::string difference = follow(follower, bit);
-    if (difference.empty()) {
+  for (RuleFollower &follower : followers_) {
+    const std::vector<std::string> differences = follower.follow(bit);
+    if (differences.empty()) {
       if (&followers_[kept] != &follower) followers_[kept] = follower;
       ++kept;
     } else if (first.empty()) {
-      first = difference;
+      first = differences.front();
     }
   }
   if (kept != 0) {
@@ -119,67 +108,10 @@ void NodeJudge::compare(const NodeBit &bit) {
   report_(std::string{field_name(at.field)} + "[" + std::to_string(at.index) + "]: " + first);
 }
 
-std::string NodeJudge::follow(Follower &follower, const NodeBit &bit) const {
-  NodeModel &model = follower.model;
-  const Level expected = model.internal_level();
-  follower.last_rec = model.rec();
-  if (bit.sent_level != expected) {
-    return differs("sends", static_cast<unsigned>(bit.sent_level), static_cast<unsigned>(expected));
-  }
-  std::string difference = compare_place(model, bit);
-  if (!difference.empty()) return difference;
-  model.sample(bit.rx);
-  difference = compare_events(model, bit);
-  return difference.empty() ? compare_counters(follower, bit) : difference;
-}
-
-std::string NodeJudge::compare_place(const NodeModel &model, const NodeBit &bit) {
-  const BitPlace place = model.state();
-  if (place.field != bit.field || place.is_stuff != bit.stuff) {
-    return "is at " + name_of(bit.field, bit.stuff) + ", the rules say " +
-           name_of(place.field, place.is_stuff);
-  }
-  const bool in_frame = bit.field >= Field::kSof && bit.field <= Field::kEof;
-  const bool transmitter = model.role() == Role::kTransmitter;
-  if (in_frame && bit.transmitter != transmitter)
-    return differs("transmitter", bit.transmitter, transmitter);
-  const bool counted = in_frame || bit.field == Field::kInt || bit.field == Field::kSuspend ||
-                       bit.field == Field::kDel || bit.field == Field::kOvlFlag;
-  if (counted && bit.left != model.left()) return differs("bits left", bit.left, model.left());
-  return {};
-}
-
-std::string NodeJudge::compare_events(const NodeModel &model, const NodeBit &bit) {
-  const NodeEvents &events = model.events();
-  if (bit.sent != events.sent_ok) return differs("success", bit.sent, events.sent_ok);
-  if (bit.failed != events.tx_fail) return differs("failure", bit.failed, events.tx_fail);
-  const bool delivered = bit.delivered && !bit.transmitter;
-  const bool expected = events.delivered && model.role() != Role::kTransmitter;
-  if (delivered != expected) return differs("delivery", delivered, expected);
-  return {};
-}
-
-std::string NodeJudge::compare_counters(Follower &follower, const NodeBit &bit) {
-  NodeModel &model = follower.model;
-  const bool off = model.error_state() == ErrorState::kBusOff;
-  if (bit.bus_off != off) return differs("bus-off", bit.bus_off, off);
-  if (bit.bus_off) return {};
-  if (static_cast<int>(bit.tec) != model.tec() && !settle_tec(model, bit))
-    return differs("TEC", bit.tec, static_cast<unsigned>(model.tec()));
-  const bool rec_equal = static_cast<int>(bit.rec) == model.rec();
-  if (!rec_equal && !settle_rec(model, follower.last_rec, follower.crc_step, bit))
-    return differs("REC", bit.rec, static_cast<unsigned>(model.rec()));
-  if (rec_equal) follower.crc_step = false;
-  const bool passive = model.error_state() == ErrorState::kPassive;
-  if (bit.passive != passive && !follower.crc_step)
-    return differs("error passive", bit.passive, passive);
-  return {};
-}
-
 // The buffers hear of a frame once its identifier and format are known: after a dominant IDE or
 // after the RTR of an extended frame.
 void NodeJudge::tell_buffers(const NodeBit &bit, bool own) {
-  const NodeModel &model = followers_.front().model;
+  const NodeModel &model = followers_.front().model();
   const bool ends_header = !bit.stuff && (bit.field == Field::kExRtr ||
                                           (bit.field == Field::kIde && bit.rx == Level::kDominant));
   if (bit.errors != 0 || bit.failed || bit.delivered || bit.sent)

@@ -13,12 +13,11 @@
 #include "judge/buffer_judge.hpp"
 #include "judge/node_assertions.hpp"
 #include "judge/node_bit.hpp"
-#include "model/node_model.hpp"
+#include "judge/rule_follower.hpp"
 
 namespace vericansim {
 
-/// Follows one node bit by bit: level sent, place, TEC, REC, error state, deliveries, successes and
-/// failures, with the tolerances of rule 19.5 item 5; beside them the assertions of TH-06, TH-07.
+/// Follows one node bit by bit (RuleFollower); beside that the assertions of TH-06, TH-07.
 ///
 /// What the node has to send is known from its buffers. Where the specification leaves open which
 /// of two buffers goes first, there is one model for each, and those that the node contradicts are
@@ -35,32 +34,22 @@ class NodeJudge {
   void bit(const BitRecord &record, Level pin);
 
   /// The model, or one of those that are still possible.
-  [[nodiscard]] const NodeModel &model() const { return followers_.front().model; }
+  [[nodiscard]] const NodeModel &model() const { return followers_.front().model(); }
   /// The node was stopped and has begun anew in the last bit.
   [[nodiscard]] bool restarted() const { return restarted_; }
   [[nodiscard]] bool failed() const { return failed_; }
   [[nodiscard]] std::uint64_t bits() const { return bits_; }
 
  private:
-  struct Follower {
-    NodeModel model;
-    int last_rec = 0;       // of the model, before the bit
-    bool crc_step = false;  // REC differs since the last bit because of a CRC error
-  };
-
   void interfere(const BufferJudge::Interference &what);
   void prepare(const NodeBit &bit, bool own);
   void compare(const NodeBit &bit);
-  [[nodiscard]] std::string follow(Follower &follower, const NodeBit &bit) const;
-  static std::string compare_place(const NodeModel &model, const NodeBit &bit);
-  static std::string compare_events(const NodeModel &model, const NodeBit &bit);
-  static std::string compare_counters(Follower &follower, const NodeBit &bit);
   void tell_buffers(const NodeBit &bit, bool own);
 
   BufferJudge &buffers_;
   Report report_;
   NodeAssertions assertions_;
-  std::vector<Follower> followers_ = std::vector<Follower>(1);
+  std::vector<RuleFollower> followers_ = std::vector<RuleFollower>(1);
   bool in_header_ = false;
   bool restarted_ = false;
   bool failed_ = false;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "model/node_model.hpp"
+#include "judge/rule_follower.hpp"
 #include "protocol/core_bench.hpp"
 
 namespace vericansim {
@@ -17,10 +17,7 @@ namespace vericansim {
 /// Follows the DUTs of a bench from start() on. Use request(), cancel() and preset_counters() of
 /// this class, so that DUT and model get the same.
 ///
-/// Compared after each sample point: level sent, kind of error, TEC, REC, error state, deliveries
-/// with their content, success, end of an attempt. Tolerated differences are those of 19.5 item 5:
-/// REC from 128 on is only ">= 128", set-back to any of 119..127, 0 or 8 for the stuff bit after
-/// RTR (FC-05b), the REC step of a CRC error one bit early or late.
+/// Compared in each bit is what RuleFollower compares, and the content of each frame delivered.
 class Lockstep {
  public:
   explicit Lockstep(CoreBench &bench);
@@ -32,7 +29,7 @@ class Lockstep {
   void cancel(unsigned dut);
   /// Before start().
   void preset_counters(unsigned dut, std::uint8_t tec, std::uint8_t rec);
-  [[nodiscard]] NodeModel &model(unsigned dut = 0) { return followers_[dut].model; }
+  [[nodiscard]] NodeModel &model(unsigned dut = 0) { return followers_[dut].rules.model(); }
 
   [[nodiscard]] bool agrees() const { return mismatches_.empty(); }
   /// One sentence for each difference, the first kMaxReports of them.
@@ -44,17 +41,12 @@ class Lockstep {
   static constexpr std::size_t kMaxReports = 20;
 
   struct Follower {
-    NodeModel model;
+    RuleFollower rules;
     std::deque<Frame> queue;  // requested, not yet the model's pending frame
-    int last_rec = 0;         // of the model, before the bit
-    bool crc_step = false;    // REC differs since the last bit because of a CRC error
   };
 
   void follow(unsigned i, const DutBit &bit);
-  void compare_place(unsigned i, const DutBit &bit);
-  void compare_counters(unsigned i, const DutBit &bit);
-  void compare_events(unsigned i, const DutBit &bit);
-  void mismatch(unsigned i, const std::string &what);
+  void mismatch(unsigned i, const BitPlace &at, const std::string &what);
 
   CoreBench &bench_;
   std::vector<Follower> followers_;
