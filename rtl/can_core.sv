@@ -98,7 +98,7 @@ module can_core (
   );
 
   can_timestamp u_timestamp (
-    .clk_i, .rst_ni, .clear_i(timer_clear_i), .sample_i(sample),
+    .clk_i, .rst_ni, .clear_i(timer_clear_i), .sample_i(sample && active_q),
     .we_i(timer_we_i), .be_i(timer_be_i), .wdata_i(timer_wdata_i), .timer_o
   );
 

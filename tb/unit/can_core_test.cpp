@@ -52,6 +52,25 @@ TEST_F(CanCore, LevelOfTheBusIsRecessiveUnlessAskedFor) {  // FX-2.9.a
   EXPECT_FALSE(core_->rx_level_o);
 }
 
+// FX-6.b: TIMER stands with the engine, in whichever clock of a bit that is told to stop.
+TEST_F(CanCore, TimerStandsWhenTheEngineDoes) {
+  unsigned stops = 0;
+  for (unsigned phase = 0; phase < 30; ++phase) {
+    core_.reset();
+    core_->run_i = 1;
+    for (unsigned i = 0; i < 100 + phase; ++i) core_.clock();
+    core_->run_i = 0;
+    core_.clock();
+    ASSERT_FALSE(core_->running_o);
+    const unsigned stopped_at = core_->timer_o;
+    EXPECT_NEAR(stopped_at, (100 + phase) / 10, 1) << phase;
+    for (unsigned i = 0; i < 30; ++i) core_.clock();
+    EXPECT_EQ(core_->timer_o, stopped_at) << phase;
+    ++stops;
+  }
+  EXPECT_EQ(stops, 30u);
+}
+
 // A hard reset in the very clock of a pulse ends it: the engine stands then, and a pulse that
 // stayed would last until it runs again. In loop-back mode (MO-04) one frame gives them all.
 TEST_F(CanCore, ResetEndsEveryPulse) {
