@@ -21,6 +21,7 @@ mailbox/can_mb_lock.sv
 mailbox/can_mb_filter.sv
 mailbox/can_mb_rx.sv
 mailbox/can_rx_fifo.sv
+mailbox/can_mb_mask.sv
 mailbox/can_mb_match.sv
 mailbox/can_mb_smb.sv
 mailbox/can_mb_move.sv

@@ -29,6 +29,34 @@ parameters:
     datatype: int
     description: Number of message buffers (16, 32 or 64)
     paramtype: vlogparam
+  Fifo:
+    datatype: int
+    description: 1 for the receive FIFO
+    paramtype: vlogparam
+  Abort:
+    datatype: int
+    description: 1 for aborts that are certain of their outcome (MCR.AEN)
+    paramtype: vlogparam
+  Status:
+    datatype: int
+    description: 1 for ESR2 and CRCR
+    paramtype: vlogparam
+  OwnMasks:
+    datatype: int
+    description: 1 for a mask for each buffer (RXIMR, MCR.BCC)
+    paramtype: vlogparam
+  Wake:
+    datatype: int
+    description: 1 for stop mode and waking from it
+    paramtype: vlogparam
+  Extras:
+    datatype: int
+    description: 1 for local priority, one-shot, FD tolerance, MAXMB, LBUF, remote answers and TSYN
+    paramtype: vlogparam
+  ClearRam:
+    datatype: int
+    description: 1 to have the RAM of the buffers cleared after a hard reset
+    paramtype: vlogparam
   RegionBits:
     datatype: int
     description: Address bits of the region that hsel stands for (13 to 32)
@@ -50,6 +78,13 @@ targets:
     toplevel: ["is_toplevel? (can_ahb)"]
     parameters:
       - "is_toplevel? (NumMb)"
+      - "is_toplevel? (Fifo)"
+      - "is_toplevel? (Abort)"
+      - "is_toplevel? (Status)"
+      - "is_toplevel? (OwnMasks)"
+      - "is_toplevel? (Wake)"
+      - "is_toplevel? (Extras)"
+      - "is_toplevel? (ClearRam)"
       - "is_toplevel? (RegionBits)"
       - "is_toplevel? (CheckHprot)"
       - "is_toplevel? (WakeFilter)"

@@ -27,7 +27,10 @@ check() {
 mapfile -t rtl < <(rtl_files)
 tops=()
 has_module can_core && tops+=("can_core")
-has_module can_ahb && tops+=("can_ahb NumMb=16" "can_ahb NumMb=32" "can_ahb NumMb=64")
+has_module can_ahb && tops+=("can_ahb NumMb=16" "can_ahb NumMb=32")
+# The profiles, each feature away by itself, and all of them.
+profiles() { /usr/bin/python3 tools/profiles.py "$@" | sed 's/^\([a-z]* \)\?/can_ahb /'; }
+has_module can_ahb && mapfile -t -O ${#tops[@]} tops < <(profiles; profiles --features)
 has_module can_remote && tops+=("can_remote" "can_remote NameBits=5" "can_remote MemBytes=1024"
                                 "can_remote StageBytes=0" "can_remote StageBytes=16"
                                 "can_remote TxDepth=4" "can_remote NumProd=4"
@@ -36,18 +39,21 @@ has_module can_remote && tops+=("can_remote" "can_remote NameBits=5" "can_remote
                                 "can_remote Block=1" "can_remote AutoRate=1"
                                 "can_remote Counters=1")
 
-verilator_lint() {  # TOP [NAME=VALUE]
-  verilator --lint-only -Wall --top-module "$1" ${2:+-G"$2"} rtl/lint.vlt "${rtl[@]}"
+verilator_lint() {  # TOP [NAME=VALUE ...]
+  local top=$1
+  shift
+  verilator --lint-only -Wall --top-module "$top" "${@/#/-G}" rtl/lint.vlt "${rtl[@]}"
 }
-yosys_check() {  # TOP [NAME=VALUE]; no latch, no loop, no wire without driver
-  local parameter=""
-  [ -n "${2:-}" ] && parameter="-chparam ${2%=*} ${2#*=}"
+yosys_check() {  # TOP [NAME=VALUE ...]; no latch, no loop, no wire without driver
+  local parameter="" setting
+  for setting in "${@:2}"; do parameter+=" -chparam ${setting%=*} ${setting#*=}"; done
   yosys -q -p "read_verilog -sv ${rtl[*]}; hierarchy -check -top $1 $parameter;
                proc; flatten; opt_clean; check -assert; select -assert-none t:\$dlatch"
 }
-iverilog_elaborate() {  # TOP [NAME=VALUE]
-  local output status=0
-  output=$(iverilog -g2012 -o /dev/null -s "$1" ${2:+-P"$1.$2"} "${rtl[@]}" 2>&1) || status=$?
+iverilog_elaborate() {  # TOP [NAME=VALUE ...]
+  local output status=0 top=$1
+  shift
+  output=$(iverilog -g2012 -o /dev/null -s "$top" "${@/#/-P$top.}" "${rtl[@]}" 2>&1) || status=$?
   # Icarus 11 says this of correct code: it then watches the whole vector, which is what is meant.
   output=$(grep -v 'sorry: constant selects in always_\*' <<<"$output")
   printf '%s' "$output"
@@ -84,10 +90,10 @@ format() {
 
 echo "RTL: ${#rtl[@]} files"
 for top in "${tops[@]}"; do
-  # shellcheck disable=SC2086  # TOP and parameter are two words
-  check "verilator -Wall $top" verilator_lint $top
-  check "yosys           $top" yosys_check $top
-  check "iverilog        $top" iverilog_elaborate $top
+  read -r -a words <<<"$top"
+  check "verilator -Wall $top" verilator_lint "${words[@]}"
+  check "yosys           $top" yosys_check "${words[@]}"
+  check "iverilog        $top" iverilog_elaborate "${words[@]}"
 done
 for top in remote_icestick remote_hx8k; do
   check "verilator -Wall $top" board_lint "$top"

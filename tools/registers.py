@@ -18,6 +18,7 @@ from regmap import c_header, chapter, model, svd, systemverilog, test_table
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "sw/registers.yaml"
+PROFILES = ROOT / "sw/profiles.yaml"
 
 
 def outputs(regmap):
@@ -26,6 +27,8 @@ def outputs(regmap):
         "rtl/host/can_regs_pkg.sv": systemverilog.render(regmap),
         "sw/driver/include/verican/verican_regs.h": c_header.render(regmap),
         "tb/mailbox/register_table.inc": test_table.render(regmap),
+        "tb/harness/core_builds.inc": test_table.render_builds(
+            regmap, model.load_profiles(PROFILES, regmap)),
         "sw/verican.svd": svd.render(regmap),
         **chapter.render(regmap),
     }

@@ -8,8 +8,9 @@
 #               inputs and outputs are flip-flops)
 #   VersaTiles  of ProASIC3/SmartFusion: LUT3 + flip-flop after abc -lut 3, memories kept apart
 # Writes docs/synthesis.md. SEEDS="1 2 3" (nextpnr), OUT=build/synth (intermediate files),
-# BLOCKS="can_core remote_small ... can_ahb_32 can_ahb_64" (what is measured, all profiles of
-# can_remote among them), PAGE=docs/synthesis.md.
+# BLOCKS="can_core remote_small ... can_ahb_small can_ahb_standard can_ahb_32 can_ahb_64" (what is
+# measured, all profiles of can_remote among them, and of can_ahb by name or number of buffers),
+# PAGE=docs/synthesis.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/common.sh
@@ -113,10 +114,15 @@ measure_profile() {  # BLOCK
 }
 
 remotes=$(profiles | sed 's/^\([a-z]*\) .*/remote_\1/' | tr '\n' ' ')
-read -r -a blocks <<<"${BLOCKS:-can_core ${remotes}can_ahb_32 can_ahb_64}"
+cores="can_ahb_small can_ahb_standard can_ahb_32 can_ahb_64"
+read -r -a blocks <<<"${BLOCKS:-can_core $remotes$cores}"
 for block in "${blocks[@]}"; do
   case $block in
-    can_ahb_*) measure "$block" can_ahb "NumMb=${block#can_ahb_}" ;;
+    can_ahb_[0-9]*) measure "$block" can_ahb "NumMb=${block#can_ahb_}" ;;
+    can_ahb_*)
+      read -r -a settings < <(/usr/bin/python3 tools/profiles.py "${block#can_ahb_}")
+      measure "$block" can_ahb "${settings[@]}"
+      ;;
     remote_*) measure_profile "$block" ;;
     *) measure "$block" "$block" ;;
   esac

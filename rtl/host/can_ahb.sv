@@ -9,6 +9,20 @@
 module can_ahb #(
   /// Message buffers: 16, 32 or 64; the Linux driver uses number 63.
   parameter int NumMb = 64,
+  /// What the core has, 1, or has not, 0 (docs/integration.md): the Rx FIFO;
+  parameter int Fifo = 1,
+  /// aborts that are certain of their outcome (MCR.AEN);
+  parameter int Abort = 1,
+  /// ESR2 and CRCR;
+  parameter int Status = 1,
+  /// a mask for each buffer, and the queue of several matching buffers (RXIMR, MCR.BCC);
+  parameter int OwnMasks = 1,
+  /// stop mode and waking from it;
+  parameter int Wake = 1,
+  /// local priority, one-shot, tolerance of CAN FD, MAXMB, LBUF, remote answers, TSYN;
+  parameter int Extras = 1,
+  /// zeros in the RAM of the buffers after a hard reset: without, software has to clear it.
+  parameter int ClearRam = 1,
   /// Size of the region that hsel stands for, as a number of address bits, 13 to 32; address bits
   /// above are not looked at, those down to 13 must be zero.
   parameter int RegionBits = 16,
@@ -85,7 +99,10 @@ module can_ahb #(
   end
   assign hrdata = denied_q ? '0 : rdata;
 
-  can_top #(.NumMb(NumMb), .WakeFilter(WakeFilter)) u_top (
+  can_top #(
+    .NumMb(NumMb), .Fifo(Fifo), .Abort(Abort), .Status(Status), .OwnMasks(OwnMasks), .Wake(Wake),
+    .Extras(Extras), .ClearRam(ClearRam), .WakeFilter(WakeFilter)
+  ) u_top (
     .clk_i(hclk), .rst_ni(hresetn),
     .req_i(taken), .cancel_i(bad || denied), .we_i(hwrite), .addr_i(haddr[12:2]), .be_i(be),
     .wdata_i(hwdata),

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // can_reg: one register of plain storage. Which bits a write changes, and in which mode, are the
-// masks of can_regs_pkg; bits in none of them are no flip-flops and read 0.
+// masks of can_regs_pkg; bits in none of them are no flip-flops and read as Without says.
 
 module can_reg #(
   parameter logic [31:0] Reset     = '0,
@@ -10,6 +10,8 @@ module can_reg #(
   parameter logic [31:0] Freeze    = '0,   // in freeze mode
   parameter logic [31:0] Disable   = '0,   // in disable mode
   parameter logic [31:0] WrnEn     = '0,   // with MCR.WRN_EN
+  parameter logic [31:0] Has       = '1,   // what of all these there is in this core
+  parameter logic [31:0] Without   = '0,   // what the others read
   parameter bit          SoftReset = 1'b0  // cleared by a soft reset
 ) (
   input  logic        clk_i,
@@ -23,7 +25,7 @@ module can_reg #(
   input  logic [31:0] wdata_i,
   output logic [31:0] value_o
 );
-  localparam logic [31:0] Stored = Any | Freeze | Disable | WrnEn;
+  localparam logic [31:0] Stored = (Any | Freeze | Disable | WrnEn) & Has;
   logic [31:0] value_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -37,5 +39,5 @@ module can_reg #(
       end
     end
   end
-  assign value_o = value_q & Stored;
+  assign value_o = (value_q & Stored) | Without;
 endmodule

@@ -6,6 +6,8 @@
 
 module can_regs #(
   parameter int NumMb = 64,
+  /// What XCONFIG reads: the features of this core.
+  parameter logic [31:0] Config = can_regs_pkg::XconfigReset | 32'd64,
   /// Derived, do not override.
   localparam int IdxW = $clog2(NumMb)
 ) (
@@ -129,7 +131,8 @@ module can_regs #(
   end
   can_reg #(
     .Reset(can_regs_pkg::McrReset), .SoftReset(1'b1),
-    .Any(can_regs_pkg::McrAny & ~ModeRequests), .Freeze(can_regs_pkg::McrFreeze)
+    .Any(can_regs_pkg::McrAny & ~ModeRequests), .Freeze(can_regs_pkg::McrFreeze),
+    .Has(can_regs_pkg::mcr_has(Config)), .Without(can_regs_pkg::mcr_without(Config))
   ) u_mcr (
     .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack_o),
     .wrn_en_i(wrn_en), .we_i(mcr_we && !soft_rst), .be_i, .wdata_i(mcr_wdata), .value_o(mcr_q));
@@ -157,7 +160,7 @@ module can_regs #(
   can_reg #(
     .Reset(can_regs_pkg::Ctrl1Reset), .Any(can_regs_pkg::Ctrl1Any),
     .Freeze(can_regs_pkg::Ctrl1Freeze), .Disable(can_regs_pkg::Ctrl1Disable),
-    .WrnEn(can_regs_pkg::Ctrl1WrnEn)
+    .WrnEn(can_regs_pkg::Ctrl1WrnEn), .Has(can_regs_pkg::ctrl1_has(Config))
   ) u_ctrl1 (
     .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(disabled),
     .wrn_en_i(wrn_en), .we_i(wr_i && addr_i == can_regs_pkg::Ctrl1Addr), .be_i, .wdata_i,
@@ -177,7 +180,8 @@ module can_regs #(
 
   // CTRL2.
   can_reg #(
-    .Reset(can_regs_pkg::Ctrl2Reset), .Freeze(can_regs_pkg::Ctrl2Freeze)
+    .Reset(can_regs_pkg::Ctrl2Reset), .Freeze(can_regs_pkg::Ctrl2Freeze),
+    .Has(can_regs_pkg::ctrl2_has(Config)), .Without(can_regs_pkg::ctrl2_without(Config))
   ) u_ctrl2 (
     .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack_o),
     .wrn_en_i(wrn_en), .we_i(wr_i && addr_i == can_regs_pkg::Ctrl2Addr), .be_i, .wdata_i,
@@ -190,7 +194,7 @@ module can_regs #(
   // Extension page.
   can_reg #(
     .Reset(can_regs_pkg::XctrlReset), .Any(can_regs_pkg::XctrlAny),
-    .Freeze(can_regs_pkg::XctrlFreeze)
+    .Freeze(can_regs_pkg::XctrlFreeze), .Has(can_regs_pkg::xctrl_has(Config))
   ) u_xctrl (
     .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack_o),
     .wrn_en_i(wrn_en), .we_i(wr_i && addr_i == can_regs_pkg::XctrlAddr), .be_i, .wdata_i,
@@ -278,7 +282,7 @@ module can_regs #(
         end
         can_regs_pkg::XidAddr:      rdata_o = can_regs_pkg::XidReset;
         can_regs_pkg::XversionAddr: rdata_o = can_regs_pkg::XversionReset;
-        can_regs_pkg::XconfigAddr:  rdata_o = can_regs_pkg::XconfigReset | 32'(NumMb);
+        can_regs_pkg::XconfigAddr:  rdata_o = Config;
         can_regs_pkg::XctrlAddr:    rdata_o = xctrl;
         default: ;
       endcase

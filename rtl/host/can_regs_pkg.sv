@@ -5,6 +5,8 @@
 // sw/registers.yaml; edits are lost. <Reg>Addr counts words; <Reg><Field> is the lowest bit of a
 // field and <Reg><Field>W its width, if it has more than one; <Reg>Any, Freeze, Disable and WrnEn
 // are the bits that a write changes at any time, in freeze mode, in disable mode, with MCR.WRN_EN.
+// Of a core that says xconfig of itself: <reg>_has() are the bits that it has of a register,
+// <reg>_without() is what those read that it has not.
 
 package can_regs_pkg;
 
@@ -209,7 +211,7 @@ package can_regs_pkg;
 
   // XVERSION: Extension: version of the extension page
   localparam logic [10:0] XversionAddr      = 11'h401;
-  localparam logic [31:0] XversionReset     = 32'h0001_0001;
+  localparam logic [31:0] XversionReset     = 32'h0001_0002;
   localparam int          XversionMajor     = 16;
   localparam int          XversionMajorW    = 16;
   localparam int          XversionMinor     = 0;
@@ -217,7 +219,13 @@ package can_regs_pkg;
 
   // XCONFIG: Extension: what this core has
   localparam logic [10:0] XconfigAddr       = 11'h402;
-  localparam logic [31:0] XconfigReset      = 32'h0000_0F00;
+  localparam logic [31:0] XconfigReset      = 32'h03F0_0F00;
+  localparam int          XconfigClearram   = 25;
+  localparam int          XconfigExtras     = 24;
+  localparam int          XconfigWake       = 23;
+  localparam int          XconfigStatus     = 22;
+  localparam int          XconfigOwnmasks   = 21;
+  localparam int          XconfigAbort      = 20;
   localparam int          XconfigRxfifo     = 11;
   localparam int          XconfigOsmb       = 10;
   localparam int          XconfigOneshot    = 9;
@@ -268,4 +276,37 @@ package can_regs_pkg;
   localparam int          MbData1Byte2W     = 8;
   localparam int          MbData1Byte3      = 0;
   localparam int          MbData1Byte3W     = 8;
+
+  function automatic logic [31:0] mcr_has(input logic [31:0] xconfig);
+    mcr_has = 32'hDBB6_CC80;
+    if (xconfig[XconfigRxfifo]) mcr_has |= 32'h2000_0300;
+    if (xconfig[XconfigAbort]) mcr_has |= 32'h0000_1000;
+    if (xconfig[XconfigOwnmasks]) mcr_has |= 32'h0001_0000;
+    if (xconfig[XconfigWake]) mcr_has |= 32'h0448_0000;
+    if (xconfig[XconfigExtras]) mcr_has |= 32'h0000_207F;
+  endfunction
+  function automatic logic [31:0] mcr_without(input logic [31:0] xconfig);
+    mcr_without = '0;
+    if (!xconfig[XconfigExtras]) mcr_without |= (xconfig & 32'h0000_00FF) - 32'd1;
+  endfunction
+
+  function automatic logic [31:0] ctrl1_has(input logic [31:0] xconfig);
+    ctrl1_has = 32'hFFFF_FFCF;
+    if (xconfig[XconfigExtras]) ctrl1_has |= 32'h0000_0030;
+  endfunction
+
+  function automatic logic [31:0] ctrl2_has(input logic [31:0] xconfig);
+    ctrl2_has = 32'hF0F9_FFFF;
+    if (xconfig[XconfigRxfifo]) ctrl2_has |= 32'h0F04_0000;
+    if (xconfig[XconfigExtras]) ctrl2_has |= 32'h0002_0000;
+  endfunction
+  function automatic logic [31:0] ctrl2_without(input logic [31:0] xconfig);
+    ctrl2_without = '0;
+    if (!xconfig[XconfigExtras]) ctrl2_without |= 32'h0002_0000;
+  endfunction
+
+  function automatic logic [31:0] xctrl_has(input logic [31:0] xconfig);
+    xctrl_has = 32'hFFFF_FFF8;
+    if (xconfig[XconfigExtras]) xctrl_has |= 32'h0000_0007;
+  endfunction
 endpackage

@@ -8,6 +8,20 @@
 module can_top #(
   /// Message buffers: 16, 32 or 64; the Linux driver uses number 63.
   parameter int NumMb = 64,
+  /// What the core has, 1, or has not, 0 (docs/integration.md): the Rx FIFO;
+  parameter int Fifo = 1,
+  /// aborts that are certain of their outcome (MCR.AEN);
+  parameter int Abort = 1,
+  /// ESR2 and CRCR;
+  parameter int Status = 1,
+  /// a mask for each buffer, and the queue of several matching buffers (RXIMR, MCR.BCC);
+  parameter int OwnMasks = 1,
+  /// stop mode and waking from it;
+  parameter int Wake = 1,
+  /// local priority, one-shot, tolerance of CAN FD, MAXMB, LBUF, remote answers, TSYN;
+  parameter int Extras = 1,
+  /// zeros in the RAM of the buffers after a hard reset: without, software has to clear it.
+  parameter int ClearRam = 1,
   /// Clocks that the bus must be dominant to wake the core through the filter (MCR.WAK_SRC).
   parameter int WakeFilter = 6
 ) (
@@ -43,6 +57,19 @@ module can_top #(
     NumMb_must_be_16_32_or_64 u_stop ();   // no such module: the tool prints the name and stops
   end
 
+  if (((Fifo | Abort | Status | OwnMasks | Wake | Extras | ClearRam) & ~1) != 0)
+  begin : gen_check_features
+    Fifo_Abort_Status_OwnMasks_Wake_Extras_ClearRam_must_be_0_or_1 u_stop ();
+  end
+  // As XCONFIG tells it.
+  localparam logic [31:0] Config = 32'(NumMb)
+      | 32'(Fifo)     << can_regs_pkg::XconfigRxfifo   | 32'(Abort)  << can_regs_pkg::XconfigAbort
+      | 32'(Status)   << can_regs_pkg::XconfigStatus   | 32'(Wake)   << can_regs_pkg::XconfigWake
+      | 32'(OwnMasks) << can_regs_pkg::XconfigOwnmasks | 32'(Extras) << can_regs_pkg::XconfigExtras
+      | 32'(Extras)   << can_regs_pkg::XconfigOsmb     | 32'(Extras) << can_regs_pkg::XconfigOneshot
+      | 32'(Extras)   << can_regs_pkg::XconfigFdtol
+      | 32'(ClearRam) << can_regs_pkg::XconfigClearram;
+
   // Where a command goes: buffers, masks and TIMER to the mailbox, the rest to the registers.
   logic       req, in_mb, in_mask, in_gmask, in_timer, in_rxfir, to_mb, wr_ok, frz_ack;
   logic [1:0] kind, word;
@@ -54,16 +81,20 @@ module can_top #(
   assign mb_idx   = {hi, addr_i[6:4]};
   assign mask_idx = {hi, addr_i[6:2]};
   assign in_mb    = addr_i[12:11] == 2'b00 && mb_idx[6:IdxW] == '0;
-  assign in_mask  = addr_i[12:11] == 2'b01 && mask_idx[8:IdxW] == '0;
+  assign in_mask  = OwnMasks != 0 && addr_i[12:11] == 2'b01 && mask_idx[8:IdxW] == '0;
   assign in_gmask = addr_i == can_regs_pkg::RxgmaskAddr  || addr_i == can_regs_pkg::Rx14maskAddr
-                 || addr_i == can_regs_pkg::Rx15maskAddr || addr_i == can_regs_pkg::RxfgmaskAddr;
+                 || addr_i == can_regs_pkg::Rx15maskAddr
+                 || (Fifo != 0 && addr_i == can_regs_pkg::RxfgmaskAddr);
   assign in_timer = addr_i == can_regs_pkg::TimerAddr;
-  assign in_rxfir = addr_i == can_regs_pkg::RxfirAddr;
+  assign in_rxfir = Fifo != 0 && addr_i == can_regs_pkg::RxfirAddr;
   assign to_mb    = in_mb || in_mask || in_gmask || in_timer || in_rxfir;
   // masks: in freeze mode only
   assign wr_ok    = in_mb || in_timer || (frz_ack && !in_rxfir);
 
+  // Global masks are hidden rows: of the masks' memory, or of the MSG memory (can_mailbox).
+  logic [1:0]      gmask;
   logic [IdxW-1:0] idx;
+  assign gmask = {addr_i[3] | addr_i[6], addr_i[2] | addr_i[6]};
   always_comb begin
     kind = 2'd3;
     word = addr_i[3:2] - 2'd1;
@@ -72,8 +103,8 @@ module can_top #(
       kind = {1'b0, addr_i[3:2] != 2'd0};
     end else if (in_mask || in_gmask) begin
       kind = 2'd2;
-      word = {1'b0, in_gmask};
-      idx  = in_gmask ? IdxW'({addr_i[3] | addr_i[6], addr_i[2] | addr_i[6]}) : mask_idx[IdxW-1:0];
+      word = OwnMasks != 0 ? {1'b0, in_gmask} : 2'd3;
+      idx  = OwnMasks == 0 ? IdxW'({gmask, 2'd3}) : in_gmask ? IdxW'(gmask) : mask_idx[IdxW-1:0];
     end else if (in_rxfir) begin              // hidden bits of the C/S word at the FIFO's output
       kind = 2'd0;
       word = 2'd1;
@@ -130,13 +161,14 @@ module can_top #(
   logic        start, stamp, rx_hdr, rx_ide, rx_srr, rx_rtr, rx_byte_we, rx_valid;
   logic [28:0] rx_id;
 
-  can_regs #(.NumMb(NumMb)) u_regs (
+  can_regs #(.NumMb(NumMb), .Config(Config)) u_regs (
     .clk_i, .rst_ni,
     .rd_i(reg_rd_q), .wr_i(reg_wr_q), .addr_i(reg_addr_q), .be_i(reg_be_q), .wdata_i,
     .rdata_o(reg_rdata),
     .run_o(run), .clear_o(clear), .frz_ack_o(frz_ack), .lpm_ack_o(lpm_ack),
     .mb_busy_i(mb_busy), .mb_scrub_i(mb_scrub),
-    .stop_req_i, .wake_i(wake), .wake_en_o(wake_en), .wake_filter_o(wake_filter), .supv_o,
+    .stop_req_i(stop_req_i && Wake != 0), .wake_i(wake), .wake_en_o(wake_en),
+    .wake_filter_o(wake_filter), .supv_o,
     .bcc_o(bcc), .srx_dis_o(srx_dis), .lbuf_o(lbuf), .tsyn_o(tsyn),
     .lprio_en_o(lprio_en), .aen_o(aen), .eacen_o(eacen), .rrs_o(rrs), .oneshot_o(oneshot),
     .osmb_o(osmb), .maxmb_o(maxmb),
@@ -152,10 +184,20 @@ module can_top #(
     .idle_i(idle), .transmitter_i(transmitter), .receiver_i(receiver), .synch_i(synch),
     .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o);
 
-  can_wake #(.FilterClocks(WakeFilter)) u_wake (
-    .clk_i, .rst_ni, .enable_i(wake_en), .filter_i(wake_filter), .rx_i(rx_level), .wake_o(wake));
+  if (Wake != 0) begin : gen_wake
+    can_wake #(.FilterClocks(WakeFilter)) u_wake (
+      .clk_i, .rst_ni, .enable_i(wake_en), .filter_i(wake_filter), .rx_i(rx_level),
+      .wake_o(wake));
+  end else begin : gen_no_wake
+    logic unused;
+    assign unused = &{1'b0, wake_filter, rx_level};
+    assign wake   = 1'b0;
+  end
 
-  can_mailbox #(.NumMb(NumMb)) u_mailbox (
+  can_mailbox #(
+    .NumMb(NumMb), .Fifo(Fifo), .Abort(Abort), .Status(Status), .OwnMasks(OwnMasks),
+    .ClearRam(ClearRam)
+  ) u_mailbox (
     .clk_i, .rst_ni,
     .running_i(running), .lpm_i(lpm_ack), .clear_i(clear), .bcc_i(bcc),
     .eacen_i(eacen), .rrs_i(rrs),

@@ -6,11 +6,18 @@
 //
 // Hidden rows behind the buffers. C/S: NumMb + 0 the frame sent, + 2/3 frames received.
 // MSG (from 3 * NumMb): 4 * (0/1 frames to send, 2/3 frames received) + (0 ID, 1 bytes 0-3, 2 bytes
-// 4-7). MASK: NumMb + 0 RXGMASK, + 1 RX14MASK, + 2 RX15MASK, + 3 RXFGMASK, + 4 all ones.
+// 4-7). MASK: NumMb + 0 RXGMASK, + 1 RX14MASK, + 2 RX15MASK, + 3 RXFGMASK, + 4 all ones. Without
+// OwnMasks there is no MASK, and the four are in MSG, 3 * NumMb + 4 * (0 .. 3) + 3.
 
 module can_mailbox #(
   /// Message buffers: 16, 32 or 64.
   parameter int NumMb = 64,
+  /// Features, see can_top.
+  parameter int Fifo = 1,
+  parameter int Abort = 1,
+  parameter int Status = 1,
+  parameter int OwnMasks = 1,
+  parameter int ClearRam = 1,
   /// Derived, do not override.
   localparam int IdxW = $clog2(NumMb)
 ) (
@@ -153,7 +160,9 @@ module can_mailbox #(
   logic [IdxW:0]   rx_mask_row;
   logic [8:0]      idhit;
   logic [1:0]      way;
-  can_mb_match #(.NumMb(NumMb)) u_match (
+  can_mb_match #(
+    .NumMb(NumMb), .Fifo(Fifo), .OwnMasks(OwnMasks), .ClearRam(ClearRam)
+  ) u_match (
     .clk_i, .rst_ni, .clear_i(fifo_clear_i), .bcc_i, .eacen_i, .rrs_i, .maxmb_i,
     .fen_i, .idam_i, .rffn_i, .mrp_i, .first_i(first),
     .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_rtr_i,
@@ -206,7 +215,7 @@ module can_mailbox #(
   logic            pass, pass_end, seen, seen_act, seen_free;
   logic [IdxW-1:0] seen_idx;
   logic [34:0]     seen_val;
-  can_mb_tx #(.NumMb(NumMb)) u_tx (
+  can_mb_tx #(.NumMb(NumMb), .Status(Status)) u_tx (
     .clk_i, .rst_ni, .running_i, .lbuf_i, .lprio_en_i, .first_i(first), .maxmb_i,
     .csw_i(csw), .csw_idx_i(csw_idx), .csw_act_i(csw_act), .ans_i(ans), .ans_idx_i(mv_idx),
     .off_i(off), .cur_idx_i(cur_idx), .start_i(started), .retry_i(retry), .bad_i(bad),
@@ -240,20 +249,34 @@ module can_mailbox #(
     .cancel_o(ld_cancel), .code_o(ld_code), .flag_o(ld_flag), .sent_o(sent), .take_o(ld_take),
     .busy_o(ld_busy));
 
-  can_mb_guard #(.NumMb(NumMb)) u_guard (
-    .clk_i, .rst_ni, .clear_i, .aen_i,
-    .waited_i(waited), .kind_i(cpu_kind), .idx_i(cpu_idx), .be3_i(cpu_be[3]),
-    .code_i(wdata_i[27:24]), .area_i(raw), .ended_i(cs[30]),
-    .block_o(block), .abort_o(abort),
-    .out_i(out), .kept_i(kept), .done_i(done), .cur_idx_i(cur_idx),
-    .flag_o(ab_flag), .flag_idx_o(ab_idx), .gnt_i(!mv_flag && !ld_flag),
-    .end_i(flag_o && !mv_flag), .end_idx_i(flag_idx_o), .iflag_i(iflag_i[NumMb-1:0]));
+  if (Abort != 0) begin : gen_guard
+    can_mb_guard #(.NumMb(NumMb)) u_guard (
+      .clk_i, .rst_ni, .clear_i, .aen_i,
+      .waited_i(waited), .kind_i(cpu_kind), .idx_i(cpu_idx), .be3_i(cpu_be[3]),
+      .code_i(wdata_i[27:24]), .area_i(raw), .ended_i(cs[30]),
+      .block_o(block), .abort_o(abort),
+      .out_i(out), .kept_i(kept), .done_i(done), .cur_idx_i(cur_idx),
+      .flag_o(ab_flag), .flag_idx_o(ab_idx), .gnt_i(!mv_flag && !ld_flag),
+      .end_i(flag_o && !mv_flag), .end_idx_i(flag_idx_o), .iflag_i(iflag_i[NumMb-1:0]));
+  end else begin : gen_no_guard
+    assign {block, abort, ab_flag} = '0;
+    assign ab_idx = '0;
+    logic unused_guard;
+    assign unused_guard = &{1'b0, waited, raw, out, kept, done};
+  end
 
-  can_mb_status #(.NumMb(NumMb)) u_status (
-    .clk_i, .rst_ni, .clear_i, .lbuf_i, .csw_i(csw),
-    .pass_i(pass), .pass_end_i(pass_end), .seen_i(seen), .seen_idx_i(seen_idx),
-    .seen_val_i(seen_val), .seen_act_i(seen_act), .seen_free_i(seen_free),
-    .sent_i(sent), .tx_ok_i, .cur_idx_i(cur_idx), .crc_i, .esr2_o, .crcr_o);
+  if (Status != 0) begin : gen_status
+    can_mb_status #(.NumMb(NumMb)) u_status (
+      .clk_i, .rst_ni, .clear_i, .lbuf_i, .csw_i(csw),
+      .pass_i(pass), .pass_end_i(pass_end), .seen_i(seen), .seen_idx_i(seen_idx),
+      .seen_val_i(seen_val), .seen_act_i(seen_act), .seen_free_i(seen_free),
+      .sent_i(sent), .tx_ok_i, .cur_idx_i(cur_idx), .crc_i, .esr2_o, .crcr_o);
+  end else begin : gen_no_status
+    assign {esr2_o, crcr_o} = '0;
+    logic unused_status;
+    assign unused_status = &{1'b0, pass, pass_end, seen, seen_idx, seen_val, seen_act, seen_free,
+                             sent, crc_i};
+  end
 
   logic            copy, copy_cs, eng_req, eng_lazy;
   logic [3:0]      copy_be;
@@ -278,10 +301,11 @@ module can_mailbox #(
     .copy_o(copy), .copy_cs_o(copy_cs), .copy_be_o(copy_be), .copy_row_o(copy_row),
     .copy_data_o(copy_data));
 
-  can_mb_port #(.NumMb(NumMb)) u_port (
+  // Without aborts no write waits for its buffer's C/S word.
+  can_mb_port #(.NumMb(NumMb), .OwnMasks(OwnMasks), .ClearRam(ClearRam)) u_port (
     .clk_i, .rst_ni,
-    .cmd_slot_i, .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_look_i(cmd_look), .cmd_kind_i, .cmd_word_i,
-    .cmd_idx_i(cmd_idx), .cmd_be_i, .look_i(aen_i), .wdata_i(ram_wdata),
+    .cmd_slot_i, .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_look_i(cmd_look && Abort != 0), .cmd_kind_i,
+    .cmd_word_i, .cmd_idx_i(cmd_idx), .cmd_be_i, .look_i(aen_i || Abort == 0), .wdata_i(ram_wdata),
     .block_i(block), .ready_o,
     .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done), .waited_o(waited),
     .kind_o(cpu_kind), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),

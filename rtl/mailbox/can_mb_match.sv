@@ -13,6 +13,10 @@
 
 module can_mb_match #(
   parameter int NumMb = 64,
+  /// Features, see can_top.
+  parameter int Fifo = 1,
+  parameter int OwnMasks = 1,
+  parameter int ClearRam = 1,
   /// Derived, do not override.
   localparam int IdxW = $clog2(NumMb)
 ) (
@@ -74,48 +78,76 @@ module can_mb_match #(
   logic [1:0]      flt_word;
   logic [IdxW:0]   flt_mask_row;
   logic [8:0]      idhit;
-  can_mb_filter #(.NumMb(NumMb)) u_filter (
-    .clk_i, .rst_ni, .clear_i, .bcc_i, .idam_i, .rffn_i, .first_i,
-    .start_i(rx_hdr_i && fen_i), .id_i(id), .ide_i(ide), .rtr_i(rtr),
-    .req_o(flt_req), .idx_o(flt_idx), .word_o(flt_word), .mask_row_o(flt_mask_row),
-    .gnt_i(gnt_i && flt_busy), .cs_i, .msg_i, .mask_i,
-    .busy_o(flt_busy), .hit_o(flt_hit), .idhit_o(idhit));
-
   logic            mb_req, mb_done, mb_hit, mb_free, mb_ans;
   logic [IdxW-1:0] mb_idx, mb_hit_idx;
   can_mb_rx #(.NumMb(NumMb)) u_rx (
     .clk_i, .rst_ni, .clear_i, .bcc_i, .eacen_i, .rrs_i, .maxmb_i, .first_i,
     .wait_i(flt_busy || enough), .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_rtr_i,
     .lock_i, .lock_idx_i, .csw_i, .csw_idx_i, .csw_empty_i, .csw_ide_i,
-    .req_o(mb_req), .idx_o(mb_idx), .gnt_i(gnt_i && !flt_busy), .stale_i,
-    .cs_i, .id_i(msg_i), .mask_i,
+    .req_o(mb_req), .idx_o(mb_idx), .gnt_i(gnt && !flt_busy), .stale_i,
+    .cs_i, .id_i(msg_i), .mask_i(mb_mask),
     .id_o(id), .ide_o(ide), .rtr_o(rtr), .ans_o(mb_ans),
     .done_o(mb_done), .hit_o(mb_hit), .hit_free_o(mb_free), .hit_idx_o(mb_hit_idx));
 
-  logic [2:0] tail;
-  can_rx_fifo u_fifo (
-    .clk_i, .rst_ni, .clear_i, .bcc_i, .mrp_i, .pop_i, .head_o, .avail_o, .warn_o, .ovf_o,
-    .rx_hdr_i, .filter_i(flt_hit), .idhit_i(idhit), .mb_hit_i(mb_hit), .mb_free_i(mb_free),
-    .enough_o(enough), .take_o(hit_fifo_o), .resolve_i, .stored_i, .way_i, .tail_o(tail), .idhit_o);
+  logic          req, load, gnt;
+  logic [1:0]    gmask;
+  logic [31:0]   mask, mb_mask;
 
-  // Masks of mailboxes: their own, or RXGMASK, RX14MASK, RX15MASK; all ones where a remote frame
-  // looks for its answer (a row that nobody writes).
-  logic [IdxW:0] mb_mask_row;
-  always_comb begin
-    mb_mask_row = {1'b0, mb_idx};
-    if (mb_ans) begin
-      mb_mask_row = (IdxW+1)'(NumMb + 4);
-    end else if (!bcc_i) begin
-      mb_mask_row = (IdxW+1)'(NumMb);
-      if (mb_idx == IdxW'(14)) mb_mask_row[0] = 1'b1;
-      if (mb_idx == IdxW'(15)) mb_mask_row[1] = 1'b1;
-    end
+  // The Rx FIFO with its filter table.
+  logic [2:0] tail;
+  if (Fifo != 0) begin : gen_fifo
+    can_mb_filter #(.NumMb(NumMb)) u_filter (
+      .clk_i, .rst_ni, .clear_i, .bcc_i, .idam_i, .rffn_i, .first_i,
+      .start_i(rx_hdr_i && fen_i), .id_i(id), .ide_i(ide), .rtr_i(rtr),
+      .req_o(flt_req), .idx_o(flt_idx), .word_o(flt_word), .mask_row_o(flt_mask_row),
+      .gnt_i(gnt && flt_busy), .cs_i, .msg_i, .mask_i(mask),
+      .busy_o(flt_busy), .hit_o(flt_hit), .idhit_o(idhit));
+    can_rx_fifo u_fifo (
+      .clk_i, .rst_ni, .clear_i, .bcc_i, .mrp_i, .pop_i, .head_o, .avail_o, .warn_o, .ovf_o,
+      .rx_hdr_i, .filter_i(flt_hit), .idhit_i(idhit), .mb_hit_i(mb_hit), .mb_free_i(mb_free),
+      .enough_o(enough), .take_o(hit_fifo_o), .resolve_i, .stored_i, .way_i, .tail_o(tail),
+      .idhit_o);
+  end else begin : gen_no_fifo
+    assign {flt_req, flt_idx, flt_word, flt_mask_row, flt_busy, flt_hit, idhit} = '0;
+    assign {head_o, avail_o, warn_o, ovf_o, enough, hit_fifo_o, tail, idhit_o} = '0;
+    logic unused;
+    assign unused = &{1'b0, fen_i, idam_i, rffn_i, mrp_i, id, ide, rtr, mb_free, resolve_i,
+                      stored_i, way_i, pop_i, flt_mask_row, flt_hit, idhit, mask};
   end
 
-  assign req_o      = flt_req || mb_req;
-  assign idx_o      = flt_busy ? flt_idx : mb_idx;
-  assign word_o     = flt_busy ? flt_word - 2'd1 : 2'd0;
-  assign mask_row_o = flt_busy ? flt_mask_row : mb_mask_row;
+  // Masks of mailboxes: their own, or RXGMASK, RX14MASK, RX15MASK; all ones where a remote frame
+  // looks for its answer.
+  always_comb begin
+    gmask = 2'd0;
+    if (mb_idx == IdxW'(14)) gmask = 2'd1;
+    if (mb_idx == IdxW'(15)) gmask = 2'd2;
+  end
+  assign req = flt_req || mb_req;
+
+  if (OwnMasks != 0) begin : gen_own_masks
+    // A row of ones that nobody writes, if the RAM has been cleared.
+    logic [IdxW:0] mb_row;
+    assign mb_row     = mb_ans && ClearRam != 0 ? (IdxW+1)'(NumMb + 4)
+                      : bcc_i ? {1'b0, mb_idx} : (IdxW+1)'(NumMb) | (IdxW+1)'(gmask);
+    assign mask       = mask_i;
+    assign mb_mask    = ClearRam != 0 ? mask_i : mask_i | {32{mb_ans}};
+    assign mask_row_o = flt_busy ? flt_mask_row : mb_row;
+    assign req_o      = req;
+    assign load       = 1'b0;
+    assign gnt        = gnt_i;
+  end else begin : gen_global_masks
+    can_mb_mask u_mask (
+      .clk_i, .rst_ni, .clear_i(rx_hdr_i), .req_i(req), .want_i(flt_busy ? 2'd3 : gmask),
+      .all_i(mb_ans && !flt_busy), .req_o, .load_o(load), .gnt_i, .gnt_o(gnt), .msg_i,
+      .mask_o(mask));
+    assign mb_mask    = mask;
+    assign mask_row_o = '0;
+    logic unused_masks;
+    assign unused_masks = &{1'b0, mask_i, flt_mask_row};
+  end
+
+  assign idx_o  = load ? IdxW'({flt_busy ? 2'd3 : gmask, 2'd3}) : flt_busy ? flt_idx : mb_idx;
+  assign word_o = load ? 2'd3 : flt_busy ? flt_word - 2'd1 : 2'd0;
 
   assign done_o    = !flt_busy && (enough || mb_done);
   assign hit_o     = hit_fifo_o || mb_hit;

@@ -16,13 +16,17 @@
 
 module can_mb_port #(
   parameter int NumMb = 64,
+  /// Features, see can_top.
+  parameter int OwnMasks = 1,
+  parameter int ClearRam = 1,
   /// Derived, do not override.
   localparam int IdxW = $clog2(NumMb)
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
   // CPU, command: only while ready_o. kind: 0 C/S (word 3; 1: RXFIR, the same row), 1 ID or data
-  // (word 0..2), 2 mask (word[0]: hidden row), 3 no RAM, but ordered like one (TIMER).
+  // (word 0..2), 2 mask (word[0]: hidden row; without OwnMasks word 3 of the MSG memory), 3 no RAM,
+  // but ordered like one (TIMER).
   input  logic            cmd_slot_i,   // cmd_rd_i may be set: early, for who gets the read port
   input  logic            cmd_rd_i,
   input  logic            cmd_wr_i,
@@ -91,14 +95,19 @@ module can_mb_port #(
   localparam logic [1:0] KindTimer = 2'd3;
 
   logic [IdxW+1:0] scrub_row_q;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      scrub_o     <= 1'b1;
-      scrub_row_q <= '0;
-    end else if (scrub_o) begin
-      scrub_o     <= scrub_row_q != '1;
-      scrub_row_q <= scrub_row_q + 1'b1;
+  if (ClearRam != 0) begin : gen_scrub
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        scrub_o     <= 1'b1;
+        scrub_row_q <= '0;
+      end else if (scrub_o) begin
+        scrub_o     <= scrub_row_q != '1;
+        scrub_row_q <= scrub_row_q + 1'b1;
+      end
     end
+  end else begin : gen_no_scrub
+    assign scrub_o     = 1'b0;
+    assign scrub_row_q = '0;
   end
 
   // CPU transfer in its data phase.
@@ -170,6 +179,11 @@ module can_mb_port #(
   assign msg_raddr  = cpu_gnt ? {c_word, c_idx} : ins_gnt_o ? {2'b00, ins_idx_i} : eng_msg_row_i;
   assign mask_raddr = cpu_gnt ? {c_word[0], c_idx} : eng_mask_row_i;
 
+  // Masks without a memory of their own.
+  function automatic logic in_msg(input logic [1:0] kind);
+    in_msg = OwnMasks == 0 && kind == KindMask;
+  endfunction
+
   // The word that is written: memory, row, byte lanes, data. Who writes is known early; whether it
   // is written at all, late.
   logic            by_copy, w_cs, w_msg, w_mask;
@@ -184,7 +198,7 @@ module can_mb_port #(
     w_row  = ewr_row_i;
     w_data = ewr_data_i;
     if (scrub_o) begin
-      // RXGMASK, RX14MASK, RX15MASK are ones; the C/S rows were zeroed in the first half.
+      // The rows of masks that no buffer has are ones; the C/S rows were zeroed in the first half.
       {w_cs, w_msg, w_mask} = {!scrub_row_q[IdxW+1], 2'b11};
       w_row  = scrub_row_q;
       w_data = {32{&scrub_row_q[IdxW+1:IdxW]}};
@@ -193,8 +207,9 @@ module can_mb_port #(
       w_row  = copy_row_i;
       w_data = copy_data_i;
     end else if (w_gnt) begin
-      {w_cs, w_msg, w_mask} = {kind_q == KindCs, kind_q == KindMsg, kind_q == KindMask};
-      w_row  = {kind_q == KindMsg && word_q[1], kind_q != KindCs && word_q[0], idx_q};
+      {w_cs, w_msg, w_mask} = {kind_q == KindCs, kind_q == KindMsg || in_msg(kind_q),
+                               kind_q == KindMask};
+      w_row  = {kind_q != KindCs && word_q[1], kind_q != KindCs && word_q[0], idx_q};
       w_data = wdata_i;
     end else if (svc_req_i) begin
       {w_cs, w_msg, w_mask} = 3'b100;
@@ -211,8 +226,9 @@ module can_mb_port #(
   logic meets, shown;
   assign meets = (copy_i || ram_wr || svc_req_i)
               && ((w_cs && cmd_kind_i == KindCs && w_row[IdxW:0] == {1'b0, cmd_idx_i})
-                  || (w_msg && cmd_kind_i == KindMsg && w_row == {cmd_word_i, cmd_idx_i})
-                  || (w_mask && cmd_kind_i == KindMask
+                  || (w_msg && (cmd_kind_i == KindMsg || in_msg(cmd_kind_i))
+                      && w_row == {cmd_word_i, cmd_idx_i})
+                  || (OwnMasks != 0 && w_mask && cmd_kind_i == KindMask
                       && w_row[IdxW:0] == {cmd_word_i[0], cmd_idx_i}));
   assign shown = pend && copy_i && copy_row_i[IdxW-1:0] == idx_q
               && (copy_cs_i ? (wr_q || kind_q == KindCs) && !copy_row_i[IdxW]
@@ -241,9 +257,15 @@ module can_mb_port #(
   can_mb_ram #(.Depth(4 * NumMb)) u_msg (
     .clk_i, .re_i(re), .raddr_i(msg_raddr), .rdata_o(msg_o),
     .we_i(w_be & {4{w_msg}}), .waddr_i(w_row), .wdata_i(w_data));
-  can_mb_ram #(.Depth(2 * NumMb)) u_mask (
-    .clk_i, .re_i(re), .raddr_i(mask_raddr), .rdata_o(mask_o),
-    .we_i(w_be & {4{w_mask}}), .waddr_i(w_row[IdxW:0]), .wdata_i(w_data));
+  if (OwnMasks != 0) begin : gen_mask
+    can_mb_ram #(.Depth(2 * NumMb)) u_mask (
+      .clk_i, .re_i(re), .raddr_i(mask_raddr), .rdata_o(mask_o),
+      .we_i(w_be & {4{w_mask}}), .waddr_i(w_row[IdxW:0]), .wdata_i(w_data));
+  end else begin : gen_no_mask
+    logic unused;
+    assign unused = &{1'b0, mask_raddr, w_mask};
+    assign mask_o = msg_o;
+  end
 
   always_comb begin
     rdata_o = '0;

@@ -17,6 +17,8 @@
 
 module can_mb_tx #(
   parameter int NumMb = 64,
+  /// There is ESR2.
+  parameter int Status = 1,
   /// Derived, do not override.
   localparam int IdxW = $clog2(NumMb)
 ) (
@@ -151,7 +153,7 @@ module can_mb_tx #(
 
   // A pass for ESR2 alone is started anew by whatever happens; one that looks for a winner by the
   // loss of a winner, and not for ever.
-  assign change  = csw_i || ans_i;
+  assign change  = Status != 0 && (csw_i || ans_i);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

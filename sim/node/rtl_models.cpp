@@ -1,10 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// RtlNode::create(): one class template for the three Verilated sizes of can_ahb.
-#include "node/rtl_node.hpp"
-
-#include <algorithm>
+// RtlNode::create(): the three Verilated sizes of can_ahb.
 #include <stdexcept>
 #include <utility>
 
@@ -14,115 +11,9 @@
 #include "Vcan_host32___024root.h"
 #include "Vcan_host64.h"
 #include "Vcan_host64___024root.h"
-#include "node/model_pins.hpp"
-#include "node/quiet_engine.hpp"
-#include "node/split_core.hpp"
+#include "node/rtl_node_of.hpp"
 
 namespace vericansim {
-namespace {
-
-template <typename HostModel>
-class RtlNodeOf final : public RtlNode {
- public:
-  RtlNodeOf(std::string name, const ClockConfig &clock, unsigned num_mb)
-      : RtlNode{std::move(name), clock, num_mb} {
-    reset();
-  }
-
-  void reset() override {
-    disturbed();
-    quiet_.disturbed();
-    ahb().reset();
-    show_request(top_, ahb().request());
-    top_.hready = 1;
-    core_.engine().can_rx_i = 1;
-    core_.reset(true);
-    for (int i = 0; i < 4; ++i) core_.edge();
-    core_.reset(false);
-    core_.settle();
-    core_.edge();
-    drive(static_cast<Level>(core_.engine().can_tx_o));
-  }
-
-  void clock(Level rx) override {
-    core_.engine().can_rx_i = static_cast<std::uint8_t>(rx);
-    if (ahb().active()) {
-      transfer_cycle();
-    } else {
-      core_.edge();
-    }
-    if (!core_.resting()) quiet_.disturbed();
-    quiet_.clocked(core_.engine());
-    drive(static_cast<Level>(core_.engine().can_tx_o));
-    after_edge();
-  }
-
-  [[nodiscard]] std::uint64_t quiet() const override {
-    if (ahb().active() || !core_.resting()) return 0;
-    return std::min(quiet_.edges(core_.engine()), edges_to_waiter());
-  }
-
-  void pass(std::uint64_t edges) override {
-    QuietEngine::pass(core_.engine(), edges);
-    passed(edges);
-  }
-
-  [[nodiscard]] std::uint64_t trace() const override { return core_.engine().trace_o; }
-
-  [[nodiscard]] std::uint8_t irq_lines() const override { return model_irq_lines(top_); }
-
-  void request_stop(bool stop) override {
-    disturbed();
-    top_.stop_req_i = stop;
-    core_.touch();
-  }
-
-  [[nodiscard]] AhbResult peek(const AhbTransfer &transfer) override {
-    catch_up();
-    const auto before = core_.save();
-    AhbMaster probe;
-    AhbTransfer read = transfer;
-    read.write = false;
-    const AhbMaster::Ticket ticket = probe.submit(read);
-    while (!probe.done(ticket)) {
-      AhbRequest request = probe.request();
-      request.hwdata = ahb().request().hwdata;  // of the transfer under way
-      probe.clock(cycle(request));
-    }
-    core_.restore(before);
-    return probe.result(ticket);
-  }
-
- private:
-  // HREADYOUT, HRESP and HRDATA are read as they have settled with this cycle's request.
-  AhbResponse cycle(const AhbRequest &request) {
-    show_request(top_, request);
-    top_.hready = top_.hreadyout;
-    core_.settle();
-    if (top_.hready != top_.hreadyout) {
-      top_.hready = top_.hreadyout;
-      core_.settle();
-    }
-    const AhbResponse response{top_.hrdata, top_.hreadyout != 0, top_.hresp != 0};
-    core_.edge();
-    return response;
-  }
-
-  void transfer_cycle() {
-    ahb().clock(cycle(ahb().request()));
-    if (!ahb().active()) {
-      show_request(top_, ahb().request());
-      top_.hready = 1;
-      core_.touch();
-    }
-  }
-
-  SplitCore<HostModel> core_;
-  HostModel &top_ = core_.host();
-  QuietEngine quiet_;
-};
-
-}  // namespace
 
 std::unique_ptr<RtlNode> RtlNode::create(std::string name, const ClockConfig &clock,
                                          unsigned num_mb) {

@@ -280,8 +280,8 @@ INSTANTIATE_TEST_SUITE_P(
                 [](auto &core, auto &) { core.mcr_always = VERICAN_MCR_SOFT_RST_MASK; }},
         BadCore{"NeverFreezes", VERICAN_ERR_TIMEOUT,
                 [](auto &core, auto &) { core.mcr_never = VERICAN_MCR_FRZ_ACK_MASK; }},
-        BadCore{"NoMasks", VERICAN_ERR_DEVICE,
-                [](auto &core, auto &) { core.mcr_never = VERICAN_MCR_BCC_MASK; }},
+        BadCore{"NoWarnings", VERICAN_ERR_DEVICE,
+                [](auto &core, auto &) { core.mcr_never = VERICAN_MCR_WRN_EN_MASK; }},
         BadCore{"NoTiming", VERICAN_ERR_DEVICE,
                 [](auto &core, auto &) {
                   core.lossy = VERICAN_CTRL1_OFFSET;

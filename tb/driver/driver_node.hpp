@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bus/bus.hpp"
+#include "harness/core_build.hpp"
 #include "node/rtl_node.hpp"
 #include "verican/verican.h"
 
@@ -31,8 +32,8 @@ inline verican_frame_t driver_frame(std::uint32_t id, unsigned dlc = 8, unsigned
 /// One core with its driver.
 class DriverNode {
  public:
-  DriverNode(std::string name, const ClockConfig &clock, unsigned num_mb)
-      : rtl_{RtlNode::create(std::move(name), clock, num_mb)} {
+  DriverNode(std::string name, const ClockConfig &clock, const CoreBuild &build)
+      : rtl_{make_node(std::move(name), build, clock)} {
     verican_config_default(&config);
     config.port.read32 = &read;
     config.port.write32 = &write;
@@ -100,9 +101,11 @@ class DriverNode {
 /// A bus of such nodes, all with one ideal clock.
 class DriverBus {
  public:
-  explicit DriverBus(unsigned nodes, unsigned num_mb = 64, const ClockConfig &clock = {}) {
+  explicit DriverBus(unsigned nodes, unsigned num_mb = 64, const ClockConfig &clock = {})
+      : DriverBus{nodes, CoreBuild{.num_mb = num_mb}, clock} {}
+  DriverBus(unsigned nodes, const CoreBuild &build, const ClockConfig &clock = {}) {
     for (unsigned n = 0; n < nodes; ++n) {
-      nodes_.push_back(std::make_unique<DriverNode>("node" + std::to_string(n), clock, num_mb));
+      nodes_.push_back(std::make_unique<DriverNode>("node" + std::to_string(n), clock, build));
       bus.add(nodes_.back()->rtl());
     }
   }

@@ -30,5 +30,5 @@ class Device:
 
 DEVICES = {
     "ahb": Device("can_ahb", "replay.sv", "four_state_record", (16, 64),
-                  ("u_top.u_mailbox.u_match.u_filter.s2_equal_q",)),
+                  ("u_top.u_mailbox.u_match.gen_fifo.u_filter.s2_equal_q",)),
     "remote": Device("can_remote", "replay_remote.sv", "four_state_record_remote", (0,), ())}

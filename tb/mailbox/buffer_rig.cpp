@@ -35,9 +35,10 @@ std::uint32_t xctrl_of(const BufferConfig &config) {
   return (config.one_shot ? reg::kXctrlOneShot : 0) | (config.osmb ? reg::kXctrlOsmb : 0);
 }
 
-BufferRig::BufferRig(const BufferConfig &config, const BufferWindows &windows)
+BufferRig::BufferRig(const BufferConfig &config, const CoreBuild &build,
+                     const BufferWindows &windows)
     : model{config, windows},
-      node_{RtlNode::create("core", {}, config.num_mb)},
+      node_{make_node("core", build)},
       wave_{std::vector<const Node *>{node_.get()}} {
   peer_.preset_idle();
   run(300);  // until the buffer RAM is cleared
@@ -46,6 +47,10 @@ BufferRig::BufferRig(const BufferConfig &config, const BufferWindows &windows)
     throw std::runtime_error("no freeze mode after reset");
   configure(config);
   for (unsigned mb = 0; mb < config.num_mb; ++mb) write(reg::rximr(mb), 0xFFFFFFFF);
+  if (build.features.clear_ram) return;
+  for (unsigned mb = 0; mb < config.num_mb; ++mb) put(mb, {});
+  for (std::uint32_t mask : {reg::kRxgmask, reg::kRx14mask, reg::kRx15mask})
+    write(mask, 0xFFFFFFFF);
 }
 
 std::uint32_t BufferRig::read(std::uint32_t address) { return access({.address = address}).data; }

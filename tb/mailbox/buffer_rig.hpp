@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "bus/trace.hpp"
+#include "harness/core_build.hpp"
 #include "harness/test_wave.hpp"
 #include "mailbox/mailbox_rig.hpp"
 #include "model/buffer_model.hpp"
@@ -50,7 +51,10 @@ class BufferRig {
   static constexpr unsigned kBit = 8;  ///< clocks
 
   /// The core is in freeze mode after this, with `config` and all masks 1.
-  explicit BufferRig(const BufferConfig &config = {}, const BufferWindows &windows = {});
+  explicit BufferRig(const BufferConfig &config = {}, const BufferWindows &windows = {})
+      : BufferRig{config, {.num_mb = config.num_mb}, windows} {}
+  /// A core of a build; `config` must be one that it can have.
+  BufferRig(const BufferConfig &config, const CoreBuild &build, const BufferWindows &windows = {});
 
   // ---- Software on the core; runs the bus until the access is done
 

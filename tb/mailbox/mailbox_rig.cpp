@@ -37,15 +37,18 @@ Frame mb_frame(const MbWords &words) {
 }
 
 namespace {
-std::vector<std::unique_ptr<RtlNode>> make_nodes(unsigned count, unsigned num_mb) {
+std::vector<std::unique_ptr<RtlNode>> make_nodes(unsigned count, const CoreBuild &build) {
   std::vector<std::unique_ptr<RtlNode>> nodes;
   for (unsigned n = 0; n < count; ++n)
-    nodes.push_back(RtlNode::create("node" + std::to_string(n), {}, num_mb));
+    nodes.push_back(make_node("node" + std::to_string(n), build));
   return nodes;
 }
 }  // namespace
 
-MailboxRig::MailboxRig(unsigned nodes, unsigned num_mb) : MailboxRig{make_nodes(nodes, num_mb)} {}
+MailboxRig::MailboxRig(unsigned nodes, unsigned num_mb)
+    : MailboxRig{nodes, CoreBuild{.num_mb = num_mb}} {}
+MailboxRig::MailboxRig(unsigned nodes, const CoreBuild &build)
+    : MailboxRig{make_nodes(nodes, build)} {}
 
 MailboxRig::MailboxRig(std::vector<std::unique_ptr<RtlNode>> nodes)
     : num_mb_{nodes.front()->num_mb()},

@@ -13,6 +13,7 @@
 
 #include "bus/bus.hpp"
 #include "bus/trace.hpp"
+#include "harness/core_build.hpp"
 #include "harness/test_wave.hpp"
 #include "model/frame.hpp"
 #include "model/registers.hpp"
@@ -45,6 +46,8 @@ Frame mb_frame(const MbWords &words);
 class MailboxRig {
  public:
   explicit MailboxRig(unsigned nodes = 1, unsigned num_mb = 64);
+  /// With nodes of a build.
+  MailboxRig(unsigned nodes, const CoreBuild &build);
   /// With these nodes, all of the same size, at least one.
   explicit MailboxRig(std::vector<std::unique_ptr<RtlNode>> nodes);
 

@@ -10,6 +10,7 @@ from sv_tree import Node, Reader, Syntax, line_of, parse_expression
 
 FUNCTION = re.compile(r"function\s+automatic\s[^;(]*?(\w+)\s*\(")
 CONSTANT = re.compile(r"\blocalparam\b[^;]*;")
+FEATURE = re.compile(r"if \(\w+ != 0\) begin :")
 
 
 class Site:
@@ -58,6 +59,8 @@ class ModuleReader:
             self.statement(word)
         elif word == "function":
             self.function()
+        elif word == "if" and FEATURE.match(self.text, reader.tokens[reader.at].start):
+            self.feature()
         elif word == "if":                  # checks of parameters
             while reader.take().text != "end":
                 pass
@@ -65,6 +68,25 @@ class ModuleReader:
             self.instance()
         else:                               # declarations
             reader.skip_past(";")
+
+    def feature(self):
+        """What a core has with a feature, and what without: no model of a run lacks one, so that
+        the mutants are those of the first."""
+        self.block()
+        if self.reader.peek() == "else":
+            sites = len(self.sites)
+            self.block()
+            del self.sites[sites:]
+
+    def block(self):
+        """The items of a labelled block."""
+        reader = self.reader
+        while reader.take().text != ":":
+            pass
+        reader.take()
+        while reader.peek() != "end":
+            self.item()
+        reader.take()
 
     def function(self):
         """A function; one of constants is worked out before the simulation: no mutants."""

@@ -198,7 +198,8 @@ unsigned FlopNode::flip_ram(unsigned bit) {
     return 1;
   }
   word -= kMsgWords;
-  root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_mask__DOT__mem[word] ^= mask;
+  root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__gen_mask__DOT__u_mask__DOT__mem
+      [word] ^= mask;
   return 2;
 }
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """The C header: macros for offsets, reset values, fields and their values; C99 and C++."""
-from regmap.model import NUM_MB
+from regmap.model import MORE_THAN_32, NUM_MB
 
 PREFIX = "VERICAN_"
 
@@ -49,7 +49,8 @@ def define(name, value):
 
 
 def field_macros(name, part):
-    yield from comment(f"{part.name}: {part.doc}")
+    only = f" Only with {part.only_if}." if part.only_if else ""
+    yield from comment(f"{part.name}: {part.doc}{only}")
     yield define(f"{name}_MASK", f"0x{part.mask:08X}u")
     yield define(f"{name}_SHIFT", f"{part.low}u")
     if part.width > 1:
@@ -63,7 +64,8 @@ def field_macros(name, part):
 def register_macros(prefix, register, offset):
     """`offset`: [(macro, value)], nothing for a layout without an address."""
     yield ""
-    only = " Only with more than 32 buffers." if register.only_if else ""
+    only = f" Only if {register.only_if}." if register.only_if == MORE_THAN_32 else \
+        f" Only with {register.only_if}." if register.only_if else ""
     yield from comment(f"{register.name}: {register.title}.{only}")
     for macro, value in offset:
         yield define(macro, value)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The register chapter, docs/registers.md, and its pictures."""
 from regmap import picture
-from regmap.model import NUM_MB
+from regmap.model import MORE_THAN_32, NUM_MB
 
 PAGE = "docs/registers.md"
 PICTURES = "docs/img/registers"
@@ -37,7 +37,9 @@ reading clears; `w1s` writing 1 requests, and the bit clears itself.
 **Reset** is the value after the hard reset. The soft reset (MCR.SOFT_RST) brings a register back
 to it or keeps it, as the tables say; *state* is a bit that shows what is going on at any moment.
 
-`NumMb` is the number of message buffers of the core, 16, 32 or 64; XCONFIG.NUM_MB tells.
+`NumMb` is the number of message buffers of the core, 16, 32 or 64; XCONFIG.NUM_MB tells. What is
+there only with one of the core's [features](integration.md#features) says so: bits without their
+feature are reserved, and XCONFIG tells which features the core has.
 """
 
 RECIPES = """
@@ -92,11 +94,19 @@ def values_of(part):
     return "".join(f"<br>{value.value} {value.name}: {value.doc}" for value in part.values)
 
 
+def condition(part):
+    """A sentence about a field that some cores do not have."""
+    if not part.only_if:
+        return ""
+    return f" Only with {part.only_if}" + (f", reads {part.without} without." if part.without
+                                           else ".")
+
+
 def field_row(part):
     written = part.write if part.access in ("rw", "w1s") else "–"
     after = "state" if part.live and part.access == "ro" else "kept" if part.kept else "reset"
     return (f"| {part.bits} | {part.name} | {part.access} | {written} | {number(part.reset)} "
-            f"| {after} | {part.doc}{values_of(part)} |")
+            f"| {after} | {part.doc}{values_of(part)}{condition(part)} |")
 
 
 def image(name):
@@ -106,7 +116,10 @@ def image(name):
 def register_section(register, heading, anchor, where):
     text = [f"\n{heading} {register.name}\n\n{register.title}. {where}."]
     if register.only_if:
-        text.append(f" Only if {register.only_if}; reserved otherwise.")
+        word = "if" if register.only_if == MORE_THAN_32 else "with"
+        text.append(f" Only {word} {register.only_if}; reserved otherwise.")
+    if register.in_ram:
+        text.append(" Without ClearRam undefined after a hard reset.")
     if register.per_buffer is not None:
         text.append(" Bits of buffers that the core does not have are reserved.")
     if register.read_effect:

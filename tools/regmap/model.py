@@ -7,6 +7,8 @@ from pathlib import Path
 import yaml
 
 NUM_MB = "NumMb"  # stands for the number of buffers where a number may stand
+LAST_MB = "NumMb - 1"
+MORE_THAN_32 = "NumMb > 32"  # the one condition that is no feature
 ACCESSES = ("rw", "ro", "w1c", "rc", "w1s")
 WRITES = ("any", "freeze", "disable", "wrn_en")
 
@@ -68,6 +70,8 @@ class Field:
     kept: bool = True             # over a soft reset
     after_soft_reset: object = 0  # same as `reset` if nothing else is said
     values: list = field(default_factory=list)
+    only_if: str = ""             # name of a feature
+    without: object = 0           # what it reads if that is missing: a number or LAST_MB
 
     @property
     def width(self):
@@ -101,6 +105,7 @@ class Register:
     only_if: str = ""
     per_buffer: object = None     # number of the buffer of bit 0, if a bit is a buffer
     read_effect: str = ""         # what a read does besides reading
+    in_ram: bool = False          # undefined after a hard reset without ClearRam
 
     def value(self, attribute, num_mb):
         """The fields' `attribute` ("reset", "after_soft_reset") put together."""
@@ -114,14 +119,28 @@ class Register:
         """The bits of the fields that are wanted."""
         return sum(part.mask for part in self.fields if wanted(part))
 
-    def exists(self, num_mb):
-        return not self.only_if or num_mb > 32
+    @property
+    def feature(self):
+        """The feature that the whole register belongs to, or nothing."""
+        return "" if self.only_if == MORE_THAN_32 else self.only_if
+
+    def feature_mask(self, name, wanted=lambda part: True):
+        """The bits, of fields that are wanted, that exist only with the feature."""
+        return self.mask(lambda part: wanted(part) and name in (part.only_if, self.feature))
 
     def buffer_mask(self, num_mb):
         """The bits of a per-buffer register that stand for buffers of the core."""
         if self.per_buffer is None:
             return 0xFFFFFFFF
         return (1 << max(0, min(32, num_mb - self.per_buffer))) - 1
+
+
+@dataclass
+class Feature:
+    """A parameter of the core, 0 or 1, that has bits or registers of its own."""
+    name: str
+    config: str                   # field of XCONFIG that tells of it
+    doc: str
 
 
 @dataclass
@@ -137,6 +156,7 @@ class RegisterMap:
     title: str
     window: int
     num_mb: list
+    features: list
     registers: list
     buffers: Register             # fields empty; `words` are its registers
     words: list
@@ -147,7 +167,8 @@ class RegisterMap:
     buffers_doc: str
 
 
-FIELD_KEYS = ("access", "write", "reset", "soft_reset", "live", "after_soft_reset", "values")
+FIELD_KEYS = ("access", "write", "reset", "soft_reset", "live", "after_soft_reset", "values",
+              "only_if", "without")
 
 
 def read_field(entry, where, soft_reset):
@@ -164,7 +185,8 @@ def read_field(entry, where, soft_reset):
                  choose(entry.get("access", "rw"), f"{where}: access", ACCESSES),
                  choose(entry.get("write", "any"), f"{where}: write", WRITES),
                  reset, entry.get("live", False), own == "kept",
-                 entry.get("after_soft_reset", reset), values)
+                 entry.get("after_soft_reset", reset), values, entry.get("only_if", ""),
+                 entry.get("without", 0))
 
 
 def read_fields(entry, key, where, soft_reset):
@@ -178,7 +200,7 @@ def read_fields(entry, key, where, soft_reset):
 
 def read_register(entry, where, keys=("offset",)):
     take(entry, where, ("name", "title", "fields", *keys),
-         ("soft_reset", "overlay", "array", "only_if", "per_buffer", "read_effect"))
+         ("soft_reset", "overlay", "array", "only_if", "per_buffer", "read_effect", "in_ram"))
     where = f"{where} {entry['name']}"
     soft_reset = entry.get("soft_reset", "kept")
     array = take(entry.get("array", {"count": 1, "stride": 4}), where, ("count", "stride"))
@@ -187,7 +209,7 @@ def read_register(entry, where, keys=("offset",)):
                     read_fields(entry, "overlay", where, soft_reset),
                     array["count"], array["stride"],
                     entry.get("only_if", ""), entry.get("per_buffer"),
-                    entry.get("read_effect", ""))
+                    entry.get("read_effect", ""), entry.get("in_ram", False))
 
 
 def check_addresses(registers, buffers, window):
@@ -203,15 +225,32 @@ def check_addresses(registers, buffers, window):
         raise MapError(f"{register.name}: ends at {end:#x}, outside the window of {window:#x}")
 
 
+def check_features(registers, features):
+    """Every condition is a feature, and XCONFIG tells of each."""
+    names = [one.name for one in features]
+    config = next(one for one in registers if one.name == "XCONFIG")
+    told = {part.name: part.only_if for part in config.fields}
+    for one in features:
+        if told.get(one.config) != one.name:
+            raise MapError(f"XCONFIG {one.config}: only_if: {one.name} is missing")
+    for register in registers:
+        choose(register.only_if, f"{register.name}: only_if", ("", MORE_THAN_32, *names))
+        for part in register.fields:
+            choose(part.only_if, f"{register.name} {part.name}: only_if", ("", *names))
+
+
 def load(path: Path):
     """The map in `path`; raises MapError."""
     try:
         data = yaml.safe_load(path.read_text())
     except yaml.YAMLError as error:
         raise MapError(str(error)) from None
-    take(data, "map", ("name", "title", "window", "num_mb", "registers", "recipes", "buffers",
-                       "fifo"))
+    take(data, "map", ("name", "title", "window", "num_mb", "features", "registers", "recipes",
+                       "buffers", "fifo"))
+    features = [Feature(**take(entry, "features", ("name", "config", "doc")))
+                for entry in data["features"]]
     registers = [read_register(entry, "registers:") for entry in data["registers"]]
+    check_features(registers, features)
     recipes = [Recipe(**take(entry, "recipes", ("title", "doc", "steps")))
                for entry in data["recipes"]]
     part = take(data["buffers"], "buffers",
@@ -222,6 +261,21 @@ def load(path: Path):
     check_addresses(registers, buffers, data["window"])
     fifo = take(data["fifo"], "fifo", ("filter_offset", "depth", "formats"))
     formats = [read_register(entry, "fifo:", ()) for entry in fifo["formats"]]
-    return RegisterMap(data["name"], data["title"], data["window"], data["num_mb"], registers,
-                       buffers, words, fifo["filter_offset"], fifo["depth"], formats,
+    return RegisterMap(data["name"], data["title"], data["window"], data["num_mb"], features,
+                       registers, buffers, words, fifo["filter_offset"], fifo["depth"], formats,
                        recipes, part["doc"])
+
+
+def load_profiles(path: Path, regmap):
+    """name -> {parameter: value} of the profiles in `path`; raises MapError."""
+    data = take(yaml.safe_load(path.read_text()), str(path.name), ("profiles",))
+    features = [one.name for one in regmap.features]
+    profiles = {}
+    for name, entry in data["profiles"].items():
+        parameters = take(entry, name, ("for", "parameters"))["parameters"]
+        take(parameters, name, (NUM_MB,), features)
+        choose(parameters[NUM_MB], f"{name}: {NUM_MB}", regmap.num_mb)
+        for feature in features:
+            choose(parameters.get(feature, 1), f"{name}: {feature}", (0, 1))
+        profiles[name] = parameters
+    return profiles

@@ -3,7 +3,7 @@
 """The CMSIS-SVD file, for debuggers: one device with one controller of 64 buffers."""
 import xml.etree.ElementTree as ET
 
-from regmap.model import NUM_MB
+from regmap.model import MORE_THAN_32, NUM_MB
 
 BASE = 0x4005_0000  # of the fabric interface of a SmartFusion; edit for another system
 BUFFERS = 64        # the largest core; XCONFIG.NUM_MB tells what a core has
@@ -32,7 +32,7 @@ def add_field(parent, part):
     access, on_write, on_read = ACCESS[part.access]
     entry = add(parent, "field")
     add(entry, "name", part.name)
-    add(entry, "description", part.doc)
+    add(entry, "description", part.doc + (f" (only with {part.only_if})" if part.only_if else ""))
     add(entry, "lsb", str(part.low))
     add(entry, "msb", str(part.high))
     add(entry, "access", access)
@@ -61,7 +61,8 @@ def add_register(parent, register, fields, alternate_of=""):
         add_dim(entry, register.count, register.stride)
         name += "[%s]"
     add(entry, "name", name)
-    only = f" (only if {register.only_if})" if register.only_if else ""
+    only = f" (only if {register.only_if})" if register.only_if == MORE_THAN_32 else \
+        f" (only with {register.only_if})" if register.only_if else ""
     add(entry, "description", register.title + only)
     if alternate_of:
         add(entry, "alternateRegister", alternate_of)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """The SystemVerilog package: addresses, places of the fields, reset values and write masks."""
-from regmap.model import WRITES
+from regmap.model import LAST_MB, WRITES
 
 HEAD = """\
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
@@ -11,6 +11,8 @@ HEAD = """\
 // sw/registers.yaml; edits are lost. <Reg>Addr counts words; <Reg><Field> is the lowest bit of a
 // field and <Reg><Field>W its width, if it has more than one; <Reg>Any, Freeze, Disable and WrnEn
 // are the bits that a write changes at any time, in freeze mode, in disable mode, with MCR.WRN_EN.
+// Of a core that says xconfig of itself: <reg>_has() are the bits that it has of a register,
+// <reg>_without() is what those read that it has not.
 
 package can_regs_pkg;
 """
@@ -26,8 +28,47 @@ def constant(kind, name, value, note=""):
     return line + (f"   // {note}" if note else "")
 
 
+def hex_word(value):
+    return f"32'h{value >> 16:04X}_{value & 0xFFFF:04X}"
+
+
 def word(name, value):
-    return constant("logic [31:0]", name, f"32'h{value >> 16:04X}_{value & 0xFFFF:04X}")
+    return constant("logic [31:0]", name, hex_word(value))
+
+
+def function(name, first, terms):
+    """`first`, and for each (condition, word) of `terms` the bits of the word."""
+    yield f"  function automatic logic [31:0] {name}(input logic [31:0] xconfig);"
+    yield f"    {name} = {first};"
+    for condition, value in terms:
+        yield f"    if ({condition}) {name} |= {value};"
+    yield "  endfunction"
+
+
+def without(part):
+    """What a missing field reads, as a word; the number of buffers is XCONFIG[7:0]."""
+    if part.without == LAST_MB:
+        return "(xconfig & 32'h0000_00FF) - 32'd1" + (f" << {part.low}" if part.low else "")
+    return hex_word(part.without << part.low)
+
+
+def features(one, regmap):
+    """The functions of a register of which some cores have only a part."""
+    bits = {feature.config: one.feature_mask(feature.name, lambda part: part.writable)
+            for feature in regmap.features}
+    if one.only_if or not any(bits.values()):
+        return
+    name = one.name.lower()
+    yield ""
+    always = hex_word(~sum(bits.values()) & 0xFFFFFFFF)
+    yield from function(f"{name}_has", always,
+                        [(f"xconfig[Xconfig{camel(config)}]", hex_word(mask))
+                         for config, mask in bits.items() if mask])
+    constant_bits = [(f"!xconfig[Xconfig{camel(feature.config)}]", without(part))
+                     for feature in regmap.features for part in one.fields
+                     if part.only_if == feature.name and part.without]
+    if constant_bits:
+        yield from function(f"{name}_without", "'0", constant_bits)
 
 
 def fields(prefix, parts):
@@ -62,4 +103,6 @@ def render(regmap):
                        f"11'h{block.offset // 4:03X}")]
     for one in regmap.words:
         lines += fields(f"{camel(block.name)}{camel(one.name)}", one.fields + one.overlay)
+    for one in regmap.registers:
+        lines += features(one, regmap)
     return "\n".join([*lines, "endpackage", ""])

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """The rows of the register tests: initialisers of struct RegisterRow (register_table.hpp)."""
-from regmap.model import NUM_MB
+from regmap.model import LAST_MB, MORE_THAN_32, NUM_MB
 
 HEAD = """\
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
@@ -16,7 +16,26 @@ ACCESSES = ("ro", "w1c", "rc", "w1s")
 WRITES = ("any", "freeze", "disable", "wrn_en")
 
 
-def members(register, name, offset, count, stride):
+def camel_to_snake(name):
+    """OwnMasks -> own_masks, the member of struct Features."""
+    return "".join("_" + c.lower() if c.isupper() else c for c in name).lstrip("_")
+
+
+def conditions(register, features):
+    """Which bits belong to a feature, and what they read without it."""
+    for feature in features:
+        mask = 0xFFFFFFFF if register.feature == feature.name else \
+            register.feature_mask(feature.name)
+        if mask:
+            yield f".needs_{camel_to_snake(feature.name)} = 0x{mask:08X}"
+    fixed = sum(part.without << part.low for part in register.fields if part.without != LAST_MB)
+    if fixed:
+        yield f".without = 0x{fixed:08X}"
+    if any(part.without == LAST_MB for part in register.fields):
+        yield ".without_adds_last_mb = true"
+
+
+def members(register, name, offset, count, stride, features):
     """The members that are not what the struct has without an initialiser."""
     yield f'.name = "{name}"'
     yield f".offset = 0x{offset:03X}"
@@ -24,8 +43,10 @@ def members(register, name, offset, count, stride):
         yield f".count = {0 if count == NUM_MB else count}, .stride = {stride}"
     if register.per_buffer is not None:
         yield f".first_buffer = {register.per_buffer}"
-    if register.only_if:
+    if register.only_if == MORE_THAN_32:
         yield ".min_num_mb = 64"
+    if register.in_ram:
+        yield ".in_ram = true"
     if any(part.reset == NUM_MB for part in register.fields):
         yield ".adds_num_mb = true"
     words = {"reset": register.value("reset", 0),
@@ -40,6 +61,7 @@ def members(register, name, offset, count, stride):
     for word, value in words.items():
         if value:
             yield f".{word} = 0x{value:08X}"
+    yield from conditions(register, features)
 
 
 def row(*arguments):
@@ -55,8 +77,33 @@ def row(*arguments):
 
 def render(regmap):
     """The text of the file."""
-    rows = [row(one, one.name, one.offset, one.count, one.stride) for one in regmap.registers]
+    rows = [row(one, one.name, one.offset, one.count, one.stride, regmap.features)
+            for one in regmap.registers]
     block = regmap.buffers
     rows += [row(one, f"{block.name} {one.name}", block.offset + one.offset, block.count,
-                 block.stride) for one in regmap.words]
+                 block.stride, regmap.features) for one in regmap.words]
     return HEAD + "\n".join(rows) + "\n"
+
+
+BUILDS = """\
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The profiles of the core: initialisers of CoreBuild, see core_build.hpp. Written by
+// tools/registers.py from sw/profiles.yaml; edits are lost.
+// clang-format off
+"""
+
+
+def build(name, parameters, features):
+    """One profile."""
+    missing = [f".{camel_to_snake(feature.name)} = false" for feature in features
+               if parameters.get(feature.name, 1) == 0]
+    return (f'{{.name = "{name}", .num_mb = {parameters[NUM_MB]},\n'
+            f" .features = {{{', '.join(missing)}}}}},".replace(", .wake", ",\n  .wake"))
+
+
+def render_builds(regmap, profiles):
+    """The text of the profiles' file."""
+    return BUILDS + "\n".join(build(name, parameters, regmap.features)
+                              for name, parameters in profiles.items()) + "\n"

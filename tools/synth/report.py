@@ -141,9 +141,15 @@ def version(command):
     return next((line.strip().strip('"') for line in lines if re.search(r"\d+\.\d+", line)), "?")
 
 
+def build(block):
+    """The build of can_ahb_<profile> or can_ahb_<number of buffers>."""
+    name = block.rpartition("_")[2]
+    return f"NumMb={name}" if name.isdigit() else f"profile {name}"
+
+
 def title(block):
     if block.startswith("can_ahb_"):
-        return f"whole core `can_ahb`, NumMb={block.rpartition('_')[2]}"
+        return f"whole core `can_ahb`, {build(block)}"
     if block.startswith("remote_"):
         return f"node without a processor `can_remote`, profile {block.partition('_')[2]}"
     return f"protocol engine `{block}`"
@@ -178,7 +184,7 @@ def page(out, blocks):
     text += ["", "| whole core | VersaTiles | Fmax |", "|---|---|---|"]
     for block, row in rows.items():
         if block.startswith("can_ahb"):
-            text.append(f"| **VeriCAN**, {block.rpartition('_')[2]} buffers | {row['tiles']} | "
+            text.append(f"| **VeriCAN**, {build(block)} | {row['tiles']} | "
                         f"{row['fmax']:.0f} MHz |")
     text += [f"| {name} | {tiles} | {fmax} MHz |" for name, tiles, fmax in CORES]
     text += ["", f"## Where the area goes: {title(blocks[-1])}", "",

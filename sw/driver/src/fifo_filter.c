@@ -18,7 +18,8 @@ static unsigned per_word(const verican_t *dev) { return 1u << dev->fifo_format; 
 
 static unsigned table_words(unsigned rffn) { return (unsigned)BLOCK * (rffn + 1u); }
 static unsigned first_mailbox(unsigned rffn) { return (unsigned)BLOCK + 2u * rffn; }
-static unsigned own_masks(unsigned rffn) {
+static unsigned own_masks(const verican_t *dev, unsigned rffn) {
+  if (!dev->own_masks) return 0;
   const unsigned masks = first_mailbox(rffn);
   return masks < (unsigned)MASKS_MAX ? masks : (unsigned)MASKS_MAX;
 }
@@ -68,7 +69,12 @@ static element_t encode_word(const verican_t *dev, const verican_filter_t *filte
   return word;
 }
 
-/* A filter that the shared mask, all ones, leaves as it is. */
+/* The shared mask: all ones, or without masks of their own that of all filters. */
+static uint32_t shared_mask(const verican_t *dev, const verican_filter_t *filters, unsigned count) {
+  return dev->own_masks ? ~0u : encode_word(dev, filters, count, 0).mask;
+}
+
+/* A filter that a mask of ones leaves as it is. */
 static bool is_exact(const verican_t *dev, const verican_filter_t *filter) {
   if (dev->fifo_format == (uint8_t)VERICAN_FIFO_FORMAT_C) return filter->mask == 0x7F8u;
   if (filter->ide == VERICAN_SELECT_BOTH || filter->rtr == VERICAN_SELECT_BOTH) return false;
@@ -80,8 +86,17 @@ static bool is_exact(const verican_t *dev, const verican_filter_t *filter) {
 static bool fits(const verican_t *dev, const verican_filter_t *filters, unsigned count,
                  unsigned rffn) {
   if (count > table_words(rffn) * per_word(dev)) return false;
-  for (unsigned k = own_masks(rffn) * per_word(dev); k < count; ++k) {
-    if (!is_exact(dev, &filters[k])) return false;
+  for (unsigned k = own_masks(dev, rffn) * per_word(dev); k < count; ++k) {
+    if (dev->own_masks && !is_exact(dev, &filters[k])) return false;
+  }
+  return true;
+}
+
+/* Without masks of their own all filters have the same. */
+static bool masks_possible(const verican_t *dev, const verican_filter_t *filters, unsigned count) {
+  if (dev->own_masks) return true;
+  for (unsigned k = 1; k < count; ++k) {
+    if (encode_whole(&filters[k]).mask != encode_whole(&filters[0]).mask) return false;
   }
   return true;
 }
@@ -90,9 +105,9 @@ static void write_table(verican_t *dev, const verican_filter_t *filters, unsigne
   for (unsigned n = 0; n < table_words(dev->rffn); ++n) {
     const element_t word = encode_word(dev, filters, count, n);
     verican_write(dev, VERICAN_FIFO_FILTER_OFFSET(n), word.value);
-    if (n < own_masks(dev->rffn)) verican_write(dev, VERICAN_RXIMR_OFFSET(n), word.mask);
+    if (n < own_masks(dev, dev->rffn)) verican_write(dev, VERICAN_RXIMR_OFFSET(n), word.mask);
   }
-  verican_write(dev, VERICAN_RXFGMASK_OFFSET, ~0u);
+  verican_write(dev, VERICAN_RXFGMASK_OFFSET, shared_mask(dev, filters, count));
 }
 
 verican_result_t verican_set_fifo_filters(verican_t *dev, const verican_filter_t *filters,
@@ -102,6 +117,7 @@ verican_result_t verican_set_fifo_filters(verican_t *dev, const verican_filter_t
   for (unsigned k = 0; k < count; ++k) {
     if (!encode(dev, &filters[k], &unused)) return VERICAN_ERR_RANGE;
   }
+  if (!masks_possible(dev, filters, count)) return VERICAN_ERR_UNSUPPORTED;
   const unsigned rffn_max = dev->eacen ? (unsigned)RFFN_MAX : 0u;
   while (!fits(dev, filters, count, rffn)) {
     if (++rffn > rffn_max || first_mailbox(rffn) > dev->first_tx) return VERICAN_ERR_SPACE;

@@ -13,6 +13,14 @@ static bool is_valid(const verican_filter_t *filter) {
          filter->mask <= limit;
 }
 
+static uint32_t mask_of(const verican_filter_t *filter) {
+  uint32_t mask =
+      filter->mask << (filter->ide == VERICAN_SELECT_ONLY_1 ? 0u : VERICAN_MB_ID_STD_SHIFT);
+  if (filter->ide != VERICAN_SELECT_BOTH) mask |= MASK_IDE;
+  if (filter->rtr != VERICAN_SELECT_BOTH) mask |= MASK_RTR;
+  return mask;
+}
+
 /* `turn`: how many mailboxes this filter has already. A core without CTRL2.EACEN compares IDE in
  * any case, so mailboxes of a filter for both formats take turns. */
 static void write_filter(const verican_t *dev, unsigned mb, const verican_filter_t *filter,
@@ -21,13 +29,10 @@ static void write_filter(const verican_t *dev, unsigned mb, const verican_filter
   const bool extended =
       filter->ide == VERICAN_SELECT_ONLY_1 || (both && !dev->eacen && (turn & 1u) != 0u);
   const unsigned shift = filter->ide == VERICAN_SELECT_ONLY_1 ? 0u : VERICAN_MB_ID_STD_SHIFT;
-  uint32_t mask = filter->mask << shift;
-  if (!both) mask |= MASK_IDE;
-  if (filter->rtr != VERICAN_SELECT_BOTH) mask |= MASK_RTR;
   uint32_t cs = CS_CODE(RX_EMPTY);
   if (extended) cs |= VERICAN_MB_CS_IDE_MASK;
   if (filter->rtr == VERICAN_SELECT_ONLY_1) cs |= VERICAN_MB_CS_RTR_MASK;
-  verican_write(dev, VERICAN_RXIMR_OFFSET(mb), mask);
+  verican_write(dev, verican_mask_offset(dev, mb), mask_of(filter));
   verican_write(dev, VERICAN_MB_ID_OFFSET(mb), filter->id << shift);
   verican_write(dev, VERICAN_MB_CS_OFFSET(mb), cs);
 }
@@ -38,9 +43,15 @@ static verican_result_t set_mailbox_filters(verican_t *dev, const verican_filter
   unsigned wanted = 0;
   for (unsigned k = 0; k < count; ++k) {
     if (!dev->eacen && filters[k].rtr == VERICAN_SELECT_ONLY_1) return VERICAN_ERR_UNSUPPORTED;
+    if (!dev->own_masks && mask_of(&filters[k]) != mask_of(&filters[0]))
+      return VERICAN_ERR_UNSUPPORTED;
     wanted += !dev->eacen && filters[k].ide == VERICAN_SELECT_BOTH ? 2u : 1u;
   }
   if (wanted > room) return VERICAN_ERR_SPACE;
+  if (!dev->own_masks && count != 0u) {
+    verican_write(dev, VERICAN_RX14MASK_OFFSET, mask_of(&filters[0]));
+    verican_write(dev, VERICAN_RX15MASK_OFFSET, mask_of(&filters[0]));
+  }
   dev->rx_mask[0] = 0;
   dev->rx_mask[1] = 0;
   for (unsigned mb = 0; mb < room; ++mb) {

@@ -90,12 +90,16 @@ static void plan_registers(verican_t *dev, const verican_config_t *config) {
 }
 
 /* What the core does not keep, it does not have. */
-static verican_result_t check_kept(const verican_t *dev) {
+static verican_result_t check_kept(verican_t *dev) {
   const uint32_t optional = VERICAN_MCR_FEN_MASK | VERICAN_MCR_AEN_MASK | VERICAN_MCR_LPRIO_EN_MASK;
   const uint32_t missing = dev->mcr & ~verican_read(dev, VERICAN_MCR_OFFSET);
   if ((missing & optional) != 0u) return VERICAN_ERR_UNSUPPORTED;
-  if (missing != 0u) return VERICAN_ERR_DEVICE;
-  if (verican_read(dev, VERICAN_CTRL1_OFFSET) != dev->ctrl) return VERICAN_ERR_DEVICE;
+  if ((missing & ~VERICAN_MCR_BCC_MASK) != 0u) return VERICAN_ERR_DEVICE;
+  dev->own_masks = missing == 0u;
+  dev->mcr &= ~missing;
+  const uint32_t differs = verican_read(dev, VERICAN_CTRL1_OFFSET) ^ dev->ctrl;
+  if (differs == VERICAN_CTRL1_LBUF_MASK) return VERICAN_ERR_UNSUPPORTED;
+  if (differs != 0u) return VERICAN_ERR_DEVICE;
   const uint32_t last = VERICAN_MB_DATA1_OFFSET(dev->num_mb - 1u);
   verican_write(dev, last, 0xA5C33C5Au);
   if (verican_read(dev, last) != 0xA5C33C5Au) return VERICAN_ERR_SPACE;
@@ -115,7 +119,7 @@ static void clear_buffers(const verican_t *dev) {
   for (unsigned mb = 0; mb < dev->num_mb; ++mb) {
     verican_write(dev, VERICAN_MB_CS_OFFSET(mb),
                   mb < dev->first_tx ? CS_CODE(RX_INACTIVE) : CS_CODE(TX_INACTIVE));
-    verican_write(dev, VERICAN_RXIMR_OFFSET(mb), ~0u);
+    verican_write(dev, verican_mask_offset(dev, mb), ~0u);
   }
   verican_write(dev, VERICAN_IMASK1_OFFSET, 0);
   verican_write(dev, VERICAN_IFLAG1_OFFSET, ~0u);

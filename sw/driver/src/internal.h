@@ -34,6 +34,11 @@
   (VERICAN_ESR1_TWRN_INT_MASK | VERICAN_ESR1_RWRN_INT_MASK | VERICAN_ESR1_BOFF_INT_MASK | \
    VERICAN_ESR1_ERR_INT_MASK | VERICAN_ESR1_WAK_INT_MASK)
 
+/* The register with the mask of a mailbox; without masks of their own all have the same, but 14 and
+ * 15, whose registers follow it. */
+static inline uint32_t verican_mask_offset(const verican_t *dev, unsigned mb) {
+  return dev->own_masks ? VERICAN_RXIMR_OFFSET(mb) : VERICAN_RXGMASK_OFFSET;
+}
 static inline uint32_t verican_bit(unsigned mb) { return (uint32_t)1 << (mb % 32u); }
 
 static inline bool verican_alive(const verican_t *dev) {

@@ -74,14 +74,14 @@ static verican_result_t loop_frame(verican_t *dev, unsigned n, verican_test_repo
 }
 
 /* Two mailboxes only, and no FIFO: what the others hold is neither sent nor overwritten, and is
- * plain memory. */
+ * plain memory. Where MAXMB is fixed none of the others sends, and mailbox 0 comes first. */
 #define TEST_MCR (VERICAN_MCR_BCC_MASK | (uint32_t)TX)
 #define TEST_MCR_FROZEN (TEST_MCR | VERICAN_MCR_FRZ_MASK | VERICAN_MCR_HALT_MASK)
 
 static verican_result_t test_loop_back(verican_t *dev, verican_test_report_t *report) {
   verican_write(dev, VERICAN_CTRL1_OFFSET,
                 (dev->ctrl & ~VERICAN_CTRL1_LOM_MASK) | VERICAN_CTRL1_LPB_MASK);
-  verican_write(dev, VERICAN_RXIMR_OFFSET(RX), MASK_IDE);
+  verican_write(dev, verican_mask_offset(dev, RX), MASK_IDE);
   verican_write(dev, VERICAN_MB_CS_OFFSET(TX), CS_CODE(TX_INACTIVE));
   verican_write(dev, VERICAN_MCR_OFFSET, TEST_MCR);
   verican_result_t result = verican_wait(dev, VERICAN_MCR_OFFSET, VERICAN_MCR_FRZ_ACK_MASK, 0);
@@ -98,14 +98,14 @@ verican_result_t verican_self_test(verican_t *dev, verican_test_report_t *report
   if (result != VERICAN_OK) return result;
   verican_test_report_t seen = {VERICAN_TEST_PASSED, 0, 0, 0};
   const uint32_t first = VERICAN_MB_CS_OFFSET(RX);
-  const uint32_t kept_mask = verican_read(dev, VERICAN_RXIMR_OFFSET(RX));
+  const uint32_t kept_mask = verican_read(dev, verican_mask_offset(dev, RX));
   uint32_t kept[WORDS];
   verican_write(dev, VERICAN_MCR_OFFSET, TEST_MCR_FROZEN);
   for (unsigned i = 0; i < (unsigned)WORDS; ++i) kept[i] = verican_read(dev, first + 4u * i);
   result = test_memory(dev, &seen);
   if (result == VERICAN_OK) result = test_loop_back(dev, &seen);
   for (unsigned i = (unsigned)WORDS; i-- > 0u;) verican_write(dev, first + 4u * i, kept[i]);
-  verican_write(dev, VERICAN_RXIMR_OFFSET(RX), kept_mask);
+  verican_write(dev, verican_mask_offset(dev, RX), kept_mask);
   verican_write(dev, VERICAN_IFLAG1_OFFSET, verican_bit(RX) | verican_bit(TX));
   verican_write_settings(dev);
   if (report != NULL) *report = seen;

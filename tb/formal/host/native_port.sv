@@ -6,6 +6,13 @@
 
 module can_top #(
   parameter int NumMb = 64,
+  parameter int Fifo = 1,
+  parameter int Abort = 1,
+  parameter int Status = 1,
+  parameter int OwnMasks = 1,
+  parameter int Wake = 1,
+  parameter int Extras = 1,
+  parameter int ClearRam = 1,
   parameter int WakeFilter = 6
 ) (
   input  logic        clk_i,

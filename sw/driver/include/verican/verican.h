@@ -313,6 +313,7 @@ struct verican {
   bool extension;
   bool frame_one_shot; /* the core takes VERICAN_FRAME_ONE_SHOT */
   bool eacen;          /* mailboxes compare IDE and RTR under their mask */
+  bool own_masks;      /* RXIMR: each mailbox has a mask of its own */
   bool recovering;     /* BOFF_REC is clear on request */
   bool bus_off_timing; /* bus_off_since_ms is valid */
   bool self_reception;
@@ -327,7 +328,8 @@ verican_result_t verican_config_default(verican_config_t *config);
  * VERICAN_ERR_NULL: dev, config, no way to the registers, or no ring. VERICAN_ERR_RANGE: a member
  * of `config`. VERICAN_ERR_TIMING: see verican_timing_find(). VERICAN_ERR_SPACE: the core has not
  * that many mailboxes. VERICAN_ERR_DEVICE: no extension page, or settings do not stay.
- * VERICAN_ERR_UNSUPPORTED: FIFO, abort, priorities, one-shot or FD tolerance are not in this core.
+ * VERICAN_ERR_UNSUPPORTED: FIFO, abort, priorities, sending in order, one-shot or FD tolerance are
+ * not in this core.
  * VERICAN_ERR_TIMEOUT. After an error the device is not initialised.
  */
 verican_result_t verican_init(verican_t *dev, const verican_config_t *config);
@@ -357,7 +359,8 @@ verican_result_t verican_set_timing(verican_t *dev, uint32_t clock_hz,
  * Accepts exactly the frames that match one of `count` filters; 0 filters: none. Device must be
  * stopped. VERICAN_ERR_RANGE: a filter that this filter hardware cannot express exactly (see
  * docs/driver.md). VERICAN_ERR_SPACE: too many. VERICAN_ERR_UNSUPPORTED: remote frames in the
- * mailboxes of a core without CTRL2. After an error the old filters are in force.
+ * mailboxes of a core without CTRL2; filters with different masks in a core without masks for each
+ * mailbox. After an error the old filters are in force.
  */
 verican_result_t verican_set_filters(verican_t *dev, const verican_filter_t *filters,
                                      uint16_t count);

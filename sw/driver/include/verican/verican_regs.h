@@ -32,7 +32,7 @@
 #define VERICAN_MCR_FRZ_MASK                    0x40000000u
 #define VERICAN_MCR_FRZ_SHIFT                   30u
 /* FEN: Receive FIFO in place of the first buffers. A change empties the FIFO and clears
-   IFLAG1[7:5]. */
+   IFLAG1[7:5]. Only with Fifo. */
 #define VERICAN_MCR_FEN_MASK                    0x20000000u
 #define VERICAN_MCR_FEN_SHIFT                   29u
 /* HALT: With FRZ, requests freeze mode; FRZ_ACK tells that it is reached. */
@@ -41,7 +41,7 @@
 /* NOT_RDY: The controller does not take part in the bus (disable or freeze mode, stopped). */
 #define VERICAN_MCR_NOT_RDY_MASK                0x08000000u
 #define VERICAN_MCR_NOT_RDY_SHIFT               27u
-/* WAK_MSK: Lets ESR1.WAK_INT interrupt. */
+/* WAK_MSK: Lets ESR1.WAK_INT interrupt. Only with Wake. */
 #define VERICAN_MCR_WAK_MSK_MASK                0x04000000u
 #define VERICAN_MCR_WAK_MSK_SHIFT               26u
 /* SOFT_RST: Requests a soft reset; reads 1 until it is done, then the controller is in freeze
@@ -56,7 +56,7 @@
 #define VERICAN_MCR_SUPV_MASK                   0x00800000u
 #define VERICAN_MCR_SUPV_SHIFT                  23u
 /* SLF_WAK: Wakes the controller from stop mode by itself when the bus turns dominant. Cannot be
-   written in stop mode. */
+   written in stop mode. Only with Wake. */
 #define VERICAN_MCR_SLF_WAK_MASK                0x00400000u
 #define VERICAN_MCR_SLF_WAK_SHIFT               22u
 /* WRN_EN: Lets ESR1.TWRN_INT and RWRN_INT be set. While 0 they and their masks in CTRL1 are 0. */
@@ -65,7 +65,7 @@
 /* LPM_ACK: A low-power mode (disable, stop) is reached. */
 #define VERICAN_MCR_LPM_ACK_MASK                0x00100000u
 #define VERICAN_MCR_LPM_ACK_SHIFT               20u
-/* WAK_SRC: Wake-up looks at the filtered receive line, not at the pin. */
+/* WAK_SRC: Wake-up looks at the filtered receive line, not at the pin. Only with Wake. */
 #define VERICAN_MCR_WAK_SRC_MASK                0x00080000u
 #define VERICAN_MCR_WAK_SRC_SHIFT               19u
 /* DOZE: Doze mode allowed; stored, without effect. */
@@ -76,18 +76,19 @@
 #define VERICAN_MCR_SRX_DIS_MASK                0x00020000u
 #define VERICAN_MCR_SRX_DIS_SHIFT               17u
 /* BCC: Individual masks (RXIMR) and the queue of several matching buffers; 0 is the older way
-   with the global masks (also called IRMQ). */
+   with the global masks (also called IRMQ). Only with OwnMasks. */
 #define VERICAN_MCR_BCC_MASK                    0x00010000u
 #define VERICAN_MCR_BCC_SHIFT                   16u
-/* LPRIO_EN: The PRIO field of the ID word takes part in the choice of the next frame to send. */
+/* LPRIO_EN: The PRIO field of the ID word takes part in the choice of the next frame to send.
+   Only with Extras. */
 #define VERICAN_MCR_LPRIO_EN_MASK               0x00002000u
 #define VERICAN_MCR_LPRIO_EN_SHIFT              13u
 /* AEN: Buffers that send can be aborted with code 1001. The C/S word of a frame on its way can
    then not be overwritten, and once it has ended no word of its buffer can be written until its
-   IFLAG is cleared. */
+   IFLAG is cleared. Only with Abort. */
 #define VERICAN_MCR_AEN_MASK                    0x00001000u
 #define VERICAN_MCR_AEN_SHIFT                   12u
-/* IDAM: Format of the filters of the receive FIFO. */
+/* IDAM: Format of the filters of the receive FIFO. Only with Fifo. */
 #define VERICAN_MCR_IDAM_MASK                   0x00000300u
 #define VERICAN_MCR_IDAM_SHIFT                  8u
 #define VERICAN_MCR_IDAM_GET(word)              (((uint32_t)(word) >> 8) & 0x3u)
@@ -97,7 +98,7 @@
 #define VERICAN_MCR_IDAM_FORMAT_C               0x2u /* four identifiers of 8 bits a word */
 #define VERICAN_MCR_IDAM_REJECT                 0x3u /* no frame passes */
 /* MAXMB: Last buffer that takes part in sending and receiving; 15 after reset, however many
-   there are. */
+   there are. Only with Extras. */
 #define VERICAN_MCR_MAXMB_MASK                  0x0000007Fu
 #define VERICAN_MCR_MAXMB_SHIFT                 0u
 #define VERICAN_MCR_MAXMB_GET(word)             (((uint32_t)(word) >> 0) & 0x7Fu)
@@ -150,10 +151,11 @@
 /* BOFF_REC: 0 recovers from bus-off by itself; 1 stays in bus-off until it is cleared. */
 #define VERICAN_CTRL1_BOFF_REC_MASK             0x00000040u
 #define VERICAN_CTRL1_BOFF_REC_SHIFT            6u
-/* TSYN: A frame stored in the first mailbox clears TIMER. */
+/* TSYN: A frame stored in the first mailbox clears TIMER. Only with Extras. */
 #define VERICAN_CTRL1_TSYN_MASK                 0x00000020u
 #define VERICAN_CTRL1_TSYN_SHIFT                5u
-/* LBUF: 1 sends the lowest-numbered buffer first; 0 the one that wins arbitration. */
+/* LBUF: 1 sends the lowest-numbered buffer first; 0 the one that wins arbitration. Only with
+   Extras. */
 #define VERICAN_CTRL1_LBUF_MASK                 0x00000010u
 #define VERICAN_CTRL1_LBUF_SHIFT                4u
 /* LOM: Listen-only; nothing dominant is ever sent. */
@@ -275,11 +277,11 @@
 /* ERR_INT: An error was detected; bits 15 to 10 tell which. */
 #define VERICAN_ESR1_ERR_INT_MASK               0x00000002u
 #define VERICAN_ESR1_ERR_INT_SHIFT              1u
-/* WAK_INT: The bus turned dominant in stop mode with MCR.SLF_WAK. */
+/* WAK_INT: The bus turned dominant in stop mode with MCR.SLF_WAK. Only with Wake. */
 #define VERICAN_ESR1_WAK_INT_MASK               0x00000001u
 #define VERICAN_ESR1_WAK_INT_SHIFT              0u
 
-/* IMASK2: Interrupt masks of buffers 32 to 63. Only with more than 32 buffers. */
+/* IMASK2: Interrupt masks of buffers 32 to 63. Only if NumMb > 32. */
 #define VERICAN_IMASK2_OFFSET                   0x024u
 #define VERICAN_IMASK2_RESET                    0x00000000u
 /* BUFM: Lets the flag of buffer 32 + n interrupt. */
@@ -297,7 +299,7 @@
 #define VERICAN_IMASK1_BUFM_GET(word)           (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
 #define VERICAN_IMASK1_BUFM_SET(value)          (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
 
-/* IFLAG2: Interrupt flags of buffers 32 to 63. Only with more than 32 buffers. */
+/* IFLAG2: Interrupt flags of buffers 32 to 63. Only if NumMb > 32. */
 #define VERICAN_IFLAG2_OFFSET                   0x02Cu
 #define VERICAN_IFLAG2_RESET                    0x00000000u
 /* BUFI: Buffer 32 + n has sent, received or aborted. */
@@ -331,7 +333,8 @@
 /* WRMFRZ: Stored, without effect; all memory can be written in freeze mode. */
 #define VERICAN_CTRL2_WRMFRZ_MASK               0x10000000u
 #define VERICAN_CTRL2_WRMFRZ_SHIFT              28u
-/* RFFN: The receive FIFO has 8 * (RFFN + 1) filter words; the first mailbox is 8 + 2 * RFFN. */
+/* RFFN: The receive FIFO has 8 * (RFFN + 1) filter words; the first mailbox is 8 + 2 * RFFN.
+   Only with Fifo. */
 #define VERICAN_CTRL2_RFFN_MASK                 0x0F000000u
 #define VERICAN_CTRL2_RFFN_SHIFT                24u
 #define VERICAN_CTRL2_RFFN_GET(word)            (((uint32_t)(word) >> 24) & 0xFu)
@@ -341,11 +344,11 @@
 #define VERICAN_CTRL2_TASD_SHIFT                19u
 #define VERICAN_CTRL2_TASD_GET(word)            (((uint32_t)(word) >> 19) & 0x1Fu)
 #define VERICAN_CTRL2_TASD_SET(value)           (((uint32_t)(value) & 0x1Fu) << 19)
-/* MRP: Looks for a receiver among the mailboxes first, then in the FIFO. */
+/* MRP: Looks for a receiver among the mailboxes first, then in the FIFO. Only with Fifo. */
 #define VERICAN_CTRL2_MRP_MASK                  0x00040000u
 #define VERICAN_CTRL2_MRP_SHIFT                 18u
 /* RRS: Remote frames are stored like data frames; 0, as after reset, stores none in a mailbox
-   and lets buffers with code 1010 answer them. */
+   and lets buffers with code 1010 answer them. Only with Extras. */
 #define VERICAN_CTRL2_RRS_MASK                  0x00020000u
 #define VERICAN_CTRL2_RRS_SHIFT                 17u
 /* EACEN: Mailboxes compare IDE and RTR as bits 30 and 31 of the mask say; 0, as after reset,
@@ -353,7 +356,7 @@
 #define VERICAN_CTRL2_EACEN_MASK                0x00010000u
 #define VERICAN_CTRL2_EACEN_SHIFT               16u
 
-/* ESR2: State of the transmit arbitration. */
+/* ESR2: State of the transmit arbitration. Only with Status. */
 #define VERICAN_ESR2_OFFSET                     0x038u
 #define VERICAN_ESR2_RESET                      0x00000000u
 /* LPTM: Lowest inactive buffer (IMB = 1) or the one of lowest priority. */
@@ -368,7 +371,7 @@
 #define VERICAN_ESR2_IMB_MASK                   0x00002000u
 #define VERICAN_ESR2_IMB_SHIFT                  13u
 
-/* CRCR: CRC of the last frame sent. */
+/* CRCR: CRC of the last frame sent. Only with Status. */
 #define VERICAN_CRCR_OFFSET                     0x044u
 #define VERICAN_CRCR_RESET                      0x00000000u
 /* MBCRC: Its buffer. */
@@ -382,7 +385,7 @@
 #define VERICAN_CRCR_TXCRC_GET(word)            (((uint32_t)(word) >> 0) & 0x7FFFu)
 #define VERICAN_CRCR_TXCRC_SET(value)           (((uint32_t)(value) & 0x7FFFu) << 0)
 
-/* RXFGMASK: Mask of FIFO filters without a mask of their own. */
+/* RXFGMASK: Mask of FIFO filters without a mask of their own. Only with Fifo. */
 #define VERICAN_RXFGMASK_OFFSET                 0x048u
 #define VERICAN_RXFGMASK_RESET                  0xFFFFFFFFu
 /* FGM: A 1 compares the bit of the filter word. */
@@ -391,7 +394,7 @@
 #define VERICAN_RXFGMASK_FGM_GET(word)          (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
 #define VERICAN_RXFGMASK_FGM_SET(value)         (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
 
-/* RXFIR: Filter of the frame at the FIFO's output. */
+/* RXFIR: Filter of the frame at the FIFO's output. Only with Fifo. */
 #define VERICAN_RXFIR_OFFSET                    0x04Cu
 #define VERICAN_RXFIR_RESET                     0x00000000u
 /* IDHIT: Number of the filter that let it in. */
@@ -400,7 +403,7 @@
 #define VERICAN_RXFIR_IDHIT_GET(word)           (((uint32_t)(word) >> 0) & 0x1FFu)
 #define VERICAN_RXFIR_IDHIT_SET(value)          (((uint32_t)(value) & 0x1FFu) << 0)
 
-/* RXIMR: Receive mask of buffer n, or of FIFO filter word n. */
+/* RXIMR: Receive mask of buffer n, or of FIFO filter word n. Only with OwnMasks. */
 #define VERICAN_RXIMR_OFFSET(n)                 (0x880u + 4u * (uint32_t)(n))
 #define VERICAN_RXIMR_RESET                     0x00000000u
 /* MI: Used with MCR.BCC = 1; a 1 compares the bit of the ID word or filter word. */
@@ -420,13 +423,13 @@
 
 /* XVERSION: Extension: version of the extension page. */
 #define VERICAN_XVERSION_OFFSET                 0x1004u
-#define VERICAN_XVERSION_RESET                  0x00010001u
+#define VERICAN_XVERSION_RESET                  0x00010002u
 /* MAJOR: Changes when software must. */
 #define VERICAN_XVERSION_MAJOR_MASK             0xFFFF0000u
 #define VERICAN_XVERSION_MAJOR_SHIFT            16u
 #define VERICAN_XVERSION_MAJOR_GET(word)        (((uint32_t)(word) >> 16) & 0xFFFFu)
 #define VERICAN_XVERSION_MAJOR_SET(value)       (((uint32_t)(value) & 0xFFFFu) << 16)
-/* MINOR: Rises with additions. */
+/* MINOR: Rises with additions. Below 2, XCONFIG[31:20] is 0 although the features are there. */
 #define VERICAN_XVERSION_MINOR_MASK             0x0000FFFFu
 #define VERICAN_XVERSION_MINOR_SHIFT            0u
 #define VERICAN_XVERSION_MINOR_GET(word)        (((uint32_t)(word) >> 0) & 0xFFFFu)
@@ -434,16 +437,37 @@
 
 /* XCONFIG: Extension: what this core has. */
 #define VERICAN_XCONFIG_OFFSET                  0x1008u
-/* RXFIFO: Receive FIFO. */
+/* CLEARRAM: The hard reset clears the RAM of the buffers; without, software must. Only with
+   ClearRam. */
+#define VERICAN_XCONFIG_CLEARRAM_MASK           0x02000000u
+#define VERICAN_XCONFIG_CLEARRAM_SHIFT          25u
+/* EXTRAS: Local priority, one-shot, tolerance of CAN FD frames, MAXMB, LBUF, remote answers and
+   TSYN. Only with Extras. */
+#define VERICAN_XCONFIG_EXTRAS_MASK             0x01000000u
+#define VERICAN_XCONFIG_EXTRAS_SHIFT            24u
+/* WAKE: Stop mode and waking from it. Only with Wake. */
+#define VERICAN_XCONFIG_WAKE_MASK               0x00800000u
+#define VERICAN_XCONFIG_WAKE_SHIFT              23u
+/* STATUS: ESR2 and CRCR. Only with Status. */
+#define VERICAN_XCONFIG_STATUS_MASK             0x00400000u
+#define VERICAN_XCONFIG_STATUS_SHIFT            22u
+/* OWNMASKS: A mask for each buffer, and the queue of several matching buffers. Only with
+   OwnMasks. */
+#define VERICAN_XCONFIG_OWNMASKS_MASK           0x00200000u
+#define VERICAN_XCONFIG_OWNMASKS_SHIFT          21u
+/* ABORT: MCR.AEN. Only with Abort. */
+#define VERICAN_XCONFIG_ABORT_MASK              0x00100000u
+#define VERICAN_XCONFIG_ABORT_SHIFT             20u
+/* RXFIFO: Receive FIFO. Only with Fifo. */
 #define VERICAN_XCONFIG_RXFIFO_MASK             0x00000800u
 #define VERICAN_XCONFIG_RXFIFO_SHIFT            11u
-/* OSMB: One-shot for single buffers. */
+/* OSMB: One-shot for single buffers. Only with Extras. */
 #define VERICAN_XCONFIG_OSMB_MASK               0x00000400u
 #define VERICAN_XCONFIG_OSMB_SHIFT              10u
-/* ONESHOT: One-shot for all buffers. */
+/* ONESHOT: One-shot for all buffers. Only with Extras. */
 #define VERICAN_XCONFIG_ONESHOT_MASK            0x00000200u
 #define VERICAN_XCONFIG_ONESHOT_SHIFT           9u
-/* FDTOL: Tolerance of CAN FD frames. */
+/* FDTOL: Tolerance of CAN FD frames. Only with Extras. */
 #define VERICAN_XCONFIG_FDTOL_MASK              0x00000100u
 #define VERICAN_XCONFIG_FDTOL_SHIFT             8u
 /* NUM_MB: Number of buffers. */
@@ -455,13 +479,14 @@
 /* XCTRL: Extension: control. */
 #define VERICAN_XCTRL_OFFSET                    0x100Cu
 #define VERICAN_XCTRL_RESET                     0x00000000u
-/* OSMB: Bit 28 of the C/S word of a buffer that sends asks for one-shot. */
+/* OSMB: Bit 28 of the C/S word of a buffer that sends asks for one-shot. Only with Extras. */
 #define VERICAN_XCTRL_OSMB_MASK                 0x00000004u
 #define VERICAN_XCTRL_OSMB_SHIFT                2u
-/* ONESHOT: Every frame is started once; if it fails, its buffer gets code 1001. */
+/* ONESHOT: Every frame is started once; if it fails, its buffer gets code 1001. Only with
+   Extras. */
 #define VERICAN_XCTRL_ONESHOT_MASK              0x00000002u
 #define VERICAN_XCTRL_ONESHOT_SHIFT             1u
-/* FDTOL: Sits out CAN FD frames instead of destroying them. */
+/* FDTOL: Sits out CAN FD frames instead of destroying them. Only with Extras. */
 #define VERICAN_XCTRL_FDTOL_MASK                0x00000001u
 #define VERICAN_XCTRL_FDTOL_SHIFT               0u
 
@@ -472,7 +497,8 @@
 /* CS: Code, status, length and time stamp. */
 #define VERICAN_MB_CS_OFFSET(n)                 (0x080u + 16u * (uint32_t)(n))
 #define VERICAN_MB_CS_RESET                     0x00000000u
-/* OS: With XCTRL.OSMB, written together with code 1100, asks for one-shot. Reads 0. */
+/* OS: With XCTRL.OSMB, written together with code 1100, asks for one-shot. Reads 0. Only with
+   Extras. */
 #define VERICAN_MB_CS_OS_MASK                   0x10000000u
 #define VERICAN_MB_CS_OS_SHIFT                  28u
 /* CODE: What the buffer is for and what became of it. With bit 0 set a receive code is busy. */

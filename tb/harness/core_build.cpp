@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Nodes of the profiles: see core_build.hpp.
+#include "harness/core_build.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "Vcan_host_small.h"
+#include "Vcan_host_small___024root.h"
+#include "Vcan_host_standard.h"
+#include "Vcan_host_standard___024root.h"
+#include "node/rtl_node_of.hpp"
+
+namespace vericansim {
+
+const CoreBuild &core_build(const std::string &name) {
+  for (const CoreBuild &build : kCoreBuilds)
+    if (name == build.name) return build;
+  throw std::out_of_range("no profile " + name);
+}
+
+std::unique_ptr<RtlNode> make_node(std::string name, const CoreBuild &build,
+                                   const ClockConfig &clock) {
+  const std::string profile = build.name;
+  if (profile == "small")
+    return std::make_unique<RtlNodeOf<Vcan_host_small>>(std::move(name), clock, build.num_mb);
+  if (profile == "standard")
+    return std::make_unique<RtlNodeOf<Vcan_host_standard>>(std::move(name), clock, build.num_mb);
+  return RtlNode::create(std::move(name), clock, build.num_mb);
+}
+
+}  // namespace vericansim

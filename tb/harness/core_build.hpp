@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The profiles of the core (sw/profiles.yaml), for tests that run on more than one of them.
+#pragma once
+
+#include <memory>
+#include <ostream>
+#include <string>
+
+#include "node/rtl_node.hpp"
+
+namespace vericansim {
+
+/// Features of a build, parameters of can_ahb (sw/registers.yaml).
+struct Features {
+  bool fifo = true, abort = true, status = true, own_masks = true, wake = true, extras = true;
+  bool clear_ram = true;
+};
+
+/// A build of the core.
+struct CoreBuild {
+  const char *name = "";
+  unsigned num_mb = 64;
+  Features features{};
+};
+
+/// Its name, for messages of tests.
+inline std::ostream &operator<<(std::ostream &out, const CoreBuild &build) {
+  return out << build.name;
+}
+
+inline constexpr CoreBuild kCoreBuilds[] = {
+#include "harness/core_builds.inc"
+};
+
+/// The profile of that name; std::out_of_range if there is none.
+const CoreBuild &core_build(const std::string &name);
+
+/// A node of a build: of a profile, or with all features.
+std::unique_ptr<RtlNode> make_node(std::string name, const CoreBuild &build,
+                                   const ClockConfig &clock = {});
+
+}  // namespace vericansim

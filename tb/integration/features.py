@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""Each feature of the core can be left out alone, and a profile's together: no warning, and no
+block of what is not there (PK-43)."""
+
+import subprocess
+import unittest
+
+import design
+
+# What instances a feature brings, by the end of their names.
+BLOCKS = {"Fifo": ("can_mb_filter", "can_rx_fifo"), "Abort": ("can_mb_guard",),
+          "Status": ("can_mb_status",), "OwnMasks": (), "Wake": ("can_wake",), "Extras": (),
+          "ClearRam": ()}
+
+
+def settings(*arguments):
+    """The builds that tools/profiles.py lists, as dictionaries."""
+    text = subprocess.run([design.ROOT / "tools/profiles.py", *arguments], check=True,
+                          capture_output=True, text=True).stdout
+    return [dict(word.split("=") for word in line.split() if "=" in word)
+            for line in text.splitlines()]
+
+
+def lint(parameters):
+    """What Verilator says of a build: status and text."""
+    files = [str(design.ROOT / name) for name in ["rtl/lint.vlt", *design.rtl_files()]]
+    options = [f"-G{name}={value}" for name, value in parameters.items()]
+    return design.run("verilator", "--lint-only", "-Wall", "--top-module", "can_ahb", *options,
+                      *files)
+
+
+def modules(parameters):
+    """The names of the modules that a build consists of."""
+    files = " ".join(str(design.ROOT / name) for name in design.rtl_files())
+    chosen = " ".join(f"-chparam {name} {value}" for name, value in parameters.items())
+    code, text = design.run("yosys", "-q", "-p", f"read_verilog -sv {files}; "
+                            f"hierarchy -check -top can_ahb {chosen}; tee -a /dev/stderr ls")
+    if code != 0:
+        raise AssertionError(text)
+    return text
+
+
+class Features(unittest.TestCase):
+    def test_builds_without_a_feature_are_clean(self):
+        features = settings("--features")
+        self.assertEqual([name for one in features for name in one], list(BLOCKS))
+        for parameters in features:
+            with self.subTest(parameters):
+                self.assertEqual(lint(parameters), (0, ""))
+
+    def test_profiles_are_clean(self):
+        profiles = settings()
+        self.assertEqual(len(profiles), 3)
+        for parameters in profiles:
+            with self.subTest(parameters):
+                self.assertEqual(lint(parameters), (0, ""))
+
+    def test_blocks_of_a_feature_are_not_there_without_it(self):
+        for parameters in [{}, *settings("--features"), *settings()]:
+            there = modules(parameters)
+            for feature, blocks in BLOCKS.items():
+                for block in blocks:
+                    with self.subTest(parameters, block=block):
+                        self.assertEqual(block in there, parameters.get(feature) != "0")
+
+    def test_other_values_are_refused(self):
+        code, text = lint({"Fifo": 2})
+        self.assertNotEqual(code, 0)
+        self.assertIn("must_be_0_or_1", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

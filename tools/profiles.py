@@ -1,0 +1,41 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""profiles.py: what sw/profiles.yaml says, for CMake and shell scripts.
+
+  profiles.py             one line a profile: NAME NumMb=16 Fifo=0 ...
+  profiles.py NAME        the parameters of one profile
+  profiles.py --features  one line a build that lacks one feature: Fifo=0
+"""
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+# ruff: noqa: E402  (the path must be set first)
+from regmap import model
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def words(parameters):
+    return " ".join(f"{name}={value}" for name, value in parameters.items())
+
+
+def main(arguments):
+    regmap = model.load(ROOT / "sw/registers.yaml")
+    profiles = model.load_profiles(ROOT / "sw/profiles.yaml", regmap)
+    if arguments == ["--features"]:
+        lines = [f"{feature.name}=0" for feature in regmap.features]
+    elif not arguments:
+        lines = [f"{name} {words(parameters)}" for name, parameters in profiles.items()]
+    elif len(arguments) == 1 and arguments[0] in profiles:
+        lines = [words(profiles[arguments[0]])]
+    else:
+        sys.exit(__doc__)
+    print("\n".join(lines))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
