@@ -48,11 +48,19 @@ class ErrorFrame : public ::testing::TestWithParam<Situation> {
   ErrorRig rig;
 };
 
-INSTANTIATE_TEST_SUITE_P(
-    RolesAndStates, ErrorFrame,
-    ::testing::Values(Situation{As::kTransmitter, kActive}, Situation{As::kTransmitter, kPassive},
-                      Situation{As::kTransmitter, kPassiveByRec}, Situation{As::kReceiver, kActive},
-                      Situation{As::kReceiver, kPassive}, Situation{As::kReceiver, kPassiveByRec}));
+const auto kActiveNodes =
+    ::testing::Values(Situation{As::kTransmitter, kActive}, Situation{As::kReceiver, kActive});
+const auto kPassiveNodes = ::testing::Values(
+    Situation{As::kTransmitter, kPassive}, Situation{As::kTransmitter, kPassiveByRec},
+    Situation{As::kReceiver, kPassive}, Situation{As::kReceiver, kPassiveByRec});
+
+class ActiveErrorFlag : public ErrorFrame {};
+class PassiveErrorFlag : public ErrorFrame {};
+
+INSTANTIATE_TEST_SUITE_P(Active, ErrorFrame, kActiveNodes);
+INSTANTIATE_TEST_SUITE_P(Passive, ErrorFrame, kPassiveNodes);
+INSTANTIATE_TEST_SUITE_P(Roles, ActiveErrorFlag, kActiveNodes);
+INSTANTIATE_TEST_SUITE_P(RolesAndStates, PassiveErrorFlag, kPassiveNodes);
 
 // EF-01, EF-02, EF-10, IF-08, IF-09, RO-04: flag, delimiter, intermission; then the frame starts.
 TEST_P(ErrorFrame, FlagDelimiterAndIntermissionAreExact) {
@@ -79,8 +87,7 @@ TEST(ErrorFlag, FollowsEveryKindOfErrorInTheNextBit) {
 }
 
 // EF-02, PF-48: six equal bits of either level end it; the bit with the error does not count.
-TEST_P(ErrorFrame, PassiveFlagEndsWithSixEqualBits) {
-  if (!passive()) return;
+TEST_P(PassiveErrorFlag, PassiveFlagEndsWithSixEqualBits) {
   make_error();
   EXPECT_EQ(rig.play("000000"), "111111");
   EXPECT_EQ(rig.field(), Field::kWait);
@@ -89,8 +96,7 @@ TEST_P(ErrorFrame, PassiveFlagEndsWithSixEqualBits) {
 }
 
 // EF-03: 5 d, 5 r, 6 d: complete with the last one.
-TEST_P(ErrorFrame, ChangeOfLevelRestartsThePassiveFlag) {
-  if (!passive()) return;
+TEST_P(PassiveErrorFlag, ChangeOfLevelRestartsThePassiveFlag) {
   make_error();
   rig.play("00000 11111 00000");
   EXPECT_EQ(rig.field(), Field::kErrFlag);
@@ -101,16 +107,14 @@ TEST_P(ErrorFrame, ChangeOfLevelRestartsThePassiveFlag) {
 }
 
 // EF-03: recessive bits end it as well, in the middle of anything.
-TEST_P(ErrorFrame, PassiveFlagAlternatesAsLongAsTheBusDoes) {
-  if (!passive()) return;
+TEST_P(PassiveErrorFlag, PassiveFlagAlternatesAsLongAsTheBusDoes) {
   make_error();
   rig.play("01 01 01 01 001 0001 00001 000001 11111");
   EXPECT_EQ(rig.field(), Field::kWait);
 }
 
 // EF-04, PF-33: no step and no error, whatever is seen.
-TEST_P(ErrorFrame, PassiveFlagCountsNothing) {
-  if (!passive()) return;
+TEST_P(PassiveErrorFlag, PassiveFlagCountsNothing) {
   make_error();
   const unsigned tec = rig.tec();
   const unsigned rec = rig.rec();
@@ -158,8 +162,7 @@ TEST(ErrorFlag, StateBeforeTheErrorDecides) {
 }
 
 // EF-06, MX-17: each bit of an active flag seen recessive starts six new ones.
-TEST_P(ErrorFrame, RecessiveInAnActiveFlagStartsANewOne) {
-  if (passive()) return;
+TEST_P(ActiveErrorFlag, RecessiveInAnActiveFlagStartsANewOne) {
   for (int n = 1; n <= 6; ++n) {
     ErrorRig fresh;
     if (transmitter()) {
