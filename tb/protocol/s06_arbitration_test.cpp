@@ -157,10 +157,12 @@ TEST(Arbitration, RecessiveBitBehindTheFieldSeenDominantIsABitError) {
 TEST(Arbitration, RecessiveStuffBitSeenDominantIsAStuffError) {
   for (const Frame &frame : {base_frame(0x078), base_frame(0x003), extended_frame(0x01F07FFF),
                              extended_frame(0x15540001), remote_frame(0x00000000, true)}) {
+    unsigned tried = 0;
     for (const std::size_t at : stuff_offsets(frame)) {
       const WireBit bit = encode_frame(frame).bits[at];
       if (bit.field > Field::kExRtr || bit.level == Level::kDominant) continue;
       if (!frame.extended && bit.field == Field::kIde) continue;  // after RTR: FC-05b
+      ++tried;
       for (const Counters &counters : kStates) {
         Scene scene{counters};
         scene.send(frame);
@@ -173,15 +175,18 @@ TEST(Arbitration, RecessiveStuffBitSeenDominantIsAStuffError) {
         EXPECT_EQ(scene.events().delivered, 0u);
       }
     }
+    EXPECT_NE(tried, 0u) << "no such bit in a frame of id " << frame.id;
   }
 }
 
 // AR-05: an own dominant stuff bit seen recessive in arbitration is a bit error: TEC + 8.
 TEST(Arbitration, DominantStuffBitSeenRecessiveIsABitError) {
   for (const Frame &frame : {base_frame(0x7C0), base_frame(0x3F0), extended_frame(0x1FFFFFFF)}) {
+    unsigned tried = 0;
     for (const std::size_t at : stuff_offsets(frame)) {
       const WireBit bit = encode_frame(frame).bits[at];
       if (bit.field > Field::kExRtr || bit.level == Level::kRecessive) continue;
+      ++tried;
       for (const Counters &counters : kStates) {
         Scene scene{counters};
         scene.send(frame);
@@ -191,6 +196,7 @@ TEST(Arbitration, DominantStuffBitSeenRecessiveIsABitError) {
         scene.expect_counters(counters.tec + 8u, counters.rec);
       }
     }
+    EXPECT_NE(tried, 0u) << "no such bit in a frame of id " << frame.id;
   }
 }
 

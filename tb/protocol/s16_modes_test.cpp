@@ -157,12 +157,11 @@ TEST_P(AnyState, OneShotEndsWithALostArbitration) {
 
 // MO-09, MX-25: an error in any bit, the missing acknowledge too; counters as always.
 TEST_P(AnyState, OneShotEndsWithAnError) {
-  for (const int n : {0, 5, 14, 22, 30, 44, 47, 52}) {
+  for (const int n : {0, 14, 22, 30, 44, 47, 52}) {
     ErrorRig rig(GetParam());
     send_once(rig, {.id = 0x123, .dlc = 1, .data = {0x55}});
     rig.play(n <= 44 ? rep(n, ".") + (n == 44 ? "." : "!")
                      : rep(44, ".") + "0" + rep(n - 45, ".") + "0");
-    if (n == 5) continue;  // a recessive identifier bit: that is a lost arbitration
     EXPECT_EQ(rig.dut().events().failed, 1u) << n;
     const bool withheld = n == 44 && GetParam().passive();
     EXPECT_EQ(rig.tec(), GetParam().tec + (withheld ? 0u : 8u)) << n;
