@@ -4,7 +4,9 @@
 import re
 from dataclasses import dataclass
 
-LINE = re.compile(r"\((\d+)\.(\d{6})\) (\S+) ([0-9A-F]+)#(R?)([0-9A-F]*)(?:_([9A-F]))?$")
+# As candump -L and asc2log write it, direction included.
+LINE = re.compile(r"\((\d+)\.(\d{6})\) (\S+) ([0-9A-F]{3}|[0-9A-F]{8})#"
+                  r"(?:(R)(\d?)|((?:[0-9A-F]{2}){0,8}))(?:_([9A-F]))?(?: [RT])?$")
 ERROR_FLAG = 0x20000000
 
 
@@ -24,18 +26,35 @@ class Frame:
         return self.extended and bool(self.ident & ERROR_FLAG)
 
 
+@dataclass(frozen=True)
+class Entry:
+    """One line of a log; time in us."""
+
+    time: int
+    interface: str
+    frame: Frame
+
+
+def parse(line):
+    """One line of a log as an Entry; ValueError if it is none."""
+    match = LINE.match(line.strip())
+    if not match:
+        raise ValueError(f"no line of a log: {line!r}")
+    seconds, micros, interface, ident, remote, asked, rest, raw_dlc = match.groups()
+    data = bytes.fromhex(rest or "")
+    dlc = int(raw_dlc, 16) if raw_dlc else (int(asked or "0") if remote else len(data))
+    frame = Frame(int(ident, 16), len(ident) == 8, bool(remote), dlc, data)
+    return Entry(int(seconds) * 1_000_000 + int(micros), interface, frame)
+
+
 def read_log(path):
-    """[(time in us, Frame)] of a log as candump -L writes it; ValueError names a bad line."""
+    """[Entry] of a log; ValueError names a bad line."""
     entries = []
     for number, line in enumerate(path.read_text().splitlines(), 1):
-        match = LINE.match(line.strip())
-        if not match:
-            raise ValueError(f"{path}:{number}: no line of a log: {line!r}")
-        seconds, micros, _, ident, remote, rest, raw_dlc = match.groups()
-        data = b"" if remote else bytes.fromhex(rest)
-        dlc = int(raw_dlc, 16) if raw_dlc else (int(rest or "0") if remote else len(data))
-        frame = Frame(int(ident, 16), len(ident) == 8, bool(remote), dlc, data)
-        entries.append((int(seconds) * 1_000_000 + int(micros), frame))
+        try:
+            entries.append(parse(line))
+        except ValueError as error:
+            raise ValueError(f"{path}:{number}: {error}") from None
     return entries
 
 
@@ -77,7 +96,7 @@ def length_in_bits(frame):
 
 
 def load(entries, bitrate):
-    """Part of the time that frames held the bus, from the first one's start to the last one's."""
+    """Part of the time that frames, [(time in us, Frame)], held the bus, from the first one's start to the last one's."""
     if len(entries) < 2:
         return 0.0
     span = (entries[-1][0] - entries[0][0]) * bitrate / 1e6

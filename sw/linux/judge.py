@@ -39,12 +39,13 @@ class Run:
     def log(self, name):
         """Frames in order, error messages left out."""
         expect_true((self.dir / name).exists(), f"{name} is missing")
-        return [e for e in frames.read_log(self.dir / name) if not e[1].is_error]
+        log = frames.read_log(self.dir / name)
+        return [(e.time, e.frame) for e in log if not e.frame.is_error]
 
     def errors(self, name):
         """Error messages of the driver: (identifier, eight bytes)."""
         log = frames.read_log(self.dir / name)
-        return [(f.ident & 0x1FFFFFFF, f.data) for _, f in log if f.is_error]
+        return [(e.frame.ident & 0x1FFFFFFF, e.frame.data) for e in log if e.frame.is_error]
 
     def link(self, stage, device):
         """What ip says of a device."""

@@ -12,11 +12,11 @@ import re
 import sys
 import unittest
 
-sys.path.insert(0, "tb/harness")
+sys.path[:0] = ["tb/harness", "sw/linux"]
+from frames import read_log
 from tool_case import ToolCase
 
 ELF_FOLDER = sys.argv.pop(1)
-LINE = re.compile(r"\((\d+)\.(\d{6})\) can0 ([0-9A-F]+)#(R?)([0-9A-F]*)(?:_([9A-F]))?$")
 SECOND = 10**12  # ps
 MICROSECOND = 10**6  # ps; a log has no more
 BIT = 2 * MICROSECOND  # at 500 kbit/s
@@ -40,12 +40,10 @@ SHORTEST, LONGEST = (50 + 10 + 3) * BIT, (50 + 12 + 10 + 3) * BIT
 
 def frames_of(log):
     """(identifier with flags, DLC, data, time in ps) of each line."""
-    for line in pathlib.Path(log).read_text().splitlines():
-        seconds, micros, ident, remote, digits, raw = LINE.match(line).groups()
-        time = int(seconds) * SECOND + int(micros) * MICROSECOND
-        data = b"" if remote else bytes.fromhex(digits)
-        dlc = int(raw, 16) if raw else int(digits or 0) if remote else len(data)
-        yield (bool(remote), len(ident) == 8, int(ident, 16)), dlc, data, time
+    for entry in read_log(pathlib.Path(log)):
+        frame = entry.frame
+        key = frame.remote, frame.extended, frame.ident
+        yield key, frame.dlc, frame.data, entry.time * MICROSECOND
 
 
 def count_again(log):

@@ -1,17 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """Logs of candump, with interfaces, and what two of them must have in common."""
-import re
 import sys
 from collections import Counter
-from dataclasses import dataclass
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "sw/linux"))
-from frames import Frame, length_in_bits  # noqa: E402,F401
-
-LINE = re.compile(r"\((\d+)\.(\d{6})\) (\S+) ([0-9A-F]{3}|[0-9A-F]{8})#"
-                  r"(?:(R)(\d?)|((?:[0-9A-F]{2}){0,8}))(?:_([9A-F]))?(?: [RT])?$")
+from frames import Frame, length_in_bits, parse, read_log  # noqa: E402,F401
 
 
 class Failed(Exception):
@@ -28,35 +23,14 @@ def expect_true(condition, what):
         raise Failed(what)
 
 
-@dataclass(frozen=True)
-class Entry:
-    """One line of a log; time in us."""
-
-    time: int
-    interface: str
-    frame: Frame
-
-
-def parse(line):
-    """One line as candump -L and asc2log write it; ValueError if it is none."""
-    match = LINE.match(line.strip())
-    if not match:
-        raise ValueError(f"no line of a log: {line!r}")
-    seconds, micros, interface, ident, remote, asked, rest, raw_dlc = match.groups()
-    data = bytes.fromhex(rest or "")
-    dlc = int(raw_dlc, 16) if raw_dlc else (int(asked or "0") if remote else len(data))
-    frame = Frame(int(ident, 16), len(ident) == 8, bool(remote), dlc, data)
-    return Entry(int(seconds) * 1_000_000 + int(micros), interface, frame)
-
-
 def read(path):
     """All entries, error messages too; Failed if the file is missing or has another line."""
     path = Path(path)
     expect_true(path.exists(), f"{path.name} is missing")
     try:
-        return [parse(line) for line in path.read_text().splitlines()]
+        return read_log(path)
     except ValueError as error:
-        raise Failed(f"{path.name}: {error}") from None
+        raise Failed(str(error)) from None
 
 
 def frames(entries):
