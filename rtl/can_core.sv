@@ -38,7 +38,7 @@ module can_core (
   output logic        receiver_o,      // receiver of the current frame
   output logic        synch_o,         // integrated, not in bus-off
   input  logic        tick_req_i,      // asks for tick_o
-  output logic        tick_o,          // sample point, while asked for: nobody is woken in vain
+  output logic        tick_o,          // sample point, while asked for: no event without a reader
   input  logic        rx_req_i,        // asks for rx_level_o
   output logic        rx_level_o,      // level of the bus, synchronised; recessive unless asked for
   // TIMER, nominal bit times (flexcan.md section 6)

@@ -29,7 +29,7 @@ module can_top #(
   input  logic        rst_ni,
   // Native port, window of 8 KiB.
   input  logic        req_i,
-  input  logic        cancel_i,        // the command is none after all; may come late in the clock
+  input  logic        cancel_i,        // the command is withdrawn; may come late in the clock
   input  logic        we_i,
   input  logic [12:2] addr_i,
   input  logic [3:0]  be_i,

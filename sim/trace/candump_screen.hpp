@@ -14,7 +14,7 @@
 
 namespace vericansim {
 
-/// Reads the lines of one such text. Times in front (-t): absolute (a, A; the latter in this
+/// Reads the lines of one such text. Times in front (-t): absolute (a; A in this
 /// computer's time zone), since the first line (z), or since the line before (d). A first time of
 /// zero with a later one below its predecessor's means -td; -td whose distances only grow looks
 /// like -tz and is taken as that. -x: direction, and for CAN FD the flags. What stands behind the

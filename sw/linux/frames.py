@@ -96,7 +96,8 @@ def length_in_bits(frame):
 
 
 def load(entries, bitrate):
-    """Part of the time that frames, [(time in us, Frame)], held the bus, from the first one's start to the last one's."""
+    """Part of the time that the bus was held by `entries`, [(time in us, Frame)], from the first
+    one's start to the last one's."""
     if len(entries) < 2:
         return 0.0
     span = (entries[-1][0] - entries[0][0]) * bitrate / 1e6

@@ -164,10 +164,10 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Random, ::testing::Range(1u, 61u));
 
 // Few buffers and identifiers, and software that waits for the moments at which the core works on
 // them: clocks that it meets by chance once in a million frames.
-class Pounce : public Random {
+class RandomAtEvents : public Random {
  protected:
-  Pounce() { few(); }
-  explicit Pounce(const char *profile) : Random{profile} { few(); }
+  RandomAtEvents() { few(); }
+  explicit RandomAtEvents(const char *profile) : Random{profile} { few(); }
   void few() {
     identifiers_ = 2;
     buffers_ = 3;
@@ -205,11 +205,11 @@ class Pounce : public Random {
   }
 };
 
-TEST_P(Pounce, Lockstep) { lockstep(); }  // FX-3.4.b, FX-3.5.o, FX-3.3.j
+TEST_P(RandomAtEvents, Lockstep) { lockstep(); }  // FX-3.4.b, FX-3.5.o, FX-3.3.j
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Pounce, ::testing::Range(1u, 61u));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomAtEvents, ::testing::Range(1u, 61u));
 // Each has found something, in the core or in the model.
-INSTANTIATE_TEST_SUITE_P(Found, Pounce,
+INSTANTIATE_TEST_SUITE_P(Found, RandomAtEvents,
                          ::testing::Values(582u, 759u, 1350u, 1462u, 1797u, 2171u, 2297u, 4309u,
                                            4824u, 6087u, 14147u, 17127u, 17728u));
 
@@ -229,12 +229,12 @@ TEST_P(RandomSmall, Lockstep) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomSmall, ::testing::Range(1u, 31u));
 
-class PounceSmall : public Pounce {
+class RandomAtEventsSmall : public RandomAtEvents {
  protected:
-  PounceSmall() : Pounce{"small"} {}
+  RandomAtEventsSmall() : RandomAtEvents{"small"} {}
 };
-TEST_P(PounceSmall, Lockstep) { lockstep(); }
-INSTANTIATE_TEST_SUITE_P(Seeds, PounceSmall, ::testing::Range(1u, 31u));
+TEST_P(RandomAtEventsSmall, Lockstep) { lockstep(); }
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomAtEventsSmall, ::testing::Range(1u, 31u));
 
 }  // namespace
 }  // namespace vericansim

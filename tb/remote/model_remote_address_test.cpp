@@ -45,7 +45,7 @@ TEST_P(EveryIdentifier, IsObeyedByThoseWhoAreMeant) {
       const unsigned a = id & ((1U << shift) - 1);
       const bool meant = name == 0 || name == 1 || (name == number && number >= 2);
       const bool counted = node.model.status().accepted != 0 || node.model.status().refused != 0;
-      // SELECT and TRIGGER with one byte: the latter is right and not counted.
+      // SELECT and TRIGGER with one byte: TRIGGER is right and not counted.
       ASSERT_EQ(counted, meant && !(name == 0 && (a == 1 || a == 3))) << number << ' ' << id;
       const bool write = meant && name != 0 && a < window && (a < 0x10 || a >= 0x18);
       ASSERT_EQ(node.bytes(a, 1)[0], write ? 0x5A : 0) << number << ' ' << id;
