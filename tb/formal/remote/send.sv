@@ -3,11 +3,17 @@
   //
   // Properties of can_rn_tx, spliced into it: any order of jobs, any content of the RAM.
 
-  logic f_ran, f_sending;
+  // f_asked: a frame was offered in the clock before; an engine that takes it says so in this one.
+  // f_recalled: HERE has been taken back in the clock before or in this one.
+  logic f_ran, f_sending, f_asked, f_owed, f_recall_q, f_recalled;
+  assign f_recalled = f_recall_q || (f_owed && !owe_here_i && !gone_here_o && !flush_i);
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) {f_ran, f_sending} <= '0;
+    if (!rst_ni) {f_ran, f_sending, f_asked, f_owed, f_recall_q} <= '0;
     else begin
       f_ran     <= 1'b1;
+      f_asked   <= tx_req_o;
+      f_owed    <= owe_here_i && !gone_here_o;
+      f_recall_q <= f_owed && !owe_here_i && !gone_here_o && !flush_i;
       f_sending <= (f_sending || tx_next_i) && !tx_ok_i && !tx_fail_i;
     end
   end
@@ -30,16 +36,22 @@
     // Reset in the first clock, none later.
     m_reset: assume (rst_ni == !$initstate);
     // A frame is taken when one is offered (AR-13), and ends after that.
-    m_taken: assume (!tx_next_i || f_sending || tx_req_o);
+    m_taken: assume (!tx_next_i || f_sending || f_asked);
     m_ends: assume (!(tx_ok_i || tx_fail_i) || f_sending);
     m_one_end: assume ($countones({tx_next_i, tx_ok_i, tx_fail_i}) <= 1);
     // can_rn_check refuses a read for which there is no room (can_remote, node.p_no_overflow).
     m_room: assume (job_i != can_rn_pkg::JobPush || !full_o);
     // What is flushed is not under way: RESTART, ASSIGN and bus-off come when nothing is sent.
     m_flush: assume (!flush_i || (!f_sending && !tx_next_i && !tx_ok_i));
+    m_flushed: assume (!$past(flush_i) || !tx_next_i);
     // JobTry and JobAge begin when they are asked for, JobLoad when there is something to load.
     m_load: assume (job_i != can_rn_pkg::JobLoad || some_o || owe_status_i || owe_here_i);
     m_try: assume (job_i != can_rn_pkg::JobTry || (!f_sending && !tx_next_i && !flush_i));
+    // Nor is HERE taken back: a SELECT is obeyed before the intermission behind it ends (RN-37).
+    m_here: assume (!(f_sending || tx_next_i) || !f_recalled);
+    // From a failed attempt to the next are 17 bits at least, many times what JobTry waits for.
+    m_pause: assume (!tx_next_i || f_sending || !(try_q || $past(try_q)));
+    m_tried: assume (job_i != can_rn_pkg::JobTry || try_q);
     // No job writes the queue while it is flushed.
     m_flush_alone: assume (!flush_i || (job_i != can_rn_pkg::JobPush
                                         && job_i != can_rn_pkg::JobLoad));
@@ -51,6 +63,12 @@
       // HERE.
       p_own_id: assert (!tx_req_o || f_here
                         || tx_word_o[28:18] >> AddrBits == {1'b1, number_i});
+      // RN-54: what the engine takes is still there, even if its life ends in that clock.
+      p_taken: assert (!tx_next_i || f_sending
+                       || (src_q != can_rn_pkg::SrcNone && src_q == $past(src_q)));
+      // RN-54: and stays until its end.
+      p_stays: assert (!$past((f_sending || tx_next_i) && !tx_ok_i && !tx_fail_i && !flush_i)
+                       || (src_q == $past(src_q) && head_q == $past(head_q)));
       // RN-102 P-3, RN-54: nothing goes that is not there.
       p_no_underflow: assert (head_q == $past(head_q) || $past(flush_i || some_o));
       // RN-31, RN-102 P-3: full is told exactly when no more can be taken.
