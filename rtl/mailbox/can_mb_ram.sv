@@ -7,6 +7,8 @@
 module can_mb_ram #(
   /// Words of 32 bits; a power of two.
   parameter int Depth = 128,
+  /// First contents, as $readmemh takes them; "": any.
+  parameter InitFile = "",
   /// Derived, do not override.
   localparam int AddrWidth = $clog2(Depth)
 ) (
@@ -22,6 +24,10 @@ module can_mb_ram #(
   // relies on it, and the attribute saves the logic that would pretend otherwise. Simulation
   // returns a byte made of the old one and the last one read, so that every test would see it.
   (* no_rw_check *) logic [31:0] mem [Depth];
+
+  if (|InitFile) begin : gen_init
+    initial $readmemh(InitFile, mem);
+  end
 
   always_ff @(posedge clk_i) begin
     if (re_i) rdata_o <= mem[raddr_i];

@@ -25,6 +25,8 @@ module can_remote #(
   parameter int AutoRate = 0,
   /// 1: eight counters at 0xFE8 tell what happened.
   parameter int Counters = 0,
+  /// 1: direct reads are answered under the identifier of the request, to show why they are not.
+  parameter int SameId = 0,
   /// Serial number, 32 bits, different in each device.
   parameter int Serial = 0,
   /// Clocks per millisecond, 8,000 to 131,071.
@@ -35,6 +37,9 @@ module can_remote #(
   parameter int Ps1 = 4,
   parameter int Ps2 = 2,
   parameter int Sjw = 1,
+  /// First contents of the RAM, all of them, as tools/remote_memory.py writes them, for FPGAs whose
+  /// RAM has some; no reset clears it then. "": the RAM is cleared.
+  parameter InitFile = "",
   /// 1: trace_o shows the engine to an observer; else it is 0 and costs nothing.
   parameter int Trace = 0,
   /// Rows of RateTable, 1 to 15, and the rows, the first at the right, each 19 bits: clocks per
@@ -86,6 +91,7 @@ module can_remote #(
   output logic [can_pkg::TraceWidth-1:0] trace_o
 );
   localparam int AddrBits = 10 - NameBits;
+  localparam bit Filled   = |InitFile;
   localparam int Features = (StageBytes != 0 ? 1 : 0) + (NumProd != 0 ? 2 : 0)
                             + (NumMap != 0 ? 4 : 0) + (TxDepth == 4 ? 8 : 0)
                             + (Protect != 0 ? 16 : 0) + (Block != 0 ? 32 : 0)
@@ -120,6 +126,9 @@ module can_remote #(
   end
   if (Counters != 0 && Counters != 1) begin : gen_check_counters
     Counters_must_be_0_or_1 u_stop ();
+  end
+  if (SameId != 0 && SameId != 1) begin : gen_check_same_id
+    SameId_must_be_0_or_1 u_stop ();
   end
   if (NumMap != 0 && NumMap != 4 && NumMap != 8) begin : gen_check_num_map
     NumMap_must_be_0_4_or_8 u_stop ();
@@ -278,7 +287,7 @@ module can_remote #(
     .write_i(write), .read_i(read),
     .trigger_i(trigger || acts), .nothing_i(nothing), .restart_i(restart), .operate_i(operate),
     .hold_i(usr_hold_i),
-    .ended_i(ended), .cleared_i(cleared), .row_i(row), .carry_i(carry),
+    .ended_i(ended), .cleared_i(cleared || Filled), .row_i(row), .carry_i(carry),
     .ms_i(ms), .boff_i(boff), .off_i(off), .try_i(try_due), .load_i(load), .some_i(some),
     .more_i(ages),
     .gone_i(gone), .owe_feed_i(owe_feed), .tally_i(tally), .start_i(start_now), .run_i(run),
@@ -339,26 +348,31 @@ module can_remote #(
     .sum_o(sum), .same_o(in_order), .equal_o(equal), .wbyte_o(wbyte)
   );
 
+  // RN-16: answers of direct reads.
+  logic [1:0] same_id;
+  assign same_id = {all, !port && !visit && !make} & {2{SameId != 0}};
+
   // Who names the byte that is meant: 0 from all others, so that an OR is enough.
   logic own;
   assign own = guard || map_own || cell_own || tally_own || block_own;
-  can_rn_port #(.MemBytes(MemBytes)) u_port (
+  can_rn_port #(.MemBytes(MemBytes), .InitFile(InitFile)) u_port (
     .clk_i, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger || acts),
     .same_i(same && !phase[0]), .cell_i((cell_addr & {9{!own}}) | guard_cell | map_cell | own_cell
                                         | (tally_cell & {9{tally_own}})
                                         | (block_cell & {9{block_own}})),
     .re_i(cell_re || same || map_re || block_re),
-    .we_i((cell_we && !no_write && !tally_no_write && !block_no_write && !guard) || map_we
-          || block_we),
+    .we_i((cell_we && !no_write && !tally_no_write && !block_no_write && !guard
+           && !(Filled && job == can_rn_pkg::JobClear)) || map_we || block_we),
     .wide_i(wide),
     .mem_i(mem), .staged_i(staged), .wbyte_i(wbyte),
-    .a_i(7'(a)), .end_i(row_end), .code_i(shown), .status_i(status), .tec_i(tec), .rec_i(rec),
+    .a_i(7'(a)), .same_id_i(same_id), .end_i(row_end), .code_i(shown), .status_i(status),
+    .tec_i(tec), .rec_i(rec),
     .lane_o(lane), .rdata_o(rdata),
     .usr_req_i, .usr_we_i, .usr_be_i, .usr_addr_i, .usr_wdata_i, .usr_ready_o
   );
   assign usr_rdata_o = rdata;
 
-  can_rn_tx #(.NameBits(NameBits), .TxDepth(TxDepth)) u_tx (
+  can_rn_tx #(.NameBits(NameBits), .TxDepth(TxDepth), .SameId(SameId != 0)) u_tx (
     .clk_i, .rst_ni,
     .job_i(job), .phase_i(phase), .flush_i(flush), .number_i(number), .owe_status_i(owe_status),
     .owe_here_i(owe_here), .one_i(one), .rdata_i(rdata), .tail_o(tail),

@@ -5,7 +5,8 @@
 // what is written. Bytes of one word that change together are written together.
 
 module can_rn_port #(
-  parameter int MemBytes = 4096
+  parameter int MemBytes = 4096,
+  parameter InitFile = ""
 ) (
   input  logic             clk_i,
   input  can_rn_pkg::job_t job_i,
@@ -21,6 +22,7 @@ module can_rn_port #(
   input  logic             staged_i,
   input  logic [7:0]       wbyte_i,
   input  logic [6:0]       a_i,
+  input  logic [1:0]       same_id_i,   // identifier of the answer, see can_rn_tx
   input  logic [3:0]       end_i,
   input  logic [3:0]       code_i,
   input  logic [7:0]       status_i,
@@ -74,12 +76,12 @@ module can_rn_port #(
   always_comb begin
     wdata = {4{wbyte_i}};
     if (push || count)  wdata[7:0]   = {1'b0, a_i};
-    if (push)           wdata[15:8]  = {4'd0, end_i};
+    if (push)           wdata[15:8]  = {2'd0, same_id_i, end_i};
     if (status)         wdata        = {3'd0, code_i[3], 1'b0, code_i[2:0], rec_i, tec_i, status_i};
     if (user)           wdata        = usr_wdata_i;
   end
 
-  can_mb_ram #(.Depth(MemBytes / 4)) u_ram (
+  can_mb_ram #(.Depth(MemBytes / 4), .InitFile(InitFile)) u_ram (
     .clk_i,
     .re_i(user ? usr_req_i : re_i),
     .raddr_i(AddrWidth'(from_mem ? mem_i[11:2] : address)),

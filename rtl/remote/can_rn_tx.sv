@@ -7,7 +7,9 @@
 module can_rn_tx #(
   parameter int NameBits = 3,
   /// Answers, 1 or 4.
-  parameter int TxDepth = 1
+  parameter int TxDepth = 1,
+  /// 1: bits 5:4 of byte 1 of a header: to all, answer under the identifier of its request (RN-16).
+  parameter bit SameId = 1'b0
 ) (
   input  logic                clk_i,
   input  logic                rst_ni,
@@ -145,7 +147,11 @@ module can_rn_tx #(
   logic [10:0]         id;
   assign own = src_q[1];
   assign a   = own ? {{AddrBits-2{!src_q[0]}}, 2'b10} : hold_q[AddrBits-1:0];
-  assign id  = {1'b1, number_i & {NameBits{!(&src_q)}}, a};
+  // RN-16, for the demonstration: direction 0, and name 1 where all have been asked.
+  logic request, all;
+  assign request = SameId && !own && hold_q[12];
+  assign all     = request && hold_q[13];
+  assign id  = {!request, (number_i & {NameBits{!((&src_q) || all)}}) | NameBits'(all), a};
 
   assign tx_req_o  = !load_q && word_q[1] && !loading;
   assign tx_dlc_o  = own ? {!src_q[0], 3'd0} : hold_q[11:8];

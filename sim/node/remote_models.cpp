@@ -10,6 +10,8 @@
 #include "Vcan_remote_full_3___024root.h"
 #include "Vcan_remote_full_5.h"
 #include "Vcan_remote_full_5___024root.h"
+#include "Vcan_remote_same_3.h"
+#include "Vcan_remote_same_3___024root.h"
 #include "Vcan_remote_small_3.h"
 #include "Vcan_remote_small_3___024root.h"
 #include "Vcan_remote_small_5.h"
@@ -256,16 +258,24 @@ bool is_standard16(const RemoteConfig &config) {
   return config.name_bits == 3 && plain(config) == plain(standard16);
 }
 
+// Small, for the demonstration of RN-16.
+bool is_same(const RemoteConfig &config) {
+  RemoteConfig same = RemoteConfig::profile("small");
+  same.same_id = true;
+  return config.name_bits == 3 && plain(config) == plain(same);
+}
+
 }  // namespace
 
 bool RemoteNode::has(const RemoteConfig &config) {
   return is(config, "small", 3) || is(config, "small", 5) || is(config, "standard", 3) ||
          is(config, "standard", 5) || is_standard16(config) || is(config, "full", 3) ||
-         is(config, "full", 5);
+         is(config, "full", 5) || is_same(config);
 }
 
 std::string RemoteNode::available() {
-  return "profile small, standard or full with its parameters, standard also with 16 staged bytes";
+  return "profile small, standard or full with its parameters, standard also with 16 staged bytes, "
+         "small also with same_id";
 }
 
 std::unique_ptr<RemoteNode> RemoteNode::create(std::string name, const RemoteConfig &config,
@@ -282,6 +292,7 @@ std::unique_ptr<RemoteNode> RemoteNode::create(std::string name, const RemoteCon
   if (is(config, "standard", 5)) return make(std::type_identity<Vcan_remote_standard_5>{});
   if (is(config, "full", 3)) return make(std::type_identity<Vcan_remote_full_3>{});
   if (is(config, "full", 5)) return make(std::type_identity<Vcan_remote_full_5>{});
+  if (is_same(config)) return make(std::type_identity<Vcan_remote_same_3>{});
   if (is_standard16(config)) return make(std::type_identity<Vcan_remote_standard16_3>{});
   throw std::invalid_argument("no RTL is built with these parameters; allowed: " + available());
 }

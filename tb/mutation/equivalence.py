@@ -31,7 +31,8 @@ endmodule
 """
 # Address and data count where they are read or written.
 USED = """
-module can_mb_ram #(parameter int Depth = 64, localparam int AddrW = $clog2(Depth)) (
+module can_mb_ram #(parameter int Depth = 64, parameter InitFile = "",
+  localparam int AddrW = $clog2(Depth)) (
   input logic clk_i, input logic re_i, input logic [AddrW-1:0] raddr_i, output logic [31:0] rdata_o,
   input logic [3:0] we_i, input logic [AddrW-1:0] waddr_i, input logic [31:0] wdata_i);
   can_ram_cell #(.Depth(Depth)) u_cell (.clk_i, .re_i, .raddr_i(re_i ? raddr_i : '0), .rdata_o,

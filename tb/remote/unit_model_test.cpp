@@ -124,27 +124,6 @@ TEST(UnitModels, HereOfSeveralNodesIsOneFrame) {
   for (const auto &unit : bus.units) EXPECT_EQ(decode_trace(unit->trace()).tec, 0);
 }
 
-// RN-10, RN-16: the collision that P2's answers bring about: a host's write and an answer of the
-// same identifier start together, differ in their data and destroy each other. Answers on
-// identifiers of their own do not.
-TEST(UnitModels, TheCollisionOfSameIdentifiers) {
-  for (const bool same_id : {true, false}) {
-    RemoteConfig config = RemoteConfig::profile("small");
-    config.same_id = same_id;
-    UnitBus bus{model_unit(config, 3)};
-    (void)bus.start();
-    bus.host.request(frame_of("1A0#R1"));
-    bus.host.request(frame_of("1A0#5A"));
-    bus.run_bits(150);
-    const Trace host = decode_trace(bus.host.trace());
-    EXPECT_EQ(host.tec != 0, same_id);
-    (void)bus.settle();
-    // The node gives up after RETRY attempts, so both get through in the end, or are dropped.
-    EXPECT_EQ(bus.unit->peek(0x20), 0x5A);
-    EXPECT_EQ(decode_trace(bus.unit->trace()).tec >= 56, same_id);
-  }
-}
-
 // RN-15: nobody acknowledges: after RETRY attempts the frame is dropped, TEC has risen by 64.
 TEST_F(UnitModel, AttemptsWithoutAcknowledgeEnd) {
   bus.unit->user_write(0xF40 / 4, 0x00009120, 0xF);  // producer: 20 [1] by event

@@ -6,6 +6,7 @@
 
 module can_mb_ram #(
   parameter int Depth = 128,
+  parameter InitFile = "",
   localparam int AddrWidth = $clog2(Depth)
 ) (
   input  logic                 clk_i,
