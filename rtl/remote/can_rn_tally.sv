@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // can_rn_tally: the eight counters at FE8, which stop at 255 (RN-35). What happens is noted, and
-// counted as soon as nothing else is under way; no two of them happen before that but for the end
-// of a hold, which has a note of its own.
+// counted as soon as nothing else is under way. No two of them happen before that, but what may
+// happen within a frame as well: the end of a hold and of an answer's life have notes of their own.
 
 module can_rn_tally (
   input  logic             clk_i,
@@ -32,22 +32,22 @@ module can_rn_tally (
   output logic             no_write_o
 );
   logic       tally, last, byte_job, counted, sequence_bad;
-  logic       due_q, over_q, clear_q, order_q, event_now;
+  logic       due_q, drop_q, over_q, clear_q, order_q, event_now, ends;
   logic [2:0] what_q, what, k;
 
   assign tally    = job_i == can_rn_pkg::JobTally;
   assign byte_job = job_i == can_rn_pkg::JobByte && count_i && phase_i != 2'd0;
   assign last     = phase_i[1];
+  assign ends     = tally && last && !due_q;
 
   // 0 function, 1 value, 2 address, protection and lock, 3 busy, 6 sequence.
   assign counted      = job_i == can_rn_pkg::JobCount && phase_i == 2'd2 && refused_i;
   assign sequence_bad = job_i == can_rn_pkg::JobTrigger && phase_i == 2'd0 && !none_i && !order_q;
-  assign event_now    = counted || sequence_bad || dup_i || dropped_i || off_entry_i
-                        || timeout_i || clear_i;
+  assign event_now    = counted || sequence_bad || dup_i || off_entry_i || timeout_i
+                        || clear_i;
   always_comb begin
     what = {code_i[3] && code_i[1], code_i[3] || (code_i[1] && !code_i[0]),
             !code_i[3] && code_i[1] && (code_i[0] || code_i[2])};
-    if (dropped_i)    what = 3'd3;
     if (dup_i)        what = 3'd4;
     if (off_entry_i)  what = 3'd5;
     if (sequence_bad || timeout_i) what = 3'd6;
@@ -56,20 +56,21 @@ module can_rn_tally (
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {due_q, over_q, clear_q, order_q} <= '0;
+      {due_q, drop_q, over_q, clear_q, order_q} <= '0;
       what_q <= '0;
     end else begin
       if (event_now)                what_q <= what;
       else if (tally && last && clear_q) what_q <= 3'd4;   // the second word
       due_q   <= event_now || (due_q && !(tally && last && (!clear_q || what_q[2])));
       clear_q <= clear_i || (clear_q && due_q);
-      over_q  <= over_i || (over_q && (due_q || !(tally && last)));
+      drop_q  <= dropped_i || (drop_q && !ends);
+      over_q  <= over_i || (over_q && (drop_q || !ends));
       if (byte_job) order_q <= same_i;
     end
   end
 
-  assign want_o     = due_q || over_q;
-  assign k          = what_q | {3{!due_q}};
+  assign want_o     = due_q || drop_q || over_q;
+  assign k          = due_q ? what_q : {!drop_q, 2'b11};
   assign cell_own_o = tally || byte_job;
   assign more_o     = (tally && !clear_q) || byte_job;
   assign wide_o     = tally && clear_q;

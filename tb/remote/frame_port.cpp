@@ -33,6 +33,7 @@ void FramePort::reset() {
 }
 
 void FramePort::clock() {
+  if (ms_in_ != 0 && --ms_in_ == 0) engine_.ms = true;
   edge(engine_);
   ++clocks_;
   engine_.tick = engine_.hdr = engine_.byte_we = engine_.valid = false;

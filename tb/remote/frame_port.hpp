@@ -57,6 +57,8 @@ class FramePort {
   void ms();
   /// A pulse of the millisecond in the next clock.
   void pulse_ms() { engine_.ms = true; }
+  /// A pulse in that clock from now on: 1 is the next.
+  void pulse_ms_in(unsigned clocks) { ms_in_ = clocks; }
   virtual void set_counters(unsigned tec, unsigned rec, bool passive, bool bus_off) = 0;
   /// boff_rec_i has been 0 since the last call.
   [[nodiscard]] virtual bool take_release() = 0;
@@ -123,6 +125,7 @@ class FramePort {
 
   Engine engine_;
   std::vector<RemotePulse> pulses_;
+  unsigned ms_in_ = 0;
   std::uint64_t clocks_ = 0;
   std::uint64_t pulse_clock_ = 0;
 };

@@ -15,9 +15,10 @@
     end
   end
 
-  // What has happened and is not counted yet, by the table of RN-35; a hold that was too long, and
-  // what CLEAR asks for: its first word, its second.
-  logic       f_due, f_over;
+  // What has happened and is not counted yet, by the table of RN-35; an answer that was dropped, a
+  // hold that was too long, and what CLEAR asks for: its first word, its second.
+  logic       f_due, f_drop, f_over, f_rest;
+  assign f_rest = f_end && !f_due && f_clear == 2'd0;
   logic [2:0] f_what;
   logic [1:0] f_clear;
   logic [2:0] f_counter;
@@ -33,22 +34,24 @@
   end
   logic f_one, f_bad_order;
   assign f_bad_order = job_i == can_rn_pkg::JobTrigger && phase_i == 2'd0 && !none_i && !order_q;
-  assign f_one = counted || f_bad_order || dup_i || dropped_i || off_entry_i || timeout_i;
+  assign f_one = counted || f_bad_order || dup_i || off_entry_i || timeout_i;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {f_due, f_over} <= '0;
+      {f_due, f_drop, f_over} <= '0;
       f_what  <= '0;
       f_clear <= '0;
     end else begin
       if (f_one) begin
         f_due  <= 1'b1;
         f_what <= dup_i ? 3'd4 : off_entry_i ? 3'd5 : f_bad_order || timeout_i ? 3'd6
-                  : dropped_i ? 3'd3 : f_counter;
+                  : f_counter;
       end else if (f_end && f_clear == 2'd0) f_due <= 1'b0;
       if (clear_i)    f_clear <= 2'd2;
       else if (f_end) f_clear <= f_clear == 2'd0 ? 2'd0 : f_clear - 2'd1;
+      if (dropped_i)  f_drop <= 1'b1;
+      else if (f_rest) f_drop <= 1'b0;
       if (over_i)     f_over <= 1'b1;
-      else if (f_end && !f_due && f_clear == 2'd0) f_over <= 1'b0;
+      else if (f_rest && !f_drop) f_over <= 1'b0;
     end
   end
 
@@ -59,11 +62,11 @@
     m_phase: assume (!tally || (want_o && phase_i == f_phase));
     m_whole: assume (f_phase == 2'd0 || tally);
     m_idle: assume (!$past(f_end) || !tally);
-    // One thing at a time, and the next when the last has been counted; a hold apart.
-    m_one: assume ($countones({counted, f_bad_order, dup_i, dropped_i, off_entry_i, timeout_i,
-                               clear_i}) <= 1);
+    // One thing at a time, and the next when the last has been counted; but for a hold and answers
+    // that are dropped, which do not happen in the midst of JobTally.
+    m_one: assume ($countones({counted, f_bad_order, dup_i, off_entry_i, timeout_i, clear_i}) <= 1);
     m_apart: assume (!(f_one || clear_i) || (!tally && !f_due && f_clear == 2'd0));
-    m_hold: assume (!over_i || !tally);
+    m_hold: assume (!(over_i || dropped_i) || !tally);
     // A refused request has a code, and none of those that only answers of BLOCK have.
     m_code: assume (!counted || code_i == can_rn_pkg::CodeFunction
                     || code_i == can_rn_pkg::CodeValue || code_i == can_rn_pkg::CodeAddress
@@ -71,11 +74,13 @@
                     || code_i == can_rn_pkg::CodeLocked || code_i == can_rn_pkg::CodeSequence);
     if (f_ran) begin
       // RN-35: nothing that happens is forgotten, and nothing else is counted.
-      p_want: assert (want_o == (f_due || f_over || f_clear != 2'd0));
+      p_want: assert (want_o == (f_due || f_drop || f_over || f_clear != 2'd0));
       // RN-35: each thing is counted where it belongs.
       p_counter: assert (!(f_end && f_due && f_clear == 2'd0) || cell_o == 9'h1E8 + 9'(f_what));
-      // RN-35: a hold too long is counter 7.
-      p_hold: assert (!(f_end && !f_due && f_clear == 2'd0) || cell_o == 9'h1EF);
+      // RN-35: an answer that is dropped is counter 3,
+      p_dropped: assert (!(f_rest && f_drop) || cell_o == 9'h1EB);
+      // RN-35: a hold too long counter 7.
+      p_hold: assert (!(f_rest && !f_drop) || cell_o == 9'h1EF);
       // RN-35: one more is counted, not when CLEAR writes.
       p_one_more: assert (!f_end || more_o == (f_clear == 2'd0));
       // RN-102 P-12, RN-35: a counter of 255 is not written but by CLEAR.

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The counters at FE8 where two things happen at once (RN-35, RN-54).
+#include <gtest/gtest.h>
+
+#include "remote/frame_port.hpp"
+#include "remote/model_node.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr unsigned kLife = 0xF05, kValue = 0xFE9, kDropped = 0xFEB, kDup = 0xFEC;
+
+/// A node of profile full with an answer that waits for `ms` milliseconds already.
+std::unique_ptr<FramePort> waiting(unsigned ms) {
+  auto port = FramePort::create("full", 3, 0xCAFE1234, 3);
+  port->user_write(kLife / 4, 0x0100, 2);  // 10 ms
+  port->start();
+  (void)port->drain();
+  port->receive(frame_of("1A0#R1"));
+  for (unsigned i = 0; i < ms; ++i) port->ms();
+  return port;
+}
+
+/// Milliseconds until it is dropped.
+unsigned life() {
+  unsigned ms = 1;
+  while (waiting(ms)->peek(kDropped) == 0 && ms < 100) ++ms;
+  return ms;
+}
+
+// RN-35, RN-54: an answer whose life ends in any clock of a frame that is counted, too.
+TEST(PortTally, NothingThatHappensTogetherIsForgotten) {
+  const unsigned ms = life();
+  ASSERT_LE(ms, 20U);
+  for (const auto &[frame, counter] : {std::pair{"1A0#", kValue}, std::pair{"5A0#00", kDup}}) {
+    for (unsigned clock = 1; clock < 220; ++clock) {
+      SCOPED_TRACE(testing::Message() << frame << ", clock " << clock);
+      const auto port = waiting(ms - 1);
+      ASSERT_EQ(port->peek(kDropped), 0);
+      port->pulse_ms_in(clock);
+      port->receive(frame_of(frame));
+      port->clocks(300);
+      EXPECT_EQ(port->peek(kDropped), 1);
+      EXPECT_EQ(port->peek(counter), 1);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vericansim
