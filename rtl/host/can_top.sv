@@ -112,26 +112,26 @@ module can_top #(
     end
   end
 
-  logic        reg_rd_q, reg_wr_q, mb_ready;
-  logic [10:0] reg_addr_q;
+  // Registers are in the first words of either page.
+  logic        reg_rd_q, reg_wr_q, in_reg, mb_ready;
+  logic [5:0]  reg_addr_q;
   logic [3:0]  reg_be_q;
   logic [31:0] reg_rdata, mb_rdata;
+  assign in_reg = addr_i[11:7] == '0 && !to_mb;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {reg_rd_q, reg_wr_q} <= '0;
       reg_addr_q <= '0;
       reg_be_q <= '0;
     end else if (ready_o) begin
-      reg_rd_q <= req && !we_i && !to_mb;
-      reg_wr_q <= req && we_i && !to_mb;
-      if (req) begin
-        reg_addr_q <= addr_i;
-        reg_be_q   <= be_i;
-      end
+      reg_rd_q   <= req && !we_i && in_reg;
+      reg_wr_q   <= req && we_i && in_reg;
+      reg_addr_q <= {addr_i[12], addr_i[6:2]};
+      reg_be_q   <= be_i;
     end
   end
   assign ready_o = mb_ready;
-  assign rdata_o = reg_rd_q ? reg_rdata : mb_rdata;
+  assign rdata_o = reg_rdata | mb_rdata;
 
   // Wires between the blocks; names as at the blocks.
   logic        run, clear, running, stop_ok, mb_busy, mb_scrub;
@@ -163,8 +163,8 @@ module can_top #(
 
   can_regs #(.NumMb(NumMb), .Config(Config)) u_regs (
     .clk_i, .rst_ni,
-    .rd_i(reg_rd_q), .wr_i(reg_wr_q), .addr_i(reg_addr_q), .be_i(reg_be_q), .wdata_i,
-    .rdata_o(reg_rdata),
+    .rd_i(reg_rd_q), .wr_i(reg_wr_q), .addr_i({reg_addr_q[5], 5'b0, reg_addr_q[4:0]}),
+    .be_i(reg_be_q), .wdata_i, .rdata_o(reg_rdata),
     .run_o(run), .clear_o(clear), .frz_ack_o(frz_ack), .lpm_ack_o(lpm_ack),
     .mb_busy_i(mb_busy), .mb_scrub_i(mb_scrub),
     .stop_req_i(stop_req_i && Wake != 0), .wake_i(wake), .wake_en_o(wake_en),

@@ -126,7 +126,7 @@ module can_mailbox #(
   can_mb_cpu #(.NumMb(NumMb)) u_cpu (
     .clk_i, .rst_ni, .scrub_i(scrub_o), .fen_i, .aen_i, .osmb_i, .first_i(first),
     .head_i(fifo_head),
-    .cmd_rd_i, .cmd_wr_i, .cmd_mb_i(!cmd_kind_i[1]), .cmd_idx_i,
+    .cmd_wr_i, .cmd_mb_i(!cmd_kind_i[1]), .cmd_idx_i,
     .cmd_wr_o(cmd_wr), .cmd_look_o(cmd_look), .cmd_idx_o(cmd_idx),
     .ready_i(ready_o), .rd_done_i(rd_done), .wr_done_i(wr_done), .block_i(block),
     .kind_i(cpu_kind),

@@ -22,7 +22,6 @@ module can_mb_cpu #(
   input  logic [6:0]      first_i,       // first buffer that is a mailbox
   input  logic [2:0]      head_i,        // row of the output, after a pop in this clock
   // Command, as of can_mailbox.
-  input  logic            cmd_rd_i,
   input  logic            cmd_wr_i,
   input  logic            cmd_mb_i,      // a word of a buffer, or RXFIR
   input  logic [IdxW-1:0] cmd_idx_i,
@@ -45,7 +44,7 @@ module can_mb_cpu #(
   input  logic [IdxW-1:0] mv_idx_i,
   output logic            raw_o,         // it belongs to the filter table
   output logic [31:0]     wdata_o,       // as it is kept
-  output logic [31:0]     rdata_o,
+  output logic [31:0]     rdata_o,       // 0 if nothing is read
   output logic            timer_rd_o,
   output logic            timer_wr_o,
   output logic            cs_rd_o,       // C/S word of a mailbox is read
@@ -60,17 +59,17 @@ module can_mb_cpu #(
   localparam logic [1:0] KindCs    = 2'd0;
   localparam logic [1:0] KindTimer = 2'd3;
 
-  // Command: in the FIFO's area?
+  // Command: in the FIFO's area? Its memory, six rows, always is.
   logic in_area, in_ring, area_q, ring_q;
   assign in_area   = fen_i && cmd_mb_i && 7'(cmd_idx_i) < first_i;
-  assign in_ring   = in_area && cmd_idx_i[IdxW-1:3] == '0 && cmd_idx_i[2:1] != 2'b11;
+  assign in_ring   = fen_i && cmd_mb_i && cmd_idx_i[IdxW-1:3] == '0 && cmd_idx_i[2:1] != 2'b11;
   assign cmd_wr_o  = cmd_wr_i && !in_ring;
   assign cmd_look_o = cmd_mb_i && !in_area;
   assign cmd_idx_o = fen_i && cmd_mb_i && cmd_idx_i == '0 ? IdxW'(head_i) : cmd_idx_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)                                    {area_q, ring_q} <= '0;
-    else if (ready_i && (cmd_rd_i || cmd_wr_i))     {area_q, ring_q} <= {in_area, in_ring};
+    if (!rst_ni)      {area_q, ring_q} <= '0;
+    else if (ready_i) {area_q, ring_q} <= {in_area, in_ring};
   end
 
   // Data.
@@ -104,7 +103,7 @@ module can_mb_cpu #(
       rdata_o = ring_q ? {23'b0, ram_rdata_i[31:23]} : '0;
     end else if (is_cs && !raw_o) begin
       {rdata_o[31:28], rdata_o[23]} = '0;
-      rdata_o[24] = ram_rdata_i[24] || busy_o;
+      rdata_o[24] = ram_rdata_i[24] || (busy_o && rd_done_i);
       if (ring_q) rdata_o[27:24] = '0;
     end
   end

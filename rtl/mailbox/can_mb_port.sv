@@ -123,14 +123,12 @@ module can_mb_port #(
       idx_q <= '0;
       be_q <= '0;
     end else if (ready_o) begin
-      rd_q <= cmd_rd_i;
-      wr_q <= cmd_wr_i;
-      if (cmd_rd_i || cmd_wr_i) begin
-        kind_q <= cmd_kind_i;
-        word_q <= cmd_word_i;
-        idx_q  <= cmd_idx_i;
-        be_q   <= cmd_be_i;
-      end
+      rd_q   <= cmd_rd_i;
+      wr_q   <= cmd_wr_i;
+      kind_q <= cmd_kind_i;
+      word_q <= cmd_word_i;
+      idx_q  <= cmd_idx_i;
+      be_q   <= cmd_be_i;
     end
   end
 
