@@ -9,6 +9,7 @@ TOKEN = re.compile(r"""
     (?P<skip>\s+|//[^\n]*|/\*.*?\*/|\(\*.*?\*\)|`ifndef\ SYNTHESIS\n.*?\n`endif)
   | (?P<number>\d*'[bodh][0-9a-fA-F_]+|'[01](?![0-9])|\d+)
   | (?P<name>[A-Za-z_$][\w$]*(?:::[A-Za-z_]\w*)*)
+  | (?P<string>"[^"\n]*")
   | (?P<op>\|\||&&|==|!=|<=|>=|<<|>>|~\^|\+:|-:|\+\+|\*\*|[-+*/%&|^~!<>=?:;,.(){}\[\]'@\#])
 """, re.VERBOSE | re.DOTALL)
 
