@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// FlopRemote: a Verilated can_remote (profile standard, number 3) one of whose flip-flops
+// FlopRemote: a Verilated can_remote (profile full, number 3) one of whose flip-flops
 // flips at a clock, or is stuck from then on.
 #pragma once
 

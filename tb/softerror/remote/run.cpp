@@ -40,11 +40,14 @@ class World {
       if (one.size() < 3 || one[0] < '4' || one[0] > '7') wrong_ = true;
     return said;
   }
-  // Everything that a node does: statements of a producer, staged bytes, reads of all kinds.
+  // Everything that a node does: statements of a producer, staged bytes, reads of all kinds,
+  // blocks.
   void traffic() {
-    for (const char *text : {"1FC#013412FECA", "1F9#400F4094", "1F9#420F0100", "000#01",
-                             "090#1027204E30754099", "001#01", "190#R4", "0C0#R1", "1F8#100006",
-                             "1A5#0102030405060708", "1FE#R8", "002#0000000000000000"})
+    for (const char *text :
+         {"1FC#013412FECA", "1F9#400F4094", "1F9#420F0100", "000#01", "090#1027204E30754099",
+          "001#01", "190#R4", "0C0#R1", "1F8#100006", "1A5#0102030405060708", "1FE#R8",
+          "002#0000000000000000", "1FA#015A00020A00", "1FA#025B00030A00", "1FB#0001020304050607",
+          "1FB#01080A0B"})
       (void)send(text);
     (void)send("7A0#0102", true);
     (void)send("001#02");
