@@ -5,6 +5,7 @@
 block of what is not there (PK-43)."""
 
 import subprocess
+import sys
 import unittest
 
 import design
@@ -17,8 +18,8 @@ BLOCKS = {"Fifo": ("can_mb_filter", "can_rx_fifo"), "Abort": ("can_mb_guard",),
 
 def settings(*arguments):
     """The builds that tools/profiles.py lists, as dictionaries."""
-    text = subprocess.run([design.ROOT / "tools/profiles.py", *arguments], check=True,
-                          capture_output=True, text=True).stdout
+    text = subprocess.run([sys.executable, design.ROOT / "tools/profiles.py", *arguments],
+                          check=True, capture_output=True, text=True).stdout
     return [dict(word.split("=") for word in line.split() if "=" in word)
             for line in text.splitlines()]
 
