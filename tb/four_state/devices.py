@@ -3,9 +3,11 @@
 """The tops whose pins are recorded and replayed with four states."""
 import dataclasses
 
-# The bit timing and the serial number of the recorded remote node (record_remote.cpp).
-REMOTE = {"NumProd": 8, "NumMap": 8, "TxDepth": 4, "Protect": 1, "Serial": "32'hCAFE1234",
-          "ClocksPerMs": 12000, "Prop": 5, "Ps1": 3, "Ps2": 3, "Sjw": 3, "Trace": 1}
+# Profile full, the bit timing and the serial number of the recorded remote node
+# (record_remote.cpp): a rate table of one row, 1 Mbit/s at 12 MHz.
+REMOTE = {"NumProd": 8, "NumMap": 8, "TxDepth": 4, "Protect": 1, "Block": 1, "AutoRate": 1,
+          "Counters": 1, "RateRows": 1, "RateTable": "285'd1235", "Serial": "32'hCAFE1234",
+          "ClocksPerMs": 12000, "Trace": 1}
 
 
 @dataclasses.dataclass(frozen=True)

@@ -36,11 +36,11 @@ void need(bool done, const char *what) {
   if (!done) throw std::runtime_error(std::string{"recording: "} + what);
 }
 
-// Every command of profile small by each answer.
+// Every command by each answer.
 void vectors(Rig &rig) {
   unsigned answers = 0;
   for (const golden::Vector &vector :
-       golden::load().front().for_features(golden::features_of("standard")))
+       golden::load().front().for_features(golden::features_of("full")))
     for (const golden::Step &step : vector.steps)
       answers += static_cast<unsigned>(rig.bus.send(step.send, step.from_node).size());
   need(answers > 10, "golden vectors are not answered");
