@@ -14,6 +14,7 @@ BitTiming SaturatedBus::timing(unsigned megahertz) {
     case 8: return {.prescaler = 1, .prop = 3, .ps1 = 2, .ps2 = 2, .sjw = 2};
     case 16: return {.prescaler = 1, .prop = 7, .ps1 = 4, .ps2 = 4, .sjw = 4};
     case 50: return {.prescaler = 5, .prop = 3, .ps1 = 3, .ps2 = 3, .sjw = 3};
+    case 80: return {.prescaler = 8, .prop = 3, .ps1 = 3, .ps2 = 3, .sjw = 3};
     default:
       throw std::invalid_argument("no 1 Mbit/s timing for " + std::to_string(megahertz) + " MHz");
   }

@@ -25,7 +25,7 @@ class SaturatedBus {
   [[nodiscard]] Bus &bus() { return bus_; }
   [[nodiscard]] Host &host(unsigned i) { return *hosts_[i]; }
 
-  /// Bit timing of 1 Mbit/s at 8, 16 or 50 MHz.
+  /// Bit timing of 1 Mbit/s at 8, 16, 50 or 80 MHz.
   static BitTiming timing(unsigned megahertz);
 
  private:

@@ -32,7 +32,7 @@ void saturated_bus(benchmark::State &state) {
 }
 BENCHMARK(saturated_bus)
     ->ArgNames({"nodes", "MHz", "drift"})
-    ->ArgsProduct({{2, 4, 8}, {8, 16, 50}, {0, 1}})
+    ->ArgsProduct({{2, 4, 8}, {8, 16, 50, 80}, {0, 1}})
     ->Unit(benchmark::kMillisecond);
 
 // A node that does nothing: what is left is the kernel.
