@@ -15,7 +15,7 @@ module remote_hx8k #(
   input  logic [1:0] inputs_i,
   output logic [7:0] leds_o      // the byte at 0x010
 );
-  remote_io #(.Serial(Serial), .Standard(1'b1), .Outputs(8), .Inputs(2)) u_io (
+  remote_io #(.Serial(Serial), .Full(1'b1), .Outputs(8), .Inputs(2)) u_io (
     .clk_i, .number_i, .inputs_i, .outputs_o(leds_o), .state_o(), .seen_o(),
     .can_rx_i, .can_tx_o
   );

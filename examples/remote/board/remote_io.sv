@@ -7,8 +7,8 @@
 module remote_io #(
   /// Serial number of this board.
   parameter int Serial = 1,
-  /// 0: profile small; 1: standard, with producers, map, a queue of four and protection.
-  parameter bit Standard = 1'b0,
+  /// 0: profile small; 1: full.
+  parameter bit Full = 1'b0,
   /// Outputs and inputs, at most 8 of each.
   parameter int Outputs = 4,
   parameter int Inputs = 2
@@ -28,7 +28,7 @@ module remote_io #(
   assign rst_n = reset_q[3];
   always_ff @(posedge clk_i) reset_q <= {reset_q[2:0], 1'b1};
 
-  localparam int Events = Standard ? 8 : 1;
+  localparam int Events = Full ? 8 : 1;
   localparam logic [9:0] OutputWord = 10'h010 / 10'd4;
   localparam logic [9:0] InputWord  = 10'h040 / 10'd4;
 
@@ -38,10 +38,24 @@ module remote_io #(
   logic [Outputs-1:0] out_q;
   logic [Inputs-1:0]  meta_q, in_q;
 
-  // 12 quanta a bit, sample point 75 %, as in the paper: 1 + 5 + 3 and 3.
+  // 12 quanta a bit, sample point 75 %, as in the paper: 1 + 5 + 3 and 3; in full from the first
+  // row of the table, which is what `verican bittime --table --clock 12M` prints.
   can_remote #(
-    .TxDepth(Standard ? 4 : 1), .NumProd(Standard ? 8 : 0), .NumMap(Standard ? 8 : 0),
-    .Protect(Standard ? 1 : 0), .Serial(Serial),
+    .TxDepth(Full ? 4 : 1), .NumProd(Full ? 8 : 0), .NumMap(Full ? 8 : 0),
+    .Protect(Full ? 1 : 0), .Block(Full ? 1 : 0), .AutoRate(Full ? 1 : 0),
+    .Counters(Full ? 1 : 0), .Serial(Serial),
+    .RateRows(8),
+    .RateTable({
+      133'd0,
+      8'd74, 2'd1, 3'd6, 3'd1, 3'd5,  // 10 kbit/s
+      8'd39, 2'd1, 3'd5, 3'd1, 3'd5,  // 20 kbit/s
+      8'd14, 2'd1, 3'd6, 3'd1, 3'd5,  // 50 kbit/s
+      8'd5, 2'd1, 3'd6, 3'd1, 3'd5,  // 125 kbit/s
+      8'd2, 2'd1, 3'd6, 3'd1, 3'd5,  // 250 kbit/s
+      8'd1, 2'd1, 3'd4, 3'd1, 3'd3,  // 500 kbit/s
+      8'd0, 2'd2, 3'd5, 3'd2, 3'd4,  // 800 kbit/s
+      8'd0, 2'd2, 3'd3, 3'd2, 3'd3  // 1000 kbit/s
+    }),
     .ClocksPerMs(12000), .Brp(1), .Prop(5), .Ps1(3), .Ps2(3), .Sjw(3)
   ) u_node (
     .clk_i, .rst_ni(rst_n), .start_i(1'b1), .node_i(number_i), .rate_i(4'd0),
@@ -49,7 +63,7 @@ module remote_io #(
     .usr_addr_i(due_q ? OutputWord : InputWord), .usr_wdata_i(32'(in_q)),
     .usr_ready_o(ready), .usr_rdata_o(rdata), .usr_hold_i(1'b0),
     .written_o(written), .written_addr_o(), .written_len_o(), .apply_o(apply),
-    .event_i(Events'(Standard && take_q)),   // producer 0 tells what the inputs are then
+    .event_i(Events'(Full && take_q)),   // producer 0 tells what the inputs are then
     .safe_o(safe), .state_o, .can_rx_i, .can_tx_o, .trace_o()
   );
 
