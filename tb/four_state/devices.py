@@ -2,6 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The tops whose pins are recorded and replayed with four states."""
 import dataclasses
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
 
 # Profile full, the bit timing and the serial number of the recorded remote node
 # (record_remote.cpp): a rate table of one row, 1 Mbit/s at 12 MHz.
@@ -20,17 +25,32 @@ class Device:
     # Registers that show what a RAM returns, and may be X as long as the RAM is being cleared:
     # nobody asks for it then. Those without a reset (the RAMs' read data) are found in the netlist.
     behind_ram: tuple
+    fixed: dict = dataclasses.field(default_factory=dict)  # parameters, if there is but one size
+    # RAM outputs that also show what nobody asks for: rows that software cannot write, and of the
+    # hidden C/S row of a received frame the byte that becomes its code. What follows is looked at.
+    unasked: tuple = ()
 
     def parameters(self, size):
         """Of the top, for the bench and for Yosys."""
-        return {"NumMb": size} if self.top == "can_ahb" else REMOTE
+        return self.fixed or {"NumMb": size}
 
     def shown(self, size):
         """What a line of the output calls it."""
-        return f"NumMb={size}" if self.top == "can_ahb" else self.top
+        return f"NumMb={size or self.fixed['NumMb']}" if self.top == "can_ahb" else self.top
+
+
+def profile(name):
+    """The parameters of a profile of the core (sw/profiles.yaml)."""
+    text = subprocess.run([sys.executable, ROOT / "tools/profiles.py", name], check=True,
+                          capture_output=True, text=True).stdout
+    return dict(word.split("=") for word in text.split())
 
 
 DEVICES = {
     "ahb": Device("can_ahb", "replay.sv", "four_state_record", (16, 64),
                   ("u_top.u_mailbox.u_match.gen_fifo.u_filter.s2_equal_q",)),
-    "remote": Device("can_remote", "replay_remote.sv", "four_state_record_remote", (0,), ())}
+    "small": Device("can_ahb", "replay.sv", "four_state_record_small", (0,), (), profile("small"),
+                    ("u_top.u_mailbox.u_match.gen_global_masks.u_mask.msg_i",
+                     "u_top.u_mailbox.u_match.u_rx.cs_i")),
+    "remote": Device("can_remote", "replay_remote.sv", "four_state_record_remote", (0,), (),
+                     REMOTE)}

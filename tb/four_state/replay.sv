@@ -83,7 +83,12 @@ module replay;
       if (^{hreadyout, hresp, irq, can_tx, trace} === 1'bx) unknown("outputs");
 `ifdef REGISTERS
       if (hresetn) check_registers;
-      cleared = (hresetn && dut.u_top.mb_scrub === 1'b0) ? cleared + 1 : 0;
+      // Without ClearRam that is software's, before it leaves freeze mode.
+      if (hresetn && (dut.ClearRam != 0 ? dut.u_top.mb_scrub === 1'b0
+                                        : cleared > 0 || dut.u_top.run === 1'b1))
+        cleared = cleared + 1;
+      else
+        cleared = 0;
       if (cleared > 4) check_behind_ram;
 `endif
     end
