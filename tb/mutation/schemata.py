@@ -102,7 +102,7 @@ def rewrite(file, wrap):
     return "".join(out) + file.text[at:]
 
 
-MASKS = ("Reset", "Any", "Freeze", "Disable", "WrnEn")
+MASKS = ("Reset", "Any", "Freeze", "Disable", "WrnEn", "Has", "Without")
 
 
 def open_types(module, text):
@@ -126,8 +126,8 @@ def open_types(module, text):
 
 
 def masks_connected(match):
-    """An instance of can_reg: parameters that it leaves out are zero."""
+    """An instance of can_reg: parameters that it leaves out are zero, but Has."""
     given = match.group(1)
-    missing = "".join(f" .{name}('0)," for name in MASKS + ("SoftReset",)
+    missing = "".join(f" .{name}('{int(name == 'Has')})," for name in MASKS + ("SoftReset",)
                       if f".{name}(" not in given)
     return f"can_reg {match.group(2)} ({given},{missing}"
