@@ -179,21 +179,20 @@ module can_remote #(
   // Producers
   logic        want, visit, keep_same, same, cell_own, no_write, differ;
   can_rn_pkg::job_t then_job;
-  logic        rtr, cell_we, cell_re;
+  logic        rtr, cell_we;
   logic [3:0]  dlc;
   logic [8:0]  own_cell;
   // Map entries
-  logic        search, find, hit, aim, mapped, act, watch, anew, map_own, map_re, map_we, more;
-  logic        above, stale, unsafe, told, ten, short, acts;
+  logic        search, find, hit, aim, mapped, act, watch, map_we, more;
+  logic        above, equal_now, none, stale, unsafe, told, ten, short, acts;
   // Protection
   logic        crosses, denied, guard;
   logic [8:0]  guard_cell;
   logic [8:0]  map_cell;
   logic [10:0] id;
-  can_rn_pkg::job_t watch_job;
   // Block transfers
   logic        block, data, make, answer, load_at, busy, part, order, again, excess, claims;
-  logic        block_want, add_on, closes, timeout, block_own, block_re, block_we, block_no_write;
+  logic        block_want, add_on, closes, timeout, block_own, block_we, block_no_write;
   logic        block_less, block_more, equal;
   logic [2:0]  add;
   logic [3:0]  length, shown;
@@ -280,7 +279,7 @@ module can_remote #(
                    || (read && !numbered) || again;
   assign refused = code != can_rn_pkg::CodeOk || (denied && !again);
 
-  can_rn_step #(.Protect(Protect != 0), .Block(Block != 0)) u_step (
+  can_rn_step #(.Map(NumMap != 0), .Protect(Protect != 0), .Block(Block != 0)) u_step (
     .clk_i, .rst_ni,
     .hdr_i(hdr), .ours_i(ours), .byte_i(has_byte), .live_i(live), .valid_i(valid),
     .tick_i(tick), .dup_i(dup && !mapped), .key_i(key), .refused_i(refused),
@@ -296,8 +295,8 @@ module can_remote #(
     .fetch_i(data), .block_i(block_want), .block_job_i(block_job),
     .opens_i(block && !refused && (|op[1:0])), .ends_i(part && refused),
     .on_i(add_on), .closes_i(closes),
-    .search_i(search), .find_i(find), .hit_i(hit), .mapped_i(mapped), .act_i(act),
-    .watch_i(watch), .watch_job_i(watch_job), .anew_i(anew), .ten_o(ten),
+    .search_i(search), .find_i(find), .hit_i(hit), .mapped_i(mapped), .act_i(act), .again_i(acts),
+    .watch_i(watch), .ten_o(ten),
     .job_o(job), .phase_o(phase), .timer_o(timer), .request_o(request), .begin_o(begins),
     .over_o(over),
     .take_o(take), .new_tries_o(new_tries),
@@ -315,7 +314,7 @@ module can_remote #(
     .job_i(job), .phase_i(phase), .request_i(request), .begin_i(begins), .take_i(take),
     .read_i(read), .trigger_i(trigger || acts), .far_i(far), .info_i(info), .key_i(key),
     .data_i(data), .load_i(load_at), .answer_i(answer),
-    .crosses_i(crosses), .mapped_i(mapped), .find_i(find), .act_i(acts),
+    .crosses_i(crosses), .find_i(find), .act_i(acts),
     .aim_i(aim), .aim_at_i(rdata[11:0]),
     .a_i(7'(a) | row_a), .dlc_i(dlc), .count_i(op[2:0]),
     .byte_i(rx_byte), .start_o(start), .mem_o(mem), .place_o(place), .row_o(row), .end_o(row_end),
@@ -330,7 +329,7 @@ module can_remote #(
     .refused_i(refused), .setup_i(setup), .off_i(off), .status_i(tx_status), .row_i(row),
     .tail_i(tail), .head_i(head), .age_i(age),
     .word_i(word), .timer_i(timer), .new_tries_i(new_tries), .zero_i(zero), .one_i(one),
-    .cell_o(cell_addr), .re_o(cell_re), .we_o(cell_we)
+    .cell_o(cell_addr), .we_o(cell_we)
   );
 
   can_rn_data #(
@@ -339,12 +338,13 @@ module can_remote #(
   ) u_data (
     .clk_i, .rst_ni,
     .job_i(job), .none_i(rx_dlc == 4'd0 || mapped),
-    .read_i(cell_re || same || map_re || block_re), .lane_i(lane),
+    .lane_i(lane),
     .rdata_i(rdata), .frame_i(rx_byte), .block_i(start[11:3]),
     .place_i(place), .node_i,
     .serial_i(serial), .last_i(phase[1]), .less_i(block_less),
     .more_i(more || tally_more || block_more), .add_i(add), .code_i(shown),
     .byte_o(read_byte), .zero_o(zero), .one_o(one), .differ_o(differ), .above_o(above),
+    .level_o(equal_now), .none_o(none),
     .sum_o(sum), .same_o(in_order), .equal_o(equal), .wbyte_o(wbyte)
   );
 
@@ -352,15 +352,15 @@ module can_remote #(
   logic [1:0] same_id;
   assign same_id = {all, !port && !visit && !make} & {2{SameId != 0}};
 
-  // Who names the byte that is meant: 0 from all others, so that an OR is enough.
+  // Who names the byte that is meant: 0 from all others, so that an OR is enough. Where two name
+  // one, that of can_rn_cell is not meant.
   logic own;
-  assign own = guard || map_own || cell_own || tally_own || block_own;
+  assign own = cell_own || tally_own || block_own;
   can_rn_port #(.MemBytes(MemBytes), .InitFile(InitFile)) u_port (
     .clk_i, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger || acts),
     .same_i(same && !phase[0]), .cell_i((cell_addr & {9{!own}}) | guard_cell | map_cell | own_cell
                                         | (tally_cell & {9{tally_own}})
                                         | (block_cell & {9{block_own}})),
-    .re_i(cell_re || same || map_re || block_re),
     .we_i((cell_we && !no_write && !tally_no_write && !block_no_write && !guard
            && !(Filled && job == can_rn_pkg::JobClear)) || map_we || block_we),
     .wide_i(wide),
@@ -424,21 +424,18 @@ module can_remote #(
 
   if (NumMap == 0) begin : gen_no_map
     logic unused;
-    assign unused = &{1'b0, id, above, ten};
-    assign {find, hit, aim, mapped, act, acts, watch, anew, map_own, map_cell} = '0;
-    assign {map_re, map_we, more, stale, unsafe, told} = '0;
-    assign watch_job = can_rn_pkg::JobIdle;
+    assign unused = &{1'b0, id, above, equal_now, none, ten};
+    assign {find, hit, aim, mapped, act, acts, watch, map_cell} = '0;
+    assign {map_we, more, stale, unsafe, told} = '0;
   end else begin : gen_map
     can_rn_map #(.NameBits(NameBits), .NumMap(NumMap)) u_map (
       .clk_i, .rst_ni,
-      .job_i(job), .phase_i(phase), .run_i(run), .visit_i(visit), .ten_i(ten),
-      .take_i(take), .id_i(id),
-      .row_i(row), .begin_i(begins), .refused_i(refused), .rdata_i(rdata), .zero_i(zero),
-      .above_i(above), .equal_i(!differ), .find_o(find), .hit_o(hit), .aim_o(aim),
-      .mapped_o(mapped), .act_o(act),
-      .acts_o(acts), .want_o(watch), .next_o(watch_job), .zero_o(anew), .cell_own_o(map_own),
-      .cell_o(map_cell), .more_o(more), .re_o(map_re), .we_o(map_we),
-      .stale_o(stale), .unsafe_o(unsafe), .told_o(told)
+      .job_i(job), .phase_i(phase), .run_i(run), .visit_i(visit || make), .ten_i(ten),
+      .take_i(take), .id_i(id), .row_i(row), .begin_i(begins), .write_i(write),
+      .refused_i(refused), .rdata_i(rdata), .none_i(none), .above_i(above), .equal_i(equal_now),
+      .full_i(&read_byte), .find_o(find), .hit_o(hit), .aim_o(aim), .mapped_o(mapped),
+      .act_o(act), .acts_o(acts), .want_o(watch), .cell_o(map_cell),
+      .more_o(more), .we_o(map_we), .stale_o(stale), .unsafe_o(unsafe), .told_o(told)
     );
   end
 
@@ -449,7 +446,8 @@ module can_remote #(
   end else begin : gen_guard
     can_rn_guard u_guard (
       .clk_i, .rst_ni,
-      .job_i(job), .late_i(phase[1]), .memory_i(read || write), .read_i(read), .mem_i(mem[11:4]),
+      .job_i(job), .late_i(phase[1]), .live_i(live), .memory_i(read || write), .read_i(read),
+      .mem_i(mem[11:4]),
       .byte_i(read_byte), .guard_o(guard), .cell_o(guard_cell), .denied_o(denied)
     );
   end
@@ -458,7 +456,7 @@ module can_remote #(
     logic unused;
     assign unused = &{1'b0, block, in_order, equal, sum};
     assign {make, answer, load_at, busy, part, order, again, excess, claims} = '0;
-    assign {block_want, add_on, closes, timeout, block_own, block_cell, block_re, block_we} = '0;
+    assign {block_want, add_on, closes, timeout, block_own, block_cell, block_we} = '0;
     assign {block_no_write, block_less, block_more, add, length} = '0;
     assign {block_job, begun, block_then} = {3{can_rn_pkg::JobIdle}};
     assign shown = code;
@@ -475,7 +473,7 @@ module can_remote #(
       .order_o(order), .again_o(again), .over_o(excess), .part_o(part), .claims_o(claims),
       .want_o(block_want), .next_o(block_job), .begun_o(begun), .then_o(block_then),
       .on_o(add_on), .closes_o(closes), .timeout_o(timeout), .code_o(shown),
-      .cell_own_o(block_own), .cell_o(block_cell), .re_o(block_re), .we_o(block_we),
+      .cell_own_o(block_own), .cell_o(block_cell), .re_o(), .we_o(block_we),
       .no_write_o(block_no_write), .add_o(add), .less_o(block_less), .more_o(block_more)
     );
   end

@@ -27,7 +27,6 @@ module can_rn_cell (
   input  logic             zero_i,       // byte read is 0, 1
   input  logic             one_i,
   output logic [8:0]       cell_o,
-  output logic             re_o,
   output logic             we_o
 );
   // Variables: 0, 1 watchdog; 2 counts ms; 3 rest of the back-off, or of 10 s; 4 constant: 10 s;
@@ -43,17 +42,26 @@ module can_rn_cell (
   assign last = phase_i[1];
 
   always_comb begin
-    page  = PageRow;
-    place = row_i;
+    page  = PageVar;
+    place = 4'd0;
     case (job_i)
-      can_rn_pkg::JobByte: if (phase_i != 2'd0) place[0] = row_i[0] && setup_i;
-      can_rn_pkg::JobMove: if (trigger_i) page = PageVar;
+      can_rn_pkg::JobByte: begin
+        page  = PageRow;
+        place = {row_i[3:1], row_i[0] && (setup_i || phase_i == 2'd0)};
+      end
+      can_rn_pkg::JobMove, can_rn_pkg::JobOpen: begin
+        page  = trigger_i ? PageVar : PageRow;
+        place = row_i;
+      end
       can_rn_pkg::JobLoad: begin
         page  = status_i || phase_i == 2'd0 ? PageStatus : PageRow;
         place = phase_i == 2'd0 ? 4'd0 : {word_i, 2'd0};
       end
-      can_rn_pkg::JobPush: place = 4'd8;
-      can_rn_pkg::JobSeq:  place = 4'd0;
+      can_rn_pkg::JobPush: begin
+        page  = PageRow;
+        place = 4'd8;
+      end
+      can_rn_pkg::JobSeq: page = PageRow;
       can_rn_pkg::JobFresh: begin
         page  = PageStatus;
         place = 4'd0;
@@ -74,7 +82,10 @@ module can_rn_cell (
         page  = PageVar;
         place = 4'd5;
       end
-      can_rn_pkg::JobAge: place = 4'd10;
+      can_rn_pkg::JobAge: begin
+        page  = PageRow;
+        place = 4'd10;
+      end
       can_rn_pkg::JobCount: begin
         page  = PageStatus;
         place = (&phase_i) ? 4'd0 : {2'b01, refused_i, !refused_i};
@@ -107,21 +118,10 @@ module can_rn_cell (
   end
 
   always_comb begin
-    re_o = job_i[4] && !last;
     we_o = job_i[4] && last;
     case (job_i)
-      can_rn_pkg::JobByte: begin
-        re_o = phase_i != 2'd0;
-        we_o = phase_i == 2'd0;
-      end
-      can_rn_pkg::JobMove: begin
-        re_o = 1'b1;
-        we_o = last && !(read_i && phase_i[0]);
-      end
-      can_rn_pkg::JobLoad: begin
-        re_o = phase_i[0];
-        we_o = phase_i == 2'd0;
-      end
+      can_rn_pkg::JobByte, can_rn_pkg::JobLoad: we_o = phase_i == 2'd0;
+      can_rn_pkg::JobMove: we_o = last && !(read_i && phase_i[0]);
       can_rn_pkg::JobPush, can_rn_pkg::JobFresh, can_rn_pkg::JobClear: we_o = 1'b1;
       can_rn_pkg::JobHigh, can_rn_pkg::JobTry: we_o = last && !zero_i;
       // 0 would be no limit: what is on its way stays, and is asked again.

@@ -15,8 +15,7 @@ module can_rn_data #(
   input  logic                rst_ni,
   input  can_rn_pkg::job_t    job_i,
   input  logic                none_i,       // JobTrigger: the frame has no byte
-  input  logic                read_i,       // a byte is read in this clock ..
-  input  logic [1:0]          lane_i,       // .. of this place
+  input  logic [1:0]          lane_i,       // place of the byte that is read in this clock
   input  logic [31:0]         rdata_i,
   input  logic [7:0]          frame_i,      // byte of the frame on the bus
   input  logic [8:0]          block_i,      // JobClear: the byte that is written
@@ -32,7 +31,9 @@ module can_rn_data #(
   output logic                zero_o,       // it is 0, 1
   output logic                one_o,
   output logic                differ_o,     // from the one before
-  output logic                above_o,      // it is more, or 255
+  output logic                above_o,      // it is more than the byte that comes from the RAM
+  output logic                level_o,      // it is that
+  output logic                none_o,       // which is 0
   output logic [8:0]          sum_o,        // byte that is written, with carry
   output logic                same_o,       // the byte of the frame is that,
   output logic                equal_o,      // or the one read
@@ -40,7 +41,7 @@ module can_rn_data #(
 );
   logic [7:0] byte_q, lane_byte;
   logic [1:0] lane_q;
-  logic       read_q;
+  logic       read_q, few, zero_q, one_q;
 
   always_comb begin
     case (lane_q)
@@ -52,32 +53,36 @@ module can_rn_data #(
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      read_q <= 1'b0;
       lane_q <= '0;
+      read_q <= 1'b0;
       byte_q <= '0;
+      {zero_q, one_q} <= 2'b10;
     end else begin
-      read_q <= read_i;
       lane_q <= lane_i;
+      // Not of user logic, and none before the RAM has been cleared.
+      read_q <= (|job_i[5:3]) || (job_i[2] && !job_i[1]);
       if (read_q) byte_q <= lane_byte;
+      if (read_q) {zero_q, one_q} <= {none_o, few && lane_byte[0]};
     end
   end
 
-  logic few;
-  assign few    = !(|byte_q[7:1]);
-  assign zero_o = few && !byte_q[0];
-  assign one_o  = few && byte_q[0];
+  assign few    = !(|lane_byte[7:1]);
+  assign none_o = few && !lane_byte[0];
+  assign zero_o = zero_q;
+  assign one_o  = one_q;
   assign byte_o = byte_q;
 
   if (!Compare) begin : gen_alone
-    assign {differ_o, above_o} = '0;
+    assign {differ_o, above_o, level_o} = '0;
   end else begin : gen_compare
-    logic [7:0] before_q;
+    logic differ_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni)     before_q <= '0;
-      else if (read_q) before_q <= byte_q;
+      if (!rst_ni)     differ_q <= 1'b0;
+      else if (read_q) differ_q <= !level_o;
     end
-    assign differ_o = before_q != byte_q;
-    assign above_o  = byte_q > before_q || (&byte_q);
+    assign differ_o = differ_q;
+    assign level_o  = byte_q == lane_byte;
+    assign above_o  = byte_q > lane_byte;
   end
 
   // First contents (RN-60) of a byte: its block of eight, and where it is there. The first byte of

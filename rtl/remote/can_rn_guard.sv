@@ -10,11 +10,12 @@ module can_rn_guard (
   input  logic             rst_ni,
   input  can_rn_pkg::job_t job_i,
   input  logic             late_i,     // the byte read in the phase before the last is there
+  input  logic             live_i,     // a frame for this node is under way
   input  logic             memory_i,   // the request reads or writes
   input  logic             read_i,
   input  logic [11:4]      mem_i,      // first and last byte in turn
   input  logic [7:0]       byte_i,     // byte read, two phases later
-  output logic             guard_o,    // the byte that is meant is ..
+  output logic             guard_o,    // JobGuard
   output logic [8:0]       cell_o,
   output logic             denied_o
 );
@@ -29,8 +30,9 @@ module can_rn_guard (
   assign denied_o    = denied_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)                             denied_q <= 1'b0;
-    else if (job_i == can_rn_pkg::JobIdle)   denied_q <= 1'b0;
+    if (!rst_ni)                                      denied_q <= 1'b0;
+    // What a map entry takes is looked at before the frame is valid.
+    else if (job_i == can_rn_pkg::JobIdle && !live_i) denied_q <= 1'b0;
     else if (guard_o && late_i && memory_i && !config_area && byte_i[index])
                                              denied_q <= 1'b1;
   end

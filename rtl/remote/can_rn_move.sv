@@ -26,7 +26,6 @@ module can_rn_move #(
   input  logic             answer_i,   // or that of the answer of BLOCK
   input  logic             key_i,
   input  logic             crosses_i,  // the access ends in the next block of eight bytes
-  input  logic             mapped_i,   // the frame is taken by a map entry
   input  logic             find_i,     // JobFind goes on
   input  logic             act_i,      // JobMove: the stage, whatever the start is
   input  logic             aim_i,      // the start is in the word read, and in A
@@ -47,7 +46,7 @@ module can_rn_move #(
   logic [11:0] start_q;
   logic [3:0]  low_q, row_q;
   logic [8:0]  high;
-  logic        head, far_byte, clear, move, entry, fresh, same, find, found, acts;
+  logic        head, far_byte, clear, move, entry, fresh, same, find, found;
 
   assign start_o   = start_q;
   assign row_o     = row_q;
@@ -57,7 +56,6 @@ module can_rn_move #(
   assign cleared_o = (&start_q[11:3]) && (&low_q[2:0]);
   assign find = NumMap != 0 && job_i == can_rn_pkg::JobFind;
   assign found = find && !find_i;
-  assign acts = NumMap != 0 && job_i == can_rn_pkg::JobTrigger && mapped_i;
   if (NumProd == 0) begin : gen_no_produce
     assign {entry, fresh, same} = '0;
   end else begin : gen_produce
@@ -111,8 +109,8 @@ module can_rn_move #(
   assign step_mem = clear || (move && (read_i || phase_i[1])) || (same && phase_i[0]);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)       low_q <= '0;
-    else if (begin_i || fresh) low_q <= {1'b0, start_q[2:0]};
-    else if (acts || load_i) low_q <= '0;
+    else if (begin_i || fresh) low_q <= {1'b0, start_q[2:0] & {3{!act_i}}};
+    else if (aim_i || load_i) low_q <= '0;
     // First and last byte in turn.
     else if (Protect && (request_i || job_i == can_rn_pkg::JobGuard))
                        low_q <= {crosses_i && !request_i && !phase_i[0], 3'd0};
@@ -132,7 +130,7 @@ module can_rn_move #(
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)                  row_q <= '0;
-    else if (take_i || request_i || entry || found || acts || load_i) row_q <= '0;
+    else if (take_i || request_i || entry || found || load_i) row_q <= '0;
     else if (begin_i)             row_q <= {2'b00, far_i, data_i};
     else if (step_row)            row_q <= row_q + 4'd1;
   end

@@ -24,11 +24,10 @@ package can_rn_pkg;
   localparam logic [5:0] JobPush    = 6'b0_01010;   // the answer is complete: its A and length
   // As long as it takes: bytes of a producer beside those sent last.
   localparam logic [5:0] JobSame    = 6'b0_01011;
-  // Two clocks, or as long as it takes: map entries.
+  // As long as it takes, two clocks, four: map entries.
   localparam logic [5:0] JobFind    = 6'b0_01100;   // one that takes the frame
   localparam logic [5:0] JobAim     = 6'b0_01101;   // where it puts it
-  localparam logic [5:0] JobLook    = 6'b0_01110;   // whether it is on
-  localparam logic [5:0] JobLate    = 6'b0_01111;   // four clocks: its time-out
+  localparam logic [5:0] JobLate    = 6'b0_01110;   // its time-out
   // 0_10xxx: three phases: a byte is read in the first and written in the third.
   localparam logic [5:0] JobTrigger = 6'b0_10000;   // TRIGGER count
   localparam logic [5:0] JobTurn    = 6'b0_10001;   // bus-off begins or ends (RN-72)
@@ -36,7 +35,7 @@ package can_rn_pkg;
   localparam logic [5:0] JobHigh    = 6'b0_10011;   // high byte of a timer
   localparam logic [5:0] JobTry     = 6'b0_10100;   // an attempt has failed (RN-15)
   localparam logic [5:0] JobGap     = 6'b0_10101;   // what is left of the gap of a producer
-  localparam logic [5:0] JobKeep    = 6'b0_10110;   // its gap begins, or the time of a map entry
+  localparam logic [5:0] JobKeep    = 6'b0_10110;   // its gap begins
   // Four phases: two bytes are read.
   localparam logic [5:0] JobGuard   = 6'b0_10111;   // protection of first and last byte
   // 0_11xxx: four phases: two bytes are read and two written.

@@ -15,7 +15,6 @@ module can_rn_port #(
   input  logic             same_i,      // JobSame: memory
   input  logic             trigger_i,
   input  logic [8:0]       cell_i,
-  input  logic             re_i,
   input  logic             we_i,
   input  logic             wide_i,      // all bytes of the word
   input  logic [11:0]      mem_i,
@@ -67,10 +66,7 @@ module can_rn_port #(
                   || (count && odd_i);
   always_comb begin
     for (int b = 0; b < 4; b++) lanes[b] = lane == 2'(b);
-    if (push)   lanes[1:0] = 2'b11;
-    if (count)  lanes[0]   = 1'b1;
-    if (status) lanes = {count, 3'b111};
-    if (wide_i) lanes = 4'b1111;
+    lanes = lanes | {status && count, status, status || push, push || count} | {4{wide_i}};
     we = user ? usr_be_i & {4{usr_write}} : lanes & {4{we_i}};
   end
   always_comb begin
@@ -83,7 +79,7 @@ module can_rn_port #(
 
   can_mb_ram #(.Depth(MemBytes / 4), .InitFile(InitFile)) u_ram (
     .clk_i,
-    .re_i(user ? usr_req_i : re_i),
+    .re_i(!user || usr_req_i),
     .raddr_i(AddrWidth'(from_mem ? mem_i[11:2] : address)),
     .rdata_o,
     .we_i(we),

@@ -44,7 +44,7 @@ module can_rn_produce #(
   output can_rn_pkg::job_t   then_o,       // what follows its jobs
   output logic               keep_o,       // JobSame goes on
   output logic               same_o,       // JobSame
-  output logic               cell_own_o,   // the byte that is meant is ..
+  output logic               cell_own_o,   // the byte that is meant is this alone
   output logic [8:0]         cell_o,
   output logic               no_write_o
 );
@@ -59,13 +59,14 @@ module can_rn_produce #(
   logic [NumProd-1:0]    due_q, here;
   logic ms_q, trigger_q, send_q, visit_q, given_q, statement_q, low_zero_q, low_one_q;
 
-  logic idle, stand, entry, down, renew, gap, same, send, last;
+  logic idle, stand, entry, down, renew, gap, keep, same, send, last;
   assign idle  = job_i == can_rn_pkg::JobIdle;
   assign stand = idle && !visit_q;   // no visit, and none that has just ended
   assign entry = job_i == can_rn_pkg::JobEntry;
   assign down  = job_i == can_rn_pkg::JobDown;
   assign renew = job_i == can_rn_pkg::JobRenew;
   assign gap   = job_i == can_rn_pkg::JobGap;
+  assign keep  = job_i == can_rn_pkg::JobKeep;
   assign same  = job_i == can_rn_pkg::JobSame;
   assign send  = pass_q == PassSend;
   assign last  = phase_i[1];
@@ -180,19 +181,18 @@ module can_rn_produce #(
                       && !word_i[1];
   assign copy       = same || job_i == can_rn_pkg::JobMove;
   assign k          = load ? 3'(head_q) : 3'(k_q);
-  assign cell_own_o = load || (visit_q && job_i != can_rn_pkg::JobFresh
-                               && job_i != can_rn_pkg::JobPush) || entry;
+  assign cell_own_o = load || (visit_q && job_i == can_rn_pkg::JobMove);
   // The mover writes a byte more than it is told: behind eight that would be the first again.
   assign no_write_o = entry || (visit_q && copy && ended_i) || (gap && (zero_i || send));
   always_comb begin
-    cell_o = {4'b0001, k, gap || job_i == can_rn_pkg::JobKeep, phase_i[0] && !gap};
+    cell_o = {4'b0001, k, gap || keep, phase_i[0] && !gap};
     if (load || copy)                            cell_o = {3'b001, k, row_i};
     if (load)                                    cell_o[2:0] = {word_i[0], 2'b00};
-    if (entry || (!last && job_i == can_rn_pkg::JobKeep))
+    if (entry || (!last && keep))
                                                  cell_o = {3'b101, k, !entry, 1'b0,
                                                            entry && phase_i[0]};
     if (renew && !last)                          cell_o = refused_i ? 9'h006
                                                           : {3'b101, k, 2'b01, phase_i[0]};
-    if (!cell_own_o) cell_o = '0;
+    if (!(load || entry || down || renew || gap || keep || (visit_q && copy))) cell_o = '0;
   end
 endmodule

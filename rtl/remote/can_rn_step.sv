@@ -6,6 +6,7 @@
 // point: they are over before the next one.
 
 module can_rn_step #(
+  parameter bit Map = 1'b0,
   parameter bit Protect = 1'b0,
   parameter bit Block = 1'b0
 ) (
@@ -66,10 +67,9 @@ module can_rn_step #(
   input  logic             find_i,        // JobFind goes on
   input  logic             hit_i,         // and has found one
   input  logic             mapped_i,      // the frame is taken by one
-  input  logic             act_i,         // as a TRIGGER, too
+  input  logic             act_i,         // as a TRIGGER, too,
+  input  logic             again_i,       // whose copy begins or is under way
   input  logic             watch_i,       // a time-out is to be looked at
-  input  can_rn_pkg::job_t watch_job_i,   // by this
-  input  logic             anew_i,        // JobLate: it begins anew
   output can_rn_pkg::job_t job_o,
   output logic [1:0]       phase_o,
   output logic             timer_o,
@@ -84,18 +84,18 @@ module can_rn_step #(
 );
   // As written here, so that codes of no job lead back.
   (* fsm_encoding = "none", syn_encoding = "safe" *) can_rn_pkg::job_t job_q;
-  can_rn_pkg::job_t job_d, work, next;
+  can_rn_pkg::job_t job_d, work_q, next;
   logic [1:0] phase_q, int2_q;
   logic [3:0] ten_q;
   logic       tick_q, timer_q, ms_q, aged_q, row_ready_q, try_ready_q;
-  logic       guard, keep, idle, held, over, wait_user, quiet, due, int2, ended_timer;
+  logic       guarded, memory_q, keep, idle, held, over, wait_user, quiet, due, int2, ended_timer;
 
   assign job_o   = job_q;
   assign phase_o = phase_q;
   assign timer_o = timer_q;
   assign new_tries_o = !try_ready_q;
 
-  assign guard     = Protect;
+  assign guarded   = Protect && !dup_i && !mapped_i && memory_q;
   assign idle      = job_q == can_rn_pkg::JobIdle;
   assign quiet     = !live_i;
   assign due       = quiet || tick_q;
@@ -105,16 +105,17 @@ module can_rn_step #(
   // Told in the clock behind the sample point; the job ends one later, so that the sample point
   // does not lead through what comes next.
   assign int2      = int2_q == 2'd0 ? !(written_o || apply_o) : int2_q == 2'd1 && tick_i;
-  assign held      = hold_i && !refused_i && (write_i || read_i || trigger_i || act_i);
+  assign held      = hold_i && !refused_i && (memory_q || trigger_i || act_i);
   assign over      = (&row_i) && (&phase_q);
-  assign wait_user = held && !over;
-  assign over_o    = job_q == can_rn_pkg::JobBegin && held && over && !visit_i;
+  assign wait_user = held && !over && !again_i;
+  assign over_o    = job_q == can_rn_pkg::JobBegin && held && over && !visit_i && !again_i;
   assign begin_o   = job_q == can_rn_pkg::JobBegin && !wait_user;
 
   // What comes next when nothing is under way.
   always_comb begin
     next = can_rn_pkg::JobIdle;
-    if (valid_i) next = {1'b0, guard && !dup_i, 1'b0, {2{guard && !dup_i}}, !dup_i};  // JobBegin
+    // What a map entry takes has been looked at before. JobGuard, JobBegin, or nothing.
+    if (valid_i) next = {1'b0, guarded, 1'b0, {2{guarded}}, !dup_i};
     else if (hdr_i)                          next = {2'b00, ours_i || search_i, search_i, 2'b00};
     else if (byte_i)                         next = can_rn_pkg::JobByte;
     else if (due && tally_i)                 next = can_rn_pkg::JobTally;
@@ -129,26 +130,30 @@ module can_rn_step #(
       else if (boff_i ^ off_i)               next = can_rn_pkg::JobTurn;
       else if (owe_feed_i)                   next = can_rn_pkg::JobFeed;
       else if (Block && block_i)             next = block_job_i;
-      else if (watch_i)                      next = watch_job_i;
+      else if (watch_i)                      next = can_rn_pkg::JobLate;
       else if (want_i)                       next = can_rn_pkg::JobEntry;
     end
   end
 
-  // What a request leads to.
-  always_comb begin
-    work = can_rn_pkg::JobCount;
-    if (!refused_i) begin
-      if (write_i)   work = can_rn_pkg::JobMove;
-      if (read_i)    work = can_rn_pkg::JobFresh;
-      if (trigger_i) work = can_rn_pkg::JobTrigger;
-      if (nothing_i) work = can_rn_pkg::JobIdle;
+  // What a request leads to that is not refused. It is known long before.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      work_q   <= can_rn_pkg::JobCount;
+      memory_q <= 1'b0;
+    end else begin
+      work_q   <= nothing_i ? can_rn_pkg::JobIdle : trigger_i ? can_rn_pkg::JobTrigger
+                  : read_i ? can_rn_pkg::JobFresh : write_i ? can_rn_pkg::JobMove
+                                                            : can_rn_pkg::JobCount;
+      memory_q <= write_i || read_i;
     end
   end
 
-  // What a frame that acts as a TRIGGER has written is copied, too; user logic is told of both.
+  // A frame that acts as a TRIGGER in OPERATE is followed by the copy of the stage, which begins
+  // like a request. User logic is told of both; they have to be over by then, so that the TRIGGER
+  // is counted last.
   can_rn_pkg::job_t moved, told;
-  assign told  = write_i ? can_rn_pkg::JobInt2 : can_rn_pkg::JobIdle;
-  assign moved = act_i ? can_rn_pkg::JobTrigger : told;
+  assign told  = act_i ? can_rn_pkg::JobTrigger : can_rn_pkg::JobIdle;
+  assign moved = act_i && operate_i && !again_i ? can_rn_pkg::JobBegin : can_rn_pkg::JobInt2;
 
   // keep: the job goes on with its next phase; else it is followed by job_d.
   always_comb begin
@@ -158,7 +163,7 @@ module can_rn_step #(
       can_rn_pkg::JobIdle:  job_d = next;
       can_rn_pkg::JobBegin: begin
         keep  = wait_user;
-        job_d = work;
+        job_d = refused_i ? can_rn_pkg::JobCount : work_q;
       end
       // RN-103: an upset that takes the node off the bus leaves no sample points to wait for.
       can_rn_pkg::JobInt2:  keep = int2_q != 2'd0 && run_i;
@@ -209,28 +214,26 @@ module can_rn_step #(
     // Map entries
     if (mapped_i) begin
       case (job_q)
+        // With the first byte the length is known, which comes behind the header.
+        can_rn_pkg::JobByte:    if (Protect && row_i == 4'd0) job_d = can_rn_pkg::JobGuard;
+        can_rn_pkg::JobGuard:   job_d = can_rn_pkg::JobIdle;
         can_rn_pkg::JobBegin:   job_d = refused_i ? can_rn_pkg::JobIdle
-                                        : write_i ? can_rn_pkg::JobMove : moved;
-        can_rn_pkg::JobMove:    if (!trigger_i) job_d = moved;
-        can_rn_pkg::JobTrigger: if (!operate_i) job_d = told;
+                                        : write_i || again_i ? can_rn_pkg::JobMove
+                                        : operate_i && act_i ? can_rn_pkg::JobBegin : told;
+        can_rn_pkg::JobMove:    job_d = moved;
+        can_rn_pkg::JobInt2:    job_d = told;
+        can_rn_pkg::JobTrigger: job_d = can_rn_pkg::JobIdle;
         default: ;
       endcase
     end
-    if (watch_job_i != can_rn_pkg::JobIdle) begin
+    if (Map) begin
       case (job_q)
         can_rn_pkg::JobFind: begin
           keep = find_i;
           if (hit_i) job_d = can_rn_pkg::JobAim;
         end
         can_rn_pkg::JobAim:  keep = !phase_q[0];
-        can_rn_pkg::JobLook: begin
-          keep  = !phase_q[0];
-          job_d = can_rn_pkg::JobLate;
-        end
-        can_rn_pkg::JobLate: begin
-          keep = !(&phase_q);
-          if (anew_i) job_d = can_rn_pkg::JobKeep;
-        end
+        can_rn_pkg::JobLate: keep = !(&phase_q);
         default: ;
       endcase
     end

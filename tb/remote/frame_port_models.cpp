@@ -12,6 +12,8 @@
 #include "Vcan_remote_small_3___024root.h"
 #include "Vcan_remote_small_5.h"
 #include "Vcan_remote_small_5___024root.h"
+#include "Vcan_remote_standard16_3.h"
+#include "Vcan_remote_standard16_3___024root.h"
 #include "Vcan_remote_standard_3.h"
 #include "Vcan_remote_standard_3___024root.h"
 #include "Vcan_remote_standard_5.h"
@@ -138,6 +140,8 @@ std::unique_ptr<FramePort> FramePort::create(const std::string &profile, unsigne
     return std::make_unique<FramePortOf<Vcan_remote_small_3>>(serial, number);
   if (profile == "small" && name_bits == 5)
     return std::make_unique<FramePortOf<Vcan_remote_small_5>>(serial, number);
+  if (profile == "standard16" && name_bits == 3)
+    return std::make_unique<FramePortOf<Vcan_remote_standard16_3>>(serial, number);
   if (profile == "standard" && name_bits == 3)
     return std::make_unique<FramePortOf<Vcan_remote_standard_3>>(serial, number);
   if (profile == "standard" && name_bits == 5)

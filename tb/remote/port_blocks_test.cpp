@@ -9,6 +9,7 @@
 
 #include "remote/port_lockstep.hpp"
 #include "remote/random_port.hpp"
+#include "remote/remote_entries.hpp"
 
 namespace vericansim {
 namespace {
@@ -100,6 +101,17 @@ TEST_F(PortBlocks, OrderIsKept) {
       drain();
     }
   }
+}
+
+// RN-40, RN-65: a read goes on behind a frame that a map entry takes.
+TEST_F(PortBlocks, AReadGoesOnBehindAMapEntry) {
+  pair_.user_write(map_at(0) / 4, 0x07FF86A0U, 0xF);  // 6A0, compared as a whole
+  pair_.user_write(map_at(0) / 4 + 1, 0x00000300U, 0xF);
+  tell(block_frame(kReadBlock, 0x100, 20));
+  EXPECT_TRUE(pair_.turn());
+  tell(data_frame(0x6A0, {1, 2}));
+  for (unsigned frames = 0; frames < 3; ++frames) EXPECT_TRUE(pair_.turn()) << frames;
+  check();
 }
 
 // RN-42: a second transfer is refused while one runs, and while its answer waits; abort ends it.

@@ -23,9 +23,10 @@
     if (f_ran) begin
       // RN-32, RN-102 P-1: an access that a bit forbids is denied, until the node is done with it.
       p_denied: assert (!$past(f_hit) || denied_o);
-      p_stays: assert (!$past(denied_o && job_i != can_rn_pkg::JobIdle) || denied_o); // RN-32
+      p_stays: assert (!$past(denied_o && (job_i != can_rn_pkg::JobIdle || live_i))  // RN-32
+                       || denied_o);
       // RN-32: and no other.
-      p_only: assert (!denied_o || $past(denied_o && job_i != can_rn_pkg::JobIdle)
+      p_only: assert (!denied_o || $past(denied_o && (job_i != can_rn_pkg::JobIdle || live_i))
                       || $past(f_hit));
     end
   end

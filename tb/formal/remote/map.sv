@@ -21,11 +21,12 @@
 
   // Whether an entry was late in this pass over all of them.
   logic f_late, f_unsafe;
-  assign f_late = late && (&phase_i) && watch_q && (above_i || (count_q && equal_i));
+  assign f_late = job_i == can_rn_pkg::JobLate && (&phase_i) && on_q && !none_i
+                  && !taken_q && !fresh_q && !off_q && (above_i || full_i || (count_q && equal_i));
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)             f_unsafe <= 1'b0;
     else if (ends || !run_i) f_unsafe <= 1'b0;
-    else                     f_unsafe <= f_unsafe || (f_late && leads_q);
+    else                     f_unsafe <= f_unsafe || (f_late && rdata_i[22]);
   end
 
   always @(posedge clk_i) begin
@@ -48,8 +49,11 @@
       // RN-66, RN-70: only an entry that is late and has its flag leads to SAFE.
       p_unsafe: assert (!unsafe_o || stale_o);
       p_leads: assert (!(unsafe_o && !$past(unsafe_o))                    // RN-70
-                       || $past(f_unsafe || (f_late && leads_q)));
+                       || $past(f_unsafe || (f_late && rdata_i[22])));
       // RN-66: tens of milliseconds do not begin anew behind 255.
-      p_no_wrap: assert (!we_o || !above_i);
+      p_no_wrap: assert (!we_o || !full_i || taken_q || fresh_q || off_q);
+      // RN-66: an entry that is off, or has no time-out, is not late; nor is one whose time begins.
+      p_watched: assert (!$past(ends_late && (!on_q || none_i || taken_q))
+                         || (any_q == $past(any_q && !ends && run_i)));
     end
   end

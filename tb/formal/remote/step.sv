@@ -42,9 +42,11 @@
     m_read: assume (!visit_i || (read_i && !write_i && !trigger_i));
     // It begins with JobEntry and ends where a job is followed by none.
     m_visit: assume (visit_i == f_visiting);
-    // A map entry takes no read; its time-outs are looked at by jobs of their own.
+    // A map entry takes no read, and nothing but a header or a visit changes whether one has taken
+    // the frame (map.p_mapped).
     m_mapped: assume (!mapped_i || (!visit_i && !read_i));
-    m_watch: assume (watch_job_i == can_rn_pkg::JobLook || watch_job_i == can_rn_pkg::JobKeep);
+    m_taken: assume (!f_ran || mapped_i == $past(mapped_i) || visit_i || $past(visit_i)
+                     || $past(idle || job_q == can_rn_pkg::JobFind));
     if (f_ran) begin
       // RN-102 P-7, RN-45: what became visible is told at the third sample point or later.
       p_int2: assert (!(written_o || apply_o) || f_ticks == 2'd3 || $past(valid_i));
