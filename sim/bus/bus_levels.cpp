@@ -33,7 +33,7 @@ void Bus::clock_together(Time t) {
 void Bus::clock_node(NodeId id, Time t, Level rx) {
   Node &node = *nodes_[id].node;
   end_rest(id);
-  node.clock(rx);
+  resting_ ? node.clock_lightly(rx) : node.clock(rx);
   node.oscillator_.tick();
   next_[id] = node.oscillator_.next();
   if (node.tx() != nodes_[id].tx) driven(id, t, node.tx());

@@ -35,6 +35,9 @@ class Node {
   [[nodiscard]] virtual std::uint64_t quiet() const { return 0; }
   /// `edges` of those at once, never more than quiet() has said.
   virtual void pass(std::uint64_t edges) { (void)edges; }
+  /// clock() on a bus whose nodes may rest: an edge that would be quiet() if the receive pin had
+  /// kept its level need not be clocked if the new level is made good.
+  virtual void clock_lightly(Level rx) { clock(rx); }
 
   /// The observer's view after the last edge (trace_o, see bus/trace.hpp); 0 if the node has none.
   [[nodiscard]] virtual std::uint64_t trace() const { return 0; }

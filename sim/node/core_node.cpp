@@ -167,6 +167,11 @@ void CoreNode::clock(Level rx) {
 std::uint64_t CoreNode::quiet() const { return impl_->quiet.edges(impl_->top); }
 void CoreNode::pass(std::uint64_t edges) { QuietEngine::pass(impl_->top, edges); }
 
+void CoreNode::clock_lightly(Level rx) {
+  if (impl_->top.can_rx_i == static_cast<std::uint8_t>(rx) || quiet() == 0) return clock(rx);
+  QuietEngine::pass_level(impl_->top, rx);
+}
+
 void CoreNode::collect() {
   auto &top = impl_->top;
   events_.errors |= top.err_o;

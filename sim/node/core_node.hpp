@@ -48,6 +48,7 @@ class CoreNode : public Node {
   void clock(Level rx) override;
   [[nodiscard]] std::uint64_t quiet() const override;
   void pass(std::uint64_t edges) override;
+  void clock_lightly(Level rx) override;
   [[nodiscard]] std::uint64_t trace() const override;
 
   /// Asynchronous reset; the node is stopped after it and has no request.

@@ -15,8 +15,10 @@ namespace vericansim {
 
 /// Watches an engine edge by edge, says how many edges to come only count quanta and positions, and
 /// does them at once. Everything but prescaler, position and the levels of the last quanta moves
-/// within kSettle edges of a sample point, a bit boundary or an edge that synchronises; after that,
-/// until the next of them, these only count and follow (rtl/bit/can_tq_gen.sv, can_bit_timing.sv).
+/// within kSettle edges of a sample point or a bit boundary, within one of an edge that
+/// synchronises; after that, until the next of them, these only count and follow
+/// (rtl/bit/can_tq_gen.sv, can_bit_timing.sv). After a sample point that raised no pulse the second
+/// of its edges does no more than forget the sample point, which pass() does.
 /// Proven bit by bit in tb/system/bus_rest_test.cpp.
 ///
 /// Needs the members that Verilator 5.006 gives the model; without them nothing is ever quiet.
@@ -30,7 +32,7 @@ class QuietEngine {
   void clocked(const Vcan_core &engine) { clocked_(engine); }
 
   /// The engine's inputs may have changed, other than can_rx_i.
-  void disturbed() { settled_ = 0; }
+  void disturbed() { to_settle_ = kSettle; }
 
   /// Edges to come that only count, as long as no input changes. The one after them is that which
   /// makes the sample point or the boundary show.
@@ -38,6 +40,10 @@ class QuietEngine {
 
   /// Does `edges` of them.
   static void pass(Vcan_core &engine, std::uint64_t edges) { pass_(engine, edges); }
+
+  /// The next edge, one that only counts, with a new level at the receive pin: that gets no further
+  /// than the first flip-flop (rtl/bit/can_sync.sv).
+  static void pass_level(Vcan_core &engine, Level rx) { pass_level_(engine, rx); }
 
  private:
   // The place in the bit, as the RTL has it.
@@ -59,25 +65,55 @@ class QuietEngine {
     root.can_core__DOT__u_bit_timing__DOT__tseg1_q;
     root.can_core__DOT__u_bit_timing__DOT__ahead;
     root.can_core__DOT__u_bit_timing__DOT__falling;
+    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q;
+    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__boff_seen_q;
+    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__plus8_q;
+    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__plus1_q;
+    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__minus1_q;
+    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__sequence_q;
+    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__recovered_q;
   };
 
   template <typename Engine>
   void clocked_(const Engine &engine) {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       const auto &root = *engine.rootp;
-      const bool moving =
-          (engine.trace_o & (kTraceSample | kTraceBoundary)) != 0 ||
-          (root.can_core__DOT__u_bit_timing__DOT__falling != 0 && root.can_core__DOT__tq != 0);
-      settled_ = moving ? 0 : settled_ + 1;
+      const bool synchronises =
+          root.can_core__DOT__u_bit_timing__DOT__falling != 0 && root.can_core__DOT__tq != 0;
+      if ((engine.trace_o & (kTraceSample | kTraceBoundary)) != 0)
+        to_settle_ = kSettle;
+      else if (to_settle_ > 0)
+        --to_settle_;
+      else if (synchronises)
+        to_settle_ = 1;
+      if (to_settle_ == 1 && !synchronises && quiet_sample(engine)) to_settle_ = 0;
     }
+  }
+
+  // The edge after this one clears nothing but the mark of the sample point.
+  template <typename Engine>
+  static bool quiet_sample(const Engine &engine) {
+    const auto &root = *engine.rootp;
+    const unsigned pulses = engine.tx_next_o | engine.stamp_o | engine.rx_hdr_o |
+                            engine.rx_byte_we_o |
+                            root.can_core__DOT__u_bsp__DOT__u_fault__DOT__plus8_q |
+                            root.can_core__DOT__u_bsp__DOT__u_fault__DOT__plus1_q |
+                            root.can_core__DOT__u_bsp__DOT__u_fault__DOT__minus1_q |
+                            root.can_core__DOT__u_bsp__DOT__u_fault__DOT__sequence_q |
+                            root.can_core__DOT__u_bsp__DOT__u_fault__DOT__recovered_q;
+    return root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q != 0 && pulses == 0 &&
+           (engine.trace_o & kTraceEvents) == 0;
   }
 
   template <typename Engine>
   [[nodiscard]] std::uint64_t edges_(const Engine &engine) const {
     using Root = std::remove_reference_t<decltype(*engine.rootp)>;
     if constexpr (kKnown<Root>) {
-      if (settled_ < kSettle) return 0;
       const auto &root = *engine.rootp;
+      // Bus-off begins a clock after its count.
+      if (to_settle_ > 0 ||
+          root.can_core__DOT__u_bsp__DOT__u_fault__DOT__boff_seen_q != engine.boff_o)
+        return 0;
       if (root.can_core__DOT__u_sync__DOT__meta_q != engine.can_rx_i ||
           root.can_core__DOT__u_sync__DOT__settled_q != engine.can_rx_i)
         return 0;
@@ -126,7 +162,8 @@ class QuietEngine {
   static void pass_(Engine &engine, std::uint64_t edges) {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       auto &root = *engine.rootp;
-      if (root.can_core__DOT__active_q == 0) return;
+      if (edges == 0 || root.can_core__DOT__active_q == 0) return;
+      root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q = 0;
       const Place place = place_of(engine);
       auto &count = root.can_core__DOT__u_tq_gen__DOT__count_q;
       if (edges < place.to_tick) {
@@ -148,8 +185,17 @@ class QuietEngine {
     }
   }
 
+  template <typename Engine>
+  static void pass_level_(Engine &engine, Level rx) {
+    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
+      pass_(engine, 1);
+      engine.can_rx_i = static_cast<CData>(rx);
+      engine.rootp->can_core__DOT__u_sync__DOT__meta_q = static_cast<CData>(rx);
+    }
+  }
+
   static constexpr std::uint64_t kStopped = ~0ULL >> 1;  // until an input changes
-  unsigned settled_ = 0;
+  unsigned to_settle_ = kSettle;                         // edges to come that move more
 };
 
 }  // namespace vericansim

@@ -64,6 +64,12 @@ class RtlNodeOf final : public RtlNode {
     passed(edges);
   }
 
+  void clock_lightly(Level rx) override {
+    if (core_.engine().can_rx_i == static_cast<std::uint8_t>(rx) || quiet() == 0) return clock(rx);
+    QuietEngine::pass_level(core_.engine(), rx);
+    after_edge();
+  }
+
   [[nodiscard]] std::uint64_t trace() const override { return core_.engine().trace_o; }
 
   [[nodiscard]] std::uint8_t irq_lines() const override { return model_irq_lines(top_); }
