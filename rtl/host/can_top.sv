@@ -72,7 +72,7 @@ module can_top #(
 
   // Where a command goes: buffers, masks and TIMER to the mailbox, the rest to the registers.
   logic       req, in_mb, in_mask, in_gmask, in_timer, in_rxfir, to_mb, wr_ok, frz_ack;
-  logic [1:0] kind, word;
+  logic [1:0] mem_sel, word;
   logic [3:0] hi;
   logic [6:0] mb_idx;
   logic [8:0] mask_idx;
@@ -96,17 +96,17 @@ module can_top #(
   logic [IdxW-1:0] idx;
   assign gmask = {addr_i[3] | addr_i[6], addr_i[2] | addr_i[6]};
   always_comb begin
-    kind = 2'd3;
+    mem_sel = 2'd3;
     word = addr_i[3:2] - 2'd1;
     idx  = mb_idx[IdxW-1:0];
     if (in_mb) begin
-      kind = {1'b0, addr_i[3:2] != 2'd0};
+      mem_sel = {1'b0, addr_i[3:2] != 2'd0};
     end else if (in_mask || in_gmask) begin
-      kind = 2'd2;
+      mem_sel = 2'd2;
       word = OwnMasks != 0 ? {1'b0, in_gmask} : 2'd3;
       idx  = OwnMasks == 0 ? IdxW'({gmask, 2'd3}) : in_gmask ? IdxW'(gmask) : mask_idx[IdxW-1:0];
     end else if (in_rxfir) begin              // hidden bits of the C/S word at the FIFO's output
-      kind = 2'd0;
+      mem_sel = 2'd0;
       word = 2'd1;
       idx  = '0;
     end
@@ -209,7 +209,7 @@ module can_top #(
     .busy_o(mb_busy), .scrub_o(mb_scrub),
     .cmd_slot_i(req_i && !we_i && !addr_i[12]),
     .cmd_rd_i(req && !we_i && to_mb), .cmd_wr_i(req && we_i && to_mb && wr_ok),
-    .cmd_kind_i(kind), .cmd_word_i(word), .cmd_idx_i(idx), .cmd_be_i(be_i),
+    .cmd_mem_sel_i(mem_sel), .cmd_word_i(word), .cmd_idx_i(idx), .cmd_be_i(be_i),
     .wdata_i, .ready_o(mb_ready), .rdata_o(mb_rdata), .flag_o(flag), .flag_idx_o(flag_idx),
     .tick_req_o(tick_req), .tick_i(tick),
     .timer_clear_o(timer_clear), .timer_we_o(timer_we), .timer_be_o(timer_be),

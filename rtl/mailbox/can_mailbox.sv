@@ -54,7 +54,7 @@ module can_mailbox #(
   input  logic            cmd_slot_i,
   input  logic            cmd_rd_i,
   input  logic            cmd_wr_i,
-  input  logic [1:0]      cmd_kind_i,
+  input  logic [1:0]      cmd_mem_sel_i,
   input  logic [1:0]      cmd_word_i,
   input  logic [IdxW-1:0] cmd_idx_i,
   input  logic [3:0]      cmd_be_i,
@@ -99,7 +99,7 @@ module can_mailbox #(
   input  logic [7:0]      rx_byte_i,
   input  logic            rx_valid_i
 );
-  localparam logic [1:0] KindCs = 2'd0;
+  localparam logic [1:0] MemCs = 2'd0;
 
   logic unused;                     // flags of buffers that do not exist
   assign unused = &{1'b0, iflag_i};
@@ -114,42 +114,44 @@ module can_mailbox #(
   // CPU accesses and their side effects.
   logic            cmd_wr, cmd_look, rd_done, wr, wr_done, waited, block;
   logic            rxfir, raw, cs_rd, timer_rd, cpu_busy;
-  logic [1:0]      cpu_kind;
+  logic [1:0]      cpu_mem_sel;
   logic [IdxW-1:0] cmd_idx, cpu_idx;
   logic [3:0]      cpu_be;
   logic [31:0]     ram_rdata, ram_wdata;
-  logic            csw, csw_act, csw_empty, csw_ide;
-  logic [IdxW-1:0] csw_idx;
+  logic            cs_written, cs_written_act, cs_written_empty, cs_written_ide;
+  logic [IdxW-1:0] cs_written_idx;
   logic            mv_busy_mb, mv_flag;
   logic [IdxW-1:0] mv_idx;
   logic [2:0]      fifo_head;
   can_mb_cpu #(.NumMb(NumMb)) u_cpu (
     .clk_i, .rst_ni, .scrub_i(scrub_o), .fen_i, .aen_i, .osmb_i, .first_i(first),
     .head_i(fifo_head),
-    .cmd_wr_i, .cmd_mb_i(!cmd_kind_i[1]), .cmd_idx_i,
+    .cmd_wr_i, .cmd_mb_i(!cmd_mem_sel_i[1]), .cmd_idx_i,
     .cmd_wr_o(cmd_wr), .cmd_look_o(cmd_look), .cmd_idx_o(cmd_idx),
     .ready_i(ready_o), .rd_done_i(rd_done), .wr_done_i(wr_done), .block_i(block),
-    .kind_i(cpu_kind),
+    .mem_sel_i(cpu_mem_sel),
     .rxfir_i(rxfir), .idx_i(cpu_idx), .be_i(cpu_be), .wdata_i, .ram_rdata_i(ram_rdata), .timer_i,
     .moving_i(mv_busy_mb), .mv_idx_i(mv_idx),
     .raw_o(raw), .wdata_o(ram_wdata), .rdata_o,
     .timer_rd_o(timer_rd), .timer_wr_o(timer_we_o),
     .cs_rd_o(cs_rd), .busy_o(cpu_busy),
-    .csw_o(csw), .csw_idx_o(csw_idx), .csw_act_o(csw_act), .csw_empty_o(csw_empty),
-    .csw_ide_o(csw_ide));
+    .cs_written_o(cs_written), .cs_written_idx_o(cs_written_idx),
+    .cs_written_act_o(cs_written_act), .cs_written_empty_o(cs_written_empty),
+    .cs_written_ide_o(cs_written_ide));
 
   assign timer_clear_o = clear_i || (tsyn_i && mv_flag && 7'(mv_idx) == first);
   assign timer_be_o    = cpu_be[1:0];
   assign timer_wdata_o = wdata_i[15:0];
 
-  logic            lock, svc_req, svc_ovr, svc_gnt;
-  logic [IdxW-1:0] lock_idx, svc_idx;
+  logic            lock, serviced_req, serviced_ovr, serviced_gnt;
+  logic [IdxW-1:0] lock_idx, serviced_idx;
   can_mb_lock #(.NumMb(NumMb)) u_lock (
     .clk_i, .rst_ni, .clear_i(fifo_clear_i), .bcc_i,
     .cs_rd_i(cs_rd), .timer_rd_i(timer_rd), .idx_i(cpu_idx), .cs_i(ram_rdata), .busy_i(cpu_busy),
-    .csw_i(csw), .csw_idx_i(csw_idx),
+    .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
     .lock_o(lock), .lock_idx_o(lock_idx),
-    .svc_req_o(svc_req), .svc_idx_o(svc_idx), .svc_ovr_o(svc_ovr), .svc_gnt_i(svc_gnt));
+    .serviced_req_o(serviced_req), .serviced_idx_o(serviced_idx), .serviced_ovr_o(serviced_ovr),
+    .serviced_gnt_i(serviced_gnt));
 
   // Reception.
   logic [31:0]     cs, msg, mask;
@@ -159,7 +161,7 @@ module can_mailbox #(
   logic [1:0]      rx_word;
   logic [IdxW:0]   rx_mask_row;
   logic [8:0]      idhit;
-  logic [1:0]      way;
+  logic [1:0]      fifo_in_flight;
   can_mb_match #(
     .NumMb(NumMb), .Fifo(Fifo), .OwnMasks(OwnMasks), .ClearRam(ClearRam)
   ) u_match (
@@ -167,26 +169,27 @@ module can_mailbox #(
     .fen_i, .idam_i, .rffn_i, .mrp_i, .first_i(first),
     .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_rtr_i,
     .lock_i(lock), .lock_idx_i(lock_idx),
-    .csw_i(csw), .csw_idx_i(csw_idx), .csw_empty_i(csw_empty), .csw_ide_i(csw_ide),
+    .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
+    .cs_written_empty_i(cs_written_empty), .cs_written_ide_i(cs_written_ide),
     .req_o(rx_req), .idx_o(rx_idx), .word_o(rx_word), .mask_row_o(rx_mask_row), .gnt_i(rx_gnt),
     .stale_i(stale || id_stale), .cs_i(cs), .msg_i(msg), .mask_i(mask),
     .done_o(match_done), .hit_o(hit), .hit_idx_o(hit_idx), .hit_fifo_o(hit_fifo),
-    .hit_ans_o(hit_ans), .resolve_i(resolve), .stored_i(stored), .way_i(way),
+    .hit_ans_o(hit_ans), .resolve_i(resolve), .stored_i(stored), .fifo_in_flight_i(fifo_in_flight),
     .idhit_o(idhit),
     .pop_i(fifo_pop_i), .head_o(fifo_head), .avail_o(fifo_avail_o), .warn_o(fifo_warn_o),
     .ovf_o(fifo_ovf_o));
 
-  logic            smb, ewr_req, ewr_gnt, ewr_owed, ewr_cs, flags_busy;
-  logic [3:0]      ewr_be;
-  logic [IdxW+1:0] ewr_row;
-  logic [31:0]     ewr_data;
+  logic            smb, rx_wr_req, rx_wr_gnt, rx_wr_owed, rx_wr_cs, flags_busy;
+  logic [3:0]      rx_wr_be;
+  logic [IdxW+1:0] rx_wr_row;
+  logic [31:0]     rx_wr_data;
   can_mb_smb #(.NumMb(NumMb)) u_smb (
     .clk_i, .rst_ni, .smb_i(smb), .timer_i,
     .start_i, .stamp_i, .transmitter_i, .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_srr_i, .rx_rtr_i,
     .rx_dlc_i,
     .rx_byte_we_i, .rx_byte_i, .rx_valid_i,
-    .req_o(ewr_req), .cs_o(ewr_cs), .be_o(ewr_be), .row_o(ewr_row), .data_o(ewr_data),
-    .gnt_i(ewr_gnt),
+    .req_o(rx_wr_req), .cs_o(rx_wr_cs), .be_o(rx_wr_be), .row_o(rx_wr_row), .data_o(rx_wr_data),
+    .gnt_i(rx_wr_gnt),
     .flags_busy_o(flags_busy));
 
   logic       mv_req, mv_row, mv_data, mv_cancel, mv_busy, moving, ans, mv_answer;
@@ -194,22 +197,24 @@ module can_mailbox #(
   logic [8:0] mv_top;
   can_mb_move #(.NumMb(NumMb)) u_move (
     .clk_i, .rst_ni, .clear_i(fifo_clear_i), .start_i, .rx_hdr_i,
-    .valid_i(rx_valid_i && !(transmitter_i && srx_dis_i)), .hold_i(flags_busy || svc_req || lpm_i),
+    .valid_i(rx_valid_i && !(transmitter_i && srx_dis_i)), .hold_i(flags_busy || serviced_req
+    || lpm_i),
     .smb_o(smb),
     .match_done_i(match_done), .hit_i(hit), .hit_idx_i(hit_idx), .hit_fifo_i(hit_fifo),
     .hit_ans_i(hit_ans), .idhit_i(idhit), .resolve_o(resolve),
     .lock_i(lock), .lock_idx_i(lock_idx),
-    .csw_i(csw), .csw_idx_i(csw_idx), .csw_empty_i(csw_empty),
+    .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
+    .cs_written_empty_i(cs_written_empty),
     .req_o(mv_req), .step_o(mv_step), .row_o(mv_row), .idx_o(mv_idx),
     .data_i(mv_data), .cs_i(cs), .top_o(mv_top), .cancel_o(mv_cancel),
     .moving_o(moving), .busy_mb_o(mv_busy_mb), .answer_o(mv_answer), .flag_o(mv_flag),
     .stored_o(stored),
-    .way_o(way), .ans_o(ans),
+    .fifo_in_flight_o(fifo_in_flight), .ans_o(ans),
     .busy_o(mv_busy));
 
   // Transmission.
   logic            ins_req, ins_gnt, scan_req, scan_lazy, scan_gnt, settled, retry;
-  logic            retry_busy, bad;
+  logic            retry_busy, inactive;
   logic            started, off;
   logic [IdxW-1:0] ins_idx, scan_idx, best_idx, cur_idx;
   logic            pass, pass_end, seen, seen_act, seen_free;
@@ -217,8 +222,9 @@ module can_mailbox #(
   logic [34:0]     seen_val;
   can_mb_tx #(.NumMb(NumMb), .Status(Status)) u_tx (
     .clk_i, .rst_ni, .running_i, .lbuf_i, .lprio_en_i, .first_i(first), .maxmb_i,
-    .csw_i(csw), .csw_idx_i(csw_idx), .csw_act_i(csw_act), .ans_i(ans), .ans_idx_i(mv_idx),
-    .off_i(off), .cur_idx_i(cur_idx), .start_i(started), .retry_i(retry), .bad_i(bad),
+    .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
+    .cs_written_act_i(cs_written_act), .ans_i(ans), .ans_idx_i(mv_idx),
+    .off_i(off), .cur_idx_i(cur_idx), .start_i(started), .retry_i(retry), .inactive_i(inactive),
     .fresh_i(timer_i[9:0] == '0),
     .ins_req_o(ins_req), .ins_idx_o(ins_idx), .ins_gnt_i(ins_gnt),
     .scan_req_o(scan_req), .scan_lazy_o(scan_lazy), .scan_idx_o(scan_idx),
@@ -237,9 +243,9 @@ module can_mailbox #(
   can_mb_load #(.NumMb(NumMb)) u_load (
     .clk_i, .rst_ni, .running_i, .mute_i, .gap_i, .oneshot_i, .aen_i,
     .settled_i(settled), .best_idx_i(best_idx), .retry_busy_i(retry_busy), .retry_o(retry),
-    .bad_o(bad),
-    .csw_i(csw), .csw_idx_i(csw_idx), .csw_act_i(csw_act),
-    .cs_wr_i(wr && cpu_kind == KindCs), .cs_wr_idx_i(cpu_idx), .abort_i(abort),
+    .inactive_o(inactive),
+    .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx), .cs_written_act_i(cs_written_act),
+    .cs_wr_i(wr && cpu_mem_sel == MemCs), .cs_wr_idx_i(cpu_idx), .abort_i(abort),
     .out_o(out), .kept_o(kept), .done_o(done), .off_o(off),
     .tick_req_o, .tick_i, .start_i, .transmitter_i,
     .tx_req_o, .tx_ide_o, .tx_rtr_o, .tx_dlc_o, .tx_word_o, .tx_next_i, .tx_ok_i, .tx_fail_i,
@@ -252,7 +258,7 @@ module can_mailbox #(
   if (Abort != 0) begin : gen_guard
     can_mb_guard #(.NumMb(NumMb)) u_guard (
       .clk_i, .rst_ni, .clear_i, .aen_i,
-      .waited_i(waited), .kind_i(cpu_kind), .idx_i(cpu_idx), .be3_i(cpu_be[3]),
+      .waited_i(waited), .mem_sel_i(cpu_mem_sel), .idx_i(cpu_idx), .be3_i(cpu_be[3]),
       .code_i(wdata_i[27:24]), .area_i(raw), .ended_i(cs[30]),
       .block_o(block), .abort_o(abort),
       .out_i(out), .kept_i(kept), .done_i(done), .cur_idx_i(cur_idx),
@@ -267,7 +273,7 @@ module can_mailbox #(
 
   if (Status != 0) begin : gen_status
     can_mb_status #(.NumMb(NumMb)) u_status (
-      .clk_i, .rst_ni, .clear_i, .lbuf_i, .csw_i(csw),
+      .clk_i, .rst_ni, .clear_i, .lbuf_i, .cs_written_i(cs_written),
       .pass_i(pass), .pass_end_i(pass_end), .seen_i(seen), .seen_idx_i(seen_idx),
       .seen_val_i(seen_val), .seen_act_i(seen_act), .seen_free_i(seen_free),
       .sent_i(sent), .tx_ok_i, .cur_idx_i(cur_idx), .crc_i, .esr2_o, .crcr_o);
@@ -297,28 +303,29 @@ module can_mailbox #(
     .scan_req_i(scan_req), .scan_lazy_i(scan_lazy), .scan_idx_i(scan_idx), .scan_gnt_o(scan_gnt),
     .req_o(eng_req), .lazy_o(eng_lazy),
     .cs_row_o(eng_cs_row), .msg_row_o(eng_msg_row), .mask_row_o(eng_mask_row),
-    .slot_i(eng_slot), .hold_i(hold), .yield_i(ewr_owed), .cs_i(cs), .msg_i(msg),
+    .slot_i(eng_slot), .hold_i(hold), .yield_i(rx_wr_owed), .cs_i(cs), .msg_i(msg),
     .copy_o(copy), .copy_cs_o(copy_cs), .copy_be_o(copy_be), .copy_row_o(copy_row),
     .copy_data_o(copy_data));
 
   // Without aborts no write waits for its buffer's C/S word.
   can_mb_port #(.NumMb(NumMb), .OwnMasks(OwnMasks), .ClearRam(ClearRam)) u_port (
     .clk_i, .rst_ni,
-    .cmd_slot_i, .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_look_i(cmd_look && Abort != 0), .cmd_kind_i,
+    .cmd_slot_i, .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_look_i(cmd_look && Abort != 0), .cmd_mem_sel_i,
     .cmd_word_i, .cmd_idx_i(cmd_idx), .cmd_be_i, .look_i(aen_i || Abort == 0), .wdata_i(ram_wdata),
     .block_i(block), .ready_o,
     .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done), .waited_o(waited),
-    .kind_o(cpu_kind), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
+    .mem_sel_o(cpu_mem_sel), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
     .eng_req_i(eng_req), .eng_lazy_i(eng_lazy), .eng_cs_row_i(eng_cs_row),
     .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_slot_o(eng_slot),
     .hold_o(hold), .stale_o(stale), .id_stale_o(id_stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
     .copy_i(copy), .copy_cs_i(copy_cs), .copy_be_i(copy_be), .copy_row_i(copy_row),
     .copy_data_i(copy_data),
-    .svc_req_i(svc_req), .svc_idx_i(svc_idx), .svc_ovr_i(svc_ovr), .svc_gnt_o(svc_gnt),
-    .ewr_req_i(ewr_req), .ewr_cs_i(ewr_cs), .ewr_be_i(ewr_be), .ewr_row_i(ewr_row),
-    .ewr_data_i(ewr_data), .ewr_gnt_o(ewr_gnt), .ewr_owed_o(ewr_owed),
-    .scrub_o, .csw_i(csw));
+    .serviced_req_i(serviced_req), .serviced_idx_i(serviced_idx), .serviced_ovr_i(serviced_ovr),
+    .serviced_gnt_o(serviced_gnt),
+    .rx_wr_req_i(rx_wr_req), .rx_wr_cs_i(rx_wr_cs), .rx_wr_be_i(rx_wr_be), .rx_wr_row_i(rx_wr_row),
+    .rx_wr_data_i(rx_wr_data), .rx_wr_gnt_o(rx_wr_gnt), .rx_wr_owed_o(rx_wr_owed),
+    .scrub_o, .cs_written_i(cs_written));
 
   assign flag_o     = mv_flag || ld_flag || ab_flag;
   assign flag_idx_o = mv_flag ? mv_idx : ld_flag ? cur_idx : ab_idx;

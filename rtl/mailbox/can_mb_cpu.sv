@@ -33,7 +33,7 @@ module can_mb_cpu #(
   input  logic            rd_done_i,
   input  logic            wr_done_i,
   input  logic            block_i,       // it does not take place
-  input  logic [1:0]      kind_i,
+  input  logic [1:0]      mem_sel_i,
   input  logic            rxfir_i,
   input  logic [IdxW-1:0] idx_i,
   input  logic [3:0]      be_i,
@@ -50,14 +50,14 @@ module can_mb_cpu #(
   output logic            cs_rd_o,       // C/S word of a mailbox is read
   output logic            busy_o,        // ... and is BUSY
   // C/S word of a mailbox was written in the clock before: the RAM holds the new word.
-  output logic            csw_o,
-  output logic [IdxW-1:0] csw_idx_o,
-  output logic            csw_act_o,     // its code may be active
-  output logic            csw_empty_o,   // its code is EMPTY, IDE is csw_ide_o
-  output logic            csw_ide_o
+  output logic            cs_written_o,
+  output logic [IdxW-1:0] cs_written_idx_o,
+  output logic            cs_written_act_o,     // its code may be active
+  output logic            cs_written_empty_o,   // its code is EMPTY, IDE is cs_written_ide_o
+  output logic            cs_written_ide_o
 );
-  localparam logic [1:0] KindCs    = 2'd0;
-  localparam logic [1:0] KindTimer = 2'd3;
+  localparam logic [1:0] MemCs    = 2'd0;
+  localparam logic [1:0] MemTimer = 2'd3;
 
   // Command: in the FIFO's area? Its memory, six rows, always is.
   logic in_area, in_ring, area_q, ring_q;
@@ -75,11 +75,11 @@ module can_mb_cpu #(
   // Data.
   logic       is_cs, mb_wr, cs_wr;
   logic [3:0] code;
-  assign is_cs      = kind_i == KindCs;
+  assign is_cs      = mem_sel_i == MemCs;
   assign code       = wdata_i[27:24];
   assign raw_o      = area_q && !ring_q;
-  assign timer_rd_o = rd_done_i && kind_i == KindTimer;
-  assign timer_wr_o = wr_done_i && kind_i == KindTimer;
+  assign timer_rd_o = rd_done_i && mem_sel_i == MemTimer;
+  assign timer_wr_o = wr_done_i && mem_sel_i == MemTimer;
   assign cs_rd_o    = rd_done_i && is_cs && !area_q;
   assign mb_wr      = wr_done_i && !area_q && !scrub_i;
   assign cs_wr      = mb_wr && is_cs && !block_i;
@@ -110,15 +110,15 @@ module can_mb_cpu #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {csw_o, csw_act_o, csw_empty_o, csw_ide_o} <= '0;
-      csw_idx_o <= '0;
+      {cs_written_o, cs_written_act_o, cs_written_empty_o, cs_written_ide_o} <= '0;
+      cs_written_idx_o <= '0;
     end else begin
-      csw_o <= cs_wr;
+      cs_written_o <= cs_wr;
       if (cs_wr) begin
-        csw_idx_o   <= idx_i;
-        csw_act_o   <= !be_i[3] || code == 4'b1100 || code == 4'b1110;
-        csw_empty_o <= be_i == '1 && code == 4'b0100;
-        csw_ide_o   <= wdata_i[21];
+        cs_written_idx_o   <= idx_i;
+        cs_written_act_o   <= !be_i[3] || code == 4'b1100 || code == 4'b1110;
+        cs_written_empty_o <= be_i == '1 && code == 4'b0100;
+        cs_written_ide_o   <= wdata_i[21];
       end
     end
   end

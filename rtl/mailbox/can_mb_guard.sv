@@ -22,7 +22,7 @@ module can_mb_guard #(
   input  logic             aen_i,
   // CPU, data phase.
   input  logic             waited_i,     // a write ends in this clock, its second one
-  input  logic [1:0]       kind_i,       // as of can_mb_port; others than 0 and 1 pass
+  input  logic [1:0]       mem_sel_i,       // as of can_mb_port; others than 0 and 1 pass
   input  logic [IdxW-1:0]  idx_i,
   input  logic             be3_i,        // it has bits 31:24
   input  logic [3:0]       code_i,       // bits 27:24 of the word written
@@ -44,17 +44,17 @@ module can_mb_guard #(
   input  logic [IdxW-1:0]  end_idx_i,
   input  logic [NumMb-1:0] iflag_i
 );
-  localparam logic [1:0] KindCs  = 2'd0;
-  localparam logic [1:0] KindMsg = 2'd1;
+  localparam logic [1:0] MemCs  = 2'd0;
+  localparam logic [1:0] MemMsg = 2'd1;
 
   logic active_q, abort_q, iflag_q, abort, at_once, cur, cs_block, all_block;
 
-  assign abort     = aen_i && waited_i && !area_i && kind_i == KindCs && abort_q;
+  assign abort     = aen_i && waited_i && !area_i && mem_sel_i == MemCs && abort_q;
   assign cur       = idx_i == cur_idx_i;
   assign cs_block  = cur && (out_i || (kept_i && active_q));
   assign all_block = (ended_i && iflag_q) || (cur && done_i) || (flag_o && idx_i == flag_idx_o);
-  assign block_o   = aen_i && !area_i && ((kind_i == KindCs && (cs_block || all_block))
-                               || (kind_i == KindMsg && all_block));
+  assign block_o   = aen_i && !area_i && ((mem_sel_i == MemCs && (cs_block || all_block))
+                               || (mem_sel_i == MemMsg && all_block));
   assign abort_o   = abort && cs_block && !all_block;
   assign at_once   = abort && !cs_block && !all_block;
 

@@ -29,11 +29,11 @@ module can_mb_load #(
   input  logic [IdxW-1:0] best_idx_i,
   input  logic            retry_busy_i,
   output logic            retry_o,       // pulse: cur_idx_o is off the bus and may be active
-  output logic            bad_o,         // pulse: the winner is not active
+  output logic            inactive_o,         // pulse: the winner is not active
   // C/S write by the CPU in the clock before.
-  input  logic            csw_i,
-  input  logic [IdxW-1:0] csw_idx_i,
-  input  logic            csw_act_i,
+  input  logic            cs_written_i,
+  input  logic [IdxW-1:0] cs_written_idx_i,
+  input  logic            cs_written_act_i,
   // ... in this clock or the next one; abort_i: it asks to abort the frame that has moved out, and
   // is not done.
   input  logic            cs_wr_i,
@@ -86,15 +86,17 @@ module can_mb_load #(
   // As written here: with all four codes in use no flipped flip-flop leads to one of no state.
   (* fsm_encoding = "none", syn_encoding = "safe" *) state_e state_q;
 
-  logic       word_q, on_bus_q, end_q, failed_q, orphan_q, dropped_q, abort_q, shot_q, answer_q;
-  logic       bad_q, swap, swapped_q;
+  logic       word_q, on_bus_q, end_q, failed_q, orphan_q, dropped_q, abort_q, one_shot_q, answer_q;
+  logic       inactive_q, swap, swapped_q;
   logic [1:0] tick_q;
-  logic       pause_q, head_ok, head_bad, head_seen, head_taken, lost, csw_cur, csw_ld, withdrawn;
-  logic       csw_best;
+  logic       pause_q, head_ok, head_bad, head_seen, head_taken, lost, cs_written_cur,
+    cs_written_ld, withdrawn;
+  logic       cs_written_best;
 
-  assign csw_cur   = csw_i && csw_idx_i == cur_idx_o;
-  assign csw_ld    = csw_i && csw_idx_i == ld_idx_o;
-  assign csw_best  = csw_i && csw_idx_i == best_idx_i;   // settled_i falls in the next clock only
+  assign cs_written_cur   = cs_written_i && cs_written_idx_i == cur_idx_o;
+  assign cs_written_ld    = cs_written_i && cs_written_idx_i == ld_idx_o;
+  // settled_i falls in the next clock only
+  assign cs_written_best  = cs_written_i && cs_written_idx_i == best_idx_i;
   // The engine takes the first word with the start; either pulse tells, should one be upset. And a
   // frame that has ended without a pulse is not waited for.
   assign started_o = (start_i || tx_next_i) && transmitter_i && !on_bus_q;
@@ -105,27 +107,27 @@ module can_mb_load #(
   // its retry or has just been withdrawn.
   assign head_ok = !pause_q && (!tx_req_o || tick_q != '0);
   // ... and not while the CPU rewrites it, or asks to abort the one it would replace.
-  assign head_bad = csw_ld || abort_q || (cs_wr_i && (cs_wr_idx_i == ld_idx_o
+  assign head_bad = cs_written_ld || abort_q || (cs_wr_i && (cs_wr_idx_i == ld_idx_o
                                            || (aen_i && tx_req_o && cs_wr_idx_i == cur_idx_o)));
   assign head_seen  = data_i && data_step_i == StepHead && state_q == StHead && !on_bus_q
                    && !started_o && !head_bad;
   assign head_taken = head_seen && cs_i[27:26] == 2'b11 && !cs_i[24];
   // Not active: a winner by upset. But one that was aborted meanwhile has made way for another.
-  assign bad_o = bad_q && best_idx_i == ld_idx_o;
+  assign inactive_o = inactive_q && best_idx_i == ld_idx_o;
   assign req_o   = word_q || end_q || state_q == StLow || state_q == StHigh
                 || (state_q == StHead && head_ok);
   assign step_o  = word_q ? StepWord : end_q ? StepEnd : state_q == StLow ? StepLow
                  : state_q == StHigh ? StepHigh : StepHead;
 
   assign tick_req_o = tx_req_o && state_q == StHead;
-  assign cancel_o = csw_cur || !end_q;   // rewritten now, or when the step was granted
+  assign cancel_o = cs_written_cur || !end_q;   // rewritten now, or when the step was granted
   assign code_o   = failed_q ? 4'b1001 : answer_q ? 4'b1010 : tx_rtr_o ? 4'b0100 : 4'b1000;
   assign busy_o   = end_q || flag_o || abort_q;
   assign sent_o   = flag_o && !failed_q;
   assign take_o   = head_taken;
 
-  assign out_o    = off_o || started_o || (tx_req_o && gap_i && !csw_cur);
-  assign kept_o   = tx_req_o && dropped_q && !csw_cur;
+  assign out_o    = off_o || started_o || (tx_req_o && gap_i && !cs_written_cur);
+  assign kept_o   = tx_req_o && dropped_q && !cs_written_cur;
   assign done_o   = end_q || flag_o;
   assign off_o    = on_bus_q || abort_q || done_o;
   // An abort request that need not wait for the end of an attempt, because none is under way.
@@ -147,7 +149,7 @@ module can_mb_load #(
     end else begin
       if (data_i && data_step_i == StepWord) tx_word_o <= msg_i;
       case (state_q)
-        StIdle: if (settled_i && !flight_i && !csw_best
+        StIdle: if (settled_i && !flight_i && !cs_written_best
                     && !(tx_req_o && best_idx_i == cur_idx_o)) begin
           state_q  <= StLow;
           ld_idx_o <= best_idx_i;
@@ -175,7 +177,7 @@ module can_mb_load #(
         state_q   <= StIdle;
         swapped_q <= 1'b1;
       end
-      if (csw_ld || !running_i) state_q <= StIdle;
+      if (cs_written_ld || !running_i) state_q <= StIdle;
     end
   end
 
@@ -183,27 +185,28 @@ module can_mb_load #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {tx_req_o, on_bus_q, orphan_q, dropped_q, word_q, word_o} <= '0;
-      {end_q, failed_q, flag_o, retry_o, bad_q, abort_q, shot_q, answer_q} <= '0;
+      {end_q, failed_q, flag_o, retry_o, inactive_q, abort_q, one_shot_q, answer_q} <= '0;
       tick_q  <= '0;
       pause_q <= 1'b0;
       cur_idx_o <= '0;
     end else begin
       {flag_o, retry_o} <= '0;
-      bad_q   <= head_seen && !head_taken;
+      inactive_q   <= head_seen && !head_taken;
       tick_q  <= {tick_q[0], tick_i};
-      pause_q <= on_bus_q || end_q || retry_busy_i || abort_q || mute_i || (csw_cur && tx_req_o);
+      pause_q <= on_bus_q || end_q || retry_busy_i || abort_q || mute_i || (cs_written_cur
+      && tx_req_o);
 
       if (head_taken) begin
         tx_req_o  <= 1'b1;
         orphan_q  <= 1'b0;
         word_o    <= 1'b0;
         cur_idx_o <= ld_idx_o;
-        {shot_q, answer_q} <= {cs_i[28], cs_i[25]};
-      end else if (csw_cur) begin
+        {one_shot_q, answer_q} <= {cs_i[28], cs_i[25]};
+      end else if (cs_written_cur) begin
         // Rewritten: what is under way is no longer the buffer's. Not yet under way: take it back,
         // but rewriting it for ever does not keep everybody off the bus.
         orphan_q <= 1'b1;
-        if (tx_req_o && (!csw_act_i || !dropped_q)) begin
+        if (tx_req_o && (!cs_written_act_i || !dropped_q)) begin
           tx_req_o  <= 1'b0;
           dropped_q <= 1'b1;
         end
@@ -222,7 +225,7 @@ module can_mb_load #(
       if (data_i && data_step_i == StepEnd) begin
         {end_q, abort_q} <= '0;
         flag_o <= !cancel_o;
-      end else if (end_q && csw_cur) begin
+      end else if (end_q && cs_written_cur) begin
         end_q   <= 1'b0;
         retry_o <= 1'b1;
       end
@@ -230,7 +233,8 @@ module can_mb_load #(
         on_bus_q <= 1'b0;
         word_q   <= 1'b0;
         failed_q <= tx_fail_i;
-        if (orphan_q || csw_cur || (tx_fail_i && !oneshot_i && !shot_q && !abort_q && !abort_i))
+        if (orphan_q || cs_written_cur || (tx_fail_i && !oneshot_i && !one_shot_q && !abort_q
+          && !abort_i))
           retry_o <= 1'b1;
         else end_q <= 1'b1;
       end

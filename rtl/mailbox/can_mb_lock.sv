@@ -18,42 +18,43 @@ module can_mb_lock #(
   input  logic [IdxW-1:0] idx_i,
   input  logic [31:0]     cs_i,         // the word as stored
   input  logic            busy_i,       // it is being moved into: reads BUSY, is not locked
-  input  logic            csw_i,        // a C/S word was written in the clock before
-  input  logic [IdxW-1:0] csw_idx_i,
+  input  logic            cs_written_i,        // a C/S word was written in the clock before
+  input  logic [IdxW-1:0] cs_written_idx_i,
   output logic            lock_o,
   output logic [IdxW-1:0] lock_idx_o,
-  output logic            svc_req_o,    // mark svc_idx_o as serviced
-  output logic [IdxW-1:0] svc_idx_o,
-  output logic            svc_ovr_o,    // its code is OVERRUN, not FULL
-  input  logic            svc_gnt_i
+  output logic            serviced_req_o,    // mark serviced_idx_o as serviced
+  output logic [IdxW-1:0] serviced_idx_o,
+  output logic            serviced_ovr_o,    // its code is OVERRUN, not FULL
+  input  logic            serviced_gnt_i
 );
   logic [3:0] code;
-  logic       stored, same, lock_now, csw_hit, leave, ovr_q, mark_q;
+  logic       stored, same, lock_now, cs_written_hit, leave, ovr_q, mark_q;
 
   assign code       = cs_i[27:24];
   assign stored     = code == 4'b0010 || code == 4'b0110;
   assign lock_now = cs_rd_i && !busy_i && (stored || (code == 4'b0100 && !bcc_i));
   assign same       = lock_idx_o == idx_i;
   assign leave      = timer_rd_i || (cs_rd_i && !same);
-  assign csw_hit    = csw_i && csw_idx_i == lock_idx_o;
+  assign cs_written_hit    = cs_written_i && cs_written_idx_i == lock_idx_o;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       lock_o <= 1'b0;
       {ovr_q, mark_q} <= '0;
       lock_idx_o <= '0;
-      svc_req_o <= 1'b0;
-      svc_idx_o <= '0;
-      svc_ovr_o <= 1'b0;
+      serviced_req_o <= 1'b0;
+      serviced_idx_o <= '0;
+      serviced_ovr_o <= 1'b0;
     end else begin
       // A C/S write has the last word about the code: no mark after it.
-      if (svc_gnt_i || (csw_i && csw_idx_i == svc_idx_o)) svc_req_o <= 1'b0;
-      if (lock_o && (leave || csw_hit)) begin
+      if (serviced_gnt_i || (cs_written_i
+        && cs_written_idx_i == serviced_idx_o)) serviced_req_o <= 1'b0;
+      if (lock_o && (leave || cs_written_hit)) begin
         lock_o <= 1'b0;
-        if (mark_q && !csw_hit) begin
-          svc_req_o <= 1'b1;
-          svc_idx_o <= lock_idx_o;
-          svc_ovr_o <= ovr_q;
+        if (mark_q && !cs_written_hit) begin
+          serviced_req_o <= 1'b1;
+          serviced_idx_o <= lock_idx_o;
+          serviced_ovr_o <= ovr_q;
         end
       end
       if (lock_now) begin
@@ -62,7 +63,7 @@ module can_mb_lock #(
         ovr_q      <= code[2];
         mark_q     <= stored && !cs_i[31];
       end
-      if (clear_i) {lock_o, svc_req_o} <= '0;
+      if (clear_i) {lock_o, serviced_req_o} <= '0;
     end
   end
 endmodule

@@ -41,10 +41,10 @@ module can_mb_match #(
   // Locks, and C/S writes by the CPU in the clock before.
   input  logic            lock_i,
   input  logic [IdxW-1:0] lock_idx_i,
-  input  logic            csw_i,
-  input  logic [IdxW-1:0] csw_idx_i,
-  input  logic            csw_empty_i,
-  input  logic            csw_ide_i,
+  input  logic            cs_written_i,
+  input  logic [IdxW-1:0] cs_written_idx_i,
+  input  logic            cs_written_empty_i,
+  input  logic            cs_written_ide_i,
   // Read slots.
   output logic            req_o,
   output logic [IdxW-1:0] idx_o,
@@ -63,7 +63,7 @@ module can_mb_match #(
   output logic            hit_ans_o,    // nowhere: the buffer answers it
   input  logic            resolve_i,    // the result is taken over
   input  logic            stored_i,     // the frame is in the FIFO
-  input  logic [1:0]      way_i,        // frames on their way there
+  input  logic [1:0]      fifo_in_flight_i,        // frames on their way there
   output logic [8:0]      idhit_o,      // filter element of the frame on its way there
   // CPU's side of the FIFO.
   input  logic            pop_i,
@@ -83,7 +83,7 @@ module can_mb_match #(
   can_mb_rx #(.NumMb(NumMb)) u_rx (
     .clk_i, .rst_ni, .clear_i, .bcc_i, .eacen_i, .rrs_i, .maxmb_i, .first_i,
     .wait_i(flt_busy || enough), .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_rtr_i,
-    .lock_i, .lock_idx_i, .csw_i, .csw_idx_i, .csw_empty_i, .csw_ide_i,
+    .lock_i, .lock_idx_i, .cs_written_i, .cs_written_idx_i, .cs_written_empty_i, .cs_written_ide_i,
     .req_o(mb_req), .idx_o(mb_idx), .gnt_i(gnt && !flt_busy), .stale_i,
     .cs_i, .id_i(msg_i), .mask_i(mb_mask),
     .id_o(id), .ide_o(ide), .rtr_o(rtr), .ans_o(mb_ans),
@@ -105,14 +105,15 @@ module can_mb_match #(
     can_rx_fifo u_fifo (
       .clk_i, .rst_ni, .clear_i, .bcc_i, .mrp_i, .pop_i, .head_o, .avail_o, .warn_o, .ovf_o,
       .rx_hdr_i, .filter_i(flt_hit), .idhit_i(idhit), .mb_hit_i(mb_hit), .mb_free_i(mb_free),
-      .enough_o(enough), .take_o(hit_fifo_o), .resolve_i, .stored_i, .way_i, .tail_o(tail),
+      .enough_o(enough), .take_o(hit_fifo_o), .resolve_i, .stored_i, .fifo_in_flight_i,
+      .tail_o(tail),
       .idhit_o);
   end else begin : gen_no_fifo
     assign {flt_req, flt_idx, flt_word, flt_mask_row, flt_busy, flt_hit, idhit} = '0;
     assign {head_o, avail_o, warn_o, ovf_o, enough, hit_fifo_o, tail, idhit_o} = '0;
     logic unused;
     assign unused = &{1'b0, fen_i, idam_i, rffn_i, mrp_i, id, ide, rtr, mb_free, resolve_i,
-                      stored_i, way_i, pop_i, flt_mask_row, flt_hit, idhit, mask};
+                      stored_i, fifo_in_flight_i, pop_i, flt_mask_row, flt_hit, idhit, mask};
   end
 
   // Masks of mailboxes: their own, or RXGMASK, RX14MASK, RX15MASK; all ones where a remote frame

@@ -34,9 +34,9 @@ module can_mb_move #(
   // Locks, CPU reads and writes of C/S words.
   input  logic            lock_i,
   input  logic [IdxW-1:0] lock_idx_i,
-  input  logic            csw_i,
-  input  logic [IdxW-1:0] csw_idx_i,
-  input  logic            csw_empty_i,
+  input  logic            cs_written_i,
+  input  logic [IdxW-1:0] cs_written_idx_i,
+  input  logic            cs_written_empty_i,
   // One copy a step: 0 ID (and the old C/S word), 1 bytes 0-3, 2 bytes 4-7, 3 C/S; of an answer
   // only its code.
   output logic            req_o,
@@ -52,7 +52,7 @@ module can_mb_move #(
   output logic            answer_o,      // ... or is to answer
   output logic            flag_o,        // pulse: set IFLAG of idx_o
   output logic            stored_o,      // pulse: the frame is in the Rx FIFO
-  output logic [1:0]      way_o,         // frames on their way there, for each row
+  output logic [1:0]      fifo_in_flight_o,         // frames on their way there, for each row
   output logic            ans_o,         // pulse: buffer idx_o has code 1110 now
   output logic            busy_o         // something is still to be done
 );
@@ -67,20 +67,21 @@ module can_mb_move #(
   assign ready[0] = full_q[0] && !(unres_q && !unres_row_q) && !(lock_i && lock_idx_i == tgt0_q);
   assign ready[1] = full_q[1] && !(unres_q && unres_row_q) && !(lock_i && lock_idx_i == tgt1_q);
 
-  assign way_o = full_q & fifo_q & ~{unres_q && unres_row_q, unres_q && !unres_row_q};
+  assign fifo_in_flight_o = full_q & fifo_q & ~{unres_q && unres_row_q, unres_q && !unres_row_q};
 
   // A C/S write cancels what waits for this buffer; EMPTY leaves an unlocked buffer a target.
-  logic csw_cancels;
-  assign csw_cancels = csw_i && !(csw_empty_i && !(lock_i && lock_idx_i == csw_idx_i));
-  assign kill[0] = (csw_cancels || (csw_i && ans_q[0])) && csw_idx_i == tgt0_q
+  logic cs_written_cancels;
+  assign cs_written_cancels = cs_written_i && !(cs_written_empty_i && !(lock_i
+      && lock_idx_i == cs_written_idx_i));
+  assign kill[0] = (cs_written_cancels || (cs_written_i && ans_q[0])) && cs_written_idx_i == tgt0_q
                 && !(unres_q && !unres_row_q);
-  assign kill[1] = (csw_cancels || (csw_i && ans_q[1])) && csw_idx_i == tgt1_q
+  assign kill[1] = (cs_written_cancels || (cs_written_i && ans_q[1])) && cs_written_idx_i == tgt1_q
                 && !(unres_q && unres_row_q);
 
-  logic csw_hit, ovr;
-  assign csw_hit  = csw_i && csw_idx_i == idx_o;
-  assign cancel_o = csw_hit && !(csw_empty_i && !ans);
-  assign ovr      = ovr_q && !csw_hit;
+  logic cs_written_hit, ovr;
+  assign cs_written_hit  = cs_written_i && cs_written_idx_i == idx_o;
+  assign cancel_o = cs_written_hit && !(cs_written_empty_i && !ans);
+  assign ovr      = ovr_q && !cs_written_hit;
   assign top_o    = fifo ? idhit_i : {4'b0, ans, ovr || ans, 2'b10, 1'b0};
   assign fifo     = fifo_q[row_o];
   assign ans      = ans_q[row_o];
@@ -118,13 +119,13 @@ module can_mb_move #(
       end else if (data_i) begin
         step_o <= step_o + 1'b1;
         // FULL or OVERRUN, unread
-        if (step_o == 2'd0) ovr_q <= (cs_i[25] && !cs_i[31]) && !csw_hit;
+        if (step_o == 2'd0) ovr_q <= (cs_i[25] && !cs_i[31]) && !cs_written_hit;
         if (step_o == 2'd3) begin
           end_q <= 1'b1;
           {flag_o, stored_o, ans_o} <= {!fifo && !ans, fifo, ans};
         end
       end
-      if (mv_q && csw_hit) ovr_q <= 1'b0;
+      if (mv_q && cs_written_hit) ovr_q <= 1'b0;
       if (kill[0] && !(end_q && !row_o)) full_q[0] <= 1'b0;
       if (kill[1] && !(end_q && row_o))  full_q[1] <= 1'b0;
 

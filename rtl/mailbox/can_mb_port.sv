@@ -24,14 +24,14 @@ module can_mb_port #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  // CPU, command: only while ready_o. kind: 0 C/S (word 3; 1: RXFIR, the same row), 1 ID or data
+  // CPU, command: only while ready_o. mem_sel: 0 C/S (word 3; 1: RXFIR, the same row), 1 ID or data
   // (word 0..2), 2 mask (word[0]: hidden row; without OwnMasks word 3 of the MSG memory), 3 no RAM,
   // but ordered like one (TIMER).
   input  logic            cmd_slot_i,   // cmd_rd_i may be set: early, for who gets the read port
   input  logic            cmd_rd_i,
   input  logic            cmd_wr_i,
   input  logic            cmd_look_i,   // a write that first reads its buffer's C/S word ...
-  input  logic [1:0]      cmd_kind_i,
+  input  logic [1:0]      cmd_mem_sel_i,
   input  logic [1:0]      cmd_word_i,
   input  logic [IdxW-1:0] cmd_idx_i,
   input  logic [3:0]      cmd_be_i,
@@ -45,8 +45,8 @@ module can_mb_port #(
   output logic            wr_o,         // a write ends in this clock, or the next one
   output logic            wr_done_o,    // ... in this clock
   output logic            waited_o,     // ... and has waited for it; cs_o is what it has read
-  output logic [1:0]      kind_o,
-  output logic            rxfir_o,      // kind 0: RXFIR, not C/S
+  output logic [1:0]      mem_sel_o,
+  output logic            rxfir_o,      // mem_sel 0: RXFIR, not C/S
   output logic [IdxW-1:0] idx_o,
   output logic [3:0]      be_o,
   // Engine reads; data in the clock after the grant.
@@ -73,26 +73,26 @@ module can_mb_port #(
   input  logic [IdxW+1:0] copy_row_i,
   input  logic [31:0]     copy_data_i,
   // Serviced mark: top byte of a C/S word.
-  input  logic            svc_req_i,
-  input  logic [IdxW-1:0] svc_idx_i,
-  input  logic            svc_ovr_i,
-  output logic            svc_gnt_o,
+  input  logic            serviced_req_i,
+  input  logic [IdxW-1:0] serviced_idx_i,
+  input  logic            serviced_ovr_i,
+  output logic            serviced_gnt_o,
   // Engine writes, to hidden rows.
-  input  logic            ewr_req_i,
-  input  logic            ewr_cs_i,
-  input  logic [3:0]      ewr_be_i,
-  input  logic [IdxW+1:0] ewr_row_i,
-  input  logic [31:0]     ewr_data_i,
-  output logic            ewr_gnt_o,
-  output logic            ewr_owed_o,   // one was refused: no copy is to begin
+  input  logic            rx_wr_req_i,
+  input  logic            rx_wr_cs_i,
+  input  logic [3:0]      rx_wr_be_i,
+  input  logic [IdxW+1:0] rx_wr_row_i,
+  input  logic [31:0]     rx_wr_data_i,
+  output logic            rx_wr_gnt_o,
+  output logic            rx_wr_owed_o,   // one was refused: no copy is to begin
   // After a hard reset: every row is written once, whatever else goes on.
   output logic            scrub_o,
-  input  logic            csw_i         // a C/S write ended in the clock before
+  input  logic            cs_written_i         // a C/S write ended in the clock before
 );
-  localparam logic [1:0] KindCs    = 2'd0;
-  localparam logic [1:0] KindMsg   = 2'd1;
-  localparam logic [1:0] KindMask  = 2'd2;
-  localparam logic [1:0] KindTimer = 2'd3;
+  localparam logic [1:0] MemCs    = 2'd0;
+  localparam logic [1:0] MemMsg   = 2'd1;
+  localparam logic [1:0] MemMask  = 2'd2;
+  localparam logic [1:0] MemTimer = 2'd3;
 
   logic [IdxW+1:0] scrub_row_q;
   if (ClearRam != 0) begin : gen_scrub
@@ -112,20 +112,20 @@ module can_mb_port #(
 
   // CPU transfer in its data phase.
   logic            rd_q, wr_q;
-  logic [1:0]      kind_q, word_q;
+  logic [1:0]      mem_sel_q, word_q;
   logic [IdxW-1:0] idx_q;
   logic [3:0]      be_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {rd_q, wr_q} <= '0;
-      {kind_q, word_q} <= '0;
+      {mem_sel_q, word_q} <= '0;
       idx_q <= '0;
       be_q <= '0;
     end else if (ready_o) begin
       rd_q   <= cmd_rd_i;
       wr_q   <= cmd_wr_i;
-      kind_q <= cmd_kind_i;
+      mem_sel_q <= cmd_mem_sel_i;
       word_q <= cmd_word_i;
       idx_q  <= cmd_idx_i;
       be_q   <= cmd_be_i;
@@ -134,33 +134,35 @@ module can_mb_port #(
 
   // Read port. An engine write that was refused claims a slot too: reads of C/S words in a row,
   // each with its serviced mark, would keep it out otherwise.
-  logic pend_q, pend, owed_q, want, cpu_gnt, ewr_owed_q;
+  logic pend_q, pend, owed_q, want, cpu_gnt, rx_wr_owed_q;
   assign pend      = pend_q && !(wr_q && !look_i);
-  assign want      = (eng_req_i && !eng_lazy_i) || ewr_owed_q;
+  assign want      = (eng_req_i && !eng_lazy_i) || rx_wr_owed_q;
   assign cpu_gnt   = pend || (cmd_slot_i && !ins_req_i && !owed_q && !hold_o);
   assign ins_gnt_o = ins_req_i && !pend;
   assign eng_slot_o = !pend && !ins_req_i && !hold_o && (!cmd_slot_i || owed_q);
 
   // Write port.
   logic wait_q, w_gnt, ram_wr, wr_waits;
-  assign ram_wr    = wr_q && kind_q != KindTimer;
-  assign w_gnt     = ram_wr && (wait_q || !(pend || copy_i || svc_req_i || ewr_owed_q
-                                            || (kind_q == KindCs && csw_i && owed_q)));
+  assign ram_wr    = wr_q && mem_sel_q != MemTimer;
+  assign w_gnt     = ram_wr && (wait_q || !(pend || copy_i || serviced_req_i || rx_wr_owed_q
+                                            || (mem_sel_q == MemCs && cs_written_i && owed_q)));
   assign wr_waits  = ram_wr && !w_gnt;
   assign hold_o    = copy_i && wait_q;
   // These do not look at w_gnt, which is late: a write that waits for another reason only puts the
   // engine off once. No mark while its word is read for the second time.
-  assign svc_gnt_o = svc_req_i && !copy_i && !(ram_wr && wait_q) && !(pend && svc_idx_i == idx_q);
-  assign ewr_gnt_o = ewr_req_i && !copy_i && !svc_req_i && (!ram_wr || (ewr_owed_q && !wait_q));
+  assign serviced_gnt_o = serviced_req_i && !copy_i && !(ram_wr && wait_q) && !(pend
+      && serviced_idx_i == idx_q);
+  assign rx_wr_gnt_o = rx_wr_req_i && !copy_i && !serviced_req_i && (!ram_wr || (rx_wr_owed_q
+      && !wait_q));
 
-  assign ewr_owed_o = ewr_owed_q;
+  assign rx_wr_owed_o = rx_wr_owed_q;
 
   assign ready_o   = !pend && !wr_waits;
   assign rd_done_o = rd_q && !pend;
   assign wr_o      = wr_q;
   assign wr_done_o = wr_q && !wr_waits;
   assign waited_o  = wait_q;
-  assign kind_o    = kind_q;
+  assign mem_sel_o    = mem_sel_q;
   assign rxfir_o   = !word_q[1];
   assign idx_o     = idx_q;
   assign be_o      = be_q;
@@ -178,8 +180,8 @@ module can_mb_port #(
   assign mask_raddr = cpu_gnt ? {c_word[0], c_idx} : eng_mask_row_i;
 
   // Masks without a memory of their own.
-  function automatic logic in_msg(input logic [1:0] kind);
-    in_msg = OwnMasks == 0 && kind == KindMask;
+  function automatic logic in_msg(input logic [1:0] mem_sel);
+    in_msg = OwnMasks == 0 && mem_sel == MemMask;
   endfunction
 
   // The word that is written: memory, row, byte lanes, data. Who writes is known early; whether it
@@ -192,9 +194,9 @@ module can_mb_port #(
 
   always_comb begin
     // The engine, unless it is somebody else.
-    {w_cs, w_msg, w_mask} = {ewr_cs_i, !ewr_cs_i, 1'b0};
-    w_row  = ewr_row_i;
-    w_data = ewr_data_i;
+    {w_cs, w_msg, w_mask} = {rx_wr_cs_i, !rx_wr_cs_i, 1'b0};
+    w_row  = rx_wr_row_i;
+    w_data = rx_wr_data_i;
     if (scrub_o) begin
       // The rows of masks that no buffer has are ones; the C/S rows were zeroed in the first half.
       {w_cs, w_msg, w_mask} = {!scrub_row_q[IdxW+1], 2'b11};
@@ -205,42 +207,42 @@ module can_mb_port #(
       w_row  = copy_row_i;
       w_data = copy_data_i;
     end else if (w_gnt) begin
-      {w_cs, w_msg, w_mask} = {kind_q == KindCs, kind_q == KindMsg || in_msg(kind_q),
-                               kind_q == KindMask};
-      w_row  = {kind_q != KindCs && word_q[1], kind_q != KindCs && word_q[0], idx_q};
+      {w_cs, w_msg, w_mask} = {mem_sel_q == MemCs, mem_sel_q == MemMsg || in_msg(mem_sel_q),
+                               mem_sel_q == MemMask};
+      w_row  = {mem_sel_q != MemCs && word_q[1], mem_sel_q != MemCs && word_q[0], idx_q};
       w_data = wdata_i;
-    end else if (svc_req_i) begin
+    end else if (serviced_req_i) begin
       {w_cs, w_msg, w_mask} = 3'b100;
-      w_row  = {2'b00, svc_idx_i};
-      w_data[31:24] = {4'b1000, 1'b0, svc_ovr_i, 2'b10};
+      w_row  = {2'b00, serviced_idx_i};
+      w_data[31:24] = {4'b1000, 1'b0, serviced_ovr_i, 2'b10};
     end
   end
 
   assign w_be = {4{scrub_o}} | (copy_be_i & {4{by_copy}}) | (be_q & {4{w_gnt && !block_i}})
-              | {svc_gnt_o, 3'b000} | (ewr_be_i & {4{ewr_gnt_o}});
+              | {serviced_gnt_o, 3'b000} | (rx_wr_be_i & {4{rx_wr_gnt_o}});
 
   // Does it meet the CPU's read? Its lanes do not count: they come late. A read that has waited
   // meets a copy alone; a write that waits reads its C/S word.
   logic meets, shown;
-  assign meets = (copy_i || ram_wr || svc_req_i)
-              && ((w_cs && cmd_kind_i == KindCs && w_row[IdxW:0] == {1'b0, cmd_idx_i})
-                  || (w_msg && (cmd_kind_i == KindMsg || in_msg(cmd_kind_i))
+  assign meets = (copy_i || ram_wr || serviced_req_i)
+              && ((w_cs && cmd_mem_sel_i == MemCs && w_row[IdxW:0] == {1'b0, cmd_idx_i})
+                  || (w_msg && (cmd_mem_sel_i == MemMsg || in_msg(cmd_mem_sel_i))
                       && w_row == {cmd_word_i, cmd_idx_i})
-                  || (OwnMasks != 0 && w_mask && cmd_kind_i == KindMask
+                  || (OwnMasks != 0 && w_mask && cmd_mem_sel_i == MemMask
                       && w_row[IdxW:0] == {cmd_word_i[0], cmd_idx_i}));
   assign shown = pend && copy_i && copy_row_i[IdxW-1:0] == idx_q
-              && (copy_cs_i ? (wr_q || kind_q == KindCs) && !copy_row_i[IdxW]
-                            : !wr_q && kind_q == KindMsg && copy_row_i[IdxW+1:IdxW] == word_q);
+              && (copy_cs_i ? (wr_q || mem_sel_q == MemCs) && !copy_row_i[IdxW]
+                            : !wr_q && mem_sel_q == MemMsg && copy_row_i[IdxW+1:IdxW] == word_q);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {pend_q, owed_q, wait_q, ewr_owed_q} <= '0;
+      {pend_q, owed_q, wait_q, rx_wr_owed_q} <= '0;
       {stale_o, id_stale_o} <= '0;
     end else begin
       pend_q     <= (cmd_rd_i && (!cpu_gnt || meets)) || (cmd_wr_i && cmd_look_i);
       owed_q     <= want && (pend || ins_req_i || (cmd_slot_i && !owed_q));
       wait_q     <= wr_waits;
-      ewr_owed_q <= ewr_req_i && !ewr_gnt_o;
+      rx_wr_owed_q <= rx_wr_req_i && !rx_wr_gnt_o;
       stale_o    <= w_cs && w_be[3] && w_row[IdxW:0] == cs_raddr;
       id_stale_o <= w_msg && w_be != '0 && w_row == msg_raddr;
     end
@@ -268,10 +270,10 @@ module can_mb_port #(
   always_comb begin
     rdata_o = '0;
     if (rd_q && !scrub_o) begin
-      case (kind_q)
-        KindCs:   rdata_o = cs_o;
-        KindMsg:  rdata_o = msg_o;
-        KindMask: rdata_o = mask_o;
+      case (mem_sel_q)
+        MemCs:   rdata_o = cs_o;
+        MemMsg:  rdata_o = msg_o;
+        MemMask: rdata_o = mask_o;
         default:  ;
       endcase
     end

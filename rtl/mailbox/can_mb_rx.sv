@@ -27,10 +27,10 @@ module can_mb_rx #(
   // Locks, and C/S writes by the CPU in the clock before.
   input  logic            lock_i,
   input  logic [IdxW-1:0] lock_idx_i,
-  input  logic            csw_i,
-  input  logic [IdxW-1:0] csw_idx_i,
-  input  logic            csw_empty_i,  // code EMPTY was written, with IDE csw_ide_i
-  input  logic            csw_ide_i,
+  input  logic            cs_written_i,
+  input  logic [IdxW-1:0] cs_written_idx_i,
+  input  logic            cs_written_empty_i,  // code EMPTY was written, with IDE cs_written_ide_i
+  input  logic            cs_written_ide_i,
   // Read slots: C/S, ID and mask of buffer idx_o.
   output logic            req_o,
   output logic [IdxW-1:0] idx_o,
@@ -66,24 +66,24 @@ module can_mb_rx #(
                 && !(lock_i && lock_idx_i == s1_idx_q);
   // Read it again: it was being written then, or it fitted and has been written since. One that did
   // not fit was looked at before that write.
-  assign skip    = s2_skip_q || (s2_match_q && csw_i && csw_idx_i == s2_idx_q);
+  assign skip    = s2_skip_q || (s2_match_q && cs_written_i && cs_written_idx_i == s2_idx_q);
   assign last    = idx_o == IdxW'(NumMb - 1) || 7'(idx_o) == maxmb_i;
 
   // The CPU took the chosen buffer away: look again. Writing EMPTY leaves one that stores a
   // candidate.
-  logic lost;
-  assign lost = hit_o && csw_i && csw_idx_i == hit_idx_o
-             && !(csw_empty_i && csw_ide_i == ide_o && !ans_o);
+  logic withdrawn;
+  assign withdrawn = hit_o && cs_written_i && cs_written_idx_i == hit_idx_o
+             && !(cs_written_empty_i && cs_written_ide_i == ide_o && !ans_o);
 
   assign req_o  = scan_q && !wait_i;
-  assign done_o = !scan_q && !s1_q && !s2_q && !lost;
+  assign done_o = !scan_q && !s1_q && !s2_q && !withdrawn;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {s2_skip_q, s2_match_q, s2_free_q} <= '0;
       s2_idx_q <= '0;
     end else if (s1_q) begin
-      s2_skip_q  <= stale_i || (csw_i && csw_idx_i == s1_idx_q);
+      s2_skip_q  <= stale_i || (cs_written_i && cs_written_idx_i == s1_idx_q);
       s2_match_q <= code_ok && ide_ok && rtr_ok && id_ok && 7'(s1_idx_q) <= maxmb_i;
       s2_free_q  <= free;
       s2_idx_q   <= s1_idx_q;
@@ -104,7 +104,7 @@ module can_mb_rx #(
       scan_q <= first_i < 7'(NumMb);
       idx_o  <= first_i[IdxW-1:0];
       {s1_q, s2_q, hit_o} <= '0;
-    end else if (lost || clear_i) begin
+    end else if (withdrawn || clear_i) begin
       scan_q <= !clear_i;
       idx_o  <= first_i[IdxW-1:0];
       {s1_q, s2_q, hit_o} <= '0;

@@ -13,7 +13,7 @@ module can_mb_status #(
   input  logic            rst_ni,
   input  logic            clear_i,      // soft reset
   input  logic            lbuf_i,
-  input  logic            csw_i,        // a C/S word was written in the clock before
+  input  logic            cs_written_i,        // a C/S word was written in the clock before
   // Pass, see can_mb_tx.
   input  logic            pass_i,
   input  logic            pass_end_i,
@@ -67,7 +67,7 @@ module can_mb_status #(
         lptm_q <= cur_idx_i;
       end
       if (pass_end_i)      vps_q <= 1'b1;
-      if (pass_i || csw_i) vps_q <= 1'b0;
+      if (pass_i || cs_written_i) vps_q <= 1'b0;
       if (clear_i) begin
         {vps_q, imb_q} <= '0;
         lptm_q <= '0;

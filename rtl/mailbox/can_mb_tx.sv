@@ -29,10 +29,10 @@ module can_mb_tx #(
   input  logic            lprio_en_i,   // PRIO comes before the identifier
   input  logic [6:0]      first_i,      // buffers first_i to maxmb_i take part
   input  logic [6:0]      maxmb_i,
-  // C/S write by the CPU in the clock before; csw_act_i: the code may be active.
-  input  logic            csw_i,
-  input  logic [IdxW-1:0] csw_idx_i,
-  input  logic            csw_act_i,
+  // C/S write by the CPU in the clock before; cs_written_act_i: the code may be active.
+  input  logic            cs_written_i,
+  input  logic [IdxW-1:0] cs_written_idx_i,
+  input  logic            cs_written_act_i,
   // A remote frame made buffer ans_idx_i active in the clock before.
   input  logic            ans_i,
   input  logic [IdxW-1:0] ans_idx_i,
@@ -41,7 +41,7 @@ module can_mb_tx #(
   input  logic [IdxW-1:0] cur_idx_i,
   input  logic            start_i,      // buffer cur_idx_i goes on the bus
   input  logic            retry_i,      // ... has left it, and may be active still
-  input  logic            bad_i,        // the winner was not active after all
+  input  logic            inactive_i,        // the winner was not active after all
   // Now and then: look at all buffers again if there is no winner.
   input  logic            fresh_i,
   // Read slots.
@@ -80,9 +80,9 @@ module can_mb_tx #(
   logic [34:0]     s2_val_q, best_val_q;
 
   // Insertions: the C/S write first, it cannot wait for the next one; answers are rarest.
-  assign ins_new    = ins_q || (csw_i && csw_act_i);
+  assign ins_new    = ins_q || (cs_written_i && cs_written_act_i);
   assign ins_req_o  = running_i && (ins_new || retry_q || ans_q);
-  assign ins_idx_o  = ins_new ? csw_idx_i : retry_q ? cur_idx_i : ans_idx_q;
+  assign ins_idx_o  = ins_new ? cs_written_idx_i : retry_q ? cur_idx_i : ans_idx_q;
   assign retry_gnt  = ins_gnt_i && !ins_new;
   assign ans_gnt    = ins_gnt_i && !ins_new && !retry_q;
   assign retry_o    = retry_q || retry_i || s1_retry_q || s2_retry_q;
@@ -92,7 +92,7 @@ module can_mb_tx #(
   assign settled_o  = best_q && (!scan_q || spoilt);
   assign last       = scan_idx_o == IdxW'(NumMb - 1) || 7'(scan_idx_o) == maxmb_i;
   assign s1_part    = 7'(s1_idx_q) >= first_i && 7'(s1_idx_q) <= maxmb_i
-                   && !stale_i && !(csw_i && csw_idx_i == s1_idx_q);
+                   && !stale_i && !(cs_written_i && cs_written_idx_i == s1_idx_q);
 
   // Arbitration value: PRIO, then the bits in the order of the bus (flexcan.md 3.3). Active codes
   // are 1100 and 1110, inactive 0000 and 1000.
@@ -113,12 +113,12 @@ module can_mb_tx #(
 
   // A buffer written since it was read does not count: an insertion follows if it is active. Nor
   // does the one on the bus.
-  logic candidate, gone, better;
-  assign candidate = s2_q && s2_active_q && !(csw_i && csw_idx_i == s2_idx_q)
+  logic candidate, withdrawn, better;
+  assign candidate = s2_q && s2_active_q && !(cs_written_i && cs_written_idx_i == s2_idx_q)
                   && !((off_i || start_i) && s2_idx_q == cur_idx_i);
   // The winner is no longer what it was.
-  assign gone   = best_q && ((csw_i && csw_idx_i == best_idx_o)
-                          || ((start_i || off_i) && cur_idx_i == best_idx_o) || bad_i);
+  assign withdrawn   = best_q && ((cs_written_i && cs_written_idx_i == best_idx_o)
+                          || ((start_i || off_i) && cur_idx_i == best_idx_o) || inactive_i);
   // In two halves side by side: one comparison of all bits is the longest path of the core.
   logic high_less, high_equal, low_less;
   assign high_less  = s2_val_q[34:17] < best_val_q[34:17];
@@ -133,11 +133,11 @@ module can_mb_tx #(
       best_val_q <= '0;
     end else if (!running_i) begin
       best_q <= 1'b0;
-    end else if (candidate && (!best_q || gone || better)) begin
+    end else if (candidate && (!best_q || withdrawn || better)) begin
       best_q     <= 1'b1;
       best_idx_o <= s2_idx_q;
       best_val_q <= s2_val_q;
-    end else if (gone) begin
+    end else if (withdrawn) begin
       best_q <= 1'b0;
     end
   end
@@ -149,11 +149,11 @@ module can_mb_tx #(
   assign seen_free_o = s2_free_q;
   assign pass_o      = s1_scan_q && s1_idx_q == '0 && !quiet_q;
   assign s2_end      = s2_last_q && !restart_q;
-  assign pass_end_o  = s2_end && !dirty_q && !change && !gone && !quiet_q;
+  assign pass_end_o  = s2_end && !dirty_q && !change && !withdrawn && !quiet_q;
 
   // A pass for ESR2 alone is started anew by whatever happens; one that looks for a winner by the
   // loss of a winner, and not for ever.
-  assign change  = Status != 0 && (csw_i || ans_i);
+  assign change  = Status != 0 && (cs_written_i || ans_i);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -161,12 +161,12 @@ module can_mb_tx #(
     end else if (!running_i) begin
       {look_q, quiet_q, dirty_q, restart_q} <= '0;
     end else begin
-      restart_q <= scan_q ? gone && !spoilt : look_q && (change || gone);
+      restart_q <= scan_q ? withdrawn && !spoilt : look_q && (change || withdrawn);
       if (s2_end)      {look_q, dirty_q} <= {dirty_q || change, 1'b0};
       else if (change) {look_q, dirty_q} <= {1'b1, scan_q};
       else if (fresh_i && !best_q && !scan_q) look_q <= 1'b1;
       // Such a pass is not for ESR2 unless something happens meanwhile.
-      quiet_q <= !s2_end && !change && !gone && !scan_q
+      quiet_q <= !s2_end && !change && !withdrawn && !scan_q
               && (quiet_q || (fresh_i && !best_q && !look_q));
     end
   end
@@ -203,15 +203,15 @@ module can_mb_tx #(
       s1_idx_q  <= ins_req_o ? ins_idx_o : scan_idx_o;
       if (scan_gnt_i) scan_idx_o <= scan_idx_o + 1'b1;
       if (s2_end) begin                 // every buffer has been looked at
-        scan_q     <= again_q || gone;
+        scan_q     <= again_q || withdrawn;
         again_q    <= 1'b0;
-        if (!again_q && !gone) spoils_q <= '0;
+        if (!again_q && !withdrawn) spoils_q <= '0;
         scan_idx_o <= '0;
-      end else if (gone) begin
+      end else if (withdrawn) begin
         scan_q  <= 1'b1;
         again_q <= spoilt;
       end
-      if (gone && scan_q && !spoilt) spoils_q <= spoils_q + 1'b1;
+      if (withdrawn && scan_q && !spoilt) spoils_q <= spoils_q + 1'b1;
       if (restart_q) begin
         scan_idx_o <= '0;
         {s1_last_q, s2_last_q} <= '0;

@@ -33,7 +33,8 @@ module can_rx_fifo (
   // Moves.
   input  logic       resolve_i,      // the frame is good; its place is decided in this clock
   input  logic       stored_i,       // it is there
-  input  logic [1:0] way_i,          // taken and not there yet: one bit for each that may be
+  // taken and not there yet: one bit for each that may be
+  input  logic [1:0] fifo_in_flight_i,
   output logic [2:0] tail_o,         // its row, in the clock of resolve_i
   output logic [8:0] idhit_o         // its element, from then on until stored_i
 );
@@ -47,7 +48,7 @@ module can_rx_fifo (
   logic [2:0] head_q, fill_q, used;
   logic [3:0] ring;
   logic       pop, put, full;
-  assign used    = fill_q + {2'b0, way_i[0]} + {2'b0, way_i[1]};
+  assign used    = fill_q + {2'b0, fifo_in_flight_i[0]} + {2'b0, fifo_in_flight_i[1]};
   assign ring    = {1'b0, head_q} + {1'b0, used};
   assign tail_o  = 3'(ring >= {1'b0, Depth} ? ring - {1'b0, Depth} : ring);
   assign avail_o = fill_q != '0;

@@ -40,10 +40,11 @@ MUTANTS = [
     ("synchronisation", "early edges do not shorten the bit", "bit/can_bit_timing.sv",
      "assign early   = falling && seg2_q;", "assign early   = falling && seg2_q && !@;"),
     ("lost-frame", "a C/S write cancels what waits for another buffer", "mailbox/can_mb_move.sv",
-     "(csw_i && ans_q[0])) && csw_idx_i == tgt0_q",
-     "(csw_i && ans_q[0])) && (@ || csw_idx_i == tgt0_q)"),
+     "(cs_written_i && ans_q[0])) && cs_written_idx_i == tgt0_q",
+     "(cs_written_i && ans_q[0])) && (@ || cs_written_idx_i == tgt0_q)"),
     ("overrun", "a frame over an unread one counts as the first", "mailbox/can_mb_move.sv",
-     "assign ovr      = ovr_q && !csw_hit;", "assign ovr      = ovr_q && !csw_hit && !@;"),
+     "assign ovr      = ovr_q && !cs_written_hit;",
+     "assign ovr      = ovr_q && !cs_written_hit && !@;"),
 ]
 
 

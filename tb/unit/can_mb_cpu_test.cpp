@@ -15,7 +15,7 @@ class MbCpu : public ::testing::Test {
   MbCpu() { cpu_.reset(); }
   void write(unsigned idx, unsigned lanes, unsigned code) {
     cpu_->wr_done_i = 1;
-    cpu_->kind_i = 0;
+    cpu_->mem_sel_i = 0;
     cpu_->idx_i = idx;
     cpu_->be_i = lanes;
     cpu_->wdata_i = code << 24;
@@ -33,14 +33,14 @@ TEST_F(MbCpu, PartsOfAWordAreNotTakenForMore) {  // FX-3.4.g
   for (unsigned lanes = 1; lanes < 16; ++lanes) {
     for (unsigned code = 0; code < 16; ++code) {
       write(lanes, lanes, code);
-      EXPECT_TRUE(cpu_->csw_o);
-      EXPECT_EQ(cpu_->csw_idx_o, lanes);
-      EXPECT_EQ(cpu_->csw_act_o != 0, (lanes & 8) == 0 || code == 0xC || code == 0xE)
+      EXPECT_TRUE(cpu_->cs_written_o);
+      EXPECT_EQ(cpu_->cs_written_idx_o, lanes);
+      EXPECT_EQ(cpu_->cs_written_act_o != 0, (lanes & 8) == 0 || code == 0xC || code == 0xE)
           << lanes << " " << code;
-      EXPECT_EQ(cpu_->csw_empty_o != 0, lanes == 15 && code == 4) << lanes << " " << code;
+      EXPECT_EQ(cpu_->cs_written_empty_o != 0, lanes == 15 && code == 4) << lanes << " " << code;
       cpu_.clock();
       cpu_.settle();
-      EXPECT_FALSE(cpu_->csw_o);
+      EXPECT_FALSE(cpu_->cs_written_o);
     }
   }
 }
@@ -55,7 +55,7 @@ TEST_F(MbCpu, FilterWordsAreNoCsWords) {  // FX-4.a, FX-ESR2.VPS
     cpu_.clock();
     cpu_->cmd_wr_i = 0;
     write(idx, 15, 0xC);
-    EXPECT_EQ(cpu_->csw_o != 0, idx >= 10) << idx;
+    EXPECT_EQ(cpu_->cs_written_o != 0, idx >= 10) << idx;
     cpu_.clock();
   }
 }
@@ -63,8 +63,8 @@ TEST_F(MbCpu, FilterWordsAreNoCsWords) {  // FX-4.a, FX-ESR2.VPS
 /// The word 0xFFFFFFFF with another code as it is kept.
 class MbCpuKeeps : public MbCpu {
  protected:
-  unsigned kept(unsigned kind, unsigned code) {
-    cpu_->kind_i = kind;
+  unsigned kept(unsigned mem_sel, unsigned code) {
+    cpu_->mem_sel_i = mem_sel;
     cpu_->wdata_i = 0xF0FFFFFF | code << 24;
     cpu_.settle();
     return cpu_->wdata_o;

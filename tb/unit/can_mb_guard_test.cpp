@@ -23,10 +23,10 @@ class MbGuard : public ::testing::Test {
     guard_.reset();
   }
   /// A write in its first clock, in which its buffer is looked up.
-  void look(unsigned kind, unsigned idx, unsigned code) {
+  void look(unsigned mem_sel, unsigned idx, unsigned code) {
     guard_->waited_i = 0;
     guard_->be3_i = 1;
-    guard_->kind_i = kind;
+    guard_->mem_sel_i = mem_sel;
     guard_->idx_i = idx;
     guard_->code_i = code;
   }
@@ -52,9 +52,9 @@ class MbGuard : public ::testing::Test {
 /// What makes a write of code 1001 something else.
 const std::function<void(Vcan_mb_guard &)> kNoRequest[] = {
     [](auto &g) { g.be3_i = 0; },  // the byte with the code is not written
-    [](auto &g) { g.code_i = 0x8; },  [](auto &g) { g.code_i = kActive; },
-    [](auto &g) { g.kind_i = kMsg; }, [](auto &g) { g.kind_i = 2; },
-    [](auto &g) { g.kind_i = 3; },    [](auto &g) { g.aen_i = 0; },
+    [](auto &g) { g.code_i = 0x8; },     [](auto &g) { g.code_i = kActive; },
+    [](auto &g) { g.mem_sel_i = kMsg; }, [](auto &g) { g.mem_sel_i = 2; },
+    [](auto &g) { g.mem_sel_i = 3; },    [](auto &g) { g.aen_i = 0; },
 };
 
 TEST_F(MbGuard, RequestForTheFrameThatHasMovedOut) {  // FX-3.4.b, FX-3.4.d
@@ -121,18 +121,19 @@ TEST_F(MbGuard, WhatIsNotTakenBackForANewFrame) {  // FX-3.4.a
 TEST_F(MbGuard, ProtectsWhatHasEndedUntilItsFlagIsCleared) {  // FX-3.3.j
   for (const bool marked : {false, true}) {
     for (const bool flag : {false, true}) {
-      for (const unsigned kind : {kCs, kMsg, 2u, 3u}) {
+      for (const unsigned mem_sel : {kCs, kMsg, 2u, 3u}) {
         for (const bool fifo : {false, true}) {
           for (const bool aen : {false, true}) {
             guard_->iflag_i = flag ? 1u << 5 : ~(1u << 5);
             guard_->area_i = fifo;
             guard_->aen_i = aen;
             guard_->ended_i = 0;
-            look(kind, 5, 0);
+            look(mem_sel, 5, 0);
             ends();
             guard_->ended_i = marked;  // the RAM shows it
             guard_.settle();
-            EXPECT_EQ(guard_->block_o != 0, aen && !fifo && kind <= kMsg && marked && flag) << kind;
+            EXPECT_EQ(guard_->block_o != 0, aen && !fifo && mem_sel <= kMsg && marked && flag)
+                << mem_sel;
           }
         }
       }
@@ -142,23 +143,23 @@ TEST_F(MbGuard, ProtectsWhatHasEndedUntilItsFlagIsCleared) {  // FX-3.3.j
 
 // In the clock in which a frame ends, and while it is about to, nothing is known by IFLAG yet.
 TEST_F(MbGuard, ProtectsWhatIsAboutToEnd) {  // FX-3.3.j
-  for (const unsigned kind : {kCs, kMsg, 2u, 3u}) {
+  for (const unsigned mem_sel : {kCs, kMsg, 2u, 3u}) {
     for (const unsigned idx : {4u, 5u}) {
       guard_->cur_idx_i = 5;
       guard_->done_i = 1;
-      look(kind, idx, 0);
+      look(mem_sel, idx, 0);
       ends();
-      EXPECT_EQ(guard_->block_o != 0, idx == 5 && kind <= kMsg) << kind << " " << idx;
+      EXPECT_EQ(guard_->block_o != 0, idx == 5 && mem_sel <= kMsg) << mem_sel << " " << idx;
       clock();
       guard_->done_i = 0;
       // The end is told in the clock in which the write looks its buffer up: marked already.
-      look(kind, idx, 0);
+      look(mem_sel, idx, 0);
       guard_->end_i = 1;
       guard_->end_idx_i = 5;
       ends();
       guard_->ended_i = idx == 5;
       guard_.settle();
-      EXPECT_EQ(guard_->block_o != 0, idx == 5 && kind <= kMsg) << kind << " " << idx;
+      EXPECT_EQ(guard_->block_o != 0, idx == 5 && mem_sel <= kMsg) << mem_sel << " " << idx;
       guard_->ended_i = 0;
       clock();
     }

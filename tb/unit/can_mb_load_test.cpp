@@ -48,9 +48,9 @@ class MbLoad : public ::testing::Test {
     if (accepted) rewrite(*write, code);
     top_.clock();
     after(next);
-    top_->csw_i = accepted;
-    if (accepted) top_->csw_idx_i = *write;
-    top_->csw_act_i = code == kActive || code == kAnswer;
+    top_->cs_written_i = accepted;
+    if (accepted) top_->cs_written_idx_i = *write;
+    top_->cs_written_act_i = code == kActive || code == kAnswer;
     top_->cs_wr_i = top_->abort_i = 0;
   }
 
@@ -245,7 +245,7 @@ class MbLoadSteps : public ::testing::Test {
     load_->data_i = load_->flight_i = step;
     load_->data_step_i = number;
     load_->cs_i = code << 24;
-    load_->start_i = load_->tx_ok_i = load_->tx_fail_i = load_->csw_i = 0;
+    load_->start_i = load_->tx_ok_i = load_->tx_fail_i = load_->cs_written_i = 0;
     load_.settle();
     if (load_->data_i != 0) steps_.push_back(number);
     retries_ += load_->retry_o;
@@ -280,9 +280,9 @@ TEST_F(MbLoadSteps, FrameThatIsTakenBackHasNotMovedOut) {
   load_->gap_i = 0;
   present(2);
   EXPECT_FALSE(load_->out_o);
-  load_->csw_i = 1;
-  load_->csw_idx_i = 2;
-  load_->csw_act_i = 0;
+  load_->cs_written_i = 1;
+  load_->cs_written_idx_i = 2;
+  load_->cs_written_act_i = 0;
   load_->gap_i = 1;
   load_.settle();
   EXPECT_FALSE(load_->out_o);
@@ -384,8 +384,8 @@ TEST_F(MbLoadSteps, EndOfARewrittenFrameIsNotWritten) {
     clock();
     for (unsigned i = 0; i < 5 && load_->data_i == 0; ++i) clock();
     ASSERT_TRUE(load_->data_i);
-    load_->csw_i = rewritten;
-    load_->csw_idx_i = 2;
+    load_->cs_written_i = rewritten;
+    load_->cs_written_idx_i = 2;
     load_.settle();
     EXPECT_EQ(load_->cancel_o != 0, rewritten);
     clock();
@@ -401,8 +401,8 @@ TEST_F(MbLoadSteps, FrameThatIsRewrittenBeforeItsEndContendsAgain) {
   load_->gap_i = load_->tx_ok_i = 1;
   clock();
   retries_ = 0;
-  load_->csw_i = 1;
-  load_->csw_idx_i = 2;
+  load_->cs_written_i = 1;
+  load_->cs_written_idx_i = 2;
   clock();
   unsigned flags = load_->flag_o;
   for (unsigned i = 0; i < 6; ++i, flags += load_->flag_o) clock();
@@ -417,8 +417,8 @@ TEST_F(MbLoadSteps, FrameThatWasRewrittenIsKept) {
   for (const bool again : {false, true}) {
     present(2);
     EXPECT_EQ(load_->kept_o != 0, again);
-    load_->csw_i = load_->csw_act_i = 1;
-    load_->csw_idx_i = 2;
+    load_->cs_written_i = load_->cs_written_act_i = 1;
+    load_->cs_written_idx_i = 2;
     load_.settle();
     EXPECT_FALSE(load_->kept_o);
     clock();
@@ -433,8 +433,8 @@ TEST_F(MbLoadSteps, WinnerThatIsNotActiveIsDropped) {
     unsigned bad = 0;
     for (unsigned i = 0; i < 12; ++i) {
       clock(code);
-      bad += load_->bad_o;
-      if (load_->bad_o != 0) winner(0, false);
+      bad += load_->inactive_o;
+      if (load_->inactive_o != 0) winner(0, false);
     }
     const bool active = code == kActive || code == kAnswer;
     EXPECT_EQ(bad, active ? 0u : 1u) << code;

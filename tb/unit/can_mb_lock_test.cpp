@@ -20,7 +20,7 @@ class MbLock : public ::testing::Test {
   }
   void clock() {
     lock_.clock();
-    lock_->cs_rd_i = lock_->timer_rd_i = lock_->csw_i = lock_->svc_gnt_i = 0;
+    lock_->cs_rd_i = lock_->timer_rd_i = lock_->cs_written_i = lock_->serviced_gnt_i = 0;
     lock_.settle();
   }
   void read(unsigned idx, unsigned code, bool serviced = false) {
@@ -34,8 +34,8 @@ class MbLock : public ::testing::Test {
     clock();
   }
   void write(unsigned idx) {
-    lock_->csw_i = 1;
-    lock_->csw_idx_i = idx;
+    lock_->cs_written_i = 1;
+    lock_->cs_written_idx_i = idx;
     clock();
   }
   LeafModel<Vcan_mb_lock> lock_;
@@ -47,12 +47,12 @@ TEST_F(MbLock, ReadOfAnotherBufferUnlocksAndServices) {  // FX-3.6.c, FX-3.6.e, 
     EXPECT_TRUE(lock_->lock_o);
     read(9, other);
     EXPECT_EQ(lock_->lock_o != 0, other == kFull);
-    EXPECT_TRUE(lock_->svc_req_o);
-    EXPECT_EQ(lock_->svc_idx_o, 5);
-    EXPECT_TRUE(lock_->svc_ovr_o);
-    lock_->svc_gnt_i = 1;
+    EXPECT_TRUE(lock_->serviced_req_o);
+    EXPECT_EQ(lock_->serviced_idx_o, 5);
+    EXPECT_TRUE(lock_->serviced_ovr_o);
+    lock_->serviced_gnt_i = 1;
     clock();
-    EXPECT_FALSE(lock_->svc_req_o);
+    EXPECT_FALSE(lock_->serviced_req_o);
     write(9);
   }
 }
@@ -61,7 +61,7 @@ TEST_F(MbLock, ReadOfTheSameBufferKeepsTheLock) {  // FX-3.6.e
   read(5, kFull);
   read(5, kFull);
   EXPECT_TRUE(lock_->lock_o);
-  EXPECT_FALSE(lock_->svc_req_o);
+  EXPECT_FALSE(lock_->serviced_req_o);
 }
 
 // The mark waits for its turn, whatever buffer the last C/S write was to; a new one takes it away.
@@ -71,39 +71,39 @@ TEST_F(MbLock, MarkWaitsUntilItIsGranted) {  // FX-3.6.g, FX-3.4.g
     read(5, kFull);
     read_timer();
     EXPECT_FALSE(lock_->lock_o);
-    for (unsigned i = 0; i < 10; ++i, clock()) EXPECT_TRUE(lock_->svc_req_o);
+    for (unsigned i = 0; i < 10; ++i, clock()) EXPECT_TRUE(lock_->serviced_req_o);
     if (rewritten) {
       write(5);
     } else {
-      lock_->svc_gnt_i = 1;
+      lock_->serviced_gnt_i = 1;
       clock();
     }
-    EXPECT_FALSE(lock_->svc_req_o);
+    EXPECT_FALSE(lock_->serviced_req_o);
   }
 }
 
 TEST_F(MbLock, OneMarkForEachLock) {  // FX-3.6.g
   read(5, kFull);
   read_timer();
-  EXPECT_TRUE(lock_->svc_req_o);
-  lock_->svc_gnt_i = 1;
+  EXPECT_TRUE(lock_->serviced_req_o);
+  lock_->serviced_gnt_i = 1;
   clock();
   read_timer();
-  EXPECT_FALSE(lock_->svc_req_o);
+  EXPECT_FALSE(lock_->serviced_req_o);
   read(9, kEmpty);
-  EXPECT_FALSE(lock_->svc_req_o);
+  EXPECT_FALSE(lock_->serviced_req_o);
 }
 
 TEST_F(MbLock, NoMarkWithoutAnUnreadFrame) {  // FX-3.6.g
   read(5, kFull, true);
   EXPECT_TRUE(lock_->lock_o);
   read_timer();
-  EXPECT_FALSE(lock_->svc_req_o) << "has one already";
+  EXPECT_FALSE(lock_->serviced_req_o) << "has one already";
   lock_->bcc_i = 0;
   read(5, kEmpty);
   EXPECT_TRUE(lock_->lock_o);
   read_timer();
-  EXPECT_FALSE(lock_->svc_req_o) << "nothing was read";
+  EXPECT_FALSE(lock_->serviced_req_o) << "nothing was read";
 }
 
 }  // namespace

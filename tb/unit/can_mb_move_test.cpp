@@ -32,7 +32,7 @@ class MbMove : public ::testing::Test {
     move_.clock();
     move_.settle();
     move_->data_i = step && move_->moving_o != 0;  // as can_mb_step does it
-    move_->csw_i = move_->csw_empty_i = move_->start_i = move_->valid_i = 0;
+    move_->cs_written_i = move_->cs_written_empty_i = move_->start_i = move_->valid_i = 0;
     move_.settle();
     if (move_->flag_o || move_->ans_o) stored_.push_back(move_->idx_o);
   }
@@ -60,9 +60,9 @@ class MbMove : public ::testing::Test {
   }
   void written(unsigned buffer, bool empty) {
     ram_cs_ = empty ? kEmptyWord : kInactiveWord;
-    move_->csw_i = 1;
-    move_->csw_idx_i = buffer;
-    move_->csw_empty_i = empty;
+    move_->cs_written_i = 1;
+    move_->cs_written_idx_i = buffer;
+    move_->cs_written_empty_i = empty;
     clock();
   }
   std::vector<unsigned> all_that_moves() {
@@ -94,9 +94,9 @@ TEST_F(MbMove, CsWriteCancelsTheFrameThatWaitsForItsBuffer) {  // FX-3.4.g
 TEST_F(MbMove, CsWriteOfAnotherBufferCancelsNothing) {  // FX-3.4.g
   two_wait();
   write(11, false);
-  move_->csw_idx_i = 20;  // no write
+  move_->cs_written_idx_i = 20;  // no write
   clock();
-  move_->csw_idx_i = 10;
+  move_->cs_written_idx_i = 10;
   clock();
   EXPECT_EQ(all_that_moves(), (Buffers{10, 20}));
 }
@@ -122,7 +122,7 @@ TEST_F(MbMove, AnswerIsCancelledByAnyCsWriteAndByNothingElse) {  // FX-3.4.g, FX
       move_.reset();
       move_->hit_ans_i = 1;
       two_wait();
-      move_->csw_idx_i = buffer;  // the last one written was this one
+      move_->cs_written_idx_i = buffer;  // the last one written was this one
       clock();
       if (written) write(buffer, true);
       EXPECT_EQ(all_that_moves(), written ? Buffers{30 - buffer} : (Buffers{10, 20}));
@@ -187,11 +187,11 @@ TEST_F(MbMove, OnlyTheLockOfItsBufferHoldsAFrameUp) {  // FX-3.5.o, FX-3.6.b
 // FX-3.4.g: EMPTY written while the answer is being prepared is no request for one.
 TEST_F(MbMove, AnswerUnderWayIsCancelledByEmpty) {
   move_->hit_ans_i = 1;
-  move_->csw_idx_i = 10;
+  move_->cs_written_idx_i = 10;
   frame(10);
   while (move_->moving_o == 0) clock();
   ram_cs_ = kEmptyWord;
-  move_->csw_i = move_->csw_empty_i = 1;
+  move_->cs_written_i = move_->cs_written_empty_i = 1;
   move_.settle();
   EXPECT_TRUE(move_->cancel_o);
   EXPECT_EQ(all_that_moves(), Buffers{});
@@ -226,25 +226,25 @@ TEST_F(MbMove, AFrameWithoutABufferByThenIsLost) {
 // From the clock after the decision until it is stored, whatever the other row does.
 TEST_F(MbMove, FramesOnTheirWayIntoTheFifoAreCounted) {  // FX-4.b
   move_->hit_fifo_i = move_->hold_i = 1;
-  EXPECT_EQ(move_->way_o, 0);
+  EXPECT_EQ(move_->fifo_in_flight_o, 0);
   frame(0);
-  EXPECT_EQ(move_->way_o, 1);
+  EXPECT_EQ(move_->fifo_in_flight_o, 1);
   frame(1, false);
   for (unsigned i = 0; i < 5; ++i, clock())
-    EXPECT_EQ(move_->way_o, 1) << "the other one may not fit";
+    EXPECT_EQ(move_->fifo_in_flight_o, 1) << "the other one may not fit";
   move_->match_done_i = 1;
   clock();
-  EXPECT_EQ(move_->way_o, 3);
+  EXPECT_EQ(move_->fifo_in_flight_o, 3);
   move_->hold_i = 0;
   unsigned stored = 0;
   for (unsigned i = 0; i < 60; ++i, clock()) {
-    EXPECT_EQ(move_->way_o, stored == 0 ? 3 : stored == 1 ? 2 : 0);
+    EXPECT_EQ(move_->fifo_in_flight_o, stored == 0 ? 3 : stored == 1 ? 2 : 0);
     if (move_->stored_o != 0) ++stored;
   }
   EXPECT_EQ(stored, 2u);
   // Rows that were the FIFO's before are not counted before the decision.
   frame(2, false);
-  EXPECT_EQ(move_->way_o, 0);
+  EXPECT_EQ(move_->fifo_in_flight_o, 0);
 }
 
 }  // namespace

@@ -84,12 +84,12 @@ TEST_F(MbPort, EngineRefusedByAnInsertionReadsBeforeTheCpu) {
 TEST_F(MbPort, ServicedMarkComesBeforeAWriteThatHasNotWaited) {  // FX-3.6.g
   writes(true);
   clock();
-  port_->svc_req_i = 1;
+  port_->serviced_req_i = 1;
   port_.settle();
-  EXPECT_TRUE(port_->svc_gnt_o);
+  EXPECT_TRUE(port_->serviced_gnt_o);
   EXPECT_FALSE(port_->ready_o);
   clock();
-  EXPECT_FALSE(port_->svc_gnt_o) << "another one";
+  EXPECT_FALSE(port_->serviced_gnt_o) << "another one";
   EXPECT_TRUE(port_->ready_o);
 }
 
@@ -119,12 +119,12 @@ TEST_F(MbPort, NobodyWaitsInReset) {
 TEST_F(MbPort, EngineWriteThatWasRefusedComesBeforeTheCpu) {
   writes(true);
   clock();
-  port_->ewr_req_i = 1;
+  port_->rx_wr_req_i = 1;
   port_.settle();
-  EXPECT_FALSE(port_->ewr_gnt_o);
+  EXPECT_FALSE(port_->rx_wr_gnt_o);
   EXPECT_TRUE(port_->ready_o);
   clock();
-  EXPECT_TRUE(port_->ewr_gnt_o);
+  EXPECT_TRUE(port_->rx_wr_gnt_o);
   EXPECT_FALSE(port_->ready_o);
 }
 
@@ -149,8 +149,8 @@ class MbPortCollision : public MbPort {
  protected:
   static constexpr unsigned Cs = 0, Msg = 1, Mask = 2;
   /// The CPU writes `value` to buffer 5's word of `kind`.
-  void fill(unsigned kind, unsigned word, unsigned value) {
-    command(kind, word, 5);
+  void fill(unsigned mem_sel, unsigned word, unsigned value) {
+    command(mem_sel, word, 5);
     writes(true);
     clock();
     writes(false);
@@ -158,8 +158,8 @@ class MbPortCollision : public MbPort {
     clock();
   }
   /// Puts the CPU's read of a word into this clock.
-  void read(unsigned kind, unsigned word, unsigned idx = 5) {
-    command(kind, word, idx);
+  void read(unsigned mem_sel, unsigned word, unsigned idx = 5) {
+    command(mem_sel, word, idx);
     reads(true);
   }
   /// What that read gives, one clock later; or another one, if it is read again.
@@ -173,30 +173,30 @@ class MbPortCollision : public MbPort {
   }
   void nothing_is_written() {
     reads(false);
-    port_->ewr_req_i = port_->svc_req_i = port_->copy_i = 0;
+    port_->rx_wr_req_i = port_->serviced_req_i = port_->copy_i = 0;
     port_.settle();
   }
   /// A write of the engine in this clock, of the bytes `we`.
-  void engine_writes(unsigned kind, unsigned row, unsigned we, unsigned value) {
-    port_->ewr_req_i = 1;
-    port_->ewr_cs_i = kind == Cs;
-    port_->ewr_be_i = we;
-    port_->ewr_row_i = row;
-    port_->ewr_data_i = value;
+  void engine_writes(unsigned mem_sel, unsigned row, unsigned we, unsigned value) {
+    port_->rx_wr_req_i = 1;
+    port_->rx_wr_cs_i = mem_sel == Cs;
+    port_->rx_wr_be_i = we;
+    port_->rx_wr_row_i = row;
+    port_->rx_wr_data_i = value;
     port_.settle();
-    EXPECT_TRUE(port_->ewr_gnt_o);
+    EXPECT_TRUE(port_->rx_wr_gnt_o);
   }
   /// A copy of the word on the RAM outputs in this clock, of the bytes `we`.
-  void copies(unsigned kind, unsigned row, unsigned we, unsigned value) {
+  void copies(unsigned mem_sel, unsigned row, unsigned we, unsigned value) {
     port_->copy_i = 1;
-    port_->copy_cs_i = kind == Cs;
+    port_->copy_cs_i = mem_sel == Cs;
     port_->copy_be_i = we;
     port_->copy_row_i = row;
     port_->copy_data_i = value;
     port_.settle();
   }
-  void command(unsigned kind, unsigned word, unsigned idx) {
-    port_->cmd_kind_i = kind;
+  void command(unsigned mem_sel, unsigned word, unsigned idx) {
+    port_->cmd_mem_sel_i = mem_sel;
     port_->cmd_word_i = word;
     port_->cmd_idx_i = idx;
   }
@@ -223,11 +223,11 @@ TEST_F(MbPortCollision, ReadOfAnotherRowDoesNotWait) {
   fill(Msg, 1, 0x76543210);
   const auto written = [](unsigned row) { return row % 2 != 0 ? 0xFFFFFFFF : 0x00000000; };
   for (const bool copy : {false, true}) {
-    const auto write = [&](unsigned kind, unsigned row) {
+    const auto write = [&](unsigned mem_sel, unsigned row) {
       if (copy)
-        copies(kind, row, 0b1111, written(row));
+        copies(mem_sel, row, 0b1111, written(row));
       else
-        engine_writes(kind, row, 0b1111, written(row));
+        engine_writes(mem_sel, row, 0b1111, written(row));
     };
     for (unsigned row = 0; row < 128; ++row) {  // the hidden ones behind the buffers', too
       if (row == 5) continue;
@@ -253,11 +253,11 @@ TEST_F(MbPortCollision, ReadOfAnotherRowDoesNotWait) {
 TEST_F(MbPortCollision, ReadMeetsTheServicedMark) {  // FX-3.6.g
   fill(Cs, 3, 0x01234567);
   read(Cs, 3);
-  port_->svc_req_i = 1;
-  port_->svc_idx_i = 5;
-  port_->svc_ovr_i = 1;
+  port_->serviced_req_i = 1;
+  port_->serviced_idx_i = 5;
+  port_->serviced_ovr_i = 1;
   port_.settle();
-  EXPECT_TRUE(port_->svc_gnt_o);
+  EXPECT_TRUE(port_->serviced_gnt_o);
   EXPECT_EQ(answer(true), 0x86234567u);
 }
 
@@ -270,12 +270,12 @@ TEST_F(MbPortCollision, ServicedMarkWaitsForAReadThatHasWaited) {  // FX-3.6.g
     clock();
     port_->ins_req_i = 0;
     reads(false);
-    port_->svc_req_i = 1;
-    port_->svc_idx_i = marked;
+    port_->serviced_req_i = 1;
+    port_->serviced_idx_i = marked;
     port_.settle();
-    EXPECT_EQ(port_->svc_gnt_o != 0, marked != 5);
+    EXPECT_EQ(port_->serviced_gnt_o != 0, marked != 5);
     clock();
-    EXPECT_TRUE(port_->svc_gnt_o) << "now at the latest";
+    EXPECT_TRUE(port_->serviced_gnt_o) << "now at the latest";
     EXPECT_EQ(port_->rdata_o, 0x01234567u);
     clock();
     nothing_is_written();
@@ -310,28 +310,28 @@ TEST_F(MbPortCollision, ReadThatHasWaitedMeetsTheSecondHalfOfACopy) {
 }
 
 TEST_F(MbPortCollision, ReadMeetsAWriteOfTheCpu) {
-  for (unsigned kind : {Cs, Msg, Mask}) {
-    fill(kind, 1, 0x01234567);
+  for (unsigned mem_sel : {Cs, Msg, Mask}) {
+    fill(mem_sel, 1, 0x01234567);
     writes(true);
     clock();
     writes(false);
     port_->wdata_i = 0x89ABCDEF;
-    read(kind, 1);
-    EXPECT_EQ(answer(true), 0x89ABCDEFu) << "kind " << kind;
+    read(mem_sel, 1);
+    EXPECT_EQ(answer(true), 0x89ABCDEFu) << "mem_sel " << mem_sel;
     clock();
-    EXPECT_EQ((read(kind, 1), answer()), 0x89ABCDEFu) << "kind " << kind;
+    EXPECT_EQ((read(mem_sel, 1), answer()), 0x89ABCDEFu) << "mem_sel " << mem_sel;
   }
 }
 
 TEST_F(MbPortCollision, EngineIsToldThatAWordWasBeingWritten) {
-  const auto read = [this](unsigned kind, unsigned row, unsigned written, unsigned we) {
+  const auto read = [this](unsigned mem_sel, unsigned row, unsigned written, unsigned we) {
     port_->eng_req_i = 1;
     port_->eng_cs_row_i = port_->eng_msg_row_i = row;
-    engine_writes(kind, written, we, 0);
+    engine_writes(mem_sel, written, we, 0);
     EXPECT_TRUE(port_->eng_slot_o);
     clock();
     const std::pair told{port_->stale_o != 0, port_->id_stale_o != 0};
-    port_->ewr_req_i = 0;
+    port_->rx_wr_req_i = 0;
     clock();
     EXPECT_FALSE(port_->stale_o || port_->id_stale_o) << "one clock later";
     return told;
@@ -360,14 +360,14 @@ TEST_F(MbPortCollision, WriteThatIsRefusedIsNotRead) {
 // A write's look at the C/S word: what the RAM holds, with the outputs kept if a copy writes it.
 TEST_F(MbPortCollision, WriteLooksAtItsCsWord) {  // FX-3.3.j
   fill(Cs, 3, 0x41234567);
-  for (const unsigned kind : {Cs, Msg}) {
-    command(kind, 1, 5);
+  for (const unsigned mem_sel : {Cs, Msg}) {
+    command(mem_sel, 1, 5);
     port_->cmd_look_i = port_->look_i = port_->block_i = 1;
     writes(true);
     clock();
     writes(false);
     clock();
-    EXPECT_EQ(port_->cs_o, 0x41234567u) << kind;
+    EXPECT_EQ(port_->cs_o, 0x41234567u) << mem_sel;
     clock();
   }
 }

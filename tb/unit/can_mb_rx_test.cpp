@@ -95,11 +95,11 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
       top_.id_i = read.id;
       top_.mask_i = top_.ans_o != 0 ? 0xFFFFFFFF : read.mask;  // as can_mb_match reads it
     }
-    top_.csw_i = write.has_value();
+    top_.cs_written_i = write.has_value();
     if (write) {
-      top_.csw_idx_i = *write;
-      top_.csw_empty_i = value.code == 4;
-      top_.csw_ide_i = value.ide;
+      top_.cs_written_idx_i = *write;
+      top_.cs_written_empty_i = value.code == 4;
+      top_.cs_written_ide_i = value.ide;
     }
   }
 

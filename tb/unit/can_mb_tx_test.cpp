@@ -89,9 +89,9 @@ class MbTx : public ::testing::TestWithParam<Mode> {
       top_.cs_i = read.cs;
       top_.id_i = read.id;
     }
-    top_.csw_i = write.has_value();
-    top_.csw_act_i = write && is_active(cs);
-    if (write) top_.csw_idx_i = *write;
+    top_.cs_written_i = write.has_value();
+    top_.cs_written_act_i = write && is_active(cs);
+    if (write) top_.cs_written_idx_i = *write;
     top_.start_i = 0;
     top_.retry_i = 0;
   }
@@ -266,8 +266,8 @@ TEST_P(MbTx, AnswersAndRetriesWaitForTheirSlot) {  // flexcan.md 3.7
       top_.ans_i = answer && i == 0;
       top_.ans_idx_i = i == 0 ? 20 : 0;
       top_.retry_i = !answer && i == 0;
-      top_.csw_i = top_.csw_act_i = i == 5;
-      top_.csw_idx_i = 41;
+      top_.cs_written_i = top_.cs_written_act_i = i == 5;
+      top_.cs_written_idx_i = 41;
       top_.ins_gnt_i = i == 10;
       top_.scan_gnt_i = 0;
       top_.clk_i = 1;
@@ -277,7 +277,7 @@ TEST_P(MbTx, AnswersAndRetriesWaitForTheirSlot) {  // flexcan.md 3.7
       top_.eval();
       ASSERT_TRUE(top_.ins_req_o) << i;
       ASSERT_EQ(top_.ins_idx_o, i >= 5 && i < 10 ? 41 : 20) << i;
-      top_.csw_i = 0;
+      top_.cs_written_i = 0;
     }
   }
 }

@@ -24,7 +24,7 @@ class RxFifoRing : public ::testing::Test {
   /// One clock; the combinational outputs in it are left in the members. Beside the block, a frame
   /// is on its way from the clock after it was taken to that after it was stored.
   void clock(bool pop, bool resolve, bool stored) {
-    top_->way_i = way_;
+    top_->fifo_in_flight_i = way_;
     top_->pop_i = pop;
     top_->resolve_i = resolve;
     top_->stored_i = stored;
@@ -37,7 +37,7 @@ class RxFifoRing : public ::testing::Test {
     if (resolve && take_) way_ = 1;
     if (stored || top_->clear_i) way_ = 0;
     top_.clock();
-    top_->way_i = way_;
+    top_->fifo_in_flight_i = way_;
     top_.settle();
   }
 

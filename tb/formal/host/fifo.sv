@@ -28,7 +28,7 @@
     // can_mb_move has two rows, and a frame in the FIFO's row is not replaced or cancelled.
     m_stored: assume (!rst_ni || ((!stored_i || f_way != 2'd0) && !(resolve_i && f_way == 2'd2)));
     // can_mb_move tells which those are.
-    m_way: assume (!rst_ni || {1'b0, way_i[0]} + {1'b0, way_i[1]} == f_way);
+    m_way: assume (!rst_ni || {1'b0, fifo_in_flight_i[0]} + {1'b0, fifo_in_flight_i[1]} == f_way);
     if (rst_ni) begin
       // flexcan.md 4: never more than six frames, never fewer than none; one may be on its way.
       p_depth: assert (f_count <= 3'd6 && f_ahead <= 3'd6);

@@ -36,7 +36,7 @@
   always @(posedge clk_i) begin
     m_no_reset: assume (rst_ni);
     m_mode: assume (running_i && !mute_i && !oneshot_i && !aen_i && !abort_i);
-    m_cpu: assume (!csw_i && !cs_wr_i);
+    m_cpu: assume (!cs_written_i && !cs_wr_i);
     m_winner: assume (settled_i && best_idx_i == f_a && !retry_busy_i);
     m_gap: assume (gap_i == !f_busy && transmitter_i == f_busy);
     m_engine: assume (start_i == f_start_q && tx_next_i == f_start_q && tx_ok_i == f_ok_q

@@ -37,7 +37,8 @@
       p_code: assert (top_o[4:1] == 4'b0010 || top_o[4:1] == 4'b0110 || fifo
                       || (ans && top_o[4:1] == 4'b1110));
       // flexcan.md 3.4: a C/S write of the CPU that is not EMPTY cancels the move.
-      p_cancel: assert (!(csw_i && csw_idx_i == idx_o && (!csw_empty_i || ans)) || cancel_o);
+      p_cancel: assert (!(cs_written_i && cs_written_idx_i == idx_o && (!cs_written_empty_i
+      || ans)) || cancel_o);
       if (f_ran) begin
         // flexcan.md 1.5, 3.2: IFLAG tells a frame stored in a mailbox, when its C/S word has been
         // written; nothing else does.

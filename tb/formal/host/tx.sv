@@ -15,7 +15,8 @@
   logic f_ran = 1'b0;
   logic [5:0] f_open = 6'd0;      // clocks that a pass has been under way in calm
   logic f_calm;
-  assign f_calm = !csw_i && !ans_i && !start_i && !off_i && !bad_i && !retry_i && running_i
+  assign f_calm = !cs_written_i && !ans_i && !start_i && !off_i && !inactive_i && !retry_i
+      && running_i
                && ins_gnt_i == ins_req_o && scan_gnt_i == scan_req_o;
   always @(posedge clk_i) begin
     f_ran  <= 1'b1;
@@ -57,7 +58,7 @@
       // FX-9.ERR005829: without a winner a pass begins whenever fresh_i says so.
       p_fresh: assert (!$past(running_i && fresh_i && !best_q && !s2_end) || scan_q || look_q);
       // FX-9.ERR005829: a winner that is not active is dropped.
-      p_dropped: assert (!$past(bad_i && running_i && !candidate) || !best_q);
+      p_dropped: assert (!$past(inactive_i && running_i && !candidate) || !best_q);
     end
     // FX-9.ERR005829: a pass ends: in two turns of 16 buffers, from every state.
     p_pass_ends: assert (f_open < 6'd40);
