@@ -58,6 +58,7 @@ CoreNode::CoreNode(std::string name, const CoreConfig &config, const ClockConfig
 }
 CoreNode::~CoreNode() = default;
 void CoreNode::clock(Level) {}
+void CoreNode::clock_lightly(Level) {}
 std::uint64_t CoreNode::quiet() const { return 0; }
 void CoreNode::pass(std::uint64_t) {}
 std::uint64_t CoreNode::trace() const { return 0; }
