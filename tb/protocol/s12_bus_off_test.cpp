@@ -282,7 +282,7 @@ TEST_F(BusOff, ReceiveCounterStandsStill) {
 TEST_F(BusOff, FirstFrameAfterRecoveryIsExact) {
   const Frame frame{.id = 0x0F0, .dlc = 2, .data = {0x00, 0xF8}};
   const std::string expected = model_bench::to_delimiter(frame);
-  for (const int n : {0, 13, 20, 30, 40, 48}) {
+  for (const int n : {0, 14, 20, 30, 40, 48}) {
     ErrorRig rig({.tec = 255});
     rig.send(frame);
     rig.play(rep(n, ".") + "!");
