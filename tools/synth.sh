@@ -98,9 +98,9 @@ measure() {  # NAME TOP [PARAMETER=VALUE ...]
 }
 
 # Profiles of can_remote (RN-85), PROFILE PARAMETER=VALUE ..: the list that the simulator builds,
-# without variants, whose names have digits.
+# without variants, whose names have digits, and without that which shows what SameId does.
 profiles() {
-  sed -n 's/^set(remote_\([a-z]*\) "*\([^")]*\)"*)$/\1 \2/p' sim/CMakeLists.txt
+  sed -n 's/^set(remote_\([a-z]*\) "*\([^")]*\)"*)$/\1 \2/p' sim/CMakeLists.txt | grep -v '^same '
 }
 
 measure_profile() {  # BLOCK
