@@ -16,18 +16,18 @@ from pathlib import Path
 # of nine interleaved rounds, two nodes on a saturated bus, million node-cycles a second.
 BESIDE_OTHERS = """## Beside other cores
 
-One run on one machine, CPU time, medians of nine interleaved rounds, two nodes on a saturated bus, million node-cycles a
-second. Not to be set beside the figures above, which are of another machine.
+One run on one machine, CPU time, medians of nine interleaved rounds, two nodes on a saturated bus,
+million node-cycles a second. Not to be set beside the figures above, which are of another machine.
 
-| clock | this simulator, whole cores | noasic, engine alone, plainly Verilated | OpenCores, plainly Verilated |
+| clock | this simulator, whole cores | noasic, engine alone | OpenCores |
 |---|---|---|---|
 | 8 MHz | 10.3 | does not work | 3.5 |
 | 10 MHz | 10.5 | 7.1 | 3.3 |
 | 16 MHz | 13.7 | 7.6 | 3.5 |
 | 50 MHz | 18.5 | 8.2 | 3.5 |
 
-The lead comes from the split of engine and host and from clocks that are passed over, not from the RTL: one plain model of
-`can_ahb` does 2.7 to 3.2.
+The others are plainly Verilated. The lead comes from the split of engine and host and from clocks
+that are passed over, not from the RTL: one plain model of `can_ahb` does 2.7 to 3.2.
 """
 
 
