@@ -53,8 +53,7 @@ module can_rn_tx #(
   logic                load_q, try_q;
   logic [31:0]         hold_q;
   logic                loading, gone, stale, recalled, drop, first_gone;
-  logic                first_q;  // JobAge: what it looks at has not gone
-  logic [2:0]          skip;     // answers that JobAge has behind it
+  logic                first;    // JobAge looks at the head of the queue
 
   assign tail_o   = 3'(tail_q);
   assign head_o   = 3'(head_q);
@@ -63,25 +62,27 @@ module can_rn_tx #(
   assign some_o   = tail_q != head_q;
   if (TxDepth == 1) begin : gen_single
     assign full_o = some_o;
-    assign skip   = '0;
+    assign first  = 1'b1;
+    assign age_o  = 3'(head_q);
     assign more_o = 1'b0;
   end else begin : gen_queue
     assign full_o = tail_q == {~head_q[2], head_q[1:0]};
     // RN-54: all of them grow old, the first first; only the first is dropped, the others wait for
-    // it with 10 ms left.
-    logic [2:0] skip_q, skip_d;
+    // it with 10 ms left. One that goes meanwhile takes no other with it.
+    logic [2:0] age_q, age_d;
     logic       ages;
     assign ages   = job_i == can_rn_pkg::JobAge && (&phase_i);
-    assign skip_d = skip_q + {2'b00, ages} - {2'b00, first_gone && (ages || (|skip_q))};
-    assign more_o = head_q + {2'b00, first_gone} + skip_d != tail_q;
-    assign skip   = skip_q;
+    assign age_d  = age_q + {2'b00, ages || (first_gone && first && job_i != can_rn_pkg::JobAge)};
+    assign first  = age_q == head_q;
+    assign more_o = some_o && age_d != tail_q;
+    assign age_o  = age_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni)                                skip_q <= '0;
-      else if (flush_i || (ages && !more_o))      skip_q <= '0;
-      else                                        skip_q <= skip_d;
+      if (!rst_ni)              age_q <= '0;
+      else if (flush_i)         age_q <= tail_q;
+      else if (ages && !more_o) age_q <= head_q + {2'b00, first_gone};
+      else                      age_q <= age_d;
     end
   end
-  assign age_o = 3'(head_q) + skip;
   assign load_o  = load_q && (some_o || owe_status_i || owe_here_i);
   assign try_o   = try_q;
   assign loading = job_i == can_rn_pkg::JobLoad;
@@ -90,7 +91,7 @@ module can_rn_tx #(
   // and so does what is behind one that has gone while its life was read.
   assign gone  = tx_ok_i || (job_i == can_rn_pkg::JobTry && phase_i[1] && one_i);
   assign stale = job_i == can_rn_pkg::JobAge && (&phase_i) && one_i && word_q[1] && !tx_next_i
-                 && first_q && !(|skip);
+                 && some_o && first;
   // A SELECT that does not select takes back a HERE that waits.
   assign recalled = (&src_q) && !owe_here_i;
   assign drop     = flush_i || gone || stale || recalled;
@@ -118,9 +119,7 @@ module can_rn_tx #(
       word_q <= 2'd2;
       load_q <= 1'b1;
       try_q  <= 1'b0;
-      first_q <= 1'b0;
     end else begin
-      first_q <= !popped_o && (job_i == can_rn_pkg::JobAge && phase_i == 2'd0 ? some_o : first_q);
       if (drop)                                   src_q <= can_rn_pkg::SrcNone;
       else if (loading && src_q == can_rn_pkg::SrcNone)
         src_q <= owe_here_i ? can_rn_pkg::SrcHere

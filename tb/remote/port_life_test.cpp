@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "remote/frame_port.hpp"
+#include "remote/model_node.hpp"
 #include "remote/remote_text.hpp"
 
 namespace vericansim {
@@ -93,6 +94,36 @@ TEST_F(PortLife, AllOfTheQueueGrowsOld) {
   wait(10 * kLife - 10);
   EXPECT_EQ(port->drain().size(), 1U);
 }
+
+// RN-54: LIFE of an answer does not depend on the one before it, in whatever clock that goes.
+class PortLifeAfter : public ::testing::TestWithParam<const char *> {};
+
+TEST_P(PortLifeAfter, AnAnswerDoesNotInheritTheAgeOfOneThatGoes) {
+  constexpr unsigned kSteps = 5;
+  const bool queue = GetParam() != std::string{"small"};
+  for (unsigned clock = 1; clock < 300; ++clock) {
+    SCOPED_TRACE(clock);
+    const auto port = FramePort::create(GetParam(), 3, 1, 3);
+    port->user_write(remote_map::kLife / 4, kSteps << 8 * (remote_map::kLife % 4),
+                     1U << remote_map::kLife % 4);
+    port->start();
+    (void)port->drain();
+    port->receive(frame_of("1A0#R2"));
+    for (unsigned ms = 0; ms < 30; ++ms) port->ms();  // LIFE counts the next one
+    if (queue) port->receive(frame_of("1A0#R2"));
+    ASSERT_TRUE(port->asks());
+    port->pulse_ms_in(clock);
+    (void)port->send();
+    port->clocks(160);
+    if (!queue) port->receive(frame_of("1A0#R2"));
+    for (unsigned ms = 0; ms < 10 * (kSteps - 2); ++ms) port->ms();
+    EXPECT_TRUE(port->asks());
+    for (unsigned ms = 0; ms < 20; ++ms) port->ms();
+    EXPECT_FALSE(port->asks());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Profiles, PortLifeAfter, ::testing::Values("small", "standard"));
 
 }  // namespace
 }  // namespace vericansim

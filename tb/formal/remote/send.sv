@@ -69,6 +69,9 @@
       // RN-54: and stays until its end.
       p_stays: assert (!$past((f_sending || tx_next_i) && !tx_ok_i && !tx_fail_i && !flush_i)
                        || (src_q == $past(src_q) && head_q == $past(head_q)));
+      // RN-54: the life that is written is that which was read, of one answer.
+      p_same_answer: assert (job_i != can_rn_pkg::JobAge || phase_i == 2'd0 || $past(flush_i)
+                             || age_o == $past(age_o));
       // RN-102 P-3, RN-54: nothing goes that is not there.
       p_no_underflow: assert (head_q == $past(head_q) || $past(flush_i || some_o));
       // RN-31, RN-102 P-3: full is told exactly when no more can be taken.
