@@ -47,16 +47,18 @@ struct SecondCoreRole {
 
 /// The simulation's own software, which sends recorded frames.
 struct ReplayRole {
-  std::string file;                                      ///< of any format that read_log() knows
-  std::shared_ptr<const CanLog> log;                     ///< already read; unset: read from `file`
-  std::string channel;                                   ///< interface in the log; empty: all
-  Time start = 0;                                        ///< when time `from` of the log is
-  Time from = 0, to = std::numeric_limits<Time>::max();  ///< part of the log, both ends included
-  double rate = 1;                                       ///< of the recorded speed
-  bool saturated = false;                                ///< as fast as the bus allows instead
-  bool loop = false;                                     ///< again and again
-  std::vector<IdFilter> filters;                         ///< frames to send; empty: all
-  std::size_t frames = 0;                                ///< at most so many of these; 0: all
+  std::string file;                   ///< of any format that read_log() knows
+  std::shared_ptr<const CanLog> log;  ///< already read; unset: read from `file`
+  std::string channel;                ///< interface in the log; empty: all
+  Time start = 0;                     ///< when time `from` of the log is
+  /// Part of the log, both ends included. 0: from the first frame on, with all that stand behind
+  /// it, whatever their times: clocks of recorders are set back.
+  Time from = 0, to = std::numeric_limits<Time>::max();
+  double rate = 1;                 ///< of the recorded speed
+  bool saturated = false;          ///< as fast as the bus allows instead
+  bool loop = false;               ///< again and again
+  std::vector<IdFilter> filters;   ///< frames to send; empty: all
+  std::size_t frames = 0;          ///< at most so many of these; 0: all
   unsigned share = 0, shares = 1;  ///< of these, the identifiers of one of several equal parts
 };
 

@@ -93,7 +93,8 @@ ReplayReport summary(const CanLog &log, RunReport run) {
     if (report.failure.empty()) report.failure = replay.failure;
   }
   for (NodeId id = 0; id < run.nodes.size(); ++id) report.nodes.push_back(node_report(run, id));
-  if (report.frames != 0) report.recorded = log.entries[report.frames - 1].time;
+  for (std::size_t i = 0; i < std::min(report.frames, log.entries.size()); ++i)
+    report.recorded = std::max(report.recorded, log.entries[i].time);
   report.run = std::move(run);
   return report;
 }

@@ -48,7 +48,7 @@ struct ReplayReport {
   std::size_t on_bus = 0;  ///< seen on the bus by the passive decoder
   std::uint64_t error_frames = 0;
   std::size_t skipped = 0;  ///< entries of the log that are no classical frames
-  Time recorded = 0;        ///< time between the first and the last frame in the log
+  Time recorded = 0;        ///< time between the first and the latest frame in the log
   Time duration = 0;        ///< simulated
   double load = 0;
   double wall_seconds = 0;

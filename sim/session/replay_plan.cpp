@@ -19,13 +19,13 @@ namespace {
 constexpr double kLatest = 90.0 * 24 * 3600 * kSecond;
 
 bool wanted(const ReplayRole &role, const LogEntry &entry) {
-  return entry.time >= role.from && entry.time <= role.to &&
+  return (role.from == 0 || entry.time >= role.from) && entry.time <= role.to &&
          (role.channel.empty() || entry.channel == role.channel) &&
          passes(role.filters, can_id_of(entry.frame));
 }
 
 Time due_time(const ReplayRole &role, Time in_log) {
-  if (role.saturated) return role.start;
+  if (role.saturated || in_log < role.from) return role.start;
   const double due =
       static_cast<double>(role.start) + static_cast<double>(in_log - role.from) / role.rate;
   if (due > kLatest)
@@ -63,22 +63,23 @@ ReplayPlan make_plan(const ReplayRole &role) {
   ReplayPlan plan;
   plan.skipped = log.skipped;
   std::size_t taken = 0;
-  Time first = 0, before = 0;
+  Time first = 0, last = 0, before = 0;
   for (const LogEntry &entry : log.entries) {
     if (!wanted(role, entry)) continue;
     if (role.frames != 0 && taken == role.frames) break;
     ++taken;
     if (share_of(entry.frame, role.shares) != role.share) continue;
-    if (plan.frames.empty()) first = entry.time;
+    if (plan.frames.empty()) first = last = entry.time;
+    last = std::max(last, entry.time);
     find_gap(plan, plan.frames.empty() ? 0 : entry.time - before);
     before = entry.time;
     plan.frames.push_back({due_time(role, entry.time), entry.frame});
   }
-  plan.recorded = before - first;
+  plan.recorded = last - first;
   // Another pass begins a mean distance after the last frame of the one before.
   const auto count = static_cast<Time>(plan.frames.size());
   if (count != 0) {
-    const Time length = plan.frames.back().due - plan.frames.front().due;
+    const Time length = due_time(role, last) - plan.frames.front().due;
     plan.pass = count > 1 && length > 0 ? length + length / (count - 1) : kMillisecond;
   }
   if (taken == 0) plan.nothing = reason(role, log);

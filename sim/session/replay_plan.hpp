@@ -22,7 +22,7 @@ struct PlannedFrame {
 /// What a ReplayRole takes from its log.
 struct ReplayPlan {
   std::vector<PlannedFrame> frames;
-  Time recorded = 0;          ///< between the first and the last of them in the recording
+  Time recorded = 0;          ///< between the first and the latest of them in the recording
   Time pass = 0;              ///< in a loop: from the begin of one pass to that of the next
   Time longest_gap = 0;       ///< in the recording, without a frame for this node
   std::size_t after_gap = 0;  ///< number of the frame that ends it, from 1

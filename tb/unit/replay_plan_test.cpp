@@ -55,6 +55,15 @@ TEST(ReplayPlan, TimesOfTheFrames) {
   EXPECT_THAT(due(role), ElementsAre(7'000, 7'000, 7'000));
 }
 
+// A recorder's clock may be set back: no frame is left out, those from before the first are due
+// with it, and the order is that of the log.
+TEST(ReplayPlan, FramesFromBeforeTheFirstAreSentToo) {
+  const ReplayRole role = role_of("(9.000) can0 100#\n(9.005) can0 101#\n(1.000) can0 102#\n");
+  EXPECT_THAT(due(role), ElementsAre(0, 5'000, 0));
+  EXPECT_EQ(make_plan(role).frames.back().frame.id, 0x102U);
+  EXPECT_EQ(make_plan(role).recorded, 5 * kMillisecond);
+}
+
 TEST(ReplayPlan, BothEndsOfAPartBelongToIt) {
   ReplayRole role = boat();
   role.from = 5 * kMillisecond;
