@@ -74,9 +74,10 @@ size: packages  ## Build the C driver for a Cortex-M3 and print its size, per fu
 wave: build  ## Run one test with waveforms: make wave TEST=Arbitration.LoserReceivesTheWinnersFrame
 	@tools/wave.sh $(BUILD) "$(TEST)"
 
-rules: packages  ## Regenerate docs/rules.md and docs/remote-rules.md, the tables of rules and their tests
+rules: packages  ## Regenerate docs/rules.md, remote-rules.md and time-rules.md, the tables of rules and tests
 	@/usr/bin/python3 tools/rules.py
 	@/usr/bin/python3 tools/remote_rules.py
+	@/usr/bin/python3 tools/time_rules.py
 
 rows: packages  ## Regenerate docs/flexcan-rows.md, the table of FlexCAN rows and their tests
 	@/usr/bin/python3 tools/flexcan_rows.py
