@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The servo in its loop: oscillators, stamps by TM-26, no RTL. Goals are those of section 12.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "driver/sync_loop.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr unsigned kSeeds = 4;
+
+/// Errors of four seeds together.
+SyncErrors errors_of(SyncCase setting) {
+  SyncErrors all;
+  for (setting.seed = 1; setting.seed <= kSeeds; ++setting.seed) {
+    SyncLoop loop{setting};
+    const SyncErrors one = loop.run();
+    all.sum += one.sum;
+    all.squares += one.squares;
+    all.count += one.count;
+    all.max = std::max(all.max, one.max);
+  }
+  return all;
+}
+
+SyncCase with(double frequency_hz, std::uint8_t filter) {
+  SyncCase setting;
+  setting.frequency_hz = frequency_hz;
+  setting.filter = filter;
+  return setting;
+}
+
+struct Goal {
+  std::string name;
+  SyncCase setting;
+  double sd, max;
+};
+void PrintTo(const Goal &goal, std::ostream *out) { *out << goal.name; }
+
+std::vector<Goal> goals() {
+  SyncCase near = with(16e6, 8), fast = with(16e6, 8), pin = with(16e6, 8);
+  near.spread = 0.5e-6;
+  fast.interval_s = 0.1;
+  pin.own_pin = true;
+  SyncCase near50 = near, fast50 = fast, pin50 = pin;
+  near50.frequency_hz = fast50.frequency_hz = pin50.frequency_hz = 50e6;
+  return {{"Base16MHz", with(16e6, 8), 16, 60},
+          {"Base50MHz", with(50e6, 8), 5.5, 21},
+          {"TwoSyncs16MHz", with(16e6, 1), 46, 96},
+          {"TwoSyncs50MHz", with(50e6, 1), 15, 32},
+          {"Automatic16MHz", with(16e6, 0), 13, 60},
+          {"Automatic50MHz", with(50e6, 0), 4, 21},
+          {"NearClocks16MHz", near, 25, 60},
+          {"NearClocks50MHz", near50, 8, 21},
+          {"ShortInterval16MHz", fast, 18, 60},
+          {"ShortInterval50MHz", fast50, 6, 21},
+          {"OwnPin16MHz", pin, 18, 91},
+          {"OwnPin50MHz", pin50, 6, 31},
+          {"Base25MHz", with(25e6, 8), 16, 39},
+          {"Base40MHz", with(40e6, 8), 16, 25}};
+}
+
+class SyncGoal : public ::testing::TestWithParam<Goal> {};
+
+// TM-84, TM-87: every case within its goal, all of the time that a follower is locked.
+TEST_P(SyncGoal, IsReached) {
+  const Goal &goal = GetParam();
+  const SyncErrors errors = errors_of(goal.setting);
+  EXPECT_EQ(errors.count, kSeeds * 8 * (3 * (260 - 4) + 1));
+  EXPECT_LE(errors.sd(), goal.sd);
+  EXPECT_LE(errors.max, goal.max);
+  RecordProperty("sd_ns", std::to_string(errors.sd()));
+  RecordProperty("max_ns", std::to_string(errors.max));
+}
+INSTANTIATE_TEST_SUITE_P(EveryCase, SyncGoal, ::testing::ValuesIn(goals()),
+                         [](const auto &one) { return one.param.name; });
+
+// TM-84: each length keeps the bound that holds for it without wander.
+TEST(SyncBound, OfEveryLength) {
+  const std::pair<int, double> bounds[] = {{1, 1.5}, {2, 1.17}, {4, 1.0}, {8, 0.92}, {16, 0.88}};
+  for (const double frequency : {16e6, 50e6}) {
+    for (const auto &[filter, periods] : bounds) {
+      SyncCase setting = with(frequency, static_cast<std::uint8_t>(filter));
+      SyncLoop loop{setting};
+      for (int n = 0; n < 20; ++n) loop.sync(1);
+      loop.errors = {};  // the history is full
+      EXPECT_LE(loop.run().max, periods * 1e9 / frequency + 2) << filter << " " << frequency;
+    }
+  }
+}
+
+// TM-84: the servo's own choice is about as good as the best length, whatever the oscillator does.
+TEST(Servo, Automatic) {
+  for (const double wander : {0.0, 1e-9, 1e-8, 1e-7}) {
+    SyncCase setting = with(16e6, 0);
+    setting.wander = wander;
+    const double chosen = errors_of(setting).sd();
+    double best = 1e9;
+    for (const int filter : {1, 2, 4, 8, 16}) {
+      setting.filter = static_cast<std::uint8_t>(filter);
+      best = std::min(best, errors_of(setting).sd());
+    }
+    EXPECT_LE(chosen, 1.3 * best) << wander;
+  }
+}
+
+// TM-88: from any offset and 200 ppm.
+TEST(Servo, Acquisition) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    SyncCase setting = with(16e6, 8);
+    setting.spread = 100e-6;
+    setting.seed = seed;
+    SyncLoop loop{setting};
+    const auto worst = [&loop] {
+      loop.sync(1);
+      Nanoseconds max = 0;
+      for (unsigned n = 1; n < loop.nodes.size(); ++n)
+        for (const Nanoseconds later : {3e6L, 0.5e9L, 1e9L})
+          max = std::max(max, std::abs(loop.nodes[n].ahead_of(loop.nodes[0], loop.now + later)));
+      return static_cast<double>(max) - 2;
+    };
+    worst();
+    EXPECT_LE(worst(), 1.5 * 62.5) << seed;
+    EXPECT_LE(worst(), 1.17 * 62.5) << seed;
+    worst();
+    EXPECT_LE(worst(), 1.0 * 62.5) << seed;
+  }
+}
+
+// TM-87: intervals of 0.05 to 5 s, pairs lost one by one and in gaps: below 3 T while locked.
+TEST(Servo, GapsAndLosses) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    SyncCase setting = with(16e6, 8);
+    setting.seed = seed;
+    SyncLoop loop{setting};
+    std::mt19937_64 dice{seed};
+    unsigned gap = 0, lost = 0;
+    for (int n = 0; n < 400; ++n) {
+      if (gap == 0 && dice() % 20 == 0) gap = static_cast<unsigned>(dice() % 3);
+      const bool all = gap > 0;
+      if (all) --gap;
+      const double interval = 0.5 + 0.001 * static_cast<double>(dice() % 1000);
+      loop.sync(interval, [&](unsigned) {
+        const bool is_lost = all || dice() % 10 == 0;
+        lost += is_lost ? 1 : 0;
+        return is_lost;
+      });
+    }
+    EXPECT_GT(lost, 300u);
+    EXPECT_LE(loop.errors.max, 3 * 62.5) << seed;
+  }
+  for (const double interval : {0.05, 0.2, 5.0}) {
+    SyncCase setting = with(16e6, 16);
+    setting.interval_s = interval;
+    EXPECT_LE(errors_of(setting).max, 62.5 + 2) << interval;
+  }
+}
+
+// TM-85: one edge in a hundred is early by up to 300 ns, as reflections make it.
+TEST(Servo, DisplacedEdges) {
+  SyncCase setting = with(50e6, 0);
+  setting.displaced = 0.01;
+  const SyncErrors errors = errors_of(setting);
+  EXPECT_LE(errors.sd(), 5);
+  EXPECT_LE(errors.max, 60);
+}
+
+// TM-82: while locked no clock is turned back: what is not slewed is a step that says so.
+TEST(Servo, TimeIsMonotonicInLocked) {
+  SyncLoop loop{with(16e6, 0)};
+  loop.on_correction = [&loop](unsigned follower, const verican_correction_t &correction) {
+    const bool locked = loop.servos[follower].state == VERICAN_SYNC_LOCKED;
+    const bool changed = (correction.events & VERICAN_SERVO_STATE) != 0;
+    if (locked && !changed && correction.shift != 0) {
+      EXPECT_TRUE(correction.slew);
+    }
+  };
+  loop.run();
+}
+
+}  // namespace
+}  // namespace vericansim
