@@ -56,17 +56,19 @@ class RtlNodeOf final : public RtlNode {
 
   [[nodiscard]] std::uint64_t quiet() const override {
     if (ahb().active() || !core_.resting()) return 0;
-    return std::min(quiet_.edges(core_.engine()), edges_to_waiter());
+    return std::min({quiet_.edges(core_.engine()), edges_to_waiter(), core_.rest()});
   }
 
   void pass(std::uint64_t edges) override {
     QuietEngine::pass(core_.engine(), edges);
+    core_.pass(edges);
     passed(edges);
   }
 
   void clock_lightly(Level rx) override {
     if (core_.engine().can_rx_i == static_cast<std::uint8_t>(rx) || quiet() == 0) return clock(rx);
     QuietEngine::pass_level(core_.engine(), rx);
+    core_.pass(1);
     after_edge();
   }
 

@@ -15,6 +15,7 @@
 #include "core_ports.hpp"
 #include "node/model_context.hpp"
 #include "node/model_edge.hpp"
+#include "node/transmit_scan.hpp"
 #include "verilated.h"
 
 namespace vericansim {
@@ -23,7 +24,8 @@ namespace vericansim {
 /// clocked together; `Ports` knows where in the top the engine is. Registers and buffers are three
 /// quarters of the work of a clock and idle in most of them: when a clock edge has left every bit
 /// of the model as it was, no further edge can change anything until an input does, and the model
-/// is not evaluated. The result is that of the whole core in every clock
+/// is not evaluated. Nor is it while only a pass over its buffers goes on (TransmitScan), which is
+/// made good afterwards. The result is that of the whole core in every clock
 /// (tb/system/bus_split_core_test.cpp).
 template <typename HostModel, typename Ports = AhbPorts>
 class SplitCore {
@@ -45,13 +47,36 @@ class SplitCore {
   [[nodiscard]] const Vcan_core &engine() const { return engine_; }
 
   /// The host side's inputs have changed.
-  void touch() { resting_ = host_settled_ = false; }
+  void touch() {
+    catch_up();
+    resting_ = host_settled_ = false;
+  }
 
-  /// The host side rests: nothing in it moves until an input of it does.
+  /// The host side rests: nothing in it moves for the next rest() edges, or until an input of it
+  /// does.
   [[nodiscard]] bool resting() const { return resting_; }
+  [[nodiscard]] std::uint64_t rest() const { return resting_ ? rest_ : 0; }
+
+  /// `edges` have passed at rest, at most rest(), and the engine has done them.
+  void pass(std::uint64_t edges) {
+    if (rest_ == kForever) return;
+    rest_ -= edges;
+    behind_ += edges;
+  }
+
+  /// Lets the host side do what it has left out; its outputs stay as they are.
+  void catch_up() {
+    if (behind_ == 0) return;
+    TransmitScan<Root>::pass(*host_.rootp, behind_);
+    behind_ = 0;
+  }
+
+  /// Whether passes over the buffers are left out (by default they are).
+  void let_scans_rest(bool allowed) { scans_rest_ = allowed; }
 
   /// Lets combinational outputs follow the inputs, across both models.
   void settle() {
+    catch_up();
     resting_ = false;
     host_settled_ = true;
     Ports::to_host(engine_, *host_.rootp);
@@ -65,21 +90,20 @@ class SplitCore {
 
   /// One rising edge of the clock.
   void edge() {
-    const bool changed =
-        resting_ ? Ports::wakes_host(engine_, *host_.rootp) : Ports::to_host(engine_, *host_.rootp);
-    if (changed) settle();
-    if (resting_) {
+    if (resting_ && rest_ > 0 && !Ports::wakes_host(engine_, *host_.rootp)) {
+      pass(1);
       engine_edge();
       return;
     }
+    catch_up();
+    if (Ports::to_host(engine_, *host_.rootp)) settle();
     std::memcpy(before_.get(), static_cast<const void *>(host_.rootp), sizeof(Root));
     if (host_settled_ && !kPlainEdges)
       settled_edge(host_);
     else
       rising_edge(host_, host_clock());
     host_settled_ = true;
-    resting_ =
-        std::memcmp(before_.get(), static_cast<const void *>(host_.rootp), sizeof(Root)) == 0;
+    begin_rest();
     engine_edge();
     if (Ports::to_core(engine_, *host_.rootp)) engine_.eval();
   }
@@ -87,21 +111,26 @@ class SplitCore {
   /// Everything that the two models remember.
   struct State {
     std::unique_ptr<unsigned char[]> engine, host;
+    std::uint64_t rest;
     bool resting, host_settled, engine_settled;
   };
-  [[nodiscard]] State save() const {
-    return {copy_of(*engine_.rootp), copy_of(*host_.rootp), resting_, host_settled_,
-            engine_settled_};
+  [[nodiscard]] State save() {
+    catch_up();
+    return {copy_of(*engine_.rootp), copy_of(*host_.rootp), rest_, resting_,
+            host_settled_,           engine_settled_};
   }
   void restore(const State &state) {
     std::memcpy(static_cast<void *>(engine_.rootp), state.engine.get(), sizeof(*engine_.rootp));
     std::memcpy(static_cast<void *>(host_.rootp), state.host.get(), sizeof(Root));
+    rest_ = state.rest;
+    behind_ = 0;
     resting_ = state.resting;
     host_settled_ = state.host_settled;
     engine_settled_ = state.engine_settled;
   }
 
   void reset(bool active) {
+    catch_up();
     if constexpr (requires { host_.hresetn; })
       host_.hresetn = !active;
     else
@@ -111,6 +140,18 @@ class SplitCore {
   }
 
  private:
+  static constexpr std::uint64_t kForever = ~0ULL;
+
+  // After an edge of the host side; before_ is what it was before.
+  void begin_rest() {
+    const Root &root = *host_.rootp;
+    resting_ = std::memcmp(before_.get(), static_cast<const void *>(&root), sizeof(Root)) == 0;
+    rest_ = kForever;
+    if (resting_ || !scans_rest_) return;
+    rest_ = TransmitScan<Root>::clocks(before_.get(), root);
+    resting_ = rest_ > 0;
+  }
+
   auto &host_clock() {
     if constexpr (requires { host_.hclk; })
       return host_.hclk;
@@ -141,6 +182,9 @@ class SplitCore {
   HostModel host_{&context_, "host"};
   ModelContext model_context_{context_};
   std::unique_ptr<unsigned char[]> before_ = std::make_unique<unsigned char[]>(sizeof(Root));
+  std::uint64_t rest_ = kForever;  // while resting_: edges to come that may be left out
+  std::uint64_t behind_ = 0;       // edges that have been
+  bool scans_rest_ = true;
   bool resting_ = false;
   bool host_settled_ = false;
   bool engine_settled_ = false;

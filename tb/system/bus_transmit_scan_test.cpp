@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A host side whose passes over the buffers are left out (TransmitScan) has, whenever it is
+// evaluated, the same bits in every member of the model as one that does each clock of them.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstring>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "Vcan_host16.h"
+#include "Vcan_host16___024root.h"
+#include "Vcan_host32.h"
+#include "Vcan_host32___024root.h"
+#include "Vcan_host64.h"
+#include "Vcan_host64___024root.h"
+#include "bus/bus.hpp"
+#include "model/registers.hpp"
+#include "node/host.hpp"
+#include "node/model_pins.hpp"
+#include "node/rtl_node.hpp"
+#include "node/split_core.hpp"
+
+namespace vericansim {
+namespace {
+
+// Bytes of a model, without those that say how it was evaluated last.
+template <typename Root>
+std::vector<unsigned char> bits(const Root &root) {
+  std::vector<unsigned char> bytes(sizeof(Root));
+  std::memcpy(bytes.data(), static_cast<const void *>(&root), sizeof(Root));
+  const auto *begin = reinterpret_cast<const unsigned char *>(&root);
+  const auto triggers = reinterpret_cast<const unsigned char *>(&root.__VnbaTriggered) - begin;
+  std::memset(bytes.data() + triggers, 0, sizeof(root.__VnbaTriggered));
+  return bytes;
+}
+
+// Two cores on the same pins: one leaves passes out, the other does them.
+template <typename Model>
+class ScanTwins : public RtlNode {
+ public:
+  ScanTwins(const std::string &name, const ClockConfig &clock, unsigned num_mb)
+      : RtlNode{name, clock, num_mb} {
+    full_.let_scans_rest(false);
+    reset();
+    const auto mine = bits(*short_.host().rootp), other = bits(*full_.host().rootp);
+    for (std::size_t i = 0; i < mine.size(); ++i) shared_.push_back(mine[i] == other[i]);
+  }
+
+  void reset() override {
+    show({}, true);
+    each([](auto &core) {
+      core.engine().can_rx_i = 1;
+      core.reset(true);
+      for (int i = 0; i < 4; ++i) core.edge();
+      core.reset(false);
+      core.settle();
+      core.edge();
+    });
+  }
+
+  void clock(Level rx) override {
+    each([rx](auto &core) { core.engine().can_rx_i = static_cast<std::uint8_t>(rx); });
+    const bool active = ahb().active();
+    if (active) {
+      show(ahb().request(), full_.host().hreadyout != 0);
+      each([](auto &core) { core.settle(); });
+      if (full_.host().hready != full_.host().hreadyout) {
+        show(ahb().request(), full_.host().hreadyout != 0);
+        each([](auto &core) { core.settle(); });
+      }
+    }
+    const auto &host = full_.host();
+    const AhbResponse response{host.hrdata, host.hreadyout != 0, host.hresp != 0};
+    const bool looked = random_() % 64 == 0;  // in the middle of a pass, too
+    if (looked) each([](auto &core) { core.touch(); });
+    each([](auto &core) { core.edge(); });
+    if (looked || !short_.resting()) compare();
+    left_out_ += short_.resting() && !full_.resting();
+    if (short_.engine().trace_o != full_.engine().trace_o) ++differences_;
+    if (active) {
+      ahb().clock(response);
+      if (!ahb().active()) {
+        show(ahb().request(), true);
+        each([](auto &core) { core.touch(); });
+      }
+    }
+    drive(static_cast<Level>(full_.engine().can_tx_o));
+    after_edge();
+  }
+
+  [[nodiscard]] AhbResult peek(const AhbTransfer &) override {
+    throw std::logic_error("the twins are compared by real transfers only");
+  }
+  void request_stop(bool) override { throw std::logic_error("the twins are not stopped"); }
+  [[nodiscard]] std::uint64_t trace() const override { return full_.engine().trace_o; }
+  [[nodiscard]] std::uint8_t irq_lines() const override { return model_irq_lines(full_.host()); }
+  [[nodiscard]] unsigned differences() const { return differences_; }
+  [[nodiscard]] unsigned left_out() const { return left_out_; }
+
+ private:
+  template <typename Do>
+  void each(Do &&act) {
+    act(short_);
+    act(full_);
+  }
+  void show(const AhbRequest &request, bool ready) {
+    each([&](auto &core) {
+      show_request(core.host(), request);
+      core.host().hready = ready;
+    });
+  }
+  void compare() {
+    if (shared_.empty()) return;
+    const auto mine = bits(*short_.host().rootp), other = bits(*full_.host().rootp);
+    bool differ = false;
+    for (std::size_t i = 0; i < mine.size(); ++i) differ |= shared_[i] && mine[i] != other[i];
+    differences_ += differ;
+  }
+
+  SplitCore<Model> short_, full_;
+  std::vector<bool> shared_;  // not a pointer of one of them, nor between two members
+  std::mt19937 random_{7};
+  unsigned differences_ = 0;
+  unsigned left_out_ = 0;
+};
+
+// Writes and reads of the buffers that the software leaves alone, over and over.
+void disturb(RtlNode &node, std::mt19937 &random) {
+  constexpr std::uint32_t kCodes[] = {0x0, 0x0, 0x4, 0x8, 0x8, 0x9, 0xA, 0xC};
+  const unsigned n = 2 + random() % (node.num_mb() - 4);
+  const std::uint32_t format = (random() % 2 != 0 ? 0x00600000u : 0) | random() % 2 << 20;
+  if (random() % 3 == 0) node.ahb().submit({.address = reg::mb(random() % node.num_mb())});
+  node.ahb().submit(
+      {.address = reg::mb(n, 1), .write = true, .data = static_cast<std::uint32_t>(random())});
+  node.ahb().submit(
+      {.address = reg::mb(n), .write = true, .data = kCodes[random() % 8] << 24 | format});
+}
+
+struct ScanCase {
+  const char *name;
+  std::uint32_t mcr;  // bits set besides those of the software
+  bool lowest_first;
+};
+void PrintTo(const ScanCase &each, std::ostream *out) { *out << each.name; }
+
+constexpr ScanCase kCases[] = {
+    {"LowestBufferFirst", 0, true}, {"LowestIdFirst", 0, false}, {"Priorities", 1u << 13, false},
+    {"FewerBuffers", 0x100, false}, {"Fifo", 1u << 29, false},
+};
+
+template <typename Model>
+void run(const ScanCase &each, unsigned num_mb) {
+  Bus bus;
+  ScanTwins<Model> a{"a", {.error_ppm = 100}, num_mb};
+  const auto b = RtlNode::create("b", {.error_ppm = -150, .phase = 30'000}, 16);
+  bus.add(a);
+  bus.add(*b);
+  HostConfig config;
+  config.timing = {.prescaler = 1, .prop = 3, .ps1 = 2, .ps2 = 2, .sjw = 2};
+  config.tx_buffers = 2;
+  config.lowest_buffer_first = each.lowest_first;
+  config.filters = {{}, {}};
+  Host first{a, config};
+  config.filters = {};
+  Host second{*b, config};
+  first.start_and_wait();
+  second.start_and_wait();
+  const std::uint32_t mcr = a.read32(reg::kMcr);
+  const std::uint32_t fewer = (each.mcr & 0x100) != 0 ? 4 : 0;
+  a.write32(reg::kMcr, mcr | reg::kMcrHalt);
+  bus.run_for(300 * kMicrosecond);
+  a.write32(reg::kMcr, ((mcr | reg::kMcrHalt) - fewer) | (each.mcr & ~0x100u));
+  a.write32(reg::kMcr, (mcr - fewer) | (each.mcr & ~0x100u));
+  std::mt19937 random{3};
+  for (int i = 0; i < 1000; ++i) {
+    bus.run_for(random() % 120 * kMicrosecond);
+    if (i % 4 == 0) first.send({.id = 0x100u + static_cast<unsigned>(i), .dlc = 3});
+    if (i % 4 == 2) second.send({.id = 0x80u + static_cast<unsigned>(i), .dlc = 8});
+    disturb(a, random);
+  }
+  EXPECT_EQ(a.differences(), 0u);
+  EXPECT_GT(a.left_out(), 1000u);
+  EXPECT_GT(second.stats().received, 20u);
+}
+
+class TransmitScanTest : public ::testing::TestWithParam<ScanCase> {};
+
+TEST_P(TransmitScanTest, SameMembersWith16Buffers) { run<Vcan_host16>(GetParam(), 16); }
+TEST_P(TransmitScanTest, SameMembersWith32Buffers) { run<Vcan_host32>(GetParam(), 32); }
+TEST_P(TransmitScanTest, SameMembersWith64Buffers) { run<Vcan_host64>(GetParam(), 64); }
+
+INSTANTIATE_TEST_SUITE_P(Cases, TransmitScanTest, ::testing::ValuesIn(kCases),
+                         [](const auto &each) { return std::string{each.param.name}; });
+
+}  // namespace
+}  // namespace vericansim
