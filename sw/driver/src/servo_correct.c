@@ -35,7 +35,7 @@ static void re_reference(verican_servo_t *servo, int64_t now, int64_t shift, int
 }
 
 static uint64_t slower(uint64_t increment, int64_t rate) {
-  const int64_t less = verican_floor((int64_t)(increment / 65536u) * rate, TWO_POW(28));
+  const int64_t less = verican_floor((int64_t)(increment / 65536u) * rate, 28);
   const int64_t wanted = (int64_t)increment - less;
   return (uint64_t)(wanted < INCREMENT_LIMIT ? wanted : INCREMENT_LIMIT);
 }
@@ -44,7 +44,7 @@ void verican_servo_correct(verican_servo_t *servo, int64_t now, verican_correcti
   const verican_servo_line_t line = verican_servo_fit(servo->points, verican_filter_points(servo));
   const int64_t due =
       line.offset + verican_drift(line.rate, verican_ticks(servo->points[0].local, now));
-  const int64_t shift = servo->config.keep_offset ? 0 : -verican_floor(due + 128, 256);
+  const int64_t shift = servo->config.keep_offset ? 0 : -verican_floor(due + 128, 8);
   const int64_t rate = servo->config.keep_rate ? 0 : line.rate;
   re_reference(servo, now, shift, rate);
   correction->shift = (int64_t)((uint64_t)correction->shift + (uint64_t)shift);

@@ -5,6 +5,11 @@
  */
 #include "servo_internal.h"
 
+int64_t verican_floor(int64_t value, unsigned power) {
+  if (value >= 0) return (int64_t)((uint64_t)value >> power);
+  return -1 - (int64_t)((uint64_t)(-1 - value) >> power);
+}
+
 void verican_sums_add(verican_sums_t *sums, int64_t ticks, int64_t offset) {
   ++sums->n;
   sums->t += ticks;

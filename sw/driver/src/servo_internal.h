@@ -16,10 +16,9 @@
 #define TICKS_LIMIT (TWO_POW(25) - 1)
 #define OLD_OFFSET_LIMIT TWO_POW(28)
 
-/* Rounds down for negative values too; `divisor` > 0. */
-static inline int64_t verican_floor(int64_t value, int64_t divisor) {
-  return value / divisor - (value % divisor < 0 ? 1 : 0);
-}
+/* servo_fit.c: value / 2^power, rounded down for negative values too. */
+int64_t verican_floor(int64_t value, unsigned power);
+
 static inline int64_t verican_magnitude(int64_t value) { return value < 0 ? -value : value; }
 static inline int64_t verican_limit(int64_t value, int64_t limit) {
   if (value > limit) return limit;
@@ -29,11 +28,11 @@ static inline int64_t verican_limit(int64_t value, int64_t limit) {
 /* Ticks from `from` to `to`. */
 static inline int64_t verican_ticks(int64_t from, int64_t to) {
   const int64_t distance = (int64_t)((uint64_t)to - (uint64_t)from);
-  return verican_limit(verican_floor(distance, 4096), TICKS_LIMIT);
+  return verican_limit(verican_floor(distance, 12), TICKS_LIMIT);
 }
 /* What the rate makes of so many ticks. */
 static inline int64_t verican_drift(int64_t rate, int64_t ticks) {
-  return verican_floor(rate * ticks, TWO_POW(24));
+  return verican_floor(rate * ticks, 24);
 }
 
 /* Sums over points, the newest of which is at tick 0. */

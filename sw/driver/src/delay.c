@@ -1,0 +1,46 @@
+/* SPDX-FileCopyrightText: 2026 The VeriCAN authors
+ * SPDX-License-Identifier: Apache-2.0
+ *
+ * The delay from the master to here, measured by the way back (TM-58). Forth and back by both
+ * clocks: what one clock is ahead of the other cancels out, as long as it stays the same.
+ */
+#include "verican/delay.h"
+
+enum { IDLE = 0, AFTER_PAIR = 1, SENT = 2 };
+
+verican_result_t verican_delay_start(verican_delay_t *delay, uint8_t exchanges) {
+  if (delay == NULL) return VERICAN_ERR_NULL;
+  if (exchanges == 0u) return VERICAN_ERR_RANGE;
+  *delay = (verican_delay_t){0};
+  delay->wanted = exchanges;
+  return VERICAN_OK;
+}
+
+bool verican_delay_pair(verican_delay_t *delay, const verican_sync_pair_t *pair, int64_t shift) {
+  if (delay->wanted == 0u) return false;
+  delay->forth = (int64_t)(pair->local + (uint64_t)shift - pair->master);
+  delay->step = (uint8_t)AFTER_PAIR;
+  return true;
+}
+
+void verican_delay_sent(verican_delay_t *delay, uint64_t stamp) {
+  if (delay->step != (uint8_t)AFTER_PAIR) return;
+  delay->sent = stamp;
+  delay->step = (uint8_t)SENT;
+}
+
+/* Half of the sum of n exchanges, to the nearest. */
+static int32_t mean(int64_t sum, unsigned count) {
+  const int64_t twice = 2 * (int64_t)count;
+  return (int32_t)((sum + (sum < 0 ? -twice / 2 : twice / 2)) / twice);
+}
+
+bool verican_delay_response(verican_delay_t *delay, uint64_t master, int32_t *delay_ns) {
+  if (delay->step != (uint8_t)SENT) return false;
+  delay->step = (uint8_t)IDLE;
+  delay->sum += delay->forth + (int64_t)(master - delay->sent);
+  if (++delay->count < delay->wanted) return false;
+  *delay_ns = mean(delay->sum, delay->count);
+  delay->wanted = 0;
+  return true;
+}
