@@ -5,6 +5,11 @@ bit/can_sync.sv
 bit/can_tq_gen.sv
 bit/can_bit_timing.sv
 bit/can_timestamp.sv
+time/can_clock.sv
+time/can_capture.sv
+time/can_stamp.sv
+time/can_time_cmp.sv
+time/can_time.sv
 frame/can_stuff.sv
 frame/can_crc15.sv
 frame/can_field.sv

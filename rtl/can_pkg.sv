@@ -72,4 +72,35 @@ package can_pkg;
   //   [16:8]  tec        bit 16 = bus-off; then tec[7:0] counts recovery sequences (FC-13)
   //   [7:0]   rec
   localparam int TraceWidth = 49;
+
+  // Time unit (can_time): commands, pulses; with Set, Shift and Rate both words of the data count,
+  // with Slew and Arm the upper one.
+  localparam int TimeSet     = 0;  // TIMEHI: the clock is set
+  localparam int TimeShift   = 1;  // TSHHI: an offset is added to it
+  localparam int TimeRate    = 2;  // TINCF: it runs at another rate
+  localparam int TimeSlew    = 3;  // TSLEW: an offset is worked off
+  localparam int TimeArm     = 4;  // TCMP: the next event
+  localparam int TimeHold    = 5;  // TTXMB.HOLD := 1
+  localparam int TimeRelease = 6;  // TTXMB.HOLD := 0
+  localparam int TimeExt     = 7;  // TIME of this clock is the external event's
+  localparam int TimeRead    = 8;  // the word that is asked for is in time_rdata_o from now on
+  localparam int TimeCmdWidth = 9;
+  // Words that can be read.
+  localparam logic [2:0] TimeWordLo     = 3'd0;  // TIME[31:0]; keeps TIME[63:32] of the same clock
+  localparam logic [2:0] TimeWordHi     = 3'd1;  // ... for this one
+  localparam logic [2:0] TimeWordIncN   = 3'd2;
+  localparam logic [2:0] TimeWordIncF   = 3'd3;
+  localparam logic [2:0] TimeWordLeft   = 3'd4;
+  localparam logic [2:0] TimeWordTarget = 3'd5;
+  localparam logic [2:0] TimeWordExtLo  = 3'd6;
+  localparam logic [2:0] TimeWordExtHi  = 3'd7;
+  // What it tells: levels, and pulses that set flags of TSTAT.
+  localparam int TimeStatSlewing = 0;
+  localparam int TimeStatHeld    = 1;
+  localparam int TimeStatOut     = 2;
+  localparam int TimeStatArmed   = 3;
+  localparam int TimeStatMatch   = 4;  // pulse
+  localparam int TimeStatSlewed  = 5;  // pulse
+  localparam int TimeStatLaunch  = 6;  // pulse
+  localparam int TimeStatWidth   = 7;
 endpackage

@@ -211,7 +211,7 @@ package can_regs_pkg;
 
   // XVERSION: Extension: version of the extension page
   localparam logic [10:0] XversionAddr      = 11'h401;
-  localparam logic [31:0] XversionReset     = 32'h0001_0002;
+  localparam logic [31:0] XversionReset     = 32'h0001_0003;
   localparam int          XversionMajor     = 16;
   localparam int          XversionMajorW    = 16;
   localparam int          XversionMinor     = 0;
@@ -226,6 +226,7 @@ package can_regs_pkg;
   localparam int          XconfigStatus     = 22;
   localparam int          XconfigOwnmasks   = 21;
   localparam int          XconfigAbort      = 20;
+  localparam int          XconfigTime       = 12;
   localparam int          XconfigRxfifo     = 11;
   localparam int          XconfigOsmb       = 10;
   localparam int          XconfigOneshot    = 9;
@@ -241,6 +242,137 @@ package can_regs_pkg;
   localparam int          XctrlOsmb         = 2;
   localparam int          XctrlOneshot      = 1;
   localparam int          XctrlFdtol        = 0;
+
+  // TCAP: Time: latencies of the stamps, in half clocks
+  localparam logic [10:0] TcapAddr          = 11'h440;
+  localparam logic [31:0] TcapReset         = 32'h0002_0003;
+  localparam int          TcapSplat         = 16;
+  localparam int          TcapSplatW        = 8;
+  localparam int          TcapTxlat         = 8;
+  localparam int          TcapTxlatW        = 8;
+  localparam int          TcapRxlat         = 0;
+  localparam int          TcapRxlatW        = 8;
+
+  // TCTRL: Time: control
+  localparam logic [10:0] TctrlAddr         = 11'h441;
+  localparam logic [31:0] TctrlReset        = 32'h0000_0031;
+  localparam logic [31:0] TctrlAny          = 32'h001F_3337;
+  localparam int          TctrlSyncie       = 20;
+  localparam int          TctrlTxie         = 19;
+  localparam int          TctrlSlewie       = 18;
+  localparam int          TctrlCmpie        = 17;
+  localparam int          TctrlExtie        = 16;
+  localparam int          TctrlCmpen        = 13;
+  localparam int          TctrlOuten        = 12;
+  localparam int          TctrlExtf         = 9;
+  localparam int          TctrlExtr         = 8;
+  localparam int          TctrlSlewr        = 4;
+  localparam int          TctrlSlewrW       = 2;
+  localparam int          TctrlTxpin        = 2;
+  localparam int          TctrlPoint        = 0;
+  localparam int          TctrlPointW       = 2;
+
+  // TSTAT: Time: status
+  localparam logic [10:0] TstatAddr         = 11'h442;
+  localparam logic [31:0] TstatReset        = 32'h0000_0000;
+  localparam int          TstatCmpon        = 19;
+  localparam int          TstatOut          = 18;
+  localparam int          TstatHeld         = 17;
+  localparam int          TstatSlewing      = 16;
+  localparam int          TstatSync         = 5;
+  localparam int          TstatTxrel        = 4;
+  localparam int          TstatSlewd        = 3;
+  localparam int          TstatCmp          = 2;
+  localparam int          TstatExtovr       = 1;
+  localparam int          TstatExt          = 0;
+
+  // TIMELO: Time: clock, lower half
+  localparam logic [10:0] TimeloAddr        = 11'h444;
+  localparam logic [31:0] TimeloReset       = 32'h0000_0000;
+  localparam logic [31:0] TimeloAny         = 32'hFFFF_FFFF;
+  localparam int          TimeloTimelo      = 0;
+  localparam int          TimeloTimeloW     = 32;
+
+  // TIMEHI: Time: clock, upper half
+  localparam logic [10:0] TimehiAddr        = 11'h445;
+  localparam logic [31:0] TimehiReset       = 32'h0000_0000;
+  localparam logic [31:0] TimehiAny         = 32'hFFFF_FFFF;
+  localparam int          TimehiTimehi      = 0;
+  localparam int          TimehiTimehiW     = 32;
+
+  // TINCN: Time: increment, whole ns
+  localparam logic [10:0] TincnAddr         = 11'h446;
+  localparam logic [31:0] TincnReset        = 32'h0000_0014;
+  localparam logic [31:0] TincnAny          = 32'h0000_00FF;
+  localparam int          TincnTincn        = 0;
+  localparam int          TincnTincnW       = 8;
+
+  // TINCF: Time: increment, fraction
+  localparam logic [10:0] TincfAddr         = 11'h447;
+  localparam logic [31:0] TincfReset        = 32'h0000_0000;
+  localparam logic [31:0] TincfAny          = 32'hFFFF_FFFF;
+  localparam int          TincfTincf        = 0;
+  localparam int          TincfTincfW       = 32;
+
+  // TSHLO: Time: offset, lower half
+  localparam logic [10:0] TshloAddr         = 11'h448;
+  localparam logic [31:0] TshloReset        = 32'h0000_0000;
+  localparam int          TshloTshlo        = 0;
+  localparam int          TshloTshloW       = 32;
+
+  // TSHHI: Time: offset, upper half
+  localparam logic [10:0] TshhiAddr         = 11'h449;
+  localparam logic [31:0] TshhiReset        = 32'h0000_0000;
+  localparam int          TshhiTshhi        = 0;
+  localparam int          TshhiTshhiW       = 32;
+
+  // TSLEW: Time: offset that is worked off
+  localparam logic [10:0] TslewAddr         = 11'h44A;
+  localparam logic [31:0] TslewReset        = 32'h0000_0000;
+  localparam logic [31:0] TslewAny          = 32'hFFFF_FFFF;
+  localparam int          TslewTslew        = 0;
+  localparam int          TslewTslewW       = 32;
+
+  // TCMP: Time: next event
+  localparam logic [10:0] TcmpAddr          = 11'h44C;
+  localparam logic [31:0] TcmpReset         = 32'h0000_0000;
+  localparam logic [31:0] TcmpAny           = 32'hFFFF_FFFF;
+  localparam int          TcmpTcmp          = 0;
+  localparam int          TcmpTcmpW         = 32;
+
+  // TCMPH: Time: period of events
+  localparam logic [10:0] TcmphAddr         = 11'h44D;
+  localparam logic [31:0] TcmphReset        = 32'h0000_0000;
+  localparam logic [31:0] TcmphAny          = 32'h7FFF_FFFF;
+  localparam int          TcmphTcmph        = 0;
+  localparam int          TcmphTcmphW       = 31;
+
+  // TTX: Time: launch time
+  localparam logic [10:0] TtxAddr           = 11'h450;
+  localparam logic [31:0] TtxReset          = 32'h0000_0000;
+  localparam logic [31:0] TtxAny            = 32'hFFFF_FFFF;
+  localparam int          TtxTtx            = 0;
+  localparam int          TtxTtxW           = 32;
+
+  // TTXMB: Time: buffer with a launch time
+  localparam logic [10:0] TtxmbAddr         = 11'h451;
+  localparam logic [31:0] TtxmbReset        = 32'h0000_0000;
+  localparam logic [31:0] TtxmbAny          = 32'h8000_003F;
+  localparam int          TtxmbHold         = 31;
+  localparam int          TtxmbMb           = 0;
+  localparam int          TtxmbMbW          = 6;
+
+  // TEXTLO: Time: external event, lower half
+  localparam logic [10:0] TextloAddr        = 11'h454;
+  localparam logic [31:0] TextloReset       = 32'h0000_0000;
+  localparam int          TextloTextlo      = 0;
+  localparam int          TextloTextloW     = 32;
+
+  // TEXTHI: Time: external event, upper half
+  localparam logic [10:0] TexthiAddr        = 11'h455;
+  localparam logic [31:0] TexthiReset       = 32'h0000_0000;
+  localparam int          TexthiTexthi      = 0;
+  localparam int          TexthiTexthiW     = 32;
 
   // MB: Message buffer n
   localparam logic [10:0] MbAddr            = 11'h020;

@@ -26,12 +26,12 @@ struct RegisterRow {
   std::uint32_t kept = 0;  ///< bits kept over the soft reset
   std::uint32_t live = 0;  ///< bits that show a state
   /// Bits by access, those that are not plainly stored.
-  std::uint32_t ro = 0, w1c = 0, rc = 0, w1s = 0;
+  std::uint32_t ro = 0, w1c = 0, rc = 0, w1s = 0, wo = 0;
   /// Stored bits, by when a write counts.
   std::uint32_t any = 0, freeze = 0, disable = 0, wrn_en = 0;
   /// Bits that are there only with a feature, and what they read without.
   std::uint32_t needs_fifo = 0, needs_abort = 0, needs_status = 0, needs_own_masks = 0;
-  std::uint32_t needs_wake = 0, needs_extras = 0, needs_clear_ram = 0;
+  std::uint32_t needs_wake = 0, needs_extras = 0, needs_clear_ram = 0, needs_time_unit = 0;
   std::uint32_t without = 0;
   bool without_adds_last_mb = false;  ///< `without` is to be raised by NumMb - 1
 
@@ -40,7 +40,7 @@ struct RegisterRow {
     return (has.fifo ? 0 : needs_fifo) | (has.abort ? 0 : needs_abort) |
            (has.status ? 0 : needs_status) | (has.own_masks ? 0 : needs_own_masks) |
            (has.wake ? 0 : needs_wake) | (has.extras ? 0 : needs_extras) |
-           (has.clear_ram ? 0 : needs_clear_ram);
+           (has.clear_ram ? 0 : needs_clear_ram) | (has.time_unit ? 0 : needs_time_unit);
   }
 };
 

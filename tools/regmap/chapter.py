@@ -21,7 +21,7 @@ half words and words can be accessed. Grey bits and offsets that are not listed 
 read 0 and ignore writes.
 
 **Access.** `rw` read and write; `ro` read only; `w1c` writing 1 clears, 0 does nothing; `rc`
-reading clears; `w1s` writing 1 requests, and the bit clears itself.
+reading clears; `w1s` writing 1 requests, and the bit clears itself; `wo` write only, reads 0.
 
 **Written** says when a write counts; at other times it is ignored, without an error.
 
@@ -103,7 +103,7 @@ def condition(part):
 
 
 def field_row(part):
-    written = part.write if part.access in ("rw", "w1s") else "–"
+    written = part.write if part.access in ("rw", "w1s", "wo") else "–"
     after = "state" if part.live and part.access == "ro" else "kept" if part.kept else "reset"
     return (f"| {part.bits} | {part.name} | {part.access} | {written} | {number(part.reset)} "
             f"| {after} | {part.doc}{values_of(part)}{condition(part)} |")

@@ -9,7 +9,7 @@ import yaml
 NUM_MB = "NumMb"  # stands for the number of buffers where a number may stand
 LAST_MB = "NumMb - 1"
 MORE_THAN_32 = "NumMb > 32"  # the one condition that is no feature
-ACCESSES = ("rw", "ro", "w1c", "rc", "w1s")
+ACCESSES = ("rw", "ro", "w1c", "rc", "w1s", "wo")
 WRITES = ("any", "freeze", "disable", "wrn_en")
 
 
@@ -141,6 +141,7 @@ class Feature:
     name: str
     config: str                   # field of XCONFIG that tells of it
     doc: str
+    default: int = 1
 
 
 @dataclass
@@ -247,7 +248,7 @@ def load(path: Path):
         raise MapError(str(error)) from None
     take(data, "map", ("name", "title", "window", "num_mb", "features", "registers", "recipes",
                        "buffers", "fifo"))
-    features = [Feature(**take(entry, "features", ("name", "config", "doc")))
+    features = [Feature(**take(entry, "features", ("name", "config", "doc"), ("default",)))
                 for entry in data["features"]]
     registers = [read_register(entry, "registers:") for entry in data["registers"]]
     check_features(registers, features)

@@ -18,7 +18,7 @@ HEAD = """\
 # access of the map -> access, modifiedWriteValues, readAction
 ACCESS = {"rw": ("read-write", None, None), "ro": ("read-only", None, None),
           "w1c": ("read-write", "oneToClear", None), "rc": ("read-only", None, "clear"),
-          "w1s": ("read-write", "oneToSet", None)}
+          "w1s": ("read-write", "oneToSet", None), "wo": ("write-only", None, None)}
 
 
 def add(parent, tag, text=None):

@@ -12,7 +12,7 @@ HEAD = """\
 // clang-format off
 """
 
-ACCESSES = ("ro", "w1c", "rc", "w1s")
+ACCESSES = ("ro", "w1c", "rc", "w1s", "wo")
 WRITES = ("any", "freeze", "disable", "wrn_en")
 
 
@@ -97,10 +97,11 @@ BUILDS = """\
 
 def build(name, parameters, features):
     """One profile."""
-    missing = [f".{camel_to_snake(feature.name)} = false" for feature in features
-               if parameters.get(feature.name, 1) == 0]
+    other = [f".{camel_to_snake(feature.name)} = {str(not feature.default).lower()}"
+             for feature in features
+             if parameters.get(feature.name, feature.default) != feature.default]
     return (f'{{.name = "{name}", .num_mb = {parameters[NUM_MB]},\n'
-            f" .features = {{{', '.join(missing)}}}}},".replace(", .wake", ",\n  .wake"))
+            f" .features = {{{', '.join(other)}}}}},".replace(", .wake", ",\n  .wake"))
 
 
 def render_builds(regmap, profiles):

@@ -423,7 +423,7 @@
 
 /* XVERSION: Extension: version of the extension page. */
 #define VERICAN_XVERSION_OFFSET                 0x1004u
-#define VERICAN_XVERSION_RESET                  0x00010002u
+#define VERICAN_XVERSION_RESET                  0x00010003u
 /* MAJOR: Changes when software must. */
 #define VERICAN_XVERSION_MAJOR_MASK             0xFFFF0000u
 #define VERICAN_XVERSION_MAJOR_SHIFT            16u
@@ -458,6 +458,9 @@
 /* ABORT: MCR.AEN. Only with Abort. */
 #define VERICAN_XCONFIG_ABORT_MASK              0x00100000u
 #define VERICAN_XCONFIG_ABORT_SHIFT             20u
+/* TIME: Time unit. Only with TimeUnit. */
+#define VERICAN_XCONFIG_TIME_MASK               0x00001000u
+#define VERICAN_XCONFIG_TIME_SHIFT              12u
 /* RXFIFO: Receive FIFO. Only with Fifo. */
 #define VERICAN_XCONFIG_RXFIFO_MASK             0x00000800u
 #define VERICAN_XCONFIG_RXFIFO_SHIFT            11u
@@ -489,6 +492,226 @@
 /* FDTOL: Sits out CAN FD frames instead of destroying them. Only with Extras. */
 #define VERICAN_XCTRL_FDTOL_MASK                0x00000001u
 #define VERICAN_XCTRL_FDTOL_SHIFT               0u
+
+/* TCAP: Time: latencies of the stamps, in half clocks. Only with TimeUnit. */
+#define VERICAN_TCAP_OFFSET                     0x1100u
+#define VERICAN_TCAP_RESET                      0x00020003u
+/* SPLAT: From the clock of a sample point to the stamp. */
+#define VERICAN_TCAP_SPLAT_MASK                 0x00FF0000u
+#define VERICAN_TCAP_SPLAT_SHIFT                16u
+#define VERICAN_TCAP_SPLAT_GET(word)            (((uint32_t)(word) >> 16) & 0xFFu)
+#define VERICAN_TCAP_SPLAT_SET(value)           (((uint32_t)(value) & 0xFFu) << 16)
+/* TXLAT: From the edge of the transmit flip-flop. */
+#define VERICAN_TCAP_TXLAT_MASK                 0x0000FF00u
+#define VERICAN_TCAP_TXLAT_SHIFT                8u
+#define VERICAN_TCAP_TXLAT_GET(word)            (((uint32_t)(word) >> 8) & 0xFFu)
+#define VERICAN_TCAP_TXLAT_SET(value)           (((uint32_t)(value) & 0xFFu) << 8)
+/* RXLAT: From an edge at the receive pin or external pin, on average. */
+#define VERICAN_TCAP_RXLAT_MASK                 0x000000FFu
+#define VERICAN_TCAP_RXLAT_SHIFT                0u
+#define VERICAN_TCAP_RXLAT_GET(word)            (((uint32_t)(word) >> 0) & 0xFFu)
+#define VERICAN_TCAP_RXLAT_SET(value)           (((uint32_t)(value) & 0xFFu) << 0)
+
+/* TCTRL: Time: control. Only with TimeUnit. */
+#define VERICAN_TCTRL_OFFSET                    0x1104u
+#define VERICAN_TCTRL_RESET                     0x00000031u
+/* SYNCIE: Interrupt with TSTAT.SYNC. */
+#define VERICAN_TCTRL_SYNCIE_MASK               0x00100000u
+#define VERICAN_TCTRL_SYNCIE_SHIFT              20u
+/* TXIE: Interrupt with TSTAT.TXREL. */
+#define VERICAN_TCTRL_TXIE_MASK                 0x00080000u
+#define VERICAN_TCTRL_TXIE_SHIFT                19u
+/* SLEWIE: Interrupt with TSTAT.SLEWD. */
+#define VERICAN_TCTRL_SLEWIE_MASK               0x00040000u
+#define VERICAN_TCTRL_SLEWIE_SHIFT              18u
+/* CMPIE: Interrupt with TSTAT.CMP. */
+#define VERICAN_TCTRL_CMPIE_MASK                0x00020000u
+#define VERICAN_TCTRL_CMPIE_SHIFT               17u
+/* EXTIE: Interrupt with TSTAT.EXT. */
+#define VERICAN_TCTRL_EXTIE_MASK                0x00010000u
+#define VERICAN_TCTRL_EXTIE_SHIFT               16u
+/* CMPEN: A write of TCMP arms the compare unit; 0 disarms it. */
+#define VERICAN_TCTRL_CMPEN_MASK                0x00002000u
+#define VERICAN_TCTRL_CMPEN_SHIFT               13u
+/* OUTEN: The output pin shows OUT; else it is 0. */
+#define VERICAN_TCTRL_OUTEN_MASK                0x00001000u
+#define VERICAN_TCTRL_OUTEN_SHIFT               12u
+/* EXTF: Falling edges of the external pin count. */
+#define VERICAN_TCTRL_EXTF_MASK                 0x00000200u
+#define VERICAN_TCTRL_EXTF_SHIFT                9u
+/* EXTR: Rising edges of the external pin count. */
+#define VERICAN_TCTRL_EXTR_MASK                 0x00000100u
+#define VERICAN_TCTRL_EXTR_SHIFT                8u
+/* SLEWR: Slew 1 ns in 8192 ns (0), 4096, 2048 or 1024 ns (3). */
+#define VERICAN_TCTRL_SLEWR_MASK                0x00000030u
+#define VERICAN_TCTRL_SLEWR_SHIFT               4u
+#define VERICAN_TCTRL_SLEWR_GET(word)           (((uint32_t)(word) >> 4) & 0x3u)
+#define VERICAN_TCTRL_SLEWR_SET(value)          (((uint32_t)(value) & 0x3u) << 4)
+/* TXPIN: Own frames are stamped at the own receive pin, as foreign ones are. */
+#define VERICAN_TCTRL_TXPIN_MASK                0x00000004u
+#define VERICAN_TCTRL_TXPIN_SHIFT               2u
+/* POINT: Where a frame is stamped; a change holds from the next frame on. */
+#define VERICAN_TCTRL_POINT_MASK                0x00000003u
+#define VERICAN_TCTRL_POINT_SHIFT               0u
+#define VERICAN_TCTRL_POINT_GET(word)           (((uint32_t)(word) >> 0) & 0x3u)
+#define VERICAN_TCTRL_POINT_SET(value)          (((uint32_t)(value) & 0x3u) << 0)
+#define VERICAN_TCTRL_POINT_SOF                 0x0u /* start of frame */
+#define VERICAN_TCTRL_POINT_EDGE                0x1u /* reference edge */
+#define VERICAN_TCTRL_POINT_EOF                 0x2u /* sample point of EOF6, when a frame becomes valid */
+
+/* TSTAT: Time: status. Only with TimeUnit. */
+#define VERICAN_TSTAT_OFFSET                    0x1108u
+#define VERICAN_TSTAT_RESET                     0x00000000u
+/* CMPON: The compare unit is armed. */
+#define VERICAN_TSTAT_CMPON_MASK                0x00080000u
+#define VERICAN_TSTAT_CMPON_SHIFT               19u
+/* OUT: Output of the compare unit. */
+#define VERICAN_TSTAT_OUT_MASK                  0x00040000u
+#define VERICAN_TSTAT_OUT_SHIFT                 18u
+/* HELD: A buffer is held. */
+#define VERICAN_TSTAT_HELD_MASK                 0x00020000u
+#define VERICAN_TSTAT_HELD_SHIFT                17u
+/* SLEWING: TSLEW is not worked off. */
+#define VERICAN_TSTAT_SLEWING_MASK              0x00010000u
+#define VERICAN_TSTAT_SLEWING_SHIFT             16u
+/* SYNC: The follower has changed its state. */
+#define VERICAN_TSTAT_SYNC_MASK                 0x00000020u
+#define VERICAN_TSTAT_SYNC_SHIFT                5u
+/* TXREL: The launch time has come. */
+#define VERICAN_TSTAT_TXREL_MASK                0x00000010u
+#define VERICAN_TSTAT_TXREL_SHIFT               4u
+/* SLEWD: TSLEW is worked off. */
+#define VERICAN_TSTAT_SLEWD_MASK                0x00000008u
+#define VERICAN_TSTAT_SLEWD_SHIFT               3u
+/* CMP: The time in TCMP has come. */
+#define VERICAN_TSTAT_CMP_MASK                  0x00000004u
+#define VERICAN_TSTAT_CMP_SHIFT                 2u
+/* EXTOVR: An external event came while EXT was 1. */
+#define VERICAN_TSTAT_EXTOVR_MASK               0x00000002u
+#define VERICAN_TSTAT_EXTOVR_SHIFT              1u
+/* EXT: There was an external event; its time is in TEXTLO and TEXTHI. */
+#define VERICAN_TSTAT_EXT_MASK                  0x00000001u
+#define VERICAN_TSTAT_EXT_SHIFT                 0u
+
+/* TIMELO: Time: clock, lower half. Only with TimeUnit. */
+#define VERICAN_TIMELO_OFFSET                   0x1110u
+#define VERICAN_TIMELO_RESET                    0x00000000u
+/* TIMELO: A read takes all 64 bits of one clock, ns. A write waits for TIMEHI. */
+#define VERICAN_TIMELO_TIMELO_MASK              0xFFFFFFFFu
+#define VERICAN_TIMELO_TIMELO_SHIFT             0u
+#define VERICAN_TIMELO_TIMELO_GET(word)         (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
+#define VERICAN_TIMELO_TIMELO_SET(value)        (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
+
+/* TIMEHI: Time: clock, upper half. Only with TimeUnit. */
+#define VERICAN_TIMEHI_OFFSET                   0x1114u
+#define VERICAN_TIMEHI_RESET                    0x00000000u
+/* TIMEHI: Of the reading of TIMELO. A write sets the clock, the fraction to 0. */
+#define VERICAN_TIMEHI_TIMEHI_MASK              0xFFFFFFFFu
+#define VERICAN_TIMEHI_TIMEHI_SHIFT             0u
+#define VERICAN_TIMEHI_TIMEHI_GET(word)         (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
+#define VERICAN_TIMEHI_TIMEHI_SET(value)        (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
+
+/* TINCN: Time: increment, whole ns. Only with TimeUnit. */
+#define VERICAN_TINCN_OFFSET                    0x1118u
+#define VERICAN_TINCN_RESET                     0x00000014u
+/* TINCN: ns a clock; a write waits for TINCF. Reset: parameter TimeInc. */
+#define VERICAN_TINCN_TINCN_MASK                0x000000FFu
+#define VERICAN_TINCN_TINCN_SHIFT               0u
+#define VERICAN_TINCN_TINCN_GET(word)           (((uint32_t)(word) >> 0) & 0xFFu)
+#define VERICAN_TINCN_TINCN_SET(value)          (((uint32_t)(value) & 0xFFu) << 0)
+
+/* TINCF: Time: increment, fraction. Only with TimeUnit. */
+#define VERICAN_TINCF_OFFSET                    0x111Cu
+#define VERICAN_TINCF_RESET                     0x00000000u
+/* TINCF: 2^-32 ns a clock; a write sets both. Reset: parameter TimeInc. */
+#define VERICAN_TINCF_TINCF_MASK                0xFFFFFFFFu
+#define VERICAN_TINCF_TINCF_SHIFT               0u
+#define VERICAN_TINCF_TINCF_GET(word)           (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
+#define VERICAN_TINCF_TINCF_SET(value)          (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
+
+/* TSHLO: Time: offset, lower half. Only with TimeUnit. */
+#define VERICAN_TSHLO_OFFSET                    0x1120u
+#define VERICAN_TSHLO_RESET                     0x00000000u
+/* TSHLO: A write waits for TSHHI. */
+#define VERICAN_TSHLO_TSHLO_MASK                0xFFFFFFFFu
+#define VERICAN_TSHLO_TSHLO_SHIFT               0u
+#define VERICAN_TSHLO_TSHLO_GET(word)           (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
+#define VERICAN_TSHLO_TSHLO_SET(value)          (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
+
+/* TSHHI: Time: offset, upper half. Only with TimeUnit. */
+#define VERICAN_TSHHI_OFFSET                    0x1124u
+#define VERICAN_TSHHI_RESET                     0x00000000u
+/* TSHHI: A write adds the offset, signed ns, to the clock. */
+#define VERICAN_TSHHI_TSHHI_MASK                0xFFFFFFFFu
+#define VERICAN_TSHHI_TSHHI_SHIFT               0u
+#define VERICAN_TSHHI_TSHHI_GET(word)           (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
+#define VERICAN_TSHHI_TSHHI_SET(value)          (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
+
+/* TSLEW: Time: offset that is worked off. Only with TimeUnit. */
+#define VERICAN_TSLEW_OFFSET                    0x1128u
+#define VERICAN_TSLEW_RESET                     0x00000000u
+/* TSLEW: Signed ns, in steps of 1 ns; reads what is left. Needs TINCN of 2 at least. */
+#define VERICAN_TSLEW_TSLEW_MASK                0xFFFFFFFFu
+#define VERICAN_TSLEW_TSLEW_SHIFT               0u
+#define VERICAN_TSLEW_TSLEW_GET(word)           (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
+#define VERICAN_TSLEW_TSLEW_SET(value)          (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
+
+/* TCMP: Time: next event. Only with TimeUnit. */
+#define VERICAN_TCMP_OFFSET                     0x1130u
+#define VERICAN_TCMP_RESET                      0x00000000u
+/* TCMP: Lower half of its time, ns; with CMPEN a write arms, and clears OUT. */
+#define VERICAN_TCMP_TCMP_MASK                  0xFFFFFFFFu
+#define VERICAN_TCMP_TCMP_SHIFT                 0u
+#define VERICAN_TCMP_TCMP_GET(word)             (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
+#define VERICAN_TCMP_TCMP_SET(value)            (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
+
+/* TCMPH: Time: period of events. Only with TimeUnit. */
+#define VERICAN_TCMPH_OFFSET                    0x1134u
+#define VERICAN_TCMPH_RESET                     0x00000000u
+/* TCMPH: ns between events, 16 clocks at least; 0: once. */
+#define VERICAN_TCMPH_TCMPH_MASK                0x7FFFFFFFu
+#define VERICAN_TCMPH_TCMPH_SHIFT               0u
+#define VERICAN_TCMPH_TCMPH_GET(word)           (((uint32_t)(word) >> 0) & 0x7FFFFFFFu)
+#define VERICAN_TCMPH_TCMPH_SET(value)          (((uint32_t)(value) & 0x7FFFFFFFu) << 0)
+
+/* TTX: Time: launch time. Only with TimeUnit. */
+#define VERICAN_TTX_OFFSET                      0x1140u
+#define VERICAN_TTX_RESET                       0x00000000u
+/* TTX: Lower half, ns: at most 2^31 ns ahead. */
+#define VERICAN_TTX_TTX_MASK                    0xFFFFFFFFu
+#define VERICAN_TTX_TTX_SHIFT                   0u
+#define VERICAN_TTX_TTX_GET(word)               (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
+#define VERICAN_TTX_TTX_SET(value)              (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
+
+/* TTXMB: Time: buffer with a launch time. Only with TimeUnit. */
+#define VERICAN_TTXMB_OFFSET                    0x1144u
+#define VERICAN_TTXMB_RESET                     0x00000000u
+/* HOLD: The buffer gives way to all others and is not started before TTX; then HOLD clears. */
+#define VERICAN_TTXMB_HOLD_MASK                 0x80000000u
+#define VERICAN_TTXMB_HOLD_SHIFT                31u
+/* MB: Number of the buffer. */
+#define VERICAN_TTXMB_MB_MASK                   0x0000003Fu
+#define VERICAN_TTXMB_MB_SHIFT                  0u
+#define VERICAN_TTXMB_MB_GET(word)              (((uint32_t)(word) >> 0) & 0x3Fu)
+#define VERICAN_TTXMB_MB_SET(value)             (((uint32_t)(value) & 0x3Fu) << 0)
+
+/* TEXTLO: Time: external event, lower half. Only with TimeUnit. */
+#define VERICAN_TEXTLO_OFFSET                   0x1150u
+#define VERICAN_TEXTLO_RESET                    0x00000000u
+/* TEXTLO: ns. */
+#define VERICAN_TEXTLO_TEXTLO_MASK              0xFFFFFFFFu
+#define VERICAN_TEXTLO_TEXTLO_SHIFT             0u
+#define VERICAN_TEXTLO_TEXTLO_GET(word)         (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
+#define VERICAN_TEXTLO_TEXTLO_SET(value)        (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
+
+/* TEXTHI: Time: external event, upper half. Only with TimeUnit. */
+#define VERICAN_TEXTHI_OFFSET                   0x1154u
+#define VERICAN_TEXTHI_RESET                    0x00000000u
+/* TEXTHI: Of the event whose lower half is in TEXTLO. */
+#define VERICAN_TEXTHI_TEXTHI_MASK              0xFFFFFFFFu
+#define VERICAN_TEXTHI_TEXTHI_SHIFT             0u
+#define VERICAN_TEXTHI_TEXTHI_GET(word)         (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
+#define VERICAN_TEXTHI_TEXTHI_SET(value)        (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
 
 /* MB: Message buffer n, words CS, ID, DATA0 and DATA1. */
 #define VERICAN_MB_OFFSET(n)                    (0x080u + 16u * (uint32_t)(n))

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_clock: TIME, a clock of 64 bits of ns and 32 bits of their fraction, that can be set,
+// shifted, slewed and run at another rate (TM-10 to TM-18).
+//
+// Three short adders in a row, each a clock behind the one before: fraction, lower half, upper
+// half. A command passes the same registers, so that it acts on all of them in one clock of TIME:
+// the third after the one in which it is given. hi_o of the next clock belongs to lo_o of this one.
+
+module can_clock #(
+  /// Increment after a reset: 39:32 ns, 31:0 in 2^-32 ns a clock.
+  parameter logic [39:0] TimeInc = 40'h14_0000_0000
+) (
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  // Commands, at most one in a clock; the second word of a pair is data_i[63:32].
+  input  logic        set_i,       // TIME := data_i
+  input  logic        shift_i,     // TIME += data_i
+  input  logic        rate_i,      // increment: ns in data_i[7:0], fraction in data_i[63:32]
+  input  logic        slew_i,      // work off data_i[63:32], signed ns, 1 ns at a time
+  input  logic [63:0] data_i,
+  input  logic [1:0]  slewr_i,     // a step whenever bit 13 - slewr_i of TIME changes (TCTRL.SLEWR)
+  output logic [31:0] lo_o,
+  output logic [31:0] hi_o,
+  output logic [39:0] inc_o,       // as rate_i wrote it last
+  output logic [31:0] left_o       // not worked off yet, signed ns
+);
+  logic [7:0]  incn_q;
+  logic [31:0] incf_q;
+  assign inc_o = {incn_q, incf_q};
+
+  // Slew. A step that would let TIME stand or go back is not made (TM-15, TM-17).
+  logic slew_bit, bit_q, step, step_q, back_q;
+  always_comb begin
+    case (slewr_i)
+      2'd0:    slew_bit = lo_o[13];
+      2'd1:    slew_bit = lo_o[12];
+      2'd2:    slew_bit = lo_o[11];
+      default: slew_bit = lo_o[10];
+    endcase
+  end
+  assign step = (slew_bit != bit_q) && (left_o != '0) && (incn_q[7:1] != '0);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      incn_q <= TimeInc[39:32];
+      incf_q <= TimeInc[31:0];
+      {bit_q, step_q, back_q} <= '0;
+      left_o <= '0;
+    end else begin
+      if (rate_i) {incf_q, incn_q} <= {data_i[63:32], data_i[7:0]};
+      bit_q  <= slew_bit;
+      step_q <= step;
+      back_q <= left_o[31];
+      if (slew_i)    left_o <= data_i[63:32];
+      else if (step) left_o <= left_o + {32{!left_o[31]}} + {31'b0, left_o[31]};
+    end
+  end
+
+  // First clock of a command: it waits for a new increment, which is a clock behind.
+  logic        set1_q, offset1_q;
+  logic [63:0] data_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {set1_q, offset1_q} <= '0;
+      data_q <= '0;
+    end else begin
+      set1_q    <= set_i;
+      offset1_q <= set_i || shift_i;
+      data_q    <= data_i;
+    end
+  end
+
+  // Second clock: what the lower half is to grow by; and the fraction, whose carry reaches it two
+  // clocks later.
+  logic        set2_q, offset2_q, carry_q, carry2_q;
+  logic [8:0]  grow;
+  logic [32:0] addend, addend_q;
+  logic [31:0] fraction_q, upper2_q;
+  assign grow   = {1'b0, incn_q} + {9{step_q && back_q}} + {8'b0, step_q && !back_q};
+  assign addend = {1'b0, data_q[31:0]} + (set1_q ? '0 : {24'b0, grow});
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      addend_q   <= {25'b0, TimeInc[39:32]};
+      fraction_q <= TimeInc[31:0];
+      upper2_q   <= '0;
+      {set2_q, offset2_q, carry_q, carry2_q} <= '0;
+    end else begin
+      set2_q    <= set1_q;
+      offset2_q <= offset1_q;
+      addend_q  <= offset1_q ? addend : {24'b0, grow};
+      upper2_q  <= data_q[63:32];
+      carry2_q  <= carry_q;
+      {carry_q, fraction_q} <= set1_q ? '0 : {1'b0, fraction_q} + {1'b0, incf_q};
+    end
+  end
+
+  // Third clock: the lower half. Fourth: the upper one.
+  logic        set3_q, carry3_q;
+  logic [31:0] upper3_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {set3_q, carry3_q} <= '0;
+      {lo_o, hi_o, upper3_q} <= '0;
+    end else begin
+      set3_q   <= set2_q;
+      upper3_q <= offset2_q ? upper2_q + {31'b0, addend_q[32]} : '0;
+      if (set2_q) {carry3_q, lo_o} <= {1'b0, addend_q[31:0]};
+      else {carry3_q, lo_o} <= {1'b0, lo_o} + {1'b0, addend_q[31:0]} + {32'b0, carry2_q};
+      if (set3_q) hi_o <= upper3_q;
+      else        hi_o <= hi_o + upper3_q + {31'b0, carry3_q};
+    end
+  end
+endmodule

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_time_cmp: the two events that wait for TIME: compare with its output (TM-30, TM-31), and the
+// launch of one buffer (TM-40). Both look at 32 bits: "reached" means at most 2^31 ns ago.
+
+module can_time_cmp (
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  input  logic [31:0] lo_i,        // TIME[31:0]
+  input  logic [31:0] data_i,      // of arm_i
+  // Compare.
+  input  logic        enable_i,    // TCTRL.CMPEN; 0 disarms
+  input  logic        arm_i,       // TCMP is written
+  input  logic [31:0] period_i,    // TCMPH: ns between events; 0: once
+  output logic [31:0] target_o,    // TCMP
+  output logic        armed_o,
+  output logic        match_o,     // pulse: it fires
+  output logic        out_o,       // toggles from the next clock on
+  // Launch.
+  input  logic        hold_i,      // pulse: the buffer is held from the next clock on
+  input  logic        release_i,   // pulse: not any longer
+  input  logic [31:0] launch_i,    // TTX
+  output logic        held_o,
+  output logic        launch_o     // pulse: its time has come
+);
+  // Time to go less one: its sign alone counts. Both subtractions share the inverted time.
+  logic [31:0] minus_time, to_target, to_launch;
+  logic        once;
+  assign minus_time = ~lo_i;
+  assign to_target  = target_o + minus_time;
+  assign to_launch  = launch_i + minus_time;
+  assign once       = period_i == '0;
+  assign match_o    = armed_o && enable_i && to_target[31];
+  assign launch_o   = held_o && to_launch[31];
+
+  logic unused;
+  assign unused = &{1'b0, to_target[30:0], to_launch[30:0]};
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      target_o <= '0;
+      {armed_o, out_o, held_o} <= '0;
+    end else begin
+      if (arm_i) begin
+        target_o <= data_i;
+        armed_o  <= enable_i;
+        if (enable_i) out_o <= 1'b0;
+      end else begin
+        if (match_o) begin
+          target_o <= target_o + period_i;
+          out_o    <= once || !out_o;
+        end
+        armed_o <= armed_o && enable_i && !(match_o && once);
+      end
+      held_o <= hold_i || (held_o && !launch_o && !release_i);
+    end
+  end
+endmodule
