@@ -17,6 +17,7 @@ SKIPPED = {"clk_i", "rst_ni", "can_rx_i", "can_tx_o", "trace_o"}
 # bit, and the host side need not wake for that.
 QUIET = {"rx_id_o", "rx_ide_o", "rx_srr_o", "rx_rtr_o", "rx_dlc_o", "rx_byte_o", "timer_o",
          "crc_o", "gap_o"}
+TIME = "time_"  # ports of the time unit, which these models have not
 PORT = re.compile(r"^\s*(input|output)\s+logic\s*(\[[^\]]*\])?\s*(\w+),?", re.MULTILINE)
 # Struct, the engine in that top, inputs of the engine that C++ drives.
 TIMING = {"presdiv_i", "rjw_i", "pseg1_i", "pseg2_i", "propseg_i"}
@@ -28,9 +29,9 @@ def hollow(header, ports):
     """can_core.sv without contents, whose outputs C++ sets and whose inputs it reads."""
     lines = ["// Generated from can_core.sv: its ports, for C++.", header]
     for direction, width, name in ports:
-        if name in ("can_tx_o", "trace_o"):
+        if direction == "output" and (name in ("can_tx_o", "trace_o") or name.startswith(TIME)):
             lines.append(f"  assign {name} = '0;")
-        if name in SKIPPED:
+        if name in SKIPPED or name.startswith(TIME):
             continue
         if direction == "output":
             lines.append(f"  logic {width} {name}_v /* verilator public_flat_rw */;")
@@ -73,7 +74,8 @@ def main():
     ports = PORT.findall(header)
     if not ports:
         sys.exit(f"{source}: no ports found in can_core")
-    names = [(direction, name) for direction, _, name in ports if name not in SKIPPED]
+    names = [(direction, name) for direction, _, name in ports
+             if name not in SKIPPED and not name.startswith(TIME)]
     into = [name for direction, name in names if direction == "output"]
     back = [name for direction, name in names if direction == "input"]
     hpp = ["// Generated from can_core.sv: copies its ports between the two models.",

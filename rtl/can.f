@@ -10,6 +10,7 @@ time/can_capture.sv
 time/can_stamp.sv
 time/can_time_cmp.sv
 time/can_time.sv
+time/can_time_regs.sv
 frame/can_stuff.sv
 frame/can_crc15.sv
 frame/can_field.sv
@@ -20,6 +21,7 @@ frame/can_fault.sv
 frame/can_bsp.sv
 can_core.sv
 mailbox/can_mb_ram.sv
+mailbox/can_mb_stamp.sv
 mailbox/can_mb_port.sv
 mailbox/can_mb_cpu.sv
 mailbox/can_mb_lock.sv

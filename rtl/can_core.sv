@@ -4,7 +4,12 @@
 // can_core: the protocol engine: time quanta, bits, bit stream; pins here, frames there.
 // The paper's three processes in one clock domain. Frames pass word by word; buffers are elsewhere.
 
-module can_core (
+module can_core #(
+  /// 1: with the time unit (can_time); 0: without, the ports time_* have no use and are 0.
+  parameter int TimeUnit = 0,
+  /// Increment of its clock after a reset, see can_clock.
+  parameter logic [39:0] TimeInc = 40'h14_0000_0000
+) (
   input  logic        clk_i,
   input  logic        rst_ni,
   // Mode
@@ -71,6 +76,19 @@ module can_core (
   output logic [7:0]  rx_byte_o,
   output logic        rx_valid_o,      // frame valid, SP of EOF6 (VA-01); own frames too
   output logic [14:0] crc_o,           // CRC of the frame, valid with tx_ok_o
+  // Time unit, see can_time
+  input  logic [can_pkg::TimeCmdWidth-1:0] time_cmd_i,
+  input  logic [63:0] time_data_i,
+  input  logic [2:0]  time_word_i,
+  output logic [31:0] time_rdata_o,
+  input  logic [31:0] time_tctrl_i,
+  input  logic [31:0] time_tcmph_i,
+  input  logic [31:0] time_ttx_i,
+  input  logic        time_wait_i,     // the frame that waits is that of the held buffer
+  output logic [can_pkg::TimeStatWidth-1:0] time_stat_o,
+  output logic [63:0] time_stamp_o,
+  output logic        time_stamp_we_o,
+  output logic        time_stamp_tx_o,
   // Pins and observers
   input  logic        can_rx_i,
   output logic        can_tx_o,
@@ -84,6 +102,7 @@ module can_core (
   logic [8:0]      tec;
   can_pkg::field_t field;
   logic [5:0]      left;
+  logic            held;   // its launch time has not come (TM-41)
 
   can_sync u_sync (.clk_i, .rst_ni, .can_rx_i, .rx_o(rx_pin));
 
@@ -106,12 +125,31 @@ module can_core (
     .clk_i, .rst_ni, .run_i(active_q), .sample_i(sample), .bit_i(bit_value),
     .stay_i(run_i), .boundary_i(boundary), .judge_i(first_q), .edge_i(edge_seen),
     .lom_i, .lpb_i, .fd_tolerant_i, .boff_rec_i, .ec_clear_i, .ec_we_i, .ec_wdata_i,
-    .tx_req_i, .tx_ide_i, .tx_rtr_i, .tx_dlc_i, .tx_word_i,
+    .tx_req_i(tx_req_i && !held), .tx_ide_i, .tx_rtr_i, .tx_dlc_i, .tx_word_i,
     .tx_o(tx_q), .can_tx_o, .hard_o(hard), .field_o(field), .left_o(left), .stuff_o(stuff),
     .transmitter_o, .tec_o(tec), .rec_o, .passive_o, .boff_o, .err_o, .tx_next_o, .tx_ok_o,
     .tx_fail_o, .start_o, .stamp_o, .rx_hdr_o, .rx_id_o, .rx_ide_o, .rx_srr_o, .rx_rtr_o,
     .rx_dlc_o, .rx_byte_we_o, .rx_byte_o, .rx_valid_o, .crc_o
   );
+
+  if (TimeUnit != 0) begin : gen_time
+    can_time #(.TimeInc(TimeInc)) u_time (
+      .clk_i, .rst_ni, .cmd_i(time_cmd_i), .data_i(time_data_i), .word_i(time_word_i),
+      .rdata_o(time_rdata_o), .tctrl_i(time_tctrl_i), .tcmph_i(time_tcmph_i), .ttx_i(time_ttx_i),
+      .stat_o(time_stat_o),
+      .rx_i(rx), .tx_i(tx_q), .sample_i(sample && active_q), .bit_i(bit_value), .field_i(field),
+      .transmitter_i(transmitter_o), .sof_i(stamp_o), .rx_valid_i(rx_valid_o),
+      .stamp_o(time_stamp_o), .stamp_we_o(time_stamp_we_o), .stamp_tx_o(time_stamp_tx_o));
+    assign held = time_wait_i && time_stat_o[can_pkg::TimeStatHeld];
+  end else begin : gen_no_time
+    logic unused;
+    assign unused = &{1'b0, time_cmd_i, time_data_i, time_word_i, time_tctrl_i, time_tcmph_i,
+                      time_ttx_i, time_wait_i};
+    assign time_rdata_o = '0;
+    assign time_stat_o  = '0;
+    assign time_stamp_o = '0;
+    assign {time_stamp_we_o, time_stamp_tx_o, held} = '0;
+  end
 
   // A stop request never shortens a dominant bit: the node stays until its level is recessive.
   always_ff @(posedge clk_i or negedge rst_ni) begin

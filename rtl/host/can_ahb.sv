@@ -23,6 +23,10 @@ module can_ahb #(
   parameter int Extras = 1,
   /// zeros in the RAM of the buffers after a hard reset: without, software has to clear it.
   parameter int ClearRam = 1,
+  /// The time unit, docs/time.md: 1 with, 0 without.
+  parameter int TimeUnit = 0,
+  /// Increment of its clock after a hard reset: 39:32 ns, 31:0 in 2^-32 ns a clock; 20 ns: 50 MHz.
+  parameter logic [39:0] TimeInc = 40'h14_0000_0000,
   /// Size of the region that hsel stands for, as a number of address bits, 13 to 32; address bits
   /// above are not looked at, those down to 13 must be zero.
   parameter int RegionBits = 16,
@@ -53,6 +57,9 @@ module can_ahb #(
   output logic        irq_twrn_o,
   output logic        irq_rwrn_o,
   output logic        irq_wak_o,
+  input  logic        ext_i,         // time unit: external event, asynchronous
+  output logic        time_out_o,    // ... output of the compare unit, a pulse a second if wanted
+  output logic        irq_time_o,    // ... interrupt, not part of irq_o
   input  logic        stop_req_i,    // the system wants stop mode; in step with hclk
   input  logic        can_rx_i,
   output logic        can_tx_o,
@@ -101,13 +108,14 @@ module can_ahb #(
 
   can_top #(
     .NumMb(NumMb), .Fifo(Fifo), .Abort(Abort), .Status(Status), .OwnMasks(OwnMasks), .Wake(Wake),
-    .Extras(Extras), .ClearRam(ClearRam), .WakeFilter(WakeFilter)
+    .Extras(Extras), .ClearRam(ClearRam), .TimeUnit(TimeUnit), .TimeInc(TimeInc),
+    .WakeFilter(WakeFilter)
   ) u_top (
     .clk_i(hclk), .rst_ni(hresetn),
     .req_i(taken), .cancel_i(bad || denied), .we_i(hwrite), .addr_i(haddr[12:2]), .be_i(be),
     .wdata_i(hwdata),
     .rdata_o(rdata), .ready_o(ready),
     .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o,
-    .stop_req_i, .supv_o(supv),
+    .ext_i, .time_out_o, .irq_time_o, .stop_req_i, .supv_o(supv),
     .can_rx_i, .can_tx_o, .trace_o);
 endmodule

@@ -22,6 +22,10 @@ module can_top #(
   parameter int Extras = 1,
   /// zeros in the RAM of the buffers after a hard reset: without, software has to clear it.
   parameter int ClearRam = 1,
+  /// The time unit, docs/time.md: 1 with, 0 without.
+  parameter int TimeUnit = 0,
+  /// Increment of its clock after a hard reset: 39:32 ns, 31:0 in 2^-32 ns a clock; 20 ns: 50 MHz.
+  parameter logic [39:0] TimeInc = 40'h14_0000_0000,
   /// Clocks that the bus must be dominant to wake the core through the filter (MCR.WAK_SRC).
   parameter int WakeFilter = 6
 ) (
@@ -44,6 +48,10 @@ module can_top #(
   output logic        irq_twrn_o,
   output logic        irq_rwrn_o,
   output logic        irq_wak_o,
+  // Time unit: external event, asynchronous; output of the compare unit; interrupt of its own.
+  input  logic        ext_i,
+  output logic        time_out_o,
+  output logic        irq_time_o,
   // System: stop mode wanted, in step with clk_i; and MCR.SUPV for the bus adapter.
   input  logic        stop_req_i,
   output logic        supv_o,
@@ -57,9 +65,9 @@ module can_top #(
     NumMb_must_be_16_32_or_64 u_stop ();   // no such module: the tool prints the name and stops
   end
 
-  if (((Fifo | Abort | Status | OwnMasks | Wake | Extras | ClearRam) & ~1) != 0)
+  if (((Fifo | Abort | Status | OwnMasks | Wake | Extras | ClearRam | TimeUnit) & ~1) != 0)
   begin : gen_check_features
-    Fifo_Abort_Status_OwnMasks_Wake_Extras_ClearRam_must_be_0_or_1 u_stop ();
+    Fifo_Abort_Status_OwnMasks_Wake_Extras_ClearRam_TimeUnit_must_be_0_or_1 u_stop ();
   end
   // As XCONFIG tells it.
   localparam logic [31:0] Config = 32'(NumMb)
@@ -68,10 +76,11 @@ module can_top #(
       | 32'(OwnMasks) << can_regs_pkg::XconfigOwnmasks | 32'(Extras) << can_regs_pkg::XconfigExtras
       | 32'(Extras)   << can_regs_pkg::XconfigOsmb     | 32'(Extras) << can_regs_pkg::XconfigOneshot
       | 32'(Extras)   << can_regs_pkg::XconfigFdtol
-      | 32'(ClearRam) << can_regs_pkg::XconfigClearram;
+      | 32'(ClearRam) << can_regs_pkg::XconfigClearram
+      | 32'(TimeUnit) << can_regs_pkg::XconfigTime;
 
   // Where a command goes: buffers, masks and TIMER to the mailbox, the rest to the registers.
-  logic       req, in_mb, in_mask, in_gmask, in_timer, in_rxfir, to_mb, wr_ok, frz_ack;
+  logic       req, in_mb, in_mask, in_gmask, in_timer, in_rxfir, in_stamp, to_mb, wr_ok, frz_ack;
   logic [1:0] mem_sel, word;
   logic [3:0] hi;
   logic [6:0] mb_idx;
@@ -87,9 +96,11 @@ module can_top #(
                  || (Fifo != 0 && addr_i == can_regs_pkg::RxfgmaskAddr);
   assign in_timer = addr_i == can_regs_pkg::TimerAddr;
   assign in_rxfir = Fifo != 0 && addr_i == can_regs_pkg::RxfirAddr;
-  assign to_mb    = in_mb || in_mask || in_gmask || in_timer || in_rxfir;
+  // Stamps begin at 0x1400, 8 bytes a buffer.
+  assign in_stamp = TimeUnit != 0 && addr_i[12:10] == 3'b101 && {1'b0, addr_i[9:3]} < 8'(NumMb);
+  assign to_mb    = in_mb || in_mask || in_gmask || in_timer || in_rxfir || in_stamp;
   // masks: in freeze mode only
-  assign wr_ok    = in_mb || in_timer || (frz_ack && !in_rxfir);
+  assign wr_ok    = in_mb || in_timer || (frz_ack && !in_rxfir && !in_stamp);
 
   // Global masks are hidden rows: of the masks' memory, or of the MSG memory (can_mailbox).
   logic [1:0]      gmask;
@@ -109,6 +120,9 @@ module can_top #(
       mem_sel = 2'd0;
       word = 2'd1;
       idx  = '0;
+    end else if (in_stamp) begin
+      word = {1'b1, addr_i[2]};
+      idx  = addr_i[3 +: IdxW];
     end
   end
 
@@ -131,7 +145,16 @@ module can_top #(
     end
   end
   assign ready_o = mb_ready;
-  assign rdata_o = reg_rdata | mb_rdata;
+  assign rdata_o = reg_rdata | mb_rdata | time_reg_rdata;
+
+  // Registers of the time unit, 0x1100 to 0x117F.
+  logic        in_time, time_rd_q, time_wr_q;
+  logic [31:0] time_reg_rdata;
+  assign in_time = TimeUnit != 0 && addr_i[12:7] == 6'b100010;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)      {time_rd_q, time_wr_q} <= '0;
+    else if (ready_o) {time_rd_q, time_wr_q} <= {req && !we_i && in_time, req && we_i && in_time};
+  end
 
   // Wires between the blocks; names as at the blocks.
   logic        run, clear, running, stop_ok, mb_busy, mb_scrub;
@@ -184,6 +207,30 @@ module can_top #(
     .idle_i(idle), .transmitter_i(transmitter), .receiver_i(receiver), .synch_i(synch),
     .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o);
 
+  // Time unit; what moves with every clock is in can_core.
+  logic [can_pkg::TimeCmdWidth-1:0]  time_cmd;
+  logic [can_pkg::TimeStatWidth-1:0] time_stat;
+  logic [63:0] time_data, time_stamp;
+  logic [2:0]  time_word;
+  logic [31:0] time_rdata, tctrl, tcmph, ttx;
+  logic [5:0]  time_mb;
+  logic        time_stamp_we, time_stamp_tx, time_wait;
+  if (TimeUnit != 0) begin : gen_time
+    can_time_regs u_time_regs (
+      .clk_i, .rst_ni,
+      .ask_i(req && !we_i && in_time && ready_o), .ask_addr_i(addr_i[6:2]),
+      .rd_i(time_rd_q), .wr_i(time_wr_q), .addr_i(reg_addr_q[4:0]), .be_i(reg_be_q), .wdata_i,
+      .rdata_o(time_reg_rdata),
+      .cmd_o(time_cmd), .data_o(time_data), .word_o(time_word), .word_i(time_rdata),
+      .tctrl_o(tctrl), .tcmph_o(tcmph), .ttx_o(ttx), .stat_i(time_stat), .mb_o(time_mb),
+      .ext_i, .time_out_o, .irq_o(irq_time_o));
+  end else begin : gen_no_time
+    assign {time_cmd, time_data, time_word, tctrl, tcmph, ttx, time_mb} = '0;
+    assign {time_reg_rdata, time_out_o, irq_time_o} = '0;
+    logic unused_time;
+    assign unused_time = &{1'b0, ext_i, time_rd_q, time_wr_q, time_stat, time_rdata};
+  end
+
   if (Wake != 0) begin : gen_wake
     can_wake #(.FilterClocks(WakeFilter)) u_wake (
       .clk_i, .rst_ni, .enable_i(wake_en), .filter_i(wake_filter), .rx_i(rx_level),
@@ -196,7 +243,7 @@ module can_top #(
 
   can_mailbox #(
     .NumMb(NumMb), .Fifo(Fifo), .Abort(Abort), .Status(Status), .OwnMasks(OwnMasks),
-    .ClearRam(ClearRam)
+    .ClearRam(ClearRam), .TimeUnit(TimeUnit)
   ) u_mailbox (
     .clk_i, .rst_ni,
     .running_i(running), .lpm_i(lpm_ack), .clear_i(clear), .bcc_i(bcc),
@@ -207,7 +254,7 @@ module can_top #(
     .fifo_pop_i(fifo_pop), .fifo_avail_o(fifo_avail), .fifo_warn_o(fifo_warn),
     .fifo_ovf_o(fifo_ovf), .iflag_i(iflag), .esr2_o(esr2), .crcr_o(crcr),
     .busy_o(mb_busy), .scrub_o(mb_scrub),
-    .cmd_slot_i(req_i && !we_i && !addr_i[12]),
+    .cmd_slot_i(req_i && !we_i && (!addr_i[12] || (TimeUnit != 0 && addr_i[10]))),
     .cmd_rd_i(req && !we_i && to_mb), .cmd_wr_i(req && we_i && to_mb && wr_ok),
     .cmd_mem_sel_i(mem_sel), .cmd_word_i(word), .cmd_idx_i(idx), .cmd_be_i(be_i),
     .wdata_i, .ready_o(mb_ready), .rdata_o(mb_rdata), .flag_o(flag), .flag_idx_o(flag_idx),
@@ -220,9 +267,11 @@ module can_top #(
     .start_i(start), .stamp_i(stamp), .rx_hdr_i(rx_hdr), .rx_id_i(rx_id), .rx_ide_i(rx_ide),
     .rx_srr_i(rx_srr),
     .rx_rtr_i(rx_rtr), .rx_dlc_i(rx_dlc), .rx_byte_we_i(rx_byte_we), .rx_byte_i(rx_byte),
-    .rx_valid_i(rx_valid));
+    .rx_valid_i(rx_valid), .time_stamp_i(time_stamp), .time_stamp_we_i(time_stamp_we),
+    .time_stamp_tx_i(time_stamp_tx), .time_held_i(time_stat[can_pkg::TimeStatHeld]),
+    .time_mb_i(time_mb), .time_wait_o(time_wait));
 
-  can_core u_core (
+  can_core #(.TimeUnit(TimeUnit), .TimeInc(TimeInc)) u_core (
     .clk_i, .rst_ni,
     .run_i(run), .running_o(running), .stop_ok_o(stop_ok), .gap_o(gap), .crc_o(crc),
     .presdiv_i(presdiv), .rjw_i(rjw), .pseg1_i(pseg1), .pseg2_i(pseg2), .propseg_i(propseg),
@@ -238,5 +287,10 @@ module can_top #(
     .start_o(start), .stamp_o(stamp), .rx_hdr_o(rx_hdr), .rx_id_o(rx_id), .rx_ide_o(rx_ide),
     .rx_srr_o(rx_srr),
     .rx_rtr_o(rx_rtr), .rx_dlc_o(rx_dlc), .rx_byte_we_o(rx_byte_we), .rx_byte_o(rx_byte),
-    .rx_valid_o(rx_valid), .can_rx_i, .can_tx_o, .trace_o);
+    .rx_valid_o(rx_valid),
+    .time_cmd_i(time_cmd), .time_data_i(time_data), .time_word_i(time_word),
+    .time_rdata_o(time_rdata), .time_tctrl_i(tctrl), .time_tcmph_i(tcmph), .time_ttx_i(ttx),
+    .time_wait_i(time_wait), .time_stat_o(time_stat), .time_stamp_o(time_stamp),
+    .time_stamp_we_o(time_stamp_we), .time_stamp_tx_o(time_stamp_tx),
+    .can_rx_i, .can_tx_o, .trace_o);
 endmodule

@@ -18,6 +18,7 @@ module can_mailbox #(
   parameter int Status = 1,
   parameter int OwnMasks = 1,
   parameter int ClearRam = 1,
+  parameter int TimeUnit = 0,
   /// Derived, do not override.
   localparam int IdxW = $clog2(NumMb)
 ) (
@@ -97,7 +98,15 @@ module can_mailbox #(
   input  logic [3:0]      rx_dlc_i,
   input  logic            rx_byte_we_i,
   input  logic [7:0]      rx_byte_i,
-  input  logic            rx_valid_i
+  input  logic            rx_valid_i,
+  // Stamp of the frame on the bus, see can_time.
+  input  logic [63:0]     time_stamp_i,
+  input  logic            time_stamp_we_i,
+  input  logic            time_stamp_tx_i,
+  // Held buffer (TM-40); wait_o: its frame is the one that is presented.
+  input  logic            time_held_i,
+  input  logic [5:0]      time_mb_i,
+  output logic            time_wait_o
 );
   localparam logic [1:0] MemCs = 2'd0;
 
@@ -123,10 +132,11 @@ module can_mailbox #(
   logic            mv_busy_mb, mv_flag;
   logic [IdxW-1:0] mv_idx;
   logic [2:0]      fifo_head;
-  can_mb_cpu #(.NumMb(NumMb)) u_cpu (
+  can_mb_cpu #(.NumMb(NumMb), .TimeUnit(TimeUnit)) u_cpu (
     .clk_i, .rst_ni, .scrub_i(scrub_o), .fen_i, .aen_i, .osmb_i, .first_i(first),
     .head_i(fifo_head),
-    .cmd_wr_i, .cmd_mb_i(!cmd_mem_sel_i[1]), .cmd_idx_i,
+    .cmd_wr_i, .cmd_mb_i(!cmd_mem_sel_i[1]),
+    .cmd_stamp_i(TimeUnit != 0 && cmd_mem_sel_i == 2'd3 && cmd_word_i[1]), .cmd_idx_i,
     .cmd_wr_o(cmd_wr), .cmd_look_o(cmd_look), .cmd_idx_o(cmd_idx),
     .ready_i(ready_o), .rd_done_i(rd_done), .wr_done_i(wr_done), .block_i(block),
     .mem_sel_i(cpu_mem_sel),
@@ -179,6 +189,12 @@ module can_mailbox #(
     .pop_i(fifo_pop_i), .head_o(fifo_head), .avail_o(fifo_avail_o), .warn_o(fifo_warn_o),
     .ovf_o(fifo_ovf_o));
 
+  // Stamps.
+  logic            stamp_busy, stamp_re, stamp_cpu, stamp_again, stamp_meets, stamp_shown, mine;
+  logic [IdxW:0]   stamp_row, stamp_cmd_row;
+  logic [IdxW+1:0] scrub_row;
+  logic [31:0]     stamp_rdata;
+
   logic            smb, rx_wr_req, rx_wr_gnt, rx_wr_owed, rx_wr_cs, flags_busy;
   logic [3:0]      rx_wr_be;
   logic [IdxW+1:0] rx_wr_row;
@@ -198,7 +214,7 @@ module can_mailbox #(
   can_mb_move #(.NumMb(NumMb)) u_move (
     .clk_i, .rst_ni, .clear_i(fifo_clear_i), .start_i, .rx_hdr_i,
     .valid_i(rx_valid_i && !(transmitter_i && srx_dis_i)), .hold_i(flags_busy || serviced_req
-    || lpm_i),
+    || lpm_i || stamp_busy),
     .smb_o(smb),
     .match_done_i(match_done), .hit_i(hit), .hit_idx_i(hit_idx), .hit_fifo_i(hit_fifo),
     .hit_ans_i(hit_ans), .idhit_i(idhit), .resolve_o(resolve),
@@ -213,6 +229,9 @@ module can_mailbox #(
     .busy_o(mv_busy));
 
   // Transmission.
+  logic            held;
+  assign held        = time_held_i && {1'b0, time_mb_i} < 7'(NumMb);
+  assign time_wait_o = TimeUnit != 0 && time_mb_i == 6'(cur_idx);
   logic            ins_req, ins_gnt, scan_req, scan_lazy, scan_gnt, settled, retry;
   logic            retry_busy, inactive;
   logic            started, off;
@@ -225,6 +244,7 @@ module can_mailbox #(
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
     .cs_written_act_i(cs_written_act), .ans_i(ans), .ans_idx_i(mv_idx),
     .off_i(off), .cur_idx_i(cur_idx), .start_i(started), .retry_i(retry), .inactive_i(inactive),
+    .held_i(held), .held_idx_i(time_mb_i[IdxW-1:0]),
     .fresh_i(timer_i[9:0] == '0),
     .ins_req_o(ins_req), .ins_idx_o(ins_idx), .ins_gnt_i(ins_gnt),
     .scan_req_o(scan_req), .scan_lazy_o(scan_lazy), .scan_idx_o(scan_idx),
@@ -249,7 +269,7 @@ module can_mailbox #(
     .out_o(out), .kept_o(kept), .done_o(done), .off_o(off),
     .tick_req_o, .tick_i, .start_i, .transmitter_i,
     .tx_req_o, .tx_ide_o, .tx_rtr_o, .tx_dlc_o, .tx_word_o, .tx_next_i, .tx_ok_i, .tx_fail_i,
-    .started_o(started), .cur_idx_o(cur_idx),
+    .started_o(started), .cur_idx_o(cur_idx), .mine_o(mine),
     .req_o(ld_req), .step_o(ld_step), .row_o(ld_row), .ld_idx_o(ld_idx), .word_o(ld_word),
     .flight_i(flight), .data_i(ld_data), .data_step_i(data_step), .cs_i(cs), .msg_i(msg),
     .cancel_o(ld_cancel), .code_o(ld_code), .flag_o(ld_flag), .sent_o(sent), .take_o(ld_take),
@@ -308,7 +328,9 @@ module can_mailbox #(
     .copy_data_o(copy_data));
 
   // Without aborts no write waits for its buffer's C/S word.
-  can_mb_port #(.NumMb(NumMb), .OwnMasks(OwnMasks), .ClearRam(ClearRam)) u_port (
+  can_mb_port #(
+    .NumMb(NumMb), .OwnMasks(OwnMasks), .ClearRam(ClearRam), .TimeUnit(TimeUnit)
+  ) u_port (
     .clk_i, .rst_ni,
     .cmd_slot_i, .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_look_i(cmd_look && Abort != 0), .cmd_mem_sel_i,
     .cmd_word_i, .cmd_idx_i(cmd_idx), .cmd_be_i, .look_i(aen_i || Abort == 0), .wdata_i(ram_wdata),
@@ -325,7 +347,29 @@ module can_mailbox #(
     .serviced_gnt_o(serviced_gnt),
     .rx_wr_req_i(rx_wr_req), .rx_wr_cs_i(rx_wr_cs), .rx_wr_be_i(rx_wr_be), .rx_wr_row_i(rx_wr_row),
     .rx_wr_data_i(rx_wr_data), .rx_wr_gnt_o(rx_wr_gnt), .rx_wr_owed_o(rx_wr_owed),
-    .scrub_o, .cs_written_i(cs_written));
+    .stamp_re_o(stamp_re), .stamp_cpu_o(stamp_cpu), .stamp_row_o(stamp_row),
+    .stamp_again_o(stamp_again), .stamp_cmd_row_o(stamp_cmd_row), .stamp_meets_i(stamp_meets),
+    .stamp_shown_i(stamp_shown), .stamp_rdata_i(stamp_rdata),
+    .scrub_o, .scrub_row_o(scrub_row), .cs_written_i(cs_written));
+
+  if (TimeUnit != 0) begin : gen_stamp
+    can_mb_stamp #(.NumMb(NumMb)) u_stamp (
+      .clk_i, .rst_ni, .scrub_i(scrub_o), .scrub_row_i(scrub_row),
+      .start_i, .rx_valid_i, .stamp_i(time_stamp_i), .we_i(time_stamp_we_i),
+      .own_i(time_stamp_tx_i), .cur_idx_i(cur_idx), .mine_i(mine), .smb_i(smb),
+      .busy_o(stamp_busy),
+      .re_i(stamp_re), .cpu_i(stamp_cpu), .cpu_row_i(stamp_row), .again_i(stamp_again),
+      .cmd_row_i(stamp_cmd_row), .meets_o(stamp_meets), .shown_o(stamp_shown),
+      .rdata_o(stamp_rdata),
+      .mv_step_i(mv_step), .mv_row_i(mv_row), .mv_idx_i(mv_idx), .mv_data_i(mv_data),
+      .mv_cancel_i(mv_cancel));
+  end else begin : gen_no_stamp
+    assign {stamp_busy, stamp_meets, stamp_shown} = '0;
+    assign stamp_rdata = '0;
+    logic unused_stamp;
+    assign unused_stamp = &{1'b0, time_stamp_i, time_stamp_we_i, time_stamp_tx_i, mine, scrub_row,
+                            stamp_re, stamp_cpu, stamp_row, stamp_again, stamp_cmd_row};
+  end
 
   assign flag_o     = mv_flag || ld_flag || ab_flag;
   assign flag_idx_o = mv_flag ? mv_idx : ld_flag ? cur_idx : ab_idx;

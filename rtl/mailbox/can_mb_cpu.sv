@@ -10,6 +10,7 @@
 
 module can_mb_cpu #(
   parameter int NumMb = 64,
+  parameter int TimeUnit = 0,
   /// Derived, do not override.
   localparam int IdxW = $clog2(NumMb)
 ) (
@@ -24,6 +25,7 @@ module can_mb_cpu #(
   // Command, as of can_mailbox.
   input  logic            cmd_wr_i,
   input  logic            cmd_mb_i,      // a word of a buffer, or RXFIR
+  input  logic            cmd_stamp_i,   // a word of a buffer's stamp
   input  logic [IdxW-1:0] cmd_idx_i,
   output logic            cmd_wr_o,      // without those that are ignored
   output logic            cmd_look_o,    // it is a mailbox: AEN may keep it from being written
@@ -34,7 +36,7 @@ module can_mb_cpu #(
   input  logic            wr_done_i,
   input  logic            block_i,       // it does not take place
   input  logic [1:0]      mem_sel_i,
-  input  logic            rxfir_i,
+  input  logic            rxfir_i,       // mem_sel 0: RXFIR, not C/S; 3: TIMER, not a stamp
   input  logic [IdxW-1:0] idx_i,
   input  logic [3:0]      be_i,
   input  logic [31:0]     wdata_i,
@@ -65,7 +67,8 @@ module can_mb_cpu #(
   assign in_ring   = fen_i && cmd_mb_i && cmd_idx_i[IdxW-1:3] == '0 && cmd_idx_i[2:1] != 2'b11;
   assign cmd_wr_o  = cmd_wr_i && !in_ring;
   assign cmd_look_o = cmd_mb_i && !in_area;
-  assign cmd_idx_o = fen_i && cmd_mb_i && cmd_idx_i == '0 ? IdxW'(head_i) : cmd_idx_i;
+  assign cmd_idx_o = fen_i && (cmd_mb_i || cmd_stamp_i) && cmd_idx_i == '0 ? IdxW'(head_i)
+                                                                           : cmd_idx_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)      {area_q, ring_q} <= '0;
@@ -78,8 +81,8 @@ module can_mb_cpu #(
   assign is_cs      = mem_sel_i == MemCs;
   assign code       = wdata_i[27:24];
   assign raw_o      = area_q && !ring_q;
-  assign timer_rd_o = rd_done_i && mem_sel_i == MemTimer;
-  assign timer_wr_o = wr_done_i && mem_sel_i == MemTimer;
+  assign timer_rd_o = rd_done_i && mem_sel_i == MemTimer && (rxfir_i || TimeUnit == 0);
+  assign timer_wr_o = wr_done_i && mem_sel_i == MemTimer && (rxfir_i || TimeUnit == 0);
   assign cs_rd_o    = rd_done_i && is_cs && !area_q;
   assign mb_wr      = wr_done_i && !area_q && !scrub_i;
   assign cs_wr      = mb_wr && is_cs && !block_i;

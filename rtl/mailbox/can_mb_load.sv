@@ -59,6 +59,7 @@ module can_mb_load #(
   // Frame on the bus.
   output logic            started_o,     // pulse
   output logic [IdxW-1:0] cur_idx_o,
+  output logic            mine_o,        // it is the buffer's still: not rewritten meanwhile
   // Steps: 0 next word to the engine, 1 end of a frame, 2/3 copy of bytes 0-3/4-7, 4 C/S and ID.
   output logic            req_o,
   output logic [2:0]      step_o,
@@ -113,6 +114,7 @@ module can_mb_load #(
                    && !started_o && !head_bad;
   assign head_taken = head_seen && cs_i[27:26] == 2'b11 && !cs_i[24];
   // Not active: a winner by upset. But one that was aborted meanwhile has made way for another.
+  assign mine_o     = on_bus_q && !orphan_q;
   assign inactive_o = inactive_q && best_idx_i == ld_idx_o;
   assign req_o   = word_q || end_q || state_q == StLow || state_q == StHigh
                 || (state_q == StHead && head_ok);

@@ -19,6 +19,7 @@ module can_mb_port #(
   /// Features, see can_top.
   parameter int OwnMasks = 1,
   parameter int ClearRam = 1,
+  parameter int TimeUnit = 0,
   /// Derived, do not override.
   localparam int IdxW = $clog2(NumMb)
 ) (
@@ -26,7 +27,7 @@ module can_mb_port #(
   input  logic            rst_ni,
   // CPU, command: only while ready_o. mem_sel: 0 C/S (word 3; 1: RXFIR, the same row), 1 ID or data
   // (word 0..2), 2 mask (word[0]: hidden row; without OwnMasks word 3 of the MSG memory), 3 no RAM,
-  // but ordered like one (TIMER).
+  // but ordered like one (TIMER); with word[1] a stamp (word[0]: upper half).
   input  logic            cmd_slot_i,   // cmd_rd_i may be set: early, for who gets the read port
   input  logic            cmd_rd_i,
   input  logic            cmd_wr_i,
@@ -46,7 +47,7 @@ module can_mb_port #(
   output logic            wr_done_o,    // ... in this clock
   output logic            waited_o,     // ... and has waited for it; cs_o is what it has read
   output logic [1:0]      mem_sel_o,
-  output logic            rxfir_o,      // mem_sel 0: RXFIR, not C/S
+  output logic            rxfir_o,      // mem_sel 0: RXFIR, not C/S; 3: TIMER, not a stamp
   output logic [IdxW-1:0] idx_o,
   output logic [3:0]      be_o,
   // Engine reads; data in the clock after the grant.
@@ -85,8 +86,18 @@ module can_mb_port #(
   input  logic [31:0]     rx_wr_data_i,
   output logic            rx_wr_gnt_o,
   output logic            rx_wr_owed_o,   // one was refused: no copy is to begin
+  // Memory of the stamps, see can_mb_stamp.
+  output logic            stamp_re_o,
+  output logic            stamp_cpu_o,
+  output logic [IdxW:0]   stamp_row_o,
+  output logic            stamp_again_o,
+  output logic [IdxW:0]   stamp_cmd_row_o,
+  input  logic            stamp_meets_i,
+  input  logic            stamp_shown_i,
+  input  logic [31:0]     stamp_rdata_i,
   // After a hard reset: every row is written once, whatever else goes on.
   output logic            scrub_o,
+  output logic [IdxW+1:0] scrub_row_o,
   input  logic            cs_written_i         // a C/S write ended in the clock before
 );
   localparam logic [1:0] MemCs    = 2'd0;
@@ -184,6 +195,10 @@ module can_mb_port #(
     in_msg = OwnMasks == 0 && mem_sel == MemMask;
   endfunction
 
+  function automatic logic of_stamp(input logic [1:0] mem_sel, input logic high_word);
+    of_stamp = TimeUnit != 0 && mem_sel == MemTimer && high_word;
+  endfunction
+
   // The word that is written: memory, row, byte lanes, data. Who writes is known early; whether it
   // is written at all, late.
   logic            by_copy, w_cs, w_msg, w_mask;
@@ -224,15 +239,17 @@ module can_mb_port #(
   // Does it meet the CPU's read? Its lanes do not count: they come late. A read that has waited
   // meets a copy alone; a write that waits reads its C/S word.
   logic meets, shown;
-  assign meets = (copy_i || ram_wr || serviced_req_i)
+  assign meets = (stamp_meets_i && of_stamp(cmd_mem_sel_i, cmd_word_i[1]))
+              || ((copy_i || ram_wr || serviced_req_i)
               && ((w_cs && cmd_mem_sel_i == MemCs && w_row[IdxW:0] == {1'b0, cmd_idx_i})
                   || (w_msg && (cmd_mem_sel_i == MemMsg || in_msg(cmd_mem_sel_i))
                       && w_row == {cmd_word_i, cmd_idx_i})
                   || (OwnMasks != 0 && w_mask && cmd_mem_sel_i == MemMask
-                      && w_row[IdxW:0] == {cmd_word_i[0], cmd_idx_i}));
-  assign shown = pend && copy_i && copy_row_i[IdxW-1:0] == idx_q
+                      && w_row[IdxW:0] == {cmd_word_i[0], cmd_idx_i})));
+  assign shown = (pend && copy_i && copy_row_i[IdxW-1:0] == idx_q
               && (copy_cs_i ? (wr_q || mem_sel_q == MemCs) && !copy_row_i[IdxW]
-                            : !wr_q && mem_sel_q == MemMsg && copy_row_i[IdxW+1:IdxW] == word_q);
+                            : !wr_q && mem_sel_q == MemMsg && copy_row_i[IdxW+1:IdxW] == word_q))
+              || (pend && stamp_shown_i && of_stamp(mem_sel_q, word_q[1]));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -251,6 +268,12 @@ module can_mb_port #(
   // Who reads nothing does not mind; that the outputs stay is asked for by those who say so.
   logic re;
   assign re = !hold_o && !shown;
+  assign stamp_re_o      = re;
+  assign stamp_cpu_o     = cpu_gnt;
+  assign stamp_row_o     = {c_word[0], c_idx};
+  assign stamp_again_o   = pend;
+  assign stamp_cmd_row_o = {cmd_word_i[0], cmd_idx_i};
+  assign scrub_row_o     = scrub_row_q;
   can_mb_ram #(.Depth(2 * NumMb)) u_cs (
     .clk_i, .re_i(re), .raddr_i(cs_raddr), .rdata_o(cs_o),
     .we_i(w_be & {4{w_cs}}), .waddr_i(w_row[IdxW:0]), .wdata_i(w_data));
@@ -274,7 +297,7 @@ module can_mb_port #(
         MemCs:   rdata_o = cs_o;
         MemMsg:  rdata_o = msg_o;
         MemMask: rdata_o = mask_o;
-        default:  ;
+        default: if (of_stamp(mem_sel_q, word_q[1])) rdata_o = stamp_rdata_i;
       endcase
     end
   end

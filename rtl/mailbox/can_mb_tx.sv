@@ -42,6 +42,9 @@ module can_mb_tx #(
   input  logic            start_i,      // buffer cur_idx_i goes on the bus
   input  logic            retry_i,      // ... has left it, and may be active still
   input  logic            inactive_i,        // the winner was not active after all
+  // Buffer held_idx_i gives way to all others (launch time, TM-41).
+  input  logic            held_i,
+  input  logic [IdxW-1:0] held_idx_i,
   // Now and then: look at all buffers again if there is no winner.
   input  logic            fresh_i,
   // Read slots.
@@ -116,15 +119,26 @@ module can_mb_tx #(
   logic candidate, withdrawn, better;
   assign candidate = s2_q && s2_active_q && !(cs_written_i && cs_written_idx_i == s2_idx_q)
                   && !((off_i || start_i) && s2_idx_q == cur_idx_i);
-  // The winner is no longer what it was.
+  // The winner is no longer what it was. Whenever another buffer is held, or none, a new one is
+  // looked for: what the old one has beaten is not known.
+  logic            held_q, s2_held, best_held;
+  logic [IdxW-1:0] held_idx_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) {held_q, held_idx_q} <= '0;
+    else         {held_q, held_idx_q} <= {held_i, held_idx_i};
+  end
+  assign s2_held   = held_i && s2_idx_q == held_idx_i;
+  assign best_held = held_i && best_idx_o == held_idx_i;
   assign withdrawn   = best_q && ((cs_written_i && cs_written_idx_i == best_idx_o)
-                          || ((start_i || off_i) && cur_idx_i == best_idx_o) || inactive_i);
+                          || ((start_i || off_i) && cur_idx_i == best_idx_o) || inactive_i
+                          || held_q != held_i || (held_i && held_idx_q != held_idx_i));
   // In two halves side by side: one comparison of all bits is the longest path of the core.
   logic high_less, high_equal, low_less;
   assign high_less  = s2_val_q[34:17] < best_val_q[34:17];
   assign high_equal = s2_val_q[34:17] == best_val_q[34:17];
   assign low_less   = {s2_val_q[16:0], s2_idx_q} < {best_val_q[16:0], best_idx_o};
-  assign better = lbuf_i ? s2_idx_q < best_idx_o : high_less || (high_equal && low_less);
+  assign better = s2_held != best_held ? best_held
+                : lbuf_i ? s2_idx_q < best_idx_o : high_less || (high_equal && low_less);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -225,6 +225,10 @@ module can_remote #(
     .start_o(), .stamp_o(), .rx_hdr_o(rx_hdr), .rx_id_o(rx_id), .rx_ide_o(rx_ide), .rx_srr_o(),
     .rx_rtr_o(rx_rtr), .rx_dlc_o(rx_dlc), .rx_byte_we_o(rx_byte_we), .rx_byte_o(rx_byte),
     .rx_valid_o(rx_valid), .crc_o(),
+    .time_cmd_i(9'd0), .time_data_i(64'd0), .time_word_i(3'd0), .time_rdata_o(),
+    .time_tctrl_i(32'd0), .time_tcmph_i(32'd0), .time_ttx_i(32'd0), .time_wait_i(1'b0),
+    .time_stat_o(), .time_stamp_o(),
+    .time_stamp_we_o(), .time_stamp_tx_o(),
     .can_rx_i, .can_tx_o, .trace_o(trace)
   );
   assign trace_o = Trace != 0 ? trace : '0;

@@ -4,7 +4,10 @@
 // In place of can_core: an engine that says anything at any time. What is proven with it holds
 // whatever the engine does.
 
-module can_core (
+module can_core #(
+  parameter int TimeUnit = 0,
+  parameter logic [39:0] TimeInc = 40'h14_0000_0000
+) (
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        run_i,
@@ -62,6 +65,18 @@ module can_core (
   output logic [7:0]  rx_byte_o,
   output logic        rx_valid_o,
   output logic [14:0] crc_o,
+  input  logic [can_pkg::TimeCmdWidth-1:0] time_cmd_i,
+  input  logic [63:0] time_data_i,
+  input  logic [2:0]  time_word_i,
+  output logic [31:0] time_rdata_o,
+  input  logic [31:0] time_tctrl_i,
+  input  logic [31:0] time_tcmph_i,
+  input  logic [31:0] time_ttx_i,
+  input  logic        time_wait_i,
+  output logic [can_pkg::TimeStatWidth-1:0] time_stat_o,
+  output logic [63:0] time_stamp_o,
+  output logic        time_stamp_we_o,
+  output logic        time_stamp_tx_o,
   input  logic        can_rx_i,
   output logic        can_tx_o,
   output logic [can_pkg::TraceWidth-1:0] trace_o
@@ -127,6 +142,16 @@ module can_core (
   assign rx_valid_o = f_rx_valid;
   (* anyseq *) logic [14:0] f_crc;
   assign crc_o = f_crc;
+  (* anyseq *) logic [31:0] f_time_rdata;
+  assign time_rdata_o = f_time_rdata;
+  (* anyseq *) logic [can_pkg::TimeStatWidth-1:0] f_time_stat;
+  assign time_stat_o = f_time_stat;
+  (* anyseq *) logic [63:0] f_time_stamp;
+  assign time_stamp_o = f_time_stamp;
+  (* anyseq *) logic f_time_stamp_we;
+  assign time_stamp_we_o = f_time_stamp_we;
+  (* anyseq *) logic f_time_stamp_tx;
+  assign time_stamp_tx_o = f_time_stamp_tx;
   (* anyseq *) logic f_can_tx;
   assign can_tx_o = f_can_tx;
   (* anyseq *) logic [can_pkg::TraceWidth-1:0] f_trace;

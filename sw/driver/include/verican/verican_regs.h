@@ -557,7 +557,7 @@
 #define VERICAN_TCTRL_POINT_SET(value)          (((uint32_t)(value) & 0x3u) << 0)
 #define VERICAN_TCTRL_POINT_SOF                 0x0u /* start of frame */
 #define VERICAN_TCTRL_POINT_EDGE                0x1u /* reference edge */
-#define VERICAN_TCTRL_POINT_EOF                 0x2u /* sample point of EOF6, when a frame becomes valid */
+#define VERICAN_TCTRL_POINT_EOF                 0x2u /* sample point of EOF6 */
 
 /* TSTAT: Time: status. Only with TimeUnit. */
 #define VERICAN_TSTAT_OFFSET                    0x1108u

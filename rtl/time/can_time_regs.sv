@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_time_regs: the registers of the time unit, 0x1100 to 0x117F (TM-03, TM-30 to TM-40), its
+// flags and the external event. What is written becomes a command to can_time a clock later; what
+// moves with every clock is read from there, asked for in the address phase.
+
+module can_time_regs (
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  // CPU: a read is announced in the clock before its data phase. Addresses count words.
+  input  logic        ask_i,
+  input  logic [4:0]  ask_addr_i,
+  input  logic        rd_i,
+  input  logic        wr_i,
+  input  logic [4:0]  addr_i,
+  input  logic [3:0]  be_i,
+  input  logic [31:0] wdata_i,
+  output logic [31:0] rdata_o,
+  // can_time, see there.
+  output logic [can_pkg::TimeCmdWidth-1:0] cmd_o,
+  output logic [63:0] data_o,
+  output logic [2:0]  word_o,
+  input  logic [31:0] word_i,
+  output logic [31:0] tctrl_o,
+  output logic [31:0] tcmph_o,
+  output logic [31:0] ttx_o,
+  input  logic [can_pkg::TimeStatWidth-1:0] stat_i,
+  // Held buffer.
+  output logic [5:0]  mb_o,
+  // Pins and interrupt, level.
+  input  logic        ext_i,         // asynchronous
+  output logic        time_out_o,
+  output logic        irq_o
+);
+  // Addresses in the page: bits 6:2.
+  localparam logic [4:0] Tcap   = 5'h00;
+  localparam logic [4:0] Tctrl  = 5'h01;
+  localparam logic [4:0] Tstat  = 5'h02;
+  localparam logic [4:0] Timelo = 5'h04;
+  localparam logic [4:0] Timehi = 5'h05;
+  localparam logic [4:0] Tincn  = 5'h06;
+  localparam logic [4:0] Tincf  = 5'h07;
+  localparam logic [4:0] Tshlo  = 5'h08;
+  localparam logic [4:0] Tshhi  = 5'h09;
+  localparam logic [4:0] Tslew  = 5'h0A;
+  localparam logic [4:0] Tcmp   = 5'h0C;
+  localparam logic [4:0] Tcmph  = 5'h0D;
+  localparam logic [4:0] Ttx    = 5'h10;
+  localparam logic [4:0] Ttxmb  = 5'h11;
+  localparam logic [4:0] Textlo = 5'h14;
+  localparam logic [4:0] Texthi = 5'h15;
+
+  // Words that are asked for.
+  assign word_o = ask_addr_i[4] ? {2'b11, ask_addr_i[0]}                     // TEXTLO, TEXTHI
+                : ask_addr_i[3] ? {2'b10, ask_addr_i[2]}                     // TSLEW, TCMP
+                : {1'b0, ask_addr_i[1:0]};
+
+  // Whole words alone are written, but for TCTRL and TSTAT. The first of a pair waits here.
+  logic        wr_word, wr_ttxmb;
+  logic [31:0] first_q, second_q;
+  logic [30:0] tcmph_q;
+  logic [5:0]  cmd_q;
+  assign wr_word  = wr_i && be_i == '1;
+  assign wr_ttxmb = wr_word && addr_i == Ttxmb;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {first_q, second_q, ttx_o} <= '0;
+      tcmph_q <= '0;
+      mb_o    <= '0;
+      cmd_q   <= '0;
+    end else begin
+      if (wr_word && (addr_i == Timelo || addr_i == Tincn || addr_i == Tshlo)) first_q <= wdata_i;
+      if (wr_word) second_q <= wdata_i;
+      if (wr_word && addr_i == Tcmph) tcmph_q <= wdata_i[30:0];
+      if (wr_word && addr_i == Ttx)   ttx_o   <= wdata_i;
+      if (wr_ttxmb) mb_o <= wdata_i[can_regs_pkg::TtxmbMb +: can_regs_pkg::TtxmbMbW];
+      cmd_q[can_pkg::TimeSet]   <= wr_word && addr_i == Timehi;
+      cmd_q[can_pkg::TimeShift] <= wr_word && addr_i == Tshhi;
+      cmd_q[can_pkg::TimeRate]  <= wr_word && addr_i == Tincf;
+      cmd_q[can_pkg::TimeSlew]  <= wr_word && addr_i == Tslew;
+      cmd_q[can_pkg::TimeArm]   <= wr_word && addr_i == Tcmp;
+      cmd_q[can_pkg::TimeHold]  <= wr_ttxmb;
+    end
+  end
+  assign data_o  = {second_q, first_q};
+  assign tcmph_o = {1'b0, tcmph_q};
+
+  // TCTRL.
+  can_reg #(
+    .Reset(can_regs_pkg::TctrlReset), .Any(can_regs_pkg::TctrlAny)
+  ) u_tctrl (
+    .clk_i, .rst_ni, .clear_i(1'b0), .frz_ack_i(1'b0), .lpm_ack_i(1'b0), .wrn_en_i(1'b0),
+    .we_i(wr_i && addr_i == Tctrl), .be_i, .wdata_i, .value_o(tctrl_o));
+
+  // External event: the clock in which the second flip-flop has changed.
+  (* ASYNC_REG = "TRUE" *)
+  (* altera_attribute = "-name SYNCHRONIZER_IDENTIFICATION FORCED_IF_ASYNCHRONOUS" *)
+  (* syn_preserve = 1, syn_replicate = 0 *)
+  logic meta_q, settled_q;
+  logic       last_q, event_now, take;
+  logic [5:0] flags_q, set, clear;   // TSTAT
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) {last_q, settled_q, meta_q} <= '0;
+    else         {last_q, settled_q, meta_q} <= {settled_q, meta_q, ext_i};
+  end
+  assign event_now = (settled_q && !last_q && tctrl_o[can_regs_pkg::TctrlExtr])
+                  || (!settled_q && last_q && tctrl_o[can_regs_pkg::TctrlExtf]);
+  assign take      = event_now && !flags_q[can_regs_pkg::TstatExt];
+
+  // Flags. A pulse beats the write that clears.
+  always_comb begin
+    set = '0;
+    set[can_regs_pkg::TstatExt]    = take;
+    set[can_regs_pkg::TstatExtovr] = event_now && !take;
+    set[can_regs_pkg::TstatCmp]    = stat_i[can_pkg::TimeStatMatch];
+    set[can_regs_pkg::TstatSlewd]  = stat_i[can_pkg::TimeStatSlewed];
+    set[can_regs_pkg::TstatTxrel]  = stat_i[can_pkg::TimeStatLaunch];
+  end
+  assign clear = wdata_i[5:0] & {6{wr_i && addr_i == Tstat && be_i[0]}};
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) flags_q <= '0;
+    else         flags_q <= (flags_q & ~clear) | set;
+  end
+
+  always_comb begin
+    cmd_o = '0;
+    cmd_o[can_pkg::TimeHold:0]  = cmd_q;
+    cmd_o[can_pkg::TimeHold]    = cmd_q[can_pkg::TimeHold] && second_q[can_regs_pkg::TtxmbHold];
+    cmd_o[can_pkg::TimeRelease] = cmd_q[can_pkg::TimeHold] && !second_q[can_regs_pkg::TtxmbHold];
+    cmd_o[can_pkg::TimeExt]     = take;
+    cmd_o[can_pkg::TimeRead]    = ask_i;
+  end
+
+  assign time_out_o = stat_i[can_pkg::TimeStatOut] && tctrl_o[can_regs_pkg::TctrlOuten];
+  assign irq_o = (flags_q[can_regs_pkg::TstatExt]   && tctrl_o[can_regs_pkg::TctrlExtie])
+              || (flags_q[can_regs_pkg::TstatCmp]   && tctrl_o[can_regs_pkg::TctrlCmpie])
+              || (flags_q[can_regs_pkg::TstatSlewd] && tctrl_o[can_regs_pkg::TctrlSlewie])
+              || (flags_q[can_regs_pkg::TstatTxrel] && tctrl_o[can_regs_pkg::TctrlTxie])
+              || (flags_q[can_regs_pkg::TstatSync]  && tctrl_o[can_regs_pkg::TctrlSyncie]);
+
+  always_comb begin
+    rdata_o = '0;
+    if (rd_i) begin
+      case (addr_i)
+        Tcap:  rdata_o = can_regs_pkg::TcapReset;
+        Tctrl: rdata_o = tctrl_o;
+        Tstat: begin
+          rdata_o[5:0] = flags_q;
+          rdata_o[can_regs_pkg::TstatSlewing] = stat_i[can_pkg::TimeStatSlewing];
+          rdata_o[can_regs_pkg::TstatHeld]    = stat_i[can_pkg::TimeStatHeld];
+          rdata_o[can_regs_pkg::TstatOut]     = stat_i[can_pkg::TimeStatOut];
+          rdata_o[can_regs_pkg::TstatCmpon]   = stat_i[can_pkg::TimeStatArmed];
+        end
+        Timelo, Timehi, Tincn, Tincf, Tslew, Tcmp, Textlo, Texthi: rdata_o = word_i;
+        Tcmph: rdata_o = tcmph_o;
+        Ttx:   rdata_o = ttx_o;
+        Ttxmb: begin
+          rdata_o[can_regs_pkg::TtxmbHold] = stat_i[can_pkg::TimeStatHeld];
+          rdata_o[can_regs_pkg::TtxmbMb +: can_regs_pkg::TtxmbMbW] = mb_o;
+        end
+        default: ;
+      endcase
+    end
+  end
+endmodule
