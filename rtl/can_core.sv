@@ -79,8 +79,9 @@ module can_core #(
   // Time unit, see can_time
   input  logic [can_pkg::TimeCmdWidth-1:0] time_cmd_i,
   input  logic [63:0] time_data_i,
-  input  logic [2:0]  time_word_i,
-  output logic [31:0] time_rdata_o,
+  output logic [63:0] time_now_o,
+  output logic [63:0] time_ext_o,
+  output logic [31:0] time_left_o,
   input  logic [31:0] time_tctrl_i,
   input  logic [31:0] time_tcmph_i,
   input  logic [31:0] time_ttx_i,
@@ -134,8 +135,8 @@ module can_core #(
 
   if (TimeUnit != 0) begin : gen_time
     can_time #(.TimeInc(TimeInc)) u_time (
-      .clk_i, .rst_ni, .cmd_i(time_cmd_i), .data_i(time_data_i), .word_i(time_word_i),
-      .rdata_o(time_rdata_o), .tctrl_i(time_tctrl_i), .tcmph_i(time_tcmph_i), .ttx_i(time_ttx_i),
+      .clk_i, .rst_ni, .cmd_i(time_cmd_i), .data_i(time_data_i),
+      .now_o(time_now_o), .ext_o(time_ext_o), .left_o(time_left_o), .tctrl_i(time_tctrl_i), .tcmph_i(time_tcmph_i), .ttx_i(time_ttx_i),
       .stat_o(time_stat_o),
       .rx_i(rx), .tx_i(tx_q), .sample_i(sample && active_q), .bit_i(bit_value), .field_i(field),
       .transmitter_i(transmitter_o), .sof_i(stamp_o), .rx_valid_i(rx_valid_o),
@@ -143,9 +144,9 @@ module can_core #(
     assign held = time_wait_i && time_stat_o[can_pkg::TimeStatHeld];
   end else begin : gen_no_time
     logic unused;
-    assign unused = &{1'b0, time_cmd_i, time_data_i, time_word_i, time_tctrl_i, time_tcmph_i,
+    assign unused = &{1'b0, time_cmd_i, time_data_i, time_tctrl_i, time_tcmph_i,
                       time_ttx_i, time_wait_i};
-    assign time_rdata_o = '0;
+    assign {time_now_o, time_ext_o, time_left_o} = '0;
     assign time_stat_o  = '0;
     assign time_stamp_o = '0;
     assign {time_stamp_we_o, time_stamp_tx_o, held} = '0;

@@ -83,17 +83,8 @@ package can_pkg;
   localparam int TimeHold    = 5;  // TTXMB.HOLD := 1
   localparam int TimeRelease = 6;  // TTXMB.HOLD := 0
   localparam int TimeExt     = 7;  // TIME of this clock is the external event's
-  localparam int TimeRead    = 8;  // the word that is asked for is in time_rdata_o from now on
+  localparam int TimeRead    = 8;  // TIME of this clock is read
   localparam int TimeCmdWidth = 9;
-  // Words that can be read.
-  localparam logic [2:0] TimeWordLo     = 3'd0;  // TIME[31:0]; keeps TIME[63:32] of the same clock
-  localparam logic [2:0] TimeWordHi     = 3'd1;  // ... for this one
-  localparam logic [2:0] TimeWordIncN   = 3'd2;
-  localparam logic [2:0] TimeWordIncF   = 3'd3;
-  localparam logic [2:0] TimeWordLeft   = 3'd4;
-  localparam logic [2:0] TimeWordTarget = 3'd5;
-  localparam logic [2:0] TimeWordExtLo  = 3'd6;
-  localparam logic [2:0] TimeWordExtHi  = 3'd7;
   // What it tells: levels, and pulses that set flags of TSTAT.
   localparam int TimeStatSlewing = 0;
   localparam int TimeStatHeld    = 1;

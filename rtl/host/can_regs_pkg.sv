@@ -302,15 +302,13 @@ package can_regs_pkg;
 
   // TINCN: Time: increment, whole ns
   localparam logic [10:0] TincnAddr         = 11'h446;
-  localparam logic [31:0] TincnReset        = 32'h0000_0014;
-  localparam logic [31:0] TincnAny          = 32'h0000_00FF;
+  localparam logic [31:0] TincnReset        = 32'h0000_0000;
   localparam int          TincnTincn        = 0;
   localparam int          TincnTincnW       = 8;
 
   // TINCF: Time: increment, fraction
   localparam logic [10:0] TincfAddr         = 11'h447;
   localparam logic [31:0] TincfReset        = 32'h0000_0000;
-  localparam logic [31:0] TincfAny          = 32'hFFFF_FFFF;
   localparam int          TincfTincf        = 0;
   localparam int          TincfTincfW       = 32;
 
@@ -336,21 +334,18 @@ package can_regs_pkg;
   // TCMP: Time: next event
   localparam logic [10:0] TcmpAddr          = 11'h44C;
   localparam logic [31:0] TcmpReset         = 32'h0000_0000;
-  localparam logic [31:0] TcmpAny           = 32'hFFFF_FFFF;
   localparam int          TcmpTcmp          = 0;
   localparam int          TcmpTcmpW         = 32;
 
   // TCMPH: Time: period of events
   localparam logic [10:0] TcmphAddr         = 11'h44D;
   localparam logic [31:0] TcmphReset        = 32'h0000_0000;
-  localparam logic [31:0] TcmphAny          = 32'h7FFF_FFFF;
   localparam int          TcmphTcmph        = 0;
   localparam int          TcmphTcmphW       = 31;
 
   // TTX: Time: launch time
   localparam logic [10:0] TtxAddr           = 11'h450;
   localparam logic [31:0] TtxReset          = 32'h0000_0000;
-  localparam logic [31:0] TtxAny            = 32'hFFFF_FFFF;
   localparam int          TtxTtx            = 0;
   localparam int          TtxTtxW           = 32;
 

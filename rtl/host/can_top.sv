@@ -210,25 +210,24 @@ module can_top #(
   // Time unit; what moves with every clock is in can_core.
   logic [can_pkg::TimeCmdWidth-1:0]  time_cmd;
   logic [can_pkg::TimeStatWidth-1:0] time_stat;
-  logic [63:0] time_data, time_stamp;
-  logic [2:0]  time_word;
-  logic [31:0] time_rdata, tctrl, tcmph, ttx;
+  logic [63:0] time_data, time_now, time_ext, time_stamp;
+  logic [31:0] time_left, tctrl, tcmph, ttx;
   logic [5:0]  time_mb;
   logic        time_stamp_we, time_stamp_tx, time_wait;
   if (TimeUnit != 0) begin : gen_time
     can_time_regs u_time_regs (
       .clk_i, .rst_ni,
-      .ask_i(req && !we_i && in_time && ready_o), .ask_addr_i(addr_i[6:2]),
+      .ask_i(req && !we_i && in_time && ready_o && addr_i[6:2] == can_regs_pkg::TimeloAddr[4:0]),
       .rd_i(time_rd_q), .wr_i(time_wr_q), .addr_i(reg_addr_q[4:0]), .be_i(reg_be_q), .wdata_i,
       .rdata_o(time_reg_rdata),
-      .cmd_o(time_cmd), .data_o(time_data), .word_o(time_word), .word_i(time_rdata),
+      .cmd_o(time_cmd), .data_o(time_data), .now_i(time_now), .ext_i(time_ext), .left_i(time_left),
       .tctrl_o(tctrl), .tcmph_o(tcmph), .ttx_o(ttx), .stat_i(time_stat), .mb_o(time_mb),
-      .ext_i, .time_out_o, .irq_o(irq_time_o));
+      .pin_i(ext_i), .time_out_o, .irq_o(irq_time_o));
   end else begin : gen_no_time
-    assign {time_cmd, time_data, time_word, tctrl, tcmph, ttx, time_mb} = '0;
+    assign {time_cmd, time_data, tctrl, tcmph, ttx, time_mb} = '0;
     assign {time_reg_rdata, time_out_o, irq_time_o} = '0;
     logic unused_time;
-    assign unused_time = &{1'b0, ext_i, time_rd_q, time_wr_q, time_stat, time_rdata};
+    assign unused_time = &{1'b0, ext_i, time_rd_q, time_wr_q, time_stat, time_now, time_ext, time_left};
   end
 
   if (Wake != 0) begin : gen_wake
@@ -288,8 +287,8 @@ module can_top #(
     .rx_srr_o(rx_srr),
     .rx_rtr_o(rx_rtr), .rx_dlc_o(rx_dlc), .rx_byte_we_o(rx_byte_we), .rx_byte_o(rx_byte),
     .rx_valid_o(rx_valid),
-    .time_cmd_i(time_cmd), .time_data_i(time_data), .time_word_i(time_word),
-    .time_rdata_o(time_rdata), .time_tctrl_i(tctrl), .time_tcmph_i(tcmph), .time_ttx_i(ttx),
+    .time_cmd_i(time_cmd), .time_data_i(time_data), .time_now_o(time_now),
+    .time_ext_o(time_ext), .time_left_o(time_left), .time_tctrl_i(tctrl), .time_tcmph_i(tcmph), .time_ttx_i(ttx),
     .time_wait_i(time_wait), .time_stat_o(time_stat), .time_stamp_o(time_stamp),
     .time_stamp_we_o(time_stamp_we), .time_stamp_tx_o(time_stamp_tx),
     .can_rx_i, .can_tx_o, .trace_o);

@@ -23,12 +23,10 @@ module can_clock #(
   input  logic [1:0]  slewr_i,     // a step whenever bit 13 - slewr_i of TIME changes (TCTRL.SLEWR)
   output logic [31:0] lo_o,
   output logic [31:0] hi_o,
-  output logic [39:0] inc_o,       // as rate_i wrote it last
   output logic [31:0] left_o       // not worked off yet, signed ns
 );
   logic [7:0]  incn_q;
   logic [31:0] incf_q;
-  assign inc_o = {incn_q, incf_q};
 
   // Slew. A step that would let TIME stand or go back is not made (TM-15, TM-17).
   logic slew_bit, bit_q, step, step_q, back_q;

@@ -13,8 +13,9 @@ module can_time #(
   // Host side, see can_pkg. Commands are pulses, data with them.
   input  logic [can_pkg::TimeCmdWidth-1:0] cmd_i,
   input  logic [63:0] data_i,
-  input  logic [2:0]  word_i,       // with TimeRead
-  output logic [31:0] rdata_o,      // from the next clock on
+  output logic [63:0] now_o,        // TIME of the last TimeRead, see can_capture
+  output logic [63:0] ext_o,        // TIME of the last TimeExt
+  output logic [31:0] left_o,       // TSLEW
   input  logic [31:0] tctrl_i,      // TCTRL
   input  logic [31:0] tcmph_i,      // TCMPH
   input  logic [31:0] ttx_i,        // TTX
@@ -33,14 +34,13 @@ module can_time #(
   output logic        stamp_we_o,
   output logic        stamp_tx_o
 );
-  logic [31:0] lo, hi, left, target;
-  logic [39:0] inc;
+  logic [31:0] lo, hi;
   can_clock #(.TimeInc(TimeInc)) u_clock (
     .clk_i, .rst_ni,
     .set_i(cmd_i[can_pkg::TimeSet]), .shift_i(cmd_i[can_pkg::TimeShift]),
     .rate_i(cmd_i[can_pkg::TimeRate]), .slew_i(cmd_i[can_pkg::TimeSlew]), .data_i,
     .slewr_i(tctrl_i[can_regs_pkg::TctrlSlewr +: can_regs_pkg::TctrlSlewrW]),
-    .lo_o(lo), .hi_o(hi), .inc_o(inc), .left_o(left));
+    .lo_o(lo), .hi_o(hi), .left_o);
 
   logic take;
   can_stamp u_stamp (
@@ -56,42 +56,22 @@ module can_time #(
   can_time_cmp u_cmp (
     .clk_i, .rst_ni, .lo_i(lo), .data_i(data_i[63:32]),
     .enable_i(tctrl_i[can_regs_pkg::TctrlCmpen]), .arm_i(cmd_i[can_pkg::TimeArm]),
-    .period_i(tcmph_i), .target_o(target), .armed_o(armed), .match_o(match), .out_o(out),
+    .period_i(tcmph_i), .armed_o(armed), .match_o(match), .out_o(out),
     .hold_i(cmd_i[can_pkg::TimeHold]), .release_i(cmd_i[can_pkg::TimeRelease]), .launch_i(ttx_i),
     .held_o(held), .launch_o(launch));
 
-  logic [63:0] ext_time;
   can_capture u_ext_time (
-    .clk_i, .rst_ni, .take_i(cmd_i[can_pkg::TimeExt]), .lo_i(lo), .hi_i(hi), .time_o(ext_time));
-
-  // One word for the host at a time; with TIMELO the upper half that belongs to it.
-  logic        read, read_lo_q;
-  logic [31:0] word, upper_q;
-  assign read = cmd_i[can_pkg::TimeRead];
-  always_comb begin
-    case (word_i)
-      can_pkg::TimeWordLo:     word = lo;
-      can_pkg::TimeWordHi:     word = read_lo_q ? hi : upper_q;
-      can_pkg::TimeWordIncN:   word = {24'b0, inc[39:32]};
-      can_pkg::TimeWordIncF:   word = inc[31:0];
-      can_pkg::TimeWordLeft:   word = left;
-      can_pkg::TimeWordTarget: word = target;
-      can_pkg::TimeWordExtLo:  word = ext_time[31:0];
-      default:                 word = ext_time[63:32];
-    endcase
-  end
+    .clk_i, .rst_ni, .take_i(cmd_i[can_pkg::TimeExt]), .lo_i(lo), .hi_i(hi), .time_o(ext_o));
+  can_capture u_now (
+    .clk_i, .rst_ni, .take_i(cmd_i[can_pkg::TimeRead]), .lo_i(lo), .hi_i(hi), .time_o(now_o));
 
   logic slewing, slewing_q;
-  assign slewing = left != '0;
+  assign slewing = left_o != '0;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {read_lo_q, slewing_q} <= '0;
-      {rdata_o, upper_q} <= '0;
+      slewing_q <= 1'b0;
     end else begin
       slewing_q <= slewing;
-      read_lo_q <= read && word_i == can_pkg::TimeWordLo;
-      if (read)      rdata_o <= word;
-      if (read_lo_q) upper_q <= hi;
     end
   end
 

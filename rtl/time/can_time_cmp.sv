@@ -13,7 +13,6 @@ module can_time_cmp (
   input  logic        enable_i,    // TCTRL.CMPEN; 0 disarms
   input  logic        arm_i,       // TCMP is written
   input  logic [31:0] period_i,    // TCMPH: ns between events; 0: once
-  output logic [31:0] target_o,    // TCMP
   output logic        armed_o,
   output logic        match_o,     // pulse: it fires
   output logic        out_o,       // toggles from the next clock on
@@ -25,10 +24,10 @@ module can_time_cmp (
   output logic        launch_o     // pulse: its time has come
 );
   // Time to go less one: its sign alone counts. Both subtractions share the inverted time.
-  logic [31:0] minus_time, to_target, to_launch;
+  logic [31:0] target_q, minus_time, to_target, to_launch;
   logic        once;
   assign minus_time = ~lo_i;
-  assign to_target  = target_o + minus_time;
+  assign to_target  = target_q + minus_time;
   assign to_launch  = launch_i + minus_time;
   assign once       = period_i == '0;
   assign match_o    = armed_o && enable_i && to_target[31];
@@ -39,16 +38,16 @@ module can_time_cmp (
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      target_o <= '0;
+      target_q <= '0;
       {armed_o, out_o, held_o} <= '0;
     end else begin
       if (arm_i) begin
-        target_o <= data_i;
+        target_q <= data_i;
         armed_o  <= enable_i;
         if (enable_i) out_o <= 1'b0;
       end else begin
         if (match_o) begin
-          target_o <= target_o + period_i;
+          target_q <= target_q + period_i;
           out_o    <= once || !out_o;
         end
         armed_o <= armed_o && enable_i && !(match_o && once);

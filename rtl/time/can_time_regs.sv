@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // can_time_regs: the registers of the time unit, 0x1100 to 0x117F (TM-03, TM-30 to TM-40), its
-// flags and the external event. What is written becomes a command to can_time a clock later; what
-// moves with every clock is read from there, asked for in the address phase.
+// flags and the external event. What is written becomes a command to can_time a clock later. What
+// software has only to write cannot be read back (TM-131).
 
 module can_time_regs (
   input  logic        clk_i,
   input  logic        rst_ni,
-  // CPU: a read is announced in the clock before its data phase. Addresses count words.
+  // CPU, in the data phase; ask_i: in the clock before a read of TIMELO. Addresses count words.
   input  logic        ask_i,
-  input  logic [4:0]  ask_addr_i,
   input  logic        rd_i,
   input  logic        wr_i,
   input  logic [4:0]  addr_i,
@@ -20,8 +19,9 @@ module can_time_regs (
   // can_time, see there.
   output logic [can_pkg::TimeCmdWidth-1:0] cmd_o,
   output logic [63:0] data_o,
-  output logic [2:0]  word_o,
-  input  logic [31:0] word_i,
+  input  logic [63:0] now_i,
+  input  logic [63:0] ext_i,
+  input  logic [31:0] left_i,
   output logic [31:0] tctrl_o,
   output logic [31:0] tcmph_o,
   output logic [31:0] ttx_o,
@@ -29,7 +29,7 @@ module can_time_regs (
   // Held buffer.
   output logic [5:0]  mb_o,
   // Pins and interrupt, level.
-  input  logic        ext_i,         // asynchronous
+  input  logic        pin_i,         // external event, asynchronous
   output logic        time_out_o,
   output logic        irq_o
 );
@@ -50,11 +50,6 @@ module can_time_regs (
   localparam logic [4:0] Ttxmb  = 5'h11;
   localparam logic [4:0] Textlo = 5'h14;
   localparam logic [4:0] Texthi = 5'h15;
-
-  // Words that are asked for.
-  assign word_o = ask_addr_i[4] ? {2'b11, ask_addr_i[0]}                     // TEXTLO, TEXTHI
-                : ask_addr_i[3] ? {2'b10, ask_addr_i[2]}                     // TSLEW, TCMP
-                : {1'b0, ask_addr_i[1:0]};
 
   // Whole words alone are written, but for TCTRL and TSTAT. The first of a pair waits here.
   logic        wr_word, wr_ttxmb;
@@ -102,7 +97,7 @@ module can_time_regs (
   logic [5:0] flags_q, set, clear;   // TSTAT
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {last_q, settled_q, meta_q} <= '0;
-    else         {last_q, settled_q, meta_q} <= {settled_q, meta_q, ext_i};
+    else         {last_q, settled_q, meta_q} <= {settled_q, meta_q, pin_i};
   end
   assign event_now = (settled_q && !last_q && tctrl_o[can_regs_pkg::TctrlExtr])
                   || (!settled_q && last_q && tctrl_o[can_regs_pkg::TctrlExtf]);
@@ -152,9 +147,11 @@ module can_time_regs (
           rdata_o[can_regs_pkg::TstatOut]     = stat_i[can_pkg::TimeStatOut];
           rdata_o[can_regs_pkg::TstatCmpon]   = stat_i[can_pkg::TimeStatArmed];
         end
-        Timelo, Timehi, Tincn, Tincf, Tslew, Tcmp, Textlo, Texthi: rdata_o = word_i;
-        Tcmph: rdata_o = tcmph_o;
-        Ttx:   rdata_o = ttx_o;
+        Timelo: rdata_o = now_i[31:0];
+        Timehi: rdata_o = now_i[63:32];
+        Tslew:  rdata_o = left_i;
+        Textlo: rdata_o = ext_i[31:0];
+        Texthi: rdata_o = ext_i[63:32];
         Ttxmb: begin
           rdata_o[can_regs_pkg::TtxmbHold] = stat_i[can_pkg::TimeStatHeld];
           rdata_o[can_regs_pkg::TtxmbMb +: can_regs_pkg::TtxmbMbW] = mb_o;

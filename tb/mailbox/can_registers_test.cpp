@@ -54,7 +54,7 @@ const Row kRows[] = {
     {"after RXIMR63", reg::rximr(64), 0, 0, 0, 0},
     {"GFWR", 0x9E0, 0, 0, 0, 0},
     {"extension ID", 0x1000, 0x5643414E, 0, 0, 0},
-    {"extension VERSION", 0x1004, 0x00010002, 0, 0, 0},
+    {"extension VERSION", 0x1004, 0x00010003, 0, 0, 0},
     {"extension CONFIG", 0x1008, 0x03F00F40, 0, 0, 0},
     {"extension XCTRL", reg::kExtControl, 0, 0x6, 0x7, 0x6},
     {"end of the window", 0x1FFC, 0, 0, 0, 0},

@@ -67,8 +67,9 @@ module can_core #(
   output logic [14:0] crc_o,
   input  logic [can_pkg::TimeCmdWidth-1:0] time_cmd_i,
   input  logic [63:0] time_data_i,
-  input  logic [2:0]  time_word_i,
-  output logic [31:0] time_rdata_o,
+  output logic [63:0] time_now_o,
+  output logic [63:0] time_ext_o,
+  output logic [31:0] time_left_o,
   input  logic [31:0] time_tctrl_i,
   input  logic [31:0] time_tcmph_i,
   input  logic [31:0] time_ttx_i,
@@ -142,8 +143,12 @@ module can_core #(
   assign rx_valid_o = f_rx_valid;
   (* anyseq *) logic [14:0] f_crc;
   assign crc_o = f_crc;
-  (* anyseq *) logic [31:0] f_time_rdata;
-  assign time_rdata_o = f_time_rdata;
+  (* anyseq *) logic [63:0] f_time_now;
+  assign time_now_o = f_time_now;
+  (* anyseq *) logic [63:0] f_time_ext;
+  assign time_ext_o = f_time_ext;
+  (* anyseq *) logic [31:0] f_time_left;
+  assign time_left_o = f_time_left;
   (* anyseq *) logic [can_pkg::TimeStatWidth-1:0] f_time_stat;
   assign time_stat_o = f_time_stat;
   (* anyseq *) logic [63:0] f_time_stamp;

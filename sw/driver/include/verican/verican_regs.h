@@ -613,7 +613,7 @@
 
 /* TINCN: Time: increment, whole ns. Only with TimeUnit. */
 #define VERICAN_TINCN_OFFSET                    0x1118u
-#define VERICAN_TINCN_RESET                     0x00000014u
+#define VERICAN_TINCN_RESET                     0x00000000u
 /* TINCN: ns a clock; a write waits for TINCF. Reset: parameter TimeInc. */
 #define VERICAN_TINCN_TINCN_MASK                0x000000FFu
 #define VERICAN_TINCN_TINCN_SHIFT               0u

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The registers of the time unit through AHB: TM-02, TM-03, TM-11 to TM-16, TM-29 to TM-32.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "time/time_node.hpp"
+
+namespace vericansim {
+namespace {
+
+using namespace time_reg;
+
+class TimeRegs : public testing::Test {
+ protected:
+  TimeRegs() { rig_.run(400); }
+  std::uint32_t read(std::uint32_t address) { return rig_.read(0, address); }
+  void write(std::uint32_t address, std::uint32_t data) { rig_.write(0, address, data); }
+  /// Half a word, as a driver must not.
+  void write_half(std::uint32_t address, std::uint32_t data) {
+    rig_.access(0, {.address = address, .write = true, .size = AhbSize::kHalf, .data = data});
+  }
+  void rate(std::uint32_t ns, std::uint32_t fraction) {
+    write(kTincn, ns);
+    write(kTincf, fraction);
+  }
+  std::uint64_t time() { return time_.time(0); }
+  /// TIME less what an unsteered clock would show, and a constant: what steering has added.
+  std::uint64_t steered() {
+    const std::uint64_t now = time();
+    return now - time_.node(0).edges() * kTimeStep;
+  }
+
+  TimeRig time_{1};
+  MailboxRig &rig_ = time_.rig;
+};
+
+// TM-02: XCONFIG tells of it; reset values of section 6.
+TEST_F(TimeRegs, ResetValues) {
+  EXPECT_EQ((read(0x1008) >> 12) & 3, 1u);
+  EXPECT_EQ(read(kTcap), 0x00020003u);
+  EXPECT_EQ(read(kTctrl), 0x31u);
+  EXPECT_EQ(read(kTstat), 0u);
+  for (const std::uint32_t address :
+       {kTincn,  kTincf,  kTshlo,  kTshhi,   kTslew,    kTcmp,         kTcmph,  kTtx,
+        kTtxmb,  kTextlo, kTexthi, stamp(0), stamp(63), stamp(63) + 4, 0x110Cu, 0x1138u,
+        0x113Cu, 0x1148u, 0x117Cu, 0x1180u,  0x1600u,   0x17FCu})
+    EXPECT_EQ(read(address), 0u) << std::hex << address;
+}
+
+// TM-03: in every mode the clock runs, and its registers are read and written.
+TEST_F(TimeRegs, EveryMode) {
+  const auto check = [this](const char *mode) {
+    SCOPED_TRACE(mode);
+    const std::uint64_t before = steered(), edges = time_.node(0).edges();
+    rig_.run(100);
+    EXPECT_EQ(steered(), before);
+    EXPECT_GT(time_.node(0).edges(), edges + 99);
+    for (const std::uint32_t value : {0x001F3336u, 0x00000031u}) {
+      write(kTctrl, value);
+      EXPECT_EQ(read(kTctrl), value);
+    }
+    write(kTtxmb, 0x2A);
+    EXPECT_EQ(read(kTtxmb), 0x2Au);
+    EXPECT_EQ(rig_.max_waits(), 0u);
+  };
+  check("disable");
+  rig_.configure(0);
+  check("freeze");
+  rig_.go(0);
+  check("normal");
+}
+
+// TM-03: a soft reset leaves clock and registers.
+TEST_F(TimeRegs, SoftResetKeeps) {
+  rig_.configure(0);
+  write(kTctrl, 0x00110330);
+  write(kTtxmb, 0x15);
+  rate(100, 0x40000000);
+  const std::uint64_t before = time(), edges = time_.node(0).edges();
+  write(reg::kMcr, read(reg::kMcr) | reg::kMcrSoftRst);
+  rig_.run(1000);
+  EXPECT_EQ(read(kTctrl), 0x00110330u);
+  EXPECT_EQ(read(kTtxmb), 0x15u);
+  const std::uint64_t passed = time_.node(0).edges();
+  const std::uint64_t gone = time() - before;
+  // A quarter ns more a clock; reading takes a constant number of clocks.
+  EXPECT_NEAR(static_cast<double>(gone), static_cast<double>(passed - edges) * 100.25, 500);
+}
+
+// TM-12, TM-16: a set acts a constant number of clocks after its write, whatever was read before.
+TEST_F(TimeRegs, Set) {
+  for (const std::uint64_t value : {0x123456789ABCDEF0ULL, 0xFFFFFFFFULL, 0ULL}) {
+    write(kTimelo, static_cast<std::uint32_t>(value));
+    write(kTimehi, static_cast<std::uint32_t>(value >> 32));
+    const std::uint64_t edges = time_.node(0).edges();
+    rig_.run(50);
+    const std::uint64_t now = time();
+    // Read in the clock after that of the address: two accesses later, four clocks of the command.
+    const std::uint64_t clocks = (now - value) / kTimeStep;
+    EXPECT_EQ((now - value) % kTimeStep, 0u);
+    EXPECT_LT(clocks, time_.node(0).edges() - edges);
+    EXPECT_GE(clocks + 12, time_.node(0).edges() - edges);
+  }
+}
+
+// TM-13 to TM-15: shift, rate, slew; halves of words are not written.
+TEST_F(TimeRegs, ShiftRateSlew) {
+  const std::uint64_t start = steered();
+  write(kTshlo, 0xFFFFFFFB);  // -5
+  write(kTshhi, 0xFFFFFFFF);
+  rig_.run(20);
+  EXPECT_EQ(steered() - start, static_cast<std::uint64_t>(-5));
+  write(kTshlo, 5);
+  write(kTshhi, 1);
+  rig_.run(20);
+  EXPECT_EQ(steered() - start, 0x100000000ULL);
+  write_half(kTshhi, 0xFFFF);
+  write_half(kTincf, 0x1234);
+  rig_.run(20);
+  EXPECT_EQ(steered() - start, 0x100000000ULL);
+  write(kTslew, 3);
+  rig_.run(4);  // it acts four clocks after the write
+  EXPECT_EQ(read(kTslew), 3u);
+  EXPECT_NE(read(kTstat) & (1u << 16), 0u);
+  rig_.run(60);  // a step each 1,024 ns: nine clocks
+  EXPECT_EQ(read(kTslew), 0u);
+  EXPECT_EQ(steered() - start, 0x100000003ULL);
+  EXPECT_EQ(read(kTstat), 1u << 3);
+  write(kTstat, 1u << 3);
+  EXPECT_EQ(read(kTstat), 0u);
+}
+
+// TM-30, TM-31: events at their times, output and interrupt.
+TEST_F(TimeRegs, CompareAndOutput) {
+  write(kTctrl, 0x00023031);  // CMPIE, CMPEN, OUTEN
+  write(kTcmph, 2000);        // 16 clocks
+  const auto first =
+      static_cast<std::uint32_t>(time_.node(0).edges() * kTimeStep + 100 * kTimeStep);
+  write(kTcmp, first);
+  EXPECT_EQ(read(kTstat) & (1u << 19), 1u << 19);
+  EXPECT_FALSE(time_.node(0).irq_time());
+  rig_.run(300);
+  EXPECT_TRUE(time_.node(0).irq_time());
+  const auto &pulses = time_.node(0).pulses();
+  ASSERT_GE(pulses.size(), 3u);
+  for (unsigned i = 0; i < 3; ++i)  // the clock after the first in which TIME has reached it
+    EXPECT_EQ((pulses[i] - 1) * kTimeStep, first + i * 2000u) << i;
+  write(kTctrl, 0x31);
+  EXPECT_FALSE(time_.node(0).irq_time());
+  EXPECT_EQ(read(kTstat) & (1u << 19), 0u);
+}
+
+// TM-32: the external event: time of the clock in which the second flip-flop has changed.
+TEST_F(TimeRegs, External) {
+  write(kTctrl, 0x00010131);  // EXTIE, EXTR
+  const auto raise = [this] {
+    time_.node(0).external(true);
+    const std::uint64_t at = (time_.node(0).edges() + 2) * kTimeStep;
+    rig_.run(10);
+    time_.node(0).external(false);
+    rig_.run(10);
+    return at;
+  };
+  const auto captured = [this] { return read(kTextlo) | (std::uint64_t{read(kTexthi)} << 32); };
+  const std::uint64_t first = raise();
+  EXPECT_EQ(captured(), first);
+  EXPECT_EQ(read(kTstat), 1u);
+  EXPECT_TRUE(time_.node(0).irq_time());
+  raise();
+  EXPECT_EQ(captured(), first);
+  EXPECT_EQ(read(kTstat), 3u);
+  write(kTstat, 3);
+  EXPECT_FALSE(time_.node(0).irq_time());
+  const std::uint64_t third = raise();
+  EXPECT_EQ(captured(), third);
+  EXPECT_EQ(read(kTstat), 1u);
+}
+
+// TM-29: software does not write stamps.
+TEST_F(TimeRegs, StampsAreReadOnly) {
+  write(stamp(3), 0xFFFFFFFF);
+  write(stamp(3) + 4, 0xFFFFFFFF);
+  EXPECT_EQ(time_.stamp(0, 3), 0u);
+}
+
+}  // namespace
+}  // namespace vericansim
