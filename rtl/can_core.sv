@@ -136,7 +136,8 @@ module can_core #(
   if (TimeUnit != 0) begin : gen_time
     can_time #(.TimeInc(TimeInc)) u_time (
       .clk_i, .rst_ni, .cmd_i(time_cmd_i), .data_i(time_data_i),
-      .now_o(time_now_o), .ext_o(time_ext_o), .left_o(time_left_o), .tctrl_i(time_tctrl_i), .tcmph_i(time_tcmph_i), .ttx_i(time_ttx_i),
+      .now_o(time_now_o), .ext_o(time_ext_o), .left_o(time_left_o),
+      .tctrl_i(time_tctrl_i), .tcmph_i(time_tcmph_i), .ttx_i(time_ttx_i),
       .stat_o(time_stat_o),
       .rx_i(rx), .tx_i(tx_q), .sample_i(sample && active_q), .bit_i(bit_value), .field_i(field),
       .transmitter_i(transmitter_o), .sof_i(stamp_o), .rx_valid_i(rx_valid_o),

@@ -57,6 +57,10 @@ parameters:
     datatype: int
     description: 1 to have the RAM of the buffers cleared after a hard reset
     paramtype: vlogparam
+  TimeUnit:
+    datatype: int
+    description: 1 for the time unit (clock, frame stamps, compare, launch time)
+    paramtype: vlogparam
   RegionBits:
     datatype: int
     description: Address bits of the region that hsel stands for (13 to 32)
@@ -85,6 +89,7 @@ targets:
       - "is_toplevel? (Wake)"
       - "is_toplevel? (Extras)"
       - "is_toplevel? (ClearRam)"
+      - "is_toplevel? (TimeUnit)"
       - "is_toplevel? (RegionBits)"
       - "is_toplevel? (CheckHprot)"
       - "is_toplevel? (WakeFilter)"

@@ -217,7 +217,7 @@ module can_top #(
   if (TimeUnit != 0) begin : gen_time
     can_time_regs u_time_regs (
       .clk_i, .rst_ni,
-      .ask_i(req && !we_i && in_time && ready_o && addr_i[6:2] == can_regs_pkg::TimeloAddr[4:0]),
+      .ask_i(req && !we_i && ready_o && addr_i[12:2] == can_regs_pkg::TimeloAddr),
       .rd_i(time_rd_q), .wr_i(time_wr_q), .addr_i(reg_addr_q[4:0]), .be_i(reg_be_q), .wdata_i,
       .rdata_o(time_reg_rdata),
       .cmd_o(time_cmd), .data_o(time_data), .now_i(time_now), .ext_i(time_ext), .left_i(time_left),
@@ -288,7 +288,8 @@ module can_top #(
     .rx_rtr_o(rx_rtr), .rx_dlc_o(rx_dlc), .rx_byte_we_o(rx_byte_we), .rx_byte_o(rx_byte),
     .rx_valid_o(rx_valid),
     .time_cmd_i(time_cmd), .time_data_i(time_data), .time_now_o(time_now),
-    .time_ext_o(time_ext), .time_left_o(time_left), .time_tctrl_i(tctrl), .time_tcmph_i(tcmph), .time_ttx_i(ttx),
+    .time_ext_o(time_ext), .time_left_o(time_left),
+    .time_tctrl_i(tctrl), .time_tcmph_i(tcmph), .time_ttx_i(ttx),
     .time_wait_i(time_wait), .time_stat_o(time_stat), .time_stamp_o(time_stamp),
     .time_stamp_we_o(time_stamp_we), .time_stamp_tx_o(time_stamp_tx),
     .can_rx_i, .can_tx_o, .trace_o);

@@ -44,9 +44,9 @@ INSTANCE = """\
     .hwdata, .hrdata(can_rdata), .hreadyout(can_ready), .hresp(can_resp), .irq_o(can_irq),
     // verilator lint_off PINCONNECTEMPTY
     .irq_mb_o(), .irq_boff_o(), .irq_err_o(), .irq_twrn_o(), .irq_rwrn_o(), .irq_wak_o(),
-    .trace_o(),
+    .time_out_o(), .irq_time_o(), .trace_o(),
     // verilator lint_on PINCONNECTEMPTY
-    .stop_req_i(1'b0), .can_rx_i(can_rxd), .can_tx_o(can_txd));
+    .ext_i(1'b0), .stop_req_i(1'b0), .can_rx_i(can_rxd), .can_tx_o(can_txd));
 """
 
 

@@ -13,7 +13,9 @@ import design
 # What instances a feature brings, by the end of their names.
 BLOCKS = {"Fifo": ("can_mb_filter", "can_rx_fifo"), "Abort": ("can_mb_guard",),
           "Status": ("can_mb_status",), "OwnMasks": (), "Wake": ("can_wake",), "Extras": (),
-          "ClearRam": ()}
+          "ClearRam": (), "TimeUnit": ("can_time_cmp", "can_time_regs", "can_mb_stamp")}
+# Features that a core has not unless it is asked for them.
+ASKED_FOR = ("TimeUnit",)
 
 
 def settings(*arguments):
@@ -64,7 +66,9 @@ class Features(unittest.TestCase):
             for feature, blocks in BLOCKS.items():
                 for block in blocks:
                     with self.subTest(parameters, block=block):
-                        self.assertEqual(block in there, parameters.get(feature) != "0")
+                        default = "0" if feature in ASKED_FOR else "1"
+                        self.assertEqual(block in there,
+                                         parameters.get(feature, default) == "1")
 
     def test_other_values_are_refused(self):
         code, text = lint({"Fifo": 2})

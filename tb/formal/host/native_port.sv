@@ -13,6 +13,8 @@ module can_top #(
   parameter int Wake = 1,
   parameter int Extras = 1,
   parameter int ClearRam = 1,
+  parameter int TimeUnit = 0,
+  parameter logic [39:0] TimeInc = 40'h14_0000_0000,
   parameter int WakeFilter = 6
 ) (
   input  logic        clk_i,
@@ -32,6 +34,9 @@ module can_top #(
   output logic        irq_twrn_o,
   output logic        irq_rwrn_o,
   output logic        irq_wak_o,
+  input  logic        ext_i,
+  output logic        time_out_o,
+  output logic        irq_time_o,
   input  logic        stop_req_i,
   output logic        supv_o,
   input  logic        can_rx_i,
@@ -44,6 +49,7 @@ module can_top #(
   assign ready_o = f_ready;
   assign supv_o  = f_supv;
   assign {irq_o, irq_mb_o, irq_boff_o, irq_err_o, irq_twrn_o, irq_rwrn_o, irq_wak_o} = '0;
+  assign {time_out_o, irq_time_o} = '0;
   assign can_tx_o = can_pkg::Recessive;
   // What the port is told, for the properties in can_ahb.
   assign trace_o  = can_pkg::TraceWidth'({wdata_i, be_i, addr_i, we_i, req_i && !cancel_i});
