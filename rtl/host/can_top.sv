@@ -220,7 +220,8 @@ module can_top #(
       .ask_i(req && !we_i && ready_o && addr_i[12:2] == can_regs_pkg::TimeloAddr),
       .rd_i(time_rd_q), .wr_i(time_wr_q), .addr_i(reg_addr_q[4:0]), .be_i(reg_be_q), .wdata_i,
       .rdata_o(time_reg_rdata),
-      .cmd_o(time_cmd), .data_o(time_data), .now_i(time_now), .ext_i(time_ext), .left_i(time_left),
+      .cmd_o(time_cmd), .data_o(time_data), .now_i(time_now), .ext_i(time_ext),
+      .left_i(time_left),
       .tctrl_o(tctrl), .tcmph_o(tcmph), .ttx_o(ttx), .stat_i(time_stat), .mb_o(time_mb),
       .pin_i(ext_i), .time_out_o, .irq_o(irq_time_o));
   end else begin : gen_no_time
