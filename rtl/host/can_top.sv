@@ -228,7 +228,8 @@ module can_top #(
     assign {time_cmd, time_data, tctrl, tcmph, ttx, time_mb} = '0;
     assign {time_reg_rdata, time_out_o, irq_time_o} = '0;
     logic unused_time;
-    assign unused_time = &{1'b0, ext_i, time_rd_q, time_wr_q, time_stat, time_now, time_ext, time_left};
+    assign unused_time = &{1'b0, ext_i, time_rd_q, time_wr_q, time_stat, time_now, time_ext,
+      time_left};
   end
 
   if (Wake != 0) begin : gen_wake
