@@ -2,31 +2,40 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Script: writes OUTPUT, a source file that includes all *.cpp of DIR, the sources of the Verilated
-# model NAME, and gives it verican_clock_edge() and, where something is combinational,
-# verican_settle(), declared in NAME.h (sim/node/model_edge.hpp, sim/node/transmit_scan.hpp).
+# model NAME, and gives it the functions below, as far as the model has them, declared in NAME.h.
+# Their names are Verilator's own (5.006), of what eval() calls:
+#   verican_clock_edge()  what is clocked, and all that follows from it (sim/node/model_edge.hpp)
+#   verican_follow()      what follows from the inputs in the same clock (sim/node/quiet_engine.hpp)
+#   verican_settle()      all that is combinational (sim/node/transmit_scan.hpp)
 file(GLOB sources "${DIR}/*.cpp")
 list(SORT sources)
 set(text "")
-set(settles FALSE)
+set(declarations "")
+set(code "")
 foreach(source IN LISTS sources)
   get_filename_component(name "${source}" NAME)
   string(APPEND text "#include \"${name}\"\n")
-  file(STRINGS "${source}" found REGEX "void ${NAME}___024root___eval_stl\\(" LIMIT_COUNT 1)
-  if(found)
-    set(settles TRUE)
-  endif()
+  file(READ "${source}" content)
+  string(APPEND code "${content}")
 endforeach()
-# The names of the functions are Verilator's own (5.006): what eval() calls once it has found an
-# edge, and what it calls in the beginning to have all that is combinational follow the flip-flops.
-set(declarations "void verican_clock_edge(${NAME}___024root *root);\n")
+
+# A function `name` that runs a region of the model as if its first trigger had been met.
+function(region name short)
+  if(code MATCHES "void ${NAME}___024root___eval_${short}\\(")
+    set(declarations "${declarations}void ${name}(${NAME}___024root *root);\n" PARENT_SCOPE)
+    set(text "${text}void ${name}(${NAME}___024root *root) {
+  root->__V${short}Triggered.at(0) = true;
+  ${NAME}___024root___eval_${short}(root);
+  root->__V${short}Triggered.at(0) = false;
+}
+" PARENT_SCOPE)
+  endif()
+endfunction()
+
+string(APPEND declarations "void verican_clock_edge(${NAME}___024root *root);\n")
 string(APPEND text "void verican_clock_edge(${NAME}___024root *root) {\n"
                    "  ${NAME}___024root___eval_nba(root);\n}\n")
-if(settles)
-  string(APPEND declarations "void verican_settle(${NAME}___024root *root);\n")
-  string(APPEND text "void verican_settle(${NAME}___024root *root) {\n"
-                     "  root->__VstlTriggered.at(0) = true;\n"
-                     "  ${NAME}___024root___eval_stl(root);\n"
-                     "  root->__VstlTriggered.at(0) = false;\n}\n")
-endif()
+region(verican_follow ico)
+region(verican_settle stl)
 file(WRITE "${OUTPUT}" "${text}")
 file(APPEND "${DIR}/${NAME}.h" "${declarations}")

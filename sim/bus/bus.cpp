@@ -129,6 +129,8 @@ void Bus::prepare() {
   }
   direct_ = direct;
   resting_ = may_rest_ && faults_.empty() && (interests_ & BusObserver::kClocks) == 0;
+  const bool watched = (interests_ & kTraceUsers) != 0 || !with_clocked_.empty();
+  for (Entry &entry : nodes_) entry.node->watched_ = watched;
   prepared_ = true;
 }
 

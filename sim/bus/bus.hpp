@@ -105,6 +105,9 @@ class Bus {
   [[nodiscard]] bool lockstep();
 
  private:
+  // Observers that look at a node's trace.
+  static constexpr unsigned kTraceUsers = BusObserver::kBits | BusObserver::kClocks;
+
   struct Arrival {
     Time time;
     NodeId source;

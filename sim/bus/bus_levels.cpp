@@ -131,8 +131,7 @@ void Bus::watch(NodeId id, Time t, Level rx) {
       for (BusObserver *observer : observers_) observer->on_node_rx(id, t, rx);
     }
   }
-  constexpr unsigned kTraceUsers = BusObserver::kBits | BusObserver::kClocks;
-  if ((interests_ & kTraceUsers) == 0 && with_clocked_.empty()) return;
+  if (!entry.node->watched_) return;
   const std::uint64_t word = entry.node->trace();
   for (Fault *fault : with_clocked_) fault->clocked(id, t, word);
   if ((interests_ & BusObserver::kBits) != 0 && entry.bits.clocked(word, next_[id])) {

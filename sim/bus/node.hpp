@@ -32,11 +32,12 @@ class Node {
 
   /// Clock edges to come, the next one first, that change nothing but what pass() makes good, as
   /// long as the receive pin keeps its level and nobody calls the node. 0: clock me every time.
+  /// While the node is watched(), they do not change its trace either.
   [[nodiscard]] virtual std::uint64_t quiet() const { return 0; }
   /// `edges` of those at once, never more than quiet() has said.
   virtual void pass(std::uint64_t edges) { (void)edges; }
   /// clock() on a bus whose nodes may rest: an edge that would be quiet() if the receive pin had
-  /// kept its level need not be clocked if the new level is made good.
+  /// kept its level, or nobody looked at the trace, need not be clocked if it is made good.
   virtual void clock_lightly(Level rx) { clock(rx); }
 
   /// The observer's view after the last edge (trace_o, see bus/trace.hpp); 0 if the node has none.
@@ -60,6 +61,8 @@ class Node {
  protected:
   void drive(Level level) { tx_ = level; }
 
+  /// Somebody on the bus looks at the trace after each edge that is clocked.
+  [[nodiscard]] bool watched() const { return watched_; }
   /// To be called before a state is read that pass() changes: makes the edges good that the bus has
   /// left out up to now.
   void catch_up() const {
@@ -78,6 +81,7 @@ class Node {
 
   Level tx_ = Level::kRecessive;
   bool resting_ = false;  // on a bus that has put off edges of this node
+  bool watched_ = false;  // on a bus whose observers look at traces
   NodeId id_ = 0;         // there
   Bus *bus_ = nullptr;
   std::string name_;

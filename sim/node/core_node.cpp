@@ -99,7 +99,10 @@ bool CoreNode::idle() const { return impl_->top.running_o && impl_->top.idle_o; 
 bool CoreNode::integrated() const { return impl_->top.synch_o; }
 bool CoreNode::bus_off() const { return impl_->top.boff_o; }
 bool CoreNode::passive() const { return impl_->top.passive_o; }
-std::uint64_t CoreNode::trace() const { return impl_->top.trace_o; }
+std::uint64_t CoreNode::trace() const {
+  catch_up();
+  return impl_->top.trace_o;
+}
 
 void CoreNode::preset_counters(std::uint8_t tec, std::uint8_t rec) {
   auto &top = impl_->top;
@@ -164,12 +167,11 @@ void CoreNode::clock(Level rx) {
   if ((top.trace_o & kTraceEvents) | top.tx_next_o | top.rx_hdr_o | top.rx_byte_we_o) collect();
 }
 
-std::uint64_t CoreNode::quiet() const { return impl_->quiet.edges(impl_->top); }
-void CoreNode::pass(std::uint64_t edges) { QuietEngine::pass(impl_->top, edges); }
+std::uint64_t CoreNode::quiet() const { return impl_->quiet.edges(impl_->top, watched()); }
+void CoreNode::pass(std::uint64_t edges) { impl_->quiet.pass(impl_->top, edges); }
 
 void CoreNode::clock_lightly(Level rx) {
-  if (impl_->top.can_rx_i == static_cast<std::uint8_t>(rx) || quiet() == 0) return clock(rx);
-  QuietEngine::pass_level(impl_->top, rx);
+  if (!impl_->quiet.clock_lightly(impl_->top, rx)) clock(rx);
 }
 
 void CoreNode::collect() {

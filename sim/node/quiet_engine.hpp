@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "Vcan_core.h"
 #include "Vcan_core___024root.h"
@@ -14,12 +15,13 @@
 namespace vericansim {
 
 /// Watches an engine edge by edge, says how many edges to come only count quanta and positions, and
-/// does them at once. Everything but prescaler, position and the levels of the last quanta moves
-/// within kSettle edges of a sample point or a bit boundary, within one of an edge that
-/// synchronises; after that, until the next of them, these only count and follow
-/// (rtl/bit/can_tq_gen.sv, can_bit_timing.sv). After a sample point that raised no pulse the second
-/// of its edges does no more than forget the sample point, which pass() does.
-/// Proven bit by bit in tb/system/bus_rest_test.cpp.
+/// does them at once, up to the one that makes a sample point or a boundary show. Everything but
+/// prescaler, position and the levels of the last quanta moves within kSettle edges of a sample
+/// point or a bit boundary, within one of an edge that synchronises; after that, until the next of
+/// them, these only count and follow (rtl/bit/can_tq_gen.sv, can_bit_timing.sv). After a sample
+/// point that raised no pulse the second of its edges does no more than forget the sample point,
+/// which pass() does. Proven bit by bit in tb/system/bus_rest_test.cpp, member by member in
+/// bus_quiet_engine_test.cpp.
 ///
 /// Needs the members that Verilator 5.006 gives the model; without them nothing is ever quiet.
 class QuietEngine {
@@ -34,16 +36,21 @@ class QuietEngine {
   /// The engine's inputs may have changed, other than can_rx_i.
   void disturbed() { to_settle_ = kSettle; }
 
-  /// Edges to come that only count, as long as no input changes. The one after them is that which
-  /// makes the sample point or the boundary show.
-  [[nodiscard]] std::uint64_t edges(const Vcan_core &engine) const { return edges_(engine); }
+  /// Edges to come that only count, as long as no input changes. The last one makes the sample
+  /// point, the boundary or the edge show, at which more happens in the one after it; `watched`:
+  /// that one is not among them.
+  [[nodiscard]] std::uint64_t edges(const Vcan_core &engine, bool watched) const {
+    const std::uint64_t counting = pin_settled(engine) ? counting_(engine) : 0;
+    return watched && counting != 0 ? counting - 1 : counting;
+  }
 
   /// Does `edges` of them.
-  static void pass(Vcan_core &engine, std::uint64_t edges) { pass_(engine, edges); }
+  void pass(Vcan_core &engine, std::uint64_t edges) {
+    if (edges != 0) pass_(engine, edges);
+  }
 
-  /// The next edge, one that only counts, with a new level at the receive pin: that gets no further
-  /// than the first flip-flop (rtl/bit/can_sync.sv).
-  static void pass_level(Vcan_core &engine, Level rx) { pass_level_(engine, rx); }
+  /// The next edge, with `rx` at the receive pin, if it only counts and takes the pin's level on.
+  bool clock_lightly(Vcan_core &engine, Level rx) { return clock_lightly_(engine, rx); }
 
  private:
   // The place in the bit, as the RTL has it.
@@ -80,7 +87,9 @@ class QuietEngine {
       const auto &root = *engine.rootp;
       const bool synchronises =
           root.can_core__DOT__u_bit_timing__DOT__falling != 0 && root.can_core__DOT__tq != 0;
-      if ((engine.trace_o & (kTraceSample | kTraceBoundary)) != 0)
+      const bool was_stopped = std::exchange(stopped_, root.can_core__DOT__active_q == 0);
+      const bool stops = stopped_ && !was_stopped;
+      if (stops || (engine.trace_o & (kTraceSample | kTraceBoundary)) != 0)
         to_settle_ = kSettle;
       else if (to_settle_ > 0)
         --to_settle_;
@@ -106,7 +115,18 @@ class QuietEngine {
   }
 
   template <typename Engine>
-  [[nodiscard]] std::uint64_t edges_(const Engine &engine) const {
+  [[nodiscard]] static bool pin_settled(const Engine &engine) {
+    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
+      return engine.rootp->can_core__DOT__u_sync__DOT__meta_q == engine.can_rx_i &&
+             engine.rootp->can_core__DOT__u_sync__DOT__settled_q == engine.can_rx_i;
+    } else {
+      return false;
+    }
+  }
+
+  // As edges(), if the level of the pin has got through.
+  template <typename Engine>
+  [[nodiscard]] std::uint64_t counting_(const Engine &engine) const {
     using Root = std::remove_reference_t<decltype(*engine.rootp)>;
     if constexpr (kKnown<Root>) {
       const auto &root = *engine.rootp;
@@ -114,13 +134,9 @@ class QuietEngine {
       if (to_settle_ > 0 ||
           root.can_core__DOT__u_bsp__DOT__u_fault__DOT__boff_seen_q != engine.boff_o)
         return 0;
-      if (root.can_core__DOT__u_sync__DOT__meta_q != engine.can_rx_i ||
-          root.can_core__DOT__u_sync__DOT__settled_q != engine.can_rx_i)
-        return 0;
       if (root.can_core__DOT__active_q == 0) return kStopped;
       const Place place = place_of(engine);
-      const std::uint64_t to_event = place.to_tick + quanta(engine) * place.clocks_of_tq;
-      return to_event == 0 ? 0 : to_event - 1;
+      return place.to_tick + quanta(engine) * place.clocks_of_tq;
     } else {
       return 0;
     }
@@ -159,11 +175,41 @@ class QuietEngine {
   }
 
   template <typename Engine>
-  static void pass_(Engine &engine, std::uint64_t edges) {
+  void pass_(Engine &engine, std::uint64_t edges) {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       auto &root = *engine.rootp;
-      if (edges == 0 || root.can_core__DOT__active_q == 0) return;
+      count(engine, edges);
+      const bool shows = root.can_core__DOT__u_bit_timing__DOT__falling != 0 || quanta(engine) == 0;
+      if (root.can_core__DOT__active_q == 0 || root.can_core__DOT__tq == 0 || !shows) return;
+      verican_follow(&root);
+      clocked_(engine);
+    }
+  }
+
+  template <typename Engine>
+  bool clock_lightly_(Engine &engine, Level rx) {
+    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
+      auto &root = *engine.rootp;
+      if (engine.rx_req_i != 0 || counting_(engine) == 0) return false;
+      count(engine, 1);
+      root.can_core__DOT__u_sync__DOT__settled_q = root.can_core__DOT__u_sync__DOT__meta_q;
+      root.can_core__DOT__u_sync__DOT__meta_q = static_cast<CData>(rx);
+      engine.can_rx_i = static_cast<CData>(rx);
+      verican_follow(&root);
+      clocked_(engine);
+      return true;
+    } else {
+      return false;
+    }
+  }
+
+  // Edges that count, without what is combinational in the one that shows something.
+  template <typename Engine>
+  static void count(Engine &engine, std::uint64_t edges) {
+    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
+      auto &root = *engine.rootp;
       root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q = 0;
+      if (root.can_core__DOT__active_q == 0) return;
       const Place place = place_of(engine);
       auto &count = root.can_core__DOT__u_tq_gen__DOT__count_q;
       if (edges < place.to_tick) {
@@ -185,17 +231,9 @@ class QuietEngine {
     }
   }
 
-  template <typename Engine>
-  static void pass_level_(Engine &engine, Level rx) {
-    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
-      pass_(engine, 1);
-      engine.can_rx_i = static_cast<CData>(rx);
-      engine.rootp->can_core__DOT__u_sync__DOT__meta_q = static_cast<CData>(rx);
-    }
-  }
-
   static constexpr std::uint64_t kStopped = ~0ULL >> 1;  // until an input changes
-  unsigned to_settle_ = kSettle;                         // edges to come that move more
+  bool stopped_ = false;
+  unsigned to_settle_ = kSettle;  // edges to come that move more
 };
 
 }  // namespace vericansim

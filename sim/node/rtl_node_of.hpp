@@ -56,23 +56,27 @@ class RtlNodeOf final : public RtlNode {
 
   [[nodiscard]] std::uint64_t quiet() const override {
     if (ahb().active() || !core_.resting()) return 0;
-    return std::min({quiet_.edges(core_.engine()), edges_to_waiter(), core_.rest()});
+    return std::min({quiet_.edges(core_.engine(), watched()), edges_to_waiter(), core_.rest()});
   }
 
   void pass(std::uint64_t edges) override {
-    QuietEngine::pass(core_.engine(), edges);
+    quiet_.pass(core_.engine(), edges);
     core_.pass(edges);
     passed(edges);
   }
 
   void clock_lightly(Level rx) override {
-    if (core_.engine().can_rx_i == static_cast<std::uint8_t>(rx) || quiet() == 0) return clock(rx);
-    QuietEngine::pass_level(core_.engine(), rx);
+    if (ahb().active() || core_.rest() == 0 || core_.wakes() ||
+        !quiet_.clock_lightly(core_.engine(), rx))
+      return clock(rx);
     core_.pass(1);
     after_edge();
   }
 
-  [[nodiscard]] std::uint64_t trace() const override { return core_.engine().trace_o; }
+  [[nodiscard]] std::uint64_t trace() const override {
+    catch_up();
+    return core_.engine().trace_o;
+  }
 
   [[nodiscard]] std::uint8_t irq_lines() const override { return model_irq_lines(top_); }
 

@@ -56,6 +56,8 @@ class SplitCore {
   /// does.
   [[nodiscard]] bool resting() const { return resting_; }
   [[nodiscard]] std::uint64_t rest() const { return resting_ ? rest_ : 0; }
+  /// The engine shows something at which the resting host side has to wake.
+  [[nodiscard]] bool wakes() const { return Ports::wakes_host(engine_, *host_.rootp); }
 
   /// `edges` have passed at rest, at most rest(), and the engine has done them.
   void pass(std::uint64_t edges) {
@@ -90,7 +92,7 @@ class SplitCore {
 
   /// One rising edge of the clock.
   void edge() {
-    if (resting_ && rest_ > 0 && !Ports::wakes_host(engine_, *host_.rootp)) {
+    if (rest() > 0 && !wakes()) {
       pass(1);
       engine_edge();
       return;

@@ -5,12 +5,12 @@
 // evaluated, the same bits in every member of the model as one that does each clock of them.
 #include <gtest/gtest.h>
 
-#include <cstddef>
-#include <cstring>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
-#include <vector>
+#include <type_traits>
+#include <utility>
 
 #include "Vcan_host16.h"
 #include "Vcan_host16___024root.h"
@@ -19,6 +19,7 @@
 #include "Vcan_host64.h"
 #include "Vcan_host64___024root.h"
 #include "bus/bus.hpp"
+#include "harness/model_members.hpp"
 #include "model/registers.hpp"
 #include "node/host.hpp"
 #include "node/model_pins.hpp"
@@ -28,17 +29,6 @@
 namespace vericansim {
 namespace {
 
-// Bytes of a model, without those that say how it was evaluated last.
-template <typename Root>
-std::vector<unsigned char> bits(const Root &root) {
-  std::vector<unsigned char> bytes(sizeof(Root));
-  std::memcpy(bytes.data(), static_cast<const void *>(&root), sizeof(Root));
-  const auto *begin = reinterpret_cast<const unsigned char *>(&root);
-  const auto triggers = reinterpret_cast<const unsigned char *>(&root.__VnbaTriggered) - begin;
-  std::memset(bytes.data() + triggers, 0, sizeof(root.__VnbaTriggered));
-  return bytes;
-}
-
 // Two cores on the same pins: one leaves passes out, the other does them.
 template <typename Model>
 class ScanTwins : public RtlNode {
@@ -47,8 +37,7 @@ class ScanTwins : public RtlNode {
       : RtlNode{name, clock, num_mb} {
     full_.let_scans_rest(false);
     reset();
-    const auto mine = bits(*short_.host().rootp), other = bits(*full_.host().rootp);
-    for (std::size_t i = 0; i < mine.size(); ++i) shared_.push_back(mine[i] == other[i]);
+    members_.emplace(*short_.host().rootp, *full_.host().rootp);
   }
 
   void reset() override {
@@ -115,15 +104,12 @@ class ScanTwins : public RtlNode {
     });
   }
   void compare() {
-    if (shared_.empty()) return;
-    const auto mine = bits(*short_.host().rootp), other = bits(*full_.host().rootp);
-    bool differ = false;
-    for (std::size_t i = 0; i < mine.size(); ++i) differ |= shared_[i] && mine[i] != other[i];
-    differences_ += differ;
+    if (members_ && !members_->same(*short_.host().rootp, *full_.host().rootp)) ++differences_;
   }
 
   SplitCore<Model> short_, full_;
-  std::vector<bool> shared_;  // not a pointer of one of them, nor between two members
+  using Root = std::remove_reference_t<decltype(*std::declval<Model &>().rootp)>;
+  std::optional<ModelMembers<Root>> members_;
   std::mt19937 random_{7};
   unsigned differences_ = 0;
   unsigned left_out_ = 0;

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// An engine whose counting edges are made good or done lightly (QuietEngine) has, whenever it has
+// caught up, the same bits in every member of the model as one that is evaluated at each edge.
+#include "node/quiet_engine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "Vcan_core.h"
+#include "Vcan_core___024root.h"
+#include "bus/bus.hpp"
+#include "bus/faults.hpp"
+#include "harness/model_members.hpp"
+#include "node/core_node.hpp"
+#include "node/model_context.hpp"
+#include "node/model_edge.hpp"
+
+namespace vericansim {
+namespace {
+
+struct EngineCase {
+  const char *name;
+  BitTiming timing;
+  bool triple_sampling = false;
+  bool loop_back = false;
+  bool listen_only = false;
+  double noise = 0;
+};
+void PrintTo(const EngineCase &each, std::ostream *out) { *out << each.name; }
+
+// Two engines on the same pins: one does what it must, as a node of a bus would, the other all.
+class EngineTwins : public Node {
+ public:
+  EngineTwins(const EngineCase &setting, const ClockConfig &clock) : Node{"twins", clock} {
+    for (Vcan_core *engine : {&short_, &full_}) {
+      set(*engine, setting);
+      engine->can_rx_i = 1;
+      engine->rst_ni = 0;
+      rising_edge(*engine, engine->clk_i);
+      engine->rst_ni = 1;
+      rising_edge(*engine, engine->clk_i);
+    }
+    members_.emplace(*short_.rootp, *full_.rootp);
+  }
+  ~EngineTwins() override { Verilated::threadContextp(&context_); }
+
+  void clock(Level rx) override {
+    if (random_() % 3000 == 0) change_inputs();
+    full_.can_rx_i = static_cast<std::uint8_t>(rx);
+    rising_edge(full_, full_.clk_i);
+    shortly(rx);
+    drive(static_cast<Level>(full_.can_tx_o));
+  }
+  [[nodiscard]] std::uint64_t trace() const override { return full_.trace_o; }
+
+  [[nodiscard]] unsigned differences() const { return differences_; }
+  [[nodiscard]] unsigned passed() const { return passed_; }
+  [[nodiscard]] unsigned light() const { return light_; }
+  [[nodiscard]] unsigned sent() const { return sent_; }
+
+ private:
+  static void set(Vcan_core &engine, const EngineCase &setting) {
+    engine.presdiv_i = setting.timing.prescaler - 1;
+    engine.propseg_i = setting.timing.prop - 1;
+    engine.pseg1_i = setting.timing.ps1 - 1;
+    engine.pseg2_i = setting.timing.ps2 - 1;
+    engine.rjw_i = setting.timing.sjw - 1;
+    engine.smp_i = setting.triple_sampling;
+    engine.lpb_i = setting.loop_back;
+    engine.lom_i = setting.listen_only;
+    engine.run_i = 1;
+    engine.tx_dlc_i = 2;
+    engine.tx_word_i = 0x4A5A5A5A;
+  }
+
+  // Inputs change: a frame to send, or no longer; the engine stops, or begins anew.
+  void change_inputs() {
+    catch_up_engine();
+    const bool running = full_.run_i == 0 || random_() % 4 != 0;
+    for (Vcan_core *engine : {&short_, &full_}) {
+      if (engine->run_i != 0) engine->tx_req_i = !engine->tx_req_i;
+      engine->run_i = running;
+      engine->eval();
+    }
+    quiet_.disturbed();
+    allowed_ = 0;
+  }
+
+  void shortly(Level rx) {
+    const bool same = short_.can_rx_i == static_cast<std::uint8_t>(rx);
+    if (same && behind_ < allowed_) {
+      ++behind_;
+      ++passed_;
+      if (random_() % 8 == 0) catch_up_engine();
+      return;
+    }
+    catch_up_engine(false);
+    if (quiet_.clock_lightly(short_, rx)) {
+      ++light_;
+    } else {
+      short_.can_rx_i = static_cast<std::uint8_t>(rx);
+      settled_edge(short_);
+      quiet_.clocked(short_);
+    }
+    sent_ += short_.tx_ok_o;
+    compare();
+    allowed_ = quiet_.edges(short_, random_() % 2 == 0);
+  }
+
+  void catch_up_engine(bool look = true) {
+    quiet_.pass(short_, behind_);
+    allowed_ -= behind_;
+    behind_ = 0;
+    if (look) compare();
+  }
+
+  void compare() {
+    if (!members_->same(*short_.rootp, *full_.rootp)) ++differences_;
+  }
+
+  VerilatedContext context_;
+  Vcan_core short_{&context_, "short"}, full_{&context_, "full"};
+  ModelContext model_context_{context_};
+  QuietEngine quiet_;
+  std::optional<ModelMembers<Vcan_core___024root>> members_;
+  std::mt19937 random_{11};
+  std::uint64_t allowed_ = 0, behind_ = 0;
+  unsigned differences_ = 0, passed_ = 0, light_ = 0, sent_ = 0;
+};
+
+constexpr BitTiming kNarrow{.prescaler = 1, .prop = 3, .ps1 = 2, .ps2 = 2, .sjw = 2};
+constexpr BitTiming kWide{.prescaler = 5, .prop = 4, .ps1 = 3, .ps2 = 2, .sjw = 1};
+constexpr EngineCase kCases[] = {
+    {"OneClockAQuantum", kNarrow},
+    {"FiveClocksAQuantum", kWide},
+    {"TwoClocksAQuantum", {.prescaler = 2, .prop = 7, .ps1 = 8, .ps2 = 8, .sjw = 4}},
+    {"ThreeSamples", kWide, true},
+    {"ThreeSamplesNarrow", kNarrow, true},
+    {"LoopBack", kWide, false, true},
+    {"ListenOnly", kNarrow, false, false, true},
+    {"Noise", kNarrow, false, false, false, 0.005},
+    {"NoiseAndThreeSamples", kWide, true, false, false, 0.005},
+};
+
+class QuietEngineTest : public ::testing::TestWithParam<EngineCase> {};
+
+TEST_P(QuietEngineTest, SameMembersAsWithEveryEdgeEvaluated) {
+  const EngineCase &each = GetParam();
+  Bus bus;
+  EngineTwins twins{each, {.error_ppm = 300}};
+  bus.add(twins);
+  std::vector<std::unique_ptr<CoreNode>> others;
+  for (int i = 0; i < 2; ++i) {
+    const ClockConfig clock{.error_ppm = -400.0 + 350 * i, .phase = 17'003 * (i + 1)};
+    others.push_back(std::make_unique<CoreNode>("other", CoreConfig{.timing = each.timing}, clock));
+    bus.add(*others.back());
+    others.back()->start();
+  }
+  NoiseFault noise{{.per_bit = each.noise, .window = {.from = kMillisecond}}};
+  if (each.noise > 0) bus.add(noise);
+  std::mt19937 random{5};
+  for (int i = 0; i < 300; ++i) {
+    bus.run_for(static_cast<Time>(random() % 400) * kMicrosecond);
+    others[random() % 2]->request({.id = static_cast<std::uint32_t>(random() % 0x800),
+                                   .dlc = static_cast<std::uint8_t>(random() % 9),
+                                   .data = {static_cast<std::uint8_t>(random()), 0xAA, 0xFF}});
+  }
+  EXPECT_EQ(twins.differences(), 0u);
+  EXPECT_GT(twins.passed(), 10'000u);
+  EXPECT_GT(twins.light(), 1'000u);
+  EXPECT_TRUE(each.listen_only || twins.sent() > 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, QuietEngineTest, ::testing::ValuesIn(kCases),
+                         [](const auto &each) { return std::string{each.param.name}; });
+
+}  // namespace
+}  // namespace vericansim
