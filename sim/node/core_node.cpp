@@ -171,7 +171,8 @@ std::uint64_t CoreNode::quiet() const { return impl_->quiet.edges(impl_->top, wa
 void CoreNode::pass(std::uint64_t edges) { impl_->quiet.pass(impl_->top, edges); }
 
 void CoreNode::clock_lightly(Level rx) {
-  if (!impl_->quiet.clock_lightly(impl_->top, rx)) clock(rx);
+  if (!impl_->quiet.counts(impl_->top)) return clock(rx);
+  impl_->quiet.clock_lightly(impl_->top, rx);
 }
 
 void CoreNode::collect() {

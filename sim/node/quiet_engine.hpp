@@ -49,8 +49,12 @@ class QuietEngine {
     if (edges != 0) pass_(engine, edges);
   }
 
-  /// The next edge, with `rx` at the receive pin, if it only counts and takes the pin's level on.
-  bool clock_lightly(Vcan_core &engine, Level rx) { return clock_lightly_(engine, rx); }
+  /// The next edge only counts and takes the level of the receive pin on.
+  [[nodiscard]] bool counts(const Vcan_core &engine) const {
+    return to_settle_ == 0 && engine.rx_req_i == 0 && counting_(engine) != 0;
+  }
+  /// Does that one, with `rx` at the pin.
+  void clock_lightly(Vcan_core &engine, Level rx) { clock_lightly_(engine, rx); }
 
  private:
   // The place in the bit, as the RTL has it.
@@ -187,19 +191,15 @@ class QuietEngine {
   }
 
   template <typename Engine>
-  bool clock_lightly_(Engine &engine, Level rx) {
+  void clock_lightly_(Engine &engine, Level rx) {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       auto &root = *engine.rootp;
-      if (engine.rx_req_i != 0 || counting_(engine) == 0) return false;
       count(engine, 1);
       root.can_core__DOT__u_sync__DOT__settled_q = root.can_core__DOT__u_sync__DOT__meta_q;
       root.can_core__DOT__u_sync__DOT__meta_q = static_cast<CData>(rx);
       engine.can_rx_i = static_cast<CData>(rx);
       verican_follow(&root);
       clocked_(engine);
-      return true;
-    } else {
-      return false;
     }
   }
 

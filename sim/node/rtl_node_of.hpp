@@ -30,8 +30,8 @@ class RtlNodeOf final : public RtlNode {
     disturbed();
     quiet_.disturbed();
     ahb().reset();
-    show_request(top_, ahb().request());
-    top_.hready = 1;
+    show_request(core_.host(), ahb().request());
+    core_.host().hready = 1;
     core_.engine().can_rx_i = 1;
     core_.reset(true);
     for (int i = 0; i < 4; ++i) core_.edge();
@@ -66,9 +66,9 @@ class RtlNodeOf final : public RtlNode {
   }
 
   void clock_lightly(Level rx) override {
-    if (ahb().active() || core_.rest() == 0 || core_.wakes() ||
-        !quiet_.clock_lightly(core_.engine(), rx))
+    if (ahb().active() || core_.rest() == 0 || !quiet_.counts(core_.engine()) || core_.wakes())
       return clock(rx);
+    quiet_.clock_lightly(core_.engine(), rx);
     core_.pass(1);
     after_edge();
   }
@@ -78,11 +78,13 @@ class RtlNodeOf final : public RtlNode {
     return core_.engine().trace_o;
   }
 
-  [[nodiscard]] std::uint8_t irq_lines() const override { return model_irq_lines(top_); }
+  [[nodiscard]] std::uint8_t irq_lines() const override {
+    return model_irq_lines(std::as_const(core_).host());
+  }
 
   void request_stop(bool stop) override {
     disturbed();
-    top_.stop_req_i = stop;
+    core_.host().stop_req_i = stop;
     core_.touch();
   }
 
@@ -105,14 +107,15 @@ class RtlNodeOf final : public RtlNode {
  private:
   // HREADYOUT, HRESP and HRDATA are read as they have settled with this cycle's request.
   AhbResponse cycle(const AhbRequest &request) {
-    show_request(top_, request);
-    top_.hready = top_.hreadyout;
+    HostModel &top = core_.host();
+    show_request(top, request);
+    top.hready = top.hreadyout;
     core_.settle();
-    if (top_.hready != top_.hreadyout) {
-      top_.hready = top_.hreadyout;
+    if (top.hready != top.hreadyout) {
+      top.hready = top.hreadyout;
       core_.settle();
     }
-    const AhbResponse response{top_.hrdata, top_.hreadyout != 0, top_.hresp != 0};
+    const AhbResponse response{top.hrdata, top.hreadyout != 0, top.hresp != 0};
     core_.edge();
     return response;
   }
@@ -120,14 +123,13 @@ class RtlNodeOf final : public RtlNode {
   void transfer_cycle() {
     ahb().clock(cycle(ahb().request()));
     if (!ahb().active()) {
-      show_request(top_, ahb().request());
-      top_.hready = 1;
+      show_request(core_.host(), ahb().request());
+      core_.host().hready = 1;
       core_.touch();
     }
   }
 
   SplitCore<HostModel> core_;
-  HostModel &top_ = core_.host();
   QuietEngine quiet_;
 };
 

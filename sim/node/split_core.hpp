@@ -9,10 +9,12 @@
 #include <cstring>
 #include <memory>
 #include <type_traits>
+#include <utility>
 
 #include "Vcan_core.h"
 #include "Vcan_core___024root.h"
 #include "core_ports.hpp"
+#include "node/byte_store.hpp"
 #include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "node/transmit_scan.hpp"
@@ -25,8 +27,8 @@ namespace vericansim {
 /// quarters of the work of a clock and idle in most of them: when a clock edge has left every bit
 /// of the model as it was, no further edge can change anything until an input does, and the model
 /// is not evaluated. Nor is it while only a pass over its buffers goes on (TransmitScan), which is
-/// made good afterwards. The result is that of the whole core in every clock
-/// (tb/system/bus_split_core_test.cpp).
+/// made good afterwards, or for a byte that is received (ByteStore). The result is that of the
+/// whole core in every clock (tb/system/bus_split_core_test.cpp).
 template <typename HostModel, typename Ports = AhbPorts>
 class SplitCore {
  public:
@@ -39,8 +41,12 @@ class SplitCore {
   SplitCore(const SplitCore &) = delete;
   SplitCore &operator=(const SplitCore &) = delete;
 
-  /// Host side pins; after changing one of its inputs call settle() or touch().
-  [[nodiscard]] HostModel &host() { return host_; }
+  /// Host side pins; after changing one of its inputs call settle() or touch(), and do not keep the
+  /// reference beyond an edge: what has been left out was done with the inputs of then.
+  [[nodiscard]] HostModel &host() {
+    catch_up();
+    return host_;
+  }
   [[nodiscard]] const HostModel &host() const { return host_; }
   /// Engine: CAN pins and trace.
   [[nodiscard]] Vcan_core &engine() { return engine_; }
@@ -61,6 +67,7 @@ class SplitCore {
 
   /// `edges` have passed at rest, at most rest(), and the engine has done them.
   void pass(std::uint64_t edges) {
+    storing_ = storing_ && edges == 0;
     if (rest_ == kForever) return;
     rest_ -= edges;
     behind_ += edges;
@@ -68,13 +75,22 @@ class SplitCore {
 
   /// Lets the host side do what it has left out; its outputs stay as they are.
   void catch_up() {
-    if (behind_ == 0) return;
-    TransmitScan<Root>::pass(*host_.rootp, behind_);
-    behind_ = 0;
+    if (behind_ != 0) TransmitScan<Root>::pass(*host_.rootp, std::exchange(behind_, 0));
+    if (!stored_) return;
+    stored_ = false;
+    if (std::exchange(storing_, false)) {
+      store_.undo(*host_.rootp);
+      settled_edge(host_);
+    } else {
+      settle_host();
+    }
   }
 
-  /// Whether passes over the buffers are left out (by default they are).
-  void let_scans_rest(bool allowed) { scans_rest_ = allowed; }
+  /// Whether passes over the buffers, and bytes, are left out (by default they are).
+  void let_work_rest(bool passes, bool bytes) {
+    passes_rest_ = passes;
+    bytes_rest_ = bytes;
+  }
 
   /// Lets combinational outputs follow the inputs, across both models.
   void settle() {
@@ -94,6 +110,11 @@ class SplitCore {
   void edge() {
     if (rest() > 0 && !wakes()) {
       pass(1);
+      engine_edge();
+      return;
+    }
+    if (rest() == kForever && bytes_rest_ && !storing_ && store_.begin(engine_, *host_.rootp)) {
+      storing_ = stored_ = true;
       engine_edge();
       return;
     }
@@ -126,6 +147,7 @@ class SplitCore {
     std::memcpy(static_cast<void *>(host_.rootp), state.host.get(), sizeof(Root));
     rest_ = state.rest;
     behind_ = 0;
+    storing_ = stored_ = false;
     resting_ = state.resting;
     host_settled_ = state.host_settled;
     engine_settled_ = state.engine_settled;
@@ -149,9 +171,13 @@ class SplitCore {
     const Root &root = *host_.rootp;
     resting_ = std::memcmp(before_.get(), static_cast<const void *>(&root), sizeof(Root)) == 0;
     rest_ = kForever;
-    if (resting_ || !scans_rest_) return;
+    if (resting_ || !passes_rest_) return;
     rest_ = TransmitScan<Root>::clocks(before_.get(), root);
     resting_ = rest_ > 0;
+  }
+
+  void settle_host() {
+    if constexpr (requires { verican_settle(host_.rootp); }) verican_settle(host_.rootp);
   }
 
   auto &host_clock() {
@@ -186,7 +212,11 @@ class SplitCore {
   std::unique_ptr<unsigned char[]> before_ = std::make_unique<unsigned char[]>(sizeof(Root));
   std::uint64_t rest_ = kForever;  // while resting_: edges to come that may be left out
   std::uint64_t behind_ = 0;       // edges that have been
-  bool scans_rest_ = true;
+  ByteStore<Root, Ports> store_;
+  bool storing_ = false;  // a byte in the clock before this one
+  bool stored_ = false;   // one or more, and what is combinational has not followed
+  bool passes_rest_ = true;
+  bool bytes_rest_ = true;
   bool resting_ = false;
   bool host_settled_ = false;
   bool engine_settled_ = false;

@@ -103,7 +103,8 @@ class EngineTwins : public Node {
       return;
     }
     catch_up_engine(false);
-    if (quiet_.clock_lightly(short_, rx)) {
+    if (quiet_.counts(short_)) {
+      quiet_.clock_lightly(short_, rx);
       ++light_;
     } else {
       short_.can_rx_i = static_cast<std::uint8_t>(rx);
