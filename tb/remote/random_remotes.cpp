@@ -107,7 +107,7 @@ void RandomRemotes::user() {
     const UserAccess access{true, dice_.upto(16), dice_.upto(dice_.once_in(2) ? 1024 : 0x20),
                             dice_.upto(~0U)};
     bus_.at(when, [this, at, access] {
-      if (shadows_[at]->may_write()) nodes_[at]->access(access);
+      if (shadows_[at]->may_write(access.word)) nodes_[at]->access(access);
     });
     return;
   }

@@ -53,6 +53,16 @@ void RemoteShadow::on_bit(NodeId node, const BitRecord &bit) {
     model_.receive(node_.frame());
   }
   may_write_ = bit.at.field != Field::kEof && to_int2_ == 0;
+  in_frame_ = bit.at.field != Field::kIdle && bit.at.field != Field::kInt;
+}
+
+bool RemoteShadow::may_write(unsigned word) const {
+  using namespace remote_map;
+  const auto within = [word](unsigned from, unsigned end) {
+    return word >= from / 4 && word < end / 4;
+  };
+  const bool early = within(kMaps, kTablesEnd) || within(kWriteProtect, kReadProtect);
+  return may_write_ && !(early && in_frame_ && model_.config().num_map != 0);
 }
 
 void RemoteShadow::follow_sending(const BitRecord &bit) {

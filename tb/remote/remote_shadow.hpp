@@ -26,9 +26,10 @@ class RemoteShadow : public BusObserver {
 
   void start();
   void hold(bool on);
-  /// User logic writes now: not between the end of a frame and INT2, where the node, which needs
-  /// some clocks, and the model, which needs none, may differ in who was last.
-  [[nodiscard]] bool may_write() const { return may_write_; }
+  /// User logic writes this word now: not between the end of a frame and INT2, where the node,
+  /// which needs some clocks, and the model, which needs none, may differ in who was last; nor, in
+  /// the midst of a frame, what the node looks at before its end, for a map entry (RN-65).
+  [[nodiscard]] bool may_write(unsigned word) const;
   /// A RESTART is under way.
   [[nodiscard]] bool restarting() const { return model_.restarting(); }
 
@@ -62,6 +63,7 @@ class RemoteShadow : public BusObserver {
   unsigned to_int2_ = 0;  // sample points
   bool off_bus_ = false;
   bool may_write_ = true;
+  bool in_frame_ = false;
 };
 
 }  // namespace vericansim

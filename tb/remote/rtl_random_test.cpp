@@ -21,6 +21,13 @@ TEST_P(RtlRandom, NodesDoWhatTheModelDoes) {
   }
 }
 
+// RN-65: user logic writes an entry in the midst of a frame that it would take.
+TEST(RtlRandomSeeds, AnEntryHoldsFromTheNextFrameOn) {
+  RandomRemotes remotes{"standard", 2'404'000'067};
+  for (unsigned i = 0; i < 50; ++i)
+    ASSERT_TRUE(remotes.step()) << remotes.history() << remotes.difference();
+}
+
 INSTANTIATE_TEST_SUITE_P(Profiles, RtlRandom, ::testing::Values("small", "standard", "full"),
                          [](const auto &test) { return std::string{test.param}; });
 

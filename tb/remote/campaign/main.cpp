@@ -7,7 +7,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <mutex>
 
@@ -120,9 +123,25 @@ class Campaign {
     });
   }
 
-  [[nodiscard]] Json result() const;
+  /// Runs these parts, all if there is none, and prints the figures of each as it ends.
+  Json run(const std::vector<std::string> &parts);
+
+  /// A part of the campaign, and what it adds up to.
+  struct Part {
+    const char *name;
+    void (Campaign::*run)();
+    Json (Campaign::*figures)() const;
+  };
+  static const std::array<Part, 5> kParts;
 
  private:
+  [[nodiscard]] Json enough(const char *name, std::uint64_t value, unsigned bar) const;
+  [[nodiscard]] Json of_searches() const;
+  [[nodiscard]] Json of_frames() const;
+  [[nodiscard]] Json of_commands() const;
+  [[nodiscard]] Json of_triggers() const;
+  [[nodiscard]] Json of_buses() const;
+  [[nodiscard]] Json notes() const;
   [[nodiscard]] unsigned seed(unsigned n) const {
     return static_cast<unsigned>(settings_.seed * 1'000'000 + n);
   }
@@ -157,54 +176,90 @@ class Campaign {
   RateSum rates_;
 };
 
-Json Campaign::result() const {
-  const bool whole = settings_.scale >= 1;
-  const auto enough = [&](const char *name, std::uint64_t value, unsigned bar) {
-    return campaign_figure(name, value, fmt::format(">= {}", bar),
-                           whole ? Json(value >= bar) : Json(nullptr));
-  };
-  const auto none = [](const char *name, std::uint64_t value) {
-    return campaign_figure(name, value, "0", value == 0);
-  };
-  Json notes = Json::array();
-  for (const auto *differences :
-       {&buses_.differences, &frames_.differences, &accesses_.differences, &port_.differences})
-    for (const std::string &text : *differences) notes.push_back(text);
-  for (const std::string &text : rates_.failures) notes.push_back(text);
-  notes.push_back(
-      fmt::format("nearest to its bound: {:.0f} % of it, {}", 100 * skew_.part, skew_.worst));
+const std::array<Campaign::Part, 5> Campaign::kParts = {
+    Part{"frames", &Campaign::every_frame, &Campaign::of_frames},
+    Part{"buses", &Campaign::buses, &Campaign::of_buses},
+    Part{"commands", &Campaign::port_commands, &Campaign::of_commands},
+    Part{"searches", &Campaign::searches, &Campaign::of_searches},
+    Part{"triggers", &Campaign::triggers, &Campaign::of_triggers}};
+
+Json Campaign::enough(const char *name, std::uint64_t value, unsigned bar) const {
+  return campaign_figure(name, value, fmt::format(">= {}", bar),
+                         settings_.scale >= 1 ? Json(value >= bar) : Json(nullptr));
+}
+
+Json none(const char *name, std::uint64_t value) {
+  return campaign_figure(name, value, "0", value == 0);
+}
+
+Json within(const char *name, unsigned value, unsigned bar) {
+  return campaign_figure(name, value, fmt::format("<= {}", bar), value <= bar);
+}
+
+Json Campaign::of_searches() const {
+  return {enough("searches for the bit rate", rates_.runs, kSearches),
+          none("searches that took a wrong rate", rates_.wrong),
+          none("searches that found none", rates_.lost),
+          within("frames until it was found, at most, without noise", rates_.frames, 40),
+          within("the same with a single sender", rates_.frames_alone, 56)};
+}
+
+Json Campaign::of_frames() const {
   const auto profiles = static_cast<unsigned>(kProfiles.size());
-  const auto within = [](const char *name, unsigned value, unsigned bar) {
-    return campaign_figure(name, value, fmt::format("<= {}", bar), value <= bar);
-  };
   return {
-      {"figures",
-       {enough("frames at the port: every one of each number, locked or not", frames_.frames,
-               profiles * kFrames),
-        enough("accesses at the port: every address and length", accesses_.frames,
-               profiles * kAccesses),
-        enough("random commands at the port", port_.frames, kPortCommands),
-        campaign_figure("answers at the port", frames_.answers + accesses_.answers + port_.answers),
-        none("differences at the port",
-             frames_.differences.size() + accesses_.differences.size() + port_.differences.size()),
-        enough("commands on buses", buses_.commands, kBusCommands),
-        campaign_figure("buses of two to eight nodes", buses_.runs),
-        campaign_figure("answers of nodes", buses_.answers),
-        campaign_figure("disturbances", buses_.disturbed),
-        none("buses with a difference", buses_.differences.size()),
-        enough("searches for the bit rate", rates_.runs, kSearches),
-        none("searches that took a wrong rate", rates_.wrong),
-        none("searches that found none", rates_.lost),
-        within("frames until it was found, at most, without noise", rates_.frames, 40),
-        within("the same with a single sender", rates_.frames_alone, 56),
-        enough("triggers", skew_.triggers, kTriggers),
-        campaign_figure("pairs of nodes at a trigger", skew_.pairs),
-        none("triggers that a node missed", skew_.lost),
-        none("pairs beyond the bound of RN-47", skew_.above),
-        campaign_figure("largest skew, ns", static_cast<double>(skew_.largest) / kNanosecond),
-        campaign_figure("largest part of the bound, %", std::round(1000 * skew_.part) / 10)}},
-      {"tables", Json::array()},
-      {"notes", notes}};
+      enough("frames at the port: every one of each number, locked or not", frames_.frames,
+             profiles * kFrames),
+      enough("accesses at the port: every address and length", accesses_.frames,
+             profiles * kAccesses),
+      campaign_figure("answers to them", frames_.answers + accesses_.answers),
+      none("differences at the port", frames_.differences.size() + accesses_.differences.size())};
+}
+
+Json Campaign::of_commands() const {
+  return {enough("random commands at the port", port_.frames, kPortCommands),
+          none("differences in random commands", port_.differences.size())};
+}
+
+Json Campaign::of_triggers() const {
+  return {enough("triggers", skew_.triggers, kTriggers),
+          campaign_figure("pairs of nodes at a trigger", skew_.pairs),
+          none("triggers that a node missed", skew_.lost),
+          none("pairs beyond the bound of RN-47", skew_.above),
+          campaign_figure("largest skew, ns", static_cast<double>(skew_.largest) / kNanosecond),
+          campaign_figure("largest part of the bound, %", std::round(1000 * skew_.part) / 10)};
+}
+
+Json Campaign::of_buses() const {
+  return {enough("commands on buses", buses_.commands, kBusCommands),
+          campaign_figure("buses of two to eight nodes", buses_.runs),
+          campaign_figure("answers of nodes", buses_.answers),
+          campaign_figure("disturbances", buses_.disturbed),
+          none("buses with a difference", buses_.differences.size())};
+}
+
+Json Campaign::notes() const {
+  Json notes = Json::array();
+  for (const auto *texts : {&buses_.differences, &frames_.differences, &accesses_.differences,
+                            &port_.differences, &rates_.failures})
+    for (const std::string &text : *texts) notes.push_back(text);
+  if (skew_.triggers != 0)
+    notes.push_back(
+        fmt::format("nearest to its bound: {:.0f} % of it, {}", 100 * skew_.part, skew_.worst));
+  return notes;
+}
+
+Json Campaign::run(const std::vector<std::string> &parts) {
+  Json figures = Json::array();
+  for (const Part &part : kParts) {
+    if (!parts.empty() && std::find(parts.begin(), parts.end(), part.name) == parts.end()) continue;
+    (this->*part.run)();
+    for (const Json &figure : (this->*part.figures)()) {
+      fmt::print("{}: {}\n", figure["name"].get<std::string>(), figure["value"].dump());
+      figures.push_back(figure);
+    }
+    std::fflush(stdout);
+  }
+  return {{"figures", figures}, {"tables", Json::array()}, {"notes", notes()}};
 }
 
 }  // namespace
@@ -216,23 +271,15 @@ int main(int argc, char **argv) {
     settings.add_to(app,
                     "1,000,000 commands at the port, 100,000 on buses, 10,000 triggers and 10,000 "
                     "searches for the bit rate");
-    bool searches = false;
-    app.add_flag("--searches", searches, "Only the searches for the bit rate");
+    std::vector<std::string> parts;
+    app.add_option("--only", parts, "Parts of it: frames, buses, commands, searches, triggers")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"frames", "buses", "commands", "searches", "triggers"}));
     CLI11_PARSE(app, argc, argv);
-    Campaign campaign{settings};
-    campaign.searches();
-    if (!searches) {
-      campaign.every_frame();
-      campaign.port_commands();
-      campaign.triggers();
-      campaign.buses();
-    }
-    const Json result = campaign.result();
-    bool good = true;
-    for (const Json &figure : result["figures"]) {
-      fmt::print("{}: {}\n", figure["name"].get<std::string>(), figure["value"].dump());
-      good = good && figure["ok"] != Json(false);
-    }
+    const Json result = Campaign{settings}.run(parts);
+    const auto missed = [](const Json &figure) { return figure["ok"] == Json(false); };
+    const Json &figures = result["figures"];
+    const bool good = std::none_of(figures.begin(), figures.end(), missed);
     for (const Json &note : result["notes"]) fmt::print("{}\n", note.get<std::string>());
     if (!settings.json.empty()) std::ofstream{settings.json} << result.dump(1) << '\n';
     return good ? 0 : 1;
