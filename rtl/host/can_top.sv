@@ -100,7 +100,7 @@ module can_top #(
   assign in_stamp = TimeUnit != 0 && addr_i[12:10] == 3'b101 && {1'b0, addr_i[9:3]} < 8'(NumMb);
   assign to_mb    = in_mb || in_mask || in_gmask || in_timer || in_rxfir || in_stamp;
   // masks: in freeze mode only
-  assign wr_ok    = in_mb || in_timer || (frz_ack && !in_rxfir && !in_stamp);
+  assign wr_ok    = in_mb || in_timer || (frz_ack && !in_rxfir);
 
   // Global masks are hidden rows: of the masks' memory, or of the MSG memory (can_mailbox).
   logic [1:0]      gmask;

@@ -39,7 +39,7 @@ module can_stamp (
 
   // The own flip-flop counts for bits that this node sends alone, its pin for all others.
   logic own, fall;
-  assign own  = !txpin_q && (field_i == can_pkg::FldSof || (transmitter_i && !between));
+  assign own  = !txpin_q && transmitter_i && !between;
   assign fall = own ? tx_q && !tx_i : rx_q && !rx_i;
 
   // Reference bit: the first behind the arbitration field that is dominant behind a recessive one.

@@ -92,7 +92,7 @@ TEST_F(LaunchTime, Past) {
 TEST_F(LaunchTime, OrdinaryAfterwards) {
   rig_.put_rx(1, 5, frame_of(0x001), {});
   rig_.put_tx(0, 1, frame_of(0x010));  // on the bus at T0
-  hold(3, frame_of(0x020), 200);
+  hold(3, frame_of(0x020), 380);
   rig_.put_tx(0, 2, frame_of(0x400));  // waits, and is worse than the one released
   ASSERT_TRUE(rig_.wait_flag(0, 1));
   ASSERT_TRUE(rig_.wait_flag(0, 3));
@@ -100,10 +100,83 @@ TEST_F(LaunchTime, OrdinaryAfterwards) {
   EXPECT_TRUE(rig_.wait_flag(0, 2));
 }
 
+// TM-42: at every number of clocks a bit from 8 to 96.
+TEST_F(LaunchTime, EveryPrescaler) {
+  for (const unsigned clocks : {2u, 3u, 5u, 8u, 12u}) {
+    for (unsigned n = 0; n < 2; ++n) {
+      ASSERT_TRUE(rig_.freeze(n, 40000));
+      rig_.write(n, reg::kCtrl, kTiming8 | (clocks - 1) << 24);
+    }
+    for (unsigned n = 0; n < 2; ++n) rig_.go(n);
+    for (unsigned phase = 0; phase < 8; ++phase) {
+      rig_.run(400 * clocks + phase);
+      const std::size_t falls = time_.node(0).falls().size();
+      const std::uint64_t t0 = hold(3, frame_of(0x100), 300 + phase * clocks);
+      ASSERT_TRUE(rig_.wait_flag(0, 3, 2000 * clocks));
+      rig_.clear_flag(0, 3);
+      EXPECT_GE(fall(falls), t0 + 2 * clocks) << clocks << ' ' << phase;
+      EXPECT_LE(fall(falls), t0 + 10 * clocks + 2) << clocks << ' ' << phase;
+    }
+  }
+}
+
+// TM-43: a frame is on the bus at T0: SOF follows its intermission, and stamps tell how late.
+TEST_F(LaunchTime, BusyBus) {
+  for (unsigned n = 0; n < 2; ++n) rig_.write(n, kTctrl, 0x30);
+  rig_.put_tx(1, 8, frame_of(0x555));
+  rig_.run(100);
+  const std::uint64_t t0 = hold(3, frame_of(0x100), 100);
+  ASSERT_TRUE(rig_.wait_flag(0, 3));
+  const std::uint64_t start = time_.stamp(0, 3) / kTimeStep;
+  EXPECT_GT(start, t0);
+  // EOF6 of the frame before, EOF7, three bits of intermission; SJW 1 either way.
+  const std::uint64_t before = time_.node(0).valids().at(time_.node(0).valids().size() - 2);
+  EXPECT_NEAR(static_cast<double>(start), static_cast<double>(before + 2 + 4 * 8), 2.0);
+}
+
+// TM-43: and it arbitrates as any other: a better frame of another node goes first.
+TEST_F(LaunchTime, LosesArbitration) {
+  rig_.put_tx(1, 9, frame_of(0x7F0));
+  rig_.run(100);
+  rig_.put_tx(1, 8, frame_of(0x050));
+  hold(3, frame_of(0x100), 100);
+  ASSERT_TRUE(rig_.wait_flag(1, 8));
+  EXPECT_EQ(rig_.flags(0) & 8u, 0u);
+  EXPECT_TRUE(rig_.wait_flag(0, 3));
+}
+
+// TM-44: abort of a held buffer: code 1001 and its flag, as of one that waits.
+TEST_F(LaunchTime, AbortWhileHeld) {
+  ASSERT_TRUE(rig_.freeze(0));
+  rig_.write(0, reg::kMcr, rig_.read(0, reg::kMcr) | 1u << 12);  // AEN
+  rig_.go(0);
+  hold(3, frame_of(0x001), 3000);
+  rig_.run(200);
+  rig_.write(0, reg::mb(3, 0), 0x09000000);
+  ASSERT_TRUE(rig_.wait_flag(0, 3, 400));
+  EXPECT_EQ(rig_.read(0, reg::mb(3, 0)) >> 24, 9u);
+  rig_.clear_flag(0, 3);
+  rig_.run(4000);
+  EXPECT_EQ(rig_.flags(0) & 8u, 0u);
+}
+
+// TM-44: freeze mode keeps HOLD; time releases it there too.
+TEST_F(LaunchTime, Freeze) {
+  const std::uint64_t t0 = hold(3, frame_of(0x001), 1500);
+  ASSERT_TRUE(rig_.freeze(0));
+  EXPECT_EQ(rig_.read(0, kTstat) & kHeld, kHeld);
+  ASSERT_LT(time_.node(0).edges(), t0);
+  rig_.run(1600);
+  EXPECT_EQ(rig_.read(0, kTstat) & (kHeld | kTxrel), kTxrel);
+  EXPECT_EQ(rig_.flags(0) & 8u, 0u);
+  rig_.go(0);
+  EXPECT_TRUE(rig_.wait_flag(0, 3));
+}
+
 // TM-44: rewriting takes a held frame back.
 TEST_F(LaunchTime, Rewritten) {
   hold(3, frame_of(0x001), 600);
-  rig_.write(0, 0x80 + 16 * 3, 0x08000000);
+  rig_.write(0, reg::mb(3, 0), 0x08000000);
   rig_.run(1500);
   EXPECT_EQ(rig_.flags(0) & 8u, 0u);
   EXPECT_EQ(rig_.read(0, kTstat) & (kHeld | kTxrel), kTxrel);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/frame_codec.hpp"
+#include "time/stamp_rule.hpp"
 #include "time/time_node.hpp"
 
 namespace vericansim {
@@ -21,17 +22,7 @@ constexpr unsigned kClocksPerBit = 8;  // kTiming8
 constexpr unsigned kSync = 2;          // synchroniser of the receive pin, clocks
 constexpr std::uint32_t kPointSof = 0x30, kPointEdge = 0x31, kPointEof = 0x32, kTxpin = 4;
 
-/// Index of the reference bit of a frame (TM-21), from its bits alone.
-std::size_t reference_bit(const Frame &frame) {
-  const std::vector<WireBit> bits = encode_frame(frame).bits;
-  for (std::size_t i = 1; i < bits.size(); ++i) {
-    const bool behind_arbitration = bits[i].field >= Field::kR1 && bits[i].field <= Field::kCrc;
-    if (behind_arbitration && bits[i].level == Level::kDominant &&
-        bits[i - 1].level == Level::kRecessive)
-      return i;
-  }
-  throw std::logic_error("no reference bit");
-}
+std::size_t reference_bit(const Frame &frame) { return reference_bit(encode_frame(frame).bits); }
 
 Frame data_frame(std::uint32_t id, bool extended, unsigned dlc) {
   Frame frame;
@@ -180,7 +171,40 @@ TEST_F(StampMailbox, BusyCpu) {
   }
 }
 
-// TM-28: a frame that was disturbed is stamped when it is sent again.
+// TM-27, TM-28: a read of a word that is being written gets the old one or the new one.
+TEST_F(StampMailbox, OldOrNew) {
+  bring_up(kPointEdge);
+  const Frame frame = data_frame(0x2AA, false, 0);
+  rig_.put_rx(1, 5, frame, {});
+  send(frame);
+  for (unsigned i = 0; i < 12; ++i) {
+    const unsigned n = i % 2, mb = n == 0 ? 8 : 5;
+    rig_.get(1, 5);
+    rig_.read(1, reg::kTimer);
+    rig_.clear_flag(1, 5);
+    const std::uint64_t before = time_.stamp(n, mb);
+    rig_.run(i * 7);
+    const std::size_t falls = time_.node(0).falls().size();
+    rig_.put_tx(0, 8, frame);
+    std::vector<std::uint32_t> seen;
+    while (seen.size() < 900) {
+      const std::vector<AhbTransfer> reads(20, {.address = stamp(mb)});
+      for (const AhbResult &result : rig_.burst(n, reads)) seen.push_back(result.data);
+    }
+    rig_.clear_flag(0, 8);
+    const std::uint64_t sof = time_.node(0).falls().at(falls);
+    const std::uint64_t after = sent_at(sof, reference_bit(frame)) + n * kSync * kTimeStep;
+    EXPECT_EQ(time_.stamp(n, mb), after);
+    unsigned changes = 0;
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      ASSERT_TRUE(seen[k] == before || seen[k] == after) << std::hex << seen[k];
+      changes += k > 0 && seen[k] != seen[k - 1] ? 1 : 0;
+    }
+    EXPECT_EQ(changes, 1u);
+  }
+}
+
+// TM-28: a frame whose buffer is rewritten while it is sent leaves no stamp there.
 TEST_F(StampMailbox, RewrittenBuffer) {
   bring_up(kPointEdge);
   const Frame frame = data_frame(0x300, false, 8);

@@ -78,18 +78,20 @@ AhbResult TimeNode::peek(const AhbTransfer & /*transfer*/) {
   throw std::logic_error("a TimeNode is read by real transfers only");
 }
 
-std::vector<std::unique_ptr<RtlNode>> TimeRig::make(unsigned count,
+std::vector<std::unique_ptr<RtlNode>> TimeRig::make(const std::vector<Time> &phases,
                                                     std::vector<TimeNode *> &nodes) {
   std::vector<std::unique_ptr<RtlNode>> all;
-  for (unsigned n = 0; n < count; ++n) {
-    auto node = std::make_unique<TimeNode>("node" + std::to_string(n));
+  for (const Time phase : phases) {
+    auto node = std::make_unique<TimeNode>("node" + std::to_string(nodes.size()),
+                                           ClockConfig{.phase = phase});
     nodes.push_back(node.get());
     all.push_back(std::move(node));
   }
   return all;
 }
 
-TimeRig::TimeRig(unsigned count) : rig{make(count, nodes)} {}
+TimeRig::TimeRig(const std::vector<Time> &first_edges)
+    : phases{first_edges}, rig{make(phases, nodes)} {}
 
 std::uint64_t TimeRig::time(unsigned n) {
   const std::uint64_t low = rig.read(n, time_reg::kTimelo);

@@ -68,18 +68,27 @@ class TimeNode final : public RtlNode {
 
 /// MailboxRig of `nodes` of them.
 struct TimeRig {
-  explicit TimeRig(unsigned nodes);
+  explicit TimeRig(unsigned nodes) : TimeRig{std::vector<Time>(nodes, 0)} {}
+  /// With the time of the first edge of each clock, ps.
+  explicit TimeRig(const std::vector<Time> &first_edges);
   TimeNode &node(unsigned n) { return *nodes[n]; }
   /// TIME of node n as software reads it.
   std::uint64_t time(unsigned n);
   /// The stamp of a buffer.
   std::uint64_t stamp(unsigned n, unsigned mb);
 
+  /// When edge number `edge` of node n came (TimeNode::edges()); one is before the bus begins.
+  [[nodiscard]] Time at(unsigned n, std::uint64_t edge) const {
+    return phases[n] + (static_cast<Time>(edge) - 2) * static_cast<Time>(kTimeStep) * kNanosecond;
+  }
+
   std::vector<TimeNode *> nodes;
+  std::vector<Time> phases;
   MailboxRig rig;
 
  private:
-  static std::vector<std::unique_ptr<RtlNode>> make(unsigned count, std::vector<TimeNode *> &nodes);
+  static std::vector<std::unique_ptr<RtlNode>> make(const std::vector<Time> &phases,
+                                                    std::vector<TimeNode *> &nodes);
 };
 
 }  // namespace vericansim
