@@ -119,9 +119,9 @@ module can_mb_tx #(
   logic candidate, withdrawn, better;
   assign candidate = s2_q && s2_active_q && !(cs_written_i && cs_written_idx_i == s2_idx_q)
                   && !((off_i || start_i) && s2_idx_q == cur_idx_i);
-  // The winner is no longer what it was. Whenever another buffer is held, or none, a new one is
-  // looked for: what the old one has beaten is not known.
-  logic            held_q, s2_held, best_held;
+  // A buffer that is held no longer is compared as one that was written; a winner that is held from
+  // now on is none, and what it had beaten is not known.
+  logic            held_q, s2_held, best_held, freed, set_aside;
   logic [IdxW-1:0] held_idx_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {held_q, held_idx_q} <= '0;
@@ -129,9 +129,12 @@ module can_mb_tx #(
   end
   assign s2_held   = held_i && s2_idx_q == held_idx_i;
   assign best_held = held_i && best_idx_o == held_idx_i;
+  assign freed     = held_q && !(held_i && held_idx_q == held_idx_i);
+  assign set_aside = held_i && !(held_q && held_idx_q == held_idx_i) && best_idx_o == held_idx_i;
+  // The winner is no longer what it was.
   assign withdrawn   = best_q && ((cs_written_i && cs_written_idx_i == best_idx_o)
                           || ((start_i || off_i) && cur_idx_i == best_idx_o) || inactive_i
-                          || held_q != held_i || (held_i && held_idx_q != held_idx_i));
+                          || set_aside || (freed && (ans_i || ans_q)));
   // In two halves side by side: one comparison of all bits is the longest path of the core.
   logic high_less, high_equal, low_less;
   assign high_less  = s2_val_q[34:17] < best_val_q[34:17];
@@ -188,8 +191,9 @@ module can_mb_tx #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)   {ans_q, ans_idx_q} <= '0;
     else begin
-      ans_q <= running_i && (ans_i || (ans_q && !ans_gnt));
-      if (ans_i) ans_idx_q <= ans_idx_i;
+      ans_q <= running_i && (ans_i || freed || (ans_q && !ans_gnt));
+      if (ans_i)                ans_idx_q <= ans_idx_i;
+      else if (freed && !ans_q) ans_idx_q <= held_idx_q;
     end
   end
 

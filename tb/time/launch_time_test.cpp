@@ -88,16 +88,34 @@ TEST_F(LaunchTime, Past) {
   EXPECT_EQ(rig_.read(0, kTstat) & kHeld, 0u);
 }
 
-// TM-43: with another frame waiting behind a busy bus, the identifier decides after T0 again.
+// TM-43: with another frame waiting behind a busy bus, the identifier decides after T0 again, also
+// shortly before the frame on the bus ends.
 TEST_F(LaunchTime, OrdinaryAfterwards) {
-  rig_.put_rx(1, 5, frame_of(0x001), {});
-  rig_.put_tx(0, 1, frame_of(0x010));  // on the bus at T0
-  hold(3, frame_of(0x020), 380);
-  rig_.put_tx(0, 2, frame_of(0x400));  // waits, and is worse than the one released
-  ASSERT_TRUE(rig_.wait_flag(0, 1));
+  for (unsigned i = 0; i < 12; ++i) {
+    rig_.put_tx(0, 1, frame_of(0x010));  // on the bus at T0
+    hold(3, frame_of(0x020), 250 + 15 * i);
+    rig_.put_tx(0, 2, frame_of(0x400));  // waits, and is worse than the one released
+    ASSERT_TRUE(rig_.wait_flag(0, 1));
+    EXPECT_EQ(rig_.read(0, kTstat) & kTxrel, kTxrel) << i;
+    ASSERT_TRUE(rig_.wait_flag(0, 3));
+    EXPECT_EQ(rig_.flags(0) & 4u, 0u) << i;
+    ASSERT_TRUE(rig_.wait_flag(0, 2));
+    for (const unsigned mb : {1u, 2u, 3u}) rig_.clear_flag(0, mb);
+    rig_.write(0, kTstat, kTxrel);
+  }
+}
+
+// TM-41: a buffer that is held only when it waits already gives way from then on.
+TEST_F(LaunchTime, HeldLater) {
+  rig_.put_tx(1, 8, frame_of(0x005));  // on the bus meanwhile
+  rig_.run(60);
+  rig_.put_tx(0, 3, frame_of(0x020));
+  rig_.put_tx(0, 2, frame_of(0x400));
+  rig_.write(0, kTtx, static_cast<std::uint32_t>((time_.node(0).edges() + 3000) * kTimeStep));
+  rig_.write(0, kTtxmb, kHold | 3);
+  ASSERT_TRUE(rig_.wait_flag(0, 2));
+  EXPECT_EQ(rig_.flags(0) & 8u, 0u);
   ASSERT_TRUE(rig_.wait_flag(0, 3));
-  EXPECT_EQ(rig_.flags(0) & 4u, 0u);
-  EXPECT_TRUE(rig_.wait_flag(0, 2));
 }
 
 // TM-42: at every number of clocks a bit from 8 to 96.

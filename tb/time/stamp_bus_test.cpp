@@ -96,7 +96,7 @@ TEST(CanStamp, LosersAndReceiversDoNotMoveIt) {
       rig.read(n, reg::kTimer);
     }
   }
-  EXPECT_EQ(lost, 7u);
+  EXPECT_EQ(lost, 6u);
 }
 
 // TM-26: from the edge at the pin to TIME in the stamp: one to two clocks, on average RXLAT.
