@@ -111,6 +111,7 @@ TEST_F(LaunchTime, HeldLater) {
   rig_.run(60);
   rig_.put_tx(0, 3, frame_of(0x020));
   rig_.put_tx(0, 2, frame_of(0x400));
+  rig_.run(200);  // all that the writes have set off is over
   rig_.write(0, kTtx, static_cast<std::uint32_t>((time_.node(0).edges() + 3000) * kTimeStep));
   rig_.write(0, kTtxmb, kHold | 3);
   ASSERT_TRUE(rig_.wait_flag(0, 2));

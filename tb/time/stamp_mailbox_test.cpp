@@ -174,11 +174,15 @@ TEST_F(StampMailbox, BusyCpu) {
 // TM-27, TM-28: a read of a word that is being written gets the old one or the new one.
 TEST_F(StampMailbox, OldOrNew) {
   bring_up(kPointEdge);
-  const Frame frame = data_frame(0x2AA, false, 0);
-  rig_.put_rx(1, 5, frame, {});
-  send(frame);
+  const Frame data = data_frame(0x2AA, false, 0);
+  // Its reference bit, r1, comes before the header is known and buffers are looked at.
+  Frame remote = data_frame(0x0AAAAAAA, true, 0);
+  remote.remote = true;
+  rig_.put_rx(1, 5, data, {});
+  send(data);
   for (unsigned i = 0; i < 12; ++i) {
     const unsigned n = i % 2, mb = n == 0 ? 8 : 5;
+    const Frame &frame = n == 0 ? remote : data;
     rig_.get(1, 5);
     rig_.read(1, reg::kTimer);
     rig_.clear_flag(1, 5);
@@ -188,7 +192,7 @@ TEST_F(StampMailbox, OldOrNew) {
     rig_.put_tx(0, 8, frame);
     std::vector<std::uint32_t> seen;
     while (seen.size() < 900) {
-      const std::vector<AhbTransfer> reads(20, {.address = stamp(mb)});
+      const std::vector<AhbTransfer> reads(21 + i, {.address = stamp(mb)});
       for (const AhbResult &result : rig_.burst(n, reads)) seen.push_back(result.data);
     }
     rig_.clear_flag(0, 8);

@@ -148,6 +148,11 @@ TEST_F(TimeRegs, CompareAndOutput) {
   ASSERT_GE(pulses.size(), 3u);
   for (unsigned i = 0; i < 3; ++i)  // the clock after the first in which TIME has reached it
     EXPECT_EQ((pulses[i] - 1) * kTimeStep, first + i * 2000u) << i;
+  // Armed anew while the output is 1: 0, until that time comes.
+  while ((read(kTstat) & (1u << 18)) == 0) rig_.run(1);
+  write(kTcmp, first + 1000000);
+  rig_.run(50);
+  EXPECT_EQ(read(kTstat) & (1u << 18), 0u);
   write(kTctrl, 0x31);
   EXPECT_FALSE(time_.node(0).irq_time());
   EXPECT_EQ(read(kTstat) & (1u << 19), 0u);
