@@ -47,6 +47,7 @@ host/can_top.sv
 host/can_ahb.sv
 # A node without a processor: can_core, can_mb_ram and these.
 remote/can_rn_pkg.sv
+remote/can_rn_params.sv
 remote/can_rn_head.sv
 remote/can_rn_check.sv
 remote/can_rn_tick.sv

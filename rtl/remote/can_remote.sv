@@ -97,42 +97,11 @@ module can_remote #(
                             + (Protect != 0 ? 16 : 0) + (Block != 0 ? 32 : 0)
                             + (AutoRate != 0 ? 64 : 0) + (Counters != 0 ? 128 : 0);
 
-  if (NameBits != 3 && NameBits != 5) begin : gen_check_name_bits
-    NameBits_must_be_3_or_5 u_stop ();
-  end
-  if (MemBytes != 1024 && MemBytes != 2048 && MemBytes != 4096) begin : gen_check_mem_bytes
-    MemBytes_must_be_1024_2048_or_4096 u_stop ();
-  end
-  if (StageBytes != 0 && StageBytes != 8 && StageBytes != 16) begin : gen_check_stage_bytes
-    StageBytes_must_be_0_8_or_16 u_stop ();
-  end
-  if (TxDepth != 1 && TxDepth != 4) begin : gen_check_tx_depth
-    TxDepth_must_be_1_or_4 u_stop ();
-  end
-  if (NumProd != 0 && NumProd != 4 && NumProd != 8) begin : gen_check_num_prod
-    NumProd_must_be_0_4_or_8 u_stop ();
-  end
-  if (Protect != 0 && Protect != 1) begin : gen_check_protect
-    Protect_must_be_0_or_1 u_stop ();
-  end
-  if (Block != 0 && Block != 1) begin : gen_check_block
-    Block_must_be_0_or_1 u_stop ();
-  end
-  if (AutoRate != 0 && AutoRate != 1) begin : gen_check_auto_rate
-    AutoRate_must_be_0_or_1 u_stop ();
-  end
-  if (RateRows < 1 || RateRows > 15) begin : gen_check_rate_rows
-    RateRows_must_be_1_to_15 u_stop ();
-  end
-  if (Counters != 0 && Counters != 1) begin : gen_check_counters
-    Counters_must_be_0_or_1 u_stop ();
-  end
-  if (SameId != 0 && SameId != 1) begin : gen_check_same_id
-    SameId_must_be_0_or_1 u_stop ();
-  end
-  if (NumMap != 0 && NumMap != 4 && NumMap != 8) begin : gen_check_num_map
-    NumMap_must_be_0_4_or_8 u_stop ();
-  end
+  can_rn_params #(
+    .NameBits(NameBits), .MemBytes(MemBytes), .StageBytes(StageBytes), .TxDepth(TxDepth),
+    .NumProd(NumProd), .NumMap(NumMap), .Protect(Protect), .Block(Block), .AutoRate(AutoRate),
+    .Counters(Counters), .SameId(SameId), .RateRows(RateRows)
+  ) u_params ();
 
   // A constant, but for the simulator, which makes nodes that differ in it alone.
   logic [31:0] serial /* verilator public_flat_rw */;
