@@ -19,7 +19,7 @@ awk -v out="$out" '
     if (whole) {
       printf "%s%s", place, text >file
     } else {
-      printf "#include \"verican/verican.h\"\n" \
+      printf "#include \"verican/timesync.h\"\n" \
              "void example(verican_t *can, verican_config_t *config);\n" \
              "void example(verican_t *can, verican_config_t *config) {\n" \
              "(void)can, (void)config;\n%s%s}\n", place, text >file

@@ -37,8 +37,8 @@ fi
   awk 'END {print "total: text " $1 ", data " $2 ", bss " $3 " bytes"}'
 # A device: its own structure and the ring, both of the caller.
 cat >"$out/sizes.c" <<'SIZES'
-#include "verican/verican.h"
-char device[sizeof(verican_t)], frame[sizeof(verican_frame_t)];
+#include "verican/timesync.h"
+char device[sizeof(verican_t)], frame[sizeof(verican_frame_t)], domain[sizeof(verican_tsyn_t)];
 SIZES
 # shellcheck disable=SC2086
 "${prefix}gcc" $flags -c "$out/sizes.c" -o "$out/sizes.o"

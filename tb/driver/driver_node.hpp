@@ -33,7 +33,8 @@ inline verican_frame_t driver_frame(std::uint32_t id, unsigned dlc = 8, unsigned
 class DriverNode {
  public:
   DriverNode(std::string name, const ClockConfig &clock, const CoreBuild &build)
-      : rtl_{make_node(std::move(name), build, clock)} {
+      : DriverNode{make_node(std::move(name), build, clock), clock} {}
+  DriverNode(std::unique_ptr<RtlNode> node, const ClockConfig &clock) : rtl_{std::move(node)} {
     verican_config_default(&config);
     config.port.read32 = &read;
     config.port.write32 = &write;

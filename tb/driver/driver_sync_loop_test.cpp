@@ -160,6 +160,15 @@ TEST(Servo, GapsAndLosses) {
   }
 }
 
+// TM-55: the master is an ECU that stamps at the end of the frame, 100 us behind the edge, at
+// sample points that differ by up to SJW + 1 = 2 quanta of 125 ns; the constant part is calibrated.
+TEST(CanTSyn, MixedNetwork) {
+  SyncCase setting = with(16e6, 8);
+  setting.late = 100'000;
+  setting.uneven = 2 * 125;
+  EXPECT_LE(errors_of(setting).max, 2 * 125 + 2 * 62.5);
+}
+
 // TM-85: one edge in a hundred is early by up to 300 ns, as reflections make it.
 TEST(Servo, DisplacedEdges) {
   SyncCase setting = with(50e6, 0);

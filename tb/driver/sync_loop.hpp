@@ -108,6 +108,8 @@ struct SyncCase {
   std::uint8_t filter = 8;  ///< N, 0: automatic
   double displaced = 0;     ///< share of edges that come up to 300 ns early
   bool own_pin = false;     ///< the master stamps at its receive pin
+  double late = 0;          ///< ns: the master stamps behind the edge, as at the end of the frame
+  double uneven = 0;        ///< ns: and by up to so much more
   unsigned followers = 8;
   unsigned intervals = 260;
   std::uint64_t seed = 1;
@@ -137,6 +139,7 @@ class SyncLoop {
     verican_servo_config_default(&config);
     config.interval_us = static_cast<std::uint32_t>(setting.interval_s * 1e6);
     config.filter = setting.filter;
+    config.delay_ns = -static_cast<std::int32_t>(setting.late);
     servos.resize(setting.followers);
     for (verican_servo_t &servo : servos) verican_servo_init(&servo, &config);
   }
@@ -154,7 +157,9 @@ class SyncLoop {
     ClockNode &master = nodes[0];
     const std::int64_t sent = master.oscillator.edge_after(now + uniform(0, kFrame));
     const Nanoseconds edge = master.oscillator.time_of(sent, now);
-    const std::uint64_t stamp = setting_.own_pin ? own_pin_stamp(master, edge) : master.at(sent);
+    const std::uint64_t stamp = setting_.own_pin      ? own_pin_stamp(master, edge)
+                                : setting_.uneven > 0 ? late_stamp(master, edge)
+                                                      : master.at(sent);
     const Nanoseconds handled = edge + uniform(1e6, 2e6);
     look((before + now) / 2);
     look(handled);
@@ -187,6 +192,10 @@ class SyncLoop {
   static std::uint64_t own_pin_stamp(ClockNode &node, Nanoseconds edge) {
     const std::uint64_t latency = (std::uint64_t{128} * 3 * node.increment >> 32) / 256;
     return receive_stamp(node, edge) - latency;
+  }
+
+  std::uint64_t late_stamp(ClockNode &node, Nanoseconds edge) {
+    return node.at(node.oscillator.last_edge(edge + setting_.late + uniform(0, setting_.uneven)));
   }
 
   void follow(unsigned n, Nanoseconds edge, std::uint64_t master, Nanoseconds handled) {

@@ -46,7 +46,7 @@ verican_result_t verican_abort(verican_t *dev, uint8_t mailbox) {
   verican_unlock(dev, token);
   if (!waits) return VERICAN_ERR_EMPTY;
   if (gone)
-    verican_tx_report(dev, mailbox, dev->abort ? VERICAN_TX_ABORTED : VERICAN_TX_WITHDRAWN, now);
+    verican_tx_report(dev, mailbox, dev->abort ? VERICAN_TX_ABORTED : VERICAN_TX_WITHDRAWN, now, 0);
   return VERICAN_OK;
 }
 

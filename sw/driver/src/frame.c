@@ -48,6 +48,7 @@ void verican_frame_read(verican_t *dev, unsigned mb, uint32_t cs, verican_frame_
   if (bytes > 0u) unpack(verican_read(dev, VERICAN_MB_DATA0_OFFSET(mb)), &frame->data[0]);
   if (bytes > 4u) unpack(verican_read(dev, VERICAN_MB_DATA1_OFFSET(mb)), &frame->data[4]);
   for (unsigned i = bytes; i < 8u; ++i) frame->data[i] = 0;
+  frame->time_ns = verican_stamp(dev, mb, dev->rx_latency);
   frame->timestamp = verican_extend(dev, cs & VERICAN_MB_CS_TIME_STAMP_MASK);
 }
 

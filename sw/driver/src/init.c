@@ -64,6 +64,7 @@ static verican_result_t find_core(verican_t *dev, const verican_config_t *config
     const uint32_t offer = verican_read(dev, VERICAN_XCONFIG_OFFSET);
     dev->extension = true;
     dev->frame_one_shot = (offer & VERICAN_XCONFIG_OSMB_MASK) != 0u;
+    verican_stamp_init(dev, offer, config->clock_hz);
     dev->num_mb = (uint8_t)(offer & VERICAN_XCONFIG_NUM_MB_MASK);
     if (dev->num_mb != 16u && dev->num_mb != 32u && dev->num_mb != 64u) return VERICAN_ERR_DEVICE;
     if (config->one_shot && (offer & VERICAN_XCONFIG_ONESHOT_MASK) == 0u)

@@ -109,7 +109,7 @@ bool verican_is_pending(const verican_t *dev, unsigned mb);
 /* Also forgets that the frame was taken back. */
 void verican_set_pending(verican_t *dev, unsigned mb, bool on);
 void verican_tx_report(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome,
-                       uint64_t timestamp);
+                       uint64_t timestamp, uint64_t time_ns);
 /* Ends the transmissions of the flagged mailboxes; true if there were any. */
 bool verican_tx_serve(verican_t *dev, const uint32_t flags[2]);
 /* Gives up all that waits; the core is in freeze mode. */
@@ -119,6 +119,22 @@ void verican_tx_drop_all(verican_t *dev);
 /* Extends 16 bits of TIMER to 64 and remembers the latest. */
 uint64_t verican_extend(verican_t *dev, uint32_t stamp);
 uint64_t verican_now(verican_t *dev);
+
+/* stamp.c */
+/* Finds out about the time unit, if the core has one, and sets its rate for the clock. */
+void verican_stamp_init(verican_t *dev, uint32_t xconfig, uint32_t clock_hz);
+/* The latencies of stamps as TCTRL has them now. */
+void verican_stamp_latencies(verican_t *dev, uint32_t tctrl);
+/* The whole ns of so many half clocks. */
+uint64_t verican_half_clocks(const verican_t *dev, uint8_t half_clocks);
+/* The stamp in the row of a mailbox less its latency; 0 without the unit. */
+uint64_t verican_stamp(const verican_t *dev, unsigned mb, uint8_t latency);
+/* clock.c */
+uint64_t verican_read_pair(const verican_t *dev, uint32_t low);
+void verican_write_pair(const verican_t *dev, uint32_t first, uint32_t low, uint32_t high);
+
+/* Writes the increment, and keeps it. */
+void verican_write_rate(verican_t *dev, uint64_t increment);
 
 /* irq.c */
 bool verican_serve(verican_t *dev);

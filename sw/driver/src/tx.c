@@ -5,6 +5,9 @@
  */
 #include "internal.h"
 
+/* Launch times have 32 bits: 2^31 ns at most. */
+#define AT_MOST_AHEAD ((int64_t)2000000000)
+
 bool verican_is_pending(const verican_t *dev, unsigned mb) {
   return (dev->tx_pending[mb / 32u] & verican_bit(mb)) != 0u;
 }
@@ -56,8 +59,35 @@ verican_result_t verican_send(verican_t *dev, const verican_frame_t *frame, uint
   const uint32_t token = verican_lock(dev);
   const unsigned mb = choose(dev);
   result = put(dev, frame, mb);
-  verican_unlock(dev, token);
   if (result == VERICAN_OK && mailbox != NULL) *mailbox = (uint8_t)mb;
+  verican_unlock(dev, token);
+  return result;
+}
+
+/* Under lock: the buffer is held before it has the frame. */
+static verican_result_t put_at(verican_t *dev, const verican_frame_t *frame, uint64_t time_ns,
+                               unsigned mb) {
+  const uint64_t now = verican_read_pair(dev, VERICAN_TIMELO_OFFSET);
+  if ((int64_t)(time_ns - now) > AT_MOST_AHEAD) return VERICAN_ERR_RANGE;
+  if ((verican_read(dev, VERICAN_TTXMB_OFFSET) & VERICAN_TTXMB_HOLD_MASK) != 0u)
+    return VERICAN_ERR_BUSY;
+  if (mb < dev->num_mb && (int64_t)(time_ns - now) > 0) {
+    verican_write(dev, VERICAN_TTX_OFFSET, (uint32_t)time_ns);
+    verican_write(dev, VERICAN_TTXMB_OFFSET, VERICAN_TTXMB_HOLD_MASK | mb);
+  }
+  return put(dev, frame, mb);
+}
+
+verican_result_t verican_send_at(verican_t *dev, const verican_frame_t *frame, uint64_t time_ns,
+                                 uint8_t *mailbox) {
+  verican_result_t result = check_send(dev, frame);
+  if (result != VERICAN_OK) return result;
+  if (!dev->time_unit) return VERICAN_ERR_UNSUPPORTED;
+  const uint32_t token = verican_lock(dev);
+  const unsigned mb = choose(dev);
+  result = put_at(dev, frame, time_ns, mb);
+  if (result == VERICAN_OK && mailbox != NULL) *mailbox = (uint8_t)mb;
+  verican_unlock(dev, token);
   return result;
 }
 
@@ -90,8 +120,8 @@ verican_result_t verican_tx_waiting(const verican_t *dev, uint8_t *count) {
  */
 
 void verican_tx_report(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome,
-                       uint64_t timestamp) {
-  const verican_tx_event_t event = {timestamp, (uint8_t)mb, outcome};
+                       uint64_t timestamp, uint64_t time_ns) {
+  const verican_tx_event_t event = {timestamp, (uint8_t)mb, outcome, time_ns};
   const uint32_t token = verican_lock(dev);
   if (outcome == VERICAN_TX_SENT) {
     ++dev->stats.sent;
@@ -108,6 +138,7 @@ void verican_tx_report(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome
 static void finish(verican_t *dev, unsigned mb) {
   const uint32_t cs = verican_read(dev, VERICAN_MB_CS_OFFSET(mb));
   const uint32_t code = cs & VERICAN_MB_CS_CODE_MASK;
+  const uint64_t time_ns = verican_stamp(dev, mb, dev->tx_latency);
   verican_clear_flag(dev, mb);
   if (code != CS_CODE(TX_INACTIVE)) {
     verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_INACTIVE));
@@ -118,10 +149,10 @@ static void finish(verican_t *dev, unsigned mb) {
   verican_set_pending(dev, mb, false);
   if (code == CS_CODE(TX_ABORT)) {
     verican_tx_report(dev, mb, taken_back ? VERICAN_TX_ABORTED : VERICAN_TX_FAILED,
-                      verican_now(dev));
+                      verican_now(dev), 0);
   } else {
     verican_tx_report(dev, mb, VERICAN_TX_SENT,
-                      verican_extend(dev, cs & VERICAN_MB_CS_TIME_STAMP_MASK));
+                      verican_extend(dev, cs & VERICAN_MB_CS_TIME_STAMP_MASK), time_ns);
   }
 }
 
@@ -143,6 +174,6 @@ void verican_tx_drop_all(verican_t *dev) {
     verican_clear_flag(dev, mb);
     verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_INACTIVE));
     verican_set_pending(dev, mb, false);
-    verican_tx_report(dev, mb, VERICAN_TX_ABORTED, verican_now(dev));
+    verican_tx_report(dev, mb, VERICAN_TX_ABORTED, verican_now(dev), 0);
   }
 }

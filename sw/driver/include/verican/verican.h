@@ -55,6 +55,7 @@ typedef struct verican_frame {
   uint8_t priority;   /**< to send: 0 (first) to 7, counts with VERICAN_TX_BY_PRIORITY only */
   uint8_t source;     /**< received: mailbox, or with the FIFO the number of the filter element */
   uint8_t data[8];    /**< bytes beyond the DLC are 0 in received frames, ignored in others */
+  uint64_t time_ns;   /**< received: stamp of the time unit less its latency; 0 without the unit */
 } verican_frame_t;
 
 /* ---- Access to the hardware ------------------------------------------------------------------ */
@@ -187,6 +188,7 @@ typedef struct verican_tx_event {
   uint64_t timestamp; /**< start of the identifier if sent, else of the report; bit times */
   uint8_t mailbox;    /**< as verican_send() told it; free again */
   verican_tx_outcome_t outcome;
+  uint64_t time_ns; /**< sent: stamp of the time unit less its latency; 0 without the unit */
 } verican_tx_event_t;
 
 typedef struct verican verican_t;
@@ -317,6 +319,13 @@ struct verican {
   bool recovering;     /* BOFF_REC is clear on request */
   bool bus_off_timing; /* bus_off_since_ms is valid */
   bool self_reception;
+  bool time_unit;
+  uint8_t rx_latency; /* of stamps, half clocks */
+  uint8_t tx_latency;
+  uint32_t half_clock; /* 1/256 ns */
+  uint64_t increment;  /* TINCN and TINCF, which cannot be read back */
+  void (*on_clock)(void *user, verican_t *dev, uint32_t flags, uint64_t time_ns);
+  void *clock_user;
 };
 
 /** Fills `config` with: detected mailboxes, 8 of them to transmit, everything else 0. */
@@ -387,6 +396,14 @@ verican_result_t verican_abort(verican_t *dev, uint8_t mailbox);
 
 /** Number of frames that wait in transmit mailboxes. */
 verican_result_t verican_tx_waiting(const verican_t *dev, uint8_t *count);
+
+/**
+ * verican_send() not before `time_ns` of the time unit's clock: until then the frame gives way to
+ * all others of this node. One frame at a time. VERICAN_ERR_RANGE also: more than 2 s ahead.
+ * VERICAN_ERR_BUSY also: another frame waits for its time. VERICAN_ERR_UNSUPPORTED: no time unit.
+ */
+verican_result_t verican_send_at(verican_t *dev, const verican_frame_t *frame, uint64_t time_ns,
+                                 uint8_t *mailbox);
 
 /** One-shot mode on or off for frames not started yet. VERICAN_ERR_UNSUPPORTED. */
 verican_result_t verican_set_one_shot(verican_t *dev, bool on);

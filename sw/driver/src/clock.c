@@ -1,0 +1,143 @@
+/* SPDX-FileCopyrightText: 2026 The VeriCAN authors
+ * SPDX-License-Identifier: Apache-2.0
+ *
+ * The clock of the time unit (docs/time-spec.md, TM-10 to TM-16, TM-30 to TM-32, TM-91).
+ */
+#include "internal.h"
+#include "verican/timesync.h"
+
+#define SECOND_NS 1000000000u
+/* Time to arm the compare unit before the second that it waits for. */
+#define ARM_NS 1000000u
+
+static verican_result_t check(const verican_t *dev) {
+  const verican_result_t result = verican_check(dev);
+  if (result != VERICAN_OK) return result;
+  return dev->time_unit ? VERICAN_OK : VERICAN_ERR_UNSUPPORTED;
+}
+
+/* Two words; the lower one first, which keeps the upper one where it matters. */
+uint64_t verican_read_pair(const verican_t *dev, uint32_t low) {
+  const uint32_t first = verican_read(dev, low);
+  return (uint64_t)verican_read(dev, low + 4u) << 32 | first;
+}
+
+void verican_write_pair(const verican_t *dev, uint32_t first, uint32_t low, uint32_t high) {
+  const uint32_t token = verican_lock(dev);
+  verican_write(dev, first, low);
+  verican_write(dev, first + 4u, high);
+  verican_unlock(dev, token);
+}
+
+verican_result_t verican_clock_get(const verican_t *dev, uint64_t *ns) {
+  const verican_result_t result = check(dev);
+  if (result != VERICAN_OK) return result;
+  if (ns == NULL) return VERICAN_ERR_NULL;
+  const uint32_t token = verican_lock(dev);
+  *ns = verican_read_pair(dev, VERICAN_TIMELO_OFFSET);
+  verican_unlock(dev, token);
+  return VERICAN_OK;
+}
+
+verican_result_t verican_clock_set(const verican_t *dev, uint64_t ns) {
+  const verican_result_t result = check(dev);
+  if (result == VERICAN_OK)
+    verican_write_pair(dev, VERICAN_TIMELO_OFFSET, (uint32_t)ns, (uint32_t)(ns >> 32));
+  return result;
+}
+
+verican_result_t verican_clock_shift(const verican_t *dev, int64_t ns) {
+  const verican_result_t result = check(dev);
+  const uint64_t bits = (uint64_t)ns;
+  if (result == VERICAN_OK)
+    verican_write_pair(dev, VERICAN_TSHLO_OFFSET, (uint32_t)bits, (uint32_t)(bits >> 32));
+  return result;
+}
+
+verican_result_t verican_clock_slew(const verican_t *dev, int32_t ns) {
+  const verican_result_t result = check(dev);
+  if (result == VERICAN_OK) verican_write(dev, VERICAN_TSLEW_OFFSET, (uint32_t)ns);
+  return result;
+}
+
+void verican_write_rate(verican_t *dev, uint64_t increment) {
+  dev->increment = increment;
+  verican_write_pair(dev, VERICAN_TINCN_OFFSET, (uint32_t)(increment >> 32), (uint32_t)increment);
+}
+
+verican_result_t verican_clock_rate(verican_t *dev, uint64_t increment) {
+  const verican_result_t result = check(dev);
+  if (result != VERICAN_OK) return result;
+  if (increment >> 40 != 0u) return VERICAN_ERR_RANGE;
+  verican_write_rate(dev, increment);
+  return VERICAN_OK;
+}
+
+verican_result_t verican_clock_increment(const verican_t *dev, uint64_t *increment) {
+  const verican_result_t result = check(dev);
+  if (result != VERICAN_OK) return result;
+  if (increment == NULL) return VERICAN_ERR_NULL;
+  *increment = dev->increment;
+  return VERICAN_OK;
+}
+
+/* TCTRL with `clear` cleared and then `set` set; returns it. */
+static uint32_t control(const verican_t *dev, uint32_t clear, uint32_t set) {
+  const uint32_t token = verican_lock(dev);
+  const uint32_t word = (verican_read(dev, VERICAN_TCTRL_OFFSET) & ~clear) | set;
+  verican_write(dev, VERICAN_TCTRL_OFFSET, word);
+  verican_unlock(dev, token);
+  return word;
+}
+
+verican_result_t verican_clock_point(verican_t *dev, verican_stamp_point_t point, bool own_pin) {
+  const verican_result_t result = check(dev);
+  if (result != VERICAN_OK) return result;
+  if ((unsigned)point > (unsigned)VERICAN_STAMP_EOF) return VERICAN_ERR_RANGE;
+  const uint32_t pin = own_pin ? VERICAN_TCTRL_TXPIN_MASK : 0u;
+  verican_stamp_latencies(dev, control(dev, VERICAN_TCTRL_POINT_MASK | VERICAN_TCTRL_TXPIN_MASK,
+                                       VERICAN_TCTRL_POINT_SET(point) | pin));
+  return VERICAN_OK;
+}
+
+verican_result_t verican_clock_pps(const verican_t *dev, bool on) {
+  uint64_t now = 0;
+  const verican_result_t result = verican_clock_get(dev, &now);
+  if (result != VERICAN_OK) return result;
+  const uint32_t parts = VERICAN_TCTRL_CMPEN_MASK | VERICAN_TCTRL_OUTEN_MASK;
+  (void)control(dev, parts, on ? parts : 0u);
+  if (!on) return VERICAN_OK;
+  const uint64_t second = (now + ARM_NS) / SECOND_NS + 1u;
+  verican_write(dev, VERICAN_TCMPH_OFFSET, SECOND_NS / 2u);
+  verican_write(dev, VERICAN_TCMP_OFFSET, (uint32_t)(second * SECOND_NS));
+  return VERICAN_OK;
+}
+
+verican_result_t verican_clock_on_event(verican_t *dev, uint32_t events,
+                                        verican_clock_event_t *on_event, void *user) {
+  const verican_result_t result = check(dev);
+  if (result != VERICAN_OK) return result;
+  if (on_event == NULL && events != 0u) return VERICAN_ERR_NULL;
+  if ((events & ~(uint32_t)VERICAN_CLOCK_EVENTS) != 0u) return VERICAN_ERR_RANGE;
+  const uint32_t token = verican_lock(dev);
+  dev->on_clock = on_event;
+  dev->clock_user = user;
+  (void)control(dev, VERICAN_CLOCK_EVENTS, events);
+  verican_unlock(dev, token);
+  return VERICAN_OK;
+}
+
+verican_result_t verican_clock_irq_handler(verican_t *dev) {
+  const verican_result_t result = check(dev);
+  if (result != VERICAN_OK) return result;
+  const uint32_t flags = verican_read(dev, VERICAN_TSTAT_OFFSET) & VERICAN_CLOCK_FLAGS;
+  if (flags == 0u) return VERICAN_ERR_EMPTY;
+  uint64_t time_ns = 0;
+  if ((flags & VERICAN_TSTAT_EXT_MASK) != 0u) {
+    const uint8_t latency = (uint8_t)VERICAN_TCAP_RXLAT_GET(verican_read(dev, VERICAN_TCAP_OFFSET));
+    time_ns = verican_read_pair(dev, VERICAN_TEXTLO_OFFSET) - verican_half_clocks(dev, latency);
+  }
+  verican_write(dev, VERICAN_TSTAT_OFFSET, flags);
+  if (dev->on_clock != NULL) dev->on_clock(dev->clock_user, dev, flags, time_ns);
+  return VERICAN_OK;
+}

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The driver on cores with the time unit: clock, stamps, launch times, a time domain.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "driver/driver_node.hpp"
+#include "time/time_node.hpp"
+#include "verican/timesync.h"
+
+namespace vericansim {
+namespace {
+
+/// Nodes with their driver and a time domain; software runs once in 200 us of the bus.
+struct Domain {
+  explicit Domain(const std::vector<double> &errors_ppm) {
+    for (const double ppm : errors_ppm) {
+      ClockConfig clock;
+      clock.error_ppm = ppm;
+      auto rtl = std::make_unique<TimeNode>("node" + std::to_string(nodes.size()), clock);
+      nodes.push_back(std::make_unique<DriverNode>(std::move(rtl), clock));
+      bus.add(nodes.back()->rtl());
+    }
+    for (const auto &node : nodes) EXPECT_EQ(node->up(), VERICAN_OK);
+    tsyns.resize(nodes.size());
+  }
+  void run(Time duration) {
+    const Time end = bus.now() + duration;
+    for (Time next = bus.now(); bus.now() < end;) {
+      bus.step();
+      for (const auto &node : nodes) node->serve();
+      if (bus.now() < next) continue;
+      next = bus.now() + 200 * kMicrosecond;
+      for (std::size_t n = 0; n < nodes.size(); ++n) software(n);
+    }
+  }
+  void software(std::size_t n) {
+    for (const verican_frame_t &frame : nodes[n]->received())
+      if (verican_tsyn_on_frame(&tsyns[n], &frame) != VERICAN_OK) others.push_back(frame);
+    verican_tsyn_poll(&tsyns[n]);
+  }
+  void start(const verican_tsyn_config_t &config) {
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      EXPECT_EQ(verican_tsyn_init(&tsyns[n], &nodes[n]->dev, &config), VERICAN_OK);
+      EXPECT_EQ(
+          n == 0 ? verican_tsyn_start_master(&tsyns[n]) : verican_tsyn_start_follower(&tsyns[n]),
+          VERICAN_OK);
+      verican_tsyn_t *tsyn = &tsyns[n];
+      nodes[n]->when_sent = [tsyn](const verican_tx_event_t &event) {
+        verican_tsyn_on_sent(tsyn, &event);
+      };
+    }
+  }
+
+  Bus bus;
+  std::vector<std::unique_ptr<DriverNode>> nodes;
+  std::vector<verican_tsyn_t> tsyns;
+  std::vector<verican_frame_t> others;  ///< received, none of the domain
+};
+
+double apart(std::uint64_t a, std::uint64_t b) {
+  return static_cast<double>(static_cast<std::int64_t>(a - b));
+}
+
+// TM-10, TM-91: what the functions of the clock do to the clock.
+TEST(DriverTime, Clock) {
+  Domain domain{{0}};
+  verican_t *dev = &domain.nodes[0]->dev;
+  const auto now = [&domain, dev] {
+    domain.run(2 * kMicrosecond);  // a command acts some clocks later
+    std::uint64_t time = 0;
+    EXPECT_EQ(verican_clock_get(dev, &time), VERICAN_OK);
+    return time;
+  };
+  std::uint64_t increment = 0;
+  EXPECT_EQ(verican_clock_set(dev, 0xFFFF'FFF0), VERICAN_OK);
+  const std::uint64_t before = now();
+  EXPECT_LT(before - 0xFFFF'FFF0, 5'000u);
+  EXPECT_EQ(verican_clock_shift(dev, -1'000'000'000), VERICAN_OK);
+  EXPECT_LT(now() + 1'000'000'000 - before, 5'000u);
+  EXPECT_EQ(verican_clock_increment(dev, &increment), VERICAN_OK);
+  EXPECT_EQ(increment, kTimeStep << 32);
+  EXPECT_EQ(verican_clock_rate(dev, 0), VERICAN_OK);
+  const std::uint64_t stopped = now();
+  EXPECT_EQ(now(), stopped);
+}
+
+// TM-26 to TM-28, TM-91: sender and receiver tell the same time of the same edge, within a clock of
+// the receiver.
+TEST(DriverTime, StampsOfAFrame) {
+  Domain domain{{0, 37}};
+  const auto clocks = [&domain](unsigned n) {
+    std::uint64_t time = 0;
+    verican_clock_get(&domain.nodes[n]->dev, &time);
+    return time;
+  };
+  for (int n = 0; n < 20; ++n) {
+    const verican_frame_t frame = driver_frame(0x100);
+    EXPECT_EQ(verican_send(&domain.nodes[0]->dev, &frame, nullptr), VERICAN_OK);
+    domain.run(200 * kMicrosecond);
+    domain.run(13 * kMicrosecond);
+  }
+  const auto &sent = domain.nodes[0]->events;
+  ASSERT_EQ(sent.size(), 20u);
+  ASSERT_EQ(domain.others.size(), 20u);
+  EXPECT_LT(sent.back().time_ns, clocks(0));
+  // Both clocks began together: what is left is the drift, and the phase of the clocks.
+  const double start = apart(domain.others[0].time_ns, sent[0].time_ns);
+  EXPECT_LE(std::abs(start), 2 * kTimeStep);
+  for (std::size_t n = 1; n < sent.size(); ++n) {
+    const double later = apart(sent[n].time_ns, sent[0].time_ns);
+    EXPECT_NEAR(apart(domain.others[n].time_ns, sent[n].time_ns), start + later * 37e-6,
+                kTimeStep + 1.0);
+  }
+}
+
+// TM-40, TM-91: a frame goes out at its time, not earlier, and one to come lets others pass.
+TEST(DriverTime, SendAt) {
+  Domain domain{{0, 0}};
+  verican_t *dev = &domain.nodes[0]->dev;
+  std::uint64_t now = 0;
+  verican_clock_get(dev, &now);
+  const verican_frame_t at = driver_frame(0x001), other = driver_frame(0x700);
+  const std::uint64_t launch = now + 1'000'000;
+  ASSERT_EQ(verican_clock_point(dev, VERICAN_STAMP_SOF, false), VERICAN_OK);
+  ASSERT_EQ(verican_send_at(dev, &at, launch, nullptr), VERICAN_OK);
+  ASSERT_EQ(verican_send(dev, &other, nullptr), VERICAN_OK);
+  EXPECT_EQ(verican_send_at(dev, &at, now + 5'000'000, nullptr), VERICAN_ERR_BUSY);
+  domain.run(2 * kMillisecond);
+  const auto &sent = domain.nodes[0]->events;
+  ASSERT_EQ(sent.size(), 2u);
+  EXPECT_LT(sent[0].time_ns, launch);
+  EXPECT_GE(sent[1].time_ns, launch);
+  EXPECT_LE(sent[1].time_ns, launch + 2'000);  // two bits
+}
+
+// TM-91: a master and a follower 100 ppm away lock, and then tell the same time of the same edge.
+TEST(DriverTime, FollowerLocks) {
+  Domain domain{{-30, 70}};
+  verican_clock_set(&domain.nodes[0]->dev, 1'700'000'000'000'000'000);
+  verican_tsyn_config_t config{};
+  verican_tsyn_config_default(&config);
+  config.masters[0] = 0x010;
+  config.servo.interval_us = 50'000;
+  config.servo.filter = 8;
+  domain.start(config);
+  domain.run(420 * kMillisecond);
+  verican_tsyn_status_t status{};
+  ASSERT_EQ(verican_tsyn_status(&domain.tsyns[1], &status), VERICAN_OK);
+  EXPECT_EQ(status.state, VERICAN_SYNC_LOCKED);
+  const verican_frame_t frame = driver_frame(0x100);
+  domain.nodes[0]->events.clear();
+  EXPECT_EQ(verican_send(&domain.nodes[0]->dev, &frame, nullptr), VERICAN_OK);
+  domain.run(kMillisecond);
+  ASSERT_EQ(domain.others.size(), 1u);
+  ASSERT_FALSE(domain.nodes[0]->events.empty());
+  // The clock is within its bound, and the stamp within half a clock.
+  EXPECT_LE(std::abs(apart(domain.others[0].time_ns, domain.nodes[0]->events.back().time_ns)),
+            1.5 * kTimeStep + 2);
+}
+
+}  // namespace
+}  // namespace vericansim
