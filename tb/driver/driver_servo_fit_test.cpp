@@ -175,6 +175,10 @@ TEST(Servo, OffsetOrRateAlone) {
   EXPECT_EQ(offset.increment, kIncrement16MHz);
   config.keep_rate = false;
   config.keep_offset = true;
+  ServoRig leaping{config};  // each step is on top of the last one
+  leaping.pair(5'000'000'000);
+  EXPECT_NE(leaping.pair(5'002'000'000).events & VERICAN_SERVO_STEP, 0u);
+  EXPECT_EQ(leaping.pair(5'002'000'050).events, VERICAN_SERVO_ACCEPTED);
   ServoRig rate_alone{config};
   EXPECT_EQ(rate_alone.pair(5'000'000'000).shift, 0);
   const auto rate = rate_alone.pair(5'000'001'000);

@@ -61,6 +61,9 @@ TEST(Servo, HoldoverBound) {
     return verican_servo_bound(&rig.servo, static_cast<std::uint64_t>(rig.master + behind));
   };
   EXPECT_EQ(bound(2 * kSecondNs), 0u);
+  rig.servo.error = 1;
+  EXPECT_EQ(bound(2 * kSecondNs), 1u);  // up to whole ns
+  rig.servo.error = 0;
   ASSERT_TRUE(rig.poll(4 * kSecondNs));
   EXPECT_NEAR(static_cast<double>(bound(10 * kSecondNs)), 10 * 100, 2);  // 100 ppb
   EXPECT_NEAR(static_cast<double>(bound(3600 * kSecondNs)), 3600 * 100, 2);

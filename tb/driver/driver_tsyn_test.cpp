@@ -283,6 +283,17 @@ TEST(CanTSyn, WhatBecomesOfThePair) {
   bus.take(fup);
   fup[2] ^= 0x10;
   EXPECT_EQ(bus.take(fup), VERICAN_TSYN_PAIR);
+  const Ids ids;
+  bus.rules.sync_ids = ids.sync.data();
+  bus.rules.fup_ids = ids.fup.data();
+  bus.rules.crc = VERICAN_TSYN_CRC_VALIDATED;
+  bus.take(bus.sync(2 * kSecond));
+  fup = bus.fup(2 * kSecond + 5);
+  fup[1] ^= 1;
+  bus.take(fup);
+  fup[1] ^= 1;
+  EXPECT_EQ(bus.take(fup), VERICAN_TSYN_NOTHING);
+  bus.rules = rules_of();
   bus.take(bus.sync(2 * kSecond));
   fup = bus.fup(2 * kSecond + 5);
   fup[2] ^= 1;
