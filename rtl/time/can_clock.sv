@@ -76,7 +76,10 @@ module can_clock #(
   logic [8:0]  grow;
   logic [32:0] addend, addend_q;
   logic [31:0] fraction_q, upper2_q;
-  assign grow   = {1'b0, incn_q} + {9{step_q && back_q}} + {8'b0, step_q && !back_q};
+  logic        forth, back;   // the increment may be another one by now
+  assign forth  = step_q && !back_q && (incn_q[7:1] != '0);
+  assign back   = step_q && back_q && (incn_q[7:1] != '0);
+  assign grow   = {1'b0, incn_q} + {9{back}} + {8'b0, forth};
   assign addend = {1'b0, data_q[31:0]} + (set1_q ? '0 : {24'b0, grow});
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -142,9 +142,10 @@ def version(command):
 
 
 def build(block):
-    """The build of can_ahb_<profile> or can_ahb_<number of buffers>."""
+    """The build of can_ahb_<profile>, can_ahb_<number of buffers> or can_ahb_time_<the same>."""
     name = block.rpartition("_")[2]
-    return f"NumMb={name}" if name.isdigit() else f"profile {name}"
+    time = ", TimeUnit=1" if block.startswith("can_ahb_time_") else ""
+    return f"NumMb={name}{time}" if name.isdigit() else f"profile {name}"
 
 
 def title(block):
@@ -152,6 +153,8 @@ def title(block):
         return f"whole core `can_ahb`, {build(block)}"
     if block.startswith("remote_"):
         return f"node without a processor `can_remote`, profile {block.partition('_')[2]}"
+    if block == "can_time":
+        return "of the time unit, what moves with every clock, `can_time`"
     return f"protocol engine `{block}`"
 
 
