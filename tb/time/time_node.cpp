@@ -78,13 +78,13 @@ AhbResult TimeNode::peek(const AhbTransfer & /*transfer*/) {
   throw std::logic_error("a TimeNode is read by real transfers only");
 }
 
-std::vector<std::unique_ptr<RtlNode>> TimeRig::make(const std::vector<Time> &phases,
-                                                    std::vector<TimeNode *> &nodes) {
+std::vector<std::unique_ptr<RtlNode>> TimeRig::make(const std::vector<Time> &first_edges,
+                                                    std::vector<TimeNode *> &made) {
   std::vector<std::unique_ptr<RtlNode>> all;
-  for (const Time phase : phases) {
-    auto node = std::make_unique<TimeNode>("node" + std::to_string(nodes.size()),
+  for (const Time phase : first_edges) {
+    auto node = std::make_unique<TimeNode>("node" + std::to_string(made.size()),
                                            ClockConfig{.phase = phase});
-    nodes.push_back(node.get());
+    made.push_back(node.get());
     all.push_back(std::move(node));
   }
   return all;

@@ -87,8 +87,8 @@ struct TimeRig {
   MailboxRig rig;
 
  private:
-  static std::vector<std::unique_ptr<RtlNode>> make(const std::vector<Time> &phases,
-                                                    std::vector<TimeNode *> &nodes);
+  static std::vector<std::unique_ptr<RtlNode>> make(const std::vector<Time> &first_edges,
+                                                    std::vector<TimeNode *> &made);
 };
 
 }  // namespace vericansim
