@@ -16,7 +16,7 @@
   logic [5:0] f_open = 6'd0;      // clocks that a pass has been under way in calm
   logic f_calm;
   assign f_calm = !cs_written_i && !ans_i && !start_i && !off_i && !inactive_i && !retry_i
-      && running_i
+      && !freed && !set_aside && running_i
                && ins_gnt_i == ins_req_o && scan_gnt_i == scan_req_o;
   always @(posedge clk_i) begin
     f_ran  <= 1'b1;
@@ -32,7 +32,7 @@
     f_best_q <= f_best;
     f_lbuf_q <= lbuf_i;
     f_take_q <= running_i && candidate;
-    f_won_q  <= best_q && !gone;
+    f_won_q  <= best_q && !withdrawn;
   end
 
   always @(posedge clk_i) begin
@@ -51,10 +51,10 @@
       // FX-9.ERR005829: a candidate without a winner becomes the winner.
       p_first: assert (!(f_take_q && !f_won_q) || (best_q && f_best == f_cand_q));
       // FX-9.ERR005829: without a candidate the winner stays as long as nothing touches it.
-      p_stays: assert (!$past(running_i && best_q && !gone && !candidate)
+      p_stays: assert (!$past(running_i && best_q && !withdrawn && !candidate)
                        || (best_q && f_best == f_best_q));
       // FX-9.ERR005829: a winner that is touched makes a pass over all buffers begin.
-      p_pass_begins: assert (!$past(running_i && gone && !s2_end) || scan_q);
+      p_pass_begins: assert (!$past(running_i && withdrawn && !s2_end) || scan_q);
       // FX-9.ERR005829: without a winner a pass begins whenever fresh_i says so.
       p_fresh: assert (!$past(running_i && fresh_i && !best_q && !s2_end) || scan_q || look_q);
       // FX-9.ERR005829: a winner that is not active is dropped.
