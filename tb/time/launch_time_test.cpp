@@ -192,13 +192,37 @@ TEST_F(LaunchTime, Freeze) {
   EXPECT_TRUE(rig_.wait_flag(0, 3));
 }
 
-// TM-44: rewriting takes a held frame back.
+// TM-44: rewriting takes a held frame back, before it is loaded and after: nothing is sent of it.
 TEST_F(LaunchTime, Rewritten) {
-  hold(3, frame_of(0x001), 600);
-  rig_.write(0, reg::mb(3, 0), 0x08000000);
-  rig_.run(1500);
-  EXPECT_EQ(rig_.flags(0) & 8u, 0u);
-  EXPECT_EQ(rig_.read(0, kTstat) & (kHeld | kTxrel), kTxrel);
+  const std::size_t falls = time_.node(0).falls().size();
+  for (const unsigned wait : {0u, 3u, 10u, 30u, 300u}) {
+    hold(3, frame_of(0x001), 600);
+    rig_.run(wait);
+    rig_.write(0, reg::mb(3, 0), 0x08000000);
+    rig_.run(1500);
+    EXPECT_EQ(rig_.flags(0) & 8u, 0u);
+    EXPECT_EQ(rig_.read(0, kTstat) & (kHeld | kTxrel), kTxrel);
+    EXPECT_EQ(time_.node(0).falls().size(), falls) << wait;
+    rig_.write(0, kTstat, kTxrel);
+  }
+}
+
+// TM-44: of a held buffer that is written anew, the new frame alone is sent, at T0.
+TEST_F(LaunchTime, RewrittenWithAnother) {
+  for (const unsigned wait : {0u, 3u, 10u, 30u, 300u}) {
+    rig_.put_rx(1, 40, frame_of(0x123));
+    const std::uint64_t t0 = hold(3, frame_of(0x001), 600);
+    rig_.run(wait);
+    rig_.put_tx(0, 3, frame_of(0x123));
+    const std::size_t frames = time_.node(0).valids().size();
+    ASSERT_TRUE(rig_.wait_flag(0, 3)) << wait;
+    EXPECT_GE(time_.stamp(0, 3) / kTimeStep, t0);
+    rig_.run(1500);
+    EXPECT_EQ(time_.node(0).valids().size(), frames + 1) << wait;
+    EXPECT_NE(rig_.flags(1) & (std::uint64_t{1} << 40), 0u) << wait;
+    for (const unsigned n : {0u, 1u}) rig_.clear_flag(n, n == 0 ? 3 : 40);
+    rig_.write(0, kTstat, kTxrel);
+  }
 }
 
 }  // namespace

@@ -71,6 +71,10 @@ TEST_F(TimeRegs, EveryMode) {
   check("freeze");
   rig_.go(0);
   check("normal");
+  rig_.node(0).request_stop(true);
+  ASSERT_TRUE(rig_.run_until([this] { return (read(reg::kMcr) & reg::kMcrLpmAck) != 0; }, 1000));
+  check("stop");
+  rig_.node(0).request_stop(false);
 }
 
 // TM-03: a soft reset leaves clock and registers.

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The map against the tables of flexcan.md sections 1 and 3, copied here by hand: RTL, header and
-// register tests are all made from sw/registers.yaml and would follow it into a mistake.
+// The map against the tables of flexcan.md sections 1 and 3 and of time-spec.md section 6, copied
+// here by hand: RTL, header and register tests are all made from sw/registers.yaml and would follow
+// it into a mistake.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -68,6 +69,18 @@ TEST(RegisterMapSpec, ResetValues) {  // flexcan.md 1
     EXPECT_EQ(zero, 0u);
 }
 
+TEST(RegisterMapSpec, TimeUnitOffsets) {  // TM section 6
+  for (const Offset &one :
+       {AT(TCAP, 0x1100),          AT(TCTRL, 0x1104),          AT(TSTAT, 0x1108),
+        AT(TIMELO, 0x1110),        AT(TIMEHI, 0x1114),         AT(TINCN, 0x1118),
+        AT(TINCF, 0x111C),         AT(TSHLO, 0x1120),          AT(TSHHI, 0x1124),
+        AT(TSLEW, 0x1128),         AT(TCMP, 0x1130),           AT(TCMPH, 0x1134),
+        AT(TTX, 0x1140),           AT(TTXMB, 0x1144),          AT(TEXTLO, 0x1150),
+        AT(TEXTHI, 0x1154),        ENTRY(STAMPLO, 0, 0x1400),  ENTRY(STAMPHI, 0, 0x1404),
+        ENTRY(STAMPLO, 1, 0x1408), ENTRY(STAMPLO, 63, 0x15F8), ENTRY(STAMPHI, 63, 0x15FC)})
+    EXPECT_EQ(one.map, one.specified) << one.name;
+}
+
 struct Bits {
   const char *name;
   std::uint32_t map;
@@ -126,6 +139,27 @@ TEST(RegisterMapSpec, BuffersAndFilters) {  // flexcan.md 3.1, 4
           BITS(FIFO_FILTER_B_STD_ID1, 13, 3), BITS(FIFO_FILTER_B_EXT_ID1, 13, 0),
           BITS(FIFO_FILTER_C_ID0, 31, 24), BITS(FIFO_FILTER_C_ID1, 23, 16),
           BITS(FIFO_FILTER_C_ID2, 15, 8), BITS(FIFO_FILTER_C_ID3, 7, 0)});
+}
+
+TEST(RegisterMapSpec, TimeUnit) {  // TM section 6, TM-02
+  EXPECT_EQ(VERICAN_TCAP_RESET, 0x00020003u);
+  EXPECT_EQ(VERICAN_TCTRL_RESET, 0x00000031u);
+  EXPECT_EQ(VERICAN_TCTRL_POINT_SOF, 0u);
+  EXPECT_EQ(VERICAN_TCTRL_POINT_EDGE, 1u);
+  EXPECT_EQ(VERICAN_TCTRL_POINT_EOF, 2u);
+  expect({BIT(XCONFIG_TIME, 12), BITS(TCAP_SPLAT, 23, 16), BITS(TCAP_TXLAT, 15, 8),
+          BITS(TCAP_RXLAT, 7, 0)});
+  expect({BITS(TCTRL_POINT, 1, 0), BIT(TCTRL_TXPIN, 2), BITS(TCTRL_SLEWR, 5, 4), BIT(TCTRL_EXTR, 8),
+          BIT(TCTRL_EXTF, 9), BIT(TCTRL_OUTEN, 12), BIT(TCTRL_CMPEN, 13), BIT(TCTRL_EXTIE, 16),
+          BIT(TCTRL_CMPIE, 17), BIT(TCTRL_SLEWIE, 18), BIT(TCTRL_TXIE, 19), BIT(TCTRL_SYNCIE, 20)});
+  expect({BIT(TSTAT_EXT, 0), BIT(TSTAT_EXTOVR, 1), BIT(TSTAT_CMP, 2), BIT(TSTAT_SLEWD, 3),
+          BIT(TSTAT_TXREL, 4), BIT(TSTAT_SYNC, 5), BIT(TSTAT_SLEWING, 16), BIT(TSTAT_HELD, 17),
+          BIT(TSTAT_OUT, 18), BIT(TSTAT_CMPON, 19)});
+  expect({BITS(TIMELO_TIMELO, 31, 0), BITS(TIMEHI_TIMEHI, 31, 0), BITS(TINCN_TINCN, 7, 0),
+          BITS(TINCF_TINCF, 31, 0), BITS(TSHLO_TSHLO, 31, 0), BITS(TSHHI_TSHHI, 31, 0),
+          BITS(TSLEW_TSLEW, 31, 0), BITS(TCMP_TCMP, 31, 0), BITS(TCMPH_TCMPH, 30, 0),
+          BITS(TTX_TTX, 31, 0), BIT(TTXMB_HOLD, 31), BITS(TTXMB_MB, 5, 0),
+          BITS(TEXTLO_TEXTLO, 31, 0), BITS(TEXTHI_TEXTHI, 31, 0)});
 }
 
 TEST(RegisterMapSpec, NamedValues) {  // flexcan.md 1.1, 1.4, 3.2
