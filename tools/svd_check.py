@@ -63,13 +63,14 @@ def check_fields(register, where):
         yield f"{where}: the reset value has ones in reserved bits"
 
 
-def size_of(node):
-    """Bytes from the node's offset to its end."""
-    own = 4
+def words_of(node):
+    """The offsets of the node's words, of all entries of an array."""
+    own = [0]
     if node.tag == "cluster":
-        own = max(number(part, "addressOffset") + size_of(part) for part in parts(node))
-    last = number(node, "dim", 1) - 1
-    return last * number(node, "dimIncrement", 0) + own
+        own = [word for part in parts(node) for word in words_of(part)]
+    first, stride = number(node, "addressOffset"), number(node, "dimIncrement", 0)
+    return [first + entry * stride + word for entry in range(number(node, "dim", 1))
+            for word in own]
 
 
 def parts(node):
@@ -78,11 +79,11 @@ def parts(node):
 
 def check_parts(node, where, size):
     """Problems of the registers and clusters in `size` bytes."""
-    end, last = 0, ""
+    owners = {}
     yield from check_names(parts(node), where)
     names = [part.findtext("name") for part in parts(node)]
     for part in sorted(parts(node), key=lambda one: number(one, "addressOffset")):
-        name, offset = f"{where}.{part.findtext('name')}", number(part, "addressOffset")
+        name, words = f"{where}.{part.findtext('name')}", words_of(part)
         if part.tag == "register":
             yield from check_fields(part, name)
         else:
@@ -90,11 +91,12 @@ def check_parts(node, where, size):
         alternate = part.findtext("alternateRegister")
         if alternate and alternate not in names:
             yield f"{name}: alternate of {alternate}, which is not there"
-        if offset < end and not alternate:
-            yield f"{name}: overlaps {last}"
-        end, last = max(end, offset + size_of(part)), name
-    if end > size:
-        yield f"{where}: {last} ends at {end:#x}, behind {size:#x}"
+        other = next((owners[word] for word in words if word in owners), None)
+        if other and not alternate:
+            yield f"{name}: overlaps {other}"
+        owners.update((word, name) for word in words)
+        if max(words) + 4 > size:
+            yield f"{name}: ends at {max(words) + 4:#x}, behind {size:#x}"
 
 
 def problems(path):

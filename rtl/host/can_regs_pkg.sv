@@ -369,6 +369,16 @@ package can_regs_pkg;
   localparam int          TexthiTexthi      = 0;
   localparam int          TexthiTexthiW     = 32;
 
+  // STAMPLO: Time: stamp of buffer n, lower half
+  localparam logic [10:0] StamploAddr       = 11'h500;
+  localparam int          StamploStamplo    = 0;
+  localparam int          StamploStamploW   = 32;
+
+  // STAMPHI: Time: stamp of buffer n, upper half
+  localparam logic [10:0] StamphiAddr       = 11'h501;
+  localparam int          StamphiStamphi    = 0;
+  localparam int          StamphiStamphiW   = 32;
+
   // MB: Message buffer n
   localparam logic [10:0] MbAddr            = 11'h020;
   localparam int          MbCsOs            = 28;

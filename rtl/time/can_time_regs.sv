@@ -33,23 +33,23 @@ module can_time_regs (
   output logic        time_out_o,
   output logic        irq_o
 );
-  // Addresses in the page: bits 6:2.
-  localparam logic [4:0] Tcap   = 5'h00;
-  localparam logic [4:0] Tctrl  = 5'h01;
-  localparam logic [4:0] Tstat  = 5'h02;
-  localparam logic [4:0] Timelo = 5'h04;
-  localparam logic [4:0] Timehi = 5'h05;
-  localparam logic [4:0] Tincn  = 5'h06;
-  localparam logic [4:0] Tincf  = 5'h07;
-  localparam logic [4:0] Tshlo  = 5'h08;
-  localparam logic [4:0] Tshhi  = 5'h09;
-  localparam logic [4:0] Tslew  = 5'h0A;
-  localparam logic [4:0] Tcmp   = 5'h0C;
-  localparam logic [4:0] Tcmph  = 5'h0D;
-  localparam logic [4:0] Ttx    = 5'h10;
-  localparam logic [4:0] Ttxmb  = 5'h11;
-  localparam logic [4:0] Textlo = 5'h14;
-  localparam logic [4:0] Texthi = 5'h15;
+  // Addresses in the page.
+  localparam logic [4:0] Tcap   = 5'(can_regs_pkg::TcapAddr);
+  localparam logic [4:0] Tctrl  = 5'(can_regs_pkg::TctrlAddr);
+  localparam logic [4:0] Tstat  = 5'(can_regs_pkg::TstatAddr);
+  localparam logic [4:0] Timelo = 5'(can_regs_pkg::TimeloAddr);
+  localparam logic [4:0] Timehi = 5'(can_regs_pkg::TimehiAddr);
+  localparam logic [4:0] Tincn  = 5'(can_regs_pkg::TincnAddr);
+  localparam logic [4:0] Tincf  = 5'(can_regs_pkg::TincfAddr);
+  localparam logic [4:0] Tshlo  = 5'(can_regs_pkg::TshloAddr);
+  localparam logic [4:0] Tshhi  = 5'(can_regs_pkg::TshhiAddr);
+  localparam logic [4:0] Tslew  = 5'(can_regs_pkg::TslewAddr);
+  localparam logic [4:0] Tcmp   = 5'(can_regs_pkg::TcmpAddr);
+  localparam logic [4:0] Tcmph  = 5'(can_regs_pkg::TcmphAddr);
+  localparam logic [4:0] Ttx    = 5'(can_regs_pkg::TtxAddr);
+  localparam logic [4:0] Ttxmb  = 5'(can_regs_pkg::TtxmbAddr);
+  localparam logic [4:0] Textlo = 5'(can_regs_pkg::TextloAddr);
+  localparam logic [4:0] Texthi = 5'(can_regs_pkg::TexthiAddr);
 
   // Whole words alone are written, but for TCTRL and TSTAT. The first of a pair waits here.
   logic        wr_word, wr_ttxmb;

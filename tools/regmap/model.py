@@ -214,16 +214,20 @@ def read_register(entry, where, keys=("offset",)):
 
 
 def check_addresses(registers, buffers, window):
-    """No two registers at one address, in the order of their addresses."""
-    end = 0
-    for register in sorted([*registers, buffers], key=lambda one: one.offset):
-        count = 64 if register.count == NUM_MB else register.count
-        if register.offset % 4 or register.offset < end:
-            raise MapError(f"{register.name}: offset {register.offset:#x} is not a multiple of 4, "
-                           f"or below {end:#x}, the end of the register before it")
-        end = register.offset + count * register.stride
-    if end > window:
-        raise MapError(f"{register.name}: ends at {end:#x}, outside the window of {window:#x}")
+    """No two registers at one address; arrays may be interleaved."""
+    owners = {}
+    for register in [*registers, buffers]:
+        size = buffers.stride if register is buffers else 4
+        for entry in range(64 if register.count == NUM_MB else register.count):
+            first = register.offset + entry * register.stride
+            for offset in range(first, first + size, 4):
+                if offset % 4 or not 0 <= offset < window:
+                    raise MapError(f"{register.name}: offset {offset:#x} is not a multiple of 4, "
+                                   f"or outside the window of {window:#x}")
+                if offset in owners:
+                    raise MapError(f"{register.name}: offset {offset:#x} is that of "
+                                   f"{owners[offset]}")
+                owners[offset] = register.name
 
 
 def check_features(registers, features):

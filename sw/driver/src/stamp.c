@@ -6,8 +6,6 @@
  */
 #include "internal.h"
 
-#define STAMP_OFFSET(mb) (0x1400u + 8u * (mb))
-
 /* Both edges at the sample point with POINT = 2; the own frame at the flip-flop or at the pin. */
 void verican_stamp_latencies(verican_t *dev, uint32_t tctrl) {
   const uint32_t tcap = verican_read(dev, VERICAN_TCAP_OFFSET);
@@ -37,5 +35,5 @@ uint64_t verican_half_clocks(const verican_t *dev, uint8_t half_clocks) {
 
 uint64_t verican_stamp(const verican_t *dev, unsigned mb, uint8_t latency) {
   if (!dev->time_unit) return 0;
-  return verican_read_pair(dev, STAMP_OFFSET(mb)) - verican_half_clocks(dev, latency);
+  return verican_read_pair(dev, VERICAN_STAMPLO_OFFSET(mb)) - verican_half_clocks(dev, latency);
 }

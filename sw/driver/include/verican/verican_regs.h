@@ -713,6 +713,25 @@
 #define VERICAN_TEXTHI_TEXTHI_GET(word)         (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
 #define VERICAN_TEXTHI_TEXTHI_SET(value)        (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
 
+/* STAMPLO: Time: stamp of buffer n, lower half. Only with TimeUnit. */
+#define VERICAN_STAMPLO_OFFSET(n)               (0x1400u + 8u * (uint32_t)(n))
+#define VERICAN_STAMPLO_RESET                   0x00000000u
+/* STAMPLO: ns; of the frame that the buffer has received or sent last; n = 0 with MCR.FEN: at
+   the FIFO's output. */
+#define VERICAN_STAMPLO_STAMPLO_MASK            0xFFFFFFFFu
+#define VERICAN_STAMPLO_STAMPLO_SHIFT           0u
+#define VERICAN_STAMPLO_STAMPLO_GET(word)       (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
+#define VERICAN_STAMPLO_STAMPLO_SET(value)      (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
+
+/* STAMPHI: Time: stamp of buffer n, upper half. Only with TimeUnit. */
+#define VERICAN_STAMPHI_OFFSET(n)               (0x1404u + 8u * (uint32_t)(n))
+#define VERICAN_STAMPHI_RESET                   0x00000000u
+/* STAMPHI: Of the stamp whose lower half is in STAMPLO. */
+#define VERICAN_STAMPHI_STAMPHI_MASK            0xFFFFFFFFu
+#define VERICAN_STAMPHI_STAMPHI_SHIFT           0u
+#define VERICAN_STAMPHI_STAMPHI_GET(word)       (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
+#define VERICAN_STAMPHI_STAMPHI_SET(value)      (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
+
 /* MB: Message buffer n, words CS, ID, DATA0 and DATA1. */
 #define VERICAN_MB_OFFSET(n)                    (0x080u + 16u * (uint32_t)(n))
 #define VERICAN_MB_STRIDE                       16u
