@@ -53,9 +53,9 @@ static verican_tsyn_heard_t refuse(verican_tsyn_receiver_t *receiver, verican_ts
 /* The SC of the one whose FUP is due is a repetition: receivers took it, the sender did not see
  * that (VA-03). FUP tells of the last one. */
 static bool continues(const verican_tsyn_receiver_t *receiver, const verican_tsyn_rules_t *rules,
-                      uint8_t sc, uint64_t since) {
+                      uint8_t sc, bool silence) {
   const unsigned jump = (sc - (unsigned)receiver->sc) & 0xFu;
-  return !receiver->seen || since > 0u || (jump == 0u && receiver->waiting) ||
+  return !receiver->seen || silence || (jump == 0u && receiver->waiting) ||
          (jump > 0u && jump <= rules->jump_width);
 }
 
@@ -64,7 +64,7 @@ static verican_tsyn_heard_t take_sync(verican_tsyn_receiver_t *receiver,
                                       uint64_t stamp, uint64_t silence_ns) {
   const uint8_t sc = data[2] & 0xFu;
   const uint64_t since = stamp - receiver->stamp;
-  if (!continues(receiver, rules, sc, since > silence_ns ? 1u : 0u))
+  if (!continues(receiver, rules, sc, since > silence_ns))
     return refuse(receiver, VERICAN_TSYN_SC);
   if (receiver->waiting && sc != receiver->sc) (void)refuse(receiver, VERICAN_TSYN_MISSING);
   receiver->second = word_of(data);

@@ -119,6 +119,14 @@ verican_result_t verican_tx_waiting(const verican_t *dev, uint8_t *count) {
 /* ---- The end of a transmission ----------------------------------------------------------------
  */
 
+/* Under lock. The launch that waits for a frame that is no more: without this the mailbox stays
+ * held, and so would the next frame in it (TM-40). */
+static void release(const verican_t *dev, unsigned mb) {
+  if (!dev->time_unit) return;
+  if (verican_read(dev, VERICAN_TTXMB_OFFSET) != (VERICAN_TTXMB_HOLD_MASK | mb)) return;
+  verican_write(dev, VERICAN_TTXMB_OFFSET, mb);
+}
+
 void verican_tx_report(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome,
                        uint64_t timestamp, uint64_t time_ns) {
   const verican_tx_event_t event = {timestamp, (uint8_t)mb, outcome, time_ns};
@@ -127,6 +135,7 @@ void verican_tx_report(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome
     ++dev->stats.sent;
   } else {
     ++dev->stats.aborted;
+    release(dev, mb);
   }
   verican_unlock(dev, token);
   if (dev->callbacks.on_sent != NULL) dev->callbacks.on_sent(dev->callbacks.user, dev, &event);
