@@ -4,13 +4,15 @@
 // QuietEngine: the clocks of a Verilated can_core in which only the place in the bit moves.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
-#include "Vcan_core.h"
-#include "Vcan_core___024root.h"
 #include "bus/trace.hpp"
+#include "bus/types.hpp"
 #include "node/model_edge.hpp"
+#include "node/time_rest.hpp"
 
 namespace vericansim {
 
@@ -23,6 +25,8 @@ namespace vericansim {
 /// which pass() does. Proven bit by bit in tb/system/bus_rest_test.cpp, member by member in
 /// bus_quiet_engine_test.cpp.
 ///
+/// An engine with the time unit is quiet while that one only counts, too (TimeRest).
+///
 /// Needs the members that Verilator 5.006 gives the model; without them nothing is ever quiet.
 class QuietEngine {
  public:
@@ -31,7 +35,8 @@ class QuietEngine {
   static constexpr unsigned kSettle = 2;
 
   /// After each edge of `engine` that was evaluated.
-  void clocked(const Vcan_core &engine) { clocked_(engine); }
+  template <typename Engine>
+  void clocked(const Engine &engine) { clocked_(engine); }
 
   /// The engine's inputs may have changed, other than can_rx_i.
   void disturbed() { to_settle_ = kSettle; }
@@ -39,22 +44,28 @@ class QuietEngine {
   /// Edges to come that only count, as long as no input changes. The last one makes the sample
   /// point, the boundary or the edge show, at which more happens in the one after it; `watched`:
   /// that one is not among them.
-  [[nodiscard]] std::uint64_t edges(const Vcan_core &engine, bool watched) const {
-    const std::uint64_t counting = pin_settled(engine) ? counting_(engine) : 0;
+  template <typename Engine>
+  [[nodiscard]] std::uint64_t edges(const Engine &engine, bool watched) const {
+    const std::uint64_t counting =
+        pin_settled(engine) ? std::min(counting_(engine), TimeRest::edges(engine)) : 0;
     return watched && counting != 0 ? counting - 1 : counting;
   }
 
   /// Does `edges` of them.
-  void pass(Vcan_core &engine, std::uint64_t edges) {
+  template <typename Engine>
+  void pass(Engine &engine, std::uint64_t edges) {
     if (edges != 0) pass_(engine, edges);
   }
 
   /// The next edge only counts and takes the level of the receive pin on.
-  [[nodiscard]] bool counts(const Vcan_core &engine) const {
-    return to_settle_ == 0 && engine.rx_req_i == 0 && counting_(engine) != 0;
+  template <typename Engine>
+  [[nodiscard]] bool counts(const Engine &engine) const {
+    return to_settle_ == 0 && engine.rx_req_i == 0 && counting_(engine) != 0 &&
+           TimeRest::edges(engine) != 0;
   }
   /// Does that one, with `rx` at the pin.
-  void clock_lightly(Vcan_core &engine, Level rx) { clock_lightly_(engine, rx); }
+  template <typename Engine>
+  void clock_lightly(Engine &engine, Level rx) { clock_lightly_(engine, rx); }
 
  private:
   // The place in the bit, as the RTL has it.
@@ -208,6 +219,7 @@ class QuietEngine {
   static void count(Engine &engine, std::uint64_t edges) {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       auto &root = *engine.rootp;
+      TimeRest::pass(root, edges);
       root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q = 0;
       if (root.can_core__DOT__active_q == 0) return;
       const Place place = place_of(engine);

@@ -17,8 +17,8 @@
 
 namespace vericansim {
 
-/// `HostModel`: can_ahb around a hollow engine, of any parameters.
-template <typename HostModel>
+/// `HostModel`: can_ahb around a hollow engine, of any parameters; `Ports`, `Engine`: see SplitCore.
+template <typename HostModel, typename Ports = AhbPorts, typename Engine = Vcan_core>
 class RtlNodeOf final : public RtlNode {
  public:
   RtlNodeOf(std::string name, const ClockConfig &clock, unsigned num_mb)
@@ -129,7 +129,7 @@ class RtlNodeOf final : public RtlNode {
     }
   }
 
-  SplitCore<HostModel> core_;
+  SplitCore<HostModel, Ports, Engine> core_;
   QuietEngine quiet_;
 };
 

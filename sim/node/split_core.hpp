@@ -22,14 +22,14 @@
 
 namespace vericansim {
 
-/// The engine (Vcan_core) and a top whose engine is hollow (HostModel, cmake/split_core.py),
+/// The engine (Engine) and a top whose engine is hollow (HostModel, cmake/split_core.py),
 /// clocked together; `Ports` knows where in the top the engine is. Registers and buffers are three
 /// quarters of the work of a clock and idle in most of them: when a clock edge has left every bit
 /// of the model as it was, no further edge can change anything until an input does, and the model
 /// is not evaluated. Nor is it while only a pass over its buffers goes on (TransmitScan), which is
 /// made good afterwards, or for a byte that is received (ByteStore). The result is that of the
 /// whole core in every clock (tb/system/bus_split_core_test.cpp).
-template <typename HostModel, typename Ports = AhbPorts>
+template <typename HostModel, typename Ports = AhbPorts, typename Engine = Vcan_core>
 class SplitCore {
  public:
   using Root = std::remove_reference_t<decltype(*std::declval<HostModel &>().rootp)>;
@@ -49,8 +49,8 @@ class SplitCore {
   }
   [[nodiscard]] const HostModel &host() const { return host_; }
   /// Engine: CAN pins and trace.
-  [[nodiscard]] Vcan_core &engine() { return engine_; }
-  [[nodiscard]] const Vcan_core &engine() const { return engine_; }
+  [[nodiscard]] Engine &engine() { return engine_; }
+  [[nodiscard]] const Engine &engine() const { return engine_; }
 
   /// The host side's inputs have changed.
   void touch() {
@@ -206,7 +206,7 @@ class SplitCore {
   }
 
   VerilatedContext context_;
-  Vcan_core engine_{&context_, "engine"};
+  Engine engine_{&context_, "engine"};
   HostModel host_{&context_, "host"};
   ModelContext model_context_{context_};
   std::unique_ptr<unsigned char[]> before_ = std::make_unique<unsigned char[]>(sizeof(Root));

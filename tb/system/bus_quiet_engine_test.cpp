@@ -16,6 +16,8 @@
 
 #include "Vcan_core.h"
 #include "Vcan_core___024root.h"
+#include "Vcan_core_time.h"
+#include "Vcan_core_time___024root.h"
 #include "bus/bus.hpp"
 #include "bus/faults.hpp"
 #include "harness/model_members.hpp"
@@ -36,11 +38,42 @@ struct EngineCase {
 };
 void PrintTo(const EngineCase &each, std::ostream *out) { *out << each.name; }
 
+// Random commands to the time unit, and what they are given with (can_time.sv); nothing for an
+// engine without.
+template <typename Engine>
+bool command_time(Engine &engine, std::uint64_t dice, bool first) {
+  if constexpr (kHasTimeUnit<Engine>) {
+    constexpr std::uint32_t kCompare = 1U << 13;
+    if (!first) {
+      engine.time_cmd_i = 0;
+      return true;
+    }
+    engine.time_cmd_i = static_cast<std::uint16_t>(1U << dice % 9);
+    const std::uint64_t fraction = dice * 0x9E3779B97F4A7C15 >> 32;
+    const std::uint32_t soon = engine.rootp->can_core__DOT__gen_time__DOT__u_time__DOT__lo +
+                               static_cast<std::uint32_t>(dice >> 8 & 0xFFFF);
+    switch (dice % 9) {
+      case 2: engine.time_data_i = fraction << 32 | (dice >> 4 & 0x7F); break;      // rate
+      case 3: engine.time_data_i = (dice >> 8 & 0x1F) << 32; break;                 // slew
+      case 4: engine.time_data_i = std::uint64_t{soon} << 32; break;                // compare
+      default: engine.time_data_i = fraction << 32 | (0xFFFF'FF00U + (dice & 0xFF)); break;
+    }
+    engine.time_ttx_i = soon;
+    engine.time_tcmph_i = dice >> 40 & 1 ? 100'000 : 0;
+    engine.time_tctrl_i = kCompare | static_cast<std::uint32_t>(dice >> 20 & 0x37);
+    engine.time_wait_i = dice >> 50 & 1;
+    return true;
+  } else {
+    return false;
+  }
+}
+
 // Two engines on the same pins: one does what it must, as a node of a bus would, the other all.
+template <typename Engine, typename Root>
 class EngineTwins : public Node {
  public:
   EngineTwins(const EngineCase &setting, const ClockConfig &clock) : Node{"twins", clock} {
-    for (Vcan_core *engine : {&short_, &full_}) {
+    for (Engine *engine : {&short_, &full_}) {
       set(*engine, setting);
       engine->can_rx_i = 1;
       engine->rst_ni = 0;
@@ -54,6 +87,7 @@ class EngineTwins : public Node {
 
   void clock(Level rx) override {
     if (random_() % 3000 == 0) change_inputs();
+    if (commanded_ || random_() % 700 == 0) command();
     full_.can_rx_i = static_cast<std::uint8_t>(rx);
     rising_edge(full_, full_.clk_i);
     shortly(rx);
@@ -67,7 +101,7 @@ class EngineTwins : public Node {
   [[nodiscard]] unsigned sent() const { return sent_; }
 
  private:
-  static void set(Vcan_core &engine, const EngineCase &setting) {
+  static void set(Engine &engine, const EngineCase &setting) {
     engine.presdiv_i = setting.timing.prescaler - 1;
     engine.propseg_i = setting.timing.prop - 1;
     engine.pseg1_i = setting.timing.ps1 - 1;
@@ -85,11 +119,22 @@ class EngineTwins : public Node {
   void change_inputs() {
     catch_up_engine();
     const bool running = full_.run_i == 0 || random_() % 4 != 0;
-    for (Vcan_core *engine : {&short_, &full_}) {
+    for (Engine *engine : {&short_, &full_}) {
       if (engine->run_i != 0) engine->tx_req_i = !engine->tx_req_i;
       engine->run_i = running;
       engine->eval();
     }
+    quiet_.disturbed();
+    allowed_ = 0;
+  }
+
+  // A pulse of one clock.
+  void command() {
+    catch_up_engine();
+    const std::uint64_t dice = std::uint64_t{random_()} << 32 | random_();
+    commanded_ = !commanded_;
+    for (Engine *engine : {&short_, &full_})
+      if (command_time(*engine, dice, commanded_)) engine->eval();
     quiet_.disturbed();
     allowed_ = 0;
   }
@@ -128,12 +173,13 @@ class EngineTwins : public Node {
   }
 
   VerilatedContext context_;
-  Vcan_core short_{&context_, "short"}, full_{&context_, "full"};
+  Engine short_{&context_, "short"}, full_{&context_, "full"};
   ModelContext model_context_{context_};
   QuietEngine quiet_;
-  std::optional<ModelMembers<Vcan_core___024root>> members_;
+  std::optional<ModelMembers<Root>> members_;
   std::mt19937 random_{11};
   std::uint64_t allowed_ = 0, behind_ = 0;
+  bool commanded_ = false;
   unsigned differences_ = 0, passed_ = 0, light_ = 0, sent_ = 0;
 };
 
@@ -153,10 +199,10 @@ constexpr EngineCase kCases[] = {
 
 class QuietEngineTest : public ::testing::TestWithParam<EngineCase> {};
 
-TEST_P(QuietEngineTest, SameMembersAsWithEveryEdgeEvaluated) {
-  const EngineCase &each = GetParam();
+template <typename Engine, typename Root>
+void compare_twins(const EngineCase &each) {
   Bus bus;
-  EngineTwins twins{each, {.error_ppm = 300}};
+  EngineTwins<Engine, Root> twins{each, {.error_ppm = 300}};
   bus.add(twins);
   std::vector<std::unique_ptr<CoreNode>> others;
   for (int i = 0; i < 2; ++i) {
@@ -178,6 +224,15 @@ TEST_P(QuietEngineTest, SameMembersAsWithEveryEdgeEvaluated) {
   EXPECT_GT(twins.passed(), 10'000u);
   EXPECT_GT(twins.light(), 1'000u);
   EXPECT_TRUE(each.listen_only || twins.sent() > 5);
+}
+
+TEST_P(QuietEngineTest, SameMembersAsWithEveryEdgeEvaluated) {
+  compare_twins<Vcan_core, Vcan_core___024root>(GetParam());
+}
+
+// TM-122: with its time unit under way.
+TEST_P(QuietEngineTest, SameMembersWithTheTimeUnit) {
+  compare_twins<Vcan_core_time, Vcan_core_time___024root>(GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, QuietEngineTest, ::testing::ValuesIn(kCases),
