@@ -200,21 +200,47 @@ bool Bus::may_skip() {
   return faults_.empty() && driven_dominant_ == 0 && level_ == Level::kRecessive &&
          at_rest(observer_point_) &&
          std::all_of(nodes_.begin(), nodes_.end(), [&](const Entry &entry) {
-           return trace_field(entry.node->trace()) == Field::kIdle && at_rest(entry.receiver) &&
-                  !entry.node->oscillator_.wanders();
+           return trace_field(entry.node->trace()) == Field::kIdle && at_rest(entry.receiver);
          });
+}
+
+// The last instant up to which every node may be left alone.
+Time Bus::skip_end(Time until) const {
+  for (const Entry &entry : nodes_) {
+    const std::uint64_t most = entry.node->skip_most();
+    const Clock &clock = entry.node->oscillator_;
+    if (most < clock.count_until(until)) {
+      Clock copy = clock;
+      copy.pass(most);
+      until = copy.next() - 1;
+    }
+  }
+  return until;
+}
+
+std::uint64_t Bus::edges_to_skip(const Node &node, Time until) {
+  const std::uint64_t edges = node.oscillator_.count_until(until);
+  return edges - edges % node.skip_period();
 }
 
 bool Bus::skip(Time until) {
   if (!actions_.empty()) until = std::min(until, actions_.top().time - 1);
   end_all_rest();
   if (until <= now_ || !may_skip()) return false;
+  until = skip_end(until);
+  if (until <= now_) return false;
+  Time first = until + 1;
   for (NodeId i = 0; i < size(); ++i) {
-    nodes_[i].node->oscillator_.skip(until);
-    next_[i] = nodes_[i].node->oscillator_.next();
+    Node &node = *nodes_[i].node;
+    const std::uint64_t edges = edges_to_skip(node, until);
+    node.skipped(edges);
+    node.oscillator_.pass(edges);
+    next_[i] = node.oscillator_.next();
+    first = std::min(first, next_[i]);
   }
-  now_ = until;
-  done_before_ = until + 1;
+  // A node with a period lacks less than that of its edges.
+  now_ = std::max(now_, first - 1);
+  done_before_ = now_ + 1;
   return true;
 }
 

@@ -88,10 +88,11 @@ class Bus {
   /// Lets the run_until() under way return after the current instant.
   void stop() { stopped_ = true; }
 
-  /// Lets time pass without clocking the nodes, as if their clocks were gated, up to `until` or to
-  /// the next action. Only where that cannot be seen on the bus: all nodes show an idle bus, drive
-  /// recessive and have clocks that do not wander, nothing is on its way, there are no faults. For
-  /// a caller who knows that no node has anything to send. False, and nothing done, otherwise.
+  /// Lets time pass without clocking the nodes, as if their clocks were gated or, for those with a
+  /// time unit, as if they had been clocked (Node::skip_period()); up to `until` or to the next
+  /// action, or a bit less. Only where that cannot be seen on the bus: all nodes show an idle bus
+  /// and drive recessive, nothing is on its way, there are no faults. For a caller who knows that
+  /// no node has anything to send. False, and nothing done, otherwise.
   bool skip(Time until);
 
   [[nodiscard]] Time now() const { return now_; }
@@ -171,6 +172,8 @@ class Bus {
   [[nodiscard]] Level with_faults(NodeId id, Time t, std::uint64_t dominant);
   [[nodiscard]] Time next_edge() const;
   [[nodiscard]] bool may_skip();
+  [[nodiscard]] static std::uint64_t edges_to_skip(const Node &node, Time until);
+  [[nodiscard]] Time skip_end(Time until) const;
   [[nodiscard]] bool run_actions(Time until);
 
   std::vector<Entry> nodes_;

@@ -58,6 +58,28 @@ void Clock::set_error_ppm(double ppm) {
   set_period(ppm + walk_ppm_);
 }
 
+// A clock that wanders is counted piece by piece, on a copy.
+std::uint64_t Clock::count_until(Time until) const {
+  if (!wanders()) return edges_until(until);
+  Clock copy = *this;
+  while (copy.next() <= until)
+    copy.pass(std::max<std::uint64_t>(1, std::min(copy.edges_until(until), copy.steady_edges())));
+  return copy.cycles_ - cycles_;
+}
+
+void Clock::pass(std::uint64_t edges) {
+  while (edges != 0) {
+    const std::uint64_t piece = std::min(edges, steady_edges());
+    if (piece == 0) {
+      tick();
+      --edges;
+    } else {
+      advance(piece);
+      edges -= piece;
+    }
+  }
+}
+
 // Frequency in mHz times (10^9 + ppb) is an exact integer, so the period 10^24 / that is divided
 // out without going through floating point.
 void Clock::set_period(double ppm) {

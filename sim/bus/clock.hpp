@@ -47,15 +47,12 @@ class Clock {
     if (--until_update_ == 0) update();
   }
 
-  /// Consumes all rising edges up to and including `until`, ps. Only for a clock that does not
-  /// wander.
-  void skip(Time until) {
-    if (until < next()) return;
-    const Fixed end = (static_cast<Fixed>(until) + 1) << 64;  // the first edge from here on stays
-    const Fixed edges = (end - edge_ + period_ - 1) / period_;
-    edge_ += edges * period_;
-    cycles_ += static_cast<std::uint64_t>(edges);
-  }
+  /// Consumes all rising edges up to and including `until`, ps.
+  void skip(Time until) { pass(count_until(until)); }
+  /// Rising edges up to and including `until`, ps, however many.
+  [[nodiscard]] std::uint64_t count_until(Time until) const;
+  /// Consumes `edges` rising edges, however many.
+  void pass(std::uint64_t edges);
 
   /// Time of the edge that comes `edges` after the next one; exact for up to steady_edges().
   [[nodiscard]] Time after(std::uint64_t edges) const {

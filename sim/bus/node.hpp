@@ -40,6 +40,13 @@ class Node {
   /// kept its level, or nobody looked at the trace, need not be clocked if it is made good.
   virtual void clock_lightly(Level rx) { clock(rx); }
 
+  /// What Bus::skip() may do to the node while the bus is idle. 1: its clock may be gated for any
+  /// number of edges; else a multiple of skip_period() edges, skip_most() at most, is as good as
+  /// clocked by skipped(). 0: none now.
+  [[nodiscard]] virtual std::uint64_t skip_period() const { return 1; }
+  [[nodiscard]] virtual std::uint64_t skip_most() const { return ~0ULL; }
+  virtual void skipped(std::uint64_t edges) { (void)edges; }
+
   /// The observer's view after the last edge (trace_o, see bus/trace.hpp); 0 if the node has none.
   [[nodiscard]] virtual std::uint64_t trace() const { return 0; }
 

@@ -36,7 +36,9 @@ class QuietEngine {
 
   /// After each edge of `engine` that was evaluated.
   template <typename Engine>
-  void clocked(const Engine &engine) { clocked_(engine); }
+  void clocked(const Engine &engine) {
+    clocked_(engine);
+  }
 
   /// The engine's inputs may have changed, other than can_rx_i.
   void disturbed() { to_settle_ = kSettle; }
@@ -65,7 +67,9 @@ class QuietEngine {
   }
   /// Does that one, with `rx` at the pin.
   template <typename Engine>
-  void clock_lightly(Engine &engine, Level rx) { clock_lightly_(engine, rx); }
+  void clock_lightly(Engine &engine, Level rx) {
+    clock_lightly_(engine, rx);
+  }
 
  private:
   // The place in the bit, as the RTL has it.

@@ -34,11 +34,19 @@ class RtlNode : public Node {
   /// (std::invalid_argument otherwise).
   static std::unique_ptr<RtlNode> create(std::string name, const ClockConfig &clock = {},
                                          unsigned num_mb = 64);
+  /// One of 64 buffers with the time unit; its clock begins at 0 with 125 ns a clock, what 8 MHz
+  /// need, until software sets another rate.
+  static std::unique_ptr<RtlNode> create_with_time(std::string name, const ClockConfig &clock = {});
 
   /// Hard reset of the core and of the master; pending accesses are forgotten.
   virtual void reset() = 0;
   /// IrqLine bits as of the last clock edge.
   [[nodiscard]] virtual std::uint8_t irq_lines() const = 0;
+  /// irq_time_o and time_out_o as of the last clock edge; false without the time unit.
+  [[nodiscard]] virtual bool irq_time() const { return false; }
+  [[nodiscard]] virtual bool time_out() const { return false; }
+  /// Level of ext_i from the next clock edge on. A reset does not change it.
+  virtual void external(bool level) { (void)level; }
   /// Level of stop_req_i from the next clock edge on: the system asks for stop mode (flexcan.md
   /// 2.9). A reset does not change it.
   virtual void request_stop(bool stop) = 0;

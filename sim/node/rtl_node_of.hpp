@@ -17,7 +17,8 @@
 
 namespace vericansim {
 
-/// `HostModel`: can_ahb around a hollow engine, of any parameters; `Ports`, `Engine`: see SplitCore.
+/// `HostModel`: can_ahb around a hollow engine, of any parameters; `Ports`, `Engine`: see
+/// SplitCore.
 template <typename HostModel, typename Ports = AhbPorts, typename Engine = Vcan_core>
 class RtlNodeOf final : public RtlNode {
  public:
@@ -73,6 +74,29 @@ class RtlNodeOf final : public RtlNode {
     after_edge();
   }
 
+  // An idle bit is like the one before it, but for TIMER and the time unit.
+  [[nodiscard]] std::uint64_t skip_period() const override {
+    if constexpr (!kHasTimeUnit<Engine>) return 1;
+    const Engine &engine = core_.engine();
+    const unsigned quanta = 4U + engine.propseg_i + engine.pseg1_i + engine.pseg2_i;
+    return std::uint64_t{quanta} * (engine.presdiv_i + 1U);
+  }
+
+  [[nodiscard]] std::uint64_t skip_most() const override {
+    if constexpr (!kHasTimeUnit<Engine>) return ~0ULL;
+    if (ahb().active() || !core_.resting()) return 0;
+    return std::min({TimeRest::edges(core_.engine()), edges_to_waiter(), core_.rest()});
+  }
+
+  void skipped(std::uint64_t edges) override {
+    if constexpr (kHasTimeUnit<Engine>) {
+      TimeRest::pass(*core_.engine().rootp, edges);
+      core_.engine().timer_o += static_cast<std::uint16_t>(edges / skip_period());
+      core_.pass(edges);
+      passed(edges);
+    }
+  }
+
   [[nodiscard]] std::uint64_t trace() const override {
     catch_up();
     return core_.engine().trace_o;
@@ -80,6 +104,32 @@ class RtlNodeOf final : public RtlNode {
 
   [[nodiscard]] std::uint8_t irq_lines() const override {
     return model_irq_lines(std::as_const(core_).host());
+  }
+
+  [[nodiscard]] bool irq_time() const override {
+    if constexpr (kHasTimeUnit<Engine>) {
+      catch_up();
+      return std::as_const(core_).host().irq_time_o != 0;
+    } else {
+      return false;
+    }
+  }
+
+  [[nodiscard]] bool time_out() const override {
+    if constexpr (kHasTimeUnit<Engine>) {
+      catch_up();
+      return time_out_of(core_.engine());
+    } else {
+      return false;
+    }
+  }
+
+  void external(bool level) override {
+    if constexpr (kHasTimeUnit<Engine>) {
+      disturbed();
+      core_.host().ext_i = level;
+      core_.touch();
+    }
   }
 
   void request_stop(bool stop) override {

@@ -19,6 +19,13 @@ namespace vericansim {
 template <typename Engine>
 inline constexpr bool kHasTimeUnit = std::is_same_v<Engine, Vcan_core_time>;
 
+/// `time_out_o` of a whole core around `engine`, which is that of two of its flip-flops (TM-31).
+template <typename Engine>
+[[nodiscard]] bool time_out_of(const Engine &engine) {
+  constexpr unsigned kStatOut = 2, kTctrlOuten = 12;  // can_pkg::TimeStatOut, TCTRL
+  return (engine.time_stat_o >> kStatOut & engine.time_tctrl_i >> kTctrlOuten & 1U) != 0;
+}
+
 /// While nobody asks anything of the clock, nothing is slewed, no level changes and neither a
 /// compare nor a launch is due, only the numbers of the clock change (TM-10), and any count of
 /// clocks is a multiplication (rtl/time/can_clock.sv). An engine without the time unit is always at
@@ -116,11 +123,12 @@ class TimeRest {
   static bool stamp_steady(const Engine &engine) {
     const auto &root = *engine.rootp;
     constexpr unsigned kPointMask = 3, kTxpinBit = 2;  // TCTRL
-    const unsigned busy = root.can_core__DOT__gen_time__DOT__u_time__DOT__take |
-                          root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp_time__DOT__take_q |
-                          root.can_core__DOT__gen_time__DOT__u_time__DOT__u_ext_time__DOT__take_q |
-                          root.can_core__DOT__gen_time__DOT__u_time__DOT__u_now__DOT__take_q |
-                          engine.time_stamp_we_o | engine.stamp_o | engine.rx_valid_o;
+    const unsigned busy =
+        root.can_core__DOT__gen_time__DOT__u_time__DOT__take |
+        root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp_time__DOT__take_q |
+        root.can_core__DOT__gen_time__DOT__u_time__DOT__u_ext_time__DOT__take_q |
+        root.can_core__DOT__gen_time__DOT__u_time__DOT__u_now__DOT__take_q |
+        engine.time_stamp_we_o | engine.stamp_o | engine.rx_valid_o;
     const bool level = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__rx_q ==
                            root.can_core__DOT__rx &&
                        root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__tx_q ==
@@ -145,8 +153,8 @@ class TimeRest {
   template <typename Root>
   static std::uint64_t clocks_before(const Root &root, std::uint32_t target) {
     constexpr std::uint64_t kMargin = 4;
-    const auto left = static_cast<std::int32_t>(
-        target - root.can_core__DOT__gen_time__DOT__u_time__DOT__lo);
+    const auto left =
+        static_cast<std::int32_t>(target - root.can_core__DOT__gen_time__DOT__u_time__DOT__lo);
     if (left <= 0) return 0;
     const std::uint64_t most =
         root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__incn_q + 1U;
@@ -158,7 +166,8 @@ class TimeRest {
   static std::uint64_t to_compare(const Engine &engine) {
     const auto &root = *engine.rootp;
     if (root.can_core__DOT__gen_time__DOT__u_time__DOT__armed == 0) return kForever;
-    return clocks_before(root, root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__target_q);
+    return clocks_before(root,
+                         root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__target_q);
   }
 
   template <typename Engine>

@@ -11,28 +11,35 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "Vcan_ahb64.h"
 #include "Vcan_ahb64___024root.h"
+#include "Vcan_ahb_time.h"
+#include "Vcan_ahb_time___024root.h"
+#include "Vcan_core_time.h"
+#include "Vcan_core_time___024root.h"
 #include "Vcan_host64.h"
 #include "Vcan_host64___024root.h"
+#include "Vcan_host64_time.h"
+#include "Vcan_host64_time___024root.h"
 #include "bus/bus.hpp"
 #include "bus/faults.hpp"
 #include "model/registers.hpp"
 #include "node/host.hpp"
 #include "node/model_pins.hpp"
 #include "node/rtl_node.hpp"
+#include "node/time_rest.hpp"
 
 namespace vericansim {
 namespace {
 
 // A node that runs the whole model and the split one on the same pins and counts differing clocks.
-class TwinNode : public RtlNode {
+template <typename Whole, typename Split>
+class Twins : public RtlNode {
  public:
-  TwinNode(const std::string &name, const ClockConfig &clock) : RtlNode{name, clock, 64} {
-    reset();
-  }
-  ~TwinNode() override { whole_.final(); }
+  Twins(const std::string &name, const ClockConfig &clock) : RtlNode{name, clock, 64} { reset(); }
+  ~Twins() override { whole_.final(); }
 
   void reset() override {
     show({}, true);
@@ -117,6 +124,8 @@ class TwinNode : public RtlNode {
     check("interrupts", model_irq_lines(whole_), model_irq_lines(host));
     check("can_tx_o", whole_.can_tx_o, engine.can_tx_o);
     check("trace_o", whole_.trace_o, engine.trace_o);
+    check("irq_time_o", whole_.irq_time_o, host.irq_time_o);
+    check("time_out_o", whole_.time_out_o, time_out_of(engine) ? 1 : 0);
   }
   void check(const char *what, std::uint64_t whole, std::uint64_t split) {
     if (whole == split) return;
@@ -126,11 +135,15 @@ class TwinNode : public RtlNode {
   }
 
   VerilatedContext context_;
-  Vcan_ahb64 whole_{&context_, "whole"};
-  SplitCore<Vcan_host64> split_;
+  Whole whole_{&context_, "whole"};
+  Split split_;
   unsigned differences_ = 0;
   std::string first_;
 };
+
+using TwinNode = Twins<Vcan_ahb64, SplitCore<Vcan_host64>>;
+using TimeTwinNode =
+    Twins<Vcan_ahb_time, SplitCore<Vcan_host64_time, AhbTimePorts, Vcan_core_time>>;
 
 Frame random_frame(std::mt19937 &random, std::uint32_t top) {
   Frame f{.id = static_cast<std::uint32_t>(top << 8 | (random() & 0xFF)),
@@ -148,16 +161,17 @@ struct SplitCase {
 
 class SplitCoreTest : public ::testing::TestWithParam<SplitCase> {};
 
-TEST_P(SplitCoreTest, IsTheWholeCoreInEveryClock) {
+template <typename Twin, typename Work>
+void compare_on_bus(const SplitCase &each, Work work) {
   Bus bus;
   HostConfig config;
-  config.timing = {.prescaler = GetParam().prescaler, .prop = 3, .ps1 = 2, .ps2 = 2, .sjw = 2};
+  config.timing = {.prescaler = each.prescaler, .prop = 3, .ps1 = 2, .ps2 = 2, .sjw = 2};
   config.tx_buffers = 4;
-  TwinNode a{"a", {.error_ppm = 100}};
-  TwinNode b{"b", {.error_ppm = -150, .phase = 30'000}};
+  Twin a{"a", {.error_ppm = 100}};
+  Twin b{"b", {.error_ppm = -150, .phase = 30'000}};
   bus.add(a);
   bus.add(b);
-  NoiseFault noise{{.per_bit = GetParam().noise, .window = {.from = kMillisecond}}};
+  NoiseFault noise{{.per_bit = each.noise, .window = {.from = kMillisecond}}};
   bus.add(noise);
   Host first{a, config};
   Host second{b, config};
@@ -168,13 +182,37 @@ TEST_P(SplitCoreTest, IsTheWholeCoreInEveryClock) {
     first.send(random_frame(random, 2));
     second.send(random_frame(random, 3));
   }
-  bus.run_for(40 * kMillisecond);
+  for (int i = 0; i < 400; ++i) {
+    bus.run_for(100 * kMicrosecond);
+    work(i % 2 == 0 ? a : b, random);
+  }
   first.check();
   second.check();
   EXPECT_GT(first.stats().received + second.stats().received,
             5u);  // the noisiest bus carries little
   EXPECT_EQ(a.differences(), 0u) << a.first();
   EXPECT_EQ(b.differences(), 0u) << b.first();
+}
+
+TEST_P(SplitCoreTest, IsTheWholeCoreInEveryClock) {
+  compare_on_bus<TwinNode>(GetParam(), [](TwinNode &, std::mt19937 &) {});
+}
+
+// The time unit's registers and stamps are read, and written, at any time (TM-122).
+TEST_P(SplitCoreTest, IsTheWholeCoreWithTheTimeUnit) {
+  constexpr std::uint32_t kFirst = 0x1100, kWords = 22, kStamps = 0x1400;
+  unsigned changes = 0;
+  std::uint32_t last = 0;
+  compare_on_bus<TimeTwinNode>(GetParam(), [&](TimeTwinNode &node, std::mt19937 &random) {
+    for (int n = 0; n < 4; ++n) {
+      const std::uint32_t word = random() % 3;
+      const std::uint32_t address = kFirst + 4 * (random() % kWords);
+      if (word == 0) node.write32(address, random());
+      changes += std::exchange(last, node.read32(address)) != last;
+      node.read32(kStamps + 4 * (random() % 128));
+    }
+  });
+  EXPECT_GT(changes, 100u);
 }
 
 // Stop mode over and over, with and without the filter: the host side sleeps in it while the bus

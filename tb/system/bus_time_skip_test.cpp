@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Nodes with the time unit whose idle time is skipped are in the same state as those that have been
+// clocked all the time (TM-121, TM-122).
+#include <gtest/gtest.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bus/bus.hpp"
+#include "node/host.hpp"
+#include "node/rtl_node.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr Time kBit = kMicrosecond;  // 8 clocks of 8 MHz
+constexpr std::uint32_t kTctrl = 0x1104, kTimelo = 0x1110, kTimehi = 0x1114, kTincn = 0x1118,
+                        kTincf = 0x111C, kTslew = 0x1128, kTcmp = 0x1130, kTcmph = 0x1134;
+
+std::vector<ClockConfig> steady() {
+  return {{.error_ppm = 100}, {.error_ppm = -80, .phase = 20'000}, {.phase = 91'000}};
+}
+
+std::vector<ClockConfig> wandering() {
+  auto clocks = steady();
+  clocks[0].wander = Wander::kWalk;
+  clocks[1].wander = Wander::kSine;
+  clocks[0].wander_ppm = clocks[1].wander_ppm = 3;
+  return clocks;
+}
+
+// A bus of three whose first node sends.
+struct TimeBus {
+  explicit TimeBus(const std::vector<ClockConfig> &clocks) {
+    for (std::size_t n = 0; n < clocks.size(); ++n) {
+      nodes[n] = RtlNode::create_with_time("node" + std::to_string(n), clocks[n]);
+      bus.add(*nodes[n]);
+      hosts[n] = std::make_unique<Host>(*nodes[n], HostConfig{});
+    }
+    for (auto &host : hosts) host->start_and_wait();
+    for (auto &node : nodes) {
+      node->write32(kTincn, 125);
+      node->write32(kTincf, 0x1234'5678);
+    }
+    nodes[1]->write32(kTctrl, 0x3031);  // compare with output
+    nodes[1]->write32(kTcmph, 500'000'000);
+    nodes[1]->write32(kTcmp, 700'000'000);
+  }
+  /// Up to `until`, with as little work as is allowed; true if anything was left out.
+  bool run(Time until, bool skips) {
+    bool skipped = false;
+    while (skips && bus.now() < until - 2 * kBit && bus.skip(until - 2 * kBit)) {
+      skipped = true;
+      bus.run_for(2 * kBit);
+    }
+    bus.run_until(until);
+    return skipped;
+  }
+  std::uint64_t time(unsigned n) {
+    const std::uint64_t low = nodes[n]->read32(kTimelo);
+    return low | std::uint64_t{nodes[n]->read32(kTimehi)} << 32;
+  }
+
+  std::array<std::unique_ptr<RtlNode>, 3> nodes;
+  Bus bus;
+  std::array<std::unique_ptr<Host>, 3> hosts;
+};
+
+void compare(TimeBus &skips, TimeBus &clocked) {
+  ASSERT_EQ(skips.bus.now(), clocked.bus.now());
+  for (unsigned n = 0; n < 3; ++n) {
+    EXPECT_EQ(skips.nodes[n]->cycles(), clocked.nodes[n]->cycles());
+    EXPECT_EQ(skips.nodes[n]->oscillator().next(), clocked.nodes[n]->oscillator().next());
+    EXPECT_EQ(skips.nodes[n]->trace(), clocked.nodes[n]->trace());
+    EXPECT_EQ(skips.nodes[n]->time_out(), clocked.nodes[n]->time_out());
+    EXPECT_EQ(skips.time(n), clocked.time(n));
+  }
+}
+
+void run_both(const std::vector<ClockConfig> &clocks) {
+  TimeBus skips{clocks}, clocked{clocks};
+  unsigned skipped = 0;
+  for (unsigned i = 0; i < 12; ++i) {
+    for (TimeBus *one : {&skips, &clocked}) {
+      one->nodes[2]->write32(kTslew, i * 5);
+      ASSERT_TRUE(one->hosts[i % 3]->send_and_wait({.id = 0x100 + i, .dlc = 2}, kMillisecond));
+      one->bus.run_for(20 * kBit);
+    }
+    const Time until = skips.bus.now() + 90 * kMillisecond + i * 1'234'567;
+    skipped += skips.run(until, true);
+    clocked.run(until, false);
+    compare(skips, clocked);
+    for (unsigned n = 0; n < 3; ++n)
+      for (std::uint32_t row = 0x1400; row < 0x1600; row += 4)
+        ASSERT_EQ(skips.nodes[n]->read32(row), clocked.nodes[n]->read32(row));
+  }
+  EXPECT_EQ(skipped, 12u);
+  for (unsigned n = 0; n < 3; ++n) {
+    ASSERT_EQ(skips.hosts[n]->received().size(), 8u);
+    for (unsigned i = 0; i < 8; ++i)
+      EXPECT_EQ(skips.hosts[n]->received()[i].stamp, clocked.hosts[n]->received()[i].stamp);
+  }
+}
+
+TEST(BusTimeSkip, IsAsIfClocked) { run_both(steady()); }
+
+TEST(BusTimeSkip, ClocksMayWander) { run_both(wandering()); }
+
+// A skip ends before an event of the compare unit, which would be missed.
+TEST(BusTimeSkip, EndsBeforeAnEvent) {
+  TimeBus bus{steady()};
+  bus.bus.run_for(20 * kBit);
+  ASSERT_TRUE(bus.bus.skip(kSecond));
+  EXPECT_GT(bus.bus.now(), 695 * kMillisecond);
+  EXPECT_FALSE(bus.nodes[1]->time_out());
+  bus.bus.run_until(701 * kMillisecond);
+  EXPECT_TRUE(bus.nodes[1]->time_out());
+}
+
+}  // namespace
+}  // namespace vericansim
