@@ -100,9 +100,10 @@ void run_both(const std::vector<ClockConfig> &clocks) {
   }
   EXPECT_EQ(skipped, 12u);
   for (unsigned n = 0; n < 3; ++n) {
-    ASSERT_EQ(skips.hosts[n]->received().size(), 8u);
-    for (unsigned i = 0; i < 8; ++i)
-      EXPECT_EQ(skips.hosts[n]->received()[i].stamp, clocked.hosts[n]->received()[i].stamp);
+    const auto &got = skips.hosts[n]->received(), &want = clocked.hosts[n]->received();
+    ASSERT_GT(want.size(), 5u);
+    ASSERT_EQ(got.size(), want.size());
+    for (std::size_t i = 0; i < want.size(); ++i) EXPECT_EQ(got[i].stamp, want[i].stamp);
   }
 }
 
@@ -115,7 +116,7 @@ TEST(BusTimeSkip, EndsBeforeAnEvent) {
   TimeBus bus{steady()};
   bus.bus.run_for(20 * kBit);
   ASSERT_TRUE(bus.bus.skip(kSecond));
-  EXPECT_GT(bus.bus.now(), 695 * kMillisecond);
+  EXPECT_GT(bus.bus.now(), 690 * kMillisecond);
   EXPECT_FALSE(bus.nodes[1]->time_out());
   bus.bus.run_until(701 * kMillisecond);
   EXPECT_TRUE(bus.nodes[1]->time_out());
