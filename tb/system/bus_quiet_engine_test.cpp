@@ -53,9 +53,9 @@ bool command_time(Engine &engine, std::uint64_t dice, bool first) {
     const std::uint32_t soon = engine.rootp->can_core__DOT__gen_time__DOT__u_time__DOT__lo +
                                static_cast<std::uint32_t>(dice >> 8 & 0xFFFF);
     switch (dice % 9) {
-      case 2: engine.time_data_i = fraction << 32 | (dice >> 4 & 0x7F); break;      // rate
-      case 3: engine.time_data_i = (dice >> 8 & 0x1F) << 32; break;                 // slew
-      case 4: engine.time_data_i = std::uint64_t{soon} << 32; break;                // compare
+      case 2: engine.time_data_i = fraction << 32 | (dice >> 4 & 0x7F); break;  // rate
+      case 3: engine.time_data_i = (dice >> 8 & 0x1F) << 32; break;             // slew
+      case 4: engine.time_data_i = std::uint64_t{soon} << 32; break;            // compare
       default: engine.time_data_i = fraction << 32 | (0xFFFF'FF00U + (dice & 0xFF)); break;
     }
     engine.time_ttx_i = soon;

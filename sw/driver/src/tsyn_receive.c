@@ -64,8 +64,7 @@ static verican_tsyn_heard_t take_sync(verican_tsyn_receiver_t *receiver,
                                       uint64_t stamp, uint64_t silence_ns) {
   const uint8_t sc = data[2] & 0xFu;
   const uint64_t since = stamp - receiver->stamp;
-  if (!continues(receiver, rules, sc, since > silence_ns))
-    return refuse(receiver, VERICAN_TSYN_SC);
+  if (!continues(receiver, rules, sc, since > silence_ns)) return refuse(receiver, VERICAN_TSYN_SC);
   if (receiver->waiting && sc != receiver->sc) (void)refuse(receiver, VERICAN_TSYN_MISSING);
   receiver->second = word_of(data);
   receiver->stamp = stamp;
