@@ -49,7 +49,7 @@ module can_stamp (
   logic reference;
   assign reference = sample_i && behind_id && !bit_i && last_q && at_edge;
 
-  assign take_o     = at_eof ? rx_valid_i : fall && !fixed_q;
+  assign take_o     = at_eof ? rx_valid_i : fall && !fixed_q && !(at_sof && sof_i);
   assign stamp_tx_o = transmitter_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
