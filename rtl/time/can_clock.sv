@@ -6,7 +6,8 @@
 //
 // Three short adders in a row, each a clock behind the one before: fraction, lower half, upper
 // half. A command passes the same registers, so that it acts on all of them in one clock of TIME:
-// the third after the one in which it is given. hi_o of the next clock belongs to lo_o of this one.
+// the fourth after the one in which it is given. lo_o is that of the next clock, for who has to
+// know it in time; TIME is hi_o with lo_o of the clock before. So after a reset lo_o is ahead.
 
 module can_clock #(
   /// Increment after a reset: 39:32 ns, 31:0 in 2^-32 ns a clock.
@@ -25,11 +26,12 @@ module can_clock #(
   output logic [31:0] hi_o,
   output logic [31:0] left_o       // not worked off yet, signed ns
 );
-  logic [7:0]  incn_q;
+  logic [7:0]  incn_q, incn;
   logic [31:0] incf_q;
+  assign incn = rate_i ? data_i[7:0] : incn_q;
 
   // Slew. A step that would let TIME stand or go back is not made (TM-15, TM-17).
-  logic slew_bit, bit_q, step, step_q, back_q;
+  logic slew_bit, bit_q, changed_q, step, forth, back;
   always_comb begin
     case (slewr_i)
       2'd0:    slew_bit = lo_o[13];
@@ -38,25 +40,31 @@ module can_clock #(
       default: slew_bit = lo_o[10];
     endcase
   end
-  assign step = (slew_bit != bit_q) && (left_o != '0) && (incn_q[7:1] != '0);
+  assign step  = changed_q && (left_o != '0) && (incn[7:1] != '0);
+  assign forth = step && !left_o[31];
+  assign back  = step && left_o[31];
 
+  // What TIME grows by in a clock, without carry and offset, is ready when it is added.
+  logic [8:0] grow_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       incn_q <= TimeInc[39:32];
       incf_q <= TimeInc[31:0];
-      {bit_q, step_q, back_q} <= '0;
+      grow_q <= {1'b0, TimeInc[39:32]};
+      {bit_q, changed_q} <= '0;
       left_o <= '0;
     end else begin
-      if (rate_i) {incf_q, incn_q} <= {data_i[63:32], data_i[7:0]};
-      bit_q  <= slew_bit;
-      step_q <= step;
-      back_q <= left_o[31];
+      incn_q <= incn;
+      grow_q <= {1'b0, incn} + {9{back}} + {8'b0, forth};
+      if (rate_i) incf_q <= data_i[63:32];
+      bit_q     <= slew_bit;
+      changed_q <= slew_bit != bit_q;
       if (slew_i)    left_o <= data_i[63:32];
       else if (step) left_o <= left_o + {32{!left_o[31]}} + {31'b0, left_o[31]};
     end
   end
 
-  // First clock of a command: it waits for a new increment, which is a clock behind.
+  // First clock of a command: it waits for a new increment.
   logic        set1_q, offset1_q;
   logic [63:0] data_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -73,24 +81,19 @@ module can_clock #(
   // Second clock: what the lower half is to grow by; and the fraction, whose carry reaches it two
   // clocks later.
   logic        set2_q, offset2_q, carry_q, carry2_q;
-  logic [8:0]  grow;
   logic [32:0] addend, addend_q;
   logic [31:0] fraction_q, upper2_q;
-  logic        forth, back;   // the increment may be another one by now
-  assign forth  = step_q && !back_q && (incn_q[7:1] != '0);
-  assign back   = step_q && back_q && (incn_q[7:1] != '0);
-  assign grow   = {1'b0, incn_q} + {9{back}} + {8'b0, forth};
-  assign addend = {1'b0, data_q[31:0]} + (set1_q ? '0 : {24'b0, grow});
+  assign addend = {1'b0, data_q[31:0]} + (set1_q ? '0 : {24'b0, grow_q});
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       addend_q   <= {25'b0, TimeInc[39:32]};
-      fraction_q <= TimeInc[31:0];
+      {carry_q, fraction_q} <= {TimeInc[31:0], 1'b0};
       upper2_q   <= '0;
-      {set2_q, offset2_q, carry_q, carry2_q} <= '0;
+      {set2_q, offset2_q, carry2_q} <= '0;
     end else begin
       set2_q    <= set1_q;
       offset2_q <= offset1_q;
-      addend_q  <= offset1_q ? addend : {24'b0, grow};
+      addend_q  <= offset1_q ? addend : {24'b0, grow_q};
       upper2_q  <= data_q[63:32];
       carry2_q  <= carry_q;
       {carry_q, fraction_q} <= set1_q ? '0 : {1'b0, fraction_q} + {1'b0, incf_q};
@@ -103,7 +106,8 @@ module can_clock #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {set3_q, carry3_q} <= '0;
-      {lo_o, hi_o, upper3_q} <= '0;
+      {hi_o, upper3_q} <= '0;
+      lo_o <= {24'b0, TimeInc[39:32]};
     end else begin
       set3_q   <= set2_q;
       upper3_q <= offset2_q ? upper2_q + {31'b0, addend_q[32]} : '0;

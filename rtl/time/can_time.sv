@@ -42,6 +42,15 @@ module can_time #(
     .slewr_i(tctrl_i[can_regs_pkg::TctrlSlewr +: can_regs_pkg::TctrlSlewrW]),
     .lo_o(lo), .hi_o(hi), .left_o);
 
+  // TIME.
+  logic [31:0] lo_q;
+  logic [63:0] now;
+  assign now = {hi, lo_q};
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) lo_q <= '0;
+    else         lo_q <= lo;
+  end
+
   logic take;
   can_stamp u_stamp (
     .clk_i, .rst_ni,
@@ -50,7 +59,7 @@ module can_time #(
     .rx_i, .tx_i, .sample_i, .bit_i, .field_i, .transmitter_i, .sof_i, .rx_valid_i,
     .take_o(take), .stamp_we_o, .stamp_tx_o);
   can_capture u_stamp_time (
-    .clk_i, .rst_ni, .take_i(take), .lo_i(lo), .hi_i(hi), .time_o(stamp_o));
+    .clk_i, .rst_ni, .take_i(take), .now_i(now), .time_o(stamp_o));
 
   logic armed, match, out, held, launch;
   can_time_cmp u_cmp (
@@ -61,9 +70,9 @@ module can_time #(
     .held_o(held), .launch_o(launch));
 
   can_capture u_ext_time (
-    .clk_i, .rst_ni, .take_i(cmd_i[can_pkg::TimeExt]), .lo_i(lo), .hi_i(hi), .time_o(ext_o));
+    .clk_i, .rst_ni, .take_i(cmd_i[can_pkg::TimeExt]), .now_i(now), .time_o(ext_o));
   can_capture u_now (
-    .clk_i, .rst_ni, .take_i(cmd_i[can_pkg::TimeRead]), .lo_i(lo), .hi_i(hi), .time_o(now_o));
+    .clk_i, .rst_ni, .take_i(cmd_i[can_pkg::TimeRead]), .now_i(now), .time_o(now_o));
 
   logic slewing, slewing_q;
   assign slewing = left_o != '0;

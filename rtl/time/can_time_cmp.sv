@@ -7,31 +7,32 @@
 module can_time_cmp (
   input  logic        clk_i,
   input  logic        rst_ni,
-  input  logic [31:0] lo_i,        // TIME[31:0]
+  input  logic [31:0] lo_i,        // TIME[31:0] of the next clock
   input  logic [31:0] data_i,      // of arm_i
   // Compare.
   input  logic        enable_i,    // TCTRL.CMPEN; 0 disarms
   input  logic        arm_i,       // TCMP is written
   input  logic [31:0] period_i,    // TCMPH: ns between events; 0: once
   output logic        armed_o,
-  output logic        match_o,     // pulse: it fires
-  output logic        out_o,       // toggles from the next clock on
+  output logic        match_o,     // pulse in the clock after: it has fired
+  output logic        out_o,       // toggles from that clock on
   // Launch.
   input  logic        hold_i,      // pulse: the buffer is held from the next clock on
   input  logic        release_i,   // pulse: not any longer
   input  logic [31:0] launch_i,    // TTX
   output logic        held_o,
-  output logic        launch_o     // pulse: its time has come
+  output logic        launch_o     // pulse in the clock after: its time has come
 );
-  // Time to go less one: its sign alone counts. Both subtractions share the inverted time.
+  // Time to go less one: its sign alone counts, and is known when TIME is there (TM-18). What was
+  // changed in the clock before has not been compared. Both subtractions share the inverted time.
   logic [31:0] target_q, minus_time, to_target, to_launch;
-  logic        once;
+  logic        once, fire, launch, reached_q, due_q;
   assign minus_time = ~lo_i;
   assign to_target  = target_q + minus_time;
   assign to_launch  = launch_i + minus_time;
   assign once       = period_i == '0;
-  assign match_o    = armed_o && enable_i && to_target[31];
-  assign launch_o   = held_o && to_launch[31];
+  assign fire       = armed_o && enable_i && reached_q;
+  assign launch     = held_o && due_q;
 
   logic unused;
   assign unused = &{1'b0, to_target[30:0], to_launch[30:0]};
@@ -39,20 +40,24 @@ module can_time_cmp (
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       target_q <= '0;
-      {armed_o, out_o, held_o} <= '0;
+      {armed_o, out_o, held_o, match_o, launch_o, reached_q, due_q} <= '0;
     end else begin
       if (arm_i) begin
         target_q <= data_i;
         armed_o  <= enable_i;
         if (enable_i) out_o <= 1'b0;
       end else begin
-        if (match_o) begin
+        if (fire) begin
           target_q <= target_q + period_i;
           out_o    <= once || !out_o;
         end
-        armed_o <= armed_o && enable_i && !(match_o && once);
+        armed_o <= armed_o && enable_i && !(fire && once);
       end
-      held_o <= hold_i || (held_o && !launch_o && !release_i);
+      held_o    <= hold_i || (held_o && !launch && !release_i);
+      reached_q <= to_target[31] && !arm_i && !fire;
+      due_q     <= to_launch[31] && !hold_i;
+      match_o   <= fire;
+      launch_o  <= launch;
     end
   end
 endmodule

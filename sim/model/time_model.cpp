@@ -8,22 +8,20 @@ namespace vericansim {
 
 // TM-15: 1 ns towards nothing left; not if TIME could then stand or go back (TM-17).
 int TimeModel::slew_step() const {
-  const bool changed = ((ns_[2] ^ ns_[3]) >> slew_bit_ & 1) != 0;
+  const bool changed = ((ns_[3] ^ ns_[4]) >> slew_bit_ & 1) != 0;
   if (left_ == 0 || !changed || inc_ns_ < 2) return 0;
   return left_ < 0 ? -1 : 1;
 }
 
 void TimeModel::clock(const TimeCommand &command) {
   using Kind = TimeCommand::Kind;
-  const int step = slew_step();
-  left_ = command.kind == Kind::kSlew ? command.slew : left_ - step;
   if (command.kind == Kind::kRate) {
     inc_ns_ = command.inc_ns;
     inc_frac_ = command.inc_frac;
   }
-  // A step that meets a new increment of less than 2 ns is lost: TIME must not go back.
-  const int made = inc_ns_ < 2 ? 0 : step;
-  std::uint64_t next = ns_[0] + inc_ns_ + (carry_ ? 1 : 0) + static_cast<std::uint64_t>(made);
+  const int step = slew_step();
+  left_ = command.kind == Kind::kSlew ? command.slew : left_ - step;
+  std::uint64_t next = ns_[0] + inc_ns_ + (carry_ ? 1 : 0) + static_cast<std::uint64_t>(step);
   if (command.kind == Kind::kShift) next += command.ns;
   const std::uint64_t sum = std::uint64_t{fraction_} + inc_frac_;
   carry_ = (sum >> 32) != 0;
@@ -33,7 +31,7 @@ void TimeModel::clock(const TimeCommand &command) {
     carry_ = false;
     fraction_ = 0;
   }
-  ns_ = {next, ns_[0], ns_[1], ns_[2]};
+  ns_ = {next, ns_[0], ns_[1], ns_[2], ns_[3]};
 }
 
 }  // namespace vericansim

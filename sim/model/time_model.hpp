@@ -38,8 +38,8 @@ class TimeModel {
  private:
   [[nodiscard]] int slew_step() const;
 
-  // TIME now and before: the change of a bit is seen two clocks later.
-  std::array<std::uint64_t, 4> ns_{};
+  // TIME now and before: the change of a bit is seen three clocks later.
+  std::array<std::uint64_t, 5> ns_{};
   std::uint32_t fraction_ = 0;
   bool carry_ = false;
   std::uint8_t inc_ns_;

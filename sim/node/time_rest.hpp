@@ -60,7 +60,9 @@ class TimeRest {
     root.can_core__DOT__tx_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__lo;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__hi;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__take;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__lo_q;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__now;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__to_target;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__armed;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__held;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__slewing_q;
@@ -68,8 +70,6 @@ class TimeRest {
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__incf_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__slew_bit;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__bit_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__step_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__back_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__offset1_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__offset2_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__set1_q;
@@ -79,21 +79,23 @@ class TimeRest {
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__upper2_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__upper3_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__addend_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__grow;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__grow_q;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__changed_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__fraction_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry2_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry3_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__target_q;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__reached_q;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__due_q;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__match;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__launch;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__point_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__txpin_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__rx_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__tx_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__fixed_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__told_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp_time__DOT__take_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_ext_time__DOT__take_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_now__DOT__take_q;
     root.can_core__DOT__u_bsp__DOT__u_field__DOT__field_q;
   };
 
@@ -101,8 +103,8 @@ class TimeRest {
   template <typename Root>
   static bool clock_steady(const Root &root) {
     const unsigned busy = root.can_core__DOT__gen_time__DOT__u_time__DOT__slewing_q |
-                          root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__step_q |
-                          root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__back_q |
+                          root.can_core__DOT__gen_time__DOT__u_time__DOT__match |
+                          root.can_core__DOT__gen_time__DOT__u_time__DOT__launch |
                           root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__offset1_q |
                           root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__offset2_q |
                           root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__set1_q |
@@ -114,7 +116,7 @@ class TimeRest {
         root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__incn_q;
     return busy == 0 && root.time_left_o == 0 && data == root.time_data_i &&
            root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__upper2_q == data >> 32 &&
-           root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__grow == increment &&
+           root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__grow_q == increment &&
            root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__addend_q == increment;
   }
 
@@ -123,12 +125,7 @@ class TimeRest {
   static bool stamp_steady(const Engine &engine) {
     const auto &root = *engine.rootp;
     constexpr unsigned kPointMask = 3, kTxpinBit = 2;  // TCTRL
-    const unsigned busy =
-        root.can_core__DOT__gen_time__DOT__u_time__DOT__take |
-        root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp_time__DOT__take_q |
-        root.can_core__DOT__gen_time__DOT__u_time__DOT__u_ext_time__DOT__take_q |
-        root.can_core__DOT__gen_time__DOT__u_time__DOT__u_now__DOT__take_q |
-        engine.time_stamp_we_o | engine.stamp_o | engine.rx_valid_o;
+    const unsigned busy = engine.time_stamp_we_o | engine.stamp_o | engine.rx_valid_o;
     const bool level = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__rx_q ==
                            root.can_core__DOT__rx &&
                        root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__tx_q ==
@@ -198,6 +195,7 @@ class TimeRest {
     };
     const std::uint64_t before_last = count - 1;
     std::uint64_t time = ((std::uint64_t{hi} + carry3) << 32 | lo) + before_last * whole;
+    std::uint64_t in = carry2;  // the carry that the last clock but one has added
     if (before_last == 1) {
       time += carry2;
       step();
@@ -206,6 +204,7 @@ class TimeRest {
       __extension__ using Wide = unsigned __int128;
       const Wide sum = Wide{fraction} + Wide{before_last - 2} * part;
       time += carry2 + carry + static_cast<std::uint64_t>(sum >> 32);
+      in = before_last == 2 ? carry : static_cast<std::uint32_t>(sum) < part;
       fraction = static_cast<std::uint32_t>(sum);
       step();
       step();
@@ -218,9 +217,28 @@ class TimeRest {
     auto &slew_bit = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__slew_bit;
     constexpr unsigned kSlewrAt = 4;  // TCTRL
     const unsigned bit = 13 - (root.time_tctrl_i >> kSlewrAt & 3);
-    slew_bit = static_cast<std::uint8_t>(lo >> bit & 1);
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__bit_q =
-        static_cast<std::uint8_t>(time >> bit & 1);
+    auto &bit_q = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__bit_q;
+    const auto bit_of = [bit](std::uint64_t ns) {
+      return static_cast<std::uint8_t>(ns >> bit & 1);
+    };
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__changed_q =
+        before_last == 0 ? slew_bit != bit_q : bit_of(time) != bit_of(time - whole - in);
+    slew_bit = bit_of(lo);
+    bit_q = bit_of(time);
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__lo_q = static_cast<std::uint32_t>(time);
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__now =
+        std::uint64_t{hi} << 32 | static_cast<std::uint32_t>(time);
+    // What has been reached looks at the lower half that is a clock ahead.
+    const auto to_go = [](std::uint32_t target, std::uint64_t ns) {
+      return target + ~static_cast<std::uint32_t>(ns);
+    };
+    const std::uint32_t target =
+        root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__target_q;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__to_target = to_go(target, lo);
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__reached_q =
+        static_cast<std::uint8_t>(to_go(target, time) >> 31);
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__due_q =
+        static_cast<std::uint8_t>(to_go(root.time_ttx_i, time) >> 31);
   }
 };
 

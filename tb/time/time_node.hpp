@@ -68,7 +68,7 @@ class TimeNode final : public RtlNode {
 
 /// MailboxRig of `nodes` of them.
 struct TimeRig {
-  explicit TimeRig(unsigned nodes) : TimeRig{std::vector<Time>(nodes, 0)} {}
+  explicit TimeRig(unsigned count) : TimeRig{std::vector<Time>(count, 0)} {}
   /// With the time of the first edge of each clock, ps.
   explicit TimeRig(const std::vector<Time> &first_edges);
   TimeNode &node(unsigned n) { return *nodes[n]; }

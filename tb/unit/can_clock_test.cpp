@@ -23,7 +23,8 @@ class CanClock : public testing::Test {
  protected:
   CanClock() { rtl_->slewr_i = 3; }
   void SetUp() override {
-    rtl_.reset();  // one edge behind it
+    rtl_.reset();  // one edge behind it, and the lower half is a clock ahead of TIME
+    model_.clock();
     model_.clock();
   }
 
@@ -129,7 +130,7 @@ TEST_F(CanClock, ShiftLosesNothing) {
   const std::uint64_t offsets[] = {1, 0x100000000ULL, 0x7FFFFFFFFFFFFFFFULL, 0xFFFFFFF0ULL};
   std::uint64_t sum = 0;
   TimeModel plain{20, 0};
-  for (unsigned i = 0; i < 3; ++i) plain.clock();
+  for (unsigned i = 0; i < 4; ++i) plain.clock();
   plain.clock(rate(20, 0x80000001));
   clocks(2);
   for (unsigned i = 0; i < 4000; ++i) {

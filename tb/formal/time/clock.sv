@@ -5,17 +5,16 @@
   // all flip-flops, and what is said of a clock follows from the five before it, so the few clocks
   // of the search stand for every clock of every run.
   //
-  // TIME of the clock before this one is {hi_o, the lower half of then}; growth and setting are
+  // TIME is {hi_o, lo_o of the clock before}; growth and setting are
   // computed here from the commands in one sum of 64 bits and carried along to their clock.
 
   logic [2:0]  f_clocks = 3'd0;      // since the arbitrary first one, saturates
   logic [31:0] f_lo;                 // lo_o of the clock before
-  logic [63:0] f_before;             // TIME two clocks ago
+  logic [63:0] f_before;             // TIME of the clock before
   logic        f_set, f_set2, f_set3, f_offset, f_carry2, f_carry3, f_jump, f_jump2, f_jump3;
   logic [63:0] f_data, f_data2, f_data3, f_grow2, f_grow3, f_growth, f_time;
-  logic [1:0]  f_step;               // signed: the step that is made, ns
+  logic [1:0]  f_step;               // signed: the step that was made in the clock before, ns
 
-  assign f_step   = !step_q || incn_q < 8'd2 ? 2'd0 : back_q ? 2'b11 : 2'b01;
   assign f_growth = {56'd0, incn_q} + {{62{f_step[1]}}, f_step};
   assign f_time   = {hi_o, f_lo};
 
@@ -25,6 +24,7 @@
     f_before <= f_time;
     // A command, a clock after it was given; and its way.
     {f_set, f_offset, f_data} <= {set_i, shift_i, data_i};
+    f_step <= !step ? 2'd0 : left_o[31] ? 2'b11 : 2'b01;
     {f_set2, f_data2}   <= {f_set, f_data};
     f_grow2             <= f_growth + (f_offset ? f_data : 64'd0);
     f_jump2             <= f_offset;
@@ -59,9 +59,9 @@
                           : {1'b0, $past(fraction_q)} + {1'b0, $past(incf_q)}));
       // TM-15: what is left shrinks by the step that is made, towards 0; a write replaces it.
       p_slew: assert (left_o == ($past(slew_i) ? $past(data_i[63:32])
-                      : $past(left_o) - (!step_q ? 32'd0 : back_q ? 32'hFFFF_FFFF : 32'd1)));
+                      : $past(left_o) - {{30{f_step[1]}}, f_step}));
       // TM-15: a step has the sign of what is left; none if nothing is, or INCN is below 2.
-      p_step: assert (!step_q || ($past(left_o) != 32'd0 && back_q == $past(left_o[31])
-                                  && $past(incn_q) >= 8'd2));
+      p_step: assert (f_step == 2'd0 || ($past(left_o) != 32'd0 && f_step[1] == $past(left_o[31])
+                                         && incn_q >= 8'd2));
     end
   end

@@ -9,7 +9,7 @@ module stamp_frame (
   input logic        sof_i, rx_valid_i,
   input logic [1:0]  point_i,
   input logic [4:0]  field_i,
-  input logic [31:0] lo_i, hi_i
+  input logic [63:0] now_i
 );
   logic        rx, take, we, own;
   logic [63:0] stamp;
@@ -17,7 +17,7 @@ module stamp_frame (
   can_stamp u_stamp (
     .clk_i, .rst_ni, .point_i, .txpin_i, .rx_i(rx), .tx_i, .sample_i, .bit_i, .field_i,
     .transmitter_i, .sof_i, .rx_valid_i, .take_o(take), .stamp_we_o(we), .stamp_tx_o(own));
-  can_capture u_capture (.clk_i, .rst_ni, .take_i(take), .lo_i, .hi_i, .time_o(stamp));
+  can_capture u_capture (.clk_i, .rst_ni, .take_i(take), .now_i, .time_o(stamp));
 
   // Groups of fields (can_pkg): 0 no frame, 1 arbitration, 2 behind it, 3 from CRC delimiter on.
   logic [1:0] group, group_q;
@@ -82,8 +82,7 @@ module stamp_frame (
   end
 
   // The event, from pin and transmit level: TM-21, TM-24, TM-25.
-  logic        pin1_q, pin2_q, pin3_q, tx_q, done, fall, event_now, event_q, have;
-  logic [31:0] low;
+  logic        pin1_q, pin2_q, pin3_q, tx_q, done, fall, event_now, have;
   logic [63:0] expected;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) {pin3_q, pin2_q, pin1_q, tx_q} <= '1;
@@ -91,10 +90,8 @@ module stamp_frame (
     done <= rst_ni && group != 2'd0
             && (done || (point == 2'd0 && sof_i) || (point == 2'd2 && rx_valid_i)
                 || (point[0] && group == 2'd2 && sample_i && !bit_i && bit_q));
-    event_q <= rst_ni && event_now;
-    if (event_now) low <= lo_i;
-    if (event_q)   expected <= {hi_i, low};
-    have <= rst_ni && (have || event_q);
+    if (event_now) expected <= now_i;
+    have <= rst_ni && (have || event_now);
   end
   assign fall = transmitter_i && !pin && group != 2'd0 ? tx_q && !tx_i : pin3_q && !pin2_q;
   assign event_now = point == 2'd2 ? rx_valid_i
@@ -104,7 +101,7 @@ module stamp_frame (
     if (rst_ni) begin
       // TM-20, TM-26: what is told is TIME, all 64 bits, of the clock in which the event is seen:
       // two flip-flops behind the pin, none behind the own level, one behind a sample point.
-      p_latency: assert (!we || !have || (!event_q && stamp == expected));
+      p_latency: assert (!we || !have || stamp == expected);
       // TM-20, TM-28: and stays until the frame is over.
       p_kept: assert (told == 2'd0 || group == 2'd0 || !have || stamp == expected);
       // TM-20: one at most for a frame.

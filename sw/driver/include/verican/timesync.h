@@ -19,7 +19,7 @@ extern "C" {
 
 /* ---- The clock ------------------------------------------------------------------------------- */
 
-/** The time, ns. What the functions below change shows four clocks later. */
+/** The time, ns. What the functions below change shows five clocks later. */
 verican_result_t verican_clock_get(const verican_t *dev, uint64_t *ns);
 
 /** Sets the time. */
