@@ -21,10 +21,16 @@ def rtl_files():
     return [ROOT / "rtl" / line.strip() for line in lines if line.strip().endswith(".sv")]
 
 
+def part_of(path):
+    """The part that a file of the RTL belongs to (FOLDERS in regression.py)."""
+    if path.stem == "can_mb_stamp":
+        return "time"
+    return path.parent.name if path.parent.name in ("remote", "time") else "core"
+
+
 def modules_of(part):
-    """Modules of a part: of the node without a processor (rtl/remote), or of the rest, the core."""
-    return {path.stem for path in rtl_files()
-            if (path.parent.name == "remote") == (part == "remote")}
+    """Modules of a part: the node without a processor, the time unit, or the rest, the core."""
+    return {path.stem for path in rtl_files() if part_of(path) == part}
 
 
 def write_if_new(path, text):

@@ -14,8 +14,9 @@ import time
 # Folders of tb/ whose tests are about a part of the RTL, and which programs in them are.
 FOLDERS = {
     "core": [("unit", "can_"), ("mailbox", ""), ("protocol", ""), ("driver", ""),
-             ("system", "bus_"), ("faults", ""), ("random", "random_")],
-    "remote": [("unit", "can_rn_"), ("remote", "port_"), ("remote", "rtl_")]}
+             ("system", "bus_"), ("faults", ""), ("random", "random_"), ("time", "")],
+    "remote": [("unit", "can_rn_"), ("remote", "port_"), ("remote", "rtl_")],
+    "time": [("unit", "can_clock_"), ("unit", "can_time_"), ("time", "")]}
 CPU_SECONDS = 6        # of one program, and more for tests that take long without a mutant
 CPU_FACTOR = 5
 MEMORY = 2 << 30       # bytes

@@ -20,7 +20,7 @@ from mutants import Design, choose
 from regression import Regression, in_parallel, programs
 from report import Report
 
-FULL = {"core": 1100, "remote": 330}   # mutants at scale 1
+FULL = {"core": 1100, "remote": 330, "time": 250}   # mutants at scale 1
 PROOF_SECONDS = 120    # limit of one proof
 # Of the tests of one program so many seconds are run for one mutant: of long sweeps a part.
 PROGRAM_SECONDS = 5
@@ -34,9 +34,10 @@ def arguments():
     """Options; the campaign's environment gives the defaults."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--scale", type=float, default=os.environ.get("CAMPAIGN_SCALE", 1.0),
-                        help="part of 1,100 mutants (330 of remote), above 0 up to 1")
+                        help="part of 1,100 mutants (330 of remote, 250 of time), above 0 up to 1")
     parser.add_argument("--part", choices=sorted(FULL), default="core",
-                        help="core: all but rtl/remote, the node without a processor (core)")
+                        help="core: all but rtl/remote, the node without a processor, and the "
+                             "time unit (core)")
     parser.add_argument("--seed", type=int, default=os.environ.get("CAMPAIGN_SEED", 1))
     parser.add_argument("--module", action="append", default=[], help="only mutants in it")
     parser.add_argument("--mutant", action="append", default=[],
@@ -53,7 +54,7 @@ def arguments():
     parser.add_argument("--no-build", action="store_true", help="take the builds as they are")
     parser.add_argument("--jobs", type=int, default=os.environ.get("CAMPAIGN_JOBS", 2))
     parser.add_argument("--build", type=pathlib.Path,
-                        help="directory for the test programs (build/mutants, -remote)")
+                        help="directory for the test programs (build/mutants, -remote, -time)")
     parser.add_argument("--dir", type=pathlib.Path, help="directory for results",
                         default=os.environ.get("CAMPAIGN_DIR"))
     parser.add_argument("--out", default=os.environ.get("CAMPAIGN_OUT"), help="JSON of the results")
@@ -64,7 +65,8 @@ def arguments():
         parser.error(f"--jobs {options.jobs}: at least 1 is needed")
     options.full = FULL[options.part]
     options.build = (options.build or models.ROOT / "build" / {
-        "core": "mutants", "remote": "mutants-remote"}[options.part]).resolve()
+        "core": "mutants", "remote": "mutants-remote", "time": "mutants-time"}[
+            options.part]).resolve()
     options.dir = pathlib.Path(options.dir or options.build / "results").resolve()
     options.dir.mkdir(parents=True, exist_ok=True)
     return options

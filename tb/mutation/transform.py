@@ -22,7 +22,8 @@ def with_parameters(text, parameters):
     """The top with other defaults of its parameters."""
     for parameter in parameters:
         name, value = parameter.split("=", 1)
-        text, count = re.subn(rf"(parameter\s+\w+\s+{name}\s*=\s*)[^,\n]+", rf"\g<1>{value}", text,
+        text, count = re.subn(rf"(parameter\s+\w+\s+(?:\[[^]]*\]\s*)?{name}\s*=\s*)[^,\n]+",
+                              rf"\g<1>{value}", text,
                               count=1)
         if count != 1:
             sys.exit(f"transform.py: the top has no parameter {name}")
