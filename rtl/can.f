@@ -10,6 +10,10 @@ time/can_capture.sv
 time/can_stamp.sv
 time/can_time_cmp.sv
 time/can_time.sv
+time/can_time_bits.sv
+time/can_time_pair.sv
+time/can_time_offset.sv
+time/can_time_sync.sv
 time/can_time_regs.sv
 frame/can_stuff.sv
 frame/can_crc15.sv

@@ -5,7 +5,7 @@
 
   profiles.py             one line a profile: NAME NumMb=16 Fifo=0 ...
   profiles.py NAME        the parameters of one profile
-  profiles.py --features  one line a build that differs in one feature: Fifo=0
+  profiles.py --features  one line a build that differs in one feature and what that needs: Fifo=0
 """
 import sys
 from pathlib import Path
@@ -27,7 +27,8 @@ def main(arguments):
     regmap = model.load(ROOT / "sw/registers.yaml")
     profiles = model.load_profiles(ROOT / "sw/profiles.yaml", regmap)
     if arguments == ["--features"]:
-        lines = [f"{feature.name}={1 - feature.default}" for feature in regmap.features]
+        lines = [f"{feature.name}={1 - feature.default}"
+                 + (f" {feature.needs}=1" if feature.needs else "") for feature in regmap.features]
     elif not arguments:
         lines = [f"{name} {words(parameters)}" for name, parameters in profiles.items()]
     elif len(arguments) == 1 and arguments[0] in profiles:

@@ -226,6 +226,7 @@ package can_regs_pkg;
   localparam int          XconfigStatus     = 22;
   localparam int          XconfigOwnmasks   = 21;
   localparam int          XconfigAbort      = 20;
+  localparam int          XconfigTimesync   = 13;
   localparam int          XconfigTime       = 12;
   localparam int          XconfigRxfifo     = 11;
   localparam int          XconfigOsmb       = 10;
@@ -368,6 +369,53 @@ package can_regs_pkg;
   localparam logic [31:0] TexthiReset       = 32'h0000_0000;
   localparam int          TexthiTexthi      = 0;
   localparam int          TexthiTexthiW     = 32;
+
+  // TSCTRL: Follower: control
+  localparam logic [10:0] TsctrlAddr        = 11'h460;
+  localparam logic [31:0] TsctrlReset       = 32'h0000_0000;
+  localparam logic [31:0] TsctrlAny         = 32'h3F7F_03F1;
+  localparam int          TsctrlTmo         = 24;
+  localparam int          TsctrlTmoW        = 6;
+  localparam int          TsctrlKd          = 21;
+  localparam int          TsctrlKdW         = 2;
+  localparam int          TsctrlKi          = 16;
+  localparam int          TsctrlKiW         = 5;
+  localparam int          TsctrlPps         = 9;
+  localparam int          TsctrlPhalf       = 8;
+  localparam int          TsctrlDomain      = 4;
+  localparam int          TsctrlDomainW     = 4;
+  localparam int          TsctrlEn          = 0;
+
+  // TSID: Follower: identifier of SYNC and FUP
+  localparam logic [10:0] TsidAddr          = 11'h461;
+  localparam logic [31:0] TsidReset         = 32'h0000_0000;
+  localparam logic [31:0] TsidAny           = 32'h9FFF_FFFF;
+  localparam int          TsidIde           = 31;
+  localparam int          TsidId            = 0;
+  localparam int          TsidIdW           = 29;
+
+  // TSDLY: Follower: delay
+  localparam logic [10:0] TsdlyAddr         = 11'h462;
+  localparam logic [31:0] TsdlyReset        = 32'h0000_0000;
+  localparam logic [31:0] TsdlyAny          = 32'h00FF_FFFF;
+  localparam int          TsdlyTsdly        = 0;
+  localparam int          TsdlyTsdlyW       = 24;
+
+  // TSSTAT: Follower: status
+  localparam logic [10:0] TsstatAddr        = 11'h463;
+  localparam logic [31:0] TsstatReset       = 32'h0000_0000;
+  localparam int          TsstatPairs       = 8;
+  localparam int          TsstatPairsW      = 8;
+  localparam int          TsstatSc          = 4;
+  localparam int          TsstatScW         = 4;
+  localparam int          TsstatState       = 0;
+  localparam int          TsstatStateW      = 2;
+
+  // TSOFS: Follower: last offset
+  localparam logic [10:0] TsofsAddr         = 11'h464;
+  localparam logic [31:0] TsofsReset        = 32'h0000_0000;
+  localparam int          TsofsTsofs        = 0;
+  localparam int          TsofsTsofsW       = 32;
 
   // STAMPLO: Time: stamp of buffer n, lower half
   localparam logic [10:0] StamploAddr       = 11'h500;

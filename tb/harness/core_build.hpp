@@ -15,7 +15,7 @@ namespace vericansim {
 /// Features of a build, parameters of can_ahb (sw/registers.yaml).
 struct Features {
   bool fifo = true, abort = true, status = true, own_masks = true, wake = true, extras = true;
-  bool clear_ram = true, time_unit = false;
+  bool clear_ram = true, time_unit = false, time_sync = false;
 };
 
 /// A build of the core.

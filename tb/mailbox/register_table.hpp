@@ -32,6 +32,7 @@ struct RegisterRow {
   /// Bits that are there only with a feature, and what they read without.
   std::uint32_t needs_fifo = 0, needs_abort = 0, needs_status = 0, needs_own_masks = 0;
   std::uint32_t needs_wake = 0, needs_extras = 0, needs_clear_ram = 0, needs_time_unit = 0;
+  std::uint32_t needs_time_sync = 0;
   std::uint32_t without = 0;
   bool without_adds_last_mb = false;  ///< `without` is to be raised by NumMb - 1
 
@@ -40,7 +41,8 @@ struct RegisterRow {
     return (has.fifo ? 0 : needs_fifo) | (has.abort ? 0 : needs_abort) |
            (has.status ? 0 : needs_status) | (has.own_masks ? 0 : needs_own_masks) |
            (has.wake ? 0 : needs_wake) | (has.extras ? 0 : needs_extras) |
-           (has.clear_ram ? 0 : needs_clear_ram) | (has.time_unit ? 0 : needs_time_unit);
+           (has.clear_ram ? 0 : needs_clear_ram) | (has.time_unit ? 0 : needs_time_unit) |
+           (has.time_sync ? 0 : needs_time_sync);
   }
 };
 

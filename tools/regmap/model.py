@@ -142,6 +142,7 @@ class Feature:
     config: str                   # field of XCONFIG that tells of it
     doc: str
     default: int = 1
+    needs: str = ""               # another feature, without which it cannot be there
 
 
 @dataclass
@@ -236,6 +237,7 @@ def check_features(registers, features):
     config = next(one for one in registers if one.name == "XCONFIG")
     told = {part.name: part.only_if for part in config.fields}
     for one in features:
+        choose(one.needs, f"{one.name}: needs", ("", *names))
         if told.get(one.config) != one.name:
             raise MapError(f"XCONFIG {one.config}: only_if: {one.name} is missing")
     for register in registers:
@@ -252,7 +254,8 @@ def load(path: Path):
         raise MapError(str(error)) from None
     take(data, "map", ("name", "title", "window", "num_mb", "features", "registers", "recipes",
                        "buffers", "fifo"))
-    features = [Feature(**take(entry, "features", ("name", "config", "doc"), ("default",)))
+    features = [Feature(**take(entry, "features", ("name", "config", "doc"),
+                                 ("default", "needs")))
                 for entry in data["features"]]
     registers = [read_register(entry, "registers:") for entry in data["registers"]]
     check_features(registers, features)

@@ -458,6 +458,9 @@
 /* ABORT: MCR.AEN. Only with Abort. */
 #define VERICAN_XCONFIG_ABORT_MASK              0x00100000u
 #define VERICAN_XCONFIG_ABORT_SHIFT             20u
+/* TIMESYNC: Follower of the time unit. Only with TimeSync. */
+#define VERICAN_XCONFIG_TIMESYNC_MASK           0x00002000u
+#define VERICAN_XCONFIG_TIMESYNC_SHIFT          13u
 /* TIME: Time unit. Only with TimeUnit. */
 #define VERICAN_XCONFIG_TIME_MASK               0x00001000u
 #define VERICAN_XCONFIG_TIME_SHIFT              12u
@@ -712,6 +715,95 @@
 #define VERICAN_TEXTHI_TEXTHI_SHIFT             0u
 #define VERICAN_TEXTHI_TEXTHI_GET(word)         (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
 #define VERICAN_TEXTHI_TEXTHI_SET(value)        (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
+
+/* TSCTRL: Follower: control. Only with TimeSync. */
+#define VERICAN_TSCTRL_OFFSET                   0x1180u
+#define VERICAN_TSCTRL_RESET                    0x00000000u
+/* TMO: Without a pair for 2^TMO ns it is in holdover; above 37: never. */
+#define VERICAN_TSCTRL_TMO_MASK                 0x3F000000u
+#define VERICAN_TSCTRL_TMO_SHIFT                24u
+#define VERICAN_TSCTRL_TMO_GET(word)            (((uint32_t)(word) >> 24) & 0x3Fu)
+#define VERICAN_TSCTRL_TMO_SET(value)           (((uint32_t)(value) & 0x3Fu) << 24)
+/* KD: While locked, the rate gets 2^-KD of what a pair says; at most KI. */
+#define VERICAN_TSCTRL_KD_MASK                  0x00600000u
+#define VERICAN_TSCTRL_KD_SHIFT                 21u
+#define VERICAN_TSCTRL_KD_GET(word)             (((uint32_t)(word) >> 21) & 0x3u)
+#define VERICAN_TSCTRL_KD_SET(value)            (((uint32_t)(value) & 0x3u) << 21)
+/* KI: Weight of an offset in the increment: 2^KI times 2^-32 ns a clock for 1 ns. */
+#define VERICAN_TSCTRL_KI_MASK                  0x001F0000u
+#define VERICAN_TSCTRL_KI_SHIFT                 16u
+#define VERICAN_TSCTRL_KI_GET(word)             (((uint32_t)(word) >> 16) & 0x1Fu)
+#define VERICAN_TSCTRL_KI_SET(value)            (((uint32_t)(value) & 0x1Fu) << 16)
+/* PPS: A step of the clock arms the compare unit with a whole second. */
+#define VERICAN_TSCTRL_PPS_MASK                 0x00000200u
+#define VERICAN_TSCTRL_PPS_SHIFT                9u
+/* PHALF: While locked, half of the offset is corrected. */
+#define VERICAN_TSCTRL_PHALF_MASK               0x00000100u
+#define VERICAN_TSCTRL_PHALF_SHIFT              8u
+/* DOMAIN: Time domain of the messages. */
+#define VERICAN_TSCTRL_DOMAIN_MASK              0x000000F0u
+#define VERICAN_TSCTRL_DOMAIN_SHIFT             4u
+#define VERICAN_TSCTRL_DOMAIN_GET(word)         (((uint32_t)(word) >> 4) & 0xFu)
+#define VERICAN_TSCTRL_DOMAIN_SET(value)        (((uint32_t)(value) & 0xFu) << 4)
+/* EN: The follower steers the clock; else it leaves it alone, unsynchronised. The reset value of
+   this register is parameter SyncCtrl. */
+#define VERICAN_TSCTRL_EN_MASK                  0x00000001u
+#define VERICAN_TSCTRL_EN_SHIFT                 0u
+
+/* TSID: Follower: identifier of SYNC and FUP. Only with TimeSync. */
+#define VERICAN_TSID_OFFSET                     0x1184u
+#define VERICAN_TSID_RESET                      0x00000000u
+/* IDE: Extended. */
+#define VERICAN_TSID_IDE_MASK                   0x80000000u
+#define VERICAN_TSID_IDE_SHIFT                  31u
+/* ID: As in an ID word: a base identifier is in 28:18, 17:0 are 0. Reset: parameter SyncId. */
+#define VERICAN_TSID_ID_MASK                    0x1FFFFFFFu
+#define VERICAN_TSID_ID_SHIFT                   0u
+#define VERICAN_TSID_ID_GET(word)               (((uint32_t)(word) >> 0) & 0x1FFFFFFFu)
+#define VERICAN_TSID_ID_SET(value)              (((uint32_t)(value) & 0x1FFFFFFFu) << 0)
+
+/* TSDLY: Follower: delay. Only with TimeSync. */
+#define VERICAN_TSDLY_OFFSET                    0x1188u
+#define VERICAN_TSDLY_RESET                     0x00000000u
+/* TSDLY: Signed ns from the master's event to the stamp: path and latency. Reset: parameter
+   SyncDelay. */
+#define VERICAN_TSDLY_TSDLY_MASK                0x00FFFFFFu
+#define VERICAN_TSDLY_TSDLY_SHIFT               0u
+#define VERICAN_TSDLY_TSDLY_GET(word)           (((uint32_t)(word) >> 0) & 0xFFFFFFu)
+#define VERICAN_TSDLY_TSDLY_SET(value)          (((uint32_t)(value) & 0xFFFFFFu) << 0)
+
+/* TSSTAT: Follower: status. Only with TimeSync. */
+#define VERICAN_TSSTAT_OFFSET                   0x118Cu
+#define VERICAN_TSSTAT_RESET                    0x00000000u
+/* PAIRS: Pairs since the last step or holdover; stays at 255. */
+#define VERICAN_TSSTAT_PAIRS_MASK               0x0000FF00u
+#define VERICAN_TSSTAT_PAIRS_SHIFT              8u
+#define VERICAN_TSSTAT_PAIRS_GET(word)          (((uint32_t)(word) >> 8) & 0xFFu)
+#define VERICAN_TSSTAT_PAIRS_SET(value)         (((uint32_t)(value) & 0xFFu) << 8)
+/* SC: Sequence counter of the last SYNC. */
+#define VERICAN_TSSTAT_SC_MASK                  0x000000F0u
+#define VERICAN_TSSTAT_SC_SHIFT                 4u
+#define VERICAN_TSSTAT_SC_GET(word)             (((uint32_t)(word) >> 4) & 0xFu)
+#define VERICAN_TSSTAT_SC_SET(value)            (((uint32_t)(value) & 0xFu) << 4)
+/* STATE: State. */
+#define VERICAN_TSSTAT_STATE_MASK               0x00000003u
+#define VERICAN_TSSTAT_STATE_SHIFT              0u
+#define VERICAN_TSSTAT_STATE_GET(word)          (((uint32_t)(word) >> 0) & 0x3u)
+#define VERICAN_TSSTAT_STATE_SET(value)         (((uint32_t)(value) & 0x3u) << 0)
+#define VERICAN_TSSTAT_STATE_UNSYNCHRONISED     0x0u /* no pair yet */
+#define VERICAN_TSSTAT_STATE_ACQUIRING          0x1u /* fewer than eight pairs */
+#define VERICAN_TSSTAT_STATE_LOCKED             0x2u /* locked */
+#define VERICAN_TSSTAT_STATE_HOLDOVER           0x3u /* no pair for too long */
+
+/* TSOFS: Follower: last offset. Only with TimeSync. */
+#define VERICAN_TSOFS_OFFSET                    0x1190u
+#define VERICAN_TSOFS_RESET                     0x00000000u
+/* TSOFS: Own time less the master's, signed ns, before it was corrected; stays at either end.
+   Moves for 500 clocks behind a FUP. */
+#define VERICAN_TSOFS_TSOFS_MASK                0xFFFFFFFFu
+#define VERICAN_TSOFS_TSOFS_SHIFT               0u
+#define VERICAN_TSOFS_TSOFS_GET(word)           (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
+#define VERICAN_TSOFS_TSOFS_SET(value)          (((uint32_t)(value) & 0xFFFFFFFFu) << 0)
 
 /* STAMPLO: Time: stamp of buffer n, lower half. Only with TimeUnit. */
 #define VERICAN_STAMPLO_OFFSET(n)               (0x1400u + 8u * (uint32_t)(n))

@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_time_sync: follower without a CPU (TM-100 to TM-105). Each pair of SYNC and FUP shifts the
+// clock by its offset and turns the rate, as it is known by then, towards the master's.
+//
+// One bit a clock: a round is 64 clocks, one for each bit of a time, and a pair takes six at most.
+// What the clock is to be given grows in result_q, the offset for software in ofs_o.
+
+module can_time_sync (
+  input  logic        clk_i,
+  input  logic        rst_ni,
+  // Registers of the follower.
+  input  logic [31:0] ctrl_i,        // TSCTRL
+  input  logic [31:0] id_i,          // TSID
+  input  logic [23:0] delay_i,       // TSDLY
+  output logic [31:0] stat_o,        // TSSTAT
+  output logic [31:0] ofs_o,         // TSOFS; moves while a pair is worked off
+  output logic        changed_o,     // pulse: TSSTAT.STATE changes
+  // Reception, see can_core.
+  input  logic        rx_hdr_i,
+  input  logic [28:0] rx_id_i,
+  input  logic        rx_ide_i,
+  input  logic        rx_rtr_i,
+  input  logic [3:0]  rx_dlc_i,
+  input  logic        rx_byte_we_i,
+  input  logic [7:0]  rx_byte_i,
+  input  logic        rx_valid_i,
+  // Time unit, see can_time: what the CPU asks of it, which goes first, and what it is asked.
+  input  logic [63:0] stamp_i,
+  input  logic [39:0] inc_i,         // increment: 39:32 ns, 31:0 in 2^-32 ns
+  input  logic [can_pkg::TimeCmdWidth-1:0] cmd_i,
+  output logic [can_pkg::TimeCmdWidth-1:0] cmd_o,
+  output logic        own_o,         // data_o goes with cmd_o; else what the CPU gives
+  output logic [63:0] data_o
+);
+  typedef enum logic [1:0] {
+    StNone,       // unsynchronised: no pair yet
+    StAcquiring,  // eight pairs that turn the rate with all of their weight
+    StLocked,
+    StHoldover    // no pair for too long
+  } state_t;
+  typedef enum logic [2:0] {
+    OpIdle,
+    OpSeconds,  // the word of a SYNC becomes the seconds
+    OpOffset,   // offset_o; its negative into result_q
+    OpJudge,    // step or not; half of the shift; offset beyond 32 bits
+    OpShift,    // in the first clock of it
+    OpRate,     // new increment into result_q
+    OpTurn,     // to where the clock takes it; it does half-way
+    OpWhole     // a whole second into result_q; the compare unit takes it half-way
+  } op_t;
+  localparam logic [6:0] OneNs = 7'd26;   // number of the bit of 1 ns in timer_q
+
+  logic       enable, halve, pps;
+  logic [4:0] ki;
+  logic [1:0] kd;
+  logic [5:0] tmo;
+  assign enable = ctrl_i[can_regs_pkg::TsctrlEn];
+  assign halve  = ctrl_i[can_regs_pkg::TsctrlPhalf];
+  assign pps    = ctrl_i[can_regs_pkg::TsctrlPps];
+  assign ki     = ctrl_i[can_regs_pkg::TsctrlKi +: can_regs_pkg::TsctrlKiW];
+  assign kd     = ctrl_i[can_regs_pkg::TsctrlKd +: can_regs_pkg::TsctrlKdW];
+  assign tmo    = ctrl_i[can_regs_pkg::TsctrlTmo +: can_regs_pkg::TsctrlTmoW];
+  logic unused;
+  assign unused = &{1'b0, ctrl_i};
+
+  state_t     state_q, state_d;
+  op_t        op_q, op_d;
+  logic [5:0] count_q;
+  logic       low, first, half_way, last;
+  assign low      = !count_q[5];
+  assign first    = count_q == '0;
+  assign half_way = count_q == 6'd32;
+  assign last     = &count_q;
+
+  // The same number in two parts, byte and bit, one of each 1.
+  logic [7:0] byte_q, bit_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      byte_q <= 8'd1;
+      bit_q  <= 8'd1;
+    end else if (enable) begin
+      bit_q <= {bit_q[6:0], &count_q[2:0]};
+      if (&count_q[2:0]) byte_q <= {byte_q[6:0], &count_q[5:3]};
+    end
+  end
+
+  // Frames, and the offset of a pair.
+  logic       sync, pair, word, whole, offset, offset_round;
+  logic [3:0] sc;
+  logic [1:0] ovs;
+  assign offset_round = op_q == OpOffset;
+  can_time_pair u_pair (
+    .clk_i, .rst_ni, .enable_i(enable),
+    .domain_i(ctrl_i[can_regs_pkg::TsctrlDomain +: can_regs_pkg::TsctrlDomainW]), .id_i,
+    .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_rtr_i, .rx_dlc_i, .rx_byte_we_i, .rx_byte_i, .rx_valid_i,
+    .count_i(bit_q), .shift_i(op_q == OpSeconds || offset_round), .bit_o(word),
+    .sync_o(sync), .pair_o(pair), .sc_o(sc), .ovs_o(ovs));
+  can_time_offset u_offset (
+    .clk_i, .rst_ni, .sync_i(sync), .stamp_i, .delay_i, .ovs_i(ovs), .count_i(count_q),
+    .byte_i(byte_q), .bit_i(bit_q),
+    .load_i(op_q == OpSeconds), .run_i(offset_round || op_q == OpWhole), .word_i(word),
+    .whole_o(whole), .offset_o(offset));
+
+  // How large the offset is: below 2^20 ns it is followed, and below 2^31 it can be read.
+  logic above_20, below_20_q, one_20_q, zero_20_q, one_31_q, zero_31_q, negative_q, far, beyond;
+  assign above_20 = count_q[5] || (count_q[4] && (count_q[3] || count_q[2]));
+  assign far    = one_20_q && (zero_20_q || !below_20_q);
+  assign beyond   = one_31_q && zero_31_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {below_20_q, one_20_q, zero_20_q, one_31_q, zero_31_q, negative_q} <= '0;
+    end else if (offset_round) begin
+      below_20_q <= !first && (below_20_q || !above_20 && offset) || first && offset;
+      one_20_q   <= !first && (one_20_q || above_20 && offset);
+      zero_20_q  <= !first && (zero_20_q || above_20 && !offset);
+      one_31_q   <= low && count_q[4:0] != '1 ? 1'b0 : one_31_q || offset;
+      zero_31_q  <= low && count_q[4:0] != '1 ? 1'b0 : zero_31_q || !offset;
+      negative_q <= offset;
+    end
+  end
+
+  // What becomes of the pair (TM-103), and what of the state.
+  logic [7:0] pairs_q;
+  logic       leap_q, started, ignored, step, done, late;
+  assign started = state_q == StAcquiring || state_q == StLocked;
+  assign ignored = state_q == StLocked && far && !leap_q;
+  assign step    = !started || far;
+  assign done    = last && ((op_q == OpShift && step) || op_q == OpTurn);
+  always_comb begin
+    op_d = op_q;
+    case (op_q)
+      OpOffset: op_d = OpJudge;
+      OpJudge:  op_d = ignored ? OpIdle : OpShift;
+      OpShift:  op_d = !step ? OpRate : pps ? OpWhole : OpIdle;
+      OpRate:   op_d = OpTurn;
+      default:  op_d = seconds_due_q ? OpSeconds : pair_due_q ? OpOffset : OpIdle;
+    endcase
+    state_d = state_q;
+    if (done) begin
+      if (step)                                          state_d = StAcquiring;
+      else if (state_q == StAcquiring && pairs_q == 8'd7) state_d = StLocked;
+    end else if (late && started) begin
+      state_d = StHoldover;
+    end
+    if (!enable) state_d = StNone;
+  end
+  assign changed_o = state_d != state_q;
+
+  logic seconds_due_q, pair_due_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      op_q    <= OpIdle;
+      state_q <= StNone;
+      count_q <= '0;
+      pairs_q <= '0;
+      {leap_q, seconds_due_q, pair_due_q} <= '0;
+    end else begin
+      state_q <= state_d;
+      if (enable) count_q <= count_q + 6'd1;
+      if (!enable)   op_q <= OpIdle;
+      else if (last) op_q <= op_d;
+      seconds_due_q <= enable && (sync || (seconds_due_q && op_q != OpSeconds));
+      pair_due_q    <= enable && (pair || (pair_due_q && !offset_round));
+      leap_q        <= enable && !done && (leap_q || (op_q == OpJudge && last && ignored));
+      if (done) pairs_q <= step ? '0 : pairs_q + {7'b0, pairs_q != '1};
+    end
+  end
+
+  // Increment minus offset 2^K: the offset goes round once, from bit K on; then its sign counts.
+  logic [4:0] k;
+  logic       at_k, begun_q, over_q, begun, rate_round, turning, inc, term, rate, borrow_q;
+  assign k          = ki - (state_q == StLocked ? {3'b0, kd} : '0);
+  assign rate_round = op_q == OpRate;
+  assign at_k       = rate_round && count_q[4:0] == k;
+  assign begun      = begun_q || at_k;
+  assign turning    = begun && !over_q && !(begun_q && at_k);
+  assign term       = begun && (turning ? ofs_o[0] : ofs_o[31]);
+  assign rate       = inc ^ term ^ borrow_q;
+  can_time_bits #(.Bytes(5)) u_inc (
+    .word_i(inc_i), .byte_i(byte_q[4:0]), .bit_i(bit_q), .bit_o(inc));
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {begun_q, over_q, borrow_q} <= '0;
+    end else begin
+      begun_q  <= rate_round && !last && begun;
+      over_q   <= rate_round && !last && (over_q || (begun_q && at_k));
+      borrow_q <= rate_round && ((!inc && term) || ((!inc || term) && borrow_q));
+    end
+  end
+
+  // TSOFS.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      ofs_o <= '0;
+    end else if (low && offset_round) begin
+      ofs_o <= {offset, ofs_o[31:1]};
+    end else if (low && op_q == OpJudge && beyond) begin
+      ofs_o <= {negative_q == &count_q[4:0], ofs_o[31:1]};
+    end else if (turning) begin
+      ofs_o <= {ofs_o[0], ofs_o[31:1]};
+    end
+  end
+
+  // What the clock is given. Half of a shift is half of it and 1: -floor(o / 2) = floor((1 - o) / 2).
+  logic        halving, one_q, half_carry_q, next;
+  logic [63:0] result_q;
+  assign halving = op_q == OpJudge && halve && state_q == StLocked && !far;
+  always_comb begin
+    case (op_q)
+      OpOffset: next = offset ^ one_q;
+      OpJudge:  next = last ? result_q[63] : result_q[1] ^ (first ? result_q[0] : half_carry_q);
+      OpRate:   next = rate;
+      OpTurn:   next = result_q[0];
+      default:  next = whole;
+    endcase
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      result_q <= '0;
+      {one_q, half_carry_q} <= '0;
+    end else begin
+      if (offset_round || halving || rate_round || (low && (op_q == OpTurn || op_q == OpWhole)))
+        result_q <= {next, result_q[63:1]};
+      one_q        <= offset_round && (one_q || offset);
+      half_carry_q <= result_q[1] && (first ? result_q[0] : half_carry_q);
+    end
+  end
+
+  // Time since the last pair (TM-104): grows by 64 increments in a round, so that bit n of it is
+  // 2^(n - 26) ns. It is looked at between pairs.
+  logic [63:0] timer_q;
+  logic        timer, timer_carry_q;
+  assign timer = !offset_round && (timer_q[0] ^ inc ^ timer_carry_q);
+  assign late  = timer && op_q == OpIdle && {1'b0, count_q} == {1'b0, tmo} + OneNs;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      timer_q       <= '0;
+      timer_carry_q <= 1'b0;
+    end else if (enable) begin
+      timer_q       <= {timer, timer_q[63:1]};
+      timer_carry_q <= !last && !offset_round
+                    && ((timer_q[0] && inc) || ((timer_q[0] || inc) && timer_carry_q));
+    end
+  end
+
+  // The CPU goes first; a command of this clock is lost then.
+  logic shift_now, rate_now, whole_now;
+  assign shift_now = op_q == OpShift && first;
+  assign rate_now  = op_q == OpTurn && half_way;
+  assign whole_now = op_q == OpWhole && half_way;
+  assign own_o     = enable && cmd_i[can_pkg::TimeArm:0] == '0;
+  assign data_o    = result_q;
+  always_comb begin
+    cmd_o = cmd_i;
+    cmd_o[can_pkg::TimeShift] = cmd_i[can_pkg::TimeShift] || (own_o && shift_now);
+    cmd_o[can_pkg::TimeRate]  = cmd_i[can_pkg::TimeRate]  || (own_o && rate_now);
+    cmd_o[can_pkg::TimeArm]   = cmd_i[can_pkg::TimeArm]   || (own_o && whole_now);
+  end
+
+  assign stat_o = {16'b0, pairs_q, sc, 2'b0, state_q};
+endmodule
