@@ -43,6 +43,7 @@ mailbox/can_mb_status.sv
 mailbox/can_mb_step.sv
 mailbox/can_mailbox.sv
 host/can_reg.sv
+time/can_time_sync_regs.sv
 host/can_mode.sv
 host/can_wake.sv
 host/can_flags.sv

@@ -8,7 +8,9 @@ module can_core #(
   /// 1: with the time unit (can_time); 0: without, the ports time_* have no use and are 0.
   parameter int TimeUnit = 0,
   /// Increment of its clock after a reset, see can_clock.
-  parameter logic [39:0] TimeInc = 40'h14_0000_0000
+  parameter logic [39:0] TimeInc = 40'h14_0000_0000,
+  /// 1: with the follower (can_time_sync), which needs the time unit; 0: without.
+  parameter int TimeSync = 0
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
@@ -90,6 +92,11 @@ module can_core #(
   output logic [63:0] time_stamp_o,
   output logic        time_stamp_we_o,
   output logic        time_stamp_tx_o,
+  input  logic [31:0] time_sync_ctrl_i,   // follower, see can_time_sync
+  input  logic [31:0] time_sync_id_i,
+  input  logic [23:0] time_sync_delay_i,
+  output logic [31:0] time_sync_stat_o,
+  output logic [31:0] time_sync_ofs_o,
   // Pins and observers
   input  logic        can_rx_i,
   output logic        can_tx_o,
@@ -134,23 +141,53 @@ module can_core #(
   );
 
   if (TimeUnit != 0) begin : gen_time
+    logic [can_pkg::TimeCmdWidth-1:0]  cmd;
+    logic [can_pkg::TimeStatWidth-1:0] stat;
+    logic [63:0] data;
+    logic [39:0] inc;
+    logic        changed;
     can_time #(.TimeInc(TimeInc)) u_time (
-      .clk_i, .rst_ni, .cmd_i(time_cmd_i), .data_i(time_data_i),
-      .now_o(time_now_o), .ext_o(time_ext_o), .left_o(time_left_o),
+      .clk_i, .rst_ni, .cmd_i(cmd), .data_i(data),
+      .now_o(time_now_o), .ext_o(time_ext_o), .left_o(time_left_o), .inc_o(inc),
       .tctrl_i(time_tctrl_i), .tcmph_i(time_tcmph_i), .ttx_i(time_ttx_i),
-      .stat_o(time_stat_o),
+      .stat_o(stat),
       .rx_i(rx), .tx_i(tx_q), .sample_i(sample && active_q), .bit_i(bit_value), .field_i(field),
       .transmitter_i(transmitter_o), .sof_i(stamp_o), .rx_valid_i(rx_valid_o),
       .stamp_o(time_stamp_o), .stamp_we_o(time_stamp_we_o), .stamp_tx_o(time_stamp_tx_o));
     assign held = time_wait_i && time_stat_o[can_pkg::TimeStatHeld];
+    always_comb begin
+      time_stat_o = stat;
+      time_stat_o[can_pkg::TimeStatSync] = changed;
+    end
+
+    if (TimeSync != 0) begin : gen_sync
+      logic        own;
+      logic [63:0] own_data;
+      can_time_sync u_sync (
+        .clk_i, .rst_ni, .ctrl_i(time_sync_ctrl_i), .id_i(time_sync_id_i),
+        .delay_i(time_sync_delay_i), .stat_o(time_sync_stat_o), .ofs_o(time_sync_ofs_o),
+        .changed_o(changed),
+        .rx_hdr_i(rx_hdr_o), .rx_id_i(rx_id_o), .rx_ide_i(rx_ide_o), .rx_rtr_i(rx_rtr_o),
+        .rx_dlc_i(rx_dlc_o), .rx_byte_we_i(rx_byte_we_o), .rx_byte_i(rx_byte_o),
+        .rx_valid_i(rx_valid_o), .stamp_i(time_stamp_o), .inc_i(inc),
+        .cmd_i(time_cmd_i), .cmd_o(cmd), .own_o(own), .data_o(own_data));
+      assign data = own ? own_data : time_data_i;
+    end else begin : gen_no_sync
+      logic unused;
+      assign unused = &{1'b0, inc, time_sync_ctrl_i, time_sync_id_i, time_sync_delay_i};
+      assign {cmd, data} = {time_cmd_i, time_data_i};
+      assign {time_sync_stat_o, time_sync_ofs_o, changed} = '0;
+    end
   end else begin : gen_no_time
     logic unused;
     assign unused = &{1'b0, time_cmd_i, time_data_i, time_tctrl_i, time_tcmph_i,
-                      time_ttx_i, time_wait_i};
+                      time_ttx_i, time_wait_i, time_sync_ctrl_i, time_sync_id_i,
+                      time_sync_delay_i};
     assign {time_now_o, time_ext_o, time_left_o} = '0;
     assign time_stat_o  = '0;
     assign time_stamp_o = '0;
     assign {time_stamp_we_o, time_stamp_tx_o, held} = '0;
+    assign {time_sync_stat_o, time_sync_ofs_o} = '0;
   end
 
   // A stop request never shortens a dominant bit: the node stays until its level is recessive.

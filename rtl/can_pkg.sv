@@ -93,5 +93,6 @@ package can_pkg;
   localparam int TimeStatMatch   = 4;  // pulse
   localparam int TimeStatSlewed  = 5;  // pulse
   localparam int TimeStatLaunch  = 6;  // pulse
-  localparam int TimeStatWidth   = 7;
+  localparam int TimeStatSync    = 7;  // pulse
+  localparam int TimeStatWidth   = 8;
 endpackage

@@ -61,6 +61,10 @@ parameters:
     datatype: int
     description: 1 for the time unit (clock, frame stamps, compare, launch time)
     paramtype: vlogparam
+  TimeSync:
+    datatype: int
+    description: 1 for the follower that keeps the clock of the time unit to a master's
+    paramtype: vlogparam
   RegionBits:
     datatype: int
     description: Address bits of the region that hsel stands for (13 to 32)
@@ -90,6 +94,7 @@ targets:
       - "is_toplevel? (Extras)"
       - "is_toplevel? (ClearRam)"
       - "is_toplevel? (TimeUnit)"
+      - "is_toplevel? (TimeSync)"
       - "is_toplevel? (RegionBits)"
       - "is_toplevel? (CheckHprot)"
       - "is_toplevel? (WakeFilter)"

@@ -27,6 +27,12 @@ module can_ahb #(
   parameter int TimeUnit = 0,
   /// Increment of its clock after a hard reset: 39:32 ns, 31:0 in 2^-32 ns a clock; 20 ns: 50 MHz.
   parameter logic [39:0] TimeInc = 40'h14_0000_0000,
+  /// 1: with the follower that keeps this clock to a master's without the CPU; needs TimeUnit.
+  parameter int TimeSync = 0,
+  /// Values of its registers TSCTRL, TSID and TSDLY after a hard reset.
+  parameter logic [31:0] SyncCtrl = 32'd0,
+  parameter logic [31:0] SyncId = 32'd0,
+  parameter logic [31:0] SyncDelay = 32'd0,
   /// Size of the region that hsel stands for, as a number of address bits, 13 to 32; address bits
   /// above are not looked at, those down to 13 must be zero.
   parameter int RegionBits = 16,
@@ -109,6 +115,7 @@ module can_ahb #(
   can_top #(
     .NumMb(NumMb), .Fifo(Fifo), .Abort(Abort), .Status(Status), .OwnMasks(OwnMasks), .Wake(Wake),
     .Extras(Extras), .ClearRam(ClearRam), .TimeUnit(TimeUnit), .TimeInc(TimeInc),
+    .TimeSync(TimeSync), .SyncCtrl(SyncCtrl), .SyncId(SyncId), .SyncDelay(SyncDelay),
     .WakeFilter(WakeFilter)
   ) u_top (
     .clk_i(hclk), .rst_ni(hresetn),

@@ -26,6 +26,12 @@ module can_top #(
   parameter int TimeUnit = 0,
   /// Increment of its clock after a hard reset: 39:32 ns, 31:0 in 2^-32 ns a clock; 20 ns: 50 MHz.
   parameter logic [39:0] TimeInc = 40'h14_0000_0000,
+  /// 1: with the follower that keeps this clock to a master's without the CPU; needs TimeUnit.
+  parameter int TimeSync = 0,
+  /// Values of its registers TSCTRL, TSID and TSDLY after a hard reset.
+  parameter logic [31:0] SyncCtrl = 32'd0,
+  parameter logic [31:0] SyncId = 32'd0,
+  parameter logic [31:0] SyncDelay = 32'd0,
   /// Clocks that the bus must be dominant to wake the core through the filter (MCR.WAK_SRC).
   parameter int WakeFilter = 6
 ) (
@@ -65,9 +71,13 @@ module can_top #(
     NumMb_must_be_16_32_or_64 u_stop ();   // no such module: the tool prints the name and stops
   end
 
-  if (((Fifo | Abort | Status | OwnMasks | Wake | Extras | ClearRam | TimeUnit) & ~1) != 0)
+  if (((Fifo | Abort | Status | OwnMasks | Wake | Extras | ClearRam | TimeUnit | TimeSync) & ~1)
+      != 0)
   begin : gen_check_features
-    Fifo_Abort_Status_OwnMasks_Wake_Extras_ClearRam_TimeUnit_must_be_0_or_1 u_stop ();
+    Fifo_Abort_Status_OwnMasks_Wake_Extras_ClearRam_TimeUnit_TimeSync_must_be_0_or_1 u_stop ();
+  end
+  if (TimeSync != 0 && TimeUnit == 0) begin : gen_check_time_sync
+    TimeSync_needs_TimeUnit u_stop ();
   end
   // As XCONFIG tells it.
   localparam logic [31:0] Config = 32'(NumMb)
@@ -77,7 +87,8 @@ module can_top #(
       | 32'(Extras)   << can_regs_pkg::XconfigOsmb     | 32'(Extras) << can_regs_pkg::XconfigOneshot
       | 32'(Extras)   << can_regs_pkg::XconfigFdtol
       | 32'(ClearRam) << can_regs_pkg::XconfigClearram
-      | 32'(TimeUnit) << can_regs_pkg::XconfigTime;
+      | 32'(TimeUnit) << can_regs_pkg::XconfigTime
+      | 32'(TimeSync) << can_regs_pkg::XconfigTimesync;
 
   // Where a command goes: buffers, masks and TIMER to the mailbox, the rest to the registers.
   logic       req, in_mb, in_mask, in_gmask, in_timer, in_rxfir, in_stamp, to_mb, wr_ok, frz_ack;
@@ -145,15 +156,20 @@ module can_top #(
     end
   end
   assign ready_o = mb_ready;
-  assign rdata_o = reg_rdata | mb_rdata | time_reg_rdata;
+  assign rdata_o = reg_rdata | mb_rdata | time_reg_rdata | sync_reg_rdata;
 
-  // Registers of the time unit, 0x1100 to 0x117F.
-  logic        in_time, time_rd_q, time_wr_q;
-  logic [31:0] time_reg_rdata;
+  // Registers of the time unit, 0x1100 to 0x117F, and of the follower, 0x1180 to 0x11FF.
+  logic        in_time, time_rd_q, time_wr_q, in_sync, sync_rd_q, sync_wr_q;
+  logic [31:0] time_reg_rdata, sync_reg_rdata;
   assign in_time = TimeUnit != 0 && addr_i[12:7] == 6'b100010;
+  assign in_sync = TimeSync != 0 && addr_i[12:7] == 6'b100011;
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)      {time_rd_q, time_wr_q} <= '0;
-    else if (ready_o) {time_rd_q, time_wr_q} <= {req && !we_i && in_time, req && we_i && in_time};
+    if (!rst_ni) begin
+      {time_rd_q, time_wr_q, sync_rd_q, sync_wr_q} <= '0;
+    end else if (ready_o) begin
+      {time_rd_q, time_wr_q} <= {req && !we_i && in_time, req && we_i && in_time};
+      {sync_rd_q, sync_wr_q} <= {req && !we_i && in_sync, req && we_i && in_sync};
+    end
   end
 
   // Wires between the blocks; names as at the blocks.
@@ -232,6 +248,22 @@ module can_top #(
       time_left};
   end
 
+  logic [31:0] sync_ctrl, sync_id, sync_stat, sync_ofs;
+  logic [23:0] sync_delay;
+  if (TimeSync != 0) begin : gen_sync
+    can_time_sync_regs #(
+      .SyncCtrl(SyncCtrl), .SyncId(SyncId), .SyncDelay(SyncDelay)
+    ) u_sync_regs (
+      .clk_i, .rst_ni, .rd_i(sync_rd_q), .wr_i(sync_wr_q), .addr_i(reg_addr_q[4:0]),
+      .be_i(reg_be_q), .wdata_i, .rdata_o(sync_reg_rdata),
+      .ctrl_o(sync_ctrl), .id_o(sync_id), .delay_o(sync_delay), .stat_i(sync_stat),
+      .ofs_i(sync_ofs));
+  end else begin : gen_no_sync
+    assign {sync_reg_rdata, sync_ctrl, sync_id, sync_delay} = '0;
+    logic unused_sync;
+    assign unused_sync = &{1'b0, sync_rd_q, sync_wr_q, sync_stat, sync_ofs};
+  end
+
   if (Wake != 0) begin : gen_wake
     can_wake #(.FilterClocks(WakeFilter)) u_wake (
       .clk_i, .rst_ni, .enable_i(wake_en), .filter_i(wake_filter), .rx_i(rx_level),
@@ -272,7 +304,7 @@ module can_top #(
     .time_stamp_tx_i(time_stamp_tx), .time_held_i(time_stat[can_pkg::TimeStatHeld]),
     .time_mb_i(time_mb), .time_wait_o(time_wait));
 
-  can_core #(.TimeUnit(TimeUnit), .TimeInc(TimeInc)) u_core (
+  can_core #(.TimeUnit(TimeUnit), .TimeInc(TimeInc), .TimeSync(TimeSync)) u_core (
     .clk_i, .rst_ni,
     .run_i(run), .running_o(running), .stop_ok_o(stop_ok), .gap_o(gap), .crc_o(crc),
     .presdiv_i(presdiv), .rjw_i(rjw), .pseg1_i(pseg1), .pseg2_i(pseg2), .propseg_i(propseg),
@@ -294,5 +326,7 @@ module can_top #(
     .time_tctrl_i(tctrl), .time_tcmph_i(tcmph), .time_ttx_i(ttx),
     .time_wait_i(time_wait), .time_stat_o(time_stat), .time_stamp_o(time_stamp),
     .time_stamp_we_o(time_stamp_we), .time_stamp_tx_o(time_stamp_tx),
+    .time_sync_ctrl_i(sync_ctrl), .time_sync_id_i(sync_id), .time_sync_delay_i(sync_delay),
+    .time_sync_stat_o(sync_stat), .time_sync_ofs_o(sync_ofs),
     .can_rx_i, .can_tx_o, .trace_o);
 endmodule

@@ -198,7 +198,8 @@ module can_remote #(
     .time_left_o(),
     .time_tctrl_i(32'd0), .time_tcmph_i(32'd0), .time_ttx_i(32'd0), .time_wait_i(1'b0),
     .time_stat_o(), .time_stamp_o(),
-    .time_stamp_we_o(), .time_stamp_tx_o(),
+    .time_stamp_we_o(), .time_stamp_tx_o(), .time_sync_ctrl_i(32'd0), .time_sync_id_i(32'd0),
+    .time_sync_delay_i(24'd0), .time_sync_stat_o(), .time_sync_ofs_o(),
     .can_rx_i, .can_tx_o, .trace_o(trace)
   );
   assign trace_o = Trace != 0 ? trace : '0;

@@ -24,11 +24,13 @@ module can_clock #(
   input  logic [1:0]  slewr_i,     // a step whenever bit 13 - slewr_i of TIME changes (TCTRL.SLEWR)
   output logic [31:0] lo_o,
   output logic [31:0] hi_o,
-  output logic [31:0] left_o       // not worked off yet, signed ns
+  output logic [31:0] left_o,      // not worked off yet, signed ns
+  output logic [39:0] inc_o        // increment: 39:32 ns, 31:0 in 2^-32 ns
 );
   logic [7:0]  incn_q, incn;
   logic [31:0] incf_q;
-  assign incn = rate_i ? data_i[7:0] : incn_q;
+  assign incn  = rate_i ? data_i[7:0] : incn_q;
+  assign inc_o = {incn_q, incf_q};
 
   // Slew. A step that would let TIME stand or go back is not made (TM-15, TM-17).
   logic slew_bit, bit_q, changed_q, step, forth, back;

@@ -16,6 +16,7 @@ module can_time #(
   output logic [63:0] now_o,        // TIME of the last TimeRead, see can_capture
   output logic [63:0] ext_o,        // TIME of the last TimeExt
   output logic [31:0] left_o,       // TSLEW
+  output logic [39:0] inc_o,        // increment, see can_clock
   input  logic [31:0] tctrl_i,      // TCTRL
   input  logic [31:0] tcmph_i,      // TCMPH
   input  logic [31:0] ttx_i,        // TTX
@@ -40,7 +41,7 @@ module can_time #(
     .set_i(cmd_i[can_pkg::TimeSet]), .shift_i(cmd_i[can_pkg::TimeShift]),
     .rate_i(cmd_i[can_pkg::TimeRate]), .slew_i(cmd_i[can_pkg::TimeSlew]), .data_i,
     .slewr_i(tctrl_i[can_regs_pkg::TctrlSlewr +: can_regs_pkg::TctrlSlewrW]),
-    .lo_o(lo), .hi_o(hi), .left_o);
+    .lo_o(lo), .hi_o(hi), .left_o, .inc_o);
 
   // TIME.
   logic [31:0] lo_q;
@@ -92,5 +93,6 @@ module can_time #(
     stat_o[can_pkg::TimeStatMatch]   = match;
     stat_o[can_pkg::TimeStatSlewed]  = slewing_q && !slewing;
     stat_o[can_pkg::TimeStatLaunch]  = launch;
+    stat_o[can_pkg::TimeStatSync]    = 1'b0;   // that of can_time_sync
   end
 endmodule

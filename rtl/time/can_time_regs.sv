@@ -111,6 +111,7 @@ module can_time_regs (
     set[can_regs_pkg::TstatCmp]    = stat_i[can_pkg::TimeStatMatch];
     set[can_regs_pkg::TstatSlewd]  = stat_i[can_pkg::TimeStatSlewed];
     set[can_regs_pkg::TstatTxrel]  = stat_i[can_pkg::TimeStatLaunch];
+    set[can_regs_pkg::TstatSync]   = stat_i[can_pkg::TimeStatSync];
   end
   assign clear = wdata_i[5:0] & {6{wr_i && addr_i == Tstat && be_i[0]}};
   always_ff @(posedge clk_i or negedge rst_ni) begin

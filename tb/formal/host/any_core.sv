@@ -6,7 +6,8 @@
 
 module can_core #(
   parameter int TimeUnit = 0,
-  parameter logic [39:0] TimeInc = 40'h14_0000_0000
+  parameter logic [39:0] TimeInc = 40'h14_0000_0000,
+  parameter int TimeSync = 0
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
@@ -78,6 +79,11 @@ module can_core #(
   output logic [63:0] time_stamp_o,
   output logic        time_stamp_we_o,
   output logic        time_stamp_tx_o,
+  input  logic [31:0] time_sync_ctrl_i,
+  input  logic [31:0] time_sync_id_i,
+  input  logic [23:0] time_sync_delay_i,
+  output logic [31:0] time_sync_stat_o,
+  output logic [31:0] time_sync_ofs_o,
   input  logic        can_rx_i,
   output logic        can_tx_o,
   output logic [can_pkg::TraceWidth-1:0] trace_o
@@ -157,6 +163,10 @@ module can_core #(
   assign time_stamp_we_o = f_time_stamp_we;
   (* anyseq *) logic f_time_stamp_tx;
   assign time_stamp_tx_o = f_time_stamp_tx;
+  (* anyseq *) logic [31:0] f_time_sync_stat;
+  assign time_sync_stat_o = f_time_sync_stat;
+  (* anyseq *) logic [31:0] f_time_sync_ofs;
+  assign time_sync_ofs_o = f_time_sync_ofs;
   (* anyseq *) logic f_can_tx;
   assign can_tx_o = f_can_tx;
   (* anyseq *) logic [can_pkg::TraceWidth-1:0] f_trace;

@@ -15,6 +15,10 @@ module can_top #(
   parameter int ClearRam = 1,
   parameter int TimeUnit = 0,
   parameter logic [39:0] TimeInc = 40'h14_0000_0000,
+  parameter int TimeSync = 0,
+  parameter logic [31:0] SyncCtrl = 32'd0,
+  parameter logic [31:0] SyncId = 32'd0,
+  parameter logic [31:0] SyncDelay = 32'd0,
   parameter int WakeFilter = 6
 ) (
   input  logic        clk_i,
