@@ -20,7 +20,8 @@ QUIET = {"rx_id_o", "rx_ide_o", "rx_srr_o", "rx_rtr_o", "rx_dlc_o", "rx_byte_o",
          "crc_o", "gap_o"}
 # Ports of the time unit. What it captures is read only after a command, or beside a pulse.
 TIME = "time_"
-QUIET_TIME = {"time_now_o", "time_ext_o", "time_left_o", "time_stamp_o", "time_stamp_tx_o"}
+QUIET_TIME = {"time_now_o", "time_ext_o", "time_left_o", "time_stamp_o", "time_stamp_tx_o",
+              "time_sync_stat_o", "time_sync_ofs_o"}
 PORT = re.compile(r"^\s*(input|output)\s+logic\s*(\[[^\]]*\])?\s*(\w+),?", re.MULTILINE)
 # Struct, the engine in that top, inputs of the engine that C++ drives, whether with the time unit.
 TIMING = {"presdiv_i", "rjw_i", "pseg1_i", "pseg2_i", "propseg_i"}

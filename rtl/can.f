@@ -50,6 +50,8 @@ host/can_flags.sv
 host/can_regs.sv
 host/can_top.sv
 host/can_ahb.sv
+# A clock without a processor.
+time/can_time_node.sv
 # A node without a processor: can_core, can_mb_ram and these.
 remote/can_rn_pkg.sv
 remote/can_rn_params.sv

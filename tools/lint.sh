@@ -31,6 +31,7 @@ has_module can_ahb && tops+=("can_ahb NumMb=16" "can_ahb NumMb=32")
 # The profiles, each feature away by itself, and all of them.
 profiles() { /usr/bin/python3 tools/profiles.py "$@" | sed 's/^\([a-z]* \)\?/can_ahb /'; }
 has_module can_ahb && mapfile -t -O ${#tops[@]} tops < <(profiles; profiles --features)
+has_module can_time_node && tops+=("can_time_node")
 has_module can_remote && tops+=("can_remote" "can_remote NameBits=5" "can_remote MemBytes=1024"
                                 "can_remote StageBytes=0" "can_remote StageBytes=16"
                                 "can_remote TxDepth=4" "can_remote NumProd=4"

@@ -73,7 +73,7 @@ module can_time_offset (
   end
   assign whole_o = x[Tens];
 
-  // The master's time, with the delay: when the stamp would be right; and what it is more than that.
+  // The master's time and the delay: the right stamp; and what the stamp is more than that.
   logic stamp, delay, late, master, right, ns_carry_q, delay_carry_q, borrow_q;
   can_time_bits #(.Bytes(8)) u_stamp (
     .word_i(stamp_q), .byte_i, .bit_i, .bit_o(stamp));

@@ -40,16 +40,15 @@ module can_time_sync (
     StLocked,
     StHoldover    // no pair for too long
   } state_t;
-  typedef enum logic [2:0] {
-    OpIdle,
-    OpSeconds,  // the word of a SYNC becomes the seconds
-    OpOffset,   // offset_o; its negative into result_q
-    OpJudge,    // step or not; half of the shift; offset beyond 32 bits
-    OpShift,    // in the first clock of it
-    OpRate,     // new increment into result_q
-    OpTurn,     // to where the clock takes it; it does half-way
-    OpWhole     // a whole second into result_q; the compare unit takes it half-way
-  } op_t;
+  // What a round does; not an enumeration, as Icarus would have casts.
+  localparam logic [2:0] OpIdle    = 3'd0;
+  localparam logic [2:0] OpSeconds = 3'd1;  // the word of a SYNC becomes the seconds
+  localparam logic [2:0] OpOffset  = 3'd2;  // offset; its negative into result_q
+  localparam logic [2:0] OpJudge   = 3'd3;  // step or not; half of the shift; beyond 32 bits
+  localparam logic [2:0] OpShift   = 3'd4;  // in the first clock of it
+  localparam logic [2:0] OpRate    = 3'd5;  // new increment into result_q
+  localparam logic [2:0] OpTurn    = 3'd6;  // to where the clock takes it, half-way
+  localparam logic [2:0] OpWhole   = 3'd7;  // a whole second, which the compare unit takes half-way
   localparam logic [6:0] OneNs = 7'd26;   // number of the bit of 1 ns in timer_q
 
   logic       enable, halve, pps;
@@ -66,7 +65,7 @@ module can_time_sync (
   assign unused = &{1'b0, ctrl_i};
 
   state_t     state_q, state_d;
-  op_t        op_q, op_d;
+  logic [2:0] op_q, op_d;
   logic [5:0] count_q;
   logic       low, first, half_way, last;
   assign low      = !count_q[5];
@@ -123,7 +122,7 @@ module can_time_sync (
 
   // What becomes of the pair (TM-103), and what of the state.
   logic [7:0] pairs_q;
-  logic       leap_q, started, ignored, step, done, late;
+  logic       leap_q, started, ignored, step, done, late, seconds_due_q, pair_due_q;
   assign started = state_q == StAcquiring || state_q == StLocked;
   assign ignored = state_q == StLocked && far && !leap_q;
   assign step    = !started || far;
@@ -131,11 +130,22 @@ module can_time_sync (
   always_comb begin
     op_d = op_q;
     case (op_q)
+      OpIdle: begin
+        if (seconds_due_q)   op_d = OpSeconds;
+        else if (pair_due_q) op_d = OpOffset;
+      end
       OpOffset: op_d = OpJudge;
-      OpJudge:  op_d = ignored ? OpIdle : OpShift;
-      OpShift:  op_d = !step ? OpRate : pps ? OpWhole : OpIdle;
-      OpRate:   op_d = OpTurn;
-      default:  op_d = seconds_due_q ? OpSeconds : pair_due_q ? OpOffset : OpIdle;
+      OpJudge: begin
+        if (ignored) op_d = OpIdle;
+        else         op_d = OpShift;
+      end
+      OpShift: begin
+        if (!step)    op_d = OpRate;
+        else if (pps) op_d = OpWhole;
+        else          op_d = OpIdle;
+      end
+      OpRate:  op_d = OpTurn;
+      default: op_d = OpIdle;
     endcase
     state_d = state_q;
     if (done) begin
@@ -148,7 +158,6 @@ module can_time_sync (
   end
   assign changed_o = state_d != state_q;
 
-  logic seconds_due_q, pair_due_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       op_q    <= OpIdle;
@@ -203,7 +212,7 @@ module can_time_sync (
     end
   end
 
-  // What the clock is given. Half of a shift is half of it and 1: -floor(o / 2) = floor((1 - o) / 2).
+  // What the clock is given. Of half: -floor(o / 2) = floor((1 - o) / 2).
   logic        halving, one_q, half_carry_q, next;
   logic [63:0] result_q;
   assign halving = op_q == OpJudge && halve && state_q == StLocked && !far;

@@ -12,7 +12,7 @@ namespace vericansim {
 namespace {
 
 constexpr std::uint64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kStep = 1 << 20;             // ns, TM-103
+constexpr std::int64_t kStep = 1 << 20;  // ns, TM-103
 constexpr std::uint64_t kIncrementMask = (1ULL << 40) - 1;
 constexpr unsigned kAcquiringPairs = 8;
 constexpr unsigned kMostPairs = 255;
@@ -63,11 +63,10 @@ std::optional<TimeSyncAction> TimeSyncModel::frame(const Frame &frame, std::uint
 // TM-102 to TM-104.
 std::optional<TimeSyncAction> TimeSyncModel::pair(std::uint64_t whole, std::uint64_t master,
                                                   std::uint64_t increment) {
-  const auto o = static_cast<std::int64_t>(stamp_ - master - static_cast<std::uint64_t>(
-                                                                 std::int64_t{setting_.delay}));
+  const auto o = static_cast<std::int64_t>(
+      stamp_ - master - static_cast<std::uint64_t>(std::int64_t{setting_.delay}));
   using Limits = std::numeric_limits<std::int32_t>;
-  offset_ = static_cast<std::int32_t>(
-      std::clamp<std::int64_t>(o, Limits::min(), Limits::max()));
+  offset_ = static_cast<std::int32_t>(std::clamp<std::int64_t>(o, Limits::min(), Limits::max()));
   const bool large = o >= kStep || o <= -kStep;
   const bool locked = state_ == State::kLocked;
   if (locked && large && !leap_) {

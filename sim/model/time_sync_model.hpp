@@ -15,12 +15,12 @@ namespace vericansim {
 /// What the registers TSCTRL, TSID and TSDLY hold.
 struct TimeSyncSetting {
   bool enable = true;
-  unsigned domain = 0;     ///< 0 to 15
-  bool halve = false;      ///< PHALF
-  unsigned ki = 0, kd = 0; ///< 0 to 31, 0 to 3; kd <= ki
-  unsigned tmo = 37;       ///< holdover after 2^tmo ns
+  unsigned domain = 0;      ///< 0 to 15
+  bool halve = false;       ///< PHALF
+  unsigned ki = 0, kd = 0;  ///< 0 to 31, 0 to 3; kd <= ki
+  unsigned tmo = 37;        ///< holdover after 2^tmo ns
   bool pps = false;
-  bool extended = false;   ///< of the identifier
+  bool extended = false;  ///< of the identifier
   std::uint32_t id = 0;
   std::int32_t delay = 0;  ///< ns, 24 bits
 
@@ -32,9 +32,9 @@ struct TimeSyncSetting {
 
 /// What a pair does to the clock.
 struct TimeSyncAction {
-  std::int64_t shift = 0;                   ///< ns to add
-  std::optional<std::uint64_t> increment;   ///< new one, 40 bits: ns and 2^-32 ns a clock
-  std::optional<std::uint64_t> whole;       ///< a step: the whole second of the pair, ns
+  std::int64_t shift = 0;                  ///< ns to add
+  std::optional<std::uint64_t> increment;  ///< new one, 40 bits: ns and 2^-32 ns a clock
+  std::optional<std::uint64_t> whole;      ///< a step: the whole second of the pair, ns
 
   friend bool operator==(const TimeSyncAction &, const TimeSyncAction &) = default;
 };

@@ -179,18 +179,19 @@ TEST(CanTimeSync, OffsetExact) {
     std::uint64_t stamp = random();
     if (i % 4 == 1) stamp = master + (random() % 2 << 32) - (1ULL << 31) + random() % 4096 - 2048;
     if (i % 4 == 2) stamp = master + (random() >> 32) - (1ULL << 31);
-    const auto o = static_cast<std::int64_t>(stamp - master - static_cast<std::uint64_t>(
-                                                                  std::int64_t{setting.delay}));
+    const auto o = static_cast<std::int64_t>(
+        stamp - master - static_cast<std::uint64_t>(std::int64_t{setting.delay}));
     rig.sync(sc, seconds, stamp);
     rig.fup(sc, ovs, ns);
     const auto action = rig.settle();
     longest = std::max(longest, rig.latency());
-    const std::int64_t shown = std::min<std::int64_t>(std::max<std::int64_t>(o, INT32_MIN),
-                                                      INT32_MAX);
+    const std::int64_t shown =
+        std::min<std::int64_t>(std::max<std::int64_t>(o, INT32_MIN), INT32_MAX);
     beyond += shown != o ? 1 : 0;
-    wrong += !action || action->shift != static_cast<std::int64_t>(0 - static_cast<std::uint64_t>(o))
-                 ? 1
-                 : 0;
+    wrong +=
+        !action || action->shift != static_cast<std::int64_t>(0 - static_cast<std::uint64_t>(o))
+            ? 1
+            : 0;
     wrong += rig.offset() != shown ? 1 : 0;
   }
   EXPECT_EQ(wrong, 0u);
@@ -283,8 +284,8 @@ TEST(CanTimeSync, Holdover) {
                         static_cast<double>(increment) / 4294967296.0;
       const double expected = static_cast<double>(1ULL << tmo);
       EXPECT_GE(ns, expected * (1 - 1.0 / 4096));
-      EXPECT_LE(ns, expected * (1 + 1.0 / 4096) +
-                        260 * static_cast<double>(increment) / 4294967296.0);
+      EXPECT_LE(ns,
+                expected * (1 + 1.0 / 4096) + 260 * static_cast<double>(increment) / 4294967296.0);
       pair(rig, 4, 500);
       EXPECT_EQ(rig.settle(), (TimeSyncAction{-500, {}, {}}));
       EXPECT_EQ(rig.state(), kAcquiring);

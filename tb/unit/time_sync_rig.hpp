@@ -62,8 +62,10 @@ class SyncRig {
     rtl_.settle();
     ++clocks_;
     changes_ += rtl_->changed_o;
-    if (cmd != 0) foreign_ = rtl_->cmd_o == cmd && rtl_->own_o == 0;
-    else take();
+    if (cmd != 0)
+      foreign_ = rtl_->cmd_o == cmd && rtl_->own_o == 0;
+    else
+      take();
     rtl_.clock();
   }
   void clocks(unsigned count) {
