@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Clocks without a processor on a bus with a master: TM-100, and what section 12 asks of the
+// follower, at its pin.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "Vcan_time_node_16.h"
+#include "Vcan_time_node_4.h"
+#include "time/follower_bus.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr double kPpm = 1e-6, kNs = 1e3, kMs = 1e9, kSecond = 1e12;
+
+// TM-100: no pulse before the clock is set; then they rise with the master's seconds. 4 MHz, 8
+// clocks a bit, 4 pairs a second; one clock fast, one slow.
+TEST(TimeNode, PpsFromReset) {
+  const std::uint64_t epoch = 1'700'000'123'900'000'000;  // 0.1 s before a second
+  const double period = 250 * kNs;
+  FollowerBus<Vcan_time_node_4> bus{8 * period, epoch};
+  bus.add(period * (1 - 90 * kPpm), 10 * kNs);
+  bus.add(period * (1 + 90 * kPpm), 130 * kNs);
+  bus.run(0.15 * kSecond);
+  EXPECT_TRUE(bus.node(0).pulses().empty());
+  EXPECT_EQ(bus.node(0).state(), 0u);
+  const double first = bus.now();
+  for (unsigned i = 0; i < 14; ++i) {
+    bus.pair(i);
+    if (i == 0) {
+      EXPECT_EQ(bus.node(0).state(), 1u);
+    }
+    bus.run(first + (i + 1) * 0.25 * kSecond);
+  }
+  for (unsigned n = 0; n < 2; ++n) {
+    EXPECT_EQ(bus.node(n).state(), 2u);
+    // Behind the first step the output catches up at once; the master's seconds follow.
+    unsigned seconds = 0;
+    for (const double at : bus.node(n).pulses()) {
+      if (at < 1 * kSecond) continue;
+      const double late = at - (static_cast<double>(++seconds) + 0.1) * kSecond;
+      // One to two clocks to the pin; 90 ppm of an interval until the rate is right.
+      EXPECT_LT(std::abs(late - 1.5 * period), seconds == 1 ? 30'000 * kNs : 3 * period)
+          << n << ' ' << seconds;
+    }
+    EXPECT_EQ(seconds, 3u);
+  }
+}
+
+// Section 12, hardware follower with KD 2 and PHALF 1 at 16 MHz: sd 20 ns, at most 62 ns; here with
+// R = 10 ms, and a pin, which adds one clock, evenly. Clocks +-100 ppm and 3 ppm off.
+TEST(TimeNode, Accuracy) {
+  const double period = 62.5 * kNs;
+  FollowerBus<Vcan_time_node_16> bus{16 * period, 1'700'000'000'000'000'000};
+  const double errors[] = {100, -100, 3};
+  for (const double ppm : errors) bus.add(period * (1 + ppm * kPpm), ppm * 100 + 12'000);
+  for (unsigned i = 0; i < 60; ++i) {
+    bus.pair(i);
+    bus.run((i + 1) * 10 * kMs);
+  }
+  for (unsigned n = 0; n < 3; ++n) {
+    double sum = 0, square = 0, most = 0;
+    unsigned count = 0;
+    for (const double at : bus.node(n).pulses()) {
+      if (at < 150 * kMs) continue;  // 9 pairs and a few more
+      const double late = (at - std::round(at / kMs) * kMs - 1.5 * period) / kNs;
+      sum += late;
+      square += late * late;
+      most = std::max(most, std::abs(late));
+      ++count;
+    }
+    ASSERT_GT(count, 400u);
+    const double mean = sum / count, sd = std::sqrt(square / count - mean * mean);
+    std::printf("%+.0f ppm: mean %.1f, sd %.1f, at most %.1f ns of %u pulses\n", errors[n], mean,
+                sd, most, count);
+    EXPECT_EQ(bus.node(n).state(), 2u);
+    EXPECT_LT(most, 62 + 62.5 / 2);
+    EXPECT_LT(sd, std::hypot(20, 62.5 / std::sqrt(12.0)));
+  }
+}
+
+}  // namespace
+}  // namespace vericansim
