@@ -115,10 +115,14 @@ measure_profile() {  # BLOCK
 
 remotes=$(profiles | sed 's/^\([a-z]*\) .*/remote_\1/' | tr '\n' ' ')
 cores="can_ahb_small can_ahb_standard can_ahb_32 can_ahb_64"
-read -r -a blocks <<<"${BLOCKS:-can_core can_time $remotes can_ahb_time_32 $cores}"
+times="can_time can_time_sync can_time_node can_ahb_time_32 can_ahb_sync_32"
+read -r -a blocks <<<"${BLOCKS:-can_core $remotes $times $cores}"
 for block in "${blocks[@]}"; do
   case $block in
     can_ahb_time_[0-9]*) measure "$block" can_ahb "NumMb=${block#can_ahb_time_}" TimeUnit=1 ;;
+    can_ahb_sync_[0-9]*)
+      measure "$block" can_ahb "NumMb=${block#can_ahb_sync_}" TimeUnit=1 TimeSync=1
+      ;;
     can_ahb_[0-9]*) measure "$block" can_ahb "NumMb=${block#can_ahb_}" ;;
     can_ahb_*)
       read -r -a settings < <(/usr/bin/python3 tools/profiles.py "${block#can_ahb_}")

@@ -144,7 +144,9 @@ def version(command):
 def build(block):
     """The build of can_ahb_<profile>, can_ahb_<number of buffers> or can_ahb_time_<the same>."""
     name = block.rpartition("_")[2]
-    time = ", TimeUnit=1" if block.startswith("can_ahb_time_") else ""
+    time = ", TimeUnit=1" if block.startswith(("can_ahb_time_", "can_ahb_sync_")) else ""
+    if block.startswith("can_ahb_sync_"):
+        time += ", TimeSync=1"
     return f"NumMb={name}{time}" if name.isdigit() else f"profile {name}"
 
 
@@ -153,6 +155,10 @@ def title(block):
         return f"whole core `can_ahb`, {build(block)}"
     if block.startswith("remote_"):
         return f"node without a processor `can_remote`, profile {block.partition('_')[2]}"
+    if block == "can_time_sync":
+        return "follower without a processor `can_time_sync`"
+    if block == "can_time_node":
+        return "clock without a processor `can_time_node`"
     if block == "can_time":
         return "of the time unit, what moves with every clock, `can_time`"
     return f"protocol engine `{block}`"
