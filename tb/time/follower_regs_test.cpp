@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A core with message buffers and the follower: its registers, and one pair as software sees it:
+// TM-02, TM-03, TM-100, TM-104.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "Vcan_top_sync.h"
+#include "model/frame_codec.hpp"
+#include "model/registers.hpp"
+#include "unit/leaf_model.hpp"
+
+namespace vericansim {
+namespace {
+
+// Section 6 of the rules.
+constexpr std::uint32_t kTstat = 0x1108, kTctrl = 0x1104, kTimelo = 0x1110, kTimehi = 0x1114;
+constexpr std::uint32_t kTsctrl = 0x1180, kTsid = 0x1184, kTsdly = 0x1188, kTsstat = 0x118C,
+                        kTsofs = 0x1190;
+
+/// 20 ns a clock, 8 clocks a bit.
+class FollowerRegs : public testing::Test {
+ protected:
+  FollowerRegs() {
+    top_->can_rx_i = 1;
+    top_->be_i = 0xF;
+    top_.reset();
+    clocks(300);
+  }
+  void clocks(unsigned count) {
+    for (unsigned i = 0; i < count; ++i) top_.clock();
+  }
+  void command(std::uint32_t address, bool write) {
+    top_->req_i = 1;
+    top_->addr_i = address / 4;
+    top_->we_i = write;
+    top_.clock();
+    top_->req_i = 0;
+  }
+  std::uint32_t read(std::uint32_t address) {
+    command(address, false);
+    top_.settle();
+    while (top_->ready_o == 0) top_.clock();
+    const std::uint32_t data = top_->rdata_o;
+    top_.clock();
+    return data;
+  }
+  void write(std::uint32_t address, std::uint32_t data) {
+    command(address, true);
+    top_->wdata_i = data;
+    top_.settle();
+    while (top_->ready_o == 0) top_.clock();
+    top_.clock();
+  }
+  void go() {
+    write(reg::kMcr, reg::kMcrFrz | reg::kMcrHalt);
+    clocks(20);
+    write(reg::kCtrl, 2u << 19 | 1u << 16 | 1u);
+    write(reg::kMcr, 15);
+    clocks(200);
+  }
+  void send(const Frame &frame) {
+    for (const Level level : levels_of(encode_frame(frame, {.ack_slot = Level::kRecessive}).bits))
+      for (unsigned i = 0; i < 8; ++i) {
+        top_->can_rx_i = level == Level::kRecessive && top_->can_tx_o != 0 ? 1 : 0;
+        top_.clock();
+      }
+    clocks(600);
+  }
+  void pair(std::uint32_t seconds, std::uint8_t ns) {
+    send(
+        {.id = 0x77, .dlc = 8, .data = {0x10, 0, 0x21, 0, 0, 0, 0, static_cast<uint8_t>(seconds)}});
+    send({.id = 0x77, .dlc = 8, .data = {0x18, 0, 0x21, 0, 0, 0, 0, ns}});
+  }
+  LeafModel<Vcan_top_sync> top_;
+};
+
+// TM-02, TM-03: what the parameters say after a reset, whatever the mode; what can be written.
+TEST_F(FollowerRegs, ReadAndWrite) {
+  EXPECT_EQ(read(0x1008) >> 12 & 3, 3u);
+  EXPECT_EQ(read(kTsctrl), 0x1F460120u);
+  EXPECT_EQ(read(kTsid), 0x01DC0000u);
+  EXPECT_EQ(read(kTsdly), 0x00FFFFE2u);
+  EXPECT_EQ(read(kTsstat), 0u);
+  EXPECT_EQ(read(kTsofs), 0u);
+  for (const auto &[address, bits] : {std::pair{kTsctrl, 0x3F7F03F1u},
+                                      {kTsid, 0x9FFFFFFFu},
+                                      {kTsdly, 0x00FFFFFFu},
+                                      {kTsstat, 0u},
+                                      {kTsofs, 0u},
+                                      {0x1194u, 0u},
+                                      {0x11FCu, 0u}}) {
+    write(address, 0xFFFFFFFF);
+    EXPECT_EQ(read(address), bits) << std::hex << address;
+    write(address, 0);
+    EXPECT_EQ(read(address), 0u) << std::hex << address;
+  }
+}
+
+// TM-104: EN = 0 leaves the clock alone; a pair then sets it, and state, offset, flag and interrupt
+// tell of it. The clock goes on as the CPU commands.
+TEST_F(FollowerRegs, APairSetsTheClock) {
+  go();
+  pair(50, 9);
+  EXPECT_EQ(read(kTsstat) & 3, 0u);
+  EXPECT_EQ(read(kTimehi), 0u);
+  write(kTctrl, 1u << 20 | 0x31);
+  write(kTsctrl, read(kTsctrl) | 1);
+  pair(60, 9);
+  const std::uint64_t low = read(kTimelo), now = std::uint64_t{read(kTimehi)} << 32 | low;
+  EXPECT_GT(now, 60'000'000'000u);  // SYNC was at 60 s and 9 ns; two frames of 20 us each ago
+  EXPECT_LT(now, 60'000'080'000u);
+  EXPECT_EQ(read(kTsstat), 0x11u);
+  EXPECT_EQ(read(kTstat) & 1u << 5, 1u << 5);
+  EXPECT_NE(top_->irq_time_o, 0);
+  EXPECT_EQ(read(kTsofs), 0x80000000u);  // more than 2 s behind
+  write(kTstat, 1u << 5);
+  EXPECT_EQ(top_->irq_time_o, 0);
+  write(kTimelo, 5);
+  write(kTimehi, 7);
+  clocks(4);
+  EXPECT_EQ(read(kTimelo) >> 12, 0u);
+  EXPECT_EQ(read(kTimehi), 7u);
+}
+
+}  // namespace
+}  // namespace vericansim
