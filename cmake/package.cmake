@@ -53,6 +53,7 @@ verican_install_library(sim vericansim vericansim "${include_dir}" "${CMAKE_INST
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/sim/" DESTINATION "${include_dir}" COMPONENT sim
   FILES_MATCHING PATTERN "*.hpp"
   PATTERN "cli" EXCLUDE PATTERN "bridge" EXCLUDE PATTERN "linux" EXCLUDE
+  PATTERN "timesync" EXCLUDE
   PATTERN "systemc" EXCLUDE PATTERN "page" EXCLUDE
   PATTERN "python" EXCLUDE PATTERN "hollow" EXCLUDE
   PATTERN "model_context.hpp" EXCLUDE PATTERN "split_core.hpp" EXCLUDE

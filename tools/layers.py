@@ -14,7 +14,7 @@ from pathlib import Path
 # same way: clock, bit, frame, files of recordings, nodes, judges, what a user wants, what came out.
 LAYERS = ("version", "bus", "model", "trace", "signals", "node", "judge", "timing", "scenario",
           "results", "report", "simulation", "firmware", "session", "paper", "linux", "bridge",
-          "systemc", "cli")
+          "systemc", "timesync", "cli")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([a-z_]+)/', re.MULTILINE)
 SOURCES = ("*.cpp", "*.hpp", "*.c", "*.h")
 

@@ -41,6 +41,7 @@ void add_signals(CLI::App &app, int &exit_code);
 void add_convert(CLI::App &app, int &exit_code);
 void add_ids(CLI::App &app, int &exit_code);
 void add_memory(CLI::App &app, int &exit_code);
+void add_timesync(CLI::App &app, int &exit_code);
 
 /// The files of an Outputs.
 inline constexpr std::string Outputs::*kOutputPaths[] = {

@@ -62,6 +62,7 @@ int run_tool(int argc, char **argv) {
   cli::add_convert(app, exit_code);
   cli::add_ids(app, exit_code);
   cli::add_memory(app, exit_code);
+  cli::add_timesync(app, exit_code);
   for (CLI::App *command : app.get_subcommands({})) {
     CLI::Option *quiet = command->add_flag_callback(
         "-q,--quiet", cli::be_quiet, "Print nothing but errors; the exit code tells the result");

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// verican timesync: how well clocks are synchronised over a bus.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "cli/cli.hpp"
+#include "cli/timesync_output.hpp"
+#include "simulation/stop_request.hpp"
+#include "timesync/sync_settings.hpp"
+#include "timesync/sync_way.hpp"
+#include "trace/input_error.hpp"
+
+namespace vericansim::cli {
+namespace {
+
+struct Options {
+  std::string file;
+  std::string how = sync_ways().front().name;
+  std::map<std::string, std::string> values;  // by the name of the setting, as given
+  bool sweep = false;
+  bool p4 = false;
+  bool json = false;
+};
+
+/// What is given on the command line takes the place of what the file says. Returns the name.
+std::string take_settings(const Options &options, SyncCase &setting) {
+  const std::string name = options.file.empty() ? "" : read_case(options.file, setting);
+  for (const SyncSetting &one : sync_settings()) {
+    const auto given = options.values.find(one.name);
+    if (given != options.values.end() && !one.set(setting, given->second))
+      throw InputError("--" + std::string{one.name}, 0,
+                       quoted(given->second) + " is not allowed; allowed: " + one.allowed);
+  }
+  return name;
+}
+
+void say_how(const SyncWay &way) { fmt::print("how: {} ({})\n\n", way.name, way.what); }
+
+int exit_code_of(bool ok) { return exit_code_after(ok && !stop_requested() ? kOk : kFailed); }
+
+int run_one(const Options &options, const SyncWay &way) {
+  SyncCase setting;
+  const std::string name = take_settings(options, setting);
+  SyncOutcome outcome{{name.empty() ? "this case" : name, setting, goal_of(setting)}, {}};
+  Json runs = Json::array();
+  outcome.figures = run_case(way, setting, [&](const SyncRun &run) {
+    if (options.json) runs.push_back(to_json(run));
+  });
+  if (options.json) {
+    Json json = {{"how", way.name}};
+    json.update(to_json(outcome));
+    json["runs"] = std::move(runs);
+    print_json(json);
+  } else {
+    fmt::print("{}\n", to_text(setting));
+    say_how(way);
+    print_sync_head();
+    print_sync_row(outcome);
+    print_sync_foot();
+  }
+  return exit_code_of(outcome.ok());
+}
+
+int run_sweep(const Options &options, const SyncWay &way) {
+  SyncCase base;
+  take_settings(options, base);
+  bool ok = true;
+  Json tables = Json::array();
+  if (!options.json) {
+    fmt::print("Base: {}\n", to_text(base));
+    say_how(way);
+  }
+  for (const SyncTable &table : sweep(base)) {
+    Json rows = Json::array();
+    if (!options.json) {
+      fmt::print("{}\n", table.title);
+      print_sync_head();
+    }
+    for (const SyncRow &row : table.rows) {
+      if (stop_requested()) break;
+      const SyncOutcome outcome{row, run_case(way, row.setting)};
+      ok = ok && outcome.ok();
+      if (options.json)
+        rows.push_back(to_json(outcome));
+      else
+        print_sync_row(outcome);
+    }
+    tables.push_back({{"title", table.title}, {"rows", std::move(rows)}});
+    if (!options.json) fmt::print("\n");
+  }
+  if (options.json)
+    print_json({{"how", way.name}, {"ok", ok}, {"tables", std::move(tables)}});
+  else
+    fmt::print(
+        "With wander the oscillator decides: at 1e-7 and R = 1 s no filter helps, only a shorter "
+        "R.\n");
+  if (!options.json) print_sync_foot();
+  return exit_code_of(ok);
+}
+
+int run_p4(const Options &options, const SyncWay &way) {
+  SyncCase setting = p4_case();
+  take_settings(options, setting);
+  const P4Result result = vericansim::run_p4(way, setting);
+  if (options.json) {
+    Json json = {{"how", way.name}};
+    json.update(to_json(result));
+    print_json(json);
+  } else {
+    print_p4(result);
+    fmt::print("\n");
+    say_how(way);
+  }
+  return exit_code_of(std::all_of(result.checks.begin(), result.checks.end(),
+                                  [](const P4Check &check) { return check.ok; }));
+}
+
+int run(const Options &options) {
+  const StopSignals signals;
+  const SyncWay &way = sync_way(options.how);
+  if (options.sweep) return run_sweep(options, way);
+  return options.p4 ? run_p4(options, way) : run_one(options, way);
+}
+
+}  // namespace
+
+void add_timesync(CLI::App &app, int &exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App *command = app.add_subcommand(
+      "timesync", "Clocks of a master and its followers, synchronised over the bus: how well");
+  command->add_option("case", options->file, "Case file, YAML (docs/timesync.md)");
+  std::string ways;
+  for (const SyncWay &way : sync_ways()) ways += (ways.empty() ? "" : ", ") + std::string{way.name};
+  command->add_option("--how", options->how, "Way to run it: " + ways);
+  for (const SyncSetting &one : sync_settings()) {
+    const std::string name = one.name;
+    if (one.is_flag)
+      command->add_flag_callback(
+          "--" + name, [options, name] { options->values[name] = "true"; }, one.help);
+    else
+      command->add_option_function<std::string>(
+          "--" + name, [options, name](const std::string &value) { options->values[name] = value; },
+          one.help);
+  }
+  auto *sweep = command->add_flag("--sweep", options->sweep,
+                                  "All cases of the specification, then one axis after the other");
+  command
+      ->add_flag(
+          "--p4", options->p4,
+          "The published experiment (Park, Kim, Lee 2014), and the same clocks with the servo")
+      ->excludes(sweep);
+  command->add_flag("--json", options->json, "Results as JSON, with all samples of a single case");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vericansim::cli

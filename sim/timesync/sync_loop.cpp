@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// SyncLoop: see sync_loop.hpp.
+#include "timesync/sync_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "model/frame_codec.hpp"
+#include "timesync/picoseconds.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr std::uint32_t kSyncId = 0x080;
+// Software: when it sees to SYNC and FUP, and how long a follower takes to handle FUP.
+constexpr double kPoll = 100e3, kHandle = 200e3;
+constexpr double kEarly = 300;  // ns, of a displaced edge, at most
+
+std::size_t bits_of(std::span<const std::uint8_t, 8> data) {
+  constexpr std::size_t kIntermission = 3;
+  Frame frame;
+  frame.id = kSyncId;
+  frame.dlc = 8;
+  std::copy(data.begin(), data.end(), frame.data.begin());
+  return encode_frame(frame).bits.size() + kIntermission;
+}
+
+}  // namespace
+
+SyncLoop::SyncLoop(const SyncCase &setting, std::uint64_t seed)
+    : setting_{setting}, dice_{seed}, traffic_{setting, dice_()} {
+  for (unsigned n = 0; n <= setting.followers; ++n) {
+    const Oscillator oscillator{setting.clocks.frequency_hz, error_of(n), dice_()};
+    nodes.emplace_back(oscillator, dice_() >> 3);
+  }
+  verican_servo_config_t config{};
+  verican_servo_config_default(&config);
+  config.interval_us = static_cast<std::uint32_t>(std::llround(setting.interval_s * 1e6));
+  config.filter = setting.filter;
+  // A constant is calibrated: the mean of what is uneven, too.
+  config.delay_ns =
+      -static_cast<std::int32_t>(setting.master_late_ns + setting.master_uneven_ns / 2);
+  servos.resize(setting.followers);
+  for (verican_servo_t &servo : servos) verican_servo_init(&servo, &config);
+  verican_tsyn_rules_default(&rules_);
+  receivers_.resize(setting.followers);
+}
+
+OscillatorError SyncLoop::error_of(unsigned node) {
+  const SyncClocks &clocks = setting_.clocks;
+  const double spread = clocks.spread_ppm * 1e-6;
+  double constant = uniform(-spread, spread);
+  if (clocks.opposed) constant = node == 0 ? 0 : node % 2 == 1 ? spread : -spread;
+  return {constant, clocks.wander, clocks.sine_ppm * 1e-6, clocks.sine_period_s};
+}
+
+double SyncLoop::uniform(double low, double high) {
+  return std::uniform_real_distribution<double>{low, high}(dice_);
+}
+
+const SyncRun &SyncLoop::run() {
+  for (unsigned n = 0; n < setting_.intervals; ++n) sync(setting_.interval_s);
+  return result;
+}
+
+void SyncLoop::sync(double interval_s, const std::function<bool(unsigned)> &lost) {
+  const Nanoseconds before = now;
+  now += interval_s * 1e9L;
+  const Pair pair = send();
+  look((before + now) / 2);
+  look(pair.handled);
+  for (unsigned n = 0; n < setting_.followers; ++n)
+    if (!lost || !lost(n)) follow(n, pair);
+  look(pair.handled + 1e3L);
+}
+
+// SYNC leaves at an edge of the master's clock; FUP follows when software has seen its end (TM-50).
+SyncLoop::Pair SyncLoop::send() {
+  ClockNode &master = nodes[0];
+  Pair pair{};
+  const Nanoseconds queued = now + uniform(0, kPoll);
+  verican_tsyn_write_sync(&sender_, &rules_, master.now(queued), pair.sync);
+  const std::size_t bits = bits_of(pair.sync);
+  const Nanoseconds sof = queued + traffic_.until_sof(bits);
+  const std::int64_t sent = master.oscillator.edge_after(sof);
+  pair.edge = master.oscillator.time_of(sent, sof);
+  const std::uint64_t t1 = master_stamp(sent, pair.edge);
+  pair.has_fup = verican_tsyn_write_fup(&sender_, &rules_, t1, pair.fup);
+  const std::size_t fup_bits = bits_of(pair.fup);
+  const Nanoseconds fup_queued = sof + traffic_.duration(bits) + uniform(0, kPoll);
+  pair.handled =
+      fup_queued + traffic_.until_sof(fup_bits) + traffic_.duration(fup_bits) + uniform(0, kHandle);
+  result.frames += pair.has_fup ? 2 : 1;
+  result.repeated = traffic_.failed();
+  return pair;
+}
+
+// The time of SYNC as FUP tells it: the stamp less its latency.
+std::uint64_t SyncLoop::master_stamp(std::int64_t sent, Nanoseconds edge) {
+  ClockNode &master = nodes[0];
+  if (setting_.own_pin) {
+    const std::uint64_t half_clocks = kReceiveLatency * master.increment();
+    return master.receive_stamp(edge) - (half_clocks >> 33);
+  }
+  if (setting_.master_late_ns == 0) return master.at(sent);
+  const double late = setting_.master_late_ns + uniform(0, setting_.master_uneven_ns);
+  return master.now(edge + late);
+}
+
+void SyncLoop::follow(unsigned n, const Pair &pair) {
+  ClockNode &node = nodes[n + 1];
+  Nanoseconds edge = pair.edge;
+  if (setting_.displaced > 0 && uniform(0, 1) < setting_.displaced) edge -= uniform(0, kEarly);
+  verican_sync_pair_t local{};
+  (void)receive(n, pair.sync, node.receive_stamp(edge), local);
+  const std::int64_t last = node.oscillator.last_edge(pair.handled);
+  if (pair.has_fup && receive(n, pair.fup, node.at(last), local) == VERICAN_TSYN_PAIR)
+    correct(n, local, last, pair.handled);
+  else
+    ++result.refused;
+}
+
+verican_tsyn_heard_t SyncLoop::receive(unsigned n, const std::uint8_t (&data)[8],
+                                       std::uint64_t stamp, verican_sync_pair_t &pair) {
+  const verican_servo_config_t &config = servos[n].config;
+  const std::uint64_t silence = config.hold_after * std::uint64_t{config.interval_us} * 1000;
+  return verican_tsyn_receive(&receivers_[n], &rules_, data, 8, stamp, silence, &pair);
+}
+
+void SyncLoop::correct(unsigned n, verican_sync_pair_t &pair, std::int64_t edge, Nanoseconds t) {
+  ClockNode &node = nodes[n + 1];
+  pair.now = node.at(edge);
+  pair.increment = node.increment();
+  pair.latency = kReceiveLatency;
+  verican_correction_t correction{};
+  verican_servo_pair(&servos[n], &pair, &correction);
+  node.apply(edge, correction);
+  receivers_[n].stamp += static_cast<std::uint64_t>(correction.shift);
+  result.actions.push_back({to_picoseconds(t), n, correction.shift, correction.increment,
+                            correction.events, servos[n].state});
+  if (on_correction) on_correction(n, correction);
+}
+
+void SyncLoop::look(Nanoseconds t) {
+  SyncLook look{to_picoseconds(t), {}};
+  for (unsigned n = 0; n < setting_.followers; ++n) {
+    verican_servo_poll(&servos[n], nodes[n + 1].now(t));
+    look.followers.push_back({to_picoseconds(nodes[n + 1].ahead_of(nodes[0], t)), servos[n].state});
+  }
+  result.looks.push_back(std::move(look));
+}
+
+SyncRun run_by_model(const SyncCase &setting, std::uint64_t seed) {
+  SyncLoop loop{setting, seed};
+  loop.run();
+  return std::move(loop.result);
+}
+
+}  // namespace vericansim

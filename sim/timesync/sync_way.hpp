@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// SyncWay: the ways to run a case (TM-121). Each takes a case and a seed and gives samples; what is
+// made of them is the same for all.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "timesync/sync_case.hpp"
+#include "timesync/sync_run.hpp"
+
+namespace vericansim {
+
+/// One way: its name for --how, and what it does.
+struct SyncWay {
+  const char *name;
+  const char *what;  ///< one line for people
+  SyncRun (*run)(const SyncCase &setting, std::uint64_t seed);
+};
+
+/// All that are built; the first is the usual one.
+[[nodiscard]] std::span<const SyncWay> sync_ways();
+
+/// The way of that name. Throws std::invalid_argument that lists the names.
+[[nodiscard]] const SyncWay &sync_way(const std::string &name);
+
+/// Runs all seeds of a case; `each`, if given, sees every run.
+template <typename See>
+SyncFigures run_case(const SyncWay &way, const SyncCase &setting, See each) {
+  SyncFigures figures;
+  for (std::uint64_t seed = 1; seed <= setting.seeds; ++seed) {
+    SyncRun run = way.run(setting, seed);
+    figures.add(run);
+    each(std::move(run));
+  }
+  return figures;
+}
+[[nodiscard]] SyncFigures run_case(const SyncWay &way, const SyncCase &setting);
+
+}  // namespace vericansim

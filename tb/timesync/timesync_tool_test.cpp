@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// `verican timesync` as a user meets it (TM-121, TM-123, TM-124).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+#include "firmware/tool_run.hpp"
+#include "harness/scratch_test.hpp"
+
+namespace {
+
+using namespace tb;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+using TimeSync = vericansim::ScratchTest;
+
+json run_json(const std::string &arguments, int code = 0) {
+  const ToolResult result = run_tool("timesync --json " + arguments);
+  EXPECT_EQ(result.code, code) << arguments << result.error;
+  return json::parse(result.out, nullptr, false);
+}
+
+void expect_refused(const std::string &arguments, const std::string &what) {
+  const ToolResult result = run_tool("timesync " + arguments);
+  EXPECT_EQ(result.code, 2) << arguments;
+  EXPECT_EQ(result.out, "") << arguments;
+  EXPECT_THAT(result.error, StartsWith("verican: "));
+  EXPECT_THAT(result.error, HasSubstr(what));
+  EXPECT_EQ(result.error.find('\n'), result.error.size() - 1) << result.error;
+}
+
+// TM-124: the base case is within its goal, and says so.
+TEST_F(TimeSync, Base) {
+  const ToolResult result = run_tool("timesync");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_THAT(result.out,
+              HasSubstr("16 MHz +-100 ppm, R = 1 s, N = 8, 8 followers, 4 x 260 intervals"));
+  EXPECT_THAT(result.out, HasSubstr("yes"));
+  EXPECT_THAT(result.out, HasSubstr("transceivers and cables come on top"));
+  const json all = run_json("");
+  EXPECT_EQ(all["ok"], true);
+  EXPECT_EQ(all["goal"]["sd_ps"], 16'000);
+  EXPECT_EQ(all["goal"]["max_ps"], 60'000);
+  EXPECT_EQ(all["runs"].size(), 4u);
+  EXPECT_EQ(all["runs"][3]["followers"].size(), 8u);
+  long long most = 0;
+  for (const json &run : all["runs"])
+    for (const json &follower : run["followers"])
+      for (std::size_t n = 0; n < run["at_ps"].size(); ++n)
+        if (follower["state"][n] == 2)
+          most = std::max(most, std::abs(follower["error_ps"][n].get<long long>()));
+  EXPECT_EQ(all["result"]["max_ps"], most);
+}
+
+// TM-124: an option for each axis; each reaches the case.
+TEST_F(TimeSync, Options) {
+  const json one = run_json(
+      "--frequency 50M --spread 20 --wander 1e-9 --sine 0.5 --sine-period '60 s' --followers 3 "
+      "--bitrate 250k --load 0.5 --load-above '20 %' --bit-errors 1e-4 --interval '500 ms' "
+      "--filter automatic --displaced 0.01 --own-pin --opposed --intervals 30 --seeds 2 "
+      "--how model");
+  const json expected = {{"frequency_hz", 50e6}, {"spread_ppm", 20.0}, {"opposed", true},
+                         {"wander", 1e-9},       {"sine_ppm", 0.5},    {"sine_period_s", 60.0},
+                         {"followers", 3},       {"bitrate", 250e3},   {"load", 0.5},
+                         {"load_above", 0.2},    {"bit_errors", 1e-4}, {"interval_s", 0.5},
+                         {"filter", 0},          {"displaced", 0.01},  {"own_pin", true},
+                         {"intervals", 30},      {"seeds", 2}};
+  EXPECT_EQ(one["case"], expected);
+  EXPECT_EQ(one["goal"], nullptr);
+  EXPECT_EQ(one["runs"].size(), 2u);
+  EXPECT_EQ(one["runs"][0]["followers"].size(), 3u);
+}
+
+// TM-124: a case file, and options that take the place of what it says.
+TEST_F(TimeSync, CaseFile) {
+  const std::string file = file_with("case.yaml",
+                                     "name: a crane\nfrequency: 40 MHz\nfilter: automatic\n"
+                                     "load: 30 %\nown_pin: true\nseeds: 2\nintervals: 40\n");
+  const json one = run_json(file + " --seeds 1");
+  EXPECT_EQ(one["name"], "a crane");
+  EXPECT_EQ(one["case"]["frequency_hz"], 40e6);
+  EXPECT_EQ(one["case"]["filter"], 0);
+  EXPECT_EQ(one["case"]["load"], 0.3);
+  EXPECT_EQ(one["case"]["own_pin"], true);
+  EXPECT_EQ(one["case"]["seeds"], 1);
+  EXPECT_EQ(run_tool("timesync examples/timesync.yaml").code, 0);
+}
+
+// Bad input: one line that names the value and what is allowed.
+TEST_F(TimeSync, BadInput) {
+  expect_refused("--frequency 1M", "--frequency: '1M' is not allowed; allowed: 4 MHz to 400 MHz");
+  expect_refused("--spread 401", "--spread: '401' is not allowed; allowed: 0 to 400");
+  expect_refused("--spread nan", "--spread: 'nan'");
+  expect_refused("--filter 3", "allowed: 1, 2, 4, 8, 16 or automatic");
+  expect_refused("--followers 0", "--followers: '0' is not allowed; allowed: 1 to 32");
+  expect_refused("--followers 33", "--followers: '33'");
+  expect_refused("--interval 1", "--interval: '1' is not allowed; allowed: a time of 50 ms to 5 s");
+  expect_refused("--load 101%", "--load: '101%'");
+  expect_refused("--load-above 1", "allowed: 0 to 95 %, or 0 to 0.95");
+  expect_refused("--seeds -1", "--seeds");
+  expect_refused("--p4 --sweep", "excludes");
+  expect_refused("/no/such.yaml", "/no/such.yaml: no such file");
+  expect_refused(file_with("a.yaml", "filter: 3\n"), "a.yaml:1: filter: '3' is not allowed");
+  expect_refused(file_with("b.yaml", "seeds: 1\nwonder: 1\n"), "wonder");
+}
+
+// TM-124: 1 if a goal is missed; a follower that never locks misses it too.
+TEST_F(TimeSync, ExitCode) {
+  EXPECT_EQ(run_tool("timesync").code, 0);
+  const ToolResult missed = run_tool("timesync --intervals 3");
+  EXPECT_EQ(missed.code, 1);
+  EXPECT_THAT(missed.out, HasSubstr("no, not locked"));
+  EXPECT_EQ(run_tool("timesync --filter 16 --wander 1e-7").code, 0);  // nothing is promised
+  EXPECT_EQ(run_tool("timesync --p4 --spread 100").code, 1);
+  EXPECT_EQ(run_tool("timesync --sweep --intervals 3 --seeds 1").code, 1);
+}
+
+// TM-121: --how chooses, and every output says how it was run.
+TEST_F(TimeSync, SaysHow) {
+  const std::string few = " --intervals 8 --seeds 1 --how model";
+  for (const char *what : {"", "--sweep", "--p4"}) {
+    EXPECT_THAT(run_tool("timesync " + (what + few)).out, HasSubstr("how: model")) << what;
+    const json one = json::parse(run_tool("timesync --json " + (what + few)).out, nullptr, false);
+    EXPECT_EQ(one["how"], "model") << what;
+  }
+  expect_refused("--how guess", "--how: 'guess' is not allowed; allowed: model");
+}
+
+// TM-123: what was published comes out, and the same clocks with stamps in hardware and the servo.
+TEST_F(TimeSync, P4) {
+  const json result = run_json("--p4");
+  EXPECT_EQ(result["ok"], true);
+  EXPECT_EQ(result["case"]["spread_ppm"], 152.0);
+  EXPECT_EQ(result["case"]["interval_s"], 1.0);
+  const double us = 1e-6 * result["offset_alone"]["max_ps"].get<double>();
+  EXPECT_GE(us, 152);
+  EXPECT_LE(us, 160);
+  const double between = 1e-6 * result["offset_alone"]["between_ps"].get<double>();
+  EXPECT_GE(between, 304);
+  EXPECT_LE(between, 320);
+  EXPECT_LE(result["servo"]["max_ps"], 60'000);
+  EXPECT_LE(result["servo"]["between_ps"], 120'000);
+}
+
+}  // namespace
