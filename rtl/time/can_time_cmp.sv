@@ -55,7 +55,7 @@ module can_time_cmp (
       end
       held_o    <= hold_i || (held_o && !launch && !release_i);
       reached_q <= to_target[31] && !arm_i && !fire;
-      due_q     <= to_launch[31] && !hold_i;
+      due_q     <= to_launch[31];
       match_o   <= fire;
       launch_o  <= launch;
     end

@@ -7,15 +7,15 @@
   // TIME of this clock is lo_i of the one before. What is written counts from the next clock on.
 
   logic        f_reached, f_due, f_ran = 1'b0;
-  logic        f_new, f_held;       // TCMP, HOLD were written in the clock before
+  logic        f_new;                // TCMP was changed in the clock before
   logic [31:0] f_time, f_target, f_launch, f_late, f_ahead;
   assign f_late    = f_time - f_target;
   assign f_reached = !f_late[31] && !f_new;
   assign f_ahead   = f_launch - f_time;
-  assign f_due     = (f_ahead == 32'd0 || f_ahead > 32'h8000_0000) && !f_held;
+  assign f_due     = (f_ahead == 32'd0 || f_ahead > 32'h8000_0000);
   always @(posedge clk_i) begin
     {f_ran, f_time, f_target, f_launch} <= {1'b1, lo_i, target_q, launch_i};
-    {f_new, f_held} <= {arm_i || fire, hold_i};
+    f_new <= arm_i || fire;
   end
 
   always @(posedge clk_i) begin
@@ -27,7 +27,7 @@
       // TM-40: a launch is not before its time: at TTX or up to 2^31 ns behind.
       p_launch: assert (launch == (held_o && f_due));
       // TM-40: what stays held is due within 2^31 ns of TIME, from any state.
-      p_within: assert (!held_o || launch || f_held || f_ahead <= 32'h8000_0000);
+      p_within: assert (!held_o || launch || f_ahead <= 32'h8000_0000);
       // TM-30, TM-40: both are told in the clock after.
       p_told: assert (match_o == $past(fire) && launch_o == $past(launch));
       // TM-30: once: with a period the next time is that much later, without it is disarmed.
