@@ -17,6 +17,7 @@ FOLDERS = {
              ("system", "bus_"), ("faults", ""), ("random", "random_"), ("time", "")],
     "remote": [("unit", "can_rn_"), ("remote", "port_"), ("remote", "rtl_")],
     "time": [("unit", "can_clock_"), ("unit", "can_time_"), ("time", "")]}
+SANITIZED = ("driver", "time")   # folders whose programs link the sanitized driver
 CPU_SECONDS = 6        # of one program, and more for tests that take long without a mutant
 CPU_FACTOR = 5
 MEMORY = 2 << 30       # bytes
@@ -62,6 +63,8 @@ class Regression:
 
     def __init__(self, root, build):
         self.root, self.build = pathlib.Path(root), pathlib.Path(build)
+        self.sanitized = {name for part in FOLDERS for folder, name in programs(root, part)
+                          if folder in SANITIZED}
 
     def path(self, program):
         """Where the build has put it: beside the others, or in a folder of its own."""
@@ -77,7 +80,7 @@ class Regression:
         command = [self.path(program), "--gtest_fail_fast", "--gtest_brief=0"]
         if tests is not None:
             command.append("--gtest_filter=" + ":".join(tests))
-        sanitized = program.startswith("driver_")
+        sanitized = program in self.sanitized
         environment = {**os.environ, **environment,
                        "ASAN_OPTIONS": f"hard_rss_limit_mb={MEMORY >> 20}"}
         begin = time.monotonic()

@@ -120,7 +120,7 @@ def open_types(module, text):
                       lambda _: f"module can_reg (\n{ports}  input  logic SoftReset,\n", text,
                       flags=re.DOTALL)
         text = text.replace("localparam logic [31:0] Stored =", "wire [31:0] Stored =")
-    elif module == "can_regs":
+    else:
         text = re.sub(r"can_reg #\((.*?)\n  \) (\w+) \(", masks_connected, text, flags=re.DOTALL)
     return text
 
