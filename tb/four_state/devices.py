@@ -52,5 +52,8 @@ DEVICES = {
     "small": Device("can_ahb", "replay.sv", "four_state_record_small", (0,), (), profile("small"),
                     ("u_top.u_mailbox.u_match.gen_global_masks.u_mask.msg_i",
                      "u_top.u_mailbox.u_match.u_rx.cs_i")),
+    "time": Device("can_ahb", "replay.sv", "four_state_record_time", (0,),
+                   ("u_top.u_mailbox.u_match.gen_fifo.u_filter.s2_equal_q",),
+                   {"NumMb": 16, "TimeUnit": 1, "TimeInc": "40'h7D00000000"}),
     "remote": Device("can_remote", "replay_remote.sv", "four_state_record_remote", (0,), (),
                      REMOTE)}

@@ -24,6 +24,9 @@ MUTANTS = {
     "no stuff bits sent": (
         "ahb", "frame/can_tx_frame.sv", "(stuff_i ? !prev_i : level)", "level", "arbitration",
         "can_tx_o is"),
+    "a register of the time unit without reset": (
+        "time", "time/can_time_cmp.sv", "      target_q <= '0;\n", "", "time_registers",
+        "reached_q"),
     "a register of the remote node without reset": (
         "remote", "remote/can_rn_step.sv", "      ten_q <= 4'd1;\n", "", "vectors", "ten_q"),
     "RAM of the remote node that is not cleared": (
@@ -31,7 +34,8 @@ MUTANTS = {
         "job_q   <= can_rn_pkg::JobStart;", "commands", "X clock"),
 }
 
-OPTIONS = {"ahb": ["--num-mb", "16"], "remote": ["--device", "remote"]}
+OPTIONS = {"ahb": ["--num-mb", "16"], "remote": ["--device", "remote"],
+           "time": ["--device", "time"]}
 
 
 def mutated(work, file, old, new):

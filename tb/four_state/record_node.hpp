@@ -25,10 +25,12 @@ struct PinRow {
   bool can_rx = true;
   std::uint32_t hrdata = 0;
   bool hreadyout = true, hresp = false;
-  std::uint8_t irq = 0;  ///< irq_o, _mb, _boff, _err, _twrn, _rwrn, _wak from bit 0 on
+  std::uint8_t irq = 0;  ///< irq_o, _mb, _boff, _err, _twrn, _rwrn, _wak, _time from bit 0 on
   bool can_tx = true;
   std::uint64_t trace = 0;
   bool read_ends = false;  ///< hrdata is the result of a read
+  bool ext = false;        ///< ext_i and time_out_o, of a core with the time unit
+  bool time_out = false;
 };
 
 /// The row as one hexadecimal word for $readmemh; replay.sv has the layout.
@@ -81,6 +83,7 @@ class RecordNode final : public RtlNode {
     throw std::logic_error("a recorded node has no second copy to look into");
   }
   void request_stop(bool stop) override { top_.stop_req_i = stop; }
+  void external(bool level) { top_.ext_i = level; }
   [[nodiscard]] std::uint64_t trace() const override { return top_.trace_o; }
   [[nodiscard]] std::uint8_t irq_lines() const override { return model_irq_lines(top_); }
 
@@ -98,7 +101,9 @@ class RecordNode final : public RtlNode {
     row.hrdata = top_.hrdata;
     row.hreadyout = top_.hreadyout;
     row.hresp = top_.hresp;
-    row.irq = irq_lines();
+    row.irq = static_cast<std::uint8_t>(irq_lines() | (top_.irq_time_o != 0 ? 0x80 : 0));
+    row.ext = top_.ext_i != 0;
+    row.time_out = top_.time_out_o != 0;
     row.can_tx = top_.can_tx_o;
     row.trace = top_.trace_o;
     row.read_ends = reading_ && row.hreadyout && !row.hresp;
