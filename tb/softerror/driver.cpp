@@ -129,6 +129,7 @@ Task<> SoftDriver::configure() {
   write(reg::kCtrl, timing_.ctrl_fields() | kCtrlBits);
   write(reg::kCtrl2, kCtrl2);
   write(reg::kExtControl, 0);
+  if (kTimeUnit) co_await start_clock();
   write(reg::kEcr, 0);
   for (unsigned n = 0; n < kFilters; ++n) {
     write(reg::filter(n), kFilterExtended);
@@ -150,6 +151,14 @@ Task<> SoftDriver::configure() {
   co_await wait_for(reg::kMcrFrzAck, 0);
 }
 
+// Pulses at the output, and no buffer held.
+Task<> SoftDriver::start_clock() {
+  write(VERICAN_TTXMB_OFFSET, 0);
+  write(VERICAN_TCTRL_OFFSET, kTctrl);
+  write(VERICAN_TCMPH_OFFSET, kPulse);
+  write(VERICAN_TCMP_OFFSET, co_await read(VERICAN_TIMELO_OFFSET) + kPulse);
+}
+
 // What was in the transmit buffers is sent anew.
 void SoftDriver::requeue() {
   for (Slot &slot : slots_) {
@@ -161,6 +170,7 @@ void SoftDriver::requeue() {
 // The mildest thing to do for a controller that seems stuck, on the bus.
 Task<> SoftDriver::renew() {
   write(reg::kEsr, reg::kEsrInterrupts);
+  if (kTimeUnit) write(VERICAN_TTXMB_OFFSET, 0);
   write(reg::kIflag2, ~0u);
   // The places of the FIFO, twice over: whatever is in it is old by now.
   for (unsigned n = 0; n < 12; ++n) write(reg::kIflag1, ~0u);
@@ -190,6 +200,7 @@ Task<> SoftDriver::look_at_everything() {
   for (const auto &[address, value] : written) {
     if (co_await read(address) != value) ++config_wrong_;
   }
+  if (kTimeUnit && co_await read(VERICAN_TCTRL_OFFSET) != kTctrl) ++config_wrong_;
   status_.clear();
   for (const std::uint32_t address :
        {reg::kEcr, reg::kEsr, reg::kIflag1, reg::kIflag2, std::uint32_t{VERICAN_ESR2_OFFSET},

@@ -82,6 +82,7 @@ class SoftDriver {
   Task<> obey();
   Task<> set_up();
   Task<> configure();
+  Task<> start_clock();
   Task<> renew();
   Task<> wait_for(std::uint32_t mask, std::uint32_t value);
   Task<> load();

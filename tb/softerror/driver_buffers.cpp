@@ -65,6 +65,10 @@ Task<> SoftDriver::activate(unsigned slot) {
   write(reg::mb(n, 2), data_word(frame, 0));
   write(reg::mb(n, 3), data_word(frame, 4));
   write(reg::mb(n, 1), frame.extended ? frame.id : frame.id << 18);
+  if (kTimeUnit && loads_ % kLaunchEvery == 0) {
+    write(VERICAN_TTX_OFFSET, co_await read(VERICAN_TIMELO_OFFSET) + kLaunchIn);
+    write(VERICAN_TTXMB_OFFSET, VERICAN_TTXMB_HOLD_MASK | n);
+  }
   co_await node_.ahb().write(reg::mb(n), reg::kCodeTxData | format);
 }
 

@@ -29,6 +29,19 @@ inline constexpr std::uint32_t kCtrl2 = reg::kCtrl2Eacen | reg::kCtrl2Rrs;
 inline constexpr std::uint32_t kFilterExtended = 1u << 30;
 /// Mask of a mailbox: any base frame, data or remote.
 inline constexpr std::uint32_t kMaskFormat = 1u << 30;
+/// Whether the core has the time unit: the clock makes pulses, and some frames have a launch time.
+#ifdef SOFTERROR_TIME
+inline constexpr bool kTimeUnit = true;
+#else
+inline constexpr bool kTimeUnit = false;
+#endif
+inline constexpr unsigned kLaunchEvery = 3;        ///< frames
+inline constexpr std::uint32_t kLaunchIn = 8'000;  ///< ns: 400 clocks
+/// TCTRL: reference edge, slowest slew, compare unit and its output.
+inline constexpr std::uint32_t kTctrl = VERICAN_TCTRL_POINT_SET(VERICAN_TCTRL_POINT_EDGE) |
+                                        VERICAN_TCTRL_SLEWR_SET(3) | VERICAN_TCTRL_OUTEN_MASK |
+                                        VERICAN_TCTRL_CMPEN_MASK;
+inline constexpr std::uint32_t kPulse = 100'000;  ///< ns
 inline constexpr std::uint32_t kCodeAbort = VERICAN_MB_CS_CODE_SET(0x9);
 
 }  // namespace vericansim::driver_map

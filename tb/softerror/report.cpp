@@ -19,8 +19,8 @@ namespace {
 using nlohmann::json;
 
 const std::vector<std::string> &blocks() {
-  static const std::vector<std::string> list = {"bit",        "frame",     "mailbox",
-                                                "RAM output", "registers", "AHB"};
+  static const std::vector<std::string> list = {"bit",       "frame", "mailbox", "RAM output",
+                                                "registers", "AHB",   "time"};
   return list;
 }
 
@@ -172,6 +172,7 @@ std::string block_of(const std::string &variable) {
   const auto has = [&variable](const char *part) {
     return variable.find(part) != std::string::npos;
   };
+  if (has("gen_time.") || has(".u_stamp.")) return "time";
   if (has("u_core.u_bsp.")) return "frame";
   if (has("u_core.")) return "bit";
   if (has(".rdata_o")) return "RAM output";
