@@ -70,8 +70,8 @@ spdx() {
                   '*.js' '*.mjs' \
                   '*.sdc' '*.pdc' '*.pcf' '*.yaml' '*.core' '*CMakeLists.txt' Makefile .ci/run |
         while read -r file; do
-          # The kernel module links with the kernel.
-          [[ $file == sw/linux/glue/* ]] && licence=GPL-2.0 || licence=Apache-2.0
+          # Kernel modules link with the kernel.
+          [[ $file == sw/linux/@(glue|ptp)/* ]] && licence=GPL-2.0 || licence=Apache-2.0
           head -n 5 "$file" | grep -q "SPDX-License-Identifier: $licence" || echo "$file"
         done)
   printf '%s' "$bad"

@@ -166,6 +166,11 @@ void add_linux(CLI::App &app, int &exit_code) {
       ->check(CLI::Range(1, 8));
   command->add_option("--clock", options->board.clock_hz, "Clock of the cores, Hz; as in the DTB")
       ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"k", 1e3}, {"M", 1e6}}));
+  command->add_option("--clock-ppm", options->board.clock_ppm, "Error of each core's clock, ppm")
+      ->delimiter(',')
+      ->check(CLI::Range(-100'000.0, 100'000.0));
+  command->add_flag("--time-unit", options->board.time_unit,
+                    "Cores with the time unit, in windows of 8 KiB");
   command->add_option("--dir", options->board.directory, "Directory for logs, also the guest's");
   command->add_flag("--access-logs", options->board.access_logs, "Log each register access");
   command->add_option("--memory", options->memory, "Memory of the guest");

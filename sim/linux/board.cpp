@@ -15,7 +15,7 @@
 namespace vericansim {
 namespace {
 
-constexpr std::uint32_t kWindow = 0x1000;
+constexpr unsigned kTimeLine = 8;  // line of the first time unit
 constexpr std::uint32_t kAllOnes = 0xFFFFFFFF;
 constexpr int kLineDelay = 2;
 // How long the bus is clocked at a time before it is asked whether it may rest.
@@ -42,17 +42,31 @@ Board::Board(const BoardConfig &config) : config_{config} {
   if (config.controllers < 1 || config.controllers > 8)
     throw std::invalid_argument(
         fmt::format("a board has 1 to 8 controllers, not {}", config.controllers));
-  ClockConfig clock;
-  clock.frequency_hz = config.clock_hz;
-  for (unsigned n = 0; n < config.controllers; ++n) {
-    cores_.push_back(RtlNode::create(fmt::format("can{}", n), clock, 64));
-    bus_.add(*cores_.back());
-  }
+  add_controllers();
   watch_bus();
   if (!config.access_logs || config.directory.empty()) return;
   for (unsigned n = 0; n < config.controllers; ++n)
     access_logs_.push_back(
         std::make_unique<OutputFile>(fmt::format("{}/access-{}.txt", config.directory, n)));
+}
+
+void Board::add_controllers() {
+  for (unsigned n = 0; n < config_.controllers; ++n) {
+    ClockConfig clock;
+    clock.frequency_hz = config_.clock_hz;
+    if (n < config_.clock_ppm.size()) clock.error_ppm = config_.clock_ppm[n];
+    const std::string name = fmt::format("can{}", n);
+    if (config_.time_unit) {
+      auto node = std::make_unique<TimeNode>(name, clock);
+      node->let_rest(true);
+      node->on_interrupt = [this] { bus_.stop(); };
+      time_units_.push_back(node.get());
+      cores_.push_back(std::move(node));
+    } else {
+      cores_.push_back(RtlNode::create(name, clock, 64));
+    }
+    bus_.add(*cores_.back());
+  }
 }
 
 // ---- Time
@@ -61,6 +75,8 @@ std::uint32_t Board::lines() const {
   std::uint32_t mask = 0;
   for (std::size_t n = 0; n < cores_.size(); ++n)
     mask |= static_cast<std::uint32_t>(cores_[n]->irq()) << n;
+  for (std::size_t n = 0; n < time_units_.size(); ++n)
+    mask |= static_cast<std::uint32_t>(time_units_[n]->irq_time()) << (kTimeLine + n);
   return sabotage_.deaf ? 0 : mask;
 }
 
@@ -73,7 +89,8 @@ std::uint32_t Board::levels() {
 // started.
 bool Board::idle() const {
   constexpr Time kSettle = 100 * kMicrosecond;
-  if (now_ - touched_ < kSettle || (peer_ && peer_->pending())) return false;
+  if (!time_units_.empty() || now_ - touched_ < kSettle || (peer_ && peer_->pending()))
+    return false;
   return std::none_of(cores_.begin(), cores_.end(),
                       [](const auto &core) { return decode_trace(core->trace()).running; });
 }
@@ -87,6 +104,11 @@ bool Board::run_until(std::uint64_t when) {
       skipped_ += end - now_;
       return false;
     }
+    if (!time_units_.empty()) {
+      bus_.run_until(end);  // a line that rises stops it
+      now_ = std::max(now_, bus_.now());
+      continue;
+    }
     const Time slice = std::min(end, now_ + kSlice);
     const bool stopped = bus_.run_until(rose, slice - bus_.now());
     now_ = stopped ? std::max(now_, bus_.now()) : slice;
@@ -97,8 +119,8 @@ bool Board::run_until(std::uint64_t when) {
 // ---- Accesses
 
 std::uint32_t Board::access(const BoardAccess &access) {
-  const std::uint32_t n = access.address / kWindow;
-  const std::uint32_t offset = access.address % kWindow;
+  const std::uint32_t n = access.address / window();
+  const std::uint32_t offset = access.address % window();
   if (n >= cores_.size()) {
     ++bus_errors_;
     return kAllOnes;

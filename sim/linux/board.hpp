@@ -16,6 +16,7 @@
 #include "model/bus_monitor.hpp"
 #include "node/core_node.hpp"
 #include "node/rtl_node.hpp"
+#include "node/time_node.hpp"
 #include "trace/candump.hpp"
 #include "trace/output_file.hpp"
 
@@ -25,13 +26,17 @@ namespace vericansim {
 struct BoardConfig {
   unsigned controllers = 2;  ///< 1..8; each has a window of 4 KiB, and the line of its number
   double clock_hz = 8e6;     ///< of the controllers, 1 kHz to 10 GHz
+  /// Error of each controller's clock, within +-100,000 ppm; those that are not named have none.
+  std::vector<double> clock_ppm = {};
+  /// With the time unit: each window has 8 KiB, and irq_time_o of controller n is line 8 + n.
+  bool time_unit = false;
   std::string directory;     ///< for logs, there when they are whole; empty: none are written
   bool access_logs = false;  ///< write each access to access-<n>.txt
 };
 
 /// An access of the guest.
 struct BoardAccess {
-  std::uint32_t address = 0;  ///< within the window: 4096 * controller + offset
+  std::uint32_t address = 0;  ///< within the windows, which follow each other: 4 KiB or 8 KiB each
   bool write = false;
   std::uint32_t value = 0;  ///< to write
   unsigned size = 4;        ///< bytes: 1, 2 or 4
@@ -46,7 +51,8 @@ struct Sabotage {
 };
 
 /// The board. Its time is that of the guest: it goes on from access to access and in run_until(),
-/// and passes without a clock edge while no controller is enabled and nothing else happens.
+/// and passes without a clock edge while no controller is enabled and nothing else happens. Time
+/// units are clocked always; while nothing else happens in closed form (TimeNode).
 class Board {
  public:
   /// Throws std::invalid_argument if a setting is out of range, OutputError if a log of accesses
@@ -58,7 +64,7 @@ class Board {
   /// Lets time pass until `when` (ns, as now()). True at once when an interrupt line has risen
   /// since the last call of levels().
   bool run_until(std::uint64_t when);
-  /// Bit n: the line of controller n is high.
+  /// Bit n: the line of controller n is high; bit 8 + n: that of its time unit.
   [[nodiscard]] std::uint32_t levels();
   /// Time that has passed, ns.
   [[nodiscard]] std::uint64_t now() const {
@@ -79,10 +85,14 @@ class Board {
  private:
   using Words = std::vector<std::string_view>;
 
+  void add_controllers();
+  [[nodiscard]] std::uint32_t window() const { return time_units_.empty() ? 0x1000 : 0x2000; }
   [[nodiscard]] std::uint32_t lines() const;
   [[nodiscard]] bool idle() const;
   std::uint32_t transfer(RtlNode &core, const BoardAccess &access, std::uint32_t offset);
   void close_frame_log();
+  [[nodiscard]] std::unique_ptr<OutputFile> open_log(const std::string &name) const;
+  void toggle_at(TimeNode &node, Time when, Time half, std::uint64_t changes);
   void lose_frame(RtlNode &core, std::uint32_t offset);
   void log_access(unsigned n, std::uint32_t offset, const BoardAccess &access, std::uint32_t value);
 
@@ -94,14 +104,18 @@ class Board {
   std::string strike(const Words &words);
   std::string peer(const Words &words);
   std::string sabotage(const Words &words);
+  std::string pulse(const Words &words);
+  std::string edges(const Words &words);
   void watch_bus();
   void start_peer();
   [[nodiscard]] SwitchFault &faults();
   [[nodiscard]] NodeId node_named(std::string_view name) const;
+  [[nodiscard]] TimeNode &time_unit(std::string_view name);
   [[nodiscard]] std::string node_name(NodeId id) const;
 
   BoardConfig config_;
   std::vector<std::unique_ptr<RtlNode>> cores_;
+  std::vector<TimeNode *> time_units_;  // those of cores_, if they have them
   std::unique_ptr<CoreNode> peer_;
   SwitchFault fault_;
   std::unique_ptr<BusMonitor> monitor_;

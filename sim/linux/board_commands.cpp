@@ -9,14 +9,14 @@
 #include <optional>
 
 #include "linux/board.hpp"
+#include "linux/command_words.hpp"
 #include "timing/bittime.hpp"
 #include "trace/output_error.hpp"
 #include "trace/quantity.hpp"
 
 namespace vericansim {
-namespace {
 
-[[noreturn]] void refuse(const std::string &message) { throw InputError("command", 0, message); }
+void refuse(const std::string &message) { throw InputError("command", 0, message); }
 
 std::string_view word(const std::vector<std::string_view> &words, std::size_t n, const char *what) {
   if (n >= words.size()) refuse(fmt::format("'{}' needs {}", words.front(), what));
@@ -30,6 +30,8 @@ std::uint64_t number(std::string_view text, std::uint64_t low, std::uint64_t hig
     refuse(fmt::format("{} must be {} to {}, got {}", what, low, high, quoted(std::string{text})));
   return *value;
 }
+
+namespace {
 
 bool on_or_off(std::string_view text) {
   if (text != "on" && text != "off")
@@ -76,10 +78,11 @@ std::string Board::command(const std::string &text) {
     std::string (Board::*run)(const Words &);
   };
   static constexpr std::array kCommands = {
-      Entry{"bitrate", &Board::observe},  Entry{"log", &Board::log},
-      Entry{"hold", &Board::hold},        Entry{"cut", &Board::cut},
-      Entry{"strike", &Board::strike},    Entry{"peer", &Board::peer},
-      Entry{"sabotage", &Board::sabotage}};
+      Entry{"bitrate", &Board::observe},   Entry{"log", &Board::log},
+      Entry{"hold", &Board::hold},         Entry{"cut", &Board::cut},
+      Entry{"strike", &Board::strike},     Entry{"peer", &Board::peer},
+      Entry{"sabotage", &Board::sabotage}, Entry{"pulse", &Board::pulse},
+      Entry{"edges", &Board::edges}};
   Words words = text::split_blanks(text::trimmed(line));
   if (words.empty()) refuse("empty");
   touched_ = now_;
@@ -87,8 +90,10 @@ std::string Board::command(const std::string &text) {
   if (words[0] == "now") return fmt::format("{}\n", now());
   for (const Entry &entry : kCommands)
     if (words[0] == entry.name) return (this->*entry.run)(words);
-  refuse(fmt::format("{} is none of bitrate, log, report, now, hold, cut, strike, peer, sabotage",
-                     quoted(std::string{words[0]})));
+  refuse(
+      fmt::format("{} is none of bitrate, log, report, now, hold, cut, strike, peer, sabotage, "
+                  "pulse, edges",
+                  quoted(std::string{words[0]})));
 }
 
 // ---- Judges
@@ -119,17 +124,21 @@ void Board::close_frame_log() {
   log_file_.reset();
 }
 
+std::unique_ptr<OutputFile> Board::open_log(const std::string &name) const {
+  if (name.find('/') != std::string::npos || config_.directory.empty())
+    refuse("a log is a file in the directory of logs, of which there must be one");
+  try {
+    return std::make_unique<OutputFile>(config_.directory + "/" + name);
+  } catch (const OutputError &error) {
+    refuse(error.what());
+  }
+}
+
 std::string Board::log(const Words &words) {
   const std::string name{word(words, 1, "a name, or off")};
   close_frame_log();
   if (name == "off") return "ok\n";
-  if (name.find('/') != std::string::npos || config_.directory.empty())
-    refuse("a log is a file in the directory of logs, of which there must be one");
-  try {
-    log_file_ = std::make_unique<OutputFile>(config_.directory + "/" + name);
-  } catch (const OutputError &error) {
-    refuse(error.what());
-  }
+  log_file_ = open_log(name);
   log_ = std::make_unique<CandumpWriter>(log_file_->stream());
   return "ok\n";
 }

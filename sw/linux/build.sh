@@ -42,7 +42,9 @@ unpack() {
   without+=(--exclude='linux-source-6.1/Documentation/*.rst'
             --exclude='linux-source-6.1/Documentation/*.yaml'
             --exclude='linux-source-6.1/arch/*.dts*'
-            --exclude='linux-source-6.1/tools/testing/*')
+            --exclude='linux-source-6.1/tools/testing/[!s]*'
+            --exclude='linux-source-6.1/tools/testing/selftests/[!p]*'
+            --exclude='linux-source-6.1/tools/testing/selftests/powerpc/*')
   mkdir -p "$kernel"
   tar -C "$kernel" -xf "$archive" "${without[@]}"
 }
@@ -70,6 +72,7 @@ build_kernel() {
   cp "$source"/linux "$source"/net/can/can.ko "$source"/net/can/can-raw.ko \
      "$source"/drivers/net/can/dev/can-dev.ko "$source"/drivers/net/can/flexcan/flexcan.ko \
      "$kernel/out"
+  gcc -O2 -w -o "$kernel/out/testptp" "$source/tools/testing/selftests/ptp/testptp.c" -lrt
   (cd "$source" && sha256sum drivers/net/can/flexcan/*.[ch]) >"$kernel/out/flexcan.sha256"
   # What an out-of-tree module needs stays.
   find "$source" -mindepth 1 -maxdepth 1 -type d ! -name include ! -name arch ! -name scripts \
@@ -87,19 +90,24 @@ fi
 # Everything else takes seconds and is made each time.
 start=$SECONDS
 modules="$out/modules"
-rm -rf "$modules" "$out/glue"
-mkdir -p "$modules" "$out/glue"
+rm -rf "$modules"
+mkdir -p "$modules"
 cp "$kernel"/out/* "$modules"
-cp sw/linux/glue/* "$out/glue"
-make_kernel M="$out/glue" modules
-cp "$out/glue/verican_glue.ko" "$modules"
+for module in glue ptp; do
+  rm -rf "${out:?}/$module"
+  cp -r "sw/linux/$module" "$out"
+  make_kernel M="$out/$module" modules
+  cp "$out/$module"/*.ko "$modules"
+done
 gcc -O2 -Wall -Wextra -Werror -shared -fPIC -o "$modules/wide_xstate.so" sw/linux/host/wide_xstate.c
 # The glue's window spans those of the controllers, hence the addresses that two nodes share.
 for chip in ls1021ar2 imx28; do
   sed "s/@COMPATIBLE@/fsl,$chip-flexcan/; s/@CLOCK@/$clock/" sw/linux/dts/guest.dts.in |
     dtc -W no-unique_unit_address -I dts -O dtb -o "$modules/$chip.dtb" -
 done
-# The node that docs/software.md gives users is one that the compiler takes.
+sed "s/@CLOCK@/$clock/" sw/linux/dts/time.dts.in |
+  dtc -W no-unique_unit_address -I dts -O dtb -o "$modules/time.dtb" -
+# The nodes that docs/software.md gives users are some that the compiler takes.
 dtc -I dts -O dtb -o "$modules/verican.dtb" - <<DTS
 /dts-v1/;
 / { intc: controller { interrupt-controller; #interrupt-cells = <2>; #address-cells = <0>; }; };

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs Linux's unmodified flexcan driver on the Verilated core and judges what came of it.
+"""Runs Linux's unmodified flexcan driver, and the driver of the time unit, on the Verilated core
+and judges what came of it.
 
 Each case boots a user-mode Linux whose controllers are those of `verican linux`, runs a script of
-sw/linux/guest in it and hands the files it left to its judge (judge.py).
+sw/linux/guest in it and hands the files it left to its judge (judge.py, judge_clock.py).
 """
 import argparse
 import concurrent.futures
@@ -20,9 +21,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import judge
+import judge_clock
 
 ROOT = Path(__file__).resolve().parents[2]
 CHIPS = ("ls1021ar2", "imx28")
+# Controllers with time units: their device tree and their simulator.
+CLOCKS = ("time",)
+CLOCK_OPTIONS = ["--time-unit", f"--clock-ppm={','.join(str(ppm) for ppm in judge_clock.PPM)}"]
 RATES = "125000,250000,500000,1000000"
 
 
@@ -57,6 +62,7 @@ def cases(short):
         Case("statistics", "statistics"),
         Case("reload", "reload"),
         Case("rxrtr", "rxrtr", chips=("imx28",)),
+        Case("ptp-probe", "ptpprobe", chips=CLOCKS, short=True),
         Case("repeatable", "exchange", few, short=True, twice=True),
         Case("red-lost-frame", "exchange", {**few, "VERICAN_SABOTAGE": "lose-frame"}, short=True,
              red=True),
@@ -101,7 +107,8 @@ def boot(args, case, chip, directory):
                "--dtb", str(modules / f"{chip}.dtb"),
                "--init", str(ROOT / "sw/linux/guest/init.sh"),
                "--preload", str(modules / "wide_xstate.so"), "--dir", str(directory),
-               "--access-logs", "--timeout", str(args.timeout), "--"]
+               "--access-logs", "--timeout", str(args.timeout)]
+    command += [*(CLOCK_OPTIONS if chip in CLOCKS else []), "--"]
     command += [f"{key}={value}" for key, value in settings.items()]
     start = time.monotonic()
     environment = {**os.environ, "TMPDIR": scratch()}
@@ -135,7 +142,7 @@ def run_case(args, case, chip):
     try:
         result.guest, result.wall = boot(args, case, chip, directory)
         judge.common(run)
-        getattr(judge, case.script)(run)
+        getattr(judge_clock if chip in CLOCKS else judge, case.script)(run)
         if case.twice:
             again = directory.with_name(directory.name + "-again")
             guest, wall = boot(args, case, chip, again)

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "time/time_node.hpp"
+#include "time/time_rig.hpp"
 
 namespace vericansim {
 namespace {

@@ -12,7 +12,7 @@
 #include "bus/faults.hpp"
 #include "model/frame_codec.hpp"
 #include "time/stamp_rule.hpp"
-#include "time/time_node.hpp"
+#include "time/time_rig.hpp"
 
 namespace vericansim {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "model/frame_codec.hpp"
 #include "time/stamp_rule.hpp"
-#include "time/time_node.hpp"
+#include "time/time_rig.hpp"
 
 namespace vericansim {
 namespace {

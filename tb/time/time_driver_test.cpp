@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "driver/driver_node.hpp"
-#include "time/time_node.hpp"
+#include "time/time_rig.hpp"
 #include "verican/timesync.h"
 
 namespace vericansim {

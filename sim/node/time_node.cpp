@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// TimeNode: see time_node.hpp.
+#include "node/time_node.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "Vcan_ahb_time.h"
+#include "Vcan_ahb_time___024root.h"
+#include "bus/trace.hpp"
+#include "node/clock_leap.hpp"
+#include "node/model_context.hpp"
+#include "node/model_edge.hpp"
+#include "node/model_pins.hpp"
+
+namespace vericansim {
+namespace {
+
+// What follows the lower half some clocks later follows it in these edges, which are evaluated.
+constexpr std::uint64_t kEvaluated = 4;
+constexpr std::uint64_t kShortestLeap = 3;
+
+// The members that the model of can_time has in its root, if Verilator (5.006) left them there.
+#define VERICAN_TIME(root, member) \
+  (root).can_ahb__DOT__u_top__DOT__u_core__DOT__gen_time__DOT__u_time__DOT__##member
+
+template <typename Root>
+constexpr bool kKnown = !kPlainEdges && requires(Root & root) {
+  root.can_ahb__DOT__u_top__DOT__time_left;
+  VERICAN_TIME(root, lo);
+  VERICAN_TIME(root, hi);
+  VERICAN_TIME(root, armed);
+  VERICAN_TIME(root, held);
+  VERICAN_TIME(root, u_cmp__DOT__target_q);
+  VERICAN_TIME(root, u_clock__DOT__incn_q);
+  VERICAN_TIME(root, u_clock__DOT__incf_q);
+  VERICAN_TIME(root, u_clock__DOT__fraction_q);
+  VERICAN_TIME(root, u_clock__DOT__carry_q);
+  VERICAN_TIME(root, u_clock__DOT__carry2_q);
+  VERICAN_TIME(root, u_clock__DOT__carry3_q);
+  VERICAN_TIME(root, u_clock__DOT__bit_q);
+  VERICAN_TIME(root, u_clock__DOT__slew_bit);
+  VERICAN_TIME(root, u_clock__DOT__changed_q);
+  VERICAN_TIME(root, lo_q);
+  VERICAN_TIME(root, now);
+  VERICAN_TIME(root, u_cmp__DOT__to_target);
+  VERICAN_TIME(root, u_cmp__DOT__reached_q);
+  VERICAN_TIME(root, u_cmp__DOT__due_q);
+};
+
+template <typename Root>
+ClockLeap clock_of(const Root &root) {
+  return {VERICAN_TIME(root, lo),
+          VERICAN_TIME(root, hi),
+          VERICAN_TIME(root, u_clock__DOT__fraction_q),
+          VERICAN_TIME(root, u_clock__DOT__carry_q) != 0,
+          VERICAN_TIME(root, u_clock__DOT__carry2_q) != 0,
+          VERICAN_TIME(root, u_clock__DOT__carry3_q) != 0};
+}
+
+template <typename Root>
+void set_clock(Root &root, const ClockLeap &clock) {
+  VERICAN_TIME(root, lo) = clock.lo;
+  VERICAN_TIME(root, hi) = clock.hi;
+  VERICAN_TIME(root, u_clock__DOT__fraction_q) = clock.fraction;
+  VERICAN_TIME(root, u_clock__DOT__carry_q) = clock.carry;
+  VERICAN_TIME(root, u_clock__DOT__carry2_q) = clock.carry2;
+  VERICAN_TIME(root, u_clock__DOT__carry3_q) = clock.carry3;
+}
+
+// Nothing but TIME is different; `before` is spoilt.
+template <typename Root>
+bool only_time_moved(Root &before, const Root &now) {
+  set_clock(before, clock_of(now));
+  VERICAN_TIME(before, u_clock__DOT__bit_q) = VERICAN_TIME(now, u_clock__DOT__bit_q);
+  VERICAN_TIME(before, u_clock__DOT__slew_bit) = VERICAN_TIME(now, u_clock__DOT__slew_bit);
+  VERICAN_TIME(before, u_clock__DOT__changed_q) = VERICAN_TIME(now, u_clock__DOT__changed_q);
+  VERICAN_TIME(before, lo_q) = VERICAN_TIME(now, lo_q);
+  VERICAN_TIME(before, now) = VERICAN_TIME(now, now);
+  VERICAN_TIME(before, u_cmp__DOT__to_target) = VERICAN_TIME(now, u_cmp__DOT__to_target);
+  VERICAN_TIME(before, u_cmp__DOT__reached_q) = VERICAN_TIME(now, u_cmp__DOT__reached_q);
+  VERICAN_TIME(before, u_cmp__DOT__due_q) = VERICAN_TIME(now, u_cmp__DOT__due_q);
+  return std::memcmp(static_cast<const void *>(&before), static_cast<const void *>(&now),
+                     sizeof(Root)) == 0;
+}
+
+// Edges that do not reach the time of the compare unit, whatever the fraction adds.
+template <typename Root>
+std::uint64_t edges_to_match(const Root &root) {
+  if (VERICAN_TIME(root, armed) == 0) return ~0ULL >> 1;
+  const auto ns =
+      static_cast<std::int32_t>(VERICAN_TIME(root, u_cmp__DOT__target_q) - VERICAN_TIME(root, lo));
+  const std::uint64_t most = VERICAN_TIME(root, u_clock__DOT__incn_q) + 1U;
+  const std::uint64_t clocks = ns <= 0 ? 0 : static_cast<std::uint64_t>(ns) / most;
+  return clocks < kEvaluated ? 0 : clocks - kEvaluated;
+}
+
+}  // namespace
+
+struct TimeNode::Impl {
+  using Root = Vcan_ahb_time___024root;
+
+  ~Impl() { Verilated::threadContextp(&context); }
+
+  VerilatedContext context;
+  Vcan_ahb_time top{&context, "time"};
+  ModelContext model_context{context};
+  std::unique_ptr<unsigned char[]> before = std::make_unique<unsigned char[]>(sizeof(Root));
+};
+
+TimeNode::TimeNode(std::string name, const ClockConfig &clock)
+    : RtlNode{std::move(name), clock, 64}, impl_{std::make_unique<Impl>()} {
+  reset();
+}
+
+TimeNode::~TimeNode() = default;
+
+void TimeNode::edge() {
+  Vcan_ahb_time &top = impl_->top;
+  rising_edge(top, top.hclk);
+  if (top.hresetn == 0) return;
+  ++edges_;
+  const bool dominant = (top.trace_o & kTraceTx) == 0;
+  if (dominant && !dominant_) falls_.push_back(edges_);
+  dominant_ = dominant;
+  if (decode_trace(top.trace_o).rx_valid) valids_.push_back(edges_);
+  if ((top.time_out_o != 0) != out_) pulses_.push_back(edges_);
+  out_ = top.time_out_o != 0;
+}
+
+void TimeNode::reset() {
+  disturbed();
+  still_ = false;
+  Vcan_ahb_time &top = impl_->top;
+  ahb().reset();
+  show_request(top, ahb().request());
+  top.hready = 1;
+  top.can_rx_i = 1;
+  top.hresetn = 0;
+  for (int i = 0; i < 4; ++i) edge();
+  edges_ = 0;
+  top.hresetn = 1;
+  edge();
+  drive(static_cast<Level>(top.can_tx_o));
+}
+
+void TimeNode::clock(Level rx) {
+  Vcan_ahb_time &top = impl_->top;
+  top.can_rx_i = static_cast<std::uint8_t>(rx);
+  if (ahb().active()) {
+    still_ = false;
+    show_request(top, ahb().request());
+    top.hready = top.hreadyout;
+    top.eval();
+    if (top.hready != top.hreadyout) {
+      top.hready = top.hreadyout;
+      top.eval();
+    }
+    const AhbResponse response{top.hrdata, top.hreadyout != 0, top.hresp != 0};
+    edge();
+    ahb().clock(response);
+    if (!ahb().active()) {
+      show_request(top, ahb().request());
+      top.hready = 1;
+    }
+  } else if (rests_ && !decode_trace(top.trace_o).running) {
+    watch_rest();
+  } else {
+    still_ = false;
+    edge();
+  }
+  drive(static_cast<Level>(top.can_tx_o));
+  after_edge();
+  note_interrupt();
+}
+
+// ---- Rest
+
+void TimeNode::watch_rest() {
+  auto &root = *impl_->top.rootp;
+  if constexpr (kKnown<Impl::Root>) {
+    std::memcpy(impl_->before.get(), static_cast<const void *>(&root), sizeof root);
+    edge();
+    still_ = only_time_moved(*reinterpret_cast<Impl::Root *>(impl_->before.get()), root);
+  } else {
+    edge();
+  }
+}
+
+std::uint64_t TimeNode::quiet() const {
+  if (!still_ || ahb().active()) return 0;
+  if constexpr (kKnown<Impl::Root>) {
+    const auto &root = *impl_->top.rootp;
+    if (root.can_ahb__DOT__u_top__DOT__time_left != 0 || VERICAN_TIME(root, held) != 0) return 0;
+    return std::min(edges_to_match(root), edges_to_waiter());
+  } else {
+    return 0;
+  }
+}
+
+void TimeNode::pass(std::uint64_t edges) {
+  passed(edges);
+  if constexpr (kKnown<Impl::Root>) {
+    if (edges >= kShortestLeap + kEvaluated) {
+      auto &root = *impl_->top.rootp;
+      const std::uint64_t leap = edges - kEvaluated;
+      ClockLeap clock = clock_of(root);
+      clock.pass(leap, std::uint64_t{VERICAN_TIME(root, u_clock__DOT__incn_q)} << 32 |
+                           VERICAN_TIME(root, u_clock__DOT__incf_q));
+      set_clock(root, clock);
+      edges_ += leap;
+      edges = kEvaluated;
+    }
+  }
+  for (; edges > 0; --edges) edge();
+}
+
+void TimeNode::let_rest(bool allowed) {
+  disturbed();
+  rests_ = allowed;
+  still_ = false;
+}
+
+// ---- Pins
+
+std::uint64_t TimeNode::edges() const {
+  catch_up();
+  return edges_;
+}
+
+std::uint64_t TimeNode::trace() const { return impl_->top.trace_o; }
+std::uint8_t TimeNode::irq_lines() const { return model_irq_lines(impl_->top); }
+bool TimeNode::irq_time() const { return impl_->top.irq_time_o != 0; }
+
+void TimeNode::note_interrupt() {
+  const bool high = irq() || irq_time();
+  if (high && !std::exchange(interrupt_, high) && on_interrupt) on_interrupt();
+  interrupt_ = high;
+}
+
+void TimeNode::external(bool level) {
+  disturbed();
+  still_ = false;
+  impl_->top.ext_i = level;
+}
+
+void TimeNode::request_stop(bool stop) {
+  disturbed();
+  still_ = false;
+  impl_->top.stop_req_i = stop;
+}
+
+AhbResult TimeNode::peek(const AhbTransfer & /*transfer*/) {
+  throw std::logic_error("a TimeNode is read by real transfers only");
+}
+
+}  // namespace vericansim
