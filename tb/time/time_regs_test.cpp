@@ -94,6 +94,34 @@ TEST_F(TimeRegs, SoftResetKeeps) {
   EXPECT_NEAR(static_cast<double>(gone), static_cast<double>(passed - edges) * 100.25, 500);
 }
 
+// TM-03: a hard reset brings back clock, increment and registers, also amid a slew and an event.
+TEST_F(TimeRegs, HardReset) {
+  const std::uint64_t fresh = steered();
+  for (unsigned again = 0; again < 2; ++again) {
+    write(kTctrl, 0x001F3331);
+    write(kTcmph, 4000);
+    write(kTcmp, static_cast<std::uint32_t>(time()) + 1000);
+    write(kTtx, 0x7FFFFFF0);
+    write(kTtxmb, 0x8000003F);
+    rate(200, 0xFFFFFFFF);
+    write(kTimelo, 0x12345678);
+    write(kTimehi, 0x9ABCDEF0);
+    write(kTslew, 1000);
+    time_.node(0).external(true);
+    rig_.run(100 + again);
+    time_.node(0).external(false);
+    rig_.run(10);
+    ASSERT_EQ(read(kTstat) & 7, 7u);
+    rig_.node(0).reset();
+    rig_.run(400);
+    EXPECT_EQ(read(kTctrl), 0x31u);
+    for (const std::uint32_t address : {kTstat, kTslew, kTtxmb, kTextlo, kTexthi})
+      EXPECT_EQ(read(address), 0u) << std::hex << address;
+    EXPECT_EQ(steered(), fresh);
+    EXPECT_FALSE(time_.node(0).irq_time());
+  }
+}
+
 // TM-12, TM-16: a set acts a constant number of clocks after its write, whatever was read before.
 TEST_F(TimeRegs, Set) {
   for (const std::uint64_t value : {0x123456789ABCDEF0ULL, 0xFFFFFFFFULL, 0ULL}) {
