@@ -16,7 +16,7 @@ FOLDERS = {
     "core": [("unit", "can_"), ("mailbox", ""), ("protocol", ""), ("driver", ""),
              ("system", "bus_"), ("faults", ""), ("random", "random_"), ("time", "")],
     "remote": [("unit", "can_rn_"), ("remote", "port_"), ("remote", "rtl_")],
-    "time": [("unit", "can_clock_"), ("unit", "can_time_"), ("time", "")]}
+    "time": [("unit", "can_clock"), ("unit", "can_time"), ("time", "")]}
 SANITIZED = ("driver", "time")   # folders whose programs link the sanitized driver
 CPU_SECONDS = 6        # of one program, and more for tests that take long without a mutant
 CPU_FACTOR = 5
