@@ -16,17 +16,19 @@ enum class Wander : std::uint8_t {
   kNone,  ///< constant error
   kSine,  ///< error_ppm + wander_ppm * sin(2 pi t / wander_period)
   kWalk,  ///< bounded random walk within error_ppm +- wander_ppm, one step each wander_period / 64
+  kFree,  ///< random walk without bounds but those of the error, of wander_density
 };
 
 /// Settings of one oscillator. Invalid values make Clock's constructor throw std::invalid_argument.
 struct ClockConfig {
   double frequency_hz = 8e6;  ///< nominal, 1 kHz to 10 GHz
-  double error_ppm = 0.0;     ///< constant error, within +-100,000 ppm
+  double error_ppm = 0.0;     ///< constant error, within +-100,000 ppm; kept to 10^-11 (TM-120)
   Time phase = 0;             ///< time of the first rising edge, ps, >= 0
   Wander wander = Wander::kNone;
-  double wander_ppm = 0.0;  ///< largest excursion from error_ppm
+  double wander_ppm = 0.0;      ///< kSine, kWalk: largest excursion from error_ppm
+  double wander_density = 0.0;  ///< kFree: of the walk of the frequency, 1/sqrt(s), 0 to 10^-3
   Time wander_period = 10 * kMillisecond;
-  std::uint64_t seed = 1;  ///< of the random walk
+  std::uint64_t seed = 1;  ///< of a random walk
 
   friend bool operator==(const ClockConfig &, const ClockConfig &) = default;
 };
@@ -98,6 +100,8 @@ class Clock {
   void update();
   void set_period(double ppm);
   double next_walk_ppm();
+  double next_free_ppm();
+  double uniform();
 
   ClockConfig config_;
   Fixed edge_ = 0;    // 64.64 fixed point, ps

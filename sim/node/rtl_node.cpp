@@ -48,4 +48,8 @@ void RtlNode::write32(std::uint32_t address, std::uint32_t data) {
     throw std::runtime_error(name() + ": bus error writing " + std::to_string(address));
 }
 
+std::uint64_t RtlNode::time_of_clock() const {
+  throw std::logic_error(name() + " has no time unit");
+}
+
 }  // namespace vericansim

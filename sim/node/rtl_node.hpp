@@ -45,6 +45,8 @@ class RtlNode : public Node {
   /// irq_time_o and time_out_o as of the last clock edge; false without the time unit.
   [[nodiscard]] virtual bool irq_time() const { return false; }
   [[nodiscard]] virtual bool time_out() const { return false; }
+  /// TIME as of the last clock edge, ns. std::logic_error without the time unit.
+  [[nodiscard]] virtual std::uint64_t time_of_clock() const;
   /// Level of ext_i from the next clock edge on. A reset does not change it.
   virtual void external(bool level) { (void)level; }
   /// Level of stop_req_i from the next clock edge on: the system asks for stop mode (flexcan.md

@@ -124,6 +124,15 @@ class RtlNodeOf final : public RtlNode {
     }
   }
 
+  [[nodiscard]] std::uint64_t time_of_clock() const override {
+    if constexpr (kHasTimeUnit<Engine>) {
+      catch_up();
+      return TimeRest::time(*core_.engine().rootp);
+    } else {
+      return RtlNode::time_of_clock();
+    }
+  }
+
   void external(bool level) override {
     if constexpr (kHasTimeUnit<Engine>) {
       disturbed();

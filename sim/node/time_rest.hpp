@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <type_traits>
 
 #include "node/model_edge.hpp"
@@ -51,6 +52,16 @@ class TimeRest {
   static void pass(Root &root, std::uint64_t count) {
     if constexpr (kKnown<Root>)
       if (count != 0) pass_(root, count);
+  }
+
+  /// TIME. std::logic_error for a model that does not show its registers.
+  template <typename Root>
+  [[nodiscard]] static std::uint64_t time(const Root &root) {
+    if constexpr (kKnown<Root>) {
+      return root.can_core__DOT__gen_time__DOT__u_time__DOT__now;
+    } else {
+      throw std::logic_error("the clock of this model cannot be looked at");
+    }
   }
 
  private:

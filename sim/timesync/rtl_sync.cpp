@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A case on RTL: see rtl_sync.hpp.
+#include "timesync/rtl_sync.hpp"
+
+#include <cmath>
+#include <memory>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "timesync/rtl_bench.hpp"
+#include "verican/timesync.h"
+
+namespace vericansim {
+namespace {
+
+constexpr std::uint32_t kSyncId = 0x080;
+constexpr std::uint64_t kMasterTime = 1'700'000'000'000'000'000;
+// Times an interval that each node's software polls, and that all clocks are looked at.
+constexpr int kPolls = 10, kLooks = 16;
+// Software gets to its poll so much later, evenly, as in the model.
+constexpr double kPollLate = 100.0 * kMicrosecond;
+
+void check(bool ok, const char *what) {
+  if (!ok)
+    throw std::invalid_argument(std::string{"on RTL: "} + what + " is not possible; use model");
+}
+
+void check(const SyncCase &setting) {
+  check(setting.load == 0 && setting.load_above == 0, "a load");
+  check(setting.bit_errors == 0, "a bit error");
+  check(setting.displaced == 0, "a displaced edge");
+  check(setting.master_late_ns == 0 && setting.master_uneven_ns == 0, "a late master");
+}
+
+// Constant errors: as the model draws them.
+std::vector<double> errors_of(const SyncCase &setting, std::uint64_t seed) {
+  std::mt19937_64 dice{seed};
+  const double spread = setting.clocks.spread_ppm;
+  std::vector<double> errors;
+  for (unsigned n = 0; n <= setting.followers; ++n) {
+    double error = std::uniform_real_distribution<double>{-spread, spread}(dice);
+    if (setting.clocks.opposed) error = n == 0 ? 0 : n % 2 == 1 ? spread : -spread;
+    errors.push_back(error);
+  }
+  return errors;
+}
+
+class RtlSync {
+ public:
+  RtlSync(const SyncCase &setting, IdleGaps gaps, std::uint64_t seed)
+      : setting_{setting},
+        interval_{std::llround(setting.interval_s * static_cast<double>(kSecond))},
+        errors_{errors_of(setting, seed)},
+        bench_{setting, gaps, seed, [this](unsigned n) { return errors_[n]; }},
+        tsyns_(bench_.size()),
+        events_(bench_.size()) {
+    bench_.handler = [this](unsigned n) { handle(n); };
+    for (unsigned n = 0; n < bench_.size(); ++n) start(n);
+  }
+
+  SyncRun run() {
+    const Time begin = bench_.bus.now();
+    const Time end = begin + (setting_.intervals + 1) * interval_;
+    for (unsigned n = 0; n < bench_.size(); ++n)
+      poll(n, begin + (n + 1) * interval_ / (kPolls * bench_.size()));
+    for (Time t = begin; t < end; t += interval_ / kLooks) bench_.at(t, [this] { look(); });
+    bench_.run(end);
+    for (unsigned n = 1; n < bench_.size(); ++n) count_refused(n);
+    return std::move(run_);
+  }
+
+ private:
+  void start(unsigned n) {
+    verican_tsyn_config_t config;
+    verican_tsyn_config_default(&config);
+    config.masters[0] = kSyncId;
+    config.servo.interval_us = static_cast<std::uint32_t>(interval_ / kMicrosecond);
+    config.servo.filter = setting_.filter;
+    config.user = &events_[n];
+    config.on_event = [](void *user, verican_tsyn_t *, std::uint8_t events) {
+      *static_cast<std::uint8_t *>(user) = events;
+    };
+    verican_t *dev = &bench_.station(n).dev;
+    verican_tsyn_t *tsyn = &tsyns_[n];
+    verican_result_t result = verican_tsyn_init(tsyn, dev, &config);
+    if (n == 0 && result == VERICAN_OK) {
+      result = verican_clock_set(dev, kMasterTime);
+      verican_clock_point(dev, VERICAN_STAMP_EDGE, setting_.own_pin);
+    }
+    if (result == VERICAN_OK)
+      result = n == 0 ? verican_tsyn_start_master(tsyn) : verican_tsyn_start_follower(tsyn);
+    if (result != VERICAN_OK) throw std::runtime_error(verican_result_name(result));
+    bench_.station(n).on_sent = [this, tsyn](const verican_tx_event_t &event) {
+      if (verican_tsyn_on_sent(tsyn, &event) == VERICAN_OK) ++run_.frames;
+    };
+  }
+
+  void poll(unsigned n, Time when) {
+    bench_.at(when + std::llround(bench_.uniform(0, kPollLate)), [this, n, when] {
+      verican_tsyn_poll(&tsyns_[n]);
+      tell(n);
+      poll(n, when + interval_ / kPolls);
+    });
+  }
+
+  void handle(unsigned n) {
+    bench_.station(n).serve();
+    verican_frame_t frame;
+    while (bench_.station(n).receive(frame)) {
+      verican_tsyn_on_frame(&tsyns_[n], &frame);
+      tell(n);
+    }
+  }
+
+  // What the servo has done, if it has.
+  void tell(unsigned n) {
+    if (n == 0 || events_[n] == 0) return;
+    const verican_tsyn_t &tsyn = tsyns_[n];
+    run_.actions.push_back({bench_.bus.now(), n - 1, tsyn.shift, tsyn.dev->increment,
+                            std::exchange(events_[n], std::uint8_t{0}), tsyn.servo.state});
+  }
+
+  void look() {
+    SyncLook look{bench_.bus.now(), {}};
+    const auto master = bench_.station(0).reading();
+    for (unsigned n = 1; n < bench_.size(); ++n)
+      look.followers.push_back({ahead(bench_.station(n).reading(), master), tsyns_[n].servo.state});
+    run_.looks.push_back(std::move(look));
+  }
+
+  void count_refused(unsigned n) {
+    verican_tsyn_status_t status;
+    if (verican_tsyn_status(&tsyns_[n], &status) != VERICAN_OK) return;
+    run_.refused += status.refused[VERICAN_TSYN_LATE] + status.refused[VERICAN_TSYN_MISSING];
+  }
+
+  SyncCase setting_;
+  Time interval_;
+  std::vector<double> errors_;
+  RtlBench bench_;
+  std::vector<verican_tsyn_t> tsyns_;
+  std::vector<std::uint8_t> events_;
+  SyncRun run_;
+};
+
+SyncRun run_on_rtl(const SyncCase &setting, IdleGaps gaps, std::uint64_t seed) {
+  check(setting);
+  return RtlSync{setting, gaps, seed}.run();
+}
+
+}  // namespace
+
+SyncRun run_by_rtl(const SyncCase &setting, std::uint64_t seed) {
+  return run_on_rtl(setting, IdleGaps::kClocked, seed);
+}
+
+SyncRun run_by_skip(const SyncCase &setting, std::uint64_t seed) {
+  return run_on_rtl(setting, IdleGaps::kSkipped, seed);
+}
+
+}  // namespace vericansim

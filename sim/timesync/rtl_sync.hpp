@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A case on RTL (TM-121, rtl and skip): cores with the time unit, the C driver and its CanTSyn on
+// each of them.
+#pragma once
+
+#include <cstdint>
+
+#include "timesync/sync_case.hpp"
+#include "timesync/sync_run.hpp"
+
+namespace vericansim {
+
+/// Runs a seed of a case, every clock of every node. std::invalid_argument: the case has a load,
+/// bit errors, displaced edges or a master that stamps late, which this way does not know.
+[[nodiscard]] SyncRun run_by_rtl(const SyncCase &setting, std::uint64_t seed);
+
+/// The same with idle gaps skipped.
+[[nodiscard]] SyncRun run_by_skip(const SyncCase &setting, std::uint64_t seed);
+
+}  // namespace vericansim
