@@ -22,6 +22,7 @@ QUIET = {"rx_id_o", "rx_ide_o", "rx_srr_o", "rx_rtr_o", "rx_dlc_o", "rx_byte_o",
 TIME = "time_"
 QUIET_TIME = {"time_now_o", "time_ext_o", "time_left_o", "time_stamp_o", "time_stamp_tx_o",
               "time_sync_stat_o", "time_sync_ofs_o"}
+WIDE = {"time_data_i", "time_now_o", "time_ext_o", "time_stamp_o"}  # of more than 32 bits
 PORT = re.compile(r"^\s*(input|output)\s+logic\s*(\[[^\]]*\])?\s*(\w+),?", re.MULTILINE)
 # Struct, the engine in that top, inputs of the engine that C++ drives, whether with the time unit.
 TIMING = {"presdiv_i", "rjw_i", "pseg1_i", "pseg2_i", "propseg_i"}
@@ -50,8 +51,9 @@ def hollow(header, ports, with_time):
 
 def function(comment, signature, root, compared, copied):
     """A function that is true if one of the ports `compared` differs, and then does `copied`."""
+    word = "std::uint64_t" if WIDE & set(compared) else "unsigned"
     lines = [f"  /// {comment}", "  template <typename Core, typename Host>",
-             f"  static bool {signature} {{", "    unsigned changed = 0;"]
+             f"  static bool {signature} {{", f"    {word} changed = 0;"]
     lines += [f"    changed |= host.{root}{name}_v ^ core.{name};" for name in compared]
     lines.append("    if (changed == 0) return false;")
     return lines + [f"    {line};" for line in copied] + ["    return true;", "  }", ""]
@@ -80,8 +82,10 @@ def main():
     ports = PORT.findall(header)
     if not ports:
         sys.exit(f"{source}: no ports found in can_core")
+    if WIDE != {name for _, width, name in ports if width.startswith("[63:")}:
+        sys.exit(f"{source}: {__file__} has other ports of 64 bits")
     hpp = ["// Generated from can_core.sv: copies its ports between the two models.",
-           "#pragma once", "", "namespace vericansim {", ""]
+           "#pragma once", "", "#include <cstdint>", "", "namespace vericansim {", ""]
     for struct, root, driven, with_time in TOPS:
         names = [(direction, name) for direction, _, name in ports
                  if name not in SKIPPED and (with_time or not name.startswith(TIME))]
