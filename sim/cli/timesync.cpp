@@ -83,6 +83,11 @@ int run_sweep(const Options &options, const SyncWay &way) {
     }
     for (const SyncRow &row : table.rows) {
       if (stop_requested()) break;
+      if (const char *missing = way.missing(row.setting); missing != nullptr) {
+        if (!options.json)
+          fmt::print("{}: not by this way, which knows no {}\n", row.name, missing);
+        continue;
+      }
       const SyncOutcome outcome{row, run_case(way, row.setting)};
       ok = ok && outcome.ok();
       if (options.json)

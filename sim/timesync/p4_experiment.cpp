@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "timesync/p4_loop.hpp"
 #include "timesync/sync_goal.hpp"
 
 namespace vericansim {
@@ -34,9 +33,10 @@ SyncCase p4_case() {
 }
 
 P4Result run_p4(const SyncWay &way, const SyncCase &setting) {
+  check_way(way, setting);
   P4Result result{setting, {}, {}, {}};
   for (std::uint64_t seed = 1; seed <= setting.seeds; ++seed)
-    result.published.add(P4Loop{setting, seed}.run());
+    result.published.add(way.run_p4(setting, seed));
   result.servo = run_case(way, setting);
   const double bound = steady_bound(setting).value_or(0);
   result.checks = {

@@ -29,7 +29,7 @@ struct P4Result {
 /// A fast and a slow follower that drift 152 us/s from their master, R = 1 s.
 [[nodiscard]] SyncCase p4_case();
 
-/// Runs both; intervals and seeds are those of `setting`, the second half goes by `way`.
+/// Runs both by `way`, with the intervals and seeds of `setting`. Throws as check_way().
 [[nodiscard]] P4Result run_p4(const SyncWay &way, const SyncCase &setting);
 
 }  // namespace vericansim

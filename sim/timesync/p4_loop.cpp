@@ -97,4 +97,8 @@ void P4Loop::look(Nanoseconds t) {
   result.looks.push_back(std::move(look));
 }
 
+SyncRun run_p4_by_model(const SyncCase &setting, std::uint64_t seed) {
+  return P4Loop{setting, seed}.run();
+}
+
 }  // namespace vericansim

@@ -42,4 +42,7 @@ class P4Loop {
   unsigned rounds_ = 0;
 };
 
+/// Runs a seed by the model.
+[[nodiscard]] SyncRun run_p4_by_model(const SyncCase &setting, std::uint64_t seed);
+
 }  // namespace vericansim

@@ -24,10 +24,10 @@ constexpr unsigned kFirstPairs = 2;
 
 class RtlP4 {
  public:
-  RtlP4(const SyncCase &setting, std::uint64_t seed)
+  RtlP4(const SyncCase &setting, IdleGaps gaps, std::uint64_t seed)
       : interval_{std::llround(setting.interval_s * static_cast<double>(kSecond))},
         intervals_{setting.intervals},
-        bench_{setting, IdleGaps::kSkipped, seed,
+        bench_{setting, gaps, seed,
                [&setting](unsigned n) {
                  if (n == 0) return 0.0;
                  return n % 2 == 1 ? setting.clocks.spread_ppm : -setting.clocks.spread_ppm;
@@ -155,8 +155,12 @@ class RtlP4 {
 
 }  // namespace
 
+SyncRun run_p4_by_rtl(const SyncCase &setting, std::uint64_t seed) {
+  return RtlP4{setting, IdleGaps::kClocked, seed}.run();
+}
+
 SyncRun run_p4_by_skip(const SyncCase &setting, std::uint64_t seed) {
-  return RtlP4{setting, seed}.run();
+  return RtlP4{setting, IdleGaps::kSkipped, seed}.run();
 }
 
 }  // namespace vericansim

@@ -12,8 +12,11 @@
 
 namespace vericansim {
 
-/// One seed, idle gaps skipped. Odd followers are fast by the whole spread, even ones slow, the
-/// master is right. Followers are locked once they know their delay.
+/// One seed, every clock of every node. Odd followers are fast by the whole spread, even ones slow,
+/// the master is right. Followers are locked once they know their delay.
+[[nodiscard]] SyncRun run_p4_by_rtl(const SyncCase &setting, std::uint64_t seed);
+
+/// The same with idle gaps skipped.
 [[nodiscard]] SyncRun run_p4_by_skip(const SyncCase &setting, std::uint64_t seed);
 
 }  // namespace vericansim

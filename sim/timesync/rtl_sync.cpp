@@ -25,18 +25,6 @@ constexpr int kPolls = 10, kLooks = 16;
 // Software gets to its poll so much later, evenly, as in the model.
 constexpr double kPollLate = 100.0 * kMicrosecond;
 
-void check(bool ok, const char *what) {
-  if (!ok)
-    throw std::invalid_argument(std::string{"on RTL: "} + what + " is not possible; use model");
-}
-
-void check(const SyncCase &setting) {
-  check(setting.load == 0 && setting.load_above == 0, "a load");
-  check(setting.bit_errors == 0, "a bit error");
-  check(setting.displaced == 0, "a displaced edge");
-  check(setting.master_late_ns == 0 && setting.master_uneven_ns == 0, "a late master");
-}
-
 // Constant errors: as the model draws them.
 std::vector<double> errors_of(const SyncCase &setting, std::uint64_t seed) {
   std::mt19937_64 dice{seed};
@@ -148,19 +136,22 @@ class RtlSync {
   SyncRun run_;
 };
 
-SyncRun run_on_rtl(const SyncCase &setting, IdleGaps gaps, std::uint64_t seed) {
-  check(setting);
-  return RtlSync{setting, gaps, seed}.run();
-}
-
 }  // namespace
 
+const char *missing_on_rtl(const SyncCase &setting) {
+  if (setting.load != 0 || setting.load_above != 0) return "load";
+  if (setting.bit_errors != 0) return "bit errors";
+  if (setting.displaced != 0) return "displaced edges";
+  if (setting.master_late_ns != 0 || setting.master_uneven_ns != 0) return "late master";
+  return nullptr;
+}
+
 SyncRun run_by_rtl(const SyncCase &setting, std::uint64_t seed) {
-  return run_on_rtl(setting, IdleGaps::kClocked, seed);
+  return RtlSync{setting, IdleGaps::kClocked, seed}.run();
 }
 
 SyncRun run_by_skip(const SyncCase &setting, std::uint64_t seed) {
-  return run_on_rtl(setting, IdleGaps::kSkipped, seed);
+  return RtlSync{setting, IdleGaps::kSkipped, seed}.run();
 }
 
 }  // namespace vericansim

@@ -12,8 +12,10 @@
 
 namespace vericansim {
 
-/// Runs a seed of a case, every clock of every node. std::invalid_argument: the case has a load,
-/// bit errors, displaced edges or a master that stamps late, which this way does not know.
+/// What of a case cannot be run on RTL; nullptr: nothing.
+[[nodiscard]] const char *missing_on_rtl(const SyncCase &setting);
+
+/// Runs a seed of a case, every clock of every node; missing_on_rtl() is left out.
 [[nodiscard]] SyncRun run_by_rtl(const SyncCase &setting, std::uint64_t seed);
 
 /// The same with idle gaps skipped.

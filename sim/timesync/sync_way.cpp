@@ -6,14 +6,23 @@
 
 #include <stdexcept>
 
+#include "timesync/p4_loop.hpp"
+#include "timesync/rtl_p4.hpp"
+#include "timesync/rtl_sync.hpp"
 #include "timesync/sync_loop.hpp"
 
 namespace vericansim {
 namespace {
 
+const char *nothing(const SyncCase &) { return nullptr; }
+
 constexpr SyncWay kWays[] = {
     {"model", "no RTL: oscillators, clock registers, stamps and frames in closed form",
-     run_by_model},
+     run_by_model, run_p4_by_model, nothing},
+    {"skip", "RTL and driver on each node; idle gaps of the bus in closed form", run_by_skip,
+     run_p4_by_skip, missing_on_rtl},
+    {"rtl", "RTL and driver on each node, every clock of it", run_by_rtl, run_p4_by_rtl,
+     missing_on_rtl},
 };
 
 }  // namespace
@@ -27,6 +36,12 @@ const SyncWay &sync_way(const std::string &name) {
     names += (names.empty() ? "" : ", ") + std::string{way.name};
   }
   throw std::invalid_argument("--how: '" + name + "' is not allowed; allowed: " + names);
+}
+
+void check_way(const SyncWay &way, const SyncCase &setting) {
+  if (const char *missing = way.missing(setting); missing != nullptr)
+    throw std::invalid_argument("--how " + std::string{way.name} + " knows no " + missing +
+                                "; --how model does");
 }
 
 SyncFigures run_case(const SyncWay &way, const SyncCase &setting) {

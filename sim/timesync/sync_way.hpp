@@ -18,7 +18,12 @@ namespace vericansim {
 struct SyncWay {
   const char *name;
   const char *what;  ///< one line for people
+  /// A seed of a case: CanTSyn, stamps in hardware, the driver's servo.
   SyncRun (*run)(const SyncCase &setting, std::uint64_t seed);
+  /// A seed of the published experiment: followers +spread and -spread in turn, offset alone.
+  SyncRun (*run_p4)(const SyncCase &setting, std::uint64_t seed);
+  /// What of a case this way does not know, for people; nullptr: nothing.
+  const char *(*missing)(const SyncCase &setting);
 };
 
 /// All that are built; the first is the usual one.
@@ -27,9 +32,13 @@ struct SyncWay {
 /// The way of that name. Throws std::invalid_argument that lists the names.
 [[nodiscard]] const SyncWay &sync_way(const std::string &name);
 
-/// Runs all seeds of a case; `each`, if given, sees every run.
+/// std::invalid_argument, if the way does not know all of the case.
+void check_way(const SyncWay &way, const SyncCase &setting);
+
+/// Runs all seeds of a case; `each`, if given, sees every run. Throws as check_way().
 template <typename See>
 SyncFigures run_case(const SyncWay &way, const SyncCase &setting, See each) {
+  check_way(way, setting);
   SyncFigures figures;
   for (std::uint64_t seed = 1; seed <= setting.seeds; ++seed) {
     SyncRun run = way.run(setting, seed);

@@ -107,6 +107,57 @@ TEST(Clock, WalkIsGivenByItsSeed) {
   EXPECT_NE(a.next(), c.next());
 }
 
+// TM-120: the error is kept to 10^-11: after 10^10 edges of 1 ns, 0.1 ns more or less each.
+TEST(ClockWander, ErrorIsKeptToAHundredThousandthOfAPpm) {
+  for (const double hundred_thousandths : {0.0, 1.0, -3.0, 123'456.0}) {
+    Clock clock{{.frequency_hz = 1e9, .error_ppm = hundred_thousandths * 1e-5}};
+    constexpr std::uint64_t kEdges = 10'000'000'000;
+    EXPECT_NEAR(static_cast<double>(clock.after(kEdges)), 1e13 / (1 + hundred_thousandths * 1e-11),
+                2);
+  }
+}
+
+// TM-120: the frequency of a free walk moves with the square root of the time, steps are 10 ms.
+TEST(ClockWander, FreeWalkHasItsDensity) {
+  constexpr double kDensity = 1e-7;
+  constexpr int kWalks = 2000;
+  double squares = 0;
+  for (int walk = 1; walk <= kWalks; ++walk) {
+    Clock clock{{.frequency_hz = 1e3,
+                 .wander = Wander::kFree,
+                 .wander_density = kDensity,
+                 .seed = static_cast<std::uint64_t>(walk) * 0x9E3779B97F4A7C15}};
+    clock.pass(4000);
+    squares += clock.error_ppm() * clock.error_ppm();
+  }
+  EXPECT_NEAR(std::sqrt(squares / kWalks), 1e6 * kDensity * 2, 0.01);  // 4 s
+}
+
+// TM-120: a clock that wanders is skipped piece by piece.
+TEST(ClockWander, SkippedAsTicked) {
+  for (const Wander kind : {Wander::kSine, Wander::kWalk, Wander::kFree}) {
+    Clock ticked{{.frequency_hz = 1e6,
+                  .error_ppm = 40,
+                  .wander = kind,
+                  .wander_ppm = 90,
+                  .wander_density = 1e-5,
+                  .wander_period = 3 * kSecond}};
+    Clock skipped = ticked;
+    for (Time until = 123'456'789; until < 5 * kSecond; until = until * 3 + 1) {
+      while (ticked.next() <= until) ticked.tick();
+      skipped.skip(until);
+      EXPECT_EQ(skipped.next(), ticked.next());
+      EXPECT_EQ(skipped.cycles(), ticked.cycles());
+    }
+    EXPECT_NE(ticked.error_ppm(), 40);
+  }
+}
+
+TEST(ClockWander, DensityIsChecked) {
+  EXPECT_THROW((Clock{{.wander = Wander::kFree, .wander_density = -1e-9}}), std::invalid_argument);
+  EXPECT_THROW((Clock{{.wander = Wander::kFree, .wander_density = 2e-3}}), std::invalid_argument);
+}
+
 TEST(Clock, InStepOnlyIfAllEdgesCoincide) {
   EXPECT_TRUE(Clock{{}}.in_step_with(Clock{{}}));
   EXPECT_FALSE(Clock{{}}.in_step_with(Clock{{.error_ppm = 1}}));
