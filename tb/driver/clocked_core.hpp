@@ -7,12 +7,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <random>
 #include <vector>
 
 #include "driver/fake_core.hpp"
-#include "driver/sync_loop.hpp"
+#include "timesync/clock_node.hpp"
 #include "verican/timesync.h"
 
 namespace vericansim {
@@ -41,7 +42,7 @@ class ClockedCore : public FakeCore {
 
  private:
   std::uint64_t pair(std::uint32_t low) { return std::uint64_t{word(low + 4)} << 32 | word(low); }
-  void change(std::int64_t shift) { clock.apply(edge(), {shift, clock.increment, false, 0}); }
+  void change(std::int64_t shift) { clock.apply(edge(), {shift, clock.increment(), false, 0}); }
   void command(std::uint32_t offset) {
     if (offset == VERICAN_TIMEHI_OFFSET)
       change(static_cast<std::int64_t>(pair(VERICAN_TIMELO_OFFSET) - clock.at(edge())));
@@ -109,7 +110,7 @@ class DomainBus {
 
   DomainNode &add() {
     const double error = std::uniform_real_distribution<double>{-100e-6, 100e-6}(dice_);
-    const Oscillator oscillator{frequency_hz_, error, 0, dice_()};
+    const Oscillator oscillator{frequency_hz_, {.constant = error}, dice_()};
     nodes.push_back(std::make_unique<DomainNode>(ClockNode{oscillator, dice_() >> 3}, &now));
     return *nodes.back();
   }

@@ -236,7 +236,7 @@ TEST(Redundancy, WorseMasterIsIgnored) {
 
 TEST(TimeSync, Arguments) {
   Nanoseconds now = 1e6;
-  const Oscillator oscillator{16e6, 0, 0, 1};
+  const Oscillator oscillator{16e6, {}, 1};
   DomainNode node{ClockNode{oscillator, 5}, &now};
   verican_tsyn_config_t config = config_of();
   verican_tsyn_t tsyn{};
