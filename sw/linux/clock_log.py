@@ -9,9 +9,9 @@ from fractions import Fraction
 TCTRL, TIMELO, TIMEHI, TINCN, TINCF = 0x1104, 0x1110, 0x1114, 0x1118, 0x111C
 TSHLO, TSHHI, TSLEW, TCMP, TCMPH = 0x1120, 0x1124, 0x1128, 0x1130, 0x1134
 NOMINAL = 8_000_000  # Hz, of the device tree
-# A command acts four clocks after its write; the log has a write two clocks after, a reading with
+# A command acts four clocks after its write; the log has a write one or two later, a reading with
 # its clock. One clock more or less where two oscillators share the time.
-LATENCY = Fraction(3, NOMINAL) * 10**9
+LATENCY = Fraction(4, NOMINAL) * 10**9
 CLOCK = Fraction(1, NOMINAL) * 10**9
 LINE = re.compile(r"(\d+\.\d{3}) ([RW]) ([0-9a-f]{3,4}) ([0-9a-f]{8}) ([01])$")
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a run of a script with hardware clocks must have left behind: one function a script."""
 import re
+from fractions import Fraction
 
 import clock_log
 from judge import Failed, expect, expect_true
@@ -56,3 +57,23 @@ def ptpprobe(run):
     # The driver that comes back leaves the time.
     (before,), (after,) = shown(run.text("get0.txt")), shown(run.text("again0.txt"))
     expect_true(first < before < after < before + 100_000, "the time across a removal")
+
+
+def ptpcalls(run):
+    clock, readings = follow(run, 0)
+    expect_true(not clock.unknown and len(readings) >= 6, "readings")
+    # phc_ctl has ppb, the kernel 2^-16 ppm: what is lost there is not the driver's.
+    wanted = [0, 100_000, -100_000_000, 100_000_000, Fraction("12345.678")]
+    expect(len(clock.increments), len(wanted), "rates that were written")
+    for found, ppb in zip(clock.increments, wanted):
+        scaled = int(ppb * Fraction(65536, 1000))
+        exact = clock_log.CLOCK * (1 + Fraction(scaled, 65536 * 10**6))
+        expect_true(abs(found - exact) <= Fraction(1, 1 << 32),
+                    f"increment for {ppb} ppb: {float(found)}, expected {float(exact)}")
+    (fast,) = shown(run.text("fast.txt"))
+    gain = (PPM[0] + 100) * 10 * 1000
+    expect_near(fast, 1_000_000_010 * SECOND + gain, 20_000, "after 10 s at +100 ppm")
+    back, forth = shown(run.text("shift.txt"))
+    expect_near(back - fast, -3 * SECOND // 2, 50_000, "shift back")
+    expect_near(forth - back, 86_400_250_000_000, 50_000, "shift forth")
+    expect_true("out of range" in run.text("beyond.txt"), "a rate beyond max_adj was taken")

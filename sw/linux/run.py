@@ -63,6 +63,7 @@ def cases(short):
         Case("reload", "reload"),
         Case("rxrtr", "rxrtr", chips=("imx28",)),
         Case("ptp-probe", "ptpprobe", chips=CLOCKS, short=True),
+        Case("ptp-calls", "ptpcalls", chips=CLOCKS),
         Case("repeatable", "exchange", few, short=True, twice=True),
         Case("red-lost-frame", "exchange", {**few, "VERICAN_SABOTAGE": "lose-frame"}, short=True,
              red=True),

@@ -78,8 +78,13 @@ static inline void verican_write(struct verican_ptp *vp, unsigned int offset, u3
 static inline void verican_write_pair(struct verican_ptp *vp, unsigned int offset, u32 first,
 				      u32 second)
 {
+	int clocks;
+
 	verican_write(vp, offset, first);
 	verican_write(vp, offset + 4, second);
+	/* It acts four clocks later, and whoever looks at the time then must see it. */
+	for (clocks = 0; clocks < 4; clocks++)
+		verican_read(vp, TSTAT);
 }
 
 static inline void verican_change_ctrl(struct verican_ptp *vp, u32 clear, u32 set)
