@@ -20,14 +20,16 @@ BitTiming SaturatedBus::timing(unsigned megahertz) {
   }
 }
 
-SaturatedBus::SaturatedBus(unsigned nodes, unsigned megahertz, bool drift) {
+SaturatedBus::SaturatedBus(unsigned nodes, unsigned megahertz, bool drift, bool with_time) {
   for (unsigned i = 0; i < nodes; ++i) {
     ClockConfig clock{.frequency_hz = megahertz * 1e6};
     if (drift) {
       clock.error_ppm = (i % 2 == 0 ? 1.0 : -1.0) * (50.0 + 13.0 * i);
       clock.phase = static_cast<Time>(1013 * i);
     }
-    nodes_.push_back(RtlNode::create("node" + std::to_string(i), clock));
+    const std::string name = "node" + std::to_string(i);
+    nodes_.push_back(with_time ? RtlNode::create_with_time(name, clock)
+                               : RtlNode::create(name, clock));
     bus_.add(*nodes_.back());
     HostConfig config;
     config.timing = timing(megahertz);

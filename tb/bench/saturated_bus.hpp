@@ -13,10 +13,10 @@
 namespace vericansim {
 
 /// Nodes on a bus that is never idle. `drift`: every oscillator has its own error, and the kernel
-/// runs by events; otherwise all nodes share an ideal clock.
+/// runs by events; otherwise all nodes share an ideal clock. `with_time`: cores with the time unit.
 class SaturatedBus {
  public:
-  SaturatedBus(unsigned nodes, unsigned megahertz, bool drift);
+  SaturatedBus(unsigned nodes, unsigned megahertz, bool drift, bool with_time = false);
 
   void run_for(Time duration) { bus_.run_for(duration); }
   [[nodiscard]] std::uint64_t cycles() const;

@@ -15,9 +15,9 @@ namespace vericansim {
 namespace {
 
 // Arguments: nodes, MHz, 1 = every node has its own clock. One iteration is 2 ms of simulated time.
-void saturated_bus(benchmark::State &state) {
+void run_saturated(benchmark::State &state, bool with_time) {
   SaturatedBus net(static_cast<unsigned>(state.range(0)), static_cast<unsigned>(state.range(1)),
-                   state.range(2) != 0);
+                   state.range(2) != 0, with_time);
   constexpr Time kSlice = 2 * kMillisecond;
   const std::uint64_t cycles = net.cycles();
   const std::uint64_t received = net.received();
@@ -30,9 +30,17 @@ void saturated_bus(benchmark::State &state) {
   state.counters["frames/ms"] = static_cast<double>(net.received() - received) /
                                 static_cast<double>(state.range(0) - 1) / simulated / 1e3;
 }
+void saturated_bus(benchmark::State &state) { run_saturated(state, false); }
 BENCHMARK(saturated_bus)
     ->ArgNames({"nodes", "MHz", "drift"})
     ->ArgsProduct({{2, 4, 8}, {8, 16, 50, 80}, {0, 1}})
+    ->Unit(benchmark::kMillisecond);
+
+// The same with the time unit (TM-126).
+void bus_with_time(benchmark::State &state) { run_saturated(state, true); }
+BENCHMARK(bus_with_time)
+    ->ArgNames({"nodes", "MHz", "drift"})
+    ->ArgsProduct({{2}, {8, 16, 50, 80}, {0, 1}})
     ->Unit(benchmark::kMillisecond);
 
 // A node that does nothing: what is left is the kernel.
