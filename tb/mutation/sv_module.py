@@ -64,6 +64,8 @@ class ModuleReader:
         elif word == "if":                  # checks of parameters
             while reader.take().text != "end":
                 pass
+        elif word == "for":
+            self.loop()
         elif word.startswith("can_") and "_pkg::" not in word:
             self.instance()
         else:                               # declarations
@@ -77,6 +79,16 @@ class ModuleReader:
             sites = len(self.sites)
             self.block()
             del self.sites[sites:]
+
+    def loop(self):
+        """A loop of instances, one place in the text for all of them: no mutants."""
+        reader = self.reader
+        while reader.take().text != "begin":
+            pass
+        depth = 1
+        while depth > 0:
+            word = reader.take().text
+            depth += (word in ("begin", "case")) - (word in ("end", "endcase"))
 
     def block(self):
         """The items of a labelled block."""
