@@ -90,7 +90,7 @@ Nanoseconds P4Loop::wait_for(unsigned n, std::uint32_t message, Nanoseconds t) {
 }
 
 void P4Loop::look(Nanoseconds t) {
-  const auto state = rounds_ > 1 ? VERICAN_SYNC_LOCKED : VERICAN_SYNC_ACQUIRING;
+  const std::uint8_t state = rounds_ > 1 ? VERICAN_SYNC_LOCKED : VERICAN_SYNC_ACQUIRING;
   SyncLook look{to_picoseconds(t), {}};
   for (unsigned n = 0; n < setting_.followers; ++n)
     look.followers.push_back({to_picoseconds(nodes[n + 1].ahead_of(nodes[0], t)), state});

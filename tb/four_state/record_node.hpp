@@ -83,7 +83,7 @@ class RecordNode final : public RtlNode {
     throw std::logic_error("a recorded node has no second copy to look into");
   }
   void request_stop(bool stop) override { top_.stop_req_i = stop; }
-  void external(bool level) { top_.ext_i = level; }
+  void external(bool level) override { top_.ext_i = level; }
   [[nodiscard]] std::uint64_t trace() const override { return top_.trace_o; }
   [[nodiscard]] std::uint8_t irq_lines() const override { return model_irq_lines(top_); }
 
