@@ -16,12 +16,30 @@ struct ClockLeap {
   bool carry2 = false;           ///< carry2_q: the same, of the clock before
   bool carry3 = false;           ///< carry3_q: out of the lower half, on its way to the upper one
 
-  /// `clocks` (at least 3) later; `increment` in 2^-32 ns a clock, 40 bits (TM-10).
+  /// One clock later; `increment` in 2^-32 ns a clock, 40 bits (TM-10).
+  void step(std::uint64_t increment) {
+    const std::uint64_t lower = lo + (increment >> 32) + carry2;
+    const std::uint64_t part = fraction + (increment & 0xFFFF'FFFF);
+    hi += carry3;
+    lo = static_cast<std::uint32_t>(lower);
+    carry3 = (lower >> 32) != 0;
+    carry2 = carry;
+    fraction = static_cast<std::uint32_t>(part);
+    carry = (part >> 32) != 0;
+  }
+
+  /// `clocks` later, any number of them.
   ///
   /// Whole and fraction grow as one number once carries on their way are counted as done; which
-  /// carries are on their way then follows from the last sums: one that is smaller than what was
-  /// added has wrapped.
+  /// carries are on their way then follows from the last sums, if there were three of them: one
+  /// that is smaller than what was added has wrapped.
   void pass(std::uint64_t clocks, std::uint64_t increment) {
+    if (clocks >= 3) return leap(clocks, increment);
+    for (; clocks > 0; --clocks) step(increment);
+  }
+
+ private:
+  void leap(std::uint64_t clocks, std::uint64_t increment) {
     __extension__ using Wide = unsigned __int128;
     const auto step = static_cast<std::uint32_t>(increment);
     const std::uint64_t whole =

@@ -22,7 +22,6 @@ namespace {
 
 // What follows the lower half some clocks later follows it in these edges, which are evaluated.
 constexpr std::uint64_t kEvaluated = 4;
-constexpr std::uint64_t kShortestLeap = 3;
 
 // The members that the model of can_time has in its root, if Verilator (5.006) left them there.
 #define VERICAN_TIME(root, member) \
@@ -205,7 +204,7 @@ std::uint64_t TimeNode::quiet() const {
 void TimeNode::pass(std::uint64_t edges) {
   passed(edges);
   if constexpr (kKnown<Impl::Root>) {
-    if (edges >= kShortestLeap + kEvaluated) {
+    if (edges > kEvaluated) {
       auto &root = *impl_->top.rootp;
       const std::uint64_t leap = edges - kEvaluated;
       ClockLeap clock = clock_of(root);

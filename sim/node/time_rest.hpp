@@ -10,7 +10,9 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "node/clock_leap.hpp"
 #include "node/model_edge.hpp"
+#include "verican/verican_regs.h"
 
 class Vcan_core_time;
 
@@ -23,13 +25,14 @@ inline constexpr bool kHasTimeUnit = std::is_same_v<Engine, Vcan_core_time>;
 /// `time_out_o` of a whole core around `engine`, which is that of two of its flip-flops (TM-31).
 template <typename Engine>
 [[nodiscard]] bool time_out_of(const Engine &engine) {
-  constexpr unsigned kStatOut = 2, kTctrlOuten = 12;  // can_pkg::TimeStatOut, TCTRL
-  return (engine.time_stat_o >> kStatOut & engine.time_tctrl_i >> kTctrlOuten & 1U) != 0;
+  constexpr unsigned kStatOut = 1U << 2;  // can_pkg::TimeStatOut
+  return (engine.time_stat_o & kStatOut) != 0 &&
+         (engine.time_tctrl_i & VERICAN_TCTRL_OUTEN_MASK) != 0;
 }
 
 /// While nobody asks anything of the clock, nothing is slewed, no level changes and neither a
 /// compare nor a launch is due, only the numbers of the clock change (TM-10), and any count of
-/// clocks is a multiplication (rtl/time/can_clock.sv). An engine without the time unit is always at
+/// clocks is a multiplication (ClockLeap). An engine without the time unit is always at
 /// rest here. Proven member by member in tb/system/bus_quiet_engine_test.cpp.
 class TimeRest {
  public:
@@ -135,7 +138,6 @@ class TimeRest {
   template <typename Engine>
   static bool stamp_steady(const Engine &engine) {
     const auto &root = *engine.rootp;
-    constexpr unsigned kPointMask = 3, kTxpinBit = 2;  // TCTRL
     const unsigned busy = engine.time_stamp_we_o | engine.stamp_o | engine.rx_valid_o;
     const bool level = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__rx_q ==
                            root.can_core__DOT__rx &&
@@ -148,8 +150,8 @@ class TimeRest {
     if (!between) return fixed == told;
     const unsigned point = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__point_q;
     const unsigned txpin = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__txpin_q;
-    return fixed == 0 && told == 0 && point == (engine.time_tctrl_i & kPointMask) &&
-           txpin == (engine.time_tctrl_i >> kTxpinBit & 1);
+    return fixed == 0 && told == 0 && point == VERICAN_TCTRL_POINT_GET(engine.time_tctrl_i) &&
+           (txpin != 0) == ((engine.time_tctrl_i & VERICAN_TCTRL_TXPIN_MASK) != 0);
   }
 
   template <typename Engine>
@@ -185,71 +187,57 @@ class TimeRest {
     return clocks_before(root, engine.time_ttx_i);
   }
 
-  // The carry of a clock's fraction reaches the lower half two clocks later, that of the lower half
-  // the upper one a clock later.
+  template <typename Root>
+  static ClockLeap clock_of(const Root &root) {
+    return {root.can_core__DOT__gen_time__DOT__u_time__DOT__lo,
+            root.can_core__DOT__gen_time__DOT__u_time__DOT__hi,
+            root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__fraction_q,
+            root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry_q != 0,
+            root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry2_q != 0,
+            root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry3_q != 0};
+  }
+
+  template <typename Root>
+  static void set_clock(Root &root, const ClockLeap &clock) {
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__lo = clock.lo;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__hi = clock.hi;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__fraction_q = clock.fraction;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry_q = clock.carry;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry2_q = clock.carry2;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry3_q = clock.carry3;
+  }
+
+  // The clock, and what follows its lower half: a clock behind it, or in the same.
   template <typename Root>
   static void pass_(Root &root, std::uint64_t count) {
-    auto &fraction = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__fraction_q;
-    auto &carry = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry_q;
-    auto &carry2 = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry2_q;
-    auto &carry3 = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry3_q;
-    auto &lo = root.can_core__DOT__gen_time__DOT__u_time__DOT__lo;
-    auto &hi = root.can_core__DOT__gen_time__DOT__u_time__DOT__hi;
-    const std::uint32_t whole =
-        root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__incn_q;
-    const std::uint64_t part = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__incf_q;
-    const auto step = [&] {  // the fraction's clock
-      carry2 = carry;
-      const std::uint64_t sum = fraction + part;
-      fraction = static_cast<std::uint32_t>(sum);
-      carry = static_cast<std::uint8_t>(sum >> 32);
-    };
-    const std::uint64_t before_last = count - 1;
-    std::uint64_t time = ((std::uint64_t{hi} + carry3) << 32 | lo) + before_last * whole;
-    std::uint64_t in = carry2;  // the carry that the last clock but one has added
-    if (before_last == 1) {
-      time += carry2;
-      step();
-    } else if (before_last > 1) {
-      // What comes in: two carries that are under way, and all that are made but for the last two.
-      __extension__ using Wide = unsigned __int128;
-      const Wide sum = Wide{fraction} + Wide{before_last - 2} * part;
-      time += carry2 + carry + static_cast<std::uint64_t>(sum >> 32);
-      in = before_last == 2 ? carry : static_cast<std::uint32_t>(sum) < part;
-      fraction = static_cast<std::uint32_t>(sum);
-      step();
-      step();
-    }
-    const std::uint64_t last = time + whole + carry2;
-    step();
-    carry3 = (last >> 32) != (time >> 32);
-    hi = static_cast<std::uint32_t>(time >> 32);
-    lo = static_cast<std::uint32_t>(last);
+    const std::uint64_t increment =
+        std::uint64_t{root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__incn_q} << 32 |
+        root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__incf_q;
+    const unsigned bit = 13 - VERICAN_TCTRL_SLEWR_GET(root.time_tctrl_i);
     auto &slew_bit = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__slew_bit;
-    constexpr unsigned kSlewrAt = 4;  // TCTRL
-    const unsigned bit = 13 - (root.time_tctrl_i >> kSlewrAt & 3);
     auto &bit_q = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__bit_q;
-    const auto bit_of = [bit](std::uint64_t ns) {
-      return static_cast<std::uint8_t>(ns >> bit & 1);
-    };
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__changed_q =
-        before_last == 0 ? slew_bit != bit_q : bit_of(time) != bit_of(time - whole - in);
-    slew_bit = bit_of(lo);
-    bit_q = bit_of(time);
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__lo_q = static_cast<std::uint32_t>(time);
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__now =
-        std::uint64_t{hi} << 32 | static_cast<std::uint32_t>(time);
-    // What has been reached looks at the lower half that is a clock ahead.
-    const auto to_go = [](std::uint32_t target, std::uint64_t ns) {
-      return target + ~static_cast<std::uint32_t>(ns);
-    };
+    auto &changed = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__changed_q;
+    ClockLeap clock = clock_of(root);
+    changed = slew_bit != bit_q;
+    if (count > 1) {
+      clock.pass(count - 2, increment);
+      const std::uint32_t before = clock.lo;
+      clock.step(increment);
+      changed = ((before ^ clock.lo) >> bit & 1) != 0;
+    }
+    const std::uint32_t last = clock.lo;
+    clock.step(increment);
+    set_clock(root, clock);
+    slew_bit = clock.lo >> bit & 1;
+    bit_q = last >> bit & 1;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__lo_q = last;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__now = std::uint64_t{clock.hi} << 32 | last;
     const std::uint32_t target =
         root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__target_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__to_target = to_go(target, lo);
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__reached_q =
-        static_cast<std::uint8_t>(to_go(target, time) >> 31);
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__to_target = target + ~clock.lo;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__reached_q = (target + ~last) >> 31;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__due_q =
-        static_cast<std::uint8_t>(to_go(root.time_ttx_i, time) >> 31);
+        (root.time_ttx_i + ~last) >> 31;
   }
 };
 

@@ -30,6 +30,7 @@
 #include "node/model_pins.hpp"
 #include "node/rtl_node.hpp"
 #include "node/time_rest.hpp"
+#include "verican/verican_regs.h"
 
 namespace vericansim {
 namespace {
@@ -200,22 +201,21 @@ TEST_P(SplitCoreTest, IsTheWholeCoreInEveryClock) {
 
 // The time unit's registers and stamps are read, and written, at any time (TM-122).
 TEST_P(SplitCoreTest, IsTheWholeCoreWithTheTimeUnit) {
-  constexpr std::uint32_t kFirst = 0x1100, kWords = 22, kStamps = 0x1400;
-  constexpr std::uint32_t kTimelo = 0x1110, kTimehi = 0x1114;
+  constexpr std::uint32_t kWords = (VERICAN_TEXTHI_OFFSET - VERICAN_TCAP_OFFSET) / 4 + 1;
   unsigned changes = 0;
   std::uint32_t last = 0;
   compare_on_bus<TimeTwinNode>(GetParam(), [&](TimeTwinNode &node, std::mt19937 &random) {
     for (int n = 0; n < 4; ++n) {
       const std::uint32_t word = random() % 3;
-      const std::uint32_t address = kFirst + 4 * (random() % kWords);
+      const std::uint32_t address = VERICAN_TCAP_OFFSET + 4 * (random() % kWords);
       if (word == 0) node.write32(address, random());
       changes += std::exchange(last, node.read32(address)) != last;
-      node.read32(kStamps + 4 * (random() % 128));
+      node.read32(VERICAN_STAMPLO_OFFSET(0) + 4 * (random() % 128));
     }
     // The upper half alone changes on the engine's side, a clock after the lower one.
-    node.write32(kTimehi, random());
-    node.read32(kTimelo);
-    node.read32(kTimehi);
+    node.write32(VERICAN_TIMEHI_OFFSET, random());
+    node.read32(VERICAN_TIMELO_OFFSET);
+    node.read32(VERICAN_TIMEHI_OFFSET);
   });
   EXPECT_GT(changes, 100u);
 }

@@ -13,13 +13,12 @@
 #include "bus/bus.hpp"
 #include "node/host.hpp"
 #include "node/rtl_node.hpp"
+#include "verican/verican_regs.h"
 
 namespace vericansim {
 namespace {
 
 constexpr Time kBit = kMicrosecond;  // 8 clocks of 8 MHz
-constexpr std::uint32_t kTctrl = 0x1104, kTimelo = 0x1110, kTimehi = 0x1114, kTincn = 0x1118,
-                        kTincf = 0x111C, kTslew = 0x1128, kTcmp = 0x1130, kTcmph = 0x1134;
 
 std::vector<ClockConfig> steady() {
   return {{.error_ppm = 100}, {.error_ppm = -80, .phase = 20'000}, {.phase = 91'000}};
@@ -43,12 +42,13 @@ struct TimeBus {
     }
     for (auto &host : hosts) host->start_and_wait();
     for (auto &node : nodes) {
-      node->write32(kTincn, 125);
-      node->write32(kTincf, 0x1234'5678);
+      node->write32(VERICAN_TINCN_OFFSET, 125);
+      node->write32(VERICAN_TINCF_OFFSET, 0x1234'5678);
     }
-    nodes[1]->write32(kTctrl, 0x3031);  // compare with output
-    nodes[1]->write32(kTcmph, 500'000'000);
-    nodes[1]->write32(kTcmp, 700'000'000);
+    nodes[1]->write32(VERICAN_TCTRL_OFFSET,
+                      VERICAN_TCTRL_RESET | VERICAN_TCTRL_CMPEN_MASK | VERICAN_TCTRL_OUTEN_MASK);
+    nodes[1]->write32(VERICAN_TCMPH_OFFSET, 500'000'000);
+    nodes[1]->write32(VERICAN_TCMP_OFFSET, 700'000'000);
   }
   /// Up to `until`, with as little work as is allowed; true if anything was left out.
   bool run(Time until, bool skips) {
@@ -61,8 +61,8 @@ struct TimeBus {
     return skipped;
   }
   std::uint64_t time(unsigned n) {
-    const std::uint64_t low = nodes[n]->read32(kTimelo);
-    return low | std::uint64_t{nodes[n]->read32(kTimehi)} << 32;
+    const std::uint64_t low = nodes[n]->read32(VERICAN_TIMELO_OFFSET);
+    return low | std::uint64_t{nodes[n]->read32(VERICAN_TIMEHI_OFFSET)} << 32;
   }
 
   std::array<std::unique_ptr<RtlNode>, 3> nodes;
@@ -86,7 +86,7 @@ void run_both(const std::vector<ClockConfig> &clocks) {
   unsigned skipped = 0;
   for (unsigned i = 0; i < 12; ++i) {
     for (TimeBus *one : {&skips, &clocked}) {
-      one->nodes[2]->write32(kTslew, i * 5);
+      one->nodes[2]->write32(VERICAN_TSLEW_OFFSET, i * 5);
       ASSERT_TRUE(one->hosts[i % 3]->send_and_wait({.id = 0x100 + i, .dlc = 2}, kMillisecond));
       one->bus.run_for(20 * kBit);
     }
@@ -95,8 +95,9 @@ void run_both(const std::vector<ClockConfig> &clocks) {
     clocked.run(until, false);
     compare(skips, clocked);
     for (unsigned n = 0; n < 3; ++n)
-      for (std::uint32_t row = 0x1400; row < 0x1600; row += 4)
-        ASSERT_EQ(skips.nodes[n]->read32(row), clocked.nodes[n]->read32(row));
+      for (std::uint32_t row = 0; row < 64 * 8; row += 4)
+        ASSERT_EQ(skips.nodes[n]->read32(VERICAN_STAMPLO_OFFSET(0) + row),
+                  clocked.nodes[n]->read32(VERICAN_STAMPLO_OFFSET(0) + row));
   }
   EXPECT_EQ(skipped, 12u);
   for (unsigned n = 0; n < 3; ++n) {
