@@ -48,7 +48,9 @@ static s64 verican_arm(struct verican_ptp *vp)
 {
 	u64 now = verican_now(vp, NULL);
 	u64 lead = vp->pps ? OUTPUT_LEAD_PPS : OUTPUT_LEAD;
-	bool early = vp->out && vp->first > now + lead;
+	u64 next = vp->out ? next_edge(vp->first, 2ULL * vp->half, now + ARM_TIME) : 0;
+	/* Long periods, too, have their next edge beyond what the compare unit sees. */
+	bool early = next > now + lead && (!vp->pps || vp->first > now + lead);
 
 	if (vp->pps)
 		verican_run_compare(vp, 0, NSEC_PER_SEC / 2, now, vp->out && !early);
@@ -56,7 +58,7 @@ static s64 verican_arm(struct verican_ptp *vp)
 		verican_run_compare(vp, vp->first, vp->half, now, true);
 	else
 		verican_change_ctrl(vp, TCTRL_CMP, 0);
-	return early ? vp->first - lead - now : -1;
+	return early ? next - lead - now : -1;
 }
 
 long verican_do_aux_work(struct ptp_clock_info *info)
