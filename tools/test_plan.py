@@ -6,8 +6,9 @@ A test cites an id where it stands in the body of a TEST, TEST_F or TEST_P block
 lines directly above it, or directly above or inside an INSTANTIATE_TEST_SUITE_P (then for every
 TEST_P of that suite). DISABLED_ tests do not count. A range such as "SY-05..SY-09" cites its two
 ends only. In a unittest module (*_cases.py) a test cites what stands in its text, and what stands
-in the docstring of its class. Tests of the judges (model_*_test.cpp) are listed, but what they cite
-still needs a test of the core.
+in the docstring of its class. A judge of `make test-linux` (sw/linux/judge_*.py, one function a
+script) cites what stands in its docstring. Tests of the judges (model_*_test.cpp) are listed, but
+what they cite still needs a test of the core.
 
 The plan is a list of sections: `section`, `name`, `optional` (ids may be cited but need no test)
 and the ids with their titles; an id with {title, not_applicable: reason} must not be cited.
@@ -92,6 +93,14 @@ def python_citations(path, ids):
                     yield cited, f"{group.name}.{test.name}"
 
 
+def judge_citations(path, ids):
+    """Yields (id, "script") for every citation in the judges of the guests' scripts."""
+    for judge in ast.parse(path.read_text()).body:
+        if isinstance(judge, ast.FunctionDef):
+            for cited in ids.findall(ast.get_docstring(judge) or ""):
+                yield cited, judge.name
+
+
 @dataclass
 class Plan:
     """One plan, its page, and how to speak of it."""
@@ -143,6 +152,9 @@ class Plan:
                 cited[name][path.relative_to(ROOT).as_posix()].add(test)
         for path in sorted((ROOT / "tb").glob("*/*_cases.py")):
             for name, test in python_citations(path, self.ids):
+                cited[name][path.relative_to(ROOT).as_posix()].add(test)
+        for path in sorted((ROOT / "sw/linux").glob("judge_*.py")):
+            for name, test in judge_citations(path, self.ids):
                 cited[name][path.relative_to(ROOT).as_posix()].add(test)
         return cited
 

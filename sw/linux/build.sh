@@ -100,6 +100,7 @@ for module in glue ptp; do
   cp "$out/$module"/*.ko "$modules"
 done
 gcc -O2 -Wall -Wextra -Werror -shared -fPIC -o "$modules/wide_xstate.so" sw/linux/host/wide_xstate.c
+gcc -O2 -Wall -Wextra -Werror -o "$modules/request" sw/linux/guest/request.c
 # The glue's window spans those of the controllers, hence the addresses that two nodes share.
 for chip in ls1021ar2 imx28; do
   sed "s/@COMPATIBLE@/fsl,$chip-flexcan/; s/@CLOCK@/$clock/" sw/linux/dts/guest.dts.in |

@@ -55,10 +55,18 @@ class Clock:
         self.increments = []  # ns a clock, each that was written
         self.slews = []
         self.unknown = True  # until it is set, the reset counts
+        self.past = []  # (until, since, base, increment), oldest first
 
     def at(self, time):
         """What it shows."""
         return self.base + (time - self.since) * self.hertz * self.increment / 10**9
+
+    def was(self, time):
+        """What it showed at any time of the log."""
+        for until, since, base, increment in self.past:
+            if time < until:
+                return base + (time - since) * self.hertz * increment / 10**9
+        return self.at(time)
 
     def write(self, access):
         """A command."""
@@ -67,6 +75,7 @@ class Clock:
             self.held = access.value
         pair = access.value << 32 | self.held
         if access.offset in (TIMEHI, TSHHI, TINCF, TSLEW):
+            self.past.append((now, self.since, self.base, self.increment))
             self.base, self.since = self.at(now), now
         if access.offset == TIMEHI:
             self.base, self.unknown = Fraction(pair), False

@@ -34,6 +34,7 @@ def expect_near(found, wanted, tolerance, what):
 
 
 def ptpprobe(run):
+    """TM-110: the driver binds with and without the CAN driver, and leaves the time."""
     expect(run.text("names.txt").split(), ["verican", "verican"], "names of the clocks")
     expect_true("driver: flexcan" in run.text("driver.txt"), "the CAN driver is not beside it")
     caps = run.text("caps.txt")
@@ -60,6 +61,7 @@ def ptpprobe(run):
 
 
 def ptpcalls(run):
+    """TM-111: rates and shifts are the rule's; what is not allowed is refused."""
     clock, readings = follow(run, 0)
     expect_true(not clock.unknown and len(readings) >= 6, "readings")
     # phc_ctl has ppb, the kernel 2^-16 ppm: what is lost there is not the driver's.

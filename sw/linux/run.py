@@ -5,7 +5,8 @@
 and judges what came of it.
 
 Each case boots a user-mode Linux whose controllers are those of `verican linux`, runs a script of
-sw/linux/guest in it and hands the files it left to its judge (judge.py, judge_clock.py).
+sw/linux/guest in it and hands the files it left to its judge (judge.py, judge_clock.py,
+judge_events.py, judge_tools.py).
 """
 import argparse
 import concurrent.futures
@@ -22,12 +23,15 @@ from pathlib import Path
 
 import judge
 import judge_clock
+import judge_events
+import judge_tools
 
 ROOT = Path(__file__).resolve().parents[2]
 CHIPS = ("ls1021ar2", "imx28")
 # Controllers with time units: their device tree and their simulator.
 CLOCKS = ("time",)
 CLOCK_OPTIONS = ["--time-unit", f"--clock-ppm={','.join(str(ppm) for ppm in judge_clock.PPM)}"]
+JUDGES = (judge, judge_clock, judge_events, judge_tools)
 RATES = "125000,250000,500000,1000000"
 
 
@@ -64,6 +68,11 @@ def cases(short):
         Case("rxrtr", "rxrtr", chips=("imx28",)),
         Case("ptp-probe", "ptpprobe", chips=CLOCKS, short=True),
         Case("ptp-calls", "ptpcalls", chips=CLOCKS),
+        Case("ptp-perout", "ptpperout", chips=CLOCKS),
+        Case("ptp-extts", "ptpextts", chips=CLOCKS),
+        Case("ptp-pps", "ptppps", chips=CLOCKS),
+        Case("ptp-tools", "ptptools", chips=CLOCKS),
+        Case("ptp-ts2phc", "ptpts2phc", chips=CLOCKS),
         Case("repeatable", "exchange", few, short=True, twice=True),
         Case("red-lost-frame", "exchange", {**few, "VERICAN_SABOTAGE": "lose-frame"}, short=True,
              red=True),
@@ -143,7 +152,7 @@ def run_case(args, case, chip):
     try:
         result.guest, result.wall = boot(args, case, chip, directory)
         judge.common(run)
-        getattr(judge_clock if chip in CLOCKS else judge, case.script)(run)
+        next(getattr(module, case.script) for module in JUDGES if hasattr(module, case.script))(run)
         if case.twice:
             again = directory.with_name(directory.name + "-again")
             guest, wall = boot(args, case, chip, again)
