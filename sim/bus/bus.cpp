@@ -230,9 +230,11 @@ bool Bus::skip(Time until) {
   until = skip_end(until);
   if (until <= now_) return false;
   Time first = until + 1;
+  bool any = false;
   for (NodeId i = 0; i < size(); ++i) {
     Node &node = *nodes_[i].node;
     const std::uint64_t edges = edges_to_skip(node, until);
+    any = any || edges > 0;
     node.skipped(edges);
     node.oscillator_.pass(edges);
     next_[i] = node.oscillator_.next();
@@ -241,7 +243,7 @@ bool Bus::skip(Time until) {
   // A node with a period lacks less than that of its edges.
   now_ = std::max(now_, first - 1);
   done_before_ = now_ + 1;
-  return true;
+  return any;
 }
 
 void Bus::run_instant(Time t) {

@@ -66,6 +66,15 @@ int run_one(const Options &options, const SyncWay &way) {
   return exit_code_of(outcome.ok());
 }
 
+SyncRow in_sweep(const SyncWay &way, const SyncRow &row) {
+  SyncRow result = row;
+  result.setting = way.in_sweep(row.setting);
+  if (result.setting == row.setting) return result;
+  result.name += ", R = 0.1 s";
+  result.goal = goal_of(result.setting);
+  return result;
+}
+
 int run_sweep(const Options &options, const SyncWay &way) {
   SyncCase base;
   take_settings(options, base);
@@ -81,10 +90,13 @@ int run_sweep(const Options &options, const SyncWay &way) {
       fmt::print("{}\n", table.title);
       print_sync_head();
     }
-    for (const SyncRow &row : table.rows) {
+    for (const SyncRow &as_specified : table.rows) {
       if (stop_requested()) break;
+      const SyncRow row = in_sweep(way, as_specified);
       if (const char *missing = way.missing(row.setting); missing != nullptr) {
-        if (!options.json)
+        if (options.json)
+          rows.push_back(to_json(row, missing));
+        else
           fmt::print("{}: not by this way, which knows no {}\n", row.name, missing);
         continue;
       }

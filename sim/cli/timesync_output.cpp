@@ -110,6 +110,10 @@ Json to_json(const SyncOutcome &outcome) {
           {"ok", outcome.ok()}};
 }
 
+Json to_json(const SyncRow &row, const char *missing) {
+  return {{"name", row.name}, {"case", to_json(row.setting)}, {"missing", missing}};
+}
+
 Json to_json(const SyncRun &run) {
   Json at = Json::array(), followers = Json::array();
   for (const SyncLook &look : run.looks) at.push_back(look.at);

@@ -31,6 +31,8 @@ void print_sync_row(const SyncOutcome &outcome);
 void print_sync_foot();
 
 [[nodiscard]] Json to_json(const SyncOutcome &outcome);
+/// A row of a sweep that a way cannot run, and why.
+[[nodiscard]] Json to_json(const SyncRow &row, const char *missing);
 /// All samples of a run, ps.
 [[nodiscard]] Json to_json(const SyncRun &run);
 [[nodiscard]] Json to_json(const P4Result &result);

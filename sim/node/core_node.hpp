@@ -75,6 +75,8 @@ class CoreNode : public Node {
   /// Withdraws all frames that wait; one on the wire goes on but is not retried (MO-10).
   void cancel();
   [[nodiscard]] bool pending() const { return !requests_.empty(); }
+  /// Frames that wait, with the one that is on the wire.
+  [[nodiscard]] std::size_t waiting() const { return requests_.size(); }
 
   /// Frames received (and, in loop-back, those sent), oldest first.
   [[nodiscard]] std::vector<Frame> &received() { return received_; }

@@ -20,7 +20,7 @@ constexpr int kLastBits = 3;
 }  // namespace
 
 RtlBench::RtlBench(const SyncCase &setting, IdleGaps gaps, std::uint64_t seed,
-                   const std::function<double(unsigned)> &error_of)
+                   const std::function<double(unsigned)> &error_of, Accepted accepted)
     : setting_{setting},
       gaps_{gaps},
       bit_{std::llround(static_cast<double>(kSecond) / setting.bitrate)},
@@ -31,7 +31,14 @@ RtlBench::RtlBench(const SyncCase &setting, IdleGaps gaps, std::uint64_t seed,
     stations_.push_back(std::make_unique<RtlStation>(bus, name, clock_of(n, error_of(n)),
                                                      static_cast<std::uint32_t>(setting.bitrate)));
   }
-  for (const auto &station : stations_) station->start();
+  traffic_ = std::make_unique<RtlTraffic>(
+      bus, setting, dice_(),
+      [this](Time when, std::function<void()> software) { at(when, std::move(software)); });
+  traffic_->on_error = [this] {
+    if (on_error) on_error();
+  };
+  traffic_->others_send = [this] { return !stations_silent(); };
+  for (const auto &station : stations_) station->start(accepted.id, accepted.mask);
 }
 
 ClockConfig RtlBench::clock_of(unsigned node, double error_ppm) {
@@ -90,10 +97,32 @@ void RtlBench::run(Time end) {
   }
 }
 
+bool RtlBench::stations_silent() const {
+  return std::all_of(stations_.begin(), stations_.end(),
+                     [](const auto &station) { return station->silent(); });
+}
+
 bool RtlBench::silent() const {
-  return std::all_of(stations_.begin(), stations_.end(), [](const auto &station) {
-    return station->silent() && !station->interrupted();
-  });
+  return traffic_->silent() && stations_silent() &&
+         std::none_of(stations_.begin(), stations_.end(),
+                      [](const auto &station) { return station->interrupted(); });
+}
+
+// What is early comes over a cable that is shorter for once.
+void RtlBench::displace() {
+  if (setting_.displaced == 0 || !silent()) return;
+  for (unsigned n = 1; n < size(); ++n) {
+    const bool early = uniform(0, 1) < setting_.displaced;
+    bus.set_delay(0, n, (early ? std::llround(uniform(0, kEarly) * 1e3) : kEarly * kNanosecond));
+  }
+}
+
+SyncLook RtlBench::look(const std::function<std::uint8_t(unsigned n)> &state_of) {
+  SyncLook look{bus.now(), {}};
+  const auto master = stations_[0]->reading();
+  for (unsigned n = 1; n < size(); ++n)
+    look.followers.push_back({ahead(stations_[n]->reading(), master), state_of(n)});
+  return look;
 }
 
 void RtlBench::advance(Time until) {

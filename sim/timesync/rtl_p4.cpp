@@ -15,8 +15,6 @@
 namespace vericansim {
 namespace {
 
-constexpr std::uint64_t kMasterTime = 1'700'000'000'000'000'000;
-constexpr int kLooks = 16;
 // A follower's software looks so often whether one of its messages is due.
 constexpr Time kPoll = 200 * kMicrosecond;
 // The first pairs are those before a delay is known.
@@ -27,13 +25,17 @@ class RtlP4 {
   RtlP4(const SyncCase &setting, IdleGaps gaps, std::uint64_t seed)
       : interval_{std::llround(setting.interval_s * static_cast<double>(kSecond))},
         intervals_{setting.intervals},
-        bench_{setting, gaps, seed,
+        bench_{setting,
+               gaps,
+               seed,
                [&setting](unsigned n) {
                  if (n == 0) return 0.0;
                  return n % 2 == 1 ? setting.clocks.spread_ppm : -setting.clocks.spread_ppm;
-               }},
+               },
+               {}},
         followers_(setting.followers),
-        pairs_(setting.followers) {
+        pairs_(setting.followers),
+        sent_(bench_.size()) {
     bench_.handler = [this](unsigned n) { handle(n); };
     for (unsigned n = 0; n < bench_.size(); ++n)
       bench_.station(n).on_sent = [this, n](const verican_tx_event_t &) { sent(n); };
@@ -64,7 +66,7 @@ class RtlP4 {
     frame.id = message;
     frame.dlc = data == nullptr ? 0 : 8;
     for (unsigned i = 0; i < frame.dlc; ++i) frame.data[i] = data[i];
-    last_sent_ = message;
+    sent_[n] = message;
     verican_send(&bench_.station(n).dev, &frame, nullptr);
     ++run_.frames;
   }
@@ -82,10 +84,10 @@ class RtlP4 {
     }
   }
 
-  // Only one frame is under way: everybody waits for the answer to its own, or for its turn.
+  // A node has one frame under way: it waits for the answer to its own, or for its turn.
   void sent(unsigned n) {
-    if (n == 0 && last_sent_ == VERICAN_P4_SYNC) answer(VERICAN_P4_FOLLOW_UP);
-    if (n != 0 && last_sent_ == VERICAN_P4_DELAY_REQ) verican_p4_on_sent(&followers_[n - 1], read_);
+    if (n == 0 && sent_[n] == VERICAN_P4_SYNC) answer(VERICAN_P4_FOLLOW_UP);
+    if (n != 0 && sent_[n] == VERICAN_P4_DELAY_REQ) verican_p4_on_sent(&followers_[n - 1], read_);
   }
 
   void answer(std::uint32_t message) {
@@ -136,11 +138,7 @@ class RtlP4 {
   }
 
   void look() {
-    SyncLook look{bench_.bus.now(), {}};
-    const auto master = bench_.station(0).reading();
-    for (unsigned n = 1; n < bench_.size(); ++n)
-      look.followers.push_back({ahead(bench_.station(n).reading(), master), state(n)});
-    run_.looks.push_back(std::move(look));
+    run_.looks.push_back(bench_.look([this](unsigned n) { return state(n); }));
   }
 
   Time interval_;
@@ -149,7 +147,7 @@ class RtlP4 {
   std::vector<verican_p4_t> followers_;
   std::vector<unsigned> pairs_;
   std::uint64_t read_ = 0;
-  std::uint32_t last_sent_ = 0;
+  std::vector<std::uint32_t> sent_;  // the last message of each node
   SyncRun run_;
 };
 

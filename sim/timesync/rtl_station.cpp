@@ -34,8 +34,10 @@ RtlStation::RtlStation(Bus &bus, std::string name, const ClockConfig &clock, std
   };
 }
 
-void RtlStation::start() {
+void RtlStation::start(std::uint32_t id, std::uint32_t mask) {
+  const verican_filter_t filter{id, mask, VERICAN_SELECT_ONLY_0, VERICAN_SELECT_ONLY_0};
   verican_result_t result = verican_init(&dev, &config_);
+  if (result == VERICAN_OK) result = verican_set_filters(&dev, &filter, 1);
   if (result == VERICAN_OK) result = verican_start(&dev);
   if (result != VERICAN_OK)
     throw std::runtime_error(rtl_->name() + ": " + verican_result_name(result));
@@ -61,6 +63,11 @@ bool RtlStation::receive(verican_frame_t &frame) {
 bool RtlStation::silent() const {
   std::uint8_t waiting = 0;
   return verican_tx_waiting(&dev, &waiting) == VERICAN_OK && waiting == 0;
+}
+
+bool RtlStation::sending() const {
+  const Trace trace = decode_trace(rtl_->trace());
+  return trace.transmitter && trace.field >= Field::kSof && trace.field <= Field::kEof;
 }
 
 RtlStation::Reading RtlStation::reading() {

@@ -27,8 +27,9 @@ class RtlStation {
   RtlStation(const RtlStation &) = delete;
   RtlStation &operator=(const RtlStation &) = delete;
 
-  /// Sets the core up and lets it join the bus. std::runtime_error with the driver's reason.
-  void start();
+  /// Sets the core up and lets it join the bus; it takes frames whose identifier equals `id` in
+  /// the bits of `mask`. std::runtime_error with the driver's reason.
+  void start(std::uint32_t id, std::uint32_t mask);
 
   /// True from an interrupt on; the run of the bus that met it has returned in its clock.
   [[nodiscard]] bool interrupted() const { return interrupted_; }
@@ -38,6 +39,9 @@ class RtlStation {
   [[nodiscard]] bool receive(verican_frame_t &frame);
   /// Nothing waits to be sent.
   [[nodiscard]] bool silent() const;
+
+  /// A frame of this node is on the bus, from SOF to EOF.
+  [[nodiscard]] bool sending() const;
 
   /// The continuous reading of the clock at the bus's now(), ns (docs/time-spec.md, section 0):
   /// whole ns, and what has gone by since the last edge.

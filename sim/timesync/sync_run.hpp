@@ -40,7 +40,7 @@ struct SyncRun {
   std::vector<SyncLook> looks;
   std::vector<SyncAction> actions;
   std::uint64_t frames = 0;    ///< SYNC and FUP that got through
-  std::uint64_t repeated = 0;  ///< attempts that an error frame ended
+  std::uint64_t repeated = 0;  ///< attempts that an error ended
   std::uint64_t refused = 0;   ///< pairs that a follower did not take: FUP late or missing
 };
 

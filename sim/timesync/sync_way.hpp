@@ -24,6 +24,8 @@ struct SyncWay {
   SyncRun (*run_p4)(const SyncCase &setting, std::uint64_t seed);
   /// What of a case this way does not know, for people; nullptr: nothing.
   const char *(*missing)(const SyncCase &setting);
+  /// The case as a sweep runs it, which has to end some time.
+  SyncCase (*in_sweep)(const SyncCase &setting);
 };
 
 /// All that are built; the first is the usual one.

@@ -90,11 +90,75 @@ TEST(TimeSync, P4OnRtl) {
     EXPECT_TRUE(check.ok) << check.what << ": " << check.seen << ", expected " << check.expected;
 }
 
-TEST(TimeSync, RtlKnowsNoLoad) {
-  SyncCase setting;
+// TM-126, TM-130: other frames below and above SYNC, and errors, on RTL; the bound of section 12.
+TEST(TimeSync, LoadOnRtl) {
+  SyncCase setting = of(2, 0.05, 30);
   setting.load = 0.5;
+  setting.load_above = 0.4;
+  setting.bit_errors = 1e-3;
+  const SyncRun run = run_by_skip(setting, 1);
+  EXPECT_GT(run.repeated, 2u);
+  EXPECT_GE(run.frames, 58u);
+  SyncFigures figures;
+  figures.add(run);
+  EXPECT_TRUE(figures.locked());
+  EXPECT_LE(figures.max(), *steady_bound(setting));
+}
+
+// A bus that is full: frames wait behind each SYNC, so that it is delayed by up to a frame, and
+// nothing but the stamps tells.
+TEST(TimeSync, FullBusOnRtl) {
+  SyncCase setting = of(1, 0.05, 20);
+  setting.load = 1;
+  const SyncRun run = run_by_rtl(setting, 4);
+  EXPECT_EQ(run.repeated, 0u);
+  SyncFigures figures;
+  figures.add(run);
+  EXPECT_TRUE(figures.locked());
+  EXPECT_LE(figures.max(), *steady_bound(setting));
+}
+
+// TM-122 (b) also with other frames and errors, and with edges that are early.
+TEST(TimeSkip, EqualsRtlWithLoad) {
+  SyncCase setting = of(2, 0.05, 8);
+  setting.load = 0.3;
+  setting.bit_errors = 1e-3;
+  expect_same(run_by_skip(setting, 5), run_by_rtl(setting, 5));
+}
+
+TEST(TimeSkip, EqualsRtlWithDisplacedEdges) {
+  SyncCase setting = of(2, 0.05, 12);
+  setting.displaced = 0.3;
+  expect_same(run_by_skip(setting, 6), run_by_rtl(setting, 6));
+}
+
+// Edges that are up to 300 ns early are seen as such, by the whole of it if the filter is short.
+TEST(TimeSync, DisplacedEdgesOnRtl) {
+  SyncCase setting = of(2, 0.05, 60);
+  setting.filter = 1;
+  SyncFigures as_wired, displaced;
+  as_wired.add(run_by_skip(setting, 7));
+  setting.displaced = 0.2;
+  displaced.add(run_by_skip(setting, 7));
+  EXPECT_LT(as_wired.max(), 100);
+  EXPECT_GT(displaced.max(), 100);
+}
+
+void expect_unknown(const SyncCase &setting) {
   EXPECT_THROW((void)run_case(sync_way("rtl"), setting), std::invalid_argument);
   EXPECT_THROW((void)run_case(sync_way("skip"), setting), std::invalid_argument);
+}
+
+TEST(TimeSync, RtlKnowsNotAll) {
+  SyncCase late, swinging, crowded;
+  late.master_late_ns = 100;
+  expect_unknown(late);
+  swinging.clocks.wander = 1e-9;
+  swinging.clocks.sine_ppm = 1;
+  expect_unknown(swinging);
+  crowded.displaced = 0.01;
+  crowded.load = 0.5;
+  expect_unknown(crowded);
 }
 
 }  // namespace
