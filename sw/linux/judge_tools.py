@@ -47,6 +47,17 @@ def ptptools(run):
     expect_true(len(readings) >= 10, "readings of the clock")
 
 
+def ptpphc2sys(run):
+    """TM-113: after a minute the second clock shows what the first shows."""
+    clock, _ = follow(run, 0)
+    _, readings = follow(run, 1)
+    minute = int(run.text("minute.txt"))
+    errors = [float(value - clock.was(time)) for time, value in readings if time > minute]
+    expect_true(len(errors) >= 10, "readings of the second clock")
+    run.notes["clock"] = max(map(abs, errors))
+    expect_near(max(errors, key=abs), 0, FOLLOWS, "second clock after a minute")
+
+
 def ptpts2phc(run):
     """TM-113: after a minute the clock shows the system's seconds at the pulses."""
     clock, _ = follow(run, 0)

@@ -72,6 +72,7 @@ def cases(short):
         Case("ptp-extts", "ptpextts", chips=CLOCKS),
         Case("ptp-pps", "ptppps", chips=CLOCKS),
         Case("ptp-tools", "ptptools", chips=CLOCKS),
+        Case("ptp-phc2sys", "ptpphc2sys", chips=CLOCKS),
         Case("ptp-ts2phc", "ptpts2phc", chips=CLOCKS),
         Case("repeatable", "exchange", few, short=True, twice=True),
         Case("red-lost-frame", "exchange", {**few, "VERICAN_SABOTAGE": "lose-frame"}, short=True,
