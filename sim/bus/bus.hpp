@@ -92,8 +92,8 @@ class Bus {
   /// time unit, as if they had been clocked (Node::skip_period()); up to `until` or to the next
   /// action, or a bit less. Only where that cannot be seen on the bus: all nodes show an idle bus
   /// and drive recessive, nothing is on its way, there are no faults. For a caller who knows that
-  /// no node has anything to send. False, and nothing done, otherwise, or if no node has a period to
-  /// pass up to then.
+  /// no node has anything to send. False, and nothing done, otherwise, or if no node has a period
+  /// to pass up to then.
   bool skip(Time until);
 
   [[nodiscard]] Time now() const { return now_; }
