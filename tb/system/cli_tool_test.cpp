@@ -144,7 +144,9 @@ TEST_F(Tool, BittimeShowsOnlyWhatTheDelaysAllow) {
 TEST_F(Tool, PaperAgrees) {
   const ToolResult result = run_tool("paper --json --out " + in("waves"));
   EXPECT_EQ(result.code, 0);
-  EXPECT_TRUE(nlohmann::json::parse(result.out)["ok"].get<bool>());
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_TRUE(json["ok"].get<bool>());
+  EXPECT_EQ(json["clock_synchronisation"]["checks"].size(), 4U);
   EXPECT_THAT(slurp(in("waves/fig13-arbitration.vcd")), HasSubstr("sID "));
 }
 
