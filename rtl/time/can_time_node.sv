@@ -12,9 +12,10 @@ module can_time_node #(
   parameter logic [31:0] SyncCtrl = 32'h1F46_0100,
   parameter logic [31:0] SyncId = 32'd0,
   parameter logic [31:0] SyncDelay = 32'd0,
-  /// ns between two edges of pps_o; 500,000,000: a rising edge a second.
+  /// ns between two edges of pps_o, 1..2^31-1; 500,000,000: a rising edge a second.
   parameter int HalfPeriod = 500000000,
-  /// Bit timing as `verican bittime` prints it: clocks per quantum, quanta per segment.
+  /// Bit timing as `verican bittime` prints it: clocks per quantum 1..256, quanta per segment 1..8,
+  /// SJW 1..4; at least 8 clocks a bit.
   parameter int Brp = 10,
   parameter int Prop = 3,
   parameter int Ps1 = 4,
@@ -29,6 +30,29 @@ module can_time_node #(
   input  logic        can_rx_i,
   output logic        can_tx_o
 );
+  // A module that does not exist stops the build; its name is the message.
+  if (HalfPeriod < 1) begin : gen_check_half_period
+    HalfPeriod_must_be_1_to_2147483647 u_stop ();
+  end
+  if (Brp < 1 || Brp > 256) begin : gen_check_brp
+    Brp_must_be_1_to_256 u_stop ();
+  end
+  if (Prop < 1 || Prop > 8) begin : gen_check_prop
+    Prop_must_be_1_to_8 u_stop ();
+  end
+  if (Ps1 < 1 || Ps1 > 8) begin : gen_check_ps1
+    Ps1_must_be_1_to_8 u_stop ();
+  end
+  if (Ps2 < 1 || Ps2 > 8) begin : gen_check_ps2
+    Ps2_must_be_1_to_8 u_stop ();
+  end
+  if (Sjw < 1 || Sjw > 4) begin : gen_check_sjw
+    Sjw_must_be_1_to_4 u_stop ();
+  end
+  if (Brp * (1 + Prop + Ps1 + Ps2) < 8) begin : gen_check_bit
+    Bit_must_have_8_clocks u_stop ();
+  end
+
   localparam logic [31:0] Tctrl = 32'd1 << can_regs_pkg::TctrlPoint
                                 | 32'd1 << can_regs_pkg::TctrlCmpen;
   localparam logic [31:0] Ctrl  = SyncCtrl | 32'd1 << can_regs_pkg::TsctrlEn

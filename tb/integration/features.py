@@ -27,11 +27,11 @@ def settings(*arguments):
             for line in text.splitlines()]
 
 
-def lint(parameters):
-    """What Verilator says of a build: status and text."""
+def lint(parameters, top="can_ahb"):
+    """What Verilator says of a build of `top`: status and text."""
     files = [str(design.ROOT / name) for name in ["rtl/lint.vlt", *design.rtl_files()]]
     options = [f"-G{name}={value}" for name, value in parameters.items()]
-    return design.run("verilator", "--lint-only", "-Wall", "--top-module", "can_ahb", *options,
+    return design.run("verilator", "--lint-only", "-Wall", "--top-module", top, *options,
                       *files)
 
 
@@ -75,6 +75,20 @@ class Features(unittest.TestCase):
         code, text = lint({"Fifo": 2})
         self.assertNotEqual(code, 0)
         self.assertIn("must_be_0_or_1", text)
+
+    def test_clock_without_a_processor_refuses_what_its_registers_cannot_hold(self):
+        """TM-100: each parameter just outside its range."""
+        for value in ({"HalfPeriod": 0}, {"Brp": 0}, {"Brp": 257}, {"Prop": 9}, {"Ps1": 0},
+                      {"Ps2": 9}, {"Sjw": 5}):
+            with self.subTest(value):
+                code, text = lint(value, "can_time_node")
+                self.assertNotEqual(code, 0)
+                self.assertIn(f"{next(iter(value))}_must_be", text)
+        code, text = lint({"Brp": 1, "Prop": 1, "Ps1": 2, "Ps2": 2}, "can_time_node")
+        self.assertNotEqual(code, 0)
+        self.assertIn("Bit_must_have_8_clocks", text)
+        self.assertEqual(lint({"Brp": 256, "Prop": 8, "Ps1": 8, "Ps2": 8, "Sjw": 4},
+                              "can_time_node"), (0, ""))
 
 
 if __name__ == "__main__":
