@@ -22,7 +22,8 @@ constexpr unsigned kFollowers = 8, kFrames = 1'000;
 // The RTL's oscillators keep whole ps at their first edge: nearer ones may fall either way.
 constexpr Nanoseconds kUnsure = 0.002L;
 
-/// When a frame begins, its edge at the stamp point SOF: the first dominant level behind eleven recessive bits.
+/// When a frame begins, its edge at the stamp point SOF: the first dominant level behind eleven
+/// recessive bits.
 class Beginnings : public BusObserver {
  public:
   [[nodiscard]] unsigned interests() const override { return kLevels; }
