@@ -90,6 +90,13 @@ TEST(TimeSync, P4OnRtl) {
     EXPECT_TRUE(check.ok) << check.what << ": " << check.seen << ", expected " << check.expected;
 }
 
+void expect_within_bound(const SyncRun &run, const SyncCase &setting) {
+  SyncFigures figures;
+  figures.add(run);
+  EXPECT_TRUE(figures.locked());
+  EXPECT_LE(figures.max(), *steady_bound(setting));
+}
+
 // TM-126, TM-130: other frames below and above SYNC, and errors, on RTL; the bound of section 12.
 TEST(TimeSync, LoadOnRtl) {
   SyncCase setting = of(2, 0.05, 30);
@@ -99,10 +106,7 @@ TEST(TimeSync, LoadOnRtl) {
   const SyncRun run = run_by_skip(setting, 1);
   EXPECT_GT(run.repeated, 2u);
   EXPECT_GE(run.frames, 58u);
-  SyncFigures figures;
-  figures.add(run);
-  EXPECT_TRUE(figures.locked());
-  EXPECT_LE(figures.max(), *steady_bound(setting));
+  expect_within_bound(run, setting);
 }
 
 // A bus that is full: frames wait behind each SYNC, so that it is delayed by up to a frame, and
@@ -112,10 +116,7 @@ TEST(TimeSync, FullBusOnRtl) {
   setting.load = 1;
   const SyncRun run = run_by_rtl(setting, 4);
   EXPECT_EQ(run.repeated, 0u);
-  SyncFigures figures;
-  figures.add(run);
-  EXPECT_TRUE(figures.locked());
-  EXPECT_LE(figures.max(), *steady_bound(setting));
+  expect_within_bound(run, setting);
 }
 
 // TM-122 (b) also with other frames and errors, and with edges that are early.
