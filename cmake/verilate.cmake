@@ -28,7 +28,8 @@ add_library(verilated_runtime STATIC "${VERILATOR_ROOT}/include/verilated.cpp"
                                      "${VERILATOR_ROOT}/include/verilated_threads.cpp")
 target_include_directories(verilated_runtime SYSTEM PUBLIC "${VERILATOR_ROOT}/include"
                                                            "${VERILATOR_ROOT}/include/vltstd")
-target_compile_options(verilated_runtime PRIVATE -w)
+target_compile_options(verilated_runtime PRIVATE -w -fno-semantic-interposition)
+set_target_properties(verilated_runtime PROPERTIES POSITION_INDEPENDENT_CODE ON)
 if(VERICAN_COVERAGE)
   find_program(VERICAN_COVERAGE_PYTHON python3 REQUIRED)
   target_sources(verilated_runtime PRIVATE "${PROJECT_SOURCE_DIR}/cmake/coverage_writer.cpp")

@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ProgramBus: see program_bus.hpp.
+#include "program_bus.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "bridge/frame_form.hpp"
+#include "bus/range.hpp"
+#include "simulation/node_timing.hpp"
+
+namespace vericansim {
+namespace {
+
+double chosen_rate(double wanted, const Scenario &scenario) {
+  const double rate = wanted != 0 ? wanted : scenario.bitrates.front();
+  if (!(rate >= 1e3 && rate <= 1e6))
+    throw std::invalid_argument(
+        fmt::format("bitrate {:g}: 1000 to 1000000 bit/s are allowed", rate));
+  return rate;
+}
+
+}  // namespace
+
+// ---- Building
+
+Scenario ProgramBus::with_nodes(ProgramBusSetup &setup) {
+  for (const std::string &name : setup.nodes) {
+    const NodeId id = take_node(setup.scenario, name, "the program works", setup.clock_hz);
+    // A role of its own keeps the simulation's software away; no session will ever ask it.
+    setup.scenario.nodes[id].role = OwnRole{};
+  }
+  for (const NodeSpec &node : setup.scenario.nodes)
+    if (has_programs(node.role))
+      throw std::invalid_argument(fmt::format(
+          "node '{}' is a {}: on a program's own bus nodes are worked by it or by traffic",
+          node.name, name_of(node.role)));
+  return std::move(setup.scenario);
+}
+
+ProgramBus::ProgramBus(ProgramBusSetup setup)
+    : scenario_{with_nodes(setup)},
+      simulation_{scenario_, chosen_rate(setup.bitrate, scenario_)},
+      bit_time_{bit_time_of(simulation_.bitrate())},
+      by_id_(scenario_.nodes.size()) {
+  PortOptions options;
+  options.restart = setup.restart;
+  for (const std::string &name : setup.nodes) {
+    const NodeId id = id_of(name);
+    auto port = std::make_unique<ProgramPort>(name);
+    auto node = std::make_unique<PortNode>(
+        *port, simulation_.node(id),
+        timing_of(scenario_, scenario_.nodes[id], simulation_.bitrate()), options);
+    by_id_[id] = node.get();
+    worked_.push_back({id, std::move(port), std::move(node)});
+  }
+  simulation_.bus().add(*this);
+  simulation_.on_bus_frame = [this](const BusFrame &frame) { frames_.push_back(frame); };
+  join();
+}
+
+ProgramBus::~ProgramBus() { simulation_.bus().remove(*this); }
+
+void ProgramBus::join() {
+  constexpr Time kLimit = 100 * kMillisecond;
+  constexpr Time kIntegration = 14;  // bits; 11 are needed (IN-01)
+  for (const Worked &worked : worked_) worked.node->start();
+  simulation_.join();
+  Bus &bus = simulation_.bus();
+  const bool ready = bus.run_until(
+      [this] {
+        return std::all_of(worked_.begin(), worked_.end(),
+                           [](const Worked &worked) { return worked.node->ready(); });
+      },
+      kLimit);
+  for (const Worked &worked : worked_) worked.node->check();
+  if (!ready) throw std::runtime_error("the set-up of a node takes longer than 100 ms");
+  simulation_.start(bus.now() + kIntegration * bit_time_);
+}
+
+// ---- Nodes
+
+NodeId ProgramBus::id_of(const std::string &name) const {
+  for (NodeId id = 0; id < scenario_.nodes.size(); ++id)
+    if (scenario_.nodes[id].name == name) return id;
+  throw std::invalid_argument(
+      fmt::format("no node '{}' on this bus; there are {}", name, fmt::join(names(), ", ")));
+}
+
+ProgramBus::Worked &ProgramBus::worked(const std::string &name) {
+  const NodeId id = id_of(name);
+  for (Worked &worked : worked_)
+    if (worked.id == id) return worked;
+  throw std::invalid_argument(
+      fmt::format("node '{}' is worked by the scenario, not by the program", name));
+}
+
+std::vector<std::string> ProgramBus::names() const {
+  std::vector<std::string> names;
+  for (const NodeSpec &node : scenario_.nodes) names.push_back(node.name);
+  return names;
+}
+
+void ProgramBus::send(const std::string &node, const can_frame &frame) {
+  if (!from_can_frame(frame))
+    throw std::invalid_argument(
+        "no frame that a node could send: an error message, or an 11-bit "
+        "identifier above 0x7FF");
+  worked(node).port->send(frame);
+}
+
+std::vector<PortMessage> ProgramBus::receive(const std::string &node) {
+  return worked(node).port->receive();
+}
+
+std::size_t ProgramBus::pending(const std::string &node) {
+  const Worked &of = worked(node);
+  return of.port->remaining() + of.node->pending();
+}
+
+void ProgramBus::restart(const std::string &node) { worked(node).node->restart(); }
+
+Trace ProgramBus::trace(const std::string &node) {
+  return decode_trace(simulation_.bus().node(id_of(node)).trace());
+}
+
+void ProgramBus::on_bit(NodeId id, const BitRecord &bit) {
+  if (by_id_[id] != nullptr) by_id_[id]->on_bit(bit);
+}
+
+// ---- Time
+
+void ProgramBus::exchange() {
+  for (const Worked &worked : worked_) {
+    worked.node->take();
+    (void)worked.node->give();  // the port never refuses
+  }
+}
+
+// Software of a node holds a few frames: it is given more before it runs dry.
+void ProgramBus::run_until(Time when) {
+  constexpr Time kStretch = 512;  // bits
+  Bus &bus = simulation_.bus();
+  exchange();
+  while (bus.now() < when) {
+    bus.run_until(std::min(when, bus.now() + kStretch * bit_time_));
+    simulation_.check();
+    for (const Worked &worked : worked_) worked.node->check();
+    exchange();
+  }
+}
+
+void ProgramBus::step(Time duration) {
+  if (duration < 0) throw std::invalid_argument("time passes forwards: a step is not negative");
+  run_until(simulation_.bus().now() + duration);
+}
+
+bool ProgramBus::quiet() const {
+  return simulation_.quiet() &&
+         std::all_of(worked_.begin(), worked_.end(), [](const Worked &worked) {
+           return worked.node->quiet() && (worked.node->bus_off() || worked.port->remaining() == 0);
+         });
+}
+
+bool ProgramBus::run_until_quiet(Time limit) {
+  constexpr Time kLook = 16;  // bits
+  Bus &bus = simulation_.bus();
+  const Time end = bus.now() + limit;
+  exchange();
+  while (!quiet() || bus.has_actions()) {
+    if (bus.now() >= end) return false;
+    run_until(std::min(end, bus.now() + kLook * bit_time_));
+  }
+  simulation_.settle();
+  return true;
+}
+
+// ---- Faults
+
+void ProgramBus::disturb(const std::string &node, Effect effect, Time begin, Time duration) {
+  if (begin < now()) throw std::invalid_argument("a disturbance begins now or later");
+  if (duration <= 0) throw std::invalid_argument("a disturbance lasts longer than nothing");
+  const Time from = begin + simulation_.started();
+  faults_.add(node.empty() ? kAllNodes : id_of(node), effect, {from, from + duration});
+  if (!disturbed_) simulation_.bus().add(faults_);
+  disturbed_ = true;
+}
+
+}  // namespace vericansim

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ProgramBus: a simulated bus that one program holds, steps and works node by node.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bridge/port_node.hpp"
+#include "program_port.hpp"
+#include "simulation/simulation.hpp"
+
+namespace vericansim {
+
+/// What a program wants to have.
+struct ProgramBusSetup {
+  Scenario scenario;               ///< nodes, traffic and faults besides; may be empty
+  double bitrate = 0;              ///< bit/s; 0: the first of the scenario
+  std::vector<std::string> nodes;  ///< worked by the program; added where the scenario lacks them
+  double clock_hz = 8e6;           ///< of nodes that are added
+  Time restart = 0;                ///< simulated time from bus-off to recovery; 0: only restart()
+};
+
+/// Every node of the program is a Verilated core behind the software of PortNode. Nothing happens
+/// but in step() and run_until_quiet(). Times count from the end of the constructor, ps.
+class ProgramBus : private BusObserver {
+ public:
+  /// Builds the bus and lets all nodes join it. InputError or std::invalid_argument if it cannot
+  /// be.
+  explicit ProgramBus(ProgramBusSetup setup);
+  ~ProgramBus() override;
+  ProgramBus(const ProgramBus &) = delete;
+  ProgramBus &operator=(const ProgramBus &) = delete;
+
+  /// Queues a frame. std::invalid_argument: no such node of the program, or no frame.
+  void send(const std::string &node, const can_frame &frame);
+  /// What a node had for the program since the last call: frames, echoes of its own frames at their
+  /// ends, error messages, in the order of the bus.
+  [[nodiscard]] std::vector<PortMessage> receive(const std::string &node);
+  /// Frames of the program that have not left: queued, waiting in the core, or on the bus.
+  [[nodiscard]] std::size_t pending(const std::string &node);
+  /// Lets a bus-off node recover.
+  void restart(const std::string &node);
+
+  /// Lets simulated time pass.
+  void step(Time duration);
+  /// Steps until no node of the program or of the scenario has anything to send or under way; false
+  /// if `limit` came first.
+  bool run_until_quiet(Time limit);
+  [[nodiscard]] bool quiet() const;
+
+  /// Receivers see another level for a while: `node` alone, or, if empty, all. From `begin`, which
+  /// is not in the past; std::invalid_argument otherwise.
+  void disturb(const std::string &node, Effect effect, Time begin, Time duration);
+
+  [[nodiscard]] Time now() { return simulation_.bus().now() - simulation_.started(); }
+  [[nodiscard]] Time bit_time() const { return bit_time_; }
+  [[nodiscard]] bool level() { return simulation_.bus().level() == Level::kRecessive; }
+  /// Error counters and state of any core.
+  [[nodiscard]] Trace trace(const std::string &node);
+  [[nodiscard]] std::vector<std::string> names() const;
+  /// Valid frames on the bus since the last call.
+  [[nodiscard]] std::vector<BusFrame> frames() { return std::exchange(frames_, {}); }
+  /// Completes the files of the scenario's outputs; no step after it.
+  [[nodiscard]] RunReport finish() { return simulation_.finish(); }
+  [[nodiscard]] Time started() const { return simulation_.started(); }
+
+ private:
+  /// A node of the program.
+  struct Worked {
+    NodeId id;
+    std::unique_ptr<ProgramPort> port;
+    std::unique_ptr<PortNode> node;
+  };
+
+  static Scenario with_nodes(ProgramBusSetup &setup);
+  [[nodiscard]] unsigned interests() const override { return kBits; }
+  void on_bit(NodeId id, const BitRecord &bit) override;
+  void join();
+  void exchange();
+  void run_until(Time when);
+  [[nodiscard]] Worked &worked(const std::string &name);
+  [[nodiscard]] NodeId id_of(const std::string &name) const;
+
+  ScheduledFaults faults_;  // outlives the bus
+  bool disturbed_ = false;
+  Scenario scenario_;
+  Simulation simulation_;
+  Time bit_time_;
+  std::vector<Worked> worked_;
+  std::vector<PortNode *> by_id_;
+  std::vector<BusFrame> frames_;
+};
+
+}  // namespace vericansim

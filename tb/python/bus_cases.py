@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""The package verican: buses of RTL nodes as Python objects. Expected values: can-rules.md."""
+import tempfile
+import unittest
+from pathlib import Path
+
+import verican
+from verican import Bus, Frame
+
+
+def heard(bus, node):
+    """The frames of others that the node has received."""
+    return [(m.id, m.data) for m in bus.receive(node) if not m.error and not m.echo]
+
+
+def frame_length(identifier, data):
+    """Bits from SOF to EOF7 of a data frame with 11 bits: FF-01 to FF-12, CR-01, ST-01."""
+    bits = f"0{identifier:011b}000{len(data):04b}" + "".join(f"{byte:08b}" for byte in data)
+    crc = 0
+    for bit in bits:
+        crc = (crc << 1) ^ (0x4599 if int(bit) ^ (crc >> 14) else 0) & 0x7FFF
+        crc &= 0x7FFF
+    run, last, stuffed = 0, "", 0
+    for bit in bits + f"{crc:015b}":
+        run, last = (run + 1, last) if bit == last else (1, bit)
+        if run == 5:
+            stuffed += 1
+            run, last = 1, "1" if bit == "0" else "0"
+    return len(bits) + 15 + stuffed + 10
+
+
+class PythonBus(unittest.TestCase):
+    def test_two_nodes_exchange_frames(self):
+        bus = Bus(["a", "b"], bitrate=500e3)
+        bus.send("a", Frame(0x123, b"\x01\x02"))
+        bus.send("b", Frame(0x1ABCDEF0, b"12345678", extended=True))
+        self.assertTrue(bus.run_until_quiet())
+        self.assertEqual(heard(bus, "b"), [(0x123, b"\x01\x02")])
+        self.assertEqual(heard(bus, "a"), [(0x1ABCDEF0, b"12345678")])
+        self.assertEqual(bus.pending("a"), 0)
+        self.assertEqual([(sender, frame.id) for _, _, sender, frame in bus.frames()],
+                         [("a", 0x123), ("b", 0x1ABCDEF0)])
+
+    def test_own_frames_come_back_as_echoes(self):
+        bus = Bus(["a", "b"])
+        bus.send("a", Frame(0x55, remote=True, dlc=3))
+        bus.run_until_quiet()
+        message, = bus.receive("a")
+        self.assertTrue(message.echo and message.remote)
+        self.assertEqual((message.id, message.dlc, message.data), (0x55, 3, b""))
+
+    def test_the_lowest_identifier_goes_first(self):
+        # AR-01: nodes that begin together; dominant (0) wins.
+        bus = Bus(["a", "b", "c", "listener"])
+        for node, identifier in (("a", 0x300), ("b", 0x100), ("c", 0x200)):
+            bus.send(node, Frame(identifier))
+        self.assertTrue(bus.run_until_quiet())
+        self.assertEqual([id for id, _ in heard(bus, "listener")], [0x100, 0x200, 0x300])
+
+    def test_alone_nobody_acknowledges(self):
+        # FC-05: TEC + 8 for each try; an error passive transmitter that only misses its
+        # acknowledge stays at 128 (exception 1) and never goes bus-off.
+        bus = Bus(["a"])
+        bus.send("a", Frame(0x1))
+        self.assertFalse(bus.run_until_quiet(0.05))
+        self.assertEqual(bus.pending("a"), 1)
+        self.assertEqual((bus.state("a").tec, bus.state("a").state), (128, "passive"))
+        acknowledge = 0x20  # CAN_ERR_ACK
+        self.assertTrue(any(m.error and m.id & acknowledge for m in bus.receive("a")))
+
+    def test_length_of_a_frame_in_bits(self):
+        bus = Bus(["a", "b"], bitrate=250e3)
+        for identifier, data in ((0x555, b""), (0x000, b"\0\0\0\0"), (0x7A5, b"\xFF" * 8)):
+            bus.send("a", Frame(identifier, data))
+            bus.run_until_quiet()
+            (start, end, _, _), = bus.frames()
+            # Less than a quantum is where edges lie between two quanta.
+            self.assertAlmostEqual((end - start) / bus.bit_time, frame_length(identifier, data),
+                                   delta=0.13)
+
+    def test_a_step_is_as_long_as_told(self):
+        bus = Bus(["a", "b"], bitrate=500e3)
+        start = bus.now
+        bus.step(bits=100)
+        self.assertAlmostEqual(bus.now - start, 200e-6, delta=0.2e-6)
+        bus.step(seconds=1e-3)
+        self.assertAlmostEqual(bus.now - start, 1.2e-3, delta=0.2e-6)
+
+    def test_disturbed_receivers_raise_errors_and_the_frame_is_repeated(self):
+        bus = Bus(["a", "b"])
+        bus.send("a", Frame(0x0F0, b"\xAA"))
+        # Six dominant bits somewhere in the frame break the stuff rule (ST-04).
+        bus.disturb("dominant", bus.now + 30 * bus.bit_time, 6 * bus.bit_time)
+        self.assertTrue(bus.run_until_quiet())
+        self.assertEqual(heard(bus, "b"), [(0x0F0, b"\xAA")])
+        self.assertEqual(bus.state("a").tec, 7)  # + 8 for the error, - 1 for the frame
+
+    def test_stuck_bus_leads_to_bus_off_and_restart_ends_it(self):
+        bus = Bus(["a", "b"])
+        bus.send("a", Frame(0x7))
+        bus.disturb("recessive", bus.now, 0.02, node="a")  # it never sees its own bits
+        bus.step(seconds=0.02)
+        self.assertEqual(bus.state("a").state, "bus-off")
+        bus.restart("a")
+        self.assertTrue(bus.run_until_quiet())
+        self.assertEqual((bus.state("a").state, bus.state("a").tec), ("active", 0))
+
+    def test_a_scenario_file_gives_nodes_and_traffic(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "bus.yaml"
+            path.write_text("bitrate: 250000\nduration: 10 ms\nnodes: [{name: engine}]\ntraffic:\n"
+                            "  - {node: engine, id: 0x42, data: [1, 2], period: 1 ms}\n")
+            bus = Bus(["probe"], scenario=str(path))
+            bus.step(seconds=4.5e-3)
+            self.assertEqual(heard(bus, "probe"), 5 * [(0x42, b"\x01\x02")])
+
+    def test_a_waveform_on_demand(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "bus.vcd"
+            bus = Bus(["a", "b"], vcd=str(path))
+            bus.send("a", Frame(0x1))
+            bus.run_until_quiet()
+            bus.finish()
+            self.assertIn("$enddefinitions", path.read_text())
+
+
+class PythonRefusal(unittest.TestCase):
+    """Bad input is refused with what is allowed."""
+
+    def refused(self, text, call):
+        with self.assertRaisesRegex(ValueError, text):
+            call()
+
+    def test_frames_that_cannot_be(self):
+        self.refused("7FF|2047", lambda: Frame(0x800))
+        self.refused("0 to 8 bytes", lambda: Frame(1, b"123456789"))
+        self.refused("DLC of 2", lambda: Frame(1, b"1", dlc=2))
+
+    def test_nodes_rates_and_times_that_cannot_be(self):
+        bus = Bus(["a"])
+        self.refused("no node 'x'.*a", lambda: bus.send("x", Frame(1)))
+        self.refused("1000 to 1000000", lambda: Bus(["a"], bitrate=2e6))
+        self.refused("flip, dominant or recessive",
+                     lambda: bus.disturb("loud", 0, 1))
+        self.refused("0 to 1000000 s", lambda: bus.step(seconds=-1))
+
+    def test_a_missing_scenario(self):
+        with self.assertRaisesRegex(verican.InputError, "missing.yaml"):
+            Bus(["a"], scenario="missing.yaml")
+
+
+if __name__ == "__main__":
+    unittest.main()
