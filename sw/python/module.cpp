@@ -185,6 +185,9 @@ void bind_bus(py::module_ &m) {
       .def("restart", &ProgramBus::restart, "node"_a, "Lets a bus-off node recover.")
       .def("step", &step, "seconds"_a = 0.0, "bits"_a = 0, Unlocked())
       .def(
+          "pass_time", [](ProgramBus &bus, double time) { bus.pass(to_ps("seconds", time)); },
+          "seconds"_a, "As step(), at no cost while nothing is under way.", Unlocked())
+      .def(
           "run_until_quiet",
           [](ProgramBus &bus, double limit) { return bus.run_until_quiet(to_ps("limit", limit)); },
           "limit"_a = 1.0, "False if the limit (s) came first.", Unlocked())
@@ -196,6 +199,7 @@ void bind_bus(py::module_ &m) {
           "finish", [](ProgramBus &bus) { (void)bus.finish(); }, "Completes the waveform.")
       .def_property_readonly("nodes", &ProgramBus::names)
       .def_property_readonly("quiet", &ProgramBus::quiet)
+      .def_property_readonly("settled", &ProgramBus::settled)
       .def_property_readonly("now", [](ProgramBus &bus) { return to_seconds(bus.now()); })
       .def_property_readonly("started_ps", &ProgramBus::started)
       .def_property_readonly("bit_time",

@@ -160,6 +160,21 @@ void ProgramBus::step(Time duration) {
   run_until(simulation_.bus().now() + duration);
 }
 
+void ProgramBus::pass(Time duration) {
+  constexpr Time kLook = 16;  // bits
+  if (duration < 0) throw std::invalid_argument("time passes forwards: a duration is not negative");
+  Bus &bus = simulation_.bus();
+  const Time end = bus.now() + duration;
+  exchange();
+  while (bus.now() < end) {
+    if (quiet()) {
+      simulation_.settle();
+      if (bus.skip(end)) continue;
+    }
+    run_until(std::min(end, bus.now() + kLook * bit_time_));
+  }
+}
+
 bool ProgramBus::quiet() const {
   return simulation_.quiet() &&
          std::all_of(worked_.begin(), worked_.end(), [](const Worked &worked) {
@@ -172,7 +187,7 @@ bool ProgramBus::run_until_quiet(Time limit) {
   Bus &bus = simulation_.bus();
   const Time end = bus.now() + limit;
   exchange();
-  while (!quiet() || bus.has_actions()) {
+  while (!settled()) {
     if (bus.now() >= end) return false;
     run_until(std::min(end, bus.now() + kLook * bit_time_));
   }

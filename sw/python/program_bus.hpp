@@ -46,10 +46,14 @@ class ProgramBus : private BusObserver {
 
   /// Lets simulated time pass.
   void step(Time duration);
+  /// The same, at no cost while nothing is under way: the clocks of all nodes rest then.
+  void pass(Time duration);
   /// Steps until no node of the program or of the scenario has anything to send or under way; false
   /// if `limit` came first.
   bool run_until_quiet(Time limit);
   [[nodiscard]] bool quiet() const;
+  /// Nothing is under way, and nothing is planned: without the program nothing will happen.
+  [[nodiscard]] bool settled() { return quiet() && !simulation_.bus().has_actions(); }
 
   /// Receivers see another level for a while: `node` alone, or, if empty, all. From `begin`, which
   /// is not in the past; std::invalid_argument otherwise.

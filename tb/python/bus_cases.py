@@ -87,6 +87,15 @@ class PythonBus(unittest.TestCase):
         bus.step(seconds=1e-3)
         self.assertAlmostEqual(bus.now - start, 1.2e-3, delta=0.2e-6)
 
+    def test_time_that_passes_on_an_idle_bus(self):
+        bus = Bus(["a", "b"])
+        start = bus.now
+        bus.pass_time(10.0)
+        self.assertAlmostEqual(bus.now - start, 10, delta=1e-6)
+        bus.send("a", Frame(0x11))
+        bus.pass_time(1e-3)
+        self.assertEqual(heard(bus, "b"), [(0x11, b"")])
+
     def test_disturbed_receivers_raise_errors_and_the_frame_is_repeated(self):
         bus = Bus(["a", "b"])
         bus.send("a", Frame(0x0F0, b"\xAA"))

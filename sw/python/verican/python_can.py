@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""python-can's interface "verican": each can.Bus is a node of a bus of RTL nodes in process."""
+import queue
+import threading
+import time
+
+import can
+
+from ._channel import close_channel, open_channel, open_names
+from ._core import Frame
+
+QUEUED = 4096  # frames of a can.Bus that may wait for the bus
+LOOK = 0.05    # s between two looks whether a full queue will ever empty
+
+STATES = {"active": can.BusState.ACTIVE, "passive": can.BusState.PASSIVE,
+          "bus-off": can.BusState.ERROR}
+
+
+def number(value):
+    """Configuration files have texts."""
+    return None if value is None else int(value)
+
+
+class VericanBus(can.BusABC):
+    """can.Bus(interface="verican", channel="name", bitrate=..., nodes=...)."""
+
+    def __init__(self, channel="verican0", can_filters=None, bitrate=None, nodes=None,
+                 receive_own_messages=False, error_frames=True, restart_ms=0, vcd="", **kwargs):
+        """`channel`: any name; buses with the same name in this process share the wire.
+
+        `nodes` (2) and `bitrate` (500000) are decided by the first to open the channel, and so are
+        `restart_ms`, simulated time from bus-off to the begin of recovery (0: by `state`), and
+        `vcd`, a waveform. Nodes that no can.Bus uses acknowledge.
+        """
+        self._inbox = queue.SimpleQueue()
+        self._room = threading.BoundedSemaphore(QUEUED)
+        self._own, self._errors, self._open = receive_own_messages, error_frames, False
+        self.channel = channel
+        try:
+            self._channel, self.node = open_channel(
+                channel, self._deliver, number(nodes), number(bitrate),
+                restart=int(restart_ms) / 1e3, vcd=str(vcd))
+        except (ValueError, RuntimeError) as error:
+            raise can.CanInitializationError(str(error)) from error
+        self._open = True
+        self.channel_info = f"verican {channel}: {self.node}"
+        super().__init__(channel=channel, can_filters=can_filters, **kwargs)
+
+    def send(self, msg, timeout=None):
+        """Queues the frame; waits for room in the queue for at most `timeout` s (None: for ever).
+
+        can.CanOperationError: no room, bus-off, or no frame of classical CAN.
+        """
+        self._check_open()
+        if msg.is_fd or msg.is_error_frame:
+            raise can.CanOperationError("the nodes send data and remote frames of classical CAN")
+        try:
+            frame = Frame(msg.arbitration_id, b"" if msg.is_remote_frame else bytes(msg.data),
+                          msg.is_extended_id, msg.is_remote_frame, msg.dlc)
+        except ValueError as error:
+            raise can.CanOperationError(str(error)) from error
+        self._wait_for_room(timeout)
+        self._channel.send(self.node, frame)
+
+    def _wait_for_room(self, timeout):
+        end = None if timeout is None else time.monotonic() + timeout
+        while True:
+            left = LOOK if end is None else min(LOOK, end - time.monotonic())
+            if self._room.acquire(timeout=max(left, 0)):
+                return
+            if self.state == can.BusState.ERROR:
+                raise can.CanOperationError(f"{self.channel_info} is bus-off, its queue is full")
+            if end is not None and time.monotonic() >= end:
+                raise can.CanOperationError(f"no room in the queue for {timeout} s")
+
+    def _recv_internal(self, timeout):
+        self._check_open()
+        try:
+            if timeout is not None and timeout <= 0:
+                return self._inbox.get_nowait(), False
+            return self._inbox.get(timeout=timeout), False
+        except queue.Empty:
+            return None, False
+
+    def _deliver(self, message, when):
+        if message.echo:
+            self._room.release()
+        if (message.echo and not self._own) or (message.error and not self._errors):
+            return
+        self._inbox.put(can.Message(
+            timestamp=when, arbitration_id=message.id, is_extended_id=message.extended,
+            is_remote_frame=message.remote, is_error_frame=message.error, dlc=message.dlc,
+            data=message.data, channel=self.channel, is_rx=not message.echo))
+
+    @property
+    def state(self):
+        """Error active, passive, or ERROR for bus-off. Setting ACTIVE begins the recovery."""
+        return STATES[self.node_state.state]
+
+    @state.setter
+    def state(self, new_state):
+        if new_state != can.BusState.ACTIVE:
+            raise ValueError("a node goes to BusState.ACTIVE only; errors lead to the others")
+        self._check_open()
+        self._channel.call(lambda bus: bus.restart(self.node))
+
+    @property
+    def node_state(self):
+        """State with the error counters, `tec` and `rec`."""
+        self._check_open()
+        return self._channel.call(lambda bus: bus.state(self.node))
+
+    def disturb(self, effect, bits, after=0, everybody=False):
+        """From `after` bits on this node's receiver, or everybody's, sees another level for `bits`:
+        flip, dominant or recessive."""
+        self._check_open()
+        node = "" if everybody else self.node
+        self._channel.call(lambda bus: bus.disturb(
+            effect, bus.now + after * bus.bit_time, bits * bus.bit_time, node))
+
+    def flush_tx_buffer(self):
+        """Waits until all frames have left; at once if the node is bus-off."""
+        while self._channel.call(lambda bus: bus.pending(self.node)):
+            if self.state == can.BusState.ERROR:
+                return
+            time.sleep(1e-3)
+
+    def shutdown(self):
+        super().shutdown()
+        if self._open:
+            self._open = False
+            close_channel(self._channel, self.node)
+
+    def _check_open(self):
+        if not self._open:
+            raise can.CanOperationError("this bus has been shut down")
+
+    @staticmethod
+    def _detect_available_configs():
+        return [{"interface": "verican", "channel": name} for name in open_names()]

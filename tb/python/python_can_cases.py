@@ -1,0 +1,206 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""python-can's interface "verican": what programs of python-can do, on a bus of RTL nodes."""
+import itertools
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import can
+
+WAIT = 20  # s; far more than anything here takes, so that no result depends on it
+names = (f"channel{i}" for i in itertools.count())
+
+
+def open_bus(channel, **settings):
+    return can.Bus(interface="verican", channel=channel, **settings)
+
+
+def message(identifier, data=b"", **kwargs):
+    return can.Message(arbitration_id=identifier, data=data, is_extended_id=False, **kwargs)
+
+
+def content(of):
+    return (of.arbitration_id, of.is_extended_id, of.is_remote_frame, of.is_error_frame, of.dlc,
+            bytes(of.data))
+
+
+def until(condition):
+    end = time.monotonic() + WAIT
+    while not condition() and time.monotonic() < end:
+        time.sleep(1e-3)
+    return condition()
+
+
+class PythonCan(unittest.TestCase):
+    def setUp(self):
+        self.channel = next(names)
+        self.a, self.b = self.open(), self.open()
+
+    def open(self, channel=None, **settings):
+        bus = open_bus(channel or self.channel, **settings)
+        self.addCleanup(bus.shutdown)
+        return bus
+
+    def test_frames_both_ways(self):
+        kinds = [message(0x123, b"\x01\x02"), message(0x7FF, b"12345678"),
+                 can.Message(arbitration_id=0x1ABCDEF0, data=b"x"),
+                 can.Message(arbitration_id=0x55, is_extended_id=False, is_remote_frame=True,
+                             dlc=3)]
+        for sender, receiver in ((self.a, self.b), (self.b, self.a)):
+            for sent in kinds:
+                sender.send(sent)
+                self.assertEqual(content(receiver.recv(WAIT)), content(sent))
+        self.assertIsNone(self.a.recv(0))  # no echoes
+
+    def test_own_messages_on_request(self):
+        channel = next(names)
+        own = self.open(channel, receive_own_messages=True)
+        own.send(message(0x42, b"me"))
+        echo = own.recv(WAIT)
+        self.assertEqual((echo.arbitration_id, bytes(echo.data), echo.is_rx), (0x42, b"me", False))
+
+    def test_filters(self):
+        self.b.set_filters([{"can_id": 0x100, "can_mask": 0x700, "extended": False}])
+        for identifier in (0x050, 0x123, 0x250, 0x1FF):
+            self.a.send(message(identifier))
+        self.assertEqual([self.b.recv(WAIT).arbitration_id for _ in range(2)], [0x123, 0x1FF])
+        self.a.flush_tx_buffer()
+        self.assertIsNone(self.b.recv(0.1))
+
+    def test_notifier_gives_listeners_all_in_order(self):
+        got = []
+        notifier = can.Notifier(self.b, [got.append], timeout=0.05)
+        for i in range(300):
+            self.a.send(message(i))
+        self.assertTrue(until(lambda: len(got) >= 300))
+        notifier.stop()
+        self.assertEqual([m.arbitration_id for m in got], list(range(300)))
+
+    def test_cyclic_tasks(self):
+        task = self.a.send_periodic(message(0x31, b"tick"), 0.01)
+        first, second = self.b.recv(WAIT), self.b.recv(WAIT)
+        task.stop()
+        self.assertEqual((first.arbitration_id, bytes(second.data)), (0x31, b"tick"))
+        self.assertGreater(second.timestamp, first.timestamp)
+
+    def test_time_stamps_are_those_of_the_bus(self):
+        # 8 bytes at 500 kbit/s: 111 bits and the stuff bits from one start to the next, FF-01.
+        for i in range(50):
+            self.a.send(message(0x100 + i, b"\xA5" * 8))
+        stamps = [self.b.recv(WAIT).timestamp for _ in range(50)]
+        gaps = [second - first for first, second in zip(stamps[1:], stamps[2:])]
+        self.assertTrue(all(111 * 2e-6 - 1e-6 < gap < 135 * 2e-6 + 1e-6 for gap in gaps), gaps)
+
+    def test_a_log_is_written_and_played_back(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = str(Path(folder) / "bus.log")
+            logger, got = can.Logger(path), []
+
+            def log(entry):
+                logger(entry)
+                got.append(entry)
+            notifier = can.Notifier(self.b, [log], timeout=0.05)
+            sent = [message(0x200 + i, bytes([i])) for i in range(20)]
+            for entry in sent:
+                self.a.send(entry)
+            self.assertTrue(until(lambda: len(got) >= 20))
+            notifier.stop()
+            logger.stop()
+            for entry in can.MessageSync(can.LogReader(path), timestamps=False, gap=0):
+                self.b.send(entry)
+        back = [self.a.recv(WAIT) for _ in sent]
+        self.assertEqual([(m.arbitration_id, m.data) for m in back],
+                         [(m.arbitration_id, m.data) for m in sent])
+
+    def test_channels_are_separate(self):
+        other_name = next(names)
+        first, second = self.open(other_name), self.open(other_name)
+        self.a.send(message(1))
+        first.send(message(2))
+        self.assertEqual((self.b.recv(WAIT).arbitration_id, second.recv(WAIT).arbitration_id),
+                         (1, 2))
+        first.flush_tx_buffer()
+        self.assertIsNone(second.recv(0.05))
+        self.assertIsNone(self.b.recv(0.05))
+
+
+class PythonCanErrors(unittest.TestCase):
+    def setUp(self):
+        self.channel = next(names)
+        self.a, self.b = open_bus(self.channel), open_bus(self.channel)
+        self.addCleanup(self.a.shutdown)
+        self.addCleanup(self.b.shutdown)
+
+    def disturbed(self):
+        """Sends a frame under a disturbance; what the receiver has then."""
+        self.b.disturb("dominant", bits=6, after=30)
+        self.a.send(message(0x0F0, b"\xAA"))
+        return list(iter(lambda: self.b.recv(0.05), None))
+
+    def test_disturbed_frames_are_repeated_and_tell_errors(self):
+        # The bus goes on between the two calls, so that the frame may come after the disturbance.
+        for _ in range(100):
+            got = self.disturbed()
+            self.assertEqual([m.arbitration_id for m in got if not m.is_error_frame], [0x0F0])
+            if got[0].is_error_frame:
+                break
+        self.assertTrue(got[0].is_error_frame and got[0].arbitration_id & 0x8)  # CAN_ERR_PROT
+        self.assertEqual((self.a.state, self.b.state), 2 * (can.BusState.ACTIVE,))
+
+    def test_a_node_alone_turns_passive_and_not_off(self):
+        # FC-05, exception 1: a missing acknowledge does not count once the node is passive.
+        alone = open_bus(next(names), nodes=1)
+        self.addCleanup(alone.shutdown)
+        self.assertEqual(alone.state, can.BusState.ACTIVE)
+        alone.send(message(1))
+        self.assertTrue(until(lambda: alone.state == can.BusState.PASSIVE))
+        for _ in range(50):
+            self.assertTrue(alone.recv(WAIT).is_error_frame)
+        self.assertEqual((alone.node_state.tec, alone.state), (128, can.BusState.PASSIVE))
+
+    def test_bus_off_and_recovery(self):
+        # A transmitter that never sees its own dominant bits: TEC + 8 for each try, FC-05, FC-13.
+        self.a.disturb("recessive", bits=50000)
+        self.a.send(message(0x7))
+        self.assertTrue(until(lambda: self.a.state == can.BusState.ERROR))
+        got = []
+
+        def received():  # once the disturbance is over; before, the node goes off again
+            if self.a.state == can.BusState.ERROR:
+                self.a.state = can.BusState.ACTIVE
+            got.extend(m for m in iter(lambda: self.b.recv(0.01), None) if not m.is_error_frame)
+            return got
+        self.assertTrue(until(received))
+        self.assertEqual([m.arbitration_id for m in got], [0x7])
+        self.a.flush_tx_buffer()
+        self.assertEqual(self.a.state, can.BusState.ACTIVE)
+
+    def test_recovery_by_itself_after_restart_ms(self):
+        channel = next(names)
+        a, b = open_bus(channel, restart_ms=5), open_bus(channel)
+        self.addCleanup(a.shutdown)
+        self.addCleanup(b.shutdown)
+        a.disturb("recessive", bits=25000)
+        a.send(message(0x7))
+        got = [m for m in iter(lambda: a.recv(1), None)]
+        self.assertTrue(any(m.arbitration_id & 0x40 for m in got))   # CAN_ERR_BUSOFF
+        self.assertTrue(any(m.arbitration_id & 0x100 for m in got))  # CAN_ERR_RESTARTED
+
+    def test_what_cannot_be_is_refused(self):
+        with self.assertRaisesRegex(can.CanInitializationError, "2 nodes.*taken.*nodes="):
+            open_bus(self.channel)
+        with self.assertRaisesRegex(can.CanInitializationError, "bitrate=500000, not 250000"):
+            open_bus(self.channel, bitrate=250000)
+        with self.assertRaisesRegex(can.CanInitializationError, "1000 to 1000000"):
+            open_bus(next(names), bitrate=8000000)
+        with self.assertRaisesRegex(can.CanOperationError, "classical CAN"):
+            self.a.send(can.Message(arbitration_id=1, is_fd=True, data=bytes(64)))
+        self.a.shutdown()
+        with self.assertRaisesRegex(can.CanOperationError, "shut down"):
+            self.a.send(message(1))
+
+
+if __name__ == "__main__":
+    unittest.main()
