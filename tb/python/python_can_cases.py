@@ -197,6 +197,8 @@ class PythonCanErrors(unittest.TestCase):
             open_bus(next(names), bitrate=8000000)
         with self.assertRaisesRegex(can.CanOperationError, "classical CAN"):
             self.a.send(can.Message(arbitration_id=1, is_fd=True, data=bytes(64)))
+        with self.assertRaisesRegex(NotImplementedError, "ACTIVE alone"):
+            self.a.state = can.BusState.PASSIVE
         self.a.shutdown()
         with self.assertRaisesRegex(can.CanOperationError, "shut down"):
             self.a.send(message(1))

@@ -101,7 +101,7 @@ class VericanBus(can.BusABC):
     @state.setter
     def state(self, new_state):
         if new_state != can.BusState.ACTIVE:
-            raise ValueError("a node goes to BusState.ACTIVE only; errors lead to the others")
+            raise NotImplementedError("BusState.ACTIVE alone can be set; errors lead to the others")
         self._check_open()
         self._channel.call(lambda bus: bus.restart(self.node))
 
