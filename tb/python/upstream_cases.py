@@ -14,8 +14,8 @@ RUNNER = Path(__file__).resolve().parent / "upstream_runner.py"
 
 def run(*command, cwd, **settings):
     return subprocess.run([sys.executable, "-B", *command], cwd=cwd, timeout=200, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                          check=False, env={**os.environ, **settings})
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          stdin=subprocess.DEVNULL, check=False, env={**os.environ, **settings})
 
 
 @unittest.skipUnless(SOURCES, "VERICAN_PYTHON_CAN names no copy of python-can's sources")

@@ -1,0 +1,27 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""The examples of docs/python.md."""
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "python"
+
+
+class PythonExample(unittest.TestCase):
+    def test_the_delay_of_low_priorities_grows_with_load(self):
+        with tempfile.TemporaryDirectory() as folder:
+            picture = Path(folder) / "delay.svg"
+            program = EXAMPLES / "arbitration_delay.py"
+            done = subprocess.run([sys.executable, "-B", program, picture],
+                                  capture_output=True, text=True, check=True)
+            self.assertIn("<svg", picture.read_text())
+        last = done.stdout.splitlines()[-1].split()
+        high, middle, low = (float(last[i]) for i in (2, 5, 8))
+        self.assertTrue(high < middle < low, last)
+
+
+if __name__ == "__main__":
+    unittest.main()
