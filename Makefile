@@ -13,7 +13,7 @@ OUT    := $(BUILD)/out
 QUIET  := $(if $(V),,tools/quiet.sh)
 
 .DEFAULT_GOAL := help
-.PHONY: help packages build install demo test test-linux campaign lint bench synth boards coverage coverage-rtl size wave rules rows registers format clean
+.PHONY: help packages build install demo test test-linux campaign lint bench synth boards coverage coverage-rtl size wave rules rows registers docs format clean
 
 help:  ## List the targets
 	@echo "VeriCAN: a CAN 2.0 controller in RTL and its bus simulator"
@@ -39,6 +39,7 @@ demo: packages $(BUILD)/build.ninja  ## Controllers exchange frames: examples, t
 	@tools/demo.sh $(BUILD) $(OUT)
 
 test: build  ## Run every test and check that every protocol rule has one
+	@tools/install-packages.sh packages-docs.txt
 	@tools/test.sh $(BUILD) $(JOBS)
 
 test-linux: packages $(BUILD)/build.ninja  ## Run Linux's own driver on the core (SHORT=1: fewer cases)
@@ -84,6 +85,10 @@ rows: packages  ## Regenerate docs/flexcan-rows.md, the table of FlexCAN rows an
 
 registers: packages  ## Regenerate what is made from the register map, sw/registers.yaml
 	@/usr/bin/python3 tools/registers.py
+
+docs: packages  ## Build the documentation as a searchable site that needs no network, with Doxygen's reference
+	@tools/install-packages.sh packages-docs.txt
+	@tools/site.py
 
 format: packages  ## Let clang-format rewrite our C++
 	@git ls-files '*.cpp' '*.hpp' '*.c' '*.h' | xargs -r clang-format -i

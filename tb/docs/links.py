@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Test docs.links_lead_somewhere: what README.md and docs/ link to is there.
+# Test docs.links_lead_somewhere: what the pages link to is there.
 """usage: links.py SOURCE
 
 Checks links to files, and to headings (#...) of Markdown files. Addresses of the network are not
@@ -43,7 +43,7 @@ def broken(page):
 def main():
     """All pages of the project."""
     source = pathlib.Path(sys.argv[1])
-    pages = [source / "README.md", *sorted((source / "docs").rglob("*.md"))]
+    pages = [*sorted(source.glob("*.md")), *sorted((source / "docs").rglob("*.md"))]
     wrong = [text for page in pages for text in broken(page)]
     if wrong or len(pages) < 10:
         sys.exit("\n".join(wrong) or f"only {len(pages)} pages")

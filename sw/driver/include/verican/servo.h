@@ -43,7 +43,7 @@ typedef struct verican_servo_config {
   uint32_t drift_ppb; /**< of the rate in holdover, for verican_servo_bound(); 1,000,000 at most */
   int32_t delay_ns;   /**< from the master's stamp point to the own one */
   uint8_t filter;     /**< intervals: 1, 2, 4, 8 or 16; 0: the servo chooses */
-  uint8_t hold_after; /**< intervals without a pair until holdover, 1.. */
+  uint8_t hold_after; /**< intervals without a pair until holdover, 1 or more */
   bool keep_offset;   /**< corrects the rate only */
   bool keep_rate;     /**< corrects the offset only */
 } verican_servo_config_t;

@@ -456,7 +456,7 @@ typedef enum verican_test_step {
 /** Where a self-test failed. */
 typedef struct verican_test_report {
   verican_test_step_t step;
-  uint32_t where;    /**< offset of the word, or number of the frame, 0.. */
+  uint32_t where;    /**< offset of the word, or number of the frame from 0 on */
   uint32_t expected; /**< word */
   uint32_t found;    /**< word */
 } verican_test_report_t;

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// search.mjs ADDRESS: opens the site there in headless Chromium, searches for a word, and prints as
+// JSON which links were found and which requests went to anywhere else. Environment:
+// VERICAN_REPORT_MODULES npm packages.
+import {createRequire} from 'node:module';
+import {join} from 'node:path';
+
+const {chromium} = createRequire(join(process.env.VERICAN_REPORT_MODULES, 'x.js'))(
+  'playwright-core',
+);
+const address = process.argv[2];
+const patience = 120000; // for slow machines
+const root = process.getuid() === 0 ? ['--no-sandbox'] : [];
+const browser = await chromium.launch({
+  executablePath: '/usr/bin/chromium',
+  timeout: patience,
+  args: [...root, '--disable-dev-shm-usage', '--disable-gpu'],
+});
+const page = await browser.newPage();
+const outside = [];
+page.on('request', (request) => {
+  if (!request.url().startsWith(address) && !/^(data|blob):/.test(request.url()))
+    outside.push(request.url());
+});
+await page.goto(`${address}index.html`, {timeout: patience});
+await page.fill('input[name="query"]', 'overload');
+await page.waitForSelector('.md-search-result__list a[href]', {timeout: patience, state: 'attached'});
+const found = await page.$$eval('.md-search-result__list a[href]', (links) =>
+  links.map((link) => link.href),
+);
+await browser.close();
+console.log(JSON.stringify({found, outside}));
