@@ -159,8 +159,7 @@ class SiteTest(unittest.TestCase):
         self.assertNotRegex(body, r"\| *---")
 
     def test_search_finds(self):
-        modules = os.environ.get("VERICAN_REPORT_MODULES", "")
-        if not Path(modules, "playwright-core").is_dir():
+        if not os.environ.get("VERICAN_REPORT_MODULES"):
             self.skipTest("VERICAN_REPORT_MODULES is not set: nothing that drives a browser")
         QuietServer.missing = []
         handler = functools.partial(QuietServer, directory=str(self.site))
