@@ -50,6 +50,9 @@ host/can_flags.sv
 host/can_regs.sv
 host/can_top.sv
 host/can_ahb.sv
+host/can_apb.sv
+host/can_axil.sv
+host/can_wb.sv
 # A clock without a processor.
 time/can_time_node.sv
 # A node without a processor: can_core, can_mb_ram and these.

@@ -14,7 +14,7 @@ CAPI=2:
 #
 # can.core: FuseSoC description; written by tools/core-file.sh from rtl/can.f (make lint compares).
 name: verican:ip:can:$version
-description: CAN 2.0 controller with FlexCAN registers on AHB-Lite
+description: CAN 2.0 controller with FlexCAN registers on AHB-Lite, APB, AXI4-Lite or Wishbone
 
 filesets:
   rtl:

@@ -28,6 +28,8 @@ mapfile -t rtl < <(rtl_files)
 tops=()
 has_module can_core && tops+=("can_core")
 has_module can_ahb && tops+=("can_ahb NumMb=16" "can_ahb NumMb=32")
+has_module can_wb && tops+=("can_apb NumMb=16 CheckProt=1" "can_axil NumMb=16 CheckProt=1"
+                            "can_wb NumMb=16" "can_wb NumMb=16 Pipelined=1")
 # The profiles, each feature away by itself, and all of them.
 profiles() { /usr/bin/python3 tools/profiles.py "$@" | sed 's/^\([a-z]* \)\?/can_ahb /'; }
 has_module can_ahb && mapfile -t -O ${#tops[@]} tops < <(profiles; profiles --features)

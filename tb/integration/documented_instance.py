@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""The instance of can_ahb that the pages print, copied into a user's top, has no warning."""
+"""The instances of the wrappers that the pages print, copied into a user's top, have no warning."""
 
 import re
 import tempfile
@@ -9,18 +9,28 @@ import unittest
 from pathlib import Path
 
 import design
+import wrappers
 
 PAGES = ("README.md", "docs/integration.md")
 BLOCK = re.compile(r"^```systemverilog\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 
 
-def instance_on(page):
-    """The block of the page that holds an instance of can_ahb."""
+def instance_on(page, module="can_ahb"):
+    """The block of the page that holds an instance of the module."""
     text = (design.ROOT / page).read_text(encoding="utf-8")
-    blocks = [block for block in BLOCK.findall(text) if "can_ahb" in block]
+    blocks = [block for block in BLOCK.findall(text) if module in block]
     if len(blocks) != 1:
-        raise AssertionError(f"{page}: {len(blocks)} blocks with an instance of can_ahb, not one")
+        raise AssertionError(f"{page}: {len(blocks)} blocks with an instance of {module}, not one")
     return blocks[0]
+
+
+def top_around(module, block):
+    """A user's top whose ports are those of the bus, by the names that the block gives them."""
+    names = dict(re.findall(r"\.(\w+)\((\w+)\)", block))
+    ports = [f"{direction} logic {width} {names.get(name, name)}"
+             for direction, width, name in wrappers.bus_ports(module)]
+    ports += ["output logic can_irq", "input logic can_rxd", "output logic can_txd"]
+    return f"module user_top (\n  {f',{chr(10)}  '.join(ports)}\n);\n{block}endmodule\n"
 
 
 class DocumentedInstance(unittest.TestCase):
@@ -28,14 +38,20 @@ class DocumentedInstance(unittest.TestCase):
 
     def check(self, *command):
         for page in PAGES:
-            with self.subTest(page=page), tempfile.TemporaryDirectory() as name:
+            with self.subTest(page=page):
                 block = instance_on(page)
                 declared = "logic [31:0] can_rdata;" in block
-                top = Path(name) / "user_top.sv"
-                top.write_text(design.user_top(block, "" if declared else design.DECLARATIONS),
-                               encoding="utf-8")
-                code, text = design.run(*command, *design.rtl_files(), top)
-                self.assertEqual((code, text), (0, ""))
+                self.check_top(command, design.user_top(block, "" if declared
+                                                        else design.DECLARATIONS))
+        for module in set(wrappers.BUSES) - {"can_ahb"}:
+            with self.subTest(module=module):
+                self.check_top(command, top_around(module, instance_on(PAGES[1], module + " ")))
+
+    def check_top(self, command, text):
+        with tempfile.TemporaryDirectory() as name:
+            top = Path(name) / "user_top.sv"
+            top.write_text(text, encoding="utf-8")
+            self.assertEqual(design.run(*command, *design.rtl_files(), top), (0, ""))
 
     def test_verilator_has_no_warning(self):
         """All warnings on, no waiver but the core's own."""

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// In place of can_top under can_ahb: a native port that may do whatever can_top is proven to do
-// (host.native_port), with outputs free otherwise. What can_ahb owes to it is checked here.
+// In place of can_top under a bus wrapper: a native port that may do whatever can_top is proven to do
+// (host.native_port), with outputs free otherwise. What the wrapper owes to it is checked here.
 
 module can_top #(
   parameter int NumMb = 64,
@@ -55,7 +55,7 @@ module can_top #(
   assign {irq_o, irq_mb_o, irq_boff_o, irq_err_o, irq_twrn_o, irq_rwrn_o, irq_wak_o} = '0;
   assign {time_out_o, irq_time_o} = '0;
   assign can_tx_o = can_pkg::Recessive;
-  // What the port is told, for the properties in can_ahb.
+  // What the port is told, for the properties in the wrapper.
   assign trace_o  = can_pkg::TraceWidth'({wdata_i, be_i, addr_i, we_i, req_i && !cancel_i});
 
   // A command was taken in the clock before: only its first clock may be one of waiting.
@@ -69,7 +69,7 @@ module can_top #(
     // Discharged by host.native_port, p_waits and p_first_only: the port is ready, but for at most
     // the clock after a command.
     m_ready: assume (!rst_ni || f_ready || f_first);
-    // AHB-READY: the port is given a command only while it is ready.
+    // PK-12: the port is given a command only while it is ready.
     p_when_ready: assert (!rst_ni || !(req_i && !cancel_i) || ready_o);
   end
 endmodule

@@ -2,7 +2,7 @@
   // SPDX-License-Identifier: Apache-2.0
   //
   // Properties of can_top, spliced into it: the native port waits for one clock at most. Together
-  // with host.ahb this is the compliance of the whole slave.
+  // with host.ahb (and of the other buses) this is the compliance of the whole slave.
 
   logic f_first;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -12,7 +12,7 @@
 
   always @(posedge clk_i) begin
     m_reset: assume (rst_ni == !$initstate);
-    // Discharged by host.ahb, p_when_ready.
+    // Discharged by host.ahb, host.apb, host.axil, host.wb: p_when_ready.
     m_when_ready: assume (!(req_i && !cancel_i) || ready_o);
     if (rst_ni) begin
       // AHB-WAIT: the port is not ready in the clock after a command at most.

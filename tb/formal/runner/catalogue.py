@@ -10,7 +10,7 @@ import yaml
 
 METHODS = ("induction", "pdr", "bounded", "cover")
 SOLVERS = ("z3", "boolector", "abc")
-RULE = re.compile(r"\b[A-Z]{2}-\d{2,3}[a-z]?\b|\b(?:AHB|FX)-[A-Z0-9][\w.]*\w|"
+RULE = re.compile(r"\b[A-Z]{2}-\d{2,3}[a-z]?\b|\b(?:AHB|APB|AXI|FX|WB)-[A-Z0-9][\w.]*\w|"
                   r"\bflexcan\.md [0-9.]+\b")
 LABEL = re.compile(r"^\s*([plmc]_[a-z0-9_]+)\s*:\s*(assert|assume|cover)\b")
 

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_axil: the controller as an AXI4-Lite slave of 32 bits. One read and one write may be open;
+// the core has one of them at a time: a read every two clocks, a write every three, one more while
+// the engine uses the buffer RAM.
+//
+// SLVERR: beyond the window of 8 KiB.
+
+module can_axil #(
+  /// As of can_ahb: message buffers; what the core has; the time unit (docs/integration.md).
+  parameter int NumMb = 64,
+  parameter int Fifo = 1,
+  parameter int Abort = 1,
+  parameter int Status = 1,
+  parameter int OwnMasks = 1,
+  parameter int Wake = 1,
+  parameter int Extras = 1,
+  parameter int ClearRam = 1,
+  parameter int TimeUnit = 0,
+  parameter logic [39:0] TimeInc = 40'h14_0000_0000,
+  parameter int TimeSync = 0,
+  parameter logic [31:0] SyncCtrl = 32'd0,
+  parameter logic [31:0] SyncId = 32'd0,
+  parameter logic [31:0] SyncDelay = 32'd0,
+  /// Size of the region that the core is selected for, as a number of address bits, 13 to 32;
+  /// address bits above are not looked at, those down to 13 must be zero.
+  parameter int RegionBits = 16,
+  /// 1: with MCR.SUPV = 1 unprivileged accesses (AxPROT[0] = 0) read 0 and write nothing; 0: SUPV
+  /// is only stored.
+  parameter int CheckProt = 0,
+  /// Clocks that the bus must be dominant to wake the core if MCR.WAK_SRC = 1, 1 to 255.
+  parameter int WakeFilter = 6
+) (
+  input  logic        aclk,
+  input  logic        aresetn,
+  input  logic [31:0] awaddr,        // 1:0 are ignored, here and of araddr: whole words
+  input  logic [2:0]  awprot,
+  input  logic        awvalid,
+  output logic        awready,
+  input  logic [31:0] wdata,
+  input  logic [3:0]  wstrb,
+  input  logic        wvalid,
+  output logic        wready,
+  output logic [1:0]  bresp,
+  output logic        bvalid,
+  input  logic        bready,
+  input  logic [31:0] araddr,
+  input  logic [2:0]  arprot,
+  input  logic        arvalid,
+  output logic        arready,
+  output logic [31:0] rdata,
+  output logic [1:0]  rresp,
+  output logic        rvalid,
+  input  logic        rready,
+  output logic        irq_o,
+  output logic        irq_mb_o,
+  output logic        irq_boff_o,
+  output logic        irq_err_o,
+  output logic        irq_twrn_o,
+  output logic        irq_rwrn_o,
+  output logic        irq_wak_o,
+  input  logic        ext_i,         // time unit: external event, asynchronous
+  output logic        time_out_o,    // ... output of the compare unit, a pulse a second if wanted
+  output logic        irq_time_o,    // ... interrupt, not part of irq_o
+  input  logic        stop_req_i,    // the system wants stop mode; in step with aclk
+  input  logic        can_rx_i,
+  output logic        can_tx_o,
+  output logic [can_pkg::TraceWidth-1:0] trace_o
+);
+  if (RegionBits < 13 || RegionBits > 32) begin : gen_check_region_bits
+    RegionBits_must_be_13_to_32 u_stop ();   // no such module: the tool prints the name and stops
+  end
+
+  logic unused;
+  assign unused = &{1'b0, awaddr[1:0], araddr[1:0], awprot, arprot, supv};
+
+  // A transfer begins when its answer has room and the core has no other. Where a read and a write
+  // wait, it is the turn of the one that was not the last.
+  logic read_q, write_q, taken_q, read_last_q, reads, writes, turn, begins, supv;
+  assign reads  = arvalid && (!rvalid || rready);
+  assign writes = awvalid && wvalid && !taken_q && (!bvalid || bready);
+  assign turn   = writes && (read_last_q || !reads);                  // of the write
+  assign begins = (reads || writes) && !read_q && !write_q;
+
+  // Command. Of a read all lanes count; a write without a strobe is none to the core.
+  logic        beyond, denied, cancel, error_q, denied_q, ready;
+  logic [3:0]  be;
+  logic [31:0] addr, core_rdata;
+  assign addr   = turn ? awaddr : araddr;
+  assign beyond = (addr & 32'((33'd1 << RegionBits) - 33'd1)) >> 13 != '0;
+  assign denied = CheckProt != 0 && supv && !(turn ? awprot[0] : arprot[0]);
+  assign be     = turn ? wstrb : 4'b1111;
+  assign cancel = beyond || denied || be == '0;
+
+  // Data in the clock behind, or one later: read_q, write_q. Address and write data are held by
+  // the master, which is told after they were used: ARREADY with the data, AWREADY and WREADY in
+  // the clock behind (taken_q).
+  always_ff @(posedge aclk or negedge aresetn) begin
+    if (!aresetn) begin
+      {read_q, write_q, taken_q, read_last_q, error_q, denied_q, rvalid, bvalid} <= '0;
+    end else begin
+      taken_q <= write_q && ready;
+      if (read_q || write_q) begin
+        if (ready) {read_q, write_q} <= '0;
+      end else if (begins) begin
+        {read_q, write_q} <= {!turn, turn};
+        read_last_q <= !turn;
+        {error_q, denied_q} <= {beyond, denied};
+      end
+      if (read_q && ready) rvalid <= 1'b1;
+      else if (rready)     rvalid <= 1'b0;
+      if (taken_q)         bvalid <= 1'b1;
+      else if (bready)     bvalid <= 1'b0;
+    end
+  end
+  assign arready = read_q && ready;
+  assign awready = taken_q;
+  assign wready  = taken_q;
+
+  always_ff @(posedge aclk or negedge aresetn) begin
+    if (!aresetn) begin
+      rdata <= '0;
+      {rresp, bresp} <= '0;
+    end else begin
+      if (arready) begin
+        rdata <= error_q || denied_q ? '0 : core_rdata;
+        rresp <= {error_q, 1'b0};
+      end
+      if (write_q && ready) bresp <= {error_q, 1'b0};
+    end
+  end
+
+  can_top #(
+    .NumMb(NumMb), .Fifo(Fifo), .Abort(Abort), .Status(Status), .OwnMasks(OwnMasks), .Wake(Wake),
+    .Extras(Extras), .ClearRam(ClearRam), .TimeUnit(TimeUnit), .TimeInc(TimeInc),
+    .TimeSync(TimeSync), .SyncCtrl(SyncCtrl), .SyncId(SyncId), .SyncDelay(SyncDelay),
+    .WakeFilter(WakeFilter)
+  ) u_top (
+    .clk_i(aclk), .rst_ni(aresetn),
+    .req_i(begins), .cancel_i(cancel), .we_i(turn), .addr_i(addr[12:2]),
+    .be_i(be), .wdata_i(wdata),
+    .rdata_o(core_rdata), .ready_o(ready),
+    .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o,
+    .ext_i, .time_out_o, .irq_time_o, .stop_req_i, .supv_o(supv),
+    .can_rx_i, .can_tx_o, .trace_o);
+endmodule

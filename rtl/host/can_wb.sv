@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// can_wb: the controller as a Wishbone B4 slave with words of 32 bits, little-endian.
+//
+// Classic (Pipelined = 0): standard cycles of two clocks, or three while the engine uses the buffer
+// RAM. Pipelined = 1: a strobe is taken in each clock without STALL and answered in order, one
+// clock later or two. ERR: beyond the window of 8 KiB. A cycle that ends before its answer never
+// gets one.
+
+module can_wb #(
+  /// As of can_ahb: message buffers; what the core has; the time unit (docs/integration.md).
+  parameter int NumMb = 64,
+  parameter int Fifo = 1,
+  parameter int Abort = 1,
+  parameter int Status = 1,
+  parameter int OwnMasks = 1,
+  parameter int Wake = 1,
+  parameter int Extras = 1,
+  parameter int ClearRam = 1,
+  parameter int TimeUnit = 0,
+  parameter logic [39:0] TimeInc = 40'h14_0000_0000,
+  parameter int TimeSync = 0,
+  parameter logic [31:0] SyncCtrl = 32'd0,
+  parameter logic [31:0] SyncId = 32'd0,
+  parameter logic [31:0] SyncDelay = 32'd0,
+  /// Size of the region that the core is selected for, as a number of address bits, 13 to 32;
+  /// address bits above are not looked at, those down to 13 must be zero.
+  parameter int RegionBits = 16,
+  /// 0: standard cycles; 1: pipelined.
+  parameter int Pipelined = 0,
+  /// Clocks that the bus must be dominant to wake the core if MCR.WAK_SRC = 1, 1 to 255.
+  parameter int WakeFilter = 6
+) (
+  input  logic        wb_clk_i,
+  input  logic        wb_rst_i,      // asynchronous, active high
+  input  logic        wb_cyc_i,
+  input  logic        wb_stb_i,
+  input  logic        wb_we_i,
+  input  logic [31:2] wb_adr_i,
+  input  logic [3:0]  wb_sel_i,
+  input  logic [31:0] wb_dat_i,
+  output logic [31:0] wb_dat_o,
+  output logic        wb_ack_o,
+  output logic        wb_err_o,
+  output logic        wb_stall_o,
+  output logic        irq_o,
+  output logic        irq_mb_o,
+  output logic        irq_boff_o,
+  output logic        irq_err_o,
+  output logic        irq_twrn_o,
+  output logic        irq_rwrn_o,
+  output logic        irq_wak_o,
+  input  logic        ext_i,         // time unit: external event, asynchronous
+  output logic        time_out_o,    // ... output of the compare unit, a pulse a second if wanted
+  output logic        irq_time_o,    // ... interrupt, not part of irq_o
+  input  logic        stop_req_i,    // the system wants stop mode; in step with wb_clk_i
+  input  logic        can_rx_i,
+  output logic        can_tx_o,
+  output logic [can_pkg::TraceWidth-1:0] trace_o
+);
+  if (RegionBits < 13 || RegionBits > 32) begin : gen_check_region_bits
+    RegionBits_must_be_13_to_32 u_stop ();   // no such module: the tool prints the name and stops
+  end
+
+  if (Pipelined < 0 || Pipelined > 1) begin : gen_check_pipelined
+    Pipelined_must_be_0_or_1 u_stop ();
+  end
+  logic unused;
+  assign unused = &{1'b0, supv};
+
+  // A strobe is taken; its answer is due from the next clock on, while the cycle lasts.
+  logic        rst_n, taken, beyond, cancel, due_q, error_q, ready, answer, supv;
+  logic        held;                 // who waits for the answer still does
+  logic [31:0] wdata, rdata;
+  assign rst_n  = !wb_rst_i;
+  assign beyond = ({wb_adr_i, 2'b00} & 32'((33'd1 << RegionBits) - 33'd1)) >> 13 != '0;
+  // A write without a lane is none to the core.
+  assign cancel = beyond || (wb_we_i && wb_sel_i == '0);
+  always_ff @(posedge wb_clk_i or negedge rst_n) begin
+    if (!rst_n) {due_q, error_q} <= '0;
+    else begin
+      due_q <= taken || (due_q && !ready && held);
+      if (taken) error_q <= beyond;
+    end
+  end
+  assign wb_ack_o = answer && !error_q;
+  assign wb_err_o = answer && error_q;
+  assign wb_dat_o = error_q ? '0 : rdata;
+
+  if (Pipelined != 0) begin : gen_pipelined
+    logic [31:0] wdata_q;            // the master shows them with the strobe alone
+    assign held       = wb_cyc_i;
+    assign taken      = wb_cyc_i && wb_stb_i && ready;
+    assign wb_stall_o = !ready;
+    assign wdata      = wdata_q;
+    always_ff @(posedge wb_clk_i or negedge rst_n) begin
+      if (!rst_n)     wdata_q <= '0;
+      else if (taken) wdata_q <= wb_dat_i;
+    end
+  end else begin : gen_classic
+    assign held       = wb_cyc_i && wb_stb_i;
+    assign taken      = held && !due_q;
+    assign wb_stall_o = wb_cyc_i && !answer;
+    assign wdata      = wb_dat_i;
+  end
+  assign answer = due_q && ready && held;
+
+  can_top #(
+    .NumMb(NumMb), .Fifo(Fifo), .Abort(Abort), .Status(Status), .OwnMasks(OwnMasks), .Wake(Wake),
+    .Extras(Extras), .ClearRam(ClearRam), .TimeUnit(TimeUnit), .TimeInc(TimeInc),
+    .TimeSync(TimeSync), .SyncCtrl(SyncCtrl), .SyncId(SyncId), .SyncDelay(SyncDelay),
+    .WakeFilter(WakeFilter)
+  ) u_top (
+    .clk_i(wb_clk_i), .rst_ni(rst_n),
+    .req_i(taken), .cancel_i(cancel), .we_i(wb_we_i), .addr_i(wb_adr_i[12:2]),
+    .be_i(wb_sel_i), .wdata_i(wdata),
+    .rdata_o(rdata), .ready_o(ready),
+    .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o,
+    .ext_i, .time_out_o, .irq_time_o, .stop_req_i, .supv_o(supv),
+    .can_rx_i, .can_tx_o, .trace_o);
+endmodule
