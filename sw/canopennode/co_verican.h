@@ -1,0 +1,14 @@
+/* SPDX-FileCopyrightText: 2026 The VeriCAN authors
+ * SPDX-License-Identifier: Apache-2.0
+ *
+ * Between the two files of the port.
+ */
+#ifndef CO_VERICAN_H
+#define CO_VERICAN_H
+
+#include "CO_driver_target.h"
+
+/** on_sent of the driver: a mailbox is free again. */
+void co_verican_sent(void *user, verican_t *dev, const verican_tx_event_t *event);
+
+#endif /* CO_VERICAN_H */
