@@ -3,7 +3,7 @@
 #
 # What `cmake --install` installs: the tool, the libraries with their headers, CMake package and
 # pkg-config files (docs/install.md), the driver's sources, the RTL and what belongs to it. Each
-# part is an install component of its own: tool, sim, systemc, driver, rtl, doc. Nothing in an
+# part is an install component of its own: tool, sim, systemc, driver, python, rtl, doc. Nothing in an
 # installed tree knows where it lies.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -84,6 +84,10 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/driver/src" "${PROJECT_SOURCE_DIR}/s
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/firmware/common"
         DESTINATION "${VERICAN_DATA_DIR}/firmware" COMPONENT driver)
 
+# The port of CANopenNode, its object dictionaries and its example; CANopenNode is the user's own.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/canopennode" DESTINATION "${VERICAN_DATA_DIR}"
+        USE_SOURCE_PERMISSIONS COMPONENT driver)
+
 if(TARGET verican)
   install(TARGETS verican RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tool)
 endif()
@@ -105,7 +109,8 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
 # Links of the pages lead to what is installed, once all of it is there.
 set(VERICAN_DOC_PLACES
   "sim=${include_dir}" "rtl=${VERICAN_DATA_DIR}/rtl" "examples=${VERICAN_DATA_DIR}/examples"
-  "sw/driver=${VERICAN_DATA_DIR}/driver" "sw/firmware/common=${VERICAN_DATA_DIR}/firmware/common"
+  "sw/driver=${VERICAN_DATA_DIR}/driver" "sw/canopennode=${VERICAN_DATA_DIR}/canopennode"
+  "sw/firmware/common=${VERICAN_DATA_DIR}/firmware/common"
   "sw/verican.svd=${VERICAN_DATA_DIR}/verican.svd")
 list(TRANSFORM VERICAN_DOC_PLACES REPLACE "=" "=\${root}/")
 list(JOIN VERICAN_DOC_PLACES "\" \"" doc_places)
@@ -117,7 +122,7 @@ install(CODE "
 
 # All that must be built before `cmake --install`.
 add_custom_target(installable)
-foreach(target verican vericansim vericansystemc verican_driver)
+foreach(target verican vericansim vericansystemc verican_driver verican_python)
   if(TARGET ${target})
     add_dependencies(installable ${target})
   endif()

@@ -37,6 +37,18 @@ for variant in plug noise stage; do
     --variant "$variant" -- --report "$out/cabinet-$variant.html"
 done
 
+robot() {  # OPTIONS...
+  env PYTHONPATH="$build/python" examples/robot/robot.py "$@"
+}
+if compgen -G "$build/python/verican/_core*.so" >/dev/null; then
+  headline "A robot on CANopen: host, six joints, two sensors, SYNC each millisecond, 1 Mbit/s"
+  run "the robot" robot --seconds 1 --report "$out/robot.html"
+  headline "The robot: the receiver of a joint breaks for 3 ms"
+  run "the robot, a joint fails" robot --seconds 0.2 --fail --report "$out/robot-failure.html"
+else
+  headline "A robot on CANopen: left out, it needs pybind11-dev and python3-dev"
+fi
+
 headline "The paper's experiments (Son, Park, Kang 2016): what the core does, what they report"
 run "the paper's experiments" "$verican" paper --out "$out/paper" --report "$out/paper"
 

@@ -4,7 +4,7 @@
 // device.mjs PORT NODE [BUS]: npm's canopen as a device with the object dictionary of the servo drive
 // (sw/canopennode/drive/drive.eds): SDO server, heartbeat, SYNC and TPDO, EMCY. At each SYNC it goes
 // a step towards its set point. A value written to object 2008 is an error, which it tells.
-import {readFileSync, mkdtempSync, rmSync, writeFileSync} from 'node:fs';
+import {existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {tmpdir} from 'node:os';
 import {dirname, join} from 'node:path';
@@ -19,8 +19,9 @@ const STEP = 100;
 
 // The library knows no $NODEID.
 function dataSheet(node) {
-  const path = join(here, '../../sw/canopennode/drive/drive.eds');
-  const text = readFileSync(path, 'latin1').replaceAll(
+  // In the project, or beside the examples that were installed.
+  const places = ['../../sw', '../..'].map((up) => join(here, up, 'canopennode/drive/drive.eds'));
+  const text = readFileSync(places.find(existsSync) ?? places[0], 'latin1').replaceAll(
       /\$NODEID\+(0x[0-9A-F]+)/gi, (_, base) => `0x${(Number(base) + node).toString(16)}`);
   const folder = mkdtempSync(join(tmpdir(), 'verican-'));
   try {

@@ -13,11 +13,13 @@
 namespace vericansim {
 namespace {
 
-HostConfig host_config(const BitTiming &timing) {
+HostConfig host_config(const BitTiming &timing, const PortOptions &options) {
   HostConfig config;
   config.timing = timing;
   config.boff_rec = true;  // recovery is begun by restart()
-  config.tx_buffers = 1;   // the order of the programs is the order on the bus
+  // With one buffer the order of the programs is the order on the bus.
+  config.tx_buffers = options.by_identifier ? PortNode::kRoom : 1;
+  config.lowest_buffer_first = !options.by_identifier;
   return config;
 }
 
@@ -78,9 +80,9 @@ PortNode::PortNode(CanPort &port, RtlNode &node, const BitTiming &timing,
           std::llround(timing.clocks_per_bit() * 1e12 / node.oscillator().nominal_hz()))},
       after_sample_{bit_time_ * timing.ps2 / timing.quanta()},
       errors_{options.errors},
-      host_{node, host_config(timing)} {
+      host_{node, host_config(timing, options)} {
   host_.on_received = [this](const HostFrame &frame) { on_received(frame); };
-  host_.on_sent = [](const HostFrame &) {};  // seen earlier, in on_bit()
+  host_.on_sent = [this](const HostFrame &frame) { on_told(frame); };
 }
 
 void PortNode::take() {
@@ -127,8 +129,28 @@ void PortNode::on_received(const HostFrame &frame) {
 void PortNode::on_sent(Time end) {
   if (queue_.empty()) throw std::logic_error("a frame has left that nobody has sent");
   ++counts_.sent;
-  PortMessage message = queue_.front();
+  if (options_.by_identifier) return ends_.push_back(end);  // which one it was, the host tells
+  const PortMessage message = queue_.front();
   queue_.pop_front();
+  echo(message, end);
+}
+
+void PortNode::on_told(const HostFrame &sent) {
+  if (!options_.by_identifier) return;  // seen earlier, in on_bit()
+  const can_frame frame = to_can_frame(sent.frame);
+  const auto found = std::find_if(queue_.begin(), queue_.end(), [&](const PortMessage &message) {
+    return message.frame.can_id == frame.can_id && message.frame.len == frame.len &&
+           std::equal(message.frame.data, message.frame.data + frame.len, frame.data);
+  });
+  if (found == queue_.end() || ends_.empty())
+    throw std::logic_error("a frame has left that nobody has sent");
+  const PortMessage message = *found;
+  queue_.erase(found);
+  echo(message, ends_.front());
+  ends_.pop_front();
+}
+
+void PortNode::echo(PortMessage message, Time end) {
   if (!port_.wants_echo()) return;
   message.time = end;
   message.echo = true;

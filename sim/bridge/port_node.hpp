@@ -22,6 +22,9 @@ struct PortOptions {
   ErrorChoice errors = ErrorChoice::kOwn;
   std::vector<IdFilter> filters{};  ///< frames of the bus for the programs; empty: all
   Time restart = 0;  ///< simulated time from bus-off to the begin of recovery; 0: only restart()
+  /// Of the frames that the node holds the lowest identifier leaves first, not the oldest; frames
+  /// of one identifier may then change places.
+  bool by_identifier = false;
 };
 
 /// Messages that wait for the programs, in the order of the bus. A received frame has its place
@@ -56,7 +59,7 @@ class Outbox {
 };
 
 /// A Verilated core with software, between a CanPort and the bus. Frames of programs leave in their
-/// order; messages for programs keep the order of the bus.
+/// order, or by PortOptions::by_identifier; messages for programs keep the order of the bus.
 class PortNode {
  public:
   /// Frames that the node holds at most; more wait in the port.
@@ -94,6 +97,8 @@ class PortNode {
  private:
   void on_received(const HostFrame &frame);
   void on_sent(Time end);
+  void on_told(const HostFrame &sent);
+  void echo(PortMessage message, Time end);
   void enter_bus_off();
 
   CanPort &port_;
@@ -103,6 +108,7 @@ class PortNode {
   ErrorMessages errors_;
   Outbox outbox_;
   std::deque<PortMessage> queue_;  // given to the host, not yet sent
+  std::deque<Time> ends_;          // by_identifier: of frames that have left, not yet told by it
   PortCounts counts_;
   bool bus_off_ = false;
   bool recovering_ = false;

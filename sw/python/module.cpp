@@ -7,10 +7,14 @@
 
 #include <cmath>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "bridge/frame_form.hpp"
+#include "bus/range.hpp"
 #include "program_bus.hpp"
+#include "results/report.hpp"
+#include "timing/analysis.hpp"
 #include "trace/input_error.hpp"
 
 namespace py = pybind11;
@@ -73,13 +77,21 @@ Effect effect_of(const std::string &word) {
 
 std::unique_ptr<ProgramBus> make_bus(const std::vector<std::string> &nodes, double bitrate,
                                      double clock_hz, const std::string &scenario, double restart,
-                                     const std::string &vcd) {
+                                     const std::string &vcd, const std::string &order) {
+  if (order != "program" && order != "identifier")
+    throw std::invalid_argument("order '" + order + "': program or identifier");
   ProgramBusSetup setup;
-  if (!scenario.empty()) setup.scenario = read_scenario(scenario);
+  // A text of several lines is the scenario itself, which _scenario.py makes of a dictionary.
+  const bool is_text = scenario.find('\n') != std::string::npos;
+  if (is_text)
+    setup.scenario = parse_scenario("scenario", scenario);
+  else if (!scenario.empty())
+    setup.scenario = read_scenario(scenario);
   setup.bitrate = bitrate != 0 || !scenario.empty() ? bitrate : 500e3;
   setup.nodes = nodes;
   setup.clock_hz = clock_hz;
   setup.restart = to_ps("restart", restart);
+  setup.by_identifier = order == "identifier";
   if (!vcd.empty()) setup.scenario.outputs.vcd = vcd;
   return std::make_unique<ProgramBus>(std::move(setup));
 }
@@ -159,6 +171,59 @@ py::list frames(ProgramBus &bus) {
   return list;
 }
 
+const char *kind_of(BusEventKind kind) {
+  switch (kind) {
+    case BusEventKind::kErrorFrame: return "error frame";
+    case BusEventKind::kOverloadFrame: return "overload frame";
+    case BusEventKind::kBadFrame: return "bad frame";
+    default: return "frame";
+  }
+}
+
+const char *problem_of(BusProblem problem) {
+  switch (problem) {
+    case BusProblem::kStuff: return "stuff";
+    case BusProblem::kForm: return "form";
+    case BusProblem::kCrc: return "CRC";
+    default: return "";
+  }
+}
+
+// Dictionaries, times in seconds.
+py::list events(ProgramBus &bus) {
+  py::list list;
+  for (const BusEvent &event : bus.events()) {
+    py::dict value("kind"_a = kind_of(event.kind),
+                   "start"_a = to_seconds(event.start - bus.started()),
+                   "end"_a = to_seconds(event.end - bus.started()));
+    if (event.kind == BusEventKind::kFrame || event.kind == BusEventKind::kBadFrame) {
+      value["frame"] = event.frame;
+      value["acked"] = event.acked;
+    }
+    if (event.kind != BusEventKind::kFrame) {
+      value["problem"] = problem_of(event.problem);
+      value["field"] = std::string{field_name(event.field)};
+      value["flag_bits"] = event.flag_bits;
+    }
+    list.append(value);
+  }
+  return list;
+}
+
+// Messages are (bytes, extended, period, jitter), first the one of highest priority.
+std::vector<std::optional<double>> bounds(
+    const std::vector<std::tuple<unsigned, bool, double, double>> &messages, double bitrate) {
+  if (!(bitrate >= 1e3 && bitrate <= 1e6))
+    throw std::invalid_argument("bitrate: 1000 to 1000000 bit/s are allowed");
+  std::vector<MessageSpec> specs;
+  for (const auto &[bytes, extended, period, jitter] : messages)
+    specs.push_back({bytes, extended, to_ps("period", period), to_ps("jitter", jitter)});
+  std::vector<std::optional<double>> seconds;
+  for (const auto &bound : response_times(specs, bit_time_of(bitrate)))
+    seconds.push_back(bound ? std::optional{to_seconds(*bound)} : std::nullopt);
+  return seconds;
+}
+
 void step(ProgramBus &bus, double seconds, std::int64_t bits) {
   if (bits < 0 || bits > 1'000'000'000)
     throw std::invalid_argument("bits: 0 to 1000000000 are allowed");
@@ -177,7 +242,7 @@ void bind_bus(py::module_ &m) {
                          "A bus of Verilated controllers. Nothing happens but in step() and "
                          "run_until_quiet(). Not for two threads at once.")
       .def(py::init(&make_bus), "nodes"_a, py::kw_only(), "bitrate"_a = 0.0, "clock_hz"_a = 8e6,
-           "scenario"_a = "", "restart"_a = 0.0, "vcd"_a = "")
+           "scenario"_a = "", "restart"_a = 0.0, "vcd"_a = "", "order"_a = "program")
       .def("send", &send, "node"_a, "frame"_a, "Queues a frame.")
       .def("receive", &ProgramBus::receive, "node"_a, "Messages since the last call.")
       .def("pending", &ProgramBus::pending, "node"_a, "Frames that have not left.")
@@ -191,12 +256,22 @@ void bind_bus(py::module_ &m) {
           "run_until_quiet",
           [](ProgramBus &bus, double limit) { return bus.run_until_quiet(to_ps("limit", limit)); },
           "limit"_a = 1.0, "False if the limit (s) came first.", Unlocked())
+      .def(
+          "run_until_message",
+          [](ProgramBus &bus, double limit) {
+            return bus.run_until_message(to_ps("limit", limit));
+          },
+          "limit"_a, "Until a node has a message for receive(); False if the limit (s) came first.",
+          Unlocked())
       .def("disturb", &disturb, "effect"_a, "begin"_a, "duration"_a, "node"_a = "",
            "Receivers see another level: flip, dominant or recessive; one node alone, or all.")
       .def("frames", &frames,
            "(start, end, sender, Frame) of each valid frame since the last call.")
+      .def("events", &events,
+           "Dictionary of each frame, error frame and overload frame since the last call.")
       .def(
-          "finish", [](ProgramBus &bus) { (void)bus.finish(); }, "Completes the waveform.")
+          "finish_json", [](ProgramBus &bus) { return to_json(bus.finish()).dump(); },
+          "Completes the files; the report as JSON.")
       .def_property_readonly("nodes", &ProgramBus::names)
       .def_property_readonly("quiet", &ProgramBus::quiet)
       .def_property_readonly("settled", &ProgramBus::settled)
@@ -214,4 +289,7 @@ PYBIND11_MODULE(_core, m) {
   py::register_exception<vericansim::InputError>(m, "InputError", PyExc_ValueError);
   vericansim::bind_values(m);
   vericansim::bind_bus(m);
+  m.def("response_times", &vericansim::bounds, "messages"_a, "bitrate"_a,
+        "Worst-case response times, s, of messages (bytes, extended, period, jitter) in the order "
+        "of their priority; None where the bus is full.");
 }

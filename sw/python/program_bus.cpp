@@ -50,6 +50,7 @@ ProgramBus::ProgramBus(ProgramBusSetup setup)
       by_id_(scenario_.nodes.size()) {
   PortOptions options;
   options.restart = setup.restart;
+  options.by_identifier = setup.by_identifier;
   for (const std::string &name : setup.nodes) {
     const NodeId id = id_of(name);
     auto port = std::make_unique<ProgramPort>(name);
@@ -61,6 +62,7 @@ ProgramBus::ProgramBus(ProgramBusSetup setup)
   }
   simulation_.bus().add(*this);
   simulation_.on_bus_frame = [this](const BusFrame &frame) { frames_.push_back(frame); };
+  simulation_.on_bus_event = [this](const BusEvent &event) { events_.push_back(event); };
   join();
 }
 
@@ -193,6 +195,25 @@ bool ProgramBus::run_until_quiet(Time limit) {
   }
   simulation_.settle();
   return true;
+}
+
+bool ProgramBus::run_until_message(Time limit) {
+  constexpr Time kLook = 4;  // bits
+  const auto heard = [this] {
+    return std::any_of(worked_.begin(), worked_.end(),
+                       [](const Worked &worked) { return worked.port->heard(); });
+  };
+  Bus &bus = simulation_.bus();
+  const Time end = bus.now() + limit;
+  exchange();
+  while (!heard() && bus.now() < end) {
+    if (quiet()) {
+      simulation_.settle();
+      if (bus.skip(end)) continue;
+    }
+    run_until(std::min(end, bus.now() + kLook * bit_time_));
+  }
+  return heard();
 }
 
 // ---- Faults

@@ -21,6 +21,7 @@ struct ProgramBusSetup {
   std::vector<std::string> nodes;  ///< worked by the program; added where the scenario lacks them
   double clock_hz = 8e6;           ///< of nodes that are added
   Time restart = 0;                ///< simulated time from bus-off to recovery; 0: only restart()
+  bool by_identifier = false;      ///< of the frames that wait the lowest identifier leaves first
 };
 
 /// Every node of the program is a Verilated core behind the software of PortNode. Nothing happens
@@ -51,6 +52,9 @@ class ProgramBus : private BusObserver {
   /// Steps until no node of the program or of the scenario has anything to send or under way; false
   /// if `limit` came first.
   bool run_until_quiet(Time limit);
+  /// Steps until a node of the program has a message (frame, echo or error message), which is
+  /// looked for every four bits; false if `limit` came first.
+  bool run_until_message(Time limit);
   [[nodiscard]] bool quiet() const;
   /// Nothing is under way, and nothing is planned: without the program nothing will happen.
   [[nodiscard]] bool settled() { return quiet() && !simulation_.bus().has_actions(); }
@@ -66,9 +70,14 @@ class ProgramBus : private BusObserver {
   [[nodiscard]] Trace trace(const std::string &node);
   [[nodiscard]] std::vector<std::string> names() const;
   /// Valid frames on the bus since the last call.
-  [[nodiscard]] std::vector<BusFrame> frames() { return std::exchange(frames_, {}); }
+  [[nodiscard]] std::vector<BusFrame> frames() { return told(frames_); }
+  /// Frames, error frames and overload frames on the bus since the last call, in their order.
+  [[nodiscard]] std::vector<BusEvent> events() { return told(events_); }
   /// Completes the files of the scenario's outputs; no step after it.
-  [[nodiscard]] RunReport finish() { return simulation_.finish(); }
+  [[nodiscard]] RunReport finish() {
+    if (quiet()) simulation_.settle();
+    return simulation_.finish();
+  }
   [[nodiscard]] Time started() const { return simulation_.started(); }
 
  private:
@@ -79,6 +88,12 @@ class ProgramBus : private BusObserver {
     std::unique_ptr<PortNode> node;
   };
 
+  /// On an idle bus with the last frame, too.
+  template <typename Value>
+  [[nodiscard]] std::vector<Value> told(std::vector<Value> &values) {
+    if (quiet()) simulation_.settle();
+    return std::exchange(values, {});
+  }
   static Scenario with_nodes(ProgramBusSetup &setup);
   [[nodiscard]] unsigned interests() const override { return kBits; }
   void on_bit(NodeId id, const BitRecord &bit) override;
@@ -96,6 +111,7 @@ class ProgramBus : private BusObserver {
   std::vector<Worked> worked_;
   std::vector<PortNode *> by_id_;
   std::vector<BusFrame> frames_;
+  std::vector<BusEvent> events_;
 };
 
 }  // namespace vericansim

@@ -33,6 +33,8 @@ class ProgramPort : public CanPort {
   void send(const can_frame &frame);
   /// All that the bus had for the program since the last call.
   [[nodiscard]] std::vector<PortMessage> receive();
+  /// Whether receive() would have anything.
+  [[nodiscard]] bool heard() const { return !from_bus_.empty(); }
 
  private:
   std::string name_;

@@ -6,7 +6,7 @@ import unittest
 from pathlib import Path
 
 import verican
-from verican import Bus, Frame
+from verican import Bus, Frame, InputError, response_times
 
 
 def heard(bus, node):
@@ -157,6 +157,83 @@ class PythonRefusal(unittest.TestCase):
     def test_a_missing_scenario(self):
         with self.assertRaisesRegex(verican.InputError, "missing.yaml"):
             Bus(["a"], scenario="missing.yaml")
+
+
+class ScenarioValues(unittest.TestCase):
+    """Scenarios, events and reports as Python values."""
+
+    SCENARIO = {
+        "bitrate": "250k", "duration": "20 ms",
+        "nodes": [{"name": "talker", "clock": "8 MHz"}],
+        "traffic": [{"node": "talker", "name": "beat", "id": 0x155, "data": [1, 2],
+                     "period": "2 ms", "count": 5}],
+        "faults": [{"kind": "dominant", "from": "4.1 ms", "for": "30 us", "hits": {"min": 0}}],
+    }
+
+    def test_scenario_as_a_dictionary(self):
+        bus = Bus(["a"], scenario=self.SCENARIO)
+        self.assertEqual(bus.nodes, ["talker", "a"])
+        bus.step(0.02)
+        self.assertEqual([message.id for message in bus.receive("a") if not message.error],
+                         [0x155] * 5)
+        with self.assertRaisesRegex(InputError, "nodes"):
+            Bus(["a"], scenario={"bitrate": "250k", "nodes": [{"nam": "x"}]})
+
+    def test_events(self):
+        bus = Bus(["a"], scenario=self.SCENARIO)
+        bus.step(0.02)
+        events = bus.events()
+        self.assertEqual([event["kind"] for event in events],
+                         ["frame"] * 2 + ["error frame"] + ["frame"] * 3)
+        self.assertEqual(events[0]["frame"], Frame(0x155, b"\1\2"))
+        self.assertTrue(events[0]["acked"])
+        wrong = events[2]
+        # ST-06: the sixth dominant bit. 24 bits behind SOF is DATA, which begins after 20.
+        self.assertEqual((wrong["problem"], wrong["field"]), ("stuff", "DATA"))
+        self.assertTrue(4.1e-3 < wrong["start"] < wrong["end"] < 4.3e-3, wrong)
+        self.assertEqual(bus.events(), [])
+
+    def test_report_as_a_dictionary(self):
+        bus = Bus(["a"], scenario=self.SCENARIO)
+        bus.step(0.02)
+        report = bus.finish()
+        beat = next(message for message in report["messages"] if message["name"] == "beat")
+        self.assertEqual((beat["queued"], beat["sent"]), (5, 5))
+
+    def test_until_a_message(self):
+        bus = Bus(["a", "b"], bitrate=1e6)
+        self.assertFalse(bus.run_until_message(1e-3))
+        self.assertAlmostEqual(bus.now, 1e-3, 9)
+        bus.send("a", Frame(0x123, b"12345678"))
+        self.assertTrue(bus.run_until_message(1e-2))
+        # 111 bits without stuff bits up to the end of EOF, 24 stuff bits at most; set-up before it.
+        self.assertTrue(108e-6 < bus.now - 1e-3 < 160e-6, bus.now)
+
+    def test_order_by_identifier(self):
+        for order, wanted in (("program", [0x300, 0x200, 0x100]),
+                              ("identifier", [0x100, 0x200, 0x300])):
+            bus = Bus(["a", "b"], bitrate=1e6, order=order)
+            bus.send("b", Frame(0x000))  # the bus is taken while a's frames get into their buffers
+            bus.step(bits=15)
+            for identifier in (0x300, 0x200, 0x100):
+                bus.send("a", Frame(identifier, b"\x11"))
+            bus.run_until_quiet()
+            self.assertEqual([f[3].id for f in bus.frames()][1:], wanted)
+            echoes = [m for m in bus.receive("a") if m.echo]
+            self.assertEqual([m.id for m in echoes], wanted)
+            self.assertEqual(sorted(m.time_ps for m in echoes), [m.time_ps for m in echoes])
+        with self.assertRaisesRegex(ValueError, "program or identifier"):
+            Bus(["a"], order="age")
+
+    def test_response_times(self):
+        # Davis, Burns, Bril and Lukkien 2007, table 1: three messages that take 1 ms each, here of
+        # 135 bits at 135 kbit/s.
+        messages = [(8, False, 2.5e-3, 0), (8, False, 3.5e-3, 0), (8, False, 3.5e-3, 0)]
+        bounds = response_times(messages, 135e3)
+        self.assertEqual([round(bound * 1e3, 2) for bound in bounds], [2.0, 3.0, 3.5])
+        self.assertEqual(response_times([(8, False, 1e-4, 0)], 1e6), [None])
+        with self.assertRaises(ValueError):
+            response_times([(9, False, 1e-3, 0)], 1e6)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ import concurrent.futures
 import threading
 import time
 
-from ._core import Bus
+from ._bus import Bus
 
 STRETCH_BITS = 256  # simulated between two looks at the programs
 LAST_FRAMES = 0.1   # s of simulated time for what waits when the last user leaves
@@ -106,6 +106,7 @@ class Channel:
 
     def _give(self):
         self._bus.frames()  # nobody reads these here
+        self._bus.events()
         for node in self.nodes:
             messages = self._bus.receive(node)
             deliver = self._users.get(node)

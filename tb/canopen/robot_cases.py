@@ -1,0 +1,117 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""The robot of examples/robot: host, six joints, two sensors on nine RTL nodes."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import unittest
+
+ROBOT = pathlib.Path(__file__).resolve().parent.parent.parent / "examples/robot"
+sys.path.insert(0, str(ROBOT))
+try:
+    import plan
+    import verican  # pylint: disable=unused-import
+    from measure import Measure
+    from robot import Joint, Robot
+    MISSING = ""
+except (ImportError, SystemExit) as error:  # robot.py ends with a message
+    MISSING = str(error)
+
+
+def run(*options, **environment):
+    """The example as its user runs it."""
+    return subprocess.run([sys.executable, "-B", str(ROBOT / "robot.py"), *options], text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
+                          env={**os.environ, **environment})
+
+
+@unittest.skipIf(MISSING, MISSING)
+class CanopenRobot(unittest.TestCase):
+    """All of it in simulated time."""
+
+    def test_no_pdo_is_lost_in_ten_seconds(self):
+        done = run("--seconds", "10", "--json")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        figures = json.loads(done.stdout)
+        self.assertEqual([figures[key] for key in ("syncs", "lost", "error_frames")], [10_000, 0, 0])
+        # SYNC, two frames of set points, eight TPDOs a cycle; the rest is SDO and heartbeats.
+        self.assertGreaterEqual(figures["frames"], 11 * 10_000)
+        self.assertGreater(figures["uploads"], 40)
+        self.assertTrue(all(check["ok"] for check in figures["checks"]), figures["checks"])
+
+    def test_a_joint_fails_and_comes_back(self):
+        done = run("--seconds", "0.2", "--fail")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertNotIn("FAIL", done.stdout)
+        self.assertIn("EMCY 8140 of node 3", done.stdout)
+
+    def test_the_same_again(self):
+        first, again, other = (run("--seconds", "0.1", "--json", "--seed", seed).stdout
+                               for seed in "112")
+        self.assertEqual(first, again)
+        self.assertNotEqual(first, other)
+
+    def test_bad_input(self):
+        done = run("--seconds", "0")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("allowed are 0.1 to 3600", done.stdout)
+        done = run(PYTHONPATH="/nonexistent")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("docs/python.md", done.stdout)
+
+
+@unittest.skipIf(MISSING, MISSING)
+class CanopenRobotMeasure(unittest.TestCase):
+    """What the measurement is there to notice, it notices."""
+
+    @staticmethod
+    def failed(robot):
+        """Checks that do not hold, after a tenth of a second."""
+        measure = Measure(robot)
+        measure.run()
+        return [what for what, right, _ in measure.checks() if not right]
+
+    def test_all_is_well(self):
+        self.assertEqual(self.failed(Robot(0.1)), [])
+
+    def test_a_lost_pdo(self):
+        robot = Robot(0.1)
+        joint, sync = robot.joints[3], robot.joints[3].on_sync
+        joint.on_sync = lambda event: event < 0.07 and sync(event)
+        self.assertEqual(self.failed(robot), ["PDOs that a SYNC did not bring before the next"])
+
+    def test_a_pdo_that_is_sent_twice(self):
+        robot = Robot(0.1)
+        joint, sync = robot.joints[3], robot.joints[3].on_sync
+        joint.on_sync = lambda event: (sync(event), event > 0.115 and sync(event))
+        self.assertIn("frames twice, or of nobody", self.failed(robot))
+
+    def test_a_device_that_is_slower_than_it_said(self):
+        robot = Robot(0.1)
+        robot.joints[0].reaction = lambda: plan.REACTION[1] + 600e-6
+        self.assertIn("responses above their bound", self.failed(robot))
+
+    def test_an_upload_that_is_wrong(self):
+        robot = Robot(0.1)
+        robot.joints[0].objects[0x2001, 0] = b"something else"
+        self.assertEqual(self.failed(robot), ["uploads by SDO, all right"])
+
+    def test_an_error_on_the_bus(self):
+        robot = Robot(0.1)
+        robot.at(0.05, lambda: robot.bus.disturb("dominant", robot.bus.now, 10e-6))
+        self.assertIn("error frames", self.failed(robot))
+
+    def test_a_joint_follows_its_set_points(self):
+        robot = Robot(0.1)
+        Measure(robot).run()
+        for joint in robot.joints:
+            self.assertIsInstance(joint, Joint)
+            # The last set points but one: those of the last cycle wait for a SYNC.
+            cycle = robot.host.cycles - 2
+            self.assertEqual(joint.target, (cycle * (3 + joint.number - 1)) % 2000 - 1000)
+
+
+if __name__ == "__main__":
+    unittest.main()
