@@ -8,6 +8,8 @@ import subprocess
 import sys
 import unittest
 
+from canopen_run import FIRMWARE, needs_stack
+
 ROBOT = pathlib.Path(__file__).resolve().parent.parent.parent / "examples/robot"
 sys.path.insert(0, str(ROBOT))
 try:
@@ -111,6 +113,26 @@ class CanopenRobotMeasure(unittest.TestCase):
             # The last set points but one: those of the last cycle wait for a SYNC.
             cycle = robot.host.cycles - 2
             self.assertEqual(joint.target, (cycle * (3 + joint.number - 1)) % 2000 - 1000)
+
+
+@needs_stack
+class CanopenRobotFirmware(unittest.TestCase):
+    """Eight drives of CANopenNode on a bus."""
+
+    def robot(self, *options):
+        """The example with firmware: what it prints."""
+        done = subprocess.run(
+            [sys.executable, "-B", str(ROBOT / "firmware.py"), f"{FIRMWARE}-32", "--verican",
+             os.environ["VERICAN_BINARY"], "--seconds", "0.1", *options], text=True,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertNotIn("FAIL", done.stdout)
+
+    def test_no_pdo_is_lost_or_late(self):
+        self.robot()
+
+    def test_a_joint_fails_and_comes_back(self):
+        self.robot("--fail")
 
 
 if __name__ == "__main__":

@@ -90,10 +90,13 @@ static void on_real_time(co_node_t *of, bool sync, uint32_t elapsed_us) {
   static uint32_t last_us;
   const uint32_t now = now_us();
   (void)elapsed_us;
-  drive_cycle(&drive, OD_RAM.x6040_controlword, OD_RAM.x607A_targetPosition, now - last_us);
+  /* The short set point, for PDOs that several drives share, is on top of the long one. */
+  const int32_t target = OD_RAM.x607A_targetPosition + OD_RAM.x2009_shortSetPoint;
+  drive_cycle(&drive, OD_RAM.x6040_controlword, target, now - last_us);
   last_us = now;
   OD_RAM.x6041_statusword = drive.status;
   OD_RAM.x6064_positionActualValue = drive.position;
+  OD_RAM.x200A_shortPosition = (int16_t)drive.position;
   OD_RAM.x606C_velocityActualValue = drive.velocity;
 }
 
