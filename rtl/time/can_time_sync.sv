@@ -4,10 +4,13 @@
 // can_time_sync: follower without a CPU (TM-100 to TM-105). Each pair of SYNC and FUP shifts the
 // clock by its offset and turns the rate, as it is known by then, towards the master's.
 //
-// One bit a clock: a round is 64 clocks, one for each bit of a time, and a pair takes six at most.
-// What the clock is to be given grows in result_q, the offset for software in ofs_o.
+// One bit a clock: a round is 64 clocks, one for each bit of a time, and a pair takes seven at
+// most. What the clock is to be given grows in result_q, the offset for software in ofs_o.
 
-module can_time_sync (
+module can_time_sync #(
+  /// Increment after a reset, see can_clock.
+  parameter logic [39:0] TimeInc = 40'h14_0000_0000
+) (
   input  logic        clk_i,
   input  logic        rst_ni,
   // Registers of the follower.
@@ -102,18 +105,20 @@ module can_time_sync (
     .load_i(op_q == OpSeconds), .run_i(offset_round || op_q == OpWhole), .word_i(word),
     .whole_o(whole), .offset_o(offset));
 
-  // How large the offset is: below 2^20 ns it is followed, and below 2^31 it can be read.
-  logic above_20, below_20_q, one_20_q, zero_20_q, one_31_q, zero_31_q, negative_q, far, beyond;
-  assign above_20 = count_q[5] || (count_q[4] && (count_q[3] || count_q[2]));
-  assign far    = one_20_q && (zero_20_q || !below_20_q);
-  assign beyond   = one_31_q && zero_31_q;
+  // How large the offset is: below 2^20 ns, and in LOCKED below 2^12 ns, it is followed; below 2^31
+  // it can be read.
+  logic above, below_q, one_q, zero_q, one_31_q, zero_31_q, negative_q, far, beyond;
+  assign above  = count_q[5] || (state_q == StLocked ? count_q[4] || (count_q[3] && count_q[2])
+                                                     : count_q[4] && (count_q[3] || count_q[2]));
+  assign far    = one_q && (zero_q || !below_q);
+  assign beyond = one_31_q && zero_31_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {below_20_q, one_20_q, zero_20_q, one_31_q, zero_31_q, negative_q} <= '0;
+      {below_q, one_q, zero_q, one_31_q, zero_31_q, negative_q} <= '0;
     end else if (offset_round) begin
-      below_20_q <= !first && (below_20_q || !above_20 && offset) || first && offset;
-      one_20_q   <= !first && (one_20_q || above_20 && offset);
-      zero_20_q  <= !first && (zero_20_q || above_20 && !offset);
+      below_q    <= !first && (below_q || !above && offset) || first && offset;
+      one_q      <= !first && (one_q || above && offset);
+      zero_q     <= !first && (zero_q || above && !offset);
       one_31_q   <= low && count_q[4:0] != '1 ? 1'b0 : one_31_q || offset;
       zero_31_q  <= low && count_q[4:0] != '1 ? 1'b0 : zero_31_q || !offset;
       negative_q <= offset;
@@ -122,11 +127,13 @@ module can_time_sync (
 
   // What becomes of the pair (TM-103), and what of the state.
   logic [7:0] pairs_q;
-  logic       leap_q, started, ignored, step, done, late, seconds_due_q, pair_due_q;
+  logic       leap_q, started, ignored, step, anew, done, late, seconds_due_q, pair_due_q;
   assign started = state_q == StAcquiring || state_q == StLocked;
   assign ignored = state_q == StLocked && far && !leap_q;
   assign step    = !started || far;
-  assign done    = last && ((op_q == OpShift && step) || op_q == OpTurn);
+  // A rate that an upset has changed beyond what pairs can turn back begins anew, too.
+  assign anew    = state_q == StAcquiring && far;
+  assign done    = last && ((op_q == OpShift && step && !anew) || op_q == OpTurn);
   always_comb begin
     op_d = op_q;
     case (op_q)
@@ -140,11 +147,15 @@ module can_time_sync (
         else         op_d = OpShift;
       end
       OpShift: begin
-        if (!step)    op_d = OpRate;
-        else if (pps) op_d = OpWhole;
-        else          op_d = OpIdle;
+        if (!step || anew) op_d = OpRate;
+        else if (pps)      op_d = OpWhole;
+        else               op_d = OpIdle;
       end
       OpRate:  op_d = OpTurn;
+      OpTurn: begin
+        if (anew && pps) op_d = OpWhole;
+        else             op_d = OpIdle;
+      end
       default: op_d = OpIdle;
     endcase
     state_d = state_q;
@@ -178,17 +189,20 @@ module can_time_sync (
   end
 
   // Increment minus offset 2^K: the offset goes round once, from bit K on; then its sign counts.
+  // Or the increment of the reset.
   logic [4:0] k;
-  logic       at_k, begun_q, over_q, begun, rate_round, turning, inc, term, rate, borrow_q;
+  logic       at_k, begun_q, over_q, begun, rate_round, turning, inc, nominal, term, rate, borrow_q;
   assign k          = ki - (state_q == StLocked ? {3'b0, kd} : '0);
   assign rate_round = op_q == OpRate;
-  assign at_k       = rate_round && count_q[4:0] == k;
+  assign at_k       = rate_round && !anew && count_q[4:0] == k;
   assign begun      = begun_q || at_k;
   assign turning    = begun && !over_q && !(begun_q && at_k);
   assign term       = begun && (turning ? ofs_o[0] : ofs_o[31]);
-  assign rate       = inc ^ term ^ borrow_q;
+  assign rate       = anew ? nominal : inc ^ term ^ borrow_q;
   can_time_bits #(.Bytes(5)) u_inc (
     .word_i(inc_i), .byte_i(byte_q[4:0]), .bit_i(bit_q), .bit_o(inc));
+  can_time_bits #(.Bytes(5)) u_nominal (
+    .word_i(TimeInc), .byte_i(byte_q[4:0]), .bit_i(bit_q), .bit_o(nominal));
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {begun_q, over_q, borrow_q} <= '0;
@@ -213,12 +227,12 @@ module can_time_sync (
   end
 
   // What the clock is given. Of half: -floor(o / 2) = floor((1 - o) / 2).
-  logic        halving, one_q, half_carry_q, next;
+  logic        halving, any_q, half_carry_q, next;
   logic [63:0] result_q;
   assign halving = op_q == OpJudge && halve && state_q == StLocked && !far;
   always_comb begin
     case (op_q)
-      OpOffset: next = offset ^ one_q;
+      OpOffset: next = offset ^ any_q;
       OpJudge:  next = last ? result_q[63] : result_q[1] ^ (first ? result_q[0] : half_carry_q);
       OpRate:   next = rate;
       OpTurn:   next = result_q[0];
@@ -228,11 +242,11 @@ module can_time_sync (
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       result_q <= '0;
-      {one_q, half_carry_q} <= '0;
+      {any_q, half_carry_q} <= '0;
     end else begin
       if (offset_round || halving || rate_round || (low && (op_q == OpTurn || op_q == OpWhole)))
         result_q <= {next, result_q[63:1]};
-      one_q        <= offset_round && (one_q || offset);
+      any_q        <= offset_round && (any_q || offset);
       half_carry_q <= result_q[1] && (first ? result_q[0] : half_carry_q);
     end
   end

@@ -9,8 +9,10 @@
 #include <memory>
 
 #include "cli/cli.hpp"
+#include "cli/output_files.hpp"
 #include "cli/timesync_output.hpp"
 #include "simulation/stop_request.hpp"
+#include "timesync/sync_page.hpp"
 #include "timesync/sync_settings.hpp"
 #include "timesync/sync_way.hpp"
 #include "trace/input_error.hpp"
@@ -25,6 +27,7 @@ struct Options {
   bool sweep = false;
   bool p4 = false;
   bool json = false;
+  std::string page;
 };
 
 /// What is given on the command line takes the place of what the file says. Returns the name.
@@ -39,6 +42,14 @@ std::string take_settings(const Options &options, SyncCase &setting) {
   return name;
 }
 
+std::unique_ptr<SyncPage> open_page(const Options &options) {
+  std::vector<NamedFile> inputs, outputs;
+  add_file(inputs, "the case", options.file);
+  add_file(outputs, "--report", options.page);
+  claim_files(inputs, outputs);
+  return std::make_unique<SyncPage>(options.page);
+}
+
 void say_how(const SyncWay &way) { fmt::print("how: {} ({})\n\n", way.name, way.what); }
 
 int exit_code_of(bool ok) { return exit_code_after(ok && !stop_requested() ? kOk : kFailed); }
@@ -48,13 +59,17 @@ int run_one(const Options &options, const SyncWay &way) {
   const std::string name = take_settings(options, setting);
   SyncOutcome outcome{{name.empty() ? "this case" : name, setting, goal_of(setting)}, {}};
   Json runs = Json::array();
+  std::unique_ptr<SyncPage> page;
+  if (!options.page.empty()) page = open_page(options);
+  const bool samples = options.json || page != nullptr;
   outcome.figures = run_case(way, setting, [&](const SyncRun &run) {
-    if (options.json) runs.push_back(to_json(run));
+    if (samples) runs.push_back(to_json(run));
   });
+  Json json = {{"how", way.name}};
+  json.update(to_json(outcome));
+  json["runs"] = std::move(runs);
+  if (page != nullptr) page->write(json, to_text(setting));
   if (options.json) {
-    Json json = {{"how", way.name}};
-    json.update(to_json(outcome));
-    json["runs"] = std::move(runs);
     print_json(json);
   } else {
     fmt::print("{}\n", to_text(setting));
@@ -166,11 +181,17 @@ void add_timesync(CLI::App &app, int &exit_code) {
   }
   auto *sweep = command->add_flag("--sweep", options->sweep,
                                   "All cases of the specification, then one axis after the other");
+  auto *p4 =
+      command
+          ->add_flag(
+              "--p4", options->p4,
+              "The published experiment (Park, Kim, Lee 2014), and the same clocks with the servo")
+          ->excludes(sweep);
   command
-      ->add_flag(
-          "--p4", options->p4,
-          "The published experiment (Park, Kim, Lee 2014), and the same clocks with the servo")
-      ->excludes(sweep);
+      ->add_option("--report,--report-page", options->page,
+                   "A page of a single case, HTML (docs/timesync.md)")
+      ->excludes(sweep)
+      ->excludes(p4);
   command->add_flag("--json", options->json, "Results as JSON, with all samples of a single case");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -53,6 +53,22 @@ Json to_json(const SyncGoal &goal) {
           {"max_ps", picoseconds(goal.max)}};
 }
 
+/// By columns. Events are numbers of VERICAN_SERVO_*.
+Json to_json(const std::vector<SyncAction> &actions) {
+  Json at = Json::array(), follower = Json::array(), shift = Json::array();
+  Json increment = Json::array(), events = Json::array(), state = Json::array();
+  for (const SyncAction &action : actions) {
+    at.push_back(action.at);
+    follower.push_back(action.follower);
+    shift.push_back(action.shift);
+    increment.push_back(action.increment);
+    events.push_back(action.events);
+    state.push_back(action.state);
+  }
+  return {{"at_ps", at},      {"follower", follower}, {"shift_ns", shift}, {"increment", increment},
+          {"events", events}, {"state", state}};
+}
+
 std::string verdict(const SyncOutcome &outcome) {
   if (!outcome.figures.locked()) return outcome.row.goal ? "no, not locked" : "not locked";
   if (!outcome.row.goal) return "-";
@@ -126,11 +142,9 @@ Json to_json(const SyncRun &run) {
     }
     followers.push_back({{"error_ps", errors}, {"state", states}});
   }
-  return {{"frames", run.frames},
-          {"repeated", run.repeated},
-          {"refused", run.refused},
-          {"at_ps", at},
-          {"followers", followers}};
+  return {{"frames", run.frames},   {"repeated", run.repeated},
+          {"refused", run.refused}, {"at_ps", at},
+          {"followers", followers}, {"corrections", to_json(run.actions)}};
 }
 
 Json to_json(const P4Result &result) {

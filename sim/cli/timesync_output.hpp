@@ -33,7 +33,7 @@ void print_sync_foot();
 [[nodiscard]] Json to_json(const SyncOutcome &outcome);
 /// A row of a sweep that a way cannot run, and why.
 [[nodiscard]] Json to_json(const SyncRow &row, const char *missing);
-/// All samples of a run, ps.
+/// All samples of a run, ps, and what each follower's servo did with each pair.
 [[nodiscard]] Json to_json(const SyncRun &run);
 [[nodiscard]] Json to_json(const P4Result &result);
 void print_p4(const P4Result &result);

@@ -12,7 +12,7 @@ namespace vericansim {
 namespace {
 
 constexpr std::uint64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kStep = 1 << 20;  // ns, TM-103
+constexpr std::int64_t kStep = 1 << 20, kStepLocked = 1 << 12;  // ns, TM-103
 constexpr std::uint64_t kIncrementMask = (1ULL << 40) - 1;
 constexpr unsigned kAcquiringPairs = 8;
 constexpr unsigned kMostPairs = 255;
@@ -67,8 +67,9 @@ std::optional<TimeSyncAction> TimeSyncModel::pair(std::uint64_t whole, std::uint
       stamp_ - master - static_cast<std::uint64_t>(std::int64_t{setting_.delay}));
   using Limits = std::numeric_limits<std::int32_t>;
   offset_ = static_cast<std::int32_t>(std::clamp<std::int64_t>(o, Limits::min(), Limits::max()));
-  const bool large = o >= kStep || o <= -kStep;
   const bool locked = state_ == State::kLocked;
+  const std::int64_t limit = locked ? kStepLocked : kStep;
+  const bool large = o >= limit || o <= -limit;
   if (locked && large && !leap_) {
     leap_ = true;
     return {};
@@ -77,6 +78,7 @@ std::optional<TimeSyncAction> TimeSyncModel::pair(std::uint64_t whole, std::uint
   TimeSyncAction action;
   action.shift = static_cast<std::int64_t>(-static_cast<std::uint64_t>(o));
   if (large || state_ == State::kUnsynchronised || state_ == State::kHoldover) {
+    if (large && state_ == State::kAcquiring) action.increment = setting_.nominal;
     state_ = State::kAcquiring;
     pairs_ = 0;
     if (setting_.pps) action.whole = whole;

@@ -22,7 +22,8 @@ struct TimeSyncSetting {
   bool pps = false;
   bool extended = false;  ///< of the identifier
   std::uint32_t id = 0;
-  std::int32_t delay = 0;  ///< ns, 24 bits
+  std::int32_t delay = 0;               ///< ns, 24 bits
+  std::uint64_t nominal = 20ULL << 32;  ///< TimeInc: increment after a reset
 
   /// The registers' words.
   [[nodiscard]] std::uint32_t ctrl_word() const;

@@ -199,21 +199,23 @@ TEST(CanTimeSync, OffsetExact) {
   EXPECT_LT(longest, 512u);  // 4,096 are allowed
 }
 
-/// An offset below 2^20 ns, around that, or beyond; `calm`: mostly the first.
+/// An offset below 2^12 ns, below 2^20 ns, around these, or beyond; `calm`: mostly the first.
 std::int64_t any_offset(std::mt19937_64 &random, bool calm) {
   const std::int64_t sign = random() % 2 == 0 ? 1 : -1;
+  const unsigned power = random() % 2 == 0 ? 12 : 20;
   switch (random() % (calm ? 400 : 8)) {
-    case 0: return sign * ((1 << 20) + static_cast<std::int64_t>(random() % 4) - 2);
+    case 0: return sign * ((1 << power) + static_cast<std::int64_t>(random() % 4) - 2);
     case 1: return sign * static_cast<std::int64_t>(random() >> (random() % 40 + 4));
     case 2: return 0;
-    default: return sign * static_cast<std::int64_t>(random() % (1u << (random() % 21)));
+    default: break;
   }
+  return sign * static_cast<std::int64_t>(random() % (1u << (random() % (calm ? 12 : 21))));
 }
 
 // TM-103: every command, bit by bit, and what software reads.
 TEST(CanTimeSync, AgainstModel) {
   std::mt19937_64 random{103};
-  unsigned locked = 0, ignored = 0, halves = 0, full = 0;
+  unsigned locked = 0, ignored = 0, halves = 0, full = 0, anew = 0;
   for (unsigned run = 0; run < 120; ++run) {
     TimeSyncSetting setting = usual();
     setting.ki = random() % 32;
@@ -248,13 +250,43 @@ TEST(CanTimeSync, AgainstModel) {
       locked += before == kLocked ? 1 : 0;
       ignored += expected ? 0 : 1;
       halves += before == kLocked && setting.halve && expected && expected->increment ? 1 : 0;
+      anew += before == kAcquiring && model.pairs() == 0 && expected ? 1 : 0;
       full = std::max(full, model.pairs());
     }
   }
   EXPECT_GT(locked, 1000u);
   EXPECT_GT(ignored, 20u);
   EXPECT_GT(halves, 500u);
+  EXPECT_GT(anew, 200u);
   EXPECT_EQ(full, 255u);
+}
+
+// TM-103: at both ends of both limits, to the ns.
+TEST(CanTimeSync, Limits) {
+  for (const std::int64_t sign : {1, -1}) {
+    for (const std::int64_t less : {1, 0}) {
+      SyncRig acquiring{usual()};
+      pair(acquiring, 0, 0);
+      acquiring.settle();
+      const std::int64_t far = sign * ((1 << 20) - less);
+      pair(acquiring, 1, far);
+      const std::uint64_t followed =
+          (acquiring.increment() - (static_cast<std::uint64_t>(far) << 8)) & ((1ULL << 40) - 1);
+      EXPECT_EQ(acquiring.settle(),
+                (TimeSyncAction{-far, less == 0 ? usual().nominal : followed, {}}));
+      EXPECT_EQ(acquiring.pairs(), less == 0 ? 0u : 1u);
+      SyncRig locked{usual()};
+      lock(locked);
+      const std::int64_t off = sign * ((1 << 12) - less);
+      pair(locked, 10, off);
+      EXPECT_EQ(locked.settle().has_value(), less != 0);
+      EXPECT_EQ(locked.state(), kLocked);
+      if (less != 0) continue;
+      pair(locked, 11, off);
+      EXPECT_EQ(locked.settle(), (TimeSyncAction{-off, {}, {}}));  // the rate is kept
+      EXPECT_EQ(locked.state(), kAcquiring);
+    }
+  }
 }
 
 // TM-104: no pair for 2^TMO ns, to 200 clocks and one in 4,096: holdover. The next pair shifts,

@@ -5,8 +5,11 @@
  */
 #include "servo_internal.h"
 
-/* Pairs until LOCKED, and leaps that agree until the clock follows them. */
-enum { PAIRS_TO_LOCK = 4, LEAPS_TO_STEP = 3 };
+/* Pairs until LOCKED; pairs that a filter is judged by until it counts as chosen; leaps that agree
+ * until the clock follows them. */
+enum { PAIRS_TO_LOCK = 4, PAIRS_TO_CHOOSE = 10, LEAPS_TO_STEP = 3 };
+/* Pairs whose mean the mean error is. */
+enum { ERROR_PAIRS = 8 };
 /* An offset beyond 18 minutes is as good as 18 minutes: it fits 1/256 ns. */
 #define OFFSET_LIMIT TWO_POW(40)
 
@@ -74,11 +77,16 @@ static bool is_confirmed(verican_servo_t *servo, int64_t offset, int64_t gate) {
   return servo->leaps >= (uint8_t)LEAPS_TO_STEP;
 }
 
+static bool has_history(const verican_servo_t *servo) {
+  return is_in(servo, VERICAN_SYNC_LOCKED) || servo->pairs >= (uint8_t)PAIRS_TO_LOCK;
+}
+
 /* True: the pair is dropped. The mean error learns from it nevertheless, within the gate. */
 static bool is_outlier(verican_servo_t *servo, int64_t offset, int64_t gate) {
   const int64_t size = verican_magnitude(offset);
-  const bool far = is_in(servo, VERICAN_SYNC_LOCKED) && size > gate && !servo->dropped;
-  if (servo->count >= 2u) servo->error += ((size < gate ? size : gate) - servo->error) / 8;
+  const bool far = has_history(servo) && size > gate && !servo->dropped;
+  const int64_t weight = verican_weight(servo->learned + 1u, ERROR_PAIRS);
+  if (servo->count >= 2u) servo->error += ((size < gate ? size : gate) - servo->error) / weight;
   servo->dropped = far;
   return far;
 }
@@ -100,14 +108,16 @@ static void accept(verican_servo_t *servo, const verican_sync_pair_t *pair, int6
   const int64_t shifted = correction->shift;
   const verican_servo_point_t point = {add((int64_t)pair->local, shifted), offset};
   verican_filter_learn(servo, &point);
+  if (servo->count >= 2u && servo->learned < UINT8_MAX) ++servo->learned;
   verican_servo_push(servo, &point);
   verican_servo_correct(servo, add((int64_t)pair->now, shifted), correction);
   servo->last = servo->points[0].local;
   correction->events |= VERICAN_SERVO_ACCEPTED;
   if (is_in(servo, VERICAN_SYNC_LOCKED)) return;
   ++servo->pairs;
-  servo->state = (uint8_t)(servo->pairs >= (uint8_t)PAIRS_TO_LOCK ? VERICAN_SYNC_LOCKED
-                                                                  : VERICAN_SYNC_ACQUIRING);
+  const bool chosen = servo->config.filter != 0u || servo->learned >= (uint8_t)PAIRS_TO_CHOOSE;
+  servo->state =
+      (uint8_t)(has_history(servo) && chosen ? VERICAN_SYNC_LOCKED : VERICAN_SYNC_ACQUIRING);
 }
 
 static void take(verican_servo_t *servo, const verican_sync_pair_t *pair,

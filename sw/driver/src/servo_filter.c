@@ -11,11 +11,13 @@ unsigned verican_filter_points(const verican_servo_t *servo) {
   return wanted < servo->count ? wanted : servo->count;
 }
 
-/* How much the line is off at the point, added to what it was off before. */
-static void judge(int32_t *miss, const verican_servo_line_t *line, int64_t ticks, int64_t offset) {
+/* Pairs whose mean the error of a filter is. */
+enum { MISS_PAIRS = 16 };
+
+/* How much the line is off at the point. */
+static int64_t miss_of(const verican_servo_line_t *line, int64_t ticks, int64_t offset) {
   const int64_t predicted = line->offset + verican_drift(line->rate, ticks);
-  const int64_t off = verican_limit(verican_magnitude(predicted - offset), INT32_MAX);
-  *miss += (int32_t)((off - *miss) / 16);
+  return verican_limit(verican_magnitude(predicted - offset), INT32_MAX);
 }
 
 static uint8_t longest_good(const int32_t *misses) {
@@ -33,6 +35,7 @@ void verican_filter_learn(verican_servo_t *servo, const verican_servo_point_t *p
   if (servo->config.filter != 0u || servo->count < 2u) return;
   const verican_servo_point_t *points = servo->points;
   const int64_t ahead = verican_ticks(points[0].local, point->local);
+  const int64_t weight = verican_weight(servo->learned + 2u, MISS_PAIRS);
   verican_sums_t sums = {0, 0, 0, 0, 0};
   verican_servo_line_t line = {0, 0};
   unsigned n = 0;
@@ -41,13 +44,15 @@ void verican_filter_learn(verican_servo_t *servo, const verican_servo_point_t *p
     for (; n <= (1u << i) && n < servo->count; ++n)
       verican_sums_add(&sums, verican_ticks(points[0].local, points[n].local), points[n].offset);
     if (n > before) line = verican_sums_line(&sums);
-    judge(&servo->misses[i], &line, ahead, point->offset);
+    const int64_t miss = miss_of(&line, ahead, point->offset);
+    servo->misses[i] += (int32_t)((miss - servo->misses[i]) / weight);
   }
   servo->filter = longest_good(servo->misses);
 }
 
-/* A few pairs that fit by chance must not decide. */
+/* One clock counts as much as a pair: one that fits by chance must not decide. */
 void verican_filter_start(verican_servo_t *servo, uint64_t increment) {
+  servo->learned = 0;
   for (unsigned i = 0; i < VERICAN_SERVO_FILTERS; ++i)
     servo->misses[i] = (int32_t)(increment / ((uint64_t)1 << 24));
 }

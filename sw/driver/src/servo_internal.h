@@ -25,6 +25,11 @@ static inline int64_t verican_limit(int64_t value, int64_t limit) {
   return value < -limit ? -limit : value;
 }
 
+/* What a mean over `limit` pairs divides the newest by, while there are `count` so far. */
+static inline int64_t verican_weight(unsigned count, unsigned limit) {
+  return (int64_t)(count < limit ? count : limit);
+}
+
 /* Ticks from `from` to `to`. */
 static inline int64_t verican_ticks(int64_t from, int64_t to) {
   const int64_t distance = (int64_t)((uint64_t)to - (uint64_t)from);

@@ -22,7 +22,7 @@ extern "C" {
 /** How far a clock is one with its master's. */
 typedef enum verican_sync_state {
   VERICAN_SYNC_UNSYNCHRONISED = 0, /**< nothing heard yet */
-  VERICAN_SYNC_ACQUIRING = 1,      /**< fewer than four pairs */
+  VERICAN_SYNC_ACQUIRING = 1,      /**< fewer than four pairs, or the filter is not chosen yet */
   VERICAN_SYNC_LOCKED = 2,
   VERICAN_SYNC_HOLDOVER = 3 /**< was locked, hears nothing: keeps the rate */
 } verican_sync_state_t;
@@ -89,7 +89,8 @@ typedef struct verican_servo {
   uint8_t count;                                     /* of points */
   uint8_t filter;                                    /* length in use, intervals */
   uint8_t state;
-  uint8_t pairs; /* accepted in ACQUIRING */
+  uint8_t pairs;   /* accepted in ACQUIRING */
+  uint8_t learned; /* pairs that E and E_N have learned from */
   uint8_t leaps;
   bool dropped; /* the last pair was an outlier */
 } verican_servo_t;
