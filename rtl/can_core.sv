@@ -163,7 +163,7 @@ module can_core #(
     if (TimeSync != 0) begin : gen_sync
       logic        own;
       logic [63:0] own_data;
-      can_time_sync #(.TimeInc(TimeInc)) u_sync (
+      can_time_sync #(.TimeInc(TimeInc)) u_follower (
         .clk_i, .rst_ni, .ctrl_i(time_sync_ctrl_i), .id_i(time_sync_id_i),
         .delay_i(time_sync_delay_i), .stat_o(time_sync_stat_o), .ofs_o(time_sync_ofs_o),
         .changed_o(changed),

@@ -39,7 +39,7 @@ module can_time_sync #(
 );
   typedef enum logic [1:0] {
     StNone,       // unsynchronised: no pair yet
-    StAcquiring,  // eight pairs that turn the rate with all of their weight
+    StAcquiring,  // eight pairs that turn the rate with all of their weight, four as in LOCKED
     StLocked,
     StHoldover    // no pair for too long
   } state_t;
@@ -127,8 +127,9 @@ module can_time_sync #(
 
   // What becomes of the pair (TM-103), and what of the state.
   logic [7:0] pairs_q;
-  logic       leap_q, started, ignored, step, anew, done, late, seconds_due_q, pair_due_q;
+  logic       leap_q, started, light, ignored, step, anew, done, late, seconds_due_q, pair_due_q;
   assign started = state_q == StAcquiring || state_q == StLocked;
+  assign light   = state_q == StLocked || pairs_q[3];   // in StAcquiring there are 11 at most
   assign ignored = state_q == StLocked && far && !leap_q;
   assign step    = !started || far;
   // A rate that an upset has changed beyond what pairs can turn back begins anew, too.
@@ -161,7 +162,7 @@ module can_time_sync #(
     state_d = state_q;
     if (done) begin
       if (step)                                          state_d = StAcquiring;
-      else if (state_q == StAcquiring && pairs_q == 8'd7) state_d = StLocked;
+      else if (state_q == StAcquiring && pairs_q == 8'd11) state_d = StLocked;
     end else if (late && started) begin
       state_d = StHoldover;
     end
@@ -192,7 +193,7 @@ module can_time_sync #(
   // Or the increment of the reset.
   logic [4:0] k;
   logic       at_k, begun_q, over_q, begun, rate_round, turning, inc, nominal, term, rate, borrow_q;
-  assign k          = ki - (state_q == StLocked ? {3'b0, kd} : '0);
+  assign k          = ki - (light ? {3'b0, kd} : '0);
   assign rate_round = op_q == OpRate;
   assign at_k       = rate_round && !anew && count_q[4:0] == k;
   assign begun      = begun_q || at_k;
@@ -229,7 +230,7 @@ module can_time_sync #(
   // What the clock is given. Of half: -floor(o / 2) = floor((1 - o) / 2).
   logic        halving, any_q, half_carry_q, next;
   logic [63:0] result_q;
-  assign halving = op_q == OpJudge && halve && state_q == StLocked && !far;
+  assign halving = op_q == OpJudge && halve && light && !step;
   always_comb begin
     case (op_q)
       OpOffset: next = offset ^ any_q;

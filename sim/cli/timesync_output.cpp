@@ -35,8 +35,12 @@ Json to_json(const SyncCase &c) {
           {"filter", c.filter},
           {"displaced", c.displaced},
           {"own_pin", c.own_pin},
+          {"hardware", c.hardware},
+          {"restless", c.restless},
+          {"master_cut", c.master_cut},
           {"intervals", c.intervals},
-          {"seeds", c.seeds}};
+          {"seeds", c.seeds},
+          {"first_seed", c.first_seed}};
 }
 
 Json to_json(const SyncFigures &figures) {
@@ -94,6 +98,9 @@ std::string to_text(const SyncCase &c) {
   add(c.bit_errors > 0, fmt::format("bit errors {:g}", c.bit_errors));
   add(c.displaced > 0, fmt::format("{} % of edges early", plain_number(c.displaced * 100)));
   add(c.own_pin, "master stamps at its own pin");
+  add(c.hardware,
+      c.restless ? "followers in hardware, KD 1, PHALF 0" : "followers in hardware, KD 2, PHALF 1");
+  add(c.master_cut, "master cut half-way");
   add(c.bitrate != SyncCase{}.bitrate, fmt::format("{} bit/s", plain_number(c.bitrate)));
   return text;
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kStep = 1 << 20, kStepLocked = 1 << 12;  // ns, TM-103
 constexpr std::uint64_t kIncrementMask = (1ULL << 40) - 1;
-constexpr unsigned kAcquiringPairs = 8;
+constexpr unsigned kFullPairs = 8, kAcquiringPairs = 12;
 constexpr unsigned kMostPairs = 255;
 
 // Big-endian word in bytes 4 to 7 (time-spec.md section 7.1).
@@ -84,10 +84,11 @@ std::optional<TimeSyncAction> TimeSyncModel::pair(std::uint64_t whole, std::uint
     if (setting_.pps) action.whole = whole;
     return action;
   }
-  const unsigned k = locked ? setting_.ki - setting_.kd : setting_.ki;
+  const bool light = locked || pairs_ >= kFullPairs;
+  const unsigned k = light ? setting_.ki - setting_.kd : setting_.ki;
   const std::uint64_t change = static_cast<std::uint64_t>(o) << k;
   action.increment = (increment - change) & kIncrementMask;
-  if (locked && setting_.halve) {
+  if (light && setting_.halve) {
     const std::int64_t half = o >= 0 ? o / 2 : (o - 1) / 2;
     action.shift = -half;
   }

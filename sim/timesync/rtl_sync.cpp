@@ -142,6 +142,8 @@ const char *missing_on_rtl(const SyncCase &setting) {
   if (setting.displaced != 0 && (setting.load != 0 || setting.load_above != 0))
     return "displaced edges with load";
   if (setting.clocks.wander != 0 && setting.clocks.sine_ppm != 0) return "wander with a swing";
+  if (setting.hardware) return "followers in hardware";
+  if (setting.master_cut) return "cut master";
   if (setting.master_late_ns != 0 || setting.master_uneven_ns != 0) return "late master";
   return nullptr;
 }

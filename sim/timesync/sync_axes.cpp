@@ -60,6 +60,16 @@ std::vector<SyncTable> axes() {
       filters(),
       axis("Edges up to 300 ns early", {0.01}, "{}",
            [](SyncCase &c, double value) { c.displaced = value; }),
+      axis("Master cut half-way, filter", {0, 8}, "N = {} (0: automatic)",
+           [](SyncCase &c, int value) {
+             c.master_cut = true;
+             c.filter = static_cast<std::uint8_t>(value);
+           }),
+      axis("Followers in hardware", {16e6, 25e6, 40e6, 50e6}, "{:g} Hz",
+           [](SyncCase &c, double value) {
+             c.hardware = true;
+             c.clocks.frequency_hz = value;
+           }),
   };
 }
 
@@ -75,6 +85,7 @@ std::vector<SyncTable> sweep(const SyncCase &base) {
       if (table.title != "Followers") row.setting.followers = base.followers;
       row.setting.intervals = base.intervals;
       row.setting.seeds = base.seeds;
+      row.setting.first_seed = base.first_seed;
     }
   }
   return tables;

@@ -35,8 +35,12 @@ struct SyncCase {
   bool own_pin = false;         ///< the master stamps at its receive pin (TXPIN)
   double master_late_ns = 0;    ///< the master stamps so much behind the edge, as followers know
   double master_uneven_ns = 0;  ///< and up to so much more, evenly
+  bool hardware = false;        ///< followers are can_time_sync, without software
+  bool restless = false;        ///< and have the setting for restless oscillators: KD 1, no PHALF
+  bool master_cut = false;  ///< half-way the master falls silent for ever; a follower takes over
   unsigned intervals = 260;
   unsigned seeds = 4;
+  std::uint64_t first_seed = 1;
 
   friend bool operator==(const SyncCase &, const SyncCase &) = default;
 };

@@ -64,6 +64,25 @@ const Row kRows[] = {
      {16, 130},
      {5, 60}},
     {"own pin, N = 8", [](SyncCase &c) { c.own_pin = true; }, {18, 91}, {6, 31}},
+    {"hardware follower, KD 2, PHALF 1",
+     [](SyncCase &c) { c.hardware = true; },
+     {20, 62},
+     {6.5, 20}},
+    {"the same, 100 % load, bit errors 1e-4",
+     [](SyncCase &c) {
+       c.hardware = true;
+       c.load = 1;
+       c.bit_errors = 1e-4;
+     },
+     {20, 62},
+     {6.5, 20}},
+    {"hardware, KD 1, PHALF 0, wander 1e-8",
+     [](SyncCase &c) {
+       c.hardware = c.restless = true;
+       c.clocks.wander = 1e-8;
+     },
+     {42, 5 * 62.5},
+     {26, 5 * 20}},
 };
 
 SyncRow row_of(const Row &row, double frequency_hz, const Limits &limits) {
@@ -85,6 +104,7 @@ bool same(SyncCase a, const SyncCase &b) {
   a.followers = b.followers;
   a.intervals = b.intervals;
   a.seeds = b.seeds;
+  a.first_seed = b.first_seed;
   return a == b;
 }
 
@@ -112,6 +132,10 @@ std::optional<double> steady_bound(const SyncCase &setting) {
 std::optional<SyncGoal> goal_of(const SyncCase &setting) {
   for (const SyncRow &row : goal_table())
     if (same(row.setting, setting)) return row.goal;
+  if (setting.hardware) return std::nullopt;
+  // TM-89: two followers each within half of it.
+  if (setting.master_cut && steady_bound(setting))
+    return SyncGoal{std::nullopt, 3e9 / setting.clocks.frequency_hz};
   if (const auto bound = steady_bound(setting)) return SyncGoal{std::nullopt, *bound};
   return std::nullopt;
 }

@@ -48,6 +48,7 @@ SyncLoop::SyncLoop(const SyncCase &setting, std::uint64_t seed)
   for (verican_servo_t &servo : servos) verican_servo_init(&servo, &config);
   verican_tsyn_rules_default(&rules_);
   receivers_.resize(setting.followers);
+  if (setting.hardware) hardware_.assign(setting.followers, HardwareFollower{setting, kSyncId});
 }
 
 OscillatorError SyncLoop::error_of(unsigned node) {
@@ -63,8 +64,21 @@ double SyncLoop::uniform(double low, double high) {
 }
 
 const SyncRun &SyncLoop::run() {
-  for (unsigned n = 0; n < setting_.intervals; ++n) sync(setting_.interval_s);
+  for (unsigned n = 0; n < setting_.intervals; ++n) {
+    if (setting_.master_cut && n == setting_.intervals / 2) cut_master();
+    sync(setting_.interval_s);
+  }
   return result;
+}
+
+// TM-89: the first follower has heard nothing for three intervals and half of one, its rank, and
+// sends from then on, with its clock as it stands.
+void SyncLoop::cut_master() {
+  const Nanoseconds interval = setting_.interval_s * 1e9L;
+  for (const double part : {1.25, 2.5, 3.25}) look(now + part * interval);
+  now += 2.5L * interval;
+  master_ = 1;
+  sender_ = {};
 }
 
 void SyncLoop::sync(double interval_s, const std::function<bool(unsigned)> &lost) {
@@ -74,13 +88,13 @@ void SyncLoop::sync(double interval_s, const std::function<bool(unsigned)> &lost
   look((before + now) / 2);
   look(pair.handled);
   for (unsigned n = 0; n < setting_.followers; ++n)
-    if (!lost || !lost(n)) follow(n, pair);
+    if (n + 1 != master_ && (!lost || !lost(n))) follow(n, pair);
   look(pair.handled + 1e3L);
 }
 
 // SYNC leaves at an edge of the master's clock; FUP follows when software has seen its end (TM-50).
 SyncLoop::Pair SyncLoop::send() {
-  ClockNode &master = nodes[0];
+  ClockNode &master = nodes[master_];
   Pair pair{};
   const Nanoseconds queued = now + uniform(0, kPoll);
   verican_tsyn_write_sync(&sender_, &rules_, master.now(queued), pair.sync);
@@ -92,8 +106,9 @@ SyncLoop::Pair SyncLoop::send() {
   pair.has_fup = verican_tsyn_write_fup(&sender_, &rules_, t1, pair.fup);
   const std::size_t fup_bits = bits_of(pair.fup);
   const Nanoseconds fup_queued = sof + traffic_.duration(bits) + uniform(0, kPoll);
-  pair.handled =
-      fup_queued + traffic_.until_sof(fup_bits) + traffic_.duration(fup_bits) + uniform(0, kHandle);
+  pair.handled = fup_queued + traffic_.until_sof(fup_bits) + traffic_.duration(fup_bits) +
+                 (setting_.hardware ? HardwareFollower::kWorkedOff * master.oscillator.nominal()
+                                    : Nanoseconds{uniform(0, kHandle)});
   result.frames += pair.has_fup ? 2 : 1;
   result.repeated = traffic_.failed();
   return pair;
@@ -101,7 +116,7 @@ SyncLoop::Pair SyncLoop::send() {
 
 // The time of SYNC as FUP tells it: the stamp less its latency.
 std::uint64_t SyncLoop::master_stamp(std::int64_t sent, Nanoseconds edge) {
-  ClockNode &master = nodes[0];
+  ClockNode &master = nodes[master_];
   if (setting_.own_pin) {
     const std::uint64_t half_clocks = kReceiveLatency * master.increment();
     return master.receive_stamp(edge) - (half_clocks >> 33);
@@ -115,13 +130,27 @@ void SyncLoop::follow(unsigned n, const Pair &pair) {
   ClockNode &node = nodes[n + 1];
   Nanoseconds edge = pair.edge;
   if (setting_.displaced > 0 && uniform(0, 1) < setting_.displaced) edge -= uniform(0, kEarly);
+  const std::uint64_t stamp = node.receive_stamp(edge);
+  if (setting_.hardware) return follow_in_hardware(n, pair, stamp);
   verican_sync_pair_t local{};
-  (void)receive(n, pair.sync, node.receive_stamp(edge), local);
+  (void)receive(n, pair.sync, stamp, local);
   const std::int64_t last = node.oscillator.last_edge(pair.handled);
   if (pair.has_fup && receive(n, pair.fup, node.at(last), local) == VERICAN_TSYN_PAIR)
     correct(n, local, last, pair.handled);
   else
     ++result.refused;
+}
+
+void SyncLoop::follow_in_hardware(unsigned n, const Pair &pair, std::uint64_t stamp) {
+  ClockNode &node = nodes[n + 1];
+  const std::int64_t last = node.oscillator.last_edge(pair.handled);
+  (void)hardware_[n].frame(pair.sync, stamp, last, node);
+  if (!pair.has_fup) return;
+  auto action = hardware_[n].frame(pair.fup, node.at(last), last, node);
+  if (!action) return;
+  action->at = to_picoseconds(pair.handled);
+  action->follower = n;
+  result.actions.push_back(*action);
 }
 
 verican_tsyn_heard_t SyncLoop::receive(unsigned n, const std::uint8_t (&data)[8],
@@ -145,11 +174,20 @@ void SyncLoop::correct(unsigned n, verican_sync_pair_t &pair, std::int64_t edge,
   if (on_correction) on_correction(n, correction);
 }
 
+// Of a follower; one that has become the master is with itself.
+std::uint8_t SyncLoop::state_of(unsigned n, std::uint64_t clock) {
+  if (n + 1 == master_) return VERICAN_SYNC_LOCKED;
+  if (setting_.hardware) return hardware_[n].state(clock);
+  verican_servo_poll(&servos[n], clock);
+  return servos[n].state;
+}
+
 void SyncLoop::look(Nanoseconds t) {
   SyncLook look{to_picoseconds(t), {}};
   for (unsigned n = 0; n < setting_.followers; ++n) {
-    verican_servo_poll(&servos[n], nodes[n + 1].now(t));
-    look.followers.push_back({to_picoseconds(nodes[n + 1].ahead_of(nodes[0], t)), servos[n].state});
+    ClockNode &node = nodes[n + 1];
+    look.followers.push_back(
+        {to_picoseconds(node.ahead_of(nodes[master_], t)), state_of(n, node.now(t))});
   }
   result.looks.push_back(std::move(look));
 }

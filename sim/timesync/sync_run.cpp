@@ -12,8 +12,9 @@ namespace vericansim {
 void SyncFigures::add(const SyncLook &look) {
   double least = 0, most = 0;
   bool any = false;
-  for (const SyncReading &reading : look.followers) {
-    if (!reading.locked()) continue;
+  for (std::size_t n = 0; n < look.followers.size(); ++n) {
+    const SyncReading &reading = look.followers[n];
+    if (!counts(n, reading)) continue;
     const double error = static_cast<double>(reading.error) / 1e3;
     sum_ += error;
     squares_ += error * error;
@@ -26,7 +27,14 @@ void SyncFigures::add(const SyncLook &look) {
   between_ = std::max(between_, most - least);
 }
 
+bool SyncFigures::counts(std::size_t follower, const SyncReading &reading) {
+  if (!throughout_) return reading.locked();
+  if (reading.locked()) was_locked_[follower] = true;
+  return was_locked_[follower];
+}
+
 void SyncFigures::add(const SyncRun &run) {
+  was_locked_.assign(run.looks.empty() ? 0 : run.looks.front().followers.size(), false);
   for (const SyncLook &look : run.looks) add(look);
   ++runs_;
   const auto locked = [](const SyncReading &reading) { return reading.locked(); };

@@ -47,6 +47,8 @@ struct SyncRun {
 /// Errors of followers while they are locked, ns.
 class SyncFigures {
  public:
+  /// `throughout`: from the first time on that a follower is locked, whatever becomes of it.
+  explicit SyncFigures(bool throughout = false) : throughout_{throughout} {}
   void add(const SyncRun &run);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
@@ -59,7 +61,10 @@ class SyncFigures {
 
  private:
   void add(const SyncLook &look);
+  [[nodiscard]] bool counts(std::size_t follower, const SyncReading &reading);
 
+  bool throughout_;
+  std::vector<bool> was_locked_;
   double sum_ = 0, squares_ = 0, max_ = 0, between_ = 0;
   std::uint64_t count_ = 0, runs_ = 0;
   bool locked_ = true;

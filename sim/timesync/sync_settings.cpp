@@ -87,10 +87,23 @@ const SyncSetting kSettings[] = {
      false, [](SyncCase &c, Text t) { return within(parse_part(t), 0, 1, c.displaced); }},
     {"own-pin", "The master stamps at its receive pin", "true or false", true,
      [](SyncCase &c, Text t) { return flag(t, c.own_pin); }},
+    {"hardware", "Followers in hardware (can_time_sync), KD 2, PHALF 1", "true or false", true,
+     [](SyncCase &c, Text t) { return flag(t, c.hardware); }},
+    {"restless", "Of these the setting for restless oscillators: KD 1, PHALF 0", "true or false",
+     true, [](SyncCase &c, Text t) { return flag(t, c.restless); }},
+    {"master-cut", "Half-way the master is cut off, and the first follower takes over",
+     "true or false", true, [](SyncCase &c, Text t) { return flag(t, c.master_cut); }},
     {"intervals", "Intervals that are simulated (260)", "1 to 100000", false,
      [](SyncCase &c, Text t) { return count(t, 100'000, c.intervals); }},
-    {"seeds", "Runs with other random numbers, 1, 2, ... (4)", "1 to 1000", false,
+    {"seeds", "Runs with other random numbers (4)", "1 to 1000", false,
      [](SyncCase &c, Text t) { return count(t, 1000, c.seeds); }},
+    {"first-seed", "The first of them (1)", "1 to 2^32 - 1", false,
+     [](SyncCase &c, Text t) {
+       unsigned seed = 0;
+       if (!count(t, 0xFFFF'FFFF, seed)) return false;
+       c.first_seed = seed;
+       return true;
+     }},
 };
 
 }  // namespace

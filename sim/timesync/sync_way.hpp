@@ -41,9 +41,9 @@ void check_way(const SyncWay &way, const SyncCase &setting);
 template <typename See>
 SyncFigures run_case(const SyncWay &way, const SyncCase &setting, See each) {
   check_way(way, setting);
-  SyncFigures figures;
-  for (std::uint64_t seed = 1; seed <= setting.seeds; ++seed) {
-    SyncRun run = way.run(setting, seed);
+  SyncFigures figures{setting.master_cut};
+  for (std::uint64_t n = 0; n < setting.seeds; ++n) {
+    SyncRun run = way.run(setting, setting.first_seed + n);
     figures.add(run);
     each(std::move(run));
   }

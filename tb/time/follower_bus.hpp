@@ -38,11 +38,13 @@ class Follower {
   [[nodiscard]] unsigned state() const { return top_.state_o; }
   /// Times of the rising edges of its pin.
   [[nodiscard]] const std::vector<double> &pulses() const { return pulses_; }
+  [[nodiscard]] Model &model() { return top_; }
 
   void edge(bool dominant) {
     const bool before = top_.pps_o != 0;
     top_.can_rx_i = dominant ? 0 : 1;
     rising_edge(top_, top_.clk_i);
+    if constexpr (requires { top_.after_edge(); }) top_.after_edge();  // of who plants defects
     if (top_.pps_o != 0 && !before) pulses_.push_back(next());
     ++edges_;
   }

@@ -67,7 +67,7 @@ TEST(TimeNode, Accuracy) {
     double sum = 0, square = 0, most = 0;
     unsigned count = 0;
     for (const double at : bus.node(n).pulses()) {
-      if (at < 150 * kMs) continue;  // 9 pairs and a few more
+      if (at < 150 * kMs) continue;  // 13 pairs and a few more
       const double late = (at - std::round(at / kMs) * kMs - 1.5 * period) / kNs;
       sum += late;
       square += late * late;

@@ -26,9 +26,10 @@ void pair(SyncRig &rig, unsigned sc, std::int64_t o) {
   rig.fup(sc, 2, ns);
 }
 
-/// The first pair and eight more: locked.
+/// The first pair and twelve more: locked.
 void lock(SyncRig &rig) {
-  for (unsigned sc = 0; sc < 9; ++sc) {
+  for (unsigned sc = 0; sc < 13; ++sc) {
+    EXPECT_NE(rig.state(), kLocked);
     pair(rig, sc, 100);
     rig.settle();
   }
@@ -170,7 +171,7 @@ TEST(CanTimeSync, OffsetExact) {
       setting.delay = static_cast<std::int32_t>(random() % (1u << 24)) - (1 << 23);
       rig.configure(setting);
     }
-    // Never locked: every offset is a step, or one of fewer than eight that are not.
+    // Never locked: every offset is a step, or one of the few between two that are not.
     const auto seconds = static_cast<std::uint32_t>(i % 64 == 0 ? ~0ULL : random());
     const auto ns = static_cast<std::uint32_t>(i % 2 == 0 ? random() % kSecond : random());
     const unsigned ovs = random() % 4, sc = random() % 16;
@@ -290,14 +291,14 @@ TEST(CanTimeSync, Limits) {
 }
 
 // TM-104: no pair for 2^TMO ns, to 200 clocks and one in 4,096: holdover. The next pair shifts,
-// leaves the rate and begins the eight anew; ignored pairs count as pairs here.
+// leaves the rate and begins the twelve anew; ignored pairs count as pairs here.
 TEST(CanTimeSync, Holdover) {
   for (const std::uint64_t increment : {0x3E80000000ULL, 0x1400000000ULL, 0x0AFFFFFFFFULL})
     for (const unsigned tmo : {17u, 18u, 20u}) {
       SCOPED_TRACE(testing::Message() << increment << ' ' << tmo);
       TimeSyncSetting setting = usual();
       setting.tmo = tmo;
-      setting.ki = 0;  // the increment stays about what it is
+      setting.ki = setting.kd = 0;  // the increment stays about what it is
       SyncRig rig{setting, increment};
       lock(rig);
       const unsigned changes = rig.changes();

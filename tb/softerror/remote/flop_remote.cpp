@@ -20,21 +20,10 @@ namespace {
 
 using Root = Vcan_remote_flops___024root;
 
-/// A bit of a variable of the model.
-struct Place {
-  const char *name;
-  std::size_t offset;
-  unsigned bit;
-};
-
-const std::vector<Place> &places() {
+const FlopPlaces &places() {
   static const auto list = [] {
-    std::vector<Place> all;
-    const auto add = [&](const char *name, std::size_t offset, std::uint64_t mask) {
-      for (unsigned bit = 0; bit < 64; ++bit)
-        if ((mask >> bit & 1) != 0) all.push_back({name, offset, bit});
-    };
-#define FLOP(name, member, mask) add(name, offsetof(Root, member), mask);
+    FlopPlaces all;
+#define FLOP(name, member, mask) all.add(name, offsetof(Root, member), mask);
 #include "flops.inc"
 #undef FLOP
     return all;
@@ -49,29 +38,14 @@ struct FlopRemote::Impl {
   Vcan_remote_flops top{&context, "can_remote"};
   ModelContext model_context{context};
 
-  [[nodiscard]] unsigned char &byte_of(const Place &place) {
-    return reinterpret_cast<unsigned char *>(top.rootp)[place.offset + place.bit / 8];
-  }
   void flip(unsigned flop) {
-    const Place &place = places().at(flop);
-    byte_of(place) ^= static_cast<unsigned char>(1U << place.bit % 8);
+    places().flip(top.rootp, flop);
     Vcan_remote_flops___024root___eval_settle(top.rootp);
   }
-  [[nodiscard]] bool value(unsigned flop) {
-    const Place &place = places().at(flop);
-    return (byte_of(place) >> place.bit % 8 & 1) != 0;
-  }
+  [[nodiscard]] bool value(unsigned flop) { return places().value(top.rootp, flop); }
 };
 
-const std::vector<std::string> &FlopRemote::flops() {
-  static const auto list = [] {
-    std::vector<std::string> names;
-    for (const Place &place : places())
-      names.push_back(std::string{place.name} + "[" + std::to_string(place.bit) + "]");
-    return names;
-  }();
-  return list;
-}
+const FlopPlaces &FlopRemote::flops() { return places(); }
 
 FlopRemote::FlopRemote(const ClockConfig &clock, const RemoteFlip &flip)
     : Node{"flipped", clock}, impl_{std::make_unique<Impl>()}, flip_{flip} {

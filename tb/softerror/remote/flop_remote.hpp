@@ -8,10 +8,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "bus/node.hpp"
+#include "softerror/flop_places.hpp"
 
 namespace vericansim {
 
@@ -32,8 +31,7 @@ class FlopRemote final : public Node {
   /// Clocks of rst_ni = 0; the memory is cleared, the node joins again.
   void reset();
 
-  /// Names of all flip-flops, each with its bit, in the order of flops.py.
-  [[nodiscard]] static const std::vector<std::string> &flops();
+  [[nodiscard]] static const FlopPlaces &flops();
   /// The longest time for which the node has sent dominant, clocks.
   [[nodiscard]] unsigned longest_run() const { return longest_run_; }
 

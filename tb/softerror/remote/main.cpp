@@ -34,8 +34,8 @@ struct Sum {
     wrong_sent += outcome.wrong_sent;
     const bool hangs = outcome.cure >= RemoteCure::kReset;
     if (hangs || outcome.babbled)
-      notes.push_back(fmt::format("{} at clock {}: {}", FlopRemote::flops()[flip.flop], flip.clock,
-                                  outcome.babbled ? "babbles" : "hangs"));
+      notes.push_back(fmt::format("{} at clock {}: {}", FlopRemote::flops().names()[flip.flop],
+                                  flip.clock, outcome.babbled ? "babbles" : "hangs"));
   }
   [[nodiscard]] unsigned hangs() const { return cures[3] + cures[4]; }
 };
@@ -45,7 +45,7 @@ Json result_of(const Sum &sum) {
     return campaign_figure(name, value, "0", value == 0);
   };
   return {{"figures",
-           {campaign_figure("flip-flops flipped", FlopRemote::flops().size()),
+           {campaign_figure("flip-flops flipped", FlopRemote::flops().names().size()),
             campaign_figure("flips", sum.flips), none("hangs", sum.hangs()),
             none("babbling", sum.babbled), campaign_figure("works again by itself", sum.cures[0]),
             campaign_figure("works again after RESTART", sum.cures[1]),
@@ -55,21 +55,12 @@ Json result_of(const Sum &sum) {
           {"notes", sum.notes}};
 }
 
-unsigned flop_of(const std::string &name) {
-  const auto &all = FlopRemote::flops();
-  const auto found = std::find(all.begin(), all.end(), name);
-  if (found == all.end())
-    throw std::invalid_argument("--flop " + name + ": there is no such flip-flop; for example " +
-                                all.front());
-  return static_cast<unsigned>(found - all.begin());
-}
-
 std::vector<RemoteFlip> plan(const CampaignSettings &settings) {
   std::mt19937_64 dice{settings.seed};
   std::uniform_int_distribution<std::uint64_t> when{kFlipFrom, kFlipTo};
   std::vector<RemoteFlip> flips;
   for (unsigned round = 0; round < kRounds; ++round)
-    for (unsigned flop = 0; flop < FlopRemote::flops().size(); ++flop)
+    for (unsigned flop = 0; flop < FlopRemote::flops().names().size(); ++flop)
       flips.push_back({flop, when(dice), {}});
   const auto kept = static_cast<std::size_t>(static_cast<double>(flips.size()) * settings.scale);
   flips.resize(std::max<std::size_t>(kept, 1));
@@ -105,8 +96,8 @@ int main(int argc, char **argv) {
     if (run_flip({0, ~0ULL, {}}).cure != RemoteCure::kNone)
       throw std::runtime_error("the node does not work without a flip");
     std::vector<RemoteFlip> flips = plan(settings);
-    if (!flop.empty()) flips = {{flop_of(flop), kFlipFrom, stuck != 0}};
-    if (every != 0) flips = sweep(flop_of(flop), every);
+    if (!flop.empty()) flips = {{FlopRemote::flops().number_of(flop), kFlipFrom, stuck != 0}};
+    if (every != 0) flips = sweep(FlopRemote::flops().number_of(flop), every);
     Sum sum;
     std::mutex lock;
     run_jobs(flips.size(), settings.jobs, [&](std::size_t n) {
