@@ -13,6 +13,10 @@ ROOT = Path(__file__).resolve().parents[2]
 REMOTE = {"NumProd": 8, "NumMap": 8, "TxDepth": 4, "Protect": 1, "Block": 1, "AutoRate": 1,
           "Counters": 1, "RateRows": 1, "RateTable": "285'd1235", "Serial": "32'hCAFE1234",
           "ClocksPerMs": 12000, "Trace": 1}
+# Of the recorded clock (record_follower.cpp): 4 MHz, 8 clocks a bit, a pair every 2.5 ms.
+FOLLOWER = {"TimeInc": "40'hFA00000000", "SyncCtrl": "32'h18530130", "SyncId": "32'h00040000",
+            "SyncDelay": "32'd375", "HalfPeriod": 500000, "Brp": 1, "Prop": 2, "Ps1": 3, "Ps2": 2,
+            "Sjw": 1}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -56,4 +60,6 @@ DEVICES = {
                    ("u_top.u_mailbox.u_match.gen_fifo.u_filter.s2_equal_q",),
                    {"NumMb": 16, "TimeUnit": 1, "TimeInc": "40'h7D00000000"}),
     "remote": Device("can_remote", "replay_remote.sv", "four_state_record_remote", (0,), (),
-                     REMOTE)}
+                     REMOTE),
+    "follower": Device("can_time_node", "replay_follower.sv", "four_state_record_follower", (0,),
+                       (), FOLLOWER)}

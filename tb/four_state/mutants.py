@@ -27,6 +27,8 @@ MUTANTS = {
     "a register of the time unit without reset": (
         "time", "time/can_time_cmp.sv", "      target_q <= '0;\n", "", "time_registers",
         "reached_q"),
+    "a register of the follower without reset": (
+        "follower", "time/can_time_pair.sv", "      sc_o <= '0;\n", "", "pairs", "sc_o"),
     "a register of the remote node without reset": (
         "remote", "remote/can_rn_step.sv", "      ten_q <= 4'd1;\n", "", "vectors", "ten_q"),
     "RAM of the remote node that is not cleared": (
@@ -35,7 +37,7 @@ MUTANTS = {
 }
 
 OPTIONS = {"ahb": ["--num-mb", "16"], "remote": ["--device", "remote"],
-           "time": ["--device", "time"]}
+           "time": ["--device", "time"], "follower": ["--device", "follower"]}
 
 
 def mutated(work, file, old, new):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A top's flip-flops by name, from Yosys; and the task of its bench that looks for X in them."""
 import json
+import re
 import subprocess
 
 
@@ -37,7 +38,8 @@ def flip_flops(module):
     nets = sorted(module["netnames"].items(), key=lambda item: (-item[0].count("."), item[0]))
     for name, net in nets:
         bits = [bit for bit in net["bits"] if isinstance(bit, int)]
-        if net["hide_name"] or not bits or "$" in name or "\\" in name or "[" in name:
+        plain = re.sub(r"\[\d+\](?=\.)", "", name)   # of a block of a generate loop
+        if net["hide_name"] or not bits or any(mark in plain for mark in "$\\["):
             continue
         for reset, pool in ((True, with_reset), (False, without)):
             if set(bits) <= pool and not set(bits) <= covered:

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// replay_player: plays the rows to the device of replay.sv or replay_remote.sv and counts what
-// differs; they give it clk, rows, take_row, check_outputs and power_up.
+// replay_player: plays the rows to the device of replay.sv, replay_remote.sv or replay_follower.sv
+// and counts what differs; they give it clk, rows, take_row, check_outputs and power_up.
 
   task unknown(input [8*100-1:0] name);
     begin

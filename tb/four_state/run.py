@@ -33,7 +33,8 @@ def arguments():
     parser.add_argument("--build", default="build/release", help="where four_state_record is")
     parser.add_argument("--device", choices=sorted(DEVICES), default="ahb",
                         help="ahb: the core; small: its profile of that name; time: with the "
-                             "time unit; remote: the node without a processor (ahb)")
+                             "time unit; remote: the node without a processor; follower: the clock "
+                             "without one (ahb)")
     parser.add_argument("--num-mb", type=int, nargs="+", choices=DEVICES["ahb"].sizes,
                         help="of the core (16 64)")
     parser.add_argument("--netlist", nargs="+", metavar="FILE", help="a netlist of can_ahb "
