@@ -13,6 +13,7 @@
 #include "timesync/sync_axes.hpp"
 #include "timesync/sync_goal.hpp"
 #include "timesync/sync_loop.hpp"
+#include "timesync/sync_way.hpp"
 
 namespace vericansim {
 namespace {
@@ -125,7 +126,7 @@ TEST(SyncAxes, DifferInOneThing) {
   few.followers = 2;
   few.seeds = 1;
   const std::vector<SyncTable> tables = sweep(few);
-  ASSERT_EQ(tables.size(), 12u);
+  ASSERT_EQ(tables.size(), 14u);
   EXPECT_EQ(tables[0].rows.size(), tables[1].rows.size());
   for (const SyncTable &table : tables)
     for (const SyncRow &row : table.rows) {
@@ -134,6 +135,77 @@ TEST(SyncAxes, DifferInOneThing) {
         EXPECT_EQ(row.setting.followers, 2u);
       }
     }
+}
+
+// TM-89, TM-124: the master is cut half-way. For 3.5 R nobody sends, all hold over; then the first
+// follower is the master, and nobody is ever 3 T away from the one there is.
+TEST(SyncLoop, MasterIsCut) {
+  const SyncCase setting = base([](SyncCase &c) { c.master_cut = true; });
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const SyncRun run = run_by_model(setting, seed);
+    unsigned holding = 0;
+    Time silent = 0, before = 0;
+    for (const SyncLook &look : run.looks) {
+      bool all = true;
+      for (const SyncReading &reading : look.followers)
+        all = all && reading.state == VERICAN_SYNC_HOLDOVER;
+      holding += all ? 1 : 0;
+    }
+    for (const SyncAction &action : run.actions) {
+      silent = std::max(silent, action.at - before);
+      before = action.at;
+    }
+    EXPECT_EQ(holding, 1u) << seed;  // the look behind 3 R
+    EXPECT_NEAR(static_cast<double>(silent) / kSecond, 3.5, 0.01) << seed;
+    EXPECT_EQ(run.looks.back().followers[0].error, 0);
+    EXPECT_TRUE(run.looks.back().followers[7].locked());
+    SyncFigures locked, throughout{true};
+    locked.add(run);
+    throughout.add(run);
+    EXPECT_GT(throughout.count(), locked.count()) << seed;
+    EXPECT_LE(throughout.max(), 3 * 62.5) << seed;
+    EXPECT_GE(throughout.max(), locked.max()) << seed;
+  }
+}
+
+// TM-103, TM-124: followers in hardware: a step, twelve pairs, locked; their increments are the
+// master's rate in the end.
+TEST(SyncLoop, FollowersInHardware) {
+  const SyncCase setting = base([](SyncCase &c) { c.hardware = true; });
+  SyncLoop loop{setting, 5};
+  const SyncRun &run = loop.run();
+  unsigned steps = 0, locked = 0;
+  for (const SyncAction &action : run.actions) {
+    if (action.follower != 3) continue;
+    steps += (action.events & VERICAN_SERVO_STEP) != 0 ? 1 : 0;
+    locked += action.state == VERICAN_SYNC_LOCKED ? 1 : 0;
+  }
+  EXPECT_EQ(steps, 1u);
+  EXPECT_EQ(locked, 260u - 12);
+  const auto rate = [&loop](unsigned n) {
+    const double seconds = 100;
+    const auto ns = static_cast<double>(loop.nodes[n].oscillator.count(seconds * 1e9L));
+    return ns * static_cast<double>(loop.nodes[n].increment()) / 4294967296.0 / seconds / 1e9;
+  };
+  for (unsigned n = 1; n <= 8; ++n) EXPECT_NEAR(rate(n) / rate(0), 1, 1e-7) << n;
+}
+
+// TM-124: other seeds are other runs.
+TEST(SyncWay, FirstSeed) {
+  SyncCase setting = base([](SyncCase &c) {
+    c.seeds = 2;
+    c.first_seed = 41;
+    c.intervals = 20;
+  });
+  std::vector<Time> seen;
+  const auto look = [&seen](const SyncRun &run) {
+    seen.push_back(run.looks.back().followers[0].error);
+  };
+  (void)run_case(sync_way("model"), setting, look);
+  ASSERT_EQ(seen.size(), 2u);
+  EXPECT_EQ(seen[0], run_by_model(setting, 41).looks.back().followers[0].error);
+  EXPECT_EQ(seen[1], run_by_model(setting, 42).looks.back().followers[0].error);
+  EXPECT_NE(seen[0], run_by_model(setting, 1).looks.back().followers[0].error);
 }
 
 // TM-121: SYNC, FUP and the servo are the driver's; a lost pair is one that a follower has not.

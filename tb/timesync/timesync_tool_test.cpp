@@ -63,14 +63,15 @@ TEST_F(TimeSync, Options) {
   const json one = run_json(
       "--frequency 50M --spread 20 --wander 1e-9 --sine 0.5 --sine-period '60 s' --followers 3 "
       "--bitrate 250k --load 0.5 --load-above '20 %' --bit-errors 1e-4 --interval '500 ms' "
-      "--filter automatic --displaced 0.01 --own-pin --opposed --intervals 30 --seeds 2 "
-      "--how model");
+      "--filter automatic --displaced 0.01 --own-pin --opposed --hardware --restless --master-cut "
+      "--intervals 30 --seeds 2 --first-seed 7 --how model");
   const json expected = {{"frequency_hz", 50e6}, {"spread_ppm", 20.0}, {"opposed", true},
                          {"wander", 1e-9},       {"sine_ppm", 0.5},    {"sine_period_s", 60.0},
                          {"followers", 3},       {"bitrate", 250e3},   {"load", 0.5},
                          {"load_above", 0.2},    {"bit_errors", 1e-4}, {"interval_s", 0.5},
                          {"filter", 0},          {"displaced", 0.01},  {"own_pin", true},
-                         {"intervals", 30},      {"seeds", 2}};
+                         {"hardware", true},     {"restless", true},   {"master_cut", true},
+                         {"intervals", 30},      {"seeds", 2},         {"first_seed", 7}};
   EXPECT_EQ(one["case"], expected);
   EXPECT_EQ(one["goal"], nullptr);
   EXPECT_EQ(one["runs"].size(), 2u);
@@ -104,6 +105,12 @@ TEST_F(TimeSync, BadInput) {
   expect_refused("--load 101%", "--load: '101%'");
   expect_refused("--load-above 1", "allowed: 0 to 95 %, or 0 to 0.95");
   expect_refused("--seeds -1", "--seeds");
+  expect_refused("--first-seed 0", "--first-seed: '0' is not allowed; allowed: 1 to 2^32 - 1");
+  expect_refused("--how skip --hardware", "--how skip knows no followers in hardware");
+  expect_refused("--how rtl --master-cut", "--how rtl knows no cut master");
+  expect_refused("--sweep --report x.html", "excludes");
+  expect_refused("--p4 --report x.html", "excludes");
+  expect_refused("--report /no/such/x.html", "/no/such/x.html: cannot be opened for writing");
   expect_refused("--p4 --sweep", "excludes");
   expect_refused("/no/such.yaml", "/no/such.yaml: no such file");
   expect_refused(file_with("a.yaml", "filter: 3\n"), "a.yaml:1: filter: '3' is not allowed");
