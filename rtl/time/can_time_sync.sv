@@ -162,7 +162,7 @@ module can_time_sync #(
     state_d = state_q;
     if (done) begin
       if (step)                                          state_d = StAcquiring;
-      else if (state_q == StAcquiring && pairs_q == 8'd11) state_d = StLocked;
+      else if (state_q == StAcquiring && pairs_q >= 8'd11) state_d = StLocked;
     end else if (late && started) begin
       state_d = StHoldover;
     end
