@@ -7,7 +7,8 @@ lines directly above it, or directly above or inside an INSTANTIATE_TEST_SUITE_P
 TEST_P of that suite). DISABLED_ tests do not count. A range such as "SY-05..SY-09" cites its two
 ends only. In a unittest module (*_cases.py) a test cites what stands in its text, and what stands
 in the docstring of its class. A judge of `make test-linux` (sw/linux/judge_*.py, one function a
-script) cites what stands in its docstring. Tests of the judges (model_*_test.cpp) are listed, but
+script) cites what stands in its docstring. A test of a page (tb/report/*_test.mjs) cites what stands
+in the comment at its head, which is about the whole file. Tests of the judges (model_*_test.cpp) are listed, but
 what they cite still needs a test of the core.
 
 The plan is a list of sections: `section`, `name`, `optional` (ids may be cited but need no test)
@@ -101,6 +102,13 @@ def judge_citations(path, ids):
                 yield cited, judge.name
 
 
+def page_citations(path, ids):
+    """Yields (id, "report.name") for every citation at the head of a test of a page."""
+    head = re.match(r"(//[^\n]*\n)+", path.read_text())
+    for cited in ids.findall(head[0] if head else ""):
+        yield cited, f"report.{path.stem.removesuffix('_test')}"
+
+
 @dataclass
 class Plan:
     """One plan, its page, and how to speak of it."""
@@ -155,6 +163,9 @@ class Plan:
                 cited[name][path.relative_to(ROOT).as_posix()].add(test)
         for path in sorted((ROOT / "sw/linux").glob("judge_*.py")):
             for name, test in judge_citations(path, self.ids):
+                cited[name][path.relative_to(ROOT).as_posix()].add(test)
+        for path in sorted((ROOT / "tb/report").glob("*_test.mjs")):
+            for name, test in page_citations(path, self.ids):
                 cited[name][path.relative_to(ROOT).as_posix()].add(test)
         return cited
 

@@ -234,6 +234,27 @@ TEST(Redundancy, WorseMasterIsIgnored) {
   EXPECT_EQ(bus.nodes[3]->status().master, 0);
 }
 
+// TM-89: who is the only one sends from the start; of several nobody does, and one that was cut off
+// and is started again has forgotten it.
+TEST(TimeSync, Starts) {
+  DomainBus alone{90};
+  alone.add().set_up(config_of(), true);
+  EXPECT_TRUE(alone.nodes[0]->status().sending);
+  alone.add().set_up(config_of(), false);
+  EXPECT_FALSE(alone.nodes[1]->status().sending);
+  DomainBus bus{91};
+  with_three_masters(bus);
+  EXPECT_EQ(masters_now(bus), 0u);
+  bus.run(8);
+  DomainNode &first = *bus.nodes[0];
+  first.connected = false;
+  bus.run(5);
+  ASSERT_TRUE(first.tsyn.cut);
+  EXPECT_EQ(verican_tsyn_start_master(&first.tsyn), VERICAN_OK);
+  EXPECT_FALSE(first.tsyn.cut);
+  EXPECT_FALSE(first.status().sending);
+}
+
 TEST(TimeSync, Arguments) {
   Nanoseconds now = 1e6;
   const Oscillator oscillator{16e6, {}, 1};
