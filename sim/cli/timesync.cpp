@@ -57,7 +57,8 @@ int exit_code_of(bool ok) { return exit_code_after(ok && !stop_requested() ? kOk
 int run_one(const Options &options, const SyncWay &way) {
   SyncCase setting;
   const std::string name = take_settings(options, setting);
-  SyncOutcome outcome{{name.empty() ? "this case" : name, setting, goal_of(setting)}, {}};
+  SyncOutcome outcome{{name.empty() ? "this case" : name, setting, goal_of(setting)},
+                      SyncFigures{}};
   Json runs = Json::array();
   std::unique_ptr<SyncPage> page;
   if (!options.page.empty()) page = open_page(options);
