@@ -37,13 +37,13 @@ class FlippedNode : public Vcan_time_node_flops {
   void plan(const FollowerFlip &flip) { flip_ = flip; }
   /// Called by FollowerBus behind every edge of the clock.
   void after_edge() {
-    run_ = can_tx_o != 0 ? 0 : run_ + 1;
-    longest_run_ = std::max(longest_run_, run_);
     if (is_due()) {
       follower_flops().flip(rootp, flip_.flop);
       Vcan_time_node_flops___024root___eval_settle(rootp);
     }
     ++clocks_;
+    run_ = can_tx_o != 0 ? 0 : run_ + 1;
+    longest_run_ = std::max(longest_run_, run_);
   }
   /// TIME behind the last edge, ns.
   [[nodiscard]] std::uint64_t time() const {
