@@ -13,7 +13,7 @@ OUT    := $(BUILD)/out
 QUIET  := $(if $(V),,tools/quiet.sh)
 
 .DEFAULT_GOAL := help
-.PHONY: help packages build install demo test test-linux campaign lint bench synth boards coverage coverage-rtl size wave rules rows registers docs format clean
+.PHONY: help packages build install demo test test-linux campaign lint bench synth boards hx8k coverage coverage-rtl size wave rules rows registers docs format clean
 
 help:  ## List the targets
 	@echo "VeriCAN: a CAN 2.0 controller in RTL and its bus simulator"
@@ -62,6 +62,10 @@ synth: boards  ## Measure area and clock rate (iCE40, VersaTiles); writes docs/s
 boards: packages $(BUILD)/build.ninja  ## Bitstreams of the boards with a remote node; netlists and bitstreams run on the simulated bus
 	@tools/boards.sh build/boards
 	@tools/boards-test.sh $(BUILD) build/boards $(JOBS)
+
+hx8k: packages $(BUILD)/build.ninja  ## Bitstream of examples/hx8k, a CAN node at a serial port; its netlist runs on the simulated bus
+	@tools/hx8k.sh build/hx8k
+	@tools/boards-test.sh $(BUILD) build/hx8k $(JOBS) VERICAN_HX8K hx8k_tests hx8k.node_
 
 coverage: packages $(BUILD)/build.ninja  ## Measure which lines of the C driver its tests run
 	@tools/driver-coverage.sh $(BUILD)

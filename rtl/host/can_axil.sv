@@ -76,12 +76,18 @@ module can_axil #(
   assign unused = &{1'b0, awaddr[1:0], araddr[1:0], awprot, arprot, supv};
 
   // A transfer begins when its answer has room and the core has no other. Where a read and a write
-  // wait, it is the turn of the one that was not the last.
-  logic read_q, write_q, taken_q, read_last_q, reads, writes, turn, begins, supv;
-  assign reads  = arvalid && (!rvalid || rready);
-  assign writes = awvalid && wvalid && !taken_q && (!bvalid || bready);
-  assign turn   = writes && (read_last_q || !reads);                  // of the write
-  assign begins = (reads || writes) && !read_q && !write_q;
+  // wait, it is the turn of the one that was not the last. Which of them to look at was decided in
+  // the clock before, by whose answer had room then: the address is not late.
+  logic read_q, write_q, taken_q, read_last_q, prefer_write_q, reads, writes, turn, idle, begins;
+  logic r_shut, b_shut, read_last, supv;
+  assign r_shut = rvalid && !rready;
+  assign b_shut = bvalid && !bready;
+  assign reads  = arvalid && !r_shut;
+  assign writes = awvalid && wvalid && !taken_q && !b_shut;
+  assign turn   = prefer_write_q ? awvalid && wvalid : !arvalid;      // of the write
+  assign idle   = !read_q && !write_q;
+  assign begins = (turn ? writes : reads) && idle;
+  assign read_last = begins ? !turn : read_last_q;
 
   // Command. Of a read all lanes count; a write without a strobe is none to the core.
   logic        beyond, denied, cancel, error_q, denied_q, ready;
@@ -91,23 +97,20 @@ module can_axil #(
   assign beyond = (addr & 32'((33'd1 << RegionBits) - 33'd1)) >> 13 != '0;
   assign denied = CheckProt != 0 && supv && !(turn ? awprot[0] : arprot[0]);
   assign be     = turn ? wstrb : 4'b1111;
-  assign cancel = beyond || denied || be == '0;
+  assign cancel = beyond || denied || be == '0 || !begins;
 
-  // Data in the clock behind, or one later: read_q, write_q. Address and write data are held by
-  // the master, which is told after they were used: ARREADY with the data, AWREADY and WREADY in
-  // the clock behind (taken_q).
+  // Data in the clock behind, or one later: read_q, write_q. The master holds address and data until
+  // they were used: ARREADY comes with the data, AWREADY and WREADY one clock later (taken_q).
   always_ff @(posedge aclk or negedge aresetn) begin
     if (!aresetn) begin
-      {read_q, write_q, taken_q, read_last_q, error_q, denied_q, rvalid, bvalid} <= '0;
+      {read_q, write_q, taken_q, error_q, denied_q, rvalid, bvalid} <= '0;
+      {read_last_q, prefer_write_q} <= '0;
     end else begin
       taken_q <= write_q && ready;
-      if (read_q || write_q) begin
-        if (ready) {read_q, write_q} <= '0;
-      end else if (begins) begin
-        {read_q, write_q} <= {!turn, turn};
-        read_last_q <= !turn;
-        {error_q, denied_q} <= {beyond, denied};
-      end
+      read_last_q    <= read_last;
+      prefer_write_q <= !b_shut && (r_shut || read_last);
+      if (begins) {read_q, write_q, error_q, denied_q} <= {!turn, turn, beyond, denied};
+      else if (ready) {read_q, write_q} <= '0;
       if (read_q && ready) rvalid <= 1'b1;
       else if (rready)     rvalid <= 1'b0;
       if (taken_q)         bvalid <= 1'b1;
@@ -138,8 +141,8 @@ module can_axil #(
     .WakeFilter(WakeFilter)
   ) u_top (
     .clk_i(aclk), .rst_ni(aresetn),
-    .req_i(begins), .cancel_i(cancel), .we_i(turn), .addr_i(addr[12:2]),
-    .be_i(be), .wdata_i(wdata),
+    .req_i(idle && (arvalid || (awvalid && wvalid))), .cancel_i(cancel), .we_i(turn),
+    .addr_i(addr[12:2]), .be_i(be), .wdata_i(wdata),
     .rdata_o(core_rdata), .ready_o(ready),
     .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o,
     .ext_i, .time_out_o, .irq_time_o, .stop_req_i, .supv_o(supv),

@@ -4,12 +4,8 @@
 // AhbChecker: see ahb_checker.hpp. The rules are those of AMBA 3 AHB-Lite.
 #include "node/ahb_checker.hpp"
 
-#include <algorithm>
-
 namespace vericansim {
 namespace {
-
-constexpr std::size_t kMaxViolations = 20;
 
 bool is_transfer(AhbTrans trans) { return trans == AhbTrans::kNonseq || trans == AhbTrans::kSeq; }
 
@@ -50,16 +46,12 @@ void AhbChecker::clock(const AhbRequest &request, const AhbResponse &response) {
   check_master(request);
   check_slave(response);
   if (response.hready) {
-    if (data_phase_) {
-      ++report_.transfers;
-      if (response.hresp) ++report_.errors;
-    }
+    if (data_phase_) report_.ended(response.hresp);
     data_phase_ = is_transfer(request.htrans);
     write_phase_ = data_phase_ && request.hwrite;
     waits_ = 0;
   } else if (!response.hresp) {
-    ++report_.wait_states;
-    report_.max_waits = std::max(report_.max_waits, ++waits_);
+    report_.waited(++waits_);
   }
   error_first_ = response.hresp && !response.hready;
   previous_ = request;
@@ -103,10 +95,6 @@ void AhbChecker::check_slave(const AhbResponse &response) {
   }
 }
 
-void AhbChecker::violation(const std::string &what) {
-  if (report_.violations.size() < kMaxViolations) {
-    report_.violations.push_back("AHB cycle " + std::to_string(cycle_) + ": " + what);
-  }
-}
+void AhbChecker::violation(const std::string &what) { report_.violation("AHB", cycle_, what); }
 
 }  // namespace vericansim

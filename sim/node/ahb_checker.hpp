@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "node/bus_report.hpp"
+
 namespace vericansim {
 
 /// HTRANS.
@@ -56,15 +58,6 @@ struct AhbResponse {
 /// Beats of a burst of fixed length; 0 for kIncr, 1 for kSingle.
 [[nodiscard]] unsigned ahb_beats(AhbBurst burst);
 
-/// What a checker has seen.
-struct AhbReport {
-  std::uint64_t transfers = 0;
-  std::uint64_t errors = 0;             ///< transfers with an ERROR response
-  std::uint64_t wait_states = 0;        ///< with an OKAY response
-  unsigned max_waits = 0;               ///< most of them in one transfer
-  std::vector<std::string> violations;  ///< broken rules, with the cycle number; the first 20
-};
-
 /// The checker. It keeps no reference to master or slave; both are judged by what they drive.
 class AhbChecker {
  public:
@@ -72,7 +65,7 @@ class AhbChecker {
   void clock(const AhbRequest &request, const AhbResponse &response);
   void reset();
 
-  [[nodiscard]] const AhbReport &report() const { return report_; }
+  [[nodiscard]] const BusReport &report() const { return report_; }
   [[nodiscard]] const std::vector<std::string> &violations() const { return report_.violations; }
   [[nodiscard]] std::uint64_t transfers() const { return report_.transfers; }
   [[nodiscard]] std::uint64_t errors() const { return report_.errors; }
@@ -91,7 +84,7 @@ class AhbChecker {
   bool error_first_ = false;  // the first cycle of an ERROR response has passed
   unsigned waits_ = 0;
   std::uint64_t cycle_ = 0;
-  AhbReport report_;
+  BusReport report_;
 };
 
 }  // namespace vericansim

@@ -4,38 +4,16 @@
 // AhbMaster: see ahb_master.hpp.
 #include "node/ahb_master.hpp"
 
+#include <stdexcept>
 #include <utility>
 
+#include "node/byte_lanes.hpp"
+
 namespace vericansim {
-namespace {
-
-unsigned lane_shift(const AhbTransfer &transfer) { return 8 * (transfer.address & 3); }
-
-std::uint32_t value_mask(AhbSize size) {
-  if (size == AhbSize::kByte) return 0xFF;
-  return size == AhbSize::kHalf ? 0xFFFF : 0xFFFFFFFF;
-}
-
-// The lanes that the transfer does not use carry the complement, so that a slave which takes a
-// wrong lane is found out.
-std::uint32_t to_lanes(const AhbTransfer &transfer) {
-  if (transfer.size >= AhbSize::kWord) return transfer.data;
-  const std::uint32_t mask = value_mask(transfer.size) << lane_shift(transfer);
-  const std::uint32_t copies = transfer.size == AhbSize::kByte
-                                   ? (transfer.data & 0xFF) * 0x01010101u
-                                   : (transfer.data & 0xFFFF) * 0x00010001u;
-  return (copies & mask) | (~copies & ~mask);
-}
-
-std::uint32_t from_lanes(const AhbTransfer &transfer, std::uint32_t word) {
-  if (transfer.size >= AhbSize::kWord) return word;
-  return (word >> lane_shift(transfer)) & value_mask(transfer.size);
-}
-
-}  // namespace
 
 AhbMaster::Ticket AhbMaster::enqueue(const AhbTransfer &transfer, std::coroutine_handle<> waiter) {
-  if (announce_) announce_();
+  if (transfer.lanes >= 0) throw std::invalid_argument("AHB has no byte lanes of its own");
+  announce();
   queue_.push_back({transfer, waiter});
   if (!driving_) next_address_phase();
   return submitted_++;
@@ -101,8 +79,7 @@ void AhbMaster::clock(const AhbResponse &response) {
   }
   next_address_phase();
   if (!finished) return;
-  results_[completed_ % kKept] = {from_lanes(ended.transfer, response.hrdata), response.hresp,
-                                  waits};
+  slot(completed_) = {from_lanes(ended.transfer, response.hrdata), response.hresp, waits};
   ++completed_;
   if (ended.waiter) ended.waiter.resume();
 }

@@ -30,9 +30,9 @@ void RtlNode::advance() {
 }
 
 AhbResult RtlNode::access(const AhbTransfer &transfer) {
-  const AhbMaster::Ticket ticket = ahb_.submit(transfer);
-  while (!ahb_.done(ticket)) advance();
-  return ahb_.result(ticket);
+  const BusMaster::Ticket ticket = master().submit(transfer);
+  while (!master().done(ticket)) advance();
+  return master().result(ticket);
 }
 
 std::uint32_t RtlNode::read32(std::uint32_t address) {
@@ -47,6 +47,8 @@ void RtlNode::write32(std::uint32_t address, std::uint32_t data) {
   if (result.error)
     throw std::runtime_error(name() + ": bus error writing " + std::to_string(address));
 }
+
+void RtlNode::no_ahb() const { throw std::logic_error(name() + " has no AHB"); }
 
 std::uint64_t RtlNode::time_of_clock() const {
   throw std::logic_error(name() + " has no time unit");

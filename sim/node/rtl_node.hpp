@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// RtlNode: a Verilated can_ahb, the whole core, with an AHB-Lite master on its host side.
+// RtlNode: the whole core, Verilated, with a master of its bus on its host side.
 #pragma once
 
 #include <coroutine>
@@ -11,10 +11,11 @@
 
 #include "bus/node.hpp"
 #include "node/ahb_master.hpp"
+#include "node/bus_master.hpp"
 
 namespace vericansim {
 
-/// Interrupt lines of can_ahb as bits of RtlNode::irq_lines().
+/// Interrupt lines of the core as bits of RtlNode::irq_lines().
 enum IrqLine : std::uint8_t {
   kIrqAll = 1 << 0,  ///< irq_o: OR of the others
   kIrqMb = 1 << 1,
@@ -57,8 +58,18 @@ class RtlNode : public Node {
   [[nodiscard]] virtual AhbResult peek(const AhbTransfer &transfer) = 0;
   [[nodiscard]] bool irq() const { return (irq_lines() & kIrqAll) != 0; }
   [[nodiscard]] unsigned num_mb() const { return num_mb_; }
-  [[nodiscard]] AhbMaster &ahb() { return ahb_; }
-  [[nodiscard]] const AhbMaster &ahb() const { return ahb_; }
+  /// Whatever drives the core's bus.
+  [[nodiscard]] BusMaster &master() { return *master_; }
+  [[nodiscard]] const BusMaster &master() const { return *master_; }
+  /// The same of a core with AHB-Lite, which create() makes. std::logic_error for another.
+  [[nodiscard]] AhbMaster &ahb() {
+    if (master_ != &ahb_) no_ahb();
+    return ahb_;
+  }
+  [[nodiscard]] const AhbMaster &ahb() const {
+    if (master_ != &ahb_) no_ahb();
+    return ahb_;
+  }
   /// Clock edges since the constructor.
   [[nodiscard]] std::uint64_t cycles() const {
     catch_up();
@@ -103,6 +114,8 @@ class RtlNode : public Node {
  protected:
   RtlNode(std::string name, const ClockConfig &clock, unsigned num_mb)
       : Node{std::move(name), clock}, ahb_{[this] { disturbed(); }}, num_mb_{num_mb} {}
+  /// For a core with another bus: its master, which lives as long as the node.
+  void take_master(BusMaster &master) { master_ = &master; }
   /// To be called after each clock edge.
   void after_edge() {
     ++cycles_;
@@ -119,8 +132,10 @@ class RtlNode : public Node {
 
  private:
   void resume_waiter();
+  [[noreturn]] void no_ahb() const;
 
   AhbMaster ahb_;
+  BusMaster *master_ = &ahb_;
   unsigned num_mb_;
   std::uint64_t cycles_ = 0;
   std::coroutine_handle<> waiter_ = nullptr;

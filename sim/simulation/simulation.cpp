@@ -194,7 +194,7 @@ RunReport Simulation::collect(bool interrupted) {
   for (const auto &traffic : traffic_) report.messages.push_back(traffic->report());
   for (NodeId id = 0; id < stations_.size(); ++id) {
     const Station &station = stations_[id];
-    const AhbReport ahb = station.node ? station.node->ahb().report() : AhbReport{};
+    const BusReport ahb = station.node ? station.node->ahb().report() : BusReport{};
     // What software of somebody else has read is not known; its core has accepted this much.
     const std::uint64_t received =
         station.host ? station.host->stats().received : monitor_->node(id).delivered;

@@ -156,7 +156,7 @@ TEST_P(DriverLoad, NothingIsLostAndTheOrderIsThatOfTheBus) {  // FX-3.5.l, FX-3.
   EXPECT_EQ(stats.received, received_.size());
   EXPECT_EQ(stats.rx_dropped, 0u);
   EXPECT_EQ(stats.rx_overruns, 0u);
-  EXPECT_TRUE(bus_[0].rtl().ahb().checker().violations().empty());
+  EXPECT_TRUE(bus_[0].rtl().master().report().violations.empty());
 }
 
 // The shortest frame and its intermission take 47 bits, the longest 8-byte one at least 111.

@@ -58,7 +58,7 @@ TEST(Board, SizesReachTheCore) {
   Rig rig{"cpu"};
   rig.go("sizes");
   ASSERT_TRUE(rig.finish());
-  const AhbReport &ahb = rig.nodes[0]->ahb().report();
+  const BusReport &ahb = rig.nodes[0]->ahb().report();
   EXPECT_EQ(ahb.transfers, 6U);
   EXPECT_EQ(ahb.errors, 0U);
   EXPECT_THAT(ahb.violations, ::testing::IsEmpty());

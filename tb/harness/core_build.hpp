@@ -37,7 +37,13 @@ inline constexpr CoreBuild kCoreBuilds[] = {
 /// The profile of that name; std::out_of_range if there is none.
 const CoreBuild &core_build(const std::string &name);
 
-/// A node of a build: of a profile, or with all features.
+/// `build`, or with VERICAN_TEST_BUS set the one that has a bus: for tests that do not mind more
+/// buffers than they know of.
+const CoreBuild &build_of_test(const CoreBuild &build);
+
+/// A node of a build: of a profile, or with all features. With VERICAN_TEST_BUS=name in the
+/// environment those of 64 buffers and all features have that bus (bus_builds.hpp) in place of
+/// AHB-Lite: so tests run through every wrapper.
 std::unique_ptr<RtlNode> make_node(std::string name, const CoreBuild &build,
                                    const ClockConfig &clock = {});
 

@@ -38,7 +38,7 @@ std::uint32_t xctrl_of(const BufferConfig &config) {
 BufferRig::BufferRig(const BufferConfig &config, const CoreBuild &build,
                      const BufferWindows &windows)
     : model{config, windows},
-      node_{make_node("core", build)},
+      node_{make_node("core", build_of_test(build))},
       wave_{std::vector<const Node *>{node_.get()}} {
   peer_.preset_idle();
   run(300);  // until the buffer RAM is cleared
@@ -64,10 +64,10 @@ void BufferRig::write(std::uint32_t address, AhbSize size, std::uint32_t data) {
 }
 
 AhbResult BufferRig::access(const AhbTransfer &transfer) {
-  const AhbMaster::Ticket ticket = node_->ahb().submit(transfer);
+  const BusMaster::Ticket ticket = node_->master().submit(transfer);
   under_way_.emplace_back(ticket, transfer);
-  while (!node_->ahb().done(ticket)) step();
-  return node_->ahb().result(ticket);
+  while (!node_->master().done(ticket)) step();
+  return node_->master().result(ticket);
 }
 
 std::uint32_t BufferRig::read_cs(unsigned mb) {

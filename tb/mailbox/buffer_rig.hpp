@@ -140,7 +140,7 @@ class BufferRig {
   Level peer_level_ = Level::kRecessive, peer_next_level_ = Level::kRecessive;
   std::deque<Frame> peer_queue_;
   std::multimap<std::uint64_t, AhbTransfer> planned_;
-  std::deque<std::pair<AhbMaster::Ticket, AhbTransfer>> under_way_;
+  std::deque<std::pair<BusMaster::Ticket, AhbTransfer>> under_way_;
   std::deque<Done> done_;
 
   std::uint64_t clock_ = 0;

@@ -54,14 +54,15 @@ void BufferRig::drive_accesses() {
   while (!planned_.empty() && planned_.begin()->first <= clock_) {
     const AhbTransfer transfer = planned_.begin()->second;
     planned_.erase(planned_.begin());
-    under_way_.emplace_back(node_->ahb().submit(transfer), transfer);
+    under_way_.emplace_back(node_->master().submit(transfer), transfer);
   }
 }
 
 void BufferRig::collect_accesses() {
-  while (!under_way_.empty() && node_->ahb().done(under_way_.front().first)) {
+  while (!under_way_.empty() && node_->master().done(under_way_.front().first)) {
     const auto &[ticket, transfer] = under_way_.front();
-    done_.push_back({clock_, transfer, node_->ahb().result(ticket)});
+    const AhbResult &result = node_->master().result(ticket);
+    done_.push_back({clock_ - result.late, transfer, result});
     under_way_.pop_front();
   }
 }

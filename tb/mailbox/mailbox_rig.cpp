@@ -63,26 +63,27 @@ void MailboxRig::step() {
   for (unsigned n = 0; n < nodes_.size(); ++n) {
     if (!hammers_[n]) continue;
     // One transfer in its data phase and one in its address phase, at least.
-    while (last_[n] < 2 || node(n).ahb().done(last_[n] - 2))
-      last_[n] = node(n).ahb().submit(hammers_[n]()) + 1;
+    while (last_[n] < 2 || node(n).master().done(last_[n] - 2))
+      last_[n] = node(n).master().submit(hammers_[n]()) + 1;
   }
   bus_.step();
 }
 
 AhbResult MailboxRig::access(unsigned n, const AhbTransfer &transfer) {
-  const AhbMaster::Ticket ticket = node(n).ahb().submit(transfer);
+  const BusMaster::Ticket ticket = node(n).master().submit(transfer);
   last_[n] = ticket + 1;
-  while (!node(n).ahb().done(ticket)) step();
-  return node(n).ahb().result(ticket);
+  while (!node(n).master().done(ticket)) step();
+  return node(n).master().result(ticket);
 }
 
 std::vector<AhbResult> MailboxRig::burst(unsigned n, const std::vector<AhbTransfer> &transfers) {
-  std::vector<AhbMaster::Ticket> tickets;
-  for (const AhbTransfer &transfer : transfers) tickets.push_back(node(n).ahb().submit(transfer));
+  std::vector<BusMaster::Ticket> tickets;
+  for (const AhbTransfer &transfer : transfers)
+    tickets.push_back(node(n).master().submit(transfer));
   last_[n] = tickets.back() + 1;
-  while (!node(n).ahb().done(tickets.back())) step();
+  while (!node(n).master().done(tickets.back())) step();
   std::vector<AhbResult> results;
-  for (AhbMaster::Ticket ticket : tickets) results.push_back(node(n).ahb().result(ticket));
+  for (BusMaster::Ticket ticket : tickets) results.push_back(node(n).master().result(ticket));
   return results;
 }
 
@@ -163,12 +164,12 @@ bool MailboxRig::wait_flag(unsigned n, unsigned mb, unsigned clocks) {
 
 bool MailboxRig::violated() const {
   return std::any_of(nodes_.begin(), nodes_.end(),
-                     [](const auto &node) { return !node->ahb().checker().violations().empty(); });
+                     [](const auto &node) { return !node->master().report().violations.empty(); });
 }
 
 unsigned MailboxRig::max_waits() const {
   unsigned waits = 0;
-  for (const auto &node : nodes_) waits = std::max(waits, node->ahb().checker().max_waits());
+  for (const auto &node : nodes_) waits = std::max(waits, node->master().report().max_waits);
   return waits;
 }
 

@@ -107,7 +107,7 @@ class MailboxRig {
   unsigned num_mb_;
   std::vector<std::unique_ptr<RtlNode>> nodes_;
   std::vector<std::function<AhbTransfer()>> hammers_;
-  std::vector<AhbMaster::Ticket> last_;  // newest ticket + 1
+  std::vector<BusMaster::Ticket> last_;  // newest ticket + 1
   std::optional<TestWave> wave_;
 };
 

@@ -43,7 +43,7 @@ bool ModeRig::run_until(const std::function<bool()> &done, unsigned clocks) {
 void ModeRig::ask(Leave how) {
   since_ask_ = 0;
   const auto mcr = [this](std::uint32_t value) {
-    rig_.node(kSubject).ahb().submit({.address = reg::kMcr, .write = true, .data = value});
+    rig_.node(kSubject).master().submit({.address = reg::kMcr, .write = true, .data = value});
   };
   switch (how) {
     case Leave::kFreeze: mcr(kRunMcr | reg::kMcrFrz | reg::kMcrHalt); break;
@@ -82,9 +82,9 @@ bool ModeRig::quiet(unsigned limit) {
 }
 
 std::uint32_t ModeRig::access(const AhbTransfer &transfer) {
-  const AhbMaster::Ticket ticket = rig_.node(kSubject).ahb().submit(transfer);
-  while (!rig_.node(kSubject).ahb().done(ticket)) run(1);
-  return rig_.node(kSubject).ahb().result(ticket).data;
+  const BusMaster::Ticket ticket = rig_.node(kSubject).master().submit(transfer);
+  while (!rig_.node(kSubject).master().done(ticket)) run(1);
+  return rig_.node(kSubject).master().result(ticket).data;
 }
 
 void ModeRig::clear_counts() {

@@ -29,7 +29,7 @@ void TxRig::count() {
   sent_ += trace.tx_ok;
   failed_ += trace.tx_fail;
   if (occupied_ && decode_trace(node(1).trace()).tx_ok)
-    node(1).ahb().submit(
+    node(1).master().submit(
         {.address = reg::mb(kOccupier), .write = true, .data = reg::kCodeTxData | (8u << 16)});
 }
 
@@ -41,24 +41,24 @@ void TxRig::watch(unsigned clocks) {
 }
 
 void TxRig::write_watched(std::uint32_t address, std::uint32_t data) {
-  const auto ticket = node(0).ahb().submit(
+  const auto ticket = node(0).master().submit(
       {.address = address, .write = true, .size = AhbSize::kWord, .data = data});
-  while (!node(0).ahb().done(ticket)) watch(1);
+  while (!node(0).master().done(ticket)) watch(1);
 }
 
 bool TxRig::watch_flag(unsigned mb, unsigned clocks) {
   for (unsigned i = 0; i < clocks; i += 2) {
-    const auto ticket = node(0).ahb().submit({.address = mb < 32 ? reg::kIflag1 : reg::kIflag2});
-    while (!node(0).ahb().done(ticket)) watch(1);
-    if (((node(0).ahb().result(ticket).data >> (mb % 32)) & 1) != 0) return true;
+    const auto ticket = node(0).master().submit({.address = mb < 32 ? reg::kIflag1 : reg::kIflag2});
+    while (!node(0).master().done(ticket)) watch(1);
+    if (((node(0).master().result(ticket).data >> (mb % 32)) & 1) != 0) return true;
   }
   return false;
 }
 
 unsigned TxRig::code(unsigned mb) {
-  const auto ticket = node(0).ahb().submit({.address = reg::mb(mb)});
-  while (!node(0).ahb().done(ticket)) watch(1);
-  return (node(0).ahb().result(ticket).data >> 24) & 0xF;
+  const auto ticket = node(0).master().submit({.address = reg::mb(mb)});
+  while (!node(0).master().done(ticket)) watch(1);
+  return (node(0).master().result(ticket).data >> 24) & 0xF;
 }
 
 void TxRig::occupy(bool on) {

@@ -7,7 +7,7 @@
 
   logic f_read, f_write, f_used, f_last_read, f_given, f_bad, f_closed;
   logic f_r_due, f_b_due, f_r_bad, f_b_bad, f_r_held, f_b_held, f_ar, f_aw, f_outside, f_shut;
-  logic f_reads, f_writes, f_r_shut, f_b_shut;
+  logic f_reads, f_writes, f_r_shut, f_b_shut, f_shut_q, f_free, f_blocked;
   logic [3:0]  f_ar_wait, f_aw_wait;
   logic [31:0] f_place, f_data;
   logic [33:0] f_r_q;
@@ -24,10 +24,11 @@
   assign f_b_shut  = bvalid && !bready;
   assign f_reads   = arvalid && !f_r_shut;
   assign f_writes  = awvalid && wvalid && !awready && !f_b_shut;
+  assign f_free    = (f_reads || f_writes) && !(f_read || f_write);
   always_ff @(posedge aclk or negedge aresetn) begin
     if (!aresetn) begin
       {f_read, f_write, f_used, f_last_read, f_given, f_bad, f_closed} <= '0;
-      {f_r_due, f_b_due, f_r_bad, f_b_bad, f_r_held, f_b_held} <= '0;
+      {f_r_due, f_b_due, f_r_bad, f_b_bad, f_r_held, f_b_held, f_shut_q, f_blocked} <= '0;
       {f_ar_held, f_aw_held, f_w_held, f_ar_wait, f_aw_wait} <= '0;
     end else begin
       f_used  <= f_write && ready;
@@ -42,6 +43,7 @@
       if (f_ar) {f_r_bad, f_data} <= {f_bad, f_bad || f_closed ? 32'd0 : core_rdata};
       if (f_write && ready) f_b_bad <= f_bad;
       {f_r_held, f_b_held} <= {f_r_shut, f_b_shut};
+      {f_shut_q, f_blocked} <= {f_r_shut || f_b_shut, f_free && !begins};
       {f_b_q, f_r_q} <= {bresp, rresp, rdata};
       {f_ar_q, f_aw_q, f_w_q} <= {araddr, arprot, awaddr, awprot, wdata, wstrb};
       {f_ar_held, f_aw_held, f_w_held} <= {arvalid && !arready, awvalid && !awready,
@@ -99,10 +101,11 @@
       p_bresp: assert (!bvalid || bresp == (f_b_bad ? 2'b10 : 2'b00));
       // PK-15, PK-16: what is not the core's does not wait.
       p_no_wait: assert (f_given || (f_read ? arready : !f_write || ready));
-      // PK-22: where both wait they take turns, the read first.
-      p_turns: assert (!begins || !f_reads || !f_writes || turn == f_last_read);
-      // PK-22: who can begin does, whatever the other channel does.
-      p_free: assert (begins == ((f_reads || f_writes) && !(f_read || f_write)));
+      // PK-22: where both wait they take turns, the read first, but in the clock behind one in
+      // which an answer was not taken.
+      p_turns: assert (!begins || !f_reads || !f_writes || turn == f_last_read || f_shut_q);
+      // PK-22: who can begin does, at once or one clock later, whatever the other channel does.
+      p_free: assert (begins || !f_free || !f_blocked);
       // PK-23: ARREADY within 7 clocks of ARVALID while R is open,
       p_ar_bound: assert (f_ar_wait <= 4'd7);
       // PK-23: ... AWREADY within 8 of AWVALID and WVALID while B is open.

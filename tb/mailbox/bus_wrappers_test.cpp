@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The bus wrappers: byte lanes, random accesses through each at once, speed, errors, dropped
+// cycles. The tests of registers, driver and races run through each of them, too (CMakeLists.txt).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "harness/bus_builds.hpp"
+#include "mailbox/mailbox_rig.hpp"
+#include "mailbox/register_table.hpp"
+#include "node/axil_master.hpp"
+#include "node/wb_master.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr std::uint32_t kWindow = 0x2000;
+
+/// With MCR.AEN each write of a buffer waits for a clock.
+constexpr std::uint32_t kAen = 1u << 12;
+
+/// A node in freeze mode behind a bus.
+std::unique_ptr<RtlNode> frozen(const std::string &bus) {
+  auto node = make_bus_node(bus, bus);
+  for (int i = 0; i < 300; ++i) node->advance();  // until the buffer RAM is cleared
+  node->write32(reg::kMcr, reg::kMcrFrz | reg::kMcrHalt | 63);
+  while ((node->read32(reg::kMcr) & reg::kMcrFrzAck) == 0) {
+  }
+  return node;
+}
+
+std::vector<std::string> all_buses() { return {std::begin(kBusBuilds), std::end(kBusBuilds)}; }
+/// Those with byte lanes.
+std::vector<std::string> lane_buses() {
+  std::vector<std::string> buses = all_buses();
+  std::erase(buses, "ahb");
+  return buses;
+}
+
+class Lanes : public ::testing::TestWithParam<std::string> {
+ protected:
+  void TearDown() override {
+    EXPECT_EQ(node_->master().report().violations, std::vector<std::string>{});
+    if (GetParam() == "axil_slow") return;  // waits for other reasons
+    EXPECT_LE(node_->master().report().max_waits, 1u);
+  }
+  std::uint32_t write(std::uint32_t address, std::uint32_t data, int lanes) {
+    EXPECT_FALSE(
+        node_->access({.address = address, .write = true, .data = data, .lanes = lanes}).error);
+    return node_->read32(address);
+  }
+
+  std::unique_ptr<RtlNode> node_ = frozen(GetParam());
+};
+
+std::string name_of(const ::testing::TestParamInfo<std::string> &test) { return test.param; }
+INSTANTIATE_TEST_SUITE_P(Bus, Lanes, ::testing::ValuesIn(lane_buses()), name_of);
+
+std::uint32_t bits_of(int lanes) {
+  std::uint32_t bits = 0;
+  for (int lane = 0; lane < 4; ++lane)
+    if (((lanes >> lane) & 1) != 0) bits |= 0xFFu << (8 * lane);
+  return bits;
+}
+
+// Every register, each with the sixteen patterns: a byte changes where its strobe is set, as far as
+// the register map lets it. What a write does beside that is the matter of RegisterMap.
+TEST_P(Lanes, EveryPatternWritesItsBytesInEveryRegister) {
+  for (const RegisterRow &row : kRegisterTable) {
+    if (row.offset == reg::kMcr || row.min_num_mb > 64) continue;
+    const bool time_unit = row.missing(Features{}) == 0xFFFFFFFF;
+    const unsigned count = row.count == 0 ? 64 : row.count;
+    for (const unsigned i : {0u, count - 1}) {
+      const std::uint32_t offset = row.offset + i * row.stride;
+      SCOPED_TRACE(std::string{row.name} + " " + std::to_string(i));
+      const std::uint32_t bits = time_unit ? 0 : (row.any | row.freeze) & ~row.missing(Features{});
+      for (int lanes = 0; lanes < 16; ++lanes) {
+        for (const std::uint32_t pattern : {0xFFFFFFFFu, 0u}) {
+          const std::uint32_t old = node_->read32(offset);
+          const std::uint32_t changed = bits & bits_of(lanes);
+          const std::uint32_t cleared = pattern & row.w1c & bits_of(lanes);
+          EXPECT_EQ(write(offset, pattern, lanes) & ~row.live,
+                    ((old & ~changed & ~cleared) | (pattern & changed)) & ~row.live)
+              << "lanes " << lanes << " of " << std::hex << pattern;
+        }
+      }
+    }
+  }
+}
+
+// Reserved bytes of MCR aside: its bytes are apart, too.
+TEST_P(Lanes, McrTakesItsBytesApart) {
+  const std::uint32_t old = node_->read32(reg::kMcr);
+  for (int lanes = 0; lanes < 16; ++lanes) {
+    const std::uint32_t changed = bits_of(lanes) & 0x7F;  // MAXMB
+    EXPECT_EQ(write(reg::kMcr, (old & ~0x7Fu) | 0x15, lanes), (old & ~changed) | (0x15 & changed));
+    (void)write(reg::kMcr, old, 0xF);
+  }
+}
+
+// A write without a strobe is none: it does not unlock a buffer, as a write of C/S would.
+TEST_P(Lanes, NoStrobeNoWrite) {
+  EXPECT_EQ(write(reg::mb(3), 0x0400'0000, 0xF), 0x0400'0000u);
+  EXPECT_EQ(write(reg::mb(3), 0x0800'0000, 0), 0x0400'0000u);
+  // Nor does it reach the core, where it would wait.
+  node_->write32(reg::kMcr, node_->read32(reg::kMcr) | kAen);
+  if (GetParam() == "axil_slow") return;  // waits for other reasons
+  for (const int lanes : {0, 1})
+    EXPECT_EQ(node_->access({.address = reg::mb(3), .write = true, .lanes = lanes}).waits,
+              lanes == 0 ? 0u : 1u);
+}
+
+// Errors: outside the window, nowhere else, and with no effect; data 0, no wait.
+TEST_P(Lanes, OutsideTheWindowIsAnError) {
+  (void)write(reg::mb(5, 2), 0x12345678, 0xF);
+  for (const std::uint32_t bit : {13u, 14u, 15u}) {
+    const std::uint32_t far = reg::mb(5, 2) | 1u << bit;
+    EXPECT_TRUE(node_->access({.address = far, .write = true, .data = 1}).error);
+    const AhbResult read = node_->access({.address = far});
+    EXPECT_TRUE(read.error);
+    EXPECT_EQ(read.data, 0u);
+  }
+  EXPECT_EQ(node_->read32(reg::mb(5, 2)), 0x12345678u);
+  EXPECT_EQ(node_->read32(reg::mb(5, 2) | 1u << 16), 0x12345678u);  // not of the region
+  EXPECT_FALSE(node_->access({.address = kWindow - 4}).error);
+}
+
+// As many clocks as promised, back to back: reads and writes of registers, which never wait.
+TEST_P(Lanes, TransfersTakeTheClocksThatTheyShould) {
+  if (GetParam() == "axil_slow") GTEST_SKIP() << "has delays of its own";
+  const bool pipelined = GetParam() == "wb_pipelined";
+  for (const bool writing : {false, true}) {
+    const unsigned clocks = pipelined ? 1 : GetParam() == "axil" && writing ? 3 : 2;
+    const std::uint64_t before = node_->cycles();
+    BusMaster::Ticket last = 0;
+    for (int i = 0; i < 100; ++i)
+      last = node_->master().submit({.address = reg::kImask1, .write = writing, .data = 5});
+    while (!node_->master().done(last)) node_->advance();
+    const auto taken = static_cast<unsigned>(node_->cycles() - before);
+    EXPECT_GE(taken, 100 * clocks);
+    EXPECT_LE(taken, 100 * clocks + 2);
+  }
+}
+
+// A read and a write at the same time, with delays of all channels and AW and W in either order:
+// each sees the word that it should.
+TEST(AxilWrapper, ReadsAndWritesAtTheSameTime) {
+  const auto node = frozen("axil_slow");
+  auto &master = dynamic_cast<AxilMaster &>(node->master());
+  master.overlap(true);
+  constexpr unsigned kWords = 64, kFirst = 2;  // data words of buffers from 2 on
+  const auto word = [](unsigned half, unsigned n) { return reg::mb(kFirst + n % 32, 2 + half); };
+  std::vector<std::uint32_t> shadow(kWords, 0);
+  std::mt19937 rng{7};
+  for (unsigned round = 0; round < 200; ++round) {
+    const unsigned half = round % 2;  // the one that is written; the other is read
+    std::vector<std::pair<BusMaster::Ticket, unsigned>> reads;
+    for (unsigned i = 0; i < 20; ++i) {
+      const unsigned n = rng() % 32, m = rng() % 32;
+      shadow[half * 32 + n] = static_cast<std::uint32_t>(rng());
+      master.submit({.address = word(half, n), .write = true, .data = shadow[half * 32 + n]});
+      reads.emplace_back(master.submit({.address = word(1 - half, m)}), (1 - half) * 32 + m);
+    }
+    while (master.active()) node->advance();
+    for (const auto &[ticket, at] : reads) ASSERT_EQ(master.result(ticket).data, shadow[at]);
+  }
+  EXPECT_EQ(master.report().violations, std::vector<std::string>{});
+}
+
+class Dropped : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Bus, Dropped, ::testing::Values("wb", "wb_pipelined", "wb_stalled"),
+                         name_of);
+
+// A cycle that is dropped in any clock gets no answer, not even in a cycle that begins at once, and
+// what comes then is as ever.
+TEST_P(Dropped, GetsNoAnswer) {
+  const auto node = frozen(GetParam());
+  auto &master = dynamic_cast<WbMaster &>(node->master());
+  node->write32(reg::kMcr, node->read32(reg::kMcr) | kAen);
+  for (unsigned n = 0; n < 16; ++n) node->write32(reg::mb(n, 2), 0x1111 * n);
+  std::mt19937 rng{11};
+  const auto random = [&rng] { return static_cast<std::uint32_t>(rng()); };
+  for (unsigned round = 0; round < 2000; ++round) {
+    const std::uint32_t scratch = reg::mb(20 + rng() % 8, 2 + rng() % 2);
+    if (rng() % 3 == 0) master.submit({.address = scratch, .write = true, .data = random()});
+    const auto lost =
+        master.submit({.address = scratch, .write = rng() % 2 != 0, .data = random()});
+    for (unsigned clocks = rng() % 4; clocks != 0; --clocks) node->advance();
+    master.drop();
+    while (master.active() && !master.done(lost)) node->advance();  // what was not begun
+    for (unsigned pause = rng() % 3; pause != 0; --pause) node->advance();
+    const unsigned n = rng() % 16;
+    ASSERT_EQ(node->read32(reg::mb(n, 2)), 0x1111 * n) << "round " << round;
+  }
+  EXPECT_EQ(master.report().violations, std::vector<std::string>{});
+}
+
+AhbTransfer random_transfer(std::mt19937 &rng) {
+  AhbTransfer transfer;
+  transfer.size = static_cast<AhbSize>(rng() % 3);
+  const auto page = static_cast<std::uint32_t>(rng() % 8);
+  const std::uint32_t span = page < 4 ? 0x480u : page < 6 ? 0x80u : kWindow;
+  transfer.address = rng() % span & ~((1u << static_cast<unsigned>(transfer.size)) - 1);
+  if (rng() % 64 == 0) transfer.address |= 1u << (13 + rng() % 3);
+  transfer.write = rng() % 2 != 0;
+  transfer.data = static_cast<std::uint32_t>(rng());
+  transfer.pause = rng() % 4 == 0 ? rng() % 4 : 0;
+  // MCR would leave freeze mode; ESR1, TIMER and ECR live with the clock, XCTRL with nothing.
+  const std::uint32_t word = transfer.address & 0x1FFC;
+  if (word == reg::kMcr || word == reg::kTimer || word == reg::kEsr || word == reg::kEcr)
+    transfer.address ^= 0x100;
+  // A read of ESR1 counts by its lanes, which APB and AXI do not have; all else reads whole words.
+  return transfer;
+}
+
+// The same accesses, at the pace of each bus: 100,000 results, and no rule of a bus broken.
+TEST(Differential, AllBusesReturnTheSameInFreezeMode) {
+  constexpr unsigned kAccesses = 100'000, kBatch = 100;
+  std::vector<std::unique_ptr<RtlNode>> nodes;
+  for (const std::string &bus : all_buses()) nodes.push_back(frozen(bus));
+  std::mt19937 rng{2026};
+  for (unsigned done = 0; done < kAccesses; done += kBatch) {
+    std::vector<AhbTransfer> transfers(kBatch);
+    for (AhbTransfer &transfer : transfers) transfer = random_transfer(rng);
+    std::vector<AhbResult> wanted;
+    for (const auto &node : nodes) {
+      std::vector<BusMaster::Ticket> tickets;
+      for (const AhbTransfer &transfer : transfers)
+        tickets.push_back(node->master().submit(transfer));
+      while (!node->master().done(tickets.back())) node->advance();
+      for (unsigned i = 0; i < kBatch; ++i) {
+        const AhbResult &result = node->master().result(tickets[i]);
+        if (node == nodes.front()) wanted.push_back(result);
+        ASSERT_EQ(result.error, wanted[i].error) << node->name() << " access " << done + i;
+        if (transfers[i].write) continue;
+        ASSERT_EQ(result.error ? 0 : result.data, wanted[i].error ? 0 : wanted[i].data)
+            << node->name() << " access " << done + i << " of " << std::hex << transfers[i].address;
+      }
+    }
+  }
+  for (const auto &node : nodes) {
+    EXPECT_EQ(node->master().report().violations, std::vector<std::string>{}) << node->name();
+    EXPECT_GE(node->master().report().transfers, kAccesses) << node->name();
+    EXPECT_GT(node->master().report().errors, kAccesses / 100) << node->name();
+  }
+}
+
+}  // namespace
+}  // namespace vericansim
