@@ -167,6 +167,46 @@ TEST(Servo, MeanError) {
   EXPECT_EQ(error(), expected + (gate - expected) / 8);
 }
 
+// TM-85: it goes on learning evenly, however many pairs there have been.
+TEST(Servo, MeanErrorOfManyPairs) {
+  for (const unsigned pairs : {40u, 255u, 256u, 257u, 258u, 259u, 600u}) {
+    ServoRig rig{16};
+    rig.lock(pairs);
+    ASSERT_EQ(rig.servo.error, 0) << pairs;
+    rig.pair(80);
+    EXPECT_EQ(rig.servo.error, 256 * 80 / 8) << pairs;
+  }
+}
+
+// TM-86, TM-89: leaps of one master say nothing of another's.
+TEST(Servo, LeapsOfAnotherMaster) {
+  ServoRig rig;
+  rig.lock();
+  for (int n = 0; n < 2; ++n) EXPECT_EQ(rig.pair(3 * kSecondNs).events, kLeap);
+  ASSERT_EQ(verican_servo_forget(&rig.servo), VERICAN_OK);
+  EXPECT_EQ(rig.pair(3 * kSecondNs).events, kLeap);
+  EXPECT_EQ(rig.state(), VERICAN_SYNC_LOCKED);
+}
+
+// What a configuration may have, both ends of it.
+TEST(Servo, EndsOfTheConfiguration) {
+  const auto result = [](auto change) {
+    verican_servo_config_t config = ServoRig::defaults();
+    change(config);
+    return ServoRig{config}.result;
+  };
+  for (const std::uint32_t us : {50'000u, 5'000'000u})
+    EXPECT_EQ(result([us](auto &c) { c.interval_us = us; }), VERICAN_OK) << us;
+  for (const std::uint32_t us : {49'999u, 5'000'001u})
+    EXPECT_EQ(result([us](auto &c) { c.interval_us = us; }), VERICAN_ERR_RANGE) << us;
+  EXPECT_EQ(result([](auto &c) { c.leap_ns = 10'000'000; }), VERICAN_OK);
+  EXPECT_EQ(result([](auto &c) { c.leap_ns = 10'000'001; }), VERICAN_ERR_RANGE);
+  EXPECT_EQ(result([](auto &c) { c.drift_ppb = 1'000'000; }), VERICAN_OK);
+  EXPECT_EQ(result([](auto &c) { c.drift_ppb = 1'000'001; }), VERICAN_ERR_RANGE);
+  EXPECT_EQ(result([](auto &c) { c.hold_after = 1; }), VERICAN_OK);
+  EXPECT_EQ(result([](auto &c) { c.hold_after = 0; }), VERICAN_ERR_RANGE);
+}
+
 // TM-86: the master's time leaps: three pairs that agree, then a step.
 TEST(Servo, LeapForward) {
   ServoRig rig;

@@ -63,6 +63,10 @@ class Build:
 
     def __init__(self, directory):
         self.directory = pathlib.Path(directory).resolve()
+        missing = [name for name in PROGRAMS if not (self.directory / "tb" / name).exists()]
+        if missing:
+            sys.exit(f"driver.py: not built: {' '.join(missing)}; cmake --build {directory} "
+                     f"--target {' '.join(PROGRAMS)}")
         lines = subprocess.run(["ninja", "-C", self.directory, "-t", "commands", *PROGRAMS],
                                check=True, capture_output=True, text=True).stdout.split("\n")
         self.compile = {}
