@@ -26,9 +26,8 @@ page.on('request', (request) => {
 });
 await page.goto(`${address}index.html`, {timeout: patience});
 await page.fill('input[name="query"]', 'overload');
-await page.waitForSelector('.md-search-result__list a[href]', {timeout: patience, state: 'attached'});
-const found = await page.$$eval('.md-search-result__list a[href]', (links) =>
-  links.map((link) => link.href),
-);
+const results = '.md-search-result__list a[href]';
+await page.waitForSelector(results, {timeout: patience, state: 'attached'});
+const found = await page.$$eval(results, (links) => links.map((link) => link.href));
 await browser.close();
 console.log(JSON.stringify({found, outside}));
