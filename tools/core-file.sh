@@ -22,6 +22,10 @@ filesets:
     files:
       - rtl/lint.vlt: {file_type: vlt}
 $(rtl_files | sed 's/^/      - /')
+  smoke:
+    file_type: verilogSource-2005
+    files:
+$(for file in tb/smoke/*.v; do echo "      - $file"; done)
 
 # Without a value here each has the default of the RTL.
 parameters:
@@ -105,4 +109,29 @@ targets:
     flow_options:
       tool: verilator
       verilator_options: [-Wall]
+  # With --tool icarus, too, from Icarus 12 on (docs/errata.md, E-08).
+  sim:
+    description: A first frame in loop-back through each bus wrapper
+    filesets: [rtl, smoke]
+    toplevel: can_smoke
+    flow: sim
+    flow_options:
+      tool: verilator
+      mode: binary
+      verilator_options: [--timing, -Wno-fatal]
+      iverilog_options: [-g2012]
+  synth_ice40:
+    <<: *default
+    description: Synthesis for iCE40, no place and route
+    flow: icestorm
+    flow_options:
+      pnr: none
+      yosys_synth_options: [-device, hx]
+  # Edalize 0.6.8 starts nextpnr-ecp5 all the same, after the synthesis.
+  synth_ecp5:
+    <<: *default
+    description: Synthesis for ECP5, no place and route
+    flow: trellis
+    flow_options:
+      pnr: none
 EOF

@@ -105,6 +105,7 @@ for top in remote_icestick remote_hx8k; do
 done
 echo "Sources"
 check "can.core agrees with rtl/can.f" core_file
+check "can.core as FuseSoC reads it" tools/core_check.py
 check "licence heads" spdx
 check "lines of at most 100 characters" line_length
 check "folders of sim/ include downwards only" tools/layers.py

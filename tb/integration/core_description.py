@@ -9,6 +9,7 @@ import os
 import re
 import shlex
 import shutil
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -16,6 +17,9 @@ from pathlib import Path
 import yaml
 
 import design
+
+sys.path.insert(0, str(design.ROOT / "tools"))
+import core_check  # noqa: E402  (the path must be set first)
 
 CONDITION = re.compile(r"is_toplevel\? \((\w+)\)")
 USER_CORE = """\
@@ -121,8 +125,45 @@ class CoreDescription(unittest.TestCase):
             self.assertEqual(kind, ("int", "vlogparam"), name)
             self.assertNotIn("default", options, "the RTL has the defaults")
 
+    def test_it_is_as_fusesoc_wants_it(self):
+        self.assertEqual(core_check.Check(design.ROOT).run(), [])
+
+    def test_checker_sees_what_is_wrong(self):
+        self.export()
+        text = (design.ROOT / "can.core").read_text(encoding="utf-8")
+        for old, new, what in (
+                ("flow: lint", "flow: lnit", "unknown flow lnit"),
+                ("rtl/can_core.sv", "rtl/can_cor.sv", "rtl/can_cor.sv: no such file"),
+                ('"is_toplevel? (can_ahb)"', '"can_ahb"', "can_ahb holds in designs"),
+                ("filesets: [rtl, smoke]", "filesets: [rtl, smok]", "no file set smok"),
+                ("paramtype: vlogparam", "paramtype: vlogparam\n    default: 1", "no key"),
+                ('"is_toplevel? (Wake)"', '"is_toplevel? (Wak)"', "no parameter Wak")):
+            self.assertIn(old, text)
+            (self.work / "can.core").write_text(text.replace(old, new), encoding="utf-8")
+            for name in ("rtl", "tb"):
+                if not (self.work / name).exists():
+                    (self.work / name).symlink_to(design.ROOT / name)
+            self.assertIn(what, "\n".join(core_check.Check(self.work).run()))
+
+    def test_simulation_passes_in_verilator(self):
+        self.export()
+        target = self.core["targets"]["sim"]
+        options = target["flow_options"]
+        self.assertEqual((options["tool"], options["mode"]), ("verilator", "binary"))
+        for name in self.core["filesets"]["smoke"]["files"]:
+            shutil.copy(design.ROOT / name, self.work)
+        code, text = design.run(
+            "verilator", "--binary", *options["verilator_options"], "-O0", "--Mdir", "obj",
+            "--top-module", target["toplevel"], *self.listed(self.waivers),
+            *self.listed(self.sources), *sorted(self.work.glob("*smoke*.v")), cwd=self.work)
+        self.assertEqual(code, 0, text)
+        code, text = design.run(self.work / "obj/Vcan_smoke")
+        self.assertEqual((code, text.splitlines()[0]), (0, "smoke: passed"), text)
+
     def test_top_and_parameters_are_its_own(self):
         for name, target in self.core["targets"].items():
+            if target["toplevel"] == "can_smoke":
+                continue
             self.assertEqual(chosen(target["toplevel"], True), ["can_ahb"], name)
             self.assertEqual(chosen(target["parameters"], True), list(self.core["parameters"]))
             self.assertEqual(chosen(target["toplevel"], False), [], name)
@@ -150,7 +191,8 @@ class CoreDescription(unittest.TestCase):
         (self.work / "user.core").write_text(USER_CORE, encoding="utf-8")
         (self.work / "user_top.sv").write_text(design.user_top(), encoding="utf-8")
         shutil.copy(design.ROOT / "can.core", self.work)
-        (self.work / "rtl").symlink_to(design.ROOT / "rtl")
+        for folder in ("rtl", "tb"):
+            (self.work / folder).symlink_to(design.ROOT / folder)
         code, text = design.run(*shlex.split(program), "--cores-root", ".", "run", *words,
                                 cwd=self.work)
         self.assertEqual(code, 0, text)
@@ -158,6 +200,12 @@ class CoreDescription(unittest.TestCase):
 
     def test_fusesoc_lints_it(self):
         self.assertNotIn("Warning", self.fusesoc("--target", "lint", "verican:ip:can"))
+
+    def test_fusesoc_simulates_it(self):
+        self.assertIn("smoke: passed", self.fusesoc("--target", "sim", "verican:ip:can"))
+
+    def test_fusesoc_synthesises_it(self):
+        self.assertIn("SB_RAM40", self.fusesoc("--target", "synth_ice40", "verican:ip:can"))
 
     def test_fusesoc_passes_a_parameter(self):
         self.fusesoc("--target", "lint", "verican:ip:can", "--NumMb", "16")
