@@ -1,0 +1,298 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""What tools/package.py writes for other tools' packagers: ports and parameters are those that
+Yosys elaborates, the Verilog shells equal their wrappers, IP-XACT says what the SVD file says, and the
+vendors' scripts, run in tclsh with the tools' commands recorded, name what is there.
+IPXACT_XSD=folder with Accellera's 1685-2014 schema: the components are checked against it, too."""
+
+import json
+import os
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import design
+
+sys.path.insert(0, str(design.ROOT / "tools"))
+sys.dont_write_bytecode = True
+# ruff: noqa: E402  (the path must be set first)
+from pack import wrappers as source
+
+SPACE = "{http://www.accellera.org/XMLSchema/IPXACT/1685-2014}"
+# Any command that a script uses and Tcl lacks is recorded; ipx's questions return what was asked.
+RECORDERS = """\
+proc unknown {name args} {
+  puts "RECORD\\t$name\\t[join $args \\t]"
+  return "<$name>"
+}
+rename package {}
+"""
+
+
+def setUpModule():
+    """One set of packages for all tests."""
+    folder = tempfile.TemporaryDirectory()
+    unittest.addModuleCleanup(folder.cleanup)
+    # As in the archive: beside the sources.
+    Case.out = Path(folder.name)
+    for name in ("rtl", "sw"):
+        (Case.out / name).symlink_to(design.ROOT / name)
+    code, text = design.run(design.ROOT / "tools/package.py", folder.name)
+    if code != 0:
+        raise AssertionError(text)
+    Case.wrappers = {wrapper.bus: wrapper for wrapper in source.wrappers()}
+
+
+class Case(unittest.TestCase):
+    """What the tests share."""
+    maxDiff = None
+    out, wrappers = None, {}
+
+    def records(self, script):
+        """The commands of a script, each a list of words."""
+        runner = self.out / "recorders.tcl"
+        runner.write_text(RECORDERS + f"source {{{self.out / script}}}\n", encoding="utf-8")
+        code, text = design.run("tclsh", runner)
+        self.assertEqual(code, 0, text)
+        lines = [line.split("\t") for line in text.splitlines()]
+        self.assertEqual({words[0] for words in lines}, {"RECORD"}, text)
+        return [words[1:] for words in lines]
+
+    def assert_sources(self, paths):
+        """Paths below the root of the packages that are the RTL in its order."""
+        names = [str(Path(path).relative_to(self.out)) for path in paths]
+        self.assertEqual(names, design.rtl_files())
+
+
+class Wrappers(Case):
+    """tools/pack/wrappers.py reads the interfaces as Yosys does."""
+
+    def test_ports_and_parameters_are_those_of_the_rtl(self):
+        self.assertIn("ahb", self.wrappers)
+        for bus, wrapper in self.wrappers.items():
+            with tempfile.TemporaryDirectory() as name:
+                path = Path(name) / "top.json"
+                code, text = design.run(
+                    "yosys", "-q", "-f", "verilog -sv", *design.rtl_files(), "-p",
+                    f"blackbox can_top; hierarchy -top {wrapper.module}; proc; write_json {path}")
+                self.assertEqual(code, 0, text)
+                module = json.loads(path.read_text(encoding="utf-8"))["modules"][wrapper.module]
+            seen = {name: (port["direction"], len(port["bits"]), port.get("offset", 0))
+                    for name, port in module["ports"].items()}
+            self.assertEqual({port.name: (port.direction, port.width, port.low)
+                              for port in wrapper.ports}, seen, bus)
+            values = module["parameter_default_values"]
+            self.assertEqual({entry.name: entry.number for entry in wrapper.parameters},
+                             {name: int(value, 2) for name, value in values.items()})
+
+    def test_what_is_not_of_the_bus_is_the_same(self):
+        common = [[(port.name, port.direction, port.width) for port in wrapper.common_ports]
+                  for wrapper in self.wrappers.values()]
+        self.assertTrue(all(ports == common[0] for ports in common))
+        own = {"CheckHprot", "CheckProt", "Pipelined"}
+        parameters = [[(p.name, p.default) for p in wrapper.parameters if p.name not in own]
+                      for wrapper in self.wrappers.values()]
+        self.assertTrue(all(entry == parameters[0] for entry in parameters))
+
+
+class Files(Case):
+    """Lists and shells."""
+
+    def test_list_is_in_an_order_that_can_be_read_file_by_file(self):
+        names = (self.out / "lists/can_root.f").read_text(encoding="utf-8").split()
+        self.assertEqual(names, design.rtl_files())
+        script = "; ".join(f"read_verilog -sv {name}" for name in names)
+        code, text = design.run("yosys", "-q", "-p", script)
+        self.assertEqual(code, 0, text)
+        absolute = (self.out / "lists/can_abs.f").read_text(encoding="utf-8").split()
+        self.assertEqual([name.removeprefix("${VERICAN_ROOT}/") for name in absolute], names)
+        probe = self.out / "probe.tcl"
+        probe.write_text(f"source {{{self.out}/lists/can_files.tcl}}\n"
+                         "foreach file $verican_files {puts $file}\n", encoding="utf-8")
+        code, text = design.run("tclsh", probe)
+        self.assertEqual(code, 0, text)
+        self.assert_sources(text.split())
+
+    def test_shells_are_verilog_2001_and_equal_their_wrappers(self):
+        for wrapper in self.wrappers.values():
+            shell = self.out / f"verilog/{wrapper.module}_v.v"
+            code, text = design.run(
+                "verilator", "--lint-only", "-Wall", "+1364-2001ext+v", "--top-module",
+                f"{wrapper.module}_v", "-GNumMb=16", "rtl/lint.vlt", *design.rtl_files(), shell)
+            self.assertEqual((code, text), (0, ""))
+            self.assert_equal_netlists(wrapper, shell)
+
+    def assert_equal_netlists(self, wrapper, shell):
+        """Shell and wrapper around a core that is a black box, with the instance's name gone."""
+        sources = " ".join(design.rtl_files())
+        for name, top in (("gold", wrapper.module), ("gate", f"{wrapper.module}_v")):
+            path = self.out / f"{name}.il"
+            code, text = design.run("yosys", "-q", "-p", (
+                f"read_verilog -sv {sources}; read_verilog {shell}; hierarchy -top {top}; proc; "
+                "blackbox *can_top*; flatten; opt_clean -purge; "
+                f"rename {top} {name}; write_rtlil {path}"))
+            self.assertEqual(code, 0, text)
+            path.write_text(path.read_text(encoding="utf-8").replace("\\u_can.", "\\"),
+                            encoding="utf-8")
+        code, text = design.run("yosys", "-q", "-p", (
+            f"read_rtlil {self.out}/gold.il; design -stash gold; read_rtlil {self.out}/gate.il; "
+            "design -copy-from gold -as gold gold; equiv_make gold gate equiv; "
+            "hierarchy -top equiv; async2sync; equiv_struct; equiv_simple; equiv_induct; "
+            "equiv_status -assert"))
+        self.assertEqual(code, 0, text)
+
+
+class IpXact(Case):
+    """The components."""
+
+    def tree(self, wrapper):
+        return ET.parse(self.out / f"ipxact/{wrapper.module}.xml").getroot()
+
+    def test_they_follow_the_schema(self):
+        for wrapper in self.wrappers.values():
+            code, text = design.run(
+                "xmllint", "--noout", "--relaxng", design.ROOT / "tools/pack/ipxact.rng",
+                self.out / f"ipxact/{wrapper.module}.xml")
+            self.assertEqual(code, 0, text)
+
+    def test_they_follow_accelleras_schema(self):
+        folder = os.environ.get("IPXACT_XSD")
+        if not folder:
+            self.skipTest("IPXACT_XSD is not set: not checked against Accellera's schema")
+        for wrapper in self.wrappers.values():
+            code, text = design.run("xmllint", "--noout", "--nonet", "--schema",
+                                    Path(folder) / "index.xsd",
+                                    self.out / f"ipxact/{wrapper.module}.xml")
+            self.assertEqual(code, 0, text)
+
+    def test_registers_are_those_of_the_svd_file(self):
+        described = svd_registers()
+        for wrapper in self.wrappers.values():
+            self.assertEqual(xact_registers(self.tree(wrapper)), described)
+
+    def test_ports_and_maps_are_those_of_the_wrapper(self):
+        for wrapper in self.wrappers.values():
+            root = self.tree(wrapper)
+            ports = [port.findtext(f"{SPACE}name") for port in root.iter(f"{SPACE}port")]
+            self.assertEqual(ports, [port.name for port in wrapper.ports])
+            pairs = [(pair.findtext(f"{SPACE}logicalPort/{SPACE}name"),
+                      pair.findtext(f"{SPACE}physicalPort/{SPACE}name"))
+                     for pair in root.iter(f"{SPACE}portMap")]
+            self.assertEqual([name for _, name in pairs],
+                             [port.name for port in wrapper.bus_ports])
+            self.assertEqual(len({name for name, _ in pairs}), len(pairs))
+            named = {entry.get("parameterId") for entry in root.iter(f"{SPACE}parameter")}
+            self.assertEqual(named, {entry.name for entry in wrapper.parameters})
+            files = [file.findtext(f"{SPACE}name") for file in root.iter(f"{SPACE}file")]
+            self.assertEqual(files, [f"../{name}" for name in design.rtl_files()])
+
+
+def rows(entry, tags, number):
+    """The addresses of an entry that may be repeated, relative to what holds it. `tags`: number,
+    offset and distance."""
+    count, offset, step = (entry.findtext(tag) for tag in tags)
+    return [number(offset) + n * number(step or "0") for n in range(number(count or "1"))]
+
+
+def svd_registers():
+    """(address, name of field) -> (lowest bit, highest bit, access), alternate views left out."""
+    found = {}
+
+    def visit(parent, base):
+        for cluster in parent.findall("cluster"):
+            for address in rows(cluster, ("dim", "addressOffset", "dimIncrement"),
+                                lambda text: int(text, 0)):
+                visit(cluster, base + address)
+        for register in parent.findall("register"):
+            if register.find("alternateRegister") is not None:
+                continue
+            for address in rows(register, ("dim", "addressOffset", "dimIncrement"),
+                                lambda text: int(text, 0)):
+                for field in register.iter("field"):
+                    found[base + address, field.findtext("name")] = (
+                        int(field.findtext("lsb")), int(field.findtext("msb")),
+                        field.findtext("access"))
+    visit(ET.parse(design.ROOT / "sw/verican.svd").getroot().find(".//registers"), 0)
+    return found
+
+
+def xact_registers(root):
+    """The same of an IP-XACT component."""
+    found = {}
+
+    def number(text):
+        return int(text[2:], 16) if text.startswith("'h") else int(text)
+
+    def visit(parent, base):
+        for group in parent.findall(f"{SPACE}registerFile"):
+            for address in rows(group, (f"{SPACE}dim", f"{SPACE}addressOffset", f"{SPACE}range"),
+                                number):
+                visit(group, base + address)
+        for register in parent.findall(f"{SPACE}register"):
+            offset = number(register.findtext(f"{SPACE}addressOffset"))
+            for row in range(number(register.findtext(f"{SPACE}dim", "1"))):
+                for field in register.iter(f"{SPACE}field"):
+                    low = number(field.findtext(f"{SPACE}bitOffset"))
+                    width = number(field.findtext(f"{SPACE}bitWidth"))
+                    found[base + offset + 4 * row, field.findtext(f"{SPACE}name")] = (
+                        low, low + width - 1, field.findtext(f"{SPACE}access"))
+    visit(root.find(f".//{SPACE}addressBlock"), 0)
+    return found
+
+
+class Vendors(Case):
+    """The scripts for Vivado, Quartus and Libero."""
+
+    def test_vivado(self):
+        wrapper = self.wrappers["axil"]
+        done = self.records("fpga/vivado/package.tcl")
+        files, = (words[2].split() for words in done if words[0] == "add_files")
+        self.assertEqual(Path(files[-1]), self.out / f"verilog/{wrapper.module}_v.v")
+        self.assertTrue(Path(files[-1]).is_file())
+        self.assert_sources(files[:-1])
+        self.assertIn(["set_property", "top", f"{wrapper.module}_v", "<current_fileset>"], done)
+        asked = [words[1] for words in done if words[0] == "ipx::get_user_parameters"]
+        self.assertEqual(asked, [entry.name for entry in wrapper.parameters])
+        named = " ".join(words[1] for words in done if words[0] == "ipx::infer_bus_interface")
+        self.assertEqual(named.split(), [port.name for port in wrapper.bus_ports[2:]]
+                         + [wrapper.clock, wrapper.reset, "irq_o"])
+        self.assertEqual(done[-1][0], "ipx::save_core")
+
+    def test_quartus(self):
+        wrapper = self.wrappers["axil"]
+        done = self.records("fpga/quartus/can_hw.tcl")
+        self.assert_sources([words[-1] for words in done if words[0] == "add_fileset_file"])
+        parameters = {words[1]: int(words[3]) for words in done if words[0] == "add_parameter"}
+        self.assertEqual(parameters, {entry.name: entry.number for entry in wrapper.parameters})
+        ports = {words[2]: (words[4].lower(), int(words[5])) for words in done
+                 if words[0] == "add_interface_port"}
+        self.assertEqual(ports, {port.name: (port.direction, port.width)
+                                 for port in wrapper.ports})
+        svd, = (words[3] for words in done if "CMSIS_SVD_FILE" in words)
+        self.assertTrue(Path(svd).is_file())
+
+    def test_libero(self):
+        done = self.records("fpga/libero/hdl_core.tcl")
+        self.assert_sources([words[2] for words in done if words[0] == "create_links"])
+        made = [words for words in done if words[0] == "create_hdl_core"]
+        self.assertEqual({words[4] for words in made},
+                         {f"can_{bus}" for bus in ("ahb", "apb") if bus in self.wrappers})
+        for words in made:
+            self.assertTrue(Path(words[2]).is_file())
+            bus = words[4].removeprefix("can_")
+            mapped = [entry[-1] for entry in done
+                      if entry[:3] == ["hdl_core_assign_bif_signal", "-hdl_core_name", words[4]]]
+            ports = [port.name for port in self.wrappers[bus].bus_ports[2:]]
+            self.assertEqual(mapped, [name for name in ports if name not in ("pstrb", "pprot")])
+
+    def test_heads_say_that_they_were_not_run(self):
+        for name in ("vivado/package.tcl", "quartus/can_hw.tcl", "libero/hdl_core.tcl"):
+            head = (self.out / "fpga" / name).read_text(encoding="utf-8")[:700]
+            self.assertRegex(head, r"Not run by \w+")
+
+
+if __name__ == "__main__":
+    unittest.main()
