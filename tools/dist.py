@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""dist.py OUT [--flat BUS_SIZE ...]: the archives of a release, in OUT:
+
+  verican-<version>.tar.gz      the sources as committed
+  verican-ip-<version>.tar.gz   what an integrator takes: RTL, Verilog-2005 files (--flat, or all),
+                                packages for other tools, driver, constraints, pages
+  verican-<version>.spdx        files and licences (SPDX 2.3)
+  SHA256SUMS
+
+The same commit gives the same bytes. Changes that are not committed are refused. A commit without
+the tag v<version> is named <version>+g<commit>; with it, CHANGELOG.md must have a heading for it.
+SOURCE_DATE_EPOCH: the times in the archives, instead of the commit's.
+"""
+import argparse
+import gzip
+import hashlib
+import io
+import os
+import shutil
+import subprocess
+import sys
+import tarfile
+import tempfile
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+# ruff: noqa: E402  (the path must be set first)
+from pack import contents, spdx
+from pack.wrappers import ROOT, version
+
+
+def git(*words, binary=False):
+    """The output of git."""
+    done = subprocess.run(["git", "-c", "tar.umask=0022", *words], cwd=ROOT, check=False,
+                          capture_output=True)
+    if done.returncode != 0:
+        sys.exit(f"dist.py: git {words[0]}: {done.stderr.decode().strip()}")
+    return done.stdout if binary else done.stdout.decode().strip()
+
+
+def name_of_version():
+    """The version, with the commit behind it where it is not a release."""
+    number, tag = version(), f"v{version()}"
+    if tag not in git("tag", "--points-at", "HEAD").split():
+        return f"{number}+g{git('rev-parse', '--short=10', 'HEAD')}"
+    if f"## {number}" not in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"):
+        sys.exit(f"dist.py: CHANGELOG.md has no heading '## {number}', but the commit has tag {tag}")
+    return number
+
+
+def compressed(data):
+    """gzip without name and time."""
+    buffer = io.BytesIO()
+    with gzip.GzipFile(filename="", mode="wb", fileobj=buffer, compresslevel=9, mtime=0) as file:
+        file.write(data)
+    return buffer.getvalue()
+
+
+def tar_of(folder, top, epoch):
+    """A folder as a tar file: names sorted, owner 0, modes 644 and 755, one time."""
+    buffer = io.BytesIO()
+    with tarfile.open(fileobj=buffer, mode="w", format=tarfile.PAX_FORMAT) as tar:
+        for path in sorted(folder.rglob("*"), key=lambda path: path.relative_to(folder).parts):
+            if path.is_dir():
+                continue
+            entry = tarfile.TarInfo(f"{top}/{path.relative_to(folder)}")
+            entry.size, entry.mtime = path.stat().st_size, epoch
+            entry.mode = 0o755 if path.stat().st_mode & 0o100 else 0o644
+            with path.open("rb") as file:
+                tar.addfile(entry, file)
+    return buffer.getvalue()
+
+
+def manifest(folder):
+    """Path, size and SHA-256 of every file, a line each."""
+    lines = []
+    for path in sorted(folder.rglob("*"), key=lambda path: path.relative_to(folder).parts):
+        if path.is_file():
+            data = path.read_bytes()
+            lines.append(f"{hashlib.sha256(data).hexdigest()}  {len(data):8}  "
+                         f"{path.relative_to(folder)}\n")
+    return "".join(lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--flat", nargs="+", default=["all"], metavar="BUS_SIZE")
+    arguments = parser.parse_args()
+    changed = git("status", "--porcelain")
+    if changed:
+        sys.exit(f"dist.py: not committed:\n{changed}")
+    number = name_of_version()
+    epoch = int(os.environ.get("SOURCE_DATE_EPOCH") or git("log", "-1", "--format=%ct"))
+    out = arguments.out.resolve()
+    shutil.rmtree(out, ignore_errors=True)
+    out.mkdir(parents=True)
+
+    with tempfile.TemporaryDirectory() as name:
+        subprocess.run(["tar", "-x", "-C", name], check=True, umask=0o022,
+                       input=git("archive", "--format=tar", "HEAD", binary=True))
+        sources = tar_of(Path(name), f"verican-{number}", epoch)
+    (out / f"verican-{number}.tar.gz").write_bytes(compressed(sources))
+    with tempfile.TemporaryDirectory() as name:
+        stage = Path(name)
+        contents.stage(stage, arguments.flat)
+        (stage / "MANIFEST").write_text(manifest(stage), encoding="utf-8")
+        archive = tar_of(stage, f"verican-ip-{number}", epoch)
+    (out / f"verican-ip-{number}.tar.gz").write_bytes(compressed(archive))
+    (out / f"verican-{number}.spdx").write_text(spdx.render(number, epoch), encoding="utf-8")
+    sums = "".join(f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}\n"
+                   for path in sorted(out.iterdir()))
+    (out / "SHA256SUMS").write_text(sums, encoding="utf-8")
+    print(sums, end="")
+
+
+if __name__ == "__main__":
+    main()

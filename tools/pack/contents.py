@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""contents: what the archive for integrators holds."""
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from pack.wrappers import ROOT
+
+# Committed files of a folder or file -> place in the archive.
+TAKEN = {"rtl": "rtl", "constraints": "constraints", "tb/smoke": "tb/smoke", "can.core": "can.core",
+         "sw/litex": "litex", "sw/driver/src": "driver/src", "sw/driver/include": "driver/include",
+         "sw/verican.svd": "sw/verican.svd", "sw/registers.yaml": "sw/registers.yaml",
+         "sw/profiles.yaml": "sw/profiles.yaml", "examples/hx8k": "examples/hx8k",
+         "LICENSE": "LICENSE", "LICENSES": "LICENSES", "CHANGELOG.md": "CHANGELOG.md",
+         "docs/integration.md": "docs/integration.md", "docs/registers.md": "docs/registers.md",
+         "docs/img/registers": "docs/img/registers", "docs/errata.md": "docs/errata.md",
+         "docs/synthesis.md": "docs/synthesis.md", "docs/driver.md": "docs/driver.md",
+         "docs/synthesis-families.md": "docs/synthesis-families.md", "docs/time.md": "docs/time.md",
+         "tools/core_check.py": "tools/core_check.py"}
+# Not there yet in every state of the project.
+OPTIONAL = {"examples/hx8k"}
+README = """\
+# VeriCAN for integrators
+
+A CAN 2.0 controller with FlexCAN's registers on AHB-Lite, APB, AXI4-Lite or Wishbone. Begin with the table
+"I use ..." of docs/integration.md. What is where:
+
+| folder | holds |
+|---|---|
+| rtl | SystemVerilog, in the order of rtl/can.f |
+| verilog | a build a file in Verilog-2005; shells with a Verilog top |
+| lists | the file list as paths, and for Tcl |
+| can.core, litex, ipxact, fpga | for FuseSoC, LiteX, IP-XACT tools, Vivado, Quartus, Libero |
+| constraints | by FPGA family |
+| tb/smoke | a first frame in loop-back through each bus |
+| driver, sw | C driver; SVD file, register map, profiles |
+
+Licences: each file names its own; texts in LICENSES. MANIFEST: SHA-256, size and path of every file.
+"""
+
+
+def committed(place):
+    """The committed files below a place of the project, relative to it."""
+    done = subprocess.run(["git", "ls-files", "--", place], cwd=ROOT, check=True, text=True,
+                          stdout=subprocess.PIPE)
+    return done.stdout.splitlines()
+
+
+def stage(folder, flat):
+    """Fills the folder."""
+    for place, target in TAKEN.items():
+        files = committed(place)
+        if not files and place not in OPTIONAL:
+            sys.exit(f"dist.py: {place} has no committed file")
+        for name in files:
+            path = folder / target / os.path.relpath(name, place) if name != place \
+                else folder / target
+            path.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, path)
+    (folder / "README.md").write_text(README, encoding="utf-8")
+    package = [sys.executable, "-B", ROOT / "tools/package.py", folder, "--flat", *flat]
+    # Links of pages to what is not here become text.
+    places = [f"{place}={folder / target}" for place, target in TAKEN.items()
+              if not place.startswith("docs")]
+    links = [sys.executable, "-B", ROOT / "cmake/installed_docs.py", ROOT, folder, *places]
+    for command in (package, links):
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
