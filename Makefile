@@ -13,7 +13,7 @@ OUT    := $(BUILD)/out
 QUIET  := $(if $(V),,tools/quiet.sh)
 
 .DEFAULT_GOAL := help
-.PHONY: help packages build install demo test test-linux campaign lint bench synth boards hx8k coverage coverage-rtl size wave rules rows registers docs format clean
+.PHONY: help packages build install demo test test-linux campaign lint bench synth dist boards hx8k coverage coverage-rtl size wave rules rows registers docs format clean
 
 help:  ## List the targets
 	@echo "VeriCAN: a CAN 2.0 controller in RTL and its bus simulator"
@@ -56,8 +56,11 @@ bench: packages $(BUILD)/build.ninja  ## Measure the simulator's speed; writes d
 	@$(QUIET) "Building" cmake --build $(BUILD) -j $(JOBS)
 	@tools/bench.sh $(BUILD)
 
-synth: boards  ## Measure area and clock rate (iCE40, VersaTiles); writes docs/synthesis.md
-	@tools/synth.sh
+synth: $(if $(FAMILY),packages,boards)  ## Measure area and clock rate (iCE40, VersaTiles); FAMILY=ecp5 or all: area in other families
+	@$(if $(FAMILY),/usr/bin/python3 tools/families.py $(FAMILY),tools/synth.sh)
+
+dist: packages  ## The archives of a release in build/dist, reproducible, and all checks of them
+	@tools/dist.sh build/dist
 
 boards: packages $(BUILD)/build.ninja  ## Bitstreams of the boards with a remote node; netlists and bitstreams run on the simulated bus
 	@tools/boards.sh build/boards

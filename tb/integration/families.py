@@ -1,0 +1,58 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""make synth FAMILY=...: the engine in one family by npm's Yosys, installed from the lock file; the
+page is what the results say; bad names are told."""
+
+import json
+import sys
+import unittest
+
+import design
+
+sys.path.insert(0, str(design.ROOT / "tools"))
+sys.dont_write_bytecode = True
+# ruff: noqa: E402  (the path must be set first)
+import families
+from synth.families_page import render
+
+
+class Families(unittest.TestCase):
+    """What tools/families.py does."""
+
+    def test_tool_is_pinned(self):
+        lock = json.loads((families.FOLDER / "package-lock.json").read_text(encoding="utf-8"))
+        entry = lock["packages"]["node_modules/@yowasp/yosys"]
+        self.assertEqual(entry["version"], "0.55.944")
+        self.assertRegex(entry["integrity"], "^sha512-")
+
+    def test_one_family_is_measured(self):
+        entry = families.families()["ecp5"]
+        found = families.measure(entry, "core", families.packages(None))
+        self.assertEqual((found["ram"], found["lut_ram"]), (0, 0))
+        self.assertEqual(found["ff"], self.flip_flops())
+        self.assertGreater(found["lut"], 300)
+
+    def flip_flops(self):
+        """Of the engine, as another Yosys counts them before any mapping."""
+        code, text = design.run(
+            "yosys", "-q", "-f", "verilog -sv", *design.rtl_files(), "-p",
+            "hierarchy -top can_core; proc; flatten; opt -full; opt_dff; wreduce; opt_clean -purge; "
+            "simplemap t:$adff t:$adffe t:$dff t:$dffe; opt_clean; tee -a /dev/stdout stat "
+            "-tech cmos")
+        self.assertEqual(code, 0, text)
+        return sum(int(line.split()[1]) for line in text.splitlines()
+                   if line.strip().startswith("$_DFF"))
+
+    def test_page_is_what_the_results_say(self):
+        self.assertEqual(families.PAGE.read_text(encoding="utf-8"),
+                         render(families.families(), families.load()))
+
+    def test_unknown_family_is_told(self):
+        code, text = design.run("tools/families.py", "stratix")
+        self.assertEqual(code, 1)
+        self.assertIn("no family stratix; there are all, ice40", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
