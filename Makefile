@@ -86,6 +86,7 @@ rules: packages  ## Regenerate docs/rules.md, remote-rules.md and time-rules.md,
 	@/usr/bin/python3 tools/rules.py
 	@/usr/bin/python3 tools/remote_rules.py
 	@/usr/bin/python3 tools/time_rules.py
+	@/usr/bin/python3 tools/packaging_rules.py
 
 rows: packages  ## Regenerate docs/flexcan-rows.md, the table of FlexCAN rows and their tests
 	@/usr/bin/python3 tools/flexcan_rows.py

@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""packaging_rules.py [--check]: holds tb/packaging.yaml against the tests that it names and writes
+docs/packaging-rules.md. --check: writes nothing; status 1 if a test is not there, a row has
+neither test nor reason, a module has a foreign name, or the page is stale.
+"""
+import argparse
+import re
+import sys
+from pathlib import Path
+
+import yaml
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+# ruff: noqa: E402  (the path must be set first)
+from pack.wrappers import ROOT, rtl_files
+
+PLAN = ROOT / "tb/packaging.yaml"
+PAGE = ROOT / "docs/packaging-rules.md"
+# Rows of packaging that are not about packages: where they are listed.
+ELSEWHERE = """
+Repairs (PK-01 to PK-06) and profiles (PK-39 to PK-49) were done before: `integration.*` tests,
+[integration.md](integration.md#features), [synthesis.md](synthesis.md). Bus wrappers (PK-10 to PK-35):
+[integration.md](integration.md#other-buses), [formal.md](formal.md). The board (PK-75 to PK-78) is not there.
+"""
+HEAD = """\
+# Rules of packaging and their tests
+
+Written by `make rules` from [`tb/packaging.yaml`](../tb/packaging.yaml), whose tests are looked up; `make test` fails if one is
+missing or this page is stale. "Not run" says what of a row no tool here has seen.
+"""
+
+
+def foreign_modules():
+    """PK-86: modules of the RTL that do not begin with can_."""
+    names = [name for file in rtl_files() for name in
+             re.findall(r"^(?:module|package) (\w+)", (ROOT / file).read_text(encoding="utf-8"),
+                        re.MULTILINE)]
+    return [name for name in names if not name.startswith("can_")]
+
+
+def split(test):
+    """File and word of an entry of `tests`."""
+    file, _, word = test.partition(" ")
+    return file, word.strip()
+
+
+def problems(sections):
+    """What is wrong, a line each."""
+    for section in sections:
+        for name, row in section["rows"].items():
+            if not row.get("tests") and not row.get("not_run"):
+                yield f"{name} has neither a test nor a reason"
+            for file, word in map(split, row.get("tests", [])):
+                if not (ROOT / file).is_file():
+                    yield f"{name}: {file}: no such file"
+                elif word not in (ROOT / file).read_text(encoding="utf-8"):
+                    yield f"{name}: {file}: no {word}"
+    for name in foreign_modules():
+        yield f"PK-86: module {name} does not begin with can_"
+
+
+def render(sections):
+    """The page."""
+    lines = [HEAD, ELSEWHERE]
+    for section in sections:
+        lines.append(f"\n## {section['section']}\n\n| row | what | tests | not run |\n"
+                     "|---|---|---|---|\n")
+        for name, row in section["rows"].items():
+            tests = "<br>".join(
+                f"[{Path(file).name}](../{file})" + (f": `{word}`" if word else "")
+                for file, word in map(split, row.get("tests", [])))
+            lines.append(f"| {name} | {row['title']} | {tests} | {row.get('not_run', '')} |\n")
+    return "".join(lines)
+
+
+def main():
+    """The command line."""
+    parser = argparse.ArgumentParser(description=__doc__.split(":", maxsplit=1)[0])
+    parser.add_argument("--check", action="store_true")
+    check = parser.parse_args().check
+    sections = yaml.safe_load(PLAN.read_text(encoding="utf-8"))
+    found = list(problems(sections))
+    text = render(sections)
+    if not check:
+        PAGE.write_text(text, encoding="utf-8")
+    elif not PAGE.exists() or PAGE.read_text(encoding="utf-8") != text:
+        found.append(f"{PAGE.relative_to(ROOT)} is stale: run `make rules` and commit it")
+    for line in found:
+        print(f"packaging: {line}", file=sys.stderr)
+    print(f"packaging: {sum(len(s['rows']) for s in sections)} rows, {len(found)} problems")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
