@@ -24,7 +24,7 @@ PAGE = ROOT / "docs/packaging-rules.md"
 ELSEWHERE = """
 Repairs (PK-01 to PK-06) and profiles (PK-39 to PK-49) were done before: `integration.*` tests,
 [integration.md](integration.md#features), [synthesis.md](synthesis.md). Bus wrappers (PK-10 to PK-35):
-[integration.md](integration.md#other-buses), [formal.md](formal.md). The board (PK-75 to PK-78) is not there.
+[integration.md](integration.md#other-buses), [formal.md](formal.md). The board (PK-75 to PK-78): [hx8k.md](hx8k.md).
 """
 HEAD = """\
 # Rules of packaging and their tests
