@@ -48,7 +48,7 @@ def name_of_version():
     if tag not in git("tag", "--points-at", "HEAD").split():
         return f"{number}+g{git('rev-parse', '--short=10', 'HEAD')}"
     if f"## {number}" not in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"):
-        sys.exit(f"dist.py: CHANGELOG.md has no heading '## {number}', but the commit has tag {tag}")
+        sys.exit(f"dist.py: CHANGELOG.md has no heading '## {number}', but HEAD has tag {tag}")
     return number
 
 

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""families.py FAMILY...|all [--builds BUILD ...] [--check] [--modules DIR]: area in FPGA families by
-Yosys as an npm package (tools/synth/families), pinned by its lock file. Builds: core (can_core alone),
-and the profiles small, standard, full of can_ahb.
+"""families.py FAMILY...|all [--builds BUILD ...] [--check] [--modules DIR]: area in FPGA families
+by
+Yosys as an npm package (tools/synth/families), pinned by its lock file. Builds: core (can_core
+alone), and the profiles small, standard, full of can_ahb.
 
 Keeps what it measured in tools/synth/families/results.json and writes docs/synthesis-families.md.
 --check: measures nothing; says which families were measured on another state of RTL or tool.

@@ -23,13 +23,16 @@ PAGE = ROOT / "docs/packaging-rules.md"
 # Rows of packaging that are not about packages: where they are listed.
 ELSEWHERE = """
 Repairs (PK-01 to PK-06) and profiles (PK-39 to PK-49) were done before: `integration.*` tests,
-[integration.md](integration.md#features), [synthesis.md](synthesis.md). Bus wrappers (PK-10 to PK-35):
-[integration.md](integration.md#other-buses), [formal.md](formal.md). The board (PK-75 to PK-78): [hx8k.md](hx8k.md).
+[integration.md](integration.md#features), [synthesis.md](synthesis.md). Bus wrappers (PK-10 to
+PK-35):
+[integration.md](integration.md#other-buses), [formal.md](formal.md). The board (PK-75 to PK-78):
+[hx8k.md](hx8k.md).
 """
 HEAD = """\
 # Rules of packaging and their tests
 
-Written by `make rules` from [`tb/packaging.yaml`](../tb/packaging.yaml), whose tests are looked up; `make test` fails if one is
+Written by `make rules` from [`tb/packaging.yaml`](../tb/packaging.yaml), whose tests are looked
+up; `make test` fails if one is
 missing or this page is stale. "Not run" says what of a row no tool here has seen.
 """
 

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""What tools/package.py writes for other tools' packagers: ports and parameters are those that
-Yosys elaborates, the Verilog shells equal their wrappers, IP-XACT says what the SVD file says, and the
+"""What tools/package.py writes for
+other tools' packagers: ports and parameters are those that Yosys
+elaborates, the Verilog shells equal their wrappers, IP-XACT says what the SVD file says, and the
 vendors' scripts, run in tclsh with the tools' commands recorded, name what is there.
 IPXACT_XSD=folder with Accellera's 1685-2014 schema: the components are checked against it, too."""
 

@@ -25,8 +25,8 @@ OPTIONAL = {"examples/hx8k"}
 README = """\
 # VeriCAN for integrators
 
-A CAN 2.0 controller with FlexCAN's registers on AHB-Lite, APB, AXI4-Lite or Wishbone. Begin with the table
-"I use ..." of docs/integration.md. What is where:
+A CAN 2.0 controller with FlexCAN's registers on AHB-Lite, APB, AXI4-Lite or Wishbone.
+Begin with the table "I use ..." of docs/integration.md. What is where:
 
 | folder | holds |
 |---|---|
@@ -38,7 +38,7 @@ A CAN 2.0 controller with FlexCAN's registers on AHB-Lite, APB, AXI4-Lite or Wis
 | tb/smoke | a first frame in loop-back through each bus |
 | driver, sw | C driver; SVD file, register map, profiles |
 
-Licences: each file names its own; texts in LICENSES. MANIFEST: SHA-256, size and path of every file.
+Licences: each file names its own; texts in LICENSES. MANIFEST: SHA-256, size, path of every file.
 """
 
 

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""ipxact: an IP-XACT component (IEEE 1685-2014) of a wrapper: bus interface with its port map, memory
-map with every register and field, ports, parameters, file set. tools/pack/ipxact.rng is the schema
+"""ipxact: an IP-XACT component (IEEE 1685-2014) of a wrapper: bus interface with its port map,
+memory map with every register and field, ports, parameters, file set. tools/pack/ipxact.rng is the schema
 of the subset that is written here.
 
-The VLNVs of the AMBA buses are those of Arm's published definitions, that of Wishbone is the name by
-which tools know OpenCores'; they are not checked against their files, which are not part of the
-project.
+The VLNVs of the AMBA buses are those of Arm's published definitions, that of Wishbone is the name
+by which tools know OpenCores'; they are not checked against their files, which are not part of
+the project.
 """
 import xml.etree.ElementTree as ET
 
@@ -15,15 +15,15 @@ from regmap.model import NUM_MB
 
 NAMESPACE = "http://www.accellera.org/XMLSchema/IPXACT/1685-2014"
 BUFFERS = 64  # what the map of the largest core has
-# bus: vendor, library, name, version; then port -> logical name (port names of one word are mapped by
-# upper case)
+# bus: vendor, library, name, version
 BUS_TYPES = {
     "ahb": ("amba.com", "AMBA3", "AHBLite", "r2p0_0"),
     "apb": ("amba.com", "AMBA4", "APB4", "r0p0_0"),
     "axil": ("amba.com", "AMBA4", "AXI4-Lite", "r0p0_0"),
     "wb": ("opencores.org", "interface", "wishbone", "b4"),
 }
-LOGICAL = {"hsel": "HSELx", "wb_dat_i": "DAT_I", "psel": "PSELx"}
+# Ports whose name in the bus definition is not their own in upper case.
+LOGICAL = {"hsel": "HSELx", "psel": "PSELx"}
 HEAD = """\
 <?xml version="1.0" encoding="utf-8"?>
 <!-- SPDX-FileCopyrightText: 2026 The VeriCAN authors

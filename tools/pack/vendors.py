@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """vendors: scripts for the packagers of Vivado, Quartus (Platform Designer) and Libero. The tools
-were not run; tb/integration/packages.py runs the scripts in tclsh with the tools' commands recorded.
+were not run; tb/integration/packages.py runs the scripts in tclsh with the tools' commands
+recorded.
 """
 from pack.wrappers import rtl_files, version
 
@@ -10,8 +11,8 @@ HEAD = """\
 # SPDX-License-Identifier: Apache-2.0
 #
 # {what}
-# Written by tools/package.py. Not run by {tool}: checked by running it in tclsh with the commands of
-# {tool} replaced by recorders.
+# Written by tools/package.py. Not run by {tool}: checked by running it in tclsh with the
+# commands of {tool} replaced by recorders.
 set root [file normalize [file join [file dirname [info script]] .. ..]]
 """
 TAGS = {"NumMb": (16, 32, 64)}  # what a parameter may be, where it is not 0 or 1 or any
@@ -31,8 +32,8 @@ def allowed(name):
 
 def vivado(wrapper):
     """fpga/vivado/package.tcl."""
-    lines = [HEAD.format(what="package.tcl: packages the core on AXI4-Lite for Vivado's IP catalog: "
-                         "vivado -mode batch -source package.tcl", tool="Vivado"),
+    lines = [HEAD.format(what="package.tcl: packages the core on AXI4-Lite for Vivado's IP "
+                         "catalog: vivado -mode batch -source package.tcl", tool="Vivado"),
              "create_project -force -in_memory verican\n",
              f"set files [list \\\n{tcl_list(rtl_files())} \\\n"
              f"    [file join $root verilog {wrapper.module}_v.v]]\n",
@@ -67,8 +68,8 @@ def vivado(wrapper):
 
 def quartus(wrapper):
     """fpga/quartus/can_hw.tcl."""
-    lines = [HEAD.format(what="can_hw.tcl: the core on AXI4-Lite as a component of Platform Designer; "
-                         "its folder goes into the IP search path.", tool="Quartus"),
+    lines = [HEAD.format(what="can_hw.tcl: the core on AXI4-Lite as a component of Platform "
+                         "Designer; its folder goes into the IP search path.", tool="Quartus"),
              "package require -exact qsys 16.1\n",
              "set_module_property NAME verican_can\n",
              f"set_module_property VERSION {version()}\n",

@@ -5,24 +5,33 @@
 HEAD = """\
 # Area in FPGA families
 
-Written by `make synth FAMILY=all` ([`tools/families.py`](../tools/families.py)) with Yosys 0.55, the npm package
-`@yowasp/yosys` of [`package-lock.json`](../tools/synth/families/package-lock.json): the same numbers on every machine. Synthesis
-alone: clock rates need place and route, and are those of iCE40 on [synthesis.md](synthesis.md). Profiles:
+Written by `make synth FAMILY=all` ([`tools/families.py`](../tools/families.py)) with Yosys 0.55,
+the npm package
+`@yowasp/yosys` of [`package-lock.json`](../tools/synth/families/package-lock.json): the same
+numbers on every machine. Synthesis
+alone: clock rates need place and route, and are those of iCE40 on [synthesis.md](synthesis.md).
+Profiles:
 [integration](integration.md#features).
 
-Each cell: LUTs / flip-flops / RAM blocks, then "+ n" LUT RAM cells where the tool chose some. A second line: with LUT RAM forbidden.
-LUT counts of different families do not compare: their LUTs have 3 to 6 inputs, and carry cells and wide multiplexers are
+Each cell: LUTs / flip-flops / RAM blocks, then "+ n" LUT RAM cells where the tool chose some. A
+second line: with LUT RAM forbidden.
+LUT counts of different families do not compare: their LUTs have 3 to 6 inputs, and carry cells
+and wide multiplexers are
 not counted.
 
 | family | engine alone | small, 16 buffers | standard, 32 | full, 64 |
 |---|---|---|---|---|
 """
 NOTES = """
-RAM blocks by family: iCE40 SB_RAM40_4K with byte masks, ECP5 DP16KD with byte enables, CrossLink-NX PDPSC16K, Gowin SDPB,
-Xilinx RAMB18E1, Cyclone V M10K, PolarFire RAM1K20, Efinix EFX_RAM_5K a byte lane, GateMate CC_BRAM_20K.
+RAM blocks by family: iCE40 SB_RAM40_4K with byte masks, ECP5 DP16KD with byte enables,
+CrossLink-NX PDPSC16K, Gowin SDPB,
+Xilinx RAMB18E1, Cyclone V M10K, PolarFire RAM1K20, Efinix EFX_RAM_5K a byte lane, GateMate
+CC_BRAM_20K.
 
-- Yosys knows no block RAM with byte enables for Cyclone V and none at all for SmartFusion2: with LUT RAM forbidden
-  Cyclone V takes flip-flops, and SmartFusion2's memories are counted as what they are in the RTL, beside the logic. The vendors' tools
+- Yosys knows no block RAM with byte enables for Cyclone V and none at all for SmartFusion2: with
+  LUT RAM forbidden
+  Cyclone V takes flip-flops, and SmartFusion2's memories are counted as what they are in the RTL,
+  beside the logic. The vendors' tools
   have both.
 - Asynchronous resets appear as an inverter a flip-flop for CrossLink-NX and Xilinx before packing.
 - Not possible with this package: NanoXplore and MAX 10, whose files it lacks.

@@ -85,8 +85,8 @@ class VeriCAN(Module):
         such names are refused.
         """
         if "can" in name.lower():
-            raise ValueError(f"verican: {name!r}: LiteX' device-tree tool makes a ctu,ctucanfd node "
-                             "of every region with \"can\" in its name; take another name")
+            raise ValueError(f"verican: {name!r}: LiteX' device-tree tool makes a ctu,ctucanfd "
+                             "node of every region with \"can\" in its name; take another name")
         if origin % WINDOW:
             raise ValueError(f"verican: origin {origin:#x} is no multiple of {WINDOW:#x}")
         core = cls(soc.platform, pads, **options)
