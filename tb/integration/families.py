@@ -38,8 +38,8 @@ class Families(unittest.TestCase):
         code, text = design.run(
             "yosys", "-q", "-f", "verilog -sv", *design.rtl_files(), "-p",
             "hierarchy -top can_core; proc; flatten; opt -full; opt_dff; wreduce; "
-            "opt_clean -purge; simplemap t:$adff t:$adffe t:$dff t:$dffe; opt_clean; tee -a /dev/stdout stat "
-            "-tech cmos")
+            "opt_clean -purge; simplemap t:$adff t:$adffe t:$dff t:$dffe; opt_clean; "
+            "tee -a /dev/stdout stat -tech cmos")
         self.assertEqual(code, 0, text)
         return sum(int(line.split()[1]) for line in text.splitlines()
                    if line.strip().startswith("$_DFF"))

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """ipxact: an IP-XACT component (IEEE 1685-2014) of a wrapper: bus interface with its port map,
-memory map with every register and field, ports, parameters, file set. tools/pack/ipxact.rng is the schema
-of the subset that is written here.
+memory map with every register and field, ports, parameters, file set. tools/pack/ipxact.rng is the
+schema of the subset that is written here.
 
 The VLNVs of the AMBA buses are those of Arm's published definitions, that of Wishbone is the name
 by which tools know OpenCores'; they are not checked against their files, which are not part of
