@@ -45,8 +45,9 @@ test: build  ## Run every test and check that every protocol rule has one
 test-linux: packages $(BUILD)/build.ninja  ## Run Linux's own driver on the core (SHORT=1: fewer cases)
 	@tools/linux-test.sh $(BUILD) $(JOBS) $(LINUX) $(if $(SHORT),--short)
 
-campaign: packages  ## The whole verification campaign, hours: STAGES=matrix,formal SEED=1 SCALE=0.01 RESUME=1 (docs/verification.md)
-	@SEED=$(SEED) SCALE=$(SCALE) RESUME=$(RESUME) JOBS=$(JOBS) tools/campaign.py --only "$(STAGES)"
+campaign: packages  ## The whole verification campaign, hours: STAGES=matrix,formal SEED=1 SCALE=0.01 RESUME=1 (docs/verification.md); SLURM=1 (docs/cluster.md)
+	@SEED=$(SEED) SCALE=$(SCALE) RESUME=$(RESUME) JOBS=$(JOBS) SHARDS=$(SHARDS) RETRIES=$(RETRIES) \
+	    SBATCH="$(SBATCH)" tools/campaign.py --only "$(STAGES)" $(if $(filter-out 0,$(SLURM)),--slurm)
 
 lint: packages  ## Check RTL with Verilator, Yosys, Icarus; C++ with clang-format and clang-tidy
 	@$(QUIET) "Configuring ($(PRESET))" cmake --preset $(PRESET)

@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""campaign.py [--only STAGE,...] [--page]: the verification campaign of tb/campaign.yaml.
+"""campaign.py [--only STAGE,...] [--page] [--slurm]: the verification campaign of tb/campaign.yaml.
 
 Builds and runs every stage, keeps its result in build/campaign/STAGE.json and its output in
 STAGE.log, prints all figures, and writes those of a whole run (SCALE=1) to
 docs/campaign/STAGE.md, with a line in docs/verification.md between <!-- campaign STAGE --> and
-<!-- end STAGE -->. --page only writes the pages, from the results that are there. Ends with
-status 1 if a stage failed or a figure misses its bar.
+<!-- end STAGE -->. --page only writes the pages, from the results that are there. --slurm
+runs the stages as jobs of a Slurm cluster (slurm_campaign.py, docs/cluster.md). Ends with status 1
+if a stage failed or a figure misses its bar.
 
 Environment: SEED (1), SCALE (1: everything; 0.01: a hundredth of it), JOBS (2),
-RESUME (0; 1: lockstep and mutation go on where the same programs were interrupted).
+RESUME (0; 1: lockstep and mutation go on where the same programs were interrupted; with --slurm
+every shard that is there counts). With --slurm: SHARDS (100: at most so many of a stage), RETRIES
+(2: how often a failed shard is queued again), SBATCH (options for sbatch).
 """
 import argparse
 import datetime
@@ -23,6 +26,8 @@ import time
 from pathlib import Path
 
 import yaml
+
+import slurm_campaign
 
 ROOT = Path(__file__).resolve().parent.parent
 PLAN = ROOT / "tb/campaign.yaml"
@@ -60,7 +65,9 @@ def settings():
     return {"seed": number("SEED", int, "1", lambda v: 0 <= v < 2**31, "0 to 2147483647"),
             "scale": number("SCALE", float, "1", lambda v: 0 < v <= 1, "above 0 up to 1"),
             "jobs": number("JOBS", int, "2", lambda v: 1 <= v <= 256, "1 to 256"),
-            "resume": number("RESUME", int, "0", lambda v: v in (0, 1), "0 and 1")}
+            "resume": number("RESUME", int, "0", lambda v: v in (0, 1), "0 and 1"),
+            "shards": number("SHARDS", int, "100", lambda v: 1 <= v <= 1000, "1 to 1000"),
+            "retries": number("RETRIES", int, "2", lambda v: 0 <= v <= 9, "0 to 9")}
 
 
 def versions():
@@ -90,6 +97,9 @@ def quiet(log, *command):
 
 
 def build(stage, jobs):
+    """Configures and builds what a stage needs; one without targets in the plan needs nothing."""
+    if "targets" not in stage:
+        return True
     preset = stage.get("preset", "release")
     log = OUT / f"{stage['name']}.build.log"
     log.unlink(missing_ok=True)
@@ -100,16 +110,19 @@ def build(stage, jobs):
                                 "--target", *targets)
 
 
-def run_command(stage, options, out):
-    """Runs the stage's command; its output goes to the terminal and to its log."""
+def run_command(stage, options, out, more=None, key="command"):
+    """Runs the stage's command, or that under another key of its; the output goes to the terminal
+    and to a log. more: variables of the environment beside those of every stage."""
     scratch = OUT / stage["name"]
     scratch.mkdir(parents=True, exist_ok=True)
     environment = dict(os.environ, CAMPAIGN_OUT=str(out), CAMPAIGN_DIR=str(scratch),
                        CAMPAIGN_SEED=str(options["seed"]), CAMPAIGN_SCALE=str(options["scale"]),
                        CAMPAIGN_JOBS=str(options["jobs"]),
                        CAMPAIGN_RESUME=str(options["resume"]))
-    with open(OUT / f"{stage['name']}.log", "w", encoding="utf-8") as log:
-        process = subprocess.Popen(["bash", "-c", stage["command"]], cwd=ROOT, env=environment,
+    environment.update(more or {})
+    log_file = OUT / f"{stage['name']}.log" if more is None else os.devnull  # jobs have their own
+    with open(log_file, "w", encoding="utf-8") as log:
+        process = subprocess.Popen(["bash", "-c", stage[key]], cwd=ROOT, env=environment,
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                    stderr=subprocess.STDOUT, text=True, errors="replace")
         for line in process.stdout:
@@ -128,6 +141,13 @@ def check_result(result, where):
         fail(f"{where}: no figures")
 
 
+def completed(stage, path, about):
+    """What a stage has written, with what is known of the run."""
+    result = json.loads(path.read_text())
+    check_result(result, path)
+    return result | about | {"stage": stage["name"], "command": stage["command"]}
+
+
 def run_stage(stage, options, about):
     """One stage; its result, or None if it could not be obtained."""
     print(f"\n== {stage['name']}: {stage['title']}", flush=True)
@@ -140,11 +160,8 @@ def run_stage(stage, options, about):
     if not out.exists():
         print(f"campaign: {stage['name']} ended with status {status} and left no result")
         return None
-    result = json.loads(out.read_text())
-    check_result(result, out)
-    result |= about | options | {"stage": stage["name"], "status": status,
-                                 "seconds": round(time.monotonic() - start),
-                                 "command": stage["command"]}
+    result = completed(stage, out, options | about | {
+        "status": status, "seconds": round(time.monotonic() - start)})
     out.write_text(json.dumps(result, indent=1) + "\n")
     print(f"{stage['name']}: {duration(result['seconds'])}", flush=True)
     return result
@@ -186,9 +203,10 @@ def table(content):
 
 def origin(result):
     """How to repeat a stage's result, and of what it is one."""
+    where = (f"in {result['pieces']} shards of a Slurm cluster, {duration(result['spent'])} of "
+             "CPU time" if "pieces" in result else f"on {result['cpus']} cores")
     return (f"`make campaign STAGES={result['stage']} SEED={result['seed']}`, commit "
-            f"{result['commit']}, {result['date']}, {duration(result['seconds'])} on "
-            f"{result['cpus']} cores.")
+            f"{result['commit']}, {result['date']}, {duration(result['seconds'])} {where}.")
 
 
 def stage_page(stage, result):
@@ -270,31 +288,111 @@ def report(stages, results):
     return good
 
 
-def main():
+def about_this():
+    """What a result says of the run besides its figures."""
+    return {"commit": output("git", "rev-parse", "--short", "HEAD")
+            + ("+" if output("git", "status", "--porcelain") else ""),
+            "date": datetime.date.today().isoformat(), "cpus": os.cpu_count(),
+            "versions": versions()}
+
+
+def step(arguments, stage):
+    """What one job of the cluster does; returns its exit code."""
+    cluster = slurm_campaign.Cluster(OUT)
+    plan = cluster.plan
+    options = settings() | {name: plan[name] for name in ("seed", "scale")}
+    options["jobs"] = int(os.environ.get("SLURM_CPUS_PER_TASK", "1"))
+    name = stage["name"]
+    out = OUT / f"{name}.new"
+
+    def run(more, key="command"):
+        return run_command(stage, options, out, more, key)
+
+    if arguments.step == "build":
+        return slurm_campaign.step_build(cluster, stage, build(stage, options["jobs"]))
+    if arguments.step == "prepare":
+        count = plan["stages"][name]["shards"]
+        return slurm_campaign.step_build(
+            cluster, stage, run({"CAMPAIGN_SHARD": f"prepare/{count}"}, "prepare") == 0)
+    if arguments.step == "shard":
+        return slurm_campaign.step_shard(cluster, stage, run)
+    out.unlink(missing_ok=True)
+    status, markers = slurm_campaign.step_merge(cluster, stage, run, arguments.again)
+    if status is None:
+        return 0
+    if not out.exists():
+        cluster.give_up(name, f"the merge ended with status {status} and left no result")
+        return 1
+    spent = [marker["cpu"] for marker in markers.values()]
+    result = completed(stage, out, options | about_this() | {
+        "status": status, "pieces": len(markers), "spent": round(sum(spent)),
+        "seconds": round(time.time() - plan["began"])})
+    out.write_text(json.dumps(result, indent=1) + "\n")
+    out.replace(OUT / f"{name}.json")
+    return 0
+
+
+def on_cluster(arguments, chosen, options):
+    """Runs the stages as jobs; their results, None where there is none."""
+    plan = slurm_campaign.make_plan(chosen, options, ROOT, Path(__file__).resolve(),
+                                    arguments.plan.resolve())
+    cluster = slurm_campaign.Cluster(OUT, plan)
+    slurm_campaign.start(cluster, options["resume"])
+    slurm_campaign.wait(cluster)
+    results = {}
+    for stage in chosen:
+        path = OUT / f"{stage['name']}.json"
+        results[stage["name"]] = json.loads(path.read_text()) if path.exists() else None
+    return results
+
+
+def here(chosen, options):
+    """Runs the stages on this machine, one after the other."""
+    about = about_this()
+    return {stage["name"]: run_stage(stage, options, about) for stage in chosen}
+
+
+def arguments_of():
+    """The command line."""
     parser = argparse.ArgumentParser(description="The verification campaign.")
     parser.add_argument("--only", default="", help="stages, with commas between")
     parser.add_argument("--page", action="store_true", help="only write the pages in docs")
-    arguments = parser.parse_args()
-    stages = yaml.safe_load(PLAN.read_text())["stages"]
+    parser.add_argument("--slurm", action="store_true", help="as jobs of a Slurm cluster")
+    parser.add_argument("--plan", type=Path, default=PLAN, help="file of the stages")
+    parser.add_argument("--out", type=Path, default=OUT, help="directory of the results")
+    parser.add_argument("--step", choices=("build", "prepare", "shard", "merge"),
+                        help=argparse.SUPPRESS)
+    parser.add_argument("--again", type=int, default=0, help=argparse.SUPPRESS)
+    return parser.parse_args()
+
+
+def main():
+    global OUT  # pylint: disable=global-statement
+    arguments = arguments_of()
+    OUT = arguments.out.resolve()
+    stages = yaml.safe_load(arguments.plan.read_text())["stages"]
     names = [stage["name"] for stage in stages]
     wanted = [name for name in re.split(r"[,\s]+", arguments.only) if name]
     for name in wanted:
         if name not in names:
             fail(f"there is no stage '{name}'; stages: {', '.join(names)}")
     chosen = [stage for stage in stages if not wanted or stage["name"] in wanted]
+    if arguments.step:
+        sys.exit(step(arguments, chosen[0]))
     if arguments.page:
         write_page(chosen)
         return
     options = settings()
     OUT.mkdir(parents=True, exist_ok=True)
-    about = {"commit": output("git", "rev-parse", "--short", "HEAD")
-             + ("+" if output("git", "status", "--porcelain") else ""),
-             "date": datetime.date.today().isoformat(), "cpus": os.cpu_count(),
-             "versions": versions()}
     start = time.monotonic()
-    results = {stage["name"]: run_stage(stage, options, about) for stage in chosen}
+    try:
+        results = (on_cluster(arguments, chosen, options) if arguments.slurm
+                   else here(chosen, options))
+    except slurm_campaign.SlurmError as error:
+        fail(error)
     good = report(chosen, results)
-    write_page(chosen)
+    if arguments.plan == PLAN:
+        write_page(chosen)
     print(f"\ncampaign: {len(chosen)} of {len(stages)} stages, seed {options['seed']}, scale "
           f"{options['scale']:g}, {duration(round(time.monotonic() - start))}: "
           + ("every bar met" if good else "NOT every bar met")

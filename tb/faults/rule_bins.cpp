@@ -72,12 +72,12 @@ std::uint32_t counter(unsigned kind, unsigned threshold, unsigned from) {
 
 }  // namespace bin_key
 
-void BinGroup::hit(std::uint32_t key) {
+void BinGroup::hit(std::uint32_t key, std::uint64_t times) {
   const auto bin = bins.find(key);
   if (bin == bins.end()) {
-    ++unlisted[key];
+    unlisted[key] += times;
   } else {
-    ++bin->second.hits;
+    bin->second.hits += times;
   }
 }
 
@@ -227,6 +227,10 @@ std::size_t RuleBins::reached() const {
   std::size_t sum = 0;
   for (const BinGroup &group : groups_) sum += group.reached();
   return sum;
+}
+
+void RuleBins::add(std::size_t cross, std::uint32_t key, std::uint64_t hits) {
+  groups_.at(cross).hit(key, hits);
 }
 
 void RuleBins::merge(const RuleBins &other) {

@@ -27,7 +27,7 @@ struct BinGroup {
   std::map<std::uint32_t, std::uint64_t> unlisted;  ///< hits of what is called unreachable
 
   void add(std::uint32_t key, std::string text) { bins[key].name = std::move(text); }
-  void hit(std::uint32_t key);
+  void hit(std::uint32_t key, std::uint64_t times = 1);
   [[nodiscard]] std::size_t reached() const;
 };
 
@@ -62,6 +62,9 @@ class RuleBins {
   [[nodiscard]] std::size_t reached() const;
   /// Adds the counts of another thread.
   void merge(const RuleBins &other);
+  /// Adds hits of one bin of a cross (Cross), from a file. Throws std::out_of_range if there is no
+  /// such cross.
+  void add(std::size_t cross, std::uint32_t key, std::uint64_t hits);
 
  private:
   /// What the running flag or delimiter belongs to.

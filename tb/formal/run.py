@@ -15,6 +15,8 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.insert(1, str(Path(__file__).resolve().parents[1]))
+from shards import Shard  # pylint: disable=wrong-import-position
 from runner import catalogue, job, report  # pylint: disable=wrong-import-position
 
 HERE = Path(__file__).resolve().parent
@@ -77,8 +79,8 @@ def show(proofs):
             print(f"  {prop.label}: {prop.text}")
 
 
-def work(proofs, args):
-    """Runs all jobs; returns their results, the proofs' own first."""
+def work(proofs, args, shard):
+    """Runs the shard's jobs; returns their results."""
     rtl = ROOT / "rtl"
     jobs = []
     for proof in proofs:
@@ -88,6 +90,7 @@ def work(proofs, args):
         for mutant in proof.mutants:
             if (args.mutants and not args.mutant) or args.mutant == mutant.name:
                 jobs.append((job.kill, (proof, mutant, rtl, args.scratch)))
+    jobs = shard.mine(jobs)
     results, last, started = [], 0.0, time.monotonic()
     with ThreadPoolExecutor(max_workers=args.jobs) as pool:
         futures = [pool.submit(function, *parameters) for function, parameters in jobs]
@@ -101,6 +104,19 @@ def work(proofs, args):
                 last = time.monotonic()
                 print(f"{last - started:5.0f} s  {len(results)} of {len(jobs)}  {name}", flush=True)
     return results
+
+
+def put_down(results):
+    """Results as JSON."""
+    return [[r.proof.id, r.mutant and r.mutant.name, r.ok, r.detail, r.seconds] for r in results]
+
+
+def taken_up(parts, proofs):
+    """The results of all shards."""
+    known = {proof.id: proof for proof in proofs}
+    mutants = {(proof.id, mutant.name): mutant for proof in proofs for mutant in proof.mutants}
+    return [job.Result(known[name], mutant and mutants[name, mutant], ok, detail, seconds)
+            for part in parts for name, mutant, ok, detail, seconds in part]
 
 
 def main():
@@ -117,7 +133,12 @@ def main():
         return 0
     args.scratch = args.scratch.resolve()
     args.scratch.mkdir(parents=True, exist_ok=True)
-    results = work(proofs, args)
+    shard = Shard()
+    results = (taken_up(shard.read(args.scratch), proofs) if shard.kind == "merge"
+               else work(proofs, args, shard))
+    if shard.kind == "part":
+        shard.write(args.scratch, put_down(results))
+        return 0
     if not results:
         print("formal: nothing to do", file=sys.stderr)
         return 2

@@ -18,6 +18,9 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tb"))
+from shards import Shard  # noqa: E402  pylint: disable=wrong-import-position
+
 FULL = 1_000_000
 # Longest input, bytes; those that need most time first.
 TARGETS = {"board": 160, "wave": 32, "guest": 200, "client": 200, "scenario": 300, "vcd": 400,
@@ -130,6 +133,16 @@ def summary(parsers, registers, wanted):
     return {"figures": figures, "tables": tables, "notes": notes}
 
 
+def run_all(units, seed, wanted, directory):
+    """What became of each unit, [name or number of the registers' job, result]."""
+    def one(unit):
+        if isinstance(unit, int):
+            return unit, run_registers(unit, -(-wanted // REGISTER_JOBS), seed, directory)
+        return unit, run_parser(unit, wanted, seed, directory)
+    with ThreadPoolExecutor(int(os.environ.get("CAMPAIGN_JOBS", "2"))) as pool:
+        return [job.result() for job in [pool.submit(one, unit) for unit in units]]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--only", nargs="*", help="these parsers alone, without the registers")
@@ -139,15 +152,22 @@ def main():
     directory = Path(os.environ.get("CAMPAIGN_DIR", ROOT / "build/fuzz/campaign")).resolve()
     directory.mkdir(parents=True, exist_ok=True)
     wanted = max(1, round(FULL * scale))
-    build(directory / "build.log")
+    shard = Shard()
+    if shard.kind in ("whole", "prepare"):
+        build(directory / "build.log")
+    if shard.kind == "prepare":
+        return 0
     names = [name for name in TARGETS if not arguments.only or name in arguments.only]
-    with ThreadPoolExecutor(int(os.environ.get("CAMPAIGN_JOBS", "2"))) as pool:
-        jobs = [pool.submit(run_parser, name, wanted, seed, directory) for name in names]
-        registers = [] if arguments.only else [
-            pool.submit(run_registers, n, -(-wanted // REGISTER_JOBS), seed, directory)
-            for n in range(REGISTER_JOBS)]
-        parsers = [job.result() for job in jobs]
-        register_parts = [job.result() for job in registers]
+    units = names + ([] if arguments.only else list(range(REGISTER_JOBS)))
+    if shard.kind == "merge":
+        results = [result for part in shard.read(directory) for result in part]
+    else:
+        results = run_all(shard.mine(units), seed, wanted, directory)
+    if shard.kind == "part":
+        shard.write(directory, results)
+        return 0
+    parsers = [result for unit, result in results if not isinstance(unit, int)]
+    register_parts = [result for unit, result in results if isinstance(unit, int)]
     if arguments.only:
         return int(any(p["findings"] for p in parsers))
     result = summary(parsers, add_up(register_parts), wanted)

@@ -60,7 +60,8 @@ class Report:
         for result in self.results.values():
             if result["killed"]:
                 counts[key(result)] = counts.get(key(result), 0) + 1
-        return [[name, count] for name, count in sorted(counts.items(), key=lambda item: -item[1])]
+        return [[name, count] for name, count in sorted(counts.items(),
+                                                         key=lambda item: (-item[1], item[0]))]
 
     def survivors(self):
         """Rows of mutants that live, with what is known of them."""

@@ -13,12 +13,15 @@ import sys
 import time
 import zlib
 
+sys.path.insert(1, str(pathlib.Path(__file__).resolve().parents[1]))
+# pylint: disable=wrong-import-position
 import models
 from equivalence import proof_of
 from known import Known
 from mutants import Design, choose
 from regression import Regression, in_parallel, programs
 from report import Report
+from shards import Shard
 
 FULL = {"core": 1100, "remote": 330, "time": 250}   # mutants at scale 1
 PROOF_SECONDS = 120    # limit of one proof
@@ -119,7 +122,7 @@ class Campaign:
             sys.exit(f"run.py: --programs {options.programs}: no test program has such a name")
         numbers = {mutant.name: mutant.number for mutant in chosen}
         targets = [name for _, name in self.programs]
-        if not options.no_build:
+        if not options.no_build and Shard().kind in ("whole", "prepare"):
             self.say(f"building {len(targets)} test programs with {len(chosen)} mutants")
             models.build(options.build, numbers, targets, options.jobs)
         self.regression = Regression(models.ROOT, options.build)
@@ -224,6 +227,29 @@ class Campaign:
         return {"killed": False, "seen": bool(order), "seconds": round(used, 3),
                 "tests": sum(len(group) for group in groups.values())}
 
+    def judge_all(self, run, shard):
+        """The verdicts on the shard's mutants, by name."""
+        results = self.killed_before(run) if shard.kind == "whole" else {}
+        last = time.monotonic()
+        if not results and shard.kind == "whole":
+            self.say(f"regression without a mutant: {self.baseline():.0f} s")
+        # Scattered over the modules, so that an interrupted run says something of all.
+        scattered = shard.mine(sorted((mutant for mutant in run if mutant.name not in results),
+                                      key=lambda mutant: zlib.crc32(mutant.name.encode())))
+        total = len(results) + len(scattered)
+        self.say(f"{total} mutants, {len(results)} killed before")
+        for done, (mutant, result) in enumerate(
+                in_parallel(self.options.jobs, self.judge, scattered), len(results) + 1):
+            results[mutant.name] = result
+            if shard.kind == "whole":
+                with open(self.options.dir / "progress.jsonl", "a", encoding="utf-8") as file:
+                    file.write(json.dumps({"name": mutant.name, **result}) + "\n")
+            if time.monotonic() - last > 15 or done == total:
+                last = time.monotonic()
+                alive = sum(not entry["killed"] for entry in results.values())
+                self.say(f"{done} of {total}, {alive} not noticed")
+        return results
+
 
 def main():
     """Entry point."""
@@ -237,22 +263,18 @@ def main():
         return
     campaign = Campaign(options, design, known, chosen)
     campaign.record()
-    results, last = campaign.killed_before(run), time.monotonic()
-    if not results:
+    shard = Shard()
+    if shard.kind == "prepare":
         campaign.say(f"regression without a mutant: {campaign.baseline():.0f} s")
-    campaign.say(f"{len(run)} mutants, {len(results)} killed before")
-    # Scattered over the modules, so that an interrupted run says something of all.
-    scattered = sorted((mutant for mutant in run if mutant.name not in results),
-                       key=lambda mutant: zlib.crc32(mutant.name.encode()))
-    for done, (mutant, result) in enumerate(
-            in_parallel(options.jobs, campaign.judge, scattered), len(results) + 1):
-        results[mutant.name] = result
-        with open(options.dir / "progress.jsonl", "a", encoding="utf-8") as file:
-            file.write(json.dumps({"name": mutant.name, **result}) + "\n")
-        if time.monotonic() - last > 15 or done == len(run):
-            last = time.monotonic()
-            alive = sum(not entry["killed"] for entry in results.values())
-            campaign.say(f"{done} of {len(run)}, {alive} not noticed")
+        return
+    if shard.kind == "merge":
+        results = {name: result for part in shard.read(options.dir)
+                   for name, result in part.items()}
+    else:
+        results = campaign.judge_all(run, shard)
+    if shard.kind == "part":
+        shard.write(options.dir, results)
+        return
     report = Report(design, known, run, results, campaign.seen, campaign.programs)
     report.show(options.mutant != [])
     if options.out:

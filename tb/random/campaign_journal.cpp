@@ -38,8 +38,12 @@ void each_count(Run &run, const Visit &visit) {
 
 }  // namespace
 
-CampaignJournal::CampaignJournal(const std::string &path, const std::string &key, bool resume) {
-  if (resume) take_over(path, key);
+CampaignJournal::CampaignJournal(const std::string &path, const std::string &key, bool resume)
+    : CampaignJournal{path, key, resume ? std::vector{path} : std::vector<std::string>{}} {}
+
+CampaignJournal::CampaignJournal(const std::string &path, const std::string &key,
+                                 const std::vector<std::string> &sources) {
+  for (const std::string &source : sources) take_over(source, key);
   file_.open(path, std::ios::trunc);
   file_ << Json{{"key", key}}.dump() << '\n';
   for (const auto &[seed, run] : before_) write(seed, run, seconds_before_);

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "random/judged_run.hpp"
 
@@ -20,6 +21,9 @@ class CampaignJournal {
   /// the same `key`. A last line that was cut off is dropped. Throws std::runtime_error if the file
   /// cannot be written.
   CampaignJournal(const std::string &path, const std::string &key, bool resume);
+  /// The same with what the files `sources` hold, journals of the campaign's shards.
+  CampaignJournal(const std::string &path, const std::string &key,
+                  const std::vector<std::string> &sources);
 
   /// Seeds that passed before.
   [[nodiscard]] const std::map<std::uint64_t, JudgedRun> &before() const { return before_; }

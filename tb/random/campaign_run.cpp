@@ -9,10 +9,12 @@
 #include <atomic>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -43,56 +45,111 @@ std::string environment(const char *name, const std::string &otherwise) {
   return text == nullptr || *text == 0 ? otherwise : text;
 }
 
+/// Frames of a seed for each of `frames_a_run`, rather too few than too many: shards together have
+/// about the seeds that are needed. What is missing is run when they are merged.
+constexpr double kFramesOfASeed = 1.2;
+
+/// Seeds from `first` to below `end`.
+struct Range {
+  std::uint64_t first = 0;
+  std::uint64_t end = ~std::uint64_t{0};
+};
+
+Range seeds_of(const CampaignOptions &options) {
+  Range range{options.seed};
+  if (options.runs != 0) range.end = options.seed + options.runs;
+  if (!options.shard.part()) return range;
+  const std::uint64_t runs =
+      options.runs != 0
+          ? options.runs
+          : static_cast<std::uint64_t>(std::ceil(static_cast<double>(options.frames) /
+                                                 kFramesOfASeed / options.frames_a_run));
+  const auto begin_of = [&](std::uint64_t shard) {
+    return options.seed + runs * shard / options.shard.count();
+  };
+  return {begin_of(options.shard.number()), begin_of(options.shard.number() + 1)};
+}
+
 class Campaign {
  public:
   explicit Campaign(const CampaignOptions &options)
       : options_{options},
-        journal_{in_directory(options, "journal.jsonl"),
-                 fmt::format("{} {} {}", program_key(), options.frames_a_run, options.seed),
-                 options.resume},
-        next_seed_{options.seed},
+        journal_{journal_of(options)},
+        seeds_{seeds_of(options)},
+        next_seed_{seeds_.first},
         begin_{Clock::now()} {}
 
   int run() {
-    for (const auto &[seed, run] : journal_.before()) {
-      frames_ += run.frames;
-      result_.add(seed, random_scenario(seed, options_.frames_a_run), run);
-    }
-    if (result_.runs != 0) fmt::print("{} seeds, {} frames before\n", result_.runs, frames_.load());
+    if (!journal_.before().empty()) fmt::print("{} seeds before\n", journal_.before().size());
     std::vector<std::thread> workers;
     for (unsigned i = 0; i < options_.jobs; ++i) workers.emplace_back([this] { work(); });
     for (std::thread &worker : workers) worker.join();
-    result_.seconds = seconds();
-    fmt::print("{}", result_.text());
+    const CampaignResult result = sum();
+    fmt::print("{}", result.text());
+    if (options_.shard.part()) return 0;
     if (!options_.json.empty())
-      write(options_.json, result_.json(options_.seed, options_.runs == 0 ? options_.frames : 0));
-    return result_.failures.empty() ? 0 : 1;
+      write(options_.json, result.json(options_.seed, options_.runs == 0 ? options_.frames : 0));
+    return result.failures.empty() ? 0 : 1;
   }
 
  private:
+  static CampaignJournal journal_of(const CampaignOptions &options) {
+    const std::string key =
+        fmt::format("{} {} {}", program_key(), options.frames_a_run, options.seed);
+    std::filesystem::create_directories(options.directory);
+    const Shard &shard = options.shard;
+    if (shard.part()) return {shard.path(options.directory), key, true};
+    const std::string path = options.directory + "/journal.jsonl";
+    if (shard.merge()) return {path, key, shard.paths(options.directory)};
+    return {path, key, options.resume};
+  }
+
+  /// Seeds are taken in their order, so those that are done are always the first.
   void work() {
+    const bool all = options_.runs != 0 || options_.shard.part();
     for (;;) {
       const std::uint64_t seed = next_seed_++;
-      const bool enough =
-          options_.runs != 0 ? seed >= options_.seed + options_.runs : frames_ >= options_.frames;
-      if (enough) return;
-      if (journal_.before().count(seed) == 0) run(seed);
+      if (seed >= seeds_.end || (!all && frames_ >= options_.frames)) return;
+      const auto before = journal_.before().find(seed);
+      if (before == journal_.before().end())
+        run(seed);
+      else
+        done(seed, before->second);
     }
+  }
+
+  void done(std::uint64_t seed, const JudgedRun &run) {
+    frames_ += run.frames;
+    const std::lock_guard lock{mutex_};
+    done_[seed] = run;
   }
 
   void run(std::uint64_t seed) {
     const Scenario scenario = random_scenario(seed, options_.frames_a_run);
     const JudgedRun run = run_judged(scenario);
-    frames_ += run.frames;
     if (!run.ok()) failed(seed, scenario, run);
+    done(seed, run);
     const std::lock_guard lock{mutex_};
-    result_.add(seed, scenario, run);
+    failures_ += run.ok() ? 0 : 1;
     if (run.ok()) journal_.add(seed, run, seconds());
     if (seconds() < next_report_) return;
     next_report_ = seconds() + 10;
-    fmt::print("{} seeds, {} frames, {:.0f} frames/s, {} failed\n", result_.runs, frames_.load(),
-               static_cast<double>(frames_) / seconds(), result_.failures.size());
+    fmt::print("{} seeds, {} frames, {:.0f} frames/s, {} failed\n", done_.size(), frames_.load(),
+               static_cast<double>(frames_) / seconds(), failures_);
     std::fflush(stdout);
+  }
+
+  /// How many seeds are done when there are frames enough depends on the threads: the sum goes over
+  /// the first that have enough. A failure counts wherever it is.
+  [[nodiscard]] CampaignResult sum() const {
+    CampaignResult result;
+    const bool all = options_.runs != 0 || options_.shard.part();
+    for (const auto &[seed, run] : done_) {
+      if (all || result.frames < options_.frames || !run.ok())
+        result.add(seed, random_scenario(seed, options_.frames_a_run), run);
+    }
+    result.seconds = seconds();
+    return result;
   }
 
   void failed(std::uint64_t seed, const Scenario &scenario, const JudgedRun &run) {
@@ -118,12 +175,6 @@ class Campaign {
     if (!file.flush()) throw std::runtime_error("cannot write " + path);
   }
 
-  /// The name of a file in the directory, which is made.
-  static std::string in_directory(const CampaignOptions &options, const std::string &name) {
-    std::filesystem::create_directories(options.directory);
-    return options.directory + "/" + name;
-  }
-
   /// Wall time, with that before an interruption.
   [[nodiscard]] double seconds() const {
     return journal_.seconds_before() + std::chrono::duration<double>(Clock::now() - begin_).count();
@@ -131,10 +182,12 @@ class Campaign {
 
   CampaignOptions options_;
   CampaignJournal journal_;
+  Range seeds_;
   std::atomic<std::uint64_t> next_seed_;
   std::atomic<std::uint64_t> frames_ = 0;
-  std::mutex mutex_;  // of result_ and of the output
-  CampaignResult result_;
+  std::mutex mutex_;  // of what follows, of the journal and of the output
+  std::map<std::uint64_t, JudgedRun> done_;
+  std::uint64_t failures_ = 0;
   Clock::time_point begin_;
   double next_report_ = 0;
 };

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "harness/shard.hpp"
+
 namespace vericansim {
 
 struct CampaignOptions {
@@ -20,13 +22,16 @@ struct CampaignOptions {
   bool print = false;
   bool no_shrink = false;
   bool resume = false;  ///< seeds that passed before an interruption, with this program, count
+  Shard shard;          ///< a range of the seeds, or the figures from those of all shards
 };
 
-/// Defaults, with CAMPAIGN_SEED, CAMPAIGN_SCALE, CAMPAIGN_DIR, CAMPAIGN_OUT and CAMPAIGN_RESUME of
-/// the environment. Throws std::runtime_error if one of them is no number.
+/// Defaults, with CAMPAIGN_SEED, CAMPAIGN_SCALE, CAMPAIGN_DIR, CAMPAIGN_OUT, CAMPAIGN_RESUME and
+/// CAMPAIGN_SHARD of the environment. Throws std::runtime_error if one of them is no number.
 [[nodiscard]] CampaignOptions campaign_defaults();
 
-/// Runs it; 0 if every seed passed, 1 otherwise.
+/// Runs it; 0 if every seed passed, 1 otherwise. The figures are those of the first seeds that have
+/// the frames together, whatever the number of threads and shards; a shard has no figures, and the
+/// end of its work is no failure whatever it found.
 int run_campaign(const CampaignOptions &options);
 
 }  // namespace vericansim

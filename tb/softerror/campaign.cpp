@@ -179,17 +179,40 @@ std::vector<Record> run_jobs(const std::vector<Job> &jobs, unsigned processes,
     workers.push_back(worker);
   }
   bool good = true;
-  std::vector<Record> records;
-  for (unsigned n = 0; n < processes; ++n) {
+  for (const pid_t worker : workers) {
     int status = 0;
-    waitpid(workers[n], &status, 0);
+    waitpid(worker, &status, 0);
     good = good && status == 0;
-    std::ifstream in(paths[n], std::ios::binary);
+  }
+  const std::vector<Record> records = good ? read_records(paths) : std::vector<Record>{};
+  for (const std::string &name : paths) std::remove(name.c_str());
+  if (!good) throw std::runtime_error("a worker failed");
+  return records;
+}
+
+void write_records(const std::vector<Record> &records, const std::string &path) {
+  const std::string unfinished = path + ".new";
+  std::ofstream out(unfinished, std::ios::binary);
+  for (const Record &record : records)
+    out.write(reinterpret_cast<const char *>(&record), sizeof record);
+  out.close();
+  if (!out || std::rename(unfinished.c_str(), path.c_str()) != 0)
+    throw std::runtime_error("cannot write " + path);
+}
+
+std::vector<Record> read_records(const std::vector<std::string> &paths) {
+  std::vector<Record> records;
+  for (const std::string &path : paths) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw std::runtime_error("cannot read " + path);
     Record record;
     while (in.read(reinterpret_cast<char *>(&record), sizeof record)) records.push_back(record);
-    std::remove(paths[n].c_str());
+    if (in.gcount() != 0) throw std::runtime_error(path + " ends within a record");
   }
-  if (!good) throw std::runtime_error("a worker failed");
+  // A job's records are in one file; the order does not tell how many files there were.
+  std::stable_sort(records.begin(), records.end(), [](const Record &a, const Record &b) {
+    return a.outcome.seed % kOtherMoment < b.outcome.seed % kOtherMoment;
+  });
   return records;
 }
 

@@ -37,8 +37,14 @@ struct Job {
 [[nodiscard]] std::vector<Record> run_job(const Job &job);
 
 /// Runs them all in `processes` processes that keep their results in `scratch`; prints how far it
-/// is.
+/// is. The records are in the order of the jobs' seeds.
 [[nodiscard]] std::vector<Record> run_jobs(const std::vector<Job> &jobs, unsigned processes,
                                            const std::string &scratch);
+
+/// A file with records, for a run of the same program. Both throw std::runtime_error if it cannot
+/// be written or read.
+void write_records(const std::vector<Record> &records, const std::string &path);
+/// Records of several such files, in the order of the jobs' seeds.
+[[nodiscard]] std::vector<Record> read_records(const std::vector<std::string> &paths);
 
 }  // namespace vericansim

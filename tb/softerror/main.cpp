@@ -9,6 +9,7 @@
 #include <exception>
 #include <string>
 
+#include "harness/shard.hpp"
 #include "softerror/campaign.hpp"
 #include "softerror/report.hpp"
 
@@ -50,9 +51,23 @@ int one_flip(const Options &options) {
   return record.verdict >= Verdict::kHang ? 1 : 0;
 }
 
+/// Every so manieth job, as the shard says.
+std::vector<Job> jobs_of(const Shard &shard, const Options &options) {
+  const auto all = plan_jobs(options.seed, options.scale);
+  std::vector<Job> mine;
+  for (std::size_t n = shard.number(); n < all.size(); n += shard.count()) mine.push_back(all[n]);
+  return mine;
+}
+
 int campaign(const Options &options) {
-  const auto jobs = plan_jobs(options.seed, options.scale);
-  const auto records = run_jobs(jobs, options.jobs, options.scratch);
+  const Shard shard;
+  const auto records = shard.merge()
+                           ? read_records(shard.paths(options.scratch))
+                           : run_jobs(jobs_of(shard, options), options.jobs, options.scratch);
+  if (shard.part()) {
+    write_records(records, shard.path(options.scratch));
+    return 0;
+  }
   if (!options.out.empty()) write_json(records, options.out);
   return print_summary(records) ? 0 : 1;
 }

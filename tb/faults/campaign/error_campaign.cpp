@@ -15,7 +15,9 @@
 #include <thread>
 
 #include "faults/campaign/result_json.hpp"
+#include "faults/campaign/shard_file.hpp"
 #include "faults/campaign/tally.hpp"
+#include "harness/shard.hpp"
 #include "harness/test_wave.hpp"
 
 namespace vericansim {
@@ -32,6 +34,8 @@ struct Options {
   std::string csv;
   std::string wave;
   bool bins = false;
+  std::string directory = ".";
+  Shard shard;
 };
 
 /// A part with the sample of its cases that is to be run.
@@ -44,6 +48,8 @@ class Campaign {
  public:
   Campaign(const Sections &sections, const Options &options);
   void run(unsigned jobs);
+  /// Instead: what the shards have counted.
+  void take_up(const std::vector<std::string> &files);
   [[nodiscard]] const Tally &tally() const { return tally_; }
   [[nodiscard]] const RuleBins &bins() const { return bins_; }
   [[nodiscard]] std::size_t size() const { return total_; }
@@ -54,16 +60,18 @@ class Campaign {
   void work();
   void show_progress();
 
+  Shard shard_;
   std::vector<Work> work_;
   std::size_t total_ = 0;
   std::atomic<std::size_t> next_ = 0;
   std::atomic<std::size_t> done_ = 0;
+  std::atomic<unsigned> working_ = 0;  // threads
   std::mutex mutex_;
   Tally tally_;
   RuleBins bins_;
 };
 
-Campaign::Campaign(const Sections &sections, const Options &options) {
+Campaign::Campaign(const Sections &sections, const Options &options) : shard_{options.shard} {
   for (const auto &section : sections) {
     const std::string &name = section->grid().name();
     const auto &parts = options.parts;
@@ -75,13 +83,13 @@ Campaign::Campaign(const Sections &sections, const Options &options) {
   }
 }
 
-// Cases are numbered through over all parts; a thread takes kChunk of them at a time. No case
-// knows of another, so the threads' order changes nothing.
+// Cases are numbered through over all parts; a thread takes kChunk of them at a time, a shard every
+// so manieth chunk. No case knows of another, so the threads' order changes nothing.
 void Campaign::work() {
   Tally tally;
   RuleBins bins;
   for (;;) {
-    const std::size_t first = next_.fetch_add(kChunk);
+    const std::size_t first = (next_.fetch_add(1) * shard_.count() + shard_.number()) * kChunk;
     if (first >= total_) break;
     std::size_t base = 0;
     for (const Work &part : work_) {
@@ -103,7 +111,7 @@ void Campaign::work() {
 void Campaign::show_progress() {
   using namespace std::chrono_literals;
   auto shown = std::chrono::steady_clock::now();
-  while (done_ < total_) {
+  while (working_ != 0) {
     std::this_thread::sleep_for(20ms);
     if (std::chrono::steady_clock::now() - shown < 10s) continue;
     shown = std::chrono::steady_clock::now();
@@ -113,9 +121,18 @@ void Campaign::show_progress() {
 
 void Campaign::run(unsigned jobs) {
   std::vector<std::thread> threads;
-  for (unsigned i = 0; i < jobs; ++i) threads.emplace_back([this] { work(); });
+  working_ = jobs;
+  for (unsigned i = 0; i < jobs; ++i)
+    threads.emplace_back([this] {
+      work();
+      --working_;
+    });
   show_progress();
   for (std::thread &thread : threads) thread.join();
+}
+
+void Campaign::take_up(const std::vector<std::string> &files) {
+  for (const std::string &file : files) add_shard(file, tally_, bins_);
 }
 
 void list(const Sections &sections) {
@@ -189,11 +206,21 @@ void summarise(const Tally &tally, const RuleBins &bins, const Options &options,
 }
 
 int run_campaign(const Sections &sections, const Options &options) {
-  write(options.json, "");  // a path that cannot be written is found before the work
-  write(options.csv, "");
+  const Shard &shard = options.shard;
+  if (!shard.part()) {
+    write(options.json, "");  // a path that cannot be written is found before the work
+    write(options.csv, "");
+  }
   const auto begin = std::chrono::steady_clock::now();
   Campaign campaign{sections, options};
-  campaign.run(options.jobs);
+  if (shard.merge())
+    campaign.take_up(shard.paths(options.directory));
+  else
+    campaign.run(options.jobs);
+  if (shard.part()) {
+    write_shard(shard.path(options.directory), campaign.tally(), campaign.bins());
+    return 0;
+  }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   const double cpu = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   const ResultInfo info{options.scale >= 1 && options.parts.empty(), took.count(), cpu,
@@ -217,6 +244,8 @@ void add_options(CLI::App &app, Options &options) {
   app.add_option("--jobs", options.jobs, "Threads")
       ->envname("CAMPAIGN_JOBS")
       ->check(CLI::Range(1, 256));
+  app.add_option("--directory", options.directory, "Where shards leave what they have counted")
+      ->envname("CAMPAIGN_DIR");
   app.add_option("--json", options.json, "Write figures and tables here")->envname("CAMPAIGN_OUT");
   app.add_option("--csv", options.csv, "Write runs and mismatches of every combination here");
   app.add_flag("--bins", options.bins, "Name the bins of TH-05 that were not hit");

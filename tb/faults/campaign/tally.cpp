@@ -20,9 +20,11 @@ void Tally::add(const Grid &grid, std::size_t index, Outcome outcome) {
 
 void Tally::merge(const Tally &other) {
   for (const auto &[key, count] : other.counts_) counts_[key].add(count);
-  for (const Failure &failure : other.failures_) {
-    if (failures_.size() < kKeptFailures) failures_.push_back(failure);
-  }
+  for (const Failure &failure : other.failures_) add(failure);
+}
+
+void Tally::add(Failure failure) {
+  if (failures_.size() < kKeptFailures) failures_.push_back(std::move(failure));
 }
 
 Count Tally::total() const {

@@ -39,6 +39,9 @@ class Tally {
 
   void add(const Grid &grid, std::size_t index, Outcome outcome);
   void merge(const Tally &other);
+  /// Counts, or a failure, from a file.
+  void add(const Key &key, const Count &count) { counts_[key].add(count); }
+  void add(Failure failure);
 
   [[nodiscard]] const std::map<Key, Count> &counts() const { return counts_; }
   [[nodiscard]] const std::vector<Failure> &failures() const { return failures_; }
