@@ -69,9 +69,9 @@ build_kernel() {
   done
   make_kernel linux modules modules_prepare
   mkdir "$kernel/out"
-  cp "$source"/linux "$source"/net/can/can.ko "$source"/net/can/can-raw.ko \
-     "$source"/drivers/net/can/dev/can-dev.ko "$source"/drivers/net/can/flexcan/flexcan.ko \
-     "$kernel/out"
+  cp "$source"/linux "$source"/net/can/*.ko "$source"/net/can/j1939/can-j1939.ko \
+     "$source"/drivers/net/can/vcan.ko "$source"/drivers/net/can/dev/can-dev.ko \
+     "$source"/drivers/net/can/flexcan/flexcan.ko "$kernel/out"
   gcc -O2 -w -o "$kernel/out/testptp" "$source/tools/testing/selftests/ptp/testptp.c" -lrt
   (cd "$source" && sha256sum drivers/net/can/flexcan/*.[ch]) >"$kernel/out/flexcan.sha256"
   # What an out-of-tree module needs stays.

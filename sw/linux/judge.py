@@ -101,8 +101,9 @@ def common(run):
     expect(bad, [], "the guest complains")
     expect_true(f"end of {run.settings['VERICAN_SCRIPTS']}" in console, "the guest did not finish")
     pattern = re.compile(r"WARNING|BUG|Call Trace|timed out|flexcan.*(fail|error|timeout)", re.I)
-    expect([line for line in run.text("dmesg.txt").splitlines() if pattern.search(line)], [],
-           "messages of the kernel")
+    # What the J1939 stack says of transfers is for the judges of these.
+    expect([line for line in run.text("dmesg.txt").splitlines()
+            if pattern.search(line) and "j1939_" not in line], [], "messages of the kernel")
     for path in run.dir.glob("*-bus.txt"):
         expect(run.bus(path.name[:-8])["bus"]["access_errors"], 0, f"{path.name}: bus errors")
 

@@ -6,7 +6,8 @@ and judges what came of it.
 
 Each case boots a user-mode Linux whose controllers are those of `verican linux`, runs a script of
 sw/linux/guest in it and hands the files it left to its judge (judge.py, judge_clock.py,
-judge_events.py, judge_tools.py).
+judge_events.py, judge_tools.py, judge_isotp.py). A judge's prepare_SCRIPT, if there is one, writes
+files for the script.
 """
 import argparse
 import concurrent.futures
@@ -24,6 +25,10 @@ from pathlib import Path
 import judge
 import judge_clock
 import judge_events
+import judge_isotp
+import judge_j1939
+import judge_services
+import judge_timeouts
 import judge_tools
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -31,7 +36,8 @@ CHIPS = ("ls1021ar2", "imx28")
 # Controllers with time units: their device tree and their simulator.
 CLOCKS = ("time",)
 CLOCK_OPTIONS = ["--time-unit", f"--clock-ppm={','.join(str(ppm) for ppm in judge_clock.PPM)}"]
-JUDGES = (judge, judge_clock, judge_events, judge_tools)
+JUDGES = (judge, judge_clock, judge_events, judge_tools, judge_isotp, judge_j1939,
+          judge_services, judge_timeouts)
 RATES = "125000,250000,500000,1000000"
 
 
@@ -74,6 +80,14 @@ def cases(short):
         Case("ptp-tools", "ptptools", chips=CLOCKS),
         Case("ptp-phc2sys", "ptpphc2sys", chips=CLOCKS),
         Case("ptp-ts2phc", "ptpts2phc", chips=CLOCKS),
+        # Programs in guests take most of their time, so one compatible is enough.
+        Case("isotp", "isotp", {"VERICAN_PDUS": "3", "VERICAN_LOAD": "32",
+                                "VERICAN_LEAST": "0.73"}, chips=("ls1021ar2",)),
+        Case("j1939", "j1939", {"VERICAN_BYTES": "100000", "VERICAN_LOAD": "20",
+                                "VERICAN_LEAST": "0.45"}, chips=("ls1021ar2",)),
+        Case("timeouts", "timeouts", chips=("ls1021ar2",)),
+        Case("bcm", "bcm", {"VERICAN_LOAD": "12"}, chips=("ls1021ar2",)),
+        Case("gateway", "gateway", {"VERICAN_LOAD": "12"}, chips=("ls1021ar2",)),
         Case("repeatable", "exchange", few, short=True, twice=True),
         Case("red-lost-frame", "exchange", {**few, "VERICAN_SABOTAGE": "lose-frame"}, short=True,
              red=True),
@@ -99,6 +113,11 @@ class Result:
     wall: float = 0.0
 
 
+def of_judges(name):
+    """The judges' function of that name, or None."""
+    return next((getattr(module, name) for module in JUDGES if hasattr(module, name)), None)
+
+
 def scratch():
     """Where guests keep their memory, as files, and the simulator its sockets: short and fast."""
     shm = Path("/dev/shm")
@@ -111,6 +130,9 @@ def boot(args, case, chip, directory):
     """One guest from power-on to power-off; returns (simulated, real) seconds."""
     shutil.rmtree(directory, ignore_errors=True)
     directory.mkdir(parents=True)
+    prepare = of_judges(f"prepare_{case.script}")
+    if prepare:
+        prepare(directory, case.settings)
     modules = args.build / "modules"
     settings = {"VERICAN_SCRIPTS": case.script, "VERICAN_MODULES": str(modules),
                 "VERICAN_GUEST": str(ROOT / "sw/linux/guest"), **case.settings}
@@ -153,7 +175,7 @@ def run_case(args, case, chip):
     try:
         result.guest, result.wall = boot(args, case, chip, directory)
         judge.common(run)
-        next(getattr(module, case.script) for module in JUDGES if hasattr(module, case.script))(run)
+        of_judges(case.script)(run)
         if case.twice:
             again = directory.with_name(directory.name + "-again")
             guest, wall = boot(args, case, chip, again)
@@ -190,7 +212,7 @@ def options():
     parser.add_argument("--short", action="store_true", help="the cases that take seconds")
     parser.add_argument("--only", help="cases whose chip-name matches this regular expression")
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--timeout", type=int, default=300, help="seconds for one guest")
+    parser.add_argument("--timeout", type=int, default=600, help="seconds for one guest")
     args = parser.parse_args()
     args.build = args.build.resolve()
     args.verican = args.verican.resolve()

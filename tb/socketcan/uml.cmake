@@ -36,7 +36,7 @@ foreach(case guest-time-limit guest-killed recording-tshark recording-asc record
   verican_socketcan_case(${case})
 endforeach()
 # Each red case spoils what its case has left: the judge must notice.
-foreach(case flood duel tools errors interfaces vxcan signals remote)
+foreach(case flood duel tools errors interfaces vxcan signals remote stacks)
   verican_socketcan_case(${case})
   verican_socketcan_case(red-${case} REQUIRES ${case})
 endforeach()

@@ -12,6 +12,7 @@ import leftovers
 import recordings
 import red
 import remote
+import stacks
 import tools
 import traffic
 from canlog import expect, expect_true
@@ -120,6 +121,7 @@ SCRIPTS = {
     "vxcan": (lambda setup: ({"vxcan.yaml": lifetimes.VXCAN}, {}), lifetimes.vxcan),
     "signals": (lambda setup: ({}, {}), lifetimes.signals),
     "remote": (remote.files, remote.remote),
+    "stacks": (stacks.prepare, stacks.stacks),
 }
 
 

@@ -21,7 +21,7 @@ MODULES = Path("/usr/lib/uml/modules")
 INIT = Path(__file__).resolve().parents[1] / "guest/init.sh"
 GUARD = Path(__file__).resolve().parent / "guard.py"
 TOOLS = ("busybox", "ip", "candump", "cansend", "cangen", "canplayer", "canbusload",
-         "setpriv")
+         "setpriv", "j1939acd", "j1939cat", "cangw")
 
 
 class Impossible(Exception):
@@ -96,7 +96,7 @@ def _furnish(directory, script, settings, files):
     lines = [f"{key}={shlex.quote(str(value))}\n" for key, value in values.items()]
     (directory / "settings.sh").write_text("".join(lines))
     for name, text in (files or {}).items():
-        (directory / name).write_text(text)
+        (directory / name).write_bytes(text if isinstance(text, bytes) else text.encode())
 
 
 def _run(directory, shim, limit, memory):

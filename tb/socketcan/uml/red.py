@@ -100,6 +100,9 @@ TARGETS = {
     "remote": {"life0.log": (replace("1A1#01020304", "1A1#01020305"),),
                "life1.client": CODE, "memory.code": CODE, "refused.code": (replace("1", "0"),),
                "read.out": (replace("(?i)A5|165", "A4"),)},
+    "stacks": {"near-bus.log": (lose, double, corrupt), "vcan3.log": LOG, "far-bus.log": LOG,
+               "bcm.txt": (lose, corrupt), "far.code": CODE,
+               "rules.txt": (replace("# 100", "# 99"),)},
     "signals": {"INT-bus.log": LOG, "TERM-mon.log": LOG},
 }
 
