@@ -3,8 +3,8 @@
 #
 # What `cmake --install` installs: the tool, the libraries with their headers, CMake package and
 # pkg-config files (docs/install.md), the driver's sources, the RTL and what belongs to it. Each
-# part is an install component of its own: tool, sim, systemc, driver, python, rtl, doc. Nothing in an
-# installed tree knows where it lies.
+# part is an install component of its own: tool, sim, systemc, driver, python, rtl, doc. Nothing in
+# an installed tree knows where it lies.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 

@@ -7,9 +7,9 @@ lines directly above it, or directly above or inside an INSTANTIATE_TEST_SUITE_P
 TEST_P of that suite). DISABLED_ tests do not count. A range such as "SY-05..SY-09" cites its two
 ends only. In a unittest module (*_cases.py) a test cites what stands in its text, and what stands
 in the docstring of its class. A judge of `make test-linux` (sw/linux/judge_*.py, one function a
-script) cites what stands in its docstring. A test of a page (tb/report/*_test.mjs) cites what stands
-in the comment at its head, which is about the whole file. Tests of the judges (model_*_test.cpp) are listed, but
-what they cite still needs a test of the core.
+script) cites what stands in its docstring. A test of a page (tb/report/*_test.mjs) cites what
+stands in the comment at its head, which is about the whole file. Tests of the judges
+(model_*_test.cpp) are listed, but what they cite still needs a test of the core.
 
 The plan is a list of sections: `section`, `name`, `optional` (ids may be cited but need no test)
 and the ids with their titles; an id with {title, not_applicable: reason} must not be cited.

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// device.mjs PORT NODE [BUS]: npm's canopen as a device with the object dictionary of the servo drive
-// (sw/canopennode/drive/drive.eds): SDO server, heartbeat, SYNC and TPDO, EMCY. At each SYNC it goes
-// a step towards its set point. A value written to object 2008 is an error, which it tells.
+// device.mjs PORT NODE [BUS]: npm's canopen as a device with the object dictionary of the servo
+// drive (sw/canopennode/drive/drive.eds): SDO server, heartbeat, SYNC and TPDO, EMCY. At each SYNC
+// it goes a step towards its set point. A value written to object 2008 is an error, which it tells.
 import {existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {tmpdir} from 'node:os';

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// master.mjs PORT NODE [BUS]: npm's canopen as a master: who is there, starts the drive, moves it by
-// PDO and SYNC, and reads where it is by SDO.
+// master.mjs PORT NODE [BUS]: npm's canopen as a master: who is there, starts the drive, moves it
+// by PDO and SYNC, and reads where it is by SDO.
 import {createRequire} from 'node:module';
 import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';

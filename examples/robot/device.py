@@ -16,7 +16,8 @@ TOGGLE_ERROR, UNKNOWN, NO_OBJECT = 0x05030000, 0x05040001, 0x06020000
 
 
 class Device(Node):
-    """A slave: on_sync(event) when OPERATIONAL, rpdo: {id: function(data)}, objects: {(i, s): bytes}."""
+    """A slave: on_sync(event) when OPERATIONAL, rpdo: {id: function(data)}, objects:
+    {(i, s): bytes}."""
 
     def __init__(self, network, name, number, reaction, heartbeat):
         super().__init__(network, name)

@@ -7,8 +7,8 @@ VeriCAN core each, six joints and two sensors, and a host that configures their 
     CANOPENNODE=~/CANopenNode sw/canopennode/build.py --clock 32000000 OUT 1 2 3 4 5 6 7 8
     examples/robot/firmware.py OUT --verican build/release/verican [--seconds 0.2] [--fail]
 
-Exit code 1: a PDO was lost, a device did not take its configuration, or the failure did not go as it
-should.
+Exit code 1: a PDO was lost, a device did not take its configuration, or the failure did not go as
+it should.
 """
 import argparse
 import collections
@@ -193,7 +193,8 @@ def main():
     print(f"  {'us from end of SYNC to end':28} {'least':>8} {'mean':>8} {'largest':>8}")
     for number, times in sorted(found.times.items()):
         mean = sum(times) / len(times)
-        print(f"  TPDO {number:<23} {min(times) * 1e6:8.0f} {mean * 1e6:8.0f} {max(times) * 1e6:8.0f}")
+        print(f"  TPDO {number:<23} {min(times) * 1e6:8.0f} {mean * 1e6:8.0f} "
+              f"{max(times) * 1e6:8.0f}")
     held = checks(cycles, found, arguments.fail)
     for what, right, seen in held:
         print(f"  {'ok  ' if right else 'FAIL'}  {what}: {seen}")

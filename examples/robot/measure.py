@@ -30,8 +30,8 @@ class Figure:
 
 
 def messages():
-    """(id, name, bytes, period, jitter) of every message, by priority; jitter of those that answer a
-    SYNC is filled in by bounds()."""
+    """(id, name, bytes, period, jitter) of every message, by priority; jitter of those that answer
+    a SYNC is filled in by bounds()."""
     cycle, beat, devices = plan.CYCLE, plan.BEAT, (*plan.JOINTS, *plan.SENSORS)
     rows = [(SYNC, "SYNC", 0, cycle, 0.0)]
     rows += [(TPDO + n, f"position {n}", 3, cycle, None) for n in plan.JOINTS]
@@ -119,8 +119,8 @@ class Measure:
         return sum(map(len, self.missing.values()))
 
     def lost_outside(self, number, failed, back, disturbed):
-        """Of these, those that the failure of a device from cycle `failed` to `back` is no reason for:
-        it disturbs others only for so many cycles."""
+        """Of these, those that the failure of a device from cycle `failed` to `back` is no reason
+        for: it disturbs others only for so many cycles."""
         return sum(len(missing - ({number} if failed <= cycle <= back else set()))
                    for cycle, missing in self.missing.items()
                    if not failed <= cycle <= failed + disturbed)

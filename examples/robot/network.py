@@ -18,7 +18,8 @@ class Node:
         return self.network.now
 
     def send(self, identifier, data=b"", event=None):
-        """Queues a frame. `event`: the moment that it belongs to, from which its response counts."""
+        """Queues a frame. `event`: the moment that it belongs to, from which its response
+        counts."""
         self.network.send(self.name, identifier, data, self.now if event is None else event)
 
     def at(self, when, act):

@@ -99,8 +99,8 @@ module can_axil #(
   assign be     = turn ? wstrb : 4'b1111;
   assign cancel = beyond || denied || be == '0 || !begins;
 
-  // Data in the clock behind, or one later: read_q, write_q. The master holds address and data until
-  // they were used: ARREADY comes with the data, AWREADY and WREADY one clock later (taken_q).
+  // Data in the clock behind, or one later: read_q, write_q. The master holds address and data:
+  // ARREADY comes with the data, AWREADY and WREADY one clock later (taken_q).
   always_ff @(posedge aclk or negedge aresetn) begin
     if (!aresetn) begin
       {read_q, write_q, taken_q, error_q, denied_q, rvalid, bvalid} <= '0;

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""build.py OUT [ID...]: compiles the servo drive of sw/canopennode for the Cortex-M3 with the user's
-copy of CANopenNode 4, which the environment variable CANOPENNODE names, and writes
+"""build.py OUT [ID...]: compiles the servo drive of sw/canopennode for the Cortex-M3 with the
+user's copy of CANopenNode 4, which the environment variable CANOPENNODE names, and writes
 OUT/drive<ID>.elf for each node-ID (1 to 127; 255: LSS gives one). Serial numbers are 0x1000 + ID,
 0x2000 for 255.
 
@@ -70,7 +70,8 @@ def main():
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("nodes", type=int, nargs="*", metavar="ID", default=[1])
     parser.add_argument("--kbit", type=int, default=1000, help="bit rate, kbit/s (1000)")
-    parser.add_argument("--clock", type=int, default=16_000_000, help="of CPU and core, Hz (16000000)")
+    parser.add_argument("--clock", type=int, default=16_000_000,
+                        help="of CPU and core, Hz (16000000)")
     arguments = parser.parse_args()
     if not os.environ.get("CANOPENNODE"):
         print("build.py: CANOPENNODE names no copy of CANopenNode 4: nothing is built")

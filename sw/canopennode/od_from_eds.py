@@ -7,8 +7,8 @@ electronic data sheet (CiA 306).
 
 Variables below 0x2000 that a master may write are in the group PERSIST_COMM, which 1010:02 stores;
 variables from 0x2000 on with ";Storage=PERSIST_APP" in PERSIST_APP; all others in RAM. $NODEID in
-a default value is left out: CANopenNode adds the node-ID itself. Strings have as many bytes as their
-default, or as ";Length" says.
+a default value is left out: CANopenNode adds the node-ID itself. Strings have as many bytes as
+their default, or as ";Length" says.
 
 What is not understood is refused with the section and what is allowed.
 """
@@ -120,7 +120,8 @@ class Object:
                                f"{len(self.subs)} sections [{self.section}sub0] to ...")
             self._check()
         else:
-            raise EdsError(f"[{self.section}] ObjectType={self.kind}: 7 (VAR), 8 (ARRAY), 9 (RECORD)")
+            raise EdsError(f"[{self.section}] ObjectType={self.kind}: "
+                           "7 (VAR), 8 (ARRAY), 9 (RECORD)")
 
     def _check(self):
         if not self.subs or self.subs[0].sub != 0 or self.subs[0].ctype != "uint8_t":

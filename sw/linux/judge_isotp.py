@@ -72,7 +72,8 @@ def isotp_streams(run, log):
 
 def perf(run, log):
     """isotpperf's figures are those of the bus; below a millisecond it has none."""
-    found = re.findall(r": (\d+) byte in (?:(\d+)\.(\d{6})s => (\d+) byte/s)?", run.text("perf.txt"))
+    found = re.findall(r": (\d+) byte in (?:(\d+)\.(\d{6})s => (\d+) byte/s)?",
+                       run.text("perf.txt"))
     done = iso.transfers(log, STREAMS["plain"])
     expect([int(size) for size, *_ in found], [transfer.size for transfer in done],
            "isotpperf: PDUs")
@@ -93,7 +94,8 @@ def isotp(run):
     log = run.log("isotp-bus.log")
     span = isotp_streams(run, log)
     load = other_load(log, 1_000_000, span)
-    expect_true(load >= float(run.settings["VERICAN_LEAST"]), f"load of the third node only {load:.3f}")
+    expect_true(load >= float(run.settings["VERICAN_LEAST"]),
+                f"load of the third node only {load:.3f}")
     perf(run, log)
     for device in ("can0", "can1"):
         run.same_as_bus(f"isotp-{device}.log", "isotp-bus.log")

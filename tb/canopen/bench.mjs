@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the checks in JavaScript share: a master of npm's canopen on a bus, raw frames beside it.
-// Environment: VERICAN_CANOPEN, the folder with node_modules; arguments: port of socketcand, node-ID.
+// Environment: VERICAN_CANOPEN, the folder with node_modules; arguments: port of socketcand,
+// node-ID.
 import {createRequire} from 'node:module';
 import {join} from 'node:path';
 

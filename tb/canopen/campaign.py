@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """Stage canopen of the campaign: ten minutes of the robot (examples/robot), and where CANOPENNODE
-names the user's copy ten minutes of a drive of CANopenNode, SYNC and a set point each millisecond."""
+names the user's copy ten minutes of a drive of CANopenNode, SYNC and a set point each
+millisecond."""
 import json
 import os
 import pathlib

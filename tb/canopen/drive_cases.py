@@ -50,8 +50,8 @@ class CanopenDrive(unittest.TestCase):
 
 
 def cycles(folder, count):
-    """SYNC and a set point `count` times, a millisecond apart: SYNCs, TPDOs that were not there before
-    the next SYNC, and whether nothing else went wrong."""
+    """SYNC and a set point `count` times, a millisecond apart: SYNCs, TPDOs that were not there
+    before the next SYNC, and whether nothing else went wrong."""
     start = 20
     send = {"node": "master", "offset": f"{start + 5} ms", "period": "1 ms", "count": count}
     file = scenario(

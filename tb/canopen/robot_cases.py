@@ -37,7 +37,8 @@ class CanopenRobot(unittest.TestCase):
         done = run("--seconds", "10", "--json")
         self.assertEqual(done.returncode, 0, done.stdout)
         figures = json.loads(done.stdout)
-        self.assertEqual([figures[key] for key in ("syncs", "lost", "error_frames")], [10_000, 0, 0])
+        self.assertEqual([figures[key] for key in ("syncs", "lost", "error_frames")],
+                         [10_000, 0, 0])
         # SYNC, two frames of set points, eight TPDOs a cycle; the rest is SDO and heartbeats.
         self.assertGreaterEqual(figures["frames"], 11 * 10_000)
         self.assertGreater(figures["uploads"], 40)

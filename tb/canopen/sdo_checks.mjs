@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// sdo_checks.mjs PORT NODE transfers|refusals|states: the SDO server of the drive (sw/canopennode) against CiA 301,
-// 7.2.4: transfers of every kind and size by npm's canopen, and by raw frames what a right client
-// never sends. Objects are those of drive.eds.
+// sdo_checks.mjs PORT NODE transfers|refusals|states: the SDO server of the drive (sw/canopennode)
+// against CiA 301, 7.2.4: transfers of every kind and size by npm's canopen, and by raw frames what
+// a right client never sends. Objects are those of drive.eds.
 import assert from 'node:assert/strict';
 
 import {abort, canopen, run, SERVER} from './bench.mjs';

@@ -109,7 +109,8 @@ class CanopenDictionary(unittest.TestCase):
         self.assertIn("No such file", text)
 
     def read_back(self, eds):
-        """What CANopenNode's functions find in the dictionary of a data sheet, compiled for here."""
+        """What CANopenNode's functions find in the dictionary of a data sheet, compiled for
+        here."""
         stack = os.environ["CANOPENNODE"]
         self.assertEqual(generate(eds, self.folder), (0, ""))
         (self.folder / "reader.c").write_text(READER, encoding="ascii")

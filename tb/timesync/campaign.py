@@ -28,8 +28,8 @@ ON_RTL = [("base", [], 260),
 def timesync(*options):
     """What `verican timesync` says in JSON; a missed goal is no failure of the tool."""
     seed = ["--first-seed", os.environ.get("CAMPAIGN_SEED", "1")]
-    done = subprocess.run([TOOL, "timesync", "--json", *seed, *options], capture_output=True, text=True,
-                          check=False, cwd=ROOT)
+    done = subprocess.run([TOOL, "timesync", "--json", *seed, *options], capture_output=True,
+                          text=True, check=False, cwd=ROOT)
     if done.returncode not in (0, 1):
         sys.exit(f"campaign timesync: verican timesync {' '.join(options)}: exit code "
                  f"{done.returncode}: {done.stderr.strip()}")

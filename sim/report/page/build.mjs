@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// build.mjs MODULES PAGE OUT: makes one HTML file of a page. MODULES is the node_modules folder with
-// esbuild, uPlot and candied, PAGE the name of the page (below), OUT the file to write. Script and
-// style are inlined and named by their hashes in a content security policy that allows nothing else:
-// the page cannot reach a network.
+// build.mjs MODULES PAGE OUT: makes one HTML file of a page. MODULES is the node_modules folder
+// with esbuild, uPlot and candied, PAGE the name of the page (below), OUT the file to write. Script
+// and style are inlined and named by their hashes in a content security policy that allows nothing
+// else: the page cannot reach a network.
 import {createHash} from 'node:crypto';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# cangw: from the bus to another network (vcan0), from there to the bus, and from the bus to the bus,
-# with frames changed on the way, under errors. judge_gateway.py knows the rules.
+# cangw: from the bus to another network (vcan0), from there to the bus, and from the bus to the
+# bus, with frames changed on the way, under errors. judge_gateway.py knows the rules.
 . "$VERICAN_GUEST/stacks.sh"
 load vcan
 load can-gw
@@ -14,8 +14,8 @@ rule() {
   cangw -A "$@" || echo "FAILED: cangw $*"
 }
 rule -s can1 -d vcan0 -e -f 100:700 -m "SET:IL:333.4.1122334455667788"
-rule -s can1 -d vcan0 -e -f 200:700 -m "AND:D:000.0.0F0F0F0F0F0F0F0F" -m "OR:D:000.0.8000000000000000" \
-  -m "XOR:ID:0FF.0.00000000000000FF"
+rule -s can1 -d vcan0 -e -f 200:700 -m "AND:D:000.0.0F0F0F0F0F0F0F0F" \
+  -m "OR:D:000.0.8000000000000000" -m "XOR:ID:0FF.0.00000000000000FF"
 rule -s can1 -d vcan0 -e -f 300:C0000700 -m "XOR:D:000.0.0000000000000000" -x 0:6:7:00
 rule -s can1 -d vcan0 -e -f 12345600:1FFFFF00
 rule -s vcan0 -d can1 -e -f 400:700 -m "XOR:I:001.0.0000000000000000"

@@ -52,8 +52,8 @@ take back.out can0:0x90,0x12400
 take bam.out can1:0x81,0x0FEF1 -B
 sleep 0.01
 # send ADDRESS ADDRESS OPTIONS FILE...: one after the other. With -P 0 the j1939cat of can-utils
-# 2020.11 ends when all is sent, with a wrong complaint; without it, it cannot read what newer kernels
-# tell of a transfer (docs/stacks.md).
+# 2020.11 ends when all is sent, with a wrong complaint; without it, it cannot read what newer
+# kernels tell of a transfer (docs/stacks.md).
 send() {
   by=$1 to=$2 options=$3
   shift 3

@@ -56,9 +56,9 @@ order() {
     echo "FAILED: sim $*: $answer"
 }
 
-# weather FRAMES [clear]: until all programs in the background have ended, a third node sends so many
-# frames of 8 bytes each 5 ms, and one bit is flipped each 5 ms, where the list says: the sender's
-# own bit, a receiver's, in data, CRC and end of frame.
+# weather FRAMES [clear]: until all programs in the background have ended, a third node sends so
+# many frames of 8 bytes each 5 ms, and one bit is flipped each 5 ms, where the list says: the
+# sender's own bit, a receiver's, in data, CRC and end of frame.
 weather() {
   frames=$1 clear=$2
   set -- "can0 DATA 6" "can1 CRC 4" "peer DATA 3" "can1 DATA 7" "can0 CRC 11" "peer EOF 2" \

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Transfers that cannot be: nobody answers, the sender falls silent, a frame is missing, too much is
-# announced, the receiver's cable breaks in the middle. Nothing may be delivered, and each must end in
-# the time that the protocol gives it.
+# announced, the receiver's cable breaks in the middle. Nothing may be delivered, and each must end
+# in the time that the protocol gives it.
 . "$VERICAN_GUEST/stacks.sh"
 load can-isotp
 load can-j1939

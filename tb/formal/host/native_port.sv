@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// In place of can_top under a bus wrapper: a native port that may do whatever can_top is proven to do
-// (host.native_port), with outputs free otherwise. What the wrapper owes to it is checked here.
+// In place of can_top under a bus wrapper: a native port that may do whatever can_top is proven to
+// do (host.native_port), with outputs free otherwise. What the wrapper owes to it is checked here.
 
 module can_top #(
   parameter int NumMb = 64,

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Stacks of the kernel on two buses, each with two interfaces: J1939 and the broadcast manager on the
-# first, a gateway (cangw) between them. (This kernel has no ISO-TP.)
+# Stacks of the kernel on two buses, each with two interfaces: J1939 and the broadcast manager on
+# the first, a gateway (cangw) between them. (This kernel has no ISO-TP.)
 for module in can-bcm can-gw j1939/can-j1939; do
   busybox insmod "$modules/net/can/$module.ko" || complain "insmod $module"
 done
@@ -14,7 +14,8 @@ start_bridge far --if vcan2 --if vcan3 --bitrate 1M --nodes 1 --fast --errors no
   --candump far-bus.log
 far=$bridge
 
-# J1939: one has an address that another has the right to; then both send a message of many frames to the other.
+# J1939: one has an address that another has the right to; then both send a message of many frames
+# to the other.
 A=8000000000000A01 B=8000000000000B02
 j1939acd -r 0x80,0x90-0x93 -a 0x80 $B vcan0 2>acdB.txt &
 claimers=$!
