@@ -162,7 +162,7 @@ class PythonCanErrors(unittest.TestCase):
 
     def test_bus_off_and_recovery(self):
         # A transmitter that never sees its own dominant bits: TEC + 8 for each try, FC-05, FC-13.
-        self.a.disturb("recessive", bits=50000)
+        self.a.disturb("recessive", bits=5000)
         self.a.send(message(0x7))
         self.assertTrue(until(lambda: self.a.state == can.BusState.ERROR))
         got = []
