@@ -17,12 +17,14 @@ far=$bridge
 # J1939: one has an address that another has the right to; then both send a message of many frames
 # to the other.
 A=8000000000000A01 B=8000000000000B02
+listen vcan1 claims.log
 j1939acd -r 0x80,0x90-0x93 -a 0x80 $B vcan0 2>acdB.txt &
 claimers=$!
-sleep 2
+wait_until 30 has_text claims.log '18EEFF80#020B'
 j1939acd -r 0x80,0x98-0x9B -a 0x80 $A vcan1 2>acdA.txt &
 claimers="$claimers $!"
-sleep 3
+wait_until 30 has_text claims.log '18EEFF90#020B'
+sleep 1
 j1939cat -r vcan1:0x80,0x12500 >there.out 2>there.err &
 takers=$!
 j1939cat -r vcan0:0x90,0x12400 >back.out 2>back.err &
