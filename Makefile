@@ -35,7 +35,7 @@ install: packages $(BUILD)/build.ninja  ## Install tool, libraries and RTL: make
 	@$(QUIET) "Installing to $(PREFIX)" cmake --install $(BUILD) --prefix "$(PREFIX)"
 
 demo: packages $(BUILD)/build.ninja  ## Controllers exchange frames: examples, the paper's experiments, firmware, python-can, SystemC, a real recording
-	@$(QUIET) "Building the tool" cmake --build $(BUILD) -j $(JOBS) --target verican firmware systemc_platform
+	@$(QUIET) "Building the tool" cmake --build $(BUILD) -j $(JOBS) --target verican verican_python firmware systemc_platform
 	@tools/demo.sh $(BUILD) $(OUT)
 
 test: build  ## Run every test and check that every protocol rule has one
