@@ -61,6 +61,7 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/sim/" DESTINATION "${include_dir}" COMP
   PATTERN "byte_store.hpp" EXCLUDE PATTERN "time_rest.hpp" EXCLUDE
   PATTERN "model_edge.hpp" EXCLUDE PATTERN "model_pins.hpp" EXCLUDE
   PATTERN "rtl_node_of.hpp" EXCLUDE
+  PATTERN "bus_node_of.hpp" EXCLUDE PATTERN "bus_pins.hpp" EXCLUDE
   PATTERN "yaml_value.hpp" EXCLUDE PATTERN "scenario_parts.hpp" EXCLUDE
   PATTERN "scenario_remote_parts.hpp" EXCLUDE
   PATTERN "paper_bench.hpp" EXCLUDE)
