@@ -10,7 +10,15 @@ module can_core #(
   /// Increment of its clock after a reset, see can_clock.
   parameter logic [39:0] TimeInc = 40'h14_0000_0000,
   /// 1: with the follower (can_time_sync), which needs the time unit; 0: without.
-  parameter int TimeSync = 0
+  parameter int TimeSync = 0,
+  /// 1: only base frames are sent, and what is sent passes byte by byte: after each tx_next_o,
+  /// within 8 bits, the next data byte follows in tx_word_i[25:18]. Of extended frames that are
+  /// received rx_id_o has the first 11 bits; rx_byte_o is of received frames only. 0: as below.
+  parameter int ByteWise = 0,
+  /// Widths for a bit timing that is fixed, see can_tq_gen (bits of presdiv_i that are looked at)
+  /// and can_bit_timing. As here: for all timings.
+  parameter int PresdivWidth = 8,
+  parameter int PosWidth = 5
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
@@ -116,9 +124,14 @@ module can_core #(
 
   assign rx = lpb_i ? tx_q : rx_pin;
 
-  can_tq_gen u_tq_gen (.clk_i, .rst_ni, .run_i(active_q), .presdiv_i, .tq_o(tq));
+  localparam int DivideWidth = PresdivWidth == 0 ? 1 : PresdivWidth;
+  logic unused_presdiv;
+  assign unused_presdiv = &{1'b0, presdiv_i};
+  can_tq_gen #(.PresdivWidth(PresdivWidth)) u_tq_gen (
+    .clk_i, .rst_ni, .run_i(active_q), .presdiv_i(DivideWidth'(presdiv_i)), .tq_o(tq)
+  );
 
-  can_bit_timing u_bit_timing (
+  can_bit_timing #(.PosWidth(PosWidth)) u_bit_timing (
     .clk_i, .rst_ni, .run_i(active_q), .tq_i(tq), .rx_i(rx), .tx_i(tx_q), .hard_i(hard),
     .propseg_i, .pseg1_i, .pseg2_i, .rjw_i, .smp_i,
     .sample_o(sample), .bit_o(bit_value), .boundary_o(boundary), .edge_o(edge_seen)
@@ -129,7 +142,7 @@ module can_core #(
     .we_i(timer_we_i), .be_i(timer_be_i), .wdata_i(timer_wdata_i), .timer_o
   );
 
-  can_bsp u_bsp (
+  can_bsp #(.ByteWise(ByteWise)) u_bsp (
     .clk_i, .rst_ni, .run_i(active_q), .sample_i(sample), .bit_i(bit_value),
     .stay_i(run_i), .boundary_i(boundary), .judge_i(first_q), .edge_i(edge_seen),
     .lom_i, .lpb_i, .fd_tolerant_i, .boff_rec_i, .ec_clear_i, .ec_we_i, .ec_wdata_i,

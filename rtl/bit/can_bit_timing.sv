@@ -4,7 +4,11 @@
 // can_bit_timing: cuts time quanta into bits, synchronises to the bus and places the sample point.
 // Rules BT-01..BT-10, SY-01..SY-21. A quantum is judged at its end: an edge seen there lies in it.
 
-module can_bit_timing (
+module can_bit_timing #(
+  /// Width of the position: 5 for all timings; where they are fixed, enough for the longer of
+  /// PROP_SEG + PHASE_SEG1 and PHASE_SEG2 + SJW.
+  parameter int PosWidth = 5
+) (
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       run_i,        // 0: stopped in SYNC_SEG
@@ -24,17 +28,20 @@ module can_bit_timing (
 );
 
   logic       seg2_q;   // in PHASE_SEG2
-  logic [4:0] pos_q;    // before the sample point: 0 = SYNC_SEG; in PHASE_SEG2: from 1
+  logic [PosWidth-1:0] pos_q;  // before the sample point: 0 = SYNC_SEG; in PHASE_SEG2: from 1
   logic       hard_q;   // the current bit takes hard synchronisation
   logic       armed_q;  // last sample recessive, no synchronisation since (SY-02, SY-03)
   logic [1:0] prev_q;   // levels at the two preceding quanta
 
-  logic [4:0] tseg1_q;  // PROP_SEG + PHASE_SEG1; a register, for the sum is constant and slow
-  logic [4:0] tseg2, sjw, ahead;
+  // PROP_SEG + PHASE_SEG1; a register, for the sum is constant and slow
+  logic [PosWidth-1:0] tseg1_q;
+  logic [PosWidth-1:0] tseg2, sjw, ahead;
   logic       falling, hard, late, early, guard;
 
-  assign tseg2 = {2'b0, pseg2_i} + 5'd1;
-  assign sjw   = {3'b0, rjw_i} + 5'd1;
+  localparam logic [PosWidth-1:0] One = PosWidth'(1);
+
+  assign tseg2 = PosWidth'({2'b0, pseg2_i} + 5'd1);
+  assign sjw   = PosWidth'({3'b0, rjw_i} + 5'd1);
 
   assign falling = armed_q && prev_q[0] && !rx_i;                  // SY-01
   assign hard    = falling && hard_q;                              // SY-06
@@ -54,8 +61,8 @@ module can_bit_timing (
 
   // In every clock: an upset flip-flop in it would spoil all bits until the next stop.
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) tseg1_q <= 5'd2;
-    else         tseg1_q <= {2'b0, propseg_i} + {2'b0, pseg1_i} + 5'd2;
+    if (!rst_ni) tseg1_q <= PosWidth'(2);
+    else         tseg1_q <= PosWidth'({2'b0, propseg_i} + {2'b0, pseg1_i} + 5'd2);
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -79,12 +86,12 @@ module can_bit_timing (
       if (sample_o || boundary_o) seg2_q <= sample_o;
 
       // The quantum that holds a hard edge, or an early one within SJW, is the new SYNC_SEG.
-      if (sample_o || hard)                pos_q <= 5'd1;
-      else if (seg2_q && ahead >= tseg2)   pos_q <= {4'b0, ahead != tseg2};
-      else if (seg2_q)                     pos_q <= ahead + 5'd1;
-      else if (late)                       pos_q <= (pos_q > sjw) ? pos_q + 5'd1 - sjw : 5'd1;
+      if (sample_o || hard)                pos_q <= One;
+      else if (seg2_q && ahead >= tseg2)   pos_q <= PosWidth'(ahead != tseg2);
+      else if (seg2_q)                     pos_q <= ahead + One;
+      else if (late)                       pos_q <= (pos_q > sjw) ? pos_q + One - sjw : One;
       // Beyond the sample point by an upset flip-flop: sampled with the next quantum.
-      else                                 pos_q <= (pos_q >= tseg1_q) ? tseg1_q : pos_q + 5'd1;
+      else                                 pos_q <= (pos_q >= tseg1_q) ? tseg1_q : pos_q + One;
     end
   end
 

@@ -5,34 +5,43 @@
 // A clock enable instead of a derived clock: one clock domain costs no timing closure.
 
 module can_tq_gen #(
-  /// Width of the prescaler, 4 to 16 bits; 8 as in CTRL.PRESDIV.
-  parameter int PresdivWidth = 8
+  /// Width of the prescaler, 1 to 16 bits; 8 as in CTRL.PRESDIV. 0: there is none, every clock is
+  /// a time quantum.
+  parameter int PresdivWidth = 8,
+  /// Derived, do not override.
+  localparam int Width = PresdivWidth == 0 ? 1 : PresdivWidth
 ) (
-  input  logic                    clk_i,
-  input  logic                    rst_ni,
-  input  logic                    run_i,      // 0: stopped, the next quantum starts whole
-  input  logic [PresdivWidth-1:0] presdiv_i,  // clocks per time quantum minus one
-  output logic                    tq_o        // last clock of each time quantum
+  input  logic             clk_i,
+  input  logic             rst_ni,
+  input  logic             run_i,      // 0: stopped, the next quantum starts whole
+  input  logic [Width-1:0] presdiv_i,  // clocks per time quantum minus one
+  output logic             tq_o        // last clock of each time quantum
 );
 
-  if (PresdivWidth < 4 || PresdivWidth > 16) begin : gen_check_presdiv_width
-    PresdivWidth_must_be_4_to_16 u_stop ();
+  if (PresdivWidth < 0 || PresdivWidth > 16) begin : gen_check_presdiv_width
+    PresdivWidth_must_be_0_to_16 u_stop ();
   end
 
-  logic [PresdivWidth-1:0] count_q;  // clocks of the quantum up to the next one
+  if (PresdivWidth == 0) begin : gen_every_clock
+    logic unused;
+    assign unused = &{1'b0, clk_i, rst_ni, run_i, presdiv_i};
+    assign tq_o   = 1'b1;
+  end else begin : gen_divide
+    logic [Width-1:0] count_q;  // clocks of the quantum up to the next one
 
-  // tq_o is a register: it stands at the head of the longest paths of the core. Whatever an upset
-  // flip-flop makes of the count, the quantum ends no later than a whole one after that.
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      count_q <= '0;
-      tq_o    <= 1'b0;
-    end else if (!run_i || tq_o) begin
-      count_q <= PresdivWidth'(1);
-      tq_o    <= (presdiv_i == '0);  // while stopped nobody looks at it
-    end else begin
-      count_q <= count_q + 1'b1;
-      tq_o    <= (count_q >= presdiv_i);
+    // tq_o is a register: it stands at the head of the longest paths of the core. Whatever an upset
+    // flip-flop makes of the count, the quantum ends no later than a whole one after that.
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        count_q <= '0;
+        tq_o    <= 1'b0;
+      end else if (!run_i || tq_o) begin
+        count_q <= Width'(1);
+        tq_o    <= (presdiv_i == '0);  // while stopped nobody looks at it
+      end else begin
+        count_q <= count_q + 1'b1;
+        tq_o    <= (count_q >= presdiv_i);
+      end
     end
   end
 

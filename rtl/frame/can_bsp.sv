@@ -4,7 +4,10 @@
 // can_bsp: the bit stream processor, wires the blocks of the frame and turns their findings into
 // the pulses that the message buffers see. All registers move at the sample point.
 
-module can_bsp (
+module can_bsp #(
+  /// See can_rx_frame.
+  parameter int ByteWise = 0
+) (
   input  logic            clk_i,
   input  logic            rst_ni,
   input  logic            run_i,
@@ -100,8 +103,9 @@ module can_bsp (
     .tec_o, .rec_o, .passive_o, .boff_o, .boff_enter_o(boff_enter), .boff_end_o(boff_end)
   );
 
-  can_rx_frame u_rx_frame (
-    .clk_i, .rst_ni, .sample_i, .bit_i, .stuff_i(stuff_o), .field_i(field_o), .last_i(last),
+  can_rx_frame #(.ByteWise(ByteWise)) u_rx_frame (
+    .clk_i, .rst_ni, .sample_i, .bit_i, .stuff_i(stuff_o), .transmitter_i(transmitter_o),
+    .field_i(field_o), .last_i(last),
     .byte_end_i(left_o[2:0] == 3'd0), .word_end_i(word_end), .take_i(take_tx),
     .tx_ide_i, .tx_rtr_i, .tx_dlc_i, .tx_word_i,
     .id_bit_o(id_bit), .ex_id_bit_o(ex_id_bit), .data_bit_o(data_bit), .load_o(load),

@@ -111,8 +111,17 @@ module can_fault (
     end else if (boff_enter_o) begin
       tec_q[7:0] <= '0;                                                                  // FC-13
     end else if (sequence_q || plus8_q || plus1_q || minus1_q) begin : count
-      logic [8:0] sum;
-      sum = (on_tec ? tec_q : {1'b0, rec_q}) + (plus8_q ? 9'd8 : minus1_q ? 9'h1FF : 9'd1);
+      logic [8:0] counter, sum;
+      logic       turns;
+      // By one from bit 0 on, by eight from bit 3 on: bits turn, up to the first 0 where it counts
+      // up, the first 1 where it counts down. Never both, so that this is all that an adder does.
+      counter = on_tec ? tec_q : {1'b0, rec_q};
+      turns   = !plus8_q;
+      for (int i = 0; i < 9; i++) begin
+        if (i == 3) turns = turns || plus8_q;
+        sum[i] = counter[i] ^ turns;
+        turns  = turns && (counter[i] ^ minus1_q);
+      end
       if (on_tec)         tec_q <= sum;
       else if (!rec_q[7]) rec_q <= sum[7:0];
       else if (minus1_q)  rec_q <= 8'd127;                                               // FC-10

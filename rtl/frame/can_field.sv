@@ -99,120 +99,143 @@ module can_field (
   // It also counts its eleven bits anew at edges between sample points (IN-02).
   assign restart = fd_tolerant_i && edge_i && field_q == can_pkg::FldInteg;
 
+  // The field behind this one and its length. Written as a table, apart from when it counts: both
+  // are known before the bit is.
+  can_pkg::field_t next, field_d;
+  logic [5:0]      length, left_d;
+  always_comb begin
+    next   = field_q;
+    length = 6'd0;
+    case (field_q)
+      can_pkg::FldInteg, can_pkg::FldBusOff: length = 6'd10;
+      can_pkg::FldInt: begin
+        next   = can_pkg::FldSuspend;
+        length = 6'd7;
+      end
+      can_pkg::FldSof: begin
+        next   = can_pkg::FldId;
+        length = 6'd10;
+      end
+      can_pkg::FldId:    next = can_pkg::FldRtr;
+      can_pkg::FldRtr:   next = can_pkg::FldIde;
+      can_pkg::FldIde: begin
+        next   = bit_i ? can_pkg::FldExId : can_pkg::FldR0;
+        length = {1'b0, bit_i, 3'b000, bit_i};
+      end
+      can_pkg::FldExId:  next = can_pkg::FldExRtr;
+      can_pkg::FldExRtr: next = can_pkg::FldR1;
+      can_pkg::FldR1:    next = can_pkg::FldR0;
+      can_pkg::FldR0: begin
+        next   = can_pkg::FldDlc;
+        length = 6'd3;
+      end
+      can_pkg::FldDlc: begin
+        // min(DLC, 8) bytes, none in a remote frame (FF-03, FF-07).
+        if (rtr_i || {dlc_i, bit_i} == 4'd0) begin
+          next   = can_pkg::FldCrc;
+          length = 6'd14;
+        end else begin
+          next   = can_pkg::FldData;
+          length = {dlc_i[2] ? 3'd7 : {dlc_i[1:0], bit_i} - 3'd1, 3'd7};
+        end
+      end
+      can_pkg::FldData: begin
+        next   = can_pkg::FldCrc;
+        length = 6'd14;
+      end
+      can_pkg::FldCrc:    next = can_pkg::FldCrcDel;
+      can_pkg::FldCrcDel: next = can_pkg::FldAck;
+      can_pkg::FldAck:    next = can_pkg::FldAckDel;
+      can_pkg::FldAckDel: begin
+        next   = can_pkg::FldEof;
+        length = 6'd6;
+      end
+      can_pkg::FldEof, can_pkg::FldDel: begin
+        next   = can_pkg::FldInt;
+        length = 6'd2;
+      end
+      can_pkg::FldErrFlag, can_pkg::FldOvlFlag: begin
+        next   = can_pkg::FldWait;
+        length = 6'd39;  // see can_fault: first bit after the flag, then modulo 8
+      end
+      can_pkg::FldWait: begin
+        next   = can_pkg::FldDel;  // that bit was DEL1 (EF-08)
+        length = 6'd6;
+      end
+      can_pkg::FldIdle, can_pkg::FldSuspend: ;   // left by may_begin alone
+      default: begin             // no such field: an upset flip-flop; join the bus anew
+        next   = can_pkg::FldInteg;
+        length = 6'd10;
+      end
+    endcase
+  end
+  // The last bit of a field leads to the next one. Integration and recovery count anew from a
+  // dominant bit on; the wait behind a flag ends with a recessive one.
+  logic stops, flags, astray, integ, change, moves, go;
+  assign stops  = !run_i || boff_enter_i;
+  assign flags  = error_i || overload_i;
+  assign astray = field_q[2] && !(&field_q[4:3]) && (field_q[1] || (field_q[0] && !field_q[3]));
+  assign integ  = field_q == can_pkg::FldInteg || field_q == can_pkg::FldBusOff;
+  assign moves  = field_q == can_pkg::FldWait ? bit_i : last_q || astray || (integ && !bit_i);
+  // A passive flag is complete after six equal bits: a change restarts the count (EF-03). In its
+  // first bit both ways lead to 4.
+  assign change = field_q == can_pkg::FldErrFlag && passive_flag_q && bit_i != prev_i;
+  assign go     = stops || (sample_i && (may_begin || flags || !stuff_i));
+
+  always_comb begin
+    field_d = moves && !change ? next : field_q;
+    left_d  = {(&field_q[4:2]) ? 3'd0 : left_q[5:3] - 3'(left_q[2:0] == '0), left_q[2:0] - 3'd1};
+    if (moves)  left_d = length;
+    if (change) left_d = 6'd4;
+    // Without bus-off nothing would end its recovery: an upset flip-flop.
+    if (integ && !boff_i) field_d = can_pkg::FldInteg;
+    if (fd_frame) begin
+      field_d = can_pkg::FldInteg;
+      left_d  = 6'd10;
+    end
+    if (flags) begin
+      field_d = error_i ? can_pkg::FldErrFlag : can_pkg::FldOvlFlag;
+      left_d  = 6'd5;
+      // Listen-only owes nobody a flag: it integrates, and the recessive bits that it has just
+      // seen are the first of the eleven (MO-02).
+      if (lom_i) begin
+        field_d = can_pkg::FldInteg;
+        left_d  = bit_i ? 6'd9 - {3'd0, ones_i} : 6'd10;
+      end
+    end
+    if (may_begin) begin
+      field_d = !bit_i ? can_pkg::FldId : take_tx_o ? can_pkg::FldSof : can_pkg::FldIdle;
+      left_d  = bit_i ? 6'd0 : 6'd10;
+    end
+    if (stops) begin
+      field_d = boff_i ? can_pkg::FldBusOff : can_pkg::FldInteg;
+      left_d  = 6'd10;
+    end
+  end
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      field_q        <= can_pkg::FldInteg;
-      left_q         <= 6'd10;
+      field_q <= can_pkg::FldInteg;
+      left_q  <= 6'd10;
+    end else if (go) begin
+      field_q <= field_d;
+      left_q  <= left_d;
+    end else if (restart && !sample_i) begin
+      left_q  <= 6'd10;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
       tx_q           <= 1'b0;
       passive_flag_q <= 1'b0;
       overload_q     <= 1'b0;
-    end else if (!run_i || boff_enter_i) begin
-      field_q <= boff_i ? can_pkg::FldBusOff : can_pkg::FldInteg;
-      left_q  <= 6'd10;
-      tx_q    <= 1'b0;
+    end else if (stops) begin
+      tx_q <= 1'b0;
     end else if (sample_i) begin
-      if (may_begin) begin
-        tx_q    <= take_tx_o;
-        field_q <= !bit_i ? can_pkg::FldId : take_tx_o ? can_pkg::FldSof : can_pkg::FldIdle;
-        left_q  <= bit_i ? 6'd0 : 6'd10;
-      end else if (error_i || overload_i) begin
-        field_q        <= error_i ? can_pkg::FldErrFlag : can_pkg::FldOvlFlag;
-        left_q         <= 6'd5;
-        passive_flag_q <= passive_i;
-        overload_q     <= !error_i;
-        // Listen-only owes nobody a flag: it integrates, and the recessive bits that it has just
-        // seen are the first of the eleven (MO-02).
-        if (lom_i) begin
-          field_q <= can_pkg::FldInteg;
-          left_q  <= bit_i ? 6'd9 - {3'd0, ones_i} : 6'd10;
-        end
-      end else if (fd_frame) begin
-        field_q <= can_pkg::FldInteg;
-        left_q  <= 6'd10;
-      end else if (!stuff_i) begin
-        if (lost_i) tx_q <= 1'b0;
-        if (!last_q) left_q <= {(&field_q[4:2]) ? 3'd0 : left_q[5:3] - 3'(left_q[2:0] == '0),
-                                left_q[2:0] - 3'd1};
-        case (field_q)
-          can_pkg::FldInteg, can_pkg::FldBusOff: begin
-            if (last_q || !bit_i) left_q <= 6'd10;
-            // Without bus-off nothing would end its recovery: an upset flip-flop.
-            if (!boff_i) field_q <= can_pkg::FldInteg;
-          end
-          can_pkg::FldInt: if (last_q) begin
-            field_q <= can_pkg::FldSuspend;
-            left_q  <= 6'd7;
-          end
-          can_pkg::FldSof: begin
-            field_q <= can_pkg::FldId;
-            left_q  <= 6'd10;
-          end
-          can_pkg::FldId:  if (last_q) field_q <= can_pkg::FldRtr;
-          can_pkg::FldRtr: field_q <= can_pkg::FldIde;
-          can_pkg::FldIde: begin
-            field_q <= bit_i ? can_pkg::FldExId : can_pkg::FldR0;
-            left_q  <= bit_i ? 6'd17 : 6'd0;
-          end
-          can_pkg::FldExId:  if (last_q) field_q <= can_pkg::FldExRtr;
-          can_pkg::FldExRtr: field_q <= can_pkg::FldR1;
-          can_pkg::FldR1:    field_q <= can_pkg::FldR0;
-          can_pkg::FldR0: begin
-            field_q <= can_pkg::FldDlc;
-            left_q  <= 6'd3;
-          end
-          can_pkg::FldDlc: if (last_q) begin
-            // min(DLC, 8) bytes, none in a remote frame (FF-03, FF-07).
-            if (rtr_i || {dlc_i, bit_i} == 4'd0) begin
-              field_q <= can_pkg::FldCrc;
-              left_q  <= 6'd14;
-            end else begin
-              field_q <= can_pkg::FldData;
-              left_q  <= {dlc_i[2] ? 3'd7 : {dlc_i[1:0], bit_i} - 3'd1, 3'd7};
-            end
-          end
-          can_pkg::FldData: if (last_q) begin
-            field_q <= can_pkg::FldCrc;
-            left_q  <= 6'd14;
-          end
-          can_pkg::FldCrc:    if (last_q) field_q <= can_pkg::FldCrcDel;
-          can_pkg::FldCrcDel: field_q <= can_pkg::FldAck;
-          can_pkg::FldAck:    field_q <= can_pkg::FldAckDel;
-          can_pkg::FldAckDel: begin
-            field_q <= can_pkg::FldEof;
-            left_q  <= 6'd6;
-          end
-          can_pkg::FldEof, can_pkg::FldDel: if (last_q) begin
-            field_q <= can_pkg::FldInt;
-            left_q  <= 6'd2;
-          end
-          can_pkg::FldErrFlag, can_pkg::FldOvlFlag: begin
-            // A passive flag is complete after six equal bits: a change restarts the count (EF-03).
-            // In its first bit both ways lead to 4.
-            if (field_q == can_pkg::FldErrFlag && passive_flag_q && bit_i != prev_i) begin
-              left_q <= 6'd4;
-            end else if (last_q) begin
-              field_q <= can_pkg::FldWait;
-              left_q  <= 6'd39;  // see can_fault: first bit after the flag, then modulo 8
-            end
-          end
-          can_pkg::FldWait: begin
-            if (bit_i) begin
-              field_q <= can_pkg::FldDel;  // that bit was DEL1 (EF-08)
-              left_q  <= 6'd6;
-            end else begin
-              left_q  <= {3'd0, left_q[2:0] - 3'd1};
-            end
-          end
-          can_pkg::FldIdle, can_pkg::FldSuspend: ;   // left by may_begin alone
-          default: begin             // no such field: an upset flip-flop; join the bus anew
-            field_q <= can_pkg::FldInteg;
-            left_q  <= 6'd10;
-            tx_q    <= 1'b0;
-          end
-        endcase
-      end
-    end else if (restart) begin
-      left_q <= 6'd10;
+      if (may_begin)                                     tx_q <= take_tx_o;
+      else if ((lost_i || astray) && !flags && !stuff_i) tx_q <= 1'b0;
+      if (flags && !may_begin) {passive_flag_q, overload_q} <= {passive_i, !error_i};
     end
   end
 

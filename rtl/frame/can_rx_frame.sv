@@ -5,12 +5,17 @@
 // A sender reads back its own bits, so that at a lost arbitration the register already holds what
 // the winner sent so far (AR-07). Data words are loaded as the bits pass; received bytes leave so.
 
-module can_rx_frame (
+module can_rx_frame #(
+  /// 1: only base frames are sent, their data are loaded byte by byte, and of extended ones nothing
+  /// is kept: a register of 11 bits instead of 32, whose last eight are the received byte, too.
+  parameter int ByteWise = 0
+) (
   input  logic            clk_i,
   input  logic            rst_ni,
   input  logic            sample_i,
   input  logic            bit_i,
   input  logic            stuff_i,
+  input  logic            transmitter_i, // this node sends the frame
   input  can_pkg::field_t field_i,
   input  logic            last_i,      // last bit of the field
   input  logic            byte_end_i,  // last bit of a data byte, if in the data field
@@ -19,7 +24,7 @@ module can_rx_frame (
   input  logic            tx_ide_i,
   input  logic            tx_rtr_i,
   input  logic [3:0]      tx_dlc_i,
-  input  logic [31:0]     tx_word_i,   // ID word at take_i, then the data words
+  input  logic [31:0]     tx_word_i,   // ID word at take_i, then the data words; ByteWise: [25:18]
   output logic            id_bit_o,    // next bits to send
   output logic            ex_id_bit_o,
   output logic            data_bit_o,
@@ -33,30 +38,66 @@ module can_rx_frame (
   output logic            byte_we_o    // one clock: byte_o is new
 );
 
-  logic [31:0] shift_q;  // ID[28:0], or data with the next bit in 31
-  logic        in_id, in_ex_id, in_data;
+  logic in_id, in_data;
+  assign in_id   = (field_i == can_pkg::FldId);
+  assign in_data = (field_i == can_pkg::FldData);
 
-  assign in_id    = (field_i == can_pkg::FldId);
-  assign in_ex_id = (field_i == can_pkg::FldExId);
-  assign in_data  = (field_i == can_pkg::FldData);
+  if (ByteWise == 0) begin : gen_words
+    logic [31:0] shift_q;  // ID[28:0], or data with the next bit in 31
+    logic [7:0]  byte_q;
+    logic        in_ex_id, unused;
 
-  assign id_bit_o    = shift_q[28];
-  assign ex_id_bit_o = shift_q[17];
-  assign data_bit_o  = shift_q[31];
-  assign rx_id_o     = {shift_q[28:18], shift_q[17:0] & {18{ide_o}}};
-  // Receivers load too (their word is not used): the role stays out of this path.
-  assign load_o      = !stuff_i && last_i && (field_i == can_pkg::FldDlc)
-                       || !stuff_i && word_end_i && in_data;
+    assign unused   = &{1'b0, transmitter_i};
+    assign in_ex_id = (field_i == can_pkg::FldExId);
 
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      shift_q <= '0;
-    end else if (sample_i) begin
-      if (take_i || load_o) begin
-        shift_q <= tx_word_i;
-      end else if (!stuff_i) begin
-        if (in_id || in_data)    shift_q[31:18] <= {shift_q[30:18], in_id ? bit_i : shift_q[17]};
-        if (in_ex_id || in_data) shift_q[17:0]  <= {shift_q[16:0], bit_i};
+    assign id_bit_o    = shift_q[28];
+    assign ex_id_bit_o = shift_q[17];
+    assign data_bit_o  = shift_q[31];
+    assign byte_o      = byte_q;
+    assign rx_id_o     = {shift_q[28:18], shift_q[17:0] & {18{ide_o}}};
+    // Receivers load too (their word is not used): the role stays out of this path.
+    assign load_o      = !stuff_i && last_i && (field_i == can_pkg::FldDlc)
+                         || !stuff_i && word_end_i && in_data;
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        shift_q <= '0;
+      end else if (sample_i) begin
+        if (take_i || load_o) begin
+          shift_q <= tx_word_i;
+        end else if (!stuff_i) begin
+          if (in_id || in_data)    shift_q[31:18] <= {shift_q[30:18], in_id ? bit_i : shift_q[17]};
+          if (in_ex_id || in_data) shift_q[17:0]  <= {shift_q[16:0], bit_i};
+        end
+      end
+    end
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        byte_q <= '0;
+      end else if (sample_i) begin
+        if (in_data && !stuff_i) byte_q <= {byte_q[6:0], bit_i};
+      end
+    end
+  end else begin : gen_bytes
+    logic [10:0] shift_q;  // ID[28:18]; the byte that comes in or goes out in [7:0]
+    logic        unused;
+
+    assign unused      = &{1'b0, word_end_i, tx_word_i[31:29], tx_word_i[17:0]};
+    assign id_bit_o    = shift_q[10];
+    assign ex_id_bit_o = can_pkg::Recessive;
+    assign data_bit_o  = shift_q[7];
+    assign byte_o      = shift_q[7:0];
+    assign rx_id_o     = {shift_q, 18'd0};
+    assign load_o      = !stuff_i && transmitter_i && (last_i ? field_i == can_pkg::FldDlc
+                                                              : in_data && byte_end_i);
+
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        shift_q <= '0;
+      end else if (sample_i) begin
+        if (take_i || load_o)                    shift_q <= tx_word_i[28:18];
+        else if (!stuff_i && (in_id || in_data)) shift_q <= {shift_q[9:0], bit_i};
       end
     end
   end
@@ -73,10 +114,13 @@ module can_rx_frame (
         dlc_o <= tx_dlc_i;
       end else if (!stuff_i) begin
         case (field_i)
-          can_pkg::FldRtr:   srr_o <= bit_i;
+          can_pkg::FldRtr: begin
+            srr_o <= bit_i;
+            if (ByteWise != 0) rtr_o <= bit_i;   // until FldExRtr, nobody looks
+          end
           can_pkg::FldIde: begin
             ide_o <= bit_i;
-            if (!bit_i) rtr_o <= srr_o;
+            if (ByteWise == 0 && !bit_i) rtr_o <= srr_o;
           end
           can_pkg::FldExRtr: rtr_o <= bit_i;
           can_pkg::FldDlc:   dlc_o <= {dlc_o[2:0], bit_i};
@@ -87,15 +131,9 @@ module can_rx_frame (
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      byte_o    <= '0;
-      byte_we_o <= 1'b0;
-    end else if (sample_i) begin
-      byte_we_o <= in_data && byte_end_i && !stuff_i;
-      if (in_data && !stuff_i) byte_o <= {byte_o[6:0], bit_i};
-    end else if (byte_we_o) begin
-      byte_we_o <= 1'b0;
-    end
+    if (!rst_ni)         byte_we_o <= 1'b0;
+    else if (sample_i)   byte_we_o <= in_data && byte_end_i && !stuff_i;
+    else if (byte_we_o)  byte_we_o <= 1'b0;
   end
 
 endmodule

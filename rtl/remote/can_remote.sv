@@ -97,6 +97,11 @@ module can_remote #(
                             + (Protect != 0 ? 16 : 0) + (Block != 0 ? 32 : 0)
                             + (AutoRate != 0 ? 64 : 0) + (Counters != 0 ? 128 : 0);
 
+  // The engine counts as far as a fixed timing asks for.
+  localparam int Longer       = Prop + Ps1 > Ps2 + Sjw ? Prop + Ps1 : Ps2 + Sjw;
+  localparam int PosWidth     = AutoRate != 0 ? 5 : $clog2(Longer + 1);
+  localparam int PresdivWidth = AutoRate != 0 ? 8 : $clog2(Brp);
+
   can_rn_params #(
     .NameBits(NameBits), .MemBytes(MemBytes), .StageBytes(StageBytes), .TxDepth(TxDepth),
     .NumProd(NumProd), .NumMap(NumMap), .Protect(Protect), .Block(Block), .AutoRate(AutoRate),
@@ -139,10 +144,11 @@ module can_remote #(
   logic [8:0]  cell_addr;
   logic [1:0]  lane;
   logic [31:0] rdata;
-  logic [7:0]  read_byte, wbyte, status;
+  logic [7:0]  read_byte, next_byte, wbyte, status;
   // Queue
   logic [2:0]  tail, head, age;
-  logic [1:0]  word;
+  logic [2:0]  at;
+  logic        head_byte, urgent;
   logic        full, some, ages, load, try_due, flush, tx_status, gone, gone_status, gone_here;
   logic        new_tries, popped;
   // Producers
@@ -177,7 +183,7 @@ module can_remote #(
   logic        operate, numbered, selected, unlocked, lock_reset, off, restart;
   logic        owe_status, owe_here, owe_feed, nothing;
 
-  can_core u_core (
+  can_core #(.ByteWise(1), .PresdivWidth(PresdivWidth), .PosWidth(PosWidth)) u_core (
     .clk_i, .rst_ni,
     .run_i(run || listen_run), .running_o(), .stop_ok_o(), .gap_o(gap),
     .presdiv_i(presdiv), .rjw_i(rjw), .pseg1_i(pseg1), .pseg2_i(pseg2),
@@ -262,7 +268,8 @@ module can_remote #(
     .trigger_i(trigger || acts), .nothing_i(nothing), .restart_i(restart), .operate_i(operate),
     .hold_i(usr_hold_i),
     .ended_i(ended), .cleared_i(cleared || Filled), .row_i(row), .carry_i(carry),
-    .ms_i(ms), .boff_i(boff), .off_i(off), .try_i(try_due), .load_i(load), .some_i(some),
+    .ms_i(ms), .boff_i(boff), .off_i(off), .try_i(try_due), .load_i(load), .urgent_i(urgent),
+    .some_i(some),
     .more_i(ages),
     .gone_i(gone), .owe_feed_i(owe_feed), .tally_i(tally), .start_i(start_now), .run_i(run),
     .want_i(want), .visit_i(visit || make), .then_i(make ? block_then : then_job),
@@ -303,7 +310,8 @@ module can_remote #(
     .none_i(rx_dlc == 4'd0 || mapped),
     .refused_i(refused), .setup_i(setup), .off_i(off), .status_i(tx_status), .row_i(row),
     .tail_i(tail), .head_i(head), .age_i(age),
-    .word_i(word), .timer_i(timer), .new_tries_i(new_tries), .zero_i(zero), .one_i(one),
+    .header_i(head_byte), .at_i(at), .timer_i(timer), .new_tries_i(new_tries), .zero_i(zero),
+    .one_i(one),
     .cell_o(cell_addr), .we_o(cell_we)
   );
 
@@ -318,8 +326,8 @@ module can_remote #(
     .place_i(place), .node_i,
     .serial_i(serial), .last_i(phase[1]), .less_i(block_less),
     .more_i(more || tally_more || block_more), .add_i(add), .code_i(shown),
-    .byte_o(read_byte), .zero_o(zero), .one_o(one), .differ_o(differ), .above_o(above),
-    .level_o(equal_now), .none_o(none),
+    .next_o(next_byte), .byte_o(read_byte), .zero_o(zero), .one_o(one), .differ_o(differ),
+    .above_o(above), .level_o(equal_now), .none_o(none),
     .sum_o(sum), .same_o(in_order), .equal_o(equal), .wbyte_o(wbyte)
   );
 
@@ -350,10 +358,11 @@ module can_remote #(
   can_rn_tx #(.NameBits(NameBits), .TxDepth(TxDepth), .SameId(SameId != 0)) u_tx (
     .clk_i, .rst_ni,
     .job_i(job), .phase_i(phase), .flush_i(flush), .number_i(number), .owe_status_i(owe_status),
-    .owe_here_i(owe_here), .one_i(one), .rdata_i(rdata), .tail_o(tail),
-    .head_o(head), .age_o(age), .more_o(ages), .word_o(word), .status_o(tx_status),
+    .owe_here_i(owe_here), .one_i(one), .next_i(next_byte), .tail_o(tail),
+    .head_o(head), .age_o(age), .more_o(ages), .header_o(head_byte), .at_o(at),
+    .status_o(tx_status),
     .full_o(full), .some_o(some),
-    .load_o(load), .try_o(try_due), .gone_o(gone), .gone_status_o(gone_status),
+    .load_o(load), .urgent_o(urgent), .try_o(try_due), .gone_o(gone), .gone_status_o(gone_status),
     .gone_here_o(gone_here), .popped_o(popped), .dropped_o(dropped),
     .tx_req_o(tx_req), .tx_dlc_o(tx_dlc), .tx_word_o(tx_word),
     .tx_next_i(tx_next), .tx_ok_i(tx_ok), .tx_fail_i(tx_fail), .transmitter_i(transmitter)
@@ -390,8 +399,9 @@ module can_remote #(
       .closed_i(some || off || !numbered || claims), .popped_i(popped),
       .operate_i(operate),
       .refused_i(refused), .info_i(info), .mode_i(read_byte[7:4]), .zero_i(zero), .one_i(one),
-      .row_i(row[2:0]), .first_i(row == 4'd0), .ended_i(ended), .differ_i(differ), .hdr_i(hdr),
-      .word_i(word), .status_i(tx_status),
+      .row_i(row[2:0]), .first_i(row == 4'd0),
+      .ended_i(ended), .differ_i(differ), .yield_i(hdr || urgent),
+      .header_i(head_byte), .at_i(at), .status_i(tx_status),
       .want_o(want), .visit_o(visit), .then_o(then_job), .keep_o(keep_same), .same_o(same),
       .cell_own_o(cell_own), .cell_o(own_cell), .no_write_o(no_write)
     );

@@ -16,12 +16,13 @@ module can_rn_cell (
   input  logic             refused_i,
   input  logic             setup_i,
   input  logic             off_i,        // bus-off
-  input  logic             status_i,     // the word for the engine is one of STATUS
+  input  logic             status_i,     // what the engine sends is STATUS
   input  logic [3:0]       row_i,        // byte of the row
   input  logic [2:0]       tail_i,       // row of the frame
   input  logic [2:0]       head_i,       // row at the head of the queue
   input  logic [2:0]       age_i,        // row whose life goes on
-  input  logic [1:0]       word_i,       // word for the engine
+  input  logic             header_i,     // the engine wants a header,
+  input  logic [2:0]       at_i,         // or this byte
   input  logic             timer_i,
   input  logic             new_tries_i,  // JobRow: attempts are written, too
   input  logic             zero_i,       // byte read is 0, 1
@@ -54,8 +55,10 @@ module can_rn_cell (
         place = row_i;
       end
       can_rn_pkg::JobLoad: begin
-        page  = status_i || phase_i == 2'd0 ? PageStatus : PageRow;
-        place = phase_i == 2'd0 ? 4'd0 : {word_i, 2'd0};
+        // Length and A, or the byte; before the first byte of any frame the node writes what it is.
+        page  = !header_i && (status_i || phase_i == 2'd0) ? PageStatus : PageRow;
+        place = {header_i, at_i & {3{phase_i != 2'd0}}};
+        if (header_i) place[0] = phase_i == 2'd0;
       end
       can_rn_pkg::JobPush: begin
         page  = PageRow;
@@ -120,7 +123,8 @@ module can_rn_cell (
   always_comb begin
     we_o = job_i[4] && last;
     case (job_i)
-      can_rn_pkg::JobByte, can_rn_pkg::JobLoad: we_o = phase_i == 2'd0;
+      can_rn_pkg::JobByte: we_o = phase_i == 2'd0;
+      can_rn_pkg::JobLoad: we_o = phase_i == 2'd0 && !header_i && at_i == 3'd0;
       can_rn_pkg::JobMove: we_o = last && !(read_i && phase_i[0]);
       can_rn_pkg::JobPush, can_rn_pkg::JobFresh, can_rn_pkg::JobClear: we_o = 1'b1;
       can_rn_pkg::JobHigh, can_rn_pkg::JobTry: we_o = last && !zero_i;

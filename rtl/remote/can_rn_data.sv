@@ -27,7 +27,8 @@ module can_rn_data #(
   input  logic                more_i,       // one more
   input  logic [2:0]          add_i,        // or this more, now
   input  logic [3:0]          code_i,       // JobClose
-  output logic [7:0]          byte_o,       // read
+  output logic [7:0]          next_o,       // read, as it comes from the RAM
+  output logic [7:0]          byte_o,       // the same, a clock later
   output logic                zero_o,       // it is 0, 1
   output logic                one_o,
   output logic                differ_o,     // from the one before
@@ -66,6 +67,7 @@ module can_rn_data #(
     end
   end
 
+  assign next_o = lane_byte;
   assign few    = !(|lane_byte[7:1]);
   assign none_o = few && !lane_byte[0];
   assign zero_o = zero_q;
@@ -87,26 +89,35 @@ module can_rn_data #(
 
   // First contents (RN-60) of a byte: its block of eight, and where it is there. The first byte of
   // a block is 8 behind the block before, as the mover counts it. What is not named is 0.
+  // One decoder: the blocks that have any, as the last five bits tell them apart.
   function automatic logic [7:0] first_byte(input logic [8:0] block, input logic [3:0] place);
-    first_byte = 8'h00;
-    case ({block, place})
-      {9'h1C0, 4'd4}: first_byte = 8'd40;                          // E04: x 256 ms = 10.2 s
-      {9'h1DF, 4'd8}: first_byte = 8'(node_i);                     // F00
-      {9'h1E0, 4'd1}: first_byte = 8'h05;                          // FLAGS: ERRS, BOOT
-      {9'h1E0, 4'd4}: first_byte = 8'h0A;                          // BOFF
-      {9'h1E0, 4'd5}: first_byte = 8'h0A;                          // LIFE
-      {9'h1E0, 4'd6}: first_byte = 8'h32;                          // BLKTO
-      {9'h1E0, 4'd7}: first_byte = 8'h08;                          // RETRY
-      {9'h1FE, 4'd8}: first_byte = 8'h01;                          // FF8: IDENT (RN-25)
-      {9'h1FF, 4'd1}: first_byte = 8'(Features);
-      {9'h1FF, 4'd2}: first_byte = {4'(NameBits), 4'($clog2(MemBytes))};
-      {9'h1FF, 4'd3}: first_byte = 8'(StageBytes);
-      {9'h1FF, 4'd4}: first_byte = serial_i[7:0];
-      {9'h1FF, 4'd5}: first_byte = serial_i[15:8];
-      {9'h1FF, 4'd6}: first_byte = serial_i[23:16];
-      {9'h1FF, 4'd7}: first_byte = serial_i[31:24];
-      default: ;
+    logic top, e00, f00, ident;
+    logic [7:0] conf, id;
+    top   = &block[8:6];
+    e00   = top && block[5:0] == 6'h00;
+    f00   = top && block[5:0] == 6'h20;
+    ident = top && (&block[5:0]);
+    case (place[2:0])
+      3'd1: conf = 8'h05;
+      3'd4, 3'd5: conf = 8'h0A;
+      3'd6: conf = 8'h32;
+      3'd7: conf = 8'h08;
+      default: conf = 8'h00;
     endcase
+    case (place[2:0])
+      3'd1: id = 8'(Features);
+      3'd2: id = {4'(NameBits), 4'($clog2(MemBytes))};
+      3'd3: id = 8'(StageBytes);
+      3'd4: id = serial_i[7:0];
+      3'd5: id = serial_i[15:8];
+      3'd6: id = serial_i[23:16];
+      3'd7: id = serial_i[31:24];
+      default: id = 8'h00;
+    endcase
+    first_byte = (conf & {8{f00}}) | (id & {8{ident}});
+    if (e00 && place[2:0] == 3'd4) first_byte = first_byte | 8'd40;
+    if (top && place[3] && block[5:0] == 6'h1F) first_byte = first_byte | 8'(node_i);
+    if (top && place[3] && block[5:0] == 6'h3E) first_byte = first_byte | 8'h01;
   endfunction
 
   // Known a clock before the byte is written: a job writes in its third phase at the earliest. The

@@ -36,8 +36,9 @@ module can_rn_produce #(
   input  logic               first_i,      // JobSame: no byte has been compared
   input  logic               ended_i,      // JobSame, JobMove: all have been
   input  logic               differ_i,     // JobSame: these two differ
-  input  logic               hdr_i,        // a header waits: what may take long has to stop
-  input  logic [1:0]         word_i,       // JobLoad: which word, 2 is the header
+  input  logic               yield_i,      // a header waits, or the engine: what takes long stops
+  input  logic               header_i,     // JobLoad: the header, not ..
+  input  logic [2:0]         at_i,         // .. this byte
   input  logic               status_i,     // it is one of STATUS
   output logic               want_o,       // an entry is to be looked at
   output logic               visit_o,      // this is being done
@@ -104,7 +105,7 @@ module can_rn_produce #(
                    || (send_q && !(next && send && first));
       visit_q   <= entry || (visit_q && !idle);
       // The visit gives way to a frame, and comes again.
-      given_q   <= hdr_i && (same || begins);
+      given_q   <= yield_i && (same || begins);
     end
   end
   assign visit_o = visit_q;
@@ -115,7 +116,7 @@ module can_rn_produce #(
   assign over    = down && (&phase_i) && low_one_q && zero_i;
   assign told    = same && phase_i[0] && !first_i && differ_i;
   assign same_o  = same;
-  assign keep_o  = !hdr_i && !(phase_i[0] && (told || ended_i || !allowed));
+  assign keep_o  = !yield_i && !(phase_i[0] && (told || ended_i || !allowed));
 
   // A period that is over stays 0 until the next tick begins it anew; one of 0 ms does not count.
   // An entry that is off leaves a 0.
@@ -178,7 +179,7 @@ module can_rn_produce #(
   logic load, copy;
   logic [2:0] k;
   assign load       = job_i == can_rn_pkg::JobLoad && phase_i[0] && statement_q && !status_i
-                      && !word_i[1];
+                      && !header_i;
   assign copy       = same || job_i == can_rn_pkg::JobMove;
   assign k          = load ? 3'(head_q) : 3'(k_q);
   assign cell_own_o = load || (visit_q && job_i == can_rn_pkg::JobMove);
@@ -187,7 +188,7 @@ module can_rn_produce #(
   always_comb begin
     cell_o = {4'b0001, k, gap || keep, phase_i[0] && !gap};
     if (load || copy)                            cell_o = {3'b001, k, row_i};
-    if (load)                                    cell_o[2:0] = {word_i[0], 2'b00};
+    if (load)                                    cell_o[2:0] = at_i;
     if (entry || (!last && keep))
                                                  cell_o = {3'b101, k, !entry, 1'b0,
                                                            entry && phase_i[0]};

@@ -40,7 +40,8 @@ module can_rn_step #(
   input  logic             boff_i,
   input  logic             off_i,         // bus-off, as far as it has been noticed
   input  logic             try_i,
-  input  logic             load_i,
+  input  logic             load_i,        // the engine has to be given something,
+  input  logic             urgent_i,      // within eight bits
   input  logic             some_i,
   input  logic             more_i,        // JobAge: another answer has aged
   input  logic             gone_i,        // what was offered to the engine
@@ -84,18 +85,18 @@ module can_rn_step #(
 );
   // As written here, so that codes of no job lead back.
   (* fsm_encoding = "none", syn_encoding = "safe" *) can_rn_pkg::job_t job_q;
-  can_rn_pkg::job_t job_d, work_q, next;
+  can_rn_pkg::job_t job_d, work, next;
   logic [1:0] phase_q, int2_q;
   logic [3:0] ten_q;
   logic       tick_q, timer_q, ms_q, aged_q, row_ready_q, try_ready_q;
-  logic       guarded, memory_q, keep, idle, held, over, wait_user, quiet, due, int2, ended_timer;
+  logic       guarded, memory, keep, idle, held, over, wait_user, quiet, due, int2, ended_timer;
 
   assign job_o   = job_q;
   assign phase_o = phase_q;
   assign timer_o = timer_q;
   assign new_tries_o = !try_ready_q;
 
-  assign guarded   = Protect && !dup_i && !mapped_i && memory_q;
+  assign guarded   = Protect && !dup_i && !mapped_i && memory;
   assign idle      = job_q == can_rn_pkg::JobIdle;
   assign quiet     = !live_i;
   assign due       = quiet || tick_q;
@@ -105,7 +106,7 @@ module can_rn_step #(
   // Told in the clock behind the sample point; the job ends one later, so that the sample point
   // does not lead through what comes next.
   assign int2      = int2_q == 2'd0 ? !(written_o || apply_o) : int2_q == 2'd1 && tick_i;
-  assign held      = hold_i && !refused_i && (memory_q || trigger_i || act_i);
+  assign held      = hold_i && !refused_i && (memory || trigger_i || act_i);
   assign over      = (&row_i) && (&phase_q);
   assign wait_user = held && !over && !again_i;
   assign over_o    = job_q == can_rn_pkg::JobBegin && held && over && !visit_i && !again_i;
@@ -118,6 +119,7 @@ module can_rn_step #(
     if (valid_i) next = {1'b0, guarded, 1'b0, {2{guarded}}, !dup_i};
     else if (hdr_i)                          next = {2'b00, ours_i || search_i, search_i, 2'b00};
     else if (byte_i)                         next = can_rn_pkg::JobByte;
+    else if (quiet && urgent_i)              next = can_rn_pkg::JobLoad;
     else if (due && tally_i)                 next = can_rn_pkg::JobTally;
     else if (due && ms_q)                    next = can_rn_pkg::JobLow;
     else if (due && aged_q)                  next = can_rn_pkg::JobAge;
@@ -135,18 +137,11 @@ module can_rn_step #(
     end
   end
 
-  // What a request leads to that is not refused. It is known long before.
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      work_q   <= can_rn_pkg::JobCount;
-      memory_q <= 1'b0;
-    end else begin
-      work_q   <= nothing_i ? can_rn_pkg::JobIdle : trigger_i ? can_rn_pkg::JobTrigger
+  // What a request leads to that is not refused.
+  assign work   = nothing_i ? can_rn_pkg::JobIdle : trigger_i ? can_rn_pkg::JobTrigger
                   : read_i ? can_rn_pkg::JobFresh : write_i ? can_rn_pkg::JobMove
                                                             : can_rn_pkg::JobCount;
-      memory_q <= write_i || read_i;
-    end
-  end
+  assign memory = write_i || read_i;
 
   // A frame that acts as a TRIGGER in OPERATE is followed by the copy of the stage, which begins
   // like a request. User logic is told of both; they have to be over by then, so that the TRIGGER
@@ -163,7 +158,7 @@ module can_rn_step #(
       can_rn_pkg::JobIdle:  job_d = next;
       can_rn_pkg::JobBegin: begin
         keep  = wait_user;
-        job_d = refused_i ? can_rn_pkg::JobCount : work_q;
+        job_d = refused_i ? can_rn_pkg::JobCount : work;
       end
       // RN-103: an upset that takes the node off the bus leaves no sample points to wait for.
       can_rn_pkg::JobInt2:  keep = int2_q != 2'd0 && run_i;
@@ -237,12 +232,12 @@ module can_rn_step #(
         default: ;
       endcase
     end
-    // The answer that nobody has asked for gives way to a request.
+    // The answer that nobody has asked for gives way to a request, and to the engine.
     if (visit_i && !idle) begin
       if (job_q == can_rn_pkg::JobSame)  keep = same_i;
       if (job_q == can_rn_pkg::JobBegin) begin
-        keep  = wait_user && !hdr_i;
-        job_d = hdr_i ? can_rn_pkg::JobIdle : begun_i;
+        keep  = wait_user && !(hdr_i || urgent_i);
+        job_d = hdr_i || urgent_i ? can_rn_pkg::JobIdle : begun_i;
       end else if (job_q != can_rn_pkg::JobMove) begin
         job_d = then_i;
       end

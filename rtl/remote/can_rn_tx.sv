@@ -20,16 +20,18 @@ module can_rn_tx #(
   input  logic                owe_status_i,
   input  logic                owe_here_i,
   input  logic                one_i,         // byte read is 1
-  input  logic [31:0]         rdata_i,
+  input  logic [7:0]          next_i,        // byte that comes from the RAM
   output logic [2:0]          tail_o,
   output logic [2:0]          head_o,
   output logic [2:0]          age_o,         // JobAge: row that it looks at
   output logic                more_o,        // and another one after it
-  output logic [1:0]          word_o,        // word that is wanted next
+  output logic                header_o,      // the header is wanted next,
+  output logic [2:0]          at_o,          // or this byte
   output logic                status_o,      // it is one of STATUS
   output logic                full_o,
   output logic                some_o,        // the queue holds an answer
-  output logic                load_o,        // a word is wanted
+  output logic                load_o,        // it is wanted
+  output logic                urgent_o,      // within eight bits
   output logic                try_o,         // an attempt has failed
   output logic                gone_o,        // pulse: sent or dropped
   output logic                gone_status_o, // it was STATUS, HERE
@@ -49,15 +51,18 @@ module can_rn_tx #(
 
   logic [PtrWidth-1:0] tail_q, head_q;
   logic [1:0]          src_q;    // what is offered, once its header has been loaded
-  logic [1:0]          word_q;   // 2: header, 0 and 1: data; bits 3:2 of the place in the row
+  logic                header_q; // the header is offered,
+  logic [2:0]          at_q;     // or this byte comes next
   logic                load_q, try_q;
-  logic [31:0]         hold_q;
+  logic [5:0]          length_q; // and identifier, see below
+  logic [7:0]          hold_q;   // A, or a byte
   logic                loading, gone, stale, recalled, drop, first_gone;
   logic                first;    // JobAge looks at the head of the queue
 
   assign tail_o   = 3'(tail_q);
   assign head_o   = 3'(head_q);
-  assign word_o   = word_q;
+  assign header_o = header_q;
+  assign at_o     = at_q;
   assign status_o = src_q == can_rn_pkg::SrcStatus;
   assign some_o   = tail_q != head_q;
   if (TxDepth == 1) begin : gen_single
@@ -84,13 +89,14 @@ module can_rn_tx #(
     end
   end
   assign load_o  = load_q && (some_o || owe_status_i || owe_here_i);
+  assign urgent_o = load_q && !header_q;
   assign try_o   = try_q;
   assign loading = job_i == can_rn_pkg::JobLoad;
 
   // Sent, or too many attempts; or its life is over. A frame that the engine has just taken stays,
   // and so does what is behind one that has gone while its life was read.
   assign gone  = tx_ok_i || (job_i == can_rn_pkg::JobTry && phase_i[1] && one_i);
-  assign stale = job_i == can_rn_pkg::JobAge && (&phase_i) && one_i && word_q[1] && !tx_next_i
+  assign stale = job_i == can_rn_pkg::JobAge && (&phase_i) && one_i && header_q && !tx_next_i
                  && some_o && first;
   // A SELECT that does not select takes back a HERE that waits.
   assign recalled = (&src_q) && !owe_here_i;
@@ -116,7 +122,8 @@ module can_rn_tx #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       src_q  <= can_rn_pkg::SrcNone;
-      word_q <= 2'd2;
+      header_q <= 1'b1;
+      at_q   <= '0;
       load_q <= 1'b1;
       try_q  <= 1'b0;
     end else begin
@@ -124,8 +131,10 @@ module can_rn_tx #(
       else if (loading && src_q == can_rn_pkg::SrcNone)
         src_q <= owe_here_i ? can_rn_pkg::SrcHere
                             : owe_status_i ? can_rn_pkg::SrcStatus : can_rn_pkg::SrcQueue;
-      if (flush_i || tx_ok_i || tx_fail_i)        word_q <= 2'd2;
-      else if (tx_next_i)                         word_q <= {1'b0, !word_q[1]};
+      if (flush_i || tx_ok_i || tx_fail_i)        header_q <= 1'b1;
+      else if (tx_next_i)                         header_q <= 1'b0;
+      if (header_q)                               at_q <= '0;
+      else if (tx_next_i)                         at_q <= at_q + 3'd1;
       if (drop || tx_fail_i || tx_next_i || (job_i == can_rn_pkg::JobAge && phase_i[1]))
                                                   load_q <= 1'b1;
       else if (loading && phase_i[0])             load_q <= 1'b0;
@@ -133,28 +142,35 @@ module can_rn_tx #(
     end
   end
 
-  // The read register of the RAM is shared, so the word is kept here.
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)                     hold_q <= '0;
-    else if (loading && phase_i[1])  hold_q <= rdata_i;
-  end
-
+  // The read register of the RAM is shared, so bytes are kept here; length and A come one by one.
   // Header: A in byte 0, length in byte 1. STATUS is 7E with eight bytes, HERE 0x402 with none.
   localparam int AddrBits = 10 - NameBits;
   logic                own;
-  logic [AddrBits-1:0] a;
-  logic [10:0]         id;
-  assign own = src_q[1];
-  assign a   = own ? {{AddrBits-2{!src_q[0]}}, 2'b10} : hold_q[AddrBits-1:0];
+  logic [AddrBits-1:0] own_a;
+  assign own   = src_q[1];
+  assign own_a = {{AddrBits-2{!src_q[0]}}, 2'b10};
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      length_q <= '0;
+      hold_q   <= '0;
+    end else if (loading) begin
+      // Own: 8 of STATUS, 0 of HERE.
+      if (phase_i[0]) length_q <= {next_i[5:4] & {2{!own}}, own ? !src_q[0] : next_i[3],
+                                   next_i[2:0] & {3{!own}}};
+      if (phase_i[1]) hold_q   <= own && header_q ? 8'(own_a) : next_i;
+    end
+  end
+
   // RN-16, for the demonstration: direction 0, and name 1 where all have been asked.
   logic request, all;
-  assign request = SameId && !own && hold_q[12];
-  assign all     = request && hold_q[13];
-  assign id  = {!request, (number_i & {NameBits{!((&src_q) || all)}}) | NameBits'(all), a};
+  logic [10:0] id;
+  assign request = SameId && !own && length_q[4];
+  assign all     = request && length_q[5];
+  assign id      = {!request, (number_i & {NameBits{!((&src_q) || all)}}) | NameBits'(all),
+                    hold_q[AddrBits-1:0]};
 
-  assign tx_req_o  = !load_q && word_q[1] && !loading;
-  assign tx_dlc_o  = own ? {!src_q[0], 3'd0} : hold_q[11:8];
-  assign tx_word_o = {hold_q[7:5], word_q[1] ? id : {hold_q[4:0], hold_q[15:10]},
-                      hold_q[9:8], hold_q[23:16], hold_q[31:24]};
+  assign tx_req_o  = !load_q && header_q && !loading;
+  assign tx_dlc_o  = length_q[3:0];
+  assign tx_word_o = {3'b000, id[10:8], header_q ? id[7:0] : hold_q, 18'd0};
 
 endmodule

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "Vcan_core_bytes.h"
+#include "Vcan_core_bytes___024root.h"
 #include "Vcan_remote_full_3.h"
 #include "Vcan_remote_full_3___024root.h"
 #include "Vcan_remote_full_5.h"
@@ -70,7 +72,7 @@ class RemoteNodeOf final : public RemoteNode {
     forget_events();
     drive(static_cast<Level>(core_.engine().can_tx_o));
     const auto &engine = core_.engine();
-    if (EngineFrame::concerns(engine)) frame_.clocked(engine);
+    if (ByteWiseFrame::concerns(engine)) frame_.clocked(engine);
     quiet_ = ready() && engine.idle_o && !engine.tx_req_i ? quiet_ + 1 : 0;
     if (top_.written_o | top_.apply_o) tell_pulse();
     if (taken) finish_access();
@@ -227,9 +229,9 @@ class RemoteNodeOf final : public RemoteNode {
     }
   }
 
-  mutable SplitCore<Model, RemotePorts> core_;  // peek_word() puts it back
+  mutable SplitCore<Model, RemotePorts, Vcan_core_bytes> core_;  // peek_word() puts it back
   Model &top_ = core_.host();
-  EngineFrame frame_;
+  ByteWiseFrame frame_;
   std::uint64_t clocks_per_ms_;
   std::uint64_t to_ms_;
   std::uint64_t quiet_ = 0;       // clocks without work, on an idle bus

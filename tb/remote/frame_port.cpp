@@ -12,7 +12,7 @@ namespace {
 
 constexpr unsigned kDlcBits = 4;
 constexpr unsigned kCrcBits = 2;    // few of them: the node waits for EOF6
-constexpr unsigned kWordBits = 16;  // within which the next word is due
+constexpr unsigned kHeadBits = 18;  // ID to DLC
 
 unsigned bytes_of(const Frame &frame) {
   return frame.remote ? 0 : std::min<unsigned>(frame.dlc, 8);
@@ -128,12 +128,12 @@ Frame FramePort::send(End end) {
   engine_.transmitter = true;
   clock();
   clocks(kBit - 2);
-  for (unsigned word = 0; word < 2 && end != End::kLost; ++word) {
-    if (word == 1 && frame.dlc <= 4) break;
-    for (unsigned i = 1; i < kWordBits; ++i) bit();
-    const std::uint32_t data = asked().word;
-    for (unsigned i = 0; i < 4; ++i)
-      frame.data[4 * word + i] = static_cast<std::uint8_t>(data >> (24 - 8 * i));
+  // At the end of the DLC the first byte is taken, whether it is sent or not; each of the others
+  // with the last bit of the one before it.
+  const unsigned bytes = std::max(1U, bytes_of(frame));
+  for (unsigned i = 0; i < bytes && end != End::kLost; ++i) {
+    for (unsigned b = 1; b < (i == 0 ? kHeadBits : 8); ++b) bit();
+    frame.data[i] = static_cast<std::uint8_t>(asked().word >> 18);
     pulses_in(&Engine::next);
   }
   for (unsigned i = frame.dlc; i < 8; ++i) frame.data[i] = 0;

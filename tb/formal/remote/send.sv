@@ -38,7 +38,8 @@
     // A frame is taken when one is offered (AR-13), and ends after that.
     m_taken: assume (!tx_next_i || f_sending || f_asked);
     m_ends: assume (!(tx_ok_i || tx_fail_i) || f_sending);
-    m_one_end: assume ($countones({tx_next_i, tx_ok_i, tx_fail_i}) <= 1);
+    // An error in the last bit before a byte: it is asked for, and the attempt has failed.
+    m_one_end: assume (!tx_ok_i || !(tx_next_i || tx_fail_i));
     // can_rn_check refuses a read for which there is no room (can_remote, node.p_no_overflow).
     m_room: assume (job_i != can_rn_pkg::JobPush || !full_o);
     // What is flushed is not under way: RESTART, ASSIGN and bus-off come when nothing is sent.

@@ -56,7 +56,8 @@
       p_once: assert (!(written_o || apply_o) || !f_shown || $past(valid_i));
       // RN-102 P-9, RN-103: a node that an upset has taken off the bus starts anew.
       p_rejoins: assert (!$past(idle && quiet && !run_i && !valid_i && !hdr_i && !byte_i && !ms_q
-                                && !aged_q && !tally_i) || job_q == can_rn_pkg::JobStart);
+                                && !aged_q && !tally_i && !urgent_i)
+                       || job_q == can_rn_pkg::JobStart);
       // RN-102 P-9, RN-103: off the bus it waits for no sample point.
       p_no_wait: assert (!$past(job_q == can_rn_pkg::JobInt2 && !run_i)
                          || job_q != can_rn_pkg::JobInt2);
