@@ -137,7 +137,8 @@ module can_rn_tx #(
       else if (tx_next_i)                         at_q <= at_q + 3'd1;
       if (drop || tx_fail_i || tx_next_i || (job_i == can_rn_pkg::JobAge && phase_i[1]))
                                                   load_q <= 1'b1;
-      else if (loading && phase_i[0])             load_q <= 1'b0;
+      // From its first clock on: what ends or begins meanwhile makes it be done again.
+      else if (loading && phase_i == 2'd0)        load_q <= 1'b0;
       try_q <= (tx_fail_i && transmitter_i) || (try_q && job_i != can_rn_pkg::JobTry);
     end
   end
