@@ -128,7 +128,8 @@ module can_rn_tx #(
       try_q  <= 1'b0;
     end else begin
       if (drop)                                   src_q <= can_rn_pkg::SrcNone;
-      else if (loading && src_q == can_rn_pkg::SrcNone)
+      // In its first clock there is something; what was there may go in the next ones.
+      else if (loading && phase_i == 2'd0 && src_q == can_rn_pkg::SrcNone)
         src_q <= owe_here_i ? can_rn_pkg::SrcHere
                             : owe_status_i ? can_rn_pkg::SrcStatus : can_rn_pkg::SrcQueue;
       if (flush_i || tx_ok_i || tx_fail_i)        header_q <= 1'b1;

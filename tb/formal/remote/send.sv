@@ -25,6 +25,13 @@
     else         f_aging <= job_i == can_rn_pkg::JobAge ? phase_i + 2'd1 : 2'd0;
   end
 
+  // The phase of JobLoad that comes next; 0: none.
+  logic [1:0] f_loading;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) f_loading <= '0;
+    else         f_loading <= job_i == can_rn_pkg::JobLoad && !phase_i[1] ? phase_i + 2'd1 : 2'd0;
+  end
+
   // Answers that wait: what has been pushed and has not gone.
   logic [2:0] f_fill;
   assign f_fill = 3'(PtrWidth'(tail_q - head_q));
@@ -46,7 +53,7 @@
     m_flush: assume (!flush_i || (!f_sending && !tx_next_i && !tx_ok_i));
     m_flushed: assume (!$past(flush_i) || !tx_next_i);
     // JobTry and JobAge begin when they are asked for, JobLoad when there is something to load.
-    m_load: assume (job_i != can_rn_pkg::JobLoad || some_o || owe_status_i || owe_here_i);
+    m_load: assume (job_i != can_rn_pkg::JobLoad || phase_i != 2'd0 || some_o || owe_status_i || owe_here_i);
     m_try: assume (job_i != can_rn_pkg::JobTry || (!f_sending && !tx_next_i && !flush_i));
     // Nor is HERE taken back: a SELECT is obeyed before the intermission behind it ends (RN-37).
     m_here: assume (!(f_sending || tx_next_i) || !f_recalled);
@@ -59,11 +66,20 @@
     // JobAge has four phases.
     m_age: assume (job_i != can_rn_pkg::JobAge || phase_i == f_aging);
     m_age_ends: assume (f_aging == 2'd0 || job_i == can_rn_pkg::JobAge);
+    // JobLoad has three.
+    m_loads: assume (job_i != can_rn_pkg::JobLoad || phase_i == f_loading);
+    m_load_ends: assume (f_loading == 2'd0 || job_i == can_rn_pkg::JobLoad);
     if (f_ran) begin
       // RN-102 P-4, RN-10, RN-11: an identifier that is sent has dir 1 and the own number, or is
       // HERE.
       p_own_id: assert (!tx_req_o || f_here
                         || tx_word_o[28:18] >> AddrBits == {1'b1, number_i});
+      // RN-80: what is offered is what has been loaded for it, in all three phases.
+      p_chosen: assert (f_loading != 2'd1 || load_q || src_q != can_rn_pkg::SrcNone);
+      p_length: assert (f_loading == 2'd1 || load_q || !header_q || !own
+                        || length_q == {2'b00, !src_q[0], 3'd0});
+      p_loaded: assert (f_loading != 2'd0 || load_q || !header_q
+                        || (src_q != can_rn_pkg::SrcNone && (!own || hold_q == 8'(own_a))));
       // RN-54: what the engine takes is still there, even if its life ends in that clock.
       p_taken: assert (!tx_next_i || f_sending
                        || (src_q != can_rn_pkg::SrcNone && src_q == $past(src_q)));
