@@ -117,23 +117,28 @@ module can_top #(
   logic [1:0]      gmask;
   logic [IdxW-1:0] idx;
   assign gmask = {addr_i[3] | addr_i[6], addr_i[2] | addr_i[6]};
+  // By as few bits as tell them apart: what goes elsewhere may look like any of these.
   always_comb begin
-    mem_sel = 2'd3;
+    mem_sel = {1'b0, addr_i[3:2] != 2'd0};
     word = addr_i[3:2] - 2'd1;
     idx  = mb_idx[IdxW-1:0];
-    if (in_mb) begin
-      mem_sel = {1'b0, addr_i[3:2] != 2'd0};
-    end else if (in_mask || in_gmask) begin
-      mem_sel = 2'd2;
-      word = OwnMasks != 0 ? {1'b0, in_gmask} : 2'd3;
-      idx  = OwnMasks == 0 ? IdxW'({gmask, 2'd3}) : in_gmask ? IdxW'(gmask) : mask_idx[IdxW-1:0];
-    end else if (in_rxfir) begin              // hidden bits of the C/S word at the FIFO's output
-      mem_sel = 2'd0;
-      word = 2'd1;
-      idx  = '0;
-    end else if (in_stamp) begin
+    if (TimeUnit != 0 && addr_i[12]) begin
+      mem_sel = 2'd3;
       word = {1'b1, addr_i[2]};
       idx  = addr_i[3 +: IdxW];
+    end else if (OwnMasks != 0 && addr_i[11]) begin
+      mem_sel = 2'd2;
+      word = 2'd0;
+      idx  = mask_idx[IdxW-1:0];
+    end else if (addr_i[10:7] == '0) begin
+      mem_sel = {1'b1, in_timer};
+      word = OwnMasks == 0 && !in_timer ? 2'd3 : 2'd1;
+      idx  = OwnMasks == 0 ? IdxW'({gmask, 2'd3}) : IdxW'(gmask);
+      if (in_rxfir) begin                     // hidden bits of the C/S word at the FIFO's output
+        mem_sel = 2'd0;
+        word = 2'd1;
+        idx  = '0;
+      end
     end
   end
 

@@ -164,11 +164,12 @@ module can_mailbox #(
     .serviced_gnt_i(serviced_gnt));
 
   // Reception.
-  logic [31:0]     cs, msg, mask;
+  logic [31:0]     cs, msg, mask, word;
   logic            stale, id_stale, rx_req, rx_gnt, match_done, hit, hit_fifo, hit_ans, resolve;
   logic            stored;
   logic [IdxW-1:0] rx_idx, hit_idx;
   logic [1:0]      rx_word;
+  logic            rx_cs, eng_cs;
   logic [IdxW:0]   rx_mask_row;
   logic [8:0]      idhit;
   logic [1:0]      fifo_in_flight;
@@ -181,9 +182,10 @@ module can_mailbox #(
     .lock_i(lock), .lock_idx_i(lock_idx),
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
     .cs_written_empty_i(cs_written_empty), .cs_written_ide_i(cs_written_ide),
-    .req_o(rx_req), .idx_o(rx_idx), .word_o(rx_word), .mask_row_o(rx_mask_row), .gnt_i(rx_gnt),
+    .req_o(rx_req), .idx_o(rx_idx), .word_o(rx_word), .cs_o(rx_cs),
+    .mask_row_o(rx_mask_row), .gnt_i(rx_gnt),
     .stale_i(stale || id_stale), .cs_i(cs), .msg_i(msg), .mask_i(mask),
-    .done_o(match_done), .hit_o(hit), .hit_idx_o(hit_idx), .hit_fifo_o(hit_fifo),
+    .data_i(word), .done_o(match_done), .hit_o(hit), .hit_idx_o(hit_idx), .hit_fifo_o(hit_fifo),
     .hit_ans_o(hit_ans), .resolve_i(resolve), .stored_i(stored), .fifo_in_flight_i(fifo_in_flight),
     .idhit_o(idhit),
     .pop_i(fifo_pop_i), .head_o(fifo_head), .avail_o(fifo_avail_o), .warn_o(fifo_warn_o),
@@ -236,9 +238,8 @@ module can_mailbox #(
   logic            retry_busy, inactive;
   logic            started, off;
   logic [IdxW-1:0] ins_idx, scan_idx, best_idx, cur_idx;
-  logic            pass, pass_end, seen, seen_act, seen_free;
+  logic            pass, pass_end, seen, seen_worst, seen_free;
   logic [IdxW-1:0] seen_idx;
-  logic [34:0]     seen_val;
   can_mb_tx #(.NumMb(NumMb), .Status(Status)) u_tx (
     .clk_i, .rst_ni, .running_i, .lbuf_i, .lprio_en_i, .first_i(first), .maxmb_i,
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
@@ -251,7 +252,7 @@ module can_mailbox #(
     .scan_gnt_i(scan_gnt), .stale_i(stale), .cs_i(cs), .id_i(msg),
     .settled_o(settled), .best_idx_o(best_idx), .retry_o(retry_busy),
     .pass_o(pass), .pass_end_o(pass_end), .seen_o(seen), .seen_idx_o(seen_idx),
-    .seen_val_o(seen_val), .seen_act_o(seen_act), .seen_free_o(seen_free));
+    .seen_worst_o(seen_worst), .seen_free_o(seen_free));
 
   logic            hold, eng_slot, flight;
   logic            ld_req, ld_row, ld_word, ld_data, ld_cancel, ld_flag, ld_take, ld_busy;
@@ -282,7 +283,7 @@ module can_mailbox #(
       .code_i(wdata_i[27:24]), .area_i(raw), .ended_i(cs[30]),
       .block_o(block), .abort_o(abort),
       .out_i(out), .kept_i(kept), .done_i(done), .cur_idx_i(cur_idx),
-      .flag_o(ab_flag), .flag_idx_o(ab_idx), .gnt_i(!mv_flag && !ld_flag),
+      .take_i(ld_take), .flag_o(ab_flag), .flag_idx_o(ab_idx), .gnt_i(!mv_flag && !ld_flag),
       .end_i(flag_o && !mv_flag), .end_idx_i(flag_idx_o), .iflag_i(iflag_i[NumMb-1:0]));
   end else begin : gen_no_guard
     assign {block, abort, ab_flag} = '0;
@@ -293,14 +294,14 @@ module can_mailbox #(
 
   if (Status != 0) begin : gen_status
     can_mb_status #(.NumMb(NumMb)) u_status (
-      .clk_i, .rst_ni, .clear_i, .lbuf_i, .cs_written_i(cs_written),
+      .clk_i, .rst_ni, .clear_i, .cs_written_i(cs_written),
       .pass_i(pass), .pass_end_i(pass_end), .seen_i(seen), .seen_idx_i(seen_idx),
-      .seen_val_i(seen_val), .seen_act_i(seen_act), .seen_free_i(seen_free),
+      .seen_worst_i(seen_worst), .seen_free_i(seen_free),
       .sent_i(sent), .tx_ok_i, .cur_idx_i(cur_idx), .crc_i, .esr2_o, .crcr_o);
   end else begin : gen_no_status
     assign {esr2_o, crcr_o} = '0;
     logic unused_status;
-    assign unused_status = &{1'b0, pass, pass_end, seen, seen_idx, seen_val, seen_act, seen_free,
+    assign unused_status = &{1'b0, pass, pass_end, seen, seen_idx, seen_worst, seen_free,
                              sent, crc_i};
   end
 
@@ -318,12 +319,12 @@ module can_mailbox #(
     .mv_req_i(mv_req), .mv_step_i(mv_step), .mv_row_i(mv_row), .mv_idx_i(mv_idx), .moving_i(moving),
     .mv_answer_i(mv_answer),
     .mv_cancel_i(mv_cancel), .mv_top_i(mv_top), .mv_data_o(mv_data), .flight_o(flight),
-    .rx_req_i(rx_req), .rx_idx_i(rx_idx), .rx_word_i(rx_word),
+    .rx_req_i(rx_req), .rx_idx_i(rx_idx), .rx_word_i(rx_word), .rx_cs_i(rx_cs),
     .rx_mask_row_i(rx_mask_row), .rx_gnt_o(rx_gnt),
     .scan_req_i(scan_req), .scan_lazy_i(scan_lazy), .scan_idx_i(scan_idx), .scan_gnt_o(scan_gnt),
     .req_o(eng_req), .lazy_o(eng_lazy),
-    .cs_row_o(eng_cs_row), .msg_row_o(eng_msg_row), .mask_row_o(eng_mask_row),
-    .slot_i(eng_slot), .hold_i(hold), .yield_i(rx_wr_owed), .cs_i(cs), .msg_i(msg),
+    .cs_o(eng_cs), .cs_row_o(eng_cs_row), .msg_row_o(eng_msg_row), .mask_row_o(eng_mask_row),
+    .slot_i(eng_slot), .hold_i(hold), .yield_i(rx_wr_owed), .cs_i(cs), .word_i(word),
     .copy_o(copy), .copy_cs_o(copy_cs), .copy_be_o(copy_be), .copy_row_o(copy_row),
     .copy_data_o(copy_data));
 
@@ -338,10 +339,11 @@ module can_mailbox #(
     .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done), .waited_o(waited),
     .mem_sel_o(cpu_mem_sel), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
-    .eng_req_i(eng_req), .eng_lazy_i(eng_lazy), .eng_cs_row_i(eng_cs_row),
+    .eng_req_i(eng_req), .eng_lazy_i(eng_lazy), .eng_cs_i(eng_cs),
+    .eng_cs_row_i(eng_cs_row),
     .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_slot_o(eng_slot),
     .hold_o(hold), .stale_o(stale), .id_stale_o(id_stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
-    .copy_i(copy), .copy_cs_i(copy_cs), .copy_be_i(copy_be), .copy_row_i(copy_row),
+    .word_o(word), .copy_i(copy), .copy_cs_i(copy_cs), .copy_be_i(copy_be), .copy_row_i(copy_row),
     .copy_data_i(copy_data),
     .serviced_req_i(serviced_req), .serviced_idx_i(serviced_idx), .serviced_ovr_i(serviced_ovr),
     .serviced_gnt_o(serviced_gnt),

@@ -31,8 +31,7 @@ module can_mb_filter #(
   output logic [1:0]      word_o,       // word in it
   output logic [IdxW:0]   mask_row_o,
   input  logic            gnt_i,
-  input  logic [31:0]     cs_i,
-  input  logic [31:0]     msg_i,
+  input  logic [31:0]     data_i,
   input  logic [31:0]     mask_i,
   // Result: the first element that fits.
   output logic            busy_o,
@@ -47,7 +46,7 @@ module can_mb_filter #(
   logic [6:0] k_q, k_next, s1_k_q, s2_k_q;
   logic       own_q, scan_q, last;
   // Stage 1: the word is on the RAM outputs. Stage 2: its bytes have been compared.
-  logic       s1_q, s2_q, s1_cs_q;
+  logic       s1_q, s2_q;
   logic [3:0] s2_equal_q;
 
   assign word_o     = k_q[1:0];
@@ -76,7 +75,7 @@ module can_mb_filter #(
         care = {13'h1FFF, {18{ide_i}}, 1'b0};
       end
     endcase
-    differ = ((s1_cs_q ? cs_i : msg_i) ^ key) & mask_i & care;
+    differ = (data_i ^ key) & mask_i & care;
   end
 
   logic       fits;
@@ -99,13 +98,11 @@ module can_mb_filter #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      s1_cs_q    <= 1'b0;
       s2_equal_q <= '0;
       {s1_k_q, s2_k_q} <= '0;
       hit_o   <= 1'b0;
       idhit_o <= '0;
     end else begin
-      s1_cs_q <= word_o == 2'd0;
       s1_k_q  <= k_q;
       s2_k_q  <= s1_k_q;
       for (int b = 0; b < 4; b++) s2_equal_q[b] <= differ[8*b +: 8] == '0;

@@ -35,6 +35,7 @@ module can_mb_guard #(
   input  logic             kept_i,
   input  logic             done_i,
   input  logic [IdxW-1:0]  cur_idx_i,
+  input  logic             take_i,       // cur_idx_i will be another one in the next clock
   // IFLAG of this module's own aborts; gnt_i: it is being set.
   output logic             flag_o,
   output logic [IdxW-1:0]  flag_idx_o,
@@ -47,12 +48,11 @@ module can_mb_guard #(
   localparam logic [1:0] MemCs  = 2'd0;
   localparam logic [1:0] MemMsg = 2'd1;
 
-  logic active_q, abort_q, iflag_q, abort, at_once, cur, cs_block, all_block;
+  logic active_q, abort_q, iflag_q, cur_q, abort, at_once, cs_block, all_block;
 
   assign abort     = aen_i && waited_i && !area_i && mem_sel_i == MemCs && abort_q;
-  assign cur       = idx_i == cur_idx_i;
-  assign cs_block  = cur && (out_i || (kept_i && active_q));
-  assign all_block = (ended_i && iflag_q) || (cur && done_i) || (flag_o && idx_i == flag_idx_o);
+  assign cs_block  = cur_q && (out_i || (kept_i && active_q));
+  assign all_block = (ended_i && iflag_q) || (cur_q && done_i) || (flag_o && idx_i == flag_idx_o);
   assign block_o   = aen_i && !area_i && ((mem_sel_i == MemCs && (cs_block || all_block))
                                || (mem_sel_i == MemMsg && all_block));
   assign abort_o   = abort && cs_block && !all_block;
@@ -60,10 +60,11 @@ module can_mb_guard #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {active_q, abort_q, iflag_q} <= '0;
+      {active_q, abort_q, iflag_q, cur_q} <= '0;
     end else begin
       active_q <= !be3_i || code_i == 4'b1100 || code_i == 4'b1110;
       abort_q  <= be3_i && code_i == 4'b1001;
+      cur_q    <= idx_i == cur_idx_i && !take_i;
       iflag_q  <= iflag_i[idx_i] || (end_i && end_idx_i == idx_i);
     end
   end

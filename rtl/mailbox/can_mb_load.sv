@@ -128,8 +128,9 @@ module can_mb_load #(
   assign sent_o   = flag_o && !failed_q;
   assign take_o   = head_taken;
 
-  assign out_o    = off_o || started_o || (tx_req_o && gap_i && !cs_written_cur);
-  assign kept_o   = tx_req_o && dropped_q && !cs_written_cur;
+  // Who asks has waited with a write of its own: no C/S word was written in the clock before.
+  assign out_o    = off_o || started_o || (tx_req_o && gap_i);
+  assign kept_o   = tx_req_o && dropped_q;
   assign done_o   = end_q || flag_o;
   assign off_o    = on_bus_q || abort_q || done_o;
   // An abort request that need not wait for the end of an attempt, because none is under way.

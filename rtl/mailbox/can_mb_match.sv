@@ -48,13 +48,15 @@ module can_mb_match #(
   // Read slots.
   output logic            req_o,
   output logic [IdxW-1:0] idx_o,
-  output logic [1:0]      word_o,       // of the MSG memory
+  output logic [1:0]      word_o,       // of the MSG memory,
+  output logic            cs_o,         // ... or that of the C/S memory: it is on data_i
   output logic [IdxW:0]   mask_row_o,
   input  logic            gnt_i,
   input  logic            stale_i,
   input  logic [31:0]     cs_i,
   input  logic [31:0]     msg_i,
   input  logic [31:0]     mask_i,
+  input  logic [31:0]     data_i,
   // Result.
   output logic            done_o,
   output logic            hit_o,        // it belongs somewhere
@@ -100,7 +102,7 @@ module can_mb_match #(
       .clk_i, .rst_ni, .clear_i, .bcc_i, .idam_i, .rffn_i, .first_i,
       .start_i(rx_hdr_i && fen_i), .id_i(id), .ide_i(ide), .rtr_i(rtr),
       .req_o(flt_req), .idx_o(flt_idx), .word_o(flt_word), .mask_row_o(flt_mask_row),
-      .gnt_i(gnt && flt_busy), .cs_i, .msg_i, .mask_i(mask),
+      .gnt_i(gnt && flt_busy), .data_i, .mask_i(mask),
       .busy_o(flt_busy), .hit_o(flt_hit), .idhit_o(idhit));
     can_rx_fifo u_fifo (
       .clk_i, .rst_ni, .clear_i, .bcc_i, .mrp_i, .pop_i, .head_o, .avail_o, .warn_o, .ovf_o,
@@ -113,7 +115,8 @@ module can_mb_match #(
     assign {head_o, avail_o, warn_o, ovf_o, enough, hit_fifo_o, tail, idhit_o} = '0;
     logic unused;
     assign unused = &{1'b0, fen_i, idam_i, rffn_i, mrp_i, id, ide, rtr, mb_free, resolve_i,
-                      stored_i, fifo_in_flight_i, pop_i, flt_mask_row, flt_hit, idhit, mask};
+                      stored_i, fifo_in_flight_i, pop_i, flt_mask_row, flt_hit, idhit, mask,
+                      data_i};
   end
 
   // Masks of mailboxes: their own, or RXGMASK, RX14MASK, RX15MASK; all ones where a remote frame
@@ -148,6 +151,7 @@ module can_mb_match #(
   end
 
   assign idx_o  = load ? IdxW'({flt_busy ? 2'd3 : gmask, 2'd3}) : flt_busy ? flt_idx : mb_idx;
+  assign cs_o   = flt_busy && flt_word == 2'd0;
   assign word_o = load ? 2'd3 : flt_busy ? flt_word - 2'd1 : 2'd0;
 
   assign done_o    = !flt_busy && (enough || mb_done);

@@ -56,7 +56,7 @@ module can_mb_move #(
   output logic            ans_o,         // pulse: buffer idx_o has code 1110 now
   output logic            busy_o         // something is still to be done
 );
-  logic            unres_q, unres_row_q, mv_q, arm_q, end_q, ovr_q, fifo, ans;
+  logic            unres_q, unres_row_q, bound_q, mv_q, arm_q, end_q, ovr_q, fifo, ans;
   logic [1:0]      full_q, fifo_q, ans_q;   // a frame, it goes into the FIFO, it is answered
   logic [IdxW-1:0] tgt0_q, tgt1_q;
 
@@ -85,7 +85,6 @@ module can_mb_move #(
   assign top_o    = fifo ? idhit_i : {4'b0, ans, ovr || ans, 2'b10, 1'b0};
   assign fifo     = fifo_q[row_o];
   assign ans      = ans_q[row_o];
-  assign idx_o    = row_o ? tgt1_q : tgt0_q;
   assign req_o    = mv_q && !end_q;
   assign moving_o = mv_q;
   assign busy_mb_o = mv_q && !ans;
@@ -95,19 +94,20 @@ module can_mb_move #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {smb_o, unres_q, unres_row_q, mv_q, arm_q, end_q, ovr_q, row_o} <= '0;
+      {smb_o, unres_q, unres_row_q, bound_q, mv_q, arm_q, end_q, ovr_q, row_o} <= '0;
       {flag_o, stored_o, ans_o} <= '0;
       step_o <= '0;
       full_q <= '0;
       fifo_q <= '0;
       ans_q  <= '0;
-      {tgt0_q, tgt1_q} <= '0;
+      {tgt0_q, tgt1_q, idx_o} <= '0;
     end else begin
       {flag_o, stored_o, ans_o} <= '0;
       // Moves.
       if (!mv_q && ready != '0 && !hold_i) begin
         {mv_q, arm_q} <= '1;
         row_o  <= !ready[0];
+        idx_o  <= ready[0] ? tgt0_q : tgt1_q;
         step_o <= {2{ready[0] ? ans_q[0] : ans_q[1]}};
       end else if (end_q) begin      // the C/S word is there: CPU reads of it are good from here on
         {mv_q, end_q} <= '0;
@@ -129,6 +129,12 @@ module can_mb_move #(
       if (kill[0] && !(end_q && !row_o)) full_q[0] <= 1'b0;
       if (kill[1] && !(end_q && row_o))  full_q[1] <= 1'b0;
 
+      // A frame that has just been bound to its buffer replaces one that waits for the same.
+      bound_q <= resolve_o && hit_i;
+      if (bound_q && tgt0_q == tgt1_q && !(mv_q && row_o != unres_row_q)) begin
+        full_q[!unres_row_q] <= 1'b0;
+      end
+
       // New frames.
       if (valid_i) begin
         full_q[smb_o] <= 1'b1;
@@ -141,11 +147,6 @@ module can_mb_move #(
         ans_q[unres_row_q]  <= hit_ans_i;
         if (unres_row_q) tgt1_q <= hit_idx_i;
         else             tgt0_q <= hit_idx_i;
-        // It replaces a frame that waits for the same buffer.
-        if (hit_i && !(mv_q && row_o != unres_row_q)) begin
-          if (unres_row_q && tgt0_q == hit_idx_i)  full_q[0] <= 1'b0;
-          if (!unres_row_q && tgt1_q == hit_idx_i) full_q[1] <= 1'b0;
-        end
       end else if (unres_q && (rx_hdr_i || (start_i && full_q == '1))) begin
         unres_q <= 1'b0;              // no buffer found in the time of a whole frame
         full_q[unres_row_q] <= 1'b0;

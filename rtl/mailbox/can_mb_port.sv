@@ -56,6 +56,7 @@ module can_mb_port #(
   output logic            ins_gnt_o,
   input  logic            eng_req_i,
   input  logic            eng_lazy_i,   // gives way to the CPU every time
+  input  logic            eng_cs_i,     // what it wants is in the C/S memory, not in MSG
   input  logic [IdxW:0]   eng_cs_row_i,
   input  logic [IdxW+1:0] eng_msg_row_i,
   input  logic [IdxW:0]   eng_mask_row_i,
@@ -65,6 +66,7 @@ module can_mb_port #(
   output logic [31:0]     cs_o,
   output logic [31:0]     msg_o,
   output logic [31:0]     mask_o,
+  output logic [31:0]     word_o,       // cs_o or msg_o, as was asked for
   // Second half of a copy; hold_o: not in this clock, a CPU write has waited for long enough. The
   // RAM outputs stay as they are then: nobody reads.
   input  logic            copy_i,
@@ -184,10 +186,13 @@ module can_mb_port #(
   assign c_word = pend ? word_q : cmd_word_i;
   assign c_idx  = pend ? idx_q : cmd_idx_i;
 
-  logic [IdxW:0]   cs_raddr, mask_raddr;
-  logic [IdxW+1:0] msg_raddr;
-  assign cs_raddr   = cpu_gnt ? {1'b0, c_idx} : ins_gnt_o ? {1'b0, ins_idx_i} : eng_cs_row_i;
-  assign msg_raddr  = cpu_gnt ? {c_word, c_idx} : ins_gnt_o ? {2'b00, ins_idx_i} : eng_msg_row_i;
+  // The engine's own, apart: those of the CPU come late.
+  logic [IdxW:0]   cs_row, cs_raddr, mask_raddr;
+  logic [IdxW+1:0] msg_row, msg_raddr;
+  assign cs_row     = ins_req_i ? {1'b0, ins_idx_i} : eng_cs_row_i;
+  assign msg_row    = ins_req_i ? {2'b00, ins_idx_i} : eng_msg_row_i;
+  assign cs_raddr   = cpu_gnt ? {1'b0, c_idx} : cs_row;
+  assign msg_raddr  = cpu_gnt ? {c_word, c_idx} : msg_row;
   assign mask_raddr = cpu_gnt ? {c_word[0], c_idx} : eng_mask_row_i;
 
   // Masks without a memory of their own.
@@ -199,13 +204,14 @@ module can_mb_port #(
     of_stamp = TimeUnit != 0 && mem_sel == MemTimer && high_word;
   endfunction
 
-  // The word that is written: memory, row, byte lanes, data. Who writes is known early; whether it
-  // is written at all, late.
-  logic            by_copy, w_cs, w_msg, w_mask;
+  // The word that is written: memory, row, byte lanes, data. Who would write is known early;
+  // whether it is written at all, late.
+  logic            by_copy, by_cpu, w_cs, w_msg, w_mask;
   logic [IdxW+1:0] w_row;
   logic [3:0]      w_be;
   logic [31:0]     w_data;
   assign by_copy = copy_i && !wait_q;
+  assign by_cpu  = ram_wr && (wait_q || !(serviced_req_i || rx_wr_owed_q));
 
   always_comb begin
     // The engine, unless it is somebody else.
@@ -221,7 +227,7 @@ module can_mb_port #(
       {w_cs, w_msg, w_mask} = {copy_cs_i, !copy_cs_i, 1'b0};
       w_row  = copy_row_i;
       w_data = copy_data_i;
-    end else if (w_gnt) begin
+    end else if (by_cpu) begin
       {w_cs, w_msg, w_mask} = {mem_sel_q == MemCs, mem_sel_q == MemMsg || in_msg(mem_sel_q),
                                mem_sel_q == MemMask};
       w_row  = {mem_sel_q != MemCs && word_q[1], mem_sel_q != MemCs && word_q[0], idx_q};
@@ -260,8 +266,8 @@ module can_mb_port #(
       owed_q     <= want && (pend || ins_req_i || (cmd_slot_i && !owed_q));
       wait_q     <= wr_waits;
       rx_wr_owed_q <= rx_wr_req_i && !rx_wr_gnt_o;
-      stale_o    <= w_cs && w_be[3] && w_row[IdxW:0] == cs_raddr;
-      id_stale_o <= w_msg && w_be != '0 && w_row == msg_raddr;
+      stale_o    <= w_cs && w_be[3] && w_row[IdxW:0] == cs_row;
+      id_stale_o <= w_msg && w_be != '0 && w_row == msg_row;
     end
   end
 
@@ -290,13 +296,20 @@ module can_mb_port #(
     assign mask_o = msg_o;
   end
 
+  // The word that the reader has asked for.
+  logic word_cs_q;
+  assign word_o = word_cs_q ? cs_o : msg_o;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) word_cs_q <= 1'b0;
+    else if (re) word_cs_q <= cpu_gnt ? (pend ? mem_sel_q : cmd_mem_sel_i) == MemCs : eng_cs_i;
+  end
+
   always_comb begin
     rdata_o = '0;
     if (rd_q && !scrub_o) begin
       case (mem_sel_q)
-        MemCs:   rdata_o = cs_o;
-        MemMsg:  rdata_o = msg_o;
-        MemMask: rdata_o = mask_o;
+        MemCs, MemMsg: rdata_o = word_o;
+        MemMask:       rdata_o = mask_o;
         default: if (of_stamp(mem_sel_q, word_q[1])) rdata_o = stamp_rdata_i;
       endcase
     end

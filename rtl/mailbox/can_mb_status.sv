@@ -12,15 +12,13 @@ module can_mb_status #(
   input  logic            clk_i,
   input  logic            rst_ni,
   input  logic            clear_i,      // soft reset
-  input  logic            lbuf_i,
   input  logic            cs_written_i,        // a C/S word was written in the clock before
   // Pass, see can_mb_tx.
   input  logic            pass_i,
   input  logic            pass_end_i,
   input  logic            seen_i,
   input  logic [IdxW-1:0] seen_idx_i,
-  input  logic [34:0]     seen_val_i,
-  input  logic            seen_act_i,
+  input  logic            seen_worst_i,
   input  logic            seen_free_i,
   // Frame that is sent.
   input  logic            sent_i,       // its buffer has its new code
@@ -31,33 +29,28 @@ module can_mb_status #(
   output logic [21:0]     crcr_o        // MBCRC, TXCRC
 );
   logic [IdxW-1:0] lptm_q, mbcrc_q;
-  logic            vps_q, imb_q, any_q, first, worse;
-  logic [34:0]     worst_q;
+  logic            vps_q, imb_q, first;
   logic [14:0]     txcrc_q;
 
   assign esr2_o = {7'(lptm_q), vps_q, imb_q};
   assign crcr_o = {7'(mbcrc_q), txcrc_q};
 
   // LPTM and IMB are those of the buffers seen so far: the lowest inactive one, or else the one
-  // that would be sent last. Of two equal ones that is the later.
+  // that would be sent last.
   assign first = seen_idx_i == '0;
-  assign worse = first || !any_q || lbuf_i || seen_val_i >= worst_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {vps_q, imb_q, any_q} <= '0;
-      lptm_q  <= '0;
-      worst_q <= '0;
+      {vps_q, imb_q} <= '0;
+      lptm_q <= '0;
     end else begin
       if (seen_i) begin
-        if (first) {imb_q, any_q} <= '0;
+        if (first) imb_q <= 1'b0;
         if (seen_free_i && (first || !imb_q)) begin
           imb_q  <= 1'b1;
           lptm_q <= seen_idx_i;
-        end else if (seen_act_i && worse && (first || !imb_q)) begin
-          any_q   <= 1'b1;
-          worst_q <= seen_val_i;
-          lptm_q  <= seen_idx_i;
+        end else if (seen_worst_i && (first || !imb_q)) begin
+          lptm_q <= seen_idx_i;
         end else if (first) begin
           lptm_q <= '0;
         end
@@ -66,8 +59,8 @@ module can_mb_status #(
         {vps_q, imb_q} <= '1;
         lptm_q <= cur_idx_i;
       end
-      if (pass_end_i)      vps_q <= 1'b1;
       if (pass_i || cs_written_i) vps_q <= 1'b0;
+      if (pass_end_i)             vps_q <= 1'b1;
       if (clear_i) begin
         {vps_q, imb_q} <= '0;
         lptm_q <= '0;

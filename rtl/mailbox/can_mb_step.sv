@@ -40,6 +40,7 @@ module can_mb_step #(
   input  logic            rx_req_i,
   input  logic [IdxW-1:0] rx_idx_i,
   input  logic [1:0]      rx_word_i,
+  input  logic            rx_cs_i,
   input  logic [IdxW:0]   rx_mask_row_i,
   output logic            rx_gnt_o,
   input  logic            scan_req_i,
@@ -49,6 +50,7 @@ module can_mb_step #(
   // Read port.
   output logic            req_o,
   output logic            lazy_o,          // it never keeps the CPU waiting
+  output logic            cs_o,            // it wants the C/S word, not that of MSG
   output logic [IdxW:0]   cs_row_o,
   output logic [IdxW+1:0] msg_row_o,
   output logic [IdxW:0]   mask_row_o,
@@ -56,7 +58,7 @@ module can_mb_step #(
   input  logic            hold_i,
   input  logic            yield_i,         // an engine write waits for a clock without a copy
   input  logic [31:0]     cs_i,
-  input  logic [31:0]     msg_i,
+  input  logic [31:0]     word_i,          // the word that was asked for
   // Write port: second half of a copy.
   output logic            copy_o,
   output logic            copy_cs_o,       // C/S memory, not MSG
@@ -115,6 +117,7 @@ module can_mb_step #(
     end
   end
   assign mask_row_o = rx_mask_row_i;
+  assign cs_o = !step_req ? rx_cs_i : take_ld ? !ld_step_i[1] : mv_step_i == 2'd3;
 
   // Data of a C/S copy: what the RAM shows, under a new code. Should the CPU read the word that is
   // being written it gets what the RAM shows (can_mb_port): of a frame received, the hidden word
@@ -128,18 +131,18 @@ module can_mb_step #(
 
   always_comb begin
     copy_row_o = {copy_cs_o ? 2'b00 : mv_step_i, mv_idx_i};
-    top        = mv_top_i;
+    top        = copy_cs_o ? mv_top_i : word_i[31:23];
     if (mv_answer_i) top[8:5] = cs_i[31:28];
     if (is_ld) begin
       copy_row_o = hidden(1'b0, ld_row_i, {ld_data_step_o != StepLow, ld_data_step_o == StepLow});
-      top        = cs_i[31:23];
+      top        = word_i[31:23];
       if (ld_data_step_o == StepHead) copy_row_o = (IdxW+2)'(NumMb);
       if (ld_data_step_o == StepEnd) begin
         copy_row_o = {2'b00, cur_idx_i};
         top        = {4'b0100, ld_code_i, 1'b0};
       end
     end
-    copy_data_o = copy_cs_o ? {top, cs_i[22:0]} : msg_i;
+    copy_data_o = {top, word_i[22:0]};
   end
 
   always_comb begin

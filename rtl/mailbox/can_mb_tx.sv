@@ -12,8 +12,9 @@
 // An upset of a flip-flop must not stop transmission for ever: a winner that turns out not to be
 // active is dropped, and while there is none all buffers are looked at now and then (fresh_i).
 //
-// ESR2 tells what such a pass has seen (can_mb_status): a C/S write that needs none otherwise
-// starts one too, and starts it again.
+// ESR2 is found in passes of its own, which give way to everybody and begin anew with every change
+// (can_mb_status). Such a pass keeps the value of the worst buffer where that of the winner was,
+// with the same comparison; an insertion then reads the winner again first.
 
 module can_mb_tx #(
   parameter int NumMb = 64,
@@ -62,32 +63,36 @@ module can_mb_tx #(
   output logic            settled_o,    // it may be sent
   output logic [IdxW-1:0] best_idx_o,
   output logic            retry_o,      // a retry is not in the winner yet
-  // Pass, for can_mb_status.
-  output logic            pass_o,       // it begins
+  // Pass for can_mb_status.
+  output logic            pass_o,       // it is wanted or under way: there is no result
   output logic            pass_end_o,   // it is over, and nothing has changed meanwhile
   output logic            seen_o,       // a buffer has been looked at: its
   output logic [IdxW-1:0] seen_idx_o,   // index
-  output logic [34:0]     seen_val_o,   // arbitration value
-  output logic            seen_act_o,   // code is active, not on the bus
+  output logic            seen_worst_o, // it would be sent last of those seen
   output logic            seen_free_o   // code is INACTIVE
 );
   localparam logic [1:0] MaxSpoils = 2'd3;
 
   logic            ins_q, ins_new, retry_q, retry_gnt, s1_retry_q, s2_retry_q, ans_q, ans_gnt;
-  logic            scan_q, look_q, quiet_q, dirty_q, again_q, spoilt, last, change, restart_q;
+  logic            reload, lost, fresh, scan_q, look_q, own_q, again_q, spoilt, last, change;
+  logic            redo, restart_q;
   logic [1:0]      spoils_q;
   // Stage 1: the buffer is on the RAM outputs. Stage 2: its arbitration value is known.
-  logic            s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q, s2_active_q, s2_free_q;
-  logic            best_q, s1_part, s2_end;
+  logic            s1_q, s1_look_q, s1_last_q, s2_q, s2_look_q, s2_last_q, s2_active_q, s2_free_q;
+  logic            s1_reload_q, s2_reload_q, best_q, any_q, s1_part, s2_end;
   logic [IdxW-1:0] s1_idx_q, s2_idx_q, ans_idx_q;
   logic [34:0]     s2_val_q, best_val_q;
 
-  // Insertions: the C/S write first, it cannot wait for the next one; answers are rarest.
+  // Insertions: the C/S write first; answers are rarest. Before all of them the winner, if its
+  // value is not there; a C/S write that another one overtakes meanwhile is found by a pass.
   assign ins_new    = ins_q || (cs_written_i && cs_written_act_i);
   assign ins_req_o  = running_i && (ins_new || retry_q || ans_q);
-  assign ins_idx_o  = ins_new ? cs_written_idx_i : retry_q ? cur_idx_i : ans_idx_q;
-  assign retry_gnt  = ins_gnt_i && !ins_new;
-  assign ans_gnt    = ins_gnt_i && !ins_new && !retry_q;
+  assign reload     = best_q && !own_q;
+  assign ins_idx_o  = reload ? best_idx_o : ins_new ? cs_written_idx_i
+                    : retry_q ? cur_idx_i : ans_idx_q;
+  assign retry_gnt  = ins_gnt_i && !reload && !ins_new;
+  assign ans_gnt    = retry_gnt && !retry_q;
+  assign lost       = ins_q && cs_written_i;
   assign retry_o    = retry_q || retry_i || s1_retry_q || s2_retry_q;
   assign scan_req_o = running_i && (scan_q || look_q) && !s1_last_q && !s2_last_q;
   assign scan_lazy_o = !scan_q;
@@ -116,7 +121,7 @@ module can_mb_tx #(
 
   // A buffer written since it was read does not count: an insertion follows if it is active. Nor
   // does the one on the bus.
-  logic candidate, withdrawn, better;
+  logic candidate, withdrawn;
   assign candidate = s2_q && s2_active_q && !(cs_written_i && cs_written_idx_i == s2_idx_q)
                   && !((off_i || start_i) && s2_idx_q == cur_idx_i);
   // A buffer that is held no longer is compared as one that was written; a winner that is held from
@@ -139,52 +144,66 @@ module can_mb_tx #(
   logic high_less, high_equal, low_less;
   assign high_less  = s2_val_q[34:17] < best_val_q[34:17];
   assign high_equal = s2_val_q[34:17] == best_val_q[34:17];
-  assign low_less   = {s2_val_q[16:0], s2_idx_q} < {best_val_q[16:0], best_idx_o};
-  assign better = s2_held != best_held ? best_held
-                : lbuf_i ? s2_idx_q < best_idx_o : high_less || (high_equal && low_less);
+  // Of two buffers with equal values the later one is the worse.
+  assign low_less   = {s2_val_q[16:0], s2_idx_q}
+                    < {best_val_q[16:0], {IdxW{!s2_look_q}} & best_idx_o};
+  // low_less is the last to be known: bit 0 is for low_less = 0, bit 1 for low_less = 1.
+  logic [1:0] better;
+  always_comb begin
+    better = {high_less || high_equal, high_less};
+    if (lbuf_i) better = {2{s2_idx_q < best_idx_o}};
+    if (!s2_look_q && s2_held != best_held) better = {2{best_held}};
+  end
+
+  // One register for two values: that of the winner, or in a pass for ESR2 that of the worst. What
+  // comes while the winner is lost and is no better is left to the pass that looks for the next.
+  logic       take, take_worst, force_it;
+  logic [1:0] take_if, worst_if, load_if;
+  assign force_it   = s2_look_q ? !any_q || lbuf_i || s2_idx_q == '0
+                                : !best_q || s2_reload_q;
+  assign take_if    = {2{candidate && !s2_look_q}} & ({2{force_it}} | better);
+  assign worst_if   = {2{candidate && seen_o}} & ({2{force_it}} | ~better);
+  assign load_if    = take_if | worst_if;
+  assign take       = take_if[low_less];
+  assign take_worst = worst_if[low_less];
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      best_q     <= 1'b0;
+      {best_q, own_q} <= '0;
       best_idx_o <= '0;
       best_val_q <= '0;
-    end else if (!running_i) begin
-      best_q <= 1'b0;
-    end else if (candidate && (!best_q || withdrawn || better)) begin
-      best_q     <= 1'b1;
-      best_idx_o <= s2_idx_q;
-      best_val_q <= s2_val_q;
-    end else if (withdrawn) begin
-      best_q <= 1'b0;
+    end else begin
+      best_q <= running_i && (take || (best_q && !withdrawn));
+      if (take) best_idx_o <= s2_idx_q;
+      if (load_if[low_less]) best_val_q <= s2_val_q;
+      own_q <= take || (ins_gnt_i && reload) || (own_q && !take_worst);
     end
   end
 
-  assign seen_o      = s2_scan_q && !quiet_q;
-  assign seen_idx_o  = s2_idx_q;
-  assign seen_val_o  = s2_val_q;
-  assign seen_act_o  = candidate;
-  assign seen_free_o = s2_free_q;
-  assign pass_o      = s1_scan_q && s1_idx_q == '0 && !quiet_q;
-  assign s2_end      = s2_last_q && !restart_q;
-  assign pass_end_o  = s2_end && !dirty_q && !change && !withdrawn && !quiet_q;
+  // What an insertion overtakes is not looked at any more.
+  assign seen_o       = s2_q && s2_look_q && !scan_q && !ins_req_o;
+  assign seen_idx_o   = s2_idx_q;
+  assign seen_worst_o = take_worst;
+  assign seen_free_o  = s2_free_q;
+  assign pass_o       = running_i && look_q;
+  assign s2_end       = s2_last_q && !restart_q;
+  assign pass_end_o   = s2_end && !scan_q && !change && !ins_req_o;
 
-  // A pass for ESR2 alone is started anew by whatever happens; one that looks for a winner by the
-  // loss of a winner, and not for ever.
-  assign change  = Status != 0 && (cs_written_i || ans_i);
+  // A pass for ESR2 is started anew by whatever happens; one that looks for a winner by the loss of
+  // a winner, and not for ever.
+  assign redo    = withdrawn || lost;
+  assign fresh   = fresh_i && !best_q && !scan_q;
+  assign change  = Status != 0 && (cs_written_i || ans_i || redo);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {look_q, quiet_q, dirty_q, restart_q} <= '0;
+      {look_q, any_q, restart_q} <= {Status != 0, 2'b00};
     end else if (!running_i) begin
-      {look_q, quiet_q, dirty_q, restart_q} <= '0;
+      {look_q, any_q, restart_q} <= {Status != 0, 2'b00};
     end else begin
-      restart_q <= scan_q ? withdrawn && !spoilt : look_q && (change || withdrawn);
-      if (s2_end)      {look_q, dirty_q} <= {dirty_q || change, 1'b0};
-      else if (change) {look_q, dirty_q} <= {1'b1, scan_q};
-      else if (fresh_i && !best_q && !scan_q) look_q <= 1'b1;
-      // Such a pass is not for ESR2 unless something happens meanwhile.
-      quiet_q <= !s2_end && !change && !withdrawn && !scan_q
-              && (quiet_q || (fresh_i && !best_q && !look_q));
+      restart_q <= scan_q ? redo && !spoilt : look_q && (change || ins_req_o || fresh);
+      look_q    <= change || (look_q && !pass_end_o);
+      if (seen_o) any_q <= take_worst || (any_q && s2_idx_q != '0);
     end
   end
 
@@ -200,36 +219,38 @@ module can_mb_tx #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {ins_q, retry_q, s1_retry_q, s2_retry_q, again_q, spoils_q} <= '0;
-      {s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q} <= '0;
+      {s1_q, s1_look_q, s1_last_q, s2_q, s2_look_q, s2_last_q, s1_reload_q, s2_reload_q} <= '0;
       scan_q <= 1'b1;
       {scan_idx_o, s1_idx_q} <= '0;
     end else if (!running_i) begin
       {ins_q, retry_q, s1_retry_q, s2_retry_q, again_q, spoils_q} <= '0;
-      {s1_q, s1_scan_q, s1_last_q, s2_q, s2_scan_q, s2_last_q} <= '0;
+      {s1_q, s1_look_q, s1_last_q, s2_q, s2_look_q, s2_last_q, s1_reload_q, s2_reload_q} <= '0;
       scan_q     <= 1'b1;
       scan_idx_o <= '0;
     end else begin
-      ins_q     <= ins_new && !ins_gnt_i;
+      ins_q     <= ins_new && !(ins_gnt_i && !reload);
       retry_q   <= retry_i || (retry_q && !retry_gnt);
       {s1_retry_q, s2_retry_q} <= {retry_q && retry_gnt, s1_retry_q};
       s1_q      <= ins_gnt_i || scan_gnt_i;
-      s1_scan_q <= scan_gnt_i;
+      s1_look_q <= scan_gnt_i && !scan_q;
+      s1_reload_q <= ins_gnt_i && reload;
       s1_last_q <= scan_gnt_i && last;
-      s2_q      <= s1_q;
-      s2_scan_q <= s1_scan_q;
+      s2_q      <= s1_q && !(s1_look_q && ins_req_o);   // overtaken
+      s2_look_q <= s1_look_q;
+      s2_reload_q <= s1_reload_q;
       s2_last_q <= s1_last_q;
       s1_idx_q  <= ins_req_o ? ins_idx_o : scan_idx_o;
       if (scan_gnt_i) scan_idx_o <= scan_idx_o + 1'b1;
       if (s2_end) begin                 // every buffer has been looked at
-        scan_q     <= again_q || withdrawn;
+        scan_q     <= again_q || redo || fresh;
         again_q    <= 1'b0;
-        if (!again_q && !withdrawn) spoils_q <= '0;
+        if (!again_q && !redo) spoils_q <= '0;
         scan_idx_o <= '0;
-      end else if (withdrawn) begin
+      end else if (redo || fresh) begin
         scan_q  <= 1'b1;
         again_q <= spoilt;
       end
-      if (withdrawn && scan_q && !spoilt) spoils_q <= spoils_q + 1'b1;
+      if (redo && scan_q && !spoilt) spoils_q <= spoils_q + 1'b1;
       if (restart_q) begin
         scan_idx_o <= '0;
         {s1_last_q, s2_last_q} <= '0;

@@ -47,12 +47,15 @@ class TransmitScan {
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_step__DOT__data_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__rd_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__wr_q;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__cs_row;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__msg_row;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__cs_raddr;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__msg_raddr;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_cs__DOT__mem;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_msg__DOT__mem;
-    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_scan_q;
-    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_scan_q;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__scan_q;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_q;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_idx_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_idx_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_active_q;
@@ -74,23 +77,32 @@ class TransmitScan {
   template <typename R>
   static bool in_full_swing(const R &root) {
     const unsigned scanning = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__scan_gnt &
-                              root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_scan_q &
-                              root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_scan_q;
+                              root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_q &
+                              root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_q;
     const unsigned else_busy = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__stale |
                                root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_step__DOT__data_q |
                                root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__rd_q |
                                root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__wr_q;
-    const unsigned event =
-        root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__restart_q |
-        root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__withdrawn |
-        root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__change |
-        root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_active_q |
-        (root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_free_q &
-         ~root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__gen_status__DOT__u_status__DOT__imb_q);
+    const unsigned event = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__restart_q |
+                           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__withdrawn |
+                           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__change |
+                           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_active_q |
+                           (root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_free_q &
+                            static_cast<unsigned>(takes_inactive(root)));
     return scanning != 0 && else_busy == 0 && (event & 1) == 0 &&
-           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__scan_idx != 0 &&
-           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_idx_q != 0 &&
-           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_idx_q != 0;
+           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_idx_q != 0 &&
+           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__scan_idx ==
+               root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_idx_q + 1U &&
+           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_idx_q ==
+               root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_idx_q + 1U;
+  }
+
+  // A pass for ESR2 that has met no inactive buffer yet.
+  template <typename R>
+  static bool takes_inactive(const R &root) {
+    return root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__scan_q == 0 &&
+           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__gen_status__DOT__u_status__DOT__imb_q ==
+               0;
   }
 
   // What the clocks of a pass change goes from `from` to `to`.
@@ -108,6 +120,10 @@ class TransmitScan {
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__eng_cs_row;
     to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__eng_msg_row =
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__eng_msg_row;
+    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__cs_row =
+        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__cs_row;
+    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__msg_row =
+        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__msg_row;
     to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__cs_raddr =
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__cs_raddr;
     to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__msg_raddr =
@@ -144,12 +160,11 @@ class TransmitScan {
     const unsigned maxmb = root.can_ahb__DOT__u_top__DOT__u_regs__DOT__u_mcr__DOT__value_q & 0x7F;
     const unsigned begin = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__scan_idx;
     const unsigned last = maxmb < begin ? kBuffers - 1 : std::min(maxmb, kBuffers - 1);
-    const bool takes_inactive =
-        root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__gen_status__DOT__u_status__DOT__imb_q == 0;
+    const bool inactive_counts = takes_inactive(root);
     unsigned next = begin;
     for (std::uint32_t cs = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs; next < last;
          ++next) {
-      if (active(cs) || (takes_inactive && inactive(cs))) break;
+      if (active(cs) || (inactive_counts && inactive(cs))) break;
       cs = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_cs__DOT__mem[next];
     }
     return next - begin;

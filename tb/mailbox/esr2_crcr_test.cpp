@@ -69,7 +69,7 @@ class Esr2 : public ::testing::Test {
     id_[mb] = id;
   }
   std::uint32_t scanned() {
-    rig_->run(150);
+    rig_->run(300);  // a pass for the winner and one for ESR2
     return rig_->read(0, kEsr2);
   }
   // Nodes that cannot send keep everything as it is: listen-only.

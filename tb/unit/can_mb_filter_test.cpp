@@ -71,9 +71,7 @@ class MbFilter : public ::testing::TestWithParam<unsigned> {  // format
       EXPECT_TRUE(!granted || row == (k < own_ ? k : kRxfgmaskRow)) << "word " << k;
       top_.clock();
       if (granted && k < table_.size()) {
-        // The word is in the C/S memory or in the other one, which holds something else.
-        top_->cs_i = k % 4 == 0 ? table_[k] : random();
-        top_->msg_i = k % 4 == 0 ? random() : table_[k];
+        top_->data_i = table_[k];
         top_->mask_i = masks_[row];
       }
       top_.settle();

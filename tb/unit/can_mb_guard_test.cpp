@@ -82,6 +82,23 @@ TEST_F(MbGuard, RequestForTheFrameThatHasMovedOut) {  // FX-3.4.b, FX-3.4.d
   EXPECT_TRUE(guard_->flag_o);
 }
 
+// While a write looks its buffer up another frame may be presented in place of that buffer's.
+TEST_F(MbGuard, FrameThatIsReplacedHasNotMovedOut) {  // FX-3.4.b
+  guard_->out_i = guard_->done_i = 1;
+  for (const bool replaced : {false, true}) {
+    for (const unsigned mem_sel : {kCs, kMsg}) {
+      guard_->cur_idx_i = 7;
+      look(mem_sel, 7, kAbort);
+      guard_->take_i = replaced;
+      ends();
+      guard_->take_i = 0;
+      guard_->cur_idx_i = replaced ? 8 : 7;
+      guard_.settle();
+      EXPECT_EQ(guard_->block_o != 0, !replaced) << mem_sel;
+    }
+  }
+}
+
 TEST_F(MbGuard, RequestThatIsDoneAtOnce) {  // FX-3.4.a
   for (const auto &change : kNoRequest) {
     look(kCs, 3, kAbort);

@@ -14,7 +14,7 @@ class MbMatch : public ::testing::Test {
  protected:
   MbMatch() {
     match_->fen_i = 1;
-    match_->msg_i = match_->cs_i = match_->mask_i = ~0u;  // no element fits
+    match_->msg_i = match_->cs_i = match_->data_i = match_->mask_i = ~0u;  // no element fits
     match_.reset();
   }
   void clock(bool grant) {
@@ -39,6 +39,8 @@ TEST_F(MbMatch, IsDoneWhenTheLastWordHasBeenCompared) {  // FX-4.a, FX-4.k
     unsigned granted = 0;
     for (unsigned i = 0; granted < slots; ++i) {
       ASSERT_FALSE(match_->done_o) << granted << " of " << slots;
+      // Word 0 of a buffer in the table is in the C/S memory (flexcan.md section 4).
+      EXPECT_EQ(match_->cs_o != 0, granted < 8 && granted % 4 == 0) << granted;
       granted += i % 3 == 0 && match_->req_o != 0;
       clock(i % 3 == 0);
       ASSERT_LT(i, 1000u);
@@ -57,14 +59,14 @@ TEST_F(MbMatch, IsNotDoneBeforeTheTableBecauseThereAreNoMailboxes) {  // FX-4.a,
     match_->first_i = 64;
     match_->maxmb_i = 63;
     match_->rx_hdr_i = 1;
-    match_->msg_i = match_->cs_i = ~0u;
+    match_->msg_i = match_->cs_i = match_->data_i = ~0u;
     clock(false);
     for (unsigned granted = 0; granted < 8; ++granted) {
       for (unsigned wait = 0; wait < 3; ++wait, clock(false)) ASSERT_FALSE(match_->done_o);
       ASSERT_TRUE(match_->req_o);
       clock(true);
     }
-    if (fits) match_->msg_i = match_->cs_i = 0;
+    if (fits) match_->msg_i = match_->cs_i = match_->data_i = 0;
     for (unsigned i = 0; i < 4; ++i) clock(false);
     EXPECT_TRUE(match_->done_o);
     EXPECT_EQ(match_->hit_o != 0, fits);

@@ -15,12 +15,11 @@ constexpr unsigned kVps = 2, kImb = 1;
 class MbStatus : public ::testing::Test {
  protected:
   MbStatus() { status_.reset(); }
-  void see(unsigned idx, bool free, bool active, unsigned value = 0) {
+  void see(unsigned idx, bool free, bool worst) {
     status_->seen_i = 1;
-    status_->seen_val_i = value;
     status_->seen_idx_i = idx;
     status_->seen_free_i = free;
-    status_->seen_act_i = active;
+    status_->seen_worst_i = worst;
   }
   unsigned clock() {
     status_.settle();
@@ -53,6 +52,20 @@ TEST_F(MbStatus, InactiveBufferThatIsSeenInThatClockStays) {  // FX-ESR2.LPTM
   EXPECT_EQ(clock(), esr2(3, kVps | kImb));
 }
 
+// From the moment a pass is wanted until it has ended there is no result.
+TEST_F(MbStatus, ResultIsThereWithTheEndOfThePass) {  // FX-ESR2.VPS
+  status_->pass_i = 1;
+  see(0, false, true);
+  EXPECT_EQ(clock(), esr2(0, 0));
+  see(1, false, true);
+  status_->pass_end_i = 1;
+  EXPECT_EQ(clock(), esr2(1, kVps));
+  status_->pass_i = 0;
+  EXPECT_EQ(clock(), esr2(1, kVps));
+  status_->pass_i = 1;
+  EXPECT_EQ(clock(), esr2(1, 0));
+}
+
 TEST_F(MbStatus, PassForgetsTheOneBefore) {  // FX-ESR2.LPTM
   see(5, true, false);
   EXPECT_EQ(clock() >> 2, 5u);
@@ -66,9 +79,9 @@ TEST_F(MbStatus, FirstBufferCountsInEveryPass) {  // FX-ESR2.IMB, FX-ESR2.LPTM
   clock();
   see(0, true, false);
   EXPECT_EQ(clock(), esr2(0, kImb));
-  see(0, false, true, 7);
+  see(0, false, true);
   clock();
-  see(1, false, true, 3);  // would be sent before buffer 0
+  see(1, false, false);  // would be sent before buffer 0
   EXPECT_EQ(clock(), esr2(0, 0));
 }
 

@@ -104,6 +104,10 @@ TEST_F(MbStep, OnlyCopiesTakeTheWritePort) {
   for (const unsigned step : {kStepWord, kStepEnd, kStepLow, kStepHigh, kStepHead}) {
     step_->ld_req_i = 1;
     step_->ld_step_i = step;
+    step_.settle();
+    if (step != kStepWord) {
+      EXPECT_EQ(step_->cs_o != 0, step == kStepEnd || step == kStepHead) << step;
+    }
     clock();
     step_->ld_req_i = 0;
     step_.settle();
@@ -131,11 +135,13 @@ TEST_F(MbStep, HeaderThatIsNotTakenIsNotCopied) {
 TEST_F(MbStep, MovesCopyWordForWord) {  // FX-3.5.b, FX-3.7.b
   step_->mv_idx_i = 9;
   step_->cs_i = 0xA5123456;
-  step_->msg_i = 0x89ABCDEF;
   step_->mv_top_i = 0x004;  // FULL
   for (unsigned word = 0; word < 4; ++word) {
     step_->mv_req_i = 1;
     step_->mv_step_i = word;
+    step_.settle();
+    EXPECT_EQ(step_->cs_o != 0, word == 3);
+    step_->word_i = step_->cs_o != 0 ? 0xA5123456 : 0x89ABCDEF;
     clock();
     step_->mv_req_i = 0;
     step_.settle();

@@ -26,13 +26,15 @@
   logic [39:0] f_cand, f_best, f_best_q, f_cand_q;
   assign f_cand = {lbuf_i ? 35'd0 : s2_val_q, 1'b0, 4'(s2_idx_q)};
   assign f_best = {lbuf_i ? 35'd0 : best_val_q, 1'b0, 4'(best_idx_o)};
-  logic f_lbuf_q, f_take_q, f_won_q;
+  logic f_lbuf_q, f_take_q, f_won_q, f_own_q;
   always @(posedge clk_i) begin
     f_cand_q <= f_cand;
     f_best_q <= f_best;
     f_lbuf_q <= lbuf_i;
-    f_take_q <= running_i && candidate;
-    f_won_q  <= best_q && !withdrawn;
+    f_own_q  <= own_q;
+    // Those that a pass for ESR2 looks at are no candidates.
+    f_take_q <= running_i && candidate && !s2_look_q;
+    f_won_q  <= best_q;
   end
 
   always @(posedge clk_i) begin
@@ -50,13 +52,17 @@
                           && 7'(s2_idx_q) >= $past(first_i) && 7'(s2_idx_q) <= $past(maxmb_i)));
       // FX-9.ERR005829: a candidate without a winner becomes the winner.
       p_first: assert (!(f_take_q && !f_won_q) || (best_q && f_best == f_cand_q));
-      // FX-9.ERR005829: without a candidate the winner stays as long as nothing touches it.
-      p_stays: assert (!$past(running_i && best_q && !withdrawn && !candidate)
-                       || (best_q && f_best == f_best_q));
+      // FX-9.ERR005829: without a candidate the winner stays as long as nothing touches it, and so
+      // does its value while it is said to be there.
+      p_stays: assert (!$past(running_i && best_q && !withdrawn && !(candidate && !s2_look_q))
+                       || (best_q && f_best[3:0] == f_best_q[3:0]
+                           && (f_best == f_best_q || !f_own_q || !own_q)));
       // FX-9.ERR005829: a winner that is touched makes a pass over all buffers begin.
       p_pass_begins: assert (!$past(running_i && withdrawn && !s2_end) || scan_q);
+      // FX-9.ERR005829: so does a C/S write whose insertion another one overtakes.
+      p_overtaken: assert (!$past(running_i && ins_q && cs_written_i && !s2_end) || scan_q);
       // FX-9.ERR005829: without a winner a pass begins whenever fresh_i says so.
-      p_fresh: assert (!$past(running_i && fresh_i && !best_q && !s2_end) || scan_q || look_q);
+      p_fresh: assert (!$past(running_i && fresh_i && !best_q && !s2_end) || scan_q);
       // FX-9.ERR005829: a winner that is not active is dropped.
       p_dropped: assert (!$past(inactive_i && running_i && !candidate) || !best_q);
     end
