@@ -29,11 +29,11 @@ module can_mb_status #(
   output logic [21:0]     crcr_o        // MBCRC, TXCRC
 );
   logic [IdxW-1:0] lptm_q, mbcrc_q;
-  logic            vps_q, imb_q, first;
+  logic            vps_q, imb_q, crc_q, first;
   logic [14:0]     txcrc_q;
 
   assign esr2_o = {7'(lptm_q), vps_q, imb_q};
-  assign crcr_o = {7'(mbcrc_q), txcrc_q};
+  assign crcr_o = {7'(mbcrc_q), txcrc_q} & {22{crc_q}};   // 0 until a frame has been sent
 
   // LPTM and IMB are those of the buffers seen so far: the lowest inactive one, or else the one
   // that would be sent last.
@@ -70,14 +70,15 @@ module can_mb_status #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
+      crc_q   <= 1'b0;
       mbcrc_q <= '0;
       txcrc_q <= '0;
-    end else if (clear_i) begin
-      mbcrc_q <= '0;
-      txcrc_q <= '0;
-    end else if (tx_ok_i) begin
-      mbcrc_q <= cur_idx_i;
-      txcrc_q <= crc_i;
+    end else begin
+      crc_q <= !clear_i && (crc_q || tx_ok_i);
+      if (tx_ok_i) begin
+        mbcrc_q <= cur_idx_i;
+        txcrc_q <= crc_i;
+      end
     end
   end
 endmodule

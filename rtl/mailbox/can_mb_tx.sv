@@ -10,7 +10,8 @@
 // writes C/S words for ever cannot hold up the others.
 //
 // An upset of a flip-flop must not stop transmission for ever: a winner that turns out not to be
-// active is dropped, and while there is none all buffers are looked at now and then (fresh_i).
+// active is dropped, and while there is none all buffers are looked at now and then (fresh_i). One
+// that is active is found there (found) by an upset only, and a pass for the winner begins.
 //
 // ESR2 is found in passes of its own, which give way to everybody and begin anew with every change
 // (can_mb_status). Such a pass keeps the value of the worst buffer where that of the winner was,
@@ -74,8 +75,8 @@ module can_mb_tx #(
   localparam logic [1:0] MaxSpoils = 2'd3;
 
   logic            ins_q, ins_new, retry_q, retry_gnt, s1_retry_q, s2_retry_q, ans_q, ans_gnt;
-  logic            reload, lost, fresh, scan_q, look_q, own_q, again_q, spoilt, last, change;
-  logic            redo, restart_q;
+  logic            reload, lost, found, scan_q, look_q, quiet_q, own_q, again_q, spoilt, last;
+  logic            change, redo, restart_q;
   logic [1:0]      spoils_q;
   // Stage 1: the buffer is on the RAM outputs. Stage 2: its arbitration value is known.
   logic            s1_q, s1_look_q, s1_last_q, s2_q, s2_look_q, s2_last_q, s2_active_q, s2_free_q;
@@ -94,7 +95,7 @@ module can_mb_tx #(
   assign ans_gnt    = retry_gnt && !retry_q;
   assign lost       = ins_q && cs_written_i;
   assign retry_o    = retry_q || retry_i || s1_retry_q || s2_retry_q;
-  assign scan_req_o = running_i && (scan_q || look_q) && !s1_last_q && !s2_last_q;
+  assign scan_req_o = running_i && (scan_q || look_q || quiet_q) && !s1_last_q && !s2_last_q;
   assign scan_lazy_o = !scan_q;
   assign spoilt     = spoils_q == MaxSpoils;
   assign settled_o  = best_q && (!scan_q || spoilt);
@@ -181,28 +182,30 @@ module can_mb_tx #(
   end
 
   // What an insertion overtakes is not looked at any more.
-  assign seen_o       = s2_q && s2_look_q && !scan_q && !ins_req_o;
+  assign seen_o       = s2_q && s2_look_q && !scan_q && !quiet_q && !ins_req_o;
   assign seen_idx_o   = s2_idx_q;
   assign seen_worst_o = take_worst;
   assign seen_free_o  = s2_free_q;
   assign pass_o       = running_i && look_q;
   assign s2_end       = s2_last_q && !restart_q;
-  assign pass_end_o   = s2_end && !scan_q && !change && !ins_req_o;
+  assign pass_end_o   = s2_end && look_q && !scan_q && !change && !ins_req_o;
 
   // A pass for ESR2 is started anew by whatever happens; one that looks for a winner by the loss of
   // a winner, and not for ever.
   assign redo    = withdrawn || lost;
-  assign fresh   = fresh_i && !best_q && !scan_q;
+  assign found   = candidate && s2_look_q && !best_q && !scan_q;
   assign change  = Status != 0 && (cs_written_i || ans_i || redo);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {look_q, any_q, restart_q} <= {Status != 0, 2'b00};
+      {look_q, quiet_q, any_q, restart_q} <= {Status != 0, 3'b000};
     end else if (!running_i) begin
-      {look_q, any_q, restart_q} <= {Status != 0, 2'b00};
+      {look_q, quiet_q, any_q, restart_q} <= {Status != 0, 3'b000};
     end else begin
-      restart_q <= scan_q ? redo && !spoilt : look_q && (change || ins_req_o || fresh);
+      restart_q <= scan_q ? redo && !spoilt : change || ins_req_o || found;
       look_q    <= change || (look_q && !pass_end_o);
+      quiet_q   <= !change && !found && !s2_end && !scan_q && !look_q
+                && (quiet_q || (fresh_i && !best_q));
       if (seen_o) any_q <= take_worst || (any_q && s2_idx_q != '0);
     end
   end
@@ -242,11 +245,11 @@ module can_mb_tx #(
       s1_idx_q  <= ins_req_o ? ins_idx_o : scan_idx_o;
       if (scan_gnt_i) scan_idx_o <= scan_idx_o + 1'b1;
       if (s2_end) begin                 // every buffer has been looked at
-        scan_q     <= again_q || redo || fresh;
+        scan_q     <= again_q || redo || found;
         again_q    <= 1'b0;
         if (!again_q && !redo) spoils_q <= '0;
         scan_idx_o <= '0;
-      end else if (redo || fresh) begin
+      end else if (redo || found) begin
         scan_q  <= 1'b1;
         again_q <= spoilt;
       end

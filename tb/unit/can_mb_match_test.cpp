@@ -40,7 +40,9 @@ TEST_F(MbMatch, IsDoneWhenTheLastWordHasBeenCompared) {  // FX-4.a, FX-4.k
     for (unsigned i = 0; granted < slots; ++i) {
       ASSERT_FALSE(match_->done_o) << granted << " of " << slots;
       // Word 0 of a buffer in the table is in the C/S memory (flexcan.md section 4).
-      EXPECT_EQ(match_->cs_o != 0, granted < 8 && granted % 4 == 0) << granted;
+      if (match_->req_o != 0) {
+        EXPECT_EQ(match_->cs_o != 0, granted < 8 && granted % 4 == 0) << granted;
+      }
       granted += i % 3 == 0 && match_->req_o != 0;
       clock(i % 3 == 0);
       ASSERT_LT(i, 1000u);

@@ -20,7 +20,8 @@
                && ins_gnt_i == ins_req_o && scan_gnt_i == scan_req_o;
   always @(posedge clk_i) begin
     f_ran  <= 1'b1;
-    f_open <= !f_calm || s2_end || !(scan_q || look_q) || f_open == 6'd63 ? 6'd0 : f_open + 6'd1;
+    f_open <= !f_calm || s2_end || !(scan_q || look_q || quiet_q) || f_open == 6'd63
+            ? 6'd0 : f_open + 6'd1;
   end
 
   logic [39:0] f_cand, f_best, f_best_q, f_cand_q;
@@ -62,7 +63,11 @@
       // FX-9.ERR005829: so does a C/S write whose insertion another one overtakes.
       p_overtaken: assert (!$past(running_i && ins_q && cs_written_i && !s2_end) || scan_q);
       // FX-9.ERR005829: without a winner a pass begins whenever fresh_i says so.
-      p_fresh: assert (!$past(running_i && fresh_i && !best_q && !s2_end) || scan_q);
+      p_fresh: assert (!$past(running_i && fresh_i && !best_q && !s2_end)
+                       || scan_q || look_q || quiet_q);
+      // FX-9.ERR005829: ... and if that meets an active buffer, one that looks for the winner.
+      p_found: assert (!$past(running_i && candidate && !best_q && !s2_end)
+                       || scan_q || best_q);
       // FX-9.ERR005829: a winner that is not active is dropped.
       p_dropped: assert (!$past(inactive_i && running_i && !candidate) || !best_q);
     end
