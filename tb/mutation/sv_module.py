@@ -10,7 +10,12 @@ from sv_tree import Node, Reader, Syntax, line_of, parse_expression
 
 FUNCTION = re.compile(r"function\s+automatic\s[^;(]*?(\w+)\s*\(")
 CONSTANT = re.compile(r"\blocalparam\b[^;]*;")
-FEATURE = re.compile(r"if \(\w+ != 0\) begin :")
+FEATURE = re.compile(r"if \((\w+) != 0\) begin :")
+EITHER = re.compile(r"if \((\w+) == 0\) begin :")
+# Parameters that choose between two ways to build a module, and what all models of a run have.
+CHOSEN = {"ByteWise": 0, "PresdivWidth": 8}
+# Those of which there are models of both ways.
+BOTH = {"Pipelined"}
 
 
 class Site:
@@ -61,6 +66,8 @@ class ModuleReader:
             self.function()
         elif word == "if" and FEATURE.match(self.text, reader.tokens[reader.at].start):
             self.feature()
+        elif word == "if" and self.chooses():
+            self.either()
         elif word == "if":                  # checks of parameters
             while reader.take().text != "end":
                 pass
@@ -74,11 +81,31 @@ class ModuleReader:
     def feature(self):
         """What a core has with a feature, and what without: no model of a run lacks one, so that
         the mutants are those of the first."""
+        reader = self.reader
+        both = FEATURE.match(self.text, reader.tokens[reader.at].start).group(1) in BOTH
         self.block()
-        if self.reader.peek() == "else":
+        if reader.peek() == "else":
             sites = len(self.sites)
             self.block()
-            del self.sites[sites:]
+            if not both:
+                del self.sites[sites:]
+
+    def chooses(self):
+        """The parameter of CHOSEN that the coming `if` compares with 0; None if there is none."""
+        match = EITHER.match(self.text, self.reader.tokens[self.reader.at].start)
+        return match.group(1) if match and match.group(1) in CHOSEN else None
+
+    def either(self):
+        """Two ways to build a module: the mutants are those of the one that the models have."""
+        first = CHOSEN[self.chooses()] == 0
+        before = len(self.sites)
+        self.block()
+        middle = len(self.sites)
+        self.block()
+        if first:
+            del self.sites[middle:]
+        else:
+            del self.sites[before:middle]
 
     def loop(self):
         """A loop of instances, one place in the text for all of them: no mutants."""
