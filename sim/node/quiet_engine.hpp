@@ -84,7 +84,7 @@ class QuietEngine {
     root.can_core__DOT__active_q;
     root.can_core__DOT__u_sync__DOT__meta_q;
     root.can_core__DOT__u_sync__DOT__settled_q;
-    root.can_core__DOT__u_tq_gen__DOT__count_q;
+    root.can_core__DOT__u_tq_gen__DOT__gen_divide__DOT__count_q;
     root.can_core__DOT__u_bit_timing__DOT__seg2_q;
     root.can_core__DOT__u_bit_timing__DOT__pos_q;
     root.can_core__DOT__u_bit_timing__DOT__prev_q;
@@ -181,7 +181,7 @@ class QuietEngine {
   static Place place_of(const Engine &engine) {
     const auto &root = *engine.rootp;
     const std::uint64_t clocks = engine.presdiv_i + 1U;
-    const std::uint64_t count = root.can_core__DOT__u_tq_gen__DOT__count_q;
+    const std::uint64_t count = root.can_core__DOT__u_tq_gen__DOT__gen_divide__DOT__count_q;
     if (root.can_core__DOT__tq != 0) return {clocks, 0};
     return {clocks, count >= clocks ? 1 : clocks - count};
   }
@@ -227,7 +227,7 @@ class QuietEngine {
       root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q = 0;
       if (root.can_core__DOT__active_q == 0) return;
       const Place place = place_of(engine);
-      auto &count = root.can_core__DOT__u_tq_gen__DOT__count_q;
+      auto &count = root.can_core__DOT__u_tq_gen__DOT__gen_divide__DOT__count_q;
       if (edges < place.to_tick) {
         count += static_cast<CData>(edges);
         return;
