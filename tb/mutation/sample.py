@@ -19,8 +19,8 @@ from mutants import Design
 MODULE = "can_fault"
 # Rule, what stands in the RTL, what the mutant has instead.
 KILLED = [
-    ("FC-05: 8 for an error", "9'd8", "9'h9"),
-    ("FC-02: 1 for a receiver", "9'd1", "9'h2"),
+    ("FC-05: 8 for an error", "i == 3", "!(i == 3)"),
+    ("FC-02: 1 for a receiver", "!plus8_q", "plus8_q"),
     ("FC-10: back to 127", "8'd127", "8'h80"),
     ("FC-11: either counter", "tec_q[7] || rec_q[7]", "tec_q[7]"),
     ("FC-08: every eighth bit", "3'd0", "3'h1"),

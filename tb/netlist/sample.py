@@ -4,6 +4,7 @@
 """sample.py BUILD: recorded pins on a netlist of gates in Icarus Verilog: no output differs, and
 each module is proven equal to its RTL. The same netlist with one AND turned into an OR must differ
 for both, or they are blind."""
+import re
 import subprocess
 import sys
 import tempfile
@@ -15,8 +16,8 @@ from replay import netlist_of, replay
 
 def with_a_wrong_gate(text):
     """The netlist with one AND of can_bsp, which every frame runs through, turned into an OR."""
-    begin = text.index("module can_bsp(")
-    gate = text.index(" & ", begin)
+    module = re.search(r"^module \\?\S*can_bsp\b", text, re.MULTILINE)
+    gate = text.index(" & ", module.start())
     return text[:gate] + " | " + text[gate + 3:]
 
 
