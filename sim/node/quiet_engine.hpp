@@ -224,7 +224,7 @@ class QuietEngine {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       auto &root = *engine.rootp;
       TimeRest::pass(root, edges);
-      root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q = 0;
+      forget_sample(root);
       if (root.can_core__DOT__active_q == 0) return;
       const Place place = place_of(engine);
       auto &count = root.can_core__DOT__u_tq_gen__DOT__gen_divide__DOT__count_q;
@@ -245,6 +245,14 @@ class QuietEngine {
       if (ticks == 1) prev = static_cast<CData>(((prev << 1) & 3U) | level);
       if (ticks > 1) prev = static_cast<CData>(3U * level);
     }
+  }
+
+  // The mark of the sample point; Verilator may make one register of two that are equal.
+  template <typename Root>
+  static void forget_sample(Root &root) {
+    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q = 0;
+    if constexpr (requires { root.can_core__DOT__u_bsp__DOT__sampled_q; })
+      root.can_core__DOT__u_bsp__DOT__sampled_q = 0;
   }
 
   static constexpr std::uint64_t kStopped = ~0ULL >> 1;  // until an input changes

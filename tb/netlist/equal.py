@@ -4,8 +4,9 @@
 
 Registers of the same name are taken as equal, nothing is said about what they hold, and outputs and
 next values must be equal then: a proof for every state and every input, reachable or not. (One
-clock, -seq 1: a longer induction would leave states out to which no other one leads.) Modules below
-are black boxes with equal outputs for equal inputs, and proven on their own. can_mb_ram is one
+clock, -seq 1: a longer induction would leave states out to which no other one leads.) Next values,
+*_d, are no pairs of their own: a netlist may have any where they are not loaded. Modules below are
+black boxes with equal outputs for equal inputs, and proven on their own. can_mb_ram is one
 always: what it returns for a word that is being written is not defined."""
 import hashlib
 import re
@@ -75,6 +76,7 @@ hierarchy -top {module}
 {others}
 opt_clean; simplemap t:$mux t:$and t:$or t:$not; opt_expr; opt_clean
 techmap -map {RESET}; opt_expr; opt_clean
+rename -hide {module}/w:*_d
 rename {module} {name}
 design -stash {name}
 """
