@@ -1,15 +1,16 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# can.sdc: timing of can_ahb in the fabric of an A2F500M3G. HCLK of the fabric is 50 MHz here; a bit of
-# 1 Mbit/s needs at least 8 clocks, so anything from 8 MHz will do.
-# Not run by Libero; tb/integration/smartfusion.py checks the names in it.
-create_clock -name hclk -period 20.000 [get_ports {hclk}]
+# can.sdc: timing, for SmartFusion.
+# Written by tools/constraints.py, which has options for an instance in a design, its ports and
+# its clock. Not run in the vendor's tool (Libero): tb/integration/constraints.py checks the
+# commands, and that the ports and flip-flops that they name are there.
+# The clock of the core; a bit takes at least 8 clocks.
+create_clock -name can_clock -period 20.000 [get_ports {hclk}]
 
-# The CAN bus has no clock: can_sync takes can_rx_i through two flip-flops. The reset is asynchronous.
-set_false_path -from [get_ports {can_rx_i}]
+# The CAN bus has no clock: can_sync takes can_rx_i through two flip-flops.
+set_false_path -from [get_ports {can_rx_i}] -to [get_cells {u_top/u_core/u_sync/meta_q*}]
+# Asynchronous; the design releases it in step with the clock.
 set_false_path -from [get_ports {hresetn}]
-
-# can_tx_o comes straight from a flip-flop. Its way to the pin counts in the loop delay that the
-# propagation segment covers (rule BT-07), so it is bounded, not free.
-set_max_delay 15.000 -to [get_ports {can_tx_o}]
+# Straight from a flip-flop. Its way to the pin counts in the loop delay (BT-07).
+set_max_delay 15.000 -from [get_cells {u_top/u_core/u_bsp/u_tx_frame/can_tx_o*}] -to [get_ports {can_tx_o}]

@@ -70,11 +70,12 @@ def run(*command, cwd=ROOT, env=None):
     return done.returncode, done.stdout
 
 
-def netlist(top):
-    """What Yosys reads of `top`, flat, as JSON: ports, cells and nets with their attributes."""
+def netlist(top, more=()):
+    """What Yosys reads of `top`, flat, as JSON: ports, cells and nets with their attributes.
+    `more`: files behind those of the core."""
     with tempfile.TemporaryDirectory() as name:
         path = Path(name) / "netlist.json"
-        code, text = run("yosys", "-q", "-f", "verilog -sv", *rtl_files(), "-p",
+        code, text = run("yosys", "-q", "-f", "verilog -sv", *rtl_files(), *more, "-p",
                          f"hierarchy -check -top {top}; proc; flatten; opt_clean; "
                          f"write_json {path}")
         if code != 0:

@@ -1,0 +1,215 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""The constraints of the families say what they should, of ports and flip-flops that are there: for
+the core alone, as they are committed, and for an instance in a design. Files in Tcl run in tclsh
+with the tools' commands recorded; of the others every line must be one that is known. What the
+vendors' tools do with them is not tested; iCE40: ice40_makefile.py."""
+
+import fnmatch
+import re
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import design
+
+sys.path.insert(0, str(design.ROOT / "tools"))
+sys.dont_write_bytecode = True
+# ruff: noqa: E402  (the path must be set first)
+import constraints
+
+FOLDER = design.ROOT / "constraints"
+RECORDERS = """\
+proc unknown {name args} {puts "RECORD\\t$name\\t[join $args \\t]"}
+foreach kind {ports cells regs registers} {
+  proc get_$kind pattern "return \\"$kind \\$pattern\\""
+}
+"""
+TCL = (".sdc", ".pdc", ".xdc", ".tcl")
+QUOTED = r'"([^"]+)"'
+# Lines of the formats that are no Tcl: what they say, as words.
+LPF = {r"FREQUENCY PORT {q} ([\d.]+) MHZ ;": ("clock",),
+       r"BLOCK PATH FROM PORT {q} TO CELL {q} ;": ("false",),
+       r"BLOCK PATH FROM PORT {q} ;": ("false",),
+       r"MAXDELAY FROM CELL {q} TO PORT {q} 15.000 ns ;": ("bound",),
+       r"IOBUF PORT {q} IO_TYPE=LVCMOS33 PULLMODE=UP( \w+=\w+)+ ;": ("pull",)}
+CST = {r"IO_PORT {q} IO_TYPE=LVCMOS33 PULL_MODE=UP( \w+=\w+)+;": ("pull",)}
+CCF = {r'NET {q} Loc = "IO_[NEWS][ABC]_[AB][0-8]" \| SCHMITT_TRIGGER=true \| PULLUP=true;':
+       ("pull",), r'NET {q} Loc = "IO_[NEWS][ABC]_[AB][0-8]" \| \w+=\w+;': ("pin",)}
+
+
+class Facts:
+    """What a family's files say."""
+
+    def __init__(self):
+        self.clock, self.false, self.bound, self.pulls, self.pins = [], [], [], set(), set()
+
+    def lines(self, text, forms):
+        """Of a format with one statement a line."""
+        for line in text.splitlines():
+            if not line or line.startswith(("#", "//")):
+                continue
+            for form, (what,) in forms.items():
+                match = re.fullmatch(form.replace("{q}", QUOTED), line)
+                if match:
+                    self.take(what, match.groups())
+                    break
+            else:
+                raise AssertionError(f"no line of this format: {line}")
+
+    def take(self, what, words):
+        """One of a line's forms."""
+        if what == "clock":
+            self.clock.append((words[0], 1000 / float(words[1])))
+        elif what == "false":
+            self.false.append((words[0], words[1] if len(words) > 1 else None))
+        elif what == "bound":
+            self.bound.append((words[0], words[1], 15.0))
+        else:
+            (self.pulls if what == "pull" else self.pins).add(words[0])
+
+    def command(self, name, words):
+        """A command of a tool, as it was recorded."""
+        of = {word: words[at + 1].split(maxsplit=1)[-1] for at, word in enumerate(words[:-1])
+              if word.startswith("-")}
+        last = words[-1].split(maxsplit=1)[-1]
+        if name == "create_clock":
+            self.clock.append((last, float(of["-period"])))
+        elif name == "set_false_path":
+            self.false.append((of["-from"], of.get("-to")))
+        elif name == "set_max_delay":
+            self.bound.append((of["-from"], of["-to"],
+                               float(next(word for word in words if re.match(r"\d", word)))))
+        elif name == "set_io":
+            port = of.get("-port_name", words[0])
+            self.pins.add(port)
+            if of["-RES_PULL"] == "Up":
+                self.pulls.add(port)
+        elif name == "ldc_set_port":
+            if "PULLMODE=UP" in words[words.index("-iobuf") + 1].split():
+                self.pulls.add(last)
+        elif name == "set_property":
+            if words[:2] == ["PULLTYPE", "PULLUP"]:
+                self.pulls.add(last)
+            elif words[0] == "IOB":
+                self.pins.add(last)
+            else:
+                assert words[:2] == ["IOSTANDARD", "LVCMOS33"], words
+        elif name == "set_instance_assignment":
+            if (of["-name"], words[2]) == ("WEAK_PULL_UP_RESISTOR", "ON"):
+                self.pulls.add(words[-1])
+            self.pins.add(words[-1])
+        else:
+            raise AssertionError(f"no command of a tool: {name}")
+
+    # What Efinity's Interface Designer calls `design`.
+    def create_input_gpio(self, port):
+        self.pins.add(port)
+
+    create_output_gpio = create_input_gpio
+
+    def set_property(self, port, name, value):
+        """Efinity's."""
+        assert port in self.pins
+        if (name, value) == ("PULL_OPTION", "WEAK_PULLUP"):
+            self.pulls.add(port)
+
+
+def facts_of(folder):
+    """The facts of a folder's files."""
+    facts = Facts()
+    for path in sorted(folder.glob("can*.*")):
+        text = path.read_text(encoding="utf-8")
+        if path.suffix in TCL:
+            runner = f"{RECORDERS}source {{{path}}}\n"
+            with tempfile.NamedTemporaryFile("w", suffix=".tcl") as file:
+                file.write(runner)
+                file.flush()
+                code, out = design.run("tclsh", file.name)
+            if code != 0:
+                raise AssertionError(f"{path}: {out}")
+            for line in out.splitlines():
+                mark, name, *words = line.split("\t")
+                assert mark == "RECORD", line
+                facts.command(name, words)
+        elif path.suffix == ".py":
+            exec(compile(text, path, "exec"), {"design": facts})  # pylint: disable=exec-used
+        else:
+            facts.lines(text, {".lpf": LPF, ".cst": CST, ".ccf": CCF}[path.suffix])
+    return facts
+
+
+def flip_flop(netlist, pattern):
+    """D and Q, of one bit each, of the one flip-flop whose name a pattern fits."""
+    wanted = re.sub(r"[/|]", ".", pattern)
+    bits = {tuple(net["bits"]) for name, net in netlist["netnames"].items()
+            if fnmatch.fnmatchcase(name, wanted)}
+    found = [(cell["connections"]["D"], cell["connections"]["Q"])
+             for cell in netlist["cells"].values() if cell["type"].startswith(("$adff", "$dff"))
+             and tuple(cell["connections"]["Q"]) in bits]
+    if len(found) != 1 or len(found[0][1]) != 1:
+        raise AssertionError(f"{pattern}: {len(found)} flip-flops")
+    return found[0]
+
+
+class Constraints(unittest.TestCase):
+    """All families, for a design."""
+
+    def hold(self, folder, place, netlist):
+        ports = {name: port["bits"] for name, port in netlist["ports"].items()}
+        for family in constraints.FAMILIES:
+            with self.subTest(family=family):
+                facts = facts_of(folder / family)
+                self.assertEqual(facts.clock, [(place.clock, 1000 / place.mhz)])
+                (rx, sync), (reset, _) = facts.false
+                self.assertEqual((rx, reset), (place.rx, place.reset))
+                self.assertEqual(facts.false[1][1], None)
+                self.assertEqual(flip_flop(netlist, sync)[0], ports[rx], "D of can_sync's first")
+                (sent, tx, bound), = facts.bound
+                self.assertEqual((tx, bound), (place.tx, 15.0))
+                self.assertEqual(flip_flop(netlist, sent)[1], ports[tx], "Q at the pin")
+                self.assertIn(place.rx, facts.pulls)
+                for port in (facts.pulls | facts.pins | {place.clock, reset}) - {sent}:
+                    self.assertIn(port, ports)
+
+    def test_the_core_alone(self):
+        self.hold(FOLDER, constraints.Place(), design.netlist("can_ahb"))
+
+    def test_an_instance_in_a_design(self):
+        with tempfile.TemporaryDirectory() as name:
+            top = Path(name) / "user_top.sv"
+            top.write_text(design.user_top(), encoding="utf-8")
+            options = ("--instance", "u_can", "--mhz", 16, "--rx", "can_rxd", "--tx", "can_txd")
+            code, text = design.run("tools/constraints.py", name, *options)
+            self.assertEqual((code, text), (0, ""))
+            place = constraints.Place("u_can", 16, rx="can_rxd", tx="can_txd")
+            self.hold(Path(name), place, design.netlist("user_top", [top]))
+
+    def test_committed_files_are_what_the_tool_writes(self):
+        for name, text in constraints.render(constraints.Place()).items():
+            self.assertEqual((FOLDER / name).read_text(encoding="utf-8"), text, name)
+            self.assertRegex(text[:700], r"Not run in the vendor's tool")
+
+    def test_every_family_is_there(self):
+        folders = {path.name for path in FOLDER.iterdir()}
+        self.assertEqual(folders, {*constraints.FAMILIES, "ice40"})
+        self.assertEqual(len(folders), 10)
+        table = (design.ROOT / "docs/integration.md").read_text(encoding="utf-8")
+        for name in folders:
+            self.assertTrue(f"](../constraints/{name})" in table, f"no {name} in the guide's table")
+
+    def test_nothing_but_what_was_asked_for(self):
+        text = "".join(constraints.render(constraints.Place(mhz=0, reset="")).values())
+        self.assertNotRegex(text, r"create_clock|FREQUENCY|hresetn|hclk")
+
+    def test_a_clock_that_is_too_slow_is_told(self):
+        with tempfile.TemporaryDirectory() as name:
+            code, text = design.run("tools/constraints.py", name, "--mhz", 4)
+            self.assertEqual(code, 1)
+            self.assertIn("--mhz 4: 8 to 1000 are allowed", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
