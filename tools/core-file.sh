@@ -26,6 +26,12 @@ $(rtl_files | sed 's/^/      - /')
     file_type: verilogSource-2005
     files:
 $(for file in tb/smoke/*.v; do echo "      - $file"; done)
+  hx8k:
+    file_type: systemVerilogSource
+    files:
+      - examples/hx8k/serial_apb.sv
+      - examples/hx8k/can_hx8k.sv
+      - examples/hx8k/hx8k.pcf: {file_type: PCF}
 
 # Without a value here each has the default of the RTL.
 parameters:
@@ -134,4 +140,12 @@ targets:
     flow: trellis
     flow_options:
       pnr: none
+  hx8k:
+    description: Bitstream of a CAN node at a serial port, for the iCE40 HX8K breakout board
+    filesets: [rtl, hx8k]
+    toplevel: can_hx8k
+    flow: icestorm
+    flow_options:
+      yosys_synth_options: [-device, hx]
+      nextpnr_options: [--hx8k, --package, ct256, --seed, "1", --freq, "12"]
 EOF

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""dist.py OUT [--flat BUS_SIZE ...]: the archives of a release, in OUT:
+"""dist.py OUT [--flat BUS_SIZE ...] [--bitstream FILE]: the archives of a release, in OUT:
 
   verican-<version>.tar.gz      the sources as committed
   verican-ip-<version>.tar.gz   what an integrator takes: RTL, Verilog-2005 files (--flat, or all),
-                                packages for other tools, driver, constraints, pages
+                                packages for other tools, driver, constraints, pages,
+                                the bitstream of examples/hx8k (--bitstream)
   verican-<version>.spdx        files and licences (SPDX 2.3)
   SHA256SUMS
 
@@ -90,7 +91,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("out", type=Path)
     parser.add_argument("--flat", nargs="+", default=["all"], metavar="BUS_SIZE")
+    parser.add_argument("--bitstream", type=Path, help="of examples/hx8k, made by tools/hx8k.sh")
     arguments = parser.parse_args()
+    if arguments.bitstream and not arguments.bitstream.is_file():
+        sys.exit(f"dist.py: --bitstream {arguments.bitstream}: no such file; make hx8k makes it")
     changed = git("status", "--porcelain")
     if changed:
         sys.exit(f"dist.py: not committed:\n{changed}")
@@ -107,7 +111,7 @@ def main():
     (out / f"verican-{number}.tar.gz").write_bytes(compressed(sources))
     with tempfile.TemporaryDirectory() as name:
         stage = Path(name)
-        contents.stage(stage, arguments.flat)
+        contents.stage(stage, arguments.flat, arguments.bitstream)
         (stage / "MANIFEST").write_text(manifest(stage), encoding="utf-8")
         archive = tar_of(stage, f"verican-ip-{number}", epoch)
     (out / f"verican-ip-{number}.tar.gz").write_bytes(compressed(archive))

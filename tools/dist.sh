@@ -4,11 +4,19 @@
 #
 # dist.sh OUT: the archives of a release and all that is checked of them but is too long for
 # make test: the figures of the families are of this RTL, all twelve Verilog-2005 builds equal their
-# sources, the archive stands alone.
+# sources, the archive stands alone. With nextpnr-ice40 and icestorm the archive has the bitstream
+# of examples/hx8k.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/families.py --check
-tools/dist.py "$1"
+bitstream=()
+if command -v nextpnr-ice40 icepack icetime >/dev/null; then
+  tools/hx8k.sh build/dist-hx8k
+  bitstream=(--bitstream build/dist-hx8k/can_hx8k.bin)
+else
+  echo "dist: no bitstream of examples/hx8k: nextpnr-ice40, icepack or icetime is missing" >&2
+fi
+tools/dist.py "$1" "${bitstream[@]}"
 builds=()
 for bus in ahb apb axil wb; do
   for size in 16 32 64; do builds+=("${bus}_$size"); done

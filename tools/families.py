@@ -104,6 +104,13 @@ def load():
     return json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
 
 
+def stale(known, results):
+    """Families whose figures are of another state, or not all there."""
+    return [name for name, entry in known.items()
+            if results.get(name, {}).get("state") != state(entry)
+            or set(results[name]["builds"]) != set(BUILDS)]
+
+
 def measure_family(name, entry, builds, modules, results):
     """Adds a family's figures; those of another state go."""
     now = state(entry)
@@ -127,14 +134,12 @@ def main():
     arguments = parser.parse_args()
     known, results = families(), load()
     if arguments.check:
-        stale = [name for name, entry in known.items()
-                 if results.get(name, {}).get("state") != state(entry)
-                 or set(results[name]["builds"]) != set(BUILDS)]
         if PAGE.read_text(encoding="utf-8") != render(known, results):
             sys.exit("docs/synthesis-families.md is not what results.json says: make synth FAMILY=")
-        if stale:
+        old = stale(known, results)
+        if old:
             sys.exit("docs/synthesis-families.md is of another RTL or tool, or not whole: "
-                     + ", ".join(stale) + "; make synth FAMILY=all")
+                     + ", ".join(old) + "; make synth FAMILY=all")
         return
     wanted = list(known) if arguments.family == ["all"] else arguments.family
     for name in wanted:

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """packaging_rules.py [--check]: holds tb/packaging.yaml against the tests that it names and writes
-docs/packaging-rules.md. --check: writes nothing; status 1 if a test is not there, a row has
-neither test nor reason, a module has a foreign name, or the page is stale.
+docs/packaging-rules.md. --check: writes nothing; status 1 if a test or a row is not there,
+a row has neither test nor reason, a module has a foreign name, or the page is stale.
 """
 import argparse
 import re
@@ -20,20 +20,15 @@ from pack.wrappers import ROOT, rtl_files
 
 PLAN = ROOT / "tb/packaging.yaml"
 PAGE = ROOT / "docs/packaging-rules.md"
-# Rows of packaging that are not about packages: where they are listed.
-ELSEWHERE = """
-Repairs (PK-01 to PK-06) and profiles (PK-39 to PK-49) were done before: `integration.*` tests,
-[integration.md](integration.md#features), [synthesis.md](synthesis.md). Bus wrappers (PK-10 to
-PK-35):
-[integration.md](integration.md#other-buses), [formal.md](formal.md). The board (PK-75 to PK-78):
-[hx8k.md](hx8k.md).
-"""
+# All rows of the specification, first and last of each run of numbers.
+RUNS = ((1, 7), (10, 26), (30, 35), (39, 53), (55, 57), (60, 63), (65, 67), (70, 78), (80, 80),
+        (85, 90))
 HEAD = """\
 # Rules of packaging and their tests
 
 Written by `make rules` from [`tb/packaging.yaml`](../tb/packaging.yaml), whose tests are looked
-up; `make test` fails if one is
-missing or this page is stale. "Not run" says what of a row no tool here has seen.
+up; `make test` fails if one is missing, a row has none and no reason, or this page is stale.
+"Not run" says what of a row no tool here has seen.
 """
 
 
@@ -62,13 +57,18 @@ def problems(sections):
                     yield f"{name}: {file}: no such file"
                 elif word not in (ROOT / file).read_text(encoding="utf-8"):
                     yield f"{name}: {file}: no {word}"
+    listed = [name for section in sections for name in section["rows"]]
+    for first, last in RUNS:
+        for number in range(first, last + 1):
+            if f"PK-{number:02}" not in listed:
+                yield f"PK-{number:02} is not in {PLAN.relative_to(ROOT)}"
     for name in foreign_modules():
         yield f"PK-86: module {name} does not begin with can_"
 
 
 def render(sections):
     """The page."""
-    lines = [HEAD, ELSEWHERE]
+    lines = [HEAD]
     for section in sections:
         lines.append(f"\n## {section['section']}\n\n| row | what | tests | not run |\n"
                      "|---|---|---|---|\n")

@@ -110,8 +110,9 @@ class Hx8k : public ::testing::Test {
   bool run_until(Done done, unsigned milliseconds) {
     for (unsigned i = 0; i < milliseconds * 100; ++i) {
       if (done()) return true;
-      if (program_->exit_code() >= 0) return done();
-      step();
+      const bool ended = program_->exit_code() >= 0;
+      step();  // also of one that has ended, to see its last words
+      if (ended) return done();
     }
     return done();
   }

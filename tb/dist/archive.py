@@ -23,6 +23,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 GIVEN = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else None
 BUILDS = sys.argv[2:] or ["wb_16"]
+# In place of the bitstream, which takes two minutes; make dist takes the true one.
+IMAGE = bytes.fromhex("FF007EAA997E") + bytes(range(256))
 LINK = re.compile(r"\]\(([^()\s#:]+)(#[^()\s]*)?\)")
 
 
@@ -64,8 +66,10 @@ class Archive(unittest.TestCase):
             cls.copy = cls.work / "first"
             cls.copy.mkdir()
             repository(cls.copy)
-            code, text = run("tools/dist.py", cls.dist, "--flat", *BUILDS, cwd=cls.copy,
-                             env={"TZ": "Asia/Tokyo", "LC_ALL": "C"}, umask=0o022)
+            cls.image = cls.work / "image.bin"
+            cls.image.write_bytes(IMAGE)
+            code, text = run("tools/dist.py", cls.dist, "--flat", *BUILDS, "--bitstream",
+                             cls.image, cwd=cls.copy, env={"TZ": "Asia/Tokyo", "LC_ALL": "C"}, umask=0o022)
             if code != 0:
                 raise AssertionError(text)
         archive, = cls.dist.glob("verican-ip-*.tar.gz")
@@ -77,8 +81,9 @@ class Archive(unittest.TestCase):
         second = self.work / "a longer name of a folder"
         second.mkdir()
         run("git", "clone", "-q", self.copy, second)
-        code, text = run("tools/dist.py", self.work / "again", "--flat", *BUILDS, cwd=second,
-                         env={"TZ": "America/New_York", "LC_ALL": "C.UTF-8"}, umask=0o077)
+        code, text = run("tools/dist.py", self.work / "again", "--flat", *BUILDS, "--bitstream",
+                         self.image, cwd=second, umask=0o077,
+                         env={"TZ": "America/New_York", "LC_ALL": "C.UTF-8"})
         self.assertEqual(code, 0, text)
         first, again = ({path.name: hashlib.sha256(path.read_bytes()).hexdigest()
                          for path in folder.iterdir()}
@@ -108,6 +113,31 @@ class Archive(unittest.TestCase):
         code, text = run("tools/dist.py", self.work / "none", cwd=other)
         self.assertEqual(code, 1)
         self.assertIn("no heading", text)
+
+    @unittest.skipIf(GIVEN, "the archives were given")
+    def test_a_bitstream_that_is_not_there_is_told(self):
+        code, text = run("tools/dist.py", self.work / "none", "--bitstream", "none.bin",
+                         cwd=self.copy)
+        self.assertEqual(code, 1)
+        self.assertIn("none.bin: no such file; make hx8k makes it", text)
+
+    def test_the_boards_bitstream_is_in_it(self):
+        image = self.ip / "examples/hx8k/can_hx8k.bin"
+        if GIVEN and not shutil.which("nextpnr-ice40"):
+            self.skipTest("nextpnr-ice40 is not here: no bitstream")
+        data = image.read_bytes()
+        self.assertIn(bytes.fromhex("7EAA997E"), data[:300], "the preamble of iCE40 images")
+        if GIVEN:
+            self.assertGreater(len(data), 100_000)  # of an HX8K
+        else:
+            self.assertEqual(data, IMAGE)
+
+    def test_constraints_can_be_written_for_an_instance(self):
+        code, text = run("/usr/bin/python3", "-B", "tools/constraints.py", self.work / "xdc",
+                         "--instance", "u_soc/u_can", cwd=self.ip)
+        self.assertEqual((code, text), (0, ""))
+        self.assertIn("u_soc/u_can/u_top/u_core/u_sync/meta_q*",
+                      (self.work / "xdc/xilinx/can.xdc").read_text(encoding="utf-8"))
 
     def test_sums_and_manifest_hold(self):
         self.assertEqual(run("sha256sum", "--check", "--quiet", "SHA256SUMS", cwd=self.dist),

@@ -75,6 +75,12 @@ def chosen(entries, is_toplevel):
     return names
 
 
+def body(image):
+    """A bitstream without its comment."""
+    data = image.read_bytes()
+    return data[data.index(bytes.fromhex("7EAA997E")):]
+
+
 class CoreDescription(unittest.TestCase):
     """The file itself, and the tools' commands that it leads to."""
 
@@ -140,7 +146,7 @@ class CoreDescription(unittest.TestCase):
                 ('"is_toplevel? (Wake)"', '"is_toplevel? (Wak)"', "no parameter Wak")):
             self.assertIn(old, text)
             (self.work / "can.core").write_text(text.replace(old, new), encoding="utf-8")
-            for name in ("rtl", "tb"):
+            for name in ("rtl", "tb", "examples"):
                 if not (self.work / name).exists():
                     (self.work / name).symlink_to(design.ROOT / name)
             self.assertIn(what, "\n".join(core_check.Check(self.work).run()))
@@ -162,12 +168,30 @@ class CoreDescription(unittest.TestCase):
 
     def test_top_and_parameters_are_its_own(self):
         for name, target in self.core["targets"].items():
-            if target["toplevel"] == "can_smoke":
+            if target["toplevel"] in ("can_smoke", "can_hx8k"):  # designs of their own
                 continue
             self.assertEqual(chosen(target["toplevel"], True), ["can_ahb"], name)
             self.assertEqual(chosen(target["parameters"], True), list(self.core["parameters"]))
             self.assertEqual(chosen(target["toplevel"], False), [], name)
             self.assertEqual(chosen(target["parameters"], False), [], name)
+
+    def test_board_target_is_what_the_script_builds(self):
+        """As make hx8k: the same files and options; both make the same bitstream (FUSESOC)."""
+        self.export()
+        target, files = self.core["targets"]["hx8k"], self.core["filesets"]["hx8k"]["files"]
+        sources = [name for name in files if isinstance(name, str)]
+        (pins, kind), = files[-1].items()
+        self.assertEqual((pins, kind), ("examples/hx8k/hx8k.pcf", {"file_type": "PCF"}))
+        script = " ".join((design.ROOT / "tools/hx8k.sh").read_text(encoding="utf-8").split())
+        for words in (f"rtl+=({' '.join(sources)})", f"--pcf {pins}",
+                      " ".join(target["flow_options"]["nextpnr_options"]),
+                      f"-top {target['toplevel']}"):
+            self.assertIn(words, script)
+        (self.work / "examples").symlink_to(design.ROOT / "examples")
+        self.assertEqual(design.run(
+            "verilator", "--lint-only", "-Wall", "--top-module", target["toplevel"],
+            *self.listed(self.waivers), *self.listed(self.sources),
+            *sources, cwd=self.work), (0, ""))
 
     def test_lint_target_is_clean_elsewhere(self):
         self.export()
@@ -191,7 +215,7 @@ class CoreDescription(unittest.TestCase):
         (self.work / "user.core").write_text(USER_CORE, encoding="utf-8")
         (self.work / "user_top.sv").write_text(design.user_top(), encoding="utf-8")
         shutil.copy(design.ROOT / "can.core", self.work)
-        for folder in ("rtl", "tb"):
+        for folder in ("rtl", "tb", "examples"):
             (self.work / folder).symlink_to(design.ROOT / folder)
         code, text = design.run(*shlex.split(program), "--cores-root", ".", "run", *words,
                                 cwd=self.work)
@@ -206,6 +230,14 @@ class CoreDescription(unittest.TestCase):
 
     def test_fusesoc_synthesises_it(self):
         self.assertIn("SB_RAM40", self.fusesoc("--target", "synth_ice40", "verican:ip:can"))
+
+    def test_fusesoc_makes_the_boards_bitstream(self):
+        self.fusesoc("--target", "hx8k", "verican:ip:can")
+        image, = self.work.glob("build/**/*.bin")
+        self.assertIn(bytes.fromhex("7EAA997E"), image.read_bytes()[:300])
+        given = design.ROOT / "build/hx8k/can_hx8k.bin"  # of make hx8k, if it has been run
+        if given.is_file():
+            self.assertEqual(body(image), body(given))
 
     def test_fusesoc_passes_a_parameter(self):
         self.fusesoc("--target", "lint", "verican:ip:can", "--NumMb", "16")

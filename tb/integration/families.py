@@ -48,6 +48,17 @@ class Families(unittest.TestCase):
         self.assertEqual(families.PAGE.read_text(encoding="utf-8"),
                          render(families.families(), families.load()))
 
+    def test_another_state_of_the_rtl_is_told(self):
+        """What make lint mentions and make dist refuses."""
+        known, results = families.families(), {}
+        for name, entry in known.items():
+            results[name] = {"state": families.state(entry),
+                             "builds": dict.fromkeys(families.BUILDS, {})}
+        self.assertEqual(families.stale(known, results), [])
+        results["ecp5"]["state"] = "0123456789ab"
+        del results["gowin"]["builds"]["small"], results["xilinx"]
+        self.assertEqual(families.stale(known, results), ["ecp5", "gowin", "xilinx"])
+
     def test_unknown_family_is_told(self):
         code, text = design.run("tools/families.py", "stratix")
         self.assertEqual(code, 1)

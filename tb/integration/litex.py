@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import textwrap
 import types
 import unittest
 from pathlib import Path
@@ -24,6 +25,11 @@ sys.path[:0] = [str(design.ROOT / "tools"), str(design.ROOT / "sw/litex")]
 # ruff: noqa: E402  (the path must be set first)
 from pack import wrappers as source
 
+# What csr.json of a SoC holds, as far as it is looked at.
+SOC = {"memories": {"controller0": {"base": 0xF0040000, "size": 0x2000},
+                    "main_ram": {"base": 0x40000000, "size": 0x10000000}},
+       "constants": {"controller0_verican": 1, "controller0_interrupt": 5,
+                     "config_clock_frequency": 50000000}}
 USER = Path(__file__).with_name("litex_user.py")
 
 
@@ -190,21 +196,31 @@ class StandIn(unittest.TestCase):
             self.assertEqual([words[0] for words in soc.slaves], ["controller0"])
 
     def test_device_tree_node_compiles(self):
-        soc = {"memories": {"controller0": {"base": 0xF0040000, "size": 0x2000},
-                            "main_ram": {"base": 0x40000000, "size": 0x10000000}},
-               "constants": {"controller0_verican": 1, "controller0_interrupt": 5,
-                             "config_clock_frequency": 50000000}}
-        text = self.dts.nodes(soc)
+        text = self.dts.nodes(SOC)
         for words in ('"verican,can-1.0", "fsl,ls1021ar2-flexcan"', "reg = <0xf0040000 0x1000>",
                       "interrupts = <5>", "clock-frequency = <50000000>"):
             self.assertIn(words, text)
         self.assertEqual(text.count("compatible"), 1)
         with self.assertRaisesRegex(ValueError, "no VeriCAN"):
             self.dts.nodes({"memories": {}, "constants": {}})
+        self.compiles(text)
+
+    def compiles(self, text):
+        """dtc takes it."""
         if shutil.which("dtc"):
             done = subprocess.run(["dtc", "-@", "-I", "dts", "-O", "dtb", "-o", "/dev/null"],
                                   input=text, text=True, capture_output=True, check=False)
             self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_lines_of_the_guide_for_litexs_own_tool(self):
+        """As they stand there, in a function with the names that LiteX' has."""
+        guide = (design.ROOT / "docs/integration.md").read_text(encoding="utf-8")
+        lines = re.search(r"^    from verican\.dts import node.*?\n\n", guide, re.DOTALL | re.M)[0]
+        names = {"d": SOC, "dts": "", "generate_dts_intc": lambda d: "intc0"}
+        exec(textwrap.dedent(lines), names)  # pylint: disable=exec-used
+        self.assertEqual(names["dts"].count("can@f0040000"), 1)
+        self.assertNotIn("main_ram", names["dts"])
+        self.compiles("/dts-v1/;\n/ {\n intc0: i {};\n soc {\n" + names["dts"] + " };\n};\n")
 
 
 class LiteX(unittest.TestCase):

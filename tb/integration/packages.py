@@ -9,11 +9,14 @@ IPXACT_XSD=folder with Accellera's 1685-2014 schema: the components are checked 
 
 import json
 import os
+import re
 import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as ET
 from pathlib import Path
+
+import yaml
 
 import design
 
@@ -97,6 +100,21 @@ class Wrappers(Case):
         parameters = [[(p.name, p.default) for p in wrapper.parameters if p.name not in own]
                       for wrapper in self.wrappers.values()]
         self.assertTrue(all(entry == parameters[0] for entry in parameters))
+
+
+class Versions(Case):
+    """PK-85: the guide's table of both."""
+
+    def test_guide_ends_with_this_version_and_xversion(self):
+        guide = (design.ROOT / "docs/integration.md").read_text(encoding="utf-8")
+        rows = re.findall(r"^\| (in development|\d+\.\d+\.\d+) \| (\d+\.\d+) \| ", guide,
+                          re.MULTILINE)
+        table = yaml.safe_load((design.ROOT / "sw/registers.yaml").read_text(encoding="utf-8"))
+        word, = (entry for entry in table["registers"] if entry["name"] == "XVERSION")
+        now = ".".join(str(field["reset"]) for field in word["fields"])
+        self.assertEqual(rows[-1], (source.version(), now))
+        numbers = [tuple(map(int, register.split("."))) for _, register in rows]
+        self.assertEqual(numbers, sorted(numbers))
 
 
 class Files(Case):

@@ -121,6 +121,15 @@ class Wrappers(unittest.TestCase):
                              if word not in ("module",) and not word.endswith(("_32", "_1"))]
                 self.assertEqual(instances, ["can_top"])
 
+    def test_other_ports_go_straight_to_the_core(self):
+        """Of the netlist, flat: one net with the port of can_top."""
+        for name in BUSES:
+            netlist = design.netlist(name)
+            for _, _, port in common(name):
+                with self.subTest(name, port=port):
+                    self.assertEqual(netlist["netnames"][f"u_top.{port}"]["bits"],
+                                     netlist["ports"][port]["bits"])
+
     def test_answers_do_not_depend_on_what_is_asked_in_the_same_clock(self):
         for name in BUSES:
             netlist = design.netlist(name)

@@ -116,6 +116,33 @@ TEST_P(Lanes, NoStrobeNoWrite) {
               lanes == 0 ? 0u : 1u);
 }
 
+// SEL is passed on, but a read without a lane is a transfer as any (PK-12).
+TEST_P(Lanes, AReadWithoutALaneIsOne) {
+  (void)write(reg::mb(5, 2), 0x12345678, 0xF);
+  EXPECT_NE(node_->read32(reg::kMcr), 0x12345678u);
+  EXPECT_EQ(node_->access({.address = reg::mb(5, 2), .lanes = 0}).data, 0x12345678u);
+}
+
+// What is not of the bus reaches the core.
+TEST_P(Lanes, StopRequestIsPassedOn) {
+  const auto acknowledged = [&] { return (node_->read32(reg::kMcr) & reg::kMcrLpmAck) != 0; };
+  EXPECT_FALSE(acknowledged());
+  node_->request_stop(true);
+  for (int i = 0; i < 50; ++i) node_->advance();
+  EXPECT_TRUE(acknowledged());
+  node_->request_stop(false);
+  for (int i = 0; i < 50; ++i) node_->advance();
+  EXPECT_FALSE(acknowledged());
+}
+
+// CheckProt is 0: MCR.SUPV is stored, and nothing else. With 1: bus_rights_test.
+TEST_P(Lanes, WithoutCheckProtUsersMay) {
+  constexpr std::uint8_t kUser = 0b0001;
+  node_->write32(reg::kMcr, node_->read32(reg::kMcr) | reg::kMcrSupv);
+  node_->access({.address = reg::kImask1, .write = true, .data = 0x99, .hprot = kUser});
+  EXPECT_EQ(node_->access({.address = reg::kImask1, .hprot = kUser}).data, 0x99u);
+}
+
 // Errors: outside the window, nowhere else, and with no effect; data 0, no wait.
 TEST_P(Lanes, OutsideTheWindowIsAnError) {
   (void)write(reg::mb(5, 2), 0x12345678, 0xF);
@@ -158,17 +185,29 @@ TEST(AxilWrapper, ReadsAndWritesAtTheSameTime) {
   const auto word = [](unsigned half, unsigned n) { return reg::mb(kFirst + n % 32, 2 + half); };
   std::vector<std::uint32_t> shadow(kWords, 0);
   std::mt19937 rng{7};
+  // One in four is beyond the window: its error belongs to it alone.
+  const auto beyond = [&rng] { return rng() % 4 == 0 ? kWindow : 0; };
   for (unsigned round = 0; round < 200; ++round) {
     const unsigned half = round % 2;  // the one that is written; the other is read
-    std::vector<std::pair<BusMaster::Ticket, unsigned>> reads;
+    std::vector<std::pair<BusMaster::Ticket, AhbResult>> wanted;
     for (unsigned i = 0; i < 20; ++i) {
       const unsigned n = rng() % 32, m = rng() % 32;
-      shadow[half * 32 + n] = static_cast<std::uint32_t>(rng());
-      master.submit({.address = word(half, n), .write = true, .data = shadow[half * 32 + n]});
-      reads.emplace_back(master.submit({.address = word(1 - half, m)}), (1 - half) * 32 + m);
+      const std::uint32_t lost = beyond(), nothing = beyond();
+      const auto data = static_cast<std::uint32_t>(rng());
+      if (lost == 0) shadow[half * 32 + n] = data;
+      wanted.emplace_back(
+          master.submit({.address = word(half, n) | lost, .write = true, .data = data}),
+          AhbResult{.error = lost != 0});
+      wanted.emplace_back(master.submit({.address = word(1 - half, m) | nothing}),
+                          AhbResult{nothing != 0 ? 0 : shadow[(1 - half) * 32 + m], nothing != 0});
     }
     while (master.active()) node->advance();
-    for (const auto &[ticket, at] : reads) ASSERT_EQ(master.result(ticket).data, shadow[at]);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const AhbResult &result = master.result(wanted[i].first);
+      ASSERT_EQ(result.error, wanted[i].second.error) << "transfer " << i;
+      if (i % 2 == 0) continue;
+      ASSERT_EQ(result.data, wanted[i].second.data) << "transfer " << i;
+    }
   }
   EXPECT_EQ(master.report().violations, std::vector<std::string>{});
 }

@@ -23,13 +23,15 @@ def rtl_files():
 
 def part_of(path):
     """The part that a file of the RTL belongs to (FOLDERS in regression.py)."""
+    if path.stem in ("can_apb", "can_axil", "can_wb"):
+        return "buses"
     if path.stem == "can_mb_stamp":
         return "time"
     return path.parent.name if path.parent.name in ("remote", "time") else "core"
 
 
 def modules_of(part):
-    """Modules of a part: the node without a processor, the time unit, or the rest, the core."""
+    """Modules of a part: the node without a processor, the time unit, buses, or the rest."""
     return {path.stem for path in rtl_files() if part_of(path) == part}
 
 

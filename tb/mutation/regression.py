@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # The tests that must notice a mutant: GoogleTest programs, run with limits.
-"""programs() names them, Regression runs their tests with and without a mutant."""
+"""programs() names them, Regression runs their tests with and without a mutant.
+
+A program with @BUS behind its name runs with the core behind that bus (harness/bus_run.sh)."""
 import concurrent.futures
 import os
 import pathlib
@@ -16,7 +18,11 @@ FOLDERS = {
     "core": [("unit", "can_"), ("mailbox", ""), ("protocol", ""), ("driver", ""),
              ("system", "bus_"), ("faults", ""), ("random", "random_"), ("time", "")],
     "remote": [("unit", "can_rn_"), ("remote", "port_"), ("remote", "rtl_")],
-    "time": [("unit", "can_clock"), ("unit", "can_time"), ("time", "")]}
+    "time": [("unit", "can_clock"), ("unit", "can_time"), ("time", "")],
+    "buses": [("mailbox", "bus_")]}
+# Of a part: programs that are also run with the core behind each of the buses.
+BEHIND = {"buses": (("apb", "axil", "axil_slow", "wb", "wb_pipelined", "wb_stalled"),
+                    [("driver", "driver_load_test"), ("driver", "driver_traffic_test")])}
 SANITIZED = ("driver", "time")   # folders whose programs link the sanitized driver
 CPU_SECONDS = 6        # of one program, and more for tests that take long without a mutant
 CPU_FACTOR = 5
@@ -30,7 +36,13 @@ def programs(root, part="core"):
     for folder, prefix in FOLDERS[part]:
         for source in sorted((root / "tb" / folder).glob(f"{prefix}*_test.cpp")):
             out.append((folder, source.stem))
-    return out
+    buses, names = BEHIND.get(part, ((), ()))
+    return out + [(folder, f"{name}@{bus}") for folder, name in names for bus in buses]
+
+
+def target(program):
+    """The program itself, without its bus."""
+    return program.partition("@")[0]
 
 
 class Outcome:
@@ -68,8 +80,9 @@ class Regression:
 
     def path(self, program):
         """Where the build has put it: beside the others, or in a folder of its own."""
-        direct = self.build / "tb" / program
-        found = [direct] if direct.exists() else sorted(self.build.glob(f"tb/*/{program}"))
+        name = target(program)
+        direct = self.build / "tb" / name
+        found = [direct] if direct.exists() else sorted(self.build.glob(f"tb/*/{name}"))
         if not found:
             raise FileNotFoundError(f"{self.build}: {program} has not been built")
         return found[0]
@@ -83,6 +96,8 @@ class Regression:
         sanitized = program in self.sanitized
         environment = {**os.environ, **environment,
                        "ASAN_OPTIONS": f"hard_rss_limit_mb={MEMORY >> 20}"}
+        if "@" in program:
+            environment["VERICAN_TEST_BUS"] = program.partition("@")[2]
         begin = time.monotonic()
         # A killed program cannot clear up after itself.
         with tempfile.TemporaryFile() as output, tempfile.TemporaryDirectory() as work:
@@ -114,6 +129,8 @@ class Regression:
                 out.append(suite + name.strip())
             elif name.endswith("."):
                 suite = name
+        if "@" in program:                 # buses are those of the largest core
+            out = [name for name in out if "16" not in name and "32" not in name]
         return [name for name in out if "DISABLED_" not in name]
 
 

@@ -19,17 +19,17 @@ import models
 from equivalence import proof_of
 from known import Known
 from mutants import Design, choose
-from regression import Regression, in_parallel, programs
+from regression import Regression, in_parallel, programs, target
 from report import Report
 from shards import Shard
 
-FULL = {"core": 1100, "remote": 330, "time": 250}   # mutants at scale 1
+FULL = {"core": 1100, "remote": 330, "time": 250, "buses": 150}   # mutants at scale 1
 PROOF_SECONDS = 120    # limit of one proof
 # Of the tests of one program so many seconds are run for one mutant: of long sweeps a part.
 PROGRAM_SECONDS = 5
 # Programs that compare everything with a model notice more in a second: they come early, with more.
 JUDGES = {"buffer_random_test", "random_lockstep_test", "random_buses_test",
-          "port_every_frame_test", "port_random_test", "rtl_random_test"}
+          "port_every_frame_test", "port_random_test", "rtl_random_test", "bus_wrappers_test"}
 JUDGE_SECONDS = 10
 
 
@@ -37,10 +37,11 @@ def arguments():
     """Options; the campaign's environment gives the defaults."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--scale", type=float, default=os.environ.get("CAMPAIGN_SCALE", 1.0),
-                        help="part of 1,100 mutants (330 of remote, 250 of time), above 0 up to 1")
+                        help="part of 1,100 mutants (330 of remote, 250 of time, 150 of buses), "
+                             "above 0 up to 1")
     parser.add_argument("--part", choices=sorted(FULL), default="core",
-                        help="core: all but rtl/remote, the node without a processor, and the "
-                             "time unit (core)")
+                        help="core: all but rtl/remote, the node without a processor, the time "
+                             "unit, and buses, the wrappers but can_ahb (core)")
     parser.add_argument("--seed", type=int, default=os.environ.get("CAMPAIGN_SEED", 1))
     parser.add_argument("--module", action="append", default=[], help="only mutants in it")
     parser.add_argument("--mutant", action="append", default=[],
@@ -57,7 +58,8 @@ def arguments():
     parser.add_argument("--no-build", action="store_true", help="take the builds as they are")
     parser.add_argument("--jobs", type=int, default=os.environ.get("CAMPAIGN_JOBS", 2))
     parser.add_argument("--build", type=pathlib.Path,
-                        help="directory for the test programs (build/mutants, -remote, -time)")
+                        help="directory for the test programs (build/mutants, or with the part "
+                             "behind it)")
     parser.add_argument("--dir", type=pathlib.Path, help="directory for results",
                         default=os.environ.get("CAMPAIGN_DIR"))
     parser.add_argument("--out", default=os.environ.get("CAMPAIGN_OUT"), help="JSON of the results")
@@ -67,9 +69,8 @@ def arguments():
     if options.jobs < 1:
         parser.error(f"--jobs {options.jobs}: at least 1 is needed")
     options.full = FULL[options.part]
-    options.build = (options.build or models.ROOT / "build" / {
-        "core": "mutants", "remote": "mutants-remote", "time": "mutants-time"}[
-            options.part]).resolve()
+    options.build = (options.build or models.ROOT / "build" / (
+        "mutants" if options.part == "core" else f"mutants-{options.part}")).resolve()
     options.dir = pathlib.Path(options.dir or options.build / "results").resolve()
     options.dir.mkdir(parents=True, exist_ok=True)
     return options
@@ -121,7 +122,7 @@ class Campaign:
         if not self.programs:
             sys.exit(f"run.py: --programs {options.programs}: no test program has such a name")
         numbers = {mutant.name: mutant.number for mutant in chosen}
-        targets = [name for _, name in self.programs]
+        targets = sorted({target(name) for _, name in self.programs})
         if not options.no_build and Shard().kind in ("whole", "prepare"):
             self.say(f"building {len(targets)} test programs with {len(chosen)} mutants")
             models.build(options.build, numbers, targets, options.jobs)

@@ -121,7 +121,7 @@ def open_types(module, text):
                       flags=re.DOTALL)
         text = text.replace("localparam logic [31:0] Stored =", "wire [31:0] Stored =")
     else:
-        text = re.sub(r"can_reg #\((.*?)\n  \) (\w+) \(", masks_connected, text, flags=re.DOTALL)
+        text = re.sub(r"can_reg #\(([^;]*?)\s*\) (u_\w+) \(", masks_connected, text)
     return text
 
 

@@ -19,7 +19,8 @@ TAKEN = {"rtl": "rtl", "constraints": "constraints", "tb/smoke": "tb/smoke", "ca
          "docs/img/registers": "docs/img/registers", "docs/errata.md": "docs/errata.md",
          "docs/synthesis.md": "docs/synthesis.md", "docs/driver.md": "docs/driver.md",
          "docs/synthesis-families.md": "docs/synthesis-families.md", "docs/time.md": "docs/time.md",
-         "tools/core_check.py": "tools/core_check.py"}
+         "tools/core_check.py": "tools/core_check.py",
+         "tools/constraints.py": "tools/constraints.py"}
 # Not there yet in every state of the project.
 OPTIONAL = {"examples/hx8k"}
 README = """\
@@ -34,7 +35,8 @@ Begin with the table "I use ..." of docs/integration.md. What is where:
 | verilog | a build a file in Verilog-2005; shells with a Verilog top |
 | lists | the file list as paths, and for Tcl |
 | can.core, litex, ipxact, fpga | for FuseSoC, LiteX, IP-XACT tools, Vivado, Quartus, Libero |
-| constraints | by FPGA family |
+| constraints | by FPGA family; tools/constraints.py writes them for an instance in a design |
+| examples/hx8k | a CAN node at a serial port; can_hx8k.bin, if it was made: its bitstream |
 | tb/smoke | a first frame in loop-back through each bus |
 | driver, sw | C driver; SVD file, register map, profiles |
 
@@ -49,8 +51,9 @@ def committed(place):
     return done.stdout.splitlines()
 
 
-def stage(folder, flat):
-    """Fills the folder."""
+def stage(folder, flat, bitstream=None):
+    """Fills the folder. flat: builds in Verilog-2005; bitstream: that of the board, if there is
+    one."""
     for place, target in TAKEN.items():
         files = committed(place)
         if not files and place not in OPTIONAL:
@@ -61,6 +64,8 @@ def stage(folder, flat):
             path.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, path)
     (folder / "README.md").write_text(README, encoding="utf-8")
+    if bitstream:
+        shutil.copyfile(bitstream, folder / "examples/hx8k/can_hx8k.bin")
     package = [sys.executable, "-B", ROOT / "tools/package.py", folder, "--flat", *flat]
     # Links of pages to what is not here become text.
     places = [f"{place}={folder / target}" for place, target in TAKEN.items()

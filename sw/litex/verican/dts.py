@@ -9,7 +9,6 @@ import json
 import sys
 
 NODE = """\
-&{{/soc}} {{
         {name}: can@{base:x} {{
                 compatible = "verican,can-1.0", "fsl,ls1021ar2-flexcan";
                 reg = <{base:#x} 0x1000>;
@@ -18,22 +17,23 @@ NODE = """\
                 clock-frequency = <{clock}>;
                 fsl,clk-source = /bits/ 8 <0>;
         }};
-}};
 """
 
 
-def nodes(soc, parent="intc0"):
-    """The text for a SoC, which is what csr.json holds."""
+def node(soc, name, parent="intc0"):
+    """The node of the core whose region is `name`; `soc` is what csr.json holds."""
     constants = soc["constants"]
-    found = []
-    for name, memory in sorted(soc["memories"].items()):
-        if f"{name}_verican" not in constants:
-            continue
-        if f"{name}_interrupt" not in constants:
-            raise ValueError(f"{name} has no interrupt: add_to() a SoC whose CPU takes some")
-        found.append(NODE.format(name=name, base=memory["base"],
-                                 interrupt=constants[f"{name}_interrupt"], parent=parent,
-                                 clock=constants["config_clock_frequency"]))
+    if f"{name}_interrupt" not in constants:
+        raise ValueError(f"{name} has no interrupt: add_to() a SoC whose CPU takes some")
+    return NODE.format(name=name, base=soc["memories"][name]["base"],
+                       interrupt=constants[f"{name}_interrupt"], parent=parent,
+                       clock=constants["config_clock_frequency"])
+
+
+def nodes(soc, parent="intc0"):
+    """An overlay with the nodes of all cores of a SoC."""
+    found = [f"&{{/soc}} {{\n{node(soc, name, parent)}}};\n" for name in sorted(soc["memories"])
+             if f"{name}_verican" in soc["constants"]]
     if not found:
         raise ValueError("no VeriCAN in this SoC")
     return "/dts-v1/;\n/plugin/;\n\n" + "\n".join(found)
