@@ -69,7 +69,8 @@ class Archive(unittest.TestCase):
             cls.image = cls.work / "image.bin"
             cls.image.write_bytes(IMAGE)
             code, text = run("tools/dist.py", cls.dist, "--flat", *BUILDS, "--bitstream",
-                             cls.image, cwd=cls.copy, env={"TZ": "Asia/Tokyo", "LC_ALL": "C"}, umask=0o022)
+                             cls.image, cwd=cls.copy, umask=0o022,
+                             env={"TZ": "Asia/Tokyo", "LC_ALL": "C"})
             if code != 0:
                 raise AssertionError(text)
         archive, = cls.dist.glob("verican-ip-*.tar.gz")

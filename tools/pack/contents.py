@@ -21,8 +21,6 @@ TAKEN = {"rtl": "rtl", "constraints": "constraints", "tb/smoke": "tb/smoke", "ca
          "docs/synthesis-families.md": "docs/synthesis-families.md", "docs/time.md": "docs/time.md",
          "tools/core_check.py": "tools/core_check.py",
          "tools/constraints.py": "tools/constraints.py"}
-# Not there yet in every state of the project.
-OPTIONAL = {"examples/hx8k"}
 README = """\
 # VeriCAN for integrators
 
@@ -56,7 +54,7 @@ def stage(folder, flat, bitstream=None):
     one."""
     for place, target in TAKEN.items():
         files = committed(place)
-        if not files and place not in OPTIONAL:
+        if not files:
             sys.exit(f"dist.py: {place} has no committed file")
         for name in files:
             path = folder / target / os.path.relpath(name, place) if name != place \
