@@ -170,7 +170,10 @@ class Archive(unittest.TestCase):
         for path in self.ip.rglob("*"):
             if path.is_file():
                 data = path.read_bytes()
-                for word in (str(self.work), str(ROOT), os.uname().nodename):
+                words = [str(self.work), str(ROOT), str(ROOT.resolve().parent)]
+                if path.suffix != ".bin":  # a short name is in a bitstream by chance
+                    words.append(os.uname().nodename)
+                for word in words:
                     self.assertNotIn(word.encode(), data, path)
 
     def test_links_of_the_pages_lead_somewhere(self):
