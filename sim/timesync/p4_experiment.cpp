@@ -34,7 +34,7 @@ SyncCase p4_case() {
 
 P4Result run_p4(const SyncWay &way, const SyncCase &setting) {
   check_way(way, setting);
-  P4Result result{setting, {}, {}, {}};
+  P4Result result{setting, SyncFigures{}, SyncFigures{}, {}};
   for (std::uint64_t seed = 1; seed <= setting.seeds; ++seed)
     result.published.add(way.run_p4(setting, seed));
   result.servo = run_case(way, setting);

@@ -53,7 +53,8 @@
     m_flush: assume (!flush_i || (!f_sending && !tx_next_i && !tx_ok_i));
     m_flushed: assume (!$past(flush_i) || !tx_next_i);
     // JobTry and JobAge begin when they are asked for, JobLoad when there is something to load.
-    m_load: assume (job_i != can_rn_pkg::JobLoad || phase_i != 2'd0 || some_o || owe_status_i || owe_here_i);
+    m_load: assume (job_i != can_rn_pkg::JobLoad || phase_i != 2'd0
+                    || some_o || owe_status_i || owe_here_i);
     m_try: assume (job_i != can_rn_pkg::JobTry || (!f_sending && !tx_next_i && !flush_i));
     // Nor is HERE taken back: a SELECT is obeyed before the intermission behind it ends (RN-37).
     m_here: assume (!(f_sending || tx_next_i) || !f_recalled);
