@@ -8,8 +8,9 @@
 #               inputs and outputs are flip-flops)
 #   VersaTiles  of ProASIC3/SmartFusion: LUT3 + flip-flop after abc -lut 3, memories kept apart
 # Writes docs/synthesis.md. SEEDS="1 2 3" (nextpnr), OUT=build/synth (intermediate files),
-# BLOCKS="can_core remote_small ... can_ahb_small can_ahb_standard can_ahb_32 can_ahb_64" (what is
-# measured, all profiles of can_remote among them, and of can_ahb by name or number of buffers),
+# BLOCKS="can_core remote_small ... can_apb_32 ... can_ahb_small can_ahb_standard can_ahb_32
+# can_ahb_64" (what is measured, all profiles of can_remote among them, and of can_ahb by name or
+# number of buffers),
 # PAGE=docs/synthesis.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -116,7 +117,8 @@ measure_profile() {  # BLOCK
 remotes=$(profiles | sed 's/^\([a-z]*\) .*/remote_\1/' | tr '\n' ' ')
 cores="can_ahb_small can_ahb_standard can_ahb_32 can_ahb_64"
 times="can_time can_time_sync can_time_node can_ahb_time_32 can_ahb_sync_32"
-read -r -a blocks <<<"${BLOCKS:-can_core $remotes $times $cores}"
+buses="can_apb_32 can_axil_32 can_wb_32 can_wb_pipelined_32"
+read -r -a blocks <<<"${BLOCKS:-can_core $remotes $times $buses $cores}"
 for block in "${blocks[@]}"; do
   case $block in
     can_ahb_time_[0-9]*) measure "$block" can_ahb "NumMb=${block#can_ahb_time_}" TimeUnit=1 ;;
@@ -124,6 +126,12 @@ for block in "${blocks[@]}"; do
       measure "$block" can_ahb "NumMb=${block#can_ahb_sync_}" TimeUnit=1 TimeSync=1
       ;;
     can_ahb_[0-9]*) measure "$block" can_ahb "NumMb=${block#can_ahb_}" ;;
+    can_wb_pipelined_[0-9]*)
+      measure "$block" can_wb "NumMb=${block#can_wb_pipelined_}" Pipelined=1
+      ;;
+    can_apb_[0-9]* | can_axil_[0-9]* | can_wb_[0-9]*)
+      measure "$block" "${block%_*}" "NumMb=${block##*_}"
+      ;;
     can_ahb_*)
       read -r -a settings < <(/usr/bin/python3 tools/profiles.py "${block#can_ahb_}")
       measure "$block" can_ahb "${settings[@]}"

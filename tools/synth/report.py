@@ -24,6 +24,12 @@ RAM_SHAPES = ((512, 9), (256, 18), (1024, 4), (2048, 2), (4096, 1))  # depth x w
 ENGINES = (("OpenCores CAN", 942, 340, None), ("canola", 1110, 593, 83), ("noasic", 1066, 404, 73))
 CORES = (("CTU CAN FD, two Tx buffers", 4596, 44), ("OpenCores CAN", 4539, 65))
 
+# The other buses beside can_ahb with as many buffers: VersaTiles that they may add, and the part of
+# its clock rate that they may cost (PK-11).
+BUSES = {"can_apb": ("APB", 40), "can_axil": ("AXI4-Lite", 130), "can_wb": ("Wishbone classic", 40),
+         "can_wb_pipelined": ("Wishbone pipelined", 90)}
+SLOWER = 0.03
+
 # Where synth.sh notes that abc9 stopped, and the figures that come from that netlist.
 NETLISTS = (("ice40.plain", "LUT4, FF, carry, block RAM"), ("ice40_wrapped.plain", "Fmax"))
 PLAIN = "abc9 stopped at the {}: {} with plain abc."
@@ -153,6 +159,9 @@ def build(block):
 def title(block):
     if block.startswith("can_ahb_"):
         return f"whole core `can_ahb`, {build(block)}"
+    if block.rpartition("_")[0] in BUSES:
+        top, _, size = block.rpartition("_")
+        return f"whole core `{top}`, NumMb={size}".replace("_pipelined`", "`, Pipelined=1")
     if block.startswith("remote_"):
         return f"node without a processor `can_remote`, profile {block.partition('_')[2]}"
     if block == "can_time_sync":
@@ -162,6 +171,26 @@ def title(block):
     if block == "can_time":
         return "of the time unit, what moves with every clock, `can_time`"
     return f"protocol engine `{block}`"
+
+
+def buses(rows):
+    """Table of the other buses beside can_ahb."""
+    text = []
+    for block, row in rows.items():
+        top, _, size = block.rpartition("_")
+        ahb = rows.get(f"can_ahb_{size}")
+        if top not in BUSES or not ahb:
+            continue
+        name, limit = BUSES[top]
+        over = row["tiles"] - ahb["tiles"]
+        slower = 1 - row["fmax"] / ahb["fmax"]
+        text.append(f"| {name} | {size} | {over:+} ({limit}{'' if over <= limit else ', missed'}) "
+                    f"| {-100 * slower:+.1f} % ({-100 * SLOWER:.0f} %"
+                    f"{'' if slower <= SLOWER else ', missed'}) |")
+    head = ["", "## Other buses, beside `can_ahb`", "",
+            "| bus | buffers | VersaTiles (limit of PK-11) | Fmax, medians (limit) |",
+            "|---|---|---|---|"]
+    return head + text if text else []
 
 
 def page(out, blocks):
@@ -183,6 +212,7 @@ def page(out, blocks):
     for block, row in rows.items():
         if row["plain"]:
             text += ["", PLAIN.format(title(block), " and ".join(row["plain"]))]
+    text += buses(rows)
     text += ["", "## Other cores, by the same steps", "",
              "| engine | LUT4 | FF | Fmax |", "|---|---|---|---|"]
     if "can_core" in rows:
