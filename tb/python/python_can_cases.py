@@ -177,6 +177,14 @@ class PythonCanErrors(unittest.TestCase):
         self.a.flush_tx_buffer()
         self.assertEqual(self.a.state, can.BusState.ACTIVE)
 
+    def test_who_calls_does_not_wait_until_the_bus_has_caught_up(self):
+        # After a disturbance the clocks never rest; 20 s behind take long to make up for.
+        self.a.disturb("recessive", bits=1)
+        channel = self.a._channel  # pylint: disable=protected-access
+        channel._epoch -= 20  # pylint: disable=protected-access
+        time.sleep(0.1)  # it has begun to follow
+        self.assertLess(channel.call(lambda bus: bus.now), 10)
+
     def test_recovery_by_itself_after_restart_ms(self):
         channel = next(names)
         a, b = open_bus(channel, restart_ms=5), open_bus(channel)

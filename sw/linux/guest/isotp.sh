@@ -32,6 +32,7 @@ stream wide can1 can0 "-s 18DAF110 -d 18DA10F1 -p AA:55" \
 stream slow can0 can1 "-s 18DB33F1 -d 18DBF133 -x 11:22" \
   "-s 18DBF133 -d 18DB33F1 -x 22:11 -b 20 -m 1"
 [ -z "$VERICAN_SABOTAGE" ] || tell sabotage "$VERICAN_SABOTAGE"
+spare=3
 weather "$VERICAN_LOAD"
 sleep 0.1
 kill $receivers
