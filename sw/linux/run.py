@@ -23,6 +23,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import judge
+import judge_canfdtest
 import judge_clock
 import judge_events
 import judge_isotp
@@ -36,7 +37,7 @@ CHIPS = ("ls1021ar2", "imx28")
 # Controllers with time units: their device tree and their simulator.
 CLOCKS = ("time",)
 CLOCK_OPTIONS = ["--time-unit", f"--clock-ppm={','.join(str(ppm) for ppm in judge_clock.PPM)}"]
-JUDGES = (judge, judge_clock, judge_events, judge_tools, judge_isotp, judge_j1939,
+JUDGES = (judge, judge_canfdtest, judge_clock, judge_events, judge_tools, judge_isotp, judge_j1939,
           judge_services, judge_timeouts)
 RATES = "125000,250000,500000,1000000"
 
@@ -88,10 +89,14 @@ def cases(short):
         Case("timeouts", "timeouts", chips=("ls1021ar2",)),
         Case("bcm", "bcm", {"VERICAN_LOAD": "12"}, chips=("ls1021ar2",)),
         Case("gateway", "gateway", {"VERICAN_LOAD": "12"}, chips=("ls1021ar2",)),
+        Case("canfdtest", "canfdtest", {"VERICAN_FRAMES": "500"}),
         Case("repeatable", "exchange", few, short=True, twice=True),
         Case("red-lost-frame", "exchange", {**few, "VERICAN_SABOTAGE": "lose-frame"}, short=True,
              red=True),
         Case("red-wrong-data", "exchange", {**few, "VERICAN_SABOTAGE": "corrupt-data"}, red=True),
+        Case("red-canfdtest", "canfdtest", {"VERICAN_FRAMES": "100",
+                                            "VERICAN_SABOTAGE": "corrupt-data"}, red=True,
+             chips=("ls1021ar2",)),
         Case("red-no-interrupt", "exchange", {**impatient, "VERICAN_SABOTAGE": "deaf"}, red=True,
              chips=("ls1021ar2",)),
         Case("red-frozen-counter", "statistics", {"VERICAN_SABOTAGE": "frozen-errors"}, red=True,
