@@ -61,6 +61,7 @@ def cases(short):
     many = {"VERICAN_RATES": RATES, "VERICAN_FRAMES": "400"}
     load = few if short else many
     impatient = {**few, "VERICAN_STEPS": "30"}
+    spoilt = {"VERICAN_LOAD": "0", "VERICAN_LEAST": "0", "VERICAN_SABOTAGE": "corrupt-data"}
     everything = [
         Case("probe", "probe", short=True),
         Case("exchange", "exchange", load, short=True),
@@ -97,6 +98,10 @@ def cases(short):
         Case("red-canfdtest", "canfdtest", {"VERICAN_FRAMES": "100",
                                             "VERICAN_SABOTAGE": "corrupt-data"}, red=True,
              chips=("ls1021ar2",)),
+        Case("red-j1939", "j1939", {"VERICAN_BYTES": "2000", **spoilt}, red=True,
+             chips=("ls1021ar2",)),
+        Case("red-bcm", "bcm", spoilt, red=True, chips=("ls1021ar2",)),
+        Case("red-gateway", "gateway", spoilt, red=True, chips=("ls1021ar2",)),
         Case("red-no-interrupt", "exchange", {**impatient, "VERICAN_SABOTAGE": "deaf"}, red=True,
              chips=("ls1021ar2",)),
         Case("red-frozen-counter", "statistics", {"VERICAN_SABOTAGE": "frozen-errors"}, red=True,
