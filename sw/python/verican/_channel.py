@@ -99,9 +99,9 @@ class Channel:
                 self._give()
 
     def _follow(self):
-        """In small steps: after `disturb` idle time costs CPU, and where it costs more than it lasts
-        the way to the host's time grows while it is gone; whoever calls does not wait for its end.
-        """
+        """In small steps: after `disturb` idle time costs CPU, and where it costs more than it
+        lasts the way to the host's time grows while it is gone; whoever calls does not wait for
+        its end."""
         while not (self._work or self._closing):
             behind = time.time() - self._epoch - self._bus.now
             if behind <= 0:
