@@ -115,6 +115,17 @@ class FlatFile(unittest.TestCase):
                 points = flat.prove(wrapper, size, file, Path(work))
             self.assertGreater(points, 1500)
 
+    def test_a_wrong_wire_into_a_ram_is_noticed(self):
+        wrapper, size, file = self.builds[0]
+        wrong, count = re.subn(r"(can_mb_ram_\w+ \w+ \([^;]*?\.wdata_i\()([^()]+)\)", r"\1~\2)",
+                               file.read_text(encoding="utf-8"), count=1)
+        self.assertEqual(count, 1)
+        path = self.out / "wrong.v"
+        path.write_text(wrong, encoding="utf-8")
+        with tempfile.TemporaryDirectory() as work:
+            self.assertRaisesRegex(flat.FlatError, "unproven", flat.prove, wrapper, size, path,
+                                   Path(work))
+
     def test_ram_of_the_template_equals_the_sources(self):
         path = self.out / "ram.v"
         path.write_text(flat.RAM.format(name="gate", high=3, last=15), encoding="utf-8")

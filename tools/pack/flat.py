@@ -16,7 +16,7 @@ HEAD = """\
 //
 // {top}: VeriCAN {version}, {module} with {size} message buffers and the defaults of all other
 // parameters, in Verilog-2005. Written by tools/package.py with Yosys; proven to equal the
-// SystemVerilog sources, which are the ones to read, but for the wiring into the RAMs.
+// SystemVerilog sources, which are the ones to read.
 
 """
 RAM = """\
