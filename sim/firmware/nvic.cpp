@@ -21,6 +21,14 @@ void for_each_irq(unsigned word, std::uint32_t bits, Use use) {
     if ((bits >> bit & 1) != 0 && word * 32 + bit < kIrqs) use(kIrq0 + word * 32 + bit);
 }
 
+/// Calls `use(exception)` for each that is set, from 0 up. The CPU asks in each of its clocks, when
+/// few are set: libstdc++ finds them by the word.
+template <std::size_t N, typename Use>
+void for_each_set(const std::bitset<N> &flags, Use use) {
+  for (std::size_t e = flags._Find_first(); e < N; e = flags._Find_next(e))
+    use(static_cast<unsigned>(e));
+}
+
 /// Number of the word at `address` in the bank that begins at `base`, at most 32 words long.
 constexpr unsigned word_in(std::uint32_t address, std::uint32_t base) {
   return (address - base) / 4;
@@ -75,8 +83,8 @@ int Nvic::group_priority(unsigned exception) const {
 
 int Nvic::active_priority() const {
   int most_urgent = kThreadPriority;
-  for (unsigned e = 1; e < kExceptions; ++e)
-    if (active_.test(e)) most_urgent = std::min(most_urgent, group_priority(e));
+  for_each_set(active_,
+               [&](unsigned e) { most_urgent = std::min(most_urgent, group_priority(e)); });
   return most_urgent;
 }
 
@@ -93,13 +101,15 @@ int Nvic::execution_priority() const {
 
 // Equal group priorities: the sub-priority decides, then the smaller number (B1.5.4).
 std::optional<unsigned> Nvic::first_pending() const {
-  if (pending_.none()) return {};
+  constexpr Flags kSystemExceptions{(1U << kIrq0) - 1};
+  const Flags ready = pending_ & (enabled_ | kSystemExceptions);
   std::optional<unsigned> best;
   const auto rank = [this](unsigned e) {
     return e < kMemManage ? group_priority(e) : static_cast<int>(priority_[e]);
   };
-  for (unsigned e = 1; e < kExceptions; ++e)
-    if (pending_.test(e) && enabled(e) && (!best || rank(e) < rank(*best))) best = e;
+  for_each_set(ready, [&](unsigned e) {
+    if (!best || rank(e) < rank(*best)) best = e;
+  });
   return best;
 }
 

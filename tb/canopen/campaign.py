@@ -10,6 +10,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = ROOT / "build/release"
@@ -46,9 +47,11 @@ def figure(name, value, text, ok, bar):
 
 
 def main():
-    """Runs both and writes the result."""
+    """Runs both, side by side, and writes the result."""
     seconds = max(1.0, SECONDS * float(os.environ.get("CAMPAIGN_SCALE", "1")))
-    found = robot(seconds)
+    with ThreadPoolExecutor() as both:
+        of_robot, of_drive = both.submit(robot, seconds), both.submit(drive, seconds)
+        found, stack = of_robot.result(), of_drive.result()
     wanted = round(seconds * 1000)
     figures = [
         figure("robot: milliseconds with a SYNC", found["syncs"], f"{found['syncs']:,}",
@@ -58,7 +61,6 @@ def main():
                f"{sum(c['ok'] for c in found['checks'])} of {len(found['checks'])}",
                all(c["ok"] for c in found["checks"]), "all")]
     notes = [] if os.environ.get("CANOPENNODE") else ["CANOPENNODE was not set: no CANopenNode."]
-    stack = drive(seconds)
     if stack is not None:
         syncs, lost, right = stack
         figures += [figure("CANopenNode: milliseconds with a SYNC", syncs, f"{syncs:,}",
