@@ -75,16 +75,16 @@ module can_apb #(
   assign be     = pwrite ? pstrb : 4'b1111;
   assign cancel = beyond || denied || be == '0;
 
-  // Access phase of what the core has not been given.
-  logic        error_q, denied_q;
+  // Access phase. What the core has not been given reads 0 there.
+  logic        error_q;
   logic [31:0] rdata;
   always_ff @(posedge pclk or negedge presetn) begin
-    if (!presetn)   {error_q, denied_q} <= '0;
-    else if (setup) {error_q, denied_q} <= {beyond, denied};
+    if (!presetn)   error_q <= 1'b0;
+    else if (setup) error_q <= beyond;
   end
   assign pready  = ready;
   assign pslverr = psel && penable && ready && error_q;
-  assign prdata  = error_q || denied_q ? '0 : rdata;
+  assign prdata  = rdata;
 
   can_top #(
     .NumMb(NumMb), .Fifo(Fifo), .Abort(Abort), .Status(Status), .OwnMasks(OwnMasks), .Wake(Wake),

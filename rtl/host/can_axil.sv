@@ -90,7 +90,7 @@ module can_axil #(
   assign read_last = begins ? !turn : read_last_q;
 
   // Command. Of a read all lanes count; a write without a strobe is none to the core.
-  logic        beyond, denied, cancel, error_q, denied_q, ready;
+  logic        beyond, denied, cancel, error_q, ready;
   logic [3:0]  be;
   logic [31:0] addr, core_rdata;
   assign addr   = turn ? awaddr : araddr;
@@ -103,13 +103,13 @@ module can_axil #(
   // ARREADY comes with the data, AWREADY and WREADY one clock later (taken_q).
   always_ff @(posedge aclk or negedge aresetn) begin
     if (!aresetn) begin
-      {read_q, write_q, taken_q, error_q, denied_q, rvalid, bvalid} <= '0;
+      {read_q, write_q, taken_q, error_q, rvalid, bvalid} <= '0;
       {read_last_q, prefer_write_q} <= '0;
     end else begin
       taken_q <= write_q && ready;
       read_last_q    <= read_last;
       prefer_write_q <= !b_shut && (r_shut || read_last);
-      if (begins) {read_q, write_q, error_q, denied_q} <= {!turn, turn, beyond, denied};
+      if (begins) {read_q, write_q, error_q} <= {!turn, turn, beyond};
       else if (ready) {read_q, write_q} <= '0;
       if (read_q && ready) rvalid <= 1'b1;
       else if (rready)     rvalid <= 1'b0;
@@ -127,7 +127,7 @@ module can_axil #(
       {rresp, bresp} <= '0;
     end else begin
       if (arready) begin
-        rdata <= error_q || denied_q ? '0 : core_rdata;
+        rdata <= core_rdata;          // 0 of what the core has not been given
         rresp <= {error_q, 1'b0};
       end
       if (write_q && ready) bresp <= {error_q, 1'b0};

@@ -44,7 +44,7 @@ module can_top #(
   input  logic [12:2] addr_i,
   input  logic [3:0]  be_i,
   input  logic [31:0] wdata_i,
-  output logic [31:0] rdata_o,
+  output logic [31:0] rdata_o,         // 0 but in the data phase of a read: wrappers rely on it
   output logic        ready_o,
   // Interrupt lines, level, active high; irq_o is the OR of the others.
   output logic        irq_o,

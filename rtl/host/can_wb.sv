@@ -75,7 +75,7 @@ module can_wb #(
   logic [31:0] wdata, rdata;
   assign rst_n  = !wb_rst_i;
   assign beyond = ({wb_adr_i, 2'b00} & 32'((33'd1 << RegionBits) - 33'd1)) >> 13 != '0;
-  // A write without a lane is none to the core.
+  // A write without a lane is none to the core. What is none to it reads 0.
   assign cancel = beyond || (wb_we_i && wb_sel_i == '0);
   always_ff @(posedge wb_clk_i or negedge rst_n) begin
     if (!rst_n) {due_q, error_q} <= '0;
@@ -86,7 +86,7 @@ module can_wb #(
   end
   assign wb_ack_o = answer && !error_q;
   assign wb_err_o = answer && error_q;
-  assign wb_dat_o = error_q ? '0 : rdata;
+  assign wb_dat_o = rdata;
 
   if (Pipelined != 0) begin : gen_pipelined
     logic [31:0] wdata_q;            // the master shows them with the strobe alone

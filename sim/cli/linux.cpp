@@ -169,8 +169,12 @@ void add_linux(CLI::App &app, int &exit_code) {
   command->add_option("--clock-ppm", options->board.clock_ppm, "Error of each core's clock, ppm")
       ->delimiter(',')
       ->check(CLI::Range(-100'000.0, 100'000.0));
-  command->add_flag("--time-unit", options->board.time_unit,
-                    "Cores with the time unit, in windows of 8 KiB");
+  CLI::Option *const time_unit = command->add_flag("--time-unit", options->board.time_unit,
+                                                   "Cores with the time unit, in windows of 8 KiB");
+  command
+      ->add_flag("--lean", options->board.lean,
+                 "Cores without Rx FIFO, ESR2, CRCR and abort: fsl,ls1021ar2-flexcan needs none")
+      ->excludes(time_unit);
   command->add_option("--dir", options->board.directory, "Directory for logs, also the guest's");
   command->add_flag("--access-logs", options->board.access_logs, "Log each register access");
   command->add_option("--memory", options->memory, "Memory of the guest");

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "model/registers.hpp"
+#include "node/lean_core.hpp"
 
 namespace vericansim {
 namespace {
@@ -42,6 +43,8 @@ Board::Board(const BoardConfig &config) : config_{config} {
   if (config.controllers < 1 || config.controllers > 8)
     throw std::invalid_argument(
         fmt::format("a board has 1 to 8 controllers, not {}", config.controllers));
+  if (config.lean && config.time_unit)
+    throw std::invalid_argument("a board has lean cores or cores with time units");
   add_controllers();
   watch_bus();
   if (!config.access_logs || config.directory.empty()) return;
@@ -63,7 +66,8 @@ void Board::add_controllers() {
       time_units_.push_back(node.get());
       cores_.push_back(std::move(node));
     } else {
-      cores_.push_back(RtlNode::create(name, clock, 64));
+      cores_.push_back(config_.lean ? create_lean_core(name, clock)
+                                    : RtlNode::create(name, clock, 64));
     }
     bus_.add(*cores_.back());
   }

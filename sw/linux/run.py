@@ -34,6 +34,9 @@ import judge_tools
 
 ROOT = Path(__file__).resolve().parents[2]
 CHIPS = ("ls1021ar2", "imx28")
+# Controllers that lack what the first driver does not need (PK-47); its device tree.
+LEAN = "ls1021ar2-lean"
+ALL = (*CHIPS, LEAN)
 # Controllers with time units: their device tree and their simulator.
 CLOCKS = ("time",)
 CLOCK_OPTIONS = ["--time-unit", f"--clock-ppm={','.join(str(ppm) for ppm in judge_clock.PPM)}"]
@@ -63,15 +66,15 @@ def cases(short):
     impatient = {**few, "VERICAN_STEPS": "30"}
     spoilt = {"VERICAN_LOAD": "0", "VERICAN_LEAST": "0", "VERICAN_SABOTAGE": "corrupt-data"}
     everything = [
-        Case("probe", "probe", short=True),
-        Case("exchange", "exchange", load, short=True),
-        Case("flood", "flood", load, short=True),
-        Case("remote", "remote"),
+        Case("probe", "probe", short=True, chips=ALL),
+        Case("exchange", "exchange", load, short=True, chips=ALL),
+        Case("flood", "flood", load, short=True, chips=ALL),
+        Case("remote", "remote", chips=ALL),
         Case("loopback", "loopback"),
         Case("listenonly", "listenonly"),
-        Case("busoff", "busoff", short=True),
-        Case("stuck", "stuck"),
-        Case("statistics", "statistics"),
+        Case("busoff", "busoff", short=True, chips=ALL),
+        Case("stuck", "stuck", chips=ALL),
+        Case("statistics", "statistics", chips=ALL),
         Case("reload", "reload"),
         Case("rxrtr", "rxrtr", chips=("imx28",)),
         Case("ptp-probe", "ptpprobe", chips=CLOCKS, short=True),
@@ -147,11 +150,12 @@ def boot(args, case, chip, directory):
     settings = {"VERICAN_SCRIPTS": case.script, "VERICAN_MODULES": str(modules),
                 "VERICAN_GUEST": str(ROOT / "sw/linux/guest"), **case.settings}
     command = [str(args.verican), "linux", "--kernel", str(modules / "linux"),
-               "--dtb", str(modules / f"{chip}.dtb"),
+               "--dtb", str(modules / f"{chip.removesuffix('-lean')}.dtb"),
                "--init", str(ROOT / "sw/linux/guest/init.sh"),
                "--preload", str(modules / "wide_xstate.so"), "--dir", str(directory),
                "--access-logs", "--timeout", str(args.timeout)]
-    command += [*(CLOCK_OPTIONS if chip in CLOCKS else []), "--"]
+    command += [*(CLOCK_OPTIONS if chip in CLOCKS else []),
+                *(["--lean"] if chip == LEAN else []), "--"]
     command += [f"{key}={value}" for key, value in settings.items()]
     start = time.monotonic()
     environment = {**os.environ, "TMPDIR": scratch()}
@@ -181,7 +185,8 @@ def run_case(args, case, chip):
     """Runs and judges; never raises for what a guest does."""
     directory = args.build / "out" / f"{chip}-{case.name}"
     result = Result(case, chip, False)
-    run = judge.Run(directory, chip, {"VERICAN_SCRIPTS": case.script, **case.settings})
+    run = judge.Run(directory, chip.removesuffix("-lean"),
+                    {"VERICAN_SCRIPTS": case.script, **case.settings})
     try:
         result.guest, result.wall = boot(args, case, chip, directory)
         judge.common(run)
@@ -208,7 +213,7 @@ def show(result):
     notes = result.notes
     counted = f"{notes['frames']:6d}" if "frames" in notes and not result.case.red else "     -"
     load = f"{100 * notes['load']:6.1f}" if "load" in notes and not result.case.red else "     -"
-    print(f"{'pass' if result.ok else 'FAIL'}  {result.chip:10} {result.case.name:19}{counted}  "
+    print(f"{'pass' if result.ok else 'FAIL'}  {result.chip:14} {result.case.name:19}{counted}  "
           f"{load}  {result.guest:7.3f}  {result.wall:6.1f}"
           f"{'' if result.ok and not result.case.red else '  ' + result.message[:90]}", flush=True)
 
@@ -240,7 +245,7 @@ def main():
             if not args.only or re.search(args.only, f"{chip}-{case.name}")]
     if not work:
         sys.exit(f"test-linux: no case matches {args.only!r}")
-    print("      compatible case                frames  load %  guest s  real s")
+    print("      compatible     case                frames  load %  guest s  real s")
     failed = 0
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
         for result in pool.map(lambda item: run_case(args, *item), work):

@@ -68,6 +68,27 @@ TEST_F(BoardTest, EachControllerHasAWindow) {
   EXPECT_THAT(board->command("report"), HasSubstr("access_errors=1"));
 }
 
+// PK-41, PK-47: bits of features that are not there read 0.
+TEST_F(BoardTest, ALeanControllerLacksFifoAndAbort) {
+  constexpr std::uint32_t kFreeze = reg::kMcrFrz | reg::kMcrHalt | 63;
+  constexpr std::uint32_t kBoth = reg::kMcrFen | VERICAN_MCR_AEN_MASK;
+  const auto kept = [](const BoardConfig &wanted) {
+    Board on(wanted);
+    const auto write = [&](std::uint32_t mcr) {
+      on.access({.address = 0, .write = true, .value = mcr});
+    };
+    write(kFreeze);
+    EXPECT_FALSE(on.run_until(kMs));
+    EXPECT_NE(on.access({.address = 0}) & reg::kMcrFrzAck, 0U);
+    write(kFreeze | kBoth);
+    return on.access({.address = 0}) & kBoth;
+  };
+  BoardConfig lean;
+  lean.lean = true;
+  EXPECT_EQ(kept({}), kBoth);
+  EXPECT_EQ(kept(lean), 0U);
+}
+
 TEST_F(BoardTest, TimePassesWithoutClocksWhileNoControllerIsEnabled) {
   const std::uint64_t before = board->controller(0).cycles();
   EXPECT_FALSE(board->run_until(3000 * kMs));
@@ -267,6 +288,9 @@ TEST(Board, SettingsOutOfRangeAreRefused) {
   nowhere.directory = "/nowhere/at/all";
   nowhere.access_logs = true;
   EXPECT_THROW(Board{nowhere}, OutputError);
+  BoardConfig two_kinds = with(2, 8e6);
+  two_kinds.lean = two_kinds.time_unit = true;
+  EXPECT_THROW(Board{two_kinds}, std::invalid_argument);
 }
 
 }  // namespace

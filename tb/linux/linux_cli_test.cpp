@@ -40,6 +40,7 @@ TEST_F(LinuxCommand, NamesTheFileThatIsMissing) {
   EXPECT_EQ(result.error, "verican: --preload: cannot read /no/library\n");
   EXPECT_EQ(tool("--dtb /dev/null --init /bin/true").code, 2);
   EXPECT_EQ(kernel("exit 0", "--controllers 9").code, 2);
+  EXPECT_EQ(kernel("exit 0", "--lean --time-unit").code, 2);
 }
 
 TEST_F(LinuxCommand, AProgramThatIsNoKernelIsFoundOut) {

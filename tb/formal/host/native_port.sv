@@ -49,7 +49,7 @@ module can_top #(
 );
   (* anyseq *) logic [31:0] f_rdata;
   (* anyseq *) logic        f_ready, f_supv;
-  assign rdata_o = f_rdata;
+  assign rdata_o = f_read ? f_rdata : '0;
   assign ready_o = f_ready;
   assign supv_o  = f_supv;
   assign {irq_o, irq_mb_o, irq_boff_o, irq_err_o, irq_twrn_o, irq_rwrn_o, irq_wak_o} = '0;
@@ -58,11 +58,17 @@ module can_top #(
   // What the port is told, for the properties in the wrapper.
   assign trace_o  = can_pkg::TraceWidth'({wdata_i, be_i, addr_i, we_i, req_i && !cancel_i});
 
-  // A command was taken in the clock before: only its first clock may be one of waiting.
-  logic f_first;
+  // A command was taken in the clock before: only its first clock may be one of waiting. Data are
+  // 0 but in the data phase of a read, up to the clock in which the port is ready: discharged by
+  // host.native_port, p_silent.
+  logic f_first, f_read;
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) f_first <= 1'b0;
-    else         f_first <= req_i && !cancel_i && ready_o;
+    if (!rst_ni) begin
+      {f_first, f_read} <= '0;
+    end else begin
+      f_first <= req_i && !cancel_i && ready_o;
+      if (ready_o) f_read <= req_i && !cancel_i && !we_i;
+    end
   end
 
   always @(posedge clk_i) begin
