@@ -39,10 +39,23 @@ def families():
     return yaml.safe_load((FOLDER / "families.yaml").read_text(encoding="utf-8"))
 
 
+def used(tops, files):
+    """Those of the files, name of module -> text, that the tops name, or what they name."""
+    wanted, found = set(tops), set()
+    while wanted:
+        name = wanted.pop()
+        found.add(name)
+        wanted |= set(re.findall(r"\b[a-z]\w*\b", files[name])) & set(files) - found
+    return sorted(found)
+
+
 def state(entry):
     """A hash of what a family's figures depend on: RTL, tool, settings, profiles."""
     digest = hashlib.sha256(json.dumps(entry, sort_keys=True).encode())
-    for name in [*rtl_files(), "sw/profiles.yaml", "tools/synth/families/package-lock.json"]:
+    files = {Path(name).stem: (ROOT / name).read_text(encoding="utf-8") for name in rtl_files()}
+    for name in used({settings(build)[0] for build in BUILDS}, files):
+        digest.update(files[name].encode())
+    for name in ("sw/profiles.yaml", "tools/synth/families/package-lock.json"):
         digest.update((ROOT / name).read_bytes())
     return digest.hexdigest()[:12]
 

@@ -26,6 +26,9 @@ module can_bit_timing #(
   output logic       boundary_o,   // last clock of the bit: the next level goes out
   output logic       edge_o        // recessive to dominant edge that synchronises
 );
+  if (PosWidth < 3 || PosWidth > 5) begin : gen_check_pos_width
+    PosWidth_must_be_3_to_5 u_stop ();   // no such module: the tool prints the name and stops
+  end
 
   logic       seg2_q;   // in PHASE_SEG2
   logic [PosWidth-1:0] pos_q;  // before the sample point: 0 = SYNC_SEG; in PHASE_SEG2: from 1

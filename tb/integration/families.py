@@ -7,6 +7,7 @@ page is what the results say; bad names are told."""
 import json
 import sys
 import unittest
+from pathlib import Path
 
 import design
 
@@ -58,6 +59,18 @@ class Families(unittest.TestCase):
         results["ecp5"]["state"] = "0123456789ab"
         del results["gowin"]["builds"]["small"], results["xilinx"]
         self.assertEqual(families.stale(known, results), ["ecp5", "gowin", "xilinx"])
+
+    def test_only_what_is_measured_counts(self):
+        """A node without a processor or a bus wrapper more leaves the page as it is."""
+        files = {"top": "unit u; part p; // see other", "unit": "pkg::Width", "pkg": "", "part": "",
+                 "other": "top t; unit u;", "apart": "unit u;"}
+        self.assertEqual(families.used({"top"}, files), ["other", "part", "pkg", "top", "unit"])
+        names = {Path(name).stem: (design.ROOT / name).read_text(encoding="utf-8")
+                 for name in families.rtl_files()}
+        used = families.used({"can_core", "can_ahb"}, names)
+        self.assertLess({"can_pkg", "can_regs_pkg", "can_mb_ram", "can_crc15", "can_time"},
+                        set(used))
+        self.assertFalse({"can_remote", "can_rn_step", "can_apb", "can_wb"} & set(used))
 
     def test_unknown_family_is_told(self):
         code, text = design.run("tools/families.py", "stratix")

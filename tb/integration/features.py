@@ -90,6 +90,15 @@ class Features(unittest.TestCase):
         self.assertEqual(lint({"Brp": 256, "Prop": 8, "Ps1": 8, "Ps2": 8, "Sjw": 4},
                               "can_time_node"), (0, ""))
 
+    def test_engine_refuses_widths_that_hold_no_bit(self):
+        """BT-02: PHASE_SEG2 of 8 quanta, and 16 before the sample point, are the longest."""
+        for width in (2, 6):
+            code, text = lint({"PosWidth": width}, "can_core")
+            self.assertNotEqual(code, 0)
+            self.assertIn("PosWidth_must_be_3_to_5", text)
+        for width in (3, 5):
+            self.assertEqual(lint({"PosWidth": width}, "can_core"), (0, ""))
+
 
 if __name__ == "__main__":
     unittest.main()
