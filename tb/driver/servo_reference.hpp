@@ -29,6 +29,7 @@ class ServoReference {
   struct Correction {
     std::int64_t shift;
     std::uint64_t increment;
+    std::int64_t exact;  ///< A of TM-82, 1/256 ns
   };
 
   /// TM-80.
@@ -56,6 +57,8 @@ class ServoReference {
       Wide r = m - q * d;
       for (; d >= Wide{1} << 38; d /= 2) r /= 2;
       b = (Wide{1} << 24) * q + (Wide{1} << 24) * r / d;
+      const Wide limit = (Wide{1} << 34) - 1;  // 977 ppm
+      b = b > limit ? limit : b < -limit ? -limit : b;
     }
     const Wide a = (sx - floor_of(b * st, Wide{1} << 24)) / count;
     return {static_cast<std::int64_t>(a), static_cast<std::int64_t>(b)};
@@ -80,19 +83,22 @@ class ServoReference {
     return {(sx - b * st) / count, b};
   }
 
-  /// TM-82 and TM-83.
-  Correction correct(std::size_t n, std::int64_t now, std::uint64_t increment) {
+  /// TM-82 and TM-83; without the correction of the offset or of the rate.
+  Correction correct(std::size_t n, std::int64_t now, std::uint64_t increment,
+                     bool keep_offset = false, bool keep_rate = false) {
     const Line line = fit(n);
     const Wide ahead = floor_of(Wide{now} - points.back().local, 4096);
     const Wide due = line.a + floor_of(line.b * ahead, Wide{1} << 24);
-    const Wide shift = -floor_of(due + 128, 256);
+    const Wide shift = keep_offset ? 0 : -floor_of(due + 128, 256);
+    const Wide rate = keep_rate ? 0 : line.b;
     for (Point &point : points) {
       const Wide t = floor_of(Wide{point.local} - now, 4096);
-      const Wide x = point.x + 256 * shift - floor_of(line.b * t, Wide{1} << 24);
+      const Wide x = point.x + 256 * shift - floor_of(rate * t, Wide{1} << 24);
       point = {static_cast<std::int64_t>(point.local + shift), static_cast<std::int64_t>(x)};
     }
-    const Wide less = floor_of(floor_of(Wide{increment}, 1 << 16) * line.b, Wide{1} << 28);
-    return {static_cast<std::int64_t>(shift), static_cast<std::uint64_t>(Wide{increment} - less)};
+    const Wide less = floor_of(floor_of(Wide{increment}, 1 << 16) * rate, Wide{1} << 28);
+    return {static_cast<std::int64_t>(shift), static_cast<std::uint64_t>(Wide{increment} - less),
+            static_cast<std::int64_t>(due)};
   }
 
   std::vector<Point> points;

@@ -20,7 +20,9 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SOURCES = ("servo*.c", "tsyn*.c", "delay.c", "masters.c", "p4.c")
 # The quickest first.
 PROGRAMS = ("driver_servo_fit_test", "driver_servo_states_test", "driver_tsyn_test",
-            "driver_delay_test", "driver_timesync_test", "driver_sync_loop_test")
+            "driver_delay_test", "driver_domain_follower_test", "driver_domain_master_test",
+            "driver_servo_model_test", "driver_tsyn_model_test", "driver_timesync_test",
+            "driver_sync_loop_test")
 LIBRARY = "sw/driver/CMakeFiles/verican_driver_sanitized.dir/src"
 SECONDS = 240      # of one program
 FULL = 150         # mutants at scale 1

@@ -39,19 +39,18 @@ verican_result_t verican_clock_get(const verican_t *dev, uint64_t *ns) {
   return VERICAN_OK;
 }
 
-verican_result_t verican_clock_set(const verican_t *dev, uint64_t ns) {
+static verican_result_t write_time(const verican_t *dev, uint32_t low, uint64_t ns) {
   const verican_result_t result = check(dev);
-  if (result == VERICAN_OK)
-    verican_write_pair(dev, VERICAN_TIMELO_OFFSET, (uint32_t)ns, (uint32_t)(ns >> 32));
+  if (result == VERICAN_OK) verican_write_pair(dev, low, (uint32_t)ns, (uint32_t)(ns >> 32));
   return result;
 }
 
+verican_result_t verican_clock_set(const verican_t *dev, uint64_t ns) {
+  return write_time(dev, VERICAN_TIMELO_OFFSET, ns);
+}
+
 verican_result_t verican_clock_shift(const verican_t *dev, int64_t ns) {
-  const verican_result_t result = check(dev);
-  const uint64_t bits = (uint64_t)ns;
-  if (result == VERICAN_OK)
-    verican_write_pair(dev, VERICAN_TSHLO_OFFSET, (uint32_t)bits, (uint32_t)(bits >> 32));
-  return result;
+  return write_time(dev, VERICAN_TSHLO_OFFSET, (uint64_t)ns);
 }
 
 verican_result_t verican_clock_slew(const verican_t *dev, int32_t ns) {
@@ -109,7 +108,7 @@ verican_result_t verican_clock_pps(const verican_t *dev, bool on) {
   if (!on) return VERICAN_OK;
   const uint64_t second = (now + ARM_NS) / SECOND_NS + 1u;
   verican_write(dev, VERICAN_TCMPH_OFFSET, SECOND_NS / 2u);
-  verican_write(dev, VERICAN_TCMP_OFFSET, (uint32_t)(second * SECOND_NS));
+  verican_write(dev, VERICAN_TCMP_OFFSET, (uint32_t)second * SECOND_NS);
   return VERICAN_OK;
 }
 

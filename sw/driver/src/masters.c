@@ -12,33 +12,33 @@ void verican_masters_start(verican_masters_t *masters, uint32_t interval_us, uin
   masters->current = VERICAN_MASTER_NONE;
 }
 
-/* Whether master `rank` was heard in the last `span` ns. */
-static bool heard(const verican_masters_t *masters, unsigned rank, uint64_t now, uint64_t span) {
-  if ((masters->known >> rank & 1u) == 0u) return false;
-  return (int64_t)(now - masters->heard[rank]) <= (int64_t)span;
+/* Whether `at` is at most 3 R and `rank` times R / 2 ago. */
+static bool is_late(const verican_masters_t *masters, uint64_t at, uint64_t now, unsigned rank) {
+  return (int64_t)(now - at) <= (int64_t)(masters->interval * (6u + rank) / 2u);
 }
 
-/* The best of the first `count` that was heard in the last `span` ns, or `count`. */
+/* The best of the first `count` that was heard so late, or `count`. */
 static unsigned best(const verican_masters_t *masters, unsigned count, uint64_t now,
-                     uint64_t span) {
-  unsigned rank = 0;
-  while (rank < count && !heard(masters, rank, now, span)) ++rank;
-  return rank;
+                     unsigned rank) {
+  unsigned n = 0;
+  while (n < count &&
+         ((masters->known >> n & 1u) == 0u || !is_late(masters, masters->heard[n], now, rank)))
+    ++n;
+  return n;
 }
 
 bool verican_masters_hear(verican_masters_t *masters, uint8_t rank, uint64_t stamp) {
   masters->heard[rank] = stamp;
   masters->known |= (uint8_t)(1u << rank);
-  return best(masters, rank, stamp, 3u * masters->interval) == rank;
+  return best(masters, rank, stamp, 0) == rank;
 }
 
 bool verican_masters_may_send(const verican_masters_t *masters, uint8_t rank, uint64_t now) {
-  const uint64_t span = 3u * masters->interval + rank * masters->interval / 2u;
-  return (int64_t)(now - masters->since) > (int64_t)span && best(masters, rank, now, span) == rank;
+  return !is_late(masters, masters->since, now, rank) && best(masters, rank, now, rank) == rank;
 }
 
 bool verican_masters_alive(const verican_masters_t *masters, uint64_t now) {
-  return best(masters, VERICAN_MASTERS, now, 3u * masters->interval) < VERICAN_MASTERS;
+  return best(masters, VERICAN_MASTERS, now, 0) < VERICAN_MASTERS;
 }
 
 void verican_masters_shift(verican_masters_t *masters, int64_t shift) {

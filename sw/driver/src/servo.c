@@ -63,9 +63,9 @@ static int64_t gate_of(const verican_servo_t *servo, const verican_sync_pair_t *
 }
 
 static bool has_leapt(const verican_servo_t *servo, int64_t offset) {
-  int64_t limit = servo->config.leap_ns;
+  uint32_t limit = servo->config.leap_ns;
   if (!is_in(servo, VERICAN_SYNC_LOCKED)) limit += servo->config.interval_us;
-  return verican_magnitude(offset) > 256 * limit;
+  return verican_magnitude(offset) > 256 * (int64_t)limit;
 }
 
 /* Whether enough leaps in a row agree: then the master means it. */
@@ -85,8 +85,10 @@ static bool has_history(const verican_servo_t *servo) {
 static bool is_outlier(verican_servo_t *servo, int64_t offset, int64_t gate) {
   const int64_t size = verican_magnitude(offset);
   const bool far = has_history(servo) && size > gate && !servo->dropped;
-  const int64_t weight = verican_weight(servo->learned + 1u, ERROR_PAIRS);
-  if (servo->count >= 2u) servo->error += ((size < gate ? size : gate) - servo->error) / weight;
+  if (servo->count >= 2u) {
+    if (servo->errors < (uint8_t)ERROR_PAIRS) ++servo->errors;
+    servo->error += ((size < gate ? size : gate) - servo->error) / servo->errors;
+  }
   servo->dropped = far;
   return far;
 }

@@ -25,13 +25,10 @@ static void re_reference(verican_servo_t *servo, int64_t now, int64_t shift, int
     verican_servo_point_t *point = &servo->points[i];
     const bool old = verican_ticks(newest, point->local) <= -TICKS_LIMIT;
     point->offset += 256 * shift - verican_drift(rate, verican_ticks(now, point->local));
-    if (old || verican_magnitude(point->offset) >= OLD_OFFSET_LIMIT) {
+    point->local = (int64_t)((uint64_t)point->local + (uint64_t)shift);
+    if (old || verican_magnitude(point->offset) >= OLD_OFFSET_LIMIT)
       servo->count = (uint8_t)(i > 0u ? i : 1u);
-      break;
-    }
   }
-  for (unsigned i = 0; i < servo->count; ++i)
-    servo->points[i].local = (int64_t)((uint64_t)servo->points[i].local + (uint64_t)shift);
 }
 
 static uint64_t slower(uint64_t increment, int64_t rate) {
@@ -41,7 +38,8 @@ static uint64_t slower(uint64_t increment, int64_t rate) {
 }
 
 void verican_servo_correct(verican_servo_t *servo, int64_t now, verican_correction_t *correction) {
-  const verican_servo_line_t line = verican_servo_fit(servo->points, verican_filter_points(servo));
+  const unsigned points = verican_filter_points(servo, servo->filter);
+  const verican_servo_line_t line = verican_servo_fit(servo->points, points);
   const int64_t due =
       line.offset + verican_drift(line.rate, verican_ticks(servo->points[0].local, now));
   const int64_t shift = servo->config.keep_offset ? 0 : -verican_floor(due + 128, 8);

@@ -16,42 +16,25 @@
 #define TICKS_LIMIT (TWO_POW(25) - 1)
 #define OLD_OFFSET_LIMIT TWO_POW(28)
 
-/* servo_fit.c: value / 2^power, rounded down for negative values too. */
-int64_t verican_floor(int64_t value, unsigned power);
-
+/* value / 2^power, rounded down for negative values too; 2^63 moves all values to where a shift is
+ * defined. */
+static inline int64_t verican_floor(int64_t value, unsigned power) {
+  const uint64_t half = (uint64_t)1 << 63;
+  return (int64_t)((((uint64_t)value + half) >> power) - (half >> power));
+}
 static inline int64_t verican_magnitude(int64_t value) { return value < 0 ? -value : value; }
-static inline int64_t verican_limit(int64_t value, int64_t limit) {
-  if (value > limit) return limit;
-  return value < -limit ? -limit : value;
-}
 
-/* What a mean over `limit` pairs divides the newest by, while there are `count` so far. */
-static inline int64_t verican_weight(unsigned count, unsigned limit) {
-  return (int64_t)(count < limit ? count : limit);
-}
-
-/* Ticks from `from` to `to`. */
-static inline int64_t verican_ticks(int64_t from, int64_t to) {
-  const int64_t distance = (int64_t)((uint64_t)to - (uint64_t)from);
-  return verican_limit(verican_floor(distance, 12), TICKS_LIMIT);
-}
+/* servo_ticks.c: apart from who calls them, so that they are in the code once */
+/* The value, or -limit or limit if it is beyond. */
+int64_t verican_limit(int64_t value, int64_t limit);
+/* Ticks from `from` to `to`, ns. */
+int32_t verican_ticks(int64_t from, int64_t to);
 /* What the rate makes of so many ticks. */
-static inline int64_t verican_drift(int64_t rate, int64_t ticks) {
-  return verican_floor(rate * ticks, 24);
-}
-
-/* Sums over points, the newest of which is at tick 0. */
-typedef struct verican_sums {
-  int64_t n, t, tt, x, tx;
-} verican_sums_t;
-
-/* servo_fit.c */
-void verican_sums_add(verican_sums_t *sums, int64_t ticks, int64_t offset);
-verican_servo_line_t verican_sums_line(const verican_sums_t *sums);
+int64_t verican_drift(int64_t rate, int32_t ticks);
 
 /* servo_filter.c */
-/* Points that the filter in use looks at. */
-unsigned verican_filter_points(const verican_servo_t *servo);
+/* Points that a filter of that length looks at. */
+unsigned verican_filter_points(const verican_servo_t *servo, unsigned length);
 /* The filters before the first pair: all equal, off by a clock. */
 void verican_filter_start(verican_servo_t *servo, uint64_t increment);
 /* Learns from a pair, before it is in the history, which filter predicts best. */

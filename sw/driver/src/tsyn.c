@@ -54,10 +54,14 @@ verican_result_t verican_tsyn_start_follower(verican_tsyn_t *tsyn) { return star
 
 verican_result_t verican_tsyn_start_master(verican_tsyn_t *tsyn) { return start(tsyn, true); }
 
+static verican_result_t time_of(const verican_tsyn_t *tsyn, uint64_t *now) {
+  const verican_result_t result = verican_tsyn_check(tsyn);
+  return result == VERICAN_OK ? verican_clock_get(tsyn->dev, now) : result;
+}
+
 verican_result_t verican_tsyn_poll(verican_tsyn_t *tsyn) {
-  verican_result_t result = verican_tsyn_check(tsyn);
   uint64_t now = 0;
-  if (result == VERICAN_OK) result = verican_clock_get(tsyn->dev, &now);
+  const verican_result_t result = time_of(tsyn, &now);
   if (result != VERICAN_OK) return result;
   if (!tsyn->sending && verican_servo_poll(&tsyn->servo, now) && tsyn->config.on_event != NULL)
     tsyn->config.on_event(tsyn->config.user, tsyn, VERICAN_SERVO_STATE);
@@ -73,12 +77,10 @@ verican_result_t verican_tsyn_measure(verican_tsyn_t *tsyn, uint8_t exchanges) {
 }
 
 verican_result_t verican_tsyn_status(const verican_tsyn_t *tsyn, verican_tsyn_status_t *status) {
-  verican_result_t result = verican_tsyn_check(tsyn);
+  uint64_t now = 0;
+  const verican_result_t result = time_of(tsyn, &now);
   if (result != VERICAN_OK) return result;
   if (status == NULL) return VERICAN_ERR_NULL;
-  uint64_t now = 0;
-  result = verican_clock_get(tsyn->dev, &now);
-  if (result != VERICAN_OK) return result;
   status->state = (verican_sync_state_t)tsyn->servo.state;
   status->sending = tsyn->sending;
   status->sub_domain = tsyn->receiver.sub_domain;

@@ -12,13 +12,8 @@
 /* verican_tsyn_t.step */
 enum { TSYN_IDLE = 0, TSYN_SYNC_OUT = 1, TSYN_SYNC_SENT = 2, TSYN_PROBING = 3 };
 
-static inline uint64_t verican_tsyn_interval(const verican_tsyn_t *tsyn) {
-  return (uint64_t)tsyn->config.servo.interval_us * 1000u;
-}
-static inline verican_result_t verican_tsyn_check(const verican_tsyn_t *tsyn) {
-  if (tsyn == NULL) return VERICAN_ERR_NULL;
-  return tsyn->started ? VERICAN_OK : VERICAN_ERR_STATE;
-}
+/* tsyn_check.c */
+verican_result_t verican_tsyn_check(const verican_tsyn_t *tsyn);
 
 /* tsyn_master.c */
 /* Sends what is due. */

@@ -35,9 +35,8 @@ static void apply(verican_tsyn_t *tsyn, const verican_correction_t *correction) 
 /* A request under way was stamped by a clock that is not the same any more. */
 static void ask_for_delay(verican_tsyn_t *tsyn, const verican_sync_pair_t *pair,
                           const verican_correction_t *correction) {
-  verican_sync_pair_t event = *pair;
-  event.local -= verican_half_clocks(tsyn->dev, tsyn->dev->rx_latency);
-  if (!verican_delay_pair(&tsyn->delay, &event, correction->shift)) return;
+  const uint64_t latency = verican_half_clocks(tsyn->dev, tsyn->dev->rx_latency);
+  if (!verican_delay_pair(&tsyn->delay, pair, correction->shift - (int64_t)latency)) return;
   const uint32_t token = verican_lock(tsyn->dev);
   tsyn->delaying =
       verican_tsyn_send(tsyn, tsyn->config.delay_request, NULL, &tsyn->delay_mailbox) == VERICAN_OK;
@@ -48,8 +47,8 @@ static void ask_for_delay(verican_tsyn_t *tsyn, const verican_sync_pair_t *pair,
 static void correct(verican_tsyn_t *tsyn, verican_sync_pair_t *pair) {
   verican_correction_t correction;
   pair->latency = tsyn->dev->rx_latency;
-  if (verican_clock_increment(tsyn->dev, &pair->increment) != VERICAN_OK) return;
-  (void)verican_clock_get(tsyn->dev, &pair->now);
+  pair->increment = tsyn->dev->increment;
+  if (verican_clock_get(tsyn->dev, &pair->now) != VERICAN_OK) return;
   (void)verican_servo_pair(&tsyn->servo, pair, &correction);
   apply(tsyn, &correction);
   if ((correction.events & VERICAN_SERVO_ACCEPTED) != 0u) ask_for_delay(tsyn, pair, &correction);
@@ -80,7 +79,7 @@ static void take_message(verican_tsyn_t *tsyn, const verican_frame_t *frame, uin
   const bool sync = verican_tsyn_is_sync(rules, frame->data, dlc, &cause);
   if (!is_followed(tsyn, rank, sync, stamp)) return;
   verican_sync_pair_t pair = {0};
-  const uint64_t silence = tsyn->servo.config.hold_after * verican_tsyn_interval(tsyn);
+  const uint64_t silence = tsyn->servo.config.hold_after * tsyn->masters.interval;
   if (verican_tsyn_receive(&tsyn->receiver, rules, frame->data, dlc, stamp, silence, &pair) ==
       VERICAN_TSYN_PAIR)
     correct(tsyn, &pair);

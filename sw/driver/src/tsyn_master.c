@@ -20,8 +20,9 @@ verican_result_t verican_tsyn_send(verican_tsyn_t *tsyn, uint32_t id, const uint
   return verican_send(tsyn->dev, &frame, mailbox);
 }
 
-static uint32_t own_id(const verican_tsyn_t *tsyn) {
-  return tsyn->config.masters[tsyn->config.rank];
+static bool send_own(verican_tsyn_t *tsyn, const uint8_t *data, uint8_t *mailbox) {
+  const uint32_t id = tsyn->config.masters[tsyn->config.rank];
+  return verican_tsyn_send(tsyn, id, data, mailbox) == VERICAN_OK;
 }
 
 /* Under lock, so that the handler does not report a SYNC that is not noted yet. */
@@ -30,7 +31,7 @@ static void send_sync(verican_tsyn_t *tsyn, uint64_t now) {
   const verican_tsyn_sender_t before = tsyn->sender;
   const uint32_t token = verican_lock(tsyn->dev);
   verican_tsyn_write_sync(&tsyn->sender, &tsyn->config.rules, now, data);
-  if (verican_tsyn_send(tsyn, own_id(tsyn), data, &tsyn->sync_mailbox) == VERICAN_OK) {
+  if (send_own(tsyn, data, &tsyn->sync_mailbox)) {
     tsyn->t0 = now;
     tsyn->step = (uint8_t)TSYN_SYNC_OUT;
   } else {
@@ -45,7 +46,7 @@ static void send_fup(verican_tsyn_t *tsyn) {
   const uint32_t token = verican_lock(tsyn->dev);
   if (tsyn->step == (uint8_t)TSYN_SYNC_SENT &&
       (!verican_tsyn_write_fup(&tsyn->sender, &tsyn->config.rules, tsyn->t1, data) ||
-       verican_tsyn_send(tsyn, own_id(tsyn), data, NULL) == VERICAN_OK))
+       send_own(tsyn, data, NULL)))
     tsyn->step = (uint8_t)TSYN_IDLE;
   verican_unlock(tsyn->dev, token);
 }
@@ -89,8 +90,7 @@ static void miss(verican_tsyn_t *tsyn, uint64_t now) {
  * no message, tells when the bus is there again. Then the candidate listens first. */
 static void probe(verican_tsyn_t *tsyn) {
   const uint32_t token = verican_lock(tsyn->dev);
-  if (tsyn->step != (uint8_t)TSYN_PROBING &&
-      verican_tsyn_send(tsyn, own_id(tsyn), NULL, &tsyn->sync_mailbox) == VERICAN_OK)
+  if (tsyn->step != (uint8_t)TSYN_PROBING && send_own(tsyn, NULL, &tsyn->sync_mailbox))
     tsyn->step = (uint8_t)TSYN_PROBING;
   verican_unlock(tsyn->dev, token);
 }
@@ -102,7 +102,7 @@ void verican_tsyn_run_master(verican_tsyn_t *tsyn, uint64_t now) {
   }
   if (!tsyn->sending && may_begin(tsyn, now)) begin(tsyn, now);
   if (!tsyn->sending) return;
-  const uint64_t interval = verican_tsyn_interval(tsyn);
+  const uint64_t interval = tsyn->masters.interval;
   if (tsyn->step == (uint8_t)TSYN_SYNC_SENT) send_fup(tsyn);
   if (tsyn->step == (uint8_t)TSYN_SYNC_OUT && now - tsyn->t0 > interval) miss(tsyn, now);
   if (!tsyn->sending || tsyn->step == (uint8_t)TSYN_SYNC_OUT) return;

@@ -80,19 +80,21 @@ typedef struct verican_servo_line {
 /** One servo. The members are its own, but for config.delay_ns, which may be set at any time. */
 typedef struct verican_servo {
   verican_servo_config_t config;
-  verican_servo_point_t points[VERICAN_SERVO_PAIRS]; /* the newest first */
+  /* What is used most stands first, where short instructions reach it. */
+  uint8_t count;  /* of points */
+  uint8_t filter; /* length in use, intervals */
+  uint8_t state;
+  uint8_t pairs;   /* accepted in ACQUIRING */
+  uint8_t learned; /* pairs that E_N has learned from */
+  uint8_t errors;  /* pairs that E has learned from, 8 at most */
+  uint8_t leaps;
+  bool dropped;                                      /* the last pair was an outlier */
   int64_t base;                                      /* keep_offset: what is not corrected, ns */
   int64_t leap;                                      /* offset of the last leap, ns */
   int64_t last;                                      /* own time of the last accepted pair */
   int64_t error;                                     /* E of TM-85, 1/256 ns */
   int32_t misses[VERICAN_SERVO_FILTERS];             /* E_N of TM-84, 1/256 ns */
-  uint8_t count;                                     /* of points */
-  uint8_t filter;                                    /* length in use, intervals */
-  uint8_t state;
-  uint8_t pairs;   /* accepted in ACQUIRING */
-  uint8_t learned; /* pairs that E and E_N have learned from */
-  uint8_t leaps;
-  bool dropped; /* the last pair was an outlier */
+  verican_servo_point_t points[VERICAN_SERVO_PAIRS]; /* the newest first */
 } verican_servo_t;
 
 /** Fills `config` with: 1 s, leap 100 us, drift 100 ppb, filter chosen, holdover after 3 intervals.

@@ -96,17 +96,8 @@ typedef struct verican_tsyn_config {
 
 /** One time domain on one core. The members are the driver's own. */
 struct verican_tsyn {
-  verican_tsyn_config_t config;
+  /* What is used most stands first, where short instructions reach it. */
   verican_t *dev;
-  verican_servo_t servo;
-  verican_tsyn_sender_t sender;
-  verican_tsyn_receiver_t receiver;
-  verican_masters_t masters;
-  verican_delay_t delay;
-  int64_t shift;          /* of the last correction */
-  uint64_t next;          /* SYNC is due */
-  uint64_t t0;            /* SYNC was queued */
-  uint64_t t1;            /* SYNC was sent */
   volatile uint8_t step;  /* of SYNC and FUP */
   uint8_t sync_mailbox;   /* of SYNC */
   uint8_t delay_mailbox;  /* of the request */
@@ -116,6 +107,16 @@ struct verican_tsyn {
   bool candidate;
   bool sending;      /* is master now */
   volatile bool cut; /* nothing gets out */
+  int64_t shift;     /* of the last correction */
+  uint64_t next;     /* SYNC is due */
+  uint64_t t0;       /* SYNC was queued */
+  uint64_t t1;       /* SYNC was sent */
+  verican_tsyn_config_t config;
+  verican_masters_t masters;
+  verican_tsyn_sender_t sender;
+  verican_tsyn_receiver_t receiver;
+  verican_delay_t delay;
+  verican_servo_t servo;
 };
 
 /** What there is to know. */
