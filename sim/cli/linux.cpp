@@ -173,7 +173,7 @@ void add_linux(CLI::App &app, int &exit_code) {
                                                    "Cores with the time unit, in windows of 8 KiB");
   command
       ->add_flag("--lean", options->board.lean,
-                 "Cores without Rx FIFO, ESR2, CRCR and abort: fsl,ls1021ar2-flexcan needs none")
+                 "Cores without the features that the driver can do without")
       ->excludes(time_unit);
   command->add_option("--dir", options->board.directory, "Directory for logs, also the guest's");
   command->add_flag("--access-logs", options->board.access_logs, "Log each register access");

@@ -30,7 +30,7 @@ struct BoardConfig {
   std::vector<double> clock_ppm = {};
   /// With the time unit: each window has 8 KiB, and irq_time_o of controller n is line 8 + n.
   bool time_unit = false;
-  /// Without Rx FIFO, ESR2, CRCR and abort (create_lean_core()); not together with time_unit.
+  /// Cores of create_lean_core(); not together with time_unit.
   bool lean = false;
   std::string directory;     ///< for logs, there when they are whole; empty: none are written
   bool access_logs = false;  ///< write each access to access-<n>.txt

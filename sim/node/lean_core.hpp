@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A whole core with mailboxes alone, as a node.
+// A whole core with the features alone that Linux' driver needs, as a node.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace vericansim {
 
-/// A core of 64 buffers without Rx FIFO, ESR2, CRCR and aborts that are certain of their outcome:
-/// all that Linux's driver needs as fsl,ls1021ar2-flexcan (PK-47). It has been reset.
+/// A core of 64 buffers with Rx FIFO and own masks, without abort, status registers, stop mode and
+/// extras (docs/integration.md, features; PK-47). It has been reset.
 std::unique_ptr<RtlNode> create_lean_core(std::string name, const ClockConfig &clock = {});
 
 }  // namespace vericansim

@@ -34,7 +34,7 @@ import judge_tools
 
 ROOT = Path(__file__).resolve().parents[2]
 CHIPS = ("ls1021ar2", "imx28")
-# Controllers that lack what the first driver does not need (PK-47); its device tree.
+# Controllers without what the driver can do without (PK-47).
 LEAN = "ls1021ar2-lean"
 ALL = (*CHIPS, LEAN)
 # Controllers with time units: their device tree and their simulator.
