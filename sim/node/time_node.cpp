@@ -12,35 +12,28 @@
 #include "Vcan_ahb_time.h"
 #include "Vcan_ahb_time___024root.h"
 #include "bus/trace.hpp"
-#include "node/clock_leap.hpp"
 #include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "node/model_pins.hpp"
+#include "node/time_flops.hpp"
 
 namespace vericansim {
 namespace {
 
 // What follows the lower half some clocks later follows it in these edges, which are evaluated.
-constexpr std::uint64_t kEvaluated = 4;
+constexpr std::uint64_t kEvaluated = TimeFlops::kMargin;
 
 // The members that the model of can_time has in its root, if Verilator (5.006) left them there.
 #define VERICAN_TIME(root, member) \
   (root).can_ahb__DOT__u_top__DOT__u_core__DOT__gen_time__DOT__u_time__DOT__##member
+#define VERICAN_FLOPS(root) \
+  VERICAN_TIME_FLOPS(root, can_ahb__DOT__u_top__DOT__u_core__DOT__gen_time__DOT__u_time)
 
 template <typename Root>
 constexpr bool kKnown = !kPlainEdges && requires(Root & root) {
+  VERICAN_FLOPS(root);
   root.can_ahb__DOT__u_top__DOT__time_left;
-  VERICAN_TIME(root, lo);
-  VERICAN_TIME(root, hi);
-  VERICAN_TIME(root, armed);
   VERICAN_TIME(root, held);
-  VERICAN_TIME(root, u_cmp__DOT__target_q);
-  VERICAN_TIME(root, u_clock__DOT__incn_q);
-  VERICAN_TIME(root, u_clock__DOT__incf_q);
-  VERICAN_TIME(root, u_clock__DOT__fraction_q);
-  VERICAN_TIME(root, u_clock__DOT__carry_q);
-  VERICAN_TIME(root, u_clock__DOT__carry2_q);
-  VERICAN_TIME(root, u_clock__DOT__carry3_q);
   VERICAN_TIME(root, u_clock__DOT__bit_q);
   VERICAN_TIME(root, u_clock__DOT__slew_bit);
   VERICAN_TIME(root, u_clock__DOT__changed_q);
@@ -51,30 +44,10 @@ constexpr bool kKnown = !kPlainEdges && requires(Root & root) {
   VERICAN_TIME(root, u_cmp__DOT__due_q);
 };
 
-template <typename Root>
-ClockLeap clock_of(const Root &root) {
-  return {VERICAN_TIME(root, lo),
-          VERICAN_TIME(root, hi),
-          VERICAN_TIME(root, u_clock__DOT__fraction_q),
-          VERICAN_TIME(root, u_clock__DOT__carry_q) != 0,
-          VERICAN_TIME(root, u_clock__DOT__carry2_q) != 0,
-          VERICAN_TIME(root, u_clock__DOT__carry3_q) != 0};
-}
-
-template <typename Root>
-void set_clock(Root &root, const ClockLeap &clock) {
-  VERICAN_TIME(root, lo) = clock.lo;
-  VERICAN_TIME(root, hi) = clock.hi;
-  VERICAN_TIME(root, u_clock__DOT__fraction_q) = clock.fraction;
-  VERICAN_TIME(root, u_clock__DOT__carry_q) = clock.carry;
-  VERICAN_TIME(root, u_clock__DOT__carry2_q) = clock.carry2;
-  VERICAN_TIME(root, u_clock__DOT__carry3_q) = clock.carry3;
-}
-
 // Nothing but TIME is different; `before` is spoilt.
 template <typename Root>
-bool only_time_moved(Root &before, const Root &now) {
-  set_clock(before, clock_of(now));
+bool only_time_moved(Root &before, Root &now) {
+  VERICAN_FLOPS(before).set(VERICAN_FLOPS(now).clock());
   VERICAN_TIME(before, u_clock__DOT__bit_q) = VERICAN_TIME(now, u_clock__DOT__bit_q);
   VERICAN_TIME(before, u_clock__DOT__slew_bit) = VERICAN_TIME(now, u_clock__DOT__slew_bit);
   VERICAN_TIME(before, u_clock__DOT__changed_q) = VERICAN_TIME(now, u_clock__DOT__changed_q);
@@ -85,17 +58,6 @@ bool only_time_moved(Root &before, const Root &now) {
   VERICAN_TIME(before, u_cmp__DOT__due_q) = VERICAN_TIME(now, u_cmp__DOT__due_q);
   return std::memcmp(static_cast<const void *>(&before), static_cast<const void *>(&now),
                      sizeof(Root)) == 0;
-}
-
-// Edges that do not reach the time of the compare unit, whatever the fraction adds.
-template <typename Root>
-std::uint64_t edges_to_match(const Root &root) {
-  if (VERICAN_TIME(root, armed) == 0) return ~0ULL >> 1;
-  const auto ns =
-      static_cast<std::int32_t>(VERICAN_TIME(root, u_cmp__DOT__target_q) - VERICAN_TIME(root, lo));
-  const std::uint64_t most = VERICAN_TIME(root, u_clock__DOT__incn_q) + 1U;
-  const std::uint64_t clocks = ns <= 0 ? 0 : static_cast<std::uint64_t>(ns) / most;
-  return clocks < kEvaluated ? 0 : clocks - kEvaluated;
 }
 
 }  // namespace
@@ -193,9 +155,9 @@ void TimeNode::watch_rest() {
 std::uint64_t TimeNode::quiet() const {
   if (!still_ || ahb().active()) return 0;
   if constexpr (kKnown<Impl::Root>) {
-    const auto &root = *impl_->top.rootp;
+    auto &root = *impl_->top.rootp;
     if (root.can_ahb__DOT__u_top__DOT__time_left != 0 || VERICAN_TIME(root, held) != 0) return 0;
-    return std::min(edges_to_match(root), edges_to_waiter());
+    return std::min(VERICAN_FLOPS(root).clocks_before_compare(), edges_to_waiter());
   } else {
     return 0;
   }
@@ -205,12 +167,11 @@ void TimeNode::pass(std::uint64_t edges) {
   passed(edges);
   if constexpr (kKnown<Impl::Root>) {
     if (edges > kEvaluated) {
-      auto &root = *impl_->top.rootp;
+      const TimeFlops flops = VERICAN_FLOPS(*impl_->top.rootp);
       const std::uint64_t leap = edges - kEvaluated;
-      ClockLeap clock = clock_of(root);
-      clock.pass(leap, std::uint64_t{VERICAN_TIME(root, u_clock__DOT__incn_q)} << 32 |
-                           VERICAN_TIME(root, u_clock__DOT__incf_q));
-      set_clock(root, clock);
+      ClockLeap clock = flops.clock();
+      clock.pass(leap, flops.increment());
+      flops.set(clock);
       edges_ += leap;
       edges = kEvaluated;
     }

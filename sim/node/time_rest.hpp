@@ -6,12 +6,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
-#include "node/clock_leap.hpp"
 #include "node/model_edge.hpp"
+#include "node/time_flops.hpp"
 #include "verican/verican_regs.h"
 
 class Vcan_core_time;
@@ -36,7 +35,7 @@ template <typename Engine>
 /// rest here. Proven member by member in tb/system/bus_quiet_engine_test.cpp.
 class TimeRest {
  public:
-  static constexpr std::uint64_t kForever = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::uint64_t kForever = TimeFlops::kForever;
 
   /// Edges to come that only count, as long as no input of the engine and no field changes.
   template <typename Engine>
@@ -44,7 +43,9 @@ class TimeRest {
     if constexpr (!kHasTimeUnit<Engine>) {
       return kForever;
     } else if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
-      return steady(engine) ? std::min(to_compare(engine), to_launch(engine)) : 0;
+      return steady(engine)
+                 ? std::min(flops_of(*engine.rootp).clocks_before_compare(), to_launch(engine))
+                 : 0;
     } else {
       return 0;
     }
@@ -72,16 +73,12 @@ class TimeRest {
   static constexpr bool kKnown = !kPlainEdges && requires(Root & root) {
     root.can_core__DOT__rx;
     root.can_core__DOT__tx_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__lo;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__hi;
+    VERICAN_TIME_FLOPS(root, can_core__DOT__gen_time__DOT__u_time);
     root.can_core__DOT__gen_time__DOT__u_time__DOT__lo_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__now;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__to_target;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__armed;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__held;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__slewing_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__incn_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__incf_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__slew_bit;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__bit_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__offset1_q;
@@ -95,11 +92,6 @@ class TimeRest {
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__addend_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__grow_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__changed_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__fraction_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry2_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry3_q;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__target_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__reached_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__due_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__match;
@@ -112,6 +104,11 @@ class TimeRest {
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__told_q;
     root.can_core__DOT__u_bsp__DOT__u_field__DOT__field_q;
   };
+
+  template <typename Root>
+  static TimeFlops flops_of(Root &root) {
+    return VERICAN_TIME_FLOPS(root, can_core__DOT__gen_time__DOT__u_time);
+  }
 
   // The registers between the adders carry nothing but the increment.
   template <typename Root>
@@ -159,65 +156,23 @@ class TimeRest {
     return engine.time_cmd_i == 0 && clock_steady(*engine.rootp) && stamp_steady(engine);
   }
 
-  // Clocks that end before `target`, 32 bits of TIME, by a margin; 0 if it has come.
-  template <typename Root>
-  static std::uint64_t clocks_before(const Root &root, std::uint32_t target) {
-    constexpr std::uint64_t kMargin = 4;
-    const auto left =
-        static_cast<std::int32_t>(target - root.can_core__DOT__gen_time__DOT__u_time__DOT__lo);
-    if (left <= 0) return 0;
-    const std::uint64_t most =
-        root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__incn_q + 1U;
-    const std::uint64_t clocks = static_cast<std::uint64_t>(left) / most;
-    return clocks > kMargin ? clocks - kMargin : 0;
-  }
-
-  template <typename Engine>
-  static std::uint64_t to_compare(const Engine &engine) {
-    const auto &root = *engine.rootp;
-    if (root.can_core__DOT__gen_time__DOT__u_time__DOT__armed == 0) return kForever;
-    return clocks_before(root,
-                         root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__target_q);
-  }
-
   template <typename Engine>
   static std::uint64_t to_launch(const Engine &engine) {
-    const auto &root = *engine.rootp;
+    auto &root = *engine.rootp;
     if (root.can_core__DOT__gen_time__DOT__u_time__DOT__held == 0) return kForever;
-    return clocks_before(root, engine.time_ttx_i);
-  }
-
-  template <typename Root>
-  static ClockLeap clock_of(const Root &root) {
-    return {root.can_core__DOT__gen_time__DOT__u_time__DOT__lo,
-            root.can_core__DOT__gen_time__DOT__u_time__DOT__hi,
-            root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__fraction_q,
-            root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry_q != 0,
-            root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry2_q != 0,
-            root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry3_q != 0};
-  }
-
-  template <typename Root>
-  static void set_clock(Root &root, const ClockLeap &clock) {
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__lo = clock.lo;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__hi = clock.hi;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__fraction_q = clock.fraction;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry_q = clock.carry;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry2_q = clock.carry2;
-    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__carry3_q = clock.carry3;
+    return flops_of(root).clocks_before(engine.time_ttx_i);
   }
 
   // The clock, and what follows its lower half: a clock behind it, or in the same.
   template <typename Root>
   static void pass_(Root &root, std::uint64_t count) {
-    const std::uint64_t increment =
-        std::uint64_t{root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__incn_q} << 32 |
-        root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__incf_q;
+    const TimeFlops flops = flops_of(root);
+    const std::uint64_t increment = flops.increment();
     const unsigned bit = 13 - VERICAN_TCTRL_SLEWR_GET(root.time_tctrl_i);
     auto &slew_bit = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__slew_bit;
     auto &bit_q = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__bit_q;
     auto &changed = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__changed_q;
-    ClockLeap clock = clock_of(root);
+    ClockLeap clock = flops.clock();
     changed = slew_bit != bit_q;
     if (count > 1) {
       clock.pass(count - 2, increment);
@@ -227,13 +182,12 @@ class TimeRest {
     }
     const std::uint32_t last = clock.lo;
     clock.step(increment);
-    set_clock(root, clock);
+    flops.set(clock);
     slew_bit = clock.lo >> bit & 1;
     bit_q = last >> bit & 1;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__lo_q = last;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__now = std::uint64_t{clock.hi} << 32 | last;
-    const std::uint32_t target =
-        root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__target_q;
+    const std::uint32_t target = flops.target;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__to_target = target + ~clock.lo;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__reached_q = (target + ~last) >> 31;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__u_cmp__DOT__due_q =
