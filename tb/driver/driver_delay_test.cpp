@@ -193,6 +193,16 @@ TEST(Masters, CandidatesWaitByRank) {
   }
 }
 
+// TM-89: who begins anew has heard nobody.
+TEST(Masters, StartForgets) {
+  verican_masters_t masters{};
+  verican_masters_start(&masters, 1'000'000, 0);
+  verican_masters_hear(&masters, 0, kR);
+  verican_masters_start(&masters, 1'000'000, kR);
+  EXPECT_FALSE(verican_masters_alive(&masters, kR));
+  EXPECT_TRUE(verican_masters_hear(&masters, 3, kR));
+}
+
 // TM-89: a step of the own clock does not change how long ago something was.
 TEST(Masters, OwnClockSteps) {
   for (const std::int64_t shift : {std::int64_t{1'700'000'000} * 1'000'000'000, -std::int64_t{5}}) {

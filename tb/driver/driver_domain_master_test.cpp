@@ -350,6 +350,28 @@ TEST(Master, StartsAnew) {
   EXPECT_THAT(rig.waiting(), SizeIs(2));
 }
 
+// TM-53, TM-54, TM-84, TM-86, TM-87: what is so if nobody asks for something else.
+TEST(Master, Defaults) {
+  verican_tsyn_config_t config{};
+  ASSERT_EQ(verican_tsyn_config_default(&config), VERICAN_OK);
+  EXPECT_EQ(config.master_count, 1);
+  EXPECT_EQ(config.rank, 0);
+  EXPECT_EQ(config.rules.jump_width, 15);
+  EXPECT_EQ(config.rules.fup_timeout_us, 100'000u);
+  EXPECT_EQ(config.servo.interval_us, 1'000'000u);
+  EXPECT_EQ(config.servo.leap_ns, 100'000u);
+  EXPECT_EQ(config.servo.drift_ppb, 100u);
+  EXPECT_EQ(config.servo.hold_after, 3);
+  EXPECT_EQ(config.servo.filter, 0);
+  // Whatever was there before.
+  verican_tsyn_rules_t rules{nullptr, nullptr, 1, 2, 3, 4, true, {5, 6, 7}};
+  ASSERT_EQ(verican_tsyn_rules_default(&rules), VERICAN_OK);
+  EXPECT_EQ(rules.domain, 0);
+  EXPECT_EQ(rules.crc, VERICAN_TSYN_CRC_IGNORED);
+  EXPECT_FALSE(rules.sub_domain);
+  EXPECT_EQ(rules.user[2], 0);
+}
+
 // What a configuration may have, both ends of it.
 TEST(Master, EndsOfTheConfiguration) {
   const auto result = [](auto change) {

@@ -21,8 +21,9 @@ class Twins {
     increment_ = in(std::uint64_t{10} << 32, std::uint64_t{200} << 32);
   }
 
-  void act() {
-    switch (in(0, 19)) {
+  /// A pair, or `also` something else.
+  void act(bool also = true) {
+    switch (also ? in(0, 19) : 19) {
       case 0: return fall_silent();
       case 1:
         EXPECT_EQ(verican_servo_forget(&servo_), VERICAN_OK);
@@ -133,6 +134,18 @@ TEST(Servo, AgainstModel) {
   }
   EXPECT_EQ(events, 0x1Fu);
   EXPECT_EQ(states, 0xFu);
+}
+
+// TM-84: the filters go on learning evenly, however many pairs there have been.
+TEST(Servo, AgainstModelForLong) {
+  std::mt19937_64 dice{8084};
+  for (int run = 0; run < 20; ++run) {
+    Twins twins{some_config(dice, 0), dice()};
+    for (unsigned n = 0; n < 1500; ++n) {
+      twins.act(false);
+      ASSERT_FALSE(::testing::Test::HasFailure()) << "run " << run << ", step " << n;
+    }
+  }
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 // The servo's decisions: states, outliers, leaps, holdover. 2 T of the rig's clock are 125 ns.
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "driver/servo_rig.hpp"
 
 namespace vericansim {
@@ -175,6 +177,22 @@ TEST(Servo, MeanErrorOfManyPairs) {
     ASSERT_EQ(rig.servo.error, 0) << pairs;
     rig.pair(80);
     EXPECT_EQ(rig.servo.error, 256 * 80 / 8) << pairs;
+  }
+}
+
+// TM-83: nothing behind the history is touched (the sanitizer would tell), in a servo by itself.
+TEST(Servo, HistoryStaysInItsPlace) {
+  for (const int filter : {0, 16}) {
+    const auto servo = std::make_unique<verican_servo_t>();
+    const verican_servo_config_t config = ServoRig::defaults(static_cast<std::uint8_t>(filter));
+    ASSERT_EQ(verican_servo_init(servo.get(), &config), VERICAN_OK);
+    verican_correction_t correction{};
+    for (std::uint64_t n = 1; n <= 40; ++n) {
+      const std::uint64_t time = n * kSecondNs;
+      const verican_sync_pair_t pair{time, time, time, kIncrement16MHz, 0};
+      ASSERT_EQ(verican_servo_pair(servo.get(), &pair, &correction), VERICAN_OK);
+    }
+    EXPECT_EQ(servo->count, VERICAN_SERVO_PAIRS);
   }
 }
 
