@@ -51,6 +51,18 @@ class Summary(unittest.TestCase):
         self.assertIn("stage formal has no figure 'bounded'; figures: proven", str(stop.exception))
 
 
+class Page(unittest.TestCase):
+    """docs/verification.md, where a campaign of hours writes what it found."""
+
+    def test_each_stage_has_its_places(self):
+        stages = campaign.yaml.safe_load(campaign.PLAN.read_text(encoding="utf-8"))["stages"]
+        text = campaign.PAGE.read_text(encoding="utf-8")
+        for stage in stages:
+            for mark in (f"<!-- campaign {stage['name']} -->", f"<!-- end {stage['name']} -->",
+                         f"<!-- summary {stage['name']} -->"):
+                self.assertEqual(text.count(mark), 1, mark)
+
+
 class Report(unittest.TestCase):
     """What is printed at the end."""
 
