@@ -101,7 +101,7 @@ int Nvic::execution_priority() const {
 
 // Equal group priorities: the sub-priority decides, then the smaller number (B1.5.4).
 std::optional<unsigned> Nvic::first_pending() const {
-  constexpr Flags kSystemExceptions{(1U << kIrq0) - 1};
+  constexpr Flags kSystemExceptions{(1U << kIrq0) - 1};  // as enabled() has it
   const Flags ready = pending_ & (enabled_ | kSystemExceptions);
   std::optional<unsigned> best;
   const auto rank = [this](unsigned e) {

@@ -25,6 +25,7 @@ static verican_tsyn_cause_t check(const verican_tsyn_rules_t *rules, const uint8
   if (dlc < 1u) return VERICAN_TSYN_TYPE;
   const uint8_t type = data[0];
   if (is_other(type)) return VERICAN_TSYN_OTHER;
+  /* Bits of a type tell what it is: 0x10 SYNC, 0x18 FUP, 0x20 and 0x28 the same with CRC. */
   const bool with_crc = type >= TSYN_SYNC + TSYN_WITH_CRC;
   if (dlc != 8u || type < TSYN_SYNC || type > TSYN_FUP + TSYN_WITH_CRC ||
       (type & ~(TSYN_SYNC | TSYN_FUP | (TSYN_SYNC + TSYN_WITH_CRC))) != 0u)
