@@ -62,6 +62,7 @@ remote/can_rn_head.sv
 remote/can_rn_check.sv
 remote/can_rn_tick.sv
 remote/can_rn_off.sv
+remote/can_rn_time.sv
 remote/can_rn_state.sv
 remote/can_rn_step.sv
 remote/can_rn_move.sv

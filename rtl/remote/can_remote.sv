@@ -57,6 +57,18 @@ module can_remote #(
     8'd0, 2'd1, 3'd3, 3'd1, 3'd2,  // 800 kbit/s
     8'd0, 2'd1, 3'd2, 3'd1, 3'd1  // 1000 kbit/s
   },
+  /// 1: the node has a clock that follows a master on the bus (TM-106); 0: the ports time_* and
+  /// pps_o have no use and are 0. Its parameters are those of can_time_node.
+  parameter int TimeSync = 0,
+  /// Increment at the nominal rate: 39:32 ns, 31:0 in 2^-32 ns a clock. As here: 8 MHz.
+  parameter logic [39:0] TimeInc = 40'h7D_0000_0000,
+  /// TSCTRL without EN and PPS, TSID (a base identifier that no node asks or answers with, as here
+  /// 0x420) and TSDLY of the follower (docs/registers.md). TSCTRL as here: a pair a second at 8 MHz.
+  parameter logic [31:0] SyncCtrl = 32'h1F49_0100,
+  parameter logic [31:0] SyncId = 32'h1080_0000,
+  parameter logic [31:0] SyncDelay = 32'd0,
+  /// ns between two edges of pps_o, 1..2^31-1; 500,000,000: a rising edge a second.
+  parameter int HalfPeriod = 500000000,
   /// Derived, do not override.
   localparam int Events = NumProd == 0 ? 1 : NumProd
 ) (
@@ -85,6 +97,11 @@ module can_remote #(
   // State
   output logic                safe_o,         // 0 in OPERATE only
   output logic [1:0]          state_o,
+  // Clock
+  input  logic                time_take_i,    // the time of this clock, please:
+  output logic [63:0]         time_o,         // ns, from two clocks behind it until the next one
+  output logic [1:0]          time_state_o,   // TSSTAT.STATE
+  output logic                pps_o,          // from the first pair on
   // Pins and observers
   input  logic                can_rx_i,
   output logic                can_tx_o,
@@ -105,7 +122,8 @@ module can_remote #(
   can_rn_params #(
     .NameBits(NameBits), .MemBytes(MemBytes), .StageBytes(StageBytes), .TxDepth(TxDepth),
     .NumProd(NumProd), .NumMap(NumMap), .Protect(Protect), .Block(Block), .AutoRate(AutoRate),
-    .Counters(Counters), .SameId(SameId), .RateRows(RateRows)
+    .Counters(Counters), .SameId(SameId), .RateRows(RateRows), .TimeSync(TimeSync),
+    .SyncId(SyncId), .HalfPeriod(HalfPeriod)
   ) u_params ();
 
   // A constant, but for the simulator, which makes nodes that differ in it alone.
@@ -177,13 +195,27 @@ module can_remote #(
   logic        count, in_order, over, dropped, clear, tally, tally_own, tally_more, wide;
   logic        tally_no_write;
   logic [8:0]  tally_cell;
+  // Clock
+  logic        reads;
+  logic [9:0]  read_word;
+  logic [31:0] ram_rdata, time_stat, time_ofs;
+  logic [63:0] time_applied;
+  logic [can_pkg::TimeCmdWidth-1:0]  time_cmd;
+  logic [can_pkg::TimeStatWidth-1:0] time_pins;
   // Node
   logic [NameBits-1:0] number;
   logic        off_entry, off_exit, carry;
   logic        operate, numbered, selected, unlocked, lock_reset, off, restart;
   logic        owe_status, owe_here, owe_feed, nothing;
 
-  can_core #(.ByteWise(1), .PresdivWidth(PresdivWidth), .PosWidth(PosWidth)) u_core (
+  localparam logic [31:0] TimeCtrl = 32'd1 << can_regs_pkg::TctrlPoint
+                                   | 32'd1 << can_regs_pkg::TctrlCmpen;
+  localparam logic [31:0] FollowerCtrl = SyncCtrl | 32'd1 << can_regs_pkg::TsctrlEn
+                                       | 32'd1 << can_regs_pkg::TsctrlPps;
+  can_core #(
+    .ByteWise(1), .PresdivWidth(PresdivWidth), .PosWidth(PosWidth), .TimeUnit(TimeSync),
+    .TimeInc(TimeInc), .TimeSync(TimeSync)
+  ) u_core (
     .clk_i, .rst_ni,
     .run_i(run || listen_run), .running_o(), .stop_ok_o(), .gap_o(gap),
     .presdiv_i(presdiv), .rjw_i(rjw), .pseg1_i(pseg1), .pseg2_i(pseg2),
@@ -200,12 +232,11 @@ module can_remote #(
     .start_o(), .stamp_o(), .rx_hdr_o(rx_hdr), .rx_id_o(rx_id), .rx_ide_o(rx_ide), .rx_srr_o(),
     .rx_rtr_o(rx_rtr), .rx_dlc_o(rx_dlc), .rx_byte_we_o(rx_byte_we), .rx_byte_o(rx_byte),
     .rx_valid_o(rx_valid), .crc_o(),
-    .time_cmd_i(9'd0), .time_data_i(64'd0), .time_now_o(), .time_ext_o(),
-    .time_left_o(),
-    .time_tctrl_i(32'd0), .time_tcmph_i(32'd0), .time_ttx_i(32'd0), .time_wait_i(1'b0),
-    .time_stat_o(), .time_stamp_o(),
-    .time_stamp_we_o(), .time_stamp_tx_o(), .time_sync_ctrl_i(32'd0), .time_sync_id_i(32'd0),
-    .time_sync_delay_i(24'd0), .time_sync_stat_o(), .time_sync_ofs_o(),
+    .time_cmd_i(time_cmd), .time_data_i(64'd0), .time_now_o(time_o), .time_ext_o(time_applied),
+    .time_left_o(), .time_tctrl_i(TimeCtrl), .time_tcmph_i(32'(HalfPeriod)), .time_ttx_i(32'd0),
+    .time_wait_i(1'b0), .time_stat_o(time_pins), .time_stamp_o(), .time_stamp_we_o(),
+    .time_stamp_tx_o(), .time_sync_ctrl_i(FollowerCtrl), .time_sync_id_i(SyncId),
+    .time_sync_delay_i(SyncDelay[23:0]), .time_sync_stat_o(time_stat), .time_sync_ofs_o(time_ofs),
     .can_rx_i, .can_tx_o, .trace_o(trace)
   );
   assign trace_o = Trace != 0 ? trace : '0;
@@ -237,7 +268,7 @@ module can_remote #(
 
   can_rn_check #(
     .NameBits(NameBits), .MemBytes(MemBytes), .NumProd(NumProd), .NumMap(NumMap),
-    .Counters(Counters != 0), .Block(Block != 0)
+    .Counters(Counters != 0), .Block(Block != 0), .Clock(TimeSync != 0)
   ) u_check (
     .clk_i, .rst_ni,
     .sys_i(sys), .all_i(all), .port_i(port), .a_i(a), .rtr_i(rtr), .dlc_i(dlc),
@@ -350,7 +381,7 @@ module can_remote #(
     .mem_i(mem), .staged_i(staged), .wbyte_i(wbyte),
     .a_i(7'(a)), .same_id_i(same_id), .end_i(row_end), .code_i(shown), .status_i(status),
     .tec_i(tec), .rec_i(rec),
-    .lane_o(lane), .rdata_o(rdata),
+    .lane_o(lane), .re_o(reads), .raddr_o(read_word), .rdata_o(ram_rdata),
     .usr_req_i, .usr_we_i, .usr_be_i, .usr_addr_i, .usr_wdata_i, .usr_ready_o
   );
   assign usr_rdata_o = rdata;
@@ -495,6 +526,24 @@ module can_remote #(
       .timeout_i(timeout), .clear_i(clear), .byte_i(read_byte),
       .want_o(tally), .cell_own_o(tally_own), .cell_o(tally_cell), .more_o(tally_more),
       .wide_o(wide), .no_write_o(tally_no_write)
+    );
+  end
+
+  assign pps_o        = time_pins[can_pkg::TimeStatOut];
+  assign time_state_o = time_stat[can_regs_pkg::TsstatState +: can_regs_pkg::TsstatStateW];
+  if (TimeSync == 0) begin : gen_no_time
+    logic unused;
+    assign unused   = &{1'b0, time_take_i, reads, read_word, time_stat, time_ofs, time_applied,
+                        time_pins};
+    assign rdata    = ram_rdata;
+    assign time_cmd = '0;
+  end else begin : gen_time
+    logic unused;
+    assign unused = &{1'b0, time_pins};
+    can_rn_time u_time (
+      .clk_i, .rst_ni, .re_i(reads), .raddr_i(read_word), .rdata_i(ram_rdata), .rdata_o(rdata),
+      .apply_i(apply_o), .take_i(time_take_i), .stat_i(time_stat), .ofs_i(time_ofs),
+      .ext_i(time_applied), .cmd_o(time_cmd)
     );
   end
 

@@ -11,6 +11,7 @@ module can_rn_check #(
   parameter int NumMap = 0,
   parameter bit Counters = 1'b0,
   parameter bit Block = 1'b0,
+  parameter bit Clock = 1'b0,
   /// Derived, do not override.
   localparam int AddrBits = 10 - NameBits
 ) (
@@ -111,7 +112,8 @@ module can_rn_check #(
   assign top         = &start_i[11:8];
   assign config_area = top && (!(|start_i[7:5]) || producer || map);
   assign fixed_area  = top && ((&start_i[7:4])
-                               || (Counters && (&start_i[7:5]) && !start_i[4] && start_i[3]));
+                               || (Counters && (&start_i[7:5]) && !start_i[4] && start_i[3])
+                               || (Clock && start_i[7:4] == 4'hC));
   // Tables of eight bytes an entry, and the last entry of each that is followed by nothing.
   assign producer = NumProd != 0 && start_i[7:6] == 2'd1 && (NumProd == 8 || !start_i[5]);
   assign map      = NumMap != 0 && start_i[7:6] == 2'd2 && (NumMap == 8 || !start_i[5]);
@@ -119,7 +121,8 @@ module can_rn_check #(
                             || (NumProd == 4 && start_i[7:3] == 5'b01011)
                             || (NumProd == 8 && NumMap == 0 && start_i[7:3] == 5'b01111)
                             || (NumMap == 4 && start_i[7:3] == 5'b10011)
-                            || (NumMap == 8 && start_i[7:3] == 5'b10111));
+                            || (NumMap == 8 && start_i[7:3] == 5'b10111)
+                            || (Clock && start_i[7:3] == 5'b11001));
   if (MemBytes == 4096) begin : gen_whole
     assign outside = (&start_i[11:9]) && !config_area && !fixed_area;
     assign last    = (&start_i[11:10]) && (&start_i[8:3]);

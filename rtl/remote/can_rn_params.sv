@@ -16,7 +16,10 @@ module can_rn_params #(
   parameter int AutoRate = 0,
   parameter int Counters = 0,
   parameter int SameId = 0,
-  parameter int RateRows = 8
+  parameter int RateRows = 8,
+  parameter int TimeSync = 0,
+  parameter logic [31:0] SyncId = '0,
+  parameter int HalfPeriod = 1
 ) ();
   if (NameBits != 3 && NameBits != 5) begin : gen_check_name_bits
     NameBits_must_be_3_or_5 u_stop ();
@@ -53,6 +56,16 @@ module can_rn_params #(
   end
   if (RateRows < 1 || RateRows > 15) begin : gen_check_rate_rows
     RateRows_must_be_1_to_15 u_stop ();
+  end
+  if (TimeSync != 0 && TimeSync != 1) begin : gen_check_time_sync
+    TimeSync_must_be_0_or_1 u_stop ();
+  end
+  // The engine of a node hands out the first 11 bits of an identifier.
+  if (SyncId[31:29] != '0 || SyncId[17:0] != '0) begin : gen_check_sync_id
+    SyncId_must_be_a_base_identifier_in_bits_28_to_18 u_stop ();
+  end
+  if (HalfPeriod < 1) begin : gen_check_half_period
+    HalfPeriod_must_be_1_to_2147483647 u_stop ();
   end
 
 endmodule

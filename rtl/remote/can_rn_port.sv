@@ -28,7 +28,9 @@ module can_rn_port #(
   input  logic [7:0]       tec_i,
   input  logic [7:0]       rec_i,
   output logic [1:0]       lane_o,      // place of the byte that is read
-  output logic [31:0]      rdata_o,
+  output logic             re_o,        // an access reads
+  output logic [9:0]       raddr_o,     // this word
+  output logic [31:0]      rdata_o,     // in the clock after
   // User logic
   input  logic             usr_req_i,
   input  logic             usr_we_i,
@@ -77,10 +79,12 @@ module can_rn_port #(
     if (user)           wdata        = usr_wdata_i;
   end
 
+  assign re_o    = !user || usr_req_i;
+  assign raddr_o = from_mem ? mem_i[11:2] : address;
   can_mb_ram #(.Depth(MemBytes / 4), .InitFile(InitFile)) u_ram (
     .clk_i,
-    .re_i(!user || usr_req_i),
-    .raddr_i(AddrWidth'(from_mem ? mem_i[11:2] : address)),
+    .re_i(re_o),
+    .raddr_i(AddrWidth'(raddr_o)),
     .rdata_o,
     .we_i(we),
     .waddr_i(AddrWidth'(to_mem ? target : address)),

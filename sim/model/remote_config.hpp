@@ -45,6 +45,7 @@ inline constexpr unsigned kConfigEnd = 0xF20;
 inline constexpr unsigned kProducers = 0xF40;
 inline constexpr unsigned kMaps = 0xF80;
 inline constexpr unsigned kTablesEnd = 0xFC0;
+inline constexpr unsigned kClock = 0xFC0;  ///< TSSTAT, TSOFS, time of the last TRIGGER
 inline constexpr unsigned kCounters = 0xFE8;
 inline constexpr unsigned kStatus = 0xFF0;
 inline constexpr unsigned kIdent = 0xFF8;
@@ -83,7 +84,8 @@ struct RemoteConfig {
   bool block = false;
   bool auto_rate = false;
   bool counters = false;
-  bool same_id = false;  ///< direct reads are answered with the identifier of the request (RN-16)
+  bool time_sync = false;  ///< the node has a clock that follows a master (TM-106)
+  bool same_id = false;    ///< direct reads are answered with the identifier of the request (RN-16)
   std::uint32_t serial = 0;
   unsigned rate_rows = 8;  ///< rows of the rate table that the clock can do (RN-73)
 

@@ -22,7 +22,8 @@ std::uint8_t RemoteMemory::operator[](unsigned address) const {
   if (area(address) == Area::kRow) {
     if (address >= kIdent) return remote_ident(config_)[address - kIdent];
     if (address >= kStatus) return status_.row()[address - kStatus];
-    return status_.counters[address - kCounters];
+    if (address >= kCounters) return status_.counters[address - kCounters];
+    return status_.clock[address - kClock];
   }
   return address < kSize ? bytes_[address] : 0;
 }
@@ -35,7 +36,9 @@ RemoteMemory::Area RemoteMemory::area(unsigned address) const {
   if (within(kNode, kConfigEnd - kNode) || within(kProducers, 8 * config_.num_prod) ||
       within(kMaps, 8 * config_.num_map))
     return Area::kConfig;
-  if (within(kStatus, 16) || (config_.counters && within(kCounters, 8))) return Area::kRow;
+  if (within(kStatus, 16) || (config_.counters && within(kCounters, 8)) ||
+      (config_.time_sync && within(kClock, 16)))
+    return Area::kRow;
   return Area::kNone;
 }
 

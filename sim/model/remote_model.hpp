@@ -53,6 +53,8 @@ class RemoteModel {
   void tick();
   /// The engine's error counters.
   void set_errors(unsigned tec, unsigned rec);
+  /// The row of the clock (TM-108), for nodes that have one.
+  void set_clock(const std::array<std::uint8_t, 16> &row) { status_.clock = row; }
   void went_bus_off();
   /// False during the back-off: the engine must not leave bus-off yet (RN-72).
   [[nodiscard]] bool may_recover() const { return !off_bus_ || back_off_left_ == 0; }

@@ -39,6 +39,7 @@ struct RemoteStatus {
   std::uint8_t refused = 0;                 ///< modulo 256
   std::uint8_t trigger = 0;                 ///< the last TRIGGER's count
   std::array<std::uint8_t, 8> counters{};   ///< each stops at FF
+  std::array<std::uint8_t, 16> clock{};     ///< row of the clock (TM-108), which is no model's
 
   /// A request that changes something was accepted; `result`: accepted or open.
   void accept(unsigned at, RemoteCode result = RemoteCode::kAccepted);

@@ -45,6 +45,7 @@ module replay;
     .usr_ready_o(ready), .usr_rdata_o(rdata), .usr_hold_i(hold), .event_i(events),
     .written_o(written), .written_addr_o(written_addr), .written_len_o(written_len),
     .apply_o(apply), .safe_o(safe), .state_o(state),
+    .time_take_i(1'b0), .time_o(), .time_state_o(), .pps_o(),
     .can_rx_i(can_rx), .can_tx_o(can_tx), .trace_o(trace));
 
 `include "replay_player.svh"

@@ -5,6 +5,7 @@
 // ports, eight clocks a bit, without the bits that nobody looks at.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,8 +21,9 @@ namespace vericansim {
 /// can_remote at the engine's port. The clock at which something happens is counted from reset.
 class FramePort {
  public:
-  /// `profile` as RemoteConfig::profile(); NameBits 3 or 5; throws std::invalid_argument if there
-  /// is no such model. After it the node has been reset and its RAM is clear.
+  /// `profile` as RemoteConfig::profile(), or "time": standard with a clock; NameBits 3 or 5;
+  /// throws std::invalid_argument if there is no such model. After it the node has been reset and
+  /// its RAM is clear.
   static std::unique_ptr<FramePort> create(const std::string &profile, unsigned name_bits,
                                            std::uint32_t serial, unsigned number);
   virtual ~FramePort() = default;
@@ -60,6 +62,13 @@ class FramePort {
   /// A pulse in that clock from now on: 1 is the next.
   void pulse_ms_in(unsigned clocks) { ms_in_ = clocks; }
   virtual void set_counters(unsigned tec, unsigned rec, bool passive, bool bus_off) = 0;
+  /// What the engine tells of the clock (TM-108): TSSTAT, TSOFS, captured time, the low byte of
+  /// each first. std::logic_error for a node without.
+  virtual void set_clock(const std::array<std::uint8_t, 16> &row) = 0;
+  /// Commands to the time unit since the last call, can_pkg::Time*.
+  [[nodiscard]] virtual unsigned take_time_commands() = 0;
+  /// time_take_i in the next clock.
+  virtual void take_time() = 0;
   /// boff_rec_i has been 0 since the last call.
   [[nodiscard]] virtual bool take_release() = 0;
   /// run_i.

@@ -3,6 +3,8 @@
 //
 // FramePort::create(): one class template for the Verilated profiles of can_remote.
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
 
 #include "Vcan_remote_full_3.h"
 #include "Vcan_remote_full_3___024root.h"
@@ -18,6 +20,8 @@
 #include "Vcan_remote_standard_3___024root.h"
 #include "Vcan_remote_standard_5.h"
 #include "Vcan_remote_standard_5___024root.h"
+#include "Vcan_remote_time_3.h"
+#include "Vcan_remote_time_3___024root.h"
 #include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "remote/frame_port.hpp"
@@ -46,6 +50,22 @@ class FramePortOf final : public FramePort {
     root().can_remote__DOT__u_core__DOT__passive_o_v = passive;
     root().can_remote__DOT__u_core__DOT__boff_o_v = bus_off;
   }
+  void set_clock(const std::array<std::uint8_t, 16> &row) override {
+    if constexpr (kHasClock) {
+      const auto word = [&row](unsigned at) {
+        std::uint32_t value = 0;
+        for (unsigned i = 4; i-- > 0;) value = value << 8 | row[at + i];
+        return value;
+      };
+      root().can_remote__DOT__u_core__DOT__time_sync_stat_o_v = word(0);
+      root().can_remote__DOT__u_core__DOT__time_sync_ofs_o_v = word(4);
+      root().can_remote__DOT__u_core__DOT__time_ext_o_v = std::uint64_t{word(12)} << 32 | word(8);
+    } else {
+      throw std::logic_error("this node has no clock");
+    }
+  }
+  [[nodiscard]] unsigned take_time_commands() override { return std::exchange(commands_, 0); }
+  void take_time() override { top_.time_take_i = 1; }
   [[nodiscard]] bool take_release() override {
     const bool seen = released_;
     released_ = false;
@@ -108,6 +128,8 @@ class FramePortOf final : public FramePort {
     r.can_remote__DOT__u_tick__DOT__ms_v = engine.ms;
     rising_edge(top_, top_.clk_i);
     top_.event_i = 0;
+    top_.time_take_i = 0;
+    if constexpr (kHasClock) commands_ |= r.can_remote__DOT__u_core__DOT__time_cmd_i_v;
     if (r.can_remote__DOT__u_core__DOT__boff_rec_i_v == 0) released_ = true;
   }
   [[nodiscard]] Asked asked() const override {
@@ -123,6 +145,7 @@ class FramePortOf final : public FramePort {
   }
 
  private:
+  static constexpr bool kHasClock = std::is_same_v<Model, Vcan_remote_time_3>;
   auto &root() { return *top_.rootp; }
   [[nodiscard]] const auto &root() const { return *top_.rootp; }
 
@@ -130,6 +153,7 @@ class FramePortOf final : public FramePort {
   Model top_{&context_, "can_remote"};
   ModelContext model_context_{context_};
   bool released_ = false;
+  unsigned commands_ = 0;
 };
 
 }  // namespace
@@ -146,6 +170,8 @@ std::unique_ptr<FramePort> FramePort::create(const std::string &profile, unsigne
     return std::make_unique<FramePortOf<Vcan_remote_standard_3>>(serial, number);
   if (profile == "standard" && name_bits == 5)
     return std::make_unique<FramePortOf<Vcan_remote_standard_5>>(serial, number);
+  if (profile == "time" && name_bits == 3)
+    return std::make_unique<FramePortOf<Vcan_remote_time_3>>(serial, number);
   if (profile == "full" && name_bits == 3)
     return std::make_unique<FramePortOf<Vcan_remote_full_3>>(serial, number);
   if (profile == "full" && name_bits == 5)

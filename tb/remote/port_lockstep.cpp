@@ -16,7 +16,9 @@ constexpr unsigned kBits = 8;   // within which an answer is offered
 constexpr unsigned kAll = 240;  // clocks in which a node with producers has looked at all of them
 
 RemoteConfig config_of(const std::string &profile, unsigned name_bits) {
-  RemoteConfig config = RemoteConfig::profile(profile);
+  const bool clock = profile == "time";
+  RemoteConfig config = RemoteConfig::profile(clock ? "standard" : profile);
+  config.time_sync = clock;
   config.name_bits = name_bits;
   config.serial = kSerial;
   return config;
@@ -150,6 +152,13 @@ void PortLockstep::set_counters(unsigned tec, unsigned rec) {
   note(fmt::format("TEC {}, REC {}", tec, rec));
   port_->set_counters(tec, rec, tec > 127 || rec > 127, false);
   model_->set_errors(tec, rec);
+}
+
+void PortLockstep::set_clock(const std::array<std::uint8_t, 16> &row) {
+  note(fmt::format("clock {:02X}", fmt::join(row, " ")));
+  work();
+  port_->set_clock(row);
+  model_->set_clock(row);
 }
 
 void PortLockstep::bus_off(bool off) {

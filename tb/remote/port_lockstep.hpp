@@ -4,6 +4,8 @@
 // PortLockstep: can_remote at the engine's port and the model of its rules, step by step.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,6 +39,8 @@ class PortLockstep {
   /// User logic wants producer entry `k` sent.
   void event(unsigned k);
   void set_counters(unsigned tec, unsigned rec);
+  /// The row of the clock from now on.
+  void set_clock(const std::array<std::uint8_t, 16> &row);
   /// The engine goes bus-off, or has recovered.
   void bus_off(bool off);
 

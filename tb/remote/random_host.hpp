@@ -62,7 +62,7 @@ class RandomHost {
   void address(Frame &frame) {
     static constexpr unsigned kEdges[] = {0x010, 0x018, 0x078, 0x200, 0xDF8, 0xE00,
                                           0xE80, 0xF00, 0xF18, 0xF20, 0xF40, 0xF80,
-                                          0xFC0, 0xFE8, 0xFF0, 0xFF8, 0x1000};
+                                          0xFC0, 0xFD0, 0xFE8, 0xFF0, 0xFF8, 0x1000};
     unsigned address = upto(0x1000);
     if (!once_in(3)) address = kEdges[upto(std::size(kEdges))] + upto(16) - 8;
     frame.data[0] = static_cast<std::uint8_t>(address);

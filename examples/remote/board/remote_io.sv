@@ -64,6 +64,7 @@ module remote_io #(
     .usr_ready_o(ready), .usr_rdata_o(rdata), .usr_hold_i(1'b0),
     .written_o(written), .written_addr_o(), .written_len_o(), .apply_o(apply),
     .event_i(Events'(Full && take_q)),   // producer 0 tells what the inputs are then
+    .time_take_i(1'b0), .time_o(), .time_state_o(), .pps_o(),
     .safe_o(safe), .state_o, .can_rx_i, .can_tx_o, .trace_o()
   );
 
