@@ -40,7 +40,8 @@ has_module can_remote && tops+=("can_remote" "can_remote NameBits=5" "can_remote
                                 "can_remote NumProd=8" "can_remote NumMap=4"
                                 "can_remote NumMap=8" "can_remote Protect=1"
                                 "can_remote Block=1" "can_remote AutoRate=1"
-                                "can_remote Counters=1" "can_remote SameId=1")
+                                "can_remote Counters=1" "can_remote SameId=1"
+                                "can_remote TimeSync=1")
 
 verilator_lint() {  # TOP [NAME=VALUE ...]
   local top=$1

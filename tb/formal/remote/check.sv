@@ -9,12 +9,13 @@
 
   // First and last byte of an access, from the request itself.
   logic [12:0] f_first, f_last;
-  logic        f_memory, f_config, f_window;
+  logic        f_memory, f_config, f_window, f_row;
   assign f_first  = {1'b0, start_i};
   assign f_last   = f_first + {9'd0, end_i} - (far_o ? 13'd3 : 13'd1);
   assign f_memory = f_last < 13'hE00;
   assign f_config = f_first >= 13'hF00 && f_last < 13'hF20;
   assign f_window = f_last < 13'h078;
+  assign f_row    = f_first >= 13'hFF0 && f_last < 13'h1000;
 
   logic f_write, f_read;
   assign f_write = write_o && !bad_function;
@@ -39,6 +40,9 @@
       // RN-102 P-1, RN-32: a write that is not refused lies in the memory or in the configuration.
       p_write: assert (code_o != can_rn_pkg::CodeOk || !$past(f_write)
                        || $past(f_memory || f_config));
+      // RN-32, RN-22: so does a read, or in the rows of bytes that the bus may only read.
+      p_read: assert (code_o != can_rn_pkg::CodeOk || !$past(f_read)
+                      || $past(f_memory || f_config || f_row));
       // RN-32: a direct access that is not refused lies in the window.
       p_window: assert (code_o != can_rn_pkg::CodeOk
                         || !$past(near && !mapped_i && (f_write || f_read))
