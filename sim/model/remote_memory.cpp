@@ -50,10 +50,16 @@ bool RemoteMemory::denied(unsigned table, unsigned address) const {
   return (bytes_[table + page / 8] >> (page % 8) & 1) != 0;
 }
 
+// Nor does an access reach from the map entries into the row of the clock (TM-108).
+bool RemoteMemory::nowhere(unsigned first, unsigned last) const {
+  return area(first) == Area::kNone || area(last) == Area::kNone ||
+         (first < kClock && last >= kClock);
+}
+
 // First and last byte are looked at; no area that is closed is as small as what lies between.
 RemoteCode RemoteMemory::check_read(unsigned address, unsigned n) const {
   const unsigned last = address + n - 1;
-  if (area(address) == Area::kNone || area(last) == Area::kNone) return RemoteCode::kAddress;
+  if (nowhere(address, last)) return RemoteCode::kAddress;
   if (denied(kReadProtect, address) || denied(kReadProtect, last)) return RemoteCode::kProtected;
   return RemoteCode::kAccepted;
 }
@@ -62,7 +68,7 @@ RemoteCode RemoteMemory::check_write(unsigned address, unsigned n, bool open) co
   const unsigned last = address + n - 1;
   const Area first_area = area(address);
   const Area last_area = area(last);
-  if (first_area == Area::kNone || last_area == Area::kNone) return RemoteCode::kAddress;
+  if (nowhere(address, last)) return RemoteCode::kAddress;
   if (!open && (first_area == Area::kConfig || last_area == Area::kConfig))
     return RemoteCode::kLocked;
   if (first_area == Area::kRow || last_area == Area::kRow || denied(kWriteProtect, address) ||

@@ -45,6 +45,7 @@ class RemoteMemory {
  private:
   enum class Area { kNone, kMemory, kConfig, kRow };
   [[nodiscard]] Area area(unsigned address) const;
+  [[nodiscard]] bool nowhere(unsigned first, unsigned last) const;
   [[nodiscard]] bool denied(unsigned table, unsigned address) const;
 
   const RemoteConfig &config_;

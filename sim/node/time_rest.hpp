@@ -131,19 +131,25 @@ class TimeRest {
            root.can_core__DOT__gen_time__DOT__u_time__DOT__u_clock__DOT__addend_q == increment;
   }
 
-  // No level has changed, nothing is being captured or told.
+  // A level that was recessive a clock ago is dominant.
+  template <typename Root>
+  static bool falls(const Root &root) {
+    const unsigned rx_before = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__rx_q;
+    const unsigned tx_before = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__tx_q;
+    return (rx_before & ~unsigned{root.can_core__DOT__rx}) != 0 ||
+           (tx_before & ~unsigned{root.can_core__DOT__tx_q}) != 0;
+  }
+
+  // Nothing is being captured or told.
   template <typename Engine>
   static bool stamp_steady(const Engine &engine) {
     const auto &root = *engine.rootp;
     const unsigned busy = engine.time_stamp_we_o | engine.stamp_o | engine.rx_valid_o;
-    const bool level = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__rx_q ==
-                           root.can_core__DOT__rx &&
-                       root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__tx_q ==
-                           root.can_core__DOT__tx_q;
-    if (busy != 0 || !level) return false;
+    if (busy != 0) return false;
     const bool between = root.can_core__DOT__u_bsp__DOT__u_field__DOT__field_q < 8;
     const unsigned fixed = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__fixed_q;
     const unsigned told = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__told_q;
+    if (fixed == 0 && falls(root)) return false;  // its time may be taken
     if (!between) return fixed == told;
     const unsigned point = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__point_q;
     const unsigned txpin = root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__txpin_q;
@@ -185,6 +191,8 @@ class TimeRest {
     flops.set(clock);
     slew_bit = clock.lo >> bit & 1;
     bit_q = last >> bit & 1;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__rx_q = root.can_core__DOT__rx;
+    root.can_core__DOT__gen_time__DOT__u_time__DOT__u_stamp__DOT__tx_q = root.can_core__DOT__tx_q;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__lo_q = last;
     root.can_core__DOT__gen_time__DOT__u_time__DOT__now = std::uint64_t{clock.hi} << 32 | last;
     const std::uint32_t target = flops.target;

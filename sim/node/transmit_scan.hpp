@@ -61,7 +61,6 @@ class TransmitScan {
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_active_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_free_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_val_q;
-    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__restart_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__withdrawn;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__change;
@@ -136,8 +135,10 @@ class TransmitScan {
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_free_q;
     to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_val_q =
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_val_q;
-    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better =
-        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better;
+    // Not a member of every model.
+    if constexpr (requires { to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better; })
+      to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better =
+          from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better;
   }
 
   template <typename R>

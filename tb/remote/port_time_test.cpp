@@ -33,6 +33,7 @@ std::vector<std::uint8_t> read(PortLockstep &pair, unsigned address, std::uint8_
   const Frame sent = pair.port().send();
   pair.model().attempt();
   pair.model().sent();
+  if (sent.id != 0x5F8) return {};  // STATUS: it is refused
   return {sent.data.begin() + 2, sent.data.begin() + sent.dlc};
 }
 

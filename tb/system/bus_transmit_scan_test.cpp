@@ -14,12 +14,16 @@
 #include <type_traits>
 #include <utility>
 
+#include "Vcan_core_time.h"
+#include "Vcan_core_time___024root.h"
 #include "Vcan_host16.h"
 #include "Vcan_host16___024root.h"
 #include "Vcan_host32.h"
 #include "Vcan_host32___024root.h"
 #include "Vcan_host64.h"
 #include "Vcan_host64___024root.h"
+#include "Vcan_host64_time.h"
+#include "Vcan_host64_time___024root.h"
 #include "bus/bus.hpp"
 #include "harness/model_members.hpp"
 #include "model/registers.hpp"
@@ -32,7 +36,7 @@ namespace vericansim {
 namespace {
 
 // Two cores on the same pins: one leaves passes and bytes out, the other does them.
-template <typename Model>
+template <typename Model, typename Ports = AhbPorts, typename Engine = Vcan_core>
 class ScanTwins : public RtlNode {
  public:
   ScanTwins(const std::string &name, const ClockConfig &clock, unsigned num_mb, bool bytes)
@@ -132,7 +136,7 @@ class ScanTwins : public RtlNode {
                 other.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_smb__DOT__byte_q);
   }
 
-  SplitCore<Model> short_, full_;
+  SplitCore<Model, Ports, Engine> short_, full_;
   std::optional<ModelMembers<Root>> members_;
   std::mt19937 random_{7};
   bool bytes_;
@@ -164,10 +168,10 @@ constexpr ScanCase kCases[] = {
     {"FewerBuffers", 0x100, false}, {"Fifo", 1u << 29, false},
 };
 
-template <typename Model>
+template <typename Model, typename Ports = AhbPorts, typename Engine = Vcan_core>
 void run(const ScanCase &each, unsigned num_mb, bool bytes = false) {
   Bus bus;
-  ScanTwins<Model> a{"a", {.error_ppm = 100}, num_mb, bytes};
+  ScanTwins<Model, Ports, Engine> a{"a", {.error_ppm = 100}, num_mb, bytes};
   const auto b = RtlNode::create("b", {.error_ppm = -150, .phase = 30'000}, 16);
   bus.add(a);
   bus.add(*b);
@@ -204,6 +208,9 @@ class TransmitScanTest : public ::testing::TestWithParam<ScanCase> {};
 TEST_P(TransmitScanTest, SameMembersWith16Buffers) { run<Vcan_host16>(GetParam(), 16); }
 TEST_P(TransmitScanTest, SameMembersWith32Buffers) { run<Vcan_host32>(GetParam(), 32); }
 TEST_P(TransmitScanTest, SameMembersWith64Buffers) { run<Vcan_host64>(GetParam(), 64); }
+TEST_P(TransmitScanTest, SameMembersWithTheTimeUnit) {
+  run<Vcan_host64_time, AhbTimePorts, Vcan_core_time>(GetParam(), 64);
+}
 
 TEST_P(TransmitScanTest, SameBuffersWithBytesLeftOut) { run<Vcan_host32>(GetParam(), 32, true); }
 
