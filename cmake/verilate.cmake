@@ -101,11 +101,9 @@ function(verican_verilate target)
     COMMENT "Verilating ${ARG_TOP} ${ARG_PARAMS}"
     VERBATIM)
   add_library(${target} STATIC "${all}")
-  target_compile_options(${target} PRIVATE -w)
-  if(VERICAN_COVERAGE)
-    # Thousands of small decisions: -O2 takes five times as long over them.
-    target_compile_options(${target} PRIVATE -O1)
-  endif()
+  # Models are 5 % faster by -O1 than by -O2, which also takes longer, over one that counts what is
+  # covered five times as long.
+  target_compile_options(${target} PRIVATE -w $<$<CONFIG:Release>:-O1>)
   target_include_directories(${target} SYSTEM PUBLIC "${dir}")
   target_link_libraries(${target} PUBLIC verilated_runtime)
 endfunction()
