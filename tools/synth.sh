@@ -115,19 +115,19 @@ profiles() {
   sed -n 's/^set(remote_\([a-z]*\) "*\([^")]*\)"*)$/\1 \2/p' sim/CMakeLists.txt | grep -v '^same '
 }
 
-measure_profile() {  # BLOCK
+measure_profile() {  # remote_PROFILE BLOCK [PARAMETER=VALUE ..]
   local line settings
   line=$(profiles | grep "^${1#remote_} ") || {
     echo "synth: sim/CMakeLists.txt has no profile ${1#remote_} of can_remote" >&2
     exit 1
   }
   read -r -a settings <<<"${line#* }"
-  measure "$1" can_remote "${settings[@]}"
+  measure "$2" can_remote "${settings[@]}" "${@:3}"
 }
 
 remotes=$(profiles | sed 's/^\([a-z]*\) .*/remote_\1/' | tr '\n' ' ')
 cores="can_ahb_small can_ahb_standard can_ahb_32 can_ahb_64"
-times="can_time can_time_sync can_time_node can_ahb_time_32 can_ahb_sync_32"
+times="remote_standard_time can_time can_time_sync can_time_node can_ahb_time_32 can_ahb_sync_32"
 buses="can_apb_32 can_axil_32 can_wb_32 can_wb_pipelined_32"
 read -r -a blocks <<<"${BLOCKS:-can_core $remotes $times $buses $cores}"
 for block in "${blocks[@]}"; do
@@ -147,7 +147,8 @@ for block in "${blocks[@]}"; do
       read -r -a settings < <(/usr/bin/python3 tools/profiles.py "${block#can_ahb_}")
       measure "$block" can_ahb "${settings[@]}"
       ;;
-    remote_*) measure_profile "$block" ;;
+    remote_*_time) measure_profile "${block%_time}" "$block" TimeSync=1 ;;
+    remote_*) measure_profile "$block" "$block" ;;
     *) measure "$block" "$block" ;;
   esac
 done

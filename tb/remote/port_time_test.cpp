@@ -54,6 +54,8 @@ TEST(PortTime, TheRowIsReadInPlaceOfTheRam) {
   EXPECT_TRUE(read(pair, 0xFD0, 1).empty());
   for (unsigned word = 0; word < 4; ++word)
     EXPECT_EQ(pair.port().user_read(remote_map::kClock / 4 + word), 0xA3A2A1A0 + 0x04040404 * word);
+  pair.port().clocks(3);  // the data stay, as those of the RAM do
+  EXPECT_EQ(pair.port().read_data(), 0xAFAEADACU);
   EXPECT_EQ(pair.port().user_read(remote_map::kClock / 4 - 1), 0U);
   EXPECT_EQ(pair.port().user_read(remote_map::kClock / 4 + 4), 0U);
 }

@@ -170,7 +170,8 @@ def title(block):
         top, _, size = block.rpartition("_")
         return f"whole core `{top}`, NumMb={size}".replace("_pipelined`", "`, Pipelined=1")
     if block.startswith("remote_"):
-        return f"node without a processor `can_remote`, profile {block.partition('_')[2]}"
+        profile = block.partition("_")[2].replace("_time", ", TimeSync=1")
+        return f"node without a processor `can_remote`, profile {profile}"
     if block == "can_time_sync":
         return "follower without a processor `can_time_sync`"
     if block == "can_time_node":
