@@ -62,8 +62,8 @@ module can_remote #(
   parameter int TimeSync = 0,
   /// Increment at the nominal rate: 39:32 ns, 31:0 in 2^-32 ns a clock. As here: 8 MHz.
   parameter logic [39:0] TimeInc = 40'h7D_0000_0000,
-  /// TSCTRL without EN and PPS, TSID (a base identifier that no node asks or answers with, as here
-  /// 0x420) and TSDLY of the follower (docs/registers.md). TSCTRL as here: a pair a second at 8 MHz.
+  /// TSCTRL without EN and PPS (as here: a pair a second at 8 MHz), TSID (a base identifier that no
+  /// node asks or answers with, as here 0x420) and TSDLY of the follower, see docs/registers.md.
   parameter logic [31:0] SyncCtrl = 32'h1F49_0100,
   parameter logic [31:0] SyncId = 32'h1080_0000,
   parameter logic [31:0] SyncDelay = 32'd0,

@@ -76,6 +76,15 @@ class Features(unittest.TestCase):
         self.assertNotEqual(code, 0)
         self.assertIn("must_be_0_or_1", text)
 
+    def test_node_without_a_processor_refuses_what_its_clock_cannot_be(self):
+        """TM-106, TM-107: each parameter just outside its range; in it, it is clean."""
+        self.assertEqual(lint({"TimeSync": 1}, "can_remote"), (0, ""))
+        for name, value in ("TimeSync", 2), ("HalfPeriod", 0), ("SyncId", 1), ("SyncId", 1 << 29):
+            with self.subTest(name, value=value):
+                code, text = lint({"TimeSync": 1, name: value}, "can_remote")
+                self.assertNotEqual(code, 0)
+                self.assertIn(f"{name}_must_be", text)
+
     def test_clock_without_a_processor_refuses_what_its_registers_cannot_hold(self):
         """TM-100: each parameter just outside its range."""
         for value in ({"HalfPeriod": 0}, {"Brp": 0}, {"Brp": 257}, {"Prop": 9}, {"Ps1": 0},
