@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Script: writes OUTPUT, a source file that includes all *.cpp of DIR, the sources of the Verilated
-# model NAME, and gives it the functions below, as far as the model has them, declared in NAME.h.
+# model NAME. With SHORT_CUTS it gives it the functions below, as far as the model has them,
+# declared in NAME.h.
 # Their names are Verilator's own (5.006), of what eval() calls:
 #   verican_clock_edge()  what is clocked, and all that follows from it (sim/node/model_edge.hpp)
 #   verican_follow()      what follows from the inputs in the same clock (sim/node/quiet_engine.hpp)
@@ -32,10 +33,12 @@ function(region name short)
   endif()
 endfunction()
 
-string(APPEND declarations "void verican_clock_edge(${NAME}___024root *root);\n")
-string(APPEND text "void verican_clock_edge(${NAME}___024root *root) {\n"
-                   "  ${NAME}___024root___eval_nba(root);\n}\n")
-region(verican_follow ico)
-region(verican_settle stl)
+if(SHORT_CUTS)
+  string(APPEND declarations "void verican_clock_edge(${NAME}___024root *root);\n")
+  string(APPEND text "void verican_clock_edge(${NAME}___024root *root) {\n"
+                     "  ${NAME}___024root___eval_nba(root);\n}\n")
+  region(verican_follow ico)
+  region(verican_settle stl)
+endif()
 file(WRITE "${OUTPUT}" "${text}")
 file(APPEND "${DIR}/${NAME}.h" "${declarations}")

@@ -21,6 +21,15 @@ option(VERICAN_PLAIN_EDGES "Clock transformed models by both edges, without shor
 find_program(VERILATOR verilator REQUIRED)
 execute_process(COMMAND "${VERILATOR}" --getenv VERILATOR_ROOT
                 OUTPUT_VARIABLE VERILATOR_ROOT OUTPUT_STRIP_TRAILING_WHITESPACE)
+execute_process(COMMAND "${VERILATOR}" --version OUTPUT_VARIABLE version
+                OUTPUT_STRIP_TRAILING_WHITESPACE)
+include("${CMAKE_CURRENT_LIST_DIR}/verilator_version.cmake")
+verican_has_short_cuts(VERICAN_SHORT_CUTS "${version}")
+if(NOT VERICAN_SHORT_CUTS)
+  message(STATUS "${version}: the simulator's short cuts are for 5.006, so it is slower")
+elseif(VERICAN_RTL_TRANSFORM AND VERICAN_PLAIN_EDGES)
+  set(VERICAN_SHORT_CUTS FALSE)
+endif()
 find_package(Threads REQUIRED)
 
 # The run-time library of all models, once.
@@ -37,7 +46,7 @@ if(VERICAN_COVERAGE)
                              "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/cmake>")
 endif()
 target_link_libraries(verilated_runtime PUBLIC Threads::Threads)
-if(VERICAN_RTL_TRANSFORM AND VERICAN_PLAIN_EDGES)
+if(NOT VERICAN_SHORT_CUTS)
   target_compile_definitions(verilated_runtime PUBLIC VERICAN_PLAIN_EDGES)
 endif()
 
@@ -95,6 +104,7 @@ function(verican_verilate target)
             --top-module ${ARG_TOP} ${parameters} ${coverage_flags} ${verilated}
     COMMAND ${coverage}
     COMMAND "${CMAKE_COMMAND}" -DDIR=${dir} -DNAME=${target} -DOUTPUT=${all}
+            -DSHORT_CUTS=${VERICAN_SHORT_CUTS}
             -P "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake"
     DEPENDS ${files} "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake" ${VERICAN_RTL_TRANSFORM}
             ${coverage_script}

@@ -13,7 +13,7 @@
 namespace vericansim {
 
 #ifdef VERICAN_PLAIN_EDGES
-/// No short cuts: for models of netlists (cmake/verilate.cmake).
+/// No short cuts: for models of netlists, or of a Verilator that is not 5.006 (verilate.cmake).
 inline constexpr bool kPlainEdges = true;
 #else
 inline constexpr bool kPlainEdges = false;
@@ -43,15 +43,18 @@ inline void rising_edge(Model &model, Signal &clock) {
 /// The same for a model whose inputs are as they were at its last eval(), but for those that only
 /// flip-flops look at, and whose clock input is high: what is clocked is evaluated at once, without
 /// the combinational logic of the inputs and the search for what has changed.
-/// verican_clock_edge(Root *), one for each model, is written by cmake/include_all.cmake.
+/// verican_clock_edge(Root *), one for each model, is written by cmake/include_all.cmake. Without
+/// short cuts it does nothing and is not to be called.
 template <typename Model>
-inline void settled_edge(Model &model) {
-  auto &root = *model.rootp;
-  auto set_all = []<std::size_t kCount>(VlTriggerVec<kCount> &triggers) {
-    for (std::size_t i = 0; i < kCount; ++i) triggers.at(i) = true;
-  };
-  set_all(root.__VnbaTriggered);
-  verican_clock_edge(&root);
+inline void settled_edge([[maybe_unused]] Model &model) {
+  if constexpr (!kPlainEdges) {
+    auto &root = *model.rootp;
+    auto set_all = []<std::size_t kCount>(VlTriggerVec<kCount> &triggers) {
+      for (std::size_t i = 0; i < kCount; ++i) triggers.at(i) = true;
+    };
+    set_all(root.__VnbaTriggered);
+    verican_clock_edge(&root);
+  }
 }
 
 }  // namespace vericansim

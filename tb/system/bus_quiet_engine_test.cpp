@@ -153,7 +153,10 @@ class EngineTwins : public Node {
       ++light_;
     } else {
       short_.can_rx_i = static_cast<std::uint8_t>(rx);
-      settled_edge(short_);
+      if (kPlainEdges)
+        rising_edge(short_, short_.clk_i);
+      else
+        settled_edge(short_);
       quiet_.clocked(short_);
     }
     sent_ += short_.tx_ok_o;
