@@ -224,8 +224,8 @@ void compare_twins(const EngineCase &each) {
                                    .data = {static_cast<std::uint8_t>(random()), 0xAA, 0xFF}});
   }
   EXPECT_EQ(twins.differences(), 0u);
-  EXPECT_GT(twins.passed(), 10'000u);
-  EXPECT_GT(twins.light(), 1'000u);
+  EXPECT_TRUE(kPlainEdges || twins.passed() > 10'000);
+  EXPECT_TRUE(kPlainEdges || twins.light() > 1'000);
   EXPECT_TRUE(each.listen_only || twins.sent() > 5);
 }
 

@@ -17,6 +17,7 @@
 #include "model/registers.hpp"
 #include "node/core_node.hpp"
 #include "node/host.hpp"
+#include "node/model_edge.hpp"
 
 namespace vericansim {
 namespace {
@@ -259,7 +260,7 @@ void expect_same(const World &world, bool watched) {
   constexpr unsigned kBits = 4'000;
   Stage resting{world, watched, true}, clocked{world, watched, false};
   const Trail got = resting.run(kBits), due = clocked.run(kBits);
-  EXPECT_GT(resting.edges_passed(), kBits);
+  EXPECT_TRUE(kPlainEdges || resting.edges_passed() > kBits);
   EXPECT_EQ(clocked.edges_passed(), 0u);
   ASSERT_GT(due.size(), kBits);
   EXPECT_EQ(first_difference(got, due), "");

@@ -28,6 +28,7 @@
 #include "harness/model_members.hpp"
 #include "model/registers.hpp"
 #include "node/host.hpp"
+#include "node/model_edge.hpp"
 #include "node/model_pins.hpp"
 #include "node/rtl_node.hpp"
 #include "node/split_core.hpp"
@@ -199,7 +200,7 @@ void run(const ScanCase &each, unsigned num_mb, bool bytes = false) {
     disturb(a, random);
   }
   EXPECT_EQ(a.differences(), 0u);
-  EXPECT_GT(a.left_out(), 1000u);
+  EXPECT_TRUE(kPlainEdges || a.left_out() > 1000);
   EXPECT_GT(second.stats().received, 20u);
 }
 
