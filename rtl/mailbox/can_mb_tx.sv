@@ -148,25 +148,27 @@ module can_mb_tx #(
   // Of two buffers with equal values the later one is the worse.
   assign low_less   = {s2_val_q[16:0], s2_idx_q}
                     < {best_val_q[16:0], {IdxW{!s2_look_q}} & best_idx_o};
-  // low_less is the last to be known: bit 0 is for low_less = 0, bit 1 for low_less = 1.
-  logic [1:0] better;
+  // Whether values decide; if not, whether this one is the better.
+  logic by_value, better;
   always_comb begin
-    better = {high_less || high_equal, high_less};
-    if (lbuf_i) better = {2{s2_idx_q < best_idx_o}};
-    if (!s2_look_q && s2_held != best_held) better = {2{best_held}};
+    {by_value, better} = {!lbuf_i, lbuf_i && s2_idx_q < best_idx_o};
+    if (!s2_look_q && s2_held != best_held) {by_value, better} = {1'b0, best_held};
   end
 
   // One register for two values: that of the winner, or in a pass for ESR2 that of the worst. What
   // comes while the winner is lost and is no better is left to the pass that looks for the next.
-  logic       take, take_worst, force_it;
-  logic [1:0] take_if, worst_if, load_if;
-  assign force_it   = s2_look_q ? !any_q || lbuf_i || s2_idx_q == '0
-                                : !best_q || s2_reload_q;
-  assign take_if    = {2{candidate && !s2_look_q}} & ({2{force_it}} | better);
-  assign worst_if   = {2{candidate && seen_o}} & ({2{force_it}} | ~better);
-  assign load_if    = take_if | worst_if;
-  assign take       = take_if[low_less];
-  assign take_worst = worst_if[low_less];
+  // The comparison is the last to be known: what it decides, if anything, is worked out beside it.
+  logic less, force_it, take, take_anyway, take_less, take_worst, worst_anyway, worst_more, load;
+  assign less         = high_less || (high_equal && low_less);
+  assign force_it     = s2_look_q ? !any_q || lbuf_i || s2_idx_q == '0
+                                  : !best_q || s2_reload_q;
+  assign take_anyway  = candidate && !s2_look_q && (force_it || better);
+  assign take_less    = candidate && !s2_look_q && by_value;
+  assign worst_anyway = candidate && seen_o && force_it;
+  assign worst_more   = candidate && seen_o;
+  assign take         = take_anyway || (take_less && less);
+  assign take_worst   = worst_anyway || (worst_more && !less);
+  assign load         = take_anyway || worst_anyway || (less ? take_less : worst_more);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -176,7 +178,7 @@ module can_mb_tx #(
     end else begin
       best_q <= running_i && (take || (best_q && !withdrawn));
       if (take) best_idx_o <= s2_idx_q;
-      if (load_if[low_less]) best_val_q <= s2_val_q;
+      if (load) best_val_q <= s2_val_q;
       own_q <= take || (ins_gnt_i && reload) || (own_q && !take_worst);
     end
   end

@@ -135,10 +135,16 @@ class TransmitScan {
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_free_q;
     to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_val_q =
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_val_q;
-    // Not a member of every model.
+    // Not members of every model.
     if constexpr (requires { to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better; })
       to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better =
           from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better;
+    if constexpr (requires { to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less; })
+      to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less =
+          from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less;
+    if constexpr (requires { to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__force_it; })
+      to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__force_it =
+          from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__force_it;
   }
 
   template <typename R>
