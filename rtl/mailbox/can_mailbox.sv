@@ -193,7 +193,7 @@ module can_mailbox #(
 
   // Stamps.
   logic            stamp_busy, stamp_re, stamp_cpu, stamp_again, stamp_meets, stamp_shown, mine;
-  logic [IdxW:0]   stamp_row, stamp_cmd_row;
+  logic [IdxW:0]   stamp_row, stamp_held_row, stamp_cmd_row;
   logic [IdxW+1:0] scrub_row;
   logic [31:0]     stamp_rdata;
 
@@ -350,6 +350,7 @@ module can_mailbox #(
     .rx_wr_req_i(rx_wr_req), .rx_wr_cs_i(rx_wr_cs), .rx_wr_be_i(rx_wr_be), .rx_wr_row_i(rx_wr_row),
     .rx_wr_data_i(rx_wr_data), .rx_wr_gnt_o(rx_wr_gnt), .rx_wr_owed_o(rx_wr_owed),
     .stamp_re_o(stamp_re), .stamp_cpu_o(stamp_cpu), .stamp_row_o(stamp_row),
+    .stamp_held_row_o(stamp_held_row),
     .stamp_again_o(stamp_again), .stamp_cmd_row_o(stamp_cmd_row), .stamp_meets_i(stamp_meets),
     .stamp_shown_i(stamp_shown), .stamp_rdata_i(stamp_rdata),
     .scrub_o, .scrub_row_o(scrub_row), .cs_written_i(cs_written));
@@ -361,7 +362,8 @@ module can_mailbox #(
       .own_i(time_stamp_tx_i), .cur_idx_i(cur_idx), .mine_i(mine), .smb_i(smb),
       .busy_o(stamp_busy),
       .re_i(stamp_re), .cpu_i(stamp_cpu), .cpu_row_i(stamp_row), .again_i(stamp_again),
-      .cmd_row_i(stamp_cmd_row), .meets_o(stamp_meets), .shown_o(stamp_shown),
+      .cmd_row_i(stamp_cmd_row), .meets_o(stamp_meets), .held_row_i(stamp_held_row),
+      .shown_o(stamp_shown),
       .rdata_o(stamp_rdata),
       .mv_step_i(mv_step), .mv_row_i(mv_row), .mv_idx_i(mv_idx), .mv_data_i(mv_data),
       .mv_cancel_i(mv_cancel));
@@ -370,7 +372,8 @@ module can_mailbox #(
     assign stamp_rdata = '0;
     logic unused_stamp;
     assign unused_stamp = &{1'b0, time_stamp_i, time_stamp_we_i, time_stamp_tx_i, mine, scrub_row,
-                            stamp_re, stamp_cpu, stamp_row, stamp_again, stamp_cmd_row};
+                            stamp_re, stamp_cpu, stamp_row, stamp_held_row, stamp_again,
+                            stamp_cmd_row};
   end
 
   assign flag_o     = mv_flag || ld_flag || ab_flag;

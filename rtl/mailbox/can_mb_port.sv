@@ -92,6 +92,7 @@ module can_mb_port #(
   output logic            stamp_re_o,
   output logic            stamp_cpu_o,
   output logic [IdxW:0]   stamp_row_o,
+  output logic [IdxW:0]   stamp_held_row_o,
   output logic            stamp_again_o,
   output logic [IdxW:0]   stamp_cmd_row_o,
   input  logic            stamp_meets_i,
@@ -277,6 +278,7 @@ module can_mb_port #(
   assign stamp_re_o      = re;
   assign stamp_cpu_o     = cpu_gnt;
   assign stamp_row_o     = {c_word[0], c_idx};
+  assign stamp_held_row_o = {word_q[0], idx_q};
   assign stamp_again_o   = pend;
   assign stamp_cmd_row_o = {cmd_word_i[0], cmd_idx_i};
   assign scrub_row_o     = scrub_row_q;

@@ -34,7 +34,8 @@ module can_mb_stamp #(
   input  logic            again_i,       // ... for the second time: nothing else is written now
   input  logic [IdxW:0]   cmd_row_i,
   output logic            meets_o,       // row cmd_row_i is being written
-  output logic            shown_o,       // row cpu_row_i is being copied: it is on the output
+  input  logic [IdxW:0]   held_row_i,    // row of a read that is made for the second time
+  output logic            shown_o,       // ... is being copied: it is on the output
   output logic [31:0]     rdata_o,
   // Moves: one word with each of the two steps that copy data.
   input  logic [1:0]      mv_step_i,
@@ -70,7 +71,7 @@ module can_mb_stamp #(
     end
   end
   assign meets_o = (copy || write_q) && waddr == {1'b0, cmd_row_i};
-  assign shown_o = copy && waddr == {1'b0, cpu_row_i};
+  assign shown_o = copy && waddr == {1'b0, held_row_i};
 
   // A stamp that is taken at the end of the frame comes after rx_valid_i; one that does not come at
   // all keeps nobody waiting for longer than to the next frame.
