@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -60,6 +61,18 @@ std::uint64_t load(const unsigned char *at, std::size_t size) {
   return word;
 }
 
+// TIME, of a model with the time unit.
+template <typename Model>
+std::optional<std::uint64_t> time_in(const Model &root) {
+#define TIME_OF(root, member) \
+  (root).can_ahb__DOT__u_top__DOT__u_core__DOT__gen_time__DOT__u_time__DOT__##member
+  if constexpr (requires { TIME_OF(root, lo_q); }) {
+    return std::uint64_t{TIME_OF(root, u_clock__DOT__hi_o)} << 32 | TIME_OF(root, lo_q);
+  }
+#undef TIME_OF
+  return std::nullopt;
+}
+
 constexpr unsigned kCsWords = 128, kMsgWords = 256, kMaskWords = 128;
 
 }  // namespace
@@ -93,8 +106,8 @@ const std::vector<Flop> &FlopNode::flops() {
   return list;
 }
 
-FlopNode::FlopNode(std::string name)
-    : RtlNode{std::move(name), {}, 64}, impl_{std::make_unique<Impl>()} {
+FlopNode::FlopNode(std::string name, const ClockConfig &clock)
+    : RtlNode{std::move(name), clock, 64}, impl_{std::make_unique<Impl>()} {
   reset();
 }
 
@@ -167,6 +180,17 @@ std::uint64_t FlopNode::trace() const { return impl_->top.trace_o; }
 std::uint8_t FlopNode::irq_lines() const { return model_irq_lines(impl_->top); }
 
 void FlopNode::request_stop(bool stop) { impl_->top.stop_req_i = stop; }
+
+bool FlopNode::irq_time() const { return impl_->top.irq_time_o != 0; }
+
+bool FlopNode::time_out() const { return impl_->top.time_out_o != 0; }
+
+std::uint64_t FlopNode::time_of_clock() const {
+  const auto time = time_in(*impl_->top.rootp);
+  return time ? *time : RtlNode::time_of_clock();
+}
+
+void FlopNode::external(bool level) { impl_->top.ext_i = level; }
 
 AhbResult FlopNode::peek(const AhbTransfer &) { throw std::logic_error("FlopNode: no peek"); }
 

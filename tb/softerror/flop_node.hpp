@@ -26,7 +26,7 @@ struct Flop {
 /// RtlNode::create() nothing in it rests: what a clock edge does is done in every clock.
 class FlopNode final : public RtlNode {
  public:
-  explicit FlopNode(std::string name);
+  explicit FlopNode(std::string name, const ClockConfig &clock = {});
   ~FlopNode() override;
 
   void reset() override;
@@ -34,6 +34,10 @@ class FlopNode final : public RtlNode {
   [[nodiscard]] std::uint64_t trace() const override;
   [[nodiscard]] std::uint8_t irq_lines() const override;
   void request_stop(bool stop) override;
+  [[nodiscard]] bool irq_time() const override;
+  [[nodiscard]] bool time_out() const override;
+  [[nodiscard]] std::uint64_t time_of_clock() const override;
+  void external(bool level) override;
   /// Not for this node: std::logic_error.
   [[nodiscard]] AhbResult peek(const AhbTransfer &transfer) override;
 
