@@ -14,8 +14,11 @@
 namespace vericansim {
 namespace {
 
+using ::testing::_;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::Pair;
 
 verican_frame_t one_byte() {
@@ -244,6 +247,20 @@ TEST_F(DriverClock, SendAt) {
   EXPECT_EQ(verican_send_at(&dev, &frame, 5000, &mb), VERICAN_ERR_BUSY);
   EXPECT_THAT(writes, IsEmpty());
   EXPECT_EQ(verican_send_at(&dev, nullptr, 5000, &mb), VERICAN_ERR_NULL);
+}
+
+// TM-44, TM-91: a frame that is taken back leaves no launch behind, and that of another alone.
+TEST_F(DriverClock, LaunchTakenBack) {
+  up();
+  const verican_frame_t frame = one_byte();
+  std::uint8_t held = 0, other = 0;
+  ASSERT_EQ(verican_send_at(&dev, &frame, 100'000, &held), VERICAN_OK);
+  ASSERT_EQ(verican_send(&dev, &frame, &other), VERICAN_OK);
+  writes.clear();
+  EXPECT_EQ(verican_abort(&dev, other), VERICAN_OK);
+  EXPECT_THAT(writes, Not(Contains(Pair(VERICAN_TTXMB_OFFSET, _))));
+  EXPECT_EQ(verican_abort(&dev, held), VERICAN_OK);
+  EXPECT_THAT(writes, Contains(Pair(VERICAN_TTXMB_OFFSET, held)));
 }
 
 // TM-91: without the unit nothing of it is touched.

@@ -13,7 +13,7 @@
 
 #include "model/frame_codec.hpp"
 #include "node/model_edge.hpp"
-#include "time/stamp_rule.hpp"
+#include "time/tsyn_frames.hpp"
 #include "verilated.h"
 
 namespace vericansim {
@@ -74,18 +74,13 @@ class FollowerBus {
     return epoch_ + static_cast<std::uint64_t>(std::llround(at / 1000));
   }
 
-  /// SYNC now and FUP 300 bits later, identifier 1, domain 3 (time-spec.md section 7.1).
-  void pair(unsigned sc) {
-    const std::uint64_t t0 = master(now_), second = 1'000'000'000;
-    const auto seconds = static_cast<std::uint32_t>(t0 / second);
-    const Frame sync = message(0x10, sc, 0, seconds);
-    const std::vector<WireBit> bits = send(sync);
-    const std::size_t reference = reference_bit(bits);
-    const std::uint64_t t4 =
-        master(start_ + bit_ * static_cast<double>(reference)) - seconds * second;
+  /// SYNC now and FUP 300 bits later.
+  void pair() {
+    const std::vector<WireBit> bits = send(pairs_.sync(master(now_)));
+    const std::uint64_t reference =
+        master(start_ + bit_ * static_cast<double>(reference_bit(bits)));
     run(start_ + 300 * bit_);
-    send(message(0x18, sc, static_cast<unsigned>(t4 / second),
-                 static_cast<std::uint32_t>(t4 % second)));
+    send(pairs_.follow_up(reference));
     run(start_ + 300 * bit_);
   }
 
@@ -104,16 +99,8 @@ class FollowerBus {
   [[nodiscard]] double now() const { return now_; }
 
  private:
-  static Frame message(unsigned type, unsigned sc, unsigned byte3, std::uint32_t word) {
-    Frame frame{.id = 1, .dlc = 8};
-    frame.data = {static_cast<std::uint8_t>(type),           0,
-                  static_cast<std::uint8_t>(0x30 | sc % 16), static_cast<std::uint8_t>(byte3),
-                  static_cast<std::uint8_t>(word >> 24),     static_cast<std::uint8_t>(word >> 16),
-                  static_cast<std::uint8_t>(word >> 8),      static_cast<std::uint8_t>(word)};
-    return frame;
-  }
   std::vector<WireBit> send(const Frame &frame) {
-    EncodedFrame encoded = encode_frame(frame, {.ack_slot = Level::kRecessive});
+    EncodedFrame encoded = encode_unacknowledged(frame);
     sent_ = levels_of(encoded.bits);
     start_ = now_;
     return encoded.bits;
@@ -128,6 +115,7 @@ class FollowerBus {
 
   double bit_;
   std::uint64_t epoch_;
+  TsynPairs pairs_;
   double now_ = 0, start_ = 0;
   std::vector<Level> sent_;
   std::vector<std::unique_ptr<Follower<Model>>> nodes_;

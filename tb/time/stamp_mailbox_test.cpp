@@ -171,6 +171,22 @@ TEST_F(StampMailbox, BusyCpu) {
   }
 }
 
+// TM-24, TM-27: the same at EOF6, where the stamp comes behind the frame that is to be moved.
+TEST_F(StampMailbox, BusyCpuAtEof) {
+  bring_up(kPointEof);
+  const Frame frame = data_frame(0x2AA, false, 0);
+  rig_.put_rx(1, 5, frame, {});
+  for (unsigned i = 0; i < 40; ++i) {
+    rig_.hammer(1, [i] { return AhbTransfer{.address = stamp(5) + 4 * (i % 2)}; });
+    (void)send(frame);
+    rig_.hammer(1, nullptr);
+    EXPECT_EQ(time_.stamp(1, 5), time_.node(1).valids().back() * kTimeStep) << i;
+    rig_.clear_flag(1, 5);
+    rig_.get(1, 5);
+    rig_.read(1, reg::kTimer);
+  }
+}
+
 // TM-27, TM-28: a read of a word that is being written gets the old one or the new one.
 TEST_F(StampMailbox, OldOrNew) {
   bring_up(kPointEdge);

@@ -31,7 +31,7 @@ TEST(TimeNode, PpsFromReset) {
   EXPECT_EQ(bus.node(0).state(), 0u);
   const double first = bus.now();
   for (unsigned i = 0; i < 14; ++i) {
-    bus.pair(i);
+    bus.pair();
     if (i == 0) {
       EXPECT_EQ(bus.node(0).state(), 1u);
     }
@@ -60,7 +60,7 @@ TEST(TimeNode, Accuracy) {
   const double errors[] = {100, -100, 3};
   for (const double ppm : errors) bus.add(period * (1 + ppm * kPpm), ppm * 100 + 12'000);
   for (unsigned i = 0; i < 60; ++i) {
-    bus.pair(i);
+    bus.pair();
     bus.run((i + 1) * 10 * kMs);
   }
   for (unsigned n = 0; n < 3; ++n) {

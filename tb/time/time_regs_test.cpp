@@ -165,6 +165,28 @@ TEST_F(TimeRegs, ShiftRateSlew) {
   EXPECT_EQ(read(kTstat), 0u);
 }
 
+// TM-16: parts of a word are not written, and reading changes nothing.
+TEST_F(TimeRegs, PartsOfAWord) {
+  constexpr std::uint32_t kHeld = 1 << 17;
+  write(kTctrl, 0x00002031);  // CMPEN
+  const std::uint64_t launch = time() + 2000 * kTimeStep;
+  write(kTtx, static_cast<std::uint32_t>(launch));
+  write(kTtxmb, 0x80000005);
+  const std::uint64_t before = steered();
+  for (std::uint32_t address = kTimelo; address < 0x1148; address += 4) {
+    write_half(address, 0x12340000 | address);
+    write(0x1170, 0x3456);  // nothing is there
+    read(address);
+  }
+  EXPECT_EQ(steered(), before);
+  EXPECT_EQ(read(kTslew), 0u);
+  EXPECT_EQ(read(kTtxmb), 0x80000005u);
+  EXPECT_EQ(read(kTstat), kHeld);
+  while ((read(kTstat) & kHeld) != 0) rig_.run(1);
+  EXPECT_GE(time(), launch);
+  EXPECT_LT(time(), launch + 20 * kTimeStep);
+}
+
 // TM-30, TM-31: events at their times, output and interrupt.
 TEST_F(TimeRegs, CompareAndOutput) {
   write(kTctrl, 0x00023031);  // CMPIE, CMPEN, OUTEN
@@ -193,9 +215,13 @@ TEST_F(TimeRegs, CompareAndOutput) {
 // TM-32: the external event: time of the clock in which the second flip-flop has changed.
 TEST_F(TimeRegs, External) {
   write(kTctrl, 0x00010131);  // EXTIE, EXTR
-  const auto raise = [this] {
+  const std::uint64_t fresh = steered();
+  write(kTimelo, 0x12345678);
+  write(kTimehi, 0x9ABCDEF0);
+  rig_.run(10);
+  const auto raise = [this, base = steered() - fresh] {
     time_.node(0).external(true);
-    const std::uint64_t at = (time_.node(0).edges() + 2) * kTimeStep;
+    const std::uint64_t at = base + (time_.node(0).edges() + 2) * kTimeStep;
     rig_.run(10);
     time_.node(0).external(false);
     rig_.run(10);
@@ -209,7 +235,9 @@ TEST_F(TimeRegs, External) {
   raise();
   EXPECT_EQ(captured(), first);
   EXPECT_EQ(read(kTstat), 3u);
-  write(kTstat, 3);
+  write(kTstat, 1);
+  EXPECT_EQ(read(kTstat), 2u);
+  write(kTstat, 2);
   EXPECT_FALSE(time_.node(0).irq_time());
   const std::uint64_t third = raise();
   EXPECT_EQ(captured(), third);

@@ -185,6 +185,18 @@ TEST_F(CanClock, SlewIsExact) {
   EXPECT_EQ(wrong_, 0u);
 }
 
+// TM-15: the same at both ends of its range, and where the sign is not in the bit below.
+TEST_F(CanClock, SlewOfTheWholeRange) {
+  slewr(3);
+  constexpr std::uint32_t kValues[] = {0x40000000, 0x7FFFFFFF, 0x80000000, 0xBFFFFFFF};
+  for (const std::uint32_t value : kValues) {
+    clock(slew(static_cast<std::int32_t>(value)));
+    clocks(1000);
+    EXPECT_NE(rtl_->left_o, value);
+  }
+  EXPECT_EQ(wrong_, 0u);
+}
+
 // TM-15: 0 stops it, another value replaces it; with an increment below 2 ns no step is made.
 TEST_F(CanClock, SlewIsReplaced) {
   clock(slew(1000));

@@ -159,6 +159,17 @@ TEST(CanTimeSync, Disabled) {
   EXPECT_EQ(rig.state(), 0u);
 }
 
+// TM-101: a hard reset forgets a SYNC that waits. Behind it the counter is 0, too.
+TEST(CanTimeSync, HardReset) {
+  SyncRig rig{usual()};
+  rig.sync(0, 70, 1000);
+  rig.clocks(100);
+  rig.reset();
+  rig.fup(0, 0, 0);
+  EXPECT_FALSE(rig.settle());
+  EXPECT_EQ(rig.state(), 0u);
+}
+
 // TM-102: random pairs, all 64 bits, in time; TSOFS stays at its ends.
 TEST(CanTimeSync, OffsetExact) {
   std::mt19937_64 random{102};

@@ -54,6 +54,8 @@ class SyncRig {
     rtl_->delay_i = setting.delay_word();
     rtl_->inc_i = increment_;
   }
+  /// A hard reset; the settings stay.
+  void reset() { rtl_.reset(); }
   [[nodiscard]] const TimeSyncSetting &setting() const { return setting_; }
 
   /// One clock with these commands of the CPU.

@@ -40,7 +40,8 @@ std::uint64_t mixed(std::uint64_t digest, const void *data, std::size_t size) {
 
 ClockWorld::ClockWorld(ClockScene scene)
     : source{kBitrate, kEpoch},
-      other{"other", {.timing = {.prescaler = 1, .prop = 2, .ps1 = 3, .ps2 = 2, .sjw = 1}},
+      other{"other",
+            {.timing = {.prescaler = 1, .prop = 2, .ps1 = 3, .ps2 = 2, .sjw = 1}},
             {.frequency_hz = kNodeHz}},
       scene_{scene},
       dut_{new FlopNode{"node", kClock}},

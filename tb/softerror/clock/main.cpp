@@ -7,7 +7,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <stdexcept>
 
@@ -19,7 +21,7 @@ namespace {
 using namespace vericansim;
 using Json = nlohmann::ordered_json;
 
-constexpr unsigned kRounds = 4;    // flips of each flip-flop in each scene
+constexpr unsigned kRounds = 2;    // flips of each flip-flop in each scene
 constexpr unsigned kMoments = 16;  // at which they come, of each round
 
 struct SceneName {
@@ -28,7 +30,7 @@ struct SceneName {
 };
 constexpr SceneName kScenes[] = {{ClockScene::kTime, "time"}, {ClockScene::kLaunch, "launch"}};
 
-/// Figures of a scene.
+/// Figures of both scenes.
 struct Sum {
   unsigned flips = 0, bad = 0;
   unsigned hangs = 0, babbled = 0, late = 0, lost = 0, rewrite = 0, set_up = 0, gone = 0, seen = 0;
@@ -63,10 +65,10 @@ struct Sum {
   }
 
   void note(const char *scene, const ClockFlip &flip, const ClockOutcome &out) {
-    const char *what = hung(out)           ? "hangs"
-                       : out.babbled       ? "babbles"
-                       : out.lost          ? "the frame is not sent"
-                       : is_late(out)      ? "TIME stays wrong"
+    const char *what = hung(out)                       ? "hangs"
+                       : out.babbled                   ? "babbles"
+                       : out.lost                      ? "the frame is not sent"
+                       : is_late(out)                  ? "TIME stays wrong"
                        : out.cure == ClockCure::kSetUp ? "needs a soft reset"
                                                        : "registers written anew";
     notes.push_back(fmt::format("--scene {} --flop {} --at {}: {}; {} failed, {} pairs, {:.0f} ns",
@@ -75,34 +77,27 @@ struct Sum {
                                 out.worst_ns));
   }
 
-  [[nodiscard]] Json figures(const char *scene) const {
-    Json list = Json::array();
-    const auto figure = [&](const char *name, const Json &value) {
-      list.push_back(campaign_figure(fmt::format("{}: {}", scene, name).c_str(), value));
+  [[nodiscard]] Json result() const {
+    const auto none = [](const char *name, unsigned value) {
+      return campaign_figure(name, value, "0", value == 0);
     };
-    const auto none = [&](const char *name, unsigned value) {
-      list.push_back(campaign_figure(fmt::format("{}: {}", scene, name).c_str(), value, "0",
-                                     value == 0));
-    };
-    figure("flips", flips);
-    none("hangs", hangs);
-    none("babbling", babbled);
-    figure("no trace at all", gone);
-    figure("the CPU saw something else", seen);
-    figure("works once registers are written anew", rewrite);
-    figure("works behind a soft reset", set_up);
-    if (std::string{scene} == "time") {
-      figure("TIME wrong, told by the servo", told);
-      figure("TIME wrong, silently until the next pair", silent);
-      figure("pairs until right again, at most", pairs);
-      none("not right and locked after 11 pairs", late);
-    } else {
-      figure("frames too early", early);
-      figure("frames too late", behind);
-      figure("latest frame, ms", std::round(latest_ms));
-      none("frames not sent within 2.2 s", lost);
-    }
-    return list;
+    return {{"figures",
+             {campaign_figure("flip-flops flipped", unit_flops().size()),
+              campaign_figure("flips", flips), none("hangs", hangs), none("babbling", babbled),
+              campaign_figure("no trace at all", gone),
+              campaign_figure("the CPU saw something else", seen),
+              campaign_figure("works once registers are written anew", rewrite),
+              campaign_figure("works behind a soft reset", set_up),
+              campaign_figure("TIME wrong, told by the servo", told),
+              campaign_figure("TIME wrong, silently until the next pair", silent),
+              campaign_figure("pairs until right again, at most", pairs),
+              none("not right and locked after 11 pairs", late),
+              campaign_figure("launches too early", early),
+              campaign_figure("launches too late", behind),
+              campaign_figure("latest launch, ms", std::round(latest_ms)),
+              none("launches not within 2.2 s", lost)}},
+            {"tables", Json::array()},
+            {"notes", notes}};
   }
 };
 
@@ -137,52 +132,62 @@ unsigned number_of(const std::string &name) {
   throw std::invalid_argument("--flop " + name + ": there is no such flip-flop; --list names them");
 }
 
+struct Options {
+  CampaignSettings settings;
+  std::string flop, scene;
+  Time at = 0;
+  std::optional<int> stuck;
+  bool list = false;
+
+  void add_to(CLI::App &app) {
+    settings.add_to(app, "2 flips of every flip-flop in each scene");
+    app.add_option("--scene", scene, "Only this one")->check(CLI::IsMember({"time", "launch"}));
+    auto *one = app.add_option("--flop", flop, "Only this one, NAME[BIT]");
+    app.add_option("--at", at, "When, ps; default: at the first moment of the scene")->needs(one);
+    app.add_option("--stuck", stuck, "Not flipped: stuck at this level from then on")
+        ->check(CLI::Range(0, 1))
+        ->needs(one);
+    app.add_flag("--list", list, "Name the flip-flops");
+  }
+  [[nodiscard]] std::vector<ClockFlip> flips(ClockScene of) const {
+    if (flop.empty()) return plan(of, settings);
+    ClockFlip flip{number_of(flop), at != 0 ? at : window_of(of).begin, {}};
+    if (stuck) flip.stuck = *stuck != 0;
+    return {flip};
+  }
+};
+
+int list_flops() {
+  for (const unsigned n : unit_flops()) fmt::print("{}\n", FlopNode::flops()[n].name());
+  return 0;
+}
+
+int run(const Options &options) {
+  Sum sum;
+  for (const auto &[scene, name] : kScenes) {
+    if (!options.scene.empty() && options.scene != name) continue;
+    const std::vector<ClockFlip> flips = options.flips(scene);
+    const auto outcomes = run_flips(scene, flips, options.settings.jobs);
+    for (std::size_t n = 0; n < flips.size(); ++n) sum.add(name, flips[n], outcomes[n]);
+  }
+  const Json result = sum.result();
+  for (const Json &figure : result["figures"])
+    fmt::print("{}: {}\n", figure["name"].get<std::string>(), figure["value"].dump());
+  for (const std::string &note : sum.notes) fmt::print("{}\n", note);
+  if (!options.settings.json.empty())
+    std::ofstream{options.settings.json} << result.dump(1) << '\n';
+  return sum.bad == 0 ? 0 : 1;
+}
+
 }  // namespace
 
 int main(int argc, char **argv) {
   CLI::App app{"Soft errors of the time unit"};
   try {
-    CampaignSettings settings;
-    std::string flop, only;
-    Time at = 0;
-    int stuck = 0;
-    settings.add_to(app, "4 flips of every flip-flop in each scene");
-    app.add_option("--scene", only, "Only this one")->check(CLI::IsMember({"time", "launch"}));
-    auto *one = app.add_option("--flop", flop, "Only this one, NAME[BIT]");
-    app.add_option("--at", at, "When, ps; default: at the first moment of the scene")->needs(one);
-    auto *level = app.add_option("--stuck", stuck, "Not flipped: stuck at this level from then on")
-                      ->check(CLI::Range(0, 1))
-                      ->needs(one);
-    bool list = false;
-    app.add_flag("--list", list, "Name the flip-flops");
+    Options options;
+    options.add_to(app);
     CLI11_PARSE(app, argc, argv);
-    if (list) {
-      for (const unsigned n : unit_flops()) fmt::print("{}\n", FlopNode::flops()[n].name());
-      return 0;
-    }
-    Json figures = {campaign_figure("flip-flops flipped", unit_flops().size())};
-    Json notes = Json::array();
-    unsigned bad = 0;
-    for (const auto &[scene, name] : kScenes) {
-      if (!only.empty() && only != name) continue;
-      std::vector<ClockFlip> flips = plan(scene, settings);
-      if (!flop.empty()) {
-        flips = {{number_of(flop), at != 0 ? at : window_of(scene).begin, {}}};
-        if (level->count() != 0) flips[0].stuck = stuck != 0;
-      }
-      const std::vector<ClockOutcome> outcomes = run_flips(scene, flips, settings.jobs);
-      Sum sum;
-      for (std::size_t n = 0; n < flips.size(); ++n) sum.add(name, flips[n], outcomes[n]);
-      for (const Json &figure : sum.figures(name)) figures.push_back(figure);
-      for (const std::string &note : sum.notes) notes.push_back(note);
-      bad += sum.bad;
-    }
-    for (const Json &figure : figures)
-      fmt::print("{}: {}\n", figure["name"].get<std::string>(), figure["value"].dump());
-    for (const Json &note : notes) fmt::print("{}\n", note.get<std::string>());
-    const Json result = {{"figures", figures}, {"tables", Json::array()}, {"notes", notes}};
-    if (!settings.json.empty()) std::ofstream{settings.json} << result.dump(1) << '\n';
-    return bad == 0 ? 0 : 1;
+    return options.list ? list_flops() : run(options);
   } catch (const std::exception &error) {
     fmt::print(stderr, "softerror_clock: {}\n", error.what());
     return 2;

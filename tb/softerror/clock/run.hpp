@@ -45,9 +45,9 @@ struct ClockOutcome {
   unsigned pairs = 0;   ///< that came until it was right again, for good
   double worst_ns = 0;  ///< largest error
   // Scene launch.
-  bool lost = false;      ///< the frame was not sent within 2.2 s of a right increment
-  double early_ms = 0;    ///< it began to be sent before it should have
-  double late_ms = 0;     ///< or behind
+  bool lost = false;    ///< the frame was not sent within 2.2 s of a right increment
+  double early_ms = 0;  ///< it began to be sent before it should have
+  double late_ms = 0;   ///< or behind
 };
 
 /// Pairs until TIME is right again, at most: three that agree, and a filter's length (TM-141).

@@ -159,7 +159,6 @@ class UnitCheck {
            !world_.dut().irq_time();
   }
 
-
   ClockWorld &world_;
   std::function<void()> action_;
 };

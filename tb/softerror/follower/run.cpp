@@ -88,7 +88,7 @@ FollowerOutcome run_flip(const FollowerFlip &flip) {
   const double flipped_at = flipped ? static_cast<double>(flip.clock) * kPeriod * kFast : 0;
   unsigned behind = 0, quiet = 0;
   for (unsigned n = 0; n < kPairs && (n < kAtLeast || quiet < kQuiet); ++n) {
-    bus.pair(n);
+    bus.pair();
     bus.run((n + 1) * kInterval);
     if (n < kLocked || bus.now() < flipped_at) continue;
     ++behind;
