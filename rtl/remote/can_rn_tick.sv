@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_tick: a pulse every millisecond. A shift register with feedback instead of a counter: it
-// runs through ClocksPerMs of its 131,071 states in a circle, because some bits are turned where
-// the rest is cut out. Whatever state an upset has led to, it comes back to that circle (RN-103).
+// can_rn_tick: a pulse every millisecond. A shift register with feedback instead of a counter, of
+// as many bits as ClocksPerMs has: it runs through ClocksPerMs of its states in a circle, because
+// some bits are turned where the rest is cut out. Whatever state an upset has led to, it comes back
+// to that circle (RN-103).
 
 module can_rn_tick #(
   /// Clocks per millisecond, 8,000 to 131,071.
@@ -17,59 +18,71 @@ module can_rn_tick #(
     ClocksPerMs_must_be_8000_to_131071 u_stop ();
   end
 
-  // The states are the powers of x modulo x^17 + x^3 + 1, which is primitive.
-  function automatic logic [16:0] following(input logic [16:0] state);
-    following = {state[15:0], state[16]} ^ {13'd0, state[16], 3'd0};
+  // The states are the powers of x modulo a primitive polynomial, whose terms below the highest are
+  // here; of those with three or five terms the ones that suit round frequencies best.
+  localparam int Width  = $clog2(ClocksPerMs + 1);
+  localparam int States = 2**Width - 1;
+  localparam logic [16:0] Polynomial = Width == 13 ? 17'h0305    // x^9 + x^8 + x^2 + 1
+                                       : Width == 14 ? 17'h0C09  // x^11 + x^10 + x^3 + 1
+                                       : Width == 15 ? 17'h0003  // x + 1
+                                       : Width == 16 ? 17'h1043  // x^12 + x^6 + x + 1
+                                                     : 17'h0801; // x^11 + 1
+  localparam logic [Width-1:0] Terms = Width'(Polynomial);
+
+  function automatic logic [Width-1:0] following(input logic [Width-1:0] state);
+    following = {state[Width-2:0], 1'b0} ^ (Terms & {Width{state[Width-1]}});
   endfunction
-  function automatic logic [16:0] power(input logic [16:0] exponent);
-    logic [16:0] result, product;
-    result = 17'd1;
-    for (int i = 16; i >= 0; i--) begin        // square, multiply by x
+  function automatic logic [Width-1:0] power(input logic [Width-1:0] exponent);
+    logic [Width-1:0] result, product;
+    result = Width'(1);
+    for (int i = Width - 1; i >= 0; i--) begin        // square, multiply by x
       product = '0;
-      for (int k = 16; k >= 0; k--) begin
-        product = {product[15:0], product[16]} ^ {13'd0, product[16], 3'd0}
-                  ^ (result & {17{result[k]}});
+      for (int k = Width - 1; k >= 0; k--) begin
+        product = {product[Width-2:0], 1'b0} ^ (Terms & {Width{product[Width-1]}})
+                  ^ (result & {Width{result[k]}});
       end
-      result = exponent[i] ? {product[15:0], product[16]} ^ {13'd0, product[16], 3'd0} : product;
+      result = product;
+      if (exponent[i]) result = {result[Width-2:0], 1'b0} ^ (Terms & {Width{result[Width-1]}});
     end
     power = result;
   endfunction
 
   // The last state of the circle has a single 1, so that a look at the other bits finds that of all
-  // zeros, too, which no shift leaves. Where the 1 is, is free: the fewer bits are turned the
-  // better. The first state is the last one times x^(1 - ClocksPerMs).
-  function automatic logic [21:0] best_cut(input logic [16:0] back);   // place, turned bits
-    logic [16:0] first, behind;
-    logic [4:0]  ones, fewest;
+  // zeros, too, which no shift leaves. Where the 1 is, is free: the fewer bits have an input of
+  // their own the better. The first state is the last one times x^(1 - ClocksPerMs).
+  function automatic logic [Width+4:0] best_cut(input logic [Width-1:0] back);   // place, turned
+    logic [Width-1:0] first, behind, inputs;
+    logic [4:0]       ones, fewest;
     first    = back;
-    behind   = 17'd2;
+    behind   = Width'(2);
     fewest   = 5'd31;
     best_cut = '0;
-    for (int i = 0; i < 17; i++) begin
-      ones = 5'd0;
-      for (int k = 0; k < 17; k++) ones = ones + {4'd0, first[k] ^ behind[k]};
+    for (int i = 0; i < Width; i++) begin
+      inputs = (first ^ behind) | {Terms[Width-1:1], 1'b0};
+      ones   = 5'd0;
+      for (int k = 0; k < Width; k++) ones = ones + {4'd0, inputs[k]};
       best_cut = ones < fewest ? {5'(i), first ^ behind} : best_cut;
       fewest   = ones < fewest ? ones : fewest;
-      first    = {first[15:0], first[16]} ^ {13'd0, first[16], 3'd0};
-      behind   = {behind[15:0], behind[16]} ^ {13'd0, behind[16], 3'd0};
+      first    = {first[Width-2:0], 1'b0} ^ (Terms & {Width{first[Width-1]}});
+      behind   = {behind[Width-2:0], 1'b0} ^ (Terms & {Width{behind[Width-1]}});
     end
   endfunction
-  localparam logic [21:0] Cut   = best_cut(power(17'(131072 - ClocksPerMs)));
-  localparam logic [4:0]  Place = Cut[21:17];
-  localparam logic [16:0] Turn  = Cut[16:0];
-  localparam logic [16:0] First = Turn ^ following(17'd1 << Place);
-  // 131,071 states need no cut, but zeros have to be left.
-  localparam bit          Whole = ClocksPerMs == 131071;
+  localparam logic [Width+4:0] Cut   = best_cut(power(Width'(States + 1 - ClocksPerMs)));
+  localparam logic [Width-1:0] Lone  = Width'(1) << Cut[Width+4:Width];
+  localparam logic [Width-1:0] Turn  = Cut[Width-1:0];
+  localparam logic [Width-1:0] First = Turn ^ following(Lone);
+  // All states need no cut, but zeros have to be left.
+  localparam bit               Whole = ClocksPerMs == States;
 
-  logic [16:0] state_q;
-  logic        last;
-  assign last = !(|(state_q & ~(17'd1 << Place)));
+  logic [Width-1:0] state_q;
+  logic             last;
+  assign last = !(|(state_q & ~Lone));
   assign ms_o = last;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) state_q <= First;
-    else state_q <= following(state_q) ^ (Whole ? {16'd0, last && !state_q[Place]}
-                                                : Turn & {17{last}});
+    else state_q <= following(state_q) ^ (Whole ? Width'(last && !(|(state_q & Lone)))
+                                                : Turn & {Width{last}});
   end
 
 endmodule

@@ -5,14 +5,42 @@
 #include <gtest/gtest.h>
 
 #include "Vcan_rn_tick.h"
+#include "Vcan_rn_tick_100000.h"
+#include "Vcan_rn_tick_100000___024root.h"
+#include "Vcan_rn_tick_131071.h"
+#include "Vcan_rn_tick_131071___024root.h"
+#include "Vcan_rn_tick_16383.h"
+#include "Vcan_rn_tick_16383___024root.h"
+#include "Vcan_rn_tick_25000.h"
+#include "Vcan_rn_tick_25000___024root.h"
+#include "Vcan_rn_tick_48000.h"
+#include "Vcan_rn_tick_48000___024root.h"
+#include "Vcan_rn_tick_8192.h"
+#include "Vcan_rn_tick_8192___024root.h"
 #include "Vcan_rn_tick___024root.h"
 #include "unit/leaf_model.hpp"
 
 namespace vericansim {
 namespace {
 
-constexpr unsigned kClocksPerMs = 8000;  // the parameter's default
+/// A model, its flip-flops and its parameter.
+template <typename M, unsigned kBitsOfIt, unsigned kClocks>
+struct Tick {
+  using Model = M;
+  static constexpr unsigned kBits = kBitsOfIt;
+  static constexpr unsigned kClocksPerMs = kClocks;
+};
+/// Each number of flip-flops; 16,383 and 131,071 are all states of theirs.
+using Ticks =
+    testing::Types<Tick<Vcan_rn_tick, 13, 8'000>, Tick<Vcan_rn_tick_8192, 14, 8'192>,
+                   Tick<Vcan_rn_tick_16383, 14, 16'383>, Tick<Vcan_rn_tick_25000, 15, 25'000>,
+                   Tick<Vcan_rn_tick_48000, 16, 48'000>, Tick<Vcan_rn_tick_100000, 17, 100'000>,
+                   Tick<Vcan_rn_tick_131071, 17, 131'071>>;
 
+/// The shift register; its name begins with that of the module, not of the model.
+auto &state_of(auto &root) { return root.can_rn_tick__DOT__state_q; }
+
+template <typename T>
 class CanRnTick : public testing::Test {
  protected:
   CanRnTick() { tick_.reset(); }
@@ -25,29 +53,31 @@ class CanRnTick : public testing::Test {
     }
     return 0;
   }
-  LeafModel<Vcan_rn_tick> tick_;
+  LeafModel<typename T::Model> tick_;
 };
+TYPED_TEST_SUITE(CanRnTick, Ticks);
 
-TEST_F(CanRnTick, EveryMillisecondHasItsClocks) {
-  const unsigned first = to_pulse();
-  EXPECT_GE(first, kClocksPerMs - 1);  // a clock may be part of the reset
-  EXPECT_LE(first, kClocksPerMs);
-  for (int i = 0; i < 20; ++i) EXPECT_EQ(to_pulse(), kClocksPerMs);
+TYPED_TEST(CanRnTick, EveryMillisecondHasItsClocks) {
+  const unsigned first = this->to_pulse();
+  EXPECT_GE(first, TypeParam::kClocksPerMs - 1);  // a clock may be part of the reset
+  EXPECT_LE(first, TypeParam::kClocksPerMs);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(this->to_pulse(), TypeParam::kClocksPerMs);
 }
 
 // An upset may lead to any state, that of all zeros included, which may end a millisecond at once;
 // the time goes on, after one that lasts no longer than all states.
-TEST_F(CanRnTick, NoStateStopsTheTime) {
-  for (unsigned bit = 0; bit < 18; ++bit) {
-    auto &state = tick_.root().can_rn_tick__DOT__state_q;
-    state = bit == 17 ? 0 : state ^ 1U << bit;
-    tick_.settle();
+TYPED_TEST(CanRnTick, NoStateStopsTheTime) {
+  constexpr unsigned kStates = (1U << TypeParam::kBits) - 1;
+  for (unsigned bit = 0; bit <= TypeParam::kBits; ++bit) {
+    auto &state = state_of(this->tick_.root());
+    state = bit == TypeParam::kBits ? 0 : state ^ 1U << bit;
+    this->tick_.settle();
     for (int i = 0; i < 2; ++i) {
-      const unsigned clocks = to_pulse();
+      const unsigned clocks = this->to_pulse();
       EXPECT_GE(clocks, 1U) << bit;
-      EXPECT_LE(clocks, 131'071U) << bit;
+      EXPECT_LE(clocks, kStates) << bit;
     }
-    EXPECT_EQ(to_pulse(), kClocksPerMs) << bit;
+    EXPECT_EQ(this->to_pulse(), TypeParam::kClocksPerMs) << bit;
   }
 }
 
