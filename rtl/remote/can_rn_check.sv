@@ -48,7 +48,7 @@ module can_rn_check #(
   input  logic                denied_i,       // protected
   // Kind of request, while its code is 0
   output logic                write_o,
-  output logic                read_o,
+  output logic                read_o,         // a clock later than the others
   output logic                trigger_o,
   output logic                select_o,
   output logic                assign_o,
@@ -61,7 +61,7 @@ module can_rn_check #(
   output logic                crosses_o,      // it ends in the next block of eight bytes
   output logic [3:0]          code_o          // registered
 );
-  logic near, is_write, none, make;
+  logic near, is_write, none, make, read, read_q;
   assign make      = Block && make_i;
   assign near      = !sys_i && !port_i;
   assign far_o     = port_i && !(|a_i[2:1]);
@@ -70,7 +70,12 @@ module can_rn_check #(
   assign data_o    = Block && port_i && a_i[2:0] == 3'd3;
   assign is_write  = (far_o && a_i[0]) || (data_o && !make);
   assign write_o   = is_write || (near && !rtr_i && !(mapped_i && none));
-  assign read_o    = (far_o && !a_i[0]) || (near && rtr_i) || info_o || make;
+  assign read      = (far_o && !a_i[0]) || (near && rtr_i) || info_o || make;
+  assign read_o    = read_q;            // what is moved, where to: known long before it moves
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) read_q <= 1'b0;
+    else         read_q <= read;
+  end
   assign setup_o   = port_i && a_i[2:1] == 2'd2;
   assign state_o   = sys_i && !(|a_i[2:0]);
   assign trigger_o = sys_i && a_i[1:0] == 2'd1;

@@ -66,8 +66,9 @@ module can_rn_head #(
   output logic                mismatch_o      // serial number or number is another
 );
   logic                hdr_q, byte_q, live_q;
-  logic [1:0]          class_q;
+  logic [1:0]          class_q, class_d;
   logic [AddrBits-1:0] a_q;
+  logic                port_q;   // A is a port; as a decode it would be late where bytes move
   logic                bad_q, high_q, mismatch_q;
   logic [4:0]          op_q;
 
@@ -98,6 +99,9 @@ module can_rn_head #(
     assign id_o = {who_q, a_q};
   end
 
+  assign class_d = {low && !id_i[10],
+                    low ? name[0] && !search_o : id_i[10] && (own || NumMap == 0)};
+
   assign hdr_o  = hdr_q;
   assign byte_o = byte_q || (byte_we_i && live_q);
   assign live_o = live_q;
@@ -105,7 +109,7 @@ module can_rn_head #(
   assign all_o  = class_q == ClassAll;
   assign dup_o  = class_q == ClassDup;
   assign a_o    = a_q;
-  assign port_o = !sys_o && (&a_q[AddrBits-1:3]);
+  assign port_o = port_q;
 
   // Bytes
   logic state, select, setup, get, top, first, second, third, key_byte;
@@ -166,19 +170,23 @@ module can_rn_head #(
     if (!rst_ni) begin
       class_q <= ClassOwn;
       a_q     <= '0;
+      port_q  <= 1'b0;
     end else if (entry && !phase_i[0]) begin
       // Beyond the window and the ports there is nothing to ask for.
       class_q <= {|read_i[7:AddrBits], 1'b0};
       a_q     <= read_i[AddrBits-1:0];
+      port_q  <= (&read_i[AddrBits-1:3]) && !(|read_i[7:AddrBits]);
     end else if (make_i && job_i == can_rn_pkg::JobFetch) begin
       class_q <= ClassOwn;
       a_q     <= {{AddrBits-3{1'b1}}, 2'b01, !answer_i};
+      port_q  <= 1'b1;
     end else if (take_i) begin
-      class_q <= {low && !id_i[10],
-                  low ? name[0] && !search_o : id_i[10] && (own || NumMap == 0)};
+      class_q <= class_d;
       a_q     <= id_i[AddrBits-1:0];
+      port_q  <= (&id_i[AddrBits-1:3]) && class_d != ClassSys;
     end else if (hit_i) begin
-      a_q <= a_q & ~mask_i[AddrBits-1:0];   // is added to the address
+      a_q    <= a_q & ~mask_i[AddrBits-1:0];   // is added to the address
+      port_q <= port_q && !(|mask_i[AddrBits-1:3]);
     end
   end
 

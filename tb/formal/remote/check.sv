@@ -19,7 +19,10 @@
 
   logic f_write, f_read;
   assign f_write = write_o && !bad_function;
-  assign f_read  = read_o && !bad_function && !info_o;
+  assign f_read  = read && !bad_function && !info_o;
+  // READ, STATUS, IDENT, a direct remote frame.
+  logic f_asks;
+  assign f_asks = sys_i ? 1'b0 : port_i ? a_i[2:0] == 3'd0 || a_i[2:1] == 2'd3 : rtr_i;
 
   always @(posedge clk_i) begin
     m_no_reset: assume (rst_ni);
@@ -56,6 +59,8 @@
       p_denied: assert (code_o != can_rn_pkg::CodeOk || !$past(denied_i));
       // RN-102 P-3, RN-54: a read for which there is no room is refused.
       p_room: assert (code_o != can_rn_pkg::CodeOk || !$past(read_o && full_i));
+      // RN-21, RN-22: what is a read, told a clock later.
+      p_asks: assert (read_o == $past(f_asks));
       // RN-30, RN-32: a remote frame asks for memory, STATUS or IDENT alone.
       p_remote: assert (code_o != can_rn_pkg::CodeOk || !$past(rtr_i) || $past(near || info_o));
       // RN-61: UNLOCK needs the key, and a node that is not in OPERATE or locked until reset.

@@ -14,7 +14,7 @@
   assign f_last    = f_first + {9'd0, end_i} - 13'd3;   // the row begins with the address
   assign f_inside  = f_first >= 13'hFC0 && f_last < 13'hFD0;
   assign f_touches = f_first < 13'hFD0 && f_last >= 13'hFC0;
-  assign f_read    = f_far && read_o;
+  assign f_read    = f_far && read;
   assign f_write   = f_far && write_o;
 
   always @(posedge clk_i) begin
