@@ -160,7 +160,7 @@ module can_remote #(
   logic [3:0]  place, row, row_end;
   logic        ended, staged, cleared, zero, one;
   logic [8:0]  cell_addr;
-  logic [1:0]  lane;
+  logic [1:0]  lane, cell_lane;
   logic [31:0] rdata;
   logic [7:0]  read_byte, next_byte, wbyte, status;
   // Queue
@@ -343,7 +343,7 @@ module can_remote #(
     .tail_i(tail), .head_i(head), .age_i(age),
     .header_i(head_byte), .at_i(at), .timer_i(timer), .new_tries_i(new_tries), .zero_i(zero),
     .one_i(one),
-    .cell_o(cell_addr), .we_o(cell_we)
+    .cell_o(cell_addr), .lane_o(cell_lane), .we_o(cell_we)
   );
 
   can_rn_data #(
@@ -369,12 +369,14 @@ module can_remote #(
   // Who names the byte that is meant: 0 from all others, so that an OR is enough. Where two name
   // one, that of can_rn_cell is not meant.
   logic own;
-  assign own = cell_own || tally_own || block_own;
+  logic [8:0] others;
+  assign own    = cell_own || tally_own || block_own;
+  assign others = guard_cell | map_cell | own_cell | (tally_cell & {9{tally_own}})
+                  | (block_cell & {9{block_own}});
   can_rn_port #(.MemBytes(MemBytes), .InitFile(InitFile)) u_port (
     .clk_i, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger || acts),
-    .same_i(same && !phase[0]), .cell_i((cell_addr & {9{!own}}) | guard_cell | map_cell | own_cell
-                                        | (tally_cell & {9{tally_own}})
-                                        | (block_cell & {9{block_own}})),
+    .same_i(same && !phase[0]), .cell_i((cell_addr & {9{!own}}) | others),
+    .lane_i((cell_lane & {2{!own}}) | others[1:0]),
     .we_i((cell_we && !no_write && !tally_no_write && !block_no_write && !guard
            && !(Filled && job == can_rn_pkg::JobClear)) || map_we || block_we),
     .wide_i(wide),
