@@ -20,6 +20,7 @@ ROOT = Path(__file__).resolve().parent.parent
 JOBS = 2
 RECENT = 20   # commits whose sources are in every sample
 PART = 8      # one in so many of the other sources
+PRECOMPILED = re.compile(r" -include \S*/cmake_pch\.hxx")  # by the compiler, for itself alone
 INCLUDE = re.compile(rb'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 FINDING = re.compile(r": (error|warning):")
 
@@ -94,9 +95,15 @@ def make_models(build):
         output_of("ninja", "-C", str(build), *models)
 
 
-def tidy(build, name):
-    """The findings in one source, None if it is clean."""
-    run = subprocess.run(("clang-tidy", "--quiet", "-p", str(build), name), cwd=ROOT,
+def write_commands(commands, folder):
+    """How each source is compiled, for clang-tidy."""
+    text = PRECOMPILED.sub("", json.dumps(commands))
+    (folder / "compile_commands.json").write_text(text)
+
+
+def tidy(folder, name):
+    """The findings in one source, None if it is clean; `folder` has the commands."""
+    run = subprocess.run(("clang-tidy", "--quiet", "-p", str(folder), name), cwd=ROOT,
                          capture_output=True, text=True, check=False)
     if run.returncode == 0:
         return None
@@ -124,9 +131,10 @@ def main():
     if not todo:
         return 0
     make_models(build)
+    write_commands(commands, stamps)
     failures = 0
     with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
-        for name, finding in zip(todo, pool.map(lambda name: tidy(build, name), todo)):
+        for name, finding in zip(todo, pool.map(lambda name: tidy(stamps, name), todo)):
             if finding is None:
                 (stamps / keys[name]).touch()
             else:
