@@ -56,7 +56,7 @@ void pairs() {
   FollowerBus<RecordedFollower> bus{8 * kPeriod, 1'700'000'000'999'000'000};
   bus.add(kPeriod * (1 - 60e-6), 12'345);
   for (unsigned n = 0; n < 15; ++n) {
-    bus.pair(n);
+    bus.pair();
     bus.run((n + 1) * kInterval);
   }
   if (bus.node(0).state() != 2) throw std::runtime_error("recording: not locked");
