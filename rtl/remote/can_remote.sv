@@ -98,8 +98,8 @@ module can_remote #(
   output logic                safe_o,         // 0 in OPERATE only
   output logic [1:0]          state_o,
   // Clock
-  input  logic                time_take_i,    // the time of this clock, please:
-  output logic [63:0]         time_o,         // ns, from two clocks behind it until the next one
+  input  logic                time_take_i,    // pulse: TIME of this clock is taken
+  output logic [63:0]         time_o,         // ns, good from two clocks behind it
   output logic [1:0]          time_state_o,   // TSSTAT.STATE
   output logic                pps_o,          // from the first pair on
   // Pins and observers

@@ -5,8 +5,6 @@
 // ClockBus, with a host that is the master of time.
 #pragma once
 
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,13 +14,12 @@
 #include "Vcan_remote_clock.h"
 #include "bus/bus.hpp"
 #include "bus/observer.hpp"
-#include "model/frame_codec.hpp"
 #include "model/remote_model.hpp"
 #include "node/core_node.hpp"
 #include "node/model_edge.hpp"
 #include "node/user_access.hpp"
 #include "remote/unit_bus.hpp"
-#include "time/stamp_rule.hpp"
+#include "time/tsyn_frames.hpp"
 #include "verilated.h"
 
 namespace vericansim {
@@ -75,7 +72,6 @@ class ClockedRemote : public Node {
   [[nodiscard]] std::uint64_t taken() const { return top_.time_o; }
   [[nodiscard]] unsigned time_state() const { return top_.time_state_o; }
   [[nodiscard]] RemoteState state() const { return static_cast<RemoteState>(top_.state_o); }
-  [[nodiscard]] Vcan_remote_clock &model() { return top_; }
 
   std::vector<Time> pulses;   ///< rising edges of pps_o
   std::vector<Time> applied;  ///< pulses of apply_o
@@ -138,16 +134,11 @@ class ClockBus {
     return start_.start;
   }
   /// SYNC, and FUP behind it; FUP is over 360 bits later.
-  void pair(unsigned sc) {
-    const std::uint64_t second = 1'000'000'000;
-    const std::uint64_t now = kEpoch + bus.now() / 1000;
-    const Frame sync = message(0x10, sc, 0, static_cast<std::uint32_t>(now / second));
+  void pair() {
+    const Frame sync = at_sync_id(pairs_.sync(kEpoch + bus.now() / 1000));
     const Time began = send(sync);
-    const EncodedFrame encoded = encode_frame(sync, {.ack_slot = Level::kRecessive});
-    const Time edge = began + static_cast<Time>(reference_bit(encoded.bits)) * kBit;
-    const std::uint64_t t4 = kEpoch + edge / 1000 - now / second * second;
-    (void)send(message(0x18, sc, static_cast<unsigned>(t4 / second),
-                       static_cast<std::uint32_t>(t4 % second)));
+    const auto reference = static_cast<Time>(reference_bit(encode_unacknowledged(sync).bits));
+    (void)send(at_sync_id(pairs_.follow_up(kEpoch + (began + reference * kBit) / 1000)));
   }
   /// Runs until `until`.
   void run(Time until) { bus.run_until(until); }
@@ -175,14 +166,11 @@ class ClockBus {
   Bus bus;
 
  private:
-  static Frame message(unsigned type, unsigned sc, unsigned byte3, std::uint32_t word) {
-    Frame frame{.id = kSyncId, .dlc = 8};
-    frame.data = {static_cast<std::uint8_t>(type),       0,
-                  static_cast<std::uint8_t>(sc % 16),    static_cast<std::uint8_t>(byte3),
-                  static_cast<std::uint8_t>(word >> 24), static_cast<std::uint8_t>(word >> 16),
-                  static_cast<std::uint8_t>(word >> 8),  static_cast<std::uint8_t>(word)};
+  static Frame at_sync_id(Frame frame) {
+    frame.id = kSyncId;
     return frame;
   }
+  TsynPairs pairs_;
   FrameStart start_;
 };
 
