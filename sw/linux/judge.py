@@ -6,6 +6,7 @@ import re
 from collections import Counter
 
 import frames
+import kernel_log
 
 
 class Failed(Exception):
@@ -100,10 +101,10 @@ def common(run):
     bad = [line for line in console.splitlines() if "FAILED" in line]
     expect(bad, [], "the guest complains")
     expect_true(f"end of {run.settings['VERICAN_SCRIPTS']}" in console, "the guest did not finish")
-    pattern = re.compile(r"WARNING|BUG|Call Trace|timed out|flexcan.*(fail|error|timeout)", re.I)
+    found = kernel_log.complaints(run.text("dmesg.txt"),
+                                  r"\bwarning\b|\bbug\b|timed out|flexcan.*(fail|error|timeout)")
     # What the J1939 stack says of transfers is for the judges of these.
-    expect([line for line in run.text("dmesg.txt").splitlines()
-            if pattern.search(line) and "j1939_" not in line], [], "messages of the kernel")
+    expect([line for line in found if "j1939_" not in line], [], "messages of the kernel")
     for path in run.dir.glob("*-bus.txt"):
         expect(run.bus(path.name[:-8])["bus"]["access_errors"], 0, f"{path.name}: bus errors")
 
