@@ -11,8 +11,8 @@
 
 #include "bus/trace.hpp"
 #include "bus/types.hpp"
+#include "node/engine_time.hpp"
 #include "node/model_edge.hpp"
-#include "node/time_rest.hpp"
 
 namespace vericansim {
 
@@ -25,7 +25,7 @@ namespace vericansim {
 /// which pass() does. Proven bit by bit in tb/system/bus_rest_test.cpp, member by member in
 /// bus_quiet_engine_test.cpp.
 ///
-/// An engine with the time unit is quiet while that one only counts, too (TimeRest).
+/// An engine with the time unit is quiet while that one only counts, too (TimedEngine).
 ///
 /// Needs the members that Verilator 5.006 gives the model; without them nothing is ever quiet.
 class QuietEngine {
@@ -49,7 +49,7 @@ class QuietEngine {
   template <typename Engine>
   [[nodiscard]] std::uint64_t edges(const Engine &engine, bool watched) const {
     const std::uint64_t counting =
-        pin_settled(engine) ? std::min(counting_(engine), TimeRest::edges(engine)) : 0;
+        pin_settled(engine) ? std::min(counting_(engine), edges_of_time(engine)) : 0;
     return watched && counting != 0 ? counting - 1 : counting;
   }
 
@@ -63,7 +63,7 @@ class QuietEngine {
   template <typename Engine>
   [[nodiscard]] bool counts(const Engine &engine) const {
     return to_settle_ == 0 && engine.rx_req_i == 0 && counting_(engine) != 0 &&
-           TimeRest::edges(engine) != 0;
+           edges_of_time(engine) != 0;
   }
   /// Does that one, with `rx` at the pin.
   template <typename Engine>
@@ -223,7 +223,7 @@ class QuietEngine {
   static void count(Engine &engine, std::uint64_t edges) {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       auto &root = *engine.rootp;
-      TimeRest::pass(root, edges);
+      pass_time(engine, edges);
       forget_sample(root);
       if (root.can_core__DOT__active_q == 0) return;
       const Place place = place_of(engine);

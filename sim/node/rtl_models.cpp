@@ -5,8 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "Vcan_core_time.h"
-#include "Vcan_core_time___024root.h"
 #include "Vcan_host16.h"
 #include "Vcan_host16___024root.h"
 #include "Vcan_host32.h"
@@ -16,6 +14,7 @@
 #include "Vcan_host64_time.h"
 #include "Vcan_host64_time___024root.h"
 #include "node/rtl_node_of.hpp"
+#include "node/timed_engine.hpp"
 
 namespace vericansim {
 
@@ -32,7 +31,7 @@ std::unique_ptr<RtlNode> RtlNode::create(std::string name, const ClockConfig &cl
 }
 
 std::unique_ptr<RtlNode> RtlNode::create_with_time(std::string name, const ClockConfig &clock) {
-  return std::make_unique<RtlNodeOf<Vcan_host64_time, AhbTimePorts, Vcan_core_time>>(
+  return std::make_unique<RtlNodeOf<Vcan_host64_time, AhbTimePorts, TimedEngine>>(
       std::move(name), clock, 64U);
 }
 

@@ -85,12 +85,12 @@ class RtlNodeOf final : public RtlNode {
   [[nodiscard]] std::uint64_t skip_most() const override {
     if constexpr (!kHasTimeUnit<Engine>) return ~0ULL;
     if (ahb().active() || !core_.resting()) return 0;
-    return std::min({TimeRest::edges(core_.engine()), edges_to_waiter(), core_.rest()});
+    return std::min({edges_of_time(core_.engine()), edges_to_waiter(), core_.rest()});
   }
 
   void skipped(std::uint64_t edges) override {
     if constexpr (kHasTimeUnit<Engine>) {
-      TimeRest::pass(*core_.engine().rootp, edges);
+      core_.engine().pass_time(edges);
       core_.engine().timer_o += static_cast<std::uint16_t>(edges / skip_period());
       core_.pass(edges);
       passed(edges);
@@ -127,7 +127,7 @@ class RtlNodeOf final : public RtlNode {
   [[nodiscard]] std::uint64_t time_of_clock() const override {
     if constexpr (kHasTimeUnit<Engine>) {
       catch_up();
-      return TimeRest::time(*core_.engine().rootp);
+      return core_.engine().time();
     } else {
       return RtlNode::time_of_clock();
     }

@@ -15,6 +15,7 @@
 #include "Vcan_core___024root.h"
 #include "core_ports.hpp"
 #include "node/byte_store.hpp"
+#include "node/engine_time.hpp"
 #include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "node/transmit_scan.hpp"
@@ -133,18 +134,21 @@ class SplitCore {
 
   /// Everything that the two models remember.
   struct State {
-    std::unique_ptr<unsigned char[]> engine, host;
+    std::unique_ptr<unsigned char[]> engine, host, unit;
     std::uint64_t rest;
     bool resting, host_settled, engine_settled;
   };
   [[nodiscard]] State save() {
     catch_up();
-    return {copy_of(*engine_.rootp), copy_of(*host_.rootp), rest_, resting_,
+    std::unique_ptr<unsigned char[]> unit;
+    if constexpr (kHasTimeUnit<Engine>) unit = engine_.save_unit();
+    return {copy_of(*engine_.rootp), copy_of(*host_.rootp), std::move(unit), rest_, resting_,
             host_settled_,           engine_settled_};
   }
   void restore(const State &state) {
     std::memcpy(static_cast<void *>(engine_.rootp), state.engine.get(), sizeof(*engine_.rootp));
     std::memcpy(static_cast<void *>(host_.rootp), state.host.get(), sizeof(Root));
+    if constexpr (kHasTimeUnit<Engine>) engine_.restore_unit(state.unit.get());
     rest_ = state.rest;
     behind_ = 0;
     storing_ = stored_ = false;

@@ -20,42 +20,20 @@
 namespace vericansim {
 namespace {
 
-// What follows the lower half some clocks later follows it in these edges, which are evaluated.
-constexpr std::uint64_t kEvaluated = TimeFlops::kMargin;
-
-// The members that the model of can_time has in its root, if Verilator (5.006) left them there.
-#define VERICAN_TIME(root, member) \
-  (root).can_ahb__DOT__u_top__DOT__u_core__DOT__gen_time__DOT__u_time__DOT__##member
-#define VERICAN_FLOPS(root) \
-  VERICAN_TIME_FLOPS(root, can_ahb__DOT__u_top__DOT__u_core__DOT__gen_time__DOT__u_time)
+// The clock in the model's root, if Verilator (5.006) left its members there.
+#define VERICAN_FLOPS(root)                                                              \
+  VERICAN_TIME_FLOPS(root, can_ahb__DOT__u_top__DOT__u_core__DOT__gen_time__DOT__u_time, \
+                     can_ahb__DOT__u_top__DOT__time_left)
 
 template <typename Root>
 constexpr bool kKnown = !kPlainEdges && requires(Root & root) {
   VERICAN_FLOPS(root);
-  root.can_ahb__DOT__u_top__DOT__time_left;
-  VERICAN_TIME(root, held);
-  VERICAN_TIME(root, u_clock__DOT__bit_q);
-  VERICAN_TIME(root, u_clock__DOT__slew_bit);
-  VERICAN_TIME(root, u_clock__DOT__changed_q);
-  VERICAN_TIME(root, lo_q);
-  VERICAN_TIME(root, now);
-  VERICAN_TIME(root, u_cmp__DOT__to_target);
-  VERICAN_TIME(root, u_cmp__DOT__reached_q);
-  VERICAN_TIME(root, u_cmp__DOT__due_q);
 };
 
 // Nothing but TIME is different; `before` is spoilt.
 template <typename Root>
 bool only_time_moved(Root &before, Root &now) {
-  VERICAN_FLOPS(before).set(VERICAN_FLOPS(now).clock());
-  VERICAN_TIME(before, u_clock__DOT__bit_q) = VERICAN_TIME(now, u_clock__DOT__bit_q);
-  VERICAN_TIME(before, u_clock__DOT__slew_bit) = VERICAN_TIME(now, u_clock__DOT__slew_bit);
-  VERICAN_TIME(before, u_clock__DOT__changed_q) = VERICAN_TIME(now, u_clock__DOT__changed_q);
-  VERICAN_TIME(before, lo_q) = VERICAN_TIME(now, lo_q);
-  VERICAN_TIME(before, now) = VERICAN_TIME(now, now);
-  VERICAN_TIME(before, u_cmp__DOT__to_target) = VERICAN_TIME(now, u_cmp__DOT__to_target);
-  VERICAN_TIME(before, u_cmp__DOT__reached_q) = VERICAN_TIME(now, u_cmp__DOT__reached_q);
-  VERICAN_TIME(before, u_cmp__DOT__due_q) = VERICAN_TIME(now, u_cmp__DOT__due_q);
+  VERICAN_FLOPS(before).copy_moving(VERICAN_FLOPS(now));
   return std::memcmp(static_cast<const void *>(&before), static_cast<const void *>(&now),
                      sizeof(Root)) == 0;
 }
@@ -155,9 +133,8 @@ void TimeNode::watch_rest() {
 std::uint64_t TimeNode::quiet() const {
   if (!still_ || ahb().active()) return 0;
   if constexpr (kKnown<Impl::Root>) {
-    auto &root = *impl_->top.rootp;
-    if (root.can_ahb__DOT__u_top__DOT__time_left != 0 || VERICAN_TIME(root, held) != 0) return 0;
-    return std::min(VERICAN_FLOPS(root).clocks_before_compare(), edges_to_waiter());
+    const TimeFlops flops = VERICAN_FLOPS(*impl_->top.rootp);
+    return flops.held != 0 ? 0 : std::min(flops.clocks_before_compare(), edges_to_waiter());
   } else {
     return 0;
   }
@@ -166,14 +143,11 @@ std::uint64_t TimeNode::quiet() const {
 void TimeNode::pass(std::uint64_t edges) {
   passed(edges);
   if constexpr (kKnown<Impl::Root>) {
-    if (edges > kEvaluated) {
-      const TimeFlops flops = VERICAN_FLOPS(*impl_->top.rootp);
-      const std::uint64_t leap = edges - kEvaluated;
-      ClockLeap clock = flops.clock();
-      clock.pass(leap, flops.increment());
-      flops.set(clock);
+    if (edges > TimeFlops::kFollow) {
+      const std::uint64_t leap = edges - TimeFlops::kFollow;
+      VERICAN_FLOPS(*impl_->top.rootp).leap(leap);
       edges_ += leap;
-      edges = kEvaluated;
+      edges = TimeFlops::kFollow;
     }
   }
   for (; edges > 0; --edges) edge();

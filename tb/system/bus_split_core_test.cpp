@@ -17,8 +17,6 @@
 #include "Vcan_ahb64___024root.h"
 #include "Vcan_ahb_time.h"
 #include "Vcan_ahb_time___024root.h"
-#include "Vcan_core_time.h"
-#include "Vcan_core_time___024root.h"
 #include "Vcan_host64.h"
 #include "Vcan_host64___024root.h"
 #include "Vcan_host64_time.h"
@@ -29,7 +27,7 @@
 #include "node/host.hpp"
 #include "node/model_pins.hpp"
 #include "node/rtl_node.hpp"
-#include "node/time_rest.hpp"
+#include "node/timed_engine.hpp"
 #include "verican/verican_regs.h"
 
 namespace vericansim {
@@ -143,8 +141,7 @@ class Twins : public RtlNode {
 };
 
 using TwinNode = Twins<Vcan_ahb64, SplitCore<Vcan_host64>>;
-using TimeTwinNode =
-    Twins<Vcan_ahb_time, SplitCore<Vcan_host64_time, AhbTimePorts, Vcan_core_time>>;
+using TimeTwinNode = Twins<Vcan_ahb_time, SplitCore<Vcan_host64_time, AhbTimePorts, TimedEngine>>;
 
 Frame random_frame(std::mt19937 &random, std::uint32_t top) {
   Frame f{.id = static_cast<std::uint32_t>(top << 8 | (random() & 0xFF)),

@@ -14,8 +14,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "Vcan_core_time.h"
-#include "Vcan_core_time___024root.h"
 #include "Vcan_host16.h"
 #include "Vcan_host16___024root.h"
 #include "Vcan_host32.h"
@@ -32,6 +30,7 @@
 #include "node/model_pins.hpp"
 #include "node/rtl_node.hpp"
 #include "node/split_core.hpp"
+#include "node/timed_engine.hpp"
 
 namespace vericansim {
 namespace {
@@ -210,7 +209,7 @@ TEST_P(TransmitScanTest, SameMembersWith16Buffers) { run<Vcan_host16>(GetParam()
 TEST_P(TransmitScanTest, SameMembersWith32Buffers) { run<Vcan_host32>(GetParam(), 32); }
 TEST_P(TransmitScanTest, SameMembersWith64Buffers) { run<Vcan_host64>(GetParam(), 64); }
 TEST_P(TransmitScanTest, SameMembersWithTheTimeUnit) {
-  run<Vcan_host64_time, AhbTimePorts, Vcan_core_time>(GetParam(), 64);
+  run<Vcan_host64_time, AhbTimePorts, TimedEngine>(GetParam(), 64);
 }
 
 TEST_P(TransmitScanTest, SameBuffersWithBytesLeftOut) { run<Vcan_host32>(GetParam(), 32, true); }
