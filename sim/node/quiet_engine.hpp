@@ -68,7 +68,19 @@ class QuietEngine {
   /// Does that one, with `rx` at the pin.
   template <typename Engine>
   void clock_lightly(Engine &engine, Level rx) {
-    clock_lightly_(engine, rx);
+    clock_lightly_(engine, rx, false);
+  }
+
+  /// The next edge begins a bit, within a frame, for which a receiver stays recessive: nothing but
+  /// the place in the bit moves. The edge after it judges the new bit and is to be evaluated.
+  template <typename Engine>
+  [[nodiscard]] bool crosses_boundary(const Engine &engine) const {
+    return to_settle_ == kSettle && edges_of_time(engine) != 0 && crosses_boundary_(engine);
+  }
+  /// Does that one, with `rx` at the pin.
+  template <typename Engine>
+  void cross_boundary(Engine &engine, Level rx) {
+    clock_lightly_(engine, rx, true);
   }
 
  private:
@@ -82,11 +94,14 @@ class QuietEngine {
   static constexpr bool kKnown = !kPlainEdges && requires(Root & root) {
     root.can_core__DOT__tq;
     root.can_core__DOT__active_q;
+    root.can_core__DOT__first_q;
+    root.can_core__DOT__tx_q;
     root.can_core__DOT__u_sync__DOT__meta_q;
     root.can_core__DOT__u_sync__DOT__settled_q;
     root.can_core__DOT__u_tq_gen__DOT__gen_divide__DOT__count_q;
     root.can_core__DOT__u_bit_timing__DOT__seg2_q;
     root.can_core__DOT__u_bit_timing__DOT__pos_q;
+    root.can_core__DOT__u_bit_timing__DOT__hard_q;
     root.can_core__DOT__u_bit_timing__DOT__prev_q;
     root.can_core__DOT__u_bit_timing__DOT__tseg1_q;
     root.can_core__DOT__u_bit_timing__DOT__ahead;
@@ -121,16 +136,40 @@ class QuietEngine {
   // The edge after this one clears nothing but the mark of the sample point.
   template <typename Engine>
   static bool quiet_sample(const Engine &engine) {
+    return engine.rootp->can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q != 0 && !pulses(engine);
+  }
+
+  // Something is to be cleared again.
+  template <typename Engine>
+  static bool pulses(const Engine &engine) {
     const auto &root = *engine.rootp;
-    const unsigned pulses = engine.tx_next_o | engine.stamp_o | engine.rx_hdr_o |
+    const unsigned levels = engine.tx_next_o | engine.stamp_o | engine.rx_hdr_o |
                             engine.rx_byte_we_o |
                             root.can_core__DOT__u_bsp__DOT__u_fault__DOT__plus8_q |
                             root.can_core__DOT__u_bsp__DOT__u_fault__DOT__plus1_q |
                             root.can_core__DOT__u_bsp__DOT__u_fault__DOT__minus1_q |
                             root.can_core__DOT__u_bsp__DOT__u_fault__DOT__sequence_q |
                             root.can_core__DOT__u_bsp__DOT__u_fault__DOT__recovered_q;
-    return root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q != 0 && pulses == 0 &&
-           (engine.trace_o & kTraceEvents) == 0;
+    return levels != 0 || (engine.trace_o & kTraceEvents) != 0;
+  }
+
+  // By rtl/frame/can_tx_frame.sv, where a frame allows no hard synchronisation (SY-05).
+  template <typename Engine>
+  static bool crosses_boundary_(const Engine &engine) {
+    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
+      const auto &root = *engine.rootp;
+      const Trace trace = decode_trace(engine.trace_o);
+      const bool own_level = trace.transmitter || trace.field == Field::kAck ||
+                             trace.field == Field::kErrFlag || trace.field == Field::kOvlFlag;
+      const unsigned busy = root.can_core__DOT__first_q |
+                            root.can_core__DOT__u_bit_timing__DOT__falling |
+                            root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q;
+      return trace.boundary && trace.field >= Field::kSof && !own_level && busy == 0 &&
+             !pulses(engine) && root.can_core__DOT__tx_q != 0 && engine.rx_req_i == 0 &&
+             (engine.run_i & root.can_core__DOT__active_q) != 0;
+    } else {
+      return false;
+    }
   }
 
   template <typename Engine>
@@ -206,16 +245,28 @@ class QuietEngine {
   }
 
   template <typename Engine>
-  void clock_lightly_(Engine &engine, Level rx) {
+  void clock_lightly_(Engine &engine, Level rx, bool boundary) {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       auto &root = *engine.rootp;
+      const unsigned pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
       count(engine, 1);
+      if (boundary) begin_bit(engine, pos);
       root.can_core__DOT__u_sync__DOT__settled_q = root.can_core__DOT__u_sync__DOT__meta_q;
       root.can_core__DOT__u_sync__DOT__meta_q = static_cast<CData>(rx);
       engine.can_rx_i = static_cast<CData>(rx);
       verican_follow(&root);
       clocked_(engine);
     }
+  }
+
+  // What is more at a boundary; `pos`: the position before.
+  template <typename Engine>
+  static void begin_bit(Engine &engine, unsigned pos) {
+    auto &root = *engine.rootp;
+    root.can_core__DOT__u_bit_timing__DOT__pos_q = pos != engine.pseg2_i + 1U;
+    root.can_core__DOT__u_bit_timing__DOT__seg2_q = 0;
+    root.can_core__DOT__u_bit_timing__DOT__hard_q = 0;
+    root.can_core__DOT__first_q = 1;
   }
 
   // Edges that count, without what is combinational in the one that shows something.

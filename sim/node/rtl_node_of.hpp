@@ -43,6 +43,12 @@ class RtlNodeOf final : public RtlNode {
   }
 
   void clock(Level rx) override {
+    if (!ahb().active() && core_.rest() != 0 && quiet_.crosses_boundary(core_.engine()) &&
+        !core_.wakes()) {
+      quiet_.cross_boundary(core_.engine(), rx);
+      core_.pass(1);
+      return after_edge();
+    }
     core_.engine().can_rx_i = static_cast<std::uint8_t>(rx);
     if (ahb().active()) {
       transfer_cycle();
@@ -175,7 +181,7 @@ class RtlNodeOf final : public RtlNode {
       core_.settle();
     }
     const AhbResponse response{top.hrdata, top.hreadyout != 0, top.hresp != 0};
-    core_.edge();
+    core_.busy_edge();
     return response;
   }
 

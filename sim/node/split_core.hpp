@@ -107,6 +107,17 @@ class SplitCore {
     }
   }
 
+  /// One rising edge of the clock in which the host side's inputs are about to change again, so that
+  /// nobody asks whether it rests.
+  void busy_edge() {
+    catch_up();
+    if (Ports::to_host(engine_, *host_.rootp)) settle();
+    host_edge();
+    resting_ = false;
+    engine_edge();
+    if (Ports::to_core(engine_, *host_.rootp)) engine_.eval();
+  }
+
   /// One rising edge of the clock.
   void edge() {
     if (rest() > 0 && !wakes()) {
@@ -122,11 +133,7 @@ class SplitCore {
     catch_up();
     if (Ports::to_host(engine_, *host_.rootp)) settle();
     std::memcpy(before_.get(), static_cast<const void *>(host_.rootp), sizeof(Root));
-    if (host_settled_ && !kPlainEdges)
-      settled_edge(host_);
-    else
-      rising_edge(host_, host_clock());
-    host_settled_ = true;
+    host_edge();
     begin_rest();
     engine_edge();
     if (Ports::to_core(engine_, *host_.rootp)) engine_.eval();
@@ -197,6 +204,14 @@ class SplitCore {
     auto bytes = std::make_unique<unsigned char[]>(sizeof(T));
     std::memcpy(bytes.get(), static_cast<const void *>(&root), sizeof(T));
     return bytes;
+  }
+
+  void host_edge() {
+    if (host_settled_ && !kPlainEdges)
+      settled_edge(host_);
+    else
+      rising_edge(host_, host_clock());
+    host_settled_ = true;
   }
 
   // Of the engine's inputs, can_rx_i alone changes without an eval(): only u_sync's first flip-flop

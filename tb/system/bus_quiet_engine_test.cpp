@@ -103,6 +103,7 @@ class EngineTwins : public Node {
   [[nodiscard]] unsigned passed() const { return passed_; }
   [[nodiscard]] unsigned light() const { return light_; }
   [[nodiscard]] unsigned sent() const { return sent_; }
+  [[nodiscard]] unsigned crossed() const { return crossed_; }
   /// How often the time unit was found at rest.
   [[nodiscard]] unsigned rested() const { return rested_; }
 
@@ -159,6 +160,9 @@ class EngineTwins : public Node {
     if (quiet_.counts(short_)) {
       quiet_.clock_lightly(short_, rx);
       ++light_;
+    } else if (quiet_.crosses_boundary(short_)) {
+      quiet_.cross_boundary(short_, rx);
+      ++crossed_;
     } else {
       short_.can_rx_i = static_cast<std::uint8_t>(rx);
       if (kPlainEdges)
@@ -201,7 +205,7 @@ class EngineTwins : public Node {
   std::mt19937 random_{11};
   std::uint64_t allowed_ = 0, behind_ = 0;
   bool commanded_ = false;
-  unsigned differences_ = 0, passed_ = 0, light_ = 0, sent_ = 0, rested_ = 0;
+  unsigned differences_ = 0, passed_ = 0, light_ = 0, sent_ = 0, rested_ = 0, crossed_ = 0;
 };
 
 constexpr BitTiming kNarrow{.prescaler = 1, .prop = 3, .ps1 = 2, .ps2 = 2, .sjw = 2};
@@ -244,6 +248,7 @@ void compare_twins(const EngineCase &each) {
   EXPECT_EQ(twins.differences(), 0u);
   EXPECT_TRUE(kPlainEdges || twins.passed() > 10'000);
   EXPECT_TRUE(kPlainEdges || twins.light() > 1'000);
+  EXPECT_TRUE(kPlainEdges || each.loop_back || twins.crossed() > 1'000);
   EXPECT_TRUE(each.listen_only || twins.sent() > 5);
   EXPECT_TRUE(kPlainEdges || !kHasTimeUnit<Engine> || twins.rested() > 200);
 }
