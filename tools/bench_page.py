@@ -32,12 +32,12 @@ that are passed over, not from the RTL: one plain model of `can_ahb` does 2.7 to
 
 # Counted once with callgrind, which other work on the machine does not disturb: 20 ms of two
 # saturated nodes.
-SHARES = """Instructions of two saturated nodes at 8, 16 and 80 MHz, counted: 7.6, 8.1 and 8.4
-thousand a bit and node. The engine's model has 40 % of them, the host side's 24 %, the bus 13 %,
-the rest is what ties them together. The engine is evaluated in full 3.5, 3.6 and 3.8 times a bit,
-and 2.1, 2.2 and 2.7 times for what follows from its inputs alone; the host side 59 to 67 times a
-frame and node. The floor of this way is the bit itself: sample point, boundary and the clock after
-it, each an evaluation of some 730 instructions, and an edge of the bus now and then."""
+SHARES = """Instructions of two saturated nodes at 8, 16 and 80 MHz, counted: 8.1, 8.6 and 9.0
+thousand a bit and node. The engine's model has 36 % of them, the host side's 24 %, the bus 13 %,
+the rest is what ties them together. The engine is evaluated in full 3.1, 3.2 and 3.4 times a bit,
+and 2.5, 2.6 and 3.1 times for what follows from its inputs alone; the host side 61 to 69 times a
+frame and node. The floor of this way is the bit itself: sample point, a sender's boundary and the
+clock after any, each an evaluation of some 730 instructions, and an edge of the bus now and then."""
 
 
 def benchmarks(results):
