@@ -218,5 +218,19 @@ TEST_F(DriverFilterLimits, SizeOfTheTable) {  // FX-CTRL2.RFFN, FX-4.a
   EXPECT_EQ(set(exact(9, kStd, kData, 0x7FF)), VERICAN_ERR_SPACE);
 }
 
+// PK-42: a core that does not keep MCR.BCC has one mask for the whole table, RXFGMASK.
+TEST_F(DriverFilterLimits, WithoutOwnMasksAllFiltersOfTheTableHaveTheSame) {
+  core_.mcr_never = VERICAN_MCR_BCC_MASK;
+  fifo(kA);
+  EXPECT_EQ(set({{0x120, 0x7F0, kStd, kData}, {0x340, 0x7FF, kStd, kData}}),
+            VERICAN_ERR_UNSUPPORTED);
+  EXPECT_EQ(set({{0x120, 0x7F0, kStd, kData}, {0x340, 0x7F0, kStd, kBoth}}),
+            VERICAN_ERR_UNSUPPORTED);
+  EXPECT_EQ(set({{0x120, 0x7F0, kStd, kData}, {0x340, 0x7F0, kStd, kData}}), VERICAN_OK);
+  // Format A: bits 31 and 30 kind and format, 29:19 a base identifier (flexcan.md, filter element).
+  EXPECT_EQ(core_.word(VERICAN_RXFGMASK_OFFSET), 0xC0000000u | 0x7F0u << 19);
+  EXPECT_EQ(core_.word(VERICAN_RXIMR_OFFSET(0)), 0u);
+}
+
 }  // namespace
 }  // namespace vericansim
