@@ -14,8 +14,8 @@
 
 #include "Vcan_core_time.h"
 #include "Vcan_core_time___024root.h"
-#include "Vcan_time.h"
-#include "Vcan_time___024root.h"
+#include "Vcan_time_unit.h"
+#include "Vcan_time_unit___024root.h"
 #include "core_ports.hpp"
 #include "node/model_edge.hpp"
 #include "node/time_flops.hpp"
@@ -29,7 +29,7 @@ namespace vericansim {
 /// taken, or another part of the frame. Proven member by member in
 /// tb/system/bus_quiet_engine_test.cpp, in every clock in bus_split_core_test.cpp.
 class TimedEngine : public Vcan_core_time {
-  Vcan_time unit_;
+  Vcan_time_unit unit_;
 
  public:
   TimedEngine(VerilatedContext *context, const char *name)
@@ -84,7 +84,7 @@ class TimedEngine : public Vcan_core_time {
   }
 
   /// The unit does what it has left out, with the engine's levels of now at its inputs.
-  Vcan_time &settled_unit() {
+  Vcan_time_unit &settled_unit() {
     catch_up_time();
     TimeUnitPorts::to_core(unit_, *rootp);
     unit_.eval();
@@ -104,7 +104,7 @@ class TimedEngine : public Vcan_core_time {
   }
 
  private:
-  using Root = Vcan_time___024root;
+  using Root = Vcan_time_unit___024root;
 
   // Members that Verilator 5.006 gives the model; without them the unit never rests.
   template <typename R>

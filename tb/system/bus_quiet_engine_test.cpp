@@ -201,7 +201,7 @@ class EngineTwins : public Node {
   ModelContext model_context_{context_};
   QuietEngine quiet_;
   std::optional<ModelMembers<Root>> members_;
-  std::optional<ModelMembers<Vcan_time___024root>> unit_members_;
+  std::optional<ModelMembers<Vcan_time_unit___024root>> unit_members_;
   std::mt19937 random_{11};
   std::uint64_t allowed_ = 0, behind_ = 0;
   bool commanded_ = false;
