@@ -37,7 +37,7 @@ thousand a bit and node. The engine's model has 36 % of them, the host side's 24
 the rest is what ties them together. The engine is evaluated in full 3.1, 3.2 and 3.4 times a bit,
 and 2.5, 2.6 and 3.1 times for what follows from its inputs alone; the host side 61 to 69 times a
 frame and node. The floor of this way is the bit itself: sample point, a sender's boundary and the
-clock after any, each an evaluation of some 730 instructions, and an edge of the bus now and then."""
+clock after any, each an evaluation of some 730 instructions, and now and then an edge."""
 
 
 def benchmarks(results):

@@ -31,8 +31,8 @@ std::unique_ptr<RtlNode> RtlNode::create(std::string name, const ClockConfig &cl
 }
 
 std::unique_ptr<RtlNode> RtlNode::create_with_time(std::string name, const ClockConfig &clock) {
-  return std::make_unique<RtlNodeOf<Vcan_host64_time, AhbTimePorts, TimedEngine>>(
-      std::move(name), clock, 64U);
+  return std::make_unique<RtlNodeOf<Vcan_host64_time, AhbTimePorts, TimedEngine>>(std::move(name),
+                                                                                  clock, 64U);
 }
 
 }  // namespace vericansim

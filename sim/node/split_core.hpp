@@ -107,8 +107,8 @@ class SplitCore {
     }
   }
 
-  /// One rising edge of the clock in which the host side's inputs are about to change again, so that
-  /// nobody asks whether it rests.
+  /// One rising edge of the clock behind which the host side's inputs change again, so that nobody
+  /// asks whether it rests.
   void busy_edge() {
     catch_up();
     if (Ports::to_host(engine_, *host_.rootp)) settle();
