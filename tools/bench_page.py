@@ -30,8 +30,8 @@ The others are plainly Verilated. The lead comes from the split of engine and ho
 that are passed over, not from the RTL: one plain model of `can_ahb` does 2.7 to 3.2.
 """
 
-# Counted once with callgrind, which other work on the machine does not disturb: 20 ms of two
-# saturated nodes.
+# Counted once with callgrind, which other work on the machine does not disturb: what one more
+# iteration of saturated_bus takes, two nodes on one clock.
 SHARES = """Instructions of two saturated nodes at 8, 16 and 80 MHz, counted: 8.1, 8.6 and 9.0
 thousand a bit and node. The engine's model has 36 % of them, the host side's 24 %, the bus 13 %,
 the rest is what ties them together. The engine is evaluated in full 3.1, 3.2 and 3.4 times a bit,
