@@ -125,5 +125,17 @@ TEST_F(FollowerRegs, APairSetsTheClock) {
   EXPECT_EQ(read(kTimehi), 7u);
 }
 
+// TM-102: what the clock is set to counts TSDLY as the way from the master.
+TEST_F(FollowerRegs, TheDelayIsThatOfTheRegister) {
+  constexpr std::uint32_t kDelay = 500'000;
+  go();
+  write(kTsdly, kDelay);
+  write(kTsctrl, read(kTsctrl) | 1);
+  pair(60, 9);
+  const std::uint64_t low = read(kTimelo), now = std::uint64_t{read(kTimehi)} << 32 | low;
+  EXPECT_GT(now, 60'000'000'000u + kDelay);  // two frames of 20 us each ago
+  EXPECT_LT(now, 60'000'080'000u + kDelay);
+}
+
 }  // namespace
 }  // namespace vericansim

@@ -173,5 +173,51 @@ TEST_F(CanTimeUnit, LaunchInItsClock) {
   EXPECT_EQ(unit_->stat_o & kHeld, 0u);
 }
 
+// TM-40: TTX is ahead of TIME, or behind it, by up to half of the lower word's range.
+TEST_F(CanTimeUnit, LaunchFarAheadAndFarBehind) {
+  constexpr std::uint32_t kHalf = 1U << 31, kFar = kHalf - 4000;
+  for (const std::uint32_t ahead : {1U << 29, 1U << 30, 3U << 29, kFar}) {
+    const auto now = static_cast<std::uint32_t>(time_.time());
+    unit_->ttx_i = now + ahead;
+    clock(kHold);
+    clocks(50);
+    EXPECT_NE(unit_->stat_o & kHeld, 0u) << ahead;
+    clock(kRelease);
+    unit_->ttx_i = now - ahead;
+    clock(kHold);
+    clocks(2);
+    EXPECT_EQ(unit_->stat_o & kHeld, 0u) << ahead;
+  }
+}
+
+// TM-03, TM-11: TIME is 0 in the reset, and what is read of its last clock tears nothing.
+TEST_F(CanTimeUnit, SnapshotOfTheReset) {
+  unit_->cmd_i = static_cast<std::uint16_t>(kRead | kExt);
+  unit_.reset();
+  EXPECT_EQ(unit_->now_o, 0u);
+  EXPECT_EQ(unit_->ext_o, 0u);
+}
+
+// TM-24: the stamp at SOF is the edge before its sample point, not one in the clock in which that
+// is told, nor any later one of the frame.
+TEST_F(CanTimeUnit, StampOfSofIsTheEdgeBefore) {
+  const auto fall = [this](bool told) {
+    unit_->rx_i = 1;
+    clocks(2);
+    unit_->rx_i = 0;
+    unit_->sof_i = told;
+    const std::uint64_t now = clock();
+    unit_->sof_i = 0;
+    return now;
+  };
+  const std::uint64_t edge = fall(false);
+  EXPECT_EQ(unit_->stamp_o, edge);
+  unit_->field_i = 0x09;  // can_pkg::FldId
+  fall(true);
+  EXPECT_EQ(unit_->stamp_o, edge);
+  fall(false);
+  EXPECT_EQ(unit_->stamp_o, edge);
+}
+
 }  // namespace
 }  // namespace vericansim
