@@ -6,12 +6,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 #include "Vcan_time_node_16.h"
 #include "Vcan_time_node_4.h"
+#include "model/frame_codec.hpp"
 #include "time/follower_bus.hpp"
+#include "unit/leaf_model.hpp"
 
 namespace vericansim {
 namespace {
@@ -82,6 +86,37 @@ TEST(TimeNode, Accuracy) {
     EXPECT_LT(most, 62 + 62.5 / 2);
     EXPECT_LT(sd, std::hypot(20, 62.5 / std::sqrt(12.0)));
   }
+}
+
+// Clocks from a start of frame to the node's ACK, if what follows the last edge to dominant before
+// it comes `late` clocks late; 16 clocks, of one quantum each, a bit.
+unsigned clocks_to_ack(unsigned late) {
+  constexpr unsigned kBit = 16;
+  const auto levels = levels_of(
+      encode_frame({.id = 0x123, .dlc = 1, .data = {0x55}}, {.ack_slot = Level::kRecessive}).bits);
+  std::size_t edge = levels.size() - 1;
+  while (levels[edge] != Level::kDominant || levels[edge - 1] != Level::kRecessive) --edge;
+  LeafModel<Vcan_time_node_16> node;
+  node->can_rx_i = 1;
+  node.reset();
+  for (unsigned i = 0; i < 12 * kBit; ++i) node.clock();
+  unsigned clocks = 0;
+  for (std::size_t bit = 0; bit < levels.size(); ++bit) {
+    node->can_rx_i = static_cast<std::uint8_t>(levels[bit]);
+    for (unsigned n = bit + 1 == edge ? kBit + late : kBit; n > 0; --n, ++clocks) {
+      node.clock();
+      if (node->can_tx_o == 0) return clocks;
+    }
+  }
+  return 0;
+}
+
+// SY-08, TM-100: its engine follows an edge by `Sjw` quanta at most, here two.
+TEST(TimeNode, SynchronisesBySjw) {
+  const unsigned in_time = clocks_to_ack(0);
+  ASSERT_GT(in_time, 16u * 43);  // bits before the ACK, stuff bits apart
+  for (const auto &[late, followed] : {std::pair{1u, 1u}, {2u, 2u}, {3u, 2u}, {5u, 2u}})
+    EXPECT_EQ(clocks_to_ack(late) - in_time, followed) << late;
 }
 
 }  // namespace
