@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "Vcan_core_time.h"
 #include "Vcan_core_time___024root.h"
@@ -73,7 +73,7 @@ class TimedEngine : public Vcan_core_time {
     follow_levels(*unit_.rootp);
   }
 
-  /// TIME.
+  /// TIME. std::logic_error for a model that does not show its registers.
   [[nodiscard]] std::uint64_t time() const { return time_of(*unit_.rootp); }
 
   /// Whether clocks in which the unit only counts are left out (by default they are).
@@ -106,10 +106,14 @@ class TimedEngine : public Vcan_core_time {
  private:
   using Root = Vcan_time_unit___024root;
 
-  // Members that Verilator 5.006 gives the model; without them the unit never rests.
+  // Members that Verilator 5.006 gives the model. Without the clock's TIME cannot be looked at;
+  // without any of them, or without short cuts, the unit never rests.
   template <typename R>
-  static constexpr bool kKnown = !kPlainEdges && requires(R & root) {
+  static constexpr bool kShowsTime = requires(R &root) {
     VERICAN_TIME_FLOPS(root, can_time, left_o);
+  };
+  template <typename R>
+  static constexpr bool kKnown = !kPlainEdges && kShowsTime<R> && requires(R & root) {
     root.stamp_o;
     root.can_time__DOT__u_stamp__DOT__rx_q;
     root.can_time__DOT__u_stamp__DOT__tx_q;
@@ -207,7 +211,7 @@ class TimedEngine : public Vcan_core_time {
 
   template <typename R>
   [[nodiscard]] std::uint64_t time_of(R &unit) const {
-    if constexpr (kKnown<R>) {
+    if constexpr (kShowsTime<R>) {
       return VERICAN_TIME_FLOPS(unit, can_time, left_o).time_after(behind_);
     } else {
       throw std::logic_error("the clock of this model cannot be looked at");
