@@ -30,6 +30,29 @@ constexpr bool kKnown = !kPlainEdges && requires(Root & root) {
   VERICAN_FLOPS(root);
 };
 
+// Clocks for which a model that only counts has nothing to do.
+template <typename Root>
+std::uint64_t quiet_clocks(Root &root, std::uint64_t before_waiter) {
+  if constexpr (kKnown<Root>) {
+    const TimeFlops flops = VERICAN_FLOPS(root);
+    return flops.held != 0 ? 0 : std::min(flops.clocks_before_compare(), before_waiter);
+  } else {
+    return 0;
+  }
+}
+
+// Takes TIME so many clocks further that kFollow are left to be made; the clocks taken.
+template <typename Root>
+std::uint64_t leap_time(Root &root, std::uint64_t clocks) {
+  if constexpr (kKnown<Root>) {
+    if (clocks > TimeFlops::kFollow) {
+      VERICAN_FLOPS(root).leap(clocks - TimeFlops::kFollow);
+      return clocks - TimeFlops::kFollow;
+    }
+  }
+  return 0;
+}
+
 // Nothing but TIME is different; `before` is spoilt.
 template <typename Root>
 bool only_time_moved(Root &before, Root &now) {
@@ -132,24 +155,14 @@ void TimeNode::watch_rest() {
 
 std::uint64_t TimeNode::quiet() const {
   if (!still_ || ahb().active()) return 0;
-  if constexpr (kKnown<Impl::Root>) {
-    const TimeFlops flops = VERICAN_FLOPS(*impl_->top.rootp);
-    return flops.held != 0 ? 0 : std::min(flops.clocks_before_compare(), edges_to_waiter());
-  } else {
-    return 0;
-  }
+  return quiet_clocks(*impl_->top.rootp, edges_to_waiter());
 }
 
 void TimeNode::pass(std::uint64_t edges) {
   passed(edges);
-  if constexpr (kKnown<Impl::Root>) {
-    if (edges > TimeFlops::kFollow) {
-      const std::uint64_t leap = edges - TimeFlops::kFollow;
-      VERICAN_FLOPS(*impl_->top.rootp).leap(leap);
-      edges_ += leap;
-      edges = TimeFlops::kFollow;
-    }
-  }
+  const std::uint64_t leap = leap_time(*impl_->top.rootp, edges);
+  edges_ += leap;
+  edges -= leap;
   for (; edges > 0; --edges) edge();
 }
 

@@ -10,6 +10,7 @@ import unittest
 
 from canopen_run import FIRMWARE, needs_stack
 
+SECONDS = 1  # of the bus; the campaign has ten minutes
 ROBOT = pathlib.Path(__file__).resolve().parent.parent.parent / "examples/robot"
 sys.path.insert(0, str(ROBOT))
 try:
@@ -33,15 +34,15 @@ def run(*options, **environment):
 class CanopenRobot(unittest.TestCase):
     """All of it in simulated time."""
 
-    def test_no_pdo_is_lost_in_ten_seconds(self):
-        done = run("--seconds", "10", "--json")
+    def test_no_pdo_is_lost(self):
+        done = run("--seconds", str(SECONDS), "--json")
         self.assertEqual(done.returncode, 0, done.stdout)
         figures = json.loads(done.stdout)
         self.assertEqual([figures[key] for key in ("syncs", "lost", "error_frames")],
-                         [10_000, 0, 0])
+                         [1000 * SECONDS, 0, 0])
         # SYNC, two frames of set points, eight TPDOs a cycle; the rest is SDO and heartbeats.
-        self.assertGreaterEqual(figures["frames"], 11 * 10_000)
-        self.assertGreater(figures["uploads"], 40)
+        self.assertGreaterEqual(figures["frames"], 11 * 1000 * SECONDS)
+        self.assertGreater(figures["uploads"], 4 * SECONDS)
         self.assertTrue(all(check["ok"] for check in figures["checks"]), figures["checks"])
 
     def test_a_joint_fails_and_comes_back(self):

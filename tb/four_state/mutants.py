@@ -58,7 +58,7 @@ def main():
     for name, (device, file, old, new, recording, sign) in MUTANTS.items():
         with tempfile.TemporaryDirectory() as work:
             done = subprocess.run(
-                [f"{HERE}/run.py", recording, *OPTIONS[device], "--build", sys.argv[1], "--rtl",
+                [f"{HERE}/run.py", recording, *OPTIONS[device], "--most", "500", "--build", sys.argv[1], "--rtl",
                  mutated(work, file, old, new), "--work", f"{work}/run"],
                 capture_output=True, text=True, check=False)
         seen = done.returncode == 1 and sign in done.stdout

@@ -42,8 +42,14 @@ def arguments():
     parser.add_argument("--rtl", default="rtl", metavar="DIR", help="another copy of rtl/")
     parser.add_argument("--work", metavar="DIR", help="keep the intermediate files there")
     parser.add_argument("--json", metavar="FILE", help="write the figures there")
+    parser.add_argument("--clocks", type=int, default=400_000, metavar="N",
+                        help="of each recording at most the first N (all)")
+    parser.add_argument("--most", type=int, default=0, metavar="N",
+                        help="end a replay with its Nth difference or X (0: with its last clock)")
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
+    if options.clocks < 1:
+        parser.error(f"--clocks {options.clocks}: at least 1 is needed")
     if options.num_mb and options.device != "ahb":
         parser.error("--num-mb is for --device ahb: there is no other choice of buffers")
     options.device = DEVICES[options.device]
@@ -116,16 +122,18 @@ def replay(args, name, size, bench, work):
     rows = f"{work}/{name}{size}.rows"
     call([recorder(args), name, str(size), rows], f"{work}/{name}{size}.record.log")
     with open(rows, encoding="utf-8") as file:
-        count = sum(1 for _ in file)
+        count = min(sum(1 for _ in file), args.clocks)
     log = f"{work}/{name}{size}.log"
-    call(["vvp", "-n", bench, f"+rows={rows}", f"+count={count}"], log)
+    call(["vvp", "-n", bench, f"+rows={rows}", f"+count={count}", f"+most={args.most}"],
+         log)
     with open(log, encoding="utf-8") as file:
         lines = file.read().splitlines()
     end = re.fullmatch(r"END clocks (\d+) diffs (\d+) xs (\d+)", lines[-1] if lines else "")
-    if not end or int(end[1]) != count:
+    early = end and 0 < args.most <= int(end[2]) + int(end[3])
+    if not end or (int(end[1]) != count and not early):
         raise ReplayError(f"the replay of {name} did not reach its end, see {log}")
     shown = [line for line in lines if line.startswith(("DIFF", "X "))]
-    return count, int(end[2]), int(end[3]), shown
+    return int(end[1]), int(end[2]), int(end[3]), shown
 
 
 def write_json(path, rows, registers_seen):

@@ -12,11 +12,12 @@ import design
 
 
 class Ice40Makefile(unittest.TestCase):
-    """The default build: all defaults, in a folder of its own."""
+    """Its default build but for the number of buffers, in a folder of its own."""
 
     def test_makes_a_bitstream(self):
         with tempfile.TemporaryDirectory() as name:
-            code, text = design.run("make", "-s", "-f", "constraints/ice40/can.mk", f"OUT={name}")
+            code, text = design.run("make", "-s", "-f", "constraints/ice40/can.mk", f"OUT={name}",
+                                    "NUMMB=16")
             self.assertEqual(code, 0, text)
             image = (Path(name) / "can_ahb.bin").read_bytes()
             self.assertIn(bytes.fromhex("7EAA997E"), image[:300], "the preamble of iCE40 images")

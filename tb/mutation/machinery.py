@@ -44,6 +44,17 @@ class Machinery(unittest.TestCase):
         self.assertIn("assign in_ex_id = (field_i == can_pkg::FldExId);", lines)
         self.assertNotIn("assign byte_o = shift_q[7:0];", lines)
 
+    def test_states_are_plain_vectors(self):
+        for file in self.design.files:
+            if "typedef enum" in file.text and not file.package:
+                with self.subTest(file.module):
+                    self.assertNotRegex(open_types(file.module, file.text),
+                                        r"\bstate_\w +\w+[,;]")
+
+    def test_what_nobody_reads_is_not_mutated(self):
+        self.assertFalse([m.name for m in self.design.candidates()
+                          if m.line_text.startswith("assign unused")])
+
     def test_verilator_takes_the_core_with_a_mutant_of_each_file(self):
         taken = {}
         for mutant in self.design.candidates():

@@ -111,9 +111,9 @@ def open_types(module, text):
     States are plain vectors, for a mutant may be no state. can_reg's masks are inputs, for a
     constant that a mutant changes is none any more.
     """
-    states = re.search(r"typedef enum (logic \[\d:0\]) \{[^}]*\} state_e;", text)
+    states = re.search(r"typedef enum (logic \[\d:0\]) \{[^}]*\} (state_[et]);", text)
     if states:
-        text = re.sub(r"\bstate_e (?=\w+;)", f"{states.group(1)} ", text)
+        text = re.sub(rf"\b{states.group(2)} +(?=\w+(, \w+)*;)", f"{states.group(1)} ", text)
     if module == "can_reg":
         ports = "".join(f"  input  logic [31:0] {name},\n" for name in MASKS)
         text = re.sub(r"module can_reg #\(.*?\n\) \(\n",
