@@ -12,7 +12,8 @@ stands in the comment at its head, which is about the whole file. Tests of the j
 (model_*_test.cpp) are listed, but what they cite still needs a test of the core.
 
 The plan is a list of sections: `section`, `name`, `optional` (ids may be cited but need no test)
-and the ids with their titles; an id with {title, not_applicable: reason} must not be cited.
+and the ids with their titles; an id with {title, not_applicable: reason} must not be cited, and one
+with {title, measured: how} needs no test: a command that is not one measures it.
 """
 import argparse
 import ast
@@ -110,6 +111,20 @@ def page_citations(path, ids):
 
 
 @dataclass
+class Entry:
+    """What the plan says of one id."""
+    title: str
+    not_applicable: str = None   # why
+    measured: str = None         # by what, in place of a test
+    optional: bool = False
+
+    @property
+    def required(self):
+        """It needs a test."""
+        return not (self.optional or self.not_applicable or self.measured)
+
+
+@dataclass
 class Plan:
     """One plan, its page, and how to speak of it."""
     noun: str           # what an id stands for, singular; its plural is the key in the file
@@ -140,16 +155,14 @@ class Plan:
             yield f"{name}: in {self.book.name} or in {self.file.name}, but not in both"
 
     def load(self):
-        """id -> (title, reason or None, required); exits with one line if the plan is bad."""
+        """id -> Entry; exits with one line if the plan is bad."""
         entries = {}
         for section in self.sections():
             for name, entry in section[self.key].items():
                 if not self.ids.fullmatch(name) or name in entries:
                     sys.exit(f"{self.file}: {name}: not the id of a {self.noun}, or there twice")
-                title, reason = entry, None
-                if isinstance(entry, dict):
-                    title, reason = entry["title"], entry["not_applicable"]
-                entries[name] = (title, reason, not section.get("optional") and reason is None)
+                fields = entry if isinstance(entry, dict) else {"title": entry}
+                entries[name] = Entry(**fields, optional=bool(section.get("optional")))
         return entries
 
     def citations(self):
@@ -172,10 +185,10 @@ class Plan:
     def problems(self, entries, cited):
         """One line for everything that makes the plan and the tests disagree."""
         where = self.file.relative_to(ROOT)
-        for name, (title, reason, required) in entries.items():
-            if required and not has_test(name, cited):
-                yield f"{name} ({title}): no test cites it"
-            if reason is not None and name in cited:
+        for name, entry in entries.items():
+            if entry.required and not has_test(name, cited):
+                yield f"{name} ({entry.title}): no test cites it"
+            if entry.not_applicable and name in cited:
                 yield (f"{name}: cited by {sorted(cited[name])[0]}, "
                        f"but {where} says it does not apply")
         for name in sorted(set(cited) - set(entries)):
@@ -193,6 +206,10 @@ class Plan:
         counts = f"{share(required(entries), cited)} {self.key} have a test"
         if optional(entries):
             counts += f", and {share(optional(entries), cited)} optional ones"
+        unfit = sum(entry.not_applicable is not None for entry in entries.values())
+        others = sum(entry.measured is not None for entry in entries.values())
+        if others:
+            counts += f", {others} are measured otherwise"
         tests = {test for files in cited.values() for names in files.values() for test in names}
         name = self.file.relative_to(ROOT)
         out = [f"# {self.heading}", "",
@@ -200,7 +217,7 @@ class Plan:
                "ids that",
                f"the tests cite; `make test` fails if a {self.noun} lacks a test or this page is "
                "stale.", "",
-               f"{counts}; {sum(entry[1] is not None for entry in entries.values())} {self.key} "
+               f"{counts}; {unfit} {self.key} "
                f"do not apply; {len(tests)} tests cite {self.key}."]
         book = self.in_book()
         for section in self.sections():
@@ -208,9 +225,9 @@ class Plan:
             out += ["", f"## {section['section']} {section['name']}{note}", "",
                     f"| {self.noun} | title | tests |", "|---|---|---|"]
             for name in section[self.key]:
-                title, reason, _ = entries[name]
-                out.append(f"| {self.linked(name, book)} | {title} | "
-                           f"{cell(name, reason, cited)} |")
+                entry = entries[name]
+                out.append(f"| {self.linked(name, book)} | {entry.title} | "
+                           f"{cell(name, entry, cited)} |")
         return "\n".join(out) + "\n"
 
 
@@ -221,12 +238,13 @@ def has_test(name, cited):
 
 def required(entries):
     """Ids that need a test."""
-    return [name for name, (_, _, needed) in entries.items() if needed]
+    return [name for name, entry in entries.items() if entry.required]
 
 
 def optional(entries):
     """Ids that may be cited but need no test."""
-    return [name for name, (_, reason, needed) in entries.items() if reason is None and not needed]
+    return [name for name, entry in entries.items()
+            if entry.optional and not (entry.not_applicable or entry.measured)]
 
 
 def share(names, cited):
@@ -234,11 +252,11 @@ def share(names, cited):
     return f"{sum(has_test(name, cited) for name in names)} of {len(names)}"
 
 
-def cell(name, reason, cited):
+def cell(name, entry, cited):
     """The table cell that names the tests of an id."""
-    if reason is not None:
-        return f"*does not apply:* {reason}"
-    parts = []
+    if entry.not_applicable:
+        return f"*does not apply:* {entry.not_applicable}"
+    parts = [f"*measured:* {entry.measured}"] if entry.measured else []
     for path, tests in sorted(cited.get(name, {}).items()):
         names = ", ".join(f"`{test}`" for test in sorted(tests))
         parts.append(f"[{Path(path).stem}](../{path}): {names}")

@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -172,6 +174,32 @@ TEST(FirmwareFaults, GoesThroughBusOffTwiceAndBack) {
   const std::string wave = tb::slurp(vcd);
   for (const char *text : {"sBUS_OFF ", "sERROR_PASSIVE ", "sERROR_ACTIVE "})
     EXPECT_THAT(wave, HasSubstr(text));
+}
+
+// ---- What the servo costs
+
+// TM-90: 20,000 clocks a pair with the automatic filter, 3,000 with one of one or two intervals, at
+// two clocks an instruction; and what is measured is a servo that works.
+TEST(FirmwareServoCost, OfAPair) {
+  const auto result = tb::run_tool("firmware " + tb::example_elf("servo_cost") + " --bus " +
+                                   kSources + "servo_cost/servo_cost.yaml");
+  EXPECT_EQ(result.code, 0) << result.error;
+  constexpr unsigned kFixed = 3000, kAutomatic = 20000, kLocked = 2, kTick = 62;
+  const std::regex line{R"(filter (\d+): (\d+) clocks a pair, at most (\d+); )"
+                        R"(state (\d), (-?\d+) ns off\n)"};
+  std::map<unsigned, unsigned> most;
+  for (std::sregex_iterator at{result.out.begin(), result.out.end(), line}, end; at != end; ++at) {
+    const auto number = [&](int group) { return std::stol((*at)[group].str()); };
+    most[static_cast<unsigned>(number(1))] = static_cast<unsigned>(number(3));
+    EXPECT_LE(number(2), number(3));
+    EXPECT_EQ(number(4), kLocked) << (*at)[0];
+    EXPECT_LT(std::abs(number(5)), 2 * kTick) << (*at)[0];
+  }
+  ASSERT_EQ(most.size(), 6U) << result.out;
+  EXPECT_LE(most[0], kAutomatic);
+  EXPECT_LE(most[1], kFixed);
+  EXPECT_LE(most[2], kFixed);
+  EXPECT_GT(most[1], 100U);  // a counter that stands tells nothing
 }
 
 // ---- Waveform
