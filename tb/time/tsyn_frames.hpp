@@ -10,6 +10,7 @@
 
 #include "model/frame_codec.hpp"
 #include "time/stamp_rule.hpp"
+#include "time/tsyn_data.hpp"
 
 namespace vericansim {
 
@@ -19,14 +20,8 @@ inline constexpr unsigned kTsynDomain = 3;
 /// A message: type, sequence counter, byte 3, seconds or nanoseconds.
 inline Frame tsyn_message(unsigned type, unsigned sc, unsigned byte3, std::uint32_t word) {
   Frame frame{.id = kTsynId, .dlc = 8};
-  frame.data = {static_cast<std::uint8_t>(type),
-                0,
-                static_cast<std::uint8_t>(kTsynDomain << 4 | sc % 16),
-                static_cast<std::uint8_t>(byte3),
-                static_cast<std::uint8_t>(word >> 24),
-                static_cast<std::uint8_t>(word >> 16),
-                static_cast<std::uint8_t>(word >> 8),
-                static_cast<std::uint8_t>(word)};
+  frame.data =
+      TsynData{.type = type, .domain = kTsynDomain, .sc = sc, .byte3 = byte3, .word = word}.bytes();
   return frame;
 }
 

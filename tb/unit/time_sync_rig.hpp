@@ -11,6 +11,7 @@
 
 #include "Vcan_time_sync.h"
 #include "model/time_sync_model.hpp"
+#include "time/tsyn_data.hpp"
 #include "unit/leaf_model.hpp"
 
 namespace vericansim {
@@ -26,14 +27,10 @@ struct SyncMessage {
   static Frame make(const TimeSyncSetting &to, unsigned type, unsigned sc, unsigned byte3,
                     std::uint32_t word) {
     Frame frame{.id = to.id, .extended = to.extended, .dlc = 8};
-    frame.data = {static_cast<std::uint8_t>(type),
-                  0xA5,
-                  static_cast<std::uint8_t>(to.domain << 4 | (sc & 15)),
-                  static_cast<std::uint8_t>(byte3),
-                  static_cast<std::uint8_t>(word >> 24),
-                  static_cast<std::uint8_t>(word >> 16),
-                  static_cast<std::uint8_t>(word >> 8),
-                  static_cast<std::uint8_t>(word)};
+    frame.data =
+        TsynData{
+            .type = type, .user = 0xA5, .domain = to.domain, .sc = sc, .byte3 = byte3, .word = word}
+            .bytes();
     return frame;
   }
 };
