@@ -30,8 +30,9 @@ def arguments():
     parser.add_argument("--only", action="append", metavar="NAME",
                         help="a proof (engine.crc15) or a part (engine); may be repeated")
     parser.add_argument("--quick", action="store_true", help="only proofs marked quick")
-    parser.add_argument("--mutants", action="store_true", help="also demand that "
-                        "mutants are caught")
+    parser.add_argument("--mutants", type=int, nargs="?", const=sys.maxsize, default=0,
+                        metavar="N", help="also demand that mutants are caught, all or N at most "
+                        "of each proof")
     parser.add_argument("--mutant", metavar="NAME", help="only this mutant, no proof")
     parser.add_argument("--jobs", type=int, default=2, help="at the same time (2)")
     parser.add_argument("--json", metavar="FILE", default=env.get("CAMPAIGN_OUT"),
@@ -44,6 +45,8 @@ def arguments():
     parser.add_argument("--catalogue", type=Path, default=HERE, help=argparse.SUPPRESS)
     parser.add_argument("--list", action="store_true", help="show properties and assumptions")
     args = parser.parse_args()
+    if args.mutants < 0:
+        parser.error(f"--mutants is {args.mutants}, allowed: 1 or more")
     if not 0 < args.scale <= 1:
         parser.error(f"--scale is {args.scale}, allowed: above 0, at most 1")
     if args.jobs < 1:
@@ -87,9 +90,9 @@ def work(proofs, args, shard):
         if not args.mutant:
             jobs.append((job.prove, (proof, rtl, args.scratch)))
     for proof in proofs:
-        for mutant in proof.mutants:
-            if (args.mutants and not args.mutant) or args.mutant == mutant.name:
-                jobs.append((job.kill, (proof, mutant, rtl, args.scratch)))
+        wanted = [m for m in proof.mutants if m.name == args.mutant] if args.mutant \
+            else proof.mutants[:args.mutants]
+        jobs += [(job.kill, (proof, mutant, rtl, args.scratch)) for mutant in wanted]
     jobs = shard.mine(jobs)
     results, last, started = [], 0.0, time.monotonic()
     with ThreadPoolExecutor(max_workers=args.jobs) as pool:

@@ -25,6 +25,8 @@ static void apply(verican_tsyn_t *tsyn, const verican_correction_t *correction) 
   if (correction->slew) {
     (void)verican_clock_slew(tsyn->dev, (int32_t)correction->shift);
   } else {
+    /* What is left of a slew by now is an upset's: it would go on for minutes. */
+    (void)verican_clock_slew(tsyn->dev, 0);
     (void)verican_clock_shift(tsyn->dev, correction->shift);
   }
   verican_masters_shift(&tsyn->masters, correction->shift);
