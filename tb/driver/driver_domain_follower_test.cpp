@@ -22,7 +22,8 @@ using ::testing::Pair;
 constexpr std::uint64_t kR = 200'000'000;  // ns
 using Writes = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-// TM-82, TM-91: the rate whenever a pair is accepted, the shift as it is due, nothing otherwise.
+// TM-82, TM-91: the rate whenever a pair is accepted, the shift as it is due, nothing otherwise. A
+// step ends what is left of a slew.
 Writes writes_of(const ServoModel::Outcome &outcome) {
   Writes writes;
   if ((outcome.events & VERICAN_SERVO_ACCEPTED) == 0) return writes;
@@ -33,6 +34,7 @@ Writes writes_of(const ServoModel::Outcome &outcome) {
   if (outcome.slew) {
     writes.emplace_back(0x1128, static_cast<std::uint32_t>(shift));
   } else {
+    writes.emplace_back(0x1128, 0);
     writes.emplace_back(0x1120, static_cast<std::uint32_t>(shift));
     writes.emplace_back(0x1124, shift >> 32);
   }
