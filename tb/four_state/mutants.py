@@ -58,8 +58,9 @@ def main():
     for name, (device, file, old, new, recording, sign) in MUTANTS.items():
         with tempfile.TemporaryDirectory() as work:
             done = subprocess.run(
-                [f"{HERE}/run.py", recording, *OPTIONS[device], "--most", "500", "--build", sys.argv[1], "--rtl",
-                 mutated(work, file, old, new), "--work", f"{work}/run"],
+                [f"{HERE}/run.py", recording, *OPTIONS[device], "--most", "500",
+                 "--build", sys.argv[1], "--rtl", mutated(work, file, old, new),
+                 "--work", f"{work}/run"],
                 capture_output=True, text=True, check=False)
         seen = done.returncode == 1 and sign in done.stdout
         print(f"{name}: {'seen' if seen else 'NOT SEEN'}\n{done.stdout}{done.stderr}")

@@ -4,8 +4,8 @@
 """usage: flat_file.py [BUS_SIZE ...]
 
 A build of the core in one file of Verilog-2005 (wb_16): no tool has anything to say of it, it
-passes the smoke bench, a design in another folder takes it, and its RAMs are found. `make dist` runs
-all twelve, and proves that they equal their sources."""
+passes the smoke bench, a design in another folder takes it, and its RAMs are found. `make dist`
+runs all twelve, and proves that they equal their sources."""
 
 import re
 import sys
