@@ -351,11 +351,20 @@ TEST(Master, StartsAnew) {
 }
 
 // TM-53, TM-54, TM-84, TM-86, TM-87: what is so if nobody asks for something else.
+// Whatever was there before.
 TEST(Master, Defaults) {
-  verican_tsyn_config_t config{};
+  verican_tsyn_config_t config = DomainRig::config_of(4, 3);
+  config.delay_request = config.delay_response = 7;
+  config.user = &config;
+  config.on_event = [](void *, verican_tsyn_t *, std::uint8_t) {};
   ASSERT_EQ(verican_tsyn_config_default(&config), VERICAN_OK);
   EXPECT_EQ(config.master_count, 1);
   EXPECT_EQ(config.rank, 0);
+  for (const std::uint32_t master : config.masters) EXPECT_EQ(master, 0u);
+  EXPECT_EQ(config.delay_request, 0u);
+  EXPECT_EQ(config.delay_response, 0u);
+  EXPECT_EQ(config.on_event, nullptr);
+  EXPECT_EQ(config.user, nullptr);
   EXPECT_EQ(config.rules.jump_width, 15);
   EXPECT_EQ(config.rules.fup_timeout_us, 100'000u);
   EXPECT_EQ(config.servo.interval_us, 1'000'000u);
@@ -363,7 +372,6 @@ TEST(Master, Defaults) {
   EXPECT_EQ(config.servo.drift_ppb, 100u);
   EXPECT_EQ(config.servo.hold_after, 3);
   EXPECT_EQ(config.servo.filter, 0);
-  // Whatever was there before.
   verican_tsyn_rules_t rules{nullptr, nullptr, 1, 2, 3, 4, true, {5, 6, 7}};
   ASSERT_EQ(verican_tsyn_rules_default(&rules), VERICAN_OK);
   EXPECT_EQ(rules.domain, 0);
