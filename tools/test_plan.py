@@ -162,6 +162,8 @@ class Plan:
                 if not self.ids.fullmatch(name) or name in entries:
                     sys.exit(f"{self.file}: {name}: not the id of a {self.noun}, or there twice")
                 fields = entry if isinstance(entry, dict) else {"title": entry}
+                if not {"title"} <= set(fields) <= {"title", "not_applicable", "measured"}:
+                    sys.exit(f"{self.file}: {name}: a title, and not_applicable or measured")
                 entries[name] = Entry(**fields, optional=bool(section.get("optional")))
         return entries
 

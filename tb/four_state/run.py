@@ -48,6 +48,8 @@ def arguments():
                         help="end a replay with its Nth difference or X (0: with its last clock)")
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
+    if options.most < 0:
+        parser.error(f"--most {options.most}: at least 0 is needed")
     if options.clocks < 1:
         parser.error(f"--clocks {options.clocks}: at least 1 is needed")
     if options.num_mb and options.device != "ahb":

@@ -39,7 +39,7 @@ class SynthFallback(unittest.TestCase):
             self.assertEqual(code, 0, said)
             return said, page.read_text(encoding="utf-8")
 
-    def test_a_netlist_at_which_abc9_stops_is_made_with_plain_abc(self):
+    def test_where_abc9_stops_plain_abc_is_taken(self):
         """That between shift registers, for the clock rate; of the bare block nothing is said."""
         said, page = self.synth("-top area_wrap")
         self.assertRegex(said, r"abc9 stops at \S+/can_core/ice40_wrapped; plain abc instead: "

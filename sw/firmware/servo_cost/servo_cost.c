@@ -11,7 +11,7 @@
 
 enum { PAIRS = 64, DRIFT_PPM = 80, TICK_NS = 62 };
 #define CLOCK_HZ 16000000u
-#define NOMINAL ((uint64_t)1000000000 << 32) / CLOCK_HZ
+#define NOMINAL (((uint64_t)1000000000 << 32) / CLOCK_HZ) /* 2^-32 ns a clock */
 #define SECOND 1000000000u
 
 /* SysTick counts down with every clock; 24 bits. */
