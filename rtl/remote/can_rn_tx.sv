@@ -33,7 +33,7 @@ module can_rn_tx #(
   output logic                load_o,        // it is wanted
   output logic                urgent_o,      // within eight bits
   output logic                try_o,         // an attempt has failed
-  output logic                gone_o,        // pulse: sent or dropped
+  output logic                gone_o,        // pulse: what was offered is sent or dropped
   output logic                gone_status_o, // it was STATUS, HERE
   output logic                gone_here_o,
   output logic                popped_o,      // the head of the queue has gone
@@ -101,7 +101,7 @@ module can_rn_tx #(
   // A SELECT that does not select takes back a HERE that waits.
   assign recalled = (&src_q) && !owe_here_i;
   assign drop     = flush_i || gone || stale || recalled;
-  assign gone_o        = gone;
+  assign gone_o        = drop;
   assign dropped_o     = stale || (gone && !tx_ok_i);
   assign gone_status_o = gone && status_o;
   assign gone_here_o   = gone && (&src_q);

@@ -38,7 +38,7 @@ module can_time_sync #(
   output logic [63:0] data_o
 );
   typedef enum logic [1:0] {
-    StNone,       // unsynchronised: no pair yet
+    StNone,       // unsynchronised: no pair yet, or none of a rate set anew
     StAcquiring,  // eight pairs that turn the rate with all of their weight, four as in LOCKED
     StLocked,
     StHoldover    // no pair for too long
@@ -48,7 +48,7 @@ module can_time_sync #(
   localparam logic [2:0] OpSeconds = 3'd1;  // the word of a SYNC becomes the seconds
   localparam logic [2:0] OpOffset  = 3'd2;  // offset; its negative into result_q
   localparam logic [2:0] OpJudge   = 3'd3;  // step or not; half of the shift; beyond 32 bits
-  localparam logic [2:0] OpShift   = 3'd4;  // in the first clock of it
+  localparam logic [2:0] OpShift   = 3'd4;  // in the first clock of it; half-way a slew ends
   localparam logic [2:0] OpRate    = 3'd5;  // new increment into result_q
   localparam logic [2:0] OpTurn    = 3'd6;  // to where the clock takes it, half-way
   localparam logic [2:0] OpWhole   = 3'd7;  // a whole second, which the compare unit takes half-way
@@ -132,7 +132,8 @@ module can_time_sync #(
   assign light   = state_q == StLocked || pairs_q[3];   // in StAcquiring there are 11 at most
   assign ignored = state_q == StLocked && far && !leap_q;
   assign step    = !started || far;
-  // A rate that an upset has changed beyond what pairs can turn back begins anew, too.
+  // A rate that an upset has changed beyond what pairs can turn back begins anew. It still counted
+  // between the SYNC and now: the next pair only shifts, and says nothing of the new rate.
   assign anew    = state_q == StAcquiring && far;
   assign done    = last && ((op_q == OpShift && step && !anew) || op_q == OpTurn);
   always_comb begin
@@ -153,15 +154,12 @@ module can_time_sync #(
         else               op_d = OpIdle;
       end
       OpRate:  op_d = OpTurn;
-      OpTurn: begin
-        if (anew && pps) op_d = OpWhole;
-        else             op_d = OpIdle;
-      end
       default: op_d = OpIdle;
     endcase
     state_d = state_q;
     if (done) begin
-      if (step)                                          state_d = StAcquiring;
+      if (anew)                                          state_d = StNone;
+      else if (step)                                     state_d = StAcquiring;
       else if (state_q == StAcquiring && pairs_q >= 8'd11) state_d = StLocked;
     end else if (late && started) begin
       state_d = StHoldover;
@@ -245,7 +243,7 @@ module can_time_sync #(
       result_q <= '0;
       {any_q, half_carry_q} <= '0;
     end else begin
-      if (offset_round || halving || rate_round || (low && (op_q == OpTurn || op_q == OpWhole)))
+      if (offset_round || halving || rate_round || (low && op_q[2]))
         result_q <= {next, result_q[63:1]};
       any_q        <= offset_round && (any_q || offset);
       half_carry_q <= result_q[1] && (first ? result_q[0] : half_carry_q);
@@ -270,8 +268,9 @@ module can_time_sync #(
   end
 
   // The CPU goes first; a command of this clock is lost then.
-  logic shift_now, rate_now, whole_now;
+  logic shift_now, slew_now, rate_now, whole_now;
   assign shift_now = op_q == OpShift && first;
+  assign slew_now  = op_q == OpShift && half_way;   // result_q[63:32] is 0 by then
   assign rate_now  = op_q == OpTurn && half_way;
   assign whole_now = op_q == OpWhole && half_way;
   assign own_o     = enable && cmd_i[can_pkg::TimeArm:0] == '0;
@@ -280,6 +279,7 @@ module can_time_sync #(
     cmd_o = cmd_i;
     cmd_o[can_pkg::TimeShift] = cmd_i[can_pkg::TimeShift] || (own_o && shift_now);
     cmd_o[can_pkg::TimeRate]  = cmd_i[can_pkg::TimeRate]  || (own_o && rate_now);
+    cmd_o[can_pkg::TimeSlew]  = cmd_i[can_pkg::TimeSlew]  || (own_o && slew_now);
     cmd_o[can_pkg::TimeArm]   = cmd_i[can_pkg::TimeArm]   || (own_o && whole_now);
   end
 

@@ -20,7 +20,7 @@ const RemoteConfig &checked(const RemoteConfig &config) {
 RemoteModel::RemoteModel(const RemoteConfig &config, unsigned node)
     : config_{checked(config)},
       memory_{config_, status_, node & config_.highest_number()},
-      outbox_{config_.tx_depth},
+      outbox_{config_.tx_depth, memory_},
       producers_{config_, memory_},
       maps_{config_, memory_},
       rate_{config_.rate_rows} {}
@@ -131,12 +131,13 @@ void RemoteModel::check_maps() {
 }
 
 void RemoteModel::tick() {
+  const bool ten = ms_ == 0;
+  ms_ = (ms_ + 1) % 10;
   tick_back_off();
   if (!on_bus()) return;
   check_watchdog();
   check_maps();
-  for (unsigned n = outbox_.tick(10U * memory_[remote_map::kLife]); n != 0; --n)
-    status_.count(RemoteCounter::kBusy);
+  for (unsigned n = ten ? outbox_.ten_ms() : 0; n != 0; --n) status_.count(RemoteCounter::kBusy);
   tick_block();
   producers_.tick(operating());
   fill_queue();

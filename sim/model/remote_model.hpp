@@ -182,6 +182,7 @@ class RemoteModel {
   bool off_bus_ = false;
   bool search_ = false;
   unsigned idle_ms_ = 0;
+  unsigned ms_ = 0;              // since a step of LIFE; the first ms after a reset is one
   unsigned back_off_left_ = 0;   // ms
   unsigned back_off_power_ = 0;  // k
   unsigned recovered_ms_ = 0;

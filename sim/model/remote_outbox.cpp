@@ -6,51 +6,56 @@
 
 namespace vericansim {
 
+void RemoteOutbox::read_limits() {
+  next_life_ = memory_[remote_map::kLife];
+  tries_ = memory_[remote_map::kRetry];
+}
+
 void RemoteOutbox::choose() {
   if (chosen_ != Item::kNone) return;
-  failures_ = 0;
-  if (here_age_)
+  if (here_)
     chosen_ = Item::kHere;
-  else if (status_age_)
+  else if (status_)
     chosen_ = Item::kStatus;
   else if (!answers_.empty())
     chosen_ = Item::kAnswer;
 }
 
 void RemoteOutbox::answer(const Frame &frame) {
-  answers_.push_back({frame, 0});
+  answers_.push_back({frame, next_life_});
+  next_life_ = memory_[remote_map::kLife];
   choose();
 }
 
 void RemoteOutbox::status() {
-  status_age_ = 0;
+  status_ = true;
   choose();
 }
 
 void RemoteOutbox::here(bool wanted) {
-  if (wanted) {
-    here_age_ = 0;
-  } else {
-    here_age_.reset();
-    if (chosen_ == Item::kHere) chosen_ = Item::kNone;
+  here_ = wanted;
+  if (!wanted && chosen_ == Item::kHere) {
+    chosen_ = Item::kNone;
+    read_limits();
   }
   choose();
 }
 
 void RemoteOutbox::clear() {
   answers_.clear();
-  here_age_.reset();
-  status_age_.reset();
+  here_ = status_ = false;
   chosen_ = Item::kNone;
   under_way_ = false;
+  read_limits();
 }
 
 void RemoteOutbox::drop_chosen() {
-  if (chosen_ == Item::kHere) here_age_.reset();
-  if (chosen_ == Item::kStatus) status_age_.reset();
+  if (chosen_ == Item::kHere) here_ = false;
+  if (chosen_ == Item::kStatus) status_ = false;
   if (chosen_ == Item::kAnswer) answers_.pop_front();
   chosen_ = Item::kNone;
   under_way_ = false;
+  read_limits();
   choose();
 }
 
@@ -60,34 +65,26 @@ void RemoteOutbox::sent() {
 
 void RemoteOutbox::lost() { under_way_ = false; }
 
-bool RemoteOutbox::failed(unsigned retry) {
+bool RemoteOutbox::failed() {
   under_way_ = false;
-  if (chosen_ == Item::kNone || ++failures_ < retry || retry == 0) return false;
+  if (chosen_ == Item::kNone || tries_ == 0 || --tries_ != 0) return false;
   drop_chosen();
   return true;
 }
 
-unsigned RemoteOutbox::tick(unsigned life) {
-  const auto over = [&](unsigned &age) { return ++age >= life && life != 0; };
+unsigned RemoteOutbox::ten_ms() {
   unsigned dropped = 0;
-  const auto drop_slot = [&](std::optional<unsigned> &age, Item item) {
-    if (!age || !over(*age) || (under_way_ && chosen_ == item)) return;
-    age.reset();
-    if (chosen_ == item) chosen_ = Item::kNone;
-    ++dropped;
-  };
-  drop_slot(here_age_, Item::kHere);
-  drop_slot(status_age_, Item::kStatus);
   for (auto it = answers_.begin(); it != answers_.end();) {
-    const bool first = it == answers_.begin();
-    const bool chosen = first && chosen_ == Item::kAnswer;
-    if (!over(it->age) || (chosen && under_way_)) {
-      ++it;
+    if (it->life == 1 && it == answers_.begin() && !under_way_) {
+      it = answers_.erase(it);
+      // Whatever is offered is chosen again then, with all of its attempts.
+      chosen_ = Item::kNone;
+      read_limits();
+      ++dropped;
       continue;
     }
-    if (chosen) chosen_ = Item::kNone;
-    it = answers_.erase(it);
-    ++dropped;
+    if (it->life > 1) --it->life;
+    ++it;
   }
   choose();
   return dropped;

@@ -9,17 +9,20 @@
 #include <optional>
 
 #include "model/frame.hpp"
+#include "model/remote_memory.hpp"
 
 namespace vericansim {
 
 /// The answer queue, with the two that need no place in it: HERE, and the STATUS that follows a
-/// result. What has been chosen is sent before anything else, whatever comes.
+/// result. What has been chosen is sent before anything else, whatever comes. LIFE and RETRY count
+/// as they were when the frame before had gone, LIFE also when an answer entered the queue before
+/// (docs/remote.md, "What waits to be sent").
 class RemoteOutbox {
  public:
   enum class Item : std::uint8_t { kNone, kHere, kStatus, kAnswer };
 
-  /// `depth`: places of the queue.
-  explicit RemoteOutbox(unsigned depth) : depth_{depth} {}
+  /// `depth`: places of the queue; `memory` tells LIFE and RETRY and must outlive this.
+  RemoteOutbox(unsigned depth, const RemoteMemory &memory) : depth_{depth}, memory_{memory} {}
 
   [[nodiscard]] bool full() const { return answers_.size() >= depth_; }
   [[nodiscard]] bool empty() const { return answers_.empty(); }
@@ -41,27 +44,28 @@ class RemoteOutbox {
   void attempt() { under_way_ = true; }
   void sent();
   void lost();
-  /// The attempt ended in an error. `retry`: attempts that a frame has (0: no limit). True: it was
-  /// the last one, the frame is dropped.
-  [[nodiscard]] bool failed(unsigned retry);
-  /// A millisecond has passed; what is older than `life` ms (0: no limit) and not under way is
-  /// dropped. Returns how many.
-  [[nodiscard]] unsigned tick(unsigned life);
+  /// The attempt ended in an error. True: it was the last one, the frame is dropped.
+  [[nodiscard]] bool failed();
+  /// 10 ms have passed; answers whose life is over by then are dropped, the first before the next,
+  /// but for one under way. Returns how many.
+  [[nodiscard]] unsigned ten_ms();
 
  private:
   struct Answer {
     Frame frame;
-    unsigned age = 0;  // ms
+    unsigned life = 0;  // 10 ms; 0: no limit
   };
   void choose();
   void drop_chosen();
+  void read_limits();
 
   unsigned depth_;
+  const RemoteMemory &memory_;
   std::deque<Answer> answers_;
-  std::optional<unsigned> here_age_;
-  std::optional<unsigned> status_age_;
+  bool here_ = false, status_ = false;
   Item chosen_ = Item::kNone;
-  unsigned failures_ = 0;  // of the chosen one
+  unsigned next_life_ = 0;  // of the answer that comes next
+  unsigned tries_ = 0;      // left to what is chosen; 0: no limit
   bool under_way_ = false;
 };
 

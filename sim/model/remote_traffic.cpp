@@ -144,7 +144,7 @@ void RemoteModel::lost_arbitration() {
 // RN-15
 void RemoteModel::failed() {
   under_way_.reset();
-  if (outbox_.failed(memory_[remote_map::kRetry])) status_.count(RemoteCounter::kBusy);
+  if (outbox_.failed()) status_.count(RemoteCounter::kBusy);
   fill_queue();
 }
 

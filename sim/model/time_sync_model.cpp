@@ -77,8 +77,13 @@ std::optional<TimeSyncAction> TimeSyncModel::pair(std::uint64_t whole, std::uint
   leap_ = false;
   TimeSyncAction action;
   action.shift = static_cast<std::int64_t>(-static_cast<std::uint64_t>(o));
+  if (large && state_ == State::kAcquiring) {
+    action.increment = setting_.nominal;
+    state_ = State::kUnsynchronised;
+    pairs_ = 0;
+    return action;
+  }
   if (large || state_ == State::kUnsynchronised || state_ == State::kHoldover) {
-    if (large && state_ == State::kAcquiring) action.increment = setting_.nominal;
     state_ = State::kAcquiring;
     pairs_ = 0;
     if (setting_.pps) action.whole = whole;

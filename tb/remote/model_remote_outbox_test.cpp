@@ -9,7 +9,7 @@ namespace vericansim {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 class RemoteModelOutbox : public RemoteModelTest {};
 
@@ -35,40 +35,75 @@ TEST_F(RemoteModelOutbox, AnswersAreSnapshotsInOrder) {
   }
 }
 
-// RN-54: what is older than LIFE is dropped and counted; 0 is no limit.
-TEST_F(RemoteModelOutbox, OldAnswersAreDropped) {
-  const auto ticks = [&](unsigned n) {
+/// The first millisecond is a step of LIFE; the next one is ten behind it.
+class RemoteModelLife : public RemoteModelOutbox {
+ protected:
+  void ticks(unsigned n) {
     for (; n != 0; --n) node.model.tick();
-  };
-  node.user_write(0xF05, {3});
+  }
+  void life(std::uint8_t steps) {
+    node.user_write(remote_map::kLife, {steps});
+    (void)node.send("1A0#R1");
+  }
+};
+
+// RN-54: an answer lives LIFE steps of 10 ms, the first of which has begun before; what is dropped
+// is counted; a STATUS waits for ever.
+TEST_F(RemoteModelLife, OldAnswersAreDropped) {
+  life(3);
+  ticks(1);
   node.hear("1A0#R1");
   ticks(15);
   node.hear("1A0#R2");
   node.hear("1A0#");
-  ticks(13);
+  ticks(14);
   ASSERT_TRUE(node.model.wants());
   EXPECT_EQ(node.model.wants()->dlc, 1);
-  ticks(3);
+  EXPECT_EQ(node.bytes(0xFEB, 1)[0], 0);
+  ticks(1);
   EXPECT_EQ(node.bytes(0xFEB, 1)[0], 1);
-  ticks(16);
-  EXPECT_FALSE(node.model.wants());
-  EXPECT_EQ(node.bytes(0xFEB, 1)[0], 3);
-  node.user_write(0xF05, {0});
+  ticks(9);
+  EXPECT_EQ(node.bytes(0xFEB, 1)[0], 1);
+  ticks(1);
+  EXPECT_EQ(node.bytes(0xFEB, 1)[0], 2);
+  EXPECT_THAT(node.drain(), ElementsAre(StartsWith("5FE#")));
+}
+
+// RN-54: 0 is no limit.
+TEST_F(RemoteModelLife, NoLimit) {
+  life(0);
   node.hear("1A0#R1");
   node.hear("002#0000000000000000");
   ticks(60'000);
   EXPECT_EQ(node.drain().size(), 2U);
 }
 
-// RN-54: a frame that is on its way is not dropped.
-TEST_F(RemoteModelOutbox, WhatIsOnItsWayStays) {
+// RN-54: LIFE holds from the answer after the next on; one behind an answer that lives longer waits
+// for it.
+TEST_F(RemoteModelLife, ChangedBetweenAnswers) {
+  ticks(1);
+  node.user_write(remote_map::kLife, {1});
+  node.hear("1A0#R1");  // 100 ms
+  node.hear("1A0#R2");  // 10 ms
+  ticks(99);
+  EXPECT_EQ(node.bytes(0xFEB, 1)[0], 0);
+  ticks(1);
+  EXPECT_EQ(node.bytes(0xFEB, 1)[0], 2);
+  EXPECT_FALSE(node.model.wants());
+}
+
+// RN-54: a frame that is on its way is not dropped; it is asked again 10 ms later.
+TEST_F(RemoteModelLife, WhatIsOnItsWayStays) {
+  ticks(1);
   node.hear("1A0#R1");
-  for (int i = 0; i < 98; ++i) node.model.tick();
+  ticks(98);
   node.model.attempt();
-  for (int i = 0; i < 5; ++i) node.model.tick();
+  ticks(5);
   ASSERT_TRUE(node.model.wants());
   node.model.lost_arbitration();
-  node.model.tick();
+  ticks(6);
+  EXPECT_TRUE(node.model.wants());
+  ticks(1);
   EXPECT_FALSE(node.model.wants());
 }
 
@@ -94,10 +129,21 @@ TEST_F(RemoteModelOutbox, RetryLimit) {
   EXPECT_EQ(node.model.wants()->id, 0x5A1U);
   EXPECT_THAT(node.drain(), ElementsAre("5A1#0000"));
   node.user_write(0xF07, {2});
+  (void)node.send("1A0#");
   node.hear("1A0#");
   fail(2);
   EXPECT_FALSE(node.model.wants());
+  // RN-26: a HERE that is taken back leaves none of its failures to what comes behind it.
+  node.hear("002#0000000000000000");
+  fail(1);
+  node.hear("002#FFFFFFFFFFFFFFFF");
+  node.hear("1A0#");
+  fail(1);
+  EXPECT_TRUE(node.model.wants());
+  fail(1);
+  EXPECT_FALSE(node.model.wants());
   node.user_write(0xF07, {0});
+  (void)node.send("1A0#R1");
   node.hear("1A0#R1");
   fail(1000);
   EXPECT_TRUE(node.model.wants());

@@ -95,6 +95,26 @@ TEST_F(PortLife, AllOfTheQueueGrowsOld) {
   EXPECT_EQ(port->drain().size(), 1U);
 }
 
+// RN-15, RN-26: a HERE that is taken back leaves none of its failures to the frame behind it.
+TEST_F(PortLife, AttemptsBeginAnewBehindWhatIsTakenBack) {
+  constexpr unsigned kRetry = remote_map::kRetry;
+  port->user_write(kRetry / 4, 2U << 8 * (kRetry % 4), 1U << kRetry % 4);
+  port->receive(read());
+  (void)port->drain();
+  port->receive(frame_of("002#0000000000000000"));
+  port->clocks(64);
+  ASSERT_EQ(port->send(FramePort::End::kError).id, 0x402U);
+  port->receive(frame_of("002#FFFFFFFFFFFFFFFF"));
+  port->receive(frame_of("1A0#"));  // of no length: STATUS tells that it is refused
+  port->clocks(64);
+  for (unsigned attempt = 0; attempt < 2; ++attempt) {
+    ASSERT_TRUE(port->asks()) << attempt;
+    EXPECT_EQ(port->send(FramePort::End::kError).id, 0x5FEU);
+    port->clocks(64);
+  }
+  EXPECT_FALSE(port->asks());
+}
+
 // RN-54: LIFE of an answer does not depend on the one before it, in whatever clock that goes.
 class PortLifeAfter : public ::testing::TestWithParam<const char *> {};
 

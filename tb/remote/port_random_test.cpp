@@ -22,6 +22,24 @@ TEST_P(PortRandom, CommandsHaveTheEffectsOfTheModel) {
   }
 }
 
+// RN-15, RN-54: the same where frames are dropped all the time, by age and by errors.
+TEST_P(PortRandom, ShortLivesAndFewAttempts) {
+  unsigned dropped = 0;  // as full counts them
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    PortLockstep pair{GetParam(), 3, 3};
+    RandomHost host{seed};
+    const std::uint32_t life = 1 + seed % 3, retry = 1 + seed / 3 % 3;
+    pair.user_write(remote_map::kLife / 4, life << 8 | retry << 24, 0b1010);
+    for (unsigned i = 0; i < 500; ++i) {
+      if (i % 4 == 0) pair.ms();
+      random_port_step(pair, host);
+      ASSERT_EQ(pair.compare(), "") << "seed " << seed << " step " << i << "\n" << pair.history();
+    }
+    dropped += pair.model().memory()[remote_map::kCounters + 3];
+  }
+  if (GetParam() == std::string{"full"}) EXPECT_GT(dropped, 40U);
+}
+
 INSTANTIATE_TEST_SUITE_P(Profiles, PortRandom, ::testing::Values("small", "standard", "full"),
                          [](const auto &test) { return std::string{test.param}; });
 

@@ -14,7 +14,7 @@ namespace vericansim {
 namespace {
 
 constexpr std::uint64_t kSecond = 1'000'000'000;
-constexpr unsigned kAcquiring = 1, kLocked = 2, kHoldover = 3;
+constexpr unsigned kUnsynchronised = 0, kAcquiring = 1, kLocked = 2, kHoldover = 3;
 
 /// 16 MHz and a pair a second.
 TimeSyncSetting usual() { return {.domain = 5, .ki = 8, .kd = 2, .id = 0x123}; }
@@ -262,7 +262,7 @@ TEST(CanTimeSync, AgainstModel) {
       locked += before == kLocked ? 1 : 0;
       ignored += expected ? 0 : 1;
       halves += before == kLocked && setting.halve && expected && expected->increment ? 1 : 0;
-      anew += before == kAcquiring && model.pairs() == 0 && expected ? 1 : 0;
+      anew += before == kAcquiring && rig.state() == kUnsynchronised ? 1 : 0;
       full = std::max(full, model.pairs());
     }
   }
@@ -287,6 +287,11 @@ TEST(CanTimeSync, Limits) {
       EXPECT_EQ(acquiring.settle(),
                 (TimeSyncAction{-far, less == 0 ? usual().nominal : followed, {}}));
       EXPECT_EQ(acquiring.pairs(), less == 0 ? 0u : 1u);
+      EXPECT_EQ(acquiring.state(), less == 0 ? kUnsynchronised : kAcquiring);
+      // Behind a new increment a pair only shifts, however little it is off.
+      pair(acquiring, 2, 100);
+      EXPECT_EQ(acquiring.settle()->increment.has_value(), less != 0);
+      EXPECT_EQ(acquiring.state(), kAcquiring);
       SyncRig locked{usual()};
       lock(locked);
       const std::int64_t off = sign * ((1 << 12) - less);
@@ -353,11 +358,13 @@ TEST(CanTimeSync, CpuWins) {
       rig.clock(cmd);
       EXPECT_TRUE(rig.foreign());
       const auto action = rig.settle();
-      const bool whole = action && action->shift == -40 && action->increment;
-      lost += whole ? 0 : 1;
-      ASSERT_TRUE(action && (action->shift == -40 || action->increment)) << cmd << ' ' << at;
+      ASSERT_TRUE(action);
+      const unsigned done = (action->shift == -40 ? 1 : 0) + (action->increment ? 1 : 0) +
+                            (action->ends_slew ? 1 : 0);
+      ASSERT_GE(done, 2u) << cmd << ' ' << at;
+      lost += 3 - done;
     }
-  EXPECT_EQ(lost, 10u);  // shift and rate, for each command
+  EXPECT_EQ(lost, 15u);  // shift, end of a slew and rate, for each command
 }
 
 }  // namespace

@@ -131,9 +131,10 @@ class SyncRig {
   void take() {
     if (rtl_->cmd_o == 0) return;
     command_at_ = clocks_;
-    if (!action_) action_.emplace();
+    if (!action_) action_.emplace().ends_slew = false;
     const std::uint64_t data = rtl_->data_o;
     if (rtl_->cmd_o == time_cmd::kShift) action_->shift = static_cast<std::int64_t>(data);
+    if (rtl_->cmd_o == time_cmd::kSlew) action_->ends_slew = data >> 32 == 0;
     if (rtl_->cmd_o == time_cmd::kArm) action_->whole = data >> 32;
     if (rtl_->cmd_o == time_cmd::kRate) {
       increment_ = (data & 0xFF) << 32 | data >> 32;

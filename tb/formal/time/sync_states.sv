@@ -5,7 +5,7 @@
   // and every register is free; each property is about two clocks, the first of which is any state.
 
   logic       f_ran = 1'b0;
-  logic       f_enable, f_done, f_step, f_far, f_last, f_late, f_leap;
+  logic       f_enable, f_done, f_step, f_far, f_anew, f_last, f_late, f_leap;
   logic [1:0] f_state;
   logic [2:0] f_op;
   logic [7:0] f_pairs;
@@ -13,8 +13,8 @@
   assign f_followed = f_done && !f_step;
   always @(posedge clk_i) begin
     f_ran <= 1'b1;
-    {f_enable, f_done, f_step, f_far, f_last, f_late, f_leap}
-      <= {enable, done, step, far, last, late, leap_q};
+    {f_enable, f_done, f_step, f_far, f_anew, f_last, f_late, f_leap}
+      <= {enable, done, step, far, anew, last, late, leap_q};
     {f_state, f_op, f_pairs} <= {state_q, op_q, pairs_q};
   end
 
@@ -33,8 +33,12 @@
                         || (f_followed && f_pairs >= 8'd11 && f_op == OpTurn));
       p_ends: assert (!(f_enable && f_state == StAcquiring && f_followed && f_pairs >= 8'd11)
                       || state_q == StLocked);
-      // TM-103: a step leads to ACQUIRING, whatever was before, and its pairs are counted anew.
-      p_step: assert (!(f_enable && f_done && f_step) || (state_q == StAcquiring && pairs_q == '0));
+      // TM-103: a step leads to ACQUIRING and its pairs are counted from 0, whatever was before;
+      // but with a new increment, one more step is to come.
+      p_step: assert (!(f_enable && f_done && f_step && !f_anew)
+                      || (state_q == StAcquiring && pairs_q == '0));
+      p_anew: assert (!(f_enable && f_done && f_anew)
+                      || (state_q == StNone && pairs_q == '0 && f_op == OpTurn));
       p_pairs: assert (pairs_q == (f_done ? (f_step ? '0 : f_pairs + {7'b0, f_pairs != '1})
                                           : f_pairs));
       // TM-104: HOLDOVER when it is late, and no pair is being worked off.

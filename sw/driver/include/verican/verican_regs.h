@@ -790,7 +790,7 @@
 #define VERICAN_TSSTAT_STATE_SHIFT              0u
 #define VERICAN_TSSTAT_STATE_GET(word)          (((uint32_t)(word) >> 0) & 0x3u)
 #define VERICAN_TSSTAT_STATE_SET(value)         (((uint32_t)(value) & 0x3u) << 0)
-#define VERICAN_TSSTAT_STATE_UNSYNCHRONISED     0x0u /* no pair yet */
+#define VERICAN_TSSTAT_STATE_UNSYNCHRONISED     0x0u /* no pair yet, or none of a rate set anew */
 #define VERICAN_TSSTAT_STATE_ACQUIRING          0x1u /* fewer than twelve pairs */
 #define VERICAN_TSSTAT_STATE_LOCKED             0x2u /* locked */
 #define VERICAN_TSSTAT_STATE_HOLDOVER           0x3u /* no pair for too long */
