@@ -158,12 +158,12 @@ module can_core #(
     logic [can_pkg::TimeStatWidth-1:0] stat;
     logic [63:0] data;
     logic [39:0] inc;
-    logic        changed;
-    can_time #(.TimeInc(TimeInc)) u_time (
+    logic        changed, upset;
+    can_time #(.TimeInc(TimeInc), .Watch(TimeSync)) u_time (
       .clk_i, .rst_ni, .cmd_i(cmd), .data_i(data),
       .now_o(time_now_o), .ext_o(time_ext_o), .left_o(time_left_o), .inc_o(inc),
       .tctrl_i(time_tctrl_i), .tcmph_i(time_tcmph_i), .ttx_i(time_ttx_i),
-      .stat_o(stat),
+      .stat_o(stat), .upset_o(upset),
       .rx_i(rx), .tx_i(tx_q), .sample_i(sample && active_q), .bit_i(bit_value), .field_i(field),
       .transmitter_i(transmitter_o), .sof_i(stamp_o), .rx_valid_i(rx_valid_o),
       .stamp_o(time_stamp_o), .stamp_we_o(time_stamp_we_o), .stamp_tx_o(time_stamp_tx_o));
@@ -183,11 +183,12 @@ module can_core #(
         .rx_hdr_i(rx_hdr_o), .rx_id_i(rx_id_o), .rx_ide_i(rx_ide_o), .rx_rtr_i(rx_rtr_o),
         .rx_dlc_i(rx_dlc_o), .rx_byte_we_i(rx_byte_we_o), .rx_byte_i(rx_byte_o),
         .rx_valid_i(rx_valid_o), .stamp_i(time_stamp_o), .inc_i(inc),
+        .upset_i(upset),
         .cmd_i(time_cmd_i), .cmd_o(cmd), .own_o(own), .data_o(own_data));
       assign data = own ? own_data : time_data_i;
     end else begin : gen_no_sync
       logic unused;
-      assign unused = &{1'b0, inc, time_sync_ctrl_i, time_sync_id_i, time_sync_delay_i};
+      assign unused = &{1'b0, inc, upset, time_sync_ctrl_i, time_sync_id_i, time_sync_delay_i};
       assign {cmd, data} = {time_cmd_i, time_data_i};
       assign {time_sync_stat_o, time_sync_ofs_o, changed} = '0;
     end

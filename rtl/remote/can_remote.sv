@@ -123,7 +123,7 @@ module can_remote #(
     .NameBits(NameBits), .MemBytes(MemBytes), .StageBytes(StageBytes), .TxDepth(TxDepth),
     .NumProd(NumProd), .NumMap(NumMap), .Protect(Protect), .Block(Block), .AutoRate(AutoRate),
     .Counters(Counters), .SameId(SameId), .RateRows(RateRows), .TimeSync(TimeSync),
-    .SyncId(SyncId), .HalfPeriod(HalfPeriod)
+    .SyncId(SyncId), .SyncDelay(SyncDelay), .HalfPeriod(HalfPeriod)
   ) u_params ();
 
   // A constant, but for the simulator, which makes nodes that differ in it alone.

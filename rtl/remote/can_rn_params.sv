@@ -19,6 +19,7 @@ module can_rn_params #(
   parameter int RateRows = 8,
   parameter int TimeSync = 0,
   parameter logic [31:0] SyncId = '0,
+  parameter logic [31:0] SyncDelay = '0,
   parameter int HalfPeriod = 1
 ) ();
   if (NameBits != 3 && NameBits != 5) begin : gen_check_name_bits
@@ -63,6 +64,9 @@ module can_rn_params #(
   // The engine of a node hands out the first 11 bits of an identifier.
   if (SyncId[31:29] != '0 || SyncId[17:0] != '0) begin : gen_check_sync_id
     SyncId_must_be_a_base_identifier_in_bits_28_to_18 u_stop ();
+  end
+  if (SyncDelay[31:24] != '0) begin : gen_check_sync_delay
+    SyncDelay_must_be_24_bits u_stop ();
   end
   if (HalfPeriod < 1) begin : gen_check_half_period
     HalfPeriod_must_be_1_to_2147483647 u_stop ();

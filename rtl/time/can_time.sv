@@ -6,7 +6,9 @@
 
 module can_time #(
   /// Increment after a reset, see can_clock.
-  parameter logic [39:0] TimeInc = 40'h14_0000_0000
+  parameter logic [39:0] TimeInc = 40'h14_0000_0000,
+  /// 1: upset_o, see can_time_cmp.
+  parameter int Watch = 0
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
@@ -21,6 +23,7 @@ module can_time #(
   input  logic [31:0] tcmph_i,      // TCMPH
   input  logic [31:0] ttx_i,        // TTX
   output logic [can_pkg::TimeStatWidth-1:0] stat_o,
+  output logic        upset_o,
   // Engine, see can_stamp.
   input  logic        rx_i,
   input  logic        tx_i,
@@ -63,10 +66,11 @@ module can_time #(
     .clk_i, .rst_ni, .take_i(take), .now_i(now), .time_o(stamp_o));
 
   logic armed, match, out, held, launch;
-  can_time_cmp u_cmp (
+  can_time_cmp #(.Watch(Watch)) u_cmp (
     .clk_i, .rst_ni, .lo_i(lo), .data_i(data_i[63:32]),
     .enable_i(tctrl_i[can_regs_pkg::TctrlCmpen]), .arm_i(cmd_i[can_pkg::TimeArm]),
     .period_i(tcmph_i), .armed_o(armed), .match_o(match), .out_o(out),
+    .upset_o,
     .hold_i(cmd_i[can_pkg::TimeHold]), .release_i(cmd_i[can_pkg::TimeRelease]), .launch_i(ttx_i),
     .held_o(held), .launch_o(launch));
 

@@ -4,7 +4,10 @@
 // can_time_cmp: the two events that wait for TIME: compare with its output (TM-30, TM-31), and the
 // launch of one buffer (TM-40). Both look at 32 bits: "reached" means at most 2^31 ns ago.
 
-module can_time_cmp (
+module can_time_cmp #(
+  /// 1: upset_o, for a follower whose pulses no software looks after.
+  parameter int Watch = 0
+) (
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic [31:0] lo_i,        // TIME[31:0] of the next clock
@@ -16,6 +19,7 @@ module can_time_cmp (
   output logic        armed_o,
   output logic        match_o,     // pulse in the clock after: it has fired
   output logic        out_o,       // toggles from that clock on
+  output logic        upset_o,     // until it is armed: something of it has changed by itself
   // Launch.
   input  logic        hold_i,      // pulse: the buffer is held from the next clock on
   input  logic        release_i,   // pulse: not any longer
@@ -59,5 +63,24 @@ module can_time_cmp (
       match_o   <= fire;
       launch_o  <= launch;
     end
+  end
+
+  // TM-141: a target, an output that an upset has changed would stay wrong by as much in all events
+  // to come. Their parity is taken behind each change, and holds until the next one.
+  if (Watch != 0) begin : gen_watch
+    logic parity, parity_q, changed_q, upset_q;
+    assign parity  = ^{target_q, armed_o, out_o};
+    assign upset_o = upset_q;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        {parity_q, changed_q, upset_q} <= '0;
+      end else begin
+        changed_q <= arm_i || fire || (armed_o && !enable_i);
+        if (changed_q) parity_q <= parity;
+        upset_q   <= !arm_i && (upset_q || (!changed_q && parity != parity_q));
+      end
+    end
+  end else begin : gen_no_watch
+    assign upset_o = 1'b0;
   end
 endmodule

@@ -7,8 +7,8 @@
 module can_time_node #(
   /// Increment at the nominal rate: 39:32 ns, 31:0 in 2^-32 ns a clock.
   parameter logic [39:0] TimeInc = 40'h14_0000_0000,
-  /// TSCTRL without EN and PPS, TSID and TSDLY of the follower (docs/registers.md). KI 6, KD 2,
-  /// PHALF, TMO 31: a pair a second at 50 MHz.
+  /// TSCTRL without EN and PPS, TSID and TSDLY of the follower (docs/registers.md), a negative TSDLY
+  /// in 24 bits. KI 6, KD 2, PHALF, TMO 31: a pair a second at 50 MHz.
   parameter logic [31:0] SyncCtrl = 32'h1F46_0100,
   parameter logic [31:0] SyncId = 32'd0,
   parameter logic [31:0] SyncDelay = 32'd0,
@@ -33,6 +33,9 @@ module can_time_node #(
   // A module that does not exist stops the build; its name is the message.
   if (HalfPeriod < 1) begin : gen_check_half_period
     HalfPeriod_must_be_1_to_2147483647 u_stop ();
+  end
+  if (SyncDelay[31:24] != '0) begin : gen_check_sync_delay
+    SyncDelay_must_be_24_bits u_stop ();
   end
   if (Brp < 1 || Brp > 256) begin : gen_check_brp
     Brp_must_be_1_to_256 u_stop ();

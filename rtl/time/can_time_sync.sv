@@ -32,6 +32,7 @@ module can_time_sync #(
   // Time unit, see can_time: what the CPU asks of it, which goes first, and what it is asked.
   input  logic [63:0] stamp_i,
   input  logic [39:0] inc_i,         // increment: 39:32 ns, 31:0 in 2^-32 ns
+  input  logic        upset_i,       // the compare unit wants to be armed anew
   input  logic [can_pkg::TimeCmdWidth-1:0] cmd_i,
   output logic [can_pkg::TimeCmdWidth-1:0] cmd_o,
   output logic        own_o,         // data_o goes with cmd_o; else what the CPU gives
@@ -154,6 +155,10 @@ module can_time_sync #(
         else               op_d = OpIdle;
       end
       OpRate:  op_d = OpTurn;
+      OpTurn: begin
+        if (pps && upset_i) op_d = OpWhole;
+        else                op_d = OpIdle;
+      end
       default: op_d = OpIdle;
     endcase
     state_d = state_q;

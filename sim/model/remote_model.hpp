@@ -65,6 +65,11 @@ class RemoteModel {
 
   // ---- Bus
 
+  /// The header of a frame that somebody else sends is known: what falls due until its end waits if
+  /// it is for this node. A bench that does not tell has the model put that first.
+  void announce(const Frame &header);
+  /// The frame has ended, or the bus is free: nothing waits for it any longer.
+  void released();
   /// A frame that somebody else sends is valid (VA-01). Throws as Frame::validate().
   void receive(const Frame &frame);
   /// SP of INT2 behind it: what it wrote is shown to user logic now.
@@ -187,6 +192,7 @@ class RemoteModel {
   unsigned back_off_power_ = 0;  // k
   unsigned recovered_ms_ = 0;
   std::optional<Frame> under_way_;  // the frame of an attempt
+  bool announced_ = false;  // a frame for this node is under way
   bool held_ = false;
   bool hold_ignored_ = false;
   std::optional<Frame> waiting_;  // valid, but user logic holds

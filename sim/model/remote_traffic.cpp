@@ -8,8 +8,20 @@
 
 namespace vericansim {
 
+void RemoteModel::announce(const Frame &header) {
+  Frame longest = header;
+  longest.dlc = 8;
+  announced_ = on_bus() && !off_bus_ && !header.extended && concerns(longest);
+}
+
+void RemoteModel::released() {
+  if (!std::exchange(announced_, false)) return;
+  fill_queue();
+}
+
 void RemoteModel::receive(const Frame &frame) {
   frame.validate();
+  announced_ = false;
   if (status_.state == RemoteState::kListen && rate_.frame()) {
     join();
     fill_queue();
@@ -96,6 +108,7 @@ std::vector<RemotePulse> RemoteModel::take_pulses() { return std::exchange(pulse
 // block read and statements by producers, comes only into an empty queue: so an answer has one of
 // them before it at most.
 void RemoteModel::fill_queue() {
+  if (announced_) return;
   if (held_ && !hold_ignored_) return;  // no snapshot is taken
   if (!on_bus() || off_bus_ || !has_number()) return;
   if (outbox_.empty()) {

@@ -53,6 +53,10 @@ TEST(Servo, FitVectors) {
       fit({{1000000000, -1000}, {2000000123, 3100}, {3000000456, -700}, {4000000001, 9000}});
   EXPECT_EQ(uneven.offset, 6530);
   EXPECT_EQ(uneven.rate, 180044);
+  // The least D there is, 1: two pairs a tick apart.
+  const auto shortest = fit({{0, 0}, {4096, 1}});
+  EXPECT_EQ(shortest.offset, 1);
+  EXPECT_EQ(shortest.rate, 1 << 24);
 }
 
 // TM-81: one pair is a line without a slope, two at the same time as well.
@@ -203,6 +207,21 @@ TEST(Servo, HistoryIsRereferenced) {
     const double rate = std::ldexp(static_cast<double>(line.rate), -44);
     ASSERT_NEAR(static_cast<double>(line.offset) / 256 + rate * now, 0, 1.0) << n;
     ASSERT_NEAR(rate, 0, 0.05e-9 + 4.1e-6 * corrected) << n;
+  }
+}
+
+// TM-81, TM-83: a pair that is too old for the fit is forgotten, and all before it; its age counts
+// from the newest one on.
+TEST(Servo, OldPairsAreForgotten) {
+  verican_servo_config_t config = ServoRig::defaults();
+  config.interval_us = 5'000'000;
+  config.hold_after = 200;
+  for (const std::int64_t seconds : {137, 138}) {
+    ServoRig rig{config};
+    rig.pair(0);
+    rig.pair(0, 90 * kSecondNs);
+    rig.pair(0, (seconds - 90) * kSecondNs);
+    EXPECT_EQ(rig.servo.count, seconds == 137 ? 3 : 2);
   }
 }
 

@@ -347,10 +347,11 @@ TEST(CanTSyn, OtherTypes) {
   bus.take(bus.sync(kSecond));
   for (const std::uint8_t type : Data{0x34, 0x3C, 0x44, 0x4C, 0x54, 0x64, 0x54, 0x64})
     EXPECT_EQ(bus.take({type, 0, 0x30}), VERICAN_TSYN_NOTHING);
-  EXPECT_EQ(bus.refused(), counts({{VERICAN_TSYN_OTHER, 8}}));
+  EXPECT_EQ(bus.take({0x54}, 1), VERICAN_TSYN_NOTHING);  // the type alone tells
+  EXPECT_EQ(bus.refused(), counts({{VERICAN_TSYN_OTHER, 9}}));
   for (const int dlc : {0, 1, 7, 9, 15})
     bus.take(bus.fup(kSecond + 5), static_cast<std::uint8_t>(dlc));
-  EXPECT_EQ(bus.refused(), counts({{VERICAN_TSYN_OTHER, 8}, {VERICAN_TSYN_TYPE, 5}}));
+  EXPECT_EQ(bus.refused(), counts({{VERICAN_TSYN_OTHER, 9}, {VERICAN_TSYN_TYPE, 5}}));
   for (int n = 0; n < 70'000; ++n) bus.take({0x7F});
   EXPECT_EQ(bus.receiver.refused[VERICAN_TSYN_TYPE], 0xFFFF);
   EXPECT_EQ(bus.take(bus.fup(kSecond + 5)), VERICAN_TSYN_PAIR);

@@ -76,10 +76,19 @@ class Features(unittest.TestCase):
         self.assertNotEqual(code, 0)
         self.assertIn("must_be_0_or_1", text)
 
+    def test_delay_of_more_than_its_register_is_refused(self):
+        """TM-100: TSDLY has 24 bits."""
+        most = {"TimeUnit": 1, "TimeSync": 1, "SyncDelay": (1 << 24) - 1}
+        self.assertEqual(lint(most), (0, ""))
+        code, text = lint({**most, "SyncDelay": 1 << 24})
+        self.assertNotEqual(code, 0)
+        self.assertIn("SyncDelay_must_be_24_bits", text)
+
     def test_node_without_a_processor_refuses_what_its_clock_cannot_be(self):
         """TM-106, TM-107: each parameter just outside its range; in it, it is clean."""
         self.assertEqual(lint({"TimeSync": 1}, "can_remote"), (0, ""))
-        for name, value in ("TimeSync", 2), ("HalfPeriod", 0), ("SyncId", 1), ("SyncId", 1 << 29):
+        for name, value in (("TimeSync", 2), ("HalfPeriod", 0), ("SyncId", 1), ("SyncId", 1 << 29),
+                            ("SyncDelay", 1 << 24)):
             with self.subTest(name, value=value):
                 code, text = lint({"TimeSync": 1, name: value}, "can_remote")
                 self.assertNotEqual(code, 0)
@@ -87,8 +96,8 @@ class Features(unittest.TestCase):
 
     def test_clock_without_a_processor_refuses_what_its_registers_cannot_hold(self):
         """TM-100: each parameter just outside its range."""
-        for value in ({"HalfPeriod": 0}, {"Brp": 0}, {"Brp": 257}, {"Prop": 9}, {"Ps1": 0},
-                      {"Ps2": 9}, {"Sjw": 5}):
+        for value in ({"HalfPeriod": 0}, {"SyncDelay": 1 << 24}, {"Brp": 0}, {"Brp": 257},
+                      {"Prop": 9}, {"Ps1": 0}, {"Ps2": 9}, {"Sjw": 5}):
             with self.subTest(value):
                 code, text = lint(value, "can_time_node")
                 self.assertNotEqual(code, 0)

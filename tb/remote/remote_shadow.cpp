@@ -44,6 +44,7 @@ void RemoteShadow::on_bit(NodeId node, const BitRecord &bit) {
   // The node was off the bus for some clocks and integrates.
   if (model_.restarting() && bit.at.field == Field::kInteg) model_.stopped();
   for (; ms_ != 0; --ms_) model_.tick();
+  follow_header(bit);
   follow_sending(bit);
   follow_errors(bit.after);
   if (to_int2_ != 0 && --to_int2_ == 0) model_.intermission();
@@ -54,6 +55,14 @@ void RemoteShadow::on_bit(NodeId node, const BitRecord &bit) {
   }
   may_write_ = bit.at.field != Field::kEof && to_int2_ == 0;
   in_frame_ = bit.at.field != Field::kIdle && bit.at.field != Field::kInt;
+}
+
+// What falls due within a request comes behind its answer (docs/remote.md).
+void RemoteShadow::follow_header(const BitRecord &bit) {
+  if (bit.at.field == Field::kDlc && !bit.at.transmitter)
+    model_.announce(node_.frame());
+  else if (bit.at.field <= Field::kSuspend)
+    model_.released();
 }
 
 bool RemoteShadow::may_write(unsigned word) const {

@@ -42,6 +42,7 @@ class RemoteShadow : public BusObserver {
   [[nodiscard]] unsigned sent() const { return sent_; }
 
  private:
+  void follow_header(const BitRecord &bit);
   void follow_sending(const BitRecord &bit);
   void follow_errors(const Trace &trace);
   void pulse(const RemotePulse &pulse);

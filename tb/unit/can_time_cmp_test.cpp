@@ -79,6 +79,7 @@ class CanTimeCmp : public testing::Test {
                       rtl_->launch_o != model_.launched
                   ? 1
                   : 0;
+    alarms_ += rtl_->upset_o;
     matches_ += model_.match ? 1 : 0;
     launches_ += model_.launched ? 1 : 0;
     in_.arm = in_.hold = in_.release = false;
@@ -116,7 +117,7 @@ class CanTimeCmp : public testing::Test {
   EventModel model_;
   Inputs in_;
   std::mt19937 random_{30};
-  unsigned wrong_ = 0, matches_ = 0, launches_ = 0;
+  unsigned wrong_ = 0, matches_ = 0, launches_ = 0, alarms_ = 0;
 };
 
 // TM-30, TM-31, TM-40: random commands, targets and launch times up to 2^31 ns before and behind
@@ -131,8 +132,43 @@ TEST_F(CanTimeCmp, AgainstTheRules) {
     clock(step);
     ASSERT_EQ(wrong_, 0u) << i;
   }
+  EXPECT_EQ(alarms_, 0u) << "told of an upset that was none";
   EXPECT_GT(matches_, 5000u);
   EXPECT_GT(launches_, 2000u);
+}
+
+// TM-141: each bit that the events to come depend on, flipped while it waits: told two clocks later,
+// whatever fires meanwhile, until it is armed anew.
+TEST_F(CanTimeCmp, TellsOfAnUpset) {
+  const auto flip = [this](unsigned bit) {
+    auto &root = rtl_.root();
+    if (bit < 32)
+      root.can_time_cmp__DOT__target_q ^= 1U << bit;
+    else
+      (bit == 32 ? root.armed_o : root.out_o) ^= 1;
+  };
+  const auto arm = [this] {
+    in_.enable = in_.arm = true;
+    in_.data = in_.now + 1000;
+    in_.period = 1000;
+    clock();
+  };
+  for (unsigned bit = 0; bit < 34; ++bit)
+    for (unsigned wait = 2; wait < 40; wait += 7) {
+      SCOPED_TRACE(testing::Message() << bit << ' ' << wait);
+      arm();
+      for (unsigned i = 0; i < 200 + wait; ++i) clock();
+      ASSERT_EQ(alarms_, 0u);
+      flip(bit);
+      clock();
+      for (unsigned i = 0; i < 300; ++i) {
+        clock();
+        ASSERT_TRUE(rtl_->upset_o) << i;
+      }
+      arm();
+      EXPECT_FALSE(rtl_->upset_o);
+      alarms_ = 0;
+    }
 }
 
 // TM-03: a hard reset leaves nothing armed, held or set, amid both events.

@@ -306,6 +306,26 @@ TEST(CanTimeSync, Limits) {
   }
 }
 
+// TM-141: where an upset has changed what the compare unit waits for, a pair arms it with the whole
+// second, as a step does; without PPS nobody does.
+TEST(CanTimeSync, ArmsAnewBehindAnUpset) {
+  for (const bool pps : {true, false})
+    for (const bool upset : {true, false}) {
+      TimeSyncSetting setting = usual();
+      setting.pps = pps;
+      SyncRig rig{setting};
+      lock(rig);
+      rig.upset(upset);
+      pair(rig, 10, 40);
+      const auto action = rig.settle();
+      ASSERT_TRUE(action);
+      EXPECT_EQ(action->whole.has_value(), pps && upset);
+      if (action->whole) {
+        EXPECT_EQ(*action->whole, kSecond * (1'700'000'000 + 10 + 2) & 0xFFFFFFFF);
+      }
+    }
+}
+
 // TM-104: no pair for 2^TMO ns, to 200 clocks and one in 4,096: holdover. The next pair shifts,
 // leaves the rate and begins the twelve anew; ignored pairs count as pairs here.
 TEST(CanTimeSync, Holdover) {

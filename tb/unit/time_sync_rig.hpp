@@ -113,6 +113,8 @@ class SyncRig {
     return action;
   }
 
+  /// The compare unit wants to be armed anew, from now on.
+  void upset(bool on) { rtl_->upset_i = on ? 1 : 0; }
   [[nodiscard]] unsigned state() { return rtl_->stat_o & 3; }
   [[nodiscard]] unsigned sc() { return rtl_->stat_o >> 4 & 15; }
   [[nodiscard]] unsigned pairs() { return rtl_->stat_o >> 8 & 255; }

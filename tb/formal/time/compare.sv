@@ -8,6 +8,8 @@
 
   logic        f_reached, f_due, f_ran = 1'b0;
   logic        f_new;                // TCMP was changed in the clock before
+  logic        f_calm;               // the parity is right, or about to be taken
+  assign f_calm    = gen_watch.changed_q || gen_watch.parity == gen_watch.parity_q;
   logic [31:0] f_time, f_target, f_launch, f_late, f_ahead;
   assign f_late    = f_time - f_target;
   assign f_reached = !f_late[31] && !f_new;
@@ -39,6 +41,8 @@
       // TM-30, TM-31: the output toggles at each event, or goes to 1; arming clears it.
       p_out: assert (out_o == ($past(arm_i) ? $past(out_o) && !$past(enable_i)
                      : $past(fire) ? $past(period_i) == 32'd0 || !$past(out_o) : $past(out_o)));
+      // TM-141: who is right stays so, whatever changes it, and is told nothing.
+      p_calm: assert (!$past(f_calm) || (f_calm && upset_o == ($past(upset_o) && !$past(arm_i))));
       // TM-40: a buffer is held from the request until it is due or released, no longer.
       p_held: assert (held_o == ($past(hold_i)
                       || ($past(held_o) && !$past(launch) && !$past(release_i))));

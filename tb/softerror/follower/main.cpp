@@ -35,12 +35,13 @@ struct Sum {
     wrong += outcome.pairs > 0 ? 1 : 0;
     late += !outcome.hangs && outcome.pairs > kBar ? 1 : 0;
     if (!outcome.hangs) most = std::max(most, outcome.pairs);
-    if (outcome.hangs || outcome.babbled || outcome.pairs > kBar)
+    if (outcome.hangs || outcome.babbled || outcome.pairs > kBar || outcome.lost_pulses)
       notes.push_back(fmt::format("{} at clock {}: {}, {} pairs, {:.0f} ns at most",
                                   follower_flops().names()[flip.flop], flip.clock,
                                   outcome.babbled ? "babbles"
-                                  : outcome.hangs ? "hangs"
-                                                  : "late",
+                                  : outcome.hangs       ? "hangs"
+                                  : outcome.lost_pulses ? "no pulses"
+                                                        : "late",
                                   outcome.pairs, outcome.worst_ns));
   }
 };
@@ -56,7 +57,7 @@ Json result_of(const Sum &sum) {
         none("babbling", sum.babbled), campaign_figure("time wrong until a pair came", sum.wrong),
         none("right again after more than 10 pairs", sum.late),
         campaign_figure("pairs until right again, at most", sum.most),
-        campaign_figure("pin without pulses at the end", sum.silent)}},
+        none("pin without its pulses at the end", sum.silent)}},
       {"tables", Json::array()},
       {"notes", sum.notes}};
 }
@@ -117,7 +118,7 @@ int main(int argc, char **argv) {
       fmt::print("{}: {}\n", figure["name"].get<std::string>(), figure["value"].dump());
     for (const std::string &note : sum.notes) fmt::print("{}\n", note);
     if (!settings.json.empty()) std::ofstream{settings.json} << result.dump(1) << '\n';
-    return sum.hangs + sum.babbled + sum.late == 0 ? 0 : 1;
+    return sum.hangs + sum.babbled + sum.late + sum.silent == 0 ? 0 : 1;
   } catch (const std::exception &error) {
     fmt::print(stderr, "softerror_follower: {}\n", error.what());
     return 2;
