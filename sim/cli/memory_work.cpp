@@ -264,7 +264,7 @@ int memory_dump(MemoryCalls &calls, const MemoryOptions &options) {
 
 int memory_load(MemoryCalls &calls, const MemoryOptions &options) {
   const unsigned node = node_of(calls, options);
-  const std::string content = read_text_file(options.file);
+  const std::string content = read_bytes(options.file, kMostWritten);
   if (content.empty() || options.address + content.size() > remote_map::kSize)
     throw InputError(options.file, 0,
                      fmt::format("{} bytes; allowed: 1 to {} from 0x{:03X} on", content.size(),

@@ -192,7 +192,7 @@ class RemoteModel {
   unsigned back_off_power_ = 0;  // k
   unsigned recovered_ms_ = 0;
   std::optional<Frame> under_way_;  // the frame of an attempt
-  bool announced_ = false;  // a frame for this node is under way
+  bool announced_ = false;          // a frame for this node is under way
   bool held_ = false;
   bool hold_ignored_ = false;
   std::optional<Frame> waiting_;  // valid, but user logic holds

@@ -279,7 +279,7 @@ Scenario parse_scenario(const std::string &path, const std::string &text) {
 }
 
 Scenario read_scenario(const std::string &path) {
-  return parse_scenario(path, read_text_file(path));
+  return parse_scenario(path, read_text_file(path, kMostWritten));
 }
 
 NodeId find_or_add_node(Scenario &scenario, const std::string &name, double clock_hz) {

@@ -19,7 +19,9 @@ std::size_t line_of(const YAML::Mark &mark) {
 
 }  // namespace
 
-YamlValue YamlValue::load(const std::string &path) { return parse(path, read_text_file(path)); }
+YamlValue YamlValue::load(const std::string &path) {
+  return parse(path, read_text_file(path, kMostWritten));
+}
 
 YamlValue YamlValue::parse(const std::string &path, const std::string &text) {
   try {

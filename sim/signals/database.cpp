@@ -34,7 +34,9 @@ std::uint32_t parameter_group(std::uint32_t id) {
   return (id >> 8) & (has_destination ? 0x3FF00U : 0x3FFFFU);
 }
 
-void Database::add_file(const std::string &path) { add_text(path, read_text_file(path)); }
+void Database::add_file(const std::string &path) {
+  add_text(path, read_text_file(path, kMostWritten));
+}
 
 void Database::add_text(const std::string &path, const std::string &text) {
   const std::string json = run_python({"dbc_to_json.py", {}, text, path});

@@ -8,12 +8,12 @@
 #include <sys/stat.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <fstream>
 #include <iostream>
 #include <limits>
-#include <sstream>
 
 #include "trace/input_error.hpp"
 
@@ -56,6 +56,16 @@ class Inflater {
   bool good_ = false;
 };
 
+std::string read_all(std::istream &in, const std::string &path, std::size_t most) {
+  std::string text;
+  std::array<char, 65536> piece{};
+  while (in.read(piece.data(), piece.size()), in.gcount() > 0) {
+    text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+    if (text.size() > most) throw InputError(path, 0, fmt::format("has more than {} bytes", most));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string unpacked(std::string bytes, const std::string &path, std::size_t most) {
@@ -69,20 +79,19 @@ std::string unpacked(std::string bytes, const std::string &path, std::size_t mos
   return text;
 }
 
-std::string read_text_file(const std::string &path) {
-  std::ostringstream text;
-  if (path == "-") {
-    text << std::cin.rdbuf();
-    return unpacked(std::move(text).str(), path);
-  }
+std::string read_bytes(const std::string &path, std::size_t most) {
+  if (path == "-") return read_all(std::cin, path, most);
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0)
     throw InputError(path, 0, errno == EACCES ? "cannot be opened for reading" : "no such file");
   if (S_ISDIR(status.st_mode)) throw InputError(path, 0, "is a directory, not a file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path, 0, "cannot be opened for reading");
-  text << file.rdbuf();
-  return unpacked(std::move(text).str(), path);
+  return read_all(file, path, most);
+}
+
+std::string read_text_file(const std::string &path, std::size_t most) {
+  return unpacked(read_bytes(path, most), path, std::min(most, kMostUnpacked));
 }
 
 std::string_view without_gz(std::string_view path) {

@@ -13,9 +13,17 @@ namespace vericansim {
 /// Bytes to which a compressed file may unpack: 1 GiB.
 inline constexpr std::size_t kMostUnpacked = std::size_t{1} << 30;
 
-/// Reads a whole file; "-" is standard input. What begins as gzip does is unpacked, whatever its
-/// name. Throws InputError if it cannot be opened or unpacked.
-[[nodiscard]] std::string read_text_file(const std::string &path);
+/// Bytes of a recording: 4 GiB; and of a file that somebody has written, such as a scenario: 64
+/// MiB.
+inline constexpr std::size_t kMostRead = std::size_t{4} << 30, kMostWritten = std::size_t{64} << 20;
+
+/// Reads a whole file as it is; "-" is standard input. Throws InputError if it cannot be opened or
+/// has more than `most` bytes: a device may never end.
+[[nodiscard]] std::string read_bytes(const std::string &path, std::size_t most = kMostRead);
+
+/// The same; what begins as gzip does is unpacked, whatever its name. Throws InputError if it
+/// cannot be, too.
+[[nodiscard]] std::string read_text_file(const std::string &path, std::size_t most = kMostRead);
 
 /// `bytes` without gzip's packing, or as they are. Throws InputError naming `path` if they are
 /// damaged or unpack to more than 1 GiB.

@@ -8,11 +8,19 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace vericansim {
+
+/// One flip, or a flip-flop that is stuck.
+struct FlopFlip {
+  unsigned flop = 0;          ///< of the model's FlopPlaces
+  std::uint64_t clock = 0;    ///< since the node's first
+  std::optional<bool> stuck;  ///< at this level from then on
+};
 
 class FlopPlaces {
  public:

@@ -68,6 +68,9 @@ TEST_F(Tool, BadOptionsAreRefused) {
 
 TEST_F(Tool, BadFilesAreRefused) {
   expect_refused("run /no/such.yaml", "/no/such.yaml: no such file");
+  // A device that never ends, as --json is an option of timesync without a file behind it.
+  for (const char *command : {"run", "timesync --json"})
+    expect_refused(command + std::string{" /dev/zero"}, "/dev/zero: has more than 67108864 bytes");
   expect_refused("run /tmp", "is a directory");
   expect_refused("run " + file_with("bad.yaml", "nodes:\n  - {name: a, clock: 8 Mhz}\n"),
                  "bad.yaml:2: nodes[0].clock: '8 Mhz' is not allowed; allowed: ");

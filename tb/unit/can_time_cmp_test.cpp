@@ -137,8 +137,8 @@ TEST_F(CanTimeCmp, AgainstTheRules) {
   EXPECT_GT(launches_, 2000u);
 }
 
-// TM-141: each bit that the events to come depend on, flipped while it waits: told two clocks later,
-// whatever fires meanwhile, until it is armed anew.
+// TM-141: each bit that the events to come depend on, flipped while it waits: told two clocks
+// later, whatever fires meanwhile, until it is armed anew.
 TEST_F(CanTimeCmp, TellsOfAnUpset) {
   const auto flip = [this](unsigned bit) {
     auto &root = rtl_.root();

@@ -62,6 +62,23 @@ TEST(InputFile, UnpacksUpToALimit) {
             "a.gz: unpacks to more than 2 MiB (gzip)");
 }
 
+// A device may never end: what is read is bounded, to the byte.
+TEST(InputFile, WhatNeverEndsIsRefused) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("log", std::string(1 << 20, 'x'));
+  EXPECT_EQ(read_text_file(path, 1 << 20).size(), 1U << 20);
+  EXPECT_EQ(input_error_of([&] { return read_text_file(path, (1 << 20) - 1); }),
+            path + ": has more than 1048575 bytes");
+  EXPECT_EQ(input_error_of([] { return read_text_file("/dev/zero", 3 << 20); }),
+            "/dev/zero: has more than 3145728 bytes");
+}
+
+TEST(InputFile, BytesAreNotUnpacked) {
+  const ScratchFolder folder;
+  const std::string image = "\x1f\x8b rows of a memory";
+  EXPECT_EQ(read_bytes(folder.file("image", image)), image);
+}
+
 TEST(InputFile, AFileThatMayNotBeReadIsRefused) {
   const ScratchFolder folder;
   const std::string path = folder.file("secret", "x");

@@ -34,7 +34,7 @@ class FlippedNode : public Vcan_time_node_flops {
  public:
   using Vcan_time_node_flops::Vcan_time_node_flops;
 
-  void plan(const FollowerFlip &flip) { flip_ = flip; }
+  void plan(const FlopFlip &flip) { flip_ = flip; }
   /// Called by FollowerBus behind every edge of the clock.
   void after_edge() {
     if (is_due()) {
@@ -60,7 +60,7 @@ class FlippedNode : public Vcan_time_node_flops {
     return clocks_ >= flip_.clock && follower_flops().value(rootp, flip_.flop) != *flip_.stuck;
   }
 
-  FollowerFlip flip_{0, ~0ULL, {}};
+  FlopFlip flip_{0, ~0ULL, {}};
   std::uint64_t clocks_ = 0;
   unsigned run_ = 0, longest_run_ = 0;
 };
@@ -78,7 +78,7 @@ const FlopPlaces &follower_flops() {
   return list;
 }
 
-FollowerOutcome run_flip(const FollowerFlip &flip) {
+FollowerOutcome run_flip(const FlopFlip &flip) {
   FollowerBus<FlippedNode> bus{8 * kPeriod, 1'700'000'000'999'000'000};
   bus.add(kPeriod * kFast, 12'345);
   FlippedNode &node = bus.node(0).model();

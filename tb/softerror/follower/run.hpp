@@ -5,18 +5,10 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "softerror/flop_places.hpp"
 
 namespace vericansim {
-
-/// What happens to which flip-flop, when.
-struct FollowerFlip {
-  unsigned flop = 0;          ///< of follower_flops()
-  std::uint64_t clock = 0;    ///< since the node's first
-  std::optional<bool> stuck;  ///< at this level from then on
-};
 
 /// What was seen behind the flip.
 struct FollowerOutcome {
@@ -36,6 +28,6 @@ inline constexpr std::uint64_t kFlipFrom = 16 * 80'000, kFlipTo = 18 * 80'000;
 [[nodiscard]] const FlopPlaces &follower_flops();
 
 /// Without a flip (flip.clock behind the end) nothing may be wrong.
-[[nodiscard]] FollowerOutcome run_flip(const FollowerFlip &flip);
+[[nodiscard]] FollowerOutcome run_flip(const FlopFlip &flip);
 
 }  // namespace vericansim

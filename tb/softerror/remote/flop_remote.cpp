@@ -47,7 +47,7 @@ struct FlopRemote::Impl {
 
 const FlopPlaces &FlopRemote::flops() { return places(); }
 
-FlopRemote::FlopRemote(const ClockConfig &clock, const RemoteFlip &flip)
+FlopRemote::FlopRemote(const ClockConfig &clock, const FlopFlip &flip)
     : Node{"flipped", clock}, impl_{std::make_unique<Impl>()}, flip_{flip} {
   impl_->top.node_i = 3;
   impl_->top.can_rx_i = 1;

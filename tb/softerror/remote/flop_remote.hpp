@@ -7,23 +7,15 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "bus/node.hpp"
 #include "softerror/flop_places.hpp"
 
 namespace vericansim {
 
-/// What happens to which flip-flop, when.
-struct RemoteFlip {
-  unsigned flop = 0;          ///< of FlopRemote::flops()
-  std::uint64_t clock = 0;    ///< since the node's first
-  std::optional<bool> stuck;  ///< at this level from then on
-};
-
 class FlopRemote final : public Node {
  public:
-  FlopRemote(const ClockConfig &clock, const RemoteFlip &flip);
+  FlopRemote(const ClockConfig &clock, const FlopFlip &flip);
   ~FlopRemote() override;
 
   void clock(Level rx) override;
@@ -40,7 +32,7 @@ class FlopRemote final : public Node {
   void edge();
 
   std::unique_ptr<Impl> impl_;
-  RemoteFlip flip_;
+  FlopFlip flip_;
   std::uint64_t clocks_ = 0;
   unsigned run_ = 0;
   unsigned longest_run_ = 0;

@@ -6,13 +6,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <array>
-#include <fstream>
-#include <mutex>
-#include <random>
+#include <stdexcept>
 
-#include "harness/campaign_settings.hpp"
+#include "softerror/flip_plan.hpp"
 #include "softerror/remote/run.hpp"
 
 namespace {
@@ -27,7 +24,7 @@ struct Sum {
   unsigned flips = 0, babbled = 0, wrong_sent = 0;
   std::vector<std::string> notes;
 
-  void add(const RemoteFlip &flip, const RemoteOutcome &outcome) {
+  void add(const FlopFlip &flip, const RemoteOutcome &outcome) {
     ++flips;
     ++cures.at(static_cast<std::size_t>(outcome.cure));
     babbled += outcome.babbled;
@@ -55,61 +52,17 @@ Json result_of(const Sum &sum) {
           {"notes", sum.notes}};
 }
 
-std::vector<RemoteFlip> plan(const CampaignSettings &settings) {
-  std::mt19937_64 dice{settings.seed};
-  std::uniform_int_distribution<std::uint64_t> when{kFlipFrom, kFlipTo};
-  std::vector<RemoteFlip> flips;
-  for (unsigned round = 0; round < kRounds; ++round)
-    for (unsigned flop = 0; flop < FlopRemote::flops().names().size(); ++flop)
-      flips.push_back({flop, when(dice), {}});
-  const auto kept = static_cast<std::size_t>(static_cast<double>(flips.size()) * settings.scale);
-  flips.resize(std::max<std::size_t>(kept, 1));
-  return flips;
-}
-
-/// One flip-flop, flipped anew every so many clocks of the traffic.
-std::vector<RemoteFlip> sweep(unsigned flop, std::uint64_t every) {
-  std::vector<RemoteFlip> flips;
-  for (std::uint64_t clock = kFlipFrom; clock < kFlipTo; clock += every)
-    flips.push_back({flop, clock, {}});
-  return flips;
-}
-
 }  // namespace
 
 int main(int argc, char **argv) {
   CLI::App app{"Soft errors of a remote node"};
   try {
-    CampaignSettings settings;
-    std::string flop;
-    int stuck = 0;
-    std::uint64_t every = 0;
-    settings.add_to(app, "20 flips of every flip-flop");
-    auto *only =
-        app.add_option("--flop", flop, "Only this one, stuck from the start of the traffic on");
-    auto *level = app.add_option("--stuck", stuck, "At this level")->check(CLI::Range(0, 1));
-    app.add_option("--every", every, "Not stuck: flipped once, in runs this many clocks apart")
-        ->check(CLI::Range(1, 100'000))
-        ->needs(only)
-        ->excludes(level);
+    FlipPlan plan{FlopRemote::flops(), kRounds, kFlipFrom, kFlipTo};
+    plan.add_to(app);
     CLI11_PARSE(app, argc, argv);
     if (run_flip({0, ~0ULL, {}}).cure != RemoteCure::kNone)
       throw std::runtime_error("the node does not work without a flip");
-    std::vector<RemoteFlip> flips = plan(settings);
-    if (!flop.empty()) flips = {{FlopRemote::flops().number_of(flop), kFlipFrom, stuck != 0}};
-    if (every != 0) flips = sweep(FlopRemote::flops().number_of(flop), every);
-    Sum sum;
-    std::mutex lock;
-    run_jobs(flips.size(), settings.jobs, [&](std::size_t n) {
-      const RemoteOutcome outcome = run_flip(flips[n]);
-      const std::lock_guard guard{lock};
-      sum.add(flips[n], outcome);
-    });
-    const Json result = result_of(sum);
-    for (const Json &figure : result["figures"])
-      fmt::print("{}: {}\n", figure["name"].get<std::string>(), figure["value"].dump());
-    for (const std::string &note : sum.notes) fmt::print("{}\n", note);
-    if (!settings.json.empty()) std::ofstream{settings.json} << result.dump(1) << '\n';
+    const auto sum = run_flips<Sum>(plan, run_flip, result_of);
     return sum.hangs() + sum.babbled == 0 ? 0 : 1;
   } catch (const std::exception &error) {
     fmt::print(stderr, "softerror_remote: {}\n", error.what());

@@ -21,7 +21,7 @@ constexpr unsigned kBackOff = 15'000;  // bits: BOFF and the recovery itself
 
 class World {
  public:
-  explicit World(const RemoteFlip &flip) : device_{BoardBus::clock(), flip}, bus_{device_} {}
+  explicit World(const FlopFlip &flip) : device_{BoardBus::clock(), flip}, bus_{device_} {}
 
   RemoteOutcome run() {
     traffic();
@@ -82,6 +82,6 @@ class World {
 
 }  // namespace
 
-RemoteOutcome run_flip(const RemoteFlip &flip) { return World{flip}.run(); }
+RemoteOutcome run_flip(const FlopFlip &flip) { return World{flip}.run(); }
 
 }  // namespace vericansim

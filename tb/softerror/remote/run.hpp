@@ -30,6 +30,6 @@ inline constexpr std::uint64_t kFlipFrom = 6'000, kFlipTo = 40'000;
 
 /// Throws std::runtime_error if the traffic without a flip (flip.clock behind its end) is not as it
 /// should be.
-RemoteOutcome run_flip(const RemoteFlip &flip);
+RemoteOutcome run_flip(const FlopFlip &flip);
 
 }  // namespace vericansim
