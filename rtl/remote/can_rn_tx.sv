@@ -100,7 +100,8 @@ module can_rn_tx #(
                  && some_o && first;
   // A SELECT that does not select takes back a HERE that waits.
   assign recalled = (&src_q) && !owe_here_i;
-  assign drop     = flush_i || gone || stale || recalled;
+  // STATUS and HERE do not go with the head of the queue.
+  assign drop     = flush_i || gone || (stale && src_q == can_rn_pkg::SrcQueue) || recalled;
   assign gone_o        = drop;
   assign dropped_o     = stale || (gone && !tx_ok_i);
   assign gone_status_o = gone && status_o;

@@ -7,8 +7,8 @@
 module can_time_node #(
   /// Increment at the nominal rate: 39:32 ns, 31:0 in 2^-32 ns a clock.
   parameter logic [39:0] TimeInc = 40'h14_0000_0000,
-  /// TSCTRL without EN and PPS, TSID and TSDLY of the follower (docs/registers.md), a negative TSDLY
-  /// in 24 bits. KI 6, KD 2, PHALF, TMO 31: a pair a second at 50 MHz.
+  /// TSCTRL without EN and PPS, TSID and TSDLY of the follower (docs/registers.md), the last one in
+  /// 24 bits. KI 6, KD 2, PHALF, TMO 31: a pair a second at 50 MHz.
   parameter logic [31:0] SyncCtrl = 32'h1F46_0100,
   parameter logic [31:0] SyncId = 32'd0,
   parameter logic [31:0] SyncDelay = 32'd0,

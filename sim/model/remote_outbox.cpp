@@ -77,9 +77,10 @@ unsigned RemoteOutbox::ten_ms() {
   for (auto it = answers_.begin(); it != answers_.end();) {
     if (it->life == 1 && it == answers_.begin() && !under_way_) {
       it = answers_.erase(it);
-      // Whatever is offered is chosen again then, with all of its attempts.
-      chosen_ = Item::kNone;
-      read_limits();
+      if (chosen_ == Item::kAnswer) {
+        chosen_ = Item::kNone;
+        read_limits();
+      }
       ++dropped;
       continue;
     }

@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <optional>
 
 #include "model/frame.hpp"
 #include "model/remote_memory.hpp"

@@ -8,7 +8,6 @@
 #include <sys/stat.h>
 #include <zlib.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <fstream>
@@ -60,9 +59,12 @@ std::string read_all(std::istream &in, const std::string &path, std::size_t most
   std::string text;
   std::array<char, 65536> piece{};
   while (in.read(piece.data(), piece.size()), in.gcount() > 0) {
-    text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
-    if (text.size() > most) throw InputError(path, 0, fmt::format("has more than {} bytes", most));
+    const auto count = static_cast<std::size_t>(in.gcount());
+    if (count > most - text.size())
+      throw InputError(path, 0, fmt::format("has more than {} bytes", most));
+    text.append(piece.data(), count);
   }
+  if (in.bad()) throw InputError(path, 0, "cannot be read to its end");
   return text;
 }
 
@@ -91,7 +93,7 @@ std::string read_bytes(const std::string &path, std::size_t most) {
 }
 
 std::string read_text_file(const std::string &path, std::size_t most) {
-  return unpacked(read_bytes(path, most), path, std::min(most, kMostUnpacked));
+  return unpacked(read_bytes(path, most), path, most);
 }
 
 std::string_view without_gz(std::string_view path) {

@@ -10,15 +10,13 @@
 
 namespace vericansim {
 
-/// Bytes to which a compressed file may unpack: 1 GiB.
-inline constexpr std::size_t kMostUnpacked = std::size_t{1} << 30;
-
-/// Bytes of a recording: 4 GiB; and of a file that somebody has written, such as a scenario: 64
-/// MiB.
-inline constexpr std::size_t kMostRead = std::size_t{4} << 30, kMostWritten = std::size_t{64} << 20;
+/// Bytes of a recording, unpacked if it is packed: 1 GiB.
+inline constexpr std::size_t kMostRead = std::size_t{1} << 30;
+/// Bytes of a file that somebody has written, such as a scenario: 64 MiB.
+inline constexpr std::size_t kMostWritten = std::size_t{64} << 20;
 
 /// Reads a whole file as it is; "-" is standard input. Throws InputError if it cannot be opened or
-/// has more than `most` bytes: a device may never end.
+/// has more than `most` bytes (a device may never end), or if reading fails.
 [[nodiscard]] std::string read_bytes(const std::string &path, std::size_t most = kMostRead);
 
 /// The same; what begins as gzip does is unpacked, whatever its name. Throws InputError if it
@@ -26,9 +24,9 @@ inline constexpr std::size_t kMostRead = std::size_t{4} << 30, kMostWritten = st
 [[nodiscard]] std::string read_text_file(const std::string &path, std::size_t most = kMostRead);
 
 /// `bytes` without gzip's packing, or as they are. Throws InputError naming `path` if they are
-/// damaged or unpack to more than 1 GiB.
+/// damaged or unpack to more than `most` bytes.
 [[nodiscard]] std::string unpacked(std::string bytes, const std::string &path,
-                                   std::size_t most = kMostUnpacked);
+                                   std::size_t most = kMostRead);
 
 /// `path` without a last ".gz".
 [[nodiscard]] std::string_view without_gz(std::string_view path);

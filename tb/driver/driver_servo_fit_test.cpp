@@ -219,6 +219,7 @@ TEST(Servo, OldPairsAreForgotten) {
   for (const std::int64_t seconds : {137, 138}) {
     ServoRig rig{config};
     rig.pair(0);
+    rig.pair(0, kSecondNs / 2);
     rig.pair(0, 90 * kSecondNs);
     rig.pair(0, (seconds - 90) * kSecondNs);
     EXPECT_EQ(rig.servo.count, seconds == 137 ? 3 : 2);

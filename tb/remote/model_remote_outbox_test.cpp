@@ -36,7 +36,7 @@ TEST_F(RemoteModelOutbox, AnswersAreSnapshotsInOrder) {
 }
 
 /// The first millisecond is a step of LIFE; the next one is ten behind it.
-class RemoteModelLife : public RemoteModelOutbox {
+class RemoteModelAnswerLife : public RemoteModelOutbox {
  protected:
   void ticks(unsigned n) {
     for (; n != 0; --n) node.model.tick();
@@ -49,7 +49,7 @@ class RemoteModelLife : public RemoteModelOutbox {
 
 // RN-54: an answer lives LIFE steps of 10 ms, the first of which has begun before; what is dropped
 // is counted; a STATUS waits for ever.
-TEST_F(RemoteModelLife, OldAnswersAreDropped) {
+TEST_F(RemoteModelAnswerLife, OldAnswersAreDropped) {
   life(3);
   ticks(1);
   node.hear("1A0#R1");
@@ -70,7 +70,7 @@ TEST_F(RemoteModelLife, OldAnswersAreDropped) {
 }
 
 // RN-54: 0 is no limit.
-TEST_F(RemoteModelLife, NoLimit) {
+TEST_F(RemoteModelAnswerLife, NoLimit) {
   life(0);
   node.hear("1A0#R1");
   node.hear("002#0000000000000000");
@@ -80,7 +80,7 @@ TEST_F(RemoteModelLife, NoLimit) {
 
 // RN-54: LIFE holds from the answer after the next on; one behind an answer that lives longer waits
 // for it.
-TEST_F(RemoteModelLife, ChangedBetweenAnswers) {
+TEST_F(RemoteModelAnswerLife, ChangedBetweenAnswers) {
   ticks(1);
   node.user_write(remote_map::kLife, {1});
   node.hear("1A0#R1");  // 100 ms
@@ -93,7 +93,7 @@ TEST_F(RemoteModelLife, ChangedBetweenAnswers) {
 }
 
 // RN-54: a frame that is on its way is not dropped; it is asked again 10 ms later.
-TEST_F(RemoteModelLife, WhatIsOnItsWayStays) {
+TEST_F(RemoteModelAnswerLife, WhatIsOnItsWayStays) {
   ticks(1);
   node.hear("1A0#R1");
   ticks(98);

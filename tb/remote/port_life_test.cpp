@@ -115,6 +115,23 @@ TEST_F(PortLife, AttemptsBeginAnewBehindWhatIsTakenBack) {
   EXPECT_FALSE(port->asks());
 }
 
+// RN-15: an answer that dies of age gives no attempts back to the STATUS before it.
+TEST_F(PortLife, AttemptsGoOnWhereAnotherDies) {
+  constexpr unsigned kRetry = remote_map::kRetry;
+  port->user_write(kRetry / 4, 2U << 8 * (kRetry % 4), 1U << kRetry % 4);
+  port->receive(read());
+  (void)port->drain();
+  port->receive(frame_of("1A0#"));  // of no length: STATUS tells that it is refused
+  port->receive(read());
+  port->clocks(64);
+  ASSERT_EQ(port->send(FramePort::End::kError).id, 0x5FEU);
+  wait(10 * kLife + 10);
+  ASSERT_TRUE(port->asks());
+  EXPECT_EQ(port->send(FramePort::End::kError).id, 0x5FEU);
+  port->clocks(64);
+  EXPECT_FALSE(port->asks());
+}
+
 // RN-54: LIFE of an answer does not depend on the one before it, in whatever clock that goes.
 class PortLifeAfter : public ::testing::TestWithParam<const char *> {};
 

@@ -24,20 +24,28 @@ TEST_P(PortRandom, CommandsHaveTheEffectsOfTheModel) {
 
 // RN-15, RN-54: the same where frames are dropped all the time, by age and by errors.
 TEST_P(PortRandom, ShortLivesAndFewAttempts) {
-  unsigned dropped = 0;  // as full counts them
+  unsigned aged = 0, failed = 0;  // dropped, as full counts it
   for (unsigned seed = 1; seed <= 40; ++seed) {
     PortLockstep pair{GetParam(), 3, 3};
     RandomHost host{seed};
     const std::uint32_t life = 1 + seed % 3, retry = 1 + seed / 3 % 3;
     pair.user_write(remote_map::kLife / 4, life << 8 | retry << 24, 0b1010);
     for (unsigned i = 0; i < 500; ++i) {
+      const auto dropped = [&pair] { return pair.model().memory()[remote_map::kCounters + 3]; };
+      const unsigned before = dropped();
       if (i % 4 == 0) pair.ms();
+      aged += dropped() - before;
+      const unsigned then = dropped();
+      if (i % 9 == 0) pair.turn(FramePort::End::kError);
+      failed += dropped() - then;
       random_port_step(pair, host);
       ASSERT_EQ(pair.compare(), "") << "seed " << seed << " step " << i << "\n" << pair.history();
     }
-    dropped += pair.model().memory()[remote_map::kCounters + 3];
   }
-  if (GetParam() == std::string{"full"}) EXPECT_GT(dropped, 40U);
+  if (GetParam() == std::string{"full"}) {
+    EXPECT_GT(aged, 20U);
+    EXPECT_GT(failed, 20U);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Profiles, PortRandom, ::testing::Values("small", "standard", "full"),

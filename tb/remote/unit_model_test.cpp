@@ -144,7 +144,7 @@ TEST_F(UnitModel, BusOffAndBack) {
   bus.unit->user_write(0xF04 / 4, 0x00000A05, 0xB);  // back-off 5 ms, LIFE 100 ms, RETRY 0
   bus.unit->user_write(0xF40 / 4, 0x00009120, 0xF);
   (void)bus.send(frame_of("000#01"));
-  (void)bus.send(frame_of("1A0#R1"));  // RETRY holds from the next frame on
+  (void)bus.send(frame_of("1A0#R1"));  // RETRY holds from the frame behind this one on
   EXPECT_EQ(bus.unit->state(), RemoteState::kOperate);
   const Time from = bus.bus.now();
   LevelFault deaf{2, Effect::kRecessive, {from, from + 3 * kMillisecond}};

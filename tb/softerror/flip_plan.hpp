@@ -30,9 +30,11 @@ class FlipPlan {
   FlipPlan(const FlopPlaces &flops, unsigned rounds, std::uint64_t from, std::uint64_t to)
       : flops_{flops}, rounds_{rounds}, from_{from}, to_{to} {}
 
+  /// The options of the program, those of CampaignSettings among them.
   void add_to(CLI::App &app) {
     settings.add_to(app, fmt::format("{} flips of every flip-flop", rounds_));
-    auto *only = app.add_option("--flop", flop_, "Only this one, stuck from the first clock on");
+    auto *only = app.add_option("--flop", flop_,
+                                fmt::format("Only this one, stuck from clock {} on", from_));
     auto *level = app.add_option("--stuck", stuck_, "At this level")->check(CLI::Range(0, 1));
     app.add_option("--every", every_, "Not stuck: flipped once, in runs this many clocks apart")
         ->check(CLI::Range(std::uint64_t{1}, to_ - from_))
@@ -47,7 +49,7 @@ class FlipPlan {
     return every_ == 0 ? std::vector<FlopFlip>{{flop, from_, stuck_ != 0}} : sweep(flop);
   }
 
-  CampaignSettings settings;
+  CampaignSettings settings;  ///< as the command line says, once it is parsed
 
  private:
   [[nodiscard]] std::vector<FlopFlip> all() const {

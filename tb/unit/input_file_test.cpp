@@ -73,6 +73,18 @@ TEST(InputFile, WhatNeverEndsIsRefused) {
             "/dev/zero: has more than 3145728 bytes");
 }
 
+TEST(InputFile, WhatIsPackedHasTheSameLimit) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("log", std::string(3 << 20, 'x'));
+  ASSERT_EQ(shell("gzip " + path).code, 0);
+  EXPECT_EQ(input_error_of([&] { return read_text_file(path + ".gz", 2 << 20); }),
+            path + ".gz: unpacks to more than 2 MiB (gzip)");
+}
+
+TEST(InputFile, AReadThatFailsIsNoEnd) {
+  EXPECT_EQ(error_of("/proc/self/mem"), "/proc/self/mem: cannot be read to its end");
+}
+
 TEST(InputFile, BytesAreNotUnpacked) {
   const ScratchFolder folder;
   const std::string image = "\x1f\x8b rows of a memory";
