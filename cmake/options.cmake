@@ -37,3 +37,30 @@ option(VERICAN_FUZZ "Build the libFuzzer programs of tb/fuzz and nothing else (n
 function(verican_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
 endfunction()
+
+# verican_unity(TARGET [FOLDER...]): the sources of one folder are compiled together, eight at a
+# time, because most of a file's time is its headers. So what is local to a file has a name of its
+# own in its folder. Files with settings of their own stay alone, and so do those of the FOLDERs.
+option(VERICAN_UNITY "Compile several sources at once: a third of the time from nothing" ON)
+function(verican_unity target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${VERICAN_UNITY} UNITY_BUILD_MODE GROUP)
+  if(VERICAN_UNITY)
+    # Says of each type that is local to a file that it is used outside the one that is compiled.
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source ${sources})
+    get_source_file_property(own "${source}" COMPILE_DEFINITIONS)
+    if(own OR NOT source MATCHES "^/.*\\.cpp$")
+      continue()
+    endif()
+    cmake_path(GET source PARENT_PATH folder)
+    cmake_path(GET folder FILENAME folder)
+    if(folder IN_LIST ARGN)
+      continue()
+    endif()
+    math(EXPR count_${folder} "0${count_${folder}} + 1")
+    math(EXPR part "(${count_${folder}} - 1) / 8")
+    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${folder}_${part}")
+  endforeach()
+endfunction()

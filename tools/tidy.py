@@ -22,6 +22,8 @@ RECENT = 20   # commits whose sources are in every sample
 PART = 8      # one in so many of the other sources
 PRECOMPILED = re.compile(r" -include \S*/cmake_pch\.hxx")  # by the compiler, for itself alone
 INCLUDE = re.compile(rb'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+TOGETHER = re.compile(r"/Unity/unity_\w+\.cxx$")  # what verican_unity() compiles in one
+FOR_GCC = re.compile(r" -Wno-subobject-linkage\b")
 FINDING = re.compile(r": (error|warning):")
 
 
@@ -95,10 +97,16 @@ def make_models(build):
         output_of("ninja", "-C", str(build), *models)
 
 
-def write_commands(commands, folder):
-    """How each source is compiled, for clang-tidy."""
-    text = PRECOMPILED.sub("", json.dumps(commands))
-    (folder / "compile_commands.json").write_text(text)
+def commands_of(build):
+    """How each source is compiled, also those that are compiled together."""
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        entry["command"] = FOR_GCC.sub("", PRECOMPILED.sub("", entry["command"]))
+        if not TOGETHER.search(entry["file"]):
+            yield entry
+            continue
+        for name in INCLUDE.findall(Path(entry["file"]).read_bytes()):
+            name = name.decode()
+            yield entry | {"file": name, "command": entry["command"].replace(entry["file"], name)}
 
 
 def tidy(folder, name):
@@ -117,7 +125,7 @@ def main():
     parser.add_argument("--sample", action="store_true", help="last commits and one in eight")
     options = parser.parse_args()
     build = options.build.resolve()
-    commands = json.loads((build / "compile_commands.json").read_text())
+    commands = list(commands_of(build))
     compiled = {entry["file"] for entry in commands}
     names = [name for name in our_files("sim/*.cpp", "sw/*.cpp", "tb/*.cpp")
              if str(ROOT / name) in compiled]
@@ -131,7 +139,7 @@ def main():
     if not todo:
         return 0
     make_models(build)
-    write_commands(commands, stamps)
+    (stamps / "compile_commands.json").write_text(json.dumps(commands))
     failures = 0
     with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
         for name, finding in zip(todo, pool.map(lambda name: tidy(stamps, name), todo)):

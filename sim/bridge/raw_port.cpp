@@ -72,7 +72,7 @@ RawCanPort::RawCanPort(std::string interface, const RawPortOptions &options)
     : name_{std::move(interface)}, options_{options} {
   if (name_.empty() || name_.size() >= IFNAMSIZ)
     throw InputError(options_.option, 0,
-                     quoted(name_) + " is no name of an interface; allowed: 1 to 15 characters");
+                     in_quotes(name_) + " is no name of an interface; allowed: 1 to 15 characters");
   open_socket();
   try {
     const Interface found = look_at(fd_, name_);

@@ -70,7 +70,7 @@ std::string SocketcandClient::unknown(std::string_view name) const {
     return std::string(name) +
            ": bit timing and control mode belong to the simulated bus, not to "
            "its clients";
-  return "there is no command " + quoted(std::string(name));
+  return "there is no command " + in_quotes(std::string(name));
 }
 
 void SocketcandClient::open(CommandWords &words) {
@@ -81,7 +81,7 @@ void SocketcandClient::open(CommandWords &words) {
   if (found == buses.end()) {
     leave();  // the protocol wants the connection to end here
     throw words.error(
-        fmt::format("there is no bus {}; there is: {}", quoted(name), fmt::join(buses, " ")));
+        fmt::format("there is no bus {}; there is: {}", in_quotes(name), fmt::join(buses, " ")));
   }
   bus_ = static_cast<std::size_t>(found - buses.begin());
   enter(kBroadcast);

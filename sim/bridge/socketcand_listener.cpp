@@ -33,7 +33,7 @@ Addresses look_up(const std::string &option, const SocketcandAddress &address) {
       ::getaddrinfo(address.host.c_str(), std::to_string(address.port).c_str(), &hints, &found);
   if (failure != 0)
     throw InputError(option, 0,
-                     quoted(address.text()) + ": no such address: " + ::gai_strerror(failure));
+                     in_quotes(address.text()) + ": no such address: " + ::gai_strerror(failure));
   return {found, &::freeaddrinfo};
 }
 
@@ -64,7 +64,7 @@ SocketcandAddress SocketcandAddress::parse(const std::string &option, const std:
   const auto [end, failure] = std::from_chars(port.data(), last, address.port);
   if (address.host.empty() || failure != std::errc{} || end != last)
     throw InputError(option, 0,
-                     quoted(text) +
+                     in_quotes(text) +
                          " is not allowed; allowed: [ADDRESS:]PORT with a port from 0 "
                          "(any free one) to 65535, as in 29536, 127.0.0.1:0 or "
                          "[::1]:29536");

@@ -31,11 +31,11 @@ void check_names(const std::vector<std::string> &names) {
     });
     if (name->empty() || name->size() > kLongestName || !good)
       throw InputError("--bus-name", 0,
-                       quoted(*name) +
+                       in_quotes(*name) +
                            " is not allowed; allowed: 1 to 16 printable characters "
                            "without blanks, '<' and '>'");
     if (std::find(names.begin(), name, *name) != name)
-      throw InputError("--bus-name", 0, quoted(*name) + " is named twice");
+      throw InputError("--bus-name", 0, in_quotes(*name) + " is named twice");
   }
 }
 

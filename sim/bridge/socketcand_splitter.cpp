@@ -39,7 +39,7 @@ std::optional<CommandSplitter::Item> CommandSplitter::outside(char c) {
     command_.clear();
     state_ = State::kInside;
   } else if (!is_blank(c) && state_ == State::kOutside) {
-    return complain(State::kRubbish, "text outside of a command: " + quoted({c}) +
+    return complain(State::kRubbish, "text outside of a command: " + in_quotes({c}) +
                                          "; allowed: commands, each in angle brackets");
   }
   return std::nullopt;
@@ -53,7 +53,7 @@ std::optional<CommandSplitter::Item> CommandSplitter::inside(char c) {
   }
   if (c == '<') {
     std::optional<Item> item;
-    if (!skipping) item = complain(State::kInside, "a command began inside " + quoted(command_));
+    if (!skipping) item = complain(State::kInside, "a command began inside " + in_quotes(command_));
     command_.clear();
     state_ = State::kInside;
     return item;
@@ -61,10 +61,10 @@ std::optional<CommandSplitter::Item> CommandSplitter::inside(char c) {
   if (skipping) return std::nullopt;
   if (command_.size() == kLongest)
     return complain(State::kSkipping, "a command is longer than " + std::to_string(kLongest) +
-                                          " characters: " + quoted(command_));
+                                          " characters: " + in_quotes(command_));
   if (!is_blank(c) && !is_printable(c))
-    return complain(State::kSkipping,
-                    "a command holds a byte that is not printable ASCII: " + quoted(command_ + c));
+    return complain(State::kSkipping, "a command holds a byte that is not printable ASCII: " +
+                                          in_quotes(command_ + c));
   command_ += is_blank(c) ? ' ' : c;
   return std::nullopt;
 }

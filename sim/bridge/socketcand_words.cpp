@@ -67,7 +67,7 @@ std::uint64_t CommandWords::decimal(std::string_view what, std::uint64_t largest
   const auto number = whole_number<std::uint64_t>(word, 10, largest);
   if (!number)
     throw error(fmt::format("{} {} is not allowed; allowed: a decimal number, 0 to {}", what,
-                            quoted(std::string(word)), largest));
+                            in_quotes(std::string(word)), largest));
   return *number;
 }
 
@@ -76,7 +76,7 @@ std::uint32_t CommandWords::hex(std::string_view what, std::uint32_t largest) {
   const auto number = whole_number<std::uint32_t>(word, 16, largest);
   if (!number)
     throw error(fmt::format("{} {} is not allowed; allowed: a hexadecimal number, 0 to {:X}", what,
-                            quoted(std::string(word)), largest));
+                            in_quotes(std::string(word)), largest));
   return *number;
 }
 
@@ -85,7 +85,7 @@ canid_t CommandWords::id() {
   const auto number =
       whole_number<canid_t>(word, 16, word.size() > 3 ? CAN_EFF_MASK : CAN_SFF_MASK);
   if (!number || word.size() > 8)
-    throw error("identifier " + quoted(std::string(word)) +
+    throw error("identifier " + in_quotes(std::string(word)) +
                 " is not allowed; allowed: 000 to 7FF, or 8 digits, 00000000 to 1FFFFFFF");
   const bool extended = word.size() == 8 || *number > CAN_SFF_MASK;
   return extended ? *number | CAN_EFF_FLAG : *number;
@@ -105,7 +105,7 @@ Time CommandWords::interval() {
 }
 
 void CommandWords::end() {
-  if (more()) throw error("nothing may follow, got " + quoted(std::string(rest_)));
+  if (more()) throw error("nothing may follow, got " + in_quotes(std::string(rest_)));
 }
 
 can_frame send_frame(CommandWords &words) {

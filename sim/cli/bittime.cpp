@@ -16,7 +16,7 @@
 namespace vericansim::cli {
 namespace {
 
-struct Options {
+struct BitTimeOptions {
   BitTimingRequest request;
   double clock = 8e6;
   double bitrate = 0;
@@ -138,7 +138,7 @@ Json to_json(const std::vector<RateRow> &rows) {
 }
 
 /// RateTable of can_remote (RN-73).
-int rate_rows(const Options &options) {
+int rate_rows(const BitTimeOptions &options) {
   const std::vector<RateRow> rows = rate_table(options.clock);
   if (options.json)
     print_json({{"clock_hz", options.clock}, {"rows", to_json(rows)}});
@@ -150,7 +150,7 @@ int rate_rows(const Options &options) {
   return kBadInput;
 }
 
-int bittime(const Options &options) {
+int bittime(const BitTimeOptions &options) {
   if (options.table) return rate_rows(options);
   BitTimingRequest request = options.request;
   const BitTimingRequest whole = bit_timing_request(options.clock, options.bitrate);
@@ -176,7 +176,7 @@ int bittime(const Options &options) {
 }  // namespace
 
 void add_bittime(CLI::App &app, int &exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BitTimeOptions>();
   CLI::App *command =
       app.add_subcommand("bittime", "Bit timing registers for a clock and a bit rate");
   const CLI::AsNumberWithUnit with_unit(std::map<std::string, double>{

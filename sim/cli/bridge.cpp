@@ -23,7 +23,7 @@
 namespace vericansim::cli {
 namespace {
 
-struct Options {
+struct BridgeOptions {
   std::vector<std::string> interfaces;
   std::string monitor;
   std::string bus;
@@ -63,7 +63,7 @@ class StatusLine {
   StatusLine(const StatusLine &) = delete;
   StatusLine &operator=(const StatusLine &) = delete;
 
-  void show(Bridge &bridge, const Options &options) {
+  void show(Bridge &bridge, const BridgeOptions &options) {
     const auto now = std::chrono::steady_clock::now();
     if (!terminal_ || now < next_) return;
     next_ = now + std::chrono::milliseconds{500};
@@ -79,7 +79,7 @@ class StatusLine {
 };
 
 /// A bus of plain nodes that receive, and so acknowledge.
-Scenario plain_bus(const Options &options, double clock) {
+Scenario plain_bus(const BridgeOptions &options, double clock) {
   Scenario scenario;
   scenario.file = "--nodes";
   scenario.name = "bridge";
@@ -93,7 +93,7 @@ Scenario plain_bus(const Options &options, double clock) {
 }
 
 /// Fills in scenario, bit rate and clock.
-void set_up_bus(BridgeSetup &setup, const Options &options) {
+void set_up_bus(BridgeSetup &setup, const BridgeOptions &options) {
   if (options.bus.empty()) {
     setup.bitrate = options.bitrate != 0 ? options.bitrate : 500e3;
     setup.port_clock_hz = options.clock != 0 ? options.clock : kClocksPerBit * setup.bitrate;
@@ -110,7 +110,7 @@ void set_up_bus(BridgeSetup &setup, const Options &options) {
   override_outputs(setup.scenario.outputs, options.outputs);
 }
 
-void open_ports(BridgeSetup &setup, const Options &options) {
+void open_ports(BridgeSetup &setup, const BridgeOptions &options) {
   if (options.interfaces.empty() && options.socketcand.address.empty())
     throw InputError("--if", 0,
                      "nothing to bridge; name a CAN interface, as in '--if vcan0', or offer a bus "
@@ -122,7 +122,7 @@ void open_ports(BridgeSetup &setup, const Options &options) {
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
         names.begin() + static_cast<std::ptrdiff_t>(i))
       throw InputError(options.socketcand.address.empty() ? "--if" : "--bus-name", 0,
-                       vericansim::quoted(names[i]) + " is named twice");
+                       vericansim::in_quotes(names[i]) + " is named twice");
   for (const std::string &name : options.interfaces)
     setup.ports.push_back(std::make_unique<RawCanPort>(name, options.raw));
   if (options.monitor.empty()) return;
@@ -132,7 +132,7 @@ void open_ports(BridgeSetup &setup, const Options &options) {
   setup.monitor = std::make_unique<RawCanPort>(options.monitor, monitor);
 }
 
-BridgeSetup make_setup(const Options &options) {
+BridgeSetup make_setup(const BridgeOptions &options) {
   BridgeSetup setup;
   for (const std::string &filter : options.filters)
     setup.options.filters.push_back(parse_filter(filter));
@@ -149,7 +149,8 @@ BridgeSetup make_setup(const Options &options) {
   return setup;
 }
 
-void print(const Options &options, const BridgeReport &report, const SocketcandServer *server) {
+void print(const BridgeOptions &options, const BridgeReport &report,
+           const SocketcandServer *server) {
   if (options.json) {
     Json json = to_json(report);
     if (server != nullptr) json["socketcand"] = to_json(server->counts());
@@ -163,7 +164,7 @@ void print(const Options &options, const BridgeReport &report, const SocketcandS
   flush_standard_output();
 }
 
-int run(const Options &options) {
+int run(const BridgeOptions &options) {
   // Host time in which clients may take the last messages.
   constexpr std::chrono::seconds kLastMessages{10};
   BridgeSetup setup = make_setup(options);
@@ -188,7 +189,7 @@ int run(const Options &options) {
   return report.ok() && (!server || server->counts().ok()) ? kOk : kFailed;
 }
 
-void add_bus_options(CLI::App &command, Options &options) {
+void add_bus_options(CLI::App &command, BridgeOptions &options) {
   const std::map<std::string, double> units{{"k", 1e3}, {"M", 1e6}};
   CLI::Option *nodes =
       command
@@ -209,7 +210,7 @@ void add_bus_options(CLI::App &command, Options &options) {
       ->check(CLI::Range(8e3, 1e9));
 }
 
-void add_port_options(CLI::App &command, Options &options) {
+void add_port_options(CLI::App &command, BridgeOptions &options) {
   command.add_option("--if", options.interfaces, "CAN interface that is a node; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -237,7 +238,7 @@ void add_port_options(CLI::App &command, Options &options) {
                    "End when an interface goes down, instead of waiting for it");
 }
 
-void add_run_options(CLI::App &command, Options &options) {
+void add_run_options(CLI::App &command, BridgeOptions &options) {
   command.add_flag("--fast", options.fast,
                    "As fast as possible; without it simulated time is held to real time");
   command.add_option("--time", options.time, "Simulated time to run, as in '10 s' (no end)");
@@ -248,7 +249,7 @@ void add_run_options(CLI::App &command, Options &options) {
 }  // namespace
 
 void add_bridge(CLI::App &app, int &exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BridgeOptions>();
   CLI::App *command = app.add_subcommand(
       "bridge", "CAN interfaces of this computer as nodes of a simulated bus (docs/bridge.md)");
   add_bus_options(*command, *options);

@@ -16,13 +16,13 @@
 namespace vericansim::cli {
 namespace {
 
-struct Options {
+struct ConvertOptions {
   std::string in, out, format;
   LogSelection selection;
   IdsOutput ids;
 };
 
-int run(const Options &options) {
+int run(const ConvertOptions &options) {
   const LogFormat format = output_format(options.format, options.out);
   std::vector<NamedFile> outputs{{"the new file", options.out}};
   add_file(outputs, "--ids-csv", options.ids.csv);
@@ -52,7 +52,7 @@ int run(const Options &options) {
 }  // namespace
 
 void add_convert(CLI::App &app, int &exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConvertOptions>();
   CLI::App *command = app.add_subcommand(
       "convert", "A recording in another format; what that cannot hold is counted and told");
   command->add_option("in", options->in, "Recording of any known format; - is standard input")

@@ -17,7 +17,7 @@
 namespace vericansim::cli {
 namespace {
 
-struct Options {
+struct DecodeOptions {
   std::string wave;
   WaveDecodeOptions decode;
   double bitrate = 0;
@@ -54,7 +54,7 @@ bool is_frame(const BusEvent &event) { return event.kind == BusEventKind::kFrame
 Json event_json(const BusEvent &event, const Database *database) {
   Json json{{"kind", name_of(event.kind)}, {"start_ps", event.start}, {"end_ps", event.end}};
   if (is_frame(event) || event.kind == BusEventKind::kBadFrame) {
-    json["frame"] = to_json(event.frame);
+    json["frame"] = cli::to_json(event.frame);
     json["acked"] = event.acked;
     json["stuffed_length"] = event.stuffed_length;
     if (database != nullptr)
@@ -75,7 +75,7 @@ std::string line_of(const BusEvent &event, const Database *database) {
          " :: " + to_text(vericansim::decode(*database, event.frame), event.frame);
 }
 
-void write_logs(const Options &options, const WaveDecodeResult &result) {
+void write_logs(const DecodeOptions &options, const WaveDecodeResult &result) {
   std::unique_ptr<OutputFile> file;
   std::unique_ptr<CandumpWriter> candump;
   std::unique_ptr<PcapWriter> pcap;
@@ -94,7 +94,7 @@ void write_logs(const Options &options, const WaveDecodeResult &result) {
   if (pcap) pcap->commit();
 }
 
-int decode(Options &options) {
+int decode(DecodeOptions &options) {
   if (options.bitrate != 0) options.decode.bitrate = options.bitrate;
   options.database = with_files(nullptr, options.databases);
   std::vector<NamedFile> inputs{{"the waveform", options.wave}}, outputs;
@@ -134,7 +134,7 @@ int decode(Options &options) {
 }  // namespace
 
 void add_decode(CLI::App &app, int &exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DecodeOptions>();
   CLI::App *command = app.add_subcommand("decode", "Frames and error frames of a bus waveform");
   command->add_option("wave", options->wave, "VCD file")->required();
   command->add_option("--signal,-s", options->decode.signal,

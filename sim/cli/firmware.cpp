@@ -20,7 +20,7 @@ using firmware::BoardReport;
 using firmware::FirmwareReport;
 using firmware::FirmwareSetup;
 
-struct Options {
+struct FirmwareOptions {
   std::vector<std::string> files;
   std::string bus, second_bus;
   Outputs outputs;
@@ -39,7 +39,7 @@ Json to_json(const FirmwareReport &report) {
 }
 
 /// What did not end well, on stderr.
-void complain(const FirmwareReport &report) {
+void complain_of(const FirmwareReport &report) {
   cli::complain(report.boards);
   for (const RunReport &bus : report.buses)
     for (const CheckResult &check : bus.checks)
@@ -48,7 +48,7 @@ void complain(const FirmwareReport &report) {
                    check.wanted);
 }
 
-FirmwareSetup make_setup(const Options &options) {
+FirmwareSetup make_setup(const FirmwareOptions &options) {
   FirmwareSetup setup = options.setup;
   for (const std::string &file : options.files) setup.images.push_back(firmware::read_elf(file));
   setup.scenarios.push_back(read_scenario(options.bus));
@@ -60,7 +60,7 @@ FirmwareSetup make_setup(const Options &options) {
   return setup;
 }
 
-void claim_files_of(const Options &options, const FirmwareSetup &setup) {
+void claim_files_of(const FirmwareOptions &options, const FirmwareSetup &setup) {
   std::vector<NamedFile> inputs, outputs;
   for (const std::string &file : options.files) inputs.push_back({"the firmware", file});
   for (const Scenario &scenario : setup.scenarios) {
@@ -71,7 +71,7 @@ void claim_files_of(const Options &options, const FirmwareSetup &setup) {
 }
 
 /// The report, or only the tables that are wanted.
-void print(const Options &options, const std::vector<RunReport> &buses) {
+void print(const FirmwareOptions &options, const std::vector<RunReport> &buses) {
   for (const RunReport &bus : buses) {
     const std::string text = options.report ? to_text(bus) : tables_text(bus);
     if (text.empty()) continue;
@@ -79,7 +79,7 @@ void print(const Options &options, const std::vector<RunReport> &buses) {
   }
 }
 
-int run(const Options &options) {
+int run(const FirmwareOptions &options) {
   const StopSignals signals;
   const FirmwareSetup setup = make_setup(options);
   claim_files_of(options, setup);
@@ -99,11 +99,11 @@ int run(const Options &options) {
   else
     print(options, report.buses);
   flush_standard_output();
-  complain(report);
+  complain_of(report);
   return exit_code_after(exit_code_of(report.boards, report.ok() ? kOk : kFailed));
 }
 
-void add_bus_options(CLI::App &command, Options &options) {
+void add_bus_options(CLI::App &command, FirmwareOptions &options) {
   command.add_option("elf", options.files, "ELF file; with several each gets a board")->required();
   command
       .add_option("--bus", options.bus,
@@ -121,7 +121,7 @@ void add_bus_options(CLI::App &command, Options &options) {
       ->check(CLI::Range(1e3, 1e6));
 }
 
-void add_result_options(CLI::App &command, Options &options) {
+void add_result_options(CLI::App &command, FirmwareOptions &options) {
   // --report prints.
   cli::add_output_options(command, options.outputs, "--report-page");
   command.add_flag("--report", options.report, "Print what the buses saw, as 'verican run' does");
@@ -131,7 +131,7 @@ void add_result_options(CLI::App &command, Options &options) {
 }  // namespace
 
 void add_firmware(CLI::App &app, int &exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FirmwareOptions>();
   CLI::App *command = app.add_subcommand(
       "firmware", "Run Cortex-M3 firmware on a simulated board (docs/firmware.md)");
   add_bus_options(*command, *options);

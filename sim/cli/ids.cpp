@@ -14,14 +14,14 @@
 namespace vericansim::cli {
 namespace {
 
-struct Options {
+struct IdsOptions {
   std::string log;
   LogSelection selection;
   IdsOutput output;
   bool json = false;
 };
 
-int run(const Options &options) {
+int run(const IdsOptions &options) {
   std::vector<NamedFile> outputs;
   add_file(outputs, "--csv", options.output.csv);
   claim_files({{"the recording", options.log}}, outputs);
@@ -46,7 +46,7 @@ int run(const Options &options) {
 }  // namespace
 
 void add_ids(CLI::App &app, int &exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IdsOptions>();
   CLI::App *command = app.add_subcommand(
       "ids", "For each identifier of a recording: count, period, jitter, last data, changed bytes");
   command->add_option("log", options->log, "Recording of any known format; - is standard input")

@@ -22,7 +22,7 @@
 namespace vericansim::cli {
 namespace {
 
-struct Options {
+struct LinuxOptions {
   std::string kernel;
   std::string dtb;
   std::string init;
@@ -96,7 +96,7 @@ void must_exist(const char *option, const std::string &path) {
   if (::access(path.c_str(), R_OK) != 0) throw InputError(option, 0, "cannot read " + path);
 }
 
-std::vector<std::string> kernel_command(const Options &options, const std::string &sockets) {
+std::vector<std::string> kernel_command(const LinuxOptions &options, const std::string &sockets) {
   std::vector<std::string> words{options.kernel,
                                  "mem=" + options.memory,
                                  "rootfstype=hostfs",
@@ -115,7 +115,7 @@ std::vector<std::string> kernel_command(const Options &options, const std::strin
   return words;
 }
 
-int run(const Options &options) {
+int run(const LinuxOptions &options) {
   must_exist("--kernel", options.kernel);
   must_exist("--dtb", options.dtb);
   must_exist("--init", options.init);
@@ -155,7 +155,7 @@ int run(const Options &options) {
 }  // namespace
 
 void add_linux(CLI::App &app, int &exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LinuxOptions>();
   CLI::App *command =
       app.add_subcommand("linux", "Run a user-mode Linux on Verilated cores (docs/software.md)");
   command->add_option("--kernel", options->kernel, "User-mode Linux with the glue")->required();

@@ -17,14 +17,14 @@
 namespace vericansim::cli {
 namespace {
 
-void say(const std::string &line) {
+void tell(const std::string &line) {
   fmt::print(stderr, "verican: {}\n", line);
   std::fflush(stderr);
 }
 
 /// Programs are told where they find the bus, and may come before it begins.
 void open_to_programs(HostPorts &ports, Wall &wall) {
-  for (const std::string &line : ports.descriptions()) say(line);
+  for (const std::string &line : ports.descriptions()) tell(line);
   ports.wait_for_clients(wall);
 }
 
@@ -38,7 +38,7 @@ RunReport simulate(const Scenario &scenario, double bitrate, bool prints) {
   SessionOptions setup;
   setup.factories = {&ports};
   setup.wall = &wall;
-  setup.say = say;
+  setup.say = tell;
   if (!scenario.endless || scenario.until_done)
     setup.progress = [&](double part) { progress.show(part); };
   setup.output = [&](std::string_view node, std::string_view text) {
@@ -47,7 +47,7 @@ RunReport simulate(const Scenario &scenario, double bitrate, bool prints) {
   Session session{{{scenario, bitrate}}, std::move(setup)};
   open_to_programs(ports, wall);
   session.start();
-  if (session.has_outlets()) say("ready");
+  if (session.has_outlets()) tell("ready");
   while (session.round()) {
   }
   return session.finish().front();

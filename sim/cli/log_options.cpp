@@ -19,7 +19,7 @@ std::optional<Time> moment(const std::string &option, const std::string &text) {
   const auto time = parse_time(text);
   if (!time || *time < 0)
     throw InputError(option, 0,
-                     quoted(text) +
+                     in_quotes(text) +
                          " is not allowed; allowed: a time since the recording's first "
                          "frame, as in '1.5 s'");
   return time;

@@ -31,7 +31,7 @@ class InterfaceLink : public MemoryLink {
     const int error = verican_remote_socketcan_open(&socket_, name.c_str());
     if (error != 0)
       throw InputError("--if", 0,
-                       fmt::format("{}: {}; allowed: a CAN interface that is up", quoted(name),
+                       fmt::format("{}: {}; allowed: a CAN interface that is up", in_quotes(name),
                                    std::strerror(error)));
   }
   ~InterfaceLink() override { verican_remote_socketcan_close(&socket_); }
@@ -98,8 +98,9 @@ class SocketcandLink : public MemoryLink {
   SocketcandLink(const std::string &address, const std::string &bus)
       : fd_{connect_to(SocketcandAddress::parse("--socketcand", address))} {
     if (fd_ < 0)
-      throw InputError("--socketcand", 0,
-                       "nobody answers at " + quoted(address) + "; allowed: a socketcand server");
+      throw InputError(
+          "--socketcand", 0,
+          "nobody answers at " + in_quotes(address) + "; allowed: a socketcand server");
     expect("hi", address);
     say("< open " + bus + " >");
     expect("ok", address);
@@ -174,10 +175,11 @@ class SocketcandLink : public MemoryLink {
     constexpr std::uint32_t kPatience = 5'000'000;  // us
     const auto seen = next(kPatience);
     if (!seen || text::trimmed(*seen) != answer)
-      throw InputError("--socketcand", 0,
-                       fmt::format("the server at {} says {}; allowed: socketcand with this bus",
-                                   quoted(address),
-                                   quoted(std::string{text::trimmed(seen.value_or("nothing"))})));
+      throw InputError(
+          "--socketcand", 0,
+          fmt::format("the server at {} says {}; allowed: socketcand with this bus",
+                      in_quotes(address),
+                      in_quotes(std::string{text::trimmed(seen.value_or("nothing"))})));
   }
 
   int fd_;

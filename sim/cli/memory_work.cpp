@@ -25,7 +25,8 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 [[noreturn]] void refuse(const char *what, const std::string &value, const std::string &allowed) {
-  throw InputError(what, 0, fmt::format("{} is not allowed; allowed: {}", quoted(value), allowed));
+  throw InputError(what, 0,
+                   fmt::format("{} is not allowed; allowed: {}", in_quotes(value), allowed));
 }
 
 /// The node that NODE means.

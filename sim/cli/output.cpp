@@ -32,7 +32,7 @@ Time time_option(const std::string &option, const std::string &text) {
   const auto time = parse_time(text);
   if (!time || *time <= 0)
     throw InputError(option, 0,
-                     quoted(text) + " is not allowed; allowed: a time above 0, as in '50 ms'");
+                     in_quotes(text) + " is not allowed; allowed: a time above 0, as in '50 ms'");
   return *time;
 }
 
@@ -40,7 +40,7 @@ void print_json(const Json &json) { fmt::print("{}\n", json.dump(2)); }
 
 std::string at_least_one(const std::string &value) {
   const bool zero = value.find_first_not_of('0') == std::string::npos;
-  return zero ? quoted(value) + " is not allowed; allowed: 1 or more" : "";
+  return zero ? in_quotes(value) + " is not allowed; allowed: 1 or more" : "";
 }
 
 int exit_code_after(int code) {

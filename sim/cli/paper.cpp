@@ -16,7 +16,7 @@
 namespace vericansim::cli {
 namespace {
 
-struct Options {
+struct PaperOptions {
   std::string folder = "paper-waves";
   std::string pages;
   bool fst = false;
@@ -48,7 +48,7 @@ P4Result synchronise() {
 
 std::string in_brackets(const std::string &file) { return file.empty() ? "" : "  (" + file + ")"; }
 
-int run(const Options &options) {
+int run(const PaperOptions &options) {
   const StopSignals signals;
   const auto experiments = run_paper(
       {options.no_waves ? "" : options.folder, options.fst ? ".fst" : ".vcd", options.pages});
@@ -95,7 +95,7 @@ int run(const Options &options) {
 }  // namespace
 
 void add_paper(CLI::App &app, int &exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PaperOptions>();
   CLI::App *command =
       app.add_subcommand("paper", "Repeat the published experiments and compare with the papers");
   command->add_option("--out", options->folder, "Folder for the waveforms (paper-waves)");

@@ -18,7 +18,7 @@
 namespace vericansim::cli {
 namespace {
 
-struct Options {
+struct ReplayCommand {
   std::string log, bus;
   double bitrate = 0;
   ReplayOptions replay;
@@ -53,7 +53,7 @@ Json to_json(const ReplayReport &report) {
           {"ok", report.ok()}};
 }
 
-void print(const Options &options, const ReplayReport &report) {
+void print(const ReplayCommand &options, const ReplayReport &report) {
   fmt::print("{}: {} frames{} at {:.0f} bit/s through {} nodes\n", options.log, report.frames,
              report.skipped != 0
                  ? fmt::format(" ({} entries are no classical frames)", report.skipped)
@@ -80,7 +80,7 @@ void print(const Options &options, const ReplayReport &report) {
 }
 
 /// Prints what both forms of the command say of the recording itself.
-int finish(const Options &options, const SelectedLog &selected, Json json, int code) {
+int finish(const ReplayCommand &options, const SelectedLog &selected, Json json, int code) {
   if (options.json) {
     json["interfaces"] = selected.interfaces;
     json["identifiers"] = vericansim::to_json(identifiers_of(selected.log));
@@ -92,7 +92,7 @@ int finish(const Options &options, const SelectedLog &selected, Json json, int c
 }
 
 /// Through plain nodes, which do nothing else.
-int replay_alone(Options &options) {
+int replay_alone(ReplayCommand &options) {
   if (options.bitrate != 0) options.replay.bitrate = options.bitrate;
   load_databases(options.replay.outputs, options.replay.outputs.dbc);
   std::vector<NamedFile> inputs{{"the log", options.log}};
@@ -113,7 +113,7 @@ int replay_alone(Options &options) {
 }
 
 /// Among the nodes of a scenario.
-int replay_on_bus(const Options &options) {
+int replay_on_bus(const ReplayCommand &options) {
   Scenario bus = read_scenario(options.bus);
   const double bitrate = only_bitrate(bus, options.bitrate);
   override_outputs(bus.outputs, options.replay.outputs);
@@ -131,7 +131,7 @@ int replay_on_bus(const Options &options) {
   return code;
 }
 
-int run(Options &options) {
+int run(ReplayCommand &options) {
   const StopSignals signals;
   options.replay.file = std::filesystem::path(options.log).filename().string();
   return options.bus.empty() ? replay_alone(options) : replay_on_bus(options);
@@ -140,7 +140,7 @@ int run(Options &options) {
 }  // namespace
 
 void add_replay(CLI::App &app, int &exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReplayCommand>();
   ReplayOptions &replay = options->replay;
   CLI::App *command = app.add_subcommand(
       "replay", "Recorded traffic through simulated nodes; each must receive every frame");

@@ -21,7 +21,7 @@
 namespace vericansim::cli {
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::string input;
   Outputs outputs;
   std::string signal;
@@ -37,7 +37,7 @@ bool has_ending(const std::string &path, std::initializer_list<const char *> end
 
 const char *interrupted_text(bool interrupted) { return interrupted ? "; interrupted" : ""; }
 
-int report_scenario(const Options &options) {
+int report_scenario(const ReportOptions &options) {
   Scenario scenario = read_scenario(options.input);
   if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
   const auto database = with_files(scenario.outputs.database, options.outputs.dbc);
@@ -59,13 +59,13 @@ int report_scenario(const Options &options) {
 }
 
 /// No output is the input or a database.
-void claim(const char *role, const Options &options) {
+void claim(const char *role, const ReportOptions &options) {
   std::vector<NamedFile> inputs{{role, options.input}};
   add_databases(inputs, options.outputs.database);
   claim_files(inputs, files_of(options.outputs));
 }
 
-int report_recorded_wave(const Options &options) {
+int report_recorded_wave(const ReportOptions &options) {
   WaveDecodeOptions decode;
   decode.signal = options.signal;
   if (options.bitrate != 0) decode.bitrate = options.bitrate;
@@ -86,7 +86,7 @@ int report_recorded_wave(const Options &options) {
   return kOk;
 }
 
-int report_log(const Options &options) {
+int report_log(const ReportOptions &options) {
   claim("the log", options);
   const SelectedLog selected = read_selected(options.input, options.selection, false);
   ReplayOptions replay_options = options.replay;
@@ -104,7 +104,7 @@ int report_log(const Options &options) {
   return report.ok() ? kOk : kFailed;
 }
 
-int report(Options &options) {
+int report(ReportOptions &options) {
   const StopSignals signals;
   if (options.outputs.report.empty()) {
     const std::size_t slash = options.input.rfind('/');
@@ -125,7 +125,7 @@ int report(Options &options) {
 }  // namespace
 
 void add_report(CLI::App &app, int &exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportOptions>();
   CLI::App *command = app.add_subcommand(
       "report", "A page to look at, of a scenario, a waveform or a log (docs/report.md)");
   const std::map<std::string, double> units{{"k", 1e3}, {"M", 1e6}};

@@ -16,7 +16,7 @@
 namespace vericansim::cli {
 namespace {
 
-struct Options {
+struct RunOptions {
   std::string scenario;
   Outputs outputs;
   std::string duration;
@@ -24,7 +24,7 @@ struct Options {
   bool json = false;
 };
 
-void override_with(Scenario &scenario, const Options &options) {
+void override_with(Scenario &scenario, const RunOptions &options) {
   override_outputs(scenario.outputs, options.outputs);
   if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
   if (options.duration.empty()) return;
@@ -32,7 +32,7 @@ void override_with(Scenario &scenario, const Options &options) {
   scenario.endless = false;
 }
 
-int run(const Options &options) {
+int run(const RunOptions &options) {
   const StopSignals signals;
   Scenario scenario = read_scenario(options.scenario);
   override_with(scenario, options);
@@ -60,7 +60,7 @@ int run(const Options &options) {
 }  // namespace
 
 void add_run(CLI::App &app, int &exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunOptions>();
   CLI::App *command = app.add_subcommand("run", "Simulate a scenario file (docs/scenario.md)");
   command->add_option("scenario", options->scenario, "YAML file")->required();
   add_output_options(*command, options->outputs);

@@ -16,7 +16,7 @@
 namespace vericansim::cli {
 namespace {
 
-struct Options {
+struct SignalsOptions {
   std::string log;
   std::vector<std::string> databases;
   std::string csv;
@@ -32,12 +32,13 @@ std::string line_of(const LogEntry &entry, std::int64_t start_ns, const DecodedF
 }
 
 Json json_of(const LogEntry &entry, const DecodedFrame &decoded) {
-  Json json{{"time_ps", entry.time}, {"channel", entry.channel}, {"frame", to_json(entry.frame)}};
+  Json json{
+      {"time_ps", entry.time}, {"channel", entry.channel}, {"frame", cli::to_json(entry.frame)}};
   vericansim::add_signals(json, decoded);
   return json;
 }
 
-int signals(const Options &options) {
+int signals(const SignalsOptions &options) {
   std::vector<NamedFile> inputs{{"the log", options.log}}, outputs;
   const auto database = with_files(nullptr, options.databases);
   add_databases(inputs, database);
@@ -73,7 +74,7 @@ int signals(const Options &options) {
 }  // namespace
 
 void add_signals(CLI::App &app, int &exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SignalsOptions>();
   CLI::App *command = app.add_subcommand(
       "signals", "Recorded frames as messages and signals of databases (docs/signals.md)");
   command->add_option("log", options->log, "Log of frames, as for replay")->required();

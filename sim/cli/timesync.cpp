@@ -20,7 +20,7 @@
 namespace vericansim::cli {
 namespace {
 
-struct Options {
+struct TimeSyncOptions {
   std::string file;
   std::string how = sync_ways().front().name;
   std::map<std::string, std::string> values;  // by the name of the setting, as given
@@ -31,18 +31,18 @@ struct Options {
 };
 
 /// What is given on the command line takes the place of what the file says. Returns the name.
-std::string take_settings(const Options &options, SyncCase &setting) {
+std::string take_settings(const TimeSyncOptions &options, SyncCase &setting) {
   const std::string name = options.file.empty() ? "" : read_case(options.file, setting);
   for (const SyncSetting &one : sync_settings()) {
     const auto given = options.values.find(one.name);
     if (given != options.values.end() && !one.set(setting, given->second))
       throw InputError("--" + std::string{one.name}, 0,
-                       quoted(given->second) + " is not allowed; allowed: " + one.allowed);
+                       in_quotes(given->second) + " is not allowed; allowed: " + one.allowed);
   }
   return name;
 }
 
-std::unique_ptr<SyncPage> open_page(const Options &options) {
+std::unique_ptr<SyncPage> open_page(const TimeSyncOptions &options) {
   std::vector<NamedFile> inputs, outputs;
   add_file(inputs, "the case", options.file);
   add_file(outputs, "--report", options.page);
@@ -54,7 +54,7 @@ void say_how(const SyncWay &way) { fmt::print("how: {} ({})\n\n", way.name, way.
 
 int exit_code_of(bool ok) { return exit_code_after(ok && !stop_requested() ? kOk : kFailed); }
 
-int run_one(const Options &options, const SyncWay &way) {
+int run_one(const TimeSyncOptions &options, const SyncWay &way) {
   SyncCase setting;
   const std::string name = take_settings(options, setting);
   SyncOutcome outcome{{name.empty() ? "this case" : name, setting, goal_of(setting)},
@@ -64,16 +64,16 @@ int run_one(const Options &options, const SyncWay &way) {
   if (!options.page.empty()) page = open_page(options);
   const bool samples = options.json || page != nullptr;
   outcome.figures = run_case(way, setting, [&](const SyncRun &run) {
-    if (samples) runs.push_back(to_json(run));
+    if (samples) runs.push_back(cli::to_json(run));
   });
   Json json = {{"how", way.name}};
-  json.update(to_json(outcome));
+  json.update(cli::to_json(outcome));
   json["runs"] = std::move(runs);
-  if (page != nullptr) page->write(json, to_text(setting));
+  if (page != nullptr) page->write(json, cli::to_text(setting));
   if (options.json) {
     print_json(json);
   } else {
-    fmt::print("{}\n", to_text(setting));
+    fmt::print("{}\n", cli::to_text(setting));
     say_how(way);
     print_sync_head();
     print_sync_row(outcome);
@@ -91,13 +91,13 @@ SyncRow in_sweep(const SyncWay &way, const SyncRow &row) {
   return result;
 }
 
-int run_sweep(const Options &options, const SyncWay &way) {
+int run_sweep(const TimeSyncOptions &options, const SyncWay &way) {
   SyncCase base;
   take_settings(options, base);
   bool ok = true;
   Json tables = Json::array();
   if (!options.json) {
-    fmt::print("Base: {}\n", to_text(base));
+    fmt::print("Base: {}\n", cli::to_text(base));
     say_how(way);
   }
   for (const SyncTable &table : sweep(base)) {
@@ -111,7 +111,7 @@ int run_sweep(const Options &options, const SyncWay &way) {
       const SyncRow row = in_sweep(way, as_specified);
       if (const char *missing = way.missing(row.setting); missing != nullptr) {
         if (options.json)
-          rows.push_back(to_json(row, missing));
+          rows.push_back(cli::to_json(row, missing));
         else
           fmt::print("{}: not by this way, which knows no {}\n", row.name, missing);
         continue;
@@ -119,7 +119,7 @@ int run_sweep(const Options &options, const SyncWay &way) {
       const SyncOutcome outcome{row, run_case(way, row.setting)};
       ok = ok && outcome.ok();
       if (options.json)
-        rows.push_back(to_json(outcome));
+        rows.push_back(cli::to_json(outcome));
       else
         print_sync_row(outcome);
     }
@@ -136,13 +136,13 @@ int run_sweep(const Options &options, const SyncWay &way) {
   return exit_code_of(ok);
 }
 
-int run_p4(const Options &options, const SyncWay &way) {
+int run_p4(const TimeSyncOptions &options, const SyncWay &way) {
   SyncCase setting = p4_case();
   take_settings(options, setting);
   const P4Result result = vericansim::run_p4(way, setting);
   if (options.json) {
     Json json = {{"how", way.name}};
-    json.update(to_json(result));
+    json.update(cli::to_json(result));
     print_json(json);
   } else {
     print_p4(result);
@@ -153,7 +153,7 @@ int run_p4(const Options &options, const SyncWay &way) {
                                   [](const P4Check &check) { return check.ok; }));
 }
 
-int run(const Options &options) {
+int run(const TimeSyncOptions &options) {
   const StopSignals signals;
   const SyncWay &way = sync_way(options.how);
   if (options.sweep) return run_sweep(options, way);
@@ -163,7 +163,7 @@ int run(const Options &options) {
 }  // namespace
 
 void add_timesync(CLI::App &app, int &exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TimeSyncOptions>();
   CLI::App *command = app.add_subcommand(
       "timesync", "Clocks of a master and its followers, synchronised over the bus: how well");
   command->add_option("case", options->file, "Case file, YAML (docs/timesync.md)");

@@ -27,7 +27,8 @@ std::uint64_t number(std::string_view text, std::uint64_t low, std::uint64_t hig
                      const char *what) {
   const auto value = parse_integer(text);
   if (!value || *value < low || *value > high)
-    refuse(fmt::format("{} must be {} to {}, got {}", what, low, high, quoted(std::string{text})));
+    refuse(
+        fmt::format("{} must be {} to {}, got {}", what, low, high, in_quotes(std::string{text})));
   return *value;
 }
 
@@ -35,7 +36,7 @@ namespace {
 
 bool on_or_off(std::string_view text) {
   if (text != "on" && text != "off")
-    refuse(fmt::format("expected on or off, got {}", quoted(std::string{text})));
+    refuse(fmt::format("expected on or off, got {}", in_quotes(std::string{text})));
   return text == "on";
 }
 
@@ -44,14 +45,14 @@ Field field_named(std::string_view name) {
     const auto field = static_cast<Field>(code);
     if (field_name(field) == name && name != "?") return field;
   }
-  refuse(fmt::format("no field of a frame is called {}", quoted(std::string{name})));
+  refuse(fmt::format("no field of a frame is called {}", in_quotes(std::string{name})));
 }
 
 Effect effect_named(std::string_view name) {
   if (name == "flip") return Effect::kFlip;
   if (name == "dominant") return Effect::kDominant;
   if (name == "recessive") return Effect::kRecessive;
-  refuse(fmt::format("expected flip, dominant or recessive, got {}", quoted(std::string{name})));
+  refuse(fmt::format("expected flip, dominant or recessive, got {}", in_quotes(std::string{name})));
 }
 
 std::string counts_text(const std::string &name, const NodeCounts &counts) {
@@ -93,7 +94,7 @@ std::string Board::command(const std::string &text) {
   refuse(
       fmt::format("{} is none of bitrate, log, report, now, hold, cut, strike, peer, sabotage, "
                   "pulse, edges",
-                  quoted(std::string{words[0]})));
+                  in_quotes(std::string{words[0]})));
 }
 
 // ---- Judges
@@ -163,7 +164,7 @@ std::string Board::node_name(NodeId id) const {
 NodeId Board::node_named(std::string_view name) const {
   for (NodeId id = 0; id < bus_.size(); ++id)
     if (node_name(id) == name) return id;
-  refuse(fmt::format("no node is called {}", quoted(std::string{name})));
+  refuse(fmt::format("no node is called {}", in_quotes(std::string{name})));
 }
 
 // ---- Faults

@@ -14,7 +14,7 @@ namespace vericansim {
 TimeNode &Board::time_unit(std::string_view name) {
   const NodeId node = node_named(name);
   if (node >= time_units_.size())
-    refuse(fmt::format("{} has no time unit", quoted(std::string{name})));
+    refuse(fmt::format("{} has no time unit", in_quotes(std::string{name})));
   return *time_units_[node];
 }
 

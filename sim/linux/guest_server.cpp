@@ -24,7 +24,7 @@ constexpr std::size_t kLongestCommand = 4096;
 // Within what the simulator's time holds (106 days).
 constexpr std::uint64_t kLongestRun = 100ULL * 24 * kLongestSleep;
 
-[[noreturn]] void refuse(const std::string &what) { throw InputError("the guest", 0, what); }
+[[noreturn]] void refuse_guest(const std::string &what) { throw InputError("the guest", 0, what); }
 
 }  // namespace
 
@@ -88,9 +88,9 @@ void GuestServer::serve_registers() {
   ++accesses_;
   if (static_cast<GuestOp>(request.op) != GuestOp::kCommand) {
     if (request.op > 1 || (request.size != 1 && request.size != 2 && request.size != 4))
-      refuse("sent an access of " + std::to_string(request.size) + " bytes, operation " +
-             std::to_string(request.op) +
-             "; allowed: 1, 2 or 4 bytes, operation 0 (read) or 1 (write)");
+      refuse_guest("sent an access of " + std::to_string(request.size) + " bytes, operation " +
+                   std::to_string(request.op) +
+                   "; allowed: 1, 2 or 4 bytes, operation 0 (read) or 1 (write)");
     const std::uint32_t value =
         board_.access({request.address, request.op == static_cast<std::uint32_t>(GuestOp::kWrite),
                        request.value, request.size});
@@ -98,8 +98,8 @@ void GuestServer::serve_registers() {
     return;
   }
   if (request.size > kLongestCommand)
-    refuse("sent a command of " + std::to_string(request.size) + " bytes; allowed: up to " +
-           std::to_string(kLongestCommand));
+    refuse_guest("sent a command of " + std::to_string(request.size) + " bytes; allowed: up to " +
+                 std::to_string(kLongestCommand));
   std::string line(request.size, '\0');
   if (!registers_.read(line.data(), line.size())) return;
   std::string reply;
@@ -119,12 +119,13 @@ void GuestServer::let_time_pass() {
     const bool for_ever = goal >= calendar_.guest_time() + kLongestSleep;
     const std::uint64_t until = for_ever ? board_.now() + kLongestSleep : goal;
     if (goal > board_.now() && until > kLongestRun)
-      refuse("wants to sleep until " + std::to_string(until) + " ns; allowed: up to 100 days");
+      refuse_guest("wants to sleep until " + std::to_string(until) +
+                   " ns; allowed: up to 100 days");
     if (goal > board_.now() && board_.run_until(until) && interrupt_.open()) {
       tell_interrupt();
       continue;
     }
-    if (for_ever && goal > board_.now()) refuse("sleeps, and nothing will ever wake it");
+    if (for_ever && goal > board_.now()) refuse_guest("sleeps, and nothing will ever wake it");
     time_.send(calendar_.run());
     TimeMessage ack;
     if (!time_.read(ack)) over_ = true;

@@ -35,6 +35,14 @@ struct Frame {
     return dlc > 8 ? 8u : dlc;
   }
 
+  /// The word that a controller's registers hold of bytes `first` to `first` + 3 (0 or 4), the
+  /// first of them greatest.
+  [[nodiscard]] constexpr std::uint32_t data_word(unsigned first) const {
+    std::uint32_t word = 0;
+    for (unsigned i = 0; i < 4; ++i) word = (word << 8) | data[first + i];
+    return word;
+  }
+
   /// Throws std::invalid_argument if the identifier does not fit its format or dlc > 15. All that
   /// takes frames does so with this, and cuts nothing off.
   void validate() const;

@@ -11,7 +11,7 @@ namespace vericansim {
 
 namespace {
 
-constexpr std::uint64_t kSecond = 1'000'000'000;
+constexpr std::uint64_t kSecondNs = 1'000'000'000;
 constexpr std::int64_t kStep = 1 << 20, kStepLocked = 1 << 12;  // ns, TM-103
 constexpr std::uint64_t kIncrementMask = (1ULL << 40) - 1;
 constexpr unsigned kFullPairs = 8, kAcquiringPairs = 12;
@@ -56,7 +56,7 @@ std::optional<TimeSyncAction> TimeSyncModel::frame(const Frame &frame, std::uint
   }
   if ((type != 0x18 && type != 0x28) || !waiting_ || sc != sc_) return {};
   waiting_ = false;
-  const std::uint64_t whole = kSecond * (seconds_ + (frame.data[3] & 3));
+  const std::uint64_t whole = kSecondNs * (seconds_ + (frame.data[3] & 3));
   return pair(whole, whole + word(frame), increment);
 }
 

@@ -15,15 +15,6 @@
 #include "verilated.h"
 
 namespace vericansim {
-namespace {
-
-std::uint32_t data_word(const Frame &frame, unsigned first) {
-  std::uint32_t word = 0;
-  for (unsigned i = 0; i < 4; ++i) word = (word << 8) | frame.data[first + i];
-  return word;
-}
-
-}  // namespace
 
 struct CoreNode::Impl {
   VerilatedContext context;
@@ -145,7 +136,7 @@ void CoreNode::present() {
   if (word_ == 0) {
     top.tx_word_i = frame.extended ? frame.id : frame.id << 18;
   } else {
-    top.tx_word_i = data_word(frame, word_ == 1 ? 0 : 4);
+    top.tx_word_i = frame.data_word(word_ == 1 ? 0 : 4);
   }
 }
 

@@ -20,12 +20,6 @@ namespace {
 // quanta.
 constexpr std::uint64_t kPollLimit = 160ULL * 256 * 25;
 
-std::uint32_t data_word(const Frame &frame, unsigned first) {
-  std::uint32_t word = 0;
-  for (unsigned i = 0; i < 4; ++i) word = (word << 8) | frame.data[first + i];
-  return word;
-}
-
 std::uint32_t id_word(std::uint32_t id, bool extended) { return extended ? id : id << 18; }
 
 Frame to_frame(std::uint32_t cs, std::uint32_t id, std::uint32_t low, std::uint32_t high) {
@@ -199,8 +193,8 @@ Task<> Host::load_frames() {
     const std::uint32_t format = (frame.extended ? reg::kCsIde | reg::kCsSrr : 0) |
                                  (frame.remote ? reg::kCsRtr : 0) |
                                  static_cast<std::uint32_t>(frame.dlc) << 16;
-    if (frame.payload_size() > 0) write(reg::mb(n, 2), data_word(frame, 0));
-    if (frame.payload_size() > 4) write(reg::mb(n, 3), data_word(frame, 4));
+    if (frame.payload_size() > 0) write(reg::mb(n, 2), frame.data_word(0));
+    if (frame.payload_size() > 4) write(reg::mb(n, 3), frame.data_word(4));
     write(reg::mb(n, 1), id_word(frame.id, frame.extended));
     co_await node_.ahb().write(reg::mb(n), reg::kCodeTxData | format);
   }

@@ -58,6 +58,9 @@ struct CheckResult {
   bool ok = true;
 };
 
+/// A script keeps so many of its failures: the first ones tell what is wrong.
+inline constexpr std::size_t kMostFailures = 20;
+
 struct RunReport {
   std::string name;
   double bitrate = 0;

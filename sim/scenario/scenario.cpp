@@ -132,7 +132,7 @@ NodeSpec parse_node(const YamlValue &value, const Scenario &scenario) {
   node.name = name.text();
   if (node.name.empty()) name.refuse("a name of at least one letter");
   for (const NodeSpec &other : scenario.nodes)
-    if (other.name == node.name) value.fail("node name " + quoted(node.name) + " is used twice");
+    if (other.name == node.name) value.fail("node name " + in_quotes(node.name) + " is used twice");
   node.clock.seed = scenario.seed * 1000 + scenario.nodes.size();
   parse_clock(map, node.clock);
   parse_link(map, node.link);

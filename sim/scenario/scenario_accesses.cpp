@@ -14,18 +14,18 @@
 namespace vericansim {
 namespace {
 
-using Kind = AccessStep::Kind;
+using AccessKind = AccessStep::Kind;
 
 struct Verb {
   std::string_view name;
-  Kind kind;
+  AccessKind kind;
   unsigned words;  // with itself
 };
 
-constexpr Verb kVerbs[] = {{"read", Kind::kRead, 2},   {"write", Kind::kWrite, 3},
-                           {"set", Kind::kSet, 3},     {"clear", Kind::kClear, 3},
-                           {"until", Kind::kUntil, 4}, {"if", Kind::kIf, 4},
-                           {"check", Kind::kCheck, 4}};
+constexpr Verb kVerbs[] = {{"read", AccessKind::kRead, 2},   {"write", AccessKind::kWrite, 3},
+                           {"set", AccessKind::kSet, 3},     {"clear", AccessKind::kClear, 3},
+                           {"until", AccessKind::kUntil, 4}, {"if", AccessKind::kIf, 4},
+                           {"check", AccessKind::kCheck, 4}};
 
 constexpr std::string_view kAllowed =
     "read REG, write REG VALUE, set REG BITS, clear REG BITS, until REG MASK VALUE, "
@@ -77,7 +77,8 @@ AccessSpec detail::parse_access(const YamlValue &value, const Scenario &scenario
   const YamlValue node = map.need("node");
   access.node = parse_node_name(node, scenario);
   if (std::holds_alternative<RemoteRole>(scenario.nodes[access.node].role))
-    node.fail(quoted(node.text()) + " is a remote node and has no registers; allowed: other nodes");
+    node.fail(in_quotes(node.text()) +
+              " is a remote node and has no registers; allowed: other nodes");
   map.with("at", [&](const YamlValue &v) { access.at = v.time(0, kLongestTime); });
   const YamlValue steps = map.need("do");
   for (const YamlValue &item : steps.items()) access.steps.push_back(parse_step(item));

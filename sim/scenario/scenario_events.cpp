@@ -112,7 +112,8 @@ TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario) {
   map.with("name", [&](const YamlValue &v) { traffic.name = v.text(); });
   for (const TrafficSpec &other : scenario.traffic)
     if (other.name == traffic.name)
-      value.fail("message name " + quoted(traffic.name) + " is used twice; give one with 'name'");
+      value.fail("message name " + in_quotes(traffic.name) +
+                 " is used twice; give one with 'name'");
   parse_payload(map, traffic, message);
   parse_times(map, traffic);
   map.finish();

@@ -219,7 +219,7 @@ void check_fault_names(const Scenario &scenario) {
     if (!names.insert(name).second)
       throw InputError(scenario.file, scenario.faults[i].line,
                        fmt::format("faults[{}]: fault name {} is used twice; give one with 'name'",
-                                   i, quoted(name)));
+                                   i, in_quotes(name)));
   }
 }
 

@@ -204,7 +204,8 @@ void parse_memory(const YamlValue &value, RemoteRole &role) {
     const bool config = address >= remote_map::kNode && address < remote_map::kTablesEnd;
     if (address >= end && !config)
       bytes.fail(fmt::format("{} is no address; allowed: 0 to 0x{:X}, 0x{:X} to 0x{:X}",
-                             quoted(key), end - 1, remote_map::kNode, remote_map::kTablesEnd - 1));
+                             in_quotes(key), end - 1, remote_map::kNode,
+                             remote_map::kTablesEnd - 1));
     const auto at = static_cast<unsigned>(address);
     role.memory[at] = parse_bytes(bytes, (config ? remote_map::kTablesEnd : end) - at);
   }
@@ -265,7 +266,7 @@ std::vector<std::uint8_t> parse_bytes(const YamlValue &value, std::size_t most) 
 unsigned parse_address(const std::string &key, const YamlValue &value, unsigned end) {
   const auto address = parse_integer(key);
   if (!address || *address >= end)
-    value.fail(fmt::format("{} is no address; allowed: 0 to 0x{:X}", quoted(key), end - 1));
+    value.fail(fmt::format("{} is no address; allowed: 0 to 0x{:X}", in_quotes(key), end - 1));
   return static_cast<unsigned>(*address);
 }
 
@@ -286,7 +287,7 @@ void parse_judge(const YamlValue &value, Scenario &scenario) {
   scenario.lockstep = value.text() == "lockstep";
   for (const NodeSpec &node : scenario.nodes)
     if (scenario.lockstep && std::holds_alternative<RemoteRole>(node.role))
-      value.fail("the judges know no remote nodes, and " + quoted(node.name) +
+      value.fail("the judges know no remote nodes, and " + in_quotes(node.name) +
                  " is one; allowed: none");
 }
 

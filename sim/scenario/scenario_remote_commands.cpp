@@ -67,8 +67,8 @@ class StepReader {
 
  private:
   [[noreturn]] void refuse_word(std::string_view word, const std::string &allowed) const {
-    value_.fail(fmt::format("{}: {} is not allowed; allowed: {}", quoted(text_),
-                            quoted(std::string{word}), allowed));
+    value_.fail(fmt::format("{}: {} is not allowed; allowed: {}", in_quotes(text_),
+                            in_quotes(std::string{word}), allowed));
   }
 
   std::string_view take() {
@@ -249,9 +249,9 @@ RemoteCommandSpec parse_commands(const YamlValue &value, const Scenario &scenari
   spec.node = parse_node_name(node, scenario);
   const NodeSpec &host = scenario.nodes[spec.node];
   if (!host.hosted() || host.host.listen_only)
-    node.fail(quoted(host.name) + " sends nothing that a scenario says; allowed: plain nodes");
+    node.fail(in_quotes(host.name) + " sends nothing that a scenario says; allowed: plain nodes");
   if (host.host.tx_buffers > 1)
-    node.fail(quoted(host.name) +
+    node.fail(in_quotes(host.name) +
               " has several 'tx_buffers', and commands must leave in their "
               "order; allowed: 1");
   map.with("at", [&](const YamlValue &v) { spec.at = v.time(0, kLongestTime); });

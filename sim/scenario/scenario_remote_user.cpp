@@ -76,7 +76,7 @@ void parse_actions(YamlMap &map, const RemoteConfig &config, UserSpec &user) {
 NodeId parse_remote_name(const YamlValue &value, const Scenario &scenario) {
   const NodeId id = parse_node_name(value, scenario);
   if (!std::holds_alternative<RemoteRole>(scenario.nodes[id].role))
-    value.fail(quoted(value.text()) + " is no remote node; allowed: nodes of 'type: remote'");
+    value.fail(in_quotes(value.text()) + " is no remote node; allowed: nodes of 'type: remote'");
   return id;
 }
 

@@ -33,8 +33,8 @@ SecondCoreRole parse_second_core(const YamlValue &value, const Scenario &scenari
   for (const NodeSpec &other : scenario.nodes) {
     const auto *second = std::get_if<SecondCoreRole>(&other.role);
     if (second != nullptr && second->board == value.text())
-      value.fail("the board " + quoted(value.text()) +
-                 " has its second core already: " + quoted(other.name));
+      value.fail("the board " + in_quotes(value.text()) +
+                 " has its second core already: " + in_quotes(other.name));
   }
   for (const NodeSpec &other : scenario.nodes)
     if (other.name == value.text() && std::holds_alternative<FirmwareRole>(other.role))
@@ -44,7 +44,7 @@ SecondCoreRole parse_second_core(const YamlValue &value, const Scenario &scenari
 
 IdFilter parse_id_filter(const YamlValue &value) {
   try {
-    return parse_filter(value.text());
+    return vericansim::parse_filter(value.text());
   } catch (const InputError &) {
     value.refuse("ID:MASK or ID~MASK (all but these), hexadecimal, as in 100:7F0");
   }

@@ -19,10 +19,10 @@ const SignalMessage &parse_message_name(const YamlValue &value, const std::strin
                                         const Scenario &scenario) {
   if (!scenario.outputs.database) value.fail("needs a database; allowed: 'dbc' in the scenario");
   const auto found = scenario.outputs.database->named(name);
-  if (found.empty()) value.fail("no message " + quoted(name) + " in the database");
+  if (found.empty()) value.fail("no message " + in_quotes(name) + " in the database");
   if (found.size() > 1)
-    value.fail(
-        fmt::format("message {} is in {} and in {}", quoted(name), found[0]->file, found[1]->file));
+    value.fail(fmt::format("message {} is in {} and in {}", in_quotes(name), found[0]->file,
+                           found[1]->file));
   return *found[0];
 }
 
@@ -61,7 +61,7 @@ Range parse_signal_range(const YamlValue &value, const Signal &signal) {
 const Signal &parse_signal_name(const YamlValue &value, const SignalMessage &message,
                                 const std::string &name) {
   if (const Signal *signal = message.find(name)) return *signal;
-  value.fail("message " + message.name + " has no signal " + quoted(name));
+  value.fail("message " + message.name + " has no signal " + in_quotes(name));
 }
 
 SignalExpectation parse_expected_signal(const YamlValue &value, const std::string &name,

@@ -38,7 +38,7 @@ void YamlValue::fail(const std::string &message) const {
 }
 
 void YamlValue::refuse(const std::string &allowed) const {
-  const std::string value = node_.IsScalar()     ? quoted(node_.Scalar())
+  const std::string value = node_.IsScalar()     ? in_quotes(node_.Scalar())
                             : node_.IsMap()      ? "a map"
                             : node_.IsSequence() ? "a list"
                                                  : "nothing";
@@ -124,7 +124,8 @@ YamlMap::YamlMap(YamlValue value) : value_{std::move(value)} {
   std::set<std::string> seen;
   for (const auto &entry : value_.node_) {
     const YamlValue key{value_.file_, value_.key_, entry.first, line_of(entry.first.Mark())};
-    if (!seen.insert(key.text()).second) key.fail("key " + quoted(key.text()) + " is given twice");
+    if (!seen.insert(key.text()).second)
+      key.fail("key " + in_quotes(key.text()) + " is given twice");
   }
 }
 
@@ -159,7 +160,7 @@ void YamlMap::finish() const {
     std::string allowed;
     for (const std::string &name : asked_) allowed += (allowed.empty() ? "" : ", ") + name;
     const YamlValue place{value_.file_, value_.key_, entry.first, line_of(entry.first.Mark())};
-    place.fail("unknown key " + quoted(key) + "; allowed: " + allowed);
+    place.fail("unknown key " + in_quotes(key) + "; allowed: " + allowed);
   }
 }
 

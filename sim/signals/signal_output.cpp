@@ -14,17 +14,18 @@
 namespace vericansim {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// Integers of the file stay integers.
-Json number_json(const SignalValue &value) {
+OrderedJson number_json(const SignalValue &value) {
   const Signal &signal = *value.signal;
   if (signal.is_float || signal.factor != 1 || signal.offset != 0) return value.value;
-  return signal.is_signed ? Json(static_cast<std::int64_t>(value.raw)) : Json(value.raw);
+  return signal.is_signed ? OrderedJson(static_cast<std::int64_t>(value.raw))
+                          : OrderedJson(value.raw);
 }
 
-Json value_json(const SignalValue &value) {
-  Json json{{"value", number_json(value)}};
+OrderedJson value_json(const SignalValue &value) {
+  OrderedJson json{{"value", number_json(value)}};
   if (!value.signal->unit.empty()) json["unit"] = value.signal->unit;
   if (const auto choice = choice_of(value)) json["text"] = *choice;
   return json;
@@ -63,8 +64,8 @@ std::string to_text(const SignalReport &report) {
   return text;
 }
 
-Json to_json(const SignalReport &report) {
-  Json list = Json::array();
+OrderedJson to_json(const SignalReport &report) {
+  OrderedJson list = OrderedJson::array();
   for (const SignalSummary &s : report.signals)
     list.push_back({{"message", s.message->name},
                     {"signal", s.last.signal->name},
@@ -78,8 +79,8 @@ Json to_json(const SignalReport &report) {
   return {{"frames", {{"known", report.known}, {"unknown", report.unknown}}}, {"signals", list}};
 }
 
-Json signals_json(const std::vector<SignalValue> &values) {
-  Json json = Json::object();
+OrderedJson signals_json(const std::vector<SignalValue> &values) {
+  OrderedJson json = OrderedJson::object();
   for (const SignalValue &value : values) json[value.signal->name] = value_json(value);
   return json;
 }
@@ -96,7 +97,7 @@ std::string to_text(const DecodedFrame &decoded, const Frame &frame) {
   return to_text(*decoded.message, decoded.values);
 }
 
-void add_signals(Json &json, const DecodedFrame &decoded) {
+void add_signals(OrderedJson &json, const DecodedFrame &decoded) {
   if (decoded.message == nullptr) return;
   json["message"] = decoded.message->name;
   json["signals"] = signals_json(decoded.values);

@@ -11,8 +11,6 @@
 namespace vericansim {
 namespace {
 
-constexpr std::size_t kMostFailures = 20;
-
 bool matches(const AccessStep &step, std::uint32_t seen) {
   return ((seen ^ step.value) & step.mask) == 0;
 }

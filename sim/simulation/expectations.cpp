@@ -66,11 +66,12 @@ void check_board(const NodeExpectation &node, const firmware::BoardReport &board
   };
   for (const std::string &text : node.output) {
     const bool found = printed.find(text) != std::string_view::npos;
-    results.push_back({board.node + ".output", quoted(text), seen(found), found});
+    results.push_back({board.node + ".output", in_quotes(text), seen(found), found});
   }
   for (const std::string &pattern : node.matches) {
     const bool found = std::regex_search(board.output, std::regex{pattern});
-    results.push_back({board.node + ".output", "matches " + quoted(pattern), seen(found), found});
+    results.push_back(
+        {board.node + ".output", "matches " + in_quotes(pattern), seen(found), found});
   }
 }
 

@@ -16,7 +16,6 @@ namespace {
 
 constexpr Time kTimeOut = 150 * kMillisecond;  // RN-91
 constexpr unsigned kTries = 3;
-constexpr std::size_t kMostFailures = 20;
 
 std::string hex(const std::vector<std::uint8_t> &bytes) {
   return fmt::format("{:02X}", fmt::join(bytes, " "));

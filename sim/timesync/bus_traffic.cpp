@@ -9,8 +9,6 @@
 namespace vericansim {
 namespace {
 
-// The longest base data frame with its intermission (rule book, FF-11).
-constexpr double kLongest = 135;
 // Error flag, its echo, delimiter and intermission.
 constexpr double kErrorFrame = 12 + 8 + 3;
 
@@ -27,18 +25,18 @@ BusTraffic::BusTraffic(const SyncCase &setting, std::uint64_t seed)
 // that come independently (Pollaczek and Khinchine).
 double BusTraffic::waiting(double load) {
   double bits = 0;
-  while (uniform() < load) bits += uniform() * kLongest;
+  while (uniform() < load) bits += uniform() * kLongestFrame;
   return bits;
 }
 
 // Bits until the bus is free for SYNC: what is on it, and what comes above SYNC meanwhile.
 double BusTraffic::frames_ahead() {
   double bits = waiting(load_above_);
-  if (bits == 0 && uniform() < load_) bits = uniform() * kLongest;
+  if (bits == 0 && uniform() < load_) bits = uniform() * kLongestFrame;
   if (load_above_ == 0) return bits;
   for (double open = bits; open > 0;) {
-    std::poisson_distribution<unsigned> more{open * load_above_ / kLongest};
-    open = kLongest * more(dice_);
+    std::poisson_distribution<unsigned> more{open * load_above_ / kLongestFrame};
+    open = kLongestFrame * more(dice_);
     bits += open;
   }
   return bits;

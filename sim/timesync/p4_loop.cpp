@@ -13,8 +13,8 @@ namespace {
 constexpr double kLong = 250e3, kShort = 100e3, kSoftware = 100e3;
 // The handler reads the clock so much behind the end of a frame (TM-123).
 constexpr double kHandlerLeast = 2e3, kHandlerMost = 6e3;
-constexpr Nanoseconds kPoll = 100e3L;
-constexpr unsigned kPolls = 1000;
+constexpr Nanoseconds kPollGap = 100e3L;
+constexpr unsigned kMostPolls = 1000;
 
 }  // namespace
 
@@ -84,7 +84,7 @@ void P4Loop::measure(unsigned n, Nanoseconds t) {
 // When software finds the message due; a message that does not come is not waited for.
 Nanoseconds P4Loop::wait_for(unsigned n, std::uint32_t message, Nanoseconds t) {
   std::uint8_t data[8];
-  for (unsigned poll = 0; poll < kPolls; ++poll, t += kPoll)
+  for (unsigned poll = 0; poll < kMostPolls; ++poll, t += kPollGap)
     if (verican_p4_poll(&followers[n], nodes[n + 1].now(t), data) == message) break;
   return t;
 }

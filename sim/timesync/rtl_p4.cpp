@@ -16,7 +16,7 @@ namespace vericansim {
 namespace {
 
 // A follower's software looks so often whether one of its messages is due.
-constexpr Time kPoll = 200 * kMicrosecond;
+constexpr Time kRtlPoll = 200 * kMicrosecond;
 // The first pairs are those before a delay is known.
 constexpr unsigned kFirstPairs = 2;
 
@@ -122,7 +122,7 @@ class RtlP4 {
 
   // Until the message that is due has been sent.
   void poll(unsigned n) {
-    bench_.at(bench_.bus.now() + kPoll, [this, n] {
+    bench_.at(bench_.bus.now() + kRtlPoll, [this, n] {
       verican_p4_t &p4 = followers_[n - 1];
       std::uint8_t data[8];
       const std::uint32_t message = verican_p4_poll(&p4, read(n), data);

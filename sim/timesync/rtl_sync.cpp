@@ -18,7 +18,6 @@
 namespace vericansim {
 namespace {
 
-constexpr std::uint32_t kSyncId = 0x080;
 // Times an interval that each node's software polls.
 constexpr int kPolls = 10;
 // Software gets to its poll so much later, evenly, as in the model.

@@ -8,13 +8,13 @@
 #include <string>
 #include <utility>
 
+#include "timesync/bus_traffic.hpp"
+
 namespace vericansim {
 namespace {
 
 // Below and above SYNC's priority.
 constexpr std::uint32_t kBelow = 0x400, kAbove = 0x010;
-// As in the model: the longest base data frame with its intermission (rule book, FF-11).
-constexpr double kLongest = 135;
 // A dominant level for longer than bit stuffing allows, one bit for the phase of the edges (BS-03).
 constexpr unsigned kDisturbed = 7;
 // Of the source of errors, whose phase would else be that of the nodes.
@@ -86,7 +86,7 @@ void RtlTraffic::send(CoreNode &sender, std::uint32_t id, double load) {
   sender.received().clear();
   sender.sent().clear();
   if (sender.waiting() < 2) sender.request(longest(id));
-  const double mean = kLongest * bit_ / load;
+  const double mean = kLongestFrame * bit_ / load;
   const double gap = load < 1 ? std::exponential_distribution<double>{1 / mean}(dice_) : mean / 2;
   at_(bus_.now() + std::llround(gap), [this, &sender, id, load] { send(sender, id, load); });
 }

@@ -8,6 +8,9 @@
 
 namespace vericansim {
 
+/// Identifier of the master's SYNC and FUP.
+inline constexpr std::uint32_t kSyncId = 0x080;
+
 /// The oscillators of all nodes. Their constant errors are uniform in -spread..spread.
 struct SyncClocks {
   double frequency_hz = 16e6;

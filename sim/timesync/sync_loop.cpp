@@ -15,9 +15,8 @@
 namespace vericansim {
 namespace {
 
-constexpr std::uint32_t kSyncId = 0x080;
 // Software: when it sees to SYNC and FUP, and how long a follower takes to handle FUP.
-constexpr double kPoll = 100e3, kHandle = 200e3;
+constexpr double kSoftwareGap = 100e3, kHandle = 200e3;
 constexpr double kEarly = 300;  // ns, of a displaced edge, at most
 
 std::size_t bits_of(std::span<const std::uint8_t, 8> data) {
@@ -96,7 +95,7 @@ void SyncLoop::sync(double interval_s, const std::function<bool(unsigned)> &lost
 SyncLoop::Pair SyncLoop::send() {
   ClockNode &master = nodes[master_];
   Pair pair{};
-  const Nanoseconds queued = now + uniform(0, kPoll);
+  const Nanoseconds queued = now + uniform(0, kSoftwareGap);
   verican_tsyn_write_sync(&sender_, &rules_, master.now(queued), pair.sync);
   const std::size_t bits = bits_of(pair.sync);
   const Nanoseconds sof = queued + traffic_.until_sof(bits);
@@ -105,7 +104,7 @@ SyncLoop::Pair SyncLoop::send() {
   const std::uint64_t t1 = master_stamp(sent, pair.edge);
   pair.has_fup = verican_tsyn_write_fup(&sender_, &rules_, t1, pair.fup);
   const std::size_t fup_bits = bits_of(pair.fup);
-  const Nanoseconds fup_queued = sof + traffic_.duration(bits) + uniform(0, kPoll);
+  const Nanoseconds fup_queued = sof + traffic_.duration(bits) + uniform(0, kSoftwareGap);
   pair.handled = fup_queued + traffic_.until_sof(fup_bits) + traffic_.duration(fup_bits) +
                  (setting_.hardware ? HardwareFollower::kWorkedOff * master.oscillator.nominal()
                                     : Nanoseconds{uniform(0, kHandle)});

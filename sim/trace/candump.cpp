@@ -29,7 +29,7 @@ constexpr const char *kFrameForm =
 bool parse_id(std::string_view digits, Frame &frame, const Place &place) {
   const auto id = text::parse_unsigned(digits, 16);
   if (!id || (digits.size() != 3 && digits.size() != 8))
-    fail(place, "identifier " + quoted(std::string(digits)) +
+    fail(place, "identifier " + in_quotes(std::string(digits)) +
                     " is not allowed; allowed: 3 (11 bit) or 8 (29 bit) hexadecimal digits");
   if (digits.size() == 8 && (*id & kErrorFlag) != 0) return false;
   text::set_id(frame, *id, digits.size() == 8, place);
@@ -40,7 +40,7 @@ bool parse_id(std::string_view digits, Frame &frame, const Place &place) {
 void parse_raw_dlc(std::string_view digit, Frame &frame, const Place &place) {
   const auto dlc = text::parse_unsigned(digit, 16);
   if (!dlc || digit.size() != 1 || *dlc < 9 || frame.dlc != 8)
-    fail(place, "raw DLC " + quoted(std::string(digit)) +
+    fail(place, "raw DLC " + in_quotes(std::string(digit)) +
                     " is not allowed; allowed: _9 to _F after 8 bytes");
   frame.dlc = static_cast<std::uint8_t>(*dlc);
 }
@@ -49,10 +49,10 @@ void parse_remote(std::string_view rest, Frame &frame, const Place &place) {
   frame.remote = true;
   if (rest.empty()) return;
   if (rest[0] < '0' || rest[0] > '8')
-    fail(place, "remote DLC " + quoted(std::string(rest)) + " is not allowed; allowed: 0 to 8");
+    fail(place, "remote DLC " + in_quotes(std::string(rest)) + " is not allowed; allowed: 0 to 8");
   frame.dlc = static_cast<std::uint8_t>(rest[0] - '0');
   if (rest.size() == 1) return;
-  if (rest[1] != '_') fail(place, "frame ends with " + quoted(std::string(rest)) + kFrameForm);
+  if (rest[1] != '_') fail(place, "frame ends with " + in_quotes(std::string(rest)) + kFrameForm);
   parse_raw_dlc(rest.substr(2), frame, place);
 }
 
@@ -77,7 +77,7 @@ std::string checked_digits(std::string_view digits, std::size_t most, const Plac
   for (const char c : digits) {
     if (c == '.') continue;
     if (!text::parse_unsigned({&c, 1}, 16))
-      fail(place, "data " + quoted(std::string(digits)) + " is not hexadecimal");
+      fail(place, "data " + in_quotes(std::string(digits)) + " is not hexadecimal");
     result += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   }
   if (result.size() > most)
@@ -125,7 +125,7 @@ bool parse_candump_frame(std::string_view text, Frame &frame, const Place &place
   frame = Frame{};
   const std::size_t hash = text.find('#');
   if (hash == std::string_view::npos)
-    fail(place, "frame " + quoted(std::string(text)) + " has no '#'" + kFrameForm);
+    fail(place, "frame " + in_quotes(std::string(text)) + " has no '#'" + kFrameForm);
   if (!parse_id(text.substr(0, hash), frame, place)) return false;
   const std::string_view rest = text.substr(hash + 1);
   if (!rest.empty() && rest[0] == '#') return false;  // CAN FD
@@ -141,8 +141,8 @@ std::int64_t parse_candump_stamp(std::string_view field, const Place &place) {
   const auto ns =
       framed ? text::parse_decimal(field.substr(1, field.size() - 2), 1'000'000'000) : std::nullopt;
   if (!ns)
-    fail(place,
-         "time " + quoted(std::string(field)) + " is not allowed; allowed: (seconds.microseconds)");
+    fail(place, "time " + in_quotes(std::string(field)) +
+                    " is not allowed; allowed: (seconds.microseconds)");
   return *ns;
 }
 

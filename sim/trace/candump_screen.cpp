@@ -37,12 +37,12 @@ std::int64_t parse_date(std::string_view date, std::string_view time, const Plac
   const std::time_t seconds = rest == nullptr ? -1 : std::mktime(&fields);
   const std::string_view fraction = rest == nullptr ? "" : rest;
   if (seconds < 0 || fraction.size() < 3 || fraction.front() != '.' || fraction.back() != ')')
-    fail(place,
-         "time " + quoted("(" + text) + " is not allowed; allowed: (YYYY-MM-DD HH:MM:SS.ffffff)");
+    fail(place, "time " + in_quotes("(" + text) +
+                    " is not allowed; allowed: (YYYY-MM-DD HH:MM:SS.ffffff)");
   std::int64_t ns = 0;
   if (__builtin_mul_overflow(seconds, kSecondNs, &ns) ||
       __builtin_add_overflow(ns, parse_candump_stamp("(0" + std::string(fraction), place), &ns))
-    fail(place, "time " + quoted("(" + text) + " is out of range; allowed: up to the year 2262");
+    fail(place, "time " + in_quotes("(" + text) + " is out of range; allowed: up to the year 2262");
   return ns;
 }
 
@@ -57,7 +57,7 @@ std::string log_frame(const Fields &fields, std::size_t at, unsigned fd_flags, c
   const bool raw = fields[at + 1].front() == '{', fd = !raw && length.size() == 2;
   const auto count = raw ? 8 : text::parse_unsigned(length, 10);
   if (!count || *count > (fd ? 64 : 8))
-    fail(place, "length " + quoted(std::string(fields[at + 1])) +
+    fail(place, "length " + in_quotes(std::string(fields[at + 1])) +
                     " is not allowed; allowed: [0] to [8], CAN FD [00] to [64]");
   const std::string tail = raw ? "_" + std::string(length) : "";
   if (fields.size() > at + 2 && fields[at + 2] == "remote")

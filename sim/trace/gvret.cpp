@@ -52,14 +52,14 @@ LogEntry parse_entry(const std::vector<std::string_view> &fields, const Columns 
   LogEntry entry;
   const auto id = text::parse_unsigned(fields[1], 16);
   if (!id || (fields[2] != "true" && fields[2] != "false"))
-    fail(place, "identifier " + quoted(std::string(fields[1])) + " or Extended " +
-                    quoted(std::string(fields[2])) +
+    fail(place, "identifier " + in_quotes(std::string(fields[1])) + " or Extended " +
+                    in_quotes(std::string(fields[2])) +
                     " is not allowed; allowed: hexadecimal, true or false");
   text::set_id(entry.frame, *id, fields[2] == "true", place);
   const auto length = text::parse_unsigned(fields[columns.length], 10);
   if (!length || *length > 8)
-    fail(place,
-         "LEN " + quoted(std::string(fields[columns.length])) + " is not allowed; allowed: 0 to 8");
+    fail(place, "LEN " + in_quotes(std::string(fields[columns.length])) +
+                    " is not allowed; allowed: 0 to 8");
   if (fields.size() < columns.data + *length)
     fail(place, fmt::format("fewer data bytes than LEN = {}", *length));
   entry.frame.dlc = static_cast<std::uint8_t>(*length);
@@ -89,7 +89,7 @@ CanLog parse_gvret(std::string_view text, const std::string &file) {
     const auto fields = text::split_commas(line);
     const auto ns = text::parse_decimal(text::trimmed(fields[0]), 1000);
     if (!ns)
-      fail(place, "time " + quoted(std::string(fields[0])) + " is no number of microseconds");
+      fail(place, "time " + in_quotes(std::string(fields[0])) + " is no number of microseconds");
     log.add(*ns, parse_entry(fields, columns, place), place);
   });
   return log.finish(false);

@@ -37,7 +37,7 @@ IdFilter parse_filter(const std::string &text) {
     if (id && mask) return {*id | flag, *mask & ~CAN_ERR_FLAG, text[sign] == '~'};
   }
   throw InputError("--filter", 0,
-                   quoted(text) +
+                   in_quotes(text) +
                        " is not allowed; allowed: ID:MASK or ID~MASK (all but these), "
                        "hexadecimal, as in 100:7F0");
 }

@@ -29,7 +29,7 @@ class InputError : public std::runtime_error {
 
 /// A value from a file as it may appear in a message: control characters become '?', and long text
 /// is cut.
-[[nodiscard]] inline std::string quoted(const std::string &text) {
+[[nodiscard]] inline std::string in_quotes(const std::string &text) {
   constexpr std::size_t kLongest = 40;
   std::string result = "'";
   for (std::size_t i = 0; i < text.size() && i < kLongest; ++i) {

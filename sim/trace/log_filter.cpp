@@ -30,7 +30,7 @@ void check_interface(const CanLog &log, const LogFilter &filter, const std::stri
   }
   if (!interfaces.contains(filter.interface))
     throw InputError("--interface", 0,
-                     fmt::format("{} is not in {}; allowed: all, {}", quoted(filter.interface),
+                     fmt::format("{} is not in {}; allowed: all, {}", in_quotes(filter.interface),
                                  path, interfaces_text(interfaces)));
 }
 

@@ -77,7 +77,7 @@ LogFormat output_format(const std::string &option, const std::string &path) {
                        : option == traits.option)
       return traits.format;
   if (!option.empty())
-    throw InputError("--format", 0, quoted(option) + " is no format; allowed: " + all_formats());
+    throw InputError("--format", 0, in_quotes(option) + " is no format; allowed: " + all_formats());
   throw InputError(path, 0,
                    "the name tells no format; allowed: --format with one of " + all_formats());
 }

@@ -42,7 +42,7 @@ PcapFile open_bytes(std::string_view bytes, const std::string &path) {
       pcap_fopen_offline_with_tstamp_precision(stream, PCAP_TSTAMP_PRECISION_NANO, error.data())};
   if (file) return file;
   std::fclose(stream);
-  throw InputError(path, 0, quoted(error.data()) + " (libpcap)");
+  throw InputError(path, 0, in_quotes(error.data()) + " (libpcap)");
 }
 
 /// Time of a packet, ns since the epoch; with nanosecond precision tv_usec holds nanoseconds.

@@ -105,9 +105,9 @@ std::int64_t nanoseconds(std::uint64_t ticks, const Interface &from, const Place
 }
 
 /// Reads block after block.
-class Reader {
+class PcapngReader {
  public:
-  Reader(std::string_view bytes, const std::string &path) : bytes_{bytes}, path_{path} {}
+  PcapngReader(std::string_view bytes, const std::string &path) : bytes_{bytes}, path_{path} {}
   CanLog read() {
     for (std::size_t number = 1; at_ < bytes_.size(); ++number) next(number);
     return log_.finish(true);
@@ -187,7 +187,7 @@ class Reader {
 }  // namespace
 
 CanLog parse_pcapng(std::string_view bytes, const std::string &path) {
-  return Reader{bytes, path}.read();
+  return PcapngReader{bytes, path}.read();
 }
 
 }  // namespace vericansim

@@ -126,7 +126,7 @@ std::string run_python(const PythonCall &call) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return out.content();
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNoProgram)
     throw InputError(call.subject, 0,
-                     "needs Python, and " + quoted(python) +
+                     "needs Python, and " + in_quotes(python) +
                          " cannot be started; allowed: VERICAN_PYTHON=FILE names another");
   const std::string said = last_line(err.content());
   if (WIFEXITED(status) && WEXITSTATUS(status) == kRefused)

@@ -89,7 +89,7 @@ void set_id(Frame &frame, std::uint64_t id, bool extended, const Place &place) {
 void set_byte(Frame &frame, std::size_t index, std::string_view digits, const Place &place) {
   const auto value = digits.size() <= 2 ? parse_unsigned(digits, 16) : std::nullopt;
   if (!value || index >= frame.data.size())
-    fail(place, "data byte " + quoted(std::string(digits)) +
+    fail(place, "data byte " + in_quotes(std::string(digits)) +
                     " is not allowed; allowed are up to 8 bytes of two hexadecimal digits");
   frame.data[index] = static_cast<std::uint8_t>(*value);
 }
@@ -102,7 +102,7 @@ std::string byte_digits(const std::vector<std::string_view> &fields, std::size_t
   std::string digits;
   for (std::size_t i = first; i < first + count; ++i) {
     if (fields[i].size() != 2)
-      fail(place, "data byte " + quoted(std::string(fields[i])) +
+      fail(place, "data byte " + in_quotes(std::string(fields[i])) +
                       " is not allowed; allowed: two hexadecimal digits");
     digits += fields[i];
   }

@@ -51,7 +51,7 @@ constexpr std::array<Type, 8> kTypes = {{{"Rx", false, 0, false, Direction::kRec
                                          {"BI", true, 3}}};
 
 /// Reads the lines of one file.
-class Reader {
+class TrcReader {
  public:
   void line(std::string_view line, const Place &place) {
     const Fields fields = text::split_blanks(line);
@@ -72,7 +72,7 @@ class Reader {
       const auto *version = std::find_if(kVersions.begin(), kVersions.end(),
                                          [value](const Version &v) { return v.number == value; });
       if (version == kVersions.end())
-        fail(place, "version " + quoted(std::string(value)) +
+        fail(place, "version " + in_quotes(std::string(value)) +
                         " is not known; allowed: 1.0, 1.1, 1.2, 1.3, 2.0, 2.1");
       columns_ = version->columns;
     }
@@ -82,7 +82,7 @@ class Reader {
         columns_ += text::trimmed(letter);
       if (columns_.find_first_not_of("NOTBIdRlLD") != std::string::npos ||
           columns_.find('I') == std::string::npos || columns_.find('O') == std::string::npos)
-        fail(place, "columns " + quoted(std::string(value)) +
+        fail(place, "columns " + in_quotes(std::string(value)) +
                         " are not known; allowed: N,O,T,B,I,d,R,l,L,D, with O and I");
     }
     if (line.starts_with(";$STARTTIME=")) start_ns_ = trc::start_ns(value);
@@ -109,7 +109,7 @@ class Reader {
     const auto ns = text::parse_decimal(field(fields, 'O'), 1'000'000);
     if (!ns)
       fail(place,
-           "time " + quoted(std::string(field(fields, 'O'))) + " is no number of milliseconds");
+           "time " + in_quotes(std::string(field(fields, 'O'))) + " is no number of milliseconds");
     CandumpLine result;
     if (__builtin_add_overflow(start_ns_, *ns, &result.ns)) fail(place, "time is out of range");
     result.frame = frame(fields, *type, place);
@@ -126,17 +126,17 @@ class Reader {
                                   const Place &place) const {
     const std::string_view id = field(fields, 'I');
     if (id.size() != 4 && id.size() != 7 && id.size() != 8)
-      fail(place, "identifier " + quoted(std::string(id)) +
+      fail(place, "identifier " + in_quotes(std::string(id)) +
                       " is not allowed; allowed: 4 or 8 hexadecimal digits");
     const auto number = text::parse_unsigned(id, 16);
     Frame checked;
-    if (!number) fail(place, "identifier " + quoted(std::string(id)) + " is not hexadecimal");
+    if (!number) fail(place, "identifier " + in_quotes(std::string(id)) + " is not hexadecimal");
     text::set_id(checked, *number, id.size() != 4, place);
     const bool told = columns_.find('l') != std::string::npos;  // a length, no DLC
     const std::string_view text = field(fields, told ? 'l' : 'L');
     const auto dlc = text::parse_unsigned(text, 10);
     if (!dlc || *dlc > (told ? (type.fd ? 64U : 8U) : 15U))
-      fail(place, "length " + quoted(std::string(text)) +
+      fail(place, "length " + in_quotes(std::string(text)) +
                       (told ? " is not allowed; allowed: 0 to 8, CAN FD to 64"
                             : " is not allowed; allowed: 0 to 15"));
     const std::string head = fmt::format("{:0{}X}#", *number, checked.extended ? 8 : 3) +
@@ -158,7 +158,7 @@ class Reader {
 }  // namespace
 
 CanLog parse_trc(std::string_view text, const std::string &file) {
-  Reader reader;
+  TrcReader reader;
   text::for_each_line(text, file,
                       [&](std::string_view line, const Place &place) { reader.line(line, place); });
   return reader.finish();

@@ -81,14 +81,14 @@ struct FdParts {
 };
 
 FdParts fd_parts(const std::string &text) {
-  static constexpr const char *kTypes[] = {"FD", "FB", "FE", "BI"};
+  static constexpr const char *kFdTypes[] = {"FD", "FB", "FE", "BI"};
   const std::size_t hash = text.find('#');
   const std::string_view all{text};
   const auto flags = text::parse_unsigned(all.substr(hash + 2, 1), 16).value_or(0) & 3U;
   const std::string_view digits = all.substr(hash + 3);
   const auto *length =
       std::lower_bound(trc::kFdLengths.begin(), trc::kFdLengths.end(), digits.size() / 2);
-  return {kTypes[flags], all.substr(0, hash), digits,
+  return {kFdTypes[flags], all.substr(0, hash), digits,
           static_cast<std::size_t>(length - trc::kFdLengths.begin())};
 }
 

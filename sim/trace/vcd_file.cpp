@@ -97,9 +97,9 @@ void VcdFile::parse_header() {
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     const std::size_t line = words.line();
     if (!word.starts_with("$"))
-      throw InputError(
-          path_, line,
-          "expected a VCD keyword such as $timescale or $var, found " + quoted(std::string(word)));
+      throw InputError(path_, line,
+                       "expected a VCD keyword such as $timescale or $var, found " +
+                           in_quotes(std::string(word)));
     std::vector<std::string_view> arguments;
     std::string_view argument = words.next();
     for (; !argument.empty() && argument != "$end"; argument = words.next())
@@ -111,7 +111,7 @@ void VcdFile::parse_header() {
       const auto scale = parse_timescale(joined);
       if (!scale)
         throw InputError(path_, line,
-                         "timescale " + quoted(joined) +
+                         "timescale " + in_quotes(joined) +
                              " is not allowed; allowed: 1, 10 or 100 of s, ms, us, ns, ps, fs");
       unit_ = scale->unit;
       fraction_ = scale->fraction;
@@ -138,7 +138,7 @@ void VcdFile::parse_var(const std::vector<std::string_view> &words, std::size_t 
   const auto width = text::parse_unsigned(words[1], 10);
   if (!width || *width > 1'000'000)
     throw InputError(path_, line,
-                     "width " + quoted(std::string(words[1])) + " is no number of bits");
+                     "width " + in_quotes(std::string(words[1])) + " is no number of bits");
   std::string name;
   for (const std::string &scope : scopes_) {
     name += scope + ".";
@@ -148,7 +148,7 @@ void VcdFile::parse_var(const std::vector<std::string_view> &words, std::size_t 
     throw InputError(
         path_, line,
         fmt::format("the name {} is too long; allowed: {} characters with its scopes",
-                    quoted(name + std::string(words[3].substr(0, kLongestName))), kLongestName));
+                    in_quotes(name + std::string(words[3].substr(0, kLongestName))), kLongestName));
   signals_.push_back({name + std::string(words[3]), std::string(words[0]),
                       static_cast<unsigned>(*width), std::string(words[2])});
 }
@@ -176,10 +176,10 @@ const VcdSignal &VcdFile::find(const std::string &name) const {
       break;
     }
     if (found != nullptr && found->code != signal.code)
-      fail_with_list("signal " + quoted(name) + " is not unique");
+      fail_with_list("signal " + in_quotes(name) + " is not unique");
     found = &signal;
   }
-  if (found == nullptr) fail_with_list("no signal is called " + quoted(name));
+  if (found == nullptr) fail_with_list("no signal is called " + in_quotes(name));
   if (found->width != 1)
     fail_with_list(fmt::format("signal '{}' has {} bits; allowed: 1", found->name, found->width));
   return *found;
@@ -204,10 +204,11 @@ Time VcdFile::stamp(std::string_view word, Time now, std::size_t line) const {
   const auto ticks = text::parse_unsigned(word.substr(1), 10);
   if (!ticks || *ticks > static_cast<std::uint64_t>(kLatest / unit_))
     throw InputError(path_, line,
-                     "time " + quoted(std::string(word)) +
+                     "time " + in_quotes(std::string(word)) +
                          " is not allowed; allowed: a number of ticks, up to 53 days");
   const Time time = static_cast<Time>(*ticks) * unit_ / fraction_;
-  if (time < now) throw InputError(path_, line, "time " + quoted(std::string(word)) + " goes back");
+  if (time < now)
+    throw InputError(path_, line, "time " + in_quotes(std::string(word)) + " goes back");
   return time;
 }
 
@@ -234,7 +235,7 @@ Time VcdFile::read(const VcdSignal &signal, const OnChange &change) const {
       while (!word.empty() && word != "$end") word = words.next();
     } else if (word[0] != '$') {
       throw InputError(path_, words.line(),
-                       "expected a value change, found " + quoted(std::string(word)));
+                       "expected a value change, found " + in_quotes(std::string(word)));
     }
   }
   return now;

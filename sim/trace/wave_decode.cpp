@@ -41,14 +41,15 @@ Wave parse_wave(std::string text, const std::string &path, const WaveDecodeOptio
   const auto bitrate = detect_bitrate(edges);
   if (!bitrate)
     throw InputError(path, 0,
-                     "the bit rate of signal " + quoted(signal.name) + " cannot be told from its " +
-                         std::to_string(edges.size()) + " edges; give it with --bitrate");
+                     "the bit rate of signal " + in_quotes(signal.name) +
+                         " cannot be told from its " + std::to_string(edges.size()) +
+                         " edges; give it with --bitrate");
   if (*bitrate < kSlowest || *bitrate > kFastest)
     throw InputError(
         path, 0,
         fmt::format("signal {} has edges as at {:.{}f} bit/s; allowed: {:.0f} to {:.0f}; "
                     "give the bit rate with --bitrate",
-                    quoted(signal.name), *bitrate, *bitrate < 10 ? 3 : 0, kSlowest, kFastest));
+                    in_quotes(signal.name), *bitrate, *bitrate < 10 ? 3 : 0, kSlowest, kFastest));
   wave.bitrate = *bitrate;
   return wave;
 }

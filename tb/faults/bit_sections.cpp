@@ -90,11 +90,6 @@ std::string class_of(InjectionRig &rig) {
   return name;
 }
 
-std::string role_name(Role role) {
-  if (role == Role::kNone) return "-";
-  return role == Role::kTransmitter ? "T" : "R";
-}
-
 void SceneSection::begin(InjectionRig &rig, const Scene &scene) const {
   rig.start();
   rig.bench.lt_acknowledges(scene.acknowledge);

@@ -45,18 +45,13 @@ constexpr Setting kSettings[] = {{"8clk", {1, 3, 2, 2, 1}},
 
 const std::vector<StartCounters> kStates = {{0, 0}, {128, 0}, {0, 128}};
 
-std::string role_name(Role role) {
-  if (role == Role::kNone) return "-";
-  return role == Role::kTransmitter ? "T" : "R";
-}
-
-struct Place {
+struct ClockPlace {
   const Act *act;
   unsigned position;
 };
 
-std::vector<Place> places() {
-  std::vector<Place> all;
+std::vector<ClockPlace> places() {
+  std::vector<ClockPlace> all;
   for (const Act &act : kActs) {
     for (unsigned n = 0; n < act.count; ++n) all.push_back({&act, act.first + n});
   }
@@ -65,7 +60,7 @@ std::vector<Place> places() {
 
 Grid grid_of(const Setting &setting) {
   Axis where{"place", {}};
-  for (const Place &place : places()) {
+  for (const ClockPlace &place : places()) {
     where.values.push_back(std::string{place.act->name} + "." + std::to_string(place.position));
   }
   Axis offsets{"clock", {}};
@@ -92,7 +87,7 @@ class ClockSection : public Section {
         timing_{setting.timing} {}
 
   Outcome run(const Grid::Digits &at, RuleBins *) const override {
-    const Place &place = places_[at[0]];
+    const ClockPlace &place = places_[at[0]];
     const StartCounters &counters = kStates[at[4]];
     ClockRig rig{timing_, counters};
     rig.request(kFrame, place.act->transmitter);
@@ -118,7 +113,7 @@ class ClockSection : public Section {
 
  private:
   BitTiming timing_;
-  std::vector<Place> places_ = places();
+  std::vector<ClockPlace> places_ = places();
 };
 
 // Shortest, longest and ordinary segments; each with every SJW that BT-03 allows.

@@ -20,11 +20,6 @@ constexpr unsigned kBoth = kToD | kToR;
 
 enum Context : std::uint8_t { kNoContext, kActiveFlag, kPassiveFlag, kOverload };
 
-const char *role_name(Role role) {
-  if (role == Role::kNone) return "-";
-  return role == Role::kTransmitter ? "T" : "R";
-}
-
 const char *context_name(unsigned context) {
   constexpr const char *kNames[] = {"", " (active flag)", " (passive flag)", " (overload)"};
   return kNames[context];
@@ -167,6 +162,11 @@ void add_losses(BinGroup &group, bool extended) {
 }
 
 }  // namespace
+
+const char *role_name(Role role) {
+  if (role == Role::kNone) return "-";
+  return role == Role::kTransmitter ? "T" : "R";
+}
 
 BinGroup inversion_bins() {
   BinGroup group;

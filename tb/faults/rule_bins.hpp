@@ -14,6 +14,9 @@
 
 namespace vericansim {
 
+/// T, R, or - for neither.
+[[nodiscard]] const char *role_name(Role role);
+
 /// One cross of TH-05: its bins by key, and what is left out of it and why.
 struct BinGroup {
   struct Bin {

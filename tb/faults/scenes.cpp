@@ -19,7 +19,6 @@ const std::string kSuspendAndIdle = rep(8 + 2, "1");  // suspend time, two bits 
 const std::string kGap = kInterframe + kSuspendAndIdle;
 const std::string kFlagAndDelimiter = rep(6 + 8, "1");
 
-const Frame kOwn{.id = 0x123, .dlc = 1, .data = {0x55}};                     // GV-1
 const std::string kOwnBits = "0001001000110000010101010101010001101100011";  // SOF..CRC
 const std::string kBadCrc = "0001001000110000010101010101010001101100010";
 const std::string kSentBits = rep(static_cast<int>(kOwnBits.size()), ".");

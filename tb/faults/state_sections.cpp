@@ -15,7 +15,6 @@ namespace {
 using model_bench::rep;
 
 constexpr std::size_t kRecoveryBits = 128 * 11;
-const Frame kOwn{.id = 0x123, .dlc = 1, .data = {0x55}};
 
 std::vector<std::string> numbers(std::size_t count) {
   std::vector<std::string> all;

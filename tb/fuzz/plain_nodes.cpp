@@ -5,11 +5,13 @@
 // is written to it and never takes part, and a CoreNode that sends nothing. The readers that are
 // fuzzed are those of the board around them.
 #include <array>
+#include <stdexcept>
 #include <utility>
 
 #include "node/core_node.hpp"
 #include "node/remote_node.hpp"
 #include "node/rtl_node.hpp"
+#include "node/time_node.hpp"
 
 namespace vericansim {
 namespace {
@@ -69,10 +71,34 @@ void CoreNode::configure(const CoreConfig &config) {
 void CoreNode::start() {}
 void CoreNode::stop() {}
 bool CoreNode::running() const { return false; }
+bool CoreNode::idle() const { return true; }
 void CoreNode::request(const Frame &, bool) {}
 void CoreNode::cancel() {}
 
 bool RemoteNode::has(const RemoteConfig &) { return true; }
 std::string RemoteNode::available() { return "all"; }
+std::unique_ptr<RemoteNode> RemoteNode::create(std::string, const RemoteConfig &, unsigned,
+                                               const BitTiming &, const ClockConfig &) {
+  throw std::logic_error("nothing that is fuzzed makes a remote node");
+}
+
+struct TimeNode::Impl {};
+
+TimeNode::TimeNode(std::string name, const ClockConfig &clock)
+    : RtlNode{std::move(name), clock, 64} {
+  throw std::logic_error("nothing that is fuzzed makes a node with a clock");
+}
+TimeNode::~TimeNode() = default;
+void TimeNode::reset() {}
+void TimeNode::clock(Level) {}
+std::uint64_t TimeNode::quiet() const { return 0; }
+void TimeNode::pass(std::uint64_t) {}
+std::uint64_t TimeNode::trace() const { return 0; }
+std::uint8_t TimeNode::irq_lines() const { return 0; }
+void TimeNode::request_stop(bool) {}
+AhbResult TimeNode::peek(const AhbTransfer &) { return {}; }
+void TimeNode::let_rest(bool) {}
+bool TimeNode::irq_time() const { return false; }
+void TimeNode::external(bool) {}
 
 }  // namespace vericansim

@@ -143,7 +143,7 @@ Options parse(int argc, char **argv) {
       options.replay = value;
     else
       throw InputError("fuzz_registers", 0,
-                       quoted(name + " " + value) +
+                       in_quotes(name + " " + value) +
                            " is not allowed; allowed: --cases N, --seed N, --out FILE (JSON), "
                            "--keep DIRECTORY (of failing episodes), --replay FILE");
   }

@@ -29,12 +29,6 @@ bool same(const Frame &a, const Frame &b) { return a == b; }
 
 std::uint32_t id_word(const Frame &frame) { return frame.extended ? frame.id : frame.id << 18U; }
 
-std::uint32_t data_word(const Frame &frame, unsigned first) {
-  std::uint32_t word = 0;
-  for (unsigned i = 0; i < 4; ++i) word = word << 8U | frame.data[first + i];
-  return word;
-}
-
 }  // namespace
 
 std::uint32_t RegisterBench::access(const AhbTransfer &transfer) {
@@ -172,8 +166,8 @@ void RegisterBench::restart_peers() {
 void RegisterBench::send_one() {
   const Frame frame = draw_frame(0x100);
   write(reg::mb(kTxMb, 1), id_word(frame));
-  write(reg::mb(kTxMb, 2), data_word(frame, 0));
-  write(reg::mb(kTxMb, 3), data_word(frame, 4));
+  write(reg::mb(kTxMb, 2), frame.data_word(0));
+  write(reg::mb(kTxMb, 3), frame.data_word(4));
   for (const auto &peer : peers_) peer->received().clear();
   write(reg::mb(kTxMb), reg::kCodeTxData | std::uint32_t{frame.dlc} << 16U |
                             (frame.extended ? reg::kCsIde | reg::kCsSrr : 0));

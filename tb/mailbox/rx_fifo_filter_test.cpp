@@ -117,7 +117,7 @@ TEST_P(Filters, FirstElementThatFitsTakesTheFrame) {
       ASSERT_EQ(rig.available(), element.has_value()) << "round " << round << " frame " << i;
       ++(element ? accepted : refused);
       if (!element) continue;
-      const FifoEntry entry = rig.output();
+      const FifoOutput entry = rig.output();
       ASSERT_EQ(entry.idhit, *element) << "round " << round << " frame " << i;
       ASSERT_EQ(mb_frame(entry.words), frame);
       rig.pop();
@@ -146,7 +146,7 @@ TEST(FilterTable, EveryWordOfTheLongestTableIsLookedAt) {  // FX-4.a, FX-4.c, FX
   for (unsigned k = 0; k < 128; ++k) {
     rig.send(base(0x400 + k));
     ASSERT_TRUE(rig.available()) << k;
-    const FifoEntry entry = rig.output();
+    const FifoOutput entry = rig.output();
     ASSERT_EQ(entry.idhit, k);
     ASSERT_EQ(entry.words.cs >> 23, 0u) << "CODE reads 0 with any number";
     rig.pop();

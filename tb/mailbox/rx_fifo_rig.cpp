@@ -93,8 +93,8 @@ void RxFifoRig::send(const Frame &frame) {
   run(24);  // the receiver sees it one bit earlier; this is for its move
 }
 
-FifoEntry RxFifoRig::output() {
-  FifoEntry entry;
+FifoOutput RxFifoRig::output() {
+  FifoOutput entry;
   entry.words = {.cs = read(kReceiver, reg::mb(0, 0)),
                  .id = read(kReceiver, reg::mb(0, 1)),
                  .low = read(kReceiver, reg::mb(0, 2)),

@@ -34,7 +34,7 @@ std::optional<unsigned> filter_element(unsigned format, const FilterWord &filter
                                        const Frame &frame);
 
 /// A frame as the FIFO's output shows it.
-struct FifoEntry {
+struct FifoOutput {
   MbWords words;
   unsigned idhit = 0;
 };
@@ -59,7 +59,7 @@ class RxFifoRig : public MailboxRig {
   std::uint32_t iflag() { return read(kReceiver, reg::kIflag1); }
   bool available() { return (iflag() & reg::kIflagFifo) != 0; }
   /// The frame at the output.
-  FifoEntry output();
+  FifoOutput output();
   void pop() { write(kReceiver, reg::kIflag1, reg::kIflagFifo); }
   /// Takes all frames out.
   std::vector<Frame> drain();

@@ -35,7 +35,7 @@ class RxFifo : public ::testing::Test {
     for (unsigned n = from; n < from + count; ++n) rig_.send(numbered(n));
   }
   void expect_output(unsigned n) {
-    const FifoEntry entry = rig_.output();
+    const FifoOutput entry = rig_.output();
     EXPECT_EQ(mb_frame(entry.words), numbered(n)) << "frame " << n;
     EXPECT_EQ(entry.words.cs >> 23, 0u) << "CODE and reserved bits read 0";
   }

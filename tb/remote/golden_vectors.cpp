@@ -60,7 +60,7 @@ std::vector<std::uint8_t> read_bytes(const YamlValue &value) {
 unsigned numeric_key(const YamlMap &map, const std::string &key, unsigned most) {
   const auto number = parse_integer(key);
   if (!number || *number > most)
-    map.value().fail(quoted(key) + " is not allowed; allowed: 0 to " + std::to_string(most));
+    map.value().fail(in_quotes(key) + " is not allowed; allowed: 0 to " + std::to_string(most));
   return static_cast<unsigned>(*number);
 }
 

@@ -16,10 +16,10 @@ constexpr Frame kExtended{.id = 0x0AAAAAAA, .extended = true, .dlc = 1, .data = 
 constexpr Frame kLastStuff{.id = 0x009};
 
 constexpr Disturbance sender(Field field, unsigned index = 0, bool stuff = false) {
-  return {kSender, field, index, stuff, kSender};
+  return {kSenderNode, field, index, stuff, kSenderNode};
 }
 constexpr Disturbance receiver(Field field, unsigned index = 0, bool stuff = false) {
-  return {kReceiver, field, index, stuff, kReceiver};
+  return {kReceiverNode, field, index, stuff, kReceiverNode};
 }
 
 std::vector<CauseCase> transmitter_cases() {
@@ -92,7 +92,7 @@ std::vector<CauseCase> transmitter_cases() {
        {sender(Field::kEof, 6)},
        "ED-10",
        "the transmitter saw dominant in the last bit of the end of frame",
-       kSender,
+       kSenderNode,
        1},
   };
 }
@@ -104,43 +104,43 @@ std::vector<CauseCase> receiver_cases() {
        {receiver(Field::kId, 4, true)},
        "ST-06",
        "a receiver saw six equal bits in the identifier",
-       kReceiver},
+       kReceiverNode},
       {"LastStuffBit",
        kLastStuff,
        {receiver(Field::kCrcDel, 0, true)},
        "ST-04",
        "six equal bits at the stuff bit behind the CRC",
-       kReceiver},
+       kReceiverNode},
       {"WrongCrc",
        kPlain,
        {receiver(Field::kData, 3)},
        "ED-14",
        "calculated another CRC than it received",
-       kReceiver},
+       kReceiverNode},
       {"CrcDelimiterReceiver",
        kPlain,
        {receiver(Field::kCrcDel)},
        "ED-09",
        "a receiver saw dominant in the CRC delimiter",
-       kReceiver},
+       kReceiverNode},
       {"AckDelimiterReceiver",
        kPlain,
        {receiver(Field::kAckDel)},
        "ED-09",
        "a receiver saw dominant in the ACK delimiter",
-       kReceiver},
+       kReceiverNode},
       {"EndOfFrameReceiver",
        kPlain,
        {receiver(Field::kEof, 2)},
        "ED-09",
        "a receiver saw dominant in the end of frame",
-       kReceiver},
+       kReceiverNode},
       {"OwnAcknowledge",
        kPlain,
        {receiver(Field::kAck)},
        "ED-07",
        "sent its acknowledge and saw recessive",
-       kReceiver},
+       kReceiverNode},
   };
 }
 
@@ -150,7 +150,7 @@ std::vector<CauseCase> flag_cases() {
       // Recessive, not flipped: the flag becomes a passive one at last, and ends.
       {"ErrorFlag",
        kPlain,
-       {error, {kSender, Field::kErrFlag, 2, false, kSender, Effect::kRecessive}},
+       {error, {kSenderNode, Field::kErrFlag, 2, false, kSenderNode, Effect::kRecessive}},
        "ED-01",
        "then a node saw recessive in its own error flag and begins another (EF-06)"},
       {"ErrorDelimiter",
@@ -158,7 +158,7 @@ std::vector<CauseCase> flag_cases() {
        {error, receiver(Field::kDel, 2)},
        "EF-09",
        "saw dominant within an error delimiter",
-       kReceiver,
+       kReceiverNode,
        0,
        1},
       {"FirstIntermissionBit",
@@ -166,7 +166,7 @@ std::vector<CauseCase> flag_cases() {
        {receiver(Field::kInt, 0)},
        "IF-04",
        "in the first two bits of the intermission",
-       kReceiver,
+       kReceiverNode,
        1},
       // The overload flag begins in the third bit, where all others take it for a SOF (OV-08).
       {"SecondIntermissionBit",
@@ -174,27 +174,27 @@ std::vector<CauseCase> flag_cases() {
        {receiver(Field::kInt, 1)},
        "IF-04",
        "in the first two bits of the intermission",
-       kReceiver},
+       kReceiverNode},
       {"LastEofReceiver",
        kPlain,
        {receiver(Field::kEof, 6)},
        "ED-11",
        "a receiver saw dominant in the last bit of the end of frame: the frame is valid",
-       kReceiver,
+       kReceiverNode,
        1},
       {"OverloadFlag",
        kPlain,
        {receiver(Field::kInt, 0), receiver(Field::kOvlFlag, 3)},
        "IF-04",
        "then a node saw recessive in its own overload flag (ED-21)",
-       kReceiver,
+       kReceiverNode,
        1},
       {"OverloadDelimiter",
        kPlain,
        {receiver(Field::kInt, 0), receiver(Field::kDel, 2)},
        "ED-21",
        "saw dominant within an overload delimiter",
-       kReceiver,
+       kReceiverNode,
        0,
        1},
   };

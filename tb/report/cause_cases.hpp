@@ -14,15 +14,15 @@
 
 namespace vericansim {
 
-inline constexpr NodeId kSender = 0, kReceiver = 1, kWitness = 2;
+inline constexpr NodeId kSenderNode = 0, kReceiverNode = 1, kWitnessNode = 2;
 
 /// A disturbed bit: what `victim` sees while `watched` is at a place.
 struct Disturbance {
-  NodeId watched = kSender;
+  NodeId watched = kSenderNode;
   Field field = Field::kData;
   unsigned index = 0;
   bool stuff = false;
-  NodeId victim = kSender;
+  NodeId victim = kSenderNode;
   Effect effect = Effect::kFlip;
   std::optional<unsigned> frame = 1;  ///< none: in every frame
 };
@@ -34,7 +34,7 @@ struct CauseCase {
   std::vector<Disturbance> disturbances;
   std::string rule;
   std::string words;  ///< part of the sentence
-  NodeId node = kSender;
+  NodeId node = kSenderNode;
   int kind = 0;  ///< 0 error frame, 1 overload frame
   std::size_t event = 0;
 };

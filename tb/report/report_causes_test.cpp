@@ -115,7 +115,7 @@ ReportPage last_delimiter_bit_page() {
   const double bit = 2000.0;
   FaultSpec fault;
   fault.effect = Effect::kDominant;
-  fault.node = kReceiver;
+  fault.node = kReceiverNode;
   fault.window.from = static_cast<Time>((before.at("e.end", 0) - 0.6 * bit) * 1e3);
   fault.window.to = fault.window.from + static_cast<Time>(bit * 1e3);
   scenario.faults.push_back(fault);
@@ -128,7 +128,7 @@ TEST(LastDelimiterBit, AsksForAnOverloadFrame) {
   EXPECT_EQ(page.at("e.kind", 1), 1);
   EXPECT_EQ(page.cause(1).second, "ED-12");
   EXPECT_THAT(page.cause(1).first, HasSubstr("saw dominant in the last bit of a delimiter"));
-  EXPECT_EQ(page.at("e.node", 1), kReceiver);
+  EXPECT_EQ(page.at("e.node", 1), kReceiverNode);
   EXPECT_EQ(page.at("e.field", 1), static_cast<double>(Field::kDel));
   EXPECT_EQ(page.at("e.index", 1), 6);
 }

@@ -14,12 +14,6 @@ namespace {
 
 using namespace driver_map;
 
-std::uint32_t data_word(const Frame &frame, unsigned first) {
-  std::uint32_t word = 0;
-  for (unsigned i = 0; i < 4; ++i) word = (word << 8) | frame.data[first + i];
-  return word;
-}
-
 Frame to_frame(std::uint32_t cs, std::uint32_t id, std::uint32_t low, std::uint32_t high) {
   Frame frame;
   frame.extended = (cs & reg::kCsIde) != 0;
@@ -62,8 +56,8 @@ Task<> SoftDriver::activate(unsigned slot) {
   const std::uint32_t format = (frame.extended ? reg::kCsIde | reg::kCsSrr : 0) |
                                (frame.remote ? reg::kCsRtr : 0) |
                                static_cast<std::uint32_t>(frame.dlc) << 16;
-  write(reg::mb(n, 2), data_word(frame, 0));
-  write(reg::mb(n, 3), data_word(frame, 4));
+  write(reg::mb(n, 2), frame.data_word(0));
+  write(reg::mb(n, 3), frame.data_word(4));
   write(reg::mb(n, 1), frame.extended ? frame.id : frame.id << 18);
   if (kTimeUnit && loads_ % kLaunchEvery == 0) {
     write(VERICAN_TTX_OFFSET, co_await read(VERICAN_TIMELO_OFFSET) + kLaunchIn);

@@ -152,7 +152,9 @@ class CanTimeRegs : public testing::Test {
       ASSERT_EQ(rtl_->data_o >> 32, model_.data >> 32);
       // The second word alone where there is no first.
       const bool pair = (model_.command & (1U << kDoSet | 1U << kDoRate | 1U << kDoShift)) != 0;
-      if (pair) ASSERT_EQ(rtl_->data_o, model_.data);
+      if (pair) {
+        ASSERT_EQ(rtl_->data_o, model_.data);
+      }
     }
     ASSERT_EQ(rtl_->rdata_o, in.rd ? model_.read(in) : 0u) << in.address;
     ASSERT_EQ(rtl_->tctrl_o, model_.tctrl);

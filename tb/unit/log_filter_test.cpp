@@ -83,7 +83,8 @@ TEST(LogFilter, OtherEntriesByMask) {
       "log");
   const auto texts = [&](const char *filter) {
     std::string text;
-    for (const ForeignEntry &entry : filtered(log, {.ids = {parse_filter(filter)}}, "a.log").others)
+    for (const ForeignEntry &entry :
+         filtered(log, {.interface = "", .ids = {parse_filter(filter)}}, "a.log").others)
       text += entry.text + " ";
     return text;
   };

@@ -14,7 +14,7 @@ namespace {
 
 MessageBuffers with_request() {
   MessageBuffers buffers{16};
-  buffers.change(3).request = SendRequest{.value = 5, .since = 6, .until = 7};
+  buffers.change(3).request = SendRequest{.frame = {}, .value = 5, .since = 6, .until = 7};
   return buffers;
 }
 
