@@ -65,12 +65,19 @@ def hollow(header, ports, constant=frozenset(), skipped=frozenset()):
     return lines + ["endmodule"]
 
 
+def port(name):
+    """Where a model has its port: in its root, but for what a class around it has of its own
+    (sim/node/timed_engine.hpp)."""
+    return f"core.{name}" if name.startswith(TIME) else f"pins.{name}"
+
+
 def function(comment, signature, root, compared, copied, wide):
     """A function that is true if one of the ports `compared` differs, and then does `copied`."""
     word = "std::uint64_t" if wide & set(compared) else "unsigned"
     lines = [f"  /// {comment}", "  template <typename Core, typename Host>",
-             f"  static bool {signature} {{", f"    {word} changed = 0;"]
-    lines += [f"    changed |= host.{root}{name}_v ^ core.{name};" for name in compared]
+             f"  static bool {signature} {{", "    auto &pins = *core.rootp;",
+             f"    {word} changed = 0;"]
+    lines += [f"    changed |= host.{root}{name}_v ^ {port(name)};" for name in compared]
     lines.append("    if (changed == 0) return false;")
     return lines + [f"    {line};" for line in copied] + ["    return true;", "  }", ""]
 
@@ -85,13 +92,13 @@ def copies(struct, root, ports, driven=frozenset()):
     lines = [f"struct {struct} {{"]
     lines += function("Outputs of the model to the top; true if any has changed.",
                       "to_host(const Core &core, Host &host)", root, into,
-                      [f"host.{root}{name}_v = core.{name}" for name in into], wide)
+                      [f"host.{root}{name}_v = {port(name)}" for name in into], wide)
     lines += function("True if an output has changed that a resting top must see.",
                       "wakes_host(const Core &core, const Host &host)", root,
                       [name for name in into if name not in QUIET | QUIET_TIME], [], wide)
     lines += function("The top's levels to inputs of the model; true if any has changed.",
                       "to_core(Core &core, const Host &host)", root, back,
-                      [f"core.{name} = host.{root}{name}_v" for name in back], wide)
+                      [f"{port(name)} = host.{root}{name}_v" for name in back], wide)
     return lines[:-1] + ["};", ""]
 
 

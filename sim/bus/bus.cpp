@@ -108,6 +108,7 @@ bool Bus::lockstep() {
 void Bus::prepare() {
   const unsigned n = size();
   next_.resize(n);
+  rests_.resize(n);
   delay_.assign(static_cast<std::size_t>(n) * n, 0);
   together_ = true;
   bool delayed = false;

@@ -29,12 +29,13 @@ void Bus::catch_up(NodeId id) { catch_up(id, id < clocked_ ? done_before_ + 1 : 
 void Bus::catch_up(NodeId id, Time before) {
   Node &node = *nodes_[id].node;
   Clock &clock = node.oscillator_;
-  const std::uint64_t edges = clock.edges_until(std::min(before, next_[id]) - 1);
+  const std::uint64_t edges = before < next_[id] ? clock.edges_until(before - 1) : rests_[id];
   if (edges == 0) return;
-  passed_ = std::max(passed_, clock.after(edges - 1));
+  rests_[id] -= edges;
   edges_passed_ += edges;
   node.pass(edges);
   clock.advance(edges);
+  passed_ = std::max(passed_, clock.previous());
 }
 
 void Bus::catch_up_all(Time before) {
@@ -69,6 +70,7 @@ void Bus::rest(NodeId id) {
     quiet = std::min(quiet, clock.edges_until(receiver.pending[receiver.head].time));
   if (quiet == 0) return;
   entry.node->resting_ = true;
+  rests_[id] = quiet;
   next_[id] = clock.after(quiet);
 }
 
@@ -76,7 +78,8 @@ void Bus::rest(NodeId id) {
 void Bus::wake_at(NodeId id, Time arrival) {
   if (!nodes_[id].node->resting_ || next_[id] <= arrival) return;
   const Clock &clock = nodes_[id].node->oscillator_;
-  next_[id] = clock.after(clock.edges_until(arrival));
+  rests_[id] = clock.edges_until(arrival);
+  next_[id] = clock.after(rests_[id]);
 }
 
 }  // namespace vericansim

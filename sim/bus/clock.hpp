@@ -42,6 +42,9 @@ class Clock {
   /// Time of the next rising edge, ps (rounded down).
   [[nodiscard]] Time next() const { return static_cast<Time>(edge_ >> 64); }
 
+  /// Time of the last one that was consumed, if none was the first of another period.
+  [[nodiscard]] Time previous() const { return static_cast<Time>((edge_ - period_) >> 64); }
+
   /// Consumes the next rising edge.
   void tick() {
     edge_ += period_;

@@ -123,7 +123,7 @@ class QuietEngine {
           root.can_core__DOT__u_bit_timing__DOT__falling != 0 && root.can_core__DOT__tq != 0;
       const bool was_stopped = std::exchange(stopped_, root.can_core__DOT__active_q == 0);
       const bool stops = stopped_ && !was_stopped;
-      if (stops || (engine.trace_o & (kTraceSample | kTraceBoundary)) != 0)
+      if (stops || (root.trace_o & (kTraceSample | kTraceBoundary)) != 0)
         to_settle_ = kSettle;
       else if (to_settle_ > 0)
         --to_settle_;
@@ -143,14 +143,13 @@ class QuietEngine {
   template <typename Engine>
   static bool pulses(const Engine &engine) {
     const auto &root = *engine.rootp;
-    const unsigned levels = engine.tx_next_o | engine.stamp_o | engine.rx_hdr_o |
-                            engine.rx_byte_we_o |
+    const unsigned levels = root.tx_next_o | root.stamp_o | root.rx_hdr_o | root.rx_byte_we_o |
                             root.can_core__DOT__u_bsp__DOT__u_fault__DOT__plus8_q |
                             root.can_core__DOT__u_bsp__DOT__u_fault__DOT__plus1_q |
                             root.can_core__DOT__u_bsp__DOT__u_fault__DOT__minus1_q |
                             root.can_core__DOT__u_bsp__DOT__u_fault__DOT__sequence_q |
                             root.can_core__DOT__u_bsp__DOT__u_fault__DOT__recovered_q;
-    return levels != 0 || (engine.trace_o & kTraceEvents) != 0;
+    return levels != 0 || (root.trace_o & kTraceEvents) != 0;
   }
 
   // By rtl/frame/can_tx_frame.sv, where a frame allows no hard synchronisation (SY-05).
@@ -158,15 +157,15 @@ class QuietEngine {
   static bool crosses_boundary_(const Engine &engine) {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       const auto &root = *engine.rootp;
-      const Trace trace = decode_trace(engine.trace_o);
+      const Trace trace = decode_trace(root.trace_o);
       const bool own_level = trace.transmitter || trace.field == Field::kAck ||
                              trace.field == Field::kErrFlag || trace.field == Field::kOvlFlag;
       const unsigned busy = root.can_core__DOT__first_q |
                             root.can_core__DOT__u_bit_timing__DOT__falling |
                             root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q;
       return trace.boundary && trace.field >= Field::kSof && !own_level && busy == 0 &&
-             !pulses(engine) && root.can_core__DOT__tx_q != 0 && engine.rx_req_i == 0 &&
-             (engine.run_i & root.can_core__DOT__active_q) != 0;
+             !pulses(engine) && root.can_core__DOT__tx_q != 0 && root.rx_req_i == 0 &&
+             (root.run_i & root.can_core__DOT__active_q) != 0;
     } else {
       return false;
     }
@@ -175,8 +174,9 @@ class QuietEngine {
   template <typename Engine>
   [[nodiscard]] static bool pin_settled(const Engine &engine) {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
-      return engine.rootp->can_core__DOT__u_sync__DOT__meta_q == engine.can_rx_i &&
-             engine.rootp->can_core__DOT__u_sync__DOT__settled_q == engine.can_rx_i;
+      const auto &root = *engine.rootp;
+      return root.can_core__DOT__u_sync__DOT__meta_q == root.can_rx_i &&
+             root.can_core__DOT__u_sync__DOT__settled_q == root.can_rx_i;
     } else {
       return false;
     }
@@ -190,7 +190,7 @@ class QuietEngine {
       const auto &root = *engine.rootp;
       // Bus-off begins a clock after its count.
       if (to_settle_ > 0 ||
-          root.can_core__DOT__u_bsp__DOT__u_fault__DOT__boff_seen_q != engine.boff_o)
+          root.can_core__DOT__u_bsp__DOT__u_fault__DOT__boff_seen_q != root.boff_o)
         return 0;
       if (root.can_core__DOT__active_q == 0) return kStopped;
       const Place place = place_of(engine);
@@ -207,11 +207,11 @@ class QuietEngine {
     // Of three samples the trace shows the majority, which changes with the levels before.
     const unsigned levels = level_of(engine) ? 3 : 0;
     const bool following =
-        engine.smp_i != 0 && root.can_core__DOT__u_bit_timing__DOT__prev_q != levels;
+        root.smp_i != 0 && root.can_core__DOT__u_bit_timing__DOT__prev_q != levels;
     if (root.can_core__DOT__u_bit_timing__DOT__falling != 0 || following) return 0;
     const unsigned pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
     const unsigned last = root.can_core__DOT__u_bit_timing__DOT__seg2_q != 0
-                              ? engine.pseg2_i + 1U
+                              ? root.pseg2_i + 1U
                               : root.can_core__DOT__u_bit_timing__DOT__tseg1_q;
     return pos < last ? last - pos : 0;
   }
@@ -219,7 +219,7 @@ class QuietEngine {
   template <typename Engine>
   static Place place_of(const Engine &engine) {
     const auto &root = *engine.rootp;
-    const std::uint64_t clocks = engine.presdiv_i + 1U;
+    const std::uint64_t clocks = root.presdiv_i + 1U;
     const std::uint64_t count = root.can_core__DOT__u_tq_gen__DOT__gen_divide__DOT__count_q;
     if (root.can_core__DOT__tq != 0) return {clocks, 0};
     return {clocks, count >= clocks ? 1 : clocks - count};
@@ -228,8 +228,9 @@ class QuietEngine {
   // What the bit timing block sees: the settled pin, in loop-back what the node sends.
   template <typename Engine>
   static bool level_of(const Engine &engine) {
-    if (engine.lpb_i != 0) return (engine.trace_o & kTraceTx) != 0;
-    return engine.rootp->can_core__DOT__u_sync__DOT__settled_q != 0;
+    const auto &root = *engine.rootp;
+    if (root.lpb_i != 0) return (root.trace_o & kTraceTx) != 0;
+    return root.can_core__DOT__u_sync__DOT__settled_q != 0;
   }
 
   template <typename Engine>
@@ -253,7 +254,7 @@ class QuietEngine {
       if (boundary) begin_bit(engine, pos);
       root.can_core__DOT__u_sync__DOT__settled_q = root.can_core__DOT__u_sync__DOT__meta_q;
       root.can_core__DOT__u_sync__DOT__meta_q = static_cast<CData>(rx);
-      engine.can_rx_i = static_cast<CData>(rx);
+      root.can_rx_i = static_cast<CData>(rx);
       verican_follow(&root);
       clocked_(engine);
     }
@@ -263,7 +264,7 @@ class QuietEngine {
   template <typename Engine>
   static void begin_bit(Engine &engine, unsigned pos) {
     auto &root = *engine.rootp;
-    root.can_core__DOT__u_bit_timing__DOT__pos_q = pos != engine.pseg2_i + 1U;
+    root.can_core__DOT__u_bit_timing__DOT__pos_q = pos != root.pseg2_i + 1U;
     root.can_core__DOT__u_bit_timing__DOT__seg2_q = 0;
     root.can_core__DOT__u_bit_timing__DOT__hard_q = 0;
     root.can_core__DOT__first_q = 1;
@@ -283,10 +284,12 @@ class QuietEngine {
         count += static_cast<CData>(edges);
         return;
       }
-      const std::uint64_t ticks_and_rest = edges - place.to_tick;
-      const std::uint64_t ticks = (ticks_and_rest + place.clocks_of_tq - 1) / place.clocks_of_tq;
-      const std::uint64_t rest = ticks * place.clocks_of_tq - ticks_and_rest;  // to the next tick
-      count = static_cast<CData>(place.clocks_of_tq - rest);
+      // Less than a bit: 32 bits divide in half the time of 64.
+      const auto clocks_of_tq = static_cast<std::uint32_t>(place.clocks_of_tq);
+      const auto ticks_and_rest = static_cast<std::uint32_t>(edges - place.to_tick);
+      const std::uint32_t ticks = (ticks_and_rest + clocks_of_tq - 1) / clocks_of_tq;
+      const std::uint32_t rest = ticks * clocks_of_tq - ticks_and_rest;  // to the next tick
+      count = static_cast<CData>(clocks_of_tq - rest);
       root.can_core__DOT__tq = rest == 0;
       auto &pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
       pos = static_cast<CData>(pos + ticks);
