@@ -141,7 +141,9 @@ module can_rn_tx #(
                                                   load_q <= 1'b1;
       // From its first clock on: what ends or begins meanwhile makes it be done again.
       else if (loading && phase_i == 2'd0)        load_q <= 1'b0;
-      try_q <= (tx_fail_i && transmitter_i) || (try_q && job_i != can_rn_pkg::JobTry);
+      // What goes takes its failed attempt with it.
+      if (drop || job_i == can_rn_pkg::JobTry) try_q <= 1'b0;
+      else if (tx_fail_i && transmitter_i)     try_q <= 1'b1;
     end
   end
 

@@ -10,12 +10,13 @@
 namespace vericansim {
 namespace {
 
-constexpr unsigned kLife = 0xF05, kValue = 0xFE9, kDropped = 0xFEB, kDup = 0xFEC;
+constexpr unsigned kLife = 0xF05, kRetry = 0xF07, kValue = 0xFE9, kDropped = 0xFEB, kDup = 0xFEC;
 
 /// A node of profile full with an answer that waits for `ms` milliseconds already.
-std::unique_ptr<FramePort> waiting(unsigned ms) {
+std::unique_ptr<FramePort> waiting(unsigned ms, unsigned retry = 8) {
   auto port = FramePort::create("full", 3, 0xCAFE1234, 3);
-  port->user_write(kLife / 4, 0x0100, 2);  // 10 ms
+  port->user_write(kLife / 4, 0x0100, 2);             // 10 ms
+  port->user_write(kRetry / 4, retry << 24, 1 << 3);  // attempts
   port->start();
   (void)port->drain();
   port->receive(frame_of("1A0#R1"));
@@ -46,6 +47,24 @@ TEST(PortTally, NothingThatHappensTogetherIsForgotten) {
       EXPECT_EQ(port->peek(counter), 1);
     }
   }
+}
+
+// RN-15, RN-35: an answer whose only attempt fails in whatever clock of the end of its life is one.
+TEST(PortTally, AnAnswerIsDroppedOnce) {
+  const unsigned ms = life();
+  unsigned dropped = 0;
+  for (unsigned clock = 1; clock < 600; ++clock) {
+    SCOPED_TRACE(clock);
+    const auto port = waiting(ms - 1, 1);
+    ASSERT_EQ(port->peek(kDropped), 0);
+    ASSERT_TRUE(port->asks());
+    port->pulse_ms_in(clock);
+    (void)port->send(FramePort::End::kError);
+    port->clocks(300);
+    ASSERT_FALSE(port->asks());
+    dropped += port->peek(kDropped);
+  }
+  EXPECT_EQ(dropped, 599U);
 }
 
 }  // namespace

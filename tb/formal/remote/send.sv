@@ -90,6 +90,8 @@
       // RN-54: the life that is written is that which was read, of one answer.
       p_same_answer: assert (job_i != can_rn_pkg::JobAge || phase_i == 2'd0 || $past(flush_i)
                              || age_o == $past(age_o));
+      // RN-15: an attempt that has failed is one of what is offered.
+      p_tried: assert (!try_q || src_q != can_rn_pkg::SrcNone);
       // RN-102 P-3, RN-54: nothing goes that is not there.
       p_no_underflow: assert (head_q == $past(head_q) || $past(flush_i || some_o));
       // RN-31, RN-102 P-3: full is told exactly when no more can be taken.
