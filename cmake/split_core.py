@@ -65,7 +65,7 @@ def hollow(header, ports, constant=frozenset(), skipped=frozenset()):
     return lines + ["endmodule"]
 
 
-def port(name):
+def pin(name):
     """Where a model has its port: in its root, but for what a class around it has of its own
     (sim/node/timed_engine.hpp)."""
     return f"core.{name}" if name.startswith(TIME) else f"pins.{name}"
@@ -77,7 +77,7 @@ def function(comment, signature, root, compared, copied, wide):
     lines = [f"  /// {comment}", "  template <typename Core, typename Host>",
              f"  static bool {signature} {{", "    auto &pins = *core.rootp;",
              f"    {word} changed = 0;"]
-    lines += [f"    changed |= host.{root}{name}_v ^ {port(name)};" for name in compared]
+    lines += [f"    changed |= host.{root}{name}_v ^ {pin(name)};" for name in compared]
     lines.append("    if (changed == 0) return false;")
     return lines + [f"    {line};" for line in copied] + ["    return true;", "  }", ""]
 
@@ -92,13 +92,13 @@ def copies(struct, root, ports, driven=frozenset()):
     lines = [f"struct {struct} {{"]
     lines += function("Outputs of the model to the top; true if any has changed.",
                       "to_host(const Core &core, Host &host)", root, into,
-                      [f"host.{root}{name}_v = {port(name)}" for name in into], wide)
+                      [f"host.{root}{name}_v = {pin(name)}" for name in into], wide)
     lines += function("True if an output has changed that a resting top must see.",
                       "wakes_host(const Core &core, const Host &host)", root,
                       [name for name in into if name not in QUIET | QUIET_TIME], [], wide)
     lines += function("The top's levels to inputs of the model; true if any has changed.",
                       "to_core(Core &core, const Host &host)", root, back,
-                      [f"{port(name)} = host.{root}{name}_v" for name in back], wide)
+                      [f"{pin(name)} = host.{root}{name}_v" for name in back], wide)
     return lines[:-1] + ["};", ""]
 
 

@@ -75,7 +75,7 @@ def saturated(medians):
 
 
 def parts(medians):
-    """The floor: kernel, engine and core without traffic."""
+    """Beside the first table: nodes with the time unit, and what each part does alone."""
     text = ["| what | node-cycles/s |", "|---|---|"]
     for name, entry in medians.items():
         if not name.startswith("saturated_bus") and "node_cycles/s" in entry:
@@ -136,8 +136,9 @@ def page(results):
             "in closed form meanwhile is listed in [simulator.md](simulator.md).",
             "", BESIDE_OTHERS.rstrip()]
     text += ["", "## Where the time goes", "", *parts(medians), "",
-             "*Kernel* is the bus with nodes that do nothing, *engine* `can_core` and *core*",
-             "`can_ahb` on an idle bus without observers."]
+             "*Bus with time* is the saturated bus with nodes that have the time unit, *kernel* the",
+             "bus with nodes that do nothing, *engine* `can_core` and *core* `can_ahb` on an idle bus",
+             "without observers."]
     text += ["", SHARES]
     return "\n".join(text + replays(results) + suite(results)) + "\n"
 

@@ -156,7 +156,8 @@ class Bus {
   void end_all_rest();
   void rest(NodeId id);
   void wake_at(NodeId id, Time arrival);
-  // Its calls lead to the other files of this folder, which are compiled together for that, too.
+  // Flattened: what it calls is in other files of this folder, which verican_unity() compiles with
+  // this one.
   [[gnu::flatten]] void run_instant(Time t);
   void clock_together(Time t);
   /// Clocks the nodes whose turn is at `t`, with the level that `level_for` gives.
@@ -180,7 +181,7 @@ class Bus {
 
   std::vector<Entry> nodes_;
   std::vector<Time> next_;  // next edge of each node that is clocked, contiguous for the scan
-  std::vector<std::uint64_t> rests_;  // while a node rests: its edges before that one
+  std::vector<std::uint64_t> rests_;  // while a node rests: its edges before next_
   std::map<std::pair<NodeId, NodeId>, Time> delay_override_;
   std::vector<Time> delay_;  // [from * size + to], valid while prepared_
   Receiver observer_point_;

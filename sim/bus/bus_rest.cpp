@@ -4,6 +4,7 @@
 // Bus: edges at which nothing moves in a node are made good when somebody looks; see bus.hpp,
 // Bus::let_rest().
 #include <algorithm>
+#include <cassert>
 
 #include "bus/bus.hpp"
 
@@ -29,6 +30,7 @@ void Bus::catch_up(NodeId id) { catch_up(id, id < clocked_ ? done_before_ + 1 : 
 void Bus::catch_up(NodeId id, Time before) {
   Node &node = *nodes_[id].node;
   Clock &clock = node.oscillator_;
+  assert(node.resting_);  // else rests_ is of another time
   const std::uint64_t edges = before < next_[id] ? clock.edges_until(before - 1) : rests_[id];
   if (edges == 0) return;
   rests_[id] -= edges;

@@ -42,7 +42,7 @@ class Clock {
   /// Time of the next rising edge, ps (rounded down).
   [[nodiscard]] Time next() const { return static_cast<Time>(edge_ >> 64); }
 
-  /// Time of the last one that was consumed, if none was the first of another period.
+  /// Time of the last edge consumed, as long as the period has not changed since.
   [[nodiscard]] Time previous() const { return static_cast<Time>((edge_ - period_) >> 64); }
 
   /// Consumes the next rising edge.

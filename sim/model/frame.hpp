@@ -35,8 +35,8 @@ struct Frame {
     return dlc > 8 ? 8u : dlc;
   }
 
-  /// The word that a controller's registers hold of bytes `first` to `first` + 3 (0 or 4), the
-  /// first of them greatest.
+  /// The word in which a controller's registers hold bytes `first` to `first` + 3 (0 or 4), the
+  /// most significant first.
   [[nodiscard]] constexpr std::uint32_t data_word(unsigned first) const {
     std::uint32_t word = 0;
     for (unsigned i = 0; i < 4; ++i) word = (word << 8) | data[first + i];

@@ -15,7 +15,7 @@
 namespace vericansim::detail {
 namespace {
 
-constexpr std::string_view kAllowed =
+constexpr std::string_view kAllowedCommands =
     "operate|safe|restart [NODE], trigger [COUNT], write NODE|all ADDRESS BYTE..., "
     "read NODE ADDRESS LENGTH [= BYTE...], read all ADDRESS LENGTH, status NODE [= BYTE...], "
     "identity NODE [= BYTE...], unlock NODE, lock NODE, frame FRAME";
@@ -35,7 +35,7 @@ class StepReader {
   }
 
   RemoteStep read() {
-    if (words_.empty()) value_.refuse(std::string{kAllowed});
+    if (words_.empty()) value_.refuse(std::string{kAllowedCommands});
     const std::string verb{take()};
     if (verb == "operate")
       state(0x01);
@@ -60,7 +60,7 @@ class StepReader {
     else if (verb == "frame")
       frame();
     else
-      value_.refuse(std::string{kAllowed});
+      value_.refuse(std::string{kAllowedCommands});
     if (!words_.empty()) refuse_word(words_.front(), "the end of the command");
     return step_;
   }
@@ -72,7 +72,7 @@ class StepReader {
   }
 
   std::string_view take() {
-    if (words_.empty()) refuse_word("", "one more word: " + std::string{kAllowed});
+    if (words_.empty()) refuse_word("", "one more word: " + std::string{kAllowedCommands});
     const std::string_view word = words_.front();
     words_.erase(words_.begin());
     return word;
@@ -260,7 +260,7 @@ RemoteCommandSpec parse_commands(const YamlValue &value, const Scenario &scenari
   const YamlValue steps = map.need("do");
   for (const YamlValue &item : steps.items())
     spec.steps.push_back(StepReader{item, scenario}.read());
-  if (spec.steps.empty()) steps.refuse(std::string{kAllowed});
+  if (spec.steps.empty()) steps.refuse(std::string{kAllowedCommands});
   map.finish();
   return spec;
 }

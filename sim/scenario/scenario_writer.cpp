@@ -121,7 +121,7 @@ std::string effect_text(Effect effect) {
   return effect == Effect::kDominant ? "dominant" : "recessive";
 }
 
-std::string place_words(const Scenario &scenario, const FaultSpec &fault) {
+std::string place_yaml(const Scenario &scenario, const FaultSpec &fault) {
   const PlaceSpec &place = fault.place;
   std::string text = ", at: {node: " + name_of(scenario, fault.watched);
   const auto number = [&](const char *key, const std::optional<unsigned> &value) {
@@ -137,7 +137,7 @@ std::string place_words(const Scenario &scenario, const FaultSpec &fault) {
   return text + "}";
 }
 
-std::string window_words(const Window &window) {
+std::string window_yaml(const Window &window) {
   std::string text;
   if (window.from != 0) text += ", from: " + exact_time(window.from);
   if (window.to != kEver) text += ", for: " + exact_time(window.to - window.from);
@@ -159,17 +159,17 @@ std::string fault_line(const Scenario &scenario, const FaultSpec &fault) {
       ", node: " + (fault.node == kAllNodes ? "all" : name_of(scenario, fault.node));
   std::string text = "  - {kind: ";
   switch (fault.kind) {
-    case Kind::kLevel: text += effect_text(fault.effect) + node + window_words(fault.window); break;
+    case Kind::kLevel: text += effect_text(fault.effect) + node + window_yaml(fault.window); break;
     case Kind::kPlace:
-      text += effect_text(fault.effect) + node + place_words(scenario, fault);
+      text += effect_text(fault.effect) + node + place_yaml(scenario, fault);
       break;
-    case Kind::kCut: text += "cut" + node + window_words(fault.window); break;
-    case Kind::kShort: text += "short" + node + window_words(fault.window); break;
+    case Kind::kCut: text += "cut" + node + window_yaml(fault.window); break;
+    case Kind::kShort: text += "short" + node + window_yaml(fault.window); break;
     case Kind::kClock:
-      text += "clock" + node + window_words(fault.window) + fmt::format(", ppm: {}", fault.ppm);
+      text += "clock" + node + window_yaml(fault.window) + fmt::format(", ppm: {}", fault.ppm);
       break;
     case Kind::kNoise:
-      text += "noise" + node + window_words(fault.window) +
+      text += "noise" + node + window_yaml(fault.window) +
               fmt::format(", per_bit: {}, glitches_per_ms: {}, glitch: {}, seed: {}",
                           fault.noise.per_bit, fault.noise.per_ns * 1e6,
                           exact_time(fault.noise.glitch), fault.noise.seed);

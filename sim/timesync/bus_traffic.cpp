@@ -25,18 +25,18 @@ BusTraffic::BusTraffic(const SyncCase &setting, std::uint64_t seed)
 // that come independently (Pollaczek and Khinchine).
 double BusTraffic::waiting(double load) {
   double bits = 0;
-  while (uniform() < load) bits += uniform() * kLongestFrame;
+  while (uniform() < load) bits += uniform() * kLongestBaseFrame;
   return bits;
 }
 
 // Bits until the bus is free for SYNC: what is on it, and what comes above SYNC meanwhile.
 double BusTraffic::frames_ahead() {
   double bits = waiting(load_above_);
-  if (bits == 0 && uniform() < load_) bits = uniform() * kLongestFrame;
+  if (bits == 0 && uniform() < load_) bits = uniform() * kLongestBaseFrame;
   if (load_above_ == 0) return bits;
   for (double open = bits; open > 0;) {
-    std::poisson_distribution<unsigned> more{open * load_above_ / kLongestFrame};
-    open = kLongestFrame * more(dice_);
+    std::poisson_distribution<unsigned> more{open * load_above_ / kLongestBaseFrame};
+    open = kLongestBaseFrame * more(dice_);
     bits += open;
   }
   return bits;

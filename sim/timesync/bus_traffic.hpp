@@ -15,7 +15,7 @@
 namespace vericansim {
 
 /// Bits of the longest base data frame with its intermission (rule book, FF-11).
-inline constexpr double kLongestFrame = 135;
+inline constexpr double kLongestBaseFrame = 135;
 
 /// A bus that others use too. Other frames are of the longest base format.
 class BusTraffic {

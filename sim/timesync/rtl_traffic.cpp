@@ -86,7 +86,7 @@ void RtlTraffic::send(CoreNode &sender, std::uint32_t id, double load) {
   sender.received().clear();
   sender.sent().clear();
   if (sender.waiting() < 2) sender.request(longest(id));
-  const double mean = kLongestFrame * bit_ / load;
+  const double mean = kLongestBaseFrame * bit_ / load;
   const double gap = load < 1 ? std::exponential_distribution<double>{1 / mean}(dice_) : mean / 2;
   at_(bus_.now() + std::llround(gap), [this, &sender, id, load] { send(sender, id, load); });
 }

@@ -19,7 +19,7 @@ using Fields = std::vector<std::string_view>;
 using text::fail;
 using text::Place;
 
-constexpr std::int64_t kSecondNs = 1'000'000'000;
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 /// "[8]", "[08]" (CAN FD) or "{F}" (a raw DLC).
 bool is_length(std::string_view field) {
@@ -40,7 +40,7 @@ std::int64_t parse_date(std::string_view date, std::string_view time, const Plac
     fail(place, "time " + in_quotes("(" + text) +
                     " is not allowed; allowed: (YYYY-MM-DD HH:MM:SS.ffffff)");
   std::int64_t ns = 0;
-  if (__builtin_mul_overflow(seconds, kSecondNs, &ns) ||
+  if (__builtin_mul_overflow(seconds, kNsPerSecond, &ns) ||
       __builtin_add_overflow(ns, parse_candump_stamp("(0" + std::string(fraction), place), &ns))
     fail(place, "time " + in_quotes("(" + text) + " is out of range; allowed: up to the year 2262");
   return ns;
@@ -77,7 +77,7 @@ CandumpScreen::CandumpScreen(std::string_view text) {
     const std::size_t open = line.find_first_not_of(" \t");
     if (known || open == std::string_view::npos || line[open] != '(') return;
     const std::string_view stamp = line.substr(open + 1, line.find(')', open) - open - 1);
-    const std::int64_t ns = text::parse_decimal(stamp, kSecondNs).value_or(kNone);
+    const std::int64_t ns = text::parse_decimal(stamp, kNsPerSecond).value_or(kNone);
     differences_ = last != kNone && ns < last;
     known = differences_ || (last == kNone && ns != 0);
     last = ns;

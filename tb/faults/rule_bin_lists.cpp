@@ -26,7 +26,7 @@ const char *context_name(unsigned context) {
 }
 
 /// Bits of one field, with the directions that each role allows.
-struct Place {
+struct BinPlace {
   Field field;
   unsigned count;
   unsigned transmitter;
@@ -39,47 +39,47 @@ struct Place {
 
 // FF-01 to FF-04 (a transmitter sends r0 and r1 dominant, delimiters and EOF recessive), FF-05, ST,
 // EF-02 to EF-08, OV-01, IF-08.
-const Place kPlaces[] = {{Field::kInteg, 1, 0, 0, kBoth},
-                         {Field::kBusOff, 1, 0, 0, kBoth},
-                         {Field::kIdle, 1, 0, 0, kBoth},
-                         {Field::kInt, 3, kToD, kToD},
-                         {Field::kSuspend, 8, kToD, 0, 0, false, kNoContext, false},
-                         {Field::kSof, 1, kToR, 0},
-                         {Field::kId, 11, kBoth, kBoth},
-                         {Field::kRtr, 1, kBoth, kBoth},
-                         {Field::kIde, 1, kBoth, kBoth},
-                         {Field::kExId, 18, kBoth, kBoth},
-                         {Field::kExRtr, 1, kBoth, kBoth},
-                         {Field::kR1, 1, kToR, kBoth},
-                         {Field::kR0, 1, kToR, kBoth},
-                         {Field::kDlc, 4, kBoth, kBoth},
-                         {Field::kData, 64, kBoth, kBoth},
-                         {Field::kCrc, 15, kBoth, kBoth},
-                         {Field::kCrcDel, 1, kToD, kToD},
-                         {Field::kAck, 1, kBoth, kBoth},
-                         {Field::kAckDel, 1, kToD, kToD},
-                         {Field::kEof, 7, kToD, kToD},
-                         {Field::kId, 1, kBoth, kBoth, 0, true},
-                         {Field::kRtr, 1, kBoth, kBoth, 0, true},
-                         {Field::kIde, 1, kBoth, kBoth, 0, true},
-                         {Field::kExId, 1, kBoth, kBoth, 0, true},
-                         {Field::kExRtr, 1, kBoth, kBoth, 0, true},
-                         {Field::kR1, 1, kBoth, kBoth, 0, true},
-                         {Field::kR0, 1, kToD, kBoth, 0, true},
-                         {Field::kDlc, 1, kToD, kBoth, 0, true},
-                         {Field::kData, 1, kBoth, kBoth, 0, true},
-                         {Field::kCrc, 1, kBoth, kBoth, 0, true},
-                         {Field::kCrcDel, 1, kBoth, kBoth, 0, true},
-                         {Field::kErrFlag, 6, kToR, kToR, 0, false, kActiveFlag},
-                         {Field::kErrFlag, 6, kBoth, kBoth, 0, false, kPassiveFlag, false},
-                         {Field::kWait, 1, kBoth, kBoth, 0, false, kActiveFlag},
-                         {Field::kWait, 1, kBoth, kBoth, 0, false, kPassiveFlag, false},
-                         {Field::kWait, 1, kBoth, kBoth, 0, false, kOverload},
-                         {Field::kDel, 7, kToD, kToD, 0, false, kActiveFlag},
-                         {Field::kDel, 7, kToD, kToD, 0, false, kOverload},
-                         {Field::kOvlFlag, 6, kToR, kToR, 0, false, kOverload}};
+const BinPlace kPlaces[] = {{Field::kInteg, 1, 0, 0, kBoth},
+                            {Field::kBusOff, 1, 0, 0, kBoth},
+                            {Field::kIdle, 1, 0, 0, kBoth},
+                            {Field::kInt, 3, kToD, kToD},
+                            {Field::kSuspend, 8, kToD, 0, 0, false, kNoContext, false},
+                            {Field::kSof, 1, kToR, 0},
+                            {Field::kId, 11, kBoth, kBoth},
+                            {Field::kRtr, 1, kBoth, kBoth},
+                            {Field::kIde, 1, kBoth, kBoth},
+                            {Field::kExId, 18, kBoth, kBoth},
+                            {Field::kExRtr, 1, kBoth, kBoth},
+                            {Field::kR1, 1, kToR, kBoth},
+                            {Field::kR0, 1, kToR, kBoth},
+                            {Field::kDlc, 4, kBoth, kBoth},
+                            {Field::kData, 64, kBoth, kBoth},
+                            {Field::kCrc, 15, kBoth, kBoth},
+                            {Field::kCrcDel, 1, kToD, kToD},
+                            {Field::kAck, 1, kBoth, kBoth},
+                            {Field::kAckDel, 1, kToD, kToD},
+                            {Field::kEof, 7, kToD, kToD},
+                            {Field::kId, 1, kBoth, kBoth, 0, true},
+                            {Field::kRtr, 1, kBoth, kBoth, 0, true},
+                            {Field::kIde, 1, kBoth, kBoth, 0, true},
+                            {Field::kExId, 1, kBoth, kBoth, 0, true},
+                            {Field::kExRtr, 1, kBoth, kBoth, 0, true},
+                            {Field::kR1, 1, kBoth, kBoth, 0, true},
+                            {Field::kR0, 1, kToD, kBoth, 0, true},
+                            {Field::kDlc, 1, kToD, kBoth, 0, true},
+                            {Field::kData, 1, kBoth, kBoth, 0, true},
+                            {Field::kCrc, 1, kBoth, kBoth, 0, true},
+                            {Field::kCrcDel, 1, kBoth, kBoth, 0, true},
+                            {Field::kErrFlag, 6, kToR, kToR, 0, false, kActiveFlag},
+                            {Field::kErrFlag, 6, kBoth, kBoth, 0, false, kPassiveFlag, false},
+                            {Field::kWait, 1, kBoth, kBoth, 0, false, kActiveFlag},
+                            {Field::kWait, 1, kBoth, kBoth, 0, false, kPassiveFlag, false},
+                            {Field::kWait, 1, kBoth, kBoth, 0, false, kOverload},
+                            {Field::kDel, 7, kToD, kToD, 0, false, kActiveFlag},
+                            {Field::kDel, 7, kToD, kToD, 0, false, kOverload},
+                            {Field::kOvlFlag, 6, kToR, kToR, 0, false, kOverload}};
 
-void add_place(BinGroup &group, const Place &place, Role role, unsigned directions) {
+void add_place(BinGroup &group, const BinPlace &place, Role role, unsigned directions) {
   for (unsigned index = 0; index < place.count; ++index) {
     for (const bool passive : {false, true}) {
       if (!passive && !place.active_state) continue;
@@ -171,7 +171,7 @@ const char *role_name(Role role) {
 BinGroup inversion_bins() {
   BinGroup group;
   group.name = "role x A/P x position x inversion";
-  for (const Place &place : kPlaces) {
+  for (const BinPlace &place : kPlaces) {
     add_place(group, place, Role::kTransmitter, place.transmitter);
     add_place(group, place, Role::kReceiver, place.receiver);
     add_place(group, place, Role::kNone, place.neither);

@@ -28,7 +28,7 @@ struct Story {
   const char *name;
   bool transmitter;
   std::string before;
-  Frame frame = kOwn;
+  Frame frame = kOwnFrame;
 };
 
 std::vector<Story> stories() {
@@ -112,19 +112,19 @@ std::vector<Scene> gap_scenes() {
   const std::string wire = "1" + kGap;  // from EOF7 or DEL8
   add_variants(all, {.name = "after-own",
                      .transmitter = true,
-                     .frame = kOwn,
+                     .frame = kOwnFrame,
                      .before = kSentBits + ".0." + rep(6, "."),
                      .wire = wire});
   add_variants(all, {.name = "after-foreign",
                      .transmitter = false,
-                     .frame = kOwn,
+                     .frame = kOwnFrame,
                      .before = kOwnBits + "101" + rep(6, "1"),
                      .wire = wire});
   const Frame winner{.id = 0x023};
   const std::string won = whole(winner);
   add_variants(all, {.name = "after-loss",
                      .transmitter = true,
-                     .frame = kOwn,
+                     .frame = kOwnFrame,
                      .before = won.substr(0, won.size() - 1),
                      .wire = wire,
                      .delivered = {winner}});
@@ -147,10 +147,10 @@ std::vector<Scene> pair_scenes() {
   const std::string extended_winner = whole({.id = 0x123 << 18, .extended = true, .dlc = 1}, srr);
   std::vector<Scene> all;
   all.push_back(
-      {.name = "crc-error-then", .frame = kOwn, .before = kBadCrc, .wire = "1011" + rest});
+      {.name = "crc-error-then", .frame = kOwnFrame, .before = kBadCrc, .wire = "1011" + rest});
   all.push_back({.name = "no-ack-then",
                  .transmitter = true,
-                 .frame = kOwn,
+                 .frame = kOwnFrame,
                  .before = kSentBits + "..",
                  .wire = rest,
                  .acknowledge = false});
@@ -160,15 +160,15 @@ std::vector<Scene> pair_scenes() {
                  .before = ".....0",
                  .wire = rest});
   all.push_back({.name = "eof7-then",
-                 .frame = kOwn,
+                 .frame = kOwnFrame,
                  .before = kOwnBits + "101" + rep(6, "1") + "0",
                  .wire = rest});
   all.push_back({.name = "two-del8-then",
-                 .frame = kOwn,
+                 .frame = kOwnFrame,
                  .before = "000000" + rep(13, "1") + "0" + rep(13, "1") + "0",
                  .wire = rest});
   all.push_back({.name = "int3-sof-then",
-                 .frame = kOwn,
+                 .frame = kOwnFrame,
                  .before = kOwnBits + "101" + rep(7, "1") + "11",
                  .wire = next + kGap,
                  .delivered = {kGoodFrame}});

@@ -14,7 +14,7 @@
 namespace vericansim {
 
 /// The frame of the DUT (GV-1).
-inline const Frame kOwn{.id = 0x123, .dlc = 1, .data = {0x55}};
+inline constexpr Frame kOwnFrame{.id = 0x123, .dlc = 1, .data = {0x55}};
 
 /// How the DUT comes to the bits that are disturbed, and which these are. Scripts are those of
 /// InjectionRig::play(), from the SOF of the frame on.

@@ -60,7 +60,7 @@ class IntegrationSection : public Section {
                     .reaction = reaction.name};
     if (bins != nullptr) bins->begin();
     InjectionRig rig{counters, CoreBench::default_config(), bins};
-    if (at[2] == 1) rig.request(kOwn);
+    if (at[2] == 1) rig.request(kOwnFrame);
     rig.start_integrating();
     rig.play(rep(static_cast<int>(at[0]), "."));
     rig.play(at[1] == 0 ? "!" : "R");
@@ -93,7 +93,7 @@ class BusOffSection : public Section {
     InjectionRig rig{{.tec = 248}, CoreBench::default_config(), bins};
     rig.start();
     rig.bench.lt_acknowledges(true);
-    rig.request(kOwn);
+    rig.request(kOwnFrame);
     rig.play(
         "."
         "!");  // its own SOF is not seen: TEC 256 (MX-26)
@@ -140,7 +140,7 @@ class CounterSection : public Section {
     rig.start();
     rig.bench.lt_acknowledges(step.acknowledge);
     if (step.transmitter) {
-      rig.request(kOwn);
+      rig.request(kOwnFrame);
       rig.play(".");
     }
     rig.play(step.script);
@@ -167,7 +167,7 @@ class CounterSection : public Section {
         {"no-ack", true, rep(54, "."), false},
         {"no-ack-d", true, rep(45, ".") + "..0", false},
         {"sof-lost", true, rep(40, "!")},  // FC-20
-        {"reception", false, model_bench::whole(kOwn)},
+        {"reception", false, model_bench::whole(kOwnFrame)},
         {"stuff-error", false, "000000"},
         {"stuff-error-d1", false, "000000" + rep(7, "0")},
         {"stuff-error-d16", false, "000000" + rep(22, "0")},

@@ -3,7 +3,8 @@
 //
 // Nodes without a core behind them, in place of the Verilated ones: an RtlNode that remembers what
 // is written to it and never takes part, and a CoreNode that sends nothing. The readers that are
-// fuzzed are those of the board around them.
+// fuzzed are those of the board around them. Remote nodes and nodes with a clock are named by the
+// sources around them, and never made.
 #include <array>
 #include <stdexcept>
 #include <utility>

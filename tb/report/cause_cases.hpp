@@ -14,7 +14,7 @@
 
 namespace vericansim {
 
-inline constexpr NodeId kSenderNode = 0, kReceiverNode = 1, kWitnessNode = 2;
+inline constexpr NodeId kSenderNode = 0, kReceiverNode = 1;
 
 /// A disturbed bit: what `victim` sees while `watched` is at a place.
 struct Disturbance {
