@@ -136,9 +136,9 @@ def page(results):
             "in closed form meanwhile is listed in [simulator.md](simulator.md).",
             "", BESIDE_OTHERS.rstrip()]
     text += ["", "## Where the time goes", "", *parts(medians), "",
-             "*Bus with time* is the saturated bus with nodes that have the time unit, *kernel* the",
-             "bus with nodes that do nothing, *engine* `can_core` and *core* `can_ahb` on an idle bus",
-             "without observers."]
+             "*Bus with time* is the saturated bus with nodes that have the time unit, *kernel*",
+             "the bus with nodes that do nothing, *engine* `can_core` and *core* `can_ahb` on an",
+             "idle bus without observers."]
     text += ["", SHARES]
     return "\n".join(text + replays(results) + suite(results)) + "\n"
 
