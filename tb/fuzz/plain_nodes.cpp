@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "node/core_node.hpp"
+#include "node/lean_core.hpp"
 #include "node/remote_node.hpp"
 #include "node/rtl_node.hpp"
 #include "node/time_node.hpp"
@@ -51,6 +52,10 @@ class PlainNode final : public RtlNode {
 std::unique_ptr<RtlNode> RtlNode::create(std::string name, const ClockConfig &clock,
                                          unsigned num_mb) {
   return std::make_unique<PlainNode>(std::move(name), clock, num_mb);
+}
+
+std::unique_ptr<RtlNode> create_lean_core(std::string name, const ClockConfig &clock) {
+  return std::make_unique<PlainNode>(std::move(name), clock, 64);
 }
 
 struct CoreNode::Impl {};
