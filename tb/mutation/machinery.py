@@ -4,6 +4,7 @@
 """The mutator follows the RTL: it reads every file, finds both ways to build a module where models
 have both, and its rewritten core is one that Verilator takes."""
 
+import re
 import subprocess
 import tempfile
 import unittest
@@ -11,7 +12,7 @@ from pathlib import Path
 
 import models
 from mutants import Design
-from regression import FOLDERS
+from regression import FOLDERS, programs
 from schemata import Wrap, open_types, package, rewrite
 
 
@@ -54,6 +55,14 @@ class Machinery(unittest.TestCase):
     def test_what_nobody_reads_is_not_mutated(self):
         self.assertFalse([m.name for m in self.design.candidates()
                           if m.line_text.startswith("assign unused")])
+
+    def test_programs_that_a_build_with_mutants_leaves_out_are_not_run(self):
+        text = (models.ROOT / "tb/CMakeLists.txt").read_text(encoding="utf-8")
+        block = re.search(r"if\(VERICAN_RTL_TRANSFORM\)\n(.*?)endif", text, re.DOTALL)[1]
+        left_out = set(re.findall(r"/(\w+_test)\\", block))
+        self.assertTrue(left_out)
+        for part in FOLDERS:
+            self.assertFalse(left_out & {name for _, name in programs(models.ROOT, part)}, part)
 
     def test_verilator_takes_the_core_with_a_mutant_of_each_file(self):
         taken = {}
