@@ -151,7 +151,7 @@ TEST_F(PortBlocks, TimeOutClosesAWrite) {
     EXPECT_EQ(answers[0].data[2], 0x13);
     EXPECT_EQ(answers[0].data[4], fed ? 7 : 0);
     EXPECT_EQ(port.peek(remote_map::kCounters + 6), fed ? 2 : 1);  // RN-35
-    // The next one is none the worse for it.
+    // RN-41: the next write ends with code 0.
     port.receive(block_frame(kWriteBlock, 0x100, 3));
     (void)port.drain();
     port.receive(part(0, 3));
