@@ -22,8 +22,10 @@ canplayer -t -I "$VERICAN_LOG" vcan0=can0 || complain canplayer
 wait_until 60 has_lines played.log "$VERICAN_FRAMES"
 hush
 
+open=$(sockets vcan1)
 canbusload -e vcan1@500000 >load.txt &
 load=$!
+wait_until 20 has_sockets vcan1 $((open + 1))  # or listen would take this socket for its own
 listen vcan1 load.log
 cangen vcan0 -g 1 -n 200 -I i -L i -D i || complain "cangen"
 cangen vcan0 -g 0 -e -n 200 -I i -L i -D i || complain "cangen -e"
