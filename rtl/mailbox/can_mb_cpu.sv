@@ -83,7 +83,8 @@ module can_mb_cpu #(
   assign raw_o      = area_q && !ring_q;
   assign timer_rd_o = rd_done_i && mem_sel_i == MemTimer && (rxfir_i || TimeUnit == 0);
   assign timer_wr_o = wr_done_i && mem_sel_i == MemTimer && (rxfir_i || TimeUnit == 0);
-  assign cs_rd_o    = rd_done_i && is_cs && !area_q;
+  // RXFIR is no C/S word, with or without the FIFO: its read neither locks nor unlocks.
+  assign cs_rd_o    = rd_done_i && is_cs && !rxfir_i && !area_q;
   assign mb_wr      = wr_done_i && !area_q && !scrub_i;
   assign cs_wr      = mb_wr && is_cs && !block_i;
   assign busy_o     = moving_i && mv_idx_i == idx_i && !area_q;

@@ -257,9 +257,13 @@ void BufferModel::cpu_read(std::uint32_t address, std::uint32_t value, std::uint
   if (address != reg::kRxfir) return;
   keep(
       [&](const BufferState &state) {
+        if (!config_.fen) return value == 0;
         return state.fifo.empty() || state.fifo.front().id_hit == value;
       },
-      [&] { return fmt::format("RXFIR reads {}, another filter accepted the frame", value); });
+      [&] {
+        if (!config_.fen) return fmt::format("RXFIR reads {} without the FIFO, not 0", value);
+        return fmt::format("RXFIR reads {}, another filter accepted the frame", value);
+      });
 }
 
 }  // namespace vericansim

@@ -232,6 +232,39 @@ TEST_F(Reception, EmptyBufferIsNotLockedByReading) {  // 3.6
   EXPECT_EQ(rig_.flags(0), 1u << 5);
 }
 
+// Without the FIFO nothing is behind RXFIR: its read is not one of buffer 0, whose C/S word the
+// core reads for it, so that it neither locks it nor makes it serviced.
+TEST_F(Reception, RxfirWithoutTheFifoIsNoReadOfBuffer0) {  // FX-3.6.a, FX-MAP.RXFIR
+  rig_.put_rx(0, 0, {.id = 0x123});
+  go();
+  send(numbered(0));
+  ASSERT_EQ(rig_.flags(0), 1u);
+  rig_.clear_flag(0, 0);
+  EXPECT_EQ(rig_.read(0, reg::kRxfir), 0u);
+  send(numbered(1));
+  EXPECT_EQ(rig_.flags(0), 1u) << "locked: the frame waits";
+  rig_.read(0, reg::kRxfir);
+  unlock();
+  send(numbered(2));
+  const MbWords words = rig_.get(0, 0);
+  EXPECT_EQ(mb_frame(words), numbered(2));
+  EXPECT_EQ(words.code(), kOverrun) << "nobody has read it";
+}
+
+// ... nor does it end the lock of the buffer that has been read.
+TEST_F(Reception, RxfirWithoutTheFifoKeepsTheLock) {  // FX-3.6.e, FX-MAP.RXFIR
+  rig_.put_rx(0, 5, {.id = 0x123});
+  go();
+  send(numbered(0));
+  const MbWords before = rig_.get(0, 5);  // locks
+  rig_.clear_flag(0, 5);
+  send(numbered(1));
+  EXPECT_EQ(rig_.read(0, reg::kRxfir), 0u);
+  rig_.run(60);
+  EXPECT_EQ(rig_.flags(0), 0u) << "moved in: unlocked";
+  EXPECT_EQ(rig_.read(0, reg::mb(5, 2)), before.low);
+}
+
 TEST_F(Reception, PendingFrameMovesInWhenUnlockedInFreezeMode) {  // 2.2
   rig_.put_rx(0, 5, {.id = 0x123});
   go();

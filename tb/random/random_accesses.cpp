@@ -212,7 +212,11 @@ class Script {
           if (dice_.per_cent(3)) write(steps, reg::kTimer, dice_.below(0x10000));
           break;
         default:
-          if (first_ != 0) service_fifo(steps);
+          if (first_ != 0) {
+            service_fifo(steps);
+          } else {
+            read(steps, reg::kRxfir);  // of no meaning, and of no effect
+          }
           break;
       }
       look(steps, mb);
@@ -264,10 +268,10 @@ void draw_reads(Dice &dice, Scenario &scenario, NodeId id) {
   for (Time at = bit * dice.in(1, 2000); at < scenario.duration; at += bit * dice.in(1, 2000)) {
     Steps steps;
     for (unsigned n = dice.in(1, 4); n > 0; --n) {
-      constexpr std::uint32_t kPlain[] = {reg::kMcr,           reg::kCtrl,         reg::kTimer,
-                                          reg::kEcr,           reg::kEsr,          reg::kImask1,
-                                          reg::kIflag1,        reg::kIflag2,       reg::kCtrl2,
-                                          VERICAN_ESR2_OFFSET, VERICAN_CRCR_OFFSET};
+      constexpr std::uint32_t kPlain[] = {reg::kMcr,           reg::kCtrl,          reg::kTimer,
+                                          reg::kEcr,           reg::kEsr,           reg::kImask1,
+                                          reg::kIflag1,        reg::kIflag2,        reg::kCtrl2,
+                                          VERICAN_ESR2_OFFSET, VERICAN_CRCR_OFFSET, reg::kRxfir};
       const unsigned kind = dice.below(3);
       if (kind == 0) read(steps, kPlain[dice.below(std::size(kPlain))]);
       if (kind == 1) read(steps, reg::mb(dice.below(num_mb), dice.below(4)));
