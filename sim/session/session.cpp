@@ -146,8 +146,21 @@ void Session::drain() {
     if (!outlets_.empty())
       while (bus.now() < end && !idle()) bus.run_until(bus.now() + kLook * bit_time_);
     live->simulation().drain();
+    if (!outlets_.empty()) let_read(live->simulation());
   }
   give_last();
+}
+
+// Of a frame that has just ended the bus's log knows at once, the programs when the CPU of their
+// node has read it. The next one cannot end before that.
+void Session::let_read(Simulation &simulation) const {
+  constexpr Time kRead = 16;  // bits
+  std::uint64_t seen = 0;
+  do {
+    seen = simulation.frames();
+    simulation.bus().run_for(kRead * bit_time_);
+    simulation.settle();
+  } while (simulation.frames() != seen);
 }
 
 // The programs get what the bus had for them, if they take it within a second.

@@ -99,6 +99,7 @@ class Session {
   void exchange();
   void watch();
   void drain();
+  void let_read(Simulation &simulation) const;
   void give_last();
   void show_progress();
   void describe(std::size_t bus, RunReport &report);

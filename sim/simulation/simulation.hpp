@@ -66,6 +66,8 @@ class Simulation {
   /// The simulation's own software of a node that has it (NodeSpec::hosted()).
   [[nodiscard]] Host &host(NodeId id) { return *stations_[id].host; }
   [[nodiscard]] const NodeCounts &counts(NodeId id) const { return monitor_->node(id); }
+  /// Acknowledged frames that the bus has seen so far, see settle().
+  [[nodiscard]] std::uint64_t frames() const { return monitor_->frames(); }
   /// Whether the cores store remote frames in receive buffers; valid after join().
   [[nodiscard]] bool stores_remote() const { return stations_.stores_remote(); }
   [[nodiscard]] const Scenario &scenario() const { return scenario_; }

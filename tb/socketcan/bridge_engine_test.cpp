@@ -289,5 +289,20 @@ TEST(BridgeEngine, RunsForTheTimeAsked) {
   EXPECT_THAT(rig.port(0).frames(), SizeIs(50));
 }
 
+// Wherever in a frame the end falls: what the bus has seen the programs get. A frame is over some
+// bits before the CPU has read it.
+TEST(BridgeEngine, NothingIsLostAtTheEnd) {
+  TrafficSpec flood = beat(kMillisecond);
+  flood.saturated = true;
+  for (Time bit = 0; bit < 60; ++bit) {  // one frame
+    BridgeRig rig{{.traffic = {flood}, .limit = 3 * kMillisecond + bit * 2 * kMicrosecond}};
+    while (rig.bridge().round()) {
+    }
+    const BridgeReport report = rig.bridge().finish();
+    ASSERT_GT(report.bus.frames, 10u);
+    EXPECT_EQ(rig.port(0).frames().size(), report.bus.frames) << bit;
+  }
+}
+
 }  // namespace
 }  // namespace vericansim::test
