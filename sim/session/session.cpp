@@ -151,8 +151,8 @@ void Session::drain() {
   give_last();
 }
 
-// Of a frame that has just ended the bus's log knows at once, the programs when the CPU of their
-// node has read it. The next one cannot end before that.
+// The bus's log has a frame as soon as it has ended, the programs only when the CPU of their node
+// has read it; until then no other frame can end.
 void Session::let_read(Simulation &simulation) const {
   constexpr Time kRead = 16;  // bits
   std::uint64_t seen = 0;

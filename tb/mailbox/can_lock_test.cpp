@@ -40,6 +40,17 @@ class Reception : public ::testing::Test {
     return code;
   }
   void unlock() { rig_.read(0, reg::kTimer); }
+  // Buffer 5 has frame 0, which has been read and is locked thereby (its words are returned), and
+  // frame 1 waits for it; its flag is clear.
+  MbWords lock_while_another_waits() {
+    rig_.put_rx(0, 5, {.id = 0x123});
+    go();
+    send(numbered(0));
+    const MbWords words = rig_.get(0, 5);
+    rig_.clear_flag(0, 5);
+    send(numbered(1));
+    return words;
+  }
   MailboxRig rig_;
 };
 
@@ -162,12 +173,7 @@ TEST_F(Reception, ClearingTheFlagNeitherUnlocksNorServices) {  // section 5, 3.6
 }
 
 TEST_F(Reception, LockedBufferKeepsItsFrameUntilUnlocked) {  // 3.6
-  rig_.put_rx(0, 5, {.id = 0x123});
-  go();
-  send(numbered(0));
-  const MbWords before = rig_.get(0, 5);  // locks
-  rig_.clear_flag(0, 5);
-  send(numbered(1));
+  const MbWords before = lock_while_another_waits();
   EXPECT_EQ(rig_.get(0, 5), before);
   EXPECT_EQ(rig_.flags(0), 0u) << "not moved in yet";
   unlock();
@@ -209,12 +215,7 @@ TEST_F(Reception,
 }
 
 TEST_F(Reception, WriteToOwnCsCancelsTheWaitingFrameAndTheLock) {  // 3.4, 3.6
-  rig_.put_rx(0, 5, {.id = 0x123});
-  go();
-  send(numbered(0));
-  rig_.get(0, 5);
-  rig_.clear_flag(0, 5);
-  send(numbered(1));
+  lock_while_another_waits();
   rig_.write(0, reg::mb(5), 0x04000000);
   unlock();
   rig_.run(60);
@@ -253,12 +254,7 @@ TEST_F(Reception, RxfirWithoutTheFifoIsNoReadOfBuffer0) {  // FX-3.6.a, FX-MAP.R
 
 // ... nor does it end the lock of the buffer that has been read.
 TEST_F(Reception, RxfirWithoutTheFifoKeepsTheLock) {  // FX-3.6.e, FX-MAP.RXFIR
-  rig_.put_rx(0, 5, {.id = 0x123});
-  go();
-  send(numbered(0));
-  const MbWords before = rig_.get(0, 5);  // locks
-  rig_.clear_flag(0, 5);
-  send(numbered(1));
+  const MbWords before = lock_while_another_waits();
   EXPECT_EQ(rig_.read(0, reg::kRxfir), 0u);
   rig_.run(60);
   EXPECT_EQ(rig_.flags(0), 0u) << "moved in: unlocked";

@@ -25,18 +25,14 @@ class CanRnRate : public testing::Test {
     rate_->start_i = 1;
     rate_.clock();
   }
-  void error() {
-    rate_->error_i = 1;
+  void pulse(CData &pin) {
+    pin = 1;
     rate_.clock();
-    rate_->error_i = 0;
-    rate_.clock();
-  }
-  void valid() {
-    rate_->valid_i = 1;
-    rate_.clock();
-    rate_->valid_i = 0;
+    pin = 0;
     rate_.clock();
   }
+  void error() { pulse(rate_->error_i); }
+  void valid() { pulse(rate_->valid_i); }
   void sample_point() {
     rate_->tick_i = 1;
     rate_.clock();
