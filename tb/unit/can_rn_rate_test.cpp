@@ -141,7 +141,7 @@ TEST_F(CanRnRate, TwoValidFramesAreTheRightRate) {
   EXPECT_EQ(rate_->listen_o, 0);
 }
 
-// Edges without a sample point between them are closer than two bits: an error.
+// RN-73: edges without a sample point between them are closer than two bits, an error.
 TEST_F(CanRnRate, EdgesWithoutASamplePointAreErrors) {
   begin();
   dominant_bit(false);
@@ -153,8 +153,8 @@ TEST_F(CanRnRate, EdgesWithoutASamplePointAreErrors) {
   EXPECT_EQ(row(), 1U);
 }
 
-// So many edges without a valid frame are no right rate; the count begins anew with the rate and
-// with a valid frame.
+// RN-73: so many edges without a valid frame are no right rate; the count begins anew with the rate
+// and with a valid frame.
 TEST_F(CanRnRate, EdgesWithoutAFrameAreTheNextRate) {
   begin();
   for (unsigned rate = 0; rate < 3; ++rate) {
