@@ -24,6 +24,7 @@ frame/can_error.sv
 frame/can_fault.sv
 frame/can_bsp.sv
 can_core.sv
+mailbox/can_mb_pkg.sv
 mailbox/can_mb_ram.sv
 mailbox/can_mb_stamp.sv
 mailbox/can_mb_port.sv

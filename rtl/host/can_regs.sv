@@ -28,48 +28,26 @@ module can_regs #(
   input  logic            stop_req_i,
   input  logic            wake_i,        // pulse: the bus ends stop mode
   output logic            wake_en_o,     // it may
-  output logic            wake_filter_o,
-  output logic            supv_o,
   input  logic            mb_busy_i,
   input  logic            mb_scrub_i,
-  // Configuration of the buffers.
-  output logic            bcc_o,
-  output logic            srx_dis_o,
-  output logic            lbuf_o,
-  output logic            tsyn_o,
-  output logic            lprio_en_o,
-  output logic            aen_o,
-  output logic            eacen_o,
-  output logic            rrs_o,
-  output logic            oneshot_o,
-  output logic            osmb_o,        // bit 28 of a Tx buffer's C/S word asks for one shot
-  output logic [6:0]      maxmb_o,
+  // Configuration, by the fields of can_regs_pkg: MCR without its mode requests and acknowledges.
+  output logic [31:0]     mcr_o,
+  output logic [31:0]     ctrl1_o,
+  output logic [31:0]     ctrl2_o,
+  output logic [31:0]     xctrl_o,
+  // State of the buffers.
   input  logic            flag_i,
   input  logic [IdxW-1:0] flag_idx_i,
   output logic [63:0]     iflag_o,
   input  logic [8:0]      esr2_i,        // LPTM, VPS, IMB
   input  logic [21:0]     crcr_i,        // MBCRC, TXCRC
   // Rx FIFO.
-  output logic            fen_o,
-  output logic [1:0]      idam_o,
-  output logic [3:0]      rffn_o,
-  output logic            mrp_o,
   output logic            fifo_clear_o,  // pulse: FEN changes, or soft reset
   output logic            fifo_pop_o,    // pulse: the CPU is done with the frame at the output
   input  logic            fifo_avail_i,  // level: a frame is at the output
   input  logic            fifo_warn_i,   // pulse: almost full
   input  logic            fifo_ovf_i,    // pulse: a frame was lost
-  // Configuration and state of the engine, see can_core.
-  output logic [7:0]      presdiv_o,
-  output logic [1:0]      rjw_o,
-  output logic [2:0]      pseg1_o,
-  output logic [2:0]      pseg2_o,
-  output logic [2:0]      propseg_o,
-  output logic            smp_o,
-  output logic            lom_o,
-  output logic            lpb_o,
-  output logic            fd_tolerant_o,
-  output logic            boff_rec_o,
+  // State of the engine, see can_core.
   output logic            ec_we_o,
   output logic [15:0]     ec_wdata_o,
   input  logic            running_i,
@@ -136,24 +114,17 @@ module can_regs #(
   ) u_mcr (
     .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack_o),
     .wrn_en_i(wrn_en), .we_i(mcr_we && !soft_rst), .be_i, .wdata_i(mcr_wdata), .value_o(mcr_q));
-  assign supv_o     = mcr_q[can_regs_pkg::McrSupv];
-  assign wake_en_o  = mcr_q[can_regs_pkg::McrSlfWak] && in_stop;
-  assign wake_filter_o = mcr_q[can_regs_pkg::McrWakSrc];
-  assign wrn_en     = mcr_q[can_regs_pkg::McrWrnEn];
-  assign fen_o      = mcr_q[can_regs_pkg::McrFen];
-  assign srx_dis_o  = mcr_q[can_regs_pkg::McrSrxDis];
-  assign bcc_o      = mcr_q[can_regs_pkg::McrBcc];
-  assign lprio_en_o = mcr_q[can_regs_pkg::McrLprioEn];
-  assign aen_o      = mcr_q[can_regs_pkg::McrAen];
-  assign idam_o     = mcr_q[can_regs_pkg::McrIdam +: can_regs_pkg::McrIdamW];
-  assign maxmb_o    = mcr_q[can_regs_pkg::McrMaxmb +: can_regs_pkg::McrMaxmbW];
+  assign mcr_o     = mcr_q;
+  assign wake_en_o = mcr_q[can_regs_pkg::McrSlfWak] && in_stop;
+  assign wrn_en    = mcr_q[can_regs_pkg::McrWrnEn];
 
-  logic fen_q;
+  logic fen, fen_q;
+  assign fen = mcr_q[can_regs_pkg::McrFen];
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) fen_q <= 1'b0;
-    else         fen_q <= fen_o;
+    else         fen_q <= fen;
   end
-  assign fifo_clear_o = clear_o || fen_q != fen_o;
+  assign fifo_clear_o = clear_o || fen_q != fen;
 
   // CTRL1. Without WRN_EN the warning masks are 0, whatever was written with it.
   logic [31:0] ctrl1_q;
@@ -165,18 +136,8 @@ module can_regs #(
     .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(disabled),
     .wrn_en_i(wrn_en), .we_i(wr_i && addr_i == can_regs_pkg::Ctrl1Addr), .be_i, .wdata_i,
     .value_o(ctrl1_q));
-  assign ctrl1      = wrn_en ? ctrl1_q : ctrl1_q & ~can_regs_pkg::Ctrl1WrnEn;
-  assign presdiv_o  = ctrl1[can_regs_pkg::Ctrl1Presdiv +: can_regs_pkg::Ctrl1PresdivW];
-  assign rjw_o      = ctrl1[can_regs_pkg::Ctrl1Rjw +: can_regs_pkg::Ctrl1RjwW];
-  assign pseg1_o    = ctrl1[can_regs_pkg::Ctrl1Pseg1 +: can_regs_pkg::Ctrl1Pseg1W];
-  assign pseg2_o    = ctrl1[can_regs_pkg::Ctrl1Pseg2 +: can_regs_pkg::Ctrl1Pseg2W];
-  assign propseg_o  = ctrl1[can_regs_pkg::Ctrl1Propseg +: can_regs_pkg::Ctrl1PropsegW];
-  assign lpb_o      = ctrl1[can_regs_pkg::Ctrl1Lpb];
-  assign smp_o      = ctrl1[can_regs_pkg::Ctrl1Smp];
-  assign boff_rec_o = ctrl1[can_regs_pkg::Ctrl1BoffRec];
-  assign tsyn_o     = ctrl1[can_regs_pkg::Ctrl1Tsyn];
-  assign lbuf_o     = ctrl1[can_regs_pkg::Ctrl1Lbuf];
-  assign lom_o      = ctrl1[can_regs_pkg::Ctrl1Lom];
+  assign ctrl1   = wrn_en ? ctrl1_q : ctrl1_q & ~can_regs_pkg::Ctrl1WrnEn;
+  assign ctrl1_o = ctrl1;
 
   // CTRL2.
   can_reg #(
@@ -186,10 +147,7 @@ module can_regs #(
     .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack_o),
     .wrn_en_i(wrn_en), .we_i(wr_i && addr_i == can_regs_pkg::Ctrl2Addr), .be_i, .wdata_i,
     .value_o(ctrl2));
-  assign rffn_o  = ctrl2[can_regs_pkg::Ctrl2Rffn +: can_regs_pkg::Ctrl2RffnW];
-  assign mrp_o   = ctrl2[can_regs_pkg::Ctrl2Mrp];
-  assign rrs_o   = ctrl2[can_regs_pkg::Ctrl2Rrs];
-  assign eacen_o = ctrl2[can_regs_pkg::Ctrl2Eacen];
+  assign ctrl2_o = ctrl2;
 
   // Extension page.
   can_reg #(
@@ -199,12 +157,10 @@ module can_regs #(
     .clk_i, .rst_ni, .clear_i(clear_o), .frz_ack_i(frz_ack_o), .lpm_ack_i(lpm_ack_o),
     .wrn_en_i(wrn_en), .we_i(wr_i && addr_i == can_regs_pkg::XctrlAddr), .be_i, .wdata_i,
     .value_o(xctrl));
-  assign osmb_o        = xctrl[can_regs_pkg::XctrlOsmb];
-  assign oneshot_o     = xctrl[can_regs_pkg::XctrlOneshot];
-  assign fd_tolerant_o = xctrl[can_regs_pkg::XctrlFdtol];
+  assign xctrl_o = xctrl;
 
   // A 1 written to IFLAG1[5] takes the frame at the output out of the FIFO (section 4).
-  assign fifo_pop_o = fen_o && wr_i && addr_i == can_regs_pkg::Iflag1Addr && be_i[0]
+  assign fifo_pop_o = fen && wr_i && addr_i == can_regs_pkg::Iflag1Addr && be_i[0]
                    && wdata_i[can_regs_pkg::Iflag1FifoAvailable];
 
   // ECR.
@@ -221,7 +177,7 @@ module can_regs #(
   can_flags #(.NumMb(NumMb)) u_flags (
     .clk_i, .rst_ni, .clear_i(clear_o), .flag_i, .flag_idx_i,
     .err_i, .boff_i,
-    .fen_i(fen_o), .fifo_clear_i(fifo_clear_o), .fifo_avail_i, .fifo_warn_i, .fifo_ovf_i,
+    .fen_i(fen), .fifo_clear_i(fifo_clear_o), .fifo_avail_i, .fifo_warn_i, .fifo_ovf_i,
     .tx_wrn_i(tx_wrn), .rx_wrn_i(rx_wrn), .wrn_en_i(wrn_en),
     .iflag_lo_we_i(wr_i && addr_i == can_regs_pkg::Iflag1Addr),
     .iflag_hi_we_i(wr_i && addr_i == can_regs_pkg::Iflag2Addr),
@@ -263,7 +219,7 @@ module can_regs #(
           rdata_o[can_regs_pkg::Esr1Idle]  = idle_i;
           rdata_o[can_regs_pkg::Esr1Tx]    = transmitter_i;
           rdata_o[can_regs_pkg::Esr1FltConf +: can_regs_pkg::Esr1FltConfW] =
-              boff_i ? 2'b10 : {1'b0, passive_i || lom_o};
+              boff_i ? 2'b10 : {1'b0, passive_i || ctrl1[can_regs_pkg::Ctrl1Lom]};
           rdata_o[can_regs_pkg::Esr1Rx]    = receiver_i;
         end
         can_regs_pkg::Imask2Addr:   rdata_o = imask[63:32];

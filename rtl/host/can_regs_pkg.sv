@@ -3,8 +3,9 @@
 //
 // can_regs_pkg: the register map as constants. Written by tools/registers.py from
 // sw/registers.yaml; edits are lost. <Reg>Addr counts words; <Reg><Field> is the lowest bit of a
-// field and <Reg><Field>W its width, if it has more than one; <Reg>Any, Freeze, Disable and WrnEn
-// are the bits that a write changes at any time, in freeze mode, in disable mode, with MCR.WRN_EN.
+// field and <Reg><Field>W its width, if it has more than one; <Reg><Field><Value> is a value that
+// has a name; <Reg>Any, Freeze, Disable and WrnEn are the bits that a write changes at any time, in
+// freeze mode, in disable mode, with MCR.WRN_EN.
 // Of a core that says xconfig of itself: <reg>_has() are the bits that it has of a register,
 // <reg>_without() is what those read that it has not.
 
@@ -35,6 +36,10 @@ package can_regs_pkg;
   localparam int          McrAen            = 12;
   localparam int          McrIdam           = 8;
   localparam int          McrIdamW          = 2;
+  localparam logic [1:0]  McrIdamFormatA    = 2'h0;
+  localparam logic [1:0]  McrIdamFormatB    = 2'h1;
+  localparam logic [1:0]  McrIdamFormatC    = 2'h2;
+  localparam logic [1:0]  McrIdamReject     = 2'h3;
   localparam int          McrMaxmb          = 0;
   localparam int          McrMaxmbW         = 7;
 
@@ -122,6 +127,9 @@ package can_regs_pkg;
   localparam int          Esr1Tx            = 6;
   localparam int          Esr1FltConf       = 4;
   localparam int          Esr1FltConfW      = 2;
+  localparam logic [1:0]  Esr1FltConfActive = 2'h0;
+  localparam logic [1:0]  Esr1FltConfPassive = 2'h1;
+  localparam logic [1:0]  Esr1FltConfBusOff = 2'h2;
   localparam int          Esr1Rx            = 3;
   localparam int          Esr1BoffInt       = 2;
   localparam int          Esr1ErrInt        = 1;
@@ -272,6 +280,9 @@ package can_regs_pkg;
   localparam int          TctrlTxpin        = 2;
   localparam int          TctrlPoint        = 0;
   localparam int          TctrlPointW       = 2;
+  localparam logic [1:0]  TctrlPointSof     = 2'h0;
+  localparam logic [1:0]  TctrlPointEdge    = 2'h1;
+  localparam logic [1:0]  TctrlPointEof     = 2'h2;
 
   // TSTAT: Time: status
   localparam logic [10:0] TstatAddr         = 11'h442;
@@ -410,6 +421,10 @@ package can_regs_pkg;
   localparam int          TsstatScW         = 4;
   localparam int          TsstatState       = 0;
   localparam int          TsstatStateW      = 2;
+  localparam logic [1:0]  TsstatStateUnsynchronised = 2'h0;
+  localparam logic [1:0]  TsstatStateAcquiring = 2'h1;
+  localparam logic [1:0]  TsstatStateLocked = 2'h2;
+  localparam logic [1:0]  TsstatStateHoldover = 2'h3;
 
   // TSOFS: Follower: last offset
   localparam logic [10:0] TsofsAddr         = 11'h464;
@@ -432,6 +447,15 @@ package can_regs_pkg;
   localparam int          MbCsOs            = 28;
   localparam int          MbCsCode          = 24;
   localparam int          MbCsCodeW         = 4;
+  localparam logic [3:0]  MbCsCodeRxInactive = 4'h0;
+  localparam logic [3:0]  MbCsCodeRxFull    = 4'h2;
+  localparam logic [3:0]  MbCsCodeRxEmpty   = 4'h4;
+  localparam logic [3:0]  MbCsCodeRxOverrun = 4'h6;
+  localparam logic [3:0]  MbCsCodeTxInactive = 4'h8;
+  localparam logic [3:0]  MbCsCodeTxAbort   = 4'h9;
+  localparam logic [3:0]  MbCsCodeTxAnswer  = 4'hA;
+  localparam logic [3:0]  MbCsCodeTxData    = 4'hC;
+  localparam logic [3:0]  MbCsCodeTxAnswering = 4'hE;
   localparam int          MbCsSrr           = 22;
   localparam int          MbCsIde           = 21;
   localparam int          MbCsRtr           = 20;

@@ -119,23 +119,23 @@ module can_top #(
   assign gmask = {addr_i[3] | addr_i[6], addr_i[2] | addr_i[6]};
   // By as few bits as tell them apart: what goes elsewhere may look like any of these.
   always_comb begin
-    mem_sel = {1'b0, addr_i[3:2] != 2'd0};
+    mem_sel = addr_i[3:2] != 2'd0 ? can_mb_pkg::MemMsg : can_mb_pkg::MemCs;
     word = addr_i[3:2] - 2'd1;
     idx  = mb_idx[IdxW-1:0];
     if (TimeUnit != 0 && addr_i[12]) begin
-      mem_sel = 2'd3;
+      mem_sel = can_mb_pkg::MemTimer;
       word = {1'b1, addr_i[2]};
       idx  = addr_i[3 +: IdxW];
     end else if (OwnMasks != 0 && addr_i[11]) begin
-      mem_sel = 2'd2;
+      mem_sel = can_mb_pkg::MemMask;
       word = 2'd0;
       idx  = mask_idx[IdxW-1:0];
     end else if (addr_i[10:7] == '0) begin
-      mem_sel = {1'b1, in_timer};
-      word = OwnMasks == 0 && !in_timer ? 2'd3 : 2'd1;
-      idx  = OwnMasks == 0 ? IdxW'({gmask, 2'd3}) : IdxW'(gmask);
+      mem_sel = in_timer ? can_mb_pkg::MemTimer : can_mb_pkg::MemMask;
+      word = OwnMasks == 0 && !in_timer ? can_mb_pkg::GroupMask : 2'd1;
+      idx  = OwnMasks == 0 ? IdxW'({gmask, can_mb_pkg::GroupMask}) : IdxW'(gmask);
       if (in_rxfir) begin                     // hidden bits of the C/S word at the FIFO's output
-        mem_sel = 2'd0;
+        mem_sel = can_mb_pkg::MemCs;
         word = 2'd1;
         idx  = '0;
       end
@@ -179,21 +179,16 @@ module can_top #(
 
   // Wires between the blocks; names as at the blocks.
   logic        run, clear, running, stop_ok, mb_busy, mb_scrub;
-  logic        wake, wake_en, wake_filter, rx_level, lpm_ack;
-  logic        bcc, srx_dis, lbuf, tsyn, lprio_en, aen, eacen, rrs, oneshot, osmb, flag;
-  logic        fen, mrp, fifo_clear, fifo_pop, fifo_avail, fifo_warn, fifo_ovf;
-  logic [1:0]  idam;
-  logic [3:0]  rffn;
+  logic        wake, wake_en, rx_level, lpm_ack;
+  logic [31:0] mcr, ctrl1, ctrl2, xctrl;
+  logic        flag, fifo_clear, fifo_pop, fifo_avail, fifo_warn, fifo_ovf;
   logic [8:0]  esr2;
   logic [21:0] crcr;
   logic [14:0] crc;
   logic [63:0] iflag;
-  logic [6:0]  maxmb;
   logic [IdxW-1:0] flag_idx;
-  logic [7:0]  presdiv, tec, rec, rx_byte;
-  logic [1:0]  rjw;
-  logic [2:0]  pseg1, pseg2, propseg;
-  logic        smp, lom, lpb, fd_tolerant, boff_rec, ec_we, passive, boff;
+  logic [7:0]  tec, rec, rx_byte;
+  logic        ec_we, passive, boff;
   logic [15:0] ec_wdata;
   logic [5:0]  err;
   logic        idle, transmitter, receiver, synch, gap, tick_req, tick, timer_clear, timer_we;
@@ -212,21 +207,16 @@ module can_top #(
     .run_o(run), .clear_o(clear), .frz_ack_o(frz_ack), .lpm_ack_o(lpm_ack),
     .mb_busy_i(mb_busy), .mb_scrub_i(mb_scrub),
     .stop_req_i(stop_req_i && Wake != 0), .wake_i(wake), .wake_en_o(wake_en),
-    .wake_filter_o(wake_filter), .supv_o,
-    .bcc_o(bcc), .srx_dis_o(srx_dis), .lbuf_o(lbuf), .tsyn_o(tsyn),
-    .lprio_en_o(lprio_en), .aen_o(aen), .eacen_o(eacen), .rrs_o(rrs), .oneshot_o(oneshot),
-    .osmb_o(osmb), .maxmb_o(maxmb),
+    .mcr_o(mcr), .ctrl1_o(ctrl1), .ctrl2_o(ctrl2), .xctrl_o(xctrl),
     .flag_i(flag), .flag_idx_i(flag_idx), .iflag_o(iflag),
     .esr2_i(esr2), .crcr_i(crcr),
-    .fen_o(fen), .idam_o(idam), .rffn_o(rffn), .mrp_o(mrp), .fifo_clear_o(fifo_clear),
-    .fifo_pop_o(fifo_pop), .fifo_avail_i(fifo_avail), .fifo_warn_i(fifo_warn),
-    .fifo_ovf_i(fifo_ovf),
-    .presdiv_o(presdiv), .rjw_o(rjw), .pseg1_o(pseg1), .pseg2_o(pseg2), .propseg_o(propseg),
-    .smp_o(smp), .lom_o(lom), .lpb_o(lpb), .fd_tolerant_o(fd_tolerant), .boff_rec_o(boff_rec),
+    .fifo_clear_o(fifo_clear), .fifo_pop_o(fifo_pop), .fifo_avail_i(fifo_avail),
+    .fifo_warn_i(fifo_warn), .fifo_ovf_i(fifo_ovf),
     .ec_we_o(ec_we), .ec_wdata_o(ec_wdata), .running_i(running), .stop_ok_i(stop_ok),
     .tec_i(tec), .rec_i(rec), .passive_i(passive), .boff_i(boff), .err_i(err),
     .idle_i(idle), .transmitter_i(transmitter), .receiver_i(receiver), .synch_i(synch),
     .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o);
+  assign supv_o = mcr[can_regs_pkg::McrSupv];
 
   // Time unit; what moves with every clock is in can_core.
   logic [can_pkg::TimeCmdWidth-1:0]  time_cmd;
@@ -271,11 +261,11 @@ module can_top #(
 
   if (Wake != 0) begin : gen_wake
     can_wake #(.FilterClocks(WakeFilter)) u_wake (
-      .clk_i, .rst_ni, .enable_i(wake_en), .filter_i(wake_filter), .rx_i(rx_level),
-      .wake_o(wake));
+      .clk_i, .rst_ni, .enable_i(wake_en), .filter_i(mcr[can_regs_pkg::McrWakSrc]),
+      .rx_i(rx_level), .wake_o(wake));
   end else begin : gen_no_wake
     logic unused;
-    assign unused = &{1'b0, wake_filter, rx_level};
+    assign unused = &{1'b0, rx_level};
     assign wake   = 1'b0;
   end
 
@@ -284,11 +274,8 @@ module can_top #(
     .ClearRam(ClearRam), .TimeUnit(TimeUnit)
   ) u_mailbox (
     .clk_i, .rst_ni,
-    .running_i(running), .lpm_i(lpm_ack), .clear_i(clear), .bcc_i(bcc),
-    .eacen_i(eacen), .rrs_i(rrs),
-    .srx_dis_i(srx_dis), .lbuf_i(lbuf), .tsyn_i(tsyn), .lprio_en_i(lprio_en), .aen_i(aen),
-    .oneshot_i(oneshot), .osmb_i(osmb), .maxmb_i(maxmb),
-    .fen_i(fen), .idam_i(idam), .rffn_i(rffn), .mrp_i(mrp), .fifo_clear_i(fifo_clear),
+    .running_i(running), .lpm_i(lpm_ack), .clear_i(clear),
+    .mcr_i(mcr), .ctrl1_i(ctrl1), .ctrl2_i(ctrl2), .xctrl_i(xctrl), .fifo_clear_i(fifo_clear),
     .fifo_pop_i(fifo_pop), .fifo_avail_o(fifo_avail), .fifo_warn_o(fifo_warn),
     .fifo_ovf_o(fifo_ovf), .iflag_i(iflag), .esr2_o(esr2), .crcr_o(crcr),
     .busy_o(mb_busy), .scrub_o(mb_scrub),
@@ -299,7 +286,7 @@ module can_top #(
     .tick_req_o(tick_req), .tick_i(tick),
     .timer_clear_o(timer_clear), .timer_we_o(timer_we), .timer_be_o(timer_be),
     .timer_wdata_o(timer_wdata), .timer_i(timer), .transmitter_i(transmitter),
-    .mute_i(boff || lom), .gap_i(gap), .crc_i(crc),
+    .mute_i(boff || ctrl1[can_regs_pkg::Ctrl1Lom]), .gap_i(gap), .crc_i(crc),
     .tx_req_o(tx_req), .tx_ide_o(tx_ide), .tx_rtr_o(tx_rtr), .tx_dlc_o(tx_dlc), .tx_word_o(tx_word),
     .tx_next_i(tx_next), .tx_ok_i(tx_ok), .tx_fail_i(tx_fail),
     .start_i(start), .stamp_i(stamp), .rx_hdr_i(rx_hdr), .rx_id_i(rx_id), .rx_ide_i(rx_ide),
@@ -312,8 +299,14 @@ module can_top #(
   can_core #(.TimeUnit(TimeUnit), .TimeInc(TimeInc), .TimeSync(TimeSync)) u_core (
     .clk_i, .rst_ni,
     .run_i(run), .running_o(running), .stop_ok_o(stop_ok), .gap_o(gap), .crc_o(crc),
-    .presdiv_i(presdiv), .rjw_i(rjw), .pseg1_i(pseg1), .pseg2_i(pseg2), .propseg_i(propseg),
-    .smp_i(smp), .lom_i(lom), .lpb_i(lpb), .fd_tolerant_i(fd_tolerant), .boff_rec_i(boff_rec),
+    .presdiv_i(ctrl1[can_regs_pkg::Ctrl1Presdiv +: can_regs_pkg::Ctrl1PresdivW]),
+    .rjw_i(ctrl1[can_regs_pkg::Ctrl1Rjw +: can_regs_pkg::Ctrl1RjwW]),
+    .pseg1_i(ctrl1[can_regs_pkg::Ctrl1Pseg1 +: can_regs_pkg::Ctrl1Pseg1W]),
+    .pseg2_i(ctrl1[can_regs_pkg::Ctrl1Pseg2 +: can_regs_pkg::Ctrl1Pseg2W]),
+    .propseg_i(ctrl1[can_regs_pkg::Ctrl1Propseg +: can_regs_pkg::Ctrl1PropsegW]),
+    .smp_i(ctrl1[can_regs_pkg::Ctrl1Smp]), .lom_i(ctrl1[can_regs_pkg::Ctrl1Lom]),
+    .lpb_i(ctrl1[can_regs_pkg::Ctrl1Lpb]), .fd_tolerant_i(xctrl[can_regs_pkg::XctrlFdtol]),
+    .boff_rec_i(ctrl1[can_regs_pkg::Ctrl1BoffRec]),
     .ec_clear_i(clear), .ec_we_i(ec_we), .ec_wdata_i(ec_wdata),
     .tec_o(tec), .rec_o(rec), .passive_o(passive), .boff_o(boff), .err_o(err),
     .idle_o(idle), .transmitter_o(transmitter), .receiver_o(receiver), .synch_o(synch),

@@ -3,11 +3,6 @@
 //
 // can_mailbox: the message buffers: RAM, transmit arbitration, receive matching and the moves
 // between them, the engine's and the CPU's side.
-//
-// Hidden rows behind the buffers. C/S: NumMb + 0 the frame sent, + 2/3 frames received.
-// MSG (from 3 * NumMb): 4 * (0/1 frames to send, 2/3 frames received) + (0 ID, 1 bytes 0-3, 2 bytes
-// 4-7). MASK: NumMb + 0 RXGMASK, + 1 RX14MASK, + 2 RX15MASK, + 3 RXFGMASK, + 4 all ones. Without
-// OwnMasks there is no MASK, and the four are in MSG, 3 * NumMb + 4 * (0 .. 3) + 3.
 
 module can_mailbox #(
   /// Message buffers: 16, 32 or 64.
@@ -28,22 +23,11 @@ module can_mailbox #(
   input  logic            running_i,     // the engine takes part in the bus
   input  logic            lpm_i,         // disable or stop mode: no move begins
   input  logic            clear_i,       // soft reset
-  input  logic            bcc_i,
-  input  logic            eacen_i,
-  input  logic            rrs_i,
-  input  logic            srx_dis_i,
-  input  logic            lbuf_i,
-  input  logic            tsyn_i,
-  input  logic            lprio_en_i,
-  input  logic            aen_i,
-  input  logic            oneshot_i,
-  input  logic            osmb_i,
-  input  logic [6:0]      maxmb_i,
+  input  logic [31:0]     mcr_i,         // by the fields of can_regs_pkg
+  input  logic [31:0]     ctrl1_i,
+  input  logic [31:0]     ctrl2_i,
+  input  logic [31:0]     xctrl_i,
   // Rx FIFO, see can_regs.
-  input  logic            fen_i,
-  input  logic [1:0]      idam_i,
-  input  logic [3:0]      rffn_i,
-  input  logic            mrp_i,
   input  logic            fifo_clear_i,
   input  logic            fifo_pop_i,
   output logic            fifo_avail_o,
@@ -108,16 +92,26 @@ module can_mailbox #(
   input  logic [5:0]      time_mb_i,
   output logic            time_wait_o
 );
-  localparam logic [1:0] MemCs = 2'd0;
 
-  logic unused;                     // flags of buffers that do not exist
-  assign unused = &{1'b0, iflag_i};
+  // Flags of buffers that do not exist, fields that matter elsewhere.
+  logic unused;
+  assign unused = &{1'b0, iflag_i, mcr_i, ctrl1_i, ctrl2_i, xctrl_i};
+
+  // Configuration that more than one block asks for.
+  logic       bcc, aen, fen;
+  logic [3:0] rffn;
+  logic [6:0] maxmb;
+  assign bcc   = mcr_i[can_regs_pkg::McrBcc];
+  assign aen   = mcr_i[can_regs_pkg::McrAen];
+  assign fen   = mcr_i[can_regs_pkg::McrFen];
+  assign maxmb = mcr_i[can_regs_pkg::McrMaxmb +: can_regs_pkg::McrMaxmbW];
+  assign rffn  = ctrl2_i[can_regs_pkg::Ctrl2Rffn +: can_regs_pkg::Ctrl2RffnW];
 
   // First buffer that is a mailbox: the ones below belong to the Rx FIFO.
   logic [6:0] first;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) first <= '0;
-    else         first <= fen_i ? {1'b0, 5'(rffn_i) + 5'd4, 1'b0} : 7'd0;
+    else         first <= fen ? {1'b0, 5'(rffn) + 5'd4, 1'b0} : 7'd0;
   end
 
   // CPU accesses and their side effects.
@@ -133,8 +127,8 @@ module can_mailbox #(
   logic [IdxW-1:0] mv_idx;
   logic [2:0]      fifo_head;
   can_mb_cpu #(.NumMb(NumMb), .TimeUnit(TimeUnit)) u_cpu (
-    .clk_i, .rst_ni, .scrub_i(scrub_o), .fen_i, .aen_i, .osmb_i, .first_i(first),
-    .head_i(fifo_head),
+    .clk_i, .rst_ni, .scrub_i(scrub_o), .fen_i(fen), .aen_i(aen),
+    .osmb_i(xctrl_i[can_regs_pkg::XctrlOsmb]), .first_i(first), .head_i(fifo_head),
     .cmd_wr_i, .cmd_mb_i(!cmd_mem_sel_i[1]),
     .cmd_stamp_i(TimeUnit != 0 && cmd_mem_sel_i == 2'd3 && cmd_word_i[1]), .cmd_idx_i,
     .cmd_wr_o(cmd_wr), .cmd_look_o(cmd_look), .cmd_idx_o(cmd_idx),
@@ -149,14 +143,15 @@ module can_mailbox #(
     .cs_written_act_o(cs_written_act), .cs_written_empty_o(cs_written_empty),
     .cs_written_ide_o(cs_written_ide));
 
-  assign timer_clear_o = clear_i || (tsyn_i && mv_flag && 7'(mv_idx) == first);
+  assign timer_clear_o = clear_i || (ctrl1_i[can_regs_pkg::Ctrl1Tsyn] && mv_flag
+                                     && 7'(mv_idx) == first);
   assign timer_be_o    = cpu_be[1:0];
   assign timer_wdata_o = wdata_i[15:0];
 
   logic            lock, serviced_req, serviced_ovr, serviced_gnt;
   logic [IdxW-1:0] lock_idx, serviced_idx;
   can_mb_lock #(.NumMb(NumMb)) u_lock (
-    .clk_i, .rst_ni, .clear_i(fifo_clear_i), .bcc_i,
+    .clk_i, .rst_ni, .clear_i(fifo_clear_i), .bcc_i(bcc),
     .cs_rd_i(cs_rd), .timer_rd_i(timer_rd), .idx_i(cpu_idx), .cs_i(ram_rdata), .busy_i(cpu_busy),
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
     .lock_o(lock), .lock_idx_o(lock_idx),
@@ -176,8 +171,11 @@ module can_mailbox #(
   can_mb_match #(
     .NumMb(NumMb), .Fifo(Fifo), .OwnMasks(OwnMasks), .ClearRam(ClearRam)
   ) u_match (
-    .clk_i, .rst_ni, .clear_i(fifo_clear_i), .bcc_i, .eacen_i, .rrs_i, .maxmb_i,
-    .fen_i, .idam_i, .rffn_i, .mrp_i, .first_i(first),
+    .clk_i, .rst_ni, .clear_i(fifo_clear_i), .bcc_i(bcc),
+    .eacen_i(ctrl2_i[can_regs_pkg::Ctrl2Eacen]), .rrs_i(ctrl2_i[can_regs_pkg::Ctrl2Rrs]),
+    .maxmb_i(maxmb), .fen_i(fen),
+    .idam_i(mcr_i[can_regs_pkg::McrIdam +: can_regs_pkg::McrIdamW]), .rffn_i(rffn),
+    .mrp_i(ctrl2_i[can_regs_pkg::Ctrl2Mrp]), .first_i(first),
     .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_rtr_i,
     .lock_i(lock), .lock_idx_i(lock_idx),
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
@@ -215,8 +213,8 @@ module can_mailbox #(
   logic [8:0] mv_top;
   can_mb_move #(.NumMb(NumMb)) u_move (
     .clk_i, .rst_ni, .clear_i(fifo_clear_i), .start_i, .rx_hdr_i,
-    .valid_i(rx_valid_i && !(transmitter_i && srx_dis_i)), .hold_i(flags_busy || serviced_req
-    || lpm_i || stamp_busy),
+    .valid_i(rx_valid_i && !(transmitter_i && mcr_i[can_regs_pkg::McrSrxDis])),
+    .hold_i(flags_busy || serviced_req || lpm_i || stamp_busy),
     .smb_o(smb),
     .match_done_i(match_done), .hit_i(hit), .hit_idx_i(hit_idx), .hit_fifo_i(hit_fifo),
     .hit_ans_i(hit_ans), .idhit_i(idhit), .resolve_o(resolve),
@@ -241,7 +239,8 @@ module can_mailbox #(
   logic            pass, pass_end, seen, seen_worst, seen_free;
   logic [IdxW-1:0] seen_idx;
   can_mb_tx #(.NumMb(NumMb), .Status(Status)) u_tx (
-    .clk_i, .rst_ni, .running_i, .lbuf_i, .lprio_en_i, .first_i(first), .maxmb_i,
+    .clk_i, .rst_ni, .running_i, .lbuf_i(ctrl1_i[can_regs_pkg::Ctrl1Lbuf]),
+    .lprio_en_i(mcr_i[can_regs_pkg::McrLprioEn]), .first_i(first), .maxmb_i(maxmb),
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
     .cs_written_act_i(cs_written_act), .ans_i(ans), .ans_idx_i(mv_idx),
     .off_i(off), .cur_idx_i(cur_idx), .start_i(started), .retry_i(retry), .inactive_i(inactive),
@@ -262,11 +261,12 @@ module can_mailbox #(
   logic [3:0]      ld_code;
   logic [IdxW-1:0] ld_idx;
   can_mb_load #(.NumMb(NumMb)) u_load (
-    .clk_i, .rst_ni, .running_i, .mute_i, .gap_i, .oneshot_i, .aen_i,
+    .clk_i, .rst_ni, .running_i, .mute_i, .gap_i,
+    .oneshot_i(xctrl_i[can_regs_pkg::XctrlOneshot]), .aen_i(aen),
     .settled_i(settled), .best_idx_i(best_idx), .retry_busy_i(retry_busy), .retry_o(retry),
     .inactive_o(inactive),
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx), .cs_written_act_i(cs_written_act),
-    .cs_wr_i(wr && cpu_mem_sel == MemCs), .cs_wr_idx_i(cpu_idx), .abort_i(abort),
+    .cs_wr_i(wr && cpu_mem_sel == can_mb_pkg::MemCs), .cs_wr_idx_i(cpu_idx), .abort_i(abort),
     .out_o(out), .kept_o(kept), .done_o(done), .off_o(off),
     .tick_req_o, .tick_i, .start_i, .transmitter_i,
     .tx_req_o, .tx_ide_o, .tx_rtr_o, .tx_dlc_o, .tx_word_o, .tx_next_i, .tx_ok_i, .tx_fail_i,
@@ -278,9 +278,10 @@ module can_mailbox #(
 
   if (Abort != 0) begin : gen_guard
     can_mb_guard #(.NumMb(NumMb)) u_guard (
-      .clk_i, .rst_ni, .clear_i, .aen_i,
+      .clk_i, .rst_ni, .clear_i, .aen_i(aen),
       .waited_i(waited), .mem_sel_i(cpu_mem_sel), .idx_i(cpu_idx), .be3_i(cpu_be[3]),
-      .code_i(wdata_i[27:24]), .area_i(raw), .ended_i(cs[30]),
+      .code_i(wdata_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW]),
+      .area_i(raw), .ended_i(cs[can_mb_pkg::CsEnded]),
       .block_o(block), .abort_o(abort),
       .out_i(out), .kept_i(kept), .done_i(done), .cur_idx_i(cur_idx),
       .take_i(ld_take), .flag_o(ab_flag), .flag_idx_o(ab_idx), .gnt_i(!mv_flag && !ld_flag),
@@ -334,7 +335,7 @@ module can_mailbox #(
   ) u_port (
     .clk_i, .rst_ni,
     .cmd_slot_i, .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_look_i(cmd_look && Abort != 0), .cmd_mem_sel_i,
-    .cmd_word_i, .cmd_idx_i(cmd_idx), .cmd_be_i, .look_i(aen_i || Abort == 0), .wdata_i(ram_wdata),
+    .cmd_word_i, .cmd_idx_i(cmd_idx), .cmd_be_i, .look_i(aen || Abort == 0), .wdata_i(ram_wdata),
     .block_i(block), .ready_o,
     .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done), .waited_o(waited),
     .mem_sel_o(cpu_mem_sel), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),

@@ -58,8 +58,6 @@ module can_mb_cpu #(
   output logic            cs_written_empty_o,   // its code is EMPTY, IDE is cs_written_ide_o
   output logic            cs_written_ide_o
 );
-  localparam logic [1:0] MemCs    = 2'd0;
-  localparam logic [1:0] MemTimer = 2'd3;
 
   // Command: in the FIFO's area? Its memory, six rows, always is.
   logic in_area, in_ring, area_q, ring_q;
@@ -78,11 +76,11 @@ module can_mb_cpu #(
   // Data.
   logic       is_cs, mb_wr, cs_wr;
   logic [3:0] code;
-  assign is_cs      = mem_sel_i == MemCs;
-  assign code       = wdata_i[27:24];
+  assign is_cs      = mem_sel_i == can_mb_pkg::MemCs;
+  assign code       = wdata_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW];
   assign raw_o      = area_q && !ring_q;
-  assign timer_rd_o = rd_done_i && mem_sel_i == MemTimer && (rxfir_i || TimeUnit == 0);
-  assign timer_wr_o = wr_done_i && mem_sel_i == MemTimer && (rxfir_i || TimeUnit == 0);
+  assign timer_rd_o = rd_done_i && mem_sel_i == can_mb_pkg::MemTimer && (rxfir_i || TimeUnit == 0);
+  assign timer_wr_o = wr_done_i && mem_sel_i == can_mb_pkg::MemTimer && (rxfir_i || TimeUnit == 0);
   // RXFIR is no C/S word, with or without the FIFO: its read neither locks nor unlocks.
   assign cs_rd_o    = rd_done_i && is_cs && !rxfir_i && !area_q;
   assign mb_wr      = wr_done_i && !area_q && !scrub_i;
@@ -95,8 +93,9 @@ module can_mb_cpu #(
     wdata_o = wdata_i;
     if (is_cs && !raw_o) begin
       {wdata_o[31:28], wdata_o[23]} = '0;
-      wdata_o[30] = aen_i && code == 4'b1001;
-      wdata_o[28] = osmb_i && wdata_i[28] && code == 4'b1100;
+      wdata_o[can_mb_pkg::CsEnded] = aen_i && code == can_regs_pkg::MbCsCodeTxAbort;
+      wdata_o[can_regs_pkg::MbCsOs] = osmb_i && wdata_i[can_regs_pkg::MbCsOs]
+                                      && code == can_regs_pkg::MbCsCodeTxData;
     end
   end
 
@@ -104,7 +103,7 @@ module can_mb_cpu #(
     rdata_o = ram_rdata_i;
     if (timer_rd_o) rdata_o = {16'b0, timer_i};
     if (is_cs && rxfir_i) begin
-      rdata_o = ring_q ? {23'b0, ram_rdata_i[31:23]} : '0;
+      rdata_o = ring_q ? {23'b0, ram_rdata_i[31:can_mb_pkg::CsElement]} : '0;
     end else if (is_cs && !raw_o) begin
       {rdata_o[31:28], rdata_o[23]} = '0;
       rdata_o[24] = ram_rdata_i[24] || (busy_o && rd_done_i);
@@ -120,9 +119,10 @@ module can_mb_cpu #(
       cs_written_o <= cs_wr;
       if (cs_wr) begin
         cs_written_idx_o   <= idx_i;
-        cs_written_act_o   <= !be_i[3] || code == 4'b1100 || code == 4'b1110;
-        cs_written_empty_o <= be_i == '1 && code == 4'b0100;
-        cs_written_ide_o   <= wdata_i[21];
+        cs_written_act_o   <= !be_i[3] || code == can_regs_pkg::MbCsCodeTxData
+                              || code == can_regs_pkg::MbCsCodeTxAnswering;
+        cs_written_empty_o <= be_i == '1 && code == can_regs_pkg::MbCsCodeRxEmpty;
+        cs_written_ide_o   <= wdata_i[can_regs_pkg::MbCsIde];
       end
     end
   end

@@ -38,10 +38,6 @@ module can_mb_filter #(
   output logic            hit_o,
   output logic [8:0]      idhit_o
 );
-  localparam logic [1:0] FormatA = 2'd0;
-  localparam logic [1:0] FormatB = 2'd1;
-  localparam logic [1:0] FormatC = 2'd2;
-
   // Word of the table, and whether RXIMR of the same number is its mask.
   logic [6:0] k_q, k_next, s1_k_q, s2_k_q;
   logic       own_q, scan_q, last;
@@ -50,7 +46,8 @@ module can_mb_filter #(
   logic [3:0] s2_equal_q;
 
   assign word_o     = k_q[1:0];
-  assign mask_row_o = own_q ? (IdxW+1)'(k_q[4:0]) : (IdxW+1)'(NumMb + 3);
+  assign mask_row_o = own_q ? (IdxW+1)'(k_q[4:0])
+                            : (IdxW+1)'(NumMb) | (IdxW+1)'(can_mb_pkg::RowRxfgmask);
   assign k_next     = k_q + 1'b1;
   assign last       = k_q[2:0] == '1 && (k_q[6:3] == rffn_i || idx_o == IdxW'(NumMb - 1));
   assign req_o      = scan_q;
@@ -62,11 +59,11 @@ module can_mb_filter #(
   assign whole = {rtr_i, ide_i, id_i, 1'b0};
   always_comb begin
     case (idam_i)
-      FormatB: begin
+      can_regs_pkg::McrIdamFormatB: begin
         key  = {2{whole[31:16]}};
         care = {2{13'h1FFF, {3{ide_i}}}};
       end
-      FormatC: begin
+      can_regs_pkg::McrIdamFormatC: begin
         key  = {4{id_i[28:21]}};
         care = '1;
       end
@@ -83,12 +80,12 @@ module can_mb_filter #(
   always_comb begin
     sub = 2'd0;
     case (idam_i)
-      FormatA: fits = &s2_equal_q;
-      FormatB: begin
+      can_regs_pkg::McrIdamFormatA: fits = &s2_equal_q;
+      can_regs_pkg::McrIdamFormatB: begin
         fits   = (&s2_equal_q[3:2]) || (&s2_equal_q[1:0]);
         sub[0] = !(&s2_equal_q[3:2]);
       end
-      FormatC: begin
+      can_regs_pkg::McrIdamFormatC: begin
         fits = |s2_equal_q;
         sub  = s2_equal_q[3] ? 2'd0 : s2_equal_q[2] ? 2'd1 : s2_equal_q[1] ? 2'd2 : 2'd3;
       end
@@ -111,8 +108,8 @@ module can_mb_filter #(
       end else if (s2_q && fits) begin
         hit_o <= 1'b1;
         case (idam_i)
-          FormatA: idhit_o <= {2'b0, s2_k_q};
-          FormatB: idhit_o <= {1'b0, s2_k_q, sub[0]};
+          can_regs_pkg::McrIdamFormatA: idhit_o <= {2'b0, s2_k_q};
+          can_regs_pkg::McrIdamFormatB: idhit_o <= {1'b0, s2_k_q, sub[0]};
           default: idhit_o <= {s2_k_q, sub};
         endcase
       end

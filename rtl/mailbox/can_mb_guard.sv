@@ -45,16 +45,16 @@ module can_mb_guard #(
   input  logic [IdxW-1:0]  end_idx_i,
   input  logic [NumMb-1:0] iflag_i
 );
-  localparam logic [1:0] MemCs  = 2'd0;
-  localparam logic [1:0] MemMsg = 2'd1;
 
-  logic active_q, abort_q, iflag_q, cur_q, abort, at_once, cs_block, all_block;
+  logic active_q, abort_q, iflag_q, cur_q, is_cs, abort, at_once, cs_block, all_block;
 
-  assign abort     = aen_i && waited_i && !area_i && mem_sel_i == MemCs && abort_q;
+  assign is_cs     = mem_sel_i == can_mb_pkg::MemCs;
+  assign abort     = aen_i && waited_i && !area_i && is_cs && abort_q;
   assign cs_block  = cur_q && (out_i || (kept_i && active_q));
   assign all_block = (ended_i && iflag_q) || (cur_q && done_i) || (flag_o && idx_i == flag_idx_o);
-  assign block_o   = aen_i && !area_i && ((mem_sel_i == MemCs && (cs_block || all_block))
-                               || (mem_sel_i == MemMsg && all_block));
+  assign block_o   = aen_i && !area_i
+                  && ((is_cs && (cs_block || all_block))
+                      || (mem_sel_i == can_mb_pkg::MemMsg && all_block));
   assign abort_o   = abort && cs_block && !all_block;
   assign at_once   = abort && !cs_block && !all_block;
 
@@ -62,8 +62,9 @@ module can_mb_guard #(
     if (!rst_ni) begin
       {active_q, abort_q, iflag_q, cur_q} <= '0;
     end else begin
-      active_q <= !be3_i || code_i == 4'b1100 || code_i == 4'b1110;
-      abort_q  <= be3_i && code_i == 4'b1001;
+      active_q <= !be3_i || code_i == can_regs_pkg::MbCsCodeTxData
+                  || code_i == can_regs_pkg::MbCsCodeTxAnswering;
+      abort_q  <= be3_i && code_i == can_regs_pkg::MbCsCodeTxAbort;
       cur_q    <= idx_i == cur_idx_i && !take_i;
       iflag_q  <= iflag_i[idx_i] || (end_i && end_idx_i == idx_i);
     end

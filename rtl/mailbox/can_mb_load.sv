@@ -78,11 +78,6 @@ module can_mb_load #(
   output logic            take_o,        // step 4: the frame is presented
   output logic            busy_o
 );
-  localparam logic [2:0] StepWord = 3'd0;
-  localparam logic [2:0] StepEnd  = 3'd1;
-  localparam logic [2:0] StepLow  = 3'd2;
-  localparam logic [2:0] StepHigh = 3'd3;
-  localparam logic [2:0] StepHead = 3'd4;
   typedef enum logic [1:0] {StIdle, StLow, StHigh, StHead} state_e;
   // As written here: with all four codes in use no flipped flip-flop leads to one of no state.
   (* fsm_encoding = "none", syn_encoding = "safe" *) state_e state_q;
@@ -93,6 +88,9 @@ module can_mb_load #(
   logic       pause_q, head_ok, head_bad, head_seen, head_taken, lost, cs_written_cur,
     cs_written_ld, withdrawn;
   logic       cs_written_best;
+  logic [3:0] code;
+
+  assign code = cs_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW];
 
   assign cs_written_cur   = cs_written_i && cs_written_idx_i == cur_idx_o;
   assign cs_written_ld    = cs_written_i && cs_written_idx_i == ld_idx_o;
@@ -110,20 +108,25 @@ module can_mb_load #(
   // ... and not while the CPU rewrites it, or asks to abort the one it would replace.
   assign head_bad = cs_written_ld || abort_q || (cs_wr_i && (cs_wr_idx_i == ld_idx_o
                                            || (aen_i && tx_req_o && cs_wr_idx_i == cur_idx_o)));
-  assign head_seen  = data_i && data_step_i == StepHead && state_q == StHead && !on_bus_q
-                   && !started_o && !head_bad;
-  assign head_taken = head_seen && cs_i[27:26] == 2'b11 && !cs_i[24];
+  assign head_seen  = data_i && data_step_i == can_mb_pkg::StepHead && state_q == StHead
+                   && !on_bus_q && !started_o && !head_bad;
+  assign head_taken = head_seen && (code == can_regs_pkg::MbCsCodeTxData
+                                    || code == can_regs_pkg::MbCsCodeTxAnswering);
   // Not active: a winner by upset. But one that was aborted meanwhile has made way for another.
   assign mine_o     = on_bus_q && !orphan_q;
   assign inactive_o = inactive_q && best_idx_i == ld_idx_o;
   assign req_o   = word_q || end_q || state_q == StLow || state_q == StHigh
                 || (state_q == StHead && head_ok);
-  assign step_o  = word_q ? StepWord : end_q ? StepEnd : state_q == StLow ? StepLow
-                 : state_q == StHigh ? StepHigh : StepHead;
+  assign step_o  = word_q ? can_mb_pkg::StepWord
+                 : end_q ? can_mb_pkg::StepEnd
+                 : state_q == StLow ? can_mb_pkg::StepLow
+                 : state_q == StHigh ? can_mb_pkg::StepHigh : can_mb_pkg::StepHead;
 
   assign tick_req_o = tx_req_o && state_q == StHead;
   assign cancel_o = cs_written_cur || !end_q;   // rewritten now, or when the step was granted
-  assign code_o   = failed_q ? 4'b1001 : answer_q ? 4'b1010 : tx_rtr_o ? 4'b0100 : 4'b1000;
+  assign code_o   = failed_q ? can_regs_pkg::MbCsCodeTxAbort
+                  : answer_q ? can_regs_pkg::MbCsCodeTxAnswer
+                  : tx_rtr_o ? can_regs_pkg::MbCsCodeRxEmpty : can_regs_pkg::MbCsCodeTxInactive;
   assign busy_o   = end_q || flag_o || abort_q;
   assign sent_o   = flag_o && !failed_q;
   assign take_o   = head_taken;
@@ -150,24 +153,24 @@ module can_mb_load #(
       tx_word_o <= '0;
       swapped_q <= 1'b0;
     end else begin
-      if (data_i && data_step_i == StepWord) tx_word_o <= msg_i;
+      if (data_i && data_step_i == can_mb_pkg::StepWord) tx_word_o <= msg_i;
       case (state_q)
         StIdle: if (settled_i && !flight_i && !cs_written_best
                     && !(tx_req_o && best_idx_i == cur_idx_o)) begin
           state_q  <= StLow;
           ld_idx_o <= best_idx_i;
         end
-        StLow:  if (data_i && data_step_i == StepLow) state_q <= StHigh;
-        StHigh: if (data_i && data_step_i == StepHigh) state_q <= StHead;
+        StLow:  if (data_i && data_step_i == can_mb_pkg::StepLow) state_q <= StHigh;
+        StHigh: if (data_i && data_step_i == can_mb_pkg::StepHigh) state_q <= StHead;
         StHead: begin
-          if (data_i && data_step_i == StepHead) begin
+          if (data_i && data_step_i == can_mb_pkg::StepHead) begin
             if (head_seen) state_q <= StIdle;
             if (head_taken) begin
               row_o     <= !row_o;
-              tx_ide_o  <= cs_i[21];
-              tx_rtr_o  <= cs_i[20];
-              tx_dlc_o  <= cs_i[19:16];
-              tx_word_o <= {3'b0, msg_i[28:18], cs_i[21] ? msg_i[17:0] : 18'b0};
+              tx_ide_o  <= cs_i[can_regs_pkg::MbCsIde];
+              tx_rtr_o  <= cs_i[can_regs_pkg::MbCsRtr];
+              tx_dlc_o  <= cs_i[can_regs_pkg::MbCsDlc +: can_regs_pkg::MbCsDlcW];
+              tx_word_o <= {3'b0, msg_i[28:18], cs_i[can_regs_pkg::MbCsIde] ? msg_i[17:0] : 18'b0};
             end
           end else if (!head_ok && settled_i && best_idx_i != ld_idx_o) begin
             state_q <= StIdle;          // a better one came while this one had to wait
@@ -204,7 +207,7 @@ module can_mb_load #(
         orphan_q  <= 1'b0;
         word_o    <= 1'b0;
         cur_idx_o <= ld_idx_o;
-        {one_shot_q, answer_q} <= {cs_i[28], cs_i[25]};
+        {one_shot_q, answer_q} <= {cs_i[can_regs_pkg::MbCsOs], cs_i[25]};
       end else if (cs_written_cur) begin
         // Rewritten: what is under way is no longer the buffer's. Not yet under way: take it back,
         // but rewriting it for ever does not keep everybody off the bus.
@@ -221,11 +224,11 @@ module can_mb_load #(
       end
 
       // Words for the engine: the ID is taken first, then bytes 0-3, then 4-7.
-      if (data_i && data_step_i == StepWord) {word_q, word_o} <= {1'b0, 1'b1};
+      if (data_i && data_step_i == can_mb_pkg::StepWord) {word_q, word_o} <= {1'b0, 1'b1};
       if (tx_next_i || started_o) word_q <= 1'b1;
 
       // The end.
-      if (data_i && data_step_i == StepEnd) begin
+      if (data_i && data_step_i == can_mb_pkg::StepEnd) begin
         {end_q, abort_q} <= '0;
         flag_o <= !cancel_o;
       end else if (end_q && cs_written_cur) begin

@@ -30,9 +30,11 @@ module can_mb_lock #(
   logic [3:0] code;
   logic       stored, same, lock_now, cs_written_hit, leave, ovr_q, mark_q;
 
-  assign code       = cs_i[27:24];
-  assign stored     = code == 4'b0010 || code == 4'b0110;
-  assign lock_now = cs_rd_i && !busy_i && (stored || (code == 4'b0100 && !bcc_i));
+  assign code       = cs_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW];
+  assign stored     = code == can_regs_pkg::MbCsCodeRxFull
+                   || code == can_regs_pkg::MbCsCodeRxOverrun;
+  assign lock_now = cs_rd_i && !busy_i && (stored
+      || (code == can_regs_pkg::MbCsCodeRxEmpty && !bcc_i));
   assign same       = lock_idx_o == idx_i;
   assign leave      = timer_rd_i || (cs_rd_i && !same);
   assign cs_written_hit    = cs_written_i && cs_written_idx_i == lock_idx_o;
@@ -61,7 +63,7 @@ module can_mb_lock #(
         lock_o     <= 1'b1;
         lock_idx_o <= idx_i;
         ovr_q      <= code[2];
-        mark_q     <= stored && !cs_i[31];
+        mark_q     <= stored && !cs_i[can_mb_pkg::CsServiced];
       end
       if (clear_i) {lock_o, serviced_req_o} <= '0;
     end

@@ -92,7 +92,7 @@ module can_mb_match #(
     .done_o(mb_done), .hit_o(mb_hit), .hit_free_o(mb_free), .hit_idx_o(mb_hit_idx));
 
   logic          req, load, gnt;
-  logic [1:0]    gmask;
+  logic [1:0]    gmask, want;
   logic [31:0]   mask, mb_mask;
 
   // The Rx FIFO with its filter table.
@@ -122,16 +122,17 @@ module can_mb_match #(
   // Masks of mailboxes: their own, or RXGMASK, RX14MASK, RX15MASK; all ones where a remote frame
   // looks for its answer.
   always_comb begin
-    gmask = 2'd0;
-    if (mb_idx == IdxW'(14)) gmask = 2'd1;
-    if (mb_idx == IdxW'(15)) gmask = 2'd2;
+    gmask = can_mb_pkg::RowRxgmask;
+    if (mb_idx == IdxW'(14)) gmask = can_mb_pkg::RowRx14mask;
+    if (mb_idx == IdxW'(15)) gmask = can_mb_pkg::RowRx15mask;
   end
-  assign req = flt_req || mb_req;
+  assign want = flt_busy ? can_mb_pkg::RowRxfgmask : gmask;
+  assign req  = flt_req || mb_req;
 
   if (OwnMasks != 0) begin : gen_own_masks
     // A row of ones that nobody writes, if the RAM has been cleared.
     logic [IdxW:0] mb_row;
-    assign mb_row     = mb_ans && ClearRam != 0 ? (IdxW+1)'(NumMb + 4)
+    assign mb_row     = mb_ans && ClearRam != 0 ? (IdxW+1)'(NumMb + can_mb_pkg::RowOnes)
                       : bcc_i ? {1'b0, mb_idx} : (IdxW+1)'(NumMb) | (IdxW+1)'(gmask);
     assign mask       = mask_i;
     assign mb_mask    = ClearRam != 0 ? mask_i : mask_i | {32{mb_ans}};
@@ -141,7 +142,7 @@ module can_mb_match #(
     assign gnt        = gnt_i;
   end else begin : gen_global_masks
     can_mb_mask u_mask (
-      .clk_i, .rst_ni, .clear_i(rx_hdr_i), .req_i(req), .want_i(flt_busy ? 2'd3 : gmask),
+      .clk_i, .rst_ni, .clear_i(rx_hdr_i), .req_i(req), .want_i(want),
       .all_i(mb_ans && !flt_busy), .req_o, .load_o(load), .gnt_i, .gnt_o(gnt), .msg_i,
       .mask_o(mask));
     assign mb_mask    = mask;
@@ -150,9 +151,9 @@ module can_mb_match #(
     assign unused_masks = &{1'b0, mask_i, flt_mask_row};
   end
 
-  assign idx_o  = load ? IdxW'({flt_busy ? 2'd3 : gmask, 2'd3}) : flt_busy ? flt_idx : mb_idx;
+  assign idx_o  = load ? IdxW'({want, can_mb_pkg::GroupMask}) : flt_busy ? flt_idx : mb_idx;
   assign cs_o   = flt_busy && flt_word == 2'd0;
-  assign word_o = load ? 2'd3 : flt_busy ? flt_word - 2'd1 : 2'd0;
+  assign word_o = load ? can_mb_pkg::GroupMask : flt_busy ? flt_word - 2'd1 : 2'd0;
 
   assign done_o    = !flt_busy && (enough || mb_done);
   assign hit_o     = hit_fifo_o || mb_hit;

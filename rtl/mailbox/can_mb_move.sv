@@ -119,7 +119,7 @@ module can_mb_move #(
       end else if (data_i) begin
         step_o <= step_o + 1'b1;
         // FULL or OVERRUN, unread
-        if (step_o == 2'd0) ovr_q <= (cs_i[25] && !cs_i[31]) && !cs_written_hit;
+        if (step_o == 2'd0) ovr_q <= (cs_i[25] && !cs_i[can_mb_pkg::CsServiced]) && !cs_written_hit;
         if (step_o == 2'd3) begin
           end_q <= 1'b1;
           {flag_o, stored_o, ans_o} <= {!fifo && !ans, fifo, ans};

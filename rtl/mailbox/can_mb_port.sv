@@ -103,10 +103,6 @@ module can_mb_port #(
   output logic [IdxW+1:0] scrub_row_o,
   input  logic            cs_written_i         // a C/S write ended in the clock before
 );
-  localparam logic [1:0] MemCs    = 2'd0;
-  localparam logic [1:0] MemMsg   = 2'd1;
-  localparam logic [1:0] MemMask  = 2'd2;
-  localparam logic [1:0] MemTimer = 2'd3;
 
   logic [IdxW+1:0] scrub_row_q;
   if (ClearRam != 0) begin : gen_scrub
@@ -156,10 +152,12 @@ module can_mb_port #(
   assign eng_slot_o = !pend && !ins_req_i && !hold_o && (!cmd_slot_i || owed_q);
 
   // Write port.
-  logic wait_q, w_gnt, ram_wr, wr_waits;
-  assign ram_wr    = wr_q && mem_sel_q != MemTimer;
+  logic wait_q, w_gnt, ram_wr, wr_waits, of_cs, of_msg;
+  assign of_cs     = mem_sel_q == can_mb_pkg::MemCs;
+  assign of_msg    = mem_sel_q == can_mb_pkg::MemMsg;
+  assign ram_wr    = wr_q && mem_sel_q != can_mb_pkg::MemTimer;
   assign w_gnt     = ram_wr && (wait_q || !(pend || copy_i || serviced_req_i || rx_wr_owed_q
-                                            || (mem_sel_q == MemCs && cs_written_i && owed_q)));
+                                            || (of_cs && cs_written_i && owed_q)));
   assign wr_waits  = ram_wr && !w_gnt;
   assign hold_o    = copy_i && wait_q;
   // These do not look at w_gnt, which is late: a write that waits for another reason only puts the
@@ -198,11 +196,11 @@ module can_mb_port #(
 
   // Masks without a memory of their own.
   function automatic logic in_msg(input logic [1:0] mem_sel);
-    in_msg = OwnMasks == 0 && mem_sel == MemMask;
+    in_msg = OwnMasks == 0 && mem_sel == can_mb_pkg::MemMask;
   endfunction
 
   function automatic logic of_stamp(input logic [1:0] mem_sel, input logic high_word);
-    of_stamp = TimeUnit != 0 && mem_sel == MemTimer && high_word;
+    of_stamp = TimeUnit != 0 && mem_sel == can_mb_pkg::MemTimer && high_word;
   endfunction
 
   // The word that is written: memory, row, byte lanes, data. Who would write is known early;
@@ -229,9 +227,9 @@ module can_mb_port #(
       w_row  = copy_row_i;
       w_data = copy_data_i;
     end else if (by_cpu) begin
-      {w_cs, w_msg, w_mask} = {mem_sel_q == MemCs, mem_sel_q == MemMsg || in_msg(mem_sel_q),
-                               mem_sel_q == MemMask};
-      w_row  = {mem_sel_q != MemCs && word_q[1], mem_sel_q != MemCs && word_q[0], idx_q};
+      {w_cs, w_msg, w_mask} = {of_cs, of_msg || in_msg(mem_sel_q),
+                               mem_sel_q == can_mb_pkg::MemMask};
+      w_row  = {word_q & {2{!of_cs}}, idx_q};
       w_data = wdata_i;
     end else if (serviced_req_i) begin
       {w_cs, w_msg, w_mask} = 3'b100;
@@ -248,14 +246,14 @@ module can_mb_port #(
   logic meets, shown;
   assign meets = (stamp_meets_i && of_stamp(cmd_mem_sel_i, cmd_word_i[1]))
               || ((copy_i || ram_wr || serviced_req_i)
-              && ((w_cs && cmd_mem_sel_i == MemCs && w_row[IdxW:0] == {1'b0, cmd_idx_i})
-                  || (w_msg && (cmd_mem_sel_i == MemMsg || in_msg(cmd_mem_sel_i))
+              && ((w_cs && cmd_mem_sel_i == can_mb_pkg::MemCs && w_row[IdxW:0] == {1'b0, cmd_idx_i})
+                  || (w_msg && (cmd_mem_sel_i == can_mb_pkg::MemMsg || in_msg(cmd_mem_sel_i))
                       && w_row == {cmd_word_i, cmd_idx_i})
-                  || (OwnMasks != 0 && w_mask && cmd_mem_sel_i == MemMask
+                  || (OwnMasks != 0 && w_mask && cmd_mem_sel_i == can_mb_pkg::MemMask
                       && w_row[IdxW:0] == {cmd_word_i[0], cmd_idx_i})));
   assign shown = (pend && copy_i && copy_row_i[IdxW-1:0] == idx_q
-              && (copy_cs_i ? (wr_q || mem_sel_q == MemCs) && !copy_row_i[IdxW]
-                            : !wr_q && mem_sel_q == MemMsg && copy_row_i[IdxW+1:IdxW] == word_q))
+              && (copy_cs_i ? (wr_q || of_cs) && !copy_row_i[IdxW]
+                            : !wr_q && of_msg && copy_row_i[IdxW+1:IdxW] == word_q))
               || (pend && stamp_shown_i && of_stamp(mem_sel_q, word_q[1]));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -303,15 +301,16 @@ module can_mb_port #(
   assign word_o = word_cs_q ? cs_o : msg_o;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) word_cs_q <= 1'b0;
-    else if (re) word_cs_q <= cpu_gnt ? (pend ? mem_sel_q : cmd_mem_sel_i) == MemCs : eng_cs_i;
+    else if (re) word_cs_q <= !cpu_gnt ? eng_cs_i
+                            : pend ? of_cs : cmd_mem_sel_i == can_mb_pkg::MemCs;
   end
 
   always_comb begin
     rdata_o = '0;
     if (rd_q && !scrub_o) begin
       case (mem_sel_q)
-        MemCs, MemMsg: rdata_o = word_o;
-        MemMask:       rdata_o = mask_o;
+        can_mb_pkg::MemCs, can_mb_pkg::MemMsg: rdata_o = word_o;
+        can_mb_pkg::MemMask: rdata_o = mask_o;
         default: if (of_stamp(mem_sel_q, word_q[1])) rdata_o = stamp_rdata_i;
       endcase
     end

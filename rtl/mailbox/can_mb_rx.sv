@@ -56,13 +56,17 @@ module can_mb_rx #(
   logic [IdxW-1:0] s1_idx_q, s2_idx_q;
 
   logic code_ok, ide_ok, rtr_ok, id_ok, free;
-  assign code_ok = ans_o ? cs_i[27:24] == 4'b1010
-                 : cs_i[27:24] == 4'b0100 || cs_i[27:24] == 4'b0010 || cs_i[27:24] == 4'b0110;
-  assign ide_ok  = cs_i[21] == ide_o || (eacen_i && !mask_i[30]);
-  assign rtr_ok  = !eacen_i || ans_o || cs_i[20] == rtr_o || !mask_i[31];
+  logic [3:0] code;
+  assign code    = cs_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW];
+  assign code_ok = ans_o ? code == can_regs_pkg::MbCsCodeTxAnswer
+                         : code == can_regs_pkg::MbCsCodeRxEmpty
+                           || code == can_regs_pkg::MbCsCodeRxFull
+                           || code == can_regs_pkg::MbCsCodeRxOverrun;
+  assign ide_ok  = cs_i[can_regs_pkg::MbCsIde] == ide_o || (eacen_i && !mask_i[30]);
+  assign rtr_ok  = !eacen_i || ans_o || cs_i[can_regs_pkg::MbCsRtr] == rtr_o || !mask_i[31];
   assign id_ok   = ((id_i[28:18] ^ id_o[28:18]) & mask_i[28:18]) == '0
                 && (!ide_o || ((id_i[17:0] ^ id_o[17:0]) & mask_i[17:0]) == '0);
-  assign free    = (cs_i[26:24] == 3'b100 || cs_i[31] || ans_o)
+  assign free    = (code == can_regs_pkg::MbCsCodeRxEmpty || cs_i[can_mb_pkg::CsServiced] || ans_o)
                 && !(lock_i && lock_idx_i == s1_idx_q);
   // Read it again: it was being written then, or it fitted and has been written since. One that did
   // not fit was looked at before that write.

@@ -44,12 +44,13 @@ module can_mb_smb #(
   assign cs_o = stamp_q || tx_stamp_q || flags_q;
   always_comb begin
     be_o   = '1;
-    row_o  = (IdxW+2)'(3 * NumMb) | (IdxW+2)'({1'b1, smb_i, 2'd0});
+    row_o  = (IdxW+2)'(3 * NumMb) | (IdxW+2)'(can_mb_pkg::hidden_msg(1'b1, smb_i, 2'd0));
     data_o = {3'b0, rx_id_i};
     if (cs_o) begin
       be_o   = stamp_q || tx_stamp_q ? 4'b0011 : 4'b0100;
-      row_o  = stamp_q || !tx_stamp_q ? (IdxW+2)'(NumMb + 2) | (IdxW+2)'(smb_i)
-                                      : (IdxW+2)'(NumMb);
+      row_o  = stamp_q || !tx_stamp_q
+               ? (IdxW+2)'(NumMb + can_mb_pkg::RowReceived) | (IdxW+2)'(smb_i)
+               : (IdxW+2)'(NumMb + can_mb_pkg::RowSent);
       // SRR of a base frame is kept as 1.
       data_o = {9'b0, rx_srr_i || !rx_ide_i, rx_ide_i, rx_rtr_i, rx_dlc_i, timer_i};
     end else if (!id_q && (zero0_q || zero1_q)) begin   // bytes beyond the DLC read as zero

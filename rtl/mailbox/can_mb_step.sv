@@ -66,10 +66,6 @@ module can_mb_step #(
   output logic [IdxW+1:0] copy_row_o,
   output logic [31:0]     copy_data_o
 );
-  localparam logic [2:0] StepWord = 3'd0;   // as in can_mb_load
-  localparam logic [2:0] StepEnd  = 3'd1;
-  localparam logic [2:0] StepLow  = 3'd2;
-  localparam logic [2:0] StepHead = 3'd4;
 
   logic step_req, take_ld, data_q, data_ld_q;
   assign step_req   = (ld_req_i || mv_req_i) && !data_q && !yield_i;
@@ -98,7 +94,7 @@ module can_mb_step #(
   // Rows of the MSG memory behind the buffers (can_mailbox).
   function automatic logic [IdxW+1:0] hidden(input logic rx, input logic row,
       input logic [1:0] word);
-    hidden = (IdxW+2)'(3 * NumMb) | (IdxW+2)'({rx, row, word});
+    hidden = (IdxW+2)'(3 * NumMb) | (IdxW+2)'(can_mb_pkg::hidden_msg(rx, row, word));
   endfunction
 
   logic [IdxW-1:0] pass_idx;
@@ -107,12 +103,17 @@ module can_mb_step #(
     cs_row_o  = {1'b0, pass_idx};
     msg_row_o = {rx_req_i ? rx_word_i : 2'b00, pass_idx};
     if (step_req && take_ld) begin
-      cs_row_o  = ld_step_i == StepEnd ? (IdxW+1)'(NumMb) : {1'b0, ld_idx_i};
-      msg_row_o = ld_step_i == StepWord ? hidden(1'b0, !ld_row_i, {ld_word_i, !ld_word_i})
-                : {ld_step_i == StepHead ? 2'd0 : {ld_step_i[0], !ld_step_i[0]}, ld_idx_i};
+      cs_row_o  = {1'b0, ld_idx_i};
+      msg_row_o = {ld_step_i[0], !ld_step_i[0], ld_idx_i};            // StepLow, StepHigh
+      case (ld_step_i)
+        can_mb_pkg::StepWord: msg_row_o = hidden(1'b0, !ld_row_i, {ld_word_i, !ld_word_i});
+        can_mb_pkg::StepEnd:  cs_row_o = (IdxW+1)'(NumMb + can_mb_pkg::RowSent);
+        can_mb_pkg::StepHead: msg_row_o = {2'd0, ld_idx_i};
+        default: ;
+      endcase
     end else if (step_req) begin
       cs_row_o  = mv_step_i == 2'd0 || mv_answer_i ? {1'b0, mv_idx_i}
-                : (IdxW+1)'(NumMb + 2) | (IdxW+1)'(mv_row_i);
+                : (IdxW+1)'(NumMb + can_mb_pkg::RowReceived) | (IdxW+1)'(mv_row_i);
       msg_row_o = hidden(1'b1, mv_row_i, mv_step_i);
     end
   end
@@ -123,10 +124,13 @@ module can_mb_step #(
   // being written it gets what the RAM shows (can_mb_port): of a frame received, the hidden word
   // with BUSY; of an answer, the word as it was; of a frame sent, a copy of its buffer's word that
   // was made when it was presented, with its stamp. Bit 30: a transmission has ended.
-  logic       is_ld;
+  logic       is_ld, low, head, ended;
   logic [8:0] top;
   assign is_ld     = data_q && data_ld_q;
-  assign copy_o    = is_ld ? ld_data_step_o != StepWord : data_q && moving_i;
+  assign low       = ld_data_step_o == can_mb_pkg::StepLow;
+  assign head      = ld_data_step_o == can_mb_pkg::StepHead;
+  assign ended     = ld_data_step_o == can_mb_pkg::StepEnd;
+  assign copy_o    = is_ld ? ld_data_step_o != can_mb_pkg::StepWord : data_q && moving_i;
   assign copy_cs_o = is_ld ? !ld_data_step_o[1] : mv_step_i == 2'd3;
 
   always_comb begin
@@ -134,12 +138,12 @@ module can_mb_step #(
     top        = copy_cs_o ? mv_top_i : word_i[31:23];
     if (mv_answer_i) top[8:5] = cs_i[31:28];
     if (is_ld) begin
-      copy_row_o = hidden(1'b0, ld_row_i, {ld_data_step_o != StepLow, ld_data_step_o == StepLow});
+      copy_row_o = hidden(1'b0, ld_row_i, {!low, low});
       top        = word_i[31:23];
-      if (ld_data_step_o == StepHead) copy_row_o = (IdxW+2)'(NumMb);
-      if (ld_data_step_o == StepEnd) begin
+      if (head) copy_row_o = (IdxW+2)'(NumMb + can_mb_pkg::RowSent);
+      if (ended) begin
         copy_row_o = {2'b00, cur_idx_i};
-        top        = {4'b0100, ld_code_i, 1'b0};
+        top        = {4'b0100, ld_code_i, 1'b0};                    // CsEnded
       end
     end
     copy_data_o = {top, word_i[22:0]};
@@ -148,7 +152,7 @@ module can_mb_step #(
   always_comb begin
     copy_be_o = {4{!mv_cancel_i}} & {1'b1, {3{!(mv_answer_i && copy_cs_o)}}};
     if (is_ld) copy_be_o = '1;
-    if (is_ld && ld_data_step_o == StepHead) copy_be_o = {4{ld_take_i}};
-    if (is_ld && ld_data_step_o == StepEnd)  copy_be_o = {4{!ld_cancel_i}} & 4'b1011;
+    if (is_ld && head)  copy_be_o = {4{ld_take_i}};
+    if (is_ld && ended) copy_be_o = {4{!ld_cancel_i}} & 4'b1011;
   end
 endmodule

@@ -103,20 +103,24 @@ module can_mb_tx #(
   assign s1_part    = 7'(s1_idx_q) >= first_i && 7'(s1_idx_q) <= maxmb_i
                    && !stale_i && !(cs_written_i && cs_written_idx_i == s1_idx_q);
 
-  // Arbitration value: PRIO, then the bits in the order of the bus (flexcan.md 3.3). Active codes
-  // are 1100 and 1110, inactive 0000 and 1000.
+  // Arbitration value: PRIO, then the bits in the order of the bus (flexcan.md 3.3).
+  logic [3:0] code;
+  assign code = cs_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW];
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {s2_active_q, s2_free_q} <= '0;
       s2_idx_q    <= '0;
       s2_val_q    <= '0;
     end else if (s1_q) begin
-      s2_active_q <= cs_i[27:26] == 2'b11 && !cs_i[24] && s1_part;
-      s2_free_q   <= cs_i[26:24] == 3'b000 && s1_part;
+      s2_active_q <= s1_part && (code == can_regs_pkg::MbCsCodeTxData
+                                 || code == can_regs_pkg::MbCsCodeTxAnswering);
+      s2_free_q   <= s1_part && (code == can_regs_pkg::MbCsCodeRxInactive
+                                 || code == can_regs_pkg::MbCsCodeTxInactive);
       s2_idx_q    <= s1_idx_q;
-      s2_val_q[34:32] <= id_i[31:29] & {3{lprio_en_i}};
-      s2_val_q[31:0]  <= cs_i[21] ? {id_i[28:18], 2'b11, id_i[17:0], cs_i[20]}
-                                  : {id_i[28:18], cs_i[20], 20'b0};
+      s2_val_q[34:32] <= id_i[can_regs_pkg::MbIdPrio +: can_regs_pkg::MbIdPrioW] & {3{lprio_en_i}};
+      s2_val_q[31:0]  <= cs_i[can_regs_pkg::MbCsIde]
+                         ? {id_i[28:18], 2'b11, id_i[17:0], cs_i[can_regs_pkg::MbCsRtr]}
+                         : {id_i[28:18], cs_i[can_regs_pkg::MbCsRtr], 20'b0};
     end
   end
 

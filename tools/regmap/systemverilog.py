@@ -9,8 +9,9 @@ HEAD = """\
 //
 // can_regs_pkg: the register map as constants. Written by tools/registers.py from
 // sw/registers.yaml; edits are lost. <Reg>Addr counts words; <Reg><Field> is the lowest bit of a
-// field and <Reg><Field>W its width, if it has more than one; <Reg>Any, Freeze, Disable and WrnEn
-// are the bits that a write changes at any time, in freeze mode, in disable mode, with MCR.WRN_EN.
+// field and <Reg><Field>W its width, if it has more than one; <Reg><Field><Value> is a value that
+// has a name; <Reg>Any, Freeze, Disable and WrnEn are the bits that a write changes at any time, in
+// freeze mode, in disable mode, with MCR.WRN_EN.
 // Of a core that says xconfig of itself: <reg>_has() are the bits that it has of a register,
 // <reg>_without() is what those read that it has not.
 
@@ -76,6 +77,9 @@ def fields(prefix, parts):
         yield constant("int", f"{prefix}{camel(part.name)}", part.low)
         if part.width > 1:
             yield constant("int", f"{prefix}{camel(part.name)}W", part.width)
+        for one in part.values:
+            yield constant(f"logic [{part.width - 1}:0]", f"{prefix}{camel(part.name)}"
+                           f"{camel(one.name)}", f"{part.width}'h{one.value:X}")
 
 
 def register(one):
