@@ -41,10 +41,12 @@ module can_mb_smb #(
   assign req_o = stamp_q || tx_stamp_q || flags_q || id_q || zero0_q || zero1_q || byte_q;
   assign flags_busy_o = flags_q;
 
+  logic [3:0] hidden;
+  assign hidden = can_mb_pkg::hidden_msg(1'b1, smb_i, 2'd0);
   assign cs_o = stamp_q || tx_stamp_q || flags_q;
   always_comb begin
     be_o   = '1;
-    row_o  = (IdxW+2)'(3 * NumMb) | (IdxW+2)'(can_mb_pkg::hidden_msg(1'b1, smb_i, 2'd0));
+    row_o  = (IdxW+2)'(3 * NumMb) | (IdxW+2)'(hidden);
     data_o = {3'b0, rx_id_i};
     if (cs_o) begin
       be_o   = stamp_q || tx_stamp_q ? 4'b0011 : 4'b0100;

@@ -94,7 +94,9 @@ module can_mb_step #(
   // Rows of the MSG memory behind the buffers (can_mailbox).
   function automatic logic [IdxW+1:0] hidden(input logic rx, input logic row,
       input logic [1:0] word);
-    hidden = (IdxW+2)'(3 * NumMb) | (IdxW+2)'(can_mb_pkg::hidden_msg(rx, row, word));
+    logic [3:0] behind;
+    behind = can_mb_pkg::hidden_msg(rx, row, word);
+    hidden = (IdxW+2)'(3 * NumMb) | (IdxW+2)'(behind);
   endfunction
 
   logic [IdxW-1:0] pass_idx;

@@ -10,6 +10,11 @@ class RegisterError(Exception):
     """Yosys failed; the text says where its log is."""
 
 
+# Yosys' cells, and whether they have an asynchronous reset.
+FLIP_FLOPS = {"adff": True, "adffe": True, "aldff": True, "dff": False, "dffe": False,
+              "sdff": False, "sdffe": False, "dlatch": False}
+
+
 def run_yosys(rtl, top, parameters, directory):
     result = f"{directory}/registers.json"
     values = " ".join(f"-set {name} {value}" for name, value in parameters.items())
@@ -26,26 +31,31 @@ def run_yosys(rtl, top, parameters, directory):
 
 def flip_flops(module):
     """Names of registers with a reset, and of those without one, as in the RTL's hierarchy."""
-    with_reset, without = set(), set()
+    registers, pools = [], {True: set(), False: set()}
     for cell in module["cells"].values():
-        if cell["type"].startswith("$") and cell["type"].lstrip("$") in ("adff", "adffe", "aldff"):
-            with_reset.update(cell["connections"]["Q"])
-        elif cell["type"].lstrip("$") in ("dff", "dffe", "sdff", "sdffe", "dlatch"):
-            without.update(cell["connections"]["Q"])
+        kind = cell["type"].removeprefix("$")
+        if cell["type"].startswith("$") and kind in FLIP_FLOPS:
+            bits = set(cell["connections"]["Q"])
+            registers.append(bits)
+            pools[FLIP_FLOPS[kind]] |= bits
     names = {True: [], False: []}
     covered = set()
-    # The name closest to the register: the deepest in the hierarchy that has all of its bits.
+    # The name closest to the register: the deepest in the hierarchy that has all of its bits. What
+    # is left is named piece by piece.
     nets = sorted(module["netnames"].items(), key=lambda item: (-item[0].count("."), item[0]))
-    for name, net in nets:
-        bits = [bit for bit in net["bits"] if isinstance(bit, int)]
-        plain = re.sub(r"\[\d+\](?=\.)", "", name)   # of a block of a generate loop
-        if net["hide_name"] or not bits or any(mark in plain for mark in "$\\["):
-            continue
-        for reset, pool in ((True, with_reset), (False, without)):
-            if set(bits) <= pool and not set(bits) <= covered:
-                names[reset].append(name)
-                covered |= set(bits)
-    missing = (with_reset | without) - covered
+    for whole in (True, False):
+        for name, net in nets:
+            bits = {bit for bit in net["bits"] if isinstance(bit, int)}
+            plain = re.sub(r"\[\d+\](?=\.)", "", name)   # of a block of a generate loop
+            if net["hide_name"] or not bits or any(mark in plain for mark in "$\\["):
+                continue
+            if whole and not any(one <= bits and not one <= covered for one in registers):
+                continue
+            for reset, pool in pools.items():
+                if bits <= pool and not bits <= covered:
+                    names[reset].append(name)
+                    covered |= bits
+    missing = (pools[True] | pools[False]) - covered
     return sorted(names[True]), sorted(names[False]), len(missing)
 
 

@@ -185,7 +185,7 @@ class Constraints(unittest.TestCase):
             code, text = design.run("tools/constraints.py", name, *options)
             self.assertEqual((code, text), (0, ""))
             place = constraints.Place("u_can", 16, rx="can_rxd", tx="can_txd")
-            self.hold(Path(name), place, design.netlist("user_top", [top]))
+            self.hold(Path(name), place, design.netlist("user_top", (top,)))
 
     def test_committed_files_are_what_the_tool_writes(self):
         for name, text in constraints.render(constraints.Place()).items():

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the tests of integrators' files share: the RTL's file list, a user's top, tools."""
 
+import functools
 import json
 import subprocess
 import tempfile
@@ -70,9 +71,10 @@ def run(*command, cwd=ROOT, env=None):
     return done.returncode, done.stdout
 
 
+@functools.cache
 def netlist(top, more=()):
     """What Yosys reads of `top`, flat, as JSON: ports, cells and nets with their attributes.
-    `more`: files behind those of the core."""
+    `more`: files behind those of the core. Read once; nobody changes it."""
     with tempfile.TemporaryDirectory() as name:
         path = Path(name) / "netlist.json"
         code, text = run("yosys", "-q", "-f", "verilog -sv", *rtl_files(), *more, "-p",

@@ -6,7 +6,10 @@ block of what is not there (PK-43)."""
 
 import subprocess
 import sys
+import tempfile
 import unittest
+import xml.etree.ElementTree as ET
+from pathlib import Path
 
 import design
 
@@ -27,23 +30,26 @@ def settings(*arguments):
             for line in text.splitlines()]
 
 
+def verilator(*options, parameters, top="can_ahb"):
+    """A run of Verilator over the core with these parameters: status and text."""
+    files = [str(design.ROOT / name) for name in ["rtl/lint.vlt", *design.rtl_files()]]
+    values = [f"-G{name}={value}" for name, value in parameters.items()]
+    return design.run("verilator", *options, "-Wall", "--top-module", top, *values, *files)
+
+
 def lint(parameters, top="can_ahb"):
     """What Verilator says of a build of `top`: status and text."""
-    files = [str(design.ROOT / name) for name in ["rtl/lint.vlt", *design.rtl_files()]]
-    options = [f"-G{name}={value}" for name, value in parameters.items()]
-    return design.run("verilator", "--lint-only", "-Wall", "--top-module", top, *options,
-                      *files)
+    return verilator("--lint-only", parameters=parameters, top=top)
 
 
 def modules(parameters):
-    """The names of the modules that a build consists of."""
-    files = " ".join(str(design.ROOT / name) for name in design.rtl_files())
-    chosen = " ".join(f"-chparam {name} {value}" for name, value in parameters.items())
-    code, text = design.run("yosys", "-q", "-p", f"read_verilog -sv {files}; "
-                            f"hierarchy -check -top can_ahb {chosen}; tee -a /dev/stderr ls")
-    if code != 0:
-        raise AssertionError(text)
-    return text
+    """The names of the modules that a build of can_ahb consists of."""
+    with tempfile.TemporaryDirectory() as name:
+        tree = Path(name) / "tree.xml"
+        code, text = verilator("--xml-only", "--xml-output", tree, parameters=parameters)
+        if code != 0:
+            raise AssertionError(text)
+        return {module.get("origName") for module in ET.parse(tree).iter("module")}
 
 
 class Features(unittest.TestCase):
