@@ -42,6 +42,11 @@ std::unique_ptr<RtlNode> make_node(std::string name, const CoreBuild &build,
     return std::make_unique<RtlNodeOf<Vcan_host_small>>(std::move(name), clock, build.num_mb);
   if (profile == "standard")
     return std::make_unique<RtlNodeOf<Vcan_host_standard>>(std::move(name), clock, build.num_mb);
+  if (build.features.time_unit) {
+    if (build.num_mb != 64)
+      throw std::invalid_argument("the core with the time unit has 64 buffers");
+    return RtlNode::create_with_time(std::move(name), clock);
+  }
   if (test_bus() != nullptr && build.num_mb == 64)
     return make_bus_node(test_bus(), std::move(name), clock);
   return RtlNode::create(std::move(name), clock, build.num_mb);

@@ -41,7 +41,8 @@ const CoreBuild &core_build(const std::string &name);
 /// buffers than they know of.
 const CoreBuild &build_of_test(const CoreBuild &build);
 
-/// A node of a build: of a profile, or with all features. With VERICAN_TEST_BUS=name in the
+/// A node of a build: of a profile, or with all features, and with 64 buffers with the time unit,
+/// too; std::invalid_argument for the time unit with fewer. With VERICAN_TEST_BUS=name in the
 /// environment those of 64 buffers and all features have that bus (bus_builds.hpp) in place of
 /// AHB-Lite: so tests run through every wrapper.
 std::unique_ptr<RtlNode> make_node(std::string name, const CoreBuild &build,
