@@ -71,6 +71,14 @@ def run(*command, cwd=ROOT, env=None):
     return done.returncode, done.stdout
 
 
+def read_once(files, scripts):
+    """Yosys reads the files, and runs each of the scripts on what it has read."""
+    whole = "; ".join(["design -save read", *(f"design -load read; {one}" for one in scripts)])
+    code, text = run("yosys", "-q", "-f", "verilog -sv", *files, "-p", whole)
+    if code != 0:
+        raise AssertionError(text)
+
+
 @functools.cache
 def netlist(top, more=()):
     """What Yosys reads of `top`, flat, as JSON: ports, cells and nets with their attributes.

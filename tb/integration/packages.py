@@ -1,10 +1,9 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""What tools/package.py writes for
-other tools' packagers: ports and parameters are those that Yosys
-elaborates, the Verilog shells equal their wrappers, IP-XACT says what the SVD file says, and the
-vendors' scripts, run in tclsh with the tools' commands recorded, name what is there.
+"""What tools/package.py writes for other tools' packagers: ports and parameters are those that
+Yosys elaborates, the Verilog shells equal their wrappers, IP-XACT says what the SVD file says, and
+the vendors' scripts, run in tclsh with the tools' commands recorded, name what is there.
 IPXACT_XSD=folder with Accellera's 1685-2014 schema: the components are checked against it, too."""
 
 import json
@@ -76,14 +75,12 @@ class Wrappers(Case):
 
     def test_ports_and_parameters_are_those_of_the_rtl(self):
         self.assertIn("ahb", self.wrappers)
+        design.read_once(design.rtl_files(), [
+            f"blackbox can_top; hierarchy -top {wrapper.module}; proc; "
+            f"write_json {self.out}/{wrapper.module}.json" for wrapper in self.wrappers.values()])
         for bus, wrapper in self.wrappers.items():
-            with tempfile.TemporaryDirectory() as name:
-                path = Path(name) / "top.json"
-                code, text = design.run(
-                    "yosys", "-q", "-f", "verilog -sv", *design.rtl_files(), "-p",
-                    f"blackbox can_top; hierarchy -top {wrapper.module}; proc; write_json {path}")
-                self.assertEqual(code, 0, text)
-                module = json.loads(path.read_text(encoding="utf-8"))["modules"][wrapper.module]
+            text = (self.out / f"{wrapper.module}.json").read_text(encoding="utf-8")
+            module = json.loads(text)["modules"][wrapper.module]
             seen = {name: (port["direction"], len(port["bits"]), port.get("offset", 0))
                     for name, port in module["ports"].items()}
             self.assertEqual({port.name: (port.direction, port.width, port.low)
@@ -137,27 +134,43 @@ class Files(Case):
 
     def test_shells_are_verilog_2001_and_equal_their_wrappers(self):
         for wrapper in self.wrappers.values():
-            shell = self.out / f"verilog/{wrapper.module}_v.v"
             code, text = design.run(
                 "verilator", "--lint-only", "-Wall", "+1364-2001ext+v", "--top-module",
-                f"{wrapper.module}_v", "-GNumMb=16", "rtl/lint.vlt", *design.rtl_files(), shell)
+                f"{wrapper.module}_v", "-GNumMb=16", "rtl/lint.vlt", *design.rtl_files(),
+                self.shell(wrapper))
             self.assertEqual((code, text), (0, ""))
-            self.assert_equal_netlists(wrapper, shell)
+        self.write_netlists()
+        for wrapper in self.wrappers.values():
+            with self.subTest(wrapper.module):
+                self.assert_equal_netlists(wrapper)
 
-    def assert_equal_netlists(self, wrapper, shell):
-        """Shell and wrapper around a core that is a black box, with the instance's name gone."""
-        sources = " ".join(design.rtl_files())
-        for name, top in (("gold", wrapper.module), ("gate", f"{wrapper.module}_v")):
-            path = self.out / f"{name}.il"
-            code, text = design.run("yosys", "-q", "-p", (
-                f"read_verilog -sv {sources}; read_verilog {shell}; hierarchy -top {top}; proc; "
-                "blackbox *can_top*; flatten; opt_clean -purge; "
-                f"rename {top} {name}; write_rtlil {path}"))
-            self.assertEqual(code, 0, text)
+    def shell(self, wrapper):
+        """The Verilog file around it."""
+        return self.out / f"verilog/{wrapper.module}_v.v"
+
+    def netlist(self, wrapper, side):
+        """File of a netlist: `side` is gold, the wrapper, or gate, its shell."""
+        return self.out / f"{wrapper.module}_{side}.il"
+
+    def write_netlists(self):
+        """Shells and wrappers around a core that is a black box, with the instance's name gone."""
+        sides = [(wrapper, side, wrapper.module + ("_v" if side == "gate" else ""))
+                 for wrapper in self.wrappers.values() for side in ("gold", "gate")]
+        design.read_once(
+            [*design.rtl_files(), *map(self.shell, self.wrappers.values())],
+            [f"hierarchy -top {top}; proc; blackbox *can_top*; flatten; opt_clean -purge; "
+             f"rename {top} {side}; write_rtlil {self.netlist(wrapper, side)}"
+             for wrapper, side, top in sides])
+        for wrapper, side, _ in sides:
+            path = self.netlist(wrapper, side)
             path.write_text(path.read_text(encoding="utf-8").replace("\\u_can.", "\\"),
                             encoding="utf-8")
+
+    def assert_equal_netlists(self, wrapper):
+        """One of the pairs."""
         code, text = design.run("yosys", "-q", "-p", (
-            f"read_rtlil {self.out}/gold.il; design -stash gold; read_rtlil {self.out}/gate.il; "
+            f"read_rtlil {self.netlist(wrapper, 'gold')}; design -stash gold; "
+            f"read_rtlil {self.netlist(wrapper, 'gate')}; "
             "design -copy-from gold -as gold gold; equiv_make gold gate equiv; "
             "hierarchy -top equiv; async2sync; equiv_struct; equiv_simple; equiv_induct; "
             "equiv_status -assert"))
