@@ -25,6 +25,7 @@ from shards import Shard
 
 FULL = {"core": 1100, "remote": 330, "time": 250, "buses": 150}   # mutants at scale 1
 PROOF_SECONDS = 120    # limit of one proof
+RECORD_SECONDS = 60    # no test takes longer without a mutant; five times that is a hang
 # Of the tests of one program so many seconds are run for one mutant at first: of long sweeps a
 # part. What survives that, and is not known from survivors.yaml, meets the others, too.
 PROGRAM_SECONDS = 5
@@ -161,7 +162,7 @@ class Campaign:
             program, test = item
             path = self.options.dir / f"seen-{zlib.crc32(str(item).encode()):08x}"
             outcome = self.regression.run(program, [test],
-                                          {"VERICAN_MUTANT_RECORD": str(path)}, 600)
+                                          {"VERICAN_MUTANT_RECORD": str(path)}, RECORD_SECONDS)
             numbers = path.read_text().split() if path.exists() else []
             path.unlink(missing_ok=True)
             return outcome, [int(number) for number in numbers]
