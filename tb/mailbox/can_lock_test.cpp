@@ -261,6 +261,21 @@ TEST_F(Reception, RxfirWithoutTheFifoKeepsTheLock) {  // FX-3.6.e, FX-MAP.RXFIR
   EXPECT_EQ(rig_.read(0, reg::mb(5, 2)), before.low);
 }
 
+// Nothing is read between: TIMER and other C/S words would end the lock as well.
+TEST_F(Reception, SoftResetEndsTheLock) {  // FX-2.3.b
+  rig_.put_rx(0, 5, {.id = 0x123});
+  go();
+  send(numbered(0));
+  rig_.read(0, reg::mb(5));
+  rig_.write(0, reg::kMcr, reg::kMcrSoftRst);
+  ASSERT_TRUE(
+      rig_.run_until([&] { return (rig_.read(0, reg::kMcr) & reg::kMcrFrzAck) != 0; }, 100));
+  rig_.configure(0);
+  go();
+  send(numbered(1));
+  EXPECT_EQ(rig_.read(0, reg::mb(5, 2)) >> 24, 1u) << "the buffer is locked still";
+}
+
 TEST_F(Reception, PendingFrameMovesInWhenUnlockedInFreezeMode) {  // 2.2
   rig_.put_rx(0, 5, {.id = 0x123});
   go();
