@@ -92,7 +92,6 @@ module can_mailbox #(
   input  logic [5:0]      time_mb_i,
   output logic            time_wait_o
 );
-
   // Flags of buffers that do not exist, fields that matter elsewhere.
   logic unused;
   assign unused = &{1'b0, iflag_i, mcr_i, ctrl1_i, ctrl2_i, xctrl_i};
@@ -130,7 +129,8 @@ module can_mailbox #(
     .clk_i, .rst_ni, .scrub_i(scrub_o), .fen_i(fen), .aen_i(aen),
     .osmb_i(xctrl_i[can_regs_pkg::XctrlOsmb]), .first_i(first), .head_i(fifo_head),
     .cmd_wr_i, .cmd_mb_i(!cmd_mem_sel_i[1]),
-    .cmd_stamp_i(TimeUnit != 0 && cmd_mem_sel_i == 2'd3 && cmd_word_i[1]), .cmd_idx_i,
+    .cmd_stamp_i(TimeUnit != 0 && cmd_mem_sel_i == can_mb_pkg::MemTimer && cmd_word_i[1]),
+    .cmd_idx_i,
     .cmd_wr_o(cmd_wr), .cmd_look_o(cmd_look), .cmd_idx_o(cmd_idx),
     .ready_i(ready_o), .rd_done_i(rd_done), .wr_done_i(wr_done), .block_i(block),
     .mem_sel_i(cpu_mem_sel),

@@ -58,7 +58,6 @@ module can_mb_cpu #(
   output logic            cs_written_empty_o,   // its code is EMPTY, IDE is cs_written_ide_o
   output logic            cs_written_ide_o
 );
-
   // Command: in the FIFO's area? Its memory, six rows, always is.
   logic in_area, in_ring, area_q, ring_q;
   assign in_area   = fen_i && cmd_mb_i && 7'(cmd_idx_i) < first_i;

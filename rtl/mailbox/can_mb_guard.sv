@@ -45,7 +45,6 @@ module can_mb_guard #(
   input  logic [IdxW-1:0]  end_idx_i,
   input  logic [NumMb-1:0] iflag_i
 );
-
   logic active_q, abort_q, iflag_q, cur_q, is_cs, abort, at_once, cs_block, all_block;
 
   assign is_cs     = mem_sel_i == can_mb_pkg::MemCs;

@@ -60,22 +60,22 @@ module can_mb_load #(
   output logic            started_o,     // pulse
   output logic [IdxW-1:0] cur_idx_o,
   output logic            mine_o,        // it is the buffer's still: not rewritten meanwhile
-  // Steps: 0 next word to the engine, 1 end of a frame, 2/3 copy of bytes 0-3/4-7, 4 C/S and ID.
+  // Steps, see can_mb_pkg.
   output logic            req_o,
   output logic [2:0]      step_o,
   output logic            row_o,         // hidden row that is being filled
   output logic [IdxW-1:0] ld_idx_o,      // buffer that is being loaded
-  output logic            word_o,        // step 0: 0 bytes 0-3, 1 bytes 4-7
+  output logic            word_o,        // StepWord: 0 bytes 0-3, 1 bytes 4-7
   input  logic            flight_i,      // a step has been granted and is not over
   input  logic            data_i,        // data of step data_step_i is on the RAM outputs
   input  logic [2:0]      data_step_i,
   input  logic [31:0]     cs_i,
   input  logic [31:0]     msg_i,
-  output logic            cancel_o,      // step 1: do not write
-  output logic [3:0]      code_o,        // step 1: new code
+  output logic            cancel_o,      // StepEnd: do not write
+  output logic [3:0]      code_o,        // StepEnd: new code
   output logic            flag_o,        // pulse: set IFLAG of cur_idx_o
   output logic            sent_o,        // pulse with it: sent, not given up
-  output logic            take_o,        // step 4: the frame is presented
+  output logic            take_o,        // StepHead: the frame is presented
   output logic            busy_o
 );
   typedef enum logic [1:0] {StIdle, StLow, StHigh, StHead} state_e;

@@ -7,7 +7,7 @@
 package can_mb_pkg;
 
   // Memory that a command of the CPU means (can_mb_port).
-  localparam logic [1:0] MemCs    = 2'd0;   // C/S words; word 3, and 1: RXFIR, the same row
+  localparam logic [1:0] MemCs    = 2'd0;   // C/S words, word 3; word 1: RXFIR, of the same row
   localparam logic [1:0] MemMsg   = 2'd1;   // identifiers and data, word 0 to 2
   localparam logic [1:0] MemMask  = 2'd2;   // masks; word 1: one of the global ones
   localparam logic [1:0] MemTimer = 2'd3;   // none, but ordered like one: TIMER, or a stamp

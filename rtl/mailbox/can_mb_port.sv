@@ -103,7 +103,6 @@ module can_mb_port #(
   output logic [IdxW+1:0] scrub_row_o,
   input  logic            cs_written_i         // a C/S write ended in the clock before
 );
-
   logic [IdxW+1:0] scrub_row_q;
   if (ClearRam != 0) begin : gen_scrub
     always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -66,7 +66,6 @@ module can_mb_step #(
   output logic [IdxW+1:0] copy_row_o,
   output logic [31:0]     copy_data_o
 );
-
   logic step_req, take_ld, data_q, data_ld_q;
   assign step_req   = (ld_req_i || mv_req_i) && !data_q && !yield_i;
   assign take_ld    = ld_req_i && !(mv_req_i && data_ld_q);   // in turn if both want

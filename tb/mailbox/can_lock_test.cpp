@@ -261,7 +261,7 @@ TEST_F(Reception, RxfirWithoutTheFifoKeepsTheLock) {  // FX-3.6.e, FX-MAP.RXFIR
   EXPECT_EQ(rig_.read(0, reg::mb(5, 2)), before.low);
 }
 
-// Nothing is read between: TIMER and other C/S words would end the lock as well.
+// Neither TIMER nor another C/S word is read between: either would end the lock as well.
 TEST_F(Reception, SoftResetEndsTheLock) {  // FX-2.3.b
   rig_.put_rx(0, 5, {.id = 0x123});
   go();

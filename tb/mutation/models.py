@@ -73,8 +73,8 @@ def checked(command, log):
 def build(directory, numbers, targets, jobs):
     """Configures and builds the targets in a directory.
 
-    Without the simulator's short cuts (VERICAN_PLAIN_EDGES): they rely on what Verilator makes of
-    RTL whose expressions have no calls of C in them, and a mutant's condition is one.
+    Without the simulator's short cuts (VERICAN_PLAIN_EDGES): with them an engine that has mutants,
+    all of them off, does not do what its RTL says.
     """
     directory = pathlib.Path(directory)
     script = transform(directory, numbers)

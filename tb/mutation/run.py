@@ -25,7 +25,7 @@ from shards import Shard
 
 FULL = {"core": 1100, "remote": 330, "time": 250, "buses": 150}   # mutants at scale 1
 PROOF_SECONDS = 120    # limit of one proof
-RECORD_SECONDS = 60    # no test takes longer without a mutant; five times that is a hang
+RECORD_SECONDS = 60    # of one test that records; what takes five times as long hangs
 # Of the tests of one program so many seconds are run for one mutant at first: of long sweeps a
 # part. What survives that, and is not known from survivors.yaml, meets the others, too.
 PROGRAM_SECONDS = 5
