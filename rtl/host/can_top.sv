@@ -279,7 +279,6 @@ module can_top #(
     .fifo_pop_i(fifo_pop), .fifo_avail_o(fifo_avail), .fifo_warn_o(fifo_warn),
     .fifo_ovf_o(fifo_ovf), .iflag_i(iflag), .esr2_o(esr2), .crcr_o(crcr),
     .busy_o(mb_busy), .scrub_o(mb_scrub),
-    .cmd_slot_i(req_i && !we_i && (!addr_i[12] || (TimeUnit != 0 && addr_i[10]))),
     .cmd_rd_i(req && !we_i && to_mb), .cmd_wr_i(req && we_i && to_mb && wr_ok),
     .cmd_mem_sel_i(mem_sel), .cmd_word_i(word), .cmd_idx_i(idx), .cmd_be_i(be_i),
     .wdata_i, .ready_o(mb_ready), .rdata_o(mb_rdata), .flag_o(flag), .flag_idx_o(flag_idx),

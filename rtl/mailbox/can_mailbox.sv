@@ -36,7 +36,6 @@ module can_mailbox #(
   output logic            busy_o,        // moves under way, or rows not cleared yet after reset
   output logic            scrub_o,       // ... the latter
   // CPU, see can_mb_port.
-  input  logic            cmd_slot_i,
   input  logic            cmd_rd_i,
   input  logic            cmd_wr_i,
   input  logic [1:0]      cmd_mem_sel_i,
@@ -107,18 +106,19 @@ module can_mailbox #(
   assign rffn  = ctrl2_i[can_regs_pkg::Ctrl2Rffn +: can_regs_pkg::Ctrl2RffnW];
 
   // First buffer that is a mailbox: the ones below belong to the Rx FIFO.
-  logic [6:0] first;
+  logic [6:0] first, first_now;
+  assign first_now = fen ? {1'b0, 5'(rffn) + 5'd4, 1'b0} : 7'd0;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) first <= '0;
-    else         first <= fen ? {1'b0, 5'(rffn) + 5'd4, 1'b0} : 7'd0;
+    else         first <= first_now;
   end
 
   // CPU accesses and their side effects.
-  logic            cmd_wr, cmd_look, rd_done, wr, wr_done, waited, block;
-  logic            rxfir, raw, cs_rd, timer_rd, cpu_busy;
+  logic            rd_done, rd_end, wr, wr_done, block, if_ended, ring;
+  logic            rxfir, area, cs_rd, timer_rd, cpu_busy;
   logic [1:0]      cpu_mem_sel;
-  logic [IdxW-1:0] cmd_idx, cpu_idx;
-  logic [3:0]      cpu_be;
+  logic [IdxW-1:0] cpu_idx, row_idx;
+  logic [3:0]      cpu_be, cs_rd_code, ld_code;
   logic [31:0]     ram_rdata, ram_wdata;
   logic            cs_written, cs_written_act, cs_written_empty, cs_written_ide;
   logic [IdxW-1:0] cs_written_idx;
@@ -127,18 +127,17 @@ module can_mailbox #(
   logic [2:0]      fifo_head;
   can_mb_cpu #(.NumMb(NumMb), .TimeUnit(TimeUnit)) u_cpu (
     .clk_i, .rst_ni, .scrub_i(scrub_o), .fen_i(fen), .aen_i(aen),
-    .osmb_i(xctrl_i[can_regs_pkg::XctrlOsmb]), .first_i(first), .head_i(fifo_head),
-    .cmd_wr_i, .cmd_mb_i(!cmd_mem_sel_i[1]),
-    .cmd_stamp_i(TimeUnit != 0 && cmd_mem_sel_i == can_mb_pkg::MemTimer && cmd_word_i[1]),
-    .cmd_idx_i,
-    .cmd_wr_o(cmd_wr), .cmd_look_o(cmd_look), .cmd_idx_o(cmd_idx),
-    .ready_i(ready_o), .rd_done_i(rd_done), .wr_done_i(wr_done), .block_i(block),
+    .osmb_i(xctrl_i[can_regs_pkg::XctrlOsmb]), .first_i(first_now), .head_i(fifo_head),
+    .rd_done_i(rd_done), .wr_done_i(wr_done), .block_i(block), .if_ended_i(if_ended),
+    .ended_i(cs[can_mb_pkg::CsEnded]),
     .mem_sel_i(cpu_mem_sel),
-    .rxfir_i(rxfir), .idx_i(cpu_idx), .be_i(cpu_be), .wdata_i, .ram_rdata_i(ram_rdata), .timer_i,
+    .rxfir_i(rxfir), .idx_i(cpu_idx), .be_i(cpu_be), .wdata_i, .ram_rdata_i(ram_rdata),
+    .ram_code_i(cs[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW]),
+    .end_i(rd_end), .end_code_i(ld_code), .timer_i,
     .moving_i(mv_busy_mb), .mv_idx_i(mv_idx),
-    .raw_o(raw), .wdata_o(ram_wdata), .rdata_o,
+    .row_idx_o(row_idx), .area_o(area), .ring_o(ring), .wdata_o(ram_wdata), .rdata_o,
     .timer_rd_o(timer_rd), .timer_wr_o(timer_we_o),
-    .cs_rd_o(cs_rd), .busy_o(cpu_busy),
+    .cs_rd_o(cs_rd), .cs_rd_code_o(cs_rd_code), .busy_o(cpu_busy),
     .cs_written_o(cs_written), .cs_written_idx_o(cs_written_idx),
     .cs_written_act_o(cs_written_act), .cs_written_empty_o(cs_written_empty),
     .cs_written_ide_o(cs_written_ide));
@@ -152,7 +151,8 @@ module can_mailbox #(
   logic [IdxW-1:0] lock_idx, serviced_idx;
   can_mb_lock #(.NumMb(NumMb)) u_lock (
     .clk_i, .rst_ni, .clear_i(fifo_clear_i), .bcc_i(bcc),
-    .cs_rd_i(cs_rd), .timer_rd_i(timer_rd), .idx_i(cpu_idx), .cs_i(ram_rdata), .busy_i(cpu_busy),
+    .cs_rd_i(cs_rd), .timer_rd_i(timer_rd), .idx_i(cpu_idx), .code_i(cs_rd_code),
+    .serviced_i(cs[can_mb_pkg::CsServiced]), .busy_i(cpu_busy),
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
     .lock_o(lock), .lock_idx_o(lock_idx),
     .serviced_req_o(serviced_req), .serviced_idx_o(serviced_idx), .serviced_ovr_o(serviced_ovr),
@@ -190,8 +190,8 @@ module can_mailbox #(
     .ovf_o(fifo_ovf_o));
 
   // Stamps.
-  logic            stamp_busy, stamp_re, stamp_cpu, stamp_again, stamp_meets, stamp_shown, mine;
-  logic [IdxW:0]   stamp_row, stamp_held_row, stamp_cmd_row;
+  logic            stamp_busy, stamp_re, stamp_cpu, stamp_shown, mine;
+  logic [IdxW:0]   stamp_row;
   logic [IdxW+1:0] scrub_row;
   logic [31:0]     stamp_rdata;
 
@@ -258,7 +258,6 @@ module can_mailbox #(
   logic            out, kept, done, sent, abort, ab_flag;
   logic [IdxW-1:0] ab_idx;
   logic [2:0]      ld_step, data_step;
-  logic [3:0]      ld_code;
   logic [IdxW-1:0] ld_idx;
   can_mb_load #(.NumMb(NumMb)) u_load (
     .clk_i, .rst_ni, .running_i, .mute_i, .gap_i,
@@ -279,18 +278,18 @@ module can_mailbox #(
   if (Abort != 0) begin : gen_guard
     can_mb_guard #(.NumMb(NumMb)) u_guard (
       .clk_i, .rst_ni, .clear_i, .aen_i(aen),
-      .waited_i(waited), .mem_sel_i(cpu_mem_sel), .idx_i(cpu_idx), .be3_i(cpu_be[3]),
+      .first_i(wr && !wr_done), .wr_done_i(wr_done), .mem_sel_i(cpu_mem_sel), .idx_i(cpu_idx), .be3_i(cpu_be[3]),
       .code_i(wdata_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW]),
-      .area_i(raw), .ended_i(cs[can_mb_pkg::CsEnded]),
-      .block_o(block), .abort_o(abort),
+      .area_i(area), .ended_i(cs[can_mb_pkg::CsEnded]),
+      .block_o(block), .if_ended_o(if_ended), .abort_o(abort),
       .out_i(out), .kept_i(kept), .done_i(done), .cur_idx_i(cur_idx),
       .take_i(ld_take), .flag_o(ab_flag), .flag_idx_o(ab_idx), .gnt_i(!mv_flag && !ld_flag),
       .end_i(flag_o && !mv_flag), .end_idx_i(flag_idx_o), .iflag_i(iflag_i[NumMb-1:0]));
   end else begin : gen_no_guard
-    assign {block, abort, ab_flag} = '0;
+    assign {block, if_ended, abort, ab_flag} = '0;
     assign ab_idx = '0;
     logic unused_guard;
-    assign unused_guard = &{1'b0, waited, raw, out, kept, done};
+    assign unused_guard = &{1'b0, area, out, kept, done};
   end
 
   if (Status != 0) begin : gen_status
@@ -308,6 +307,7 @@ module can_mailbox #(
 
   logic            copy, copy_cs, eng_req, eng_lazy;
   logic [3:0]      copy_be;
+  logic            copy_ok, copy_off, copy_end;
   logic [IdxW:0]   eng_cs_row, eng_mask_row;
   logic [IdxW+1:0] copy_row, eng_msg_row;
   logic [31:0]     copy_data;
@@ -326,7 +326,8 @@ module can_mailbox #(
     .req_o(eng_req), .lazy_o(eng_lazy),
     .cs_o(eng_cs), .cs_row_o(eng_cs_row), .msg_row_o(eng_msg_row), .mask_row_o(eng_mask_row),
     .slot_i(eng_slot), .hold_i(hold), .yield_i(rx_wr_owed), .cs_i(cs), .word_i(word),
-    .copy_o(copy), .copy_cs_o(copy_cs), .copy_be_o(copy_be), .copy_row_o(copy_row),
+    .copy_o(copy), .copy_cs_o(copy_cs), .copy_be_o(copy_be), .copy_ok_o(copy_ok), .copy_off_o(copy_off), .copy_end_o(copy_end),
+    .copy_row_o(copy_row),
     .copy_data_o(copy_data));
 
   // Without aborts no write waits for its buffer's C/S word.
@@ -334,27 +335,26 @@ module can_mailbox #(
     .NumMb(NumMb), .OwnMasks(OwnMasks), .ClearRam(ClearRam), .TimeUnit(TimeUnit)
   ) u_port (
     .clk_i, .rst_ni,
-    .cmd_slot_i, .cmd_rd_i, .cmd_wr_i(cmd_wr), .cmd_look_i(cmd_look && Abort != 0), .cmd_mem_sel_i,
-    .cmd_word_i, .cmd_idx_i(cmd_idx), .cmd_be_i, .look_i(aen || Abort == 0), .wdata_i(ram_wdata),
-    .block_i(block), .ready_o,
-    .rdata_o(ram_rdata), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done), .waited_o(waited),
+    .cmd_rd_i, .cmd_wr_i, .cmd_mem_sel_i, .cmd_word_i, .cmd_idx_i, .cmd_be_i,
+    .look_i(aen && Abort != 0), .row_idx_i(row_idx), .wdata_i(ram_wdata),
+    .ring_i(ring), .block_i(block), .if_ended_i(if_ended), .ready_o,
+    .rdata_o(ram_rdata), .rd_end_o(rd_end), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done),
     .mem_sel_o(cpu_mem_sel), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
     .eng_req_i(eng_req), .eng_lazy_i(eng_lazy), .eng_cs_i(eng_cs),
     .eng_cs_row_i(eng_cs_row),
     .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_slot_o(eng_slot),
     .hold_o(hold), .stale_o(stale), .id_stale_o(id_stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
-    .word_o(word), .copy_i(copy), .copy_cs_i(copy_cs), .copy_be_i(copy_be), .copy_row_i(copy_row),
+    .word_o(word), .flight_i(flight), .copy_i(copy), .copy_cs_i(copy_cs), .copy_be_i(copy_be), .copy_ok_i(copy_ok), .copy_off_i(copy_off), .copy_end_i(copy_end),
+    .copy_row_i(copy_row),
     .copy_data_i(copy_data),
     .serviced_req_i(serviced_req), .serviced_idx_i(serviced_idx), .serviced_ovr_i(serviced_ovr),
     .serviced_gnt_o(serviced_gnt),
     .rx_wr_req_i(rx_wr_req), .rx_wr_cs_i(rx_wr_cs), .rx_wr_be_i(rx_wr_be), .rx_wr_row_i(rx_wr_row),
     .rx_wr_data_i(rx_wr_data), .rx_wr_gnt_o(rx_wr_gnt), .rx_wr_owed_o(rx_wr_owed),
     .stamp_re_o(stamp_re), .stamp_cpu_o(stamp_cpu), .stamp_row_o(stamp_row),
-    .stamp_held_row_o(stamp_held_row),
-    .stamp_again_o(stamp_again), .stamp_cmd_row_o(stamp_cmd_row), .stamp_meets_i(stamp_meets),
     .stamp_shown_i(stamp_shown), .stamp_rdata_i(stamp_rdata),
-    .scrub_o, .scrub_row_o(scrub_row), .cs_written_i(cs_written));
+    .scrub_o, .scrub_row_o(scrub_row));
 
   if (TimeUnit != 0) begin : gen_stamp
     can_mb_stamp #(.NumMb(NumMb)) u_stamp (
@@ -362,19 +362,17 @@ module can_mailbox #(
       .start_i, .rx_valid_i, .stamp_i(time_stamp_i), .we_i(time_stamp_we_i),
       .own_i(time_stamp_tx_i), .cur_idx_i(cur_idx), .mine_i(mine), .smb_i(smb),
       .busy_o(stamp_busy),
-      .re_i(stamp_re), .cpu_i(stamp_cpu), .cpu_row_i(stamp_row), .again_i(stamp_again),
-      .cmd_row_i(stamp_cmd_row), .meets_o(stamp_meets), .held_row_i(stamp_held_row),
+      .re_i(stamp_re), .cpu_i(stamp_cpu), .cpu_row_i(stamp_row),
       .shown_o(stamp_shown),
       .rdata_o(stamp_rdata),
       .mv_step_i(mv_step), .mv_row_i(mv_row), .mv_idx_i(mv_idx), .mv_data_i(mv_data),
       .mv_cancel_i(mv_cancel));
   end else begin : gen_no_stamp
-    assign {stamp_busy, stamp_meets, stamp_shown} = '0;
+    assign {stamp_busy, stamp_shown} = '0;
     assign stamp_rdata = '0;
     logic unused_stamp;
     assign unused_stamp = &{1'b0, time_stamp_i, time_stamp_we_i, time_stamp_tx_i, mine, scrub_row,
-                            stamp_re, stamp_cpu, stamp_row, stamp_held_row, stamp_again,
-                            stamp_cmd_row};
+                            stamp_re, stamp_cpu, stamp_row};
   end
 
   assign flag_o     = mv_flag || ld_flag || ab_flag;

@@ -21,14 +21,17 @@ module can_mb_guard #(
   input  logic             clear_i,      // soft reset
   input  logic             aen_i,
   // CPU, data phase.
-  input  logic             waited_i,     // a write ends in this clock, its second one
-  input  logic [1:0]       mem_sel_i,       // as of can_mb_port; others than 0 and 1 pass
+  input  logic             first_i,      // the first clock of a write
+  input  logic             wr_done_i,    // ... its second, in which it ends
+  input  logic [1:0]       mem_sel_i,    // as of can_mb_port; others than 0 and 1 pass
   input  logic [IdxW-1:0]  idx_i,
   input  logic             be3_i,        // it has bits 31:24
   input  logic [3:0]       code_i,       // bits 27:24 of the word written
   input  logic             area_i,       // it belongs to the Rx FIFO
   input  logic             ended_i,      // bit 30 of the C/S word
-  output logic             block_o,      // it is not written
+  // It is not written, whatever that bit says, or if it is set: which is known late.
+  output logic             block_o,
+  output logic             if_ended_o,
   output logic             abort_o,      // request for the frame that has moved out
   // Frame that is sent, see can_mb_load.
   input  logic             out_i,
@@ -45,27 +48,30 @@ module can_mb_guard #(
   input  logic [IdxW-1:0]  end_idx_i,
   input  logic [NumMb-1:0] iflag_i
 );
-  logic active_q, abort_q, iflag_q, cur_q, is_cs, abort, at_once, cs_block, all_block;
+  logic abort_q, guarded_q, cur_q, cs_block_q, guarded, is_cs, active, cur, abort, at_once, ended,
+    all_block;
 
+  assign guarded   = aen_i && !area_i && !mem_sel_i[1];
+  assign abort     = wr_done_i && abort_q;
   assign is_cs     = mem_sel_i == can_mb_pkg::MemCs;
-  assign abort     = aen_i && waited_i && !area_i && is_cs && abort_q;
-  assign cs_block  = cur_q && (out_i || (kept_i && active_q));
-  assign all_block = (ended_i && iflag_q) || (cur_q && done_i) || (flag_o && idx_i == flag_idx_o);
-  assign block_o   = aen_i && !area_i
-                  && ((is_cs && (cs_block || all_block))
-                      || (mem_sel_i == can_mb_pkg::MemMsg && all_block));
-  assign abort_o   = abort && cs_block && !all_block;
-  assign at_once   = abort && !cs_block && !all_block;
+  assign active    = !be3_i || code_i == can_regs_pkg::MbCsCodeTxData
+                  || code_i == can_regs_pkg::MbCsCodeTxAnswering;
+  assign cur       = idx_i == cur_idx_i && !take_i;
+  assign all_block = (cur_q && done_i) || (flag_o && idx_i == flag_idx_o);
+  assign block_o   = cs_block_q || (guarded_q && all_block);
+  assign ended     = if_ended_o && ended_i;
+  assign abort_o   = abort && cs_block_q && !all_block && !ended;
+  assign at_once   = abort && !cs_block_q && !all_block && !ended;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {active_q, abort_q, iflag_q, cur_q} <= '0;
+      {abort_q, guarded_q, cs_block_q, if_ended_o, cur_q} <= '0;
     end else begin
-      active_q <= !be3_i || code_i == can_regs_pkg::MbCsCodeTxData
-                  || code_i == can_regs_pkg::MbCsCodeTxAnswering;
-      abort_q  <= be3_i && code_i == can_regs_pkg::MbCsCodeTxAbort;
-      cur_q    <= idx_i == cur_idx_i && !take_i;
-      iflag_q  <= iflag_i[idx_i] || (end_i && end_idx_i == idx_i);
+      abort_q    <= guarded && is_cs && be3_i && code_i == can_regs_pkg::MbCsCodeTxAbort;
+      guarded_q  <= guarded;
+      cs_block_q <= guarded && is_cs && cur && (out_i || (kept_i && active));
+      cur_q      <= cur;
+      if_ended_o <= first_i && guarded && (iflag_i[idx_i] || (end_i && end_idx_i == idx_i));
     end
   end
 

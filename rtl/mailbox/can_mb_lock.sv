@@ -16,7 +16,8 @@ module can_mb_lock #(
   input  logic            cs_rd_i,      // the CPU gets the C/S word of buffer idx_i in this clock
   input  logic            timer_rd_i,   // ... or TIMER
   input  logic [IdxW-1:0] idx_i,
-  input  logic [31:0]     cs_i,         // the word as stored
+  input  logic [3:0]      code_i,       // its code
+  input  logic            serviced_i,   // ... has its serviced mark
   input  logic            busy_i,       // it is being moved into: reads BUSY, is not locked
   input  logic            cs_written_i,        // a C/S word was written in the clock before
   input  logic [IdxW-1:0] cs_written_idx_i,
@@ -27,16 +28,17 @@ module can_mb_lock #(
   output logic            serviced_ovr_o,    // its code is OVERRUN, not FULL
   input  logic            serviced_gnt_i
 );
-  logic [3:0] code;
-  logic       stored, same, lock_now, cs_written_hit, leave, ovr_q, mark_q;
+  logic       stored, same, lock_now, cs_written_hit, leave, ovr_q, mark_q, req_q, overwritten;
 
-  assign code       = cs_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW];
-  assign stored     = code == can_regs_pkg::MbCsCodeRxFull
-                   || code == can_regs_pkg::MbCsCodeRxOverrun;
+  assign stored     = code_i == can_regs_pkg::MbCsCodeRxFull
+                   || code_i == can_regs_pkg::MbCsCodeRxOverrun;
   assign lock_now = cs_rd_i && !busy_i && (stored
-      || (code == can_regs_pkg::MbCsCodeRxEmpty && !bcc_i));
+      || (code_i == can_regs_pkg::MbCsCodeRxEmpty && !bcc_i));
   assign same       = lock_idx_o == idx_i;
   assign leave      = timer_rd_i || (cs_rd_i && !same);
+  // A C/S write has the last word about the code: no mark after it.
+  assign overwritten    = cs_written_i && cs_written_idx_i == serviced_idx_o;
+  assign serviced_req_o = req_q && !overwritten;
   assign cs_written_hit    = cs_written_i && cs_written_idx_i == lock_idx_o;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -44,17 +46,15 @@ module can_mb_lock #(
       lock_o <= 1'b0;
       {ovr_q, mark_q} <= '0;
       lock_idx_o <= '0;
-      serviced_req_o <= 1'b0;
+      req_q <= 1'b0;
       serviced_idx_o <= '0;
       serviced_ovr_o <= 1'b0;
     end else begin
-      // A C/S write has the last word about the code: no mark after it.
-      if (serviced_gnt_i || (cs_written_i
-        && cs_written_idx_i == serviced_idx_o)) serviced_req_o <= 1'b0;
+      if (serviced_gnt_i || overwritten) req_q <= 1'b0;
       if (lock_o && (leave || cs_written_hit)) begin
         lock_o <= 1'b0;
         if (mark_q && !cs_written_hit) begin
-          serviced_req_o <= 1'b1;
+          req_q <= 1'b1;
           serviced_idx_o <= lock_idx_o;
           serviced_ovr_o <= ovr_q;
         end
@@ -62,10 +62,10 @@ module can_mb_lock #(
       if (lock_now) begin
         lock_o     <= 1'b1;
         lock_idx_o <= idx_i;
-        ovr_q      <= code[2];
-        mark_q     <= stored && !cs_i[can_mb_pkg::CsServiced];
+        ovr_q      <= code_i[2];
+        mark_q     <= stored && !serviced_i;
       end
-      if (clear_i) {lock_o, serviced_req_o} <= '0;
+      if (clear_i) {lock_o, req_q} <= '0;
     end
   end
 endmodule

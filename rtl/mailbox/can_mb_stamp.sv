@@ -29,13 +29,9 @@ module can_mb_stamp #(
   output logic            busy_o,        // to be written yet: no move may begin
   // CPU reads; row: {upper half, buffer}.
   input  logic            re_i,
-  input  logic            cpu_i,         // the slot is the CPU's
+  input  logic            cpu_i,         // the slot is the CPU's: nothing but a copy is written now
   input  logic [IdxW:0]   cpu_row_i,
-  input  logic            again_i,       // ... for the second time: nothing else is written now
-  input  logic [IdxW:0]   cmd_row_i,
-  output logic            meets_o,       // row cmd_row_i is being written
-  input  logic [IdxW:0]   held_row_i,    // row of a read that is made for the second time
-  output logic            shown_o,       // ... is being copied: it is on the output
+  output logic            shown_o,       // its row is being copied: it is on the output
   output logic [31:0]     rdata_o,
   // Moves: one word with each of the two steps that copy data.
   input  logic [1:0]      mv_step_i,
@@ -58,7 +54,7 @@ module can_mb_stamp #(
   always_comb begin
     waddr = {word_q[1], upper, word_q[1] ? IdxW'(smb_i) : cur_idx_i};
     wdata = word_q[0] ? stamp_i[63:32] : stamp_i[31:0];
-    we    = write_q && !again_i && (own || word_q[1]);
+    we    = write_q && !cpu_i && (own || word_q[1]);
     if (copy) begin
       waddr = {1'b0, upper, mv_idx_i};
       wdata = rdata_o;
@@ -70,8 +66,7 @@ module can_mb_stamp #(
       we    = 1'b1;
     end
   end
-  assign meets_o = (copy || write_q) && waddr == {1'b0, cmd_row_i};
-  assign shown_o = copy && waddr == {1'b0, held_row_i};
+  assign shown_o = copy && !mv_cancel_i && waddr == {1'b0, cpu_row_i};
 
   // A stamp that is taken at the end of the frame comes after rx_valid_i; one that does not come at
   // all keeps nobody waiting for longer than to the next frame.
@@ -87,7 +82,7 @@ module can_mb_stamp #(
       if (we_i) begin
         write_q <= 1'b1;
         word_q  <= '0;
-      end else if (write_q && !copy && !again_i) begin
+      end else if (write_q && !copy && !cpu_i) begin
         write_q <= word_q != '1;
         word_q  <= word_q + 1'b1;
       end

@@ -63,6 +63,9 @@ module can_mb_step #(
   output logic            copy_o,
   output logic            copy_cs_o,       // C/S memory, not MSG
   output logic [3:0]      copy_be_o,
+  output logic            copy_ok_o,       // late: 0, nothing is written
+  output logic            copy_off_o,      // ... as is known early, of a row that the CPU can read
+  output logic            copy_end_o,      // it is the end of a frame sent
   output logic [IdxW+1:0] copy_row_o,
   output logic [31:0]     copy_data_o
 );
@@ -124,13 +127,15 @@ module can_mb_step #(
   // Data of a C/S copy: what the RAM shows, under a new code. Should the CPU read the word that is
   // being written it gets what the RAM shows (can_mb_port): of a frame received, the hidden word
   // with BUSY; of an answer, the word as it was; of a frame sent, a copy of its buffer's word that
-  // was made when it was presented, with its stamp. Bit 30: a transmission has ended.
+  // was made when it was presented, with its stamp and the new code. Bit 30: a transmission has
+  // ended.
   logic       is_ld, low, head, ended;
   logic [8:0] top;
   assign is_ld     = data_q && data_ld_q;
   assign low       = ld_data_step_o == can_mb_pkg::StepLow;
   assign head      = ld_data_step_o == can_mb_pkg::StepHead;
   assign ended     = ld_data_step_o == can_mb_pkg::StepEnd;
+  assign copy_end_o = is_ld && ended;
   assign copy_o    = is_ld ? ld_data_step_o != can_mb_pkg::StepWord : data_q && moving_i;
   assign copy_cs_o = is_ld ? !ld_data_step_o[1] : mv_step_i == 2'd3;
 
@@ -151,9 +156,13 @@ module can_mb_step #(
   end
 
   always_comb begin
-    copy_be_o = {4{!mv_cancel_i}} & {1'b1, {3{!(mv_answer_i && copy_cs_o)}}};
-    if (is_ld) copy_be_o = '1;
-    if (is_ld && head)  copy_be_o = {4{ld_take_i}};
-    if (is_ld && ended) copy_be_o = {4{!ld_cancel_i}} & 4'b1011;
+    copy_be_o  = {1'b1, {3{!(mv_answer_i && copy_cs_o)}}};
+    copy_off_o = mv_cancel_i;
+    copy_ok_o  = !mv_cancel_i;
+    if (is_ld) begin
+      copy_be_o  = ended ? 4'b1011 : '1;
+      copy_off_o = ended && ld_cancel_i;
+      copy_ok_o  = ended ? !ld_cancel_i : !head || ld_take_i;
+    end
   end
 endmodule

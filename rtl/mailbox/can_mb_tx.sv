@@ -74,28 +74,34 @@ module can_mb_tx #(
 );
   localparam logic [1:0] MaxSpoils = 2'd3;
 
-  logic            ins_q, ins_new, retry_q, retry_gnt, s1_retry_q, s2_retry_q, ans_q, ans_gnt;
+  logic            ins_q, ins_new, retry_q, retry_gnt, ans_q, ans_gnt, ins_want;
+  logic [2:0]      retry_on_q;
   logic            reload, lost, found, scan_q, look_q, quiet_q, own_q, again_q, spoilt, last;
   logic            change, redo, restart_q;
   logic [1:0]      spoils_q;
-  // Stage 1: the buffer is on the RAM outputs. Stage 2: its arbitration value is known.
-  logic            s1_q, s1_look_q, s1_last_q, s2_q, s2_look_q, s2_last_q, s2_active_q, s2_free_q;
-  logic            s1_reload_q, s2_reload_q, best_q, any_q, s1_part, s2_end;
-  logic [IdxW-1:0] s1_idx_q, s2_idx_q, ans_idx_q;
-  logic [34:0]     s2_val_q, best_val_q;
+  // Stage 1: the buffer is on the RAM outputs. Stage 2: its arbitration value is compared. Stage 3:
+  // what follows. Two reads are two clocks apart at least, so what is known of a buffer in stage 2
+  // is there in stage 3 as well.
+  logic            s1_q, s1_look_q, s1_last_q, s2_q, s2_last_q, s3_q, s3_last_q, s3_end;
+  logic            s1_reload_q, best_q, any_q, s1_part;
+  logic            look2_q, reload2_q, active2_q, free2_q, less_q;
+  logic [IdxW-1:0] s1_idx_q, idx2_q, ans_idx_q;
+  logic [34:0]     val2_q, best_val_q;
 
   // Insertions: the C/S write first; answers are rarest. Before all of them the winner, if its
   // value is not there; a C/S write that another one overtakes meanwhile is found by a pass.
   assign ins_new    = ins_q || (cs_written_i && cs_written_act_i);
-  assign ins_req_o  = running_i && (ins_new || retry_q || ans_q);
+  assign ins_want   = running_i && (ins_new || retry_q || ans_q);
+  assign ins_req_o  = ins_want && !s1_q;
   assign reload     = best_q && !own_q;
   assign ins_idx_o  = reload ? best_idx_o : ins_new ? cs_written_idx_i
                     : retry_q ? cur_idx_i : ans_idx_q;
   assign retry_gnt  = ins_gnt_i && !reload && !ins_new;
   assign ans_gnt    = retry_gnt && !retry_q;
   assign lost       = ins_q && cs_written_i;
-  assign retry_o    = retry_q || retry_i || s1_retry_q || s2_retry_q;
-  assign scan_req_o = running_i && (scan_q || look_q || quiet_q) && !s1_last_q && !s2_last_q;
+  assign retry_o    = retry_q || retry_i || retry_on_q != '0;
+  assign scan_req_o = running_i && (scan_q || look_q || quiet_q)
+                   && !s1_q && !s2_last_q && !s3_last_q;
   assign scan_lazy_o = !scan_q;
   assign spoilt     = spoils_q == MaxSpoils;
   assign settled_o  = best_q && (!scan_q || spoilt);
@@ -108,36 +114,41 @@ module can_mb_tx #(
   assign code = cs_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW];
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {s2_active_q, s2_free_q} <= '0;
-      s2_idx_q    <= '0;
-      s2_val_q    <= '0;
+      {look2_q, reload2_q, active2_q, free2_q} <= '0;
+      idx2_q <= '0;
+      val2_q <= '0;
     end else if (s1_q) begin
-      s2_active_q <= s1_part && (code == can_regs_pkg::MbCsCodeTxData
-                                 || code == can_regs_pkg::MbCsCodeTxAnswering);
-      s2_free_q   <= s1_part && (code == can_regs_pkg::MbCsCodeRxInactive
-                                 || code == can_regs_pkg::MbCsCodeTxInactive);
-      s2_idx_q    <= s1_idx_q;
-      s2_val_q[34:32] <= id_i[can_regs_pkg::MbIdPrio +: can_regs_pkg::MbIdPrioW] & {3{lprio_en_i}};
-      s2_val_q[31:0]  <= cs_i[can_regs_pkg::MbCsIde]
-                         ? {id_i[28:18], 2'b11, id_i[17:0], cs_i[can_regs_pkg::MbCsRtr]}
-                         : {id_i[28:18], cs_i[can_regs_pkg::MbCsRtr], 20'b0};
+      look2_q   <= s1_look_q;
+      reload2_q <= s1_reload_q;
+      active2_q <= s1_part && (code == can_regs_pkg::MbCsCodeTxData
+                               || code == can_regs_pkg::MbCsCodeTxAnswering);
+      free2_q   <= s1_part && (code == can_regs_pkg::MbCsCodeRxInactive
+                               || code == can_regs_pkg::MbCsCodeTxInactive);
+      idx2_q    <= s1_idx_q;
+      val2_q[34:32] <= id_i[can_regs_pkg::MbIdPrio +: can_regs_pkg::MbIdPrioW] & {3{lprio_en_i}};
+      val2_q[31:0]  <= cs_i[can_regs_pkg::MbCsIde]
+                       ? {id_i[28:18], 2'b11, id_i[17:0], cs_i[can_regs_pkg::MbCsRtr]}
+                       : {id_i[28:18], cs_i[can_regs_pkg::MbCsRtr], 20'b0};
+    end else if (written2) begin
+      active2_q <= 1'b0;
     end
   end
 
   // A buffer written since it was read does not count: an insertion follows if it is active. Nor
   // does the one on the bus.
-  logic candidate, withdrawn;
-  assign candidate = s2_q && s2_active_q && !(cs_written_i && cs_written_idx_i == s2_idx_q)
-                  && !((off_i || start_i) && s2_idx_q == cur_idx_i);
+  logic candidate, withdrawn, written2;
+  assign written2  = cs_written_i && cs_written_idx_i == idx2_q;
+  assign candidate = s3_q && active2_q && !written2
+                  && !((off_i || start_i) && idx2_q == cur_idx_i);
   // A buffer that is held no longer is compared as one that was written; a winner that is held from
   // now on is none, and what it had beaten is not known.
-  logic            held_q, s2_held, best_held, freed, set_aside;
+  logic            held_q, held2, best_held, freed, set_aside;
   logic [IdxW-1:0] held_idx_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {held_q, held_idx_q} <= '0;
     else         {held_q, held_idx_q} <= {held_i, held_idx_i};
   end
-  assign s2_held   = held_i && s2_idx_q == held_idx_i;
+  assign held2   = held_i && idx2_q == held_idx_i;
   assign best_held = held_i && best_idx_o == held_idx_i;
   assign freed     = held_q && !(held_i && held_idx_q == held_idx_i);
   assign set_aside = held_i && !(held_q && held_idx_q == held_idx_i) && best_idx_o == held_idx_i;
@@ -145,34 +156,36 @@ module can_mb_tx #(
   assign withdrawn   = best_q && ((cs_written_i && cs_written_idx_i == best_idx_o)
                           || ((start_i || off_i) && cur_idx_i == best_idx_o) || inactive_i
                           || set_aside || (freed && (ans_i || ans_q)));
-  // In two halves side by side: one comparison of all bits is the longest path of the core.
+  // In two halves side by side, and in a clock of its own: it is the longest path of the core.
   logic high_less, high_equal, low_less;
-  assign high_less  = s2_val_q[34:17] < best_val_q[34:17];
-  assign high_equal = s2_val_q[34:17] == best_val_q[34:17];
+  assign high_less  = val2_q[34:17] < best_val_q[34:17];
+  assign high_equal = val2_q[34:17] == best_val_q[34:17];
   // Of two buffers with equal values the later one is the worse.
-  assign low_less   = {s2_val_q[16:0], s2_idx_q}
-                    < {best_val_q[16:0], {IdxW{!s2_look_q}} & best_idx_o};
+  assign low_less   = {val2_q[16:0], idx2_q}
+                    < {best_val_q[16:0], {IdxW{!look2_q}} & best_idx_o};
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) less_q <= 1'b0;
+    else         less_q <= high_less || (high_equal && low_less);
+  end
   // Whether values decide; if not, whether this one is the better.
   logic by_value, better;
   always_comb begin
-    {by_value, better} = {!lbuf_i, lbuf_i && s2_idx_q < best_idx_o};
-    if (!s2_look_q && s2_held != best_held) {by_value, better} = {1'b0, best_held};
+    {by_value, better} = {!lbuf_i, lbuf_i && idx2_q < best_idx_o};
+    if (!look2_q && held2 != best_held) {by_value, better} = {1'b0, best_held};
   end
 
   // One register for two values: that of the winner, or in a pass for ESR2 that of the worst. What
   // comes while the winner is lost and is no better is left to the pass that looks for the next.
-  // The comparison is the last to be known: what it decides, if anything, is worked out beside it.
-  logic less, force_it, take, take_anyway, take_less, take_worst, worst_anyway, worst_more, load;
-  assign less         = high_less || (high_equal && low_less);
-  assign force_it     = s2_look_q ? !any_q || lbuf_i || s2_idx_q == '0
-                                  : !best_q || s2_reload_q;
-  assign take_anyway  = candidate && !s2_look_q && (force_it || better);
-  assign take_less    = candidate && !s2_look_q && by_value;
+  logic force_it, take, take_anyway, take_less, take_worst, worst_anyway, worst_more, load;
+  assign force_it     = look2_q ? !any_q || lbuf_i || idx2_q == '0
+                                  : !best_q || reload2_q;
+  assign take_anyway  = candidate && !look2_q && (force_it || better);
+  assign take_less    = candidate && !look2_q && by_value;
   assign worst_anyway = candidate && seen_o && force_it;
   assign worst_more   = candidate && seen_o;
-  assign take         = take_anyway || (take_less && less);
-  assign take_worst   = worst_anyway || (worst_more && !less);
-  assign load         = take_anyway || worst_anyway || (less ? take_less : worst_more);
+  assign take         = take_anyway || (take_less && less_q);
+  assign take_worst   = worst_anyway || (worst_more && !less_q);
+  assign load         = take_anyway || worst_anyway || (less_q ? take_less : worst_more);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -181,25 +194,25 @@ module can_mb_tx #(
       best_val_q <= '0;
     end else begin
       best_q <= running_i && (take || (best_q && !withdrawn));
-      if (take) best_idx_o <= s2_idx_q;
-      if (load) best_val_q <= s2_val_q;
+      if (take) best_idx_o <= idx2_q;
+      if (load) best_val_q <= val2_q;
       own_q <= take || (ins_gnt_i && reload) || (own_q && !take_worst);
     end
   end
 
   // What an insertion overtakes is not looked at any more.
-  assign seen_o       = s2_q && s2_look_q && !scan_q && !quiet_q && !ins_req_o;
-  assign seen_idx_o   = s2_idx_q;
+  assign seen_o       = s3_q && look2_q && !scan_q && !quiet_q && !ins_want;
+  assign seen_idx_o   = idx2_q;
   assign seen_worst_o = take_worst;
-  assign seen_free_o  = s2_free_q;
+  assign seen_free_o  = free2_q;
   assign pass_o       = running_i && look_q;
-  assign s2_end       = s2_last_q && !restart_q;
-  assign pass_end_o   = s2_end && look_q && !scan_q && !change && !ins_req_o;
+  assign s3_end       = s3_last_q && !restart_q;
+  assign pass_end_o   = s3_end && look_q && !scan_q && !change && !ins_want;
 
   // A pass for ESR2 is started anew by whatever happens; one that looks for a winner by the loss of
   // a winner, and not for ever.
   assign redo    = withdrawn || lost;
-  assign found   = candidate && s2_look_q && !best_q && !scan_q;
+  assign found   = candidate && look2_q && !best_q && !scan_q;
   assign change  = Status != 0 && (cs_written_i || ans_i || redo);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -208,11 +221,11 @@ module can_mb_tx #(
     end else if (!running_i) begin
       {look_q, quiet_q, any_q, restart_q} <= {Status != 0, 3'b000};
     end else begin
-      restart_q <= scan_q ? redo && !spoilt : change || ins_req_o || found;
+      restart_q <= scan_q ? redo && !spoilt : change || ins_want || found;
       look_q    <= change || (look_q && !pass_end_o);
-      quiet_q   <= !change && !found && !s2_end && !scan_q && !look_q
+      quiet_q   <= !change && !found && !s3_end && !scan_q && !look_q
                 && (quiet_q || (fresh_i && !best_q));
-      if (seen_o) any_q <= take_worst || (any_q && s2_idx_q != '0);
+      if (seen_o) any_q <= take_worst || (any_q && idx2_q != '0);
     end
   end
 
@@ -227,30 +240,30 @@ module can_mb_tx #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {ins_q, retry_q, s1_retry_q, s2_retry_q, again_q, spoils_q} <= '0;
-      {s1_q, s1_look_q, s1_last_q, s2_q, s2_look_q, s2_last_q, s1_reload_q, s2_reload_q} <= '0;
+      {ins_q, retry_q, retry_on_q, again_q, spoils_q} <= '0;
+      {s1_q, s1_look_q, s1_reload_q, s1_last_q, s2_q, s2_last_q, s3_q, s3_last_q} <= '0;
       scan_q <= 1'b1;
       {scan_idx_o, s1_idx_q} <= '0;
     end else if (!running_i) begin
-      {ins_q, retry_q, s1_retry_q, s2_retry_q, again_q, spoils_q} <= '0;
-      {s1_q, s1_look_q, s1_last_q, s2_q, s2_look_q, s2_last_q, s1_reload_q, s2_reload_q} <= '0;
+      {ins_q, retry_q, retry_on_q, again_q, spoils_q} <= '0;
+      {s1_q, s1_look_q, s1_reload_q, s1_last_q, s2_q, s2_last_q, s3_q, s3_last_q} <= '0;
       scan_q     <= 1'b1;
       scan_idx_o <= '0;
     end else begin
       ins_q     <= ins_new && !(ins_gnt_i && !reload);
       retry_q   <= retry_i || (retry_q && !retry_gnt);
-      {s1_retry_q, s2_retry_q} <= {retry_q && retry_gnt, s1_retry_q};
+      retry_on_q <= {retry_on_q[1:0], retry_q && retry_gnt};
       s1_q      <= ins_gnt_i || scan_gnt_i;
       s1_look_q <= scan_gnt_i && !scan_q;
       s1_reload_q <= ins_gnt_i && reload;
       s1_last_q <= scan_gnt_i && last;
-      s2_q      <= s1_q && !(s1_look_q && ins_req_o);   // overtaken
-      s2_look_q <= s1_look_q;
-      s2_reload_q <= s1_reload_q;
-      s2_last_q <= s1_last_q;
-      s1_idx_q  <= ins_req_o ? ins_idx_o : scan_idx_o;
+      s1_idx_q  <= ins_gnt_i ? ins_idx_o : scan_idx_o;
+      // A pass for ESR2 is overtaken by an insertion.
+      s2_q      <= s1_q && !(s1_look_q && ins_want);
+      s3_q      <= s2_q && !(look2_q && ins_want);
+      {s2_last_q, s3_last_q} <= {s1_last_q, s2_last_q};
       if (scan_gnt_i) scan_idx_o <= scan_idx_o + 1'b1;
-      if (s2_end) begin                 // every buffer has been looked at
+      if (s3_end) begin                 // every buffer has been looked at
         scan_q     <= again_q || redo || found;
         again_q    <= 1'b0;
         if (!again_q && !redo) spoils_q <= '0;
@@ -262,7 +275,7 @@ module can_mb_tx #(
       if (redo && scan_q && !spoilt) spoils_q <= spoils_q + 1'b1;
       if (restart_q) begin
         scan_idx_o <= '0;
-        {s1_last_q, s2_last_q} <= '0;
+        {s1_last_q, s2_last_q, s3_last_q} <= '0;
       end
     end
   end

@@ -18,7 +18,7 @@ module can_rx_fifo (
   input  logic       mrp_i,          // mailboxes before the FIFO
   // CPU.
   input  logic       pop_i,          // done with the frame at the output
-  output logic [2:0] head_o,         // row of the output; the next one in the clock of pop_i
+  output logic [2:0] head_o,         // row of the output
   output logic       avail_o,        // there is a frame at the output
   output logic       warn_o,         // pulse: the fill rises from 4 to 5
   output logic       ovf_o,          // pulse: a frame was lost
@@ -54,8 +54,9 @@ module can_rx_fifo (
   assign avail_o = fill_q != '0;
   assign pop     = pop_i && avail_o;
   assign put     = resolve_i && take_o;
-  assign full    = used >= Depth;
-  assign head_o  = pop ? next(head_q) : head_q;
+  assign full    = fill_q >= Depth || (fill_q >= Depth - 3'd1 && fifo_in_flight_i != '0)
+                || (fill_q >= Depth - 3'd2 && fifo_in_flight_i == '1);
+  assign head_o  = head_q;
 
   // Mailbox first: a free one, or with BCC=0 the first that fits.
   logic to_mb;
@@ -73,7 +74,7 @@ module can_rx_fifo (
       {head_q, fill_q} <= '0;
       enough_o <= 1'b0;
     end else begin
-      head_q <= head_q >= Depth ? 3'd0 : head_o;
+      head_q <= head_q >= Depth ? 3'd0 : pop ? next(head_q) : head_q;
       fill_q <= fill_q + {2'b0, stored_i && !pop} - {2'b0, pop && !stored_i};
       if (put) idhit_o <= idhit_i;
       // Room now is room later: only this frame can take it.

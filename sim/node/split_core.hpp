@@ -132,6 +132,7 @@ class SplitCore {
     }
     catch_up();
     if (Ports::to_host(engine_, *host_.rootp)) settle();
+    std::swap(before_, earlier_);
     std::memcpy(before_.get(), static_cast<const void *>(host_.rootp), sizeof(Root));
     host_edge();
     begin_rest();
@@ -177,13 +178,14 @@ class SplitCore {
  private:
   static constexpr std::uint64_t kForever = ~0ULL;
 
-  // After an edge of the host side; before_ is what it was before.
+  // After an edge of the host side; before_ is what it was before, earlier_ before the edge that
+  // was evaluated last: a pass reads in every second clock.
   void begin_rest() {
     const Root &root = *host_.rootp;
     resting_ = std::memcmp(before_.get(), static_cast<const void *>(&root), sizeof(Root)) == 0;
     rest_ = kForever;
     if (resting_ || !passes_rest_) return;
-    rest_ = TransmitScan<Root>::clocks(before_.get(), root);
+    rest_ = TransmitScan<Root>::clocks(earlier_.get(), root);
     resting_ = rest_ > 0;
   }
 
@@ -229,6 +231,7 @@ class SplitCore {
   HostModel host_{&context_, "host"};
   ModelContext model_context_{context_};
   std::unique_ptr<unsigned char[]> before_ = std::make_unique<unsigned char[]>(sizeof(Root));
+  std::unique_ptr<unsigned char[]> earlier_ = std::make_unique<unsigned char[]>(sizeof(Root));
   std::uint64_t rest_ = kForever;  // while resting_: edges to come that may be left out
   std::uint64_t behind_ = 0;       // edges that have been
   ByteStore<Root, Ports> store_;

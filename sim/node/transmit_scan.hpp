@@ -13,17 +13,17 @@
 
 namespace vericansim {
 
-/// A pass looks at a buffer in every clock, and most buffers have nothing to send. While only
-/// those come, the clocks of a host side that does nothing else read a row and move three indices
-/// on; they are found out by what a clock has left as it was, and done at once. Proven member by
-/// member in tb/system/bus_transmit_scan_test.cpp.
+/// A pass looks at a buffer in every second clock, and most buffers have nothing to send. While
+/// only those come, the clocks of a host side that does nothing else read a row and move three
+/// indices on; they are found out by what two clocks have left as it was, and done at once. Proven
+/// member by member in tb/system/bus_transmit_scan_test.cpp.
 ///
 /// Needs the members that Verilator 5.006 gives the model; without them there is none of it.
 template <typename Root>
 class TransmitScan {
  public:
   /// Clocks to come that only move the pass on, as long as no input of the model changes.
-  /// `before`: the model's bytes as they were before the last clock; they are written to.
+  /// `before`: the model's bytes as they were before the last two clocks; they are written to.
   [[nodiscard]] static std::uint64_t clocks(unsigned char *before, const Root &after) {
     return clocks_(before, after);
   }
@@ -43,6 +43,8 @@ class TransmitScan {
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__copy_data;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__eng_cs_row;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__eng_msg_row;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__first;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__best_idx;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__gen_status__DOT__u_status__DOT__imb_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_step__DOT__data_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__rd_q;
@@ -55,12 +57,17 @@ class TransmitScan {
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_msg__DOT__mem;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__scan_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_q;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_look_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_q;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s3_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_idx_q;
-    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_idx_q;
-    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_active_q;
-    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_free_q;
-    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_val_q;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__look2_q;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__idx2_q;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__active2_q;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__free2_q;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__val2_q;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less_q;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__best_val_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__restart_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__withdrawn;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__change;
@@ -71,29 +78,29 @@ class TransmitScan {
   static bool active(std::uint32_t cs) { return (cs >> 24 & 0xD) == 0xC; }
   static bool inactive(std::uint32_t cs) { return (cs >> 24 & 0x7) == 0; }
 
-  // A pass is in full swing, the first buffer behind it, which begins ESR2 anew, and nobody else
-  // wants a word of the RAM.
+  // A pass is in full swing: it reads the C/S word of a buffer in this clock, and compares the
+  // buffer before, which is not the first: that one begins ESR2 anew. Nobody else wants a word of
+  // the RAM.
   template <typename R>
   static bool in_full_swing(const R &root) {
     const unsigned scanning = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__scan_gnt &
-                              root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_q &
                               root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_q;
     const unsigned else_busy = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__stale |
                                root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_step__DOT__data_q |
                                root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__rd_q |
-                               root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__wr_q;
+                               root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__wr_q |
+                               root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_q |
+                               root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s3_q;
     const unsigned event = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__restart_q |
                            root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__withdrawn |
                            root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__change |
-                           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_active_q |
-                           (root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_free_q &
+                           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__active2_q |
+                           (root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__free2_q &
                             static_cast<unsigned>(takes_inactive(root)));
     return scanning != 0 && else_busy == 0 && (event & 1) == 0 &&
-           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_idx_q != 0 &&
+           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__idx2_q != 0 &&
            root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__scan_idx ==
-               root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_idx_q + 1U &&
-           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_idx_q ==
-               root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_idx_q + 1U;
+               root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__idx2_q + 1U;
   }
 
   // A pass for ESR2 that has met no inactive buffer yet.
@@ -129,22 +136,24 @@ class TransmitScan {
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__msg_raddr;
     to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_idx_q =
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_idx_q;
-    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_idx_q =
-        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_idx_q;
-    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_free_q =
-        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_free_q;
-    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_val_q =
-        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_val_q;
+    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__idx2_q =
+        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__idx2_q;
+    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__free2_q =
+        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__free2_q;
+    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__val2_q =
+        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__val2_q;
+    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less_q =
+        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less_q;
     // Not members of every model.
     if constexpr (requires { to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better; })
       to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better =
           from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better;
-    if constexpr (requires { to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less; })
-      to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less =
-          from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less;
     if constexpr (requires { to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__force_it; })
       to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__force_it =
           from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__force_it;
+    if constexpr (requires { to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_part; })
+      to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_part =
+          from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_part;
   }
 
   template <typename R>
@@ -153,13 +162,13 @@ class TransmitScan {
       if (!in_full_swing(after)) return 0;
       copy_moving(*reinterpret_cast<R *>(before), after);
       if (std::memcmp(before, static_cast<const void *>(&after), sizeof(R)) != 0) return 0;
-      return to_come(after);
+      return 2 * to_come(after);
     } else {
       return 0;
     }
   }
 
-  // Clocks until one meets a buffer that matters, or reads the last one.
+  // Buffers until one matters or is the last.
   template <typename R>
   static std::uint64_t to_come(const R &root) {
     constexpr unsigned kBuffers =
@@ -169,29 +178,72 @@ class TransmitScan {
     const unsigned last = maxmb < begin ? kBuffers - 1 : std::min(maxmb, kBuffers - 1);
     const bool inactive_counts = takes_inactive(root);
     unsigned next = begin;
-    for (std::uint32_t cs = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs; next < last;
-         ++next) {
+    for (; next < last; ++next) {
+      const std::uint32_t cs =
+          root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_cs__DOT__mem[next];
       if (active(cs) || (inactive_counts && inactive(cs))) break;
-      cs = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_cs__DOT__mem[next];
     }
     return next - begin;
   }
 
-  // Stage 2 of the pass is taken notice of for active and inactive buffers only, and has been
-  // filled anew after the next clock.
+  // Arbitration value of a buffer, as can_mb_tx has it.
+  template <typename R>
+  static std::uint64_t value(const R &root, unsigned buffer) {
+    const std::uint32_t mcr = root.can_ahb__DOT__u_top__DOT__u_regs__DOT__u_mcr__DOT__value_q;
+    const std::uint32_t cs =
+        root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_cs__DOT__mem[buffer];
+    const std::uint32_t id =
+        root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_msg__DOT__mem[buffer];
+    const std::uint32_t rtr = cs >> 20 & 1, base = id >> 18 & 0x7FF;
+    const std::uint64_t prio = (mcr >> 13 & 1) != 0 ? id >> 29 : 0;  // LPRIO_EN
+    return prio << 32 | base << 21 |
+           ((cs >> 21 & 1) != 0 ? 3U << 19 | (id & 0x3FFFF) << 1 | rtr : rtr << 20);
+  }
+
+  // ... compared with that of the winner, or of the worst.
+  template <typename R>
+  static bool less(const R &root, unsigned buffer) {
+    const std::uint64_t mine = value(root, buffer),
+                        other =
+                            root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__best_val_q;
+    const unsigned tie = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__look2_q != 0
+                             ? 0
+                             : root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__best_idx;
+    return mine < other || (mine == other && buffer < tie);
+  }
+
   template <typename R>
   static void pass_(R &root, std::uint64_t clocks) {
     if constexpr (kKnown<R>) {
-      auto &next = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__scan_idx;
-      next = static_cast<CData>(next + clocks);
-      const unsigned read = next - 1U;
-      root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_idx_q = static_cast<CData>(read);
-      root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_idx_q =
-          static_cast<CData>(read - 1);
+      const bool between = clocks % 2 != 0;  // in the clock in which nothing is read
+      const unsigned maxmb = root.can_ahb__DOT__u_top__DOT__u_regs__DOT__u_mcr__DOT__value_q & 0x7F;
+      const unsigned read = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__scan_idx +
+                            static_cast<unsigned>(clocks / 2);
+      const unsigned compared = read - 1;
+      root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__scan_idx =
+          static_cast<CData>(read + (between ? 1 : 0));
       root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs =
           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_cs__DOT__mem[read];
       root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__msg =
           root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_msg__DOT__mem[read];
+      root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_q = between;
+      root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_look_q =
+          between && root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__scan_q == 0;
+      root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_q = !between;
+      root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s3_q = between;
+      root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_idx_q = static_cast<CData>(read);
+      // Behind the first clock, what it compares is what was read before all this.
+      if (clocks > 1) {
+        root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__idx2_q =
+            static_cast<CData>(compared);
+        root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__free2_q =
+            compared >= root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__first && compared <= maxmb &&
+            inactive(root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_cs__DOT__mem
+                         [compared]);
+        root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__val2_q = value(root, compared);
+      }
+      root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less_q =
+          less(root, between ? compared : compared - 1);
       verican_settle(&root);
     }
   }

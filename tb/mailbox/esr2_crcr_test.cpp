@@ -64,12 +64,12 @@ class Esr2 : public ::testing::Test {
   }
   void set(unsigned mb, unsigned code, std::uint32_t id = 0) {
     rig_->write(0, reg::mb(mb, 1), id);
-    rig_->write(0, reg::mb(mb), code << 24);
+    rig_->write(0, reg::mb(mb), code << 24 | 8u << 16);  // time for both passes
     code_[mb] = code;
     id_[mb] = id;
   }
   std::uint32_t scanned() {
-    rig_->run(300);  // a pass for the winner and one for ESR2
+    rig_->run(600);  // a pass for the winner and one for ESR2
     return rig_->read(0, kEsr2);
   }
   // Nodes that cannot send keep everything as it is: listen-only.

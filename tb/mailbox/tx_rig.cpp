@@ -7,7 +7,7 @@
 namespace vericansim {
 namespace {
 
-constexpr unsigned kOccupier = 20;  // its buffer
+constexpr unsigned kOccupier = 20;  // its buffers: this one and the next in turn
 
 }  // namespace
 
@@ -28,9 +28,22 @@ void TxRig::count() {
   starts_ += trace.start && trace.transmitter;
   sent_ += trace.tx_ok;
   failed_ += trace.tx_fail;
-  if (occupied_ && decode_trace(node(1).trace()).tx_ok)
-    node(1).master().submit(
-        {.address = reg::mb(kOccupier), .write = true, .data = reg::kCodeTxData | (8u << 16)});
+  if (occupied_) occupy_next();
+}
+
+// The next frame is there before this one ends: between frames there are three bits.
+void TxRig::occupy_next() {
+  const Trace trace = decode_trace(node(1).trace());
+  const bool sending = trace.transmitter && trace.field == Field::kData;
+  if (!sending || next_armed_) {
+    next_armed_ = sending;
+    return;
+  }
+  next_armed_ = true;
+  next_ ^= 1;
+  node(1).master().submit({.address = reg::mb(kOccupier + next_),
+                           .write = true,
+                           .data = reg::kCodeTxData | (8u << 16)});
 }
 
 void TxRig::watch(unsigned clocks) {
@@ -63,7 +76,14 @@ unsigned TxRig::code(unsigned mb) {
 
 void TxRig::occupy(bool on) {
   occupied_ = on;
-  if (on) put_tx(1, kOccupier, {.id = 0, .dlc = 8});
+  if (on) {
+    next_armed_ = false;
+    next_ = 0;
+    for (const unsigned word : {1u, 2u, 3u}) write(1, reg::mb(kOccupier + 1, word), 0);
+    put_tx(1, kOccupier, {.id = 0, .dlc = 8});
+  } else if (next_armed_) {
+    write(1, reg::mb(kOccupier + next_), 8u << 24);
+  }
 }
 
 MbWords TxRig::received() {

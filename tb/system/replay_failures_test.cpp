@@ -33,9 +33,10 @@ class ReplayFailures : public ScratchTest {
   static const ReplayResult &replay_of(const RunReport &report) { return report.replays.at(0); }
 };
 
-/// Always wins, and leaves no room.
+/// Always wins, and leaves no room: one is in its buffer when the other ends.
 const char *const kHog =
-    "traffic: [{node: other, id: 1, data: FF FF FF FF FF FF FF FF, period: saturated}]\n";
+    "traffic: [{node: other, id: 1, data: FF FF FF FF FF FF FF FF, period: saturated},\n"
+    "          {node: other, id: 2, data: FF FF FF FF FF FF FF FF, period: saturated}]\n";
 
 // A million bits (2 s) without a frame of its own.
 TEST_F(ReplayFailures, GivesUpWhereOthersHoldTheBus) {

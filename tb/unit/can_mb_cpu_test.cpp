@@ -13,10 +13,16 @@ namespace {
 class MbCpu : public ::testing::Test {
  protected:
   MbCpu() { cpu_.reset(); }
-  void write(unsigned idx, unsigned lanes, unsigned code) {
-    cpu_->wr_done_i = 1;
-    cpu_->mem_sel_i = 0;
+  /// The first clock of an access, in which its place is looked up.
+  void begin(unsigned mem_sel, unsigned idx) {
+    cpu_->mem_sel_i = mem_sel;
     cpu_->idx_i = idx;
+    cpu_.settle();
+  }
+  void write(unsigned idx, unsigned lanes, unsigned code) {
+    begin(0, idx);
+    cpu_.clock();
+    cpu_->wr_done_i = 1;
     cpu_->be_i = lanes;
     cpu_->wdata_i = code << 24;
     cpu_.settle();
@@ -47,16 +53,30 @@ TEST_F(MbCpu, PartsOfAWordAreNotTakenForMore) {  // FX-3.4.g
 
 // Words of the filter table are no C/S words, whatever they hold.
 TEST_F(MbCpu, FilterWordsAreNoCsWords) {  // FX-4.a, FX-ESR2.VPS
-  cpu_->fen_i = cpu_->cmd_mb_i = cpu_->ready_i = 1;
+  cpu_->fen_i = 1;
   cpu_->first_i = 10;
   for (unsigned idx = 6; idx < 14; ++idx) {
-    cpu_->cmd_wr_i = 1;
-    cpu_->cmd_idx_i = idx;
-    cpu_.clock();
-    cpu_->cmd_wr_i = 0;
     write(idx, 15, 0xC);
     EXPECT_EQ(cpu_->cs_written_o != 0, idx >= 10) << idx;
     cpu_.clock();
+  }
+}
+
+// A frame that ends while its C/S word is read: the code that it has then, to the reader and to
+// the lock.
+TEST_F(MbCpu, CodeOfAFrameThatHasJustBeenSent) {  // FX-3.4.c, FX-3.6.a
+  for (const bool ends : {false, true}) {
+    begin(0, 5);
+    cpu_.clock();
+    cpu_->rd_done_i = 1;
+    cpu_->ram_rdata_i = 0x0C081234;
+    cpu_->ram_code_i = 0xC;
+    cpu_->end_i = ends;
+    cpu_->end_code_i = 0x4;
+    cpu_.settle();
+    EXPECT_EQ(cpu_->rdata_o, ends ? 0x04081234u : 0x0C081234u);
+    EXPECT_TRUE(cpu_->cs_rd_o);
+    EXPECT_EQ(cpu_->cs_rd_code_o, ends ? 0x4u : 0xCu);
   }
 }
 
@@ -90,27 +110,38 @@ TEST_F(MbCpuKeeps, OfAMailboxesCsWordWhatCanBeSeenAndTwoMarks) {  // FX-3.3.j, F
 }
 
 TEST_F(MbCpuKeeps, AWordOfTheFilterTableWhole) {  // FX-4.a
-  cpu_->fen_i = cpu_->cmd_mb_i = cpu_->ready_i = 1;
+  cpu_->fen_i = 1;
   cpu_->first_i = 10;
-  cpu_->cmd_wr_i = 1;
-  cpu_->cmd_idx_i = 7;
+  begin(0, 7);
   cpu_.clock();
-  cpu_->cmd_wr_i = 0;
   for (unsigned code = 0; code < 16; ++code)
     EXPECT_EQ(kept(0, code), 0xF0FFFFFF | code << 24) << code;
 }
 
-// Only a mailbox has a C/S word that says whether it may be written.
-TEST_F(MbCpu, LooksAtTheCsWordOfAMailboxAlone) {  // FX-3.3.j
+// Of buffers alone, and of RXFIR, which has the selection of a C/S word.
+TEST_F(MbCpu, WhatBelongsToTheRxFifo) {  // FX-4.a, FX-4.b
   cpu_->first_i = 10;
-  for (const bool mailbox : {false, true}) {
+  for (unsigned mem_sel = 0; mem_sel < 4; ++mem_sel) {
     for (const bool fifo : {false, true}) {
-      for (const unsigned idx : {0u, 7u, 9u, 10u}) {
-        cpu_->cmd_mb_i = mailbox;
+      for (unsigned idx = 0; idx < 64; ++idx) {
         cpu_->fen_i = fifo;
-        cpu_->cmd_idx_i = idx;
-        cpu_.settle();
-        EXPECT_EQ(cpu_->cmd_look_o != 0, mailbox && !(fifo && idx < 10)) << idx;
+        begin(mem_sel, idx);
+        EXPECT_EQ(cpu_->area_o != 0, mem_sel < 2 && fifo && idx < 10) << mem_sel << " " << idx;
+        EXPECT_EQ(cpu_->ring_o != 0, mem_sel < 2 && fifo && idx < 6) << mem_sel << " " << idx;
+      }
+    }
+  }
+}
+
+// What is read as buffer 0 is the row at the output of the FIFO.
+TEST_F(MbCpu, RowAtTheOutputOfTheRxFifo) {  // FX-4.b
+  for (unsigned mem_sel = 0; mem_sel < 4; ++mem_sel) {
+    for (const bool fifo : {false, true}) {
+      for (const unsigned idx : {0u, 1u, 4u}) {
+        cpu_->fen_i = fifo;
+        cpu_->head_i = 4;
+        begin(mem_sel, idx);
+        EXPECT_EQ(cpu_->row_idx_o, fifo && mem_sel < 2 && idx == 0 ? 4u : idx) << mem_sel;
       }
     }
   }

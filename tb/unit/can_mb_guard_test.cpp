@@ -19,12 +19,13 @@ class MbGuard : public ::testing::Test {
  protected:
   MbGuard() {
     guard_->aen_i = guard_->gnt_i = 1;
-    guard_->waited_i = 0;
+    guard_->wr_done_i = 0;
     guard_.reset();
   }
   /// A write in its first clock, in which its buffer is looked up.
   void look(unsigned mem_sel, unsigned idx, unsigned code) {
-    guard_->waited_i = 0;
+    guard_->wr_done_i = 0;
+    guard_->first_i = 1;
     guard_->be3_i = 1;
     guard_->mem_sel_i = mem_sel;
     guard_->idx_i = idx;
@@ -33,8 +34,8 @@ class MbGuard : public ::testing::Test {
   /// ... in its second one, in which it ends.
   void ends() {
     guard_.clock();
-    guard_->end_i = 0;
-    guard_->waited_i = 1;
+    guard_->end_i = guard_->first_i = 0;
+    guard_->wr_done_i = 1;
     guard_.settle();
   }
   void cs_write(unsigned idx, unsigned code) {
@@ -43,8 +44,11 @@ class MbGuard : public ::testing::Test {
   }
   void clock() {
     guard_.clock();
-    guard_->waited_i = guard_->end_i = 0;
+    guard_->wr_done_i = guard_->end_i = 0;
     guard_.settle();
+  }
+  [[nodiscard]] bool blocked() {
+    return guard_->block_o != 0 || (guard_->if_ended_o != 0 && guard_->ended_i != 0);
   }
   LeafModel<Vcan_mb_guard> guard_;
 };
@@ -65,8 +69,8 @@ TEST_F(MbGuard, RequestForTheFrameThatHasMovedOut) {  // FX-3.4.b, FX-3.4.d
   EXPECT_FALSE(guard_->abort_o) << "it is only being looked up";
   ends();
   EXPECT_TRUE(guard_->abort_o);
-  EXPECT_TRUE(guard_->block_o);
-  guard_->waited_i = 0;  // a read; the data lines show anything
+  EXPECT_TRUE(blocked());
+  guard_->wr_done_i = 0;  // a read; the data lines show anything
   guard_.settle();
   EXPECT_FALSE(guard_->abort_o);
   for (const auto &change : kNoRequest) {
@@ -77,7 +81,7 @@ TEST_F(MbGuard, RequestForTheFrameThatHasMovedOut) {  // FX-3.4.b, FX-3.4.d
     guard_->aen_i = 1;
   }
   cs_write(6, kAbort);
-  EXPECT_FALSE(guard_->abort_o || guard_->block_o) << "another buffer";
+  EXPECT_FALSE(guard_->abort_o || blocked()) << "another buffer";
   clock();
   EXPECT_TRUE(guard_->flag_o);
 }
@@ -94,7 +98,7 @@ TEST_F(MbGuard, FrameThatIsReplacedHasNotMovedOut) {  // FX-3.4.b
       guard_->take_i = 0;
       guard_->cur_idx_i = replaced ? 8 : 7;
       guard_.settle();
-      EXPECT_EQ(guard_->block_o != 0, !replaced) << mem_sel;
+      EXPECT_EQ(blocked(), !replaced) << mem_sel;
     }
   }
 }
@@ -109,7 +113,7 @@ TEST_F(MbGuard, RequestThatIsDoneAtOnce) {  // FX-3.4.a
     guard_->aen_i = 1;
   }
   cs_write(3, kAbort);
-  EXPECT_FALSE(guard_->block_o || guard_->abort_o);
+  EXPECT_FALSE(blocked() || guard_->abort_o);
   clock();
   EXPECT_TRUE(guard_->flag_o);
   EXPECT_EQ(guard_->flag_idx_o, 3);
@@ -127,9 +131,9 @@ TEST_F(MbGuard, WhatIsNotTakenBackForANewFrame) {  // FX-3.4.a
       look(kCs, 12, code);
       guard_->be3_i = top_byte;
       ends();
-      EXPECT_EQ(guard_->block_o != 0, !top_byte || code == kActive || code == kAnswer) << code;
+      EXPECT_EQ(blocked(), !top_byte || code == kActive || code == kAnswer) << code;
       cs_write(13, code);
-      EXPECT_FALSE(guard_->block_o);
+      EXPECT_FALSE(blocked());
     }
   }
 }
@@ -149,8 +153,7 @@ TEST_F(MbGuard, ProtectsWhatHasEndedUntilItsFlagIsCleared) {  // FX-3.3.j
             ends();
             guard_->ended_i = marked;  // the RAM shows it
             guard_.settle();
-            EXPECT_EQ(guard_->block_o != 0, aen && !fifo && mem_sel <= kMsg && marked && flag)
-                << mem_sel;
+            EXPECT_EQ(blocked(), aen && !fifo && mem_sel <= kMsg && marked && flag) << mem_sel;
           }
         }
       }
@@ -166,7 +169,7 @@ TEST_F(MbGuard, ProtectsWhatIsAboutToEnd) {  // FX-3.3.j
       guard_->done_i = 1;
       look(mem_sel, idx, 0);
       ends();
-      EXPECT_EQ(guard_->block_o != 0, idx == 5 && mem_sel <= kMsg) << mem_sel << " " << idx;
+      EXPECT_EQ(blocked(), idx == 5 && mem_sel <= kMsg) << mem_sel << " " << idx;
       clock();
       guard_->done_i = 0;
       // The end is told in the clock in which the write looks its buffer up: marked already.
@@ -176,7 +179,7 @@ TEST_F(MbGuard, ProtectsWhatIsAboutToEnd) {  // FX-3.3.j
       ends();
       guard_->ended_i = idx == 5;
       guard_.settle();
-      EXPECT_EQ(guard_->block_o != 0, idx == 5 && mem_sel <= kMsg) << mem_sel << " " << idx;
+      EXPECT_EQ(blocked(), idx == 5 && mem_sel <= kMsg) << mem_sel << " " << idx;
       guard_->ended_i = 0;
       clock();
     }
@@ -190,13 +193,13 @@ TEST_F(MbGuard, ProtectsWhatWasAbortedAtOnce) {  // FX-3.3.j
   clock();
   for (const unsigned idx : {0u, 3u, 4u}) {
     cs_write(idx, 0);
-    EXPECT_EQ(guard_->block_o != 0, idx == 3) << idx;
+    EXPECT_EQ(blocked(), idx == 3) << idx;
     clock();
   }
   guard_->gnt_i = 1;
   clock();
   cs_write(3, 0);
-  EXPECT_FALSE(guard_->block_o);
+  EXPECT_FALSE(blocked());
 }
 
 }  // namespace

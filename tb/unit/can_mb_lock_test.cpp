@@ -26,7 +26,8 @@ class MbLock : public ::testing::Test {
   void read(unsigned idx, unsigned code, bool serviced = false) {
     lock_->cs_rd_i = 1;
     lock_->idx_i = idx;
-    lock_->cs_i = (code << 24) | (serviced ? 1u << 31 : 0);
+    lock_->code_i = code;
+    lock_->serviced_i = serviced;
     clock();
   }
   void read_timer() {
@@ -54,6 +55,21 @@ TEST_F(MbLock, ReadOfAnotherBufferUnlocksAndServices) {  // FX-3.6.c, FX-3.6.e, 
     clock();
     EXPECT_FALSE(lock_->serviced_req_o);
     write(9);
+  }
+}
+
+// The mark would be written over the new code.
+TEST_F(MbLock, NoMarkInTheClockBehindACsWrite) {  // FX-3.6.g
+  for (const unsigned written : {5u, 6u}) {
+    read(5, kFull);
+    read_timer();
+    EXPECT_TRUE(lock_->serviced_req_o);
+    lock_->cs_written_i = 1;
+    lock_->cs_written_idx_i = written;
+    lock_.settle();
+    EXPECT_EQ(lock_->serviced_req_o != 0, written != 5);
+    clock();
+    EXPECT_EQ(lock_->serviced_req_o != 0, written != 5);
   }
 }
 

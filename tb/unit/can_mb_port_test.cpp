@@ -15,8 +15,10 @@ namespace {
 
 class MbPort : public ::testing::Test {
  protected:
+  static constexpr unsigned Cs = 0, Msg = 1, Mask = 2, Timer = 3;
   MbPort() {
     port_->cmd_be_i = 0xF;
+    port_->copy_ok_i = 1;
     port_.reset();
     for (unsigned i = 0; i < 300; ++i) port_.clock();  // every row is cleared
     port_.settle();
@@ -26,9 +28,14 @@ class MbPort : public ::testing::Test {
     port_.clock();
     port_.settle();
   }
+  void command(unsigned mem_sel, unsigned word, unsigned idx) {
+    port_->cmd_mem_sel_i = mem_sel;
+    port_->cmd_word_i = word;
+    port_->cmd_idx_i = port_->row_idx_i = idx;
+  }
   /// A read of the CPU in its command phase, in every clock from now on; or none.
   void reads(bool on) {
-    port_->cmd_slot_i = port_->cmd_rd_i = on;
+    port_->cmd_rd_i = on;
     port_.settle();
   }
   /// The same for writes.
@@ -40,140 +47,197 @@ class MbPort : public ::testing::Test {
     port_->eng_req_i = on;
     port_.settle();
   }
+  /// The first clock of one access.
+  void begin_read() {
+    reads(true);
+    clock();
+    reads(false);
+  }
+  void begin_write() {
+    writes(true);
+    clock();
+    writes(false);
+  }
   LeafModel<Vcan_mb_port> port_;
 };
 
-TEST_F(MbPort, CpuReadsBeforeAnEngineThatWasNotRefused) {
-  engine(true);
-  for (unsigned i = 0; i < 3; ++i, clock()) EXPECT_TRUE(port_->eng_slot_o);
-  reads(true);
-  EXPECT_FALSE(port_->eng_slot_o);
-  clock();
-  EXPECT_TRUE(port_->ready_o) << "no wait state";
-}
-
-TEST_F(MbPort, EngineThatWasRefusedReadsBeforeTheCpu) {
-  engine(true);
-  reads(true);
-  unsigned grants = 0;
-  for (unsigned i = 0; i < 30; ++i, clock()) {
-    grants += port_->eng_slot_o;
-    reads(port_->ready_o != 0);  // a command only where it is taken
+// Whatever the engine wants, an access has two clocks.
+TEST_F(MbPort, EachAccessWaitsForOneClock) {
+  port_->eng_req_i = port_->ins_req_i = port_->serviced_req_i = port_->rx_wr_req_i = 1;
+  for (const bool copy : {false, true}) {
+    port_->copy_i = port_->flight_i = copy;
+    for (const unsigned mem_sel : {Cs, Msg, Mask, Timer}) {
+      for (const bool look : {false, true}) {
+        command(mem_sel, 0, 5);
+        port_->look_i = look;
+        begin_read();
+        EXPECT_FALSE(port_->ready_o || port_->rd_done_o);
+        clock();
+        EXPECT_TRUE(port_->ready_o && port_->rd_done_o);
+        clock();
+        EXPECT_TRUE(port_->ready_o) << "none is under way";
+        begin_write();
+        EXPECT_FALSE(port_->ready_o || port_->wr_done_o);
+        EXPECT_TRUE(port_->wr_o);
+        clock();
+        EXPECT_TRUE(port_->ready_o && port_->wr_done_o);
+        clock();
+        EXPECT_FALSE(port_->rd_done_o || port_->wr_o);
+      }
+    }
   }
-  EXPECT_GE(grants, 10u) << "one slot in three at the least";
-  for (unsigned waits = 0; port_->ready_o == 0; ++waits, clock()) ASSERT_LE(waits, 1u);
 }
 
-TEST_F(MbPort, EngineRefusedByAnInsertionReadsBeforeTheCpu) {
+// The first clock of a read is the CPU's; that of a write if it looks at its C/S word.
+TEST_F(MbPort, CpuReadsInItsFirstClock) {  // FX-3.3.j
+  engine(true);
+  EXPECT_TRUE(port_->eng_slot_o);
+  for (const bool look : {false, true}) {
+    port_->look_i = look;
+    begin_read();
+    EXPECT_FALSE(port_->eng_slot_o);
+    clock();
+    EXPECT_TRUE(port_->eng_slot_o);
+    clock();
+    begin_write();
+    EXPECT_EQ(port_->eng_slot_o != 0, !look);
+    clock();
+    EXPECT_TRUE(port_->eng_slot_o);
+    clock();
+  }
+}
+
+TEST_F(MbPort, InsertionComesBeforeTheEngine) {
   engine(true);
   port_->ins_req_i = 1;
   port_.settle();
   EXPECT_TRUE(port_->ins_gnt_o);
   EXPECT_FALSE(port_->eng_slot_o);
-  clock();
-  port_->ins_req_i = 0;
-  reads(true);
-  EXPECT_TRUE(port_->eng_slot_o);
-  clock();
-  EXPECT_FALSE(port_->ready_o) << "the CPU waits for one clock";
-  clock();
-  EXPECT_TRUE(port_->ready_o);
+  begin_read();
+  EXPECT_FALSE(port_->ins_gnt_o) << "not before the CPU";
 }
 
-// A serviced mark goes first once; a CPU that writes in every clock does not keep it out.
-TEST_F(MbPort, ServicedMarkComesBeforeAWriteThatHasNotWaited) {  // FX-3.6.g
-  writes(true);
-  clock();
+// A CPU that asks for an insertion with each access leaves the engine seven slots of eight.
+TEST_F(MbPort, InsertionsInARowMakeRoomForTheEngine) {
+  engine(true);
+  port_->ins_req_i = port_->look_i = 1;
+  for (const bool busy : {false, true}) {
+    unsigned grants = 0, slots = 0;
+    for (unsigned i = 0; i < 160; ++i, clock()) {
+      writes(busy);
+      grants += port_->ins_gnt_o;
+      slots += port_->eng_slot_o;
+      EXPECT_FALSE(port_->ins_gnt_o && port_->eng_slot_o);
+    }
+    EXPECT_GE(grants, 10u);
+    EXPECT_EQ(grants + slots, busy ? 80u : 160u) << "no slot is lost";
+    EXPECT_GE(slots, busy ? 60u : 138u);
+  }
+}
+
+TEST_F(MbPort, InsertionsInARowHaveWhatTheEngineDoesNotWant) {
+  port_->ins_req_i = port_->eng_lazy_i = 1;
+  for (const bool lazy : {false, true}) {
+    engine(lazy);
+    for (unsigned i = 0; i < 20; ++i, clock()) EXPECT_TRUE(port_->ins_gnt_o);
+  }
+}
+
+// A copy gives way to a write of the CPU, for one clock, in which the outputs stay as they are.
+TEST_F(MbPort, SecondHalfOfACopyWaitsForAWrite) {
+  for (const unsigned mem_sel : {Cs, Msg, Mask, Timer}) {
+    command(mem_sel, 0, 5);
+    begin_write();
+    port_->copy_i = port_->flight_i = 1;
+    port_.settle();
+    EXPECT_FALSE(port_->hold_o);
+    clock();
+    EXPECT_EQ(port_->hold_o != 0, mem_sel != Timer);
+    EXPECT_EQ(port_->eng_slot_o != 0, mem_sel == Timer) << "nobody reads";
+    clock();
+    EXPECT_FALSE(port_->hold_o);
+    port_->copy_i = port_->flight_i = 0;
+  }
+}
+
+TEST_F(MbPort, ServicedMarkWaitsForACopyAndForAWrite) {  // FX-3.6.g
   port_->serviced_req_i = 1;
+  port_->copy_i = port_->flight_i = 1;
+  port_.settle();
+  EXPECT_FALSE(port_->serviced_gnt_o);
+  port_->copy_i = port_->flight_i = 0;
   port_.settle();
   EXPECT_TRUE(port_->serviced_gnt_o);
-  EXPECT_FALSE(port_->ready_o);
+  command(Cs, 3, 7);
+  begin_write();
+  EXPECT_TRUE(port_->serviced_gnt_o);
   clock();
-  EXPECT_FALSE(port_->serviced_gnt_o) << "another one";
-  EXPECT_TRUE(port_->ready_o);
-}
-
-TEST_F(MbPort, SecondHalfOfACopyComesBeforeAWriteThatHasNotWaited) {
-  writes(true);
+  EXPECT_FALSE(port_->serviced_gnt_o);
   clock();
-  port_->copy_i = 1;
-  port_.settle();
-  EXPECT_FALSE(port_->hold_o);
-  EXPECT_FALSE(port_->ready_o);
-  clock();
-  EXPECT_TRUE(port_->hold_o) << "another one";
-  EXPECT_TRUE(port_->ready_o);
+  EXPECT_TRUE(port_->serviced_gnt_o);
 }
 
 TEST_F(MbPort, NobodyWaitsInReset) {
   engine(true);
-  reads(true);
-  clock();
-  clock();
+  begin_read();
   EXPECT_FALSE(port_->ready_o);
   port_->rst_ni = 0;
   port_.settle();
   EXPECT_TRUE(port_->ready_o);
 }
 
-TEST_F(MbPort, EngineWriteThatWasRefusedComesBeforeTheCpu) {
-  writes(true);
-  clock();
+TEST_F(MbPort, EngineWritesWhenNobodyElseDoes) {
   port_->rx_wr_req_i = 1;
   port_.settle();
+  EXPECT_TRUE(port_->rx_wr_gnt_o);
+  for (auto *other : {&port_->copy_i, &port_->serviced_req_i}) {
+    *other = 1;
+    port_.settle();
+    EXPECT_FALSE(port_->rx_wr_gnt_o);
+    clock();
+    EXPECT_TRUE(port_->rx_wr_owed_o) << "no copy is to begin";
+    *other = 0;
+    port_.settle();
+    EXPECT_TRUE(port_->rx_wr_gnt_o);
+    clock();
+    EXPECT_FALSE(port_->rx_wr_owed_o);
+  }
+  command(Msg, 0, 7);
+  begin_write();
+  EXPECT_TRUE(port_->rx_wr_gnt_o);
+  clock();
   EXPECT_FALSE(port_->rx_wr_gnt_o);
-  EXPECT_TRUE(port_->ready_o);
   clock();
   EXPECT_TRUE(port_->rx_wr_gnt_o);
-  EXPECT_FALSE(port_->ready_o);
 }
 
-TEST_F(MbPort, WriteThatLooksAtItsCsWordWaitsForOneClock) {  // FX-3.3.j
-  for (const bool look : {true, false, true}) {
-    port_->cmd_look_i = 1;
-    port_->look_i = !look;  // AEN is written in the clock of the command
-    writes(true);
-    clock();
-    port_->look_i = look;
-    writes(false);  // a command only where it is taken
-    EXPECT_EQ(port_->ready_o && port_->wr_done_o, !look);
-    if (!look) continue;
-    clock();
-    EXPECT_TRUE(port_->ready_o && port_->wr_done_o);
-  }
-}
-
-// A block RAM answers nothing certain to a read of a word that is being written; the CPU reads it
-// again, but for the word that a copy shows.
+// A block RAM answers nothing certain to a read of a word that is being written. While the CPU
+// reads nobody writes its word but a copy, which shows it.
 class MbPortCollision : public MbPort {
  protected:
-  static constexpr unsigned Cs = 0, Msg = 1, Mask = 2;
-  /// The CPU writes `value` to buffer 5's word of `kind`.
+  /// The CPU writes `value` to buffer 5's word of `mem_sel`.
   void fill(unsigned mem_sel, unsigned word, unsigned value) {
     command(mem_sel, word, 5);
-    writes(true);
-    clock();
-    writes(false);
+    begin_write();
     port_->wdata_i = value;
     clock();
+    clock();
   }
-  /// Puts the CPU's read of a word into this clock.
+  /// The first clock of the CPU's read of a word.
   void read(unsigned mem_sel, unsigned word, unsigned idx = 5) {
     command(mem_sel, word, idx);
-    reads(true);
+    begin_read();
   }
-  /// What that read gives, one clock later; or another one, if it is read again.
-  unsigned answer(bool again = false) {
+  /// What that read gives, one clock later.
+  unsigned answer() {
     clock();
     nothing_is_written();
-    EXPECT_EQ(port_->ready_o && port_->rd_done_o, !again);
-    if (again) clock();
     EXPECT_TRUE(port_->ready_o && port_->rd_done_o);
     return port_->rdata_o;
   }
   void nothing_is_written() {
     reads(false);
-    port_->rx_wr_req_i = port_->serviced_req_i = port_->copy_i = 0;
+    port_->rx_wr_req_i = port_->serviced_req_i = port_->copy_i = port_->flight_i = 0;
     port_.settle();
   }
   /// A write of the engine in this clock, of the bytes `we`.
@@ -188,37 +252,16 @@ class MbPortCollision : public MbPort {
   }
   /// A copy of the word on the RAM outputs in this clock, of the bytes `we`.
   void copies(unsigned mem_sel, unsigned row, unsigned we, unsigned value) {
-    port_->copy_i = 1;
+    port_->copy_i = port_->flight_i = 1;
     port_->copy_cs_i = mem_sel == Cs;
     port_->copy_be_i = we;
     port_->copy_row_i = row;
     port_->copy_data_i = value;
     port_.settle();
   }
-  void command(unsigned mem_sel, unsigned word, unsigned idx) {
-    port_->cmd_mem_sel_i = mem_sel;
-    port_->cmd_word_i = word;
-    port_->cmd_idx_i = idx;
-  }
 };
 
-TEST_F(MbPortCollision, ReadMeetsACopyOfTheControlWord) {
-  fill(Cs, 3, 0x01234567);
-  read(Cs, 3);
-  copies(Cs, 5, 0b1011, 0x89ABCDEF);
-  EXPECT_EQ(answer(true), 0x8923CDEFu);
-}
-
-TEST_F(MbPortCollision, ReadMeetsACopyOfEachDataWord) {
-  for (unsigned word = 0; word < 3; ++word) {
-    fill(Msg, word, 0x01234567);
-    read(Msg, word);
-    copies(Msg, word * 64 + 5, 0b1111, 0x89ABCDEF);
-    EXPECT_EQ(answer(true), 0x89ABCDEFu) << "word " << word;
-  }
-}
-
-TEST_F(MbPortCollision, ReadOfAnotherRowDoesNotWait) {
+TEST_F(MbPortCollision, ReadOfAnotherRowSeesNothingOfAWrite) {
   fill(Cs, 3, 0x01234567);
   fill(Msg, 1, 0x76543210);
   const auto written = [](unsigned row) { return row % 2 != 0 ? 0xFFFFFFFF : 0x00000000; };
@@ -250,28 +293,14 @@ TEST_F(MbPortCollision, ReadOfAnotherRowDoesNotWait) {
   }
 }
 
-TEST_F(MbPortCollision, ReadMeetsTheServicedMark) {  // FX-3.6.g
-  fill(Cs, 3, 0x01234567);
-  read(Cs, 3);
-  port_->serviced_req_i = 1;
-  port_->serviced_idx_i = 5;
-  port_->serviced_ovr_i = 1;
-  port_.settle();
-  EXPECT_TRUE(port_->serviced_gnt_o);
-  EXPECT_EQ(answer(true), 0x86234567u);
-}
-
-// In the second clock of a read its word is not marked; another one is.
-TEST_F(MbPortCollision, ServicedMarkWaitsForAReadThatHasWaited) {  // FX-3.6.g
+// In the first clock of a read its word is not marked; another one is.
+TEST_F(MbPortCollision, ServicedMarkWaitsForARead) {  // FX-3.6.g
   for (const unsigned marked : {4u, 5u}) {
     fill(Cs, 3, 0x01234567);
-    port_->ins_req_i = 1;
     read(Cs, 3);
-    clock();
-    port_->ins_req_i = 0;
-    reads(false);
     port_->serviced_req_i = 1;
     port_->serviced_idx_i = marked;
+    port_->serviced_ovr_i = 1;
     port_.settle();
     EXPECT_EQ(port_->serviced_gnt_o != 0, marked != 5);
     clock();
@@ -279,47 +308,65 @@ TEST_F(MbPortCollision, ServicedMarkWaitsForAReadThatHasWaited) {  // FX-3.6.g
     EXPECT_EQ(port_->rdata_o, 0x01234567u);
     clock();
     nothing_is_written();
+    read(Cs, 3);
+    EXPECT_EQ(answer(), marked == 5 ? 0x86234567u : 0x01234567u);
+    clock();
   }
 }
 
-// What a copy writes stands on the RAM outputs: a read that has waited gets it from there.
-TEST_F(MbPortCollision, ReadThatHasWaitedMeetsTheSecondHalfOfACopy) {
-  fill(Cs, 3, 0x01234567);
-  fill(Msg, 2, 0x00112233);
-  command(Msg, 2, 5);
-  fill(Msg, 0, 0x44556677);
+// What a copy writes stands on the RAM outputs: a read of that word gets it from there, unless the
+// copy has been withdrawn.
+TEST_F(MbPortCollision, ReadMeetsTheSecondHalfOfACopy) {
   for (const bool same : {false, true}) {
-    port_->eng_req_i = port_->ins_req_i = 0;
-    port_->ins_req_i = 1;  // reads the row that is copied
-    port_->ins_idx_i = 5;
-    read(Msg, 2);
-    clock();
-    port_->ins_req_i = 0;
-    reads(false);
-    EXPECT_EQ(port_->msg_o, 0x44556677u);
-    EXPECT_FALSE(port_->ready_o);
-    copies(Msg, (same ? 128 : 64) + 5, 0b1111, 0x44556677);
-    clock();
-    nothing_is_written();
-    EXPECT_TRUE(port_->ready_o && port_->rd_done_o);
-    EXPECT_EQ(port_->rdata_o, same ? 0x44556677u : 0x00112233u);
-    clock();
+    for (const bool off : {false, true}) {
+      fill(Msg, 2, 0x00112233);
+      fill(Msg, 0, 0x44556677);
+      command(Msg, 2, 5);
+      reads(true);
+      port_->ins_req_i = 1;  // reads the row that is copied
+      port_->ins_idx_i = 5;
+      clock();
+      port_->ins_req_i = 0;
+      reads(false);
+      EXPECT_EQ(port_->msg_o, 0x44556677u);
+      copies(Msg, (same ? 128 : 64) + 5, 0b1111, 0x44556677);
+      port_->copy_off_i = off;
+      port_->copy_ok_i = !off;
+      EXPECT_EQ(answer(), same && !off ? 0x44556677u : 0x00112233u);
+      clock();
+      read(Msg, 2);
+      EXPECT_EQ(answer(), same && !off ? 0x44556677u : 0x00112233u) << "and it is there";
+      clock();
+    }
   }
-  read(Msg, 2);
-  EXPECT_EQ(answer(), 0x44556677u) << "and it is there";
 }
 
-TEST_F(MbPortCollision, ReadMeetsAWriteOfTheCpu) {
+// Of a frame that has been sent the outputs show the word as it was, so another block knows of the
+// code.
+TEST_F(MbPortCollision, ReadMeetsTheEndOfAFrameSent) {
+  for (const bool end : {false, true}) {
+    for (const unsigned idx : {5u, 6u}) {
+      read(Cs, 3);
+      copies(Cs, idx, 0b1011, 0x08001234);
+      port_->copy_end_i = end;
+      clock();
+      nothing_is_written();
+      EXPECT_EQ(port_->rd_end_o != 0, end && idx == 5);
+      clock();
+      EXPECT_FALSE(port_->rd_end_o);
+    }
+  }
+}
+
+TEST_F(MbPortCollision, ReadRightBehindAWriteOfTheCpu) {
   for (unsigned mem_sel : {Cs, Msg, Mask}) {
     fill(mem_sel, 1, 0x01234567);
-    writes(true);
-    clock();
-    writes(false);
+    begin_write();
     port_->wdata_i = 0x89ABCDEF;
-    read(mem_sel, 1);
-    EXPECT_EQ(answer(true), 0x89ABCDEFu) << "mem_sel " << mem_sel;
     clock();
-    EXPECT_EQ((read(mem_sel, 1), answer()), 0x89ABCDEFu) << "mem_sel " << mem_sel;
+    read(mem_sel, 1);
+    EXPECT_EQ(answer(), 0x89ABCDEFu) << "mem_sel " << mem_sel;
+    clock();
   }
 }
 
@@ -346,26 +393,38 @@ TEST_F(MbPortCollision, EngineIsToldThatAWordWasBeingWritten) {
   EXPECT_EQ(read(Msg, 5, 5, 0), (std::pair{false, false}));
 }
 
-TEST_F(MbPortCollision, WriteThatIsRefusedIsNotRead) {
-  fill(Msg, 1, 0x01234567);
-  writes(true);
-  clock();
-  writes(false);
-  port_->wdata_i = 0x89ABCDEF;
-  port_->block_i = 1;
-  read(Msg, 1);
-  EXPECT_EQ(answer(true), 0x01234567u);
+// Because it goes to the memory of the Rx FIFO, or by AEN: whatever the look at the C/S word
+// brings, or if that says that a transmission has ended.
+TEST_F(MbPortCollision, WriteThatIsRefusedLeavesTheWord) {  // FX-3.3.j, FX-4.a
+  enum { kNo, kRing, kBlock, kIfEnded };
+  for (const bool ended : {false, true}) {
+    for (const auto why : {kNo, kRing, kBlock, kIfEnded}) {
+      fill(Cs, 3, ended ? 0x40000000 : 0);
+      fill(Msg, 1, 0x01234567);
+      port_->look_i = 1;
+      begin_write();
+      port_->wdata_i = 0x89ABCDEF;
+      port_->ring_i = why == kRing;
+      clock();
+      port_->block_i = why == kBlock;
+      port_->if_ended_i = why == kIfEnded;
+      port_->ring_i = 0;
+      read(Msg, 1);
+      port_->block_i = port_->if_ended_i = 0;
+      const bool written = why == kNo || (why == kIfEnded && !ended);
+      EXPECT_EQ(answer(), written ? 0x89ABCDEFu : 0x01234567u) << why << " " << ended;
+      clock();
+    }
+  }
 }
 
-// A write's look at the C/S word: what the RAM holds, with the outputs kept if a copy writes it.
+// A write's look at the C/S word is there in the clock in which it writes.
 TEST_F(MbPortCollision, WriteLooksAtItsCsWord) {  // FX-3.3.j
   fill(Cs, 3, 0x41234567);
   for (const unsigned mem_sel : {Cs, Msg}) {
     command(mem_sel, 1, 5);
-    port_->cmd_look_i = port_->look_i = port_->block_i = 1;
-    writes(true);
-    clock();
-    writes(false);
+    port_->look_i = port_->block_i = 1;
+    begin_write();
     clock();
     EXPECT_EQ(port_->cs_o, 0x41234567u) << mem_sel;
     clock();

@@ -127,7 +127,29 @@ TEST_F(MbStep, HeaderThatIsNotTakenIsNotCopied) {
   step_->ld_step_i = kStepHead;
   clock();
   step_.settle();
-  EXPECT_EQ(step_->copy_be_o, 0);
+  EXPECT_TRUE(step_->copy_o);
+  EXPECT_FALSE(step_->copy_ok_o);
+  step_->ld_take_i = 1;
+  step_.settle();
+  EXPECT_TRUE(step_->copy_ok_o);
+}
+
+// ... nor the end of a frame whose buffer the CPU has rewritten.
+TEST_F(MbStep, EndThatIsWithdrawnIsNotWritten) {
+  for (const unsigned step : {kStepLow, kStepEnd}) {
+    for (const bool cancel : {false, true}) {
+      step_->ld_req_i = 1;
+      step_->ld_step_i = step;
+      clock();
+      step_->ld_req_i = 0;
+      step_->ld_cancel_i = cancel;
+      step_.settle();
+      EXPECT_EQ(step_->copy_end_o != 0, step == kStepEnd);
+      EXPECT_EQ(step_->copy_off_o != 0, step == kStepEnd && cancel);
+      EXPECT_EQ(step_->copy_ok_o != 0, step != kStepEnd || !cancel);
+      clock();
+    }
+  }
 }
 
 // What a copy writes and where: the words of a frame received, then its C/S word; of an answer the
@@ -152,7 +174,8 @@ TEST_F(MbStep, MovesCopyWordForWord) {  // FX-3.5.b, FX-3.7.b
     EXPECT_EQ(step_->copy_data_o, word == 3 ? 0x02123456u : 0x89ABCDEFu);
     step_->mv_cancel_i = 1;
     step_.settle();
-    EXPECT_EQ(step_->copy_be_o, 0) << "rewritten by the CPU";
+    EXPECT_FALSE(step_->copy_ok_o) << "rewritten by the CPU";
+    EXPECT_TRUE(step_->copy_off_o);
     step_->mv_cancel_i = 0;
     clock();
   }

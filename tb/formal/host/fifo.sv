@@ -4,18 +4,19 @@
   // Properties of can_rx_fifo, spliced into it. The model beside it counts the frames that came and
   // went; f_way are those on their way to their places.
 
-  logic [2:0] f_count, f_ahead, f_tail;
+  logic [2:0] f_count, f_ahead, f_head, f_tail;
   logic [1:0] f_way;          // at most two, one in each hidden row
   logic       f_ran;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {f_count, f_way, f_tail, f_ran} <= '0;
+      {f_count, f_way, f_head, f_tail, f_ran} <= '0;
     end else begin
       f_ran <= 1'b1;
-      if (clear_i) {f_count, f_way, f_tail} <= '0;
+      if (clear_i) {f_count, f_way, f_head, f_tail} <= '0;
       else begin
         f_way   <= f_way + 2'(resolve_i && take_o) - 2'(stored_i);
         if (resolve_i && take_o) f_tail <= f_tail == 3'd5 ? 3'd0 : f_tail + 3'd1;
+        if (pop_i && f_count != 3'd0) f_head <= f_head == 3'd5 ? 3'd0 : f_head + 3'd1;
         f_count <= f_count + 3'(stored_i) - 3'(pop_i && f_count != 3'd0);
       end
     end
@@ -39,6 +40,8 @@
       p_avail: assert (avail_o == (f_count != 3'd0));
       // flexcan.md 4: the places are a ring of six rows, without gaps.
       p_ring: assert (head_q < 3'd6 && tail_o == f_tail);
+      // flexcan.md 4: the output is the row of the oldest frame, from the clock after a pop on.
+      p_output: assert (head_o == f_head);
       // flexcan.md 4: warning exactly when the fill rises from 4 to 5.
       p_warn: assert (warn_o == (f_count == 3'd4 && stored_i && !pop_i));
       // flexcan.md 4: overflow only when all six places are taken and no mailbox has the frame.

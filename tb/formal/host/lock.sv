@@ -32,6 +32,9 @@
       p_not_both: assert (!(lock_i && busy_mb_o && lock_idx_i == idx_o) || (arm_q && !data_i));
       // flexcan.md 3.6: and so no word is written into a locked buffer.
       p_locked: assert (!(lock_i && busy_mb_o && lock_idx_i == idx_o && data_i));
+      // flexcan.md 3.6: the first word comes after the decision: no step of a move that was
+      // cancelled belongs to the next.
+      p_own_steps: assert (!(arm_q && data_i));
       // flexcan.md 3.2: what a move leaves in the code: FULL, OVERRUN, or 1110 to be answered; in
       // the FIFO the number of the filter.
       p_code: assert (top_o[4:1] == 4'b0010 || top_o[4:1] == 4'b0110 || fifo

@@ -74,7 +74,7 @@
       p_row: assert (!(f_moving && mv_data_i && !mv_cancel_i && f_step == 2'd3)
                      || (f_mem[{2'b00, f_idx}] == f_lower[f_row]
                          && f_mem[{2'b01, f_idx}] == f_upper[f_row]));
-      // TM-29: nothing but the engine writes; the CPU's second read meets no write.
-      p_again: assert (!(again_i && we) || copy);
+      // TM-29: nothing but the engine writes; a read of the CPU meets no write but a copy.
+      p_again: assert (!(cpu_i && we) || copy);
     end
   end

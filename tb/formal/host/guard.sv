@@ -1,0 +1,53 @@
+  // SPDX-FileCopyrightText: 2026 The VeriCAN authors
+  // SPDX-License-Identifier: Apache-2.0
+  //
+  // Properties of can_mb_guard, spliced into it: what is forbidden of a write that takes two clocks.
+
+  logic             f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort;
+  logic [1:0]       f_mem_sel;
+  logic [IdxW-1:0]  f_idx;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      {f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort} <= '0;
+      f_mem_sel <= '0;
+      f_idx     <= '0;
+    end else begin
+      f_second  <= first_i;
+      f_guarded <= aen_i && !area_i && mem_sel_i < 2'd2;
+      f_iflag   <= iflag_i[idx_i] || (end_i && end_idx_i == idx_i);
+      f_cur     <= cur_idx_i == idx_i && !take_i;
+      f_cs      <= mem_sel_i == can_mb_pkg::MemCs;
+      f_abort   <= be3_i && code_i == 4'b1001;
+      f_mem_sel <= mem_sel_i;
+      f_idx     <= idx_i;
+    end
+  end
+  logic f_write, f_ends, f_blocked;
+  assign f_write   = f_second && f_guarded;
+  assign f_ends    = (f_iflag && ended_i) || (f_cur && done_i) || (flag_o && flag_idx_o == f_idx);
+  assign f_blocked = block_o || (if_ended_o && ended_i);
+
+  always @(posedge clk_i) begin
+    m_reset: assume (rst_ni == !$initstate);
+    // can_mb_port: the second clock follows the first, with the same access (host.port, p_two_clocks).
+    m_clocks: assume (wr_done_i == f_second && !(first_i && f_second));
+    m_held: assume (!f_second || (mem_sel_i == f_mem_sel && idx_i == f_idx));
+    if (rst_ni) begin
+      // flexcan.md 3.4: what bit 30 decides is a write to a mailbox that ends in this clock.
+      p_second: assert (!if_ended_o || (wr_done_i && f_write));
+      // flexcan.md 3.4: without MCR.AEN, and of the Rx FIFO, masks and TIMER, nothing is forbidden.
+      p_free: assert (f_guarded || !f_blocked);
+      // flexcan.md 3.4: no word is written of a buffer whose transmission has ended and whose IFLAG is
+      // set.
+      p_ended: assert (!(f_write && f_ends) || f_blocked);
+      // flexcan.md 3.3: nor the C/S word of one that has moved out; any other one is written.
+      p_out: assert (!(f_write && f_cs && f_cur && out_i) || f_blocked);
+      p_written: assert (!(f_write && !f_ends && !(f_cs && f_cur && (out_i || kept_i))) || !f_blocked);
+      // flexcan.md 3.3: a request is code 1001 in a C/S word that is forbidden as the frame is out.
+      p_request: assert (!abort_o || (f_write && f_cs && f_abort && f_cur && (out_i || kept_i)
+                                      && !f_ends));
+      // flexcan.md 3.3: an abort is done at once exactly when the word is written, and IFLAG tells.
+      p_at_once: assert ($initstate || !$past(rst_ni && f_write && f_cs && f_abort && !f_blocked
+                                              && !clear_i) || (flag_o && flag_idx_o == $past(idx_i)));
+    end
+  end
