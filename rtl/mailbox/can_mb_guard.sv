@@ -7,9 +7,10 @@
 // has ended and whose IFLAG is still set. Code 1001 in a blocked C/S word is a request to
 // can_mb_load; in one that is written it is done at once, and IFLAG tells.
 //
-// With AEN a write to a mailbox waits for one clock, in which its C/S word is read: bit 30 says
-// that a transmission has ended since the CPU wrote it. What is looked at of the data is kept in a
-// register meanwhile.
+// In the first clock of a write the C/S word of its buffer is read: bit 30 says that a transmission
+// has ended since the CPU wrote it. Meanwhile everything else is found out: that bit is late in the
+// second clock. What has moved out by the first clock is kept from the CPU: what moves out later is
+// not on its way to the bus before the write is noticed.
 
 module can_mb_guard #(
   parameter int NumMb = 64,

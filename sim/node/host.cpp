@@ -201,9 +201,13 @@ Task<> Host::load_frames() {
 }
 
 Task<> Host::serve_buffers() {
-  std::uint64_t flags = (co_await node_.ahb().read(reg::kIflag1)).data;
+  std::uint64_t flags = 0;
   if (node_.num_mb() > 32) {
-    flags |= static_cast<std::uint64_t>((co_await node_.ahb().read(reg::kIflag2)).data) << 32;
+    const auto low = node_.ahb().submit({.address = reg::kIflag1});  // ends before the other
+    flags = static_cast<std::uint64_t>((co_await node_.ahb().read(reg::kIflag2)).data) << 32;
+    flags |= node_.ahb().result(low).data;
+  } else {
+    flags = (co_await node_.ahb().read(reg::kIflag1)).data;
   }
   std::vector<HostFrame> batch;
   for (; flags != 0; flags &= flags - 1) {
@@ -257,8 +261,8 @@ Task<> Host::finish_transmission(unsigned mb) {
   TxSlot &slot = tx_[mb - first_tx_];
   const std::uint32_t cs = (co_await node_.ahb().read(reg::mb(mb))).data;
   // A remote frame leaves its buffer as a receive buffer; C/S first, then the flag.
-  write(reg::mb(mb), reg::kCodeTxInactive);
-  co_await node_.ahb().write(mb < 32 ? reg::kIflag1 : reg::kIflag2, 1u << (mb % 32));
+  if (slot.frame.remote) write(reg::mb(mb), reg::kCodeTxInactive);
+  write(mb < 32 ? reg::kIflag1 : reg::kIflag2, 1u << (mb % 32));
   HostFrame sent;
   sent.frame = slot.frame;
   sent.stamp = cs & 0xFFFF;

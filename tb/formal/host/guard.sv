@@ -3,12 +3,12 @@
   //
   // Properties of can_mb_guard, spliced into it: what is forbidden of a write that takes two clocks.
 
-  logic             f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort;
+  logic             f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort, f_out, f_kept;
   logic [1:0]       f_mem_sel;
   logic [IdxW-1:0]  f_idx;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort} <= '0;
+      {f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort, f_out, f_kept} <= '0;
       f_mem_sel <= '0;
       f_idx     <= '0;
     end else begin
@@ -18,6 +18,8 @@
       f_cur     <= cur_idx_i == idx_i && !take_i;
       f_cs      <= mem_sel_i == can_mb_pkg::MemCs;
       f_abort   <= be3_i && code_i == 4'b1001;
+      f_out     <= out_i;
+      f_kept    <= kept_i && (!be3_i || code_i == 4'b1100 || code_i == 4'b1110);
       f_mem_sel <= mem_sel_i;
       f_idx     <= idx_i;
     end
@@ -40,11 +42,13 @@
       // flexcan.md 3.4: no word is written of a buffer whose transmission has ended and whose IFLAG is
       // set.
       p_ended: assert (!(f_write && f_ends) || f_blocked);
-      // flexcan.md 3.3: nor the C/S word of one that has moved out; any other one is written.
-      p_out: assert (!(f_write && f_cs && f_cur && out_i) || f_blocked);
-      p_written: assert (!(f_write && !f_ends && !(f_cs && f_cur && (out_i || kept_i))) || !f_blocked);
+      // flexcan.md 3.3: nor the C/S word of one that had moved out in the first clock; a bus that
+      // becomes free in the second is two bits away from the next frame. Any other word is written.
+      p_out: assert (!(f_write && f_cs && f_cur && (f_out || f_kept)) || f_blocked);
+      p_written: assert (!(f_write && !f_ends && !(f_cs && f_cur && (f_out || f_kept)))
+                         || !f_blocked);
       // flexcan.md 3.3: a request is code 1001 in a C/S word that is forbidden as the frame is out.
-      p_request: assert (!abort_o || (f_write && f_cs && f_abort && f_cur && (out_i || kept_i)
+      p_request: assert (!abort_o || (f_write && f_cs && f_abort && f_cur && (f_out || f_kept)
                                       && !f_ends));
       // flexcan.md 3.3: an abort is done at once exactly when the word is written, and IFLAG tells.
       p_at_once: assert ($initstate || !$past(rst_ni && f_write && f_cs && f_abort && !f_blocked
