@@ -85,7 +85,8 @@ module can_mb_step #(
       {data_q, data_ld_q} <= '0;
       ld_data_step_o <= '0;
     end else begin
-      data_q <= (slot_i && step_req) || hold_i;
+      // A move that is given up takes its step with it, or the next one would get its word.
+      data_q <= (slot_i && step_req) || (hold_i && (data_ld_q || moving_i));
       if (slot_i && step_req) begin
         data_ld_q      <= take_ld;
         ld_data_step_o <= ld_step_i;

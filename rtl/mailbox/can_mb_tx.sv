@@ -221,7 +221,7 @@ module can_mb_tx #(
     end else if (!running_i) begin
       {look_q, quiet_q, any_q, restart_q} <= {Status != 0, 3'b000};
     end else begin
-      restart_q <= scan_q ? redo && !spoilt : change || ins_want || found;
+      restart_q <= scan_q ? redo && !spoilt : change || redo || ins_want || found;
       look_q    <= change || (look_q && !pass_end_o);
       quiet_q   <= !change && !found && !s3_end && !scan_q && !look_q
                 && (quiet_q || (fresh_i && !best_q));

@@ -68,6 +68,7 @@ class SplitCore {
 
   /// `edges` have passed at rest, at most rest(), and the engine has done them.
   void pass(std::uint64_t edges) {
+    in_a_row_ = 0;
     storing_ = storing_ && edges == 0;
     if (rest_ == kForever) return;
     rest_ -= edges;
@@ -95,6 +96,7 @@ class SplitCore {
 
   /// Lets combinational outputs follow the inputs, across both models.
   void settle() {
+    in_a_row_ = 0;
     catch_up();
     resting_ = false;
     host_settled_ = true;
@@ -110,6 +112,7 @@ class SplitCore {
   /// One rising edge of the clock behind which the host side's inputs change again, so that nobody
   /// asks whether it rests.
   void busy_edge() {
+    in_a_row_ = 0;
     catch_up();
     if (Ports::to_host(engine_, *host_.rootp)) settle();
     host_edge();
@@ -127,6 +130,7 @@ class SplitCore {
     }
     if (rest() == kForever && bytes_rest_ && !storing_ && store_.begin(engine_, *host_.rootp)) {
       storing_ = stored_ = true;
+      in_a_row_ = 0;
       engine_edge();
       return;
     }
@@ -135,6 +139,7 @@ class SplitCore {
     std::swap(before_, earlier_);
     std::memcpy(before_.get(), static_cast<const void *>(host_.rootp), sizeof(Root));
     host_edge();
+    ++in_a_row_;
     begin_rest();
     engine_edge();
     if (Ports::to_core(engine_, *host_.rootp)) engine_.eval();
@@ -178,14 +183,14 @@ class SplitCore {
  private:
   static constexpr std::uint64_t kForever = ~0ULL;
 
-  // After an edge of the host side; before_ is what it was before, earlier_ before the edge that
-  // was evaluated last: a pass reads in every second clock.
+  // After an edge of the host side; before_ is what it was before, earlier_ one edge earlier, if
+  // that was evaluated with the same inputs: a pass reads in every second clock.
   void begin_rest() {
     const Root &root = *host_.rootp;
     resting_ = std::memcmp(before_.get(), static_cast<const void *>(&root), sizeof(Root)) == 0;
     rest_ = kForever;
     if (resting_ || !passes_rest_) return;
-    rest_ = TransmitScan<Root>::clocks(earlier_.get(), root);
+    rest_ = in_a_row_ < 2 ? 0 : TransmitScan<Root>::clocks(earlier_.get(), root);
     resting_ = rest_ > 0;
   }
 
@@ -232,6 +237,7 @@ class SplitCore {
   ModelContext model_context_{context_};
   std::unique_ptr<unsigned char[]> before_ = std::make_unique<unsigned char[]>(sizeof(Root));
   std::unique_ptr<unsigned char[]> earlier_ = std::make_unique<unsigned char[]>(sizeof(Root));
+  unsigned in_a_row_ = 0;          // edges evaluated since anything else has happened
   std::uint64_t rest_ = kForever;  // while resting_: edges to come that may be left out
   std::uint64_t behind_ = 0;       // edges that have been
   ByteStore<Root, Ports> store_;

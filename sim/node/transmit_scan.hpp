@@ -212,14 +212,15 @@ class TransmitScan {
     return mine < other || (mine == other && buffer < tie);
   }
 
+  // A pass goes from clocks in which it reads to those between and back.
   template <typename R>
   static void pass_(R &root, std::uint64_t clocks) {
     if constexpr (kKnown<R>) {
-      const bool between = clocks % 2 != 0;  // in the clock in which nothing is read
-      const unsigned maxmb = root.can_ahb__DOT__u_top__DOT__u_regs__DOT__u_mcr__DOT__value_q & 0x7F;
-      const unsigned read = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__scan_idx +
-                            static_cast<unsigned>(clocks / 2);
-      const unsigned compared = read - 1;
+      const unsigned was_between = root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_q;
+      const unsigned place = 2 * root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__scan_idx -
+                             was_between + static_cast<unsigned>(clocks);
+      const bool between = place % 2 != 0;
+      const unsigned read = place / 2, compared = read - 1;
       root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__scan_idx =
           static_cast<CData>(read + (between ? 1 : 0));
       root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs =
@@ -232,20 +233,24 @@ class TransmitScan {
       root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s2_q = !between;
       root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s3_q = between;
       root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__s1_idx_q = static_cast<CData>(read);
-      // Behind the first clock, what it compares is what was read before all this.
-      if (clocks > 1) {
-        root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__idx2_q =
-            static_cast<CData>(compared);
-        root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__free2_q =
-            compared >= root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__first && compared <= maxmb &&
-            inactive(root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_cs__DOT__mem
-                         [compared]);
-        root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__val2_q = value(root, compared);
-      }
+      if (compared != root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__idx2_q)
+        compare(root, compared);
       root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less_q =
           less(root, between ? compared : compared - 1);
       verican_settle(&root);
     }
+  }
+
+  // Fills the stage of the comparison with a buffer that is not active.
+  template <typename R>
+  static void compare(R &root, unsigned buffer) {
+    const unsigned maxmb = root.can_ahb__DOT__u_top__DOT__u_regs__DOT__u_mcr__DOT__value_q & 0x7F;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__idx2_q = static_cast<CData>(buffer);
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__free2_q =
+        buffer >= root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__first && buffer <= maxmb &&
+        inactive(
+            root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_cs__DOT__mem[buffer]);
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__val2_q = value(root, buffer);
   }
 };
 

@@ -214,10 +214,10 @@ TEST_F(RxFifo, AreaBeginsWithTheWriteOfFen) {  // FX-4.a, FX-MCR.FEN
   const std::uint32_t mcr = rig_.read(kReceiver, reg::kMcr) & ~reg::kMcrFen;
   for (const unsigned mb : {6u, 7u, 8u}) {
     rig_.write(kReceiver, reg::kMcr, mcr);
-    const auto results = rig_.burst(
-        kReceiver, {{.address = reg::kMcr, .write = true, .data = mcr | reg::kMcrFen},
-                    {.address = reg::mb(mb), .write = true, .data = 0xFFFFFFFF},
-                    {.address = reg::mb(mb)}});
+    const auto results =
+        rig_.burst(kReceiver, {{.address = reg::kMcr, .write = true, .data = mcr | reg::kMcrFen},
+                               {.address = reg::mb(mb), .write = true, .data = 0xFFFFFFFF},
+                               {.address = reg::mb(mb)}});
     EXPECT_EQ(results[2].data, mb < 8 ? 0xFFFFFFFFu : 0x0F7FFFFFu) << mb;
   }
 }

@@ -1,7 +1,8 @@
   // SPDX-FileCopyrightText: 2026 The VeriCAN authors
   // SPDX-License-Identifier: Apache-2.0
   //
-  // Properties of can_mb_guard, spliced into it: what is forbidden of a write that takes two clocks.
+  // Properties of can_mb_guard, spliced into it: what is forbidden of a write of
+  // two clocks.
 
   logic             f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort, f_out, f_kept;
   logic [1:0]       f_mem_sel;
@@ -31,7 +32,8 @@
 
   always @(posedge clk_i) begin
     m_reset: assume (rst_ni == !$initstate);
-    // can_mb_port: the second clock follows the first, with the same access (host.port, p_two_clocks).
+    // can_mb_port: the second clock follows the first, with the same access (host.port,
+    // p_two_clocks).
     m_clocks: assume (wr_done_i == f_second && !(first_i && f_second));
     m_held: assume (!f_second || (mem_sel_i == f_mem_sel && idx_i == f_idx));
     if (rst_ni) begin
@@ -39,8 +41,8 @@
       p_second: assert (!if_ended_o || (wr_done_i && f_write));
       // flexcan.md 3.4: without MCR.AEN, and of the Rx FIFO, masks and TIMER, nothing is forbidden.
       p_free: assert (f_guarded || !f_blocked);
-      // flexcan.md 3.4: no word is written of a buffer whose transmission has ended and whose IFLAG is
-      // set.
+      // flexcan.md 3.4: no word is written of a buffer whose transmission has ended and whose IFLAG
+      // is set.
       p_ended: assert (!(f_write && f_ends) || f_blocked);
       // flexcan.md 3.3: nor the C/S word of one that had moved out in the first clock; a bus that
       // becomes free in the second is two bits away from the next frame. Any other word is written.
@@ -51,7 +53,8 @@
       p_request: assert (!abort_o || (f_write && f_cs && f_abort && f_cur && (f_out || f_kept)
                                       && !f_ends));
       // flexcan.md 3.3: an abort is done at once exactly when the word is written, and IFLAG tells.
-      p_at_once: assert ($initstate || !$past(rst_ni && f_write && f_cs && f_abort && !f_blocked
-                                              && !clear_i) || (flag_o && flag_idx_o == $past(idx_i)));
+      p_at_once: assert ($initstate
+          || !$past(rst_ni && f_write && f_cs && f_abort && !f_blocked && !clear_i)
+          || (flag_o && flag_idx_o == $past(idx_i)));
     end
   end

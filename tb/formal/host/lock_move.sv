@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_lock, can_mb_move and can_mb_step as can_mailbox connects them, with free surroundings: the
-// CPU's reads and writes, the match, the frames, the loads, and the RAM's words.
+// can_mb_lock, can_mb_move and can_mb_step as can_mailbox connects them, with free surroundings:
+// the CPU's reads and writes, the match, the frames, the loads, and the RAM's words.
 
 module lock_move (
   input  logic        clk_i, rst_ni, clear_i, bcc_i, cpu_go_i, cpu_wr_i, cpu_cs_i, cpu_timer_i,

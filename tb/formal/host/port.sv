@@ -1,8 +1,8 @@
   // SPDX-FileCopyrightText: 2026 The VeriCAN authors
   // SPDX-License-Identifier: Apache-2.0
   //
-  // Properties of can_mb_port, spliced into it: an access takes two clocks, what the CPU reads stands
-  // still, and nobody is kept waiting for ever. CPU, engine and RAM are free.
+  // Properties of can_mb_port, spliced into it: an access takes two clocks, what the CPU reads
+  // stands still, and nobody is kept waiting for ever. CPU, engine and RAM are free.
 
   logic       f_ran, f_new, f_slot_q;
   logic [4:0] f_engine, f_insertion;     // clocks that a wish has waited
@@ -37,11 +37,13 @@
     // can_mb_smb: hidden rows.
     m_hidden: assume ((rx_wr_cs_i ? rx_wr_row_i[IdxW] : rx_wr_row_i[IdxW+1:IdxW] == 2'd3)
                       && (!of_msg || word_q != 2'd3));
-    // host.guard, p_second: it looks at the C/S word in the second clock of a write that has read it.
+    // host.guard, p_second: it looks at the C/S word in the second clock of a write that has
+    // read it.
     m_ended: assume (!if_ended_i || (cpu_wr_q && !mem_sel_q[1] && $past(look_i)));
     // can_mb_cpu: rows differ from buffers at the output of the Rx FIFO alone, whose six rows no
     // mailbox has then.
-    m_row: assume (row_idx_i == idx_q || (idx_q == '0 && row_idx_i < 4'd6 && serviced_idx_i > 4'd5));
+    m_row: assume (row_idx_i == idx_q
+                   || (idx_q == '0 && row_idx_i < 4'd6 && serviced_idx_i > 4'd5));
     if (rst_ni) begin
       // AHB-WAIT: an access takes two clocks: the port is not ready in the first.
       p_two_clocks: assert (ready_o == !f_new);
@@ -60,10 +62,12 @@
           || !(wr_done_o && $past(first_q && !ring_i))
           || (w_data == wdata_i && w_cs == of_cs && w_row[IdxW-1:0] == idx_q
               && we == (be_q & {4{!block_i && !(if_ended_i && cs_o[can_mb_pkg::CsEnded])}})));
-      // flexcan.md 3.5, 3.6: what is granted is written: a copy, a mark, a word of the frame received.
+      // flexcan.md 3.5, 3.6: what is granted is written: a copy, a mark, a word of the frame
+      // received.
       p_granted: assert (scrub_o
-          || ((!copy_i || hold_o || (w_row == copy_row_i && w_cs == copy_cs_i && w_msg == !copy_cs_i
-                                     && we == (copy_be_i & {4{copy_ok_i}}) && w_data == copy_data_i))
+          || ((!copy_i || hold_o
+               || (w_row == copy_row_i && w_cs == copy_cs_i && w_msg == !copy_cs_i
+                   && we == (copy_be_i & {4{copy_ok_i}}) && w_data == copy_data_i))
               && (!serviced_gnt_o || (w_row == {2'b00, serviced_idx_i} && w_cs && we == 4'b1000))
               && (!rx_wr_gnt_o || (w_row == rx_wr_row_i && w_cs == rx_wr_cs_i && we == rx_wr_be_i
                                    && w_data == rx_wr_data_i))));

@@ -2,8 +2,8 @@
   // SPDX-License-Identifier: Apache-2.0
   //
   // Properties of can_top, spliced into it: the native port waits for one clock with what goes
-  // to the mailbox and not at all with the rest, and its data are 0 but of a read. Together with host.ahb (and of the other buses) this is the
-  // compliance of the whole slave.
+  // to the mailbox and not at all with the rest, and its data are 0 but of a read. Together with
+  // host.ahb (and of the other buses) this is the compliance of the whole slave.
 
   // Byte addresses of what is kept in the mailbox, as docs/registers.md lists them; masks and RXFIR
   // that cannot be written are not.

@@ -73,7 +73,8 @@
       // FX-9.ERR005829: a winner that is not active is dropped.
       p_dropped: assert (!$past(inactive_i && running_i && !candidate) || !best_q);
     end
-    // FX-9.ERR005829: what is compared stands still for both clocks: no read follows another at once.
+    // FX-9.ERR005829: what is compared stands still for two clocks: no read follows another
+    // at once.
     p_apart: assert (!(ins_req_o || scan_req_o) || !s1_q);
     // FX-9.ERR005829: a pass ends: in two turns of 16 buffers, from every state.
     p_pass_ends: assert (f_open < 7'd80);

@@ -60,7 +60,7 @@
     m_stamped: assume (!start_i || !f_valid || f_told);
     m_kept: assume (!f_told || stamp_i == f_stamp);
     // The start of the next frame is two bits of eight clocks away at least; four words are written
-    // in less, as neither a CPU's wait nor a copy lasts. And a valid frame ends one.
+    // in less, as the CPU has every second clock at most, a copy one. And a valid frame ends one.
     m_long: assume (!start_i || !write_q);
     m_valid: assume (!rx_valid_i || (!f_valid && !start_i));
     // host.lock, m_time: the hidden row of the frame on the bus is free when that begins.
