@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_ahb: the controller as an AHB-Lite slave. One wait state for what lies in the buffers' RAM and
-// for TIMER, none for other registers.
+// can_ahb: the controller as an AHB-Lite slave. One wait state for what lies in the buffers' RAM
+// and for TIMER, none for other registers.
 //
 // ERROR (two cycles): unaligned, wider than 32 bits, or beyond the window of 8 KiB.
 

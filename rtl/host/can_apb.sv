@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_apb: the controller as an APB4 slave, two clocks a transfer, or three while the engine uses
-// the buffer RAM. The setup phase is the command, the access phase its data. An APB3 master ties
-// PSTRB to 1111 and PPROT to 001.
+// can_apb: the controller as an APB4 slave, two clocks a transfer, or three for what lies in the
+// buffers' RAM and for TIMER. The setup phase is the command, the access phase its data. An APB3
+// master ties PSTRB to 1111 and PPROT to 001.
 //
 // PSLVERR: beyond the window of 8 KiB.
 

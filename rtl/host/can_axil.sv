@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // can_axil: the controller as an AXI4-Lite slave of 32 bits. One read and one write may be open;
-// the core has one of them at a time: a read every two clocks, a write every three, one more while
-// the engine uses the buffer RAM.
+// the core has one of them at a time: a read every two clocks, a write every three, one more for
+// what lies in the buffers' RAM and for TIMER.
 //
 // SLVERR: beyond the window of 8 KiB.
 

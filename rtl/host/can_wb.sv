@@ -3,10 +3,10 @@
 //
 // can_wb: the controller as a Wishbone B4 slave with words of 32 bits, little-endian.
 //
-// Classic (Pipelined = 0): standard cycles of two clocks, or three while the engine uses the buffer
-// RAM. Pipelined = 1: a strobe is taken in each clock without STALL and answered in order, one
-// clock later or two. ERR: beyond the window of 8 KiB. A cycle that ends before its answer never
-// gets one.
+// Classic (Pipelined = 0): standard cycles of two clocks, or three for what lies in the buffers'
+// RAM and for TIMER. Pipelined = 1: a strobe is taken in each clock without STALL and answered in
+// order, one clock later or two. ERR: beyond the window of 8 KiB. A cycle that ends before its
+// answer never gets one.
 
 module can_wb #(
   /// As of can_ahb: message buffers; what the core has; the time unit (docs/integration.md).

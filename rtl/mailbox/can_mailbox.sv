@@ -278,7 +278,8 @@ module can_mailbox #(
   if (Abort != 0) begin : gen_guard
     can_mb_guard #(.NumMb(NumMb)) u_guard (
       .clk_i, .rst_ni, .clear_i, .aen_i(aen),
-      .first_i(wr && !wr_done), .wr_done_i(wr_done), .mem_sel_i(cpu_mem_sel), .idx_i(cpu_idx), .be3_i(cpu_be[3]),
+      .first_i(wr && !wr_done), .wr_done_i(wr_done), .mem_sel_i(cpu_mem_sel), .idx_i(cpu_idx),
+      .be3_i(cpu_be[3]),
       .code_i(wdata_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW]),
       .area_i(area), .ended_i(cs[can_mb_pkg::CsEnded]),
       .block_o(block), .if_ended_o(if_ended), .abort_o(abort),
@@ -326,11 +327,11 @@ module can_mailbox #(
     .req_o(eng_req), .lazy_o(eng_lazy),
     .cs_o(eng_cs), .cs_row_o(eng_cs_row), .msg_row_o(eng_msg_row), .mask_row_o(eng_mask_row),
     .slot_i(eng_slot), .hold_i(hold), .yield_i(rx_wr_owed), .cs_i(cs), .word_i(word),
-    .copy_o(copy), .copy_cs_o(copy_cs), .copy_be_o(copy_be), .copy_ok_o(copy_ok), .copy_off_o(copy_off), .copy_end_o(copy_end),
+    .copy_o(copy), .copy_cs_o(copy_cs), .copy_be_o(copy_be), .copy_ok_o(copy_ok),
+    .copy_off_o(copy_off), .copy_end_o(copy_end),
     .copy_row_o(copy_row),
     .copy_data_o(copy_data));
 
-  // Without aborts no write waits for its buffer's C/S word.
   can_mb_port #(
     .NumMb(NumMb), .OwnMasks(OwnMasks), .ClearRam(ClearRam), .TimeUnit(TimeUnit)
   ) u_port (
@@ -341,11 +342,13 @@ module can_mailbox #(
     .rdata_o(ram_rdata), .rd_end_o(rd_end), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done),
     .mem_sel_o(cpu_mem_sel), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
-    .eng_req_i(eng_req), .eng_lazy_i(eng_lazy), .eng_cs_i(eng_cs),
+    .eng_req_i(eng_req), .eng_wish_i((eng_req && !eng_lazy) || (running_i && !scan_lazy)),
+    .eng_cs_i(eng_cs),
     .eng_cs_row_i(eng_cs_row),
     .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_slot_o(eng_slot),
     .hold_o(hold), .stale_o(stale), .id_stale_o(id_stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
-    .word_o(word), .flight_i(flight), .copy_i(copy), .copy_cs_i(copy_cs), .copy_be_i(copy_be), .copy_ok_i(copy_ok), .copy_off_i(copy_off), .copy_end_i(copy_end),
+    .word_o(word), .flight_i(flight), .copy_i(copy), .copy_cs_i(copy_cs), .copy_be_i(copy_be),
+    .copy_ok_i(copy_ok), .copy_off_i(copy_off), .copy_end_i(copy_end),
     .copy_row_i(copy_row),
     .copy_data_i(copy_data),
     .serviced_req_i(serviced_req), .serviced_idx_i(serviced_idx), .serviced_ovr_i(serviced_ovr),
@@ -378,7 +381,6 @@ module can_mailbox #(
   assign flag_o     = mv_flag || ld_flag || ab_flag;
   assign flag_idx_o = mv_flag ? mv_idx : ld_flag ? cur_idx : ab_idx;
 
-  // A register: a CPU read can hold a move up, and that is known only late in the clock.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) busy_o <= 1'b1;
     else         busy_o <= scrub_o || mv_busy || ld_busy || ab_flag;

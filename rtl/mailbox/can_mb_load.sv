@@ -87,7 +87,7 @@ module can_mb_load #(
   logic [1:0] tick_q;
   logic       pause_q, head_ok, head_bad, head_seen, head_taken, lost, cs_written_cur,
     cs_written_ld, withdrawn;
-  logic       cs_written_best;
+  logic       cs_written_best, takes_back;
   logic [3:0] code;
 
   assign code = cs_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW];
@@ -131,9 +131,11 @@ module can_mb_load #(
   assign sent_o   = flag_o && !failed_q;
   assign take_o   = head_taken;
 
-  // Who asks has waited with a write of its own: no C/S word was written in the clock before.
-  assign out_o    = off_o || started_o || (tx_req_o && gap_i);
-  assign kept_o   = tx_req_o && dropped_q;
+  // Who asks is in the first clock of a write; one that ended in the clock before may just be
+  // taking the frame back.
+  assign takes_back = cs_written_cur && (!cs_written_act_i || !dropped_q);
+  assign out_o    = off_o || started_o || (tx_req_o && gap_i && !takes_back);
+  assign kept_o   = tx_req_o && dropped_q && !takes_back;
   assign done_o   = end_q || flag_o;
   assign off_o    = on_bus_q || abort_q || done_o;
   // An abort request that need not wait for the end of an attempt, because none is under way.
@@ -212,7 +214,7 @@ module can_mb_load #(
         // Rewritten: what is under way is no longer the buffer's. Not yet under way: take it back,
         // but rewriting it for ever does not keep everybody off the bus.
         orphan_q <= 1'b1;
-        if (tx_req_o && (!cs_written_act_i || !dropped_q)) begin
+        if (tx_req_o && takes_back) begin
           tx_req_o  <= 1'b0;
           dropped_q <= 1'b1;
         end

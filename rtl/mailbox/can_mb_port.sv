@@ -56,7 +56,7 @@ module can_mb_port #(
   input  logic [IdxW-1:0] ins_idx_i,
   output logic            ins_gnt_o,
   input  logic            eng_req_i,
-  input  logic            eng_lazy_i,   // gives way to the CPU every time
+  input  logic            eng_wish_i,   // it wants slots for more than ESR2, in this clock or soon
   input  logic            eng_cs_i,     // what it wants is in the C/S memory, not in MSG
   input  logic [IdxW:0]   eng_cs_row_i,
   input  logic [IdxW+1:0] eng_msg_row_i,
@@ -152,9 +152,10 @@ module can_mb_port #(
   assign idx_o     = idx_q;
   assign be_o      = be_q;
 
-  // Read port. An insertion that keeps the engine waiting comes before it only once in eight clocks:
-  // a CPU that writes C/S words for ever asks for one in every second clock, and with MCR.AEN the
+  // Read port. Behind an insertion the engine has its turn, as long as it wants slots: a CPU that
+  // writes C/S words for ever asks for an insertion in every second clock, and with MCR.AEN the
   // other clocks are its own.
+  localparam logic [2:0] Turns = 3'd5;
   logic       cpu_rd, engine_first_q;
   logic [2:0] turns_q;
   assign cpu_rd     = first_q && (rd_q || look_i);
@@ -165,8 +166,8 @@ module can_mb_port #(
       engine_first_q <= 1'b0;
       turns_q        <= '0;
     end else begin
-      engine_first_q <= eng_req_i && !eng_lazy_i && (ins_gnt_o || turns_q != '0);
-      turns_q        <= ins_gnt_o ? '1 : turns_q - 3'(turns_q != '0);
+      engine_first_q <= eng_wish_i && (ins_gnt_o || turns_q != '0);
+      turns_q        <= ins_gnt_o ? Turns : turns_q - 3'(eng_slot_o && turns_q != '0);
     end
   end
 
@@ -181,8 +182,8 @@ module can_mb_port #(
   end
   // No mark while its word is read.
   assign serviced_gnt_o = serviced_req_i && !copy_i && !cpu_wr_q
-                       && !(first_q && serviced_idx_i == idx_q);
-  assign rx_wr_gnt_o  = rx_wr_req_i && !copy_i && !cpu_wr_q && !serviced_req_i;
+                       && !(cpu_rd && serviced_idx_i == idx_q);
+  assign rx_wr_gnt_o  = rx_wr_req_i && !copy_i && !cpu_wr_q && !serviced_gnt_o;
   assign rx_wr_owed_o = rx_wr_owed_q;
 
   logic [IdxW:0]   cs_row, cs_raddr, mask_raddr;
@@ -234,12 +235,12 @@ module can_mb_port #(
       w_data = copy_data_i;
       w_be   = copy_be_i;
       w_ok   = copy_ok_i;
-    end else if (serviced_req_i) begin
+    end else if (serviced_gnt_o) begin
       {w_cs, w_msg, w_mask} = 3'b100;
       w_row  = {2'b00, serviced_idx_i};
       w_data[31:24] = {4'b1000, 1'b0, serviced_ovr_i, 2'b10};
       w_be   = 4'b1000;
-      w_ok   = serviced_gnt_o;
+      w_ok   = 1'b1;
     end
   end
   assign we = w_be & {4{w_ok && !(if_ended_i && cs_o[can_mb_pkg::CsEnded])}};

@@ -49,7 +49,7 @@ module can_mb_step #(
   output logic            scan_gnt_o,
   // Read port.
   output logic            req_o,
-  output logic            lazy_o,          // it never keeps the CPU waiting
+  output logic            lazy_o,          // for ESR2 alone
   output logic            cs_o,            // it wants the C/S word, not that of MSG
   output logic [IdxW:0]   cs_row_o,
   output logic [IdxW+1:0] msg_row_o,

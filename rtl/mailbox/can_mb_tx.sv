@@ -74,7 +74,8 @@ module can_mb_tx #(
 );
   localparam logic [1:0] MaxSpoils = 2'd3;
 
-  logic            ins_q, ins_new, retry_q, retry_gnt, ans_q, ans_gnt, ins_want;
+  logic            ins_q, ins_new, new_first, others_q, retry_q, retry_gnt, ans_q, ans_gnt;
+  logic            ins_want;
   logic [2:0]      retry_on_q;
   logic            reload, lost, found, scan_q, look_q, quiet_q, own_q, again_q, spoilt, last;
   logic            change, redo, restart_q;
@@ -88,15 +89,17 @@ module can_mb_tx #(
   logic [IdxW-1:0] s1_idx_q, idx2_q, ans_idx_q;
   logic [34:0]     val2_q, best_val_q;
 
-  // Insertions: the C/S write first; answers are rarest. Before all of them the winner, if its
-  // value is not there; a C/S write that another one overtakes meanwhile is found by a pass.
+  // Insertions: the C/S write first, but in turn with the others; answers are rarest. Before all of
+  // them the winner, if its value is not there; a C/S write that another one overtakes meanwhile is
+  // found by a pass.
   assign ins_new    = ins_q || (cs_written_i && cs_written_act_i);
+  assign new_first  = ins_new && !(others_q && (retry_q || ans_q));
   assign ins_want   = running_i && (ins_new || retry_q || ans_q);
   assign ins_req_o  = ins_want && !s1_q;
   assign reload     = best_q && !own_q;
-  assign ins_idx_o  = reload ? best_idx_o : ins_new ? cs_written_idx_i
+  assign ins_idx_o  = reload ? best_idx_o : new_first ? cs_written_idx_i
                     : retry_q ? cur_idx_i : ans_idx_q;
-  assign retry_gnt  = ins_gnt_i && !reload && !ins_new;
+  assign retry_gnt  = ins_gnt_i && !reload && !new_first;
   assign ans_gnt    = retry_gnt && !retry_q;
   assign lost       = ins_q && cs_written_i;
   assign retry_o    = retry_q || retry_i || retry_on_q != '0;
@@ -156,7 +159,7 @@ module can_mb_tx #(
   assign withdrawn   = best_q && ((cs_written_i && cs_written_idx_i == best_idx_o)
                           || ((start_i || off_i) && cur_idx_i == best_idx_o) || inactive_i
                           || set_aside || (freed && (ans_i || ans_q)));
-  // In two halves side by side, and in a clock of its own: it is the longest path of the core.
+  // In two halves side by side, and in a clock of its own: it is long.
   logic high_less, high_equal, low_less;
   assign high_less  = val2_q[34:17] < best_val_q[34:17];
   assign high_equal = val2_q[34:17] == best_val_q[34:17];
@@ -240,17 +243,18 @@ module can_mb_tx #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {ins_q, retry_q, retry_on_q, again_q, spoils_q} <= '0;
+      {ins_q, others_q, retry_q, retry_on_q, again_q, spoils_q} <= '0;
       {s1_q, s1_look_q, s1_reload_q, s1_last_q, s2_q, s2_last_q, s3_q, s3_last_q} <= '0;
       scan_q <= 1'b1;
       {scan_idx_o, s1_idx_q} <= '0;
     end else if (!running_i) begin
-      {ins_q, retry_q, retry_on_q, again_q, spoils_q} <= '0;
+      {ins_q, others_q, retry_q, retry_on_q, again_q, spoils_q} <= '0;
       {s1_q, s1_look_q, s1_reload_q, s1_last_q, s2_q, s2_last_q, s3_q, s3_last_q} <= '0;
       scan_q     <= 1'b1;
       scan_idx_o <= '0;
     end else begin
-      ins_q     <= ins_new && !(ins_gnt_i && !reload);
+      ins_q     <= ins_new && !(ins_gnt_i && !reload && new_first);
+      if (ins_gnt_i && !reload) others_q <= new_first;
       retry_q   <= retry_i || (retry_q && !retry_gnt);
       retry_on_q <= {retry_on_q[1:0], retry_q && retry_gnt};
       s1_q      <= ins_gnt_i || scan_gnt_i;

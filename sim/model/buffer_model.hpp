@@ -22,7 +22,7 @@ struct BufferWindows {
   unsigned move_in = 100;     ///< from EOF6 until a frame is in its buffer, accesses of the CPU
                               ///< included
   unsigned completion = 100;  ///< from EOF7, or the failure, until code and flag show
-  unsigned decision = 100;  ///< an activation or deactivation this short before a start may miss it
+  unsigned decision = 300;  ///< an activation or deactivation this short before a start may miss it
 };
 
 /// The model. It follows the CPU's accesses and the events of the bus in the order in which they

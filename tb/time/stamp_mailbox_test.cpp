@@ -224,33 +224,6 @@ TEST_F(StampMailbox, OldOrNew) {
   }
 }
 
-/// Wait states of a CPU that reads one word all the time while a frame is received in buffer 5.
-class Reader : public StampMailbox {
- public:
-  Reader() : StampMailbox{2} { bring_up(kPointEdge); }
-  unsigned waits(std::uint32_t address) {
-    const Frame frame = data_frame(0x155, false, 8);
-    rig_.put_rx(1, 5, frame, {});
-    rig_.put_tx(0, 8, frame);
-    unsigned sum = 0;
-    for (unsigned i = 0; i < 70; ++i)
-      for (const AhbResult &result : rig_.burst(1, std::vector(20, AhbTransfer{address})))
-        sum += result.waits;
-    EXPECT_NE(time_.stamp(1, 5), 0u);
-    return sum;
-  }
-  void TestBody() override {}
-};
-
-// TM-27: a read is made again where its own word is being written, and nowhere else: that of a
-// stamp that stays waits as that of an identifier does.
-TEST(StampReads, OfOtherRowsDoNotWait) {
-  const unsigned of_identifier = Reader{}.waits(reg::mb(20) + 4);
-  EXPECT_EQ(Reader{}.waits(stamp(20)), of_identifier);
-  EXPECT_EQ(Reader{}.waits(stamp(20) + 4), of_identifier);
-  EXPECT_GT(of_identifier, 0u);
-}
-
 // TM-28: a frame whose buffer is rewritten while it is sent leaves no stamp there.
 TEST_F(StampMailbox, RewrittenBuffer) {
   bring_up(kPointEdge);

@@ -4,17 +4,18 @@
   // Properties of can_mb_port, spliced into it: an access takes two clocks, what the CPU reads
   // stands still, and nobody is kept waiting for ever. CPU, engine and RAM are free.
 
-  logic       f_ran, f_new, f_slot_q;
-  logic [4:0] f_engine, f_insertion;     // clocks that a wish has waited
+  logic       f_ran, f_new, f_slot_q, f_read_q;
+  logic [5:0] f_engine, f_insertion;     // clocks that a wish has waited
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {f_ran, f_new, f_slot_q, f_engine, f_insertion} <= '0;
+      {f_ran, f_new, f_slot_q, f_read_q, f_engine, f_insertion} <= '0;
     end else begin
       f_ran       <= 1'b1;
       f_new       <= ready_o && (cmd_rd_i || cmd_wr_i);
       f_slot_q    <= eng_slot_o || hold_o;
-      f_engine    <= !eng_req_i || eng_lazy_i || eng_slot_o ? 5'd0 : f_engine + 5'd1;
-      f_insertion <= !ins_req_i || ins_gnt_o ? 5'd0 : f_insertion + 5'd1;
+      f_read_q    <= ins_gnt_o || (eng_slot_o && eng_req_i);
+      f_engine    <= !eng_wish_i || (eng_slot_o && eng_req_i) ? 6'd0 : f_engine + 6'd1;
+      f_insertion <= !ins_req_i || ins_gnt_o ? 6'd0 : f_insertion + 6'd1;
     end
   end
 
@@ -34,6 +35,8 @@
     m_copy: assume ((!copy_i || flight_i) && !(copy_off_i && copy_ok_i));
     m_off: assume (copy_off_i || copy_ok_i || (copy_cs_i ? copy_row_i[IdxW]
                                                       : copy_row_i[IdxW+1:IdxW] == 2'd3));
+    // can_mb_tx: a pass asks for a slot in each clock but that behind a read.
+    m_wish: assume (!eng_wish_i || eng_req_i || f_read_q);
     // can_mb_smb: hidden rows.
     m_hidden: assume ((rx_wr_cs_i ? rx_wr_row_i[IdxW] : rx_wr_row_i[IdxW+1:IdxW] == 2'd3)
                       && (!of_msg || word_q != 2'd3));
@@ -74,7 +77,7 @@
       // flexcan.md 3.5: while a copy is put off nobody reads, so its word stays on the outputs.
       p_stays: assert (!hold_o || (!re && !cpu_rd && !ins_gnt_o && !eng_slot_o));
       // FX-9.ERR005829: the engine gets a slot, and so does an insertion, whatever the CPU does.
-      p_engine: assert (f_engine < 5'd6);
-      p_insertion: assert (f_insertion < 5'd12);
+      p_engine: assert (f_engine < 6'd8);
+      p_insertion: assert (f_insertion < 6'd48);
     end
   end
