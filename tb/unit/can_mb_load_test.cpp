@@ -284,6 +284,8 @@ TEST_F(MbLoadSteps, FrameThatIsTakenBackHasNotMovedOut) {
   load_->cs_written_idx_i = 2;
   load_->cs_written_act_i = 0;
   load_->gap_i = 1;
+  load_.settle();
+  EXPECT_FALSE(load_->out_o) << "it is being taken back in this clock";
   clock();
   EXPECT_FALSE(load_->tx_req_o || load_->out_o);
   present(2);

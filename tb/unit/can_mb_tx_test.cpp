@@ -256,6 +256,27 @@ TEST_P(MbTx, RetryIsToldUntilItIsInTheWinner) {
   EXPECT_GT(clocks, 1u);
 }
 
+// ... and C/S writes in a row do not shut it out, nor an answer.
+TEST_P(MbTx, RetriesAndAnswersHaveTheirTurnsBesideWrites) {  // FX-3.3.f
+  for (const bool answer : {false, true}) {
+    settle();
+    buffers_[7] = {(answer ? kAnswer : kActive) << 24, 0};
+    top_.cur_idx_i = answer ? 0 : 7;
+    top_.retry_i = !answer;
+    top_.ans_i = answer;
+    top_.ans_idx_i = 7;
+    unsigned clocks = 0;
+    do {
+      clock(clocks % 2 == 0 ? std::optional{20u} : std::nullopt, kActive << 24, 100);
+      top_.ans_i = 0;
+      top_.eval();
+      ASSERT_LT(++clocks, 40u) << answer;
+    } while (top_.best_idx_o != 7);
+    buffers_ = {};
+    for (unsigned i = 0; i < kBuffers; ++i) clock(i, 0x08000000, 100);
+  }
+}
+
 // Read slots are for others: an answer or a retry waits, also behind a buffer that the CPU has
 // written.
 TEST_P(MbTx, AnswersAndRetriesWaitForTheirSlot) {  // flexcan.md 3.7
