@@ -342,7 +342,7 @@ module can_mailbox #(
     .rdata_o(ram_rdata), .rd_end_o(rd_end), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done),
     .mem_sel_o(cpu_mem_sel), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
-    .eng_req_i(eng_req), .eng_wish_i((eng_req && !eng_lazy) || (running_i && !scan_lazy)),
+    .eng_req_i(eng_req), .eng_lazy_i(eng_lazy), .eng_pass_i(running_i && !scan_lazy),
     .eng_cs_i(eng_cs),
     .eng_cs_row_i(eng_cs_row),
     .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_slot_o(eng_slot),

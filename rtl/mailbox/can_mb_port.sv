@@ -56,7 +56,8 @@ module can_mb_port #(
   input  logic [IdxW-1:0] ins_idx_i,
   output logic            ins_gnt_o,
   input  logic            eng_req_i,
-  input  logic            eng_wish_i,   // it wants slots for more than ESR2, in this clock or soon
+  input  logic            eng_lazy_i,   // for ESR2 alone
+  input  logic            eng_pass_i,   // a pass for the winner is under way: it asks again soon
   input  logic            eng_cs_i,     // what it wants is in the C/S memory, not in MSG
   input  logic [IdxW:0]   eng_cs_row_i,
   input  logic [IdxW+1:0] eng_msg_row_i,
@@ -156,9 +157,10 @@ module can_mb_port #(
   // writes C/S words for ever asks for an insertion in every second clock, and with MCR.AEN the
   // other clocks are its own.
   localparam logic [2:0] Turns = 3'd5;
-  logic       cpu_rd, engine_first_q;
+  logic       cpu_rd, wish, engine_first_q;
   logic [2:0] turns_q;
   assign cpu_rd     = first_q && (rd_q || look_i);
+  assign wish       = (eng_req_i && !eng_lazy_i) || eng_pass_i;
   assign ins_gnt_o  = ins_req_i && !cpu_rd && !engine_first_q;
   assign eng_slot_o = !cpu_rd && !hold_o && (!ins_req_i || engine_first_q);
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -166,7 +168,7 @@ module can_mb_port #(
       engine_first_q <= 1'b0;
       turns_q        <= '0;
     end else begin
-      engine_first_q <= eng_wish_i && (ins_gnt_o || turns_q != '0);
+      engine_first_q <= wish && (ins_gnt_o || turns_q != '0);
       turns_q        <= ins_gnt_o ? Turns : turns_q - 3'(eng_slot_o && turns_q != '0);
     end
   end

@@ -41,7 +41,8 @@ P4Result run_p4(const SyncWay &way, const SyncCase &setting) {
   const double bound = steady_bound(setting).value_or(0);
   // 2 us more than the paper measured: what the driver's accesses add on RTL.
   result.checks = {
-      in_range("offset alone: master and follower", "paper: at most 160 us measured; 2 us for the driver on RTL", 152, 162,
+      in_range("offset alone: master and follower",
+               "paper: at most 160 us measured; 2 us for the driver on RTL", 152, 162,
                result.published.max()),
       in_range("offset alone: two followers", "paper: 304 us predicted, at most 320 us measured",
                304, 320, result.published.between()),

@@ -44,7 +44,7 @@ class MbPort : public ::testing::Test {
     port_.settle();
   }
   void engine(bool on) {
-    port_->eng_req_i = port_->eng_wish_i = on;
+    port_->eng_req_i = on;
     port_.settle();
   }
   /// The first clock of one access.
@@ -143,7 +143,7 @@ TEST_F(MbPort, InsertionsDoNotShutOutAPass) {
     unsigned grants = 0, reads = 0;
     for (unsigned i = 0; i < 240; ++i, clock()) {
       writes(busy);
-      port_->eng_wish_i = 1;
+      port_->eng_pass_i = 1;
       port_->eng_req_i = port_->ins_req_i = !gap;
       port_.settle();
       const bool read = port_->eng_req_i != 0 && port_->eng_slot_o != 0;
@@ -157,7 +157,7 @@ TEST_F(MbPort, InsertionsDoNotShutOutAPass) {
 }
 
 TEST_F(MbPort, InsertionsInARowHaveWhatIsWantedForEsr2Alone) {
-  port_->ins_req_i = port_->eng_req_i = 1;
+  port_->ins_req_i = port_->eng_req_i = port_->eng_lazy_i = 1;
   port_.settle();
   for (unsigned i = 0; i < 20; ++i, clock()) EXPECT_TRUE(port_->ins_gnt_o);
 }

@@ -14,7 +14,7 @@
       f_new       <= ready_o && (cmd_rd_i || cmd_wr_i);
       f_slot_q    <= eng_slot_o || hold_o;
       f_read_q    <= ins_gnt_o || (eng_slot_o && eng_req_i);
-      f_engine    <= !eng_wish_i || (eng_slot_o && eng_req_i) ? 6'd0 : f_engine + 6'd1;
+      f_engine    <= !wish || (eng_slot_o && eng_req_i) ? 6'd0 : f_engine + 6'd1;
       f_insertion <= !ins_req_i || ins_gnt_o ? 6'd0 : f_insertion + 6'd1;
     end
   end
@@ -36,7 +36,7 @@
     m_off: assume (copy_off_i || copy_ok_i || (copy_cs_i ? copy_row_i[IdxW]
                                                       : copy_row_i[IdxW+1:IdxW] == 2'd3));
     // can_mb_tx: a pass asks for a slot in each clock but that behind a read.
-    m_wish: assume (!eng_wish_i || eng_req_i || f_read_q);
+    m_wish: assume (!eng_pass_i || eng_req_i || f_read_q);
     // can_mb_smb: hidden rows.
     m_hidden: assume ((rx_wr_cs_i ? rx_wr_row_i[IdxW] : rx_wr_row_i[IdxW+1:IdxW] == 2'd3)
                       && (!of_msg || word_q != 2'd3));
