@@ -64,8 +64,11 @@ TEST_F(TimeRegs, EveryMode) {
     }
     write(kTtxmb, 0x2A);
     EXPECT_EQ(read(kTtxmb), 0x2Au);
-    for (const AhbResult &result :
-         rig_.burst(0, {{.address = kTctrl}, {.address = kTtxmb}, {.address = kTincn}}))
+    for (const AhbResult &result : rig_.burst(0, {{.address = kTctrl, .write = true, .data = 0x31},
+                                                  {.address = kTctrl},
+                                                  {.address = kTtxmb, .write = true, .data = 0x2A},
+                                                  {.address = kTtxmb},
+                                                  {.address = kTincn}}))
       EXPECT_EQ(result.waits, 0u);
   };
   check("disable");

@@ -196,27 +196,30 @@ TEST_F(MbPort, ServicedMarkWaitsForACopyAndForAWrite) {  // FX-3.6.g
   EXPECT_TRUE(port_->serviced_gnt_o);
 }
 
-// Writes of one buffer's words in a row, without and with the look at its C/S word: its mark gets
-// in where nothing is read, and a frame being received always does.
-TEST_F(MbPort, WritesInARowShutOutNobody) {  // FX-3.6.g
-  for (const bool look : {false, true}) {
-    command(Msg, 1, 5);
-    port_->look_i = look;
-    port_->serviced_req_i = port_->rx_wr_req_i = 1;
-    port_->serviced_idx_i = 5;
-    unsigned marks = 0, bytes = 0;
-    for (unsigned i = 0; i < 40; ++i, clock()) {
-      writes(true);
-      marks += port_->serviced_gnt_o;
-      bytes += port_->rx_wr_gnt_o;
-      if (port_->serviced_gnt_o != 0) port_->serviced_req_i = 0;
-    }
-    EXPECT_EQ(marks, look ? 0u : 1u);
-    EXPECT_GE(bytes, 19u);
-    clock();
-    clock();
-    port_->serviced_req_i = 0;
+// Writes of one buffer's words in a row: its mark gets in, as they read nothing; with the look at
+// the C/S word, which is that of the mark, the frame being received still does.
+TEST_F(MbPort, WritesInARowDoNotShutOutTheMark) {  // FX-3.6.g
+  command(Msg, 1, 5);
+  port_->serviced_idx_i = 5;
+  port_->serviced_req_i = 1;
+  unsigned marks = 0;
+  for (unsigned i = 0; i < 4; ++i, clock()) {
+    writes(true);
+    marks += port_->serviced_gnt_o;
   }
+  EXPECT_GE(marks, 2u);
+}
+
+TEST_F(MbPort, MarkThatWaitsDoesNotShutOutTheFrameBeingReceived) {
+  command(Msg, 1, 5);
+  port_->serviced_idx_i = 5;
+  port_->look_i = port_->serviced_req_i = port_->rx_wr_req_i = 1;
+  unsigned words = 0;
+  for (unsigned i = 0; i < 40; ++i, clock()) {
+    writes(true);
+    words += port_->rx_wr_gnt_o;
+  }
+  EXPECT_GE(words, 19u);
 }
 
 TEST_F(MbPort, NobodyWaitsInReset) {
