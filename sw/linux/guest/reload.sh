@@ -17,9 +17,13 @@ for round in 1 2 3; do
   up can0 500000
   up can1 500000
   sleep 0.001
+  # The logs begin on a bus at rest: of a frame on its way one log would have the end alone.
+  tell peer stop
+  sleep 0.001
   tell log "bus$round.log"
   listen can0 "can0-$round.log"
   listen can1 "can1-$round.log"
+  tell peer send 400 181#8001020304050607
   cangen can1 -g 0 -n 50 -e -I i -L i -D i
   wait_until 5 has_sent can1 50
   status "after$round"
