@@ -80,7 +80,7 @@ module can_ahb #(
   assign unused = &{1'b0, hburst, hprot, htrans[0], supv};
 
   // Address phase.
-  logic       taken, bad, beyond, supv, denied, denied_q;
+  logic       taken, bad, beyond, supv, denied;
   logic [3:0] be;
   assign taken  = hsel && hready && htrans[1];                     // NONSEQ or SEQ
   assign beyond = (haddr & 32'((33'd1 << RegionBits) - 33'd1)) >> 13 != '0;
@@ -104,14 +104,7 @@ module can_ahb #(
   assign hreadyout = ready && !err1_q;
   assign hresp     = err1_q || err2_q;
 
-  // A denied access is none to the core, which then has no wait states either.
-  logic [31:0] rdata;
-  always_ff @(posedge hclk or negedge hresetn) begin
-    if (!hresetn)    denied_q <= 1'b0;
-    else if (hready) denied_q <= taken && denied;
-  end
-  assign hrdata = denied_q ? '0 : rdata;
-
+  // A denied access is none to the core, which then reads 0 and has no wait states either.
   can_top #(
     .NumMb(NumMb), .Fifo(Fifo), .Abort(Abort), .Status(Status), .OwnMasks(OwnMasks), .Wake(Wake),
     .Extras(Extras), .ClearRam(ClearRam), .TimeUnit(TimeUnit), .TimeInc(TimeInc),
@@ -121,7 +114,7 @@ module can_ahb #(
     .clk_i(hclk), .rst_ni(hresetn),
     .req_i(taken), .cancel_i(bad || denied), .we_i(hwrite), .addr_i(haddr[12:2]), .be_i(be),
     .wdata_i(hwdata),
-    .rdata_o(rdata), .ready_o(ready),
+    .rdata_o(hrdata), .ready_o(ready),
     .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o,
     .ext_i, .time_out_o, .irq_time_o, .stop_req_i, .supv_o(supv),
     .can_rx_i, .can_tx_o, .trace_o);

@@ -41,6 +41,7 @@ module can_mailbox #(
   input  logic [1:0]      cmd_mem_sel_i,
   input  logic [1:0]      cmd_word_i,
   input  logic [IdxW-1:0] cmd_idx_i,
+  input  logic [IdxW-1:0] cmd_mb_i,      // ... of a C/S word, and known before the kind is
   input  logic [3:0]      cmd_be_i,
   input  logic [31:0]     wdata_i,
   output logic            ready_o,
@@ -195,12 +196,12 @@ module can_mailbox #(
   logic [IdxW+1:0] scrub_row;
   logic [31:0]     stamp_rdata;
 
-  logic            smb, rx_wr_req, rx_wr_gnt, rx_wr_owed, rx_wr_cs, flags_busy;
+  logic            smb, ld_row, rx_wr_req, rx_wr_gnt, rx_wr_owed, rx_wr_cs, flags_busy;
   logic [3:0]      rx_wr_be;
   logic [IdxW+1:0] rx_wr_row;
   logic [31:0]     rx_wr_data;
   can_mb_smb #(.NumMb(NumMb)) u_smb (
-    .clk_i, .rst_ni, .smb_i(smb), .timer_i,
+    .clk_i, .rst_ni, .smb_i(smb), .tx_row_i(!ld_row), .timer_i,
     .start_i, .stamp_i, .transmitter_i, .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_srr_i, .rx_rtr_i,
     .rx_dlc_i,
     .rx_byte_we_i, .rx_byte_i, .rx_valid_i,
@@ -254,7 +255,7 @@ module can_mailbox #(
     .seen_worst_o(seen_worst), .seen_free_o(seen_free));
 
   logic            hold, eng_slot, flight;
-  logic            ld_req, ld_row, ld_word, ld_data, ld_cancel, ld_flag, ld_take, ld_busy;
+  logic            ld_req, ld_word, ld_data, ld_cancel, ld_flag, ld_take, ld_busy;
   logic            out, kept, done, sent, abort, ab_flag;
   logic [IdxW-1:0] ab_idx;
   logic [2:0]      ld_step, data_step;
@@ -265,7 +266,8 @@ module can_mailbox #(
     .settled_i(settled), .best_idx_i(best_idx), .retry_busy_i(retry_busy), .retry_o(retry),
     .inactive_o(inactive),
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx), .cs_written_act_i(cs_written_act),
-    .cs_wr_i(wr && cpu_mem_sel == can_mb_pkg::MemCs), .cs_wr_idx_i(cpu_idx), .abort_i(abort),
+    .cs_wr_i(wr && cpu_mem_sel == can_mb_pkg::MemCs), .cmd_i(ready_o), .cmd_mb_i,
+    .abort_i(abort),
     .out_o(out), .kept_o(kept), .done_o(done), .off_o(off),
     .tick_req_o, .tick_i, .start_i, .transmitter_i,
     .tx_req_o, .tx_ide_o, .tx_rtr_o, .tx_dlc_o, .tx_word_o, .tx_next_i, .tx_ok_i, .tx_fail_i,
@@ -282,6 +284,7 @@ module can_mailbox #(
       .be3_i(cpu_be[3]),
       .code_i(wdata_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW]),
       .area_i(area), .ended_i(cs[can_mb_pkg::CsEnded]),
+      .mark_i(serviced_gnt), .mark_idx_i(serviced_idx),
       .block_o(block), .if_ended_o(if_ended), .abort_o(abort),
       .out_i(out), .kept_i(kept), .done_i(done), .cur_idx_i(cur_idx),
       .take_i(ld_take), .flag_o(ab_flag), .flag_idx_o(ab_idx), .gnt_i(!mv_flag && !ld_flag),
@@ -308,7 +311,7 @@ module can_mailbox #(
 
   logic            copy, copy_cs, eng_req, eng_lazy;
   logic [3:0]      copy_be;
-  logic            copy_ok, copy_off, copy_end;
+  logic            copy_off, copy_end;
   logic [IdxW:0]   eng_cs_row, eng_mask_row;
   logic [IdxW+1:0] copy_row, eng_msg_row;
   logic [31:0]     copy_data;
@@ -316,7 +319,7 @@ module can_mailbox #(
     .clk_i, .rst_ni,
     .ld_req_i(ld_req), .ld_step_i(ld_step), .ld_row_i(ld_row), .ld_word_i(ld_word),
     .ld_idx_i(ld_idx),
-    .cur_idx_i(cur_idx), .ld_cancel_i(ld_cancel), .ld_code_i(ld_code), .ld_take_i(ld_take),
+    .cur_idx_i(cur_idx), .ld_cancel_i(ld_cancel), .ld_code_i(ld_code),
     .ld_data_o(ld_data), .ld_data_step_o(data_step),
     .mv_req_i(mv_req), .mv_step_i(mv_step), .mv_row_i(mv_row), .mv_idx_i(mv_idx), .moving_i(moving),
     .mv_answer_i(mv_answer),
@@ -326,10 +329,9 @@ module can_mailbox #(
     .scan_req_i(scan_req), .scan_lazy_i(scan_lazy), .scan_idx_i(scan_idx), .scan_gnt_o(scan_gnt),
     .req_o(eng_req), .lazy_o(eng_lazy),
     .cs_o(eng_cs), .cs_row_o(eng_cs_row), .msg_row_o(eng_msg_row), .mask_row_o(eng_mask_row),
-    .slot_i(eng_slot), .hold_i(hold), .yield_i(rx_wr_owed), .cs_i(cs), .word_i(word),
-    .copy_o(copy), .copy_cs_o(copy_cs), .copy_be_o(copy_be), .copy_ok_o(copy_ok),
-    .copy_off_o(copy_off), .copy_end_o(copy_end),
-    .copy_row_o(copy_row),
+    .slot_i(eng_slot), .hold_i(hold), .yield_i(rx_wr_owed), .word_i(word),
+    .copy_o(copy), .copy_cs_o(copy_cs), .copy_be_o(copy_be), .copy_off_o(copy_off),
+    .copy_end_o(copy_end), .copy_row_o(copy_row),
     .copy_data_o(copy_data));
 
   can_mb_port #(
@@ -337,9 +339,8 @@ module can_mailbox #(
   ) u_port (
     .clk_i, .rst_ni,
     .cmd_rd_i, .cmd_wr_i, .cmd_mem_sel_i, .cmd_word_i, .cmd_idx_i, .cmd_be_i,
-    .look_i(aen && Abort != 0), .row_idx_i(row_idx), .wdata_i(ram_wdata),
-    .ring_i(ring), .block_i(block), .if_ended_i(if_ended), .ready_o,
-    .rdata_o(ram_rdata), .rd_end_o(rd_end), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done),
+    .row_idx_i(row_idx), .wdata_i(ram_wdata), .ring_i(ring), .block_i(block),
+    .if_ended_i(if_ended), .ready_o, .rdata_o(ram_rdata), .rd_end_o(rd_end), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done),
     .mem_sel_o(cpu_mem_sel), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
     .eng_req_i(eng_req), .eng_lazy_i(eng_lazy), .eng_pass_i(running_i && !scan_lazy),
@@ -348,8 +349,7 @@ module can_mailbox #(
     .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_slot_o(eng_slot),
     .hold_o(hold), .stale_o(stale), .id_stale_o(id_stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
     .word_o(word), .flight_i(flight), .copy_i(copy), .copy_cs_i(copy_cs), .copy_be_i(copy_be),
-    .copy_ok_i(copy_ok), .copy_off_i(copy_off), .copy_end_i(copy_end),
-    .copy_row_i(copy_row),
+    .copy_off_i(copy_off), .copy_end_i(copy_end), .copy_row_i(copy_row),
     .copy_data_i(copy_data),
     .serviced_req_i(serviced_req), .serviced_idx_i(serviced_idx), .serviced_ovr_i(serviced_ovr),
     .serviced_gnt_o(serviced_gnt),

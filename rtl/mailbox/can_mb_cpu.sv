@@ -101,17 +101,18 @@ module can_mb_cpu #(
     end
   end
 
+  // Bits of the RAM that are seen, and others beside them; the RAM is late.
+  logic        rxfir, cs_word;
+  logic [3:0]  beside;
+  assign rxfir   = is_cs && rxfir_i;
+  assign cs_word = is_cs && !raw;
+  assign beside  = (end_code_i & {4{end_i}}) | 4'(busy_o);
   always_comb begin
-    rdata_o = ram_rdata_i;
-    if (timer_rd_o) rdata_o = {16'b0, timer_i};
-    if (is_cs && rxfir_i) begin
-      rdata_o = ring_q ? {23'b0, ram_rdata_i[31:can_mb_pkg::CsElement]} : '0;
-    end else if (is_cs && !raw) begin
-      {rdata_o[31:28], rdata_o[23]} = '0;
-      if (end_i && rd_done_i) rdata_o[27:24] = end_code_i;
-      rdata_o[24] = ram_rdata_i[24] || (busy_o && rd_done_i);
-      if (ring_q) rdata_o[27:24] = '0;
-    end
+    rdata_o        = ram_rdata_i & {32{!rxfir}};
+    rdata_o[31:23] = rdata_o[31:23] & ~{{4{cs_word}}, {4{cs_word && (end_i || ring_q)}}, cs_word};
+    rdata_o[27:24] = rdata_o[27:24] | (beside & {4{cs_word && rd_done_i && !rxfir && !ring_q}});
+    rdata_o[8:0]   = rdata_o[8:0] | (ram_rdata_i[31:can_mb_pkg::CsElement] & {9{rxfir && ring_q}});
+    rdata_o[15:0]  = rdata_o[15:0] | (timer_i & {16{timer_rd_o}});
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

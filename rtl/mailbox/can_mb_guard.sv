@@ -30,6 +30,9 @@ module can_mb_guard #(
   input  logic [3:0]       code_i,       // bits 27:24 of the word written
   input  logic             area_i,       // it belongs to the Rx FIFO
   input  logic             ended_i,      // bit 30 of the C/S word
+  // The word is being marked as serviced while it is read: bit 30 is 0.
+  input  logic             mark_i,
+  input  logic [IdxW-1:0]  mark_idx_i,
   // It is not written, whatever that bit says, or if it is set: which is known late.
   output logic             block_o,
   output logic             if_ended_o,
@@ -49,7 +52,7 @@ module can_mb_guard #(
   input  logic [IdxW-1:0]  end_idx_i,
   input  logic [NumMb-1:0] iflag_i
 );
-  logic abort_q, guarded_q, cur_q, cs_block_q, guarded, is_cs, active, cur, abort, at_once, ended,
+  logic abort_q, cur_q, flag_q, cs_block_q, guarded, is_cs, active, cur, abort, at_once, ended,
     all_block;
 
   assign guarded   = aen_i && !area_i && !mem_sel_i[1];
@@ -58,21 +61,22 @@ module can_mb_guard #(
   assign active    = !be3_i || code_i == can_regs_pkg::MbCsCodeTxData
                   || code_i == can_regs_pkg::MbCsCodeTxAnswering;
   assign cur       = idx_i == cur_idx_i && !take_i;
-  assign all_block = (cur_q && done_i) || (flag_o && idx_i == flag_idx_o);
-  assign block_o   = cs_block_q || (guarded_q && all_block);
+  assign all_block = (cur_q && done_i) || flag_q;
+  assign block_o   = cs_block_q || all_block;
   assign ended     = if_ended_o && ended_i;
   assign abort_o   = abort && cs_block_q && !all_block && !ended;
   assign at_once   = abort && !cs_block_q && !all_block && !ended;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {abort_q, guarded_q, cs_block_q, if_ended_o, cur_q} <= '0;
+      {abort_q, flag_q, cs_block_q, if_ended_o, cur_q} <= '0;
     end else begin
       abort_q    <= guarded && is_cs && be3_i && code_i == can_regs_pkg::MbCsCodeTxAbort;
-      guarded_q  <= guarded;
       cs_block_q <= guarded && is_cs && cur && (out_i || (kept_i && active));
-      cur_q      <= cur;
-      if_ended_o <= first_i && guarded && (iflag_i[idx_i] || (end_i && end_idx_i == idx_i));
+      cur_q      <= guarded && cur;
+      flag_q     <= guarded && flag_o && idx_i == flag_idx_o;
+      if_ended_o <= first_i && guarded && (iflag_i[idx_i] || (end_i && end_idx_i == idx_i))
+                 && !(mark_i && mark_idx_i == idx_i);
     end
   end
 

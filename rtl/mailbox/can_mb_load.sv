@@ -34,10 +34,11 @@ module can_mb_load #(
   input  logic            cs_written_i,
   input  logic [IdxW-1:0] cs_written_idx_i,
   input  logic            cs_written_act_i,
-  // ... in this clock or the next one; abort_i: it asks to abort the frame that has moved out, and
-  // is not done.
+  // ... in this clock or the next one: a command of buffer cmd_mb_i, given with cmd_i, is one.
+  // abort_i: it asks to abort the frame that has moved out, and is not done.
   input  logic            cs_wr_i,
-  input  logic [IdxW-1:0] cs_wr_idx_i,
+  input  logic            cmd_i,
+  input  logic [IdxW-1:0] cmd_mb_i,
   input  logic            abort_i,
   output logic            out_o,         // buffer cur_idx_o has moved out
   output logic            kept_o,        // ... is not taken back for a new frame again
@@ -83,7 +84,7 @@ module can_mb_load #(
   (* fsm_encoding = "none", syn_encoding = "safe" *) state_e state_q;
 
   logic       word_q, on_bus_q, end_q, failed_q, orphan_q, dropped_q, abort_q, one_shot_q, answer_q;
-  logic       inactive_q, swap, swapped_q;
+  logic       inactive_q, swap, swapped_q, wr_ld_q, wr_cur_q;
   logic [1:0] tick_q;
   logic       pause_q, head_ok, head_bad, head_seen, head_taken, lost, cs_written_cur,
     cs_written_ld, withdrawn;
@@ -106,15 +107,15 @@ module can_mb_load #(
   // its retry or has just been withdrawn.
   assign head_ok = !pause_q && (!tx_req_o || tick_q != '0);
   // ... and not while the CPU rewrites it, or asks to abort the one it would replace.
-  assign head_bad = cs_written_ld || abort_q || (cs_wr_i && (cs_wr_idx_i == ld_idx_o
-                                           || (aen_i && tx_req_o && cs_wr_idx_i == cur_idx_o)));
+  assign head_bad = cs_written_ld || abort_q
+                 || (cs_wr_i && (wr_ld_q || (aen_i && tx_req_o && wr_cur_q)));
   assign head_seen  = data_i && data_step_i == can_mb_pkg::StepHead && state_q == StHead
                    && !on_bus_q && !started_o && !head_bad;
   assign head_taken = head_seen && (code == can_regs_pkg::MbCsCodeTxData
                                     || code == can_regs_pkg::MbCsCodeTxAnswering);
   // Not active: a winner by upset. But one that was aborted meanwhile has made way for another.
   assign mine_o     = on_bus_q && !orphan_q;
-  assign inactive_o = inactive_q && best_idx_i == ld_idx_o;
+  assign inactive_o = inactive_q;
   assign req_o   = word_q || end_q || state_q == StLow || state_q == StHigh
                 || (state_q == StHead && head_ok);
   assign step_o  = word_q ? can_mb_pkg::StepWord
@@ -194,12 +195,15 @@ module can_mb_load #(
     if (!rst_ni) begin
       {tx_req_o, on_bus_q, orphan_q, dropped_q, word_q, word_o} <= '0;
       {end_q, failed_q, flag_o, retry_o, inactive_q, abort_q, one_shot_q, answer_q} <= '0;
+      {wr_ld_q, wr_cur_q} <= '0;
       tick_q  <= '0;
       pause_q <= 1'b0;
       cur_idx_o <= '0;
     end else begin
       {flag_o, retry_o} <= '0;
-      inactive_q   <= head_seen && !head_taken;
+      // Neither index has changed for some clocks when a header is there.
+      if (cmd_i) {wr_ld_q, wr_cur_q} <= {cmd_mb_i == ld_idx_o, cmd_mb_i == cur_idx_o};
+      inactive_q   <= head_seen && !head_taken && best_idx_i == ld_idx_o;
       tick_q  <= {tick_q[0], tick_i};
       pause_q <= on_bus_q || end_q || retry_busy_i || abort_q || mute_i || (cs_written_cur
       && tx_req_o);

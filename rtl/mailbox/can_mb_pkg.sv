@@ -12,7 +12,7 @@ package can_mb_pkg;
   localparam logic [1:0] MemMask  = 2'd2;   // masks; word 1: one of the global ones
   localparam logic [1:0] MemTimer = 2'd3;   // none, but ordered like one: TIMER, or a stamp
 
-  // Rows behind the buffers, from NumMb on. C/S words: of the frame sent, of two frames received.
+  // Rows behind the buffers, from NumMb on. C/S words: of two frames to send, of two received.
   localparam int RowSent     = 0;
   localparam int RowReceived = 2;
   // Masks; RowOnes holds ones. Without OwnMasks the first four are in MSG, see GroupMask.

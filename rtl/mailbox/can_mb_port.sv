@@ -35,7 +35,6 @@ module can_mb_port #(
   input  logic [IdxW-1:0] cmd_idx_i,
   input  logic [3:0]      cmd_be_i,
   // CPU, data: two clocks.
-  input  logic            look_i,       // a write reads its buffer's C/S word
   input  logic [IdxW-1:0] row_idx_i,    // row of idx_o: not the same at the output of the Rx FIFO
   input  logic [31:0]     wdata_i,
   input  logic            ring_i,       // not to be written: memory of the Rx FIFO;
@@ -76,8 +75,7 @@ module can_mb_port #(
   output logic            hold_o,
   input  logic            copy_cs_i,    // C/S memory, not MSG
   input  logic [3:0]      copy_be_i,
-  input  logic            copy_ok_i,    // late: 0, nothing is written
-  input  logic            copy_off_i,   // ... early, of a row that the CPU can read
+  input  logic            copy_off_i,   // nothing is written, to a row that the CPU can read
   input  logic            copy_end_i,   // the end of a frame sent
   input  logic [IdxW+1:0] copy_row_i,
   input  logic [31:0]     copy_data_i,
@@ -159,7 +157,7 @@ module can_mb_port #(
   localparam logic [2:0] Turns = 3'd5;
   logic       cpu_rd, wish, engine_first_q;
   logic [2:0] turns_q;
-  assign cpu_rd     = first_q && (rd_q || look_i);
+  assign cpu_rd     = first_q;          // a write reads its buffer's C/S word (can_mb_guard)
   assign wish       = (eng_req_i && !eng_lazy_i) || eng_pass_i;
   assign ins_gnt_o  = ins_req_i && !cpu_rd && !engine_first_q;
   assign eng_slot_o = !cpu_rd && !hold_o && (!ins_req_i || engine_first_q);
@@ -182,9 +180,8 @@ module can_mb_port #(
     if (!rst_ni) cpu_wr_q <= 1'b0;
     else         cpu_wr_q <= first_q && wr_q && mem_sel_q != can_mb_pkg::MemTimer && !ring_i;
   end
-  // No mark while its word is read.
-  assign serviced_gnt_o = serviced_req_i && !copy_i && !cpu_wr_q
-                       && !(cpu_rd && serviced_idx_i == idx_q);
+  // No mark while its word is read, but for the look of a write (can_mb_guard).
+  assign serviced_gnt_o = serviced_req_i && !copy_i && !cpu_wr_q && !(first_q && rd_q);
   assign rx_wr_gnt_o  = rx_wr_req_i && !copy_i && !cpu_wr_q && !serviced_gnt_o;
   assign rx_wr_owed_o = rx_wr_owed_q;
 
@@ -236,7 +233,7 @@ module can_mb_port #(
       w_row  = copy_row_i;
       w_data = copy_data_i;
       w_be   = copy_be_i;
-      w_ok   = copy_ok_i;
+      w_ok   = !copy_off_i;
     end else if (serviced_gnt_o) begin
       {w_cs, w_msg, w_mask} = 3'b100;
       w_row  = {2'b00, serviced_idx_i};
@@ -297,14 +294,9 @@ module can_mb_port #(
     else if (re) word_cs_q <= cpu_rd ? of_cs : eng_cs_i;
   end
 
-  always_comb begin
-    rdata_o = '0;
-    if (rd_done_o && !scrub_o) begin
-      case (mem_sel_q)
-        can_mb_pkg::MemCs, can_mb_pkg::MemMsg: rdata_o = word_o;
-        can_mb_pkg::MemMask: rdata_o = mask_o;
-        default: if (of_stamp(mem_sel_q, word_q[1])) rdata_o = stamp_rdata_i;
-      endcase
-    end
-  end
+  logic shows;
+  assign shows   = rd_done_o && !scrub_o;
+  assign rdata_o = (word_o & {32{shows && (of_cs || of_msg)}})
+                 | (mask_o & {32{shows && mem_sel_q == can_mb_pkg::MemMask}})
+                 | (stamp_rdata_i & {32{shows && of_stamp(mem_sel_q, word_q[1])}});
 endmodule

@@ -12,6 +12,7 @@ module can_mb_smb #(
   input  logic            clk_i,
   input  logic            rst_ni,
   input  logic            smb_i,         // hidden row in use
+  input  logic            tx_row_i,      // ... of a frame that is sent
   input  logic [15:0]     timer_i,
   // Engine.
   input  logic            start_i,
@@ -52,7 +53,7 @@ module can_mb_smb #(
       be_o   = stamp_q || tx_stamp_q ? 4'b0011 : 4'b0100;
       row_o  = stamp_q || !tx_stamp_q
                ? (IdxW+2)'(NumMb + can_mb_pkg::RowReceived) | (IdxW+2)'(smb_i)
-               : (IdxW+2)'(NumMb + can_mb_pkg::RowSent);
+               : (IdxW+2)'(NumMb + can_mb_pkg::RowSent) | (IdxW+2)'(tx_row_i);
       // SRR of a base frame is kept as 1.
       data_o = {9'b0, rx_srr_i || !rx_ide_i, rx_ide_i, rx_rtr_i, rx_dlc_i, timer_i};
     end else if (!id_q && (zero0_q || zero1_q)) begin   // bytes beyond the DLC read as zero

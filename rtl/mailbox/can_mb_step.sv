@@ -22,7 +22,6 @@ module can_mb_step #(
   input  logic [IdxW-1:0] cur_idx_i,
   input  logic            ld_cancel_i,
   input  logic [3:0]      ld_code_i,
-  input  logic            ld_take_i,
   output logic            ld_data_o,       // data of ld_data_step_o is there
   output logic [2:0]      ld_data_step_o,
   // Steps of can_mb_move.
@@ -57,14 +56,12 @@ module can_mb_step #(
   input  logic            slot_i,          // the slot is the engine's
   input  logic            hold_i,
   input  logic            yield_i,         // an engine write waits for a clock without a copy
-  input  logic [31:0]     cs_i,
   input  logic [31:0]     word_i,          // the word that was asked for
   // Write port: second half of a copy.
   output logic            copy_o,
   output logic            copy_cs_o,       // C/S memory, not MSG
   output logic [3:0]      copy_be_o,
-  output logic            copy_ok_o,       // late: 0, nothing is written
-  output logic            copy_off_o,      // ... as is known early, of a row that the CPU can read
+  output logic            copy_off_o,      // nothing is written, to a row that the CPU can read
   output logic            copy_end_o,      // it is the end of a frame sent
   output logic [IdxW+1:0] copy_row_o,
   output logic [31:0]     copy_data_o
@@ -102,6 +99,10 @@ module can_mb_step #(
     hidden = (IdxW+2)'(3 * NumMb) | (IdxW+2)'(behind);
   endfunction
 
+  function automatic logic [IdxW:0] sent(input logic row);
+    sent = (IdxW+1)'(NumMb + can_mb_pkg::RowSent) | (IdxW+1)'(row);
+  endfunction
+
   logic [IdxW-1:0] pass_idx;
   assign pass_idx = rx_req_i ? rx_idx_i : scan_idx_i;
   always_comb begin
@@ -112,7 +113,7 @@ module can_mb_step #(
       msg_row_o = {ld_step_i[0], !ld_step_i[0], ld_idx_i};            // StepLow, StepHigh
       case (ld_step_i)
         can_mb_pkg::StepWord: msg_row_o = hidden(1'b0, !ld_row_i, {ld_word_i, !ld_word_i});
-        can_mb_pkg::StepEnd:  cs_row_o = (IdxW+1)'(NumMb + can_mb_pkg::RowSent);
+        can_mb_pkg::StepEnd:  cs_row_o = sent(!ld_row_i);
         can_mb_pkg::StepHead: msg_row_o = {2'd0, ld_idx_i};
         default: ;
       endcase
@@ -125,13 +126,13 @@ module can_mb_step #(
   assign mask_row_o = rx_mask_row_i;
   assign cs_o = !step_req ? rx_cs_i : take_ld ? !ld_step_i[1] : mv_step_i == 2'd3;
 
-  // Data of a C/S copy: what the RAM shows, under a new code. Should the CPU read the word that is
+  // Data of a C/S copy: what the RAM shows, under a new code (top, where not keep). Should the CPU read the word that is
   // being written it gets what the RAM shows (can_mb_port): of a frame received, the hidden word
   // with BUSY; of an answer, the word as it was; of a frame sent, a copy of its buffer's word that
   // was made when it was presented, with its stamp and the new code. Bit 30: a transmission has
   // ended.
   logic       is_ld, low, head, ended;
-  logic [8:0] top;
+  logic [8:0] top, keep;
   assign is_ld     = data_q && data_ld_q;
   assign low       = ld_data_step_o == can_mb_pkg::StepLow;
   assign head      = ld_data_step_o == can_mb_pkg::StepHead;
@@ -142,28 +143,24 @@ module can_mb_step #(
 
   always_comb begin
     copy_row_o = {copy_cs_o ? 2'b00 : mv_step_i, mv_idx_i};
-    top        = copy_cs_o ? mv_top_i : word_i[31:23];
-    if (mv_answer_i) top[8:5] = cs_i[31:28];
+    keep       = {{4{!copy_cs_o || mv_answer_i}}, {5{!copy_cs_o}}};
+    top        = mv_top_i;
     if (is_ld) begin
       copy_row_o = hidden(1'b0, ld_row_i, {!low, low});
-      top        = word_i[31:23];
-      if (head) copy_row_o = (IdxW+2)'(NumMb + can_mb_pkg::RowSent);
-      if (ended) begin
-        copy_row_o = {2'b00, cur_idx_i};
-        top        = {4'b0100, ld_code_i, 1'b0};                    // CsEnded
-      end
+      if (head)  copy_row_o = {1'b0, sent(ld_row_i)};
+      if (ended) copy_row_o = {2'b00, cur_idx_i};
+      keep       = {9{!ended}};
+      top        = {4'b0100, ld_code_i, 1'b0};                      // CsEnded
     end
-    copy_data_o = {top, word_i[22:0]};
+    copy_data_o = {(word_i[31:23] & keep) | (top & ~keep), word_i[22:0]};
   end
 
   always_comb begin
     copy_be_o  = {1'b1, {3{!(mv_answer_i && copy_cs_o)}}};
     copy_off_o = mv_cancel_i;
-    copy_ok_o  = !mv_cancel_i;
     if (is_ld) begin
       copy_be_o  = ended ? 4'b1011 : '1;
       copy_off_o = ended && ld_cancel_i;
-      copy_ok_o  = ended ? !ld_cancel_i : !head || ld_take_i;
     end
   end
 endmodule
