@@ -36,10 +36,12 @@ module can_bit_timing #(
   logic       armed_q;  // last sample recessive, no synchronisation since (SY-02, SY-03)
   logic [1:0] prev_q;   // levels at the two preceding quanta
 
-  // PROP_SEG + PHASE_SEG1; a register, for the sum is constant and slow
+  // Registers, for they are constant and slow: PROP_SEG + PHASE_SEG1, and from which position in
+  // PHASE_SEG2 on an early edge ends the bit
   logic [PosWidth-1:0] tseg1_q;
+  logic [2:0]          reach_q;
   logic [PosWidth-1:0] tseg2, sjw, ahead;
-  logic       falling, hard, late, early, guard;
+  logic       falling, hard, late, early, over, guard;
 
   localparam logic [PosWidth-1:0] One = PosWidth'(1);
 
@@ -55,17 +57,23 @@ module can_bit_timing #(
   // Position after this quantum: a late edge sets the count back, which lengthens PHASE_SEG1; an
   // early one sets it forward, which shortens PHASE_SEG2; both by at most SJW (SY-08).
   assign ahead      = early ? pos_q + sjw : pos_q;
+  assign over       = falling ? pos_q >= PosWidth'(reach_q) : pos_q > PosWidth'(pseg2_i);
   // An edge in the last quantum of PHASE_SEG1 still comes before the sample point and moves it.
   assign guard      = armed_q && prev_q[0] && (hard_q || tx_i);
   assign sample_o   = tq_i && !seg2_q && (pos_q == tseg1_q) && (rx_i || !guard);
-  assign boundary_o = tq_i && seg2_q && ((ahead >= tseg2) || hard);
+  assign boundary_o = tq_i && seg2_q && (over || hard);
   assign edge_o     = tq_i && falling;
   assign bit_o      = smp_i ? (rx_i && prev_q[0]) || (rx_i && prev_q[1]) || (&prev_q) : rx_i;
 
   // In every clock: an upset flip-flop in it would spoil all bits until the next stop.
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) tseg1_q <= PosWidth'(2);
-    else         tseg1_q <= PosWidth'({2'b0, propseg_i} + {2'b0, pseg1_i} + 5'd2);
+    if (!rst_ni) begin
+      tseg1_q <= PosWidth'(2);
+      reach_q <= '0;
+    end else begin
+      tseg1_q <= PosWidth'({2'b0, propseg_i} + {2'b0, pseg1_i} + 5'd2);
+      reach_q <= {1'b0, rjw_i} < pseg2_i ? pseg2_i - {1'b0, rjw_i} : 3'd0;
+    end
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -90,7 +98,7 @@ module can_bit_timing #(
 
       // The quantum that holds a hard edge, or an early one within SJW, is the new SYNC_SEG.
       if (sample_o || hard)                pos_q <= One;
-      else if (seg2_q && ahead >= tseg2)   pos_q <= PosWidth'(ahead != tseg2);
+      else if (seg2_q && over)             pos_q <= PosWidth'(ahead != tseg2);
       else if (seg2_q)                     pos_q <= ahead + One;
       else if (late)                       pos_q <= (pos_q > sjw) ? pos_q + One - sjw : One;
       // Beyond the sample point by an upset flip-flop: sampled with the next quantum.

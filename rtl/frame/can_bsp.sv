@@ -58,7 +58,8 @@ module can_bsp #(
   output logic [14:0]     crc_o
 );
 
-  logic       prev, ends, last, free, crc_bit, mismatch, begin_rx, take_tx, load, in_frame;
+  logic       prev, ends, last, free, crc_bit, mismatch, begin_rx, take_tx, load, in_frame,
+    may_free;
   logic       passive_flag, overload_frame, boff_enter, boff_end;
   logic       id_bit, ex_id_bit, data_bit;
   logic [5:0] kind;
@@ -89,7 +90,7 @@ module can_bsp #(
     .tx_req_i(tx_req_i && !lom_i), .ide_i(rx_ide_o), .rtr_i(rx_rtr_o), .dlc_i(rx_dlc_o[2:0]),
     .lom_i, .fd_tolerant_i,
     .field_o, .left_o, .ends_o(ends), .last_o(last), .transmitter_o, .passive_flag_o(passive_flag),
-    .overload_frame_o(overload_frame), .free_o(free),
+    .overload_frame_o(overload_frame), .free_o(free), .may_free_o(may_free),
     .begin_rx_o(begin_rx), .take_tx_o(take_tx)
   );
 
@@ -106,7 +107,8 @@ module can_bsp #(
   can_rx_frame #(.ByteWise(ByteWise)) u_rx_frame (
     .clk_i, .rst_ni, .sample_i, .bit_i, .stuff_i(stuff_o), .transmitter_i(transmitter_o),
     .field_i(field_o), .last_i(last),
-    .byte_end_i(left_o[2:0] == 3'd0), .word_end_i(word_end), .take_i(take_tx),
+    .byte_end_i(left_o[2:0] == 3'd0), .word_end_i(word_end),
+    .free_i(may_free), .take_i(take_tx),
     .tx_ide_i, .tx_rtr_i, .tx_dlc_i, .tx_word_i,
     .id_bit_o(id_bit), .ex_id_bit_o(ex_id_bit), .data_bit_o(data_bit), .load_o(load),
     .rx_id_o, .ide_o(rx_ide_o), .srr_o(rx_srr_o), .rtr_o(rx_rtr_o), .dlc_o(rx_dlc_o),

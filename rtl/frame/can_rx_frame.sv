@@ -20,6 +20,7 @@ module can_rx_frame #(
   input  logic            last_i,      // last bit of the field
   input  logic            byte_end_i,  // last bit of a data byte, if in the data field
   input  logic            word_end_i,  // last bit of the first data word, if in the data field
+  input  logic            free_i,      // in this bit a frame may begin
   input  logic            take_i,      // at this sample point an own frame starts: load its head
   input  logic            tx_ide_i,
   input  logic            tx_rtr_i,
@@ -59,11 +60,13 @@ module can_rx_frame #(
     assign load_o      = !stuff_i && last_i && (field_i == can_pkg::FldDlc)
                          || !stuff_i && word_end_i && in_data;
 
+    // Where a frame may begin the word is taken whoever begins: that is known before the bit is, and
+    // a receiver puts its own in the place.
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         shift_q <= '0;
       end else if (sample_i) begin
-        if (take_i || load_o) begin
+        if (free_i || load_o) begin
           shift_q <= tx_word_i;
         end else if (!stuff_i) begin
           if (in_id || in_data)    shift_q[31:18] <= {shift_q[30:18], in_id ? bit_i : shift_q[17]};
@@ -83,7 +86,7 @@ module can_rx_frame #(
     logic [10:0] shift_q;  // ID[28:18]; the byte that comes in or goes out in [7:0]
     logic        unused;
 
-    assign unused      = &{1'b0, word_end_i, tx_word_i[31:29], tx_word_i[17:0]};
+    assign unused      = &{1'b0, free_i, word_end_i, tx_word_i[31:29], tx_word_i[17:0]};
     assign id_bit_o    = shift_q[10];
     assign ex_id_bit_o = can_pkg::Recessive;
     assign data_bit_o  = shift_q[7];

@@ -161,7 +161,7 @@ module can_top #(
     end
   end
   assign ready_o = mb_ready;
-  assign rdata_o = reg_rdata | mb_rdata | time_reg_rdata | sync_reg_rdata;
+  assign rdata_o = (reg_rdata | time_reg_rdata | sync_reg_rdata) | mb_rdata;  // the last is late
 
   // Registers of the time unit, 0x1100 to 0x117F, and of the follower, 0x1180 to 0x11FF.
   logic        in_time, time_rd_q, time_wr_q, in_sync, sync_rd_q, sync_wr_q;

@@ -120,7 +120,8 @@ module can_mailbox #(
   logic [1:0]      cpu_mem_sel;
   logic [IdxW-1:0] cpu_idx, row_idx;
   logic [3:0]      cpu_be, cs_rd_code, ld_code;
-  logic [31:0]     ram_rdata, ram_wdata;
+  logic            rd_word;
+  logic [31:0]     rd_other, ram_wdata, cs, msg, mask, word;
   logic            cs_written, cs_written_act, cs_written_empty, cs_written_ide;
   logic [IdxW-1:0] cs_written_idx;
   logic            mv_busy_mb, mv_flag;
@@ -132,7 +133,8 @@ module can_mailbox #(
     .rd_done_i(rd_done), .wr_done_i(wr_done), .block_i(block), .if_ended_i(if_ended),
     .ended_i(cs[can_mb_pkg::CsEnded]),
     .mem_sel_i(cpu_mem_sel),
-    .rxfir_i(rxfir), .idx_i(cpu_idx), .be_i(cpu_be), .wdata_i, .ram_rdata_i(ram_rdata),
+    .rxfir_i(rxfir), .idx_i(cpu_idx), .be_i(cpu_be), .wdata_i,
+    .rd_word_i(rd_word), .word_i(word), .other_i(rd_other),
     .ram_code_i(cs[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW]),
     .end_i(rd_end), .end_code_i(ld_code), .timer_i,
     .moving_i(mv_busy_mb), .mv_idx_i(mv_idx),
@@ -160,7 +162,6 @@ module can_mailbox #(
     .serviced_gnt_i(serviced_gnt));
 
   // Reception.
-  logic [31:0]     cs, msg, mask, word;
   logic            stale, id_stale, rx_req, rx_gnt, match_done, hit, hit_fifo, hit_ans, resolve;
   logic            stored;
   logic [IdxW-1:0] rx_idx, hit_idx;
@@ -340,7 +341,7 @@ module can_mailbox #(
     .clk_i, .rst_ni,
     .cmd_rd_i, .cmd_wr_i, .cmd_mem_sel_i, .cmd_word_i, .cmd_idx_i, .cmd_be_i,
     .row_idx_i(row_idx), .wdata_i(ram_wdata), .ring_i(ring), .block_i(block),
-    .if_ended_i(if_ended), .ready_o, .rdata_o(ram_rdata), .rd_end_o(rd_end), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done),
+    .if_ended_i(if_ended), .ready_o, .rd_word_o(rd_word), .rdata_o(rd_other), .rd_end_o(rd_end), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done),
     .mem_sel_o(cpu_mem_sel), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
     .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
     .eng_req_i(eng_req), .eng_lazy_i(eng_lazy), .eng_pass_i(running_i && !scan_lazy),

@@ -33,7 +33,9 @@ module can_mb_cpu #(
   input  logic [IdxW-1:0] idx_i,
   input  logic [3:0]      be_i,
   input  logic [31:0]     wdata_i,
-  input  logic [31:0]     ram_rdata_i,
+  input  logic            rd_word_i,     // word_i is read,
+  input  logic [31:0]     word_i,
+  input  logic [31:0]     other_i,       // ... this one, or none
   input  logic [3:0]      ram_code_i,    // code of the C/S word on the RAM outputs
   input  logic            end_i,         // ... that is end_code_i: a frame has just been sent
   input  logic [3:0]      end_code_i,
@@ -101,18 +103,20 @@ module can_mb_cpu #(
     end
   end
 
-  // Bits of the RAM that are seen, and others beside them; the RAM is late.
+  // Bits of the RAM that are seen, which are late, and others beside them.
   logic        rxfir, cs_word;
-  logic [3:0]  beside;
+  logic [31:0] seen, beside;
   assign rxfir   = is_cs && rxfir_i;
-  assign cs_word = is_cs && !raw;
-  assign beside  = (end_code_i & {4{end_i}}) | 4'(busy_o);
+  assign cs_word = is_cs && !raw && !rxfir_i;
   always_comb begin
-    rdata_o        = ram_rdata_i & {32{!rxfir}};
-    rdata_o[31:23] = rdata_o[31:23] & ~{{4{cs_word}}, {4{cs_word && (end_i || ring_q)}}, cs_word};
-    rdata_o[27:24] = rdata_o[27:24] | (beside & {4{cs_word && rd_done_i && !rxfir && !ring_q}});
-    rdata_o[8:0]   = rdata_o[8:0] | (ram_rdata_i[31:can_mb_pkg::CsElement] & {9{rxfir && ring_q}});
-    rdata_o[15:0]  = rdata_o[15:0] | (timer_i & {16{timer_rd_o}});
+    seen          = {32{rd_word_i && !rxfir}};
+    seen[31:23]   = seen[31:23] & ~{{4{cs_word}}, {4{cs_word && (end_i || ring_q)}}, cs_word};
+    beside        = other_i | {16'b0, timer_i & {16{timer_rd_o}}};
+    beside[27:24] = beside[27:24] | (((end_code_i & {4{end_i}}) | 4'(busy_o))
+                                     & {4{cs_word && rd_done_i && !ring_q}});
+    beside[8:0]   = beside[8:0]
+                    | (word_i[31:can_mb_pkg::CsElement] & {9{rd_word_i && rxfir && ring_q}});
+    rdata_o       = beside | (word_i & seen);
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

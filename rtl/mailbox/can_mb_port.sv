@@ -41,7 +41,8 @@ module can_mb_port #(
   input  logic            block_i,      // ... in the second clock: MCR.AEN,
   input  logic            if_ended_i,   // ... if its buffer's transmission has ended
   output logic            ready_o,      // the second one, or none
-  output logic [31:0]     rdata_o,      // of kinds 0..2
+  output logic            rd_word_o,    // it reads word_o
+  output logic [31:0]     rdata_o,      // ... something else: a mask, a stamp
   output logic            rd_end_o,     // ... but for the code: that of a frame that has been sent
   output logic            rd_done_o,    // a read ends in this clock
   output logic            wr_o,         // a write ends in this clock, or the next one
@@ -295,8 +296,8 @@ module can_mb_port #(
   end
 
   logic shows;
-  assign shows   = rd_done_o && !scrub_o;
-  assign rdata_o = (word_o & {32{shows && (of_cs || of_msg)}})
-                 | (mask_o & {32{shows && mem_sel_q == can_mb_pkg::MemMask}})
-                 | (stamp_rdata_i & {32{shows && of_stamp(mem_sel_q, word_q[1])}});
+  assign shows     = rd_done_o && !scrub_o;
+  assign rd_word_o = shows && (of_cs || of_msg);
+  assign rdata_o   = (stamp_rdata_i & {32{shows && of_stamp(mem_sel_q, word_q[1])}})
+                   | (mask_o & {32{shows && mem_sel_q == can_mb_pkg::MemMask}});
 endmodule
