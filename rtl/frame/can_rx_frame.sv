@@ -62,16 +62,18 @@ module can_rx_frame #(
 
     // Where a frame may begin the word is taken whoever begins: that is known before the bit is, and
     // a receiver puts its own in the place.
+    logic take, high, low;
+    assign take = free_i || load_o;
+    assign high = take || (!stuff_i && (in_id || in_data));
+    assign low  = take || (!stuff_i && (in_ex_id || in_data));
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         shift_q <= '0;
-      end else if (sample_i) begin
-        if (free_i || load_o) begin
-          shift_q <= tx_word_i;
-        end else if (!stuff_i) begin
-          if (in_id || in_data)    shift_q[31:18] <= {shift_q[30:18], in_id ? bit_i : shift_q[17]};
-          if (in_ex_id || in_data) shift_q[17:0]  <= {shift_q[16:0], bit_i};
-        end
+      end else begin
+        if (sample_i && high)
+          shift_q[31:18] <= take ? tx_word_i[31:18] : {shift_q[30:18], in_id ? bit_i : shift_q[17]};
+        if (sample_i && low)
+          shift_q[17:0]  <= take ? tx_word_i[17:0] : {shift_q[16:0], bit_i};
       end
     end
 

@@ -34,9 +34,10 @@ module can_mb_load #(
   input  logic            cs_written_i,
   input  logic [IdxW-1:0] cs_written_idx_i,
   input  logic            cs_written_act_i,
-  // ... in this clock or the next one: a command of buffer cmd_mb_i, given with cmd_i, is one.
-  // abort_i: it asks to abort the frame that has moved out, and is not done.
+  // ... in this clock or the next one, of buffer cs_wr_idx_i: a command of buffer cmd_mb_i, given
+  // with cmd_i, is one. abort_i: it asks to abort the frame that has moved out, and is not done.
   input  logic            cs_wr_i,
+  input  logic [IdxW-1:0] cs_wr_idx_i,
   input  logic            cmd_i,
   input  logic [IdxW-1:0] cmd_mb_i,
   input  logic            abort_i,
@@ -84,7 +85,7 @@ module can_mb_load #(
   (* fsm_encoding = "none", syn_encoding = "safe" *) state_e state_q;
 
   logic       word_q, on_bus_q, end_q, failed_q, orphan_q, dropped_q, abort_q, one_shot_q, answer_q;
-  logic       inactive_q, swap, swapped_q, wr_ld_q, wr_cur_q;
+  logic       inactive_q, swap, swapped_q, wr_ld_q, wr_cur_q, at_cur_q;
   logic [1:0] tick_q;
   logic       pause_q, head_ok, head_bad, head_seen, head_taken, lost, cs_written_cur,
     cs_written_ld, withdrawn;
@@ -93,7 +94,7 @@ module can_mb_load #(
 
   assign code = cs_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW];
 
-  assign cs_written_cur   = cs_written_i && cs_written_idx_i == cur_idx_o;
+  assign cs_written_cur   = cs_written_i && at_cur_q;
   assign cs_written_ld    = cs_written_i && cs_written_idx_i == ld_idx_o;
   // settled_i falls in the next clock only
   assign cs_written_best  = cs_written_i && cs_written_idx_i == best_idx_i;
@@ -195,7 +196,7 @@ module can_mb_load #(
     if (!rst_ni) begin
       {tx_req_o, on_bus_q, orphan_q, dropped_q, word_q, word_o} <= '0;
       {end_q, failed_q, flag_o, retry_o, inactive_q, abort_q, one_shot_q, answer_q} <= '0;
-      {wr_ld_q, wr_cur_q} <= '0;
+      {wr_ld_q, wr_cur_q, at_cur_q} <= '0;
       tick_q  <= '0;
       pause_q <= 1'b0;
       cur_idx_o <= '0;
@@ -203,6 +204,8 @@ module can_mb_load #(
       {flag_o, retry_o} <= '0;
       // Neither index has changed for some clocks when a header is there.
       if (cmd_i) {wr_ld_q, wr_cur_q} <= {cmd_mb_i == ld_idx_o, cmd_mb_i == cur_idx_o};
+      // A buffer that is being written is not taken.
+      at_cur_q <= cs_wr_idx_i == cur_idx_o && !head_taken;
       inactive_q   <= head_seen && !head_taken && best_idx_i == ld_idx_o;
       tick_q  <= {tick_q[0], tick_i};
       pause_q <= on_bus_q || end_q || retry_busy_i || abort_q || mute_i || (cs_written_cur

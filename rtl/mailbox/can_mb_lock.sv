@@ -28,7 +28,8 @@ module can_mb_lock #(
   output logic            serviced_ovr_o,    // its code is OVERRUN, not FULL
   input  logic            serviced_gnt_i
 );
-  logic       stored, same, lock_now, cs_written_hit, leave, ovr_q, mark_q, req_q, overwritten;
+  logic       stored, same, lock_now, cs_written_hit, leave, ovr_q, mark_q, req_q, overwritten,
+    at_serviced_q;
 
   assign stored     = code_i == can_regs_pkg::MbCsCodeRxFull
                    || code_i == can_regs_pkg::MbCsCodeRxOverrun;
@@ -37,19 +38,21 @@ module can_mb_lock #(
   assign same       = lock_idx_o == idx_i;
   assign leave      = timer_rd_i || (cs_rd_i && !same);
   // A C/S write has the last word about the code: no mark after it.
-  assign overwritten    = cs_written_i && cs_written_idx_i == serviced_idx_o;
+  assign overwritten    = cs_written_i && at_serviced_q;
   assign serviced_req_o = req_q && !overwritten;
   assign cs_written_hit    = cs_written_i && cs_written_idx_i == lock_idx_o;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       lock_o <= 1'b0;
-      {ovr_q, mark_q} <= '0;
+      {ovr_q, mark_q, at_serviced_q} <= '0;
       lock_idx_o <= '0;
       req_q <= 1'b0;
       serviced_idx_o <= '0;
       serviced_ovr_o <= 1'b0;
     end else begin
+      // In the last clock of a write the index stays: another one comes with a read.
+      at_serviced_q <= idx_i == serviced_idx_o;
       if (serviced_gnt_i || overwritten) req_q <= 1'b0;
       if (lock_o && (leave || cs_written_hit)) begin
         lock_o <= 1'b0;

@@ -37,6 +37,7 @@ module can_mb_move #(
   input  logic            cs_written_i,
   input  logic [IdxW-1:0] cs_written_idx_i,
   input  logic            cs_written_empty_i,
+  input  logic [IdxW-1:0] cpu_idx_i,     // it was this one in the clock before
   // One copy a step: 0 ID (and the old C/S word), 1 bytes 0-3, 2 bytes 4-7, 3 C/S; of an answer
   // only its code.
   output logic            req_o,
@@ -78,10 +79,12 @@ module can_mb_move #(
   assign kill[1] = (cs_written_cancels || (cs_written_i && ans_q[1])) && cs_written_idx_i == tgt1_q
                 && !(unres_q && unres_row_q);
 
-  logic cs_written_hit, ovr;
-  assign cs_written_hit  = cs_written_i && cs_written_idx_i == idx_o;
-  assign cancel_o = cs_written_hit && !(cs_written_empty_i && !ans);
-  assign ovr      = ovr_q && !cs_written_hit;
+  // ... of what is being moved: known early where there is a step's data.
+  logic cs_written_hit, hit_q, cancel, ovr;
+  assign cs_written_hit = cs_written_i && cs_written_idx_i == idx_o;
+  assign cancel   = cs_written_hit && !(cs_written_empty_i && !ans);
+  assign cancel_o = cs_written_i && hit_q && !(cs_written_empty_i && !ans);
+  assign ovr      = ovr_q && !(cs_written_i && hit_q);
   assign top_o    = fifo ? idhit_i : {4'b0, ans, ovr || ans, 2'b10, 1'b0};
   assign fifo     = fifo_q[row_o];
   assign ans      = ans_q[row_o];
@@ -95,7 +98,7 @@ module can_mb_move #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {smb_o, unres_q, unres_row_q, bound_q, mv_q, arm_q, end_q, ovr_q, row_o} <= '0;
-      {flag_o, stored_o, ans_o} <= '0;
+      {flag_o, stored_o, ans_o, hit_q} <= '0;
       step_o <= '0;
       full_q <= '0;
       fifo_q <= '0;
@@ -103,6 +106,7 @@ module can_mb_move #(
       {tgt0_q, tgt1_q, idx_o} <= '0;
     end else begin
       {flag_o, stored_o, ans_o} <= '0;
+      hit_q <= cpu_idx_i == idx_o;
       // Moves.
       if (!mv_q && ready != '0 && !hold_i) begin
         {mv_q, arm_q} <= '1;
@@ -112,7 +116,7 @@ module can_mb_move #(
       end else if (end_q) begin      // the C/S word is there: CPU reads of it are good from here on
         {mv_q, end_q} <= '0;
         full_q[row_o] <= 1'b0;
-      end else if (mv_q && (cancel_o || (arm_q && lock_i && lock_idx_i == idx_o))) begin
+      end else if (mv_q && (cancel || (arm_q && lock_i && lock_idx_i == idx_o))) begin
         {mv_q, arm_q} <= '0;
       end else if (arm_q) begin
         arm_q <= 1'b0;
