@@ -106,7 +106,7 @@ module can_bsp #(
 
   can_rx_frame #(.ByteWise(ByteWise)) u_rx_frame (
     .clk_i, .rst_ni, .sample_i, .bit_i, .stuff_i(stuff_o), .transmitter_i(transmitter_o),
-    .field_i(field_o), .last_i(last),
+    .field_i(field_o), .judge_i, .ends_i(ends), .last_i(last),
     .byte_end_i(left_o[2:0] == 3'd0), .word_end_i(word_end),
     .free_i(may_free), .take_i(take_tx),
     .tx_ide_i, .tx_rtr_i, .tx_dlc_i, .tx_word_i,
@@ -125,7 +125,7 @@ module can_bsp #(
 
   // The fourth data byte of more than four is complete: the sender needs its second word.
   assign word_end = (left_o[5:3] == (rx_dlc_o[3] ? 3'd4 : {1'b0, rx_dlc_o[1:0]}))
-                    && (left_o[2:0] == 3'd0) && !last;
+                    && (left_o[2:0] == 3'd0) && !ends;
 
   // Hard synchronisation in idle, suspend, INT2, INT3, integration and bus-off recovery.
   assign hard_o = !(|field_o[4:3]) && !(field_o == can_pkg::FldInt && left_o[1]);

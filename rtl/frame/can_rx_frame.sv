@@ -17,7 +17,9 @@ module can_rx_frame #(
   input  logic            stuff_i,
   input  logic            transmitter_i, // this node sends the frame
   input  can_pkg::field_t field_i,
-  input  logic            last_i,      // last bit of the field
+  input  logic            judge_i,     // first clock of a bit
+  input  logic            ends_i,      // last bit of the field
+  input  logic            last_i,      // ... the same, from a bit's second clock on
   input  logic            byte_end_i,  // last bit of a data byte, if in the data field
   input  logic            word_end_i,  // last bit of the first data word, if in the data field
   input  logic            free_i,      // in this bit a frame may begin
@@ -48,7 +50,7 @@ module can_rx_frame #(
     logic [7:0]  byte_q;
     logic        in_ex_id, unused;
 
-    assign unused   = &{1'b0, transmitter_i};
+    assign unused   = &{1'b0, transmitter_i, last_i};
     assign in_ex_id = (field_i == can_pkg::FldExId);
 
     assign id_bit_o    = shift_q[28];
@@ -56,23 +58,32 @@ module can_rx_frame #(
     assign data_bit_o  = shift_q[31];
     assign byte_o      = byte_q;
     assign rx_id_o     = {shift_q[28:18], shift_q[17:0] & {18{ide_o}}};
+    // What this bit will do, known from its second clock on: these enable many flip-flops.
     // Receivers load too (their word is not used): the role stays out of this path.
-    assign load_o      = !stuff_i && last_i && (field_i == can_pkg::FldDlc)
-                         || !stuff_i && word_end_i && in_data;
+    logic load, load_q, high_q, low_q;
+    assign load   = field_i == can_pkg::FldDlc ? ends_i : in_data && word_end_i;
+    assign load_o = load_q;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        {load_q, high_q, low_q} <= '0;
+      end else if (judge_i) begin
+        load_q <= !stuff_i && load;
+        high_q <= !stuff_i && (load || in_id || in_data);
+        low_q  <= !stuff_i && (load || in_ex_id || in_data);
+      end
+    end
 
     // Where a frame may begin the word is taken whoever begins: that is known before the bit is, and
     // a receiver puts its own in the place.
-    logic take, high, low;
-    assign take = free_i || load_o;
-    assign high = take || (!stuff_i && (in_id || in_data));
-    assign low  = take || (!stuff_i && (in_ex_id || in_data));
+    logic take;
+    assign take = free_i || load_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         shift_q <= '0;
-      end else begin
-        if (sample_i && high)
+      end else if (sample_i) begin
+        if (free_i || high_q)
           shift_q[31:18] <= take ? tx_word_i[31:18] : {shift_q[30:18], in_id ? bit_i : shift_q[17]};
-        if (sample_i && low)
+        if (free_i || low_q)
           shift_q[17:0]  <= take ? tx_word_i[17:0] : {shift_q[16:0], bit_i};
       end
     end
@@ -88,7 +99,7 @@ module can_rx_frame #(
     logic [10:0] shift_q;  // ID[28:18]; the byte that comes in or goes out in [7:0]
     logic        unused;
 
-    assign unused      = &{1'b0, free_i, word_end_i, tx_word_i[31:29], tx_word_i[17:0]};
+    assign unused      = &{1'b0, free_i, judge_i, ends_i, word_end_i, tx_word_i[31:29], tx_word_i[17:0]};
     assign id_bit_o    = shift_q[10];
     assign ex_id_bit_o = can_pkg::Recessive;
     assign data_bit_o  = shift_q[7];
