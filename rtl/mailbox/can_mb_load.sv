@@ -160,7 +160,7 @@ module can_mb_load #(
       if (data_i && data_step_i == can_mb_pkg::StepWord) tx_word_o <= msg_i;
       case (state_q)
         StIdle: if (settled_i && !flight_i && !cs_written_best
-                    && !(tx_req_o && best_idx_i == cur_idx_o)) begin
+                    && !((tx_req_o || off_o) && best_idx_i == cur_idx_o)) begin
           state_q  <= StLow;
           ld_idx_o <= best_idx_i;
         end

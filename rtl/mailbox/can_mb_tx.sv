@@ -142,7 +142,7 @@ module can_mb_tx #(
   logic candidate, withdrawn, written2;
   assign written2  = cs_written_i && cs_written_idx_i == idx2_q;
   assign candidate = s3_q && active2_q && !written2
-                  && !((off_i || start_i) && idx2_q == cur_idx_i);
+                  && !(off_i && idx2_q == cur_idx_i);
   // A buffer that is held no longer is compared as one that was written; a winner that is held from
   // now on is none, and what it had beaten is not known.
   logic            held_q, held2, best_held, freed, set_aside;
