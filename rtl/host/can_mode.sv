@@ -36,6 +36,7 @@ module can_mode (
     StRun,         // on the bus, or integrating
     StHalt,        // engine told to stop
     StReset,       // the same, for a soft reset
+    StClear,       // which takes place
     StStop         // low power because the system wants it; the bus may end it
   } state_e;
   // As written here, so that the unused codes lead back (default below).
@@ -83,17 +84,18 @@ module can_mode (
           if (soft_rst_i)                            state_q <= StReset;
           else if (stopped)                          state_q <= target;
         end
-        StReset: if (stopped) state_q <= StFreeze;
+        StReset: if (stopped) state_q <= StClear;
+        StClear: state_q <= StFreeze;
         default: state_q <= StReset;
       endcase
     end
   end
 
   assign run_o      = state_q == StRun;
-  assign clear_o    = state_q == StReset && stopped;
+  assign clear_o    = state_q == StClear;
   assign lpm_ack_o  = disabled_o || stop_o;
   assign frz_ack_o  = state_q == StFreeze;
-  assign soft_rst_o = state_q == StReset;
+  assign soft_rst_o = state_q == StReset || state_q == StClear;
   assign disabled_o = state_q == StDisable;
   assign stop_o     = state_q == StStop;
 endmodule

@@ -120,7 +120,8 @@ module can_mb_port #(
   end
 
   // CPU transfer in its data phase.
-  logic            rd_q, wr_q, first_q;
+  // The same twice, for both have many loads: first_q for addresses, ready_q for the rest.
+  logic            rd_q, wr_q, first_q, ready_q, begins;
   logic [1:0]      mem_sel_q, word_q;
   logic [IdxW-1:0] idx_q;
   logic [3:0]      be_q;
@@ -128,12 +129,14 @@ module can_mb_port #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {rd_q, wr_q, first_q} <= '0;
+      ready_q <= 1'b1;
       {mem_sel_q, word_q} <= '0;
       idx_q <= '0;
       be_q <= '0;
     end else begin
-      first_q <= !first_q && (cmd_rd_i || cmd_wr_i);
-      if (!first_q) begin
+      first_q <= begins;
+      ready_q <= !begins;
+      if (ready_q) begin
         rd_q      <= cmd_rd_i;
         wr_q      <= cmd_wr_i;
         mem_sel_q <= cmd_mem_sel_i;
@@ -143,10 +146,11 @@ module can_mb_port #(
       end
     end
   end
-  assign ready_o   = !first_q;
-  assign rd_done_o = rd_q && !first_q;
+  assign begins    = ready_q && (cmd_rd_i || cmd_wr_i);
+  assign ready_o   = ready_q;
+  assign rd_done_o = rd_q && ready_q;
   assign wr_o      = wr_q;
-  assign wr_done_o = wr_q && !first_q;
+  assign wr_done_o = wr_q && ready_q;
   assign mem_sel_o = mem_sel_q;
   assign rxfir_o   = !word_q[1];
   assign idx_o     = idx_q;
@@ -160,8 +164,8 @@ module can_mb_port #(
   logic [2:0] turns_q;
   assign cpu_rd     = first_q;          // a write reads its buffer's C/S word (can_mb_guard)
   assign wish       = (eng_req_i && !eng_lazy_i) || eng_pass_i;
-  assign ins_gnt_o  = ins_req_i && !cpu_rd && !engine_first_q;
-  assign eng_slot_o = !cpu_rd && !hold_o && (!ins_req_i || engine_first_q);
+  assign ins_gnt_o  = ins_req_i && ready_q && !engine_first_q;
+  assign eng_slot_o = ready_q && !hold_o && (!ins_req_i || engine_first_q);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       engine_first_q <= 1'b0;
