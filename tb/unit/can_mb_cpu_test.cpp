@@ -69,7 +69,8 @@ TEST_F(MbCpu, CodeOfAFrameThatHasJustBeenSent) {  // FX-3.4.c, FX-3.6.a
     begin(0, 5);
     cpu_.clock();
     cpu_->rd_done_i = 1;
-    cpu_->ram_rdata_i = 0x0C081234;
+    cpu_->rd_word_i = 1;
+    cpu_->word_i = 0x0C081234;
     cpu_->ram_code_i = 0xC;
     cpu_->end_i = ends;
     cpu_->end_code_i = 0x4;

@@ -35,7 +35,15 @@ class MbLoad : public ::testing::Test {
     top_->aen_i = 1;
   }
 
+  // A write has one clock here; its command comes in the one before.
   void clock(std::optional<unsigned> write = {}, unsigned code = 0) {
+    if (write) step({}, 0, *write);
+    step(write, code, rng_() % kBuffers);
+  }
+
+  void step(std::optional<unsigned> write, unsigned code, unsigned command) {
+    top_->cmd_i = 1;
+    top_->cmd_mb_i = command;
     engine();
     arbitrate();
     top_.settle();
@@ -233,6 +241,9 @@ class MbLoadSteps : public ::testing::Test {
  protected:
   MbLoadSteps() {
     load_->rst_ni = load_->running_i = load_->aen_i = load_->gap_i = 1;
+    // The CPU's accesses are to buffer 2.
+    load_->cmd_i = 1;
+    load_->cmd_mb_i = load_->cs_wr_idx_i = 2;
     load_.reset();
     load_.settle();
   }
@@ -280,6 +291,7 @@ TEST_F(MbLoadSteps, FrameThatIsTakenBackHasNotMovedOut) {
   load_->gap_i = 0;
   present(2);
   EXPECT_FALSE(load_->out_o);
+  clock();  // one that is being written is not presented
   load_->cs_written_i = 1;
   load_->cs_written_idx_i = 2;
   load_->cs_written_act_i = 0;
@@ -416,6 +428,7 @@ TEST_F(MbLoadSteps, FrameThatWasRewrittenIsKept) {
   load_->gap_i = 0;
   for (const bool again : {false, true}) {
     present(2);
+    clock();
     EXPECT_EQ(load_->kept_o != 0, again);
     load_->cs_written_i = load_->cs_written_act_i = 1;
     load_->cs_written_idx_i = 2;

@@ -35,8 +35,14 @@ class MbLock : public ::testing::Test {
     clock();
   }
   void write(unsigned idx) {
+    begin_write(idx);
     lock_->cs_written_i = 1;
     lock_->cs_written_idx_i = idx;
+    clock();
+  }
+  /// Its data phase.
+  void begin_write(unsigned idx) {
+    lock_->idx_i = idx;
     clock();
   }
   LeafModel<Vcan_mb_lock> lock_;
@@ -64,6 +70,7 @@ TEST_F(MbLock, NoMarkInTheClockBehindACsWrite) {  // FX-3.6.g
     read(5, kFull);
     read_timer();
     EXPECT_TRUE(lock_->serviced_req_o);
+    begin_write(written);
     lock_->cs_written_i = 1;
     lock_->cs_written_idx_i = written;
     lock_.settle();

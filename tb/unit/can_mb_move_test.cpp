@@ -55,6 +55,7 @@ class MbMove : public ::testing::Test {
   }
   /// The CPU writes the C/S word of a buffer, which is known in the clock after.
   void write(unsigned buffer, bool empty) {
+    move_->cpu_idx_i = buffer;
     clock();
     written(buffer, empty);
   }
@@ -146,6 +147,7 @@ TEST_F(MbMove, EmptyWrittenWhileTheFrameIsMovedIsNoOverrun) {  // FX-3.2.c, FX-3
   for (unsigned wait = 1;; ++wait) {
     move_.reset();
     ram_cs_ = kFullWord;
+    move_->cpu_idx_i = 10;
     frame(10);
     for (unsigned i = 0; i < wait; ++i) clock();
     if (!stored_.empty()) {

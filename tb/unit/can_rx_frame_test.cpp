@@ -26,7 +26,11 @@ class CanRxFrame : public testing::Test {
     rx_->stuff_i = b.is_stuff;
     rx_->last_i = b.index + 1u == count;
     rx_->byte_end_i = b.index % 8 == 7;
+    rx_->ends_i = rx_->last_i;
     rx_->word_end_i = word_end;
+    rx_->judge_i = 1;
+    rx_.clock();
+    rx_->judge_i = 0;
     rx_->sample_i = 1;
     rx_.clock();
     rx_->sample_i = 0;
@@ -125,9 +129,9 @@ TEST_F(CanRxFrame, LoadedWordsComeOutInOrder) {
   rx_->tx_rtr_i = 0;
   rx_->tx_dlc_i = frame.dlc;
   rx_->tx_word_i = frame.id;
-  rx_->take_i = 1;
+  rx_->take_i = rx_->free_i = 1;
   bit({Level::kRecessive, Field::kIdle, 0, false}, 1);
-  rx_->take_i = 0;
+  rx_->take_i = rx_->free_i = 0;
   rx_->tx_word_i = 0x01234567;
   for (const WireBit &b : encode_frame(frame).bits) {
     if (b.field == Field::kCrc) break;
@@ -148,9 +152,9 @@ TEST_F(CanRxFrame, LoserHoldsTheWinnersBits) {
     rx_->tx_ide_i = 0;
     rx_->tx_dlc_i = 15;
     rx_->tx_word_i = 0x7FFu << 18;
-    rx_->take_i = 1;
+    rx_->take_i = rx_->free_i = 1;
     bit({Level::kRecessive, Field::kIdle, 0, false}, 1);
-    rx_->take_i = 0;
+    rx_->take_i = rx_->free_i = 0;
     receive(winner);
     expect_frame(winner);
   }
