@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // can_bsp: the bit stream processor, wires the blocks of the frame and turns their findings into
-// the pulses that the message buffers see. All registers move at the sample point.
+// the pulses that the message buffers see. Registers move at the sample point; what a bit means is
+// settled in its first clock (judge_i).
 
 module can_bsp #(
   /// See can_rx_frame.
@@ -59,7 +60,7 @@ module can_bsp #(
 );
 
   logic       prev, ends, last, free, crc_bit, mismatch, begin_rx, take_tx, load, in_frame,
-    may_free;
+    own_free;
   logic       passive_flag, overload_frame, boff_enter, boff_end;
   logic       id_bit, ex_id_bit, data_bit;
   logic [5:0] kind;
@@ -90,7 +91,7 @@ module can_bsp #(
     .tx_req_i(tx_req_i && !lom_i), .ide_i(rx_ide_o), .rtr_i(rx_rtr_o), .dlc_i(rx_dlc_o[2:0]),
     .lom_i, .fd_tolerant_i,
     .field_o, .left_o, .ends_o(ends), .last_o(last), .transmitter_o, .passive_flag_o(passive_flag),
-    .overload_frame_o(overload_frame), .free_o(free), .may_free_o(may_free),
+    .overload_frame_o(overload_frame), .free_o(free), .own_free_o(own_free),
     .begin_rx_o(begin_rx), .take_tx_o(take_tx)
   );
 
@@ -108,7 +109,7 @@ module can_bsp #(
     .clk_i, .rst_ni, .sample_i, .bit_i, .stuff_i(stuff_o), .transmitter_i(transmitter_o),
     .field_i(field_o), .judge_i, .ends_i(ends), .last_i(last),
     .byte_end_i(left_o[2:0] == 3'd0), .word_end_i(word_end),
-    .free_i(may_free), .take_i(take_tx),
+    .free_i(own_free), .take_i(take_tx),
     .tx_ide_i, .tx_rtr_i, .tx_dlc_i, .tx_word_i,
     .id_bit_o(id_bit), .ex_id_bit_o(ex_id_bit), .data_bit_o(data_bit), .load_o(load),
     .rx_id_o, .ide_o(rx_ide_o), .srr_o(rx_srr_o), .rtr_o(rx_rtr_o), .dlc_o(rx_dlc_o),

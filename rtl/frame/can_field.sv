@@ -40,7 +40,7 @@ module can_field (
   output logic            passive_flag_o,  // the error flag being sent is passive
   output logic            overload_frame_o,// the flag or delimiter belongs to an overload frame
   output logic            free_o,          // after this bit a frame may begin
-  output logic            may_free_o,      // ... by one level or the other, known early
+  output logic            own_free_o,      // ... an own one, known early
   output logic            begin_rx_o,      // at this sample point a foreign frame begins
   output logic            take_tx_o        // at this sample point an own frame begins
 );
@@ -89,7 +89,7 @@ module can_field (
   end
 
   assign free_o     = may_begin;
-  assign may_free_o = free_r_q || free_d_q;
+  assign own_free_o = free_r_q;   // where one is joined it could have begun, too
   assign may_begin  = bit_i ? free_r_q : free_d_q;
   assign take_tx_o  = may_begin && tx_req_i && (bit_i || join_q);
   assign begin_rx_o = may_begin && !bit_i && !take_tx_o;

@@ -22,12 +22,13 @@ module can_rx_frame #(
   input  logic            last_i,      // ... the same, from a bit's second clock on
   input  logic            byte_end_i,  // last bit of a data byte, if in the data field
   input  logic            word_end_i,  // last bit of the first data word, if in the data field
-  input  logic            free_i,      // in this bit a frame may begin
-  input  logic            take_i,      // at this sample point an own frame starts: load its head
+  input  logic            free_i,      // after this bit an own frame may begin
+  input  logic            take_i,      // at this sample point an own frame starts: load its head,
+                                       // with ByteWise its word, too
   input  logic            tx_ide_i,
   input  logic            tx_rtr_i,
   input  logic [3:0]      tx_dlc_i,
-  input  logic [31:0]     tx_word_i,   // ID word at take_i, then the data words; ByteWise: [25:18]
+  input  logic [31:0]     tx_word_i,   // ID word, then the data words; ByteWise: [25:18]
   output logic            id_bit_o,    // next bits to send
   output logic            ex_id_bit_o,
   output logic            data_bit_o,
@@ -73,8 +74,8 @@ module can_rx_frame #(
       end
     end
 
-    // Where a frame may begin the word is taken whoever begins: that is known before the bit is, and
-    // a receiver puts its own in the place.
+    // Where an own frame may begin the word is taken whoever begins: that is known before the bit
+    // is, and a receiver puts another in its place.
     logic take;
     assign take = free_i || load_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin

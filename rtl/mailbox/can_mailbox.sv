@@ -197,7 +197,7 @@ module can_mailbox #(
   logic [IdxW+1:0] scrub_row;
   logic [31:0]     stamp_rdata;
 
-  logic            smb, ld_row, rx_wr_req, rx_wr_gnt, rx_wr_owed, rx_wr_cs, flags_busy;
+  logic            smb, ld_row, rx_wr_req, rx_wr_gnt, rx_wr_cs, flags_busy;
   logic [3:0]      rx_wr_be;
   logic [IdxW+1:0] rx_wr_row;
   logic [31:0]     rx_wr_data;
@@ -255,7 +255,7 @@ module can_mailbox #(
     .pass_o(pass), .pass_end_o(pass_end), .seen_o(seen), .seen_idx_o(seen_idx),
     .seen_worst_o(seen_worst), .seen_free_o(seen_free));
 
-  logic            hold, eng_slot, flight;
+  logic            eng_slot, flight;
   logic            ld_req, ld_word, ld_data, ld_cancel, ld_flag, ld_take, ld_busy;
   logic            out, kept, done, sent, abort, ab_flag;
   logic [IdxW-1:0] ab_idx;
@@ -294,7 +294,7 @@ module can_mailbox #(
     assign {block, if_ended, abort, ab_flag} = '0;
     assign ab_idx = '0;
     logic unused_guard;
-    assign unused_guard = &{1'b0, area, out, kept, done};
+    assign unused_guard = &{1'b0, area, out, kept, done, ld_take};
   end
 
   if (Status != 0) begin : gen_status
@@ -330,7 +330,7 @@ module can_mailbox #(
     .scan_req_i(scan_req), .scan_lazy_i(scan_lazy), .scan_idx_i(scan_idx), .scan_gnt_o(scan_gnt),
     .req_o(eng_req), .lazy_o(eng_lazy),
     .cs_o(eng_cs), .cs_row_o(eng_cs_row), .msg_row_o(eng_msg_row), .mask_row_o(eng_mask_row),
-    .slot_i(eng_slot), .hold_i(hold), .yield_i(rx_wr_owed), .word_i(word),
+    .slot_i(eng_slot), .yield_i(rx_wr_req), .word_i(word),
     .copy_o(copy), .copy_cs_o(copy_cs), .copy_be_o(copy_be), .copy_off_o(copy_off),
     .copy_end_o(copy_end), .copy_row_o(copy_row),
     .copy_data_o(copy_data));
@@ -343,19 +343,19 @@ module can_mailbox #(
     .row_idx_i(row_idx), .wdata_i(ram_wdata), .ring_i(ring), .block_i(block),
     .if_ended_i(if_ended), .ready_o, .rd_word_o(rd_word), .rdata_o(rd_other), .rd_end_o(rd_end), .rd_done_o(rd_done), .wr_o(wr), .wr_done_o(wr_done),
     .mem_sel_o(cpu_mem_sel), .rxfir_o(rxfir), .idx_o(cpu_idx), .be_o(cpu_be),
-    .ins_req_i(ins_req && !hold), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
+    .ins_req_i(ins_req), .ins_idx_i(ins_idx), .ins_gnt_o(ins_gnt),
     .eng_req_i(eng_req), .eng_lazy_i(eng_lazy), .eng_pass_i(running_i && !scan_lazy),
     .eng_cs_i(eng_cs),
     .eng_cs_row_i(eng_cs_row),
     .eng_msg_row_i(eng_msg_row), .eng_mask_row_i(eng_mask_row), .eng_slot_o(eng_slot),
-    .hold_o(hold), .stale_o(stale), .id_stale_o(id_stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
-    .word_o(word), .flight_i(flight), .copy_i(copy), .copy_cs_i(copy_cs), .copy_be_i(copy_be),
+    .stale_o(stale), .id_stale_o(id_stale), .cs_o(cs), .msg_o(msg), .mask_o(mask),
+    .word_o(word), .copy_i(copy), .copy_cs_i(copy_cs), .copy_be_i(copy_be),
     .copy_off_i(copy_off), .copy_end_i(copy_end), .copy_row_i(copy_row),
     .copy_data_i(copy_data),
     .serviced_req_i(serviced_req), .serviced_idx_i(serviced_idx), .serviced_ovr_i(serviced_ovr),
     .serviced_gnt_o(serviced_gnt),
     .rx_wr_req_i(rx_wr_req), .rx_wr_cs_i(rx_wr_cs), .rx_wr_be_i(rx_wr_be), .rx_wr_row_i(rx_wr_row),
-    .rx_wr_data_i(rx_wr_data), .rx_wr_gnt_o(rx_wr_gnt), .rx_wr_owed_o(rx_wr_owed),
+    .rx_wr_data_i(rx_wr_data), .rx_wr_gnt_o(rx_wr_gnt),
     .stamp_re_o(stamp_re), .stamp_cpu_o(stamp_cpu), .stamp_row_o(stamp_row),
     .stamp_shown_i(stamp_shown), .stamp_rdata_i(stamp_rdata),
     .scrub_o, .scrub_row_o(scrub_row));

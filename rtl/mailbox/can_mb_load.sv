@@ -144,8 +144,9 @@ module can_mb_load #(
   assign withdrawn = abort_q && !tx_req_o && !on_bus_q && !started_o && !end_q;
 
   // A better one came while this one was being copied: once, or a buffer that is written over and
-  // over would keep all others off the bus.
-  assign swap = settled_i && best_idx_i != ld_idx_o && !swapped_q;
+  // over would keep all others off the bus. While a frame is sent there is time for that later, and
+  // the one that has just started may be the winner for a clock.
+  assign swap = settled_i && !on_bus_q && best_idx_i != ld_idx_o && !swapped_q;
 
   // Loading.
   always_ff @(posedge clk_i or negedge rst_ni) begin

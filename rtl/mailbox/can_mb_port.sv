@@ -8,11 +8,13 @@
 // write port. So it always waits one clock, its address comes from registers, and of two clocks one
 // at least is free for others at either port: insertions (can_mb_tx) and the engine; copies, of
 // which only the second half writes (its data is on the RAM outputs only then), serviced marks and
-// the frame being received.
+// the frame being received. Because nobody else reads in the first clock nobody copies in the
+// second.
 //
 // A block RAM returns nothing certain for a word that is being written. The engine is told (stale).
 // Of what is written while the CPU reads, only a copy can be the word that it reads: then the RAM
-// is not read at all, because its outputs show what is being copied (can_mb_step).
+// is not read at all, because its outputs show what is being copied (can_mb_step). A mark can be in
+// the C/S word at which a write looks: can_mb_guard is told.
 
 module can_mb_port #(
   parameter int NumMb = 64,
@@ -69,11 +71,8 @@ module can_mb_port #(
   output logic [31:0]     msg_o,
   output logic [31:0]     mask_o,
   output logic [31:0]     word_o,       // cs_o or msg_o, as was asked for
-  // Second half of a copy; hold_o: not in this clock, the CPU writes. The RAM outputs stay as they
-  // are then: nobody reads.
-  input  logic            flight_i,     // it is due, if it is not withdrawn
+  // Second half of a copy.
   input  logic            copy_i,
-  output logic            hold_o,
   input  logic            copy_cs_i,    // C/S memory, not MSG
   input  logic [3:0]      copy_be_i,
   input  logic            copy_off_i,   // nothing is written, to a row that the CPU can read
@@ -92,7 +91,6 @@ module can_mb_port #(
   input  logic [IdxW+1:0] rx_wr_row_i,
   input  logic [31:0]     rx_wr_data_i,
   output logic            rx_wr_gnt_o,
-  output logic            rx_wr_owed_o,   // one was refused: no copy is to begin
   // Memory of the stamps, see can_mb_stamp.
   output logic            stamp_re_o,
   output logic            stamp_cpu_o,
@@ -157,15 +155,15 @@ module can_mb_port #(
   assign be_o      = be_q;
 
   // Read port. Behind an insertion the engine has its turn, as long as it wants slots: a CPU that
-  // writes C/S words for ever asks for an insertion in every second clock, and with MCR.AEN the
-  // other clocks are its own.
+  // writes C/S words for ever asks for an insertion in every second clock, and the other clocks are
+  // its own.
   localparam logic [2:0] Turns = 3'd5;
   logic       cpu_rd, wish, engine_first_q;
   logic [2:0] turns_q;
   assign cpu_rd     = first_q;          // a write reads its buffer's C/S word (can_mb_guard)
   assign wish       = (eng_req_i && !eng_lazy_i) || eng_pass_i;
   assign ins_gnt_o  = ins_req_i && ready_q && !engine_first_q;
-  assign eng_slot_o = ready_q && !hold_o && (!ins_req_i || engine_first_q);
+  assign eng_slot_o = ready_q && (!ins_req_i || engine_first_q);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       engine_first_q <= 1'b0;
@@ -177,18 +175,16 @@ module can_mb_port #(
   end
 
   // Write port.
-  logic cpu_wr_q, of_cs, of_msg, rx_wr_owed_q;
+  logic cpu_wr_q, of_cs, of_msg;
   assign of_cs  = mem_sel_q == can_mb_pkg::MemCs;
   assign of_msg = mem_sel_q == can_mb_pkg::MemMsg;
-  assign hold_o = flight_i && cpu_wr_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) cpu_wr_q <= 1'b0;
     else         cpu_wr_q <= first_q && wr_q && mem_sel_q != can_mb_pkg::MemTimer && !ring_i;
   end
-  // No mark while its word is read, but for the look of a write (can_mb_guard).
+  // None while the CPU reads, but for the look of a write.
   assign serviced_gnt_o = serviced_req_i && !copy_i && !cpu_wr_q && !(first_q && rd_q);
-  assign rx_wr_gnt_o  = rx_wr_req_i && !copy_i && !cpu_wr_q && !serviced_gnt_o;
-  assign rx_wr_owed_o = rx_wr_owed_q;
+  assign rx_wr_gnt_o    = rx_wr_req_i && !copy_i && !cpu_wr_q && !serviced_gnt_o;
 
   logic [IdxW:0]   cs_row, cs_raddr, mask_raddr;
   logic [IdxW+1:0] msg_row, msg_raddr;
@@ -258,19 +254,17 @@ module can_mb_port #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {rx_wr_owed_q, rd_end_o} <= '0;
-      {stale_o, id_stale_o} <= '0;
+      {rd_end_o, stale_o, id_stale_o} <= '0;
     end else begin
-      rx_wr_owed_q <= rx_wr_req_i && !rx_wr_gnt_o;
-      rd_end_o     <= shown && copy_end_i;
-      stale_o      <= w_cs && we[3] && w_row[IdxW:0] == cs_row;
-      id_stale_o   <= w_msg && we != '0 && w_row == msg_row;
+      rd_end_o   <= shown && copy_end_i;
+      stale_o    <= w_cs && we[3] && w_row[IdxW:0] == cs_row;
+      id_stale_o <= w_msg && we != '0 && w_row == msg_row;
     end
   end
 
-  // Who reads nothing does not mind; that the outputs stay is asked for by those who say so.
+  // Who reads nothing does not mind.
   logic re;
-  assign re = !hold_o && !shown;
+  assign re = !shown;
   assign stamp_re_o  = re;
   assign stamp_cpu_o = cpu_rd;
   assign stamp_row_o = {word_q[0], row_idx_i};

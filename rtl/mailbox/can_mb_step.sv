@@ -3,8 +3,7 @@
 //
 // can_mb_step: gives the engine's read slots to loads, moves, matching and arbitration, in this
 // order, and does the copies. A copy is a read slot and, in the next clock, a write: the word is
-// kept nowhere but on the RAM outputs, so no two steps in a row, and no other read while it has to
-// stay there (hold_i).
+// kept nowhere but on the RAM outputs, so no two steps in a row.
 
 module can_mb_step #(
   parameter int NumMb = 64,
@@ -54,7 +53,6 @@ module can_mb_step #(
   output logic [IdxW+1:0] msg_row_o,
   output logic [IdxW:0]   mask_row_o,
   input  logic            slot_i,          // the slot is the engine's
-  input  logic            hold_i,
   input  logic            yield_i,         // an engine write waits for a clock without a copy
   input  logic [31:0]     word_i,          // the word that was asked for
   // Write port: second half of a copy.
@@ -74,8 +72,8 @@ module can_mb_step #(
   assign rx_gnt_o   = slot_i && !step_req && rx_req_i;
   assign scan_gnt_o = slot_i && !step_req && !rx_req_i && scan_req_i;
   assign flight_o   = data_q;
-  assign ld_data_o  = data_q && data_ld_q && !hold_i;
-  assign mv_data_o  = data_q && !data_ld_q && moving_i && !hold_i;
+  assign ld_data_o  = data_q && data_ld_q;
+  assign mv_data_o  = data_q && !data_ld_q && moving_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -83,7 +81,7 @@ module can_mb_step #(
       ld_data_step_o <= '0;
     end else begin
       // A move that is given up takes its step with it, or the next one would get its word.
-      data_q <= (slot_i && step_req) || (hold_i && (data_ld_q || moving_i));
+      data_q <= slot_i && step_req;
       if (slot_i && step_req) begin
         data_ld_q      <= take_ld;
         ld_data_step_o <= ld_step_i;

@@ -138,7 +138,7 @@ module can_mb_tx #(
   end
 
   // A buffer written since it was read does not count: an insertion follows if it is active. Nor
-  // does the one on the bus.
+  // does the one on the bus; one that starts in this clock is withdrawn in the next.
   logic candidate, withdrawn, written2;
   assign written2  = cs_written_i && cs_written_idx_i == idx2_q;
   assign candidate = s3_q && active2_q && !written2

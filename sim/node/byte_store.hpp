@@ -42,7 +42,6 @@ class ByteStore {
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_smb__DOT__count_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__rd_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__wr_q;
-    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__rx_wr_owed_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__we;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__msg_raddr;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_msg__DOT__mem;
@@ -58,7 +57,6 @@ class ByteStore {
             root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_smb__DOT__byte_q |
             root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__rd_q |
             root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__wr_q |
-            root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__rx_wr_owed_q |
             root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__we) == 0;
   }
 

@@ -65,19 +65,20 @@ TEST_F(MbCpu, FilterWordsAreNoCsWords) {  // FX-4.a, FX-ESR2.VPS
 // A frame that ends while its C/S word is read: the code that it has then, to the reader and to
 // the lock.
 TEST_F(MbCpu, CodeOfAFrameThatHasJustBeenSent) {  // FX-3.4.c, FX-3.6.a
-  for (const bool ends : {false, true}) {
+  for (const unsigned end : {0x0u, 0x4u, 0x8u, 0x9u, 0xAu}) {  // 0: none
     begin(0, 5);
     cpu_.clock();
     cpu_->rd_done_i = 1;
     cpu_->rd_word_i = 1;
     cpu_->word_i = 0x0C081234;
     cpu_->ram_code_i = 0xC;
-    cpu_->end_i = ends;
-    cpu_->end_code_i = 0x4;
+    cpu_->end_i = end != 0;
+    cpu_->end_code_i = end;
     cpu_.settle();
-    EXPECT_EQ(cpu_->rdata_o, ends ? 0x04081234u : 0x0C081234u);
+    const unsigned code = end != 0 ? end : 0xCu;
+    EXPECT_EQ(cpu_->rdata_o, code << 24 | 0x00081234u);
     EXPECT_TRUE(cpu_->cs_rd_o);
-    EXPECT_EQ(cpu_->cs_rd_code_o, ends ? 0x4u : 0xCu);
+    EXPECT_EQ(cpu_->cs_rd_code_o, code);
   }
 }
 

@@ -9,6 +9,10 @@
       p_boundary: assert (boundary_o == (tq_i && !f_boundary
                           && f_now == (f_bound_set ? f_bound_q : f_bound)));
     end
+    // SY-08: an edge in PHASE_SEG2 ends the bit if SJW reaches its end; without one the end is the
+    // last quantum: the compare with a constant is that of the sum.
+    p_over: assert (!f_started || !seg2_q || over == ({2'd0, pos_q} + (falling ? {2'd0, sjw} : 7'd0)
+                                                      >= {2'd0, tseg2}));
     // SY-01, SY-02, SY-03: one recessive to dominant edge a bit synchronises, after a recessive
     // bit.
     p_one_sync: assert (edge_o == (tq_i && f_edge));

@@ -57,6 +57,7 @@
       // AHB-DATA: write data are those of the bus.
       p_write_data: assert (trace_o[48:17] == hwdata);
       // AHB-DATA, flexcan.md 1.1: read data are the core's, or 0 where MCR.SUPV forbids the access.
-      p_read_data: assert (hrdata == (f_data && f_denied ? 32'd0 : rdata));
+      p_read_data: assert (f_data && f_denied ? hrdata == 32'd0
+          : hrdata[{irq_o, irq_mb_o, irq_boff_o, irq_err_o, irq_twrn_o}] == irq_rwrn_o);
     end
   end

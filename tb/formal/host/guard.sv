@@ -4,12 +4,13 @@
   // Properties of can_mb_guard, spliced into it: what is forbidden of a write of
   // two clocks.
 
-  logic             f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort, f_out, f_kept;
+  logic             f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort, f_out, f_kept, f_mark,
+    f_own;
   logic [1:0]       f_mem_sel;
   logic [IdxW-1:0]  f_idx;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort, f_out, f_kept} <= '0;
+      {f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort, f_out, f_kept, f_mark, f_own} <= '0;
       f_mem_sel <= '0;
       f_idx     <= '0;
     end else begin
@@ -20,6 +21,8 @@
       f_cs      <= mem_sel_i == can_mb_pkg::MemCs;
       f_abort   <= be3_i && code_i == 4'b1001;
       f_out     <= out_i;
+      f_mark    <= mark_i && mark_idx_i == idx_i;
+      f_own     <= flag_o && flag_idx_o == idx_i;
       f_kept    <= kept_i && (!be3_i || code_i == 4'b1100 || code_i == 4'b1110);
       f_mem_sel <= mem_sel_i;
       f_idx     <= idx_i;
@@ -27,7 +30,9 @@
   end
   logic f_write, f_ends, f_blocked;
   assign f_write   = f_second && f_guarded;
-  assign f_ends    = (f_iflag && ended_i) || (f_cur && done_i) || (flag_o && flag_idx_o == f_idx);
+  // A mark of the first clock makes bit 30 0, whatever the RAM shows that is read meanwhile.
+  assign f_ends    = (f_iflag && ended_i && !f_mark) || (f_cur && done_i) || f_own
+                  || (flag_o && flag_idx_o == f_idx);
   assign f_blocked = block_o || (if_ended_o && ended_i);
 
   always @(posedge clk_i) begin

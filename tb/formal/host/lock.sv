@@ -7,6 +7,9 @@
   logic f_ran, f_moving_q, f_put, f_put_q, f_flag_fifo_q, f_ans_q;
   logic [IdxW-1:0] f_idx_q;
   // The C/S word is written (can_mb_step: step 3).
+  logic f_cancel, f_copy;
+  assign f_cancel = cs_written_i && cs_written_idx_i == idx_o && !(cs_written_empty_i && !ans);
+  assign f_copy   = data_i && moving_o;
   assign f_put = data_i && step_o == 2'd3 && moving_o && !cancel_o;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -40,8 +43,13 @@
       p_code: assert (top_o[4:1] == 4'b0010 || top_o[4:1] == 4'b0110 || fifo
                       || (ans && top_o[4:1] == 4'b1110));
       // flexcan.md 3.4: a C/S write of the CPU that is not EMPTY cancels the move.
-      p_cancel: assert (!(cs_written_i && cs_written_idx_i == idx_o && (!cs_written_empty_i
-      || ans)) || cancel_o);
+      p_cancel: assert (cancel == f_cancel);
+      // flexcan.md 3.4: ... and no word is written to its buffer in that clock: of a step's data
+      // the compare of the clock before is right.
+      p_cancel_early: assert (!f_copy || cancel_o == f_cancel);
+      // flexcan.md 3.2: nor is a buffer written as EMPTY OVERRUN.
+      p_overrun: assert (!f_copy || fifo || ans
+          || top_o[3] == (ovr_q && !(cs_written_i && cs_written_idx_i == idx_o)));
       if (f_ran) begin
         // flexcan.md 1.5, 3.2: IFLAG tells a frame stored in a mailbox, when its C/S word has been
         // written; nothing else does.

@@ -26,6 +26,9 @@
   logic f_stopped;
   assign f_stopped = !running_i && !busy_i && f_quiet == 2'd3;
 
+  logic f_stopped_now;
+  assign f_stopped_now = !running_i && !busy_i;
+
   // Nothing holds the way to the wish up: on the bus, no frame is hurt; off it, the engine has
   // stopped and the buffers are quiet. How long that may take is the engine's and the buffers'
   // matter; not proven here.
@@ -44,8 +47,8 @@
   end
 
   // Clocks that a soft reset has lasted although engine and buffers were quiet.
-  logic f_reset_q = 1'b0;
-  always @(posedge clk_i) f_reset_q <= soft_rst_o && f_stopped;
+  logic [1:0] f_reset_q = 2'b00;
+  always @(posedge clk_i) f_reset_q <= {f_reset_q[0] && soft_rst_o, soft_rst_o && f_stopped};
 
   always @(posedge clk_i) begin
     // No reset.
@@ -54,19 +57,23 @@
     // reset; LPM_ACK is disable or stop.
     p_one_mode: assert ($countones({run_o, frz_ack_o, disabled_o, stop_o, soft_rst_o}) <= 1
                         && lpm_ack_o == (disabled_o || stop_o));
-    // FX-MCR.SOFT_RST: everything is cleared only in a soft reset, with the engine stopped and
-    // off the bus.
-    p_clear: assert (!clear_o || (soft_rst_o && !run_o && !running_i && !busy_i));
     // flexcan.md 2.1, 2.2: a wish that stands is fulfilled in five clocks in which nothing holds
     // it up, from every state.
     p_acknowledged: assert (f_wait <= 3'd5);
-    // flexcan.md 2.3: a soft reset ends one clock after engine and buffers are quiet.
-    p_reset_ends: assert (!f_reset_q || !soft_rst_o);
+    // flexcan.md 2.3: a soft reset ends two clocks after engine and buffers are quiet.
+    p_reset_ends: assert (!f_reset_q[1] || !soft_rst_o);
+    // FX-MCR.SOFT_RST: everything is cleared only in a soft reset, off the bus ...
+    p_clear_off: assert (!clear_o || (soft_rst_o && !run_o));
     if (f_ran) begin
       // FX-9.ERR008341: an illegal state is left in one clock ...
       p_legal: assert (state_q <= StStop);
       // FX-9.ERR008341: ... into a soft reset.
       p_illegal_resets: assert ($past(state_q <= StStop) || soft_rst_o);
+      // FX-MCR.SOFT_RST: ... for one clock, the first behind one of the soft reset in which the
+      // engine had stopped, which nobody lets run, and the buffers were quiet.
+      p_clear: assert (!clear_o || $past(soft_rst_o && !run_o && !clear_o && f_stopped_now));
+      // FX-MCR.SOFT_RST: no soft reset without it.
+      p_cleared: assert (!$past(soft_rst_o) || soft_rst_o || $past(clear_o));
       // flexcan.md 2.3: between request and acknowledge of a soft reset never on the bus; it ends
       // in freeze mode.
       p_reset_to_freeze: assert (!$past(soft_rst_o) || soft_rst_o || frz_ack_o);

@@ -52,7 +52,12 @@ module can_top #(
   assign rdata_o = f_read ? f_rdata : '0;
   assign ready_o = f_ready;
   assign supv_o  = f_supv;
-  assign {irq_o, irq_mb_o, irq_boff_o, irq_err_o, irq_twrn_o, irq_rwrn_o, irq_wak_o} = '0;
+  // One bit of the data, any of them, for a wrapper that gives them no name of their own: which and
+  // its level.
+  (* anyconst *) logic [4:0] f_bit;
+  assign {irq_o, irq_mb_o, irq_boff_o, irq_err_o, irq_twrn_o} = f_bit;
+  assign irq_rwrn_o = rdata_o[f_bit];
+  assign irq_wak_o  = 1'b0;
   assign {time_out_o, irq_time_o} = '0;
   assign can_tx_o = can_pkg::Recessive;
   // What the port is told, for the properties in the wrapper.

@@ -70,6 +70,9 @@
       // FX-9.ERR005829: ... and if that meets an active buffer, one that looks for the winner.
       p_found: assert (!$past(running_i && candidate && !best_q && !s3_end)
                        || scan_q || best_q);
+      // flexcan.md 3.3: a buffer on the bus is no winner, but in the first clock.
+      p_off: assert (!$past(running_i && off_i) || cur_idx_i != $past(cur_idx_i)
+                     || !(best_q && best_idx_o == cur_idx_i));
       // FX-9.ERR005829: a winner that is not active is dropped.
       p_dropped: assert (!$past(inactive_i && running_i && !candidate) || !best_q);
     end
