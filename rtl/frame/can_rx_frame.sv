@@ -100,7 +100,8 @@ module can_rx_frame #(
     logic [10:0] shift_q;  // ID[28:18]; the byte that comes in or goes out in [7:0]
     logic        unused;
 
-    assign unused      = &{1'b0, free_i, judge_i, ends_i, word_end_i, tx_word_i[31:29], tx_word_i[17:0]};
+    assign unused      = &{1'b0, free_i, judge_i, ends_i, word_end_i, tx_word_i[31:29],
+                           tx_word_i[17:0]};
     assign id_bit_o    = shift_q[10];
     assign ex_id_bit_o = can_pkg::Recessive;
     assign data_bit_o  = shift_q[7];

@@ -124,11 +124,11 @@ module can_mb_step #(
   assign mask_row_o = rx_mask_row_i;
   assign cs_o = !step_req ? rx_cs_i : take_ld ? !ld_step_i[1] : mv_step_i == 2'd3;
 
-  // Data of a C/S copy: what the RAM shows, under a new code (top, where not keep). Should the CPU read the word that is
-  // being written it gets what the RAM shows (can_mb_port): of a frame received, the hidden word
-  // with BUSY; of an answer, the word as it was; of a frame sent, a copy of its buffer's word that
-  // was made when it was presented, with its stamp and the new code. Bit 30: a transmission has
-  // ended.
+  // Data of a C/S copy: what the RAM shows, under a new code (top, where not keep). Should the CPU
+  // read the word that is being written it gets what the RAM shows (can_mb_port): of a frame
+  // received, the hidden word with BUSY; of an answer, the word as it was; of a frame sent, a copy
+  // of its buffer's word that was made when it was presented, with its stamp and the new code. Bit
+  // 30: a transmission has ended.
   logic       is_ld, low, head, ended;
   logic [8:0] top, keep;
   assign is_ld     = data_q && data_ld_q;

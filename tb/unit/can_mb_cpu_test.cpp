@@ -64,7 +64,7 @@ TEST_F(MbCpu, FilterWordsAreNoCsWords) {  // FX-4.a, FX-ESR2.VPS
 
 // A frame that ends while its C/S word is read: the code that it has then, to the reader and to
 // the lock.
-TEST_F(MbCpu, CodeOfAFrameThatHasJustBeenSent) {  // FX-3.4.c, FX-3.6.a
+TEST_F(MbCpu, CodeOfAFrameThatHasJustBeenSent) {               // FX-3.4.c, FX-3.6.a
   for (const unsigned end : {0x0u, 0x4u, 0x8u, 0x9u, 0xAu}) {  // 0: none
     begin(0, 5);
     cpu_.clock();
