@@ -105,6 +105,7 @@ class QuietEngine {
     root.can_core__DOT__u_bit_timing__DOT__prev_q;
     root.can_core__DOT__u_bit_timing__DOT__tseg1_q;
     root.can_core__DOT__u_bit_timing__DOT__ahead;
+    root.can_core__DOT__u_bit_timing__DOT__over;
     root.can_core__DOT__u_bit_timing__DOT__falling;
     root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q;
     root.can_core__DOT__u_bsp__DOT__u_fault__DOT__boff_seen_q;
@@ -294,6 +295,7 @@ class QuietEngine {
       auto &pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
       pos = static_cast<CData>(pos + ticks);
       root.can_core__DOT__u_bit_timing__DOT__ahead = pos;
+      root.can_core__DOT__u_bit_timing__DOT__over = pos > root.pseg2_i;
       const unsigned level = level_of(engine) ? 1 : 0;
       auto &prev = root.can_core__DOT__u_bit_timing__DOT__prev_q;
       if (ticks == 1) prev = static_cast<CData>(((prev << 1) & 3U) | level);

@@ -145,6 +145,12 @@ class TransmitScan {
     to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less_q =
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less_q;
     // Not members of every model.
+    if constexpr (requires { to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__word; })
+      to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__word =
+          from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__word;
+    if constexpr (requires { to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs_rd_code; })
+      to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs_rd_code =
+          from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs_rd_code;
     if constexpr (requires { to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better; })
       to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better =
           from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better;
