@@ -5,19 +5,23 @@
   // stands still, and nobody is kept waiting for ever. CPU, engine and RAM are free.
 
   logic       f_ran, f_new, f_slot_q, f_read_q, f_eng_cs_q, f_wrote_q;
-  logic [2:0] f_marks, f_received;
+  logic       f_mark;                    // a mark may be asked for
+  logic [2:0] f_received, f_since;
+  logic [1:0] f_words;                   // granted of words of the frame received in a row
   logic [5:0] f_engine, f_insertion;     // clocks that a wish has waited
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {f_ran, f_new, f_slot_q, f_read_q, f_eng_cs_q, f_wrote_q, f_engine, f_insertion} <= '0;
-      {f_marks, f_received} <= '0;
+      {f_mark, f_received, f_since, f_words} <= '0;
     end else begin
       f_ran       <= 1'b1;
       f_new       <= ready_o && (cmd_rd_i || cmd_wr_i);
       f_slot_q    <= eng_slot_o;
       f_wrote_q   <= rx_wr_req_i;
-      f_marks     <= {f_marks[1:0], serviced_gnt_o};
+      f_mark      <= rd_done_o || (f_mark && !serviced_gnt_o);
       f_received  <= !rx_wr_req_i || rx_wr_gnt_o ? 3'd0 : f_received + 3'd1;
+      f_since     <= !rx_wr_req_i ? 3'd0 : f_since + 3'(f_since != '1);
+      f_words     <= !rx_wr_req_i ? 2'd0 : f_words + 2'(rx_wr_gnt_o && f_words != '1);
       if (eng_slot_o) f_eng_cs_q <= eng_cs_i;
       f_read_q    <= ins_gnt_o || (eng_slot_o && eng_req_i);
       f_engine    <= !wish || (eng_slot_o && eng_req_i) ? 6'd0 : f_engine + 6'd1;
@@ -36,8 +40,8 @@
     // can_mb_step: a step's data is there in the clock after its slot; a copy is one of them, and
     // none begins while a word of the frame received waits.
     m_copy: assume (!copy_i || (f_slot_q && !f_wrote_q));
-    // can_mb_lock: between two marks the CPU reads two words.
-    m_marks: assume (!serviced_req_i || f_marks == '0);
+    // host.lock, p_asked: each mark follows a read of its own.
+    m_marks: assume (!serviced_req_i || f_mark);
     // host.lock, p_kind: it writes the memory that its step has asked for.
     m_kind: assume (!copy_i || copy_cs_i == f_eng_cs_q);
     // can_mb_tx: a pass asks for a slot in each clock but that behind a read.
@@ -90,6 +94,10 @@
       p_no_copy: assert (!(f_slot_q && wr_done_o));
       // flexcan.md 3.5: a word of the frame received waits for four clocks at most.
       p_received: assert (f_received < 3'd5);
+      // FX-6.c: two words in a row, the stamps of a frame as received and as sent, are
+      // written in the seven clocks in which TIMER still has that value at 8 clocks a bit.
+      p_stamps: assert (!rx_wr_req_i || f_since != 3'd6
+          || f_words[1] || (f_words[0] && rx_wr_gnt_o));
       // FX-9.ERR005829: the engine gets a slot, and so does an insertion, whatever the CPU does.
       p_engine: assert (f_engine < 6'd8);
       p_insertion: assert (f_insertion < 6'd48);
