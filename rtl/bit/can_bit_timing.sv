@@ -57,6 +57,7 @@ module can_bit_timing #(
   // Position after this quantum: a late edge sets the count back, which lengthens PHASE_SEG1; an
   // early one sets it forward, which shortens PHASE_SEG2; both by at most SJW (SY-08).
   assign ahead      = early ? pos_q + sjw : pos_q;
+  // Does PHASE_SEG2 end with it? As ahead >= tseg2, but no sum waits for the edge.
   assign over       = falling ? pos_q >= PosWidth'(reach_q) : pos_q > PosWidth'(pseg2_i);
   // An edge in the last quantum of PHASE_SEG1 still comes before the sample point and moves it.
   assign guard      = armed_q && prev_q[0] && (hard_q || tx_i);

@@ -36,7 +36,7 @@ module can_mode (
     StRun,         // on the bus, or integrating
     StHalt,        // engine told to stop
     StReset,       // the same, for a soft reset
-    StClear,       // which takes place
+    StClear,       // soft reset, one clock
     StStop         // low power because the system wants it; the bus may end it
   } state_e;
   // As written here, so that the unused codes lead back (default below).

@@ -40,6 +40,8 @@ class TransmitScan {
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__stale;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__msg;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__word;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs_rd_code;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__copy_data;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__eng_cs_row;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__eng_msg_row;
@@ -120,6 +122,10 @@ class TransmitScan {
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs;
     to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__msg =
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__msg;
+    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__word =
+        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__word;
+    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs_rd_code =
+        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs_rd_code;
     to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__copy_data =
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__copy_data;
     to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__eng_cs_row =
@@ -145,12 +151,6 @@ class TransmitScan {
     to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less_q =
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__less_q;
     // Not members of every model.
-    if constexpr (requires { to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__word; })
-      to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__word =
-          from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__word;
-    if constexpr (requires { to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs_rd_code; })
-      to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs_rd_code =
-          from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs_rd_code;
     if constexpr (requires { to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better; })
       to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better =
           from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_tx__DOT__better;

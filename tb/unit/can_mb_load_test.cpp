@@ -5,6 +5,7 @@
 // whole, and every request to send has one end, whenever the CPU writes and slots are granted.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <random>
@@ -365,6 +366,33 @@ TEST_F(MbLoadSteps, BetterFrameIsCopiedInsteadOnce) {
       ASSERT_TRUE(load_->tx_req_o);
       EXPECT_EQ(load_->cur_idx_o, 2) << k;
     }
+  }
+}
+
+// FX-3.3.f: a frame that has just gone on the bus may be the winner for a clock (can_mb_tx): the
+// next one, which is being copied then, is not copied twice for it.
+TEST_F(MbLoadSteps, FrameThatStartsReplacesNothing) {
+  for (unsigned k = 1; k < 5; ++k) {
+    present(2);
+    steps_.clear();
+    winner(3);
+    clocks(k);
+    load_->start_i = load_->transmitter_i = 1;
+    load_->gap_i = 0;
+    clock();
+    winner(2);
+    clock();
+    winner(3);
+    clocks(10);
+    EXPECT_EQ(load_->ld_idx_o, 3) << k;
+    EXPECT_EQ(std::ranges::count(steps_, 2U), 1) << k;
+    EXPECT_EQ(std::ranges::count(steps_, 3U), 1) << k;
+    load_->gap_i = load_->tx_ok_i = 1;
+    clock();
+    winner(0, false);
+    load_->running_i = 0;
+    clocks(5);
+    load_->running_i = 1;
   }
 }
 
