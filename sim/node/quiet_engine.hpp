@@ -34,14 +34,17 @@ class QuietEngine {
   /// has followed.
   static constexpr unsigned kSettle = 2;
 
-  /// After each edge of `engine` that was evaluated.
+  /// After each edge of `engine` that was evaluated, before what is disturbed() by it.
   template <typename Engine>
   void clocked(const Engine &engine) {
     clocked_(engine);
   }
 
   /// The engine's inputs may have changed, other than can_rx_i.
-  void disturbed() { to_settle_ = kSettle; }
+  void disturbed() {
+    to_settle_ = kSettle;
+    disturbed_ = true;
+  }
 
   /// Edges to come that only count, as long as no input changes. The last one makes the sample
   /// point, the boundary or the edge show, at which more happens in the one after it; `watched`:
@@ -75,7 +78,8 @@ class QuietEngine {
   /// the place in the bit moves. The edge after it judges the new bit and is to be evaluated.
   template <typename Engine>
   [[nodiscard]] bool crosses_boundary(const Engine &engine) const {
-    return to_settle_ == kSettle && edges_of_time(engine) != 0 && crosses_boundary_(engine);
+    return to_settle_ == kSettle && !disturbed_ && edges_of_time(engine) != 0 &&
+           crosses_boundary_(engine);
   }
   /// Does that one, with `rx` at the pin.
   template <typename Engine>
@@ -120,6 +124,7 @@ class QuietEngine {
   void clocked_(const Engine &engine) {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       const auto &root = *engine.rootp;
+      disturbed_ = false;
       const bool synchronises =
           root.can_core__DOT__u_bit_timing__DOT__falling != 0 && root.can_core__DOT__tq != 0;
       const bool was_stopped = std::exchange(stopped_, root.can_core__DOT__active_q == 0);
@@ -251,14 +256,25 @@ class QuietEngine {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       auto &root = *engine.rootp;
       const unsigned pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
+      const bool between = !boundary && to_settle_ == 0 && between_quanta(root);
       count(engine, 1);
       if (boundary) begin_bit(engine, pos);
       root.can_core__DOT__u_sync__DOT__settled_q = root.can_core__DOT__u_sync__DOT__meta_q;
       root.can_core__DOT__u_sync__DOT__meta_q = static_cast<CData>(rx);
       root.can_rx_i = static_cast<CData>(rx);
+      if (between && root.can_core__DOT__tq == 0) return;
       verican_follow(&root);
       clocked_(engine);
     }
+  }
+
+  // No quantum ends, the level stays and no sample point is to be forgotten: what is combinational
+  // has nothing to follow.
+  template <typename Root>
+  static bool between_quanta(const Root &root) {
+    return root.can_core__DOT__tq == 0 &&
+           root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q == 0 &&
+           root.can_core__DOT__u_sync__DOT__settled_q == root.can_core__DOT__u_sync__DOT__meta_q;
   }
 
   // What is more at a boundary; `pos`: the position before.
@@ -314,6 +330,7 @@ class QuietEngine {
   static constexpr std::uint64_t kStopped = ~0ULL >> 1;  // until an input changes
   bool stopped_ = false;
   unsigned to_settle_ = kSettle;  // edges to come that move more
+  bool disturbed_ = true;         // inputs have changed since the last edge
 };
 
 }  // namespace vericansim

@@ -46,27 +46,25 @@ class RtlNodeOf final : public RtlNode {
   }
 
   [[gnu::flatten]] void clock(Level rx) override {
-    if (!ahb().active() && core_.rest() != 0 && quiet_.crosses_boundary(core_.engine()) &&
-        !core_.wakes()) {
-      quiet_.cross_boundary(core_.engine(), rx);
-      core_.pass(1);
-      return after_edge();
-    }
+    if (!ahb().active() && quiet_.crosses_boundary(core_.engine()))
+      return count(rx, [&] { quiet_.cross_boundary(core_.engine(), rx); });
     core_.engine().can_rx_i = static_cast<std::uint8_t>(rx);
     if (ahb().active()) {
       transfer_cycle();
     } else {
       core_.edge();
     }
-    if (!core_.resting()) quiet_.disturbed();
     quiet_.clocked(core_.engine());
+    if (core_.take_engine_disturbed()) quiet_.disturbed();
     drive(static_cast<Level>(core_.engine().can_tx_o));
     after_edge();
   }
 
   [[nodiscard, gnu::flatten]] std::uint64_t quiet() const override {
     if (ahb().active() || !core_.resting()) return 0;
-    return std::min({quiet_.edges(core_.engine(), watched()), edges_to_waiter(), core_.rest()});
+    const std::uint64_t edges =
+        std::min({quiet_.edges(core_.engine(), watched()), edges_to_waiter(), core_.rest()});
+    return edges != 0 && core_.wakes() ? 0 : edges;
   }
 
   [[gnu::flatten]] void pass(std::uint64_t edges) override {
@@ -76,11 +74,8 @@ class RtlNodeOf final : public RtlNode {
   }
 
   [[gnu::flatten]] void clock_lightly(Level rx) override {
-    if (ahb().active() || core_.rest() == 0 || !quiet_.counts(core_.engine()) || core_.wakes())
-      return clock(rx);
-    quiet_.clock_lightly(core_.engine(), rx);
-    core_.pass(1);
-    after_edge();
+    if (ahb().active() || !quiet_.counts(core_.engine())) return clock(rx);
+    count(rx, [&] { quiet_.clock_lightly(core_.engine(), rx); });
   }
 
   // An idle bit is like the one before it, but for TIMER and the time unit.
@@ -93,7 +88,7 @@ class RtlNodeOf final : public RtlNode {
 
   [[nodiscard]] std::uint64_t skip_most() const override {
     if constexpr (!kHasTimeUnit<Engine>) return ~0ULL;
-    if (ahb().active() || !core_.resting()) return 0;
+    if (ahb().active() || !core_.resting() || core_.wakes()) return 0;
     return std::min({edges_of_time(core_.engine()), edges_to_waiter(), core_.rest()});
   }
 
@@ -173,6 +168,17 @@ class RtlNodeOf final : public RtlNode {
   }
 
  private:
+  // An edge at which the engine does no more than `of_engine`, unless the host side asks for more.
+  template <typename OfEngine>
+  void count(Level rx, OfEngine &&of_engine) {
+    core_.engine().can_rx_i = static_cast<std::uint8_t>(rx);
+    const bool counted = core_.edge(std::forward<OfEngine>(of_engine));
+    if (!counted) quiet_.clocked(core_.engine());
+    if (core_.take_engine_disturbed()) quiet_.disturbed();
+    drive(static_cast<Level>(core_.engine().can_tx_o));
+    after_edge();
+  }
+
   // HREADYOUT, HRESP and HRDATA are read as they have settled with this cycle's request.
   AhbResponse cycle(const AhbRequest &request) {
     HostModel &top = core_.host();

@@ -64,11 +64,15 @@ class SplitCore {
   [[nodiscard]] bool resting() const { return resting_; }
   [[nodiscard]] std::uint64_t rest() const { return resting_ ? rest_ : 0; }
   /// The engine shows something at which the resting host side has to wake.
-  [[nodiscard]] bool wakes() const { return Ports::wakes_host(engine_, *host_.rootp); }
+  [[nodiscard]] bool wakes() const {
+    engine_moved_ = engine_moved_ && Ports::wakes_host(engine_, *host_.rootp);
+    return engine_moved_;
+  }
 
   /// `edges` have passed at rest, at most rest(), and the engine has done them.
   void pass(std::uint64_t edges) {
     in_a_row_ = 0;
+    engine_counted();
     storing_ = storing_ && edges == 0;
     if (rest_ == kForever) return;
     rest_ -= edges;
@@ -102,8 +106,7 @@ class SplitCore {
     host_settled_ = true;
     Ports::to_host(engine_, *host_.rootp);
     host_.eval();
-    while (Ports::to_core(engine_, *host_.rootp)) {
-      engine_.eval();
+    while (show_engine()) {
       if (!Ports::to_host(engine_, *host_.rootp)) return;
       host_.eval();
     }
@@ -118,21 +121,28 @@ class SplitCore {
     host_edge();
     resting_ = false;
     engine_edge();
-    if (Ports::to_core(engine_, *host_.rootp)) engine_.eval();
+    show_engine();
   }
 
   /// One rising edge of the clock.
   void edge() {
+    edge([this] { engine_edge(); });
+  }
+  /// The same, where `of_engine` does the engine's part, as long as the engine's inputs stay as
+  /// they are; false: they have changed, and the engine was evaluated.
+  template <typename OfEngine>
+  bool edge(OfEngine &&of_engine) {
     if (rest() > 0 && !wakes()) {
       pass(1);
-      engine_edge();
-      return;
+      of_engine();
+      return true;
     }
     if (rest() == kForever && bytes_rest_ && !storing_ && store_.begin(engine_, *host_.rootp)) {
       storing_ = stored_ = true;
       in_a_row_ = 0;
-      engine_edge();
-      return;
+      engine_counted();
+      of_engine();
+      return true;
     }
     catch_up();
     if (Ports::to_host(engine_, *host_.rootp)) settle();
@@ -141,9 +151,18 @@ class SplitCore {
     host_edge();
     ++in_a_row_;
     begin_rest();
-    engine_edge();
-    if (Ports::to_core(engine_, *host_.rootp)) engine_.eval();
+    const bool as_before = !engine_disturbed_;
+    engine_counted();
+    if (as_before)
+      of_engine();
+    else
+      engine_edge();
+    show_engine();
+    return as_before;
   }
+
+  /// Whether an input of the engine other than can_rx_i has changed since the last call.
+  [[nodiscard]] bool take_engine_disturbed() { return std::exchange(engine_disturbed_, false); }
 
   /// Everything that the two models remember.
   struct State {
@@ -164,6 +183,7 @@ class SplitCore {
     if constexpr (kHasTimeUnit<Engine>) engine_.restore_unit(state.unit.get());
     rest_ = state.rest;
     behind_ = 0;
+    engine_moved_ = true;
     storing_ = stored_ = false;
     resting_ = state.resting;
     host_settled_ = state.host_settled;
@@ -183,10 +203,26 @@ class SplitCore {
  private:
   static constexpr std::uint64_t kForever = ~0ULL;
 
+  // An engine that only counts shows the host side sample points, if that asks for them, and no
+  // more.
+  void engine_counted() { engine_moved_ = engine_moved_ || engine_.tick_req_i != 0; }
+
+  // The engine's inputs as the host side has them now; true if any is new.
+  bool show_engine() {
+    if (!Ports::to_core(engine_, *host_.rootp)) return false;
+    engine_disturbed_ = true;
+    engine_moved_ = true;
+    engine_.eval();
+    return true;
+  }
+
   // After an edge of the host side; before_ is what it was before, earlier_ one edge earlier, if
   // that was evaluated with the same inputs: a pass reads in every second clock.
   void begin_rest() {
     const Root &root = *host_.rootp;
+    // Which processes have run is not what they have left.
+    if constexpr (requires { root.__VnbaTriggered; })
+      reinterpret_cast<Root *>(before_.get())->__VnbaTriggered = root.__VnbaTriggered;
     resting_ = std::memcmp(before_.get(), static_cast<const void *>(&root), sizeof(Root)) == 0;
     rest_ = kForever;
     if (resting_ || !passes_rest_) return;
@@ -228,7 +264,7 @@ class SplitCore {
       settled_edge(engine_);
     else
       rising_edge(engine_, engine_.clk_i);
-    engine_settled_ = true;
+    engine_settled_ = engine_moved_ = true;
   }
 
   VerilatedContext context_;
@@ -248,6 +284,8 @@ class SplitCore {
   bool resting_ = false;
   bool host_settled_ = false;
   bool engine_settled_ = false;
+  bool engine_disturbed_ = false;
+  mutable bool engine_moved_ = true;  // since nothing of it was to wake the host side
 };
 
 }  // namespace vericansim
