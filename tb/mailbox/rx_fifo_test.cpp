@@ -87,6 +87,23 @@ TEST_F(RxFifo, RingGoesRoundWithAnyFill) {  // FX-4.b
   EXPECT_EQ(rig_.iflag() & reg::kIflagFifoOvf, 0u);
 }
 
+// The flag is in byte 0. Where another byte is written, the data lines carry ones there.
+TEST_F(RxFifo, IsTakenFromByAWriteOfTheFlagsByte) {  // FX-4.n
+  rig_.join();
+  send(0, 3);
+  const auto write = [this](unsigned byte, AhbSize size, std::uint32_t data) {
+    const std::uint32_t address = reg::kIflag1 + byte;
+    rig_.access(kReceiver, {.address = address, .write = true, .size = size, .data = data});
+  };
+  for (const unsigned byte : {1u, 2u, 3u}) write(byte, AhbSize::kByte, 0);
+  write(2, AhbSize::kHalf, 0);
+  expect_output(0);
+  write(0, AhbSize::kByte, reg::kIflagFifo);
+  expect_output(1);
+  write(0, AhbSize::kHalf, reg::kIflagFifo);
+  expect_output(2);
+}
+
 TEST_F(RxFifo, NextFrameIsAtTheOutputInTheTransferAfterThePop) {  // FX-4.n
   rig_.join();
   send(0, 3);

@@ -52,6 +52,20 @@ TEST_F(CanCore, LevelOfTheBusIsRecessiveUnlessAskedFor) {  // FX-2.9.a
   EXPECT_FALSE(core_->rx_level_o);
 }
 
+// A node that stands is not in step, although its field is still that of the bit before.
+TEST_F(CanCore, IsInStepOnlyWhileItRuns) {  // FX-ESR1.SYNCH
+  for (unsigned phase = 0; phase < 10; ++phase) {
+    core_.reset();
+    core_->run_i = 1;
+    for (unsigned i = 0; i < 200 + phase; ++i) core_.clock();
+    ASSERT_TRUE(core_->synch_o) << phase;
+    core_->run_i = 0;
+    core_.clock();
+    ASSERT_FALSE(core_->running_o) << phase;
+    EXPECT_FALSE(core_->synch_o) << phase;
+  }
+}
+
 // FX-6.b: TIMER stands with the engine, in whichever clock of a bit that is told to stop.
 TEST_F(CanCore, TimerStandsWhenTheEngineDoes) {
   unsigned stops = 0;

@@ -123,6 +123,26 @@ TEST_F(MbGuard, RequestThatIsDoneAtOnce) {  // FX-3.4.a
 
 // The frame presented may be rewritten with what is not sent. Without the top byte the code stays,
 // and that may be an active one.
+// What is refused is not done: where a frame has ended whose flag is not set yet, and where an
+// abort has been done whose flag is not set yet.
+TEST_F(MbGuard, RequestThatIsRefusedIsNotDone) {  // FX-3.3.j, FX-3.4.a
+  guard_->cur_idx_i = 7;
+  guard_->done_i = 1;
+  cs_write(7, kAbort);
+  EXPECT_TRUE(blocked());
+  clock();
+  EXPECT_FALSE(guard_->flag_o);
+  guard_->done_i = guard_->gnt_i = 0;
+  cs_write(3, kAbort);
+  clock();
+  ASSERT_TRUE(guard_->flag_o);
+  cs_write(3, kAbort);
+  EXPECT_TRUE(blocked());
+  guard_->gnt_i = 1;
+  clock();
+  EXPECT_FALSE(guard_->flag_o) << "is set a second time";
+}
+
 TEST_F(MbGuard, WhatIsNotTakenBackForANewFrame) {  // FX-3.4.a
   guard_->kept_i = 1;
   guard_->cur_idx_i = 12;

@@ -146,6 +146,22 @@ TEST_F(CanMode, SoftResetFromEveryMode) {
   }
 }
 
+// Where the engine stands already there is nothing to wait for, however long it has stood.
+TEST_F(CanMode, SoftResetInFreezeModeIsDoneAtOnce) {  // FX-2.3.b
+  for (unsigned stood = 0; stood < 8; ++stood) {
+    enter(kRunning);
+    request(false, false, true);
+    clock(3 + kSettle + stood);
+    ASSERT_EQ(mode(), kFrozen);
+    clears_ = 0;
+    soft_reset();
+    ASSERT_EQ(mode(), kResetting);
+    clock(2);
+    EXPECT_EQ(mode(), kFrozen) << stood;
+    EXPECT_EQ(clears_, 1u) << stood;
+  }
+}
+
 // FX-2.3.b: nothing is cleared before the engine stands and no move is under way.
 TEST_F(CanMode, SoftResetWaitsForEngineAndMoves) {
   enter(kRunning);
