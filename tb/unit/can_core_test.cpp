@@ -85,6 +85,16 @@ TEST_F(CanCore, TimerStandsWhenTheEngineDoes) {
   EXPECT_EQ(stops, 30u);
 }
 
+// From the reset on, without a clock: the node is off the bus.
+TEST_F(CanCore, ResetStopsTheEngine) {
+  for (unsigned i = 0; i < 200; ++i) core_.clock();
+  ASSERT_TRUE(core_->running_o);
+  core_->run_i = core_->rst_ni = 0;
+  core_.settle();
+  EXPECT_FALSE(core_->running_o);
+  EXPECT_FALSE(core_->synch_o);
+}
+
 // A hard reset in the very clock of a pulse ends it: the engine stands then, and a pulse that
 // stayed would last until it runs again. In loop-back mode (MO-04) one frame gives them all.
 TEST_F(CanCore, ResetEndsEveryPulse) {
