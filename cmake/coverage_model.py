@@ -155,9 +155,9 @@ def main():
         "// SYMS CLASS", f"extern uint32_t {name}_coverage[];\n\n// SYMS CLASS", 1)
     if f"{name}_coverage" not in files[symbols]:
         fail(f"{symbols} has no symbol class")
-    slow = f"{directory}/{name}___024root__Slow.cpp"
-    files[slow] = re.sub(r"(::__vlCoverInsert\([^{]*\{).*?\n\}", r"\1}", files[slow],
-                         flags=re.DOTALL)
+    for slow in [file for file in files if file.endswith("__Slow.cpp")]:   # packages have one, too
+        files[slow] = re.sub(r"(::__vlCoverInsert\([^{]*\{).*?\n\}", r"\1}", files[slow],
+                             flags=re.DOTALL)
     for file, text in files.items():
         with open(file, "w", encoding="utf-8") as out:
             out.write(text)
