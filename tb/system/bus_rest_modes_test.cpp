@@ -127,7 +127,8 @@ class Stage {
     for (unsigned i = 0; i < changes; ++i) {
       if (i % 2 == 0) change();
       for (const auto &host : hosts_)
-        if (host->ready() && random_() % 2 == 0) host->send({.id = random_() & 0x7FF, .dlc = 1});
+        if (host->ready() && random_() % 2 == 0)
+          host->send({.id = static_cast<std::uint32_t>(random_() & 0x7FF), .dlc = 1});
       watch(30 + random_() % 300);
     }
     return std::move(trail_);
