@@ -121,8 +121,6 @@ TEST_F(MbGuard, RequestThatIsDoneAtOnce) {  // FX-3.4.a
   EXPECT_FALSE(guard_->flag_o) << "once";
 }
 
-// The frame presented may be rewritten with what is not sent. Without the top byte the code stays,
-// and that may be an active one.
 // What is refused is not done: where a frame has ended whose flag is not set yet, and where an
 // abort has been done whose flag is not set yet.
 TEST_F(MbGuard, RequestThatIsRefusedIsNotDone) {  // FX-3.3.j, FX-3.4.a
@@ -143,6 +141,8 @@ TEST_F(MbGuard, RequestThatIsRefusedIsNotDone) {  // FX-3.3.j, FX-3.4.a
   EXPECT_FALSE(guard_->flag_o) << "is set a second time";
 }
 
+// The frame presented may be rewritten with what is not sent. Without the top byte the code stays,
+// and that may be an active one.
 TEST_F(MbGuard, WhatIsNotTakenBackForANewFrame) {  // FX-3.4.a
   guard_->kept_i = 1;
   guard_->cur_idx_i = 12;
