@@ -28,7 +28,7 @@ NodeJudge::NodeJudge(BufferJudge &buffers, Report report)
 void NodeJudge::bit(const BitRecord &record, Level pin) {
   if (failed_) return;
   restarted_ = false;
-  if (!record.after.running) return buffers_.cut_bit();
+  if (!record.after.running) return buffers_.cut_bit(record.at.running);
   ++bits_;
   const NodeBit bit = node_bit(record, pin);
   const bool own = bit.started && record.after.transmitter;

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The judges beside a node that software takes off the bus and puts back.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "random/judged_run.hpp"
+
+namespace vericansim {
+namespace {
+
+constexpr unsigned kClocksPerBit = 8;  // of 125 ns
+
+/// A frame each 240 us; node b receives into MB2, whose C/S word is read before and behind a stop
+/// by `stop` (MCR) that is asked for `phase` clocks into a bit.
+Scenario stopped_at(const std::string &stop, const std::string &ack, unsigned phase) {
+  const std::string at = std::to_string(1'400'000'000 + phase * 125'000) + " ps";
+  return parse_scenario(
+      "stop.yaml",
+      "judge: lockstep\n"
+      "bitrate: 1000000\n"
+      "duration: 3 ms\n"
+      "drain: 0\n"
+      "nodes:\n"
+      "  - {name: a, timing: {brp: 1, prop: 3, ps1: 2, ps2: 2, sjw: 1}, mailboxes: 16}\n"
+      "  - {name: b, timing: {brp: 1, prop: 3, ps1: 2, ps2: 2, sjw: 1}, mailboxes: 16,"
+      " software: none}\n"
+      "traffic:\n"
+      "  - {node: a, id: 0x121, dlc: 0, period: 240 us}\n"
+      "accesses:\n"
+      "  - {node: b, at: 5 us, do: [write MCR 0x5000000F, until MCR 0x1100000 0x1000000,"
+      " write MCR 0x5002000F, write CTRL1 0x90002, write MB2.ID 0x4840000, write MB2.CS 0x4000000,"
+      " write MCR 0x4002000F, until MCR 0x1000000 0]}\n"
+      "  - {node: b, at: 1300 us, do: [read MB2.CS, read TIMER]}\n"
+      "  - {node: b, at: " +
+          at + ", do: [write MCR " + stop + ", until MCR " + ack + " " + ack +
+          ", write MCR 0x4002000F, until MCR 0x1100000 0]}\n"
+          "  - {node: b, at: 2900 us, do: [read MB2.CS, read TIMER]}\n");
+}
+
+// FX-6.b: TIMER, and with it every later stamp, stands from the clock in which the node leaves the
+// bus; a bit that is sampled in the clock before counts, one that is sampled behind it does not.
+TEST(JudgedStop, StampsGoOnFromTheClockOfTheStop) {
+  unsigned judged = 0;
+  for (unsigned phase = 0; phase < 2 * kClocksPerBit; ++phase) {
+    for (const auto &[stop, ack] : {std::pair{"0xC002000F", "0x100000"},      // MDIS, LPMACK
+                                    std::pair{"0x5002000F", "0x1000000"}}) {  // HALT, FRZACK
+      const JudgedRun run = run_judged(stopped_at(stop, ack, phase));
+      for (const std::string &finding : run.findings)
+        ADD_FAILURE() << stop << ", phase " << phase << ": " << finding;
+      EXPECT_FALSE(run.cut_short);
+      EXPECT_GE(run.frames, 10u);
+      EXPECT_GE(run.counts.accesses, 12u);
+      ++judged;
+    }
+  }
+  EXPECT_EQ(judged, 4 * kClocksPerBit);
+}
+
+}  // namespace
+}  // namespace vericansim
