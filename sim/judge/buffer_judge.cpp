@@ -90,6 +90,7 @@ void BufferJudge::look_at_run(std::uint64_t clock) {
     if (std::exchange(reset_asked_, false)) soft_reset(clock);
     check();
   }
+  if (running && !was_running_) back_at_ = clock;
   was_running_ = running;
 }
 
@@ -150,7 +151,7 @@ BufferJudge::Interference BufferJudge::begin_bit(const NodeBit &bit) {
   // While the node integrates, too: the bits that it waits for are other nodes' intermission.
   model_.bus_free(bit.field == Field::kInteg || bit.field == Field::kIdle ||
                   bit.field == Field::kInt || bit.field == Field::kSuspend);
-  was_running_ = true;
+  if (!std::exchange(was_running_, true)) back_at_ = node_.cycles();
   ++bits_;
   ++since_stamp_;
   return std::exchange(interference_, {});
@@ -168,7 +169,7 @@ bool BufferJudge::must_send() const {
   const std::uint64_t window = model_.windows().decision;
   const auto cs_write = [](const Access &access) { return access.write && is_cs(access.address); };
   if (std::any_of(done_.begin(), done_.end(), cs_write)) return false;
-  return now > last_cs_write_ + window && now > window && model_.must_send_since(now - window);
+  return now > std::max(last_cs_write_, back_at_) + window && model_.must_send_since(now - window);
 }
 
 void BufferJudge::header(const std::optional<Frame> &foreign) {

@@ -48,7 +48,8 @@ class BufferJudge {
   /// Frames that the node may be sending; empty: none.
   [[nodiscard]] std::vector<Frame> flights() const { return model_.flights(); }
   /// A buffer has waited so long that the next opportunity must be taken: longer than a pass over
-  /// all buffers, which a write of the CPU to any C/S word may have made necessary.
+  /// all buffers, which a write of the CPU to any C/S word may have made necessary, and which
+  /// begins when the node comes back to the bus.
   [[nodiscard]] bool must_send() const;
   /// The identifier is complete; `foreign`: unless the node sends the frame itself.
   void header(const std::optional<Frame> &foreign);
@@ -93,8 +94,8 @@ class BufferJudge {
   unsigned since_stamp_ = 0;  // bits
   std::uint64_t last_cs_write_ = 0;
   bool was_running_ = false;
-  std::uint64_t stopped_at_ = 0;
-  bool reset_asked_ = false;  // a soft reset waits for the node to stop
+  std::uint64_t stopped_at_ = 0, back_at_ = 0;  // clocks; back on the bus
+  bool reset_asked_ = false;                    // a soft reset waits for the node to stop
   bool reported_ = false;
   std::uint64_t accesses_ = 0;
 };

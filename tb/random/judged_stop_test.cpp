@@ -59,5 +59,44 @@ TEST(JudgedStop, StampsGoOnFromTheClockOfTheStop) {
   EXPECT_EQ(judged, 4 * kClocksPerBit);
 }
 
+/// Node a saturates the bus. Node b, with a frame that waits in its last buffer, leaves the bus,
+/// and is back `bits` bit times behind a moment in the frames of a.
+Scenario back_after(unsigned bits) {
+  const std::string back = std::to_string(1500 + bits) + " us";
+  return parse_scenario(
+      "back.yaml",
+      "judge: lockstep\n"
+      "bitrate: 1000000\n"
+      "duration: 2 ms\n"
+      "drain: 0\n"
+      "nodes:\n"
+      "  - {name: a, timing: {brp: 1, prop: 3, ps1: 2, ps2: 2, sjw: 1}, mailboxes: 16,"
+      " tx_buffers: 2}\n"
+      "  - {name: b, timing: {brp: 1, prop: 3, ps1: 2, ps2: 2, sjw: 1}, software: none}\n"
+      "  - {name: c, timing: {brp: 1, prop: 3, ps1: 2, ps2: 2, sjw: 1}, mailboxes: 16}\n"
+      "traffic:\n"
+      "  - {node: a, id: 0x121, dlc: 0, period: saturated}\n"
+      "accesses:\n"
+      "  - {node: b, at: 5 us, do: [write MCR 0x5000000F, until MCR 0x1100000 0x1000000,"
+      " write MCR 0x5002003F, write CTRL1 0x90002, write MB63.ID 0x1FFC0000,"
+      " write MB63.CS 0xC000000, write MCR 0x4002003F, until MCR 0x1000000 0]}\n"
+      "  - {node: b, at: 1 ms, do: [write MCR 0xC002003F, until MCR 0x100000 0x100000]}\n"
+      "  - {node: b, at: " +
+          back + ", do: [write MCR 0x4002003F]}\n");
+}
+
+// A pass over all buffers begins when the node is back: with 64 of them at 8 clocks a bit it is
+// longer than the 11 bits for which the node integrates, so the frame may miss the first
+// opportunity, like one that is written that late.
+TEST(JudgedStop, BackWithinAFrameItMayMissTheFirstOpportunity) {
+  constexpr unsigned kPeriod = 51;  // bits from frame to frame, at most
+  for (unsigned bits = 0; bits < kPeriod; ++bits) {
+    const JudgedRun run = run_judged(back_after(bits));
+    for (const std::string &finding : run.findings) ADD_FAILURE() << bits << " bits: " << finding;
+    EXPECT_FALSE(run.cut_short);
+    EXPECT_GE(run.frames, 35u);
+  }
+}
+
 }  // namespace
 }  // namespace vericansim
