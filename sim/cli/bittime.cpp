@@ -185,10 +185,11 @@ void add_bittime(CLI::App &app, int &exit_code) {
       ->transform(with_unit);
   auto *rate = command->add_option("--bitrate,-b", options->bitrate, "Bit rate, bit/s, as in 500k")
                    ->transform(with_unit);
-  command
-      ->add_flag("--table", options->table,
-                 "Rows of a remote node's RateTable for this clock, as parameters")
-      ->excludes(rate);
+  CLI::Option *table =
+      command
+          ->add_flag("--table", options->table,
+                     "Rows of a remote node's RateTable for this clock, as parameters")
+          ->excludes(rate);
   command->add_option("--sample-point,-s", options->sample_point,
                       "Wanted sample point, 0.5..0.9 or 50..90 % (default: CiA's recommendation)");
   command
@@ -206,6 +207,9 @@ void add_bittime(CLI::App &app, int &exit_code) {
   command->add_option("--max-error", options->request.max_rate_error_ppm,
                       "Largest bit-rate error, ppm (50000)");
   command->add_option("--rows", options->rows, "Lines of the table (10)");
+  for (const char *of_search : {"--sample-point", "--sjw", "--cable", "--node-delay",
+                                "--controller-delay", "--clock-error", "--max-error", "--rows"})
+    table->excludes(command->get_option(of_search));
   command->add_flag("--json", options->json, "All settings as JSON");
   command->callback([options, rate, &exit_code] {
     if (!options->table && rate->empty()) throw CLI::RequiredError("--bitrate");

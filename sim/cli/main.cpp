@@ -12,6 +12,7 @@
 #include <regex>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include "cli/cli.hpp"
@@ -41,7 +42,19 @@ std::string plain_digits(const std::string &text) {
   return plain.append(rest, text.end());
 }
 
+/// A value that is empty would stand for none. A shell makes it of a variable that is not set.
+void refuse_empty(int argc, char **argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view text = argv[i];
+    if (text.empty())
+      throw InputError(argv[i - 1], 0, "an empty value follows; allowed: a value, or none at all");
+    if (text.starts_with("--") && text.ends_with('='))
+      throw InputError(argv[i], 0, "has an empty value; allowed: a value, or none at all");
+  }
+}
+
 int run_tool(int argc, char **argv) {
+  refuse_empty(argc, argv);
   CLI::App app{"VeriCAN: CAN controllers in RTL on a simulated bus"};
   app.require_subcommand(1);
   app.set_version_flag("--version", fmt::format("verican {}", version()));

@@ -22,6 +22,7 @@ namespace vericansim::cli {
 namespace {
 
 struct ReportOptions {
+  CLI::App *command = nullptr;
   std::string input;
   Outputs outputs;
   std::string signal;
@@ -37,7 +38,21 @@ bool has_ending(const std::string &path, std::initializer_list<const char *> end
 
 const char *interrupted_text(bool interrupted) { return interrupted ? "; interrupted" : ""; }
 
+constexpr std::initializer_list<const char *> kOfLogs = {
+    "--nodes", "--senders", "--fast", "--interface", "--filter", "--from", "--to"};
+
+/// Options that say nothing about an input of this kind.
+void refuse_options(const ReportOptions &options, std::initializer_list<const char *> names,
+                    const char *of) {
+  for (const char *name : names)
+    if (options.command->count(name) != 0)
+      throw InputError(name, 0,
+                       fmt::format("is an option of {}, and {} is none", of, options.input));
+}
+
 int report_scenario(const ReportOptions &options) {
+  refuse_options(options, kOfLogs, "logs of frames");
+  refuse_options(options, {"--signal"}, "waveforms");
   Scenario scenario = read_scenario(options.input);
   if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
   const auto database = with_files(scenario.outputs.database, options.outputs.dbc);
@@ -66,6 +81,7 @@ void claim(const char *role, const ReportOptions &options) {
 }
 
 int report_recorded_wave(const ReportOptions &options) {
+  refuse_options(options, kOfLogs, "logs of frames");
   WaveDecodeOptions decode;
   decode.signal = options.signal;
   if (options.bitrate != 0) decode.bitrate = options.bitrate;
@@ -87,6 +103,7 @@ int report_recorded_wave(const ReportOptions &options) {
 }
 
 int report_log(const ReportOptions &options) {
+  refuse_options(options, {"--signal"}, "waveforms");
   claim("the log", options);
   const SelectedLog selected = read_selected(options.input, options.selection, false);
   ReplayOptions replay_options = options.replay;
@@ -128,6 +145,7 @@ void add_report(CLI::App &app, int &exit_code) {
   auto options = std::make_shared<ReportOptions>();
   CLI::App *command = app.add_subcommand(
       "report", "A page to look at, of a scenario, a waveform or a log (docs/report.md)");
+  options->command = command;
   const std::map<std::string, double> units{{"k", 1e3}, {"M", 1e6}};
   command
       ->add_option("input", options->input,

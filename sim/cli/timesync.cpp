@@ -30,6 +30,16 @@ struct TimeSyncOptions {
   std::string page;
 };
 
+/// A setting of something that is not there would change nothing but which goal the case has.
+void refuse_idle(const SyncCase &setting) {
+  if (setting.restless && !setting.hardware)
+    throw InputError("restless", 0,
+                     "is a setting of followers in hardware; allowed: with hardware");
+  if (setting.clocks.sine_period_s != SyncCase{}.clocks.sine_period_s &&
+      setting.clocks.sine_ppm == 0)
+    throw InputError("sine-period", 0, "is that of a swing; allowed: with sine above 0");
+}
+
 /// What is given on the command line takes the place of what the file says. Returns the name.
 std::string take_settings(const TimeSyncOptions &options, SyncCase &setting) {
   const std::string name = options.file.empty() ? "" : read_case(options.file, setting);
@@ -39,6 +49,7 @@ std::string take_settings(const TimeSyncOptions &options, SyncCase &setting) {
       throw InputError("--" + std::string{one.name}, 0,
                        in_quotes(given->second) + " is not allowed; allowed: " + one.allowed);
   }
+  refuse_idle(setting);
   return name;
 }
 

@@ -3,6 +3,8 @@
 #
 # dbc_checks: messages that a parser accepts and no frame can hold.
 """check_message(): DbcError for a signal that cannot be where or what the file says."""
+import math
+
 from dbc_statements import DbcError
 
 
@@ -24,6 +26,9 @@ def signal_problem(signal, message):
         return f"is a floating-point number of {signal['length']} bits; allowed: 32, 64"
     if float(signal["factor"]) == 0:
         return "has the factor 0"
+    for key in ("factor", "offset"):
+        if not math.isfinite(float(signal[key])):
+            return f"has the {key} {signal[key]}; allowed: a number that is not infinite"
     last = bits(signal)[1]
     if last >= 8 * message["length"]:
         return (f"does not fit the {message['length']} bytes of message {message['name']}: it "

@@ -181,7 +181,10 @@ void parse_nodes(const YamlValue &list, Scenario &scenario) {
 void parse_outputs(const YamlValue &value, Outputs &outputs) {
   YamlMap map{value};
   const auto file = [&](const char *key, std::string &target) {
-    map.with(key, [&](const YamlValue &v) { target = v.text(); });
+    map.with(key, [&](const YamlValue &v) {
+      target = v.text();
+      if (target.empty()) v.refuse("the name of a file");
+    });
   };
   file("vcd", outputs.vcd);
   file("fst", outputs.fst);
@@ -189,9 +192,9 @@ void parse_outputs(const YamlValue &value, Outputs &outputs) {
   file("pcap", outputs.pcap);
   file("report", outputs.report);
   file("ids_csv", outputs.ids_csv);
+  file("signals_csv", outputs.signals_csv);
   map.with("signals_csv", [&](const YamlValue &v) {
     if (!outputs.database) v.fail("needs a database; allowed: 'dbc' in the scenario");
-    outputs.signals_csv = v.text();
   });
   map.finish();
 }

@@ -4,8 +4,10 @@
 // Scenario files: nodes without a processor (docs/remote.md).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include "node/remote_node.hpp"
 #include "scenario/scenario_remote_parts.hpp"
@@ -207,7 +209,8 @@ void parse_memory(const YamlValue &value, RemoteRole &role) {
                              in_quotes(key), end - 1, remote_map::kNode,
                              remote_map::kTablesEnd - 1));
     const auto at = static_cast<unsigned>(address);
-    role.memory[at] = parse_bytes(bytes, (config ? remote_map::kTablesEnd : end) - at);
+    add_bytes(bytes, at, parse_bytes(bytes, (config ? remote_map::kTablesEnd : end) - at),
+              role.memory);
   }
 }
 
@@ -261,6 +264,15 @@ std::vector<std::uint8_t> parse_bytes(const YamlValue &value, std::size_t most) 
   }
   if (bytes.empty() || bytes.size() > most) value.refuse(fmt::format("1 to {} bytes", most));
   return bytes;
+}
+
+void add_bytes(const YamlValue &value, unsigned at, std::vector<std::uint8_t> bytes,
+               std::map<unsigned, std::vector<std::uint8_t>> &memory) {
+  for (const auto &[first, there] : memory)
+    if (at < first + there.size() && first < at + bytes.size())
+      value.fail(fmt::format("byte 0x{:X} is given already; allowed: each byte once",
+                             std::max(at, first)));
+  memory[at] = std::move(bytes);
 }
 
 unsigned parse_address(const std::string &key, const YamlValue &value, unsigned end) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "scenario/scenario_parts.hpp"
@@ -13,6 +14,9 @@ namespace vericansim::detail {
 
 /// "01 A5": 1 to `most` hexadecimal bytes.
 [[nodiscard]] std::vector<std::uint8_t> parse_bytes(const YamlValue &value, std::size_t most);
+/// Adds the bytes of `value`, from address `at` on, to those of `memory`; throws if one is there.
+void add_bytes(const YamlValue &value, unsigned at, std::vector<std::uint8_t> bytes,
+               std::map<unsigned, std::vector<std::uint8_t>> &memory);
 /// An address of the memory as a key of a map; throws that of `value` unless it is below `end`.
 [[nodiscard]] unsigned parse_address(const std::string &key, const YamlValue &value, unsigned end);
 /// The node of that name and its role; throws if it is no remote node.

@@ -54,7 +54,7 @@ void parse_actions(YamlMap &map, const RemoteConfig &config, UserSpec &user) {
     for (const std::string &key : bytes.keys()) {
       const YamlValue one = bytes.need(key);
       const unsigned at = parse_address(key, one, end);
-      user.write[at] = parse_bytes(one, end - at);
+      add_bytes(one, at, parse_bytes(one, end - at), user.write);
     }
   });
   map.with("ramp", [&](const YamlValue &v) { user.ramp = parse_place(v, 2, end); });

@@ -121,8 +121,7 @@ SocketcandRole parse_socketcand(const YamlValue &value, YamlMap &map) {
 std::optional<ListenerSpec> parse_listener(const YamlValue &value) {
   YamlMap map{value};
   const auto monitor = map.find("monitor");
-  if (!monitor || !monitor->is_scalar() || monitor->text() == "true" || monitor->text() == "false")
-    return std::nullopt;
+  if (!monitor || !monitor->is_scalar() || monitor->as_boolean()) return std::nullopt;
   ListenerSpec listener{monitor->text(), MonitorRole{monitor->text()}, value.line()};
   map.with("name", [&](const YamlValue &v) { listener.name = v.text(); });
   map.finish();

@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <vector>
+
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
 #include "trace/quantity.hpp"
@@ -25,7 +28,12 @@ YamlValue YamlValue::load(const std::string &path) {
 
 YamlValue YamlValue::parse(const std::string &path, const std::string &text) {
   try {
-    const YAML::Node root = YAML::Load(text);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    for (std::size_t i = 1; i < documents.size(); ++i)
+      if (!documents[i].IsNull())
+        throw InputError(path, line_of(documents[i].Mark()),
+                         "a second document begins here; allowed: one in a file");
+    const YAML::Node root = documents.empty() ? YAML::Node{} : documents.front();
     const std::size_t line = line_of(root.Mark());
     return {path, "", root, line};
   } catch (const YAML::Exception &error) {
@@ -66,11 +74,17 @@ double YamlValue::number(double least, double most) const {
   return *value;
 }
 
-bool YamlValue::boolean() const {
+std::optional<bool> YamlValue::as_boolean() const {
   const std::string value = node_.IsScalar() ? node_.Scalar() : "";
   if (value == "true" || value == "yes" || value == "on") return true;
   if (value == "false" || value == "no" || value == "off") return false;
-  refuse("true or false");
+  return std::nullopt;
+}
+
+bool YamlValue::boolean() const {
+  const auto value = as_boolean();
+  if (!value) refuse("true or false");
+  return *value;
 }
 
 double YamlValue::frequency(double least, double most) const {

@@ -39,6 +39,8 @@ class YamlValue {
   [[nodiscard]] std::uint64_t integer(std::uint64_t least, std::uint64_t most) const;
   [[nodiscard]] double number(double least, double most) const;
   [[nodiscard]] bool boolean() const;
+  /// Nothing if it is no truth value.
+  [[nodiscard]] std::optional<bool> as_boolean() const;
   [[nodiscard]] double frequency(double least, double most) const;
   [[nodiscard]] double bitrate() const;  ///< 1 kbit/s to 1 Mbit/s
   [[nodiscard]] Time time(Time least, Time most) const;

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scenario/access_step.hpp"
 
 namespace vericansim {
@@ -13,6 +15,10 @@ namespace {
 
 bool matches(const AccessStep &step, std::uint32_t seen) {
   return ((seen ^ step.value) & step.mask) == 0;
+}
+
+bool demands(const AccessStep &step) {
+  return step.kind == AccessStep::Kind::kUntil || step.kind == AccessStep::Kind::kCheck;
 }
 
 }  // namespace
@@ -23,7 +29,9 @@ AccessScript::~AccessScript() {
 }
 
 void AccessScript::add(const AccessSpec &spec, Time when) {
+  ahead_.push_back(&spec);
   bus_.at(when, [this, &spec] {
+    std::erase(ahead_, &spec);
     due_.push_back(&spec);
     if (!serving_) task_ = serve();
   });
@@ -32,16 +40,18 @@ void AccessScript::add(const AccessSpec &spec, Time when) {
 Task<> AccessScript::serve() {
   serving_ = true;
   while (!due_.empty()) {
-    const AccessSpec *spec = due_.front();
+    steps_done_ = 0;
+    co_await run(due_.front());
     due_.pop_front();
-    co_await run(spec);
   }
   serving_ = false;
 }
 
 Task<> AccessScript::run(const AccessSpec *spec) {
-  for (const AccessStep &item : spec->steps)
+  for (const AccessStep &item : spec->steps) {
     if (!co_await step(item)) co_return;
+    ++steps_done_;
+  }
 }
 
 Task<std::uint32_t> AccessScript::read(std::uint32_t address) {
@@ -66,10 +76,7 @@ Task<bool> AccessScript::step(AccessStep step) {
     case Kind::kSet: co_await write(step.address, seen | step.value); break;
     case Kind::kClear: co_await write(step.address, seen & ~step.value); break;
     case Kind::kUntil:
-      until_ = step;
-      waiting_ = &until_;
       while (!matches(step, seen)) seen = co_await read(step.address);
-      waiting_ = nullptr;
       break;
     case Kind::kIf: co_return matches(step, seen);
     case Kind::kCheck:
@@ -91,10 +98,21 @@ void AccessScript::failed(const AccessStep &step, std::uint32_t seen) {
 
 std::vector<CheckResult> AccessScript::failures() const {
   std::vector<CheckResult> all = failures_;
-  if (waiting_ != nullptr)
-    all.push_back({fmt::format("{}: {}", node_.name(), to_text(until_)), "comes true",
-                   "not until the end", false});
+  for (std::size_t i = 0; i < due_.size(); ++i) {
+    const auto &steps = due_[i]->steps;
+    const auto from = steps.begin() + static_cast<std::ptrdiff_t>(i == 0 ? steps_done_ : 0);
+    const auto demand = std::find_if(from, steps.end(), demands);
+    if (demand != steps.end()) add_undone(*demand, all);
+  }
+  for (const AccessSpec *spec : ahead_) add_undone(spec->steps.front(), all);
   return all;
+}
+
+void AccessScript::add_undone(const AccessStep &step, std::vector<CheckResult> &all) const {
+  if (all.size() >= kMostFailures) return;
+  all.push_back({fmt::format("{}: {}", node_.name(), to_text(step)),
+                 step.kind == AccessStep::Kind::kUntil ? "comes true" : "done", "not until the end",
+                 false});
 }
 
 }  // namespace vericansim

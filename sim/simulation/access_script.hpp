@@ -4,6 +4,7 @@
 // AccessScript: does a node's register accesses of a scenario when they are due.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <string>
@@ -29,7 +30,8 @@ class AccessScript {
   /// `when`: on the bus's clock, not in the past.
   void add(const AccessSpec &spec, Time when);
 
-  /// One for each `check` that failed and each `until` that has not come true.
+  /// One for each `check` that failed, each `until` that has not come true, and what was to be
+  /// checked or awaited and has not been; all of a spec whose time has not come, too.
   [[nodiscard]] std::vector<CheckResult> failures() const;
   /// Accesses done.
   [[nodiscard]] std::uint64_t accesses() const { return accesses_; }
@@ -41,13 +43,14 @@ class AccessScript {
   Task<std::uint32_t> read(std::uint32_t address);
   Task<> write(std::uint32_t address, std::uint32_t data);
   void failed(const AccessStep &step, std::uint32_t seen);
+  void add_undone(const AccessStep &step, std::vector<CheckResult> &all) const;
 
   RtlNode &node_;
   Bus &bus_;
-  std::deque<const AccessSpec *> due_;
+  std::vector<const AccessSpec *> ahead_;  // their time has not come
+  std::deque<const AccessSpec *> due_;     // the first one is under way
+  std::size_t steps_done_ = 0;             // of that one
   std::vector<CheckResult> failures_;
-  const AccessStep *waiting_ = nullptr;  // an `until`
-  AccessStep until_;
   std::uint64_t accesses_ = 0;
   bool serving_ = false;
   Task<> task_;

@@ -157,6 +157,12 @@ void RemoteBench::add_bounds(RemoteReport &report, Time bit_time) const {
 void RemoteBench::check(RunReport &report) const {
   for (const auto &script : scripts_)
     for (const CheckResult &failure : script->failures()) report.checks.push_back(failure);
+  for (const auto &user : users_)
+    if (user->never_acts())
+      report.checks.push_back(
+          {fmt::format("{}: user at {}", scenario_.nodes[user->spec().node].name,
+                       readable_time(user->spec().at)),
+           "done", "not until the end", false});
   const RemoteExpectations &expect = scenario_.expect.remote;
   check_bytes(report);
   for (const auto &[key, range] : expect.numbers)

@@ -24,6 +24,7 @@ std::string hex(const std::vector<std::uint8_t> &bytes) {
 }  // namespace
 
 void RemoteScript::add(const RemoteCommandSpec &spec, Time start, Time stop) {
+  if (start + spec.at >= stop) never_.push_back(&spec);
   const std::size_t first = messages_.size();
   if (spec.period != 0)
     for (const RemoteStep &step : spec.steps) {
@@ -129,9 +130,12 @@ void RemoteScript::failed(const RemoteStep &step, const std::string &wanted,
 
 std::vector<CheckResult> RemoteScript::failures() const {
   std::vector<CheckResult> all = failures_;
-  if (!due_.empty())
-    all.push_back({name_ + ": " + due_.front().spec->steps[due_.front().step].text, "done",
-                   "not until the end", false});
+  const auto add_undone = [&](const RemoteStep &step) {
+    if (all.size() < kMostFailures)
+      all.push_back({name_ + ": " + step.text, "done", "not until the end", false});
+  };
+  if (!due_.empty()) add_undone(due_.front().spec->steps[due_.front().step]);
+  for (const RemoteCommandSpec *spec : never_) add_undone(spec->steps.front());
   return all;
 }
 

@@ -68,6 +68,7 @@ class RemoteScript {
   std::string name_;
   Host &host_;
   Bus &bus_;
+  std::vector<const RemoteCommandSpec *> never_;  // their time is behind the end
   std::deque<Due> due_;
   std::deque<OnBus> on_bus_;  // frames of periodic steps that have not ended yet
   std::vector<MessageReport> messages_;

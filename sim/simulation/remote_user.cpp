@@ -8,6 +8,7 @@ namespace vericansim {
 
 void RemoteUser::start(Time start, Time stop) {
   stop_ = stop;
+  never_acts_ = !spec_.after_apply && start + spec_.at >= stop;
   if (!spec_.after_apply) schedule(start + spec_.at);
 }
 

@@ -26,6 +26,8 @@ class RemoteUser {
   void start(Time start, Time stop);
   /// apply_o has pulsed.
   void applied();
+  /// Its time is behind the end.
+  [[nodiscard]] bool never_acts() const { return never_acts_; }
 
   [[nodiscard]] const UserSpec &spec() const { return spec_; }
   /// Called with the four bytes of each measurement of a plant when they are written.
@@ -43,6 +45,7 @@ class RemoteUser {
   RemoteUnit &unit_;
   Bus &bus_;
   Time stop_ = 0;
+  bool never_acts_ = false;
   std::uint64_t times_ = 0;
   std::uint32_t current_ = 0;  // of the plant
 };

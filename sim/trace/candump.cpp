@@ -110,6 +110,9 @@ void parse_log_line(const std::vector<std::string_view> &fields, LogBuilder &log
   const bool stamped = fields[0].front() == '(';
   const std::size_t at = stamped ? 2 : 1;  // the frame follows the channel
   const std::string_view last = fields.size() > at + 1 ? fields[at + 1] : std::string_view{};
+  if (fields.size() > at + 2 || (!last.empty() && last != "R" && last != "T"))
+    fail(place, "what follows the frame, " + in_quotes(std::string(fields.back())) +
+                    ", is not allowed; allowed: R or T");
   CandumpLine line;
   line.ns = stamped ? parse_candump_stamp(fields[0], place) : 0;
   line.channel = fields[at - 1];

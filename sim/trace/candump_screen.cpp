@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <ctime>
 #include <string>
 
@@ -62,8 +64,13 @@ std::string log_frame(const Fields &fields, std::size_t at, unsigned fd_flags, c
   const std::string tail = raw ? "_" + std::string(length) : "";
   if (fields.size() > at + 2 && fields[at + 2] == "remote")
     return id + fmt::format("#R{}", *count) + tail;
+  // Behind the bytes -a shows them once more, as letters in quotes.
+  const std::size_t end = std::min(fields.size(), at + 2 + *count);
+  const bool letters = end < fields.size() && fields[end].front() == '\'';
+  const Fields bytes{fields.begin(),
+                     letters ? fields.begin() + static_cast<std::ptrdiff_t>(end) : fields.end()};
   return id + (fd ? fmt::format("##{:X}", fd_flags) : "#") +
-         text::byte_digits(fields, at + 2, *count, place) + tail;
+         text::byte_digits(bytes, at + 2, *count, place) + tail;
 }
 
 }  // namespace

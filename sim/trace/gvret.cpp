@@ -67,9 +67,12 @@ LogEntry parse_entry(const std::vector<std::string_view> &fields, const Columns 
     text::set_byte(entry.frame, i, text::trimmed(fields[columns.data + i]), place);
   const std::string_view direction =
       columns.direction != 0 ? text::trimmed(fields[columns.direction]) : std::string_view{};
-  if (direction == "Rx") entry.direction = Direction::kReceived;
-  if (direction == "Tx") entry.direction = Direction::kSent;
-  entry.channel = "can" + std::string(text::trimmed(fields[columns.bus]));
+  if (!direction.empty()) entry.direction = direction_of(direction, place);
+  const auto bus = text::parse_unsigned(text::trimmed(fields[columns.bus]), 10);
+  if (!bus)
+    fail(place, "Bus " + in_quotes(std::string(fields[columns.bus])) +
+                    " is not allowed; allowed: a number");
+  entry.channel = fmt::format("can{}", *bus);
   return entry;
 }
 

@@ -93,7 +93,10 @@ std::string read_bytes(const std::string &path, std::size_t most) {
 }
 
 std::string read_text_file(const std::string &path, std::size_t most) {
-  return unpacked(read_bytes(path, most), path, most);
+  std::string text = unpacked(read_bytes(path, most), path, most);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  return text;
 }
 
 std::string_view without_gz(std::string_view path) {

@@ -19,8 +19,8 @@ inline constexpr std::size_t kMostWritten = std::size_t{64} << 20;
 /// has more than `most` bytes (a device may never end), or if reading fails.
 [[nodiscard]] std::string read_bytes(const std::string &path, std::size_t most = kMostRead);
 
-/// The same; what begins as gzip does is unpacked, whatever its name. Throws InputError if it
-/// cannot be, too.
+/// The same; what begins as gzip does is unpacked, whatever its name, and a byte-order mark (UTF-8)
+/// is left out. Throws InputError if it cannot be unpacked, too.
 [[nodiscard]] std::string read_text_file(const std::string &path, std::size_t most = kMostRead);
 
 /// `bytes` without gzip's packing, or as they are. Throws InputError naming `path` if they are

@@ -6,6 +6,8 @@
 
 #include <utility>
 
+#include "trace/input_error.hpp"
+
 namespace vericansim {
 
 Time LogBuilder::since_first(std::int64_t ns, const text::Place &place) {
@@ -36,6 +38,13 @@ CanLog LogBuilder::finish(bool absolute) {
   for (ForeignEntry &entry : log_.others) entry.time -= first;
   if (absolute) log_.start_ns = first_ns_ + first / kNanosecond;
   return std::move(log_);
+}
+
+Direction direction_of(std::string_view word, const text::Place &place) {
+  if (word == "Rx") return Direction::kReceived;
+  if (word == "Tx") return Direction::kSent;
+  text::fail(place,
+             "direction " + in_quotes(std::string(word)) + " is not allowed; allowed: Rx, Tx");
 }
 
 }  // namespace vericansim

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "trace/log.hpp"
 #include "trace/text.hpp"
@@ -34,5 +35,8 @@ class LogBuilder {
   bool empty_ = true;
   std::int64_t first_ns_ = 0;
 };
+
+/// The way that "Rx" or "Tx" in a recording tells; throws InputError if it is neither.
+[[nodiscard]] Direction direction_of(std::string_view word, const text::Place &place);
 
 }  // namespace vericansim

@@ -87,7 +87,7 @@ void set_id(Frame &frame, std::uint64_t id, bool extended, const Place &place) {
 }
 
 void set_byte(Frame &frame, std::size_t index, std::string_view digits, const Place &place) {
-  const auto value = digits.size() <= 2 ? parse_unsigned(digits, 16) : std::nullopt;
+  const auto value = digits.size() == 2 ? parse_unsigned(digits, 16) : std::nullopt;
   if (!value || index >= frame.data.size())
     fail(place, "data byte " + in_quotes(std::string(digits)) +
                     " is not allowed; allowed are up to 8 bytes of two hexadecimal digits");
@@ -96,7 +96,7 @@ void set_byte(Frame &frame, std::size_t index, std::string_view digits, const Pl
 
 std::string byte_digits(const std::vector<std::string_view> &fields, std::size_t first,
                         std::size_t count, const Place &place) {
-  if (fields.size() < first + count)
+  if (fields.size() != first + count)
     fail(place,
          fmt::format("{} data bytes where the length says {}", fields.size() - first, count));
   std::string digits;

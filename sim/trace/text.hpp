@@ -61,7 +61,7 @@ void set_id(Frame &frame, std::uint64_t id, bool extended, const Place &place);
 /// Parses two hexadecimal digits into data byte `index`; throws if it is no byte.
 void set_byte(Frame &frame, std::size_t index, std::string_view digits, const Place &place);
 /// The digits of the `count` data bytes from `fields[first]` on, one behind the other; throws if
-/// there are fewer, or one is not of two characters.
+/// there are fewer or more, or one is not of two characters.
 [[nodiscard]] std::string byte_digits(const std::vector<std::string_view> &fields,
                                       std::size_t first, std::size_t count, const Place &place);
 

@@ -85,7 +85,12 @@ class TrcReader {
         fail(place, "columns " + in_quotes(std::string(value)) +
                         " are not known; allowed: N,O,T,B,I,d,R,l,L,D, with O and I");
     }
-    if (line.starts_with(";$STARTTIME=")) start_ns_ = trc::start_ns(value);
+    if (!line.starts_with(";$STARTTIME=")) return;
+    const auto start = trc::start_ns(value);
+    if (!start)
+      fail(place, "start time " + in_quotes(std::string(value)) +
+                      " is not allowed; allowed: days since the end of 1899");
+    start_ns_ = *start;
   }
 
   /// The field of column `letter`; empty if there is none.
@@ -114,9 +119,12 @@ class TrcReader {
     if (__builtin_add_overflow(start_ns_, *ns, &result.ns)) fail(place, "time is out of range");
     result.frame = frame(fields, *type, place);
     result.direction = type->direction;
-    if (field(fields, 'd') == "Rx") result.direction = Direction::kReceived;
-    if (field(fields, 'd') == "Tx") result.direction = Direction::kSent;
-    const auto bus = text::parse_unsigned(field(fields, 'B'), 10);
+    if (const std::string_view way = field(fields, 'd'); !way.empty())
+      result.direction = direction_of(way, place);
+    const std::string_view number = field(fields, 'B');
+    const auto bus = text::parse_unsigned(number, 10);
+    if (!number.empty() && !bus)
+      fail(place, "bus " + in_quotes(std::string(number)) + " is not allowed; allowed: a number");
     if (bus && *bus != 0) result.channel = fmt::format("can{}", *bus - 1);
     add_candump_line(result, log_, place);
   }

@@ -24,9 +24,10 @@ constexpr std::int64_t kPart = 1'000'000'000'000;  // a day has so many of them
 
 }  // namespace
 
-std::int64_t start_ns(std::string_view days) {
+std::optional<std::int64_t> start_ns(std::string_view days) {
   const auto parts = text::parse_decimal(days.substr(0, days.find('.') + 13), kPart);
-  if (!parts || *parts / kPart < kUnixDay) return 0;
+  if (!parts) return std::nullopt;
+  if (*parts / kPart < kUnixDay) return 0;
   const auto us =
       (static_cast<__int128>(*parts % kPart) * kDaySeconds * 1'000'000 + kPart / 2) / kPart;
   const auto of_day = static_cast<std::int64_t>(us);

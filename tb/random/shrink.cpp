@@ -103,17 +103,17 @@ class Shrinker {
     attempt([&](Scenario &s) {
       s.drain = 0;
       cut_to(s, std::min(s.duration, end));
-      std::erase_if(s.accesses, [&](const AccessSpec &a) { return a.at > end; });
     });
     for (const unsigned per_cent : {50, 75, 90})
       attempt([&](Scenario &s) { cut_to(s, s.duration * per_cent / 100); });
   }
 
-  /// A fault that would begin behind the end is refused.
+  /// A fault that would begin behind the end is refused, and an access would be missed there.
   static void cut_to(Scenario &s, Time duration) {
     s.duration = std::max<Time>(1'000'000, duration);
     std::erase_if(s.faults,
                   [&](const FaultSpec &f) { return f.window.from >= s.duration + s.drain; });
+    std::erase_if(s.accesses, [&](const AccessSpec &a) { return a.at >= s.duration; });
   }
 
   using Drop = void (*)(Scenario &, std::size_t, std::size_t);

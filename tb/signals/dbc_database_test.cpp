@@ -137,6 +137,8 @@ TEST(DbcDatabase, SignalsThatNoFrameCanHoldAreRefused) {
   EXPECT_THAT(with("S : 0|65@1+ (1,0) [0|0] \"\" X"), HasSubstr("has 65 bits; allowed: 1 to 64"));
   EXPECT_THAT(with("S : 0|0@1+ (1,0) [0|0] \"\" X"), HasSubstr("has 0 bits; allowed: 1 to 64"));
   EXPECT_THAT(with("S : 0|8@1+ (0,0) [0|0] \"\" X"), HasSubstr("has the factor 0"));
+  EXPECT_THAT(with("S : 0|8@1+ (1e400,0) [0|0] \"\" X"), HasSubstr("has the factor 1E+400"));
+  EXPECT_THAT(with("S : 0|8@1+ (1,-1e400) [0|0] \"\" X"), HasSubstr("has the offset -1E+400"));
   EXPECT_THAT(with("S m1 : 0|8@1+ (1,0) [0|0] \"\" X"), HasSubstr("is multiplexed, but"));
   EXPECT_THAT(with("S m1M : 0|8@1+ (1,0) [0|0] \"\" X"),
               HasSubstr("needs a statement SG_MUL_VAL_"));

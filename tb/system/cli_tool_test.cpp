@@ -64,6 +64,25 @@ TEST_F(Tool, BadOptionsAreRefused) {
   expect_refused("replay x.log --nodes 1", "--nodes");
   expect_refused("replay x.log --frames 10.0.0", "--frames = 10.0.0");
   expect_refused("decode x.vcd --bitrate 1", "--bitrate");
+  for (const char *option : {"--sjw 2", "--cable 50", "--rows 2", "-s 80", "--clock-error 50"})
+    expect_refused(std::string("bittime --table -c 8M ") + option, "--table excludes");
+  expect_refused("run examples/two-nodes.yaml --vcd ''", "--vcd: an empty value follows");
+  expect_refused("run examples/two-nodes.yaml --duration=", "--duration=: has an empty value");
+  expect_refused("timesync ''", "timesync: an empty value follows");
+}
+
+// What an option says must be of the input that is there.
+TEST_F(Tool, ReportTakesTheOptionsOfItsInput) {
+  for (const char *option : {"--from '1 s'", "--to '1 s'", "--filter 1:1", "--interface can7",
+                             "--nodes 5", "--senders 2", "--fast"}) {
+    const std::string name = std::string(option).substr(0, std::string(option).find(' '));
+    expect_refused(std::string("report examples/two-nodes.yaml ") + option,
+                   name + ": is an option of logs of frames, and examples/two-nodes.yaml is none");
+    expect_refused(std::string("report no.vcd ") + option, name + ": is an option of logs");
+  }
+  expect_refused("report examples/two-nodes.yaml --signal x",
+                 "--signal: is an option of waveforms");
+  expect_refused("report examples/boat.log --signal x", "--signal: is an option of waveforms");
 }
 
 TEST_F(Tool, BadFilesAreRefused) {

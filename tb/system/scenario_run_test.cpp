@@ -90,6 +90,39 @@ TEST(Run, FailedExpectationsAreReported) {
   for (const CheckResult &check : report.checks) EXPECT_FALSE(check.ok) << check.what;
 }
 
+// What was to be done, and has not been when the run ends, has not been found to be right.
+TEST(Run, WhatIsNotReachedFails) {
+  const std::string nodes =
+      "duration: 2 ms\ndrain: 1 ms\nnodes: [{name: a}, {name: p, type: remote, number: 3}]\n";
+  const auto only_check = [&](const std::string &text) {
+    const RunReport report = run_text(nodes + text);
+    EXPECT_EQ(report.checks.size(), 1U) << text;
+    return report.checks.empty() ? CheckResult{} : report.checks[0];
+  };
+  const std::pair<const char *, const char *> cases[] = {
+      {"accesses: [{node: a, at: 9 ms, do: [check MCR 1 1]}]", "a: check MCR 0x1 0x1"},
+      {"accesses: [{node: a, at: 2500 us, do: [check MCR 1 1]}]", "a: check MCR 0x1 0x1"},
+      {"accesses: [{node: a, at: 9 ms, do: [write ECR 1, check MCR 1 1]}]", "a: write ECR 0x1"},
+      {"accesses: [{node: a, at: 1 ms, do: [until MCR 0x100000 0x100000, check MCR 1 1]}]",
+       "a: until MCR 0x100000 0x100000"},
+      {"accesses: [{node: a, at: 1 ms, do: [until MCR 0x100000 0x100000]},\n"
+       "           {node: a, at: 1100 us, do: [read MCR]}]",
+       "a: until MCR 0x100000 0x100000"},
+      {"commands: [{node: a, at: 9 ms, do: [read 3 0x20 1]}]", "a: read 3 0x20 1"},
+      {"commands: [{node: a, at: 9 ms, period: 1 ms, do: [trigger]}]", "a: trigger"},
+      {"user: [{node: p, at: 9 ms, write: {0x20: 05}}]", "p: user at 9 ms"}};
+  for (const auto &[text, what] : cases) {
+    const CheckResult check = only_check(text);
+    EXPECT_FALSE(check.ok) << text;
+    EXPECT_EQ(check.what, what);
+    EXPECT_EQ(check.seen, "not until the end");
+  }
+  // One that is left by an `if` is done.
+  EXPECT_EQ(run_text(nodes + "accesses: [{node: a, do: [if MCR 0x100000 0x100000, check MCR 1 0]}]")
+                .checks.size(),
+            0U);
+}
+
 // FC-18: a lone transmitter ends at TEC 128 and never goes bus-off.
 TEST(Run, FC_18_LoneTransmitter) {
   const RunReport report = run_text(

@@ -104,6 +104,11 @@ TEST(CandumpLog, ErrorsNameFileLineValueAndWhatIsAllowed) {
   EXPECT_THAT(error_of("(x) can0 123#11\n"), HasSubstr("(seconds.microseconds)"));
   EXPECT_THAT(error_of("(1.0) can0\n"), HasSubstr("expected (TIME) INTERFACE FRAME"));
   EXPECT_THAT(error_of("(99999999999999999999.0) can0 123#\n"), HasSubstr("log:1: time"));
+  EXPECT_THAT(
+      error_of("(1.0) can0 123#11 (1.1) can0 124#22\n"),
+      HasSubstr("log:1: what follows the frame, '124#22', is not allowed; allowed: R or T"));
+  EXPECT_THAT(error_of("(1.0) can0 123#11 X\n"), HasSubstr("'X'"));
+  EXPECT_THAT(error_of("(1.0) can0 123#11 R T\n"), HasSubstr("'T'"));
 }
 
 TEST(CandumpWriter, WritesTheLogFormat) {
@@ -129,6 +134,23 @@ TEST(Trc, ReadsPcanViewVersion11) {
   EXPECT_THROW(static_cast<void>(parse_trc(";$FILEVERSION=3.0\n", "b.trc")), InputError);
 }
 
+TEST(Trc, ErrorsNameLineValueAndWhatIsAllowed) {
+  const auto error = [](const std::string &text) {
+    return input_error_of([&] { return parse_trc(text, "t.trc"); });
+  };
+  const std::string head = ";$FILEVERSION=2.1\n;$COLUMNS=N,O,T,B,I,d,L,D\n";
+  EXPECT_EQ(error(head + "1 1.0 DT 1 0123 Rx 2 11 22\n"), "");
+  EXPECT_THAT(error(head + "1 1.0 DT 1 0123 Rx 2 11 22 33\n"),
+              HasSubstr("t.trc:3: 3 data bytes where the length says 2"));
+  EXPECT_THAT(error(head + "1 1.0 DT x 0123 Rx 2 11 22\n"),
+              HasSubstr("bus 'x' is not allowed; allowed: a number"));
+  EXPECT_THAT(error(head + "1 1.0 DT 1 0123 Zz 2 11 22\n"),
+              HasSubstr("direction 'Zz' is not allowed; allowed: Rx, Tx"));
+  for (const char *start : {"abc", "nan", "1e30"})
+    EXPECT_THAT(error(std::string(";$STARTTIME=") + start + "\n"),
+                HasSubstr("t.trc:1: start time '" + std::string(start) + "' is not allowed"));
+}
+
 TEST(Gvret, ReadsBothVersionsOfTheColumns) {
   const CanLog old_style = parse_gvret(
       "Time "
@@ -146,6 +168,19 @@ TEST(Gvret, ReadsBothVersionsOfTheColumns) {
   EXPECT_EQ(new_style.entries[0].frame, (Frame{0x1FFFFFFF, true, false, 1, {10}}));
   EXPECT_EQ(new_style.entries[0].channel, "can1");
   EXPECT_EQ(new_style.entries[1].time, kMillisecond);
+}
+
+TEST(Gvret, ErrorsNameLineValueAndWhatIsAllowed) {
+  const auto error = [](const std::string &line) {
+    const std::string head = "Time Stamp,ID,Extended,Dir,Bus,LEN,D1,D2,D3,D4\n";
+    return input_error_of([&] { return parse_gvret(head + line + "\n", "g.csv"); });
+  };
+  EXPECT_EQ(error("5,00000123,false,Rx,0,2,AB,CD"), "");
+  EXPECT_THAT(error("5,00000123,false,Rx,0,2,AB,C"),
+              HasSubstr("g.csv:2: data byte 'C' is not allowed"));
+  EXPECT_THAT(error("5,00000123,false,Xx,0,1,AB"), HasSubstr("direction 'Xx' is not allowed"));
+  EXPECT_THAT(error("5,00000123,false,Rx,,1,AB"), HasSubstr("Bus '' is not allowed"));
+  EXPECT_THAT(error("5,00000123,false,Rx,foo bar,1,AB"), HasSubstr("Bus 'foo bar'"));
 }
 
 // No input may crash a parser: every prefix and every single-character change of good lines either

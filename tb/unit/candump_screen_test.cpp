@@ -168,6 +168,8 @@ TEST(CandumpScreen, ErrorsNameLineValueAndWhatIsAllowed) {
   EXPECT_THAT(error_of("  can0  123  [65]  11\n"), HasSubstr("CAN FD [00] to [64]"));
   EXPECT_THAT(error_of("  can0  123   [2]  11\n"),
               HasSubstr("1 data bytes where the length says 2"));
+  EXPECT_THAT(error_of("  can0  123   [2]  11 22 33 44\n"),
+              HasSubstr("4 data bytes where the length says 2"));
   EXPECT_THAT(error_of("  can0  123   [2]  11 2\n"), HasSubstr("data byte '2'"));
   EXPECT_THAT(error_of("  can0  123   [1]  GG\n"), HasSubstr("data byte 'GG'"));
   EXPECT_THAT(error_of("\tbus-error\n"), HasSubstr("expected (TIME) INTERFACE FRAME"));

@@ -38,6 +38,15 @@ TEST(InputFile, GzipIsUnpackedWhateverTheName) {
   EXPECT_EQ(read_text_file(path + ".two"), text + text);
 }
 
+// Editors of Windows put one in front of a text.
+TEST(InputFile, AByteOrderMarkIsLeftOut) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("bom.log", "\xEF\xBB\xBF(1.0) can0 123#11\n");
+  EXPECT_EQ(read_text_file(path), "(1.0) can0 123#11\n");
+  EXPECT_EQ(read_log(path).entries.size(), 1U);
+  EXPECT_EQ(read_bytes(path).size(), 21U);
+}
+
 TEST(InputFile, DamagedGzipIsOneLine) {
   const ScratchFolder folder;
   const std::string path = folder.file("log", std::string(1000, 'x') + "end\n");

@@ -328,7 +328,26 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Expectation", "expect: {nodes: {c: {tec: 0}}}",
                 "unknown key 'c'; allowed: a, all, b"},
         Mistake{"RangeUpsideDown", "expect: {frames: {min: 2, max: 1}}", "min is above max"},
-        Mistake{"AListForANumber", "seed: [1, 2]\n", "a list is not allowed"}),
+        Mistake{"AListForANumber", "seed: [1, 2]\n", "a list is not allowed"},
+        Mistake{"SecondDocument", "seed: 1\n---\nexpect: {frames: 99}\n",
+                "s.yaml:4: a second document begins here; allowed: one in a file"},
+        Mistake{"BehindTheEnd", "seed: 1\n...\nexpect: {frames: 99}\n",
+                "s.yaml:4: a second document begins here"},
+        Mistake{"VacuousCheck", "accesses: [{node: a, do: [check MCR 0xF 0x1F]}]",
+                "VALUE 0x1F has bits outside MASK, which nobody would look at; allowed: bits of "
+                "0xF"},
+        Mistake{"ByteOfMemoryTwice",
+                "nodes: [{name: a}, {name: p, type: remote, memory: {0x40: 01, 64: 02}}]",
+                "memory.64: byte 0x40 is given already; allowed: each byte once"},
+        Mistake{"ByteOfMemoryInAnother",
+                "nodes: [{name: a}, {name: p, type: remote, memory: {0x41: FF, 0x40: 01 02}}]",
+                "memory.0x40: byte 0x41 is given already"},
+        Mistake{"ByteWrittenTwice",
+                "nodes: [{name: a}, {name: p, type: remote}]\n"
+                "user: [{node: p, write: {0x40: 01, 0x040: 02}}]",
+                "write.0x040: byte 0x40 is given already"},
+        Mistake{"OutputWithoutName", "outputs: {vcd: ''}",
+                "outputs.vcd: '' is not allowed; allowed: the name of a file"}),
     [](const auto &item) { return std::string(item.param.name); });
 
 // Every bit that the rule book gives a field may be named (FF-01 to FF-12, IF-01, IF-08, EF-08).
@@ -353,6 +372,21 @@ TEST(ScenarioFile, EveryBitOfAFieldMayBeNamed) {
 }
 
 // Whatever is done to a good file, it is read or refused, and nothing else happens.
+TEST(ScenarioFile, ADocumentMayHaveItsMarks) {
+  const std::string text = std::string(kTwo) + "seed: 7\n";
+  for (const std::string &marked : {"---\n" + text, text + "...\n", text + "---\n# no more\n"})
+    EXPECT_EQ(parse_scenario("s.yaml", marked).seed, 7U) << marked;
+}
+
+// A listener has the name of an interface; a truth value is none.
+TEST(ScenarioFile, MonitorIsATruthValueOrAnInterface) {
+  const Scenario s = parse_scenario(
+      "s.yaml", "nodes: [{name: a}, {name: b, monitor: yes}, {name: c, monitor: off}]");
+  ASSERT_EQ(s.nodes.size(), 3U);
+  EXPECT_TRUE(s.nodes[1].host.listen_only);
+  EXPECT_FALSE(s.nodes[2].host.listen_only);
+}
+
 TEST(ScenarioFile, DamagedInputNeverCrashes) {
   const std::string good = kGood;
   for (std::size_t at = 0; at < good.size(); at += 7)
