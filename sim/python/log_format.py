@@ -5,6 +5,7 @@
 # decimals ("-" is no interface). Times pass through python-can as short numbers of seconds since a
 # whole millisecond, so that its floats cannot round them.
 """usage: log_format.py read|write asc|blf|csv|sqlite <IN >OUT"""
+import base64
 import decimal
 import io
 import logging
@@ -45,13 +46,13 @@ def frame_text(message, number, raw_dlc):
         raise BadInput(f"message {number}: identifier {message.arbitration_id:X} is not allowed; "
                        f"allowed: 11 bits, extended 29 bits")
     head = f"{message.arbitration_id:0{8 if message.is_extended_id else 3}X}#"
-    if message.is_fd or len(data) > 8:
+    if message.is_fd or len(data) > 8 and len(data) == raw_dlc:  # CSV and SQLite mark no CAN FD
         flags = message.bitrate_switch | message.error_state_indicator << 1
         return f"{head}#{flags:X}{data.hex().upper()}"
-    if not 0 <= raw_dlc <= 15 or len(data) < min(raw_dlc, 8) and not message.is_remote_frame:
+    if not 0 <= raw_dlc <= 15 or len(data) != min(raw_dlc, 8) and not message.is_remote_frame:
         raise BadInput(f"message {number}: DLC {raw_dlc} with {len(data)} bytes; allowed: 0 to 15 "
                        f"and as many bytes, up to 8")
-    body = f"R{min(raw_dlc, 8)}" if message.is_remote_frame else data[:raw_dlc].hex().upper()
+    body = f"R{min(raw_dlc, 8)}" if message.is_remote_frame else data.hex().upper()
     return head + body + (f"_{raw_dlc:X}" if raw_dlc > 8 else "")
 
 
@@ -104,20 +105,21 @@ class AscLines:
     def __init__(self, data):
         self.lines = as_text(data).splitlines(keepends=True)
         self.date = ""
+        self.number = 0
         self.events = 0
         self.relative = False
         self.now = decimal.Decimal(0)
 
     def __iter__(self):
         body = False
-        for line in self.lines:
+        for self.number, line in enumerate(self.lines, 1):
             text = line.strip().lower()
             if text.startswith(("date ", "begin triggerblock ")):
                 self.date = line.split(None, 3 if text.startswith("begin") else 2)[-1].strip()
             if not body and re.match(r"\d|begin", text):
                 body = True
                 yield "no internal events logged\n"
-            if re.match(r"\d", text) and not text.endswith("start of measurement"):
+            if re.match(r"-?\d", text) and not text.endswith("start of measurement"):
                 self.events += 1
             yield self.absolute(line)
 
@@ -126,7 +128,7 @@ class AscLines:
         if header := re.match(r"(\s*base\s+\w+\s+timestamps\s+)relative\b", line, re.IGNORECASE):
             self.relative = True
             return header[1] + "absolute" + line[header.end():]
-        event = re.match(r"\s*(\d+(\.\d*)?)(?=\s)", line)
+        event = re.match(r"\s*(-?\d+(\.\d*)?)(?=\s)", line)
         if not self.relative or not event:
             return line
         self.now += decimal.Decimal(event[1])
@@ -141,10 +143,29 @@ class AscLines:
         """Nothing to close."""
 
 
+class AscReader(can.io.ASCReader):
+    """python-can's reader, which takes half a byte, as a file that is cut short has it, for a byte
+    and leaves out what is more than the length; here both are refused."""
+
+    def _process_data_string(self, data_str, data_length, msg_kwargs):
+        hexadecimal = self.base == "hex"
+        byte = re.compile("[0-9A-Fa-f]{2}" if hexadecimal else "[0-9]{1,3}")
+        words = data_str.split()
+        for word in words[:data_length]:
+            if not byte.fullmatch(word):
+                raise BadInput(f"line {self.file.number}: data byte '{word:.40}'; allowed: "
+                               f"{'two hexadecimal digits' if hexadecimal else '0 to 255'}")
+        # Behind the data of CAN FD there are other numbers.
+        if "is_fd" not in msg_kwargs and any(map(byte.fullmatch, words[data_length:][:1])):
+            raise BadInput(f"line {self.file.number}: more data than length {data_length}; "
+                           f"allowed: as many bytes")
+        super()._process_data_string(data_str, data_length, msg_kwargs)
+
+
 def read_asc(data):
     """ASC: times since the date of the header, or of the trigger block."""
     lines = AscLines(data)
-    reader = can.io.ASCReader(lines)
+    reader = AscReader(lines)
     count = 0
     for message in reader:
         count += 1
@@ -163,11 +184,16 @@ def asc_origin(date):
         return 0
 
 
+def check_size(data, size):
+    """BadInput if a file has fewer bytes than its header says."""
+    if size > len(data):
+        raise BadInput(f"cut short: {len(data)} bytes where its header says {size}")
+
+
 def read_blf(data):
     """BLF: nanoseconds since the millisecond of the header."""
     reader = can.io.BLFReader(io.BytesIO(data))
-    if reader.file_size > len(data):
-        raise BadInput(f"cut short: {len(data)} bytes where its header says {reader.file_size}")
+    check_size(data, reader.file_size)
     origin = round(reader.start_timestamp * 1000) * MILLISECOND
     reader.start_timestamp = 0.0
     for message in reader:
@@ -176,11 +202,33 @@ def read_blf(data):
 
 def read_csv(data):
     """python-can's own CSV."""
-    return read_floats(can.io.CSVReader(io.StringIO(as_text(data))))
+    text = as_text(data)
+    for number, line in enumerate(io.StringIO(text), 1):
+        if number > 1:
+            check_row(number, line)
+    return read_floats(can.io.CSVReader(io.StringIO(text)))
+
+
+def check_row(number, line):
+    """BadInput for what python-can takes for something else in line `number` of a CSV file: flags
+    that are neither 0 nor 1, and data that is not all base64."""
+    columns = line.strip().split(",")
+    if len(columns) != 7:
+        return  # python-can refuses it
+    for name, value in zip(("extended", "remote", "error"), columns[2:5]):
+        if value not in ("0", "1"):
+            raise BadInput(f"line {number}: {name} is '{value:.40}'; allowed: 0 or 1")
+    try:
+        base64.b64decode(columns[6], validate=True)
+    except ValueError as error:
+        raise BadInput(f"line {number}: data '{columns[6]:.40}'; allowed: base64") from error
 
 
 def read_sqlite(data):
-    """python-can's database; SQLite opens files by name only."""
+    """python-can's database; SQLite opens files by name only, and reads what is missing at the end
+    as zeros."""
+    page = int.from_bytes(data[16:18], "big")
+    check_size(data, (65536 if page == 1 else page) * int.from_bytes(data[28:32], "big"))
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "log.db"
         path.write_bytes(data)

@@ -172,6 +172,67 @@ TEST_F(PythonLog, Asc2logReadsTheSameRelativeTimes) {
   EXPECT_EQ(lines_of(ours), lines_of(theirs));
 }
 
+// Every byte of the data has two digits, and there are as many bytes as the length says.
+TEST_F(PythonLog, AscDataThatIsNotWhatTheLengthSaysIsRefused) {
+  const auto error = [](const std::string &base, const std::string &event) {
+    return error_of("base " + base + "  timestamps absolute\n" + event + "\n");
+  };
+  EXPECT_THAT(error("hex", "0.02 1  123  Rx   d 4 DE AD BE E"),
+              HasSubstr("a.log: line 2: data byte 'E'; allowed: two hexadecimal digits"));
+  EXPECT_THAT(error("hex", "0.02 CANFD 1 Rx 123 1 0 4 4 DE AD BE E"),
+              HasSubstr("a.log: line 2: data byte 'E'"));
+  EXPECT_THAT(error("hex", "0.02 1 123 Rx d 2 DE AD BE EF  Length = 0"),
+              HasSubstr("a.log: line 2: more data than length 2; allowed: as many bytes"));
+  EXPECT_THAT(error("hex", "0.02 1 123 Rx d D 00 01 02 03 04 05 06 07 08"),
+              HasSubstr("a.log: line 2: more data than length 8"));
+  EXPECT_THAT(error("dec", "0.02 1 123 Rx d 2 1 22 255"), HasSubstr("more data than length 2"));
+  EXPECT_THAT(error("dec", "0.02 1 123 Rx d 2 1 FF"), HasSubstr("'FF'; allowed: 0 to 255"));
+  const CanLog log = parse_log(
+      "base dec  timestamps absolute\n0.1 1 291 Rx d 2 1 222  Length = 1 BitCount = 2 ID = 3\n",
+      "a.asc");
+  EXPECT_EQ(lines_of(log), "(0000000000.100000000) can0 123#01DE R\n");
+}
+
+// python-can passes over a line of a time before the start; relative times go on from it.
+TEST_F(PythonLog, AscLinesBeforeTheStartAreCounted) {
+  const std::vector<std::string> events{"-0.100000 1  123  Rx   d 2 11 22",
+                                        "0.300000 1  124  Rx   d 1 33"};
+  const CanLog absolute = parse_log(asc("absolute", events), "a.asc");
+  EXPECT_EQ(absolute.entries.size(), 1U);
+  EXPECT_EQ(absolute.skipped, 1U);
+  const CanLog relative = parse_log(asc("relative", events), "a.asc");
+  EXPECT_EQ(relative.skipped, 1U);
+  EXPECT_EQ(absolute.start_ns - relative.start_ns, 100'000'000);
+}
+
+TEST_F(PythonLog, CsvColumnsThatCannotBeAreRefused) {
+  const auto error = [](const std::string &row) {
+    return error_of("timestamp,arbitration_id,extended,remote,error,dlc,data\n1.0,0x1,0,0,0,0,\n" +
+                    row + "\n");
+  };
+  EXPECT_THAT(error("1000.0,0x123,True,0,0,1,3g=="),
+              HasSubstr("a.log: line 3: extended is 'True'; allowed: 0 or 1"));
+  EXPECT_THAT(error("1000.0,0x123,7,0,0,1,3g=="), HasSubstr("line 3: extended is '7'"));
+  EXPECT_THAT(error("1000.0,0x123,0,x,0,1,3g=="), HasSubstr("line 3: remote is 'x'"));
+  EXPECT_THAT(error("1000.0,0x123,0,0,,1,3g=="), HasSubstr("line 3: error is ''"));
+  EXPECT_THAT(error("1000.0,0x123,0,0,0,4,3q2!+7w=="),
+              HasSubstr("a.log: line 3: data '3q2!+7w=='; allowed: base64"));
+  EXPECT_THAT(error("1000.0,0x123,0,0,0,2,3q2+7w=="),
+              HasSubstr("a.log: message 2: DLC 2 with 4 bytes; allowed: 0 to 15 and as many"));
+  EXPECT_THAT(error("1000.0,0x123,0,0,0,2,AAECAwQFBgcICQoL"),
+              HasSubstr("message 2: DLC 2 with 12 bytes"));
+}
+
+// The header says how long the file is; what is missing was read as other bytes.
+TEST_F(PythonLog, SqliteFilesCutShortAreRefused) {
+  const std::string whole =
+      python_log_bytes(parse_candump(kFrames, "log"), LogFormat::kSqlite, "a.db");
+  for (const std::size_t cut : {whole.size() - 1, whole.size() / 2, std::size_t{40}})
+    EXPECT_THAT(error_of(whole.substr(0, cut)),
+                HasSubstr(fmt::format("a.log: cut short: {} bytes where its header says {}", cut,
+                                      whole.size())));
+}
+
 TEST_F(PythonLog, DamagedFilesGiveOneLine) {
   const std::string blf =
       python_log_bytes(parse_candump(kFrames + kFd, "log"), LogFormat::kBlf, "a.blf");
