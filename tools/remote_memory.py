@@ -12,11 +12,26 @@ PROFILES = {"small": 0x01, "standard": 0x1F, "full": 0xFF}  # features (RN-25)
 
 def number(text):
     """Decimal, or hexadecimal with 0x."""
-    return int(text, 0)
+    try:
+        return int(text, 0)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}'; allowed: a number") from None
+
+
+def bytes_from(text):
+    """ADDRESS=HEX as the address and the bytes from there on."""
+    address, _, data = text.partition("=")
+    try:
+        first, values = int(address, 0), bytes.fromhex(data)
+    except ValueError:
+        values = b""
+    if not values:
+        raise argparse.ArgumentTypeError(f"'{text}'; allowed: ADDRESS=HEX, two digits a byte")
+    return first, values
 
 
 def arguments():
-    """The command line."""
+    """The command line, and what refuses it: parser.error(text)."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--serial", type=number, required=True, help="parameter Serial")
     parser.add_argument("--number", type=number, default=0, help="of the node (0: none)")
@@ -24,13 +39,38 @@ def arguments():
     parser.add_argument("--name-bits", type=int, choices=(3, 5), default=3)
     parser.add_argument("--mem-bytes", type=int, choices=(1024, 2048, 4096), default=4096)
     parser.add_argument("--stage-bytes", type=int, choices=(0, 8, 16), default=8)
-    parser.add_argument("--set", action="append", default=[], metavar="ADDRESS=HEX",
+    parser.add_argument("--set", type=bytes_from, action="append", default=[],
+                        metavar="ADDRESS=HEX",
                         help="bytes from this address of the memory map; may be repeated")
     parser.add_argument("file", type=Path)
-    return parser.parse_args()
+    args = parser.parse_args()
+    last = (1 << args.name_bits) - 1
+    if args.number != 0 and not 2 <= args.number <= last:
+        parser.error(f"argument --number: {args.number}; allowed: 2 to {last}, or 0 for none")
+    if not 0 <= args.serial <= 0xFFFFFFFF:
+        parser.error(f"argument --serial: {args.serial:#x}; allowed: 0 to 0xFFFFFFFF")
+    return args, parser.error
 
 
-def contents(args):
+def spread(areas):
+    """(address, byte) of each byte of areas (address, bytes)."""
+    return [(first + i, byte) for first, data in areas for i, byte in enumerate(data)]
+
+
+def own_bytes(args, refuse):
+    """The bytes of --set by their addresses."""
+    own = {}
+    for address, byte in spread(args.set):
+        if args.mem_bytes - 512 <= address < 0xE00 or not 0 <= address < 0x1000:
+            refuse(f"argument --set: {address:#05x} is not in the memory; allowed: 0x000 to "
+                   f"{args.mem_bytes - 513:#05x} and 0xe00 to 0xfff")
+        if address in own:
+            refuse(f"argument --set: {address:#05x} is given twice; allowed: once")
+        own[address] = byte
+    return own
+
+
+def contents(args, own):
     """The bytes of the memory map that are not 0."""
     features = PROFILES[args.profile] & (0xFF if args.stage_bytes else 0xFE)
     size = args.mem_bytes.bit_length() - 1
@@ -38,23 +78,21 @@ def contents(args):
              0xF00: [args.number, 0x05, 0, 0, 0x0A, 0x0A, 0x32, 0x08],  # NODE to RETRY (section 8)
              0xFF8: [0x01, features, args.name_bits << 4 | size, args.stage_bytes,
                      *args.serial.to_bytes(4, "little")]}
-    for text in args.set:
-        address, _, data = text.partition("=")
-        areas[number(address)] = bytes.fromhex(data)
-    return {first + i: byte for first, data in areas.items() for i, byte in enumerate(data)}
+    return dict(spread(areas.items())) | own
 
 
 def main():
     """The upper 512 bytes keep their addresses in the map, whatever the size of the RAM."""
-    args = arguments()
+    args, refuse = arguments()
     ram = bytearray(args.mem_bytes)
-    for address, byte in contents(args).items():
-        if args.mem_bytes - 512 <= address < 0xE00 or not 0 <= address < 0x1000:
-            raise SystemExit(f"remote_memory: {address:#05x} is not in the memory")
+    for address, byte in contents(args, own_bytes(args, refuse)).items():
         ram[address & (args.mem_bytes - 1)] = byte
     words = (ram[i:i + 4] for i in range(0, len(ram), 4))
-    args.file.write_text("".join(f"{int.from_bytes(word, 'little'):08X}\n" for word in words),
-                         encoding="utf-8")
+    try:
+        args.file.write_text("".join(f"{int.from_bytes(word, 'little'):08X}\n" for word in words),
+                             encoding="utf-8")
+    except OSError as error:
+        refuse(f"{args.file}: {error.strerror}")
 
 
 if __name__ == "__main__":
