@@ -31,6 +31,8 @@ double chosen_rate(double wanted, const Scenario &scenario) {
 
 Scenario ProgramBus::with_nodes(ProgramBusSetup &setup) {
   for (const std::string &name : setup.nodes) {
+    if (std::count(setup.nodes.begin(), setup.nodes.end(), name) > 1)
+      throw std::invalid_argument(fmt::format("node name '{}' is used twice", name));
     const NodeId id = take_node(setup.scenario, name, "the program works", setup.clock_hz);
     // A role of its own keeps the simulation's software away; no session will ever ask it.
     setup.scenario.nodes[id].role = OwnRole{};
@@ -40,6 +42,8 @@ Scenario ProgramBus::with_nodes(ProgramBusSetup &setup) {
       throw std::invalid_argument(fmt::format(
           "node '{}' is a {}: on a program's own bus nodes are worked by it or by traffic",
           node.name, name_of(node.role)));
+  if (setup.scenario.nodes.empty())
+    throw std::invalid_argument(fmt::format("no node is given; allowed: 1 to {}", Bus::kMaxNodes));
   return std::move(setup.scenario);
 }
 
@@ -113,6 +117,7 @@ void ProgramBus::send(const std::string &node, const can_frame &frame) {
     throw std::invalid_argument(
         "no frame that a node could send: an error message, or an 11-bit "
         "identifier above 0x7FF");
+  check_open();
   worked(node).port->send(frame);
 }
 
@@ -137,7 +142,13 @@ void ProgramBus::on_bit(NodeId id, const BitRecord &bit) {
 
 // ---- Time
 
+void ProgramBus::check_open() const {
+  if (finished_) throw std::runtime_error("no frame is sent and no step made after finish()");
+}
+
+// All that lets time pass begins here.
 void ProgramBus::exchange() {
+  check_open();
   for (const Worked &worked : worked_) {
     worked.node->take();
     (void)worked.node->give();  // the port never refuses

@@ -73,8 +73,10 @@ class ProgramBus : private BusObserver {
   [[nodiscard]] std::vector<BusFrame> frames() { return told(frames_); }
   /// Frames, error frames and overload frames on the bus since the last call, in their order.
   [[nodiscard]] std::vector<BusEvent> events() { return told(events_); }
-  /// Completes the files of the scenario's outputs; no step after it.
+  /// Completes the files of the scenario's outputs. send() and whatever lets time pass throw
+  /// std::runtime_error after it.
   [[nodiscard]] RunReport finish() {
+    finished_ = true;
     if (quiet()) simulation_.settle();
     return simulation_.finish();
   }
@@ -98,6 +100,7 @@ class ProgramBus : private BusObserver {
   [[nodiscard]] unsigned interests() const override { return kBits; }
   void on_bit(NodeId id, const BitRecord &bit) override;
   void join();
+  void check_open() const;
   void exchange();
   void run_until(Time when);
   [[nodiscard]] Worked &worked(const std::string &name);
@@ -105,6 +108,7 @@ class ProgramBus : private BusObserver {
 
   ScheduledFaults faults_;  // outlives the bus
   bool disturbed_ = false;
+  bool finished_ = false;
   Scenario scenario_;
   Simulation simulation_;
   Time bit_time_;

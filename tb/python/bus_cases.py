@@ -154,6 +154,24 @@ class PythonRefusal(unittest.TestCase):
                      lambda: bus.disturb("loud", 0, 1))
         self.refused("0 to 1000000 s", lambda: bus.step(seconds=-1))
 
+    def test_nodes_that_are_none_or_the_same(self):
+        self.refused("no node is given; allowed: 1 to 64", lambda: Bus([]))
+        self.refused("node name 'a' is used twice", lambda: Bus(["a", "b", "a"]))
+        self.assertEqual(Bus([], scenario={"nodes": [{"name": "x"}]}).nodes, ["x"])
+
+    def test_nothing_happens_after_the_end(self):
+        bus = Bus(["a", "b"])
+        bus.send("a", Frame(0x1))
+        bus.run_until_quiet()
+        bus.finish()
+        for call in (lambda: bus.send("a", Frame(0x2)), lambda: bus.step(1e-3),
+                     lambda: bus.pass_time(1e-3), bus.run_until_quiet,
+                     lambda: bus.run_until_message(1e-3)):
+            with self.assertRaisesRegex(RuntimeError, "finish"):
+                call()
+        self.assertEqual(heard(bus, "b"), [(0x1, b"")])  # what was there can still be read
+        self.assertEqual(len(bus.frames()), 1)
+
     def test_a_missing_scenario(self):
         with self.assertRaisesRegex(verican.InputError, "missing.yaml"):
             Bus(["a"], scenario="missing.yaml")

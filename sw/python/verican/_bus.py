@@ -21,6 +21,7 @@ class Bus(_core.Bus):
         super().__init__(nodes, scenario=_scenario_text(scenario), **settings)
 
     def finish(self):
-        """Completes the files of the scenario's outputs and the waveform: no step after it. Returns
-        the report, a dictionary as `verican run --json` prints it."""
+        """Completes the files of the scenario's outputs and the waveform: no step after it, and no
+        frame is taken (RuntimeError). Returns the report, a dictionary as `verican run --json`
+        prints it."""
         return json.loads(self.finish_json())
