@@ -1,8 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """python-can's interface "verican": what programs of python-can do, on a bus of RTL nodes."""
+import contextlib
 import itertools
+import subprocess
+import sys
 import tempfile
+import threading
 import time
 import unittest
 from pathlib import Path
@@ -126,12 +130,56 @@ class PythonCan(unittest.TestCase):
         self.assertIsNone(self.b.recv(0.05))
 
 
+class PythonCanEnd(unittest.TestCase):
+    """Programs that end without shutdown(), while frames wait and the channel's thread works."""
+
+    PROGRAM = """
+buses = [can.Bus(interface="verican", channel="z", nodes=2) for _ in range(2)]
+for i in range(2000):
+    buses[0].send(can.Message(arbitration_id=i, is_extended_id=False, data=bytes(8)))
+print("end")
+"""
+
+    def end(self, *parts):
+        """Exit code and what the program says."""
+        done = subprocess.run([sys.executable, "-B", "-c", "\n".join(parts)], capture_output=True,
+                              text=True, timeout=5 * WAIT, check=False)
+        return done.returncode, done.stdout, done.stderr
+
+    def ends(self, *parts):
+        """The program runs to its end and says nothing else."""
+        self.assertEqual(self.end(*parts), (0, "end\n", ""))
+
+    def test_without_shutdown(self):
+        self.ends("import can", self.PROGRAM)
+
+    def test_a_channel_that_cannot_be_closed(self):
+        # The folder of its waveform has gone; the thread of the other one ends all the same.
+        with tempfile.TemporaryDirectory() as folder:
+            gone = folder + "/gone"
+            parts = [f"""
+import can, os, shutil
+os.mkdir({gone!r})
+bad = can.Bus(interface="verican", channel="bad", vcd={gone + "/a.vcd"!r})
+shutil.rmtree({gone!r})""", self.PROGRAM]
+            for program in parts, parts[::-1]:
+                code, _, text = self.end("import can", *program)
+                self.assertEqual(code, 0, text)
+                self.assertIn("a.vcd: cannot be put in its place", text)
+
+    def test_shutdown_when_the_channels_are_closed(self):
+        # Handlers go from the last to the first: this one is older than the package's.
+        self.ends("import atexit, can",
+                  "atexit.register(lambda: [bus.shutdown() for bus in buses])", self.PROGRAM)
+
+
 class PythonCanErrors(unittest.TestCase):
     def setUp(self):
         self.channel = next(names)
         self.a, self.b = open_bus(self.channel), open_bus(self.channel)
         self.addCleanup(self.a.shutdown)
         self.addCleanup(self.b.shutdown)
+        self.free = next(names)
 
     def disturbed(self):
         """Sends a frame under a disturbance; what the receiver has then."""
@@ -203,6 +251,8 @@ class PythonCanErrors(unittest.TestCase):
             open_bus(self.channel, bitrate=250000)
         with self.assertRaisesRegex(can.CanInitializationError, "1000 to 1000000"):
             open_bus(next(names), bitrate=8000000)
+        with self.assertRaisesRegex(can.CanInitializationError, "bitrate 0: 1000 to 1000000"):
+            open_bus(next(names), bitrate=0)
         with self.assertRaisesRegex(can.CanOperationError, "classical CAN"):
             self.a.send(can.Message(arbitration_id=1, is_fd=True, data=bytes(64)))
         with self.assertRaisesRegex(NotImplementedError, "ACTIVE alone"):
@@ -210,6 +260,39 @@ class PythonCanErrors(unittest.TestCase):
         self.a.shutdown()
         with self.assertRaisesRegex(can.CanOperationError, "shut down"):
             self.a.send(message(1))
+
+    def test_a_channel_that_cannot_be_is_not_open(self):
+        for nodes in (0, -1, 65):
+            with self.assertRaisesRegex(can.CanInitializationError, f"nodes {nodes}: 1 to 64"):
+                open_bus(self.free, nodes=nodes)
+        for settings in ({"bitrate": 8000000}, {"restart_ms": -1}, {"nodes": "two"}):
+            with self.assertRaises(can.CanInitializationError):
+                open_bus(self.free, **settings)
+        self.assertNotIn(self.free, [config["channel"] for config in
+                                     can.detect_available_configs("verican")])
+        self.assertNotIn(f"verican {self.free}", [thread.name for thread in threading.enumerate()])
+        open_bus(self.free, nodes=1, fd=False, single_handle=True).shutdown()
+
+    def test_settings_that_do_not_exist(self):
+        for settings in ({"bitrat": 250000}, {"foo": 3}, {"data_bitrate": 2000000}):
+            name, = settings
+            with self.assertRaisesRegex(can.CanInitializationError, f"{name}.*allowed: .*bitrate"):
+                open_bus(self.free, **settings)
+        with self.assertRaisesRegex(can.CanInitializationError, "fd.*CAN 2.0"):
+            open_bus(self.free, fd=True)
+
+    def test_settings_of_a_second_user_that_differ(self):
+        with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as stack:
+            path = str(Path(folder) / "a.vcd")
+            stack.enter_context(open_bus(self.free, vcd=path, restart_ms=5, nodes=3))
+            for settings, text in (({"vcd": "b.vcd"}, "a.vcd', not 'b.vcd'"),
+                                   ({"vcd": ""}, "a.vcd', not ''"),
+                                   ({"restart_ms": 6}, "restart_ms=5, not 6"),
+                                   ({"nodes": 2}, "nodes=3, not 2")):
+                with self.assertRaisesRegex(can.CanInitializationError, text):
+                    open_bus(self.free, **settings)
+            for settings in ({}, {"vcd": path, "restart_ms": "5", "nodes": 3, "bitrate": 500000}):
+                stack.enter_context(open_bus(self.free, **settings))
 
 
 if __name__ == "__main__":

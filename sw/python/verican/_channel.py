@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """A bus of RTL nodes with a thread that runs it, for programs of several threads."""
+import atexit
 import collections
 import concurrent.futures
+import contextlib
 import threading
 import time
 
@@ -11,6 +13,9 @@ from ._bus import Bus
 STRETCH_BITS = 256  # simulated between two looks at the programs
 LAST_FRAMES = 0.1   # s of simulated time for what waits when the last user leaves
 IDLE_LOOK = 0.02    # s; an idle bus follows real time in such steps
+
+SETTINGS = {"nodes": 2, "bitrate": 500_000, "restart_ms": 0, "vcd": ""}  # of a channel
+RANGES = {"nodes": (1, 64), "bitrate": (1000, 1_000_000)}
 
 
 class Channel:
@@ -21,10 +26,15 @@ class Channel:
     a look.
     """
 
-    def __init__(self, name, nodes, bitrate, **settings):
-        self.name, self.bitrate, self.size = name, bitrate, nodes
-        self.nodes = [f"node{i}" for i in range(nodes)]
-        self._bus = Bus(self.nodes, bitrate=bitrate, **settings)
+    def __init__(self, name, settings):
+        """`settings`: all of SETTINGS; ValueError if the bus cannot be."""
+        for what, (least, most) in RANGES.items():
+            if not least <= settings[what] <= most:
+                raise ValueError(f"{what} {settings[what]}: {least} to {most} are allowed")
+        self.name, self.settings = name, settings
+        self.nodes = [f"node{i}" for i in range(settings["nodes"])]
+        self._bus = Bus(self.nodes, bitrate=settings["bitrate"],
+                        restart=settings["restart_ms"] / 1e3, vcd=settings["vcd"])
         self._users = {}
         self._work = collections.deque()
         self._wake = threading.Event()
@@ -124,20 +134,22 @@ _channels = {}
 _lock = threading.Lock()
 
 
-def open_channel(name, deliver, nodes=None, bitrate=None, **settings):
-    """(channel, node); the first to open it decides what the bus is like."""
+def open_channel(name, deliver, **wanted):
+    """(channel, node); the first to open it decides what the bus is like. `wanted`: some of
+    SETTINGS; None is no wish."""
+    wanted = {what: value for what, value in wanted.items() if value is not None}
     with _lock:
         channel = _channels.get(name)
         if channel is None:
-            channel = _channels[name] = Channel(name, nodes or 2, bitrate or 500_000, **settings)
-        for what, wanted, there in (("nodes", nodes, channel.size),
-                                    ("bitrate", bitrate, channel.bitrate)):
-            if wanted not in (None, there):
-                raise ValueError(f"channel {name!r} is open with {what}={there}, not {wanted}")
+            channel = _channels[name] = Channel(name, SETTINGS | wanted)
+        for what, value in wanted.items():
+            there = channel.settings[what]
+            if value != there:
+                raise ValueError(f"channel {name!r} is open with {what}={there!r}, not {value!r}")
         node = channel.join(deliver)
         if node is None:
-            raise ValueError(f"all {channel.size} nodes of channel {name!r} are taken; the first "
-                             "to open it says how many there are: nodes=...")
+            raise ValueError(f"all {len(channel.nodes)} nodes of channel {name!r} are taken; the "
+                             "first to open it says how many there are: nodes=...")
         return channel, node
 
 
@@ -145,10 +157,21 @@ def close_channel(channel, node):
     """The bus ends with its last user."""
     with _lock:
         channel.leave(node)
-        if channel.used:
+        if channel.used or _channels.get(channel.name) is not channel:
             return
         del _channels[channel.name]
     channel.close()
+
+
+@atexit.register
+def close_all():
+    """For programs that end without shutdown(): a thread that is within the simulation when the
+    interpreter ends would abort the process."""
+    with contextlib.ExitStack() as stack:  # goes on behind a file that cannot be written
+        with _lock:
+            for channel in _channels.values():
+                stack.callback(channel.close)
+            _channels.clear()
 
 
 def open_names():

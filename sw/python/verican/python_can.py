@@ -10,6 +10,7 @@ import can
 from ._channel import close_channel, open_channel, open_names
 from ._core import Frame
 
+ALLOWED = "bitrate, can_filters, error_frames, nodes, receive_own_messages, restart_ms, vcd"
 QUEUED = 4096  # frames of a can.Bus that may wait for the bus
 LOOK = 0.05    # s between two looks whether a full queue will ever empty
 
@@ -26,26 +27,35 @@ class VericanBus(can.BusABC):
     """can.Bus(interface="verican", channel="name", bitrate=..., nodes=...)."""
 
     def __init__(self, channel="verican0", can_filters=None, bitrate=None, nodes=None,
-                 receive_own_messages=False, error_frames=True, restart_ms=0, vcd="", **kwargs):
+                 receive_own_messages=False, error_frames=True, restart_ms=None, vcd=None, fd=False,
+                 single_handle=True, **unknown):
         """`channel`: any name; buses with the same name in this process share the wire.
 
         `nodes` (2) and `bitrate` (500000) are decided by the first to open the channel, and so are
         `restart_ms`, simulated time from bus-off to the begin of recovery (0: by `state`), and
-        `vcd`, a waveform. Nodes that no can.Bus uses acknowledge.
+        `vcd`, a waveform; who names another value later is refused. Nodes that no can.Bus uses
+        acknowledge. `single_handle`, which python-can's tools give to every interface, means
+        nothing here. can.CanInitializationError: settings that do not exist or cannot be.
         """
+        if unknown:
+            raise can.CanInitializationError(
+                f"{', '.join(unknown)}: no setting of this interface; allowed: {ALLOWED}")
+        if fd:
+            raise can.CanInitializationError(
+                "fd: the nodes are CAN 2.0 cores, which know no CAN FD; allowed: fd=False")
         self._inbox = queue.SimpleQueue()
         self._room = threading.BoundedSemaphore(QUEUED)
         self._own, self._errors, self._open = receive_own_messages, error_frames, False
         self.channel = channel
         try:
             self._channel, self.node = open_channel(
-                channel, self._deliver, number(nodes), number(bitrate),
-                restart=int(restart_ms) / 1e3, vcd=str(vcd))
+                channel, self._deliver, nodes=number(nodes), bitrate=number(bitrate),
+                restart_ms=number(restart_ms), vcd=None if vcd is None else str(vcd))
         except (ValueError, RuntimeError) as error:
             raise can.CanInitializationError(str(error)) from error
         self._open = True
         self.channel_info = f"verican {channel}: {self.node}"
-        super().__init__(channel=channel, can_filters=can_filters, **kwargs)
+        super().__init__(channel=channel, can_filters=can_filters)
 
     def send(self, msg, timeout=None):
         """Queues the frame; waits for room in the queue for at most `timeout` s (None: for ever).
