@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""tools/remote_memory.py, which writes the first contents of a remote node's RAM (RN-60): what it
-puts where, and mistakes, each of which it refuses. Run by ctest:
+"""tools/remote_memory.py, which writes the first contents of a remote node's RAM: what it puts
+where, and mistakes, each of which it refuses. Run by ctest:
 python3 -m unittest memory_tool_cases.MemoryTool.test_contents
 """
 import pathlib
@@ -30,10 +30,10 @@ def image(*words):
 
 
 class MemoryTool(unittest.TestCase):
-    """Expected bytes: the memory map, section 8, and RN-25."""
+    """Expected bytes: the memory map of remote-node.md, section 8."""
 
     def test_contents(self):
-        """NODE, FLAGS, BOFF, LIFE, BLKTO, RETRY; IDENT; bytes of one's own."""
+        """RN-60: NODE, FLAGS, BOFF, LIFE, BLKTO, RETRY; IDENT (RN-25); bytes of one's own."""
         ram = image("--number", "7", "--set", "0x40=01 02", "--set", "66=FF")
         self.assertEqual(ram[0xF00:0xF08].hex(), "070500000a0a3208")
         self.assertEqual(ram[0xFF8:].hex(), "01013c083412feca")
