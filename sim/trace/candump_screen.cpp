@@ -48,6 +48,12 @@ std::int64_t parse_date(std::string_view date, std::string_view time, const Plac
   return ns;
 }
 
+/// What candump shows behind the bytes: the same as letters (-a, with -S in other quotes), or the
+/// kind of frame.
+bool is_note(std::string_view field) {
+  return field.front() == '\'' || field.front() == '`' || field == "ERRORFRAME";
+}
+
 /// Identifier, length and bytes from `at` on, as a log has them. `fd_flags`: of a CAN FD frame.
 std::string log_frame(const Fields &fields, std::size_t at, unsigned fd_flags, const Place &place) {
   if (fields.size() < at + 2 || !is_length(fields[at + 1]))
@@ -64,11 +70,10 @@ std::string log_frame(const Fields &fields, std::size_t at, unsigned fd_flags, c
   const std::string tail = raw ? "_" + std::string(length) : "";
   if (fields.size() > at + 2 && fields[at + 2] == "remote")
     return id + fmt::format("#R{}", *count) + tail;
-  // Behind the bytes -a shows them once more, as letters in quotes.
-  const std::size_t end = std::min(fields.size(), at + 2 + *count);
-  const bool letters = end < fields.size() && fields[end].front() == '\'';
+  const std::size_t end = std::min<std::size_t>(fields.size(), at + 2 + *count);
+  const bool more = end < fields.size() && is_note(fields[end]);
   const Fields bytes{fields.begin(),
-                     letters ? fields.begin() + static_cast<std::ptrdiff_t>(end) : fields.end()};
+                     more ? fields.begin() + static_cast<std::ptrdiff_t>(end) : fields.end()};
   return id + (fd ? fmt::format("##{:X}", fd_flags) : "#") +
          text::byte_digits(bytes, at + 2, *count, place) + tail;
 }

@@ -110,7 +110,7 @@ TEST(Run, WhatIsNotReachedFails) {
        "a: until MCR 0x100000 0x100000"},
       {"commands: [{node: a, at: 9 ms, do: [read 3 0x20 1]}]", "a: read 3 0x20 1"},
       {"commands: [{node: a, at: 9 ms, period: 1 ms, do: [trigger]}]", "a: trigger"},
-      {"user: [{node: p, at: 9 ms, write: {0x20: 05}}]", "p: user at 9 ms"}};
+      {"user: [{node: p, at: 9 ms, write: {0x20: 05}}]", "p: user at 9.000 ms"}};
   for (const auto &[text, what] : cases) {
     const CheckResult check = only_check(text);
     EXPECT_FALSE(check.ok) << text;

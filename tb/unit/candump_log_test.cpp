@@ -139,7 +139,7 @@ TEST(Trc, ErrorsNameLineValueAndWhatIsAllowed) {
     return input_error_of([&] { return parse_trc(text, "t.trc"); });
   };
   const std::string head = ";$FILEVERSION=2.1\n;$COLUMNS=N,O,T,B,I,d,L,D\n";
-  EXPECT_EQ(error(head + "1 1.0 DT 1 0123 Rx 2 11 22\n"), "");
+  EXPECT_EQ(error(head + "1 1.0 DT 1 0123 Rx 2 11 22\n"), "no error");
   EXPECT_THAT(error(head + "1 1.0 DT 1 0123 Rx 2 11 22 33\n"),
               HasSubstr("t.trc:3: 3 data bytes where the length says 2"));
   EXPECT_THAT(error(head + "1 1.0 DT x 0123 Rx 2 11 22\n"),
@@ -175,7 +175,7 @@ TEST(Gvret, ErrorsNameLineValueAndWhatIsAllowed) {
     const std::string head = "Time Stamp,ID,Extended,Dir,Bus,LEN,D1,D2,D3,D4\n";
     return input_error_of([&] { return parse_gvret(head + line + "\n", "g.csv"); });
   };
-  EXPECT_EQ(error("5,00000123,false,Rx,0,2,AB,CD"), "");
+  EXPECT_EQ(error("5,00000123,false,Rx,0,2,AB,CD"), "no error");
   EXPECT_THAT(error("5,00000123,false,Rx,0,2,AB,C"),
               HasSubstr("g.csv:2: data byte 'C' is not allowed"));
   EXPECT_THAT(error("5,00000123,false,Xx,0,1,AB"), HasSubstr("direction 'Xx' is not allowed"));
