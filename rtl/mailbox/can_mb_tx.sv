@@ -215,7 +215,8 @@ module can_mb_tx #(
   // A pass for ESR2 is started anew by whatever happens; one that looks for a winner by the loss of
   // a winner, and not for ever.
   assign redo    = withdrawn || lost;
-  assign found   = candidate && look2_q && !best_q && !scan_q;
+  // A frame that has just failed is no such find: it comes as an insertion.
+  assign found   = candidate && look2_q && !best_q && !scan_q && !retry_i && !ins_want;
   assign change  = Status != 0 && (cs_written_i || ans_i || redo);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

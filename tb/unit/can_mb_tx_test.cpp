@@ -390,6 +390,24 @@ TEST_P(MbTx, InsertionInEveryClockOfAPassForTheStatus) {
   }
 }
 
+// A frame that has failed is there for the first opportunity behind its error, 17 bits on: a pass
+// that is just looking at its buffer takes it for none that nobody knows, and needs no other pass.
+TEST_P(MbTx, RetryInEveryClockOfAPassForTheStatus) {  // FX-3.3.f
+  buffers_[20] = {kActive << 24, 0x200 << 18};
+  top_.cur_idx_i = 20;
+  for (unsigned moment = 0; moment < kPass + 8; ++moment) {
+    top_.off_i = 1;
+    settle();
+    clock(50, 0x08000000, 100);  // a pass begins
+    for (unsigned i = 0; i < moment; ++i) clock({}, 0, 100);
+    top_.off_i = 0;
+    top_.retry_i = 1;
+    for (unsigned i = 0; i < 8; ++i) clock({}, 0, 100);
+    check();
+    ASSERT_TRUE(top_.settled_o && top_.scan_lazy_o) << "in clock " << moment;
+  }
+}
+
 // What such a pass was just looking at is no candidate: the winner is still known as such when it
 // is taken away in the next clocks.
 TEST_P(MbTx, WinnerLostBehindAnInsertionInAPassForTheStatus) {

@@ -68,7 +68,8 @@
       p_fresh: assert (!$past(running_i && fresh_i && !best_q && !s3_end)
                        || scan_q || look_q || quiet_q);
       // FX-9.ERR005829: ... and if that meets an active buffer, one that looks for the winner.
-      p_found: assert (!$past(running_i && candidate && !best_q && !s3_end)
+      p_found: assert (!$past(running_i && candidate && !best_q && !s3_end
+                              && !retry_i && !ins_want)
                        || scan_q || best_q);
       // flexcan.md 3.3: a buffer on the bus is no winner, but in the first clock.
       p_off: assert (!$past(running_i && off_i) || cur_idx_i != $past(cur_idx_i)
