@@ -371,7 +371,6 @@ TEST(ScenarioFile, EveryBitOfAFieldMayBeNamed) {
     }
 }
 
-// Whatever is done to a good file, it is read or refused, and nothing else happens.
 TEST(ScenarioFile, ADocumentMayHaveItsMarks) {
   const std::string text = std::string(kTwo) + "seed: 7\n";
   for (const std::string &marked : {"---\n" + text, text + "...\n", text + "---\n# no more\n"})
@@ -387,6 +386,7 @@ TEST(ScenarioFile, MonitorIsATruthValueOrAnInterface) {
   EXPECT_FALSE(s.nodes[2].host.listen_only);
 }
 
+// Whatever is done to a good file, it is read or refused, and nothing else happens.
 TEST(ScenarioFile, DamagedInputNeverCrashes) {
   const std::string good = kGood;
   for (std::size_t at = 0; at < good.size(); at += 7)
