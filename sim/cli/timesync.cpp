@@ -31,13 +31,16 @@ struct TimeSyncOptions {
 };
 
 /// A setting of something that is not there would change nothing but which goal the case has.
-void refuse_idle(const SyncCase &setting) {
+void refuse_idle(const TimeSyncOptions &options, const SyncCase &setting) {
+  const auto refuse = [&](const std::string &name, const std::string &why) {
+    if (options.values.contains(name)) throw InputError("--" + name, 0, why);
+    throw InputError(options.file, 0, name + ": " + why);
+  };
   if (setting.restless && !setting.hardware)
-    throw InputError("restless", 0,
-                     "is a setting of followers in hardware; allowed: with hardware");
+    refuse("restless", "is a setting of followers in hardware; allowed: with hardware");
   if (setting.clocks.sine_period_s != SyncCase{}.clocks.sine_period_s &&
       setting.clocks.sine_ppm == 0)
-    throw InputError("sine-period", 0, "is that of a swing; allowed: with sine above 0");
+    refuse("sine-period", "is that of a swing; allowed: with sine above 0");
 }
 
 /// What is given on the command line takes the place of what the file says. Returns the name.
@@ -49,7 +52,7 @@ std::string take_settings(const TimeSyncOptions &options, SyncCase &setting) {
       throw InputError("--" + std::string{one.name}, 0,
                        in_quotes(given->second) + " is not allowed; allowed: " + one.allowed);
   }
-  refuse_idle(setting);
+  refuse_idle(options, setting);
   return name;
 }
 

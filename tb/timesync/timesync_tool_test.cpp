@@ -108,10 +108,11 @@ TEST_F(TimeSync, BadInput) {
   expect_refused("--first-seed 0", "--first-seed: '0' is not allowed; allowed: 1 to 2^32 - 1");
   expect_refused("--how skip --hardware", "--how skip knows no followers in hardware");
   expect_refused("--how rtl --master-cut", "--how rtl knows no cut master");
-  expect_refused("--restless", "restless: is a setting of followers in hardware");
+  expect_refused("--restless", "--restless: is a setting of followers in hardware");
   expect_refused("--sine-period 20s",
-                 "sine-period: is that of a swing; allowed: with sine above 0");
-  expect_refused(file_with("c.yaml", "restless: true\n"), "restless: is a setting of followers");
+                 "--sine-period: is that of a swing; allowed: with sine above 0");
+  expect_refused(file_with("c.yaml", "restless: true\n"),
+                 "c.yaml: restless: is a setting of followers");
   expect_refused(file_with("d.yaml", "seeds: 1\n---\nload: 5\n"), "d.yaml:3: a second document");
   expect_refused("--sweep --report x.html", "excludes");
   expect_refused("--p4 --report x.html", "excludes");
