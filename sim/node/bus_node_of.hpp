@@ -109,7 +109,7 @@ class BusNodeOf final : public RtlNode {
     rise();
   }
 
-  VerilatedContext context_;
+  SerialContext context_;
   Model top_{&context_, "core"};
   ModelContext model_context_{context_};
   Master bus_;

@@ -17,7 +17,7 @@
 namespace vericansim {
 
 struct CoreNode::Impl {
-  VerilatedContext context;
+  SerialContext context;
   Vcan_core top{&context, "can_core"};
   ModelContext model_context{context};
   QuietEngine quiet;

@@ -267,7 +267,7 @@ class SplitCore {
     engine_settled_ = engine_moved_ = true;
   }
 
-  VerilatedContext context_;
+  SerialContext context_;
   Engine engine_{&context_, "engine"};
   HostModel host_{&context_, "host"};
   ModelContext model_context_{context_};

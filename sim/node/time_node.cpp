@@ -68,7 +68,7 @@ struct TimeNode::Impl {
 
   ~Impl() { Verilated::threadContextp(&context); }
 
-  VerilatedContext context;
+  SerialContext context;
   Vcan_ahb_time top{&context, "time"};
   ModelContext model_context{context};
   std::unique_ptr<unsigned char[]> before = std::make_unique<unsigned char[]>(sizeof(Root));

@@ -58,7 +58,7 @@ class BoardNode : public Node {
   static constexpr unsigned kOutputMask = kNumberPins ? 0xFF : 0xF;
 
  private:
-  VerilatedContext context_;
+  SerialContext context_;
   Model model_{&context_};
   ModelContext model_context_{context_};
 };

@@ -52,7 +52,7 @@ class SerialBoard : public Node {
   SerialLine line{BIT_CLOCKS};
 
  private:
-  VerilatedContext context_;
+  SerialContext context_;
   BOARD_MODEL model_{&context_};
   ModelContext model_context_{context_};
 };

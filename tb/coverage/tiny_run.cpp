@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "Vtiny.h"
+#include "node/model_context.hpp"
 
 namespace {
 
@@ -27,7 +28,7 @@ class Tiny {
   }
 
  private:
-  VerilatedContext context_;
+  SerialContext context_;
   Vtiny top_{&context_, "tiny"};
 };
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "node/model_pins.hpp"
 #include "node/rtl_node.hpp"
@@ -116,7 +117,7 @@ class RecordNode final : public RtlNode {
     rising_edge(top_, top_.hclk);
   }
 
-  VerilatedContext context_;
+  SerialContext context_;
   Model top_{&context_, "recorded"};
   std::FILE *file_;
   AhbRequest shown_;

@@ -75,7 +75,7 @@ class RecordRemoteNode final : public Node {
     rising_edge(top_, top_.clk_i);
   }
 
-  VerilatedContext context_;
+  SerialContext context_;
   Model top_{&context_, "recorded"};
   ModelContext model_context_{context_};
   std::FILE *file_;

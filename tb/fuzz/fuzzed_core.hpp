@@ -13,6 +13,7 @@
 
 #include "bus/types.hpp"
 #include "node/ahb_master.hpp"
+#include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "node/model_pins.hpp"
 #include "verilated.h"
@@ -137,7 +138,7 @@ class FuzzedCoreOf final : public FuzzedCore {
 
   void edge() { rising_edge(top_, top_.hclk); }
 
-  VerilatedContext context_;
+  SerialContext context_;
   Model top_{&context_, "core"};
   std::unique_ptr<unsigned char[]> before_ = std::make_unique<unsigned char[]>(sizeof(Root));
 };

@@ -15,6 +15,7 @@
 #include "Vcan_wb64_pipelined___024root.h"
 #include "model/registers.hpp"
 #include "node/bus_pins.hpp"
+#include "node/model_context.hpp"
 
 namespace vericansim {
 namespace {
@@ -50,7 +51,7 @@ class Bench {
   }
 
  private:
-  VerilatedContext context_;
+  SerialContext context_;
   Model top_{&context_, "core"};
 };
 

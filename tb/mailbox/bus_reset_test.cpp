@@ -15,6 +15,7 @@
 #include "Vcan_wb64_pipelined___024root.h"
 #include "model/registers.hpp"
 #include "node/bus_pins.hpp"
+#include "node/model_context.hpp"
 
 namespace vericansim {
 namespace {
@@ -78,7 +79,7 @@ class BusReset : public ::testing::Test {
     clock();
   }
 
-  VerilatedContext context_;
+  SerialContext context_;
   typename Wrapper::first_type top_{&context_, "core"};
 };
 

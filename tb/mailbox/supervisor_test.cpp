@@ -8,6 +8,7 @@
 #include "Vcan_ahb_user.h"
 #include "Vcan_ahb_user___024root.h"
 #include "model/registers.hpp"
+#include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "node/rtl_node.hpp"
 
@@ -76,7 +77,7 @@ class Supervisor : public ::testing::Test {
     data_phase();
   }
 
-  VerilatedContext context_;
+  SerialContext context_;
   Vcan_ahb_user top_{&context_, "user"};
   bool error_ = false;
 };

@@ -63,7 +63,10 @@ class Script {
   }
 
  private:
-  void add(Time at, Steps steps) { scenario_.accesses.push_back({id_, at, std::move(steps)}); }
+  /// What would begin behind the run's end is not done.
+  void add(Time at, Steps steps) {
+    if (at < scenario_.duration) scenario_.accesses.push_back({id_, at, std::move(steps)});
+  }
 
   [[nodiscard]] unsigned mailbox() {
     const unsigned count = std::min(num_mb_ - first_, 12U);

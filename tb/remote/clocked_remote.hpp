@@ -16,6 +16,7 @@
 #include "bus/observer.hpp"
 #include "model/remote_model.hpp"
 #include "node/core_node.hpp"
+#include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "node/user_access.hpp"
 #include "remote/unit_bus.hpp"
@@ -77,7 +78,7 @@ class ClockedRemote : public Node {
   std::vector<Time> applied;  ///< pulses of apply_o
 
  private:
-  VerilatedContext context_;
+  SerialContext context_;
   Vcan_remote_clock top_{&context_, "clocked"};
   std::optional<UserAccess> access_;
   std::uint32_t data_ = 0;

@@ -149,7 +149,7 @@ class FramePortOf final : public FramePort {
   auto &root() { return *top_.rootp; }
   [[nodiscard]] const auto &root() const { return *top_.rootp; }
 
-  VerilatedContext context_;
+  SerialContext context_;
   Model top_{&context_, "can_remote"};
   ModelContext model_context_{context_};
   bool released_ = false;

@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "Vcan_remote_whole.h"
+#include "node/model_context.hpp"
 #include "remote/clocked_remote.hpp"
 
 namespace vericansim {
@@ -160,7 +161,7 @@ TEST(RtlClock, PairsAreNoRequests) {
 
 // TM-106: without the parameter there is no clock at the pins.
 TEST(RtlClock, IsAnOption) {
-  VerilatedContext context;
+  SerialContext context;
   Vcan_remote_whole top{&context, "without"};
   top.can_rx_i = 1;
   top.rst_ni = 0;

@@ -42,7 +42,7 @@ class FilledNode : public Node {
   unsigned waited = 0;  ///< clocks that the last reset took
 
  private:
-  VerilatedContext context_;
+  SerialContext context_;
   Vcan_remote_init top_{&context_, "filled"};
   ModelContext model_context_{context_};
 };

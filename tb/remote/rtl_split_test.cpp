@@ -7,6 +7,7 @@
 #include "Vcan_remote_whole.h"
 #include "Vcan_remote_whole___024root.h"
 #include "bus/faults.hpp"
+#include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "remote/random_host.hpp"
 #include "remote/rtl_bus.hpp"
@@ -69,7 +70,7 @@ class TwinRemote : public Node {
  private:
   void edge() { rising_edge(whole_, whole_.clk_i); }
 
-  VerilatedContext context_;
+  SerialContext context_;
   Vcan_remote_whole whole_{&context_, "whole"};
   std::unique_ptr<RemoteNode> split_;
   UserAccess access_;

@@ -78,7 +78,7 @@ constexpr unsigned kCsWords = 128, kMsgWords = 256, kMaskWords = 128;
 }  // namespace
 
 struct FlopNode::Impl {
-  VerilatedContext context;
+  SerialContext context;
   Vcan_ahb_flops top{&context, "can_ahb"};
   ModelContext model_context{context};
   std::vector<std::pair<unsigned, bool>> stuck;

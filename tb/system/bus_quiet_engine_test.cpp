@@ -196,7 +196,7 @@ class EngineTwins : public Node {
       ++differences_;
   }
 
-  VerilatedContext context_;
+  SerialContext context_;
   Engine short_{&context_, "short"}, full_{&context_, "full"};
   ModelContext model_context_{context_};
   QuietEngine quiet_;

@@ -21,6 +21,7 @@
 #include "harness/bus_trail.hpp"
 #include "model/registers.hpp"
 #include "node/host.hpp"
+#include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "node/model_pins.hpp"
 #include "node/rtl_node.hpp"
@@ -94,7 +95,7 @@ class WholeNode final : public RtlNode {
   }
   void edge() { rising_edge(whole_, whole_.hclk); }
 
-  VerilatedContext context_;
+  SerialContext context_;
   Whole whole_{&context_, "whole"};
 };
 

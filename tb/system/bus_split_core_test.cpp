@@ -25,6 +25,7 @@
 #include "bus/faults.hpp"
 #include "model/registers.hpp"
 #include "node/host.hpp"
+#include "node/model_context.hpp"
 #include "node/model_pins.hpp"
 #include "node/rtl_node.hpp"
 #include "node/timed_engine.hpp"
@@ -133,7 +134,7 @@ class Twins : public RtlNode {
              std::to_string(whole) + ", split " + std::to_string(split);
   }
 
-  VerilatedContext context_;
+  SerialContext context_;
   Whole whole_{&context_, "whole"};
   Split split_;
   unsigned differences_ = 0;

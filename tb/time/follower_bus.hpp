@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/frame_codec.hpp"
+#include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "time/tsyn_frames.hpp"
 #include "verilated.h"
@@ -50,7 +51,7 @@ class Follower {
   }
 
  private:
-  VerilatedContext context_;
+  SerialContext context_;
   Model top_{&context_, "follower"};
   double period_, phase_;
   std::uint64_t edges_ = 0;

@@ -12,6 +12,7 @@
 
 #include "Vcan_bit_timing.h"
 #include "Vcan_bit_timing___024root.h"
+#include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "protocol/timing_reference.hpp"
 #include "verilated.h"
@@ -97,7 +98,7 @@ class BitTimer {
 
  private:
   void edge() { rising_edge(top_, top_.clk_i); }
-  VerilatedContext context_;
+  SerialContext context_;
   Vcan_bit_timing top_{&context_, "can_bit_timing"};
   unsigned clocks_;
 };

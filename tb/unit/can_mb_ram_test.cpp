@@ -8,6 +8,7 @@
 #include <random>
 
 #include "Vcan_mb_ram.h"
+#include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "verilated.h"
 
@@ -15,7 +16,7 @@ namespace vericansim {
 namespace {
 
 TEST(MbRam, KeepsWhatWasReadUntilTheNextRead) {
-  VerilatedContext context;
+  SerialContext context;
   Vcan_mb_ram ram{&context};
   ram.eval();
   std::array<std::uint32_t, 128> memory{};

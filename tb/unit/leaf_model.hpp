@@ -4,6 +4,7 @@
 // LeafModel: one Verilated block of the RTL with its clock and reset, for its unit test.
 #pragma once
 
+#include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "verilated.h"
 
@@ -34,7 +35,7 @@ class LeafModel {
   }
 
  private:
-  VerilatedContext context_;
+  SerialContext context_;
   Model top_{&context_, "leaf"};
 };
 

@@ -34,7 +34,7 @@ const FlopPlaces &places() {
 }  // namespace
 
 struct FlopRemote::Impl {
-  VerilatedContext context;
+  SerialContext context;
   Vcan_remote_flops top{&context, "can_remote"};
   ModelContext model_context{context};
 
