@@ -39,9 +39,8 @@ class BufferJudge {
 
   /// A bit of the node is complete: tells the model what the CPU did before.
   Interference begin_bit(const NodeBit &bit);
-  /// The node has left the bus around a sample point; `counted`: not before it, so TIMER has
-  /// counted the bit (FX-6.b).
-  void cut_bit(bool counted) { bits_ += counted && !interference_.soft_reset ? 1 : 0; }
+  /// The node has left the bus right behind a sample point: TIMER has counted the bit.
+  void cut_bit() { bits_ += interference_.soft_reset ? 0 : 1; }
   /// A SOF was seen or is about to be sent. `own`: by this node; `sof_to_come`: it stands in the
   /// next bit.
   void started(bool own, bool sof_to_come);

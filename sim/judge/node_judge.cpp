@@ -28,7 +28,7 @@ NodeJudge::NodeJudge(BufferJudge &buffers, Report report)
 void NodeJudge::bit(const BitRecord &record, Level pin) {
   if (failed_) return;
   restarted_ = false;
-  if (!record.after.running) return buffers_.cut_bit(record.at.running);
+  if (!record.after.running) return cut(record.at);
   ++bits_;
   const NodeBit bit = node_bit(record, pin);
   const bool own = bit.started && record.after.transmitter;
@@ -40,6 +40,15 @@ void NodeJudge::bit(const BitRecord &record, Level pin) {
   compare(bit);
   if (!failed_) tell_buffers(bit, own);
   failed_ = failed_ || !buffers_.ok();
+}
+
+// The node leaves the bus around a sample point. A recovery from bus-off has counted that bit
+// (BO-02); TIMER has, unless the node had left before it (FX-6.b). Else it is between frames, and
+// nothing follows from the bit.
+void NodeJudge::cut(const Trace &at) {
+  if (at.running) buffers_.cut_bit();
+  for (RuleFollower &follower : followers_)
+    if (follower.model().state().field == Field::kBusOff) follower.model().sample(at.rx);
 }
 
 void NodeJudge::interfere(const BufferJudge::Interference &what) {

@@ -41,6 +41,7 @@ class NodeJudge {
   [[nodiscard]] std::uint64_t bits() const { return bits_; }
 
  private:
+  void cut(const Trace &at);
   void interfere(const BufferJudge::Interference &what);
   void prepare(const NodeBit &bit, bool own);
   void compare(const NodeBit &bit);

@@ -73,6 +73,9 @@ void RuleFollower::compare_events(const NodeBit &bit, Differences &found) const 
 void RuleFollower::compare_counters(const NodeBit &bit, int last_rec, Differences &found) {
   const bool off = model_.error_state() == ErrorState::kBusOff;
   expect(found, "bus-off", bit.bus_off, off);
+  if (bit.bus_off && off && bit.field == Field::kBusOff)
+    expect(found, "recovery sequences", bit.tec,
+           static_cast<unsigned>(model_.recovery_sequences()));
   if (bit.bus_off || off) return;
   if (static_cast<int>(bit.tec) != model_.tec() && !settle_tec(model_, bit))
     expect(found, "TEC", bit.tec, static_cast<unsigned>(model_.tec()));

@@ -99,5 +99,46 @@ TEST(JudgedStop, BackWithinAFrameItMayMissTheFirstOpportunity) {
   }
 }
 
+/// Node b is alone on the bus and goes bus-off with its first frame; while it recovers, its
+/// software takes it off the bus `phase` clocks into a sequence of 11 recessive bits.
+Scenario stopped_in_bus_off(unsigned phase) {
+  const std::string at = std::to_string(1'700'000'000 + phase * 125'000) + " ps";
+  return parse_scenario(
+      "bus-off.yaml",
+      "judge: lockstep\n"
+      "bitrate: 1000000\n"
+      "duration: 4 ms\n"
+      "drain: 0\n"
+      "nodes:\n"
+      "  - {name: b, timing: {brp: 1, prop: 3, ps1: 2, ps2: 2, sjw: 1}, mailboxes: 16,"
+      " software: none}\n"
+      "faults:\n"
+      "  - {kind: recessive, node: b, from: 1010 us, for: 4 us}\n"
+      "accesses:\n"
+      "  - {node: b, at: 5 us, do: [write MCR 0x5000000F, until MCR 0x1100000 0x1000000,"
+      " write MCR 0x5002000F, write CTRL1 0x90002, write ECR 0xFF, write MB2.ID 0,"
+      " write MB2.CS 0x8000000, write MCR 0x4002000F, until MCR 0x1000000 0]}\n"
+      "  - {node: b, at: 1000 us, do: [write MB2.CS 0xC080000]}\n"
+      "  - {node: b, at: " +
+          at +
+          ", do: [check ESR1 0x20 0x20, write MCR 0x5002000F, until MCR 0x1000000 0x1000000,"
+          " write MCR 0x4002000F, until MCR 0x1000000 0]}\n"
+          "  - {node: b, at: 3900 us, do: [check ESR1 0x30 0]}\n");
+}
+
+// BO-02: a recessive bit that is sampled around a stop counts; behind it the next sequence begins
+// anew.
+TEST(JudgedStop, RecoverySequencesCountUpToTheStop) {
+  unsigned judged = 0;
+  for (unsigned phase = 0; phase < 11 * kClocksPerBit; ++phase) {
+    const JudgedRun run = run_judged(stopped_in_bus_off(phase));
+    for (const std::string &finding : run.findings) ADD_FAILURE() << phase << ": " << finding;
+    EXPECT_EQ(run.counts.bus_offs, 1u);
+    EXPECT_EQ(run.counts.stops, 1u);
+    ++judged;
+  }
+  EXPECT_EQ(judged, 11 * kClocksPerBit);
+}
+
 }  // namespace
 }  // namespace vericansim
