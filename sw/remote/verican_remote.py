@@ -154,6 +154,8 @@ class Client(Blocks):
     def select(self, value, mask=0xFFFFFFFF, only_new=False):
         """Selects the nodes whose serial number equals `value` under `mask` (`only_new`: of those
         without a number); whether there is one."""
+        self.require_serial(value)
+        self.require_serial(mask)
         pairs = zip(value.to_bytes(4, "little"), mask.to_bytes(4, "little"))
         self.flush()
         function = 4 if only_new else 2
@@ -197,6 +199,7 @@ class Client(Blocks):
         """Gives the node with this serial number a number (0: takes it away)."""
         if number:
             self.require_node(number)
+        self.require_serial(serial)
         if not any(self.select(serial) for _ in range(self.tries)):
             raise Timeout(f"no node with serial number {serial:08X}")
         identifier = self.id(0, 3)
@@ -211,6 +214,7 @@ class Client(Blocks):
         """Unlocks a node by its serial number, writes `settings` ((address, bytes), ...) confirmed
         and locks it again, whatever comes of them."""
         self.require_node(number)
+        self.require_serial(serial)
         settings = [(address, bytes(data)) for address, data in settings]
         for address, data in settings:
             self.require_range(address, len(data))

@@ -41,7 +41,7 @@ class Blocks(Link):
             moved, code = self._write_once(number, address + done, data[done:])
             done += moved
             if done != len(data):
-                self._raise(code)
+                self._raise(code or SEQUENCE)
 
         self._tries(number, once)
 
@@ -110,7 +110,7 @@ class Blocks(Link):
                 return got
             if got and message.data[0] == (seq - 1) % 256:
                 continue  # once more
-            lost = lost or message.data[0] != seq
+            lost = lost or message.data[0] != seq or message.dlc - 1 > length - len(got)
             if not lost:
                 got += bytes(message.data[1:])
                 seq = (seq + 1) % 256
@@ -131,7 +131,14 @@ class Blocks(Link):
         """Sends the bytes; the answer that ends the transfer, early if frames are lost."""
         for seq, at in enumerate(range(0, len(data), _IN_A_FRAME)):
             self.send(self.port(number, DATA), bytes([seq % 256]) + data[at:at + _IN_A_FRAME])
-            message = self._next(number, _WRITE, request, 0)
+            message = self._next_end(number, request, 0)
             if message is not None:
                 return message
-        return self._next(number, _WRITE, request, self.timeout)
+        return self._next_end(number, request, self.timeout)
+
+    def _next_end(self, number, request, wait):
+        """The answer that ends a write; the one that has opened it may come once more (VA-03)."""
+        while True:
+            message = self._next(number, _WRITE, request, wait)
+            if message is None or message.data[2] != OPEN:
+                return message

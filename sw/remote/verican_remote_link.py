@@ -113,6 +113,11 @@ class Link:
             raise ValueError(f"name_bits {name_bits}: allowed are 3 and 5")
         if rtr not in ("auto", "always", "never"):
             raise ValueError(f"rtr {rtr!r}: allowed are auto, always, never")
+        for name, value in (("timeout", timeout), ("select_wait", select_wait)):
+            if not value > 0:
+                raise ValueError(f"{name} {value}: allowed are seconds above 0")
+        if not isinstance(tries, int) or tries < 1:
+            raise ValueError(f"tries {tries}: allowed are 1 and more")
         self.bus, self.name_bits, self.timeout = bus, name_bits, timeout
         self.select_wait, self.tries, self.on_statement = select_wait, tries, on_statement
         # python-can's socketcand writes every frame as a data frame, and takes, up to its
@@ -132,6 +137,11 @@ class Link:
         if not least <= number < 1 << self.name_bits:
             raise ValueError(f"number {number}: allowed are {least} to "
                              f"{(1 << self.name_bits) - 1}")
+
+    @staticmethod
+    def require_serial(value):
+        if not 0 <= value <= 0xFFFFFFFF:
+            raise ValueError(f"serial number or mask {value}: allowed are 0 to 0xFFFFFFFF")
 
     @staticmethod
     def require_range(address, length):

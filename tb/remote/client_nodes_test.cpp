@@ -170,6 +170,28 @@ TEST_F(ClientBlocks, DoubledFrames) {
   EXPECT_EQ(block_read(0x300, 40), std::pair(VERICAN_REMOTE_OK, pattern(40)));
 }
 
+// VA-03: every frame of the nodes comes twice.
+TEST_F(ClientBlocks, DoubledAnswers) {
+  bus.doubled = 2;
+  EXPECT_EQ(block_write(0x300, pattern(40)), VERICAN_REMOTE_OK);
+  EXPECT_EQ(memory(0x300, 40), pattern(40));
+  EXPECT_EQ(block_read(0x300, 40), std::pair(VERICAN_REMOTE_OK, pattern(40)));
+  EXPECT_THAT(bus.take_sent(), ::testing::SizeIs(8));  // BLOCK and six of DATA, BLOCK: no retry
+}
+
+// RN-91: OK says that all bytes have been moved, whatever a node answers.
+TEST_F(ClientBlocks, AnswersThatPromiseTooMuch) {
+  for (const unsigned code : {VERICAN_REMOTE_CODE_OPEN + 0U, 0U}) {
+    bus.heard = [code](Frame frame) {
+      const bool its = frame.id == 0x5FA && frame.data[2] == code;
+      if (its) frame.data[2] = 0;
+      if (its) frame.data[4] = 3;  // bytes
+      return frame;
+    };
+    EXPECT_EQ(block_write(0x300, pattern(40)), VERICAN_REMOTE_SEQUENCE) << code;
+  }
+}
+
 // RN-91: frames that are lost in every try are SEQUENCE; a node that is not there TIMEOUT.
 TEST_F(ClientBlocks, GivenUp) {
   bus.filter = [](const RemoteModel *to, const Frame &frame) {

@@ -56,7 +56,8 @@ void ModelBus::deliver(const Frame &frame, const RemoteModel *sender) {
     node->receive(frame);
     node->intermission();
   }
-  if (sender != nullptr && filter(nullptr, frame)) to_host_.push_back(frame);
+  if (sender == nullptr || !filter(nullptr, frame)) return;
+  to_host_.insert(to_host_.end(), doubled, heard(frame));
 }
 
 void ModelBus::wait(std::uint32_t us) {

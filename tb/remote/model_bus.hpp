@@ -40,6 +40,9 @@ class ModelBus {
 
   Filter filter = [](const RemoteModel *, const Frame &) { return true; };
   unsigned repeat = 1;   ///< how often each of the host's frames is on the bus
+  unsigned doubled = 1;  ///< how often the host receives each of the nodes' frames (VA-03)
+  /// What the host receives of a node's frame.
+  std::function<Frame(Frame)> heard = [](Frame frame) { return frame; };
   bool bus_off = false;  ///< the host is off the bus
 
  private:

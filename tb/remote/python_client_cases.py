@@ -32,10 +32,12 @@ def scenario(*nodes):
 
 
 class Lossy:
-    """A python-can bus that loses frames: those for which `loses(message, sent)` is true."""
+    """A python-can bus that loses frames: those for which `loses(message, sent)` is true. What is
+    received is as `heard(message)` says, twice with `doubled`."""
 
     def __init__(self, bus):
         self.bus, self.loses, self.sent = bus, lambda message, sent: False, []
+        self.heard, self.doubled, self._again = lambda message: message, False, None
 
     def send(self, message, timeout=None):
         """As can.Bus."""
@@ -45,10 +47,17 @@ class Lossy:
 
     def recv(self, timeout=None):
         """As can.Bus."""
+        if self._again:
+            message, self._again = self._again, None
+            return message
         until = time.monotonic() + timeout
         while True:
             message = self.bus.recv(max(0.0, until - time.monotonic()))
-            if message is None or not self.loses(message, False):
+            if message is None:
+                return None
+            if not self.loses(message, False):
+                message = self.heard(message)
+                self._again = message if self.doubled else None
                 return message
 
 
@@ -299,6 +308,30 @@ class Calls(OnBus):
                 self.client.block_write(3, 0x300, shown)
                 self.assertEqual(self.client.block_read(3, 0x300, 40), shown)
 
+    def test_blocks_doubled(self):
+        """What nodes say comes twice (VA-03)."""
+        self.link.doubled = True
+        self.client.block_write(3, 0x300, bytes(range(40)))
+        self.assertEqual(self.sent(), [0x1FA] + 6 * [0x1FB])
+        self.assertEqual(self.client.block_read(3, 0x300, 40), bytes(range(40)))
+
+    def test_blocks_that_promise_too_much(self):
+        """Done, though nothing was opened; more bytes than were asked for."""
+        self.client.timeout = 0.5
+
+        def changed(message):
+            if message.arbitration_id == 0x5FA and message.data[2] == 5:
+                message.data[2:6] = bytes(4)
+            if message.arbitration_id == 0x5FB:
+                message.data, message.dlc = message.data + b"\xFF", message.dlc + 1
+            return message
+
+        self.link.heard = changed
+        with self.assertRaises(remote.Sequence):
+            self.client.block_write(3, 0x300, b"\1\2\3")
+        with self.assertRaises(remote.Sequence):
+            self.client.block_read(3, 0x300, 4)
+
     def test_blocks_given_up(self):
         """Lost in every try: Sequence; nobody there: Timeout."""
         self.client.timeout = 0.3
@@ -319,8 +352,13 @@ class Calls(OnBus):
                     lambda: client.write(0, 0, b"\0"), lambda: client.write(3, 0, b""),
                     lambda: client.poll(0x40, 7), lambda: client.trigger(256),
                     lambda: client.state(3), lambda: client.state(remote.SAFE, 8),
-                    lambda: client.assign(0, 1), lambda: client.block_write(3, 0xFFF, b"\0\0"),
+                    lambda: client.assign(0, 1), lambda: client.assign(1 << 32, 3),
+                    lambda: client.select(-1), lambda: client.select(0, 1 << 32),
+                    lambda: client.configure(3, -5, []), lambda: client.block_write(3, 0xFFF, b"\0\0"),
                     lambda: remote.Client(self.link, 4),
+                    lambda: remote.Client(self.link, tries=0),
+                    lambda: remote.Client(self.link, timeout=0),
+                    lambda: remote.Client(self.link, select_wait=-1),
                     lambda: remote.Client(self.link, rtr="maybe")):
             self.assertRaises(ValueError, act)
         self.assertEqual(self.sent(), [])

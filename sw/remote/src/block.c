@@ -73,11 +73,13 @@ static event_t next_event(transfer_t *t, uint32_t wait_us, frame_t *frame, resul
   return EVENT_FAILED;
 }
 
-/* What an answer of BLOCK with a code says. */
-static result_t result_of(client_t *c, uint8_t code) {
-  c->code = code;
+/* What the answer of BLOCK that ends a transfer of `length` bytes says: OK only if all of them have
+ * been moved. */
+static result_t result_of(transfer_t *t, const frame_t *answer, size_t length) {
+  const uint8_t code = answer->data[2];
+  t->c->code = code;
   switch (code) {
-    case 0: return VERICAN_REMOTE_OK;
+    case 0: return t->done == length ? VERICAN_REMOTE_OK : VERICAN_REMOTE_SEQUENCE;
     case VERICAN_REMOTE_CODE_SEQUENCE: return VERICAN_REMOTE_SEQUENCE;
     case VERICAN_REMOTE_CODE_TIMEOUT: return VERICAN_REMOTE_TIMEOUT;
     default: return VERICAN_REMOTE_REFUSED;
@@ -96,10 +98,7 @@ static result_t read_once(transfer_t *t, unsigned address, size_t length) {
       case EVENT_FAILED:
         if (result == VERICAN_REMOTE_TIMEOUT) abort_block(t);
         return result;
-      case EVENT_ANSWER:
-        result = result_of(t->c, frame.data[2]);
-        if (result == VERICAN_REMOTE_OK && t->done != length) return VERICAN_REMOTE_SEQUENCE;
-        return result;
+      case EVENT_ANSWER: return result_of(t, &frame, length);
       case EVENT_DATA: break;
     }
     const unsigned n = frame.dlc - 1u;
@@ -111,6 +110,16 @@ static result_t read_once(transfer_t *t, unsigned address, size_t length) {
     seq++;
   }
   return result;
+}
+
+/* Waits as next_event() for the answer that ends a block write. The one that has opened it may come
+ * once more (VA-03). */
+static event_t next_end(transfer_t *t, uint32_t wait_us, frame_t *frame, result_t *result) {
+  event_t event = EVENT_FAILED;
+  do {
+    event = next_event(t, wait_us, frame, result);
+  } while (event == EVENT_ANSWER && frame->data[2] == VERICAN_REMOTE_CODE_OPEN);
+  return event;
 }
 
 /* Sends the bytes of a block write that has been opened; stops if the node closes it. */
@@ -125,10 +134,10 @@ static event_t send_data(transfer_t *t, const uint8_t *data, size_t length, fram
     memcpy(part.data + 1, data + at, n);
     *result = vr_send(t->c, &part);
     if (*result != VERICAN_REMOTE_OK) return EVENT_FAILED;
-    const event_t event = next_event(t, 0, frame, result);
+    const event_t event = next_end(t, 0, frame, result);
     if (event == EVENT_ANSWER || *result != VERICAN_REMOTE_TIMEOUT) return event;
   }
-  return next_event(t, t->c->timeout_us, frame, result);
+  return next_end(t, t->c->timeout_us, frame, result);
 }
 
 /* One block write; the node has t->done bytes then, if it says so. */
@@ -140,14 +149,14 @@ static result_t write_once(transfer_t *t, unsigned address, size_t length) {
     if (result == VERICAN_REMOTE_TIMEOUT) abort_block(t);
     return result;
   }
-  if (frame.data[2] != VERICAN_REMOTE_CODE_OPEN) return result_of(t->c, frame.data[2]);
+  if (frame.data[2] != VERICAN_REMOTE_CODE_OPEN) return result_of(t, &frame, length);
   if (send_data(t, t->from + t->moved, length, &frame, &result) == EVENT_FAILED) {
     if (result == VERICAN_REMOTE_TIMEOUT) abort_block(t);
     return result;
   }
   t->done = frame.data[4] | (unsigned)frame.data[5] << 8;
   if (t->done > length) t->done = (unsigned)length;
-  return result_of(t->c, frame.data[2]);
+  return result_of(t, &frame, length);
 }
 
 /* Whether a transfer that ended so is worth another try from where it ended. */
