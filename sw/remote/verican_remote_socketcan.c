@@ -31,7 +31,8 @@ static uint32_t socketcan_now(void *context) {
 /* Waits until the socket has `events`; false: not within the time. */
 static bool wait_for(int fd, short events, uint32_t timeout_us) {
   struct pollfd one = {.fd = fd, .events = events};
-  return poll(&one, 1, (int)((timeout_us + 999u) / 1000u)) > 0;
+  const uint32_t timeout_ms = timeout_us / 1000u + (timeout_us % 1000u != 0u ? 1u : 0u);
+  return poll(&one, 1, (int)timeout_ms) > 0;
 }
 
 /* Whether a call that failed so is worth repeating: no room, or a signal. */

@@ -229,6 +229,7 @@ TEST_F(DriverClock, SendAt) {
   const verican_frame_t frame = one_byte();
   std::uint8_t mb = 0;
   EXPECT_EQ(verican_send_at(&dev, &frame, 2'000'001'001, &mb), VERICAN_ERR_RANGE);
+  EXPECT_EQ(verican_send_at(&dev, &frame, UINT64_MAX, &mb), VERICAN_ERR_RANGE);
   EXPECT_THAT(writes, IsEmpty());
   paired = true;
   EXPECT_EQ(verican_send_at(&dev, &frame, 2'000'001'000, &mb), VERICAN_OK);

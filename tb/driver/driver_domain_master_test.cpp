@@ -6,6 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "driver/domain_rig.hpp"
 
 namespace vericansim {
@@ -395,6 +398,45 @@ TEST(Master, EndsOfTheConfiguration) {
   EXPECT_EQ(result([](auto &c) { c.rules.jump_width = 1; }), VERICAN_OK);
   EXPECT_EQ(result([](auto &c) { c.rules.jump_width = 15; }), VERICAN_OK);
   EXPECT_EQ(result([](auto &c) { c.rules.crc = 3; }), VERICAN_OK);
+}
+
+// Identifiers that frames can have, and masters in the order in which they win arbitration.
+TEST(Master, IdentifiersOfTheConfiguration) {
+  constexpr std::uint32_t kExtended = VERICAN_TSYN_EXTENDED;
+  const auto result = [](const std::vector<std::uint32_t> &masters, std::uint32_t request = 0,
+                         std::uint32_t response = 0) {
+    verican_tsyn_config_t config = DomainRig::config_of(static_cast<std::uint8_t>(masters.size()));
+    std::copy(masters.begin(), masters.end(), config.masters);
+    config.delay_request = request;
+    config.delay_response = response;
+    DomainRig rig{DomainRig::config_of(), true, kStart};
+    return verican_tsyn_init(&rig.tsyn, &rig.dev, &config);
+  };
+  EXPECT_EQ(result({0x7FF}), VERICAN_OK);
+  EXPECT_EQ(result({0x800}), VERICAN_ERR_RANGE);
+  EXPECT_EQ(result({kExtended | 0x1FFFFFFF}), VERICAN_OK);
+  EXPECT_EQ(result({kExtended | 0x20000000}), VERICAN_ERR_RANGE);
+  EXPECT_EQ(result({0xFFFFFFFF}), VERICAN_ERR_RANGE);
+  EXPECT_EQ(result({0x10}, 0x7FF, kExtended | 0x1FFFFFFF), VERICAN_OK);
+  EXPECT_EQ(result({0x10}, 0x800, 0x20), VERICAN_ERR_RANGE);
+  EXPECT_EQ(result({0x10}, 0x20, 0x18FF1234), VERICAN_ERR_RANGE);
+  EXPECT_EQ(result({0x100, 0x101}), VERICAN_OK);
+  EXPECT_EQ(result({0x100, 0x080}), VERICAN_ERR_RANGE);
+  EXPECT_EQ(result({0x100, 0x100}), VERICAN_ERR_RANGE);
+  // AR-06: of equal leading bits the base frame wins.
+  EXPECT_EQ(result({0x100, kExtended | 0x100U << 18}), VERICAN_OK);
+  EXPECT_EQ(result({kExtended | 0x100U << 18, 0x100}), VERICAN_ERR_RANGE);
+  EXPECT_EQ(result({kExtended | 0xFFU << 18, 0x100}), VERICAN_OK);
+}
+
+// What was refused is not begun with.
+TEST(Master, ARefusedServoIsNoDomain) {
+  DomainRig rig{DomainRig::config_of(), true, kStart};
+  verican_tsyn_config_t config = DomainRig::config_of();
+  config.servo.filter = 5;
+  verican_tsyn_t tsyn{};
+  EXPECT_EQ(verican_tsyn_init(&tsyn, &rig.dev, &config), VERICAN_ERR_RANGE);
+  EXPECT_NE(verican_tsyn_start_follower(&tsyn), VERICAN_OK);
 }
 
 }  // namespace

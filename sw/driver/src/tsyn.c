@@ -14,11 +14,35 @@ verican_result_t verican_tsyn_config_default(verican_tsyn_config_t *config) {
   return VERICAN_OK;
 }
 
+/* Whether a frame can have this identifier. */
+static bool is_identifier(uint32_t id) {
+  const bool extended = (id & VERICAN_TSYN_EXTENDED) != 0u;
+  return (id & ~VERICAN_TSYN_EXTENDED) <= (extended ? 0x1FFFFFFFu : 0x7FFu);
+}
+
+/* Rises from identifiers that win arbitration to those that lose it (AR-06). */
+static uint32_t arbitration_rank(uint32_t id) {
+  const bool extended = (id & VERICAN_TSYN_EXTENDED) != 0u;
+  return extended ? (id & ~VERICAN_TSYN_EXTENDED) << 1 | 1u : id << 19;
+}
+
+static bool valid_identifiers(const verican_tsyn_config_t *config) {
+  bool good = is_identifier(config->delay_request) && is_identifier(config->delay_response);
+  for (unsigned n = 0; n < config->master_count; ++n) {
+    good = good && is_identifier(config->masters[n]);
+    if (n != 0u)
+      good =
+          good && arbitration_rank(config->masters[n - 1u]) < arbitration_rank(config->masters[n]);
+  }
+  return good;
+}
+
 static bool valid(const verican_tsyn_config_t *config) {
   const verican_tsyn_rules_t *rules = &config->rules;
   return config->master_count >= 1u && config->master_count <= VERICAN_MASTERS &&
          config->rank < config->master_count && rules->domain <= 15u && rules->jump_width >= 1u &&
-         rules->jump_width <= 15u && rules->crc <= (uint8_t)VERICAN_TSYN_CRC_OPTIONAL;
+         rules->jump_width <= 15u && rules->crc <= (uint8_t)VERICAN_TSYN_CRC_OPTIONAL &&
+         valid_identifiers(config);
 }
 
 verican_result_t verican_tsyn_init(verican_tsyn_t *tsyn, verican_t *dev,
@@ -28,10 +52,14 @@ verican_result_t verican_tsyn_init(verican_tsyn_t *tsyn, verican_t *dev,
   if (result != VERICAN_OK) return result;
   if (!dev->time_unit) return VERICAN_ERR_UNSUPPORTED;
   if (!valid(config)) return VERICAN_ERR_RANGE;
+  verican_servo_t servo;
+  result = verican_servo_init(&servo, &config->servo);
+  if (result != VERICAN_OK) return result;
   *tsyn = (verican_tsyn_t){0};
   tsyn->config = *config;
   tsyn->dev = dev;
-  return verican_servo_init(&tsyn->servo, &config->servo);
+  tsyn->servo = servo;
+  return VERICAN_OK;
 }
 
 static verican_result_t start(verican_tsyn_t *tsyn, bool candidate) {

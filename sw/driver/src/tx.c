@@ -6,7 +6,7 @@
 #include "internal.h"
 
 /* Launch times have 32 bits: 2^31 ns at most. */
-#define AT_MOST_AHEAD ((int64_t)2000000000)
+#define AT_MOST_AHEAD ((uint64_t)2000000000)
 
 bool verican_is_pending(const verican_t *dev, unsigned mb) {
   return (dev->tx_pending[mb / 32u] & verican_bit(mb)) != 0u;
@@ -68,10 +68,11 @@ verican_result_t verican_send(verican_t *dev, const verican_frame_t *frame, uint
 static verican_result_t put_at(verican_t *dev, const verican_frame_t *frame, uint64_t time_ns,
                                unsigned mb) {
   const uint64_t now = verican_read_pair(dev, VERICAN_TIMELO_OFFSET);
-  if ((int64_t)(time_ns - now) > AT_MOST_AHEAD) return VERICAN_ERR_RANGE;
+  const bool ahead = time_ns > now;
+  if (ahead && time_ns - now > AT_MOST_AHEAD) return VERICAN_ERR_RANGE;
   if ((verican_read(dev, VERICAN_TTXMB_OFFSET) & VERICAN_TTXMB_HOLD_MASK) != 0u)
     return VERICAN_ERR_BUSY;
-  if (mb < dev->num_mb && (int64_t)(time_ns - now) > 0) {
+  if (mb < dev->num_mb && ahead) {
     verican_write(dev, VERICAN_TTX_OFFSET, (uint32_t)time_ns);
     verican_write(dev, VERICAN_TTXMB_OFFSET, VERICAN_TTXMB_HOLD_MASK | mb);
   }
