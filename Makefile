@@ -10,7 +10,13 @@ LINUX  ?= build/linux
 PREFIX ?= /usr/local
 BUILD  := build/$(PRESET)
 OUT    := $(BUILD)/out
-QUIET  := $(if $(V),,tools/quiet.sh)
+
+# $(call on,NAME): 1 if the option NAME is on, nothing if it is 0 or not given.
+on      = $(if $(filter-out 0 1,$($1))$(word 2,$($1)),$\
+            $(error $1 is '$($1)'; allowed: 0 and 1),$(filter 1,$($1)))
+# Asked here, so that a mistake is told before anything is built or removed.
+options := $(foreach name,ALL SHORT SLURM V,$(if $(call on,$(name)),$(name)))
+QUIET   := tools/quiet.sh$(if $(filter V,$(options)), --show)
 
 .DEFAULT_GOAL := help
 .PHONY: help packages build install demo test test-linux campaign lint bench synth dist boards hx8k coverage coverage-rtl size wave rules rows registers docs format clean
@@ -43,11 +49,11 @@ test: build  ## Run every test and check that every protocol rule has one
 	@tools/test.sh $(BUILD) $(JOBS)
 
 test-linux: packages $(BUILD)/build.ninja  ## Run Linux's own driver on the core (SHORT=1: fewer cases)
-	@tools/linux-test.sh $(BUILD) $(JOBS) $(LINUX) $(if $(SHORT),--short)
+	@tools/linux-test.sh $(BUILD) $(JOBS) $(LINUX) $(if $(filter SHORT,$(options)),--short)
 
 campaign: packages  ## The whole verification campaign, hours: STAGES=matrix,formal SEED=1 SCALE=0.01 RESUME=1 (docs/verification.md); SLURM=1 (docs/cluster.md)
 	@SEED=$(SEED) SCALE=$(SCALE) RESUME=$(RESUME) JOBS=$(JOBS) SHARDS=$(SHARDS) RETRIES=$(RETRIES) \
-	    SBATCH="$(SBATCH)" tools/campaign.py --only "$(STAGES)" $(if $(filter-out 0,$(SLURM)),--slurm)
+	    SBATCH="$(SBATCH)" tools/campaign.py --only "$(STAGES)" $(if $(filter SLURM,$(options)),--slurm)
 
 lint: packages  ## Check RTL with Verilator, Yosys, Icarus; C++ with clang-format and clang-tidy
 	@$(QUIET) "Configuring ($(PRESET))" cmake --preset $(PRESET)
@@ -104,4 +110,4 @@ format: packages  ## Let clang-format rewrite our C++
 
 clean:  ## Remove what was built, but for the Linux kernel (ALL=1: that, too)
 	@if [ -d build ]; then \
-	    find build -mindepth 1 -maxdepth 1 $(if $(ALL),,! -name linux) -exec rm -rf {} +; fi
+	    find build -mindepth 1 -maxdepth 1 $(if $(filter ALL,$(options)),,! -name linux) -exec rm -rf {} +; fi

@@ -5,6 +5,8 @@
 # bench.sh BUILD: runs the benchmarks of tb/bench and writes docs/performance.md from their results.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. tools/common.sh
+needs 1 "bench.sh BUILD" "$@"
 build=$1
 results=$build/bench
 mkdir -p "$results"

@@ -126,6 +126,8 @@ def machine(context):
 
 def page(results):
     medians, context = benchmarks(results)
+    if not medians:
+        sys.exit(f"bench_page.py: {results} has no medians in a *_bench.json; run: make bench")
     text = ["# Speed of the simulator", "",
             "Written by `make bench`; medians of three or more runs on one CPU core, CPU time.",
             f"Machine: {machine(context)}.", "",

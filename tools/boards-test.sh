@@ -8,6 +8,8 @@
 # before. TARGET builds the tests whose names begin with TESTS.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. tools/common.sh
+needs 2 "boards-test.sh BUILD BOARDS [JOBS [VARIABLE TARGET TESTS]]" "$@"
 build=$1 boards=$(realpath "$2") jobs=${3:-2}
 variable=${4:-VERICAN_BOARDS} target=${5:-boards_tests} tests=${6:-.}
 trap 'cmake "-D$variable=" "$build" >/dev/null' EXIT

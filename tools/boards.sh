@@ -10,6 +10,20 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/common.sh
 out=${1:-build/boards}
+read -r -a boards <<<"${BOARDS:-icestick hx8k}"
+if [ "${#boards[@]}" -eq 0 ]; then
+  echo "boards: BOARDS='$BOARDS' names no board; allowed: icestick, hx8k" >&2
+  exit 2
+fi
+for name in "${boards[@]}"; do
+  case $name in
+    icestick | hx8k) ;;
+    *)
+      echo "boards: unknown board '$name'; allowed: icestick, hx8k" >&2
+      exit 2
+      ;;
+  esac
+done
 mkdir -p "$out"
 mapfile -t rtl < <(rtl_files)
 rtl+=(examples/remote/board/*.sv)
@@ -63,11 +77,10 @@ board() {  # NAME, and the FPGA as nextpnr names it
 }
 
 failed=0
-for name in ${BOARDS:-icestick hx8k}; do
+for name in "${boards[@]}"; do
   case $name in
     icestick) board icestick --hx1k --package tq144 || failed=1 ;;
     hx8k) board hx8k --hx8k --package ct256 || failed=1 ;;
-    *) echo "boards: unknown board '$name'; allowed: icestick, hx8k" >&2; failed=1 ;;
   esac
 done
 exit "$failed"

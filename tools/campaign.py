@@ -247,8 +247,10 @@ def replace(text, begin, end, content):
 
 
 def write_page(stages):
+    """Writes the pages of the stages that ran whole; returns their names."""
     text = PAGE.read_text()
     STAGE_PAGES.mkdir(exist_ok=True)
+    written = []
     for stage in stages:
         path = OUT / f"{stage['name']}.json"
         if not path.exists():
@@ -257,13 +259,16 @@ def write_page(stages):
         if result.get("scale") != 1:
             continue
         name = stage["name"]
+        written.append(name)
         (STAGE_PAGES / f"{name}.md").write_text(stage_page(stage, result))
         text = replace(text, f"<!-- campaign {name} -->", f"<!-- end {name} -->",
                        f"\n[Figures and tables](campaign/{name}.md): {origin(result)}\n")
         text = replace(text, f"<!-- summary {name} -->", "<!-- end -->", summary(stage, result))
         tools = ", ".join(f"{name} {version}" for name, version in result["versions"].items())
         text = replace(text, "<!-- tools -->", "<!-- end tools -->", f"\n{tools}.\n")
-    PAGE.write_text(text)
+    if written:
+        PAGE.write_text(text)
+    return written
 
 
 def report(stages, results):
@@ -366,24 +371,48 @@ def arguments_of():
     return parser.parse_args()
 
 
+def stages_of(path):
+    """The stages that a plan names."""
+    try:
+        plan = yaml.safe_load(path.read_text(encoding="utf-8"))
+        stages = plan["stages"]
+        missing = [key for stage in stages for key in ("name", "title", "command", "summary")
+                   if key not in stage]
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        fail(f"--plan {path}: {getattr(error, 'strerror', None) or ' '.join(str(error).split())}")
+    except (KeyError, TypeError):
+        fail(f"--plan {path}: no list of stages")
+    if missing or not stages:
+        fail(f"--plan {path}: " + (f"a stage without {missing[0]}" if missing else "no stages"))
+    return stages
+
+
 def main():
     global OUT  # pylint: disable=global-statement
     arguments = arguments_of()
     OUT = arguments.out.resolve()
-    stages = yaml.safe_load(arguments.plan.read_text())["stages"]
+    stages = stages_of(arguments.plan)
     names = [stage["name"] for stage in stages]
     wanted = [name for name in re.split(r"[,\s]+", arguments.only) if name]
     for name in wanted:
         if name not in names:
             fail(f"there is no stage '{name}'; stages: {', '.join(names)}")
+    if arguments.only and not wanted:
+        fail(f"--only '{arguments.only}' names no stage; stages: {', '.join(names)}")
     chosen = [stage for stage in stages if not wanted or stage["name"] in wanted]
     if arguments.step:
         sys.exit(step(arguments, chosen[0]))
     if arguments.page:
-        write_page(chosen)
+        written = write_page(chosen)
+        if not written:
+            fail(f"{OUT} has no result of a whole run (SCALE=1) of a stage that is asked for")
+        print(f"Written: {PAGE.relative_to(ROOT)}: {', '.join(written)}")
         return
     options = settings()
-    OUT.mkdir(parents=True, exist_ok=True)
+    try:
+        OUT.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        fail(f"--out {OUT}: {error.strerror}")
     start = time.monotonic()
     try:
         results = (on_cluster(arguments, chosen, options) if arguments.slurm

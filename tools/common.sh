@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# common.sh: what the scripts share; to be sourced in the project's root.
+# common.sh: what the scripts share; to be sourced in the project's root, but for needs().
 
 # The RTL files of rtl/can.f, in the order of the data path.
 rtl_files() {
@@ -18,4 +18,13 @@ our_files() {
   git ls-files --cached --others --exclude-standard -- "$@" | while read -r file; do
     [ -f "$file" ] && printf '%s\n' "$file"
   done
+}
+
+# needs COUNT SYNTAX ARGUMENT...: ends the script with its SYNTAX if there are fewer ARGUMENTs than
+# COUNT.
+needs() {
+  if [ $(($# - 2)) -lt "$1" ]; then
+    echo "usage: tools/$2" >&2
+    exit 2
+  fi
 }

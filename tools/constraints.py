@@ -15,6 +15,7 @@ pull-up. Without options they are those of constraints/: can_ahb alone at 50 MHz
 Nothing in them is a ball, but for GateMate, whose format wants some.
 """
 import argparse
+import re
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -33,6 +34,9 @@ HEAD = """\
 # The two flip-flops at the pins, below a wrapper of the core.
 SYNC = ("u_top", "u_core", "u_sync", "meta_q")
 SENT = ("u_top", "u_core", "u_bsp", "u_tx_frame", "can_tx_o")
+# Names that are the same in all formats: without what ends a word in one of them.
+PORT = re.compile(r"[A-Za-z_][\w$.]*(\[\d+\])*", re.ASCII)
+INSTANCE = re.compile(r"/*[A-Za-z_][\w$.\[\]]*(/+[A-Za-z_][\w$.\[\]]*)*/*", re.ASCII)
 LOOP_NS = 15.0  # of the node's delay that PROP_SEG covers (BT-07)
 
 
@@ -183,6 +187,22 @@ def render(place):
             for name, text in make(place).items()}
 
 
+def check(place):
+    """Ends the program if files cannot be written of such a place."""
+    if place.mhz != 0 and not 8 <= place.mhz <= 1000:
+        sys.exit(f"constraints.py: --mhz {place.mhz:g}: 8 to 1000 are allowed, a bit takes at "
+                 "least 8 clocks; 0: none")
+    for name in ("clock", "reset", "rx", "tx"):
+        port = getattr(place, name)
+        absent = not port and (name == "reset" or (name == "clock" and not place.mhz))
+        if not absent and not PORT.fullmatch(port):
+            sys.exit(f"constraints.py: --{name} '{port}' is not the name of a port, such as "
+                     "can_rx or pads[3]")
+    if place.instance and not INSTANCE.fullmatch(place.instance):
+        sys.exit(f"constraints.py: --instance '{place.instance}' is not the place of an instance, "
+                 "such as u_soc/u_can")
+
+
 def main():
     """The command line."""
     default = Place()
@@ -194,12 +214,13 @@ def main():
         parser.add_argument(f"--{name}", default=value, type=type(value))
     options = vars(parser.parse_args())
     out, place = options.pop("out"), Place(**options)
-    if place.mhz != 0 and not 8 <= place.mhz <= 1000:
-        sys.exit(f"constraints.py: --mhz {place.mhz:g}: 8 to 1000 are allowed, a bit takes at "
-                 "least 8 clocks; 0: none")
-    for name, text in render(place).items():
-        (out / name).parent.mkdir(parents=True, exist_ok=True)
-        (out / name).write_text(text, encoding="utf-8")
+    check(place)
+    try:
+        for name, text in render(place).items():
+            (out / name).parent.mkdir(parents=True, exist_ok=True)
+            (out / name).write_text(text, encoding="utf-8")
+    except OSError as error:
+        sys.exit(f"constraints.py: {error.filename}: {error.strerror}")
 
 
 if __name__ == "__main__":

@@ -46,14 +46,25 @@ class Check:
         text = (root / "can.core").read_text(encoding="utf-8")
         first, _, rest = text.partition("\n")
         self.expect(first == "CAPI=2:", "the first line is not CAPI=2:")
-        self.core = yaml.safe_load(rest)
+        try:
+            self.core = yaml.safe_load(rest)
+        except yaml.YAMLError as error:
+            self.core = None
+            self.wrong.append(" ".join(str(error).split()))
         self.keys(self.core, CORE, "core")
+        needed = ("name", "filesets", "parameters", "targets")
+        self.whole = isinstance(self.core, dict) and all(
+            isinstance(self.core.get(key), CORE[key]) for key in needed)
+        self.expect(self.whole, f"core: it needs {', '.join(needed)}")
 
     def expect(self, good, message):
         if not good:
             self.wrong.append(message)
 
     def keys(self, entry, allowed, where):
+        if not isinstance(entry, dict):
+            self.wrong.append(f"{where}: there are no keys")
+            return
         for key, value in entry.items():
             if key not in allowed:
                 self.wrong.append(f"{where}: {key} is no key of CAPI2's that is used here")
@@ -111,6 +122,8 @@ class Check:
                         f"targets.default: {entry} holds in designs that depend on it, too")
 
     def run(self):
+        if not self.whole:
+            return self.wrong
         self.expect(VLNV.fullmatch(self.core["name"]), f"name: {self.core['name']}")
         self.filesets()
         self.parameters()

@@ -6,6 +6,8 @@
 # through the tool; waveforms and logs go to OUT.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. tools/common.sh
+needs 2 "demo.sh BUILD OUT" "$@"
 build=$1
 out=$2
 verican=$build/verican

@@ -8,6 +8,8 @@
 # of examples/hx8k.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. tools/common.sh
+needs 1 "dist.sh OUT" "$@"
 tools/families.py --check
 bitstream=()
 if command -v nextpnr-ice40 icepack icetime >/dev/null; then

@@ -9,6 +9,13 @@ set -eu
 cd "$(dirname "$0")/.."
 build=${1:-build/release}
 limit=${2:-95}
+case $limit in
+  [0-9] | [1-9][0-9] | 100) ;;
+  *)
+    echo "driver-coverage: LIMIT is '$limit'; allowed: 0 to 100, whole percent" >&2
+    exit 2
+    ;;
+esac
 if [ ! -f "$build/build.ninja" ]; then
   echo "driver-coverage: $build is not configured; run: make build" >&2
   exit 1

@@ -7,6 +7,13 @@
 # usage: tools/driver-size.sh [--check]     --check: only builds, prints the total
 set -eu
 cd "$(dirname "$0")/.."
+case "$#${1:-}" in
+  0 | 1--check) ;;
+  *)
+    echo "usage: tools/driver-size.sh [--check]" >&2
+    exit 2
+    ;;
+esac
 prefix=${CROSS_COMPILE:-arm-none-eabi-}
 if ! command -v "${prefix}gcc" >/dev/null; then
   echo "driver-size: ${prefix}gcc not found; install gcc-arm-none-eabi" >&2

@@ -2,12 +2,12 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """families.py FAMILY...|all [--builds BUILD ...] [--check] [--modules DIR]: area in FPGA families
-by
-Yosys as an npm package (tools/synth/families), pinned by its lock file. Builds: core (can_core
+by Yosys as an npm package (tools/synth/families), pinned by its lock file. Builds: core (can_core
 alone), and the profiles small, standard, full of can_ahb.
 
 Keeps what it measured in tools/synth/families/results.json and writes docs/synthesis-families.md.
---check: measures nothing; says which families were measured on another state of RTL or tool.
+--check: measures nothing; says which of the families named, or of all, were measured on another
+state of RTL or tool.
 """
 import argparse
 import hashlib
@@ -146,18 +146,20 @@ def main():
     parser.add_argument("--modules", help="node_modules that has the package")
     arguments = parser.parse_args()
     known, results = families(), load()
+    wanted = list(known) if arguments.family == ["all"] else arguments.family
+    for name in wanted:
+        if name == "all":
+            sys.exit("families.py: either all families, or names of some, not both")
+        if name not in known:
+            sys.exit(f"families.py: no family {name}; there are all, {', '.join(known)}")
     if arguments.check:
         if PAGE.read_text(encoding="utf-8") != render(known, results):
             sys.exit("docs/synthesis-families.md is not what results.json says: make synth FAMILY=")
-        old = stale(known, results)
+        old = stale({name: known[name] for name in wanted or known}, results)
         if old:
             sys.exit("docs/synthesis-families.md is of another RTL or tool, or not whole: "
                      + ", ".join(old) + "; make synth FAMILY=all")
         return
-    wanted = list(known) if arguments.family == ["all"] else arguments.family
-    for name in wanted:
-        if name not in known:
-            sys.exit(f"families.py: no family {name}; there are all, {', '.join(known)}")
     if wanted:
         modules = packages(arguments.modules)
         for build in arguments.builds:

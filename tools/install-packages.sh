@@ -7,6 +7,10 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 list=${1:-packages.txt}
+if [ ! -f "$list" ]; then
+  echo "install-packages: $list: no such list" >&2
+  exit 2
+fi
 mapfile -t wanted < <(sed 's/#.*//; s/[[:space:]]//g; /^$/d' "$list")
 if ! command -v dpkg-query >/dev/null; then
   echo "install-packages: no dpkg here; please install the equivalents of $list yourself" >&2

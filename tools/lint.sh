@@ -7,6 +7,7 @@
 set -uo pipefail
 cd "$(dirname "$0")/.."
 . tools/common.sh
+needs 1 "lint.sh BUILD" "$@"
 build=$1
 failures=0
 

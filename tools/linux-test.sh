@@ -6,6 +6,8 @@
 # DIRECTORY keeps the kernel between runs; options are those of sw/linux/run.py.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. tools/common.sh
+needs 3 "linux-test.sh BUILD JOBS DIRECTORY [OPTION...]" "$@"
 build=$1 jobs=$2 directory=$3
 shift 3
 

@@ -34,15 +34,10 @@ def outputs(found, regmap):
 
 def flat_files(found, wanted):
     """path -> text of the builds asked for."""
-    builds = {f"{wrapper.bus}_{size}": (wrapper, size) for wrapper in found for size in flat.SIZES}
-    if wanted == ["all"]:
-        wanted = list(builds)
     files = {}
-    for name in wanted:
-        if name not in builds:
-            sys.exit(f"package.py: no build {name}; there are all, {', '.join(builds)}")
+    for name, (wrapper, size) in flat.chosen(found, wanted).items():
         with tempfile.TemporaryDirectory() as work:
-            files[f"verilog/can_{name}.v"] = flat.render(*builds[name], Path(work))
+            files[f"verilog/can_{name}.v"] = flat.render(wrapper, size, Path(work))
     return files
 
 
@@ -53,13 +48,17 @@ def main():
     arguments = parser.parse_args()
     found = wrappers()
     try:
+        flat.chosen(found, arguments.flat)
+        arguments.out.mkdir(parents=True, exist_ok=True)
         files = {**outputs(found, model.load(ROOT / "sw/registers.yaml")),
                  **flat_files(found, arguments.flat)}
-    except flat.FlatError as error:
-        sys.exit(f"package.py: yosys: {error}")
-    for name, text in files.items():
-        (arguments.out / name).parent.mkdir(parents=True, exist_ok=True)
-        (arguments.out / name).write_text(text, encoding="utf-8")
+        for name, text in files.items():
+            (arguments.out / name).parent.mkdir(parents=True, exist_ok=True)
+            (arguments.out / name).write_text(text, encoding="utf-8")
+    except (flat.FlatError, model.MapError) as error:
+        sys.exit(f"package.py: {error}")
+    except OSError as error:
+        sys.exit(f"package.py: {error.filename}: {error.strerror}")
     print(f"{len(files)} files in {arguments.out}")
 
 

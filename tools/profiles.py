@@ -24,8 +24,11 @@ def words(parameters):
 
 
 def main(arguments):
-    regmap = model.load(ROOT / "sw/registers.yaml")
-    profiles = model.load_profiles(ROOT / "sw/profiles.yaml", regmap)
+    try:
+        regmap = model.load(ROOT / "sw/registers.yaml")
+        profiles = model.load_profiles(ROOT / "sw/profiles.yaml", regmap)
+    except model.MapError as error:
+        sys.exit(f"profiles.py: {error}")
     if arguments == ["--features"]:
         lines = [f"{feature.name}={1 - feature.default}"
                  + (f" {feature.needs}=1" if feature.needs else "") for feature in regmap.features]

@@ -2,10 +2,22 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# quiet.sh WHAT COMMAND...: runs a command with one progress line; its output is shown if it fails.
+# quiet.sh [--show] WHAT COMMAND...: runs a command with one progress line; its output is shown if
+# it fails, or with --show.
 set -euo pipefail
+. "$(dirname "$0")/common.sh"
+show=0
+if [ "${1:-}" = --show ]; then
+  show=1
+  shift
+fi
+needs 2 "quiet.sh [--show] WHAT COMMAND..." "$@"
 what=$1
 shift
+if [ "$show" -eq 1 ]; then
+  echo "$what"
+  exec "$@"
+fi
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 start=$SECONDS

@@ -4,7 +4,7 @@
 """registers.py: writes everything that is made from the register map, sw/registers.yaml.
 
 With --check it writes nothing and exits with status 1 if one of the files is not what it would
-write. Status 2: the map itself is wrong.
+write. Status 2: the map itself, or sw/profiles.yaml, is wrong.
 """
 import argparse
 import sys
@@ -47,7 +47,7 @@ def main():
     try:
         files = outputs(model.load(SOURCE))
     except model.MapError as error:
-        print(f"{SOURCE.relative_to(ROOT)}: {error}", file=sys.stderr)
+        print(f"registers.py: {error}", file=sys.stderr)
         return 2
     changed = stale(files)
     if arguments.check:

@@ -4,7 +4,8 @@
 """site.py [OUT]: the documentation as a site that needs no network, in OUT/site (build/docs):
 the pages of docs/ with search, and the C driver's and the simulator's headers by Doxygen.
 
-Needs the packages of packages-docs.txt. What MkDocs or Doxygen warn of is an error.
+Needs the packages of packages-docs.txt. What MkDocs or Doxygen warn of is an error. A site that is
+in OUT already goes; an OUT that holds anything else is refused.
 """
 import os
 import re
@@ -15,6 +16,8 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parent.parent
+DEFAULT = (ROOT / "build/docs").resolve()
+OWN = ("mkdocs.yml", "pages", "site")   # all that is in OUT
 sys.path.insert(0, str(ROOT / "tools/site"))
 
 # ruff: noqa: E402  (the path must be set first)
@@ -39,6 +42,28 @@ def not_installed():
     text = (ROOT / "cmake/package.cmake").read_text(encoding="utf-8")
     block = text.partition('"${PROJECT_SOURCE_DIR}/sim/" DESTINATION')[2].partition("install(")[0]
     return re.findall(r'PATTERN "([\w.]+)" EXCLUDE', block)
+
+
+def is_own(out):
+    """Whether all that is in OUT is a site of this script's, or the part that an interrupted run
+    has left in the default place."""
+    if any(path.name not in OWN or path.is_symlink() for path in out.iterdir()):
+        return False
+    settings = out / OWN[0]
+    if settings.is_file():
+        return "site_name: VeriCAN\n" in settings.read_text(encoding="utf-8", errors="replace")
+    return out == DEFAULT
+
+
+def check(out):
+    """Makes the folder; ends if it holds anything else than a site."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        if any(out.iterdir()) and not is_own(out):
+            fail(f"{out} is not empty, and not a site that this script has made; it is left as it "
+                 "is: name another folder, or remove it")
+    except OSError as error:
+        fail(f"{out}: {error.strerror}")
 
 
 def doxygen(name, out):
@@ -66,17 +91,20 @@ def doxygen(name, out):
                             encoding="utf-8")
 
 
-def mkdocs(out):
-    """The pages."""
+def configure(out):
+    """The settings of MkDocs. They come first: by them OUT is known as a site."""
     text = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
     for key, folder in (("docs_dir", "pages"), ("site_dir", "site")):
         text, count = re.subn(rf"^{key}:.*$", f"{key}: {out / folder}", text, flags=re.MULTILINE)
         if count != 1:
             fail(f"mkdocs.yml: {key} is there {count} times")
-    configuration = out / "mkdocs.yml"
-    configuration.write_text(text, encoding="utf-8")
+    (out / OWN[0]).write_text(text, encoding="utf-8")
+
+
+def mkdocs(out):
+    """The pages."""
     command = ["/usr/bin/python3", "-B", "-m", "mkdocs", "build", "--strict",
-               "--config-file", str(configuration)]
+               "--config-file", str(out / OWN[0])]
     done = subprocess.run(command, env={**os.environ, "PYTHONPATH": str(ROOT / "tools/site")},
                           text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     if done.returncode != 0:
@@ -86,11 +114,14 @@ def mkdocs(out):
 def main():
     if any(word.startswith("-") for word in sys.argv[1:]) or len(sys.argv) > 2:
         sys.exit(__doc__)
-    out = Path(sys.argv[1] if len(sys.argv) == 2 else ROOT / "build/docs").resolve()
+    out = Path(sys.argv[1] if len(sys.argv) == 2 else DEFAULT).resolve()
+    check(out)
     for program in ("mkdocs", "doxygen"):
         if not shutil.which(program):
             fail(f"{program} is not installed (packages-docs.txt)")
-    shutil.rmtree(out, ignore_errors=True)
+    configure(out)
+    for name in OWN[1:]:
+        shutil.rmtree(out / name, ignore_errors=True)
     site = Site(ROOT, out / "pages")
     site.build()
     for name, (title, _, _) in REFERENCES.items():

@@ -145,8 +145,13 @@ def make_plan(stages, options, root, program, file):
     wanted = {stage["name"]: {"shards": shards_of(stage, options), "cut": "shards" in stage,
                               "prepare": bool(stage.get("prepare"))} for stage in stages}
     settings = {name: options[name] for name in ("seed", "scale")}
+    sbatch = os.environ.get("SBATCH", "")
+    try:
+        shlex.split(sbatch)
+    except ValueError as error:
+        raise SlurmError(f"SBATCH is '{sbatch}', which are no words: {error}") from None
     return {"key": key_of(root, settings, wanted), "root": str(root), "program": str(program),
-            "file": str(file), "jobs": options["jobs"], "sbatch": os.environ.get("SBATCH", ""),
+            "file": str(file), "jobs": options["jobs"], "sbatch": sbatch,
             "retries": options["retries"], "began": time.time(), "stages": wanted, **settings}
 
 

@@ -104,7 +104,12 @@ def problems(path):
     arm = os.environ.get("CMSIS_SVD_XSD")
     if arm:
         yield from lint("--schema", arm, path)
-    for peripheral in ET.parse(path).getroot().findall("peripherals/peripheral"):
+    try:
+        root = ET.parse(path).getroot()
+    except ET.ParseError as error:
+        yield f"{path}: no XML: {error}"
+        return
+    for peripheral in root.findall("peripherals/peripheral"):
         size = max(number(block, "offset") + number(block, "size")
                    for block in peripheral.findall("addressBlock"))
         yield from check_parts(peripheral.find("registers"), peripheral.findtext("name"), size)

@@ -15,7 +15,13 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/common.sh
-seeds=${SEEDS:-1 2 3}
+read -r -a seeds <<<"${SEEDS:-1 2 3}"
+for seed in "${seeds[@]:-none}"; do
+  if [[ ! $seed =~ ^[0-9]{1,9}$ ]]; then
+    echo "synth: SEEDS is '$SEEDS'; allowed: whole numbers of at most nine digits, at least one" >&2
+    exit 2
+  fi
+done
 out=${OUT:-build/synth}
 page=${PAGE:-docs/synthesis.md}
 mapfile -t rtl < <(rtl_files)
@@ -76,11 +82,11 @@ place_and_route() {  # DIR
   /usr/bin/python3 tools/synth/report.py wrap "$dir"
   ice40_netlist "$dir" ice40_wrapped "read_rtlil $dir/core.il; read_verilog $dir/wrap.v" area_wrap
   echo "set_io clk_pin J3" >"$dir/wrap.pcf"
-  for seed in $seeds; do
+  for seed in "${seeds[@]}"; do
     nextpnr-ice40 --hx8k --package ct256 --json "$dir/ice40_wrapped.json" --pcf "$dir/wrap.pcf" \
       --pcf-allow-unconstrained --freq 100 --seed "$seed" --timing-allow-fail \
       --report "$dir/pnr_$seed.json" --log "$dir/pnr_$seed.log" -q >/dev/null 2>&1 || {
-      tail -n 2 "$dir/pnr_$seed.log" >&2
+      tail -n 2 "$dir/pnr_$seed.log" >&2 || true
       echo "synth: nextpnr failed, see $dir/pnr_$seed.log" >&2
       exit 1
     }

@@ -6,6 +6,8 @@
 # A test that leaves a temporary file behind is a failure.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. tools/common.sh
+needs 2 "test.sh BUILD JOBS" "$@"
 build=$1
 jobs=$2
 

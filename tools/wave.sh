@@ -6,21 +6,28 @@
 # keeps a waveform of each; VERICAN_WAVE_DIR tells the benches where.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-build=$1
+build=${1:-}
 test=${2:-}
 if [ -z "$test" ]; then
   echo "usage: make wave TEST=Suite.Name   (a part of the name is enough; '*' works)" >&2
   exit 2
 fi
-waves=$PWD/$build/waves
+shopt -s nullglob
+programs=("$build"/tb/*_test)
+if [ "${#programs[@]}" -eq 0 ]; then
+  echo "wave: no test program in $build/tb; run: make build" >&2
+  exit 1
+fi
+waves=$(realpath "$build")/waves
 mkdir -p "$waves"
 stamp=$(mktemp)
 trap 'rm -f "$stamp"' EXIT
 case $test in *[*:]*) filter=$test ;; *) filter="*$test*" ;; esac
 
 found=0
-for program in "$build"/tb/*_test; do
-  if "$program" --gtest_list_tests "--gtest_filter=$filter" | grep -q '^  '; then
+for program in "${programs[@]}"; do
+  listed=$("$program" --gtest_list_tests "--gtest_filter=$filter") || continue
+  if grep -q '^  ' <<<"$listed"; then
     found=1
     VERICAN_WAVE_DIR=$waves "$program" "--gtest_filter=$filter" --gtest_brief=1 || true
   fi

@@ -82,6 +82,9 @@ class Archive(unittest.TestCase):
         second = self.work / "a longer name of a folder"
         second.mkdir()
         run("git", "clone", "-q", self.copy, second)
+        (self.work / "again").mkdir()
+        for name in ("verican-0.0.1.tar.gz", "verican-ip-0.0.1.tar.gz", "SHA256SUMS"):
+            (self.work / "again" / name).write_text("a release before\n", encoding="utf-8")
         code, text = run("tools/dist.py", self.work / "again", "--flat", *BUILDS, "--bitstream",
                          self.image, cwd=second, umask=0o077,
                          env={"TZ": "America/New_York", "LC_ALL": "C.UTF-8"})

@@ -78,6 +78,11 @@ class SiteTest(unittest.TestCase):
     def setUpClass(cls):
         folder = tempfile.mkdtemp()
         cls.addClassCleanup(shutil.rmtree, folder)
+        # A site made before, of which nothing stays.
+        cls.gone = Path(folder) / "site/a-page-of-before.html"
+        cls.gone.parent.mkdir()
+        cls.gone.write_text("before\n", encoding="utf-8")
+        (Path(folder) / "mkdocs.yml").write_text("site_name: VeriCAN\n", encoding="utf-8")
         done = subprocess.run([SOURCE / "tools/site.py", folder], check=False, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         if done.returncode != 0:
@@ -102,6 +107,9 @@ class SiteTest(unittest.TestCase):
                    for page in (SOURCE / "docs").rglob("*.md")}
         self.assertEqual(len(listed), len(set(listed)))
         self.assertEqual(written - set(listed), set(), "pages that are not in mkdocs.yml")
+
+    def test_nothing_is_left_of_a_site_before(self):
+        self.assertFalse(self.gone.exists())
 
     def test_links_lead_somewhere(self):
         dead, count = [], 0

@@ -71,6 +71,10 @@ def chosen(proofs, args):
             mine = [p for p in proofs if p.part == part]
             kept += mine[: max(1, math.ceil(args.scale * len(mine)))]
         proofs = kept
+    if args.mutant and not any(m.name == args.mutant for p in proofs for m in p.mutants):
+        raise catalogue.CatalogueError(
+            f"--mutant {args.mutant}: none of the {len(proofs)} proofs has a mutant of that name; "
+            "proofs.yaml of each part names them")
     return proofs
 
 

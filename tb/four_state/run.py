@@ -52,6 +52,8 @@ def arguments():
         parser.error(f"--most {options.most}: at least 0 is needed")
     if options.clocks < 1:
         parser.error(f"--clocks {options.clocks}: at least 1 is needed")
+    if options.jobs < 1:
+        parser.error(f"--jobs {options.jobs}: at least 1 is needed")
     if options.num_mb and options.device != "ahb":
         parser.error("--num-mb is for --device ahb: there is no other choice of buffers")
     options.device = DEVICES[options.device]

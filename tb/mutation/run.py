@@ -74,7 +74,10 @@ def arguments():
     options.build = (options.build or models.ROOT / "build" / (
         "mutants" if options.part == "core" else f"mutants-{options.part}")).resolve()
     options.dir = pathlib.Path(options.dir or options.build / "results").resolve()
-    options.dir.mkdir(parents=True, exist_ok=True)
+    try:
+        options.dir.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        parser.error(f"--dir {options.dir}: {error.strerror}")
     return options
 
 
@@ -104,6 +107,21 @@ def wanted(options, design):
     return chosen, run
 
 
+def programs_of(options):
+    """(folder, name) of the test programs that are asked for; with --no-build they are there."""
+    found = [(folder, name) for folder, name in programs(models.ROOT, options.part)
+             if fnmatch.fnmatch(name, options.programs)]
+    if not found:
+        sys.exit(f"run.py: --programs {options.programs}: no test program has such a name")
+    regression = Regression(models.ROOT, options.build)
+    try:
+        for _, name in found if options.no_build else ():
+            regression.path(name)
+    except FileNotFoundError as error:
+        sys.exit(f"run.py: --no-build: {error}")
+    return found
+
+
 def part_of(tests, most):
     """All of a program's (test, seconds), or evenly spaced ones that take `most` seconds."""
     total = sum(seconds for _, seconds in tests)
@@ -119,10 +137,7 @@ class Campaign:
 
     def __init__(self, options, design, known, chosen):
         self.options, self.design, self.known, self.chosen = options, design, known, chosen
-        self.programs = [(folder, name) for folder, name in programs(models.ROOT, options.part)
-                         if fnmatch.fnmatch(name, options.programs)]
-        if not self.programs:
-            sys.exit(f"run.py: --programs {options.programs}: no test program has such a name")
+        self.programs = programs_of(options)
         numbers = {mutant.name: mutant.number for mutant in chosen}
         targets = sorted({target(name) for _, name in self.programs})
         if not options.no_build and Shard().kind in ("whole", "prepare"):
@@ -276,6 +291,8 @@ class Campaign:
 def main():
     """Entry point."""
     options = arguments()
+    if not options.list:
+        programs_of(options)  # of mistakes in them before the RTL is read
     design = Design(models.rtl_files(), models.modules_of(options.part))
     known = Known(models.HERE / "survivors.yaml")
     chosen, run = wanted(options, design)

@@ -9,9 +9,13 @@
 #   ice40  iCE40 cells, block RAMs too, with Yosys' simulation models of them
 # Modules stay apart, so that instances keep their names.
 set -euo pipefail
+. "$(dirname "$0")/../common.sh"
 
+syntax="netlist/netlist.sh KIND OUT.v TOP [Name=value ...] [--keep FILE ...] -- FILE..."
+needs 5 "$syntax" "$@"
 kind=$1 out=$2 top=$3
 shift 3
+[[ " $* " == *" -- "?* ]] || needs 1 "$syntax"
 parameters="" keep=()
 while [ "$1" != -- ] && [ "$1" != --keep ]; do
   parameters="$parameters -chparam ${1%%=*} ${1#*=}"

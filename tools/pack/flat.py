@@ -52,7 +52,20 @@ DEPTH = re.compile(r"can_mb_ram\\Depth=s32'([01]{32})")
 
 
 class FlatError(Exception):
-    """Yosys failed; the text says where."""
+    """A build cannot be written; the text says why."""
+
+
+def chosen(found, wanted):
+    """name -> (wrapper, size) of the builds asked for, such as apb_16; ["all"]: of all wrappers."""
+    builds = {f"{wrapper.bus}_{size}": (wrapper, size) for wrapper in found for size in SIZES}
+    if wanted == ["all"]:
+        return builds
+    for name in wanted:
+        if name == "all":
+            raise FlatError("either all builds, or names of some, not both")
+        if name not in builds:
+            raise FlatError(f"no build {name}; there are all, {', '.join(builds)}")
+    return {name: builds[name] for name in wanted}
 
 
 def yosys(script):
@@ -60,7 +73,7 @@ def yosys(script):
     done = subprocess.run(["yosys", "-q", "-p", script], cwd=ROOT, text=True, check=False,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode != 0:
-        raise FlatError(done.stdout[-2000:])
+        raise FlatError(f"yosys: {done.stdout[-2000:]}")
     return done.stdout
 
 

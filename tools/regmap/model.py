@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """sw/registers.yaml, read and checked. Its head explains the keys."""
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -15,6 +16,17 @@ WRITES = ("any", "freeze", "disable", "wrn_en")
 
 class MapError(Exception):
     """What is wrong with the map, where, and what is allowed."""
+
+
+@contextmanager
+def mistakes_in(path: Path):
+    """Mistakes that are found meanwhile are of this file, and say so."""
+    try:
+        yield
+    except MapError as error:
+        raise MapError(f"{'/'.join(path.parts[-2:])}: {error}") from None
+    except yaml.YAMLError as error:
+        raise MapError(f"{'/'.join(path.parts[-2:])}: {' '.join(str(error).split())}") from None
 
 
 def take(entry, where, required, optional=()):
@@ -248,10 +260,12 @@ def check_features(registers, features):
 
 def load(path: Path):
     """The map in `path`; raises MapError."""
-    try:
-        data = yaml.safe_load(path.read_text())
-    except yaml.YAMLError as error:
-        raise MapError(str(error)) from None
+    with mistakes_in(path):
+        return read_map(yaml.safe_load(path.read_text()))
+
+
+def read_map(data):
+    """The map of what its file holds."""
     take(data, "map", ("name", "title", "window", "num_mb", "features", "registers", "recipes",
                        "buffers", "fifo"))
     features = [Feature(**take(entry, "features", ("name", "config", "doc"),
@@ -276,7 +290,15 @@ def load(path: Path):
 
 def load_profiles(path: Path, regmap):
     """name -> {parameter: value} of the profiles in `path`; raises MapError."""
-    data = take(yaml.safe_load(path.read_text()), str(path.name), ("profiles",))
+    with mistakes_in(path):
+        return read_profiles(yaml.safe_load(path.read_text()), regmap)
+
+
+def read_profiles(data, regmap):
+    """The profiles of what their file holds."""
+    take(data, "file", ("profiles",))
+    if not isinstance(data["profiles"], dict):
+        raise MapError(f"profiles: keys are expected here, not {data['profiles']!r}")
     features = [one.name for one in regmap.features]
     profiles = {}
     for name, entry in data["profiles"].items():
@@ -285,5 +307,5 @@ def load_profiles(path: Path, regmap):
         choose(parameters[NUM_MB], f"{name}: {NUM_MB}", regmap.num_mb)
         for feature in features:
             choose(parameters.get(feature, 1), f"{name}: {feature}", (0, 1))
-        profiles[name] = parameters
+        profiles[name] = {key: int(value) for key, value in parameters.items()}
     return profiles

@@ -32,6 +32,9 @@ def node(soc, name, parent="intc0"):
 
 def nodes(soc, parent="intc0"):
     """An overlay with the nodes of all cores of a SoC."""
+    if not isinstance(soc, dict) or not all(isinstance(soc.get(key), dict)
+                                            for key in ("memories", "constants")):
+        raise ValueError("no csr.json of LiteX's: it has no memories or no constants")
     found = [f"&{{/soc}} {{\n{node(soc, name, parent)}}};\n" for name in sorted(soc["memories"])
              if f"{name}_verican" in soc["constants"]]
     if not found:
