@@ -30,6 +30,9 @@ import yaml
 import slurm_campaign
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.append(str(ROOT / "tb"))
+from campaign_settings import JOBS  # noqa: E402  pylint: disable=wrong-import-position
+
 PLAN = ROOT / "tb/campaign.yaml"
 OUT = ROOT / "build/campaign"
 PAGE = ROOT / "docs/verification.md"
@@ -64,7 +67,7 @@ def number(name, convert, default, allowed, text):
 def settings():
     return {"seed": number("SEED", int, "1", lambda v: 0 <= v < 2**31, "0 to 2147483647"),
             "scale": number("SCALE", float, "1", lambda v: 0 < v <= 1, "above 0 up to 1"),
-            "jobs": number("JOBS", int, "2", lambda v: 1 <= v <= 256, "1 to 256"),
+            "jobs": number("JOBS", int, "2", lambda v: v in JOBS, str(JOBS)),
             "resume": number("RESUME", int, "0", lambda v: v in (0, 1), "0 and 1"),
             "shards": number("SHARDS", int, "100", lambda v: 1 <= v <= 1000, "1 to 1000"),
             "retries": number("RETRIES", int, "2", lambda v: 0 <= v <= 9, "0 to 9")}

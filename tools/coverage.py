@@ -22,6 +22,9 @@ from rtlcov import exclusions as exclusion_file
 from rtlcov import points, report
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.append(os.path.join(ROOT, "tb"))
+import campaign_settings  # noqa: E402  pylint: disable=wrong-import-position
+
 BUILD = "build/coverage"
 MATRIX = "build/campaign/matrix.json"
 
@@ -36,17 +39,6 @@ def arguments():
     parser.add_argument("--out", help="directory for the counts (default build/coverage/counts)")
     parser.add_argument("--exclusions", default="tb/coverage/exclusions.yaml", metavar="FILE")
     return parser.parse_args()
-
-
-def scale():
-    value = os.environ.get("CAMPAIGN_SCALE", "1")
-    try:
-        number = float(value)
-    except ValueError:
-        number = 0.0
-    if not 0 < number <= 1:
-        raise points.CoverageError(f"CAMPAIGN_SCALE is {value!r}, must be above 0 and at most 1")
-    return number
 
 
 def build(jobs):
@@ -74,7 +66,7 @@ def run_program(name, directory, shards):
     log = f"{directory}/{os.path.basename(name).replace(' /dev/null', '').replace(' ', '_')}.log"
     environment = os.environ | {"VERICAN_COVERAGE_DIR": directory, "GTEST_BRIEF": "1"}
     if shards > 1:
-        seed = int(os.environ.get("CAMPAIGN_SEED", "1"))
+        seed = campaign_settings.seed()
         environment |= {"GTEST_TOTAL_SHARDS": str(shards), "GTEST_SHARD_INDEX": str(seed % shards)}
     with open(log, "w", encoding="utf-8") as out:
         done = subprocess.run(f"{BUILD}/tb/{name}".split(), stdout=out, stderr=out,
@@ -125,7 +117,7 @@ def write_result(files, exclusions, complete, problems):
 def main():
     args = arguments()
     os.chdir(ROOT)
-    part = scale()
+    part = campaign_settings.scale()
     directory = args.out or os.path.join(os.environ.get("CAMPAIGN_DIR", BUILD), "counts")
     directory = os.path.abspath(directory)
     failed, start = [], time.monotonic()

@@ -15,7 +15,8 @@ from concurrent.futures import ThreadPoolExecutor
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = ROOT / "build/release"
 SECONDS = 600
-sys.path.insert(0, str(ROOT / "tb/canopen"))
+sys.path[:0] = [str(ROOT / "tb/canopen"), str(ROOT / "tb")]
+import campaign_settings  # noqa: E402  pylint: disable=wrong-import-position
 
 
 def robot(seconds):
@@ -47,8 +48,9 @@ def figure(name, value, text, ok, bar):
 
 
 def main():
-    """Runs both, side by side, and writes the result."""
-    seconds = max(1.0, SECONDS * float(os.environ.get("CAMPAIGN_SCALE", "1")))
+    """Runs both, side by side, and writes the result; returns 1 if a figure misses its bar."""
+    seconds = max(1.0, SECONDS * campaign_settings.scale())
+    out = campaign_settings.result_file()
     with ThreadPoolExecutor() as both:
         of_robot, of_drive = both.submit(robot, seconds), both.submit(drive, seconds)
         found, stack = of_robot.result(), of_drive.result()
@@ -70,11 +72,8 @@ def main():
              "rows": [[name, f"{value:.1f}"] for name, value in found["largest_us"].items()]}
     for item in figures:
         print(f"{item['name']}: {item['text']}")
-    if "CAMPAIGN_OUT" in os.environ:
-        pathlib.Path(os.environ["CAMPAIGN_OUT"]).write_text(
-            json.dumps({"figures": figures, "tables": [table], "notes": notes}, indent=2) + "\n",
-            encoding="utf-8")
-    return 0
+    return campaign_settings.write_result(
+        out, {"figures": figures, "tables": [table], "notes": notes})
 
 
 if __name__ == "__main__":

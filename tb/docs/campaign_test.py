@@ -63,6 +63,19 @@ class Page(unittest.TestCase):
                 self.assertEqual(text.count(mark), 1, mark)
 
 
+class Settings(unittest.TestCase):
+    """The environment of `make campaign`."""
+
+    def test_as_many_jobs_as_the_programs_take(self):
+        with unittest.mock.patch.dict(os.environ, {"JOBS": "64"}):
+            self.assertEqual(campaign.settings()["jobs"], 64)
+        for jobs in ("0", "65", "x"):
+            with unittest.mock.patch.dict(os.environ, {"JOBS": jobs}):
+                with self.assertRaises(SystemExit) as stop:
+                    campaign.settings()
+            self.assertIn(f"JOBS is '{jobs}'; allowed: 1 to 64", str(stop.exception))
+
+
 class Report(unittest.TestCase):
     """What is printed at the end."""
 

@@ -16,6 +16,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.path.insert(1, str(Path(__file__).resolve().parents[1]))
+import campaign_settings  # pylint: disable=wrong-import-position
 from shards import Shard  # pylint: disable=wrong-import-position
 from runner import catalogue, job, report  # pylint: disable=wrong-import-position
 
@@ -34,23 +35,21 @@ def arguments():
                         metavar="N", help="also demand that mutants are caught, all or N at most "
                         "of each proof")
     parser.add_argument("--mutant", metavar="NAME", help="only this mutant, no proof")
-    parser.add_argument("--jobs", type=int, default=2, help="at the same time (2)")
+    parser.add_argument("--jobs", type=campaign_settings.JOBS.option, default=2,
+                        help="at the same time (2)")
     parser.add_argument("--json", metavar="FILE", default=env.get("CAMPAIGN_OUT"),
                         help="write figures and tables there")
     parser.add_argument("--scratch", metavar="DIR", type=Path,
                         default=Path(env.get("CAMPAIGN_DIR", ROOT / "build" / "formal")),
                         help="models, logs, waveforms (build/formal)")
-    parser.add_argument("--scale", type=float, default=float(env.get("CAMPAIGN_SCALE", "1")),
+    parser.add_argument("--scale", type=campaign_settings.SCALES.option,
+                        default=campaign_settings.scale(),
                         help="fraction of the proofs of each part, 0 < scale <= 1")
     parser.add_argument("--catalogue", type=Path, default=HERE, help=argparse.SUPPRESS)
     parser.add_argument("--list", action="store_true", help="show properties and assumptions")
     args = parser.parse_args()
     if args.mutants < 0:
         parser.error(f"--mutants is {args.mutants}, allowed: 1 or more")
-    if not 0 < args.scale <= 1:
-        parser.error(f"--scale is {args.scale}, allowed: above 0, at most 1")
-    if args.jobs < 1:
-        parser.error(f"--jobs is {args.jobs}, allowed: 1 or more")
     return args
 
 

@@ -78,7 +78,7 @@ class Runner(unittest.TestCase):
                               ({"more": "colour: red"}, "unknown key 'colour'"),
                               ({"options": ("--only", "part.no")}, "no such proof"),
                               ({"options": ("--scale", "0")}, "allowed: above 0"),
-                              ({"options": ("--jobs", "0")}, "allowed: 1 or more")):
+                              ({"options": ("--jobs", "0")}, "allowed: 1 to 64")):
             code, text = self.run_it(**changes)
             self.assertEqual(code, 2, text)
             self.assertIn(want, text)

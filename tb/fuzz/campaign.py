@@ -5,7 +5,7 @@
 
 Builds the libFuzzer programs (cmake --preset fuzz, build/fuzz) and runs them two at a time, a
 million cases each at scale 1, then fuzz_registers of build/release. The result goes to
-CAMPAIGN_OUT.
+CAMPAIGN_OUT. Ends with status 1 if there is a finding or a figure misses its bar.
 """
 import argparse
 import json
@@ -19,6 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tb"))
+import campaign_settings  # noqa: E402  pylint: disable=wrong-import-position
 from shards import Shard  # noqa: E402  pylint: disable=wrong-import-position
 
 FULL = 1_000_000
@@ -67,6 +68,7 @@ def run_parser(name, runs, seed, directory):
 
 def run_registers(number, cases, seed, directory):
     out = directory / f"registers-{number}.json"
+    out.unlink(missing_ok=True)  # of a run before
     log = directory / f"registers-{number}.log"
     command = [ROOT / "build/release/tb/fuzz/fuzz_registers", "--cases", cases, "--seed",
                seed * 1000 + number, "--out", out, "--keep", directory]
@@ -133,22 +135,32 @@ def summary(parsers, registers, wanted):
     return {"figures": figures, "tables": tables, "notes": notes}
 
 
-def run_all(units, seed, wanted, directory):
+def run_all(units, seed, wanted, directory, jobs):
     """What became of each unit, [name or number of the registers' job, result]."""
     def one(unit):
         if isinstance(unit, int):
             return unit, run_registers(unit, -(-wanted // REGISTER_JOBS), seed, directory)
         return unit, run_parser(unit, wanted, seed, directory)
-    with ThreadPoolExecutor(int(os.environ.get("CAMPAIGN_JOBS", "2"))) as pool:
+    with ThreadPoolExecutor(jobs) as pool:
         return [job.result() for job in [pool.submit(one, unit) for unit in units]]
 
 
-def main():
+def parsers_asked_for():
+    """What --only names; empty: all, and the registers."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--only", nargs="*", help="these parsers alone, without the registers")
-    arguments = parser.parse_args()
-    scale = float(os.environ.get("CAMPAIGN_SCALE", "1"))
-    seed = int(os.environ.get("CAMPAIGN_SEED", "1"))
+    parser.add_argument("--only", nargs="+", default=[], metavar="PARSER",
+                        help="these parsers alone, without the registers")
+    only = parser.parse_args().only
+    for name in only:
+        if name not in TARGETS:
+            parser.error(f"no parser '{name}'; there are {', '.join(sorted(TARGETS))}")
+    return only
+
+
+def main():
+    only = parsers_asked_for()
+    scale, seed = campaign_settings.scale(), campaign_settings.seed()
+    jobs, out = campaign_settings.jobs(), campaign_settings.result_file()
     directory = Path(os.environ.get("CAMPAIGN_DIR", ROOT / "build/fuzz/campaign")).resolve()
     directory.mkdir(parents=True, exist_ok=True)
     wanted = max(1, round(FULL * scale))
@@ -157,25 +169,23 @@ def main():
         build(directory / "build.log")
     if shard.kind == "prepare":
         return 0
-    names = [name for name in TARGETS if not arguments.only or name in arguments.only]
-    units = names + ([] if arguments.only else list(range(REGISTER_JOBS)))
+    names = [name for name in TARGETS if not only or name in only]
+    units = names + ([] if only else list(range(REGISTER_JOBS)))
     if shard.kind == "merge":
         results = [result for part in shard.read(directory) for result in part]
     else:
-        results = run_all(shard.mine(units), seed, wanted, directory)
+        results = run_all(shard.mine(units), seed, wanted, directory, jobs)
     if shard.kind == "part":
         shard.write(directory, results)
         return 0
     parsers = [result for unit, result in results if not isinstance(unit, int)]
     register_parts = [result for unit, result in results if isinstance(unit, int)]
-    if arguments.only:
+    if only:
         return int(any(p["findings"] for p in parsers))
     result = summary(parsers, add_up(register_parts), wanted)
     for entry in result["figures"]:
         print(f"{entry['name']}: {entry['value']}")
-    if "CAMPAIGN_OUT" in os.environ:
-        Path(os.environ["CAMPAIGN_OUT"]).write_text(json.dumps(result, indent=2) + "\n")
-    return 0
+    return campaign_settings.write_result(out, result)
 
 
 if __name__ == "__main__":

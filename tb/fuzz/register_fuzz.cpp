@@ -4,14 +4,13 @@
 // fuzz_registers: random AHB sequences on a core under traffic; docs/fuzzing.md.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <chrono>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "fuzz/register_bench.hpp"
+#include "harness/campaign_settings.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
 #include "trace/text.hpp"
@@ -85,14 +84,19 @@ void report(const Options &options, const Totals &totals, std::uint64_t failed, 
                                     {"longest_acknowledge", totals.longest_acknowledge},
                                     {"seconds", seconds},
                                     {"modes", modes}};
-  if (!options.out.empty()) std::ofstream{options.out} << json.dump(2) << "\n";
+  write_result(options.out, json.dump(2) + "\n");
   fmt::print("{} cases in {} episodes, {} clocks, {} frames on the bus, {:.1f} s: {} failed\n",
              totals.cases, totals.episodes, totals.clocks, totals.bus_frames, seconds, failed);
 }
 
+/// Where the episode of this seed is kept.
+std::string path_of(const Options &options, std::uint64_t seed) {
+  return fmt::format("{}/registers-{}.txt", options.keep, seed);
+}
+
 int fail(const Options &options, const Episode &episode, const std::string &fault) {
-  const std::string path = fmt::format("{}/registers-{}.txt", options.keep, episode.seed);
-  std::ofstream{path} << "# " << fault << "\n" << to_text(episode);
+  const std::string path = path_of(options, episode.seed);
+  write_result(path, fmt::format("# {}\n{}", fault, to_text(episode)));
   fmt::print("FAIL {}\n  again: fuzz_registers --replay {}\n", fault, path);
   return 1;
 }
@@ -109,6 +113,8 @@ int run(const Options &options) {
     fmt::print("{}\n", fault.empty() ? "nothing is broken" : fault);
     return fault.empty() ? 0 : 1;
   }
+  check_writable(options.out);
+  check_writable(path_of(options, options.seed));
   Random seeds{options.seed};
   std::uint64_t failed = 0;
   while (totals.cases < options.cases && failed < 10) {
@@ -125,38 +131,29 @@ int run(const Options &options) {
   return failed == 0 ? 0 : 1;
 }
 
-Options parse(int argc, char **argv) {
-  Options options;
-  for (int i = 1; i < argc; i += 2) {
-    const std::string name = argv[i];
-    const std::string value = i + 1 < argc ? argv[i + 1] : "";
-    const auto number = text::parse_unsigned(value, 10);
-    if (name == "--cases" && number)
-      options.cases = *number;
-    else if (name == "--seed" && number)
-      options.seed = *number;
-    else if (name == "--out" && !value.empty())
-      options.out = value;
-    else if (name == "--keep" && !value.empty())
-      options.keep = value;
-    else if (name == "--replay" && !value.empty())
-      options.replay = value;
-    else
-      throw InputError("fuzz_registers", 0,
-                       in_quotes(name + " " + value) +
-                           " is not allowed; allowed: --cases N, --seed N, --out FILE (JSON), "
-                           "--keep DIRECTORY (of failing episodes), --replay FILE");
-  }
-  return options;
+void add_options(CLI::App &app, Options &options) {
+  app.add_option("--cases", options.cases, "Cases in all")
+      ->check(kAmounts.check())
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "Seed")->check(kSeeds.check())->capture_default_str();
+  app.add_option("--out", options.out, "File for the figures, JSON");
+  app.add_option("--keep", options.keep, "Directory of failing episodes")->capture_default_str();
+  app.add_option("--replay", options.replay, "Run this episode again");
 }
 
 }  // namespace
 
 int main(int argc, char **argv) {
+  CLI::App app{"Random AHB sequences on a core under traffic (docs/fuzzing.md)"};
   try {
-    return run(parse(argc, argv));
+    Options options;
+    add_options(app, options);
+    CLI11_PARSE(app, argc, argv);
+    return run(options);
   } catch (const InputError &error) {
     fmt::print(stderr, "{}\n", error.what());
-    return 2;
+  } catch (const std::exception &error) {
+    fmt::print(stderr, "fuzz_registers: {}\n", error.what());
   }
+  return 2;
 }

@@ -17,6 +17,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.append(str(ROOT / "tb"))
+import campaign_settings  # noqa: E402  pylint: disable=wrong-import-position
+
 SOURCES = ("servo*.c", "tsyn*.c", "delay.c", "masters.c", "p4.c")
 # The quickest first.
 PROGRAMS = ("driver_servo_fit_test", "driver_servo_states_test", "driver_tsyn_test",
@@ -132,14 +135,14 @@ def main():
     """Entry point."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build", default=ROOT / "build/release", help="with the tests built")
-    parser.add_argument("--seed", type=int, default=os.environ.get("CAMPAIGN_SEED", 1))
-    parser.add_argument("--scale", type=float, default=os.environ.get("CAMPAIGN_SCALE", 1.0),
+    parser.add_argument("--seed", type=campaign_settings.SEEDS.option,
+                        default=campaign_settings.seed())
+    parser.add_argument("--scale", type=campaign_settings.SCALES.option,
+                        default=campaign_settings.scale(),
                         help=f"part of {FULL} mutants, above 0 up to 1")
     parser.add_argument("--file", action="append", default=[], help="only this one: servo.c")
     parser.add_argument("--out", default=os.environ.get("CAMPAIGN_OUT"), help="JSON of the results")
     options = parser.parse_args()
-    if not 0 < options.scale <= 1:
-        parser.error(f"--scale {options.scale}: above 0 up to 1 is allowed")
     folder = ROOT / "sw/driver/src"
     files = sorted(path for pattern in SOURCES for path in folder.glob(pattern))
     files = [path for path in files if not options.file or path.name in options.file]

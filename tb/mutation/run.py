@@ -15,6 +15,7 @@ import zlib
 
 sys.path.insert(1, str(pathlib.Path(__file__).resolve().parents[1]))
 # pylint: disable=wrong-import-position
+import campaign_settings
 import models
 from equivalence import proof_of
 from known import Known
@@ -38,13 +39,15 @@ JUDGE_SECONDS = 10
 def arguments():
     """Options; the campaign's environment gives the defaults."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--scale", type=float, default=os.environ.get("CAMPAIGN_SCALE", 1.0),
+    parser.add_argument("--scale", type=campaign_settings.SCALES.option,
+                        default=campaign_settings.scale(),
                         help="part of 1,100 mutants (330 of remote, 250 of time, 150 of buses), "
                              "above 0 up to 1")
     parser.add_argument("--part", choices=sorted(FULL), default="core",
                         help="core: all but rtl/remote, the node without a processor, the time "
                              "unit, and buses, the wrappers but can_ahb (core)")
-    parser.add_argument("--seed", type=int, default=os.environ.get("CAMPAIGN_SEED", 1))
+    parser.add_argument("--seed", type=campaign_settings.SEEDS.option,
+                        default=campaign_settings.seed())
     parser.add_argument("--module", action="append", default=[], help="only mutants in it")
     parser.add_argument("--mutant", action="append", default=[],
                         help="only this one, such as can_fault:57.12:a")
@@ -58,7 +61,8 @@ def arguments():
                         default=os.environ.get("CAMPAIGN_RESUME", "0") not in ("", "0"),
                         help="take what an interrupted run of the same builds has killed as killed")
     parser.add_argument("--no-build", action="store_true", help="take the builds as they are")
-    parser.add_argument("--jobs", type=int, default=os.environ.get("CAMPAIGN_JOBS", 2))
+    parser.add_argument("--jobs", type=campaign_settings.JOBS.option,
+                        default=campaign_settings.jobs())
     parser.add_argument("--build", type=pathlib.Path,
                         help="directory for the test programs (build/mutants, or with the part "
                              "behind it)")
@@ -66,10 +70,6 @@ def arguments():
                         default=os.environ.get("CAMPAIGN_DIR"))
     parser.add_argument("--out", default=os.environ.get("CAMPAIGN_OUT"), help="JSON of the results")
     options = parser.parse_args()
-    if not 0 < options.scale <= 1:
-        parser.error(f"--scale {options.scale}: above 0 up to 1 is allowed")
-    if options.jobs < 1:
-        parser.error(f"--jobs {options.jobs}: at least 1 is needed")
     options.full = FULL[options.part]
     options.build = (options.build or models.ROOT / "build" / (
         "mutants" if options.part == "core" else f"mutants-{options.part}")).resolve()

@@ -24,6 +24,9 @@ import equal
 from replay import netlist_of, replay
 
 ROOT = Path(__file__).resolve().parent.parent.parent
+sys.path.append(str(ROOT / "tb"))
+import campaign_settings  # noqa: E402  pylint: disable=wrong-import-position
+
 KINDS = {"gates": "generic gates", "ice40": "iCE40 cells"}
 # Minutes on iCE40 cells, and nothing in them that the other tests do not reach.
 TOO_LONG = {"ice40": {"can_saturation_test", "rx_fifo_saturation_test"}}
@@ -165,14 +168,12 @@ def main():
     parser.add_argument("--kind", action="append", choices=KINDS, help="netlist (default: both)")
     parser.add_argument("--only", default="", help="only programs with this in their names")
     arguments = parser.parse_args()
+    jobs, scale = campaign_settings.jobs(), campaign_settings.scale()
+    out = campaign_settings.result_file()
     scratch = Path(os.environ.get("CAMPAIGN_DIR", ROOT / "build/netlist"))
     scratch.mkdir(parents=True, exist_ok=True)
-    result = campaign(arguments.kind or list(KINDS), arguments.only,
-                      int(os.environ.get("CAMPAIGN_JOBS", "2")),
-                      float(os.environ.get("CAMPAIGN_SCALE", "1")), scratch)
-    if os.environ.get("CAMPAIGN_OUT"):
-        Path(os.environ["CAMPAIGN_OUT"]).write_text(json.dumps(result))
-    sys.exit(0 if all(figure["ok"] for figure in result["figures"]) else 1)
+    result = campaign(arguments.kind or list(KINDS), arguments.only, jobs, scale, scratch)
+    sys.exit(campaign_settings.write_result(out, result))
 
 
 if __name__ == "__main__":

@@ -6,20 +6,27 @@
 
 #include <CLI/CLI.hpp>
 
+#include "harness/campaign_settings.hpp"
 #include "random/campaign_run.hpp"
 
-int main(int argc, char **argv) {
-  using namespace vericansim;
-  CLI::App app{"Random buses of whole cores with all judges on (docs/lockstep.md)"};
-  CampaignOptions options = campaign_defaults();
-  app.add_option("--seed", options.seed, "First seed")->capture_default_str();
-  app.add_option("--runs", options.runs, "Seeds to run; 0: until there are --frames")
+namespace {
+
+using namespace vericansim;
+
+void add_options(CLI::App &app, CampaignOptions &options) {
+  app.add_option("--seed", options.seed, "First seed; else CAMPAIGN_SEED")
+      ->check(kSeeds.check())
       ->capture_default_str();
-  app.add_option("--frames", options.frames, "Frames on the buses in all")->capture_default_str();
+  app.add_option("--runs", options.runs, "Seeds to run; 0: until there are --frames")
+      ->check(Allowed<std::uint64_t>{0, kAmounts.most()}.check())
+      ->capture_default_str();
+  app.add_option("--frames", options.frames, "Frames on the buses in all")
+      ->check(kAmounts.check())
+      ->capture_default_str();
   app.add_option("--frames-a-run", options.frames_a_run, "Frames of one bus of middle size")
       ->check(CLI::Range(10U, 1'000'000U))
       ->capture_default_str();
-  app.add_option("--jobs", options.jobs, "Threads")->check(CLI::Range(1U, 64U));
+  CampaignSettings::add_jobs_to(app, options.jobs);
   app.add_option("--directory", options.directory,
                  "Where the journal and scenarios of failing seeds go")
       ->capture_default_str();
@@ -28,8 +35,16 @@ int main(int argc, char **argv) {
   app.add_flag("--no-shrink", options.no_shrink, "Keep a failing scenario as it is");
   app.add_flag("--resume", options.resume,
                "Go on after an interruption: seeds that passed with this program count");
-  CLI11_PARSE(app, argc, argv);
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  CLI::App app{"Random buses of whole cores with all judges on (docs/lockstep.md)"};
   try {
+    CampaignOptions options = campaign_defaults();
+    add_options(app, options);
+    CLI11_PARSE(app, argc, argv);
     return run_campaign(options);
   } catch (const std::exception &error) {
     fmt::print(stderr, "random_campaign: {}\n", error.what());

@@ -7,18 +7,14 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <charconv>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <mutex>
-#include <stdexcept>
 #include <thread>
 
+#include "harness/campaign_settings.hpp"
 #include "random/campaign_journal.hpp"
 #include "random/campaign_result.hpp"
 #include "random/judged_run.hpp"
@@ -29,21 +25,6 @@ namespace vericansim {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double environment(const char *name, double otherwise) {
-  const char *text = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
-  if (text == nullptr || *text == 0) return otherwise;
-  double value = 0;
-  const char *end = text + std::strlen(text);
-  if (std::from_chars(text, end, value).ptr != end || value < 0)
-    throw std::runtime_error(fmt::format("{}='{}' is no number", name, text));
-  return value;
-}
-
-std::string environment(const char *name, const std::string &otherwise) {
-  const char *text = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
-  return text == nullptr || *text == 0 ? otherwise : text;
-}
 
 /// Frames of a seed for each of `frames_a_run`, rather too few than too many: shards together have
 /// about the seeds that are needed. What is missing is run when they are merged.
@@ -87,8 +68,8 @@ class Campaign {
     const CampaignResult result = sum();
     fmt::print("{}", result.text());
     if (options_.shard.part()) return 0;
-    if (!options_.json.empty())
-      write(options_.json, result.json(options_.seed, options_.runs == 0 ? options_.frames : 0));
+    write_result(options_.json,
+                 result.json(options_.seed, options_.runs == 0 ? options_.frames : 0));
     return result.failures.empty() ? 0 : 1;
   }
 
@@ -154,25 +135,19 @@ class Campaign {
 
   void failed(std::uint64_t seed, const Scenario &scenario, const JudgedRun &run) {
     const std::string stem = fmt::format("{}/seed-{}", options_.directory, seed);
-    write(stem + "-full.yaml", to_yaml(scenario));
+    write_result(stem + "-full.yaml", to_yaml(scenario));
     std::string text =
         fmt::format("seed {} FAILED after {:.3f} ms: {}\n", seed,
                     static_cast<double>(run.failed_at) / kMillisecond, run.findings.front());
     if (!options_.no_shrink) {
       const Shrunk shrunk = shrink(scenario, run);
-      write(stem + ".yaml", to_yaml(shrunk.scenario));
+      write_result(stem + ".yaml", to_yaml(shrunk.scenario));
       text += fmt::format("seed {} shrunk to {}.yaml ({} runs): {}\n", seed, stem, shrunk.runs,
                           shrunk.run.findings.front());
     }
     const std::lock_guard lock{mutex_};
     fmt::print("{}", text);
     std::fflush(stdout);
-  }
-
-  static void write(const std::string &path, const std::string &text) {
-    std::ofstream file{path};
-    file << text;
-    if (!file.flush()) throw std::runtime_error("cannot write " + path);
   }
 
   /// Wall time, with that before an interruption.
@@ -195,13 +170,14 @@ class Campaign {
 }  // namespace
 
 CampaignOptions campaign_defaults() {
+  const CampaignSettings settings;
   CampaignOptions options;
-  options.seed = static_cast<std::uint64_t>(environment("CAMPAIGN_SEED", 1.0));
-  const double scale = environment("CAMPAIGN_SCALE", 1.0);
-  options.frames = static_cast<std::uint64_t>(10'000'000 * scale);
-  options.directory = environment("CAMPAIGN_DIR", std::string{"build/random"});
-  options.json = environment("CAMPAIGN_OUT", std::string{});
-  options.resume = environment("CAMPAIGN_RESUME", 0.0) != 0;
+  options.seed = settings.seed;
+  options.frames = static_cast<std::uint64_t>(std::ceil(10'000'000 * settings.scale));
+  options.jobs = settings.jobs;
+  options.directory = campaign_variable("CAMPAIGN_DIR", "build/random");
+  options.json = settings.json;
+  options.resume = campaign_variable("CAMPAIGN_RESUME", 0U, Allowed<unsigned>{0, 1}) != 0;
   return options;
 }
 
@@ -210,6 +186,7 @@ int run_campaign(const CampaignOptions &options) {
     fmt::print("{}", to_yaml(random_scenario(options.seed, options.frames_a_run)));
     return 0;
   }
+  if (!options.shard.part()) check_writable(options.json);
   return Campaign{options}.run();
 }
 

@@ -25,13 +25,14 @@ struct CampaignOptions {
   Shard shard;          ///< a range of the seeds, or the figures from those of all shards
 };
 
-/// Defaults, with CAMPAIGN_SEED, CAMPAIGN_SCALE, CAMPAIGN_DIR, CAMPAIGN_OUT, CAMPAIGN_RESUME and
-/// CAMPAIGN_SHARD of the environment. Throws std::runtime_error if one of them is no number.
+/// Defaults, with those of CampaignSettings, CAMPAIGN_RESUME and CAMPAIGN_SHARD of the environment.
+/// Throws std::runtime_error if one of them has a value that is not allowed.
 [[nodiscard]] CampaignOptions campaign_defaults();
 
 /// Runs it; 0 if every seed passed, 1 otherwise. The figures are those of the first seeds that have
 /// the frames together, whatever the number of threads and shards; a shard has no figures, and the
-/// end of its work is no failure whatever it found.
+/// end of its work is no failure whatever it found. Throws std::runtime_error if a file cannot be
+/// written, before the work if that can be told then.
 int run_campaign(const CampaignOptions &options);
 
 }  // namespace vericansim

@@ -9,7 +9,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -35,7 +34,8 @@ class FlipPlan {
     settings.add_to(app, fmt::format("{} flips of every flip-flop", rounds_));
     auto *only = app.add_option("--flop", flop_,
                                 fmt::format("Only this one, stuck from clock {} on", from_));
-    auto *level = app.add_option("--stuck", stuck_, "At this level")->check(CLI::Range(0, 1));
+    auto *level =
+        app.add_option("--stuck", stuck_, "At this level")->check(CLI::Range(0, 1))->needs(only);
     app.add_option("--every", every_, "Not stuck: flipped once, in runs this many clocks apart")
         ->check(CLI::Range(std::uint64_t{1}, to_ - from_))
         ->needs(only)
@@ -81,9 +81,11 @@ class FlipPlan {
 };
 
 /// Makes the flips of the plan, sum.add() of each outcome, and prints result_of(sum), which is also
-/// written where tools/campaign.py wants it.
+/// written where tools/campaign.py wants it. Throws std::runtime_error if the file cannot be
+/// written, before the flips if that can be told then.
 template <typename Sum, typename Run, typename ResultOf>
 Sum run_flips(const FlipPlan &plan, const Run &run, const ResultOf &result_of) {
+  check_writable(plan.settings.json);
   Sum sum;
   std::mutex lock;
   const std::vector<FlopFlip> flips = plan.flips();
@@ -93,10 +95,8 @@ Sum run_flips(const FlipPlan &plan, const Run &run, const ResultOf &result_of) {
     sum.add(flips[n], outcome);
   });
   const nlohmann::ordered_json result = result_of(sum);
-  for (const nlohmann::ordered_json &figure : result["figures"])
-    fmt::print("{}: {}\n", figure["name"].get<std::string>(), figure["value"].dump());
-  for (const std::string &note : sum.notes) fmt::print("{}\n", note);
-  if (!plan.settings.json.empty()) std::ofstream{plan.settings.json} << result.dump(1) << '\n';
+  print_result(result);
+  write_result(plan.settings.json, result.dump(1) + "\n");
   return sum;
 }
 

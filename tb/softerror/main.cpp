@@ -9,6 +9,7 @@
 #include <exception>
 #include <string>
 
+#include "harness/campaign_settings.hpp"
 #include "harness/shard.hpp"
 #include "softerror/campaign.hpp"
 #include "softerror/report.hpp"
@@ -16,17 +17,12 @@
 namespace vericansim {
 namespace {
 
-struct Options {
+struct Options : CampaignSettings {
   std::string flop;
-  std::uint64_t seed = 1;
   std::uint64_t time = 0;
   int stuck = -1;
   std::string wave;
-  double scale = 1.0;
-  unsigned jobs = 2;
   bool list = false;
-  std::string scratch = ".";
-  std::string out;
 };
 
 unsigned find_flop(const std::string &name) {
@@ -61,38 +57,36 @@ std::vector<Job> jobs_of(const Shard &shard, const Options &options) {
 
 int campaign(const Options &options) {
   const Shard shard;
+  if (!shard.part()) check_writable(options.json);
   const auto records = shard.merge()
-                           ? read_records(shard.paths(options.scratch))
-                           : run_jobs(jobs_of(shard, options), options.jobs, options.scratch);
+                           ? read_records(shard.paths(options.directory))
+                           : run_jobs(jobs_of(shard, options), options.jobs, options.directory);
   if (shard.part()) {
-    write_records(records, shard.path(options.scratch));
+    write_records(records, shard.path(options.directory));
     return 0;
   }
-  if (!options.out.empty()) write_json(records, options.out);
+  write_json(records, options.json);
   return print_summary(records) ? 0 : 1;
+}
+
+void add_options(CLI::App &app, Options &options) {
+  options.add_to(app, "the whole campaign", "--out");
+  auto *flop = app.add_option("--flop", options.flop,
+                              "Flip this one only, NAME[BIT], see --list; --seed is of the moment");
+  app.add_option("--time", options.time, "Clock of the flip; default: chosen by the seed")
+      ->needs(flop);
+  app.add_option("--stuck", options.stuck, "A defect, stuck at 0 or 1 from then on")
+      ->check(CLI::Range(0, 1))
+      ->needs(flop);
+  app.add_option("--wave", options.wave, "VCD file of the run from the flip on")->needs(flop);
+  app.add_option("--scratch", options.directory, "Directory for files in between");
+  app.add_flag("--list", options.list, "Name all flip-flops");
 }
 
 int run(int argc, char **argv) {
   Options options;
   CLI::App app{"Flips flip-flops of can_ahb under traffic and tells what came of it."};
-  app.add_option("--flop", options.flop, "flip this one only, NAME[BIT]; see --list");
-  app.add_option("--seed", options.seed, "seed of the campaign, or of the moment with --flop")
-      ->envname("CAMPAIGN_SEED");
-  app.add_option("--time", options.time, "clock of the flip; default: chosen by the seed");
-  app.add_option("--stuck", options.stuck, "with --flop: a defect, stuck at 0 or 1 from then on")
-      ->check(CLI::Range(0, 1));
-  app.add_option("--wave", options.wave, "with --flop: VCD file of the run from the flip on");
-  app.add_option("--scale", options.scale, "share of the whole campaign, above 0, at most 1")
-      ->envname("CAMPAIGN_SCALE")
-      ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--jobs", options.jobs, "processes, 1 to 64")
-      ->envname("CAMPAIGN_JOBS")
-      ->check(CLI::Range(1, 64));
-  app.add_option("--scratch", options.scratch, "directory for files in between")
-      ->envname("CAMPAIGN_DIR");
-  app.add_option("--out", options.out, "file for figures and tables, JSON")
-      ->envname("CAMPAIGN_OUT");
-  app.add_flag("--list", options.list, "name all flip-flops");
+  add_options(app, options);
   CLI11_PARSE(app, argc, argv);
   if (options.list) {
     for (const Flop &flop : FlopNode::flops()) std::printf("%s\n", flop.name().c_str());

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <stdexcept>
+
+#include "harness/campaign_settings.hpp"
 
 namespace vericansim {
 namespace {
@@ -238,16 +238,12 @@ void write_json(const std::vector<Record> &records, const std::string &path) {
        {"rows",
         variables(records, {Verdict::kStuckRenew, Verdict::kStuckFreeze, Verdict::kStuckReset,
                             Verdict::kBlocked, Verdict::kHang, Verdict::kBabble})}}};
-  std::ofstream out(path);
-  out << json{{"figures", figures(records)},
-              {"tables", tables},
-              {"notes",
-               {"A flip is repeated by build/release/tb/softerror/softerror with the options in "
-                "the "
-                "column 'repeat with'; classes: docs/soft-errors.md."}}}
-             .dump(1)
-      << "\n";
-  if (!out.flush()) throw std::runtime_error("cannot write " + path);
+  const json result{{"figures", figures(records)},
+                    {"tables", tables},
+                    {"notes",
+                     {"A flip is repeated by build/release/tb/softerror/softerror with the options "
+                      "in the column 'repeat with'; classes: docs/soft-errors.md."}}};
+  write_result(path, result.dump(1) + "\n");
 }
 
 }  // namespace vericansim

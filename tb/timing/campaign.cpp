@@ -8,7 +8,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -143,14 +142,13 @@ int main(int argc, char **argv) {
     CampaignSettings options;
     options.add_to(app, "the frames that each setting is due");
     CLI11_PARSE(app, argc, argv);
+    check_writable(options.json);
     std::vector<Row> rows = printed_rows();
     prove(rows, options);
     const Json result = result_of(rows, options);
-    for (const Json &figure : result["figures"])
-      fmt::print("{}: {}\n", figure["name"].get<std::string>(), figure["value"].dump());
-    for (const Json &note : result["notes"]) fmt::print("{}\n", note.get<std::string>());
-    if (!options.json.empty()) std::ofstream{options.json} << result.dump(1) << '\n';
-    return result["notes"].empty() ? 0 : 1;
+    print_result(result);
+    write_result(options.json, result.dump(1) + "\n");
+    return bars_hold(result) ? 0 : 1;
   } catch (const std::exception &error) {
     fmt::print(stderr, "bittime_campaign: {}\n", error.what());
     return 2;

@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
 #include <iostream>
 #include <mutex>
 #include <thread>
@@ -17,24 +16,20 @@
 #include "faults/campaign/result_json.hpp"
 #include "faults/campaign/shard_file.hpp"
 #include "faults/campaign/tally.hpp"
+#include "harness/campaign_settings.hpp"
 #include "harness/shard.hpp"
 #include "harness/test_wave.hpp"
 
 namespace vericansim {
 namespace {
 
-struct Options {
+struct Options : CampaignSettings {
   bool list = false;
   std::string run;
   std::vector<std::string> parts;
-  double scale = 1.0;
-  std::uint64_t seed = 1;
-  unsigned jobs = 2;
-  std::string json;
   std::string csv;
   std::string wave;
   bool bins = false;
-  std::string directory = ".";
   Shard shard;
 };
 
@@ -170,14 +165,6 @@ int run_one(const Sections &sections, const Options &options) {
   return 2;
 }
 
-void write(const std::string &path, const std::string &text) {
-  if (path.empty()) return;
-  std::ofstream file{path};
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error("cannot write '" + path + "'");
-}
-
 void list_missing(const RuleBins &bins) {
   for (const BinGroup &group : bins.groups()) {
     for (const auto &[key, bin] : group.bins) {
@@ -208,8 +195,8 @@ void summarise(const Tally &tally, const RuleBins &bins, const Options &options,
 int run_campaign(const Sections &sections, const Options &options) {
   const Shard &shard = options.shard;
   if (!shard.part()) {
-    write(options.json, "");  // a path that cannot be written is found before the work
-    write(options.csv, "");
+    check_writable(options.json);
+    check_writable(options.csv);
   }
   const auto begin = std::chrono::steady_clock::now();
   Campaign campaign{sections, options};
@@ -225,28 +212,19 @@ int run_campaign(const Sections &sections, const Options &options) {
   const double cpu = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   const ResultInfo info{options.scale >= 1 && options.parts.empty(), took.count(), cpu,
                         options.seed};
-  write(options.json, result_json(campaign.tally(), campaign.bins(), sections, info));
-  write(options.csv, result_csv(campaign.tally()));
+  write_result(options.json, result_json(campaign.tally(), campaign.bins(), sections, info));
+  write_result(options.csv, result_csv(campaign.tally()));
   summarise(campaign.tally(), campaign.bins(), options, took.count());
   return campaign.tally().total().mismatches == 0 ? 0 : 1;
 }
 
-/// Options that the campaign hands over by environment.
 void add_options(CLI::App &app, Options &options) {
   app.add_flag("--list", options.list, "Print the parts of the table with their axes and sizes");
   auto *run =
       app.add_option("--run", options.run, "Only this run, by its name: <part>/<value>/<value>...");
   app.add_option("--part", options.parts, "Only these parts");
-  app.add_option("--scale", options.scale, "Fraction of each part's cases, evenly chosen")
-      ->envname("CAMPAIGN_SCALE")
-      ->check(CLI::Range(1e-6, 1.0));
-  app.add_option("--seed", options.seed, "Seed of the random part")->envname("CAMPAIGN_SEED");
-  app.add_option("--jobs", options.jobs, "Threads")
-      ->envname("CAMPAIGN_JOBS")
-      ->check(CLI::Range(1, 256));
-  app.add_option("--directory", options.directory, "Where shards leave what they have counted")
-      ->envname("CAMPAIGN_DIR");
-  app.add_option("--json", options.json, "Write figures and tables here")->envname("CAMPAIGN_OUT");
+  options.add_to(app, "the cases of each part of the table, evenly chosen");
+  app.add_option("--directory", options.directory, "Where shards leave what they have counted");
   app.add_option("--csv", options.csv, "Write runs and mismatches of every combination here");
   app.add_flag("--bins", options.bins, "Name the bins of TH-05 that were not hit");
   app.add_option("--wave", options.wave, "With --run: write the run's waveform to this folder")
@@ -269,10 +247,10 @@ void check_parts(const Sections &sections, const Options &options) {
 int main(int argc, char **argv) {
   using namespace vericansim;
   CLI::App app{"The error injection matrix: the RTL against the rules, bit by bit."};
-  Options options;
-  add_options(app, options);
-  CLI11_PARSE(app, argc, argv);
   try {
+    Options options;
+    add_options(app, options);
+    CLI11_PARSE(app, argc, argv);
     const Sections sections = all_sections(options.seed);
     check_parts(sections, options);
     if (options.list) {

@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <mutex>
 
 #include "harness/campaign_settings.hpp"
@@ -254,7 +253,7 @@ Json Campaign::run(const std::vector<std::string> &parts) {
     if (!parts.empty() && std::find(parts.begin(), parts.end(), part.name) == parts.end()) continue;
     (this->*part.run)();
     for (const Json &figure : (this->*part.figures)()) {
-      fmt::print("{}: {}\n", figure["name"].get<std::string>(), figure["value"].dump());
+      print_figure(figure);
       figures.push_back(figure);
     }
     std::fflush(stdout);
@@ -276,13 +275,11 @@ int main(int argc, char **argv) {
         ->delimiter(',')
         ->check(CLI::IsMember({"frames", "buses", "commands", "searches", "triggers"}));
     CLI11_PARSE(app, argc, argv);
+    check_writable(settings.json);
     const Json result = Campaign{settings}.run(parts);
-    const auto missed = [](const Json &figure) { return figure["ok"] == Json(false); };
-    const Json &figures = result["figures"];
-    const bool good = std::none_of(figures.begin(), figures.end(), missed);
-    for (const Json &note : result["notes"]) fmt::print("{}\n", note.get<std::string>());
-    if (!settings.json.empty()) std::ofstream{settings.json} << result.dump(1) << '\n';
-    return good ? 0 : 1;
+    print_notes(result);
+    write_result(settings.json, result.dump(1) + "\n");
+    return bars_hold(result) ? 0 : 1;
   } catch (const std::exception &error) {
     fmt::print(stderr, "remote_campaign: {}\n", error.what());
     return 2;

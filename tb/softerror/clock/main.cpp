@@ -8,7 +8,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <random>
 #include <stdexcept>
@@ -163,6 +162,7 @@ int list_flops() {
 }
 
 int run(const Options &options) {
+  check_writable(options.settings.json);
   Sum sum;
   for (const auto &[scene, name] : kScenes) {
     if (!options.scene.empty() && options.scene != name) continue;
@@ -171,11 +171,8 @@ int run(const Options &options) {
     for (std::size_t n = 0; n < flips.size(); ++n) sum.add(name, flips[n], outcomes[n]);
   }
   const Json result = sum.result();
-  for (const Json &figure : result["figures"])
-    fmt::print("{}: {}\n", figure["name"].get<std::string>(), figure["value"].dump());
-  for (const std::string &note : sum.notes) fmt::print("{}\n", note);
-  if (!options.settings.json.empty())
-    std::ofstream{options.settings.json} << result.dump(1) << '\n';
+  print_result(result);
+  write_result(options.settings.json, result.dump(1) + "\n");
   return sum.bad == 0 ? 0 : 1;
 }
 

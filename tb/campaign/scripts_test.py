@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the campaign's stages in Python refuse, and how the stage `fuzz` ends."""
+import contextlib
+import importlib.util
+import io
+import os
+import sys
+import unittest
+import unittest.mock
+from pathlib import Path
+
+from refusals import JOBS, SCALES, SEEDS, RefusalCase
+
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPTS = ("tb/formal/run.py", "tb/netlist/run.py", "tb/fuzz/campaign.py", "tb/canopen/campaign.py",
+           "tb/timesync/campaign.py", "tb/mutation/run.py", "tools/coverage.py")
+
+
+class Scripts(RefusalCase):
+    """Environment and options."""
+
+    def test_a_wrong_environment_is_named(self):
+        for script in SCRIPTS:
+            for name, value in (("CAMPAIGN_SCALE", "x"), ("CAMPAIGN_SCALE", "nan"),
+                                ("CAMPAIGN_SCALE", "0")):
+                self.refused(f"{name} is '{value}'; allowed: {SCALES}", sys.executable, "-B",
+                             ROOT / script, code=2, **{name: value})
+        for script in ("tb/netlist/run.py", "tb/fuzz/campaign.py", "tb/mutation/run.py"):
+            for value in ("x", "0", "65", "1_0"):
+                self.refused(f"CAMPAIGN_JOBS is '{value}'; allowed: {JOBS}", sys.executable, "-B",
+                             ROOT / script, code=2, CAMPAIGN_JOBS=value)
+        for script in ("tb/fuzz/campaign.py", "tb/timesync/campaign.py", "tb/mutation/run.py"):
+            self.refused("CAMPAIGN_SEED is '1.5'; " + SEEDS, sys.executable, "-B", ROOT / script,
+                         code=2, CAMPAIGN_SEED="1.5")
+
+    def test_a_result_that_cannot_be_written_is_told_before_the_work(self):
+        for script in ("tb/netlist/run.py", "tb/fuzz/campaign.py", "tb/canopen/campaign.py",
+                       "tb/timesync/campaign.py"):
+            self.refused("cannot write '/no/such/x'", sys.executable, "-B", ROOT / script, code=2,
+                         CAMPAIGN_OUT="/no/such/x")
+
+    def test_a_parser_that_there_is_not_is_told_before_the_build(self):
+        self.refused("no parser 'nosuch'; there are board, can_frame,", sys.executable, "-B",
+                     ROOT / "tb/fuzz/campaign.py", "--only", "pcap", "nosuch", code=2)
+
+
+class Fuzz(RefusalCase):
+    """The exit code of the stage `fuzz`."""
+
+    def status(self, cases=1_000_000, findings=0, failed=0):
+        """That of a stage of one parser and the registers, with these results."""
+        spec = importlib.util.spec_from_file_location("fuzz", ROOT / "tb/fuzz/campaign.py")
+        fuzz = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(fuzz)
+        parser = {"name": "log", "cases": cases, "seconds": 1, "edges": 1, "features": 1,
+                  "corpus": 1, "findings": findings}
+        registers = {"cases": 1_000_000, "episodes": 1, "failed": failed, "clocks": 1,
+                     "bus_frames": 1, "excused_errors": 0, "max_waits": 1,
+                     "longest_acknowledge": 1, "modes": {}}
+        results = [["log", parser], [0, registers]]
+        with unittest.mock.patch.multiple(fuzz, build=lambda _: None,
+                                          run_all=lambda *_: results), \
+                unittest.mock.patch.object(sys, "argv", ["campaign.py"]), \
+                unittest.mock.patch.dict(os.environ, {"CAMPAIGN_DIR": str(self.path)}), \
+                contextlib.redirect_stdout(io.StringIO()):
+            return fuzz.main()
+
+    def test_it_tells_findings_and_missed_bars(self):
+        self.assertEqual(self.status(), 0)
+        self.assertEqual(self.status(cases=999_999), 1)
+        self.assertEqual(self.status(findings=1), 1)
+        self.assertEqual(self.status(failed=1), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
