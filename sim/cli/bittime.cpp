@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "cli/cli.hpp"
 #include "timing/bittime.hpp"
@@ -20,7 +21,7 @@ struct BitTimeOptions {
   BitTimingRequest request;
   double clock = 8e6;
   double bitrate = 0;
-  double sample_point = 0;  // per cent or part of one; 0: recommended
+  std::optional<double> sample_point;  // per cent or part of one; none: recommended
   unsigned sjw = 0;
   unsigned rows = 10;
   bool json = false;
@@ -156,7 +157,7 @@ int bittime(const BitTimeOptions &options) {
   const BitTimingRequest whole = bit_timing_request(options.clock, options.bitrate);
   request.clock_hz = whole.clock_hz;
   request.bitrate = whole.bitrate;
-  if (options.sample_point != 0) request.sample_point = part_of_bit(options.sample_point);
+  if (options.sample_point) request.sample_point = part_of_bit(*options.sample_point);
   if (options.sjw != 0) request.sjw = options.sjw;
   auto results = find_bit_timings(request);
   const bool found = !results.empty();

@@ -80,7 +80,7 @@ using Json = nlohmann::ordered_json;
 /// The value of an option such as "50 ms"; throws InputError that names the option.
 [[nodiscard]] Time time_option(const std::string &option, const std::string &text);
 
-/// Prints indented JSON and a line end.
+/// Prints indented JSON and a line end. Bytes of names that are no UTF-8 become U+FFFD.
 void print_json(const Json &json);
 
 /// A progress bar on stderr, only if that is a terminal; costs one comparison a call otherwise.

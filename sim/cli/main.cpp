@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "cli/cli.hpp"
+#include "cli/number_check.hpp"
 #include "cli/output_files.hpp"
 #include "trace/input_error.hpp"
 #include "trace/output_error.hpp"
@@ -53,6 +54,17 @@ void refuse_empty(int argc, char **argv) {
   }
 }
 
+/// CLI11 would say that there is no command at all.
+void refuse_unknown_command(const CLI::App &app, int argc, char **argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string names;
+  for (const CLI::App *command : app.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return;
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  throw InputError("verican", 0, in_quotes(argv[1]) + " is no command; allowed: " + names);
+}
+
 int run_tool(int argc, char **argv) {
   refuse_empty(argc, argv);
   CLI::App app{"VeriCAN: CAN controllers in RTL on a simulated bus"};
@@ -81,6 +93,8 @@ int run_tool(int argc, char **argv) {
         "-q,--quiet", cli::be_quiet, "Print nothing but errors; the exit code tells the result");
     if (CLI::Option *json = command->get_option_no_throw("--json")) quiet->excludes(json);
   }
+  cli::check_numbers(app);
+  refuse_unknown_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success &request) {  // --help, --version

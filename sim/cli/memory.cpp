@@ -23,12 +23,20 @@ std::unique_ptr<MemoryLink> open_link(const MemoryOptions &options) {
                                    : open_interface(options.interface);
 }
 
+/// A check of CLI11: the name stands between blanks in a message of the protocol.
+std::string is_bus_name(const std::string &name) {
+  const bool good = name.find_first_of("<> \t\r\n") == std::string::npos;
+  return good ? "" : in_quotes(name) + " is not allowed; allowed: a word without < and >";
+}
+
 int carry_out(const MemoryOptions &options, const std::function<int(MemoryLink &)> &work) {
   const std::unique_ptr<MemoryLink> link = open_link(options);
   try {
     return work(*link);
   } catch (const MemoryFailure &failure) {
-    fmt::print(stderr, "verican: memory: {}\n", failure.what());
+    const std::string said = link->complaint();
+    fmt::print(stderr, "verican: memory: {}{}\n", failure.what(),
+               said.empty() ? "" : "; the server says: " + said);
     return kFailed;
   }
 }
@@ -38,11 +46,14 @@ class Memory {
  public:
   Memory(CLI::App &command, int &exit_code) : command_{command}, exit_code_{exit_code} {
     CLI::Option *interface = command.add_option("--if", o_->interface, "CAN interface");
-    command
-        .add_option("--socketcand", o_->socketcand,
-                    "socketcand server at [HOST:]PORT, such as verican bridge")
-        ->excludes(interface);
-    command.add_option("--bus-name", o_->bus, "Bus of the server (can0)");
+    CLI::Option *server =
+        command
+            .add_option("--socketcand", o_->socketcand,
+                        "socketcand server at [HOST:]PORT, such as verican bridge")
+            ->excludes(interface);
+    command.add_option("--bus-name", o_->bus, "Bus of the server (can0)")
+        ->needs(server)
+        ->check(is_bus_name);
     command.add_option("--name-bits", o_->name_bits, "Bits of a node's number, 3 or 5 (3)")
         ->check(CLI::IsMember({3, 5}));
     command.add_option("--timeout", o_->timeout_ms, "For an answer, ms (150)")
@@ -93,7 +104,7 @@ class Memory {
     add_address(*load)->required();
     load->add_option("file", o_->file, "The file")->required();
     CLI::App *watch = command_.add_subcommand("watch", "What is on the bus, in words");
-    watch->add_option("--frames", o_->frames, "End after so many frames");
+    watch->add_option("--frames", o_->frames, "End after so many frames")->check(at_least_one);
     watch->fallthrough();
     watch->callback([o = o_, &exit_code = exit_code_] {
       exit_code = carry_out(*o, [&](MemoryLink &link) { return memory_watch(link, *o); });

@@ -125,6 +125,7 @@ class SocketcandLink : public MemoryLink {
   }
   // Servers write them as data frames, or not at all.
   [[nodiscard]] bool remote_frames() const override { return false; }
+  [[nodiscard]] std::string complaint() const override { return complaint_; }
 
  private:
   verican_remote_result_t send(const verican_remote_frame_t &frame) {
@@ -141,6 +142,8 @@ class SocketcandLink : public MemoryLink {
       if (gone_) return VERICAN_REMOTE_BUS_OFF;
       if (!text) return VERICAN_REMOTE_TIMEOUT;
       if (read_frame(*text, frame)) return VERICAN_REMOTE_OK;
+      const std::string_view message = text::trimmed(*text);
+      if (message.starts_with("error ")) complaint_ = text::trimmed(message.substr(6));
     }
   }
 
@@ -185,6 +188,7 @@ class SocketcandLink : public MemoryLink {
   int fd_;
   CommandSplitter splitter_;
   bool gone_ = false;
+  std::string complaint_;
 };
 
 }  // namespace

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 
 #include "cli/cli.hpp"
 #include "cli/memory_work.hpp"
+#include "cli/output_files.hpp"
 #include "simulation/stop_request.hpp"
 #include "trace/candump.hpp"
 #include "trace/remote_words.hpp"
@@ -34,7 +34,7 @@ int memory_watch(MemoryLink &link, const MemoryOptions &options) {
       print_json({{"time_s", time.count()}, {"frame", candump_frame(frame)}, {"words", words}});
     else
       fmt::print("{:>12.6f}  {:<20}  {}\n", time.count(), candump_frame(frame), words);
-    std::fflush(stdout);
+    flush_standard_output();
     if (++seen == options.frames) break;
   }
   return kOk;

@@ -45,16 +45,28 @@ void check_range(unsigned address, std::size_t length) {
            fmt::format("1 to {} from 0x{:03X} on", remote_map::kSize - address, address));
 }
 
-Bytes bytes_of(const std::string &digits) {
-  Bytes bytes;
-  for (std::size_t i = 0; i + 1 < digits.size(); i += 2) {
-    const auto byte = text::parse_unsigned(std::string_view{digits}.substr(i, 2), 16);
+/// Appends the bytes of a word of two digits each.
+void add_bytes(const std::string &word, Bytes &bytes) {
+  std::size_t at = 0;
+  for (; at + 1 < word.size(); at += 2) {
+    const auto byte = text::parse_unsigned(std::string_view{word}.substr(at, 2), 16);
     if (!byte) break;
     bytes.push_back(static_cast<std::uint8_t>(*byte));
   }
-  if (bytes.empty() || 2 * bytes.size() != digits.size())
-    refuse("BYTES", digits, "hexadecimal bytes, 5A 01 or 5A01");
+  if (at != word.size()) refuse("BYTES", word, "hexadecimal bytes of two digits, 5A 01 or 5A01");
+}
+
+Bytes bytes_of(const std::vector<std::string> &words) {
+  Bytes bytes;
+  for (const std::string &word : words) add_bytes(word, bytes);
   return bytes;
+}
+
+/// Whoever asks all nodes and gets no answer has, as a rule, another bus or other numbers in mind.
+void require_answers(const MemoryCalls &calls, bool any) {
+  if (any) return;
+  throw MemoryFailure(fmt::format("no node answers; numbers have {} bits here, --name-bits says so",
+                                  calls.name_bits()));
 }
 
 std::string hex(const Bytes &bytes) { return fmt::format("{:02X}", fmt::join(bytes, " ")); }
@@ -109,6 +121,7 @@ std::string dump_text(unsigned first, const Bytes &bytes) {
 
 int memory_scan(MemoryCalls &calls, const MemoryOptions &options) {
   const auto nodes = calls.scan();
+  require_answers(calls, !nodes.empty());
   Json list = Json::array();
   if (!options.json) fmt::print("node  serial    memory  stage  features\n");
   for (const verican_remote_identity_t &n : nodes) {
@@ -153,7 +166,7 @@ int memory_read(MemoryCalls &calls, const MemoryOptions &options) {
 
 int memory_write(MemoryCalls &calls, const MemoryOptions &options) {
   const unsigned node = node_of(calls, options, true);
-  const Bytes bytes = bytes_of(fmt::format("{}", fmt::join(options.bytes, "")));
+  const Bytes bytes = bytes_of(options.bytes);
   check_range(options.address, bytes.size());
   calls.write(node, options.address, bytes);
   if (options.json)
@@ -169,6 +182,7 @@ int memory_poll(MemoryCalls &calls, const MemoryOptions &options) {
   check_range(options.address, options.length);
   if (options.length > kMost) refuse("LENGTH", std::to_string(options.length), "1 to 6");
   const verican_remote_answers_t answers = calls.poll(options.address, options.length);
+  require_answers(calls, answers.answered != 0);
   Json list = Json::array();
   for (unsigned node = 0; node < VERICAN_REMOTE_NUMBERS; ++node) {
     if ((answers.answered >> node & 1) == 0) continue;
@@ -204,6 +218,7 @@ int memory_status(MemoryCalls &calls, const MemoryOptions &options) {
     for (const auto &node : calls.numbered()) numbers.push_back(node.number);
   else
     numbers.push_back(node_of(calls, options));
+  require_answers(calls, !numbers.empty());
   Json list = Json::array();
   if (!options.json) fmt::print("node  state     TEC  REC  accepted  refused  TRIGGER\n");
   for (const unsigned number : numbers) {
@@ -238,6 +253,7 @@ int memory_map(MemoryCalls &calls, const MemoryOptions &options) {
     tables.doubled = calls.status(node.number).duplicate;
     nodes.push_back(std::move(tables));
   }
+  require_answers(calls, !nodes.empty());
   const std::vector<std::string> wrong = complaints(nodes, calls.name_bits());
   if (options.json)
     print_json({{"nodes", to_json(nodes)}, {"complaints", wrong}});
@@ -252,10 +268,17 @@ int memory_dump(MemoryCalls &calls, const MemoryOptions &options) {
   const unsigned node = node_of(calls, options);
   check_range(options.address, options.table);
   const Bytes bytes = calls.read(node, options.address, options.table);
-  if (options.file.empty()) {
+  if (options.json) {
+    Json dump{{"number", node}, {"address", options.address}, {"length", bytes.size()}};
+    if (options.file.empty())
+      dump["bytes"] = hex(bytes);
+    else
+      dump["file"] = options.file;
+    print_json(dump);
+  } else if (options.file.empty()) {
     fmt::print("{}", dump_text(options.address, bytes));
-    return kOk;
   }
+  if (options.file.empty()) return kOk;
   OutputFile file{options.file};
   file.stream().write(reinterpret_cast<const char *>(bytes.data()),
                       static_cast<std::streamsize>(bytes.size()));
@@ -271,6 +294,11 @@ int memory_load(MemoryCalls &calls, const MemoryOptions &options) {
                      fmt::format("{} bytes; allowed: 1 to {} from 0x{:03X} on", content.size(),
                                  remote_map::kSize - options.address, options.address));
   calls.write(node, options.address, {content.begin(), content.end()});
+  if (options.json)
+    print_json({{"number", node},
+                {"address", options.address},
+                {"length", content.size()},
+                {"file", options.file}});
   return kOk;
 }
 

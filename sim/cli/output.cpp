@@ -36,11 +36,14 @@ Time time_option(const std::string &option, const std::string &text) {
   return *time;
 }
 
-void print_json(const Json &json) { fmt::print("{}\n", json.dump(2)); }
+void print_json(const Json &json) {
+  fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+}
 
 std::string at_least_one(const std::string &value) {
-  const bool zero = value.find_first_not_of('0') == std::string::npos;
-  return zero ? in_quotes(value) + " is not allowed; allowed: 1 or more" : "";
+  return parse_integer(value).value_or(0) == 0
+             ? in_quotes(value) + " is not allowed; allowed: 1 or more"
+             : "";
 }
 
 int exit_code_after(int code) {

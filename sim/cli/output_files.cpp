@@ -29,7 +29,8 @@ std::string identity(const std::string &path) {
   if (::stat(path.c_str(), &status) == 0)
     return S_ISREG(status.st_mode) ? fmt::format("{}:{}", status.st_dev, status.st_ino) : "";
   std::error_code error;
-  const auto canonical = std::filesystem::weakly_canonical(behind_links(path), error);
+  const auto canonical = std::filesystem::weakly_canonical(
+      std::filesystem::absolute(behind_links(path), error), error);
   return error ? path : canonical.string();
 }
 

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// See number_check.hpp.
+#include "cli/number_check.hpp"
+
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+
+#include "trace/input_error.hpp"
+
+namespace vericansim::cli {
+namespace {
+
+std::string refused(const std::string &value, const char *allowed) {
+  return in_quotes(value) + " is not allowed; allowed: " + allowed;
+}
+
+std::string check_whole(const std::string &value) {
+  std::string_view digits = value;
+  if (digits.starts_with('-') || digits.starts_with('+')) digits.remove_prefix(1);
+  const bool octal =
+      digits.size() > 1 && digits[0] == '0' && std::isdigit(static_cast<unsigned char>(digits[1]));
+  return octal ? refused(value, "decimal without zeros in front, or hexadecimal as in 0x10") : "";
+}
+
+std::string check_unsigned(const std::string &value) {
+  return value.starts_with('-') ? refused(value, "0 and more") : check_whole(value);
+}
+
+// "inf" and "nan" are what strtod() reads beside numbers.
+std::string check_finite(const std::string &value) {
+  return std::isfinite(std::strtod(value.c_str(), nullptr)) ? "" : refused(value, "a number");
+}
+
+}  // namespace
+
+void check_numbers(CLI::App &app) {
+  for (CLI::Option *option : app.get_options()) {
+    const std::string type = option->get_type_name();
+    if (type.starts_with("UINT")) option->check(check_unsigned);
+    if (type.starts_with("INT")) option->check(check_whole);
+    if (type.starts_with("FLOAT")) option->check(check_finite);
+  }
+  for (CLI::App *command : app.get_subcommands({})) check_numbers(*command);
+}
+
+}  // namespace vericansim::cli

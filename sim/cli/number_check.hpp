@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Numbers on the command line that CLI11 would take for others.
+#pragma once
+
+#include "cli/cli.hpp"
+
+namespace vericansim::cli {
+
+/// Adds a check to each option of `app` and of its subcommands that takes a number. Refused are a
+/// whole number with zeros in front (strtoull() reads it as octal), one below 0 where there is no
+/// sign, and what is no finite number.
+void check_numbers(CLI::App &app);
+
+}  // namespace vericansim::cli
