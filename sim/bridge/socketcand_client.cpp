@@ -101,19 +101,25 @@ void SocketcandClient::deliver(const PortMessage &message) {
   for (const PortMessage &one : shown) show(one);
 }
 
-void SocketcandClient::show(const PortMessage &message) {
-  if (leaving_ || !connection_.output_open()) return;
-  if (connection_.queued() > shared_.limits.output) {
-    fail(
-        fmt::format("this client reads too slowly, {} bytes wait; it is disconnected and what it "
-                    "has sent meanwhile is ignored",
-                    connection_.queued()));
-    ++shared_.counts.too_slow;
-    leave();
-    return;
+// False if it is thrown away: the client is gone, or has not read for too long and is told to go.
+// Those who are told already may still be told why.
+bool SocketcandClient::put(const std::string &text) {
+  if (!connection_.output_open()) return false;
+  if (leaving_ || connection_.queued() <= shared_.limits.output) {
+    connection_.put(text);
+    return true;
   }
-  connection_.put(message_text(message));
-  ++shared_.counts.to_clients;
+  leave();
+  ++shared_.counts.too_slow;
+  fail(
+      fmt::format("this client reads too slowly, {} bytes wait; it is disconnected and what it "
+                  "has sent meanwhile is ignored",
+                  connection_.queued()));
+  return false;
+}
+
+void SocketcandClient::show(const PortMessage &message) {
+  if (!leaving_ && put(message_text(message))) ++shared_.counts.to_clients;
 }
 
 void SocketcandClient::tick() {
@@ -123,8 +129,8 @@ void SocketcandClient::tick() {
   if (statistics_interval_ == 0 || shared_.now < statistics_due_ || leaving_) return;
   statistics_due_ = shared_.now + statistics_interval_;
   const SocketcandTraffic &traffic = shared_.traffic[*bus_];
-  connection_.put(fmt::format("\n< stat {} {} {} {} >", traffic.received_bytes,
-                              traffic.received_frames, traffic.sent_bytes, traffic.sent_frames));
+  put(fmt::format("\n< stat {} {} {} {} >", traffic.received_bytes, traffic.received_frames,
+                  traffic.sent_bytes, traffic.sent_frames));
 }
 
 void SocketcandClient::leave() {
@@ -159,7 +165,7 @@ void SocketcandClient::account() {
 
 void SocketcandClient::fail(const std::string &text) {
   ++shared_.counts.bad_commands;
-  connection_.put(error_text(text));
+  put(error_text(text));
 }
 
 }  // namespace vericansim

@@ -83,9 +83,10 @@ class SocketcandClient {
   void execute(const std::string &text);
   [[nodiscard]] std::string unknown(std::string_view name) const;
   void fail(const std::string &text);
-  void answer_ok() { connection_.put("< ok >"); }
+  void answer_ok() { put("< ok >"); }
   void enter(Mode mode);
   void leave();
+  bool put(const std::string &text);
   void show(const PortMessage &message);
   void tick();
 

@@ -90,7 +90,7 @@ void SocketcandClient::open(CommandWords &words) {
 
 void SocketcandClient::echo(CommandWords &words) {
   words.end();
-  connection_.put("< echo >");
+  put("< echo >");
 }
 
 void SocketcandClient::enter(Mode mode) {

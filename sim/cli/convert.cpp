@@ -29,6 +29,11 @@ int run(const ConvertOptions &options) {
   claim_files({{"the recording", options.in}}, outputs);
   const SelectedLog selected = read_selected(options.in, options.selection, true);
   const Conversion result = convert(selected.log, format, options.out);
+  if (!result.faithful) {
+    fmt::print(stderr, "verican: {}: read again, its frames are not those of {}; not written\n",
+               options.out, options.in);
+    return kFailed;
+  }
   OutputFile file{options.out};
   file.stream() << result.bytes;
   file.commit();
@@ -43,10 +48,7 @@ int run(const ConvertOptions &options) {
   if (result.frames == 0)
     fmt::print(stderr, "verican: {}: no frame to convert{}\n", options.in,
                selected.log.skipped == 0 ? "" : ": only " + skipped_text(selected.log));
-  if (!result.faithful)
-    fmt::print(stderr, "verican: {}: read again, its frames are not those of {}\n", options.out,
-               options.in);
-  return result.faithful && result.frames != 0 ? kOk : kFailed;
+  return result.frames != 0 ? kOk : kFailed;
 }
 
 }  // namespace

@@ -117,6 +117,9 @@ int decode(DecodeOptions &options) {
     else
       fmt::print("{}\n", line_of(event, options.database.get()));
   }
+  if (result.cut && !options.json)
+    fmt::print("{:.3f} us frame cut by the end of the waveform\n",
+               static_cast<double>(*result.cut) / kMicrosecond);
   if (options.json)
     print_json({{"signal", result.signal},
                 {"bitrate", result.bitrate},
@@ -124,6 +127,7 @@ int decode(DecodeOptions &options) {
                 {"frames", frames},
                 {"errors", errors},
                 {"overloads", overloads},
+                {"cut_ps", result.cut ? Json(*result.cut) : Json()},
                 {"events", list}});
   else
     fmt::print("signal {}, {:.0f} bit/s: {} frames, {} error frames, {} overload frames in {}\n",

@@ -9,9 +9,11 @@
 
 #include "cli/cli.hpp"
 #include "cli/console.hpp"
+#include "cli/live_run.hpp"
 #include "cli/output_files.hpp"
 #include "session/firmware_run.hpp"
 #include "simulation/stop_request.hpp"
+#include "trace/input_error.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -48,11 +50,20 @@ void complain_of(const FirmwareReport &report) {
                    check.wanted);
 }
 
+/// The scenarios of the buses, each with one bit rate.
+void read_buses(const FirmwareOptions &options, FirmwareSetup &setup) {
+  setup.scenarios.push_back(read_scenario(options.bus));
+  setup.bitrate = only_bitrate(setup.scenarios.front(), setup.bitrate);
+  if (options.second_bus.empty()) return;
+  const Scenario &second = setup.scenarios.emplace_back(read_scenario(options.second_bus));
+  if (second.bitrates.size() > 1)
+    throw InputError(second.file, 0, "has several bit rates; allowed for --second-bus: one");
+}
+
 FirmwareSetup make_setup(const FirmwareOptions &options) {
   FirmwareSetup setup = options.setup;
   for (const std::string &file : options.files) setup.images.push_back(firmware::read_elf(file));
-  setup.scenarios.push_back(read_scenario(options.bus));
-  if (!options.second_bus.empty()) setup.scenarios.push_back(read_scenario(options.second_bus));
+  read_buses(options, setup);
   override_outputs(setup.scenarios.front().outputs, options.outputs);
   for (Scenario &scenario : setup.scenarios) scenario.outputs.ids = options.outputs.ids;
   if (!options.limit.empty()) setup.limit = time_option("--time", options.limit);

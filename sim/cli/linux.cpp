@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // verican linux: runs a user-mode Linux whose CAN controllers are Verilated cores.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -17,7 +19,9 @@
 
 #include "cli/cli.hpp"
 #include "linux/guest_server.hpp"
+#include "simulation/stop_request.hpp"
 #include "trace/input_error.hpp"
+#include "trace/temporary_folder.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -37,9 +41,9 @@ struct LinuxOptions {
 class SocketDirectory {
  public:
   SocketDirectory() {
-    std::string path = (std::filesystem::temp_directory_path() / "verican-XXXXXX").string();
+    std::string path = temporary_folder() + "/verican-XXXXXX";
     if (::mkdtemp(path.data()) == nullptr)
-      throw std::runtime_error("no temporary directory at " + path);
+      throw InputError("TMPDIR", 0, path + " cannot be made: " + std::strerror(errno));
     path_ = path;
   }
   ~SocketDirectory() {
@@ -57,17 +61,31 @@ class SocketDirectory {
 /// The guest kernel as a process of its own, in a process group of its own: it has helpers.
 class GuestProcess {
  public:
+  /// Throws InputError if words[0] is no program.
   GuestProcess(const std::vector<std::string> &words, const std::string &preload) {
     std::vector<char *> argv;
     for (const std::string &word : words) argv.push_back(const_cast<char *>(word.c_str()));
     argv.push_back(nullptr);
-    pid_ = ::fork();
-    if (pid_ < 0) throw std::runtime_error("the guest kernel cannot be started");
-    if (pid_ != 0) return;
-    ::setpgid(0, 0);
-    if (!preload.empty()) ::setenv("LD_PRELOAD", preload.c_str(), 1);
-    ::execv(argv[0], argv.data());
-    ::_exit(127);
+    int failure[2];  // the errno of execv(); closed without one when the kernel runs
+    if (::pipe2(failure, O_CLOEXEC) != 0 || (pid_ = ::fork()) < 0)
+      throw std::runtime_error("the guest kernel cannot be started");
+    if (pid_ == 0) {
+      ::setpgid(0, 0);
+      if (!preload.empty()) ::setenv("LD_PRELOAD", preload.c_str(), 1);
+      ::execv(argv[0], argv.data());
+      const int code = errno;
+      [[maybe_unused]] const auto ignored = ::write(failure[1], &code, sizeof code);
+      ::_exit(127);
+    }
+    ::setpgid(pid_, pid_);  // whoever of the two is first
+    ::close(failure[1]);
+    int code = 0;
+    while (::read(failure[0], &code, sizeof code) < 0 && errno == EINTR) {
+    }
+    ::close(failure[0]);
+    if (code == 0) return;
+    wait();
+    throw InputError("--kernel", 0, "cannot run " + words[0] + ": " + std::strerror(code));
   }
   ~GuestProcess() {
     if (!over()) ::kill(-pid_, SIGKILL);
@@ -94,6 +112,24 @@ class GuestProcess {
 
 void must_exist(const char *option, const std::string &path) {
   if (::access(path.c_str(), R_OK) != 0) throw InputError(option, 0, "cannot read " + path);
+  if (std::filesystem::is_directory(path))
+    throw InputError(option, 0, path + " is a directory; allowed: a file");
+}
+
+/// Throws InputError for what cannot be run so.
+void check(const LinuxOptions &options) {
+  must_exist("--kernel", options.kernel);
+  if (::access(options.kernel.c_str(), X_OK) != 0)
+    throw InputError("--kernel", 0, options.kernel + " is no program: it may not be executed");
+  must_exist("--dtb", options.dtb);
+  must_exist("--init", options.init);
+  if (!options.preload.empty()) must_exist("--preload", options.preload);
+  const std::size_t errors = options.board.clock_ppm.size();
+  if (errors > options.board.controllers)
+    throw InputError("--clock-ppm", 0,
+                     fmt::format("{} errors of {} clocks; allowed: as many as --controllers, or "
+                                 "fewer",
+                                 errors, options.board.controllers));
 }
 
 std::vector<std::string> kernel_command(const LinuxOptions &options, const std::string &sockets) {
@@ -116,10 +152,8 @@ std::vector<std::string> kernel_command(const LinuxOptions &options, const std::
 }
 
 int run(const LinuxOptions &options) {
-  must_exist("--kernel", options.kernel);
-  must_exist("--dtb", options.dtb);
-  must_exist("--init", options.init);
-  if (!options.preload.empty()) must_exist("--preload", options.preload);
+  check(options);
+  const StopSignals signals;
   Board board{options.board};
   const SocketDirectory sockets;
   GuestServer server{board, sockets.path()};
@@ -138,6 +172,10 @@ int run(const LinuxOptions &options) {
              "{:.1f} s\n",
              static_cast<double>(board.now()) / 1e9, static_cast<double>(board.asleep()) / 1e9,
              server.accesses(), server.interrupts(), wall.count());
+  if (stop_requested()) {
+    fmt::print(stderr, "verican linux: interrupted; the guest is ended\n");
+    return exit_code_after(kFailed);
+  }
   if (late) {
     fmt::print(stderr, "verican linux: the guest did not end within {} s\n", options.timeout);
     return kFailed;

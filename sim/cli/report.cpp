@@ -118,6 +118,9 @@ int report_log(const ReportOptions &options) {
              options.input, report.on_bus, replay_options.bitrate, report.nodes.size(),
              report.error_frames, interrupted_text(report.interrupted), options.outputs.report);
   if (const std::string note = selected.note(); !note.empty()) fmt::print("{}\n", note);
+  if (!report.failure.empty()) fmt::print("FAIL  {}\n", report.failure);
+  for (const ReplayNode &node : report.nodes)
+    if (!node.complete) fmt::print("FAIL  {}: {}\n", node.name, node.first_difference);
   return report.ok() ? kOk : kFailed;
 }
 

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "simulation/stop_request.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim {
@@ -36,7 +37,7 @@ GuestServer::GuestServer(Board &board, const std::string &directory)
       interrupt_listener_{directory + "/interrupts"} {}
 
 void GuestServer::serve(const std::function<bool()> &given_up) {
-  while (!over_ && wait_for_guest(given_up)) {
+  while (!over_ && !stop_requested() && wait_for_guest(given_up)) {
     if (!over_ && calendar_.waiting()) let_time_pass();
   }
 }
@@ -114,7 +115,7 @@ void GuestServer::serve_registers() {
 
 // The guest waits: time goes on until it wants to run, or until an interrupt makes it want to.
 void GuestServer::let_time_pass() {
-  while (!over_ && calendar_.waiting()) {
+  while (!over_ && !stop_requested() && calendar_.waiting()) {
     const std::uint64_t goal = calendar_.goal();
     const bool for_ever = goal >= calendar_.guest_time() + kLongestSleep;
     const std::uint64_t until = for_ever ? board_.now() + kLongestSleep : goal;
@@ -136,10 +137,12 @@ void GuestServer::let_time_pass() {
 void GuestServer::tell_interrupt() {
   ++interrupts_;
   interrupt_.send(board_.levels());
-  while (!over_) {
+  while (!over_ && !stop_requested()) {
     std::array fds{pollfd{interrupt_.get(), POLLIN, 0}, pollfd{time_.get(), POLLIN, 0}};
-    if (::poll(fds.data(), fds.size(), -1) < 0 && errno != EINTR)
+    if (::poll(fds.data(), fds.size(), -1) < 0) {
+      if (errno == EINTR) continue;
       throw std::runtime_error("waiting for the guest failed");
+    }
     // What it says of time comes before its answer, so it is read first.
     if (fds[1].revents != 0) {
       serve_time();

@@ -23,8 +23,9 @@ class GuestServer {
   /// std::system_error or std::invalid_argument.
   GuestServer(Board &board, const std::string &directory);
 
-  /// Serves until the guest closes its time socket, or until `given_up` says so, which is asked
-  /// while nothing comes from the guest. Throws InputError if the guest breaks the rules, or if it
+  /// Serves until the guest closes its time socket, until the user wants the end
+  /// (stop_request.hpp), or until `given_up` says so, which is asked while nothing comes from the
+  /// guest. Throws InputError if the guest breaks the rules, or if it
   /// waits for something that cannot happen.
   void serve(const std::function<bool()> &given_up);
 

@@ -45,6 +45,21 @@ void BusDecoder::finish(Time time) {
   if (!first_) advance(time);
 }
 
+std::optional<Time> BusDecoder::under_way() const {
+  switch (stage_) {
+    case Stage::kIntegrate:
+    case Stage::kIdle:
+    case Stage::kIntermission: return std::nullopt;
+    case Stage::kStuffed:
+    case Stage::kTail: return frame_.start;
+    case Stage::kFlag:
+    case Stage::kSilence:
+    case Stage::kDelimiter: break;
+  }
+  const bool of_frame = trouble_.kind == BusEventKind::kErrorFrame && trouble_.field != Field::kDel;
+  return of_frame ? trouble_.frame_start : trouble_.start;
+}
+
 /// A dominant level that lasts changes nothing but the length of the run: a bus that is stuck is
 /// not stepped through. Takes the bits up to the last one before `time`.
 void BusDecoder::skip_dominant(Time time) {

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "bus/field.hpp"
@@ -75,6 +76,10 @@ class BusDecoder {
   void on_level(Time time, Level level);
   /// The bus keeps its level until `time`; samples up to there are taken. More levels may follow.
   void finish(Time time);
+
+  /// Where the frame began, or the overload frame, that is not at its end so far; unset: none is on
+  /// the bus.
+  [[nodiscard]] std::optional<Time> under_way() const;
 
   /// Frames seen so far.
   [[nodiscard]] std::uint64_t frames() const { return frames_; }

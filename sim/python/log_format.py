@@ -300,6 +300,10 @@ def write_sqlite(lines, _base):
         writer = can.io.SqliteWriter(str(path))
         for line in lines:
             writer.on_message_received(parse_line(line, 0))
+        # stop() drops what its thread has not yet taken from the buffer.
+        thread = writer._writer_thread  # pylint: disable=protected-access
+        while thread.is_alive() and not writer.buffer.empty():
+            time.sleep(0.001)
         writer.stop()
         return path.read_bytes()
 

@@ -91,7 +91,7 @@ class Session {
   void advance();
   void advance_fast();
   void advance_paced();
-  void run_until(Time target);
+  void run_until(Time target, Time most = kNever);
   void clock_workers(Time edge);
   bool pass_over(Time target);
   void run_buses(Time target);

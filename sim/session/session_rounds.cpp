@@ -18,7 +18,7 @@ constexpr WallTime kQuietTick = 5'000'000;
 // While an outlet is down, or has no room: look again after.
 constexpr WallTime kDownTick = 100'000'000;
 constexpr WallTime kRefusedTick = 1'000'000;
-// Longest stretch of simulation without a look at the programs.
+// Longest stretch that is simulated, not passed over, without a look at the programs.
 constexpr Time kLongestStretch = 2 * kMillisecond;
 // What is simulated between two looks for quiet, bits.
 constexpr Time kQuietLook = 16;
@@ -136,7 +136,7 @@ void Session::advance_fast() {
 void Session::advance_paced() {
   const Time due = pacer_.due(wall_.now());
   const Time reach = quiet() ? due : now() + kLongestStretch;
-  run_until(std::min({due, start_ + limit_, reach}));
+  run_until(std::min({due, start_ + limit_, reach}), kLongestStretch);
   if (pacer_.reached(wall_.now(), now()))
     options_.say(
         fmt::format("the simulation lags {:.0f} ms behind real time; fewer nodes, a slower "
@@ -144,16 +144,18 @@ void Session::advance_paced() {
                     static_cast<double>(pacer_.lag()) / 1e6));
 }
 
-// Runs buses and CPUs; where nothing is under way time may pass at no cost.
-void Session::run_until(Time target) {
-  while (!ended_ && now() < target) {
-    const Time edge = next_edge();
+// Runs buses and CPUs up to `target`, or until `most` has been simulated; where nothing is under way
+// time may pass at no cost, and such time does not count.
+void Session::run_until(Time target, Time most) {
+  const Time look = passes_ ? kQuietLook * bit_time_ : most;
+  while (!ended_ && now() < target && most > 0) {
+    const Time before = now(), edge = next_edge();
+    const bool passed = passes_ && edge > target && pass_over(target);
     if (edge <= target)
       clock_workers(edge);
-    else if (!passes_)
-      run_buses(target);
-    else if (!pass_over(target))
-      run_buses(std::min(target, now() + kQuietLook * bit_time_));
+    else if (!passed)
+      run_buses(before + std::min({target - before, most, look}));
+    if (!passed) most -= now() - before;
     if (until_done_ && all_done()) ended_ = true;
   }
 }

@@ -50,6 +50,7 @@ class OutputFile {
   [[nodiscard]] const std::string &path() const;
   /// A name beside the file, in its folder, for what a library writes by name; in the folder for
   /// temporary files if the file is written directly. Nobody else uses it in this process.
+  /// Throws InputError if there is no such folder.
   [[nodiscard]] std::string scratch_name() const;
 
  private:

@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "trace/output_file.hpp"
+#include "trace/temporary_folder.hpp"
 
 namespace vericansim {
 namespace {
@@ -106,7 +107,7 @@ void OutputPlace::rename() {
 }
 
 std::string OutputPlace::scratch_name() const {
-  return own_name(direct() ? fs::temp_directory_path() : fs::path{target_}.parent_path());
+  return own_name(direct() ? fs::path{temporary_folder()} : fs::path{target_}.parent_path());
 }
 
 }  // namespace vericansim

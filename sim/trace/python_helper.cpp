@@ -100,6 +100,18 @@ int run_child(std::vector<std::string> words, const MemoryFile &in, const Memory
   return status;
 }
 
+/// Throws InputError if `python`, which somebody has named, runs and is no Python.
+void check_interpreter(const std::string &python, const std::string &subject) {
+  const MemoryFile in{"in"}, out{"out"}, err{"err"};
+  const int status =
+      run_child({python, "-c", "import sys; print(sys.version_info[0])"}, in, out, err);
+  const bool started = !WIFEXITED(status) || WEXITSTATUS(status) != kNoProgram;
+  if (started && (status != 0 || out.content() != "3\n"))
+    throw InputError(subject, 0,
+                     "needs Python, and " + in_quotes(python) +
+                         " of VERICAN_PYTHON is none; allowed: the file of a Python 3");
+}
+
 /// The last line that says something.
 std::string last_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -117,6 +129,7 @@ std::string run_python(const PythonCall &call) {
                          "VERICAN_PYTHON_DIR=FOLDER names it");
   const char *given = std::getenv("VERICAN_PYTHON");
   const std::string python = given != nullptr ? given : "/usr/bin/python3";
+  if (given != nullptr) check_interpreter(python, call.subject);
   const MemoryFile in{"in"}, out{"out"}, err{"err"};
   in.fill(call.input);
   // -B: no __pycache__ in an installed tree.

@@ -9,6 +9,7 @@
 #include <cctype>
 #include <limits>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 
 #include "trace/input_error.hpp"
@@ -79,6 +80,32 @@ std::string lower(std::string_view text) {
 bool ends_as_name(const std::string &full, const std::string &end) {
   return full == end || (full.size() > end.size() && full.ends_with(end) &&
                          full[full.size() - end.size() - 1] == '.');
+}
+
+/// Refuses a value of several bits that holds something else.
+void check_vector(const std::string &path, std::string_view word, std::size_t line) {
+  const bool bits = word[0] == 'b' || word[0] == 'B';
+  // Besides the four values those of VHDL, as GTKWave reads them.
+  constexpr std::string_view kBits = "01xXzZuUwWlLhH-";
+  if (bits && (word.size() == 1 || word.find_first_not_of(kBits, 1) != std::string_view::npos))
+    throw InputError(path, line,
+                     "value " + in_quotes(std::string(word)) +
+                         " is not allowed; allowed behind b: digits 0, 1, x, z");
+}
+
+/// Behind `word`, a keyword among the value changes, and behind the text of a comment.
+void pass_keyword(const std::string &path, Words &words, std::string_view word) {
+  constexpr std::string_view kDumps[] = {"$dumpall", "$dumpoff", "$dumpon", "$dumpvars", "$end"};
+  const std::size_t line = words.line();
+  if (word == "$comment") {
+    while (!word.empty() && word != "$end") word = words.next();
+    if (word.empty()) throw InputError(path, line, "$comment has no $end");
+  } else if (std::find(std::begin(kDumps), std::end(kDumps), word) == std::end(kDumps)) {
+    throw InputError(path, line,
+                     "keyword " + in_quotes(std::string(word)) +
+                         " is not allowed among value changes; allowed: $comment, $dumpall, "
+                         "$dumpoff, $dumpon, $dumpvars, $end");
+  }
 }
 
 }  // namespace
@@ -213,6 +240,8 @@ Time VcdFile::stamp(std::string_view word, Time now, std::size_t line) const {
 }
 
 Time VcdFile::read(const VcdSignal &signal, const OnChange &change) const {
+  std::unordered_set<std::string_view> codes;
+  for (const VcdSignal &declared : signals_) codes.insert(declared.code);
   Words words{std::string_view{text_}.substr(body_), body_line_};
   Time now = 0;
   int last = -1;
@@ -222,21 +251,28 @@ Time VcdFile::read(const VcdSignal &signal, const OnChange &change) const {
   };
   constexpr std::string_view kScalar = "01xXzZ", kSpaced = "bBrRsS";
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+    const std::size_t line = words.line();
     if (word[0] == '#') {
-      now = stamp(word, now, words.line());
-    } else if (kScalar.find(word[0]) != std::string_view::npos) {
-      if (word.substr(1) == signal.code) use(word[0]);
-    } else if (kSpaced.find(word[0]) != std::string_view::npos) {
-      const std::string_view code = words.next();
-      if (code.empty())
-        throw InputError(path_, words.line(), "value without a signal at the end of the file");
-      if (code == signal.code) use(word.size() > 1 ? word.back() : 'x');
-    } else if (word == "$comment") {
-      while (!word.empty() && word != "$end") word = words.next();
-    } else if (word[0] != '$') {
-      throw InputError(path_, words.line(),
-                       "expected a value change, found " + in_quotes(std::string(word)));
+      now = stamp(word, now, line);
+      continue;
     }
+    if (word[0] == '$') {
+      pass_keyword(path_, words, word);
+      continue;
+    }
+    const bool spaced = kSpaced.find(word[0]) != std::string_view::npos;
+    if (!spaced && kScalar.find(word[0]) == std::string_view::npos)
+      throw InputError(path_, line,
+                       "expected a value change, found " + in_quotes(std::string(word)));
+    if (spaced) check_vector(path_, word, line);
+    const std::string_view code = spaced ? words.next() : word.substr(1);
+    if (code == signal.code)
+      use(spaced ? (word.size() > 1 ? word.back() : 'x') : word[0]);
+    else if (codes.find(code) == codes.end())
+      throw InputError(path_, line,
+                       "value " + in_quotes(std::string(word)) +
+                           (code.empty() ? " has no code" : " is of a code that no $var declares") +
+                           "; allowed: a value and the code of a signal");
   }
   return now;
 }

@@ -59,7 +59,7 @@ WaveDecodeResult decode_wave(const std::string &path, const WaveDecodeOptions &o
 }
 
 WaveDecodeResult decode_wave(const Wave &wave, int sample_point) {
-  WaveDecodeResult result{wave.signal, wave.bitrate, wave.end, {}};
+  WaveDecodeResult result{wave.signal, wave.bitrate, wave.end, {}, {}};
   DecoderConfig config;
   config.bit_time = bit_time_of(result.bitrate);
   config.sample_point = sample_point;
@@ -67,6 +67,7 @@ WaveDecodeResult decode_wave(const Wave &wave, int sample_point) {
   for (const auto &[time, level] : wave.changes) decoder.on_level(time, level);
   // The last frame may end with the file: grant it the recessive bits that end it.
   decoder.finish(result.end + 12 * config.bit_time);
+  result.cut = decoder.under_way();
   return result;
 }
 

@@ -40,6 +40,8 @@ struct WaveDecodeResult {
   double bitrate = 0;  ///< bit/s, given or detected
   Time end = 0;        ///< of the waveform, ps
   std::vector<BusEvent> events;
+  /// Where the frame began, or the overload frame, that the end of the waveform cuts, ps.
+  std::optional<Time> cut;
 };
 
 /// Decodes one signal of a VCD file. Throws InputError if the file, the signal or the bit rate

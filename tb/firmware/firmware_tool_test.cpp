@@ -70,6 +70,12 @@ TEST(FirmwareTool, NoEndWithinTheLimit) {
   EXPECT_THAT(run("cpu").error, HasSubstr("no end within the limit of 2.000 ms"));
 }
 
+TEST(FirmwareTool, OneOfSeveralBitRates) {
+  const auto result = run("semihosting", "--bitrate 125k --json",
+                          "bitrate: [500k, 125k]\n" + kNodes);
+  EXPECT_EQ(nlohmann::json::parse(result.out)["buses"][0]["bitrate"], 125e3);
+}
+
 TEST(FirmwareTool, SecondCore) {
   EXPECT_EQ(run("second_core", "--second-core").code, 0);
   const auto one = run("second_core");
@@ -113,6 +119,10 @@ TEST(FirmwareTool, BadInputIsRefused) {
           "a second core needs exactly one firmware file");
   refused(good + " --bus " + nodes + " --second-core --second-bus " + nodes, "excludes");
   refused(good + " --bus " + nodes + " --clocks-per-instruction 0", "--clocks-per-instruction");
+  const std::string rates = file_with("rates.yaml", "bitrate: [125k, 500k]\n" + kNodes);
+  refused(good + " --bus " + rates, "has several bit rates; --bitrate says which");
+  refused(good + " --bus " + nodes + " --second-bus " + rates,
+          "has several bit rates; allowed for --second-bus: one");
   refused(good + " --bus " +
               file_with("2.yaml",
                         "nodes:\n  - {name: firmware}\ntraffic:\n  - {node: firmware, id: 1}\n"),

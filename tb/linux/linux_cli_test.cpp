@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +13,8 @@
 
 #include "firmware/tool_run.hpp"
 #include "harness/scratch_test.hpp"
+#include "harness/shell.hpp"
+#include "system/running_tool.hpp"
 
 namespace {
 
@@ -41,6 +44,53 @@ TEST_F(LinuxCommand, NamesTheFileThatIsMissing) {
   EXPECT_EQ(tool("--dtb /dev/null --init /bin/true").code, 2);
   EXPECT_EQ(kernel("exit 0", "--controllers 9").code, 2);
   EXPECT_EQ(kernel("exit 0", "--lean --time-unit").code, 2);
+}
+
+TEST_F(LinuxCommand, WhatCannotBeRunIsRefused) {
+  const auto refusal = [&](const std::string &arguments) {
+    const tb::ToolResult result = tool("--dtb /dev/null --init /bin/true " + arguments);
+    EXPECT_EQ(result.code, 2) << arguments;
+    return result.error;
+  };
+  const std::string text = file_with("text", "hello");
+  EXPECT_EQ(refusal("--kernel " + text),
+            "verican: --kernel: " + text + " is no program: it may not be executed\n");
+  std::filesystem::permissions(text, std::filesystem::perms::owner_all);
+  EXPECT_EQ(refusal("--kernel " + text),
+            "verican: --kernel: cannot run " + text + ": Exec format error\n");
+  EXPECT_EQ(refusal("--kernel /tmp"),
+            "verican: --kernel: /tmp is a directory; allowed: a file\n");
+  EXPECT_EQ(refusal("--kernel /bin/true --preload /tmp"),
+            "verican: --preload: /tmp is a directory; allowed: a file\n");
+  EXPECT_EQ(refusal("--kernel /bin/true --clock-ppm 1,2,3"),
+            "verican: --clock-ppm: 3 errors of 2 clocks; allowed: as many as --controllers, or "
+            "fewer\n");
+}
+
+TEST_F(LinuxCommand, ASignalEndsTheGuestAndLeavesNothing) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const std::string path =
+        file_with("kernel", "#!/bin/sh\nsleep 1000 &\necho $! $$ >" + in("started") +
+                                "\nls -d $TMPDIR/verican-*/time >" + in("sockets") + "\nwait\n");
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    std::filesystem::create_directory(in("tmp"));
+    ::setenv("TMPDIR", in("tmp").c_str(), 1);
+    std::filesystem::remove(in("sockets"));
+    tb::RunningTool running{
+        {"linux", "--kernel", path, "--dtb", "/dev/null", "--init", "/bin/true"}};
+    ASSERT_TRUE(running.wait_until([&] { return !tb::slurp(in("sockets")).empty(); }));
+    ::unsetenv("TMPDIR");
+    running.signal(signal);
+    const tb::ToolResult result = running.wait();
+    EXPECT_EQ(result.code, 128 + signal);
+    EXPECT_THAT(result.error, HasSubstr("verican linux: interrupted; the guest is ended\n"));
+    EXPECT_TRUE(std::filesystem::is_empty(in("tmp")));
+    // A process that nobody has taken note of yet is a zombie (Z).
+    EXPECT_EQ(vericansim::shell("for p in $(cat " + in("started") +
+                                "); do grep -s '^State:.[^Z]' /proc/$p/status; done; true")
+                  .text,
+              "");
+  }
 }
 
 TEST_F(LinuxCommand, AProgramThatIsNoKernelIsFoundOut) {

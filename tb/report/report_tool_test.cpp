@@ -138,6 +138,19 @@ TEST(ReportTool, ALogIsSentThroughCores) {
   EXPECT_EQ(ReportPage{page}.size("f.start"), 2U);
 }
 
+// As replay says it.
+TEST(ReportTool, ALogOfWhichNothingIsSentFailsWithTheReason) {
+  const std::string page = report_file(".html");
+  const std::string fd = file_with(".log", "(0.000000) can0 123##1112233\n");
+  const tb::ToolResult none = tb::run_tool("report " + fd + " -o " + page);
+  EXPECT_EQ(none.code, 1);
+  EXPECT_THAT(none.out, HasSubstr("FAIL  nothing to replay"));
+  const std::string log = file_with(".log", "(0.000000) can0 123#1122\n");
+  const tb::ToolResult filtered = tb::run_tool("report " + log + " --filter 999:7FF -o " + page);
+  EXPECT_EQ(filtered.code, 1);
+  EXPECT_THAT(filtered.out, HasSubstr("FAIL  nothing to replay"));
+}
+
 // Each page has the statements of its experiment, with moments that lie in it.
 TEST(ReportTool, ThePaperHasAPageForEachExperiment) {
   const std::string folder = report_file(".pages");

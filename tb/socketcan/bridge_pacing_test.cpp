@@ -113,6 +113,37 @@ TEST(BridgePacing, LagIsSaidAndReported) {
   EXPECT_TRUE(report.ok());  // late is not lost
 }
 
+// A bus on which nothing happens, and a computer that has lost a second: what must be simulated is
+// made up for bit by bit, with looks at the programs and at the user's wish between.
+TEST(BridgePacing, QuietTimeThatMustBeSimulatedDoesNotShutOutThePrograms) {
+  constexpr Time kLook = 2 * kMillisecond;
+  FaultSpec far;  // its clocks are always simulated
+  far.window = {.from = 1'000 * kSecond, .to = 1'001 * kSecond};
+  for (const RigOptions &options : {RigOptions{.nodes = 0, .remotes = 1, .fast = false},
+                                    RigOptions{.nodes = 1, .fast = false, .faults = {far}}}) {
+    BridgeRig rig{options};
+    for (unsigned rounds = 0; rounds < 20; ++rounds) rig.bridge().round();
+    const Time before = rig.bridge().elapsed();
+    rig.wall.time += kSecond / kNanosecond;
+    ASSERT_TRUE(rig.bridge().round());
+    EXPECT_GT(rig.bridge().elapsed(), before);
+    EXPECT_LE(rig.bridge().elapsed(), before + kLook);
+    rig.wall.stop = true;
+    EXPECT_FALSE(rig.bridge().round());
+    EXPECT_LE(rig.bridge().elapsed(), before + 2 * kLook);
+  }
+}
+
+// Time that costs nothing is passed over in one round, however long it is.
+TEST(BridgePacing, QuietTimeThatCostsNothingIsMadeUpForAtOnce) {
+  BridgeRig rig{{.nodes = 1, .fast = false}};
+  for (unsigned rounds = 0; rounds < 20; ++rounds) rig.bridge().round();
+  const Time before = rig.bridge().elapsed();
+  rig.wall.time += kSecond / kNanosecond;
+  ASSERT_TRUE(rig.bridge().round());
+  EXPECT_GE(rig.bridge().elapsed(), before + kSecond);
+}
+
 // ---- As fast as possible
 
 // With nothing to do a fast bridge waits for the programs without end, and simulated time stands

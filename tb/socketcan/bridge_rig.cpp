@@ -84,6 +84,15 @@ BridgeRig::BridgeRig(const RigOptions &options) {
     node.clock.frequency_hz = setup.port_clock_hz;
     setup.scenario.nodes.push_back(node);
   }
+  for (unsigned i = 1; i <= options.remotes; ++i) {
+    NodeSpec node;
+    node.name = fmt::format("remote{}", i);
+    node.clock.frequency_hz = setup.port_clock_hz;
+    RemoteRole role;
+    role.number = i;
+    node.role = role;
+    setup.scenario.nodes.push_back(node);
+  }
   setup.scenario.faults = options.faults;
   setup.scenario.traffic = options.traffic;
   for (unsigned i = 0; i < options.ports; ++i) {

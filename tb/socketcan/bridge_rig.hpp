@@ -72,7 +72,8 @@ class FakeWall : public Wall {
 /// Options of a rig; the ports are called can0, can1, ...
 struct RigOptions {
   unsigned ports = 1;
-  unsigned nodes = 2;  ///< plain ones
+  unsigned nodes = 2;    ///< plain ones
+  unsigned remotes = 0;  ///< nodes without a processor, numbers from 1 on
   bool monitor = false;
   bool fast = true;
   double bitrate = 500e3;
@@ -83,7 +84,8 @@ struct RigOptions {
   bool end_when_down = false;
 };
 
-/// Bridge, ports and wall. Node ids: plain nodes from 0, then the ports.
+/// Bridge, ports and wall. Node ids: plain nodes from 0, then the
+/// remote ones, then the ports.
 class BridgeRig {
  public:
   explicit BridgeRig(const RigOptions &options);

@@ -158,6 +158,38 @@ TEST_F(SocketcandClients, AClientThatReadsAgainLearnsWhyItWasClosed) {
                                 "ignored >"));
 }
 
+// Answers and statistics count as frames do.
+TEST_F(SocketcandClients, AClientThatDoesNotReadItsAnswersIsClosedToo) {
+  const std::string bad = "<><><><>", echo = "< echo >", good = "< rawmode >< bcmmode >";
+  std::uint64_t slow = 0;
+  for (const std::string &commands : {bad, echo, good}) {
+    SocketcandTestClient client(bench_.port(), 4096);
+    ASSERT_TRUE(bench_.send(client, "< open can0 >"));
+    std::string many;
+    for (unsigned i = 0; i < 1'000; ++i) many += commands;
+    for (unsigned i = 0; bench_.server().counts().too_slow == slow && i < 10'000; ++i) {
+      client.send(many);
+      bench_.step();
+    }
+    EXPECT_EQ(bench_.server().counts().too_slow, ++slow) << commands;
+    ASSERT_TRUE(bench_.until([&] {
+      client.read();
+      return client.closed();
+    }));
+    EXPECT_THAT(client.received(), HasSubstr("< error this client reads too slowly, "));
+  }
+}
+
+TEST_F(SocketcandClients, AClientThatDoesNotReadItsStatisticsIsClosedToo) {
+  SocketcandTestClient client(bench_.port(), 4096);
+  ASSERT_TRUE(bench_.send(client, "< open can0 >< controlmode >< statistics 1 >"));
+  for (unsigned i = 0; bench_.server().counts().too_slow == 0 && i < 1'000'000; ++i) {
+    bench_.now += kMillisecond;
+    bench_.step();
+  }
+  EXPECT_EQ(bench_.server().counts().too_slow, 1U);
+}
+
 TEST_F(SocketcandClients, WhatAVanishedClientHasSentIsSent) {
   auto client = bench_.raw_client();
   bench_.room = 0;

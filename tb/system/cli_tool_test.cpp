@@ -136,6 +136,30 @@ TEST_F(Tool, ReplayThenDecodeGivesTheLogBack) {
     EXPECT_THAT(frames, HasSubstr(frame));
 }
 
+// The wave of a replay, up to the middle of its second frame.
+TEST_F(Tool, DecodeTellsOfAFrameThatTheFileCuts) {
+  const std::string log = file_with("cut.log", "(1.0) can0 123#112233\n(1.001) can0 124#445566\n");
+  const std::string vcd = in("whole.vcd");
+  ASSERT_EQ(run_tool("replay " + log + " --vcd " + vcd).code, 0);
+  const auto whole = nlohmann::json::parse(run_tool("decode " + vcd + " --json").out);
+  ASSERT_EQ(whole["frames"], 2);
+  EXPECT_TRUE(whole["cut_ps"].is_null());
+  const auto start = whole["events"][1]["start_ps"].get<std::int64_t>();
+  const auto end = whole["events"][1]["end_ps"].get<std::int64_t>();
+  std::string text;
+  std::istringstream lines{slurp(vcd)};
+  for (std::string line; std::getline(lines, line); text += line + "\n")
+    if (line[0] == '#' && std::stoll(line.substr(1)) * 1000 > (start + end) / 2) break;
+  const std::string half = file_with("half.vcd", text);
+  const ToolResult said = run_tool("decode " + half + " -b 500k");
+  EXPECT_EQ(said.code, 0);
+  EXPECT_THAT(said.out, HasSubstr(" us frame cut by the end of the waveform\nsignal "));
+  const auto json = nlohmann::json::parse(run_tool("decode " + half + " -b 500k --json").out);
+  EXPECT_EQ(json["cut_ps"], start);
+  EXPECT_EQ(json["frames"], 1);
+  EXPECT_EQ(json["errors"], 0);
+}
+
 TEST_F(Tool, BittimeJson) {
   const auto json = nlohmann::json::parse(run_tool("bittime -c 8M -b 500k --sjw 1 --json").out);
   EXPECT_EQ(json["settings"][0]["ctrl"], "0x00310005");  // what can-utils prints

@@ -71,6 +71,18 @@ class ToolOutputs : public ScratchTest {
   }
 };
 
+// A waveform on standard output is made in a file first.
+TEST_F(ToolOutputs, AMissingFolderForTemporaryFilesIsNamed) {
+  const std::string name = "TMPDIR: '/no/such' is not allowed; allowed: a folder";
+  for (const std::string &command :
+       {"replay " + log() + " --fast --fst - -q",
+        std::string{"linux --kernel /bin/true --dtb /dev/null --init /bin/true"}}) {
+    const ToolResult result = shell("TMPDIR=/no/such TOOL " + command + " > /dev/null");
+    EXPECT_EQ(result.code, 2) << command;
+    EXPECT_THAT(result.error, StartsWith("verican: " + name));
+  }
+}
+
 TEST_F(ToolOutputs, EveryOutputToAFullDeviceFails) {
   for (const char *option : {"--vcd", "--fst", "--candump", "--pcap", "--report"})
     expect_refused(run_tool(kRun + option + " /dev/full"), "/dev/full" + kFull);

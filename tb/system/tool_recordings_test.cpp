@@ -54,6 +54,25 @@ TEST(ToolRecordings, ConvertTellsLossesAndRefusesItsInputAsOutput) {
   EXPECT_THAT(empty.text, HasSubstr("no frame to convert"));
 }
 
+// A Python that loses a frame as the file is written stands for any mistake of a library.
+TEST(ToolRecordings, ConvertReplacesNoFileByOneThatIsNotFaithful) {
+  if (!has_python_can()) GTEST_SKIP() << "python3-can is not installed";
+  const ScratchFolder folder;
+  const std::string log = folder.file("a.log", kTwoBuses);
+  const std::string python = folder.file(
+      "python",
+      "#!/bin/sh\ncase \"$*\" in *' write '*) sed 1d | /usr/bin/python3 \"$@\";;\n"
+      "*) exec /usr/bin/python3 \"$@\";; esac\n");
+  const std::string old = folder.file("a.db", "precious");
+  ASSERT_EQ(shell("chmod +x " + python).code, 0);
+  const Said said = shell("VERICAN_PYTHON=" + python + " " + VERICAN_BINARY + " convert " + log +
+                          " " + old + " 2>&1");
+  EXPECT_EQ(said.code, 1);
+  EXPECT_EQ(said.text, "verican: " + old + ": read again, its frames are not those of " + log +
+                           "; not written\n");
+  EXPECT_EQ(shell("cat " + old).text, "precious");
+}
+
 // One of a thing is told in the singular.
 TEST(ToolRecordings, ConvertTellsSingleLosses) {
   const ScratchFolder folder;

@@ -81,6 +81,18 @@ TEST_F(PythonHelper, MissingScriptOrInterpreterIsSaid) {
   EXPECT_THAT(refusal(), HasSubstr("'/no/such/python' cannot be started"));
 }
 
+// Programs that end well and badly, and say something or nothing.
+TEST_F(PythonHelper, AnInterpreterThatIsNoPythonIsSaid) {
+  script("verican_helper.run(lambda args: b'output')\n");
+  for (const std::string program : {"/bin/false", "/bin/true", "/bin/cat", "/bin/echo"}) {
+    ::setenv("VERICAN_PYTHON", program.c_str(), 1);
+    EXPECT_EQ(refusal(), "engine.dbc: needs Python, and '" + program +
+                             "' of VERICAN_PYTHON is none; allowed: the file of a Python 3");
+  }
+  ::setenv("VERICAN_PYTHON", "/usr/bin/python3", 1);
+  EXPECT_EQ(run(), "output");
+}
+
 TEST_F(PythonHelper, MistakeInAScriptIsNoBadInput) {
   script("verican_helper.run(lambda args: 1 // 0)\n");
   try {

@@ -111,6 +111,16 @@ TEST_F(PythonLog, CsvAndSqliteHoldFramesToTheMicrosecond) {
   }
 }
 
+// More frames than python-can's writer takes into one batch (501).
+TEST_F(PythonLog, SqliteHoldsAsManyFramesAsThereAre) {
+  std::string text;
+  for (unsigned i = 0; i < 1600; ++i)
+    text += fmt::format("(1700000000.{:06}000) can0 {:03X}#{:04X}\n", 100 * i, i % 0x800, i);
+  const std::string bytes =
+      python_log_bytes(parse_candump(text, "log"), LogFormat::kSqlite, "a.db");
+  EXPECT_EQ(lines_of(parse_log(bytes, "a.db")), text);
+}
+
 // python-can's own tool reads what was written: the same frames.
 TEST_F(PythonLog, PythonCanReadsTheFiles) {
   const ScratchFolder folder;

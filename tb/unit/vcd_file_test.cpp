@@ -107,6 +107,25 @@ TEST(VcdFile, ErrorsNameTheLine) {
               HasSubstr("a.vcd:7: time '#3' goes back"));
 }
 
+// What a file has that was cut or damaged behind its header, with the line.
+TEST(VcdFile, WhatIsNoValueChangeIsRefused) {
+  const auto refusal = [](const std::string &body) {
+    const VcdFile file{"a.vcd", std::string(kHeader) + "#0 1! $dumpvars 1# $end\n" + body};
+    return input_error_of([&] { file.read(file.find("top.rx"), [](Time, Level) {}); });
+  };
+  EXPECT_EQ(refusal(""), "");
+  EXPECT_EQ(refusal("$dumpoff x! bx \" $end $dumpon 1! b1Zx0 \" sA $\n$end\n$comment a $end"), "");
+  const std::string behind = "; allowed: a value and the code of a signal";
+  EXPECT_EQ(refusal("#1000 0"), "a.vcd:7: value '0' has no code" + behind);
+  EXPECT_EQ(refusal("#1000 b0\n"), "a.vcd:7: value 'b0' has no code" + behind);
+  EXPECT_EQ(refusal("\n0~~~"), "a.vcd:8: value '0~~~' is of a code that no $var declares" + behind);
+  EXPECT_EQ(refusal("b0 ~"), "a.vcd:7: value 'b0' is of a code that no $var declares" + behind);
+  EXPECT_THAT(refusal("#5 b1012 \""), HasSubstr("a.vcd:7: value 'b1012' is not allowed; allowed"));
+  EXPECT_THAT(refusal("b \""), HasSubstr("a.vcd:7: value 'b' is not allowed; allowed behind b"));
+  EXPECT_THAT(refusal("$garbage"), HasSubstr("a.vcd:7: keyword '$garbage' is not allowed among"));
+  EXPECT_EQ(refusal("$comment foo\n1#\n"), "a.vcd:7: $comment has no $end");
+}
+
 /// One pulse and one text, written as VCD.
 std::string write_sample(const std::string &name) {
   const std::string path = ::testing::TempDir() + name;
