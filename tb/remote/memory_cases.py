@@ -120,6 +120,12 @@ class Commands(unittest.TestCase):
             other = pathlib.Path(folder) / "other.bin"
             self.memory("dump", 4, "0x180", 100, "-o", other)
             self.assertEqual(other.read_bytes(), bytes(range(100)))
+            self.assertEqual(self.json("load", 4, "0x180", path), {
+                "number": 4, "address": 0x180, "length": 100, "file": str(path)})
+            self.assertEqual(self.json("dump", 4, "0x181", 2), {
+                "number": 4, "address": 0x181, "length": 2, "bytes": "01 02"})
+            self.assertEqual(self.json("dump", 4, "0x181", 2, "-o", other), {
+                "number": 4, "address": 0x181, "length": 2, "file": str(other)})
             self.memory("load", 4, "0xFC0", path, code=2, error=f"verican: {path}: 100 bytes; "
                         "allowed: 1 to 64 from 0xFC0 on\n")
 
@@ -147,13 +153,39 @@ class Commands(unittest.TestCase):
         self.memory("assign", "77", 7, code=1, timeout=50,
                     error="verican: memory: the node with serial number 00000077 does not answer\n")
 
+    def test_nobody_answers(self):
+        """Asked in numbers of another width."""
+        for words in (("scan",), ("status",), ("poll", "0x40"), ("map",)):
+            self.memory("--name-bits", 5, *words, code=1, timeout=50,
+                        error="verican: memory: no node answers; numbers have 5 bits here, "
+                              "--name-bits says so\n")
+
+    def test_watch_ends_with_its_reader(self):
+        """A pipe that is closed, a device that is full."""
+        command = [os.environ["VERICAN_BINARY"], "memory", "--socketcand",
+                   f"127.0.0.1:{self.bridge.port}", "watch"]
+        for device, code in ((None, 141), ("/dev/full", 2)):
+            reader, writer = os.pipe()
+            os.close(reader)
+            with open(device or writer, "wb") as out:
+                watch = subprocess.Popen(command, stdout=out, stderr=subprocess.PIPE)
+            if device:
+                os.close(writer)
+            while watch.poll() is None:
+                self.memory("read", 3, "0x40", 2)
+            self.assertEqual(watch.returncode, code)
+            self.assertIn("No space left" if device else "", watch.stderr.read().decode())
+            watch.stderr.close()
+
     def test_arguments(self):
         """Exit code 2, and what is allowed."""
         for words, error in (
                 (("read", 8, 0), "NODE: '8' is not allowed; allowed: 2 to 7"),
                 (("write", "no", 0, "1"), "NODE: 'no' is not allowed; allowed: 2 to 7, all"),
                 (("write", 3, 0, "5AG1"), "BYTES: '5AG1' is not allowed; allowed: hexadecimal "
-                                          "bytes, 5A 01 or 5A01"),
+                                          "bytes of two digits, 5A 01 or 5A01"),
+                (("write", 3, 0, "01", "2", "3"), "BYTES: '2' is not allowed; allowed: hexadecimal "
+                                                  "bytes of two digits, 5A 01 or 5A01"),
                 (("read", 3, "0xFFF", 2), "LENGTH: '2' is not allowed; allowed: 1 to 1 from 0xFFF "
                                           "on"),
                 (("poll", 0, 7), "LENGTH: '7' is not allowed; allowed: 1 to 6"),
@@ -194,8 +226,37 @@ class WithoutABus(unittest.TestCase):
             thread.join()
         self.assertIn("nobody answers", self.fails("--socketcand", f"127.0.0.1:{port}", "scan"))
 
+    def test_the_complaint_of_a_server(self):
+        """It is told behind what did not work."""
+        with socket.create_server(("127.0.0.1", 0)) as server:
+            def answer():
+                with server.accept()[0] as client:
+                    client.sendall(b"< hi >< ok >< ok >< error this client reads too slowly >")
+                    while client.recv(100):
+                        pass
+
+            thread = threading.Thread(target=answer)
+            thread.start()
+            done = subprocess.run(
+                [os.environ["VERICAN_BINARY"], "memory", "--timeout", "50", "--socketcand",
+                 f"127.0.0.1:{server.getsockname()[1]}", "read", "6", "0"],
+                capture_output=True, text=True, timeout=PATIENCE, check=False)
+            thread.join()
+        self.assertEqual((done.returncode, done.stderr), (
+            1, "verican: memory: node 6 does not answer; the server says: this client reads too "
+               "slowly\n"))
+
     def test_options(self):
-        """CLI11's own checks."""
+        """CLI11's own checks, and those of numbers and names."""
+        self.assertIn("--bus-name requires --socketcand",
+                      self.fails("--if", "can0", "--bus-name", "can0", "scan"))
+        self.assertIn("'a > < b' is not allowed", self.fails(
+            "--socketcand", "1", "--bus-name", "a > < b", "scan"))
+        self.assertIn("'010' is not allowed; allowed: decimal without zeros in front",
+                      self.fails("--socketcand", "1", "read", "6", "010"))
+        for count in ("0", "0x0", "-3"):
+            self.assertIn(f"'{count}' is not allowed; allowed: ",
+                          self.fails("--socketcand", "1", "watch", "--frames", count))
         self.assertIn("--name-bits", self.fails("--name-bits", "4", "scan"))
         self.assertIn("subcommand", self.fails())
         self.assertIn("0 to 255", self.fails("--if", "x", "trigger", "256"))

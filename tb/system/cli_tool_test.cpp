@@ -45,7 +45,7 @@ TEST_F(Tool, HelpAndVersion) {
 
 TEST_F(Tool, BadOptionsAreRefused) {
   expect_refused("", "subcommand");
-  expect_refused("runn", "");
+  expect_refused("runn", "verican: 'runn' is no command; allowed: run, replay, paper, ");
   expect_refused("run", "scenario is required");
   expect_refused("run x.yaml --bitrate 5M", "--bitrate");
   expect_refused("bittime", "--bitrate is required");
@@ -69,6 +69,28 @@ TEST_F(Tool, BadOptionsAreRefused) {
   expect_refused("run examples/two-nodes.yaml --vcd ''", "--vcd: an empty value follows");
   expect_refused("run examples/two-nodes.yaml --duration=", "--duration=: has an empty value");
   expect_refused("timesync ''", "timesync: an empty value follows");
+}
+
+// Numbers that would be read as others, or stand for something else.
+TEST_F(Tool, NumbersAreWhatTheySay) {
+  expect_refused("replay x.log --nodes 010",
+                 "--nodes: '010' is not allowed; allowed: decimal without zeros in front");
+  expect_refused("replay x.log --frames -1", "--frames: '-1' is not allowed; allowed: ");
+  expect_refused("replay x.log --frames 0x0", "--frames: '0x0' is not allowed; allowed: 1 or more");
+  expect_refused("bittime -b 500k --rows -1", "--rows: '-1' is not allowed; allowed: 0 and more");
+  expect_refused("replay x.log --ppm nan", "--ppm: 'nan' is not allowed; allowed: a number");
+  expect_refused("replay x.log --cable inf", "--cable: ");
+  expect_refused("decode x.vcd --sample-point nan", "--sample-point: 'nan' is not allowed");
+  expect_refused("bittime -b 500k -s 0", "sample point 0 is out of range; allowed: 0.5 to 0.9");
+  EXPECT_EQ(run_tool("bittime -b 500k --rows 0x2").code, 0);
+}
+
+// A name in another encoding becomes text that JSON can hold.
+TEST_F(Tool, JsonHoldsAnyText) {
+  const std::string log = file_with("a\xE9.log", "(1.0) can0 123#11\n");
+  const ToolResult result = run_tool("replay " + log + " --fast --json");
+  EXPECT_EQ(result.code, 0) << result.error;
+  EXPECT_THAT(result.out, HasSubstr("a\xEF\xBF\xBD.log"));
 }
 
 // What an option says must be of the input that is there.

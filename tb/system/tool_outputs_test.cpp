@@ -234,6 +234,10 @@ TEST_F(ToolOutputs, NoFileIsWrittenTwice) {
                  refused(in("new"), "--candump"));
   expect_refused(run_tool(kRun + "--vcd " + in("new") + " --pcap " + in("link")),
                  refused(in("link"), "--vcd"));
+  // A bare name, in the folder from which the tool is run.
+  expect_refused(run_tool(kRun + "--candump tool_outputs.new --pcap ./tool_outputs.new"),
+                 refused("./tool_outputs.new", "--candump"));
+  EXPECT_FALSE(fs::remove("tool_outputs.new"));
   expect_refused(run_tool(kRun + "--candump - --pcap /dev/stdout"),
                  refused("standard output", "--candump"));
   EXPECT_EQ(files(), 1U);
