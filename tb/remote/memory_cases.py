@@ -154,11 +154,12 @@ class Commands(unittest.TestCase):
                     error="verican: memory: the node with serial number 00000077 does not answer\n")
 
     def test_nobody_answers(self):
-        """Asked in numbers of another width."""
-        for words in (("scan",), ("status",), ("poll", "0x40"), ("map",)):
-            self.memory("--name-bits", 5, *words, code=1, timeout=50,
-                        error="verican: memory: no node answers; numbers have 5 bits here, "
-                              "--name-bits says so\n")
+        """Asked in numbers of another width; on a bus without such nodes."""
+        error = "verican: memory: no node answers; numbers have {} bits here, --name-bits says so\n"
+        for words in (("status",), ("poll", "0x40"), ("map",)):
+            self.memory("--name-bits", 5, *words, code=1, timeout=50, error=error.format(5))
+        with Bridge("--fast", "--errors", "none", scenario="nodes:\n  - {name: a}\n") as self.bridge:
+            self.memory("scan", code=1, timeout=50, error=error.format(3))
 
     def test_watch_ends_with_its_reader(self):
         """A pipe that is closed, a device that is full."""

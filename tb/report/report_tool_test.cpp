@@ -144,11 +144,11 @@ TEST(ReportTool, ALogOfWhichNothingIsSentFailsWithTheReason) {
   const std::string fd = file_with(".log", "(0.000000) can0 123##1112233\n");
   const tb::ToolResult none = tb::run_tool("report " + fd + " -o " + page);
   EXPECT_EQ(none.code, 1);
-  EXPECT_THAT(none.out, HasSubstr("FAIL  nothing to replay"));
+  EXPECT_THAT(none.out, HasSubstr("FAIL  the recording holds no classical CAN frame"));
   const std::string log = file_with(".log", "(0.000000) can0 123#1122\n");
   const tb::ToolResult filtered = tb::run_tool("report " + log + " --filter 999:7FF -o " + page);
   EXPECT_EQ(filtered.code, 1);
-  EXPECT_THAT(filtered.out, HasSubstr("FAIL  nothing to replay"));
+  EXPECT_THAT(filtered.out, HasSubstr("FAIL  the recording holds no classical CAN frame"));
 }
 
 // Each page has the statements of its experiment, with moments that lie in it.
