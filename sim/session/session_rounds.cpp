@@ -144,8 +144,8 @@ void Session::advance_paced() {
                     static_cast<double>(pacer_.lag()) / 1e6));
 }
 
-// Runs buses and CPUs up to `target`, or until `most` has been simulated; where nothing is under way
-// time may pass at no cost, and such time does not count.
+// Runs buses and CPUs up to `target`, or until `most` has been simulated; where nothing is under
+// way time may pass at no cost, and such time does not count.
 void Session::run_until(Time target, Time most) {
   const Time look = passes_ ? kQuietLook * bit_time_ : most;
   while (!ended_ && now() < target && most > 0) {

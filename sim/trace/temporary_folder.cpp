@@ -19,8 +19,9 @@ std::string temporary_folder() {
   std::error_code error;
   if (!std::filesystem::is_directory(path, error) || ::access(path.c_str(), W_OK | X_OK) != 0)
     throw InputError("TMPDIR", 0,
-                     in_quotes(path) + " is not allowed; allowed: a folder for temporary files, "
-                                       "in which files can be made");
+                     in_quotes(path) +
+                         " is not allowed; allowed: a folder for temporary files, "
+                         "in which files can be made");
   return path;
 }
 

@@ -71,8 +71,8 @@ TEST(FirmwareTool, NoEndWithinTheLimit) {
 }
 
 TEST(FirmwareTool, OneOfSeveralBitRates) {
-  const auto result = run("semihosting", "--bitrate 125k --json",
-                          "bitrate: [500k, 125k]\n" + kNodes);
+  const auto result =
+      run("semihosting", "--bitrate 125k --json", "bitrate: [500k, 125k]\n" + kNodes);
   EXPECT_EQ(nlohmann::json::parse(result.out)["buses"][0]["bitrate"], 125e3);
 }
 

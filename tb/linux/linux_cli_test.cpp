@@ -58,8 +58,7 @@ TEST_F(LinuxCommand, WhatCannotBeRunIsRefused) {
   std::filesystem::permissions(text, std::filesystem::perms::owner_all);
   EXPECT_EQ(refusal("--kernel " + text),
             "verican: --kernel: cannot run " + text + ": Exec format error\n");
-  EXPECT_EQ(refusal("--kernel /tmp"),
-            "verican: --kernel: /tmp is a directory; allowed: a file\n");
+  EXPECT_EQ(refusal("--kernel /tmp"), "verican: --kernel: /tmp is a directory; allowed: a file\n");
   EXPECT_EQ(refusal("--kernel /bin/true --preload /tmp"),
             "verican: --preload: /tmp is a directory; allowed: a file\n");
   EXPECT_EQ(refusal("--kernel /bin/true --clock-ppm 1,2,3"),

@@ -158,7 +158,8 @@ class Commands(unittest.TestCase):
         error = "verican: memory: no node answers; numbers have {} bits here, --name-bits says so\n"
         for words in (("status",), ("poll", "0x40"), ("map",)):
             self.memory("--name-bits", 5, *words, code=1, timeout=50, error=error.format(5))
-        with Bridge("--fast", "--errors", "none", scenario="nodes:\n  - {name: a}\n") as self.bridge:
+        plain = "nodes:\n  - {name: a}\n"
+        with Bridge("--fast", "--errors", "none", scenario=plain) as self.bridge:
             self.memory("scan", code=1, timeout=50, error=error.format(3))
 
     def test_watch_ends_with_its_reader(self):

@@ -59,10 +59,10 @@ TEST(ToolRecordings, ConvertReplacesNoFileByOneThatIsNotFaithful) {
   if (!has_python_can()) GTEST_SKIP() << "python3-can is not installed";
   const ScratchFolder folder;
   const std::string log = folder.file("a.log", kTwoBuses);
-  const std::string python = folder.file(
-      "python",
-      "#!/bin/sh\ncase \"$*\" in *' write '*) sed 1d | /usr/bin/python3 \"$@\";;\n"
-      "*) exec /usr/bin/python3 \"$@\";; esac\n");
+  const std::string python =
+      folder.file("python",
+                  "#!/bin/sh\ncase \"$*\" in *' write '*) sed 1d | /usr/bin/python3 \"$@\";;\n"
+                  "*) exec /usr/bin/python3 \"$@\";; esac\n");
   const std::string old = folder.file("a.db", "precious");
   ASSERT_EQ(shell("chmod +x " + python).code, 0);
   const Said said = shell("VERICAN_PYTHON=" + python + " " + VERICAN_BINARY + " convert " + log +
