@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "Vtiny.h"
-#include "node/model_context.hpp"
 
 namespace {
 
@@ -28,7 +27,7 @@ class Tiny {
   }
 
  private:
-  SerialContext context_;
+  VerilatedContext context_;
   Vtiny top_{&context_, "tiny"};
 };
 
