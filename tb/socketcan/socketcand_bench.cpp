@@ -75,7 +75,7 @@ void SocketcandBench::step() {
     port->poll_set(set, false);
   }
   begin.push_back(set.size());
-  ::poll(set.data(), set.size(), 1);
+  ::poll(set.data(), set.size(), wait_ms);
   const std::span<const pollfd> all{set};
   for (std::size_t i = 0; i < ports_.size(); ++i)
     ports_[i]->service(all.subspan(begin[i], begin[i + 1] - begin[i]));

@@ -70,6 +70,7 @@ class SocketcandBench {
 
   std::size_t room = SIZE_MAX;  ///< frames that the bus still takes
   Time now = 0;
+  int wait_ms = 1;  ///< how long a round waits for clients
   /// What has been sent on the bus, with the name of the port.
   struct Sent {
     std::string bus;
