@@ -135,8 +135,10 @@ void Session::advance_fast() {
 // What programs send is taken after this, so that no frame is on the bus before it was sent.
 void Session::advance_paced() {
   const Time due = pacer_.due(wall_.now());
-  const Time reach = quiet() ? due : now() + kLongestStretch;
-  run_until(std::min({due, start_ + limit_, reach}), kLongestStretch);
+  // Behind real time no wait limits a round, and the programs' time limits are real.
+  const Time most = pacer_.lagging() ? kBusyTick * kNanosecond : kLongestStretch;
+  const Time reach = quiet() ? due : now() + most;
+  run_until(std::min({due, start_ + limit_, reach}), most);
   if (pacer_.reached(wall_.now(), now()))
     options_.say(
         fmt::format("the simulation lags {:.0f} ms behind real time; fewer nodes, a slower "
