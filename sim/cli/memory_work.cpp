@@ -11,6 +11,7 @@
 
 #include "cli/cli.hpp"
 #include "cli/memory_map.hpp"
+#include "cli/output_files.hpp"
 #include "model/remote_config.hpp"
 #include "trace/input_error.hpp"
 #include "trace/input_file.hpp"
@@ -115,6 +116,15 @@ std::string dump_text(unsigned first, const Bytes &bytes) {
     text += fmt::format("{:03X}  {:02X}\n", first + at, fmt::join(begin, end, " "));
   }
   return text;
+}
+
+/// Behind "-" what is printed goes to stderr.
+void write_bytes(const std::string &path, const Bytes &bytes) {
+  claim_files({}, {{"--output", path}});
+  OutputFile file{path};
+  file.stream().write(reinterpret_cast<const char *>(bytes.data()),
+                      static_cast<std::streamsize>(bytes.size()));
+  file.commit();
 }
 
 }  // namespace
@@ -268,21 +278,14 @@ int memory_dump(MemoryCalls &calls, const MemoryOptions &options) {
   const unsigned node = node_of(calls, options);
   check_range(options.address, options.table);
   const Bytes bytes = calls.read(node, options.address, options.table);
-  if (options.json) {
-    Json dump{{"number", node}, {"address", options.address}, {"length", bytes.size()}};
-    if (options.file.empty())
-      dump["bytes"] = hex(bytes);
-    else
-      dump["file"] = options.file;
+  const bool to_file = !options.file.empty();
+  if (to_file) write_bytes(options.file, bytes);
+  Json dump{{"number", node}, {"address", options.address}, {"length", bytes.size()}};
+  dump[to_file ? "file" : "bytes"] = to_file ? options.file : hex(bytes);
+  if (options.json)
     print_json(dump);
-  } else if (options.file.empty()) {
+  else if (!to_file)
     fmt::print("{}", dump_text(options.address, bytes));
-  }
-  if (options.file.empty()) return kOk;
-  OutputFile file{options.file};
-  file.stream().write(reinterpret_cast<const char *>(bytes.data()),
-                      static_cast<std::streamsize>(bytes.size()));
-  file.commit();
   return kOk;
 }
 

@@ -21,8 +21,8 @@ class RuleFollower {
 
   /// The model takes the bit. Returns one sentence for each way in which the node differs: level
   /// sent, place in the frame, role, bits left of the field, kind of error, success, end of an
-  /// attempt, delivery, TEC, REC, error state. Tolerated is what 19.5 item 5 leaves open
-  /// (rule_tolerance.hpp). Nothing that follows a difference is worth anything.
+  /// attempt, delivery, TEC, REC, recovery sequences, error state. Tolerated is what 19.5 item 5
+  /// leaves open (rule_tolerance.hpp). Nothing that follows a difference is worth anything.
   [[nodiscard]] std::vector<std::string> follow(const NodeBit &bit);
 
  private:

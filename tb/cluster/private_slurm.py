@@ -97,6 +97,15 @@ class PrivateSlurm:
                               capture_output=True, text=True, check=False)
         return done.stdout.strip() == "idle"
 
+    def state(self):
+        """What nodes and jobs there are, why a node is not used, and what each daemon said last."""
+        said = []
+        for words in (["sinfo", "--Node", "--long"], ["sinfo", "--list-reasons"], ["squeue"]):
+            done = subprocess.run(words, env=self.environment, capture_output=True, text=True,
+                                  check=False, timeout=20)
+            said.append(done.stdout + done.stderr)
+        return "\n".join([*said, *self._last_words()])
+
     def __enter__(self):
         # Short: the path of a socket has 108 characters.
         self.dir = Path(tempfile.mkdtemp(prefix="verican-slurm-"))

@@ -17,6 +17,7 @@ from private_slurm import Impossible, PrivateSlurm
 ROOT = Path(__file__).resolve().parents[2]
 PLAN = ROOT / "tb/cluster/plan.yaml"
 SKIPPED = 77
+PATIENCE = 300  # s for one campaign, which takes 5 to 30; below the time limit of ctest
 # What depends on the time that a run took.
 TIMES = {"frames a second", "formal: wall time"}
 TIME_COLUMNS = {"solver s"}
@@ -48,10 +49,15 @@ class Campaigns(unittest.TestCase):
         """Runs tools/campaign.py; returns its exit code and output."""
         environment = {**self.cluster.environment, "PROGRAMS": str(self.tb), "SEED": "5",
                        "SHARDS": "100", "RETRIES": "1", "RESUME": "0", **settings}
-        done = subprocess.run(
-            [sys.executable, ROOT / "tools/campaign.py", "--plan", PLAN, "--out", self.dir / out,
-             "--only", stages, *words], env=environment, cwd=self.dir, stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=900, check=False)
+        try:
+            done = subprocess.run(
+                [sys.executable, ROOT / "tools/campaign.py", "--plan", PLAN, "--out",
+                 self.dir / out, "--only", stages, *words], env=environment, cwd=self.dir,
+                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                text=True, timeout=PATIENCE, check=False)
+        except subprocess.TimeoutExpired as late:
+            said = (late.stdout or b"").decode(errors="replace")
+            self.fail(f"no end within {PATIENCE} s\n{said}\n{self.cluster.state()}")
         return done.returncode, done.stdout
 
     def markers(self, out, stage):
@@ -118,7 +124,7 @@ def main():
     try:
         with PrivateSlurm(cpus=max(2, os.cpu_count() or 2)) as cluster:
             Campaigns.cluster = cluster
-            passed = unittest.main(exit=False, verbosity=2).result.wasSuccessful()
+            passed = unittest.main(exit=False, verbosity=2, failfast=True).result.wasSuccessful()
     except Impossible as reason:
         print(f"skipped: {reason}")
         sys.exit(SKIPPED)

@@ -14,28 +14,34 @@ namespace {
 
 constexpr unsigned kClocksPerBit = 8;  // of 125 ns
 
+/// The head of a scenario that lasts `duration`, up to its nodes.
+std::string scenario_of(const std::string &duration) {
+  return "judge: lockstep\nbitrate: 1000000\ndrain: 0\nduration: " + duration + "\nnodes:\n";
+}
+
+/// A node; `more`: further keys.
+std::string node(const std::string &name, const std::string &more) {
+  return "  - {name: " + name + ", timing: {brp: 1, prop: 3, ps1: 2, ps2: 2, sjw: 1}" + more +
+         "}\n";
+}
+
 /// A frame each 240 us; node b receives into MB2, whose C/S word is read before and behind a stop
 /// by `stop` (MCR) that is asked for `phase` clocks into a bit.
 Scenario stopped_at(const std::string &stop, const std::string &ack, unsigned phase) {
   const std::string at = std::to_string(1'400'000'000 + phase * 125'000) + " ps";
   return parse_scenario(
       "stop.yaml",
-      "judge: lockstep\n"
-      "bitrate: 1000000\n"
-      "duration: 3 ms\n"
-      "drain: 0\n"
-      "nodes:\n"
-      "  - {name: a, timing: {brp: 1, prop: 3, ps1: 2, ps2: 2, sjw: 1}, mailboxes: 16}\n"
-      "  - {name: b, timing: {brp: 1, prop: 3, ps1: 2, ps2: 2, sjw: 1}, mailboxes: 16,"
-      " software: none}\n"
-      "traffic:\n"
-      "  - {node: a, id: 0x121, dlc: 0, period: 240 us}\n"
-      "accesses:\n"
-      "  - {node: b, at: 5 us, do: [write MCR 0x5000000F, until MCR 0x1100000 0x1000000,"
-      " write MCR 0x5002000F, write CTRL1 0x90002, write MB2.ID 0x4840000, write MB2.CS 0x4000000,"
-      " write MCR 0x4002000F, until MCR 0x1000000 0]}\n"
-      "  - {node: b, at: 1300 us, do: [read MB2.CS, read TIMER]}\n"
-      "  - {node: b, at: " +
+      scenario_of("3 ms") + node("a", ", mailboxes: 16") +
+          node("b", ", mailboxes: 16, software: none") +
+          "traffic:\n"
+          "  - {node: a, id: 0x121, dlc: 0, period: 240 us}\n"
+          "accesses:\n"
+          "  - {node: b, at: 5 us, do: [write MCR 0x5000000F, until MCR 0x1100000 0x1000000,"
+          " write MCR 0x5002000F, write CTRL1 0x90002, write MB2.ID 0x4840000, write MB2.CS "
+          "0x4000000,"
+          " write MCR 0x4002000F, until MCR 0x1000000 0]}\n"
+          "  - {node: b, at: 1300 us, do: [read MB2.CS, read TIMER]}\n"
+          "  - {node: b, at: " +
           at + ", do: [write MCR " + stop + ", until MCR " + ack + " " + ack +
           ", write MCR 0x4002000F, until MCR 0x1100000 0]}\n"
           "  - {node: b, at: 2900 us, do: [read MB2.CS, read TIMER]}\n");
@@ -66,23 +72,16 @@ Scenario back_after(unsigned bits) {
   const std::string back = std::to_string(1500 + bits) + " us";
   return parse_scenario(
       "back.yaml",
-      "judge: lockstep\n"
-      "bitrate: 1000000\n"
-      "duration: 2 ms\n"
-      "drain: 0\n"
-      "nodes:\n"
-      "  - {name: a, timing: {brp: 1, prop: 3, ps1: 2, ps2: 2, sjw: 1}, mailboxes: 16,"
-      " tx_buffers: 2}\n"
-      "  - {name: b, timing: {brp: 1, prop: 3, ps1: 2, ps2: 2, sjw: 1}, software: none}\n"
-      "  - {name: c, timing: {brp: 1, prop: 3, ps1: 2, ps2: 2, sjw: 1}, mailboxes: 16}\n"
-      "traffic:\n"
-      "  - {node: a, id: 0x121, dlc: 0, period: saturated}\n"
-      "accesses:\n"
-      "  - {node: b, at: 5 us, do: [write MCR 0x5000000F, until MCR 0x1100000 0x1000000,"
-      " write MCR 0x5002003F, write CTRL1 0x90002, write MB63.ID 0x1FFC0000,"
-      " write MB63.CS 0xC000000, write MCR 0x4002003F, until MCR 0x1000000 0]}\n"
-      "  - {node: b, at: 1 ms, do: [write MCR 0xC002003F, until MCR 0x100000 0x100000]}\n"
-      "  - {node: b, at: " +
+      scenario_of("2 ms") + node("a", ", mailboxes: 16, tx_buffers: 2") +
+          node("b", ", software: none") + node("c", ", mailboxes: 16") +
+          "traffic:\n"
+          "  - {node: a, id: 0x121, dlc: 0, period: saturated}\n"
+          "accesses:\n"
+          "  - {node: b, at: 5 us, do: [write MCR 0x5000000F, until MCR 0x1100000 0x1000000,"
+          " write MCR 0x5002003F, write CTRL1 0x90002, write MB63.ID 0x1FFC0000,"
+          " write MB63.CS 0xC000000, write MCR 0x4002003F, until MCR 0x1000000 0]}\n"
+          "  - {node: b, at: 1 ms, do: [write MCR 0xC002003F, until MCR 0x100000 0x100000]}\n"
+          "  - {node: b, at: " +
           back + ", do: [write MCR 0x4002003F]}\n");
 }
 
@@ -105,21 +104,15 @@ Scenario stopped_in_bus_off(unsigned phase) {
   const std::string at = std::to_string(1'700'000'000 + phase * 125'000) + " ps";
   return parse_scenario(
       "bus-off.yaml",
-      "judge: lockstep\n"
-      "bitrate: 1000000\n"
-      "duration: 4 ms\n"
-      "drain: 0\n"
-      "nodes:\n"
-      "  - {name: b, timing: {brp: 1, prop: 3, ps1: 2, ps2: 2, sjw: 1}, mailboxes: 16,"
-      " software: none}\n"
-      "faults:\n"
-      "  - {kind: recessive, node: b, from: 1010 us, for: 4 us}\n"
-      "accesses:\n"
-      "  - {node: b, at: 5 us, do: [write MCR 0x5000000F, until MCR 0x1100000 0x1000000,"
-      " write MCR 0x5002000F, write CTRL1 0x90002, write ECR 0xFF, write MB2.ID 0,"
-      " write MB2.CS 0x8000000, write MCR 0x4002000F, until MCR 0x1000000 0]}\n"
-      "  - {node: b, at: 1000 us, do: [write MB2.CS 0xC080000]}\n"
-      "  - {node: b, at: " +
+      scenario_of("4 ms") + node("b", ", mailboxes: 16, software: none") +
+          "faults:\n"
+          "  - {kind: recessive, node: b, from: 1010 us, for: 4 us}\n"
+          "accesses:\n"
+          "  - {node: b, at: 5 us, do: [write MCR 0x5000000F, until MCR 0x1100000 0x1000000,"
+          " write MCR 0x5002000F, write CTRL1 0x90002, write ECR 0xFF, write MB2.ID 0,"
+          " write MB2.CS 0x8000000, write MCR 0x4002000F, until MCR 0x1000000 0]}\n"
+          "  - {node: b, at: 1000 us, do: [write MB2.CS 0xC080000]}\n"
+          "  - {node: b, at: " +
           at +
           ", do: [check ESR1 0x20 0x20, write MCR 0x5002000F, until MCR 0x1000000 0x1000000,"
           " write MCR 0x4002000F, until MCR 0x1000000 0]}\n"

@@ -126,6 +126,9 @@ class Commands(unittest.TestCase):
                 "number": 4, "address": 0x181, "length": 2, "bytes": "01 02"})
             self.assertEqual(self.json("dump", 4, "0x181", 2, "-o", other), {
                 "number": 4, "address": 0x181, "length": 2, "file": str(other)})
+            said = json.dumps({"number": 4, "address": 0x181, "length": 2, "file": "-"}, indent=2)
+            self.assertEqual(self.memory("dump", 4, "0x181", 2, "-o", "-", "--json",
+                                         error=said + "\n"), "\1\2")
             self.memory("load", 4, "0xFC0", path, code=2, error=f"verican: {path}: 100 bytes; "
                         "allowed: 1 to 64 from 0xFC0 on\n")
 

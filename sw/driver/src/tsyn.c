@@ -52,13 +52,11 @@ verican_result_t verican_tsyn_init(verican_tsyn_t *tsyn, verican_t *dev,
   if (result != VERICAN_OK) return result;
   if (!dev->time_unit) return VERICAN_ERR_UNSUPPORTED;
   if (!valid(config)) return VERICAN_ERR_RANGE;
-  verican_servo_t servo;
-  result = verican_servo_init(&servo, &config->servo);
-  if (result != VERICAN_OK) return result;
   *tsyn = (verican_tsyn_t){0};
+  result = verican_servo_init(&tsyn->servo, &config->servo);
+  if (result != VERICAN_OK) return result; /* no device: nothing can be started */
   tsyn->config = *config;
   tsyn->dev = dev;
-  tsyn->servo = servo;
   return VERICAN_OK;
 }
 
