@@ -24,6 +24,13 @@ if(CCACHE_PROGRAM)
   set(CMAKE_C_COMPILER_LAUNCHER "${launcher}")
 endif()
 
+# It links the hundreds of test programs twice as fast as the default; part of Debian's binutils.
+include(CheckLinkerFlag)
+check_linker_flag(CXX -fuse-ld=gold VERICAN_HAS_GOLD)
+if(VERICAN_HAS_GOLD)
+  add_link_options(-fuse-ld=gold)
+endif()
+
 option(VERICAN_ASAN "Address and undefined-behaviour sanitizers" OFF)
 if(VERICAN_ASAN)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined

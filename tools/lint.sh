@@ -10,18 +10,47 @@ cd "$(dirname "$0")/.."
 needs 1 "lint.sh BUILD" "$@"
 build=$1
 failures=0
+cores=$(nproc)
+results=$(mktemp -d)
+trap 'rm -rf "$results"' EXIT
+names=() # of the checks, in the order in which they were begun
+told=0   # how many of them have been reported
 
-# check NAME COMMAND...: one line if good, the output and a mark if not.
+# check NAME COMMAND...: begins a check, as soon as a core is free for it.
 check() {
-  local name=$1 output start=$SECONDS
+  local number=${#names[@]}
+  names+=("$1")
   shift
-  if output=$("$@" 2>&1 </dev/null); then
-    echo "  ok    $name ($((SECONDS - start)) s)"
-  else
-    failures=$((failures + 1))
-    echo "  FAIL  $name"
-    printf '%s\n' "$output" | head -n 100 | sed 's/^/        /'
-  fi
+  while [ "$(jobs -pr | wc -l)" -ge "$cores" ]; do wait -n; done
+  run "$results/$number" "$@" &
+  report
+}
+run() {  # FILE COMMAND...; FILE.end is there when all is known
+  local file=$1 start=$SECONDS status=0
+  shift
+  "$@" >"$file" 2>&1 </dev/null || status=$?
+  echo "$status $((SECONDS - start))" >"$file.new"
+  mv "$file.new" "$file.end"
+}
+# Of the checks that have ended, in order: one line if good, the output and a mark if not.
+report() {
+  local name status seconds
+  while [ -f "$results/$told.end" ]; do
+    name=${names[told]}
+    read -r status seconds <"$results/$told.end"
+    if [ "$status" -eq 0 ]; then
+      echo "  ok    $name ($seconds s)"
+    else
+      failures=$((failures + 1))
+      echo "  FAIL  $name"
+      awk '{print "        " $0} NR == 100 {exit}' "$results/$told"
+    fi
+    told=$((told + 1))
+  done
+}
+finish() {
+  wait
+  report
 }
 
 # The whole core in each size that is offered; the engine alone, because it is a product of its own.
@@ -69,14 +98,15 @@ board_lint() {  # TOP
     examples/remote/board/remote_io.sv "examples/remote/board/$1.sv"
 }
 spdx() {
-  local bad licence
+  local bad licence head
   bad=$(our_files '*.sv' '*.v' '*.vlt' '*.cpp' '*.hpp' '*.c' '*.h' '*.py' '*.sh' '*.cmake' '*.tcl' \
                   '*.js' '*.mjs' \
                   '*.sdc' '*.pdc' '*.pcf' '*.yaml' '*.core' '*CMakeLists.txt' Makefile .ci/run |
         while read -r file; do
           # Kernel modules link with the kernel.
           [[ $file == sw/linux/@(glue|ptp)/* ]] && licence=GPL-2.0 || licence=Apache-2.0
-          head -n 5 "$file" | grep -q "SPDX-License-Identifier: $licence" || echo "$file"
+          mapfile -n 5 head <"$file"
+          [[ ${head[*]} == *"SPDX-License-Identifier: $licence"* ]] || echo "$file"
         done)
   printf '%s' "$bad"
   [ -z "$bad" ]
@@ -105,6 +135,7 @@ check "verilator -Wall can_hx8k" verilator --lint-only -Wall --top-module can_hx
 for top in remote_icestick remote_hx8k; do
   check "verilator -Wall $top" board_lint "$top"
 done
+finish
 echo "Sources"
 check "can.core agrees with rtl/can.f" core_file
 check "can.core as FuseSoC reads it" tools/core_check.py
@@ -116,7 +147,9 @@ check "licence heads" spdx
 check "lines of at most 100 characters" line_length
 check "folders of sim/ include downwards only" tools/layers.py
 check "clang-format" format
+finish # clang-tidy takes all cores
 check "clang-tidy ${TIDY:-}" tools/tidy.py "$build" ${TIDY:+"$TIDY"}
+finish
 
 if [ "$failures" -ne 0 ]; then
   echo "lint: $failures checks failed" >&2
