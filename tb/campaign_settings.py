@@ -82,7 +82,11 @@ def jobs():
 def result_file():
     """The file for the result, None if none is wanted. To be asked before the work: ends the
     program if no file can be written there; what is there stays as it is."""
-    name = os.environ.get("CAMPAIGN_OUT", "")
+    return writable(os.environ.get("CAMPAIGN_OUT", ""))
+
+
+def writable(name):
+    """The same for the file `name`; none is wanted if that is empty or None."""
     if not name:
         return None
     path = Path(name)

@@ -13,7 +13,6 @@ import concurrent.futures
 import glob
 import json
 import os
-import shutil
 import subprocess
 import sys
 import time
@@ -35,7 +34,8 @@ def arguments():
     parser.add_argument("--no-build", action="store_true", help=f"{BUILD} is built already")
     parser.add_argument("--no-run", action="store_true", help="report on the files of the last run")
     parser.add_argument("--missed", action="store_true", help="list every point that was not hit")
-    parser.add_argument("--jobs", type=int, default=2, help="programs at a time (default 2)")
+    parser.add_argument("--jobs", type=campaign_settings.JOBS.option, default=2,
+                        help="programs at a time (default 2)")
     parser.add_argument("--out", help="directory for the counts (default build/coverage/counts)")
     parser.add_argument("--exclusions", default="tb/coverage/exclusions.yaml", metavar="FILE")
     return parser.parse_args()
@@ -74,9 +74,16 @@ def run_program(name, directory, shards):
     return name, log if done.returncode else None
 
 
+def clear(directory):
+    """Makes `directory`, without the counts of the run before; what else is there is not ours."""
+    os.makedirs(directory, exist_ok=True)
+    for pattern in ("*.dat*", "*.log"):
+        for path in glob.glob(f"{glob.escape(directory)}/{pattern}"):
+            os.remove(path)
+
+
 def run(names, directory, shards, jobs):
-    shutil.rmtree(directory, ignore_errors=True)
-    os.makedirs(directory)
+    clear(directory)
     failed, last = [], time.monotonic()
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         tasks = [pool.submit(run_program, name, directory, shards) for name in names]
@@ -99,8 +106,7 @@ def functional():
         return [f for f in json.load(file)["figures"] if f["name"].startswith("TH-05")]
 
 
-def write_result(files, exclusions, complete, problems):
-    path = os.environ.get("CAMPAIGN_OUT")
+def write_result(path, files, exclusions, complete, problems):
     if not path:
         return
     figures = report.figures(files, exclusions, complete) + functional()
@@ -117,7 +123,7 @@ def write_result(files, exclusions, complete, problems):
 def main():
     args = arguments()
     os.chdir(ROOT)
-    part = campaign_settings.scale()
+    part, result = campaign_settings.scale(), campaign_settings.result_file()
     directory = args.out or os.path.join(os.environ.get("CAMPAIGN_DIR", BUILD), "counts")
     directory = os.path.abspath(directory)
     failed, start = [], time.monotonic()
@@ -126,7 +132,7 @@ def main():
             build(args.jobs)
         start = time.monotonic()
         failed = run(programs(args.only), directory, max(1, round(1 / part)), args.jobs)
-    paths = sorted(glob.glob(f"{directory}/*.dat*"))
+    paths = sorted(glob.glob(f"{glob.escape(directory)}/*.dat*"))
     if not paths:
         raise points.CoverageError(f"no coverage files in {directory}")
     counts = points.read_counts(paths)
@@ -142,7 +148,7 @@ def main():
     if len(missed) > limit:
         print(f"... and {len(missed) - limit} more (--missed --no-run)")
     print("\n".join(problems))
-    write_result(files, exclusions, complete, problems)
+    write_result(result, files, exclusions, complete, problems)
     print(f"{len(paths)} files, {time.monotonic() - start:.0f} s"
           + (f"; FAILED: {' '.join(failed)}" if failed else ""))
     low = complete and any(f["ok"] is False for f in report.figures(files, exclusions, True))

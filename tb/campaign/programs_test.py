@@ -63,11 +63,11 @@ class Programs(RefusalCase):
         for program in STAGES:
             for name, value, allowed in OPTIONS:
                 if (program, name) != ("random_campaign", "--scale"):
-                    self.refused(allowed, PROGRAMS[program], name, value)
+                    self.refused(allowed, PROGRAMS[program], name, value, code=2)
 
     def test_options_of_one_program(self):
         for program, options, text in OWN:
-            self.refused(text, PROGRAMS[program], *options)
+            self.refused(text, PROGRAMS[program], *options, code=2)
 
     def test_a_result_that_cannot_be_written_is_told_before_the_work(self):
         path = self.path / "no/result"

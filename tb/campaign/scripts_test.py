@@ -36,10 +36,20 @@ class Scripts(RefusalCase):
                          code=2, CAMPAIGN_SEED="1.5")
 
     def test_a_result_that_cannot_be_written_is_told_before_the_work(self):
-        for script in ("tb/netlist/run.py", "tb/fuzz/campaign.py", "tb/canopen/campaign.py",
-                       "tb/timesync/campaign.py"):
+        for script in SCRIPTS + ("tb/mutation/driver.py",):
             self.refused("cannot write '/no/such/x'", sys.executable, "-B", ROOT / script, code=2,
                          CAMPAIGN_OUT="/no/such/x")
+
+    def test_coverage_takes_away_nothing_but_its_own(self):
+        """In the folder for its counts."""
+        spec = importlib.util.spec_from_file_location("coverage", ROOT / "tools/coverage.py")
+        coverage = importlib.util.module_from_spec(spec)
+        with unittest.mock.patch.object(sys, "path", [str(ROOT / "tools"), *sys.path]):
+            spec.loader.exec_module(coverage)
+        for name in ("letter.txt", "program.dat", "program.dat.gz", "program.log"):
+            (self.path / name).touch()
+        coverage.clear(str(self.path))
+        self.assertEqual([path.name for path in self.path.iterdir()], ["letter.txt"])
 
     def test_a_parser_that_there_is_not_is_told_before_the_build(self):
         self.refused("no parser 'nosuch'; there are board, can_frame,", sys.executable, "-B",

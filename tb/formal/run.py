@@ -140,6 +140,7 @@ def main():
     args.scratch = args.scratch.resolve()
     args.scratch.mkdir(parents=True, exist_ok=True)
     shard = Shard()
+    out = campaign_settings.writable(args.json) if shard.kind != "part" else None
     results = (taken_up(shard.read(args.scratch), proofs) if shard.kind == "merge"
                else work(proofs, args, shard))
     if shard.kind == "part":
@@ -152,9 +153,9 @@ def main():
     print(report.table(proofs, results))
     bad = sum(not r.ok for r in results)
     print(f"{len(results)} jobs, {bad} failed, {wall:.0f} s")
-    if args.json:
+    if out:
         text = json.dumps(report.as_json(proofs, results, wall), indent=1)
-        Path(args.json).write_text(text + "\n", encoding="utf-8")
+        out.write_text(text + "\n", encoding="utf-8")
     return 1 if bad else 0
 
 

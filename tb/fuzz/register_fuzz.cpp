@@ -148,7 +148,7 @@ int main(int argc, char **argv) {
   try {
     Options options;
     add_options(app, options);
-    CLI11_PARSE(app, argc, argv);
+    if (const auto end = read_options(app, argc, argv)) return *end;
     return run(options);
   } catch (const InputError &error) {
     fmt::print(stderr, "{}\n", error.what());

@@ -117,6 +117,17 @@ struct CampaignSettings {
   }
 };
 
+/// Reads the command line. The program's exit code if it ends here: 0 behind --help, 2 behind the
+/// message about an option that is not allowed.
+inline std::optional<int> read_options(CLI::App &app, int argc, char **argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError &error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return {};
+}
+
 /// A figure as tools/campaign.py reads it; without a bar: no verdict.
 inline nlohmann::ordered_json campaign_figure(const char *name, const nlohmann::ordered_json &value,
                                               const nlohmann::ordered_json &bar = nullptr,

@@ -143,6 +143,7 @@ def main():
     parser.add_argument("--file", action="append", default=[], help="only this one: servo.c")
     parser.add_argument("--out", default=os.environ.get("CAMPAIGN_OUT"), help="JSON of the results")
     options = parser.parse_args()
+    out = campaign_settings.writable(options.out)
     folder = ROOT / "sw/driver/src"
     files = sorted(path for pattern in SOURCES for path in folder.glob(pattern))
     files = [path for path in files if not options.file or path.name in options.file]
@@ -167,12 +168,11 @@ def main():
     score = killed / total if total else 1.0
     print(f"{killed} of {total} noticed, {100 * score:.1f} %; {same} more are the same to the "
           f"compiler; of {len(every)} that could be made, seed {options.seed}")
-    if options.out:
+    if out:
         figures = [{"name": "mutants of the driver's synchronisation", "value": total},
                    {"name": "noticed", "value": killed, "text": f"{100 * score:.1f} %"}]
-        pathlib.Path(options.out).write_text(
-            json.dumps({"figures": figures, "tables": [], "notes": alive}, indent=1),
-            encoding="utf-8")
+        out.write_text(json.dumps({"figures": figures, "tables": [], "notes": alive}, indent=1),
+                       encoding="utf-8")
 
 
 if __name__ == "__main__":

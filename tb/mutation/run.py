@@ -293,6 +293,8 @@ def main():
     options = arguments()
     if not options.list:
         programs_of(options)  # of mistakes in them before the RTL is read
+    shard = Shard()
+    out = campaign_settings.writable(options.out) if shard.kind in ("whole", "merge") else None
     design = Design(models.rtl_files(), models.modules_of(options.part))
     known = Known(models.HERE / "survivors.yaml")
     chosen, run = wanted(options, design)
@@ -302,7 +304,6 @@ def main():
         return
     campaign = Campaign(options, design, known, chosen)
     campaign.record()
-    shard = Shard()
     if shard.kind == "prepare":
         campaign.say(f"regression without a mutant: {campaign.baseline():.0f} s")
         return
@@ -316,9 +317,8 @@ def main():
         return
     report = Report(design, known, run, results, campaign.seen, campaign.programs)
     report.show(options.mutant != [])
-    if options.out:
-        pathlib.Path(options.out).write_text(json.dumps(report.json(options), indent=1) + "\n",
-                                             encoding="utf-8")
+    if out:
+        out.write_text(json.dumps(report.json(options), indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -44,7 +44,7 @@ int main(int argc, char **argv) {
   try {
     CampaignOptions options = campaign_defaults();
     add_options(app, options);
-    CLI11_PARSE(app, argc, argv);
+    if (const auto end = read_options(app, argc, argv)) return *end;
     return run_campaign(options);
   } catch (const std::exception &error) {
     fmt::print(stderr, "random_campaign: {}\n", error.what());

@@ -87,7 +87,7 @@ int run(int argc, char **argv) {
   Options options;
   CLI::App app{"Flips flip-flops of can_ahb under traffic and tells what came of it."};
   add_options(app, options);
-  CLI11_PARSE(app, argc, argv);
+  if (const auto end = read_options(app, argc, argv)) return *end;
   if (options.list) {
     for (const Flop &flop : FlopNode::flops()) std::printf("%s\n", flop.name().c_str());
     return 0;

@@ -141,7 +141,7 @@ int main(int argc, char **argv) {
   try {
     CampaignSettings options;
     options.add_to(app, "the frames that each setting is due");
-    CLI11_PARSE(app, argc, argv);
+    if (const auto end = read_options(app, argc, argv)) return *end;
     check_writable(options.json);
     std::vector<Row> rows = printed_rows();
     prove(rows, options);

@@ -250,7 +250,7 @@ int main(int argc, char **argv) {
   try {
     Options options;
     add_options(app, options);
-    CLI11_PARSE(app, argc, argv);
+    if (const auto end = read_options(app, argc, argv)) return *end;
     const Sections sections = all_sections(options.seed);
     check_parts(sections, options);
     if (options.list) {

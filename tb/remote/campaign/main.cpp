@@ -274,7 +274,7 @@ int main(int argc, char **argv) {
     app.add_option("--only", parts, "Parts of it: frames, buses, commands, searches, triggers")
         ->delimiter(',')
         ->check(CLI::IsMember({"frames", "buses", "commands", "searches", "triggers"}));
-    CLI11_PARSE(app, argc, argv);
+    if (const auto end = read_options(app, argc, argv)) return *end;
     check_writable(settings.json);
     const Json result = Campaign{settings}.run(parts);
     print_notes(result);

@@ -183,7 +183,7 @@ int main(int argc, char **argv) {
   try {
     Options options;
     options.add_to(app);
-    CLI11_PARSE(app, argc, argv);
+    if (const auto end = read_options(app, argc, argv)) return *end;
     return options.list ? list_flops() : run(options);
   } catch (const std::exception &error) {
     fmt::print(stderr, "softerror_clock: {}\n", error.what());

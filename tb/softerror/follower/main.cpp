@@ -66,7 +66,7 @@ int main(int argc, char **argv) {
   try {
     FlipPlan plan{follower_flops(), kRounds, kFlipFrom, kFlipTo};
     plan.add_to(app);
-    CLI11_PARSE(app, argc, argv);
+    if (const auto end = read_options(app, argc, argv)) return *end;
     const FollowerOutcome none = run_flip({0, ~0ULL, {}});
     if (none.hangs || none.lost_pulses) throw std::runtime_error("no lock without a flip");
     const auto sum = run_flips<Sum>(plan, run_flip, result_of);

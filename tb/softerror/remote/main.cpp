@@ -59,7 +59,7 @@ int main(int argc, char **argv) {
   try {
     FlipPlan plan{FlopRemote::flops(), kRounds, kFlipFrom, kFlipTo};
     plan.add_to(app);
-    CLI11_PARSE(app, argc, argv);
+    if (const auto end = read_options(app, argc, argv)) return *end;
     if (run_flip({0, ~0ULL, {}}).cure != RemoteCure::kNone)
       throw std::runtime_error("the node does not work without a flip");
     const auto sum = run_flips<Sum>(plan, run_flip, result_of);
