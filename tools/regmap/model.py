@@ -18,6 +18,17 @@ class MapError(Exception):
     """What is wrong with the map, where, and what is allowed."""
 
 
+# What the value of a key is, wherever the key stands.
+TEXT = ("name", "title", "doc", "config", "needs", "steps", "only_if", "read_effect", "access",
+        "write", "soft_reset", "for")
+NUMBERS = ("window", "offset", "stride", "value", "after_soft_reset", "per_buffer",
+           "filter_offset", "depth", "default")
+NUMBERS_OR = {"count": NUM_MB, "reset": NUM_MB, "without": LAST_MB}
+TRUTHS = ("live", "in_ram")
+LISTS = ("num_mb", "features", "registers", "recipes", "words", "formats", "fields", "overlay",
+         "values")
+
+
 @contextmanager
 def mistakes_in(path: Path):
     """Mistakes that are found meanwhile are of this file, and say so."""
@@ -29,10 +40,36 @@ def mistakes_in(path: Path):
         raise MapError(f"{'/'.join(path.parts[-2:])}: {' '.join(str(error).split())}") from None
 
 
+def is_number(value):
+    """Of a word, or nearly: what is wider than 32 bits is a slip of the hand."""
+    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 1 << 32
+
+
+def check_kind(key, value, where):
+    """The value of a key is text, a number or a list, as all of that key are."""
+    if key in TEXT:
+        good, wanted = isinstance(value, str), "text"
+    elif key in NUMBERS:
+        good, wanted = is_number(value), "a whole number of at most 32 bits"
+    elif key in NUMBERS_OR:
+        word = NUMBERS_OR[key]
+        good, wanted = is_number(value) or value == word, f"a whole number, or {word}"
+    elif key in TRUTHS:
+        good, wanted = isinstance(value, bool), "true or false"
+    elif key in LISTS:
+        good, wanted = isinstance(value, list) and value != [], "a list of at least one"
+    else:
+        return
+    if not good:
+        raise MapError(f"{where}: {key} is {value!r}; expected: {wanted}")
+
+
 def take(entry, where, required, optional=()):
-    """The dictionary `entry`, checked to have the `required` keys and no others but `optional`."""
+    """The dictionary `entry`, checked to have the `required` keys and no others but `optional`,
+    and values of their kind."""
     if not isinstance(entry, dict):
-        raise MapError(f"{where}: keys are expected here, not {entry!r}")
+        raise MapError(f"{where.rstrip(':')}: keys are expected here, not {entry!r}")
+    where = f"{where} {entry['name']}" if isinstance(entry.get("name"), str) else where.rstrip(":")
     for key in required:
         if key not in entry:
             raise MapError(f"{where}: key '{key}' is missing")
@@ -40,6 +77,7 @@ def take(entry, where, required, optional=()):
         if key not in required and key not in optional:
             allowed = ", ".join((*required, *optional))
             raise MapError(f"{where}: unknown key '{key}'; allowed: {allowed}")
+        check_kind(key, entry[key], where)
     return entry
 
 
@@ -246,7 +284,9 @@ def check_addresses(registers, buffers, window):
 def check_features(registers, features):
     """Every condition is a feature, and XCONFIG tells of each."""
     names = [one.name for one in features]
-    config = next(one for one in registers if one.name == "XCONFIG")
+    config = next((one for one in registers if one.name == "XCONFIG"), None)
+    if config is None:
+        raise MapError("registers: XCONFIG is missing, which tells of the features")
     told = {part.name: part.only_if for part in config.fields}
     for one in features:
         choose(one.needs, f"{one.name}: needs", ("", *names))
