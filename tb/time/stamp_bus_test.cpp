@@ -135,6 +135,35 @@ TEST(CanStamp, FixedLatency) {
   EXPECT_NEAR(sum / count, 1.5 * static_cast<double>(kPeriod), 0.02 * static_cast<double>(kPeriod));
 }
 
+// TM-21: of several edges before the sample point of the reference bit the last one counts: here a
+// spike splits the bit that the receiver has begun to see.
+TEST(CanStamp, LastEdgeBeforeTheSamplePoint) {
+  const Frame frame = frame_of(0x123, 8);
+  const std::vector<WireBit> bits = encode_frame(frame).bits;
+  const std::size_t reference = reference_bit(bits);
+  ASSERT_EQ(bits[reference].field, Field::kDlc);  // the second of its bits, behind no stuff bit
+  ASSERT_EQ(bits[reference - 2].field, Field::kR0);
+  TimeRig time{2};
+  bring_up(time, frame);
+  FaultLog log;
+  PlaceFault spike{
+      1, {.field = Field::kDlc, .index = 1, .first_clock = 0, .last_clock = 0}, Effect::kRecessive};
+  spike.log_to(log);
+  time.rig.bus().add(spike);
+  const std::size_t falls = time.node(0).falls().size();
+  time.rig.put_tx(0, 8, frame);
+  ASSERT_TRUE(time.rig.wait_flag(0, 8));
+  time.rig.run(20);
+  ASSERT_EQ(log.stretches().size(), 1u);
+  const Time seen = log.stretches()[0].from;
+  const Time edge = time.at(0, time.node(0).falls().at(falls) + 8 * reference);
+  EXPECT_EQ(time.at(0, time.stamp(0, 8) / kTimeStep), edge);
+  ASSERT_GT(seen, edge);
+  // The level falls behind the clock edge that saw the spike, as it would at a transmitter.
+  EXPECT_EQ(time.at(1, time.stamp(1, 5) / kTimeStep),
+            seen + 2 * static_cast<Time>(kTimeStep) * kNanosecond);
+}
+
 // TM-28: a frame that failed is stamped anew when it is sent again.
 TEST(CanStamp, RetryTakesTheLastAttempt) {
   TimeRig time{3};
