@@ -222,5 +222,20 @@ TEST_F(MbGuard, ProtectsWhatWasAbortedAtOnce) {  // FX-3.3.j
   EXPECT_FALSE(blocked());
 }
 
+// No flag is set behind a soft reset, also where the abort ends in its clock.
+TEST_F(MbGuard, SoftResetForgetsTheFlag) {  // FX-2.3.b
+  for (const bool waits : {false, true}) {
+    guard_->gnt_i = 0;
+    cs_write(3, kAbort);
+    if (waits) clock();
+    guard_->clear_i = 1;
+    clock();
+    guard_->clear_i = 0;
+    EXPECT_FALSE(guard_->flag_o) << waits;
+    clock();
+    EXPECT_FALSE(guard_->flag_o) << waits;
+  }
+}
+
 }  // namespace
 }  // namespace vericansim
