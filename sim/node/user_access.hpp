@@ -22,9 +22,11 @@ inline void show_access(Model &top, const UserAccess *access) {
   const UserAccess shown = access != nullptr ? *access : UserAccess{};
   top.usr_req_i = access != nullptr;
   top.usr_we_i = shown.write;
-  top.usr_be_i = static_cast<std::uint8_t>(shown.lanes);
+  // Lanes and data of a read are nobody's business, so they are those of a write that hurts.
+  const bool reads = access != nullptr && !shown.write;
+  top.usr_be_i = static_cast<std::uint8_t>(reads ? 0xF : shown.lanes);
   top.usr_addr_i = static_cast<std::uint16_t>(shown.word);
-  top.usr_wdata_i = shown.data;
+  top.usr_wdata_i = reads ? ~shown.data : shown.data;
 }
 
 }  // namespace vericansim

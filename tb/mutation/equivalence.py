@@ -10,6 +10,7 @@ submodules that were cut off) are equal in every clock, for ever. No proof means
 """
 import argparse
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -119,10 +120,22 @@ def inside(design, top):
     return found
 
 
+def users(design, mutant):
+    """Modules that name the constant of a package in which the mutant is; all that name the package
+    if that has a use for the constant itself."""
+    package = next(file for file in design.files if file.module == mutant.module)
+    name = re.search(r"(\w+)\s*=", mutant.line_text)
+    alone = name and len(re.findall(rf"\b{name[1]}\b", package.text)) == 1
+    text = rf"\b{mutant.module}::" + (rf"{name[1]}\b" if alone else "")
+    return {file.module for file in design.files if re.search(text, file.text)}
+
+
 def attempts(design, mutant):
-    """(top, cut off) to try, small ones first. A package's constant may be used anywhere."""
+    """(top, cut off) to try, small ones first. A package's constant may be used anywhere: in
+    can_top, or there is nothing to prove."""
     if mutant.module.endswith("_pkg"):
-        yield "can_top", [RAM]
+        if users(design, mutant) <= inside(design, "can_top"):
+            yield "can_top", [RAM]
         return
     local = children(design, mutant.module)
     yield mutant.module, local

@@ -17,7 +17,8 @@ import time
 FOLDERS = {
     "core": [("unit", "can_"), ("mailbox", ""), ("protocol", ""), ("driver", ""),
              ("system", "bus_"), ("faults", ""), ("random", "random_"), ("time", "")],
-    "remote": [("unit", "can_rn_"), ("remote", "port_"), ("remote", "rtl_")],
+    "remote": [("unit", "can_rn_"), ("remote", "port_"), ("remote", "rtl_"),
+               ("remote", "unit_same_id")],
     "time": [("unit", "can_clock"), ("unit", "can_time"), ("time", "")],
     "buses": [("mailbox", "bus_")]}
 # Not with mutants: that a model rests, which one with mutants in it does not; and first contents of

@@ -26,6 +26,10 @@ class PortLife : public ::testing::Test {
     port->user_write(remote_map::kLife / 4, steps << 8 * (remote_map::kLife % 4),
                      1U << remote_map::kLife % 4);
   }
+  void set_retry(unsigned attempts) {
+    port->user_write(remote_map::kRetry / 4, attempts << 8 * (remote_map::kRetry % 4),
+                     1U << remote_map::kRetry % 4);
+  }
   void wait(unsigned ms) {
     for (; ms != 0; --ms) port->ms();
   }
@@ -95,10 +99,24 @@ TEST_F(PortLife, AllOfTheQueueGrowsOld) {
   EXPECT_EQ(port->drain().size(), 1U);
 }
 
+// RN-15: 0 attempts is no limit, whatever a byte can count.
+TEST_F(PortLife, NoLimitOfAttemptsIsNone) {
+  set_retry(0);
+  port->receive(read());
+  (void)port->drain();
+  port->receive(read());
+  port->clocks(64);
+  for (unsigned attempt = 0; attempt < 600; ++attempt) {
+    ASSERT_TRUE(port->asks()) << attempt;
+    (void)port->send(FramePort::End::kError);
+    port->clocks(64);
+  }
+  EXPECT_EQ(port->drain().size(), 1U);
+}
+
 // RN-15, RN-26: a HERE that is taken back leaves none of its failures to the frame behind it.
 TEST_F(PortLife, AttemptsBeginAnewBehindWhatIsTakenBack) {
-  constexpr unsigned kRetry = remote_map::kRetry;
-  port->user_write(kRetry / 4, 2U << 8 * (kRetry % 4), 1U << kRetry % 4);
+  set_retry(2);
   port->receive(read());
   (void)port->drain();
   port->receive(frame_of("002#0000000000000000"));
@@ -117,8 +135,7 @@ TEST_F(PortLife, AttemptsBeginAnewBehindWhatIsTakenBack) {
 
 // RN-15: an answer that dies of age gives no attempts back to the STATUS before it.
 TEST_F(PortLife, AttemptsGoOnWhereAnotherDies) {
-  constexpr unsigned kRetry = remote_map::kRetry;
-  port->user_write(kRetry / 4, 2U << 8 * (kRetry % 4), 1U << kRetry % 4);
+  set_retry(2);
   port->receive(read());
   (void)port->drain();
   port->receive(frame_of("1A0#"));  // of no length: STATUS tells that it is refused

@@ -16,9 +16,10 @@ constexpr unsigned kBits = 8;   // within which an answer is offered
 constexpr unsigned kAll = 240;  // clocks in which a node with producers has looked at all of them
 
 RemoteConfig config_of(const std::string &profile, unsigned name_bits) {
-  const bool clock = profile == "time";
-  RemoteConfig config = RemoteConfig::profile(clock ? "standard" : profile);
+  const bool clock = profile == "time", wide = profile == "standard16";
+  RemoteConfig config = RemoteConfig::profile(clock || wide ? "standard" : profile);
   config.time_sync = clock;
+  if (wide) config.stage_bytes = 16;
   config.name_bits = name_bits;
   config.serial = kSerial;
   return config;

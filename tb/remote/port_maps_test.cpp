@@ -167,6 +167,21 @@ TEST_F(PortMaps, Stale) {
   }
 }
 
+// RN-66: a frame that another entry takes brings no time-out forward.
+TEST_F(PortMaps, ATimeOutIsNotEarlyByAnotherEntry) {
+  map(0, 0x6A0, 0x7FF, 0x300, 2, 3);
+  map(1, 0x6B0, 0x7FF, 0x310, 2);
+  for (unsigned phase = 0; phase < 10; ++phase) {
+    hear("6A0#0102");
+    (void)wait(29);
+    hear("6B0#0304");
+    port->clocks(300);
+    EXPECT_FALSE(stale()) << phase;
+    (void)wait(12);
+    EXPECT_TRUE(stale()) << phase;
+  }
+}
+
 // RN-66: the longest time-out; bit 6 leads to SAFE, and STATE 01 does not help for long.
 TEST_F(PortMaps, StaleLeadsToSafe) {
   map(1, 0x6B0, 0x7FF, 0x310, 0x42, 255);

@@ -48,7 +48,9 @@ TEST_P(PortRandom, ShortLivesAndFewAttempts) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, PortRandom, ::testing::Values("small", "standard", "full"),
+// RN-46: standard16 is standard with a stage of 16 bytes.
+INSTANTIATE_TEST_SUITE_P(Profiles, PortRandom,
+                         ::testing::Values("small", "standard", "standard16", "full"),
                          [](const auto &test) { return std::string{test.param}; });
 
 }  // namespace

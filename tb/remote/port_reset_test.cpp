@@ -85,7 +85,7 @@ TEST_P(PortReset, LivesAreThoseOfTheModel) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, PortReset, ::testing::Values("small", "standard"),
+INSTANTIATE_TEST_SUITE_P(Profiles, PortReset, ::testing::Values("small", "standard", "full"),
                          [](const auto &test) { return std::string{test.param}; });
 
 }  // namespace

@@ -163,13 +163,16 @@ TEST(RtlUser, WaitsFor24ClocksAtMost) {
   }
 }
 
+/// A word of the node itself: the engine's own bytes, the rows of counters, STATUS and IDENT.
+bool is_own(unsigned word) { return (word >= 0xE00 / 4 && word < 0xF00 / 4) || word >= 0xFE0 / 4; }
+
 // RN-53: user logic reads all of the RAM; its writes to the engine's own bytes and to the rows of
 // counters, STATUS and IDENT are ignored.
 TEST(RtlUser, WritesWhereItHasNoRightAreIgnored) {
   RtlBus bus{std::vector<unsigned>{3}};
   (void)bus.start();
   for (unsigned word = 0; word < 1024; ++word) {
-    const bool own = (word >= 0xE00 / 4 && word < 0xF00 / 4) || word >= 0xFE0 / 4;
+    const bool own = is_own(word);
     const std::uint32_t before = bus.node().peek_words(word, 1)[0];
     bus.node().user_write(word, ~before, 0xF);
     bus.run_bits(1);
@@ -177,6 +180,21 @@ TEST(RtlUser, WritesWhereItHasNoRightAreIgnored) {
     if (!own) bus.node().user_write(word, before, 0xF);
     bus.run_bits(1);
   }
+}
+
+// RN-53: a read is none of them, whatever lanes and data are beside it (user_access.hpp).
+TEST(RtlUser, ReadsWriteNothing) {
+  RtlBus bus{std::vector<unsigned>{3}};
+  (void)bus.start();
+  const std::vector<std::uint32_t> before = bus.node().peek_words(0, 1024);
+  std::vector<std::uint32_t> seen;
+  for (unsigned word = 0; word < 1024; ++word)
+    bus.node().access({false, 0, word, 0}, [&seen](std::uint32_t data) { seen.push_back(data); });
+  bus.run_bits(2000);
+  EXPECT_EQ(seen, before);
+  const std::vector<std::uint32_t> after = bus.node().peek_words(0, 1024);
+  for (unsigned word = 0; word < 1024; ++word)
+    if (!is_own(word)) EXPECT_EQ(after[word], before[word]) << 4 * word;
 }
 
 // RN-51: byte lanes.
