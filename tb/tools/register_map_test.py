@@ -25,7 +25,7 @@ TABLE = (
     ((*MCR, "offset"), "0x4", "registers: MCR: offset is '0x4'; expected: a whole number"),
     ((*MCR, "fields"), None, "registers: MCR: fields is None; expected: a list of at least one"),
     ((*MCR, "name"), 3, "registers: name is 3; expected: text"),
-    ((*FIELD, "reset"), "x", "registers: MCR FRZ: reset is 'x'; expected: a whole number, or NumMb"),
+    ((*FIELD, "reset"), "x", "registers: MCR FRZ: reset is 'x'; expected: a whole number, or Num"),
     ((*FIELD, "reset"), 2, "registers: MCR FRZ: reset 0x2 does not fit into bits 30"),
     ((*FIELD, "live"), "yes", "registers: MCR FRZ: live is 'yes'; expected: true or false"),
     ((*FIELD, "bits"), "3:40", "registers: MCR FRZ: bits '3:40' are not within 31:0"),
