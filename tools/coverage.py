@@ -13,9 +13,11 @@ import concurrent.futures
 import glob
 import json
 import os
+import re
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 from rtlcov import exclusions as exclusion_file
 from rtlcov import points, report
@@ -75,11 +77,16 @@ def run_program(name, directory, shards):
 
 
 def clear(directory):
-    """Makes `directory`, without the counts of the run before; what else is there is not ours."""
+    """Makes `directory`, without the counts of the run before; one with anything else in it is not
+    ours, and is left as it is."""
     os.makedirs(directory, exist_ok=True)
-    for pattern in ("*.dat*", "*.log"):
-        for path in glob.glob(f"{glob.escape(directory)}/{pattern}"):
-            os.remove(path)
+    files = list(Path(directory).iterdir())
+    for path in files:
+        if not re.search(r"\.(log|dat[^/]*)$", path.name) or not path.is_file():
+            raise points.CoverageError(f"{path} is not of a run of this program: name another "
+                                       "folder, or remove it")
+    for path in files:
+        path.unlink()
 
 
 def run(names, directory, shards, jobs):

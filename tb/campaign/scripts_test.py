@@ -48,8 +48,12 @@ class Scripts(RefusalCase):
             spec.loader.exec_module(coverage)
         for name in ("letter.txt", "program.dat", "program.dat.gz", "program.log"):
             (self.path / name).touch()
+        with self.assertRaisesRegex(coverage.points.CoverageError, "letter.txt is not of a run"):
+            coverage.clear(str(self.path))
+        self.assertEqual(len(list(self.path.iterdir())), 4)
+        (self.path / "letter.txt").unlink()
         coverage.clear(str(self.path))
-        self.assertEqual([path.name for path in self.path.iterdir()], ["letter.txt"])
+        self.assertEqual(list(self.path.iterdir()), [])
 
     def test_a_parser_that_there_is_not_is_told_before_the_build(self):
         self.refused("no parser 'nosuch'; there are board, can_frame,", sys.executable, "-B",
