@@ -51,6 +51,10 @@ report() {
 finish() {
   wait
   report
+  if [ "$told" -ne "${#names[@]}" ]; then
+    echo "lint: nothing is known of '${names[told]}': no room in ${TMPDIR:-/tmp}?" >&2
+    exit 1
+  fi
 }
 
 # The whole core in each size that is offered; the engine alone, because it is a product of its own.
