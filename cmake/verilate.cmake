@@ -27,7 +27,9 @@ include("${CMAKE_CURRENT_LIST_DIR}/verilator_version.cmake")
 verican_has_short_cuts(VERICAN_SHORT_CUTS "${version}")
 if(NOT VERICAN_SHORT_CUTS)
   message(STATUS "${version}: the simulator's short cuts are for 5.006, so it is slower")
-elseif(VERICAN_RTL_TRANSFORM AND VERICAN_PLAIN_EDGES)
+elseif(VERICAN_COVERAGE OR VERICAN_RTL_TRANSFORM AND VERICAN_PLAIN_EDGES)
+  # The short cuts look at members that do not exist in a model that counts; what they pass over
+  # would not be counted either.
   set(VERICAN_SHORT_CUTS FALSE)
 endif()
 find_package(Threads REQUIRED)
