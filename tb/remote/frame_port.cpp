@@ -5,6 +5,7 @@
 #include "remote/frame_port.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 namespace vericansim {
@@ -32,8 +33,18 @@ void FramePort::reset() {
   pulses_.clear();
 }
 
+void FramePort::do_what_is_due() {
+  std::vector<std::pair<std::uint64_t, std::function<void()>>> due;
+  const auto now = std::stable_partition(later_.begin(), later_.end(), [this](const auto &entry) {
+    return entry.first > clocks_ + 1;
+  });
+  std::move(now, later_.end(), std::back_inserter(due));
+  later_.erase(now, later_.end());
+  for (const auto &entry : due) entry.second();
+}
+
 void FramePort::clock() {
-  if (ms_in_ != 0 && --ms_in_ == 0) engine_.ms = true;
+  if (!later_.empty()) do_what_is_due();
   edge(engine_);
   ++clocks_;
   engine_.tick = engine_.hdr = engine_.byte_we = engine_.valid = false;

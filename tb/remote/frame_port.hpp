@@ -7,9 +7,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/frame.hpp"
@@ -60,7 +62,13 @@ class FramePort {
   /// A pulse of the millisecond in the next clock.
   void pulse_ms() { engine_.ms = true; }
   /// A pulse in that clock from now on: 1 is the next.
-  void pulse_ms_in(unsigned clocks) { ms_in_ = clocks; }
+  void pulse_ms_in(unsigned clocks) {
+    in(clocks, [this] { engine_.ms = true; });
+  }
+  /// Calls `what` before that clock from now on, whatever runs until then; 1 is the next.
+  void in(unsigned clocks, std::function<void()> what) {
+    later_.emplace_back(clocks_ + clocks, std::move(what));
+  }
   virtual void set_counters(unsigned tec, unsigned rec, bool passive, bool bus_off) = 0;
   /// What the engine tells of the clock (TM-108): TSSTAT, TSOFS, captured time, the low byte of
   /// each first. std::logic_error for a node without.
@@ -131,10 +139,11 @@ class FramePort {
 
  private:
   void pulses_in(bool Engine::*event);
+  void do_what_is_due();
 
   Engine engine_;
   std::vector<RemotePulse> pulses_;
-  unsigned ms_in_ = 0;
+  std::vector<std::pair<std::uint64_t, std::function<void()>>> later_;
   std::uint64_t clocks_ = 0;
   std::uint64_t pulse_clock_ = 0;
 };

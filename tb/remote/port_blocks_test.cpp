@@ -183,6 +183,17 @@ TEST_F(PortBlocks, EachFrameIsChecked) {
   }
 }
 
+// RN-43: the bit of the page in which a frame begins, wherever the one before has ended.
+TEST_F(PortBlocks, AFrameBeginsInThePageOfItsStart) {
+  pair_.user_write(0xF10 / 4, 1U << 7, 0xF);  // RP of 380..3FF
+  for (unsigned address = 0x68; address < 0x80; ++address) {
+    tell(block_frame(kReadBlock, address, 14));
+    for (unsigned frames = 0; frames < 3; ++frames) EXPECT_TRUE(pair_.turn()) << address;
+    EXPECT_FALSE(pair_.turn()) << address;
+    check();
+  }
+}
+
 // RN-41, RN-43: lengths that a frame or the transfer does not have.
 TEST_F(PortBlocks, LengthsAreChecked) {
   for (unsigned left = 1; left <= 8; ++left) {

@@ -212,6 +212,27 @@ TEST_F(PortProducers, HoldDelays) {
   EXPECT_THAT(drain(), ElementsAre("5B0#07"));
 }
 
+// RN-52, RN-64, RN-80: nor while STATUS is sent, whose next byte comes before what waits.
+TEST_F(PortProducers, HoldDelaysBesideStatus) {
+  constexpr unsigned kFrame = 8 * (18 + 8 * 8);  // clocks from identifier to the last data bit
+  produce(0, 0x30, kOn | 1, 0);
+  for (unsigned clock = 1; clock < kFrame; clock += 3) {
+    SCOPED_TRACE(clock);
+    write(0x30, 5);
+    hear("1A0#");  // refused
+    ASSERT_TRUE(port->asks());
+    port->in(clock, [this] {
+      port->hold(true);
+      port->event(1);
+    });
+    port->in(clock + 45, [this] { port->poke(0x30, 7); });
+    port->in(clock + 60, [this] { port->hold(false); });
+    EXPECT_EQ(port->send().id, 0x5FEU);
+    port->clocks(128);
+    EXPECT_THAT(drain(), ElementsAre("5B0#07"));
+  }
+}
+
 // RN-72: bus-off forgets what is due, and nothing is sent meanwhile.
 TEST_F(PortProducers, BusOffForgetsWhatIsDue) {
   produce(0, 0x7E, kOn | 1, 0);
