@@ -23,7 +23,8 @@ TOGGLE = re.compile(COUNT + r"\s*(vlSelf->\w*__Vtogcov__\w+(?:\s*\[\w+\])*)\s*=\
 BIT = re.compile(r"if \(((?:[^{};])*?)\) \{\s*" + COUNT
                  + r"\s*(vlSelf->\w*__Vtogcov__\w+)\s*=[^;]*;\s*\}")
 SIGNAL = re.compile(r"(?:vlSelf->|\b)[A-Za-z_]\w*(?:__DOT__|vlSelf->)\w+|vlSelf->\w+")
-RESETS = ("rst_ni", "hresetn")
+# The resets of the tops, and how to tell in C++ that they are not active.
+RESETS = {"rst_ni": "", "hresetn": "", "presetn": "", "aresetn": "", "wb_rst_i": "!"}
 
 
 def fail(text):
@@ -85,7 +86,7 @@ def guard(text):
     return "".join(out) + text[position:]
 
 
-def rewrite_counts(files, name, size, points, armed):
+def rewrite_counts(files, name, size, points, active):
     toggles = {p[0] for p in points if p[5].startswith("v_toggle")}
     resets = {p[0] for p in points if p[6] in RESETS}
     done = set()
@@ -95,7 +96,7 @@ def rewrite_counts(files, name, size, points, armed):
         if index not in toggles:
             fail(f"counter {index} looks like a toggle and is none")
         done.add(index)
-        step = "1" if index in resets else armed
+        step = "1" if index in resets else active
         return (f"const auto before = {was}; {was} = {now};\n"
                 f"{name}_coverage[{was} < before ? {index + size} : {index}] += {step};")
 
@@ -136,6 +137,12 @@ def table(points, size, root):
     return lines
 
 
+def armed(top):
+    """C++: 1 unless the reset of the model is active; `top`: its header. 1: it has none."""
+    ports = set(re.findall(r"VL_IN8\(&(\w+),", top))
+    return next((f"{no}vlSelf->{reset}" for reset, no in RESETS.items() if reset in ports), "1")
+
+
 def main():
     if len(sys.argv) != 4:
         sys.exit(__doc__.split("\n", maxsplit=1)[0])
@@ -143,9 +150,8 @@ def main():
     files = read(f"{directory}/*.cpp") | read(f"{directory}/*.h")
     points = take_points(files)
     top = files[f"{directory}/{name}.h"]
-    reset = next((r for r in RESETS if re.search(rf"VL_IN8\(&{r},", top)), None)
     size = max(p[0] for p in points) + 1
-    rewrite_counts(files, name, size, points, f"vlSelf->{reset}" if reset else "1")
+    rewrite_counts(files, name, size, points, armed(top))
     symbols = f"{directory}/{name}__Syms.h"
     files[symbols], hits = re.subn(r"std::atomic<uint32_t> __Vcoverage\[(\d+)\];", "",
                                    files[symbols])
@@ -171,4 +177,5 @@ def main():
                   f"{len(lines)}, {name}_coverage}};\n")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -12,8 +12,10 @@ import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
-sys.path.insert(0, f"{ROOT}/tools")
+sys.path[:0] = [f"{ROOT}/tools", f"{ROOT}/cmake"]
+sys.dont_write_bytecode = True
 # pylint: disable=wrong-import-position
+import coverage_model  # noqa: E402
 from rtlcov import exclusions, points, report  # noqa: E402
 
 FILE = "rtl/tiny.sv"
@@ -112,6 +114,18 @@ class Machinery(unittest.TestCase):
         by_what = {p.what: n for p, n in counts.items() if p.kind == "toggle"}
         self.assertEqual(by_what["state_q[1]:1->0"], 2, "both instances count")
         self.assertEqual(by_what["rst_ni:0->1"], 2)
+
+    def test_every_top_has_a_reset_that_is_known(self):
+        # What its reset does is not counted; "VL_IN8(&name," is a port of a Verilated model.
+        for top, name in (("host/can_ahb", "hresetn"), ("host/can_apb", "presetn"),
+                          ("host/can_axil", "aresetn"), ("can_core", "rst_ni"),
+                          ("remote/can_remote", "rst_ni"), ("time/can_time_node", "rst_ni")):
+            with open(f"{ROOT}/rtl/{top}.sv", encoding="utf-8") as file:
+                self.assertRegex(file.read(), rf"input\s+logic\s+{name}\b")
+            self.assertEqual(coverage_model.armed(f"VL_IN8(&clk,0,0);\nVL_IN8(&{name},0,0);"),
+                             f"vlSelf->{name}")
+        self.assertEqual(coverage_model.armed("VL_IN8(&wb_rst_i,0,0);"), "!vlSelf->wb_rst_i")
+        self.assertEqual(coverage_model.armed("VL_IN8(&clk_i,0,0);"), "1")
 
     def test_processes_add_up(self):
         lines, toggles = self.named(self.run_tiny([0, 1, 0], [5, 2, 0, 3]), True)

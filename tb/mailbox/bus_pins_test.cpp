@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the masters of bus_wrappers_test never do, on the pins: AXI4-Lite with both directions
-// always waiting, or one answer channel closed (PK-22, PK-23); Wishbone strobes outside of a cycle.
+// always waiting, or one answer channel closed (PK-22, PK-23); kinds of access (PROT) that AHB-Lite
+// has not; Wishbone strobes outside of a cycle.
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "Vcan_apb64.h"
+#include "Vcan_apb64___024root.h"
 #include "Vcan_axil64.h"
 #include "Vcan_axil64___024root.h"
 #include "Vcan_wb64.h"
@@ -133,6 +136,60 @@ TEST(AxilPins, AWriteNeedsAddressAndData) {
       EXPECT_TRUE(!seen.rvalid || seen.rdata == 0);
     }
     EXPECT_GE(reads, 19u);
+  }
+}
+
+// CheckProt is 0: every kind of access reads and writes.
+TEST(AxilPins, ProtDoesNotMatter) {
+  AxilTurns bench;
+  for (unsigned i = 0; i < 9; ++i) {
+    const auto prot = static_cast<std::uint8_t>(i % 8);
+    AxilRequest request;
+    request.awvalid = request.wvalid = request.bready = true;
+    request.awaddr = request.araddr = reg::kImask1;
+    request.awprot = request.arprot = prot;
+    request.wdata = 0x50U + prot;
+    request.wstrb = 0xF;
+    while (!bench.clock(request).awready) {
+    }
+    request.awvalid = request.wvalid = false;
+    AxilResponse seen = bench.clock(request);
+    for (; !seen.bvalid; seen = bench.clock(request)) {
+    }
+    EXPECT_EQ(seen.bresp, 0) << +prot;
+    request.arvalid = request.rready = true;
+    while (!bench.clock(request).arready) {
+    }
+    request.arvalid = false;
+    for (seen = bench.clock(request); !seen.rvalid; seen = bench.clock(request)) {
+    }
+    EXPECT_EQ(seen.rdata, 0x50U + prot) << +prot;
+    EXPECT_EQ(seen.rresp, 0) << +prot;
+  }
+}
+
+TEST(ApbPins, ProtDoesNotMatter) {
+  Bench<Vcan_apb64, ApbPins> bench;
+  for (std::uint8_t prot = 0; prot < 8; ++prot) {
+    for (const bool write : {true, false}) {
+      ApbRequest request;
+      request.psel = true;
+      request.paddr = reg::kImask1;
+      request.pprot = prot;
+      request.pwrite = write;
+      request.pstrb = write ? 0xF : 0;
+      request.pwdata = 0x50U + prot;
+      (void)bench.clock(request);
+      request.penable = true;
+      ApbResponse seen = bench.clock(request);
+      for (; !seen.pready; seen = bench.clock(request)) {
+      }
+      EXPECT_FALSE(seen.pslverr) << +prot;
+      if (!write) {
+        EXPECT_EQ(seen.prdata, 0x50U + prot) << +prot;
+      }
+      (void)bench.clock({});
+    }
   }
 }
 

@@ -135,6 +135,44 @@ TEST_P(Lanes, StopRequestIsPassedOn) {
   EXPECT_FALSE(acknowledged());
 }
 
+// Each line is that of its own flag and mask; what raises them is the matter of InterruptLines.
+TEST_P(Lanes, InterruptLinesArePassedOn) {
+  constexpr std::uint32_t kMcr = reg::kMcrWrnEn | 1u << 26 | 1u << 22 | 63;    // WAK_MSK, SLF_WAK
+  constexpr std::uint32_t kMasks = 1u << 15 | 1u << 14 | 1u << 11 | 1u << 10;  // BOFF to RWRN
+  const auto run = [&](unsigned clocks, Level level) {
+    for (; clocks != 0; --clocks) {
+      node_->clock(level);
+      node_->oscillator().tick();
+    }
+  };
+  const auto join_with = [&](std::uint32_t counters) {
+    node_->write32(reg::kMcr, kMcr | reg::kMcrFrz | reg::kMcrHalt);
+    while ((node_->read32(reg::kMcr) & reg::kMcrFrzAck) == 0) {
+    }
+    node_->write32(reg::kCtrl, 2u << 19 | 1u << 16 | 1u | kMasks);  // 8 clocks a bit
+    node_->write32(reg::kEcr, counters);
+    node_->write32(reg::kEsr, reg::kEsrInterrupts | 1);
+    node_->write32(reg::kMcr, kMcr);
+    run(200, Level::kRecessive);
+    EXPECT_EQ(node_->irq_lines(), 0);
+  };
+  join_with(0);
+  node_->request_stop(true);
+  run(60, Level::kRecessive);
+  run(10, Level::kDominant);
+  node_->request_stop(false);
+  run(200, Level::kRecessive);
+  EXPECT_EQ(node_->irq_lines(), kIrqAll | kIrqWake);
+  join_with(95u << 8);  // REC: a frame that is none
+  run(56, Level::kDominant);
+  run(400, Level::kRecessive);
+  EXPECT_EQ(node_->irq_lines(), kIrqAll | kIrqError | kIrqRxWarning);
+  join_with(95);  // TEC: what it sends does not come back
+  node_->write32(reg::mb(8), 0xCu << 24);
+  run(20'000, Level::kRecessive);
+  EXPECT_EQ(node_->irq_lines(), kIrqAll | kIrqError | kIrqTxWarning | kIrqBusOff);
+}
+
 // CheckProt is 0: MCR.SUPV is stored, and nothing else. With 1: bus_rights_test.
 TEST_P(Lanes, WithoutCheckProtUsersMay) {
   constexpr std::uint8_t kUser = 0b0001;
@@ -154,7 +192,12 @@ TEST_P(Lanes, OutsideTheWindowIsAnError) {
     EXPECT_EQ(read.data, 0u);
   }
   EXPECT_EQ(node_->read32(reg::mb(5, 2)), 0x12345678u);
-  EXPECT_EQ(node_->read32(reg::mb(5, 2) | 1u << 16), 0x12345678u);  // not of the region
+  // Not of the region.
+  for (unsigned bit = 31; bit >= 16; --bit) {
+    const std::uint32_t same = reg::mb(5, 2) | 1u << bit;
+    EXPECT_EQ(write(same, 0xA5A50000u + bit, 0xF), 0xA5A50000u + bit) << "address bit " << bit;
+    EXPECT_EQ(node_->read32(reg::mb(5, 2)), 0xA5A50000u + bit) << "address bit " << bit;
+  }
   EXPECT_FALSE(node_->access({.address = kWindow - 4}).error);
 }
 

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The counters at FE8 where two things happen at once (RN-35, RN-54).
+// The counters at FE8 where two things happen at once (RN-35, RN-54), and that of holds (RN-52).
 #include <gtest/gtest.h>
+
+#include <string>
 
 #include "remote/frame_port.hpp"
 #include "remote/model_node.hpp"
@@ -10,7 +12,8 @@
 namespace vericansim {
 namespace {
 
-constexpr unsigned kLife = 0xF05, kRetry = 0xF07, kValue = 0xFE9, kDropped = 0xFEB, kDup = 0xFEC;
+constexpr unsigned kLife = 0xF05, kRetry = 0xF07, kValue = 0xFE9, kDropped = 0xFEB, kDup = 0xFEC,
+                   kHold = 0xFEF;
 
 /// A node of profile full with an answer that waits for `ms` milliseconds already.
 std::unique_ptr<FramePort> waiting(unsigned ms, unsigned retry = 8) {
@@ -64,6 +67,34 @@ TEST(PortTally, AnAnswerIsDroppedOnce) {
     ASSERT_FALSE(port->asks());
     EXPECT_EQ(port->peek(kDropped), 1);
   }
+}
+
+void bits(FramePort &port, unsigned count) {
+  for (; count != 0; --count) port.bit();
+}
+
+// RN-35, RN-52: a hold is honoured for 64 clocks; then it is ignored, and counted.
+TEST(PortTally, AHoldThatIsTooLongIsCounted) {
+  const auto port = FramePort::create("full", 3, 0xCAFE1234, 3);
+  port->start();
+  (void)port->drain();
+  for (unsigned n = 1; n <= 3; ++n) {
+    port->hold(true);
+    port->receive_until_valid(frame_of("1A0#0" + std::to_string(n)));
+    bits(*port, 6);
+    EXPECT_EQ(port->peek(0x20), n - 1);
+    bits(*port, 14);
+    EXPECT_EQ(port->peek(0x20), n);
+    EXPECT_EQ(port->peek(kHold), n);
+    port->hold(false);
+  }
+  port->hold(true);
+  port->receive_until_valid(frame_of("1A0#09"));
+  bits(*port, 6);
+  port->hold(false);
+  bits(*port, 14);
+  EXPECT_EQ(port->peek(0x20), 9);
+  EXPECT_EQ(port->peek(kHold), 3);
 }
 
 }  // namespace

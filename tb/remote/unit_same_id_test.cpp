@@ -99,6 +99,7 @@ TEST_P(SameId, IsForDirectReadsAlone) {
   EXPECT_THAT(bus_.send(bus_frame("1A1#R2")), ElementsAre("1A1#0000"));
   EXPECT_THAT(bus_.send(bus_frame("1F8#200001")), ElementsAre("5F8#200000"));
   EXPECT_THAT(bus_.send(bus_frame("1FE#R1")), ElementsAre("5FE#02"));
+  EXPECT_THAT(bus_.send(bus_frame("1A1#R1")), ElementsAre("1A1#00"));
 }
 
 // RN-10: without SameId.

@@ -26,13 +26,18 @@ class Follower {
   Follower(double period_ps, double phase_ps) : period_{period_ps}, phase_{phase_ps} {
     top_.eval();
     top_.can_rx_i = 1;
-    top_.rst_ni = 0;
-    rising_edge(top_, top_.clk_i);
-    top_.rst_ni = 1;
+    reset();
   }
   ~Follower() { top_.final(); }
   Follower(const Follower &) = delete;
   Follower &operator=(const Follower &) = delete;
+
+  /// A hard reset; the node's own time stands still meanwhile.
+  void reset() {
+    top_.rst_ni = 0;
+    rising_edge(top_, top_.clk_i);
+    top_.rst_ni = 1;
+  }
 
   [[nodiscard]] double next() const { return phase_ + period_ * static_cast<double>(edges_); }
   [[nodiscard]] bool dominant() const { return top_.can_tx_o == 0; }

@@ -30,29 +30,33 @@ class FollowerRegs : public testing::Test {
     clocks(300);
   }
   void clocks(unsigned count) {
-    for (unsigned i = 0; i < count; ++i) top_.clock();
+    for (unsigned i = 0; i < count; ++i) tick();
+  }
+  void tick() {
+    top_.clock();
+    ++cycles_;
   }
   void command(std::uint32_t address, bool write) {
     top_->req_i = 1;
     top_->addr_i = address / 4;
     top_->we_i = write;
-    top_.clock();
+    tick();
     top_->req_i = 0;
   }
   std::uint32_t read(std::uint32_t address) {
     command(address, false);
     top_.settle();
-    while (top_->ready_o == 0) top_.clock();
+    while (top_->ready_o == 0) tick();
     const std::uint32_t data = top_->rdata_o;
-    top_.clock();
+    tick();
     return data;
   }
   void write(std::uint32_t address, std::uint32_t data) {
     command(address, true);
     top_->wdata_i = data;
     top_.settle();
-    while (top_->ready_o == 0) top_.clock();
-    top_.clock();
+    while (top_->ready_o == 0) tick();
+    tick();
   }
   void go() {
     write(reg::kMcr, reg::kMcrFrz | reg::kMcrHalt);
@@ -65,16 +69,32 @@ class FollowerRegs : public testing::Test {
     for (const Level level : levels_of(encode_frame(frame, {.ack_slot = Level::kRecessive}).bits))
       for (unsigned i = 0; i < 8; ++i) {
         top_->can_rx_i = level == Level::kRecessive && top_->can_tx_o != 0 ? 1 : 0;
-        top_.clock();
+        tick();
       }
     clocks(600);
   }
-  void pair(std::uint32_t seconds, std::uint8_t ns) {
-    send(
-        {.id = 0x77, .dlc = 8, .data = {0x10, 0, 0x21, 0, 0, 0, 0, static_cast<uint8_t>(seconds)}});
-    send({.id = 0x77, .dlc = 8, .data = {0x18, 0, 0x21, 0, 0, 0, 0, ns}});
+  void pair(std::uint32_t seconds, std::uint32_t ns, Frame as = {.id = 0x77}, unsigned count = 1) {
+    as.dlc = 8;
+    as.data = {0x10, 0, static_cast<std::uint8_t>(0x20 | count % 16)};
+    for (unsigned i = 0; i < 4; ++i) as.data[4 + i] = static_cast<uint8_t>(seconds >> (24 - 8 * i));
+    send(as);
+    as.data[0] = 0x18;
+    for (unsigned i = 0; i < 4; ++i) as.data[4 + i] = static_cast<uint8_t>(ns >> (24 - 8 * i));
+    send(as);
   }
+  /// Pairs of a master that agrees, one in each 8,192 clocks; `ahead` ns too much in each.
+  void pairs(unsigned count, int ahead, const Frame &as = {.id = 0x77}) {
+    for (; count != 0; --count) {
+      const std::uint64_t begin = cycles_;
+      const auto ns = static_cast<std::uint32_t>(20 * (begin - epoch_) + 1'000'000);
+      pair(60, ns + static_cast<std::uint32_t>(ahead), as, ++sequence_);
+      clocks(static_cast<unsigned>(8'192 - (cycles_ - begin)));
+    }
+  }
+  std::uint32_t state() { return read(kTsstat) & 3; }
   LeafModel<Vcan_top_sync> top_;
+  std::uint64_t cycles_ = 0, epoch_ = 0;
+  unsigned sequence_ = 0;
 };
 
 // TM-02, TM-03: what the parameters say after a reset, whatever the mode; what can be written.
@@ -92,10 +112,33 @@ TEST_F(FollowerRegs, ReadAndWrite) {
                                       {kTsofs, 0u},
                                       {0x1194u, 0u},
                                       {0x11FCu, 0u}}) {
-    write(address, 0xFFFFFFFF);
-    EXPECT_EQ(read(address), bits) << std::hex << address;
-    write(address, 0);
-    EXPECT_EQ(read(address), 0u) << std::hex << address;
+    for (const std::uint32_t pattern : {0xFFFFFFFFu, 0u, 0xA5C3965Au, 0x5A3C69A5u, 0u}) {
+      write(address, pattern);
+      EXPECT_EQ(read(address), pattern & bits) << std::hex << address;
+    }
+    for (unsigned lane = 0; lane < 4; ++lane) {
+      top_->be_i = 1U << lane;
+      write(address, 0xFFFFFFFF);
+      top_->be_i = 0xF;
+      EXPECT_EQ(read(address), 0xFFU << 8 * lane & bits) << std::hex << address;
+      write(address, 0);
+    }
+  }
+  top_.reset();
+  clocks(300);
+  EXPECT_EQ(read(kTsctrl), 0x1F460120u);
+  EXPECT_EQ(read(kTsid), 0x01DC0000u);
+  EXPECT_EQ(read(kTsdly), 0x00FFFFE2u);
+}
+
+// TM-02: the time unit's commands are those of a core without the follower.
+TEST_F(FollowerRegs, ABufferMayBeHeld) {
+  constexpr std::uint32_t kTtx = 0x1140, kTtxmb = 0x1144, kHold = 1u << 31;
+  write(kTtx, 1'000'000'000);  // in a second
+  for (const std::uint32_t held : {kHold | 5, 5u, kHold | 9, 0u}) {
+    write(kTtxmb, held);
+    clocks(4);
+    EXPECT_EQ(read(kTtxmb), held);
   }
 }
 
@@ -135,6 +178,47 @@ TEST_F(FollowerRegs, TheDelayIsThatOfTheRegister) {
   const std::uint64_t low = read(kTimelo), now = std::uint64_t{read(kTimehi)} << 32 | low;
   EXPECT_GT(now, 60'000'000'000u + kDelay);  // two frames of 20 us each ago
   EXPECT_LT(now, 60'000'080'000u + kDelay);
+}
+
+// TM-102, TM-103, TM-104: offset and state as software sees them, from the first pair to the last,
+// with a base and an extended identifier.
+TEST_F(FollowerRegs, StateAndOffsetFollowThePairs) {
+  constexpr unsigned kTmo = 20;  // 2^20 ns: six pairs
+  go();
+  write(kTsctrl, kTmo << 24 | 2u << 21 | 6u << 16 | 2u << 4 | 1u);
+  for (const Frame &as : {Frame{.id = 0x77}, Frame{.id = 0x1A5C'3E77, .extended = true},
+                          Frame{.id = 0x05A3'C188, .extended = true}}) {
+    SCOPED_TRACE(as.id);
+    write(kTsid, as.extended ? 1u << 31 | as.id : as.id << 18);
+    epoch_ = cycles_;
+    pairs(2, 0, as);
+    EXPECT_EQ(state(), 1u);
+    pairs(20, 0, as);
+    EXPECT_EQ(state(), 2u);
+    EXPECT_EQ(read(kTsstat) >> 4 & 0xF, sequence_ % 16);
+    EXPECT_LE(read(kTsofs) + 20, 40u) << "to a clock";
+    pairs(1, 1000, as);
+    EXPECT_LE(read(kTsofs) + 1020, 40u) << "behind the master";
+    pairs(as.extended ? 20 : 260, 0, as);
+    EXPECT_EQ(state(), 2u);
+    EXPECT_EQ(read(kTsstat) >> 8 == 255, !as.extended) << "pairs, no more are counted";
+    clocks((1u << kTmo) / 20 + 100);
+    EXPECT_EQ(state(), 3u);
+    pairs(2, 0, as);
+    EXPECT_EQ(state(), 1u) << "without a step";
+    EXPECT_LE(read(kTsstat) >> 8, 2u);
+    EXPECT_LE(read(kTsofs) + 20, 40u);
+    write(kTsctrl, read(kTsctrl) & ~1u);
+    clocks(4);
+    EXPECT_EQ(state(), 0u);
+    write(kTsctrl, read(kTsctrl) | 1u);
+  }
+  pairs(2, 0, {.id = 0x05A3'C188, .extended = true});
+  EXPECT_EQ(state(), 1u);
+  top_.reset();
+  clocks(300);
+  EXPECT_EQ(read(kTsstat), 0u);
+  EXPECT_EQ(read(kTsofs), 0u);
 }
 
 }  // namespace

@@ -88,6 +88,34 @@ TEST(TimeNode, Accuracy) {
   }
 }
 
+// TM-103, TM-104: the state at the pins, with a master that falls silent for more than 2^TMO ns,
+// here 2^25, comes back, and with a reset.
+TEST(TimeNode, StateFollowsTheMaster) {
+  const double period = 62.5 * kNs;
+  FollowerBus<Vcan_time_node_16> bus{16 * period, 1'700'000'000'000'000'000};
+  bus.add(period * (1 + 20 * kPpm), 1'000);
+  const auto pairs = [&bus](unsigned count) {
+    for (; count != 0; --count) {
+      const double begin = bus.now();
+      bus.pair();
+      bus.run(begin + 10 * kMs);
+    }
+    return bus.node(0).state();
+  };
+  EXPECT_EQ(bus.node(0).state(), 0u);
+  EXPECT_EQ(pairs(3), 1u);
+  EXPECT_EQ(pairs(12), 2u);
+  bus.run(bus.now() + 20 * kMs);
+  EXPECT_EQ(bus.node(0).state(), 2u);
+  bus.run(bus.now() + 20 * kMs);
+  EXPECT_EQ(bus.node(0).state(), 3u);
+  EXPECT_EQ(pairs(1), 1u);
+  EXPECT_EQ(pairs(14), 2u);
+  bus.node(0).reset();
+  EXPECT_EQ(bus.node(0).state(), 0u);
+  EXPECT_EQ(pairs(2), 1u);
+}
+
 // Clocks from a start of frame to the node's ACK, if what follows the last edge to dominant before
 // it comes `late` clocks late; 16 clocks, of one quantum each, a bit.
 unsigned clocks_to_ack(unsigned late) {
