@@ -136,10 +136,10 @@ class ClockBus {
   }
   /// SYNC, and FUP behind it; FUP is over 360 bits later.
   void pair() {
-    const Frame sync = at_sync_id(pairs_.sync(kEpoch + bus.now() / 1000));
+    const Frame sync = at_sync_id(pairs_.sync(epoch + bus.now() / 1000));
     const Time began = send(sync);
     const auto reference = static_cast<Time>(reference_bit(encode_unacknowledged(sync).bits));
-    (void)send(at_sync_id(pairs_.follow_up(kEpoch + (began + reference * kBit) / 1000)));
+    (void)send(at_sync_id(pairs_.follow_up(epoch + (began + reference * kBit) / 1000)));
   }
   /// Runs until `until`.
   void run(Time until) { bus.run_until(until); }
@@ -162,6 +162,7 @@ class ClockBus {
     return nodes[i]->data();
   }
 
+  std::uint64_t epoch = kEpoch;  ///< of the master: ns, when the simulation began
   CoreNode host{"host", {.timing = UnitBus::timing()}, UnitBus::clock()};
   std::vector<std::unique_ptr<ClockedRemote>> nodes;
   Bus bus;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <random>
 
 #include "Vcan_remote_whole.h"
 #include "node/model_context.hpp"
@@ -121,9 +122,9 @@ TEST(RtlClock, TheHostReadsTheRow) {
 TEST(RtlClock, UserLogicTakesTheTime) {
   ClockBus bus{{-80}};
   lock(bus);
-  for (unsigned event = 0; event < 40; ++event) {
+  for (unsigned event = 0; event < 12; ++event) {
     SCOPED_TRACE(event);
-    bus.run(bus.bus.now() + 12'345'678 * (event + 1));
+    bus.run(bus.bus.now() + 1'234'567'891 * (event + 1));
     bus.nodes[0]->take_time();
     const Time at = bus.bus.now();
     bus.run(at + 10 * ClockBus::kBit);
@@ -131,6 +132,23 @@ TEST(RtlClock, UserLogicTakesTheTime) {
     EXPECT_LT(std::abs(error(taken, at)), 3 * kClock);
     bus.run(at + 100 * ClockBus::kBit);
     EXPECT_EQ(bus.nodes[0]->taken(), taken);
+  }
+}
+
+// TM-103: another master may have any date; the node follows the second of its pairs.
+TEST(RtlClock, TheDateMayBeAny) {
+  ClockBus bus{{-80}};
+  lock(bus);
+  std::mt19937 random{20};
+  for (unsigned master = 0; master < 12; ++master) {
+    SCOPED_TRACE(master);
+    bus.epoch = std::uint64_t{random()} * 1'000'000'000 + random() % 1'000'000'000;
+    lock(bus, 3);
+    bus.nodes[0]->take_time();
+    const Time at = bus.bus.now();
+    bus.run(at + 10 * ClockBus::kBit);
+    const std::uint64_t wanted = bus.epoch + at / 1000;
+    EXPECT_LT(std::abs(static_cast<std::int64_t>(bus.nodes[0]->taken() - wanted)), 2000);
   }
 }
 
