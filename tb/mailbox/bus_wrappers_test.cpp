@@ -171,6 +171,9 @@ TEST_P(Lanes, InterruptLinesArePassedOn) {
   node_->write32(reg::mb(8), 0xCu << 24);
   run(20'000, Level::kRecessive);
   EXPECT_EQ(node_->irq_lines(), kIrqAll | kIrqError | kIrqTxWarning | kIrqBusOff);
+  node_->write32(reg::kEsr, reg::kEsrInterrupts);
+  run(3, Level::kRecessive);
+  EXPECT_EQ(node_->irq_lines(), 0);
 }
 
 // CheckProt is 0: MCR.SUPV is stored, and nothing else. With 1: bus_rights_test.
@@ -198,6 +201,7 @@ TEST_P(Lanes, OutsideTheWindowIsAnError) {
     EXPECT_EQ(write(same, 0xA5A50000u + bit, 0xF), 0xA5A50000u + bit) << "address bit " << bit;
     EXPECT_EQ(node_->read32(reg::mb(5, 2)), 0xA5A50000u + bit) << "address bit " << bit;
   }
+  EXPECT_EQ(write(reg::mb(5, 2), 0x12345678, 0xF), 0x12345678u);
   EXPECT_FALSE(node_->access({.address = kWindow - 4}).error);
 }
 

@@ -35,10 +35,7 @@ class ClockedRemote : public Node {
     top_.eval();
     top_.node_i = static_cast<std::uint8_t>(number);
     top_.can_rx_i = 1;
-    top_.rst_ni = 0;
-    for (int i = 0; i < 4; ++i) rising_edge(top_, top_.clk_i);
-    top_.rst_ni = 1;
-    top_.eval();
+    reset();
     for (int i = 0; i < 4200 && top_.usr_ready_o == 0; ++i) rising_edge(top_, top_.clk_i);
     drive(static_cast<Level>(top_.can_tx_o));
   }
@@ -47,6 +44,13 @@ class ClockedRemote : public Node {
     top_.final();
   }
 
+  /// A hard reset, in no time.
+  void reset() {
+    top_.rst_ni = 0;
+    for (int i = 0; i < 4; ++i) rising_edge(top_, top_.clk_i);
+    top_.rst_ni = 1;
+    top_.eval();
+  }
   void start() { top_.start_i = 1; }
   void clock(Level rx) override {
     const bool high = top_.pps_o != 0;

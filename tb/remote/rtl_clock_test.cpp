@@ -150,6 +150,11 @@ TEST(RtlClock, TheDateMayBeAny) {
     const std::uint64_t wanted = bus.epoch + at / 1000;
     EXPECT_LT(std::abs(static_cast<std::int64_t>(bus.nodes[0]->taken() - wanted)), 2000);
   }
+  bus.nodes[0]->reset();
+  bus.nodes[0]->take_time();
+  bus.run(bus.bus.now() + 10 * ClockBus::kBit);
+  EXPECT_EQ(bus.nodes[0]->time_state(), 0U);
+  EXPECT_LT(bus.nodes[0]->taken(), 2000U);
 }
 
 // TM-107: SYNC and FUP are no requests: they do not keep the watchdog quiet, nothing is counted,

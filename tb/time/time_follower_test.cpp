@@ -104,7 +104,7 @@ TEST(TimeNode, StateFollowsTheMaster) {
   };
   EXPECT_EQ(bus.node(0).state(), 0u);
   EXPECT_EQ(pairs(3), 1u);
-  EXPECT_EQ(pairs(12), 2u);
+  EXPECT_EQ(pairs(40), 2u);
   bus.run(bus.now() + 20 * kMs);
   EXPECT_EQ(bus.node(0).state(), 2u);
   bus.run(bus.now() + 20 * kMs);
