@@ -131,7 +131,7 @@ TEST_F(FollowerRegs, ReadAndWrite) {
   EXPECT_EQ(read(kTsdly), 0x00FFFFE2u);
 }
 
-// TM-02: the time unit's commands are those of a core without the follower.
+// TM-40: HOLD is the CPU's beside the follower, too.
 TEST_F(FollowerRegs, ABufferMayBeHeld) {
   constexpr std::uint32_t kTtx = 0x1140, kTtxmb = 0x1144, kHold = 1u << 31;
   write(kTtx, 1'000'000'000);  // in a second
