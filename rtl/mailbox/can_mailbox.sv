@@ -124,11 +124,11 @@ module can_mailbox #(
   logic [31:0]     rd_other, ram_wdata, cs, msg, mask, word;
   logic            cs_written, cs_written_act, cs_written_empty, cs_written_ide;
   logic [IdxW-1:0] cs_written_idx;
-  logic            mv_busy_mb, mv_flag;
-  logic [IdxW-1:0] mv_idx;
+  logic            mv_busy_mb, mv_flag, mv_waits;
+  logic [IdxW-1:0] mv_idx, mv_waits_idx;
   logic [2:0]      fifo_head;
-  can_mb_cpu #(.NumMb(NumMb), .TimeUnit(TimeUnit)) u_cpu (
-    .clk_i, .rst_ni, .scrub_i(scrub_o), .fen_i(fen), .aen_i(aen),
+  can_mb_cpu #(.NumMb(NumMb), .Fifo(Fifo), .TimeUnit(TimeUnit)) u_cpu (
+    .clk_i, .rst_ni, .scrub_i(scrub_o), .running_i, .fen_i(fen), .aen_i(aen),
     .osmb_i(xctrl_i[can_regs_pkg::XctrlOsmb]), .first_i(first_now), .head_i(fifo_head),
     .rd_done_i(rd_done), .wr_done_i(wr_done), .block_i(block), .if_ended_i(if_ended),
     .ended_i(cs[can_mb_pkg::CsEnded]),
@@ -179,7 +179,7 @@ module can_mailbox #(
     .idam_i(mcr_i[can_regs_pkg::McrIdam +: can_regs_pkg::McrIdamW]), .rffn_i(rffn),
     .mrp_i(ctrl2_i[can_regs_pkg::Ctrl2Mrp]), .first_i(first),
     .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_rtr_i,
-    .lock_i(lock), .lock_idx_i(lock_idx),
+    .lock_i(lock), .lock_idx_i(lock_idx), .waits_i(mv_waits), .waits_idx_i(mv_waits_idx),
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
     .cs_written_empty_i(cs_written_empty), .cs_written_ide_i(cs_written_ide),
     .req_o(rx_req), .idx_o(rx_idx), .word_o(rx_word), .cs_o(rx_cs),
@@ -220,6 +220,7 @@ module can_mailbox #(
     .smb_o(smb),
     .match_done_i(match_done), .hit_i(hit), .hit_idx_i(hit_idx), .hit_fifo_i(hit_fifo),
     .hit_ans_i(hit_ans), .idhit_i(idhit), .resolve_o(resolve),
+    .waits_o(mv_waits), .waits_idx_o(mv_waits_idx),
     .lock_i(lock), .lock_idx_i(lock_idx),
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
     .cs_written_empty_i(cs_written_empty), .cpu_idx_i(cpu_idx),
@@ -263,7 +264,8 @@ module can_mailbox #(
   logic [IdxW-1:0] ld_idx;
   can_mb_load #(.NumMb(NumMb)) u_load (
     .clk_i, .rst_ni, .running_i, .mute_i, .gap_i,
-    .oneshot_i(xctrl_i[can_regs_pkg::XctrlOneshot]), .aen_i(aen),
+    .oneshot_i(xctrl_i[can_regs_pkg::XctrlOneshot]),
+    .osmb_i(xctrl_i[can_regs_pkg::XctrlOsmb]), .aen_i(aen),
     .settled_i(settled), .best_idx_i(best_idx), .retry_busy_i(retry_busy), .retry_o(retry),
     .inactive_o(inactive),
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx), .cs_written_act_i(cs_written_act),

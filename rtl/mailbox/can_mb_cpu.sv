@@ -10,6 +10,8 @@
 
 module can_mb_cpu #(
   parameter int NumMb = 64,
+  /// Features, see can_top.
+  parameter int Fifo = 1,
   parameter int TimeUnit = 0,
   /// Derived, do not override.
   localparam int IdxW = $clog2(NumMb)
@@ -17,6 +19,7 @@ module can_mb_cpu #(
   input  logic            clk_i,
   input  logic            rst_ni,
   input  logic            scrub_i,
+  input  logic            running_i,
   input  logic            fen_i,
   input  logic            aen_i,
   input  logic            osmb_i,        // bit 28 of a C/S word is kept with code 1100
@@ -62,18 +65,22 @@ module can_mb_cpu #(
 );
   // In the FIFO's area? Its memory, six rows, always is. The first clock finds it, the second needs
   // it.
-  logic of_mb, in_area, in_ring, area_q, ring_q;
+  logic of_mb, in_area, ring_idx, in_ring, whole, area_q, ring_q, whole_q;
   assign of_mb     = !mem_sel_i[1];                          // a word of a buffer, or RXFIR
   assign in_area   = fen_i && of_mb && 7'(idx_i) < first_i;
-  assign in_ring   = fen_i && of_mb && idx_i[IdxW-1:3] == '0 && idx_i[2:1] != 2'b11;
+  assign ring_idx  = idx_i[IdxW-1:3] == '0 && idx_i[2:1] != 2'b11;
+  assign in_ring   = fen_i && of_mb && ring_idx;
+  // Of a C/S word all bits are kept in the filter table, and where it may become one: NXP's driver
+  // writes the table before FEN. MCR.AEN gives bit 30 a meaning, so not with that.
+  assign whole     = !ring_idx && (fen_i ? in_area : Fifo != 0 && !running_i && !aen_i);
   assign row_idx_o = fen_i && idx_i == '0 && (of_mb || (TimeUnit != 0 && !rxfir_i
                      && mem_sel_i == can_mb_pkg::MemTimer)) ? IdxW'(head_i) : idx_i;
   assign area_o    = in_area;
   assign ring_o    = in_ring;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) {area_q, ring_q} <= '0;
-    else         {area_q, ring_q} <= {in_area, in_ring};
+    if (!rst_ni) {area_q, ring_q, whole_q} <= '0;
+    else         {area_q, ring_q, whole_q} <= {in_area, in_ring, whole};
   end
 
   // Data.
@@ -91,11 +98,11 @@ module can_mb_cpu #(
   assign cs_wr      = mb_wr && is_cs && !block_i && !(if_ended_i && ended_i);
   assign busy_o     = moving_i && mv_idx_i == idx_i && !area_q;
 
-  // Of a C/S word all bits are kept in the filter table alone. Bit 30 of a mailbox marks the end of
-  // a transmission: an abort is one (can_mb_guard). An answer is never one-shot.
+  // Bit 30 of a mailbox marks the end of a transmission: an abort is one (can_mb_guard). An answer
+  // is never one-shot.
   always_comb begin
     wdata_o = wdata_i;
-    if (is_cs && !raw) begin
+    if (is_cs && !whole_q) begin
       {wdata_o[31:28], wdata_o[23]} = '0;
       wdata_o[can_mb_pkg::CsEnded] = aen_i && code == can_regs_pkg::MbCsCodeTxAbort;
       wdata_o[can_regs_pkg::MbCsOs] = osmb_i && wdata_i[can_regs_pkg::MbCsOs]

@@ -23,6 +23,7 @@ module can_mb_load #(
   input  logic            mute_i,        // the engine starts no frame (bus-off, listen-only)
   input  logic            gap_i,         // no frame on the bus
   input  logic            oneshot_i,
+  input  logic            osmb_i,        // bit 28 of a C/S word counts
   input  logic            aen_i,
   // Winner of the arbitration.
   input  logic            settled_i,
@@ -217,7 +218,8 @@ module can_mb_load #(
         orphan_q  <= 1'b0;
         word_o    <= 1'b0;
         cur_idx_o <= ld_idx_o;
-        {one_shot_q, answer_q} <= {cs_i[can_regs_pkg::MbCsOs], cs_i[25]};
+        // A C/S word may have been kept whole (can_mb_cpu). An answer is never one-shot.
+        {one_shot_q, answer_q} <= {osmb_i && cs_i[can_regs_pkg::MbCsOs] && !cs_i[25], cs_i[25]};
       end else if (cs_written_cur) begin
         // Rewritten: what is under way is no longer the buffer's. Not yet under way: take it back,
         // but rewriting it for ever does not keep everybody off the bus.

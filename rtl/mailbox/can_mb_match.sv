@@ -41,6 +41,8 @@ module can_mb_match #(
   // Locks, and C/S writes by the CPU in the clock before.
   input  logic            lock_i,
   input  logic [IdxW-1:0] lock_idx_i,
+  input  logic            waits_i,      // buffer waits_idx_i gets the frame before this one
+  input  logic [IdxW-1:0] waits_idx_i,
   input  logic            cs_written_i,
   input  logic [IdxW-1:0] cs_written_idx_i,
   input  logic            cs_written_empty_i,
@@ -85,7 +87,8 @@ module can_mb_match #(
   can_mb_rx #(.NumMb(NumMb)) u_rx (
     .clk_i, .rst_ni, .clear_i, .bcc_i, .eacen_i, .rrs_i, .maxmb_i, .first_i,
     .wait_i(flt_busy || enough), .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_rtr_i,
-    .lock_i, .lock_idx_i, .cs_written_i, .cs_written_idx_i, .cs_written_empty_i, .cs_written_ide_i,
+    .lock_i, .lock_idx_i, .waits_i, .waits_idx_i,
+    .cs_written_i, .cs_written_idx_i, .cs_written_empty_i, .cs_written_ide_i,
     .req_o(mb_req), .idx_o(mb_idx), .gnt_i(gnt && !flt_busy), .stale_i,
     .cs_i, .id_i(msg_i), .mask_i(mb_mask),
     .id_o(id), .ide_o(ide), .rtr_o(rtr), .ans_o(mb_ans),

@@ -31,6 +31,8 @@ module can_mb_move #(
   input  logic            hit_ans_i,     // buffer hit_idx_i is to answer
   input  logic [8:0]      idhit_i,
   output logic            resolve_o,     // the match is taken over in this clock
+  output logic            waits_o,       // buffer waits_idx_o gets the frame that came before
+  output logic [IdxW-1:0] waits_idx_o,
   // Locks, CPU reads and writes of C/S words.
   input  logic            lock_i,
   input  logic [IdxW-1:0] lock_idx_i,
@@ -69,6 +71,11 @@ module can_mb_move #(
   assign ready[1] = full_q[1] && !(unres_q && unres_row_q) && !(lock_i && lock_idx_i == tgt1_q);
 
   assign fifo_in_flight_o = full_q & fifo_q & ~{unres_q && unres_row_q, unres_q && !unres_row_q};
+
+  // The frame on the bus, or its match, has row smb_o, or no other row is full.
+  assign waits_o     = (smb_o ? full_q[0] && !fifo_q[0] && !ans_q[0] && !(unres_q && !unres_row_q)
+                              : full_q[1] && !fifo_q[1] && !ans_q[1] && !(unres_q && unres_row_q));
+  assign waits_idx_o = smb_o ? tgt0_q : tgt1_q;
 
   // A C/S write cancels what waits for this buffer; EMPTY leaves an unlocked buffer a target.
   logic cs_written_cancels;

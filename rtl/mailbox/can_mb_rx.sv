@@ -27,6 +27,8 @@ module can_mb_rx #(
   // Locks, and C/S writes by the CPU in the clock before.
   input  logic            lock_i,
   input  logic [IdxW-1:0] lock_idx_i,
+  input  logic            waits_i,      // buffer waits_idx_i gets the frame before this one
+  input  logic [IdxW-1:0] waits_idx_i,
   input  logic            cs_written_i,
   input  logic [IdxW-1:0] cs_written_idx_i,
   input  logic            cs_written_empty_i,  // code EMPTY was written, with IDE cs_written_ide_i
@@ -67,7 +69,8 @@ module can_mb_rx #(
   assign id_ok   = ((id_i[28:18] ^ id_o[28:18]) & mask_i[28:18]) == '0
                 && (!ide_o || ((id_i[17:0] ^ id_o[17:0]) & mask_i[17:0]) == '0);
   assign free    = (code == can_regs_pkg::MbCsCodeRxEmpty || cs_i[can_mb_pkg::CsServiced] || ans_o)
-                && !(lock_i && lock_idx_i == s1_idx_q);
+                && !(lock_i && lock_idx_i == s1_idx_q)
+                && !(waits_i && waits_idx_i == s1_idx_q);
   // Read it again: it was being written then, or it fitted and has been written since. One that did
   // not fit was looked at before that write.
   assign skip    = s2_skip_q || (s2_match_q && cs_written_i && cs_written_idx_i == s2_idx_q);

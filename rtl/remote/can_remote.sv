@@ -158,7 +158,7 @@ module can_remote #(
   // Addresses and data
   logic [11:0] start, mem;
   logic [3:0]  place, row, row_end;
-  logic        ended, staged, cleared, zero, one;
+  logic        ended, staged, cleared, zero, one, absent;
   logic [8:0]  cell_addr;
   logic [1:0]  lane, cell_lane;
   logic [31:0] rdata;
@@ -316,9 +316,9 @@ module can_remote #(
     .written_o, .apply_o
   );
 
-  // A of STATUS and IDENT as with NameBits 3.
+  // With NameBits 5: A of STATUS and IDENT as with 3, and what a map entry adds of the name.
   logic [6:0] row_a;
-  assign row_a = NameBits == 5 ? {info, info, 5'd0} : 7'd0;
+  assign row_a = NameBits == 5 ? {{2{info}} | (id[6:5] & {2{aim}}), 5'd0} : 7'd0;
 
   can_rn_move #(
     .StageBytes(StageBytes), .NumProd(NumProd), .NumMap(NumMap), .Protect(Protect != 0)
@@ -374,19 +374,22 @@ module can_remote #(
   assign others = guard_cell | map_cell | own_cell | (tally_cell & {9{tally_own}})
                   | (block_cell & {9{block_own}});
   can_rn_port #(.MemBytes(MemBytes), .InitFile(InitFile)) u_port (
-    .clk_i, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger || acts),
+    .clk_i, .rst_ni, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger || acts),
     .same_i(same && !phase[0]), .cell_i((cell_addr & {9{!own}}) | others),
     .lane_i((cell_lane & {2{!own}}) | others[1:0]),
     .we_i((cell_we && !no_write && !tally_no_write && !block_no_write && !guard
-           && !(Filled && job == can_rn_pkg::JobClear)) || map_we || block_we),
+           && !(Filled && job == can_rn_pkg::JobClear)
+           && !(StageBytes == 0 && job == can_rn_pkg::JobMove && (trigger || acts)))
+          || map_we || block_we),
     .wide_i(wide),
     .mem_i(mem), .staged_i(staged), .wbyte_i(wbyte),
     .a_i(7'(a)), .same_id_i(same_id), .end_i(row_end), .code_i(shown), .status_i(status),
     .tec_i(tec), .rec_i(rec),
     .lane_o(lane), .re_o(reads), .raddr_o(read_word), .rdata_o(ram_rdata),
-    .usr_req_i, .usr_we_i, .usr_be_i, .usr_addr_i, .usr_wdata_i, .usr_ready_o
+    .usr_req_i, .usr_we_i, .usr_be_i, .usr_addr_i, .usr_wdata_i, .usr_ready_o,
+    .usr_absent_o(absent)
   );
-  assign usr_rdata_o = rdata;
+  assign usr_rdata_o = rdata & {32{!absent}};
 
   can_rn_tx #(.NameBits(NameBits), .TxDepth(TxDepth), .SameId(SameId != 0)) u_tx (
     .clk_i, .rst_ni,

@@ -95,6 +95,8 @@ module can_rn_head #(
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni)     who_q <= '0;
       else if (take_i) who_q <= id_i[10 -: NameBits+1];
+      // Bits 6:0 that are not compared are added to the address; with 5 bits of a name, two of it.
+      else if (NameBits == 5 && hit_i) who_q[1:0] <= who_q[1:0] & ~mask_i[6:5];
     end
     assign id_o = {who_q, a_q};
   end

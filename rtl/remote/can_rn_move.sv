@@ -65,7 +65,7 @@ module can_rn_move #(
   end
   if (StageBytes == 0) begin : gen_no_stage
     assign staged_o = 1'b0;
-    assign ended_o  = row_q == end_o;
+    assign ended_o  = trigger_i || row_q == end_o;   // a TRIGGER copies nothing (can_remote)
   end else begin : gen_stage
     // From the block of the start, as mem_o comes late.
     logic stage_here, stage_behind;

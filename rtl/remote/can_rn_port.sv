@@ -9,6 +9,7 @@ module can_rn_port #(
   parameter InitFile = ""
 ) (
   input  logic             clk_i,
+  input  logic             rst_ni,
   input  can_rn_pkg::job_t job_i,
   input  logic             odd_i,       // phase 1 or 3
   input  logic             read_i,      // JobMove: memory to row
@@ -38,11 +39,12 @@ module can_rn_port #(
   input  logic [3:0]       usr_be_i,
   input  logic [9:0]       usr_addr_i,
   input  logic [31:0]      usr_wdata_i,
-  output logic             usr_ready_o
+  output logic             usr_ready_o,
+  output logic             usr_absent_o // where it read in the clock before is no memory (RN-53)
 );
   localparam int AddrWidth = $clog2(MemBytes / 4);
 
-  logic        user, from_mem, to_mem, usr_write, status, push, count;
+  logic        absent, user, from_mem, to_mem, usr_write, status, push, count;
   logic [9:0]  address, target;
   logic [3:0]  we, lanes;
   logic [31:0] wdata;
@@ -51,8 +53,22 @@ module can_rn_port #(
   assign user        = job_i[5:2] == 4'd0;
   assign usr_ready_o = user;
 
+  // A smaller RAM has the upper 512 bytes at its end; words between would be others once more.
+  if (MemBytes == 4096) begin : gen_whole
+    assign absent       = 1'b0;
+    assign usr_absent_o = 1'b0;
+    logic unused;
+    assign unused = &{1'b0, rst_ni};
+  end else begin : gen_part
+    assign absent = usr_addr_i[9:7] >= 3'(MemBytes / 512 - 1) && !(&usr_addr_i[9:7]);
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) usr_absent_o <= 1'b0;
+      else         usr_absent_o <= absent;
+    end
+  end
+
   // E00..EFF and FE0..FFF belong to the node.
-  assign usr_write = usr_req_i && usr_we_i
+  assign usr_write = usr_req_i && usr_we_i && !absent
                      && !((&usr_addr_i[9:7]) && (!usr_addr_i[6] || (&usr_addr_i[5:3])));
 
   assign from_mem = (job_i == can_rn_pkg::JobMove && read_i) || same_i;

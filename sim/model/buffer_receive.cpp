@@ -46,7 +46,7 @@ KnownWords received_words(const ArrivedFrame &arrived) {
 }
 
 bool BufferState::free_to_receive(unsigned n, bool open_as) const {
-  if (lock == n) return false;
+  if (lock == n || (released && released->first == n)) return false;
   if (mb[n].code() == kRxEmpty) return true;
   if (mb[n].serviced == Serviced::kOpen) return open_as;
   return mb[n].serviced == Serviced::kYes;

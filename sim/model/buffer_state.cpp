@@ -97,8 +97,9 @@ bool BufferState::read_locks(unsigned n, const BufferConfig &config) const {
 
 void BufferState::lock_for_read(unsigned n) {
   lock = n;
-  if (matching) lock_moved |= std::uint64_t{1} << n;
-  if (!released || released->first != n) return;
+  const bool filling = released && released->first == n;  // not free before, nor now
+  if (matching && !filling) lock_moved |= std::uint64_t{1} << n;
+  if (!filling) return;
   waiting = released;  // locked again before it moved
   released.reset();
 }
@@ -120,7 +121,7 @@ void BufferState::end_round() {
 void BufferState::unlock(bool read, std::uint64_t now) {
   if (!lock) return;
   if (read) mb.change(*lock).serviced = Serviced::kYes;
-  if (matching) lock_moved |= std::uint64_t{1} << *lock;
+  if (matching && !waiting) lock_moved |= std::uint64_t{1} << *lock;
   lock.reset();
   if (!waiting) return;
   released = waiting;

@@ -77,10 +77,11 @@ void RemoteModel::statement(const Frame &frame) {
   }
   const auto place = maps_.find(frame);
   if (!place) return;
+  // A frame without bytes is checked like one with one.
+  if (memory_.check_write(place->address, std::max(place->length, 1U), status_.unlocked) !=
+      RemoteCode::kAccepted)
+    return;
   if (place->length != 0) {
-    if (memory_.check_write(place->address, place->length, status_.unlocked) !=
-        RemoteCode::kAccepted)
-      return;
     memory_.bus_write(place->address, {frame.data.data(), place->length});
     done_.push_back({false, place->address, place->length});
   }

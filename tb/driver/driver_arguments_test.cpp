@@ -341,6 +341,7 @@ TEST_F(DriverArguments, ACoreThatStopsAnsweringIsATimeout) {
   ASSERT_EQ(verican_start(&dev_), VERICAN_OK);
   core_.mcr_never = VERICAN_MCR_FRZ_ACK_MASK;
   EXPECT_EQ(verican_stop(&dev_), VERICAN_ERR_TIMEOUT);
+  EXPECT_EQ(core_.word(VERICAN_MCR_OFFSET) & VERICAN_MCR_HALT_MASK, 0u) << "or it stops later";
   EXPECT_EQ(verican_deinit(&dev_), VERICAN_ERR_TIMEOUT);
   EXPECT_EQ(verican_start(&dev_), VERICAN_ERR_STATE) << "still started";
   core_.mcr_never = VERICAN_MCR_LPM_ACK_MASK;

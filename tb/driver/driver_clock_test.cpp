@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -154,6 +155,51 @@ TEST_F(DriverClock, PulsePerSecond) {
   writes.clear();
   EXPECT_EQ(verican_clock_pps(&dev, false), VERICAN_OK);
   EXPECT_THAT(writes, ElementsAre(Pair(0x1104, 0x31)));
+}
+
+// TM-31, TM-91: a jump of the clock stops the pulses, and they begin anew at a second of the time
+// then, which shows five clocks after it was written: eight reads later.
+TEST_F(DriverClock, PulsesBeginAnewBehindAJump) {
+  up();
+  ASSERT_EQ(verican_clock_pps(&dev, true), VERICAN_OK);
+  for (const bool set : {true, false}) {
+    writes.clear();
+    reads.clear();
+    paired = true;
+    core.word(VERICAN_TIMELO_OFFSET) = 5;  // as it is after the shift
+    core.word(VERICAN_TIMEHI_OFFSET) = 0;
+    EXPECT_EQ(set ? verican_clock_set(&dev, 0x1'0000'0000) : verican_clock_shift(&dev, -7),
+              VERICAN_OK);
+    const std::uint32_t low = set ? 0x1110 : 0x1120;
+    EXPECT_THAT(writes,
+                ElementsAre(Pair(0x1104, 0x31), Pair(low, set ? 0u : 0xFFFFFFF9u),
+                            Pair(low + 4, set ? 1u : 0xFFFFFFFFu), Pair(0x1104, 0x3031),
+                            Pair(0x1134, 500'000'000u),
+                            Pair(0x1130, set ? 705'032'704u : 1'000'000'000u)));  // 5 s modulo 2^32
+    EXPECT_EQ(std::count(reads.begin(), reads.end(), 0x1110u), 4);
+  }
+  EXPECT_EQ(verican_clock_pps(&dev, false), VERICAN_OK);
+  writes.clear();
+  EXPECT_EQ(verican_clock_set(&dev, 9), VERICAN_OK);
+  EXPECT_THAT(writes, ElementsAre(Pair(0x1110, 9u), Pair(0x1114, 0u)));
+}
+
+// TM-40: what a soft reset keeps. A launch of before would hold the mailbox of the next frame; an
+// interrupt of before has nobody to tell.
+TEST_F(DriverClock, InitForgetsLaunchesAndEvents) {
+  up();
+  const verican_frame_t frame = one_byte();
+  core.word(VERICAN_TIMELO_OFFSET) = 1000;
+  ASSERT_EQ(verican_send_at(&dev, &frame, 1'000'000, nullptr), VERICAN_OK);
+  ASSERT_NE(core.word(VERICAN_TTXMB_OFFSET) & VERICAN_TTXMB_HOLD_MASK, 0u);
+  core.word(VERICAN_TCTRL_OFFSET) |= VERICAN_CLOCK_RISING;
+  core.on_write = nullptr;
+  core.on_read = nullptr;
+  verican_config_t config = core.config();
+  config.clock_hz = 16'000'000;
+  ASSERT_EQ(verican_init(&dev, &config), VERICAN_OK);
+  EXPECT_EQ(core.word(VERICAN_TTXMB_OFFSET), 0u);
+  EXPECT_EQ(core.word(VERICAN_TCTRL_OFFSET), VERICAN_TCTRL_RESET);
 }
 
 // TM-32, TM-91: what is asked for interrupts; the time of an edge is less the latency of 93 ns.

@@ -261,6 +261,8 @@ TEST(Follower, MeasuresTheDelay) {
     const std::uint64_t master = out + way - static_cast<std::uint64_t>(left);
     const std::uint32_t id = 0x1234'5678;
     EXPECT_EQ(rig.hear(id, time_of(9), stamp, 7, VERICAN_FRAME_EXTENDED), VERICAN_ERR_EMPTY);
+    EXPECT_EQ(rig.hear(id, {}, stamp, 8, VERICAN_FRAME_EXTENDED | VERICAN_FRAME_REMOTE),
+              VERICAN_ERR_EMPTY);
     EXPECT_EQ(rig.hear(id, time_of(master), stamp, 8, VERICAN_FRAME_EXTENDED), VERICAN_OK);
     stamp += kR;
   }

@@ -85,6 +85,46 @@ TEST(Master, LatePolls) {
   EXPECT_EQ(next(kR + 1), kStart + kR + 1 + kR);
 }
 
+// TM-50: the application sets the clock of the master back, or ahead: SYNC goes out within R.
+TEST(Master, TheClockIsSet) {
+  for (const std::int64_t by : {-60'000'000'000L, -250'000'000L, 3'600'000'000'000L}) {
+    DomainRig rig{DomainRig::config_of(), true, 7200 * kRigSecond};
+    std::uint64_t now = 7200 * kRigSecond;
+    const auto syncs_in = [&](std::uint64_t duration) {
+      unsigned syncs = 0;
+      for (const std::uint64_t end = now + duration; now < end; now += 10'000'000) {
+        rig.poll_at(now);
+        for (const auto &frame : rig.waiting()) {
+          syncs += frame.data[0] == 0x10 ? 1 : 0;
+          rig.sent(frame.mailbox, now + kRigSentLate);
+        }
+      }
+      return syncs;
+    };
+    EXPECT_EQ(syncs_in(10 * kR), 10u);
+    now += static_cast<std::uint64_t>(by);
+    EXPECT_GE(syncs_in(kR), 1u) << by;
+    EXPECT_EQ(syncs_in(10 * kR), 10u) << by;
+  }
+}
+
+// TM-89: what was heard before is as old as before: a candidate whose clock is set back waits for a
+// better master no longer than else, and takes over when that falls silent.
+TEST(Master, TheClockOfACandidateIsSetBack) {
+  DomainRig rig{DomainRig::config_of(2, 1), true, kStart};
+  std::uint64_t now = kStart;
+  for (unsigned n = 0; n < 20; ++n, now += kR) {
+    pair(rig, 0x010, n % 16, now);
+    rig.poll_at(now + 1'000'000);
+    EXPECT_FALSE(rig.status().sending);
+  }
+  now -= 30 * kRigSecond;
+  rig.poll_at(now);
+  EXPECT_FALSE(rig.status().sending);
+  for (unsigned n = 0; n < 40 && !rig.status().sending; ++n) rig.poll_at(now += kR / 4);
+  EXPECT_TRUE(rig.status().sending);
+}
+
 // TM-50: exactly R late is not too late.
 TEST(Master, LateByAnInterval) {
   DomainRig rig{DomainRig::config_of(), true, kStart};

@@ -233,5 +233,57 @@ TEST_F(DriverHandler, TheFifoIsEmptiedAndItsFlagsCleared) {  // FX-4.n, FX-4.r
   EXPECT_EQ(dev_.stats.rx_overruns, 1u);
 }
 
+// The guide has on_sent send the next frame: in verican_stop() nothing is sent any more.
+TEST_F(DriverHandler, NothingIsSentWhileTheDeviceIsStopped) {
+  verican_result_t sent_on = VERICAN_OK, started = VERICAN_OK, ended = VERICAN_OK;
+  up();
+  struct User {
+    verican_result_t &sent_on, &started, &ended;
+  } user{sent_on, started, ended};
+  dev_.callbacks.user = &user;
+  dev_.callbacks.on_sent = [](void *self, verican_t *dev, const verican_tx_event_t *) {
+    const User &to = *static_cast<User *>(self);
+    const verican_frame_t next = driver_frame(0x222);
+    to.sent_on = verican_send(dev, &next, nullptr);
+    to.started = verican_start(dev);
+    to.ended = verican_deinit(dev);
+  };
+  const verican_frame_t frame = driver_frame(0x111);
+  for (int i = 0; i < 2; ++i) ASSERT_EQ(verican_send(&dev_, &frame, nullptr), VERICAN_OK);
+  ASSERT_EQ(verican_stop(&dev_), VERICAN_OK);
+  EXPECT_EQ(sent_on, VERICAN_ERR_STATE);
+  EXPECT_EQ(started, VERICAN_ERR_STATE);
+  EXPECT_EQ(ended, VERICAN_ERR_STATE);
+  std::uint8_t waiting = 1;
+  EXPECT_EQ(verican_tx_waiting(&dev_, &waiting), VERICAN_OK);
+  EXPECT_EQ(waiting, 0u);
+  for (unsigned mb = dev_.first_tx; mb < 64; ++mb)
+    EXPECT_NE(VERICAN_MB_CS_CODE_GET(core_.word(VERICAN_MB_CS_OFFSET(mb))),
+              static_cast<unsigned>(VERICAN_MB_CS_CODE_TX_DATA))
+        << mb;
+  EXPECT_EQ(verican_start(&dev_), VERICAN_OK) << "it is stopped now";
+}
+
+// Another device on the line interrupts verican_stop(), which reads the last frames itself.
+TEST_F(DriverHandler, TheHandlerDoesNothingWhileTheDeviceIsStopped) {
+  up();
+  arrive(3, 0x123, 10);
+  unsigned calls = 0;
+  core_.on_read = [&](std::uint32_t offset) {
+    if (offset / 16 != VERICAN_MB_CS_OFFSET(3) / 16 || calls != 0) return;
+    ++calls;
+    EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_ERR_STATE);
+  };
+  // A change of state at the end, which would unmask: the core's line is not to rise any more.
+  core_.word(VERICAN_ESR1_OFFSET) = 1u << VERICAN_ESR1_FLT_CONF_SHIFT;
+  ASSERT_EQ(verican_stop(&dev_), VERICAN_OK);
+  EXPECT_EQ(calls, 1u);
+  EXPECT_THAT(ids(), ElementsAre(0x123u));
+  EXPECT_EQ(
+      core_.word(VERICAN_CTRL1_OFFSET) &
+          (VERICAN_CTRL1_BOFF_MSK_MASK | VERICAN_CTRL1_ERR_MSK_MASK | VERICAN_CTRL1_TWRN_MSK_MASK),
+      0u);
+}
+
 }  // namespace
 }  // namespace vericansim

@@ -225,6 +225,34 @@ TEST(FilterTable, KeepsAllBitsOfItsWords) {  // FX-4.a
   EXPECT_EQ(rig.read(kReceiver, reg::mb(38)), 0x0F7FFFFFu) << "a mailbox again";
 }
 
+// As NXP's driver does it: in freeze mode the whole table, at the end FEN.
+TEST(FilterTable, MayBeWrittenBeforeFen) {  // FX-4.a
+  for (const unsigned rffn : {0u, 3u}) {
+    RxFifoRig rig{{.format = 0, .rffn = rffn}};
+    const unsigned words = 8 * (rffn + 1);
+    const auto frame = [](unsigned k) {
+      return k % 2 == 0 ? base(0x605 + k, k % 3 == 0) : extended(0x1A345678 + k, k % 3 == 0);
+    };
+    const std::uint32_t mcr = rig.read(kReceiver, reg::kMcr);
+    rig.write(kReceiver, reg::kMcr, mcr & ~reg::kMcrFen);
+    for (unsigned k = 0; k < words; ++k)
+      rig.write(kReceiver, reg::filter(k), k % 5 == 4 ? kAll : element_a(frame(k)));
+    rig.write(kReceiver, reg::kRxfgmask, kAll);
+    for (unsigned k = 0; k < 32; ++k) rig.write(kReceiver, reg::rximr(k), kAll);
+    rig.write(kReceiver, reg::kMcr, mcr | reg::kMcrFen);
+    for (unsigned k = 0; k < words; ++k)
+      EXPECT_EQ(rig.read(kReceiver, reg::filter(k)), k % 5 == 4 ? kAll : element_a(frame(k))) << k;
+    rig.join();
+    rig.send(base(0x005));
+    EXPECT_FALSE(rig.available()) << "no word has lost a bit";
+    for (unsigned k = 0; k < words; ++k) {
+      rig.send(frame(k));
+      EXPECT_EQ(rig.available(), k % 5 != 4) << k;
+      if (rig.available()) rig.pop();
+    }
+  }
+}
+
 TEST(FilterTable, WordsTakeBytesAndHalves) {  // FX-4.a
   RxFifoRig rig;
   for (unsigned k : {0u, 1u, 3u, 4u}) {

@@ -228,7 +228,8 @@ TEST_F(RxFifo, EngineAreaIsBuffersOnceFenIsZero) {
 // The access right behind that of FEN is one to the filter table: all its bits are kept.
 TEST_F(RxFifo, AreaBeginsWithTheWriteOfFen) {  // FX-4.a, FX-MCR.FEN
   ASSERT_TRUE(rig_.freeze(kReceiver));
-  const std::uint32_t mcr = rig_.read(kReceiver, reg::kMcr) & ~reg::kMcrFen;
+  // AEN is set, with which no C/S word is kept whole.
+  const std::uint32_t mcr = (rig_.read(kReceiver, reg::kMcr) & ~reg::kMcrFen) | 1u << 12;
   for (const unsigned mb : {6u, 7u, 8u}) {
     rig_.write(kReceiver, reg::kMcr, mcr);
     const auto results =

@@ -23,7 +23,8 @@ namespace vericansim {
 /// can_remote at the engine's port. The clock at which something happens is counted from reset.
 class FramePort {
  public:
-  /// `profile` as RemoteConfig::profile(), or "time": standard with a clock; NameBits 3 or 5;
+  /// `profile` as RemoteConfig::profile(), or "time": standard with a clock, or "odd":
+  /// parameters that no profile has (tb/CMakeLists.txt); NameBits 3 or 5;
   /// throws std::invalid_argument if there is no such model. After it the node has been reset and
   /// its RAM is clear.
   static std::unique_ptr<FramePort> create(const std::string &profile, unsigned name_bits,

@@ -10,6 +10,10 @@
 #include "Vcan_remote_full_3___024root.h"
 #include "Vcan_remote_full_5.h"
 #include "Vcan_remote_full_5___024root.h"
+#include "Vcan_remote_odd_3.h"
+#include "Vcan_remote_odd_3___024root.h"
+#include "Vcan_remote_odd_5.h"
+#include "Vcan_remote_odd_5___024root.h"
 #include "Vcan_remote_small_3.h"
 #include "Vcan_remote_small_3___024root.h"
 #include "Vcan_remote_small_5.h"
@@ -85,10 +89,11 @@ class FramePortOf final : public FramePort {
 
   [[nodiscard]] std::uint8_t peek(unsigned address) const override {
     const auto &memory = root().can_remote__DOT__u_port__DOT__u_ram__DOT__mem;
-    return static_cast<std::uint8_t>(memory[address / 4] >> (8 * (address % 4)));
+    if (address < kHiddenPart && address + kUpper >= 4 * words()) return 0;  // no memory
+    return static_cast<std::uint8_t>(memory[word_of(address)] >> (8 * (address % 4)));
   }
   void poke(unsigned address, std::uint8_t byte) override {
-    auto &word = root().can_remote__DOT__u_port__DOT__u_ram__DOT__mem[address / 4];
+    auto &word = root().can_remote__DOT__u_port__DOT__u_ram__DOT__mem[word_of(address)];
     const unsigned shift = 8 * (address % 4);
     word = (word & ~(0xFFU << shift)) | static_cast<unsigned>(byte) << shift;
   }
@@ -147,6 +152,13 @@ class FramePortOf final : public FramePort {
  private:
   static constexpr bool kHasClock = std::is_same_v<Model, Vcan_remote_time_3>;
   auto &root() { return *top_.rootp; }
+  // A smaller RAM has the upper 512 bytes at its end.
+  static constexpr unsigned kUpper = 512, kHiddenPart = remote_map::kHidden;
+  [[nodiscard]] unsigned words() const {
+    const auto &memory = root().can_remote__DOT__u_port__DOT__u_ram__DOT__mem;
+    return static_cast<unsigned>(sizeof(memory) / sizeof(memory[0]));
+  }
+  [[nodiscard]] unsigned word_of(unsigned address) const { return address / 4 % words(); }
   [[nodiscard]] const auto &root() const { return *top_.rootp; }
 
   SerialContext context_;
@@ -176,6 +188,10 @@ std::unique_ptr<FramePort> FramePort::create(const std::string &profile, unsigne
     return std::make_unique<FramePortOf<Vcan_remote_full_3>>(serial, number);
   if (profile == "full" && name_bits == 5)
     return std::make_unique<FramePortOf<Vcan_remote_full_5>>(serial, number);
+  if (profile == "odd" && name_bits == 3)
+    return std::make_unique<FramePortOf<Vcan_remote_odd_3>>(serial, number);
+  if (profile == "odd" && name_bits == 5)
+    return std::make_unique<FramePortOf<Vcan_remote_odd_5>>(serial, number);
   throw std::invalid_argument("no model of profile " + profile + " with NameBits " +
                               std::to_string(name_bits));
 }

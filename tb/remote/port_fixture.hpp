@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// PortFixture: one node of profile standard at the engine's port, frames as candump writes them.
+// PortFixture: one node, of profile standard if nothing else is said, at the engine's port, frames
+// as candump writes them.
 #pragma once
 
 #include <memory>
@@ -15,8 +16,9 @@ namespace vericansim {
 /// The node is in OPERATE, its BOOT frame gone.
 class PortFixture : public ::testing::Test {
  protected:
-  explicit PortFixture(unsigned name_bits = 3, unsigned number = 3)
-      : port{FramePort::create("standard", name_bits, 0xCAFE1234, number)} {
+  explicit PortFixture(unsigned name_bits = 3, unsigned number = 3,
+                       const std::string &profile = "standard")
+      : port{FramePort::create(profile, name_bits, 0xCAFE1234, number)} {
     port->start();
     (void)port->drain();
     operate(true);

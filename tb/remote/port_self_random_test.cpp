@@ -65,12 +65,13 @@ void step(PortLockstep &pair, RandomHost &host) {
   }
 }
 
-class PortSelfRandom : public ::testing::TestWithParam<const char *> {};
+class PortSelfRandom : public ::testing::TestWithParam<std::pair<const char *, unsigned>> {};
 
 TEST_P(PortSelfRandom, StatementsAreThoseOfTheModel) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
-    PortLockstep pair{GetParam(), 3, 3};
-    RandomHost host{seed};
+    const auto [profile, name_bits] = GetParam();
+    PortLockstep pair{profile, name_bits, 3};
+    RandomHost host{seed, {0, 0, 1, 1, 3, 3, 3, 3, 3, 3, 4, 2, 7}, name_bits};
     for (unsigned i = 0; i < 500; ++i) {
       step(pair, host);
       ASSERT_EQ(pair.compare(), "") << "seed " << seed << " step " << i << "\n" << pair.history();
@@ -78,8 +79,14 @@ TEST_P(PortSelfRandom, StatementsAreThoseOfTheModel) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, PortSelfRandom, ::testing::Values("standard", "full"),
-                         [](const auto &test) { return std::string{test.param}; });
+// odd: RAMs of 1,024 and 2,048 bytes, no stage, NameBits 5, features that no profile has together.
+INSTANTIATE_TEST_SUITE_P(Profiles, PortSelfRandom,
+                         ::testing::Values(std::pair{"standard", 3}, std::pair{"full", 3},
+                                           std::pair{"odd", 3}, std::pair{"odd", 5}),
+                         [](const auto &test) {
+                           return std::string{test.param.first} +
+                                  (test.param.second == 5 ? "5" : "");
+                         });
 
 }  // namespace
 }  // namespace vericansim

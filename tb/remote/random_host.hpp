@@ -16,13 +16,14 @@
 namespace vericansim {
 
 /// Commands as a bad host would send them: mostly for nodes that are there, mostly nearly right.
-/// They know serial number CAFE1234 and NameBits 3.
+/// They know serial number CAFE1234.
 class RandomHost {
  public:
   /// `names`: drawn with equal chances; by default node 3 most often.
   explicit RandomHost(unsigned seed,
-                      std::vector<unsigned> names = {0, 0, 1, 1, 3, 3, 3, 3, 3, 3, 4, 2, 7})
-      : random_{seed}, names_{std::move(names)} {}
+                      std::vector<unsigned> names = {0, 0, 1, 1, 3, 3, 3, 3, 3, 3, 4, 2, 7},
+                      unsigned name_bits = 3)
+      : random_{seed}, names_{std::move(names)}, name_bits_{name_bits} {}
 
   unsigned upto(unsigned n) { return std::uniform_int_distribution<unsigned>{0, n - 1}(random_); }
   bool once_in(unsigned n) { return upto(n) == 0; }
@@ -41,6 +42,8 @@ class RandomHost {
     if (name != 0 && a == 0x7A && !once_in(4)) block(frame);
     if (frame.remote) frame.data = {};
     for (unsigned i = frame.dlc; i < 8; ++i) frame.data[i] = 0;
+    if (name_bits_ == 5)  // the last eight A are ports here, too
+      frame.id = (frame.id & 0x400) | name << 5 | (a >= 0x78 ? 0x18 | (a & 7) : a & 0x1F);
     if (once_in(50)) {
       frame.extended = true;
       frame.id <<= 18;
@@ -111,6 +114,7 @@ class RandomHost {
 
   std::mt19937 random_;
   std::vector<unsigned> names_;
+  unsigned name_bits_;
 };
 
 }  // namespace vericansim

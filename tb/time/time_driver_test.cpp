@@ -89,6 +89,33 @@ TEST(DriverTime, Clock) {
   EXPECT_EQ(now(), stopped);
 }
 
+// TM-31, TM-91: the pulses rise with the seconds of the time that the clock has jumped to, and not
+// before.
+TEST(DriverTime, PulsesAreThoseOfTheTime) {
+  Domain domain{{0}};
+  DriverNode &node = *domain.nodes[0];
+  const auto rises_at = [&] {  // ns from the last second, by the clock; 0: it does not
+    const Time end = domain.bus.now() + 4 * kMillisecond;
+    while (domain.bus.now() < end && !node.rtl().time_out()) domain.bus.step();
+    std::uint64_t now = 0;
+    EXPECT_EQ(verican_clock_get(&node.dev, &now), VERICAN_OK);
+    return node.rtl().time_out() ? now % 1'000'000'000 : 0;
+  };
+  constexpr std::uint64_t kSecond = 1'000'000'000;
+  EXPECT_EQ(verican_clock_set(&node.dev, 998'000'000), VERICAN_OK);
+  EXPECT_EQ(verican_clock_pps(&node.dev, true), VERICAN_OK);
+  for (const std::uint64_t second : {1'700'000'000ULL, 1'600'000'000ULL, 5ULL}) {
+    EXPECT_LT(rises_at() - 1, 3'000u) << second;
+    EXPECT_EQ(verican_clock_set(&node.dev, second * kSecond + 998'000'000), VERICAN_OK);
+    domain.bus.run_for(2 * kMicrosecond);  // a command acts some clocks later
+    EXPECT_FALSE(node.rtl().time_out());
+  }
+  EXPECT_LT(rises_at() - 1, 3'000u);
+  EXPECT_EQ(verican_clock_shift(&node.dev, 7 * kSecond + 998'000'000), VERICAN_OK);
+  domain.bus.run_for(2 * kMicrosecond);
+  EXPECT_LT(rises_at() - 1, 3'000u);
+}
+
 // TM-26 to TM-28, TM-91: sender and receiver tell the same time of the same edge, within a clock of
 // the receiver.
 TEST(DriverTime, StampsOfAFrame) {

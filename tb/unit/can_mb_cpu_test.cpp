@@ -96,6 +96,9 @@ class MbCpuKeeps : public MbCpu {
 // Bit 28 is one-shot (XCTRL.OSMB), bit 30 the mark of an end, which an abort is; the other bits
 // that read as zero are zero.
 TEST_F(MbCpuKeeps, OfAMailboxesCsWordWhatCanBeSeenAndTwoMarks) {  // FX-3.3.j, FX-3.4.a
+  cpu_->running_i = 1;
+  begin(0, 9);
+  cpu_.clock();
   for (unsigned code = 0; code < 16; ++code) {
     for (const bool aen : {false, true}) {
       for (const bool osmb : {false, true}) {
@@ -118,6 +121,26 @@ TEST_F(MbCpuKeeps, AWordOfTheFilterTableWhole) {  // FX-4.a
   cpu_.clock();
   for (unsigned code = 0; code < 16; ++code)
     EXPECT_EQ(kept(0, code), 0xF0FFFFFF | code << 24) << code;
+}
+
+// NXP's driver writes the table in freeze mode, and FEN then. With AEN bit 30 is a mark, and the
+// rows of buffers 0 to 5 are never of the table.
+TEST_F(MbCpuKeeps, AWordThatMayBecomeOneOfTheFilterTableWhole) {  // FX-4.a
+  for (unsigned n = 0; n < 64; ++n) {
+    const bool running = (n & 1) != 0, aen = (n & 2) != 0;
+    const unsigned idx = n >> 2;
+    cpu_->running_i = running;
+    cpu_->aen_i = aen;
+    begin(0, idx);
+    cpu_.clock();
+    const bool whole = !running && !aen && idx >= 6;
+    EXPECT_EQ(kept(0, 3), whole ? 0xF3FFFFFFu : 0x037FFFFFu) << n;
+    cpu_->rd_word_i = 1;
+    cpu_->word_i = 0xFFFFFFFF;
+    cpu_.settle();
+    EXPECT_EQ(cpu_->rdata_o, 0x0F7FFFFFu) << "what is seen of it";
+    cpu_->rd_word_i = 0;
+  }
 }
 
 // Of buffers alone, and of RXFIR, which has the selection of a C/S word.

@@ -65,7 +65,8 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
 
   bool free(unsigned i) const {
     const bool locked = top_.lock_i != 0 && top_.lock_idx_i == i;
-    return !locked && (buffers_[i].code == 4 || buffers_[i].serviced);
+    const bool filling = top_.waits_i != 0 && top_.waits_idx_i == i;
+    return !locked && !filling && (buffers_[i].code == 4 || buffers_[i].serviced);
   }
 
   std::optional<unsigned> expected(const Header &header) const {
@@ -142,7 +143,7 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
 };
 
 // FX-3.5.a, FX-3.5.b, FX-3.5.c, FX-3.5.d, FX-3.5.e, FX-3.5.f, FX-3.5.h, FX-3.5.i, FX-3.5.l,
-// FX-3.5.m, FX-3.5.n
+// FX-3.5.m, FX-3.5.n; a buffer that a frame waits for, locked or not, is not free.
 TEST_P(MbRx, ChosenBufferIsThatOfTheModel) {
   for (unsigned round = 0; round < 1500; ++round) {
     const unsigned density = random() % 60;
@@ -152,8 +153,11 @@ TEST_P(MbRx, ChosenBufferIsThatOfTheModel) {
     }
     top_.maxmb_i = random() % 4 == 0 ? random() % 64 : 63;
     top_.first_i = random() % 4 == 0 ? 8 + 2 * (random() % 16) : 0;
-    top_.lock_i = random() % 2;
+    // Neither ever concerns a buffer that answers.
     top_.lock_idx_i = random() % kBuffers;
+    top_.lock_i = random() % 2 == 0 && buffers_[top_.lock_idx_i].code != 10;
+    top_.waits_idx_i = random() % kBuffers;
+    top_.waits_i = random() % 2 == 0 && buffers_[top_.waits_idx_i].code != 10;
     const Header header = random_header();
     start(header);
     finish();

@@ -9,6 +9,8 @@
 #define SECOND_NS 1000000000u
 /* Time to arm the compare unit before the second that it waits for. */
 #define ARM_NS 1000000u
+/* Two registers each. */
+enum { READS_OF_A_JUMP = 4 };
 
 static verican_result_t check(const verican_t *dev) {
   const verican_result_t result = verican_check(dev);
@@ -39,18 +41,46 @@ verican_result_t verican_clock_get(const verican_t *dev, uint64_t *ns) {
   return VERICAN_OK;
 }
 
-static verican_result_t write_time(const verican_t *dev, uint32_t low, uint64_t ns) {
+/* TCTRL with `clear` cleared and then `set` set; returns it. */
+static uint32_t control(const verican_t *dev, uint32_t clear, uint32_t set) {
+  const uint32_t token = verican_lock(dev);
+  const uint32_t word = (verican_read(dev, VERICAN_TCTRL_OFFSET) & ~clear) | set;
+  verican_write(dev, VERICAN_TCTRL_OFFSET, word);
+  verican_unlock(dev, token);
+  return word;
+}
+
+/* Under lock: the first pulse is that of the next whole second. What was written to the clock shows
+ * five clocks later, which the reads take. */
+static void start_pulses(const verican_t *dev) {
+  uint64_t now = 0;
+  for (unsigned n = 0; n < (unsigned)READS_OF_A_JUMP; ++n)
+    now = verican_read_pair(dev, VERICAN_TIMELO_OFFSET);
+  const uint64_t second = (now + ARM_NS) / SECOND_NS + 1u;
+  (void)control(dev, VERICAN_PPS_PARTS, VERICAN_PPS_PARTS);
+  verican_write(dev, VERICAN_TCMPH_OFFSET, SECOND_NS / 2u);
+  verican_write(dev, VERICAN_TCMP_OFFSET, (uint32_t)second * SECOND_NS);
+}
+
+/* The compare unit sees 32 bits, of which a second is no part: after a jump its pulses would go on
+ * between the seconds. So a jump stops them, and they begin anew in a time that has arrived. */
+static verican_result_t jump(const verican_t *dev, uint32_t low, uint64_t ns) {
   const verican_result_t result = check(dev);
-  if (result == VERICAN_OK) verican_write_pair(dev, low, (uint32_t)ns, (uint32_t)(ns >> 32));
-  return result;
+  if (result != VERICAN_OK) return result;
+  const uint32_t token = verican_lock(dev);
+  if (dev->pps) (void)control(dev, VERICAN_PPS_PARTS, 0u);
+  verican_write_pair(dev, low, (uint32_t)ns, (uint32_t)(ns >> 32));
+  if (dev->pps) start_pulses(dev);
+  verican_unlock(dev, token);
+  return VERICAN_OK;
 }
 
 verican_result_t verican_clock_set(const verican_t *dev, uint64_t ns) {
-  return write_time(dev, VERICAN_TIMELO_OFFSET, ns);
+  return jump(dev, VERICAN_TIMELO_OFFSET, ns);
 }
 
 verican_result_t verican_clock_shift(const verican_t *dev, int64_t ns) {
-  return write_time(dev, VERICAN_TSHLO_OFFSET, (uint64_t)ns);
+  return jump(dev, VERICAN_TSHLO_OFFSET, (uint64_t)ns);
 }
 
 verican_result_t verican_clock_slew(const verican_t *dev, int32_t ns) {
@@ -80,15 +110,6 @@ verican_result_t verican_clock_increment(const verican_t *dev, uint64_t *increme
   return VERICAN_OK;
 }
 
-/* TCTRL with `clear` cleared and then `set` set; returns it. */
-static uint32_t control(const verican_t *dev, uint32_t clear, uint32_t set) {
-  const uint32_t token = verican_lock(dev);
-  const uint32_t word = (verican_read(dev, VERICAN_TCTRL_OFFSET) & ~clear) | set;
-  verican_write(dev, VERICAN_TCTRL_OFFSET, word);
-  verican_unlock(dev, token);
-  return word;
-}
-
 verican_result_t verican_clock_point(verican_t *dev, verican_stamp_point_t point, bool own_pin) {
   const verican_result_t result = check(dev);
   if (result != VERICAN_OK) return result;
@@ -99,16 +120,16 @@ verican_result_t verican_clock_point(verican_t *dev, verican_stamp_point_t point
   return VERICAN_OK;
 }
 
-verican_result_t verican_clock_pps(const verican_t *dev, bool on) {
-  uint64_t now = 0;
-  const verican_result_t result = verican_clock_get(dev, &now);
+verican_result_t verican_clock_pps(verican_t *dev, bool on) {
+  const verican_result_t result = check(dev);
   if (result != VERICAN_OK) return result;
-  const uint32_t parts = VERICAN_TCTRL_CMPEN_MASK | VERICAN_TCTRL_OUTEN_MASK;
-  (void)control(dev, parts, on ? parts : 0u);
-  if (!on) return VERICAN_OK;
-  const uint64_t second = (now + ARM_NS) / SECOND_NS + 1u;
-  verican_write(dev, VERICAN_TCMPH_OFFSET, SECOND_NS / 2u);
-  verican_write(dev, VERICAN_TCMP_OFFSET, (uint32_t)second * SECOND_NS);
+  const uint32_t token = verican_lock(dev);
+  dev->pps = on;
+  if (on)
+    start_pulses(dev);
+  else
+    (void)control(dev, VERICAN_PPS_PARTS, 0u);
+  verican_unlock(dev, token);
   return VERICAN_OK;
 }
 

@@ -21,6 +21,10 @@
 /* verican_t.life: recognises a device that verican_init() has not seen. */
 #define VERICAN_LIFE_STOPPED 0x56434E01u
 #define VERICAN_LIFE_STARTED 0x56434E02u
+#define VERICAN_LIFE_STOPPING 0x56434E03u /* in verican_stop(): neither of the two */
+
+/* TCTRL with a pulse a second. */
+#define VERICAN_PPS_PARTS (VERICAN_TCTRL_CMPEN_MASK | VERICAN_TCTRL_OUTEN_MASK)
 
 /* Codes in the C/S word of a message buffer (flexcan.md 3.2). */
 #define CS_CODE(code) VERICAN_MB_CS_CODE_SET(VERICAN_MB_CS_CODE_##code)
@@ -42,10 +46,12 @@ static inline uint32_t verican_mask_offset(const verican_t *dev, unsigned mb) {
 static inline uint32_t verican_bit(unsigned mb) { return (uint32_t)1 << (mb % 32u); }
 
 static inline bool verican_alive(const verican_t *dev) {
-  return dev->life == VERICAN_LIFE_STOPPED || dev->life == VERICAN_LIFE_STARTED;
+  return dev->life == VERICAN_LIFE_STOPPED || dev->life == VERICAN_LIFE_STARTED ||
+         dev->life == VERICAN_LIFE_STOPPING;
 }
 
-/* VERICAN_OK if `dev` is an initialised, a stopped or a started device. */
+/* VERICAN_OK if `dev` is an initialised, a stopped or a started device; one that is being stopped
+ * is the first alone. */
 static inline verican_result_t verican_check(const verican_t *dev) {
   if (dev == NULL) return VERICAN_ERR_NULL;
   return verican_alive(dev) ? VERICAN_OK : VERICAN_ERR_STATE;

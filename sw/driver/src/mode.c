@@ -95,9 +95,15 @@ verican_result_t verican_stop(verican_t *dev) {
   verican_result_t result = verican_check_started(dev);
   if (result != VERICAN_OK) return result;
   result = verican_freeze(dev);
-  if (result != VERICAN_OK) return result;
+  if (result != VERICAN_OK) {
+    verican_write(dev, VERICAN_MCR_OFFSET, dev->mcr); /* or the core would freeze later */
+    return result;
+  }
+  /* From here on the handler, which another device on the line may call, does nothing, and a
+   * callback sends nothing. */
   const uint32_t token = verican_lock(dev);
   mask_interrupts(dev);
+  dev->life = VERICAN_LIFE_STOPPING;
   verican_unlock(dev, token);
   (void)verican_serve(dev);
   verican_tx_drop_all(dev);
@@ -111,6 +117,7 @@ verican_result_t verican_stop(verican_t *dev) {
 verican_result_t verican_deinit(verican_t *dev) {
   verican_result_t result = verican_check(dev);
   if (result != VERICAN_OK) return result;
+  if (dev->life == VERICAN_LIFE_STOPPING) return VERICAN_ERR_STATE;
   if (dev->life == VERICAN_LIFE_STARTED) {
     result = verican_stop(dev);
     if (result != VERICAN_OK) return result;

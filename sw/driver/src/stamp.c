@@ -5,6 +5,7 @@
  * (docs/time-spec.md, TM-26 to TM-28).
  */
 #include "internal.h"
+#include "verican/timesync.h"
 
 /* Both edges at the sample point with POINT = 2; the own frame at the flip-flop or at the pin. */
 void verican_stamp_latencies(verican_t *dev, uint32_t tctrl) {
@@ -26,7 +27,13 @@ void verican_stamp_init(verican_t *dev, uint32_t xconfig, uint32_t clock_hz) {
   if (!dev->time_unit) return;
   dev->half_clock = (uint32_t)(increment >> 25);
   verican_write_rate(dev, increment);
-  verican_stamp_latencies(dev, verican_read(dev, VERICAN_TCTRL_OFFSET));
+  /* A soft reset keeps them: a launch that waits would hold a mailbox, an event interrupt for
+   * nobody. */
+  const uint32_t tctrl = verican_read(dev, VERICAN_TCTRL_OFFSET) & ~VERICAN_CLOCK_EVENTS;
+  verican_write(dev, VERICAN_TTXMB_OFFSET, 0);
+  verican_write(dev, VERICAN_TCTRL_OFFSET, tctrl);
+  dev->pps = (tctrl & VERICAN_PPS_PARTS) == VERICAN_PPS_PARTS;
+  verican_stamp_latencies(dev, tctrl);
 }
 
 uint64_t verican_half_clocks(const verican_t *dev, uint8_t half_clocks) {

@@ -8,6 +8,7 @@
 /* Error interrupts come with every error. They are needed to see the step from warning to passive,
  * and the end of bus-off; otherwise only if somebody listens. */
 void verican_write_ctrl(const verican_t *dev) {
+  if (dev->life != VERICAN_LIFE_STARTED) return; /* masked by verican_stop() */
   uint32_t ctrl = dev->ctrl | VERICAN_CTRL1_BOFF_MSK_MASK | VERICAN_CTRL1_TWRN_MSK_MASK |
                   VERICAN_CTRL1_RWRN_MSK_MASK;
   if (dev->callbacks.on_error != NULL || dev->recovering ||

@@ -31,6 +31,7 @@ static void apply(verican_tsyn_t *tsyn, const verican_correction_t *correction) 
   }
   verican_masters_shift(&tsyn->masters, correction->shift);
   tsyn->receiver.stamp += (uint64_t)correction->shift;
+  tsyn->latest += (uint64_t)correction->shift;
   tsyn->shift = correction->shift;
 }
 
@@ -78,6 +79,7 @@ static void take_message(verican_tsyn_t *tsyn, const verican_frame_t *frame, uin
   const uint8_t dlc = (frame->flags & VERICAN_FRAME_REMOTE) != 0u ? 0u : frame->dlc;
   const uint64_t stamp = frame->time_ns + verican_half_clocks(tsyn->dev, tsyn->dev->rx_latency);
   verican_tsyn_cause_t cause;
+  verican_tsyn_look(tsyn, stamp);
   const bool sync = verican_tsyn_is_sync(rules, frame->data, dlc, &cause);
   if (!is_followed(tsyn, rank, sync, stamp)) return;
   verican_sync_pair_t pair = {0};
@@ -97,7 +99,8 @@ static bool take_delay(verican_tsyn_t *tsyn, const verican_frame_t *frame, uint3
     (void)verican_tsyn_send(tsyn, config->delay_response, data, NULL);
     return true;
   }
-  if (id != config->delay_response || frame->dlc != 8u) return false;
+  const bool remote = (frame->flags & VERICAN_FRAME_REMOTE) != 0u;
+  if (id != config->delay_response || frame->dlc != 8u || remote) return false;
   (void)verican_delay_response(&tsyn->delay, verican_p4_read_time(frame->data),
                                &tsyn->servo.config.delay_ns);
   return true;

@@ -48,8 +48,11 @@ typedef enum verican_stamp_point {
 /** Where frames are stamped, from the next one on; own ones at the receive pin, or when sent. */
 verican_result_t verican_clock_point(verican_t *dev, verican_stamp_point_t point, bool own_pin);
 
-/** A pulse a second at the output pin, high for half a second; or nothing. */
-verican_result_t verican_clock_pps(const verican_t *dev, bool on);
+/**
+ * A pulse a second at the output pin, high for half a second; or nothing. When the time is set or
+ * shifted, by a follower's step, too, the pin is low until the next whole second.
+ */
+verican_result_t verican_clock_pps(verican_t *dev, bool on);
 
 /** Events of the clock, for verican_clock_on_event(). */
 enum {
@@ -111,6 +114,7 @@ struct verican_tsyn {
   uint64_t next;     /* SYNC is due */
   uint64_t t0;       /* SYNC was queued */
   uint64_t t1;       /* SYNC was sent */
+  uint64_t latest;   /* time when the clock was looked at last */
   verican_tsyn_config_t config;
   verican_masters_t masters;
   verican_tsyn_sender_t sender;

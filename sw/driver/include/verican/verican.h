@@ -53,7 +53,7 @@ typedef struct verican_frame {
   uint8_t flags;      /**< VERICAN_FRAME_* */
   uint8_t dlc;        /**< 0 to 15 as on the wire; 8 and above mean eight bytes */
   uint8_t priority;   /**< to send: 0 (first) to 7, counts with VERICAN_TX_BY_PRIORITY only */
-  uint8_t source;     /**< received: mailbox, or with the FIFO the number of the filter element */
+  uint8_t source;     /**< received: mailbox, or with the FIFO the filter element, modulo 256 */
   uint8_t data[8];    /**< bytes beyond the DLC are 0 in received frames, ignored in others */
   uint64_t time_ns;   /**< received: stamp of the time unit less its latency; 0 without the unit */
 } verican_frame_t;
@@ -197,7 +197,8 @@ typedef struct verican verican_t;
  * Called from verican_irq_handler(); on_sent also from verican_abort() and verican_stop(), on_state
  * and on_error also from verican_poll(), verican_recover(), verican_get_status() and
  * verican_stop(), on_receive also from verican_stop(). Any may be NULL. All may call the driver's
- * other functions, but not verican_irq_handler().
+ * other functions, but not verican_irq_handler(). In verican_stop() the device is neither started
+ * nor stopped: what needs one of the two is VERICAN_ERR_STATE there.
  */
 typedef struct verican_callbacks {
   /** A mailbox is free again. */
@@ -320,6 +321,7 @@ struct verican {
   bool bus_off_timing; /* bus_off_since_ms is valid */
   bool self_reception;
   bool time_unit;
+  bool pps;           /* verican_clock_pps() is on */
   uint8_t rx_latency; /* of stamps, half clocks */
   uint8_t tx_latency;
   uint32_t half_clock; /* 1/256 ns */
@@ -343,7 +345,10 @@ verican_result_t verican_config_default(verican_config_t *config);
  */
 verican_result_t verican_init(verican_t *dev, const verican_config_t *config);
 
-/** Leaves the bus and puts the core into its disable mode. VERICAN_ERR_TIMEOUT. */
+/**
+ * Leaves the bus and puts the core into its disable mode. VERICAN_ERR_TIMEOUT; VERICAN_ERR_STATE in
+ * a callback of verican_stop().
+ */
 verican_result_t verican_deinit(verican_t *dev);
 
 /** Joins the bus, with interrupts enabled in the core. Device must be stopped. VERICAN_ERR_TIMEOUT.
@@ -353,7 +358,7 @@ verican_result_t verican_start(verican_t *dev);
 /**
  * Leaves the bus after the frame under way; frames not sent are given up (VERICAN_TX_ABORTED).
  * Frames in the ring stay. Device must be started. VERICAN_ERR_TIMEOUT: the core does not stop, the
- * device counts as started.
+ * device counts as started and goes on.
  */
 verican_result_t verican_stop(verican_t *dev);
 
