@@ -23,11 +23,11 @@ QUIET   := tools/quiet.sh$(if $(filter V,$(options)), --show)
 
 help:  ## List the targets
 	@echo "VeriCAN: a CAN 2.0 controller in RTL and its bus simulator"
-	@sed -n 's/^\([a-z-]*\):.*## */\1|/p' Makefile | while IFS='|' read -r t d; do \
+	@sed -n 's/^\([a-z0-9-]*\):.*## */\1|/p' Makefile | while IFS='|' read -r t d; do \
 	    printf '  make %-10s %s\n' "$$t" "$$d"; done
 	@echo "Options: PRESET=release|debug|asan  JOBS=$(JOBS)  V=1 (show the build)"
 
-packages:
+packages:  ## Install what the project needs (packages.txt)
 	@tools/install-packages.sh
 
 $(BUILD)/build.ninja: | packages
@@ -86,7 +86,7 @@ coverage-rtl: packages  ## Measure line, branch and toggle coverage of the RTL o
 size: packages  ## Build the C driver for a Cortex-M3 and print its size, per function and in total
 	@tools/driver-size.sh
 
-wave: build  ## Run one test with waveforms: make wave TEST=Arbitration.LoserReceivesTheWinnersFrame
+wave: build  ## Run one test with waveforms: make wave TEST=LoserContends
 	@tools/wave.sh $(BUILD) "$(TEST)"
 
 rules: packages  ## Regenerate docs/rules.md, remote-rules.md and time-rules.md, the tables of rules and tests

@@ -799,7 +799,7 @@
 #define VERICAN_TSOFS_OFFSET                    0x1190u
 #define VERICAN_TSOFS_RESET                     0x00000000u
 /* TSOFS: Own time less the master's, signed ns, before it was corrected; stays at either end.
-   Moves for 500 clocks behind a FUP. */
+   Moves for 512 clocks behind a FUP. */
 #define VERICAN_TSOFS_TSOFS_MASK                0xFFFFFFFFu
 #define VERICAN_TSOFS_TSOFS_SHIFT               0u
 #define VERICAN_TSOFS_TSOFS_GET(word)           (((uint32_t)(word) >> 0) & 0xFFFFFFFFu)
