@@ -57,7 +57,7 @@ module can_bit_timing #(
   // Position after this quantum: a late edge sets the count back, which lengthens PHASE_SEG1; an
   // early one sets it forward, which shortens PHASE_SEG2; both by at most SJW (SY-08).
   assign ahead      = early ? pos_q + sjw : pos_q;
-  // Does PHASE_SEG2 end with it? As ahead >= tseg2, but no sum waits for the edge.
+  // Does PHASE_SEG2 end with it? As ahead >= tseg2, but without an adder behind the edge.
   assign over       = falling ? pos_q >= PosWidth'(reach_q) : pos_q > PosWidth'(pseg2_i);
   // An edge in the last quantum of PHASE_SEG1 still comes before the sample point and moves it.
   assign guard      = armed_q && prev_q[0] && (hard_q || tx_i);
@@ -66,7 +66,7 @@ module can_bit_timing #(
   assign edge_o     = tq_i && falling;
   assign bit_o      = smp_i ? (rx_i && prev_q[0]) || (rx_i && prev_q[1]) || (&prev_q) : rx_i;
 
-  // In every clock: an upset flip-flop in it would spoil all bits until the next stop.
+  // Loaded in every clock, so that an upset does not last until the next stop.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       tseg1_q <= PosWidth'(2);

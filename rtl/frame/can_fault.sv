@@ -113,8 +113,8 @@ module can_fault (
     end else if (sequence_q || plus8_q || plus1_q || minus1_q) begin : count
       logic [8:0] counter, sum;
       logic       turns;
-      // By one from bit 0 on, by eight from bit 3 on: bits turn, up to the first 0 where it counts
-      // up, the first 1 where it counts down. Never both, so that this is all that an adder does.
+      // Counts by 1 from bit 0 on, or by 8 from bit 3 on. Counting up inverts the bits up to the
+      // first 0, that one too, counting down those up to the first 1. So no adder is needed.
       counter = on_tec ? tec_q : {1'b0, rec_q};
       turns   = !plus8_q;
       for (int i = 0; i < 9; i++) begin

@@ -75,7 +75,7 @@ module can_ahb #(
     RegionBits_must_be_13_to_32 u_stop ();   // no such module: the tool prints the name and stops
   end
 
-  // A burst is a row of single transfers to us, and of the access rights one may count.
+  // A burst is treated as single transfers. Of hprot only bit 1 counts, with CheckHprot = 1.
   logic unused;
   assign unused = &{1'b0, hburst, hprot, htrans[0], supv};
 
@@ -104,7 +104,7 @@ module can_ahb #(
   assign hreadyout = ready && !err1_q;
   assign hresp     = err1_q || err2_q;
 
-  // A denied access is none to the core, which then reads 0 and has no wait states either.
+  // A denied access is not passed to the core: it reads 0 and has no wait state.
   can_top #(
     .NumMb(NumMb), .Fifo(Fifo), .Abort(Abort), .Status(Status), .OwnMasks(OwnMasks), .Wake(Wake),
     .Extras(Extras), .ClearRam(ClearRam), .TimeUnit(TimeUnit), .TimeInc(TimeInc),

@@ -66,7 +66,7 @@ module can_apb #(
   logic unused;
   assign unused = &{1'b0, paddr[1:0], pprot, supv};
 
-  // Setup phase. Of a read all lanes count; a write without a strobe is none to the core.
+  // Setup phase. Of a read all lanes count; a write without a strobe is not passed on.
   logic       setup, beyond, supv, denied, cancel, ready;
   logic [3:0] be;
   assign setup  = psel && !penable;

@@ -75,9 +75,9 @@ module can_axil #(
   logic unused;
   assign unused = &{1'b0, awaddr[1:0], araddr[1:0], awprot, arprot, supv};
 
-  // A transfer begins when its answer has room and the core has no other. Where a read and a write
-  // wait, it is the turn of the one that was not the last. Which of them to look at was decided in
-  // the clock before, by whose answer had room then: the address is not late.
+  // A transfer begins when its response channel is free and the core is idle. If a read and a write
+  // wait, they take turns. Which of the two to look at was decided in the clock before, from the
+  // response channels, so that the address is early.
   logic read_q, write_q, taken_q, read_last_q, prefer_write_q, reads, writes, turn, idle, begins;
   logic r_shut, b_shut, read_last, supv;
   assign r_shut = rvalid && !rready;
@@ -89,7 +89,7 @@ module can_axil #(
   assign begins = (turn ? writes : reads) && idle;
   assign read_last = begins ? !turn : read_last_q;
 
-  // Command. Of a read all lanes count; a write without a strobe is none to the core.
+  // Command. Of a read all lanes count; a write without a strobe is not passed on.
   logic        beyond, denied, cancel, error_q, ready;
   logic [3:0]  be;
   logic [31:0] addr, core_rdata;

@@ -117,7 +117,7 @@ module can_top #(
   logic [1:0]      gmask;
   logic [IdxW-1:0] idx;
   assign gmask = {addr_i[3] | addr_i[6], addr_i[2] | addr_i[6]};
-  // By as few bits as tell them apart: what goes elsewhere may look like any of these.
+  // Decoded from as few bits as possible: addresses of other registers may alias.
   always_comb begin
     mem_sel = addr_i[3:2] != 2'd0 ? can_mb_pkg::MemMsg : can_mb_pkg::MemCs;
     word = addr_i[3:2] - 2'd1;

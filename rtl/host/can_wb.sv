@@ -75,7 +75,7 @@ module can_wb #(
   logic [31:0] wdata, rdata;
   assign rst_n  = !wb_rst_i;
   assign beyond = ({wb_adr_i, 2'b00} & 32'((33'd1 << RegionBits) - 33'd1)) >> 13 != '0;
-  // A write without a lane is none to the core. What is none to it reads 0.
+  // A write without a lane is not passed to the core. What is not passed to it reads 0.
   assign cancel = beyond || (wb_we_i && wb_sel_i == '0);
   always_ff @(posedge wb_clk_i or negedge rst_n) begin
     if (!rst_n) {due_q, error_q} <= '0;

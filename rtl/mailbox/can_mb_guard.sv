@@ -8,9 +8,9 @@
 // can_mb_load; in one that is written it is done at once, and IFLAG tells.
 //
 // In the first clock of a write the C/S word of its buffer is read: bit 30 says that a transmission
-// has ended since the CPU wrote it. Meanwhile everything else is found out: that bit is late in the
-// second clock. What has moved out by the first clock is kept from the CPU: what moves out later is
-// not on its way to the bus before the write is noticed.
+// has ended since the CPU wrote it. Everything else is evaluated meanwhile, because that bit is
+// late in the second clock. A frame that has moved out by the first clock is kept from the CPU; one
+// that moves out later cannot reach the bus before the write is noticed.
 
 module can_mb_guard #(
   parameter int NumMb = 64,

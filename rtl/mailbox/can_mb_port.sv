@@ -13,8 +13,8 @@
 //
 // A block RAM returns nothing certain for a word that is being written. The engine is told (stale).
 // Of what is written while the CPU reads, only a copy can be the word that it reads: then the RAM
-// is not read at all, because its outputs show what is being copied (can_mb_step). A mark can be in
-// the C/S word at which a write looks: can_mb_guard is told.
+// is not read at all, because its outputs show what is being copied (can_mb_step). A serviced
+// mark may be written to the word that a write looks at: can_mb_guard is told.
 
 module can_mb_port #(
   parameter int NumMb = 64,
@@ -262,7 +262,7 @@ module can_mb_port #(
     end
   end
 
-  // Who reads nothing does not mind.
+  // To read where nothing was asked for is harmless.
   logic re;
   assign re = !shown;
   assign stamp_re_o  = re;

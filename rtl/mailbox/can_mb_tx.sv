@@ -212,10 +212,10 @@ module can_mb_tx #(
   assign s3_end       = s3_last_q && !restart_q;
   assign pass_end_o   = s3_end && look_q && !scan_q && !change && !ins_want;
 
-  // A pass for ESR2 is started anew by whatever happens; one that looks for a winner by the loss of
-  // a winner, and not for ever.
+  // Any change restarts a pass for ESR2. One that looks for a winner is restarted by the loss of a
+  // winner alone, and not for ever.
   assign redo    = withdrawn || lost;
-  // A frame that has just failed is no such find: it comes as an insertion.
+  // A buffer whose frame has just failed does not count as found: it comes back as an insertion.
   assign found   = candidate && look2_q && !best_q && !scan_q && !retry_i && !ins_want;
   assign change  = Status != 0 && (cs_written_i || ans_i || redo);
 

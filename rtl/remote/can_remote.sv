@@ -25,7 +25,7 @@ module can_remote #(
   parameter int AutoRate = 0,
   /// 1: eight counters at 0xFE8 tell what happened.
   parameter int Counters = 0,
-  /// 1: direct reads are answered under the identifier of the request, to show why they are not.
+  /// 1: direct reads are answered under the identifier of the request, to show what that leads to.
   parameter int SameId = 0,
   /// Serial number, 32 bits, different in each device.
   parameter int Serial = 0,
@@ -366,8 +366,8 @@ module can_remote #(
   logic [1:0] same_id;
   assign same_id = {all, !port && !visit && !make} & {2{SameId != 0}};
 
-  // Who names the byte that is meant: 0 from all others, so that an OR is enough. Where two name
-  // one, that of can_rn_cell is not meant.
+  // Address of the byte: a block that selects none drives 0, so that an OR is enough. If another
+  // block selects one (own), that of can_rn_cell is masked.
   logic own;
   logic [8:0] others;
   assign own    = cell_own || tally_own || block_own;

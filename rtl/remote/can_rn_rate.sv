@@ -5,7 +5,8 @@
 // listens, at one rate after the other. Two errors without a valid frame: the next; two valid
 // frames: the right one. Two edges to dominant are two bits apart at least, so where there is no
 // sample point between them, the rate is too low; that is an error, too, and the only one where
-// all sample points fall between frames. Nor is a rate right where 256 edges are no valid frame.
+// all sample points fall between frames. A rate is also rejected after 256
+// edges without a valid frame.
 
 module can_rn_rate #(
   parameter int Rows = 8

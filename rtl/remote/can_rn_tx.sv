@@ -72,8 +72,8 @@ module can_rn_tx #(
     assign more_o = 1'b0;
   end else begin : gen_queue
     assign full_o = tail_q == {~head_q[2], head_q[1:0]};
-    // RN-54: all of them grow old, the first first; only the first is dropped, the others wait for
-    // it with 10 ms left. One that goes meanwhile takes no other with it.
+    // RN-54: all answers age, beginning with the first; only the first is dropped, the others wait
+    // for that with 10 ms left. One that goes meanwhile takes no other with it.
     logic [2:0] age_q, age_d;
     logic       ages;
     assign ages   = job_i == can_rn_pkg::JobAge && (&phase_i);

@@ -64,7 +64,7 @@ module can_stamp (
       if (between) {point_q, txpin_q} <= {point_i, txpin_i};
 
       fixed_q <= (at_sof && sof_i) || reference || (at_eof && rx_valid_i) || (fixed_q && !between);
-      // Whose frame it is stands fast behind the arbitration field.
+      // Whose frame it is, is settled after the arbitration field.
       told_q     <= !between && (told_q || stamp_we_o);
       stamp_we_o <= fixed_q && (behind_id || at_eof) && !stamp_we_o && !told_q;
     end
