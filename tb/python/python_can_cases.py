@@ -130,6 +130,77 @@ class PythonCan(unittest.TestCase):
         self.assertIsNone(self.b.recv(0.05))
 
 
+class PythonCanUsers(unittest.TestCase):
+    """A node that goes from one can.Bus to the next, and a channel that fails."""
+
+    def setUp(self):
+        self.channel = next(names)
+        self.a, self.b = self.open(), self.open()
+
+    def open(self, **settings):
+        bus = open_bus(self.channel, **settings)
+        self.addCleanup(bus.shutdown)
+        return bus
+
+    def test_frames_of_a_user_that_has_left(self):
+        # They leave all the same, and are not the next user's: neither as echoes nor in its queue.
+        for i in range(200):
+            self.a.send(message(0x100 + i, bytes([i] * 8)))
+        self.a.shutdown()
+        c = self.open(receive_own_messages=True)
+        self.assertEqual(c.node, self.a.node)
+        c.send(message(0x42))
+        got = [self.b.recv(WAIT).arbitration_id for _ in range(201)]
+        self.assertEqual(got, [*range(0x100, 0x1C8), 0x42])
+        self.assertEqual(c.recv(WAIT).arbitration_id, 0x42)
+        c.flush_tx_buffer()
+        self.assertIsNone(c.recv(0.05))
+        self.assertTrue(c._channel._thread.is_alive())  # pylint: disable=protected-access
+
+    def break_channel(self):
+        """Work of the channel's thread raises."""
+        told, hook = threading.Event(), threading.excepthook
+        self.addCleanup(setattr, threading, "excepthook", hook)
+        threading.excepthook = lambda of: told.set()
+        channel = self.a._channel  # pylint: disable=protected-access
+        channel._do(lambda bus: {}["broken"])  # pylint: disable=protected-access
+        self.assertTrue(told.wait(WAIT))
+
+    def failed(self):
+        return self.assertRaisesRegex(can.CanOperationError, "failed.*KeyError.*broken")
+
+    def test_a_channel_that_has_failed(self):
+        self.break_channel()
+        for act in (lambda: self.a.send(message(1)), lambda: self.a.state, self.b.flush_tx_buffer,
+                    lambda: self.b.disturb("flip", bits=1), lambda: self.b.recv(0),
+                    lambda: self.b.recv(WAIT), self.b.recv):
+            with self.failed():
+                act()
+        self.b.shutdown()
+        with self.assertRaisesRegex(can.CanInitializationError, "failed.*broken"):
+            self.open()
+        self.a.shutdown()
+        again = [self.open() for _ in range(2)]  # a bus of its own, under the same name
+        again[0].send(message(1))
+        self.assertEqual(again[1].recv(WAIT).arbitration_id, 1)
+
+    def test_who_waits_while_the_channel_fails(self):
+        ends = []
+
+        def wait():
+            with self.failed():
+                self.b.recv()
+            ends.append(True)
+        waiting = [threading.Thread(target=wait, daemon=True) for _ in range(2)]
+        for thread in waiting:
+            thread.start()
+        time.sleep(0.05)
+        self.break_channel()
+        for thread in waiting:
+            thread.join(WAIT)
+        self.assertEqual(ends, [True, True])
+
+
 class PythonCanEnd(unittest.TestCase):
     """Programs that end without shutdown(), while frames wait and the channel's thread works."""
 

@@ -18,8 +18,16 @@ SETTINGS = {"nodes": 2, "bitrate": 500_000, "restart_ms": 0, "vcd": ""}  # of a 
 RANGES = {"nodes": (1, 64), "bitrate": (1000, 1_000_000)}
 
 
+class ChannelError(RuntimeError):
+    """The channel is closed, or its thread has failed."""
+
+
 class Channel:
     """Frames go in by send(), messages come out by the `deliver` of each node's user.
+
+    Frames of a user that has left stay in its node's queue; their echoes go to nobody. What the
+    thread raises ends it: each user's `fail` is called, and whoever asks for anything later gets a
+    ChannelError.
 
     Only the thread touches the bus; others hand it work. While something is under way the bus runs
     as fast as it can; an idle one follows real time, so that it is never behind by more than
@@ -35,7 +43,10 @@ class Channel:
         self.nodes = [f"node{i}" for i in range(settings["nodes"])]
         self._bus = Bus(self.nodes, bitrate=settings["bitrate"],
                         restart=settings["restart_ms"] / 1e3, vcd=settings["vcd"])
-        self._users = {}
+        self._users = {}  # by node: deliver and fail
+        self._under_way = dict.fromkeys(self.nodes, 0)  # frames sent whose echo has not come
+        self._former = dict.fromkeys(self.nodes, 0)     # of them: those of users that have left
+        self._failure = None
         self._work = collections.deque()
         self._wake = threading.Event()
         self._closing = False
@@ -46,12 +57,18 @@ class Channel:
 
     # ---- For the nodes' users
 
-    def join(self, deliver):
-        """Takes a free node, whose messages go to deliver(message, time); None if all are taken."""
+    def join(self, deliver, fail):
+        """Takes a free node, whose messages go to deliver(message, time); None if all are taken.
+        fail() is called when the thread ends by an exception."""
         free = [node for node in self.nodes if node not in self._users]
-        if free:
-            self._users[free[0]] = deliver
-        return free[0] if free else None
+        if not free:
+            return None
+
+        def work(_):  # behind the last frames of the user before
+            self._former[free[0]] = self._under_way[free[0]]
+            self._users[free[0]] = deliver, fail
+        self.call(work)
+        return free[0]
 
     def leave(self, node):
         """The node stays on the bus and acknowledges."""
@@ -62,7 +79,10 @@ class Channel:
         return bool(self._users)
 
     def send(self, node, frame):
-        self._do(lambda bus: bus.send(node, frame))
+        def work(bus):
+            bus.send(node, frame)
+            self._under_way[node] += 1
+        self._do(work)
 
     def call(self, function):
         """The result of function(bus), run between two stretches of simulation."""
@@ -79,31 +99,52 @@ class Channel:
                 return future.result(timeout=1)
             except concurrent.futures.TimeoutError:
                 if not self._thread.is_alive():
-                    raise RuntimeError(f"channel {self.name!r} is closed") from None
+                    raise self._gone() from self._failure
 
     def close(self):
         self._closing = True
         self._wake.set()
         self._thread.join()
-        while self._work:
-            self._work.popleft()(self._bus)
-        self._bus.run_until_quiet(LAST_FRAMES)
-        self._bus.finish()
+        try:
+            if self._failure is None:
+                self._work_off()
+                self._bus.run_until_quiet(LAST_FRAMES)
+        finally:
+            self._bus.finish()
+
+    def _gone(self):
+        """What to raise when the thread does no work any more."""
+        why = "is closed" if self._failure is None else f"has failed: {self._failure!r}"
+        return ChannelError(f"channel {self.name!r} {why}")
 
     # ---- The thread
 
     def _do(self, work):
+        if self._failure is not None:
+            raise self._gone() from self._failure
         self._work.append(work)
         self._wake.set()
 
+    def _work_off(self):
+        while self._work:
+            self._work.popleft()(self._bus)
+
     def _run(self):
+        try:
+            self._serve()
+        except BaseException as failure:
+            self._failure = failure
+            for _, fail in list(self._users.values()):
+                fail()
+            raise  # threading.excepthook shows where it was
+
+    def _serve(self):
         while not self._closing:
             if self._bus.settled and not self._work:
                 self._wake.wait(IDLE_LOOK)
                 self._follow()
             self._wake.clear()
-            while self._work:
-                self._work.popleft()(self._bus)
+            self._work_off()
             if not self._bus.settled:
                 self._bus.step(bits=STRETCH_BITS)
                 self._give()
@@ -124,32 +165,44 @@ class Channel:
         self._bus.events()
         for node in self.nodes:
             messages = self._bus.receive(node)
-            deliver = self._users.get(node)
-            if deliver:
-                for message in messages:
+            deliver, _ = self._users.get(node, (None, None))
+            for message in messages:
+                if self._is_of_user(node, message) and deliver:
                     deliver(message, self._epoch + message.time_ps / 1e12 - self._offset)
+
+    def _is_of_user(self, node, message):
+        """False for the echo of a frame that a user before had sent: frames leave in the order in
+        which they were queued."""
+        if not message.echo:
+            return True
+        self._under_way[node] -= 1
+        if self._former[node] == 0:
+            return True
+        self._former[node] -= 1
+        return False
 
 
 _channels = {}
 _lock = threading.Lock()
 
 
-def open_channel(name, deliver, **wanted):
-    """(channel, node); the first to open it decides what the bus is like. `wanted`: some of
-    SETTINGS; None is no wish."""
+def open_channel(name, deliver, fail, **wanted):
+    """(channel, node), see Channel.join(); the first to open it decides what the bus is like.
+    `wanted`: some of SETTINGS; None is no wish."""
     wanted = {what: value for what, value in wanted.items() if value is not None}
     with _lock:
         channel = _channels.get(name)
         if channel is None:
-            channel = _channels[name] = Channel(name, SETTINGS | wanted)
+            channel = Channel(name, SETTINGS | wanted)
         for what, value in wanted.items():
             there = channel.settings[what]
             if value != there:
                 raise ValueError(f"channel {name!r} is open with {what}={there!r}, not {value!r}")
-        node = channel.join(deliver)
+        node = channel.join(deliver, fail)
         if node is None:
             raise ValueError(f"all {len(channel.nodes)} nodes of channel {name!r} are taken; the "
                              "first to open it says how many there are: nodes=...")
+        _channels[name] = channel
         return channel, node
 
 

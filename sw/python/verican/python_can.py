@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """python-can's interface "verican": each can.Bus is a node of a bus of RTL nodes in process."""
+import contextlib
 import queue
 import threading
 import time
 
 import can
 
-from ._channel import close_channel, open_channel, open_names
+from ._channel import ChannelError, close_channel, open_channel, open_names
 from ._core import Frame
 
 ALLOWED = "bitrate, can_filters, error_frames, nodes, receive_own_messages, restart_ms, vcd"
@@ -49,7 +50,7 @@ class VericanBus(can.BusABC):
         self.channel = channel
         try:
             self._channel, self.node = open_channel(
-                channel, self._deliver, nodes=number(nodes), bitrate=number(bitrate),
+                channel, self._deliver, self._fail, nodes=number(nodes), bitrate=number(bitrate),
                 restart_ms=number(restart_ms), vcd=None if vcd is None else str(vcd))
         except (ValueError, RuntimeError) as error:
             raise can.CanInitializationError(str(error)) from error
@@ -60,7 +61,8 @@ class VericanBus(can.BusABC):
     def send(self, msg, timeout=None):
         """Queues the frame; waits for room in the queue for at most `timeout` s (None: for ever).
 
-        can.CanOperationError: no room, bus-off, or no frame of classical CAN.
+        can.CanOperationError: no room, bus-off, no frame of classical CAN, or the channel has
+        failed.
         """
         self._check_open()
         if msg.is_fd or msg.is_error_frame:
@@ -71,7 +73,8 @@ class VericanBus(can.BusABC):
         except ValueError as error:
             raise can.CanOperationError(str(error)) from error
         self._wait_for_room(timeout)
-        self._channel.send(self.node, frame)
+        with self._errors_of_channel():
+            self._channel.send(self.node, frame)
 
     def _wait_for_room(self, timeout):
         end = None if timeout is None else time.monotonic() + timeout
@@ -88,10 +91,18 @@ class VericanBus(can.BusABC):
         self._check_open()
         try:
             if timeout is not None and timeout <= 0:
-                return self._inbox.get_nowait(), False
-            return self._inbox.get(timeout=timeout), False
+                message = self._inbox.get_nowait()
+            else:
+                message = self._inbox.get(timeout=timeout)
         except queue.Empty:
             return None, False
+        if message is None:  # stays there, for whoever asks again or waits too
+            self._inbox.put(None)
+            self._call(lambda bus: None)  # raises what has happened
+        return message, False
+
+    def _fail(self):
+        self._inbox.put(None)
 
     def _deliver(self, message, when):
         if message.echo:
@@ -103,6 +114,17 @@ class VericanBus(can.BusABC):
             is_remote_frame=message.remote, is_error_frame=message.error, dlc=message.dlc,
             data=message.data, channel=self.channel, is_rx=not message.echo))
 
+    @contextlib.contextmanager
+    def _errors_of_channel(self):
+        try:
+            yield
+        except ChannelError as error:
+            raise can.CanOperationError(str(error)) from error
+
+    def _call(self, function):
+        with self._errors_of_channel():
+            return self._channel.call(function)
+
     @property
     def state(self):
         """Error active, passive, or ERROR for bus-off. Setting ACTIVE begins the recovery."""
@@ -113,25 +135,25 @@ class VericanBus(can.BusABC):
         if new_state != can.BusState.ACTIVE:
             raise NotImplementedError("BusState.ACTIVE alone can be set; errors lead to the others")
         self._check_open()
-        self._channel.call(lambda bus: bus.restart(self.node))
+        self._call(lambda bus: bus.restart(self.node))
 
     @property
     def node_state(self):
         """State with the error counters, `tec` and `rec`."""
         self._check_open()
-        return self._channel.call(lambda bus: bus.state(self.node))
+        return self._call(lambda bus: bus.state(self.node))
 
     def disturb(self, effect, bits, after=0, everybody=False):
         """From `after` bits on this node's receiver, or everybody's, sees another level for `bits`:
         flip, dominant or recessive."""
         self._check_open()
         node = "" if everybody else self.node
-        self._channel.call(lambda bus: bus.disturb(
+        self._call(lambda bus: bus.disturb(
             effect, bus.now + after * bus.bit_time, bits * bus.bit_time, node))
 
     def flush_tx_buffer(self):
         """Waits until all frames have left; at once if the node is bus-off."""
-        while self._channel.call(lambda bus: bus.pending(self.node)):
+        while self._call(lambda bus: bus.pending(self.node)):
             if self.state == can.BusState.ERROR:
                 return
             time.sleep(1e-3)
