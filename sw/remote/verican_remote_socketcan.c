@@ -28,11 +28,17 @@ static uint32_t socketcan_now(void *context) {
   return (uint32_t)((uint64_t)now.tv_sec * 1000000u + (uint64_t)now.tv_nsec / 1000u);
 }
 
-/* Waits until the socket has `events`; false: not within the time. */
-static bool wait_for(int fd, short events, uint32_t timeout_us) {
-  struct pollfd one = {.fd = fd, .events = events};
-  const uint32_t timeout_ms = timeout_us / 1000u + (timeout_us % 1000u != 0u ? 1u : 0u);
-  return poll(&one, 1, (int)timeout_ms) > 0;
+/* Waits until the socket has something to read; false: not within the time. Signals do not shorten
+ * it: after a handler poll() fails with EINTR, whatever SA_RESTART says. */
+static bool wait_for_frame(int fd, uint32_t timeout_us) {
+  struct pollfd one = {.fd = fd, .events = POLLIN};
+  const uint32_t start = socketcan_now(NULL);
+  for (;;) {
+    const uint32_t passed = socketcan_now(NULL) - start;
+    const uint32_t left = passed < timeout_us ? timeout_us - passed : 0;
+    const int ready = poll(&one, 1, (int)(left / 1000u + (left % 1000u != 0u ? 1u : 0u)));
+    if (ready >= 0 || errno != EINTR) return ready > 0;
+  }
 }
 
 /* Whether a call that failed so is worth repeating: no room, or a signal. */
@@ -63,7 +69,7 @@ static verican_remote_result_t socketcan_receive(void *context, verican_remote_f
   const uint32_t start = socketcan_now(NULL);
   for (;;) {
     const uint32_t passed = socketcan_now(NULL) - start;
-    if (!wait_for(s->fd, POLLIN, passed < timeout_us ? timeout_us - passed : 0))
+    if (!wait_for_frame(s->fd, passed < timeout_us ? timeout_us - passed : 0))
       return VERICAN_REMOTE_TIMEOUT;
     struct can_frame in;
     const ssize_t got = read(s->fd, &in, sizeof in);

@@ -8,9 +8,12 @@
 #include <linux/can.h>
 #include <linux/can/error.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstring>
 #include <thread>
 
@@ -83,6 +86,60 @@ TEST_F(ClientSocketCan, TheAnswerIsFoundAmongOthers) {
   EXPECT_EQ(verican_remote_read(&client, 3, 0x20, &byte, 1), VERICAN_REMOTE_OK);
   EXPECT_EQ(byte, 3);
   node.join();
+}
+
+/// A program's timer: SIGALRM each 5 ms. `node`: where the handler answers a read of node 3,
+/// address 20, from the fourth signal on; -1: nowhere.
+class Alarm {
+ public:
+  explicit Alarm(int node) {
+    to = node;
+    signals = 0;
+    struct sigaction action {};
+    action.sa_handler = handle;
+    action.sa_flags = SA_RESTART;
+    EXPECT_EQ(::sigaction(SIGALRM, &action, &before_), 0);
+    const itimerval each = {{0, 5000}, {0, 5000}};
+    EXPECT_EQ(::setitimer(ITIMER_REAL, &each, nullptr), 0);
+  }
+  Alarm(const Alarm &) = delete;
+  Alarm &operator=(const Alarm &) = delete;
+  ~Alarm() {
+    const itimerval never{};
+    ::setitimer(ITIMER_REAL, &never, nullptr);
+    ::sigaction(SIGALRM, &before_, nullptr);
+  }
+
+ private:
+  static void handle(int) {
+    const int error = errno;
+    can_frame answer{};
+    answer.can_id = 0x5A0;
+    answer.can_dlc = 1;
+    answer.data[0] = 7;
+    signals = signals + 1;
+    if (to >= 0 && signals >= 4) (void)::send(to, &answer, sizeof answer, MSG_DONTWAIT);
+    errno = error;
+  }
+  static inline volatile std::sig_atomic_t to, signals;
+  struct sigaction before_ {};
+};
+
+TEST_F(ClientSocketCan, SignalsDoNotShortenTheTimeOut) {
+  client.timeout_us = 50'000;
+  std::uint8_t byte = 0;
+  const Alarm alarm{-1};
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(verican_remote_read(&client, 3, 0x20, &byte, 1), VERICAN_REMOTE_TIMEOUT);
+  EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds{150});
+}
+
+TEST_F(ClientSocketCan, AnAnswerAfterSignalsIsHeard) {
+  client.timeout_us = 10'000'000;
+  std::uint8_t byte = 0;
+  const Alarm alarm{other};
+  EXPECT_EQ(verican_remote_read(&client, 3, 0x20, &byte, 1), VERICAN_REMOTE_OK);
+  EXPECT_EQ(byte, 7);
 }
 
 TEST_F(ClientSocketCan, BusOffIsToldByTheKernel) {
