@@ -196,7 +196,8 @@ verican_remote_result_t verican_remote_assign(verican_remote_t *client, uint32_t
                                               uint8_t number);
 /**
  * Unlocks a node by its serial number, writes settings confirmed, in their order, and locks it
- * again, whatever comes of them.
+ * again, whatever comes of them or of the confirmation that it is unlocked; what went wrong first
+ * is what is told. A node that does not answer is sent the lock once, without confirmation.
  */
 verican_remote_result_t verican_remote_configure(verican_remote_t *client, uint8_t number,
                                                  uint32_t serial,

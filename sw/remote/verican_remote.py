@@ -10,6 +10,7 @@
 
 What the nodes are: docs/remote.md. A bus has one client: nodes take requests from a single host.
 """
+import contextlib
 import time
 
 from verican_remote_block import Blocks
@@ -68,7 +69,11 @@ class Client(Blocks):
 
     def _send_confirmed(self, number, frames):
         """Sends frames that change something, and looks whether all have been accepted."""
-        _, accepted, refused = self._counts(number)
+        return self._send_and_confirm(number, frames, self._counts(number))
+
+    def _send_and_confirm(self, number, frames, before):
+        """`before`: _counts() until then."""
+        _, accepted, refused = before
         for frame in frames:
             self.send(*frame)
         for _ in range(self.tries):
@@ -212,21 +217,36 @@ class Client(Blocks):
 
     def configure(self, number, serial, settings):
         """Unlocks a node by its serial number, writes `settings` ((address, bytes), ...) confirmed
-        and locks it again, whatever comes of them."""
+        and locks it again, whatever comes of them or of the confirmation that it is unlocked; what
+        went wrong first is raised. A node that does not answer is sent the lock once, without
+        confirmation."""
         self.require_node(number)
         self.require_serial(serial)
         settings = [(address, bytes(data)) for address, data in settings]
         for address, data in settings:
             self.require_range(address, len(data))
-        key = serial.to_bytes(4, "little")
-        setup = self.port(number, SETUP)
-        self._confirmed_setup(number, setup, b"\1" + key)
+        before = self._counts(number)
         try:
+            self._setup(number, b"\1" + serial.to_bytes(4, "little"), before)
             for address, data in settings:
                 self.write_confirmed(number, address, data)
-        finally:
-            self._confirmed_setup(number, setup, b"\2")
+        except BaseException:
+            with contextlib.suppress(RemoteError):
+                self._lock(number)
+            raise
+        self._lock(number)
 
-    def _confirmed_setup(self, number, setup, data):
-        if not self._send_confirmed(number, [(setup, data)]):
+    def _setup(self, number, data, before):
+        """`before`: _counts() until then."""
+        if not self._send_and_confirm(number, [(self.port(number, SETUP), data)], before):
             raise Timeout(f"node {number} has not taken SETUP")
+
+    def _lock(self, number):
+        """A node that does not answer is told all the same."""
+        try:
+            before = self._counts(number)
+        except RemoteError:
+            with contextlib.suppress(RemoteError):
+                self.send(self.port(number, SETUP), b"\2")
+            raise
+        self._setup(number, b"\2", before)

@@ -282,22 +282,6 @@ TEST_F(ClientCalls, StatementsArePassedOn) {
   EXPECT_THAT(heard, ::testing::Each(0x67EU));
 }
 
-// RN-61: configure unlocks, writes and locks again, also after a refusal.
-TEST_F(ClientCalls, Configure) {
-  const verican_remote_setting_t good[] = {{0xF02, 2, {0x14, 0}}, {0xF18, 4, {'p', 'f', 'c', 0}}};
-  EXPECT_EQ(verican_remote_configure(&client, 3, 0xCAFE1233, good, 2), VERICAN_REMOTE_OK);
-  EXPECT_THAT(read(3, 0xF02, 2), ElementsAre(0x14, 0));
-  EXPECT_THAT(read(3, 0xF18, 3), ElementsAre('p', 'f', 'c'));
-  EXPECT_FALSE(bus.node(0).status().unlocked);
-  const verican_remote_setting_t bad[] = {{0xF30, 1, {0}}, {0xF02, 1, {0x15}}};
-  EXPECT_EQ(verican_remote_configure(&client, 3, 0xCAFE1233, bad, 2), VERICAN_REMOTE_REFUSED);
-  EXPECT_EQ(client.code, VERICAN_REMOTE_CODE_ADDRESS);
-  EXPECT_FALSE(bus.node(0).status().unlocked);
-  EXPECT_THAT(read(3, 0xF02, 1), ElementsAre(0x14));
-  EXPECT_EQ(verican_remote_configure(&client, 3, 0xCAFE1234, good, 2), VERICAN_REMOTE_REFUSED);
-  EXPECT_EQ(client.code, VERICAN_REMOTE_CODE_LOCKED);
-}
-
 // RN-94: calls leave in their order.
 TEST_F(ClientCalls, OrderOfCalls) {
   (void)write(1, 0x10, counting(8));

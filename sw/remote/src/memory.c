@@ -189,14 +189,27 @@ result_t verican_remote_identity(client_t *c, uint8_t number, verican_remote_ide
 }
 
 /* SETUP: 1 with the key unlocks, 2 locks. */
-static result_t setup(client_t *c, unsigned number, unsigned op, uint32_t key) {
+static frame_t setup_frame(const client_t *c, unsigned number, unsigned op, uint32_t key) {
   frame_t frame = {.id = vr_id(c, number, vr_port(c, PORT_SETUP)), .dlc = op == 1 ? 5 : 1};
   frame.data[0] = (uint8_t)op;
   for (unsigned i = 0; op == 1 && i < 4; i++) frame.data[1 + i] = (uint8_t)(key >> (8u * i));
-  uint8_t before[8];
-  result_t result = read_counts(c, number, before);
-  if (result == VERICAN_REMOTE_OK) result = vr_send(c, &frame);
+  return frame;
+}
+
+/* Sends it, confirmed; `before`: the node's counts until then. */
+static result_t setup(client_t *c, unsigned number, const frame_t *frame, const uint8_t before[8]) {
+  const result_t result = vr_send(c, frame);
   return result == VERICAN_REMOTE_OK ? confirm(c, number, before, 1) : result;
+}
+
+/* A node that does not answer is told all the same. */
+static result_t lock(client_t *c, unsigned number) {
+  const frame_t frame = setup_frame(c, number, 2, 0);
+  uint8_t before[8];
+  const result_t result = read_counts(c, number, before);
+  if (result == VERICAN_REMOTE_OK) return setup(c, number, &frame, before);
+  (void)vr_send(c, &frame);
+  return result;
 }
 
 result_t verican_remote_configure(client_t *c, uint8_t number, uint32_t serial,
@@ -207,13 +220,16 @@ result_t verican_remote_configure(client_t *c, uint8_t number, uint32_t serial,
     if (settings[i].length > 8 ||
         !vr_range_is_good(settings[i].data, settings[i].address, settings[i].length))
       return VERICAN_REMOTE_ARGUMENT;
-  result_t result = setup(c, number, 1, serial);
+  const frame_t unlock = setup_frame(c, number, 1, serial);
+  uint8_t before[8];
+  result_t result = read_counts(c, number, before);
   if (result != VERICAN_REMOTE_OK) return result;
+  result = setup(c, number, &unlock, before);
   for (size_t i = 0; i < count && result == VERICAN_REMOTE_OK; i++)
     result = verican_remote_write_confirmed(c, number, settings[i].address, settings[i].data,
                                             settings[i].length);
   const uint8_t code = c->code;
-  const result_t locked = setup(c, number, 2, 0);
+  const result_t locked = lock(c, number); /* also if nobody knows whether it was unlocked */
   if (result == VERICAN_REMOTE_OK) return locked;
   c->code = code;
   return result;
