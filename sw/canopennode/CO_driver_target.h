@@ -116,9 +116,10 @@ typedef struct {
   volatile bool_t CANnormal;
   volatile bool_t useCANrxFilters; /**< false: more filters than mailboxes, all frames come in */
   volatile bool_t bufferInhibitFlag;
-  volatile bool_t firstCANtxMessage;         /**< the boot-up message has not left yet */
-  volatile uint16_t CANtxCount;              /**< buffers with bufferFull */
-  uint32_t send_token, emcy_token, od_token; /* of the locks below */
+  volatile bool_t firstCANtxMessage; /**< the boot-up message has not left yet */
+  volatile uint16_t CANtxCount;      /**< buffers with bufferFull */
+  volatile uint8_t lock_depth;       /* of the critical sections below */
+  volatile uint32_t lock_token;      /* of the outermost */
 } CO_CANmodule_t;
 
 /* ---- The core behind it ---------------------------------------------------------------------- */
@@ -131,7 +132,8 @@ typedef struct {
 /** `CANptr` of CO_CANinit(): a core, and what the application says about it. Zero what is unknown.
  */
 typedef struct co_verican {
-  verican_port_t port;       /**< how to reach the registers; lock and unlock are needed */
+  verican_port_t port;       /**< how to reach the registers; lock and unlock are needed, and mask
+                                all interrupts that call the stack */
   uint32_t clock_hz;         /**< of the core */
   uint8_t mailboxes;         /**< 0: ask the core */
   uint8_t tx_mailboxes;      /**< 0: 8 */
@@ -164,25 +166,42 @@ typedef struct {
   void *memory;       /**< len + 8 bytes that survive a reset */
 } CO_storage_entry_t;
 
-/* ---- Critical sections: the application's lock, which masks the core's interrupt at least ---- */
+/* ---- Critical sections: the application's lock ----------------------------------------------- */
 
-#define CO_VERICAN_LOCK(module, token)                             \
-  do {                                                             \
-    co_verican_t *lock_can = (co_verican_t *)(module)->CANptr;     \
-    (module)->token = lock_can->port.lock(lock_can->port.context); \
-  } while (0)
-#define CO_VERICAN_UNLOCK(module, token)                            \
-  do {                                                              \
-    co_verican_t *lock_can = (co_verican_t *)(module)->CANptr;      \
-    lock_can->port.unlock(lock_can->port.context, (module)->token); \
-  } while (0)
+/*
+ * The port's lock must mask the core's interrupt and whatever else calls the stack, as the
+ * interrupt that calls co_node_real_time() does: that is what CO_LOCK_OD() keeps away from the
+ * objects.
+ *
+ * Sections may stand within each other, and one that is interrupted all the same must leave the
+ * lock as it was: only the outermost takes it and gives it back. An interruption at any point ends
+ * with the depth that it found, so the depth is raised before the token is stored, and the token is
+ * read before the depth is lowered.
+ */
+static inline void co_verican_lock(CO_CANmodule_t *module) {
+  const co_verican_t *can = (const co_verican_t *)module->CANptr;
+  if (module->lock_depth != 0u) {
+    module->lock_depth = (uint8_t)(module->lock_depth + 1u);
+    return;
+  }
+  const uint32_t token = can->port.lock(can->port.context);
+  module->lock_depth = 1;
+  module->lock_token = token;
+}
 
-#define CO_LOCK_CAN_SEND(CAN_MODULE) CO_VERICAN_LOCK(CAN_MODULE, send_token)
-#define CO_UNLOCK_CAN_SEND(CAN_MODULE) CO_VERICAN_UNLOCK(CAN_MODULE, send_token)
-#define CO_LOCK_EMCY(CAN_MODULE) CO_VERICAN_LOCK(CAN_MODULE, emcy_token)
-#define CO_UNLOCK_EMCY(CAN_MODULE) CO_VERICAN_UNLOCK(CAN_MODULE, emcy_token)
-#define CO_LOCK_OD(CAN_MODULE) CO_VERICAN_LOCK(CAN_MODULE, od_token)
-#define CO_UNLOCK_OD(CAN_MODULE) CO_VERICAN_UNLOCK(CAN_MODULE, od_token)
+static inline void co_verican_unlock(CO_CANmodule_t *module) {
+  const co_verican_t *can = (const co_verican_t *)module->CANptr;
+  const uint32_t token = module->lock_token;
+  module->lock_depth = (uint8_t)(module->lock_depth - 1u);
+  if (module->lock_depth == 0u) can->port.unlock(can->port.context, token);
+}
+
+#define CO_LOCK_CAN_SEND(CAN_MODULE) co_verican_lock(CAN_MODULE)
+#define CO_UNLOCK_CAN_SEND(CAN_MODULE) co_verican_unlock(CAN_MODULE)
+#define CO_LOCK_EMCY(CAN_MODULE) co_verican_lock(CAN_MODULE)
+#define CO_UNLOCK_EMCY(CAN_MODULE) co_verican_unlock(CAN_MODULE)
+#define CO_LOCK_OD(CAN_MODULE) co_verican_lock(CAN_MODULE)
+#define CO_UNLOCK_OD(CAN_MODULE) co_verican_unlock(CAN_MODULE)
 
 /* Flags between interrupt and main program. */
 #define CO_MemoryBarrier() __sync_synchronize()

@@ -3,7 +3,7 @@
  *
  * A CANopen device of CANopenNode on a VeriCAN core: set-up, resets, and what has to be called
  * when. An application fills in a co_node_t and calls co_node_run() from main(); the real-time part
- * has an interrupt of its own, less urgent than the core's.
+ * has an interrupt of its own, less urgent than the core's. The port's lock must mask both.
  */
 #ifndef CO_NODE_H
 #define CO_NODE_H

@@ -143,22 +143,35 @@ class CanopenDictionary(unittest.TestCase):
         self.assertEqual(found["2007.0"], "45 " + "00" * 8)
 
 
+def run_here(test, *files):
+    """Exit code and messages of a test in C, compiled for here with sanitizers."""
+    with tempfile.TemporaryDirectory() as folder:
+        program = f"{folder}/test"
+        subprocess.run(
+            ["cc", "-std=gnu99", "-Wall", "-Wextra", "-Werror", "-fsanitize=address,undefined",
+             "-fno-sanitize-recover=undefined", "-I", str(SOURCES), "-I",
+             str(SOURCES.parent / "driver/include"), *files, "-o", program,
+             str(pathlib.Path(__file__).with_name(test))], check=True)
+        done = subprocess.run([program], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True, check=False)
+    return done.returncode, done.stdout
+
+
+class CanopenLock(unittest.TestCase):
+    """Critical sections, on a lock that masks the core's interrupt alone."""
+
+    def test_nested_and_interrupted(self):
+        self.assertEqual(run_here("lock_test.c"), (0, ""))
+
+
 @needs_stack
 class CanopenPort(unittest.TestCase):
-    """The port compiled for here, with sanitizers, on a driver that does as it is told."""
+    """The port on a driver that does as it is told."""
 
     def test_order_window_filters_errors(self):
-        with tempfile.TemporaryDirectory() as folder:
-            program = f"{folder}/port"
-            subprocess.run(
-                ["cc", "-std=gnu99", "-Wall", "-Wextra", "-Werror", "-fsanitize=address,undefined",
-                 "-fno-sanitize-recover=undefined", "-I", str(SOURCES), "-I",
-                 str(SOURCES.parent / "driver/include"), "-isystem", os.environ["CANOPENNODE"],
-                 "-o", program, str(pathlib.Path(__file__).with_name("port_test.c")),
-                 str(SOURCES / "CO_driver.c"), str(SOURCES / "co_verican_tx.c")], check=True)
-            done = subprocess.run([program], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                  text=True, check=False)
-        self.assertEqual((done.returncode, done.stdout), (0, ""))
+        self.assertEqual(run_here("port_test.c", "-isystem", os.environ["CANOPENNODE"],
+                                  str(SOURCES / "CO_driver.c"),
+                                  str(SOURCES / "co_verican_tx.c")), (0, ""))
 
 
 if __name__ == "__main__":
