@@ -132,3 +132,12 @@ def ptppps(run):
     expect_output(found, clock, (at["both"], at["shifted"]), 0, half, 9, "with pulses")
     expect_output(found, clock, (at["shifted"] + 3 * MS, at["output"]), 0, half, 5, "after a shift")
     expect_output(found, clock, (at["output"], at["off"]), 0, half, 3, "without pulses")
+
+
+def ptpremove(run):
+    """TM-112: the driver may go while edges and pulses come; the kernel says nothing of it."""
+    clock, _ = follow(run, 0)
+    expect(len(clock.increments), 4, "probes")
+    expect(answers(run), 3 * [("pps 1", "ok")], "answers")
+    for turn in (1, 2, 3):
+        expect_true(run.text(f"pulse{turn}.txt").strip().endswith("#1"), f"pulse of turn {turn}")

@@ -82,6 +82,7 @@ def cases(short):
         Case("ptp-perout", "ptpperout", chips=CLOCKS),
         Case("ptp-extts", "ptpextts", chips=CLOCKS),
         Case("ptp-pps", "ptppps", chips=CLOCKS),
+        Case("ptp-remove", "ptpremove", chips=CLOCKS, short=True),
         Case("ptp-tools", "ptptools", chips=CLOCKS),
         Case("ptp-phc2sys", "ptpphc2sys", chips=CLOCKS),
         Case("ptp-ts2phc", "ptpts2phc", chips=CLOCKS),

@@ -52,6 +52,7 @@
 
 struct verican_ptp {
 	void __iomem *base;
+	int irq; /* of the events; 0 or negative: none */
 	struct ptp_clock *clock;
 	struct ptp_clock_info info;
 	/* Pairs of registers share one holding register; also TCTRL and what follows. */

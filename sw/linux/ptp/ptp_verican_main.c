@@ -155,18 +155,28 @@ static int verican_start(struct verican_ptp *vp, unsigned long rate)
 	return 0;
 }
 
+/* No more events; the time goes on. */
+static void verican_silence(struct verican_ptp *vp)
+{
+	unsigned long flags;
+
+	spin_lock_irqsave(&vp->lock, flags);
+	verican_change_ctrl(vp, TCTRL_IE | TCTRL_EXT | TCTRL_CMP, 0);
+	spin_unlock_irqrestore(&vp->lock, flags);
+}
+
 static int verican_probe(struct platform_device *pdev)
 {
 	struct device *dev = &pdev->dev;
 	unsigned long rate = verican_rate(dev);
 	struct verican_ptp *vp = devm_kzalloc(dev, sizeof(*vp), GFP_KERNEL);
-	int irq = platform_get_irq_optional(pdev, 0);
 	int rc;
 
 	if (!vp)
 		return -ENOMEM;
-	if (irq == -EPROBE_DEFER)
-		return irq;
+	vp->irq = platform_get_irq_optional(pdev, 0);
+	if (vp->irq == -EPROBE_DEFER)
+		return vp->irq;
 	vp->base = devm_platform_ioremap_resource(pdev, 0);
 	if (IS_ERR(vp->base))
 		return PTR_ERR(vp->base);
@@ -177,14 +187,14 @@ static int verican_probe(struct platform_device *pdev)
 	if (rc)
 		return dev_err_probe(dev, rc, "clock of %lu Hz; 5 to 500 MHz\n", rate);
 	vp->info = verican_ptp_info;
-	vp->info.n_ext_ts = irq > 0;
-	vp->info.pps = irq > 0;
+	vp->info.n_ext_ts = vp->irq > 0;
+	vp->info.pps = vp->irq > 0;
 	platform_set_drvdata(pdev, vp);
 	vp->clock = ptp_clock_register(&vp->info, dev);
 	if (IS_ERR_OR_NULL(vp->clock))
 		return vp->clock ? PTR_ERR(vp->clock) : -EOPNOTSUPP;
 	/* The line is silent until somebody asks for an event. */
-	rc = irq > 0 ? devm_request_irq(dev, irq, verican_irq, 0, dev_name(dev), vp) : 0;
+	rc = vp->irq > 0 ? devm_request_irq(dev, vp->irq, verican_irq, 0, dev_name(dev), vp) : 0;
 	if (rc)
 		ptp_clock_unregister(vp->clock);
 	return rc;
@@ -193,12 +203,14 @@ static int verican_probe(struct platform_device *pdev)
 static int verican_remove(struct platform_device *pdev)
 {
 	struct verican_ptp *vp = platform_get_drvdata(pdev);
-	unsigned long flags;
 
+	verican_silence(vp);
+	/* The handler uses the clock: it must have ended, for good, before that is freed. */
+	if (vp->irq > 0)
+		devm_free_irq(&pdev->dev, vp->irq, vp);
 	ptp_clock_unregister(vp->clock);
-	spin_lock_irqsave(&vp->lock, flags);
-	verican_change_ctrl(vp, TCTRL_IE | TCTRL_EXT | TCTRL_CMP, 0);
-	spin_unlock_irqrestore(&vp->lock, flags);
+	/* Until then the clock's worker, or who has it open, could ask for events anew. */
+	verican_silence(vp);
 	return 0;
 }
 
