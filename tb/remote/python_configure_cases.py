@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""The Python client of remote nodes: settings behind the lock while answers are lost (RN-61, RN-92).
+"""The Python client of remote nodes: settings behind the lock while answers are lost (RN-61,
+RN-92).
 """
 import pathlib
 import sys
