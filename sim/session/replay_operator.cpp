@@ -91,7 +91,10 @@ double ReplayOperator::progress() const {
   return static_cast<double>(sent_) / static_cast<double>(plan_.frames.size());
 }
 
-void ReplayOperator::end(Time /*elapsed*/) { over_ = true; }
+void ReplayOperator::end(Time elapsed) {
+  over_ = true;
+  elapsed_ = elapsed;
+}
 
 void ReplayOperator::check() {
   const Time now = simulation_.bus().now();
@@ -144,6 +147,15 @@ void ReplayOperator::skip_unstored(Follower &follower) const {
 
 // ---- The result
 
+// A run that is over before the first frame has shown nothing of the recording. A user who stops it
+// knows that.
+std::string ReplayOperator::failure_at_end(bool interrupted) const {
+  if (!failure_.empty() || interrupted || fed_ != 0 || plan_.frames.empty()) return failure_;
+  return fmt::format(
+      "none of its {} frames was due: the first is at {}, and the run was over at {}",
+      plan_.frames.size(), readable_time(plan_.frames.front().due), readable_time(elapsed_));
+}
+
 ReplayReceiver ReplayOperator::judge(const Follower &follower) const {
   Follower last = follower;
   skip_unstored(last);
@@ -169,7 +181,7 @@ void ReplayOperator::report(RunReport &report) {
   result.recorded = plan_.recorded;
   result.longest_gap = plan_.longest_gap;
   result.after_gap = plan_.after_gap;
-  result.failure = failure_;
+  result.failure = failure_at_end(report.interrupted);
   if (!saturated_ && !report.interrupted) result.late = fed_ - sent_;
   for (const Follower &follower : followers_) result.receivers.push_back(judge(follower));
   report.replays.push_back(std::move(result));

@@ -46,6 +46,7 @@ class ReplayOperator : public Operator {
   void feed();
   void skip_unstored(Follower &follower) const;
   [[nodiscard]] std::string give_up_reason() const;
+  [[nodiscard]] std::string failure_at_end(bool interrupted) const;
   [[nodiscard]] ReplayReceiver judge(const Follower &follower) const;
 
   Simulation &simulation_;
@@ -63,6 +64,7 @@ class ReplayOperator : public Operator {
   Time last_frame_ = 0;  // on the bus, of anybody
   Time last_own_ = 0;    // when the node had nothing to send, or got rid of a frame
   bool over_ = false;
+  Time elapsed_ = 0;  // when it was over
 };
 
 }  // namespace vericansim

@@ -84,6 +84,19 @@ TEST_F(ReplayFailures, WhatIsDueMustLeave) {
   EXPECT_THAT(to_text(report), HasSubstr("NO: 3 were due and have not left"));
 }
 
+// Nothing was due when the run was over, so nothing was shown: with one pass and in a loop.
+TEST_F(ReplayFailures, ARunThatEndsBeforeTheFirstFrameFails) {
+  for (const char *const loop : {"", ", loop: true"}) {
+    const RunReport report = run(std::string(", start: 10 s") + loop, "duration: 50 ms\n");
+    EXPECT_FALSE(report.ok()) << loop;
+    EXPECT_FALSE(replay_of(report).ok()) << loop;
+    EXPECT_EQ(replay_of(report).failure,
+              "none of its 4 frames was due: the first is at 10.000 s, and the run was over at "
+              "50.000 ms");
+    EXPECT_THAT(to_text(report), HasSubstr("NO: none of its 4 frames was due"));
+  }
+}
+
 // An access to the buffer in which a frame waits: what is on the bus is no frame of the recording.
 TEST_F(ReplayFailures, AnotherFrameThanThatOfTheRecordingIsNoticed) {
   const RunReport report =
