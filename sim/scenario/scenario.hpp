@@ -67,6 +67,7 @@ struct TrafficSpec {
   Time jitter = 0;             ///< each frame is queued up to this much later
   std::uint64_t count = std::numeric_limits<std::uint64_t>::max();  ///< frames at most
   bool saturated = false;  ///< always one more waiting, as fast as the bus allows
+  std::size_t line = 0;    ///< in the file
 };
 
 /// A fault, as Bus knows them.
@@ -170,7 +171,9 @@ struct Scenario {
   std::vector<double> bitrates = {500e3};  ///< one run for each
   std::optional<double> sample_point;
   Time duration = 100 * kMillisecond;
-  bool endless = false;     ///< `duration` is that of the traffic alone
+  bool endless = false;  ///< `duration` is that of the traffic alone
+  bool cut_short =
+      false;  ///< `duration` is below that of the file: traffic behind it is no mistake
   bool until_done = false;  ///< ends as soon as no node has anything left to do
   Pacing pacing = Pacing::kFast;
   Time drain = 20 * kMillisecond;  ///< at most, after the duration, for frames that still wait

@@ -53,6 +53,8 @@ AccessStep parse_step(const YamlValue &value) {
     step.address = *address;
     if (verb.words > 2) step.value = parse_word(value, words.back());
     if (verb.words > 3) step.mask = parse_word(value, words[2]);
+    if (verb.words > 3 && step.mask == 0)
+      value.fail("MASK 0 looks at no bit; allowed: 0x1 to 0xFFFFFFFF");
     if (verb.words > 3 && (step.value & ~step.mask) != 0)
       value.fail(
           fmt::format("VALUE 0x{:X} has bits outside MASK, which nobody would look at; "

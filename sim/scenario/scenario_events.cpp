@@ -88,16 +88,23 @@ void parse_times(YamlMap &map, TrafficSpec &traffic) {
     if (traffic.period != 0 && traffic.jitter >= traffic.period)
       v.fail("the jitter must be below the period");
   });
-  map.with("count", [&](const YamlValue &v) { traffic.count = v.integer(1, 1'000'000'000); });
-  if (traffic.period == 0 && !traffic.saturated)
-    traffic.count = std::min<std::uint64_t>(traffic.count, 1);
+  const bool repeats = traffic.period != 0 || traffic.saturated;
+  map.with("count", [&](const YamlValue &v) { traffic.count = parse_count(v, repeats); });
+  if (!repeats) traffic.count = 1;
 }
 
 }  // namespace
 
+std::uint64_t parse_count(const YamlValue &value, bool repeats, std::string_view with) {
+  const std::uint64_t count = value.integer(1, 1'000'000'000);
+  if (!repeats && count > 1) value.refuse(fmt::format("1, or more with {}", with));
+  return count;
+}
+
 TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario) {
   YamlMap map{value};
   TrafficSpec traffic;
+  traffic.line = value.line();
   const YamlValue node = map.need("node");
   traffic.node = parse_node_name(node, scenario);
   const NodeRole &role = scenario.nodes[traffic.node].role;

@@ -61,6 +61,7 @@ NodeExpectation parse_node_expectation(const YamlValue &value, const Scenario &s
   });
   if (std::holds_alternative<FirmwareRole>(spec.role)) parse_firmware_expectation(map, expectation);
   map.finish();
+  map.need_some();
   return expectation;
 }
 
@@ -76,6 +77,7 @@ void parse_expected_nodes(const YamlValue &value, const Scenario &scenario, Expe
       expect.nodes.push_back(parse_node_expectation(v, scenario, id, true));
   });
   map.finish();
+  map.need_some();
 }
 
 void parse_expected_responses(const YamlValue &value, const Scenario &scenario,
@@ -86,6 +88,7 @@ void parse_expected_responses(const YamlValue &value, const Scenario &scenario,
       expect.response_times[traffic.name] = v.time(1, kLongestTime);
     });
   map.finish();
+  map.need_some(scenario.traffic.empty() ? "names of messages, and there is no traffic" : "");
 }
 
 }  // namespace
@@ -100,6 +103,7 @@ Range parse_range(const YamlValue &value) {
   map.with("min", [&](const YamlValue &v) { range.least = v.number(-1e15, 1e15); });
   map.with("max", [&](const YamlValue &v) { range.most = v.number(-1e15, 1e15); });
   map.finish();
+  map.need_some();
   if (range.least > range.most) value.fail("min is above max");
   return range;
 }

@@ -17,6 +17,9 @@ namespace vericansim::detail {
 
 /// A number, or `{min: 1, max: 9}`.
 [[nodiscard]] Range parse_range(const YamlValue &value);
+/// How often something comes; more than once only if it `repeats`, which `with` would bring about.
+[[nodiscard]] std::uint64_t parse_count(const YamlValue &value, bool repeats,
+                                        std::string_view with = "a 'period'");
 /// What kind of node it is, with the keys of that kind.
 [[nodiscard]] NodeRole parse_role(YamlMap &map, const Scenario &scenario);
 /// The keys of a node of `type: remote`.

@@ -256,7 +256,7 @@ RemoteCommandSpec parse_commands(const YamlValue &value, const Scenario &scenari
               "order; allowed: 1");
   map.with("at", [&](const YamlValue &v) { spec.at = v.time(0, kLongestTime); });
   map.with("period", [&](const YamlValue &v) { spec.period = v.time(kMicrosecond, kLongestTime); });
-  map.with("count", [&](const YamlValue &v) { spec.count = v.integer(1, 1'000'000'000); });
+  map.with("count", [&](const YamlValue &v) { spec.count = parse_count(v, spec.period != 0); });
   const YamlValue steps = map.need("do");
   for (const YamlValue &item : steps.items())
     spec.steps.push_back(StepReader{item, scenario}.read());

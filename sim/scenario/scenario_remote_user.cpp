@@ -44,7 +44,10 @@ void parse_when(YamlMap &map, UserSpec &user) {
     map.with("period",
              [&](const YamlValue &v) { user.period = v.time(kMicrosecond, kLongestTime); });
   }
-  map.with("count", [&](const YamlValue &v) { user.count = v.integer(1, 1'000'000'000); });
+  const bool repeats = user.after_apply || user.period != 0;
+  map.with("count", [&](const YamlValue &v) {
+    user.count = parse_count(v, repeats, "a 'period' or 'after'");
+  });
 }
 
 void parse_actions(YamlMap &map, const RemoteConfig &config, UserSpec &user) {
@@ -93,6 +96,33 @@ UserSpec parse_user(const YamlValue &value, const Scenario &scenario) {
   return user;
 }
 
+namespace {
+
+constexpr const char *kRemoteNames = "names of remote nodes";
+
+/// Bytes of a node, which must be bytes that it has: others read as 0 for ever.
+void parse_expected_bytes(const YamlValue &value, NodeId node, const Scenario &scenario,
+                          RemoteExpectations &expect) {
+  const NodeSpec &spec = scenario.nodes[node];
+  const unsigned end = memory_end(std::get<RemoteRole>(spec.role).config);
+  YamlMap places{value};
+  for (const std::string &key : places.keys()) {
+    const YamlValue one = places.need(key);
+    const std::uint64_t at = parse_integer(key).value_or(remote_map::kSize);
+    const bool own = at >= remote_map::kNode && at < remote_map::kSize;
+    if (at >= end && !own)
+      one.fail(fmt::format("{} is no address of node {}; allowed: 0x0 to 0x{:X}, 0x{:X} to 0x{:X}",
+                           in_quotes(key), in_quotes(spec.name), end - 1, remote_map::kNode,
+                           remote_map::kSize - 1));
+    const auto first = static_cast<unsigned>(at);
+    expect.memory.push_back(
+        {node, first, parse_bytes(one, (own ? remote_map::kSize : end) - first)});
+  }
+  places.need_some("addresses with their bytes");
+}
+
+}  // namespace
+
 void parse_remote_expectations(YamlMap &map, const Scenario &scenario, RemoteExpectations &expect) {
   map.with("memory", [&](const YamlValue &v) {
     YamlMap nodes{v};
@@ -100,13 +130,9 @@ void parse_remote_expectations(YamlMap &map, const Scenario &scenario, RemoteExp
       const YamlValue bytes = nodes.need(name);
       const NodeId node =
           parse_remote_name({v.file(), v.key(), YAML::Node(name), bytes.line()}, scenario);
-      YamlMap places{bytes};
-      for (const std::string &key : places.keys()) {
-        const YamlValue one = places.need(key);
-        const unsigned at = parse_address(key, one, remote_map::kSize);
-        expect.memory.push_back({node, at, parse_bytes(one, remote_map::kSize - at)});
-      }
+      parse_expected_bytes(bytes, node, scenario, expect);
     }
+    nodes.need_some(kRemoteNames);
   });
   for (const char *key : {"refused", "triggers", "lost_set_points", "late_statements"})
     map.with(key, [&](const YamlValue &v) { expect.numbers[key] = parse_range(v); });
@@ -127,6 +153,7 @@ void parse_remote_expectations(YamlMap &map, const Scenario &scenario, RemoteExp
         state.refuse("INIT, LISTEN, SAFE, OPERATE");
       expect.states[node] = text;
     }
+    nodes.need_some(kRemoteNames);
   });
 }
 

@@ -138,6 +138,7 @@ void parse_expected_signals(const YamlValue &value, const Scenario &scenario,
   YamlMap map{value};
   for (const std::string &name : map.keys())
     expect.signals.push_back(parse_expected_signal(map.need(name), name, scenario));
+  map.need_some("signals, as message.signal");
 }
 
 }  // namespace vericansim::detail

@@ -171,11 +171,20 @@ void YamlMap::finish() const {
   for (const auto &entry : value_.node_) {
     const std::string &key = entry.first.Scalar();
     if (asked_.count(key) != 0) continue;
-    std::string allowed;
-    for (const std::string &name : asked_) allowed += (allowed.empty() ? "" : ", ") + name;
     const YamlValue place{value_.file_, value_.key_, entry.first, line_of(entry.first.Mark())};
-    place.fail("unknown key " + in_quotes(key) + "; allowed: " + allowed);
+    place.fail("unknown key " + in_quotes(key) + "; allowed: " + asked());
   }
+}
+
+void YamlMap::need_some(const std::string &allowed) const {
+  if (value_.node_.size() == 0)
+    value_.fail("nothing is in it; allowed: " + (allowed.empty() ? asked() : allowed));
+}
+
+std::string YamlMap::asked() const {
+  std::string names;
+  for (const std::string &name : asked_) names += (names.empty() ? "" : ", ") + name;
+  return names;
 }
 
 }  // namespace vericansim

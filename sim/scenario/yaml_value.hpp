@@ -79,11 +79,16 @@ class YamlMap {
   }
   /// Throws if the map has a key that was not asked for; the message lists those that were.
   void finish() const;
+  /// Throws if the map is empty, with `allowed` or else the keys that were asked for: it would ask
+  /// for nothing.
+  void need_some(const std::string &allowed = "") const;
   [[nodiscard]] const YamlValue &value() const { return value_; }
   /// All keys, in the order of the file.
   [[nodiscard]] std::vector<std::string> keys() const;
 
  private:
+  [[nodiscard]] std::string asked() const;
+
   YamlValue value_;
   std::set<std::string> asked_;
 };

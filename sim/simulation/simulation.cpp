@@ -11,6 +11,7 @@
 #include "simulation/fault_check.hpp"
 #include "simulation/node_timing.hpp"
 #include "simulation/stop_request.hpp"
+#include "simulation/traffic_check.hpp"
 #include "timing/analysis.hpp"
 
 namespace vericansim {
@@ -18,6 +19,7 @@ namespace vericansim {
 Simulation::Simulation(const Scenario &scenario, double bitrate)
     : scenario_{scenario}, bitrate_{bitrate}, bit_time_{bit_time_of(bitrate)}, faults_{scenario} {
   check_faults(scenario_, bitrate_);
+  check_traffic(scenario_);
   build_stations();
   remote_ = std::make_unique<RemoteBench>(scenario_, stations_, bus_);
   observe();

@@ -29,7 +29,7 @@ class Simulation {
   /// Builds the bus at one of the scenario's bit rates and opens its outputs. Nodes whose role says
   /// so get no software of ours: somebody else drives their registers. The scenario must outlive
   /// the simulation. Throws InputError if a node cannot have the bit rate, a fault can never
-  /// hit (check_faults()) or an output cannot be written.
+  /// hit (check_faults()), traffic never be sent (check_traffic()) or an output not be written.
   Simulation(const Scenario &scenario, double bitrate);
 
   /// Runs until the nodes with software are on the bus. std::runtime_error if one fails.

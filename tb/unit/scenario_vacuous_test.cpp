@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenario files: what would ask for nothing, or be passed over, is refused with its line.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "harness/input_error_of.hpp"
+#include "scenario/scenario.hpp"
+
+namespace vericansim {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Three nodes in line 1, of which `p` is a remote one; what follows begins in line 2.
+std::string refusal(const std::string &text) {
+  return input_error_of([&] {
+    return parse_scenario("s.yaml",
+                          "nodes: [{name: a}, {name: b}, {name: p, type: remote, number: 2, "
+                          "memory_bytes: 1024}]\n" +
+                              text);
+  });
+}
+
+struct Vacuous {
+  const char *name;
+  const char *text;
+  const char *message;
+};
+
+class VacuousScenario : public ::testing::TestWithParam<Vacuous> {};
+
+TEST_P(VacuousScenario, IsRefused) {
+  EXPECT_THAT(refusal(GetParam().text), HasSubstr(GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, VacuousScenario,
+    ::testing::Values(
+        Vacuous{"Range", "expect:\n  frames: {}\n",
+                "s.yaml:3: expect.frames: nothing is in it; allowed: max, min"},
+        Vacuous{"RangeOfANode", "expect: {nodes: {all: {tec: {}}}}",
+                "s.yaml:2: expect.nodes.all.tec: nothing is in it; allowed: max, min"},
+        Vacuous{"Hits", "faults: [{kind: short, node: a, hits: {}}]",
+                "faults[0].hits: nothing is in it; allowed: max, min"},
+        Vacuous{"Node", "expect: {nodes: {a: {}}}",
+                "expect.nodes.a: nothing is in it; allowed: bus_off, "},
+        Vacuous{"Nodes", "expect: {nodes: {}}",
+                "expect.nodes: nothing is in it; allowed: a, all, b, p"},
+        Vacuous{"ResponseTimes", "traffic: [{node: a, id: 1}]\nexpect: {response_times: {}}",
+                "s.yaml:3: expect.response_times: nothing is in it; allowed: 001"},
+        Vacuous{"Memory", "expect: {memory: {}}",
+                "expect.memory: nothing is in it; allowed: names of remote nodes"},
+        Vacuous{"MemoryOfANode", "expect: {memory: {p: {}}}",
+                "expect.memory.p: nothing is in it; allowed: addresses with their bytes"},
+        Vacuous{"States", "expect: {states: {}}",
+                "expect.states: nothing is in it; allowed: names of remote nodes"},
+        Vacuous{"Signals", "expect: {signals: {}}",
+                "expect.signals: nothing is in it; allowed: signals, as message.signal"},
+        Vacuous{"MaskOfNothing", "accesses: [{node: a, do: [check MCR 0 0]}]",
+                "MASK 0 looks at no bit; allowed: 0x1 to 0xFFFFFFFF"},
+        Vacuous{"EndlessMask", "accesses: [{node: a, do: [until MCR 0x0 0]}]", "MASK 0 looks at"},
+        Vacuous{"BranchOnNothing", "accesses: [{node: a, do: [if MCR 0 0]}]", "MASK 0 looks at"},
+        Vacuous{"MemoryThatIsNotThere", "expect: {memory: {p: {0x900: 00}}}",
+                "memory.p.0x900: '0x900' is no address of node 'p'; allowed: 0x0 to 0x1FF, 0xF00 "
+                "to 0xFFF"},
+        Vacuous{"MemoryBehindItsEnd", "expect: {memory: {p: {0x1FF: 00 00}}}",
+                "memory.p.0x1FF: '00 00' is not allowed; allowed: 1 to 1 bytes"},
+        Vacuous{"CountOfOne", "traffic: [{node: a, id: 1, count: 7}]",
+                "s.yaml:2: traffic[0].count: '7' is not allowed; allowed: 1, or more with a "
+                "'period'"},
+        Vacuous{"CommandsOfOne", "commands: [{node: a, count: 7, do: operate}]",
+                "commands[0].count: '7' is not allowed; allowed: 1, or more with a 'period'"},
+        Vacuous{
+            "UserOfOne", "user: [{node: p, count: 7, ramp: 0x50}]",
+            "user[0].count: '7' is not allowed; allowed: 1, or more with a 'period' or 'after'"}),
+    [](const auto &item) { return std::string(item.param.name); });
+
+TEST(VacuousScenario, WhatAsksForSomethingIsTaken) {
+  for (const char *const text :
+       {"expect: {}", "expect: {frames: {min: 0}}",
+        "faults: [{kind: short, node: a, hits: {min: 0}}]", "traffic: [{node: a, id: 1, count: 1}]",
+        "traffic: [{node: a, id: 1, period: saturated, count: 7}]",
+        "commands: [{node: a, count: 7, period: 1 ms, do: operate}]",
+        "user: [{node: p, count: 7, after: apply, ramp: 0x50}]",
+        "accesses: [{node: a, do: [check MCR 0x1 0]}]",
+        "expect: {memory: {p: {0x1FF: 00, 0xFFF: 00}}}"})
+    EXPECT_EQ(refusal(text), "no error") << text;
+}
+
+}  // namespace
+}  // namespace vericansim
