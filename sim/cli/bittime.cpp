@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "cli/cli.hpp"
+#include "cli/print_error.hpp"
 #include "timing/bittime.hpp"
 #include "timing/rate_table.hpp"
 #include "trace/quantity.hpp"
@@ -80,22 +81,20 @@ void print_table(const BitTimingRequest &request, const std::vector<BitTimingRes
 /// Why there is nothing to show.
 void explain_nothing(const BitTimingRequest &request, bool found) {
   if (found)
-    fmt::print(stderr,
-               "verican: {} m of cable and the delays of the nodes ({} ns a transceiver, {} ns a "
-               "controller) are too long for {} bit/s from {} Hz\n",
-               plain_number(request.cable_m), plain_number(request.node_delay_ns),
-               plain_number(request.controller_delay_ns.value_or(core_delay_ns(request.clock_hz))),
-               request.bitrate, request.clock_hz);
+    print_error(
+        "verican: {} m of cable and the delays of the nodes ({} ns a transceiver, {} ns a "
+        "controller) are too long for {} bit/s from {} Hz\n",
+        plain_number(request.cable_m), plain_number(request.node_delay_ns),
+        plain_number(request.controller_delay_ns.value_or(core_delay_ns(request.clock_hz))),
+        request.bitrate, request.clock_hz);
   else
-    fmt::print(stderr,
-               "verican: no setting of 8 to 25 quanta gives {} bit/s within {} ppm from {} Hz\n",
-               request.bitrate, plain_number(request.max_rate_error_ppm), request.clock_hz);
+    print_error("verican: no setting of 8 to 25 quanta gives {} bit/s within {} ppm from {} Hz\n",
+                request.bitrate, plain_number(request.max_rate_error_ppm), request.clock_hz);
 }
 
 void warn_of_rate(const BitTimingRequest &request, const BitTimingResult &best) {
   if (best.rate_fits()) return;
-  fmt::print(
-      stderr,
+  print_error(
       "verican: warning: the nearest rate is off by {:+.0f} ppm, and a node's clock may be by "
       "{:.0f}: no bus with nodes at {} bit/s\n",
       best.rate_error_ppm, best.oscillator_tolerance * 1e6, request.bitrate);
@@ -146,8 +145,8 @@ int rate_rows(const BitTimeOptions &options) {
   else if (!rows.empty())
     fmt::print("// {} Hz\n{}", plain_number(options.clock), rate_parameters(rows));
   if (!rows.empty()) return kOk;
-  fmt::print(stderr, "verican: no rate of the table can be made from {} Hz\n",
-             plain_number(options.clock));
+  print_error("verican: no rate of the table can be made from {} Hz\n",
+              plain_number(options.clock));
   return kBadInput;
 }
 

@@ -18,6 +18,7 @@
 #include "cli/cli.hpp"
 #include "cli/live_run.hpp"
 #include "cli/output_files.hpp"
+#include "cli/print_error.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::cli {
@@ -48,8 +49,7 @@ constexpr double kClocksPerBit = 8;
 
 /// On a terminal a line of its own for what is said, in place of the one that tells how far it is.
 void say(const std::string &line) {
-  fmt::print(stderr, "{}verican bridge: {}\n", ::isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "",
-             line);
+  print_error("{}verican bridge: {}\n", ::isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "", line);
   std::fflush(stderr);
 }
 
@@ -58,7 +58,7 @@ class StatusLine {
  public:
   StatusLine() : terminal_{::isatty(STDERR_FILENO) != 0} {}
   ~StatusLine() {
-    if (terminal_) fmt::print(stderr, "\r\033[K");
+    if (terminal_) print_error("\r\033[K");
   }
   StatusLine(const StatusLine &) = delete;
   StatusLine &operator=(const StatusLine &) = delete;
@@ -67,9 +67,9 @@ class StatusLine {
     const auto now = std::chrono::steady_clock::now();
     if (!terminal_ || now < next_) return;
     next_ = now + std::chrono::milliseconds{500};
-    fmt::print(stderr, "\r\033[K{:.1f} s", static_cast<double>(bridge.elapsed()) / kSecond);
+    print_error("\r\033[K{:.1f} s", static_cast<double>(bridge.elapsed()) / kSecond);
     if (!options.fast)
-      fmt::print(stderr, ", lag {:.1f} ms", static_cast<double>(bridge.pacer().lag()) / 1e6);
+      print_error(", lag {:.1f} ms", static_cast<double>(bridge.pacer().lag()) / 1e6);
     std::fflush(stderr);
   }
 

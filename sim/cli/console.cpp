@@ -11,6 +11,7 @@
 
 #include "cli/cli.hpp"
 #include "cli/output_files.hpp"
+#include "cli/print_error.hpp"
 
 namespace vericansim::cli {
 
@@ -40,7 +41,7 @@ void Console::print(std::string_view node, std::string_view text) {
 
 void complain(const std::vector<BoardReport> &boards) {
   for (const BoardReport &board : boards)
-    if (!board.ok()) fmt::print(stderr, "verican: {}", complaint(board));
+    if (!board.ok()) print_error("verican: {}", complaint(board));
 }
 
 int exit_code_of(const std::vector<BoardReport> &boards, int other) {

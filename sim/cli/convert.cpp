@@ -9,6 +9,7 @@
 #include "cli/cli.hpp"
 #include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
+#include "cli/print_error.hpp"
 #include "trace/log_convert.hpp"
 #include "trace/output_file.hpp"
 #include "trace/text.hpp"
@@ -30,8 +31,8 @@ int run(const ConvertOptions &options) {
   const SelectedLog selected = read_selected(options.in, options.selection, true);
   const Conversion result = convert(selected.log, format, options.out);
   if (!result.faithful) {
-    fmt::print(stderr, "verican: {}: read again, its frames are not those of {}; not written\n",
-               options.out, options.in);
+    print_error("verican: {}: read again, its frames are not those of {}; not written\n",
+                options.out, options.in);
     return kFailed;
   }
   OutputFile file{options.out};
@@ -44,10 +45,10 @@ int run(const ConvertOptions &options) {
     write_ids_csv(table, options.ids);
     if (options.ids.text) fmt::print("{}", to_text(table));
   }
-  for (const std::string &loss : result.lost) fmt::print(stderr, "lost: {}\n", loss);
+  for (const std::string &loss : result.lost) print_error("lost: {}\n", loss);
   if (result.frames == 0)
-    fmt::print(stderr, "verican: {}: no frame to convert{}\n", options.in,
-               selected.log.skipped == 0 ? "" : ": only " + skipped_text(selected.log));
+    print_error("verican: {}: no frame to convert{}\n", options.in,
+                selected.log.skipped == 0 ? "" : ": only " + skipped_text(selected.log));
   return result.frames != 0 ? kOk : kFailed;
 }
 

@@ -11,6 +11,7 @@
 #include "cli/console.hpp"
 #include "cli/live_run.hpp"
 #include "cli/output_files.hpp"
+#include "cli/print_error.hpp"
 #include "session/firmware_run.hpp"
 #include "simulation/stop_request.hpp"
 #include "trace/input_error.hpp"
@@ -46,8 +47,8 @@ void complain_of(const FirmwareReport &report) {
   for (const RunReport &bus : report.buses)
     for (const CheckResult &check : bus.checks)
       if (!check.ok)
-        fmt::print(stderr, "verican: {}: {}: {} (expected {})\n", bus.name, check.what, check.seen,
-                   check.wanted);
+        print_error("verican: {}: {}: {} (expected {})\n", bus.name, check.what, check.seen,
+                    check.wanted);
 }
 
 /// The scenarios of the buses, each with one bit rate.

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "cli/cli.hpp"
+#include "cli/print_error.hpp"
 #include "linux/guest_server.hpp"
 #include "simulation/stop_request.hpp"
 #include "trace/input_error.hpp"
@@ -112,7 +113,7 @@ class GuestProcess {
 
 void must_exist(const char *option, const std::string &path) {
   if (::access(path.c_str(), R_OK) != 0) throw InputError(option, 0, "cannot read " + path);
-  if (std::filesystem::is_directory(path))
+  if (std::error_code none; std::filesystem::is_directory(path, none))
     throw InputError(option, 0, path + " is a directory; allowed: a file");
 }
 
@@ -167,26 +168,26 @@ int run(const LinuxOptions &options) {
   });
   const std::chrono::duration<double> wall = Wall::now() - start;
   board.close_logs();
-  fmt::print(stderr,
-             "verican linux: {:.3f} s of guest time ({:.3f} s asleep), {} accesses, {} interrupts, "
-             "{:.1f} s\n",
-             static_cast<double>(board.now()) / 1e9, static_cast<double>(board.asleep()) / 1e9,
-             server.accesses(), server.interrupts(), wall.count());
+  print_error(
+      "verican linux: {:.3f} s of guest time ({:.3f} s asleep), {} accesses, {} interrupts, "
+      "{:.1f} s\n",
+      static_cast<double>(board.now()) / 1e9, static_cast<double>(board.asleep()) / 1e9,
+      server.accesses(), server.interrupts(), wall.count());
   if (stop_requested()) {
-    fmt::print(stderr, "verican linux: interrupted; the guest is ended\n");
+    print_error("verican linux: interrupted; the guest is ended\n");
     return exit_code_after(kFailed);
   }
   if (late) {
-    fmt::print(stderr, "verican linux: the guest did not end within {} s\n", options.timeout);
+    print_error("verican linux: the guest did not end within {} s\n", options.timeout);
     return kFailed;
   }
   const int code = guest.wait();
   if (!server.connected() && code == 0) {
-    fmt::print(stderr, "verican linux: {} is no user-mode Linux with time-travel support\n",
-               options.kernel);
+    print_error("verican linux: {} is no user-mode Linux with time-travel support\n",
+                options.kernel);
     return kFailed;
   }
-  if (code != 0) fmt::print(stderr, "verican linux: the guest kernel ended with code {}\n", code);
+  if (code != 0) print_error("verican linux: the guest kernel ended with code {}\n", code);
   return code == 0 ? kOk : kFailed;
 }
 

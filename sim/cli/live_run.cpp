@@ -11,6 +11,7 @@
 #include "bridge/host_ports.hpp"
 #include "cli/cli.hpp"
 #include "cli/console.hpp"
+#include "cli/print_error.hpp"
 #include "session/session.hpp"
 #include "trace/input_error.hpp"
 
@@ -18,7 +19,7 @@ namespace vericansim::cli {
 namespace {
 
 void tell(const std::string &line) {
-  fmt::print(stderr, "verican: {}\n", line);
+  print_error("verican: {}\n", line);
   std::fflush(stderr);
 }
 

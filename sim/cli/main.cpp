@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // verican: what a user does with the simulator without writing C++.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -17,7 +17,9 @@
 
 #include "cli/cli.hpp"
 #include "cli/number_check.hpp"
+#include "cli/option_message.hpp"
 #include "cli/output_files.hpp"
+#include "cli/print_error.hpp"
 #include "trace/input_error.hpp"
 #include "trace/output_error.hpp"
 #include "version/version.hpp"
@@ -25,23 +27,6 @@
 namespace {
 
 using namespace vericansim;
-
-/// CLI11 writes the ends of ranges as "1e+06" and "1000.000000"; versions and addresses stay.
-std::string plain_digits(const std::string &text) {
-  static const std::regex kNumber{
-      R"([0-9]+(?:\.[0-9]+){2,}|[0-9]+\.0+(?![0-9.])|[0-9]+(?:\.[0-9]+)?e\+[0-9]+)"};
-  std::string plain;
-  auto rest = text.begin();
-  for (std::sregex_iterator number{text.begin(), text.end(), kNumber}, end; number != end;
-       ++number) {
-    plain.append(rest, text.begin() + number->position());
-    const std::string found = number->str();
-    const bool dots = std::count(found.begin(), found.end(), '.') > 1;
-    plain += dots ? found : fmt::format("{:.15g}", std::stod(found));
-    rest = text.begin() + number->position() + number->length();
-  }
-  return plain.append(rest, text.end());
-}
 
 /// A value that is empty would stand for none. A shell makes it of a variable that is not set.
 void refuse_empty(int argc, char **argv) {
@@ -100,10 +85,11 @@ int run_tool(int argc, char **argv) {
   } catch (const CLI::Success &request) {  // --help, --version
     std::ostringstream text;
     app.exit(request, text, text);
-    fmt::print("{}", plain_digits(text.str()));
+    fmt::print("{}", cli::plain_digits(text.str()));
     return cli::kOk;
   } catch (const CLI::ParseError &error) {
-    fmt::print(stderr, "verican: {}; try 'verican --help'\n", plain_digits(error.what()));
+    cli::print_error("verican: {}; try 'verican --help'\n",
+                     cli::option_message(error.what(), argc, argv));
     return cli::kBadInput;
   }
   return exit_code;
@@ -113,7 +99,7 @@ int run_tool(int argc, char **argv) {
 int refuse(const OutputError &error) {
   constexpr int kBrokenPipe = 128 + SIGPIPE;  // what a shell says of a process that it has ended
   if (error.code() == EPIPE) return kBrokenPipe;
-  fmt::print(stderr, "verican: {}\n", error.what());
+  cli::print_error("verican: {}\n", error.what());
   return cli::kBadInput;
 }
 
@@ -124,9 +110,18 @@ void keep_pipe_errors() {
   ::sigaction(SIGPIPE, &action, nullptr);
 }
 
+/// Descriptors 0 to 2 that are closed would be given to the files that are opened next, which would
+/// take what is printed. They get what fails as they did.
+void occupy_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF)
+      static_cast<void>(::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
+
 }  // namespace
 
 int main(int argc, char **argv) {
+  occupy_standard_descriptors();
   keep_pipe_errors();
   try {
     const int code = run_tool(argc, argv);
@@ -135,16 +130,16 @@ int main(int argc, char **argv) {
   } catch (const OutputError &error) {
     return refuse(error);
   } catch (const InputError &error) {
-    fmt::print(stderr, "verican: {}\n", error.what());
+    cli::print_error("verican: {}\n", error.what());
     return cli::kBadInput;
   } catch (const std::invalid_argument &error) {
-    fmt::print(stderr, "verican: {}\n", error.what());
+    cli::print_error("verican: {}\n", error.what());
     return cli::kBadInput;
   } catch (const std::exception &error) {
     const auto *system = dynamic_cast<const std::system_error *>(&error);
     if (system != nullptr && std::ferror(stdout) != 0)  // fmt::print() failed
       return refuse({"-", "cannot be written to its end", system->code().value()});
-    fmt::print(stderr, "verican: internal error: {}\n", error.what());
+    cli::print_error("verican: internal error: {}\n", error.what());
     return cli::kInternal;
   }
 }

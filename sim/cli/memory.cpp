@@ -9,6 +9,7 @@
 
 #include "cli/cli.hpp"
 #include "cli/memory_work.hpp"
+#include "cli/print_error.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::cli {
@@ -35,8 +36,8 @@ int carry_out(const MemoryOptions &options, const std::function<int(MemoryLink &
     return work(*link);
   } catch (const MemoryFailure &failure) {
     const std::string said = link->complaint();
-    fmt::print(stderr, "verican: memory: {}{}\n", failure.what(),
-               said.empty() ? "" : "; the server says: " + said);
+    print_error("verican: memory: {}{}\n", failure.what(),
+                said.empty() ? "" : "; the server says: " + said);
     return kFailed;
   }
 }

@@ -4,7 +4,6 @@
 // See number_check.hpp.
 #include "cli/number_check.hpp"
 
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
@@ -18,11 +17,18 @@ std::string refused(const std::string &value, const char *allowed) {
   return in_quotes(value) + " is not allowed; allowed: " + allowed;
 }
 
+bool consists_of(std::string_view text, std::string_view letters) {
+  return !text.empty() && text.find_first_not_of(letters) == std::string_view::npos;
+}
+
 std::string check_whole(const std::string &value) {
+  constexpr std::string_view kDigits = "0123456789", kHexDigits = "0123456789abcdefABCDEF";
   std::string_view digits = value;
   if (digits.starts_with('-') || digits.starts_with('+')) digits.remove_prefix(1);
-  const bool octal =
-      digits.size() > 1 && digits[0] == '0' && std::isdigit(static_cast<unsigned char>(digits[1]));
+  const bool hexadecimal = digits.starts_with("0x") || digits.starts_with("0X");
+  if (hexadecimal ? !consists_of(digits.substr(2), kHexDigits) : !consists_of(digits, kDigits))
+    return refused(value, "whole numbers, decimal or hexadecimal as in 0x10");
+  const bool octal = !hexadecimal && digits.size() > 1 && digits[0] == '0';
   return octal ? refused(value, "decimal without zeros in front, or hexadecimal as in 0x10") : "";
 }
 
@@ -32,7 +38,10 @@ std::string check_unsigned(const std::string &value) {
 
 // "inf" and "nan" are what strtod() reads beside numbers.
 std::string check_finite(const std::string &value) {
-  return std::isfinite(std::strtod(value.c_str(), nullptr)) ? "" : refused(value, "a number");
+  char *end = nullptr;
+  const double number = std::strtod(value.c_str(), &end);
+  const bool whole = end != value.c_str() && *end == '\0';
+  return whole && std::isfinite(number) ? "" : refused(value, "a number, as in 12.5");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "cli/print_error.hpp"
 #include "simulation/stop_request.hpp"
 #include "trace/input_error.hpp"
 #include "trace/quantity.hpp"
@@ -55,7 +56,7 @@ Progress::Progress(std::string title)
     : title_{std::move(title)}, terminal_{isatty(STDERR_FILENO) != 0} {}
 
 Progress::~Progress() {
-  if (shown_ >= 0) fmt::print(stderr, "\r\033[K");
+  if (shown_ >= 0) print_error("\r\033[K");
 }
 
 void Progress::show(double part) {
@@ -65,9 +66,8 @@ void Progress::show(double part) {
   shown_ = percent;
   constexpr int kWidth = 40;
   const int full = percent * kWidth / 100;
-  fmt::print(stderr, "\r{} [{}{}] {:3d} %", title_,
-             std::string(static_cast<std::size_t>(full), '#'),
-             std::string(static_cast<std::size_t>(kWidth - full), ' '), percent);
+  print_error("\r{} [{}{}] {:3d} %", title_, std::string(static_cast<std::size_t>(full), '#'),
+              std::string(static_cast<std::size_t>(kWidth - full), ' '), percent);
   std::fflush(stderr);
 }
 

@@ -93,7 +93,7 @@ void claim_files(const std::vector<NamedFile> &inputs, const std::vector<NamedFi
   std::map<std::string, std::string> roles;  // by identity
   for (const NamedFile &input : inputs)
     if (const std::string id = identity(input.path);
-        std::filesystem::exists(input.path) && !id.empty())
+        !id.empty() && ::access(input.path.c_str(), F_OK) == 0)
       roles.emplace(id, input.role);
   bool standard = false;
   for (const NamedFile &output : outputs) {

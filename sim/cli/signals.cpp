@@ -8,6 +8,7 @@
 
 #include "cli/cli.hpp"
 #include "cli/output_files.hpp"
+#include "cli/print_error.hpp"
 #include "signals/signal_output.hpp"
 #include "trace/candump.hpp"
 #include "trace/input_error.hpp"
@@ -66,8 +67,8 @@ int signals(const SignalsOptions &options) {
   }
   if (options.table) fmt::print("{}", to_text(report));
   if (report.known != 0) return kOk;
-  fmt::print(stderr, "verican: {}: none of its {} frames is in the database\n", options.log,
-             log.entries.size());
+  print_error("verican: {}: none of its {} frames is in the database\n", options.log,
+              log.entries.size());
   return kFailed;
 }
 

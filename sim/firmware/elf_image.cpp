@@ -242,7 +242,8 @@ ElfImage parse_elf(const std::string &path, const std::vector<std::uint8_t> &byt
 }
 
 ElfImage read_elf(const std::string &path) {
-  if (std::filesystem::is_directory(path)) throw InputError(path, 0, "is a directory");
+  if (std::error_code none; std::filesystem::is_directory(path, none))
+    throw InputError(path, 0, "is a directory");
   constexpr std::uintmax_t kLargest = 64 << 20;  // with debug information
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <limits>
@@ -85,7 +86,10 @@ std::string read_bytes(const std::string &path, std::size_t most) {
   if (path == "-") return read_all(std::cin, path, most);
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0)
-    throw InputError(path, 0, errno == EACCES ? "cannot be opened for reading" : "no such file");
+    throw InputError(path, 0,
+                     errno == ENOENT || errno == ENOTDIR
+                         ? std::string{"no such file"}
+                         : fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
   if (S_ISDIR(status.st_mode)) throw InputError(path, 0, "is a directory, not a file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path, 0, "cannot be opened for reading");

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Mistakes that are told in the words of the tool and with their exit code, wherever standard error
+// goes and whatever was typed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "firmware/tool_run.hpp"
+#include "harness/scratch_test.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace tb;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class ToolMistakes : public vericansim::ScratchTest {
+ protected:
+  /// Exit code of the tool in a shell, its messages where `redirection` says.
+  [[nodiscard]] static int code(const std::string &arguments, const std::string &redirection) {
+    const std::string command = VERICAN_BINARY + (" " + arguments + " > /dev/null " + redirection);
+    const int status = std::system(("(" + command + ")").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  /// Exit code 2, nothing on stdout, one line.
+  static void expect_refused(const std::string &arguments, const std::string &what) {
+    const ToolResult result = run_tool(arguments);
+    EXPECT_EQ(result.code, 2) << arguments.substr(0, 80);
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.error, StartsWith("verican: "));
+    EXPECT_THAT(result.error, HasSubstr(what));
+    EXPECT_EQ(result.error.find('\n'), result.error.size() - 1) << result.error;
+    EXPECT_LT(result.error.size(), 500U);
+  }
+};
+
+TEST_F(ToolMistakes, KeepTheirCodeWhereNobodyIsTold) {
+  const std::string log = file_with("a.log", "(1.0) can0 20000004#0000080000000000\n");
+  for (const char *redirection : {"2> /dev/full", "2>&-"}) {
+    EXPECT_EQ(code("run nofile", redirection), 2) << redirection;
+    EXPECT_EQ(code("bittime -b fast", redirection), 2) << redirection;
+    EXPECT_EQ(code("bittime -c 8M -b 970k", redirection), 0) << redirection;  // with a warning
+    EXPECT_EQ(code("convert " + log + " " + in("b.log") + " --from '1 s'", redirection), 1)
+        << redirection;
+  }
+}
+
+// A file that is opened while standard error is closed gets no messages.
+TEST_F(ToolMistakes, GoIntoNoFileThatIsOpen) {
+  const std::string log =
+      file_with("a.log", "(1.0) can3 123#11\n(1.1) can3 20000004#0000080000000000\n");
+  EXPECT_EQ(code("convert " + log + " " + in("open.trc"), "2>&-"), 0);
+  EXPECT_EQ(code("convert " + log + " " + in("told.trc"), "2> /dev/null"), 0);
+  EXPECT_EQ(slurp(in("open.trc")), slurp(in("told.trc")));
+}
+
+TEST_F(ToolMistakes, ValuesAreCitedAsTyped) {
+  const std::string whole = " is not allowed; allowed: whole numbers, decimal or hexadecimal as ";
+  expect_refused("bittime -b 500k --rows 3.0", "--rows: '3.0'" + whole);
+  expect_refused("bittime -b 500k --rows 10x", "--rows: '10x'" + whole);
+  expect_refused("bittime -b 500k --rows 1e+999", "--rows: '1e+999'" + whole);
+  expect_refused("bittime -b 500k --rows 0x", "--rows: '0x'" + whole);
+  expect_refused("bittime -b 500k --rows 99999999999999999999",
+                 "--rows: '99999999999999999999' is not allowed; allowed: smaller numbers");
+  for (const char *value : {"--cable: '1,5'", "--sample-point: '87.5%'"}) {
+    std::string option = value;
+    option.replace(option.find(": "), 2, " ");
+    expect_refused("bittime -b 500k " + option,
+                   std::string(value) + " is not allowed; allowed: a number, as in 12.5");
+  }
+  expect_refused("run x.yaml --bitrate 1e+400", "Value 1e+400 not in range 1000 to 1000000;");
+  expect_refused("run x.yaml --bitrate=1e+400", "Value 1e+400 not in range 1000 to 1000000;");
+  expect_refused("replay x.log --nodes 1.0", "Value 1.0 not in range 2 to 64;");
+  expect_refused("bittime -b 500k x1e+3", "not expected: x1e+3;");
+}
+
+TEST_F(ToolMistakes, LongValuesAreShortened) {
+  const std::string digits(60'000, '1'), begin = std::string(40, '1') + "...";
+  expect_refused("bittime -b 500k --rows " + digits, "--rows: '" + begin + "' is not allowed");
+  expect_refused("replay x.log --nodes " + digits, "Value " + begin + " not in range 2 to 64;");
+  expect_refused("bittime -b 500k " + digits, "not expected: " + begin + ";");
+  expect_refused("bittime -b " + digits, "--bitrate");
+}
+
+TEST_F(ToolMistakes, FilesThatCannotBeReadAreNamedWithTheReason) {
+  fs::create_symlink("loop", in("loop"));
+  const std::string cannot = ": cannot be opened for reading: ";
+  for (const std::string command : {"run ", "ids ", "replay ", "decode ", "report -o x.html "}) {
+    expect_refused(command + in("loop"), in("loop") + cannot + "Too many levels of symbolic");
+    expect_refused(command + std::string(300, 'x'), "xxx" + cannot + "File name too long");
+  }
+  expect_refused("firmware " + in("loop") + " --bus examples/two-nodes.yaml", in("loop"));
+}
+
+// What root may read is tried as another user.
+TEST_F(ToolMistakes, FoldersThatAreClosedAreNoInternalError) {
+  const std::string log = file_with("a.log", "(1.0) can0 123#11\n");
+  fs::create_directory(in("closed"));
+  fs::copy_file(log, in("closed/a.log"));
+  fs::permissions(in("closed"), ::geteuid() == 0 ? fs::perms::owner_all : fs::perms::none);
+  if (::geteuid() != 0) {
+    expect_refused("ids " + in("closed/a.log"), "cannot be opened for reading: Permission denied");
+    fs::permissions(in("closed"), fs::perms::owner_all);
+    return;
+  }
+  fs::permissions(folder.path(), fs::perms::others_exec | fs::perms::owner_all);
+  const std::string as_nobody = "setpriv --reuid=65534 --regid=65534 --clear-groups ";
+  if (std::system((as_nobody + VERICAN_BINARY + " --version > /dev/null 2>&1").c_str()) != 0)
+    GTEST_SKIP() << "no other user can run the tool";
+  const std::string said = temporary(".err");
+  const int status = std::system((as_nobody + VERICAN_BINARY + " ids " + in("closed/a.log") +
+                                  " 2>&1 > /dev/null | cat > " + said)
+                                     .c_str());
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(slurp(said), "verican: " + in("closed/a.log") +
+                             ": cannot be opened for reading: Permission denied\n");
+}
+
+}  // namespace
