@@ -152,6 +152,24 @@ def with_extended_flag(text):
     return f"{match.group(1)}{int(match.group(2)) | EXTENDED}{text[match.end():]}"
 
 
+def refuse_odd(line, keyword, text):
+    """DbcError for what canmatrix takes for something else: any byte order but 1 for big-endian, the
+    last of two texts of a value, an identifier below 0."""
+    words = re.findall(r'"(?:\\.|[^"\\])*"|[^\s:;"]+', text)[1:]
+    if keyword == "BO_" and words and not re.fullmatch(r"\d+", words[0]):
+        raise DbcError(line, f"not understood: {text}; allowed: {FORMS['BO_']}")
+    if keyword == "SG_":
+        order = re.search(r"@\s*(\d+)", outside_strings(text))
+        if order and order.group(1) not in ("0", "1"):
+            raise DbcError(line, f"signal {words[0]} has the byte order {order.group(1)}; allowed: "
+                                 "0 (big-endian), 1 (little-endian)")
+    if keyword == "VAL_":
+        values = words[2::2]
+        for number, value in enumerate(values):
+            if value in values[:number]:
+                raise DbcError(line, f"value {value} of signal {words[1]} is there twice")
+
+
 def relevant(given):
     """Without what is of no use here, whose mistakes do not matter either."""
     for line, keyword, text in given:
@@ -161,6 +179,7 @@ def relevant(given):
             continue
         if keyword == "SIG_VALTYPE_" and re.search(r":\s*0\s*;", text):
             continue  # an integer; canmatrix would take it for a float
+        refuse_odd(line, keyword, text)
         yield line, keyword, with_extended_flag(text)
 
 

@@ -148,6 +148,22 @@ TEST(DbcDatabase, SignalsThatNoFrameCanHoldAreRefused) {
               HasSubstr("floating-point number of 16 bits; allowed: 32, 64"));
 }
 
+// What canmatrix takes for something else.
+TEST(DbcDatabase, OddNumbersAreRefused) {
+  const std::string signal = " SG_ A : 0|8@1+ (1,0) [0|0] \"\" X\n";
+  EXPECT_THAT(refusal(kMessage + " SG_ A : 0|16@2+ (1,0) [0|0] \"@1\" X\n"),
+              HasSubstr("bad.dbc:2: signal A has the byte order 2; allowed: 0 (big-endian), 1 "
+                        "(little-endian)"));
+  EXPECT_THAT(refusal(kMessage + " SG_ A : 0|16@10+ (1,0) [0|0] \"\" X\n"),
+              HasSubstr("bad.dbc:2: signal A has the byte order 10"));
+  EXPECT_THAT(refusal(kMessage + signal + "VAL_ 1 A 128 \"x\" 7 \"y\" 128 \"z\" ;\n"),
+              HasSubstr("bad.dbc:3: value 128 of signal A is there twice"));
+  EXPECT_THAT(refusal("BO_ -1 M: 8 E\n" + signal),
+              HasSubstr("bad.dbc:1: not understood: BO_ -1 M: 8 E; allowed: BO_ <id> <name>"));
+  EXPECT_THAT(refusal("BO_ 0x10 M: 8 E\n" + signal),
+              HasSubstr("bad.dbc:1: not understood: BO_ 0x10"));
+}
+
 TEST(DbcDatabase, OneIdentifierHasOneMessage) {
   EXPECT_THAT(refusal(kMessage + kMessage),
               HasSubstr("bad.dbc:2: message 1 is there twice; first in "
