@@ -9,6 +9,7 @@
 #include "cli/cli.hpp"
 #include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
+#include "cli/print_error.hpp"
 #include "trace/text.hpp"
 
 namespace vericansim::cli {
@@ -33,6 +34,7 @@ int run(const IdsOptions &options) {
     print_json({{"frames", selected.log.entries.size()},
                 {"skipped", selected.log.skipped},
                 {"interfaces", selected.interfaces},
+                {"step_back", to_json(selected.step_back)},
                 {"identifiers", to_json(table)}});
   } else {
     fmt::print("{}: {}, {}{}\n{}", options.log,
@@ -40,7 +42,9 @@ int run(const IdsOptions &options) {
                text::counted(table.rows().size(), "identifier", "identifiers"),
                skipped.empty() ? "" : "; without " + skipped, to_text(table));
   }
-  return kOk;
+  if (!selected.log.entries.empty()) return kOk;
+  print_error("verican: {}: {}\n", options.log, selected.why_empty());
+  return kFailed;
 }
 
 }  // namespace

@@ -6,10 +6,14 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "cli/cli.hpp"
+#include "cli/print_error.hpp"
 #include "trace/input_error.hpp"
 #include "trace/output_file.hpp"
 #include "trace/quantity.hpp"
+#include "trace/text.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -25,21 +29,42 @@ std::optional<Time> moment(const std::string &option, const std::string &text) {
   return time;
 }
 
+std::optional<StepBack> first_step_back(const CanLog &log) {
+  for (std::size_t i = 1; i < log.entries.size(); ++i)
+    if (const Time by = log.entries[i - 1].time - log.entries[i].time; by > 0)
+      return StepBack{i + 1, by};
+  return std::nullopt;
+}
+
 }  // namespace
+
+nlohmann::ordered_json to_json(const std::optional<StepBack> &step) {
+  if (!step) return nullptr;
+  return {{"frame", step->frame}, {"by_ps", step->by}};
+}
 
 void add_selection(CLI::App &command, LogSelection &selection) {
   command.add_option("--interface", selection.interface,
                      "Recording: only this interface, or all as one bus (must be told if there are "
                      "several)");
-  command.add_option("--filter", selection.filters,
-                     "Recording: only identifiers ID:MASK, or ID~MASK for all others, hexadecimal; "
-                     "repeatable, one must match");
+  command
+      .add_option("--filter", selection.filters,
+                  "Recording: only identifiers ID:MASK, or ID~MASK for all others, hexadecimal; "
+                  "repeatable, one must match")
+      ->allow_extra_args(false);
   command.add_option("--from", selection.from, "Recording: from this time after its first frame");
   command.add_option("--to", selection.to, "Recording: up to this time after its first frame");
 }
 
 std::string SelectedLog::note() const {
   return interfaces.size() > 1 ? "all interfaces as one bus: " + interfaces_text(interfaces) : "";
+}
+
+std::string SelectedLog::why_empty() const {
+  if (whole != 0)
+    return fmt::format("none of its {} is chosen", text::counted(whole, "frame", "frames"));
+  const std::string others = skipped_text(log);
+  return "holds no classical CAN frame" + (others.empty() ? "" : ", only " + others);
 }
 
 SelectedLog read_selected(const std::string &path, const LogSelection &selection, bool several) {
@@ -49,7 +74,15 @@ SelectedLog read_selected(const std::string &path, const LogSelection &selection
   filter.from = moment("--from", selection.from);
   filter.to = moment("--to", selection.to);
   filter.several = several;
-  SelectedLog result{filtered(read_log(path), filter, path), {}};
+  CanLog read = read_log(path);
+  SelectedLog result;
+  result.whole = read.entries.size();
+  result.step_back = first_step_back(read);
+  if (result.step_back)
+    print_error("verican: warning: {}: frame {} is {} before frame {}\n", path,
+                result.step_back->frame, readable_time(result.step_back->by),
+                result.step_back->frame - 1);
+  result.log = filtered(std::move(read), filter, path);
   result.interfaces = interfaces_of(result.log);
   return result;
 }

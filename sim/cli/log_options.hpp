@@ -7,6 +7,8 @@
 #include <CLI/CLI.hpp>
 
 #include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,16 +28,29 @@ struct LogSelection {
 /// Adds --interface, --filter, --from and --to.
 void add_selection(CLI::App &command, LogSelection &selection);
 
+/// Two neighbours in a recording, the second of which has the earlier time.
+struct StepBack {
+  std::size_t frame = 0;  ///< the second, counted from 1
+  Time by = 0;            ///< above 0
+};
+
+/// {"frame": 2, "by_ps": 500000000000}, or null.
+[[nodiscard]] nlohmann::ordered_json to_json(const std::optional<StepBack> &step);
+
 /// A recording, or the wanted part of it.
 struct SelectedLog {
   CanLog log;
   std::map<std::string, std::size_t> interfaces;  ///< of the part
+  std::size_t whole = 0;                          ///< frames of the recording
+  std::optional<StepBack> step_back;              ///< the first, in the whole recording
   /// "all interfaces as one bus: can0 (2 frames), can1 (1 frame)"; empty with one.
   [[nodiscard]] std::string note() const;
+  /// Why the part holds no frame.
+  [[nodiscard]] std::string why_empty() const;
 };
 
-/// Reads `path`. Unless `several`, a recording of several interfaces needs a choice. Throws
-/// InputError.
+/// Reads `path`. Unless `several`, a recording of several interfaces needs a choice. Times that go
+/// back are told on standard error. Throws InputError.
 [[nodiscard]] SelectedLog read_selected(const std::string &path, const LogSelection &selection,
                                         bool several);
 

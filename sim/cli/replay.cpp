@@ -83,6 +83,7 @@ void print(const ReplayCommand &options, const ReplayReport &report) {
 int finish(const ReplayCommand &options, const SelectedLog &selected, Json json, int code) {
   if (options.json) {
     json["interfaces"] = selected.interfaces;
+    json["step_back"] = to_json(selected.step_back);
     json["identifiers"] = vericansim::to_json(identifiers_of(selected.log));
     print_json(json);
   } else if (const std::string note = selected.note(); !note.empty()) {

@@ -127,6 +127,9 @@ int report_log(const ReportOptions &options) {
 int report(ReportOptions &options) {
   const StopSignals signals;
   if (options.outputs.report.empty()) {
+    if (options.input == "-")
+      throw InputError(
+          "--out", 0, "is missing, and standard input has no name; allowed: the page's name, or -");
     const std::size_t slash = options.input.rfind('/');
     const std::size_t dot = options.input.rfind('.');
     const bool ending = dot != std::string::npos && (slash == std::string::npos || dot > slash);

@@ -82,8 +82,9 @@ void add_signals(CLI::App &app, int &exit_code) {
   add_database_option(*command, options->databases);
   command->get_option("--dbc")->required();
   command->add_option("--csv", options->csv, "Write the signals of all frames, CSV");
-  command->add_flag("--table", options->table, "Last, smallest, largest and mean value of each");
-  command->add_flag("--json", options->json, "Frames and table as JSON");
+  CLI::Option *table = command->add_flag("--table", options->table,
+                                         "Last, smallest, largest and mean value of each");
+  command->add_flag("--json", options->json, "Frames and table as JSON")->excludes(table);
   command->callback([options, &exit_code] { exit_code = signals(*options); });
 }
 

@@ -46,7 +46,8 @@ IdFilter parse_id_filter(const YamlValue &value) {
   try {
     return vericansim::parse_filter(value.text());
   } catch (const InputError &) {
-    value.refuse("ID:MASK or ID~MASK (all but these), hexadecimal, as in 100:7F0");
+    value.refuse(
+        "ID:MASK or ID~MASK (all but these), hexadecimal, as in 100:7F0; above 7FF eight digits");
   }
 }
 

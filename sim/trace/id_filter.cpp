@@ -34,6 +34,11 @@ IdFilter parse_filter(const std::string &text) {
     const auto mask = parse_hex(all.substr(sign + 1));
     constexpr std::size_t kExtendedDigits = 8;
     const canid_t flag = sign == kExtendedDigits ? CAN_EFF_FLAG : 0;
+    if (id && flag == 0 && *id > CAN_SFF_MASK)
+      throw InputError("--filter", 0,
+                       in_quotes(text) +
+                           " is not allowed; allowed: identifiers up to 7FF, or of eight digits "
+                           "for 29 bits");
     if (id && mask) return {*id | flag, *mask & ~CAN_ERR_FLAG, text[sign] == '~'};
   }
   throw InputError("--filter", 0,

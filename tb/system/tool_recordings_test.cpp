@@ -117,6 +117,72 @@ TEST(ToolRecordings, ReplayAsksForOneOfSeveralInterfaces) {
   EXPECT_EQ(json["identifiers"][0]["count"], 2);
 }
 
+TEST(ToolRecordings, IdsOfNothingFail) {
+  const ScratchFolder folder;
+  const std::string log = folder.file("a.log", kTwoBuses);
+  for (const char *part : {" --from '5 s'", " --filter 7FF:7FF"}) {
+    const Said said = run_tool("ids " + log + part);
+    EXPECT_EQ(said.code, 1) << part;
+    EXPECT_THAT(said.text, HasSubstr("verican: " + log + ": none of its 3 frames is chosen\n"));
+  }
+  const Said fd = run_tool("ids " + folder.file("fd.log", "(1.0) can0 123##011\n"));
+  EXPECT_EQ(fd.code, 1);
+  EXPECT_THAT(fd.text, HasSubstr(": holds no classical CAN frame, only 1 CAN FD frame\n"));
+}
+
+TEST(ToolRecordings, FiltersAreOfIdentifiersThatThereAre) {
+  const ScratchFolder folder;
+  const std::string log = folder.file("a.log", kTwoBuses);
+  for (const char *filter : {"999999:7FF", "800:7FF", "800~7FF"}) {
+    const Said said = run_tool("ids " + log + " --filter " + filter);
+    EXPECT_EQ(said.code, 2) << filter;
+    EXPECT_THAT(said.text, HasSubstr(std::string{"--filter: '"} + filter +
+                                     "' is not allowed; allowed: identifiers up to 7FF, or of "
+                                     "eight digits for 29 bits\n"));
+  }
+  // What follows a filter is the recording.
+  EXPECT_THAT(run_tool("ids --filter 123:7FF " + log).text,
+              HasSubstr(": 2 frames, 1 identifier\n"));
+}
+
+TEST(ToolRecordings, TimesThatGoBackAreTold) {
+  const ScratchFolder folder;
+  const std::string log = folder.file(
+      "a.log", "(2.000000) can0 123#11\n(1.500000) can0 123#12\n(1.000000) can0 123#13\n");
+  const std::string warning =
+      "verican: warning: " + log + ": frame 2 is 500.000 ms before frame 1\n";
+  for (const char *command : {"ids ", "replay "}) {
+    const Said said = run_tool(command + log);
+    EXPECT_EQ(said.code, 0) << said.text;
+    EXPECT_THAT(said.text, HasSubstr(warning));
+    const Said quiet =
+        shell(VERICAN_BINARY + (" " + std::string{command} + log + " --json") + " 2> /dev/null");
+    auto json = nlohmann::json::parse(quiet.text);
+    EXPECT_EQ(json["step_back"]["frame"], 2);
+    EXPECT_EQ(json["step_back"]["by_ps"], 500'000'000'000);
+  }
+  const std::string good = folder.file("b.log", kTwoBuses);
+  EXPECT_TRUE(nlohmann::json::parse(run_tool("ids --json " + good).text)["step_back"].is_null());
+}
+
+TEST(ToolRecordings, APageOfStandardInputNeedsAName) {
+  const ScratchFolder folder;
+  const Said said =
+      shell(VERICAN_BINARY + (" report - < " + folder.file("a.log", kTwoBuses)) + " 2>&1");
+  EXPECT_EQ(said.code, 2);
+  EXPECT_EQ(said.text,
+            "verican: --out: is missing, and standard input has no name; allowed: the page's name, "
+            "or -\n");
+}
+
+TEST(ToolRecordings, SignalsAreATableOrJson) {
+  const ScratchFolder folder;
+  const Said said = run_tool("signals " + folder.file("a.log", kTwoBuses) +
+                             " --dbc examples/engine.dbc --table --json");
+  EXPECT_EQ(said.code, 2);
+  EXPECT_THAT(said.text, HasSubstr("--table excludes --json"));
+}
+
 TEST(ToolRecordings, IdsAsCsvAndJson) {
   const ScratchFolder folder;
   const std::string log = folder.file("a.log", kTwoBuses);
