@@ -16,6 +16,7 @@
 #include "timesync/sync_settings.hpp"
 #include "timesync/sync_way.hpp"
 #include "trace/input_error.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -30,7 +31,8 @@ struct TimeSyncOptions {
   std::string page;
 };
 
-/// A setting of something that is not there would change nothing but which goal the case has.
+/// A setting of something that is not there would change nothing but which goal the case has, and
+/// no bus takes more than all of it.
 void refuse_idle(const TimeSyncOptions &options, const SyncCase &setting) {
   const auto refuse = [&](const std::string &name, const std::string &why) {
     if (options.values.contains(name)) throw InputError("--" + name, 0, why);
@@ -41,6 +43,10 @@ void refuse_idle(const TimeSyncOptions &options, const SyncCase &setting) {
   if (setting.clocks.sine_period_s != SyncCase{}.clocks.sine_period_s &&
       setting.clocks.sine_ppm == 0)
     refuse("sine-period", "is that of a swing; allowed: with sine above 0");
+  if (setting.load + setting.load_above > 1 + 1e-9)
+    refuse(options.values.contains("load") ? "load" : "load-above",
+           fmt::format("load and load-above take {} % of the bus; allowed: 100 % together",
+                       plain_number((setting.load + setting.load_above) * 100)));
 }
 
 /// What is given on the command line takes the place of what the file says. Returns the name.

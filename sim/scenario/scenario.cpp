@@ -131,6 +131,7 @@ NodeSpec parse_node(const YamlValue &value, const Scenario &scenario) {
   const YamlValue name = map.need("name");
   node.name = name.text();
   if (node.name.empty()) name.refuse("a name of at least one letter");
+  if (node.name == "all") name.refuse("other names; 'all' stands for every node");
   for (const NodeSpec &other : scenario.nodes)
     if (other.name == node.name) value.fail("node name " + in_quotes(node.name) + " is used twice");
   node.clock.seed = scenario.seed * 1000 + scenario.nodes.size();

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The user wants the end: SIGINT and SIGTERM as a request that long work asks for.
+// The user wants the end: SIGINT, SIGTERM and SIGHUP as a request that long work asks for.
 #pragma once
 
 namespace vericansim {
 
-/// While one lives, the first SIGINT or SIGTERM is a request and the second one ends the process at
-/// once with 128 + its number. They may be nested; the last one puts back what the signals did
-/// before.
+/// While one lives, the first SIGINT, SIGTERM or SIGHUP is a request and the second one ends the
+/// process at once with 128 + its number. A SIGHUP that is ignored stays so (nohup). They may be
+/// nested; the last one puts back what the signals did before.
 class StopSignals {
  public:
   StopSignals();

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// SIGINT and SIGTERM end long work cleanly: whole outputs, the summary so far, 128 + the signal.
+// SIGINT, SIGTERM and SIGHUP end long work cleanly: whole outputs, the summary so far, 128 + the
+// signal.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -94,6 +95,26 @@ TEST_F(ToolInterrupt, ARunSaysSoInItsText) {
   EXPECT_EQ(result.code, 143) << result.error;
   EXPECT_THAT(result.out, HasSubstr("interrupted; expectations were not checked"));
   EXPECT_THAT(result.out, Not(HasSubstr("FAIL")));
+}
+
+// A terminal that is closed, unless nohup has it ignored.
+TEST_F(ToolInterrupt, AHangUpLeavesNothingUnfinished) {
+  std::signal(SIGHUP, SIG_DFL);  // whatever the tests were started by
+  const ToolResult result = interrupt({"run", long_scenario(), "--vcd", in("bus.vcd")}, SIGHUP);
+  EXPECT_EQ(result.code, 129) << result.error;
+  EXPECT_EQ(files(), 2U);
+  EXPECT_THAT(slurp(in("bus.vcd")), HasSubstr("$enddefinitions"));
+}
+
+TEST_F(ToolInterrupt, AHangUpThatIsIgnoredIsNoEnd) {
+  std::signal(SIGHUP, SIG_IGN);  // inherited
+  RunningTool tool{{"run", long_scenario(), "--candump", in("bus.log")}};
+  std::signal(SIGHUP, SIG_DFL);
+  ASSERT_TRUE(tool.wait_until([&] { return writes(1); }));
+  tool.signal(SIGHUP);
+  tool.signal(SIGTERM);
+  EXPECT_EQ(tool.wait().code, 143);
+  EXPECT_TRUE(fs::exists(in("bus.log")));  // the first signal that counted
 }
 
 // The runs that would have followed are left out.

@@ -103,6 +103,8 @@ TEST_F(TimeSync, BadInput) {
   expect_refused("--followers 33", "--followers: '33'");
   expect_refused("--interval 1", "--interval: '1' is not allowed; allowed: a time of 50 ms to 5 s");
   expect_refused("--load 101%", "--load: '101%'");
+  expect_refused("--load 60% --load-above 50%",
+                 "--load: load and load-above take 110 % of the bus; allowed: 100 % together");
   expect_refused("--load-above 1", "allowed: 0 to 95 %, or 0 to 0.95");
   expect_refused("--seeds -1", "--seeds");
   expect_refused("--first-seed 0", "--first-seed: '0' is not allowed; allowed: 1 to 2^32 - 1");

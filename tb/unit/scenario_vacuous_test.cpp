@@ -79,6 +79,15 @@ INSTANTIATE_TEST_SUITE_P(
             "user[0].count: '7' is not allowed; allowed: 1, or more with a 'period' or 'after'"}),
     [](const auto &item) { return std::string(item.param.name); });
 
+// `all` is a word of faults and expectations.
+TEST(ScenarioNames, NoNodeIsCalledAll) {
+  EXPECT_EQ(input_error_of([] {
+              return parse_scenario("s.yaml", "nodes:\n  - {name: a}\n  - {name: all}\n");
+            }),
+            "s.yaml:3: nodes[1].name: 'all' is not allowed; allowed: other names; 'all' stands for "
+            "every node");
+}
+
 TEST(VacuousScenario, WhatAsksForSomethingIsTaken) {
   for (const char *const text :
        {"expect: {}", "expect: {frames: {min: 0}}",
