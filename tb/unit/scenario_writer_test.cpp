@@ -46,7 +46,7 @@ constexpr const char *kEveryKind =
     "ms,\n"
     "     rate: 0.5, loop: true, filter: [100:7F0, 00000123~1FFFFFFF], frames: 7, share: 2/3,\n"
     "     listen_only: false, filters: [{id: 1, mask: 2}]}\n"
-    "  - {name: all, replay: /logs/b.log, rate: saturated}\n"
+    "  - {name: whole, replay: /logs/b.log, rate: saturated}\n"
     "  - {name: pc, interface: vcan0, filter: 7E8:7FF, errors: state, restart: 0, echo: true,\n"
     "     queue: 9, end_when_down: true}\n"
     "  - {name: tcp, socketcand: '127.0.0.1:29536', errors: none, wait_for_clients: 2}\n"
