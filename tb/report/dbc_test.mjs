@@ -306,6 +306,10 @@ const bad = {
     'BO_ 1 A: 1 X\n SG_ S : 3|8@0+ (1,0) [0|0] "" X\n',
     /line 2: signal S does not fit the 1 bytes of message A: it needs 2/,
   ],
+  'a value with two texts': [
+    'BO_ 1 A: 8 X\n SG_ S : 0|8@1+ (1,0) [0|0] "" X\nVAL_ 1 S 7 "x" 128 "y" 7 "z" ;\n',
+    /line 3: value 7 of signal S is there twice/,
+  ],
   'a message twice': [
     'BO_ 1 A: 8 X\nBO_ 1 B: 8 X\n',
     /line 2: message 1 is there twice; first in line 1/,

@@ -91,7 +91,7 @@ class Reader {
     const {line, strings, keyword, text} = statement;
     if (keyword === 'BO_') this.#addMessage(ast, line, text);
     else if (keyword === 'SG_') this.#addSignal(ast, line, strings);
-    else if (keyword === 'VAL_') this.#addChoices(ast, strings);
+    else if (keyword === 'VAL_') this.#addChoices(ast, statement);
     else if (keyword === 'SIG_VALTYPE_') this.#setFloat(ast);
     else if (keyword === 'SG_MUL_VAL_') this.#setSelection(ast, line);
     else this.#attribute(keyword, ast);
@@ -133,7 +133,10 @@ class Reader {
     return this.messages.get(keyOf(id))?.signals.find((signal) => signal.name === name);
   }
 
-  #addChoices({id, name, enum: table}, strings) {
+  #addChoices({id, name, enum: table}, {line, text: statement, strings}) {
+    const values = [...statement.matchAll(/\s(-?\d+)\s+"/g)].map(([, value]) => value);
+    const twice = values.find((value, index) => values.indexOf(value) !== index);
+    if (twice) throw new DbcError(line, `value ${twice} of signal ${name} is there twice`);
     const signal = this.#find(id, name);
     table.forEach((text, raw) => signal?.choices.set(raw, strings[Number(text)]));
   }
