@@ -153,8 +153,8 @@ def with_extended_flag(text):
 
 
 def refuse_odd(line, keyword, text):
-    """DbcError for what canmatrix takes for something else: any byte order but 1 for big-endian, the
-    last of two texts of a value, an identifier below 0."""
+    """DbcError for what canmatrix takes for something else: any byte order but 1 for big-endian,
+    the last of two texts of a value, an identifier below 0."""
     words = re.findall(r'"(?:\\.|[^"\\])*"|[^\s:;"]+', text)[1:]
     if keyword == "BO_" and words and not re.fullmatch(r"\d+", words[0]):
         raise DbcError(line, f"not understood: {text}; allowed: {FORMS['BO_']}")
