@@ -45,9 +45,12 @@ class OnInterface {
   OnInterface(const OnInterface &) = delete;
   OnInterface &operator=(const OnInterface &) = delete;
 
-  /// A frame as it is; the answers, which the client would take for those to its next question.
+  /// A frame as it is; the answers, which the client would take for those to its next question, and
+  /// the frame itself if it looks like one.
   void send(const Frame &frame, const std::vector<Frame> &answers) const {
+    constexpr unsigned kStatement = 0x400;  // RN-03
     put(frame);
+    if (!frame.extended && (frame.id & kStatement) != 0) await(frame);
     for (const Frame &answer : answers) await(answer);
   }
 
