@@ -122,7 +122,8 @@ module can_remote #(
   can_rn_params #(
     .NameBits(NameBits), .MemBytes(MemBytes), .StageBytes(StageBytes), .TxDepth(TxDepth),
     .NumProd(NumProd), .NumMap(NumMap), .Protect(Protect), .Block(Block), .AutoRate(AutoRate),
-    .Counters(Counters), .SameId(SameId), .RateRows(RateRows), .TimeSync(TimeSync),
+    .Counters(Counters), .SameId(SameId), .Brp(Brp), .Prop(Prop), .Ps1(Ps1), .Ps2(Ps2), .Sjw(Sjw),
+    .RateRows(RateRows), .TimeSync(TimeSync),
     .SyncId(SyncId), .SyncDelay(SyncDelay), .HalfPeriod(HalfPeriod)
   ) u_params ();
 

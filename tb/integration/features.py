@@ -102,17 +102,27 @@ class Features(unittest.TestCase):
 
     def test_clock_without_a_processor_refuses_what_its_registers_cannot_hold(self):
         """TM-100: each parameter just outside its range."""
-        for value in ({"HalfPeriod": 0}, {"SyncDelay": 1 << 24}, {"Brp": 0}, {"Brp": 257},
-                      {"Prop": 9}, {"Ps1": 0}, {"Ps2": 9}, {"Sjw": 5}):
+        for value in ({"HalfPeriod": 0}, {"SyncDelay": 1 << 24}):
             with self.subTest(value):
                 code, text = lint(value, "can_time_node")
                 self.assertNotEqual(code, 0)
                 self.assertIn(f"{next(iter(value))}_must_be", text)
-        code, text = lint({"Brp": 1, "Prop": 1, "Ps1": 2, "Ps2": 2}, "can_time_node")
-        self.assertNotEqual(code, 0)
-        self.assertIn("Bit_must_have_8_clocks", text)
-        self.assertEqual(lint({"Brp": 256, "Prop": 8, "Ps1": 8, "Ps2": 8, "Sjw": 4},
-                              "can_time_node"), (0, ""))
+
+    def test_nodes_without_a_processor_refuse_a_timing_that_cannot_be(self):
+        """BT-02: each parameter just outside its range, and a bit of seven clocks."""
+        for top in ("can_time_node", "can_remote"):
+            for value in ({"Brp": 0}, {"Brp": 257}, {"Prop": 0}, {"Prop": 9}, {"Ps1": 0},
+                          {"Ps1": 9}, {"Ps2": 0}, {"Ps2": 9}, {"Sjw": 0}, {"Sjw": 5}):
+                with self.subTest(top, value=value):
+                    code, text = lint(value, top)
+                    self.assertNotEqual(code, 0)
+                    self.assertIn(f"{next(iter(value))}_must_be", text)
+            with self.subTest(top):
+                code, text = lint({"Brp": 1, "Prop": 1, "Ps1": 3, "Ps2": 2}, top)
+                self.assertNotEqual(code, 0)
+                self.assertIn("Bit_must_have_8_clocks", text)
+                self.assertEqual(
+                    lint({"Brp": 256, "Prop": 8, "Ps1": 8, "Ps2": 8, "Sjw": 4}, top), (0, ""))
 
     def test_engine_refuses_widths_that_hold_no_bit(self):
         """BT-02: PHASE_SEG2 of 8 quanta, and 16 before the sample point, are the longest."""
