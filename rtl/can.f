@@ -4,6 +4,7 @@ host/can_regs_pkg.sv
 bit/can_sync.sv
 bit/can_tq_gen.sv
 bit/can_bit_timing.sv
+bit/can_timing_params.sv
 bit/can_timestamp.sv
 time/can_clock.sv
 time/can_capture.sv

@@ -122,10 +122,12 @@ module can_remote #(
   can_rn_params #(
     .NameBits(NameBits), .MemBytes(MemBytes), .StageBytes(StageBytes), .TxDepth(TxDepth),
     .NumProd(NumProd), .NumMap(NumMap), .Protect(Protect), .Block(Block), .AutoRate(AutoRate),
-    .Counters(Counters), .SameId(SameId), .Brp(Brp), .Prop(Prop), .Ps1(Ps1), .Ps2(Ps2), .Sjw(Sjw),
-    .RateRows(RateRows), .TimeSync(TimeSync),
+    .Counters(Counters), .SameId(SameId), .RateRows(RateRows), .TimeSync(TimeSync),
     .SyncId(SyncId), .SyncDelay(SyncDelay), .HalfPeriod(HalfPeriod)
   ) u_params ();
+  can_timing_params #(
+    .Brp(Brp), .Prop(Prop), .Ps1(Ps1), .Ps2(Ps2), .Sjw(Sjw)
+  ) u_timing_params ();
 
   // A constant, but for the simulator, which makes nodes that differ in it alone.
   logic [31:0] serial /* verilator public_flat_rw */;

@@ -16,11 +16,6 @@ module can_rn_params #(
   parameter int AutoRate = 0,
   parameter int Counters = 0,
   parameter int SameId = 0,
-  parameter int Brp = 1,
-  parameter int Prop = 1,
-  parameter int Ps1 = 4,
-  parameter int Ps2 = 2,
-  parameter int Sjw = 1,
   parameter int RateRows = 8,
   parameter int TimeSync = 0,
   parameter logic [31:0] SyncId = '0,
@@ -59,24 +54,6 @@ module can_rn_params #(
   end
   if (SameId != 0 && SameId != 1) begin : gen_check_same_id
     SameId_must_be_0_or_1 u_stop ();
-  end
-  if (Brp < 1 || Brp > 256) begin : gen_check_brp
-    Brp_must_be_1_to_256 u_stop ();
-  end
-  if (Prop < 1 || Prop > 8) begin : gen_check_prop
-    Prop_must_be_1_to_8 u_stop ();
-  end
-  if (Ps1 < 1 || Ps1 > 8) begin : gen_check_ps1
-    Ps1_must_be_1_to_8 u_stop ();
-  end
-  if (Ps2 < 1 || Ps2 > 8) begin : gen_check_ps2
-    Ps2_must_be_1_to_8 u_stop ();
-  end
-  if (Sjw < 1 || Sjw > 4) begin : gen_check_sjw
-    Sjw_must_be_1_to_4 u_stop ();
-  end
-  if (Brp * (1 + Prop + Ps1 + Ps2) < 8) begin : gen_check_bit
-    Bit_must_have_8_clocks u_stop ();
   end
   if (RateRows < 1 || RateRows > 15) begin : gen_check_rate_rows
     RateRows_must_be_1_to_15 u_stop ();

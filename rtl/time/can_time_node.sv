@@ -37,24 +37,9 @@ module can_time_node #(
   if (SyncDelay[31:24] != '0) begin : gen_check_sync_delay
     SyncDelay_must_be_24_bits u_stop ();
   end
-  if (Brp < 1 || Brp > 256) begin : gen_check_brp
-    Brp_must_be_1_to_256 u_stop ();
-  end
-  if (Prop < 1 || Prop > 8) begin : gen_check_prop
-    Prop_must_be_1_to_8 u_stop ();
-  end
-  if (Ps1 < 1 || Ps1 > 8) begin : gen_check_ps1
-    Ps1_must_be_1_to_8 u_stop ();
-  end
-  if (Ps2 < 1 || Ps2 > 8) begin : gen_check_ps2
-    Ps2_must_be_1_to_8 u_stop ();
-  end
-  if (Sjw < 1 || Sjw > 4) begin : gen_check_sjw
-    Sjw_must_be_1_to_4 u_stop ();
-  end
-  if (Brp * (1 + Prop + Ps1 + Ps2) < 8) begin : gen_check_bit
-    Bit_must_have_8_clocks u_stop ();
-  end
+  can_timing_params #(
+    .Brp(Brp), .Prop(Prop), .Ps1(Ps1), .Ps2(Ps2), .Sjw(Sjw)
+  ) u_timing_params ();
 
   localparam logic [31:0] Tctrl = 32'd1 << can_regs_pkg::TctrlPoint
                                 | 32'd1 << can_regs_pkg::TctrlCmpen;

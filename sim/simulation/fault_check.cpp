@@ -11,6 +11,7 @@
 
 #include "results/fault_report.hpp"
 #include "scenario/fault_words.hpp"
+#include "simulation/check_parts.hpp"
 #include "simulation/expected_frames.hpp"
 #include "simulation/node_timing.hpp"
 #include "trace/input_error.hpp"
@@ -20,15 +21,6 @@ namespace vericansim {
 namespace {
 
 using Kind = FaultSpec::Kind;
-
-std::string ms(Time time) {
-  return fmt::format("{:.10g} ms", static_cast<double>(time) / kMillisecond);
-}
-
-bool has_accesses(const Scenario &scenario, NodeId node) {
-  return std::any_of(scenario.accesses.begin(), scenario.accesses.end(),
-                     [node](const AccessSpec &access) { return access.node == node; });
-}
 
 bool has_traffic(const Scenario &scenario, NodeId node) {
   return std::any_of(scenario.traffic.begin(), scenario.traffic.end(),
@@ -79,7 +71,7 @@ std::string impossible(const Scenario &scenario, const FaultSpec &fault, double 
     return fmt::format(
         "it begins at {}, and the run is over after {}; allowed: 'from' below "
         "duration and drain, {}",
-        ms(fault.window.from), ms(end), ms(end));
+        ms_text(fault.window.from), ms_text(end), ms_text(end));
   if (fault.kind == Kind::kCut && scenario.nodes.size() == 1)
     return fmt::format("'{}' is alone on the bus; allowed: a bus of two nodes or more",
                        scenario.nodes.front().name);

@@ -6,35 +6,26 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 
+#include "simulation/check_parts.hpp"
 #include "trace/input_error.hpp"
-#include "trace/quantity.hpp"
 
 namespace vericansim {
 namespace {
 
-std::string ms(Time time) { return plain_number(static_cast<double>(time) / kMillisecond) + " ms"; }
-
-/// Accesses of its CPU may take a node out of the mode.
-bool only_listens(const Scenario &scenario, NodeId node) {
-  return scenario.nodes[node].host.listen_only &&
-         std::none_of(scenario.accesses.begin(), scenario.accesses.end(),
-                      [node](const AccessSpec &access) { return access.node == node; });
-}
-
 /// Why a message is never sent; empty if it may be.
 std::string impossible(const Scenario &scenario, const TrafficSpec &traffic) {
-  if (only_listens(scenario, traffic.node))
+  const NodeId node = traffic.node;
+  if (scenario.nodes[node].host.listen_only && !has_accesses(scenario, node))
     return fmt::format("node {} only listens; allowed: nodes without 'listen_only' and 'monitor'",
-                       in_quotes(scenario.nodes[traffic.node].name));
+                       in_quotes(scenario.nodes[node].name));
   if (!scenario.endless && !scenario.cut_short && !traffic.random_offset &&
       traffic.offset >= scenario.duration)
     return fmt::format(
         "it begins at {}, and nothing is queued from {} on; allowed: 'offset' below the duration, "
         "{}",
-        ms(traffic.offset), ms(scenario.duration), ms(scenario.duration));
+        ms_text(traffic.offset), ms_text(scenario.duration), ms_text(scenario.duration));
   return "";
 }
 

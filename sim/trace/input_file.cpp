@@ -69,6 +69,11 @@ std::string read_all(std::istream &in, const std::string &path, std::size_t most
   return text;
 }
 
+/// What the system has just refused, with its reason.
+std::string unreadable() {
+  return fmt::format("cannot be opened for reading: {}", std::strerror(errno));
+}
+
 }  // namespace
 
 std::string unpacked(std::string bytes, const std::string &path, std::size_t most) {
@@ -86,13 +91,11 @@ std::string read_bytes(const std::string &path, std::size_t most) {
   if (path == "-") return read_all(std::cin, path, most);
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0)
-    throw InputError(path, 0,
-                     errno == ENOENT || errno == ENOTDIR
-                         ? std::string{"no such file"}
-                         : fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
+    throw InputError(
+        path, 0, errno == ENOENT || errno == ENOTDIR ? std::string{"no such file"} : unreadable());
   if (S_ISDIR(status.st_mode)) throw InputError(path, 0, "is a directory, not a file");
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path, 0, "cannot be opened for reading");
+  if (!file) throw InputError(path, 0, unreadable());
   return read_all(file, path, most);
 }
 

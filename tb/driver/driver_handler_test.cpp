@@ -234,7 +234,7 @@ TEST_F(DriverHandler, TheFifoIsEmptiedAndItsFlagsCleared) {  // FX-4.n, FX-4.r
 }
 
 // The guide has on_sent send the next frame: in verican_stop() nothing is sent any more.
-TEST_F(DriverHandler, NothingIsSentWhileTheDeviceIsStopped) {
+TEST_F(DriverHandler, StoppingLetsNoCallbackSend) {
   verican_result_t sent_on = VERICAN_OK, started = VERICAN_OK, ended = VERICAN_OK;
   up();
   struct User {
@@ -265,7 +265,7 @@ TEST_F(DriverHandler, NothingIsSentWhileTheDeviceIsStopped) {
 }
 
 // Another device on the line interrupts verican_stop(), which reads the last frames itself.
-TEST_F(DriverHandler, TheHandlerDoesNothingWhileTheDeviceIsStopped) {
+TEST_F(DriverHandler, StoppingKeepsTheHandlerOut) {
   up();
   arrive(3, 0x123, 10);
   unsigned calls = 0;

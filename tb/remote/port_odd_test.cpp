@@ -29,10 +29,13 @@ TEST_F(PortOdd, ATriggerCopiesNothing) {
               ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 0x11, 0x12, 0x13, 0x14, 0x15, 0x16, 0x17, 0x18));
   (void)port->take_pulses();
   write(map_at(0), map_bytes(0x6A0, 0x7FF, 0x100, 0x20));
+  constexpr unsigned kCount = 0xFF7;  // RN-24
+  unsigned count = 5;
   for (const char *trigger : {"001#05", "001#", "6A0#77", "6A0#"}) {
     hear(trigger);
     EXPECT_THAT(port->take_pulses(), ::testing::Contains(RemotePulse{true, 0, 0})) << trigger;
     EXPECT_EQ(bytes(0x010, 16), before) << trigger;
+    EXPECT_EQ(port->peek(kCount), count++) << trigger;
   }
   EXPECT_THAT(bytes(0x100, 2), ElementsAre(0x77, 0));
 }

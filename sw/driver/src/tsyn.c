@@ -88,12 +88,9 @@ static verican_result_t time_of(const verican_tsyn_t *tsyn, uint64_t *now) {
 
 void verican_tsyn_look(verican_tsyn_t *tsyn, uint64_t now) {
   const int64_t passed = (int64_t)(now - tsyn->latest);
-  if (passed < -(int64_t)tsyn->masters.interval) {
-    verican_masters_shift(&tsyn->masters, passed);
-    tsyn->next += (uint64_t)passed;
-  } else if (passed < 0) {
-    return; /* a stamp from before the last look */
-  }
+  if (passed >= -(int64_t)tsyn->masters.interval) return;
+  verican_masters_shift(&tsyn->masters, passed);
+  tsyn->next += (uint64_t)passed;
   tsyn->latest = now;
 }
 
@@ -102,6 +99,7 @@ verican_result_t verican_tsyn_poll(verican_tsyn_t *tsyn) {
   const verican_result_t result = time_of(tsyn, &now);
   if (result != VERICAN_OK) return result;
   verican_tsyn_look(tsyn, now);
+  tsyn->latest = now;
   if (!tsyn->sending && verican_servo_poll(&tsyn->servo, now) && tsyn->config.on_event != NULL)
     tsyn->config.on_event(tsyn->config.user, tsyn, VERICAN_SERVO_STATE);
   if (tsyn->candidate) verican_tsyn_run_master(tsyn, now);

@@ -114,7 +114,7 @@ struct verican_tsyn {
   uint64_t next;     /* SYNC is due */
   uint64_t t0;       /* SYNC was queued */
   uint64_t t1;       /* SYNC was sent */
-  uint64_t latest;   /* time when the clock was looked at last */
+  uint64_t latest;   /* time of the last poll */
   verican_tsyn_config_t config;
   verican_masters_t masters;
   verican_tsyn_sender_t sender;
