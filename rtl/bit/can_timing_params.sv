@@ -6,8 +6,9 @@
 // $error at elaboration, too.
 
 module can_timing_params #(
-  /// Clocks per quantum; quanta of PROP_SEG, PHASE_SEG1, PHASE_SEG2 and of the synchronisation jump.
+  /// Clocks per quantum.
   parameter int Brp = 1,
+  /// Quanta of PROP_SEG, PHASE_SEG1, PHASE_SEG2; most quanta that a resynchronisation moves.
   parameter int Prop = 1,
   parameter int Ps1 = 4,
   parameter int Ps2 = 2,
