@@ -203,47 +203,47 @@ module can_mb_port #(
     of_stamp = TimeUnit != 0 && mem_sel == can_mb_pkg::MemTimer && high_word;
   endfunction
 
-  // The word that is written: memory, row, byte lanes, data. Who would write is known early; what a
-  // copy writes is late, and whether the CPU may write is the last to be known.
-  logic            w_cs, w_msg, w_mask, w_ok;
+  // The word that is written: memory, row, byte lanes, data. Who would write is known early; that it
+  // may not (off), late: so this comes last.
+  logic            w_cs, w_msg, w_mask, off;
   logic [IdxW+1:0] w_row;
-  logic [3:0]      w_be, we;
+  logic [3:0]      w_be, we_cs, we_msg, we_mask;
   logic [31:0]     w_data;
   always_comb begin
     // The engine, unless it is somebody else.
     {w_cs, w_msg, w_mask} = {rx_wr_cs_i, !rx_wr_cs_i, 1'b0};
     w_row  = rx_wr_row_i;
     w_data = rx_wr_data_i;
-    w_be   = rx_wr_be_i;
-    w_ok   = rx_wr_req_i;
+    w_be   = rx_wr_be_i & {4{rx_wr_req_i}};
     if (scrub_o) begin
       // The rows of masks that no buffer has are ones; the C/S rows were zeroed in the first half.
       {w_cs, w_msg, w_mask} = {!scrub_row_q[IdxW+1], 2'b11};
       w_row  = scrub_row_q;
       w_data = {32{&scrub_row_q[IdxW+1:IdxW]}};
-      {w_be, w_ok} = '1;
+      w_be   = '1;
     end else if (cpu_wr_q) begin
       {w_cs, w_msg, w_mask} = {of_cs, of_msg || in_msg(mem_sel_q),
                                mem_sel_q == can_mb_pkg::MemMask};
       w_row  = {word_q & {2{!of_cs}}, idx_q};
       w_data = wdata_i;
       w_be   = be_q;
-      w_ok   = !block_i;
     end else if (copy_i) begin
       {w_cs, w_msg, w_mask} = {copy_cs_i, !copy_cs_i, 1'b0};
       w_row  = copy_row_i;
       w_data = copy_data_i;
       w_be   = copy_be_i;
-      w_ok   = !copy_off_i;
     end else if (serviced_gnt_o) begin
       {w_cs, w_msg, w_mask} = 3'b100;
       w_row  = {2'b00, serviced_idx_i};
       w_data[31:24] = {4'b1000, 1'b0, serviced_ovr_i, 2'b10};
       w_be   = 4'b1000;
-      w_ok   = 1'b1;
     end
   end
-  assign we = w_be & {4{w_ok && !(if_ended_i && cs_o[can_mb_pkg::CsEnded])}};
+  assign off = (if_ended_i && cs_o[can_mb_pkg::CsEnded])
+               || (!scrub_o && (cpu_wr_q ? block_i : copy_i && copy_off_i));
+  assign we_cs   = w_be & {4{w_cs}} & {4{!off}};
+  assign we_msg  = w_be & {4{w_msg}} & {4{!off}};
+  assign we_mask = w_be & {4{w_mask}} & {4{!off}};
 
   // The CPU reads the word that a copy writes.
   logic shown;
@@ -257,8 +257,8 @@ module can_mb_port #(
       {rd_end_o, stale_o, id_stale_o} <= '0;
     end else begin
       rd_end_o   <= shown && copy_end_i;
-      stale_o    <= w_cs && we[3] && w_row[IdxW:0] == cs_row;
-      id_stale_o <= w_msg && we != '0 && w_row == msg_row;
+      stale_o    <= we_cs[3] && w_row[IdxW:0] == cs_row;
+      id_stale_o <= we_msg != '0 && w_row == msg_row;
     end
   end
 
@@ -271,17 +271,17 @@ module can_mb_port #(
   assign scrub_row_o = scrub_row_q;
   can_mb_ram #(.Depth(2 * NumMb)) u_cs (
     .clk_i, .re_i(re), .raddr_i(cs_raddr), .rdata_o(cs_o),
-    .we_i(we & {4{w_cs}}), .waddr_i(w_row[IdxW:0]), .wdata_i(w_data));
+    .we_i(we_cs), .waddr_i(w_row[IdxW:0]), .wdata_i(w_data));
   can_mb_ram #(.Depth(4 * NumMb)) u_msg (
     .clk_i, .re_i(re), .raddr_i(msg_raddr), .rdata_o(msg_o),
-    .we_i(we & {4{w_msg}}), .waddr_i(w_row), .wdata_i(w_data));
+    .we_i(we_msg), .waddr_i(w_row), .wdata_i(w_data));
   if (OwnMasks != 0) begin : gen_mask
     can_mb_ram #(.Depth(2 * NumMb)) u_mask (
       .clk_i, .re_i(re), .raddr_i(mask_raddr), .rdata_o(mask_o),
-      .we_i(we & {4{w_mask}}), .waddr_i(w_row[IdxW:0]), .wdata_i(w_data));
+      .we_i(we_mask), .waddr_i(w_row[IdxW:0]), .wdata_i(w_data));
   end else begin : gen_no_mask
     logic unused;
-    assign unused = &{1'b0, mask_raddr, w_mask};
+    assign unused = &{1'b0, mask_raddr, we_mask};
     assign mask_o = msg_o;
   end
 
