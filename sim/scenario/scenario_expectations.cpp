@@ -27,15 +27,30 @@ void parse_pattern(const YamlValue &value, NodeExpectation &expectation) {
   expectation.matches.push_back(value.text());
 }
 
+/// Items of a list, of which there must be one: an empty one would ask for nothing.
+std::vector<YamlValue> some_items(const YamlValue &value, const std::string &allowed) {
+  std::vector<YamlValue> items = value.items();
+  if (items.empty()) value.fail("nothing is in it; allowed: " + allowed);
+  return items;
+}
+
+/// A finding that is asked for, or not named at all: its opposite is nothing that is looked for.
+bool only_true(const YamlValue &value) {
+  if (!value.boolean()) value.refuse("true; leave it out where it is not asked for");
+  return true;
+}
+
 void parse_firmware_expectation(YamlMap &map, NodeExpectation &expectation) {
   map.with("exit_code", [&](const YamlValue &v) {
     expectation.exit_code = static_cast<int>(v.integer(0, 0x7FFFFFFF));
   });
   map.with("output", [&](const YamlValue &v) {
-    for (const YamlValue &item : v.items()) expectation.output.push_back(item.text());
+    for (const YamlValue &item : some_items(v, "a text, or a list of them"))
+      expectation.output.push_back(item.text());
   });
   map.with("matches", [&](const YamlValue &v) {
-    for (const YamlValue &item : v.items()) parse_pattern(item, expectation);
+    for (const YamlValue &item : some_items(v, "a regular expression, or a list of them"))
+      parse_pattern(item, expectation);
   });
 }
 
@@ -114,8 +129,8 @@ Expectations parse_expectations(const YamlValue &value, const Scenario &scenario
   expect.given = true;
   for (const char *key : {"frames", "error_frames", "overload_frames", "load", "pending"})
     map.with(key, [&](const YamlValue &v) { expect.numbers[key] = parse_range(v); });
-  map.with("complete", [&](const YamlValue &v) { expect.complete = v.boolean(); });
-  map.with("within_bound", [&](const YamlValue &v) { expect.within_bound = v.boolean(); });
+  map.with("complete", [&](const YamlValue &v) { expect.complete = only_true(v); });
+  map.with("within_bound", [&](const YamlValue &v) { expect.within_bound = only_true(v); });
   map.with("nodes", [&](const YamlValue &v) { parse_expected_nodes(v, scenario, expect); });
   map.with("response_times",
            [&](const YamlValue &v) { parse_expected_responses(v, scenario, expect); });

@@ -60,6 +60,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "expect.states: nothing is in it; allowed: names of remote nodes"},
         Vacuous{"Signals", "expect: {signals: {}}",
                 "expect.signals: nothing is in it; allowed: signals, as message.signal"},
+        Vacuous{"Incomplete", "expect: {complete: false}",
+                "s.yaml:2: expect.complete: 'false' is not allowed; allowed: true; leave it out "
+                "where it is not asked for"},
+        Vacuous{"AboveTheBound", "expect: {within_bound: no}",
+                "expect.within_bound: 'no' is not allowed; allowed: true; leave it out"},
         Vacuous{"MaskOfNothing", "accesses: [{node: a, do: [check MCR 0 0]}]",
                 "MASK 0 looks at no bit; allowed: 0x1 to 0xFFFFFFFF"},
         Vacuous{"EndlessMask", "accesses: [{node: a, do: [until MCR 0x0 0]}]", "MASK 0 looks at"},
@@ -98,6 +103,23 @@ TEST(VacuousScenario, WhatAsksForSomethingIsTaken) {
         "accesses: [{node: a, do: [check MCR 0x1 0]}]",
         "expect: {memory: {p: {0x1FF: 00, 0xFFF: 00}}}"})
     EXPECT_EQ(refusal(text), "no error") << text;
+}
+
+// What firmware prints: a list that is empty asks for nothing.
+TEST(VacuousFirmware, IsRefused) {
+  const auto of_firmware = [](const std::string &expectation) {
+    return input_error_of([&] {
+      return parse_scenario("s.yaml",
+                            "nodes: [{name: a}, {name: f, firmware: f.elf}]\n"
+                            "expect: {nodes: {f: {" +
+                                expectation + "}}}\n");
+    });
+  };
+  EXPECT_THAT(of_firmware("output: []"),
+              HasSubstr("s.yaml:2: expect.nodes.f.output: nothing is in it; allowed: a text"));
+  EXPECT_THAT(of_firmware("matches: []"),
+              HasSubstr("expect.nodes.f.matches: nothing is in it; allowed: a regular"));
+  EXPECT_EQ(of_firmware("output: [hello], matches: 'h.*'"), "no error");
 }
 
 }  // namespace
