@@ -134,6 +134,7 @@ for top in "${tops[@]}"; do
   check "yosys           $top" yosys_check "${words[@]}"
   check "iverilog        $top" iverilog_elaborate "${words[@]}"
 done
+check "names are declared before they are used" tools/declared_first.py "${rtl[@]}"
 check "verilator -Wall can_hx8k" verilator --lint-only -Wall --top-module can_hx8k rtl/lint.vlt \
   "${rtl[@]}" examples/hx8k/serial_apb.sv examples/hx8k/can_hx8k.sv
 for top in remote_icestick remote_hx8k; do

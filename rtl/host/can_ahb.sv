@@ -76,11 +76,11 @@ module can_ahb #(
   end
 
   // A burst is treated as single transfers. Of hprot only bit 1 counts, with CheckHprot = 1.
-  logic unused;
+  logic unused, supv;
   assign unused = &{1'b0, hburst, hprot, htrans[0], supv};
 
   // Address phase.
-  logic       taken, bad, beyond, supv, denied;
+  logic       taken, bad, beyond, denied;
   logic [3:0] be;
   assign taken  = hsel && hready && htrans[1];                     // NONSEQ or SEQ
   assign beyond = (haddr & 32'((33'd1 << RegionBits) - 33'd1)) >> 13 != '0;

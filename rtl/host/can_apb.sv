@@ -63,11 +63,11 @@ module can_apb #(
     RegionBits_must_be_13_to_32 u_stop ();   // no such module: the tool prints the name and stops
   end
 
-  logic unused;
+  logic unused, supv;
   assign unused = &{1'b0, paddr[1:0], pprot, supv};
 
   // Setup phase. Of a read all lanes count; a write without a strobe is not passed on.
-  logic       setup, beyond, supv, denied, cancel, ready;
+  logic       setup, beyond, denied, cancel, ready;
   logic [3:0] be;
   assign setup  = psel && !penable;
   assign beyond = (paddr & 32'((33'd1 << RegionBits) - 33'd1)) >> 13 != '0;

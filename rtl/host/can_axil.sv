@@ -72,14 +72,14 @@ module can_axil #(
     RegionBits_must_be_13_to_32 u_stop ();   // no such module: the tool prints the name and stops
   end
 
-  logic unused;
+  logic unused, supv;
   assign unused = &{1'b0, awaddr[1:0], araddr[1:0], awprot, arprot, supv};
 
   // A transfer begins when its response channel is free and the core is idle. If a read and a write
   // wait, they take turns. Which of the two to look at was decided in the clock before, from the
   // response channels, so that the address is early.
   logic read_q, write_q, taken_q, read_last_q, prefer_write_q, reads, writes, turn, idle, begins;
-  logic r_shut, b_shut, read_last, supv;
+  logic r_shut, b_shut, read_last;
   assign r_shut = rvalid && !rready;
   assign b_shut = bvalid && !bready;
   assign reads  = arvalid && !r_shut;

@@ -161,11 +161,11 @@ module can_top #(
     end
   end
   assign ready_o = mb_ready;
+  logic [31:0] time_reg_rdata, sync_reg_rdata;
   assign rdata_o = (reg_rdata | time_reg_rdata | sync_reg_rdata) | mb_rdata;  // the last is late
 
   // Registers of the time unit, 0x1100 to 0x117F, and of the follower, 0x1180 to 0x11FF.
   logic        in_time, time_rd_q, time_wr_q, in_sync, sync_rd_q, sync_wr_q;
-  logic [31:0] time_reg_rdata, sync_reg_rdata;
   assign in_time = TimeUnit != 0 && addr_i[12:7] == 6'b100010;
   assign in_sync = TimeSync != 0 && addr_i[12:7] == 6'b100011;
   always_ff @(posedge clk_i or negedge rst_ni) begin

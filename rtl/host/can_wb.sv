@@ -66,11 +66,11 @@ module can_wb #(
   if (Pipelined < 0 || Pipelined > 1) begin : gen_check_pipelined
     Pipelined_must_be_0_or_1 u_stop ();
   end
-  logic unused;
+  logic unused, supv;
   assign unused = &{1'b0, supv};
 
   // A strobe is taken; its answer is due from the next clock on, while the cycle lasts.
-  logic        rst_n, taken, beyond, cancel, due_q, error_q, ready, answer, supv;
+  logic        rst_n, taken, beyond, cancel, due_q, error_q, ready, answer;
   logic        held;                 // who waits for the answer still does
   logic [31:0] wdata, rdata;
   assign rst_n  = !wb_rst_i;

@@ -232,15 +232,14 @@ module can_mailbox #(
     .busy_o(mv_busy));
 
   // Transmission.
-  logic            held;
-  assign held        = time_held_i && {1'b0, time_mb_i} < 7'(NumMb);
-  assign time_wait_o = TimeUnit != 0 && time_mb_i == 6'(cur_idx);
-  logic            ins_req, ins_gnt, scan_req, scan_lazy, scan_gnt, settled, retry;
+  logic            held, ins_req, ins_gnt, scan_req, scan_lazy, scan_gnt, settled, retry;
   logic            retry_busy, inactive;
   logic            started, off;
   logic [IdxW-1:0] ins_idx, scan_idx, best_idx, cur_idx;
   logic            pass, pass_end, seen, seen_worst, seen_free;
   logic [IdxW-1:0] seen_idx;
+  assign held        = time_held_i && {1'b0, time_mb_i} < 7'(NumMb);
+  assign time_wait_o = TimeUnit != 0 && time_mb_i == 6'(cur_idx);
   can_mb_tx #(.NumMb(NumMb), .Status(Status)) u_tx (
     .clk_i, .rst_ni, .running_i, .lbuf_i(ctrl1_i[can_regs_pkg::Ctrl1Lbuf]),
     .lprio_en_i(mcr_i[can_regs_pkg::McrLprioEn]), .first_i(first), .maxmb_i(maxmb),

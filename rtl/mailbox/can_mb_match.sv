@@ -82,7 +82,9 @@ module can_mb_match #(
   logic [1:0]      flt_word;
   logic [IdxW:0]   flt_mask_row;
   logic [8:0]      idhit;
-  logic            mb_req, mb_done, mb_hit, mb_free, mb_ans;
+  logic            mb_req, mb_done, mb_hit, mb_free, mb_ans, req, load, gnt;
+  logic [1:0]      gmask, want;
+  logic [31:0]     mask, mb_mask;
   logic [IdxW-1:0] mb_idx, mb_hit_idx;
   can_mb_rx #(.NumMb(NumMb)) u_rx (
     .clk_i, .rst_ni, .clear_i, .bcc_i, .eacen_i, .rrs_i, .maxmb_i, .first_i,
@@ -93,10 +95,6 @@ module can_mb_match #(
     .cs_i, .id_i(msg_i), .mask_i(mb_mask),
     .id_o(id), .ide_o(ide), .rtr_o(rtr), .ans_o(mb_ans),
     .done_o(mb_done), .hit_o(mb_hit), .hit_free_o(mb_free), .hit_idx_o(mb_hit_idx));
-
-  logic          req, load, gnt;
-  logic [1:0]    gmask, want;
-  logic [31:0]   mask, mb_mask;
 
   // The Rx FIFO with its filter table.
   logic [2:0] tail;

@@ -114,7 +114,9 @@ module can_mb_tx #(
 
   // Arbitration value: PRIO, then the bits in the order of the bus (flexcan.md 3.3).
   logic [3:0] code;
-  assign code = cs_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW];
+  logic       written2;  // the buffer that was read is being written
+  assign code     = cs_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW];
+  assign written2 = cs_written_i && cs_written_idx_i == idx2_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {look2_q, reload2_q, active2_q, free2_q} <= '0;
@@ -139,8 +141,7 @@ module can_mb_tx #(
 
   // A buffer written since it was read does not count: an insertion follows if it is active. Nor
   // does the one on the bus; one that starts in this clock is withdrawn in the next.
-  logic candidate, withdrawn, written2;
-  assign written2  = cs_written_i && cs_written_idx_i == idx2_q;
+  logic candidate, withdrawn;
   assign candidate = s3_q && active2_q && !written2
                   && !(off_i && idx2_q == cur_idx_i);
   // A buffer that is held no longer is compared as one that was written; a winner that is held from

@@ -17,8 +17,8 @@ Source: [`sw/registers.yaml`](../sw/registers.yaml), from which this page, the c
 ([`verican.svd`](../sw/verican.svd)) and the table of the register tests are made.
 
 {title}: words of 32 bits, little-endian, in a window of {window} KiB; bytes,
-half words and words can be accessed. Grey bits and offsets that are not listed are reserved: they
-read 0 and ignore writes.
+half words and words can be accessed, of the time unit words alone but for TCTRL and TSTAT. Grey
+bits and offsets that are not listed are reserved: they read 0 and ignore writes.
 
 **Access.** `rw` read and write; `ro` read only; `w1c` writing 1 clears, 0 does nothing; `rc`
 reading clears; `w1s` writing 1 requests, and the bit clears itself; `wo` write only, reads 0.
