@@ -171,8 +171,9 @@ module can_regs #(
   logic        tx_wrn, rx_wrn, esr1_at;
   logic [31:0] events;
   logic [63:0] imask;
-  assign tx_wrn  = (tec_i[7] || (&tec_i[6:5])) && !boff_i;   // at 96 or above
-  assign rx_wrn  = (rec_i[7] || (&rec_i[6:5])) && !boff_i;
+  // At 96 or above; in bus-off TEC counts something else.
+  assign tx_wrn  = (tec_i[7] || (&tec_i[6:5])) && !boff_i;
+  assign rx_wrn  = rec_i[7] || (&rec_i[6:5]);
   assign esr1_at = addr_i == can_regs_pkg::Esr1Addr;
   can_flags #(.NumMb(NumMb)) u_flags (
     .clk_i, .rst_ni, .clear_i(clear_o), .flag_i, .flag_idx_i,

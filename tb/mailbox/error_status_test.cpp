@@ -143,6 +143,21 @@ TEST_F(ErrorStatus, RxWarningAtEachCrossing) {
   }
 }
 
+// FX-ESR1.RX_WRN, FX-ESR1.TX_WRN: bus-off takes TEC away, not REC, and is no new crossing.
+TEST_F(ErrorStatus, RxWarningStaysInBusOff) {
+  ASSERT_TRUE(rig_.freeze(0));
+  rig_.write(0, reg::kCtrl, kTiming8 | 1u << 6);  // BOFF_REC: it stays
+  preset(110u << 8 | 255);
+  PlaceFault fault{0, {.frame = 1, .field = Field::kId}, Effect::kRecessive};
+  rig_.bus().add(fault);
+  attempt(0, {.address = reg::kMcr});
+  ASSERT_GT(fault.hits(), 0u);
+  ASSERT_EQ(esr() & 0x20, 0x20u) << "FLT_CONF 1x";
+  EXPECT_EQ(ecr() >> 8, 110u);
+  EXPECT_EQ(esr() & 0x300, 0x100u);
+  EXPECT_EQ(esr() & kRwrnInt, 0u);
+}
+
 // FX-MCR.WRN_EN, FX-CTRL1.TWRN_MSK, FX-CTRL1.RWRN_MSK: without it no flag, and masks that read 0.
 TEST_F(ErrorStatus, WithoutWrnEnThereAreNoWarnings) {
   ASSERT_TRUE(rig_.freeze(0));

@@ -45,7 +45,8 @@
 #define VERICAN_MCR_WAK_MSK_MASK                0x04000000u
 #define VERICAN_MCR_WAK_MSK_SHIFT               26u
 /* SOFT_RST: Requests a soft reset; reads 1 until it is done, then the controller is in freeze
-   mode. Wins over the mode bits written along with it. Ignored in disable mode. */
+   mode. Wins over the mode bits written along with it. Ignored in disable and stop mode, where
+   the mode bits of such a write count. */
 #define VERICAN_MCR_SOFT_RST_MASK               0x02000000u
 #define VERICAN_MCR_SOFT_RST_SHIFT              25u
 /* FRZ_ACK: Freeze mode is reached; the engine stands, configuration can be written. */
@@ -59,7 +60,8 @@
    written in stop mode. Only with Wake. */
 #define VERICAN_MCR_SLF_WAK_MASK                0x00400000u
 #define VERICAN_MCR_SLF_WAK_SHIFT               22u
-/* WRN_EN: Lets ESR1.TWRN_INT and RWRN_INT be set. While 0 they and their masks in CTRL1 are 0. */
+/* WRN_EN: Lets ESR1.TWRN_INT and RWRN_INT be set. While 0 they read 0, and so do their masks in
+   CTRL1, which keep what was written before. */
 #define VERICAN_MCR_WRN_EN_MASK                 0x00200000u
 #define VERICAN_MCR_WRN_EN_SHIFT                21u
 /* LPM_ACK: A low-power mode (disable, stop) is reached. */
@@ -212,7 +214,8 @@
 #define VERICAN_ECR_RXERR_SHIFT                 8u
 #define VERICAN_ECR_RXERR_GET(word)             (((uint32_t)(word) >> 8) & 0xFFu)
 #define VERICAN_ECR_RXERR_SET(value)            (((uint32_t)(value) & 0xFFu) << 8)
-/* TXERR: Transmit error counter, TEC; in bus-off the sequences of 11 recessive bits so far. */
+/* TXERR: Transmit error counter, TEC; in bus-off the sequences of 11 recessive bits so far,
+   which are not written. */
 #define VERICAN_ECR_TXERR_MASK                  0x000000FFu
 #define VERICAN_ECR_TXERR_SHIFT                 0u
 #define VERICAN_ECR_TXERR_GET(word)             (((uint32_t)(word) >> 0) & 0xFFu)
