@@ -54,7 +54,7 @@ module can_fault (
   // anyone asks, and the adder stays off the longest path.
   logic       plus8_q, plus1_q, minus1_q, sequence_q, recovered_q;
   logic       decided_q;    // the clock after a sample point: nothing moves in any other
-  logic       on_tec;
+  logic       on_tec_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) decided_q <= 1'b0;
@@ -64,7 +64,7 @@ module can_fault (
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {plus8_q, plus1_q, minus1_q, sequence_q, recovered_q} <= '0;
-      withheld_q <= 1'b0;
+      {withheld_q, on_tec_q} <= '0;
     end else if (decided_q && !sample_i) begin
       {plus8_q, plus1_q, minus1_q, sequence_q, recovered_q} <= '0;
     end else if (sample_i) begin : decide
@@ -81,6 +81,8 @@ module can_fault (
       good_tx  = (field_i == can_pkg::FldEof) && last_i && bit_i && transmitter_i;       // FC-09
       good_rx  = (field_i == can_pkg::FldAck) && !sent_i && saw_d;                       // FC-10
 
+      // Whose counter: of the role in that bit, though the engine may stop behind it.
+      on_tec_q <= transmitter_i || tec_q[8];
       plus8_q <= !lom_i && (late
                  || (error_i && (transmitter_i ? !(exempt_i || withhold) : in_flag))   // FC-05..07
                  || eighth                                                               // FC-08
@@ -95,8 +97,6 @@ module can_fault (
       else if (field_i != can_pkg::FldErrFlag || saw_d)     withheld_q <= 1'b0;
     end
   end
-
-  assign on_tec = transmitter_i || tec_q[8];
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -115,14 +115,14 @@ module can_fault (
       logic       turns;
       // Counts by 1 from bit 0 on, or by 8 from bit 3 on. Counting up inverts the bits up to the
       // first 0, that one too, counting down those up to the first 1. So no adder is needed.
-      counter = on_tec ? tec_q : {1'b0, rec_q};
+      counter = on_tec_q ? tec_q : {1'b0, rec_q};
       turns   = !plus8_q;
       for (int i = 0; i < 9; i++) begin
         if (i == 3) turns = turns || plus8_q;
         sum[i] = counter[i] ^ turns;
         turns  = turns && (counter[i] ^ minus1_q);
       end
-      if (on_tec)         tec_q <= sum;
+      if (on_tec_q)       tec_q <= sum;
       else if (!rec_q[7]) rec_q <= sum[7:0];
       else if (minus1_q)  rec_q <= 8'd127;                                               // FC-10
     end

@@ -232,7 +232,7 @@ module can_mailbox #(
     .busy_o(mv_busy));
 
   // Transmission.
-  logic            held, ins_req, ins_gnt, scan_req, scan_lazy, scan_gnt, settled, retry;
+  logic            sent, held, ins_req, ins_gnt, scan_req, scan_lazy, scan_gnt, settled, retry;
   logic            retry_busy, inactive;
   logic            started, off;
   logic [IdxW-1:0] ins_idx, scan_idx, best_idx, cur_idx;
@@ -245,7 +245,8 @@ module can_mailbox #(
     .lprio_en_i(mcr_i[can_regs_pkg::McrLprioEn]), .first_i(first), .maxmb_i(maxmb),
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
     .cs_written_act_i(cs_written_act), .ans_i(ans), .ans_idx_i(mv_idx),
-    .off_i(off), .cur_idx_i(cur_idx), .start_i(started), .retry_i(retry), .inactive_i(inactive),
+    .off_i(off), .cur_idx_i(cur_idx), .start_i(started), .retry_i(retry), .sent_i(sent),
+    .inactive_i(inactive),
     .held_i(held), .held_idx_i(time_mb_i[IdxW-1:0]),
     .fresh_i(timer_i[9:0] == '0),
     .ins_req_o(ins_req), .ins_idx_o(ins_idx), .ins_gnt_i(ins_gnt),
@@ -257,7 +258,7 @@ module can_mailbox #(
 
   logic            eng_slot, flight;
   logic            ld_req, ld_word, ld_data, ld_cancel, ld_flag, ld_take, ld_busy;
-  logic            out, kept, done, sent, abort, ab_flag;
+  logic            out, kept, done, abort, ab_flag;
   logic [IdxW-1:0] ab_idx;
   logic [2:0]      ld_step, data_step;
   logic [IdxW-1:0] ld_idx;
@@ -308,7 +309,7 @@ module can_mailbox #(
     assign {esr2_o, crcr_o} = '0;
     logic unused_status;
     assign unused_status = &{1'b0, pass, pass_end, seen, seen_idx, seen_worst, seen_free,
-                             sent, crc_i};
+                             crc_i};
   end
 
   logic            copy, copy_cs, eng_req, eng_lazy;

@@ -55,7 +55,7 @@ module can_mb_status #(
           lptm_q <= '0;
         end
       end
-      if (sent_i && !imb_q && !(seen_i && seen_free_i)) begin
+      if (sent_i && !imb_q && !pass_i) begin
         {vps_q, imb_q} <= '1;
         lptm_q <= cur_idx_i;
       end

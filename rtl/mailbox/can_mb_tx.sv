@@ -43,6 +43,7 @@ module can_mb_tx #(
   input  logic [IdxW-1:0] cur_idx_i,
   input  logic            start_i,      // buffer cur_idx_i goes on the bus
   input  logic            retry_i,      // ... has left it, and may be active still
+  input  logic            sent_i,       // ... was sent and has its new code
   input  logic            inactive_i,        // the winner was not active after all
   // Buffer held_idx_i gives way to all others (launch time, TM-41).
   input  logic            held_i,
@@ -213,12 +214,13 @@ module can_mb_tx #(
   assign s3_end       = s3_last_q && !restart_q;
   assign pass_end_o   = s3_end && look_q && !scan_q && !change && !ins_want;
 
-  // Any change restarts a pass for ESR2. One that looks for a winner is restarted by the loss of a
+  // Any change restarts a pass for ESR2: a frame that has failed counts again, and in one under way
+  // the buffer of a frame that was sent. One that looks for a winner is restarted by the loss of a
   // winner alone, and not for ever.
   assign redo    = withdrawn || lost;
   // A buffer whose frame has just failed does not count as found: it comes back as an insertion.
   assign found   = candidate && look2_q && !best_q && !scan_q && !retry_i && !ins_want;
-  assign change  = Status != 0 && (cs_written_i || ans_i || redo);
+  assign change  = Status != 0 && (cs_written_i || ans_i || redo || retry_i || (sent_i && look_q));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

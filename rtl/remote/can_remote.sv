@@ -116,7 +116,7 @@ module can_remote #(
 
   // The engine counts as far as a fixed timing asks for.
   localparam int Longer       = Prop + Ps1 > Ps2 + Sjw ? Prop + Ps1 : Ps2 + Sjw;
-  localparam int PosWidth     = AutoRate != 0 ? 5 : $clog2(Longer + 1);
+  localparam int PosWidth     = AutoRate != 0 ? 5 : Longer < 4 ? 3 : $clog2(Longer + 1);
   localparam int PresdivWidth = AutoRate != 0 ? 8 : $clog2(Brp);
 
   can_rn_params #(

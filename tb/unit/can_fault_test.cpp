@@ -84,6 +84,17 @@ TEST_F(CanFault, ErrorCountsForTheRole) {
   expect_change({.transmitter = true}, 0, 0);
 }
 
+// TH-06, FC-08: the role in the bit decides, though the engine stops in the clock behind it.
+TEST_F(CanFault, RoleInTheBitDecidesWhereTheEngineStops) {
+  preset(40, 40);
+  sample({.field = Field::kWait, .transmitter = true, .seen = false, .after_flag = 8});
+  fault_->transmitter_i = 0;
+  fault_->run_i = 0;
+  for (int i = 0; i < 4; ++i) fault_.clock();
+  EXPECT_EQ(fault_->tec_o, 48);
+  EXPECT_EQ(fault_->rec_o, 40);
+}
+
 // FC-06, FC-07: bit errors in the own active or overload flag are 8 for both roles.
 TEST_F(CanFault, BitErrorInOwnFlagIsEight) {
   for (const Field flag : {Field::kErrFlag, Field::kOvlFlag}) {

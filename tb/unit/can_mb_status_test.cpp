@@ -40,13 +40,18 @@ TEST_F(MbStatus, FrameThatEndsFillsInWhereNothingIsFree) {  // FX-ESR2.LPTM, FX-
   EXPECT_EQ(clock(), esr2(9, kVps | kImb));
 }
 
-// Found in the clock in which a frame ends: the lowest inactive buffer, as the pass finds them.
-TEST_F(MbStatus, InactiveBufferThatIsSeenInThatClockStays) {  // FX-ESR2.LPTM
+// A pass is under way when a frame ends: it begins anew, and finds the lowest inactive buffer.
+TEST_F(MbStatus, FrameThatEndsInAPassIsLeftToIt) {  // FX-ESR2.LPTM, FX-ESR2.VPS
+  status_->pass_i = 1;
   see(0, false, true);
   clock();
-  see(3, true, false);
   status_->cur_idx_i = 9;
   status_->sent_i = 1;
+  EXPECT_EQ(clock(), esr2(0, 0));
+  see(3, true, false);
+  status_->sent_i = 1;
+  EXPECT_EQ(clock(), esr2(3, kImb));
+  see(9, true, false);
   EXPECT_EQ(clock(), esr2(3, kImb));
   status_->pass_end_i = 1;
   EXPECT_EQ(clock(), esr2(3, kVps | kImb));

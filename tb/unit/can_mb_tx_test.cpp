@@ -340,6 +340,65 @@ TEST_P(MbTx, PassesThatNobodyAskedForAreQuiet) {
   EXPECT_EQ(ended, 2u);
 }
 
+// A frame that has failed is a buffer among others again: a pass for ESR2 counts it.
+TEST_P(MbTx, FrameThatFailsCountsInTheStatusAgain) {  // FX-ESR2.LPTM
+  buffers_[20] = {kActive << 24, 0x300 << 18};
+  buffers_[30] = {kActive << 24, 0x200 << 18};
+  top_.cur_idx_i = 20;
+  top_.off_i = 1;
+  settle();
+  clock(50, 0x08000000, 100);
+  settle();
+  ASSERT_EQ(top_.pass_o, 0);
+  top_.off_i = 0;
+  top_.retry_i = 1;
+  std::optional<unsigned> worst;
+  unsigned ended = 0;
+  for (unsigned i = 0; i < 800; ++i) {
+    clock({}, 0, 60);
+    top_.eval();
+    if (top_.seen_o != 0 && top_.seen_idx_o == 0) worst.reset();
+    if (top_.seen_o != 0 && top_.seen_worst_o != 0) worst = top_.seen_idx_o;
+    ended += top_.pass_end_o;
+  }
+  EXPECT_EQ(ended, 1u);
+  EXPECT_EQ(worst, top_.lbuf_i != 0 ? 30u : 20u);
+  check();
+}
+
+// The buffer of a frame that is sent has a new code: a pass under way begins anew, in any clock of
+// it; where there is none can_mb_status knows enough.
+TEST_P(MbTx, FrameThatIsSentRestartsAPass) {  // FX-ESR2.LPTM
+  settle();
+  top_.sent_i = 1;
+  clock({}, 0, 100);
+  top_.sent_i = 0;
+  top_.eval();
+  EXPECT_EQ(top_.pass_o, 0);
+  unsigned moment = 0;
+  while (true) {
+    clock(50, 0x08000000, 100);
+    ++moment;
+    for (unsigned i = 0; i < moment; ++i) clock({}, 0, 100);
+    top_.eval();
+    if (top_.pass_o == 0) break;
+    top_.sent_i = 1;
+    clock({}, 0, 100);
+    top_.sent_i = 0;
+    top_.eval();
+    unsigned seen = 0;
+    while (top_.pass_end_o == 0) {
+      clock({}, 0, 100);
+      top_.eval();
+      // A buffer that had been read before may still be told of.
+      seen = top_.seen_o != 0 ? (top_.seen_idx_o == 0 ? 1 : seen + 1) : seen;
+    }
+    ASSERT_EQ(seen, kBuffers) << moment;
+    settle();
+  }
+  EXPECT_GT(moment, kPass);
+}
+
 // ESR2.LPTM: what a pass finds to be sent last, whatever came before it; of two equal buffers the
 // later one.
 TEST_P(MbTx, WorstIsThatOfTheModel) {  // FX-ESR2.LPTM
