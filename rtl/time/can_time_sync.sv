@@ -128,7 +128,8 @@ module can_time_sync #(
 
   // What becomes of the pair (TM-103), and what of the state.
   logic [7:0] pairs_q;
-  logic       leap_q, started, light, ignored, step, anew, done, late, seconds_due_q, pair_due_q;
+  logic       leap_q, started, light, ignored, step, anew, arms, done, late, seconds_due_q,
+    pair_due_q;
   assign started = state_q == StAcquiring || state_q == StLocked;
   assign light   = state_q == StLocked || pairs_q[3];   // in StAcquiring there are 11 at most
   assign ignored = state_q == StLocked && far && !leap_q;
@@ -136,6 +137,9 @@ module can_time_sync #(
   // A rate that an upset has changed beyond what pairs can turn back begins anew. It still counted
   // between the SYNC and now: the next pair only shifts, and says nothing of the new rate.
   assign anew    = state_q == StAcquiring && far;
+  // Arming sets the output to 0. Behind a holdover the clock may still be near: what the compare
+  // unit waits for is right then.
+  assign arms    = pps && (far || upset_i || state_q == StNone);
   assign done    = last && ((op_q == OpShift && step && !anew) || op_q == OpTurn);
   always_comb begin
     op_d = op_q;
@@ -151,7 +155,7 @@ module can_time_sync #(
       end
       OpShift: begin
         if (!step || anew) op_d = OpRate;
-        else if (pps)      op_d = OpWhole;
+        else if (arms)     op_d = OpWhole;
         else               op_d = OpIdle;
       end
       OpRate:  op_d = OpTurn;

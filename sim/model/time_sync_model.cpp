@@ -84,9 +84,9 @@ std::optional<TimeSyncAction> TimeSyncModel::pair(std::uint64_t whole, std::uint
     return action;
   }
   if (large || state_ == State::kUnsynchronised || state_ == State::kHoldover) {
+    if (setting_.pps && (large || state_ == State::kUnsynchronised)) action.whole = whole;
     state_ = State::kAcquiring;
     pairs_ = 0;
-    if (setting_.pps) action.whole = whole;
     return action;
   }
   const bool light = locked || pairs_ >= kFullPairs;

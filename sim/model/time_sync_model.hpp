@@ -35,8 +35,8 @@ struct TimeSyncSetting {
 struct TimeSyncAction {
   std::int64_t shift = 0;                  ///< ns to add
   std::optional<std::uint64_t> increment;  ///< new one, 40 bits: ns and 2^-32 ns a clock
-  std::optional<std::uint64_t> whole;      ///< a step: the whole second of the pair, ns
-  bool ends_slew = true;                   ///< what is left of a slew becomes 0
+  std::optional<std::uint64_t> whole;  ///< with PPS, of a step: the whole second of the pair, ns
+  bool ends_slew = true;               ///< what is left of a slew becomes 0
 
   friend bool operator==(const TimeSyncAction &, const TimeSyncAction &) = default;
 };

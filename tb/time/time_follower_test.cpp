@@ -116,6 +116,34 @@ TEST(TimeNode, StateFollowsTheMaster) {
   EXPECT_EQ(pairs(2), 1u);
 }
 
+// TM-104: a master that comes back while the output is 1 makes no edge of its own: a pair is in the
+// clock half a ms behind its begin, and pulses are 1 for as long.
+TEST(TimeNode, HoldoverLeavesThePulses) {
+  const double period = 62.5 * kNs;
+  FollowerBus<Vcan_time_node_16> bus{16 * period, 1'700'000'000'000'000'000};
+  bus.add(period * (1 + 20 * kPpm), 1'000);
+  const auto pairs = [&bus](unsigned count) {
+    for (; count != 0; --count) {
+      const double begin = bus.now();
+      bus.pair();
+      bus.run(begin + 10 * kMs);
+    }
+  };
+  pairs(16);
+  bus.run(bus.now() + 40 * kMs);
+  ASSERT_EQ(bus.node(0).state(), 3u);
+  pairs(3);
+  ASSERT_EQ(bus.node(0).state(), 1u);
+  bus.run(bus.now() + 0.25 * kMs);
+  unsigned ms = 20;  // the step of the first pair is over
+  for (const double at : bus.node(0).pulses()) {
+    if (at > 19.5 * kMs) {
+      EXPECT_NEAR(at, ms++ * kMs, 3'000 * kNs);
+    }
+  }
+  EXPECT_EQ(ms, 231u);
+}
+
 // Clocks from a start of frame to the node's ACK, if what follows the last edge to dominant before
 // it comes `late` clocks late; 16 clocks, of one quantum each, a bit.
 unsigned clocks_to_ack(unsigned late) {

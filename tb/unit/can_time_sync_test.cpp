@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <random>
 
 #include "unit/time_sync_rig.hpp"
@@ -24,6 +25,17 @@ void pair(SyncRig &rig, unsigned sc, std::int64_t o) {
   const std::uint32_t seconds = 1'700'000'000 + sc, ns = 999'999'000;
   rig.sync(sc, seconds, kSecond * (seconds + 2) + ns + static_cast<std::uint64_t>(o));
   rig.fup(sc, 2, ns);
+}
+
+/// The same pair for the model.
+std::optional<TimeSyncAction> pair(TimeSyncModel &model, const TimeSyncSetting &setting,
+                                   unsigned sc, std::int64_t o, std::uint64_t increment) {
+  const std::uint32_t seconds = 1'700'000'000 + sc, ns = 999'999'000;
+  model.frame(SyncMessage::make(setting, 0x10, sc, 0, seconds),
+              kSecond * (seconds + 2) + ns + static_cast<std::uint64_t>(o), increment);
+  auto action = model.frame(SyncMessage::make(setting, 0x18, sc, 2, ns), 0, increment);
+  if (action && action->whole) *action->whole &= 0xFFFFFFFF;  // the compare unit has 32 bits
+  return action;
 }
 
 /// The first pair and twelve more: locked.
@@ -361,6 +373,38 @@ TEST(CanTimeSync, Holdover) {
       EXPECT_EQ(rig.pairs(), 0u);
       EXPECT_EQ(rig.changes(), changes + 2);
     }
+}
+
+// TM-104, TM-31: behind a holdover the compare unit is left as it is, or its output would jump; but
+// a pair as far off as TM-103 asks of a step, and one behind an upset (TM-141), arms it.
+TEST(CanTimeSync, HoldoverLeavesThePulses) {
+  for (const bool pps : {true, false})
+    for (const bool upset : {true, false})
+      for (const std::int64_t o : {0, (1 << 20) - 1, 1 - (1 << 20), 1 << 20, -(1 << 20)}) {
+        SCOPED_TRACE(testing::Message() << pps << ' ' << upset << ' ' << o);
+        TimeSyncSetting setting = usual();
+        setting.tmo = 17;
+        setting.pps = pps;
+        SyncRig rig{setting};
+        TimeSyncModel model{setting};
+        for (unsigned sc = 0; sc < 13; ++sc) pair(model, setting, sc, 100, 0);
+        model.timeout();
+        lock(rig);
+        while (rig.state() == kLocked && rig.clock_count() < 1000000) rig.clock();
+        ASSERT_EQ(rig.state(), kHoldover);
+        rig.upset(upset);
+        pair(rig, 13, o);
+        TimeSyncAction expected{-o, {}, {}};
+        if (pps && (upset || std::abs(o) >= 1 << 20))
+          expected.whole = kSecond * (1'700'000'000 + 13 + 2) & 0xFFFFFFFF;
+        EXPECT_EQ(rig.settle(), expected);
+        EXPECT_EQ(rig.state(), kAcquiring);
+        EXPECT_EQ(rig.pairs(), 0u);
+        if (upset) continue;  // which the model knows nothing of
+        EXPECT_EQ(pair(model, setting, 13, o, 0), expected);
+        EXPECT_EQ(static_cast<unsigned>(model.state()), kAcquiring);
+        EXPECT_EQ(model.pairs(), 0u);
+      }
 }
 
 // TM-104: a command of the CPU goes through alone, whatever the follower is about to do; one of the

@@ -5,7 +5,7 @@
   // and every register is free; each property is about two clocks, the first of which is any state.
 
   logic       f_ran = 1'b0;
-  logic       f_enable, f_done, f_step, f_far, f_anew, f_last, f_late, f_leap;
+  logic       f_enable, f_done, f_step, f_far, f_anew, f_last, f_late, f_leap, f_whole;
   logic [1:0] f_state;
   logic [2:0] f_op;
   logic [7:0] f_pairs;
@@ -15,6 +15,7 @@
     f_ran <= 1'b1;
     {f_enable, f_done, f_step, f_far, f_anew, f_last, f_late, f_leap}
       <= {enable, done, step, far, anew, last, late, leap_q};
+    f_whole <= pps && (upset_i || far || state_q == StNone);
     {f_state, f_op, f_pairs} <= {state_q, op_q, pairs_q};
   end
 
@@ -46,6 +47,10 @@
       // TM-103: in LOCKED the first pair that is far off does nothing, the second in a row shifts.
       p_ignored: assert (!(f_enable && f_op == OpJudge && f_last && f_state == StLocked && f_far)
                          || (f_leap ? op_q == OpShift : op_q == OpIdle && leap_q));
+      // TM-104: of a pair that shifts alone the compare unit hears if it is the first one or far
+      // off, or behind an upset; behind a holdover its output goes on.
+      p_whole: assert (!(f_enable && f_op == OpShift && f_last && f_step && !f_anew)
+                       || op_q == (f_whole ? OpWhole : OpIdle));
       // TM-102: a round is 64 clocks; what it does changes behind its last one alone.
       p_round: assert (!f_enable || f_last || op_q == f_op);
     end

@@ -737,7 +737,8 @@
 #define VERICAN_TSCTRL_KI_SHIFT                 16u
 #define VERICAN_TSCTRL_KI_GET(word)             (((uint32_t)(word) >> 16) & 0x1Fu)
 #define VERICAN_TSCTRL_KI_SET(value)            (((uint32_t)(value) & 0x1Fu) << 16)
-/* PPS: A step of the clock arms the compare unit with a whole second. */
+/* PPS: A step of the clock arms the compare unit with a whole second; TCMPH and CMPEN are set
+   before EN. */
 #define VERICAN_TSCTRL_PPS_MASK                 0x00000200u
 #define VERICAN_TSCTRL_PPS_SHIFT                9u
 /* PHALF: While locked, half of the offset is corrected. */
