@@ -67,7 +67,7 @@ module can_remote #(
   parameter logic [31:0] SyncCtrl = 32'h1F49_0100,
   parameter logic [31:0] SyncId = 32'h1080_0000,
   parameter logic [31:0] SyncDelay = 32'd0,
-  /// ns between two edges of pps_o, 1..2^31-1; 500,000,000: a rising edge a second.
+  /// ns between two edges of pps_o, 16 clocks at least; 500,000,000: a rising edge a second.
   parameter int HalfPeriod = 500000000,
   /// Derived, do not override.
   localparam int Events = NumProd == 0 ? 1 : NumProd
@@ -123,7 +123,7 @@ module can_remote #(
     .NameBits(NameBits), .MemBytes(MemBytes), .StageBytes(StageBytes), .TxDepth(TxDepth),
     .NumProd(NumProd), .NumMap(NumMap), .Protect(Protect), .Block(Block), .AutoRate(AutoRate),
     .Counters(Counters), .SameId(SameId), .RateRows(RateRows), .TimeSync(TimeSync),
-    .SyncId(SyncId), .SyncDelay(SyncDelay), .HalfPeriod(HalfPeriod)
+    .TimeInc(TimeInc), .SyncId(SyncId), .SyncDelay(SyncDelay), .HalfPeriod(HalfPeriod)
   ) u_params ();
   can_timing_params #(
     .Brp(Brp), .Prop(Prop), .Ps1(Ps1), .Ps2(Ps2), .Sjw(Sjw)

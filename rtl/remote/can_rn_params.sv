@@ -18,6 +18,7 @@ module can_rn_params #(
   parameter int SameId = 0,
   parameter int RateRows = 8,
   parameter int TimeSync = 0,
+  parameter logic [39:0] TimeInc = '0,
   parameter logic [31:0] SyncId = '0,
   parameter logic [31:0] SyncDelay = '0,
   parameter int HalfPeriod = 1
@@ -68,8 +69,11 @@ module can_rn_params #(
   if (SyncDelay[31:24] != '0) begin : gen_check_sync_delay
     SyncDelay_must_be_24_bits u_stop ();
   end
-  if (HalfPeriod < 1) begin : gen_check_half_period
-    HalfPeriod_must_be_1_to_2147483647 u_stop ();
+  // TM-31, in 2^-32 ns.
+  localparam logic [63:0] Half     = 64'(HalfPeriod) << 32;
+  localparam logic [63:0] Clocks16 = 64'(TimeInc) << 4;
+  if (HalfPeriod < 1 || Half < Clocks16) begin : gen_check_half_period
+    HalfPeriod_must_be_16_clocks_at_least u_stop ();
   end
 
 endmodule

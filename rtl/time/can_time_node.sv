@@ -12,7 +12,7 @@ module can_time_node #(
   parameter logic [31:0] SyncCtrl = 32'h1F46_0100,
   parameter logic [31:0] SyncId = 32'd0,
   parameter logic [31:0] SyncDelay = 32'd0,
-  /// ns between two edges of pps_o, 1..2^31-1; 500,000,000: a rising edge a second.
+  /// ns between two edges of pps_o, 16 clocks at least; 500,000,000: a rising edge a second.
   parameter int HalfPeriod = 500000000,
   /// Bit timing as `verican bittime` prints it: clocks per quantum 1..256, quanta per segment 1..8,
   /// SJW 1..4; at least 8 clocks a bit.
@@ -30,9 +30,12 @@ module can_time_node #(
   input  logic        can_rx_i,
   output logic        can_tx_o
 );
+  // TM-31, in 2^-32 ns.
+  localparam logic [63:0] Half     = 64'(HalfPeriod) << 32;
+  localparam logic [63:0] Clocks16 = 64'(TimeInc) << 4;
   // A module that does not exist stops the build; its name is the message.
-  if (HalfPeriod < 1) begin : gen_check_half_period
-    HalfPeriod_must_be_1_to_2147483647 u_stop ();
+  if (HalfPeriod < 1 || Half < Clocks16) begin : gen_check_half_period
+    HalfPeriod_must_be_16_clocks_at_least u_stop ();
   end
   if (SyncDelay[31:24] != '0) begin : gen_check_sync_delay
     SyncDelay_must_be_24_bits u_stop ();

@@ -93,20 +93,32 @@ class Features(unittest.TestCase):
     def test_node_without_a_processor_refuses_what_its_clock_cannot_be(self):
         """TM-106, TM-107: each parameter just outside its range; in it, it is clean."""
         self.assertEqual(lint({"TimeSync": 1}, "can_remote"), (0, ""))
-        for name, value in (("TimeSync", 2), ("HalfPeriod", 0), ("SyncId", 1), ("SyncId", 1 << 29),
-                            ("SyncDelay", 1 << 24)):
+        for name, value in (("TimeSync", 2), ("HalfPeriod", -1), ("HalfPeriod", 1999),
+                            ("SyncId", 1), ("SyncId", 1 << 29), ("SyncDelay", 1 << 24)):
             with self.subTest(name, value=value):
                 code, text = lint({"TimeSync": 1, name: value}, "can_remote")
                 self.assertNotEqual(code, 0)
                 self.assertIn(f"{name}_must_be", text)
+        self.assertEqual(lint({"TimeSync": 1, "HalfPeriod": 2000}, "can_remote"), (0, ""))
 
     def test_clock_without_a_processor_refuses_what_its_registers_cannot_hold(self):
         """TM-100: each parameter just outside its range."""
-        for value in ({"HalfPeriod": 0}, {"SyncDelay": 1 << 24}):
+        for value in ({"HalfPeriod": -1}, {"HalfPeriod": 319}, {"SyncDelay": 1 << 24}):
             with self.subTest(value):
                 code, text = lint(value, "can_time_node")
                 self.assertNotEqual(code, 0)
                 self.assertIn(f"{next(iter(value))}_must_be", text)
+
+    def test_clock_without_a_processor_refuses_pulses_faster_than_its_compare_unit(self):
+        """TM-31: 16 clocks, to the ns: of 20 ns, of 62.5 ns, and of the longest there are."""
+        for inc, least in (("40'h14_0000_0000", 320), ("40'h3E_8000_0000", 1000),
+                           ("40'h3E_8000_0001", 1001), ("40'hFF_FFFF_FFFF", 4096)):
+            with self.subTest(inc):
+                value = {"TimeInc": inc, "HalfPeriod": least}
+                self.assertEqual(lint(value, "can_time_node"), (0, ""))
+                code, text = lint({**value, "HalfPeriod": least - 1}, "can_time_node")
+                self.assertNotEqual(code, 0)
+                self.assertIn("HalfPeriod_must_be", text)
 
     def test_nodes_without_a_processor_refuse_a_timing_that_cannot_be(self):
         """BT-02: each parameter just outside its range, and a bit of seven clocks."""
