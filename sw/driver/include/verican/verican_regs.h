@@ -556,7 +556,8 @@
 /* TXPIN: Own frames are stamped at the own receive pin, as foreign ones are. */
 #define VERICAN_TCTRL_TXPIN_MASK                0x00000004u
 #define VERICAN_TCTRL_TXPIN_SHIFT               2u
-/* POINT: Where a frame is stamped; a change holds from the next frame on. */
+/* POINT: Where a frame is stamped. Change it in freeze mode; a change holds from the next frame
+   on. */
 #define VERICAN_TCTRL_POINT_MASK                0x00000003u
 #define VERICAN_TCTRL_POINT_SHIFT               0u
 #define VERICAN_TCTRL_POINT_GET(word)           (((uint32_t)(word) >> 0) & 0x3u)
