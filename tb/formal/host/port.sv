@@ -29,7 +29,9 @@
     end
   end
 
-  logic f_cs, f_msg, f_mask;
+  logic       f_cs, f_msg, f_mask;
+  logic [3:0] f_we;
+  assign f_we   = we_cs | we_msg | we_mask;
   assign f_cs   = of_cs || wr_q;
   assign f_msg  = of_msg && rd_q;
   assign f_mask = mem_sel_q == can_mb_pkg::MemMask && rd_q;
@@ -69,7 +71,7 @@
       p_one_reader: assert (2'(cpu_rd) + 2'(ins_gnt_o) + 2'(eng_slot_o) < 2'd2);
       // flexcan.md 3.6: no word is written in the clock in which the CPU reads it, but for the mark
       // of one whose bit 30 a write looks at (host.guard, p_ended and p_written, count it).
-      p_whole: assert (scrub_o || !cpu_rd || !re || we == '0
+      p_whole: assert (scrub_o || !cpu_rd || !re || f_we == '0
           || !((f_cs && w_cs && w_row[IdxW:0] == cs_raddr && !(wr_q && serviced_gnt_o))
                || (f_msg && w_msg && w_row == msg_raddr)
                || (f_mask && w_mask && w_row[IdxW:0] == mask_raddr)));
@@ -79,15 +81,18 @@
       p_writes: assert (scrub_o || mem_sel_q == can_mb_pkg::MemTimer
           || !(wr_done_o && $past(first_q && !ring_i))
           || (w_data == wdata_i && w_cs == of_cs && w_row[IdxW-1:0] == idx_q
-              && we == (be_q & {4{!block_i && !(if_ended_i && cs_o[can_mb_pkg::CsEnded])}})));
+              && f_we == (be_q & {4{!block_i && !(if_ended_i && cs_o[can_mb_pkg::CsEnded])}})));
+      // flexcan.md 3.5: the lanes of the memories that are meant, and of no other.
+      p_lanes: assert (we_cs == (f_we & {4{w_cs}}) && we_msg == (f_we & {4{w_msg}})
+                       && we_mask == (f_we & {4{w_mask}}));
       // flexcan.md 3.5, 3.6: what is granted is written: a copy, a mark, a word of the frame
       // received.
       p_granted: assert (scrub_o
           || ((!copy_i
                || (w_row == copy_row_i && w_cs == copy_cs_i && w_msg == !copy_cs_i
-                   && we == (copy_be_i & {4{!copy_off_i}}) && w_data == copy_data_i))
-              && (!serviced_gnt_o || (w_row == {2'b00, serviced_idx_i} && w_cs && we == 4'b1000))
-              && (!rx_wr_gnt_o || (w_row == rx_wr_row_i && w_cs == rx_wr_cs_i && we == rx_wr_be_i
+                   && f_we == (copy_be_i & {4{!copy_off_i}}) && w_data == copy_data_i))
+              && (!serviced_gnt_o || (w_row == {2'b00, serviced_idx_i} && w_cs && f_we == 4'b1000))
+              && (!rx_wr_gnt_o || (w_row == rx_wr_row_i && w_cs == rx_wr_cs_i && f_we == rx_wr_be_i
                                    && w_data == rx_wr_data_i))));
       // flexcan.md 3.5: no copy is ever due while the CPU writes: its word need not stay on the
       // outputs.
