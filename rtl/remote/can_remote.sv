@@ -180,7 +180,7 @@ module can_remote #(
   logic [8:0]  own_cell;
   // Map entries
   logic        search, find, hit, aim, mapped, act, watch, map_we, more;
-  logic        above, equal_now, none, stale, unsafe, told, ten, short, acts;
+  logic        stale, unsafe, told, ten, short, acts;
   // Protection
   logic        crosses, denied, guard;
   logic [8:0]  guard_cell;
@@ -361,7 +361,6 @@ module can_remote #(
     .serial_i(serial), .last_i(phase[1]), .less_i(block_less),
     .more_i(more || tally_more || block_more), .add_i(add), .code_i(shown),
     .next_o(next_byte), .byte_o(read_byte), .zero_o(zero), .one_o(one), .differ_o(differ),
-    .above_o(above), .level_o(equal_now), .none_o(none),
     .sum_o(sum), .same_o(in_order), .equal_o(equal), .wbyte_o(wbyte)
   );
 
@@ -448,7 +447,7 @@ module can_remote #(
 
   if (NumMap == 0) begin : gen_no_map
     logic unused;
-    assign unused = &{1'b0, id, above, equal_now, none, ten};
+    assign unused = &{1'b0, id, ten};
     assign {find, hit, aim, mapped, act, acts, watch, map_cell} = '0;
     assign {map_we, more, stale, unsafe, told} = '0;
   end else begin : gen_map
@@ -456,8 +455,8 @@ module can_remote #(
       .clk_i, .rst_ni,
       .job_i(job), .phase_i(phase), .run_i(run), .visit_i(visit || make), .ten_i(ten),
       .take_i(take), .id_i(id), .row_i(row), .begin_i(begins), .write_i(write),
-      .refused_i(refused), .rdata_i(rdata), .none_i(none), .above_i(above), .equal_i(equal_now),
-      .full_i(&read_byte), .find_o(find), .hit_o(hit), .aim_o(aim), .mapped_o(mapped),
+      .refused_i(refused), .rdata_i(rdata), .byte_i(read_byte), .find_o(find), .hit_o(hit),
+      .aim_o(aim), .mapped_o(mapped),
       .act_o(act), .acts_o(acts), .want_o(watch), .cell_o(map_cell),
       .more_o(more), .we_o(map_we), .stale_o(stale), .unsafe_o(unsafe), .told_o(told)
     );
