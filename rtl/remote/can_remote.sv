@@ -345,7 +345,7 @@ module can_remote #(
     .refused_i(refused), .setup_i(setup), .off_i(off), .status_i(tx_status), .row_i(row),
     .tail_i(tail), .head_i(head), .age_i(age),
     .header_i(head_byte), .at_i(at), .timer_i(timer), .new_tries_i(new_tries), .zero_i(zero),
-    .one_i(one),
+    .one_i(one), .own_i(cell_own || tally_own || block_own),
     .cell_o(cell_addr), .lane_o(cell_lane), .we_o(cell_we)
   );
 
@@ -368,17 +368,13 @@ module can_remote #(
   logic [1:0] same_id;
   assign same_id = {all, !port && !visit && !make} & {2{SameId != 0}};
 
-  // Address of the byte: a block that selects none drives 0, so that an OR is enough. If another
-  // block selects one (own), that of can_rn_cell is masked.
-  logic own;
+  // Address of the byte: a block that selects none drives 0, so that an OR is enough.
   logic [8:0] others;
-  assign own    = cell_own || tally_own || block_own;
-  assign others = guard_cell | map_cell | own_cell | (tally_cell & {9{tally_own}})
-                  | (block_cell & {9{block_own}});
+  assign others = guard_cell | map_cell | own_cell | tally_cell | block_cell;
   can_rn_port #(.MemBytes(MemBytes), .InitFile(InitFile)) u_port (
     .clk_i, .rst_ni, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger || acts),
-    .same_i(same && !phase[0]), .cell_i((cell_addr & {9{!own}}) | others),
-    .lane_i((cell_lane & {2{!own}}) | others[1:0]),
+    .same_i(same && !phase[0]), .cell_i(cell_addr | others),
+    .lane_i(cell_lane | others[1:0]),
     .we_i((cell_we && !no_write && !tally_no_write && !block_no_write && !guard
            && !(Filled && job == can_rn_pkg::JobClear)
            && !(StageBytes == 0 && job == can_rn_pkg::JobMove && (trigger || acts)))
@@ -441,7 +437,7 @@ module can_remote #(
       .ended_i(ended), .differ_i(differ), .yield_i(hdr || urgent),
       .header_i(head_byte), .at_i(at), .status_i(tx_status),
       .want_o(want), .visit_o(visit), .then_o(then_job), .keep_o(keep_same), .same_o(same),
-      .cell_own_o(cell_own), .cell_o(own_cell), .no_write_o(no_write)
+      .own_o(cell_own), .cell_o(own_cell), .no_write_o(no_write)
     );
   end
 
@@ -496,7 +492,7 @@ module can_remote #(
       .order_o(order), .again_o(again), .over_o(excess), .part_o(part), .claims_o(claims),
       .want_o(block_want), .next_o(block_job), .begun_o(begun), .then_o(block_then),
       .on_o(add_on), .closes_o(closes), .timeout_o(timeout), .code_o(shown),
-      .cell_own_o(block_own), .cell_o(block_cell), .re_o(), .we_o(block_we),
+      .own_o(block_own), .cell_o(block_cell), .re_o(), .we_o(block_we),
       .no_write_o(block_no_write), .add_o(add), .less_o(block_less), .more_o(block_more)
     );
   end
@@ -531,7 +527,7 @@ module can_remote #(
       .none_i(rx_dlc == 4'd0 || mapped), .refused_i(refused), .code_i(code),
       .dup_i(valid && dup), .dropped_i(dropped), .off_entry_i(off_entry), .over_i(over),
       .timeout_i(timeout), .clear_i(clear), .byte_i(read_byte),
-      .want_o(tally), .cell_own_o(tally_own), .cell_o(tally_cell), .more_o(tally_more),
+      .want_o(tally), .own_o(tally_own), .cell_o(tally_cell), .more_o(tally_more),
       .wide_o(wide), .no_write_o(tally_no_write)
     );
   end
