@@ -154,7 +154,7 @@ module can_remote #(
   // Request
   logic        hdr, ours, has_byte, live, valid, sys, all, dup, port, key, refused;
   logic        value_bad, high_bad, mismatch, write, read, trigger, select, assign_number;
-  logic        set_state, setup, far, info;
+  logic        set_state, setup, far, info, stage, own_length;
   logic [AddrBits-1:0] a;
   logic [4:0]  op;
   logic [3:0]  code;
@@ -256,8 +256,8 @@ module can_remote #(
     .read_i(read_byte),
     .search_o(search), .id_o(id), .lost_i(job == can_rn_pkg::JobFind && !find && !hit),
     .hit_i(hit), .mask_i(rdata[22:16]), .aim_i(aim), .aim_at_i({rdata[15:12], rdata[19:16]}),
-    .mapped_i(mapped), .load_i(load_at), .load_at_i(rdata[15:12]), .make_i(make),
-    .answer_i(answer), .length_i(length),
+    .mapped_i(mapped), .load_i(load_at), .load_at_i(rdata[15:12]), .answer_i(answer),
+    .length_i(length),
     .hdr_o(hdr), .ours_o(ours), .byte_o(has_byte), .live_o(live), .sys_o(sys), .all_o(all),
     .dup_o(dup), .a_o(a), .port_o(port), .key_o(key), .count_o(count), .op_o(op),
     .value_bad_o(value_bad),
@@ -266,7 +266,11 @@ module can_remote #(
 
   // What an entry asks for is a remote frame, but for a watchdog and where there is no room.
   assign rtr = (rx_rtr || visit) && !make;
-  assign dlc = visit || make || (mapped && (|op[3:0])) ? op[3:0] : rx_dlc;
+  assign dlc = own_length ? op[3:0] : rx_dlc;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) own_length <= 1'b0;
+    else         own_length <= visit || make || (mapped && (|op[3:0]));
+  end
   assign short = rx_dlc < op[3:0] || (rx_dlc[3] && (|rx_dlc[2:0]));
 
   can_rn_check #(
@@ -283,16 +287,20 @@ module can_remote #(
     .selected_i(selected), .operate_i(operate), .unlocked_i(unlocked),
     .lock_reset_i(lock_reset), .full_i(full && !visit && !make),
     .denied_i(denied), .crosses_o(crosses),
-    .write_o(write), .read_o(read), .trigger_o(trigger), .select_o(select),
+    .write_o(write), .read_o(read), .trigger_o(trigger), .stage_o(stage), .select_o(select),
     .assign_o(assign_number), .state_o(set_state), .setup_o(setup), .far_o(far), .info_o(info),
     .block_o(block), .data_o(data),
     .code_o(code)
   );
   assign valid   = rx_valid && live;
   // A system function for other nodes, a read that a node without a number does not answer.
-  assign nothing = select || (set_state && mismatch) || (assign_number && !selected)
-                   || (read && !numbered) || again;
-  assign refused = code != can_rn_pkg::CodeOk || (denied && !again);
+  // Known, like what is asked for, long before the frame is valid.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) nothing <= 1'b0;
+    else         nothing <= select || (set_state && mismatch) || (assign_number && !selected)
+                            || (read && !numbered) || again;
+  end
+  assign refused = code != can_rn_pkg::CodeOk || denied;
 
   can_rn_step #(.Map(NumMap != 0), .Protect(Protect != 0), .Block(Block != 0)) u_step (
     .clk_i, .rst_ni,
@@ -328,7 +336,8 @@ module can_remote #(
   ) u_move (
     .clk_i, .rst_ni,
     .job_i(job), .phase_i(phase), .request_i(request), .begin_i(begins), .take_i(take),
-    .read_i(read), .trigger_i(trigger || acts), .far_i(far), .info_i(info), .key_i(key),
+    .read_i(read), .trigger_i(trigger || acts), .stage_i(stage), .far_i(far), .info_i(info),
+    .key_i(key),
     .data_i(data), .load_i(load_at), .answer_i(answer),
     .crosses_i(crosses), .find_i(find), .act_i(acts),
     .aim_i(aim), .aim_at_i(rdata[11:0]),
@@ -465,7 +474,8 @@ module can_remote #(
   end else begin : gen_guard
     can_rn_guard u_guard (
       .clk_i, .rst_ni,
-      .job_i(job), .late_i(phase[1]), .live_i(live), .memory_i(read || write), .read_i(read),
+      .job_i(job), .late_i(phase[1]), .live_i(live), .memory_i((read || write) && !again),
+      .read_i(read),
       .mem_i(mem[11:4]),
       .byte_i(read_byte), .guard_o(guard), .cell_o(guard_cell), .denied_o(denied)
     );

@@ -153,7 +153,7 @@ module can_rn_block #(
   assign send     = ready_i && (answer_q ? !full_i
                                          : read_q && !waiting_q && !some_i && !advance_q);
   assign claims_o = answer_q || (read_q && !waiting_q);
-  assign visit_o  = visit_q || (aim && !live_i);
+  assign visit_o  = visit_q;
   assign answer_o = visit_o && answer_q;
   assign load_o   = aim && phase_i == 2'd1;
   assign length_o = answer_q ? 4'd6 : few_q && !(&left_q) ? {1'b0, left_q} + 4'd1 : 4'd8;
@@ -187,7 +187,13 @@ module can_rn_block #(
   // through address, bytes done, bytes left; then the seq is one more and the clock begins.
   logic [2:0] moved;
   assign moved = write_q ? end_i - 3'd1 : few_q ? left_q : 3'd7;
-  assign add_o  = moved & {3{add && !round3 && phase_i == 2'd2}};
+  // Known a clock before: the bytes that are left change with what is added to them.
+  logic [2:0] add_q;
+  assign add_o = add_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) add_q <= '0;
+    else         add_q <= moved & {3{add && !round3 && phase_i == 2'd1}};
+  end
   assign less_o = (add && turn_q == 2'd2) || key || tick;
   assign more_o = add && (last ? sum_i[8] && !round3 : turn_q == 2'd2 || (round3 && !open_q));
   assign no_write_o = tick && zero_i;
