@@ -154,7 +154,7 @@ module can_remote #(
   // Request
   logic        hdr, ours, has_byte, live, valid, sys, all, dup, port, key, refused;
   logic        value_bad, high_bad, mismatch, write, read, trigger, select, assign_number;
-  logic        set_state, setup, far, info;
+  logic        set_state, setup, far, info, stage, own_length;
   logic [AddrBits-1:0] a;
   logic [4:0]  op;
   logic [3:0]  code;
@@ -180,7 +180,7 @@ module can_remote #(
   logic [8:0]  own_cell;
   // Map entries
   logic        search, find, hit, aim, mapped, act, watch, map_we, more;
-  logic        above, equal_now, none, stale, unsafe, told, ten, short, acts;
+  logic        stale, unsafe, told, ten, short, acts;
   // Protection
   logic        crosses, denied, guard;
   logic [8:0]  guard_cell;
@@ -256,8 +256,8 @@ module can_remote #(
     .read_i(read_byte),
     .search_o(search), .id_o(id), .lost_i(job == can_rn_pkg::JobFind && !find && !hit),
     .hit_i(hit), .mask_i(rdata[22:16]), .aim_i(aim), .aim_at_i({rdata[15:12], rdata[19:16]}),
-    .mapped_i(mapped), .load_i(load_at), .load_at_i(rdata[15:12]), .make_i(make),
-    .answer_i(answer), .length_i(length),
+    .mapped_i(mapped), .load_i(load_at), .load_at_i(rdata[15:12]), .answer_i(answer),
+    .length_i(length),
     .hdr_o(hdr), .ours_o(ours), .byte_o(has_byte), .live_o(live), .sys_o(sys), .all_o(all),
     .dup_o(dup), .a_o(a), .port_o(port), .key_o(key), .count_o(count), .op_o(op),
     .value_bad_o(value_bad),
@@ -266,7 +266,11 @@ module can_remote #(
 
   // What an entry asks for is a remote frame, but for a watchdog and where there is no room.
   assign rtr = (rx_rtr || visit) && !make;
-  assign dlc = visit || make || (mapped && (|op[3:0])) ? op[3:0] : rx_dlc;
+  assign dlc = own_length ? op[3:0] : rx_dlc;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) own_length <= 1'b0;
+    else         own_length <= visit || make || (mapped && (|op[3:0]));
+  end
   assign short = rx_dlc < op[3:0] || (rx_dlc[3] && (|rx_dlc[2:0]));
 
   can_rn_check #(
@@ -283,16 +287,20 @@ module can_remote #(
     .selected_i(selected), .operate_i(operate), .unlocked_i(unlocked),
     .lock_reset_i(lock_reset), .full_i(full && !visit && !make),
     .denied_i(denied), .crosses_o(crosses),
-    .write_o(write), .read_o(read), .trigger_o(trigger), .select_o(select),
+    .write_o(write), .read_o(read), .trigger_o(trigger), .stage_o(stage), .select_o(select),
     .assign_o(assign_number), .state_o(set_state), .setup_o(setup), .far_o(far), .info_o(info),
     .block_o(block), .data_o(data),
     .code_o(code)
   );
   assign valid   = rx_valid && live;
   // A system function for other nodes, a read that a node without a number does not answer.
-  assign nothing = select || (set_state && mismatch) || (assign_number && !selected)
-                   || (read && !numbered) || again;
-  assign refused = code != can_rn_pkg::CodeOk || (denied && !again);
+  // Known, like what is asked for, long before the frame is valid.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) nothing <= 1'b0;
+    else         nothing <= select || (set_state && mismatch) || (assign_number && !selected)
+                            || (read && !numbered) || again;
+  end
+  assign refused = code != can_rn_pkg::CodeOk || denied;
 
   can_rn_step #(.Map(NumMap != 0), .Protect(Protect != 0), .Block(Block != 0)) u_step (
     .clk_i, .rst_ni,
@@ -328,7 +336,8 @@ module can_remote #(
   ) u_move (
     .clk_i, .rst_ni,
     .job_i(job), .phase_i(phase), .request_i(request), .begin_i(begins), .take_i(take),
-    .read_i(read), .trigger_i(trigger || acts), .far_i(far), .info_i(info), .key_i(key),
+    .read_i(read), .trigger_i(trigger || acts), .stage_i(stage), .far_i(far), .info_i(info),
+    .key_i(key),
     .data_i(data), .load_i(load_at), .answer_i(answer),
     .crosses_i(crosses), .find_i(find), .act_i(acts),
     .aim_i(aim), .aim_at_i(rdata[11:0]),
@@ -345,7 +354,7 @@ module can_remote #(
     .refused_i(refused), .setup_i(setup), .off_i(off), .status_i(tx_status), .row_i(row),
     .tail_i(tail), .head_i(head), .age_i(age),
     .header_i(head_byte), .at_i(at), .timer_i(timer), .new_tries_i(new_tries), .zero_i(zero),
-    .one_i(one),
+    .one_i(one), .own_i(cell_own || tally_own || block_own),
     .cell_o(cell_addr), .lane_o(cell_lane), .we_o(cell_we)
   );
 
@@ -361,7 +370,6 @@ module can_remote #(
     .serial_i(serial), .last_i(phase[1]), .less_i(block_less),
     .more_i(more || tally_more || block_more), .add_i(add), .code_i(shown),
     .next_o(next_byte), .byte_o(read_byte), .zero_o(zero), .one_o(one), .differ_o(differ),
-    .above_o(above), .level_o(equal_now), .none_o(none),
     .sum_o(sum), .same_o(in_order), .equal_o(equal), .wbyte_o(wbyte)
   );
 
@@ -369,17 +377,13 @@ module can_remote #(
   logic [1:0] same_id;
   assign same_id = {all, !port && !visit && !make} & {2{SameId != 0}};
 
-  // Address of the byte: a block that selects none drives 0, so that an OR is enough. If another
-  // block selects one (own), that of can_rn_cell is masked.
-  logic own;
+  // Address of the byte: a block that selects none drives 0, so that an OR is enough.
   logic [8:0] others;
-  assign own    = cell_own || tally_own || block_own;
-  assign others = guard_cell | map_cell | own_cell | (tally_cell & {9{tally_own}})
-                  | (block_cell & {9{block_own}});
+  assign others = guard_cell | map_cell | own_cell | tally_cell | block_cell;
   can_rn_port #(.MemBytes(MemBytes), .InitFile(InitFile)) u_port (
     .clk_i, .rst_ni, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger || acts),
-    .same_i(same && !phase[0]), .cell_i((cell_addr & {9{!own}}) | others),
-    .lane_i((cell_lane & {2{!own}}) | others[1:0]),
+    .same_i(same && !phase[0]), .cell_i(cell_addr | others),
+    .lane_i(cell_lane | others[1:0]),
     .we_i((cell_we && !no_write && !tally_no_write && !block_no_write && !guard
            && !(Filled && job == can_rn_pkg::JobClear)
            && !(StageBytes == 0 && job == can_rn_pkg::JobMove && (trigger || acts)))
@@ -442,13 +446,13 @@ module can_remote #(
       .ended_i(ended), .differ_i(differ), .yield_i(hdr || urgent),
       .header_i(head_byte), .at_i(at), .status_i(tx_status),
       .want_o(want), .visit_o(visit), .then_o(then_job), .keep_o(keep_same), .same_o(same),
-      .cell_own_o(cell_own), .cell_o(own_cell), .no_write_o(no_write)
+      .own_o(cell_own), .cell_o(own_cell), .no_write_o(no_write)
     );
   end
 
   if (NumMap == 0) begin : gen_no_map
     logic unused;
-    assign unused = &{1'b0, id, above, equal_now, none, ten};
+    assign unused = &{1'b0, id, ten};
     assign {find, hit, aim, mapped, act, acts, watch, map_cell} = '0;
     assign {map_we, more, stale, unsafe, told} = '0;
   end else begin : gen_map
@@ -456,8 +460,8 @@ module can_remote #(
       .clk_i, .rst_ni,
       .job_i(job), .phase_i(phase), .run_i(run), .visit_i(visit || make), .ten_i(ten),
       .take_i(take), .id_i(id), .row_i(row), .begin_i(begins), .write_i(write),
-      .refused_i(refused), .rdata_i(rdata), .none_i(none), .above_i(above), .equal_i(equal_now),
-      .full_i(&read_byte), .find_o(find), .hit_o(hit), .aim_o(aim), .mapped_o(mapped),
+      .refused_i(refused), .rdata_i(rdata), .byte_i(read_byte), .find_o(find), .hit_o(hit),
+      .aim_o(aim), .mapped_o(mapped),
       .act_o(act), .acts_o(acts), .want_o(watch), .cell_o(map_cell),
       .more_o(more), .we_o(map_we), .stale_o(stale), .unsafe_o(unsafe), .told_o(told)
     );
@@ -470,7 +474,8 @@ module can_remote #(
   end else begin : gen_guard
     can_rn_guard u_guard (
       .clk_i, .rst_ni,
-      .job_i(job), .late_i(phase[1]), .live_i(live), .memory_i(read || write), .read_i(read),
+      .job_i(job), .late_i(phase[1]), .live_i(live), .memory_i((read || write) && !again),
+      .read_i(read),
       .mem_i(mem[11:4]),
       .byte_i(read_byte), .guard_o(guard), .cell_o(guard_cell), .denied_o(denied)
     );
@@ -497,7 +502,7 @@ module can_remote #(
       .order_o(order), .again_o(again), .over_o(excess), .part_o(part), .claims_o(claims),
       .want_o(block_want), .next_o(block_job), .begun_o(begun), .then_o(block_then),
       .on_o(add_on), .closes_o(closes), .timeout_o(timeout), .code_o(shown),
-      .cell_own_o(block_own), .cell_o(block_cell), .re_o(), .we_o(block_we),
+      .own_o(block_own), .cell_o(block_cell), .re_o(), .we_o(block_we),
       .no_write_o(block_no_write), .add_o(add), .less_o(block_less), .more_o(block_more)
     );
   end
@@ -532,7 +537,7 @@ module can_remote #(
       .none_i(rx_dlc == 4'd0 || mapped), .refused_i(refused), .code_i(code),
       .dup_i(valid && dup), .dropped_i(dropped), .off_entry_i(off_entry), .over_i(over),
       .timeout_i(timeout), .clear_i(clear), .byte_i(read_byte),
-      .want_o(tally), .cell_own_o(tally_own), .cell_o(tally_cell), .more_o(tally_more),
+      .want_o(tally), .own_o(tally_own), .cell_o(tally_cell), .more_o(tally_more),
       .wide_o(wide), .no_write_o(tally_no_write)
     );
   end

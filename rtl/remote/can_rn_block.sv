@@ -55,8 +55,8 @@ module can_rn_block #(
   output logic             closes_o,     // behind JobAdd the transfer is closed
   output logic             timeout_o,    // pulse
   output logic [3:0]       code_o,
-  output logic             cell_own_o,   // the byte that is meant is ..
-  output logic [8:0]       cell_o,
+  output logic             own_o,        // the byte that is meant is none of the row,
+  output logic [8:0]       cell_o,       // but this
   output logic             re_o,
   output logic             we_o,
   output logic             no_write_o,
@@ -67,7 +67,7 @@ module can_rn_block #(
   localparam logic [2:0] VarLeft = 3'd0, VarGap = 3'd2, VarSeq = 3'd3, VarClock = 3'd4;
 
   logic read_q, write_q, answer_q, open_q, advance_q, close_q, late_q, abort_q;
-  logic waiting_q, time_q, visit_q, order_q, again_q, any_q, few_q;
+  logic waiting_q, time_q, visit_q, order_q, again_q, any_q, few_q, key_q, copy_q;
   logic [1:0] turn_q;
   logic [2:0] left_q;
 
@@ -81,7 +81,7 @@ module can_rn_block #(
   assign close = job_i == can_rn_pkg::JobClose;
   assign push  = job_i == can_rn_pkg::JobPush && visit_q;
   assign count = job_i == can_rn_pkg::JobCount && phase_i == 2'd2;
-  assign key   = job_i == can_rn_pkg::JobByte && data_i && first_i && phase_i != 2'd0;
+  assign key   = key_q && phase_i != 2'd0;
   assign last  = phase_i[1];
   assign ends  = &phase_i;
   assign opens = open && ends && row_i[3] && row_i[1];
@@ -115,11 +115,13 @@ module can_rn_block #(
   assign left_write = last && ((open && row_i[3:1] == 3'd3) || (add && turn_q == 2'd2));
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {order_q, again_q, any_q, few_q} <= '0;
+      {order_q, again_q, any_q, few_q, key_q, copy_q} <= '0;
       left_q <= '0;
       turn_q <= '0;
     end else begin
       if (key) {order_q, again_q} <= {equal_i, same_i};
+      key_q  <= job_i == can_rn_pkg::JobByte && data_i && first_i;
+      copy_q <= open;
       any_q <= !open && (any_q || (advance_q && write_q));
       if (left_write && !phase_i[0]) left_q <= sum_i[2:0];
       if (left_write) few_q <= phase_i[0] ? few_q && sum_i[7:0] == 8'd0 : sum_i[7:3] == 5'd0;
@@ -151,7 +153,7 @@ module can_rn_block #(
   assign send     = ready_i && (answer_q ? !full_i
                                          : read_q && !waiting_q && !some_i && !advance_q);
   assign claims_o = answer_q || (read_q && !waiting_q);
-  assign visit_o  = visit_q || (aim && !live_i);
+  assign visit_o  = visit_q;
   assign answer_o = visit_o && answer_q;
   assign load_o   = aim && phase_i == 2'd1;
   assign length_o = answer_q ? 4'd6 : few_q && !(&left_q) ? {1'b0, left_q} + 4'd1 : 4'd8;
@@ -185,7 +187,13 @@ module can_rn_block #(
   // through address, bytes done, bytes left; then the seq is one more and the clock begins.
   logic [2:0] moved;
   assign moved = write_q ? end_i - 3'd1 : few_q ? left_q : 3'd7;
-  assign add_o  = moved & {3{add && !round3 && phase_i == 2'd2}};
+  // Known a clock before: the bytes that are left change with what is added to them.
+  logic [2:0] add_q;
+  assign add_o = add_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) add_q <= '0;
+    else         add_q <= moved & {3{add && !round3 && phase_i == 2'd1}};
+  end
   assign less_o = (add && turn_q == 2'd2) || key || tick;
   assign more_o = add && (last ? sum_i[8] && !round3 : turn_q == 2'd2 || (round3 && !open_q));
   assign no_write_o = tick && zero_i;
@@ -199,8 +207,7 @@ module can_rn_block #(
   logic       none;
   assign round = open ? row_i[3:1] : {1'b0, turn_q};
   assign none  = row_i[3] || ((&row_i[2:1]) && (row_i[0] || !dlc_i[0]));
-  assign cell_own_o = aim || tick || add || close || key || (seq && !last)
-                      || (open && (last || none));
+  assign own_o = key || (copy_q && (last || none));
   always_comb begin
     cell_o = var_cell(VarSeq);
     if (tick)  cell_o = var_cell(VarClock);
@@ -223,7 +230,8 @@ module can_rn_block #(
         3'd4:    cell_o = var_cell({VarGap[2:1], phase_i[0]});
         default: cell_o = {8'h07, phase_i[0]};
       endcase
-      if (!last) cell_o = 9'h006;
+      if (!last) cell_o = none ? 9'h006 : '0;
     end
+    if (!(aim || tick || add || close || key || (seq && !last) || open)) cell_o = '0;
   end
 endmodule

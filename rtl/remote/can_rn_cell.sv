@@ -27,6 +27,7 @@ module can_rn_cell (
   input  logic             new_tries_i,  // JobRow: attempts are written, too
   input  logic             zero_i,       // byte read is 0, 1
   input  logic             one_i,
+  input  logic             own_i,        // not a byte of the row, but what another block says
   output logic [8:0]       cell_o,      // read, or the word that is written, and ..
   output logic [1:0]       lane_o,      // .. the byte of it
   output logic             we_o
@@ -42,7 +43,7 @@ module can_rn_cell (
   logic [2:0] row;
   logic [1:0] lane;
   logic       last;
-  assign lane_o = lane;
+  assign lane_o = lane & {2{!own_i}};
   assign last = phase_i[1];
 
   always_comb begin
@@ -70,7 +71,7 @@ module can_rn_cell (
         page  = PageRow;
         place = 4'd8;
       end
-      can_rn_pkg::JobSeq: page = PageRow;
+      can_rn_pkg::JobSeq: page = last ? PageRow : PageVar;
       can_rn_pkg::JobFresh: begin
         page  = PageStatus;
         place = 4'd0;
@@ -128,7 +129,7 @@ module can_rn_cell (
   always_comb begin
     case (page)
       PageVar:    cell_o = {4'h0, job_i == can_rn_pkg::JobMove, place};
-      PageRow:    cell_o = {2'b01, row, place};
+      PageRow:    cell_o = {2'b01, row, place} & {9{!own_i}};
       PageConfig: cell_o = {5'h10, place};
       default:    cell_o = {5'h1F, place};
     endcase

@@ -47,9 +47,10 @@ module can_rn_check #(
   input  logic                full_i,         // no room for an answer
   input  logic                denied_i,       // protected
   // Kind of request, while its code is 0
-  output logic                write_o,
-  output logic                read_o,         // a clock later than the others
-  output logic                trigger_o,
+  output logic                write_o,        // a clock later than the others
+  output logic                read_o,         // as well
+  output logic                trigger_o,      // as well,
+  output logic                stage_o,        // at once
   output logic                select_o,
   output logic                assign_o,
   output logic                state_o,
@@ -61,7 +62,7 @@ module can_rn_check #(
   output logic                crosses_o,      // it ends in the next block of eight bytes
   output logic [3:0]          code_o          // registered
 );
-  logic near, is_write, none, make, read, read_q;
+  logic near, is_write, none, make, write, read, trigger, write_q, read_q, trigger_q;
   assign make      = Block && make_i;
   assign near      = !sys_i && !port_i;
   assign far_o     = port_i && !(|a_i[2:1]);
@@ -69,16 +70,22 @@ module can_rn_check #(
   assign block_o   = Block && port_i && a_i[2:0] == 3'd2;
   assign data_o    = Block && port_i && a_i[2:0] == 3'd3;
   assign is_write  = (far_o && a_i[0]) || (data_o && !make);
-  assign write_o   = is_write || (near && !rtr_i && !(mapped_i && none));
+  assign write     = is_write || (near && !rtr_i && !(mapped_i && none));
   assign read      = (far_o && !a_i[0]) || (near && rtr_i) || info_o || make;
-  assign read_o    = read_q;            // what is moved, where to: known long before it moves
+  assign write_o   = write_q;           // what is moved, where to: known long before it moves
+  assign read_o    = read_q;
+  assign trigger_o = trigger_q;
+  assign stage_o   = trigger;
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) read_q <= 1'b0;
-    else         read_q <= read;
+    if (!rst_ni) begin
+      {write_q, read_q, trigger_q} <= '0;
+    end else begin
+      {write_q, read_q, trigger_q} <= {write, read, trigger};
+    end
   end
   assign setup_o   = port_i && a_i[2:1] == 2'd2;
   assign state_o   = sys_i && !(|a_i[2:0]);
-  assign trigger_o = sys_i && a_i[1:0] == 2'd1;
+  assign trigger   = sys_i && a_i[1:0] == 2'd1;
   assign assign_o  = sys_i && (&a_i[1:0]);
   assign select_o  = sys_i && !a_i[0] && (|a_i[2:1]);
 
@@ -93,7 +100,7 @@ module can_rn_check #(
     bad_value    = mapped_i ? short_i : none || long;
     if (sys_i) begin
       bad_function = rtr_i || (|a_i[AddrBits-1:3]) || (a_i[2] && (|a_i[1:0]));
-      if (trigger_o)      bad_value = third || dlc_i[1];
+      if (trigger)        bad_value = third || dlc_i[1];
       else if (select_o)  bad_value = !dlc_i[3] || long;
       else                bad_value = third || (assign_o ? dlc_i[1:0] != 2'd1
                                                          : !(dlc_i[1] ^ dlc_i[0]));

@@ -32,9 +32,6 @@ module can_rn_data #(
   output logic                zero_o,       // it is 0, 1
   output logic                one_o,
   output logic                differ_o,     // from the one before
-  output logic                above_o,      // it is more than the byte that comes from the RAM
-  output logic                level_o,      // it is that
-  output logic                none_o,       // which is 0
   output logic [8:0]          sum_o,        // byte that is written, with carry
   output logic                same_o,       // the byte of the frame is that,
   output logic                equal_o,      // or the one read
@@ -42,7 +39,7 @@ module can_rn_data #(
 );
   logic [7:0] byte_q, lane_byte;
   logic [1:0] lane_q;
-  logic       read_q, few, zero_q, one_q;
+  logic       read_q, few, zero, zero_q, one_q;
 
   always_comb begin
     case (lane_q)
@@ -63,28 +60,26 @@ module can_rn_data #(
       // Not of user logic, and none before the RAM has been cleared.
       read_q <= (|job_i[5:3]) || (job_i[2] && !job_i[1]);
       if (read_q) byte_q <= lane_byte;
-      if (read_q) {zero_q, one_q} <= {none_o, few && lane_byte[0]};
+      if (read_q) {zero_q, one_q} <= {zero, few && lane_byte[0]};
     end
   end
 
   assign next_o = lane_byte;
   assign few    = !(|lane_byte[7:1]);
-  assign none_o = few && !lane_byte[0];
+  assign zero   = few && !lane_byte[0];
   assign zero_o = zero_q;
   assign one_o  = one_q;
   assign byte_o = byte_q;
 
   if (!Compare) begin : gen_alone
-    assign {differ_o, above_o, level_o} = '0;
+    assign differ_o = 1'b0;
   end else begin : gen_compare
     logic differ_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni)     differ_q <= 1'b0;
-      else if (read_q) differ_q <= !level_o;
+      else if (read_q) differ_q <= byte_q != lane_byte;
     end
     assign differ_o = differ_q;
-    assign level_o  = byte_q == lane_byte;
-    assign above_o  = byte_q > lane_byte;
   end
 
   // First contents (RN-60) of a byte: its block of eight, and where it is there. The first byte of

@@ -48,9 +48,8 @@ module can_rn_head #(
   // Block transfers
   input  logic                load_i,         // where one goes on: bits 15:12,
   input  logic [3:0]          load_at_i,
-  input  logic                make_i,         // a frame is made for one,
-  input  logic                answer_i,       // of BLOCK,
-  input  logic [3:0]          length_i,       // of this length
+  input  logic                answer_i,       // of BLOCK, from the second clock of JobFetch on
+  input  logic [3:0]          length_i,       // length of a frame that is made
   output logic                byte_o,         // a byte waits
   output logic                live_o,         // a frame for this node is under way
   output logic                sys_o,          // system function (name 0)
@@ -178,7 +177,7 @@ module can_rn_head #(
       class_q <= {|read_i[7:AddrBits], 1'b0};
       a_q     <= read_i[AddrBits-1:0];
       port_q  <= (&read_i[AddrBits-1:3]) && !(|read_i[7:AddrBits]);
-    end else if (make_i && job_i == can_rn_pkg::JobFetch) begin
+    end else if (Block && job_i == can_rn_pkg::JobFetch && !live_q) begin
       class_q <= ClassOwn;
       a_q     <= {{AddrBits-3{1'b1}}, 2'b01, !answer_i};
       port_q  <= 1'b1;

@@ -28,10 +28,7 @@ module can_rn_map #(
   input  logic             refused_i,
   // RAM
   input  logic [31:0]      rdata_i,
-  input  logic             none_i,     // JobLate: there is no time-out in it
-  input  logic             above_i,    // it is less than the byte read before,
-  input  logic             equal_i,    // or as much,
-  input  logic             full_i,     // which is 255
+  input  logic [7:0]       byte_i,     // byte read before
   output logic             find_o,     // JobFind goes on
   output logic             hit_o,      // and has found one
   output logic             aim_o,      // JobAim: rdata_i is what the entry says of its place
@@ -87,13 +84,17 @@ module can_rn_map #(
   // after a start one that begins all times anew.
   logic [IndexWidth-1:0] k_q;
   logic ten_q, again_q, taken_q, fresh_q, pass_q, count_q, on_q, off_q, told_q;
-  logic any_q, unsafe_any_q, stale_q, unsafe_q;
+  logic over_q, flag_q, ends_q, any_q, unsafe_any_q, stale_q, unsafe_q;
   logic anew, over, done, ends;
   // JobLate reads ID with on, time, time-out with flags; the time is compared as it will be
   // counted. It begins anew at a start, with a frame, and in a second look at an entry that is off.
   assign anew    = taken_q || fresh_q || off_q;
-  assign over    = ends_late && on_q && !anew && !none_i && (above_i || full_i
-                                                             || (count_q && equal_i));
+  logic [7:0] limit_byte;
+  logic       full;
+  assign limit_byte = rdata_i[31:24];
+  assign full    = &byte_i;
+  assign over    = ends_late && on_q && !anew && (|limit_byte)
+                   && ({byte_i, count_q} > {limit_byte, 1'b0} || full);
   assign want_o  = pass_q || taken_q;
   assign done    = ends_late && !taken_q && (on_q || anew);
   assign ends    = done && (&k_q);
@@ -120,14 +121,16 @@ module can_rn_map #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {any_q, unsafe_any_q, stale_q, unsafe_q, told_q} <= '0;
+      {over_q, flag_q, ends_q, any_q, unsafe_any_q, stale_q, unsafe_q, told_q} <= '0;
     end else begin
-      told_q       <= ends;
-      any_q        <= !ends && run_i && (any_q || over);
-      unsafe_any_q <= !ends && run_i && (unsafe_any_q || (over && rdata_i[22]));
-      if (ends || !run_i) begin
-        stale_q  <= run_i && (any_q || over);
-        unsafe_q <= run_i && (unsafe_any_q || (over && rdata_i[22]));
+      // A byte of the RAM is compared in one clock, what follows from it comes in the next.
+      {over_q, flag_q, ends_q} <= {over, rdata_i[22], ends};
+      told_q       <= ends_q;
+      any_q        <= !ends_q && run_i && (any_q || over_q);
+      unsafe_any_q <= !ends_q && run_i && (unsafe_any_q || (over_q && flag_q));
+      if (ends_q || !run_i) begin
+        stale_q  <= run_i && (any_q || over_q);
+        unsafe_q <= run_i && (unsafe_any_q || (over_q && flag_q));
       end
     end
   end
@@ -137,7 +140,7 @@ module can_rn_map #(
   logic       time_cell, limit;
   assign k          = find ? row_i[2:0] : aim || taken_q ? 3'(found_q) : 3'(k_q);
   assign more_o     = late && !anew;
-  assign we_o       = ends_late && (anew || (on_q && count_q && !full_i));
+  assign we_o       = ends_late && (anew || (on_q && count_q && !full));
   assign time_cell  = late && phase_i[0];
   assign limit      = late && phase_i[1];
   always_comb begin

@@ -18,7 +18,8 @@ module can_rn_move #(
   input  logic             begin_i,    // its work begins
   input  logic             take_i,     // a header is taken over
   input  logic             read_i,     // memory to row, else row to memory
-  input  logic             trigger_i,
+  input  logic             trigger_i,  // JobMove: the stage to memory
+  input  logic             stage_i,    // the start is the stage
   input  logic             far_i,      // READ, WRITE
   input  logic             info_i,     // STATUS, IDENT
   input  logic             data_i,     // DATA
@@ -88,9 +89,9 @@ module can_rn_move #(
   assign fetched  = load_i && !answer_i;
   assign at       = aim_at_i & {12{aim_i || fetched}};
   assign far_byte = job_i == can_rn_pkg::JobByte && far_i && !(|row_q[3:1]);
-  assign near     = {info_i, a_i[6:5] & {2{!answer_i}}, (a_i[4] && !answer_i) || trigger_i,
+  assign near     = {info_i, a_i[6:5] & {2{!answer_i}}, (a_i[4] && !answer_i) || stage_i,
                      info_i ? a_i[0] : a_i[3], a_i[2:1] & {2{!info_i}},
-                     a_i[0] && !info_i && !trigger_i};
+                     a_i[0] && !info_i && !stage_i && !answer_i};
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       start_q <= '0;

@@ -45,8 +45,8 @@ module can_rn_produce #(
   output can_rn_pkg::job_t   then_o,       // what follows its jobs
   output logic               keep_o,       // JobSame goes on
   output logic               same_o,       // JobSame
-  output logic               cell_own_o,   // the byte that is meant is this alone
-  output logic [8:0]         cell_o,
+  output logic               own_o,        // it is no byte of the row,
+  output logic [8:0]         cell_o,       // but this
   output logic               no_write_o
 );
   localparam logic [1:0] PassPeriod  = 2'd0;
@@ -176,24 +176,27 @@ module can_rn_produce #(
   end
 
   // Bytes
-  logic load, copy;
+  logic load_q, copy;
   logic [2:0] k;
-  assign load       = job_i == can_rn_pkg::JobLoad && phase_i[0] && statement_q && !status_i
-                      && !header_i;
-  assign copy       = same || job_i == can_rn_pkg::JobMove;
-  assign k          = load ? 3'(head_q) : 3'(k_q);
-  assign cell_own_o = load || (visit_q && job_i == can_rn_pkg::JobMove);
+  // Known a clock before: JobLoad reads it in its second phase.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) load_q <= 1'b0;
+    else         load_q <= job_i == can_rn_pkg::JobLoad && phase_i == 2'd0 && statement_q
+                           && !status_i && !header_i;
+  end
+  assign copy  = same || job_i == can_rn_pkg::JobMove;
+  assign k     = load_q ? 3'(head_q) : 3'(k_q);
+  assign own_o = load_q || (visit_q && phase_i[1]);
   // The mover writes a byte more than it is told: behind eight that would be the first again.
   assign no_write_o = entry || (visit_q && copy && ended_i) || (gap && (zero_i || send));
   always_comb begin
     cell_o = {4'b0001, k, gap || keep, phase_i[0] && !gap};
-    if (load || copy)                            cell_o = {3'b001, k, row_i};
-    if (load)                                    cell_o[2:0] = at_i;
+    if (load_q || copy)                          cell_o = {3'b001, k, load_q ? at_i : row_i};
     if (entry || (!last && keep))
                                                  cell_o = {3'b101, k, !entry, 1'b0,
                                                            entry && phase_i[0]};
     if (renew && !last)                          cell_o = refused_i ? 9'h006
                                                           : {3'b101, k, 2'b01, phase_i[0]};
-    if (!(load || entry || down || renew || gap || keep || (visit_q && copy))) cell_o = '0;
+    if (!(load_q || entry || down || renew || gap || keep || (visit_q && copy))) cell_o = '0;
   end
 endmodule

@@ -60,10 +60,11 @@ module can_rn_state #(
   logic                owe_status_q, owe_here_q, owe_feed_q;
   logic                errs_q, ackw_q, boot_q, auto_q, may_q;
 
-  logic counts, act, to_operate, to_safe, expired, number_we, hit;
+  // JobCount decides in its third phase.
+  logic counts_q;
+  logic act, to_operate, to_safe, expired, number_we, hit;
   assign hit        = match_i && !(new_i && numbered_o);
-  assign counts     = job_i == can_rn_pkg::JobCount && phase_i == 2'd2;
-  assign act        = counts && !refused_i;
+  assign act        = counts_q && !refused_i;
   assign to_operate = act && state_i && op_i[0] && !op_i[2];
   assign to_safe    = act && state_i && op_i[1];
   assign restart_o  = !refused_i && state_i && op_i[0] && op_i[2];
@@ -131,8 +132,9 @@ module can_rn_state #(
   assign clear_o = clear;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {dup_q, watchdog_q, boff_seen_q, armed_q, run_q} <= '0;
+      {counts_q, dup_q, watchdog_q, boff_seen_q, armed_q, run_q} <= '0;
     end else begin
+      counts_q    <= job_i == can_rn_pkg::JobCount && phase_i == 2'd1;
       dup_q       <= dup_i || (dup_q && !clear);
       watchdog_q  <= expired || (watchdog_q && !clear);
       boff_seen_q <= off_entry_i || (boff_seen_q && !clear);
@@ -149,7 +151,8 @@ module can_rn_state #(
     end else begin
       if (begins)                  owe_status_q <= byte_i[2];
       else if (off_exit_i)         owe_status_q <= boot_q;
-      else if (counts && (refused_i ? errs_q && !all_i : (ackw_q && write_i && !all_i) || assign_i))
+      else if (counts_q && (refused_i ? errs_q && !all_i
+                                      : (ackw_q && write_i && !all_i) || assign_i))
                                    owe_status_q <= 1'b1;
       else if (gone_status_i || off_entry_i) owe_status_q <= 1'b0;
       if (accept_i && select_i)    owe_here_q <= hit;

@@ -112,30 +112,35 @@ module can_rn_step #(
   assign over_o    = job_q == can_rn_pkg::JobBegin && held && over && !visit_i && !again_i;
   assign begin_o   = job_q == can_rn_pkg::JobBegin && !wait_user;
 
-  // What comes next when nothing is under way.
+  // What comes next when nothing is under way: what a frame or the time asks for, else the rest.
+  logic             front;
+  can_rn_pkg::job_t soon, later;
+  assign front = valid_i || hdr_i || byte_i || (quiet && urgent_i)
+                 || (due && (tally_i || ms_q || aged_q));
   always_comb begin
-    next = can_rn_pkg::JobIdle;
+    soon = can_rn_pkg::JobAge;
     // What a map entry takes has been looked at before. JobGuard, JobBegin, or nothing.
-    if (valid_i) next = {1'b0, guarded, 1'b0, {2{guarded}}, !dup_i};
-    else if (hdr_i)                          next = {2'b00, ours_i || search_i, search_i, 2'b00};
-    else if (byte_i)                         next = can_rn_pkg::JobByte;
-    else if (quiet && urgent_i)              next = can_rn_pkg::JobLoad;
-    else if (due && tally_i)                 next = can_rn_pkg::JobTally;
-    else if (due && ms_q)                    next = can_rn_pkg::JobLow;
-    else if (due && aged_q)                  next = can_rn_pkg::JobAge;
-    else if (quiet) begin
-      // RN-103: nothing leads here with the node off the bus but an upset.
-      if (!run_i)                            next = can_rn_pkg::JobStart;
-      else if (try_i)                        next = can_rn_pkg::JobTry;
-      else if (load_i)                       next = can_rn_pkg::JobLoad;
-      else if (!row_ready_q || !try_ready_q) next = can_rn_pkg::JobRow;
-      else if (boff_i ^ off_i)               next = can_rn_pkg::JobTurn;
-      else if (owe_feed_i)                   next = can_rn_pkg::JobFeed;
-      else if (Block && block_i)             next = block_job_i;
-      else if (watch_i)                      next = can_rn_pkg::JobLate;
-      else if (want_i)                       next = can_rn_pkg::JobEntry;
-    end
+    if (valid_i) soon = {1'b0, guarded, 1'b0, {2{guarded}}, !dup_i};
+    else if (hdr_i)               soon = {2'b00, ours_i || search_i, search_i, 2'b00};
+    else if (byte_i)              soon = can_rn_pkg::JobByte;
+    else if (quiet && urgent_i)   soon = can_rn_pkg::JobLoad;
+    else if (tally_i)             soon = can_rn_pkg::JobTally;
+    else if (ms_q)                soon = can_rn_pkg::JobLow;
   end
+  always_comb begin
+    later = can_rn_pkg::JobIdle;
+    // RN-103: nothing leads here with the node off the bus but an upset.
+    if (!run_i)                            later = can_rn_pkg::JobStart;
+    else if (try_i)                        later = can_rn_pkg::JobTry;
+    else if (load_i)                       later = can_rn_pkg::JobLoad;
+    else if (!row_ready_q || !try_ready_q) later = can_rn_pkg::JobRow;
+    else if (boff_i ^ off_i)               later = can_rn_pkg::JobTurn;
+    else if (owe_feed_i)                   later = can_rn_pkg::JobFeed;
+    else if (Block && block_i)             later = block_job_i;
+    else if (watch_i)                      later = can_rn_pkg::JobLate;
+    else if (want_i)                       later = can_rn_pkg::JobEntry;
+  end
+  assign next = front ? soon : later & {6{quiet}};
 
   // What a request leads to that is not refused.
   assign work   = nothing_i ? can_rn_pkg::JobIdle : trigger_i ? can_rn_pkg::JobTrigger
@@ -155,7 +160,6 @@ module can_rn_step #(
     keep  = job_q[4] && !(phase_q[1] && (phase_q[0] || !job_q[3]));
     job_d = can_rn_pkg::JobIdle;
     case (job_q)
-      can_rn_pkg::JobIdle:  job_d = next;
       can_rn_pkg::JobBegin: begin
         keep  = wait_user;
         job_d = refused_i ? can_rn_pkg::JobCount : work;
@@ -233,7 +237,7 @@ module can_rn_step #(
       endcase
     end
     // The answer that nobody has asked for gives way to a request, and to the engine.
-    if (visit_i && !idle) begin
+    if (visit_i) begin
       if (job_q == can_rn_pkg::JobSame)  keep = same_i;
       if (job_q == can_rn_pkg::JobBegin) begin
         keep  = wait_user && !(hdr_i || urgent_i);
@@ -242,6 +246,7 @@ module can_rn_step #(
         job_d = then_i;
       end
     end
+    if (idle) job_d = next;
   end
 
   assign ended_timer = (job_q == can_rn_pkg::JobLow && phase_q[1] && !carry_i)

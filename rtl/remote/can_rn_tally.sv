@@ -25,18 +25,18 @@ module can_rn_tally (
   // RAM
   input  logic [7:0]       byte_i,       // read
   output logic             want_o,       // JobTally is due
-  output logic             cell_own_o,   // the byte that is meant is ..
-  output logic [8:0]       cell_o,
+  output logic             own_o,        // the byte that is meant is none of the row,
+  output logic [8:0]       cell_o,       // but this
   output logic             more_o,       // one more is written in the clock after
   output logic             wide_o,       // all bytes of the word
   output logic             no_write_o
 );
   logic       tally, last, byte_job, counted, sequence_bad;
-  logic       due_q, drop_q, over_q, clear_q, order_q, event_now, ends;
+  logic       due_q, drop_q, over_q, clear_q, order_q, byte_q, event_now, ends;
   logic [2:0] what_q, what, k;
 
   assign tally    = job_i == can_rn_pkg::JobTally;
-  assign byte_job = job_i == can_rn_pkg::JobByte && count_i && phase_i != 2'd0;
+  assign byte_job = byte_q && phase_i != 2'd0;
   assign last     = phase_i[1];
   assign ends     = tally && last && !due_q;
 
@@ -56,7 +56,7 @@ module can_rn_tally (
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {due_q, drop_q, over_q, clear_q, order_q} <= '0;
+      {due_q, drop_q, over_q, clear_q, order_q, byte_q} <= '0;
       what_q <= '0;
     end else begin
       if (event_now)                what_q <= what;
@@ -66,12 +66,13 @@ module can_rn_tally (
       drop_q  <= dropped_i || (drop_q && !ends);
       over_q  <= over_i || (over_q && (drop_q || !ends));
       if (byte_job) order_q <= same_i;
+      byte_q  <= job_i == can_rn_pkg::JobByte && count_i;
     end
   end
 
   assign want_o     = due_q || drop_q || over_q;
   assign k          = due_q ? what_q : {!drop_q, 2'b11};
-  assign cell_own_o = tally || byte_job;
+  assign own_o      = byte_job;
   assign more_o     = (tally && !clear_q) || byte_job;
   assign wide_o     = tally && clear_q;
   assign no_write_o = tally && (&byte_i);
@@ -79,5 +80,6 @@ module can_rn_tally (
     cell_o = {6'b1_1110_1, k};
     if (!last && clear_q) cell_o = 9'h006;               // a byte that is 0
     if (byte_job)         cell_o = 9'h1F7;               // the last count
+    if (!(tally || byte_job)) cell_o = '0;
   end
 endmodule

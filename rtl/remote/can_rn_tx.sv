@@ -49,7 +49,7 @@ module can_rn_tx #(
 );
   localparam int PtrWidth = TxDepth == 1 ? 1 : 3;
 
-  logic [PtrWidth-1:0] tail_q, head_q;
+  logic [PtrWidth-1:0] tail_q, head_q, head_d;
   logic [1:0]          src_q;    // what is offered, once its header has been loaded
   logic                header_q; // the header is offered,
   logic [2:0]          at_q;     // or this byte comes next
@@ -74,18 +74,25 @@ module can_rn_tx #(
     assign full_o = tail_q == {~head_q[2], head_q[1:0]};
     // RN-54: all answers age, beginning with the first; only the first is dropped, the others wait
     // for that with 10 ms left. One that goes meanwhile takes no other with it.
-    logic [2:0] age_q, age_d;
-    logic       ages;
-    assign ages   = job_i == can_rn_pkg::JobAge && (&phase_i);
-    assign age_d  = age_q + {2'b00, ages || (first_gone && first && job_i != can_rn_pkg::JobAge)};
+    // The row behind is looked at a clock before that counts: both stay during JobAge.
+    logic [2:0] age_q, behind;
+    logic       looks, ages, last_q;
+    assign looks  = job_i == can_rn_pkg::JobAge;
+    assign ages   = looks && (&phase_i);
+    assign behind = age_q + 3'd1;
     assign first  = age_q == head_q;
-    assign more_o = some_o && age_d != tail_q;
+    assign more_o = some_o && !last_q;
     assign age_o  = age_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni)              age_q <= '0;
-      else if (flush_i)         age_q <= tail_q;
-      else if (ages && !more_o) age_q <= head_q + {2'b00, first_gone};
-      else                      age_q <= age_d;
+      if (!rst_ni) begin
+        age_q  <= '0;
+        last_q <= 1'b0;
+      end else begin
+        last_q <= behind == tail_q;
+        if (flush_i)                                   age_q <= tail_q;
+        else if (ages && !more_o)                      age_q <= head_d;
+        else if (ages || (first_gone && first && !looks)) age_q <= behind;
+      end
     end
   end
   assign load_o  = load_q && (some_o || owe_status_i || owe_here_i);
@@ -109,6 +116,7 @@ module can_rn_tx #(
 
   assign first_gone = stale || (gone && src_q == can_rn_pkg::SrcQueue);
   assign popped_o   = flush_i || first_gone;
+  assign head_d     = first_gone ? head_q + 1'b1 : head_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       tail_q <= '0;
@@ -116,7 +124,7 @@ module can_rn_tx #(
     end else begin
       if (job_i == can_rn_pkg::JobPush)             tail_q <= tail_q + 1'b1;
       if (flush_i)                                  head_q <= tail_q;
-      else if (first_gone)                          head_q <= head_q + 1'b1;
+      else                                          head_q <= head_d;
     end
   end
 

@@ -18,7 +18,7 @@
   assign f_row    = f_first >= 13'hFF0 && f_last < 13'h1000;
 
   logic f_write, f_read;
-  assign f_write = write_o && !bad_function;
+  assign f_write = write && !bad_function;
   assign f_read  = read && !bad_function && !info_o;
   // READ, STATUS, IDENT, a direct remote frame.
   logic f_asks;
@@ -52,7 +52,7 @@
                         || $past(f_window));
       // RN-33: no more than eight bytes, and not none but by TRIGGER.
       p_length: assert (code_o != can_rn_pkg::CodeOk
-                        || $past(dlc_i <= 4'd8 && (dlc_i != 4'd0 || trigger_o || mapped_i)));
+                        || $past(dlc_i <= 4'd8 && (dlc_i != 4'd0 || trigger || mapped_i)));
       // RN-65: nor fewer than a map entry wants.
       p_short: assert (code_o != can_rn_pkg::CodeOk || !$past(mapped_i && short_i));
       // RN-32: what is protected is refused.

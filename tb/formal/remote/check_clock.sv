@@ -15,7 +15,7 @@
   assign f_inside  = f_first >= 13'hFC0 && f_last < 13'hFD0;
   assign f_touches = f_first < 13'hFD0 && f_last >= 13'hFC0;
   assign f_read    = f_far && read;
-  assign f_write   = f_far && write_o;
+  assign f_write   = f_far && write;
 
   always @(posedge clk_i) begin
     m_no_reset: assume (rst_ni);

@@ -9,7 +9,7 @@
   always @(posedge clk_i) f_ran <= 1'b1;
 
   logic f_state_command, f_auto;
-  assign f_state_command = counts && !refused_i && state_i && op_i[1:0] == 2'b01 && !op_i[2];
+  assign f_state_command = counts_q && !refused_i && state_i && op_i[1:0] == 2'b01 && !op_i[2];
   assign f_auto          = (begins && byte_i[3]) || (off_exit_i && auto_q)
                            || (told_i && auto_q && !unsafe_i);
 
@@ -51,19 +51,19 @@
       p_locks: assert (!$past(operate_o) || !unlocked_o);
       // RN-61: only UNLOCK, and only one that is not refused, opens.
       p_unlock: assert (!unlocked_o || $past(unlocked_o)
-                        || $past(counts && !refused_i && setup_i && op_i[1:0] == 2'b01));
+                        || $past(counts_q && !refused_i && setup_i && op_i[1:0] == 2'b01));
       // RN-61: locked until reset is for good.
       p_for_good: assert (!$past(lock_reset_o) || lock_reset_o);
       // RN-35, RN-24: flags are cleared by CLEAR alone.
       p_flags: assert ((status_o & $past(status_o) & 8'hD0) == ($past(status_o) & 8'hD0)
-                       || $past(counts && !refused_i && setup_i && op_i[2]));
+                       || $past(counts_q && !refused_i && setup_i && op_i[2]));
       // RN-11: a statement under the own number is noticed.
       p_dup: assert (!$past(dup_i) || status_o[4]);
       // RN-26: a node with a number does not obey SELECT NEW.
       p_new: assert (!$past(accept_i && select_i && new_i && numbered_o) || !selected_o);
       // RN-60: the number changes by ASSIGN or at the start alone.
       p_number: assert (number_o == $past(number_o)
-                        || $past((counts && !refused_i && assign_i)
+                        || $past((counts_q && !refused_i && assign_i)
                                  || job_i == can_rn_pkg::JobConfig));
     end
   end

@@ -39,7 +39,8 @@
     // What an entry of a producer leads to (produce.p_then), and that it asks as a read does.
     m_then: assume (then_i == can_rn_pkg::JobIdle || then_i == can_rn_pkg::JobBegin || f_visit);
     m_begun: assume (begun_i == can_rn_pkg::JobFresh);
-    m_read: assume (!visit_i || (read_i && !write_i && !trigger_i));
+    m_read: assume (!visit_i || job_q == can_rn_pkg::JobEntry
+                    || (read_i && !write_i && !trigger_i));
     // It begins with JobEntry and ends where a job is followed by none.
     m_visit: assume (visit_i == f_visiting);
     // A map entry takes no read, and nothing but a header or a visit changes whether one has taken
