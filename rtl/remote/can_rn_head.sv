@@ -123,7 +123,12 @@ module can_rn_head #(
   assign second = row_i == 4'd1;
   assign third  = row_i == 4'd2;
 
-  // STATE 01, 02, 81; SETUP 1 to 4; READ 1 to 6.
+  // The first byte of DATA is compared with the seq.
+  logic block, data;
+  assign block = Block && port_o && a_q[2:0] == 3'd2;
+  assign data  = Block && port_o && a_q[2:0] == 3'd3;
+
+  // STATE 01, 02, 81; SETUP 1 to 4; READ 1 to 6; BLOCK: op 0 to 2, a count that is not 0.
   logic state_bad, setup_bad, get_bad, bad, other;
   assign state_bad = byte_i[2] || !(byte_i[1] ^ byte_i[0]) || (byte_i[7] && byte_i[1]);
   assign setup_bad = byte_i[7] || (byte_i[2] ? |byte_i[1:0] : !(|byte_i[1:0]));
@@ -132,11 +137,6 @@ module can_rn_head #(
                      || (third && get && (top || get_bad))
                      || (first && block && (top || byte_i[7] || byte_i[2] || (&byte_i[1:0])));
   assign other     = second && (|byte_i) && !(numbered_i && byte_i == 8'(number_i));
-
-  // BLOCK: op 0 to 2, a count that is not 0. The first byte of DATA is compared with the seq.
-  logic block, data;
-  assign block = Block && port_o && a_q[2:0] == 3'd2;
-  assign data  = Block && port_o && a_q[2:0] == 3'd3;
 
   // SELECT compares after each mask, UNLOCK each byte of the key; with counters TRIGGER its count.
   assign count_o = Counters && sys_o && a_q[1:0] == 2'd1;

@@ -15,8 +15,8 @@
   logic f_ran = 1'b0;
   logic [6:0] f_open = 7'd0;      // clocks that a pass has been under way in calm
   logic f_calm;
-  assign f_calm = !cs_written_i && !ans_i && !start_i && !off_i && !inactive_i && !retry_i && !sent_i
-      && !freed && !set_aside && running_i
+  assign f_calm = !cs_written_i && !ans_i && !start_i && !off_i && !inactive_i && !retry_i
+               && !sent_i && !freed && !set_aside && running_i
                && ins_gnt_i == ins_req_o && scan_gnt_i == (scan_req_o && !ins_gnt_i);
   always @(posedge clk_i) begin
     f_ran  <= 1'b1;
