@@ -124,13 +124,13 @@ module can_rn_map #(
       {over_q, flag_q, ends_q, any_q, unsafe_any_q, stale_q, unsafe_q, told_q} <= '0;
     end else begin
       // A byte of the RAM is compared in one clock, what follows from it comes in the next.
-      {over_q, flag_q, ends_q} <= {over, rdata_i[22], ends};
+      {over_q, flag_q, ends_q} <= {over, over && rdata_i[22], ends};
       told_q       <= ends_q;
       any_q        <= !ends_q && run_i && (any_q || over_q);
-      unsafe_any_q <= !ends_q && run_i && (unsafe_any_q || (over_q && flag_q));
+      unsafe_any_q <= !ends_q && run_i && (unsafe_any_q || flag_q);
       if (ends_q || !run_i) begin
         stale_q  <= run_i && (any_q || over_q);
-        unsafe_q <= run_i && (unsafe_any_q || (over_q && flag_q));
+        unsafe_q <= run_i && (unsafe_any_q || flag_q);
       end
     end
   end
