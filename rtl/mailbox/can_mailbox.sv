@@ -145,8 +145,13 @@ module can_mailbox #(
     .cs_written_act_o(cs_written_act), .cs_written_empty_o(cs_written_empty),
     .cs_written_ide_o(cs_written_ide));
 
-  assign timer_clear_o = clear_i || (ctrl1_i[can_regs_pkg::Ctrl1Tsyn] && mv_flag
-                                     && 7'(mv_idx) == first);
+  // TSYN: the first mailbox receives. Which one it is has been known for the whole move.
+  logic mv_first_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) mv_first_q <= 1'b0;
+    else         mv_first_q <= 7'(mv_idx) == first;
+  end
+  assign timer_clear_o = clear_i || (ctrl1_i[can_regs_pkg::Ctrl1Tsyn] && mv_flag && mv_first_q);
   assign timer_be_o    = cpu_be[1:0];
   assign timer_wdata_o = wdata_i[15:0];
 
