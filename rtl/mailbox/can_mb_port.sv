@@ -203,8 +203,8 @@ module can_mb_port #(
     of_stamp = TimeUnit != 0 && mem_sel == can_mb_pkg::MemTimer && high_word;
   endfunction
 
-  // The word that is written: memory, row, byte lanes, data. Who would write is known early; that it
-  // may not (off), late: so this comes last.
+  // The word that is written: memory, row, byte lanes, data. Who would write is known early; that
+  // it may not (off), late: so this comes last.
   logic            w_cs, w_msg, w_mask, off;
   logic [IdxW+1:0] w_row;
   logic [3:0]      w_be, we_cs, we_msg, we_mask;
