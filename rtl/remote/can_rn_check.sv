@@ -48,9 +48,9 @@ module can_rn_check #(
   input  logic                denied_i,       // protected
   // Kind of request, while its code is 0
   output logic                write_o,        // a clock later than the others
-  output logic                read_o,         // as well
-  output logic                trigger_o,      // as well,
-  output logic                stage_o,        // at once
+  output logic                read_o,         // the same
+  output logic                trigger_o,      // the same,
+  output logic                stage_o,        // and as early as the others
   output logic                select_o,
   output logic                assign_o,
   output logic                state_o,

@@ -88,6 +88,15 @@ TEST(TimeNode, Accuracy) {
   }
 }
 
+/// Pairs of the master, 10 ms from one's begin to the next one's.
+void run_pairs(FollowerBus<Vcan_time_node_16> &bus, unsigned count) {
+  for (; count != 0; --count) {
+    const double begin = bus.now();
+    bus.pair();
+    bus.run(begin + 10 * kMs);
+  }
+}
+
 // TM-103, TM-104: the state at the pins, with a master that falls silent for more than 2^TMO ns,
 // here 2^25, comes back, and with a reset.
 TEST(TimeNode, StateFollowsTheMaster) {
@@ -95,11 +104,7 @@ TEST(TimeNode, StateFollowsTheMaster) {
   FollowerBus<Vcan_time_node_16> bus{16 * period, 1'700'000'000'000'000'000};
   bus.add(period * (1 + 20 * kPpm), 1'000);
   const auto pairs = [&bus](unsigned count) {
-    for (; count != 0; --count) {
-      const double begin = bus.now();
-      bus.pair();
-      bus.run(begin + 10 * kMs);
-    }
+    run_pairs(bus, count);
     return bus.node(0).state();
   };
   EXPECT_EQ(bus.node(0).state(), 0u);
@@ -122,17 +127,10 @@ TEST(TimeNode, HoldoverLeavesThePulses) {
   const double period = 62.5 * kNs;
   FollowerBus<Vcan_time_node_16> bus{16 * period, 1'700'000'000'000'000'000};
   bus.add(period * (1 + 20 * kPpm), 1'000);
-  const auto pairs = [&bus](unsigned count) {
-    for (; count != 0; --count) {
-      const double begin = bus.now();
-      bus.pair();
-      bus.run(begin + 10 * kMs);
-    }
-  };
-  pairs(16);
+  run_pairs(bus, 16);
   bus.run(bus.now() + 40 * kMs);
   ASSERT_EQ(bus.node(0).state(), 3u);
-  pairs(3);
+  run_pairs(bus, 3);
   ASSERT_EQ(bus.node(0).state(), 1u);
   bus.run(bus.now() + 0.25 * kMs);
   unsigned ms = 20;  // the step of the first pair is over

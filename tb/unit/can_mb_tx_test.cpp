@@ -386,8 +386,9 @@ TEST_P(MbTx, FrameThatIsSentRestartsAPass) {  // FX-ESR2.LPTM
     clock({}, 0, 100);
     top_.sent_i = 0;
     top_.eval();
-    unsigned seen = 0;
+    unsigned seen = 0, clocks = 0;
     while (top_.pass_end_o == 0) {
+      ASSERT_LT(++clocks, 4 * kPass);
       clock({}, 0, 100);
       top_.eval();
       // A buffer that had been read before may still be told of.
