@@ -215,6 +215,13 @@ TEST_P(DriverConfig, ABadConfigurationIsRefusedBeforeTheCoreIsTouched) {
   EXPECT_EQ(verican_start(&dev_), VERICAN_ERR_STATE);
 }
 
+TEST_F(DriverArguments, AStartedDeviceOutlivesABadConfiguration) {
+  start();
+  config_.bitrate = 950'000;
+  EXPECT_EQ(init(), VERICAN_ERR_TIMING);
+  EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_ERR_EMPTY) << "its interrupts are served";
+}
+
 constexpr verican_timing_t kTooLong{1, 8, 8, 9, 1, 0, 0, 0};
 
 INSTANTIATE_TEST_SUITE_P(

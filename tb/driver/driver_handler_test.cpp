@@ -264,6 +264,32 @@ TEST_F(DriverHandler, StoppingLetsNoCallbackSend) {
   EXPECT_EQ(verican_start(&dev_), VERICAN_OK) << "it is stopped now";
 }
 
+// The line is high until the handler has served the core, which it does for no device that it does
+// not know: the processor would never come back to verican_init().
+TEST_F(DriverHandler, InitialisedAnewTheCoreInterruptsNobody) {
+  up();
+  unsigned served = 0;
+  bool inside = false;
+  const auto interrupt = [&] {
+    const std::uint32_t line =
+        core_.word(VERICAN_IFLAG1_OFFSET) & core_.word(VERICAN_IMASK1_OFFSET);
+    if (line == 0 || inside || core_.depth > 0) return;
+    inside = true;
+    EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+    ++served;
+    inside = false;
+  };
+  core_.on_open = interrupt;
+  core_.on_write = [&](std::uint32_t, std::uint32_t) {
+    arrive(3, 0x123, 10);
+    interrupt();
+  };
+  arrive(3, 0x123, 10);
+  EXPECT_EQ(verican_init(&dev_, &config_), VERICAN_OK);
+  EXPECT_EQ(served, 1u) << "before it began";
+  EXPECT_EQ(core_.depth, 0u);
+}
+
 // Another device on the line interrupts verican_stop(), which reads the last frames itself.
 TEST_F(DriverHandler, StoppingKeepsTheHandlerOut) {
   up();

@@ -37,6 +37,7 @@ class FakeCore {
     };
     config.port.lock = [](void *self) {
       FakeCore &core = *static_cast<FakeCore *>(self);
+      core.open();
       ++core.locks;
       return ++core.depth;
     };
@@ -44,6 +45,7 @@ class FakeCore {
       FakeCore &core = *static_cast<FakeCore *>(self);
       core.bad_unlock |= token != core.depth;
       --core.depth;
+      core.open();
     };
     config.port.context = this;
     config.port.poll_limit = 10;
@@ -72,6 +74,7 @@ class FakeCore {
       word(offset) &= ~value;
     } else if (offset == VERICAN_MCR_OFFSET && (value & VERICAN_MCR_SOFT_RST_MASK) != 0) {
       word(offset) = VERICAN_MCR_FRZ_MASK | VERICAN_MCR_HALT_MASK | 0xF;
+      word(VERICAN_IMASK1_OFFSET) = word(VERICAN_IMASK2_OFFSET) = 0;
     } else if (offset != VERICAN_XID_OFFSET && offset != VERICAN_XCONFIG_OFFSET) {
       word(offset) = value & ~(offset == lossy ? lost_bits : 0);
     }
@@ -88,8 +91,14 @@ class FakeCore {
   bool bad_unlock = false;
   std::function<void(std::uint32_t offset)> on_read;
   std::function<void(std::uint32_t offset, std::uint32_t value)> on_write;
+  /// An interrupt that the lock holds back: before lock() and after unlock().
+  std::function<void()> on_open;
 
  private:
+  void open() {
+    if (depth == 0 && on_open) on_open();
+  }
+
   // Requests are acknowledged at once.
   std::uint32_t mcr() {
     const std::uint32_t requests = word(VERICAN_MCR_OFFSET);

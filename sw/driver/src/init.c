@@ -34,12 +34,11 @@ static verican_result_t check_config(const verican_config_t *config) {
   return VERICAN_OK;
 }
 
-static verican_result_t find_timing(verican_t *dev, const verican_config_t *config) {
+static verican_result_t find_timing(const verican_config_t *config, verican_timing_t *timing) {
   if (config->timing == NULL)
-    return verican_timing_find(config->clock_hz, config->bitrate, config->sample_point,
-                               &dev->timing);
-  dev->timing = *config->timing;
-  return verican_timing_check(config->clock_hz, &dev->timing);
+    return verican_timing_find(config->clock_hz, config->bitrate, config->sample_point, timing);
+  *timing = *config->timing;
+  return verican_timing_check(config->clock_hz, timing);
 }
 
 static void copy_config(verican_t *dev, const verican_config_t *config) {
@@ -129,14 +128,24 @@ static void clear_buffers(const verican_t *dev) {
   verican_write(dev, VERICAN_IFLAG2_OFFSET, ~0u);
 }
 
-static verican_result_t set_up(verican_t *dev, const verican_config_t *config) {
+/* Under lock from the moment at which the handlers know the device no more until nothing of the
+ * core interrupts: a device that runs could have asked in between, and for ever. */
+static verican_result_t take_over(verican_t *dev, const verican_config_t *config,
+                                  const verican_timing_t *timing) {
+  const uint32_t token = verican_lock_port(&config->port);
+  *dev = (verican_t){0};
+  dev->timing = *timing;
+  copy_config(dev, config);
   verican_result_t result = verican_reset_core(dev);
-  if (result != VERICAN_OK) return result;
-  result = find_core(dev, config);
-  if (result != VERICAN_OK) return result;
+  if (result == VERICAN_OK) result = find_core(dev, config);
+  verican_unlock(dev, token);
+  return result;
+}
+
+static verican_result_t set_up(verican_t *dev, const verican_config_t *config) {
   plan_registers(dev, config);
   verican_write_settings(dev);
-  result = check_kept(dev);
+  const verican_result_t result = check_kept(dev);
   if (result != VERICAN_OK) return result;
   set_ctrl2(dev);
   clear_buffers(dev);
@@ -152,13 +161,12 @@ static verican_result_t set_up(verican_t *dev, const verican_config_t *config) {
 
 verican_result_t verican_init(verican_t *dev, const verican_config_t *config) {
   if (dev == NULL || config == NULL) return VERICAN_ERR_NULL;
-  *dev = (verican_t){0};
+  verican_timing_t timing;
   verican_result_t result = check_config(config);
+  if (result == VERICAN_OK) result = find_timing(config, &timing);
   if (result != VERICAN_OK) return result;
-  result = find_timing(dev, config);
-  if (result != VERICAN_OK) return result;
-  copy_config(dev, config);
-  result = set_up(dev, config);
+  result = take_over(dev, config, &timing);
+  if (result == VERICAN_OK) result = set_up(dev, config);
   if (result != VERICAN_OK) dev->life = 0;
   return result;
 }

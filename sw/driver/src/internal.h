@@ -72,6 +72,7 @@ void verican_write(const verican_t *dev, uint32_t offset, uint32_t value);
 verican_result_t verican_wait(const verican_t *dev, uint32_t offset, uint32_t mask, uint32_t value);
 /* Clears the flag of a mailbox. */
 void verican_clear_flag(const verican_t *dev, unsigned mb);
+uint32_t verican_lock_port(const verican_port_t *port);
 uint32_t verican_lock(const verican_t *dev);
 void verican_unlock(const verican_t *dev, uint32_t token);
 

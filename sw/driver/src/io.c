@@ -33,9 +33,11 @@ void verican_clear_flag(const verican_t *dev, unsigned mb) {
   verican_write(dev, mb < 32u ? VERICAN_IFLAG1_OFFSET : VERICAN_IFLAG2_OFFSET, verican_bit(mb));
 }
 
-uint32_t verican_lock(const verican_t *dev) {
-  return dev->port.lock != NULL ? dev->port.lock(dev->port.context) : 0u;
+uint32_t verican_lock_port(const verican_port_t *port) {
+  return port->lock != NULL ? port->lock(port->context) : 0u;
 }
+
+uint32_t verican_lock(const verican_t *dev) { return verican_lock_port(&dev->port); }
 
 void verican_unlock(const verican_t *dev, uint32_t token) {
   if (dev->port.unlock != NULL) dev->port.unlock(dev->port.context, token);

@@ -341,7 +341,8 @@ verican_result_t verican_config_default(verican_config_t *config);
  * that many mailboxes. VERICAN_ERR_DEVICE: no extension page, or settings do not stay.
  * VERICAN_ERR_UNSUPPORTED: FIFO, abort, priorities, sending in order, one-shot or FD tolerance are
  * not in this core.
- * VERICAN_ERR_TIMEOUT. After an error the device is not initialised.
+ * VERICAN_ERR_TIMEOUT. What is wrong in `config` itself changes nothing, a device that runs goes on;
+ * after any other error the device is not initialised.
  */
 verican_result_t verican_init(verican_t *dev, const verican_config_t *config);
 
