@@ -277,13 +277,29 @@ TEST_F(DriverState, ARecoveryThatNobodySawIsToldAsBoth) {
   EXPECT_TRUE(sent());
 }
 
-TEST_F(DriverState, StoppingInBusOffIsPossible) {  // FX-9.ERR009595
+TEST_F(DriverState, TheSelfTestIsOneInBusOffToo) {
+  up(VERICAN_BUS_OFF_MANUAL);
+  go_bus_off();
+  ASSERT_EQ(verican_stop(&node_.dev), VERICAN_OK);
+  EXPECT_EQ(verican_self_test(&node_.dev, nullptr), VERICAN_OK);
+}
+
+TEST_F(DriverState, StoppingInBusOffIsPossible) {  // FX-9.ERR009595, BO-03
   up(VERICAN_BUS_OFF_MANUAL);
   go_bus_off();
   EXPECT_EQ(verican_stop(&node_.dev), VERICAN_OK);
   EXPECT_EQ(node_.states.back(), VERICAN_STATE_STOPPED);
   ASSERT_EQ(node_.events.size(), 1u);
   EXPECT_EQ(node_.events[0].outcome, VERICAN_TX_ABORTED);
+  // Neither a stop nor a start is a recovery.
+  bus_.run(3 * kRecovery);
+  ASSERT_EQ(verican_start(&node_.dev), VERICAN_OK);
+  bus_.run(3 * kRecovery);
+  EXPECT_EQ(node_.status().state, VERICAN_STATE_BUS_OFF);
+  ASSERT_EQ(verican_recover(&node_.dev), VERICAN_OK);
+  bus_.run(2 * kRecovery);
+  EXPECT_EQ(node_.status().state, VERICAN_STATE_ACTIVE);
+  go_bus_off();
   // Initialised anew it is well again.
   ASSERT_EQ(node_.up(), VERICAN_OK);
   bus_.run(20 * kBit);

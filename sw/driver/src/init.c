@@ -86,6 +86,7 @@ static void plan_registers(verican_t *dev, const verican_config_t *config) {
   dev->ctrl = verican_timing_bits(&dev->timing);
   if (config->triple_sampling) dev->ctrl |= VERICAN_CTRL1_SMP_MASK;
   if (config->tx_order == VERICAN_TX_IN_ORDER) dev->ctrl |= VERICAN_CTRL1_LBUF_MASK;
+  if (config->bus_off != VERICAN_BUS_OFF_AUTOMATIC) dev->ctrl |= VERICAN_CTRL1_BOFF_REC_MASK;
   verican_apply_mode(dev, config->mode);
 }
 

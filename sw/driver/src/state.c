@@ -14,8 +14,7 @@ void verican_write_ctrl(const verican_t *dev) {
   if (dev->callbacks.on_error != NULL || dev->recovering ||
       dev->state == (uint8_t)VERICAN_STATE_WARNING)
     ctrl |= VERICAN_CTRL1_ERR_MSK_MASK;
-  if (dev->bus_off != (uint8_t)VERICAN_BUS_OFF_AUTOMATIC && !dev->recovering)
-    ctrl |= VERICAN_CTRL1_BOFF_REC_MASK;
+  if (dev->recovering) ctrl &= ~VERICAN_CTRL1_BOFF_REC_MASK;
   verican_write(dev, VERICAN_CTRL1_OFFSET, ctrl);
 }
 

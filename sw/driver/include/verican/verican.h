@@ -294,7 +294,7 @@ struct verican {
   uint16_t batch; /* frames behind ring_head that are not visible yet */
   uint64_t time;  /* latest TIMER value or time stamp seen, extended */
   uint32_t mcr;   /* besides the mode requests */
-  uint32_t ctrl;
+  uint32_t ctrl;  /* besides interrupts and recovery */
   uint32_t ctrl2;
   uint32_t rx_mask[2];    /* mailboxes that receive, as IMASK1 and IMASK2 */
   uint32_t tx_pending[2]; /* mailboxes that hold a frame to send */
