@@ -313,6 +313,24 @@ TEST_F(DriverClock, LaunchTakenBack) {
   EXPECT_THAT(writes, Contains(Pair(VERICAN_TTXMB_OFFSET, held)));
 }
 
+// TM-40, TM-91: what a callback of the handler launches from the mailbox that verican_abort() has
+// just freed is the next frame, whose time stays.
+TEST_F(DriverClock, LaunchBehindOneTakenBack) {
+  up();
+  const verican_frame_t frame = one_byte();
+  std::uint8_t mb = 0, next = 0;
+  ASSERT_EQ(verican_send(&dev, &frame, &mb), VERICAN_OK);
+  core.on_open = [&] {
+    std::uint8_t waiting = 0;
+    if (verican_tx_waiting(&dev, &waiting) == VERICAN_OK && waiting > 0) return;
+    core.on_open = nullptr;
+    ASSERT_EQ(verican_send_at(&dev, &frame, 100'000, &next), VERICAN_OK);
+  };
+  EXPECT_EQ(verican_abort(&dev, mb), VERICAN_OK);
+  EXPECT_EQ(next, mb);
+  EXPECT_EQ(core.word(VERICAN_TTXMB_OFFSET), VERICAN_TTXMB_HOLD_MASK | mb);
+}
+
 // TM-91: without the unit nothing of it is touched.
 TEST_F(DriverClock, WithoutTheUnit) {
   up(false);

@@ -96,7 +96,8 @@ class FakeCore {
 
  private:
   void open() {
-    if (depth == 0 && on_open) on_open();
+    const auto interrupt = on_open;  // which may end itself
+    if (depth == 0 && interrupt) interrupt();
   }
 
   // Requests are acknowledged at once.

@@ -41,12 +41,12 @@ verican_result_t verican_abort(verican_t *dev, uint8_t mailbox) {
   const uint32_t token = verican_lock(dev);
   const bool waits = verican_is_pending(dev, mailbox);
   const bool gone = waits && take_back(dev, mailbox);
-  if (gone) verican_set_pending(dev, mailbox, false);
+  const verican_tx_outcome_t outcome = dev->abort ? VERICAN_TX_ABORTED : VERICAN_TX_WITHDRAWN;
+  if (gone) verican_tx_end(dev, mailbox, outcome);
   const uint64_t now = gone ? verican_now(dev) : 0u;
   verican_unlock(dev, token);
   if (!waits) return VERICAN_ERR_EMPTY;
-  if (gone)
-    verican_tx_report(dev, mailbox, dev->abort ? VERICAN_TX_ABORTED : VERICAN_TX_WITHDRAWN, now, 0);
+  if (gone) verican_tx_tell(dev, mailbox, outcome, now, 0);
   return VERICAN_OK;
 }
 

@@ -115,8 +115,11 @@ verican_result_t verican_frame_check(const verican_frame_t *frame);
 bool verican_is_pending(const verican_t *dev, unsigned mb);
 /* Also forgets that the frame was taken back. */
 void verican_set_pending(verican_t *dev, unsigned mb, bool on);
-void verican_tx_report(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome,
-                       uint64_t timestamp, uint64_t time_ns);
+/* Frees the mailbox, with the launch that waits for its frame, and counts. All in one section: a
+ * callback of the handler may give the mailbox its next frame and launch right behind it. */
+void verican_tx_end(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome);
+void verican_tx_tell(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome, uint64_t timestamp,
+                     uint64_t time_ns);
 /* Ends the transmissions of the flagged mailboxes; true if there were any. */
 bool verican_tx_serve(verican_t *dev, const uint32_t flags[2]);
 /* Gives up all that waits; the core is in freeze mode. */

@@ -128,10 +128,9 @@ static void release(const verican_t *dev, unsigned mb) {
   verican_write(dev, VERICAN_TTXMB_OFFSET, mb);
 }
 
-void verican_tx_report(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome,
-                       uint64_t timestamp, uint64_t time_ns) {
-  const verican_tx_event_t event = {timestamp, (uint8_t)mb, outcome, time_ns};
+void verican_tx_end(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome) {
   const uint32_t token = verican_lock(dev);
+  verican_set_pending(dev, mb, false);
   if (outcome == VERICAN_TX_SENT) {
     ++dev->stats.sent;
   } else {
@@ -139,6 +138,11 @@ void verican_tx_report(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome
     release(dev, mb);
   }
   verican_unlock(dev, token);
+}
+
+void verican_tx_tell(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome, uint64_t timestamp,
+                     uint64_t time_ns) {
+  const verican_tx_event_t event = {timestamp, (uint8_t)mb, outcome, time_ns};
   if (dev->callbacks.on_sent != NULL) dev->callbacks.on_sent(dev->callbacks.user, dev, &event);
 }
 
@@ -156,14 +160,13 @@ static void finish(verican_t *dev, unsigned mb) {
   }
   if (!verican_is_pending(dev, mb)) return;
   const bool taken_back = (dev->tx_taken_back[mb / 32u] & verican_bit(mb)) != 0u;
-  verican_set_pending(dev, mb, false);
-  if (code == CS_CODE(TX_ABORT)) {
-    verican_tx_report(dev, mb, taken_back ? VERICAN_TX_ABORTED : VERICAN_TX_FAILED,
-                      verican_now(dev), 0);
-  } else {
-    verican_tx_report(dev, mb, VERICAN_TX_SENT,
-                      verican_extend(dev, cs & VERICAN_MB_CS_TIME_STAMP_MASK), time_ns);
-  }
+  verican_tx_outcome_t outcome = VERICAN_TX_SENT;
+  if (code == CS_CODE(TX_ABORT)) outcome = taken_back ? VERICAN_TX_ABORTED : VERICAN_TX_FAILED;
+  const uint64_t timestamp = outcome == VERICAN_TX_SENT
+                                 ? verican_extend(dev, cs & VERICAN_MB_CS_TIME_STAMP_MASK)
+                                 : verican_now(dev);
+  verican_tx_end(dev, mb, outcome);
+  verican_tx_tell(dev, mb, outcome, timestamp, outcome == VERICAN_TX_SENT ? time_ns : 0u);
 }
 
 bool verican_tx_serve(verican_t *dev, const uint32_t flags[2]) {
@@ -183,7 +186,7 @@ void verican_tx_drop_all(verican_t *dev) {
                   dev->abort ? CS_CODE(TX_ABORT) : CS_CODE(TX_INACTIVE));
     verican_clear_flag(dev, mb);
     verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_INACTIVE));
-    verican_set_pending(dev, mb, false);
-    verican_tx_report(dev, mb, VERICAN_TX_ABORTED, verican_now(dev), 0);
+    verican_tx_end(dev, mb, VERICAN_TX_ABORTED);
+    verican_tx_tell(dev, mb, VERICAN_TX_ABORTED, verican_now(dev), 0);
   }
 }
