@@ -290,6 +290,35 @@ TEST_F(DriverHandler, InitialisedAnewTheCoreInterruptsNobody) {
   EXPECT_EQ(core_.depth, 0u);
 }
 
+// The flags of the handler are of before: after a new start they say nothing of what is sent now.
+TEST_F(DriverHandler, AfterARestartInACallbackTheNewFramesAreNotOut) {
+  up();
+  const verican_frame_t frame = driver_frame(0x111);
+  std::uint8_t mailbox[2] = {};
+  for (std::uint8_t &mb : mailbox) {
+    ASSERT_EQ(verican_send(&dev_, &frame, &mb), VERICAN_OK);
+    core_.word(VERICAN_MB_CS_OFFSET(mb)) = VERICAN_MB_CS_CODE_SET(VERICAN_MB_CS_CODE_TX_INACTIVE);
+    flag(mb);
+  }
+  unsigned told = 0;
+  dev_.callbacks.user = &told;
+  dev_.callbacks.on_sent = [](void *self, verican_t *dev, const verican_tx_event_t *) {
+    if (++*static_cast<unsigned *>(self) > 1) return;
+    const verican_frame_t next = driver_frame(0x222);
+    EXPECT_EQ(verican_stop(dev), VERICAN_OK);
+    EXPECT_EQ(verican_start(dev), VERICAN_OK);
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(verican_send(dev, &next, nullptr), VERICAN_OK);
+  };
+  ASSERT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+  EXPECT_EQ(told, 2u) << "the old frames";
+  std::uint8_t waiting = 0;
+  EXPECT_EQ(verican_tx_waiting(&dev_, &waiting), VERICAN_OK);
+  EXPECT_EQ(waiting, 2u);
+  for (const std::uint8_t mb : mailbox)
+    EXPECT_EQ(VERICAN_MB_CS_CODE_GET(core_.word(VERICAN_MB_CS_OFFSET(mb))),
+              static_cast<unsigned>(VERICAN_MB_CS_CODE_TX_DATA));
+}
+
 // Another device on the line interrupts verican_stop(), which reads the last frames itself.
 TEST_F(DriverHandler, StoppingKeepsTheHandlerOut) {
   up();

@@ -5,11 +5,6 @@
  */
 #include "internal.h"
 
-static bool is_flagged(const verican_t *dev, unsigned mb) {
-  const uint32_t offset = mb < 32u ? VERICAN_IFLAG1_OFFSET : VERICAN_IFLAG2_OFFSET;
-  return (verican_read(dev, offset) & verican_bit(mb)) != 0u;
-}
-
 /* Reads of the flag until an abort counts as one without: it follows the code within some clocks.
  */
 enum { FLAG_LIMIT = 8 };
@@ -19,17 +14,17 @@ enum { FLAG_LIMIT = 8 };
  * the frame had not left its mailbox (FlexCAN2). Without, a frame that has left its mailbox goes on
  * and nothing is heard of it again. */
 static bool take_back(verican_t *dev, unsigned mb) {
-  if (is_flagged(dev, mb)) return false;
+  if (verican_is_flagged(dev, mb)) return false;
   dev->tx_taken_back[mb / 32u] |= verican_bit(mb);
   if (!dev->abort) {
     verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_INACTIVE));
-    return !is_flagged(dev, mb);
+    return !verican_is_flagged(dev, mb);
   }
   verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_ABORT));
   const uint32_t code = verican_read(dev, VERICAN_MB_CS_OFFSET(mb)) & VERICAN_MB_CS_CODE_MASK;
   if (code != CS_CODE(TX_ABORT)) return false;
   for (unsigned n = 0; n < (unsigned)FLAG_LIMIT; ++n) {
-    if (is_flagged(dev, mb)) return false;
+    if (verican_is_flagged(dev, mb)) return false;
   }
   return true;
 }

@@ -70,7 +70,8 @@ uint32_t verican_read(const verican_t *dev, uint32_t offset);
 void verican_write(const verican_t *dev, uint32_t offset, uint32_t value);
 /* Polls until (register & mask) == value. */
 verican_result_t verican_wait(const verican_t *dev, uint32_t offset, uint32_t mask, uint32_t value);
-/* Clears the flag of a mailbox. */
+/* The flag of a mailbox. */
+bool verican_is_flagged(const verican_t *dev, unsigned mb);
 void verican_clear_flag(const verican_t *dev, unsigned mb);
 uint32_t verican_lock_port(const verican_port_t *port);
 uint32_t verican_lock(const verican_t *dev);

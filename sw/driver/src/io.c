@@ -29,8 +29,16 @@ verican_result_t verican_wait(const verican_t *dev, uint32_t offset, uint32_t ma
   return VERICAN_ERR_TIMEOUT;
 }
 
+static uint32_t flags_of(unsigned mb) {
+  return mb < 32u ? VERICAN_IFLAG1_OFFSET : VERICAN_IFLAG2_OFFSET;
+}
+
+bool verican_is_flagged(const verican_t *dev, unsigned mb) {
+  return (verican_read(dev, flags_of(mb)) & verican_bit(mb)) != 0u;
+}
+
 void verican_clear_flag(const verican_t *dev, unsigned mb) {
-  verican_write(dev, mb < 32u ? VERICAN_IFLAG1_OFFSET : VERICAN_IFLAG2_OFFSET, verican_bit(mb));
+  verican_write(dev, flags_of(mb), verican_bit(mb));
 }
 
 uint32_t verican_lock_port(const verican_port_t *port) {

@@ -146,10 +146,12 @@ void verican_tx_tell(verican_t *dev, unsigned mb, verican_tx_outcome_t outcome, 
   if (dev->callbacks.on_sent != NULL) dev->callbacks.on_sent(dev->callbacks.user, dev, &event);
 }
 
-/* Frees a flagged mailbox. A remote frame leaves it as a receive buffer, which must not catch the
- * answer; with MCR.AEN it takes the write only once the flag is clear, and a frame may come in
- * between the two. */
+/* Frees a flagged mailbox. The flag is read again: a callback of one before may have stopped and
+ * started the device, and the mailbox has a frame that still waits. A remote frame leaves it as a
+ * receive buffer, which must not catch the answer; with MCR.AEN it takes the write only once the
+ * flag is clear, and a frame may come in between the two. */
 static void finish(verican_t *dev, unsigned mb) {
+  if (!verican_is_flagged(dev, mb)) return;
   const uint32_t cs = verican_read(dev, VERICAN_MB_CS_OFFSET(mb));
   const uint32_t code = cs & VERICAN_MB_CS_CODE_MASK;
   const uint64_t time_ns = verican_stamp(dev, mb, dev->tx_latency);
