@@ -164,9 +164,10 @@ static void finish(verican_t *dev, unsigned mb) {
   const bool taken_back = (dev->tx_taken_back[mb / 32u] & verican_bit(mb)) != 0u;
   verican_tx_outcome_t outcome = VERICAN_TX_SENT;
   if (code == CS_CODE(TX_ABORT)) outcome = taken_back ? VERICAN_TX_ABORTED : VERICAN_TX_FAILED;
-  const uint64_t timestamp = outcome == VERICAN_TX_SENT
-                                 ? verican_extend(dev, cs & VERICAN_MB_CS_TIME_STAMP_MASK)
-                                 : verican_now(dev);
+  /* Without MCR.AEN, taking back writes over the stamp. */
+  const bool stamped = outcome == VERICAN_TX_SENT && (dev->abort || !taken_back);
+  const uint64_t timestamp =
+      stamped ? verican_extend(dev, cs & VERICAN_MB_CS_TIME_STAMP_MASK) : verican_now(dev);
   verican_tx_end(dev, mb, outcome);
   verican_tx_tell(dev, mb, outcome, timestamp, outcome == VERICAN_TX_SENT ? time_ns : 0u);
 }

@@ -185,8 +185,10 @@ typedef enum verican_tx_outcome {
 
 /** The end of a transmission. */
 typedef struct verican_tx_event {
-  uint64_t timestamp; /**< start of the identifier if sent, else of the report; bit times */
-  uint8_t mailbox;    /**< as verican_send() told it; free again */
+  /** Start of the identifier if sent, else of the report, in bit times; of the report also if the
+   * end of the frame came within a verican_abort() without `abort`. */
+  uint64_t timestamp;
+  uint8_t mailbox; /**< as verican_send() told it; free again */
   verican_tx_outcome_t outcome;
   uint64_t time_ns; /**< sent: stamp of the time unit less its latency; 0 without the unit */
 } verican_tx_event_t;
@@ -341,8 +343,8 @@ verican_result_t verican_config_default(verican_config_t *config);
  * that many mailboxes. VERICAN_ERR_DEVICE: no extension page, or settings do not stay.
  * VERICAN_ERR_UNSUPPORTED: FIFO, abort, priorities, sending in order, one-shot or FD tolerance are
  * not in this core.
- * VERICAN_ERR_TIMEOUT. What is wrong in `config` itself changes nothing, a device that runs goes on;
- * after any other error the device is not initialised.
+ * VERICAN_ERR_TIMEOUT. What is wrong in `config` itself changes nothing, a device that runs goes
+ * on; after any other error the device is not initialised.
  */
 verican_result_t verican_init(verican_t *dev, const verican_config_t *config);
 
