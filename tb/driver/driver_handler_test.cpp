@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "driver/driver_node.hpp"
@@ -15,6 +17,7 @@
 namespace vericansim {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 
 class DriverHandler : public ::testing::Test {
@@ -316,6 +319,74 @@ TEST_F(DriverHandler, AfterARestartInACallbackTheNewFramesAreNotOut) {
   for (const std::uint8_t mb : mailbox)
     EXPECT_EQ(VERICAN_MB_CS_CODE_GET(core_.word(VERICAN_MB_CS_OFFSET(mb))),
               static_cast<unsigned>(VERICAN_MB_CS_CODE_TX_DATA));
+}
+
+// States that come one upon the other are told one after the other.
+class DriverStates : public DriverHandler {
+ protected:
+  void SetUp() override {
+    config_.callbacks.on_state = [](void *self, verican_t *, verican_state_t state) {
+      auto &test = *static_cast<DriverStates *>(self);
+      ++test.depth_;
+      test.told_.push_back(state);
+      EXPECT_EQ(test.depth_, 1u) << "the one before has not returned";
+      if (const auto once = std::exchange(test.on_state_, nullptr)) once();
+      --test.depth_;
+    };
+    up();
+  }
+  static constexpr std::uint32_t kPassive = VERICAN_ESR1_FLT_CONF_SET(1);
+  static constexpr std::uint32_t kOff = VERICAN_ESR1_FLT_CONF_SET(2);
+  static constexpr std::uint32_t kWentOff = kOff | VERICAN_ESR1_BOFF_INT_MASK;
+  void set_state(std::uint32_t esr) { core_.word(VERICAN_ESR1_OFFSET) = esr; }
+  // verican_poll() sees `now`, and at the given place where the lock is open behind that an
+  // interrupt comes for each of the others.
+  void poll(std::uint32_t now, unsigned place, const std::vector<std::uint32_t> &states) {
+    bool looked = false;
+    told_.clear();
+    set_state(now);
+    core_.on_read = [&](std::uint32_t offset) { looked |= offset == VERICAN_ESR1_OFFSET; };
+    core_.on_open = [&] {
+      if (!looked || place-- > 0) return;
+      core_.on_open = nullptr;
+      for (const std::uint32_t esr : states) {
+        set_state(esr);
+        verican_irq_handler(&dev_);
+      }
+    };
+    EXPECT_EQ(verican_poll(&dev_, 0), VERICAN_OK);
+    EXPECT_EQ(core_.on_open, nullptr) << "there is such a place";
+    core_.on_read = nullptr;
+  }
+
+  std::vector<verican_state_t> told_;
+  std::function<void()> on_state_;  ///< called once
+
+ private:
+  unsigned depth_ = 0;
+};
+
+TEST_F(DriverStates, WhatAnInterruptFindsIsToldLast) {
+  for (unsigned place = 0; place < 5; ++place) {
+    SCOPED_TRACE(place);
+    poll(kPassive, place, {kWentOff});
+    EXPECT_EQ(told_.back(), VERICAN_STATE_BUS_OFF);
+    poll(0, place, {kWentOff, kOff, 0});
+    EXPECT_THAT(told_, Contains(VERICAN_STATE_BUS_OFF)) << "however short";
+    EXPECT_EQ(told_.back(), VERICAN_STATE_ACTIVE);
+  }
+}
+
+TEST_F(DriverStates, WhatOnStateFindsIsToldWhenItReturns) {
+  on_state_ = [this] {
+    set_state(kWentOff);
+    verican_status_t status{};
+    EXPECT_EQ(verican_get_status(&dev_, &status), VERICAN_OK);
+    EXPECT_EQ(status.state, VERICAN_STATE_BUS_OFF);
+  };
+  set_state(kPassive);
+  EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_ERR_EMPTY);
+  EXPECT_THAT(told_, ElementsAre(VERICAN_STATE_PASSIVE, VERICAN_STATE_BUS_OFF));
 }
 
 // Another device on the line interrupts verican_stop(), which reads the last frames itself.

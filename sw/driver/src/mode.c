@@ -77,6 +77,8 @@ verican_result_t verican_start(verican_t *dev) {
   const uint32_t tx_high = dev->first_tx < 32u ? ~0u : ~0u << (dev->first_tx - 32u);
   dev->life = VERICAN_LIFE_STARTED;
   dev->state = (uint8_t)VERICAN_STATE_ACTIVE;
+  dev->told = dev->state;
+  dev->bus_off_untold = false;
   dev->recovering = false;
   dev->bus_off_timing = false;
   verican_write_ctrl(dev);
@@ -109,6 +111,7 @@ verican_result_t verican_stop(verican_t *dev) {
   verican_tx_drop_all(dev);
   dev->life = VERICAN_LIFE_STOPPED;
   dev->state = (uint8_t)VERICAN_STATE_STOPPED;
+  dev->told = dev->state;
   if (dev->callbacks.on_state != NULL)
     dev->callbacks.on_state(dev->callbacks.user, dev, VERICAN_STATE_STOPPED);
   return VERICAN_OK;

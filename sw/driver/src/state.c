@@ -44,8 +44,23 @@ static uint32_t take_esr(verican_t *dev) {
   return esr;
 }
 
-static void tell(verican_t *dev, verican_state_t state) {
-  if (dev->callbacks.on_state != NULL) dev->callbacks.on_state(dev->callbacks.user, dev, state);
+/* One call tells at a time, the outermost. A change that comes meanwhile, in an interrupt or in
+ * on_state itself, is told when on_state returns: what is told last is then what was last. */
+static void tell_changes(verican_t *dev) {
+  uint32_t token = verican_lock(dev);
+  const bool outermost = !dev->telling;
+  while (outermost && (dev->bus_off_untold || dev->told != dev->state)) {
+    const verican_state_t state =
+        dev->bus_off_untold ? VERICAN_STATE_BUS_OFF : (verican_state_t)dev->state;
+    dev->telling = true;
+    dev->told = (uint8_t)state;
+    dev->bus_off_untold = false;
+    verican_unlock(dev, token);
+    if (dev->callbacks.on_state != NULL) dev->callbacks.on_state(dev->callbacks.user, dev, state);
+    token = verican_lock(dev);
+  }
+  if (outermost) dev->telling = false;
+  verican_unlock(dev, token);
 }
 
 uint32_t verican_state_serve(verican_t *dev) {
@@ -53,18 +68,19 @@ uint32_t verican_state_serve(verican_t *dev) {
   const uint32_t esr = take_esr(dev);
   const verican_state_t before = (verican_state_t)dev->state;
   const verican_state_t now = state_of(esr);
+  const bool went_off = (esr & VERICAN_ESR1_BOFF_INT_MASK) != 0u;
   dev->state = (uint8_t)now;
   if (now != VERICAN_STATE_BUS_OFF) dev->recovering = false;
-  if (now != before || (esr & VERICAN_ESR1_BOFF_INT_MASK) != 0u) verican_write_ctrl(dev);
+  if (now != before || went_off) verican_write_ctrl(dev);
+  /* Off the bus and back before anybody looked: both are told. */
+  if (went_off && (before != VERICAN_STATE_BUS_OFF || now != VERICAN_STATE_BUS_OFF))
+    dev->bus_off_untold = true;
   verican_unlock(dev, token);
 
   const uint8_t errors = (uint8_t)((esr >> VERICAN_ESR1_STF_ERR_SHIFT) & 0x3Fu);
   if (errors != 0u && dev->callbacks.on_error != NULL)
     dev->callbacks.on_error(dev->callbacks.user, dev, errors);
-  /* Off the bus and back before anybody looked: both are told. */
-  const bool was_off = (esr & VERICAN_ESR1_BOFF_INT_MASK) != 0u && now != VERICAN_STATE_BUS_OFF;
-  if (was_off) tell(dev, VERICAN_STATE_BUS_OFF);
-  if (was_off || now != before) tell(dev, now);
+  tell_changes(dev);
   return esr;
 }
 

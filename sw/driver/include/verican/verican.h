@@ -312,6 +312,7 @@ struct verican {
   uint8_t tx_order;
   uint8_t bus_off;
   uint8_t state;
+  uint8_t told; /* the state that on_state was told last */
   uint8_t last_errors;
   uint8_t rffn;
   bool abort;
@@ -321,6 +322,8 @@ struct verican {
   bool own_masks;      /* RXIMR: each mailbox has a mask of its own */
   bool recovering;     /* BOFF_REC is clear on request */
   bool bus_off_timing; /* bus_off_since_ms is valid */
+  bool bus_off_untold; /* comes before the state, which may have changed since */
+  bool telling;        /* on_state is under way */
   bool self_reception;
   bool time_unit;
   bool pps;           /* verican_clock_pps() is on */
