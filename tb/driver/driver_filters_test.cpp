@@ -187,6 +187,22 @@ TEST_F(DriverFilterLimits, WithoutCtrl2AFilterForBothFormatsTakesTwoAndRemoteFra
     EXPECT_EQ(core_.word(VERICAN_MB_CS_OFFSET(mb)), mb % 2 == 0 ? 0x04000000u : 0x04200000u) << mb;
 }
 
+// However few mailboxes there are beyond those that the filters need.
+TEST_F(DriverFilterLimits, WithoutCtrl2AFilterForBothFormatsHasBothFirst) {
+  core_.lossy = VERICAN_CTRL2_OFFSET;
+  core_.lost_bits = ~0u;
+  for (const unsigned room : {3u, 5u}) {
+    config_.tx_mailboxes = static_cast<std::uint8_t>(64 - room);
+    ASSERT_EQ(verican_init(&dev_, &config_), VERICAN_OK);
+    ASSERT_EQ(set({{0x100, 0x7FF, kStd, kBoth}, {0x200, 0x7FF, kBoth, kBoth}}), VERICAN_OK);
+    for (unsigned mb = 0; mb < room; ++mb) {
+      const unsigned turn = mb % 3;  // one mailbox for the first filter, then two
+      EXPECT_EQ(core_.word(VERICAN_MB_ID_OFFSET(mb)) >> 18, turn == 0 ? 0x100u : 0x200u) << mb;
+      EXPECT_EQ(core_.word(VERICAN_MB_CS_OFFSET(mb)), turn == 2 ? 0x04200000u : 0x04000000u) << mb;
+    }
+  }
+}
+
 TEST_F(DriverFilterLimits, FormatsThatCannotSayIt) {
   fifo(kB);
   EXPECT_EQ(set({{0, 0x1FFFFFFF, kExt, kData}}), VERICAN_ERR_RANGE) << "15 low bits";

@@ -21,13 +21,15 @@ static uint32_t mask_of(const verican_filter_t *filter) {
   return mask;
 }
 
-/* `turn`: how many mailboxes this filter has already. A core without CTRL2.EACEN compares IDE in
- * any case, so mailboxes of a filter for both formats take turns. */
+/* A core without CTRL2.EACEN compares IDE in any case: one mailbox for each format. */
+static unsigned formats(const verican_t *dev, const verican_filter_t *filter) {
+  return !dev->eacen && filter->ide == VERICAN_SELECT_BOTH ? 2u : 1u;
+}
+
+/* `format`: which of its formats. */
 static void write_filter(const verican_t *dev, unsigned mb, const verican_filter_t *filter,
-                         unsigned turn) {
-  const bool both = filter->ide == VERICAN_SELECT_BOTH;
-  const bool extended =
-      filter->ide == VERICAN_SELECT_ONLY_1 || (both && !dev->eacen && (turn & 1u) != 0u);
+                         unsigned format) {
+  const bool extended = filter->ide == VERICAN_SELECT_ONLY_1 || format == 1u;
   const unsigned shift = filter->ide == VERICAN_SELECT_ONLY_1 ? 0u : VERICAN_MB_ID_STD_SHIFT;
   uint32_t cs = CS_CODE(RX_EMPTY);
   if (extended) cs |= VERICAN_MB_CS_IDE_MASK;
@@ -37,31 +39,41 @@ static void write_filter(const verican_t *dev, unsigned mb, const verican_filter
   verican_write(dev, VERICAN_MB_CS_OFFSET(mb), cs);
 }
 
+/* The filters one after the other, each with all of its formats, until no mailbox is left. */
+static void share_mailboxes(verican_t *dev, const verican_filter_t *filters, unsigned count) {
+  unsigned k = 0;
+  unsigned format = 0;
+  for (unsigned mb = 0; mb < dev->first_tx; ++mb) {
+    write_filter(dev, mb, &filters[k], format);
+    dev->rx_mask[mb / 32u] |= verican_bit(mb);
+    if (++format < formats(dev, &filters[k])) continue;
+    format = 0;
+    k = (k + 1u) % count;
+  }
+}
+
 static verican_result_t set_mailbox_filters(verican_t *dev, const verican_filter_t *filters,
                                             unsigned count) {
-  const unsigned room = dev->first_tx;
   unsigned wanted = 0;
   for (unsigned k = 0; k < count; ++k) {
     if (!dev->eacen && filters[k].rtr == VERICAN_SELECT_ONLY_1) return VERICAN_ERR_UNSUPPORTED;
     if (!dev->own_masks && mask_of(&filters[k]) != mask_of(&filters[0]))
       return VERICAN_ERR_UNSUPPORTED;
-    wanted += !dev->eacen && filters[k].ide == VERICAN_SELECT_BOTH ? 2u : 1u;
+    wanted += formats(dev, &filters[k]);
   }
-  if (wanted > room) return VERICAN_ERR_SPACE;
+  if (wanted > dev->first_tx) return VERICAN_ERR_SPACE;
   if (!dev->own_masks && count != 0u) {
     verican_write(dev, VERICAN_RX14MASK_OFFSET, mask_of(&filters[0]));
     verican_write(dev, VERICAN_RX15MASK_OFFSET, mask_of(&filters[0]));
   }
   dev->rx_mask[0] = 0;
   dev->rx_mask[1] = 0;
-  for (unsigned mb = 0; mb < room; ++mb) {
-    if (count == 0u) {
-      verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(RX_INACTIVE));
-      continue;
-    }
-    write_filter(dev, mb, &filters[mb % count], mb / count);
-    dev->rx_mask[mb / 32u] |= verican_bit(mb);
+  if (count != 0u) {
+    share_mailboxes(dev, filters, count);
+    return VERICAN_OK;
   }
+  for (unsigned mb = 0; mb < dev->first_tx; ++mb)
+    verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(RX_INACTIVE));
   return VERICAN_OK;
 }
 
