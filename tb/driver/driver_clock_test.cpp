@@ -313,6 +313,18 @@ TEST_F(DriverClock, LaunchTakenBack) {
   EXPECT_THAT(writes, Contains(Pair(VERICAN_TTXMB_OFFSET, held)));
 }
 
+// TM-40, TM-91: a callback of the handler stops the device while verican_send_at() is on its way.
+TEST_F(DriverClock, NoLaunchOfADeviceThatWasStopped) {
+  up();
+  const verican_frame_t frame = one_byte();
+  core.on_open = [this] {
+    core.on_open = nullptr;
+    EXPECT_EQ(verican_stop(&dev), VERICAN_OK);
+  };
+  EXPECT_EQ(verican_send_at(&dev, &frame, 100'000, nullptr), VERICAN_ERR_STATE);
+  EXPECT_EQ(core.word(VERICAN_TTXMB_OFFSET), 0u);
+}
+
 // TM-40, TM-91: what a callback of the handler launches from the mailbox that verican_abort() has
 // just freed is the next frame, whose time stays.
 TEST_F(DriverClock, LaunchBehindOneTakenBack) {

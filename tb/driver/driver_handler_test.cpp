@@ -321,6 +321,26 @@ TEST_F(DriverHandler, AfterARestartInACallbackTheNewFramesAreNotOut) {
               static_cast<unsigned>(VERICAN_MB_CS_CODE_TX_DATA));
 }
 
+// A callback of the handler stops the device while verican_send() is on its way to the mailbox.
+TEST_F(DriverHandler, StoppedBeforeItHasTheFrameItTakesNone) {
+  up();
+  const verican_frame_t frame = driver_frame(0x111);
+  const std::vector<std::function<verican_result_t()>> sends{
+      [&] { return verican_send(&dev_, &frame, nullptr); },
+      [&] { return verican_send_in(&dev_, &frame, 60); }};
+  for (const auto &send : sends) {
+    core_.on_open = [this] {
+      core_.on_open = nullptr;
+      EXPECT_EQ(verican_stop(&dev_), VERICAN_OK);
+    };
+    EXPECT_EQ(send(), VERICAN_ERR_STATE);
+    std::uint8_t waiting = 1;
+    EXPECT_EQ(verican_tx_waiting(&dev_, &waiting), VERICAN_OK);
+    EXPECT_EQ(waiting, 0u);
+    ASSERT_EQ(verican_start(&dev_), VERICAN_OK);
+  }
+}
+
 // States that come one upon the other are told one after the other.
 class DriverStates : public DriverHandler {
  protected:
@@ -387,6 +407,18 @@ TEST_F(DriverStates, WhatOnStateFindsIsToldWhenItReturns) {
   set_state(kPassive);
   EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_ERR_EMPTY);
   EXPECT_THAT(told_, ElementsAre(VERICAN_STATE_PASSIVE, VERICAN_STATE_BUS_OFF));
+}
+
+TEST_F(DriverStates, StoppedBeforeItLooksItTellsNoOther) {
+  core_.on_open = [this] {
+    core_.on_open = nullptr;
+    EXPECT_EQ(verican_stop(&dev_), VERICAN_OK);
+  };
+  EXPECT_EQ(verican_poll(&dev_, 0), VERICAN_OK);
+  EXPECT_THAT(told_, ElementsAre(VERICAN_STATE_STOPPED));
+  verican_status_t status{};
+  EXPECT_EQ(verican_get_status(&dev_, &status), VERICAN_OK);
+  EXPECT_EQ(status.state, VERICAN_STATE_STOPPED);
 }
 
 // Another device on the line interrupts verican_stop(), which reads the last frames itself.

@@ -63,8 +63,8 @@ static void tell_changes(verican_t *dev) {
   verican_unlock(dev, token);
 }
 
-uint32_t verican_state_serve(verican_t *dev) {
-  const uint32_t token = verican_lock(dev);
+/* Under lock. */
+static uint32_t follow_state(verican_t *dev) {
   const uint32_t esr = take_esr(dev);
   const verican_state_t before = (verican_state_t)dev->state;
   const verican_state_t now = state_of(esr);
@@ -75,6 +75,14 @@ uint32_t verican_state_serve(verican_t *dev) {
   /* Off the bus and back before anybody looked: both are told. */
   if (went_off && (before != VERICAN_STATE_BUS_OFF || now != VERICAN_STATE_BUS_OFF))
     dev->bus_off_untold = true;
+  return esr;
+}
+
+uint32_t verican_state_serve(verican_t *dev) {
+  const uint32_t token = verican_lock(dev);
+  /* Not if a callback of the handler has stopped the device: STOPPED is told, and stays. */
+  const bool takes_part = dev->life == VERICAN_LIFE_STARTED || dev->life == VERICAN_LIFE_STOPPING;
+  const uint32_t esr = takes_part ? follow_state(dev) : 0u;
   verican_unlock(dev, token);
 
   const uint8_t errors = (uint8_t)((esr >> VERICAN_ESR1_STF_ERR_SHIFT) & 0x3Fu);

@@ -35,18 +35,25 @@ static unsigned choose(const verican_t *dev) {
   return chosen;
 }
 
-static verican_result_t check_send(const verican_t *dev, const verican_frame_t *frame) {
+static verican_result_t check_takes_part(const verican_t *dev) {
   const verican_result_t result = verican_check_started(dev);
   if (result != VERICAN_OK) return result;
+  return dev->mode != (uint8_t)VERICAN_MODE_LISTEN_ONLY ? VERICAN_OK : VERICAN_ERR_STATE;
+}
+
+static verican_result_t check_send(const verican_t *dev, const verican_frame_t *frame) {
+  const verican_result_t result = check_takes_part(dev);
+  if (result != VERICAN_OK) return result;
   if (frame == NULL) return VERICAN_ERR_NULL;
-  if (dev->mode == (uint8_t)VERICAN_MODE_LISTEN_ONLY) return VERICAN_ERR_STATE;
   if ((frame->flags & VERICAN_FRAME_ONE_SHOT) != 0u && !dev->frame_one_shot)
     return VERICAN_ERR_UNSUPPORTED;
   return verican_frame_check(frame);
 }
 
-/* Under lock. */
+/* Under lock. A callback of the handler may have stopped the device since check_send(). */
 static verican_result_t put(verican_t *dev, const verican_frame_t *frame, unsigned mb) {
+  const verican_result_t result = check_takes_part(dev);
+  if (result != VERICAN_OK) return result;
   if (mb >= dev->num_mb || verican_is_pending(dev, mb)) return VERICAN_ERR_BUSY;
   verican_set_pending(dev, mb, true);
   verican_frame_write(dev, mb, frame);
@@ -72,7 +79,7 @@ static verican_result_t put_at(verican_t *dev, const verican_frame_t *frame, uin
   if (ahead && time_ns - now > AT_MOST_AHEAD) return VERICAN_ERR_RANGE;
   if ((verican_read(dev, VERICAN_TTXMB_OFFSET) & VERICAN_TTXMB_HOLD_MASK) != 0u)
     return VERICAN_ERR_BUSY;
-  if (mb < dev->num_mb && ahead) {
+  if (mb < dev->num_mb && ahead && check_takes_part(dev) == VERICAN_OK) {
     verican_write(dev, VERICAN_TTX_OFFSET, (uint32_t)time_ns);
     verican_write(dev, VERICAN_TTXMB_OFFSET, VERICAN_TTXMB_HOLD_MASK | mb);
   }
