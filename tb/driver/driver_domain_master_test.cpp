@@ -297,6 +297,34 @@ TEST(Master, ProbeWithoutAMailbox) {
   EXPECT_EQ(probes, 1u);
 }
 
+// TM-50: SYNC may end in any moment in which it is given up: one that was sent has its FUP.
+TEST(Master, SyncThatEndsWhileItIsGivenUp) {
+  unsigned late = 0;
+  for (unsigned place = 0; place < 12; ++place) {
+    DomainRig rig{DomainRig::config_of(), true, kStart};
+    rig.poll_at(kStart);
+    const unsigned mailbox = only(rig).mailbox;
+    unsigned left = place;
+    rig.core.on_open = [&] {
+      if (left-- > 0) return;
+      rig.core.on_open = nullptr;
+      const auto frames = rig.waiting();
+      if (!frames.empty() && frames[0].data[0] == 0x10) rig.sent(mailbox, kStart + kR);
+    };
+    rig.poll_at(kStart + kR + 1);
+    const auto waiting = rig.waiting();
+    const auto fups = std::count_if(waiting.begin(), waiting.end(),
+                                    [](const auto &frame) { return frame.data[0] == 0x18; });
+    if (rig.dev.stats.sent == 1) {
+      EXPECT_EQ(fups, 1) << "place " << place;
+    } else {
+      ++late;
+    }
+  }
+  EXPECT_GT(late, 0u);
+  EXPECT_LT(late, 12u);
+}
+
 // TM-89: a better master is heard: the own SYNC is taken back, and its time runs from that SYNC on.
 TEST(Master, YieldsToABetterOne) {
   DomainRig rig{DomainRig::config_of(3, 1), true, kStart};

@@ -51,11 +51,14 @@ static void send_fup(verican_tsyn_t *tsyn) {
   verican_unlock(tsyn->dev, token);
 }
 
-/* Aborts SYNC; without that feature its late end is nobody's. */
+/* Aborts SYNC; without that feature its late end is nobody's. Under lock: were SYNC to end first,
+ * the abort would hit the next frame of its mailbox, which may be its own FUP. */
 static void give_up_sync(verican_tsyn_t *tsyn) {
+  const uint32_t token = verican_lock(tsyn->dev);
   const bool out = tsyn->step == (uint8_t)TSYN_SYNC_OUT;
   tsyn->step = (uint8_t)TSYN_IDLE;
   if (out) (void)verican_abort(tsyn->dev, tsyn->sync_mailbox);
+  verican_unlock(tsyn->dev, token);
 }
 
 void verican_tsyn_yield(verican_tsyn_t *tsyn, uint64_t now) {
