@@ -176,6 +176,15 @@ TEST(FirmwareFaults, GoesThroughBusOffTwiceAndBack) {
     EXPECT_THAT(wave, HasSubstr(text));
 }
 
+// ---- What the board offers
+
+TEST(FirmwareBoard, TimeOfSysTickNeverGoesBack) {
+  const auto result = tb::run_tool("firmware " + tb::test_elf("systick_us") + " --bus " + kSources +
+                                   "servo_cost/servo_cost.yaml");
+  EXPECT_EQ(result.code, 0) << result.out << result.error;
+  EXPECT_THAT(result.out, HasSubstr(" 0 wrong\n"));
+}
+
 // ---- What the servo costs
 
 // TM-90: 20,000 clocks a pair with the automatic filter, 3,000 with one of one or two intervals, at

@@ -19,7 +19,6 @@ enum { TICK_US = 1000, CAN_PRIORITY = 4, BUS_OFF_DELAY_MS = 20 };
 #define SCB_AIRCR (*(volatile uint32_t *)0xE000ED0Cu)
 #define AIRCR_RESET 0x05FA0004u /* key, SYSRESETREQ */
 #define LEAST_URGENT 0xFFu
-#define SYST_CVR (*(volatile uint32_t *)0xE000E018u)
 
 /* From the linker, an image for each drive (sw/canopennode/build.py): node-ID, or 255 for one that
  * LSS gives; serial number; bit rate in kbit/s. */
@@ -45,15 +44,7 @@ static CO_storage_entry_t groups[] = {
 
 static uint32_t now_ms(void) { return milliseconds; }
 
-/* The counter may have wrapped while interrupts are masked: then it is read again. */
-static uint32_t now_us(void) {
-  uint32_t ms, left;
-  do {
-    ms = milliseconds;
-    left = SYST_CVR;
-  } while (ms != milliseconds);
-  return ms * TICK_US + (TICK_US - 1u - left / (BOARD_CLOCK_HZ / 1000000u));
-}
+static uint32_t now_us(void) { return board_systick_us(&milliseconds, TICK_US); }
 
 /* ---- Interrupts -------------------------------------------------------------------------------
  */

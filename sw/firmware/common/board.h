@@ -40,6 +40,13 @@ void board_irq_enable(unsigned irq, unsigned priority);
 /** Starts SysTick: systick_handler() runs every `microseconds`, at the least urgent priority. */
 void board_systick_start(uint32_t microseconds);
 
+/**
+ * The time in us, modulo 2^32, between interrupts of board_systick_start(microseconds) too;
+ * `periods` is what systick_handler() counts up. In any context, with interrupts masked for less
+ * than a period.
+ */
+uint32_t board_systick_us(const volatile uint32_t *periods, uint32_t microseconds);
+
 /** Sleeps until an interrupt; returns at once if one is pending, even while interrupts are masked.
  */
 static inline void board_wait(void) { __asm__ volatile("wfi" ::: "memory"); }
