@@ -107,9 +107,12 @@ CO_ReturnError_t CO_CANrxBufferInit(CO_CANmodule_t *module, uint16_t index, uint
 
 /* ---- The life of the module ------------------------------------------------------------------ */
 
+/* A core that does not stop takes no filters: CO_CANsetNormalMode() then leaves CANnormal false. */
 void CO_CANsetConfigurationMode(void *pointer) {
   co_verican_t *can = pointer;
-  if (can != NULL && can->open) (void)verican_stop(&can->device);
+  if (can == NULL || !can->open) return;
+  (void)verican_stop(&can->device);
+  can->module->CANnormal = false;
 }
 
 void CO_CANsetNormalMode(CO_CANmodule_t *module) {
@@ -158,6 +161,7 @@ CO_ReturnError_t CO_CANmodule_init(CO_CANmodule_t *module, void *pointer, CO_CAN
     return CO_ERROR_ILLEGAL_ARGUMENT;
   if (can->port.lock == NULL || can->port.unlock == NULL || can->now_ms == NULL)
     return CO_ERROR_ILLEGAL_ARGUMENT;
+  module->CANnormal = false;
   can->open = false;
   can->module = module;
   can->lost = 0;
@@ -183,14 +187,14 @@ void CO_CANmodule_disable(CO_CANmodule_t *module) {
   co_verican_t *can = module->CANptr;
   if (!can->open) return;
   module->CANnormal = false;
-  (void)verican_stop(&can->device);
+  /* If it does not stop it goes on, with the stack out of it, until CO_CANmodule_init() resets it.
+   */
   (void)verican_deinit(&can->device);
   can->open = false;
 }
 
-void co_verican_interrupt(co_verican_t *can) {
-  if (can->open) (void)verican_irq_handler(&can->device);
-}
+/* Whether the module is open or not: a core that could not be stopped still interrupts. */
+void co_verican_interrupt(co_verican_t *can) { (void)verican_irq_handler(&can->device); }
 
 /* ---- Errors ---------------------------------------------------------------------------------- */
 
@@ -202,19 +206,23 @@ static uint16_t level_bits(uint8_t counter, uint16_t warning, uint16_t passive) 
 }
 
 static uint16_t error_bits(const verican_status_t *status) {
-  if (status->state == VERICAN_STATE_BUS_OFF) return CO_CAN_ERRTX_BUS_OFF;
+  if (status->state == VERICAN_STATE_BUS_OFF || status->state == VERICAN_STATE_STOPPED)
+    return CO_CAN_ERRTX_BUS_OFF;
   return (uint16_t)(level_bits(status->tec, CO_CAN_ERRTX_WARNING, CO_CAN_ERRTX_PASSIVE) |
                     level_bits(status->rec, CO_CAN_ERRRX_WARNING, CO_CAN_ERRRX_PASSIVE));
 }
 
 /* Only a stopped device takes filters. Frames that come meanwhile are missed, so nothing of ours
- * may be under way, and nothing is done unless the stack has changed a buffer. */
+ * may be under way, and nothing is done unless the stack has changed a buffer. One that does not
+ * start again, and is told as off the bus, is still stopped the next time. */
 static void renew_filters(co_verican_t *can) {
   uint8_t waiting = 0;
   if (!can->filters_changed || verican_tx_waiting(&can->device, &waiting) != VERICAN_OK) return;
-  if (waiting != 0u || verican_stop(&can->device) != VERICAN_OK) return;
+  if (waiting != 0u) return;
+  const verican_result_t stopped = verican_stop(&can->device);
+  if (stopped != VERICAN_OK && stopped != VERICAN_ERR_STATE) return;
   (void)set_filters(can);
-  (void)verican_start(&can->device);
+  if (verican_start(&can->device) != VERICAN_OK) can->filters_changed = true;
 }
 
 void CO_CANmodule_process(CO_CANmodule_t *module) {

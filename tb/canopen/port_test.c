@@ -21,6 +21,9 @@ static verican_filter_t filters[64];
 static unsigned filter_count;
 static verican_status_t state;
 static const verican_frame_t *arrived;
+static verican_result_t start_result, stop_result; /* what the core lets happen */
+static bool started;
+static unsigned interrupts;
 
 verican_result_t verican_config_default(verican_config_t *config) {
   memset(config, 0, sizeof *config);
@@ -31,16 +34,28 @@ verican_result_t verican_init(verican_t *dev, const verican_config_t *config) {
   configured = *config;
   return VERICAN_OK;
 }
-verican_result_t verican_deinit(verican_t *dev) { return dev == NULL ? VERICAN_ERR_NULL : 0; }
-verican_result_t verican_start(verican_t *dev) { return dev == NULL ? VERICAN_ERR_NULL : 0; }
-verican_result_t verican_stop(verican_t *dev) { return dev == NULL ? VERICAN_ERR_NULL : 0; }
+verican_result_t verican_start(verican_t *dev) {
+  if (dev == NULL || started) return VERICAN_ERR_STATE;
+  started = start_result == VERICAN_OK;
+  return start_result;
+}
+verican_result_t verican_stop(verican_t *dev) {
+  if (dev == NULL || !started) return VERICAN_ERR_STATE;
+  started = stop_result != VERICAN_OK;
+  return stop_result;
+}
+verican_result_t verican_deinit(verican_t *dev) { return started ? verican_stop(dev) : VERICAN_OK; }
 verican_result_t verican_poll(verican_t *dev, uint32_t now_ms) {
   (void)dev, (void)now_ms;
   return VERICAN_OK;
 }
-verican_result_t verican_irq_handler(verican_t *dev) { return dev == NULL ? VERICAN_ERR_NULL : 0; }
+verican_result_t verican_irq_handler(verican_t *dev) {
+  if (dev == NULL || !started) return VERICAN_ERR_STATE;
+  ++interrupts;
+  return VERICAN_OK;
+}
 verican_result_t verican_set_filters(verican_t *dev, const verican_filter_t *of, uint16_t count) {
-  (void)dev;
+  if (dev == NULL || started) return VERICAN_ERR_STATE;
   memcpy(filters, of, count * sizeof *of);
   filter_count = count;
   return VERICAN_OK;
@@ -111,7 +126,9 @@ static void hear(void *object, void *message) {
 static void set_up(void) {
   memset(full, 0, sizeof full);
   memset(heard, 0, sizeof heard);
-  memset(&state, 0, sizeof state);
+  state = (verican_status_t){.state = VERICAN_STATE_ACTIVE};
+  start_result = stop_result = VERICAN_OK;
+  started = false;
   can = (co_verican_t){.port = {.lock = lock, .unlock = unlock}, .now_ms = now_ms};
   CHECK(CO_CANmodule_init(&module, &can, receivers, RECEIVERS, senders, SENDERS, 250) ==
         CO_ERROR_NO);
@@ -231,6 +248,45 @@ static void errors_are_told(void) {
   CHECK(module.CANerrorStatus == 0);
 }
 
+static void take(uint16_t index, uint16_t ident) {
+  CHECK(CO_CANrxBufferInit(&module, index, ident, 0x7FF, false, &heard[index], hear) ==
+        CO_ERROR_NO);
+}
+
+/* Off the bus, and told so, until the core starts. */
+static void a_start_that_fails_is_tried_again(void) {
+  set_up();
+  CO_CANsetNormalMode(&module);
+  take(0, 0x701);
+  start_result = VERICAN_ERR_TIMEOUT;
+  CO_CANmodule_process(&module);
+  CHECK(!started);
+  state.state = VERICAN_STATE_STOPPED;
+  start_result = VERICAN_OK;
+  CO_CANmodule_process(&module);
+  CHECK(started && filter_count == 1 && module.CANerrorStatus == CO_CAN_ERRTX_BUS_OFF);
+  state.state = VERICAN_STATE_ACTIVE;
+  stop_result = VERICAN_ERR_TIMEOUT; /* nothing has changed: it is not asked for */
+  CO_CANmodule_process(&module);
+  CHECK(started && module.CANerrorStatus == 0);
+}
+
+/* Its line would stay high for ever. */
+static void a_core_that_does_not_stop_is_served(void) {
+  set_up();
+  CO_CANsetNormalMode(&module);
+  CHECK(module.CANnormal);
+  stop_result = VERICAN_ERR_TIMEOUT;
+  CO_CANsetConfigurationMode(&can);
+  CHECK(!module.CANnormal);
+  CO_CANsetNormalMode(&module);
+  CHECK(!module.CANnormal);
+  CO_CANmodule_disable(&module);
+  const unsigned before = interrupts;
+  co_verican_interrupt(&can);
+  CHECK(started && interrupts == before + 1);
+}
+
 int main(void) {
   frames_of_a_buffer_keep_their_order();
   a_third_frame_is_an_overflow();
@@ -238,5 +294,7 @@ int main(void) {
   synchronous_pdos_are_taken_back();
   filters_are_those_of_the_buffers();
   errors_are_told();
+  a_start_that_fails_is_tried_again();
+  a_core_that_does_not_stop_is_served();
   return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
