@@ -26,7 +26,7 @@ struct SignalsOptions {
 };
 
 std::string line_of(const LogEntry &entry, std::int64_t start_ns, const DecodedFrame &decoded) {
-  const std::int64_t us = start_ns / 1000 + entry.time / kMicrosecond;
+  const std::int64_t us = (start_ns + entry.time / kNanosecond) / 1000;
   return fmt::format("({:010d}.{:06d}) {} {} :: {}", us / 1'000'000, us % 1'000'000,
                      entry.channel.empty() ? "can0" : entry.channel, candump_frame(entry.frame),
                      to_text(decoded, entry.frame));

@@ -88,6 +88,12 @@ class Signals(ToolCase):
             "(0000000005.000000) can0 123#00 :: unknown",
             "(0000000006.000000) can0 100#R8 :: EngineData, remote"])
 
+    def test_lines_have_the_whole_microseconds_of_the_log(self):
+        log = self.file("ns.log", f"(1.000000900) can0 {EEC1}\n(2.000001100) can0 {EEC1}\n")
+        lines = self.passes("signals", log, "--dbc", DBC).splitlines()
+        self.assertEqual([line.split()[0] for line in lines],
+                         ["(0000000001.000000)", "(0000000002.000001)"])
+
     def test_table_json_and_csv_of_a_log(self):
         log = self.log(EEC1, "18F00431#0000001027000000", "123#00")
         table = self.passes("signals", log, "--dbc", DBC, "--table").splitlines()
