@@ -45,6 +45,17 @@ Columns parse_header(std::string_view line, const Place &place) {
   return columns;
 }
 
+// SavvyCAN writes eight bytes whatever LEN is, those behind it zero or left over from the frame
+// before, and reads LEN of them. What is no byte there, or a ninth, is of another length.
+void check_behind(const std::vector<std::string_view> &fields, const Columns &columns,
+                  std::size_t length, const Place &place) {
+  Frame ignored;
+  for (std::size_t i = length; columns.data + i < fields.size(); ++i) {
+    const std::string_view field = text::trimmed(fields[columns.data + i]);
+    if (!field.empty()) text::set_byte(ignored, i, field, place);
+  }
+}
+
 LogEntry parse_entry(const std::vector<std::string_view> &fields, const Columns &columns,
                      const Place &place) {
   if (fields.size() <= std::max({columns.length, columns.bus, columns.direction, std::size_t{2}}))
@@ -65,6 +76,7 @@ LogEntry parse_entry(const std::vector<std::string_view> &fields, const Columns 
   entry.frame.dlc = static_cast<std::uint8_t>(*length);
   for (std::size_t i = 0; i < *length; ++i)
     text::set_byte(entry.frame, i, text::trimmed(fields[columns.data + i]), place);
+  check_behind(fields, columns, *length, place);
   const std::string_view direction =
       columns.direction != 0 ? text::trimmed(fields[columns.direction]) : std::string_view{};
   if (!direction.empty()) entry.direction = direction_of(direction, place);

@@ -183,6 +183,28 @@ TEST(Gvret, ErrorsNameLineValueAndWhatIsAllowed) {
   EXPECT_THAT(error("5,00000123,false,Rx,foo bar,1,AB"), HasSubstr("Bus 'foo bar'"));
 }
 
+// Behind LEN SavvyCAN writes zeros or what the frame before had there; LEN says what was on the
+// bus.
+TEST(Gvret, ColumnsBehindTheLengthAreEmptyOrBytes) {
+  const auto parse = [](const std::string &line) {
+    return parse_gvret("Time Stamp,ID,Extended,Bus,LEN,D1,D2,D3,D4,D5,D6,D7,D8\n" + line + "\n",
+                       "g.csv");
+  };
+  const auto error = [&](const std::string &line) {
+    return input_error_of([&] { return parse(line); });
+  };
+  for (const char *rest : {"", ",", ",,,,,,,", ",00,00,00,00,00,00,", ", 33,44,,,,,"}) {
+    const CanLog log = parse(std::string{"5,123,false,0,2,AB,CD"} + rest);
+    ASSERT_EQ(log.entries.size(), 1U) << rest;
+    EXPECT_EQ(log.entries[0].frame, (Frame{0x123, false, false, 2, {0xAB, 0xCD}})) << rest;
+  }
+  EXPECT_THAT(error("5,123,false,0,2,AB,CD,x"), HasSubstr("g.csv:2: data byte 'x' is not allowed"));
+  EXPECT_THAT(error("5,123,false,0,2,AB,CD,3"), HasSubstr("g.csv:2: data byte '3' is not allowed"));
+  EXPECT_THAT(error("5,123,false,0,8,1A,2,3,4,5,6,7,8"), HasSubstr("data byte '2'"));
+  EXPECT_THAT(error("5,123,false,0,2,01,02,03,04,05,06,07,08,09"),
+              HasSubstr("g.csv:2: data byte '09' is not allowed; allowed are up to 8 bytes"));
+}
+
 // No input may crash a parser: every prefix and every single-character change of good lines either
 // parses or throws InputError.
 TEST(TextLogs, DamagedInputNeverCrashes) {
