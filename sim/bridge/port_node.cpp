@@ -158,10 +158,13 @@ void PortNode::echo(PortMessage message, Time end) {
 }
 
 void PortNode::enter_bus_off() {
-  ++counts_.bus_off;
+  const std::uint64_t this_time = ++counts_.bus_off;
   if (options_.restart == 0) return;
   Bus &bus = *node_.bus();
-  bus.at(bus.now() + options_.restart, [this] { restart(); });
+  // The user may have restarted the node before; the next bus-off then waits for its own time.
+  bus.at(bus.now() + options_.restart, [this, this_time] {
+    if (counts_.bus_off == this_time) restart();
+  });
 }
 
 void PortNode::restart() {

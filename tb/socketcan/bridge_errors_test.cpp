@@ -248,21 +248,25 @@ constexpr Time kBit = 2 * kMicrosecond;
 // FC-20: 16 starts, each with a flag in which every bit is an error. Recovery takes longer.
 constexpr Time kOffBy = 3 * kMillisecond / 2;
 
-/// The port's node does not see its own dominant bits until `end`: FC-20, bus-off.
-FaultSpec deaf_until(Time end) {
+/// The port's node does not see its own dominant bits from `begin` until `end`: FC-20, bus-off.
+FaultSpec deaf(Time begin, Time end) {
   FaultSpec fault;
   fault.kind = FaultSpec::Kind::kLevel;
   fault.effect = Effect::kRecessive;
   fault.node = kPort;
-  fault.window = {0, end};
+  fault.window = {begin, end};
   return fault;
 }
 
-Time time_of(const FakePort &port, canid_t classes) {
+FaultSpec deaf_until(Time end) { return deaf(0, end); }
+
+/// When the messages that have all bits of `classes` came.
+std::vector<Time> times_of(const FakePort &port, canid_t classes) {
+  std::vector<Time> times;
   for (const PortMessage &message : port.got)
     if ((message.frame.can_id & CAN_ERR_FLAG) != 0 && (message.frame.can_id & classes) == classes)
-      return message.time;
-  return 0;
+      times.push_back(message.time);
+  return times;
 }
 
 // FC-13, BO-02, BO-05: bus-off, then restart after the time asked and 128 times 11 recessive bits,
@@ -282,7 +286,7 @@ TEST(ErrorMessagesOnTheBus, BusOffAndRestart) {
     EXPECT_EQ(back.can_id, CAN_ERR_FLAG | CAN_ERR_RESTARTED | CAN_ERR_CNT);
     EXPECT_EQ(back.data[6] + back.data[7], 0);
     const Time took =
-        time_of(rig.port(0), CAN_ERR_RESTARTED) - time_of(rig.port(0), CAN_ERR_BUSOFF);
+        times_of(rig.port(0), CAN_ERR_RESTARTED)[0] - times_of(rig.port(0), CAN_ERR_BUSOFF)[0];
     const Time recovery = 128 * 11 * kBit;
     EXPECT_GE(took, std::max(restart, recovery));
     EXPECT_LE(took, std::max(restart, recovery) + 30 * kBit);
@@ -312,6 +316,29 @@ TEST(ErrorMessagesOnTheBus, BusOffUntilTold) {
     EXPECT_THAT(rig.port(0).errors(CAN_ERR_RESTARTED), SizeIs(1));
     EXPECT_THAT(rig.port(0).echoes(), ElementsAre(kBase, kExtended));
   }
+}
+
+// BO-05: the time to the restart is counted from each bus-off anew, also when the user was faster
+// than the time after the one before.
+TEST(ErrorMessagesOnTheBus, EachBusOffWaitsForItsOwnTime) {
+  constexpr Time kRestart = 200 * kMillisecond, kAgain = 20 * kMillisecond;
+  constexpr Time kDeaf = 5 * kMillisecond;  // enough beside the beats
+  BridgeRig rig{{.options = {.restart = kRestart},
+                 .faults = {deaf_until(kDeaf), deaf(kAgain, kAgain + kDeaf)},
+                 .traffic = {beat(kMillisecond)}}};
+  const auto off = [&] { return times_of(rig.port(0), CAN_ERR_BUSOFF); };
+  const auto restarted = [&] { return times_of(rig.port(0), CAN_ERR_RESTARTED); };
+  rig.port(0).send(kBase);
+  ASSERT_TRUE(rig.run_until([&] { return off().size() == 1; }));
+  rig.wall.restart = true;
+  ASSERT_TRUE(rig.run_until([&] { return restarted().size() == 1; }));
+  EXPECT_LT(restarted()[0], kAgain);
+  ASSERT_TRUE(rig.run_until([&] { return rig.bridge().elapsed() > kAgain; }));
+  rig.port(0).send(kExtended);
+  ASSERT_TRUE(rig.run_until([&] { return restarted().size() == 2; }));
+  ASSERT_THAT(off(), SizeIs(2));
+  EXPECT_GE(restarted()[1] - off()[1], kRestart);
+  EXPECT_LE(restarted()[1] - off()[1], kRestart + kMillisecond);
 }
 
 // ---- Choice, monitor
