@@ -11,6 +11,7 @@
 
 #include "cli/cli.hpp"
 #include "cli/print_error.hpp"
+#include "cli/rate_option.hpp"
 #include "timing/bittime.hpp"
 #include "timing/rate_table.hpp"
 #include "trace/quantity.hpp"
@@ -179,12 +180,10 @@ void add_bittime(CLI::App &app, int &exit_code) {
   auto options = std::make_shared<BitTimeOptions>();
   CLI::App *command =
       app.add_subcommand("bittime", "Bit timing registers for a clock and a bit rate");
-  const CLI::AsNumberWithUnit with_unit(std::map<std::string, double>{
-      {"k", 1e3}, {"M", 1e6}, {"kHz", 1e3}, {"MHz", 1e6}, {"Hz", 1.0}});
   command->add_option("--clock,-c", options->clock, "Clock of the controller, Hz (8M)")
-      ->transform(with_unit);
+      ->transform(clock_units());
   auto *rate = command->add_option("--bitrate,-b", options->bitrate, "Bit rate, bit/s, as in 500k")
-                   ->transform(with_unit);
+                   ->transform(bitrate_units());
   CLI::Option *table =
       command
           ->add_flag("--table", options->table,

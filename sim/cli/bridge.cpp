@@ -19,6 +19,7 @@
 #include "cli/live_run.hpp"
 #include "cli/output_files.hpp"
 #include "cli/print_error.hpp"
+#include "cli/rate_option.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::cli {
@@ -190,7 +191,6 @@ int run(const BridgeOptions &options) {
 }
 
 void add_bus_options(CLI::App &command, BridgeOptions &options) {
-  const std::map<std::string, double> units{{"k", 1e3}, {"M", 1e6}};
   CLI::Option *nodes =
       command
           .add_option("--nodes", options.nodes,
@@ -200,13 +200,12 @@ void add_bus_options(CLI::App &command, BridgeOptions &options) {
       .add_option("--bus", options.bus,
                   "Scenario file instead: nodes, traffic, faults; its duration does not count")
       ->excludes(nodes);
-  command.add_option("--bitrate", options.bitrate, "Bit rate (500k, or the scenario's), bit/s")
-      ->transform(CLI::AsNumberWithUnit(units))
-      ->check(CLI::Range(1e3, 1e6));
+  add_bitrate_option(command, "--bitrate", options.bitrate,
+                     "Bit rate (500k, or the scenario's), bit/s");
   command
       .add_option("--clock", options.clock,
                   "Clock of the nodes, Hz (8 clocks a bit, or that of the scenario's first node)")
-      ->transform(CLI::AsNumberWithUnit(units))
+      ->transform(clock_units())
       ->check(CLI::Range(8e3, 1e9));
 }
 

@@ -8,6 +8,7 @@
 
 #include "cli/cli.hpp"
 #include "cli/output_files.hpp"
+#include "cli/rate_option.hpp"
 #include "signals/signal_output.hpp"
 #include "trace/candump.hpp"
 #include "trace/output_file.hpp"
@@ -143,9 +144,7 @@ void add_decode(CLI::App &app, int &exit_code) {
   command->add_option("wave", options->wave, "VCD file")->required();
   command->add_option("--signal,-s", options->decode.signal,
                       "Signal of the bus, or the end of its name (guessed)");
-  command->add_option("--bitrate,-b", options->bitrate, "Bit rate, bit/s (detected)")
-      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"k", 1e3}, {"M", 1e6}}))
-      ->check(CLI::Range(1e3, 1e6));
+  add_bitrate_option(*command, "--bitrate,-b", options->bitrate, "Bit rate, bit/s (detected)");
   command
       ->add_option("--sample-point", options->sample_point,
                    "Place of the sample, % of the bit (80)")

@@ -12,6 +12,7 @@
 #include "cli/live_run.hpp"
 #include "cli/output_files.hpp"
 #include "cli/print_error.hpp"
+#include "cli/rate_option.hpp"
 #include "session/firmware_run.hpp"
 #include "simulation/stop_request.hpp"
 #include "trace/input_error.hpp"
@@ -127,10 +128,8 @@ void add_bus_options(CLI::App &command, FirmwareOptions &options) {
       .add_option("--second-bus", options.second_bus,
                   "The board has two cores; scenario file of the second one's bus")
       ->excludes(second);
-  command
-      .add_option("--bitrate", options.setup.bitrate, "Bit rate instead of the scenario's, bit/s")
-      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"k", 1e3}, {"M", 1e6}}))
-      ->check(CLI::Range(1e3, 1e6));
+  add_bitrate_option(command, "--bitrate", options.setup.bitrate,
+                     "Bit rate instead of the scenario's, bit/s");
 }
 
 void add_result_options(CLI::App &command, FirmwareOptions &options) {

@@ -19,6 +19,7 @@
 
 #include "cli/cli.hpp"
 #include "cli/print_error.hpp"
+#include "cli/rate_option.hpp"
 #include "linux/guest_server.hpp"
 #include "simulation/stop_request.hpp"
 #include "trace/input_error.hpp"
@@ -204,7 +205,7 @@ void add_linux(CLI::App &app, int &exit_code) {
   command->add_option("--controllers", options->board.controllers, "Cores on the bus")
       ->check(CLI::Range(1, 8));
   command->add_option("--clock", options->board.clock_hz, "Clock of the cores, Hz; as in the DTB")
-      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"k", 1e3}, {"M", 1e6}}));
+      ->transform(clock_units());
   command->add_option("--clock-ppm", options->board.clock_ppm, "Error of each core's clock, ppm")
       ->delimiter(',')
       ->check(CLI::Range(-100'000.0, 100'000.0));

@@ -90,13 +90,6 @@ std::string option_message(const std::string &error, int argc, char **argv) {
                               (is_typed(given, argc, argv) ? given : plain_digits(given))) +
            plain_digits(error.substr(range));
   }
-  if (constexpr std::string_view kNoNumber = " could not be converted to FLOAT";
-      error.ends_with(kNoNumber) && value != std::string::npos) {
-    const std::size_t from = value + kValue.size();
-    return error.substr(0, value) +
-           in_quotes(error.substr(from, error.size() - kNoNumber.size() - from)) +
-           " is not allowed; allowed: a number, as in 12.5, alone or with a unit";
-  }
   // Numbers that are none have been refused before, so the type cannot hold this one.
   if (const std::size_t is = error.find(kIs);
       error.starts_with(kConversion) && is != std::string::npos)

@@ -12,6 +12,7 @@
 #include "cli/live_run.hpp"
 #include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
+#include "cli/rate_option.hpp"
 #include "session/replay.hpp"
 #include "simulation/stop_request.hpp"
 
@@ -145,8 +146,6 @@ void add_replay(CLI::App &app, int &exit_code) {
   ReplayOptions &replay = options->replay;
   CLI::App *command = app.add_subcommand(
       "replay", "Recorded traffic through simulated nodes; each must receive every frame");
-  const CLI::AsNumberWithUnit with_unit(std::map<std::string, double>{
-      {"k", 1e3}, {"M", 1e6}, {"kHz", 1e3}, {"MHz", 1e6}, {"Hz", 1.0}});
   command->add_option("log", options->log, "Recording of any known format; - is standard input")
       ->required();
   CLI::Option *bus = command->add_option(
@@ -158,13 +157,12 @@ void add_replay(CLI::App &app, int &exit_code) {
   command
       ->add_option("--senders", replay.senders, "Nodes that share the identifiers of the log (1)")
       ->check(CLI::Range(1U, 64U));
-  command->add_option("--bitrate,-b", options->bitrate, "Bit rate, bit/s (500k, or the scenario's)")
-      ->transform(with_unit)
-      ->check(CLI::Range(1e3, 1e6));
+  add_bitrate_option(*command, "--bitrate,-b", options->bitrate,
+                     "Bit rate, bit/s (500k, or the scenario's)");
   command
       ->add_option("--clock,-c", replay.clock_hz,
                    "Clock of each node, of a scenario those that it lacks, Hz (8M)")
-      ->transform(with_unit)
+      ->transform(clock_units())
       ->check(CLI::Range(1e5, 1e9));
   command->add_option("--ppm", replay.ppm, "Clocks are spread over +- this error (100)")
       ->check(CLI::Range(0.0, 5e3))

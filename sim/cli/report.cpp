@@ -12,6 +12,7 @@
 #include "cli/live_run.hpp"
 #include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
+#include "cli/rate_option.hpp"
 #include "session/replay.hpp"
 #include "simulation/stop_request.hpp"
 #include "simulation/wave_report.hpp"
@@ -152,7 +153,6 @@ void add_report(CLI::App &app, int &exit_code) {
   CLI::App *command = app.add_subcommand(
       "report", "A page to look at, of a scenario, a waveform or a log (docs/report.md)");
   options->command = command;
-  const std::map<std::string, double> units{{"k", 1e3}, {"M", 1e6}};
   command
       ->add_option("input", options->input,
                    "Scenario (.yaml), waveform (.vcd), or candump log, pcap, .trc, .csv")
@@ -160,11 +160,8 @@ void add_report(CLI::App &app, int &exit_code) {
   command->add_option("-o,--out", options->outputs.report, "HTML file (the input's name, .html)");
   command->add_option("--signal,-s", options->signal,
                       "Waveform: signal of the bus, or the end of its name (guessed)");
-  command
-      ->add_option("--bitrate,-b", options->bitrate,
-                   "Bit rate, bit/s (the scenario's; of a waveform detected; of a log 500k)")
-      ->transform(CLI::AsNumberWithUnit(units))
-      ->check(CLI::Range(1e3, 1e6));
+  add_bitrate_option(*command, "--bitrate,-b", options->bitrate,
+                     "Bit rate, bit/s (the scenario's; of a waveform detected; of a log 500k)");
   command->add_option("--nodes,-n", options->replay.nodes, "Log: nodes that it is sent through (2)")
       ->check(CLI::Range(2U, 64U));
   command

@@ -11,6 +11,7 @@
 #include "cli/console.hpp"
 #include "cli/live_run.hpp"
 #include "cli/output_files.hpp"
+#include "cli/rate_option.hpp"
 #include "simulation/stop_request.hpp"
 
 namespace vericansim::cli {
@@ -68,9 +69,8 @@ void add_run(CLI::App &app, int &exit_code) {
   add_output_options(*command, options->outputs);
   command->add_option("--duration", options->duration,
                       "Simulated time instead of the scenario's, as in '50 ms'");
-  command->add_option("--bitrate", options->bitrate, "Bit rate instead of the scenario's, bit/s")
-      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"k", 1e3}, {"M", 1e6}}))
-      ->check(CLI::Range(1e3, 1e6));
+  add_bitrate_option(*command, "--bitrate", options->bitrate,
+                     "Bit rate instead of the scenario's, bit/s");
   command->add_flag("--json", options->json, "The report as JSON");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -131,6 +131,33 @@ TEST_F(Tool, BadFilesAreRefused) {
                  "'5' is not allowed; allowed: a time above 0");
 }
 
+// Rates as people write them, wherever there is an option for one; nothing that is none.
+TEST_F(Tool, RatesHaveUnits) {
+  for (const char *rate :
+       {"500000", "500k", "500K", "500 k", "0.5M", "0.5m", "5e5", "+500k", "500kbit/s",
+        "500 kbit/s", "500000bit/s", "0.5 Mbit/s", "500KBIT/S", "500kHz", "0x7a120"}) {
+    const ToolResult result = run_tool("bittime --json -c 8M -b '" + std::string{rate} + "'");
+    EXPECT_EQ(result.code, 0) << rate << result.error;
+    EXPECT_EQ(nlohmann::json::parse(result.out, nullptr, false)["bitrate"], 500'000) << rate;
+  }
+  for (const char *clock : {"8000000", "8M", "8MHz", "8 MHz", "8000kHz", "0.008 GHz"}) {
+    const ToolResult result = run_tool("bittime --json -b 500k -c '" + std::string{clock} + "'");
+    EXPECT_EQ(nlohmann::json::parse(result.out, nullptr, false)["clock_hz"], 8'000'000) << clock;
+  }
+  for (const std::string command : {"run x.yaml", "report x.yaml", "decode x.vcd", "replay x.log",
+                                    "bittime", "firmware x.elf --bus x.yaml", "bridge --if x"}) {
+    for (const char *rate : {"fast", "k", "nan", "inf", "500kbits", "500 k k", "bit/s",
+                             "500kbit/s/s", "500kHzbit/s", "5,00k", "500GHz bit/s"})
+      expect_refused(command + " --bitrate '" + rate + "'",
+                     "--bitrate: '" + std::string{rate} +
+                         "' is not allowed; allowed: bit/s, as in 500000, 500k or '500 kbit/s'");
+    for (const char *rate : {"0", "-500k", "-1 kbit/s", "2 Mbit/s", "1e9k"})
+      expect_refused(command + " --bitrate='" + rate + "'", "1000 to 1000000");
+  }
+  expect_refused("bittime -b 500k -c '8 Mbit/s'",
+                 "--clock: '8 Mbit/s' is not allowed; allowed: Hz, as in 8000000, 8M or '8 MHz'");
+}
+
 TEST_F(Tool, RunReportsAndExitsByTheExpectations) {
   const ToolResult good = run_tool("run examples/two-nodes.yaml --json");
   EXPECT_EQ(good.code, 0) << good.error;

@@ -78,7 +78,7 @@ TEST_F(ToolMistakes, ValuesAreCitedAsTyped) {
   expect_refused("run x.yaml --bitrate 1e+400", "Value 1e+400 not in range 1000 to 1000000;");
   expect_refused(
       "bittime -b 1,5M",
-      "--bitrate: '1,5' is not allowed; allowed: a number, as in 12.5, alone or with a unit");
+      "--bitrate: '1,5M' is not allowed; allowed: bit/s, as in 500000, 500k or '500 kbit/s'");
   expect_refused("run x.yaml --bitrate=1e+400", "Value 1e+400 not in range 1000 to 1000000;");
   expect_refused("replay x.log --nodes 1.0", "Value 1.0 not in range 2 to 64;");
   expect_refused("bittime -b 500k x1e+3", "not expected: x1e+3;");

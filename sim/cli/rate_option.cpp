@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// See rate_option.hpp.
+#include "cli/rate_option.hpp"
+
+#include <map>
+#include <string_view>
+
+#include "trace/input_error.hpp"
+
+namespace vericansim::cli {
+namespace {
+
+using Units = std::map<std::string, double>;
+
+const Units kMultiples{{"k", 1e3}, {"M", 1e6}};
+const Units kHertz{{"k", 1e3}, {"M", 1e6}, {"Hz", 1}, {"kHz", 1e3}, {"MHz", 1e6}, {"GHz", 1e9}};
+
+/// Takes `ending` off `text`; false if it has another one.
+bool take_off(std::string &text, std::string_view ending) {
+  text = CLI::detail::trim_copy(text);
+  if (!CLI::detail::to_lower(text).ends_with(ending)) return false;
+  text.resize(text.size() - ending.size());
+  return true;
+}
+
+/// Whether `text` is a number with one of the units, and is now one without.
+bool to_number(std::string &text, const Units &units) {
+  // CLI11 takes a unit alone for one of it.
+  if (text.find_first_of("0123456789") == std::string::npos) return false;
+  try {
+    return CLI::AsNumberWithUnit{units}(text).empty();
+  } catch (const CLI::ValidationError &) {
+    return false;
+  }
+}
+
+template <typename Convert>
+CLI::Validator rate(const char *allowed, Convert convert) {
+  const auto take = [allowed, convert](std::string &text) {
+    std::string number = text;
+    if (!convert(number)) return in_quotes(text) + " is not allowed; allowed: " + allowed;
+    text = number;
+    return std::string{};
+  };
+  return {take, "FLOAT [UNIT]"};
+}
+
+}  // namespace
+
+CLI::Validator bitrate_units() {
+  return rate("bit/s, as in 500000, 500k or '500 kbit/s'", [](std::string &text) {
+    // Letters alone are units to CLI11. Hz is what --bitrate always knew in some commands.
+    const bool bits = take_off(text, "bit/s");
+    return to_number(text, bits ? kMultiples : kHertz);
+  });
+}
+
+CLI::Validator clock_units() {
+  return rate("Hz, as in 8000000, 8M or '8 MHz'",
+              [](std::string &text) { return to_number(text, kHertz); });
+}
+
+CLI::Option *add_bitrate_option(CLI::App &command, const std::string &names, double &bitrate,
+                                const std::string &help) {
+  return command.add_option(names, bitrate, help)
+      ->transform(bitrate_units())
+      ->check(CLI::Range(1e3, 1e6));
+}
+
+}  // namespace vericansim::cli
