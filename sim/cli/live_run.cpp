@@ -13,6 +13,8 @@
 #include "cli/console.hpp"
 #include "cli/print_error.hpp"
 #include "session/session.hpp"
+#include "simulation/fault_check.hpp"
+#include "simulation/node_timing.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::cli {
@@ -57,6 +59,14 @@ RunReport simulate(const Scenario &scenario, double bitrate, bool prints) {
 int exit_code_of(const RunReport &report) {
   const int code = exit_code_of(report.boards, report.ok() ? kOk : kFailed);
   return report.interrupted ? exit_code_after(code) : code;
+}
+
+void check_bitrates(const Scenario &scenario) {
+  for (const double bitrate : scenario.bitrates) {
+    check_faults(scenario, bitrate);
+    for (const NodeSpec &node : scenario.nodes)
+      static_cast<void>(timing_of(scenario, node, bitrate));
+  }
 }
 
 double only_bitrate(const Scenario &scenario, double wanted) {

@@ -17,6 +17,10 @@ namespace vericansim::cli {
 /// The exit code of a run: with programs as nodes the user's wish is an end like others.
 [[nodiscard]] int exit_code_of(const RunReport &report);
 
+/// A bit rate of the scenario at which it cannot run is found before any run of it. Throws
+/// InputError.
+void check_bitrates(const Scenario &scenario);
+
 /// The bit rate of a scenario that is to run once: `wanted`, or its only one if that is 0. Throws
 /// InputError if it has several.
 [[nodiscard]] double only_bitrate(const Scenario &scenario, double wanted);

@@ -59,6 +59,7 @@ int report_scenario(const ReportOptions &options) {
   const auto database = with_files(scenario.outputs.database, options.outputs.dbc);
   scenario.outputs.database = database;
   claim_files(inputs_of(scenario), files_of(options.outputs, scenario.bitrates));
+  check_bitrates(scenario);
   int code = kOk;
   for (const double bitrate : scenario.bitrates) {
     scenario.outputs =

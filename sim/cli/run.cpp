@@ -42,6 +42,7 @@ int run(const RunOptions &options) {
   const Outputs outputs = scenario.outputs;
   const bool several = scenario.bitrates.size() > 1;
   claim_files(inputs_of(scenario), files_of(outputs, scenario.bitrates));
+  check_bitrates(scenario);
   int code = kOk;
   Json list = Json::array();
   for (const double bitrate : scenario.bitrates) {

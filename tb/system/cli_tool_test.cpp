@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <string>
 
 #include "firmware/tool_run.hpp"
@@ -129,6 +130,20 @@ TEST_F(Tool, BadFilesAreRefused) {
                  "cannot be opened for writing");
   expect_refused("run examples/two-nodes.yaml --duration 5",
                  "'5' is not allowed; allowed: a time above 0");
+}
+
+// As many as a list has, and before the first of them runs.
+TEST_F(Tool, BitRatesOfAListAreCheckedFirst) {
+  const std::string file = file_with(
+      "rates.yaml", "bitrate: [500k, 970k]\nduration: 1 ms\noutputs: {candump: " + in("rates.log") +
+                        "}\nnodes:\n  - {name: a, clock: 8 MHz}\n  - {name: b, clock: 8 MHz}\n");
+  const std::string impossible =
+      "rates.yaml:5: node 'a': no setting of 8 to 25 quanta gives 970000 bit/s within 2000 ppm";
+  expect_refused("run " + file, impossible);
+  expect_refused("run " + file + " --json", impossible);
+  expect_refused("report " + file + " -o " + in("rates.html"), impossible);
+  for (const char *name : {"rates-500k.log", "rates-500k.html"})
+    EXPECT_FALSE(std::filesystem::exists(in(name))) << name;
 }
 
 // Rates as people write them, wherever there is an option for one; nothing that is none.
