@@ -79,6 +79,9 @@ using Json = nlohmann::ordered_json;
 
 /// The value of an option such as "50 ms"; throws InputError that names the option.
 [[nodiscard]] Time time_option(const std::string &option, const std::string &text);
+/// The same for a time within limits.
+[[nodiscard]] Time time_option(const std::string &option, const std::string &text, Time least,
+                               Time most);
 
 /// Prints indented JSON and a line end. Bytes of names that are no UTF-8 become U+FFFD.
 void print_json(const Json &json);

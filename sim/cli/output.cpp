@@ -37,6 +37,15 @@ Time time_option(const std::string &option, const std::string &text) {
   return *time;
 }
 
+Time time_option(const std::string &option, const std::string &text, Time least, Time most) {
+  const auto time = parse_time(text);
+  if (!time || *time < least || *time > most)
+    throw InputError(option, 0,
+                     fmt::format("{} is not allowed; allowed: {} to {}, as in '50 ms'",
+                                 in_quotes(text), exact_time(least), exact_time(most)));
+  return *time;
+}
+
 void print_json(const Json &json) {
   fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }

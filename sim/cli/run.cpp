@@ -29,7 +29,8 @@ void override_with(Scenario &scenario, const RunOptions &options) {
   override_outputs(scenario.outputs, options.outputs);
   if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
   if (options.duration.empty()) return;
-  const Time duration = time_option("--duration", options.duration);
+  const Time duration =
+      time_option("--duration", options.duration, kShortestDuration, kLongestDuration);
   scenario.cut_short = scenario.endless || duration < scenario.duration;
   scenario.duration = duration;
   scenario.endless = false;

@@ -209,7 +209,7 @@ void parse_general(YamlMap &map, Scenario &scenario) {
   });
   map.with("sample_point", [&](const YamlValue &v) { scenario.sample_point = v.part(0.5, 0.9); });
   map.with("duration", [&](const YamlValue &v) {
-    scenario.duration = v.time(kMicrosecond, 100'000 * kSecond);
+    scenario.duration = v.time(kShortestDuration, kLongestDuration);
   });
   map.with("drain", [&](const YamlValue &v) { scenario.drain = v.time(0, 1000 * kSecond); });
   map.with("seed", [&](const YamlValue &v) { scenario.seed = v.integer(0, 0xFFFFFFFF); });

@@ -24,6 +24,9 @@
 
 namespace vericansim {
 
+/// What Scenario::duration may be.
+inline constexpr Time kShortestDuration = kMicrosecond, kLongestDuration = 100'000 * kSecond;
+
 /// One node of the bus.
 struct NodeSpec {
   std::string name;

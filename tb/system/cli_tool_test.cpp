@@ -129,7 +129,10 @@ TEST_F(Tool, BadFilesAreRefused) {
   expect_refused("run examples/two-nodes.yaml --vcd /no/such/folder/a.vcd",
                  "cannot be opened for writing");
   expect_refused("run examples/two-nodes.yaml --duration 5",
-                 "'5' is not allowed; allowed: a time above 0");
+                 "--duration: '5' is not allowed; allowed: 1 us to 100000 s, as in '50 ms'");
+  for (const char *time : {"1ps", "0", "999 ns", "100001 s"})
+    expect_refused("run examples/two-nodes.yaml --duration '" + std::string{time} + "'",
+                   "--duration: '" + std::string{time} + "' is not allowed; allowed: 1 us to ");
 }
 
 // As many as a list has, and before the first of them runs.
