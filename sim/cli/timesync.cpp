@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <functional>
 #include <memory>
 
 #include "cli/cli.hpp"
@@ -24,20 +24,28 @@ namespace {
 struct TimeSyncOptions {
   std::string file;
   std::string how = sync_ways().front().name;
-  std::map<std::string, std::string> values;  // by the name of the setting, as given
+  SyncValues values;  // of options
   bool sweep = false;
   bool p4 = false;
   bool json = false;
   std::string page;
 };
 
+/// Refuses a setting where it was given.
+[[noreturn]] void refuse_setting(const TimeSyncOptions &options, const std::string &name,
+                                 const std::string &why) {
+  if (options.values.contains(name)) throw InputError("--" + name, 0, why);
+  throw InputError(options.file, 0, name + ": " + why);
+}
+
 /// A setting of something that is not there would change nothing but which goal the case has, and
 /// no bus takes more than all of it.
 void refuse_idle(const TimeSyncOptions &options, const SyncCase &setting) {
   const auto refuse = [&](const std::string &name, const std::string &why) {
-    if (options.values.contains(name)) throw InputError("--" + name, 0, why);
-    throw InputError(options.file, 0, name + ": " + why);
+    refuse_setting(options, name, why);
   };
+  if (setting.hardware && setting.filter != SyncCase{}.filter)
+    refuse("filter", "is that of the servo in software; allowed: without hardware");
   if (setting.restless && !setting.hardware)
     refuse("restless", "is a setting of followers in hardware; allowed: with hardware");
   if (setting.clocks.sine_period_s != SyncCase{}.clocks.sine_period_s &&
@@ -49,15 +57,37 @@ void refuse_idle(const TimeSyncOptions &options, const SyncCase &setting) {
                        plain_number((setting.load + setting.load_above) * 100)));
 }
 
+/// Why a setting does not count in what is to be run; nullptr if it does.
+using WhyNot = std::function<const char *(const std::string &name)>;
+
+/// A setting that does not count would be taken for one that does.
+void refuse_uncounted(const TimeSyncOptions &options, const SyncCase &usual,
+                      const SyncValues &values, const WhyNot &why_not) {
+  for (const SyncSetting &one : sync_settings()) {
+    const auto given = values.find(one.name);
+    const char *why = why_not(one.name);
+    if (given == values.end() || why == nullptr) continue;
+    SyncCase changed = usual;
+    one.set(changed, given->second);
+    if (!(changed == usual)) refuse_setting(options, one.name, why);
+  }
+}
+
 /// What is given on the command line takes the place of what the file says. Returns the name.
-std::string take_settings(const TimeSyncOptions &options, SyncCase &setting) {
-  const std::string name = options.file.empty() ? "" : read_case(options.file, setting);
+std::string take_settings(
+    const TimeSyncOptions &options, SyncCase &setting,
+    const WhyNot &why_not = [](const std::string &) { return nullptr; }) {
+  const SyncCase usual = setting;
+  SyncValues values;
+  const std::string name = options.file.empty() ? "" : read_case(options.file, setting, values);
   for (const SyncSetting &one : sync_settings()) {
     const auto given = options.values.find(one.name);
     if (given != options.values.end() && !one.set(setting, given->second))
       throw InputError("--" + std::string{one.name}, 0,
                        in_quotes(given->second) + " is not allowed; allowed: " + one.allowed);
   }
+  for (const auto &[setting_name, value] : options.values) values[setting_name] = value;
+  refuse_uncounted(options, usual, values, why_not);
   refuse_idle(options, setting);
   return name;
 }
@@ -113,7 +143,10 @@ SyncRow in_sweep(const SyncWay &way, const SyncRow &row) {
 
 int run_sweep(const TimeSyncOptions &options, const SyncWay &way) {
   SyncCase base;
-  take_settings(options, base);
+  take_settings(options, base, [](const std::string &name) {
+    return counts_in_sweep(name) ? nullptr
+                                 : "is set by the rows of the sweep; allowed: without sweep";
+  });
   bool ok = true;
   Json tables = Json::array();
   if (!options.json) {
@@ -158,7 +191,8 @@ int run_sweep(const TimeSyncOptions &options, const SyncWay &way) {
 
 int run_p4(const TimeSyncOptions &options, const SyncWay &way) {
   SyncCase setting = p4_case();
-  take_settings(options, setting);
+  take_settings(options, setting,
+                [&](const std::string &name) { return missing_in_p4(way, name); });
   const P4Result result = vericansim::run_p4(way, setting);
   if (options.json) {
     Json json = {{"how", way.name}};

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "timesync/sync_case.hpp"
@@ -31,5 +32,9 @@ struct P4Result {
 
 /// Runs both by `way`, with the intervals and seeds of `setting`. Throws as check_way().
 [[nodiscard]] P4Result run_p4(const SyncWay &way, const SyncCase &setting);
+
+/// Why this setting would change nothing of what was published, and so compare two different
+/// things; nullptr if it counts in all of the experiment to which it can apply.
+[[nodiscard]] const char *missing_in_p4(const SyncWay &way, std::string_view setting);
 
 }  // namespace vericansim

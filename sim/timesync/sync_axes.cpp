@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 namespace vericansim {
 namespace {
 
@@ -89,6 +92,12 @@ std::vector<SyncTable> sweep(const SyncCase &base) {
     }
   }
   return tables;
+}
+
+bool counts_in_sweep(std::string_view setting) {
+  constexpr std::array<std::string_view, 4> kTaken = {"followers", "intervals", "seeds",
+                                                      "first-seed"};
+  return std::find(kTaken.begin(), kTaken.end(), setting) != kTaken.end();
 }
 
 }  // namespace vericansim

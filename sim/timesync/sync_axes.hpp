@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "timesync/sync_goal.hpp"
@@ -20,5 +21,8 @@ struct SyncTable {
 /// The tables of section 12 at 16 and 50 MHz, then one for each axis. All rows have the number of
 /// followers, intervals and seeds of `base`, but for the axis of followers.
 [[nodiscard]] std::vector<SyncTable> sweep(const SyncCase &base);
+
+/// Whether sweep() takes this setting of its base.
+[[nodiscard]] bool counts_in_sweep(std::string_view setting);
 
 }  // namespace vericansim

@@ -116,11 +116,12 @@ std::string SyncSetting::key() const {
 
 std::span<const SyncSetting> sync_settings() { return kSettings; }
 
-std::string read_case(const std::string &path, SyncCase &setting) {
+std::string read_case(const std::string &path, SyncCase &setting, SyncValues &values) {
   YamlMap map{YamlValue::load(path)};
   for (const SyncSetting &one : kSettings)
     map.with(one.key(), [&](const YamlValue &value) {
       if (!one.set(setting, value.text())) value.refuse(one.allowed);
+      values[one.name] = value.text();
     });
   std::string name;
   map.with("name", [&](const YamlValue &value) { name = value.text(); });

@@ -4,6 +4,7 @@
 // SyncSetting: what can be said of a case, by an option of `verican timesync` or a key of its file.
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 
@@ -26,8 +27,11 @@ struct SyncSetting {
 /// All settings, in the order of the help.
 [[nodiscard]] std::span<const SyncSetting> sync_settings();
 
+/// What is said of a case: values as people write them, by the names of their settings.
+using SyncValues = std::map<std::string, std::string>;
+
 /// A case file (docs/timesync.md): keys of settings, and `name`. What it does not say stays.
-/// Returns the name. Throws InputError.
-std::string read_case(const std::string &path, SyncCase &setting);
+/// Returns the name; `values` gets what it says. Throws InputError.
+std::string read_case(const std::string &path, SyncCase &setting, SyncValues &values);
 
 }  // namespace vericansim

@@ -19,10 +19,10 @@ SyncCase as_it_is(const SyncCase &setting) { return setting; }
 
 constexpr SyncWay kWays[] = {
     {"model", "no RTL: oscillators, clock registers, stamps and frames in closed form",
-     run_by_model, run_p4_by_model, nothing, as_it_is},
+     run_by_model, run_p4_by_model, false, nothing, as_it_is},
     {"skip", "RTL and driver on each node; idle gaps of the bus in closed form", run_by_skip,
-     run_p4_by_skip, missing_on_rtl, loaded_for_20_s},
-    {"rtl", "RTL and driver on each node, every clock of it", run_by_rtl, run_p4_by_rtl,
+     run_p4_by_skip, true, missing_on_rtl, loaded_for_20_s},
+    {"rtl", "RTL and driver on each node, every clock of it", run_by_rtl, run_p4_by_rtl, true,
      missing_on_rtl, loaded_for_20_s},
 };
 

@@ -22,6 +22,8 @@ struct SyncWay {
   SyncRun (*run)(const SyncCase &setting, std::uint64_t seed);
   /// A seed of the published experiment: followers +spread and -spread in turn, offset alone.
   SyncRun (*run_p4)(const SyncCase &setting, std::uint64_t seed);
+  /// The published experiment, too, has the bus of the case and clocks that wander.
+  bool p4_has_bus;
   /// What of a case this way does not know, for people; nullptr: nothing.
   const char *(*missing)(const SyncCase &setting);
   /// The case as a sweep runs it, which has to end some time.

@@ -63,19 +63,21 @@ TEST_F(TimeSync, Options) {
   const json one = run_json(
       "--frequency 50M --spread 20 --wander 1e-9 --sine 0.5 --sine-period '60 s' --followers 3 "
       "--bitrate 250k --load 0.5 --load-above '20 %' --bit-errors 1e-4 --interval '500 ms' "
-      "--filter automatic --displaced 0.01 --own-pin --opposed --hardware --restless --master-cut "
+      "--displaced 0.01 --own-pin --opposed --hardware --restless --master-cut "
       "--intervals 30 --seeds 2 --first-seed 7 --how model");
   const json expected = {{"frequency_hz", 50e6}, {"spread_ppm", 20.0}, {"opposed", true},
                          {"wander", 1e-9},       {"sine_ppm", 0.5},    {"sine_period_s", 60.0},
                          {"followers", 3},       {"bitrate", 250e3},   {"load", 0.5},
                          {"load_above", 0.2},    {"bit_errors", 1e-4}, {"interval_s", 0.5},
-                         {"filter", 0},          {"displaced", 0.01},  {"own_pin", true},
+                         {"filter", 8},          {"displaced", 0.01},  {"own_pin", true},
                          {"hardware", true},     {"restless", true},   {"master_cut", true},
                          {"intervals", 30},      {"seeds", 2},         {"first_seed", 7}};
   EXPECT_EQ(one["case"], expected);
   EXPECT_EQ(one["goal"], nullptr);
   EXPECT_EQ(one["runs"].size(), 2u);
   EXPECT_EQ(one["runs"][0]["followers"].size(), 3u);
+  const json automatic = run_json("--filter automatic --intervals 8 --seeds 1", 1);
+  EXPECT_EQ(automatic["case"]["filter"], 0);
 }
 
 // TM-124: a case file, and options that take the place of what it says.
@@ -108,6 +110,10 @@ TEST_F(TimeSync, BadInput) {
   expect_refused("--load-above 1", "allowed: 0 to 95 %, or 0 to 0.95");
   expect_refused("--seeds -1", "--seeds");
   expect_refused("--first-seed 0", "--first-seed: '0' is not allowed; allowed: 1 to 2^32 - 1");
+  expect_refused("--hardware --filter 16",
+                 "--filter: is that of the servo in software; allowed: without hardware");
+  expect_refused(file_with("e.yaml", "hardware: true\nfilter: automatic\n"),
+                 "e.yaml: filter: is that of the servo in software");
   expect_refused("--how skip --hardware", "--how skip knows no followers in hardware");
   expect_refused("--how rtl --master-cut", "--how rtl knows no cut master");
   expect_refused("--restless", "--restless: is a setting of followers in hardware");
@@ -161,6 +167,55 @@ TEST_F(TimeSync, P4) {
   EXPECT_LE(between, 320);
   EXPECT_LE(result["servo"]["max_ps"], 60'000);
   EXPECT_LE(result["servo"]["between_ps"], 120'000);
+}
+
+const char *const kBusOfP4[] = {"--wander 1e-8", "--sine 100",      "--bitrate 250k",
+                                "--load 0.5",    "--load-above 5%", "--bit-errors 1e-3"};
+
+// TM-123: what the published experiment, or its model, does not have is no setting of it.
+TEST_F(TimeSync, P4RefusesWhatItDoesNotHave) {
+  for (const std::string option : {"--displaced 1%", "--hardware", "--master-cut"})
+    for (const char *how : {"model", "skip"})
+      expect_refused("--p4 " + option + " --how " + how,
+                     option.substr(0, option.find(' ')) + ": is not of the published experiment");
+  for (const std::string option : kBusOfP4)
+    expect_refused("--p4 " + option, option.substr(0, option.find(' ')) +
+                                         ": is not in the model of the published experiment; "
+                                         "allowed: with how skip or rtl");
+  expect_refused("--p4 " + file_with("p4.yaml", "load: 5 %\n"),
+                 "p4.yaml: load: is not in the model of the published experiment");
+  EXPECT_EQ(run_json("--p4 --load 0 --bitrate 500k --filter 8")["ok"], true);
+}
+
+// TM-123: seeds, and what a way has of the bus, count in the published half, too.
+TEST_F(TimeSync, P4TakesSeedsAndBus) {
+  const auto published = [](const std::string &options) {
+    const std::string few = "--p4 --seeds 1 --interval '100 ms' --intervals 12 ";
+    return run_json(few + options, 1)["offset_alone"];
+  };
+  EXPECT_NE(published(""), published("--first-seed 2"));
+  const json plain = published("--how skip");
+  for (const std::string option : kBusOfP4)
+    EXPECT_NE(plain, published("--how skip " + option)) << option;
+}
+
+// TM-123: with clocks that wander there is no bound to be within, and none is made up.
+TEST_F(TimeSync, P4WithoutBound) {
+  const json result = run_json("--p4 --how skip --wander 1e-8 --seeds 1 --intervals 40");
+  EXPECT_EQ(result["checks"][2]["expected"], "no bound: locked");
+  EXPECT_EQ(result["checks"][3]["expected"], "no bound: locked");
+  EXPECT_EQ(result["checks"][2]["ok"], true);
+}
+
+// TM-124: the rows of a sweep are what the specification says, whatever the base.
+TEST_F(TimeSync, SweepTakesLengthAndFollowersAlone) {
+  for (const std::string option : {"--frequency 50M", "--filter 4", "--hardware", "--load 0.5"})
+    expect_refused("--sweep " + option, option.substr(0, option.find(' ')) +
+                                            ": is set by the rows of the sweep; allowed: without");
+  const json all = run_json("--sweep --followers 2 --intervals 3 --seeds 1 --first-seed 3", 1);
+  const json &one = all["tables"][0]["rows"][0]["case"];
+  EXPECT_EQ(one["followers"], 2);
+  EXPECT_EQ(one["first_seed"], 3);
 }
 
 }  // namespace
