@@ -163,7 +163,7 @@ module can_remote #(
   logic [3:0]  place, row, row_end;
   logic        ended, staged, cleared, zero, one, absent;
   logic [8:0]  cell_addr;
-  logic [1:0]  lane, cell_lane;
+  logic [1:0]  lane;
   logic [31:0] rdata;
   logic [7:0]  read_byte, next_byte, wbyte, status;
   // Queue
@@ -355,7 +355,7 @@ module can_remote #(
     .tail_i(tail), .head_i(head), .age_i(age),
     .header_i(head_byte), .at_i(at), .timer_i(timer), .new_tries_i(new_tries), .zero_i(zero),
     .one_i(one), .own_i(cell_own || tally_own || block_own),
-    .cell_o(cell_addr), .lane_o(cell_lane), .we_o(cell_we)
+    .cell_o(cell_addr), .we_o(cell_we)
   );
 
   can_rn_data #(
@@ -383,7 +383,6 @@ module can_remote #(
   can_rn_port #(.MemBytes(MemBytes), .InitFile(InitFile)) u_port (
     .clk_i, .rst_ni, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger || acts),
     .same_i(same && !phase[0]), .cell_i(cell_addr | others),
-    .lane_i(cell_lane | others[1:0]),
     .we_i((cell_we && !no_write && !tally_no_write && !block_no_write && !guard
            && !(Filled && job == can_rn_pkg::JobClear)
            && !(StageBytes == 0 && job == can_rn_pkg::JobMove && (trigger || acts)))

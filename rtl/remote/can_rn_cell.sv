@@ -28,8 +28,7 @@ module can_rn_cell (
   input  logic             zero_i,       // byte read is 0, 1
   input  logic             one_i,
   input  logic             own_i,        // not a byte of the row, but what another block says
-  output logic [8:0]       cell_o,      // read, or the word that is written, and ..
-  output logic [1:0]       lane_o,      // .. the byte of it
+  output logic [8:0]       cell_o,
   output logic             we_o
 );
   // Variables: 0, 1 watchdog; 2 counts ms; 3 rest of the back-off, or of 10 s; 4 constant: 10 s;
@@ -41,25 +40,21 @@ module can_rn_cell (
   logic [1:0] page;
   logic [3:0] place;
   logic [2:0] row;
-  logic [1:0] lane;
   logic       last;
-  assign lane_o = lane & {2{!own_i}};
   assign last = phase_i[1];
 
   always_comb begin
     page  = PageVar;
     place = 4'd0;
-    lane  = 2'd0;
     case (job_i)
       can_rn_pkg::JobByte: begin
         page  = PageRow;
-        place = {row_i[3:1], row_i[0] && setup_i};
-        lane  = row_i[1:0];
+        // Written in the first phase; the byte before a mask is read in the second.
+        place = {row_i[3:1], row_i[0] && (setup_i || !phase_i[0])};
       end
       can_rn_pkg::JobMove, can_rn_pkg::JobOpen: begin
         page  = trigger_i ? PageVar : PageRow;
         place = row_i;
-        lane  = row_i[1:0];
       end
       can_rn_pkg::JobLoad: begin
         // Length and A, or the byte; before the first byte of any frame the node writes what it is.
@@ -78,38 +73,32 @@ module can_rn_cell (
       end
       can_rn_pkg::JobTrigger: begin
         page  = none_i || last ? PageStatus : PageRow;
-        place = {1'b0, none_i || last, none_i, none_i};
-        lane  = 2'd3;
+        place = {1'b0, {3{none_i || last}}};
       end
       can_rn_pkg::JobTurn: begin
         page  = last || off_i ? PageVar : PageConfig;
         place = last ? 4'd3 : 4'd4;
-        lane  = 2'd3;
       end
       can_rn_pkg::JobLow, can_rn_pkg::JobHigh: begin
         page  = PageVar;
         place = {2'b00, timer_i, job_i[0]};
-        lane  = {timer_i, job_i[0]};
       end
       can_rn_pkg::JobTry: begin
         page  = PageVar;
         place = 4'd5;
-        lane  = 2'd1;
       end
       can_rn_pkg::JobAge: begin
         page  = PageRow;
         place = 4'd10;
-        lane  = 2'd2;
       end
       can_rn_pkg::JobCount: begin
         page  = PageStatus;
         place = {1'b0, !(&phase_i), refused_i, !refused_i};
-        lane  = {refused_i, !refused_i};
       end
       can_rn_pkg::JobRow: begin
         page  = !last ? PageConfig : phase_i[0] ? PageVar : PageRow;
-        place = {last && !phase_i[0], !(last && !phase_i[0]), phase_i[0], 1'b1};
-        lane  = {!phase_i[0], phase_i[0]};
+        place = {last && !phase_i[0], !(last && !phase_i[0]), last ^ phase_i[0],
+                 !(last && !phase_i[0])};
       end
       can_rn_pkg::JobConfig: begin
         page  = PageConfig;
@@ -117,8 +106,7 @@ module can_rn_cell (
       end
       can_rn_pkg::JobFeed: begin
         page  = last ? PageVar : PageConfig;
-        place = {3'b001, phase_i[0]};
-        lane  = {1'b0, phase_i[0]};
+        place = {2'b00, !last, phase_i[0]};
       end
       default: ;
     endcase

@@ -16,7 +16,6 @@ module can_rn_port #(
   input  logic             same_i,      // JobSame: memory
   input  logic             trigger_i,
   input  logic [8:0]       cell_i,
-  input  logic [1:0]       lane_i,      // byte that is written
   input  logic             we_i,
   input  logic             wide_i,      // all bytes of the word
   input  logic [11:0]      mem_i,
@@ -75,7 +74,7 @@ module can_rn_port #(
   assign to_mem   = (job_i == can_rn_pkg::JobMove && !read_i) || job_i == can_rn_pkg::JobClear;
   assign target   = {mem_i[11:9] | {3{staged_i && !trigger_i && !job_i[1]}}, mem_i[8:2]};
   assign address  = user ? usr_addr_i : {3'b111, cell_i[8:2]};
-  assign lane     = to_mem ? mem_i[1:0] : lane_i;
+  assign lane     = to_mem ? mem_i[1:0] : cell_i[1:0];
   assign lane_o   = from_mem ? mem_i[1:0] : cell_i[1:0];
 
   // Words: state, TEC, REC, code; A, counts; A, length.
