@@ -78,9 +78,10 @@ module can_rn_port #(
   assign lane_o   = from_mem ? mem_i[1:0] : cell_i[1:0];
 
   // Words: state, TEC, REC, code; A, counts; A, length.
-  assign push   = job_i == can_rn_pkg::JobPush;
+  // The bits that tell them from other jobs that write.
+  assign push   = !job_i[4] && job_i[3] && !job_i[2] && job_i[1];
   assign count  = job_i == can_rn_pkg::JobCount;
-  assign status = job_i == can_rn_pkg::JobFresh || job_i == can_rn_pkg::JobLoad
+  assign status = (!job_i[4] && job_i[0] && (job_i[3] ? !job_i[5] : job_i[1]))   // Fresh, Load
                   || (count && odd_i);
   always_comb begin
     for (int b = 0; b < 4; b++) lanes[b] = lane == 2'(b);
