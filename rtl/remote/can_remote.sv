@@ -379,10 +379,10 @@ module can_remote #(
 
   // Address of the byte: a block that selects none drives 0, so that an OR is enough.
   logic [8:0] others;
-  assign others = guard_cell | map_cell | own_cell | tally_cell | block_cell;
+  assign others = map_cell | own_cell | tally_cell | block_cell;
   can_rn_port #(.MemBytes(MemBytes), .InitFile(InitFile)) u_port (
     .clk_i, .rst_ni, .job_i(job), .odd_i(phase[0]), .read_i(read), .trigger_i(trigger || acts),
-    .same_i(same && !phase[0]), .cell_i(cell_addr | others),
+    .same_i(same && !phase[0]), .cell_i(cell_addr | others), .read_cell_i(guard_cell),
     .we_i((cell_we && !no_write && !tally_no_write && !block_no_write && !guard
            && !(Filled && job == can_rn_pkg::JobClear)
            && !(StageBytes == 0 && job == can_rn_pkg::JobMove && (trigger || acts)))

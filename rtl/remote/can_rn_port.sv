@@ -16,6 +16,7 @@ module can_rn_port #(
   input  logic             same_i,      // JobSame: memory
   input  logic             trigger_i,
   input  logic [8:0]       cell_i,
+  input  logic [8:0]       read_cell_i, // or this, of a job that only reads, and that comes late
   input  logic             we_i,
   input  logic             wide_i,      // all bytes of the word
   input  logic [11:0]      mem_i,
@@ -75,7 +76,7 @@ module can_rn_port #(
   assign target   = {mem_i[11:9] | {3{staged_i && !trigger_i && !job_i[1]}}, mem_i[8:2]};
   assign address  = user ? usr_addr_i : {3'b111, cell_i[8:2]};
   assign lane     = to_mem ? mem_i[1:0] : cell_i[1:0];
-  assign lane_o   = from_mem ? mem_i[1:0] : cell_i[1:0];
+  assign lane_o   = from_mem ? mem_i[1:0] : cell_i[1:0] | read_cell_i[1:0];
 
   // Words: state, TEC, REC, code; A, counts; A, length.
   // The bits that tell them from other jobs that write.
@@ -97,7 +98,7 @@ module can_rn_port #(
   end
 
   assign re_o    = !user || usr_req_i;
-  assign raddr_o = from_mem ? mem_i[11:2] : address;
+  assign raddr_o = from_mem ? mem_i[11:2] : address | {3'd0, read_cell_i[8:2]};
   can_mb_ram #(.Depth(MemBytes / 4), .InitFile(InitFile)) u_ram (
     .clk_i,
     .re_i(re_o),
