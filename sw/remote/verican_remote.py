@@ -14,9 +14,9 @@ import contextlib
 import time
 
 from verican_remote_block import Blocks
-from verican_remote_link import (ALL, CODES, IDENT, OPERATE, RESTART, ROW_IDENT, ROW_STATUS, SAFE,
-                                 SETUP, STATEMENT, STATUS, WRITE, Answer, BusOff, Identity, Refused,
-                                 RemoteError, Sequence, Status, Timeout)
+from verican_remote_link import (ALL, BUSY, CODES, IDENT, OPERATE, READ, RESTART, ROW_IDENT,
+                                 ROW_STATUS, SAFE, SETUP, STATEMENT, STATUS, WRITE, Answer, BusOff,
+                                 Identity, Refused, RemoteError, Sequence, Status, Timeout)
 
 __all__ = ["ALL", "CODES", "OPERATE", "SAFE", "RESTART", "Client", "Status", "Identity",
            "RemoteError", "Timeout", "Refused", "Sequence", "BusOff"]
@@ -57,32 +57,47 @@ class Client(Blocks):
         for frame in self._write_frames(number, address, bytes(data)):
             self.send(*frame)
 
-    def _counts(self, number):
-        """(code, accepted, refused) at one moment."""
-        if self.remote_frames:
-            identifier = self.port(number, STATUS)
-            row = self.ask(number, Answer(identifier | STATEMENT, 8), identifier, remote=8)
-        else:
-            row = bytes(2) + self.read(number, ROW_STATUS + 2, 6)
-        self._refusals[number] = row[6]
-        return row[3], row[5], row[6]
+    def _counts(self, number, ask=None):
+        """Status without its first two bytes, at one moment. READ brings it, never a remote frame:
+        what a node sends by itself looks like the answer to that one, and the real one then makes
+        the node busy. `ask`: Link.ask, or ask_once, which may give None."""
+        _, request, answer = self.read_request(number, ROW_STATUS + 2, 6)
+        row = (ask or self.ask)(number, answer, *request)
+        if row is None:
+            return None
+        counts = Status.of(bytes(2) + row)
+        self._refusals[number] = counts.refused
+        return counts
 
     def _send_confirmed(self, number, frames):
         """Sends frames that change something, and looks whether all have been accepted."""
         return self._send_and_confirm(number, frames, self._counts(number))
 
     def _send_and_confirm(self, number, frames, before):
-        """`before`: _counts() until then."""
-        _, accepted, refused = before
+        """`before`: _counts() until then. False: nobody knows, or they have been lost."""
         for frame in frames:
             self.send(*frame)
+        unanswered = 0
         for _ in range(self.tries):
-            code, now, refused_now = self._counts(number)
-            if refused_now != refused:
-                raise Refused(code)
-            if (now - accepted) % 256 >= len(frames):
+            try:
+                counts = self._counts(number, self.ask_once)
+            except Refused:  # busy; but that is said of this reading
+                counts = None
+            if counts is None:
+                unanswered += 1
+            elif self._is_refused(before, counts, unanswered):
+                raise Refused(counts.code)
+            elif (counts.accepted - before.accepted) % 256 >= len(frames):
                 return True
         return False
+
+    def _is_refused(self, before, counts, unanswered):
+        """Whether more has been refused since `before` than readings of the counts, of which
+        `unanswered` brought nothing. One more than those would be a request whose refusal the last
+        one hides."""
+        more = (counts.refused - before.refused) % 256
+        busy = counts.code == BUSY and counts.a == self.window + READ
+        return more != 0 and not (busy and more <= unanswered)
 
     def write_confirmed(self, number, address, data):
         """Writes, and asks the node whether all of it was accepted."""
@@ -144,7 +159,7 @@ class Client(Blocks):
         if not self.remote_frames:
             return self.read(number, address, 8)
         identifier = self.port(number, port)
-        return self.ask(number, Answer(identifier | STATEMENT, 8), identifier, remote=8)
+        return self.ask(number, Answer(identifier | STATEMENT, 8), identifier, b"", 8)
 
     def status(self, number):
         """Status of a node."""

@@ -228,19 +228,24 @@ class Link:
             raise Refused(suspected)
         return None
 
-    def ask(self, number, answer, identifier, data=b"", remote=None):
-        """Sends a request; the bytes of its answer."""
+    def ask_once(self, number, answer, identifier, data=b"", remote=None):
+        """Sends a request; the bytes of its answer, or None."""
+        self.flush()
+        request = self.send(identifier, data, remote)
+        message = self.wait(number, request, self.timeout, answer.fits)
+        return None if message is None else answer.bytes_of(message)
+
+    def ask(self, number, *request):
+        """As ask_once(), several times if there is no answer or the node is busy; then Timeout."""
         for left in range(self.tries - 1, -1, -1):
-            self.flush()
-            request = self.send(identifier, data, remote)
             try:
-                message = self.wait(number, request, self.timeout, answer.fits)
+                data = self.ask_once(number, *request)
             except Refused as refused:
                 if refused.code != BUSY or left == 0:
                     raise
                 continue
-            if message is not None:
-                return answer.bytes_of(message)
+            if data is not None:
+                return data
         raise Timeout(f"node {number} does not answer")
 
     def read_request(self, number, address, length):

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <utility>
 
 #include "remote/model_bus.hpp"
 #include "remote/model_client.hpp"
@@ -210,6 +211,53 @@ TEST_F(ClientCalls, NothingIsConfirmedWithoutTheCounts) {
     };
     EXPECT_EQ(confirmed(3, 0x20, {1}), VERICAN_REMOTE_TIMEOUT) << from;
   }
+}
+
+/// A bus whose host needs a while for a frame, and a small node that sends STATUS by itself.
+class ClientLatency : public ClientCalls, public ::testing::WithParamInterface<std::uint32_t> {
+ protected:
+  /// Node 6 with these FLAGS, which it reads when it starts again.
+  RemoteModel &add_node(std::uint8_t flags) {
+    RemoteModel &node = bus.add(RemoteConfig::profile("small"), 6);
+    node.user_write(0xF00 / 4, std::uint32_t{flags} << 8, 0x2);
+    bus.send({.id = 0, .dlc = 2, .data = {VERICAN_REMOTE_RESTART, 6}});
+    node.stopped();
+    bus.latency_us = GetParam();
+    return node;
+  }
+};
+
+// RN-30, RN-31: a STATUS of the node's own, which ACKW asks for, is not taken for the counts: each
+// write that has been carried out is confirmed, and none makes the node busy.
+TEST_P(ClientLatency, AcknowledgedWritesAreConfirmed) {
+  const RemoteModel &node = add_node(0x07);  // ERRS, ACKW, BOOT
+  for (unsigned i = 1; i <= 200; ++i) {
+    const auto byte = static_cast<std::uint8_t>(i);
+    ASSERT_EQ(confirmed(6, 0x20, {byte}), VERICAN_REMOTE_OK) << i << ", code " << +client.code;
+    ASSERT_EQ(node.memory()[0x20], byte);
+    bus.wait(i * 37 % 1000);
+  }
+  EXPECT_EQ(node.status().refused, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Microseconds, ClientLatency, ::testing::Values(1, 20, 40, 100, 200));
+
+// RN-31: a reading of the counts that the node refuses is no refusal of the write; one refusal more
+// is, though the reading's hides its code.
+TEST_F(ClientCalls, ABusyNodeIsNoRefusalOfAWrite) {
+  RemoteModel &node = bus.add(RemoteConfig::profile("small"), 6);
+  bool written = false;
+  bus.filter = [&](const RemoteModel *to, const Frame &frame) {
+    const bool reads = to == &node && frame.id == 0x378;
+    if (reads && std::exchange(written, false))
+      node.receive({.id = 0x340, .remote = true, .dlc = 1});
+    written = written || (to == &node && frame.id != 0x378);
+    return true;
+  };
+  EXPECT_EQ(confirmed(6, 0x20, {7}), VERICAN_REMOTE_OK);
+  EXPECT_EQ(node.status().refused, 1);
+  EXPECT_EQ(confirmed(6, 0xE00, {7}), VERICAN_REMOTE_REFUSED);
+  EXPECT_EQ(node.status().refused, 3);
 }
 
 // All of the address range may be named; what is not there the node refuses.

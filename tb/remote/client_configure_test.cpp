@@ -57,10 +57,10 @@ TEST_F(ClientConfigure, LocksThoughUnlockIsNotConfirmed) {
 // RN-91: the refusal of a setting is told, not what comes of the lock behind it.
 TEST_F(ClientConfigure, TheFirstErrorIsTold) {
   const verican_remote_setting_t bad = {0xFF0, 1, {1}};
-  int requests = -100;  // for STATUS; behind the write one confirms it, the next is the lock's
+  int requests = -100;  // for the counts; behind the write one confirms it, the next is the lock's
   lose_answers_from([&](const Frame &frame) {
     if (frame.id == 0x1F9) requests = 0;
-    return frame.id == 0x1FE && ++requests == 2;
+    return frame.id == 0x1F8 && ++requests == 2;
   });
   EXPECT_EQ(verican_remote_configure(&client, 3, 0xCAFE1233, &bad, 1), VERICAN_REMOTE_REFUSED);
   EXPECT_EQ(client.code, VERICAN_REMOTE_CODE_PROTECTED);
@@ -71,7 +71,7 @@ TEST_F(ClientConfigure, TheFirstErrorIsTold) {
 // A node that is not there is not sent UNLOCK, nor LOCK.
 TEST_F(ClientConfigure, NothingIsSentToANodeThatIsNotThere) {
   EXPECT_EQ(verican_remote_configure(&client, 2, 0xCAFE1233, nullptr, 0), VERICAN_REMOTE_TIMEOUT);
-  EXPECT_THAT(bus.take_sent(), ElementsAre("17E#R8", "17E#R8", "17E#R8"));
+  EXPECT_THAT(bus.take_sent(), ElementsAre("178#F20F06", "178#F20F06", "178#F20F06"));
 }
 
 }  // namespace

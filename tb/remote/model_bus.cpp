@@ -32,7 +32,8 @@ verican_remote_port_t ModelBus::port() {
     frame.remote = out->remote;
     frame.dlc = out->dlc;
     if (!frame.remote) std::copy_n(out->data, std::min<unsigned>(out->dlc, 8), frame.data.begin());
-    bus.send(frame);
+    bus.from_host_.emplace_back(bus.now_us_ + bus.latency_us, frame);
+    if (bus.latency_us == 0) (void)bus.send_waiting();
     return VERICAN_REMOTE_OK;
   };
   const auto receive = [](void *context, verican_remote_frame_t *in, std::uint32_t timeout_us) {
@@ -67,6 +68,16 @@ void ModelBus::wait(std::uint32_t us) {
     for (auto &node : nodes_) node->tick();
 }
 
+// The oldest frame of the host that has reached the bus.
+bool ModelBus::send_waiting() {
+  if (from_host_.empty() || static_cast<std::int32_t>(from_host_.front().first - now_us_) > 0)
+    return false;
+  const Frame frame = from_host_.front().second;
+  from_host_.pop_front();
+  send(frame);
+  return true;
+}
+
 // One frame of the nodes, that of the lowest identifier; equal ones are one (RN-12).
 bool ModelBus::step() {
   std::optional<Frame> first;
@@ -93,9 +104,12 @@ verican_remote_result_t ModelBus::receive(verican_remote_frame_t &frame, std::ui
   const std::uint32_t start = now_us_;
   while (to_host_.empty()) {
     const std::uint32_t passed = now_us_ - start;
-    if (step()) continue;
-    if (passed >= timeout_us) return VERICAN_REMOTE_TIMEOUT;
-    wait(std::min(timeout_us - passed, kTickUs));
+    const bool over = passed >= timeout_us;
+    // Without latency a node's frame is there as soon as the host looks for it.
+    if ((!over || latency_us == 0) && (send_waiting() || step())) continue;
+    if (over) return VERICAN_REMOTE_TIMEOUT;
+    const std::uint32_t next = from_host_.empty() ? kTickUs : from_host_.front().first - now_us_;
+    wait(std::min(timeout_us - passed, next));
   }
   const Frame in = to_host_.front();
   to_host_.pop_front();

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/remote_model.hpp"
@@ -16,7 +17,8 @@
 
 namespace vericansim {
 
-/// A bus on which a frame takes 130 us. The client's frames go first; nodes' frames by identifier.
+/// A bus on which a frame takes 130 us. The client's frames go first, nodes' frames by identifier;
+/// with a latency those of the nodes get in between.
 class ModelBus {
  public:
   /// A frame that is on its way to somebody; false: it is lost for the node (nullptr: the host).
@@ -39,19 +41,22 @@ class ModelBus {
   [[nodiscard]] std::vector<std::string> take_said();
 
   Filter filter = [](const RemoteModel *, const Frame &) { return true; };
-  unsigned repeat = 1;   ///< how often each of the host's frames is on the bus
-  unsigned doubled = 1;  ///< how often the host receives each of the nodes' frames (VA-03)
+  unsigned repeat = 1;           ///< how often each of the host's frames is on the bus
+  std::uint32_t latency_us = 0;  ///< from a call of the client to the frame on the bus
+  unsigned doubled = 1;          ///< how often the host receives each of the nodes' frames (VA-03)
   /// What the host receives of a node's frame.
   std::function<Frame(Frame)> heard = [](Frame frame) { return frame; };
   bool bus_off = false;  ///< the host is off the bus
 
  private:
   verican_remote_result_t receive(verican_remote_frame_t &frame, std::uint32_t timeout_us);
+  bool send_waiting();
   bool step();
   void deliver(const Frame &frame, const RemoteModel *sender);
 
   std::vector<std::unique_ptr<RemoteModel>> nodes_;
   std::deque<Frame> to_host_;
+  std::deque<std::pair<std::uint32_t, Frame>> from_host_;  // and when they reach the bus
   std::vector<std::string> sent_;
   std::vector<std::string> said_;
   std::uint32_t now_us_ = 0xFFFF0000;  // wraps soon

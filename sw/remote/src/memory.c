@@ -83,33 +83,46 @@ result_t verican_remote_write(client_t *c, uint8_t number, uint16_t address, con
   return VERICAN_REMOTE_OK;
 }
 
-/* REC, code, A, accepted, refused and TRIGGER: bytes 2 to 7 of STATUS, at one moment whichever
- * frames the client may use. */
-static result_t read_counts(client_t *c, unsigned number, uint8_t row[8]) {
+/* Bytes 2 to 7 of STATUS at one moment, REC, code, A, accepted, refused and TRIGGER, into row[2] to
+ * row[7]. READ brings them, never a remote frame: what a node sends by itself (ACKW, ERRS, a
+ * heartbeat) looks like the answer to that one, and the real one then makes the node busy. `ask`:
+ * once, or as often as the client tries. */
+static result_t read_counts(client_t *c, unsigned number,
+                            result_t (*ask)(client_t *, unsigned, const frame_t *, const answer_t *,
+                                            frame_t *),
+                            uint8_t row[8]) {
   frame_t request, frame;
   answer_t answer;
-  if (c->data_frames) {
-    (void)vr_read_request(c, number, ROW_STATUS + 2u, 6, &request, &answer);
-  } else {
-    const uint16_t id = vr_id(c, number, vr_port(c, PORT_STATUS));
-    request = (frame_t){.id = id, .remote = true, .dlc = 8};
-    answer = (answer_t){.id = (uint16_t)(id | STATEMENT), .dlc = 8, .bytes = 8};
-  }
-  const result_t result = vr_ask_again(c, number, &request, &answer, &frame);
+  (void)vr_read_request(c, number, ROW_STATUS + 2u, 6, &request, &answer);
+  const result_t result = ask(c, number, &request, &answer, &frame);
   if (result != VERICAN_REMOTE_OK) return result;
-  memcpy(row, frame.data, 8);
+  memcpy(row, frame.data, 8); /* the two bytes of the head take the place of state and TEC */
   vr_note_refusals(c, number, row[6]);
   return VERICAN_REMOTE_OK;
 }
 
-/* Whether `writes` more have been accepted since `before`, and none refused. A STATUS frame of the
- * node's own may come first and be older than the answer: then it is asked again. */
+/* Whether more has been refused since `before` than readings of the counts, of which `unanswered`
+ * brought nothing. One more than those would be a request whose refusal the last one hides. */
+static bool is_refused(const client_t *c, const uint8_t before[8], const uint8_t row[8],
+                       unsigned unanswered) {
+  const unsigned more = (uint8_t)(row[6] - before[6]);
+  const bool busy = row[3] == VERICAN_REMOTE_CODE_BUSY && row[4] == vr_port(c, PORT_READ);
+  return more != 0 && !(busy && more <= unanswered);
+}
+
+/* Whether `writes` more have been accepted since `before`, and none refused. TIMEOUT: nobody knows,
+ * or they have been lost. */
 static result_t confirm(client_t *c, unsigned number, const uint8_t before[8], unsigned writes) {
   uint8_t row[8];
+  unsigned unanswered = 0;
   for (unsigned i = 0; i < c->tries; i++) {
-    const result_t result = read_counts(c, number, row);
-    if (result != VERICAN_REMOTE_OK) return result;
-    if (row[6] != before[6]) {
+    const result_t result = read_counts(c, number, vr_ask, row);
+    if (result == VERICAN_REMOTE_BUS_OFF) return result;
+    if (result != VERICAN_REMOTE_OK) {
+      unanswered++; /* busy: a refusal, but of this reading */
+      continue;
+    }
+    if (is_refused(c, before, row, unanswered)) {
       c->code = row[3];
       return VERICAN_REMOTE_REFUSED;
     }
@@ -132,7 +145,7 @@ static result_t write_part(client_t *c, uint8_t number, uint16_t address, const 
   uint8_t before[8];
   result_t result = VERICAN_REMOTE_TIMEOUT;
   for (unsigned i = 0; i < c->tries && result == VERICAN_REMOTE_TIMEOUT; i++) {
-    result = read_counts(c, number, before);
+    result = read_counts(c, number, vr_ask_again, before);
     if (result == VERICAN_REMOTE_OK)
       result = verican_remote_write(c, number, address, data, length);
     if (result == VERICAN_REMOTE_OK) result = confirm(c, number, before, frames);
@@ -206,7 +219,7 @@ static result_t setup(client_t *c, unsigned number, const frame_t *frame, const 
 static result_t lock(client_t *c, unsigned number) {
   const frame_t frame = setup_frame(c, number, 2, 0);
   uint8_t before[8];
-  const result_t result = read_counts(c, number, before);
+  const result_t result = read_counts(c, number, vr_ask_again, before);
   if (result == VERICAN_REMOTE_OK) return setup(c, number, &frame, before);
   (void)vr_send(c, &frame);
   return result;
@@ -222,7 +235,7 @@ result_t verican_remote_configure(client_t *c, uint8_t number, uint32_t serial,
       return VERICAN_REMOTE_ARGUMENT;
   const frame_t unlock = setup_frame(c, number, 1, serial);
   uint8_t before[8];
-  result_t result = read_counts(c, number, before);
+  result_t result = read_counts(c, number, vr_ask_again, before);
   if (result != VERICAN_REMOTE_OK) return result;
   result = setup(c, number, &unlock, before);
   for (size_t i = 0; i < count && result == VERICAN_REMOTE_OK; i++)
