@@ -144,6 +144,7 @@ class SocketcandLink : public MemoryLink {
       if (read_frame(*text, frame)) return VERICAN_REMOTE_OK;
       const std::string_view message = text::trimmed(*text);
       if (message.starts_with("error ")) complaint_ = text::trimmed(message.substr(6));
+      if (now_us() - begin >= verican_remote_skip_us(timeout_us)) return VERICAN_REMOTE_TIMEOUT;
     }
   }
 

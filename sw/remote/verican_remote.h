@@ -65,8 +65,8 @@ typedef struct verican_remote_port {
   /** Hands a frame over; waits a while if there is no room. OK, TIMEOUT or BUS_OFF. */
   verican_remote_result_t (*send)(void *context, const verican_remote_frame_t *frame);
   /**
-   * The oldest frame that has come; waits for one for `timeout_us` at most (0: not at all). OK,
-   * TIMEOUT or BUS_OFF.
+   * The oldest frame that has come; waits for one for `timeout_us` at most (0: not at all), and
+   * ends then on a bus that is full of frames which it leaves out, too. OK, TIMEOUT or BUS_OFF.
    */
   verican_remote_result_t (*receive)(void *context, verican_remote_frame_t *frame,
                                      uint32_t timeout_us);
@@ -74,6 +74,14 @@ typedef struct verican_remote_port {
   uint32_t (*now_us)(void *context);
   void *context; /**< first argument of the three */
 } verican_remote_port_t;
+
+/**
+ * For back ends: how long receive() may pass over frames that it leaves out. Longer than a short
+ * time-out, so that what waits behind them is found.
+ */
+static inline uint32_t verican_remote_skip_us(uint32_t timeout_us) {
+  return timeout_us > 10000u ? timeout_us : 10000u;
+}
 
 /** A client. Set up by verican_remote_init(); the first group may be changed afterwards. */
 typedef struct verican_remote {

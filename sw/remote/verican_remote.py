@@ -11,7 +11,6 @@
 What the nodes are: docs/remote.md. A bus has one client: nodes take requests from a single host.
 """
 import contextlib
-import time
 
 from verican_remote_block import Blocks
 from verican_remote_link import (ALL, BUSY, CODES, IDENT, OPERATE, READ, RESTART, ROW_IDENT,
@@ -124,20 +123,18 @@ class Client(Blocks):
     def _gather(self, request, answer, expected):
         self.flush()
         self.send(*request)
-        until = time.monotonic() + self.timeout
         found = {}
-        while not expected or not expected <= found.keys():
-            message = self.receive(until)
-            if message is None:
-                if expected:
-                    raise Timeout(f"no answer of {sorted(expected - found.keys())}")
-                break
+        for message in self.frames(self.timeout):
             number = (message.arbitration_id & 0x3FF) >> (10 - self.name_bits)
             its = Answer(answer.id | self.id(number, 0), answer.dlc, answer.head)
             if its.fits(message):
                 found[number] = its.bytes_of(message)
             else:
                 self.pass_on(message)
+            if expected and expected <= found.keys():
+                break
+        if not expected <= found.keys():
+            raise Timeout(f"no answer of {sorted(expected - found.keys())}")
         return dict(sorted(found.items()))
 
     def trigger(self, count):
@@ -180,9 +177,8 @@ class Client(Blocks):
         self.flush()
         function = 4 if only_new else 2
         self.send(self.id(0, function), bytes(byte for pair in pairs for byte in pair))
-        until = time.monotonic() + self.select_wait
         here = Answer(0x402, 0)
-        while (message := self.receive(until)) is not None:
+        for message in self.frames(self.select_wait):
             if here.fits(message):
                 return True
             self.pass_on(message)

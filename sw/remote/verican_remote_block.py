@@ -6,6 +6,7 @@ from verican_remote_link import (BLOCK, BUSY, DATA, OPEN, SEQUENCE, STATEMENT, T
 
 _ABORT, _READ, _WRITE = 0, 1, 2
 _IN_A_FRAME = 7
+_LOOK = 0.001  # for an early end of a write; it is heard at the next look, or at the end
 
 
 class Blocks(Link):
@@ -81,8 +82,9 @@ class Blocks(Link):
                 and not message.is_remote_frame and message.dlc == 6
                 and bytes(message.data[:2]) == bytes([op, self.tag]))
 
-    def _next(self, number, op, request, wait):
-        """The next frame of the transfer: DATA of a read, or an answer; None after the time."""
+    def _next(self, number, op, request, frames):
+        """Of `frames` the next of the transfer: DATA of a read, or an answer; None: there is none.
+        """
         data = self.port(number, DATA) | STATEMENT
 
         def wanted(message):
@@ -91,14 +93,19 @@ class Blocks(Link):
             return is_data or self._is_answer(number, op, message)
 
         # Busy may be said of a BLOCK that came twice: then the transfer goes on nevertheless.
-        return self.wait(number, request, wait, wanted, patient=(BUSY,))
+        return self.wait(number, request, frames, wanted, patient=(BUSY,))
 
     def _read_once(self, number, address, length):
         """The bytes of one block read that came in their order."""
         request = self._open(number, _READ, address, length)
         got, seq, lost = b"", 0, False
+        wait = self.timeout + self.gap_ms / 1000
+        frames = self.frames(wait)
+        # Each frame of the transfer begins the wait anew. They may come twice (VA-03); a node that
+        # sends more does not hold the client up.
+        renewals = 2 * (length // _IN_A_FRAME + 1)
         while True:
-            message = self._next(number, _READ, request, self.timeout + self.gap_ms / 1000)
+            message = self._next(number, _READ, request, frames)
             if message is None:
                 self._send_block(number, _ABORT, 0, 0)
                 if not got:
@@ -108,6 +115,9 @@ class Blocks(Link):
                 if message.data[2] not in (0, SEQUENCE):
                     self._raise(message.data[2])
                 return got
+            if renewals:
+                renewals -= 1
+                frames = self.frames(wait)
             if got and message.data[0] == (seq - 1) % 256:
                 continue  # once more
             lost = lost or message.data[0] != seq or message.dlc - 1 > length - len(got)
@@ -118,7 +128,7 @@ class Blocks(Link):
     def _write_once(self, number, address, data):
         """How many bytes the node has taken, and with which code it closed the transfer."""
         request = self._open(number, _WRITE, address, len(data))
-        message = self._next(number, _WRITE, request, self.timeout)
+        message = self._next(number, _WRITE, request, self.frames(self.timeout))
         if message is not None and message.data[2] == OPEN:
             message = self._send_data(number, request, data)
         if message is None:
@@ -131,14 +141,14 @@ class Blocks(Link):
         """Sends the bytes; the answer that ends the transfer, early if frames are lost."""
         for seq, at in enumerate(range(0, len(data), _IN_A_FRAME)):
             self.send(self.port(number, DATA), bytes([seq % 256]) + data[at:at + _IN_A_FRAME])
-            message = self._next_end(number, request, 0)
+            message = self._next_end(number, request, self.frames(_LOOK, look=True))
             if message is not None:
                 return message
-        return self._next_end(number, request, self.timeout)
+        return self._next_end(number, request, self.frames(self.timeout))
 
-    def _next_end(self, number, request, wait):
+    def _next_end(self, number, request, frames):
         """The answer that ends a write; the one that has opened it may come once more (VA-03)."""
         while True:
-            message = self._next(number, _WRITE, request, wait)
+            message = self._next(number, _WRITE, request, frames)
             if message is None or message.data[2] != OPEN:
                 return message

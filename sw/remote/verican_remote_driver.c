@@ -50,17 +50,18 @@ static verican_remote_result_t driver_receive(void *context, verican_remote_fram
   const uint32_t start = d->now_us(d->context);
   for (;;) {
     verican_frame_t in;
-    if (verican_receive(d->device, &in) == VERICAN_OK) {
-      if ((in.flags & VERICAN_FRAME_EXTENDED) != 0) continue;
+    const bool got = verican_receive(d->device, &in) == VERICAN_OK;
+    if (got && (in.flags & VERICAN_FRAME_EXTENDED) == 0) {
       *frame = (verican_remote_frame_t){.id = (uint16_t)in.id,
                                         .remote = (in.flags & VERICAN_FRAME_REMOTE) != 0,
                                         .dlc = in.dlc < 8 ? in.dlc : 8};
       memcpy(frame->data, in.data, sizeof frame->data);
       return VERICAN_REMOTE_OK;
     }
-    if (is_bus_off(d->device)) return VERICAN_REMOTE_BUS_OFF;
-    if (d->now_us(d->context) - start >= timeout_us) return VERICAN_REMOTE_TIMEOUT;
-    idle(d);
+    if (!got && is_bus_off(d->device)) return VERICAN_REMOTE_BUS_OFF;
+    const uint32_t limit = got ? verican_remote_skip_us(timeout_us) : timeout_us;
+    if (d->now_us(d->context) - start >= limit) return VERICAN_REMOTE_TIMEOUT;
+    if (!got) idle(d);
   }
 }
 

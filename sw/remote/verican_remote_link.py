@@ -19,6 +19,7 @@ BUSY, OPEN, SEQUENCE, TIMEOUT = 0x06, 0x05, 0x12, 0x13
 READ, WRITE, BLOCK, DATA, SETUP, STATUS, IDENT = 0, 1, 2, 3, 4, 6, 7
 STATEMENT, END = 0x400, 0x1000
 ROW_STATUS, ROW_IDENT = 0xFF0, 0xFF8
+SKIP = 0.01
 
 
 class RemoteError(Exception):
@@ -159,8 +160,10 @@ class Link:
             raise BusOff(str(error)) from error
         return message
 
-    def receive(self, until):
-        """The next base frame, or None if none comes until then."""
+    def _receive(self, until):
+        """The next base frame, or None if none comes until then. Others are passed over, for SKIP
+        at least: what waits behind them is found."""
+        patience = max(until, time.monotonic() + SKIP)
         while True:
             try:
                 message = self.bus.recv(max(0.0, until - time.monotonic()))
@@ -173,6 +176,18 @@ class Link:
             base = not message.is_extended_id or (self._plain and message.arbitration_id < 0x800)
             if base and not message.is_error_frame:
                 return message
+            if time.monotonic() >= patience:
+                return None
+
+    def frames(self, seconds, look=False):
+        """Base frames as they come, for so long (`look`: those that have come already). The first
+        one is taken however late the client comes to look for it; behind it the time ends the wait
+        on a bus on which a frame always waits, too."""
+        until = time.monotonic() + seconds
+        while (message := self._receive(0.0 if look else until)) is not None:
+            yield message
+            if time.monotonic() >= until:
+                return
 
     def pass_on(self, message):
         status = self._status_of(message)
@@ -183,11 +198,7 @@ class Link:
 
     def flush(self):
         """What has come before answers nothing that is asked from now on."""
-        end = time.monotonic() + self.timeout
-        while time.monotonic() < end:
-            message = self.receive(0)
-            if message is None:
-                return
+        for message in self.frames(self.timeout, look=True):
             self.pass_on(message)
 
     def _status_of(self, message):
@@ -211,12 +222,11 @@ class Link:
         return (row[3], certain) if row[3] not in (0, OPEN) and row[4] == a and (
             certain or not known) else (0, False)
 
-    def wait(self, number, request, wait, wanted, patient=()):
-        """The first frame that `wanted` says is one; Refused at once unless the code is in
-        `patient`, then only after the wait; None."""
-        until = time.monotonic() + wait
+    def wait(self, number, request, frames, wanted, patient=()):
+        """The first of `frames` that `wanted` says is one; Refused at once unless the code is in
+        `patient`, then only after all of them; None."""
         suspected = 0
-        while (message := self.receive(until)) is not None:
+        for message in frames:
             if wanted(message):
                 return message
             code, certain = self._refusal(number, request, message)
@@ -232,7 +242,7 @@ class Link:
         """Sends a request; the bytes of its answer, or None."""
         self.flush()
         request = self.send(identifier, data, remote)
-        message = self.wait(number, request, self.timeout, answer.fits)
+        message = self.wait(number, request, self.frames(self.timeout), answer.fits)
         return None if message is None else answer.bytes_of(message)
 
     def ask(self, number, *request):

@@ -63,6 +63,20 @@ static verican_remote_result_t socketcan_send(void *context, const verican_remot
   }
 }
 
+/* Base frames are taken; false: another one. */
+static bool take(const struct can_frame *in, verican_remote_frame_t *frame) {
+  if ((in->can_id & (CAN_ERR_FLAG | CAN_EFF_FLAG)) != 0) return false;
+  *frame = (verican_remote_frame_t){.id = (uint16_t)(in->can_id & CAN_SFF_MASK),
+                                    .remote = (in->can_id & CAN_RTR_FLAG) != 0,
+                                    .dlc = in->can_dlc < 8 ? in->can_dlc : 8};
+  memcpy(frame->data, in->data, sizeof frame->data);
+  return true;
+}
+
+static bool says_bus_off(const struct can_frame *in) {
+  return (in->can_id & CAN_ERR_FLAG) != 0 && (in->can_id & CAN_ERR_BUSOFF) != 0;
+}
+
 static verican_remote_result_t socketcan_receive(void *context, verican_remote_frame_t *frame,
                                                  uint32_t timeout_us) {
   const verican_remote_socketcan_t *s = context;
@@ -75,16 +89,10 @@ static verican_remote_result_t socketcan_receive(void *context, verican_remote_f
     const ssize_t got = read(s->fd, &in, sizeof in);
     if (got < 0 && passes(errno)) continue;
     if (got != (ssize_t)sizeof in) return VERICAN_REMOTE_BUS_OFF; /* the interface went down */
-    if ((in.can_id & CAN_ERR_FLAG) != 0) {
-      if ((in.can_id & CAN_ERR_BUSOFF) != 0) return VERICAN_REMOTE_BUS_OFF;
-      continue;
-    }
-    if ((in.can_id & CAN_EFF_FLAG) != 0) continue;
-    *frame = (verican_remote_frame_t){.id = (uint16_t)(in.can_id & CAN_SFF_MASK),
-                                      .remote = (in.can_id & CAN_RTR_FLAG) != 0,
-                                      .dlc = in.can_dlc < 8 ? in.can_dlc : 8};
-    memcpy(frame->data, in.data, sizeof frame->data);
-    return VERICAN_REMOTE_OK;
+    if (take(&in, frame)) return VERICAN_REMOTE_OK;
+    if (says_bus_off(&in)) return VERICAN_REMOTE_BUS_OFF;
+    if (socketcan_now(NULL) - start >= verican_remote_skip_us(timeout_us))
+      return VERICAN_REMOTE_TIMEOUT;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <linux/can.h>
 #include <linux/can/error.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -16,6 +17,7 @@
 #include <csignal>
 #include <cstring>
 #include <thread>
+#include <vector>
 
 #include "verican_remote_socketcan.h"
 
@@ -140,6 +142,23 @@ TEST_F(ClientSocketCan, AnAnswerAfterSignalsIsHeard) {
   const Alarm alarm{other};
   EXPECT_EQ(verican_remote_read(&client, 3, 0x20, &byte, 1), VERICAN_REMOTE_OK);
   EXPECT_EQ(byte, 7);
+}
+
+// A bus that is full of frames of others holds nobody up, also where nothing is waited for: here a
+// file of them, which ends long after the time-out.
+TEST_F(ClientSocketCan, ABusFullOfExtendedFrames) {
+  can_frame extended{};
+  extended.can_id = CAN_EFF_FLAG | 1U;
+  const std::vector<can_frame> frames(200'000, extended);
+  const auto bytes = static_cast<ssize_t>(frames.size() * sizeof extended);
+  verican_remote_socketcan_close(&socket);
+  verican_remote_socketcan_attach(&socket, ::memfd_create("bus", 0));
+  ASSERT_EQ(::write(socket.fd, frames.data(), static_cast<std::size_t>(bytes)), bytes);
+  ASSERT_EQ(::lseek(socket.fd, 0, SEEK_SET), 0);
+  for (const std::uint32_t timeout_us : {0U, 50'000U}) {
+    verican_remote_frame_t frame;
+    EXPECT_EQ(port.receive(port.context, &frame, timeout_us), VERICAN_REMOTE_TIMEOUT);
+  }
 }
 
 TEST_F(ClientSocketCan, BusOffIsToldByTheKernel) {

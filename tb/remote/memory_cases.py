@@ -4,6 +4,7 @@
 ctest, one case each:
 VERICAN_BINARY=build/release/verican python3 -m unittest memory_cases.Commands.test_scan
 """
+import contextlib
 import json
 import os
 import pathlib
@@ -12,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -233,12 +235,33 @@ class WithoutABus(unittest.TestCase):
 
     def test_the_complaint_of_a_server(self):
         """It is told behind what did not work."""
+        def wait_for_the_end(client):
+            while client.recv(100):
+                pass
+
+        complaint = b"< error this client reads too slowly >"
+        self.assertEqual(self.read_from(complaint, wait_for_the_end), (
+            1, "verican: memory: node 6 does not answer; the server says: this client reads too "
+               "slowly\n"))
+
+    def test_a_server_that_talks_without_end(self):
+        """Extended frames are passed over, but not longer than the time-out."""
+        def talk(client):
+            end = time.monotonic() + 10
+            while time.monotonic() < end:
+                client.sendall(1000 * b"< frame 12345678 1.000000 00 >")
+
+        self.assertEqual(self.read_from(b"", talk),
+                         (1, "verican: memory: node 6 does not answer\n"))
+
+    def read_from(self, greeting, serve):
+        """Exit code and message of a read by way of a server that says `greeting` behind the first
+        words, and then does what `serve(client)` does."""
         with socket.create_server(("127.0.0.1", 0)) as server:
             def answer():
-                with server.accept()[0] as client:
-                    client.sendall(b"< hi >< ok >< ok >< error this client reads too slowly >")
-                    while client.recv(100):
-                        pass
+                with contextlib.suppress(OSError), server.accept()[0] as client:
+                    client.sendall(b"< hi >< ok >< ok >" + greeting)
+                    serve(client)
 
             thread = threading.Thread(target=answer)
             thread.start()
@@ -247,9 +270,7 @@ class WithoutABus(unittest.TestCase):
                  f"127.0.0.1:{server.getsockname()[1]}", "read", "6", "0"],
                 capture_output=True, text=True, timeout=PATIENCE, check=False)
             thread.join()
-        self.assertEqual((done.returncode, done.stderr), (
-            1, "verican: memory: node 6 does not answer; the server says: this client reads too "
-               "slowly\n"))
+        return done.returncode, done.stderr
 
     def test_options(self):
         """CLI11's own checks, and those of numbers and names."""

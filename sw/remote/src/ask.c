@@ -25,20 +25,19 @@ void vr_pass_on(client_t *c, const frame_t *frame) {
   if (c->on_statement != NULL) c->on_statement(c->user, frame);
 }
 
-result_t vr_receive(client_t *c, uint32_t start, uint32_t limit_us, frame_t *frame) {
-  const uint32_t passed = vr_since(c, start);
-  return c->port.receive(c->port.context, frame, passed < limit_us ? limit_us - passed : 0u);
+result_t vr_receive(client_t *c, wait_t *wait, frame_t *frame) {
+  const uint32_t passed = c->port.now_us(c->port.context) - wait->start;
+  const bool over = passed >= wait->limit_us;
+  if (over && wait->begun) return VERICAN_REMOTE_TIMEOUT;
+  wait->begun = true;
+  return c->port.receive(c->port.context, frame, over || wait->look ? 0u : wait->limit_us - passed);
 }
 
 result_t vr_flush(client_t *c) {
   frame_t frame;
-  result_t result;
-  const uint32_t start = c->port.now_us(c->port.context);
-  /* On a full bus this would not end: what comes later is looked at anyhow. */
-  do {
-    result = c->port.receive(c->port.context, &frame, 0u);
-    if (result == VERICAN_REMOTE_OK) vr_pass_on(c, &frame);
-  } while (result == VERICAN_REMOTE_OK && vr_since(c, start) < c->timeout_us);
+  wait_t look = vr_look(c, c->timeout_us); /* what comes later is looked at anyhow */
+  result_t result = vr_receive(c, &look, &frame);
+  for (; result == VERICAN_REMOTE_OK; result = vr_receive(c, &look, &frame)) vr_pass_on(c, &frame);
   return result == VERICAN_REMOTE_BUS_OFF ? result : VERICAN_REMOTE_OK;
 }
 
@@ -93,10 +92,10 @@ result_t vr_ask(client_t *c, unsigned number, const frame_t *request, const answ
   uint8_t suspected = 0;
   result_t result = vr_flush(c);
   if (result == VERICAN_REMOTE_OK) result = vr_send(c, request);
-  const uint32_t start = c->port.now_us(c->port.context);
+  wait_t wait = vr_wait(c, c->timeout_us);
   while (result == VERICAN_REMOTE_OK) {
     bool certain = false;
-    result = vr_receive(c, start, c->timeout_us, frame);
+    result = vr_receive(c, &wait, frame);
     if (result != VERICAN_REMOTE_OK) break;
     if (vr_answers(answer, request, frame)) return VERICAN_REMOTE_OK;
     if (vr_refuses(c, number, request, frame, &certain)) suspected = frame->data[3];

@@ -8,7 +8,9 @@
 #include "internal.h"
 
 enum { OP_ABORT, OP_READ, OP_WRITE };
-enum { IN_A_FRAME = 7 };
+/* `LOOK_US`: for an early end, behind each frame that is sent. A node that ends a write is heard at
+ * the next look, or at the end. */
+enum { IN_A_FRAME = 7, LOOK_US = 1000 };
 
 /* A transfer under way. */
 typedef struct transfer {
@@ -44,17 +46,15 @@ static void abort_block(transfer_t *t) {
   (void)vr_send(t->c, &t->request);
 }
 
-/* Waits for the next frame of the transfer. EVENT_FAILED: *result says why. `wait_us` 0: looks
- * only. */
-static event_t next_event(transfer_t *t, uint32_t wait_us, frame_t *frame, result_t *result) {
+/* Waits for the next frame of the transfer. EVENT_FAILED: *result says why. */
+static event_t next_event(transfer_t *t, wait_t *wait, frame_t *frame, result_t *result) {
   client_t *c = t->c;
   const unsigned data = vr_id(c, t->number, vr_port(c, PORT_DATA)) | STATEMENT;
   const unsigned block = vr_id(c, t->number, vr_port(c, PORT_BLOCK)) | STATEMENT;
-  const uint32_t start = c->port.now_us(c->port.context);
   uint8_t suspected = 0;
   bool certain = false;
   while (!certain) {
-    *result = vr_receive(c, start, wait_us, frame);
+    *result = vr_receive(c, wait, frame);
     if (*result != VERICAN_REMOTE_OK) break;
     if (!frame->remote && frame->id == data && frame->dlc >= 2 && t->op == OP_READ)
       return EVENT_DATA;
@@ -92,14 +92,22 @@ static result_t read_once(transfer_t *t, unsigned address, size_t length) {
   bool lost = false;
   frame_t frame;
   result_t result = send_block(t, address, length);
-  const uint32_t wait = t->c->timeout_us + 1000u * t->c->gap_ms;
+  const uint32_t limit = t->c->timeout_us + 1000u * t->c->gap_ms;
+  wait_t wait = vr_wait(t->c, limit);
+  /* Each frame of the transfer begins the wait anew. They may come twice (VA-03); a node that sends
+   * more does not hold the client up. */
+  size_t renewals = 2u * (length / IN_A_FRAME + 1u);
   while (result == VERICAN_REMOTE_OK) {
-    switch (next_event(t, wait, &frame, &result)) {
+    switch (next_event(t, &wait, &frame, &result)) {
       case EVENT_FAILED:
         if (result == VERICAN_REMOTE_TIMEOUT) abort_block(t);
         return result;
       case EVENT_ANSWER: return result_of(t, &frame, length);
       case EVENT_DATA: break;
+    }
+    if (renewals != 0) {
+      renewals--;
+      wait = vr_wait(t->c, limit);
     }
     const unsigned n = frame.dlc - 1u;
     if (!lost && frame.data[0] == (uint8_t)(seq - 1u) && t->done != 0) continue; /* once more */
@@ -114,10 +122,10 @@ static result_t read_once(transfer_t *t, unsigned address, size_t length) {
 
 /* Waits as next_event() for the answer that ends a block write. The one that has opened it may come
  * once more (VA-03). */
-static event_t next_end(transfer_t *t, uint32_t wait_us, frame_t *frame, result_t *result) {
+static event_t next_end(transfer_t *t, wait_t *wait, frame_t *frame, result_t *result) {
   event_t event = EVENT_FAILED;
   do {
-    event = next_event(t, wait_us, frame, result);
+    event = next_event(t, wait, frame, result);
   } while (event == EVENT_ANSWER && frame->data[2] == VERICAN_REMOTE_CODE_OPEN);
   return event;
 }
@@ -134,10 +142,12 @@ static event_t send_data(transfer_t *t, const uint8_t *data, size_t length, fram
     memcpy(part.data + 1, data + at, n);
     *result = vr_send(t->c, &part);
     if (*result != VERICAN_REMOTE_OK) return EVENT_FAILED;
-    const event_t event = next_end(t, 0, frame, result);
+    wait_t look = vr_look(t->c, LOOK_US);
+    const event_t event = next_end(t, &look, frame, result);
     if (event == EVENT_ANSWER || *result != VERICAN_REMOTE_TIMEOUT) return event;
   }
-  return next_end(t, t->c->timeout_us, frame, result);
+  wait_t wait = vr_wait(t->c, t->c->timeout_us);
+  return next_end(t, &wait, frame, result);
 }
 
 /* One block write; the node has t->done bytes then, if it says so. */
@@ -145,7 +155,8 @@ static result_t write_once(transfer_t *t, unsigned address, size_t length) {
   frame_t frame;
   result_t result = send_block(t, address, length);
   if (result != VERICAN_REMOTE_OK) return result;
-  if (next_event(t, t->c->timeout_us, &frame, &result) == EVENT_FAILED) {
+  wait_t wait = vr_wait(t->c, t->c->timeout_us);
+  if (next_event(t, &wait, &frame, &result) == EVENT_FAILED) {
     if (result == VERICAN_REMOTE_TIMEOUT) abort_block(t);
     return result;
   }

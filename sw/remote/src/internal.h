@@ -45,17 +45,27 @@ typedef struct answer {
   uint8_t bytes; /* of `dlc`, behind the head */
 } answer_t;
 
-/* Time that has passed since `start`. */
-static inline uint32_t vr_since(const client_t *c, uint32_t start) {
-  return c->port.now_us(c->port.context) - start;
+/* A wait for frames. It ends on a bus on which one always waits, too. */
+typedef struct wait {
+  uint32_t start, limit_us;
+  bool look;  /* takes only what has come already */
+  bool begun; /* the first frame is taken however late the client comes to look for it */
+} wait_t;
+
+/* A wait from now on; what has come already, for `limit_us` at most. */
+static inline wait_t vr_wait(const client_t *c, uint32_t limit_us) {
+  return (wait_t){.start = c->port.now_us(c->port.context), .limit_us = limit_us};
+}
+static inline wait_t vr_look(const client_t *c, uint32_t limit_us) {
+  return (wait_t){.start = c->port.now_us(c->port.context), .limit_us = limit_us, .look = true};
 }
 
 /* Passes what has come before to on_statement: it answers nothing that is asked from now on. */
 result_t vr_flush(client_t *c);
 /* Sends a frame. */
 result_t vr_send(client_t *c, const frame_t *frame);
-/* The next frame until `limit_us` after `start`; TIMEOUT. */
-result_t vr_receive(client_t *c, uint32_t start, uint32_t limit_us, frame_t *frame);
+/* The next frame of a wait; TIMEOUT. */
+result_t vr_receive(client_t *c, wait_t *wait, frame_t *frame);
 /* Nobody waits for this frame; what it tells of refusals is kept. */
 void vr_pass_on(client_t *c, const frame_t *frame);
 

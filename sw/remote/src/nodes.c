@@ -14,10 +14,10 @@ static result_t gather(client_t *c, const frame_t *request, const answer_t *answ
   result_t result = vr_flush(c);
   if (result == VERICAN_REMOTE_OK) result = vr_send(c, request);
   if (result != VERICAN_REMOTE_OK) return result;
-  const uint32_t start = c->port.now_us(c->port.context);
+  wait_t wait = vr_wait(c, c->timeout_us);
   while (expected == 0 || (expected & ~poll->answered) != 0) {
     frame_t frame;
-    result = vr_receive(c, start, c->timeout_us, &frame);
+    result = vr_receive(c, &wait, &frame);
     if (result == VERICAN_REMOTE_TIMEOUT && expected == 0) return VERICAN_REMOTE_OK;
     if (result != VERICAN_REMOTE_OK) return result;
     const unsigned number = (frame.id & 0x3FFu) >> (10u - c->name_bits);
@@ -72,10 +72,10 @@ result_t verican_remote_select(client_t *c, uint32_t value, uint32_t mask, bool 
   }
   result_t result = vr_flush(c);
   if (result == VERICAN_REMOTE_OK) result = vr_send(c, &frame);
-  const uint32_t start = c->port.now_us(c->port.context);
+  wait_t wait = vr_wait(c, c->select_us);
   *here = false;
   while (result == VERICAN_REMOTE_OK && !*here) {
-    result = vr_receive(c, start, c->select_us, &frame);
+    result = vr_receive(c, &wait, &frame);
     if (result != VERICAN_REMOTE_OK) break;
     *here = !frame.remote && frame.dlc == 0 && frame.id == (SYSTEM_SELECT | STATEMENT);
     if (!*here) vr_pass_on(c, &frame);
