@@ -55,7 +55,9 @@ static verican_remote_result_t socketcan_send(void *context, const verican_remot
   memcpy(out.data, frame->data, sizeof out.data);
   const uint32_t start = socketcan_now(NULL);
   for (;;) {
-    if (write(s->fd, &out, sizeof out) == (ssize_t)sizeof out) return VERICAN_REMOTE_OK;
+    /* A socket that blocks would wait longer than this loop does: for ever, if no frame leaves. */
+    if (send(s->fd, &out, sizeof out, MSG_DONTWAIT) == (ssize_t)sizeof out)
+      return VERICAN_REMOTE_OK;
     if (!passes(errno)) return VERICAN_REMOTE_BUS_OFF;
     if (socketcan_now(NULL) - start >= SEND_US) return VERICAN_REMOTE_TIMEOUT;
     const struct timespec pause = {.tv_nsec = RETRY_US * 1000};

@@ -12,6 +12,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -142,6 +143,26 @@ TEST_F(ClientSocketCan, AnAnswerAfterSignalsIsHeard) {
   const Alarm alarm{other};
   EXPECT_EQ(verican_remote_read(&client, 3, 0x20, &byte, 1), VERICAN_REMOTE_OK);
   EXPECT_EQ(byte, 7);
+}
+
+// RN-91: no frame leaves; the socket itself would wait until somebody makes room.
+TEST_F(ClientSocketCan, AFrameThatFindsNoRoom) {
+  using std::chrono::seconds, std::chrono::steady_clock;
+  while (::send(socket.fd, "full", 4, MSG_DONTWAIT) > 0) {
+  }
+  std::atomic<bool> stop = false;
+  const auto start = steady_clock::now();
+  std::thread late{[&] {
+    while (!stop && steady_clock::now() - start < seconds{10}) ::usleep(1000);
+    char text[4];
+    while (::recv(other, text, sizeof text, MSG_DONTWAIT) > 0) {
+    }
+  }};
+  const std::uint8_t byte = 1;
+  EXPECT_EQ(verican_remote_write(&client, 3, 0x20, &byte, 1), VERICAN_REMOTE_TIMEOUT);
+  EXPECT_GE(steady_clock::now() - start, seconds{1});
+  stop = true;
+  late.join();
 }
 
 // A bus that is full of frames of others holds nobody up, also where nothing is waited for: here a
