@@ -38,6 +38,10 @@ void MemoryCalls::check(verican_remote_result_t result, const std::string &who) 
                                       remote_code_name(client_.code)));
     case VERICAN_REMOTE_SEQUENCE: throw MemoryFailure(who + " loses frames");
     case VERICAN_REMOTE_BUS_OFF: throw MemoryFailure("the way to the bus is gone");
+    case VERICAN_REMOTE_NOT_TAKEN:
+      throw MemoryFailure(who +
+                          " is there, but does not take the number; in OPERATE it takes none, so: "
+                          "state safe first");
     case VERICAN_REMOTE_ARGUMENT: break;
   }
   throw std::logic_error("an argument that the options should have refused");

@@ -11,6 +11,7 @@
 
 #include "cli/cli.hpp"
 #include "cli/memory_map.hpp"
+#include "cli/number_check.hpp"
 #include "cli/output_files.hpp"
 #include "model/remote_config.hpp"
 #include "trace/input_error.hpp"
@@ -34,9 +35,11 @@ using Bytes = std::vector<std::uint8_t>;
 unsigned node_of(const MemoryCalls &calls, const MemoryOptions &options, bool or_all = false) {
   if (or_all && options.node == "all") return VERICAN_REMOTE_ALL;
   const auto number = parse_integer(options.node);
-  if (!number || *number < 2 || *number > calls.highest_number())
+  const bool zeros = has_leading_zeros(options.node);
+  if (zeros || !number || *number < 2 || *number > calls.highest_number())
     refuse("NODE", options.node,
-           fmt::format("2 to {}{}", calls.highest_number(), or_all ? ", all" : ""));
+           fmt::format("2 to {}{}{}", calls.highest_number(),
+                       zeros ? " without zeros in front" : "", or_all ? ", all" : ""));
   return static_cast<unsigned>(*number);
 }
 

@@ -17,19 +17,21 @@ std::string refused(const std::string &value, const char *allowed) {
   return in_quotes(value) + " is not allowed; allowed: " + allowed;
 }
 
+constexpr std::string_view kDigits = "0123456789", kHexDigits = "0123456789abcdefABCDEF";
+
 bool consists_of(std::string_view text, std::string_view letters) {
   return !text.empty() && text.find_first_not_of(letters) == std::string_view::npos;
 }
 
 std::string check_whole(const std::string &value) {
-  constexpr std::string_view kDigits = "0123456789", kHexDigits = "0123456789abcdefABCDEF";
   std::string_view digits = value;
   if (digits.starts_with('-') || digits.starts_with('+')) digits.remove_prefix(1);
   const bool hexadecimal = digits.starts_with("0x") || digits.starts_with("0X");
   if (hexadecimal ? !consists_of(digits.substr(2), kHexDigits) : !consists_of(digits, kDigits))
     return refused(value, "whole numbers, decimal or hexadecimal as in 0x10");
-  const bool octal = !hexadecimal && digits.size() > 1 && digits[0] == '0';
-  return octal ? refused(value, "decimal without zeros in front, or hexadecimal as in 0x10") : "";
+  return has_leading_zeros(digits)
+             ? refused(value, "decimal without zeros in front, or hexadecimal as in 0x10")
+             : "";
 }
 
 std::string check_unsigned(const std::string &value) {
@@ -45,6 +47,10 @@ std::string check_finite(const std::string &value) {
 }
 
 }  // namespace
+
+bool has_leading_zeros(std::string_view number) {
+  return number.size() > 1 && number[0] == '0' && consists_of(number, kDigits);
+}
 
 void check_numbers(CLI::App &app) {
   for (CLI::Option *option : app.get_options()) {

@@ -26,7 +26,8 @@ typedef enum verican_remote_result {
   VERICAN_REMOTE_REFUSED = -2,  /**< the node said no; verican_remote_t.code says why */
   VERICAN_REMOTE_SEQUENCE = -3, /**< a block transfer lost frames, in every try */
   VERICAN_REMOTE_BUS_OFF = -4,  /**< the host itself is off the bus */
-  VERICAN_REMOTE_ARGUMENT = -5  /**< an argument is missing or out of range; nothing was sent */
+  VERICAN_REMOTE_ARGUMENT = -5, /**< an argument is missing or out of range; nothing was sent */
+  VERICAN_REMOTE_NOT_TAKEN = -6 /**< assign: the node is there, but does not take the number */
 } verican_remote_result_t;
 
 /** Codes of a refused request (RN-31). */
@@ -199,7 +200,11 @@ verican_remote_result_t verican_remote_select(verican_remote_t *client, uint32_t
  */
 verican_remote_result_t verican_remote_scan(verican_remote_t *client,
                                             verican_remote_identity_t *nodes, size_t *count);
-/** Gives the node with this serial number a number (0: takes it away). TIMEOUT: no such node. */
+/**
+ * Gives the node with this serial number a number (0: takes it away), and asks it whether it has
+ * taken it. TIMEOUT: no such node. NOT_TAKEN: there is one; in OPERATE it takes none, and says
+ * nothing (RN-32).
+ */
 verican_remote_result_t verican_remote_assign(verican_remote_t *client, uint32_t serial,
                                               uint8_t number);
 /**

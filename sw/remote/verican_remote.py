@@ -15,16 +15,17 @@ import contextlib
 from verican_remote_block import Blocks
 from verican_remote_link import (ALL, BUSY, CODES, IDENT, OPERATE, READ, RESTART, ROW_IDENT,
                                  ROW_STATUS, SAFE, SETUP, STATEMENT, STATUS, WRITE, Answer, BusOff,
-                                 Identity, Refused, RemoteError, Sequence, Status, Timeout)
+                                 Identity, NotTaken, Refused, RemoteError, Sequence, Status,
+                                 Timeout)
 
 __all__ = ["ALL", "CODES", "OPERATE", "SAFE", "RESTART", "Client", "Status", "Identity",
-           "RemoteError", "Timeout", "Refused", "Sequence", "BusOff"]
+           "RemoteError", "Timeout", "Refused", "Sequence", "BusOff", "NotTaken"]
 
 CONFIRMED_AT_ONCE = 100  # counts are modulo 256, and a write may come twice
 
 
 class Client(Blocks):
-    """The client. Calls raise Timeout, Refused, Sequence or BusOff, and ValueError for an argument
+    """The client. Calls raise Timeout, Refused, Sequence, NotTaken or BusOff, and ValueError for an argument
     that cannot be; then nothing was sent. `number` is that of a node."""
 
     def read(self, number, address, length):
@@ -212,19 +213,34 @@ class Client(Blocks):
         return nodes
 
     def assign(self, serial, number):
-        """Gives the node with this serial number a number (0: takes it away)."""
+        """Gives the node with this serial number a number (0: takes it away), and asks it whether
+        it has taken it; NotTaken."""
         if number:
             self.require_node(number)
         self.require_serial(serial)
-        if not any(self.select(serial) for _ in range(self.tries)):
+        if not self._find(serial):
             raise Timeout(f"no node with serial number {serial:08X}")
-        identifier = self.id(0, 3)
-        if number == 0:
-            self.send(identifier, b"\0")
-            return
+        taken = self._give_number(number) if number else self._take_number(serial)
+        if not taken:
+            raise NotTaken(f"the node with serial number {serial:08X} is there, but does not take "
+                           f"number {number}; in OPERATE it takes none")
+
+    def _find(self, serial, only_new=False):
+        return any(self.select(serial, only_new=only_new) for _ in range(self.tries))
+
+    def _take_number(self, serial):
+        """A node that has no number any more can only say that it is new."""
+        self.send(self.id(0, 3), b"\0")
+        return self._find(serial, only_new=True)
+
+    def _give_number(self, number):
+        """ASSIGN may come more than once (RN-27); the answer is STATUS of the new number."""
         self._refusals.pop(number, None)
-        self.ask(number, Answer(self.port(number, STATUS) | STATEMENT, 8), identifier,
-                  bytes([number]))
+        answer = Answer(self.port(number, STATUS) | STATEMENT, 8)
+        with contextlib.suppress(Timeout):
+            self.ask(number, answer, self.id(0, 3), bytes([number]))
+            return True
+        return False
 
     def configure(self, number, serial, settings):
         """Unlocks a node by its serial number, writes `settings` ((address, bytes), ...) confirmed

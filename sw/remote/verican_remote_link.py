@@ -38,6 +38,10 @@ class Refused(RemoteError):
         self.code = code
 
 
+class NotTaken(RemoteError):
+    """A node is there, but does not take the number that it is given."""
+
+
 class Sequence(RemoteError):
     """A block transfer lost frames, in every try."""
 

@@ -60,7 +60,7 @@ TEST_F(ClientNodes, ScanOfAnEmptyBus) {
   EXPECT_LT(bus.now() - start, 1'000'000U);
 }
 
-// RN-26: SELECT, then ASSIGN; confirmed by the node's STATUS.
+// RN-26: SELECT, then ASSIGN; confirmed by the node's STATUS, or by HERE of a node that is new.
 TEST_F(ClientNodes, Assign) {
   add_new(0x12345678);
   EXPECT_EQ(verican_remote_assign(&client, 0x12345678, 6), VERICAN_REMOTE_OK);
@@ -72,9 +72,25 @@ TEST_F(ClientNodes, Assign) {
   EXPECT_EQ(bus.node(0).number(), 7U);
   EXPECT_EQ(verican_remote_assign(&client, 0xCAFE1233, 0), VERICAN_REMOTE_OK);
   EXPECT_EQ(bus.node(0).number(), 0U);
+}
+
+// RN-26, RN-91: a node in OPERATE is there, but takes no number; that is not as if it were not.
+TEST_F(ClientNodes, ANumberThatIsNotTaken) {
   (void)verican_remote_state(&client, 0, VERICAN_REMOTE_OPERATE);
-  EXPECT_NE(verican_remote_assign(&client, 0x12345678, 3), VERICAN_REMOTE_OK);
-  EXPECT_EQ(bus.node(3).number(), 6U);
+  for (const std::uint8_t number : {6, 0}) {
+    EXPECT_EQ(verican_remote_assign(&client, 0xCAFE1233, number), VERICAN_REMOTE_NOT_TAKEN);
+    EXPECT_EQ(bus.node(0).number(), 3U);
+  }
+}
+
+// RN-27: ASSIGN is repeated if its answer is lost.
+TEST_F(ClientNodes, AssignIsRepeated) {
+  int lost = 1;
+  bus.filter = [&](const RemoteModel *to, const Frame &frame) {
+    return to != nullptr || frame.id != 0x77E || lost-- <= 0;
+  };
+  EXPECT_EQ(verican_remote_assign(&client, 0xCAFE1233, 6), VERICAN_REMOTE_OK);
+  EXPECT_EQ(bus.node(0).number(), 6U);
 }
 
 class ClientBlocks : public ModelClientTest {

@@ -158,6 +158,16 @@ class Commands(unittest.TestCase):
         self.memory("assign", "77", 7, code=1, timeout=50,
                     error="verican: memory: the node with serial number 00000077 does not answer\n")
 
+    def test_a_number_that_is_not_taken(self):
+        """A node in OPERATE is there, but takes none."""
+        self.memory("state", "operate", 3)
+        for number in 6, 0:
+            self.memory("assign", "CAFE1234", number, code=1, timeout=50, error=(
+                "verican: memory: the node with serial number CAFE1234 is there, but does not take "
+                "the number; in OPERATE it takes none, so: state safe first\n"))
+        self.memory("state", "safe", 3)
+        self.memory("assign", "CAFE1234", 0)
+
     def test_nobody_answers(self):
         """Asked in numbers of another width; on a bus without such nodes."""
         error = "verican: memory: no node answers; numbers have {} bits here, --name-bits says so\n"
@@ -188,6 +198,10 @@ class Commands(unittest.TestCase):
         """Exit code 2, and what is allowed."""
         for words, error in (
                 (("read", 8, 0), "NODE: '8' is not allowed; allowed: 2 to 7"),
+                (("read", "03", 0), "NODE: '03' is not allowed; allowed: 2 to 7 without zeros in "
+                                    "front"),
+                (("write", "010", 0, "1"), "NODE: '010' is not allowed; allowed: 2 to 7 without "
+                                           "zeros in front, all"),
                 (("write", "no", 0, "1"), "NODE: 'no' is not allowed; allowed: 2 to 7, all"),
                 (("write", 3, 0, "5AG1"), "BYTES: '5AG1' is not allowed; allowed: hexadecimal "
                                           "bytes of two digits, 5A 01 or 5A01"),

@@ -388,6 +388,14 @@ class Nodes(OnBus):
         with self.assertRaises(remote.Timeout):
             self.client.assign(0xCAFE1234, 5)
 
+    def test_a_number_that_is_not_taken(self):
+        """In OPERATE a node is there, but takes none."""
+        self.open("number: 3, serial: 0xCAFE1233", select_wait=0.2, timeout=0.5)
+        self.client.state(remote.OPERATE)
+        for number in 5, 0:
+            with self.assertRaises(remote.NotTaken):
+                self.client.assign(0xCAFE1233, number)
+
     def test_statements_are_passed_on(self):
         """What nobody waits for goes to the caller."""
         heard = []

@@ -140,19 +140,39 @@ result_t verican_remote_scan(client_t *c, verican_remote_identity_t *nodes, size
   return result;
 }
 
-result_t verican_remote_assign(client_t *c, uint32_t serial, uint8_t number) {
-  if (c == NULL || (number != 0 && !vr_is_node(c, number))) return VERICAN_REMOTE_ARGUMENT;
-  bool here = false;
+/* Whether a node has this serial number (`only_new`: and no number). */
+static result_t find(client_t *c, uint32_t serial, bool only_new, bool *here) {
   result_t result = VERICAN_REMOTE_OK;
-  for (unsigned i = 0; i < c->tries && result == VERICAN_REMOTE_OK && !here; i++)
-    result = verican_remote_select(c, serial, ~UINT32_C(0), false, &here);
-  if (result != VERICAN_REMOTE_OK) return result;
-  if (!here) return VERICAN_REMOTE_TIMEOUT;
-  const frame_t request = {.id = vr_id(c, NAME_SYSTEM, SYSTEM_ASSIGN), .dlc = 1, .data = {number}};
-  if (number == 0) return vr_send(c, &request);
-  c->refusals_known &= ~(UINT32_C(1) << number);
+  *here = false;
+  for (unsigned i = 0; i < c->tries && result == VERICAN_REMOTE_OK && !*here; i++)
+    result = verican_remote_select(c, serial, ~UINT32_C(0), only_new, here);
+  return result;
+}
+
+/* Sends ASSIGN 0: a node that has no number any more can only say that it is new. */
+static result_t take_number(client_t *c, uint32_t serial, const frame_t *request) {
+  bool here = false;
+  result_t result = vr_send(c, request);
+  if (result == VERICAN_REMOTE_OK) result = find(c, serial, true, &here);
+  return result == VERICAN_REMOTE_OK && !here ? VERICAN_REMOTE_NOT_TAKEN : result;
+}
+
+/* Sends ASSIGN, which may come more than once (RN-27): the answer is STATUS of the new number. */
+static result_t give_number(client_t *c, uint8_t number, const frame_t *request) {
   const answer_t answer = {.id = (uint16_t)(vr_id(c, number, vr_port(c, PORT_STATUS)) | STATEMENT),
                            .dlc = 8};
   frame_t frame;
-  return vr_ask(c, number, &request, &answer, &frame);
+  c->refusals_known &= ~(UINT32_C(1) << number);
+  const result_t result = vr_ask_again(c, number, request, &answer, &frame);
+  return result == VERICAN_REMOTE_TIMEOUT ? VERICAN_REMOTE_NOT_TAKEN : result;
+}
+
+result_t verican_remote_assign(client_t *c, uint32_t serial, uint8_t number) {
+  if (c == NULL || (number != 0 && !vr_is_node(c, number))) return VERICAN_REMOTE_ARGUMENT;
+  bool here = false;
+  const result_t result = find(c, serial, false, &here);
+  if (result != VERICAN_REMOTE_OK) return result;
+  if (!here) return VERICAN_REMOTE_TIMEOUT;
+  const frame_t request = {.id = vr_id(c, NAME_SYSTEM, SYSTEM_ASSIGN), .dlc = 1, .data = {number}};
+  return number == 0 ? take_number(c, serial, &request) : give_number(c, number, &request);
 }
