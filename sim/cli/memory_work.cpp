@@ -121,6 +121,49 @@ std::string dump_text(unsigned first, const Bytes &bytes) {
   return text;
 }
 
+/// A command to nodes and the state that it leads to, as STATUS has it (RN-24).
+struct StateCommand {
+  const char *name;
+  unsigned command, state;
+};
+constexpr unsigned kSafe = 2, kOperate = 3;
+constexpr StateCommand kStateCommands[] = {{"operate", VERICAN_REMOTE_OPERATE, kOperate},
+                                           {"safe", VERICAN_REMOTE_SAFE, kSafe},
+                                           {"restart", VERICAN_REMOTE_RESTART, kSafe}};
+
+const StateCommand &state_command(const std::string &name) {
+  return *std::find_if(std::begin(kStateCommands), std::end(kStateCommands),
+                       [&](const StateCommand &command) { return name == command.name; });
+}
+
+/// Node and state: of `node`, or of all (0) at one moment. Those that have just been restarted may
+/// not answer yet.
+std::vector<std::pair<unsigned, unsigned>> states(MemoryCalls &calls, unsigned node) {
+  constexpr unsigned kTries = 3, kMask = 3;
+  if (node != 0) return {{node, calls.status(node).state}};
+  verican_remote_answers_t answers{};
+  for (unsigned i = 0; i < kTries && answers.answered == 0; ++i)
+    answers = calls.poll(remote_map::kStatus, 1);
+  require_answers(calls, answers.answered != 0);
+  std::vector<std::pair<unsigned, unsigned>> states;
+  for (unsigned number = 0; number < VERICAN_REMOTE_NUMBERS; ++number)
+    if ((answers.answered >> number & 1) != 0)
+      states.emplace_back(number, answers.data[number][0] & kMask);
+  return states;
+}
+
+/// STATE is not answered (RN-30): only its state tells whether a node has heard it. A node that
+/// restarts may go on to OPERATE by itself.
+void require_state(MemoryCalls &calls, unsigned node, unsigned state, const StateCommand &command) {
+  if (state == command.state) return;
+  const bool by_itself =
+      command.command == VERICAN_REMOTE_RESTART && state == kOperate &&
+      (calls.read(node, remote_map::kFlags, 1)[0] & remote_flags::kAutoOperate) != 0;
+  if (by_itself) return;
+  throw MemoryFailure(fmt::format("node {} is in {}, not in {}", node, remote_state_name(state),
+                                  remote_state_name(command.state)));
+}
+
 /// Behind "-" what is printed goes to stderr.
 void write_bytes(const std::string &path, const Bytes &bytes) {
   claim_files({}, {{"--output", path}});
@@ -216,11 +259,11 @@ int memory_trigger(MemoryCalls &calls, const MemoryOptions &options) {
 }
 
 int memory_state(MemoryCalls &calls, const MemoryOptions &options) {
-  const unsigned command = options.command == "operate" ? VERICAN_REMOTE_OPERATE
-                           : options.command == "safe"  ? VERICAN_REMOTE_SAFE
-                                                        : VERICAN_REMOTE_RESTART;
+  const StateCommand &command = state_command(options.command);
   const unsigned node = options.node == "all" ? 0 : node_of(calls, options, true);
-  calls.state(node, command);
+  calls.state(node, command.command);
+  for (const auto &[number, state] : states(calls, node))
+    require_state(calls, number, state, command);
   if (options.json) print_json({{"number", node}, {"command", options.command}});
   return kOk;
 }

@@ -8,6 +8,7 @@ import contextlib
 import json
 import os
 import pathlib
+import re
 import socket
 import subprocess
 import sys
@@ -92,6 +93,9 @@ class Commands(unittest.TestCase):
                          [(3, "OPERATE", 9), (4, "SAFE", 9)])
         self.memory("state", "safe")
         self.assertIn("   3  SAFE ", self.memory("status", 3))
+        self.memory("state", "operate", 7, code=1, timeout=50,
+                    error="verican: memory: node 7 does not answer\n")
+        self.memory("state", "restart", 3)
         self.memory("state", "operate")
         self.assertEqual([n["state"] for n in self.json("status")["nodes"]], 2 * ["OPERATE"])
 
@@ -171,7 +175,7 @@ class Commands(unittest.TestCase):
     def test_nobody_answers(self):
         """Asked in numbers of another width; on a bus without such nodes."""
         error = "verican: memory: no node answers; numbers have {} bits here, --name-bits says so\n"
-        for words in (("status",), ("poll", "0x40"), ("map",)):
+        for words in (("status",), ("poll", "0x40"), ("map",), ("state", "safe")):
             self.memory("--name-bits", 5, *words, code=1, timeout=50, error=error.format(5))
         plain = "nodes:\n  - {name: a}\n"
         with Bridge("--fast", "--errors", "none", scenario=plain) as self.bridge:
@@ -268,9 +272,34 @@ class WithoutABus(unittest.TestCase):
         self.assertEqual(self.read_from(b"", talk),
                          (1, "verican: memory: node 6 does not answer\n"))
 
-    def read_from(self, greeting, serve):
-        """Exit code and message of a read by way of a server that says `greeting` behind the first
-        words, and then does what `serve(client)` does."""
+    def test_states(self):
+        """Told as carried out is what STATUS says behind the command; a node that restarts may be
+        in OPERATE if it goes there by itself (RN-70)."""
+        for command, state, flags, error in (
+                ("operate", 3, 5, ""), ("safe", 2, 5, ""), ("restart", 2, 5, ""),
+                ("restart", 3, 0x0D, ""),
+                ("operate", 2, 0x0D, "node 6 is in SAFE, not in OPERATE"),
+                ("safe", 3, 0x0D, "node 6 is in OPERATE, not in SAFE"),
+                ("restart", 3, 5, "node 6 is in OPERATE, not in SAFE")):
+            for node in "6", "all":
+                self.assertEqual(
+                    self.read_from(b"", lambda client, memory={0xF01: flags, 0xFF0: state}:
+                                   self.answer_reads(client, memory), "state", command, node),
+                    (1 if error else 0, f"verican: memory: {error}\n" if error else ""))
+
+    @staticmethod
+    def answer_reads(client, memory):
+        """As node 6 with these bytes, the others 0, for READ to it and to all."""
+        while request := client.recv(4096):
+            for low, high, n in re.findall(rb"< send (?:378|0F8) 3 (\w\w) (\w\w) (\w\w) >",
+                                           request):
+                first = int(high + low, 16)
+                data = bytes(memory.get(first + i, 0) for i in range(int(n, 16)))
+                client.sendall(b"< frame 778 1.0 %s%s%s >" % (low, high, data.hex().encode()))
+
+    def read_from(self, greeting, serve, *words):
+        """Exit code and message of a read, or other words, by way of a server that says `greeting`
+        behind the first ones, and then does what `serve(client)` does."""
         with socket.create_server(("127.0.0.1", 0)) as server:
             def answer():
                 with contextlib.suppress(OSError), server.accept()[0] as client:
@@ -281,7 +310,7 @@ class WithoutABus(unittest.TestCase):
             thread.start()
             done = subprocess.run(
                 [os.environ["VERICAN_BINARY"], "memory", "--timeout", "50", "--socketcand",
-                 f"127.0.0.1:{server.getsockname()[1]}", "read", "6", "0"],
+                 f"127.0.0.1:{server.getsockname()[1]}", *(words or ("read", "6", "0"))],
                 capture_output=True, text=True, timeout=PATIENCE, check=False)
             thread.join()
         return done.returncode, done.stderr
