@@ -25,8 +25,8 @@ CONFIRMED_AT_ONCE = 100  # counts are modulo 256, and a write may come twice
 
 
 class Client(Blocks):
-    """The client. Calls raise Timeout, Refused, Sequence, NotTaken or BusOff, and ValueError for an argument
-    that cannot be; then nothing was sent. `number` is that of a node."""
+    """The client. Calls raise Timeout, Refused, Sequence, NotTaken or BusOff, and ValueError for
+    an argument that cannot be; then nothing was sent. `number` is that of a node."""
 
     def read(self, number, address, length):
         """Bytes of a node; what does not fit a frame is read in parts."""
