@@ -205,6 +205,20 @@ TEST_F(DriverClock, InitForgetsLaunchesAndEvents) {
   EXPECT_EQ(core.word(VERICAN_TCTRL_OFFSET), VERICAN_TCTRL_RESET);
 }
 
+// TM-03: the clock runs on in disable mode, and would ask a handler that no longer knows the
+// device.
+TEST_F(DriverClock, DeinitEndsItsEvents) {
+  up();
+  core.word(VERICAN_TCTRL_OFFSET) |= VERICAN_CLOCK_RISING;
+  const auto quiet = [&] { return (core.word(VERICAN_TCTRL_OFFSET) & VERICAN_CLOCK_EVENTS) == 0; };
+  core.on_write = [&](std::uint32_t, std::uint32_t) {
+    EXPECT_TRUE(core.depth > 0 || dev.life != 0 || quiet()) << "nobody would clear it";
+  };
+  ASSERT_EQ(verican_deinit(&dev), VERICAN_OK);
+  EXPECT_TRUE(quiet());
+  EXPECT_EQ(dev.life, 0);
+}
+
 // TM-32, TM-91: what is asked for interrupts; the time of an edge is less the latency of 93 ns.
 TEST_F(DriverClock, Events) {
   up();

@@ -132,6 +132,9 @@ uint64_t verican_extend(verican_t *dev, uint32_t stamp);
 uint64_t verican_now(verican_t *dev);
 
 /* stamp.c */
+/* Ends what a soft reset and MDIS keep: a launch that waits would hold a mailbox, an event
+ * interrupt for nobody. TCTRL as it is now. */
+uint32_t verican_stamp_quiet(const verican_t *dev);
 /* Finds out about the time unit, if the core has one, and sets its rate for the clock. */
 void verican_stamp_init(verican_t *dev, uint32_t xconfig, uint32_t clock_hz);
 /* The latencies of stamps as TCTRL has them now. */

@@ -75,12 +75,12 @@ verican_result_t verican_start(verican_t *dev) {
   }
   const uint32_t tx_low = dev->first_tx < 32u ? ~0u << dev->first_tx : 0u;
   const uint32_t tx_high = dev->first_tx < 32u ? ~0u : ~0u << (dev->first_tx - 32u);
-  dev->life = VERICAN_LIFE_STARTED;
   dev->state = (uint8_t)VERICAN_STATE_ACTIVE;
   dev->told = dev->state;
   dev->bus_off_untold = false;
   dev->recovering = false;
   dev->bus_off_timing = false;
+  dev->life = VERICAN_LIFE_STARTED; /* last: a call from an interrupt finds all of the rest */
   verican_write_ctrl(dev);
   verican_write(dev, VERICAN_IMASK1_OFFSET, dev->rx_mask[0] | tx_low);
   if (dev->num_mb > 32u) verican_write(dev, VERICAN_IMASK2_OFFSET, dev->rx_mask[1] | tx_high);
@@ -125,7 +125,10 @@ verican_result_t verican_deinit(verican_t *dev) {
     result = verican_stop(dev);
     if (result != VERICAN_OK) return result;
   }
+  const uint32_t token = verican_lock(dev);
+  if (dev->time_unit) (void)verican_stamp_quiet(dev);
   verican_write(dev, VERICAN_MCR_OFFSET, dev->mcr | VERICAN_MCR_MDIS_MASK);
   dev->life = 0;
+  verican_unlock(dev, token);
   return verican_wait(dev, VERICAN_MCR_OFFSET, VERICAN_MCR_LPM_ACK_MASK, VERICAN_MCR_LPM_ACK_MASK);
 }

@@ -21,17 +21,20 @@ void verican_stamp_latencies(verican_t *dev, uint32_t tctrl) {
 }
 
 /* A clock of 255 ns is the slowest that the increment can hold. */
+uint32_t verican_stamp_quiet(const verican_t *dev) {
+  const uint32_t tctrl = verican_read(dev, VERICAN_TCTRL_OFFSET) & ~VERICAN_CLOCK_EVENTS;
+  verican_write(dev, VERICAN_TTXMB_OFFSET, 0);
+  verican_write(dev, VERICAN_TCTRL_OFFSET, tctrl);
+  return tctrl;
+}
+
 void verican_stamp_init(verican_t *dev, uint32_t xconfig, uint32_t clock_hz) {
   const uint64_t increment = (((uint64_t)1000000000u << 32) + clock_hz / 2u) / clock_hz;
   dev->time_unit = (xconfig & VERICAN_XCONFIG_TIME_MASK) != 0u && increment >> 40 == 0u;
   if (!dev->time_unit) return;
   dev->half_clock = (uint32_t)(increment >> 25);
   verican_write_rate(dev, increment);
-  /* A soft reset keeps them: a launch that waits would hold a mailbox, an event interrupt for
-   * nobody. */
-  const uint32_t tctrl = verican_read(dev, VERICAN_TCTRL_OFFSET) & ~VERICAN_CLOCK_EVENTS;
-  verican_write(dev, VERICAN_TTXMB_OFFSET, 0);
-  verican_write(dev, VERICAN_TCTRL_OFFSET, tctrl);
+  const uint32_t tctrl = verican_stamp_quiet(dev);
   dev->pps = (tctrl & VERICAN_PPS_PARTS) == VERICAN_PPS_PARTS;
   verican_stamp_latencies(dev, tctrl);
 }

@@ -305,7 +305,6 @@ struct verican {
   uint32_t bus_off_since_ms;
   uint8_t num_mb;
   uint8_t first_tx;
-  uint8_t tx_next; /* VERICAN_TX_IN_ORDER: lowest mailbox that keeps the order */
   uint8_t mode;
   uint8_t rx_mode;
   uint8_t fifo_format;
