@@ -16,7 +16,7 @@
 namespace vericansim {
 namespace {
 
-/// The name of a file that is gone at the end, if nobody took it.
+/// A file that is gone at the end, if nobody took it.
 struct Scratch {
   explicit Scratch(std::string path) : name{std::move(path)} {}
   ~Scratch() { ::unlink(name.c_str()); }
@@ -28,7 +28,7 @@ struct Scratch {
 class FstWriter : public WaveSink {
  public:
   // The library writes by name, and goes back in its file.
-  explicit FstWriter(const std::string &path) : file_{path}, scratch_{file_.scratch_name()} {
+  explicit FstWriter(const std::string &path) : file_{path}, scratch_{file_.make_scratch()} {
     verican_fst_error();  // of nobody
     fst_ = fstWriterCreate(scratch_.name.c_str(), 1);
     if (fst_ == nullptr)

@@ -135,6 +135,6 @@ bool OutputFile::direct() const { return impl_->place.direct(); }
 
 const std::string &OutputFile::path() const { return impl_->path; }
 
-std::string OutputFile::scratch_name() const { return impl_->place.scratch_name(); }
+std::string OutputFile::make_scratch() const { return impl_->place.make_scratch(); }
 
 }  // namespace vericansim

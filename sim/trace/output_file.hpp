@@ -18,7 +18,8 @@ namespace vericansim {
 /// The open file that "-" means from now on; 1 if this is never called.
 void set_standard_output(int descriptor);
 
-/// What `path` leads to behind symbolic links, which need not exist.
+/// What `path` leads to behind symbolic links, which need not exist; a link if they lead in a
+/// circle.
 [[nodiscard]] std::string behind_links(const std::string &path);
 
 /// An output that somebody has named. A file is written under another name in the same folder and
@@ -48,10 +49,10 @@ class OutputFile {
   [[nodiscard]] bool direct() const;
   /// As it was given.
   [[nodiscard]] const std::string &path() const;
-  /// A name beside the file, in its folder, for what a library writes by name; in the folder for
-  /// temporary files if the file is written directly. Nobody else uses it in this process.
-  /// Throws InputError if there is no such folder.
-  [[nodiscard]] std::string scratch_name() const;
+  /// Makes an empty file beside the file, in its folder, for what a library writes by name; in the
+  /// folder for temporary files if the file is written directly. Nobody else has its name, which is
+  /// returned; the caller removes it. Throws InputError if it cannot be made.
+  [[nodiscard]] std::string make_scratch() const;
 
  private:
   struct Impl;

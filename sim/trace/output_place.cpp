@@ -9,11 +9,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <random>
 
 #include "trace/output_file.hpp"
 #include "trace/temporary_folder.hpp"
@@ -28,9 +28,24 @@ constexpr const char *kCannotPlace = "cannot be put in its place";
 
 int standard_output = STDOUT_FILENO;
 
-std::string own_name(const fs::path &folder) {
-  static std::atomic<unsigned> count{0};
-  return (folder / fmt::format(".verican-{}-{}.part", ::getpid(), count++)).string();
+struct OwnFile {
+  std::string name;
+  int descriptor = -1;  // -1: errno tells why
+};
+
+/// A new file in `folder`. Its name is random: the number of a process is another process's too, in
+/// a container or on another computer that writes to the same folder.
+OwnFile own_file(const fs::path &folder) {
+  constexpr mode_t kMode = 0666;
+  constexpr int kTries = 100;
+  std::random_device random;
+  OwnFile file;
+  for (int i = 0; i < kTries; ++i) {
+    file.name = (folder / fmt::format(".verican-{:08x}{:08x}.part", random(), random())).string();
+    file.descriptor = ::open(file.name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
+    if (file.descriptor >= 0 || errno != EEXIST) break;
+  }
+  return file;
 }
 
 std::optional<struct stat> status_of(const std::string &path) {
@@ -81,18 +96,18 @@ void OutputPlace::open_directly() {
 }
 
 void OutputPlace::open_aside() {
+  std::error_code error;
+  if (fs::is_symlink(target_, error)) throw OutputError(path_, kCannotOpen, ELOOP);
   const auto before = status_of(target_);
   if (before && S_ISDIR(before->st_mode)) throw OutputError(path_, kCannotOpen, EISDIR);
   // A file that its owner has made read-only is not replaced.
   if (before && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0)
     throw OutputError(path_, kCannotOpen, errno);
   if (target_.empty() || target_.back() == '/') throw OutputError(path_, kCannotOpen, EISDIR);
-  std::string name = own_name(fs::path{target_}.parent_path());
-  constexpr mode_t kMode = 0666;
-  ::unlink(name.c_str());  // of a process that had this number and was killed
-  descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
-  if (descriptor_ < 0) throw OutputError(path_, kCannotOpen, errno);
-  aside_ = std::move(name);
+  OwnFile file = own_file(fs::path{target_}.parent_path());
+  if (file.descriptor < 0) throw OutputError(path_, kCannotOpen, errno);
+  descriptor_ = file.descriptor;
+  aside_ = std::move(file.name);
   if (before) ::fchmod(descriptor_, before->st_mode & 07777);
 }
 
@@ -106,8 +121,12 @@ void OutputPlace::rename() {
   aside_.clear();
 }
 
-std::string OutputPlace::scratch_name() const {
-  return own_name(direct() ? fs::path{temporary_folder()} : fs::path{target_}.parent_path());
+std::string OutputPlace::make_scratch() const {
+  const OwnFile file =
+      own_file(direct() ? fs::path{temporary_folder()} : fs::path{target_}.parent_path());
+  if (file.descriptor < 0) throw OutputError(path_, kCannotOpen, errno);
+  ::close(file.descriptor);
+  return file.name;
 }
 
 }  // namespace vericansim

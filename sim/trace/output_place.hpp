@@ -26,9 +26,8 @@ class OutputPlace {
   void replace(const std::string &scratch);
   /// Gives the file, closed by now, its name. Throws OutputError.
   void rename();
-  /// A name of this process's own for a scratch file (OutputFile::scratch_name()). Throws
-  /// InputError.
-  [[nodiscard]] std::string scratch_name() const;
+  /// An empty file for OutputFile::make_scratch().
+  [[nodiscard]] std::string make_scratch() const;
 
  private:
   void open_directly();

@@ -97,6 +97,19 @@ TEST_F(OutputFileTest, WritesThroughLinks) {
   EXPECT_EQ(tb::slurp(in("other/new")), "text");
 }
 
+// As the kernel says of them; the links stay.
+TEST_F(OutputFileTest, LinksThatLeadInACircleAreRefused) {
+  fs::create_symlink("there", in("back"));
+  fs::create_symlink("back", in("there"));
+  for (const char *name : {"back", "there"}) {
+    expect_failure([&] { OutputFile file{in(name)}; },
+                   in(name) + ": cannot be opened for writing: Too many levels of symbolic links",
+                   ELOOP);
+    EXPECT_TRUE(fs::is_symlink(in(name)));
+  }
+  EXPECT_EQ(files(), 2U);
+}
+
 // What gunzip makes of it, and no name inside.
 TEST_F(OutputFileTest, GzAtTheEndCompresses) {
   std::string text;
@@ -110,8 +123,9 @@ TEST_F(OutputFileTest, GzAtTheEndCompresses) {
 TEST_F(OutputFileTest, AFinishedFileTakesItsPlace) {
   for (const char *name : {"plain", "packed.gz"}) {
     OutputFile file{in(name)};
-    const std::string scratch = file.scratch_name();
+    const std::string scratch = file.make_scratch();
     EXPECT_EQ(fs::path{scratch}.parent_path(), folder.path());
+    EXPECT_TRUE(fs::exists(scratch)) << "somebody else could make it";
     std::ofstream(scratch) << "made by a library";
     file.commit(scratch);
   }
@@ -119,6 +133,32 @@ TEST_F(OutputFileTest, AFinishedFileTakesItsPlace) {
   ASSERT_EQ(std::system(("gunzip -c " + in("packed.gz") + " > " + in("unpacked")).c_str()), 0);
   EXPECT_EQ(tb::slurp(in("unpacked")), "made by a library");
   EXPECT_EQ(files(), 3U);
+}
+
+// A process of another container may have this one's number, and write to the same folder.
+TEST_F(OutputFileTest, FilesOfOthersStay) {
+  constexpr unsigned kMost = 100;
+  const auto foreign = [&](unsigned i) {
+    return in(".verican-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".part");
+  };
+  for (unsigned i = 0; i < kMost; ++i) std::ofstream(foreign(i)) << "of somebody else";
+  write("a", "text");
+  EXPECT_EQ(files(), kMost + 1);
+  for (unsigned i = 0; i < kMost; ++i) EXPECT_EQ(tb::slurp(foreign(i)), "of somebody else");
+}
+
+// Neither has two files of one name, and neither takes a name that is there.
+TEST_F(OutputFileTest, FilesAsideHaveNamesOfTheirOwn) {
+  OutputFile first{in("a")}, second{in("a")};
+  const std::string one = first.make_scratch(), other = second.make_scratch();
+  EXPECT_NE(one, other);
+  EXPECT_EQ(files(), 4U);
+  first.stream() << "first";
+  second.stream() << "second";
+  first.commit();
+  EXPECT_EQ(tb::slurp(in("a")), "first");
+  second.commit();
+  EXPECT_EQ(tb::slurp(in("a")), "second");
 }
 
 TEST_F(OutputFileTest, PathsThatCannotBeWrittenAreRefusedAtOnce) {
