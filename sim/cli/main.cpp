@@ -103,11 +103,12 @@ int refuse(const OutputError &error) {
   return cli::kBadInput;
 }
 
-/// A closed pipe is an error of the write, so that files written aside are cleaned up.
-void keep_pipe_errors() {
+/// A closed pipe and a file above the limit of its size (`ulimit -f`) are errors of the write, so
+/// that files written aside are cleaned up and the reason is told.
+void keep_write_errors() {
   struct sigaction action {};
   action.sa_handler = [](int) {};  // SIG_IGN would be inherited by programs that are started
-  ::sigaction(SIGPIPE, &action, nullptr);
+  for (const int signal : {SIGPIPE, SIGXFSZ}) ::sigaction(signal, &action, nullptr);
 }
 
 /// Descriptors 0 to 2 that are closed would be given to the files that are opened next, which would
@@ -122,7 +123,7 @@ void occupy_standard_descriptors() {
 
 int main(int argc, char **argv) {
   occupy_standard_descriptors();
-  keep_pipe_errors();
+  keep_write_errors();
   try {
     const int code = run_tool(argc, argv);
     cli::flush_standard_output();

@@ -129,6 +129,20 @@ TEST_F(ToolOutputs, StandardOutputThatIsFullFails) {
     expect_refused(shell("TOOL " + command + " > /dev/full"), "standard output" + kFull);
 }
 
+// A file above the limit of its size, and an older one, which stays.
+TEST_F(ToolOutputs, AFileAboveTheLimitOfTheShellIsNoticed) {
+  const std::string path = file_with("out", "old");
+  const std::string limited = "ulimit -f 1; TOOL " + kRun;
+  for (const char *option : {"--vcd ", "--fst ", "--report "})
+    expect_refused(shell(limited + option + path + " > /dev/null"),
+                   path + ": cannot be written to its end: File too large\n");
+  EXPECT_EQ(slurp(path), "old");
+  EXPECT_EQ(files(), 1U);
+  std::ofstream{in("printed")} << std::string(1 << 10, '-');
+  expect_refused(shell(limited + ">> " + in("printed")),
+                 "standard output: cannot be written to its end: File too large\n");
+}
+
 // Who reads only the first lines wants no message; what was written aside is gone.
 TEST_F(ToolOutputs, AReaderThatGoesEndsItSilently) {
   const ToolResult result = shell("{ TOOL " + kRun + "--vcd - --candump " + in("a.log") + " 2> " +
