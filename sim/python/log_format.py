@@ -58,6 +58,9 @@ def frame_text(message, number, raw_dlc):
 
 def line_of(nanoseconds, message, number, raw_dlc, directed=True):
     """A message as a line of the log."""
+    if nanoseconds < 0:
+        raise BadInput(f"message {number}: time {decimal.Decimal(nanoseconds) / SECOND:f} s is not "
+                       f"allowed; allowed: 0 s or later")
     known = isinstance(message.channel, int) and message.channel >= 0
     channel = f"can{message.channel}" if known else "-"
     way = (" R" if message.is_rx else " T") if directed and not message.is_error_frame else ""

@@ -234,6 +234,15 @@ TEST_F(PythonLog, CsvColumnsThatCannotBeAreRefused) {
 }
 
 // The header says how long the file is; what is missing was read as other bytes.
+TEST_F(PythonLog, TimesBeforeTheEpochAreRefused) {
+  const std::string head =
+      "timestamp,arbitration_id,extended,remote,error,dlc,data\n0,0x1,0,0,0,0,\n";
+  EXPECT_EQ(error_of(head + "-1.5,0x123,0,0,0,1,Eg==\n"),
+            "a.log: message 2: time -1.5 s is not allowed; allowed: 0 s or later");
+  EXPECT_EQ(error_of(head + "-0.000001,0x123,0,0,0,1,Eg==\n"),
+            "a.log: message 2: time -0.000001 s is not allowed; allowed: 0 s or later");
+}
+
 TEST_F(PythonLog, SqliteFilesCutShortAreRefused) {
   const std::string whole =
       python_log_bytes(parse_candump(kFrames, "log"), LogFormat::kSqlite, "a.db");
