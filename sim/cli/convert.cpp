@@ -64,7 +64,7 @@ void add_convert(CLI::App &app, int &exit_code) {
       ->required();
   command->add_option("--format", options->format,
                       "Format: candump, pcap, pcapng, asc, blf, trc, csv, gvret, sqlite");
-  add_selection(*command, options->selection);
+  add_selection(*command, options->selection, true);
   add_ids_options(*command, options->ids);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -55,7 +55,7 @@ void add_ids(CLI::App &app, int &exit_code) {
       "ids", "For each identifier of a recording: count, period, jitter, last data, changed bytes");
   command->add_option("log", options->log, "Recording of any known format; - is standard input")
       ->required();
-  add_selection(*command, options->selection);
+  add_selection(*command, options->selection, true);
   command->add_option("--csv", options->output.csv,
                       "The table as a CSV file; - is standard output");
   command->add_flag("--json", options->json, "The table as JSON");

@@ -43,10 +43,11 @@ nlohmann::ordered_json to_json(const std::optional<StepBack> &step) {
   return {{"frame", step->frame}, {"by_ps", step->by}};
 }
 
-void add_selection(CLI::App &command, LogSelection &selection) {
+void add_selection(CLI::App &command, LogSelection &selection, bool several) {
   command.add_option("--interface", selection.interface,
-                     "Recording: only this interface, or all as one bus (must be told if there are "
-                     "several)");
+                     several ? "Recording: only this interface"
+                             : "Recording: only this interface, or all as one bus; to be told if "
+                               "there are several");
   command
       .add_option("--filter", selection.filters,
                   "Recording: only identifiers ID:MASK, or ID~MASK for all others, hexadecimal; "

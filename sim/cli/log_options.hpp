@@ -25,8 +25,8 @@ struct LogSelection {
   std::string from, to;
 };
 
-/// Adds --interface, --filter, --from and --to.
-void add_selection(CLI::App &command, LogSelection &selection);
+/// Adds --interface, --filter, --from and --to; `several` as for read_selected().
+void add_selection(CLI::App &command, LogSelection &selection, bool several = false);
 
 /// Two neighbours in a recording, the second of which has the earlier time.
 struct StepBack {

@@ -117,6 +117,15 @@ TEST(ToolRecordings, ReplayAsksForOneOfSeveralInterfaces) {
   EXPECT_EQ(json["identifiers"][0]["count"], 2);
 }
 
+// The help asks for an interface only where a command does.
+TEST(ToolRecordings, HelpSaysWhereAnInterfaceIsNeeded) {
+  for (const char *command : {"replay", "report", "ids", "convert"}) {
+    const std::string help = run_tool(std::string(command) + " --help").text;
+    const bool asks = command[0] == 'r';
+    EXPECT_EQ(help.find("to be told") != std::string::npos, asks) << help;
+  }
+}
+
 TEST(ToolRecordings, IdsOfNothingFail) {
   const ScratchFolder folder;
   const std::string log = folder.file("a.log", kTwoBuses);
