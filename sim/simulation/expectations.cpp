@@ -9,13 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <regex>
-#include <string_view>
 
+#include "scenario/output_pattern.hpp"
+#include "simulation/signal_expectations.hpp"
 #include "trace/input_error.hpp"
 #include "trace/quantity.hpp"
-
-#include "simulation/signal_expectations.hpp"
 
 namespace vericansim {
 namespace {
@@ -50,29 +48,37 @@ double node_number(const NodeReport &node, const std::string &key) {
   return static_cast<double>(c.bus_off);
 }
 
+std::string printed_text(bool found, const std::string &output) {
+  return fmt::format("{}in {} bytes printed", found ? "" : "not ", output.size());
+}
+
+CheckResult check_pattern(const std::string &pattern, const firmware::BoardReport &board) {
+  CheckResult result{board.node + ".output", "matches " + in_quotes(pattern), "", false};
+  try {
+    result.ok = OutputPattern{pattern}.found_in(board.output);
+    result.seen = printed_text(result.ok, board.output);
+  } catch (const std::regex_error &error) {
+    result.seen = fmt::format("cannot be looked for: {}", error.what());
+  }
+  return result;
+}
+
 /// What firmware has to print and how it has to end.
 void check_board(const NodeExpectation &node, const firmware::BoardReport &board,
                  std::vector<CheckResult> &results) {
   using End = firmware::BoardReport::End;
-  const std::string_view printed = board.output;
   if (node.exit_code)
     results.push_back({board.node + ".exit_code", fmt::format("{}", *node.exit_code),
                        board.end == End::kExit    ? fmt::format("{}", board.exit_code)
                        : board.end == End::kFault ? "a fault"
                                                   : "no end in time",
                        board.end == End::kExit && board.exit_code == *node.exit_code});
-  const auto seen = [&](bool found) {
-    return fmt::format("{}in {} bytes printed", found ? "" : "not ", printed.size());
-  };
   for (const std::string &text : node.output) {
-    const bool found = printed.find(text) != std::string_view::npos;
-    results.push_back({board.node + ".output", in_quotes(text), seen(found), found});
-  }
-  for (const std::string &pattern : node.matches) {
-    const bool found = std::regex_search(board.output, std::regex{pattern});
+    const bool found = board.output.find(text) != std::string::npos;
     results.push_back(
-        {board.node + ".output", "matches " + in_quotes(pattern), seen(found), found});
+        {board.node + ".output", in_quotes(text), printed_text(found, board.output), found});
   }
+  for (const std::string &pattern : node.matches) results.push_back(check_pattern(pattern, board));
 }
 
 /// Every node that takes any frame must have all frames of the others, bit-exact and in their
