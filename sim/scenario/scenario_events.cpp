@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "model/same_identifier.hpp"
 #include "scenario/scenario_parts.hpp"
 #include "signals/signal_codec.hpp"
 #include "trace/input_error.hpp"
@@ -93,6 +94,25 @@ void parse_times(YamlMap &map, TrafficSpec &traffic) {
   if (!repeats) traffic.count = 1;
 }
 
+/// A saturated message goes on when one of its frames has left, so these must be its own.
+void check_saturated(const YamlValue &value, const TrafficSpec &traffic, const Scenario &scenario) {
+  for (const TrafficSpec &other : scenario.traffic)
+    if ((traffic.saturated || other.saturated) && other.node == traffic.node &&
+        same_identifier(other.frame, traffic.frame))
+      value.fail(
+          fmt::format("one of message {} in line {} and this one is saturated, and both "
+                      "have one identifier; allowed: an identifier of its own",
+                      in_quotes(other.name), other.line));
+}
+
+/// Expectations and reports know messages by their names.
+void check_name(const YamlValue &value, const TrafficSpec &traffic, const Scenario &scenario) {
+  for (const TrafficSpec &other : scenario.traffic)
+    if (other.name == traffic.name)
+      value.fail("message name " + in_quotes(traffic.name) +
+                 " is used twice; give one with 'name'");
+}
+
 }  // namespace
 
 std::uint64_t parse_count(const YamlValue &value, bool repeats, std::string_view with) {
@@ -117,12 +137,10 @@ TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario) {
   const SignalMessage *message = parse_message(map, scenario, traffic);
   if (message == nullptr) parse_identifier(map, traffic);
   map.with("name", [&](const YamlValue &v) { traffic.name = v.text(); });
-  for (const TrafficSpec &other : scenario.traffic)
-    if (other.name == traffic.name)
-      value.fail("message name " + in_quotes(traffic.name) +
-                 " is used twice; give one with 'name'");
+  check_name(value, traffic, scenario);
   parse_payload(map, traffic, message);
   parse_times(map, traffic);
+  check_saturated(value, traffic, scenario);
   map.finish();
   return traffic;
 }

@@ -122,10 +122,21 @@ void Simulation::on_frame(const BusFrame &frame) {
 
 FrameOrigin Simulation::origin_of(const BusFrame &frame) {
   if (frame.sender == BusFrame::kNobody) return {};
-  for (std::size_t i = 0; i < traffic_.size(); ++i)
-    if (traffic_[i]->spec().node == frame.sender && traffic_[i]->matches(frame.frame))
-      return {static_cast<int>(i), traffic_[i]->on_frame(frame.end)};
-  return {};
+  // Several messages of a node may have one identifier; what they hold tells them apart, or it was
+  // the one that has waited longest.
+  constexpr Time kNotDue = std::numeric_limits<Time>::max();
+  FrameOrigin origin;
+  Time earliest = kNotDue;
+  for (std::size_t i = 0; i < traffic_.size(); ++i) {
+    if (traffic_[i]->spec().node != frame.sender || !traffic_[i]->matches(frame.frame)) continue;
+    const Time event = traffic_[i]->due(frame.frame).value_or(kNotDue);
+    if (origin.message >= 0 && event >= earliest) continue;
+    origin.message = static_cast<int>(i);
+    earliest = event;
+  }
+  if (origin.message >= 0)
+    origin.response = traffic_[origin.message]->on_frame(frame.frame, frame.end);
+  return origin;
 }
 
 void Simulation::on_sent(NodeId node, const Frame &frame) {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "model/same_identifier.hpp"
+
 namespace vericansim {
 
 TrafficSource::TrafficSource(const TrafficSpec &spec, Bus &bus, Host &host, std::uint64_t seed)
@@ -21,8 +23,7 @@ TrafficSource::TrafficSource(const TrafficSpec &spec, Bus &bus, Host &host, std:
 }
 
 bool TrafficSource::matches(const Frame &frame) const {
-  return frame.id == spec_.frame.id && frame.extended == spec_.frame.extended &&
-         frame.remote == spec_.frame.remote;
+  return same_identifier(frame, spec_.frame);
 }
 
 void TrafficSource::start(Time start, Time stop) {
@@ -48,8 +49,9 @@ void TrafficSource::schedule(Time event) {
 
 void TrafficSource::queue(Time event) {
   if (report_.queued >= spec_.count) return;
-  host_.send(next_frame());
-  waiting_.push_back(event);
+  const Frame frame = next_frame();
+  host_.send(frame);
+  waiting_.push_back({event, frame});
 }
 
 Frame TrafficSource::next_frame() {
@@ -66,10 +68,22 @@ void TrafficSource::on_sent() {
   if (spec_.saturated && bus_.now() < stop_) queue(bus_.now());
 }
 
-std::optional<Time> TrafficSource::on_frame(Time end) {
-  if (waiting_.empty()) return std::nullopt;
-  const Time response = end - waiting_.front();
-  waiting_.pop_front();
+std::deque<TrafficSource::Waiting>::const_iterator TrafficSource::find(const Frame &frame) const {
+  return std::find_if(waiting_.begin(), waiting_.end(),
+                      [&frame](const Waiting &waiting) { return waiting.frame == frame; });
+}
+
+std::optional<Time> TrafficSource::due(const Frame &frame) const {
+  const auto found = find(frame);
+  if (found == waiting_.end()) return std::nullopt;
+  return found->event;
+}
+
+std::optional<Time> TrafficSource::on_frame(const Frame &frame, Time end) {
+  const auto found = find(frame);
+  if (found == waiting_.end()) return std::nullopt;
+  const Time response = end - found->event;
+  waiting_.erase(found);
   ++report_.sent;
   report_.shortest = report_.sent == 1 ? response : std::min(report_.shortest, response);
   report_.longest = std::max(report_.longest, response);

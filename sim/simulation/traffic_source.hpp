@@ -26,9 +26,10 @@ class TrafficSource {
   void start(Time start, Time stop);
   /// The host has sent a frame of this message (saturated messages queue the next one).
   void on_sent();
-  /// One of this message's frames has ended on the bus at `end`; its response time, if a frame was
-  /// due.
-  std::optional<Time> on_frame(Time end);
+  /// The event of the first frame that is due and is `frame`, bit for bit.
+  [[nodiscard]] std::optional<Time> due(const Frame &frame) const;
+  /// That frame has ended on the bus at `end`; its response time, if it was due.
+  std::optional<Time> on_frame(const Frame &frame, Time end);
 
   [[nodiscard]] const TrafficSpec &spec() const { return spec_; }
   /// True if `frame` could be one of this message.
@@ -36,6 +37,12 @@ class TrafficSource {
   [[nodiscard]] const MessageReport &report() const { return report_; }
 
  private:
+  struct Waiting {
+    Time event;
+    Frame frame;
+  };
+
+  [[nodiscard]] std::deque<Waiting>::const_iterator find(const Frame &frame) const;
   void schedule(Time event);
   void queue(Time event);
   [[nodiscard]] Frame next_frame();
@@ -45,7 +52,7 @@ class TrafficSource {
   Host &host_;
   std::mt19937_64 random_;
   Time stop_ = 0;
-  std::deque<Time> waiting_;  // events whose frames have not ended yet
+  std::deque<Waiting> waiting_;  // frames that have not ended yet, in the order of their events
   MessageReport report_;
 };
 

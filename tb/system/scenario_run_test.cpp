@@ -47,6 +47,25 @@ INSTANTIATE_TEST_SUITE_P(All, Example,
                                            "sixteen-nodes.yaml", "faults.yaml", "retry.yaml",
                                            "bridge.yaml"));
 
+// Messages of a node with one identifier: each has the times of its own frames, also where both
+// hold the same and the second is queued when the first has just left.
+TEST(OneIdentifier, EachMessageHasItsFrames) {
+  for (const std::string data : {"02", "01"})
+    for (const Time offset : {5'000, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 103, 104}) {
+      const RunReport report = run_text(
+          "duration: 10 ms\nnodes: [{name: a}, {name: b}]\ntraffic:\n"
+          "  - {node: a, id: 1, name: late, data: '01', offset: " +
+          std::to_string(offset) + " us}\n  - {node: a, id: 1, name: soon, data: '" + data +
+          "'}\n");
+      ASSERT_EQ(report.messages.size(), 2U);
+      for (const MessageReport &message : report.messages) {
+        EXPECT_EQ(message.sent, 1U) << message.name << " " << offset;
+        EXPECT_GT(message.shortest, 100 * kMicrosecond) << message.name << " " << offset;
+        EXPECT_LT(message.longest, 400 * kMicrosecond) << message.name << " " << offset;
+      }
+    }
+}
+
 // All 17 messages queued at the same moment: no response beyond the bound of Davis et al. at any of
 // the four rates.
 TEST(Sae, NoResponseIsLongerThanItsBound) {

@@ -187,6 +187,11 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Duration", "duration: 10\n", "duration: '10' is not allowed; allowed: 1 us to"},
         Mistake{"NodeName", "nodes:\n  - {name: a}\n  - {name: a}\n",
                 "s.yaml:3: nodes[1]: node name 'a' is used twice"},
+        Mistake{"SaturatedTwice",
+                "traffic:\n  - {node: a, id: 1, name: m, period: saturated}\n"
+                "  - {node: b, id: 1, name: n}\n  - {node: a, id: 0x1, name: o}\n",
+                "s.yaml:5: traffic[2]: one of message 'm' in line 3 and this one is saturated, and "
+                "both have one identifier"},
         Mistake{"Segment",
                 "nodes:\n  - {name: a, timing: {brp: 1, prop: 9, ps1: 1, ps2: 2, sjw: 1}}\n",
                 "timing.prop: '9' is not allowed; allowed: 1 to 8"},
