@@ -142,6 +142,7 @@ std::string to_text(const RunReport &report) {
     fmt::format_to(out, " (worst case {:.1f} %)", report.analytic_load * 100);
   text += "\n\n";
   if (!report.messages.empty()) text += messages_text(report) + "\n";
+  if (!report.no_bound.empty()) fmt::format_to(out, "  no bound: {}\n\n", report.no_bound);
   text += nodes_text(report) + "\n";
   if (!report.remote.empty()) text += to_text(report.remote);
   text += tables_text(report);
@@ -182,6 +183,7 @@ Json to_json(const RunReport &report) {
             {"checks", checks},
             {"interrupted", report.interrupted},
             {"ok", report.ok()}};
+  if (!report.no_bound.empty()) json["no_bound"] = report.no_bound;
   if (!report.remote.empty()) json["remote"] = to_json(report.remote);
   for (const firmware::BoardReport &b : report.boards) json["boards"].push_back(to_json(b));
   for (const ReplayResult &r : report.replays) json["replays"].push_back(to_json(r));

@@ -74,6 +74,7 @@ struct RunReport {
   double wall_seconds = 0;
   std::uint64_t node_cycles = 0;
   std::vector<MessageReport> messages;
+  std::string no_bound;  ///< why no message has a bound that was asked for; empty: they have
   std::vector<NodeReport> nodes;
   std::vector<firmware::BoardReport> boards;
   std::vector<ReplayResult> replays;

@@ -4,6 +4,7 @@
 // Scenario files: expectations.
 #include <fmt/format.h>
 
+#include "scenario/bound_scope.hpp"
 #include "scenario/output_pattern.hpp"
 #include "scenario/scenario_parts.hpp"
 #include "trace/input_error.hpp"
@@ -36,6 +37,15 @@ std::vector<YamlValue> some_items(const YamlValue &value, const std::string &all
 /// A finding that is asked for, or not named at all: its opposite is nothing that is looked for.
 bool only_true(const YamlValue &value) {
   if (!value.boolean()) value.refuse("true; leave it out where it is not asked for");
+  return true;
+}
+
+/// The same for bounds, where messages have them.
+bool bounds_wanted(const YamlValue &value, const Scenario &scenario) {
+  if (const std::string why = why_no_bound(scenario); only_true(value) && !why.empty())
+    value.fail("no message has a bound: " + why +
+               "; allowed: nodes that send periodic or single 'traffic', the lowest identifier "
+               "first, from a buffer for each message");
   return true;
 }
 
@@ -129,7 +139,8 @@ Expectations parse_expectations(const YamlValue &value, const Scenario &scenario
   for (const char *key : {"frames", "error_frames", "overload_frames", "load", "pending"})
     map.with(key, [&](const YamlValue &v) { expect.numbers[key] = parse_range(v); });
   map.with("complete", [&](const YamlValue &v) { expect.complete = only_true(v); });
-  map.with("within_bound", [&](const YamlValue &v) { expect.within_bound = only_true(v); });
+  map.with("within_bound",
+           [&](const YamlValue &v) { expect.within_bound = bounds_wanted(v, scenario); });
   map.with("nodes", [&](const YamlValue &v) { parse_expected_nodes(v, scenario, expect); });
   map.with("response_times",
            [&](const YamlValue &v) { parse_expected_responses(v, scenario, expect); });

@@ -129,6 +129,10 @@ CheckResult check_bound(const MessageReport &message) {
 
 // A message that nobody has queued has no response time; without any nothing has been shown.
 void check_bounds(const RunReport &report, std::vector<CheckResult> &results) {
+  if (!report.no_bound.empty()) {
+    results.push_back({"within_bound", "a bound", "none: " + report.no_bound, false});
+    return;
+  }
   bool any = false;
   for (const MessageReport &message : report.messages) {
     if (message.queued == 0) continue;

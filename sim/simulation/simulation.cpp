@@ -5,8 +5,11 @@
 #include "simulation/simulation.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
 
 #include "bus/range.hpp"
+#include "scenario/bound_scope.hpp"
 #include "simulation/expectations.hpp"
 #include "simulation/fault_check.hpp"
 #include "simulation/node_timing.hpp"
@@ -27,17 +30,11 @@ Simulation::Simulation(const Scenario &scenario, double bitrate)
 }
 
 void Simulation::build_stations() {
-  std::vector<unsigned> messages(scenario_.nodes.size());
-  for (const TrafficSpec &traffic : scenario_.traffic) ++messages[traffic.node];
-  // Commands leave in their order (RN-94).
-  for (const RemoteCommandSpec &commands : scenario_.commands) messages[commands.node] = 1;
   for (NodeId id = 0; id < scenario_.nodes.size(); ++id) {
     const NodeSpec &spec = scenario_.nodes[id];
     HostConfig config = spec.host;
     config.timing = timing_of(scenario_, spec, bitrate_);
-    const auto receive = static_cast<unsigned>(std::max<std::size_t>(config.filters.size(), 8));
-    if (config.tx_buffers == 0)
-      config.tx_buffers = std::clamp(messages[id], 1U, spec.num_mb - receive);
+    config.tx_buffers = transmit_buffers(scenario_, id);
     if (const auto *remote = std::get_if<RemoteRole>(&spec.role)) {
       stations_.add(bus_, make_remote_station(spec.name, spec.clock, config.timing, *remote),
                     spec.link);
@@ -167,11 +164,11 @@ void Simulation::drain() {
 }
 
 void Simulation::add_bounds(RunReport &report) const {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < traffic_.size(); ++i) {
-    if (traffic_[i]->spec().saturated) return;  // no bound for anybody
-    order.push_back(i);
-  }
+  if (traffic_.empty()) return;
+  report.no_bound = why_no_bound(scenario_);
+  if (!report.no_bound.empty()) return;
+  std::vector<std::size_t> order(traffic_.size());
+  std::iota(order.begin(), order.end(), 0);
   // Priority on the bus: the bits of the arbitration field in their order (AR-06).
   const auto priority = [&](std::size_t i) {
     const Frame &f = traffic_[i]->spec().frame;

@@ -223,6 +223,23 @@ TEST(EmptyExpectation, WithinBoundFailsWithoutAMessage) {
   EXPECT_TRUE(run_text(two + "traffic: [{node: a, id: 1}]\n" + wanted).ok());
 }
 
+// Who asks for bounds is told why there are none, and so is who expects one that a command line,
+// not the file, has taken away.
+TEST(EmptyExpectation, NoBoundIsGivenWhereTheAnalysisDoesNotHold) {
+  const std::string two =
+      "duration: 2 ms\nnodes: [{name: a, lowest_buffer_first: true}, {name: b}]\nanalysis: true\n"
+      "traffic: [{node: a, id: 1, period: 1 ms}, {node: a, id: 2, period: 1 ms}]\n";
+  Scenario scenario = parse_scenario("test.yaml", two);
+  scenario.expect.within_bound = true;
+  const RunReport report = run_scenario(scenario, 500e3);
+  const std::string why = "node 'a' has 'lowest_buffer_first'";
+  for (const MessageReport &message : report.messages) EXPECT_FALSE(message.bound);
+  EXPECT_EQ(report.analytic_load, 0);
+  EXPECT_EQ(verdict(report, "within_bound"), "FAIL none: " + why);
+  EXPECT_THAT(to_text(report), HasSubstr("  no bound: " + why + "\n"));
+  EXPECT_EQ(to_json(report)["no_bound"], why);
+}
+
 TEST(EmptyExpectation, AMessageThatNeverLeavesIsNotWithinItsBound) {
   const RunReport report = run_text(
       "duration: 1 ms\ndrain: 0\nnodes: [{name: a}]\ntraffic: [{node: a, name: m, id: 1}]\n"
