@@ -6,7 +6,9 @@
 
 package can_rn_pkg;
 
-  // Jobs of can_rn_step. A job has phases, one clock each.
+  // Jobs of can_rn_step. A job has phases, one clock each. Some blocks look at single bits of a code:
+  // can_rn_step (JobBegin, JobHead, JobFind, JobGuard), can_rn_cell (JobLow, JobHigh), can_rn_port
+  // (JobFresh, JobLoad, JobPush).
   typedef logic [5:0] job_t;
   // 0_000xx: the RAM belongs to user logic. These take as long as it takes.
   localparam logic [5:0] JobIdle    = 6'b0_00000;
@@ -29,23 +31,23 @@ package can_rn_pkg;
   localparam logic [5:0] JobAim     = 6'b0_01101;   // where it puts it
   localparam logic [5:0] JobLate    = 6'b0_01110;   // its time-out
   // 0_10xxx: three phases: a byte is read in the first and written in the third.
-  localparam logic [5:0] JobGap     = 6'b0_10000;   // what is left of the gap of a producer
-  localparam logic [5:0] JobTrigger = 6'b0_10001;   // TRIGGER count
-  localparam logic [5:0] JobLow     = 6'b0_10010;   // low byte of a timer
-  localparam logic [5:0] JobKeep    = 6'b0_10100;   // its gap begins
-  localparam logic [5:0] JobHigh    = 6'b0_10101;   // high byte of a timer
-  localparam logic [5:0] JobTry     = 6'b0_10110;   // an attempt has failed (RN-15)
-  localparam logic [5:0] JobTurn    = 6'b0_10111;   // bus-off begins or ends (RN-72)
+  localparam logic [5:0] JobTrigger = 6'b0_10000;   // TRIGGER count
+  localparam logic [5:0] JobKeep    = 6'b0_10001;   // its gap begins
+  localparam logic [5:0] JobTry     = 6'b0_10010;   // an attempt has failed (RN-15)
+  localparam logic [5:0] JobHigh    = 6'b0_10011;   // high byte of a timer
+  localparam logic [5:0] JobTurn    = 6'b0_10100;   // bus-off begins or ends (RN-72)
+  localparam logic [5:0] JobGap     = 6'b0_10101;   // what is left of the gap of a producer
+  localparam logic [5:0] JobLow     = 6'b0_10110;   // low byte of a timer
   // Four phases: two bytes are read.
-  localparam logic [5:0] JobGuard   = 6'b0_10011;   // protection of first and last byte
+  localparam logic [5:0] JobGuard   = 6'b0_10111;   // protection of first and last byte
   // 0_11xxx: four phases: two bytes are read and two written.
-  localparam logic [5:0] JobConfig  = 6'b0_11000;   // number and flags
-  localparam logic [5:0] JobDown    = 6'b0_11001;   // its period goes on
-  localparam logic [5:0] JobRenew   = 6'b0_11010;   // its period begins
-  localparam logic [5:0] JobEntry   = 6'b0_11011;   // A and mode of a producer
+  localparam logic [5:0] JobCount   = 6'b0_11000;   // code, A and count of a request (RN-24)
+  localparam logic [5:0] JobRenew   = 6'b0_11001;   // its period begins
+  localparam logic [5:0] JobDown    = 6'b0_11010;   // its period goes on
+  localparam logic [5:0] JobConfig  = 6'b0_11011;   // number and flags
   localparam logic [5:0] JobRow     = 6'b0_11100;   // life of the next answer, attempts
-  localparam logic [5:0] JobAge     = 6'b0_11101;   // the answer has aged by 10 ms (RN-54)
-  localparam logic [5:0] JobCount   = 6'b0_11110;   // code, A and count of a request (RN-24)
+  localparam logic [5:0] JobEntry   = 6'b0_11101;   // A and mode of a producer
+  localparam logic [5:0] JobAge     = 6'b0_11110;   // the answer has aged by 10 ms (RN-54)
   localparam logic [5:0] JobFeed    = 6'b0_11111;   // watchdog from its configuration
 
   // 1_10xxx: as 0_10xxx, in nodes with counters or block transfers.
