@@ -10,7 +10,8 @@ pull-up. Without options they are those of constraints/: can_ahb alone at 50 MHz
   --instance  the core's place in the design, such as u_soc/u_can; none: it is the top
   --mhz       rate of its clock, 8 or more; 0: the design constrains the clock itself
   --clock, --reset, --rx, --tx
-              ports of the design; --reset "": the reset comes from inside of the design
+              ports of the design; --reset "": the reset comes from inside of the design. With
+              --instance all of them are needed, but for the clock with --mhz 0
 
 Nothing in them is a ball, but for GateMate, whose format wants some.
 """
@@ -37,6 +38,8 @@ SENT = ("u_top", "u_core", "u_bsp", "u_tx_frame", "can_tx_o")
 # Names that are the same in all formats: without what ends a word in one of them.
 PORT = re.compile(r"[A-Za-z_][\w$.]*(\[\d+\])*", re.ASCII)
 INSTANCE = re.compile(r"/*[A-Za-z_][\w$.\[\]]*(/+[A-Za-z_][\w$.\[\]]*)*/*", re.ASCII)
+# Vivado's name of a register's cells; that of the LUT in front of it begins with the plain name.
+VIVADO_REGISTER = "_reg"
 LOOP_NS = 15.0  # of the node's delay that PROP_SEG covers (BT-07)
 
 
@@ -50,10 +53,11 @@ class Place:
     rx: str = "can_rx_i"
     tx: str = "can_tx_o"
 
-    def cell(self, parts, separator="/"):
-        """A pattern for a flip-flop: tools put something of theirs behind its name."""
+    def cell(self, parts, separator="/", suffix=""):
+        """A pattern for a flip-flop: tools put something of theirs behind its name, of which it may
+        begin with `suffix`."""
         above = [part for part in self.instance.split("/") if part]
-        return separator.join([*above, *parts]) + "*"
+        return separator.join([*above, *parts]) + suffix + "*"
 
 
 def head(what, tool, mark="#"):
@@ -61,9 +65,9 @@ def head(what, tool, mark="#"):
     return HEAD.format(what=what, tool=tool, mark=mark)
 
 
-def sdc(place, get="get_cells", separator="/", bound=""):
+def sdc(place, get="get_cells", separator="/", bound="", suffix=""):
     """The timing, as all tools with SDC have it; `get`: the tool's command for flip-flops."""
-    cells = {name: f"[{get} {{{place.cell(parts, separator)}}}]"
+    cells = {name: f"[{get} {{{place.cell(parts, separator, suffix)}}}]"
              for name, parts in (("sync", SYNC), ("sent", SENT))}
     lines = []
     if place.mhz:
@@ -119,8 +123,10 @@ def xilinx(place):
     pins = "".join(f"set_property IOSTANDARD LVCMOS33 [get_ports {{{port}}}]\n"
                    f"set_property PULLTYPE PULLUP [get_ports {{{port}}}]\n"
                    for port in (place.rx, place.tx))
-    return {"can.xdc": head("can.xdc: for Vivado.", "Vivado") + sdc(place, bound="-datapath_only ")
-            + pins + f"set_property IOB TRUE [get_cells {{{place.cell(SENT)}}}]\n"}
+    sent = place.cell(SENT, suffix=VIVADO_REGISTER)
+    return {"can.xdc": head("can.xdc: for Vivado.", "Vivado")
+            + sdc(place, bound="-datapath_only ", suffix=VIVADO_REGISTER)
+            + pins + f"set_property IOB TRUE [get_cells {{{sent}}}]\n"}
 
 
 def intel(place):
@@ -187,6 +193,26 @@ def render(place):
             for name, text in make(place).items()}
 
 
+def check_given(options):
+    """Ends the program if the ports of can_ahb would be taken for those of a design."""
+    needed = ["rx", "tx", "reset"] + (["clock"] if options["mhz"] != 0 else [])
+    missing = [f"--{name}" for name in needed if options[name] is None]
+    if options["instance"] and missing:
+        sys.exit(f"constraints.py: --instance needs {', '.join(missing)}, too: ports of the design")
+
+
+def check_distinct(place):
+    """Ends the program if a port is named twice."""
+    seen = {}
+    for name in ("clock", "reset", "rx", "tx"):
+        port = getattr(place, name)
+        if name == "clock" and not place.mhz:
+            continue
+        if port and port in seen:
+            sys.exit(f"constraints.py: --{seen[port]} and --{name} are both '{port}'")
+        seen[port] = name
+
+
 def check(place):
     """Ends the program if files cannot be written of such a place."""
     if place.mhz != 0 and not 8 <= place.mhz <= 1000:
@@ -205,16 +231,17 @@ def check(place):
 
 def main():
     """The command line."""
-    default = Place()
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[1],
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", type=Path)
     for name in ("instance", "mhz", "clock", "reset", "rx", "tx"):
-        value = getattr(default, name)
-        parser.add_argument(f"--{name}", default=value, type=type(value))
+        parser.add_argument(f"--{name}", type=type(getattr(Place, name)))
     options = vars(parser.parse_args())
-    out, place = options.pop("out"), Place(**options)
+    out = options.pop("out")
+    place = Place(**{name: value for name, value in options.items() if value is not None})
     check(place)
+    check_given(options)
+    check_distinct(place)
     try:
         for name, text in render(place).items():
             (out / name).parent.mkdir(parents=True, exist_ok=True)

@@ -138,9 +138,10 @@ class Archive(unittest.TestCase):
 
     def test_constraints_can_be_written_for_an_instance(self):
         code, text = run("/usr/bin/python3", "-B", "tools/constraints.py", self.work / "xdc",
-                         "--instance", "u_soc/u_can", cwd=self.ip)
+                         "--instance", "u_soc/u_can", "--mhz", 0, "--reset", "", "--rx", "can_rxd",
+                         "--tx", "can_txd", cwd=self.ip)
         self.assertEqual((code, text), (0, ""))
-        self.assertIn("u_soc/u_can/u_top/u_core/u_sync/meta_q*",
+        self.assertIn("u_soc/u_can/u_top/u_core/u_sync/meta_q_reg*",
                       (self.work / "xdc/xilinx/can.xdc").read_text(encoding="utf-8"))
 
     def test_sums_and_manifest_hold(self):

@@ -141,11 +141,12 @@ def facts_of(folder):
     return facts
 
 
-def flip_flop(netlist, pattern):
-    """D and Q, of one bit each, of the one flip-flop whose name a pattern fits."""
+def flip_flop(netlist, pattern, suffix=""):
+    """D and Q, of one bit each, of the one flip-flop whose name, with what the tool puts behind it,
+    a pattern fits."""
     wanted = re.sub(r"[/|]", ".", pattern)
     bits = {tuple(net["bits"]) for name, net in netlist["netnames"].items()
-            if fnmatch.fnmatchcase(name, wanted)}
+            if fnmatch.fnmatchcase(name + suffix, wanted)}
     found = [(cell["connections"]["D"], cell["connections"]["Q"])
              for cell in netlist["cells"].values() if cell["type"].startswith(("$adff", "$dff"))
              and tuple(cell["connections"]["Q"]) in bits]
@@ -162,14 +163,16 @@ class Constraints(unittest.TestCase):
         for family in constraints.FAMILIES:
             with self.subTest(family=family):
                 facts = facts_of(folder / family)
+                behind = "_reg" if family == "xilinx" else ""
                 self.assertEqual(facts.clock, [(place.clock, 1000 / place.mhz)])
                 (rx, sync), (reset, _) = facts.false
                 self.assertEqual((rx, reset), (place.rx, place.reset))
                 self.assertEqual(facts.false[1][1], None)
-                self.assertEqual(flip_flop(netlist, sync)[0], ports[rx], "D of can_sync's first")
+                self.assertEqual(flip_flop(netlist, sync, behind)[0], ports[rx],
+                                 "D of can_sync's first")
                 (sent, tx, bound), = facts.bound
                 self.assertEqual((tx, bound), (place.tx, 15.0))
-                self.assertEqual(flip_flop(netlist, sent)[1], ports[tx], "Q at the pin")
+                self.assertEqual(flip_flop(netlist, sent, behind)[1], ports[tx], "Q at the pin")
                 self.assertIn(place.rx, facts.pulls)
                 for port in (facts.pulls | facts.pins | {place.clock, reset}) - {sent}:
                     self.assertIn(port, ports)
@@ -181,7 +184,8 @@ class Constraints(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             top = Path(name) / "user_top.sv"
             top.write_text(design.user_top(), encoding="utf-8")
-            options = ("--instance", "u_can", "--mhz", 16, "--rx", "can_rxd", "--tx", "can_txd")
+            options = ("--instance", "u_can", "--mhz", 16, "--clock", "hclk", "--reset", "hresetn",
+                       "--rx", "can_rxd", "--tx", "can_txd")
             code, text = design.run("tools/constraints.py", name, *options)
             self.assertEqual((code, text), (0, ""))
             place = constraints.Place("u_can", 16, rx="can_rxd", tx="can_txd")
@@ -203,6 +207,41 @@ class Constraints(unittest.TestCase):
     def test_nothing_but_what_was_asked_for(self):
         text = "".join(constraints.render(constraints.Place(mhz=0, reset="")).values())
         self.assertNotRegex(text, r"create_clock|FREQUENCY|hresetn|hclk")
+
+    def test_vivado_finds_registers_and_not_the_logic_in_front_of_them(self):
+        text = constraints.render(constraints.Place())["xilinx/can.xdc"]
+        cells = re.findall(r"get_cells \{(.*?)\}", text)
+        self.assertEqual(len(cells), 3)
+        for pattern in cells:
+            register = pattern.removesuffix("_reg*")
+            self.assertTrue(fnmatch.fnmatchcase(f"{register}_reg", pattern))
+            self.assertFalse(fnmatch.fnmatchcase(f"{register}_i_1", pattern), pattern)
+
+    def refused(self, words, *options):
+        """The tool says so and writes nothing."""
+        with tempfile.TemporaryDirectory() as name:
+            code, text = design.run("tools/constraints.py", name, *options)
+            self.assertEqual((code, list(Path(name).iterdir())), (1, []), text)
+            self.assertIn(words, text)
+
+    def test_one_port_for_two_things_is_refused(self):
+        for options, words in ((("--rx", "can_tx_o"), "--rx and --tx are both 'can_tx_o'"),
+                               (("--tx", "hclk"), "--clock and --tx are both 'hclk'"),
+                               (("--rx", "hresetn"), "--reset and --rx are both 'hresetn'"),
+                               (("--clock", "hresetn"), "--clock and --reset are both")):
+            with self.subTest(options):
+                self.refused(words, *options)
+
+    def test_an_instance_wants_the_ports_of_its_design(self):
+        ports = {"--rx": "a", "--tx": "b", "--reset": "", "--clock": "c"}
+        for left_out in ports:
+            with self.subTest(left_out):
+                given = [word for pair in ports.items() if pair[0] != left_out for word in pair]
+                self.refused(f"--instance needs {left_out}, too", "--instance", "u_can", *given)
+        with tempfile.TemporaryDirectory() as name:
+            self.assertEqual(design.run(
+                "tools/constraints.py", name, "--instance", "u_can", "--mhz", 0, "--reset", "",
+                "--rx", "a", "--tx", "b"), (0, ""))
 
     def test_a_clock_that_is_too_slow_is_told(self):
         with tempfile.TemporaryDirectory() as name:

@@ -56,7 +56,10 @@ TABLE = [
     ("tools/constraints.py {tmp}/none --tx 'a\"b'", 1, "--tx 'a\"b' is not the name of a port"),
     ("tools/constraints.py {tmp}/none --clock ''", 1, "--clock '' is not the name of a port"),
     ("tools/constraints.py {tmp}/none --instance 'a b{'", 1, "--instance 'a b{' is not the place"),
-    ("tools/constraints.py {tmp}/ports --mhz 0 --clock '' --reset '' --rx 'pads.can[3]' "
+    ("tools/constraints.py {tmp}/none --instance u_can --rx a --tx b --mhz 0", 1,
+     "--instance needs --reset, too"),
+    ("tools/constraints.py {tmp}/none --rx a --tx a", 1, "--rx and --tx are both 'a'"),
+    ("tools/constraints.py {tmp}/ports --mhz 0 --clock '' --reset '' --rx 'pads.can[3]' --tx t "
      "--instance 'g_soc[0].u_soc/u_can'", 0, ""),
     # Options of the Makefile that are on or off.
     ("make -n clean ALL=0", 0, "! -name linux"),
