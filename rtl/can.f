@@ -6,6 +6,7 @@ bit/can_tq_gen.sv
 bit/can_bit_timing.sv
 bit/can_timing_params.sv
 bit/can_timestamp.sv
+time/can_time_params.sv
 time/can_clock.sv
 time/can_capture.sv
 time/can_stamp.sv

@@ -74,6 +74,9 @@ module can_ahb #(
   if (RegionBits < 13 || RegionBits > 32) begin : gen_check_region_bits
     RegionBits_must_be_13_to_32 u_stop ();   // no such module: the tool prints the name and stops
   end
+  if (CheckHprot < 0 || CheckHprot > 1) begin : gen_check_hprot
+    CheckHprot_must_be_0_or_1 u_stop ();
+  end
 
   // A burst is treated as single transfers. Of hprot only bit 1 counts, with CheckHprot = 1.
   logic unused, supv;

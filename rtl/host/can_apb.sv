@@ -62,6 +62,9 @@ module can_apb #(
   if (RegionBits < 13 || RegionBits > 32) begin : gen_check_region_bits
     RegionBits_must_be_13_to_32 u_stop ();   // no such module: the tool prints the name and stops
   end
+  if (CheckProt < 0 || CheckProt > 1) begin : gen_check_prot
+    CheckProt_must_be_0_or_1 u_stop ();
+  end
 
   logic unused, supv;
   assign unused = &{1'b0, paddr[1:0], pprot, supv};

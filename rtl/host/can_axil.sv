@@ -71,6 +71,9 @@ module can_axil #(
   if (RegionBits < 13 || RegionBits > 32) begin : gen_check_region_bits
     RegionBits_must_be_13_to_32 u_stop ();   // no such module: the tool prints the name and stops
   end
+  if (CheckProt < 0 || CheckProt > 1) begin : gen_check_prot
+    CheckProt_must_be_0_or_1 u_stop ();
+  end
 
   logic unused, supv;
   assign unused = &{1'b0, awaddr[1:0], araddr[1:0], awprot, arprot, supv};
@@ -118,14 +121,11 @@ module can_axil #(
     end
   end
   assign arready = read_q && ready;
-  assign awready = taken_q;
-  assign wready  = taken_q;
+  assign {awready, wready} = {2{taken_q}};
 
   always_ff @(posedge aclk or negedge aresetn) begin
-    if (!aresetn) begin
-      rdata <= '0;
-      {rresp, bresp} <= '0;
-    end else begin
+    if (!aresetn) {rdata, rresp, bresp} <= '0;
+    else begin
       if (arready) begin
         rdata <= core_rdata;          // 0 of what the core has not been given
         rresp <= {error_q, 1'b0};

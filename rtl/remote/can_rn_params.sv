@@ -19,6 +19,7 @@ module can_rn_params #(
   parameter int RateRows = 8,
   parameter int TimeSync = 0,
   parameter logic [39:0] TimeInc = '0,
+  parameter logic [31:0] SyncCtrl = '0,
   parameter logic [31:0] SyncId = '0,
   parameter logic [31:0] SyncDelay = '0,
   parameter int HalfPeriod = 1
@@ -66,14 +67,8 @@ module can_rn_params #(
   if (SyncId[31:29] != '0 || SyncId[17:0] != '0) begin : gen_check_sync_id
     SyncId_must_be_a_base_identifier_in_bits_28_to_18 u_stop ();
   end
-  if (SyncDelay[31:24] != '0) begin : gen_check_sync_delay
-    SyncDelay_must_be_24_bits u_stop ();
-  end
-  // TM-31, in 2^-32 ns.
-  localparam logic [63:0] Half     = 64'(HalfPeriod) << 32;
-  localparam logic [63:0] Clocks16 = 64'(TimeInc) << 4;
-  if (HalfPeriod < 1 || Half < Clocks16) begin : gen_check_half_period
-    HalfPeriod_must_be_16_clocks_at_least u_stop ();
-  end
-
+  can_time_params #(
+    .TimeInc(TimeInc), .SyncCtrl(SyncCtrl), .SyncId(SyncId), .SyncDelay(SyncDelay),
+    .HalfPeriod(HalfPeriod)
+  ) u_time_params ();
 endmodule

@@ -27,6 +27,10 @@ module can_clock #(
   output logic [31:0] left_o,      // not worked off yet, signed ns
   output logic [39:0] inc_o        // increment: 39:32 ns, 31:0 in 2^-32 ns
 );
+  if (TimeInc == '0) begin : gen_check_time_inc
+    TimeInc_must_be_more_than_0 u_stop ();   // no such module: its name is the message
+  end
+
   logic [7:0]  incn_q, incn;
   logic [31:0] incf_q;
   assign incn  = rate_i ? data_i[7:0] : incn_q;

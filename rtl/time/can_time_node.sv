@@ -5,10 +5,10 @@
 // registers, its time unit, and the follower. It acknowledges frames and sends none.
 
 module can_time_node #(
-  /// Increment at the nominal rate: 39:32 ns, 31:0 in 2^-32 ns a clock.
+  /// Increment at the nominal rate: 39:32 ns, 31:0 in 2^-32 ns a clock; not 0.
   parameter logic [39:0] TimeInc = 40'h14_0000_0000,
   /// TSCTRL without EN and PPS, TSID and TSDLY of the follower (docs/registers.md), the last one in
-  /// 24 bits. KI 6, KD 2, PHALF, TMO 31: a pair a second at 50 MHz.
+  /// 24 bits, KD of KI at most. KI 6, KD 2, PHALF, TMO 31: a pair a second at 50 MHz.
   parameter logic [31:0] SyncCtrl = 32'h1F46_0100,
   parameter logic [31:0] SyncId = 32'd0,
   parameter logic [31:0] SyncDelay = 32'd0,
@@ -30,16 +30,10 @@ module can_time_node #(
   input  logic        can_rx_i,
   output logic        can_tx_o
 );
-  // TM-31, in 2^-32 ns.
-  localparam logic [63:0] Half     = 64'(HalfPeriod) << 32;
-  localparam logic [63:0] Clocks16 = 64'(TimeInc) << 4;
-  // A module that does not exist stops the build; its name is the message.
-  if (HalfPeriod < 1 || Half < Clocks16) begin : gen_check_half_period
-    HalfPeriod_must_be_16_clocks_at_least u_stop ();
-  end
-  if (SyncDelay[31:24] != '0) begin : gen_check_sync_delay
-    SyncDelay_must_be_24_bits u_stop ();
-  end
+  can_time_params #(
+    .TimeInc(TimeInc), .SyncCtrl(SyncCtrl), .SyncId(SyncId), .SyncDelay(SyncDelay),
+    .HalfPeriod(HalfPeriod)
+  ) u_time_params ();
   can_timing_params #(
     .Brp(Brp), .Prop(Prop), .Ps1(Ps1), .Ps2(Ps2), .Sjw(Sjw)
   ) u_timing_params ();

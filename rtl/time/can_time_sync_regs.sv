@@ -25,10 +25,9 @@ module can_time_sync_regs #(
   input  logic [31:0] stat_i,
   input  logic [31:0] ofs_i
 );
-  // A module that does not exist stops the build; its name is the message.
-  if (SyncDelay[31:24] != '0) begin : gen_check_sync_delay
-    SyncDelay_must_be_24_bits u_stop ();
-  end
+  can_time_params #(
+    .SyncCtrl(SyncCtrl), .SyncId(SyncId), .SyncDelay(SyncDelay)
+  ) u_params ();
 
   localparam logic [4:0] Tsctrl = 5'(can_regs_pkg::TsctrlAddr);
   localparam logic [4:0] Tsid   = 5'(can_regs_pkg::TsidAddr);

@@ -94,7 +94,8 @@ class Features(unittest.TestCase):
         """TM-106, TM-107: each parameter just outside its range; in it, it is clean."""
         self.assertEqual(lint({"TimeSync": 1}, "can_remote"), (0, ""))
         for name, value in (("TimeSync", 2), ("HalfPeriod", -1), ("HalfPeriod", 1999),
-                            ("SyncId", 1), ("SyncId", 1 << 29), ("SyncDelay", 1 << 24)):
+                            ("SyncId", 1), ("SyncId", 1 << 29), ("SyncDelay", 1 << 24),
+                            ("SyncCtrl", 0x1F410100), ("TimeInc", 0)):
             with self.subTest(name, value=value):
                 code, text = lint({"TimeSync": 1, name: value}, "can_remote")
                 self.assertNotEqual(code, 0)
@@ -103,11 +104,39 @@ class Features(unittest.TestCase):
 
     def test_clock_without_a_processor_refuses_what_its_registers_cannot_hold(self):
         """TM-100: each parameter just outside its range."""
-        for value in ({"HalfPeriod": -1}, {"HalfPeriod": 319}, {"SyncDelay": 1 << 24}):
+        for value in ({"HalfPeriod": -1}, {"HalfPeriod": 319}, {"SyncDelay": 1 << 24},
+                      {"SyncId": 1}, {"SyncId": 0x20000}, {"SyncId": 1 << 29},
+                      {"SyncId": 0xC000_0000}, {"SyncCtrl": 0x1F620100},
+                      {"SyncCtrl": 0x1F200100}, {"TimeInc": 0}):
             with self.subTest(value):
                 code, text = lint(value, "can_time_node")
                 self.assertNotEqual(code, 0)
                 self.assertIn(f"{next(iter(value))}_must_be", text)
+
+    def test_clock_without_a_processor_takes_what_its_registers_can_hold(self):
+        """TM-100: KD = KI; the largest base identifier, and an extended one."""
+        for value in ({"SyncCtrl": 0x1F630100}, {"SyncId": 0x1FFC0000}, {"SyncId": 0x80000001}):
+            with self.subTest(value):
+                self.assertEqual(lint(value, "can_time_node"), (0, ""))
+
+    def test_follower_refuses_what_it_cannot_follow(self):
+        """TM-100, TM-103: values of TSCTRL and TSID after a reset, and a clock that stands."""
+        follower = {"TimeUnit": 1, "TimeSync": 1}
+        for value in ({"SyncId": 1}, {"SyncCtrl": 0x1F200100}, {"TimeInc": 0}):
+            with self.subTest(value):
+                code, text = lint({**follower, **value})
+                self.assertNotEqual(code, 0)
+                self.assertIn(f"{next(iter(value))}_must_be", text)
+
+    def test_switches_of_the_buses_are_0_or_1(self):
+        for top, name in (("can_ahb", "CheckHprot"), ("can_apb", "CheckProt"),
+                          ("can_axil", "CheckProt"), ("can_wb", "Pipelined")):
+            for value in (-1, 2, 3):
+                with self.subTest(top, value=value):
+                    code, text = lint({name: value}, top)
+                    self.assertNotEqual(code, 0)
+                    self.assertIn(f"{name}_must_be_0_or_1", text)
+            self.assertEqual(lint({name: 1}, top), (0, ""))
 
     def test_clock_without_a_processor_refuses_pulses_faster_than_its_compare_unit(self):
         """TM-31: 16 clocks, to the ns: of 20 ns, of 62.5 ns, and of the longest there are."""

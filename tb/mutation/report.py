@@ -85,8 +85,8 @@ class Report:
         """Result for the campaign."""
         score, wrong = self.score(), self.wrong_entries()
         full = options.scale == 1 and not options.module and not options.mutant
-        # Of those that have anything to mutate: can_rn_params and can_timing_params only refuse
-        # parameters.
+        # Of those that have anything to mutate: can_rn_params, can_time_params and
+        # can_timing_params only refuse parameters.
         least, files = options.full // 11 * 10, sum(bool(f.mutants) for f in self.design.part)
         figures = [
             {"name": "mutants", "value": len(self.run), "bar": f"at least {least}",
