@@ -25,6 +25,18 @@ sys.dont_write_bytecode = True
 from pack import wrappers as source
 
 SPACE = "{http://www.accellera.org/XMLSchema/IPXACT/1685-2014}"
+# Names of signals as the bus definitions have them, where case counts: of the AMBA buses by Arm,
+# of Wishbone by Kactus2.
+SIGNALS = {
+    "ahb": "HCLK HRESETn HSELx HADDR HTRANS HWRITE HSIZE HBURST HPROT HREADY HWDATA HRDATA "
+           "HREADYOUT HRESP",
+    "apb": "PCLK PRESETn PSELx PENABLE PADDR PPROT PWRITE PSTRB PWDATA PREADY PRDATA PSLVERR",
+    "axil": "ACLK ARESETn AWADDR AWPROT AWVALID AWREADY WDATA WSTRB WVALID WREADY BRESP BVALID "
+            "BREADY ARADDR ARPROT ARVALID ARREADY RDATA RRESP RVALID RREADY",
+    "wb": "clk rst cyc stb we adr sel dat_ms dat_sm ack err stall"}
+# The abstraction definitions of these.
+ABSTRACTIONS = {"ahb": "AHBLite_rtl", "apb": "APB4_rtl", "axil": "AXI4-Lite_rtl",
+                "wb": "wishbone.absDef"}
 # Any command that a script uses and Tcl lacks is recorded; ipx's questions return what was asked.
 RECORDERS = """\
 proc unknown {name args} {
@@ -204,6 +216,28 @@ class IpXact(Case):
         described = svd_registers()
         for wrapper in self.wrappers.values():
             self.assertEqual(xact_registers(self.tree(wrapper)), described)
+
+    def test_signals_have_the_names_of_the_bus_definitions(self):
+        for bus, wrapper in self.wrappers.items():
+            root = self.tree(wrapper)
+            names = [pair.text for pair in root.iterfind(f".//{SPACE}logicalPort/{SPACE}name")]
+            self.assertEqual(set(names), set(SIGNALS[bus].split()))
+            self.assertEqual({entry.get("name") for entry in root.iter(f"{SPACE}abstractionRef")},
+                             {ABSTRACTIONS[bus]})
+
+    def test_data_of_wishbone_go_the_way_that_their_names_say(self):
+        root = self.tree(self.wrappers["wb"])
+        pairs = {pair.findtext(f"{SPACE}logicalPort/{SPACE}name"):
+                 pair.findtext(f"{SPACE}physicalPort/{SPACE}name")
+                 for pair in root.iter(f"{SPACE}portMap")}
+        self.assertEqual((pairs["dat_ms"], pairs["dat_sm"]), ("wb_dat_i", "wb_dat_o"))
+
+    def test_clock_and_reset_of_wishbone_are_of_its_system(self):
+        system, slave = self.tree(self.wrappers["wb"]).iter(f"{SPACE}busInterface")
+        self.assertEqual(system.findtext(f"{SPACE}system/{SPACE}group"), "ClockSink")
+        names = [name.text for name in system.iterfind(f".//{SPACE}logicalPort/{SPACE}name")]
+        self.assertEqual(names, ["clk", "rst"])
+        self.assertIsNotNone(slave.find(f"{SPACE}slave"))
 
     def test_ports_and_maps_are_those_of_the_wrapper(self):
         for wrapper in self.wrappers.values():

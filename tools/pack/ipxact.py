@@ -4,9 +4,9 @@
 memory map with every register and field, ports, parameters, file set. tools/pack/ipxact.rng is the
 schema of the subset that is written here.
 
-The VLNVs of the AMBA buses are those of Arm's published definitions, that of Wishbone is the name
-by which tools know OpenCores'; they are not checked against their files, which are not part of
-the project.
+VLNVs and names of signals of the AMBA buses are those of Arm's published definitions, those of
+Wishbone are of the definitions that come with Kactus2; they are not checked against their files,
+which are not part of the project.
 """
 import xml.etree.ElementTree as ET
 
@@ -15,15 +15,22 @@ from regmap.model import NUM_MB
 
 NAMESPACE = "http://www.accellera.org/XMLSchema/IPXACT/1685-2014"
 BUFFERS = 64  # what the map of the largest core has
-# bus: vendor, library, name, version
+# bus: vendor, library, name, version, and the name of its abstraction definition
 BUS_TYPES = {
-    "ahb": ("amba.com", "AMBA3", "AHBLite", "r2p0_0"),
-    "apb": ("amba.com", "AMBA4", "APB4", "r0p0_0"),
-    "axil": ("amba.com", "AMBA4", "AXI4-Lite", "r0p0_0"),
-    "wb": ("opencores.org", "interface", "wishbone", "b4"),
+    "ahb": ("amba.com", "AMBA3", "AHBLite", "r2p0_0", "AHBLite_rtl"),
+    "apb": ("amba.com", "AMBA4", "APB4", "r0p0_0", "APB4_rtl"),
+    "axil": ("amba.com", "AMBA4", "AXI4-Lite", "r0p0_0", "AXI4-Lite_rtl"),
+    "wb": ("opencores.org", "interface", "wishbone", "b4", "wishbone.absDef"),
 }
-# Ports whose name in the bus definition is not their own in upper case.
-LOGICAL = {"hsel": "HSELx", "psel": "PSELx"}
+# Ports whose name in the bus definition is not their own in upper case. Case counts.
+LOGICAL = {"hsel": "HSELx", "psel": "PSELx",
+           "hresetn": "HRESETn", "presetn": "PRESETn", "aresetn": "ARESETn",
+           # Wishbone's definition has small letters, and data by its way: master, slave.
+           "wb_clk_i": "clk", "wb_rst_i": "rst", "wb_cyc_i": "cyc", "wb_stb_i": "stb",
+           "wb_we_i": "we", "wb_adr_i": "adr", "wb_sel_i": "sel", "wb_dat_i": "dat_ms",
+           "wb_dat_o": "dat_sm", "wb_ack_o": "ack", "wb_err_o": "err", "wb_stall_o": "stall"}
+# Group of an interface of its own for clock and reset, where a slave has neither by definition.
+SYSTEM_GROUP = {"wb": "ClockSink"}
 HEAD = """\
 <?xml version="1.0" encoding="utf-8"?>
 <!-- SPDX-FileCopyrightText: 2026 The VeriCAN authors
@@ -44,31 +51,31 @@ def add(parent, tag, text=None, **attributes):
     return child
 
 
-def logical(wrapper, port):
-    """The bus's own name of a port."""
-    if port.name in LOGICAL:
-        return LOGICAL[port.name]
-    if wrapper.bus == "wb":
-        return port.name.removeprefix("wb_").upper()
-    return port.name.upper()
+def bus_interface(group, bus, name, ports):
+    """An interface of the bus with its ports."""
+    vendor, library, kind, number, abstraction = BUS_TYPES[bus]
+    interface = add(group, "busInterface")
+    add(interface, "name", name)
+    add(interface, "busType", vendor=vendor, library=library, name=kind, version=number)
+    one = add(add(interface, "abstractionTypes"), "abstractionType")
+    add(one, "abstractionRef", vendor=vendor, library=library, name=abstraction, version=number)
+    maps = add(one, "portMaps")
+    for port in ports:
+        pair = add(maps, "portMap")
+        add(add(pair, "logicalPort"), "name", LOGICAL.get(port.name, port.name.upper()))
+        add(add(pair, "physicalPort"), "name", port.name)
+    return interface
 
 
 def bus_interfaces(component, wrapper):
-    """Bus, clock, reset and interrupt."""
-    group = add(component, "busInterfaces")
-    bus = add(group, "busInterface")
-    add(bus, "name", "s")
-    vendor, library, name, number = BUS_TYPES[wrapper.bus]
-    add(bus, "busType", vendor=vendor, library=library, name=name, version=number)
-    kind = add(add(bus, "abstractionTypes"), "abstractionType")
-    add(kind, "abstractionRef", vendor=vendor, library=library, name=f"{name}_rtl",
-        version=number)
-    maps = add(kind, "portMaps")
-    for port in wrapper.bus_ports:
-        pair = add(maps, "portMap")
-        add(add(pair, "logicalPort"), "name", logical(wrapper, port))
-        add(add(pair, "physicalPort"), "name", port.name)
-    add(add(bus, "slave"), "memoryMapRef", memoryMapRef="registers")
+    """The bus, with its clock and reset in an interface of their own where they have one."""
+    group, ports = add(component, "busInterfaces"), wrapper.bus_ports
+    if wrapper.bus in SYSTEM_GROUP:
+        system = bus_interface(group, wrapper.bus, "system", ports[:2])
+        add(add(system, "system"), "group", SYSTEM_GROUP[wrapper.bus])
+        ports = ports[2:]
+    slave = bus_interface(group, wrapper.bus, "s", ports)
+    add(add(slave, "slave"), "memoryMapRef", memoryMapRef="registers")
 
 
 def add_fields(parent, register):
