@@ -4,6 +4,7 @@
 """package.py OUT [--flat BUS_SIZE ...]: writes what other tools' packagers take:
 
   OUT/verilog/can_<bus>_v.v          Verilog-2001 shells around the wrappers
+  OUT/verilog/can_axil_window.v      one whose addresses end with the core's window
   OUT/verilog/can_<bus>_<size>.v     a build in one file of Verilog-2005: --flat apb_16, or all
   OUT/ipxact/can_<bus>.xml           IP-XACT 1685-2014 components
   OUT/fpga/...                       scripts for the packagers of Vivado, Quartus, Libero
@@ -29,6 +30,8 @@ def outputs(found, regmap):
     for wrapper in found:
         files[f"verilog/{wrapper.module}_v.v"] = shell.render(wrapper)
         files[f"ipxact/{wrapper.module}.xml"] = ipxact.render(wrapper, regmap)
+        if wrapper.bus == "axil":
+            files[f"verilog/{wrapper.module}_window.v"] = shell.window(wrapper)
     return {**files, **vendors.render(found), **lists.render()}
 
 

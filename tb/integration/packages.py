@@ -47,6 +47,11 @@ rename package {}
 """
 
 
+def addressed(port):
+    """The width that a port has in a package whose addresses are those of the window."""
+    return source.PACKAGED["RegionBits"] if port.name in ("awaddr", "araddr") else port.width
+
+
 def setUpModule():
     """One set of packages for all tests."""
     folder = tempfile.TemporaryDirectory()
@@ -156,6 +161,26 @@ class Files(Case):
             with self.subTest(wrapper.module):
                 self.assert_equal_netlists(wrapper)
 
+    def test_shell_for_quartus_has_no_more_addresses_than_the_window(self):
+        """All else is as of can_axil."""
+        wrapper = self.wrappers["axil"]
+        top, netlist = f"{wrapper.module}_window", self.out / "window.json"
+        shell = self.out / f"verilog/{top}.v"
+        self.assertEqual(design.run(
+            "verilator", "--lint-only", "-Wall", "+1364-2001ext+v", "--top-module", top,
+            "-GNumMb=16", "rtl/lint.vlt", *design.rtl_files(), shell), (0, ""))
+        design.read_once([*design.rtl_files(), shell], [
+            f"hierarchy -top {top}; proc; write_json {netlist}"])
+        module = json.loads(netlist.read_text(encoding="utf-8"))["modules"][top]
+        core, = module["cells"].values()
+        for port in wrapper.ports:
+            mine = module["ports"][port.name]
+            self.assertEqual((mine["direction"], len(mine["bits"])),
+                             (port.direction, addressed(port)))
+            self.assertEqual(core["connections"][port.name],
+                             mine["bits"] + ["0"] * (port.width - addressed(port)))
+        self.assertRegex(shell.read_text(encoding="utf-8"), r"\.RegionBits\(13\)")
+
     def shell(self, wrapper):
         """The Verilog file around it."""
         return self.out / f"verilog/{wrapper.module}_v.v"
@@ -250,8 +275,11 @@ class IpXact(Case):
             self.assertEqual([name for _, name in pairs],
                              [port.name for port in wrapper.bus_ports])
             self.assertEqual(len({name for name, _ in pairs}), len(pairs))
-            named = {entry.get("parameterId") for entry in root.iter(f"{SPACE}parameter")}
-            self.assertEqual(named, {entry.name for entry in wrapper.parameters})
+            named = {entry.get("parameterId"): entry.findtext(f"{SPACE}value")
+                     for entry in root.iter(f"{SPACE}parameter")}
+            self.assertEqual(set(named), {entry.name for entry in wrapper.parameters})
+            size = root.findtext(f".//{SPACE}addressBlock/{SPACE}range")
+            self.assertEqual(1 << int(named["RegionBits"]), int(size.removeprefix("'h"), 16))
             files = [file.findtext(f"{SPACE}name") for file in root.iter(f"{SPACE}file")]
             self.assertEqual(files, [f"../{name}" for name in design.rtl_files()])
 
@@ -322,20 +350,55 @@ class Vendors(Case):
         self.assertIn(["set_property", "top", f"{wrapper.module}_v", "<current_fileset>"], done)
         asked = [words[1] for words in done if words[0] == "ipx::get_user_parameters"]
         self.assertEqual(asked, [entry.name for entry in wrapper.parameters])
-        named = " ".join(words[1] for words in done if words[0] == "ipx::infer_bus_interface")
-        self.assertEqual(named.split(), [port.name for port in wrapper.bus_ports[2:]]
-                         + [wrapper.clock, wrapper.reset, "irq_o"])
         self.assertEqual(done[-1][0], "ipx::save_core")
+
+    def test_vivado_knows_the_ports_of_the_bus(self):
+        wrapper, done = self.wrappers["axil"], self.records("fpga/vivado/package.tcl")
+        names = [port.name for port in wrapper.bus_ports[2:]]
+        self.assertEqual([words[2] for words in done if words[1] == "physical_name"], names)
+        self.assertEqual([words[1] for words in done if words[0] == "ipx::add_port_map"],
+                         [name.upper() for name in names])
+        self.assertEqual([words[1] for words in done if words[0] == "ipx::infer_bus_interface"],
+                         [wrapper.clock, wrapper.reset, "irq_o"])
+
+    def test_vivado_knows_map_clock_and_reset_of_the_bus(self):
+        """Or nothing can be given an address, and no design with it is valid."""
+        wrapper, done = self.wrappers["axil"], self.records("fpga/vivado/package.tcl")
+        bus, core = "<ipx::get_bus_interfaces>", "<ipx::current_core>"
+        for words in (["ipx::add_bus_interface", "s", core],
+                      ["set_property", "slave_memory_map_ref", "registers", bus],
+                      ["ipx::associate_bus_interfaces", "-busif", "s", "-clock", wrapper.clock,
+                       core],
+                      ["ipx::associate_bus_interfaces", "-clock", wrapper.clock, "-reset",
+                       wrapper.reset, core]):
+            self.assertIn(words, done)
+        self.assertIn(["ipx::get_bus_interfaces", "s", "-of_objects", core], done)
+        before = [words[:2] for words in done]
+        self.assertLess(before.index(["ipx::add_memory_map", "registers"]),
+                        before.index(["set_property", "slave_memory_map_ref"]))
+
+    def test_vivado_gives_the_core_no_more_than_its_window(self):
+        done = self.records("fpga/vivado/package.tcl")
+        window = 1 << source.PACKAGED["RegionBits"]
+        self.assertIn(["set_property", "range", str(window), "<ipx::add_address_block>"], done)
+        asked = done.index(["ipx::get_user_parameters", "RegionBits", "-of_objects",
+                            "<ipx::current_core>"])
+        self.assertEqual(done[asked + 1][:3],
+                         ["set_property", "value", str(source.PACKAGED["RegionBits"])])
 
     def test_quartus(self):
         wrapper = self.wrappers["axil"]
         done = self.records("fpga/quartus/can_hw.tcl")
-        self.assert_sources([words[-1] for words in done if words[0] == "add_fileset_file"])
+        *sources, top = [words[-1] for words in done if words[0] == "add_fileset_file"]
+        self.assert_sources(sources)
+        self.assertTrue(Path(top).is_file())
+        self.assertIn(["set_fileset_property", "rtl", "TOP_LEVEL", Path(top).stem], done)
         parameters = {words[1]: int(words[3]) for words in done if words[0] == "add_parameter"}
-        self.assertEqual(parameters, {entry.name: entry.number for entry in wrapper.parameters})
+        self.assertEqual(parameters, {entry.name: entry.number for entry in wrapper.parameters
+                                      if entry.name != "RegionBits"})
         ports = {words[2]: (words[4].lower(), int(words[5])) for words in done
                  if words[0] == "add_interface_port"}
-        self.assertEqual(ports, {port.name: (port.direction, port.width)
+        self.assertEqual(ports, {port.name: (port.direction, addressed(port))
                                  for port in wrapper.ports})
         svd, = (words[3] for words in done if "CMSIS_SVD_FILE" in words)
         self.assertTrue(Path(svd).is_file())

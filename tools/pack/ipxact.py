@@ -189,7 +189,8 @@ def parameters_of(component, wrapper):
             vector = add(add(one, "vectors"), "vector")
             add(vector, "left", entry.width - 1)
             add(vector, "right", 0)
-        add(one, "value", f"{entry.width}'h{entry.number:X}" if entry.width else entry.number)
+        add(one, "value",
+            f"{entry.width}'h{entry.packaged:X}" if entry.width else entry.packaged)
 
 
 def render(wrapper, regmap):

@@ -4,7 +4,8 @@
 were not run; tb/integration/packages.py runs the scripts in tclsh with the tools' commands
 recorded.
 """
-from pack.wrappers import rtl_files, version
+from pack.shell import window_parameters, window_ports
+from pack.wrappers import PACKAGED, rtl_files, version
 
 HEAD = """\
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
@@ -30,6 +31,34 @@ def allowed(name):
     return TAGS.get(name, (0, 1) if name in SWITCHES else ())
 
 
+def vivado_bus(wrapper):
+    """The bus with its memory map, clock and reset. The tool's own guess has a name that depends on
+    the ports, so it is taken back."""
+    bus = "[ipx::get_bus_interfaces s -of_objects $core]"
+    return [
+        "ipx::remove_all_bus_interface $core\n",
+        "foreach map [ipx::get_memory_maps -of_objects $core] {\n"
+        "  ipx::remove_memory_map [get_property NAME $map] $core\n}\n",
+        "ipx::add_bus_interface s $core\n", f"set bus {bus}\n",
+        "set_property abstraction_type_vlnv xilinx.com:interface:aximm_rtl:1.0 $bus\n",
+        "set_property bus_type_vlnv xilinx.com:interface:aximm:1.0 $bus\n",
+        "set_property interface_mode slave $bus\n",
+        "set_property value AXI4LITE [ipx::add_bus_parameter PROTOCOL $bus]\n",
+        *[f"set_property physical_name {port.name} [ipx::add_port_map {port.name.upper()} $bus]\n"
+          for port in wrapper.bus_ports[2:]],
+        f"ipx::infer_bus_interface {wrapper.clock} xilinx.com:signal:clock_rtl:1.0 $core\n",
+        f"ipx::infer_bus_interface {wrapper.reset} xilinx.com:signal:reset_rtl:1.0 $core\n",
+        "ipx::infer_bus_interface irq_o xilinx.com:signal:interrupt_rtl:1.0 $core\n",
+        f"ipx::associate_bus_interfaces -busif s -clock {wrapper.clock} $core\n",
+        f"ipx::associate_bus_interfaces -clock {wrapper.clock} -reset {wrapper.reset} $core\n",
+        "ipx::add_memory_map registers $core\n",
+        "set_property slave_memory_map_ref registers $bus\n",
+        "set block [ipx::add_address_block can [ipx::get_memory_maps registers -of_objects "
+        "$core]]\n",
+        f"set_property range {1 << PACKAGED['RegionBits']} $block\n",
+        "set_property width 32 $block\n", "set_property usage register $block\n"]
+
+
 def vivado(wrapper):
     """fpga/vivado/package.tcl."""
     lines = [HEAD.format(what="package.tcl: packages the core on AXI4-Lite for Vivado's IP "
@@ -44,19 +73,10 @@ def vivado(wrapper):
              "set core [ipx::current_core]\n",
              "set_property name can $core\n", f"set_property version {version()} $core\n",
              "set_property display_name {VeriCAN CAN 2.0 controller} $core\n",
-             "ipx::infer_bus_interface {" + " ".join(
-                 port.name for port in wrapper.bus_ports[2:]) + "} "
-             "xilinx.com:interface:aximm_rtl:1.0 $core\n",
-             f"ipx::infer_bus_interface {wrapper.clock} xilinx.com:signal:clock_rtl:1.0 $core\n",
-             f"ipx::infer_bus_interface {wrapper.reset} xilinx.com:signal:reset_rtl:1.0 $core\n",
-             "ipx::infer_bus_interface irq_o xilinx.com:signal:interrupt_rtl:1.0 $core\n",
-             "ipx::add_memory_map registers $core\n",
-             "set block [ipx::add_address_block can [ipx::get_memory_maps registers -of_objects "
-             "$core]]\n",
-             "set_property range 8192 $block\n", "set_property width 32 $block\n"]
+             *vivado_bus(wrapper)]
     for entry in wrapper.parameters:
         lines.append(f"set parameter [ipx::get_user_parameters {entry.name} -of_objects $core]\n")
-        lines.append(f"set_property value {entry.number} $parameter\n")
+        lines.append(f"set_property value {entry.packaged} $parameter\n")
         if allowed(entry.name):
             lines.append("set_property value_validation_type list $parameter\n"
                          "set_property value_validation_list {"
@@ -67,7 +87,11 @@ def vivado(wrapper):
 
 
 def quartus(wrapper):
-    """fpga/quartus/can_hw.tcl."""
+    """fpga/quartus/can_hw.tcl. Platform Designer takes the width of the address for the size of the
+    slave, so that the top is the shell whose addresses end with the window."""
+    top = f"{wrapper.module}_window"
+    ports = window_ports(wrapper)
+    after_bus = len(wrapper.bus_ports)
     lines = [HEAD.format(what="can_hw.tcl: the core on AXI4-Lite as a component of Platform "
                          "Designer; its folder goes into the IP search path.", tool="Quartus"),
              "package require -exact qsys 16.1\n",
@@ -76,10 +100,12 @@ def quartus(wrapper):
              "set_module_property DISPLAY_NAME {VeriCAN CAN 2.0 controller}\n",
              "set_module_property GROUP {Interface Protocols}\n",
              "add_fileset rtl QUARTUS_SYNTH {} {}\n",
-             f"set_fileset_property rtl TOP_LEVEL {wrapper.module}\n"]
+             f"set_fileset_property rtl TOP_LEVEL {top}\n"]
     for name in rtl_files():
         lines.append(f"add_fileset_file {name} SYSTEM_VERILOG PATH [file join $root {name}]\n")
-    for entry in wrapper.parameters:
+    lines.append(f"add_fileset_file verilog/{top}.v VERILOG PATH "
+                 f"[file join $root verilog {top}.v]\n")
+    for entry in window_parameters(wrapper):
         kind = "INTEGER" if not entry.width else f"STD_LOGIC_VECTOR {{}}; # {entry.width} bits"
         kind = kind.split(" ")[0]
         lines.append(f"add_parameter {entry.name} {kind} {entry.number}\n"
@@ -98,7 +124,7 @@ def quartus(wrapper):
               "set_interface_property s associatedClock clock\n",
               "set_interface_property s associatedReset reset\n",
               "set_interface_property s CMSIS_SVD_FILE [file join $root sw verican.svd]\n"]
-    for port in wrapper.bus_ports[2:]:
+    for port in ports[2:after_bus]:
         lines.append(f"add_interface_port s {port.name} {port.name} {port.direction.capitalize()} "
                      f"{port.width}\n")
     lines += ["add_interface irq interrupt end\n",
@@ -107,7 +133,7 @@ def quartus(wrapper):
               "set_interface_property irq associatedReset reset\n",
               "add_interface_port irq irq_o irq Output 1\n",
               "add_interface can conduit end\n"]
-    for port in wrapper.common_ports[1:]:
+    for port in ports[after_bus + 1:]:
         lines.append(f"add_interface_port can {port.name} {port.name} "
                      f"{port.direction.capitalize()} {port.width}\n")
     return "".join(lines)

@@ -18,6 +18,11 @@ COMMENT = re.compile(r"^\s*///\s?(.*)$")
 FIRST_COMMON = "irq_o"
 
 
+# Defaults of packages that give the core no more addresses than its window has, so that it may lie
+# at any multiple of it: the RTL's region is larger, and has errors in it.
+PACKAGED = {"RegionBits": 13}
+
+
 @dataclass
 class Parameter:
     """A parameter with its default as it is written; `width` is 0 of an int."""
@@ -33,6 +38,11 @@ class Parameter:
         if not based:
             return int(self.default)
         return int(based[2].replace("_", ""), 16 if based[1] == "h" else 10)
+
+    @property
+    def packaged(self):
+        """The default in a package that has an address map."""
+        return PACKAGED.get(self.name, self.number)
 
 
 @dataclass
