@@ -11,6 +11,7 @@ import re
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import design
@@ -30,6 +31,11 @@ module user_top (
 {pins});
 endmodule
 """
+
+
+def modules(text):
+    """The names of the modules in a file."""
+    return re.findall(r"^module (\w+)", text, re.MULTILINE)
 
 
 class FlatFile(unittest.TestCase):
@@ -60,12 +66,22 @@ class FlatFile(unittest.TestCase):
                 self.assertIn(f"(* {name} = ", text)
 
     def test_two_builds_fit_one_design(self):
-        names = [re.findall(r"^module (\w+)", file.read_text(encoding="utf-8"), re.MULTILINE)
-                 for _, _, file in self.builds]
+        names = [modules(file.read_text(encoding="utf-8")) for _, _, file in self.builds]
         every = [name for build in names for name in build]
         self.assertEqual(len(every), len(set(every)))
+        number = source.version().replace(".", "_")
         for (wrapper, size, _), build in zip(self.builds, names):
-            self.assertTrue(all(re.search(rf"_{wrapper.bus}_{size}x*$", name) for name in build))
+            end = rf"_{wrapper.bus}_{size}_{number}x*$"
+            self.assertTrue(all(re.search(end, name) for name in build), build)
+
+    def test_two_versions_fit_one_design(self):
+        wrapper, size, file = self.builds[0]
+        with tempfile.TemporaryDirectory() as work, \
+                unittest.mock.patch.object(flat, "version", return_value="9.8.7"):
+            other = modules(flat.render(wrapper, size, Path(work)))
+        mine = modules(file.read_text(encoding="utf-8"))
+        self.assertEqual(len(other), len(mine))
+        self.assertEqual(set(other) & set(mine), set())
 
     def test_smoke_bench_passes(self):
         for wrapper, size, file in self.builds:
@@ -73,7 +89,7 @@ class FlatFile(unittest.TestCase):
             bench = sorted((design.ROOT / "tb/smoke").glob("*.v"))
             code, text = design.run(
                 "iverilog", "-g2005-sv", "-s", "can_smoke", *others,
-                f"-DCAN_{wrapper.bus.upper()}=can_{wrapper.bus}_{size}", "-o", self.out / "smoke",
+                f"-DCAN_{wrapper.bus.upper()}={flat.top(wrapper, size)}", "-o", self.out / "smoke",
                 file, *bench)
             self.assertEqual((code, text), (0, ""))
             self.assertEqual(design.run("vvp", "-n", self.out / "smoke")[1].splitlines()[:1],
@@ -86,7 +102,7 @@ class FlatFile(unittest.TestCase):
                 for port in wrapper.ports)
             pins = ",\n".join(f"    .{port.name}({port.name})" for port in wrapper.ports)
             (self.out / "user_top.v").write_text(USER.format(
-                ports=ports, pins=pins, module=f"can_{wrapper.bus}_{size}"), encoding="utf-8")
+                ports=ports, pins=pins, module=flat.top(wrapper, size)), encoding="utf-8")
             code, text = design.run(
                 "yosys", "-q", "-p", f"read_verilog user_top.v {file}; hierarchy -check -top "
                 "user_top; proc; flatten; opt_clean; check -assert", cwd=self.out)
@@ -104,7 +120,7 @@ class FlatFile(unittest.TestCase):
 
     def test_its_rams_are_found(self):
         for wrapper, size, file in self.builds:
-            top = f"can_{wrapper.bus}_{size}"
+            top = flat.top(wrapper, size)
             mine = self.memories(f"read_verilog {file}; hierarchy -check -top {top}; proc")
             self.assertEqual(mine, self.memories(flat.read_sources(wrapper, size)))
             self.assertEqual(len(mine), 3)

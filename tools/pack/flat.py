@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """flat: a build of the core as one file of Verilog-2005, for tools without SystemVerilog. Yosys
-writes it after `proc`; the modules of the core keep their names with the build behind them, and the
-RAM comes from a template, because Yosys would write it bit by bit and no tool would find it.
+writes it after `proc`; the modules of the core keep their names with build and version behind them,
+so that several of both fit one design, and the RAM comes from a template, because Yosys would write
+it bit by bit and no tool would find it.
 """
 import re
 import subprocess
@@ -83,9 +84,19 @@ def read_sources(wrapper, size):
             f"hierarchy -check -top {wrapper.module} -chparam NumMb {size}; proc")
 
 
+def suffix(wrapper, size):
+    """What stands behind the names of a build's modules: wb_16_0_1_0."""
+    return f"{wrapper.bus}_{size}_{version().replace('.', '_')}"
+
+
+def top(wrapper, size):
+    """The name of a build's top."""
+    return f"can_{suffix(wrapper, size)}"
+
+
 def new_names(text, wrapper, size):
     """RTLIL name of each module of the build -> its name in the file."""
-    build = f"{wrapper.bus}_{size}"
+    behind = suffix(wrapper, size)
     names, taken = {}, set()
     for kind, old in MODULE.findall(text):
         if not kind.startswith("module"):
@@ -93,11 +104,11 @@ def new_names(text, wrapper, size):
         depth = DEPTH.search(old)
         plain = re.search(r"\\(can_\w+)", old)[1]
         if plain == wrapper.module:
-            new = f"can_{build}"
+            new = top(wrapper, size)
         elif depth:
-            new = f"can_mb_ram_{int(depth[1], 2)}_{build}"
+            new = f"can_mb_ram_{int(depth[1], 2)}_{behind}"
         else:
-            new = f"{plain}_{build}"
+            new = f"{plain}_{behind}"
         while new in taken:
             new += "x"
         taken.add(new)
@@ -130,7 +141,7 @@ def render(wrapper, size, work):
                        for name, depth in sorted(rams.items()))
     lines = body.read_text(encoding="utf-8").splitlines(keepends=True)
     text = "".join(line for line in lines if not YOSYS_OWN.match(line))
-    head = HEAD.format(top=f"can_{wrapper.bus}_{size}", version=version(), size=size,
+    head = HEAD.format(top=top(wrapper, size), version=version(), size=size,
                        module=wrapper.module)
     return head + memories + text
 
@@ -145,13 +156,13 @@ def prove(wrapper, size, file, work):
     points that were compared. The RAMs' ports become ports of the core, so that what goes into a
     RAM is compared and what comes out of it is any."""
     rams = build(wrapper, size, work)
-    top = f"can_{wrapper.bus}_{size}"
-    bare = (f"{blackboxes(rams)} hierarchy -top {top}; flatten; opt_clean; "
-            f"expose -evert {top}/t:can_mb_ram*; opt_clean")
+    name = top(wrapper, size)
+    bare = (f"{blackboxes(rams)} hierarchy -top {name}; flatten; opt_clean; "
+            f"expose -evert {name}/t:can_mb_ram*; opt_clean")
     text = yosys(
         f"read_rtlil {work / 'renamed.il'}; {bare}; design -stash gold; "
-        f"read_verilog {file}; hierarchy -check -top {top}; proc; {bare}; design -stash gate; "
-        f"design -copy-from gold -as gold {top}; design -copy-from gate -as gate {top}; "
+        f"read_verilog {file}; hierarchy -check -top {name}; proc; {bare}; design -stash gate; "
+        f"design -copy-from gold -as gold {name}; design -copy-from gate -as gate {name}; "
         "select -assert-none t:can_mb_ram*; "
         "equiv_make gold gate equiv; hierarchy -top equiv; async2sync; equiv_struct; equiv_simple; "
         "equiv_induct; tee -a /dev/stdout equiv_status -assert")
