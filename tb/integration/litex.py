@@ -29,7 +29,8 @@ from pack import wrappers as source
 SOC = {"memories": {"controller0": {"base": 0xF0040000, "size": 0x2000},
                     "main_ram": {"base": 0x40000000, "size": 0x10000000}},
        "constants": {"controller0_verican": 1, "controller0_interrupt": 5,
-                     "config_clock_frequency": 50000000}}
+                     "controller0_verican_num_mb": 64, "controller0_verican_fifo": 1,
+                     "controller0_verican_own_masks": 1, "config_clock_frequency": 50000000}}
 USER = Path(__file__).with_name("litex_user.py")
 
 
@@ -171,6 +172,48 @@ class StandIn(unittest.TestCase):
         self.assertEqual(vars(region), {"origin": 0xF0040000, "size": 0x2000, "cached": False})
         self.assertEqual(soc.interrupts, ["controller0"])
         self.assertTrue(hasattr(soc.controller0.ev, "irq"))
+
+    def test_its_constants_are_what_it_has(self):
+        features = [next(iter(line.split("=")))
+                    for line in design.run("tools/profiles.py", "--features")[1].split()]
+        known = {f"c0_verican_{snake}": feature for feature, snake in (
+            (name, re.sub("([a-z])([A-Z])", r"\1_\2", name).lower())
+            for name in features if name not in ("TimeUnit", "TimeSync"))}
+        for profile, buffers, lacks in (("full", 64, set()), ("standard", 32, {"Fifo", "Status"}),
+                                        ("small", 16, set(known.values()))):
+            soc = Soc()
+            self.verican.VeriCAN.add_to(soc, "c0", self.pads, 0, profile=profile)
+            has = {name: int(feature not in lacks) for name, feature in known.items()}
+            self.assertEqual(soc.constants,
+                             {"c0_verican": 1, "c0_verican_num_mb": buffers, **has})
+
+    def node_of(self, **options):
+        """The node of a core that was added so."""
+        soc = Soc()
+        self.verican.VeriCAN.add_to(soc, "c0", self.pads, 0, **options)
+        constants = {**soc.constants, "c0_interrupt": 5, "config_clock_frequency": 50000000}
+        return self.dts.node({"memories": {"c0": {"base": 0}}, "constants": constants}, "c0")
+
+    def test_no_node_for_a_core_that_linux_cannot_drive(self):
+        for options, words in (({"profile": "small"}, "NumMb = 64, Fifo = 1, OwnMasks = 1"),
+                               ({"profile": "standard", "num_mb": 64}, "needs Fifo = 1"),
+                               ({"profile": "full", "num_mb": 32}, "needs NumMb = 64")):
+            with self.subTest(options), self.assertRaisesRegex(ValueError, words):
+                self.node_of(**options)
+        self.assertIn("fsl,ls1021ar2-flexcan", self.node_of(profile="full"))
+        old = {**SOC, "constants": {name: value for name, value in SOC["constants"].items()
+                                    if not name.startswith("controller0_verican_")}}
+        with self.assertRaisesRegex(ValueError, "controller0 is no core for Linux"):
+            self.dts.nodes(old)
+
+    def test_interrupts_of_an_aplic_have_flags(self):
+        for memory, label in (("aplic_s", "intc_s"), ("aplic_m", "intc_m")):
+            soc = {**SOC, "memories": {**SOC["memories"], memory: {"base": 0xC000000}}}
+            text = self.dts.nodes(soc)
+            self.assertIn("interrupts = <5 0x4>;", text)
+            self.assertIn(f"interrupt-parent = <&{label}>;", text)
+            self.compiles(text)
+        self.assertIn("interrupt-parent = <&other>;", self.dts.nodes(SOC, "other"))
 
     def test_bad_input_is_told(self):
         for options, words in (({"profile": "tiny"}, "small, standard, full"),

@@ -13,7 +13,8 @@ from migen import ClockSignal, Instance, Module, ResetSignal, Signal
 from litex.soc.integration.soc import SoCRegion
 from litex.soc.interconnect import wishbone
 
-from verican.profiles import load_profiles
+from verican.dts import constant
+from verican.profiles import FEATURES, load_profiles
 
 WINDOW = 0x2000  # bytes
 SIZES = (16, 32, 64)
@@ -62,6 +63,8 @@ class VeriCAN(Module):
         parameters = dict(profiles[profile])
         if num_mb is not None:
             parameters["NumMb"] = num_mb
+        self.has = {"NumMb": parameters["NumMb"],
+                    **{name: parameters.get(name, 1) for name in FEATURES}}
         self.bus = wishbone.Interface(data_width=32, adr_width=30)
         self.submodules.ev = Interrupt()
 
@@ -79,7 +82,8 @@ class VeriCAN(Module):
 
     @classmethod
     def add_to(cls, soc, name, pads, origin, **options):
-        """Adds a core named `name` at address `origin` to a SoC, with its region and interrupt.
+        """Adds a core named `name` at address `origin` to a SoC, with its region and interrupt, and
+        constants that tell software and verican/dts.py what it has.
 
         LiteX' device-tree tool takes every region with "can" in its name for another controller, so
         such names are refused.
@@ -95,4 +99,6 @@ class VeriCAN(Module):
         if getattr(soc, "irq", None) is not None and soc.irq.enabled:
             soc.irq.add(name, use_loc_if_exists=True)
         soc.add_constant(f"{name}_verican", 1)
+        for parameter, value in core.has.items():
+            soc.add_constant(constant(name, parameter), value)
         return core

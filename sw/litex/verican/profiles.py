@@ -3,6 +3,9 @@
 """profiles: the builds of sw/profiles.yaml, which lies beside the RTL."""
 import yaml
 
+# What a core has if a profile does not say that it has not.
+FEATURES = ("Fifo", "Abort", "Status", "OwnMasks", "Wake", "Extras", "ClearRam")
+
 
 def load_profiles(rtl):
     """name -> parameters of the profile; `rtl` is the folder with can.f."""
