@@ -25,6 +25,9 @@ GIVEN = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else None
 BUILDS = sys.argv[2:] or ["wb_16"]
 # In place of the bitstream, which takes two minutes; make dist takes the true one.
 IMAGE = bytes.fromhex("FF007EAA997E") + bytes(range(256))
+# Of what lies in the archive and pages of it name.
+PATH = re.compile(r"\b(?:sw/(?:litex|driver|remote)|rtl|constraints|examples/hx8k)"
+                  r"/[\w./*-]*(?:[\w*/]|\.\[\w+\])")
 LINK = re.compile(r"\]\(([^()\s#:]+)(#[^()\s]*)?\)")
 
 
@@ -242,18 +245,42 @@ class Archive(unittest.TestCase):
             self.smoke("-g2005-sv", [file], [*others, f"-DCAN_{bus.upper()}={top}"])
 
     def test_driver_is_compiled(self):
-        sources = sorted((self.ip / "driver/src").glob("*.c"))
+        sources = sorted((self.ip / "sw/driver/src").glob("*.c"))
         self.assertGreater(len(sources), 3)
         for source in sources:
             code, text = run("gcc", "-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror", "-c",
-                             "-I", self.ip / "driver/include", "-o", self.work / "driver.o",
+                             "-I", self.ip / "sw/driver/include", "-o", self.work / "driver.o",
                              source)
             self.assertEqual((code, text), (0, ""))
+
+    def test_client_of_remote_nodes_is_compiled(self):
+        sources = [*sorted((self.ip / "sw/remote/src").glob("*.c")),
+                   self.ip / "sw/remote/verican_remote_driver.c"]
+        self.assertGreater(len(sources), 3)
+        for source in sources:
+            code, text = run("gcc", "-std=c99", "-Wall", "-Wextra", "-c", "-I",
+                             self.ip / "sw/remote", "-I", self.ip / "sw/driver/include", "-o",
+                             self.work / "remote.o", source)
+            self.assertEqual((code, text), (0, ""))
+
+    def test_what_pages_name_of_it_is_there(self):
+        """Paths in commands and in the text, of the parts for whoever takes the archive."""
+        for page in self.ip.glob("docs/*.md"):
+            for path in PATH.findall(page.read_text(encoding="utf-8")):
+                self.assertTrue(list(self.ip.glob(path.rstrip("/."))), f"{page.name}: {path}")
+
+    def test_rtl_of_remote_nodes_comes_with_its_pages(self):
+        for name in ("docs/remote.md", "docs/remote-node.md", "docs/hx8k.md", "rtl/remote",
+                     "sw/remote/verican_remote.py", "tools/remote_memory.py"):
+            self.assertTrue((self.ip / name).exists(), name)
+        text = (self.ip / "docs/integration.md").read_text(encoding="utf-8")
+        for page in ("remote.md", "hx8k.md"):
+            self.assertIn(f"[{page}]({page})", text)
 
     def test_core_file_and_package_are_whole(self):
         self.assertEqual(run("/usr/bin/python3", "-B", "tools/core_check.py", cwd=self.ip),
                          (0, "can.core: 0 problems\n"))
-        for place in ("litex/verican/__init__.py", "sw/profiles.yaml", "sw/verican.svd",
+        for place in ("sw/litex/verican/__init__.py", "sw/profiles.yaml", "sw/verican.svd",
                       "ipxact/can_axil.xml", "fpga/vivado/package.tcl", "verilog/can_axil_v.v"):
             self.assertTrue((self.ip / place).is_file(), place)
 

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """contents: what the archive for integrators holds."""
-import os
 import shutil
 import subprocess
 import sys
@@ -9,18 +8,15 @@ from pathlib import Path
 
 from pack.wrappers import ROOT
 
-# Committed files of a folder or file -> place in the archive.
-TAKEN = {"rtl": "rtl", "constraints": "constraints", "tb/smoke": "tb/smoke", "can.core": "can.core",
-         "sw/litex": "litex", "sw/driver/src": "driver/src", "sw/driver/include": "driver/include",
-         "sw/verican.svd": "sw/verican.svd", "sw/registers.yaml": "sw/registers.yaml",
-         "sw/profiles.yaml": "sw/profiles.yaml", "examples/hx8k": "examples/hx8k",
-         "LICENSE": "LICENSE", "LICENSES": "LICENSES", "CHANGELOG.md": "CHANGELOG.md",
-         "docs/integration.md": "docs/integration.md", "docs/registers.md": "docs/registers.md",
-         "docs/img/registers": "docs/img/registers", "docs/errata.md": "docs/errata.md",
-         "docs/synthesis.md": "docs/synthesis.md", "docs/driver.md": "docs/driver.md",
-         "docs/synthesis-families.md": "docs/synthesis-families.md", "docs/time.md": "docs/time.md",
-         "tools/core_check.py": "tools/core_check.py",
-         "tools/constraints.py": "tools/constraints.py"}
+# Committed files and folders, which lie in the archive where they lie here: pages name their paths.
+TAKEN = ("rtl", "constraints", "tb/smoke", "can.core", "sw/litex", "sw/driver/src",
+         "sw/driver/include", "sw/remote", "sw/verican.svd", "sw/registers.yaml",
+         "sw/profiles.yaml", "examples/hx8k", "examples/remote/board", "LICENSE", "LICENSES",
+         "CHANGELOG.md", "docs/integration.md", "docs/registers.md", "docs/img/registers",
+         "docs/errata.md", "docs/synthesis.md", "docs/synthesis-families.md", "docs/driver.md",
+         "docs/time.md", "docs/hx8k.md", "docs/remote.md", "docs/remote-node.md",
+         "docs/remote-cabinet.svg", "tools/core_check.py", "tools/constraints.py",
+         "tools/remote_memory.py")
 README = """\
 # VeriCAN for integrators
 
@@ -32,18 +28,19 @@ Begin with the table "I use ..." of docs/integration.md. What is where:
 | rtl | SystemVerilog, in the order of rtl/can.f |
 | verilog | a build a file in Verilog-2005; shells with a Verilog top |
 | lists | the file list as paths, and for Tcl |
-| can.core, litex, ipxact, fpga | for FuseSoC, LiteX, IP-XACT tools, Vivado, Quartus, Libero |
+| can.core, ipxact, fpga | for FuseSoC, IP-XACT tools, Vivado, Quartus, Libero |
 | constraints | by FPGA family; tools/constraints.py writes them for an instance in a design |
 | examples/hx8k | a CAN node at a serial port; can_hx8k.bin, if it was made: its bitstream |
+| examples/remote | boards with a node without a processor (docs/remote.md) |
 | tb/smoke | a first frame in loop-back through each bus |
-| driver, sw | C driver; SVD file, register map, profiles |
+| sw | C driver, LiteX module, client of remote nodes; SVD file, register map, profiles |
 
 Licences: each file names its own; texts in LICENSES. MANIFEST: SHA-256, size, path of every file.
 """
 
 
 def committed(place):
-    """The committed files below a place of the project, relative to it."""
+    """The committed files at or below a place of the project."""
     done = subprocess.run(["git", "ls-files", "--", place], cwd=ROOT, check=True, text=True,
                           stdout=subprocess.PIPE)
     return done.stdout.splitlines()
@@ -52,22 +49,18 @@ def committed(place):
 def stage(folder, flat, bitstream=None):
     """Fills the folder. flat: builds in Verilog-2005; bitstream: that of the board, if there is
     one."""
-    for place, target in TAKEN.items():
+    for place in TAKEN:
         files = committed(place)
         if not files:
             sys.exit(f"dist.py: {place} has no committed file")
         for name in files:
-            path = folder / target / os.path.relpath(name, place) if name != place \
-                else folder / target
-            path.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(ROOT / name, path)
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, folder / name)
     (folder / "README.md").write_text(README, encoding="utf-8")
     if bitstream:
         shutil.copyfile(bitstream, folder / "examples/hx8k/can_hx8k.bin")
     package = [sys.executable, "-B", ROOT / "tools/package.py", folder, "--flat", *flat]
     # Links of pages to what is not here become text.
-    places = [f"{place}={folder / target}" for place, target in TAKEN.items()
-              if not place.startswith("docs")]
-    links = [sys.executable, "-B", ROOT / "cmake/installed_docs.py", ROOT, folder, *places]
+    links = [sys.executable, "-B", ROOT / "cmake/installed_docs.py", ROOT, folder]
     for command in (package, links):
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
