@@ -33,7 +33,9 @@ $(for file in tb/smoke/*.v; do echo "      - $file"; done)
       - examples/hx8k/can_hx8k.sv
       - examples/hx8k/hx8k.pcf: {file_type: PCF}
 
-# Without a value here each has the default of the RTL.
+# Without a value here each has the default of the RTL. TimeInc is not here: it has 40 bits, and not
+# every tool takes more than 32 of them on its command line. A design that depends on the core, and
+# software, can set it.
 parameters:
   NumMb:
     datatype: int
@@ -69,11 +71,23 @@ parameters:
     paramtype: vlogparam
   TimeUnit:
     datatype: int
-    description: 1 for the time unit (clock, frame stamps, compare, launch time)
+    description: 1 for the time unit; its clock starts with 20 ns, for 50 MHz (TimeInc)
     paramtype: vlogparam
   TimeSync:
     datatype: int
     description: 1 for the follower that keeps the clock of the time unit to a master's
+    paramtype: vlogparam
+  SyncCtrl:
+    datatype: int
+    description: Value of TSCTRL after a hard reset
+    paramtype: vlogparam
+  SyncId:
+    datatype: int
+    description: Value of TSID after a hard reset (a base identifier in bits 28 to 18)
+    paramtype: vlogparam
+  SyncDelay:
+    datatype: int
+    description: Value of TSDLY after a hard reset (24 bits)
     paramtype: vlogparam
   RegionBits:
     datatype: int
@@ -105,6 +119,9 @@ targets:
       - "is_toplevel? (ClearRam)"
       - "is_toplevel? (TimeUnit)"
       - "is_toplevel? (TimeSync)"
+      - "is_toplevel? (SyncCtrl)"
+      - "is_toplevel? (SyncId)"
+      - "is_toplevel? (SyncDelay)"
       - "is_toplevel? (RegionBits)"
       - "is_toplevel? (CheckHprot)"
       - "is_toplevel? (WakeFilter)"
