@@ -23,6 +23,9 @@ HostConfig host_config(const BitTiming &timing, const PortOptions &options) {
   return config;
 }
 
+// Format and number; a data frame and a remote frame may share them.
+canid_t identifier_of(const can_frame &frame) { return frame.can_id & ~CAN_RTR_FLAG; }
+
 }  // namespace
 
 // ---- Outbox
@@ -95,9 +98,18 @@ void PortNode::take() {
       continue;
     }
     ++counts_.from_host;
+    // Of equal identifiers the core sends that in the lowest buffer, not the oldest: it has one.
+    const bool goes =
+        !options_.by_identifier || first_of(identifier_of(message->frame)) == queue_.end();
     queue_.push_back(*message);
-    host_.send(*frame);
+    if (goes) host_.send(*frame);
   }
+}
+
+std::deque<PortMessage>::iterator PortNode::first_of(canid_t identifier) {
+  return std::find_if(queue_.begin(), queue_.end(), [&](const PortMessage &message) {
+    return identifier_of(message.frame) == identifier;
+  });
 }
 
 void PortNode::on_bit(const BitRecord &bit) {
@@ -137,17 +149,16 @@ void PortNode::on_sent(Time end) {
 
 void PortNode::on_told(const HostFrame &sent) {
   if (!options_.by_identifier) return;  // seen earlier, in on_bit()
-  const can_frame frame = to_can_frame(sent.frame);
-  const auto found = std::find_if(queue_.begin(), queue_.end(), [&](const PortMessage &message) {
-    return message.frame.can_id == frame.can_id && message.frame.len == frame.len &&
-           std::equal(message.frame.data, message.frame.data + frame.len, frame.data);
-  });
+  const canid_t identifier = identifier_of(to_can_frame(sent.frame));
+  const auto found = first_of(identifier);
   if (found == queue_.end() || ends_.empty())
     throw std::logic_error("a frame has left that nobody has sent");
   const PortMessage message = *found;
   queue_.erase(found);
   echo(message, ends_.front());
   ends_.pop_front();
+  const auto next = first_of(identifier);
+  if (next != queue_.end()) host_.send(*from_can_frame(next->frame));
 }
 
 void PortNode::echo(PortMessage message, Time end) {

@@ -23,7 +23,7 @@ struct PortOptions {
   std::vector<IdFilter> filters{};  ///< frames of the bus for the programs; empty: all
   Time restart = 0;  ///< simulated time from bus-off to the begin of recovery; 0: only restart()
   /// Of the frames that the node holds the lowest identifier leaves first, not the oldest; frames
-  /// of one identifier may then change places.
+  /// of one identifier keep their order.
   bool by_identifier = false;
 };
 
@@ -98,6 +98,8 @@ class PortNode {
   void on_received(const HostFrame &frame);
   void on_sent(Time end);
   void on_told(const HostFrame &sent);
+  /// The oldest frame of this identifier and format; by_identifier it alone is in the core.
+  [[nodiscard]] std::deque<PortMessage>::iterator first_of(canid_t identifier);
   void echo(PortMessage message, Time end);
   void enter_bus_off();
 
@@ -107,7 +109,7 @@ class PortNode {
   Time bit_time_, after_sample_;
   ErrorMessages errors_;
   Outbox outbox_;
-  std::deque<PortMessage> queue_;  // given to the host, not yet sent
+  std::deque<PortMessage> queue_;  // taken from the port, not yet sent
   std::deque<Time> ends_;          // by_identifier: of frames that have left, not yet told by it
   PortCounts counts_;
   bool bus_off_ = false;

@@ -243,6 +243,22 @@ class ScenarioValues(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "program or identifier"):
             Bus(["a"], order="age")
 
+    def test_order_within_an_identifier(self):
+        # More frames than the core has buffers, in which the lowest buffer wins among equals; 29
+        # bits and 11 bits with the same number are two identifiers.
+        bus = Bus(["a", "b"], bitrate=1e6, order="identifier")
+        for i in range(24):
+            bus.send("a", Frame(0x123, bytes([i]), extended=i % 4 == 3, remote=False))
+            bus.send("a", Frame(0x7FF, remote=i % 2 == 1))
+        self.assertTrue(bus.run_until_quiet())
+        got = [message for message in bus.receive("b") if not message.error]
+        for extended in (False, True):
+            self.assertEqual([m.data[0] for m in got if m.id == 0x123 and m.extended == extended],
+                             [i for i in range(24) if (i % 4 == 3) == extended])
+        self.assertEqual([m.remote for m in got if m.id == 0x7FF], 12 * [False, True])
+        echoes = [message for message in bus.receive("a") if message.echo]
+        self.assertEqual([(m.id, m.data) for m in echoes], [(m.id, m.data) for m in got])
+
     def test_response_times(self):
         # Davis, Burns, Bril and Lukkien 2007, table 1: three messages that take 1 ms each, here of
         # 135 bits at 135 kbit/s.
