@@ -6,9 +6,7 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "bridge/frame_form.hpp"
 #include "bus/range.hpp"
@@ -16,6 +14,7 @@
 #include "results/report.hpp"
 #include "timing/analysis.hpp"
 #include "trace/input_error.hpp"
+#include "values.hpp"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -33,40 +32,6 @@ Time to_ps(const char *what, double seconds) {
 }
 
 double to_seconds(Time time) { return static_cast<double>(time) / kSecondPs; }
-
-Frame make_frame(std::uint32_t id, const py::bytes &data, bool extended, bool remote,
-                 std::optional<unsigned> dlc) {
-  const std::string_view bytes = data;
-  Frame frame{.id = id, .extended = extended, .remote = remote};
-  if (bytes.size() > frame.data.size()) throw std::invalid_argument("a frame has 0 to 8 bytes");
-  const unsigned code = dlc.value_or(static_cast<unsigned>(bytes.size()));
-  if (code > 15) throw std::invalid_argument("a DLC is 0 to 15");
-  frame.dlc = static_cast<std::uint8_t>(code);
-  if (bytes.size() != frame.payload_size())
-    throw std::invalid_argument("a DLC of " + std::to_string(code) + " means " +
-                                std::to_string(frame.payload_size()) + " bytes, not " +
-                                std::to_string(bytes.size()));
-  std::memcpy(frame.data.data(), bytes.data(), bytes.size());
-  frame.validate();
-  return frame;
-}
-
-py::bytes payload(const Frame &frame) {
-  return {reinterpret_cast<const char *>(frame.data.data()), frame.payload_size()};
-}
-
-// As Python writes it: Frame(0x123, b'\x01').
-std::string to_text(const Frame &frame) {
-  const auto flag = [](bool set, const char *text) { return set ? text : ""; };
-  return py::str("Frame({:#x}, {!r}{}{}, dlc={})")
-      .format(frame.id, payload(frame), flag(frame.extended, ", extended=True"),
-              flag(frame.remote, ", remote=True"), unsigned{frame.dlc});
-}
-
-const char *state_of(const Trace &trace) {
-  if (trace.bus_off) return "bus-off";
-  return trace.passive ? "passive" : "active";
-}
 
 Effect effect_of(const std::string &word) {
   if (word == "flip") return Effect::kFlip;
@@ -94,63 +59,6 @@ std::unique_ptr<ProgramBus> make_bus(const std::vector<std::string> &nodes, doub
   setup.by_identifier = order == "identifier";
   if (!vcd.empty()) setup.scenario.outputs.vcd = vcd;
   return std::make_unique<ProgramBus>(std::move(setup));
-}
-
-// Identifier of a message with SocketCAN's flags taken off.
-std::uint32_t id_of(const PortMessage &message) {
-  const std::uint32_t id = message.frame.can_id;
-  if ((id & CAN_ERR_FLAG) != 0) return id & CAN_ERR_MASK;
-  return (id & CAN_EFF_FLAG) != 0 ? id & CAN_EFF_MASK : id & CAN_SFF_MASK;
-}
-
-template <std::uint32_t kFlag>
-bool has(const PortMessage &message) {
-  return (message.frame.can_id & kFlag) != 0;
-}
-
-py::bytes data_of(const PortMessage &message) {
-  const bool remote = has<CAN_RTR_FLAG>(message) && !has<CAN_ERR_FLAG>(message);
-  return {reinterpret_cast<const char *>(message.frame.data),
-          remote ? 0U : std::size_t{message.frame.len}};
-}
-
-void bind_values(py::module_ &m) {
-  py::class_<Frame>(m, "Frame", "A data or remote frame; a value.")
-      .def(py::init(&make_frame), "id"_a, "data"_a = py::bytes(), "extended"_a = false,
-           "remote"_a = false, "dlc"_a = py::none())
-      .def_readonly("id", &Frame::id)
-      .def_readonly("extended", &Frame::extended)
-      .def_readonly("remote", &Frame::remote)
-      .def_readonly("dlc", &Frame::dlc)
-      .def_property_readonly("data", &payload)
-      .def("__eq__", [](const Frame &a, const Frame &b) { return a == b; })
-      .def("__repr__", &to_text);
-  py::class_<PortMessage>(m, "Message",
-                          "What a node has for its program: a frame, or an error message in "
-                          "SocketCAN's form (linux/can/error.h).")
-      .def_property_readonly("id", &id_of)
-      .def_property_readonly("extended", &has<CAN_EFF_FLAG>)
-      .def_property_readonly("remote", &has<CAN_RTR_FLAG>)
-      .def_property_readonly("error", &has<CAN_ERR_FLAG>)
-      .def_property_readonly("data", &data_of)
-      .def_property_readonly("dlc", [](const PortMessage &of) { return of.frame.len; })
-      .def_readonly("echo", &PortMessage::echo, "True: the node's own frame has left.")
-      .def_readonly("time_ps", &PortMessage::time, "Of the bus's own clock: Bus.started_ps is 0 s.")
-      .def("__repr__", [](const PortMessage &message) {
-        return py::str("Message({}id={:#x}, data={!r}, dlc={})")
-            .format(has<CAN_ERR_FLAG>(message) ? "error, "
-                    : message.echo             ? "echo, "
-                                               : "",
-                    id_of(message), data_of(message), unsigned{message.frame.len});
-      });
-  py::class_<Trace>(m, "NodeState", "Error counters and state of a core.")
-      .def_readonly("tec", &Trace::tec)
-      .def_readonly("rec", &Trace::rec)
-      .def_property_readonly("state", &state_of, "active, passive or bus-off")
-      .def("__repr__", [](const Trace &trace) {
-        return std::string{"NodeState("} + state_of(trace) + ", tec " + std::to_string(trace.tec) +
-               ", rec " + std::to_string(trace.rec) + ")";
-      });
 }
 
 void send(ProgramBus &bus, const std::string &node, const Frame &frame) {

@@ -124,6 +124,15 @@ class PythonBus(unittest.TestCase):
             bus.step(seconds=4.5e-3)
             self.assertEqual(heard(bus, "probe"), 5 * [(0x42, b"\x01\x02")])
 
+    def test_raw_dlc_of_messages(self):
+        # FF-08: 9 to 15 mean eight bytes, and travel as they are.
+        bus = Bus(["a", "b"])
+        for code in range(16):
+            bus.send("a", Frame(0x100, bytes(min(code, 8)), dlc=code))
+        bus.run_until_quiet()
+        for node in bus.nodes:
+            self.assertEqual([m.dlc for m in bus.receive(node)], list(range(16)))
+
     def test_a_waveform_on_demand(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "bus.vcd"
@@ -145,6 +154,9 @@ class PythonRefusal(unittest.TestCase):
         self.refused("7FF|2047", lambda: Frame(0x800))
         self.refused("0 to 8 bytes", lambda: Frame(1, b"123456789"))
         self.refused("DLC of 2", lambda: Frame(1, b"1", dlc=2))
+        for number in (-1, 1 << 29, 1 << 32, 1 << 80):
+            self.refused(f"{number}: 0 to 536870911", lambda n=number: Frame(n, extended=True))
+            self.refused(f"{number}: 0 to 15", lambda n=number: Frame(1, dlc=n))
 
     def test_nodes_rates_and_times_that_cannot_be(self):
         bus = Bus(["a"])
