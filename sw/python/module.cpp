@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "bridge/frame_form.hpp"
@@ -24,10 +25,10 @@ namespace {
 
 constexpr double kSecondPs = 1e12;
 
-Time to_ps(const char *what, double seconds) {
-  constexpr double kMost = 1e6;
-  if (!(seconds >= 0 && seconds <= kMost))
-    throw std::invalid_argument(std::string{what} + ": 0 to 1000000 s are allowed");
+Time to_ps(const char *what, double seconds, Time most = 1'000'000 * kSecond) {
+  if (!(seconds >= 0 && seconds * kSecondPs <= static_cast<double>(most)))
+    throw std::invalid_argument(std::string{what} + ": 0 to " + std::to_string(most / kSecond) +
+                                " s are allowed");
   return static_cast<Time>(std::llround(seconds * kSecondPs));
 }
 
@@ -38,6 +39,18 @@ Effect effect_of(const std::string &word) {
   if (word == "dominant") return Effect::kDominant;
   if (word == "recessive") return Effect::kRecessive;
   throw std::invalid_argument("effect '" + word + "': flip, dominant or recessive");
+}
+
+// Signals, so that Ctrl-C ends a long step. Python handles them in its main thread; others need not
+// take the interpreter's lock from it.
+std::function<void()> signal_check() {
+  const auto main_thread =
+      py::module_::import("threading").attr("main_thread")().attr("ident").cast<unsigned long>();
+  return [main_thread] {
+    if (PyThread_get_thread_ident() != main_thread) return;
+    const py::gil_scoped_acquire lock;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  };
 }
 
 std::unique_ptr<ProgramBus> make_bus(const std::vector<std::string> &nodes, double bitrate,
@@ -52,13 +65,17 @@ std::unique_ptr<ProgramBus> make_bus(const std::vector<std::string> &nodes, doub
     setup.scenario = parse_scenario("scenario", scenario);
   else if (!scenario.empty())
     setup.scenario = read_scenario(scenario);
+  else
+    setup.scenario.file = "nodes";  // whose arguments messages are about
   setup.bitrate = bitrate != 0 || !scenario.empty() ? bitrate : 500e3;
   setup.nodes = nodes;
   setup.clock_hz = clock_hz;
   setup.restart = to_ps("restart", restart);
   setup.by_identifier = order == "identifier";
   if (!vcd.empty()) setup.scenario.outputs.vcd = vcd;
-  return std::make_unique<ProgramBus>(std::move(setup));
+  auto bus = std::make_unique<ProgramBus>(std::move(setup));
+  bus->on_look = signal_check();
+  return bus;
 }
 
 void send(ProgramBus &bus, const std::string &node, const Frame &frame) {
@@ -124,8 +141,12 @@ std::vector<std::optional<double>> bounds(
   if (!(bitrate >= 1e3 && bitrate <= 1e6))
     throw std::invalid_argument("bitrate: 1000 to 1000000 bit/s are allowed");
   std::vector<MessageSpec> specs;
-  for (const auto &[bytes, extended, period, jitter] : messages)
+  for (const auto &[bytes, extended, period, jitter] : messages) {
     specs.push_back({bytes, extended, to_ps("period", period), to_ps("jitter", jitter)});
+    // As in scenarios: messages that pile up for hours would be gone through one by one.
+    if (period != 0 && specs.back().jitter >= specs.back().period)
+      throw std::invalid_argument("the jitter must be below the period");
+  }
   std::vector<std::optional<double>> seconds;
   for (const auto &bound : response_times(specs, bit_time_of(bitrate)))
     seconds.push_back(bound ? std::optional{to_seconds(*bound)} : std::nullopt);
@@ -140,7 +161,10 @@ void step(ProgramBus &bus, double seconds, std::int64_t bits) {
 
 void disturb(ProgramBus &bus, const std::string &effect, double begin, double duration,
              const std::string &node) {
-  bus.disturb(node, effect_of(effect), to_ps("begin", begin), to_ps("duration", duration));
+  // Seconds of late times are no longer exact to the picosecond: `now` is now all the same.
+  const Time from =
+      begin == to_seconds(bus.now()) ? bus.now() : to_ps("begin", begin, ProgramBus::kLongestLife);
+  bus.disturb(node, effect_of(effect), from, to_ps("duration", duration));
 }
 
 using Unlocked = py::call_guard<py::gil_scoped_release>;
@@ -199,5 +223,6 @@ PYBIND11_MODULE(_core, m) {
   vericansim::bind_bus(m);
   m.def("response_times", &vericansim::bounds, "messages"_a, "bitrate"_a,
         "Worst-case response times, s, of messages (bytes, extended, period, jitter) in the order "
-        "of their priority; None where the bus is full.");
+        "of their priority; None where the bus is full.",
+        vericansim::Unlocked());
 }

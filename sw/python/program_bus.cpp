@@ -130,7 +130,10 @@ std::size_t ProgramBus::pending(const std::string &node) {
   return of.port->remaining() + of.node->pending();
 }
 
-void ProgramBus::restart(const std::string &node) { worked(node).node->restart(); }
+void ProgramBus::restart(const std::string &node) {
+  check_open();
+  worked(node).node->restart();
+}
 
 Trace ProgramBus::trace(const std::string &node) {
   return decode_trace(simulation_.bus().node(id_of(node)).trace());
@@ -143,7 +146,26 @@ void ProgramBus::on_bit(NodeId id, const BitRecord &bit) {
 // ---- Time
 
 void ProgramBus::check_open() const {
-  if (finished_) throw std::runtime_error("no frame is sent and no step made after finish()");
+  if (finished_)
+    throw std::runtime_error(
+        "no frame is sent, no step made, no node disturbed or restarted after finish()");
+}
+
+Time ProgramBus::end_of(Time duration) {
+  if (duration < 0) throw std::invalid_argument("time passes forwards: no duration is negative");
+  if (duration > kLongestLife - now())
+    throw std::invalid_argument(
+        fmt::format("this would end behind {} s; allowed: a bus lives for that much simulated time",
+                    kLongestLife / kSecond));
+  return simulation_.bus().now() + duration;
+}
+
+void ProgramBus::look() {
+  constexpr Time kLook = 4096;  // bits
+  const Time now = simulation_.bus().now();
+  if (!on_look || now < next_look_) return;
+  next_look_ = now + kLook * bit_time_;
+  on_look();
 }
 
 // All that lets time pass begins here.
@@ -165,19 +187,16 @@ void ProgramBus::run_until(Time when) {
     simulation_.check();
     for (const Worked &worked : worked_) worked.node->check();
     exchange();
+    look();
   }
 }
 
-void ProgramBus::step(Time duration) {
-  if (duration < 0) throw std::invalid_argument("time passes forwards: a step is not negative");
-  run_until(simulation_.bus().now() + duration);
-}
+void ProgramBus::step(Time duration) { run_until(end_of(duration)); }
 
 void ProgramBus::pass(Time duration) {
   constexpr Time kLook = 16;  // bits
-  if (duration < 0) throw std::invalid_argument("time passes forwards: a duration is not negative");
   Bus &bus = simulation_.bus();
-  const Time end = bus.now() + duration;
+  const Time end = end_of(duration);
   exchange();
   while (bus.now() < end) {
     if (quiet()) {
@@ -198,7 +217,7 @@ bool ProgramBus::quiet() const {
 bool ProgramBus::run_until_quiet(Time limit) {
   constexpr Time kLook = 16;  // bits
   Bus &bus = simulation_.bus();
-  const Time end = bus.now() + limit;
+  const Time end = end_of(limit);
   exchange();
   while (!settled()) {
     if (bus.now() >= end) return false;
@@ -215,7 +234,7 @@ bool ProgramBus::run_until_message(Time limit) {
                        [](const Worked &worked) { return worked.port->heard(); });
   };
   Bus &bus = simulation_.bus();
-  const Time end = bus.now() + limit;
+  const Time end = end_of(limit);
   exchange();
   while (!heard() && bus.now() < end) {
     if (quiet()) {
@@ -230,8 +249,10 @@ bool ProgramBus::run_until_message(Time limit) {
 // ---- Faults
 
 void ProgramBus::disturb(const std::string &node, Effect effect, Time begin, Time duration) {
+  check_open();
   if (begin < now()) throw std::invalid_argument("a disturbance begins now or later");
   if (duration <= 0) throw std::invalid_argument("a disturbance lasts longer than nothing");
+  (void)end_of(begin - now() + duration);
   const Time from = begin + simulation_.started();
   faults_.add(node.empty() ? kAllNodes : id_of(node), effect, {from, from + duration});
   if (!disturbed_) simulation_.bus().add(faults_);

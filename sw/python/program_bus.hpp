@@ -4,6 +4,7 @@
 // ProgramBus: a simulated bus that one program holds, steps and works node by node.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +29,10 @@ struct ProgramBusSetup {
 /// but in step() and run_until_quiet(). Times count from the end of the constructor, ps.
 class ProgramBus : private BusObserver {
  public:
+  /// Whatever would end later is refused (std::invalid_argument): picoseconds reach to 9,223,372 s,
+  /// of which a node's restart may need the rest.
+  static constexpr Time kLongestLife = 8'000'000 * kSecond;
+
   /// Builds the bus and lets all nodes join it. InputError or std::invalid_argument if it cannot
   /// be.
   explicit ProgramBus(ProgramBusSetup setup);
@@ -44,6 +49,10 @@ class ProgramBus : private BusObserver {
   [[nodiscard]] std::size_t pending(const std::string &node);
   /// Lets a bus-off node recover.
   void restart(const std::string &node);
+
+  /// Called every few thousand bits while time passes; what it throws ends the step there, after
+  /// which the bus can go on.
+  std::function<void()> on_look;
 
   /// Lets simulated time pass.
   void step(Time duration);
@@ -73,8 +82,8 @@ class ProgramBus : private BusObserver {
   [[nodiscard]] std::vector<BusFrame> frames() { return told(frames_); }
   /// Frames, error frames and overload frames on the bus since the last call, in their order.
   [[nodiscard]] std::vector<BusEvent> events() { return told(events_); }
-  /// Completes the files of the scenario's outputs. send() and whatever lets time pass throw
-  /// std::runtime_error after it.
+  /// Completes the files of the scenario's outputs. send(), restart(), disturb() and whatever lets
+  /// time pass throw std::runtime_error after it.
   [[nodiscard]] RunReport finish() {
     finished_ = true;
     if (quiet()) simulation_.settle();
@@ -102,6 +111,9 @@ class ProgramBus : private BusObserver {
   void join();
   void check_open() const;
   void exchange();
+  /// When what begins now and takes `duration` ends, on the bus's own clock.
+  [[nodiscard]] Time end_of(Time duration);
+  void look();
   void run_until(Time when);
   [[nodiscard]] Worked &worked(const std::string &name);
   [[nodiscard]] NodeId id_of(const std::string &name) const;
@@ -112,6 +124,7 @@ class ProgramBus : private BusObserver {
   Scenario scenario_;
   Simulation simulation_;
   Time bit_time_;
+  Time next_look_ = 0;
   std::vector<Worked> worked_;
   std::vector<PortNode *> by_id_;
   std::vector<BusFrame> frames_;

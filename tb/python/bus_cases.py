@@ -176,13 +176,37 @@ class PythonRefusal(unittest.TestCase):
         bus.send("a", Frame(0x1))
         bus.run_until_quiet()
         bus.finish()
+        self.assertEqual(bus.state("a").state, "active")
         for call in (lambda: bus.send("a", Frame(0x2)), lambda: bus.step(1e-3),
                      lambda: bus.pass_time(1e-3), bus.run_until_quiet,
-                     lambda: bus.run_until_message(1e-3)):
+                     lambda: bus.run_until_message(1e-3), lambda: bus.restart("a"),
+                     lambda: bus.disturb("flip", bus.now, 1e-3)):
             with self.assertRaisesRegex(RuntimeError, "finish"):
                 call()
         self.assertEqual(heard(bus, "b"), [(0x1, b"")])  # what was there can still be read
         self.assertEqual(len(bus.frames()), 1)
+
+    def test_time_has_an_end(self):
+        # 2^63 ps are 9.2e6 s.
+        bus = Bus(["a", "b"], restart=1e6)
+        for _ in range(7):
+            bus.pass_time(1e6)
+        bus.pass_time(999_999)
+        for call in (lambda: bus.step(seconds=2), lambda: bus.step(bits=1_000_000_000),
+                     lambda: bus.pass_time(1e6), lambda: bus.run_until_quiet(2),
+                     lambda: bus.run_until_message(2), lambda: bus.disturb("flip", bus.now, 2)):
+            self.refused("behind 8000000 s", call)
+        self.assertAlmostEqual(bus.now, 7_999_999, 3)
+        bus.disturb("recessive", bus.now, 0.02, node="a")
+        bus.send("a", Frame(0x7))
+        bus.step(seconds=0.02)
+        self.assertEqual(bus.state("a").state, "bus-off")
+        bus.restart("a")
+        bus.step(seconds=0.02)
+        self.assertEqual(heard(bus, "b"), [(0x7, b"")])
+
+    def test_messages_do_not_name_a_file_that_is_not(self):
+        self.refused("^nodes: node 'a': no setting", lambda: Bus(["a"], bitrate=900_000))
 
     def test_a_missing_scenario(self):
         with self.assertRaisesRegex(verican.InputError, "missing.yaml"):
@@ -208,6 +232,16 @@ class ScenarioValues(unittest.TestCase):
                          [0x155] * 5)
         with self.assertRaisesRegex(InputError, "nodes"):
             Bus(["a"], scenario={"bitrate": "250k", "nodes": [{"nam": "x"}]})
+
+    def test_names_of_any_characters(self):
+        name = "T\u00fcr \U0001F600"
+        bus = Bus(["a"], scenario={"nodes": [{"name": name}]})
+        self.assertEqual(bus.nodes, [name, "a"])
+
+    def test_what_json_cannot_hold(self):
+        for value in ({1}, float("nan"), float("inf"), b"x", "\ud83d", object()):
+            with self.assertRaisesRegex(ValueError, "scenario: .*allowed: what JSON can hold"):
+                Bus(["a"], scenario={"bitrate": value})
 
     def test_events(self):
         bus = Bus(["a"], scenario=self.SCENARIO)
@@ -280,6 +314,10 @@ class ScenarioValues(unittest.TestCase):
         self.assertEqual(response_times([(8, False, 1e-4, 0)], 1e6), [None])
         with self.assertRaises(ValueError):
             response_times([(9, False, 1e-3, 0)], 1e6)
+        # The busy period of the first would be half a minute long, with instances by the thousand.
+        for jitter in (3e-4, 10.0):
+            with self.assertRaisesRegex(ValueError, "jitter must be below the period"):
+                response_times([(8, False, 3e-4, jitter), (8, False, 1.0, 0)], 1e6)
 
 
 if __name__ == "__main__":

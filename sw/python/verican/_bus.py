@@ -11,7 +11,13 @@ def _scenario_text(scenario):
     """The name of a file as it is; a dictionary as the text of a file, JSON, which YAML takes."""
     if isinstance(scenario, (str, os.PathLike)):
         return os.fspath(scenario)
-    return json.dumps(scenario, indent=1) + "\n"
+    try:
+        # Escapes beyond 16 bits would be those of JSON alone.
+        text = json.dumps(scenario, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+        text.encode()  # UnicodeEncodeError, a ValueError: half a character
+    except (TypeError, ValueError, RecursionError) as error:
+        raise ValueError(f"scenario: {error}; allowed: what JSON can hold") from error
+    return text
 
 
 class Bus(_core.Bus):
@@ -21,7 +27,7 @@ class Bus(_core.Bus):
         super().__init__(nodes, scenario=_scenario_text(scenario), **settings)
 
     def finish(self):
-        """Completes the files of the scenario's outputs and the waveform: no step after it, and no
-        frame is taken (RuntimeError). Returns the report, a dictionary as `verican run --json`
-        prints it."""
+        """Completes the files of the scenario's outputs and the waveform: after it no step, frame,
+        disturb() or restart() (RuntimeError). Returns the report, a dictionary as
+        `verican run --json` prints it."""
         return json.loads(self.finish_json())

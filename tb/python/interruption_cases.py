@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 The VeriCAN authors
+# SPDX-License-Identifier: Apache-2.0
+"""Ctrl-C while simulated time passes."""
+import concurrent.futures
+import signal
+import unittest
+
+from verican import Bus, Frame
+
+
+class Interruption(unittest.TestCase):
+    """Ctrl-C ends what lets time pass, and the bus can go on."""
+
+    LONG = 20  # s, some of the host's too
+
+    def setUp(self):
+        self.bus = Bus(["a", "b"])
+        self.bus.disturb("flip", 1e5, 1e-6)  # from now on the clocks never rest
+        before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGALRM, before)
+        self.addCleanup(signal.setitimer, signal.ITIMER_REAL, 0)
+
+    def interrupted(self, call):
+        for node in self.bus.nodes:
+            self.bus.receive(node)
+        begin = self.bus.now
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        with self.assertRaises(KeyboardInterrupt):
+            call()
+        self.assertLess(self.bus.now - begin, self.LONG / 2)
+        self.bus.send("a", Frame(0x123, b"on"))
+        self.bus.step(bits=200)
+        self.assertEqual([m.id for m in self.bus.receive("b")], [0x123])
+
+    def test_steps(self):
+        self.interrupted(lambda: self.bus.step(seconds=self.LONG))
+        self.interrupted(lambda: self.bus.pass_time(self.LONG))
+        self.interrupted(lambda: self.bus.run_until_message(self.LONG))
+
+    def test_until_quiet(self):
+        self.bus = Bus(["a"])  # alone, it tries for ever
+        self.bus.send("a", Frame(0x1))
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        with self.assertRaises(KeyboardInterrupt):
+            self.bus.run_until_quiet(self.LONG)
+        self.assertLess(self.bus.now, self.LONG / 2)
+        self.assertEqual(self.bus.pending("a"), 1)
+
+    def test_other_threads_finish_their_step(self):
+        with concurrent.futures.ThreadPoolExecutor(1) as pool:
+            step = pool.submit(self.bus.step, seconds=1)
+            signal.setitimer(signal.ITIMER_REAL, 0.01)
+            with self.assertRaises(KeyboardInterrupt):
+                step.result()
+            step.result()
+        self.assertAlmostEqual(self.bus.now, 1, 6)
+
+
+if __name__ == "__main__":
+    unittest.main()
