@@ -3,6 +3,7 @@
 """python-can's interface "verican": what programs of python-can do, on a bus of RTL nodes."""
 import contextlib
 import itertools
+import math
 import subprocess
 import sys
 import tempfile
@@ -10,8 +11,11 @@ import threading
 import time
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import can
+
+from verican import python_can
 
 WAIT = 20  # s; far more than anything here takes, so that no result depends on it
 names = (f"channel{i}" for i in itertools.count())
@@ -72,6 +76,43 @@ class PythonCan(unittest.TestCase):
         self.assertEqual([self.b.recv(WAIT).arbitration_id for _ in range(2)], [0x123, 0x1FF])
         self.a.flush_tx_buffer()
         self.assertIsNone(self.b.recv(0.1))
+
+    def test_an_inbox_that_nobody_reads(self):
+        # The newest are lost and counted, as in a socket of the kernel.
+        with mock.patch.object(python_can, "INBOX", 100):
+            for i in range(300):
+                self.a.send(message(i))
+            self.a.flush_tx_buffer()
+            self.assertTrue(until(lambda: self.b.dropped == 200))
+            self.assertEqual([self.b.recv(0).arbitration_id for _ in range(100)],
+                             list(range(100)))
+            self.a.send(message(0x42))
+            self.assertEqual(self.b.recv(WAIT).arbitration_id, 0x42)
+        self.assertEqual((self.a.dropped, self.b.dropped), (0, 200))
+
+    def test_shutdown_wakes_who_waits(self):
+        ends = []
+
+        def wait(bus):
+            with self.assertRaisesRegex(can.CanOperationError, "shut down"):
+                bus.recv()
+            ends.append(bus)
+        # The other one is still open, and then the channel closes, too.
+        for bus in (self.b, self.a):
+            waiting = [threading.Thread(target=wait, args=(bus,), daemon=True) for _ in range(2)]
+            for thread in waiting:
+                thread.start()
+            time.sleep(0.05)
+            bus.shutdown()
+            for thread in waiting:
+                thread.join(WAIT)
+        self.assertEqual(ends, 2 * [self.b] + 2 * [self.a])
+
+    def test_raw_dlc(self):
+        # python-can's messages have no DLC above 8; one that is made unchecked leaves as it is.
+        own = self.open(next(names), receive_own_messages=True, nodes=2)
+        own.send(message(0x42, bytes(8), dlc=12))
+        self.assertEqual(own.recv(WAIT).dlc, 8)
 
     def test_notifier_gives_listeners_all_in_order(self):
         got = []
@@ -279,6 +320,18 @@ class PythonCanErrors(unittest.TestCase):
             self.assertTrue(alone.recv(WAIT).is_error_frame)
         self.assertEqual((alone.node_state.tec, alone.state), (128, can.BusState.PASSIVE))
 
+    def test_flush_of_a_node_alone(self):
+        alone = open_bus(next(names), nodes=1)
+        self.addCleanup(alone.shutdown)
+        alone.flush_tx_buffer()
+        alone.send(message(1))
+        alone.send(message(2))
+        with self.assertRaisesRegex(can.CanTimeoutError, "2 frames wait, none has left for 20000"):
+            alone.flush_tx_buffer()
+        alone.shutdown()
+        with self.assertRaisesRegex(can.CanOperationError, "shut down"):
+            alone.flush_tx_buffer()
+
     def test_bus_off_and_recovery(self):
         # A transmitter that never sees its own dominant bits: TEC + 8 for each try, FC-05, FC-13.
         self.a.disturb("recessive", bits=5000)
@@ -326,6 +379,9 @@ class PythonCanErrors(unittest.TestCase):
             open_bus(next(names), bitrate=0)
         with self.assertRaisesRegex(can.CanOperationError, "classical CAN"):
             self.a.send(can.Message(arbitration_id=1, is_fd=True, data=bytes(64)))
+        for identifier in (-1, 0x800, 1 << 32, "x"):
+            with self.assertRaises(can.CanOperationError):
+                self.a.send(message(identifier, check=False))
         with self.assertRaisesRegex(NotImplementedError, "ACTIVE alone"):
             self.a.state = can.BusState.PASSIVE
         self.a.shutdown()
@@ -336,9 +392,19 @@ class PythonCanErrors(unittest.TestCase):
         for nodes in (0, -1, 65):
             with self.assertRaisesRegex(can.CanInitializationError, f"nodes {nodes}: 1 to 64"):
                 open_bus(self.free, nodes=nodes)
-        for settings in ({"bitrate": 8000000}, {"restart_ms": -1}, {"nodes": "two"}):
-            with self.assertRaises(can.CanInitializationError):
-                open_bus(self.free, **settings)
+        for settings, text in (({"bitrate": 8000000}, "1000 to 1000000"),
+                               ({"bitrate": math.nan}, "bitrate nan: a whole number"),
+                               ({"bitrate": math.inf}, "bitrate inf: a whole number"),
+                               ({"bitrate": 900_000}, "^nodes: node 'node0': no setting"),
+                               ({"restart_ms": -1}, "restart_ms -1: 0 to 1000000000"),
+                               ({"restart_ms": 10**400}, "restart_ms 10+: 0 to 1000000000"),
+                               ({"nodes": "two"}, "nodes 'two': a whole number"),
+                               ({"nodes": [2]}, r"nodes \[2\]: a whole number")):
+            # Without can.Bus, which looks at the bit rate before the interface does.
+            with self.assertRaisesRegex(can.CanInitializationError, text):
+                python_can.VericanBus(self.free, **settings)
+        with self.assertRaises(can.CanInitializationError):
+            open_bus([self.free])
         self.assertNotIn(self.free, [config["channel"] for config in
                                      can.detect_available_configs("verican")])
         self.assertNotIn(f"verican {self.free}", [thread.name for thread in threading.enumerate()])

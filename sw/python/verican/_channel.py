@@ -15,7 +15,7 @@ LAST_FRAMES = 0.1   # s of simulated time for what waits when the last user leav
 IDLE_LOOK = 0.02    # s; an idle bus follows real time in such steps
 
 SETTINGS = {"nodes": 2, "bitrate": 500_000, "restart_ms": 0, "vcd": ""}  # of a channel
-RANGES = {"nodes": (1, 64), "bitrate": (1000, 1_000_000)}
+RANGES = {"nodes": (1, 64), "bitrate": (1000, 1_000_000), "restart_ms": (0, 1_000_000_000)}
 
 
 class ChannelError(RuntimeError):

@@ -12,20 +12,28 @@ from ._channel import ChannelError, close_channel, open_channel, open_names
 from ._core import Frame
 
 ALLOWED = "bitrate, can_filters, error_frames, nodes, receive_own_messages, restart_ms, vcd"
-QUEUED = 4096  # frames of a can.Bus that may wait for the bus
-LOOK = 0.05    # s between two looks whether a full queue will ever empty
+QUEUED = 4096        # frames of a can.Bus that may wait for the bus
+INBOX = 65_536       # messages that may wait for its program
+LOOK = 0.05          # s between two looks whether a full queue will ever empty
+FLUSH_BITS = 20_000  # of the bus in which a frame has to leave, or flush_tx_buffer() gives up
 
 STATES = {"active": can.BusState.ACTIVE, "passive": can.BusState.PASSIVE,
           "bus-off": can.BusState.ERROR}
 
 
-def number(value):
+def number(what, value):
     """Configuration files have texts."""
-    return None if value is None else int(value)
+    try:
+        return None if value is None else int(value)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"{what} {value!r}: a whole number is allowed") from error
 
 
 class VericanBus(can.BusABC):
-    """can.Bus(interface="verican", channel="name", bitrate=..., nodes=...)."""
+    """can.Bus(interface="verican", channel="name", bitrate=..., nodes=...).
+
+    `dropped` counts messages that came while INBOX others waited for recv().
+    """
 
     def __init__(self, channel="verican0", can_filters=None, bitrate=None, nodes=None,
                  receive_own_messages=False, error_frames=True, restart_ms=None, vcd=None, fd=False,
@@ -46,13 +54,15 @@ class VericanBus(can.BusABC):
                 "fd: the nodes are CAN 2.0 cores, which know no CAN FD; allowed: fd=False")
         self._inbox = queue.SimpleQueue()
         self._room = threading.BoundedSemaphore(QUEUED)
+        self.dropped = 0
         self._own, self._errors, self._open = receive_own_messages, error_frames, False
         self.channel = channel
         try:
             self._channel, self.node = open_channel(
-                channel, self._deliver, self._fail, nodes=number(nodes), bitrate=number(bitrate),
-                restart_ms=number(restart_ms), vcd=None if vcd is None else str(vcd))
-        except (ValueError, RuntimeError) as error:
+                channel, self._deliver, self._wake, nodes=number("nodes", nodes),
+                bitrate=number("bitrate", bitrate), restart_ms=number("restart_ms", restart_ms),
+                vcd=None if vcd is None else str(vcd))
+        except (TypeError, ValueError, RuntimeError) as error:
             raise can.CanInitializationError(str(error)) from error
         self._open = True
         self.channel_info = f"verican {channel}: {self.node}"
@@ -70,7 +80,7 @@ class VericanBus(can.BusABC):
         try:
             frame = Frame(msg.arbitration_id, b"" if msg.is_remote_frame else bytes(msg.data),
                           msg.is_extended_id, msg.is_remote_frame, msg.dlc)
-        except ValueError as error:
+        except (TypeError, ValueError) as error:
             raise can.CanOperationError(str(error)) from error
         self._wait_for_room(timeout)
         with self._errors_of_channel():
@@ -97,11 +107,13 @@ class VericanBus(can.BusABC):
         except queue.Empty:
             return None, False
         if message is None:  # stays there, for whoever asks again or waits too
-            self._inbox.put(None)
+            self._wake()
+            self._check_open()
             self._call(lambda bus: None)  # raises what has happened
         return message, False
 
-    def _fail(self):
+    def _wake(self):
+        """Whoever waits in recv() looks what has happened."""
         self._inbox.put(None)
 
     def _deliver(self, message, when):
@@ -109,9 +121,12 @@ class VericanBus(can.BusABC):
             self._room.release()
         if (message.echo and not self._own) or (message.error and not self._errors):
             return
-        self._inbox.put(can.Message(
+        if self._inbox.qsize() >= INBOX:  # the newest is lost, as in a socket of the kernel
+            self.dropped += 1
+            return
+        self._inbox.put(can.Message(  # has no DLC above 8; nor has it from a socket
             timestamp=when, arbitration_id=message.id, is_extended_id=message.extended,
-            is_remote_frame=message.remote, is_error_frame=message.error, dlc=message.dlc,
+            is_remote_frame=message.remote, is_error_frame=message.error, dlc=min(message.dlc, 8),
             data=message.data, channel=self.channel, is_rx=not message.echo))
 
     @contextlib.contextmanager
@@ -152,16 +167,31 @@ class VericanBus(can.BusABC):
             effect, bus.now + after * bus.bit_time, bits * bus.bit_time, node))
 
     def flush_tx_buffer(self):
-        """Waits until all frames have left; at once if the node is bus-off."""
-        while self._call(lambda bus: bus.pending(self.node)):
-            if self.state == can.BusState.ERROR:
+        """Waits until all frames have left; no longer if the node is bus-off. None is discarded.
+
+        can.CanTimeoutError: FLUSH_BITS have passed on the bus and none has left, as happens where
+        nobody acknowledges.
+        """
+        self._check_open()
+        waited_for, since = None, 0
+        while True:
+            pending, bits = self._call(
+                lambda bus: (bus.pending(self.node), bus.now / bus.bit_time))
+            if pending == 0 or self.state == can.BusState.ERROR:
                 return
+            if pending != waited_for:
+                waited_for, since = pending, bits
+            elif bits - since > FLUSH_BITS:
+                raise can.CanTimeoutError(
+                    f"{self.channel_info}: {pending} frames wait, none has left for "
+                    f"{FLUSH_BITS} bits")
             time.sleep(1e-3)
 
     def shutdown(self):
         super().shutdown()
         if self._open:
             self._open = False
+            self._wake()
             close_channel(self._channel, self.node)
 
     def _check_open(self):
