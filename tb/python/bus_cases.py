@@ -205,6 +205,14 @@ class PythonRefusal(unittest.TestCase):
         bus.step(seconds=0.02)
         self.assertEqual(heard(bus, "b"), [(0x7, b"")])
 
+    def test_now_is_not_in_the_past(self):
+        # Late seconds are not exact to the picosecond.
+        bus = Bus(["a"])
+        bus.pass_time(9e5)
+        for _ in range(16):
+            bus.pass_time(123.456789e-6)
+            bus.disturb("flip", bus.now, 1e-9)
+
     def test_messages_do_not_name_a_file_that_is_not(self):
         self.refused("^nodes: node 'a': no setting", lambda: Bus(["a"], bitrate=900_000))
 

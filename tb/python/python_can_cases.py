@@ -326,7 +326,7 @@ class PythonCanErrors(unittest.TestCase):
         alone.flush_tx_buffer()
         alone.send(message(1))
         alone.send(message(2))
-        with self.assertRaisesRegex(can.CanTimeoutError, "2 frames wait, none has left for 20000"):
+        with self.assertRaisesRegex(can.CanTimeoutError, "none of 2 that wait has left for 20000"):
             alone.flush_tx_buffer()
         alone.shutdown()
         with self.assertRaisesRegex(can.CanOperationError, "shut down"):

@@ -183,7 +183,7 @@ class VericanBus(can.BusABC):
                 waited_for, since = pending, bits
             elif bits - since > FLUSH_BITS:
                 raise can.CanTimeoutError(
-                    f"{self.channel_info}: {pending} frames wait, none has left for "
+                    f"{self.channel_info}: none of {pending} that wait has left for "
                     f"{FLUSH_BITS} bits")
             time.sleep(1e-3)
 
