@@ -31,8 +31,8 @@ int run(const ConvertOptions &options) {
   const SelectedLog selected = read_selected(options.in, options.selection, true);
   const Conversion result = convert(selected.log, format, options.out);
   if (!result.faithful) {
-    print_error("verican: {}: read again, its frames are not those of {}; not written\n",
-                options.out, options.in);
+    print_error("verican: {}: read again, its frames are not those of {}: {}; not written\n",
+                options.out, options.in, result.difference);
     return kFailed;
   }
   OutputFile file{options.out};

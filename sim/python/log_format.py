@@ -11,6 +11,7 @@ import io
 import logging
 import pathlib
 import re
+import struct
 import sys
 import tempfile
 import time
@@ -148,7 +149,28 @@ class AscLines:
 
 class AscReader(can.io.ASCReader):
     """python-can's reader, which takes half a byte, as a file that is cut short has it, for a byte
-    and leaves out what is more than the length; here both are refused."""
+    and leaves out what is more than the length; here both are refused. It takes a request to send
+    for the frame, and knows no DLC of a remote frame that is a letter."""
+
+    def _process_classic_can_frame(self, line, msg_kwargs):
+        if is_request(line.split()):
+            return None
+        message = super()._process_classic_can_frame(line, msg_kwargs)
+        if message.is_remote_frame:
+            message.dlc = self._remote_dlc(line.split()[3:])
+        return message
+
+    def _process_fd_can_frame(self, line, msg_kwargs):
+        if is_request(line.split()):
+            return None
+        return super()._process_fd_can_frame(line, msg_kwargs)
+
+    def _remote_dlc(self, words):
+        """The DLC behind "r", where other words may follow or stand instead."""
+        digits = "[0-9A-Fa-f]+" if self.base == "hex" else "[0-9]+"
+        if not words or not re.fullmatch(digits, words[0]):
+            return 0
+        return int(words[0], 16 if self.base == "hex" else 10)
 
     def _process_data_string(self, data_str, data_length, msg_kwargs):
         hexadecimal = self.base == "hex"
@@ -165,6 +187,11 @@ class AscReader(can.io.ASCReader):
         super()._process_data_string(data_str, data_length, msg_kwargs)
 
 
+def is_request(words):
+    """Whether an event of ASC tells that its frame waits; when it is sent, another one tells."""
+    return words[1:2] and words[1].lower() == "txrq"
+
+
 def read_asc(data):
     """ASC: times since the date of the header, or of the trigger block."""
     lines = AscLines(data)
@@ -172,8 +199,9 @@ def read_asc(data):
     count = 0
     for message in reader:
         count += 1
-        # For classical frames python-can makes a length of CAN FD of a DLC above 8.
-        dlc = message.dlc if message.is_fd else can.util.len2dlc(message.dlc)
+        # For classical data frames python-can makes a length of CAN FD of a DLC above 8.
+        length = not message.is_fd and not message.is_remote_frame
+        dlc = can.util.len2dlc(message.dlc) if length else message.dlc
         yield asc_origin(lines.date) + round(message.timestamp * SECOND), message, dlc
     yield from [None] * (lines.events - count)
 
@@ -193,14 +221,44 @@ def check_size(data, size):
         raise BadInput(f"cut short: {len(data)} bytes where its header says {size}")
 
 
+class BlfReader(can.io.BLFReader):
+    """python-can's reader, which takes a request to send for a frame that was received; here
+    requests are passed over and counted."""
+    OBJECT = struct.Struct("<4sHHLL")  # "LOBJ", size of the header, its version, size, type
+    # Where a direction lies behind the header; in the byte of flags it is the lower half.
+    DIRECTIONS = {1: 2, 86: 2, 100: 2, 101: 34}
+    REQUEST = 2
+
+    requests = 0
+
+    def _parse_data(self, data):
+        return super()._parse_data(self.without_requests(bytearray(data)))
+
+    def without_requests(self, data):
+        """`data` with requests as objects of a type that nobody knows. An object that goes on in
+        the next container comes again with it."""
+        at = data.find(b"LOBJ", 0, 8)
+        while at >= 0 and at + self.OBJECT.size <= len(data):
+            _, _, version, size, kind = self.OBJECT.unpack_from(data, at)
+            if size < self.OBJECT.size:
+                raise BadInput(f"object of {size} bytes; allowed: {self.OBJECT.size} or more")
+            place = at + (32 if version == 1 else 40) + self.DIRECTIONS.get(kind, size)
+            if place < at + size <= len(data) and data[place] & 0x0F == self.REQUEST:
+                self.requests += 1
+                data[at + 12:at + 16] = bytes(4)
+            at = data.find(b"LOBJ", at + size, at + size + 8)
+        return data
+
+
 def read_blf(data):
     """BLF: nanoseconds since the millisecond of the header."""
-    reader = can.io.BLFReader(io.BytesIO(data))
+    reader = BlfReader(io.BytesIO(data))
     check_size(data, reader.file_size)
     origin = round(reader.start_timestamp * 1000) * MILLISECOND
     reader.start_timestamp = 0.0
     for message in reader:
         yield origin + round(message.timestamp * SECOND), message, message.dlc
+    yield from [None] * reader.requests
 
 
 def read_csv(data):

@@ -146,6 +146,18 @@ bool compare(const Item &written, const Item &read, Losses &losses) {
   return written.frame == read.frame && written.error == read.error;
 }
 
+/// The first frame that is not the one that was written; empty if all are.
+std::string first_difference(const std::vector<Item> &written, const std::vector<Item> &read,
+                             Losses &losses) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(written.size(), read.size()); ++i)
+    if (!compare(written[i], read[i], losses) && text.empty())
+      text = fmt::format("frame {} is {}, not {}", i + 1, read[i].frame, written[i].frame);
+  if (text.empty() && written.size() != read.size())
+    text = fmt::format("there are {}, not {}", read.size(), written.size());
+  return text;
+}
+
 /// Differences of the times since the first frame.
 void compare_times(const std::vector<Item> &written, const std::vector<Item> &read,
                    Losses &losses) {
@@ -174,12 +186,9 @@ Conversion convert(const CanLog &log, LogFormat format, const std::string &path)
   const CanLog again = empty ? fitting : parse_log(result.bytes, path);
   const auto written = items_of(fitting), read = items_of(again);
   result.frames = written.size();
-  result.faithful = written.size() == read.size();
-  if (result.faithful) {
-    for (std::size_t i = 0; i < written.size(); ++i)
-      result.faithful = compare(written[i], read[i], losses) && result.faithful;
-    compare_times(written, read, losses);
-  }
+  result.difference = first_difference(written, read, losses);
+  result.faithful = result.difference.empty();
+  if (written.size() == read.size()) compare_times(written, read, losses);
   if (fitting.start_ns != again.start_ns && fitting.start_ns != 0 && result.frames != 0)
     losses.count(phrase("time of day", "times of day",
                         again.start_ns == 0 ? ""

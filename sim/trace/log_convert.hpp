@@ -17,6 +17,7 @@ struct Conversion {
   std::size_t frames = 0;         ///< entries of all kinds in it
   std::vector<std::string> lost;  ///< one phrase for each kind of loss, with its count
   bool faithful = true;           ///< identifier, data and order of all frames in it are the same
+  std::string difference;         ///< if not: which frame is the first other one, and what it is
 };
 
 /// `log` in `format`. The new file is read again and compared entry by entry, so that `lost` is

@@ -69,7 +69,7 @@ TEST(ToolRecordings, ConvertReplacesNoFileByOneThatIsNotFaithful) {
                           " " + old + " 2>&1");
   EXPECT_EQ(said.code, 1);
   EXPECT_EQ(said.text, "verican: " + old + ": read again, its frames are not those of " + log +
-                           "; not written\n");
+                           ": frame 1 is 124#22, not 123#11; not written\n");
   EXPECT_EQ(shell("cat " + old).text, "precious");
 }
 

@@ -83,10 +83,13 @@ TEST(Convert, AFileThatHoldsOtherFramesIsNoticed) {
   CanLog log = parse_candump("(1.0) can0 123#11\n(1.1) can0 123##1AABB\n", "log");
   EXPECT_TRUE(convert(log, LogFormat::kPcapng, "out").faithful);
   log.others[0].text = "123##1aabb";
-  EXPECT_FALSE(convert(log, LogFormat::kPcapng, "out").faithful);
+  const Conversion other = convert(log, LogFormat::kPcapng, "out");
+  EXPECT_FALSE(other.faithful);
+  EXPECT_EQ(other.difference, "frame 2 is 123##1AABB, not 123##1aabb");
   log.others[0].text = "123##1" + std::string(2 * 65, '0');  // too long for CAN FD
   const Conversion missing = convert(log, LogFormat::kPcapng, "out");
   EXPECT_FALSE(missing.faithful);
+  EXPECT_EQ(missing.difference, "there are 1, not 2");
   EXPECT_EQ(missing.frames, 2U);
 }
 

@@ -59,6 +59,127 @@ TEST_F(PythonLog, ReadsAsc) {
   EXPECT_EQ(skipped_text(log), "1 CAN FD frame, 1 error message, 1 other line or packet");
 }
 
+// DLC of remote frames in either base: no length of CAN FD, and a letter in hexadecimal. Words
+// behind "r" that are no number are none.
+TEST_F(PythonLog, AscRemoteFramesOfEveryDlc) {
+  std::string wanted, small, capital, decimal;
+  for (unsigned dlc = 0; dlc < 16; ++dlc) {
+    wanted += fmt::format("(0000000000.{:02}0000000) can0 300#R{}{} R\n", dlc,
+                          dlc == 0 ? "" : std::to_string(std::min(dlc, 8U)),
+                          dlc > 8 ? fmt::format("_{:X}", dlc) : "");
+    small += fmt::format("   0.{:02} 1  300  Rx   r {:x} Length = 1704000\n", dlc, dlc);
+    capital += fmt::format("   0.{:02} 1  300  Rx   r {:X}\n", dlc, dlc);
+    decimal += fmt::format("   0.{:02} 1  768  Rx   r {}\n", dlc, dlc);
+  }
+  for (const std::string &text :
+       {"hex  timestamps absolute\n" + small, "hex  timestamps absolute\n" + capital,
+        "dec  timestamps absolute\n" + decimal})
+    EXPECT_EQ(lines_of(parse_log("base " + text, "a.asc")), wanted);
+  EXPECT_THAT(error_of("base hex  timestamps absolute\n0.1 1 64 Rx r 10\n"),
+              HasSubstr("message 1: DLC 16 with 0 bytes"));
+  EXPECT_THAT(
+      lines_of(parse_log("base hex  timestamps absolute\n0.1 1 64 Rx r Length = 0\n", "a.asc")),
+      HasSubstr("064#R R"));
+}
+
+// DLC 9 to 15 of remote and data frames there and back.
+TEST_F(PythonLog, EveryFormatHoldsEveryDlc) {
+  std::string text;
+  for (unsigned dlc = 9; dlc < 16; ++dlc)
+    text += fmt::format(
+        "(1700000000.{0:06}000) can0 123#R8_{0:X} R\n"
+        "(1700000001.{0:06}000) can0 123#0102030405060708_{0:X} R\n",
+        dlc);
+  for (const LogFormat format : {LogFormat::kAsc, LogFormat::kBlf})
+    EXPECT_EQ(lines_of(parse_log(python_log_bytes(parse_candump(text, "log"), format, "a"), "a")),
+              text);
+}
+
+// A request to send is told before the frame itself, by an event of its own.
+TEST_F(PythonLog, AscRequestsToSendAreCountedAsNoFrames) {
+  const CanLog log = parse_log(
+      "base hex  timestamps absolute\n"
+      "   0.010000 1  321             TxRq   d 2 11 22\n"
+      "   0.010300 1  321             Tx   d 2 11 22 Length = 100000 BitCount = 50\n"
+      "   0.020000 CANFD   1 TxRq     30a  Name  1 0 8  8 01 02 03 04 05 06 07 08   102203  133\n"
+      "   0.020300 CANFD   1 Tx       30a  Name  1 0 8  8 01 02 03 04 05 06 07 08   102203  133\n"
+      "   0.030000 1  321             TxRq   r 3\n",
+      "a.asc");
+  EXPECT_EQ(lines_of(log),
+            "(0000000000.010300000) can0 321#1122 T\n"
+            "(0000000000.020300000) can0 30A##10102030405060708 T\n");
+  EXPECT_EQ(skipped_text(log), "1 CAN FD frame, 3 other lines or packets");
+}
+
+std::string little_endian(std::uint64_t value, unsigned count) {
+  std::string bytes;
+  for (unsigned i = 0; i < count; ++i) bytes += static_cast<char>(value >> 8 * i);
+  return bytes;
+}
+
+std::string blf_object(unsigned type, unsigned version, const std::string &body) {
+  return "LOBJ" + little_endian(version == 1 ? 32 : 40, 2) + little_endian(version, 2) +
+         little_endian(16 + body.size(), 4) + little_endian(type, 4) + body;
+}
+
+/// A frame 123#11 of CAN; header of version 1 or 2. Flags: the direction is the lower half.
+std::string blf_frame(unsigned type, unsigned version, unsigned flags, std::uint64_t ns) {
+  const std::string stamp = little_endian(2, 8) + little_endian(ns, version == 1 ? 8 : 16);
+  return blf_object(type, version,
+                    stamp + little_endian(1, 2) + little_endian(flags, 1) + little_endian(1, 1) +
+                        little_endian(0x123, 4) + little_endian(0x11, 8));
+}
+
+/// A frame 124##022 of CAN FD in the two forms that there are.
+std::string blf_fd_frame(unsigned flags, std::uint64_t ns) {
+  return blf_object(100, 1,
+                    little_endian(2, 8) + little_endian(ns, 8) + little_endian(1, 2) +
+                        little_endian(flags, 1) + little_endian(1, 1) + little_endian(0x124, 8) +
+                        little_endian(0, 1) + little_endian(1, 1) + little_endian(1, 6) +
+                        little_endian(0x22, 8) + std::string(56, '\0'));
+}
+std::string blf_fd64_frame(unsigned direction, std::uint64_t ns) {
+  return blf_object(101, 1,
+                    little_endian(2, 8) + little_endian(ns, 8) + little_endian(0x00010101, 4) +
+                        little_endian(0x124, 8) + little_endian(0x1000, 8) + std::string(14, '\0') +
+                        little_endian(direction, 6) + little_endian(0x22, 4));
+}
+
+/// The file of these containers, none of them compressed.
+std::string blf_file(const std::vector<std::string> &containers) {
+  std::string body;
+  for (const std::string &data : containers)
+    body += blf_object(10, 1, little_endian(0, 8) + little_endian(data.size(), 8) + data) +
+            std::string((32 + data.size()) % 4, '\0');
+  return "LOGG" + little_endian(72, 12) + little_endian(72 + body.size(), 8) +
+         std::string(48, '\0') + body;
+}
+
+// A request to send is an object of its own, of direction 2, before that of the frame; one of them
+// goes on in the next container.
+TEST_F(PythonLog, BlfRequestsToSendAreCountedAsNoFrames) {
+  const std::string sent = "(0000000000.000001000) can0 123#11 T\n";
+  const std::string data =
+      blf_frame(1, 1, 2, 500) + blf_frame(86, 1, 0x11, 1000) + blf_frame(86, 2, 0x42, 1500) +
+      blf_fd_frame(2, 2000) + blf_fd_frame(1, 2500) + blf_fd64_frame(2, 3000) +
+      blf_fd64_frame(1, 3500) + blf_frame(1, 1, 2, 4000) + blf_frame(1, 1, 0, 4500);
+  for (const std::size_t cut : {data.size() - 70, data.size() - 40, std::size_t{20}}) {
+    const CanLog log = parse_log(blf_file({data.substr(0, cut), data.substr(cut)}), "a.blf");
+    EXPECT_EQ(lines_of(log), sent +
+                                 "(0000000000.000002500) can0 124##022 T\n"
+                                 "(0000000000.000003500) can0 124##022 T\n"
+                                 "(0000000000.000004500) can0 123#11 R\n");
+    EXPECT_EQ(skipped_text(log), "2 CAN FD frames, 5 other lines or packets") << cut;
+  }
+}
+
+// An object of no size had no end.
+TEST_F(PythonLog, BlfObjectsWithoutSizeAreRefused) {
+  std::string data = blf_frame(1, 1, 1, 500);
+  data[8] = 0;
+  EXPECT_EQ(error_of(blf_file({data})), "a.log: object of 0 bytes; allowed: 16 or more");
+}
+
 const std::string kFrames =
     "(1700000000.123456789) can0 123#1122 R\n"
     "(1700000000.123456790) can1 12345678#0102030405060708_B T\n"
