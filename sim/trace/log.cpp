@@ -10,6 +10,7 @@
 
 #include "trace/candump.hpp"
 #include "trace/gvret.hpp"
+#include "trace/log_walk.hpp"
 #include "trace/pcap_file.hpp"
 #include "trace/pcapng_file.hpp"
 #include "trace/python_log.hpp"
@@ -21,6 +22,13 @@ namespace vericansim {
 std::size_t CanLog::count(ForeignEntry::Kind kind) const {
   return static_cast<std::size_t>(std::count_if(
       others.begin(), others.end(), [kind](const ForeignEntry &e) { return e.kind == kind; }));
+}
+
+Time CanLog::earliest() const {
+  Time time = 0;
+  const auto note = [&time](const auto &entry) { time = std::min(time, entry.time); };
+  walk(*this, note, note);
+  return time;
 }
 
 std::string skipped_text(const CanLog &log) {

@@ -55,6 +55,9 @@ struct CanLog {
 
   /// How many of `skipped` are of this kind.
   [[nodiscard]] std::size_t count(ForeignEntry::Kind kind) const;
+  /// Time of the earliest entry, 0 or below: before the first classical frame there may be others,
+  /// and times may go back.
+  [[nodiscard]] Time earliest() const;
 };
 
 /// "3 CAN FD frames, 2 error messages, 1 other line or packet"; empty if nothing was skipped.

@@ -13,6 +13,7 @@
 
 #include "trace/candump.hpp"
 #include "trace/gvret.hpp"
+#include "trace/input_error.hpp"
 #include "trace/log_walk.hpp"
 #include "trace/pcap_file.hpp"
 #include "trace/pcapng_file.hpp"
@@ -108,6 +109,23 @@ std::string bytes_of(const CanLog &log, LogFormat format, const std::string &pat
   return std::move(text).str();
 }
 
+/// Without a time of day the first classical frame is at 0, and what lies before it would have
+/// times that no format holds: the file begins with it then.
+void begin_with_the_earliest(CanLog &log) {
+  log.start_ns = std::max(log.start_ns, -log.earliest() / kNanosecond);
+}
+
+/// Reads the new file. If it is refused, who wrote it is to blame; its lines lie nowhere.
+CanLog read_again(const std::string &bytes, LogFormat format, const std::string &path) {
+  try {
+    return parse_log(bytes, "read again");
+  } catch (const InputError &error) {
+    throw InputError(path, 0,
+                     fmt::format("the recording cannot be written to it as {}: {}",
+                                 traits_of(format).option, error.what()));
+  }
+}
+
 /// One entry of either kind, as text.
 struct Item {
   Time time;
@@ -179,17 +197,20 @@ void compare_times(const std::vector<Item> &written, const std::vector<Item> &re
 Conversion convert(const CanLog &log, LogFormat format, const std::string &path) {
   Conversion result;
   Losses losses;
-  const CanLog fitting = that_fits(log, traits_of(format), losses);
+  CanLog fitting = that_fits(log, traits_of(format), losses);
+  const bool absolute = fitting.start_ns != 0;
+  // A trc file without a time of day has times since its own first entry.
+  if (format != LogFormat::kTrc) begin_with_the_earliest(fitting);
   result.bytes = bytes_of(fitting, format, path);
   // A file of some formats without a frame is no file of that format to a reader.
   const bool empty = fitting.entries.empty() && fitting.others.empty();
-  const CanLog again = empty ? fitting : parse_log(result.bytes, path);
+  const CanLog again = empty ? fitting : read_again(result.bytes, format, path);
   const auto written = items_of(fitting), read = items_of(again);
   result.frames = written.size();
   result.difference = first_difference(written, read, losses);
   result.faithful = result.difference.empty();
   if (written.size() == read.size()) compare_times(written, read, losses);
-  if (fitting.start_ns != again.start_ns && fitting.start_ns != 0 && result.frames != 0)
+  if (fitting.start_ns != again.start_ns && absolute && result.frames != 0)
     losses.count(phrase("time of day", "times of day",
                         again.start_ns == 0 ? ""
                                             : fmt::format(", by {} ns", std::abs(fitting.start_ns -

@@ -22,7 +22,7 @@ struct Conversion {
 
 /// `log` in `format`. The new file is read again and compared entry by entry, so that `lost` is
 /// what a reader of it really misses. `path` is for messages. Throws InputError if python-can is
-/// needed and not there.
+/// needed and not there, or if the new file cannot be read.
 [[nodiscard]] Conversion convert(const CanLog &log, LogFormat format, const std::string &path);
 
 }  // namespace vericansim

@@ -96,11 +96,8 @@ FdParts fd_parts(const std::string &text) {
 }  // namespace
 
 std::string trc_text(const CanLog &log) {
-  Time earliest = 0;
-  const auto note = [&earliest](const auto &entry) { earliest = std::min(earliest, entry.time); };
-  walk(log, note, note);
   // Whole microseconds, so that start and offsets together give the time.
-  const std::int64_t first_ns = log.start_ns + earliest / kNanosecond;
+  const std::int64_t first_ns = log.start_ns + log.earliest() / kNanosecond;
   const std::int64_t start = first_ns - (first_ns % 1000 + 1000) % 1000;
   const auto numbers = channel_numbers(log);
   std::string text = ";$FILEVERSION=2.1\r\n";

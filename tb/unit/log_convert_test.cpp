@@ -20,9 +20,11 @@
 namespace vericansim {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 CanLog sample() {
   return parse_candump(
@@ -93,6 +95,40 @@ TEST(Convert, AFileThatHoldsOtherFramesIsNoticed) {
   EXPECT_EQ(missing.frames, 2U);
 }
 
+// Without a time of day the first classical frame is at 0: what lies before it would be below.
+TEST(Convert, WithoutATimeOfDayTheFileBeginsWithTheEarliestEntry) {
+  const CanLog log = parse_trc(
+      ";$FILEVERSION=2.1\n;$COLUMNS=N,O,T,B,I,d,R,L,D\n"
+      " 1  100.500 FD 1 0124 Rx - 1 22\n 2  200.000 DT 1 0123 Rx - 1 11\n"
+      " 3  150.250 DT 1 0125 Rx - 1 33\n",
+      "a.trc");
+  ASSERT_EQ(log.start_ns, 0);
+  ASSERT_EQ(log.earliest(), -99'500 * kMicrosecond);
+  for (const LogFormat format :
+       {LogFormat::kCandump, LogFormat::kPcap, LogFormat::kPcapng, LogFormat::kTrc, LogFormat::kAsc,
+        LogFormat::kBlf, LogFormat::kCsv, LogFormat::kSqlite}) {
+    if (traits_of(format).python && !has_python_can()) continue;
+    const Conversion result = convert(log, format, "out");
+    EXPECT_TRUE(result.faithful) << name_of(format);
+    EXPECT_THAT(result.lost, Not(Contains(HasSubstr("time")))) << name_of(format);
+    const CanLog again = parse_log(result.bytes, "out");
+    EXPECT_EQ(again.entries.at(1).time, -49'750 * kMicrosecond) << name_of(format);
+  }
+  EXPECT_THAT(convert(log, LogFormat::kCandump, "out").bytes,
+              testing::StartsWith("(0000000000.000000) can0 124##022 R\n"
+                                  "(0000000000.099500) can0 123#11 R\n"));
+  EXPECT_THAT(convert(log, LogFormat::kGvret, "out").bytes, HasSubstr("\n0,00000125,"));
+}
+
+// The message names no line of a file that nobody sees.
+TEST(Convert, AFileThatCannotBeReadIsNamed) {
+  CanLog log = parse_candump("(1.0) can0 123#11\n(1.1) can0 123##1AABB\n", "log");
+  log.others[0].text = "123##1" + std::string(2 * 65, '0');  // too long for CAN FD
+  EXPECT_EQ(input_error_of([&] { (void)convert(log, LogFormat::kCandump, "out.log"); }),
+            "out.log: the recording cannot be written to it as candump: read again:2: 131 data "
+            "digits are not allowed; allowed: up to 129");
+}
+
 TEST(Convert, TrcAndGvretTellWhatTheyCannotHold) {
   EXPECT_THAT(lost(LogFormat::kTrc), ElementsAre("1 error message", "4 interfaces vcan3 (can3 now)",
                                                  "3 times since the first frame, by up to 500 ns",
@@ -106,9 +142,9 @@ TEST(Convert, TrcAndGvretTellWhatTheyCannotHold) {
 TEST(Convert, PythonCansFormatsTellWhatTheyCannotHold) {
   if (!has_python_can()) GTEST_SKIP() << "python3-can is not installed";
   EXPECT_THAT(lost(LogFormat::kBlf), ElementsAre("5 interfaces vcan3 (can3 now)"));
-  EXPECT_THAT(lost(LogFormat::kAsc), testing::Contains("1 content of an error message"));
-  EXPECT_THAT(lost(LogFormat::kCsv), testing::Contains("1 CAN FD frame"));
-  EXPECT_THAT(lost(LogFormat::kSqlite), testing::Contains("4 interfaces vcan3 (none now)"));
+  EXPECT_THAT(lost(LogFormat::kAsc), Contains("1 content of an error message"));
+  EXPECT_THAT(lost(LogFormat::kCsv), Contains("1 CAN FD frame"));
+  EXPECT_THAT(lost(LogFormat::kSqlite), Contains("4 interfaces vcan3 (none now)"));
 }
 
 // Versions as PEAK's description shows them.
