@@ -118,9 +118,7 @@ int decode(DecodeOptions &options) {
     else
       fmt::print("{}\n", line_of(event, options.database.get()));
   }
-  if (result.cut && !options.json)
-    fmt::print("{:.3f} us frame cut by the end of the waveform\n",
-               static_cast<double>(*result.cut) / kMicrosecond);
+  if (result.cut && !options.json) fmt::print("{}\n", cut_text(*result.cut));
   if (options.json)
     print_json({{"signal", result.signal},
                 {"bitrate", result.bitrate},

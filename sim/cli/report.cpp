@@ -95,6 +95,7 @@ int report_recorded_wave(const ReportOptions &options) {
     report = report_wave(wave, options.input, options.outputs,
                          [&](double part) { progress.show(part); });
   }
+  if (report.cut) fmt::print("{}\n", cut_text(*report.cut));
   fmt::print(
       "signal {}, {:.0f} bit/s: {} frames, {} without ACK, {} error frames, {} overload "
       "frames in {}{}\n{}\n",

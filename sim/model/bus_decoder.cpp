@@ -60,6 +60,13 @@ std::optional<Time> BusDecoder::under_way() const {
   return of_frame ? trouble_.frame_start : trouble_.start;
 }
 
+bool BusDecoder::before_ack_delimiter() const {
+  if (stage_ == Stage::kStuffed) return true;
+  // The edge into the delimiter is the last of a good frame, and a waveform may end with it.
+  const bool begun = count_ == 2 && frame_.acked && line_ == Level::kRecessive;
+  return stage_ == Stage::kTail && count_ <= 2 && !begun;
+}
+
 /// A dominant level that lasts changes nothing but the length of the run: a bus that is stuck is
 /// not stepped through. Takes the bits up to the last one before `time`.
 void BusDecoder::skip_dominant(Time time) {

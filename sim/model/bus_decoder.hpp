@@ -81,6 +81,10 @@ class BusDecoder {
   /// the bus.
   [[nodiscard]] std::optional<Time> under_way() const;
 
+  /// Whether the frame on the bus has not come to its ACK delimiter: how it ends is open. Behind it
+  /// recessive bits alone end it.
+  [[nodiscard]] bool before_ack_delimiter() const;
+
   /// Frames seen so far.
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
 

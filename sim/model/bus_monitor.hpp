@@ -30,6 +30,8 @@ struct NodeCounts {
   unsigned tec = 0, rec = 0;  ///< now; bus-off counts as 256
   unsigned max_tec = 0, max_rec = 0;
   bool passive = false, off = false;  ///< now
+  /// Attempts that failed. Who loses arbitration has lost nothing but time.
+  [[nodiscard]] std::uint64_t retries() const { return attempts - sent - lost_arbitration; }
 };
 
 /// A frame seen on the wire, and who sent it.
@@ -69,6 +71,8 @@ class BusMonitor : public BusObserver {
   [[nodiscard]] std::uint64_t overload_frames() const { return overload_frames_; }
   /// Time in which frames (with their intermission) and error and overload frames held the bus, ps.
   [[nodiscard]] Time busy() const { return busy_; }
+  /// The decoder, which has seen the bus up to the last advance().
+  [[nodiscard]] const BusDecoder &decoder() const { return decoder_; }
 
  private:
   void take_event(const BusEvent &event);

@@ -37,6 +37,7 @@ class Player {
 
  private:
   void next(std::size_t change);
+  [[nodiscard]] std::optional<Time> rest();
 
   const Wave &wave_;
   Time bit_time_;
@@ -87,8 +88,19 @@ void Player::next(std::size_t change) {
     bus_.at(start_ + changes[change].first, [this, change] { next(change); });
 }
 
+/// Behind the end of the waveform: what ends a last frame may be cut off, but nobody knows whether
+/// a frame without its acknowledge has had one. Returns where the frame began that stays cut, ps.
+std::optional<Time> Player::rest() {
+  constexpr Time kRest = 24;  // bits
+  monitor_->advance(bus_.now());
+  if (!monitor_->decoder().before_ack_delimiter()) bus_.run_for(kRest * bit_time_);
+  monitor_->advance(bus_.now());
+  const std::optional<Time> begin = monitor_->decoder().under_way();
+  return begin ? std::optional{*begin - start_} : std::nullopt;
+}
+
 WaveReport Player::play(const std::function<void(double)> &progress) {
-  constexpr Time kPart = 1'000, kRest = 24;  // bits: what ends a last frame may be cut off
+  constexpr Time kPart = 1'000;  // bits
   start_ = bus_.now();
   outputs_->begin(start_);
   if (!wave_.changes.empty()) bus_.at(start_ + wave_.changes.front().first, [this] { next(0); });
@@ -100,14 +112,14 @@ WaveReport Player::play(const std::function<void(double)> &progress) {
       progress(static_cast<double>(bus_.now() - start_) / static_cast<double>(wave_.end));
   }
   const bool interrupted = bus_.now() < end;
-  bus_.run_for(kRest * bit_time_);
-  monitor_->advance(bus_.now());
+  const std::optional<Time> cut = rest();
   outputs_->finish(bus_.now());
   ReportExtras extras;
   extras.zero = start_;
   outputs_->write_report(extras);
-  return {monitor_->frames(), interrupted, monitor_->unacknowledged(), monitor_->error_frames(),
-          monitor_->overload_frames()};
+  return {monitor_->frames(),          interrupted,
+          monitor_->unacknowledged(),  monitor_->error_frames(),
+          monitor_->overload_frames(), interrupted ? std::nullopt : cut};
 }
 
 }  // namespace

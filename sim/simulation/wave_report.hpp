@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "model/bus_monitor.hpp"
 #include "scenario/scenario.hpp"
@@ -17,6 +18,8 @@ struct WaveReport {
   std::uint64_t frames = 0;  ///< acknowledged
   bool interrupted = false;  ///< the user has ended it before the end of the recording
   std::uint64_t unacknowledged = 0, error_frames = 0, overload_frames = 0;
+  /// Where the frame began that the end of the waveform cuts, ps.
+  std::optional<Time> cut = {};
 };
 
 /// Plays `wave` to one listen-only core and writes `outputs.report`. As any node, it joins the bus

@@ -65,10 +65,17 @@ WaveDecodeResult decode_wave(const Wave &wave, int sample_point) {
   config.sample_point = sample_point;
   BusDecoder decoder{config, [&](const BusEvent &event) { result.events.push_back(event); }};
   for (const auto &[time, level] : wave.changes) decoder.on_level(time, level);
-  // The last frame may end with the file: grant it the recessive bits that end it.
-  decoder.finish(result.end + 12 * config.bit_time);
+  decoder.finish(result.end);
+  // The last frame may end with the file: grant it the recessive bits that end it, but not those of
+  // which one would be its acknowledge.
+  if (!decoder.before_ack_delimiter()) decoder.finish(result.end + 12 * config.bit_time);
   result.cut = decoder.under_way();
   return result;
+}
+
+std::string cut_text(Time start) {
+  return fmt::format("{:.3f} us frame cut by the end of the waveform",
+                     static_cast<double>(start) / kMicrosecond);
 }
 
 }  // namespace vericansim

@@ -51,4 +51,7 @@ struct WaveDecodeResult {
 /// Decodes a signal that has been read; `sample_point` in per mille of the bit.
 [[nodiscard]] WaveDecodeResult decode_wave(const Wave &wave, int sample_point);
 
+/// "12.000 us frame cut by the end of the waveform".
+[[nodiscard]] std::string cut_text(Time start);
+
 }  // namespace vericansim

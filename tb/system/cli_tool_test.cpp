@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The tool as a user meets it: exit codes, one-line errors, JSON.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -226,6 +227,11 @@ TEST_F(Tool, DecodeTellsOfAFrameThatTheFileCuts) {
   EXPECT_EQ(json["cut_ps"], start);
   EXPECT_EQ(json["frames"], 1);
   EXPECT_EQ(json["errors"], 0);
+  const ToolResult page = run_tool("report " + half + " -b 500k --out " + in("half.html"));
+  EXPECT_EQ(page.code, 0);
+  EXPECT_THAT(page.out, HasSubstr(fmt::format("{:.3f} us frame cut by the end of the waveform\n",
+                                              static_cast<double>(start) / 1e6)));
+  EXPECT_THAT(page.out, HasSubstr(": 1 frames, 0 without ACK, 0 error frames, "));
 }
 
 TEST_F(Tool, BittimeJson) {
