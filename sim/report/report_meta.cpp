@@ -18,6 +18,11 @@ using Json = nlohmann::ordered_json;
 
 double ns(Time time) { return static_cast<double>(time) / 1e3; }
 
+/// Hz, error included.
+double real_frequency(const ClockConfig &clock) {
+  return clock.frequency_hz * (1 + clock.error_ppm * 1e-6);
+}
+
 Json node_json(const ReportRecorder &recorder, const ReportExtras &extras, NodeId id) {
   const Node &node = const_cast<Bus &>(recorder.bus()).node(id);
   const BitTiming &timing = recorder.setup().timings[id];
@@ -28,7 +33,7 @@ Json node_json(const ReportRecorder &recorder, const ReportExtras &extras, NodeI
           {"clock_hz", clock.frequency_hz},
           {"error_ppm", clock.error_ppm},
           {"quanta", timing.quanta()},
-          {"tq_ns", timing.prescaler * 1e9 / clock.frequency_hz},
+          {"tq_ns", timing.prescaler * 1e9 / real_frequency(clock)},
           {"prop", timing.prop},
           {"ps1", timing.ps1},
           {"ps2", timing.ps2},
@@ -36,7 +41,7 @@ Json node_json(const ReportRecorder &recorder, const ReportExtras &extras, NodeI
           {"sample_point", 1.0 - static_cast<double>(timing.ps2) / timing.quanta()},
           {"sent", counts.sent},
           {"received", in_run ? extras.run->nodes[id].received : counts.delivered},
-          {"retries", counts.attempts - counts.sent},
+          {"retries", counts.retries()},
           {"lost", counts.lost_arbitration},
           {"errors", counts.errors},
           {"tec", counts.tec},

@@ -48,7 +48,7 @@ std::string nodes_text(const RunReport &report) {
   for (const NodeReport &n : report.nodes) {
     const NodeCounts &c = n.counts;
     fmt::format_to(out, "  {:<14} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9}  {}\n", n.name, c.sent,
-                   n.received, n.retries(), c.lost_arbitration, c.errors,
+                   n.received, c.retries(), c.lost_arbitration, c.errors,
                    fmt::format("{} ({})", c.tec, c.max_tec),
                    fmt::format("{} ({})", c.rec, c.max_rec), n.state());
   }
@@ -85,7 +85,7 @@ Json node_json(const NodeReport &n) {
           {"received", n.received},
           {"overruns", n.overruns},
           {"attempts", c.attempts},
-          {"retries", n.retries()},
+          {"retries", c.retries()},
           {"lost_arbitration", c.lost_arbitration},
           {"errors", c.errors},
           {"stuff_errors", c.by_kind[0]},

@@ -45,7 +45,6 @@ struct NodeReport {
   unsigned max_wait_states = 0;
   std::vector<std::string> ahb_violations;
   bool own_software = true;  ///< false: firmware drives the core
-  [[nodiscard]] std::uint64_t retries() const { return counts.attempts - counts.sent; }
   /// "active", "passive" or "bus-off".
   [[nodiscard]] std::string state() const;
 };

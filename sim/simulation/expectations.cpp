@@ -44,7 +44,7 @@ double node_number(const NodeReport &node, const std::string &key) {
   if (key == "overruns") return static_cast<double>(node.overruns);
   if (key == "errors") return static_cast<double>(c.errors);
   if (key == "lost") return static_cast<double>(c.lost_arbitration);
-  if (key == "retries") return static_cast<double>(node.retries());
+  if (key == "retries") return static_cast<double>(c.retries());
   return static_cast<double>(c.bus_off);
 }
 

@@ -105,21 +105,34 @@ TEST(ReportFrames, ResponseTimesAreThoseOfTheMessages) {
 
 void expect_retries_of_nodes(const ReportedRun &run) {
   ASSERT_EQ(run.report.pending, 0U);
-  std::vector<double> again(run.report.nodes.size()), lost(run.report.nodes.size());
+  std::vector<double> failed(run.report.nodes.size()), lost(run.report.nodes.size());
   for (std::size_t i = 0; i < run.page.size("f.start"); ++i) {
     const auto sender = static_cast<std::size_t>(run.page.at("f.sender", i));
-    again[sender] += run.page.at("f.retries", i) + run.page.at("f.lost", i);
+    failed[sender] += run.page.at("f.retries", i);
     lost[sender] += run.page.at("f.lost", i);
   }
-  for (std::size_t n = 0; n < again.size(); ++n) {
-    EXPECT_EQ(again[n], static_cast<double>(run.report.nodes[n].retries())) << n;
-    EXPECT_EQ(lost[n], static_cast<double>(run.report.nodes[n].counts.lost_arbitration)) << n;
+  for (std::size_t n = 0; n < failed.size(); ++n) {
+    const NodeCounts &counts = run.report.nodes[n].counts;
+    EXPECT_EQ(failed[n], static_cast<double>(counts.retries())) << n;
+    EXPECT_EQ(lost[n], static_cast<double>(counts.lost_arbitration)) << n;
+    EXPECT_EQ(run.page.meta.at("nodes").at(n).at("retries"), counts.retries()) << n;
   }
 }
 
 TEST(ReportFrames, RetriesAndLostArbitrationsAddUp) {
   expect_retries_of_nodes(busy());
   expect_retries_of_nodes(disturbed());
+}
+
+// Clocks of different errors: a quantum is as long as the clock makes it.
+TEST(ReportNodes, QuantaHaveTheErrorOfTheClock) {
+  for (const auto &node : disturbed().page.meta.at("nodes")) {
+    const double ticks = node.at("tq_ns").get<double>() * node.at("clock_hz").get<double>() *
+                         (1 + node.at("error_ppm").get<double>() * 1e-6) / 1e9;
+    EXPECT_NEAR(ticks, std::round(ticks), 1e-9) << node;
+  }
+  EXPECT_NE(disturbed().page.meta.at("nodes").at(0).at("error_ppm"),
+            disturbed().page.meta.at("nodes").at(1).at("error_ppm"));
 }
 
 // FF-01, FF-02, ST-01: the frame codec gives every bit, its field and the stuff bits; three bits of
