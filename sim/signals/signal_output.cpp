@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "signals/signal_text.hpp"
+#include "trace/text.hpp"
 
 namespace vericansim {
 namespace {
@@ -33,14 +34,6 @@ OrderedJson value_json(const SignalValue &value) {
 
 std::string id_text(const Frame &frame) {
   return fmt::format("{:0{}X}", frame.id, frame.extended ? 8 : 3);
-}
-
-/// A field of a CSV file (RFC 4180).
-std::string field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string quoted_text = "\"";
-  for (const char c : text) quoted_text += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted_text + "\"";
 }
 
 }  // namespace
@@ -112,17 +105,17 @@ void SignalCsv::write(const LogEntry &entry, const DecodedFrame &decoded) {
   if (decoded.message == nullptr) return;
   constexpr Time kSecondInNs = 1'000'000'000;
   const Time ns = start_ns_ + entry.time / kNanosecond;
-  const std::string start =
-      fmt::format("{}.{:09},{},{},{}", ns / kSecondInNs, ns % kSecondInNs, field(entry.channel),
-                  id_text(entry.frame), field(decoded.message->name));
+  const std::string start = fmt::format("{}.{:09},{},{},{}", ns / kSecondInNs, ns % kSecondInNs,
+                                        text::csv_field(entry.channel), id_text(entry.frame),
+                                        text::csv_field(decoded.message->name));
   for (const SignalValue &value : decoded.values) {
     const Signal &signal = *value.signal;
     const auto raw = signal.is_signed && !signal.is_float
                          ? fmt::format("{}", static_cast<std::int64_t>(value.raw))
                          : fmt::format("{}", value.raw);
-    file_.stream() << fmt::format("{},{},{},{},{},{}\n", start, field(signal.name), raw,
-                                  number_text(value), field(signal.unit),
-                                  field(choice_of(value).value_or("")));
+    file_.stream() << fmt::format("{},{},{},{},{},{}\n", start, text::csv_field(signal.name), raw,
+                                  number_text(value), text::csv_field(signal.unit),
+                                  text::csv_field(choice_of(value).value_or("")));
   }
 }
 

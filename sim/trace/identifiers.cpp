@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trace/text.hpp"
+
 namespace vericansim {
 namespace {
 
@@ -123,8 +125,8 @@ void write_csv(const IdentifierTable &table, std::ostream &out) {
       changed += (changed.empty() ? "" : " ") + std::to_string(i);
     });
     fmt::print(out, "{},{},{:d},{:d},{},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{},{},{}\n",
-               channel, id_text(key), extended, remote, row.count, seconds(row.mean_period),
-               seconds(static_cast<double>(row.shortest_period)),
+               text::csv_field(channel), id_text(key), extended, remote, row.count,
+               seconds(row.mean_period), seconds(static_cast<double>(row.shortest_period)),
                seconds(static_cast<double>(row.longest_period)), seconds(row.jitter()),
                seconds(static_cast<double>(row.first)), seconds(static_cast<double>(row.last)),
                row.last_frame.dlc, remote ? "" : data_text(row, ""), changed);

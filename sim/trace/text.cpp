@@ -77,6 +77,13 @@ std::optional<std::int64_t> parse_decimal(std::string_view text, std::int64_t un
   return static_cast<std::int64_t>(*whole) * unit + fraction;
 }
 
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted_text = "\"";
+  for (const char c : text) quoted_text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted_text + "\"";
+}
+
 void set_id(Frame &frame, std::uint64_t id, bool extended, const Place &place) {
   const std::uint64_t highest = extended ? 0x1FFFFFFF : 0x7FF;
   if (id > highest)

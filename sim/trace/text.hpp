@@ -46,6 +46,9 @@ void for_each_line(std::string_view text, const std::string &file, Use use) {
 /// Without blanks at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
+/// A field of a CSV file as it is written (RFC 4180): in quotes if need be.
+[[nodiscard]] std::string csv_field(std::string_view text);
+
 /// "1 frame", "2 frames".
 [[nodiscard]] std::string counted(std::size_t count, std::string_view one, std::string_view many);
 

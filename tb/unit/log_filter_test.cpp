@@ -179,5 +179,14 @@ TEST(Identifiers, TextJsonAndCsv) {
                         "0.000000000,0.000000000,3,,\n"));
 }
 
+// RFC 4180: an interface may be called anything.
+TEST(IdentifierTable, NamesOfInterfacesAreQuotedInCsv) {
+  IdentifierTable odd;
+  odd.add("a,\"b", Frame{0x123, false, false, 0, {}}, 0);
+  std::ostringstream csv;
+  write_csv(odd, csv);
+  EXPECT_THAT(csv.str(), HasSubstr("\n\"a,\"\"b\",123,0,0,1,"));
+}
+
 }  // namespace
 }  // namespace vericansim
