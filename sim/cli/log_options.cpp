@@ -68,6 +68,13 @@ std::string SelectedLog::why_empty() const {
   return "holds no classical CAN frame" + (others.empty() ? "" : ", only " + others);
 }
 
+CanLog read_and_warn(const std::string &path) {
+  CanLog log = read_log(path);
+  for (const std::string &text : log.warnings)
+    print_error("verican: warning: {}: {}\n", path, text);
+  return log;
+}
+
 SelectedLog read_selected(const std::string &path, const LogSelection &selection, bool several) {
   LogFilter filter;
   filter.interface = selection.interface;
@@ -75,7 +82,7 @@ SelectedLog read_selected(const std::string &path, const LogSelection &selection
   filter.from = moment("--from", selection.from);
   filter.to = moment("--to", selection.to);
   filter.several = several;
-  CanLog read = read_log(path);
+  CanLog read = read_and_warn(path);
   SelectedLog result;
   result.whole = read.entries.size();
   result.step_back = first_step_back(read);

@@ -49,6 +49,9 @@ struct SelectedLog {
   [[nodiscard]] std::string why_empty() const;
 };
 
+/// read_log() that tells its warnings on standard error.
+[[nodiscard]] CanLog read_and_warn(const std::string &path);
+
 /// Reads `path`. Unless `several`, a recording of several interfaces needs a choice. Times that go
 /// back are told on standard error. Throws InputError.
 [[nodiscard]] SelectedLog read_selected(const std::string &path, const LogSelection &selection,

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/cli.hpp"
+#include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
 #include "cli/print_error.hpp"
 #include "signals/signal_output.hpp"
@@ -45,7 +46,7 @@ int signals(const SignalsOptions &options) {
   add_databases(inputs, database);
   add_file(outputs, "--csv", options.csv);
   claim_files(inputs, outputs);
-  const CanLog log = read_log(options.log);
+  const CanLog log = read_and_warn(options.log);
   const bool lines = !options.json && !options.table && options.csv.empty();
   std::unique_ptr<SignalCsv> csv;
   if (!options.csv.empty()) csv = std::make_unique<SignalCsv>(options.csv, log.start_ns);

@@ -99,7 +99,8 @@ def nanoseconds_of(when):
     return int(seconds) * SECOND + int(fraction)
 
 
-# -- readers: each yields (nanoseconds, message, DLC of the bus) ---------------------------------
+# -- readers: each yields (nanoseconds, message, DLC of the bus), None for what is passed over, and
+# -- warnings
 
 class AscLines:
     """The lines of an ASC file for python-can, which loses the first line of a file that says
@@ -109,6 +110,7 @@ class AscLines:
     def __init__(self, data):
         self.lines = as_text(data).splitlines(keepends=True)
         self.date = ""
+        self.date_line = ""
         self.number = 0
         self.events = 0
         self.relative = False
@@ -119,6 +121,7 @@ class AscLines:
         for self.number, line in enumerate(self.lines, 1):
             text = line.strip().lower()
             if text.startswith(("date ", "begin triggerblock ")):
+                self.date_line = f"line {self.number}: '{line.strip():.60}'"
                 self.date = line.split(None, 3 if text.startswith("begin") else 2)[-1].strip()
             if not body and re.match(r"\d|begin", text):
                 body = True
@@ -202,17 +205,20 @@ def read_asc(data):
         # For classical data frames python-can makes a length of CAN FD of a DLC above 8.
         length = not message.is_fd and not message.is_remote_frame
         dlc = can.util.len2dlc(message.dlc) if length else message.dlc
-        yield asc_origin(lines.date) + round(message.timestamp * SECOND), message, dlc
+        yield (asc_origin(lines.date) or 0) + round(message.timestamp * SECOND), message, dlc
     yield from [None] * (lines.events - count)
+    if lines.date and asc_origin(lines.date) is None:
+        yield (f"{lines.date_line} has no date that can be read, so times count from 1970; "
+               f"allowed: date Fri Mar 8 09:41:17.123 am 2024")
 
 
 def asc_origin(date):
-    """A date of ASC in nanoseconds; 0 if it cannot be read."""
+    """A date of ASC in nanoseconds; None if it cannot be read."""
     try:
         seconds = can.io.ASCReader._datetime_to_timestamp(date)  # pylint: disable=protected-access
         return round(seconds * 1000) * MILLISECOND
     except (ValueError, OverflowError):
-        return 0
+        return None
 
 
 def check_size(data, size):
@@ -382,11 +388,13 @@ def as_text(data):
 def read(name, data):
     """All messages as lines. Whatever python-can raises means that the file is damaged."""
     reader = {"asc": read_asc, "blf": read_blf, "csv": read_csv, "sqlite": read_sqlite}[name]
-    lines, skipped = [], 0
+    lines, warnings, skipped = [], [], 0
     try:
         for item in reader(data):
             if item is None:
                 skipped += 1
+            elif isinstance(item, str):
+                warnings.append(f"# warning {' '.join(item.split())}\n")
             else:
                 lines.append(line_of(*item[:2], len(lines) + 1, item[2], name in ("asc", "blf")))
     except BadInput:
@@ -394,7 +402,7 @@ def read(name, data):
     except Exception as error:  # pylint: disable=broad-except
         raise BadInput(f"damaged behind message {len(lines)}: {type(error).__name__} {error} "
                        f"(python-can)") from error
-    return f"# skipped {skipped}\n" + "".join(lines)
+    return f"# skipped {skipped}\n" + "".join(warnings + lines)
 
 
 def write(name, data):

@@ -6,11 +6,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
 #include <cctype>
 #include <utility>
 
 #include "trace/candump_screen.hpp"
+#include "trace/fd_lengths.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log_builder.hpp"
 
@@ -100,6 +102,9 @@ ForeignEntry foreign_entry(std::string_view text, const Place &place) {
   if (digits.size() % 2 != (fd ? 1 : 0))
     fail(place, fd ? "CAN FD frame without flags or with half a byte; allowed: 123##<flags><data>"
                    : "odd number of data digits");
+  if (fd && !is_fd_length(digits.size() / 2))
+    fail(place, fmt::format("CAN FD frame of {} bytes is not allowed; allowed: {}",
+                            digits.size() / 2, fmt::join(kFdLengths, ", ")));
   entry.text = checked_digits(text.substr(0, hash), 8, place) + (fd ? "##" : "#") + digits;
   return entry;
 }
@@ -179,6 +184,9 @@ CanLog parse_candump(std::string_view text, const std::string &file) {
       parse_log_line(fields, log, place);
     else
       screen.parse(line, log, place);
+    // A file that is cut within its last frame may hold a shorter one.
+    if (line.data() + line.size() == text.data() + text.size())
+      log.warn(fmt::format("line {} has no line end; its frame may be cut short", place.line));
   });
   return log.finish(true);
 }

@@ -51,7 +51,8 @@ struct CanLog {
   std::vector<LogEntry> entries;
   std::size_t skipped = 0;    ///< lines or packets that hold no classical data or remote frame
   std::int64_t start_ns = 0;  ///< absolute time of the first entry (Unix epoch), 0 if unknown
-  std::vector<ForeignEntry> others;  ///< counted in `skipped`, too
+  std::vector<ForeignEntry> others;   ///< counted in `skipped`, too
+  std::vector<std::string> warnings;  ///< what a reader should know who trusts the recording
 
   /// How many of `skipped` are of this kind.
   [[nodiscard]] std::size_t count(ForeignEntry::Kind kind) const;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "trace/log.hpp"
 #include "trace/text.hpp"
@@ -23,6 +24,8 @@ class LogBuilder {
   void add(std::int64_t ns, ForeignEntry entry, const text::Place &place);
   /// Counts a line or packet that holds no frame.
   void skip() { ++log_.skipped; }
+  /// Notes what a reader should know.
+  void warn(std::string text) { log_.warnings.push_back(std::move(text)); }
   /// How many lines or packets there were.
   [[nodiscard]] std::size_t size() const { return log_.entries.size() + log_.skipped; }
   /// The log, with times since its first classical frame (without one: since the first entry).

@@ -19,16 +19,24 @@ namespace {
 constexpr const char *kScript = "log_format.py";
 constexpr const char *kNoChannel = "-";
 
+/// What the script says in front of the frames, in lines that are comments for others: how much it
+/// has passed over, and warnings.
+void take_remarks(std::string_view lines, CanLog &log) {
+  constexpr std::string_view kSkipped = "# skipped ", kWarning = "# warning ";
+  for (; lines.starts_with("# "); lines.remove_prefix(lines.find('\n') + 1)) {
+    const std::string_view line = lines.substr(0, lines.find('\n'));
+    if (line.starts_with(kWarning)) log.warnings.emplace_back(line.substr(kWarning.size()));
+    if (line.starts_with(kSkipped))
+      log.skipped += text::parse_unsigned(line.substr(kSkipped.size()), 10).value_or(0);
+  }
+}
+
 }  // namespace
 
 CanLog parse_python_log(std::string_view bytes, LogFormat format, const std::string &path) {
   const std::string lines = run_python({kScript, {"read", traits_of(format).option}, bytes, path});
   CanLog log = parse_candump(lines, path + ": message");
-  // The first line, a comment for others, counts what the script has passed over.
-  const std::size_t blank = lines.rfind(' ', lines.find('\n'));
-  log.skipped += text::parse_unsigned(
-                     std::string_view{lines}.substr(blank + 1, lines.find('\n') - blank - 1), 10)
-                     .value_or(0);
+  take_remarks(lines, log);
   const auto without_name = [](auto &entry) {
     if (entry.channel == kNoChannel) entry.channel.clear();
   };

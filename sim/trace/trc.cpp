@@ -10,6 +10,7 @@
 #include <array>
 
 #include "trace/candump.hpp"
+#include "trace/fd_lengths.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log_builder.hpp"
 #include "trace/text.hpp"
@@ -153,7 +154,7 @@ class TrcReader {
     if (type.remote || field(fields, 'D') == "RTR")
       return head + fmt::format("R{}", std::min<std::uint64_t>(*dlc, 8)) + raw;
     const std::size_t length =
-        type.fd && !told ? trc::kFdLengths[*dlc] : std::min<std::size_t>(*dlc, type.fd ? 64 : 8);
+        type.fd && !told ? kFdLengths[*dlc] : std::min<std::size_t>(*dlc, type.fd ? 64 : 8);
     const std::size_t first = std::min(columns_.find('D'), fields.size());
     return head + text::byte_digits(fields, first, length, place) + raw;
   }

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "trace/channel_numbers.hpp"
+#include "trace/fd_lengths.hpp"
 #include "trace/log_walk.hpp"
 #include "trace/text.hpp"
 #include "trace/trc.hpp"
@@ -87,10 +88,9 @@ FdParts fd_parts(const std::string &text) {
   const std::string_view all{text};
   const auto flags = text::parse_unsigned(all.substr(hash + 2, 1), 16).value_or(0) & 3U;
   const std::string_view digits = all.substr(hash + 3);
-  const auto *length =
-      std::lower_bound(trc::kFdLengths.begin(), trc::kFdLengths.end(), digits.size() / 2);
+  const auto *length = std::lower_bound(kFdLengths.begin(), kFdLengths.end(), digits.size() / 2);
   return {kFdTypes[flags], all.substr(0, hash), digits,
-          static_cast<std::size_t>(length - trc::kFdLengths.begin())};
+          static_cast<std::size_t>(length - kFdLengths.begin())};
 }
 
 }  // namespace

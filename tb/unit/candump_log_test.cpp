@@ -3,6 +3,7 @@
 //
 // candump logs and the other text recordings: what can-utils, PCAN-View and SavvyCAN write is read
 // exactly.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +18,9 @@
 namespace vericansim {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 Frame frame_of(const std::string &text) {
   Frame frame;
@@ -91,6 +94,30 @@ TEST(CandumpLog, SkipsAndCountsWhatIsNotClassical) {
   EXPECT_EQ(log.skipped, 2U);
   ASSERT_EQ(log.entries.size(), 1U);
   EXPECT_EQ(log.entries[0].time, 0);
+}
+
+// A file that is cut in its last frame reads as one with a shorter frame.
+TEST(CandumpLog, ALastLineWithoutLineEndIsWarnedOf) {
+  const std::string text = "(1.0) can0 123#11\n(1.1) can0 124#2233";
+  EXPECT_THAT(parse_candump(text, "log").warnings,
+              ElementsAre("line 2 has no line end; its frame may be cut short"));
+  for (const char *rest : {"\n", "\r\n", "\n# end", "\n  "})
+    EXPECT_THAT(parse_candump(text + rest, "log").warnings, IsEmpty()) << rest;
+  EXPECT_THAT(parse_candump("", "log").warnings, IsEmpty());
+}
+
+// A length that no DLC stands for cannot have been on a bus.
+TEST(CandumpLog, FdFramesOfALengthThatThereIsNotAreRefused) {
+  for (std::size_t bytes = 0; bytes <= 64; ++bytes) {
+    const std::string text = "(1.0) can0 123##1" + std::string(2 * bytes, '5') + "\n";
+    if (bytes <= 8 || (bytes <= 24 && bytes % 4 == 0) || bytes == 32 || bytes == 48 || bytes == 64)
+      EXPECT_EQ(parse_candump(text, "log").others.size(), 1U) << bytes;
+    else
+      EXPECT_THAT(error_of(text),
+                  HasSubstr(fmt::format("log:1: CAN FD frame of {} bytes is not allowed; allowed: "
+                                        "0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64",
+                                        bytes)));
+  }
 }
 
 TEST(CandumpLog, ErrorsNameFileLineValueAndWhatIsAllowed) {

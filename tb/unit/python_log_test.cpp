@@ -180,6 +180,23 @@ TEST_F(PythonLog, BlfObjectsWithoutSizeAreRefused) {
   EXPECT_EQ(error_of(blf_file({data})), "a.log: object of 0 bytes; allowed: 16 or more");
 }
 
+// Dates as other programs write them: the frames are read, and their times are not those of day.
+TEST_F(PythonLog, AscWithADateThatCannotBeReadIsWarnedOf) {
+  const auto warnings = [](const std::string &date) {
+    const CanLog log = parse_log(
+        date + "base hex  timestamps absolute\n0.1 1 64 Rx d 1 11\n0.2 1 65 Rx d 1 11\n", "a.asc");
+    EXPECT_EQ(log.entries.size(), 2U) << date;
+    return log.warnings;
+  };
+  EXPECT_THAT(warnings("date 30.10.2024 15:00:00\n"),
+              testing::ElementsAre("line 1: 'date 30.10.2024 15:00:00' has no date that can be "
+                                   "read, so times count from 1970; allowed: date Fri Mar 8 "
+                                   "09:41:17.123 am 2024"));
+  EXPECT_THAT(warnings("date Wed Oct 30 03:00:00.000 PM 2024\n"), testing::IsEmpty());
+  EXPECT_THAT(warnings("date Wed Oct 30 15:00:00 2024\n"), testing::IsEmpty());
+  EXPECT_THAT(warnings(""), testing::IsEmpty());
+}
+
 const std::string kFrames =
     "(1700000000.123456789) can0 123#1122 R\n"
     "(1700000000.123456790) can1 12345678#0102030405060708_B T\n"
