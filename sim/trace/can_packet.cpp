@@ -74,7 +74,7 @@ void add_frame(Bytes bytes, std::uint32_t id, bool fd, std::int64_t ns, LogEntry
   const bool clean = (bytes[5] & ~kFdFlags) == 0 && bytes[6] == 0;
   fd = fd || (clean && bytes[7] == 0 && (bytes[5] & kFdFrame) != 0) || length > 8;
   const bool error = (id & kError) != 0, remote = !error && !fd && (id & kRemote) != 0;
-  if (fd ? !is_fd_length(length) : length > 64) return log.skip();
+  if (length > 64 || (fd && !error && !is_fd_length(length))) return log.skip();
   if (!remote && bytes.size() < kHeader + length)
     fail(place,
          fmt::format("{} data bytes where the length says {}", bytes.size() - kHeader, length));

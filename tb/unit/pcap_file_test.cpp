@@ -117,8 +117,8 @@ TEST(Pcap, RawDlcs) {
   EXPECT_EQ(seen, (std::vector<unsigned>{8, 9, 15, 8, 1}));
 }
 
-// Without the flag of CAN FD more than 8 bytes tell; more than 64 are of nobody. An error message
-// has 8 bytes, whatever else is there.
+// Without the flag of CAN FD more than 8 bytes tell; more than 64, or a length that no DLC has, are
+// of nobody. An error message has 8 bytes, whatever else is there.
 TEST(Pcap, LengthsBeyondThoseOfClassicalFrames) {
   const auto with = [](std::initializer_list<int> head, int length) {
     return packet(head) + static_cast<char>(length) + std::string(3, '\0') +
@@ -127,10 +127,11 @@ TEST(Pcap, LengthsBeyondThoseOfClassicalFrames) {
   CaptureBuilder file{false, false};
   file.packet(1, 0, with({0, 0, 1, 0x23}, 12));
   file.packet(1, 0, with({0, 0, 1, 0x24}, 65));
-  file.packet(1, 0, with({0x20, 0, 0, 4}, 12));
+  file.packet(1, 0, with({0, 0, 1, 0x25}, 9));
+  file.packet(1, 0, with({0x20, 0, 0, 4}, 9));
   const CanLog log = read_pcap(file.write("long.pcap"));
   EXPECT_TRUE(log.entries.empty());
-  EXPECT_EQ(log.skipped, 3U);
+  EXPECT_EQ(log.skipped, 4U);
   ASSERT_EQ(log.others.size(), 2U);
   EXPECT_EQ(log.others[0].text, "123##0555555555555555555555555");
   EXPECT_EQ(log.others[1].text, "20000004#5555555555555555");
