@@ -394,7 +394,8 @@ def read(name, data):
             if item is None:
                 skipped += 1
             elif isinstance(item, str):
-                warnings.append(f"# warning {' '.join(item.split())}\n")
+                text = "".join(c if c.isprintable() else "?" for c in item)
+                warnings.append(f"# warning {text}\n")
             else:
                 lines.append(line_of(*item[:2], len(lines) + 1, item[2], name in ("asc", "blf")))
     except BadInput:

@@ -192,6 +192,8 @@ TEST_F(PythonLog, AscWithADateThatCannotBeReadIsWarnedOf) {
               testing::ElementsAre("line 1: 'date 30.10.2024 15:00:00' has no date that can be "
                                    "read, so times count from 1970; allowed: date Fri Mar 8 "
                                    "09:41:17.123 am 2024"));
+  EXPECT_THAT(warnings("date 30.\x1b[1m 15:00:00\n"),
+              testing::ElementsAre(HasSubstr("'date 30.?[1m 15:00:00' has no date")));
   EXPECT_THAT(warnings("date Wed Oct 30 03:00:00.000 PM 2024\n"), testing::IsEmpty());
   EXPECT_THAT(warnings("date Wed Oct 30 15:00:00 2024\n"), testing::IsEmpty());
   EXPECT_THAT(warnings(""), testing::IsEmpty());
