@@ -6,9 +6,9 @@
 
 package can_rn_pkg;
 
-  // Jobs of can_rn_step. A job has phases, one clock each. Some blocks look at single bits of a code:
-  // can_rn_step (JobBegin, JobHead, JobFind, JobGuard), can_rn_cell (JobLow, JobHigh), can_rn_port
-  // (JobFresh, JobLoad, JobPush).
+  // Jobs of can_rn_step. A job has phases, one clock each. Some blocks look at single bits of a
+  // code: can_rn_step (JobBegin, JobHead, JobFind, JobGuard), can_rn_cell (JobLow, JobHigh),
+  // can_rn_port (JobFresh, JobLoad, JobPush).
   typedef logic [5:0] job_t;
   // 0_000xx: the RAM belongs to user logic. These take as long as it takes.
   localparam logic [5:0] JobIdle    = 6'b0_00000;

@@ -209,7 +209,9 @@ test('the overview moves the view', async () => {
   const page = await openReport(file);
   await setView(page, 0, 100 * bit);
   const outer = await (await page.$('.overview')).boundingBox();
-  await page.mouse.click(outer.x + 118 + 0.75 * (outer.width - 118), outer.y + 20);
+  // A click on the element waits until it stays where it is.
+  await page.click('.overview', {position: {x: 118 + 0.75 * (outer.width - 118), y: 20}});
+  await page.waitForFunction(() => window.verican.view.from !== 0);
   const view = await viewOf(page);
   const limits = await page.evaluate(() => [window.verican.view.least, window.verican.view.most]);
   near(
