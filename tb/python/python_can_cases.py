@@ -41,6 +41,17 @@ def until(condition):
     return condition()
 
 
+def two_wait_until(event, wait, *args):
+    """Two threads wait, `event` is called; WAIT is the time in which both must have ended."""
+    waiting = [threading.Thread(target=wait, args=args, daemon=True) for _ in range(2)]
+    for thread in waiting:
+        thread.start()
+    time.sleep(0.05)
+    event()
+    for thread in waiting:
+        thread.join(WAIT)
+
+
 class PythonCan(unittest.TestCase):
     def setUp(self):
         self.channel = next(names)
@@ -99,13 +110,7 @@ class PythonCan(unittest.TestCase):
             ends.append(bus)
         # The other one is still open, and then the channel closes, too.
         for bus in (self.b, self.a):
-            waiting = [threading.Thread(target=wait, args=(bus,), daemon=True) for _ in range(2)]
-            for thread in waiting:
-                thread.start()
-            time.sleep(0.05)
-            bus.shutdown()
-            for thread in waiting:
-                thread.join(WAIT)
+            two_wait_until(bus.shutdown, wait, bus)
         self.assertEqual(ends, 2 * [self.b] + 2 * [self.a])
 
     def test_raw_dlc(self):
@@ -232,13 +237,7 @@ class PythonCanUsers(unittest.TestCase):
             with self.failed():
                 self.b.recv()
             ends.append(True)
-        waiting = [threading.Thread(target=wait, daemon=True) for _ in range(2)]
-        for thread in waiting:
-            thread.start()
-        time.sleep(0.05)
-        self.break_channel()
-        for thread in waiting:
-            thread.join(WAIT)
+        two_wait_until(self.break_channel, wait)
         self.assertEqual(ends, [True, True])
 
 
