@@ -28,7 +28,7 @@ module can_rn_cell (
   input  logic             zero_i,       // byte read is 0, 1
   input  logic             one_i,
   input  logic             own_i,        // not a byte of the row, but what another block says
-  output logic [8:0]       cell_o,
+  output logic [8:0]       cell_o,       // byte of the upper 512 that is read or written
   output logic             we_o
 );
   // Variables: 0, 1 watchdog; 2 counts ms; 3 rest of the back-off, or of 10 s; 4 constant: 10 s;

@@ -15,7 +15,7 @@ module can_rn_port #(
   input  logic             read_i,      // JobMove: memory to row
   input  logic             same_i,      // JobSame: memory
   input  logic             trigger_i,
-  input  logic [8:0]       cell_i,
+  input  logic [8:0]       cell_i,      // byte of the upper 512 that is read or written
   input  logic [8:0]       read_cell_i, // or this, of a job that only reads, and that comes late
   input  logic             we_i,
   input  logic             wide_i,      // all bytes of the word
