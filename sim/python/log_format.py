@@ -6,6 +6,7 @@
 # whole millisecond, so that its floats cannot round them.
 """usage: log_format.py read|write asc|blf|csv|sqlite <IN >OUT"""
 import base64
+import collections
 import decimal
 import io
 import logging
@@ -228,14 +229,21 @@ def check_size(data, size):
 
 
 class BlfReader(can.io.BLFReader):
-    """python-can's reader, which takes a request to send for a frame that was received; here
-    requests are passed over and counted."""
+    """python-can's reader, which takes a request to send for a frame that was received, and the
+    length of a CAN FD frame for the DLC of a classical one in objects 100 and 101. Here requests
+    are passed over and counted, and `dlcs` has the DLC of each message that the reader yields."""
     OBJECT = struct.Struct("<4sHHLL")  # "LOBJ", size of the header, its version, size, type
+    HEADERS = {1: 32, 2: 40}           # bytes of both headers by version
     # Where a direction lies behind the header; in the byte of flags it is the lower half.
     DIRECTIONS = {1: 2, 86: 2, 100: 2, 101: 34}
+    # Where a DLC lies; that of an error message (73) is not looked at.
+    DLCS = {1: 3, 73: 0, 86: 3, 100: 3, 101: 1}
     REQUEST = 2
 
-    requests = 0
+    def __init__(self, file):
+        super().__init__(file)
+        self.requests = 0
+        self.dlcs = collections.deque()
 
     def _parse_data(self, data):
         return super()._parse_data(self.without_requests(bytearray(data)))
@@ -248,10 +256,14 @@ class BlfReader(can.io.BLFReader):
             _, _, version, size, kind = self.OBJECT.unpack_from(data, at)
             if size < self.OBJECT.size:
                 raise BadInput(f"object of {size} bytes; allowed: {self.OBJECT.size} or more")
-            place = at + (32 if version == 1 else 40) + self.DIRECTIONS.get(kind, size)
-            if place < at + size <= len(data) and data[place] & 0x0F == self.REQUEST:
-                self.requests += 1
-                data[at + 12:at + 16] = bytes(4)
+            if at + size <= len(data) and version in self.HEADERS:
+                body = bytes(data[at + self.HEADERS[version]:at + size]).ljust(40, b"\0")
+                if kind in self.DIRECTIONS and \
+                        body[self.DIRECTIONS[kind]] & 0x0F == self.REQUEST:
+                    self.requests += 1
+                    data[at + 12:at + 16] = bytes(4)
+                elif kind in self.DLCS:
+                    self.dlcs.append(body[self.DLCS[kind]])
             at = data.find(b"LOBJ", at + size, at + size + 8)
         return data
 
@@ -263,7 +275,7 @@ def read_blf(data):
     origin = round(reader.start_timestamp * 1000) * MILLISECOND
     reader.start_timestamp = 0.0
     for message in reader:
-        yield origin + round(message.timestamp * SECOND), message, message.dlc
+        yield origin + round(message.timestamp * SECOND), message, reader.dlcs.popleft()
     yield from [None] * reader.requests
 
 

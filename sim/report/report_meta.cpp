@@ -180,6 +180,7 @@ Json report_meta(const ReportRecorder &recorder, const ReportExtras &extras) {
           {"initial", initial_json(data)},
           {"nodes", nodes},
           {"messages", messages_json(extras)},
+          {"no_bound", extras.run != nullptr ? extras.run->no_bound : ""},
           {"summary", summary_json(recorder, extras)},
           {"checks", checks_json(extras)},
           {"faults", extras.run != nullptr ? faults_meta(extras.run->faults) : Json::array()},

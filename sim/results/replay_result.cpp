@@ -38,6 +38,8 @@ std::string to_text(const std::vector<ReplayResult> &replays) {
     if (r.longest_gap >= kLongGap)
       text += fmt::format("    no frame for {} before frame {}\n", long_time(r.longest_gap),
                           r.after_gap);
+    for (const std::string &warning : r.warnings)
+      text += fmt::format("    warning: {}: {}\n", r.file, warning);
   }
   return text;
 }
@@ -58,6 +60,7 @@ nlohmann::ordered_json to_json(const ReplayResult &replay) {
           {"recorded_ps", replay.recorded},
           {"longest_gap_ps", replay.longest_gap},
           {"after_gap", replay.after_gap},
+          {"warnings", replay.warnings},
           {"failure", replay.failure},
           {"receivers", receivers},
           {"ok", replay.ok()}};

@@ -34,6 +34,7 @@ struct ReplayResult {
   Time longest_gap = 0;         ///< between two frames
   std::uint64_t after_gap = 0;  ///< number of the frame after it
   std::string failure;  ///< why not all could be sent: nothing to send, given up; empty: all well
+  std::vector<std::string> warnings;  ///< of the recording, as in CanLog
   std::vector<ReplayReceiver> receivers;
   [[nodiscard]] bool ok() const;
 };

@@ -42,7 +42,10 @@ ReplayOperator::ReplayOperator(const OperatorContext &context)
     if (id != id_ && nodes[id].hosted() && nodes[id].host.filters.empty() &&
         !nodes[id].host.loop_back)
       followers_.push_back({id});
-  if (plan_.longest_gap >= kLongGap && context.say)
+  if (!context.say) return;
+  for (const std::string &warning : plan_.warnings)
+    context.say(fmt::format("{}: warning: {}: {}", name_, file_, warning));
+  if (plan_.longest_gap >= kLongGap)
     context.say(fmt::format("{}: {} has no frame for {} before frame {}", name_, file_,
                             long_time(plan_.longest_gap), plan_.after_gap));
 }
@@ -181,6 +184,7 @@ void ReplayOperator::report(RunReport &report) {
   result.recorded = plan_.recorded;
   result.longest_gap = plan_.longest_gap;
   result.after_gap = plan_.after_gap;
+  result.warnings = plan_.warnings;
   result.failure = failure_at_end(report.interrupted);
   if (!saturated_ && !report.interrupted) result.late = fed_ - sent_;
   for (const Follower &follower : followers_) result.receivers.push_back(judge(follower));

@@ -62,6 +62,7 @@ ReplayPlan make_plan(const ReplayRole &role) {
   const CanLog &log = role.log ? *role.log : read;
   ReplayPlan plan;
   plan.skipped = log.skipped;
+  plan.warnings = read.warnings;
   std::size_t taken = 0;
   Time first = 0, last = 0, before = 0;
   for (const LogEntry &entry : log.entries) {

@@ -27,6 +27,7 @@ struct ReplayPlan {
   Time longest_gap = 0;       ///< in the recording, without a frame for this node
   std::size_t after_gap = 0;  ///< number of the frame that ends it, from 1
   std::size_t skipped = 0;    ///< entries of the log that are no classical frames
+  std::vector<std::string> warnings;  ///< of the file that was read, as in CanLog
   std::string nothing;        ///< why there is no frame to send; empty if there are some
 };
 

@@ -381,5 +381,14 @@ test('response times: a point for each frame, the bound, and who broke it', asyn
     1,
     'later than its bound',
   );
+  assert.equal(await page.$('#panel-response .side p'), null);
+  await closeReport(page);
+});
+
+test('response times: why there is no bound', async () => {
+  const why = "node 'a' has <b>";
+  const page = await openReport(reportFor('no-bound', smallScene({no_bound: why})));
+  await page.click('#tab-response');
+  assert.equal(await page.textContent('#panel-response .side p'), `No bound: ${why}`);
   await closeReport(page);
 });

@@ -103,6 +103,18 @@ TEST(ReportFrames, ResponseTimesAreThoseOfTheMessages) {
   }
 }
 
+// The page says why a scenario that asks for bounds has none.
+TEST(ReportFrames, AReasonForNoBoundIsOnThePage) {
+  EXPECT_EQ(busy().page.meta.at("no_bound"), "");
+  Scenario scenario = busy_scenario();
+  scenario.analysis = true;
+  scenario.nodes.at(1).host.lowest_buffer_first = true;  // it has two messages
+  const ReportedRun run = run_with_report(scenario);
+  EXPECT_THAT(run.page.meta.at("no_bound").get<std::string>(),
+              ::testing::HasSubstr("has 'lowest_buffer_first'"));
+  EXPECT_TRUE(run.page.meta.at("messages").at(0).at("bound_ns").is_null());
+}
+
 void expect_retries_of_nodes(const ReportedRun &run) {
   ASSERT_EQ(run.report.pending, 0U);
   std::vector<double> failed(run.report.nodes.size()), lost(run.report.nodes.size());

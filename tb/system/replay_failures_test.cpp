@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "harness/scratch_test.hpp"
 #include "session/runner.hpp"
 
@@ -72,6 +74,21 @@ TEST_F(ReplayFailures, GivesUpAfterErrorsOfSeveralKinds) {
           "faults: [{kind: flip, at: {node: boat, frame: 1, field: DLC}}, {kind: cut, node: boat, "
           "from: 50 us}]\n");
   EXPECT_THAT(replay_of(report).failure, ContainsRegex(" with 0 of 4 frames sent: [0-9]+ errors$"));
+}
+
+// What makes a reader of the recording doubt is told with the result: a file that is cut.
+TEST_F(ReplayFailures, WarningsOfTheRecordingAreTold) {
+  file_with("cut.log", "(1.000) can0 120#01\n(1.005) can0 121#0203");
+  const RunReport report =
+      run_scenario(parse_scenario(in("bus.yaml"),
+                                  "nodes:\n  - {name: boat, clock: 4 MHz, replay: cut.log}\n"
+                                  "  - {name: other, clock: 4 MHz}\n"),
+                   500e3);
+  const std::string warning = "line 2 has no line end; its frame may be cut short";
+  EXPECT_TRUE(report.ok());
+  EXPECT_THAT(to_text(report),
+              HasSubstr("    warning: " + replay_of(report).file + ": " + warning));
+  EXPECT_EQ(to_json(report)["replays"][0]["warnings"], nlohmann::ordered_json::array({warning}));
 }
 
 // The run is over with frames that were due and have not left; the last was not due yet.

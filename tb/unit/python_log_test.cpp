@@ -130,19 +130,27 @@ std::string blf_frame(unsigned type, unsigned version, unsigned flags, std::uint
                         little_endian(0x123, 4) + little_endian(0x11, 8));
 }
 
-/// A frame 124##022 of CAN FD in the two forms that there are.
-std::string blf_fd_frame(unsigned flags, std::uint64_t ns) {
+/// A frame of identifier 124 in the two forms of CAN FD controllers: CAN FD unless `classical`;
+/// bytes 22, 0, 0, ...
+struct BlfFd {
+  unsigned dlc = 1, bytes = 1;
+  bool classical = false;
+};
+std::string blf_fd_frame(unsigned flags, std::uint64_t ns, const BlfFd &fd = {}) {
   return blf_object(100, 1,
                     little_endian(2, 8) + little_endian(ns, 8) + little_endian(1, 2) +
-                        little_endian(flags, 1) + little_endian(1, 1) + little_endian(0x124, 8) +
-                        little_endian(0, 1) + little_endian(1, 1) + little_endian(1, 6) +
+                        little_endian(flags, 1) + little_endian(fd.dlc, 1) +
+                        little_endian(0x124, 8) + little_endian(0, 1) +
+                        little_endian(fd.classical ? 0 : 1, 1) + little_endian(fd.bytes, 6) +
                         little_endian(0x22, 8) + std::string(56, '\0'));
 }
-std::string blf_fd64_frame(unsigned direction, std::uint64_t ns) {
+std::string blf_fd64_frame(unsigned direction, std::uint64_t ns, const BlfFd &fd = {}) {
   return blf_object(101, 1,
-                    little_endian(2, 8) + little_endian(ns, 8) + little_endian(0x00010101, 4) +
-                        little_endian(0x124, 8) + little_endian(0x1000, 8) + std::string(14, '\0') +
-                        little_endian(direction, 6) + little_endian(0x22, 4));
+                    little_endian(2, 8) + little_endian(ns, 8) + little_endian(1, 1) +
+                        little_endian(fd.dlc, 1) + little_endian(fd.bytes, 2) +
+                        little_endian(0x124, 8) + little_endian(fd.classical ? 0 : 0x1000, 8) +
+                        std::string(14, '\0') + little_endian(direction, 6) +
+                        little_endian(0x22, 8));
 }
 
 /// The file of these containers, none of them compressed.
@@ -171,6 +179,21 @@ TEST_F(PythonLog, BlfRequestsToSendAreCountedAsNoFrames) {
                                  "(0000000000.000004500) can0 123#11 R\n");
     EXPECT_EQ(skipped_text(log), "2 CAN FD frames, 5 other lines or packets") << cut;
   }
+}
+
+// DLC 9 to 15 of a classical frame are eight bytes, whatever they would be in CAN FD.
+TEST_F(PythonLog, BlfClassicalFramesOfCanFdControllersKeepTheirDlc) {
+  std::string data = blf_frame(1, 1, 0, 500), wanted = "(0000000000.000000500) can0 123#11 R\n";
+  for (unsigned dlc = 8; dlc < 16; ++dlc) {
+    const BlfFd fd{.dlc = dlc, .bytes = 8, .classical = true};
+    data += blf_fd_frame(0, dlc * 1000, fd) + blf_fd64_frame(0, dlc * 1000, fd);
+    const std::string line = fmt::format("(0000000000.{:09}) can0 124#2200000000000000{} R\n",
+                                         dlc * 1000, dlc == 8 ? "" : fmt::format("_{:X}", dlc));
+    wanted += line + line;
+  }
+  for (const std::size_t cut : {data.size() - 70, data.size() / 2})
+    EXPECT_EQ(lines_of(parse_log(blf_file({data.substr(0, cut), data.substr(cut)}), "a.blf")),
+              wanted);
 }
 
 // An object of no size had no end.

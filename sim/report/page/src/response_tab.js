@@ -59,7 +59,8 @@ export class ResponseTab {
     this.sums = sumsOf(report);
     const host = el('div', {class: 'plot'});
     this.table = this.#table();
-    this.root = el('div', {class: 'tab-body split'}, host, el('div', {class: 'side'}, this.table));
+    const side = el('div', {class: 'side'}, this.#noBound(), this.table);
+    this.root = el('div', {class: 'tab-body split'}, host, side);
     this.plot = new Plot(host, report, view, {
       data: (from, to, columns) => {
         this.points = pointsOf(report, from, to, Math.min(columns / 3, 200), this.only);
@@ -132,6 +133,12 @@ export class ResponseTab {
       }
     }
     if (best >= 0) this.steps.showFrame(best);
+  }
+
+  /** Why a scenario that asks for bounds has none; null if there is nothing to say. */
+  #noBound() {
+    const why = this.report.meta.no_bound;
+    return why ? el('p', {class: 'dim'}, `No bound: ${why}`) : null;
   }
 
   #table() {
