@@ -387,7 +387,7 @@ test('response times: a point for each frame, the bound, and who broke it', asyn
 
 test('response times: why there is no bound', async () => {
   const why = "node 'a' has <b>";
-  const page = await openReport(reportFor('no-bound', smallScene({no_bound: why})));
+  const page = await openReport(writeScene('no-bound', smallScene({no_bound: why})));
   await page.click('#tab-response');
   assert.equal(await page.textContent('#panel-response .side p'), `No bound: ${why}`);
   await closeReport(page);
