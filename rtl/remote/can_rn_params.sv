@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_params: the values that parameters of can_remote may have; others stop the build, at a
-// module that does not exist: its name is the message, in tools without $error at elaboration, too.
+// can_rn_params: checks the parameters of can_remote at elaboration. An illegal value instantiates
+// a module that does not exist; its name is the error message. This also works in tools that do not
+// support $error at elaboration.
 
 module can_rn_params #(
   parameter int NameBits = 3,
@@ -63,7 +64,7 @@ module can_rn_params #(
   if (TimeSync != 0 && TimeSync != 1) begin : gen_check_time_sync
     TimeSync_must_be_0_or_1 u_stop ();
   end
-  // The engine of a node hands out the first 11 bits of an identifier.
+  // The ByteWise engine of a node only reports the first 11 bits of an identifier.
   if (SyncId[31:29] != '0 || SyncId[17:0] != '0) begin : gen_check_sync_id
     SyncId_must_be_a_base_identifier_in_bits_28_to_18 u_stop ();
   end

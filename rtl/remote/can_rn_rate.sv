@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_rate: the search for the bit rate (RN-73): before the node joins the bus, its engine only
-// listens, at one rate after the other. Two errors without a valid frame: the next; two valid
-// frames: the right one. Two edges to dominant are two bits apart at least, so where there is no
-// sample point between them, the rate is too low; that is an error, too, and the only one where
-// all sample points fall between frames. A rate is also rejected after 256
-// edges without a valid frame.
+// can_rn_rate: automatic bit rate (RN-73). Before the node joins the bus, its engine listens at one
+// row of the rate table after another. Two errors without a valid frame select the next row, two
+// valid frames accept the present one. At the right rate, edges to dominant are at least two bits
+// apart. Two such edges without a sample point between them therefore mean that the rate is too
+// low; they count as an error, the only one seen where all sample points fall between frames. A row
+// is also rejected after 256 edges without a valid frame.
 
 module can_rn_rate #(
   parameter int Rows = 8
@@ -14,16 +14,16 @@ module can_rn_rate #(
   input  logic       clk_i,
   input  logic       rst_ni,
   input  logic       start_i,    // user logic has set up the RAM
-  input  logic [3:0] rate_i,     // row of the table; where there is none: search
-  input  logic       run_i,      // the node is on the bus
-  input  logic       error_i,    // pulses of the engine
-  input  logic       valid_i,
-  input  logic       tick_i,     // sample point
-  input  logic       level_i,    // of the bus, while the engine listens
-  output logic       start_o,    // the rate is known: join the bus
-  output logic       listen_o,   // engine: listen
-  output logic       run_o,      // .. at this row
-  output logic [3:0] row_o
+  input  logic [3:0] rate_i,     // row of the table; beyond its rows: search
+  input  logic       run_i,      // node is on the bus
+  input  logic       error_i,    // pulse: the engine has found an error
+  input  logic       valid_i,    // pulse: the engine has received a valid frame
+  input  logic       tick_i,     // pulse: sample point
+  input  logic       level_i,    // bus level; recessive unless the engine listens
+  output logic       start_o,    // rate is known: join the bus
+  output logic       listen_o,   // engine is in listen-only mode
+  output logic       run_o,      // engine runs in listen-only mode; 0 while the row changes
+  output logic [3:0] row_o       // row of the table that is used
 );
   logic       search, edge_now, error, next;
   logic       error_q, valid_q, found_q, listen_q, pause_q, level_q, edge_q;

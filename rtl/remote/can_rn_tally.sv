@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_tally: the eight counters at FE8, which stop at 255 (RN-35). What happens is noted, and
-// counted as soon as nothing else is under way. No two of them happen before that, but what may
-// happen within a frame as well: the end of a hold and of an answer's life have notes of their own.
+// can_rn_tally: the eight counters at 0xFE8, which stop at 255 (RN-35). An event is noted in what_q
+// and counted by JobTally as soon as no other job runs; no second one comes before that. Only the
+// end of a hold and of an answer's life may come in the same frame as another event, so these two
+// have notes of their own (over_q, drop_q).
 
 module can_rn_tally (
   input  logic             clk_i,
@@ -11,25 +12,25 @@ module can_rn_tally (
   input  can_rn_pkg::job_t job_i,
   input  logic [1:0]       phase_i,
   // Frame
-  input  logic             count_i,      // JobByte: this byte is the count of a TRIGGER ..
-  input  logic             same_i,       // .. and one more than the last
-  input  logic             none_i,       // JobTrigger: the frame has no count
-  input  logic             refused_i,    // JobCount: the request is refused ..
-  input  logic [3:0]       code_i,       // .. with this code
-  input  logic             dup_i,        // pulses
-  input  logic             dropped_i,
-  input  logic             off_entry_i,
-  input  logic             over_i,       // a hold
-  input  logic             timeout_i,    // of a block transfer
-  input  logic             clear_i,
+  input  logic             count_i,      // JobByte: this byte is the count of a TRIGGER
+  input  logic             same_i,       // frame byte is one more than the last TRIGGER count
+  input  logic             none_i,       // JobTrigger: frame has no count
+  input  logic             refused_i,    // JobCount: request is refused
+  input  logic [3:0]       code_i,       // JobCount: code of the refused request
+  input  logic             dup_i,        // pulse: statement under the own number (RN-11)
+  input  logic             dropped_i,    // pulse: a frame was dropped unsent (LIFE, RETRY)
+  input  logic             off_entry_i,  // pulse: node enters bus-off
+  input  logic             over_i,       // pulse: a hold lasted too long (RN-52)
+  input  logic             timeout_i,    // pulse: time-out of a block transfer
+  input  logic             clear_i,      // pulse: SETUP CLEAR
   // RAM
-  input  logic [7:0]       byte_i,       // read
+  input  logic [7:0]       byte_i,       // byte read
   output logic             want_o,       // JobTally is due
-  output logic             own_o,        // the byte that is meant is none of the row,
-  output logic [8:0]       cell_o,       // but this
-  output logic             more_o,       // one more is written in the clock after
-  output logic             wide_o,       // all bytes of the word
-  output logic             no_write_o
+  output logic             own_o,        // JobByte: cell_o replaces the byte of the row
+  output logic [8:0]       cell_o,       // byte to read or write; 0 if none
+  output logic             more_o,       // byte read + 1 is written in the clock after
+  output logic             wide_o,       // all bytes of the word are written (CLEAR)
+  output logic             no_write_o    // counter is at 255: no write
 );
   logic       tally, last, byte_job, counted, sequence_bad;
   logic       due_q, drop_q, over_q, clear_q, order_q, byte_q, event_now, ends;
@@ -40,7 +41,7 @@ module can_rn_tally (
   assign last     = phase_i[1];
   assign ends     = tally && last && !due_q;
 
-  // 0 function, 1 value, 2 address, protection and lock, 3 busy, 6 sequence.
+  // Counters by code: 0 function, 1 value, 2 address, protection and lock, 3 busy, 6 sequence.
   assign counted      = job_i == can_rn_pkg::JobCount && phase_i == 2'd2 && refused_i;
   assign sequence_bad = job_i == can_rn_pkg::JobTrigger && phase_i == 2'd0 && !none_i && !order_q;
   assign event_now    = counted || sequence_bad || dup_i || off_entry_i || timeout_i

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_tick: a pulse every millisecond. A shift register with feedback instead of a counter, of
-// as many bits as ClocksPerMs has: it runs through ClocksPerMs of its states in a circle, because
-// some bits are turned where the rest is cut out. Whatever state an upset has led to, it comes back
-// to that circle (RN-103).
+// can_rn_tick: millisecond pulse. A linear feedback shift register (LFSR) takes the place of a
+// binary counter. It passes through a cycle of ClocksPerMs states: at the end of the cycle some
+// bits are inverted, which jumps over the unused states. From every state, also one reached by an
+// upset, the register returns to this cycle (RN-103).
 
 module can_rn_tick #(
   /// Clocks per millisecond, 8,000 to 131,071.
@@ -12,14 +12,15 @@ module can_rn_tick #(
 ) (
   input  logic clk_i,
   input  logic rst_ni,
-  output logic ms_o
+  output logic ms_o                         // pulse every ClocksPerMs clocks
 );
   if (ClocksPerMs < 8000 || ClocksPerMs > 131071) begin : gen_check_clocks
     ClocksPerMs_must_be_8000_to_131071 u_stop ();
   end
 
-  // The states are the powers of x modulo a primitive polynomial, whose terms below the highest are
-  // here; of those with three or five terms the ones that suit round frequencies best.
+  // The states are the powers of x modulo a primitive polynomial. The constants hold its terms
+  // below the highest one. Among the polynomials with three or five terms, these were chosen
+  // because they suit round frequencies best.
   localparam int Width  = $clog2(ClocksPerMs + 1);
   localparam int States = 2**Width - 1;
   localparam logic [16:0] Polynomial = Width == 13 ? 17'h0305    // x^9 + x^8 + x^2 + 1
@@ -47,9 +48,10 @@ module can_rn_tick #(
     power = result;
   endfunction
 
-  // The last state of the circle has a single 1, so that a look at the other bits finds that of all
-  // zeros, too, which no shift leaves. Where the 1 is, is free: the fewer bits have an input of
-  // their own the better. The first state is the last one times x^(1 - ClocksPerMs).
+  // The last state of the cycle has a single 1. Comparing only the other bits with 0 then also
+  // catches the all-zero state, which shifting alone never leaves. The position of the 1 is free
+  // and chosen such that few bits need an input function of their own. The first state is the last
+  // one times x^(1 - ClocksPerMs).
   function automatic logic [Width+4:0] best_cut(input logic [Width-1:0] back);   // place, turned
     logic [Width-1:0] first, behind, inputs;
     logic [4:0]       ones, fewest;
@@ -71,7 +73,7 @@ module can_rn_tick #(
   localparam logic [Width-1:0] Lone  = Width'(1) << Cut[Width+4:Width];
   localparam logic [Width-1:0] Turn  = Cut[Width-1:0];
   localparam logic [Width-1:0] First = Turn ^ following(Lone);
-  // All states need no cut, but zeros have to be left.
+  // If all states are used there is no jump, but the all-zero state still has to be left.
   localparam bit               Whole = ClocksPerMs == States;
 
   logic [Width-1:0] state_q;

@@ -1,27 +1,28 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_time: the clock of a node without a processor (TM-106 to TM-109): what its time unit is
-// asked, and the row of it that the bus and user logic read at 0xFC0 instead of the RAM.
+// can_rn_time: connects the time unit of the engine to the node (TM-106 to TM-109). It commands
+// time captures for TRIGGER and user logic, and replaces the RAM's data when the bus or user logic
+// reads the row at 0xFC0: TSSTAT, TSOFS, time of the last TRIGGER.
 
 module can_rn_time (
   input  logic        clk_i,
   input  logic        rst_ni,
-  // Access of the RAM, and what the RAM gives in the clock after
-  input  logic        re_i,
-  input  logic [9:0]  raddr_i,    // words
-  input  logic [31:0] rdata_i,
-  output logic [31:0] rdata_o,
+  // Read access of the RAM; data in the clock after
+  input  logic        re_i,       // read enable
+  input  logic [9:0]  raddr_i,    // word address
+  input  logic [31:0] rdata_i,    // word that the RAM has read
+  output logic [31:0] rdata_o,    // word for the reader: RAM or clock
   // Node
-  input  logic        apply_i,    // staged bytes are visible
-  input  logic        take_i,     // user logic asks for the time of this clock
+  input  logic        apply_i,    // pulse: staged bytes have become visible
+  input  logic        take_i,     // pulse: user logic captures the time of this clock
   // Time unit, see can_core
   input  logic [31:0] stat_i,     // TSSTAT
   input  logic [31:0] ofs_i,      // TSOFS
-  input  logic [63:0] ext_i,      // time of the last apply_i
-  output logic [can_pkg::TimeCmdWidth-1:0] cmd_o
+  input  logic [63:0] ext_i,      // time of the last apply_i, ns
+  output logic [can_pkg::TimeCmdWidth-1:0] cmd_o // command pulses, see can_pkg
 );
-  localparam logic [7:0] Row = 8'hFC;   // of 16 bytes
+  localparam logic [7:0] Row = 8'hFC;   // 0xFC0 to 0xFCF, rows of 16 bytes
 
   always_comb begin
     cmd_o = '0;
