@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_check: what a request asks for, and whether it may (RN-32): its code is there before the
-// frame is valid.
+// can_rn_check: decodes the request and checks it (section 4 of remote-node.md, RN-30 to RN-33).
+// The first check that fails gives the code, in the order function, value, sequence, address, lock,
+// protection, busy. The code is registered and final before the frame is valid.
 
 module can_rn_check #(
   parameter int NameBits = 3,
@@ -18,49 +19,49 @@ module can_rn_check #(
   input  logic                clk_i,
   input  logic                rst_ni,
   // Request
-  input  logic                sys_i,
-  input  logic                all_i,
-  input  logic                port_i,
-  input  logic [AddrBits-1:0] a_i,
-  input  logic                rtr_i,
-  input  logic [3:0]          dlc_i,
-  input  logic                mapped_i,       // a map entry has taken the frame ..
-  input  logic                short_i,        // .. and it is too short or too long for that
+  input  logic                sys_i,          // system function (name 0)
+  input  logic                all_i,          // request to all nodes (name 1)
+  input  logic                port_i,         // A is a port
+  input  logic [AddrBits-1:0] a_i,            // A
+  input  logic                rtr_i,          // remote frame, or visit of a producer
+  input  logic [3:0]          dlc_i,          // DLC, or length of the frame that is made
+  input  logic                mapped_i,       // a map entry has taken the frame
+  input  logic                short_i,        // map entry: DLC is too short, or above 8
   input  logic                unlock_i,       // SETUP is UNLOCK
-  input  logic                op_i,           // BLOCK is no abort
-  input  logic                value_bad_i,
-  input  logic                high_bad_i,
-  input  logic                mismatch_i,
-  input  logic [11:0]         start_i,        // first address
-  input  logic [3:0]          end_i,          // end of its bytes in the row
+  input  logic                op_i,           // BLOCK opens a transfer (op is not 0)
+  input  logic                value_bad_i,    // a byte has an illegal value
+  input  logic                high_bad_i,     // address beyond 12 bits
+  input  logic                mismatch_i,     // serial or number differs; BLOCK: count not 0
+  input  logic [11:0]         start_i,        // first address of the access
+  input  logic [3:0]          end_i,          // index behind the last byte of the row
   // Block transfer
-  input  logic                make_i,         // a frame is made for one
-  input  logic                busy_i,         // one is open
-  input  logic                order_i,        // the frame of data is the next,
-  input  logic                again_i,        // or the last once more
-  input  logic                over_i,         // it has more bytes than are left
+  input  logic                make_i,         // a frame of a block transfer is made
+  input  logic                busy_i,         // a transfer is open or its answer not yet sent
+  input  logic                order_i,        // DATA has the expected sequence number
+  input  logic                again_i,        // DATA repeats the last frame
+  input  logic                over_i,         // DATA has more bytes than are left
   // Node
-  input  logic                selected_i,
-  input  logic                operate_i,
-  input  logic                unlocked_i,
-  input  logic                lock_reset_i,   // locked until reset
-  input  logic                full_i,         // no room for an answer
-  input  logic                denied_i,       // protected
-  // Kind of request, while its code is 0
-  output logic                write_o,        // a clock later than the others
-  output logic                read_o,         // the same
-  output logic                trigger_o,      // the same,
-  output logic                stage_o,        // and as early as the others
-  output logic                select_o,
-  output logic                assign_o,
-  output logic                state_o,
-  output logic                setup_o,
+  input  logic                selected_i,     // node is selected (SELECT)
+  input  logic                operate_i,      // node is in OPERATE
+  input  logic                unlocked_i,     // node is unlocked
+  input  logic                lock_reset_i,   // node is locked until reset
+  input  logic                full_i,         // queue has no room for an answer
+  input  logic                denied_i,       // a byte is protected (WP, RP)
+  // Kind of request, good while its code is 0
+  output logic                write_o,        // writes memory; one clock later than the others
+  output logic                read_o,         // reads memory; one clock later than the others
+  output logic                trigger_o,      // TRIGGER; one clock later than the others
+  output logic                stage_o,        // TRIGGER, as early as the others
+  output logic                select_o,       // SELECT or SELECT NEW
+  output logic                assign_o,       // ASSIGN
+  output logic                state_o,        // STATE
+  output logic                setup_o,        // SETUP
   output logic                far_o,          // READ or WRITE: the row begins with the address
   output logic                info_o,         // STATUS or IDENT
-  output logic                block_o,        // BLOCK, DATA
-  output logic                data_o,
-  output logic                crosses_o,      // it ends in the next block of eight bytes
-  output logic [3:0]          code_o          // registered
+  output logic                block_o,        // BLOCK
+  output logic                data_o,         // DATA
+  output logic                crosses_o,      // access ends in the next block of eight bytes
+  output logic [3:0]          code_o          // result code, registered
 );
   logic near, is_write, none, make, write, read, trigger, write_q, read_q, trigger_q;
   assign make      = Block && make_i;
@@ -89,7 +90,7 @@ module can_rn_check #(
   assign assign_o  = sys_i && (&a_i[1:0]);
   assign select_o  = sys_i && !a_i[0] && (|a_i[2:1]);
 
-  // RN-32: function, value
+  // RN-32: illegal function, illegal value
   logic bad_function, bad_value, long, third;
   assign none  = !(|dlc_i);
   assign long  = dlc_i[3] && (|dlc_i[2:0]);
@@ -112,8 +113,8 @@ module can_rn_check #(
     if (value_bad_i && !(state_o && mismatch_i)) bad_value = 1'b1;
   end
 
-  // Addresses: the access may end in the block of eight bytes behind that of its first byte; where
-  // legal areas end, it may not.
+  // RN-32: illegal address. An access may cross into the next block of eight bytes, except at the
+  // end of a legal area.
   logic       crosses, top, producer, map, config_area, ends, fixed_area, outside, last;
   logic       bad_address;
   logic [3:0] reach;
@@ -126,7 +127,7 @@ module can_rn_check #(
   assign fixed_area  = top && ((&start_i[7:4])
                                || (Counters && (&start_i[7:5]) && !start_i[4] && start_i[3])
                                || (Clock && start_i[7:4] == 4'hC));
-  // Tables of eight bytes an entry, and the last entry of each that is followed by nothing.
+  // Tables have eight bytes per entry. ends: the block is the last of an area with none behind it.
   assign producer = NumProd != 0 && start_i[7:6] == 2'd1 && (NumProd == 8 || !start_i[5]);
   assign map      = NumMap != 0 && start_i[7:6] == 2'd2 && (NumMap == 8 || !start_i[5]);
   assign ends     = top && (start_i[7:3] == 5'b00011

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_head: what the frame on the bus is to this node, from its header (RN-01 to RN-03), and
-// what its bytes say as they pass: everything about a request but its address.
+// can_rn_head: decodes the frame on the bus. From its header follows whether the frame concerns
+// this node (RN-01 to RN-03, RN-34); from its bytes, as they pass, everything about the request
+// except its address: operation, illegal values, comparison with serial number and node number.
+// Producers and block transfers set up A in the same registers, so that a frame of theirs is made
+// like an answer.
 
 module can_rn_head #(
   parameter int NameBits = 3,
@@ -16,62 +19,62 @@ module can_rn_head #(
   input  logic                clk_i,
   input  logic                rst_ni,
   // Engine
-  input  logic                hdr_i,          // header complete
-  input  logic                transmitter_i,
-  input  logic                ide_i,
-  input  logic                rtr_i,
-  input  logic [10:0]         id_i,           // stays for 3 bits
-  input  logic                byte_we_i,
-  input  logic [7:0]          byte_i,         // stays for a bit
-  input  logic                valid_i,
-  input  logic                gap_i,          // no frame on the bus: the one before is over
+  input  logic                hdr_i,          // pulse: header complete
+  input  logic                transmitter_i,  // node sends the frame
+  input  logic                ide_i,          // frame is extended
+  input  logic                rtr_i,          // frame is a remote frame
+  input  logic [10:0]         id_i,           // identifier, stable for 3 bits
+  input  logic                byte_we_i,      // pulse: byte_i is new
+  input  logic [7:0]          byte_i,         // received byte, stable for a bit
+  input  logic                valid_i,        // pulse: frame is valid
+  input  logic                gap_i,          // no frame on the bus: the last one is over
   // Node
-  input  logic [NameBits-1:0] number_i,
-  input  logic                numbered_i,     // the number is one
-  input  logic [31:0]         serial_i,
-  // Steps
+  input  logic [NameBits-1:0] number_i,       // node number
+  input  logic                numbered_i,     // number_i is a number (2 or above)
+  input  logic [31:0]         serial_i,       // serial number
+  // Sequencer
   input  can_rn_pkg::job_t    job_i,
   input  logic [1:0]          phase_i,
-  input  logic                take_i,         // header is taken over
-  input  logic [3:0]          row_i,          // number of the byte
+  input  logic                take_i,         // pulse: waiting header is taken over
+  input  logic [3:0]          row_i,          // index of the byte
   input  logic [7:0]          read_i,         // byte read from the RAM
-  output logic                hdr_o,          // a header waits
-  output logic                ours_o,         // and matters to this node
-  output logic                search_o,       // or may matter to a map entry
-  output logic [10:0]         id_o,           // of the frame that was taken over
-  input  logic                lost_i,         // no entry takes it
-  input  logic                hit_i,          // one does, whose mask is ..
-  input  logic [6:0]          mask_i,
-  input  logic                aim_i,          // what it says of its place: ..
-  input  logic [7:0]          aim_at_i,       // bits 15:12, length
-  input  logic                mapped_i,       // it is carried out for that one
+  output logic                hdr_o,          // a received header waits
+  output logic                ours_o,         // waiting header: the frame concerns this node
+  output logic                search_o,       // waiting header: a map entry may take the frame
+  output logic [10:0]         id_o,           // identifier of the frame that was taken over
+  input  logic                lost_i,         // JobFind has ended without an entry
+  input  logic                hit_i,          // JobFind has found an entry
+  input  logic [6:0]          mask_i,         // bits 6:0 of the mask of that entry
+  input  logic                aim_i,          // JobAim: aim_at_i is valid
+  input  logic [7:0]          aim_at_i,       // map entry: address bits 15:12, length
+  input  logic                mapped_i,       // frame is taken by a map entry
   // Block transfers
-  input  logic                load_i,         // where one goes on: bits 15:12,
-  input  logic [3:0]          load_at_i,
-  input  logic                answer_i,       // of BLOCK, from the second clock of JobFetch on
-  input  logic [3:0]          length_i,       // length of a frame that is made
-  output logic                byte_o,         // a byte waits
+  input  logic                load_i,         // JobFetch: load_at_i is valid
+  input  logic [3:0]          load_at_i,      // block transfer: address bits 15:12
+  input  logic                answer_i,       // JobFetch: answer of BLOCK, from phase 1 on
+  input  logic [3:0]          length_i,       // length of the frame that is made
+  output logic                byte_o,         // a received data byte waits
   output logic                live_o,         // a frame for this node is under way
-  output logic                sys_o,          // system function (name 0)
-  output logic                all_o,          // for all nodes (name 1)
-  output logic                dup_o,          // a statement under our number (RN-11)
-  output logic [AddrBits-1:0] a_o,
-  output logic                port_o,         // one of the last eight A
-  output logic                key_o,          // this byte is compared with the serial number,
-  output logic                count_o,        // or as the count of a TRIGGER
-  output logic [4:0]          op_o,           // operation, number, or count of READ
-  output logic                value_bad_o,    // a byte has no legal value
+  output logic                sys_o,          // frame is a system function (name 0)
+  output logic                all_o,          // frame is for all nodes (name 1)
+  output logic                dup_o,          // frame is a statement under the own number (RN-11)
+  output logic [AddrBits-1:0] a_o,            // A
+  output logic                port_o,         // A is one of the last eight: a port
+  output logic                key_o,          // byte is compared in JobByte (four phases)
+  output logic                count_o,        // byte is the count of a TRIGGER
+  output logic [4:0]          op_o,           // operation, number, READ count or length
+  output logic                value_bad_o,    // a byte has an illegal value
   output logic                high_bad_o,     // address beyond 12 bits
-  output logic                mismatch_o      // serial number or number is another
+  output logic                mismatch_o      // serial or number differs; BLOCK: count not 0
 );
   logic                hdr_q, byte_q, live_q;
   logic [1:0]          class_q, class_d;
   logic [AddrBits-1:0] a_q;
-  logic                port_q;   // A is a port; as a decode it would be late where bytes move
+  logic                port_q;   // A is a port; a decoder behind a_q would be late for the mover
   logic                bad_q, high_q, mismatch_q;
   logic [4:0]          op_q;
 
-  // Bit 1: name 0 or 1, bit 0 of the name; or a statement.
+  // Bit 1: request to name 0 or 1. Bit 0: bit 0 of that name; else statement under the own number.
   localparam logic [1:0] ClassOwn = 2'd0;
   localparam logic [1:0] ClassDup = 2'd1;
   localparam logic [1:0] ClassSys = 2'd2;
@@ -94,7 +97,8 @@ module can_rn_head #(
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni)     who_q <= '0;
       else if (take_i) who_q <= id_i[10 -: NameBits+1];
-      // Bits 6:0 that are not compared are added to the address; with 5 bits of a name, two of it.
+      // Identifier bits 6:0 that the mask does not compare are added to the address (RN-65). With
+      // NameBits 5, bits 6:5 are part of the name.
       else if (NameBits == 5 && hit_i) who_q[1:0] <= who_q[1:0] & ~mask_i[6:5];
     end
     assign id_o = {who_q, a_q};
@@ -123,12 +127,12 @@ module can_rn_head #(
   assign second = row_i == 4'd1;
   assign third  = row_i == 4'd2;
 
-  // The first byte of DATA is compared with the seq.
+  // The first byte of DATA is compared with the expected sequence number.
   logic block, data;
   assign block = Block && port_o && a_q[2:0] == 3'd2;
   assign data  = Block && port_o && a_q[2:0] == 3'd3;
 
-  // STATE 01, 02, 81; SETUP 1 to 4; READ 1 to 6; BLOCK: op 0 to 2, a count that is not 0.
+  // Legal: STATE 01, 02, 81; SETUP 1 to 4; READ 1 to 6 bytes; BLOCK op 0 to 2.
   logic state_bad, setup_bad, get_bad, bad, other;
   assign state_bad = byte_i[2] || !(byte_i[1] ^ byte_i[0]) || (byte_i[7] && byte_i[1]);
   assign setup_bad = byte_i[7] || (byte_i[2] ? |byte_i[1:0] : !(|byte_i[1:0]));
@@ -138,7 +142,7 @@ module can_rn_head #(
                      || (first && block && (top || byte_i[7] || byte_i[2] || (&byte_i[1:0])));
   assign other     = second && (|byte_i) && !(numbered_i && byte_i == 8'(number_i));
 
-  // SELECT compares after each mask, UNLOCK each byte of the key; with counters TRIGGER its count.
+  // Compared bytes: each mask of SELECT, the key of UNLOCK, with counters the count of TRIGGER.
   assign count_o = Counters && sys_o && a_q[1:0] == 2'd1;
   logic [1:0] index;
   logic [7:0] differ;
@@ -152,7 +156,7 @@ module can_rn_head #(
   assign mismatch_o  = mismatch_q;
   assign key_byte    = job_i == can_rn_pkg::JobByte;
 
-  // An entry of a producer: A, then mode and length.
+  // JobEntry: A is read first, then mode and length.
   logic entry;
   assign entry = NumProd != 0 && job_i == can_rn_pkg::JobEntry;
 
@@ -173,7 +177,7 @@ module can_rn_head #(
       a_q     <= '0;
       port_q  <= 1'b0;
     end else if (entry && !phase_i[0]) begin
-      // Beyond the window and the ports there is nothing to ask for.
+      // A beyond window and ports: class Sys, in which the remote frame of a producer is refused.
       class_q <= {|read_i[7:AddrBits], 1'b0};
       a_q     <= read_i[AddrBits-1:0];
       port_q  <= (&read_i[AddrBits-1:3]) && !(|read_i[7:AddrBits]);

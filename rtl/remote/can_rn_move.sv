@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_move: the addresses of a request: where it starts in the memory, where the mover is in the
-// memory and in the row of the frame, where the bytes of the row end.
+// can_rn_move: address unit of the byte mover. It holds the first address of an access, the address
+// in the memory and the index in the row of the frame, and tells where the bytes of the row end and
+// whether an address lies in the stage (RN-46). Memory and row index step in turn, one byte a clock
+// (RN-37).
 
 module can_rn_move #(
   parameter int StageBytes = 8,
@@ -14,35 +16,35 @@ module can_rn_move #(
   input  logic             rst_ni,
   input  can_rn_pkg::job_t job_i,
   input  logic [1:0]       phase_i,
-  input  logic             request_i,  // a request is valid
-  input  logic             begin_i,    // its work begins
-  input  logic             take_i,     // a header is taken over
-  input  logic             read_i,     // memory to row, else row to memory
-  input  logic             trigger_i,  // JobMove: the stage to memory
-  input  logic             stage_i,    // the start is the stage
-  input  logic             far_i,      // READ, WRITE
-  input  logic             info_i,     // STATUS, IDENT
-  input  logic             data_i,     // DATA
-  input  logic             load_i,     // the start is in the word read,
-  input  logic             answer_i,   // or that of the answer of BLOCK
-  input  logic             key_i,
-  input  logic             crosses_i,  // the access ends in the next block of eight bytes
-  input  logic             find_i,     // JobFind goes on
-  input  logic             act_i,      // JobMove: the stage, whatever the start is
-  input  logic             aim_i,      // the start is in the word read, and in A
-  input  logic [11:0]      aim_at_i,
-  input  logic [6:0]       a_i,
-  input  logic [3:0]       dlc_i,
-  input  logic [2:0]       count_i,    // of READ
-  input  logic [7:0]       byte_i,     // byte of the frame
-  output logic [11:0]      start_o,    // first address
-  output logic [11:0]      mem_o,      // where the mover is
-  output logic [3:0]       place_o,    // the same from the block of the start on
-  output logic [3:0]       row_o,
-  output logic [3:0]       end_o,      // end of the bytes in the row
-  output logic             ended_o,    // row_o is there
+  input  logic             request_i,  // pulse: a request is valid
+  input  logic             begin_i,    // pulse: work of a request or visit begins
+  input  logic             take_i,     // pulse: a header is taken over
+  input  logic             read_i,     // mover copies memory to row, otherwise row to memory
+  input  logic             trigger_i,  // mover copies the stage to memory (TRIGGER)
+  input  logic             stage_i,    // request is TRIGGER: the access starts at the stage
+  input  logic             far_i,      // request is READ or WRITE
+  input  logic             info_i,     // request is for STATUS or IDENT
+  input  logic             data_i,     // request is DATA
+  input  logic             load_i,     // first address comes from a block transfer
+  input  logic             answer_i,   // block transfer: its answer of BLOCK is sent
+  input  logic             key_i,      // JobByte: byte is compared, which takes four phases
+  input  logic             crosses_i,  // access ends in the next block of eight bytes
+  input  logic             find_i,     // JobFind continues
+  input  logic             act_i,      // map entry: its frame's bytes are done, the stage follows
+  input  logic             aim_i,      // JobAim: first address is aim_at_i | A
+  input  logic [11:0]      aim_at_i,   // address in the word read, for aim_i and load_i
+  input  logic [6:0]       a_i,        // A
+  input  logic [3:0]       dlc_i,      // DLC of the frame, or length of the answer
+  input  logic [2:0]       count_i,    // number of bytes that READ asks for
+  input  logic [7:0]       byte_i,     // received byte
+  output logic [11:0]      start_o,    // first address of the access
+  output logic [11:0]      mem_o,      // present address in the memory
+  output logic [3:0]       place_o,    // mem_o, relative to the block of eight of start_o
+  output logic [3:0]       row_o,      // present byte of the row
+  output logic [3:0]       end_o,      // index behind the last byte of the row
+  output logic             ended_o,    // row_o has reached the end
   output logic             staged_o,   // mem_o lies in the stage (RN-46)
-  output logic             cleared_o   // mem_o is the last address
+  output logic             cleared_o   // JobClear: mem_o is the last address
 );
   logic [11:0] start_q;
   logic [3:0]  low_q, row_q;
@@ -68,7 +70,7 @@ module can_rn_move #(
     assign staged_o = 1'b0;
     assign ended_o  = trigger_i || row_q == end_o;   // a TRIGGER copies nothing (can_remote)
   end else begin : gen_stage
-    // From the block of the start, as mem_o comes late.
+    // Derived from the block of start_q, because mem_o is at the end of a longer path.
     logic stage_here, stage_behind;
     assign stage_here   = start_q[4] && (StageBytes == 16 || !start_q[3]);
     assign stage_behind = start_q[4] ? StageBytes == 16 && !start_q[3] : start_q[3];
@@ -76,12 +78,13 @@ module can_rn_move #(
     assign ended_o  = trigger_i ? (StageBytes == 16 ? row_q == 4'd0 : row_q[3]) : row_q == end_o;
   end
 
-  // An access reaches into the next block of eight bytes at most: only the place in the block is
-  // counted. JobClear goes on from block to block.
+  // An access reaches at most into the next block of eight bytes, so only the place in the block is
+  // counted. JobClear moves the start on from block to block.
   assign high  = (act_i ? 9'h002 : start_q[11:3]) + {8'd0, low_q[3]};
   assign mem_o = {high, low_q[2:0]};
 
-  // The start is A itself, the row of STATUS or IDENT, the stage, or what the first bytes say.
+  // First address: A itself, the row of STATUS or IDENT, the stage, or the first bytes of the
+  // frame.
   logic [7:0]  near;
   logic [11:0] at;
   logic        fetched;
@@ -112,7 +115,7 @@ module can_rn_move #(
     if (!rst_ni)       low_q <= '0;
     else if (begin_i || fresh) low_q <= {1'b0, start_q[2:0] & {3{!act_i}}};
     else if (aim_i || load_i) low_q <= '0;
-    // First and last byte in turn.
+    // JobGuard: first and last byte of the access in turn.
     else if (Protect && (request_i || job_i == can_rn_pkg::JobGuard))
                        low_q <= {crosses_i && !request_i && !phase_i[0], 3'd0};
     else if (step_mem) low_q <= {low_q[3] && !clear, low_q[2:0]} + 4'd1;
@@ -136,8 +139,8 @@ module can_rn_move #(
     else if (step_row)            row_q <= row_q + 4'd1;
   end
 
-  // READ says how much in its third byte; its answer begins with the address.
-  // It is known long before the first byte moves.
+  // READ gives its length in the third byte, and its answer begins with the two address bytes. The
+  // end is registered: it is known long before the first byte moves.
   logic [3:0] end_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) end_q <= '0;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_port: who has the block RAM: the node while it works, else user logic (RN-50, RN-53); and
-// what is written. Bytes of one word that change together are written together.
+// can_rn_port: access to the block RAM. The node has it while a job needs it, otherwise user logic
+// (RN-50, RN-53). The block selects address and write data of a job; bytes of one word that change
+// together are written together. It wraps the RAM (can_mb_ram).
 
 module can_rn_port #(
   parameter int MemBytes = 4096,
@@ -12,35 +13,35 @@ module can_rn_port #(
   input  logic             rst_ni,
   input  can_rn_pkg::job_t job_i,
   input  logic             odd_i,       // phase 1 or 3
-  input  logic             read_i,      // JobMove: memory to row
-  input  logic             same_i,      // JobSame: memory
-  input  logic             trigger_i,
-  input  logic [8:0]       cell_i,      // byte of the upper 512 that is read or written
-  input  logic [8:0]       read_cell_i, // or this, of a job that only reads, and that comes late
-  input  logic             we_i,
-  input  logic             wide_i,      // all bytes of the word
-  input  logic [11:0]      mem_i,
-  input  logic             staged_i,
-  input  logic [7:0]       wbyte_i,
-  input  logic [6:0]       a_i,
-  input  logic [1:0]       same_id_i,   // identifier of the answer, see can_rn_tx
-  input  logic [3:0]       end_i,
-  input  logic [3:0]       code_i,
-  input  logic [7:0]       status_i,
-  input  logic [7:0]       tec_i,
-  input  logic [7:0]       rec_i,
-  output logic [1:0]       lane_o,      // place of the byte that is read
-  output logic             re_o,        // an access reads
-  output logic [9:0]       raddr_o,     // this word
-  output logic [31:0]      rdata_o,     // in the clock after
+  input  logic             read_i,      // JobMove copies memory to row
+  input  logic             same_i,      // JobSame reads the memory in this phase
+  input  logic             trigger_i,   // JobMove copies the stage to memory (TRIGGER)
+  input  logic [8:0]       cell_i,      // byte of the upper 512 to read or write; 0: none
+  input  logic [8:0]       read_cell_i, // the same of JobGuard, which only reads; comes late
+  input  logic             we_i,        // node writes
+  input  logic             wide_i,      // all bytes of the word are written
+  input  logic [11:0]      mem_i,       // address of the mover in the memory
+  input  logic             staged_i,    // mem_i lies in the stage
+  input  logic [7:0]       wbyte_i,     // byte to write
+  input  logic [6:0]       a_i,         // A of the request
+  input  logic [1:0]       same_id_i,   // identifier of the answer (RN-16), see can_rn_tx
+  input  logic [3:0]       end_i,       // length of the answer
+  input  logic [3:0]       code_i,      // result code of the request
+  input  logic [7:0]       status_i,    // byte 0 of STATUS
+  input  logic [7:0]       tec_i,       // byte 1 of STATUS
+  input  logic [7:0]       rec_i,       // byte 2 of STATUS
+  output logic [1:0]       lane_o,      // place in the word of the byte that is read
+  output logic             re_o,        // RAM is read in this clock
+  output logic [9:0]       raddr_o,     // word address of that read
+  output logic [31:0]      rdata_o,     // word read, in the clock after
   // User logic
-  input  logic             usr_req_i,
-  input  logic             usr_we_i,
-  input  logic [3:0]       usr_be_i,
-  input  logic [9:0]       usr_addr_i,
-  input  logic [31:0]      usr_wdata_i,
-  output logic             usr_ready_o,
-  output logic             usr_absent_o // where it read in the clock before is no memory (RN-53)
+  input  logic             usr_req_i,   // access requested
+  input  logic             usr_we_i,    // access writes
+  input  logic [3:0]       usr_be_i,    // byte enables
+  input  logic [9:0]       usr_addr_i,  // word address
+  input  logic [31:0]      usr_wdata_i, // word to write
+  output logic             usr_ready_o, // access is carried out in this clock
+  output logic             usr_absent_o // read in the clock before hit no memory (RN-53)
 );
   localparam int AddrWidth = $clog2(MemBytes / 4);
 
@@ -53,7 +54,8 @@ module can_rn_port #(
   assign user        = job_i[5:2] == 4'd0;
   assign usr_ready_o = user;
 
-  // A smaller RAM has the upper 512 bytes at its end; words between would be others once more.
+  // With less than 4,096 bytes, the upper 512 are the last of the RAM. Words between them and the
+  // memory would alias others: user logic reads them as 0, and its writes are ignored.
   if (MemBytes == 4096) begin : gen_whole
     assign absent       = 1'b0;
     assign usr_absent_o = 1'b0;
@@ -67,7 +69,7 @@ module can_rn_port #(
     end
   end
 
-  // E00..EFF and FE0..FFF belong to the node.
+  // User logic cannot write 0xE00..0xEFF and 0xFE0..0xFFF; these belong to the node.
   assign usr_write = usr_req_i && usr_we_i && !absent
                      && !((&usr_addr_i[9:7]) && (!usr_addr_i[6] || (&usr_addr_i[5:3])));
 
@@ -78,8 +80,9 @@ module can_rn_port #(
   assign lane     = to_mem ? mem_i[1:0] : cell_i[1:0];
   assign lane_o   = from_mem ? mem_i[1:0] : cell_i[1:0] | read_cell_i[1:0];
 
-  // Words: state, TEC, REC, code; A, counts; A, length.
-  // The bits that tell them from other jobs that write.
+  // Words of which several bytes change together: {code, REC, TEC, state}, {count, A} of STATUS,
+  // {length, A} of a row.
+  // The bits decoded here tell these jobs from others that write.
   assign push   = !job_i[4] && job_i[3] && !job_i[2] && job_i[1];
   assign count  = job_i == can_rn_pkg::JobCount;
   assign status = (!job_i[4] && job_i[0] && (job_i[3] ? !job_i[5] : job_i[1]))   // Fresh, Load

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_step: the order of work: what to do next, and how long. A request comes before everything
-// else; nothing else begins between its header and its end but timers, right behind a sample
-// point: they are over before the next one.
+// can_rn_step: sequencer of can_remote (RN-36, RN-37). It chooses the next job and steps through
+// its phases. A request comes before all other work. Between the header of a frame for this node
+// and its end only timers, ageing and counters may begin (JobLow, JobAge, JobTally), in the clock
+// after a sample point, so that they end before the next one.
 
 module can_rn_step #(
   parameter bit Map = 1'b0,
@@ -13,77 +14,77 @@ module can_rn_step #(
   input  logic             clk_i,
   input  logic             rst_ni,
   // Frame
-  input  logic             hdr_i,         // a header waits
-  input  logic             ours_i,
-  input  logic             byte_i,        // a byte waits
+  input  logic             hdr_i,         // a received header waits
+  input  logic             ours_i,        // waiting header: the frame concerns this node
+  input  logic             byte_i,        // a received data byte waits
   input  logic             live_i,        // a frame for this node is under way
-  input  logic             valid_i,       // it is valid
-  input  logic             tick_i,        // sample point
+  input  logic             valid_i,       // pulse: that frame is valid
+  input  logic             tick_i,        // pulse: sample point
   // Request
-  input  logic             dup_i,
-  input  logic             key_i,
-  input  logic             refused_i,
-  input  logic             write_i,
-  input  logic             read_i,
-  input  logic             trigger_i,
-  input  logic             nothing_i,     // nothing more to do for it
-  input  logic             restart_i,
-  input  logic             operate_i,
-  input  logic             hold_i,
+  input  logic             dup_i,         // frame is a statement under the own number (RN-11)
+  input  logic             key_i,         // JobByte: byte is compared, which takes four phases
+  input  logic             refused_i,     // request is refused
+  input  logic             write_i,       // request writes the memory
+  input  logic             read_i,        // request reads: an answer is made
+  input  logic             trigger_i,     // request is TRIGGER, or JobMove copies the stage
+  input  logic             nothing_i,     // valid request needs no work
+  input  logic             restart_i,     // accepted request is RESTART
+  input  logic             operate_i,     // node is in OPERATE
+  input  logic             hold_i,        // user logic holds (RN-52)
   // Mover and data
-  input  logic             ended_i,
-  input  logic             cleared_i,
-  input  logic [3:0]       row_i,
-  input  logic             carry_i,       // JobLow: the high byte counts
-  // What else there is to do
-  input  logic             ms_i,
-  input  logic             boff_i,
-  input  logic             off_i,         // bus-off, as far as it has been noticed
-  input  logic             try_i,
-  input  logic             load_i,        // the engine has to be given something,
-  input  logic             urgent_i,      // within eight bits
-  input  logic             some_i,
-  input  logic             more_i,        // JobAge: another answer has aged
-  input  logic             gone_i,        // what was offered to the engine
-  input  logic             owe_feed_i,
-  input  logic             tally_i,       // something has happened that is counted
-  input  logic             start_i,
-  input  logic             run_i,
+  input  logic             ended_i,       // mover has reached the end of the bytes
+  input  logic             cleared_i,     // JobClear: last address is reached
+  input  logic [3:0]       row_i,         // byte of the row; JobBegin: bits 5:2 of its clocks
+  input  logic             carry_i,       // JobLow: JobHigh follows
+  // Other work
+  input  logic             ms_i,          // pulse: millisecond
+  input  logic             boff_i,        // engine is in bus-off
+  input  logic             off_i,         // bus-off as noted by the last JobTurn
+  input  logic             try_i,         // a failed attempt is to be counted
+  input  logic             load_i,        // engine needs its next word
+  input  logic             urgent_i,      // engine needs a data byte within eight bits
+  input  logic             some_i,        // queue of answers is not empty
+  input  logic             more_i,        // JobAge: another answer has to age
+  input  logic             gone_i,        // pulse: frame offered to the engine sent or dropped
+  input  logic             owe_feed_i,    // watchdog is to be reloaded
+  input  logic             tally_i,       // JobTally is due
+  input  logic             start_i,       // node may join the bus
+  input  logic             run_i,         // node is on the bus
   // Producers
-  input  logic             want_i,        // an entry is to be looked at
-  input  logic             visit_i,       // this is being done
-  input  can_rn_pkg::job_t then_i,        // what follows the present job then
-  input  logic             same_i,        // JobSame goes on
-  input  can_rn_pkg::job_t begun_i,       // what follows JobBegin then
+  input  logic             want_i,        // an entry is to be visited
+  input  logic             visit_i,       // entry is visited, or a block transfer makes a frame
+  input  can_rn_pkg::job_t then_i,        // next job while visit_i
+  input  logic             same_i,        // JobSame continues
+  input  can_rn_pkg::job_t begun_i,       // next job after JobBegin while visit_i
   // Block transfers
-  input  logic             fetch_i,       // this frame goes on with one: JobHead is followed
-  input  logic             block_i,       // something is to be done for one
-  input  can_rn_pkg::job_t block_job_i,   // by this
-  input  logic             opens_i,       // JobCount: one is opened
-  input  logic             ends_i,        // or ended by a frame that is refused
-  input  logic             on_i,          // JobAdd goes on
-  input  logic             closes_i,      // and the transfer is closed then
+  input  logic             fetch_i,       // DATA: JobHead is followed by JobFetch
+  input  logic             block_i,       // block_job_i is due
+  input  can_rn_pkg::job_t block_job_i,   // job of a block transfer
+  input  logic             opens_i,       // JobCount: BLOCK opens a transfer
+  input  logic             ends_i,        // JobCount: refused DATA frame ends the write
+  input  logic             on_i,          // JobAdd continues
+  input  logic             closes_i,      // JobAdd is followed by JobClose
   // Map entries
-  input  logic             search_i,      // a header that one may take waits
-  input  logic             find_i,        // JobFind goes on
-  input  logic             hit_i,         // and has found one
-  input  logic             mapped_i,      // the frame is taken by one
-  input  logic             act_i,         // as a TRIGGER, too,
-  input  logic             again_i,       // whose copy begins or is under way
-  input  logic             watch_i,       // a time-out is to be looked at
-  output can_rn_pkg::job_t job_o,
-  output logic [1:0]       phase_o,
-  output logic             timer_o,
-  output logic             request_o,     // a request is valid
-  output logic             begin_o,       // its work begins
-  output logic             over_o,        // pulse: the hold has lasted too long (RN-52)
-  output logic             take_o,        // header is taken over
-  output logic             ten_o,         // 10 ms have passed
-  output logic             new_tries_o,   // JobRow: the attempts count from the start
-  output logic             written_o,     // pulses for user logic (RN-45)
-  output logic             apply_o
+  input  logic             search_i,      // waiting header: a map entry may take the frame
+  input  logic             find_i,        // JobFind continues
+  input  logic             hit_i,         // JobFind has found an entry
+  input  logic             mapped_i,      // frame is taken by a map entry
+  input  logic             act_i,         // that entry acts as a TRIGGER
+  input  logic             again_i,       // its copy of the stage begins or is under way
+  input  logic             watch_i,       // JobLate is due
+  output can_rn_pkg::job_t job_o,         // present job
+  output logic [1:0]       phase_o,       // phase of the job
+  output logic             timer_o,       // timer of JobLow, JobHigh: 0: watchdog, 1: bus-off
+  output logic             request_o,     // pulse: a request is valid
+  output logic             begin_o,       // pulse: work of a request or visit begins
+  output logic             over_o,        // pulse: a hold has lasted too long (RN-52)
+  output logic             take_o,        // pulse: waiting header is taken over
+  output logic             ten_o,         // pulse: every 10 ms
+  output logic             new_tries_o,   // JobRow: attempts are reloaded from RETRY
+  output logic             written_o,     // pulse: a write is visible (RN-45)
+  output logic             apply_o        // pulse: staged bytes are visible (RN-45)
 );
-  // As written here, so that codes of no job lead back.
+  // Keep the encoding: unused codes, reached by an upset, then lead back to JobIdle.
   (* fsm_encoding = "none", syn_encoding = "safe" *) can_rn_pkg::job_t job_q;
   can_rn_pkg::job_t job_d, work, next;
   logic [1:0] phase_q, int2_q;
@@ -103,8 +104,8 @@ module can_rn_step #(
   assign request_o = idle && valid_i && !dup_i;
   assign take_o    = idle && hdr_i;
   assign ten_o     = ms_i && ten_q == 4'd1;
-  // Told in the clock behind the sample point; the job ends one later, so that the sample point
-  // does not lead through what comes next.
+  // written_o and apply_o pulse in the clock after the sample point. JobInt2 ends one clock later,
+  // which keeps the sample point out of the path that chooses the next job.
   assign int2      = int2_q == 2'd0 ? !(written_o || apply_o) : int2_q == 2'd1 && tick_i;
   assign held      = hold_i && !refused_i && (memory || trigger_i || act_i);
   assign over      = (&row_i) && (&phase_q);
@@ -112,14 +113,14 @@ module can_rn_step #(
   assign over_o    = job_q == can_rn_pkg::JobBegin && held && over && !visit_i && !again_i;
   assign begin_o   = job_q == can_rn_pkg::JobBegin && !wait_user;
 
-  // What comes next when nothing is under way: what a frame or the time asks for, else the rest.
+  // Job after JobIdle: what a frame or a timer asks for comes first (soon), then the rest (later).
   logic             front;
   can_rn_pkg::job_t soon, later;
   assign front = valid_i || hdr_i || byte_i || (quiet && urgent_i)
                  || (due && (tally_i || ms_q || aged_q));
   always_comb begin
     soon = can_rn_pkg::JobAge;
-    // What a map entry takes has been looked at before. JobGuard, JobBegin, or nothing.
+    // JobGuard, JobBegin or, for a statement, nothing. A map entry has had its JobGuard already.
     if (valid_i) soon = {1'b0, guarded, 1'b0, {2{guarded}}, !dup_i};
     else if (hdr_i)               soon = {2'b00, ours_i || search_i, search_i, 2'b00};
     else if (byte_i)              soon = can_rn_pkg::JobByte;
@@ -129,7 +130,7 @@ module can_rn_step #(
   end
   always_comb begin
     later = can_rn_pkg::JobIdle;
-    // RN-103: nothing leads here with the node off the bus but an upset.
+    // RN-103: only an upset leads here while the node is off the bus.
     if (!run_i)                            later = can_rn_pkg::JobStart;
     else if (try_i)                        later = can_rn_pkg::JobTry;
     else if (load_i)                       later = can_rn_pkg::JobLoad;
@@ -142,20 +143,19 @@ module can_rn_step #(
   end
   assign next = front ? soon : later & {6{quiet}};
 
-  // What a request leads to that is not refused.
+  // First job of a request that is not refused.
   assign work   = nothing_i ? can_rn_pkg::JobIdle : trigger_i ? can_rn_pkg::JobTrigger
                   : read_i ? can_rn_pkg::JobFresh : write_i ? can_rn_pkg::JobMove
                                                             : can_rn_pkg::JobCount;
   assign memory = write_i || read_i;
 
-  // A frame that acts as a TRIGGER in OPERATE is followed by the copy of the stage, which begins
-  // like a request. User logic is told of both; they have to be over by then, so that the TRIGGER
-  // is counted last.
+  // A map entry that acts as a TRIGGER copies the stage after its frame's bytes (OPERATE only),
+  // starting with JobBegin like a request. JobTrigger comes last: the count follows both pulses.
   can_rn_pkg::job_t moved, told;
   assign told  = act_i ? can_rn_pkg::JobTrigger : can_rn_pkg::JobIdle;
   assign moved = act_i && operate_i && !again_i ? can_rn_pkg::JobBegin : can_rn_pkg::JobInt2;
 
-  // keep: the job goes on with its next phase; else it is followed by job_d.
+  // keep: the job continues with its next phase; otherwise job_d follows.
   always_comb begin
     keep  = job_q[4] && !(phase_q[1] && (phase_q[0] || !job_q[3]));
     job_d = can_rn_pkg::JobIdle;
@@ -164,7 +164,7 @@ module can_rn_step #(
         keep  = wait_user;
         job_d = refused_i ? can_rn_pkg::JobCount : work;
       end
-      // RN-103: an upset that takes the node off the bus leaves no sample points to wait for.
+      // RN-103: after an upset that takes the node off the bus there are no sample points.
       can_rn_pkg::JobInt2:  keep = int2_q != 2'd0 && run_i;
       can_rn_pkg::JobGuard: if (Protect) begin
         keep  = !(&phase_q);
@@ -213,7 +213,7 @@ module can_rn_step #(
     // Map entries
     if (mapped_i) begin
       case (job_q)
-        // With the first byte the length is known, which comes behind the header.
+        // The DLC comes after the header, so the length is known only with the first byte.
         can_rn_pkg::JobByte:    if (Protect && row_i == 4'd0) job_d = can_rn_pkg::JobGuard;
         can_rn_pkg::JobGuard:   job_d = can_rn_pkg::JobIdle;
         can_rn_pkg::JobBegin:   job_d = refused_i ? can_rn_pkg::JobIdle
@@ -236,7 +236,7 @@ module can_rn_step #(
         default: ;
       endcase
     end
-    // The answer that nobody has asked for gives way to a request, and to the engine.
+    // A frame that nobody has requested gives way to a request and to the engine.
     if (visit_i) begin
       if (job_q == can_rn_pkg::JobSame)  keep = same_i;
       if (job_q == can_rn_pkg::JobBegin) begin
@@ -270,7 +270,7 @@ module can_rn_step #(
       ten_q <= 4'd1;
       {timer_q, ms_q, aged_q, row_ready_q, try_ready_q} <= '0;
     end else begin
-      // 10 of the 15 states of x^4 + x + 1: 1, 2, 4, 8, 3, 6, 12, 11, 5, 10.
+      // ten_q passes 10 of the 15 states of x^4 + x + 1: 1, 2, 4, 8, 3, 6, 12, 11, 5, 10.
       if (ms_i) ten_q <= ten_q == 4'd10 ? 4'd1
                                         : {ten_q[2], ten_q[1], ten_q[0] ^ ten_q[3], ten_q[3]};
       timer_q     <= timer_q ^ ended_timer;
@@ -283,7 +283,7 @@ module can_rn_step #(
     end
   end
 
-  // The third sample point from the end of a valid frame is that of INT2.
+  // INT2 has the third sample point after that of EOF6, where the frame is valid.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       int2_q <= '0;
@@ -297,5 +297,4 @@ module can_rn_step #(
       apply_o   <= job_q == can_rn_pkg::JobInt2 && int2 && trigger_i && (operate_i || !mapped_i);
     end
   end
-
 endmodule
