@@ -1,31 +1,35 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_remote: a node without a processor: frames read and write a block RAM that user logic shares.
-// The engine can_core, the RAM, and the blocks between; docs/remote.md.
+// can_remote: CAN node without a processor (docs/remote.md, rules RN-01 to RN-105). Frames of the
+// bus read and write a block RAM that user logic shares. This file wires the protocol engine
+// can_core with the blocks can_rn_*: a frame is decoded (can_rn_head), checked (can_rn_check) and
+// carried out job by job (can_rn_step) on the RAM (can_rn_port); answers wait in a queue
+// (can_rn_tx). Options that are not built are replaced by constants.
 
 module can_remote #(
-  /// Bits of the name in an identifier, 3 or 5; the same on the whole bus.
+  /// Bits of the name in an identifier, 3 or 5; the same for all nodes of a bus.
   parameter int NameBits = 3,
   /// Bytes of the RAM: 1,024, 2,048 or 4,096.
   parameter int MemBytes = 4096,
-  /// Bytes that become visible by TRIGGER: 0, 8 or 16, from address 0x010.
+  /// Bytes from address 0x010 that become visible by TRIGGER: 0, 8 or 16.
   parameter int StageBytes = 8,
-  /// Answers that may wait: 1 or 4.
+  /// Answers that may wait for transmission: 1 or 4.
   parameter int TxDepth = 1,
-  /// Entries of producers: 0, 4 or 8.
+  /// Producer entries: 0, 4 or 8.
   parameter int NumProd = 0,
   /// Map entries: 0, 4 or 8.
   parameter int NumMap = 0,
-  /// 1: pages may be protected against writes and reads of the bus.
+  /// 1: memory can be protected against reads and writes of the bus.
   parameter int Protect = 0,
-  /// 1: block transfers.
+  /// 1: block transfers (RN-40).
   parameter int Block = 0,
-  /// 1: the bit rate is a row of RateTable, and may be searched for.
+  /// 1: the bit rate is a row of RateTable, and the node can search for it (RN-73).
   parameter int AutoRate = 0,
-  /// 1: eight counters at 0xFE8 tell what happened.
+  /// 1: eight event counters at 0xFE8 (RN-35).
   parameter int Counters = 0,
-  /// 1: direct reads are answered under the identifier of the request, to show what that leads to.
+  /// 1: direct reads are answered with the identifier of the request, to demonstrate the collisions
+  /// that this leads to (RN-16).
   parameter int SameId = 0,
   /// Serial number, 32 bits, different in each device.
   parameter int Serial = 0,
@@ -37,14 +41,14 @@ module can_remote #(
   parameter int Ps1 = 4,
   parameter int Ps2 = 2,
   parameter int Sjw = 1,
-  /// First contents of the RAM, all of them, as tools/remote_memory.py writes them, for FPGAs whose
-  /// RAM has some; no reset clears it then. "": the RAM is cleared.
+  /// File with the initial contents of the whole RAM, written by tools/remote_memory.py, for FPGAs
+  /// whose RAM can be initialised; a reset then does not clear the RAM. "": a reset clears the RAM.
   parameter InitFile = "",
-  /// 1: trace_o shows the engine to an observer; else it is 0 and costs nothing.
+  /// 1: trace_o shows the engine to an observer; 0: trace_o is 0 and costs nothing.
   parameter int Trace = 0,
-  /// Rows of RateTable, 1 to 15, and the rows, the first at the right, each 19 bits: clocks per
-  /// quantum, SJW, Ps1, Ps2, Prop, each minus one. As `verican bittime --table` prints them for a
-  /// clock; here 8 MHz.
+  /// Number of rows of RateTable, 1 to 15, and the rows, first one rightmost. A row has 19 bits:
+  /// clocks per quantum, SJW, Ps1, Ps2, Prop, each minus one. `verican bittime --table` prints them
+  /// for a given clock; the default is for 8 MHz.
   parameter int RateRows = 8,
   parameter logic [284:0] RateTable = {
     133'd0,
@@ -57,17 +61,17 @@ module can_remote #(
     8'd0, 2'd1, 3'd3, 3'd1, 3'd2,  // 800 kbit/s
     8'd0, 2'd1, 3'd2, 3'd1, 3'd1  // 1000 kbit/s
   },
-  /// 1: the node has a clock that follows a master on the bus (TM-106); 0: the ports time_* and
-  /// pps_o have no use and are 0. Its parameters are those of can_time_node.
+  /// 1: the node has a clock that follows a master on the bus (TM-106), with the parameters of
+  /// can_time_node. 0: the ports time_* and pps_o have no function and are 0.
   parameter int TimeSync = 0,
-  /// Increment at the nominal rate: 39:32 ns, 31:0 in 2^-32 ns a clock. As here: 8 MHz.
+  /// Clock increment at the nominal rate: 39:32 ns, 31:0 in 2^-32 ns a clock. Default: 8 MHz.
   parameter logic [39:0] TimeInc = 40'h7D_0000_0000,
-  /// TSCTRL without EN and PPS (as here: a pair a second at 8 MHz), TSID (a base identifier that no
-  /// node asks or answers with, as here 0x420) and TSDLY of the follower, see docs/registers.md.
+  /// Follower: TSCTRL without EN and PPS (default: a pair a second at 8 MHz), TSID (a base
+  /// identifier that no node asks or answers with; default 0x420), TSDLY; see docs/registers.md.
   parameter logic [31:0] SyncCtrl = 32'h1F49_0100,
   parameter logic [31:0] SyncId = 32'h1080_0000,
   parameter logic [31:0] SyncDelay = 32'd0,
-  /// ns between two edges of pps_o, 16 clocks at least; 500,000,000: a rising edge a second.
+  /// ns between two edges of pps_o, at least 16 clocks; 500,000,000: one rising edge per second.
   parameter int HalfPeriod = 500000000,
   /// Derived, do not override.
   localparam int Events = NumProd == 0 ? 1 : NumProd
@@ -75,37 +79,37 @@ module can_remote #(
   input  logic                clk_i,
   input  logic                rst_ni,
   // Set-up
-  input  logic                start_i,        // the RAM is set up: join the bus
-  input  logic [NameBits-1:0] node_i,         // number; 0, 1: none
-  input  logic [3:0]          rate_i,         // with AutoRate: row of RateTable; none: search
-  // User logic: one access a clock while usr_ready_o; data in the clock after
-  input  logic                usr_req_i,
-  input  logic                usr_we_i,
-  input  logic [3:0]          usr_be_i,       // byte 0 is bits 7:0
-  input  logic [9:0]          usr_addr_i,     // words
-  input  logic [31:0]         usr_wdata_i,
-  output logic                usr_ready_o,
-  output logic [31:0]         usr_rdata_o,
-  input  logic                usr_hold_i,     // nothing becomes visible, for 64 clocks at most
-  // What became visible
-  output logic                written_o,      // pulse: a write,
-  output logic [11:0]         written_addr_o, // its first address
-  output logic [3:0]          written_len_o,  // and length
-  output logic                apply_o,        // pulse: the staged bytes
-  // Statements; without producers tied to 0
-  input  logic [Events-1:0]   event_i,        // send this entry now
+  input  logic                start_i,        // RAM is set up: join the bus
+  input  logic [NameBits-1:0] node_i,         // node number at start; 0, 1: none
+  input  logic [3:0]          rate_i,         // AutoRate: row of RateTable; beyond its rows: search
+  // User logic: one access per clock in which usr_ready_o is 1; data in the clock after
+  input  logic                usr_req_i,      // access requested
+  input  logic                usr_we_i,       // access writes
+  input  logic [3:0]          usr_be_i,       // byte enables; byte 0 is bits 7:0
+  input  logic [9:0]          usr_addr_i,     // word address
+  input  logic [31:0]         usr_wdata_i,    // word to write
+  output logic                usr_ready_o,    // access is carried out in this clock
+  output logic [31:0]         usr_rdata_o,    // word read
+  input  logic                usr_hold_i,     // nothing becomes visible, for at most 64 clocks
+  // What has become visible
+  output logic                written_o,      // pulse: an accepted write is in the RAM (RN-45)
+  output logic [11:0]         written_addr_o, // with written_o: first address of the write
+  output logic [3:0]          written_len_o,  // with written_o: number of bytes
+  output logic                apply_o,        // pulse: staged bytes are visible (RN-46)
+  // Producers; tie to 0 if there are none
+  input  logic [Events-1:0]   event_i,        // pulse: send entry k now
   // State
-  output logic                safe_o,         // 0 in OPERATE only
-  output logic [1:0]          state_o,
+  output logic                safe_o,         // node is not in OPERATE: drive safe outputs
+  output logic [1:0]          state_o,        // 0 INIT, 1 LISTEN, 2 SAFE, 3 OPERATE
   // Clock
-  input  logic                time_take_i,    // pulse: TIME of this clock is taken
-  output logic [63:0]         time_o,         // ns, good from two clocks behind it
-  output logic [1:0]          time_state_o,   // TSSTAT.STATE
-  output logic                pps_o,          // from the first pair on
+  input  logic                time_take_i,    // pulse: capture the time of this clock
+  output logic [63:0]         time_o,         // captured time, ns; good from two clocks later on
+  output logic [1:0]          time_state_o,   // TSSTAT.STATE: 2 is locked
+  output logic                pps_o,          // toggles every HalfPeriod, from the first pair on
   // Pins and observers
-  input  logic                can_rx_i,
-  output logic                can_tx_o,
-  output logic [can_pkg::TraceWidth-1:0] trace_o
+  input  logic                can_rx_i,       // receive pin, asynchronous
+  output logic                can_tx_o,       // transmit pin, register
+  output logic [can_pkg::TraceWidth-1:0] trace_o // see can_pkg
 );
   localparam int AddrBits = 10 - NameBits;
   localparam bit Filled   = |InitFile;
@@ -114,7 +118,7 @@ module can_remote #(
                             + (Protect != 0 ? 16 : 0) + (Block != 0 ? 32 : 0)
                             + (AutoRate != 0 ? 64 : 0) + (Counters != 0 ? 128 : 0);
 
-  // The engine counts as far as a fixed timing asks for.
+  // With a fixed bit timing, the engine's counters are only as wide as that timing needs.
   localparam int Longer       = Prop + Ps1 > Ps2 + Sjw ? Prop + Ps1 : Ps2 + Sjw;
   localparam int PosWidth     = AutoRate != 0 ? 5 : Longer < 4 ? 3 : $clog2(Longer + 1);
   localparam int PresdivWidth = AutoRate != 0 ? 8 : $clog2(Brp);
@@ -130,7 +134,7 @@ module can_remote #(
     .Brp(Brp), .Prop(Prop), .Ps1(Ps1), .Ps2(Ps2), .Sjw(Sjw)
   ) u_timing_params ();
 
-  // A constant, but for the simulator, which makes nodes that differ in it alone.
+  // Constant in hardware. The simulator writes it, so that one model serves all serial numbers.
   logic [31:0] serial /* verilator public_flat_rw */;
   assign serial = 32'(Serial);
 
@@ -265,7 +269,8 @@ module can_remote #(
     .high_bad_o(high_bad), .mismatch_o(mismatch)
   );
 
-  // What an entry asks for is a remote frame, but for a watchdog and where there is no room.
+  // The visit of a producer entry is handled like a remote frame, except that it does not feed the
+  // watchdog and that a full queue does not refuse it.
   assign rtr = (rx_rtr || visit) && !make;
   assign dlc = own_length ? op[3:0] : rx_dlc;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -294,8 +299,8 @@ module can_remote #(
     .code_o(code)
   );
   assign valid   = rx_valid && live;
-  // A system function for other nodes, a read that a node without a number does not answer.
-  // Known, like what is asked for, long before the frame is valid.
+  // Requests without work: SELECT, STATE for another node, ASSIGN while not selected, a read of a
+  // node without a number, a repeated DATA. Registered: known long before the frame is valid.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) nothing <= 1'b0;
     else         nothing <= select || (set_state && mismatch) || (assign_number && !selected)
@@ -328,7 +333,8 @@ module can_remote #(
     .written_o, .apply_o
   );
 
-  // With NameBits 5: A of STATUS and IDENT as with 3, and what a map entry adds of the name.
+  // NameBits 5: A has 5 bits only. STATUS and IDENT get the A that they have with NameBits 3; for a
+  // map entry, identifier bits 6:5 (part of the name) are added to the address.
   logic [6:0] row_a;
   assign row_a = NameBits == 5 ? {{2{info}} | (id[6:5] & {2{aim}}), 5'd0} : 7'd0;
 
@@ -374,11 +380,11 @@ module can_remote #(
     .sum_o(sum), .same_o(in_order), .equal_o(equal), .wbyte_o(wbyte)
   );
 
-  // RN-16: answers of direct reads.
+  // RN-16: {request to all nodes, answer to a direct read}.
   logic [1:0] same_id;
   assign same_id = {all, !port && !visit && !make} & {2{SameId != 0}};
 
-  // Address of the byte: a block that selects none drives 0, so that an OR is enough.
+  // Byte address: a block that selects no byte drives 0, so the addresses are just ORed.
   logic [8:0] others;
   assign others = map_cell | own_cell | tally_cell | block_cell;
   can_rn_port #(.MemBytes(MemBytes), .InitFile(InitFile)) u_port (

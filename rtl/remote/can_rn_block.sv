@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_block: block transfers (RN-40 to RN-43). Their bytes are in the RAM; here is only what is
-// decided on. A frame of data that is sent, and an answer of BLOCK, are made like answers of READ
-// that nobody has sent; what a frame has moved is added to the address and the counts behind it.
-//   0x008 address; 0x00A the answer of BLOCK: op, tag, code, 0, bytes done
-//   0x023 each 4: bytes left (low, high), gap, seq of the next frame, clock
+// can_rn_block: block transfers (RN-40 to RN-43), one at a time. The bytes of a transfer's state
+// are in the RAM, only what decisions need is in flip-flops. JobOpen sets it up from a BLOCK
+// request. A DATA frame of a read, and the answer of BLOCK, are made like an answer of READ without
+// a request. After each frame JobAdd adds the bytes moved to address and counts; JobClose stores
+// the code.
+//   0x008   address (2 bytes); 0x00A: answer of BLOCK: op, tag, code, 0, bytes done (2 bytes)
+//   0x023   and each 4 on: bytes left (low, high), gap, sequence number of the next frame, clock
 
 module can_rn_block #(
   parameter bit Protect = 1'b0
@@ -14,55 +16,55 @@ module can_rn_block #(
   input  logic             rst_ni,
   input  can_rn_pkg::job_t job_i,
   input  logic [1:0]       phase_i,
-  input  logic             flush_i,      // all transfers end
-  input  logic             ms_i,
-  input  logic             ten_i,        // 10 ms have passed
-  input  logic             ready_i,      // something may be sent
-  input  logic             full_i,       // queue of answers
-  input  logic             some_i,
+  input  logic             flush_i,      // transfers end without an answer
+  input  logic             ms_i,         // pulse: millisecond
+  input  logic             ten_i,        // pulse: every 10 ms
+  input  logic             ready_i,      // node may send: on the bus, numbered, not in bus-off
+  input  logic             full_i,       // queue of answers is full
+  input  logic             some_i,       // queue of answers is not empty
   // Request
   input  logic             live_i,       // a frame for this node is under way
-  input  logic             block_i,      // BLOCK,
-  input  logic             data_i,       // or DATA
-  input  logic             first_i,      // first byte of the frame
-  input  logic             refused_i,
-  input  logic [3:0]       code_i,
-  input  logic [1:0]       op_i,
-  input  logic [3:0]       dlc_i,
-  input  logic [3:0]       row_i,
-  input  logic [2:0]       end_i,
+  input  logic             block_i,      // request is BLOCK
+  input  logic             data_i,       // request is DATA
+  input  logic             first_i,      // JobByte: first byte of the frame
+  input  logic             refused_i,    // request is refused
+  input  logic [3:0]       code_i,       // result code of the request
+  input  logic [1:0]       op_i,         // op of BLOCK
+  input  logic [3:0]       dlc_i,        // DLC of the frame, or length of the one made
+  input  logic [3:0]       row_i,        // JobOpen: byte of the row
+  input  logic [2:0]       end_i,        // index behind the last byte of the row
   // RAM
-  input  logic             zero_i,       // the byte read is 0, 1
-  input  logic             one_i,
-  input  logic             same_i,       // one less than it is the byte of the frame
-  input  logic             equal_i,      // it is
-  input  logic [8:0]       sum_i,        // byte that is written, with carry
-  output logic             visit_o,      // a frame is made
-  output logic             answer_o,     // that of BLOCK
-  output logic             load_o,       // the address of the transfer is in the word read
-  output logic [3:0]       length_o,     // of the frame that is made
-  output logic             busy_o,
-  output logic             order_o,      // the frame is the next, or
-  output logic             again_o,      // the last once more
-  output logic             over_o,       // it has more bytes than are left
-  output logic             part_o,       // it is one of the write, whether right or not
-  output logic             claims_o,     // the queue is for this first
-  output logic             want_o,       // a job is due,
-  output can_rn_pkg::job_t next_o,       // this
-  output can_rn_pkg::job_t begun_o,      // what follows JobBegin for a frame that is made,
-  output can_rn_pkg::job_t then_o,       // and its other jobs
-  output logic             on_o,         // JobAdd goes on
-  output logic             closes_o,     // behind JobAdd the transfer is closed
-  output logic             timeout_o,    // pulse
-  output logic [3:0]       code_o,
-  output logic             own_o,        // the byte that is meant is none of the row,
-  output logic [8:0]       cell_o,       // but this
-  output logic             re_o,
-  output logic             we_o,
-  output logic             no_write_o,
-  output logic [2:0]       add_o,        // what is added,
-  output logic             less_o,       // or its complement,
-  output logic             more_o        // and one, both in the clock after
+  input  logic             zero_i,       // byte read is 0
+  input  logic             one_i,        // byte read is 1
+  input  logic             same_i,       // sum_i equals the byte of the frame
+  input  logic             equal_i,      // byte read equals the byte of the frame
+  input  logic [8:0]       sum_i,        // byte to write, with carry
+  output logic             visit_o,      // a frame of the transfer is made
+  output logic             answer_o,     // that frame is the answer of BLOCK
+  output logic             load_o,       // JobFetch: word read has the address
+  output logic [3:0]       length_o,     // length of the frame that is made
+  output logic             busy_o,       // a transfer is open or its answer not yet sent
+  output logic             order_o,      // write: DATA has the expected sequence number
+  output logic             again_o,      // write: DATA repeats the last frame
+  output logic             over_o,       // write: DATA has more bytes than are left
+  output logic             part_o,       // DATA of an open write, also an illegal one
+  output logic             claims_o,     // next place in the queue is claimed
+  output logic             want_o,       // next_o is due
+  output can_rn_pkg::job_t next_o,       // next job of the transfer
+  output can_rn_pkg::job_t begun_o,      // job after JobBegin while visit_o
+  output can_rn_pkg::job_t then_o,       // job after the present one while visit_o
+  output logic             on_o,         // JobAdd continues
+  output logic             closes_o,     // JobAdd is followed by JobClose
+  output logic             timeout_o,    // pulse: time-out of a write (BLKTO)
+  output logic [3:0]       code_o,       // code to store: of the request, or of the end
+  output logic             own_o,        // cell_o replaces the byte of the row
+  output logic [8:0]       cell_o,       // byte to read or write; 0: none
+  output logic             re_o,         // JobFetch reads
+  output logic             we_o,         // JobClose writes
+  output logic             no_write_o,   // clock is 0: no write
+  output logic [2:0]       add_o,        // added to the byte read
+  output logic             less_o,       // ~add_o is added instead, in the clock after
+  output logic             more_o        // 1 more is added, in the clock after
 );
   localparam logic [2:0] VarLeft = 3'd0, VarGap = 3'd2, VarSeq = 3'd3, VarClock = 3'd4;
 
@@ -86,7 +88,7 @@ module can_rn_block #(
   assign ends  = &phase_i;
   assign opens = open && ends && row_i[3] && row_i[1];
 
-  // What is open, and what is to be done for it.
+  // State of the transfer, and the jobs that it needs.
   logic nothing_left, round3, aborts;
   assign nothing_left = few_q && left_q == 3'd0;
   assign round3       = &turn_q;
@@ -110,7 +112,7 @@ module can_rn_block #(
     end
   end
 
-  // A frame of a write: its place in the order; the bytes that are left, of which there are few.
+  // For a write: position of a DATA frame in the sequence. For both: bytes left, exact below 8.
   logic left_write;
   assign left_write = last && ((open && row_i[3:1] == 3'd3) || (add && turn_q == 2'd2));
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -125,7 +127,7 @@ module can_rn_block #(
       any_q <= !open && (any_q || (advance_q && write_q));
       if (left_write && !phase_i[0]) left_q <= sum_i[2:0];
       if (left_write) few_q <= phase_i[0] ? few_q && sum_i[7:0] == 8'd0 : sum_i[7:3] == 5'd0;
-      // The clock begins alone where no frame has been moved.
+      // If no frame has been moved (JobOpen), JobAdd only starts the clock (round 3).
       if (add ? ends : idle) turn_q <= add ? turn_q + 2'd1 : {2{!advance_q}};
     end
   end
@@ -135,7 +137,7 @@ module can_rn_block #(
   assign part_o  = write_q && data_i && code_i != can_rn_pkg::CodeFunction;
   assign over_o  = write_q && few_q && dlc_i > {1'b0, left_q} + 4'd1;
 
-  // Time: ms between frames of a read, 10 ms for a write.
+  // Clock: gap in ms between frames of a read; BLKTO in steps of 10 ms for a write.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {waiting_q, time_q, visit_q} <= '0;
@@ -148,7 +150,7 @@ module can_rn_block #(
     end
   end
 
-  // A frame that is made: DATA into an empty queue, the answer where there is room.
+  // A frame is made: DATA if the queue is empty, the answer of BLOCK if the queue has room.
   logic send;
   assign send     = ready_i && (answer_q ? !full_i
                                          : read_q && !waiting_q && !some_i && !advance_q);
@@ -183,11 +185,11 @@ module can_rn_block #(
       code_o = code_i | (can_rn_pkg::CodeOpen & {4{block_i && op_i[1] && !refused_i}});
   end
 
-  // Bytes. JobOpen copies the frame, two bytes a round; what it does not say is 0. JobAdd goes
-  // through address, bytes done, bytes left; then the seq is one more and the clock begins.
+  // Bytes. JobOpen copies the frame, two bytes a round; bytes that it lacks are 0. The rounds of
+  // JobAdd are address, bytes done, bytes left, and sequence number with clock.
   logic [2:0] moved;
   assign moved = write_q ? end_i - 3'd1 : few_q ? left_q : 3'd7;
-  // Known a clock before: the bytes that are left change with what is added to them.
+  // Registered a clock before its use: the bytes left change in the clock of the addition.
   logic [2:0] add_q;
   assign add_o = add_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_data: the byte that was read, registered before anything is decided on it (RN-81), and
-// the byte that is written: this one, one more, one less, one of the frame, or the first contents.
+// can_rn_data: data path of one byte. The byte read from the RAM is registered before anything is
+// decided on it (RN-81): a byte addressed in one clock is in byte_o two clocks later. The byte
+// written is that byte plus or minus a small number, a byte of the frame, the result code, or
+// during JobClear the initial contents (RN-60).
 
 module can_rn_data #(
   parameter int NameBits = 3,
@@ -14,28 +16,28 @@ module can_rn_data #(
   input  logic                clk_i,
   input  logic                rst_ni,
   input  can_rn_pkg::job_t    job_i,
-  input  logic                none_i,       // JobTrigger: the frame has no byte
-  input  logic [1:0]          lane_i,       // place of the byte that is read in this clock
-  input  logic [31:0]         rdata_i,
+  input  logic                none_i,       // JobTrigger: frame has no count, one is added
+  input  logic [1:0]          lane_i,       // place in the word of the byte read in this clock
+  input  logic [31:0]         rdata_i,      // word read, one clock after its address
   input  logic [7:0]          frame_i,      // byte of the frame on the bus
-  input  logic [8:0]          block_i,      // JobClear: the byte that is written
-  input  logic [3:0]          place_i,
-  input  logic [NameBits-1:0] node_i,
-  input  logic [31:0]         serial_i,
+  input  logic [8:0]          block_i,      // JobClear: block of eight bytes that is written
+  input  logic [3:0]          place_i,      // JobClear: byte in this block, 8: first of the next
+  input  logic [NameBits-1:0] node_i,       // node number at reset
+  input  logic [31:0]         serial_i,     // serial number
   input  logic                last_i,       // phase 2 or 3
-  input  logic                less_i,       // one less is written in the clock after,
-  input  logic                more_i,       // one more
-  input  logic [2:0]          add_i,        // or this more, now
-  input  logic [3:0]          code_i,       // JobClose
-  output logic [7:0]          next_o,       // read, as it comes from the RAM
-  output logic [7:0]          byte_o,       // the same, a clock later
-  output logic                zero_o,       // it is 0, 1
-  output logic                one_o,
-  output logic                differ_o,     // from the one before
-  output logic [8:0]          sum_o,        // byte that is written, with carry
-  output logic                same_o,       // the byte of the frame is that,
-  output logic                equal_o,      // or the one read
-  output logic [7:0]          wbyte_o
+  input  logic                less_i,       // ~add_i is added instead of add_i, in the clock after
+  input  logic                more_i,       // 1 more is added, in the clock after
+  input  logic [2:0]          add_i,        // added to the byte read, in this clock
+  input  logic [3:0]          code_i,       // JobClose: code to store
+  output logic [7:0]          next_o,       // byte read, not registered
+  output logic [7:0]          byte_o,       // byte read, registered
+  output logic                zero_o,       // byte_o is 0
+  output logic                one_o,        // byte_o is 1
+  output logic                differ_o,     // byte_o differs from the byte read before it
+  output logic [8:0]          sum_o,        // byte to write, with carry
+  output logic                same_o,       // byte of the frame equals sum_o
+  output logic                equal_o,      // byte of the frame equals byte_o
+  output logic [7:0]          wbyte_o       // byte to write
 );
   logic [7:0] byte_q, lane_byte;
   logic [1:0] lane_q;
@@ -57,7 +59,7 @@ module can_rn_data #(
       {zero_q, one_q} <= 2'b10;
     end else begin
       lane_q <= lane_i;
-      // Not of user logic, and none before the RAM has been cleared.
+      // Neither accesses of user logic nor, before the RAM is cleared, undefined contents.
       read_q <= (|job_i[5:3]) || (job_i[2] && !job_i[1]);
       if (read_q) byte_q <= lane_byte;
       if (read_q) {zero_q, one_q} <= {zero, few && lane_byte[0]};
@@ -82,9 +84,8 @@ module can_rn_data #(
     assign differ_o = differ_q;
   end
 
-  // First contents (RN-60) of a byte: its block of eight, and where it is there. The first byte of
-  // a block is 8 behind the block before, as the mover counts it. What is not named is 0.
-  // One decoder: the blocks that have any, as the last five bits tell them apart.
+  // Initial contents (RN-60) of a byte, given by its block of eight and its place there. As the
+  // mover counts, the first byte of a block is place 8 of the block before. All other bytes are 0.
   function automatic logic [7:0] first_byte(input logic [8:0] block, input logic [3:0] place);
     logic top, e00, f00, ident;
     logic [7:0] conf, id;
@@ -115,8 +116,8 @@ module can_rn_data #(
     if (top && place[3] && block[5:0] == 6'h3E) first_byte = first_byte | 8'h01;
   endfunction
 
-  // Known a clock before the byte is written: a job writes in its third phase at the earliest. The
-  // high byte of two is one less if the low one was 0.
+  // Registered one clock before the byte is written: no job writes a sum before its third phase. Of
+  // a two-byte number, the high byte decrements if the low one was 0.
   logic less_q, more_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_map: what the node takes over from frames that are no requests to it (RN-65, RN-66). At
-// the header the entries are searched; a frame that one of them takes is then carried out as a
-// write. Time-outs are counted each 10 ms.
-//   0x08C one byte each 16: tens of ms since the last frame of an entry, 255 at most
-//   0x180 the entries
+// can_rn_map: map entries (RN-65, RN-66). They copy frames that are no requests to this node into
+// its memory. After the header JobFind searches the entries; the frame that one of them takes is
+// then carried out as a write. Every 10 ms, and after each such frame, JobLate updates the
+// time-outs.
+//   0x08C   one byte in each row of 16: time since the entry's last frame in 10 ms, 255 at most
+//   0x180   the entries, 8 bytes each
 
 module can_rn_map #(
   parameter int NameBits = 3,
@@ -16,33 +17,33 @@ module can_rn_map #(
   input  logic             rst_ni,
   input  can_rn_pkg::job_t job_i,
   input  logic [1:0]       phase_i,
-  input  logic             run_i,
-  input  logic             visit_i,    // a frame is made
-  input  logic             ten_i,      // 10 ms have passed
+  input  logic             run_i,      // node is on the bus
+  input  logic             visit_i,    // a frame is made that nobody has requested
+  input  logic             ten_i,      // pulse: every 10 ms
   // Frame
-  input  logic             take_i,     // a header is taken over
-  input  logic [10:0]      id_i,       // from the clock after take_i on
-  input  logic [3:0]       row_i,      // JobFind: two clocks an entry
-  input  logic             begin_i,    // its work begins
-  input  logic             write_i,    // it has bytes
-  input  logic             refused_i,
+  input  logic             take_i,     // pulse: a header is taken over
+  input  logic [10:0]      id_i,       // identifier, good from the clock after take_i on
+  input  logic [3:0]       row_i,      // JobFind: entry, two clocks each
+  input  logic             begin_i,    // pulse: work of the frame begins
+  input  logic             write_i,    // frame has data bytes
+  input  logic             refused_i,  // frame is refused
   // RAM
-  input  logic [31:0]      rdata_i,
-  input  logic [7:0]       byte_i,     // byte read before
-  output logic             find_o,     // JobFind goes on
-  output logic             hit_o,      // and has found one
-  output logic             aim_o,      // JobAim: rdata_i is what the entry says of its place
-  output logic             mapped_o,   // this frame is taken by an entry
-  output logic             act_o,      // as a TRIGGER, too
-  output logic             acts_o,     // its bytes are copied, and now the stage
+  input  logic [31:0]      rdata_i,    // word read
+  input  logic [7:0]       byte_i,     // byte read, one clock after rdata_i
+  output logic             find_o,     // JobFind continues
+  output logic             hit_o,      // JobFind has found an entry
+  output logic             aim_o,      // JobAim: rdata_i has address, length and flags
+  output logic             mapped_o,   // frame is taken by an entry
+  output logic             act_o,      // that entry acts as a TRIGGER
+  output logic             acts_o,     // its copy of the stage begins or is under way
   output logic             want_o,     // JobLate is due
-  output logic [8:0]       cell_o,     // the byte that is meant
-  output logic             more_o,     // one more is written
-  output logic             we_o,
+  output logic [8:0]       cell_o,     // byte to read or write; 0: none
+  output logic             more_o,     // JobLate: the time + 1 is written
+  output logic             we_o,       // JobLate: the time is written
   // State
-  output logic             stale_o,
-  output logic             unsafe_o,   // STALE leads to SAFE
-  output logic             told_o      // pulse: both are known anew
+  output logic             stale_o,    // an entry has exceeded its time-out
+  output logic             unsafe_o,   // such an entry leads to SAFE
+  output logic             told_o      // pulse: stale_o and unsafe_o have been updated
 );
   localparam int AddrBits   = 10 - NameBits;
   localparam int IndexWidth = $clog2(NumMap);
@@ -54,7 +55,8 @@ module can_rn_map #(
   assign late = job_i == can_rn_pkg::JobLate;
   assign ends_late = late && (&phase_i);
 
-  // An entry: ID and bit 15 on, mask. A port's frame needs a mask that compares all of A.
+  // First word of an entry: mask in 26:16, on in 15, ID in 10:0. A frame to a port needs a mask
+  // that compares all of A.
   logic port, match, copied, hit_q, mapped_q, act_q, acts_q;
   logic [IndexWidth-1:0] found_q;
   assign port  = &id_i[AddrBits-1:3];
@@ -80,14 +82,15 @@ module can_rn_map #(
     end
   end
 
-  // A pass over all entries every 10 ms, and one that only looks after each frame that was taken;
-  // after a start one that begins all times anew.
+  // A pass over all entries counts the times every 10 ms, after a start it restarts them. After
+  // each frame that was taken a pass updates stale_o without counting.
   logic [IndexWidth-1:0] k_q;
   logic ten_q, again_q, taken_q, fresh_q, pass_q, count_q, on_q, off_q, told_q;
   logic over_q, flag_q, ends_q, any_q, unsafe_any_q, stale_q, unsafe_q;
   logic anew, over, done, ends;
-  // JobLate reads ID with on, time, time-out with flags; the time is compared as it will be
-  // counted. It begins anew at a start, with a frame, and in a second look at an entry that is off.
+  // JobLate reads on, the time, and the time-out with flags. The time is compared as this pass will
+  // have counted it. It restarts at a start, with a frame, and for an entry that is off, which is
+  // looked at twice.
   assign anew    = taken_q || fresh_q || off_q;
   logic [7:0] limit_byte;
   logic       full;
@@ -123,7 +126,7 @@ module can_rn_map #(
     if (!rst_ni) begin
       {over_q, flag_q, ends_q, any_q, unsafe_any_q, stale_q, unsafe_q, told_q} <= '0;
     end else begin
-      // A byte of the RAM is compared in one clock, what follows from it comes in the next.
+      // Registered between the comparison of a RAM byte and what follows from it (RN-81).
       {over_q, flag_q, ends_q} <= {over, over && rdata_i[22], ends};
       told_q       <= ends_q;
       any_q        <= !ends_q && run_i && (any_q || over_q);

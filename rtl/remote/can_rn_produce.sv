@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_produce: statements that the node makes by itself (RN-63, RN-64). It walks through the
-// entries and looks at each as if a remote frame had asked for it, so that whatever answers such a
-// frame checks the entry and makes the statement. Passes, each over all entries: after a
-// millisecond periods and gaps, then changes; after a TRIGGER the periods that count those; at last
-// the first entry that is due and may be sent.
-//   0x020 four bytes an entry: what is left of the period, 16 bits, and of the gap
-//   0x040 eight bytes an entry: those last sent; they are sent from there
-//   0x140 the entries
+// can_rn_produce: producers, statements that the node sends without a request (RN-63, RN-64). It
+// visits the entries one after another and treats each like a remote frame that asks for its bytes:
+// the blocks that answer such a frame check the entry and make the statement. Each pass visits all
+// entries: every millisecond one that counts periods and gaps and one that looks for changes, after
+// a TRIGGER one that counts the periods in TRIGGERs, and then one that sends the first entry that
+// is due and may be sent.
+//   0x020   4 bytes per entry: rest of the period (2 bytes), rest of the gap
+//   0x040   8 bytes per entry: the bytes last sent, from which a statement is sent
+//   0x140   the entries, 8 bytes each
 
 module can_rn_produce #(
   /// Entries, 4 or 8.
@@ -18,36 +19,36 @@ module can_rn_produce #(
   input  logic               rst_ni,
   input  can_rn_pkg::job_t   job_i,
   input  logic [1:0]         phase_i,
-  input  logic [NumProd-1:0] event_i,      // user logic: due now
-  input  logic               ms_i,
+  input  logic [NumProd-1:0] event_i,      // user logic: entry is due now
+  input  logic               ms_i,         // pulse: millisecond
   // Node
-  input  logic               run_i,
-  input  logic               forget_i,     // nothing is due any longer
-  input  logic               closed_i,     // the queue holds something, or nothing may be sent
-  input  logic               popped_i,     // the head of the queue has gone
-  input  logic               operate_i,
+  input  logic               run_i,        // node is on the bus
+  input  logic               forget_i,     // due bits are cleared
+  input  logic               closed_i,     // queue is not empty, or nothing may be sent
+  input  logic               popped_i,     // pulse: the head of the queue has gone
+  input  logic               operate_i,    // node is in OPERATE
   // Entry
-  input  logic               refused_i,    // it is off
-  input  logic               info_i,       // it is STATUS or IDENT
-  input  logic [3:0]         mode_i,       // JobEntry: on, TRIGGERs, on change, cyclic
-  input  logic               zero_i,       // the byte read is 0, 1
-  input  logic               one_i,
-  input  logic [2:0]         row_i,        // place of a byte in the statement
-  input  logic               first_i,      // JobSame: no byte has been compared
-  input  logic               ended_i,      // JobSame, JobMove: all have been
-  input  logic               differ_i,     // JobSame: these two differ
-  input  logic               yield_i,      // a header waits, or the engine: what takes long stops
-  input  logic               header_i,     // JobLoad: the header, not ..
-  input  logic [2:0]         at_i,         // .. this byte
-  input  logic               status_i,     // it is one of STATUS
-  output logic               want_o,       // an entry is to be looked at
-  output logic               visit_o,      // this is being done
-  output can_rn_pkg::job_t   then_o,       // what follows its jobs
-  output logic               keep_o,       // JobSame goes on
-  output logic               same_o,       // JobSame
-  output logic               own_o,        // it is no byte of the row,
-  output logic [8:0]         cell_o,       // but this
-  output logic               no_write_o
+  input  logic               refused_i,    // entry is off
+  input  logic               info_i,       // entry is for STATUS or IDENT
+  input  logic [3:0]         mode_i,       // JobEntry: {on, TRIGGERs, on change, cyclic}
+  input  logic               zero_i,       // byte read is 0
+  input  logic               one_i,        // byte read is 1
+  input  logic [2:0]         row_i,        // index of a byte in the statement
+  input  logic               first_i,      // JobSame: no byte has been compared yet
+  input  logic               ended_i,      // JobSame, JobMove: all bytes are done
+  input  logic               differ_i,     // JobSame: byte differs from the one last sent
+  input  logic               yield_i,      // frame or engine waits: JobBegin, JobSame stop
+  input  logic               header_i,     // JobLoad fetches the header, else a byte
+  input  logic [2:0]         at_i,         // JobLoad: index of that byte
+  input  logic               status_i,     // frame offered to the engine is STATUS
+  output logic               want_o,       // JobEntry is due: an entry is to be visited
+  output logic               visit_o,      // an entry is visited
+  output can_rn_pkg::job_t   then_o,       // next job of the visit
+  output logic               keep_o,       // JobSame continues
+  output logic               same_o,       // JobSame runs
+  output logic               own_o,        // cell_o replaces the byte of the row
+  output logic [8:0]         cell_o,       // byte to read or write; 0: none
+  output logic               no_write_o    // the byte is not written
 );
   localparam logic [1:0] PassPeriod  = 2'd0;
   localparam logic [1:0] PassChange  = 2'd1;
@@ -72,7 +73,7 @@ module can_rn_produce #(
   assign send  = pass_q == PassSend;
   assign last  = phase_i[1];
 
-  // Passes
+  // Passes.
   logic begins, first, rest, skip, next, wrap;
   assign begins = job_i == can_rn_pkg::JobBegin;
   assign first  = k_q == '0;
@@ -104,7 +105,7 @@ module can_rn_produce #(
                    || (stand && send && closed_i && !first)
                    || (send_q && !(next && send && first));
       visit_q   <= entry || (visit_q && !idle);
-      // The visit gives way to a frame, and comes again.
+      // If a visit gives way to a frame, it is repeated.
       given_q   <= yield_i && (same || begins);
     end
   end
@@ -118,8 +119,8 @@ module can_rn_produce #(
   assign same_o  = same;
   assign keep_o  = !yield_i && !(phase_i[0] && (told || ended_i || !allowed));
 
-  // A period that is over stays 0 until the next tick begins it anew; one of 0 ms does not count.
-  // An entry that is off leaves a 0.
+  // A period that has ended stays 0 until the next tick starts it again. A period of 0 does not
+  // count. The time of an entry that is off is set to 0.
   logic nothing;
   assign nothing = low_zero_q && zero_i;
   can_rn_pkg::job_t ticked;
@@ -151,7 +152,7 @@ module can_rn_produce #(
     end
   end
 
-  // Due until the statement begins to be made, or may not be any more.
+  // An entry is due until its statement begins to be made, or until it may not be sent any more.
   logic over_now, not_now;
   assign over_now = allowed && (over || told);
   assign not_now  = send && visit_q && (job_i == can_rn_pkg::JobFresh || (gap && last && !allowed));
@@ -162,7 +163,7 @@ module can_rn_produce #(
                            | (here & {NumProd{over_now}})) & {NumProd{!forget_i}};
   end
 
-  // The one statement in the queue, which was empty before.
+  // A statement enters only an empty queue, so there is at most one.
   logic push;
   assign push = visit_q && job_i == can_rn_pkg::JobPush;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -175,10 +176,10 @@ module can_rn_produce #(
     end
   end
 
-  // Bytes
+  // Bytes.
   logic load_q, copy;
   logic [2:0] k;
-  // Known a clock before: JobLoad reads it in its second phase.
+  // Registered one clock before its use: JobLoad reads the byte in phase 1.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) load_q <= 1'b0;
     else         load_q <= job_i == can_rn_pkg::JobLoad && phase_i == 2'd0 && statement_q
@@ -187,7 +188,7 @@ module can_rn_produce #(
   assign copy  = same || job_i == can_rn_pkg::JobMove;
   assign k     = load_q ? 3'(head_q) : 3'(k_q);
   assign own_o = load_q || (visit_q && phase_i[1]);
-  // The mover writes a byte more than it is told: behind eight that would be the first again.
+  // The mover writes one byte after the last. After the eighth that would be the first one again.
   assign no_write_o = entry || (visit_q && copy && ended_i) || (gap && (zero_i || send));
   always_comb begin
     cell_o = {4'b0001, k, gap || keep, phase_i[0] && !gap};

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_state: what the node is: its state, number, lock, flags (RN-24, RN-61, RN-70), whether it
-// is on the bus, and what it owes: a STATUS frame, the watchdog's food.
+// can_rn_state: state of the node: INIT, SAFE or OPERATE (RN-70), number, lock (RN-61), selection,
+// flags of STATUS (RN-24), FLAGS of the configuration, and whether it is on the bus. It also keeps
+// what the node owes: a STATUS or HERE frame (RN-30), and the reload of the watchdog (RN-71).
 
 module can_rn_state #(
   parameter int NameBits = 3
@@ -12,46 +13,46 @@ module can_rn_state #(
   input  can_rn_pkg::job_t    job_i,
   input  logic [1:0]          phase_i,
   // Request that is carried out
-  input  logic                accept_i,      // request begins, code 0
-  input  logic                dup_i,         // a statement under our number has come
-  input  logic                refused_i,
-  input  logic                all_i,         // no STATUS frame for it
-  input  logic                write_i,
-  input  logic                select_i,
-  input  logic                assign_i,
-  input  logic                state_i,
-  input  logic                setup_i,
-  input  logic                match_i,       // SELECT matches the serial number
-  input  logic                new_i,         // SELECT NEW
-  input  logic [4:0]          op_i,
+  input  logic                accept_i,      // pulse: work of an accepted request begins
+  input  logic                dup_i,         // pulse: valid statement under the own number (RN-11)
+  input  logic                refused_i,     // request is refused
+  input  logic                all_i,         // request is never followed by STATUS
+  input  logic                write_i,       // request writes the memory
+  input  logic                select_i,      // request is SELECT
+  input  logic                assign_i,      // request is ASSIGN
+  input  logic                state_i,       // request is STATE
+  input  logic                setup_i,       // request is SETUP
+  input  logic                match_i,       // SELECT: serial number matches
+  input  logic                new_i,         // SELECT NEW: only without a number
+  input  logic [4:0]          op_i,          // operation of STATE, SETUP; number of ASSIGN
   // Time and bus
-  input  logic                timer_i,
+  input  logic                timer_i,       // timer of JobHigh: 0: watchdog
   input  logic                zero_i,        // byte read is 0
   input  logic [7:0]          byte_i,        // byte read
-  input  logic                off_entry_i,   // bus-off begins
-  input  logic                off_exit_i,    // bus-off ends
+  input  logic                off_entry_i,   // pulse: node enters bus-off
+  input  logic                off_exit_i,    // pulse: node leaves bus-off
   input  logic                gap_i,         // no frame on the bus
-  input  logic                passive_i,
-  input  logic                stale_i,       // a map entry has waited too long
-  input  logic                unsafe_i,      // one that leads to SAFE
-  input  logic                told_i,        // pulse, on the bus: both are known anew
-  output logic [1:0]          node_o,        // state
-  output logic                operate_o,
-  output logic [NameBits-1:0] number_o,
-  output logic                numbered_o,    // it is one
-  output logic                selected_o,
-  output logic                unlocked_o,
-  output logic                lock_reset_o,
-  output logic                run_o,
-  output logic                restart_o,
-  output logic                flush_o,
-  input  logic                gone_status_i, // STATUS, HERE is sent or dropped
-  input  logic                gone_here_i,
-  output logic                owe_status_o,
-  output logic                owe_here_o,
-  output logic                owe_feed_o,
+  input  logic                passive_i,     // node is error passive
+  input  logic                stale_i,       // a map entry has exceeded its time-out (RN-66)
+  input  logic                unsafe_i,      // such an entry leads to SAFE
+  input  logic                told_i,        // pulse, on the bus: both have been updated
+  output logic [1:0]          node_o,        // state, can_rn_pkg::Node*
+  output logic                operate_o,     // node is in OPERATE
+  output logic [NameBits-1:0] number_o,      // node number
+  output logic                numbered_o,    // number_o is a number (2 or above)
+  output logic                selected_o,    // node is selected
+  output logic                unlocked_o,    // node is unlocked
+  output logic                lock_reset_o,  // node is locked until reset
+  output logic                run_o,         // node is on the bus
+  output logic                restart_o,     // accepted request is RESTART
+  output logic                flush_o,       // queue is emptied, block transfers end
+  input  logic                gone_status_i, // pulse: STATUS has been sent or dropped
+  input  logic                gone_here_i,   // pulse: HERE has been sent or dropped
+  output logic                owe_status_o,  // a STATUS frame is to be sent
+  output logic                owe_here_o,    // a HERE frame is to be sent
+  output logic                owe_feed_o,    // watchdog is to be reloaded
   output logic                clear_o,       // pulse: SETUP CLEAR
-  output logic [7:0]          status_o
+  output logic [7:0]          status_o       // byte 0 of STATUS
 );
   logic [1:0]          node_q;
   logic [NameBits-1:0] number_q;
@@ -60,7 +61,7 @@ module can_rn_state #(
   logic                owe_status_q, owe_here_q, owe_feed_q;
   logic                errs_q, ackw_q, boot_q, auto_q, may_q;
 
-  // JobCount decides in its third phase.
+  // A request takes effect in the third phase of JobCount, which counts_q marks.
   logic counts_q;
   logic act, to_operate, to_safe, expired, number_we, hit;
   assign hit        = match_i && !(new_i && numbered_o);
@@ -92,14 +93,14 @@ module can_rn_state #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)         node_q <= can_rn_pkg::NodeInit;
     else if (!run_q)     node_q <= begins ? {1'b1, byte_i[3]} : can_rn_pkg::NodeInit;
-    // RN-70: the codes of INIT and LISTEN are illegal in a node that is on the bus.
+    // RN-70: on the bus, the codes of INIT and LISTEN are illegal and lead to SAFE.
     else if (off_entry_i || to_safe || expired || leave || !node_q[1])
                          node_q <= can_rn_pkg::NodeSafe;
     else if (to_operate || ((off_exit_i || told_i) && auto_q && may_q && !unsafe_i))
                          node_q <= can_rn_pkg::NodeOperate;
   end
 
-  // RN-70: AUTO_OP returns unless the watchdog or STATE 02 has ended OPERATE; STATE 01 mends that.
+  // RN-70: AUTO_OP acts unless the watchdog or STATE 02 ended OPERATE; STATE 01 allows it again.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)                   may_q <= 1'b0;
     else if (to_safe || expired)   may_q <= 1'b0;
@@ -138,7 +139,7 @@ module can_rn_state #(
       dup_q       <= dup_i || (dup_q && !clear);
       watchdog_q  <= expired || (watchdog_q && !clear);
       boff_seen_q <= off_entry_i || (boff_seen_q && !clear);
-      // A watchdog of 0 ms is none.
+      // WDT = 0 switches the watchdog off. Its two bytes pass in phases 2 and 3.
       if (job_i == can_rn_pkg::JobFeed && phase_i[1]) armed_q <= !zero_i || (armed_q && phase_i[0]);
       if (begins)                                              run_q <= 1'b1;
       else if (job_i == can_rn_pkg::JobStart && gap_i)     run_q <= 1'b0;
@@ -157,7 +158,7 @@ module can_rn_state #(
       else if (gone_status_i || off_entry_i) owe_status_q <= 1'b0;
       if (accept_i && select_i)    owe_here_q <= hit;
       else if (gone_here_i || flush_o) owe_here_q <= 1'b0;
-      // RN-71: where AUTO_OP leads to OPERATE the time begins, too, and it runs there alone.
+      // RN-71: it also restarts where AUTO_OP may lead to OPERATE, the only state in which it runs.
       owe_feed_q <= accept_i || begins || off_exit_i || (told_i && !operate_o)
                     || (owe_feed_q && job_i != can_rn_pkg::JobFeed);
     end

@@ -81,7 +81,7 @@ module can_rn_step #(
   output logic             take_o,        // pulse: waiting header is taken over
   output logic             ten_o,         // pulse: every 10 ms
   output logic             new_tries_o,   // JobRow: attempts are reloaded from RETRY
-  output logic             written_o,     // pulse: a write is visible (RN-45)
+  output logic             written_o,     // pulse: a write is in the RAM (RN-45)
   output logic             apply_o        // pulse: staged bytes are visible (RN-45)
 );
   // Keep the encoding: unused codes, reached by an upset, then lead back to JobIdle.

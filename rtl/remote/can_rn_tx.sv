@@ -1,63 +1,67 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rn_tx: what is sent: HERE, STATUS, or the first of the queue of answers, which are rows of
-// the RAM. A frame is received into the row behind the queue; an answer is made there and stays.
+// can_rn_tx: transmission. It selects the next frame (HERE, STATUS, or the head of the queue of
+// answers, RN-54), fetches its header and data bytes from the RAM and offers them to the engine
+// (RN-80), and drops frames after too many attempts (RN-15) or at the end of their life (RN-54).
+// The queue consists of rows of the RAM. A frame is received into the row behind the queue; an
+// answer is made in the same row and stays there.
 
 module can_rn_tx #(
   parameter int NameBits = 3,
-  /// Answers, 1 or 4.
+  /// Depth of the queue of answers, 1 or 4.
   parameter int TxDepth = 1,
-  /// 1: bits 5:4 of byte 1 of a header: to all, answer under the identifier of its request (RN-16).
+  /// 1: answers to direct reads carry the identifier of their request (RN-16). Byte 9 of such a row
+  /// has bit 4 set, and bit 5 if the request went to all nodes.
   parameter bit SameId = 1'b0
 ) (
   input  logic                clk_i,
   input  logic                rst_ni,
   input  can_rn_pkg::job_t    job_i,
   input  logic [1:0]          phase_i,
-  input  logic                flush_i,       // nothing is sent any more
-  input  logic [NameBits-1:0] number_i,
-  input  logic                owe_status_i,
-  input  logic                owe_here_i,
+  input  logic                flush_i,       // queue is emptied, a frame that is offered is dropped
+  input  logic [NameBits-1:0] number_i,      // node number
+  input  logic                owe_status_i,  // a STATUS frame is to be sent
+  input  logic                owe_here_i,    // a HERE frame is to be sent
   input  logic                one_i,         // byte read is 1
-  input  logic [7:0]          next_i,        // byte that comes from the RAM
-  output logic [2:0]          tail_o,
-  output logic [2:0]          head_o,
-  output logic [2:0]          age_o,         // JobAge: row that it looks at
-  output logic                more_o,        // and another one after it
-  output logic                header_o,      // the header is wanted next,
-  output logic [2:0]          at_o,          // or this byte
-  output logic                status_o,      // it is one of STATUS
-  output logic                full_o,
-  output logic                some_o,        // the queue holds an answer
-  output logic                load_o,        // it is wanted
-  output logic                urgent_o,      // within eight bits
-  output logic                try_o,         // an attempt has failed
-  output logic                gone_o,        // pulse: what was offered is sent or dropped
-  output logic                gone_status_o, // it was STATUS, HERE
-  output logic                gone_here_o,
-  output logic                popped_o,      // the head of the queue has gone
-  output logic                dropped_o,     // pulse: something has gone and was not sent
+  input  logic [7:0]          next_i,        // byte from the RAM, not registered
+  output logic [2:0]          tail_o,        // row behind the queue: received frame, new answer
+  output logic [2:0]          head_o,        // row at the head of the queue
+  output logic [2:0]          age_o,         // JobAge: row of the answer that ages
+  output logic                more_o,        // JobAge: another answer has to age
+  output logic                header_o,      // JobLoad fetches the header, otherwise a data byte
+  output logic [2:0]          at_o,          // index of that data byte
+  output logic                status_o,      // frame offered to the engine is STATUS
+  output logic                full_o,        // queue is full
+  output logic                some_o,        // queue is not empty
+  output logic                load_o,        // JobLoad is due
+  output logic                urgent_o,      // JobLoad is due for a data byte, within eight bits
+  output logic                try_o,         // JobTry is due: an attempt has failed
+  output logic                gone_o,        // pulse: the frame offered has been sent or dropped
+  output logic                gone_status_o, // pulse: that frame was STATUS
+  output logic                gone_here_o,   // pulse: that frame was HERE
+  output logic                popped_o,      // pulse: the head of the queue has gone
+  output logic                dropped_o,     // pulse: a frame was dropped unsent
   // Engine
-  output logic                tx_req_o,
-  output logic [3:0]          tx_dlc_o,
-  output logic [31:0]         tx_word_o,
-  input  logic                tx_next_i,
-  input  logic                tx_ok_i,
-  input  logic                tx_fail_i,
-  input  logic                transmitter_i  // beside tx_fail_i: an error, else lost arbitration
+  output logic                tx_req_o,      // frame waits for the engine
+  output logic [3:0]          tx_dlc_o,      // its DLC
+  output logic [31:0]         tx_word_o,     // its ID word, or next data byte in 25:18
+  input  logic                tx_next_i,     // pulse: word taken
+  input  logic                tx_ok_i,       // pulse: frame sent
+  input  logic                tx_fail_i,     // pulse: attempt failed
+  input  logic                transmitter_i  // with tx_fail_i: by an error, not lost arbitration
 );
   localparam int PtrWidth = TxDepth == 1 ? 1 : 3;
 
   logic [PtrWidth-1:0] tail_q, head_q, head_d;
-  logic [1:0]          src_q;    // what is offered, once its header has been loaded
-  logic                header_q; // the header is offered,
-  logic [2:0]          at_q;     // or this byte comes next
+  logic [1:0]          src_q;    // source of the frame offered, chosen with its header
+  logic                header_q; // header is offered, otherwise a data byte
+  logic [2:0]          at_q;     // index of the next data byte
   logic                load_q, try_q;
-  logic [5:0]          length_q; // and identifier, see below
-  logic [7:0]          hold_q;   // A, or a byte
+  logic [5:0]          length_q; // {all nodes, direct read (SameId), DLC}
+  logic [7:0]          hold_q;   // A of the header, or a data byte
   logic                loading, gone, stale, recalled, drop, first_gone;
-  logic                first;    // JobAge looks at the head of the queue
+  logic                first;    // JobAge is at the head of the queue
 
   assign tail_o   = 3'(tail_q);
   assign head_o   = 3'(head_q);
@@ -72,9 +76,10 @@ module can_rn_tx #(
     assign more_o = 1'b0;
   end else begin : gen_queue
     assign full_o = tail_q == {~head_q[2], head_q[1:0]};
-    // RN-54: all answers age, beginning with the first; only the first is dropped, the others wait
-    // for that with 10 ms left. One that goes meanwhile takes no other with it.
-    // The row behind is looked at a clock before that counts: both stay during JobAge.
+    // RN-54: every 10 ms all answers age, from the head on. Only the head is dropped; the others
+    // wait for that with their last 10 ms. If the head goes before its JobAge, age_q moves on with
+    // it; the other answers are not affected. The comparison of the next row with the tail is
+    // registered: neither changes during JobAge.
     logic [2:0] age_q, behind;
     logic       looks, ages, last_q;
     assign looks  = job_i == can_rn_pkg::JobAge;
@@ -100,14 +105,15 @@ module can_rn_tx #(
   assign try_o   = try_q;
   assign loading = job_i == can_rn_pkg::JobLoad;
 
-  // Sent, or too many attempts; or its life is over. A frame that the engine has just taken stays,
-  // and so does what is behind one that has gone while its life was read.
+  // A frame goes when it is sent, after too many attempts, or when its life is over. Life does not
+  // end a frame that the engine has just taken, nor the answer behind a head that has gone while
+  // the life of that head was read.
   assign gone  = tx_ok_i || (job_i == can_rn_pkg::JobTry && phase_i[1] && one_i);
   assign stale = job_i == can_rn_pkg::JobAge && (&phase_i) && one_i && header_q && !tx_next_i
                  && some_o && first;
-  // A SELECT that does not select takes back a HERE that waits.
+  // RN-26: a SELECT that does not select takes back a HERE that waits.
   assign recalled = (&src_q) && !owe_here_i;
-  // STATUS and HERE do not go with the head of the queue.
+  // If STATUS or HERE is offered, it stays when the head of the queue becomes stale.
   assign drop     = flush_i || gone || (stale && src_q == can_rn_pkg::SrcQueue) || recalled;
   assign gone_o        = drop;
   assign dropped_o     = stale || (gone && !tx_ok_i);
@@ -137,7 +143,7 @@ module can_rn_tx #(
       try_q  <= 1'b0;
     end else begin
       if (drop)                                   src_q <= can_rn_pkg::SrcNone;
-      // In its first clock there is something; what was there may go in the next ones.
+      // The source is chosen in phase 0, where load_o shows that there is one. It may go later.
       else if (loading && phase_i == 2'd0 && src_q == can_rn_pkg::SrcNone)
         src_q <= owe_here_i ? can_rn_pkg::SrcHere
                             : owe_status_i ? can_rn_pkg::SrcStatus : can_rn_pkg::SrcQueue;
@@ -147,16 +153,16 @@ module can_rn_tx #(
       else if (tx_next_i)                         at_q <= at_q + 3'd1;
       if (drop || tx_fail_i || tx_next_i || (job_i == can_rn_pkg::JobAge && phase_i[1]))
                                                   load_q <= 1'b1;
-      // From its first clock on: what ends or begins meanwhile makes it be done again.
+      // Cleared in phase 0: an event in a later phase sets it again and repeats the load.
       else if (loading && phase_i == 2'd0)        load_q <= 1'b0;
-      // What goes takes its failed attempt with it.
+      // A frame that goes takes a failed attempt with it that has not been counted.
       if (drop || job_i == can_rn_pkg::JobTry) try_q <= 1'b0;
       else if (tx_fail_i && transmitter_i)     try_q <= 1'b1;
     end
   end
 
-  // The read register of the RAM is shared, so bytes are kept here; length and A come one by one.
-  // Header: A in byte 0, length in byte 1. STATUS is 7E with eight bytes, HERE 0x402 with none.
+  // The read register of the RAM is shared, so the engine's next byte is held here (RN-80). The
+  // length of a header is loaded before its A. STATUS: A 7E, DLC 8; HERE: ID 0x402, DLC 0.
   localparam int AddrBits = 10 - NameBits;
   logic                own;
   logic [AddrBits-1:0] own_a;
@@ -167,14 +173,14 @@ module can_rn_tx #(
       length_q <= '0;
       hold_q   <= '0;
     end else if (loading) begin
-      // Own: 8 of STATUS, 0 of HERE.
+      // Fixed DLC of own frames: STATUS 8, HERE 0.
       if (phase_i[0]) length_q <= {next_i[5:4] & {2{!own}}, own ? !src_q[0] : next_i[3],
                                    next_i[2:0] & {3{!own}}};
       if (phase_i[1]) hold_q   <= own && header_q ? 8'(own_a) : next_i;
     end
   end
 
-  // RN-16, for the demonstration: direction 0, and name 1 where all have been asked.
+  // RN-16: identifier of the request: direction 0, name 1 if the request went to all nodes.
   logic request, all;
   logic [10:0] id;
   assign request = SameId && !own && length_q[4];
