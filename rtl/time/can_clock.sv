@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_clock: TIME, a clock of 64 bits of ns and 32 bits of their fraction, that can be set,
-// shifted, slewed and run at another rate (TM-10 to TM-18).
+// can_clock: TIME, a clock with 64 bits of ns and 32 bits of fraction. It can be set, shifted,
+// slewed and run at another rate (TM-10 to TM-18).
 //
-// Three short adders in a row, each a clock behind the one before: fraction, lower half, upper
-// half. A command passes the same registers, so that it acts on all of them in one clock of TIME:
-// the fourth after the one in which it is given. lo_o is that of the next clock, for who has to
-// know it in time; TIME is hi_o with lo_o of the clock before. So after a reset lo_o is ahead.
+// To keep carries short there are three adders, for fraction, lower and upper half, each one clock
+// behind the one before. A command passes the same registers, so that it acts on all three in the
+// same clock of TIME, the fourth after the clock in which it is given. lo_o is one clock ahead, for
+// blocks that compare: TIME is hi_o with the lo_o of the clock before. This also holds after a
+// reset.
 
 module can_clock #(
   /// Increment after a reset: 39:32 ns, 31:0 in 2^-32 ns a clock.
@@ -15,16 +16,16 @@ module can_clock #(
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
-  // Commands, at most one in a clock; the second word of a pair is data_i[63:32].
-  input  logic        set_i,       // TIME := data_i
-  input  logic        shift_i,     // TIME += data_i
-  input  logic        rate_i,      // increment: ns in data_i[7:0], fraction in data_i[63:32]
-  input  logic        slew_i,      // work off data_i[63:32], signed ns, 1 ns at a time
-  input  logic [63:0] data_i,
-  input  logic [1:0]  slewr_i,     // a step whenever bit 13 - slewr_i of TIME changes (TCTRL.SLEWR)
-  output logic [31:0] lo_o,
-  output logic [31:0] hi_o,
-  output logic [31:0] left_o,      // not worked off yet, signed ns
+  // Commands, at most one per clock. Of a register pair, the second word is data_i[63:32].
+  input  logic        set_i,       // pulse: TIME := data_i
+  input  logic        shift_i,     // pulse: TIME := TIME + data_i
+  input  logic        rate_i,      // pulse: increment := {ns data_i[7:0], fraction data_i[63:32]}
+  input  logic        slew_i,      // pulse: work off data_i[63:32], signed ns, in steps of 1 ns
+  input  logic [63:0] data_i,      // data of the command
+  input  logic [1:0]  slewr_i,     // TCTRL.SLEWR: a step when bit 13 - slewr_i of TIME changes
+  output logic [31:0] lo_o,        // TIME[31:0] of the next clock
+  output logic [31:0] hi_o,        // TIME[63:32]
+  output logic [31:0] left_o,      // rest of the slew, signed ns (TSLEW)
   output logic [39:0] inc_o        // increment: 39:32 ns, 31:0 in 2^-32 ns
 );
   if (TimeInc == '0) begin : gen_check_time_inc
@@ -36,7 +37,7 @@ module can_clock #(
   assign incn  = rate_i ? data_i[7:0] : incn_q;
   assign inc_o = {incn_q, incf_q};
 
-  // Slew. A step that would let TIME stand or go back is not made (TM-15, TM-17).
+  // Slew. No step is made that would let TIME stand still or run back (TM-15, TM-17).
   logic slew_bit, bit_q, changed_q, step, forth, back;
   always_comb begin
     case (slewr_i)
@@ -50,7 +51,7 @@ module can_clock #(
   assign forth = step && !left_o[31];
   assign back  = step && left_o[31];
 
-  // What TIME grows by in a clock, without carry and offset, is ready when it is added.
+  // Increment plus slew step. It is registered before it is added to TIME.
   logic [8:0] grow_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -70,7 +71,7 @@ module can_clock #(
     end
   end
 
-  // First clock of a command: it waits for a new increment.
+  // First clock of a command: registered once, to stay in step with a new increment.
   logic        set1_q, offset1_q;
   logic [63:0] data_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -84,8 +85,8 @@ module can_clock #(
     end
   end
 
-  // Second clock: what the lower half is to grow by; and the fraction, whose carry reaches it two
-  // clocks later.
+  // Second clock: addend of the lower half; and the fraction, whose carry reaches the lower half
+  // two clocks later.
   logic        set2_q, offset2_q, carry_q, carry2_q;
   logic [32:0] addend, addend_q;
   logic [31:0] fraction_q, upper2_q;
@@ -106,7 +107,7 @@ module can_clock #(
     end
   end
 
-  // Third clock: the lower half. Fourth: the upper one.
+  // Third clock: lower half. Fourth clock: upper half.
   logic        set3_q, carry3_q;
   logic [31:0] upper3_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin

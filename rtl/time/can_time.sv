@@ -1,42 +1,43 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_time: the part of the time unit that moves with every clock: clock, stamp of the frame on the
-// bus, compare and launch. Registers and flags are on the host side (can_time_regs).
+// can_time: the part of the time unit that changes with every clock: clock, stamp of the frame on
+// the bus, compare unit and launch time. Registers and flags are on the host side (can_time_regs),
+// where nothing changes in a clock without an event.
 
 module can_time #(
   /// Increment after a reset, see can_clock.
   parameter logic [39:0] TimeInc = 40'h14_0000_0000,
-  /// 1: upset_o, see can_time_cmp.
+  /// 1: upset_o is built, see can_time_cmp; 0: it is 0.
   parameter int Watch = 0
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
-  // Host side, see can_pkg. Commands are pulses, data with them.
-  input  logic [can_pkg::TimeCmdWidth-1:0] cmd_i,
-  input  logic [63:0] data_i,
-  output logic [63:0] now_o,        // TIME of the last TimeRead, see can_capture
+  // Host side.
+  input  logic [can_pkg::TimeCmdWidth-1:0] cmd_i, // command pulses, can_pkg::Time*
+  input  logic [63:0] data_i,       // data of the command
+  output logic [63:0] now_o,        // TIME of the last TimeRead
   output logic [63:0] ext_o,        // TIME of the last TimeExt
-  output logic [31:0] left_o,       // TSLEW
+  output logic [31:0] left_o,       // TSLEW: rest of a slew
   output logic [39:0] inc_o,        // increment, see can_clock
   input  logic [31:0] tctrl_i,      // TCTRL
   input  logic [31:0] tcmph_i,      // TCMPH
   input  logic [31:0] ttx_i,        // TTX
-  output logic [can_pkg::TimeStatWidth-1:0] stat_o,
-  output logic        upset_o,
-  // Engine, see can_stamp.
-  input  logic        rx_i,
-  input  logic        tx_i,
-  input  logic        sample_i,
-  input  logic        bit_i,
-  input  can_pkg::field_t field_i,
-  input  logic        transmitter_i,
-  input  logic        sof_i,
-  input  logic        rx_valid_i,
-  // Stamp of the frame on the bus; changes at edges, good from stamp_we_o until the next frame.
-  output logic [63:0] stamp_o,
-  output logic        stamp_we_o,
-  output logic        stamp_tx_o
+  output logic [can_pkg::TimeStatWidth-1:0] stat_o, // levels and pulses, can_pkg::TimeStat*
+  output logic        upset_o,      // compare unit has changed by an upset (TM-141)
+  // Engine, as for can_stamp.
+  input  logic        rx_i,         // receive level, synchronised, behind loop-back
+  input  logic        tx_i,         // own transmit level
+  input  logic        sample_i,     // sample point
+  input  logic        bit_i,        // sampled bit
+  input  can_pkg::field_t field_i,  // field of the current bit
+  input  logic        transmitter_i, // this node sends the frame
+  input  logic        sof_i,        // pulse after the sample point of SOF
+  input  logic        rx_valid_i,   // pulse after the sample point of EOF6
+  // Stamp of the frame on the bus.
+  output logic [63:0] stamp_o,      // changes at edges; good from stamp_we_o to the next frame
+  output logic        stamp_we_o,   // pulse: stamp_o is complete
+  output logic        stamp_tx_o    // with stamp_we_o: stamp of an own frame
 );
   logic [31:0] lo, hi;
   can_clock #(.TimeInc(TimeInc)) u_clock (
@@ -46,7 +47,7 @@ module can_time #(
     .slewr_i(tctrl_i[can_regs_pkg::TctrlSlewr +: can_regs_pkg::TctrlSlewrW]),
     .lo_o(lo), .hi_o(hi), .left_o, .inc_o);
 
-  // TIME.
+  // TIME: lo is one clock ahead of hi.
   logic [31:0] lo_q;
   logic [63:0] now;
   assign now = {hi, lo_q};

@@ -1,34 +1,36 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_time_cmp: the two events that wait for TIME: compare with its output (TM-30, TM-31), and the
-// launch of one buffer (TM-40). Both look at 32 bits: "reached" means at most 2^31 ns ago.
+// can_time_cmp: the two units that wait for a time: compare unit with output (TM-30, TM-31), and
+// launch of one held buffer (TM-40). Both compare 32 bits: a time is reached if it is at most 2^31
+// ns ago.
 
 module can_time_cmp #(
-  /// 1: upset_o, for a follower whose pulses no software looks after.
+  /// 1: upset_o is built, for a follower whose pulses no software supervises; 0: it is 0.
   parameter int Watch = 0
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic [31:0] lo_i,        // TIME[31:0] of the next clock
-  input  logic [31:0] data_i,      // of arm_i
+  input  logic [31:0] data_i,      // TCMP, with arm_i
   // Compare.
   input  logic        enable_i,    // TCTRL.CMPEN; 0 disarms
-  input  logic        arm_i,       // TCMP is written
-  input  logic [31:0] period_i,    // TCMPH: ns between events; 0: once
-  output logic        armed_o,
-  output logic        match_o,     // pulse in the clock after: it has fired
-  output logic        out_o,       // toggles from that clock on
-  output logic        upset_o,     // until it is armed: something of it has changed by itself
+  input  logic        arm_i,       // pulse: TCMP is written
+  input  logic [31:0] period_i,    // TCMPH: ns between events; 0: a single event
+  output logic        armed_o,     // an event is pending
+  output logic        match_o,     // pulse in the clock after an event
+  output logic        out_o,       // toggles in the clock of match_o; TCMPH = 0: goes to 1
+  output logic        upset_o,     // state has changed by an upset; until arm_i (TM-141)
   // Launch.
   input  logic        hold_i,      // pulse: the buffer is held from the next clock on
-  input  logic        release_i,   // pulse: not any longer
-  input  logic [31:0] launch_i,    // TTX
-  output logic        held_o,
-  output logic        launch_o     // pulse in the clock after: its time has come
+  input  logic        release_i,   // pulse: the buffer is released
+  input  logic [31:0] launch_i,    // TTX: launch time
+  output logic        held_o,      // the buffer is held
+  output logic        launch_o     // pulse in the clock after: launch time is reached
 );
-  // Time to go less one: its sign alone counts, and is known when TIME is there (TM-18). What was
-  // changed in the clock before has not been compared. Both subtractions share the inverted time.
+  // Distance to each time minus 1. Its sign is registered, so it is known in the clock of TIME
+  // itself (TM-18). A target that has changed in the clock before is not compared yet. Both
+  // subtractions share the inverted time.
   logic [31:0] target_q, minus_time, to_target, to_launch;
   logic        once, fire, launch, reached_q, due_q;
   assign minus_time = ~lo_i;
@@ -65,8 +67,8 @@ module can_time_cmp #(
     end
   end
 
-  // TM-141: a target, an output that an upset has changed would stay wrong by as much in all events
-  // to come. Their parity is taken behind each change, and holds until the next one.
+  // TM-141: a target or output that an upset has changed would shift all later events. Their parity
+  // is stored after each regular change and must hold until the next one.
   if (Watch != 0) begin : gen_watch
     logic parity, parity_q, changed_q, upset_q;
     assign parity  = ^{target_q, armed_o, out_o};

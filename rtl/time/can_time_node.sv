@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_time_node: a clock on a CAN bus without a processor (TM-100): the engine with constants for
-// registers, its time unit, and the follower. It acknowledges frames and sends none.
+// can_time_node: a clock on a CAN bus without a processor (TM-100): the protocol engine with
+// constants in place of registers, its time unit, and the follower. It acknowledges frames but
+// sends none.
 
 module can_time_node #(
   /// Increment at the nominal rate: 39:32 ns, 31:0 in 2^-32 ns a clock; not 0.
   parameter logic [39:0] TimeInc = 40'h14_0000_0000,
-  /// TSCTRL without EN and PPS, TSID and TSDLY of the follower (docs/registers.md), the last one in
-  /// 24 bits, KD of KI at most. KI 6, KD 2, PHALF, TMO 31: a pair a second at 50 MHz.
+  /// Follower: TSCTRL without EN and PPS, with KD at most KI, TSID, and TSDLY in 24 bits; see
+  /// docs/registers.md. The default is for a pair a second at 50 MHz: KI 6, KD 2, PHALF, TMO 31.
   parameter logic [31:0] SyncCtrl = 32'h1F46_0100,
   parameter logic [31:0] SyncId = 32'd0,
   parameter logic [31:0] SyncDelay = 32'd0,
-  /// ns between two edges of pps_o, 16 clocks at least; 500,000,000: a rising edge a second.
+  /// ns between two edges of pps_o, at least 16 clocks; 500,000,000: one rising edge per second.
   parameter int HalfPeriod = 500000000,
   /// Bit timing as `verican bittime` prints it: clocks per quantum 1..256, quanta per segment 1..8,
   /// SJW 1..4; at least 8 clocks a bit.
@@ -24,11 +25,11 @@ module can_time_node #(
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
-  output logic        pps_o,       // from the first step on, rises with the master's seconds
-  output logic [1:0]  state_o,     // TSSTAT.STATE
-  output logic [31:0] offset_o,    // TSOFS: ns before the last correction
-  input  logic        can_rx_i,
-  output logic        can_tx_o
+  output logic        pps_o,       // rises with the master's seconds, from the first step on
+  output logic [1:0]  state_o,     // TSSTAT.STATE: 2 is locked
+  output logic [31:0] offset_o,    // TSOFS: offset before the last correction, ns
+  input  logic        can_rx_i,    // receive pin, asynchronous
+  output logic        can_tx_o     // transmit pin, register
 );
   can_time_params #(
     .TimeInc(TimeInc), .SyncCtrl(SyncCtrl), .SyncId(SyncId), .SyncDelay(SyncDelay),

@@ -1,27 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_time_offset: offset of a pair, bit by bit, the lowest first (TM-102): stamp of SYNC minus
-// 10^9 (seconds + OVS) minus nanoseconds minus delay. Ten is 2 + 8, so a factor of ten is one adder
-// of one bit: x 5 = x + 4 x, and the flip-flop behind it doubles; there are nine of them in a row.
+// can_time_offset: bit-serial offset of a pair, lowest bit first (TM-102): stamp of SYNC minus 10^9
+// (seconds + OVS) minus nanoseconds minus delay. 10^9 is nine stages of x 10. A stage needs one
+// adder of one bit: 5 x = x + 4 x, and the flip-flop behind it doubles.
 
 module can_time_offset (
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        sync_i,        // pulse: a SYNC is accepted
-  input  logic [63:0] stamp_i,       // good in the clock after sync_i
-  input  logic [1:0]  ovs_i,
-  input  logic [5:0]  count_i,       // number of the bit; a round is 64 clocks
-  input  logic [7:0]  byte_i,        // the same number in two parts, one of each 1: of its byte,
-  input  logic [7:0]  bit_i,         // and in it
+  input  logic [63:0] stamp_i,       // stamp of the frame; good in the clock after sync_i
+  input  logic [1:0]  ovs_i,         // whole seconds in the FUP
+  input  logic [5:0]  count_i,       // index of the bit; a round is 64 clocks
+  input  logic [7:0]  byte_i,        // count_i[5:3], one-hot
+  input  logic [7:0]  bit_i,         // count_i[2:0], one-hot
   input  logic [23:0] delay_i,       // TSDLY, signed ns
-  input  logic        load_i,        // in this round: word_i becomes the seconds
-  input  logic        run_i,         // in this round: offset_o and whole_o count
-  input  logic        word_i,        // bit of the word in bytes 4 to 7; nanoseconds while run_i
-  output logic        whole_o,       // 10^9 (seconds + OVS)
-  output logic        offset_o
+  input  logic        load_i,        // this round loads the seconds from word_i
+  input  logic        run_i,         // in this round whole_o and offset_o are valid
+  input  logic        word_i,        // bit of bytes 4 to 7; while run_i: nanoseconds
+  output logic        whole_o,       // bit of 10^9 (seconds + OVS)
+  output logic        offset_o       // bit of the offset
 );
-  // Stamp of the SYNC: its FUP comes later, and frames with other stamps before it.
+  // Stamp of the SYNC. It is kept, because other frames with stamps may come before the FUP.
   logic        take_q;
   logic [63:0] stamp_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -34,7 +34,7 @@ module can_time_offset (
     end
   end
 
-  // Seconds of the SYNC, which go round; OVS is added on their way out.
+  // Seconds of the SYNC, rotating. OVS is added as they leave the register.
   logic [31:0] seconds_q;
   logic        low, last, seconds, ovs, ovs_carry_q, sum;
   assign low     = !count_i[5];
@@ -52,7 +52,7 @@ module can_time_offset (
     end
   end
 
-  // Times 10, nine times. The product has 63 bits: at the end of a round nothing is left in here.
+  // Nine stages of x 10. The product has 63 bits, so no stage holds anything at the end of a round.
   localparam int Tens = 9;
   logic [Tens:0]   x;
   logic [Tens-1:0] x2_q, x4_q, carry_q;
@@ -73,7 +73,7 @@ module can_time_offset (
   end
   assign whole_o = x[Tens];
 
-  // The master's time and the delay: the right stamp; and what the stamp is more than that.
+  // Right stamp = master's time + delay; offset = stamp - right stamp.
   logic stamp, delay, late, master, right, ns_carry_q, delay_carry_q, borrow_q;
   can_time_bits #(.Bytes(8)) u_stamp (
     .word_i(stamp_q), .byte_i, .bit_i, .bit_o(stamp));

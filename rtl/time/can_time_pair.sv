@@ -1,42 +1,43 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_time_pair: SYNC and FUP among the received frames (TM-101), and the 32-bit word in bytes 4 to
-// 7 of the last one. The word leaves bit by bit, the lowest first; a byte comes in in that order,
-// too, so that no flip-flop of the word needs more in front of it than its neighbour.
+// can_time_pair: recognises SYNC and FUP among the received frames (TM-101) and keeps the 32-bit
+// word in bytes 4 to 7 of the last one. The word leaves serially, lowest bit first. Bytes also
+// enter serially in this order, so each flip-flop of the word only takes the value of its
+// neighbour.
 
 module can_time_pair (
   input  logic        clk_i,
   input  logic        rst_ni,
-  input  logic        enable_i,      // 0: nothing is accepted, and a SYNC that waits is forgotten
+  input  logic        enable_i,      // 0: no message is accepted, a waiting SYNC is dropped
   input  logic [3:0]  domain_i,      // TSCTRL.DOMAIN
   input  logic [31:0] id_i,          // TSID
-  // Reception, see can_core.
-  input  logic        rx_hdr_i,
-  input  logic [28:0] rx_id_i,
-  input  logic        rx_ide_i,
-  input  logic        rx_rtr_i,
-  input  logic [3:0]  rx_dlc_i,
-  input  logic        rx_byte_we_i,
-  input  logic [7:0]  rx_byte_i,
-  input  logic        rx_valid_i,
+  // Reception, as in can_core.
+  input  logic        rx_hdr_i,      // pulse: rx_id_i, rx_ide_i, rx_rtr_i are valid
+  input  logic [28:0] rx_id_i,       // identifier; base frames in [28:18]
+  input  logic        rx_ide_i,      // extended frame
+  input  logic        rx_rtr_i,      // remote frame
+  input  logic [3:0]  rx_dlc_i,      // raw DLC, valid with rx_valid_i
+  input  logic        rx_byte_we_i,  // pulse: rx_byte_i is new
+  input  logic [7:0]  rx_byte_i,     // received byte, stable for a bit
+  input  logic        rx_valid_i,    // pulse: frame is valid
   // The word, good until byte 4 of the next SYNC or FUP.
-  input  logic [7:0]  count_i,       // goes round, one bit of it 1
-  input  logic        shift_i,
-  output logic        bit_o,
-  output logic        sync_o,        // pulse in the clock after rx_valid_i: a SYNC
-  output logic        pair_o,        // pulse as well: the FUP of the last SYNC
+  input  logic [7:0]  count_i,       // one-hot, rotating: bit of the byte
+  input  logic        shift_i,       // bit_o moves on to the next bit
+  output logic        bit_o,         // lowest bit of what is left of the word
+  output logic        sync_o,        // pulse, in the clock after rx_valid_i: SYNC accepted
+  output logic        pair_o,        // pulse, in the same clock: FUP of the last SYNC accepted
   output logic [3:0]  sc_o,          // sequence counter of the last SYNC
-  output logic [1:0]  ovs_o          // whole seconds in the FUP
+  output logic [1:0]  ovs_o          // OVS: whole seconds in the FUP
 );
-  // Type, in byte 0: 0x10 and with CRC 0x20 for SYNC, 0x18 and 0x28 for FUP.
+  // Type in byte 0: SYNC 0x10, with CRC 0x20; FUP 0x18, with CRC 0x28.
   logic sync_type, fup_type, known;
   assign known     = (rx_byte_i[7:4] == 4'h1) || (rx_byte_i[7:4] == 4'h2);
   assign sync_type = known && rx_byte_i[3:0] == 4'h0;
   assign fup_type  = known && rx_byte_i[3:0] == 4'h8;
 
-  logic       fits_q, fup_q, waits_q;   // so far; its type; a SYNC waits for its FUP
-  logic [2:0] next_q;                   // number of the next byte
+  logic       fits_q, fup_q, waits_q;   // frame fits so far; it is a FUP; a SYNC waits for its FUP
+  logic [2:0] next_q;                   // index of the next byte
   logic [3:0] sc_q;
   logic [7:0] byte_q;
   logic       valid, same_sc;
@@ -85,8 +86,9 @@ module can_time_pair (
     end
   end
 
-  // The word: four registers of a byte each, one behind the other once they are filled. A byte has
-  // the time of the next one, 8 bits, to get in: it begins with count_i[0].
+  // The word consists of four registers of a byte each, chained once they are filled. A byte is
+  // shifted in within 8 clocks that begin with count_i[0]: it has 8 bits of time until the next
+  // one.
   logic        due_q, fill_q, in;
   logic [31:0] word_q;
   assign in    = |(byte_q & count_i);
@@ -100,7 +102,7 @@ module can_time_pair (
     end
   end
   for (genvar i = 0; i < 4; i++) begin : gen_byte
-    // Byte 7 is the lowest; the number of the next byte is 0 then.
+    // Byte 7 of the frame is the lowest of the word; next_q has wrapped to 0 when it enters.
     logic here, first;
     assign here  = fill_q && next_q[1:0] == 2'(4 - i);
     if (i == 3) begin : gen_top

@@ -1,37 +1,37 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_time_regs: the registers of the time unit, 0x1100 to 0x117F (TM-03, TM-30 to TM-40), its
-// flags and the external event. What is written becomes a command to can_time a clock later. What
-// software has only to write cannot be read back (TM-131).
+// can_time_regs: registers of the time unit at 0x1100 to 0x117F (TM-03, TM-30 to TM-40), flags and
+// external event. A write becomes a command to can_time one clock later. Registers that software
+// only has to write cannot be read back (TM-131).
 
 module can_time_regs (
   input  logic        clk_i,
   input  logic        rst_ni,
-  // CPU, in the data phase; ask_i: in the clock before a read of TIMELO. Addresses count words.
-  input  logic        ask_i,
-  input  logic        rd_i,
-  input  logic        wr_i,
-  input  logic [4:0]  addr_i,
-  input  logic [3:0]  be_i,
+  // CPU, in the data phase
+  input  logic        ask_i,         // in the clock before a read of TIMELO
+  input  logic        rd_i,          // read
+  input  logic        wr_i,          // write
+  input  logic [4:0]  addr_i,        // word address in the page
+  input  logic [3:0]  be_i,          // byte enables
   input  logic [31:0] wdata_i,
   output logic [31:0] rdata_o,
-  // can_time, see there.
-  output logic [can_pkg::TimeCmdWidth-1:0] cmd_o,
-  output logic [63:0] data_o,
-  input  logic [63:0] now_i,
-  input  logic [63:0] ext_i,
-  input  logic [31:0] left_i,
-  output logic [31:0] tctrl_o,
-  output logic [31:0] tcmph_o,
-  output logic [31:0] ttx_o,
-  input  logic [can_pkg::TimeStatWidth-1:0] stat_i,
-  // Held buffer.
-  output logic [5:0]  mb_o,
-  // Pins and interrupt, level.
+  // can_time
+  output logic [can_pkg::TimeCmdWidth-1:0] cmd_o, // command pulses, can_pkg::Time*
+  output logic [63:0] data_o,        // data of the command
+  input  logic [63:0] now_i,         // TIME of the last read of TIMELO
+  input  logic [63:0] ext_i,         // TIME of the last external event
+  input  logic [31:0] left_i,        // TSLEW: rest of a slew
+  output logic [31:0] tctrl_o,       // TCTRL
+  output logic [31:0] tcmph_o,       // TCMPH
+  output logic [31:0] ttx_o,         // TTX
+  input  logic [can_pkg::TimeStatWidth-1:0] stat_i, // levels and pulses, can_pkg::TimeStat*
+  // Launch
+  output logic [5:0]  mb_o,          // TTXMB.MB: buffer that may be held
+  // Pins and interrupt
   input  logic        pin_i,         // external event, asynchronous
-  output logic        time_out_o,
-  output logic        irq_o
+  output logic        time_out_o,    // level: compare output, if TCTRL.OUTEN
+  output logic        irq_o          // level: interrupt request
 );
   // Addresses in the page.
   localparam logic [4:0] Tcap   = 5'(can_regs_pkg::TcapAddr);
@@ -51,7 +51,8 @@ module can_time_regs (
   localparam logic [4:0] Textlo = 5'(can_regs_pkg::TextloAddr);
   localparam logic [4:0] Texthi = 5'(can_regs_pkg::TexthiAddr);
 
-  // Whole words alone are written, but for TCTRL and TSTAT. The first of a pair waits here.
+  // TCTRL and TSTAT take single bytes, all others whole words only. The first word of a pair waits
+  // in first_q until the second is written.
   logic        wr_word, wr_ttxmb;
   logic [31:0] first_q, second_q;
   logic [30:0] tcmph_q;
@@ -88,7 +89,7 @@ module can_time_regs (
     .clk_i, .rst_ni, .clear_i(1'b0), .frz_ack_i(1'b0), .lpm_ack_i(1'b0), .wrn_en_i(1'b0),
     .we_i(wr_i && addr_i == Tctrl), .be_i, .wdata_i, .value_o(tctrl_o));
 
-  // External event: the clock in which the second flip-flop has changed.
+  // External event: an edge is seen in the clock in which the second flip-flop has changed.
   (* ASYNC_REG = "TRUE" *)
   (* altera_attribute = "-name SYNCHRONIZER_IDENTIFICATION FORCED_IF_ASYNCHRONOUS" *)
   (* syn_preserve = 1, syn_replicate = 0 *)
@@ -103,7 +104,7 @@ module can_time_regs (
                   || (!settled_q && last_q && tctrl_o[can_regs_pkg::TctrlExtf]);
   assign take      = event_now && !flags_q[can_regs_pkg::TstatExt];
 
-  // Flags. A pulse beats the write that clears.
+  // Flags. If a pulse and a clearing write come in the same clock, the flag is set.
   always_comb begin
     set = '0;
     set[can_regs_pkg::TstatExt]    = take;

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // can_time_sync: follower without a CPU (TM-100 to TM-105). Each pair of SYNC and FUP shifts the
-// clock by its offset and turns the rate, as it is known by then, towards the master's.
+// clock by its offset and corrects the rate towards that of the master.
 //
-// One bit a clock: a round is 64 clocks, one for each bit of a time, and a pair takes seven at
-// most. What the clock is to be given grows in result_q, the offset for software in ofs_o.
+// All arithmetic is bit-serial, lowest bit first. A round of 64 clocks processes one 64-bit number,
+// and a pair takes at most seven rounds. result_q collects the data for the clock, ofs_o the offset
+// for software.
 
 module can_time_sync #(
   /// Increment after a reset, see can_clock.
@@ -18,25 +19,25 @@ module can_time_sync #(
   input  logic [31:0] id_i,          // TSID
   input  logic [23:0] delay_i,       // TSDLY
   output logic [31:0] stat_o,        // TSSTAT
-  output logic [31:0] ofs_o,         // TSOFS; moves while a pair is worked off
+  output logic [31:0] ofs_o,         // TSOFS; not stable while a pair is processed
   output logic        changed_o,     // pulse: TSSTAT.STATE changes
-  // Reception, see can_core.
-  input  logic        rx_hdr_i,
-  input  logic [28:0] rx_id_i,
-  input  logic        rx_ide_i,
-  input  logic        rx_rtr_i,
-  input  logic [3:0]  rx_dlc_i,
-  input  logic        rx_byte_we_i,
-  input  logic [7:0]  rx_byte_i,
-  input  logic        rx_valid_i,
-  // Time unit, see can_time: what the CPU asks of it, which goes first, and what it is asked.
-  input  logic [63:0] stamp_i,
+  // Reception, as in can_core.
+  input  logic        rx_hdr_i,      // pulse: rx_id_i, rx_ide_i, rx_rtr_i are valid
+  input  logic [28:0] rx_id_i,       // identifier; base frames in [28:18]
+  input  logic        rx_ide_i,      // extended frame
+  input  logic        rx_rtr_i,      // remote frame
+  input  logic [3:0]  rx_dlc_i,      // raw DLC, valid with rx_valid_i
+  input  logic        rx_byte_we_i,  // pulse: rx_byte_i is new
+  input  logic [7:0]  rx_byte_i,     // received byte, stable for a bit
+  input  logic        rx_valid_i,    // pulse: frame is valid
+  // Time unit. Commands of the CPU take precedence.
+  input  logic [63:0] stamp_i,       // stamp of the frame, good two clocks after rx_valid_i
   input  logic [39:0] inc_i,         // increment: 39:32 ns, 31:0 in 2^-32 ns
-  input  logic        upset_i,       // the compare unit wants to be armed anew
-  input  logic [can_pkg::TimeCmdWidth-1:0] cmd_i,
-  output logic [can_pkg::TimeCmdWidth-1:0] cmd_o,
-  output logic        own_o,         // data_o goes with cmd_o; else what the CPU gives
-  output logic [63:0] data_o
+  input  logic        upset_i,       // compare unit needs to be armed again (TM-141)
+  input  logic [can_pkg::TimeCmdWidth-1:0] cmd_i, // commands of the CPU
+  output logic [can_pkg::TimeCmdWidth-1:0] cmd_o, // commands of CPU and follower
+  output logic        own_o,         // data_o belongs to cmd_o; 0: the data of the CPU
+  output logic [63:0] data_o         // data of the follower's command
 );
   typedef enum logic [1:0] {
     StNone,       // unsynchronised: no pair yet, or none of a rate set anew
@@ -44,16 +45,16 @@ module can_time_sync #(
     StLocked,
     StHoldover    // no pair for too long
   } state_t;
-  // What a round does; not an enumeration, as Icarus would have casts.
+  // Operation of a round. No enumeration, because Icarus would require casts.
   localparam logic [2:0] OpIdle    = 3'd0;
-  localparam logic [2:0] OpSeconds = 3'd1;  // the word of a SYNC becomes the seconds
-  localparam logic [2:0] OpOffset  = 3'd2;  // offset; its negative into result_q
-  localparam logic [2:0] OpJudge   = 3'd3;  // step or not; half of the shift; beyond 32 bits
-  localparam logic [2:0] OpShift   = 3'd4;  // in the first clock of it; half-way a slew ends
-  localparam logic [2:0] OpRate    = 3'd5;  // new increment into result_q
-  localparam logic [2:0] OpTurn    = 3'd6;  // to where the clock takes it, half-way
-  localparam logic [2:0] OpWhole   = 3'd7;  // a whole second, which the compare unit takes half-way
-  localparam logic [6:0] OneNs = 7'd26;   // number of the bit of 1 ns in timer_q
+  localparam logic [2:0] OpSeconds = 3'd1;  // load the seconds from the word of a SYNC
+  localparam logic [2:0] OpOffset  = 3'd2;  // compute the offset; result_q := -offset
+  localparam logic [2:0] OpJudge   = 3'd3;  // step or not; halve the shift; saturate TSOFS
+  localparam logic [2:0] OpShift   = 3'd4;  // shift in the first clock; end a slew half-way
+  localparam logic [2:0] OpRate    = 3'd5;  // compute the new increment in result_q
+  localparam logic [2:0] OpTurn    = 3'd6;  // rotate it into position; set the rate half-way
+  localparam logic [2:0] OpWhole   = 3'd7;  // compute a whole second; arm half-way
+  localparam logic [6:0] OneNs = 7'd26;   // index of the bit of timer_q that is worth 1 ns
 
   logic       enable, halve, pps;
   logic [4:0] ki;
@@ -77,7 +78,7 @@ module can_time_sync #(
   assign half_way = count_q == 6'd32;
   assign last     = &count_q;
 
-  // The same number in two parts, byte and bit, one of each 1.
+  // count_q[5:3] and count_q[2:0], one-hot.
   logic [7:0] byte_q, bit_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -89,7 +90,7 @@ module can_time_sync #(
     end
   end
 
-  // Frames, and the offset of a pair.
+  // Messages, and the offset of a pair.
   logic       sync, pair, word, whole, offset, offset_round;
   logic [3:0] sc;
   logic [1:0] ovs;
@@ -106,8 +107,8 @@ module can_time_sync #(
     .load_i(op_q == OpSeconds), .run_i(offset_round || op_q == OpWhole), .word_i(word),
     .whole_o(whole), .offset_o(offset));
 
-  // How large the offset is: below 2^20 ns, and in LOCKED below 2^12 ns, it is followed; below 2^31
-  // it can be read.
+  // Magnitude of the offset. It is far from 2^20 ns on, in LOCKED from 2^12 ns on. TSOFS saturates
+  // from 2^31 ns on.
   logic above, below_q, one_q, zero_q, one_31_q, zero_31_q, negative_q, far, beyond;
   assign above  = count_q[5] || (state_q == StLocked ? count_q[4] || (count_q[3] && count_q[2])
                                                      : count_q[4] && (count_q[3] || count_q[2]));
@@ -126,7 +127,7 @@ module can_time_sync #(
     end
   end
 
-  // What becomes of the pair (TM-103), and what of the state.
+  // Decision on the pair (TM-103), and next state.
   logic [7:0] pairs_q;
   logic       leap_q, started, light, ignored, step, anew, arms, done, late, seconds_due_q,
     pair_due_q;
@@ -134,11 +135,12 @@ module can_time_sync #(
   assign light   = state_q == StLocked || pairs_q[3];   // in StAcquiring there are 11 at most
   assign ignored = state_q == StLocked && far && !leap_q;
   assign step    = !started || far;
-  // A rate that an upset has changed beyond what pairs can turn back begins anew. It still counted
-  // between the SYNC and now: the next pair only shifts, and says nothing of the new rate.
+  // If the offset is far while acquiring, the rate is too wrong to be corrected by pairs (an upset)
+  // and restarts at TimeInc. The wrong rate was in use since the SYNC, so the next pair only shifts
+  // and says nothing about the new rate.
   assign anew    = state_q == StAcquiring && far;
-  // Arming sets the output to 0. Behind a holdover the clock may still be near: what the compare
-  // unit waits for is right then.
+  // Arming sets the output to 0, so it is avoided where it is not needed: after a holdover with a
+  // clock that is still near, the compare unit waits for the right time.
   assign arms    = pps && (far || upset_i || state_q == StNone);
   assign done    = last && ((op_q == OpShift && step && !anew) || op_q == OpTurn);
   always_comb begin
@@ -196,8 +198,8 @@ module can_time_sync #(
     end
   end
 
-  // Increment minus offset 2^K: the offset goes round once, from bit K on; then its sign counts.
-  // Or the increment of the reset.
+  // New increment: increment - offset 2^K. ofs_o rotates once from bit K on, then its sign is used.
+  // With anew, the increment is TimeInc.
   logic [4:0] k;
   logic       at_k, begun_q, over_q, begun, rate_round, turning, inc, nominal, term, rate, borrow_q;
   assign k          = ki - (light ? {3'b0, kd} : '0);
@@ -221,7 +223,7 @@ module can_time_sync #(
     end
   end
 
-  // TSOFS.
+  // TSOFS: loaded, saturated, or rotated.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       ofs_o <= '0;
@@ -234,7 +236,7 @@ module can_time_sync #(
     end
   end
 
-  // What the clock is given. Of half: -floor(o / 2) = floor((1 - o) / 2).
+  // Data for the clock. Half of the shift: -floor(o / 2) = floor((1 - o) / 2).
   logic        halving, any_q, half_carry_q, next;
   logic [63:0] result_q;
   assign halving = op_q == OpJudge && halve && light && !step;
@@ -259,8 +261,8 @@ module can_time_sync #(
     end
   end
 
-  // Time since the last pair (TM-104): grows by 64 increments in a round, so that bit n of it is
-  // 2^(n - 26) ns. It is looked at between pairs.
+  // Time since the last pair (TM-104). It grows by 64 increments per round, so bit n is worth 2^(n
+  // - 26) ns. It is compared only between pairs.
   logic [63:0] timer_q;
   logic        timer, timer_carry_q;
   assign timer = !offset_round && (timer_q[0] ^ inc ^ timer_carry_q);
@@ -276,7 +278,7 @@ module can_time_sync #(
     end
   end
 
-  // The CPU goes first; a command of this clock is lost then.
+  // A command of the CPU takes precedence; the follower's command in the same clock is lost.
   logic shift_now, slew_now, rate_now, whole_now;
   assign shift_now = op_q == OpShift && first;
   assign slew_now  = op_q == OpShift && half_way;   // result_q[63:32] is 0 by then

@@ -1,29 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_time_sync_regs: the registers of the follower without a CPU, 0x1180 to 0x1190 (TM-100).
+// can_time_sync_regs: registers of the follower without a CPU at 0x1180 to 0x1190 (TM-100).
 
 module can_time_sync_regs #(
-  /// Values after a reset, see TSCTRL, TSID and TSDLY.
+  /// Reset values of TSCTRL, TSID and TSDLY.
   parameter logic [31:0] SyncCtrl  = '0,
   parameter logic [31:0] SyncId    = '0,
   parameter logic [31:0] SyncDelay = '0
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
-  // CPU, in the data phase. Addresses count words.
-  input  logic        rd_i,
-  input  logic        wr_i,
-  input  logic [4:0]  addr_i,
-  input  logic [3:0]  be_i,
+  // CPU, in the data phase
+  input  logic        rd_i,                 // read
+  input  logic        wr_i,                 // write
+  input  logic [4:0]  addr_i,               // word address in the page
+  input  logic [3:0]  be_i,                 // byte enables
   input  logic [31:0] wdata_i,
   output logic [31:0] rdata_o,
-  // can_time_sync, see there.
-  output logic [31:0] ctrl_o,
-  output logic [31:0] id_o,
-  output logic [23:0] delay_o,
-  input  logic [31:0] stat_i,
-  input  logic [31:0] ofs_i
+  // can_time_sync
+  output logic [31:0] ctrl_o,               // TSCTRL
+  output logic [31:0] id_o,                 // TSID
+  output logic [23:0] delay_o,              // TSDLY, signed ns
+  input  logic [31:0] stat_i,               // TSSTAT
+  input  logic [31:0] ofs_i                 // TSOFS
 );
   can_time_params #(
     .SyncCtrl(SyncCtrl), .SyncId(SyncId), .SyncDelay(SyncDelay)
