@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_timing_params: the bit timing that nodes without a processor may have as parameters (BT-02);
-// others stop the build, at a module that does not exist: its name is the message, in tools without
-// $error at elaboration, too.
+// can_timing_params: checks bit timing parameters of nodes without a processor (BT-02) at
+// elaboration. An illegal value instantiates a module that does not exist; its name is the error
+// message. This also works in tools that do not support $error at elaboration.
 
 module can_timing_params #(
-  /// Clocks per quantum.
+  /// Clocks per time quantum.
   parameter int Brp = 1,
-  /// Quanta of PROP_SEG, PHASE_SEG1, PHASE_SEG2; most quanta that a resynchronisation moves.
+  /// Time quanta of PROP_SEG, PHASE_SEG1 and PHASE_SEG2; SJW in time quanta.
   parameter int Prop = 1,
   parameter int Ps1 = 4,
   parameter int Ps2 = 2,

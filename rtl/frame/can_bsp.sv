@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_bsp: the bit stream processor, wires the blocks of the frame and turns their findings into
-// the pulses that the message buffers see. Registers move at the sample point; what a bit means is
-// settled in its first clock (judge_i).
+// can_bsp: bit stream processor. It connects the blocks of the frame (fields, stuffing, CRC,
+// errors, fault confinement, shift register, transmit level) and turns their results into the
+// pulses for the message buffers. Registers change at the sample point; conditions that depend only
+// on the position of a bit are decided in its first clock (judge_i).
 
 module can_bsp #(
   /// See can_rx_frame.
@@ -11,52 +12,53 @@ module can_bsp #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            run_i,
-  input  logic            stay_i,          // 0: leave at the end of the bit
-  input  logic            sample_i,
-  input  logic            bit_i,
-  input  logic            boundary_i,      // last clock of a bit
-  input  logic            judge_i,         // first clock of a bit
-  input  logic            edge_i,
-  input  logic            lom_i,
-  input  logic            lpb_i,
-  input  logic            fd_tolerant_i,
-  input  logic            boff_rec_i,
-  input  logic            ec_clear_i,
-  input  logic            ec_we_i,
-  input  logic [15:0]     ec_wdata_i,
-  input  logic            tx_req_i,
-  input  logic            tx_ide_i,
-  input  logic            tx_rtr_i,
-  input  logic [3:0]      tx_dlc_i,
-  input  logic [31:0]     tx_word_i,
-  output logic            tx_o,            // level this node sends in the current bit
-  output logic            can_tx_o,        // the pin
-  output logic            hard_o,          // the coming bit takes hard synchronisation (SY-05)
-  output can_pkg::field_t field_o,
-  output logic [5:0]      left_o,
-  output logic            stuff_o,
-  output logic            transmitter_o,
-  output logic [8:0]      tec_o,
-  output logic [7:0]      rec_o,
-  output logic            passive_o,
-  output logic            boff_o,
-  output logic [5:0]      err_o,
-  output logic            tx_next_o,
-  output logic            tx_ok_o,
-  output logic            tx_fail_o,
-  output logic            start_o,
-  output logic            stamp_o,
-  output logic            rx_hdr_o,
-  output logic [28:0]     rx_id_o,
-  output logic            rx_ide_o,
-  output logic            rx_srr_o,
-  output logic            rx_rtr_o,
-  output logic [3:0]      rx_dlc_o,
-  output logic            rx_byte_we_o,
-  output logic [7:0]      rx_byte_o,
-  output logic            rx_valid_o,
-  output logic [14:0]     crc_o
+  input  logic            run_i,           // engine is active
+  input  logic            stay_i,          // 0: stop request, recessive from the next bit on
+                                           // (MO-13)
+  input  logic            sample_i,        // pulse: sample point
+  input  logic            bit_i,           // sampled bit
+  input  logic            boundary_i,      // pulse: last clock of a bit
+  input  logic            judge_i,         // pulse: first clock of a bit
+  input  logic            edge_i,          // pulse: synchronising edge
+  input  logic            lom_i,           // listen-only (MO-01)
+  input  logic            lpb_i,           // loop-back (MO-04)
+  input  logic            fd_tolerant_i,   // protocol exception on a recessive FDF bit (FF-06)
+  input  logic            boff_rec_i,      // 1: no automatic recovery from bus-off (BO-03)
+  input  logic            ec_clear_i,      // clear both error counters, leave bus-off
+  input  logic            ec_we_i,         // write both error counters
+  input  logic [15:0]     ec_wdata_i,      // {REC, TEC}
+  input  logic            tx_req_i,        // a frame waits
+  input  logic            tx_ide_i,        // it is extended
+  input  logic            tx_rtr_i,        // it is a remote frame
+  input  logic [3:0]      tx_dlc_i,        // its DLC
+  input  logic [31:0]     tx_word_i,       // its ID word, then its data words, see can_core
+  output logic            tx_o,            // level that this node sends in the current bit
+  output logic            can_tx_o,        // transmit pin
+  output logic            hard_o,          // the next bit uses hard synchronisation (SY-05)
+  output can_pkg::field_t field_o,         // field of the current bit
+  output logic [5:0]      left_o,          // bits of the field after the current one
+  output logic            stuff_o,         // current bit is a stuff bit
+  output logic            transmitter_o,   // transmitter of the current frame (RO-01)
+  output logic [8:0]      tec_o,           // bit 8: bus-off; 7:0 TEC, see can_fault
+  output logic [7:0]      rec_o,           // REC
+  output logic            passive_o,       // error passive (FC-11)
+  output logic            boff_o,          // bus-off (FC-13)
+  output logic [5:0]      err_o,           // pulses, can_pkg::Err*
+  output logic            tx_next_o,       // pulse: word of the frame taken
+  output logic            tx_ok_o,         // pulse: frame sent (VA-02)
+  output logic            tx_fail_o,       // pulse: attempt failed (error, lost arbitration)
+  output logic            start_o,         // pulse: a frame begins
+  output logic            stamp_o,         // pulse: the next bit is the first of the ID field
+  output logic            rx_hdr_o,        // pulse: header received, valid for 3 bits
+  output logic [28:0]     rx_id_o,         // identifier; base frames in [28:18]
+  output logic            rx_ide_o,        // extended frame
+  output logic            rx_srr_o,        // SRR bit as received
+  output logic            rx_rtr_o,        // remote frame
+  output logic [3:0]      rx_dlc_o,        // raw DLC (FF-08)
+  output logic            rx_byte_we_o,    // pulse: rx_byte_o is the next data byte
+  output logic [7:0]      rx_byte_o,       // data byte, stable for a bit
+  output logic            rx_valid_o,      // pulse: frame valid, SP of EOF6 (VA-01)
+  output logic [14:0]     crc_o            // CRC of the frame, valid with tx_ok_o
 );
 
   logic       prev, ends, last, free, crc_bit, mismatch, begin_rx, take_tx, load, in_frame,
@@ -124,17 +126,17 @@ module can_bsp #(
     .ack_i(!transmitter_o && !mismatch && !lom_i), .passive_flag_i(passive_flag), .tx_o, .can_tx_o
   );
 
-  // The fourth data byte of more than four is complete: the sender needs its second word.
+  // The fourth of more than four data bytes is complete: the transmitter needs its second word.
   assign word_end = (left_o[5:3] == (rx_dlc_o[3] ? 3'd4 : {1'b0, rx_dlc_o[1:0]}))
                     && (left_o[2:0] == 3'd0) && !ends;
 
-  // Hard synchronisation in idle, suspend, INT2, INT3, integration and bus-off recovery.
+  // SY-05: hard synchronisation in idle, suspend, INT2, INT3, integration and bus-off recovery.
   assign hard_o = !(|field_o[4:3]) && !(field_o == can_pkg::FldInt && left_o[1]);
 
-  // SOF to EOF: an error here, or lost arbitration, ends the attempt to send.
+  // SOF to EOF, where an error or lost arbitration ends an attempt to send.
   assign in_frame = (|field_o[4:3]) && !(&field_o[4:2]);
 
-  // Pulses in the clock after a sample point; in any other nothing here changes.
+  // All pulses come in the clock after a sample point. Nothing changes here in any other clock.
   logic sampled_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) sampled_q <= 1'b0;

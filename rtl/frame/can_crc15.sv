@@ -1,19 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_crc15: CRC from SOF to the last data bit, and its comparison with the one received.
-// Rules CR-01..CR-05. It starts from 0, so the dominant SOF adds nothing.
+// can_crc15: CRC over SOF to the last data bit, and comparison with the received CRC. Rules
+// CR-01..CR-05. The initial value is 0, so that a dominant SOF leaves it unchanged; a joined start
+// needs no special case. One register serves both roles: in the CRC field it shifts out.
 
 module can_crc15 (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            sample_i,
-  input  logic            bit_i,
-  input  logic            stuff_i,     // current bit is a stuff bit: invisible to the CRC (ST-09)
-  input  can_pkg::field_t field_i,
-  output logic            crc_bit_o,   // CRC bit to send next (CRC14 first)
-  output logic [14:0]     crc_o,       // CRC of the frame, from the CRC delimiter to its end
-  output logic            mismatch_o   // a received CRC bit differed; holds until the next frame
+  input  logic            sample_i,    // pulse: sample point
+  input  logic            bit_i,       // sampled bit
+  input  logic            stuff_i,     // current bit is a stuff bit, not part of the CRC (ST-09)
+  input  can_pkg::field_t field_i,     // field of the current bit
+  output logic            crc_bit_o,   // CRC bit to send next, CRC14 first
+  output logic [14:0]     crc_o,       // CRC of the frame, valid from the CRC delimiter on
+  output logic            mismatch_o   // a received CRC bit differed; until the next frame
 );
 
   localparam logic [14:0] Polynomial = 15'h4599;
@@ -34,7 +35,7 @@ module can_crc15 (
         crc_q      <= '0;
         mismatch_o <= 1'b0;
       end else if ((field_i[4] ^ field_i[3]) && !stuff_i) begin
-        // In the CRC field it goes round once, and is what it was.
+        // In the CRC field the register rotates once and then holds its value again.
         crc_q <= {crc_q[13:0], shift_out && crc_q[14]}
                  ^ ((!shift_out && (bit_i != crc_q[14])) ? Polynomial : 15'h0);
         if (shift_out && (bit_i != crc_q[14])) mismatch_o <= 1'b1;

@@ -1,23 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_error: what is wrong with the bit being sampled, and what it asks for.
-// Rules ED-01..ED-21, AR-02..AR-05, OV-03; one event a bit (ED-17). Both levels are judged when the
-// bit begins, so that the sample point has only to choose: it sits on the longest path of the core.
+// can_error: error detection. It evaluates the sampled bit and reports an error, lost arbitration
+// or an overload condition. Rules ED-01..ED-21, AR-02..AR-05, OV-03; at most one event per bit
+// (ED-17). The result for either level is prepared in the first clock of the bit, and the sample
+// point only selects, because this is the longest path of the core.
 
 module can_error (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            run_i,
+  input  logic            run_i,          // engine is active
   input  logic            judge_i,        // first clock of a bit: field, level and role are new
-  input  can_pkg::field_t field_i,
+  input  can_pkg::field_t field_i,        // field of the current bit
   input  logic            last_i,         // last bit of the field
-  input  logic            bit_i,          // sampled
-  input  logic            sent_i,         // level this node sends in the bit
-  input  logic            transmitter_i,
-  input  logic            stuff_i,        // the bit is a stuff bit
-  input  logic            prev_i,         // level of the bit before
-  input  logic            crc_mismatch_i,
+  input  logic            bit_i,          // sampled bit
+  input  logic            sent_i,         // level that this node sends in the bit
+  input  logic            transmitter_i,  // transmitter of the current frame
+  input  logic            stuff_i,        // current bit is a stuff bit
+  input  logic            prev_i,         // level of the previous bit
+  input  logic            crc_mismatch_i, // received CRC differs
   input  logic            lpb_i,          // loop-back: no ACK needed (MO-04)
   output logic [5:0]      kind_o,         // can_pkg::Err*, at most one set
   output logic            error_o,        // an error flag follows
@@ -26,9 +27,9 @@ module can_error (
   output logic            overload_o      // an overload flag follows
 );
 
-  // If the bit is dominant
+  // Results if the bit is dominant.
   logic bit1_q, form_q, stuff_d_q, lost_q, exempt_q, overload_q, error_d_q;
-  // If it is recessive
+  // Results if the bit is recessive.
   logic bit0_q, ack_q, crc_q, stuff_r_q, error_r_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -46,8 +47,9 @@ module can_error (
       arbitration   = !field_i[4] && field_i[3];               // AR-01
       foreign_stuff = stuff_i && !transmitter_i;
 
-      // Fixed form; the last bit of EOF is judged by the transmitter alone (ED-10, ED-11), that of
-      // a delimiter by nobody (ED-12). A dominant bit that is no error there asks for overload.
+      // Fixed form. A dominant bit is an error in the last bit of EOF for the transmitter only
+      // (ED-10, ED-11), in the last bit of a delimiter for nobody (ED-12). Where it is no error it
+      // leads to overload.
       case (field_i)
         can_pkg::FldCrcDel: {fixed, overload} = {!stuff_i, 1'b0};
         can_pkg::FldAckDel: {fixed, overload} = 2'b10;
@@ -60,7 +62,8 @@ module can_error (
       bit1    = saw_d && !arbitration && (stuff_i || (field_i[4] && !field_i[3]));
       exempt  = saw_d && arbitration && stuff_i;                                      // AR-04
       stuff_d = foreign_stuff && !prev_i;                                             // ST-06
-      // Whoever sends dominant and sees recessive: frame bit, ACK, active flag, overload (ED-06).
+      // Bit error: dominant sent, recessive sampled (frame bit, ACK, active or overload flag;
+      // ED-06).
       bit0    = !sent_i;
       ack     = (field_i == can_pkg::FldAck) && transmitter_i && !lpb_i;              // ED-16
       crc     = (field_i == can_pkg::FldAckDel) && crc_mismatch_i && !transmitter_i;  // ED-20

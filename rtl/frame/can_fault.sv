@@ -1,45 +1,46 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_fault: error counters and error state, ISO 11898-1 fault confinement (FC, BO).
-// One bit changes at most one counter (FC-01), so one adder serves both.
+// can_fault: error counters and error state, the fault confinement of ISO 11898-1 (FC, BO). A bit
+// changes at most one of the counters (FC-01), so both share one counting logic.
 
 module can_fault (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            run_i,
-  input  logic            sample_i,
-  input  logic            bit_i,
-  input  can_pkg::field_t field_i,
-  input  logic [3:0]      after_flag_i,     // FldWait: {first bit after flag, left modulo 8}
+  input  logic            run_i,            // engine is active
+  input  logic            sample_i,         // pulse: sample point
+  input  logic            bit_i,            // sampled bit
+  input  can_pkg::field_t field_i,          // field of the current bit
+  input  logic [3:0]      after_flag_i,     // FldWait: {first bit after the flag, bits left modulo
+                                            // 8}
   input  logic            ends_i,           // last bit of the field
-  input  logic            last_i,           // the same, registered
-  input  logic            free_i,           // after this bit a frame may begin
-  input  logic            sent_i,           // level this node sent in the bit
-  input  logic            transmitter_i,
-  input  logic            overload_frame_i,
-  input  logic            passive_flag_i,
-  input  logic            error_i,
-  input  logic            exempt_i,         // arbitration stuff error (FC-05 exc. 2)
-  input  logic            ack_error_i,
-  input  logic            lom_i,            // counters frozen (FC-22)
-  input  logic            boff_rec_i,       // 1: no automatic recovery
-  input  logic            clear_i,          // soft reset, while not running
-  input  logic            we_i,             // write both counters, while not running
+  input  logic            last_i,           // last bit of the field, registered
+  input  logic            free_i,           // a frame may begin after this bit
+  input  logic            sent_i,           // level that this node sent in the bit
+  input  logic            transmitter_i,    // transmitter of the current frame
+  input  logic            overload_frame_i, // flag or delimiter belongs to an overload frame
+  input  logic            passive_flag_i,   // error flag that is sent is passive
+  input  logic            error_i,          // error in this bit
+  input  logic            exempt_i,         // it is a stuff error in arbitration (FC-05 exc. 2)
+  input  logic            ack_error_i,      // it is an ACK error
+  input  logic            lom_i,            // listen-only: counters are frozen (FC-22)
+  input  logic            boff_rec_i,       // 1: no automatic recovery from bus-off (BO-03)
+  input  logic            clear_i,          // clear both counters (soft reset); only while stopped
+  input  logic            we_i,             // write both counters; only while stopped
   input  logic [15:0]     wdata_i,          // {REC, TEC}
-  output logic [8:0]      tec_o,            // bit 8: bus-off, then sequences counted in [7:0]
-  output logic [7:0]      rec_o,
-  output logic            passive_o,
-  output logic            boff_o,
-  output logic            boff_enter_o,     // one clock: bus-off begins
+  output logic [8:0]      tec_o,            // 8: bus-off; 7:0: TEC, in bus-off sequences counted
+  output logic [7:0]      rec_o,            // REC
+  output logic            passive_o,        // error passive
+  output logic            boff_o,           // bus-off
+  output logic            boff_enter_o,     // pulse: bus-off begins
   output logic            boff_end_o        // a recessive bit here completes the recovery
 );
 
   logic [8:0] tec_q;
   logic [7:0] rec_q;
-  logic       withheld_q;   // passive ACK error not yet counted (FC-05a)
+  logic       withheld_q;   // passive ACK error that is not counted yet (FC-05a)
   logic       hold_q;       // bus-off without automatic recovery
-  logic       boff_seen_q;  // the clock after bus-off entry has passed
+  logic       boff_seen_q;  // first clock of bus-off is over
 
   assign tec_o     = tec_q;
   assign rec_o     = rec_q;
@@ -47,13 +48,13 @@ module can_fault (
   assign boff_enter_o = tec_q[8] && !boff_seen_q;
   assign passive_o = !tec_q[8] && (tec_q[7] || rec_q[7]);   // FC-11, FC-12
 
-  // 128 sequences of 11 recessive bits (BO-02); the count waits at 128 for the host's leave.
+  // BO-02: 128 sequences of 11 recessive bits. If recovery is held, the count waits at 128.
   assign boff_end_o = ends_i && (tec_q[7] || (&tec_q[6:0])) && !hold_q;
 
-  // The decision is taken at the sample point and counted one clock later: still before
-  // anyone asks, and the adder stays off the longest path.
+  // Decided at the sample point and counted in the next clock. This is early enough for all readers
+  // and keeps the counters off the longest path.
   logic       plus8_q, plus1_q, minus1_q, sequence_q, recovered_q;
-  logic       decided_q;    // the clock after a sample point: nothing moves in any other
+  logic       decided_q;    // clock after a sample point; nothing changes in any other
   logic       on_tec_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -75,13 +76,13 @@ module can_fault (
       in_wait = (field_i == can_pkg::FldWait) && saw_d;
       first   = in_wait && after_flag_i[3];
       eighth  = in_wait && after_flag_i[2:0] == 3'd0;
-      // A passive transmitter that misses its ACK counts only when it sees dominant in its flag.
+      // A passive transmitter counts a missing ACK only if it sees dominant during its flag.
       withhold = ack_error_i && passive_o;                                               // FC-05
       late     = withheld_q && saw_d && field_i == can_pkg::FldErrFlag && passive_flag_i;  // FC-05a
       good_tx  = (field_i == can_pkg::FldEof) && last_i && bit_i && transmitter_i;       // FC-09
       good_rx  = (field_i == can_pkg::FldAck) && !sent_i && saw_d;                       // FC-10
 
-      // Whose counter: of the role in that bit, though the engine may stop behind it.
+      // The counter is that of the role in this bit, even if the engine stops after it.
       on_tec_q <= transmitter_i || tec_q[8];
       plus8_q <= !lom_i && (late
                  || (error_i && (transmitter_i ? !(exempt_i || withhold) : in_flag))   // FC-05..07
@@ -113,8 +114,8 @@ module can_fault (
     end else if (sequence_q || plus8_q || plus1_q || minus1_q) begin : count
       logic [8:0] counter, sum;
       logic       turns;
-      // Counts by 1 from bit 0 on, or by 8 from bit 3 on. Counting up inverts the bits up to the
-      // first 0, that one too, counting down those up to the first 1. So no adder is needed.
+      // Counting by 1 starts at bit 0, by 8 at bit 3. Up: invert all bits up to and including the
+      // first 0; down: up to and including the first 1. This takes no adder.
       counter = on_tec_q ? tec_q : {1'b0, rec_q};
       turns   = !plus8_q;
       for (int i = 0; i < 9; i++) begin

@@ -1,51 +1,52 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_field: where in the bit stream the node is: field, bits left in it, role.
-// The paper's states: WAIT_FOR_BUS_IDLE = FldInteg, IDLE = FldIdle, BUS_OFF_RECOVERY = FldBusOff;
-// all the rest is RECEIVING or TRANSMITTING by transmitter_o. Rules IF, RO, EF, OV, IN, BO.
+// can_field: position in the bit stream: field, bits left in it, and role of the node. Rules IF,
+// RO, EF, OV, IN, BO. The states of the paper: WAIT_FOR_BUS_IDLE = FldInteg, IDLE = FldIdle,
+// BUS_OFF_RECOVERY = FldBusOff; all other fields are RECEIVING or TRANSMITTING by transmitter_o.
 
 module can_field (
   input  logic            clk_i,
   input  logic            rst_ni,
   input  logic            run_i,           // 0: not on the bus; then integrate (IN-01)
-  input  logic            sample_i,
-  input  logic            bit_i,
+  input  logic            sample_i,        // pulse: sample point
+  input  logic            bit_i,           // sampled bit
   input  logic            judge_i,         // first clock of a bit, see can_error
-  input  logic            stuff_i,         // current bit is a stuff bit: the field stands still
-  input  logic            prev_i,          // level of the bit before
-  input  logic [2:0]      ones_i,          // recessive bits up to the one before, see can_stuff
-  input  logic            edge_i,          // synchronising edge
-  // What can_error found in this bit
-  input  logic            error_i,
-  input  logic            lost_i,
-  input  logic            overload_i,
+  input  logic            stuff_i,         // current bit is a stuff bit: the field does not advance
+  input  logic            prev_i,          // level of the previous bit
+  input  logic [2:0]      ones_i,          // recessive bits up to the previous one, see can_stuff
+  input  logic            edge_i,          // pulse: synchronising edge
+  // Result of can_error for this bit
+  input  logic            error_i,         // error: an error flag follows
+  input  logic            lost_i,          // arbitration is lost
+  input  logic            overload_i,      // an overload flag follows
   // Fault confinement
   input  logic            passive_i,       // error passive before this bit is counted (EF-05)
   input  logic            boff_i,          // bus-off
-  input  logic            boff_enter_i,    // it begins
+  input  logic            boff_enter_i,    // pulse: bus-off begins
   input  logic            boff_end_i,      // a recessive bit here completes bus-off recovery
   // Frame and configuration
-  input  logic            tx_req_i,
-  input  logic            ide_i,
-  input  logic            rtr_i,
+  input  logic            tx_req_i,        // a frame waits
+  input  logic            ide_i,           // received frame is extended
+  input  logic            rtr_i,           // received frame is a remote frame
   input  logic [2:0]      dlc_i,           // DLC3..DLC1; DLC0 is the bit being sampled
-  input  logic            lom_i,
-  input  logic            fd_tolerant_i,
-  output can_pkg::field_t field_o,
-  output logic [5:0]      left_o,          // bits of the field that follow the current one
-  output logic            ends_o,          // left_o = 0
-  output logic            last_o,          // the same, a register: from a bit's second clock on
-  output logic            transmitter_o,   // role (RO-01)
-  output logic            passive_flag_o,  // the error flag being sent is passive
-  output logic            overload_frame_o,// the flag or delimiter belongs to an overload frame
-  output logic            free_o,          // after this bit a frame may begin
-  output logic            own_free_o,      // ... an own one, known early
+  input  logic            lom_i,           // listen-only (MO-01)
+  input  logic            fd_tolerant_i,   // protocol exception on a recessive FDF bit (FF-06)
+  output can_pkg::field_t field_o,         // field of the current bit
+  output logic [5:0]      left_o,          // bits of the field after the current one
+  output logic            ends_o,          // last bit of the field
+  output logic            last_o,          // last bit of the field, register: from its second clock
+                                           // on
+  output logic            transmitter_o,   // transmitter of the current frame (RO-01)
+  output logic            passive_flag_o,  // the error flag that is sent is passive
+  output logic            overload_frame_o, // flag or delimiter belongs to an overload frame
+  output logic            free_o,          // a frame may begin after this bit
+  output logic            own_free_o,      // an own frame may begin after this bit, known early
   output logic            begin_rx_o,      // at this sample point a foreign frame begins
   output logic            take_tx_o        // at this sample point an own frame begins
 );
 
-  // As written here, so that codes of no field lead to integration (default below).
+  // Keep the encoding: unused codes, reached by an upset, lead to integration (default below).
   (* fsm_encoding = "none", syn_encoding = "safe" *) can_pkg::field_t field_q;
   logic [5:0]      left_q;
   logic            tx_q, passive_flag_q, overload_q;
@@ -61,13 +62,14 @@ module can_field (
   assign passive_flag_o   = passive_flag_q;
   assign overload_frame_o = overload_q;
 
-  // Flags and delimiters have less than eight bits: higher bits of the count, which only an upset
-  // flip-flop sets there (but see FldWait), must not make a dominant flag longer.
+  // Flags and delimiters have less than eight bits. Upper bits of the count, which only an upset
+  // sets there (except in FldWait), must not lengthen a dominant flag.
   assign ends    = (left_q[2:0] == '0) && (left_q[5:3] == '0 || (&field_q[4:2]));
   assign suspend = tx_q && passive_i;                                        // IF-08, IF-11
 
-  // May a frame begin after this bit? A recessive one lets an own frame begin, a dominant one is a
-  // start of frame (IF-03, IF-05, IF-12, IN-04). It is joined unless suspended (IF-06, IF-10).
+  // Whether a frame may begin after this bit. After a recessive bit an own frame may begin; a
+  // dominant bit is a start of frame (IF-03, IF-05, IF-12, IN-04), which an own frame joins unless
+  // suspended (IF-06, IF-10).
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)     {last_q, free_r_q, free_d_q, join_q} <= '0;
     else if (!run_i) {last_q, free_r_q, free_d_q, join_q} <= '0;
@@ -94,15 +96,15 @@ module can_field (
   assign take_tx_o  = may_begin && tx_req_i && (bit_i || join_q);
   assign begin_rx_o = may_begin && !bit_i && !take_tx_o;
 
-  // A recessive FDF bit, for a receiver that tolerates FD frames (FF-06).
+  // Recessive FDF bit, for a receiver that tolerates FD frames (FF-06).
   assign fd_frame = fd_tolerant_i && bit_i && !tx_q && !stuff_i
                     && (field_q == can_pkg::FldR1 || (field_q == can_pkg::FldR0 && !ide_i));
 
-  // It also counts its eleven bits anew at edges between sample points (IN-02).
+  // IN-02: such a receiver also restarts its count of eleven bits at edges between sample points.
   assign restart = fd_tolerant_i && edge_i && field_q == can_pkg::FldInteg;
 
-  // The field behind this one and its length. Written as a table, apart from when it counts: both
-  // are known before the bit is.
+  // Next field and its length. The table does not depend on when the field ends, because both are
+  // known before the bit is sampled.
   can_pkg::field_t next, field_d;
   logic [5:0]      length, left_d;
   always_comb begin
@@ -132,7 +134,7 @@ module can_field (
         length = 6'd3;
       end
       can_pkg::FldDlc: begin
-        // min(DLC, 8) bytes, none in a remote frame (FF-03, FF-07).
+        // min(DLC, 8) data bytes, none in a remote frame (FF-03, FF-07).
         if (rtr_i || {dlc_i, bit_i} == 4'd0) begin
           next   = can_pkg::FldCrc;
           length = 6'd14;
@@ -171,16 +173,16 @@ module can_field (
       end
     endcase
   end
-  // The last bit of a field leads to the next one. Integration and recovery count anew from a
-  // dominant bit on; the wait behind a flag ends with a recessive one.
+  // The last bit of a field leads to the next one. Integration and recovery restart their count at
+  // a dominant bit; the wait after a flag ends with a recessive bit.
   logic stops, flags, astray, integ, change, moves, go;
   assign stops  = !run_i || boff_enter_i;
   assign flags  = error_i || overload_i;
   assign astray = field_q[2] && !(&field_q[4:3]) && (field_q[1] || (field_q[0] && !field_q[3]));
   assign integ  = field_q == can_pkg::FldInteg || field_q == can_pkg::FldBusOff;
   assign moves  = field_q == can_pkg::FldWait ? bit_i : last_q || astray || (integ && !bit_i);
-  // A passive flag is complete after six equal bits: a change restarts the count (EF-03). In its
-  // first bit both ways lead to 4.
+  // A passive flag is complete after six equal bits; a level change restarts the count (EF-03). In
+  // the first bit of the flag both branches lead to 4.
   assign change = field_q == can_pkg::FldErrFlag && passive_flag_q && bit_i != prev_i;
   assign go     = stops || (sample_i && (may_begin || flags || !stuff_i));
 
@@ -189,7 +191,7 @@ module can_field (
     left_d  = {(&field_q[4:2]) ? 3'd0 : left_q[5:3] - 3'(left_q[2:0] == '0), left_q[2:0] - 3'd1};
     if (moves)  left_d = length;
     if (change) left_d = 6'd4;
-    // Without bus-off nothing would end its recovery: an upset flip-flop.
+    // Recovery without bus-off, caused by an upset, would never end.
     if (integ && !boff_i) field_d = can_pkg::FldInteg;
     if (fd_frame) begin
       field_d = can_pkg::FldInteg;
@@ -198,7 +200,7 @@ module can_field (
     if (flags) begin
       field_d = error_i ? can_pkg::FldErrFlag : can_pkg::FldOvlFlag;
       left_d  = 6'd5;
-      // Listen-only owes nobody a flag: it integrates, and the recessive bits that it has just
+      // A listen-only node sends no flag. It integrates, and the recessive bits that it has just
       // seen are the first of the eleven (MO-02).
       if (lom_i) begin
         field_d = can_pkg::FldInteg;

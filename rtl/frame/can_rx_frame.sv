@@ -1,45 +1,47 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rx_frame: the one shift register of the frame: bits of the bus go in, bits to send come out.
-// A sender reads back its own bits, so that at a lost arbitration the register already holds what
-// the winner sent so far (AR-07). Data words are loaded as the bits pass; received bytes leave so.
+// can_rx_frame: shift register of the frame. Sampled bits shift in, bits to send shift out. A
+// transmitter reads its own bits back, so that after a lost arbitration the register holds what the
+// winner has sent (AR-07). Data words to send are loaded when needed, received bytes leave one by
+// one.
 
 module can_rx_frame #(
-  /// 1: only base frames are sent, their data are loaded byte by byte, and of extended ones nothing
-  /// is kept: a register of 11 bits instead of 32, whose last eight are the received byte, too.
+  /// 1: only base frames are sent, with data loaded byte by byte, and only the first 11 bits of an
+  /// extended identifier are kept. The register has 11 bits instead of 32; its last eight are also
+  /// the received byte.
   parameter int ByteWise = 0
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            sample_i,
-  input  logic            bit_i,
-  input  logic            stuff_i,
+  input  logic            sample_i,    // pulse: sample point
+  input  logic            bit_i,       // sampled bit
+  input  logic            stuff_i,     // current bit is a stuff bit
   input  logic            transmitter_i, // this node sends the frame
-  input  can_pkg::field_t field_i,
-  input  logic            judge_i,     // first clock of a bit
+  input  can_pkg::field_t field_i,     // field of the current bit
+  input  logic            judge_i,     // pulse: first clock of a bit
   input  logic            ends_i,      // last bit of the field
-  input  logic            last_i,      // ... the same, from a bit's second clock on
-  input  logic            byte_end_i,  // last bit of a data byte, if in the data field
-  input  logic            word_end_i,  // last bit of the first data word, if in the data field
-  input  logic            free_i,      // after this bit an own frame may begin
-  input  logic            take_i,      // at this sample point an own frame starts: load its head,
-                                       // with ByteWise its word, too
-  input  logic            tx_ide_i,
-  input  logic            tx_rtr_i,
-  input  logic [3:0]      tx_dlc_i,
-  input  logic [31:0]     tx_word_i,   // ID word, then the data words; ByteWise: [25:18]
-  output logic            id_bit_o,    // next bits to send
-  output logic            ex_id_bit_o,
-  output logic            data_bit_o,
-  output logic            load_o,      // data word taken at this sample point
-  output logic [28:0]     rx_id_o,
-  output logic            ide_o,
-  output logic            srr_o,
-  output logic            rtr_o,
-  output logic [3:0]      dlc_o,
-  output logic [7:0]      byte_o,
-  output logic            byte_we_o    // one clock: byte_o is new
+  input  logic            last_i,      // last bit of the field, from a bit's second clock on
+  input  logic            byte_end_i,  // in the data field: last bit of a byte
+  input  logic            word_end_i,  // in the data field: last bit of the first word
+  input  logic            free_i,      // an own frame may begin after this bit
+  input  logic            take_i,      // at this sample point an own frame begins: load its
+                                       // header, with ByteWise its ID word as well
+  input  logic            tx_ide_i,    // frame to send is extended
+  input  logic            tx_rtr_i,    // frame to send is a remote frame
+  input  logic [3:0]      tx_dlc_i,    // DLC of the frame to send
+  input  logic [31:0]     tx_word_i,   // ID word, then data words; ByteWise: [25:18]
+  output logic            id_bit_o,    // next bit to send in FldId
+  output logic            ex_id_bit_o, // next bit to send in FldExId
+  output logic            data_bit_o,  // next bit to send in FldData
+  output logic            load_o,      // data word is taken at this sample point
+  output logic [28:0]     rx_id_o,     // identifier; base frames in [28:18]
+  output logic            ide_o,       // IDE: extended frame
+  output logic            srr_o,       // SRR bit, in base frames RTR
+  output logic            rtr_o,       // RTR: remote frame
+  output logic [3:0]      dlc_o,       // raw DLC; while sending, the next bit in [3]
+  output logic [7:0]      byte_o,      // received data byte
+  output logic            byte_we_o    // pulse: byte_o is new
 );
 
   logic in_id, in_data;
@@ -47,7 +49,7 @@ module can_rx_frame #(
   assign in_data = (field_i == can_pkg::FldData);
 
   if (ByteWise == 0) begin : gen_words
-    logic [31:0] shift_q;  // ID[28:0], or data with the next bit in 31
+    logic [31:0] shift_q;  // ID[28:0]; or data, next bit in [31]
     logic [7:0]  byte_q;
     logic        in_ex_id, unused;
 
@@ -59,8 +61,8 @@ module can_rx_frame #(
     assign data_bit_o  = shift_q[31];
     assign byte_o      = byte_q;
     assign rx_id_o     = {shift_q[28:18], shift_q[17:0] & {18{ide_o}}};
-    // What this bit will do, known from its second clock on: these enable many flip-flops.
-    // Receivers load too (their word is not used): the role stays out of this path.
+    // Enables, registered from the bit's second clock on, because they drive many flip-flops.
+    // Receivers load too, which keeps the role out of this path; they do not use the word.
     logic load, load_q, high_q, low_q;
     assign load   = field_i == can_pkg::FldDlc ? ends_i : in_data && word_end_i;
     assign load_o = load_q;
@@ -74,8 +76,8 @@ module can_rx_frame #(
       end
     end
 
-    // Where an own frame may begin the word is taken whoever begins: that is known before the bit
-    // is, and a receiver puts another in its place.
+    // Where an own frame may begin, its ID word is loaded in any case: this is known before the bit
+    // is sampled. If the node becomes receiver, the received bits replace it.
     logic take;
     assign take = free_i || load_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -97,7 +99,7 @@ module can_rx_frame #(
       end
     end
   end else begin : gen_bytes
-    logic [10:0] shift_q;  // ID[28:18]; the byte that comes in or goes out in [7:0]
+    logic [10:0] shift_q;  // ID[28:18]; byte received or to send in [7:0]
     logic        unused;
 
     assign unused      = &{1'b0, free_i, judge_i, ends_i, word_end_i, tx_word_i[31:29],
@@ -120,7 +122,7 @@ module can_rx_frame #(
     end
   end
 
-  // Head: RTR of a base frame is the bit where an extended one has SRR; known when IDE is (FF-13).
+  // Header. The RTR bit of a base frame is where an extended frame has SRR; IDE decides (FF-13).
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {ide_o, srr_o, rtr_o} <= '0;

@@ -1,26 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_stuff: counts equal bits on the bus and tells which bit is a stuff bit, for both roles.
-// Rules ST-01..ST-09. The bus is counted, not the own output: a joined SOF (ST-07) and the bits up
-// to a lost arbitration (ST-08) need no special case.
+// can_stuff: counts equal bits on the bus and marks stuff bits, for transmitter and receiver alike.
+// Rules ST-01..ST-09. Because it counts the bus and not the own output, a joined SOF (ST-07) and
+// the bits up to a lost arbitration (ST-08) need no special case.
 
 module can_stuff (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            sample_i,
-  input  logic            bit_i,
-  input  can_pkg::field_t field_i,
-  output logic            stuff_o,   // the current bit is a stuff bit
-  output logic            last_o,    // level of the bit before
-  output logic [2:0]      ones_o     // SOF to ACK delimiter: recessive bits up to the one before
+  input  logic            sample_i,  // pulse: sample point
+  input  logic            bit_i,     // sampled bit
+  input  can_pkg::field_t field_i,   // field of the current bit
+  output logic            stuff_o,   // current bit is a stuff bit
+  output logic            last_o,    // level of the previous bit
+  output logic [2:0]      ones_o     // SOF to ACK delimiter: recessive bits in a row before this
+                                     // bit
 );
 
   logic [2:0] run_q;
   logic       five_q;
 
-  // After CRC0 the stuff bit stands before the CRC delimiter (ST-03). After an error or a protocol
-  // exception in the fifth bit the mark means nothing: no frame is under way any more.
+  // The last stuff bit comes between CRC0 and the CRC delimiter (ST-03). In fields without stuffing
+  // five_q is ignored: after an error or a protocol exception in the fifth bit it is still set.
   assign stuff_o = five_q && ((field_i[4] ^ field_i[3]) || field_i == can_pkg::FldCrcDel);
   assign ones_o  = run_q & {3{last_o}};
 
@@ -32,9 +33,9 @@ module can_stuff (
     end else if (sample_i) begin : count
       logic       counts;
       logic [2:0] run;
-      // From SOF to CRC0; between frames a bit starts a run of one, and so does SOF, for the bit
-      // before it was recessive (ST-02). The run goes on to the ACK delimiter: whoever integrates
-      // after a CRC error counts from there (MO-02).
+      // Stuffing covers SOF to CRC0. Between frames each bit starts a run of one, and so does SOF,
+      // because the bit before it is recessive (ST-02). The run continues to the ACK delimiter: a
+      // node that integrates after a CRC error counts from there (MO-02).
       counts = field_i[4] ^ field_i[3];
       run    = (|field_i[4:3] && bit_i == last_o) ? run_q + 3'd1 : 3'd1;
       run_q  <= run;

@@ -1,31 +1,32 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_tx_frame: the level that this node sends, chosen anew at every bit boundary.
-// Rules FF-01..FF-04, ST-01, AK-01, EF-01, EF-02, OV-01. Everything not named here is recessive.
+// can_tx_frame: selects the level that this node sends, at every bit boundary. Rules FF-01..FF-04,
+// ST-01, AK-01, EF-01, EF-02, OV-01. In fields that are not listed the level is recessive.
 
 module can_tx_frame (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            active_i,       // 0: the engine stands; no level, whatever was upset
-  input  logic            boundary_i,     // last clock of a bit
+  input  logic            active_i,       // 0: engine stopped, always recessive, also after an
+                                          // upset
+  input  logic            boundary_i,     // pulse: last clock of a bit
   input  logic            run_i,          // 0: recessive from the next bit on (MO-13)
   input  logic            mute_i,         // listen-only or loop-back: the pin stays recessive
-  input  can_pkg::field_t field_i,
-  input  logic            transmitter_i,
-  input  logic            stuff_i,
-  input  logic            prev_i,         // level of the bit before
-  input  logic            id_bit_i,
-  input  logic            ex_id_bit_i,
-  input  logic            data_bit_i,
-  input  logic            crc_bit_i,
-  input  logic            ide_i,
-  input  logic            rtr_i,
-  input  logic            dlc_bit_i,
-  input  logic            ack_i,          // receiver: acknowledge
+  input  can_pkg::field_t field_i,        // field of the next bit
+  input  logic            transmitter_i,  // this node sends the frame
+  input  logic            stuff_i,        // next bit is a stuff bit
+  input  logic            prev_i,         // level of the bit before it
+  input  logic            id_bit_i,       // next bit of FldId
+  input  logic            ex_id_bit_i,    // next bit of FldExId
+  input  logic            data_bit_i,     // next bit of FldData
+  input  logic            crc_bit_i,      // next bit of the CRC
+  input  logic            ide_i,          // frame is extended
+  input  logic            rtr_i,          // frame is a remote frame
+  input  logic            dlc_bit_i,      // next bit of the DLC
+  input  logic            ack_i,          // as receiver: acknowledge in the ACK slot
   input  logic            passive_flag_i, // the error flag is passive
-  output logic            tx_o,           // level of the current bit as the node itself takes it
-  output logic            can_tx_o        // the pin
+  output logic            tx_o,           // level of the current bit, also with mute_i
+  output logic            can_tx_o        // transmit pin
 );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -52,7 +53,7 @@ module can_tx_frame (
                              level = can_pkg::Dominant;  // FF-04, OV-01
         default:             level = can_pkg::Recessive;
       endcase
-      // Frame bits are the transmitter's; a stuff bit is the complement of the bit before it.
+      // Only the transmitter sends frame bits. A stuff bit is the complement of the bit before it.
       if ((field_i[4] ^ field_i[3]) || field_i == can_pkg::FldCrcDel)
         level = !transmitter_i || (stuff_i ? !prev_i : level);
       tx_o     <= level || !run_i;
