@@ -14,8 +14,8 @@ module can_rn_block #(
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
-  input  can_rn_pkg::job_t job_i,
-  input  logic [1:0]       phase_i,
+  input  can_rn_pkg::job_t job_i,        // present job
+  input  logic [1:0]       phase_i,      // phase of the job
   input  logic             flush_i,      // transfers end without an answer
   input  logic             ms_i,         // pulse: millisecond
   input  logic             ten_i,        // pulse: every 10 ms

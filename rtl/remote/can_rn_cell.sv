@@ -10,8 +10,8 @@
 //           Bytes 0 to 7 are data, 8 is A, 9 length, 10 life
 
 module can_rn_cell (
-  input  can_rn_pkg::job_t job_i,
-  input  logic [1:0]       phase_i,
+  input  can_rn_pkg::job_t job_i,        // present job
+  input  logic [1:0]       phase_i,      // phase of the job
   input  logic             read_i,       // JobMove copies memory to row
   input  logic             trigger_i,    // JobMove copies the shadow to the memory (TRIGGER)
   input  logic             none_i,       // JobTrigger: frame has no count, one is added

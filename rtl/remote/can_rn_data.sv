@@ -15,7 +15,7 @@ module can_rn_data #(
 ) (
   input  logic                clk_i,
   input  logic                rst_ni,
-  input  can_rn_pkg::job_t    job_i,
+  input  can_rn_pkg::job_t    job_i,        // present job
   input  logic                none_i,       // JobTrigger: frame has no count, one is added
   input  logic [1:0]          lane_i,       // place in the word of the byte read in this clock
   input  logic [31:0]         rdata_i,      // word read, one clock after its address

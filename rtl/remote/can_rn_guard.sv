@@ -9,7 +9,7 @@
 module can_rn_guard (
   input  logic             clk_i,
   input  logic             rst_ni,
-  input  can_rn_pkg::job_t job_i,
+  input  can_rn_pkg::job_t job_i,      // present job
   input  logic             late_i,     // phase 2 or 3: byte_i belongs to mem_i
   input  logic             live_i,     // a frame for this node is under way
   input  logic             memory_i,   // request reads or writes the memory

@@ -33,8 +33,8 @@ module can_rn_head #(
   input  logic                numbered_i,     // number_i is a number (2 or above)
   input  logic [31:0]         serial_i,       // serial number
   // Sequencer
-  input  can_rn_pkg::job_t    job_i,
-  input  logic [1:0]          phase_i,
+  input  can_rn_pkg::job_t    job_i,          // present job
+  input  logic [1:0]          phase_i,        // phase of the job
   input  logic                take_i,         // pulse: waiting header is taken over
   input  logic [3:0]          row_i,          // index of the byte
   input  logic [7:0]          read_i,         // byte read from the RAM

@@ -15,8 +15,8 @@ module can_rn_map #(
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
-  input  can_rn_pkg::job_t job_i,
-  input  logic [1:0]       phase_i,
+  input  can_rn_pkg::job_t job_i,      // present job
+  input  logic [1:0]       phase_i,    // phase of the job
   input  logic             run_i,      // node is on the bus
   input  logic             visit_i,    // a frame is made that nobody has requested
   input  logic             ten_i,      // pulse: every 10 ms

@@ -14,8 +14,8 @@ module can_rn_move #(
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
-  input  can_rn_pkg::job_t job_i,
-  input  logic [1:0]       phase_i,
+  input  can_rn_pkg::job_t job_i,      // present job
+  input  logic [1:0]       phase_i,    // phase of the job
   input  logic             request_i,  // pulse: a request is valid
   input  logic             begin_i,    // pulse: work of a request or visit begins
   input  logic             take_i,     // pulse: a header is taken over

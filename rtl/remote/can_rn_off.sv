@@ -8,7 +8,7 @@
 module can_rn_off (
   input  logic             clk_i,
   input  logic             rst_ni,
-  input  can_rn_pkg::job_t job_i,
+  input  can_rn_pkg::job_t job_i,       // present job
   input  logic             last_i,      // phase 2 or 3
   input  logic             timer_i,     // timer of JobLow, JobHigh: 0 watchdog, 1 milliseconds
   input  logic [7:0]       byte_i,      // byte read

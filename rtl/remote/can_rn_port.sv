@@ -11,7 +11,7 @@ module can_rn_port #(
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
-  input  can_rn_pkg::job_t job_i,
+  input  can_rn_pkg::job_t job_i,       // present job
   input  logic             odd_i,       // phase 1 or 3
   input  logic             read_i,      // JobMove copies memory to row
   input  logic             same_i,      // JobSame reads the memory in this phase

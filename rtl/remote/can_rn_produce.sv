@@ -17,8 +17,8 @@ module can_rn_produce #(
 ) (
   input  logic               clk_i,
   input  logic               rst_ni,
-  input  can_rn_pkg::job_t   job_i,
-  input  logic [1:0]         phase_i,
+  input  can_rn_pkg::job_t   job_i,        // present job
+  input  logic [1:0]         phase_i,      // phase of the job
   input  logic [NumProd-1:0] event_i,      // user logic: entry is due now
   input  logic               ms_i,         // pulse: millisecond
   // Node

@@ -10,8 +10,8 @@ module can_rn_state #(
 ) (
   input  logic                clk_i,
   input  logic                rst_ni,
-  input  can_rn_pkg::job_t    job_i,
-  input  logic [1:0]          phase_i,
+  input  can_rn_pkg::job_t    job_i,         // present job
+  input  logic [1:0]          phase_i,       // phase of the job
   // Request that is carried out
   input  logic                accept_i,      // pulse: work of an accepted request begins
   input  logic                dup_i,         // pulse: valid statement under the own number (RN-11)

@@ -9,8 +9,8 @@
 module can_rn_tally (
   input  logic             clk_i,
   input  logic             rst_ni,
-  input  can_rn_pkg::job_t job_i,
-  input  logic [1:0]       phase_i,
+  input  can_rn_pkg::job_t job_i,        // present job
+  input  logic [1:0]       phase_i,      // phase of the job
   // Frame
   input  logic             count_i,      // JobByte: this byte is the count of a TRIGGER
   input  logic             same_i,       // frame byte is one more than the last TRIGGER count

@@ -17,8 +17,8 @@ module can_rn_tx #(
 ) (
   input  logic                clk_i,
   input  logic                rst_ni,
-  input  can_rn_pkg::job_t    job_i,
-  input  logic [1:0]          phase_i,
+  input  can_rn_pkg::job_t    job_i,         // present job
+  input  logic [1:0]          phase_i,       // phase of the job
   input  logic                flush_i,       // queue is emptied, a frame that is offered is dropped
   input  logic [NameBits-1:0] number_i,      // node number
   input  logic                owe_status_i,  // a STATUS frame is to be sent
