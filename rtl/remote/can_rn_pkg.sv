@@ -24,7 +24,7 @@ package can_rn_pkg;
   // 0_01xxx: one phase.
   localparam logic [5:0] JobHead    = 6'b0_01000;   // the access starts at A of the header
   localparam logic [5:0] JobFresh   = 6'b0_01001;   // write state, TEC, REC to the row of STATUS
-  localparam logic [5:0] JobPush    = 6'b0_01010;   // complete the answer: write its A and length
+  localparam logic [5:0] JobPush    = 6'b0_01010;   // the answer is complete: its A and length
   // Two phases per byte: compare the bytes of a producer with those last sent.
   localparam logic [5:0] JobSame    = 6'b0_01011;
   // Map entries: two phases per entry searched, two phases, four phases.
