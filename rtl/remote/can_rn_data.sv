@@ -59,7 +59,7 @@ module can_rn_data #(
       {zero_q, one_q} <= 2'b10;
     end else begin
       lane_q <= lane_i;
-      // Neither accesses of user logic nor, before the RAM is cleared, undefined contents.
+      // Only what the node reads: no access of user logic, and no contents before they are cleared.
       read_q <= (|job_i[5:3]) || (job_i[2] && !job_i[1]);
       if (read_q) byte_q <= lane_byte;
       if (read_q) {zero_q, one_q} <= {zero, few && lane_byte[0]};

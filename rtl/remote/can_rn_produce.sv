@@ -3,10 +3,10 @@
 //
 // can_rn_produce: producers, statements that the node sends without a request (RN-63, RN-64). It
 // visits the entries one after another and treats each like a remote frame that asks for its bytes:
-// the blocks that answer such a frame check the entry and make the statement. Each pass visits all
-// entries: every millisecond one that counts periods and gaps and one that looks for changes, after
-// a TRIGGER one that counts the periods in TRIGGERs, and then one that sends the first entry that
-// is due and may be sent.
+// the blocks that answer such a frame check the entry and make the statement. Every millisecond one
+// pass over all entries counts periods and gaps, and another one looks for changes. After a TRIGGER
+// a pass counts the periods in TRIGGERs. Otherwise the first entry that is due and may be sent is
+// visited and sent.
 //   0x020   4 bytes per entry: rest of the period (2 bytes), rest of the gap
 //   0x040   8 bytes per entry: the bytes last sent, from which a statement is sent
 //   0x140   the entries, 8 bytes each

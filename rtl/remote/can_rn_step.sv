@@ -213,7 +213,7 @@ module can_rn_step #(
     // Map entries
     if (mapped_i) begin
       case (job_q)
-        // The DLC comes after the header, so the length is known only with the first byte.
+        // The DLC follows the header, so the last address is known only with the first byte.
         can_rn_pkg::JobByte:    if (Protect && row_i == 4'd0) job_d = can_rn_pkg::JobGuard;
         can_rn_pkg::JobGuard:   job_d = can_rn_pkg::JobIdle;
         can_rn_pkg::JobBegin:   job_d = refused_i ? can_rn_pkg::JobIdle

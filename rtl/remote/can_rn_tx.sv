@@ -143,7 +143,7 @@ module can_rn_tx #(
       try_q  <= 1'b0;
     end else begin
       if (drop)                                   src_q <= can_rn_pkg::SrcNone;
-      // The source is chosen in phase 0, where load_o shows that there is one. It may go later.
+      // Chosen in phase 0, where load_o shows that there is a frame; it may go in a later phase.
       else if (loading && phase_i == 2'd0 && src_q == can_rn_pkg::SrcNone)
         src_q <= owe_here_i ? can_rn_pkg::SrcHere
                             : owe_status_i ? can_rn_pkg::SrcStatus : can_rn_pkg::SrcQueue;
@@ -151,6 +151,7 @@ module can_rn_tx #(
       else if (tx_next_i)                         header_q <= 1'b0;
       if (header_q)                               at_q <= '0;
       else if (tx_next_i)                         at_q <= at_q + 3'd1;
+      // JobAge withdraws the request in phase 3, in which it may drop the frame: it is not taken then.
       if (drop || tx_fail_i || tx_next_i || (job_i == can_rn_pkg::JobAge && phase_i[1]))
                                                   load_q <= 1'b1;
       // Cleared in phase 0: an event in a later phase sets it again and repeats the load.
