@@ -225,8 +225,7 @@ module can_core #(
   assign receiver_o = (|field[4:3]) && !transmitter_o;
   assign synch_o    = active_q && (field != can_pkg::FldInteg) && (field != can_pkg::FldBusOff);
   assign gap_o      = !(|field[4:3]);
-  // EF-03: leaving a passive error flag hurts no frame either, and on a busy bus the flag may not
-  // end.
+  // EF-03: leaving a passive error flag hurts no frame, and on a busy bus it may not end.
   assign stop_ok_o  = gap_o || (field == can_pkg::FldWait)
                    || (field == can_pkg::FldErrFlag && left != 6'd5 && tx_q == can_pkg::Recessive);
 

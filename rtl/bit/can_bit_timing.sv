@@ -59,8 +59,7 @@ module can_bit_timing #(
   // Position after this quantum. A late edge sets it back, which lengthens PHASE_SEG1; an early
   // edge advances it, which shortens PHASE_SEG2; both by SJW at most (SY-08).
   assign ahead      = early ? pos_q + sjw : pos_q;
-  // PHASE_SEG2 ends with this quantum: equivalent to ahead >= tseg2, without an adder after the
-  // edge.
+  // 1: PHASE_SEG2 ends with this quantum. As ahead >= tseg2, but without an adder after the edge.
   assign over       = falling ? pos_q >= PosWidth'(reach_q) : pos_q > PosWidth'(pseg2_i);
   // An edge in the last quantum of PHASE_SEG1 is before the sample point and therefore moves it.
   assign guard      = armed_q && prev_q[0] && (hard_q || tx_i);

@@ -13,8 +13,7 @@ module can_bsp #(
   input  logic            clk_i,
   input  logic            rst_ni,
   input  logic            run_i,           // engine is active
-  input  logic            stay_i,          // 0: stop request, recessive from the next bit on
-                                           // (MO-13)
+  input  logic            stay_i,          // 0: recessive from the next bit on (MO-13)
   input  logic            sample_i,        // pulse: sample point
   input  logic            bit_i,           // sampled bit
   input  logic            boundary_i,      // pulse: last clock of a bit

@@ -62,8 +62,7 @@ module can_error (
       bit1    = saw_d && !arbitration && (stuff_i || (field_i[4] && !field_i[3]));
       exempt  = saw_d && arbitration && stuff_i;                                      // AR-04
       stuff_d = foreign_stuff && !prev_i;                                             // ST-06
-      // Bit error: dominant sent, recessive sampled (frame bit, ACK, active or overload flag;
-      // ED-06).
+      // ED-06: dominant sent, recessive sampled: in a frame bit, ACK, active or overload flag.
       bit0    = !sent_i;
       ack     = (field_i == can_pkg::FldAck) && transmitter_i && !lpb_i;              // ED-16
       crc     = (field_i == can_pkg::FldAckDel) && crc_mismatch_i && !transmitter_i;  // ED-20

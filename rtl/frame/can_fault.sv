@@ -11,8 +11,7 @@ module can_fault (
   input  logic            sample_i,         // pulse: sample point
   input  logic            bit_i,            // sampled bit
   input  can_pkg::field_t field_i,          // field of the current bit
-  input  logic [3:0]      after_flag_i,     // FldWait: {first bit after the flag, bits left modulo
-                                            // 8}
+  input  logic [3:0]      after_flag_i,     // FldWait: {first bit after flag, left modulo 8}
   input  logic            ends_i,           // last bit of the field
   input  logic            last_i,           // last bit of the field, registered
   input  logic            free_i,           // a frame may begin after this bit

@@ -35,8 +35,7 @@ module can_field (
   output can_pkg::field_t field_o,         // field of the current bit
   output logic [5:0]      left_o,          // bits of the field after the current one
   output logic            ends_o,          // last bit of the field
-  output logic            last_o,          // last bit of the field, register: from its second clock
-                                           // on
+  output logic            last_o,          // last bit of the field, from its second clock on
   output logic            transmitter_o,   // transmitter of the current frame (RO-01)
   output logic            passive_flag_o,  // the error flag that is sent is passive
   output logic            overload_frame_o, // flag or delimiter belongs to an overload frame
@@ -103,8 +102,8 @@ module can_field (
   // IN-02: such a receiver also restarts its count of eleven bits at edges between sample points.
   assign restart = fd_tolerant_i && edge_i && field_q == can_pkg::FldInteg;
 
-  // Next field and its length. The table does not depend on when the field ends, because both are
-  // known before the bit is sampled.
+  // Next field and its length. The table does not depend on whether the field ends: apart from
+  // bit_i all its inputs are known before the sample point.
   can_pkg::field_t next, field_d;
   logic [5:0]      length, left_d;
   always_comb begin

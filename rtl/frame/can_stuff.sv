@@ -13,8 +13,7 @@ module can_stuff (
   input  can_pkg::field_t field_i,   // field of the current bit
   output logic            stuff_o,   // current bit is a stuff bit
   output logic            last_o,    // level of the previous bit
-  output logic [2:0]      ones_o     // SOF to ACK delimiter: recessive bits in a row before this
-                                     // bit
+  output logic [2:0]      ones_o     // SOF to ACK delimiter: recessive bits before this bit
 );
 
   logic [2:0] run_q;

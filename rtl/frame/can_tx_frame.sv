@@ -7,8 +7,7 @@
 module can_tx_frame (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            active_i,       // 0: engine stopped, always recessive, also after an
-                                          // upset
+  input  logic            active_i,       // 0: engine stopped: recessive, even after an upset
   input  logic            boundary_i,     // pulse: last clock of a bit
   input  logic            run_i,          // 0: recessive from the next bit on (MO-13)
   input  logic            mute_i,         // listen-only or loop-back: the pin stays recessive

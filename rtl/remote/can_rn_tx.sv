@@ -151,7 +151,7 @@ module can_rn_tx #(
       else if (tx_next_i)                         header_q <= 1'b0;
       if (header_q)                               at_q <= '0;
       else if (tx_next_i)                         at_q <= at_q + 3'd1;
-      // JobAge withdraws the request in phase 3, in which it may drop the frame: it is not taken then.
+      // JobAge withdraws the request in phase 3, where it may drop the frame: it is not taken then.
       if (drop || tx_fail_i || tx_next_i || (job_i == can_rn_pkg::JobAge && phase_i[1]))
                                                   load_q <= 1'b1;
       // Cleared in phase 0: an event in a later phase sets it again and repeats the load.

@@ -87,8 +87,7 @@ module can_time_pair (
   end
 
   // The word consists of four registers of a byte each, chained once they are filled. A byte is
-  // shifted in within 8 clocks that begin with count_i[0]: it has 8 bits of time until the next
-  // one.
+  // shifted in within 8 clocks that begin with count_i[0], well before the next byte comes.
   logic        due_q, fill_q, in;
   logic [31:0] word_q;
   assign in    = |(byte_q & count_i);

@@ -261,8 +261,8 @@ module can_time_sync #(
     end
   end
 
-  // Time since the last pair (TM-104). It grows by 64 increments per round, so bit n is worth 2^(n
-  // - 26) ns. It is compared only between pairs.
+  // Time since the last pair (TM-104). It grows by 64 increments per round, so that bit n of it is
+  // worth 2^(n - 26) ns. It is compared only between pairs.
   logic [63:0] timer_q;
   logic        timer, timer_carry_q;
   assign timer = !offset_round && (timer_q[0] ^ inc ^ timer_carry_q);
