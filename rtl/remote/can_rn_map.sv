@@ -92,12 +92,14 @@ module can_rn_map #(
   // have counted it. It restarts at a start, with a frame, and for an entry that is off, which is
   // looked at twice.
   assign anew    = taken_q || fresh_q || off_q;
+  // The time stops at 255. With that as the limit, a pass that does not count cannot tell the last
+  // 10 ms from a time that is over; what STALE says stays then.
   logic [7:0] limit_byte;
   logic       full;
   assign limit_byte = rdata_i[31:24];
   assign full    = &byte_i;
   assign over    = ends_late && on_q && !anew && (|limit_byte)
-                   && ({byte_i, count_q} > {limit_byte, 1'b0} || full);
+                   && ({byte_i, count_q} > {limit_byte, 1'b0} || (full && stale_q));
   assign want_o  = pass_q || taken_q;
   assign done    = ends_late && !taken_q && (on_q || anew);
   assign ends    = done && (&k_q);

@@ -182,6 +182,25 @@ TEST_F(PortMaps, ATimeOutIsNotEarlyByAnotherEntry) {
   }
 }
 
+// RN-66: nor that of the longest time-out, which is as long as the time that is counted; STALE stays
+// while frames of the other entry are taken.
+TEST_F(PortMaps, TheLongestTimeOutIsNotEarlyByAnotherEntry) {
+  map(0, 0x6A0, 0x7FF, 0x300, 2, 255);
+  map(1, 0x6B0, 0x7FF, 0x310, 2);
+  hear("6A0#0102");
+  for (unsigned ms = 2529; ms < 2549; ++ms) {
+    (void)wait(ms == 2529 ? 2529 : 1);
+    hear("6B0#0304");
+    port->clocks(300);
+    ASSERT_FALSE(stale()) << ms;
+  }
+  (void)wait(12);
+  EXPECT_TRUE(stale());
+  hear("6B0#0304");
+  port->clocks(300);
+  EXPECT_TRUE(stale());
+}
+
 // RN-66: the longest time-out; bit 6 leads to SAFE, and STATE 01 does not help for long.
 TEST_F(PortMaps, StaleLeadsToSafe) {
   map(1, 0x6B0, 0x7FF, 0x310, 0x42, 255);

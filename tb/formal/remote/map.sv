@@ -24,7 +24,7 @@
   assign f_none = rdata_i[31:24] == 8'd0;
   assign f_late = job_i == can_rn_pkg::JobLate && (&phase_i) && on_q && !f_none
                   && !taken_q && !fresh_q && !off_q
-                  && (byte_i > rdata_i[31:24] || byte_i == 8'hFF
+                  && (byte_i > rdata_i[31:24] || (byte_i == 8'hFF && stale_o)
                       || (count_q && byte_i == rdata_i[31:24]));
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {f_late_q, f_flag_q, f_unsafe} <= '0;
