@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_guard: what MCR.AEN forbids the CPU, and its abort requests (flexcan.md 3.3, 3.4).
+// can_mb_guard: the write protection and the abort requests of MCR.AEN (flexcan.md 3.3, 3.4).
 //
-// Not written: the C/S word of a buffer that has moved out; any word of a buffer whose transmission
-// has ended and whose IFLAG is still set. Code 1001 in a blocked C/S word is a request to
-// can_mb_load; in one that is written it is done at once, and IFLAG tells.
+// Discarded are writes to the C/S word of a buffer that has moved out, and to any word of a buffer
+// whose transmission has ended while its IFLAG is still set. Code 1001 in a discarded C/S word is
+// an abort request to can_mb_load; in one that is written the abort is done at once and sets IFLAG.
 //
-// In the first clock of a write the C/S word of its buffer is read: bit 30 says that a transmission
-// has ended since the CPU wrote it. Everything else is evaluated meanwhile, because that bit is
-// late in the second clock. A frame that has moved out by the first clock is kept from the CPU; one
-// that moves out later cannot reach the bus before the write is noticed.
+// In the first clock of a write the C/S word of its buffer is read: CsEnded (bit 30) tells whether
+// a transmission has ended since the CPU wrote it. That bit is late in the second clock, so
+// everything else is evaluated in the first. A frame that has moved out by then is protected; one
+// that moves out later cannot reach the bus before can_mb_load notices the write.
 
 module can_mb_guard #(
   parameter int NumMb = 64,
@@ -20,35 +20,36 @@ module can_mb_guard #(
   input  logic             clk_i,
   input  logic             rst_ni,
   input  logic             clear_i,      // soft reset
-  input  logic             aen_i,
-  // CPU, data phase.
-  input  logic             first_i,      // the first clock of a write
-  input  logic             wr_done_i,    // ... its second, in which it ends
-  input  logic [1:0]       mem_sel_i,    // as of can_mb_port; others than 0 and 1 pass
-  input  logic [IdxW-1:0]  idx_i,
-  input  logic             be3_i,        // it has bits 31:24
-  input  logic [3:0]       code_i,       // bits 27:24 of the word written
-  input  logic             area_i,       // it belongs to the Rx FIFO
-  input  logic             ended_i,      // bit 30 of the C/S word
-  // The word is being marked as serviced while it is read: bit 30 is 0.
-  input  logic             mark_i,
+  input  logic             aen_i,        // MCR.AEN
+  // CPU access, see can_mb_port.
+  input  logic             first_i,      // 1 in the first clock of a write
+  input  logic             wr_done_i,    // 1 in the second clock of a write, in which it ends
+  input  logic [1:0]       mem_sel_i,    // can_mb_pkg::Mem*; MemCs and MemMsg are guarded
+  input  logic [IdxW-1:0]  idx_i,        // buffer that is written
+  input  logic             be3_i,        // 1: bits 31:24 are written
+  input  logic [3:0]       code_i,       // code (bits 27:24) of the word that is written
+  input  logic             area_i,       // 1: the word belongs to the Rx FIFO
+  input  logic             ended_i,      // CsEnded of the buffer's C/S word, in the second clock
+  // A mark that is written while the C/S word is read makes ended_i undefined, but a word that is
+  // marked has CsEnded = 0.
+  input  logic             mark_i,       // 1: buffer mark_idx_i is being marked as serviced
   input  logic [IdxW-1:0]  mark_idx_i,
-  // It is not written, whatever that bit says, or if it is set: which is known late.
-  output logic             block_o,
-  output logic             if_ended_o,
-  output logic             abort_o,      // request for the frame that has moved out
-  // Frame that is sent, see can_mb_load.
-  input  logic             out_i,
-  input  logic             kept_i,
-  input  logic             done_i,
+  // Verdict, valid in the second clock; ended_i is late, so can_mb_port and can_mb_cpu combine it.
+  output logic             block_o,      // 1: the write is discarded
+  output logic             if_ended_o,   // 1: the write is discarded if ended_i = 1
+  output logic             abort_o,      // pulse: abort the frame that has moved out
+  // Frame that is presented or sent, see can_mb_load.
+  input  logic             out_i,        // 1: buffer cur_idx_i has moved out
+  input  logic             kept_i,       // 1: its frame is not taken back for an active code
+  input  logic             done_i,       // 1: its end is being written back
   input  logic [IdxW-1:0]  cur_idx_i,
-  input  logic             take_i,       // cur_idx_i will be another one in the next clock
-  // IFLAG of this module's own aborts; gnt_i: it is being set.
-  output logic             flag_o,
+  input  logic             take_i,       // 1: cur_idx_i changes in the next clock
+  // IFLAG of an abort that was done at once.
+  output logic             flag_o,       // 1: set IFLAG of buffer flag_idx_o
   output logic [IdxW-1:0]  flag_idx_o,
-  input  logic             gnt_i,
-  // IFLAG, and transmissions that end: it is set in the next clock.
-  input  logic             end_i,
+  input  logic             gnt_i,        // 1: that IFLAG is being set
+  // IFLAG as it is, and as it will be in the next clock.
+  input  logic             end_i,        // 1: IFLAG of buffer end_idx_i is set in the next clock
   input  logic [IdxW-1:0]  end_idx_i,
   input  logic [NumMb-1:0] iflag_i
 );
@@ -80,7 +81,7 @@ module can_mb_guard #(
     end
   end
 
-  // An abort done at once.
+  // An abort that was done at once sets IFLAG.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       flag_o     <= 1'b0;

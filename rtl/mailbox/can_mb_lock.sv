@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_lock: the one buffer that the CPU is reading, and the serviced mark it gets afterwards
-// (flexcan.md 3.6).
+// can_mb_lock: the lock and the serviced mark of flexcan.md 3.6. A read of a C/S word with code
+// FULL or OVERRUN (with BCC = 0 also EMPTY) locks that buffer against moves (can_mb_move). It is
+// unlocked by a read of TIMER, a read of another C/S word, or a write of its own. An unlock by a
+// read marks a frame in the buffer as serviced, so that it is free to receive again (flexcan.md
+// 3.5).
 
 module can_mb_lock #(
   parameter int NumMb = 64,
@@ -12,21 +15,21 @@ module can_mb_lock #(
   input  logic            clk_i,
   input  logic            rst_ni,
   input  logic            clear_i,      // soft reset
-  input  logic            bcc_i,
-  input  logic            cs_rd_i,      // the CPU gets the C/S word of buffer idx_i in this clock
-  input  logic            timer_rd_i,   // ... or TIMER
-  input  logic [IdxW-1:0] idx_i,
-  input  logic [3:0]      code_i,       // its code
-  input  logic            serviced_i,   // ... has its serviced mark
-  input  logic            busy_i,       // it is being moved into: reads BUSY, is not locked
-  input  logic            cs_written_i,        // a C/S word was written in the clock before
+  input  logic            bcc_i,        // MCR.BCC
+  input  logic            cs_rd_i,      // pulse: the CPU reads the C/S word of buffer idx_i
+  input  logic            timer_rd_i,   // pulse: the CPU reads TIMER
+  input  logic [IdxW-1:0] idx_i,        // buffer of the CPU access
+  input  logic [3:0]      code_i,       // code of the C/S word that is read
+  input  logic            serviced_i,   // 1: that word has the serviced mark
+  input  logic            busy_i,       // 1: buffer idx_i shows BUSY: this read does not lock it
+  input  logic            cs_written_i,      // pulse: a C/S word was written in the clock before
   input  logic [IdxW-1:0] cs_written_idx_i,
-  output logic            lock_o,
+  output logic            lock_o,       // 1: buffer lock_idx_o is locked
   output logic [IdxW-1:0] lock_idx_o,
-  output logic            serviced_req_o,    // mark serviced_idx_o as serviced
+  output logic            serviced_req_o,    // 1: buffer serviced_idx_o is to be marked as serviced
   output logic [IdxW-1:0] serviced_idx_o,
-  output logic            serviced_ovr_o,    // its code is OVERRUN, not FULL
-  input  logic            serviced_gnt_i
+  output logic            serviced_ovr_o,    // 1: code of that buffer is OVERRUN; 0: FULL
+  input  logic            serviced_gnt_i     // 1: the mark is written in this clock
 );
   logic       stored, same, lock_now, cs_written_hit, leave, ovr_q, mark_q, req_q, overwritten,
     at_serviced_q;
@@ -37,7 +40,7 @@ module can_mb_lock #(
       || (code_i == can_regs_pkg::MbCsCodeRxEmpty && !bcc_i));
   assign same       = lock_idx_o == idx_i;
   assign leave      = timer_rd_i || (cs_rd_i && !same);
-  // A C/S write has the last word about the code: no mark after it.
+  // A C/S write replaces the code, so it cancels a mark that has not been written yet.
   assign overwritten    = cs_written_i && at_serviced_q;
   assign serviced_req_o = req_q && !overwritten;
   assign cs_written_hit    = cs_written_i && cs_written_idx_i == lock_idx_o;
@@ -51,7 +54,8 @@ module can_mb_lock #(
       serviced_idx_o <= '0;
       serviced_ovr_o <= 1'b0;
     end else begin
-      // In the last clock of a write the index stays: another one comes with a read.
+      // Compared a clock before cs_written_i: in the last clock of a write serviced_idx_o does not
+      // change, because only a read changes it.
       at_serviced_q <= idx_i == serviced_idx_o;
       if (serviced_gnt_i || overwritten) req_q <= 1'b0;
       if (lock_o && (leave || cs_written_hit)) begin

@@ -1,20 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_port: who reads and who writes the buffer RAMs in each clock; CPU and engine share one
-// read and one write port.
+// can_mb_port: arbiter of the buffer RAMs (C/S words; identifiers and data, MSG; masks). They share
+// one read and one write port; in each clock either port serves the CPU or the engine.
 //
-// An access of the CPU takes two clocks. In the first the CPU has the read port, in the second the
-// write port. So it always waits one clock, its address comes from registers, and of two clocks one
-// at least is free for others at either port: insertions (can_mb_tx) and the engine; copies, of
-// which only the second half writes (its data is on the RAM outputs only then), serviced marks and
-// the frame being received. Because nobody else reads in the first clock nobody copies in the
-// second.
+// A CPU access takes two clocks: it owns the read port in the first and the write port in the
+// second. So it always has one wait state, its address comes from registers, and at least every
+// second clock of either port is free: for reads of insertions (can_mb_tx) and of the engine
+// (can_mb_step); for writes of copies (can_mb_step), serviced marks (can_mb_lock) and the frame
+// being received (can_mb_smb). A copy reads in one clock and writes in the next. As nobody else
+// reads in the CPU's first clock, no copy writes in its second.
 //
-// A block RAM returns nothing certain for a word that is being written. The engine is told (stale).
-// Of what is written while the CPU reads, only a copy can be the word that it reads: then the RAM
-// is not read at all, because its outputs show what is being copied (can_mb_step). A serviced
-// mark may be written to the word that a write looks at: can_mb_guard is told.
+// A block RAM returns undefined data for a word that is being written. An engine read that collides
+// is flagged (stale_o, id_stale_o). While the CPU reads, only a copy can write the same word; the
+// RAM is then not read, because its outputs already hold the word that is copied. A serviced mark
+// may hit the C/S word that a CPU write looks up; can_mb_guard allows for that.
 
 module can_mb_port #(
   parameter int NumMb = 64,
@@ -27,78 +27,76 @@ module can_mb_port #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  // CPU, command: only while ready_o. mem_sel: 0 C/S (word 3; 1: RXFIR, the same row), 1 ID or data
-  // (word 0..2), 2 mask (word[0]: hidden row; without OwnMasks word 3 of the MSG memory), 3 no RAM,
-  // but ordered like one (TIMER); with word[1] a stamp (word[0]: upper half).
+  // CPU command, taken in a clock with ready_o = 1. Memories and their words: can_mb_pkg::Mem*.
   input  logic            cmd_rd_i,
   input  logic            cmd_wr_i,
   input  logic [1:0]      cmd_mem_sel_i,
   input  logic [1:0]      cmd_word_i,
   input  logic [IdxW-1:0] cmd_idx_i,
   input  logic [3:0]      cmd_be_i,
-  // CPU, data: two clocks.
-  input  logic [IdxW-1:0] row_idx_i,    // row of idx_o: not the same at the output of the Rx FIFO
-  input  logic [31:0]     wdata_i,
-  input  logic            ring_i,       // not to be written: memory of the Rx FIFO;
-  input  logic            block_i,      // ... in the second clock: MCR.AEN,
-  input  logic            if_ended_i,   // ... if its buffer's transmission has ended
-  output logic            ready_o,      // the second one, or none
-  output logic            rd_word_o,    // it reads word_o
-  output logic [31:0]     rdata_o,      // ... something else: a mask, a stamp
-  output logic            rd_end_o,     // ... but for the code: that of a frame that has been sent
-  output logic            rd_done_o,    // a read ends in this clock
-  output logic            wr_o,         // a write ends in this clock, or the next one
-  output logic            wr_done_o,    // ... in this clock; cs_o is what it has read
-  output logic [1:0]      mem_sel_o,
-  output logic            rxfir_o,      // mem_sel 0: RXFIR, not C/S; 3: TIMER, not a stamp
-  output logic [IdxW-1:0] idx_o,
-  output logic [3:0]      be_o,
-  // Engine reads; data in the clock after the grant.
+  // CPU access: the two clocks after the command.
+  input  logic [IdxW-1:0] row_idx_i,    // row of buffer idx_o; differs at the output of the Rx FIFO
+  input  logic [31:0]     wdata_i,      // data as it is to be stored (can_mb_cpu)
+  input  logic            ring_i,       // 1, first clock: a write is discarded (Rx FIFO memory)
+  input  logic            block_i,      // 1, second clock: a write is discarded (MCR.AEN)
+  input  logic            if_ended_i,   // 1, second clock: a write is discarded if cs_o has CsEnded
+  output logic            ready_o,      // 1: last clock of an access, or none; takes a command
+  output logic            rd_word_o,    // 1: the read that ends in this clock returns word_o
+  output logic [31:0]     rdata_o,      // mask or stamp, if the read that ends returns one; else 0
+  output logic            rd_end_o,     // 1: word_o, C/S of a sent frame, still has its old code
+  output logic            rd_done_o,    // 1 in the second clock of a read
+  output logic            wr_o,         // 1 in both clocks of a write
+  output logic            wr_done_o,    // 1 in the second clock of a write; cs_o is valid then
+  output logic [1:0]      mem_sel_o,    // memory that is accessed, can_mb_pkg::Mem*
+  output logic            rxfir_o,      // MemCs: 1 RXFIR, 0 C/S word; MemTimer: 1 TIMER, 0 stamp
+  output logic [IdxW-1:0] idx_o,        // buffer that is accessed
+  output logic [3:0]      be_o,         // byte lanes of the access
+  // Reads of insertions (ins_*, can_mb_tx) and of the engine; data in the clock after the grant.
   input  logic            ins_req_i,
   input  logic [IdxW-1:0] ins_idx_i,
   output logic            ins_gnt_o,
   input  logic            eng_req_i,
-  input  logic            eng_lazy_i,   // for ESR2 alone
-  input  logic            eng_pass_i,   // a pass for the winner is under way: it asks again soon
-  input  logic            eng_cs_i,     // what it wants is in the C/S memory, not in MSG
+  input  logic            eng_lazy_i,   // 1: low-priority pass (ESR2), the request may wait
+  input  logic            eng_pass_i,   // 1: a pass for the winner is under way and will ask again
+  input  logic            eng_cs_i,     // 1: the wanted word is in the C/S memory; 0: in MSG
   input  logic [IdxW:0]   eng_cs_row_i,
   input  logic [IdxW+1:0] eng_msg_row_i,
   input  logic [IdxW:0]   eng_mask_row_i,
-  output logic            eng_slot_o,   // the slot is the engine's, whether it asks or not
-  output logic            stale_o,      // with the data: this C/S row was being written when read
-  output logic            id_stale_o,   // the same of the MSG row
+  output logic            eng_slot_o,   // 1: the read slot is the engine's, whether it asks or not
+  output logic            stale_o,      // 1, with the data: the C/S row was written while read
+  output logic            id_stale_o,   // 1, with the data: the MSG row was written while read
   output logic [31:0]     cs_o,
   output logic [31:0]     msg_o,
   output logic [31:0]     mask_o,
-  output logic [31:0]     word_o,       // cs_o or msg_o, as was asked for
-  // Second half of a copy.
-  input  logic            copy_i,
-  input  logic            copy_cs_i,    // C/S memory, not MSG
+  output logic [31:0]     word_o,       // cs_o or msg_o, whichever the reader asked for
+  // Second half of a copy (can_mb_step): its write.
+  input  logic            copy_i,       // 1: a copy writes in this clock
+  input  logic            copy_cs_i,    // 1: to the C/S memory; 0: to MSG
   input  logic [3:0]      copy_be_i,
-  input  logic            copy_off_i,   // nothing is written, to a row that the CPU can read
-  input  logic            copy_end_i,   // the end of a frame sent
+  input  logic            copy_off_i,   // 1: cancelled; only of copies that go to a buffer
+  input  logic            copy_end_i,   // 1: the copy is the end of a sent frame (StepEnd)
   input  logic [IdxW+1:0] copy_row_i,
   input  logic [31:0]     copy_data_i,
-  // Serviced mark: top byte of a C/S word.
+  // Serviced mark (can_mb_lock): writes the top byte of the C/S word of buffer serviced_idx_i.
   input  logic            serviced_req_i,
   input  logic [IdxW-1:0] serviced_idx_i,
-  input  logic            serviced_ovr_i,
+  input  logic            serviced_ovr_i,  // 1: code of that buffer is OVERRUN; 0: FULL
   output logic            serviced_gnt_o,
-  // Engine writes, to hidden rows.
+  // Writes of the frame being received to its hidden rows (can_mb_smb).
   input  logic            rx_wr_req_i,
-  input  logic            rx_wr_cs_i,
+  input  logic            rx_wr_cs_i,   // 1: to the C/S memory; 0: to MSG
   input  logic [3:0]      rx_wr_be_i,
   input  logic [IdxW+1:0] rx_wr_row_i,
   input  logic [31:0]     rx_wr_data_i,
   output logic            rx_wr_gnt_o,
   // Memory of the stamps, see can_mb_stamp.
-  output logic            stamp_re_o,
-  output logic            stamp_cpu_o,
-  output logic [IdxW:0]   stamp_row_o,
-  input  logic            stamp_shown_i,
+  output logic            stamp_re_o,   // 1: the memory reads a row
+  output logic            stamp_cpu_o,  // 1: the read slot is the CPU's
+  output logic [IdxW:0]   stamp_row_o,  // {upper half, buffer}
+  input  logic            stamp_shown_i,  // 1: its output already holds the word of stamp_row_o
   input  logic [31:0]     stamp_rdata_i,
-  // After a hard reset: every row is written once, whatever else goes on.
-  output logic            scrub_o,
+  // After a hard reset all rows are cleared, one a clock; other writes to the RAMs are lost.
+  output logic            scrub_o,      // 1: row scrub_row_o of the RAMs is being cleared
   output logic [IdxW+1:0] scrub_row_o
 );
   logic [IdxW+1:0] scrub_row_q;
@@ -117,8 +115,8 @@ module can_mb_port #(
     assign scrub_row_q = '0;
   end
 
-  // CPU transfer in its data phase.
-  // The same twice, for both have many loads: first_q for addresses, ready_q for the rest.
+  // CPU access. first_q and ready_q are complements, each in its own flip-flop because of the large
+  // fan-out: first_q drives the addresses, ready_q everything else.
   logic            rd_q, wr_q, first_q, ready_q, begins;
   logic [1:0]      mem_sel_q, word_q;
   logic [IdxW-1:0] idx_q;
@@ -154,9 +152,9 @@ module can_mb_port #(
   assign idx_o     = idx_q;
   assign be_o      = be_q;
 
-  // Read port. Behind an insertion the engine has its turn, as long as it wants slots: a CPU that
-  // writes C/S words for ever asks for an insertion in every second clock, and the other clocks are
-  // its own.
+  // Read port. After an insertion the next Turns slots are the engine's while it wants slots: a CPU
+  // that keeps writing C/S words causes an insertion in every second clock and reads in the others,
+  // which would leave the engine none.
   localparam logic [2:0] Turns = 3'd5;
   logic       cpu_rd, wish, engine_first_q;
   logic [2:0] turns_q;
@@ -182,7 +180,7 @@ module can_mb_port #(
     if (!rst_ni) cpu_wr_q <= 1'b0;
     else         cpu_wr_q <= first_q && wr_q && mem_sel_q != can_mb_pkg::MemTimer && !ring_i;
   end
-  // None while the CPU reads, but for the look of a write.
+  // No mark while the CPU reads; the C/S look-up of a write may collide (can_mb_guard, mark_i).
   assign serviced_gnt_o = serviced_req_i && !copy_i && !cpu_wr_q && !(first_q && rd_q);
   assign rx_wr_gnt_o    = rx_wr_req_i && !copy_i && !cpu_wr_q && !serviced_gnt_o;
 
@@ -194,7 +192,7 @@ module can_mb_port #(
   assign msg_raddr  = cpu_rd ? {word_q, row_idx_i} : msg_row;
   assign mask_raddr = cpu_rd ? {word_q[0], row_idx_i} : eng_mask_row_i;
 
-  // Masks without a memory of their own.
+  // Without OwnMasks the global masks are in the MSG memory.
   function automatic logic in_msg(input logic [1:0] mem_sel);
     in_msg = OwnMasks == 0 && mem_sel == can_mb_pkg::MemMask;
   endfunction
@@ -203,20 +201,21 @@ module can_mb_port #(
     of_stamp = TimeUnit != 0 && mem_sel == can_mb_pkg::MemTimer && high_word;
   endfunction
 
-  // The word that is written: memory, row, byte lanes, data. Who would write is known early; that
-  // it may not (off), late: so this comes last.
+  // Write: memory, row, byte lanes, data. Who writes is known early; whether the write is
+  // suppressed (off) depends on the RAM outputs and is late, so it gates the write enables last.
   logic            w_cs, w_msg, w_mask, off;
   logic [IdxW+1:0] w_row;
   logic [3:0]      w_be, we_cs, we_msg, we_mask;
   logic [31:0]     w_data;
   always_comb begin
-    // The engine, unless it is somebody else.
+    // Default: the frame being received.
     {w_cs, w_msg, w_mask} = {rx_wr_cs_i, !rx_wr_cs_i, 1'b0};
     w_row  = rx_wr_row_i;
     w_data = rx_wr_data_i;
     w_be   = rx_wr_be_i & {4{rx_wr_req_i}};
     if (scrub_o) begin
-      // The rows of masks that no buffer has are ones; the C/S rows were zeroed in the first half.
+      // The last quarter writes ones: the reset value of the global masks, in either memory. The
+      // C/S memory has half as many rows as MSG and is cleared in the first half only.
       {w_cs, w_msg, w_mask} = {!scrub_row_q[IdxW+1], 2'b11};
       w_row  = scrub_row_q;
       w_data = {32{&scrub_row_q[IdxW+1:IdxW]}};
@@ -245,7 +244,7 @@ module can_mb_port #(
   assign we_msg  = w_be & {4{w_msg}} & {4{!off}};
   assign we_mask = w_be & {4{w_mask}} & {4{!off}};
 
-  // The CPU reads the word that a copy writes.
+  // shown: a copy writes the word that the CPU reads; the RAM outputs already hold it.
   logic shown;
   assign shown = cpu_rd && ((copy_i && !copy_off_i && copy_row_i[IdxW-1:0] == row_idx_i
               && (copy_cs_i ? (wr_q || of_cs) && !copy_row_i[IdxW]
@@ -262,7 +261,7 @@ module can_mb_port #(
     end
   end
 
-  // To read where nothing was asked for is harmless.
+  // Reads that nobody asked for are harmless: the RAMs are read in all other clocks.
   logic re;
   assign re = !shown;
   assign stamp_re_o  = re;
@@ -285,7 +284,7 @@ module can_mb_port #(
     assign mask_o = msg_o;
   end
 
-  // The word that the reader has asked for.
+  // Selects the word for the reader of the clock before.
   logic word_cs_q;
   assign word_o = word_cs_q ? cs_o : msg_o;
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -1,28 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_ram: one read and one write port, byte enables, registered read data: a block RAM
-// anywhere.
+// can_mb_ram: simple dual-port RAM with byte enables and registered read data, written so that
+// every synthesis tool maps it to block RAM. An ASIC flow puts its macro here
+// (docs/integration.md).
 
 module can_mb_ram #(
   /// Words of 32 bits; a power of two.
   parameter int Depth = 128,
-  /// First contents, as $readmemh takes them; "": any.
+  /// File with the initial contents, as $readmemh takes it; "": contents undefined.
   parameter InitFile = "",
   /// Derived, do not override.
   localparam int AddrWidth = $clog2(Depth)
 ) (
   input  logic                 clk_i,
-  input  logic                 re_i,
+  input  logic                 re_i,      // 1: read row raddr_i
   input  logic [AddrWidth-1:0] raddr_i,
-  output logic [31:0]          rdata_o,   // in the clock after re_i; kept until the next read
-  input  logic [3:0]           we_i,      // one bit per byte
+  output logic [31:0]          rdata_o,   // valid one clock after re_i; kept until the next read
+  input  logic [3:0]           we_i,      // byte enables of the write, one bit per byte
   input  logic [AddrWidth-1:0] waddr_i,
   input  logic [31:0]          wdata_i
 );
-  // What a read of a byte being written returns is different in every block RAM; nobody above
-  // relies on it, and the attribute saves the logic that would pretend otherwise. Simulation
-  // returns a byte made of the old one and the last one read, so that every test would see it.
+  // A read of a byte that is being written returns something else in every block RAM. No block
+  // relies on it, and the attribute saves the bypass logic that synthesis would add. In simulation
+  // such a byte is garbage, so that a test would notice a block that does rely on it.
   (* no_rw_check *) logic [31:0] mem [Depth];
 
   if (|InitFile) begin : gen_init

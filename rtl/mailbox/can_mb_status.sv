@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_status: ESR2, what a pass of the transmit arbitration has seen, and CRCR, the CRC of the
-// last frame sent (flexcan.md 1.7, 1.8).
+// can_mb_status: the status registers ESR2 and CRCR (flexcan.md 1.7, 1.8). A pass of can_mb_tx over
+// all buffers finds ESR2: the lowest inactive buffer, or the one that would be sent last. CRCR has
+// the CRC and the buffer of the last frame sent.
 
 module can_mb_status #(
   parameter int NumMb = 64,
@@ -12,21 +13,21 @@ module can_mb_status #(
   input  logic            clk_i,
   input  logic            rst_ni,
   input  logic            clear_i,      // soft reset
-  input  logic            cs_written_i,        // a C/S word was written in the clock before
-  // Pass, see can_mb_tx.
-  input  logic            pass_i,
-  input  logic            pass_end_i,
-  input  logic            seen_i,
+  input  logic            cs_written_i, // pulse: the CPU wrote a C/S word in the clock before
+  // Pass for ESR2, see can_mb_tx.
+  input  logic            pass_i,       // 1: a pass is wanted or under way, VPS = 0
+  input  logic            pass_end_i,   // pulse: the pass is over, nothing has changed meanwhile
+  input  logic            seen_i,       // pulse: the pass has looked at buffer seen_idx_i
   input  logic [IdxW-1:0] seen_idx_i,
-  input  logic            seen_worst_i,
-  input  logic            seen_free_i,
-  // Frame that is sent.
-  input  logic            sent_i,       // its buffer has its new code
-  input  logic            tx_ok_i,      // it is over
+  input  logic            seen_worst_i, // 1: of those seen so far it would be sent last
+  input  logic            seen_free_i,  // 1: its code is INACTIVE
+  // Frame on the bus.
+  input  logic            sent_i,       // pulse: buffer cur_idx_i was sent and has its new code
+  input  logic            tx_ok_i,      // pulse: the frame of buffer cur_idx_i has been sent
   input  logic [IdxW-1:0] cur_idx_i,
-  input  logic [14:0]     crc_i,
-  output logic [8:0]      esr2_o,       // LPTM, VPS, IMB
-  output logic [21:0]     crcr_o        // MBCRC, TXCRC
+  input  logic [14:0]     crc_i,        // CRC of that frame, valid with tx_ok_i
+  output logic [8:0]      esr2_o,       // {LPTM, VPS, IMB}
+  output logic [21:0]     crcr_o        // {MBCRC, TXCRC}
 );
   logic [IdxW-1:0] lptm_q, mbcrc_q;
   logic            vps_q, imb_q, crc_q, first;
@@ -35,8 +36,8 @@ module can_mb_status #(
   assign esr2_o = {7'(lptm_q), vps_q, imb_q};
   assign crcr_o = {7'(mbcrc_q), txcrc_q} & {22{crc_q}};   // 0 until a frame has been sent
 
-  // LPTM and IMB are those of the buffers seen so far: the lowest inactive one, or else the one
-  // that would be sent last.
+  // During a pass LPTM and IMB are those of the buffers seen so far; VPS = 0 tells that they are
+  // not final.
   assign first = seen_idx_i == '0;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
