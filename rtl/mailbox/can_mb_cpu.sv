@@ -49,21 +49,21 @@ module can_mb_cpu #(
   output logic [IdxW-1:0] row_idx_o,     // row of buffer idx_i
   // Valid from the first clock of an access on.
   output logic            area_o,        // 1: the word belongs to the Rx FIFO
-  output logic            ring_o,        // 1: the word belongs to its memory of six rows
+  output logic            ring_o,        // 1: the word belongs to the six rows of its memory
   output logic [31:0]     wdata_o,       // data as it is to be stored
   output logic [31:0]     rdata_o,       // read data; 0 if no read ends in this clock
   output logic            timer_rd_o,    // pulse: TIMER is read
   output logic            timer_wr_o,    // pulse: TIMER is written
   output logic            cs_rd_o,       // pulse: the C/S word of mailbox idx_i is read
-  output logic [3:0]      cs_rd_code_o,  // code of that word, without BUSY
+  output logic [3:0]      cs_rd_code_o,  // code of the C/S word that is read, without BUSY
   output logic            busy_o,        // 1: mailbox idx_i shows BUSY
   // cs_written_o: pulse in the clock after the CPU has written the C/S word of mailbox
   // cs_written_idx_o; the RAM holds the new word.
   output logic            cs_written_o,
   output logic [IdxW-1:0] cs_written_idx_o,
-  output logic            cs_written_act_o,   // 1: its code may be active
-  output logic            cs_written_empty_o, // 1: whole word written, its code is EMPTY
-  output logic            cs_written_ide_o    // IDE of that word
+  output logic            cs_written_act_o,   // 1: the code written may be active
+  output logic            cs_written_empty_o, // 1: whole word written, with code EMPTY
+  output logic            cs_written_ide_o    // IDE that was written
 );
   // Does the word belong to the Rx FIFO (area), or to its memory (ring)? The six rows of the memory
   // are part of the area for every RFFN. Decoded in the first clock of an access, used in the

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_filter: compares the frame being received with the filter table of the Rx FIFO, one word
-// of it a clock (flexcan.md section 4): one identifier (format A), two halves (B), four bytes (C).
+// can_mb_filter: compares the frame being received with the filter table of the Rx FIFO (flexcan.md
+// section 4), one word a clock: one element (format A), two halves (B) or four bytes (C). The
+// lowest element that fits is the result.
 //
-// The table begins at buffer 6; word 0 of a buffer lies in the C/S memory, words 1 to 3 in the MSG
-// memory. It ends at the last buffer if RFFN asks for more.
+// The table begins at buffer 6; word 0 of a buffer is in the C/S memory, words 1 to 3 are in the
+// MSG memory. It ends at the last buffer if RFFN asks for more than there is.
 
 module can_mb_filter #(
   parameter int NumMb = 64,
@@ -14,31 +15,31 @@ module can_mb_filter #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            clear_i,
+  input  logic            clear_i,      // soft reset, or FEN changes: ends the pass, no hit
   // Configuration, constant while the engine runs.
-  input  logic            bcc_i,        // the first words have masks of their own
-  input  logic [1:0]      idam_i,       // format
-  input  logic [3:0]      rffn_i,       // 8 * (rffn_i + 1) words
-  input  logic [6:0]      first_i,      // first buffer behind the table; as many words have a mask
-  // Frame; the identifier from the clock after start_i on. A base identifier is in 28:18.
-  input  logic            start_i,
+  input  logic            bcc_i,        // MCR.BCC: the first words have masks of their own
+  input  logic [1:0]      idam_i,       // MCR.IDAM: format of the words
+  input  logic [3:0]      rffn_i,       // CTRL2.RFFN: the table has 8 * (rffn_i + 1) words
+  input  logic [6:0]      first_i,      // first buffer behind the table; number of words with RXIMR
+  // Frame; its header is valid from the clock after start_i on. A base identifier is in 28:18.
+  input  logic            start_i,      // pulse: the header is complete, a pass begins
   input  logic [28:0]     id_i,
   input  logic            ide_i,
   input  logic            rtr_i,
-  // Read slots.
-  output logic            req_o,
-  output logic [IdxW-1:0] idx_o,        // buffer
-  output logic [1:0]      word_o,       // word in it
-  output logic [IdxW:0]   mask_row_o,
-  input  logic            gnt_i,
+  // Read slots (can_mb_step).
+  output logic            req_o,        // 1: a read slot is wanted
+  output logic [IdxW-1:0] idx_o,        // buffer in whose row the word lies
+  output logic [1:0]      word_o,       // word in that buffer: 0 C/S memory, 1 to 3 MSG
+  output logic [IdxW:0]   mask_row_o,   // row of the mask memory
+  input  logic            gnt_i,        // 1: slot granted; data in the next clock
   input  logic [31:0]     data_i,
   input  logic [31:0]     mask_i,
-  // Result: the first element that fits.
-  output logic            busy_o,
-  output logic            hit_o,
+  // Result.
+  output logic            busy_o,       // 1: the pass is under way
+  output logic            hit_o,        // 1: element idhit_o fits
   output logic [8:0]      idhit_o
 );
-  // Word of the table, and whether RXIMR of the same number is its mask.
+  // k_q: number of the word; own_q: its mask is RXIMR of the same number, otherwise RXFGMASK.
   logic [6:0] k_q, k_next, s1_k_q, s2_k_q;
   logic       own_q, scan_q, last;
   // Stage 1: the word is on the RAM outputs. Stage 2: its bytes have been compared.
@@ -53,8 +54,8 @@ module can_mb_filter #(
   assign req_o      = scan_q;
   assign busy_o     = scan_q || s1_q || s2_q;
 
-  // What the word is compared with, and which bits count: of a base identifier only 11, and in
-  // format C eight of either kind, without REM and EXT.
+  // key: what the word is compared with; care: the bits that count. Of a base identifier only 11
+  // bits count; format C has the upper eight of either kind, without REM and EXT.
   logic [31:0] whole, key, care, differ;
   assign whole = {rtr_i, ide_i, id_i, 1'b0};
   always_comb begin

@@ -40,14 +40,14 @@ module can_mb_guard #(
   output logic             abort_o,      // pulse: abort the frame that has moved out
   // Frame that is presented or sent, see can_mb_load.
   input  logic             out_i,        // 1: buffer cur_idx_i has moved out
-  input  logic             kept_i,       // 1: its frame is not taken back for an active code
-  input  logic             done_i,       // 1: its end is being written back
+  input  logic             kept_i,       // 1: writing an active code does not take its frame back
+  input  logic             done_i,       // 1: the end of its frame is being written back
   input  logic [IdxW-1:0]  cur_idx_i,
   input  logic             take_i,       // 1: cur_idx_i changes in the next clock
   // IFLAG of an abort that was done at once.
   output logic             flag_o,       // 1: set IFLAG of buffer flag_idx_o
   output logic [IdxW-1:0]  flag_idx_o,
-  input  logic             gnt_i,        // 1: that IFLAG is being set
+  input  logic             gnt_i,        // 1: IFLAG of buffer flag_idx_o is being set
   // IFLAG as it is, and as it will be in the next clock.
   input  logic             end_i,        // 1: IFLAG of buffer end_idx_i is set in the next clock
   input  logic [IdxW-1:0]  end_idx_i,

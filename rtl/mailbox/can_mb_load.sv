@@ -1,16 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_load: the frame presented to the engine: loaded from the winner of the arbitration, kept
-// apart from the buffer while it is sent, and its end written back.
+// can_mb_load: loads the winner of the arbitration (can_mb_tx), presents it to the engine, feeds
+// the engine its words while it is sent, and writes its end back to the buffer. The frame is kept
+// apart from the buffer, so that CPU writes do not change it (FF-12).
 //
-// The data words are copied into one of two hidden rows ahead of time, while a frame may still be
-// sent from the other; the last step takes C/S and ID at once, so a frame is replaced in one clock.
+// Its data words are copied into one of two hidden rows ahead of time, while a frame may still be
+// sent from the other. The last step takes C/S and ID at once, so that the presented frame is
+// replaced in one clock (AR-13).
 //
-// Abort (MCR.AEN, flexcan.md 3.4): a frame on the bus, or presented while the bus is free so that
-// the engine may just be taking it, has moved out: can_mb_guard keeps the CPU from its C/S word and
-// hands the request over. A presented frame is taken back first. Whatever the request meets, it is
-// over with the attempt: 1001, or what a frame sent leaves.
+// Abort (MCR.AEN, flexcan.md 3.4): a frame has moved out when it is on the bus, or presented while
+// no frame is on the bus, so that the engine may be taking it. can_mb_guard discards CPU writes to
+// its C/S word and passes an abort request on (abort_i). A presented frame is taken back first. The
+// request ends with the attempt at the latest, with code 1001 or that of a sent frame.
 
 module can_mb_load #(
   parameter int NumMb = 64,
@@ -19,70 +21,68 @@ module can_mb_load #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            running_i,
-  input  logic            mute_i,        // the engine starts no frame (bus-off, listen-only)
-  input  logic            gap_i,         // no frame on the bus
-  input  logic            oneshot_i,
-  input  logic            osmb_i,        // bit 28 of a C/S word counts
-  input  logic            aen_i,
-  // Winner of the arbitration.
-  input  logic            settled_i,
+  input  logic            running_i,     // 1: the engine takes part in the bus
+  input  logic            mute_i,        // 1: the engine starts no frame (bus-off, listen-only)
+  input  logic            gap_i,         // 1: no frame on the bus; an own one may begin any time
+  input  logic            oneshot_i,     // XCTRL.ONESHOT: a failed frame is not retried
+  input  logic            osmb_i,        // XCTRL.OSMB: bit 28 of C/S asks for one-shot
+  input  logic            aen_i,         // MCR.AEN
+  // Winner of the arbitration (can_mb_tx).
+  input  logic            settled_i,     // 1: buffer best_idx_i is the winner and may be sent
   input  logic [IdxW-1:0] best_idx_i,
-  input  logic            retry_busy_i,
-  output logic            retry_o,       // pulse: cur_idx_o is off the bus and may be active
-  output logic            inactive_o,         // pulse: the winner is not active
-  // C/S write by the CPU in the clock before.
-  input  logic            cs_written_i,
+  input  logic            retry_busy_i,  // 1: a retry has not been compared with the winner yet
+  output logic            retry_o,       // pulse: buffer cur_idx_o left the bus, may be active
+  output logic            inactive_o,    // pulse: the winner was found not to be active (upset)
+  // C/S writes by the CPU (can_mb_cpu), and writes that have not ended yet (can_mb_port).
+  input  logic            cs_written_i,  // pulse: the CPU wrote a C/S word in the clock before
   input  logic [IdxW-1:0] cs_written_idx_i,
-  input  logic            cs_written_act_i,
-  // ... in this clock or the next one, of buffer cs_wr_idx_i: a command of buffer cmd_mb_i, given
-  // with cmd_i, is one. abort_i: it asks to abort the frame that has moved out, and is not done.
-  input  logic            cs_wr_i,
+  input  logic            cs_written_act_i,  // 1: the code written may be active
+  input  logic            cs_wr_i,       // 1 in both clocks of a write of C/S word cs_wr_idx_i
   input  logic [IdxW-1:0] cs_wr_idx_i,
-  input  logic            cmd_i,
+  input  logic            cmd_i,         // 1: a command is taken; if of a C/S word, of cmd_mb_i
   input  logic [IdxW-1:0] cmd_mb_i,
-  input  logic            abort_i,
-  output logic            out_o,         // buffer cur_idx_o has moved out
-  output logic            kept_o,        // ... is not taken back for a new frame again
-  output logic            done_o,        // ... ends in this clock or the next ones
-  output logic            off_o,         // ... takes no part in the arbitration
-  // Engine.
-  output logic            tick_req_o,    // a better frame waits for the next sample point
-  input  logic            tick_i,        // that is now
-  input  logic            start_i,
-  input  logic            transmitter_i,
-  output logic            tx_req_o,
+  input  logic            abort_i,       // pulse: abort the frame that has moved out
+  output logic            out_o,         // 1: buffer cur_idx_o has moved out
+  output logic            kept_o,        // 1: writing an active code does not take its frame back
+  output logic            done_o,        // 1: the end of its frame is being written back
+  output logic            off_o,         // 1: buffer cur_idx_o takes no part in the arbitration
+  // Engine, see can_core.
+  output logic            tick_req_o,    // 1: a better frame waits for tick_i
+  input  logic            tick_i,        // pulse: sample point, while tick_req_o = 1
+  input  logic            start_i,       // pulse: a frame begins
+  input  logic            transmitter_i, // 1: this node is the transmitter of the frame
+  output logic            tx_req_o,      // 1: a frame is presented
   output logic            tx_ide_o,
   output logic            tx_rtr_o,
   output logic [3:0]      tx_dlc_o,
-  output logic [31:0]     tx_word_o,
-  input  logic            tx_next_i,
-  input  logic            tx_ok_i,
-  input  logic            tx_fail_i,
-  // Frame on the bus.
-  output logic            started_o,     // pulse
-  output logic [IdxW-1:0] cur_idx_o,
-  output logic            mine_o,        // it is the buffer's still: not rewritten meanwhile
-  // Steps, see can_mb_pkg.
-  output logic            req_o,
+  output logic [31:0]     tx_word_o,     // ID word of the presented frame, then its data words
+  input  logic            tx_next_i,     // pulse: the engine has taken tx_word_o
+  input  logic            tx_ok_i,       // pulse: the frame has been sent (VA-02)
+  input  logic            tx_fail_i,     // pulse: the attempt ended by error or lost arbitration
+  // Frame presented or on the bus.
+  output logic            started_o,     // pulse: buffer cur_idx_o goes on the bus
+  output logic [IdxW-1:0] cur_idx_o,     // buffer of the frame presented or on the bus
+  output logic            mine_o,        // 1: frame on the bus, its buffer not rewritten meanwhile
+  // Steps (can_mb_pkg), carried out by can_mb_step.
+  output logic            req_o,         // 1: step step_o is wanted
   output logic [2:0]      step_o,
-  output logic            row_o,         // hidden row that is being filled
+  output logic            row_o,         // hidden row that is being filled; !row_o: on the bus
   output logic [IdxW-1:0] ld_idx_o,      // buffer that is being loaded
   output logic            word_o,        // StepWord: 0 bytes 0-3, 1 bytes 4-7
-  input  logic            flight_i,      // a step has been granted and is not over
-  input  logic            data_i,        // data of step data_step_i is on the RAM outputs
+  input  logic            flight_i,      // 1: a step is granted and not over
+  input  logic            data_i,        // 1: data of step data_step_i is on the RAM outputs
   input  logic [2:0]      data_step_i,
   input  logic [31:0]     cs_i,
   input  logic [31:0]     msg_i,
-  output logic            cancel_o,      // StepEnd: do not write
+  output logic            cancel_o,      // 1: StepEnd writes nothing
   output logic [3:0]      code_o,        // StepEnd: new code
-  output logic            flag_o,        // pulse: set IFLAG of cur_idx_o
-  output logic            sent_o,        // pulse with it: sent, not given up
-  output logic            take_o,        // StepHead: the frame is presented
-  output logic            busy_o
+  output logic            flag_o,        // pulse: set IFLAG of buffer cur_idx_o
+  output logic            sent_o,        // pulse with flag_o: the frame was sent, not given up
+  output logic            take_o,        // 1: StepHead is done, cur_idx_o changes in the next clock
+  output logic            busy_o         // 1: an end or an abort is outstanding
 );
   typedef enum logic [1:0] {StIdle, StLow, StHigh, StHead} state_e;
-  // As written here: with all four codes in use no flipped flip-flop leads to one of no state.
+  // Encoded as written: all four codes are states, so an upset flip-flop leads to no undefined one.
   (* fsm_encoding = "none", syn_encoding = "safe" *) state_e state_q;
 
   logic       word_q, on_bus_q, end_q, failed_q, orphan_q, dropped_q, abort_q, one_shot_q, answer_q;
@@ -97,25 +97,28 @@ module can_mb_load #(
 
   assign cs_written_cur   = cs_written_i && at_cur_q;
   assign cs_written_ld    = cs_written_i && cs_written_idx_i == ld_idx_o;
-  // settled_i falls in the next clock only
+  // settled_i falls only one clock after such a write.
   assign cs_written_best  = cs_written_i && cs_written_idx_i == best_idx_i;
-  // The engine takes the first word with the start; either pulse tells, should one be upset. And a
-  // frame that has ended without a pulse is not waited for.
+  // The engine takes the first word with the start; either pulse suffices, should an upset swallow
+  // the other. lost: the frame has ended without a pulse, and is retried.
   assign started_o = (start_i || tx_next_i) && transmitter_i && !on_bus_q;
   assign lost      = on_bus_q && gap_i && !tx_ok_i && !tx_fail_i;
 
-  // A waiting frame is replaced only in the two clocks after a sample point, when the engine cannot
-  // be about to take it; none is loaded (pause_q, a clock late) while one is sent, ends, waits for
-  // its retry or has just been withdrawn.
+  // A presented frame is replaced only in the two clocks after a sample point, when the engine
+  // cannot be about to take it. No frame is presented (pause_q, a clock late) while one is sent,
+  // ends, is aborted, waits for its retry or has just been taken back, nor while the engine starts
+  // none.
   assign head_ok = !pause_q && (!tx_req_o || tick_q != '0);
-  // ... and not while the CPU rewrites it, or asks to abort the one it would replace.
+  // Nor is a frame presented while the CPU rewrites its C/S word, or may be asking to abort the
+  // frame that it would replace.
   assign head_bad = cs_written_ld || abort_q
                  || (cs_wr_i && (wr_ld_q || (aen_i && tx_req_o && wr_cur_q)));
   assign head_seen  = data_i && data_step_i == can_mb_pkg::StepHead && state_q == StHead
                    && !on_bus_q && !started_o && !head_bad;
   assign head_taken = head_seen && (code == can_regs_pkg::MbCsCodeTxData
                                     || code == can_regs_pkg::MbCsCodeTxAnswering);
-  // Not active: a winner by upset. But one that was aborted meanwhile has made way for another.
+  // inactive_o: only an upset makes an inactive buffer the winner. A buffer that was aborted while
+  // it was loaded is not reported, because another one is the winner by then.
   assign mine_o     = on_bus_q && !orphan_q;
   assign inactive_o = inactive_q;
   assign req_o   = word_q || end_q || state_q == StLow || state_q == StHigh
@@ -134,19 +137,20 @@ module can_mb_load #(
   assign sent_o   = flag_o && !failed_q;
   assign take_o   = head_taken;
 
-  // Who asks is in the first clock of a write; one that ended in the clock before may just be
-  // taking the frame back.
+  // can_mb_guard looks at out_o and kept_o in the first clock of a write. A write that ended in the
+  // clock before may be taking the frame back (takes_back).
   assign takes_back = cs_written_cur && (!cs_written_act_i || !dropped_q);
   assign out_o    = off_o || started_o || (tx_req_o && gap_i && !takes_back);
   assign kept_o   = tx_req_o && dropped_q && !takes_back;
   assign done_o   = end_q || flag_o;
   assign off_o    = on_bus_q || abort_q || done_o;
-  // An abort request that need not wait for the end of an attempt, because none is under way.
+  // withdrawn: the abort need not wait for the end of an attempt, because none is under way.
   assign withdrawn = abort_q && !tx_req_o && !on_bus_q && !started_o && !end_q;
 
-  // A better one came while this one was being copied: once, or a buffer that is written over and
-  // over would keep all others off the bus. While a frame is sent there is time for that later, and
-  // the one that has just started may be the winner for a clock.
+  // swap: a better frame came while this one was being copied. Only once for each frame presented,
+  // or a buffer that is rewritten again and again would keep all others off the bus. Not while a
+  // frame is sent: StHead is early enough, and the frame that has just started may be the winner
+  // for a clock.
   assign swap = settled_i && !on_bus_q && best_idx_i != ld_idx_o && !swapped_q;
 
   // Loading.
@@ -204,9 +208,10 @@ module can_mb_load #(
       cur_idx_o <= '0;
     end else begin
       {flag_o, retry_o} <= '0;
-      // Neither index has changed for some clocks when a header is there.
+      // Compared with the command already: when the data of StepHead is there, neither index has
+      // changed for several clocks.
       if (cmd_i) {wr_ld_q, wr_cur_q} <= {cmd_mb_i == ld_idx_o, cmd_mb_i == cur_idx_o};
-      // A buffer that is being written is not taken.
+      // With head_taken cur_idx_o becomes ld_idx_o, whose C/S word is not being written (head_bad).
       at_cur_q <= cs_wr_idx_i == cur_idx_o && !head_taken;
       inactive_q   <= head_seen && !head_taken && best_idx_i == ld_idx_o;
       tick_q  <= {tick_q[0], tick_i};
@@ -218,11 +223,13 @@ module can_mb_load #(
         orphan_q  <= 1'b0;
         word_o    <= 1'b0;
         cur_idx_o <= ld_idx_o;
-        // A C/S word may have been kept whole (can_mb_cpu). An answer is never one-shot.
+        // Bit 28 may be set with any code in a C/S word that was stored whole (can_mb_cpu), but an
+        // answer is never one-shot.
         {one_shot_q, answer_q} <= {osmb_i && cs_i[can_regs_pkg::MbCsOs] && !cs_i[25], cs_i[25]};
       end else if (cs_written_cur) begin
-        // Rewritten: what is under way is no longer the buffer's. Not yet under way: take it back,
-        // but rewriting it for ever does not keep everybody off the bus.
+        // Rewritten: a frame on the bus is no longer the buffer's. A presented frame is taken back,
+        // for an active code only once, so that rewriting it again and again does not keep all off
+        // the bus.
         orphan_q <= 1'b1;
         if (tx_req_o && takes_back) begin
           tx_req_o  <= 1'b0;
@@ -235,11 +242,11 @@ module can_mb_load #(
         dropped_q <= 1'b0;
       end
 
-      // Words for the engine: the ID is taken first, then bytes 0-3, then 4-7.
+      // Words for the engine: it takes the ID first, then bytes 0-3, then 4-7.
       if (data_i && data_step_i == can_mb_pkg::StepWord) {word_q, word_o} <= {1'b0, 1'b1};
       if (tx_next_i || started_o) word_q <= 1'b1;
 
-      // The end.
+      // The end of an attempt: StepEnd, or a retry.
       if (data_i && data_step_i == can_mb_pkg::StepEnd) begin
         {end_q, abort_q} <= '0;
         flag_o <= !cancel_o;

@@ -20,7 +20,7 @@ module can_mb_lock #(
   input  logic            timer_rd_i,   // pulse: the CPU reads TIMER
   input  logic [IdxW-1:0] idx_i,        // buffer of the CPU access
   input  logic [3:0]      code_i,       // code of the C/S word that is read
-  input  logic            serviced_i,   // 1: that word has the serviced mark
+  input  logic            serviced_i,   // 1: the C/S word that is read has the serviced mark
   input  logic            busy_i,       // 1: buffer idx_i shows BUSY: this read does not lock it
   input  logic            cs_written_i,      // pulse: a C/S word was written in the clock before
   input  logic [IdxW-1:0] cs_written_idx_i,
@@ -28,7 +28,7 @@ module can_mb_lock #(
   output logic [IdxW-1:0] lock_idx_o,
   output logic            serviced_req_o,    // 1: buffer serviced_idx_o is to be marked as serviced
   output logic [IdxW-1:0] serviced_idx_o,
-  output logic            serviced_ovr_o,    // 1: code of that buffer is OVERRUN; 0: FULL
+  output logic            serviced_ovr_o,    // 1: code of serviced_idx_o is OVERRUN; 0: FULL
   input  logic            serviced_gnt_i     // 1: the mark is written in this clock
 );
   logic       stored, same, lock_now, cs_written_hit, leave, ovr_q, mark_q, req_q, overwritten,

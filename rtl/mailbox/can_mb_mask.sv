@@ -1,25 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_mask: the global mask in use, for a core without a memory of masks (OwnMasks = 0). It is
-// read from the MSG memory before the first comparison that needs it: at the beginning of a pass,
-// and before buffers 14, 15 and 16.
+// can_mb_mask: holds the global mask in use in a core without a memory of masks (OwnMasks = 0). The
+// mask is read from the MSG memory in a slot of its own before the first comparison that needs it:
+// at the beginning of a pass, and before buffers 14, 15 and 16.
 
 module can_mb_mask (
   input  logic        clk_i,
   input  logic        rst_ni,
-  input  logic        clear_i,      // a new frame: masks may have been written since
-  input  logic        req_i,        // a comparison wants a read slot
-  input  logic [1:0]  want_i,       // under RXGMASK (0), RX14MASK, RX15MASK, RXFGMASK (3)
-  input  logic        all_i,        // ... or under a mask of ones
-  output logic        req_o,
-  output logic        load_o,       // the slot is for a mask: row want_i
-  input  logic        gnt_i,
-  output logic        gnt_o,        // the slot is for the comparison
-  input  logic [31:0] msg_i,
-  output logic [31:0] mask_o
+  input  logic        clear_i,      // pulse, a new frame: masks may have been written since
+  input  logic        req_i,        // 1: a comparison wants a read slot
+  input  logic [1:0]  want_i,       // mask of the comparison, can_mb_pkg::RowRxgmask to RowRxfgmask
+  input  logic        all_i,        // 1: the comparison needs a mask of ones instead
+  output logic        req_o,        // 1: a read slot is wanted, for a comparison or a mask
+  output logic        load_o,       // 1: the slot is for mask want_i
+  input  logic        gnt_i,        // 1: slot granted; data in the next clock
+  output logic        gnt_o,        // 1: the slot is for the comparison
+  input  logic [31:0] msg_i,        // MSG word on the RAM outputs
+  output logic [31:0] mask_o        // mask in use
 );
-  logic       valid_q, data_q;      // the mask is there; it is on the RAM outputs
+  // valid_q: mask_o is mask which_q; data_q: that mask is on the RAM outputs.
+  logic       valid_q, data_q;
   logic [1:0] which_q;
   assign load_o = !valid_q || which_q != want_i;
   assign req_o  = req_i && !data_q;

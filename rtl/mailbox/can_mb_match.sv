@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_match: where the frame being received belongs: a pass over the filter table of the Rx FIFO
-// and then one over the mailboxes (flexcan.md 3.5, 3.7 and section 4).
+// can_mb_match: finds where the frame being received belongs (flexcan.md 3.5, 3.7 and section 4).
+// When the header is complete, a pass over the filter table of the Rx FIFO (can_mb_filter) and then
+// one over the mailboxes (can_mb_rx) begin; can_rx_fifo decides between the two. can_mb_move takes
+// the result over when the frame is valid.
 //
-// Clocks: 8 * (RFFN + 1) words and NumMb - 8 - 2 * RFFN mailboxes at one a clock, 154 in the
-// longest case (64 buffers, RFFN=15). A CPU that never pauses takes every second slot: 308. The
-// result is due when the header of the next frame is complete, after 47 bits at the least: 376
-// clocks at 8 clocks a bit. While another frame waits for a locked buffer it is due at the start of
-// the next frame, after 264 clocks: too late only for RFFN > 9 with the shortest frames in a row
-// and a CPU that uses the buffers in every clock.
+// Time: one clock for each of 8 * (RFFN + 1) words and NumMb - 8 - 2 * RFFN mailboxes, at most 154
+// (64 buffers, RFFN = 15), or 308 beside a CPU that never pauses and takes every second slot. The
+// result is due when the header of the next frame is complete, at least 47 bits later: 376 clocks
+// at 8 clocks a bit. While another frame waits for a locked buffer it is due at the start of the
+// next frame, after 264 clocks: missed only for RFFN > 9 with shortest frames back to back and a
+// CPU that accesses the buffers in every clock.
 
 module can_mb_match #(
   parameter int NumMb = 64,
@@ -24,57 +26,57 @@ module can_mb_match #(
   input  logic            rst_ni,
   input  logic            clear_i,      // soft reset, or FEN changes
   // Configuration, constant while the engine runs.
-  input  logic            bcc_i,
-  input  logic            eacen_i,
-  input  logic            rrs_i,
-  input  logic [6:0]      maxmb_i,
-  input  logic            fen_i,
-  input  logic [1:0]      idam_i,
-  input  logic [3:0]      rffn_i,
-  input  logic            mrp_i,
-  input  logic [6:0]      first_i,
-  // Frame.
-  input  logic            rx_hdr_i,
+  input  logic            bcc_i,        // MCR.BCC
+  input  logic            eacen_i,      // CTRL2.EACEN
+  input  logic            rrs_i,        // CTRL2.RRS
+  input  logic [6:0]      maxmb_i,      // MCR.MAXMB
+  input  logic            fen_i,        // MCR.FEN
+  input  logic [1:0]      idam_i,       // MCR.IDAM
+  input  logic [3:0]      rffn_i,       // CTRL2.RFFN
+  input  logic            mrp_i,        // CTRL2.MRP
+  input  logic [6:0]      first_i,      // first buffer that is a mailbox
+  // Frame being received, see can_core.
+  input  logic            rx_hdr_i,     // pulse: header complete, rx_id_i to rx_rtr_i are valid
   input  logic [28:0]     rx_id_i,
   input  logic            rx_ide_i,
   input  logic            rx_rtr_i,
-  // Locks, and C/S writes by the CPU in the clock before.
-  input  logic            lock_i,
+  // Buffers that are not free, and C/S writes by the CPU (can_mb_cpu).
+  input  logic            lock_i,       // 1: buffer lock_idx_i is locked
   input  logic [IdxW-1:0] lock_idx_i,
-  input  logic            waits_i,      // buffer waits_idx_i gets the frame before this one
+  input  logic            waits_i,      // 1: a frame received earlier waits for buffer waits_idx_i
   input  logic [IdxW-1:0] waits_idx_i,
-  input  logic            cs_written_i,
+  input  logic            cs_written_i, // pulse: the CPU wrote a C/S word in the clock before
   input  logic [IdxW-1:0] cs_written_idx_i,
-  input  logic            cs_written_empty_i,
-  input  logic            cs_written_ide_i,
-  // Read slots.
-  output logic            req_o,
-  output logic [IdxW-1:0] idx_o,
-  output logic [1:0]      word_o,       // of the MSG memory,
-  output logic            cs_o,         // ... or that of the C/S memory: it is on data_i
+  input  logic            cs_written_empty_i,  // 1: whole word written, with code EMPTY
+  input  logic            cs_written_ide_i,  // IDE that was written
+  // Read slots (can_mb_step).
+  output logic            req_o,        // 1: a read slot is wanted
+  output logic [IdxW-1:0] idx_o,        // row that is wanted: a buffer, or a global mask
+  output logic [1:0]      word_o,       // word of the MSG memory, if cs_o = 0
+  output logic            cs_o,         // 1: data_i is to be the word of the C/S memory
   output logic [IdxW:0]   mask_row_o,
-  input  logic            gnt_i,
-  input  logic            stale_i,
+  input  logic            gnt_i,        // 1: slot granted; data in the next clock
+  input  logic            stale_i,      // 1: C/S or ID was written while it was read
   input  logic [31:0]     cs_i,
   input  logic [31:0]     msg_i,
   input  logic [31:0]     mask_i,
-  input  logic [31:0]     data_i,
+  input  logic [31:0]     data_i,       // the wanted word: cs_i or msg_i, as cs_o asked
   // Result.
-  output logic            done_o,
-  output logic            hit_o,        // it belongs somewhere
+  output logic            done_o,       // 1: the result is final
+  output logic            hit_o,        // 1: the frame belongs to buffer or row hit_idx_o
   output logic [IdxW-1:0] hit_idx_o,
-  output logic            hit_fifo_o,   // into the FIFO
-  output logic            hit_ans_o,    // nowhere: the buffer answers it
-  input  logic            resolve_i,    // the result is taken over
-  input  logic            stored_i,     // the frame is in the FIFO
-  input  logic [1:0]      fifo_in_flight_i,        // frames on their way there
-  output logic [8:0]      idhit_o,      // filter element of the frame on its way there
-  // CPU's side of the FIFO.
-  input  logic            pop_i,
-  output logic [2:0]      head_o,
-  output logic            avail_o,
-  output logic            warn_o,
-  output logic            ovf_o
+  output logic            hit_fifo_o,   // 1: the frame belongs into the Rx FIFO, row hit_idx_o
+  output logic            hit_ans_o,    // 1: not stored: buffer hit_idx_o answers the frame
+  input  logic            resolve_i,    // pulse: the frame is valid, the result is taken over
+  input  logic            stored_i,     // pulse: the frame is in the Rx FIFO
+  input  logic [1:0]      fifo_in_flight_i,  // per hidden row: frame on its way into the FIFO
+  output logic [8:0]      idhit_o,      // filter element of the frame on its way into the FIFO
+  // CPU's side of the Rx FIFO, see can_rx_fifo.
+  input  logic            pop_i,        // pulse: the CPU is done with the frame at the output
+  output logic [2:0]      head_o,       // row of the output
+  output logic            avail_o,      // 1: a frame is at the output
+  output logic            warn_o,       // pulse: the fill rises from 4 to 5
+  output logic            ovf_o         // pulse: a frame was lost
 );
   logic [28:0]     id;
   logic            ide, rtr, flt_req, flt_busy, flt_hit, enough;
@@ -120,8 +122,8 @@ module can_mb_match #(
                       data_i};
   end
 
-  // Masks of mailboxes: their own, or RXGMASK, RX14MASK, RX15MASK; all ones where a remote frame
-  // looks for its answer.
+  // Mask of a mailbox: its RXIMR if BCC = 1, otherwise RXGMASK, RX14MASK or RX15MASK. The search
+  // for an answer to a remote frame is exact: its mask is all ones.
   always_comb begin
     gmask = can_mb_pkg::RowRxgmask;
     if (mb_idx == IdxW'(14)) gmask = can_mb_pkg::RowRx14mask;
@@ -131,7 +133,8 @@ module can_mb_match #(
   assign req  = flt_req || mb_req;
 
   if (OwnMasks != 0) begin : gen_own_masks
-    // A row of ones that nobody writes, if the RAM has been cleared.
+    // The all-ones mask is row RowOnes, which holds ones since the RAM was cleared. Without
+    // ClearRam no row is known to, so the ones are ORed in.
     logic [IdxW:0] mb_row;
     assign mb_row     = mb_ans && ClearRam != 0 ? (IdxW+1)'(NumMb + can_mb_pkg::RowOnes)
                       : bcc_i ? {1'b0, mb_idx} : (IdxW+1)'(NumMb) | (IdxW+1)'(gmask);

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_move: received frames on their way from the hidden rows into their buffers (flexcan.md
-// 3.5, 3.6).
+// can_mb_move: moves valid frames from the hidden rows (can_mb_smb) into the buffers that
+// can_mb_match has found (flexcan.md 3.5, 3.6); can_mb_step does the copies.
 //
-// Two hidden rows: one takes the frame on the bus while the other may hold a frame whose buffer is
-// locked. Each waiting frame is bound to its buffer; a later frame for the same buffer replaces it.
-// A frame for the Rx FIFO is moved in the same way and never has to wait for long. A remote frame
-// that is answered is not moved: only the code of its buffer changes.
+// There are two hidden rows: one takes the frame on the bus while the other may hold a frame whose
+// buffer is locked. Each waiting frame is bound to its buffer; a later frame for the same buffer
+// replaces it. A frame for the Rx FIFO is moved in the same way but never waits for a lock. A
+// remote frame that is answered is not moved: only the code of its buffer changes (flexcan.md 3.7).
 
 module can_mb_move #(
   parameter int NumMb = 64,
@@ -16,68 +16,73 @@ module can_mb_move #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            clear_i,       // soft reset
-  // Engine; valid_i: the frame in row smb_o is good and wanted.
-  input  logic            start_i,
-  input  logic            rx_hdr_i,
-  input  logic            valid_i,
-  input  logic            hold_i,        // header or serviced mark still to be written; low power
-  output logic            smb_o,         // row for the frame on the bus
-  // Match.
-  input  logic            match_done_i,
-  input  logic            hit_i,
+  input  logic            clear_i,       // soft reset or change of FEN: drops all frames
+  // Frame on the bus, see can_core.
+  input  logic            start_i,       // pulse: a frame begins
+  input  logic            rx_hdr_i,      // pulse: the header of a frame is complete
+  input  logic            valid_i,       // pulse: the frame in row smb_o is valid and wanted
+  input  logic            hold_i,        // 1: flags, stamp or mark not written yet, or low power
+  output logic            smb_o,         // hidden row for the frame on the bus
+  // Match of the last frame (can_mb_match).
+  input  logic            match_done_i,  // 1: the result of the match is final
+  input  logic            hit_i,         // 1: the frame belongs to buffer or row hit_idx_i
   input  logic [IdxW-1:0] hit_idx_i,
-  input  logic            hit_fifo_i,    // row hit_idx_i of the Rx FIFO, element idhit_i
-  input  logic            hit_ans_i,     // buffer hit_idx_i is to answer
+  input  logic            hit_fifo_i,    // 1: the frame belongs into the Rx FIFO, row hit_idx_i
+  input  logic            hit_ans_i,     // 1: not stored: buffer hit_idx_i answers the frame
   input  logic [8:0]      idhit_i,
-  output logic            resolve_o,     // the match is taken over in this clock
-  output logic            waits_o,       // buffer waits_idx_o gets the frame that came before
+  output logic            resolve_o,     // pulse: the match is taken over
+  output logic            waits_o,       // 1: a frame received earlier waits for buffer waits_idx_o
   output logic [IdxW-1:0] waits_idx_o,
-  // Locks, CPU reads and writes of C/S words.
-  input  logic            lock_i,
+  // Lock (can_mb_lock), and C/S writes by the CPU (can_mb_cpu).
+  input  logic            lock_i,        // 1: buffer lock_idx_i is locked
   input  logic [IdxW-1:0] lock_idx_i,
-  input  logic            cs_written_i,
+  input  logic            cs_written_i,  // pulse: the CPU wrote a C/S word in the clock before
   input  logic [IdxW-1:0] cs_written_idx_i,
-  input  logic            cs_written_empty_i,
-  input  logic [IdxW-1:0] cpu_idx_i,     // it was this one in the clock before
-  // One copy a step: 0 ID (and the old C/S word), 1 bytes 0-3, 2 bytes 4-7, 3 C/S; of an answer
-  // only its code.
-  output logic            req_o,
+  input  logic            cs_written_empty_i,// 1: whole word written, with code EMPTY
+  input  logic [IdxW-1:0] cpu_idx_i,     // buffer of the CPU access; next clock: cs_written_idx_i
+  // Steps of a move, a copy each (can_mb_step): 0 ID, with a read of the old C/S word; 1 bytes 0-3;
+  // 2 bytes 4-7; 3 C/S. An answer has step 3 only.
+  output logic            req_o,         // 1: step step_o is wanted
   output logic [1:0]      step_o,
-  output logic            row_o,         // from this row
-  output logic [IdxW-1:0] idx_o,         // to this buffer
-  input  logic            data_i,        // the step's data is on the RAM outputs
-  input  logic [31:0]     cs_i,
+  output logic            row_o,         // hidden row that is moved
+  output logic [IdxW-1:0] idx_o,         // buffer or row of the Rx FIFO that it is moved to
+  input  logic            data_i,        // 1: the step's data is on the RAM outputs
+  input  logic [31:0]     cs_i,          // C/S word on the RAM outputs
   output logic [8:0]      top_o,         // bits 31:23 of the new C/S word: code, or filter element
-  output logic            cancel_o,      // do not write
-  output logic            moving_o,      // buffer idx_o changes
-  output logic            busy_mb_o,     // ... and is BUSY
-  output logic            answer_o,      // ... or is to answer
+  output logic            cancel_o,      // 1: the step writes nothing
+  output logic            moving_o,      // 1: a move to buffer idx_o is under way
+  output logic            busy_mb_o,     // 1: buffer idx_o shows BUSY
+  output logic            answer_o,      // 1: the move is an answer: only the code changes
   output logic            flag_o,        // pulse: set IFLAG of idx_o
-  output logic            stored_o,      // pulse: the frame is in the Rx FIFO
-  output logic [1:0]      fifo_in_flight_o,         // frames on their way there, for each row
-  output logic            ans_o,         // pulse: buffer idx_o has code 1110 now
-  output logic            busy_o         // something is still to be done
+  output logic            stored_o,      // pulse: a frame has been moved into the Rx FIFO
+  output logic [1:0]      fifo_in_flight_o,  // per hidden row: frame on its way into the FIFO
+  output logic            ans_o,         // pulse: buffer idx_o has code 1110 (answer) now
+  output logic            busy_o         // 1: a match or a move is outstanding
 );
   logic            unres_q, unres_row_q, bound_q, mv_q, arm_q, end_q, ovr_q, fifo, ans;
-  logic [1:0]      full_q, fifo_q, ans_q;   // a frame, it goes into the FIFO, it is answered
+  // Per hidden row: it holds a frame (full_q), which goes into the FIFO (fifo_q), is answered
+  // (ans_q).
+  logic [1:0]      full_q, fifo_q, ans_q;
   logic [IdxW-1:0] tgt0_q, tgt1_q;
 
-  // A frame may move when its buffer is known and not locked. The buffer shows BUSY from the next
-  // clock on; only then is it certain that the CPU has not locked it in the clock of the decision
-  // (arm_q).
+  // A frame may move when its buffer is known (not unres_q) and not locked. The buffer shows BUSY
+  // from the clock after the decision on. In that clock (arm_q) the lock is checked once more,
+  // because the CPU may have locked the buffer in the clock of the decision.
   logic [1:0] ready, kill;
   assign ready[0] = full_q[0] && !(unres_q && !unres_row_q) && !(lock_i && lock_idx_i == tgt0_q);
   assign ready[1] = full_q[1] && !(unres_q && unres_row_q) && !(lock_i && lock_idx_i == tgt1_q);
 
   assign fifo_in_flight_o = full_q & fifo_q & ~{unres_q && unres_row_q, unres_q && !unres_row_q};
 
-  // The frame on the bus, or its match, has row smb_o, or no other row is full.
+  // The match is that of the frame in row smb_o, so an earlier frame can only be in the other row.
+  // If smb_o has changed since the match began, the new row smb_o was empty: no earlier frame
+  // waits.
   assign waits_o     = (smb_o ? full_q[0] && !fifo_q[0] && !ans_q[0] && !(unres_q && !unres_row_q)
                               : full_q[1] && !fifo_q[1] && !ans_q[1] && !(unres_q && unres_row_q));
   assign waits_idx_o = smb_o ? tgt0_q : tgt1_q;
 
-  // A C/S write cancels what waits for this buffer; EMPTY leaves an unlocked buffer a target.
+  // A C/S write cancels a frame that waits for this buffer (flexcan.md 3.4), unless it writes EMPTY
+  // to an unlocked buffer, which remains a target. It always cancels an answer.
   logic cs_written_cancels;
   assign cs_written_cancels = cs_written_i && !(cs_written_empty_i && !(lock_i
       && lock_idx_i == cs_written_idx_i));
@@ -86,7 +91,8 @@ module can_mb_move #(
   assign kill[1] = (cs_written_cancels || (cs_written_i && ans_q[1])) && cs_written_idx_i == tgt1_q
                 && !(unres_q && unres_row_q);
 
-  // ... of what is being moved: known early where there is a step's data.
+  // A C/S write to the buffer that is being moved to. hit_q compares its index a clock ahead, so
+  // that cancel_o, which gates the write of a step, is early.
   logic cs_written_hit, hit_q, cancel, ovr;
   assign cs_written_hit = cs_written_i && cs_written_idx_i == idx_o;
   assign cancel   = cs_written_hit && !(cs_written_empty_i && !ans);
@@ -129,7 +135,7 @@ module can_mb_move #(
         arm_q <= 1'b0;
       end else if (data_i) begin
         step_o <= step_o + 1'b1;
-        // FULL or OVERRUN, unread
+        // The old code is FULL or OVERRUN, not serviced: the new one is OVERRUN.
         if (step_o == 2'd0) ovr_q <= (cs_i[25] && !cs_i[can_mb_pkg::CsServiced]) && !cs_written_hit;
         if (step_o == 2'd3) begin
           end_q <= 1'b1;
@@ -140,13 +146,13 @@ module can_mb_move #(
       if (kill[0] && !(end_q && !row_o)) full_q[0] <= 1'b0;
       if (kill[1] && !(end_q && row_o))  full_q[1] <= 1'b0;
 
-      // A frame that has just been bound to its buffer replaces one that waits for the same.
+      // A frame that has just been bound to its buffer replaces one that waits for the same buffer.
       bound_q <= resolve_o && hit_i;
       if (bound_q && tgt0_q == tgt1_q && !(mv_q && row_o != unres_row_q)) begin
         full_q[!unres_row_q] <= 1'b0;
       end
 
-      // New frames.
+      // New frames, and the results of their matches.
       if (valid_i) begin
         full_q[smb_o] <= 1'b1;
         unres_q       <= 1'b1;

@@ -71,29 +71,29 @@ module can_mb_port #(
   output logic [31:0]     word_o,       // cs_o or msg_o, whichever the reader asked for
   // Second half of a copy (can_mb_step): its write.
   input  logic            copy_i,       // 1: a copy writes in this clock
-  input  logic            copy_cs_i,    // 1: to the C/S memory; 0: to MSG
+  input  logic            copy_cs_i,    // 1: the copy goes to the C/S memory; 0: to MSG
   input  logic [3:0]      copy_be_i,
-  input  logic            copy_off_i,   // 1: cancelled; only of copies that go to a buffer
+  input  logic            copy_off_i,   // 1: the copy is cancelled; only if it goes to a buffer
   input  logic            copy_end_i,   // 1: the copy is the end of a sent frame (StepEnd)
   input  logic [IdxW+1:0] copy_row_i,
   input  logic [31:0]     copy_data_i,
   // Serviced mark (can_mb_lock): writes the top byte of the C/S word of buffer serviced_idx_i.
   input  logic            serviced_req_i,
   input  logic [IdxW-1:0] serviced_idx_i,
-  input  logic            serviced_ovr_i,  // 1: code of that buffer is OVERRUN; 0: FULL
+  input  logic            serviced_ovr_i,  // 1: code OVERRUN is written; 0: FULL
   output logic            serviced_gnt_o,
   // Writes of the frame being received to its hidden rows (can_mb_smb).
   input  logic            rx_wr_req_i,
-  input  logic            rx_wr_cs_i,   // 1: to the C/S memory; 0: to MSG
+  input  logic            rx_wr_cs_i,   // 1: the write goes to the C/S memory; 0: to MSG
   input  logic [3:0]      rx_wr_be_i,
   input  logic [IdxW+1:0] rx_wr_row_i,
   input  logic [31:0]     rx_wr_data_i,
   output logic            rx_wr_gnt_o,
   // Memory of the stamps, see can_mb_stamp.
-  output logic            stamp_re_o,   // 1: the memory reads a row
+  output logic            stamp_re_o,   // 1: the stamp memory reads a row
   output logic            stamp_cpu_o,  // 1: the read slot is the CPU's
   output logic [IdxW:0]   stamp_row_o,  // {upper half, buffer}
-  input  logic            stamp_shown_i,  // 1: its output already holds the word of stamp_row_o
+  input  logic            stamp_shown_i,  // 1: stamp_rdata_i holds row stamp_row_o already
   input  logic [31:0]     stamp_rdata_i,
   // After a hard reset all rows are cleared, one a clock; other writes to the RAMs are lost.
   output logic            scrub_o,      // 1: row scrub_row_o of the RAMs is being cleared

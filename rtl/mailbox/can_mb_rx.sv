@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_rx: finds the buffer for the frame being received, one buffer a clock (flexcan.md 3.5), or
-// the one that answers it: a remote frame that is not stored looks for code 1010 (3.7).
+// can_mb_rx: searches the mailboxes, one a clock, for the one that takes the frame being received
+// (flexcan.md 3.5), or for a remote frame that is not stored (RRS = 0) for the one that answers it,
+// code 1010 (flexcan.md 3.7). Part of can_mb_match.
 
 module can_mb_rx #(
   parameter int NumMb = 64,
@@ -13,43 +14,43 @@ module can_mb_rx #(
   input  logic            rst_ni,
   input  logic            clear_i,      // soft reset
   // Configuration, constant while the engine runs.
-  input  logic            bcc_i,        // individual masks and reception queue
-  input  logic            eacen_i,      // IDE and RTR compared under the mask
-  input  logic            rrs_i,        // remote frames are stored
-  input  logic [6:0]      maxmb_i,
+  input  logic            bcc_i,        // MCR.BCC: individual masks and reception queue
+  input  logic            eacen_i,      // CTRL2.EACEN: IDE and RTR are compared under the mask
+  input  logic            rrs_i,        // CTRL2.RRS: remote frames are stored
+  input  logic [6:0]      maxmb_i,      // MCR.MAXMB
   input  logic [6:0]      first_i,      // first buffer that is a mailbox
-  input  logic            wait_i,       // not now
-  // Frame.
-  input  logic            rx_hdr_i,
+  input  logic            wait_i,       // 1: no read slots now
+  // Frame being received, see can_core.
+  input  logic            rx_hdr_i,     // pulse: header complete, rx_id_i to rx_rtr_i are valid
   input  logic [28:0]     rx_id_i,
   input  logic            rx_ide_i,
   input  logic            rx_rtr_i,
-  // Locks, and C/S writes by the CPU in the clock before.
-  input  logic            lock_i,
+  // Buffers that are not free, and C/S writes by the CPU (can_mb_cpu).
+  input  logic            lock_i,       // 1: buffer lock_idx_i is locked
   input  logic [IdxW-1:0] lock_idx_i,
-  input  logic            waits_i,      // buffer waits_idx_i gets the frame before this one
+  input  logic            waits_i,      // 1: a frame received earlier waits for buffer waits_idx_i
   input  logic [IdxW-1:0] waits_idx_i,
-  input  logic            cs_written_i,
+  input  logic            cs_written_i, // pulse: the CPU wrote a C/S word in the clock before
   input  logic [IdxW-1:0] cs_written_idx_i,
-  input  logic            cs_written_empty_i,  // code EMPTY was written, with IDE cs_written_ide_i
-  input  logic            cs_written_ide_i,
-  // Read slots: C/S, ID and mask of buffer idx_o.
-  output logic            req_o,
-  output logic [IdxW-1:0] idx_o,
-  input  logic            gnt_i,
-  input  logic            stale_i,      // a word of it was being written
+  input  logic            cs_written_empty_i,// 1: whole word written, with code EMPTY
+  input  logic            cs_written_ide_i,  // IDE that was written
+  // Read slots (can_mb_step): C/S, ID and mask of buffer idx_o.
+  output logic            req_o,        // 1: a read slot is wanted
+  output logic [IdxW-1:0] idx_o,        // buffer that is to be read
+  input  logic            gnt_i,        // 1: slot granted; data in the next clock
+  input  logic            stale_i,      // 1: C/S or ID was written while it was read
   input  logic [31:0]     cs_i,
   input  logic [31:0]     id_i,
   input  logic [31:0]     mask_i,
-  // Frame, kept.
+  // Header of the frame, kept from the clock after rx_hdr_i on.
   output logic [28:0]     id_o,
   output logic            ide_o,
   output logic            rtr_o,
-  output logic            ans_o,        // an answer is looked for
+  output logic            ans_o,        // 1: not stored: a buffer that answers is searched
   // Result.
-  output logic            done_o,
-  output logic            hit_o,
-  output logic            hit_free_o,   // ... and was free to receive
+  output logic            done_o,       // 1: the search is over
+  output logic            hit_o,        // 1: buffer hit_idx_o takes (ans_o: answers) the frame
+  output logic            hit_free_o,   // 1: buffer hit_idx_o is free to receive
   output logic [IdxW-1:0] hit_idx_o
 );
   logic            scan_q, last;
@@ -71,13 +72,13 @@ module can_mb_rx #(
   assign free    = (code == can_regs_pkg::MbCsCodeRxEmpty || cs_i[can_mb_pkg::CsServiced] || ans_o)
                 && !(lock_i && lock_idx_i == s1_idx_q)
                 && !(waits_i && waits_idx_i == s1_idx_q);
-  // Read it again: it was being written then, or it fitted and has been written since. One that did
-  // not fit was looked at before that write.
+  // Read the buffer again if it was written while it was read, or if it fitted and has been written
+  // since. One that did not fit needs no second look: it counts as searched before the write.
   assign skip    = s2_skip_q || (s2_match_q && cs_written_i && cs_written_idx_i == s2_idx_q);
   assign last    = idx_o == IdxW'(NumMb - 1) || 7'(idx_o) == maxmb_i;
 
-  // The CPU took the chosen buffer away: look again. Writing EMPTY leaves one that stores a
-  // candidate.
+  // The CPU has rewritten the buffer that was found: search again. If it wrote EMPTY with the same
+  // IDE, a buffer that is to store the frame remains the result.
   logic withdrawn;
   assign withdrawn = hit_o && cs_written_i && cs_written_idx_i == hit_idx_o
              && !(cs_written_empty_i && cs_written_ide_i == ide_o && !ans_o);
@@ -131,7 +132,7 @@ module can_mb_rx #(
         hit_o      <= 1'b1;
         hit_free_o <= s2_free_q;
         hit_idx_o  <= s2_idx_q;
-        // BCC=1: the lowest free one, or else the last; BCC=0: the first.
+        // BCC = 1: the lowest free buffer or, if none is free, the last; BCC = 0: the first.
         if (s2_free_q || !bcc_i) {scan_q, s1_q, s2_q} <= '0;
       end
     end

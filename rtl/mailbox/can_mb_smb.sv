@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_smb: writes the frame that passes by into a hidden row of the RAMs: its time stamp at the
-// start, the identifier, each data byte as it comes, the header bits at the end.
+// can_mb_smb: writes the frame on the bus into hidden row smb_i while it passes, own frames too:
+// the 16-bit stamp (TIMER) at the beginning of the identifier field, the identifier after the
+// header, each data byte as it comes, and SRR, IDE, RTR and DLC when the frame is valid (VA-01).
+// can_mb_move takes it from there. The stamp of an own frame also goes to its hidden row, for the
+// end in can_mb_load.
 
 module can_mb_smb #(
   parameter int NumMb = 64,
@@ -11,30 +14,30 @@ module can_mb_smb #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            smb_i,         // hidden row in use
-  input  logic            tx_row_i,      // ... of a frame that is sent
-  input  logic [15:0]     timer_i,
-  // Engine.
-  input  logic            start_i,
-  input  logic            stamp_i,       // the identifier field begins
-  input  logic            transmitter_i,
-  input  logic            rx_hdr_i,
+  input  logic            smb_i,         // hidden row of the frame being received
+  input  logic            tx_row_i,      // hidden row of the frame being sent
+  input  logic [15:0]     timer_i,       // TIMER
+  // Engine, see can_core.
+  input  logic            start_i,       // pulse: a frame begins
+  input  logic            stamp_i,       // pulse: the next bit is the first of the identifier field
+  input  logic            transmitter_i, // 1: this node is the transmitter of the frame
+  input  logic            rx_hdr_i,      // pulse: the header is complete, the identifier is valid
   input  logic [28:0]     rx_id_i,
   input  logic            rx_ide_i,
   input  logic            rx_srr_i,
   input  logic            rx_rtr_i,
   input  logic [3:0]      rx_dlc_i,
-  input  logic            rx_byte_we_i,
+  input  logic            rx_byte_we_i,  // pulse: rx_byte_i is the next data byte
   input  logic [7:0]      rx_byte_i,
-  input  logic            rx_valid_i,
-  // Write port.
+  input  logic            rx_valid_i,    // pulse: the frame is valid (VA-01)
+  // Write port of the RAMs (can_mb_port).
   output logic            req_o,
-  output logic            cs_o,          // C/S memory, not MSG
+  output logic            cs_o,          // 1: the write goes to the C/S memory; 0: to MSG
   output logic [3:0]      be_o,
   output logic [IdxW+1:0] row_o,
   output logic [31:0]     data_o,
   input  logic            gnt_i,
-  output logic            flags_busy_o   // header bits not written yet
+  output logic            flags_busy_o   // 1: SRR, IDE, RTR and DLC are not written yet
 );
   logic       stamp_q, tx_stamp_q, flags_q, id_q, zero0_q, zero1_q, byte_q;
   logic [2:0] count_q;                   // data bytes written
@@ -54,7 +57,7 @@ module can_mb_smb #(
       row_o  = stamp_q || !tx_stamp_q
                ? (IdxW+2)'(NumMb + can_mb_pkg::RowReceived) | (IdxW+2)'(smb_i)
                : (IdxW+2)'(NumMb + can_mb_pkg::RowSent) | (IdxW+2)'(tx_row_i);
-      // SRR of a base frame is kept as 1.
+      // A base frame has no SRR; its bit is stored as 1 (flexcan.md 3.1).
       data_o = {9'b0, rx_srr_i || !rx_ide_i, rx_ide_i, rx_rtr_i, rx_dlc_i, timer_i};
     end else if (!id_q && (zero0_q || zero1_q)) begin   // bytes beyond the DLC read as zero
       data_o = '0;

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_stamp: the stamps of 64 bits beside the buffers (TM-27 to TM-29). The stamp of the frame
-// on the bus is written to the hidden row of a frame received and, of an own frame, to the row of
-// its buffer; with a move it goes where the frame goes.
+// can_mb_stamp: memory of the 64-bit stamps of the time unit, two words per buffer (TM-27 to
+// TM-29). The stamp of the frame on the bus (can_time) is written to the hidden row of the frame
+// being received and, for an own frame, to the row of its buffer. With a move (can_mb_move) it goes
+// where the frame goes.
 //
-// Words: {hidden, upper half, row}; hidden rows 0 and 1 belong to the two frames received.
+// Word address: {hidden, upper half, row}; hidden rows 0 and 1 are those of the two frames
+// received.
 
 module can_mb_stamp #(
   parameter int NumMb = 64,
@@ -14,33 +16,35 @@ module can_mb_stamp #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  // After a hard reset: every row is written once (can_mb_port).
+  // After a hard reset all rows are cleared, one a clock (can_mb_port).
   input  logic            scrub_i,
   input  logic [IdxW+1:0] scrub_row_i,
-  // Stamp of the frame on the bus, see can_time; own_i: an own frame.
-  input  logic            start_i,
-  input  logic            rx_valid_i,
+  // Frame on the bus and its stamp, see can_core and can_time.
+  input  logic            start_i,       // pulse: a frame begins
+  input  logic            rx_valid_i,    // pulse: the frame is valid (VA-01)
   input  logic [63:0]     stamp_i,
-  input  logic            we_i,
-  input  logic            own_i,
-  input  logic [IdxW-1:0] cur_idx_i,     // its buffer,
-  input  logic            mine_i,        // which the CPU has not rewritten meanwhile
+  input  logic            we_i,          // pulse: stamp_i is the stamp of the frame
+  input  logic            own_i,         // 1: this node is the transmitter of the frame
+  input  logic [IdxW-1:0] cur_idx_i,     // buffer of an own frame
+  input  logic            mine_i,        // 1: buffer cur_idx_i has not been rewritten meanwhile
   input  logic            smb_i,         // hidden row of the frame being received
-  output logic            busy_o,        // to be written yet: no move may begin
-  // CPU reads; row: {upper half, buffer}.
-  input  logic            re_i,
-  input  logic            cpu_i,         // the slot is the CPU's: nothing but a copy is written now
-  input  logic [IdxW:0]   cpu_row_i,
-  output logic            shown_o,       // its row is being copied: it is on the output
+  output logic            busy_o,        // 1: the stamp is still to be written: no move may begin
+  // Read port (can_mb_port).
+  input  logic            re_i,          // 1: a row is read
+  input  logic            cpu_i,         // 1: the CPU reads: only a copy may write in this clock
+  input  logic [IdxW:0]   cpu_row_i,     // {upper half, buffer}
+  output logic            shown_o,       // 1: rdata_o holds row cpu_row_i, which a copy writes
   output logic [31:0]     rdata_o,
-  // Moves: one word with each of the two steps that copy data.
+  // Moves (can_mb_move): the two steps that copy data bytes copy a half of the stamp each.
   input  logic [1:0]      mv_step_i,
   input  logic            mv_row_i,
   input  logic [IdxW-1:0] mv_idx_i,
   input  logic            mv_data_i,
   input  logic            mv_cancel_i
 );
-  // The own row first: its buffer is done a bit after EOF6, and soonest.
+  // word_q counts the words to write: 0, 1 row of the own buffer; 2, 3 hidden row. The own buffer
+  // comes first: its end follows one bit after EOF6, where the latest stamps are taken, and busy_o
+  // does not hold it back.
   logic       write_q, have_q, await_q, copy, own, upper;
   logic [1:0] word_q;
   assign own  = own_i && mine_i;
@@ -68,8 +72,8 @@ module can_mb_stamp #(
   end
   assign shown_o = copy && !mv_cancel_i && waddr == {1'b0, cpu_row_i};
 
-  // A stamp that is taken at the end of the frame comes after rx_valid_i; one that does not come at
-  // all keeps nobody waiting for longer than to the next frame.
+  // A stamp that is taken at the end of the frame comes after rx_valid_i; await_q holds moves back
+  // until then. Should no stamp come, they wait until the next frame begins and no longer.
   assign busy_o = write_q || await_q || (we_i && !have_q);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -19,13 +19,13 @@ module can_mb_status #(
   input  logic            pass_end_i,   // pulse: the pass is over, nothing has changed meanwhile
   input  logic            seen_i,       // pulse: the pass has looked at buffer seen_idx_i
   input  logic [IdxW-1:0] seen_idx_i,
-  input  logic            seen_worst_i, // 1: of those seen so far it would be sent last
-  input  logic            seen_free_i,  // 1: its code is INACTIVE
+  input  logic            seen_worst_i, // 1: of those seen so far that buffer would be sent last
+  input  logic            seen_free_i,  // 1: code of buffer seen_idx_i is INACTIVE
   // Frame on the bus.
   input  logic            sent_i,       // pulse: buffer cur_idx_i was sent and has its new code
   input  logic            tx_ok_i,      // pulse: the frame of buffer cur_idx_i has been sent
   input  logic [IdxW-1:0] cur_idx_i,
-  input  logic [14:0]     crc_i,        // CRC of that frame, valid with tx_ok_i
+  input  logic [14:0]     crc_i,        // CRC of the frame on the bus, valid with tx_ok_i
   output logic [8:0]      esr2_o,       // {LPTM, VPS, IMB}
   output logic [21:0]     crcr_o        // {MBCRC, TXCRC}
 );

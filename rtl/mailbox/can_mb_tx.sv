@@ -1,21 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mb_tx: transmit arbitration; keeps the winner among the active buffers (flexcan.md 3.3).
+// can_mb_tx: transmit arbitration (flexcan.md 3.3). Keeps the winner among the active buffers,
+// which can_mb_load presents to the engine.
 //
-// A C/S write is compared at once with the winner so far. When the winner itself is changed, taken
-// away or goes on the bus, one pass over all buffers finds the next. A pass that finds a winner
-// which is lost meanwhile has forgotten the second best: it is started anew. After MaxSpoils such
-// losses the best of what was seen may be sent until a pass ends unspoilt, so that a CPU that
-// writes C/S words for ever cannot hold up the others.
+// A buffer whose C/S word is written is compared with the winner at once (an insertion, one read).
+// When the winner is rewritten, taken away or goes on the bus, a pass over all buffers finds the
+// next. A pass keeps only the best buffer so far; if it loses that one, it restarts. After
+// MaxSpoils such losses the best buffer so far may be sent until a pass completes, so that a CPU
+// that keeps writing C/S words cannot hold up the other buffers.
 //
-// An upset of a flip-flop must not stop transmission for ever: a winner that turns out not to be
-// active is dropped, and while there is none all buffers are looked at now and then (fresh_i). One
-// that is active is found there (found) by an upset only, and a pass for the winner begins.
+// An upset flip-flop must not stop transmission indefinitely: a winner that turns out not to be
+// active is dropped, and without a winner all buffers are looked at now and then (fresh_i). An
+// active buffer is found there (found) only after an upset; a pass for the winner follows.
 //
-// ESR2 is found in passes of its own, which give way to everybody and begin anew with every change
-// (can_mb_status). Such a pass keeps the value of the worst buffer where that of the winner was,
-// with the same comparison; an insertion then reads the winner again first.
+// ESR2 (can_mb_status) is found in passes of its own, which take slots that nobody else wants and
+// restart with every change. The register of the winner's value then holds that of the worst buffer
+// so far, so the next insertion first reads the winner again (reload).
 
 module can_mb_tx #(
   parameter int NumMb = 64,
@@ -26,52 +27,51 @@ module can_mb_tx #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            running_i,    // 0: forget everything; a pass starts when it rises
-  input  logic            lbuf_i,       // lowest index wins, not smallest arbitration value
-  input  logic            lprio_en_i,   // PRIO comes before the identifier
+  input  logic            running_i,    // 0: all state is forgotten; a pass begins when it rises
+  input  logic            lbuf_i,       // CTRL1.LBUF: the lowest index wins, not the lowest value
+  input  logic            lprio_en_i,   // MCR.LPRIO_EN: PRIO comes before the identifier
   input  logic [6:0]      first_i,      // buffers first_i to maxmb_i take part
   input  logic [6:0]      maxmb_i,
-  // C/S write by the CPU in the clock before; cs_written_act_i: the code may be active.
-  input  logic            cs_written_i,
+  // C/S write by the CPU (can_mb_cpu).
+  input  logic            cs_written_i, // pulse: the CPU wrote a C/S word in the clock before
   input  logic [IdxW-1:0] cs_written_idx_i,
-  input  logic            cs_written_act_i,
-  // A remote frame made buffer ans_idx_i active in the clock before.
-  input  logic            ans_i,
+  input  logic            cs_written_act_i,  // 1: the code written may be active
+  // Answer to a remote frame (can_mb_move).
+  input  logic            ans_i,        // pulse: a remote frame made buffer ans_idx_i active
   input  logic [IdxW-1:0] ans_idx_i,
-  // Frame on the bus.
-  input  logic            off_i,        // buffer cur_idx_i is on it, or about to end
+  // Frame presented or on the bus (can_mb_load).
+  input  logic            off_i,        // 1: buffer cur_idx_i is on the bus or ends: takes no part
   input  logic [IdxW-1:0] cur_idx_i,
-  input  logic            start_i,      // buffer cur_idx_i goes on the bus
-  input  logic            retry_i,      // ... has left it, and may be active still
-  input  logic            sent_i,       // ... was sent and has its new code
-  input  logic            inactive_i,        // the winner was not active after all
-  // Buffer held_idx_i gives way to all others (launch time, TM-41).
-  input  logic            held_i,
+  input  logic            start_i,      // pulse: buffer cur_idx_i goes on the bus
+  input  logic            retry_i,      // pulse: buffer cur_idx_i left the bus, may be active
+  input  logic            sent_i,       // pulse: buffer cur_idx_i was sent and has its new code
+  input  logic            inactive_i,        // pulse: the winner was found not to be active (upset)
+  // Launch time (can_time).
+  input  logic            held_i,       // 1: buffer held_idx_i gives way to all others (TM-41)
   input  logic [IdxW-1:0] held_idx_i,
-  // Now and then: look at all buffers again if there is no winner.
-  input  logic            fresh_i,
-  // Read slots.
-  output logic            ins_req_o,
+  input  logic            fresh_i,      // 1: look at all buffers if there is no winner
+  // Read slots (can_mb_port, can_mb_step); data in the clock after the grant.
+  output logic            ins_req_o,    // 1: insertion, buffer ins_idx_o is to be read
   output logic [IdxW-1:0] ins_idx_o,
   input  logic            ins_gnt_i,
-  output logic            scan_req_o,
-  output logic            scan_lazy_o,  // for ESR2 alone: only what nobody else wants
+  output logic            scan_req_o,   // 1: pass, buffer scan_idx_o is to be read
+  output logic            scan_lazy_o,  // 1: not for the winner (ESR2): only unused slots
   output logic [IdxW-1:0] scan_idx_o,
   input  logic            scan_gnt_i,
-  input  logic            stale_i,
+  input  logic            stale_i,      // 1: the C/S word was written while it was read
   input  logic [31:0]     cs_i,
   input  logic [31:0]     id_i,
   // Winner.
-  output logic            settled_o,    // it may be sent
+  output logic            settled_o,    // 1: the winner is final and may be sent
   output logic [IdxW-1:0] best_idx_o,
-  output logic            retry_o,      // a retry is not in the winner yet
-  // Pass for can_mb_status.
-  output logic            pass_o,       // it is wanted or under way: there is no result
-  output logic            pass_end_o,   // it is over, and nothing has changed meanwhile
-  output logic            seen_o,       // a buffer has been looked at: its
-  output logic [IdxW-1:0] seen_idx_o,   // index
-  output logic            seen_worst_o, // it would be sent last of those seen
-  output logic            seen_free_o   // code is INACTIVE
+  output logic            retry_o,      // 1: a retry has not been compared with the winner yet
+  // Pass for ESR2, see can_mb_status.
+  output logic            pass_o,       // 1: a pass is wanted or under way, no result yet
+  output logic            pass_end_o,   // pulse: the pass is over, nothing has changed meanwhile
+  output logic            seen_o,       // pulse: the pass has looked at buffer seen_idx_o
+  output logic [IdxW-1:0] seen_idx_o,
+  output logic            seen_worst_o, // 1: of those seen so far that buffer would be sent last
+  output logic            seen_free_o   // 1: code of buffer seen_idx_o is INACTIVE
 );
   localparam logic [1:0] MaxSpoils = 2'd3;
 
@@ -82,17 +82,17 @@ module can_mb_tx #(
   logic            change, redo, restart_q;
   logic [1:0]      spoils_q;
   // Stage 1: the buffer is on the RAM outputs. Stage 2: its arbitration value is compared. Stage 3:
-  // what follows. Two reads are two clocks apart at least, so what is known of a buffer in stage 2
-  // is there in stage 3 as well.
+  // the result is used. Reads are at least two clocks apart, so the registers of stage 2 hold their
+  // buffer in stage 3 too.
   logic            s1_q, s1_look_q, s1_last_q, s2_q, s2_last_q, s3_q, s3_last_q, s3_end;
   logic            s1_reload_q, best_q, any_q, s1_part;
   logic            look2_q, reload2_q, active2_q, free2_q, less_q;
   logic [IdxW-1:0] s1_idx_q, idx2_q, ans_idx_q;
   logic [34:0]     val2_q, best_val_q;
 
-  // Insertions: the C/S write first, but in turn with the others; answers are rarest. Before all of
-  // them the winner, if its value is not there; a C/S write that another one overtakes meanwhile is
-  // found by a pass.
+  // Insertions: a C/S write comes first, but in turn with the others, of which a retry comes before
+  // an answer. If the winner's value is not in best_val_q, the winner is read before all of them. A
+  // C/S write that waits while another one is done is lost, so a pass follows (lost).
   assign ins_new    = ins_q || (cs_written_i && cs_written_act_i);
   assign new_first  = ins_new && !(others_q && (retry_q || ans_q));
   assign ins_want   = running_i && (ins_new || retry_q || ans_q);
@@ -115,7 +115,7 @@ module can_mb_tx #(
 
   // Arbitration value: PRIO, then the bits in the order of the bus (flexcan.md 3.3).
   logic [3:0] code;
-  logic       written2;  // the buffer that was read is being written
+  logic       written2;  // the buffer in stage 2 or 3 has been written since
   assign code     = cs_i[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW];
   assign written2 = cs_written_i && cs_written_idx_i == idx2_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -140,13 +140,13 @@ module can_mb_tx #(
     end
   end
 
-  // A buffer written since it was read does not count: an insertion follows if it is active. Nor
-  // does the one on the bus; one that starts in this clock is withdrawn in the next.
+  // A buffer that was written since it was read is no candidate: if it is active, an insertion
+  // follows. Nor is the buffer on the bus; one that starts in this clock is withdrawn in the next.
   logic candidate, withdrawn;
   assign candidate = s3_q && active2_q && !written2
                   && !(off_i && idx2_q == cur_idx_i);
-  // A buffer that is held no longer is compared as one that was written; a winner that is held from
-  // now on is none, and what it had beaten is not known.
+  // Launch time (TM-40): a buffer that is released is inserted as if it were written (freed). A
+  // winner that is held from now on is withdrawn, because the runner-up is not known (set_aside).
   logic            held_q, held2, best_held, freed, set_aside;
   logic [IdxW-1:0] held_idx_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -157,30 +157,32 @@ module can_mb_tx #(
   assign best_held = held_i && best_idx_o == held_idx_i;
   assign freed     = held_q && !(held_i && held_idx_q == held_idx_i);
   assign set_aside = held_i && !(held_q && held_idx_q == held_idx_i) && best_idx_o == held_idx_i;
-  // The winner is no longer what it was.
+  // The winner was rewritten, has started, is not active or is held now. Or a released buffer
+  // cannot be inserted because an answer is: a pass finds it.
   assign withdrawn   = best_q && ((cs_written_i && cs_written_idx_i == best_idx_o)
                           || ((start_i || off_i) && cur_idx_i == best_idx_o) || inactive_i
                           || set_aside || (freed && (ans_i || ans_q)));
-  // In two halves side by side, and in a clock of its own: it is long.
+  // The comparison is long, so it has a clock of its own and two halves side by side.
   logic high_less, high_equal, low_less;
   assign high_less  = val2_q[34:17] < best_val_q[34:17];
   assign high_equal = val2_q[34:17] == best_val_q[34:17];
-  // Of two buffers with equal values the later one is the worse.
+  // Of two buffers with equal values the one with the higher index is the worse.
   assign low_less   = {val2_q[16:0], idx2_q}
                     < {best_val_q[16:0], {IdxW{!look2_q}} & best_idx_o};
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) less_q <= 1'b0;
     else         less_q <= high_less || (high_equal && low_less);
   end
-  // Whether values decide; if not, whether this one is the better.
+  // by_value: the values decide; otherwise better tells whether this buffer beats the winner.
   logic by_value, better;
   always_comb begin
     {by_value, better} = {!lbuf_i, lbuf_i && idx2_q < best_idx_o};
     if (!look2_q && held2 != best_held) {by_value, better} = {1'b0, best_held};
   end
 
-  // One register for two values: that of the winner, or in a pass for ESR2 that of the worst. What
-  // comes while the winner is lost and is no better is left to the pass that looks for the next.
+  // best_val_q has the value of the winner or, in a pass for ESR2, that of the worst buffer so far.
+  // A candidate that does not beat a winner that is lost in the same clock is left to the pass that
+  // follows.
   logic force_it, take, take_anyway, take_less, take_worst, worst_anyway, worst_more, load;
   assign force_it     = look2_q ? !any_q || lbuf_i || idx2_q == '0
                                   : !best_q || reload2_q;
@@ -205,7 +207,7 @@ module can_mb_tx #(
     end
   end
 
-  // What an insertion overtakes is not looked at any more.
+  // A buffer of an ESR2 pass that an insertion overtakes does not count: the pass restarts.
   assign seen_o       = s3_q && look2_q && !scan_q && !quiet_q && !ins_want;
   assign seen_idx_o   = idx2_q;
   assign seen_worst_o = take_worst;
@@ -214,11 +216,11 @@ module can_mb_tx #(
   assign s3_end       = s3_last_q && !restart_q;
   assign pass_end_o   = s3_end && look_q && !scan_q && !change && !ins_want;
 
-  // Any change restarts a pass for ESR2: a frame that has failed counts again, and in one under way
-  // the buffer of a frame that was sent. One that looks for a winner is restarted by the loss of a
-  // winner alone, and not for ever.
+  // A pass for ESR2 restarts with every change, among them a frame that failed, whose buffer counts
+  // again, and, while it is under way, a frame that was sent. A pass for the winner restarts only
+  // when a winner is lost, and MaxSpoils times at most.
   assign redo    = withdrawn || lost;
-  // A buffer whose frame has just failed does not count as found: it comes back as an insertion.
+  // A buffer whose frame has just failed is not found here: its retry is an insertion.
   assign found   = candidate && look2_q && !best_q && !scan_q && !retry_i && !ins_want;
   assign change  = Status != 0 && (cs_written_i || ans_i || redo || retry_i || (sent_i && look_q));
 
@@ -266,7 +268,7 @@ module can_mb_tx #(
       s1_reload_q <= ins_gnt_i && reload;
       s1_last_q <= scan_gnt_i && last;
       s1_idx_q  <= ins_gnt_i ? ins_idx_o : scan_idx_o;
-      // A pass for ESR2 is overtaken by an insertion.
+      // An insertion overtakes a pass for ESR2: the buffer of the pass is dropped.
       s2_q      <= s1_q && !(s1_look_q && ins_want);
       s3_q      <= s2_q && !(look2_q && ins_want);
       {s2_last_q, s3_last_q} <= {s1_last_q, s2_last_q};

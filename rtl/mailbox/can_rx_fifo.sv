@@ -1,42 +1,42 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_rx_fifo: the six places of the Rx FIFO, and whether a frame goes there or into a mailbox
-// (flexcan.md section 4).
+// can_rx_fifo: order and fill of the Rx FIFO's six places, and the decision whether a frame goes
+// there or into a mailbox (flexcan.md section 4).
 //
-// The places are the rows of buffers 0 to 5, used in a ring; a frame is moved into its place like
-// into a mailbox. The output is the row head_o, so that taking a frame out moves nothing.
+// The places are the rows of buffers 0 to 5, used as a ring. can_mb_move moves a frame into its
+// place as into a mailbox. The output is row head_o, so a pop moves no data.
 //
-// What can be derived is not counted twice: where the next frame goes follows from the output, the
-// fill and the frames on their way, so that both ends agree again whatever an upset flip-flop did.
+// There is no write pointer: the row for the next frame follows from the output, the fill and the
+// frames in flight. So both ends agree again after an upset of a flip-flop.
 
 module can_rx_fifo (
   input  logic       clk_i,
   input  logic       rst_ni,
-  input  logic       clear_i,        // empty, whatever else happens
-  input  logic       bcc_i,
-  input  logic       mrp_i,          // mailboxes before the FIFO
+  input  logic       clear_i,        // pulse: soft reset or change of FEN, empties the FIFO
+  input  logic       bcc_i,          // MCR.BCC
+  input  logic       mrp_i,          // CTRL2.MRP: mailboxes before the FIFO
   // CPU.
-  input  logic       pop_i,          // done with the frame at the output
+  input  logic       pop_i,          // pulse: the CPU is done with the frame at the output
   output logic [2:0] head_o,         // row of the output
-  output logic       avail_o,        // there is a frame at the output
+  output logic       avail_o,        // 1: a frame is at the output
   output logic       warn_o,         // pulse: the fill rises from 4 to 5
   output logic       ovf_o,          // pulse: a frame was lost
-  // Match: what the filter table and the mailboxes say about the frame being received.
-  input  logic       rx_hdr_i,       // a new frame
-  input  logic       filter_i,       // an element fits
-  input  logic [8:0] idhit_i,        // its number
-  input  logic       mb_hit_i,       // a mailbox fits
-  input  logic       mb_free_i,      // ... and is free to receive
-  output logic       enough_o,       // no need to look at the mailboxes
-  output logic       take_o,         // the frame belongs into the FIFO
-  // Moves.
-  input  logic       resolve_i,      // the frame is good; its place is decided in this clock
-  input  logic       stored_i,       // it is there
-  // taken and not there yet: one bit for each that may be
+  // Results of the search for the frame being received (can_mb_filter, can_mb_rx).
+  input  logic       rx_hdr_i,       // pulse: the header of a new frame is complete
+  input  logic       filter_i,       // 1: a filter element fits
+  input  logic [8:0] idhit_i,        // number of the filter element that fits
+  input  logic       mb_hit_i,       // 1: a mailbox fits
+  input  logic       mb_free_i,      // 1: the mailbox that fits is free to receive
+  output logic       enough_o,       // 1: the mailboxes need not be searched
+  output logic       take_o,         // 1: the frame belongs into the FIFO
+  // Moves (can_mb_move).
+  input  logic       resolve_i,      // pulse: the frame is valid, its place is decided now
+  input  logic       stored_i,       // pulse: a frame has been moved into the FIFO
+  // per hidden row: its frame is taken and not stored yet
   input  logic [1:0] fifo_in_flight_i,
-  output logic [2:0] tail_o,         // its row, in the clock of resolve_i
-  output logic [8:0] idhit_o         // its element, from then on until stored_i
+  output logic [2:0] tail_o,         // row for a frame that is taken in the clock of resolve_i
+  output logic [8:0] idhit_o         // filter element of the frame in flight, until stored_i
 );
   localparam logic [2:0] Depth = 3'd6;
 
@@ -44,7 +44,7 @@ module can_rx_fifo (
     next = row >= Depth - 3'd1 ? 3'd0 : row + 3'd1;
   endfunction
 
-  // Frames at the output or behind it; those on their way are used places, too.
+  // fill_q: frames stored. used: places in use, those of frames in flight included.
   logic [2:0] head_q, fill_q, used;
   logic [3:0] ring;
   logic       pop, put, full;
@@ -58,7 +58,7 @@ module can_rx_fifo (
                 || (fill_q >= Depth - 3'd2 && fifo_in_flight_i == '1);
   assign head_o  = head_q;
 
-  // Mailbox first: a free one, or with BCC=0 the first that fits.
+  // MRP = 1: a mailbox that fits comes first if it is free, with BCC = 0 even if it is not.
   logic to_mb;
   assign to_mb  = mrp_i && mb_hit_i && (mb_free_i || !bcc_i);
   assign take_o = filter_i && !full && !to_mb;
@@ -77,7 +77,7 @@ module can_rx_fifo (
       head_q <= head_q >= Depth ? 3'd0 : pop ? next(head_q) : head_q;
       fill_q <= fill_q + {2'b0, stored_i && !pop} - {2'b0, pop && !stored_i};
       if (put) idhit_o <= idhit_i;
-      // Room now is room later: only this frame can take it.
+      // Room in the FIFO does not go away before resolve_i: only this frame could take it.
       enough_o <= !rx_hdr_i && (enough_o || (filter_i && !mrp_i && !full));
     end
   end
