@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_flags: what happened: IFLAG, IMASK, the event bits of ESR1, and the interrupt lines
-// (flexcan.md 1.4, 1.5, section 5). An event beats a clear in the same clock.
+// can_flags: the events that software sees: IFLAG, IMASK, the event bits of ESR1, and the interrupt
+// lines (flexcan.md 1.4, 1.5 and section 5). An event beats a clear by software in the same clock,
+// so that none is lost.
 
 module can_flags #(
   parameter int NumMb = 64,
@@ -11,32 +12,32 @@ module can_flags #(
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
-  input  logic             clear_i,        // soft reset
+  input  logic             clear_i,        // pulse: soft reset
   // Events.
-  input  logic             flag_i,         // a buffer is done
+  input  logic             flag_i,         // pulse: sets IFLAG of buffer flag_idx_i
   input  logic [IdxW-1:0]  flag_idx_i,
-  // Rx FIFO: IFLAG1[4:0] are unused then, [5] is the level fifo_avail_i.
-  input  logic             fen_i,
-  input  logic             fifo_clear_i,
-  input  logic             fifo_avail_i,
-  input  logic             fifo_warn_i,
-  input  logic             fifo_ovf_i,
-  input  logic [5:0]       err_i,          // can_pkg::Err* pulses
-  input  logic             boff_i,
-  input  logic             tx_wrn_i,       // counters at 96 or above
-  input  logic             rx_wrn_i,
-  input  logic             wrn_en_i,
+  // Rx FIFO; with FEN = 1 IFLAG1[4:0] read 0.
+  input  logic             fen_i,          // MCR.FEN
+  input  logic             fifo_clear_i,   // pulse: FEN changes, or soft reset: clears IFLAG1[7:5]
+  input  logic             fifo_avail_i,   // 1: a frame is at the output; IFLAG1[5] if FEN = 1
+  input  logic             fifo_warn_i,    // pulse: the fill rises from 4 to 5; sets IFLAG1[6]
+  input  logic             fifo_ovf_i,     // pulse: a frame was lost; sets IFLAG1[7]
+  input  logic [5:0]       err_i,          // pulses, can_pkg::Err*
+  input  logic             boff_i,         // 1: bus-off
+  input  logic             tx_wrn_i,       // 1: the transmit error counter is at 96 or above
+  input  logic             rx_wrn_i,       // 1: the receive error counter is at 96 or above
+  input  logic             wrn_en_i,       // MCR.WRN_EN
   input  logic             wake_i,         // pulse: the bus has ended stop mode
-  // CPU: writes by byte, one group of buffers at a time, and the read that clears the error bits.
-  input  logic             iflag_lo_we_i,
-  input  logic             iflag_hi_we_i,
-  input  logic             imask_lo_we_i,
-  input  logic             imask_hi_we_i,
-  input  logic             esr1_we_i,
-  input  logic             esr1_rd_i,
+  // CPU accesses (can_regs), in the clock in which they take effect; writes by byte.
+  input  logic             iflag_lo_we_i,  // 1: write of IFLAG1
+  input  logic             iflag_hi_we_i,  // 1: write of IFLAG2
+  input  logic             imask_lo_we_i,  // 1: write of IMASK1
+  input  logic             imask_hi_we_i,  // 1: write of IMASK2
+  input  logic             esr1_we_i,      // 1: write of ESR1
+  input  logic             esr1_rd_i,      // 1: read of ESR1 that clears its error bits
   input  logic [3:0]       be_i,
   input  logic [31:0]      wdata_i,
-  // Interrupt masks of CTRL1 and MCR.
+  // Interrupt masks, from CTRL1 and MCR.
   input  logic             boff_msk_i,
   input  logic             err_msk_i,
   input  logic             twrn_msk_i,
@@ -44,13 +45,13 @@ module can_flags #(
   input  logic             wak_msk_i,
   output logic [63:0]      iflag_o,
   output logic [63:0]      imask_o,
-  output logic [31:0]      esr1_o,         // the event bits, in their places
-  output logic             irq_mb_o,
-  output logic             irq_boff_o,
-  output logic             irq_err_o,
-  output logic             irq_twrn_o,
-  output logic             irq_rwrn_o,
-  output logic             irq_wak_o
+  output logic [31:0]      esr1_o,         // event bits of ESR1, in their places; the others are 0
+  output logic             irq_mb_o,       // any IFLAG with its IMASK
+  output logic             irq_boff_o,     // BOFF_INT with BOFF_MSK
+  output logic             irq_err_o,      // ERR_INT with ERR_MSK
+  output logic             irq_twrn_o,     // TWRN_INT with TWRN_MSK
+  output logic             irq_rwrn_o,     // RWRN_INT with RWRN_MSK
+  output logic             irq_wak_o       // WAK_INT with WAK_MSK
 );
   logic [NumMb-1:0] iflag_q, imask_q;
   always_comb begin
@@ -90,7 +91,8 @@ module can_flags #(
     else if (esr1_rd_i || err_i != '0)  errors_q <= (esr1_rd_i ? 6'b0 : errors_q) | err_i;
   end
 
-  // Entries into a state; each error counts again (section 7).
+  // Flags of entries into a state. ERR_INT is set by each error, even if its error bit is set
+  // already (flexcan.md section 7).
   logic boff_q, tx_wrn_q, rx_wrn_q, twrn_int_q, rwrn_int_q, boff_int_q, err_int_q, wak_int_q;
   logic [31:0] w1c;
   assign w1c = esr1_we_i ? wdata_i & {{8{be_i[3]}}, {8{be_i[2]}}, {8{be_i[1]}}, {8{be_i[0]}}} : '0;
@@ -132,7 +134,7 @@ module can_flags #(
     esr1_o[can_regs_pkg::Esr1WakInt]  = wak_int_q;
   end
 
-  // Lines from flip-flops: level, without glitches.
+  // The lines are levels from flip-flops, so they have no glitches.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {irq_mb_o, irq_boff_o, irq_err_o, irq_twrn_o, irq_rwrn_o, irq_wak_o} <= '0;

@@ -1,33 +1,33 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mode: disable, stop, freeze, normal operation and soft reset, with their acknowledges
-// (flexcan.md section 2). No acknowledge waits for the bus longer than the frame that is being
-// sent.
+// can_mode: state machine of the modes disable, stop, freeze and normal operation and of soft
+// reset, with their acknowledges (flexcan.md section 2). It starts and stops the engine. No
+// acknowledge waits for the bus longer than until the frame on it has ended.
 
 module can_mode (
   input  logic clk_i,
   input  logic rst_ni,
-  // Requests, bits of MCR; stop comes from the system.
-  input  logic mdis_i,
-  input  logic freeze_i,        // FRZ and HALT
-  input  logic soft_rst_i,      // pulse
-  input  logic stop_req_i,
-  input  logic wake_i,          // an edge on the bus ends stop mode, see can_wake
-  // Engine and buffers.
-  input  logic running_i,
-  input  logic stop_ok_i,       // no frame is hurt by stopping
-  input  logic transmitter_i,
-  input  logic busy_i,          // moves under way
-  input  logic scrub_i,         // buffer RAM not cleared yet
-  output logic run_o,
-  output logic clear_o,         // soft reset: everything it resets, one clock, engine stopped
-  // Acknowledges.
-  output logic lpm_ack_o,
-  output logic frz_ack_o,
-  output logic soft_rst_o,      // under way
-  output logic disabled_o,      // disable mode
-  output logic stop_o           // stop mode
+  // Requests, from MCR (can_regs) and the system.
+  input  logic mdis_i,          // 1: MCR.MDIS, disable mode requested
+  input  logic freeze_i,        // 1: MCR.FRZ and HALT, freeze mode requested
+  input  logic soft_rst_i,      // pulse: soft reset requested
+  input  logic stop_req_i,      // 1: the system requests stop mode
+  input  logic wake_i,          // pulse: an edge on the bus ends stop mode (can_wake)
+  // Engine (can_core) and buffers (can_mailbox).
+  input  logic running_i,       // 1: the engine takes part in the bus
+  input  logic stop_ok_i,       // 1: stopping the engine hurts no frame
+  input  logic transmitter_i,   // 1: this node is the transmitter of the frame on the bus
+  input  logic busy_i,          // 1: moves, ends or aborts are outstanding (can_mailbox)
+  input  logic scrub_i,         // 1: the buffer RAMs are being cleared
+  output logic run_o,           // 1: the engine is to take part in the bus
+  output logic clear_o,         // pulse: soft reset of everything it resets; the engine has stopped
+  // Acknowledges and modes.
+  output logic lpm_ack_o,       // 1: MCR.LPM_ACK, disable or stop mode
+  output logic frz_ack_o,       // 1: MCR.FRZ_ACK, freeze mode
+  output logic soft_rst_o,      // 1: MCR.SOFT_RST, a soft reset is under way
+  output logic disabled_o,      // 1: disable mode
+  output logic stop_o           // 1: stop mode
 );
   localparam logic [1:0] SettleClocks = 2'd3;
   typedef enum logic [2:0] {
@@ -39,10 +39,10 @@ module can_mode (
     StClear,       // soft reset, one clock
     StStop         // low power because the system wants it; the bus may end it
   } state_e;
-  // As written here, so that the unused codes lead back (default below).
+  // Encoded as written, so that the unused code, reached by an upset, leads back (default below).
   (* fsm_encoding = "none", syn_encoding = "safe" *) state_e state_q;
 
-  // Woken by the bus: the request counts again only after it has gone away.
+  // After a wake-up by the bus the request for stop mode counts again only once it has been 0.
   logic woken_q, stop;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) woken_q <= 1'b0;
@@ -53,11 +53,13 @@ module can_mode (
   state_e target;
   assign target = mdis_i ? StDisable : stop ? StStop : freeze_i ? StFreeze : StRun;
 
-  // Low power drops a frame that is only received: the driver gives us 250 us, less than a frame.
+  // Disable and stop mode drop a frame that is only being received: drivers wait 250 us for
+  // LPM_ACK, less than a frame may take.
   logic may_stop, stopped;
   assign may_stop = stop_ok_i || ((mdis_i || stop) && !transmitter_i);
 
-  // What the engine told in its last clock makes the buffers busy some clocks later (SettleClocks).
+  // A pulse of the engine in its last clock makes the buffers busy only some clocks later. So
+  // stopped waits until they have been idle for SettleClocks.
   logic [1:0] settle_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni)                  settle_q <= '0;

@@ -1,51 +1,53 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_regs: MCR, CTRL1, CTRL2, ECR, ESR1, ESR2, CRCR, IMASK, IFLAG and the extension page
-// (flexcan.md section 1); what needs no RAM. Reserved offsets read 0 and ignore writes.
+// can_regs: the registers that are not in the buffers' RAM: MCR, CTRL1, CTRL2, ECR, ESR1, ESR2,
+// CRCR, IMASK, IFLAG (flexcan.md section 1) and the extension page, on the host side of can_core
+// and can_mailbox. can_mode has the modes, can_flags the events. Reserved offsets read 0 and ignore
+// writes.
 
 module can_regs #(
   parameter int NumMb = 64,
-  /// What XCONFIG reads: the features of this core.
+  /// Value of XCONFIG: the features of this core.
   parameter logic [31:0] Config = can_regs_pkg::XconfigReset | 32'd64,
   /// Derived, do not override.
   localparam int IdxW = $clog2(NumMb)
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  // CPU, in the data phase; always ready. addr_i counts words.
-  input  logic            rd_i,
-  input  logic            wr_i,
-  input  logic [10:0]     addr_i,
+  // CPU access: its data phase, one clock, never a wait state.
+  input  logic            rd_i,          // 1: register addr_i is read, rdata_o is valid
+  input  logic            wr_i,          // 1: register addr_i is written
+  input  logic [10:0]     addr_i,        // word address
   input  logic [3:0]      be_i,
   input  logic [31:0]     wdata_i,
-  output logic [31:0]     rdata_o,
-  // Mode.
-  output logic            run_o,
-  output logic            clear_o,
-  output logic            frz_ack_o,
-  output logic            lpm_ack_o,
-  input  logic            stop_req_i,
-  input  logic            wake_i,        // pulse: the bus ends stop mode
-  output logic            wake_en_o,     // it may
-  input  logic            mb_busy_i,
-  input  logic            mb_scrub_i,
-  // Configuration, by the fields of can_regs_pkg: MCR without its mode requests and acknowledges.
+  output logic [31:0]     rdata_o,       // read data; 0 if rd_i = 0
+  // Mode, see can_mode.
+  output logic            run_o,         // 1: the engine is to take part in the bus
+  output logic            clear_o,       // pulse: soft reset
+  output logic            frz_ack_o,     // 1: freeze mode
+  output logic            lpm_ack_o,     // 1: disable or stop mode
+  input  logic            stop_req_i,    // 1: the system requests stop mode
+  input  logic            wake_i,        // pulse: the bus ends stop mode (can_wake)
+  output logic            wake_en_o,     // 1: the bus may end stop mode
+  input  logic            mb_busy_i,     // 1: moves, ends or aborts are outstanding (can_mailbox)
+  input  logic            mb_scrub_i,    // 1: the buffer RAMs are being cleared
+  // Configuration, by the fields of can_regs_pkg. mcr_o lacks mode requests and acknowledges.
   output logic [31:0]     mcr_o,
   output logic [31:0]     ctrl1_o,
   output logic [31:0]     ctrl2_o,
   output logic [31:0]     xctrl_o,
-  // State of the buffers.
-  input  logic            flag_i,
+  // Flags and status of the buffers, see can_mailbox.
+  input  logic            flag_i,        // pulse: sets IFLAG of buffer flag_idx_i
   input  logic [IdxW-1:0] flag_idx_i,
   output logic [63:0]     iflag_o,
-  input  logic [8:0]      esr2_i,        // LPTM, VPS, IMB
-  input  logic [21:0]     crcr_i,        // MBCRC, TXCRC
+  input  logic [8:0]      esr2_i,        // {LPTM, VPS, IMB}
+  input  logic [21:0]     crcr_i,        // {MBCRC, TXCRC}
   // Rx FIFO.
   output logic            fifo_clear_o,  // pulse: FEN changes, or soft reset
   output logic            fifo_pop_o,    // pulse: the CPU is done with the frame at the output
-  input  logic            fifo_avail_i,  // level: a frame is at the output
-  input  logic            fifo_warn_i,   // pulse: almost full
+  input  logic            fifo_avail_i,  // 1: a frame is at the output
+  input  logic            fifo_warn_i,   // pulse: the fill rises from 4 to 5
   input  logic            fifo_ovf_i,    // pulse: a frame was lost
   // State of the engine, see can_core.
   output logic            ec_we_o,
@@ -61,7 +63,7 @@ module can_regs #(
   input  logic            transmitter_i,
   input  logic            receiver_i,
   input  logic            synch_i,
-  // Interrupt lines, level.
+  // Interrupt lines, level, active high; irq_o is the OR of the others.
   output logic            irq_o,
   output logic            irq_mb_o,
   output logic            irq_boff_o,
@@ -97,7 +99,7 @@ module can_regs #(
     end
   end
 
-  // The rest of MCR; SLF_WAK stays as it is in stop mode.
+  // The rest of MCR. SLF_WAK cannot be changed in stop mode (flexcan.md 1.1).
   localparam logic [31:0] ModeRequests = (32'd1 << can_regs_pkg::McrMdis)
                                        | (32'd1 << can_regs_pkg::McrFrz)
                                        | (32'd1 << can_regs_pkg::McrHalt);
@@ -126,7 +128,7 @@ module can_regs #(
   end
   assign fifo_clear_o = clear_o || fen_q != fen;
 
-  // CTRL1. Without WRN_EN the warning masks are 0, whatever was written with it.
+  // CTRL1. With WRN_EN = 0 the warning masks read as 0 and act so, whatever is stored.
   logic [31:0] ctrl1_q;
   can_reg #(
     .Reset(can_regs_pkg::Ctrl1Reset), .Any(can_regs_pkg::Ctrl1Any),
@@ -159,7 +161,8 @@ module can_regs #(
     .value_o(xctrl));
   assign xctrl_o = xctrl;
 
-  // A 1 written to IFLAG1[5] takes the frame at the output out of the FIFO (section 4).
+  // A 1 written to IFLAG1[5] takes the frame at the output out of the Rx FIFO (flexcan.md section
+  // 4).
   assign fifo_pop_o = fen && wr_i && addr_i == can_regs_pkg::Iflag1Addr && be_i[0]
                    && wdata_i[can_regs_pkg::Iflag1FifoAvailable];
 
@@ -171,7 +174,7 @@ module can_regs #(
   logic        tx_wrn, rx_wrn, esr1_at;
   logic [31:0] events;
   logic [63:0] imask;
-  // At 96 or above; in bus-off TEC counts something else.
+  // Warning level: 96 or above. In bus-off TEC counts recovery sequences instead (BO-06).
   assign tx_wrn  = (tec_i[7] || (&tec_i[6:5])) && !boff_i;
   assign rx_wrn  = rec_i[7] || (&rec_i[6:5]);
   assign esr1_at = addr_i == can_regs_pkg::Esr1Addr;
@@ -192,7 +195,7 @@ module can_regs #(
     .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o);
   assign irq_o = irq_mb_o || irq_boff_o || irq_err_o || irq_twrn_o || irq_rwrn_o || irq_wak_o;
 
-  // Reads; in ESR1 listen-only is passive (2.4).
+  // Reads. ESR1 shows listen-only mode as error passive (flexcan.md 2.4).
   always_comb begin
     rdata_o = '0;
     if (rd_i) begin

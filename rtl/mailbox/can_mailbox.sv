@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_mailbox: the message buffers: RAM, transmit arbitration, receive matching and the moves
-// between them, the engine's and the CPU's side.
+// can_mailbox: the message buffers, between the registers (can_top) and the engine (can_core).
+// Wires the RAMs and their arbiter (can_mb_port, can_mb_step) to the CPU's side (can_mb_cpu,
+// can_mb_lock, can_mb_guard), to reception (can_mb_smb, can_mb_match, can_mb_move) and to
+// transmission (can_mb_tx, can_mb_load). How a frame passes: docs/architecture.md; rules:
+// flexcan.md sections 3 and 4.
 
 module can_mailbox #(
   /// Message buffers: 16, 32 or 64.
@@ -20,37 +23,37 @@ module can_mailbox #(
   input  logic            clk_i,
   input  logic            rst_ni,
   // Mode and configuration.
-  input  logic            running_i,     // the engine takes part in the bus
-  input  logic            lpm_i,         // disable or stop mode: no move begins
-  input  logic            clear_i,       // soft reset
-  input  logic [31:0]     mcr_i,         // by the fields of can_regs_pkg
+  input  logic            running_i,     // 1: the engine takes part in the bus
+  input  logic            lpm_i,         // 1: disable or stop mode, no move begins
+  input  logic            clear_i,       // pulse: soft reset
+  input  logic [31:0]     mcr_i,         // registers, by the fields of can_regs_pkg
   input  logic [31:0]     ctrl1_i,
   input  logic [31:0]     ctrl2_i,
   input  logic [31:0]     xctrl_i,
   // Rx FIFO, see can_regs.
-  input  logic            fifo_clear_i,
-  input  logic            fifo_pop_i,
-  output logic            fifo_avail_o,
-  output logic            fifo_warn_o,
-  output logic            fifo_ovf_o,
-  output logic            busy_o,        // moves under way, or rows not cleared yet after reset
-  output logic            scrub_o,       // ... the latter
-  // CPU, see can_mb_port.
+  input  logic            fifo_clear_i,  // pulse: soft reset, or FEN changes
+  input  logic            fifo_pop_i,    // pulse: the CPU is done with the frame at the output
+  output logic            fifo_avail_o,  // 1: a frame is at the output
+  output logic            fifo_warn_o,   // pulse: the fill rises from 4 to 5
+  output logic            fifo_ovf_o,    // pulse: a frame was lost
+  output logic            busy_o,        // 1: moves, ends or aborts are outstanding, or scrub_o = 1
+  output logic            scrub_o,       // 1: the RAMs are being cleared after a hard reset
+  // CPU access, see can_mb_port.
   input  logic            cmd_rd_i,
   input  logic            cmd_wr_i,
   input  logic [1:0]      cmd_mem_sel_i,
   input  logic [1:0]      cmd_word_i,
-  input  logic [IdxW-1:0] cmd_idx_i,
-  input  logic [IdxW-1:0] cmd_mb_i,      // ... of a C/S word, and known before the kind is
+  input  logic [IdxW-1:0] cmd_idx_i,     // row: a buffer, or a global mask
+  input  logic [IdxW-1:0] cmd_mb_i,      // buffer, if the command is of a C/S word; known earlier
   input  logic [3:0]      cmd_be_i,
-  input  logic [31:0]     wdata_i,
-  output logic            ready_o,
-  output logic [31:0]     rdata_o,
-  // IFLAG, and ESR2: LPTM, VPS, IMB.
-  input  logic [63:0]     iflag_i,
-  output logic [8:0]      esr2_o,
-  output logic [21:0]     crcr_o,        // CRCR: MBCRC, TXCRC
-  output logic            flag_o,
+  input  logic [31:0]     wdata_i,       // write data, in both clocks of the access
+  output logic            ready_o,       // 1: last clock of an access, or none; takes a command
+  output logic [31:0]     rdata_o,       // read data with ready_o = 1; 0 if no read ends
+  // Flags and status registers.
+  input  logic [63:0]     iflag_i,       // IFLAG, see can_flags
+  output logic [8:0]      esr2_o,        // {LPTM, VPS, IMB}
+  output logic [21:0]     crcr_o,        // {MBCRC, TXCRC}
+  output logic            flag_o,        // pulse: set IFLAG of buffer flag_idx_o
   output logic [IdxW-1:0] flag_idx_o,
   // Engine, see can_core.
   output logic            tick_req_o,
@@ -60,9 +63,9 @@ module can_mailbox #(
   output logic [1:0]      timer_be_o,
   output logic [15:0]     timer_wdata_o,
   input  logic [15:0]     timer_i,
-  input  logic            transmitter_i,
-  input  logic            mute_i,        // it starts no frame: bus-off, listen-only
-  input  logic            gap_i,
+  input  logic            transmitter_i, // 1: this node is the transmitter of the frame
+  input  logic            mute_i,        // 1: the engine starts no frame (bus-off, listen-only)
+  input  logic            gap_i,         // 1: no frame on the bus; an own one may begin any time
   output logic            tx_req_o,
   output logic            tx_ide_o,
   output logic            tx_rtr_o,
@@ -87,16 +90,16 @@ module can_mailbox #(
   input  logic [63:0]     time_stamp_i,
   input  logic            time_stamp_we_i,
   input  logic            time_stamp_tx_i,
-  // Held buffer (TM-40); wait_o: its frame is the one that is presented.
-  input  logic            time_held_i,
+  // Launch time (TM-40), see can_time.
+  input  logic            time_held_i,   // 1: buffer time_mb_i is held
   input  logic [5:0]      time_mb_i,
-  output logic            time_wait_o
+  output logic            time_wait_o    // 1: the presented frame is that of buffer time_mb_i
 );
-  // Flags of buffers that do not exist, fields that matter elsewhere.
+  // Flags of buffers that do not exist, and fields that other blocks use.
   logic unused;
   assign unused = &{1'b0, iflag_i, mcr_i, ctrl1_i, ctrl2_i, xctrl_i};
 
-  // Configuration that more than one block asks for.
+  // Configuration that more than one block uses.
   logic       bcc, aen, fen;
   logic [3:0] rffn;
   logic [6:0] maxmb;
@@ -106,7 +109,7 @@ module can_mailbox #(
   assign maxmb = mcr_i[can_regs_pkg::McrMaxmb +: can_regs_pkg::McrMaxmbW];
   assign rffn  = ctrl2_i[can_regs_pkg::Ctrl2Rffn +: can_regs_pkg::Ctrl2RffnW];
 
-  // First buffer that is a mailbox: the ones below belong to the Rx FIFO.
+  // First buffer that is a mailbox: 8 + 2 * RFFN with the Rx FIFO, to which those below belong.
   logic [6:0] first, first_now;
   assign first_now = fen ? {1'b0, 5'(rffn) + 5'd4, 1'b0} : 7'd0;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -145,7 +148,8 @@ module can_mailbox #(
     .cs_written_act_o(cs_written_act), .cs_written_empty_o(cs_written_empty),
     .cs_written_ide_o(cs_written_ide));
 
-  // TSYN: the first mailbox receives. Which one it is has been known for the whole move.
+  // TSYN (flexcan.md 2.10): TIMER is cleared when the first mailbox receives a frame. mv_first_q is
+  // compared a clock early, which is safe because mv_idx does not change during a move.
   logic mv_first_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) mv_first_q <= 1'b0;
