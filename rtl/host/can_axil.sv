@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_axil: the controller as an AXI4-Lite slave of 32 bits. One read and one write may be open;
-// the core has one of them at a time: a read every two clocks, a write every three, one more for
-// what lies in the buffers' RAM and for TIMER.
+// can_axil: the controller (can_top) as an AXI4-Lite slave of 32 bits. One read and one write may
+// be outstanding; can_top serves one at a time, a read every two clocks, a write every three, and
+// one clock more for what lies in the buffers' RAM and for TIMER.
 //
 // SLVERR: beyond the window of 8 KiB.
 
 module can_axil #(
-  /// As of can_ahb: message buffers; what the core has; the time unit (docs/integration.md).
+  /// NumMb to SyncDelay: as in can_ahb (docs/integration.md).
   parameter int NumMb = 64,
   parameter int Fifo = 1,
   parameter int Abort = 1,
@@ -23,18 +23,18 @@ module can_axil #(
   parameter logic [31:0] SyncCtrl = 32'd0,
   parameter logic [31:0] SyncId = 32'd0,
   parameter logic [31:0] SyncDelay = 32'd0,
-  /// Size of the region that the core is selected for, as a number of address bits, 13 to 32;
-  /// address bits above are not looked at, those down to 13 must be zero.
+  /// Size of the region that the core is selected for, as a number of address bits, 13 to 32.
+  /// Address bits above are ignored; those from 13 up to the region's size must be zero.
   parameter int RegionBits = 16,
-  /// 1: with MCR.SUPV = 1 unprivileged accesses (AxPROT[0] = 0) read 0 and write nothing; 0: SUPV
-  /// is only stored.
+  /// 1: while MCR.SUPV = 1, unprivileged accesses (AxPROT[0] = 0) read 0, write nothing; 0: SUPV is
+  /// only stored.
   parameter int CheckProt = 0,
-  /// Clocks that the bus must be dominant to wake the core if MCR.WAK_SRC = 1, 1 to 255.
+  /// Clocks for which the bus must be dominant to wake the core if MCR.WAK_SRC = 1, 1 to 255.
   parameter int WakeFilter = 6
 ) (
   input  logic        aclk,
   input  logic        aresetn,
-  input  logic [31:0] awaddr,        // 1:0 are ignored, here and of araddr: whole words
+  input  logic [31:0] awaddr,        // 1:0 are ignored: accesses are whole words
   input  logic [2:0]  awprot,
   input  logic        awvalid,
   output logic        awready,
@@ -45,7 +45,7 @@ module can_axil #(
   output logic [1:0]  bresp,
   output logic        bvalid,
   input  logic        bready,
-  input  logic [31:0] araddr,
+  input  logic [31:0] araddr,        // 1:0 are ignored: accesses are whole words
   input  logic [2:0]  arprot,
   input  logic        arvalid,
   output logic        arready,
@@ -53,20 +53,20 @@ module can_axil #(
   output logic [1:0]  rresp,
   output logic        rvalid,
   input  logic        rready,
-  output logic        irq_o,
-  output logic        irq_mb_o,
-  output logic        irq_boff_o,
-  output logic        irq_err_o,
-  output logic        irq_twrn_o,
-  output logic        irq_rwrn_o,
-  output logic        irq_wak_o,
-  input  logic        ext_i,         // time unit: external event, asynchronous
-  output logic        time_out_o,    // ... output of the compare unit, a pulse a second if wanted
-  output logic        irq_time_o,    // ... interrupt, not part of irq_o
-  input  logic        stop_req_i,    // the system wants stop mode; in step with aclk
-  input  logic        can_rx_i,
-  output logic        can_tx_o,
-  output logic [can_pkg::TraceWidth-1:0] trace_o
+  output logic        irq_o,         // interrupt, level, active high: OR of the six below
+  output logic        irq_mb_o,      // interrupt: message buffers, any IFLAG with its IMASK
+  output logic        irq_boff_o,    // interrupt: bus-off
+  output logic        irq_err_o,     // interrupt: error
+  output logic        irq_twrn_o,    // interrupt: transmit warning, TEC has reached 96
+  output logic        irq_rwrn_o,    // interrupt: receive warning, REC has reached 96
+  output logic        irq_wak_o,     // interrupt: wake-up, the bus has ended stop mode
+  input  logic        ext_i,         // external event of the time unit, asynchronous
+  output logic        time_out_o,    // compare output of the time unit, e.g. a pulse per second
+  output logic        irq_time_o,    // interrupt of the time unit, level; not part of irq_o
+  input  logic        stop_req_i,    // 1: the system requests stop mode; synchronous to aclk
+  input  logic        can_rx_i,      // RXD of the transceiver, asynchronous; 1: recessive
+  output logic        can_tx_o,      // TXD of the transceiver, from a flip-flop; 1: recessive
+  output logic [can_pkg::TraceWidth-1:0] trace_o  // for observers (can_pkg); leave open otherwise
 );
   if (RegionBits < 13 || RegionBits > 32) begin : gen_check_region_bits
     RegionBits_must_be_13_to_32 u_stop ();   // no such module: the tool prints the name and stops
@@ -78,9 +78,9 @@ module can_axil #(
   logic unused, supv;
   assign unused = &{1'b0, awaddr[1:0], araddr[1:0], awprot, arprot, supv};
 
-  // A transfer begins when its response channel is free and the core is idle. If a read and a write
-  // wait, they take turns. Which of the two to look at was decided in the clock before, from the
-  // response channels, so that the address is early.
+  // A transfer begins when its response channel is free and can_top is idle. A read and a write
+  // that both wait take turns. Whose turn it is is decided a clock ahead, from the response
+  // channels, so that the address is early.
   logic read_q, write_q, taken_q, read_last_q, prefer_write_q, reads, writes, turn, idle, begins;
   logic r_shut, b_shut, read_last;
   assign r_shut = rvalid && !rready;
@@ -92,7 +92,7 @@ module can_axil #(
   assign begins = (turn ? writes : reads) && idle;
   assign read_last = begins ? !turn : read_last_q;
 
-  // Command. Of a read all lanes count; a write without a strobe is not passed on.
+  // Command. A read is of all byte lanes; a write without a strobe is not passed to can_top.
   logic        beyond, denied, cancel, error_q, ready;
   logic [3:0]  be;
   logic [31:0] addr, core_rdata;
@@ -102,8 +102,8 @@ module can_axil #(
   assign be     = turn ? wstrb : 4'b1111;
   assign cancel = beyond || denied || be == '0 || !begins;
 
-  // Data in the clock behind, or one later: read_q, write_q. The master holds address and data:
-  // ARREADY comes with the data, AWREADY and WREADY one clock later (taken_q).
+  // Data phase: read_q, write_q. The master holds address and data until their READY, so nothing is
+  // stored here: ARREADY comes with the read data, AWREADY and WREADY a clock after the write.
   always_ff @(posedge aclk or negedge aresetn) begin
     if (!aresetn) begin
       {read_q, write_q, taken_q, error_q, rvalid, bvalid} <= '0;

@@ -1,70 +1,75 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// can_top: the whole controller with a plain native port: a command (address, direction, byte
-// lanes) is taken in a clock with ready_o=1; its data (wdata_i, or rdata_o) belongs to the next
-// clock with ready_o=1.
+// can_top: the whole controller behind a plain native port; the bus wrappers (can_ahb, can_apb,
+// can_axil, can_wb) adapt it. Decodes the address and wires registers (can_regs), message buffers
+// (can_mailbox) and engine (can_core).
+//
+// A command (address, direction, byte lanes) is taken in a clock with ready_o = 1. Its data phase
+// (wdata_i or rdata_o) ends in the next clock with ready_o = 1: one clock for registers, two for
+// what lies in the buffers' RAM and for TIMER.
 
 module can_top #(
-  /// Message buffers: 16, 32 or 64; the Linux driver uses number 63.
+  /// Number of message buffers: 16, 32 or 64. The Linux driver uses buffer 63.
   parameter int NumMb = 64,
-  /// What the core has, 1, or has not, 0 (docs/integration.md): the Rx FIFO;
+  /// 1: with the Rx FIFO; 0: without. This and the other features: docs/integration.md.
   parameter int Fifo = 1,
-  /// aborts that are certain of their outcome (MCR.AEN);
+  /// 1: with aborts that are certain of their outcome (MCR.AEN).
   parameter int Abort = 1,
-  /// ESR2 and CRCR;
+  /// 1: with ESR2 and CRCR.
   parameter int Status = 1,
-  /// a mask for each buffer, and the queue of several matching buffers (RXIMR, MCR.BCC);
+  /// 1: with a mask for each buffer and the queue of matching buffers (RXIMR, MCR.BCC).
   parameter int OwnMasks = 1,
-  /// stop mode and waking from it;
+  /// 1: with stop mode and wake-up.
   parameter int Wake = 1,
-  /// local priority, one-shot, tolerance of CAN FD, MAXMB, LBUF, remote answers, TSYN;
+  /// 1: with local priority, one-shot, CAN FD tolerance, MAXMB, LBUF, remote answers, TSYN.
   parameter int Extras = 1,
-  /// zeros in the RAM of the buffers after a hard reset: without, software has to clear it.
+  /// 1: the RAM of the buffers is cleared after a hard reset; 0: software has to clear it.
   parameter int ClearRam = 1,
-  /// The time unit, docs/time.md: 1 with, 0 without.
+  /// 1: with the time unit (docs/time.md).
   parameter int TimeUnit = 0,
-  /// Increment of its clock after a hard reset: 39:32 ns, 31:0 in 2^-32 ns a clock; 20 ns: 50 MHz.
+  /// Increment of the time unit's clock in each clock, after a hard reset: 39:32 ns, 31:0 in 2^-32
+  /// ns. The default, 20 ns, is for 50 MHz.
   parameter logic [39:0] TimeInc = 40'h14_0000_0000,
-  /// 1: with the follower that keeps this clock to a master's without the CPU; needs TimeUnit.
+  /// 1: with the follower: the clock follows a master's without the CPU; needs TimeUnit.
   parameter int TimeSync = 0,
-  /// Values of its registers TSCTRL, TSID and TSDLY after a hard reset.
+  /// Values of the follower's registers TSCTRL, TSID and TSDLY after a hard reset.
   parameter logic [31:0] SyncCtrl = 32'd0,
   parameter logic [31:0] SyncId = 32'd0,
   parameter logic [31:0] SyncDelay = 32'd0,
-  /// Clocks that the bus must be dominant to wake the core through the filter (MCR.WAK_SRC).
+  /// Clocks for which the bus must be dominant to wake the core if MCR.WAK_SRC = 1, 1 to 255.
   parameter int WakeFilter = 6
 ) (
   input  logic        clk_i,
   input  logic        rst_ni,
   // Native port, window of 8 KiB.
-  input  logic        req_i,
-  input  logic        cancel_i,        // the command is withdrawn; may come late in the clock
-  input  logic        we_i,
-  input  logic [12:2] addr_i,
-  input  logic [3:0]  be_i,
-  input  logic [31:0] wdata_i,
-  output logic [31:0] rdata_o,         // 0 but in the data phase of a read: wrappers rely on it
-  output logic        ready_o,
-  // Interrupt lines, level, active high; irq_o is the OR of the others.
-  output logic        irq_o,
-  output logic        irq_mb_o,
-  output logic        irq_boff_o,
-  output logic        irq_err_o,
-  output logic        irq_twrn_o,
-  output logic        irq_rwrn_o,
-  output logic        irq_wak_o,
-  // Time unit: external event, asynchronous; output of the compare unit; interrupt of its own.
-  input  logic        ext_i,
-  output logic        time_out_o,
-  output logic        irq_time_o,
-  // System: stop mode wanted, in step with clk_i; and MCR.SUPV for the bus adapter.
-  input  logic        stop_req_i,
-  output logic        supv_o,
-  // Transceiver, and the view of an observer (can_pkg).
-  input  logic        can_rx_i,
-  output logic        can_tx_o,
-  output logic [can_pkg::TraceWidth-1:0] trace_o
+  input  logic        req_i,           // 1: a command
+  input  logic        cancel_i,        // 1: the command is withdrawn; may come late in the clock
+  input  logic        we_i,            // 1: write; 0: read
+  input  logic [12:2] addr_i,          // word address
+  input  logic [3:0]  be_i,            // byte lanes
+  input  logic [31:0] wdata_i,         // write data, in all clocks of the data phase
+  output logic [31:0] rdata_o,         // 0 except in the data phase of a read: wrappers rely on it
+  output logic        ready_o,         // 1: last clock of a data phase, or none; takes a command
+  // Interrupt lines, level, active high.
+  output logic        irq_o,           // interrupt, level, active high: OR of the six below
+  output logic        irq_mb_o,        // interrupt: message buffers, any IFLAG with its IMASK
+  output logic        irq_boff_o,      // interrupt: bus-off
+  output logic        irq_err_o,       // interrupt: error
+  output logic        irq_twrn_o,      // interrupt: transmit warning, TEC has reached 96
+  output logic        irq_rwrn_o,      // interrupt: receive warning, REC has reached 96
+  output logic        irq_wak_o,       // interrupt: wake-up, the bus has ended stop mode
+  // Time unit.
+  input  logic        ext_i,           // external event of the time unit, asynchronous
+  output logic        time_out_o,      // compare output of the time unit, e.g. a pulse per second
+  output logic        irq_time_o,      // interrupt of the time unit, level; not part of irq_o
+  // System.
+  input  logic        stop_req_i,      // 1: the system requests stop mode; synchronous to clk_i
+  output logic        supv_o,          // MCR.SUPV, for the bus wrapper
+  // Transceiver and observer.
+  input  logic        can_rx_i,        // RXD of the transceiver, asynchronous; 1: recessive
+  output logic        can_tx_o,        // TXD of the transceiver, from a flip-flop; 1: recessive
+  output logic [can_pkg::TraceWidth-1:0] trace_o  // for observers (can_pkg); leave open otherwise
 );
   localparam int IdxW = $clog2(NumMb);
   if (NumMb != 16 && NumMb != 32 && NumMb != 64) begin : gen_check_num_mb
@@ -79,7 +84,7 @@ module can_top #(
   if (TimeSync != 0 && TimeUnit == 0) begin : gen_check_time_sync
     TimeSync_needs_TimeUnit u_stop ();
   end
-  // As XCONFIG tells it.
+  // Value of XCONFIG.
   localparam logic [31:0] Config = 32'(NumMb)
       | 32'(Fifo)     << can_regs_pkg::XconfigRxfifo   | 32'(Abort)  << can_regs_pkg::XconfigAbort
       | 32'(Status)   << can_regs_pkg::XconfigStatus   | 32'(Wake)   << can_regs_pkg::XconfigWake
@@ -90,7 +95,8 @@ module can_top #(
       | 32'(TimeUnit) << can_regs_pkg::XconfigTime
       | 32'(TimeSync) << can_regs_pkg::XconfigTimesync;
 
-  // Where a command goes: buffers, masks and TIMER to the mailbox, the rest to the registers.
+  // Buffers, masks, RXFIR, TIMER and stamps are accessed through can_mailbox (to_mb), because they
+  // lie in its RAMs or must keep their order with them; all else is in the registers.
   logic       req, in_mb, in_mask, in_gmask, in_timer, in_rxfir, in_stamp, to_mb, wr_ok, frz_ack;
   logic [1:0] mem_sel, word;
   logic [3:0] hi;
@@ -110,14 +116,14 @@ module can_top #(
   // Stamps begin at 0x1400, 8 bytes a buffer.
   assign in_stamp = TimeUnit != 0 && addr_i[12:10] == 3'b101 && {1'b0, addr_i[9:3]} < 8'(NumMb);
   assign to_mb    = in_mb || in_mask || in_gmask || in_timer || in_rxfir || in_stamp;
-  // masks: in freeze mode only
+  // Masks are written in freeze mode only.
   assign wr_ok    = in_mb || in_timer || (frz_ack && !in_rxfir);
 
-  // Global masks are hidden rows: of the masks' memory, or of the MSG memory (can_mailbox).
+  // Global masks are hidden rows of the mask memory, or of the MSG memory (can_mb_pkg).
   logic [1:0]      gmask;
   logic [IdxW-1:0] idx;
   assign gmask = {addr_i[3] | addr_i[6], addr_i[2] | addr_i[6]};
-  // Decoded from as few bits as possible: addresses of other registers may alias.
+  // Decoded from as few address bits as possible: the result is used with to_mb = 1 only.
   always_comb begin
     mem_sel = addr_i[3:2] != 2'd0 ? can_mb_pkg::MemMsg : can_mb_pkg::MemCs;
     word = addr_i[3:2] - 2'd1;
@@ -142,7 +148,7 @@ module can_top #(
     end
   end
 
-  // Registers are in the first words of either page.
+  // Registers are the first 32 words of either page, at 0x0000 and 0x1000.
   logic        reg_rd_q, reg_wr_q, in_reg, mb_ready;
   logic [5:0]  reg_addr_q;
   logic [3:0]  reg_be_q;
@@ -177,7 +183,7 @@ module can_top #(
     end
   end
 
-  // Wires between the blocks; names as at the blocks.
+  // Wires between the blocks, named like their ports.
   logic        run, clear, running, stop_ok, mb_busy, mb_scrub;
   logic        wake, wake_en, rx_level, lpm_ack;
   logic [31:0] mcr, ctrl1, ctrl2, xctrl;
@@ -218,7 +224,7 @@ module can_top #(
     .irq_o, .irq_mb_o, .irq_boff_o, .irq_err_o, .irq_twrn_o, .irq_rwrn_o, .irq_wak_o);
   assign supv_o = mcr[can_regs_pkg::McrSupv];
 
-  // Time unit; what moves with every clock is in can_core.
+  // Registers of the time unit; what moves with every clock is in can_core.
   logic [can_pkg::TimeCmdWidth-1:0]  time_cmd;
   logic [can_pkg::TimeStatWidth-1:0] time_stat;
   logic [63:0] time_data, time_now, time_ext, time_stamp;
