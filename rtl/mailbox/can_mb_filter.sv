@@ -15,7 +15,7 @@ module can_mb_filter #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            clear_i,      // soft reset, or FEN changes: ends the pass, no hit
+  input  logic            clear_i,      // pulse: soft reset or change of FEN; ends the pass, no hit
   // Configuration, constant while the engine runs.
   input  logic            bcc_i,        // MCR.BCC: the first words have masks of their own
   input  logic [1:0]      idam_i,       // MCR.IDAM: format of the words

@@ -19,7 +19,7 @@ module can_mb_guard #(
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
-  input  logic             clear_i,      // soft reset
+  input  logic             clear_i,      // pulse: soft reset
   input  logic             aen_i,        // MCR.AEN
   // CPU access, see can_mb_port.
   input  logic             first_i,      // 1 in the first clock of a write

@@ -85,6 +85,9 @@ module can_mb_load #(
   // Encoded as written: all four codes are states, so an upset flip-flop leads to no undefined one.
   (* fsm_encoding = "none", syn_encoding = "safe" *) state_e state_q;
 
+  // word_q, end_q: StepWord, StepEnd is wanted. failed_q: the end leaves code 1001. orphan_q: the
+  // buffer was rewritten since its frame was presented. dropped_q: a frame was taken back, and none
+  // has started since. abort_q: an abort is requested.
   logic       word_q, on_bus_q, end_q, failed_q, orphan_q, dropped_q, abort_q, one_shot_q, answer_q;
   logic       inactive_q, swap, swapped_q, wr_ld_q, wr_cur_q, at_cur_q;
   logic [1:0] tick_q;

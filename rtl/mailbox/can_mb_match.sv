@@ -24,7 +24,7 @@ module can_mb_match #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            clear_i,      // soft reset, or FEN changes
+  input  logic            clear_i,      // pulse: soft reset or change of FEN
   // Configuration, constant while the engine runs.
   input  logic            bcc_i,        // MCR.BCC
   input  logic            eacen_i,      // CTRL2.EACEN

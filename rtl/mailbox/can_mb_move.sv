@@ -16,7 +16,7 @@ module can_mb_move #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            clear_i,       // soft reset or change of FEN: drops all frames
+  input  logic            clear_i,       // pulse: soft reset or change of FEN; drops all frames
   // Frame on the bus, see can_core.
   input  logic            start_i,       // pulse: a frame begins
   input  logic            rx_hdr_i,      // pulse: the header of a frame is complete
@@ -59,6 +59,8 @@ module can_mb_move #(
   output logic            ans_o,         // pulse: buffer idx_o has code 1110 (answer) now
   output logic            busy_o         // 1: a match or a move is outstanding
 );
+  // unres_q: the match of the frame in row unres_row_q is outstanding. mv_q: a move is under way;
+  // arm_q, end_q: its first and its last clock; ovr_q: the frame that it replaces was not read.
   logic            unres_q, unres_row_q, bound_q, mv_q, arm_q, end_q, ovr_q, fifo, ans;
   // Per hidden row: it holds a frame (full_q), which goes into the FIFO (fifo_q), is answered
   // (ans_q).

@@ -6,7 +6,7 @@
 // (docs/integration.md).
 
 module can_mb_ram #(
-  /// Words of 32 bits; a power of two.
+  /// Number of 32-bit words, a power of two.
   parameter int Depth = 128,
   /// File with the initial contents, as $readmemh takes it; "": contents undefined.
   parameter InitFile = "",

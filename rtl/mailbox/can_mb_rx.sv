@@ -12,7 +12,7 @@ module can_mb_rx #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            clear_i,      // soft reset
+  input  logic            clear_i,      // pulse: soft reset or change of FEN
   // Configuration, constant while the engine runs.
   input  logic            bcc_i,        // MCR.BCC: individual masks and reception queue
   input  logic            eacen_i,      // CTRL2.EACEN: IDE and RTR are compared under the mask

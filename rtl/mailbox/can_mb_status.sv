@@ -12,7 +12,7 @@ module can_mb_status #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            clear_i,      // soft reset
+  input  logic            clear_i,      // pulse: soft reset
   input  logic            cs_written_i, // pulse: the CPU wrote a C/S word in the clock before
   // Pass for ESR2, see can_mb_tx.
   input  logic            pass_i,       // 1: a pass is wanted or under way, VPS = 0

@@ -20,7 +20,7 @@
 
 module can_mb_tx #(
   parameter int NumMb = 64,
-  /// There is ESR2.
+  /// 1: with ESR2 (can_mb_status).
   parameter int Status = 1,
   /// Derived, do not override.
   localparam int IdxW = $clog2(NumMb)
@@ -45,10 +45,11 @@ module can_mb_tx #(
   input  logic            start_i,      // pulse: buffer cur_idx_i goes on the bus
   input  logic            retry_i,      // pulse: buffer cur_idx_i left the bus, may be active
   input  logic            sent_i,       // pulse: buffer cur_idx_i was sent and has its new code
-  input  logic            inactive_i,        // pulse: the winner was found not to be active (upset)
+  input  logic            inactive_i,   // pulse: the winner was found not to be active (upset)
   // Launch time (can_time).
   input  logic            held_i,       // 1: buffer held_idx_i gives way to all others (TM-41)
   input  logic [IdxW-1:0] held_idx_i,
+  // Recovery from an upset flip-flop, once in 1024 bit times.
   input  logic            fresh_i,      // 1: look at all buffers if there is no winner
   // Read slots (can_mb_port, can_mb_step); data in the clock after the grant.
   output logic            ins_req_o,    // 1: insertion, buffer ins_idx_o is to be read
@@ -75,6 +76,9 @@ module can_mb_tx #(
 );
   localparam logic [1:0] MaxSpoils = 2'd3;
 
+  // Passes wanted: scan_q for the winner, look_q for ESR2, quiet_q against upsets. again_q: one
+  // more for the winner. own_q: best_val_q is the winner's. any_q: the ESR2 pass has seen an active
+  // buffer.
   logic            ins_q, ins_new, new_first, others_q, retry_q, retry_gnt, ans_q, ans_gnt;
   logic            ins_want;
   logic [2:0]      retry_on_q;
@@ -218,7 +222,7 @@ module can_mb_tx #(
 
   // A pass for ESR2 restarts with every change, among them a frame that failed, whose buffer counts
   // again, and, while it is under way, a frame that was sent. A pass for the winner restarts only
-  // when a winner is lost, and MaxSpoils times at most.
+  // when a winner or an insertion is lost, and MaxSpoils times at most.
   assign redo    = withdrawn || lost;
   // A buffer whose frame has just failed is not found here: its retry is an insertion.
   assign found   = candidate && look2_q && !best_q && !scan_q && !retry_i && !ins_want;

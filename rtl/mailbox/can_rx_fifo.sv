@@ -13,10 +13,10 @@
 module can_rx_fifo (
   input  logic       clk_i,
   input  logic       rst_ni,
-  input  logic       clear_i,        // pulse: soft reset or change of FEN, empties the FIFO
+  input  logic       clear_i,        // pulse: soft reset or change of FEN; empties the FIFO
   input  logic       bcc_i,          // MCR.BCC
   input  logic       mrp_i,          // CTRL2.MRP: mailboxes before the FIFO
-  // CPU.
+  // CPU's side.
   input  logic       pop_i,          // pulse: the CPU is done with the frame at the output
   output logic [2:0] head_o,         // row of the output
   output logic       avail_o,        // 1: a frame is at the output
