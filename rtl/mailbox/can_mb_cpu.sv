@@ -24,7 +24,7 @@ module can_mb_cpu #(
   input  logic            fen_i,         // MCR.FEN
   input  logic            aen_i,         // MCR.AEN
   input  logic            osmb_i,        // XCTRL.OSMB: bit 28 of C/S is stored with code 1100
-  input  logic [6:0]      first_i,       // first buffer that is a mailbox, behind the Rx FIFO
+  input  logic [6:0]      first_i,       // first buffer that is a mailbox, after the Rx FIFO
   input  logic [2:0]      head_i,        // row of the Rx FIFO's output
   // CPU access, see can_mb_port.
   input  logic            rd_done_i,     // 1 in the second clock of a read

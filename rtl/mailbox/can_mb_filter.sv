@@ -20,7 +20,7 @@ module can_mb_filter #(
   input  logic            bcc_i,        // MCR.BCC: the first words have masks of their own
   input  logic [1:0]      idam_i,       // MCR.IDAM: format of the words
   input  logic [3:0]      rffn_i,       // CTRL2.RFFN: the table has 8 * (rffn_i + 1) words
-  input  logic [6:0]      first_i,      // first buffer behind the table; number of words with RXIMR
+  input  logic [6:0]      first_i,      // first buffer after the table; number of words with RXIMR
   // Frame; its header is valid from the clock after start_i on. A base identifier is in 28:18.
   input  logic            start_i,      // pulse: the header is complete, a pass begins
   input  logic [28:0]     id_i,

@@ -38,7 +38,7 @@ module can_mb_move #(
   input  logic [IdxW-1:0] lock_idx_i,
   input  logic            cs_written_i,  // pulse: the CPU wrote a C/S word in the clock before
   input  logic [IdxW-1:0] cs_written_idx_i,
-  input  logic            cs_written_empty_i,// 1: whole word written, with code EMPTY
+  input  logic            cs_written_empty_i,  // 1: whole word written, with code EMPTY
   input  logic [IdxW-1:0] cpu_idx_i,     // buffer of the CPU access; next clock: cs_written_idx_i
   // Steps of a move, a copy each (can_mb_step): 0 ID, with a read of the old C/S word; 1 bytes 0-3;
   // 2 bytes 4-7; 3 C/S. An answer has step 3 only.

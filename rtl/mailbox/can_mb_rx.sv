@@ -32,8 +32,8 @@ module can_mb_rx #(
   input  logic [IdxW-1:0] waits_idx_i,
   input  logic            cs_written_i, // pulse: the CPU wrote a C/S word in the clock before
   input  logic [IdxW-1:0] cs_written_idx_i,
-  input  logic            cs_written_empty_i,// 1: whole word written, with code EMPTY
-  input  logic            cs_written_ide_i,  // IDE that was written
+  input  logic            cs_written_empty_i,  // 1: whole word written, with code EMPTY
+  input  logic            cs_written_ide_i,    // IDE that was written
   // Read slots (can_mb_step): C/S, ID and mask of buffer idx_o.
   output logic            req_o,        // 1: a read slot is wanted
   output logic [IdxW-1:0] idx_o,        // buffer that is to be read

@@ -16,7 +16,7 @@ module can_mb_status #(
   input  logic            cs_written_i, // pulse: the CPU wrote a C/S word in the clock before
   // Pass for ESR2, see can_mb_tx.
   input  logic            pass_i,       // 1: a pass is wanted or under way, VPS = 0
-  input  logic            pass_end_i,   // pulse: the pass is over, nothing has changed meanwhile
+  input  logic            pass_end_i,   // pulse: the pass is complete, nothing changed during it
   input  logic            seen_i,       // pulse: the pass has looked at buffer seen_idx_i
   input  logic [IdxW-1:0] seen_idx_i,
   input  logic            seen_worst_i, // 1: of those seen so far that buffer would be sent last

@@ -47,7 +47,7 @@ module can_mb_tx #(
   input  logic            sent_i,       // pulse: buffer cur_idx_i was sent and has its new code
   input  logic            inactive_i,   // pulse: the winner was found not to be active (upset)
   // Launch time (can_time).
-  input  logic            held_i,       // 1: buffer held_idx_i gives way to all others (TM-41)
+  input  logic            held_i,       // 1: buffer held_idx_i loses against all others (TM-41)
   input  logic [IdxW-1:0] held_idx_i,
   // Recovery from an upset flip-flop, once in 1024 bit times.
   input  logic            fresh_i,      // 1: look at all buffers if there is no winner
@@ -68,7 +68,7 @@ module can_mb_tx #(
   output logic            retry_o,      // 1: a retry has not been compared with the winner yet
   // Pass for ESR2, see can_mb_status.
   output logic            pass_o,       // 1: a pass is wanted or under way, no result yet
-  output logic            pass_end_o,   // pulse: the pass is over, nothing has changed meanwhile
+  output logic            pass_end_o,   // pulse: the pass is complete, nothing changed during it
   output logic            seen_o,       // pulse: the pass has looked at buffer seen_idx_o
   output logic [IdxW-1:0] seen_idx_o,
   output logic            seen_worst_o, // 1: of those seen so far that buffer would be sent last
