@@ -45,17 +45,23 @@ PcapFile open_bytes(std::string_view bytes, const std::string &path) {
   throw InputError(path, 0, in_quotes(error.data()) + " (libpcap)");
 }
 
+/// libpcap takes the seconds of a pcap file as 32 bits with a sign; in the format they have none.
+std::int64_t seconds(const pcap_pkthdr &header) {
+  const auto low = static_cast<std::int32_t>(header.ts.tv_sec);
+  return low == header.ts.tv_sec ? static_cast<std::uint32_t>(low) : header.ts.tv_sec;
+}
+
 /// Time of a packet, ns since the epoch; with nanosecond precision tv_usec holds nanoseconds.
 std::int64_t nanoseconds(const pcap_pkthdr &header, const text::Place &place) {
   constexpr std::int64_t kBillion = 1'000'000'000;
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max() / kBillion - 1;
-  if (header.ts.tv_sec < 0 || header.ts.tv_sec > kMost)
-    text::fail(place, fmt::format("time {} s is not allowed; allowed: 0 to {} s", header.ts.tv_sec,
-                                  kMost));
+  const std::int64_t s = seconds(header);
+  if (s < 0 || s > kMost)
+    text::fail(place, fmt::format("time {} s is not allowed; allowed: 0 to {} s", s, kMost));
   if (header.ts.tv_usec < 0 || header.ts.tv_usec >= kBillion)
     text::fail(place, fmt::format("{} ns of a second are not allowed; allowed: 0 to 999999999",
                                   header.ts.tv_usec));
-  return std::int64_t{header.ts.tv_sec} * kBillion + header.ts.tv_usec;
+  return s * kBillion + header.ts.tv_usec;
 }
 
 }  // namespace

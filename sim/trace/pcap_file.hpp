@@ -20,8 +20,8 @@ namespace vericansim {
 /// Reads `bytes` as if they were the file `path`.
 [[nodiscard]] CanLog parse_pcap(std::string_view bytes, const std::string &path);
 
-/// A capture of all that `log` holds, but for interfaces and directions; nanoseconds. Times before
-/// 1970 cannot be told.
+/// A capture of all that `log` holds, but for interfaces and directions; nanoseconds. The format
+/// has times from 1970 to 2106 (32 bits of seconds) alone.
 [[nodiscard]] std::string pcap_bytes(const CanLog &log);
 
 /// Writes captures with nanosecond stamps to an OutputFile.

@@ -187,6 +187,22 @@ TEST(Pcap, WritesWhatItReads) {
   EXPECT_THROW(PcapWriter("/no/such/folder/x.pcap"), InputError);
 }
 
+// The format's seconds are 32 bits without a sign: they end in 2106, not in 2038.
+TEST(Pcap, TimesGoTo2106) {
+  for (const std::uint32_t seconds : {0x7FFFFFFFU, 0x80000000U, 0xFFFFFFFFU}) {
+    const std::int64_t start = std::int64_t{seconds} * 1'000'000'000 + 999'999'999;
+    CanLog written;
+    written.entries.push_back({0, "", {0x123, false, false, 1, {1}}});
+    written.start_ns = start;
+    EXPECT_EQ(parse_pcap(pcap_bytes(written), "log").start_ns, start);
+    const std::string path = ::testing::TempDir() + "late.pcap";
+    PcapWriter writer{path, start};
+    writer.write(written.entries[0]);
+    writer.commit();
+    EXPECT_EQ(read_pcap(path).start_ns, start);
+  }
+}
+
 // An outside judge, where there is one: Wireshark's dissector must see the same frames.
 TEST(Pcap, TsharkReadsIt) {
   if (!has_program("tshark")) GTEST_SKIP() << "tshark is not installed";
