@@ -4,7 +4,7 @@
 # Tests in Python that work the tool: each method test_... of a unittest module is a test of ctest.
 
 # verican_unittest_cases(FILE LABEL [NAME=VALUE ...]): FILE with its folder; the tests are
-# LABEL.Class.method, with the values in their environment.
+# LABEL.Class.method, with the values in their environment. One that skips itself is skipped.
 function(verican_unittest_cases file label)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
   get_filename_component(module "${file}" NAME_WE)
@@ -20,6 +20,7 @@ function(verican_unittest_cases file label)
                        "${module}.${class}.test_${CMAKE_MATCH_1}"
                WORKING_DIRECTORY "${folder}")
       set_tests_properties("${name}" PROPERTIES LABELS "${label}" TIMEOUT 300
+                           SKIP_REGULAR_EXPRESSION "\nOK \\(skipped="
                            ENVIRONMENT "VERICAN_BINARY=$<TARGET_FILE:verican>;${ARGN}")
     endif()
   endforeach()

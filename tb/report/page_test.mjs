@@ -121,6 +121,7 @@ test('search finds identifiers, bytes, names and errors', async () => {
   for (const [text, fits] of Object.entries(wanted)) {
     await page.fill('#search', text);
     const ids = log.filter(fits).map(idText);
+    const found = `${ids.length} of 10`;
     await page
       .waitForFunction(
         ([words, list]) => {
@@ -132,16 +133,13 @@ test('search finds identifiers, bytes, names and errors', async () => {
             rows.filter(Boolean).join() === list.join()
           );
         },
-        [`${ids.length} of 10`, ids],
-        {timeout: 30000},
+        [found, ids],
       )
-      .catch(async () =>
-        assert.deepEqual(
-          (await rowsOf(page, 'frames')).map((row) => row[1]),
-          ids,
-          text,
-        ),
-      );
+      .catch(async (late) => {
+        const shown = (await rowsOf(page, 'frames')).map((row) => row[1]);
+        const said = await page.textContent('.found');
+        throw new Error(`${text}: "${said}", not "${found}"; ${shown}, not ${ids}`, {cause: late});
+      });
   }
   await page.fill('#search', 'error');
   await page.waitForFunction(() =>
