@@ -48,7 +48,11 @@ PartitionName=all Nodes=localhost Default=YES MaxTime=INFINITE State=UP
 
 
 class Impossible(Exception):
-    """This machine cannot run a cluster; the text says why."""
+    """This machine cannot run a cluster: a program is not installed; the text names it."""
+
+
+class Failed(Exception):
+    """The cluster does not work though all of it is there; the text says what happened."""
 
 
 def _free_ports(count):
@@ -62,10 +66,12 @@ def _free_ports(count):
 
 
 class PrivateSlurm:
-    """A context: within it self.environment is that of a machine of the cluster."""
+    """A context: within it self.environment is that of a machine of the cluster. `patience`: how
+    long, in seconds, a daemon may take to answer."""
 
-    def __init__(self, cpus):
+    def __init__(self, cpus, patience=240):
         self.cpus = cpus
+        self.patience = patience
         self.programs = []
         self.environment = {**os.environ,
                             "PATH": f"{os.environ.get('PATH', '')}:/usr/sbin:/sbin"}
@@ -78,13 +84,13 @@ class PrivateSlurm:
                 [name, *map(str, words)], env=self.environment, stdin=subprocess.DEVNULL,
                 stdout=log, stderr=log, cwd=self.dir))
 
-    def _wait(self, what, condition, seconds=60):
-        end = time.monotonic() + seconds
+    def _wait(self, what, condition):
+        end = time.monotonic() + self.patience
         while not condition():
             dead = [program.args[0] for program in self.programs if program.poll() is not None]
             if dead or time.monotonic() > end:
-                raise Impossible(f"{what}: {dead or 'not in time'}; "
-                                 + " | ".join(self._last_words()))
+                ended = f"ended: {', '.join(dead)}" if dead else "not in time"
+                raise Failed(f"{what}: {ended}; " + " | ".join(self._last_words()))
             time.sleep(0.2)
 
     def _last_words(self):

@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """slurm_test.py TB: the campaign on a real Slurm cluster of one node against the same on this
-machine alone. TB: directory tb of the build. Exit code 77: this machine cannot run a cluster."""
+machine alone. TB: directory tb of the build. Exit code 77: a program of the cluster is not
+installed."""
 import json
 import os
 import re
