@@ -63,3 +63,10 @@ DEVICES = {
                      REMOTE),
     "follower": Device("can_time_node", "replay_follower.sv", "four_state_record_follower", (0,),
                        (), FOLLOWER)}
+
+# How many clocks each recording has at least, in any of its devices: a little below what it has, so
+# that one that ends early, or holds nothing, is no success.
+LEAST_CLOCKS = {
+    "registers": 6500, "frames": 7000, "fifo": 7500, "arbitration": 3500, "errors": 15000,
+    "bus_off": 12000, "modes": 12000, "time_registers": 1700, "time_stamps": 7000,
+    "pairs": 250000, "vectors": 70000, "commands": 200000, "producers": 100000}

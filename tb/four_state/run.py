@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 import registers
-from devices import DEVICES
+from devices import DEVICES, LEAST_CLOCKS
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
@@ -126,7 +126,10 @@ def replay(args, name, size, bench, work):
     rows = f"{work}/{name}{size}.rows"
     call([recorder(args), name, str(size), rows], f"{work}/{name}{size}.record.log")
     with open(rows, encoding="utf-8") as file:
-        count = min(sum(1 for _ in file), args.clocks)
+        recorded = sum(1 for _ in file)
+    if recorded < LEAST_CLOCKS[name]:
+        raise ReplayError(f"{name}: {recorded} clocks recorded, not {LEAST_CLOCKS[name]} or more")
+    count = min(recorded, args.clocks)
     log = f"{work}/{name}{size}.log"
     call(["vvp", "-n", bench, f"+rows={rows}", f"+count={count}", f"+most={args.most}"],
          log)
