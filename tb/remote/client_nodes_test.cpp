@@ -125,7 +125,7 @@ class ClientBlocks : public ModelClientTest {
   }
 };
 
-// RN-40, RN-41, RN-44: every length, and all of the memory.
+// RN-40, RN-41: every length, and all of the memory but the identity, which nobody writes.
 TEST_F(ClientBlocks, EveryLength) {
   std::vector<std::size_t> lengths(20);
   std::iota(lengths.begin(), lengths.end(), 1U);
@@ -136,12 +136,11 @@ TEST_F(ClientBlocks, EveryLength) {
     ASSERT_EQ(block_write(address, bytes), VERICAN_REMOTE_OK) << n;
     const auto [result, back] = block_read(address, n);
     ASSERT_EQ(result, VERICAN_REMOTE_OK) << n;
-    if (n != 3584) {
-      ASSERT_EQ(back, bytes);
-    }
+    const std::size_t fixed = address == 0 ? 0x18 : 0;
+    const Bytes written(bytes.begin() + fixed, bytes.end());
+    ASSERT_EQ(Bytes(back.begin() + fixed, back.end()), written) << n;
+    ASSERT_EQ(memory(address + fixed, n - fixed), written) << n;
   }
-  const Bytes all = pattern(3584, 3584);
-  EXPECT_EQ(memory(0x18, 3584 - 0x18), Bytes(all.begin() + 0x18, all.end()));
 }
 
 class ClientBlockLosses : public ClientBlocks, public ::testing::WithParamInterface<unsigned> {};

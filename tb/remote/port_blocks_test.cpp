@@ -72,7 +72,7 @@ class PortBlocks : public ::testing::Test {
   PortLockstep pair_{"full", 3, 3};
 };
 
-// RN-40, RN-41, RN-44: every short length and all of the memory, both ways.
+// RN-40, RN-41: every short length and all of the memory, both ways.
 TEST_F(PortBlocks, AnyLengthArrivesAndComesBack) {
   for (unsigned n = 1; n <= 20; ++n) {
     write(0x200 + n, n);

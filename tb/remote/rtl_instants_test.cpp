@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// When a remote node does what: RN-21, RN-37, RN-45, RN-52, RN-55, RN-60, RN-70, RN-72.
+// When a remote node does what: RN-21, RN-37, RN-44, RN-45, RN-52, RN-55, RN-60, RN-70, RN-72.
 #include <gmock/gmock.h>
 
 #include "bus/faults.hpp"
@@ -207,6 +207,56 @@ TEST_F(RtlInstants, AutoOpReturnsUnlessStateForbids) {
   (void)bus.send("1FC#04");
   EXPECT_EQ(bus.node().peek(remote_map::kStatus) & 0x40, 0) << "CLEAR";
   EXPECT_EQ(recovered(), RemoteState::kSafe) << "watchdog";
+}
+
+/// All of the memory of a node of profile full, by BLOCK.
+class RtlBlocks : public ::testing::Test {
+ protected:
+  static constexpr unsigned kSize = 3584, kPart = 7;  // bytes
+  static constexpr unsigned kIdentity = 0x18;         // bytes at its begin that nobody writes
+  static constexpr Time kBar = 72 * kMillisecond;
+
+  RtlBlocks() { (void)bus.start(); }
+  /// Many stuff bits, and no two frames with the same bytes.
+  static std::uint8_t byte(unsigned at) {
+    const unsigned part = at / kPart;
+    return static_cast<std::uint8_t>(at % kPart == 0 ? part : at % kPart == 1 ? part >> 8 : 0x0F);
+  }
+  static Frame part(unsigned number) {
+    Frame frame{0x1FB, false, false, 1 + kPart, {static_cast<std::uint8_t>(number)}};
+    for (unsigned i = 0; i < kPart; ++i) frame.data[1 + i] = byte(number * kPart + i);
+    return frame;
+  }
+  /// Until the node has said it.
+  void wait_for(const std::string &answer) {
+    const auto said = [&] {
+      return !bus.host.received().empty() && candump_frame(bus.host.received().back()) == answer;
+    };
+    ASSERT_TRUE(bus.bus.run_until(said, 2 * kBar)) << answer;
+  }
+
+  RtlBus bus{rtl_unit(3, RemoteConfig::profile("full"))};
+};
+
+// RN-44: written and read back, each within the bar from the request on.
+TEST_F(RtlBlocks, AllOfTheMemoryInTime) {
+  Time from = bus.bus.now();
+  bus.host.request(bus_frame("1FA#02A10000000E00"));
+  wait_for("5FA#02A105000000");
+  for (unsigned i = 0; i < kSize / kPart; ++i) bus.host.request(part(i));
+  wait_for("5FA#02A10000000E");
+  EXPECT_LE(bus.bus.now() - from, kBar);
+
+  bus.host.received().clear();
+  from = bus.bus.now();
+  bus.host.request(bus_frame("1FA#01A20000000E00"));
+  wait_for("5FA#01A20000000E");
+  EXPECT_LE(bus.bus.now() - from, kBar);
+  ASSERT_EQ(bus.host.received().size(), kSize / kPart + 1);
+  unsigned differences = 0;
+  for (unsigned at = kIdentity; at < kSize; ++at)
+    if (bus.host.received()[at / kPart].data[1 + at % kPart] != byte(at)) ++differences;
+  EXPECT_EQ(differences, 0U);
 }
 
 }  // namespace
