@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Builds the C driver for a Cortex-M3 (-Os, all warnings are errors) and prints its size: per
-# function, per file and in total.
+# function, per file and in total. Fails above the limits of TM-90: the code of a time domain, with
+# the compiler of packages.txt, and its memory.
 # usage: tools/driver-size.sh [--check]     --check: only builds, prints the total
 set -eu
 cd "$(dirname "$0")/.."
@@ -52,3 +53,17 @@ SIZES
 "${prefix}nm" -S "$out/sizes.o" | while read -r _ size _ name; do
   printf 'memory of the caller: %d bytes per %s\n' "0x$size" "$name"
 done
+# within WHAT LIMIT BYTES
+within() {
+  [ "$3" -le "$2" ] && return
+  echo "driver-size: $1: $3 bytes, at most $2 are allowed (TM-90)" >&2
+  exit 1
+}
+domain=$("${prefix}nm" -S "$out/sizes.o" | awk '$4 == "domain" {print $2}')
+within "memory of a time domain" 700 "$((0x$domain))"
+code=$("${prefix}size" -t "$out"/servo*.o "$out"/tsyn*.o "$out/masters.o" "$out/delay.o" |
+  awk 'END {print $1}')
+echo "of it servo, CanTSyn, several masters, delay: text $code bytes"
+case $("${prefix}gcc" -dumpversion) in
+  12.*) within "code of a time domain" 6144 "$code" ;;
+esac
