@@ -4,8 +4,13 @@
 """packaging_rules.py [--check]: holds tb/packaging.yaml against the tests that it names and writes
 docs/packaging-rules.md. --check: writes nothing; status 1 if a test or a row is not there,
 a row has neither test nor reason, a module has a foreign name, or the page is stale.
+
+A test is a method test_... of a class in Python, a test or suite of GoogleTest, a proven property
+(by a rule that the comment above it names) or, with proofs.yaml, a proof. A word that stands in the
+file elsewhere is none.
 """
 import argparse
+import ast
 import re
 import sys
 from pathlib import Path
@@ -17,6 +22,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 # ruff: noqa: E402  (the path must be set first)
 from pack.wrappers import ROOT, rtl_files
+from test_plan import TEST, blank_opaque
+
+sys.path.insert(0, str(ROOT / "tb/formal"))
+from runner import catalogue
 
 PLAN = ROOT / "tb/packaging.yaml"
 PAGE = ROOT / "docs/packaging-rules.md"
@@ -28,7 +37,8 @@ HEAD = """\
 
 Written by `make rules` from [`tb/packaging.yaml`](../tb/packaging.yaml), whose tests are looked
 up; `make test` fails if one is missing, a row has none and no reason, or this page is stale.
-"Not run" says what of a row no tool here has seen.
+*Measured* is what is seen by other means than a test of `make test`: another command, or a reader.
+*Not run* is what of a row no tool here has seen.
 """
 
 
@@ -46,17 +56,54 @@ def split(test):
     return file, word.strip()
 
 
+def python_tests(path):
+    """Names of the methods that unittest runs."""
+    groups = ast.parse(path.read_text(encoding="utf-8")).body
+    return {test.name for group in groups if isinstance(group, ast.ClassDef)
+            for test in group.body
+            if isinstance(test, ast.FunctionDef) and test.name.startswith("test_")}
+
+
+def google_tests(path):
+    """Names of the tests of a program, and of their suites."""
+    found = TEST.findall(blank_opaque(path.read_text(encoding="utf-8")))
+    return {name for _, *names in found for name in names
+            if not any(part.startswith("DISABLED_") for part in names)}
+
+
+def proven_rules(path):
+    """Rules that the comments above the properties of a file name, if a proof takes the file."""
+    taken = {(proof.folder / name).resolve() for proof in catalogue.load(ROOT / "tb/formal")
+             for name in sum(proof.splice.values(), proof.files)}
+    return {rule for one in catalogue.read_properties(path) if path in taken
+            for rule in one.rules if one.is_property and one.kind == "assert"}
+
+
+def proofs(path):
+    """Names of the proofs of a part."""
+    return {proof.name for proof in catalogue.load(ROOT / "tb/formal")
+            if proof.folder == path.parent}
+
+
+READERS = {".py": python_tests, ".cpp": google_tests, ".sv": proven_rules, ".yaml": proofs}
+
+
+def tests_of(path):
+    """What in a file of tests an entry of `tests` may name."""
+    return READERS.get(path.suffix, lambda path: set())(path)
+
+
 def problems(sections):
     """What is wrong, a line each."""
     for section in sections:
         for name, row in section["rows"].items():
-            if not row.get("tests") and not row.get("not_run"):
+            if not any(row.get(key) for key in ("tests", "measured", "not_run")):
                 yield f"{name} has neither a test nor a reason"
             for file, word in map(split, row.get("tests", [])):
                 if not (ROOT / file).is_file():
                     yield f"{name}: {file}: no such file"
-                elif word not in (ROOT / file).read_text(encoding="utf-8"):
-                    yield f"{name}: {file}: no {word}"
+                elif not (names := tests_of(ROOT / file)) or (word and word not in names):
+                    yield f"{name}: {file}: no test {word}".rstrip()
     listed = [name for section in sections for name in section["rows"]]
     for first, last in RUNS:
         for number in range(first, last + 1):
@@ -70,13 +117,15 @@ def render(sections):
     """The page."""
     lines = [HEAD]
     for section in sections:
-        lines.append(f"\n## {section['section']}\n\n| row | what | tests | not run |\n"
+        lines.append(f"\n## {section['section']}\n\n| row | what | tests | measured, not run |\n"
                      "|---|---|---|---|\n")
         for name, row in section["rows"].items():
             tests = "<br>".join(
                 f"[{Path(file).name}](../{file})" + (f": `{word}`" if word else "")
                 for file, word in map(split, row.get("tests", [])))
-            lines.append(f"| {name} | {row['title']} | {tests} | {row.get('not_run', '')} |\n")
+            others = "<br>".join(f"*{key.replace('_', ' ')}:* {row[key]}"
+                                 for key in ("measured", "not_run") if key in row)
+            lines.append(f"| {name} | {row['title']} | {tests} | {others} |\n")
     return "".join(lines)
 
 
