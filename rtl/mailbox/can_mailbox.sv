@@ -267,7 +267,7 @@ module can_mailbox #(
 
   logic            eng_slot, flight;
   logic            ld_req, ld_word, ld_data, ld_cancel, ld_flag, ld_take, ld_busy;
-  logic            out, kept, done, abort, ab_flag;
+  logic            out, done, abort, ab_flag;
   logic [IdxW-1:0] ab_idx;
   logic [2:0]      ld_step, data_step;
   logic [IdxW-1:0] ld_idx;
@@ -280,7 +280,7 @@ module can_mailbox #(
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx), .cs_written_act_i(cs_written_act),
     .cs_wr_i(wr && cpu_mem_sel == can_mb_pkg::MemCs), .cs_wr_idx_i(cpu_idx),
     .cmd_i(ready_o), .cmd_mb_i, .abort_i(abort),
-    .out_o(out), .kept_o(kept), .done_o(done), .off_o(off),
+    .out_o(out), .done_o(done), .off_o(off),
     .tick_req_o, .tick_i, .start_i, .transmitter_i,
     .tx_req_o, .tx_ide_o, .tx_rtr_o, .tx_dlc_o, .tx_word_o, .tx_next_i, .tx_ok_i, .tx_fail_i,
     .started_o(started), .cur_idx_o(cur_idx), .mine_o(mine),
@@ -298,14 +298,14 @@ module can_mailbox #(
       .area_i(area), .ended_i(cs[can_mb_pkg::CsEnded]),
       .mark_i(serviced_gnt), .mark_idx_i(serviced_idx),
       .block_o(block), .if_ended_o(if_ended), .abort_o(abort),
-      .out_i(out), .kept_i(kept), .done_i(done), .cur_idx_i(cur_idx),
+      .out_i(out), .done_i(done), .cur_idx_i(cur_idx),
       .take_i(ld_take), .flag_o(ab_flag), .flag_idx_o(ab_idx), .gnt_i(!mv_flag && !ld_flag),
       .end_i(flag_o && !mv_flag), .end_idx_i(flag_idx_o), .iflag_i(iflag_i[NumMb-1:0]));
   end else begin : gen_no_guard
     assign {block, if_ended, abort, ab_flag} = '0;
     assign ab_idx = '0;
     logic unused_guard;
-    assign unused_guard = &{1'b0, area, out, kept, done, ld_take};
+    assign unused_guard = &{1'b0, area, out, done, ld_take};
   end
 
   if (Status != 0) begin : gen_status

@@ -40,7 +40,6 @@ module can_mb_guard #(
   output logic             abort_o,      // pulse: abort the frame that has moved out
   // Frame that is presented or sent, see can_mb_load.
   input  logic             out_i,        // 1: buffer cur_idx_i has moved out
-  input  logic             kept_i,       // 1: writing an active code does not take its frame back
   input  logic             done_i,       // 1: the end of its frame is being written back
   input  logic [IdxW-1:0]  cur_idx_i,
   input  logic             take_i,       // 1: cur_idx_i changes in the next clock
@@ -53,14 +52,12 @@ module can_mb_guard #(
   input  logic [IdxW-1:0]  end_idx_i,
   input  logic [NumMb-1:0] iflag_i
 );
-  logic abort_q, cur_q, flag_q, cs_block_q, guarded, is_cs, active, cur, abort, at_once, ended,
+  logic abort_q, cur_q, flag_q, cs_block_q, guarded, is_cs, cur, abort, at_once, ended,
     all_block;
 
   assign guarded   = aen_i && !area_i && !mem_sel_i[1];
   assign abort     = wr_done_i && abort_q;
   assign is_cs     = mem_sel_i == can_mb_pkg::MemCs;
-  assign active    = !be3_i || code_i == can_regs_pkg::MbCsCodeTxData
-                  || code_i == can_regs_pkg::MbCsCodeTxAnswering;
   assign cur       = idx_i == cur_idx_i && !take_i;
   assign all_block = (cur_q && done_i) || flag_q;
   assign block_o   = cs_block_q || all_block;
@@ -73,7 +70,7 @@ module can_mb_guard #(
       {abort_q, flag_q, cs_block_q, if_ended_o, cur_q} <= '0;
     end else begin
       abort_q    <= guarded && is_cs && be3_i && code_i == can_regs_pkg::MbCsCodeTxAbort;
-      cs_block_q <= guarded && is_cs && cur && (out_i || (kept_i && active));
+      cs_block_q <= guarded && is_cs && cur && out_i;
       cur_q      <= guarded && cur;
       flag_q     <= guarded && flag_o && idx_i == flag_idx_o;
       if_ended_o <= first_i && guarded && (iflag_i[idx_i] || (end_i && end_idx_i == idx_i))

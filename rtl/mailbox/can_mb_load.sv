@@ -43,7 +43,6 @@ module can_mb_load #(
   input  logic [IdxW-1:0] cmd_mb_i,
   input  logic            abort_i,       // pulse: abort the frame that has moved out
   output logic            out_o,         // 1: buffer cur_idx_o has moved out
-  output logic            kept_o,        // 1: writing an active code does not take its frame back
   output logic            done_o,        // 1: the end of its frame is being written back
   output logic            off_o,         // 1: buffer cur_idx_o takes no part in the arbitration
   // Engine, see can_core.
@@ -140,11 +139,14 @@ module can_mb_load #(
   assign sent_o   = flag_o && !failed_q;
   assign take_o   = head_taken;
 
-  // can_mb_guard looks at out_o and kept_o in the first clock of a write. A write that ended in the
-  // clock before may be taking the frame back (takes_back).
-  assign takes_back = cs_written_cur && (!cs_written_act_i || !dropped_q);
+  // An active code takes the frame back only once, so that a CPU that rewrites the buffer again and
+  // again does not keep all off the bus; the frame that stays is replaced as soon as the new one is
+  // loaded (StIdle). With MCR.AEN a C/S write that is not discarded always takes it back: no frame
+  // may be sent that its buffer does not tell of.
+  // can_mb_guard looks at out_o in the first clock of a write. A write that ended in the clock
+  // before may be taking the frame back.
+  assign takes_back = cs_written_cur && (!cs_written_act_i || !dropped_q || aen_i);
   assign out_o    = off_o || started_o || (tx_req_o && gap_i && !takes_back);
-  assign kept_o   = tx_req_o && dropped_q && !takes_back;
   assign done_o   = end_q || flag_o;
   assign off_o    = on_bus_q || abort_q || done_o;
   // withdrawn: the abort need not wait for the end of an attempt, because none is under way.
@@ -169,7 +171,7 @@ module can_mb_load #(
       if (data_i && data_step_i == can_mb_pkg::StepWord) tx_word_o <= msg_i;
       case (state_q)
         StIdle: if (settled_i && !flight_i && !cs_written_best
-                    && !((tx_req_o || off_o) && best_idx_i == cur_idx_o)) begin
+                    && !(((tx_req_o && !orphan_q) || off_o) && best_idx_i == cur_idx_o)) begin
           state_q  <= StLow;
           ld_idx_o <= best_idx_i;
         end
@@ -230,9 +232,7 @@ module can_mb_load #(
         // answer is never one-shot.
         {one_shot_q, answer_q} <= {osmb_i && cs_i[can_regs_pkg::MbCsOs] && !cs_i[25], cs_i[25]};
       end else if (cs_written_cur) begin
-        // Rewritten: a frame on the bus is no longer the buffer's. A presented frame is taken back,
-        // for an active code only once, so that rewriting it again and again does not keep all off
-        // the bus.
+        // Rewritten: a frame on the bus is no longer the buffer's.
         orphan_q <= 1'b1;
         if (tx_req_o && takes_back) begin
           tx_req_o  <= 1'b0;

@@ -76,6 +76,17 @@ module can_mb_move #(
 
   assign fifo_in_flight_o = full_q & fifo_q & ~{unres_q && unres_row_q, unres_q && !unres_row_q};
 
+  // Rows that still hold a frame where a move ends in this clock; crowded: the frame that begins
+  // finds no empty row.
+  logic [1:0] stays;
+  logic       crowded;
+  assign stays   = full_q & ~({row_o, !row_o} & {2{end_q}});
+  assign crowded = start_i && (&stays);
+
+  // A frame that has just been bound to its buffer replaces one that waits for the same buffer.
+  logic replaces;
+  assign replaces = bound_q && tgt0_q == tgt1_q && !(mv_q && row_o != unres_row_q);
+
   // The match is that of the frame in row smb_o, so an earlier frame can only be in the other row.
   // If smb_o has changed since the match began, the new row smb_o was empty: no earlier frame
   // waits.
@@ -107,7 +118,7 @@ module can_mb_move #(
   assign moving_o = mv_q;
   assign busy_mb_o = mv_q && !ans;
   assign answer_o = ans;
-  assign resolve_o = unres_q && match_done_i && !valid_i && !clear_i;
+  assign resolve_o = unres_q && match_done_i && !valid_i && !crowded && !clear_i;
   assign busy_o   = unres_q || mv_q || ready != '0;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -122,8 +133,8 @@ module can_mb_move #(
     end else begin
       {flag_o, stored_o, ans_o} <= '0;
       hit_q <= cpu_idx_i == idx_o;
-      // Moves.
-      if (!mv_q && ready != '0 && !hold_i) begin
+      // Moves. None begins in a clock in which its frame may be cancelled, replaced or dropped.
+      if (!mv_q && ready != '0 && !hold_i && !start_i && !replaces && kill == '0) begin
         {mv_q, arm_q} <= '1;
         row_o  <= !ready[0];
         idx_o  <= ready[0] ? tgt0_q : tgt1_q;
@@ -148,29 +159,36 @@ module can_mb_move #(
       if (kill[0] && !(end_q && !row_o)) full_q[0] <= 1'b0;
       if (kill[1] && !(end_q && row_o))  full_q[1] <= 1'b0;
 
-      // A frame that has just been bound to its buffer replaces one that waits for the same buffer.
       bound_q <= resolve_o && hit_i;
-      if (bound_q && tgt0_q == tgt1_q && !(mv_q && row_o != unres_row_q)) begin
-        full_q[!unres_row_q] <= 1'b0;
-      end
+      if (replaces) full_q[!unres_row_q] <= 1'b0;
 
       // New frames, and the results of their matches.
       if (valid_i) begin
         full_q[smb_o] <= 1'b1;
         unres_q       <= 1'b1;
         unres_row_q   <= smb_o;
-      end else if (unres_q && match_done_i) begin
+      end else if (unres_q && match_done_i && !crowded) begin
         unres_q <= 1'b0;
         if (!hit_i) full_q[unres_row_q] <= 1'b0;
         fifo_q[unres_row_q] <= hit_fifo_i;
         ans_q[unres_row_q]  <= hit_ans_i;
         if (unres_row_q) tgt1_q <= hit_idx_i;
         else             tgt0_q <= hit_idx_i;
-      end else if (unres_q && (rx_hdr_i || (start_i && full_q == '1))) begin
+      end else if (unres_q && rx_hdr_i) begin
         unres_q <= 1'b0;              // no buffer found in the time of a whole frame
         full_q[unres_row_q] <= 1'b0;
       end
-      if (start_i && full_q[smb_o] && !full_q[!smb_o]) smb_o <= !smb_o;
+      // The frame that begins needs an empty row. If both are full, the frame that came last is lost
+      // if its match is outstanding or the other one is being moved, else the one that waits.
+      if (start_i && stays[smb_o]) begin
+        if (crowded && (unres_q || (mv_q && row_o != smb_o))) begin
+          unres_q       <= 1'b0;
+          full_q[smb_o] <= 1'b0;
+        end else begin
+          full_q[!smb_o] <= 1'b0;
+          smb_o          <= !smb_o;
+        end
+      end
       if (clear_i) begin
         full_q <= '0;
         {unres_q, mv_q, arm_q, end_q, flag_o, stored_o, ans_o} <= '0;

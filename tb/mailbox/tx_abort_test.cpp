@@ -372,6 +372,37 @@ TEST(Deactivate, AtEveryClockOfAFrame) {
 
 // FX-9.ERR005829, FX-3.3.g: the drivers' workaround writes, in every clock around the start of a
 // frame.
+// FX-3.4.a, FX-3.4.g: software replaces a waiting frame by a new one, with C/S writes of code 1100
+// alone, while another frame is on the bus. What is sent is the last one, once, with its IFLAG,
+// whenever the writes come and however often.
+TEST(Replace, OnlyTheLastFrameIsSent) {
+  constexpr unsigned kReplaced = 5, kPeer = 30;
+  for (const bool aen : {false, true}) {
+    for (unsigned times = 1; times < 5; ++times) {
+      for (unsigned pause = 40; pause < 160; pause += 7) {
+        TxRig rig{2, aen ? TxRig::with_aen() : RigConfig{}};
+        rig.join();
+        rig.put_tx(1, kPeer, {.id = 0, .dlc = 8});
+        ASSERT_TRUE(rig.run_until([&] { return rig.field(0) == Field::kId; }, 400));
+        std::uint32_t id = 0x100;
+        for (unsigned i = 0; i < times; ++i, ++id) {
+          const MbWords words = mb_words({.id = id, .dlc = 1, .data = {1}}, 0xC);
+          rig.write_watched(reg::mb(kReplaced, 2), words.low);
+          rig.write_watched(reg::mb(kReplaced, 1), words.id);
+          rig.write_watched(reg::mb(kReplaced), words.cs);
+          rig.watch(pause);
+        }
+        ASSERT_NE(rig.field(0), Field::kInt) << "all was written within the other frame";
+        ASSERT_TRUE(rig.watch_flag(kReplaced, 2000));
+        rig.watch(500);
+        EXPECT_EQ(rig.starts(), 1u) << "AEN " << aen << ", " << times << " times, " << pause;
+        EXPECT_EQ(mb_frame(rig.received()).id, id - 1);
+        if (testing::Test::HasFailure()) return;
+      }
+    }
+  }
+}
+
 TEST(Deactivate, WritesToOtherBuffersDelayNothing) {
   for (unsigned lbuf : {0u, 1u}) {
     RigConfig config;

@@ -182,8 +182,8 @@ TEST_F(PortMaps, ATimeOutIsNotEarlyByAnotherEntry) {
   }
 }
 
-// RN-66: nor that of the longest time-out, which is as long as the time that is counted; STALE stays
-// while frames of the other entry are taken.
+// RN-66: nor that of the longest time-out, which is as long as the time that is counted; STALE
+// stays while frames of the other entry are taken.
 TEST_F(PortMaps, TheLongestTimeOutIsNotEarlyByAnotherEntry) {
   map(0, 0x6A0, 0x7FF, 0x300, 2, 255);
   map(1, 0x6B0, 0x7FF, 0x310, 2);

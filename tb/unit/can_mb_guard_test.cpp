@@ -141,23 +141,6 @@ TEST_F(MbGuard, RequestThatIsRefusedIsNotDone) {  // FX-3.3.j, FX-3.4.a
   EXPECT_FALSE(guard_->flag_o) << "is set a second time";
 }
 
-// The frame presented may be rewritten with what is not sent. Without the top byte the code stays,
-// and that may be an active one.
-TEST_F(MbGuard, WhatIsNotTakenBackForANewFrame) {  // FX-3.4.a
-  guard_->kept_i = 1;
-  guard_->cur_idx_i = 12;
-  for (unsigned code = 0; code < 16; ++code) {
-    for (const bool top_byte : {false, true}) {
-      look(kCs, 12, code);
-      guard_->be3_i = top_byte;
-      ends();
-      EXPECT_EQ(blocked(), !top_byte || code == kActive || code == kAnswer) << code;
-      cs_write(13, code);
-      EXPECT_FALSE(blocked());
-    }
-  }
-}
-
 // The mark of the C/S word alone is not enough, nor is a flag: that may be a reception's.
 TEST_F(MbGuard, ProtectsWhatHasEndedUntilItsFlagIsCleared) {  // FX-3.3.j
   for (const bool marked : {false, true}) {

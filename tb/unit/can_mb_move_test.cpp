@@ -92,6 +92,30 @@ TEST_F(MbMove, CsWriteCancelsTheFrameThatWaitsForItsBuffer) {  // FX-3.4.g
   }
 }
 
+// In whatever clock the write comes, that of the decision to move the frame too.
+TEST_F(MbMove, CsWriteCancelsInEveryClock) {  // FX-3.4.g
+  unsigned cancelled = 0;
+  for (unsigned wait = 0; wait < 24; ++wait) {
+    move_.reset();
+    stored_.clear();
+    move_->cpu_idx_i = 10;
+    move_->hold_i = 1;
+    frame(10);
+    for (unsigned i = 0; i < wait; ++i) {
+      move_->hold_i = i < 5;
+      clock();
+    }
+    move_->hold_i = wait < 5;
+    written(10, false);
+    clock();
+    const Buffers before = stored_;
+    EXPECT_EQ(all_that_moves(), before) << "written in clock " << wait;
+    cancelled += before.empty();
+  }
+  EXPECT_GT(cancelled, 5u);
+  EXPECT_LT(cancelled, 24u);
+}
+
 TEST_F(MbMove, CsWriteOfAnotherBufferCancelsNothing) {  // FX-3.4.g
   two_wait();
   write(11, false);
@@ -223,6 +247,37 @@ TEST_F(MbMove, AFrameWithoutABufferByThenIsLost) {
     EXPECT_FALSE(move_->resolve_o);
     EXPECT_EQ(all_that_moves(), no_row ? Buffers{10} : Buffers{});
   }
+}
+
+// FX-3.6.b, VA-01: the hidden row that a frame is written to from its begin on holds no other one:
+// a frame waits for a locked buffer, and the match of the next one ends in any clock around the
+// begin of a third; so does the lock. One of the three is lost at most, never the last.
+TEST_F(MbMove, AFrameThatBeginsOverwritesNoOther) {
+  for (const unsigned second : {20u, 10u})
+    for (unsigned match = 0; match < 24; ++match)
+      for (unsigned unlock = 0; unlock < 40; ++unlock) {
+        move_.reset();
+        stored_.clear();
+        move_->lock_i = 1;
+        move_->lock_idx_i = 10;
+        frame(10);
+        frame(second, false);
+        for (unsigned i = 0; i < 60; ++i) {
+          if (i == match) move_->match_done_i = 1;
+          if (i == unlock) move_->lock_i = 0;
+          move_->start_i = i == 12;
+          clock();
+          ASSERT_FALSE(i > 12 && move_->moving_o && move_->row_o == move_->smb_o)
+              << second << " match " << match << " unlock " << unlock << " clock " << i;
+        }
+        move_->hit_idx_i = 30;
+        move_->valid_i = 1;
+        clock();
+        const Buffers all = all_that_moves();
+        ASSERT_FALSE(all.empty());
+        EXPECT_EQ(all.back(), 30u);
+        EXPECT_GE(all.size(), 2u) << second << " match " << match << " unlock " << unlock;
+      }
 }
 
 // From the clock after the decision until it is stored, whatever the other row does.

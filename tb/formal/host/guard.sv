@@ -4,13 +4,12 @@
   // Properties of can_mb_guard, spliced into it: what is forbidden of a write of
   // two clocks.
 
-  logic             f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort, f_out, f_kept, f_mark,
-    f_own;
+  logic             f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort, f_out, f_mark, f_own;
   logic [1:0]       f_mem_sel;
   logic [IdxW-1:0]  f_idx;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort, f_out, f_kept, f_mark, f_own} <= '0;
+      {f_second, f_guarded, f_iflag, f_cur, f_cs, f_abort, f_out, f_mark, f_own} <= '0;
       f_mem_sel <= '0;
       f_idx     <= '0;
     end else begin
@@ -23,7 +22,6 @@
       f_out     <= out_i;
       f_mark    <= mark_i && mark_idx_i == idx_i;
       f_own     <= flag_o && flag_idx_o == idx_i;
-      f_kept    <= kept_i && (!be3_i || code_i == 4'b1100 || code_i == 4'b1110);
       f_mem_sel <= mem_sel_i;
       f_idx     <= idx_i;
     end
@@ -51,11 +49,11 @@
       p_ended: assert (!(f_write && f_ends) || f_blocked);
       // flexcan.md 3.3: nor the C/S word of one that had moved out in the first clock; a bus that
       // becomes free in the second is two bits away from the next frame. Any other word is written.
-      p_out: assert (!(f_write && f_cs && f_cur && (f_out || f_kept)) || f_blocked);
-      p_written: assert (!(f_write && !f_ends && !(f_cs && f_cur && (f_out || f_kept)))
+      p_out: assert (!(f_write && f_cs && f_cur && f_out) || f_blocked);
+      p_written: assert (!(f_write && !f_ends && !(f_cs && f_cur && f_out))
                          || !f_blocked);
       // flexcan.md 3.3: a request is code 1001 in a C/S word that is forbidden as the frame is out.
-      p_request: assert (!abort_o || (f_write && f_cs && f_abort && f_cur && (f_out || f_kept)
+      p_request: assert (!abort_o || (f_write && f_cs && f_abort && f_cur && f_out
                                       && !f_ends));
       // flexcan.md 3.3: an abort is done at once exactly when the word is written, and IFLAG tells.
       p_at_once: assert ($initstate

@@ -4,7 +4,7 @@
   // Properties of can_mb_move beside can_mb_lock (lock_move.sv), spliced into it. The moment of
   // every read, write and frame is free, and so are the words of the RAM.
 
-  logic f_ran, f_moving_q, f_put, f_put_q, f_flag_fifo_q, f_ans_q;
+  logic f_ran, f_frame, f_moving_q, f_put, f_put_q, f_flag_fifo_q, f_ans_q;
   logic [IdxW-1:0] f_idx_q;
   // The C/S word is written (can_mb_step: step 3).
   logic f_cancel, f_copy;
@@ -13,10 +13,11 @@
   assign f_put = data_i && step_o == 2'd3 && moving_o && !cancel_o;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {f_ran, f_moving_q, f_put_q, f_flag_fifo_q, f_ans_q} <= '0;
+      {f_ran, f_frame, f_moving_q, f_put_q, f_flag_fifo_q, f_ans_q} <= '0;
       f_idx_q <= '0;
     end else begin
       f_ran         <= 1'b1;
+      f_frame       <= start_i || (f_frame && !valid_i);
       f_moving_q    <= busy_mb_o;
       f_put_q       <= f_put && !clear_i;
       f_flag_fifo_q <= fifo;
@@ -26,10 +27,14 @@
   end
 
   always @(posedge clk_i) begin
-    // A move takes some ten clocks, a frame at least 47 bits of eight: the hidden row of the frame
-    // on the bus is free when that frame is good. The other may wait for a lock, and only one can.
-    m_time: assume (!(valid_i && (full_q[smb_o] || (mv_q && row_o == smb_o))));
+    // A frame is good only behind its begin.
+    m_frame: assume (!(valid_i && (start_i || !f_frame)));
     if (rst_ni) begin
+      // VA-01, flexcan.md 3.6: nothing waits in the hidden row that the frame on the bus is written
+      // to, nor is anything moved from there, whenever matches, locks and moves end.
+      p_own_row: assert (!f_frame || !(full_q[smb_o] || (mv_q && row_o == smb_o)));
+      // flexcan.md 3.4: what is moved has not been cancelled.
+      p_moves: assert (!mv_q || full_q[row_o]);
       // flexcan.md 3.6: no buffer is both locked and moved into, but in the clock after the
       // decision, in which nothing is written yet.
       p_not_both: assert (!(lock_i && busy_mb_o && lock_idx_i == idx_o) || (arm_q && !data_i));
