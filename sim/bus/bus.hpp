@@ -101,6 +101,7 @@ class Bus {
   [[nodiscard]] Level level() const { return level_; }
   [[nodiscard]] unsigned size() const { return static_cast<unsigned>(nodes_.size()); }
   [[nodiscard]] Node &node(NodeId id) { return *nodes_[id].node; }
+  [[nodiscard]] const Node &node(NodeId id) const { return *nodes_[id].node; }
   [[nodiscard]] const Link &link(NodeId id) const { return nodes_[id].link; }
   /// True while all oscillators tick together and there is neither a delay nor a fault: the fast
   /// path.

@@ -65,7 +65,7 @@ void BusJudge::on_bit(NodeId id, const BitRecord &record) {
     disturbances().add(kAllNodes, {record.time - bit_time_, record.time});
   side.bus_off = bit.bus_off;
   const Frame &frame = side.rules->model().received();
-  wire_.bit(id, record.time, bit, frame);
+  if (!side.rules->model().config().loop_back) wire_.bit(id, record.time, bit, frame);
   const bool received = bit.delivered && !bit.transmitter;
   if (received && side.accepts && side.accepts(frame)) side.to_software.push_back(frame);
 }

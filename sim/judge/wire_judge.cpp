@@ -46,9 +46,21 @@ void WireJudge::bit(NodeId id, Time time, const NodeBit &bit, const Frame &frame
     deliveries_.push_back({id, node.sof, time, frame});
   }
   if (!bit.sent) return;
+  node.success = {id, node.sof, time, frame};
+  if (sent_together(node.success)) return;
   ++counts_.exchanges;
-  successes_.push_back({id, node.sof, time, frame});
+  successes_.push_back(node.success);
   unseen_.push_back(successes_.back());
+}
+
+// AR-10: a remote frame that two nodes send at once is one frame on the wire.
+bool WireJudge::same_exchange(const Success &a, const Success &b) const {
+  return std::abs(a.end - b.end) < 3 * bit_time_ / 2 && a.frame == b.frame;
+}
+
+bool WireJudge::sent_together(const Success &success) const {
+  return std::any_of(successes_.begin(), successes_.end(),
+                     [&](const Success &other) { return same_exchange(success, other); });
 }
 
 // Three bits after its end every node has its view of a frame. The decoder's comes with the next
@@ -85,6 +97,7 @@ void WireJudge::judge_receiver(const Success &success, NodeId id, bool clean) {
     return d.node == id && std::abs(d.time + bit_time_ - success.end) < 3 * bit_time_ / 2;
   });
   if (mine == deliveries_.end()) {
+    if (same_exchange(nodes_[id].success, success)) return;
     const bool took_part = std::abs(nodes_[id].sof - success.sof) < 3 * bit_time_ / 2;
     if (!clean || !took_part) return;
     return report_(fmt::format("{} has not received {}, which {} sent {}", nodes_[id].name,

@@ -28,11 +28,12 @@ struct WireCounts {
 };
 
 /// The judge. Demands are strict while nothing has disturbed the bus for kSettled bits: then a
-/// frame that one node counts as sent is delivered once by every other node on the bus, and stands
-/// on the wire; a delivery without a success is none. In disturbed times two nodes that are not
-/// disturbed themselves agree on the content, and a delivery without a success needs a sender that
-/// failed at EOF7, or a disturbance; or one that failed at EOF6 after the receiver had sampled it:
-/// a node that does not hear the others starts where it likes, between two sample points too.
+/// frame that one node counts as sent is delivered once by every other node on the bus that has not
+/// sent the same frame with it (AR-10), and stands on the wire; a delivery without a success is
+/// none. In disturbed times two nodes that are not disturbed themselves agree on the content, and a
+/// delivery without a success needs a sender that failed at EOF7, or a disturbance; or one that
+/// failed at EOF6 after the receiver had sampled it: a node that does not hear the others starts
+/// where it likes, between two sample points too.
 class WireJudge {
  public:
   using Report = std::function<void(const std::string &)>;
@@ -45,7 +46,8 @@ class WireJudge {
   void add_node(const std::string &name) { nodes_.push_back({name}); }
   [[nodiscard]] Disturbances &disturbances() { return disturbances_; }
 
-  /// A bit of a node; `frame`: of the bits so far, complete if it was delivered or sent.
+  /// A bit of a node; `frame`: of the bits so far, complete if it was delivered or sent. Not to be
+  /// told of a node in loop-back, which is not on the bus.
   void bit(NodeId id, Time time, const NodeBit &bit, const Frame &frame);
   /// A frame that the decoder saw.
   void on_wire(const BusFrame &frame);
@@ -57,6 +59,11 @@ class WireJudge {
  private:
   static constexpr Time kFar = 1'000'000;
 
+  struct Success {
+    NodeId node = 0;
+    Time sof = -kSecond, end = -kSecond;
+    Frame frame;
+  };
   struct NodeView {
     std::string name;
     Time sof = -kSecond;       // of the frame under way or the last one
@@ -64,11 +71,7 @@ class WireJudge {
     bool failed_eof6 = false;  // ... at EOF6
     bool failed_late = false;  // ... at EOF7
     bool unheard = false;      // ... error passive, for want of an acknowledge
-  };
-  struct Success {
-    NodeId node;
-    Time sof, end;
-    Frame frame;
+    Success success{};         // last attempt that ended well
   };
   struct Delivery {
     NodeId node;
@@ -79,6 +82,8 @@ class WireJudge {
   void settle(Time nodes_until, Time wire_until);
   void judge(const Success &success);
   void judge_receiver(const Success &success, NodeId id, bool clean);
+  [[nodiscard]] bool same_exchange(const Success &a, const Success &b) const;
+  [[nodiscard]] bool sent_together(const Success &success) const;
   void judge_left_over(const Delivery &delivery);
   [[nodiscard]] bool clean(Time sof, Time end) const;
   [[nodiscard]] bool disturbed(NodeId id, Time sof, Time end) const;

@@ -25,8 +25,10 @@ DecoderConfig decoder_config(Time bit_time, double sample_point) {
 }  // namespace
 
 BusMonitor::BusMonitor(const Bus &bus, Time bit_time, double sample_point)
-    : bit_time_{bit_time},
+    : bus_{bus},
+      bit_time_{bit_time},
       nodes_(bus.size()),
+      sending_(bus.size()),
       decoder_{decoder_config(bit_time, sample_point),
                [this](const BusEvent &e) { take_event(e); }} {
   decoder_.on_level(bus.now(), bus.level());
@@ -34,12 +36,12 @@ BusMonitor::BusMonitor(const Bus &bus, Time bit_time, double sample_point)
 
 void BusMonitor::on_level(Time time, Level level) {
   decoder_.on_level(time, level);
-  settle();
+  settle(time);
 }
 
 void BusMonitor::advance(Time time) {
   decoder_.finish(time);
-  settle();
+  settle(time);
 }
 
 void BusMonitor::count_errors(NodeCounts &counts, std::uint8_t errors) {
@@ -53,13 +55,15 @@ void BusMonitor::on_bit(NodeId node, const BitRecord &bit) {
   NodeCounts &counts = nodes_[node];
   const Trace &after = bit.after;
   count_errors(counts, after.errors);
-  if (after.start && after.transmitter) ++counts.attempts;
+  if (after.start) {
+    counts.sending = after.transmitter;
+    if (after.transmitter) ++counts.attempts;
+  }
   if (after.rx_valid && !after.transmitter) ++counts.delivered;
   if (after.tx_fail && after.errors == 0) ++counts.lost_arbitration;
-  if (after.tx_ok) {
-    ++counts.sent;
-    senders_.emplace_back(node, bit.time);
-  }
+  if (after.tx_ok) ++counts.sent;
+  if (after.tx_ok || after.tx_fail) counts.sending = false;
+  if (bit.at.transmitter) follow_transmitter(node, bit);
   if (after.bus_off && !counts.off) ++counts.bus_off;
   counts.off = after.bus_off;
   counts.passive = after.passive;
@@ -67,45 +71,82 @@ void BusMonitor::on_bit(NodeId node, const BitRecord &bit) {
   counts.rec = after.rec;
   counts.max_tec = std::max(counts.max_tec, counts.tec);
   if (!after.bus_off) counts.max_rec = std::max(counts.max_rec, counts.rec);
+  settle(bit.time);
+}
+
+// Behind arbitration all transmitters of a bus send one frame. Only the pin tells a node in
+// loop-back from them; two dominant bits in a row, as the reserved bits are, show there for sure,
+// wherever in the bit it is looked at.
+void BusMonitor::follow_transmitter(NodeId node, const BitRecord &bit) {
+  Sending &sending = sending_[node];
+  if (bus_.node(node).tx() == Level::kDominant) sending.dominant = bit.time;
+  if (bit.at.field == Field::kCrc) sending.crc = bit.time;
+  if (bit.after.tx_ok) sending.success = bit.time;
+}
+
+// The bus is held from `from` to `to`. Flags overlap the intermission that a frame is given, and so
+// does a SOF in its last bit: no time counts twice.
+void BusMonitor::hold(Time from, Time to) {
+  from = std::max(from, held_until_);
+  if (to <= from) return;
+  busy_ += to - from;
+  held_until_ = to;
 }
 
 void BusMonitor::take_event(const BusEvent &event) {
   constexpr Time kIntermission = 3;
   switch (event.kind) {
     case BusEventKind::kFrame:
-      busy_ += event.end - event.start + kIntermission * bit_time_;
+      hold(event.start, event.end + kIntermission * bit_time_);
       // What a lone error-passive transmitter repeats looks whole to a listener (MO-03).
       if (!event.acked) {
         ++unacknowledged_;
         break;
       }
       ++frames_;
-      unsettled_.push_back({event.frame, event.start, event.end, BusFrame::kNobody});
+      unsettled_.push_back({event.frame, event.start, event.end});
       break;
     case BusEventKind::kOverloadFrame:
       ++overload_frames_;
-      busy_ += event.end - event.start;
+      hold(event.start, event.end);
       break;
-    default:
+    case BusEventKind::kBadFrame:
+      ++error_frames_;
+      hold(event.start, event.end + kIntermission * bit_time_);
+      break;
+    case BusEventKind::kErrorFrame:
       ++error_frames_;
       // From the SOF of the frame that was destroyed, if there was one.
       const bool in_frame = event.field >= Field::kSof && event.field <= Field::kEof;
-      busy_ += event.end - (in_frame ? event.frame_start : event.start);
+      hold(in_frame ? event.frame_start : event.start, event.end);
   }
   if (on_event) on_event(event);
 }
 
-// A frame has its sender if a node reported success between the frame's last bits and two bits
-// later.
-void BusMonitor::settle() {
+// Two bits after its end every node has its view of a frame.
+void BusMonitor::settle(Time now) {
   if (unsettled_.empty()) return;
-  for (BusFrame &frame : unsettled_) {
-    for (const auto &[node, time] : senders_)
-      if (time > frame.end - 2 * bit_time_ && time < frame.end + 2 * bit_time_) frame.sender = node;
-    if (on_frame) on_frame(frame);
+  const auto open = std::find_if(unsettled_.begin(), unsettled_.end(), [&](const BusFrame &frame) {
+    return frame.end + 2 * bit_time_ > now;
+  });
+  for (auto frame = unsettled_.begin(); frame != open; ++frame) {
+    add_senders(*frame);
+    if (on_frame) on_frame(*frame);
   }
-  unsettled_.clear();
-  senders_.clear();
+  unsettled_.erase(unsettled_.begin(), open);
+}
+
+void BusMonitor::add_senders(BusFrame &frame) const {
+  for (NodeId node = 0; node < sending_.size(); ++node) {
+    const Sending &sending = sending_[node];
+    if (sending.dominant < frame.start || sending.crc < frame.start || sending.crc > frame.end)
+      continue;
+    frame.transmitters |= 1ULL << node;
+    if (sending.success < frame.end - 2 * bit_time_ || sending.success > frame.end + 2 * bit_time_)
+      continue;
+    frame.senders |= 1ULL << node;
+    if (frame.sender == BusFrame::kNobody) frame.sender = node;
+  }
 }
 
 }  // namespace vericansim

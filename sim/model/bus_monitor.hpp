@@ -30,17 +30,28 @@ struct NodeCounts {
   unsigned tec = 0, rec = 0;  ///< now; bus-off counts as 256
   unsigned max_tec = 0, max_rec = 0;
   bool passive = false, off = false;  ///< now
+  bool sending = false;               ///< the last attempt is under way
   /// Attempts that failed. Who loses arbitration has lost nothing but time.
-  [[nodiscard]] std::uint64_t retries() const { return attempts - sent - lost_arbitration; }
+  [[nodiscard]] std::uint64_t retries() const {
+    return attempts - sent - lost_arbitration - (sending ? 1 : 0);
+  }
 };
 
-/// A frame seen on the wire, and who sent it.
+/// A frame seen on the wire, and who sent it. Two nodes may have sent it together (AR-10), and it
+/// may have failed for its transmitter though receivers have it (VA-03).
 struct BusFrame {
   static constexpr NodeId kNobody = std::numeric_limits<NodeId>::max();
   Frame frame;
-  Time start = 0;           ///< of SOF
-  Time end = 0;             ///< of EOF7
-  NodeId sender = kNobody;  ///< node whose transmission ended well with this frame
+  Time start = 0;                  ///< of SOF
+  Time end = 0;                    ///< of EOF7
+  NodeId sender = kNobody;         ///< first node whose transmission ended well with this frame
+  std::uint64_t transmitters = 0;  ///< bit i: node i has put it on the bus
+  std::uint64_t senders = 0;       ///< those of them whose transmission ended well
+
+  [[nodiscard]] bool transmitted_by(NodeId node) const { return (transmitters >> node & 1) != 0; }
+  [[nodiscard]] bool sent_by(NodeId node) const { return (senders >> node & 1) != 0; }
+  /// It failed for its transmitters, which repeat it.
+  [[nodiscard]] bool repeated() const { return transmitters != 0 && senders == 0; }
 };
 
 /// An observer that counts. Add it to a bus after its nodes.
@@ -53,7 +64,7 @@ class BusMonitor : public BusObserver {
   [[nodiscard]] unsigned interests() const override { return kLevels | kBits; }
   void on_level(Time time, Level level) override;
   void on_bit(NodeId node, const BitRecord &bit) override;
-  /// Lets the decoder see the bus up to `time`.
+  /// Lets the decoder see the bus up to `time`. Frames that ended two bits before it are told.
   void advance(Time time);
 
   /// Called for each acknowledged frame that is valid for receivers, once its sender is known (some
@@ -75,17 +86,30 @@ class BusMonitor : public BusObserver {
   [[nodiscard]] const BusDecoder &decoder() const { return decoder_; }
 
  private:
+  /// When a node was last seen in what makes it the sender of a frame.
+  struct Sending {
+    Time dominant = kNever;  // at its pin, as transmitter
+    Time crc = kNever;       // in the CRC sequence, as transmitter
+    Time success = kNever;
+  };
+  static constexpr Time kNever = std::numeric_limits<Time>::min();
+
   void take_event(const BusEvent &event);
   void count_errors(NodeCounts &counts, std::uint8_t errors);
-  void settle();
+  void hold(Time from, Time to);
+  void follow_transmitter(NodeId node, const BitRecord &bit);
+  void settle(Time now);
+  void add_senders(BusFrame &frame) const;
 
+  const Bus &bus_;
   Time bit_time_;
   std::vector<NodeCounts> nodes_;
-  std::vector<BusFrame> unsettled_;               // waiting for the sender's tx_ok
-  std::vector<std::pair<NodeId, Time>> senders_;  // tx_ok events not yet matched
+  std::vector<Sending> sending_;
+  std::vector<BusFrame> unsettled_;  // waiting for the last bits of their senders
   BusDecoder decoder_;
   std::uint64_t frames_ = 0, unacknowledged_ = 0, error_frames_ = 0, overload_frames_ = 0;
   Time busy_ = 0;
+  Time held_until_ = kNever;  // what lies before it is in busy_
 };
 
 }  // namespace vericansim

@@ -100,6 +100,7 @@ class NodeModel {
   [[nodiscard]] int recovery_sequences() const { return sequences_; }
 
   NodeConfig &config() { return config_; }
+  [[nodiscard]] const NodeConfig &config() const { return config_; }
   /// Leaves the bus at once and integrates; counters and the pending frame stay (IF-16, FC-21).
   void restart();
   /// Puts the node into bus idle, as if integration were done.

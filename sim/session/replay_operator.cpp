@@ -127,7 +127,7 @@ bool ReplayOperator::stored(const Frame &frame) const {
 
 void ReplayOperator::on_frame(const BusFrame &seen) {
   last_frame_ = simulation_.bus().now();
-  if (seen.sender != id_ || sent_ == fed_ || !failure_.empty()) return;
+  if (!seen.sent_by(id_) || sent_ == fed_ || !failure_.empty()) return;
   if (seen.frame == frame(sent_))
     ++sent_;
   else

@@ -111,7 +111,7 @@ void RemoteScript::finish_step() {
 
 // One transmit buffer: frames of the host end in the order in which they were queued.
 void RemoteScript::on_frame(const BusFrame &frame) {
-  if (frame.sender != node_ || on_bus_.empty() || on_bus_.front().frame != frame.frame) return;
+  if (!frame.sent_by(node_) || on_bus_.empty() || on_bus_.front().frame != frame.frame) return;
   MessageReport &message = messages_[on_bus_.front().message];
   const Time response = frame.end - on_bus_.front().event;
   message.shortest = message.sent == 0 ? response : std::min(message.shortest, response);

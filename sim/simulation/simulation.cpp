@@ -117,15 +117,25 @@ void Simulation::on_frame(const BusFrame &frame) {
   if (on_bus_frame) on_bus_frame(frame);
 }
 
+// Nodes that have sent a frame together (AR-10) have each a message of their own that it ends.
 FrameOrigin Simulation::origin_of(const BusFrame &frame) {
-  if (frame.sender == BusFrame::kNobody) return {};
-  // Several messages of a node may have one identifier; what they hold tells them apart, or it was
-  // the one that has waited longest.
+  FrameOrigin origin;
+  for (NodeId node = 0; node < stations_.size(); ++node) {
+    if (!frame.sent_by(node)) continue;
+    const FrameOrigin own = origin_at(node, frame);
+    if (origin.message < 0) origin = own;
+  }
+  return origin;
+}
+
+// Several messages of a node may have one identifier; what they hold tells them apart, or it was
+// the one that has waited longest.
+FrameOrigin Simulation::origin_at(NodeId node, const BusFrame &frame) {
   constexpr Time kNotDue = std::numeric_limits<Time>::max();
   FrameOrigin origin;
   Time earliest = kNotDue;
   for (std::size_t i = 0; i < traffic_.size(); ++i) {
-    if (traffic_[i]->spec().node != frame.sender || !traffic_[i]->matches(frame.frame)) continue;
+    if (traffic_[i]->spec().node != node || !traffic_[i]->matches(frame.frame)) continue;
     const Time event = traffic_[i]->due(frame.frame).value_or(kNotDue);
     if (origin.message >= 0 && event >= earliest) continue;
     origin.message = static_cast<int>(i);

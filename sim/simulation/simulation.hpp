@@ -87,6 +87,7 @@ class Simulation {
   void add_judgement(RunReport &report) const;
   void on_frame(const BusFrame &frame);
   [[nodiscard]] FrameOrigin origin_of(const BusFrame &frame);
+  [[nodiscard]] FrameOrigin origin_at(NodeId node, const BusFrame &frame);
   [[nodiscard]] ReportSetup report_setup() const;
   [[nodiscard]] ReportExtras report_extras(const RunReport &report) const;
   void on_sent(NodeId node, const Frame &frame);
