@@ -132,7 +132,8 @@ NoiseFault::Victim &NoiseFault::victim(NodeId id) {
 Time NoiseFault::draw_gap(Victim &victim) const {
   if (config_.per_ns <= 0.0) return config_.window.to / 2;
   std::exponential_distribution<double> gap{config_.per_ns / static_cast<double>(kNanosecond)};
-  return static_cast<Time>(gap(victim.random));
+  constexpr double kFar = 4e18;  // so that it fits behind any time of a run
+  return static_cast<Time>(std::min(gap(victim.random), kFar));
 }
 
 Level NoiseFault::level(NodeId receiver, Time t, Level level) {

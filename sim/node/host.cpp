@@ -36,7 +36,8 @@ Frame to_frame(std::uint32_t cs, std::uint32_t id, std::uint32_t low, std::uint3
 
 // Bits 31 (RTR) and 30 (IDE) of a mask count when CTRL2.EACEN is set.
 std::uint32_t mask_word(const RxFilter &filter) {
-  return id_word(filter.mask, filter.extended) | (filter.match_format ? 0xC0000000u : 0u);
+  return id_word(filter.mask, filter.extended) | (filter.match_remote ? 1U << 31 : 0) |
+         (filter.match_format ? 1U << 30 : 0);
 }
 
 }  // namespace

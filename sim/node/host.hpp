@@ -23,8 +23,11 @@ struct RxFilter {
   std::uint32_t id = 0;
   std::uint32_t mask = 0;  ///< 1 = compare; 11 bits, or 29 if `extended`
   bool extended = false;
-  bool match_format = false;  ///< compare base/extended and data/remote too
-  bool remote = false;        ///< with match_format
+  /// Compare base/extended too. Without it a received frame that replaces the identifier in its
+  /// buffer may change what an extended filter takes from then on (flexcan.md 3.5).
+  bool match_format = false;
+  bool match_remote = false;  ///< compare data/remote too
+  bool remote = false;        ///< with match_remote
 
   /// Throws std::invalid_argument if `id` or `mask` do not fit the format.
   void validate() const;

@@ -174,6 +174,7 @@ Json to_json(const RunReport &report) {
             {"overload_frames", report.overload_frames},
             {"pending", report.pending},
             {"load", report.load},
+            {"analytic_load", report.analytic_load},
             {"wall_seconds", report.wall_seconds},
             {"node_cycles", report.node_cycles},
             {"messages", messages},

@@ -44,8 +44,9 @@ RxFilter parse_filter(const YamlValue &value) {
   });
   map.with("remote", [&](const YamlValue &v) {
     filter.remote = v.boolean();
-    filter.match_format = true;
+    filter.match_remote = true;
   });
+  filter.match_format = true;
   map.with("match_format", [&](const YamlValue &v) { filter.match_format = v.boolean(); });
   map.finish();
   return filter;
@@ -114,10 +115,11 @@ void parse_mailboxes(YamlMap &map, NodeSpec &node) {
 }
 
 void check_buffers(const YamlValue &value, const NodeSpec &node) {
-  const std::size_t receive = node.host.filters.empty() ? 1 : node.host.filters.size();
-  if (node.host.tx_buffers + receive > node.num_mb)
+  const std::size_t receive = std::max<std::size_t>(node.host.filters.size(), 1);
+  const unsigned transmit = std::max(node.host.tx_buffers, 1U);
+  if (transmit + receive > node.num_mb)
     value.fail(fmt::format("{} transmit and {} receive buffers are more than the {} of the node",
-                           node.host.tx_buffers, receive, node.num_mb));
+                           transmit, receive, node.num_mb));
 }
 
 }  // namespace

@@ -175,7 +175,7 @@ struct Scenario {
   std::optional<double> sample_point;
   Time duration = 100 * kMillisecond;
   bool endless = false;     ///< `duration` is that of the traffic alone
-  bool cut_short = false;   ///< it is below that of the file: traffic behind it is no mistake
+  bool cut_short = false;   ///< it is below that of the file: what lies behind it is no mistake
   bool until_done = false;  ///< ends as soon as no node has anything left to do
   Pacing pacing = Pacing::kFast;
   Time drain = 20 * kMillisecond;  ///< at most, after the duration, for frames that still wait

@@ -41,8 +41,8 @@ std::string filters_text(const std::vector<RxFilter> &filters) {
   for (const RxFilter &f : filters) {
     text += fmt::format("{}{{id: 0x{:X}, mask: 0x{:X}", text.empty() ? "" : ", ", f.id, f.mask);
     if (f.extended) text += ", extended: true";
-    if (f.match_format)
-      text += fmt::format(", match_format: true, remote: {}", f.remote ? "true" : "false");
+    if (!f.match_format) text += ", match_format: false";
+    if (f.match_remote) text += fmt::format(", remote: {}", f.remote ? "true" : "false");
     text += "}";
   }
   return "[" + text + "]";

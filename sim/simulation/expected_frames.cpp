@@ -66,8 +66,9 @@ std::uint64_t frames_of(const TrafficSpec &traffic, Time duration) {
 }  // namespace
 
 ExpectedFrames::ExpectedFrames(const Scenario &scenario, double bitrate)
-    : known_{traffic_is_all(scenario) && reads_all_bits(scenario, bitrate)} {
+    : known_{!scenario.cut_short && traffic_is_all(scenario) && reads_all_bits(scenario, bitrate)} {
   for (const TrafficSpec &traffic : scenario.traffic) {
+    if (scenario.nodes[traffic.node].host.loop_back) continue;  // not on the bus
     const std::uint64_t frames = frames_of(traffic, scenario.duration);
     if (frames == 0) continue;
     extended_ = extended_ || traffic.frame.extended;

@@ -18,8 +18,8 @@ class ExpectedFrames {
  public:
   ExpectedFrames(const Scenario &scenario, double bitrate);
 
-  /// All frames come from the scenario's traffic, and clocks are so near that every bit of them is
-  /// read as it was sent.
+  /// All frames come from the scenario's traffic, for the whole of its duration, and clocks are so
+  /// near that every bit of them is read as it was sent.
   [[nodiscard]] bool known() const { return known_; }
   /// Why no frame has this place, with what is allowed; empty if one may have it.
   [[nodiscard]] std::string missing(const PlaceSpec &place) const;

@@ -67,7 +67,7 @@ std::string impossible(const Scenario &scenario, const FaultSpec &fault, double 
       scenario.nodes.begin(), scenario.nodes.end(),
       [](const NodeSpec &node) { return std::holds_alternative<TrafficRole>(node.role); });
   const Time end = scenario.duration + scenario.drain;
-  if (all_plain && !scenario.endless && fault.window.from >= end)
+  if (all_plain && !scenario.endless && !scenario.cut_short && fault.window.from >= end)
     return fmt::format(
         "it begins at {}, and the run is over after {}; allowed: 'from' below "
         "duration and drain, {}",

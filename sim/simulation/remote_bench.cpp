@@ -21,13 +21,15 @@ namespace {
 
 constexpr std::size_t kNoUnit = std::numeric_limits<std::size_t>::max();
 
-/// The largest error that a clock of the scenario may have.
+/// The largest error that a clock of the scenario may have. A fault sets its error, beside which it
+/// goes on to wander.
 double largest_ppm(const Scenario &scenario) {
   double ppm = 0;
   for (const NodeSpec &node : scenario.nodes)
     ppm = std::max(ppm, std::fabs(node.clock.error_ppm) + node.clock.wander_ppm);
   for (const FaultSpec &fault : scenario.faults)
-    if (fault.kind == FaultSpec::Kind::kClock) ppm = std::max(ppm, std::fabs(fault.ppm));
+    if (fault.kind == FaultSpec::Kind::kClock)
+      ppm = std::max(ppm, std::fabs(fault.ppm) + scenario.nodes[fault.node].clock.wander_ppm);
   return ppm;
 }
 

@@ -14,10 +14,10 @@ namespace {
 /// Whether the software of a node wants a frame: any filter accepts it as the buffers do.
 bool wants(const std::vector<RxFilter> &filters, const Frame &frame) {
   return filters.empty() || std::any_of(filters.begin(), filters.end(), [&](const RxFilter &f) {
-           // The Host sets CTRL2.EACEN: without match_format neither format nor RTR counts, and the
-           // words of the identifiers are compared (flexcan.md 3.5).
-           if (f.match_format && (f.extended != frame.extended || f.remote != frame.remote))
-             return false;
+           // The Host sets CTRL2.EACEN: format and RTR count only if asked for, and the words of
+           // the identifiers are compared (flexcan.md 3.5).
+           if (f.match_format && f.extended != frame.extended) return false;
+           if (f.match_remote && f.remote != frame.remote) return false;
            const std::uint32_t id = frame.extended ? frame.id : frame.id << 18;
            const std::uint32_t mask = f.extended ? f.mask : f.mask << 18;
            const std::uint32_t wanted = f.extended ? f.id : f.id << 18;

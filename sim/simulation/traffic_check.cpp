@@ -20,6 +20,9 @@ std::string impossible(const Scenario &scenario, const TrafficSpec &traffic) {
   if (scenario.nodes[node].host.listen_only && !has_accesses(scenario, node))
     return fmt::format("node {} only listens; allowed: nodes without 'listen_only' and 'monitor'",
                        in_quotes(scenario.nodes[node].name));
+  if (scenario.nodes[node].host.loop_back && !has_accesses(scenario, node))
+    return fmt::format("node {} sends to itself alone; allowed: nodes without 'loop_back'",
+                       in_quotes(scenario.nodes[node].name));
   if (!scenario.endless && !scenario.cut_short && !traffic.random_offset &&
       traffic.offset >= scenario.duration)
     return fmt::format(

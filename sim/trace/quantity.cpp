@@ -67,6 +67,7 @@ std::optional<std::uint64_t> parse_integer(std::string_view text) {
     return text::parse_unsigned(text.substr(2), 16);
   if (text.starts_with("0b") || text.starts_with("0B"))
     return text::parse_unsigned(text.substr(2), 2);
+  if (text.size() > 1 && text.front() == '0') return std::nullopt;  // meant as octal, or as hex
   return text::parse_unsigned(text, 10);
 }
 

@@ -60,6 +60,7 @@ void draw_filters(Dice &dice, HostConfig &host) {
     const unsigned kind = dice.below(3);
     filter.mask = kind == 0 ? highest : kind == 1 ? dice.below(highest) : 0xF;
     filter.match_format = dice.per_cent(30);
+    filter.match_remote = filter.match_format;
     filter.remote = filter.match_format && dice.per_cent(20);
     host.filters.push_back(filter);
   }

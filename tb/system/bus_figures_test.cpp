@@ -141,6 +141,39 @@ TEST(Retries, LeaveOutTheFrameThatIsOnTheBusAtTheEnd) {
   EXPECT_GT(report.nodes.at(0).counts.attempts, report.nodes.at(0).counts.sent);
 }
 
+// ---- A run that is shorter than its scenario
+
+TEST(ShorterRun, MissesNoFaultThatIsBehindIt) {
+  Scenario scenario = parse_scenario(
+      "test.yaml",
+      "duration: 100 ms\nnodes: [{name: a}, {name: b}]\n"
+      "traffic: [{node: a, name: m, id: 0x100, data: 55, period: 1 ms}]\n"
+      "faults: [{kind: flip, node: b, from: 60 ms, for: 2 us}]\nexpect: {error_frames: 0}\n");
+  scenario.duration = 10 * kMillisecond;
+  scenario.cut_short = true;
+  EXPECT_EQ(failures(run_scenario(scenario, 500e3)), "");
+}
+
+// ---- Filters
+
+// By default frames of the other format are none of a filter's, and none replaces its identifier.
+TEST(Filters, TellBaseFromExtendedFrames) {
+  const RunReport report = run_text(
+      "duration: 10 ms\nnodes:\n"
+      "  - {name: a}\n"
+      "  - {name: base, filters: [{id: 0x100}]}\n"
+      "  - {name: ext, filters: [{id: 0x04000055, extended: true}]}\n"
+      "  - {name: any, filters: [{id: 0x100, match_format: false}]}\n"
+      "  - {name: request, filters: [{id: 0x100, remote: true}]}\n"
+      "traffic:\n"
+      "  - {node: a, name: e, id: 0x04000055, extended: true, data: 01, period: 2 ms}\n"
+      "  - {node: a, name: s, id: 0x100, data: 02, offset: 3 ms}\n"
+      "  - {node: a, name: r, id: 0x100, remote: true, offset: 5 ms}\n"
+      "expect: {frames: 7, error_frames: 0, nodes: {base: {received: 2}, ext: {received: 5}, "
+      "any: {received: 7}, request: {received: 1}}}\n");
+  EXPECT_EQ(failures(report), "");
+}
+
 // ---- The judge of the wire
 
 // Who is in loop-back is not on the bus, and who has sent a frame with another node has it.

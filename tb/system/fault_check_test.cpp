@@ -191,6 +191,20 @@ TEST(PossibleFault, ClocksOffByHalfTheTolerance) {
   EXPECT_EQ(with(-half - 10), "no error");
 }
 
+// A user may look at the beginning of a scenario alone.
+TEST(PossibleFault, AShorterRunIsNoMistake) {
+  for (const std::string fault : {"{kind: flip, node: b, from: 60 ms, for: 2 us}",
+                                  "{kind: flip, at: {node: a, frame: 9, field: CRC}}"}) {
+    Scenario scenario = parse_scenario(
+        "s.yaml", std::string{kTwo} + kBase + "duration: 100 ms\nfaults: [" + fault + "]\n");
+    scenario.duration = 20 * kMillisecond;
+    const auto said = [&] { return input_error_of([&] { check_faults(scenario, 500e3); }); };
+    EXPECT_THAT(said(), HasSubstr("can never hit"));
+    scenario.cut_short = true;
+    EXPECT_EQ(said(), "no error");
+  }
+}
+
 // Without an acknowledgement a frame is sent again and again.
 TEST(PossibleFault, RetransmissionsAreFrames) {
   const std::string rest =

@@ -50,6 +50,14 @@ class RunJson(ToolCase):
             self.assertEqual(run["messages"][0]["sent"], 4)
             self.assertEqual([node["errors"] for node in run["nodes"]], [2, 2])
 
+    def test_worst_case_of_the_load(self):
+        for analysis, bits in (("true", 65), ("false", 0)):  # 8n + 44 + 3 + (34 + 8n - 1) / 4
+            text = f"duration: 5 ms\nanalysis: {analysis}\n" + """nodes: [{name: a}, {name: b}]
+traffic: [{node: a, id: 1, data: 01, period: 1 ms}]
+"""
+            (run,) = self.run_scenario(text)[1]
+            self.assertAlmostEqual(run["analytic_load"], bits * 2e-6 / 1e-3)
+
     def test_faults_are_where_the_scenario_puts_them(self):
         for run in self.run_scenario(SCENARIO)[1]:
             bit = 1e12 / run["bitrate"]

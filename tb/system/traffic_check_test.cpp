@@ -31,6 +31,16 @@ TEST(TrafficCheck, NodesThatOnlyListenSendNothing) {
               "nodes without 'listen_only' and 'monitor'");
 }
 
+TEST(TrafficCheck, NodesInLoopBackSendNothingToTheBus) {
+  const std::string bus =
+      "nodes: [{name: a}, {name: b}, {name: self, loop_back: true}]\n"
+      "traffic: [{node: self, id: 2}]\n";
+  EXPECT_EQ(refusal(bus),
+            "s.yaml:2: traffic[0]: '002' can never be sent: node 'self' sends to itself alone; "
+            "allowed: nodes without 'loop_back'");
+  EXPECT_EQ(refusal(bus + "accesses: [{node: self, do: clear CTRL1 0x1000}]\n"), "no error");
+}
+
 // Software that the scenario plays may take the node out of this mode.
 TEST(TrafficCheck, AccessesMayLetAListenerSend) {
   EXPECT_EQ(refusal("nodes: [{name: a}, {name: ear, listen_only: true}]\n"

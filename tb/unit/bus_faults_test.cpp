@@ -284,6 +284,17 @@ TEST(Noise, GlitchesComeAtTheirRateAndOnlyAtTheVictim) {
   EXPECT_EQ(a.seen().find('0'), std::string::npos);
 }
 
+// The next glitch may be farther away than time goes.
+TEST(Noise, MayBeAsGoodAsNone) {
+  Bus bus;
+  StandIn a{"a"};
+  bus.add(a);
+  NoiseFault fault{{.per_ns = 1e-20, .glitch = kMicrosecond}};
+  bus.add(fault);
+  bus.run_until(kMillisecond);
+  EXPECT_EQ(fault.hits(), 0U);
+}
+
 TEST(Noise, IsGivenByItsSeed) {
   std::string seen[3];
   for (unsigned i = 0; i < 3; ++i) {

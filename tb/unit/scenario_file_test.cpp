@@ -39,6 +39,10 @@ TEST(Quantity, EverythingElseIsRefused) {
   EXPECT_FALSE(parse_time("1e30 s"));
   EXPECT_FALSE(parse_integer("0x"));
   EXPECT_FALSE(parse_integer("-1"));
+  EXPECT_FALSE(parse_integer("010"));  // eight, ten or sixteen?
+  EXPECT_FALSE(parse_integer("00"));
+  EXPECT_EQ(parse_integer("0"), 0U);
+  EXPECT_EQ(parse_integer("0x010"), 16U);
   EXPECT_FALSE(parse_integer("99999999999999999999"));
 }
 
@@ -184,6 +188,15 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"TwiceAKey", "seed: 1\nseed: 2\n", "s.yaml:3: key 'seed' is given twice"},
         Mistake{"Bitrate", "bitrate: 2M\n",
                 "s.yaml:2: bitrate: '2M' is not allowed; allowed: 1 kbit/s to 1 Mbit/s"},
+        Mistake{"ZeroInFront", "traffic: [{node: a, id: 010}]\n",
+                "s.yaml:2: traffic[0].id: '010' is not allowed; allowed: 0 to 2047"},
+        Mistake{
+            "FiltersInAllBuffers",
+            "nodes:\n  - {name: a, mailboxes: 16, filters: [{id: 1}, {id: 2}, {id: 3}, {id: 4}, "
+            "{id: 5}, {id: 6}, {id: 7}, {id: 8}, {id: 9}, {id: 10}, {id: 11}, {id: 12}, "
+            "{id: 13}, {id: 14}, {id: 15}, {id: 16}]}\n",
+            "s.yaml:2: nodes[0]: 1 transmit and 16 receive buffers are more than the 16 of the "
+            "node"},
         Mistake{"Duration", "duration: 10\n", "duration: '10' is not allowed; allowed: 1 us to"},
         Mistake{"NodeName", "nodes:\n  - {name: a}\n  - {name: a}\n",
                 "s.yaml:3: nodes[1]: node name 'a' is used twice"},

@@ -45,7 +45,7 @@ constexpr const char *kEveryKind =
     "  - {name: 'boat, left', replay: boat.log, channel: can1, start: 5 ms, from: 1 s, to: 2500 "
     "ms,\n"
     "     rate: 0.5, loop: true, filter: [100:7F0, 00000123~1FFFFFFF], frames: 7, share: 2/3,\n"
-    "     listen_only: false, filters: [{id: 1, mask: 2}]}\n"
+    "     listen_only: false, filters: [{id: 1, mask: 2, match_format: false, remote: true}]}\n"
     "  - {name: whole, replay: /logs/b.log, rate: saturated}\n"
     "  - {name: pc, interface: vcan0, filter: 7E8:7FF, errors: state, restart: 0, echo: true,\n"
     "     queue: 9, end_when_down: true}\n"
@@ -102,7 +102,10 @@ TEST(ScenarioWriter, ARecordingIsWrittenAsItIsRead) {
   EXPECT_EQ(replay.frames, 7U);
   EXPECT_EQ(replay.share, 1U);
   EXPECT_EQ(replay.shares, 3U);
-  EXPECT_EQ(read.nodes[2].host.filters.size(), 1U);
+  ASSERT_EQ(read.nodes[2].host.filters.size(), 1U);
+  EXPECT_FALSE(read.nodes[2].host.filters[0].match_format);
+  EXPECT_TRUE(read.nodes[2].host.filters[0].match_remote);
+  EXPECT_TRUE(read.nodes[2].host.filters[0].remote);
   EXPECT_EQ(std::get<ReplayRole>(read.nodes[3].role).file, "/logs/b.log");
   EXPECT_TRUE(std::get<ReplayRole>(read.nodes[3].role).saturated);
 }
