@@ -195,6 +195,23 @@ TEST(ScenarioCommands, AnOldSetPointIsALostOne) {
   EXPECT_EQ(seen.report.remote.nodes[1].lost_set_points, 1U);
 }
 
+// A fault sets the error of a clock, beside which the clock goes on to wander.
+TEST(ScenarioCommands, SkewBoundCountsWanderBesideAFault) {
+  const auto bound = [](const std::string &dab, const std::string &faults) {
+    return run(parse_scenario(
+                   "remote.yaml",
+                   "bitrate: 1M\nsample_point: 75 %\nduration: 10 ms\nnodes:\n"
+                   "  - {name: host, clock: 12 MHz}\n"
+                   "  - {name: pfc, type: remote, number: 3, stage_bytes: 16, clock: 12 MHz}\n"
+                   "  - {name: dab, type: remote, number: 5, stage_bytes: 16, clock: 12 MHz, " +
+                       dab + "}\n" + kCycles + "expect: {trigger_skew: bound}\n" + faults))
+        .report.remote.skew_bound;
+  };
+  EXPECT_EQ(
+      bound("wander: {kind: sine, ppm: 200}", "faults: [{kind: clock, node: dab, ppm: 200}]\n"),
+      bound("ppm: 400", ""));
+}
+
 TEST(ScenarioCommands, Skew) {
   const auto with = [](const std::string &dab, const std::string &expect) {
     return run(parse_scenario(
