@@ -14,10 +14,14 @@ has_module() {
 }
 
 # our_files PATTERN...: files of the project that match, new ones included, ignored ones left out.
+# Fails if there is none, so that no check passes because it has looked at nothing.
 our_files() {
-  git ls-files --cached --others --exclude-standard -- "$@" | while read -r file; do
-    [ -f "$file" ] && printf '%s\n' "$file"
-  done
+  local files file
+  files=$(git ls-files --cached --others --exclude-standard -- "$@") || return 1
+  [ -n "$files" ] || { echo "no files match: $*" >&2; return 1; }
+  while read -r file; do
+    [ ! -f "$file" ] || printf '%s\n' "$file"
+  done <<<"$files"
 }
 
 # needs COUNT SYNTAX ARGUMENT...: ends the script with its SYNTAX if there are fewer ARGUMENTs than

@@ -65,8 +65,16 @@ has_module can_ahb && tops+=("can_ahb NumMb=16" "can_ahb NumMb=32")
 has_module can_wb && tops+=("can_apb NumMb=16 CheckProt=1" "can_axil NumMb=16 CheckProt=1"
                             "can_wb NumMb=16" "can_wb NumMb=16 Pipelined=1")
 # The profiles, each feature away by itself, and all of them.
-profiles() { /usr/bin/python3 tools/profiles.py "$@" | sed 's/^\([a-z]* \)\?/can_ahb /'; }
-has_module can_ahb && mapfile -t -O ${#tops[@]} tops < <(profiles; profiles --features)
+add_profiles() {
+  local profiles features words
+  profiles=$(/usr/bin/python3 tools/profiles.py) &&
+    features=$(/usr/bin/python3 tools/profiles.py --features) &&
+    [ -n "$profiles" ] && [ -n "$features" ] || { echo "lint: no profiles" >&2; exit 1; }
+  while read -r words; do
+    tops+=("can_ahb $words")
+  done < <(sed 's/^[a-z]* //' <<<"$profiles"; printf '%s\n' "$features")
+}
+has_module can_ahb && add_profiles
 has_module can_time_node && tops+=("can_time_node")
 has_module can_remote && tops+=("can_remote" "can_remote NameBits=5" "can_remote MemBytes=1024"
                                 "can_remote StageBytes=0" "can_remote StageBytes=16"
@@ -101,30 +109,8 @@ board_lint() {  # TOP
   verilator --lint-only -Wall --top-module "$1" rtl/lint.vlt "${rtl[@]}" \
     examples/remote/board/remote_io.sv "examples/remote/board/$1.sv"
 }
-spdx() {
-  local bad licence head
-  bad=$(our_files '*.sv' '*.v' '*.vlt' '*.cpp' '*.hpp' '*.c' '*.h' '*.py' '*.sh' '*.cmake' '*.tcl' \
-                  '*.js' '*.mjs' \
-                  '*.sdc' '*.pdc' '*.pcf' '*.yaml' '*.core' '*CMakeLists.txt' Makefile .ci/run |
-        while read -r file; do
-          # Kernel modules link with the kernel.
-          [[ $file == sw/linux/@(glue|ptp)/* ]] && licence=GPL-2.0 || licence=Apache-2.0
-          mapfile -n 5 head <"$file"
-          [[ ${head[*]} == *"SPDX-License-Identifier: $licence"* ]] || echo "$file"
-        done)
-  printf '%s' "$bad"
-  [ -z "$bad" ]
-}
-line_length() {
-  ! our_files '*.sv' '*.cpp' '*.hpp' '*.c' '*.h' '*.py' '*.sh' '*.cmake' '*CMakeLists.txt' \
-              '*.js' '*.mjs' |
-    xargs -r awk 'length($0) > 100 {print FILENAME ":" FNR ": " length($0) " characters"}' | grep .
-}
 core_file() {
   diff can.core <(tools/core-file.sh) || { echo "run: tools/core-file.sh >can.core"; return 1; }
-}
-format() {
-  our_files '*.cpp' '*.hpp' '*.c' '*.h' | xargs -r clang-format --dry-run -Werror
 }
 
 echo "RTL: ${#rtl[@]} files"
@@ -148,10 +134,10 @@ check "can.core as FuseSoC reads it" tools/core_check.py
 if ! stale=$(tools/families.py --check 2>&1); then
   echo "  note  $stale"
 fi
-check "licence heads" spdx
-check "lines of at most 100 characters" line_length
+check "licence heads" tools/lint-sources.sh licence_heads
+check "lines of at most 100 characters" tools/lint-sources.sh line_length
 check "folders of sim/ include downwards only" tools/layers.py
-check "clang-format" format
+check "clang-format" tools/lint-sources.sh format
 finish # clang-tidy takes all cores
 check "clang-tidy ${TIDY:-}" tools/tidy.py "$build" ${TIDY:+"$TIDY"}
 finish

@@ -87,6 +87,11 @@ TABLE = [
     ("tools/campaign.py --page --out {tmp}/out", 1, "no result of a whole run"),
     ("tools/campaign.py --plan {tmp}/plan.yaml --out {tmp}/out --only ,", 1,
      "--only ',' names no stage; stages: toy"),
+    ("tools/lint-sources.sh nosuch", 2, "no check 'nosuch'; there are licence_heads, line_le"),
+    ("GIT_DIR={tmp}/none tools/lint-sources.sh licence_heads", 1, "not a git repository"),
+    ("GIT_DIR={tmp}/none tools/lint-sources.sh line_length", 1, "not a git repository"),
+    ("GIT_DIR={tmp}/none tools/lint-sources.sh format", 1, "not a git repository"),
+    ("bash -c '. tools/common.sh; our_files \"*.nosuch\"'", 1, "no files match: *.nosuch"),
     # Files and folders of the campaign.
     ("tools/campaign.py --plan {tmp}/nosuch", 1, "nosuch: No such file"),
     ("tools/campaign.py --plan {tmp}/no_yaml.yaml", 1, "no_yaml.yaml: while parsing"),
@@ -122,6 +127,7 @@ TABLE = [
     ("tools/boards-test.sh build", 2, USAGE + "boards-test.sh BUILD BOARDS ["),
     ("tools/demo.sh build", 2, USAGE + "demo.sh BUILD OUT"),
     ("tools/dist.sh", 2, USAGE + "dist.sh OUT"),
+    ("tools/lint-sources.sh", 2, USAGE + "lint-sources.sh CHECK"),
     ("tools/lint.sh", 2, USAGE + "lint.sh BUILD"),
     ("tools/linux-test.sh build 2", 2, USAGE + "linux-test.sh BUILD JOBS DIRECTORY ["),
     ("tools/quiet.sh Nothing", 2, USAGE + "quiet.sh [--show] WHAT COMMAND..."),
@@ -201,6 +207,10 @@ class Mistakes(unittest.TestCase):
             for script, code in (("registers.py --check", 2), ("profiles.py", 1)):
                 with self.subTest(script, mistake=new):
                     self.told(f"{self.path}/tools/{script}", code, said)
+        # Without them fewer builds would be checked.
+        (self.path / "rtl").mkdir()
+        shutil.copy(ROOT / "rtl/can.f", self.path / "rtl")
+        self.told(f"{self.path}/tools/lint.sh {self.path}/none", 1, "lint: no profiles")
 
 
 if __name__ == "__main__":
