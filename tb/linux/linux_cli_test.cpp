@@ -12,6 +12,7 @@
 #include <string>
 
 #include "firmware/tool_run.hpp"
+#include "harness/scoped_env.hpp"
 #include "harness/scratch_test.hpp"
 #include "harness/shell.hpp"
 #include "system/running_tool.hpp"
@@ -67,18 +68,18 @@ TEST_F(LinuxCommand, WhatCannotBeRunIsRefused) {
 }
 
 TEST_F(LinuxCommand, ASignalEndsTheGuestAndLeavesNothing) {
+  const std::filesystem::path before = std::filesystem::temp_directory_path();
   for (const int signal : {SIGINT, SIGTERM}) {
     const std::string path =
         file_with("kernel", "#!/bin/sh\nsleep 1000 &\necho $! $$ >" + in("started") +
                                 "\nls -d $TMPDIR/verican-*/time >" + in("sockets") + "\nwait\n");
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
     std::filesystem::create_directory(in("tmp"));
-    ::setenv("TMPDIR", in("tmp").c_str(), 1);
     std::filesystem::remove(in("sockets"));
+    const vericansim::ScopedEnv variable{"TMPDIR", in("tmp")};
     tb::RunningTool running{
         {"linux", "--kernel", path, "--dtb", "/dev/null", "--init", "/bin/true"}};
     ASSERT_TRUE(running.wait_until([&] { return !tb::slurp(in("sockets")).empty(); }));
-    ::unsetenv("TMPDIR");
     running.signal(signal);
     const tb::ToolResult result = running.wait();
     EXPECT_EQ(result.code, 128 + signal);
@@ -90,6 +91,8 @@ TEST_F(LinuxCommand, ASignalEndsTheGuestAndLeavesNothing) {
                   .text,
               "");
   }
+  // The tests behind this one have the folder of this process, which goes with it.
+  EXPECT_EQ(std::filesystem::temp_directory_path(), before);
 }
 
 TEST_F(LinuxCommand, AProgramThatIsNoKernelIsFoundOut) {

@@ -129,12 +129,18 @@ expect: )" + expected);
   return run_scenario(scenario, 500e3);
 }
 
+/// As many checks as were asked for, and all of them hold.
+void expect_ok(const RunReport &report, std::size_t checks) {
+  EXPECT_EQ(report.checks.size(), checks);
+  for (const CheckResult &check : report.checks) EXPECT_TRUE(check.ok) << check.what;
+}
+
 // A host's frames reach the node, its answers and statements the bus.
 TEST(ScenarioRemote, TakesPartInARun) {
   const RunReport report =
       run_with("config: {producers: [{send: 0x40, length: 2, period: 5 ms}]}",
                "{frames: 8, error_frames: 0, nodes: {pfc: {sent: 5, received: 3}}}");
-  for (const CheckResult &check : report.checks) EXPECT_TRUE(check.ok) << check.what;
+  expect_ok(report, 4);
 }
 
 // The same answers from the RTL and from its model; the configuration is there at the start.
@@ -145,7 +151,7 @@ TEST(ScenarioRemote, RtlAndModelTakePartAlike) {
       const RunReport report =
           run_with("profile: " + profile + ", config: {tell_writes: true}" + body,
                    "{frames: 6, error_frames: 0, nodes: {pfc: {sent: 3, received: 3}}}");
-      for (const CheckResult &check : report.checks) EXPECT_TRUE(check.ok) << check.what;
+      expect_ok(report, 4);
     }
   }
 }

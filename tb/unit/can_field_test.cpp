@@ -30,8 +30,10 @@ bool upset(Root *root, unsigned field, unsigned left, bool transmitter) {
     root->can_field__DOT__tx_q = transmitter;
     Vcan_field___024root___eval_settle(root);
     return true;
+  } else {
+    static_assert(!kHasRegisters<Root>, "the register has another name");
+    return false;
   }
-  return false;
 }
 
 /// What can_error says of a bit.

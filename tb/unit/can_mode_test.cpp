@@ -27,8 +27,10 @@ bool upset(Root *root, unsigned state) {
     root->can_mode__DOT__state_q = state;
     Vcan_mode___024root___eval_settle(root);
     return true;
+  } else {
+    static_assert(!kHasRegisters<Root>, "the register has another name");
+    return false;
   }
-  return false;
 }
 
 class CanMode : public testing::Test {

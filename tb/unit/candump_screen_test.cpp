@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "harness/input_error_of.hpp"
+#include "harness/scoped_env.hpp"
 #include "trace/candump.hpp"
 
 namespace vericansim {
@@ -81,20 +82,18 @@ TEST(CandumpScreen, LogLinesHaveTheDirectionBehindTheFrame) {
 class TimeZone {
  public:
   explicit TimeZone(const char *name) {
-    const char *before = std::getenv("TZ");
-    if (before != nullptr) before_ = before;
-    ::setenv("TZ", name, 1);
+    variable_.emplace("TZ", name);
     ::tzset();
   }
   ~TimeZone() {
-    before_ ? ::setenv("TZ", before_->c_str(), 1) : ::unsetenv("TZ");
+    variable_.reset();
     ::tzset();
   }
   TimeZone(const TimeZone &) = delete;
   TimeZone &operator=(const TimeZone &) = delete;
 
  private:
-  std::optional<std::string> before_;
+  std::optional<ScopedEnv> variable_;
 };
 
 /// The log as a computer of that time zone reads it.

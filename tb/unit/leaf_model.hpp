@@ -10,6 +10,15 @@
 
 namespace vericansim {
 
+/// Whether blocks have the registers that their source names; a netlist has other variables. A
+/// template, so that a static_assert can look at it in a branch that is not taken.
+template <typename Root>
+#ifdef VERICAN_RTL_TRANSFORMED
+inline constexpr bool kHasRegisters = false;
+#else
+inline constexpr bool kHasRegisters = true;
+#endif
+
 /// A block with clk_i and rst_ni. Inputs are set through `->` and hold until they are set again.
 template <typename Model>
 class LeafModel {
