@@ -20,8 +20,10 @@ SOURCES = ("*.cpp", "*.hpp", "*.c", "*.h")
 
 
 def wrong(root):
-    """Each include that goes up, as a line."""
+    """Each include that goes up, as a line; that there is nothing to look at, too."""
     level = {folder: index for index, folder in enumerate(LAYERS)}
+    if not any(path for pattern in SOURCES for path in root.glob(f"*/{pattern}")):
+        yield f"{root}: no folder with sources"
     for folder in sorted(path for path in root.iterdir() if path.is_dir()):
         sources = sorted(path for pattern in SOURCES for path in folder.rglob(pattern))
         if sources and folder.name not in level:

@@ -17,6 +17,7 @@ log=$build/ctest.log
 # Not below the build: the installed tree's tests lie apart from it, and names of sockets are short.
 TMPDIR=$(mktemp -d)
 export TMPDIR
+export PYTHONDONTWRITEBYTECODE=1 # in what tests run, too: nothing beside the sources
 trap 'rm -rf "$TMPDIR"' EXIT
 status=0
 ctest --test-dir "$build" -j "$jobs" --output-on-failure --no-tests=error </dev/null >"$log" 2>&1 ||

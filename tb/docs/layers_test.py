@@ -37,6 +37,11 @@ class Layers(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertIn("strange: no layer", said)
 
+    def test_nothing_to_look_at(self):
+        said, status = self.run_on()
+        self.assertEqual(status, 1)
+        self.assertIn("no folder with sources", said)
+
     def test_no_directory(self):
         run = subprocess.run([TOOL, "/nowhere"], capture_output=True, text=True, check=False)
         self.assertNotEqual(run.returncode, 0)

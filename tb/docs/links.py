@@ -27,11 +27,15 @@ def anchors(page):
                   for title in plain}
 
 
+def links(page):
+    """The links of a page to files and headings."""
+    found = LINK.findall(FENCE.sub("", page.read_text(encoding="utf-8")))
+    return [link for link in found if not re.match(r"\w+:", link)]
+
+
 def broken(page):
     """The links of a page that lead nowhere."""
-    for link in LINK.findall(FENCE.sub("", page.read_text(encoding="utf-8"))):
-        if re.match(r"\w+:", link):
-            continue
+    for link in links(page):
         path, _, anchor = link.partition("#")
         target = (page.parent / path).resolve() if path else page
         if not target.exists():
@@ -45,9 +49,11 @@ def main():
     source = pathlib.Path(sys.argv[1])
     pages = [*sorted(source.glob("*.md")), *sorted((source / "docs").rglob("*.md"))]
     wrong = [text for page in pages for text in broken(page)]
-    if wrong or len(pages) < 10:
-        sys.exit("\n".join(wrong) or f"only {len(pages)} pages")
-    print(f"{len(pages)} pages")
+    count = sum(len(links(page)) for page in pages)
+    # Each page of docs/ is linked from another at least.
+    if wrong or len(pages) < 10 or count < len(pages):
+        sys.exit("\n".join(wrong) or f"only {len(pages)} pages with {count} links")
+    print(f"{len(pages)} pages, {count} links")
 
 
 main()

@@ -5,18 +5,22 @@ beside a node that sends without end (RN-91, RN-92).
 """
 import pathlib
 import sys
-import time
+import types
 import unittest
+import unittest.mock
 
 import can
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "sw/remote"))
 
-import verican_remote as remote  # noqa: E402  pylint: disable=wrong-import-position
+# pylint: disable=wrong-import-position
+import verican_remote as remote  # noqa: E402
+import verican_remote_link  # noqa: E402
 
 TIMEOUT = 0.02
-FOR_EVER = 3.0  # a call that goes on for so long: then the interface is gone
+FRAME = 0.0001   # seconds on the bus
+FOR_EVER = 5000  # frames that one call takes: then the interface is gone
 
 
 def frame(identifier, *data, **keys):
@@ -25,12 +29,14 @@ def frame(identifier, *data, **keys):
 
 
 class Full:
-    """A python-can bus on which a frame always waits: what `following()` gives."""
+    """A python-can bus on which a frame always waits: what `following()` gives. Time is that of
+    the bus: it goes by while frames and time-outs do."""
 
     def __init__(self):
         self.following = lambda: frame(0x5A0, 1)
         self.sent = []
-        self.start = time.monotonic()
+        self.now = 0.0
+        self.taken = 0  # frames, since the call began
 
     def send(self, message, timeout=None):
         """As can.Bus."""
@@ -39,10 +45,12 @@ class Full:
 
     def recv(self, timeout=None):
         """As can.Bus."""
-        del timeout
-        if time.monotonic() - self.start > FOR_EVER:
+        self.taken += 1
+        if self.taken > FOR_EVER:
             raise can.CanOperationError("it goes on for ever")
-        return self.following()
+        message = self.following()
+        self.now += FRAME if message else timeout or 0.0
+        return message
 
 
 class Flood(unittest.TestCase):
@@ -50,13 +58,21 @@ class Flood(unittest.TestCase):
 
     def setUp(self):
         self.bus = Full()
+        clock = types.SimpleNamespace(monotonic=lambda: self.bus.now)
+        patch = unittest.mock.patch.object(verican_remote_link, "time", clock)
+        patch.start()
+        self.addCleanup(patch.stop)
         self.client = remote.Client(self.bus, rtr="always", timeout=TIMEOUT, select_wait=TIMEOUT)
+
+    def ended(self, call):
+        """What a call returns that does not go on for ever."""
+        self.bus.taken = 0
+        return call()
 
     def times_out(self, call, *others):
         """It says so, or one of the others."""
-        self.bus.start = time.monotonic()
         with self.assertRaises((remote.Timeout, *others)):
-            call()
+            self.ended(call)
 
     def test_every_call_ends(self):
         """With a time-out, or with what comes of an empty bus."""
@@ -67,9 +83,9 @@ class Flood(unittest.TestCase):
                      lambda: client.block_read(4, 0x20, 40),
                      lambda: client.block_write(4, 0x20, bytes(40))):
             self.times_out(call)
-        self.assertEqual(client.poll(0x30, 1), {})
-        self.assertFalse(client.select(1))
-        self.assertEqual(client.scan(), [])
+        self.assertEqual(self.ended(lambda: client.poll(0x30, 1)), {})
+        self.assertFalse(self.ended(lambda: client.select(1)))
+        self.assertEqual(self.ended(client.scan), [])
 
     def test_other_frames(self):
         """Errors and extended frames are passed over, but not for ever."""
@@ -95,7 +111,7 @@ class Flood(unittest.TestCase):
 
         self.bus.following = following
         with self.assertRaises(remote.Refused) as refused:
-            self.client.read(4, 0xE00, 1)
+            self.ended(lambda: self.client.read(4, 0xE00, 1))
         self.assertEqual(refused.exception.code, 2)
 
     def test_blocks_without_end(self):

@@ -20,7 +20,7 @@ endif()
 function(verican_socketcan_case name)
   cmake_parse_arguments(arg "" "REQUIRES" "" ${ARGN})
   add_test(NAME socketcan.${name}
-           COMMAND "${VERICAN_PYTHON}" "${PROJECT_SOURCE_DIR}/tb/socketcan/uml/run.py" ${name}
+           COMMAND "${VERICAN_PYTHON}" -B "${PROJECT_SOURCE_DIR}/tb/socketcan/uml/run.py" ${name}
                    --verican $<TARGET_FILE:verican> --shim $<TARGET_FILE:wide_xstate>
                    --client $<TARGET_FILE:remote_golden_client>
                    --out "${CMAKE_CURRENT_BINARY_DIR}/out" ${sanitized})

@@ -153,7 +153,7 @@ def run(line):
     make that runs the tests."""
     words = shlex.split(line)
     environment = {name: os.environ[name] for name in ("PATH", "HOME", "TMPDIR", "LANG")
-                   if name in os.environ}
+                   if name in os.environ} | {"PYTHONDONTWRITEBYTECODE": "1"}
     while "=" in words[0]:
         name, _, environment[name] = words.pop(0).partition("=")
     done = subprocess.run(["timeout", SECONDS, *words], cwd=ROOT, env=environment, text=True,
