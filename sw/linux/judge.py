@@ -7,20 +7,7 @@ from collections import Counter
 
 import frames
 import kernel_log
-
-
-class Failed(Exception):
-    """A check failed; the text says what was expected and what was found."""
-
-
-def expect(found, wanted, what):
-    if found != wanted:
-        raise Failed(f"{what}: {found!r}, expected {wanted!r}")
-
-
-def expect_true(condition, what):
-    if not condition:
-        raise Failed(what)
+from expectations import Failed, expect, expect_true
 
 
 class Run:

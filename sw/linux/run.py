@@ -17,7 +17,6 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -31,6 +30,7 @@ import judge_j1939
 import judge_services
 import judge_timeouts
 import judge_tools
+from scratch import scratch
 
 ROOT = Path(__file__).resolve().parents[2]
 CHIPS = ("ls1021ar2", "imx28")
@@ -135,14 +135,6 @@ def compatible(chip):
 def of_judges(name):
     """The judges' function of that name, or None."""
     return next((getattr(module, name) for module in JUDGES if hasattr(module, name)), None)
-
-
-def scratch():
-    """Where guests keep their memory, as files, and the simulator its sockets: short and fast."""
-    shm = Path("/dev/shm")
-    if os.access(shm, os.W_OK) and shutil.disk_usage(shm).free > 512 * 2**20:
-        return str(shm)
-    return tempfile.gettempdir()
 
 
 def boot(args, case, chip, directory):

@@ -10,6 +10,7 @@
 #include "boards/board_bus.hpp"
 #include "boards/board_node.hpp"
 #include "node/remote_model_node.hpp"
+#include "remote/frame_texts.hpp"
 #include "remote/golden_vectors.hpp"
 #include "remote/random_host.hpp"
 #include "trace/candump.hpp"
@@ -20,18 +21,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using Device = BoardNode<BOARD_MODEL>;
-
-Frame frame_of(const std::string &text) {
-  Frame frame;
-  EXPECT_TRUE(parse_candump_frame(text, frame, {text, 0}));
-  return frame;
-}
-
-std::vector<std::string> texts_of(const std::vector<Frame> &frames) {
-  std::vector<std::string> texts;
-  for (const Frame &frame : frames) texts.push_back(candump_frame(frame));
-  return texts;
-}
 
 class Board : public ::testing::Test {
  protected:

@@ -18,6 +18,7 @@
 #include "bus/bus.hpp"
 #include "node/core_node.hpp"
 #include "node/model_context.hpp"
+#include "remote/frame_texts.hpp"
 #include "trace/candump.hpp"
 
 namespace vericansim {
@@ -117,11 +118,6 @@ class Hx8k : public ::testing::Test {
     return done();
   }
   static std::string text_of(const Frame &frame) { return candump_frame(frame); }
-  static Frame frame_of(const std::string &text) {
-    Frame frame;
-    EXPECT_TRUE(parse_candump_frame(text, frame, {text, 0}));
-    return frame;
-  }
   static std::string numbered(const char *head, unsigned n) {
     char text[32];
     (void)std::snprintf(text, sizeof text, "%s%02X#%02X%s", head, n, n, n % 3 == 0 ? "" : "5AA5");

@@ -11,19 +11,10 @@
 #include <vector>
 
 #include "model/remote_model.hpp"
+#include "remote/frame_texts.hpp"
 #include "trace/candump.hpp"
 
 namespace vericansim {
-
-/// Frames as text.
-using Texts = std::vector<std::string>;
-
-/// "1A0#5A" as a frame.
-inline Frame frame_of(const std::string &text) {
-  Frame frame;
-  if (!parse_candump_frame(text, frame, {text, 0})) ADD_FAILURE() << text << " is no frame";
-  return frame;
-}
 
 /// A node that has what the host sends at once, and whose frames leave at once.
 class ModelNode {

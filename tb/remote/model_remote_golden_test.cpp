@@ -11,12 +11,6 @@ namespace {
 using ::testing::ElementsAreArray;
 using ::testing::IsEmpty;
 
-Texts texts_of(const std::vector<Frame> &frames) {
-  Texts texts;
-  for (const Frame &frame : frames) texts.push_back(candump_frame(frame));
-  return texts;
-}
-
 void expect_memory(const ModelNode &node, const golden::Vector &vector) {
   for (const auto &[address, bytes] : vector.memory)
     EXPECT_THAT(node.bytes(address, bytes.size()), ElementsAreArray(bytes)) << std::hex << address;

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Map entries, on the model: RN-65, RN-66; with producers: RN-06, RN-64.
-#include <algorithm>
 #include <memory>
 #include <random>
 
 #include "remote/model_node.hpp"
 #include "remote/remote_entries.hpp"
+#include "remote/window_copy.hpp"
 
 namespace vericansim {
 namespace {
@@ -35,20 +35,8 @@ class RemoteModelMaps : public ::testing::Test {
 // RN-65, the example: a copy of the window of node 5 at 200..277.
 TEST_F(RemoteModelMaps, ACopyOfAWindow) {
   map(0, 0x680, 0x780, 0x200, 0);
-  std::mt19937 dice{65};
-  std::vector<std::uint8_t> window(0x78);
-  for (int i = 0; i < 2000; ++i) {
-    Frame frame;
-    frame.id = 0x680 + dice() % 0x80;
-    frame.dlc = static_cast<std::uint8_t>(1 + dice() % 8);
-    for (unsigned b = 0; b < frame.dlc; ++b) frame.data[b] = static_cast<std::uint8_t>(dice());
-    const unsigned a = frame.id & 0x7F;
-    if (a < 0x78 && a + frame.dlc > 0x78) continue;  // RN-06: nobody says that
-    if (a < 0x78) std::copy_n(frame.data.begin(), frame.dlc, window.begin() + a);
-    node.model.receive(frame);
-    ASSERT_EQ(node.bytes(0x200, 0x78), window);
-  }
-  EXPECT_THAT(node.bytes(0x278, 0x20), Each(0));  // ports are not taken
+  expect_a_copy_of_a_window([this](const Frame &frame) { node.model.receive(frame); },
+                            [this](unsigned at, unsigned n) { return node.bytes(at, n); });
 }
 
 // RN-65: the fields of an entry at their borders.

@@ -43,11 +43,7 @@ class PortFixture : public ::testing::Test {
     for (unsigned i = 0; i < n; ++i) read.push_back(port->peek(address + i));
     return read;
   }
-  Texts drain() {
-    Texts texts;
-    for (const Frame &frame : port->drain()) texts.push_back(candump_frame(frame));
-    return texts;
-  }
+  Texts drain() { return texts_of(port->drain()); }
   /// What the node says in so many milliseconds.
   Texts wait(unsigned ms) {
     Texts all;

@@ -6,19 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "remote/frame_port.hpp"
+#include "remote/frame_texts.hpp"
 #include "remote/golden_vectors.hpp"
 #include "trace/candump.hpp"
 
 namespace vericansim {
 namespace {
-
-using Texts = std::vector<std::string>;
-
-Texts texts_of(const std::vector<Frame> &frames) {
-  Texts texts;
-  for (const Frame &frame : frames) texts.push_back(candump_frame(frame));
-  return texts;
-}
 
 void expect_memory(const FramePort &port, const golden::Vector &vector) {
   for (const auto &[address, bytes] : vector.memory) {

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Map entries and protection of the RTL at the engine's port: RN-32, RN-65, RN-66, RN-70.
-#include <algorithm>
-#include <random>
 
 #include "remote/port_fixture.hpp"
 #include "remote/remote_entries.hpp"
+#include "remote/window_copy.hpp"
 
 namespace vericansim {
 namespace {
@@ -26,20 +25,8 @@ class PortMaps : public PortFixture {
 // RN-65, the example: a copy of the window of node 5 at 200..277.
 TEST_F(PortMaps, ACopyOfAWindow) {
   map(7, 0x680, 0x780, 0x200, 0);
-  std::mt19937 dice{65};
-  std::vector<unsigned> window(0x78);
-  for (int i = 0; i < 2000; ++i) {
-    Frame frame;
-    frame.id = 0x680 + dice() % 0x80;
-    frame.dlc = static_cast<std::uint8_t>(1 + dice() % 8);
-    for (unsigned b = 0; b < frame.dlc; ++b) frame.data[b] = static_cast<std::uint8_t>(dice());
-    const unsigned a = frame.id & 0x7F;
-    if (a < 0x78 && a + frame.dlc > 0x78) continue;  // RN-06: nobody says that
-    if (a < 0x78) std::copy_n(frame.data.begin(), frame.dlc, window.begin() + a);
-    port->receive(frame);
-    ASSERT_EQ(bytes(0x200, 0x78), window);
-  }
-  EXPECT_THAT(bytes(0x278, 0x20), Each(0));  // ports are not taken
+  expect_a_copy_of_a_window([this](const Frame &frame) { port->receive(frame); },
+                            [this](unsigned at, unsigned n) { return bytes(at, n); });
 }
 
 // RN-65: the fields of an entry at their borders.

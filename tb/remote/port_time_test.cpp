@@ -5,18 +5,13 @@
 // what the time unit is asked (TM-109).
 #include <gtest/gtest.h>
 
+#include "remote/frame_texts.hpp"
 #include "remote/random_port.hpp"
 
 namespace vericansim {
 namespace {
 
 constexpr unsigned kTimeExt = 1U << 7, kTimeRead = 1U << 8;  // can_pkg::TimeExt, TimeRead
-
-Frame frame_of(unsigned id, std::initializer_list<std::uint8_t> bytes) {
-  Frame frame{.id = id, .dlc = static_cast<std::uint8_t>(bytes.size())};
-  std::copy(bytes.begin(), bytes.end(), frame.data.begin());
-  return frame;
-}
 
 std::array<std::uint8_t, 16> row_of(RandomHost &host) {
   std::array<std::uint8_t, 16> row{};

@@ -62,7 +62,7 @@ TEST(RtlBabbler, WritesOfEightBytesAreNoWorse) {
   bus.bus.add(waits);
   for (unsigned i = 0; i < 500; ++i) {
     while (bus.host.pending()) bus.run_bits(1);
-    bus.host.request(bus_frame("1A0#0123456789ABCDEF"));
+    bus.host.request(frame_of("1A0#0123456789ABCDEF"));
   }
   bus.bus.remove(waits);
   EXPECT_LE(100 * waits.waited, 15 * waits.clocks);

@@ -13,17 +13,11 @@
 
 #include "bus/observer.hpp"
 #include "node/remote_node.hpp"
+#include "remote/frame_texts.hpp"
 #include "remote/unit_bus.hpp"
 #include "trace/candump.hpp"
 
 namespace vericansim {
-
-/// "1A0#5A" as a frame.
-inline Frame bus_frame(const std::string &text) {
-  Frame frame;
-  if (!parse_candump_frame(text, frame, {text, 0})) ADD_FAILURE() << text << " is no frame";
-  return frame;
-}
 
 /// When a node of the bus was last at certain places; 0: not yet.
 class Places : public BusObserver {
@@ -68,7 +62,7 @@ class RtlBus : public UnitBus {
   [[nodiscard]] RemoteNode &node(std::size_t i = 0) {
     return static_cast<RemoteNode &>(*units.at(i));
   }
-  std::vector<std::string> send(const std::string &text) { return UnitBus::send(bus_frame(text)); }
+  std::vector<std::string> send(const std::string &text) { return UnitBus::send(frame_of(text)); }
 
   Places places{2};  // behind the host and the other node
 

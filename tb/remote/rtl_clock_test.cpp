@@ -12,6 +12,7 @@
 #include "Vcan_remote_whole.h"
 #include "node/model_context.hpp"
 #include "remote/clocked_remote.hpp"
+#include "remote/frame_texts.hpp"
 
 namespace vericansim {
 namespace {
@@ -20,12 +21,6 @@ constexpr double kClock = 125;              // ns
 constexpr double kMs = 1e6;                 // ns
 constexpr Time kRound = 10 * kMillisecond;  // between two pairs
 constexpr unsigned kLocked = 2;             // STATE
-
-Frame frame_of(unsigned id, std::initializer_list<std::uint8_t> bytes) {
-  Frame frame{.id = id, .dlc = static_cast<std::uint8_t>(bytes.size())};
-  std::copy(bytes.begin(), bytes.end(), frame.data.begin());
-  return frame;
-}
 
 void lock(ClockBus &bus, unsigned pairs = 20) {
   const Time begin = bus.bus.now();

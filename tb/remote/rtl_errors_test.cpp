@@ -92,7 +92,7 @@ class OneFlip {
     if (passive) exhaust();
     if (passive != decode_trace(bus_.node().trace()).passive) return "not in the error state";
     const Time begin = bus_.bus.now();
-    bus_.host.request(bus_frame(request));
+    bus_.host.request(frame_of(request));
     flips_.add(kDevice, Effect::kFlip,
                {begin + place * UnitBus::kBit, begin + (place + 1) * UnitBus::kBit});
     bus_.run_bits(place + 2);
@@ -107,7 +107,7 @@ class OneFlip {
   // A bit of every answer is disturbed: after two reads of eight attempts TEC is 128.
   void exhaust() {
     for (unsigned reads = 0; reads < 2; ++reads) {
-      bus_.host.request(bus_frame("1A0#R8"));
+      bus_.host.request(frame_of("1A0#R8"));
       bus_.run_bits(2);
       while (!bus_.node().idle() || bus_.host.pending()) {
         bus_.run_bits(1);

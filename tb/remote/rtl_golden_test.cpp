@@ -4,17 +4,12 @@
 // The golden vectors on the RTL, bit by bit: RN-20 to RN-27, RN-30, RN-31, RN-46.
 #include <gmock/gmock.h>
 
+#include "remote/frame_texts.hpp"
 #include "remote/golden_vectors.hpp"
 #include "remote/rtl_bus.hpp"
 
 namespace vericansim {
 namespace {
-
-std::vector<std::string> texts_of(const std::vector<Frame> &frames) {
-  std::vector<std::string> texts;
-  for (const Frame &frame : frames) texts.push_back(candump_frame(frame));
-  return texts;
-}
 
 void expect_memory(const RemoteNode &node, const golden::Vector &vector) {
   for (const auto &[address, bytes] : vector.memory)

@@ -57,7 +57,7 @@ class RtlInit : public ::testing::Test {
   }
   /// What the node says to a frame, or by itself.
   std::vector<std::string> send(const std::string &text) {
-    if (!text.empty()) host_.request(bus_frame(text));
+    if (!text.empty()) host_.request(frame_of(text));
     bus_.run_for(400 * UnitBus::kBit);
     std::vector<std::string> said;
     for (const Frame &frame : host_.received()) said.push_back(candump_frame(frame));

@@ -33,7 +33,7 @@ class RtlInstants : public ::testing::Test {
   /// The node does not hear its own answer to a request, until it is off the bus; when that is.
   Time bus_off() {
     bus.places.valid = 0;
-    bus.host.request(bus_frame("1A0#R1"));
+    bus.host.request(frame_of("1A0#R1"));
     while (bus.places.valid == 0) bus.run_bits(1);
     const Time from = bus.bus.now() + 3 * UnitBus::kBit;
     deaf.add(2, Effect::kRecessive, {from, from + 2 * kMillisecond});
@@ -64,7 +64,7 @@ TEST_F(RtlInstants, PulsesBeginInTheClockAfterInt2) {
 TEST_F(RtlInstants, BytesAreInTheRamBeforeInt2) {
   for (const char *frame : {"1A0#11", "1A3#1122334455667788", "1F9#0002112233445566"}) {
     SCOPED_TRACE(frame);
-    const Frame sent = bus_frame(frame);
+    const Frame sent = frame_of(frame);
     const bool far = (sent.id & 0x7F) == 0x79;
     const unsigned address = far ? 0x200 : sent.id & 0x7F;
     bus.node().user_write(address / 4, 0, 0xF);
@@ -84,7 +84,7 @@ TEST_F(RtlInstants, TheAnswerFollowsTheIntermissionAtOnce) {
   for (const char *request : {"1A0#R1", "1A0#R8", "1F8#000206", "1FE#R8", "1FF#R8", "1A0#"}) {
     SCOPED_TRACE(request);
     bus.places.valid = bus.places.sof = 0;
-    bus.host.request(bus_frame(request));
+    bus.host.request(frame_of(request));
     while (bus.places.valid == 0) bus.run_bits(1);
     const Time valid = bus.places.valid;
     bus.places.sof = 0;
@@ -108,7 +108,7 @@ TEST_F(RtlInstants, HoldIsHonouredFor64Clocks) {
 TEST_F(RtlInstants, HoldThatEndsLetsGo) {
   bus.node().hold(true);
   bus.places.valid = 0;
-  bus.host.request(bus_frame("1A0#5A"));
+  bus.host.request(frame_of("1A0#5A"));
   while (bus.places.valid == 0) bus.run_bits(1);
   bus.run_bits(4);
   EXPECT_THAT(shown, IsEmpty());
@@ -131,8 +131,8 @@ TEST_F(RtlInstants, RestartKeepsTheMemory) {
 
 // RN-60: a RESTART waits until nothing is under way: the frame that follows at once is not hurt.
 TEST_F(RtlInstants, RestartDisturbsNoFrame) {
-  bus.host.request(bus_frame("000#8103"));
-  bus.other.request(bus_frame("7A0#0102"));
+  bus.host.request(frame_of("000#8103"));
+  bus.other.request(frame_of("7A0#0102"));
   EXPECT_THAT(bus.settle(), ElementsAre("7A0#0102", "5FE#0200000000010000"));
   EXPECT_EQ(decode_trace(bus.host.trace()).tec, 0);
   EXPECT_EQ(decode_trace(bus.other.trace()).tec, 0);
@@ -144,8 +144,8 @@ TEST_F(RtlInstants, WatchdogToTheMillisecond) {
     SCOPED_TRACE(ms);
     write_config(remote_map::kWatchdog, ms & 0xFF);
     write_config(remote_map::kWatchdog + 1, ms >> 8);
-    bus.host.request(bus_frame("1FC#04"));
-    bus.host.request(bus_frame("000#01"));
+    bus.host.request(frame_of("1FC#04"));
+    bus.host.request(frame_of("000#01"));
     bus.run_bits(150);
     ASSERT_EQ(bus.node().state(), RemoteState::kOperate);
     const Time fed = bus.places.valid;

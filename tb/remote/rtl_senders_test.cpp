@@ -37,8 +37,8 @@ TEST(RtlSenders, APollIsSortedByArbitration) {
   EXPECT_THAT(bus.start(),
               ElementsAre("5FE#0200000000000000", "6FE#0200000000000000", "7FE#0200000000000000"));
   EXPECT_THAT(bus.send("0A0#5A"), IsEmpty());
-  bus.host.request(bus_frame("0A0#R1"));
-  bus.host.request(bus_frame("0A0#77"));  // before the answers
+  bus.host.request(frame_of("0A0#R1"));
+  bus.host.request(frame_of("0A0#77"));  // before the answers
   EXPECT_THAT(bus.settle(), ElementsAre("5A0#5A", "6A0#5A", "7A0#5A"));
 }
 
@@ -56,8 +56,8 @@ TEST(RtlSenders, AnswerAndWriteDoNotCollide) {
   RtlBus bus{std::vector<unsigned>{3}};
   (void)bus.start();
   for (unsigned i = 0; i < 20; ++i) {
-    bus.host.request(bus_frame("1A0#R1"));
-    bus.host.request(bus_frame("1A0#5A"));
+    bus.host.request(frame_of("1A0#R1"));
+    bus.host.request(frame_of("1A0#5A"));
     EXPECT_EQ(bus.settle().size(), 1U);
   }
   EXPECT_EQ(trace_of(bus.host).tec, 0);
@@ -87,9 +87,9 @@ TEST(RtlSenders, StatementUnderTheOwnNumberIsNoticed) {
   RtlBus bus{std::vector<unsigned>{3, 4}};
   (void)bus.start();
   (void)bus.send("1A0#R1");
-  (void)bus.UnitBus::send(bus_frame("620#00"), true);
+  (void)bus.UnitBus::send(frame_of("620#00"), true);
   EXPECT_EQ(bus.node(0).peek(remote_map::kStatus), 0x02);
-  (void)bus.UnitBus::send(bus_frame("5A0#01"), true);
+  (void)bus.UnitBus::send(frame_of("5A0#01"), true);
   EXPECT_EQ(bus.node(0).peek(remote_map::kStatus), 0x12);
   EXPECT_EQ(bus.node(0).peek(0x20), 0);
   EXPECT_EQ(bus.node(1).peek(remote_map::kStatus), 0x12);  // by 620
@@ -99,7 +99,7 @@ TEST(RtlSenders, StatementUnderTheOwnNumberIsNoticed) {
 TEST(RtlSenders, RemoteFrameOfAStatementIsIgnored) {
   RtlBus bus{std::vector<unsigned>{3}};
   (void)bus.start();
-  EXPECT_THAT(bus.UnitBus::send(bus_frame("5A0#R1"), true), IsEmpty());
+  EXPECT_THAT(bus.UnitBus::send(frame_of("5A0#R1"), true), IsEmpty());
   EXPECT_EQ(bus.node().peek(remote_map::kStatus), 0x02);
   EXPECT_EQ(bus.node().peek(remote_map::kStatus + 6), 0);
 }
@@ -109,7 +109,7 @@ TEST(RtlSenders, AttemptsWithoutAcknowledgeEnd) {
   RtlBus bus{std::vector<unsigned>{3}};
   (void)bus.start();
   bus.places.valid = 0;
-  bus.host.request(bus_frame("1A0#R1"));
+  bus.host.request(frame_of("1A0#R1"));
   while (bus.places.valid == 0) bus.run_bits(1);
   PlaceFault deaf{2, {.field = Field::kAck}, Effect::kRecessive};
   bus.bus.add(deaf);

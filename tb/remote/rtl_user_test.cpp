@@ -54,7 +54,7 @@ class OneFrame {
     for (const unsigned word : {kWord, kWord + 1}) bus.node().user_write(word, kOld, 0xF);
     before_(bus);
     (void)bus.settle();
-    bus.host.request(bus_frame(frame_));
+    bus.host.request(frame_of(frame_));
   }
 
   std::string frame_;

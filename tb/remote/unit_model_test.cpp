@@ -8,6 +8,7 @@
 
 #include "bus/faults.hpp"
 #include "node/remote_model_node.hpp"
+#include "remote/frame_texts.hpp"
 #include "remote/golden_vectors.hpp"
 #include "remote/unit_bus.hpp"
 #include "trace/candump.hpp"
@@ -21,12 +22,6 @@ using ::testing::IsEmpty;
 std::unique_ptr<RemoteUnit> model_unit(const RemoteConfig &config, unsigned number) {
   return std::make_unique<RemoteModelNode>("unit", config, number, UnitBus::timing(),
                                            UnitBus::clock());
-}
-
-Frame frame_of(const std::string &text) {
-  Frame frame;
-  EXPECT_TRUE(parse_candump_frame(text, frame, {text, 0}));
-  return frame;
 }
 
 /// A place of the trace of a node at each of its sample points.

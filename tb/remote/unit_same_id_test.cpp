@@ -55,8 +55,8 @@ class SameId : public ::testing::TestWithParam<Maker> {
   }
   /// A read and a write of one byte, one behind the other; what the node says.
   std::vector<std::string> read_and_write() {
-    bus_.host.request(bus_frame("1A0#R1"));
-    bus_.host.request(bus_frame("1A0#5A"));
+    bus_.host.request(frame_of("1A0#R1"));
+    bus_.host.request(frame_of("1A0#5A"));
     bus_.run_bits(100);
     return bus_.settle();
   }
@@ -95,11 +95,11 @@ TEST_P(SameId, WriteAndAnswerDestroyEachOther) {
 
 // RN-16: of all nodes together, too; READ and STATUS keep their identifiers.
 TEST_P(SameId, IsForDirectReadsAlone) {
-  EXPECT_THAT(bus_.send(bus_frame("0A0#R2")), ElementsAre("0A0#0000"));
-  EXPECT_THAT(bus_.send(bus_frame("1A1#R2")), ElementsAre("1A1#0000"));
-  EXPECT_THAT(bus_.send(bus_frame("1F8#200001")), ElementsAre("5F8#200000"));
-  EXPECT_THAT(bus_.send(bus_frame("1FE#R1")), ElementsAre("5FE#02"));
-  EXPECT_THAT(bus_.send(bus_frame("1A1#R1")), ElementsAre("1A1#00"));
+  EXPECT_THAT(bus_.send(frame_of("0A0#R2")), ElementsAre("0A0#0000"));
+  EXPECT_THAT(bus_.send(frame_of("1A1#R2")), ElementsAre("1A1#0000"));
+  EXPECT_THAT(bus_.send(frame_of("1F8#200001")), ElementsAre("5F8#200000"));
+  EXPECT_THAT(bus_.send(frame_of("1FE#R1")), ElementsAre("5FE#02"));
+  EXPECT_THAT(bus_.send(frame_of("1A1#R1")), ElementsAre("1A1#00"));
 }
 
 // RN-10: without SameId.

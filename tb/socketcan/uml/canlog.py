@@ -6,21 +6,8 @@ from collections import Counter
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "sw/linux"))
+from expectations import Failed, expect, expect_true  # noqa: E402,F401
 from frames import Frame, length_in_bits, parse, read_log  # noqa: E402,F401
-
-
-class Failed(Exception):
-    """A check failed; the text says what was expected and what was found."""
-
-
-def expect(found, wanted, what):
-    if found != wanted:
-        raise Failed(f"{what}: {found!r}, expected {wanted!r}")
-
-
-def expect_true(condition, what):
-    if not condition:
-        raise Failed(what)
 
 
 def read(path):

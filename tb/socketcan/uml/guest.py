@@ -16,6 +16,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "sw/linux"))
+from scratch import scratch  # noqa: E402  pylint: disable=wrong-import-position
+
 KERNEL = Path("/usr/bin/linux.uml")
 MODULES = Path("/usr/lib/uml/modules")
 INIT = Path(__file__).resolve().parents[1] / "guest/init.sh"
@@ -30,14 +33,6 @@ class Impossible(Exception):
 
 class Failed(Exception):
     """The guest did not do its work; the text says what was seen."""
-
-
-def scratch():
-    """Where guests keep their memory, as a file: fast if it can be."""
-    shm = Path("/dev/shm")
-    if os.access(shm, os.W_OK) and shutil.disk_usage(shm).free > 512 * 2**20:
-        return str(shm)
-    return tempfile.gettempdir()
 
 
 def check_machine():
