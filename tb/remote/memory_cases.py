@@ -20,7 +20,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tb/socketcan")]
 
-from socketcand_bridge import Bridge  # noqa: E402  pylint: disable=wrong-import-position
+from socketcand_bridge import Bridge, Client  # noqa: E402  pylint: disable=wrong-import-position
 
 PATIENCE = 120
 NODES = """bitrate: 500k
@@ -150,6 +150,22 @@ class Commands(unittest.TestCase):
         words = {tuple(line.split(maxsplit=2)[1:]) for line in lines}
         self.assertEqual(words, {("1F8#400002", "3: read 040, 2 bytes"),
                                  ("5F8#40000102", "3 says 040 = 01 02")})
+
+    def test_watch_tells_of_a_doubled_number(self):
+        """RN-13: a node that hears its own number says so."""
+        with Client(self.bridge.port, "open can0", "rawmode") as other:
+            other.send("send 5A0 1 77")  # as node 3 would
+            while "number doubled" not in self.memory("status"):
+                pass
+        lines = []
+        watch = threading.Thread(
+            target=lambda: lines.extend(self.memory("watch", "--frames", 4).splitlines()))
+        watch.start()
+        while watch.is_alive():
+            self.memory("read", 3, "0xE00", code=1,
+                        error="verican: memory: node 3 refuses: code 02, illegal address\n")
+        watch.join()
+        self.assertIn("3 says STATUS SAFE, number doubled", "\n".join(lines))
 
     def test_refusals(self):
         """One line on stderr, exit code 1; the node's code in words."""

@@ -82,6 +82,31 @@ test('count, period, jitter, data and changed bytes are those of the scene', asy
   await closeReport(page);
 });
 
+test('identifiers that several nodes send are marked', async () => {
+  const scene = new Scene(['left', 'right'], {title: 'Shared'});
+  const [data, empty, request] = [{dlc: 1, data: [7]}, {dlc: 0, data: []}, {remote: true, dlc: 1}];
+  for (const node of [0, 1]) {
+    scene.frame(node, {id: 0x100, ...data});
+    scene.frame(node, {id: 0x402, ...empty});
+    scene.frame(node, {id: 0x500, ...request});
+    scene.frame(node, {id: 0x600 + node, ...data});
+  }
+  const shared = browser.reportFor('ids-shared', {scene, ...scene.finish()});
+  const page = await openReport(shared, {width: 1600});
+  await page.click('#tab-ids');
+  const marked = await page.$$eval('#panel-ids .rows .row:has(.alarm)', (rows) =>
+    rows.map((row) => row.textContent.slice(0, 3)),
+  );
+  assert.deepEqual(marked, ['100'], 'not frames without data, and not requests');
+  assert.equal(await page.textContent('#panel-ids .shared'), 'Sent by several nodes: 100');
+  await closeReport(page);
+
+  const other = await openReport(file, {width: 1600});
+  await other.click('#tab-ids');
+  assert.equal(await other.textContent('#panel-ids .shared'), '');
+  await closeReport(other);
+});
+
 test('it sorts, filters, and leads to the frames of an identifier', async () => {
   const page = await openReport(file, {width: 1600});
   await page.click('#tab-ids');

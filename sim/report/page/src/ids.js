@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the report says about each identifier: how often, how regularly, and what changes in it.
+import {kNobody} from './report.js';
 
 const kExtended = 0x80000000; // in f.id
 const kRemote = 0x40000000;
@@ -12,6 +13,7 @@ class Identifier {
     this.frames = []; // their indices
     this.senders = new Set();
     this.last = null; // index of the last data frame
+    this.bytes = 0; // of the longest data frame
     this.changed = 0; // bit n: byte n was not the same in all data frames
     this.shortest = Infinity;
     this.longest = -Infinity;
@@ -26,6 +28,7 @@ class Identifier {
     this.senders.add(frames.sender[i]);
     if (this.remote) return;
     const data = dataOf(i);
+    this.bytes = Math.max(this.bytes, data.length);
     const before = this.last === null ? data : dataOf(this.last);
     for (let at = 0; at < Math.max(data.length, before.length); ++at) {
       if (data[at] !== before[at]) this.changed |= 1 << at;
@@ -39,6 +42,15 @@ class Identifier {
     if (this.count > 1) this.spread += off * (ns - this.mean);
     this.shortest = Math.min(this.shortest, ns);
     this.longest = Math.max(this.longest, ns);
+  }
+
+  /**
+   * Two nodes send data under it, which destroy each other where they start at once. Requests may
+   * be of many, and frames without a byte are the same of all.
+   */
+  get shared() {
+    const known = [...this.senders].filter((node) => node !== kNobody);
+    return this.bytes > 0 && known.length > 1;
   }
 
   /** Standard deviation of the periods, ns. */

@@ -30,6 +30,18 @@ const changedText = ({changed}) =>
     .filter((i) => changed & (1 << i))
     .join(' ');
 
+/** The nodes that send it; several that should not are marked. */
+function sendersCell(report, {senders, shared}) {
+  const attributes = shared ? {class: 'alarm', title: 'An identifier of data has one sender'} : {};
+  return el('span', attributes, ...[...senders].map((n) => nodeCell(report, n)));
+}
+
+/** What is said of identifiers that several nodes send. */
+function sharedText(entries) {
+  const ids = entries.filter((entry) => entry.shared).map(idText);
+  return ids.length > 0 ? `Sent by several nodes: ${ids.join(' ')}` : '';
+}
+
 /** Name of the messages with an identifier: of the scenario, else of a database. */
 function nameOf(report, entry) {
   const frame = report.frame(entry.frames[0]);
@@ -66,12 +78,7 @@ function columnsOf(tab) {
       name: 'from',
       title: 'Nodes that sent it',
       width: 'minmax(80px, .7fr)',
-      node: (row) =>
-        el(
-          'span',
-          {},
-          [...entries[row].senders].map((n) => nodeCell(report, n)),
-        ),
+      node: (row) => sendersCell(report, entries[row]),
       csv: (row) => [...entries[row].senders].map((n) => report.nodeName(n)).join(' '),
       key: (row) => report.nodeName([...entries[row].senders][0]),
     },
@@ -122,11 +129,13 @@ export class IdsTab {
       oninput: () => this.search(),
     });
     this.found = el('span', {class: 'found'});
+    this.shared = el('span', {class: 'shared alarm'});
     this.root = tabWithBar(
       [
         this.input,
         csvButton(report, 'identifiers', () => tableRows(this.table)),
         this.found,
+        this.shared,
         el('span', {class: 'dim'}, 'A click shows the frames of an identifier.'),
       ],
       this.table.root,
@@ -138,6 +147,7 @@ export class IdsTab {
   fill() {
     if (this.entries.length > 0) return;
     this.entries.push(...identifiersOf(this.report));
+    this.shared.textContent = sharedText(this.entries);
     this.search();
   }
 
