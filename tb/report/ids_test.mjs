@@ -91,7 +91,7 @@ test('identifiers that several nodes send are marked', async () => {
     scene.frame(node, {id: 0x500, ...request});
     scene.frame(node, {id: 0x600 + node, ...data});
   }
-  const shared = browser.reportFor('ids-shared', {scene, ...scene.finish()});
+  const shared = browser.writeScene('ids-shared', scene.finish());
   const page = await openReport(shared, {width: 1600});
   await page.click('#tab-ids');
   const marked = await page.$$eval('#panel-ids .rows .row:has(.alarm)', (rows) =>
