@@ -31,7 +31,8 @@ class Families(unittest.TestCase):
 
     def test_one_family_is_measured(self):
         entry = families.families()["ecp5"]
-        found = families.measure(entry, "core", families.packages(os.environ.get("VERICAN_FAMILIES")))
+        modules = families.packages(os.environ.get("VERICAN_FAMILIES"))
+        found = families.measure(entry, "core", modules)
         self.assertEqual((found["ram"], found["lut_ram"]), (0, 0))
         self.assertEqual(found["ff"], self.flip_flops())
         self.assertGreater(found["lut"], 300)

@@ -241,7 +241,7 @@ class RtlBlocks : public ::testing::Test {
 // RN-44: written and read back, each within the bar from the request on.
 TEST_F(RtlBlocks, AllOfTheMemoryInTime) {
   Time from = bus.bus.now();
-  bus.host.request(bus_frame("1FA#02A10000000E00"));
+  bus.host.request(frame_of("1FA#02A10000000E00"));
   wait_for("5FA#02A105000000");
   for (unsigned i = 0; i < kSize / kPart; ++i) bus.host.request(part(i));
   wait_for("5FA#02A10000000E");
@@ -249,7 +249,7 @@ TEST_F(RtlBlocks, AllOfTheMemoryInTime) {
 
   bus.host.received().clear();
   from = bus.bus.now();
-  bus.host.request(bus_frame("1FA#01A20000000E00"));
+  bus.host.request(frame_of("1FA#01A20000000E00"));
   wait_for("5FA#01A20000000E");
   EXPECT_LE(bus.bus.now() - from, kBar);
   ASSERT_EQ(bus.host.received().size(), kSize / kPart + 1);
