@@ -178,7 +178,7 @@ module can_mb_move #(
         unres_q <= 1'b0;              // no buffer found in the time of a whole frame
         full_q[unres_row_q] <= 1'b0;
       end
-      // The frame that begins needs an empty row. If both are full, the frame that came last is lost
+      // The frame that begins needs an empty row. If both are full, the one that came last is lost
       // if its match is outstanding or the other one is being moved, else the one that waits.
       if (start_i && stays[smb_o]) begin
         if (crowded && (unres_q || (mv_q && row_o != smb_o))) begin
