@@ -88,8 +88,8 @@ class Bus {
   /// Lets the run_until() under way return after the current instant.
   void stop() { stopped_ = true; }
 
-  /// Lets time pass without clocking the nodes, as if their clocks were gated or, for those with a
-  /// time unit, as if they had been clocked (Node::skip_period()); up to `until` or to the next
+  /// Lets time pass without clocking the nodes, as if they had been clocked or, where a node has no
+  /// period (Node::skip_period()), as if its clock were gated; up to `until` or to the next
   /// action, or a bit less. Only where that cannot be seen on the bus: all nodes show an idle bus
   /// and drive recessive, nothing is on its way, there are no faults. For a caller who knows that
   /// no node has anything to send. False, and nothing done, otherwise, or if no node has a period

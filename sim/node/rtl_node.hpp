@@ -75,6 +75,8 @@ class RtlNode : public Node {
     catch_up();
     return cycles_;
   }
+  /// The same without those that Bus::skip() has left out.
+  [[nodiscard]] std::uint64_t clocked() const { return cycles() - left_out_; }
 
   // ---- Coroutines
 
@@ -129,6 +131,11 @@ class RtlNode : public Node {
   }
   /// Edges that pass() has made good.
   void passed(std::uint64_t edges) { cycles_ += edges; }
+  /// Edges that Bus::skip() has left out.
+  void left_out(std::uint64_t edges) {
+    cycles_ += edges;
+    left_out_ += edges;
+  }
 
  private:
   void resume_waiter();
@@ -137,7 +144,7 @@ class RtlNode : public Node {
   AhbMaster ahb_;
   BusMaster *master_ = &ahb_;
   unsigned num_mb_;
-  std::uint64_t cycles_ = 0;
+  std::uint64_t cycles_ = 0, left_out_ = 0;
   std::coroutine_handle<> waiter_ = nullptr;
   bool wait_irq_ = false;
   std::uint64_t wake_cycle_ = 0;

@@ -80,25 +80,21 @@ class RtlNodeOf final : public RtlNode {
 
   // An idle bit is like the one before it, but for TIMER and the time unit.
   [[nodiscard]] std::uint64_t skip_period() const override {
-    if constexpr (!kHasTimeUnit<Engine>) return 1;
     const Engine &engine = core_.engine();
     const unsigned quanta = 4U + engine.propseg_i + engine.pseg1_i + engine.pseg2_i;
     return std::uint64_t{quanta} * (engine.presdiv_i + 1U);
   }
 
   [[nodiscard]] std::uint64_t skip_most() const override {
-    if constexpr (!kHasTimeUnit<Engine>) return ~0ULL;
     if (ahb().active() || !core_.resting() || core_.wakes()) return 0;
     return std::min({edges_of_time(core_.engine()), edges_to_waiter(), core_.rest()});
   }
 
   void skipped(std::uint64_t edges) override {
-    if constexpr (kHasTimeUnit<Engine>) {
-      core_.engine().pass_time(edges);
-      core_.engine().timer_o += static_cast<std::uint16_t>(edges / skip_period());
-      core_.pass(edges);
-      passed(edges);
-    }
+    pass_time(core_.engine(), edges);
+    core_.engine().timer_o += static_cast<std::uint16_t>(edges / skip_period());
+    core_.pass(edges);
+    left_out(edges);
   }
 
   [[nodiscard]] std::uint64_t trace() const override {

@@ -60,7 +60,7 @@ void Session::set_limits() {
   paced_ = scenario.pacing == Pacing::kRealTime;
   stretch_ = kFewFrames * bit_time_;
   if (outlets_.empty()) stretch_ = std::max(stretch_, std::min(kLongest, limit_ / kParts));
-  // A judge counts the bits of every node; who looks at a timer would see that it stood still.
+  // A judge looks at every bit of every node.
   const bool wanted =
       !outlets_.empty() || std::any_of(workers_.begin(), workers_.end(),
                                        [](const Worker &w) { return w.op->passes_time(); });

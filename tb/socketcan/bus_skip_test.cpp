@@ -6,6 +6,7 @@
 
 #include "bus/bus.hpp"
 #include "bus/faults.hpp"
+#include "model/registers.hpp"
 #include "node/host.hpp"
 
 namespace vericansim {
@@ -30,14 +31,19 @@ TEST(ClockSkip, PassesTheSameEdges) {
 }
 
 /// Two nodes, one a little faster, that have come on the bus.
-class BusSkip : public ::testing::Test {
- protected:
-  BusSkip() {
+struct TwoNodes {
+  TwoNodes() {
     bus.add(*a);
     bus.add(*b);
     sender.start_and_wait();
     receiver.start_and_wait();
     bus.run_for(20 * kBit);
+  }
+  /// Up to `until` or a little less. A pass over the buffers after a frame is no idle time.
+  void skip(Time until) {
+    constexpr Time kLook = 2 * kBit;
+    while (bus.now() < until - kLook)
+      if (!bus.skip(until - kLook)) bus.run_for(kLook);
   }
   std::unique_ptr<RtlNode> a = RtlNode::create("a");
   std::unique_ptr<RtlNode> b = RtlNode::create("b", {.error_ppm = 200});
@@ -46,13 +52,15 @@ class BusSkip : public ::testing::Test {
   Host receiver{*b, {}};
 };
 
+class BusSkip : public ::testing::Test, protected TwoNodes {};
+
 TEST_F(BusSkip, FramesPassAsBefore) {
   for (unsigned i = 0; i < 20; ++i) {
-    const Time before = bus.now();
-    const std::uint64_t cycles = a->cycles();
-    ASSERT_TRUE(bus.skip(before + kSecond + 77 * i * kNanosecond));
-    EXPECT_EQ(bus.now(), before + kSecond + 77 * i * kNanosecond);
-    EXPECT_EQ(a->cycles(), cycles);
+    const Time until = bus.now() + kSecond + 77 * i * kNanosecond;
+    const std::uint64_t clocked = a->clocked();
+    skip(until);
+    EXPECT_LE(bus.now(), until);
+    EXPECT_LT(a->clocked() - clocked, 8U * 100);  // 100 bits of a second
     EXPECT_GT(a->oscillator().next(), bus.now());
     ASSERT_TRUE(sender.send_and_wait(kFrame, 2 * kMillisecond));
     bus.run_for(20 * kBit);
@@ -60,6 +68,30 @@ TEST_F(BusSkip, FramesPassAsBefore) {
   ASSERT_EQ(receiver.received().size(), 20U);
   for (const HostFrame &frame : receiver.received()) EXPECT_EQ(frame.frame, kFrame);
   EXPECT_EQ(sender.stats().error_interrupts, 0U);
+}
+
+// A core is where it would have been, its TIMER and its place in the bit included.
+TEST_F(BusSkip, IsAsIfClocked) {
+  TwoNodes other;
+  const auto compare = [](RtlNode &skipped, RtlNode &clocked) {
+    EXPECT_EQ(skipped.cycles(), clocked.cycles());
+    EXPECT_EQ(skipped.oscillator().next(), clocked.oscillator().next());
+    EXPECT_EQ(skipped.trace(), clocked.trace());
+    EXPECT_EQ(skipped.read32(reg::kTimer), clocked.read32(reg::kTimer));
+  };
+  for (unsigned i = 0; i < 12; ++i) {
+    const Time until = bus.now() + 20 * kMillisecond + i * 1'234'567;
+    skip(until);
+    for (TwoNodes *one : {static_cast<TwoNodes *>(this), &other}) {
+      one->bus.run_until(until);
+      ASSERT_TRUE(one->sender.send_and_wait(kFrame, 2 * kMillisecond));
+      one->bus.run_for(20 * kBit);
+    }
+    ASSERT_EQ(bus.now(), other.bus.now());
+    compare(*a, *other.a);
+    compare(*b, *other.b);
+  }
+  EXPECT_LT(a->clocked(), other.a->clocked() / 4);
 }
 
 // Not while a frame is under way, nor in the intermission.
