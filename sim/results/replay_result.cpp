@@ -16,6 +16,7 @@ namespace vericansim {
 std::string verdict(const ReplayResult &replay) {
   if (!replay.failure.empty()) return "NO: " + replay.failure;
   if (replay.late != 0) return fmt::format("NO: {} were due and have not left", replay.late);
+  if (replay.none_of_share) return "nothing to send: no frame is of its share";
   for (const ReplayReceiver &receiver : replay.receivers)
     if (!receiver.first_difference.empty())
       return fmt::format("NO: {}: {}", receiver.node, receiver.first_difference);

@@ -33,6 +33,7 @@ struct ReplayResult {
   Time recorded = 0;            ///< between the first and the last frame in the log
   Time longest_gap = 0;         ///< between two frames
   std::uint64_t after_gap = 0;  ///< number of the frame after it
+  bool none_of_share = false;   ///< the frames of the recording are those of other nodes
   std::string failure;  ///< why not all could be sent: nothing to send, given up; empty: all well
   std::vector<std::string> warnings;  ///< of the recording, as in CanLog
   std::vector<ReplayReceiver> receivers;

@@ -24,6 +24,18 @@ constexpr std::uint64_t kAhead = 16;
 constexpr Time kSilence = 20'000;
 constexpr Time kStarved = 1'000'000;
 
+/// Whether another node has frames of the recording of which `id` has none in its share.
+bool others_send(const std::vector<NodeSpec> &nodes, NodeId id) {
+  const auto &mine = std::get<ReplayRole>(nodes[id].role);
+  for (NodeId other = 0; other < nodes.size(); ++other) {
+    const auto *role = std::get_if<ReplayRole>(&nodes[other].role);
+    if (other != id && role != nullptr && role->file == mine.file && role->log == mine.log &&
+        !make_plan(*role).frames.empty())
+      return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 ReplayOperator::ReplayOperator(const OperatorContext &context)
@@ -37,7 +49,11 @@ ReplayOperator::ReplayOperator(const OperatorContext &context)
   loop_ = role.loop;
   plan_ = make_plan(role);
   failure_ = plan_.nothing;
+  none_of_share_ = failure_.empty() && plan_.frames.empty();
   const auto &nodes = context.scenario().nodes;
+  if (none_of_share_ && !others_send(nodes, id_))
+    failure_ = fmt::format("no frame of {} is of share {}/{}, and no other node sends one of it",
+                           file_, role.share + 1, role.shares);
   for (NodeId id = 0; id < nodes.size(); ++id)
     if (id != id_ && nodes[id].hosted() && nodes[id].host.filters.empty() &&
         !nodes[id].host.loop_back)
@@ -182,6 +198,7 @@ void ReplayOperator::report(RunReport &report) {
   result.sent = sent_;
   result.skipped = plan_.skipped;
   result.recorded = plan_.recorded;
+  result.none_of_share = none_of_share_;
   result.longest_gap = plan_.longest_gap;
   result.after_gap = plan_.after_gap;
   result.warnings = plan_.warnings;

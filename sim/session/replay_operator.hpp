@@ -59,6 +59,7 @@ class ReplayOperator : public Operator {
   std::uint64_t sent_ = 0;  // of these, on the bus and acknowledged, as they should be
   std::uint64_t left_ = 0;  // of these, the software has been told that they left
   std::string failure_;
+  bool none_of_share_ = false;
   Time bit_time_;
   Time start_ = 0;
   Time last_frame_ = 0;  // on the bus, of anybody

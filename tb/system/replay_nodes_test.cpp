@@ -115,6 +115,22 @@ TEST_F(ReplayNodes, SharesAreDisjointAndWhole) {
   EXPECT_EQ(report.replays.at(0).sent + report.replays.at(1).sent, 4U);
 }
 
+// A share in which no frame falls is well only where other nodes send the recording.
+TEST_F(ReplayNodes, AShareWithoutAFrameNeedsAnother) {
+  file_with("boat.log", "(100.000000) can0 123#01\n");
+  const std::string empty = ", share: 1/2";
+  const auto alone = [&](const std::string &rest) {
+    return to_text(run_scenario(scenario(empty, rest), 500e3));
+  };
+  EXPECT_THAT(alone(""), HasSubstr("boat.log is of share 1/2, and no other node sends"));
+  const std::string second = "  - {name: second, replay: boat.log, share: ";
+  EXPECT_THAT(alone(second + "1/2}\n"), HasSubstr("NO: no frame of "));
+  const RunReport whole = run(empty, second + "2/2}\n");
+  EXPECT_TRUE(whole.ok()) << to_text(whole);
+  EXPECT_EQ(seen_.size(), 1U);
+  EXPECT_THAT(to_text(whole), HasSubstr("  nothing to send: no frame is of its share\n"));
+}
+
 // The traffic of others, an error in the third frame: all arrive all the same.
 TEST_F(ReplayNodes, AmongTrafficAndFaults) {
   const RunReport report =
