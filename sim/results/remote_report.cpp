@@ -24,6 +24,19 @@ std::uint64_t RemoteReport::total(const std::string &key) const {
   return sum;
 }
 
+std::string RemoteReport::unseen(const std::string &key) const {
+  const auto none = [this](const auto &seen) {
+    return std::none_of(nodes.begin(), nodes.end(), seen);
+  };
+  if (key == "lost_set_points" &&
+      none([](const RemoteNodeReport &n) { return n.awaited + n.lost_set_points != 0; }))
+    return "no TRIGGER to a node in OPERATE";
+  if (key == "late_statements" &&
+      none([](const RemoteNodeReport &n) { return n.statements + n.late_statements != 0; }))
+    return "no measurement that was due";
+  return "";
+}
+
 namespace {
 
 /// The first frames: enough to see what goes on.

@@ -24,6 +24,7 @@ struct RemoteNodeReport {
   Time last_safe = 0;                       ///< when, from the start of the scenario
   std::uint64_t accepted = 0, refused = 0;  ///< requests
   std::uint64_t applied = 0;                ///< TRIGGERs that made staged bytes visible
+  std::uint64_t awaited = 0;                ///< TRIGGERs that had to: it was in OPERATE
   std::uint64_t lost_set_points = 0;  ///< TRIGGERs that did not, or showed others than were written
   std::uint64_t statements = 0;       ///< measurements of its user logic that were on the bus
   std::uint64_t late_statements = 0;  ///< and those that were not before the next TRIGGER
@@ -52,6 +53,8 @@ struct RemoteReport {
   [[nodiscard]] bool empty() const { return nodes.empty(); }
   /// Sums over the nodes: refused, lost_set_points, late_statements; or triggers.
   [[nodiscard]] std::uint64_t total(const std::string &key) const;
+  /// Why none could be counted there, as nothing happened of which it is a part; empty: some could.
+  [[nodiscard]] std::string unseen(const std::string &key) const;
 };
 
 /// Tables for people; ends with an empty line.

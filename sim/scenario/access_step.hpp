@@ -6,11 +6,12 @@
 
 #include <string>
 
+#include "scenario/register_name.hpp"
 #include "scenario/scenario.hpp"
 
 namespace vericansim {
 
 /// As in "write MB5.CS 0x8000000".
-[[nodiscard]] std::string to_text(const AccessStep &step);
+[[nodiscard]] std::string to_text(const AccessStep &step, unsigned buffers = kMostBuffers);
 
 }  // namespace vericansim

@@ -42,7 +42,6 @@ constexpr std::array kRegisters = {
 };
 
 constexpr std::array<std::string_view, 4> kWords = {"CS", "ID", "DATA0", "DATA1"};
-constexpr unsigned kMostBuffers = 64;
 constexpr std::uint32_t kWindow = 0x2000;
 
 /// The number after `prefix`, below `limit`.
@@ -56,14 +55,14 @@ std::optional<unsigned> index_after(std::string_view name, std::string_view pref
 
 }  // namespace
 
-std::optional<std::uint32_t> register_address(std::string_view name) {
+std::optional<std::uint32_t> register_address(std::string_view name, unsigned buffers) {
   for (const Named &item : kRegisters)
     if (item.name == name) return item.address;
-  if (const auto n = index_after(name, "RXIMR", kMostBuffers)) return reg::rximr(*n);
+  if (const auto n = index_after(name, "RXIMR", buffers)) return reg::rximr(*n);
   if (const auto n = index_after(name, "FILTER", 128)) return reg::filter(*n);
   const std::size_t dot = name.find('.');
   if (dot != std::string_view::npos) {
-    const auto n = index_after(name.substr(0, dot), "MB", kMostBuffers);
+    const auto n = index_after(name.substr(0, dot), "MB", buffers);
     for (unsigned word = 0; n && word < kWords.size(); ++word)
       if (kWords[word] == name.substr(dot + 1)) return reg::mb(*n, word);
   }
@@ -72,12 +71,12 @@ std::optional<std::uint32_t> register_address(std::string_view name) {
   return static_cast<std::uint32_t>(*number);
 }
 
-std::string register_name(std::uint32_t address) {
+std::string register_name(std::uint32_t address, unsigned buffers) {
   for (const Named &item : kRegisters)
     if (item.address == address) return std::string{item.name};
-  if (address >= reg::rximr(0) && address < reg::rximr(kMostBuffers))
+  if (address >= reg::rximr(0) && address < reg::rximr(buffers))
     return fmt::format("RXIMR{}", (address - reg::rximr(0)) / 4);
-  if (address >= reg::mb(0) && address < reg::mb(kMostBuffers))
+  if (address >= reg::mb(0) && address < reg::mb(buffers))
     return fmt::format("MB{}.{}", (address - reg::mb(0)) / 16, kWords[(address / 4) % 4]);
   return fmt::format("0x{:03X}", address);
 }

@@ -12,10 +12,15 @@
 
 namespace vericansim {
 
-/// The address that a name or a number (a multiple of 4 in the window) stands for.
-[[nodiscard]] std::optional<std::uint32_t> register_address(std::string_view name);
+/// Message buffers of the largest core.
+inline constexpr unsigned kMostBuffers = 64;
+
+/// The address that a name or a number (a multiple of 4 in the window) stands for. Only `buffers`
+/// buffers and masks have names.
+[[nodiscard]] std::optional<std::uint32_t> register_address(std::string_view name,
+                                                            unsigned buffers = kMostBuffers);
 /// The name of an address, or the address as a number. The filter table of the Rx FIFO is shown as
-/// the buffers that it lies in.
-[[nodiscard]] std::string register_name(std::uint32_t address);
+/// the buffers that it lies in; those behind `buffers` have no name.
+[[nodiscard]] std::string register_name(std::uint32_t address, unsigned buffers = kMostBuffers);
 
 }  // namespace vericansim

@@ -38,18 +38,18 @@ std::uint32_t parse_word(const YamlValue &value, std::string_view text) {
   return static_cast<std::uint32_t>(*number);
 }
 
-AccessStep parse_step(const YamlValue &value) {
+AccessStep parse_step(const YamlValue &value, unsigned buffers) {
   const std::string line = value.text();
   const auto words = text::split_blanks(line);
   for (const Verb &verb : kVerbs) {
     if (words.empty() || words[0] != verb.name || words.size() != verb.words) continue;
     AccessStep step{.kind = verb.kind};
-    const auto address = register_address(words[1]);
+    const auto address = register_address(words[1], buffers);
     if (!address)
       value.fail(fmt::format(
-          "'{}' is no register; allowed: the names of docs/registers.md, MB0.CS to MB63.DATA1, "
-          "RXIMR0 to RXIMR63, FILTER0 to FILTER127, or an address, a multiple of 4 below 0x2000",
-          words[1]));
+          "'{0}' is no register; allowed: the names of docs/registers.md, MB0.CS to MB{1}.DATA1, "
+          "RXIMR0 to RXIMR{1}, FILTER0 to FILTER127, or an address, a multiple of 4 below 0x2000",
+          words[1], buffers - 1));
     step.address = *address;
     if (verb.words > 2) step.value = parse_word(value, words.back());
     if (verb.words > 3) step.mask = parse_word(value, words[2]);
@@ -67,10 +67,10 @@ AccessStep parse_step(const YamlValue &value) {
 
 }  // namespace
 
-std::string to_text(const AccessStep &step) {
+std::string to_text(const AccessStep &step, unsigned buffers) {
   for (const Verb &verb : kVerbs) {
     if (verb.kind != step.kind) continue;
-    std::string text = fmt::format("{} {}", verb.name, register_name(step.address));
+    std::string text = fmt::format("{} {}", verb.name, register_name(step.address, buffers));
     if (verb.words > 3) text += fmt::format(" 0x{:X}", step.mask);
     if (verb.words > 2) text += fmt::format(" 0x{:X}", step.value);
     return text;
@@ -88,7 +88,8 @@ AccessSpec detail::parse_access(const YamlValue &value, const Scenario &scenario
               " is a remote node and has no registers; allowed: other nodes");
   map.with("at", [&](const YamlValue &v) { access.at = v.time(0, kLongestTime); });
   const YamlValue steps = map.need("do");
-  for (const YamlValue &item : steps.items()) access.steps.push_back(parse_step(item));
+  const unsigned buffers = scenario.nodes[access.node].num_mb;
+  for (const YamlValue &item : steps.items()) access.steps.push_back(parse_step(item, buffers));
   if (access.steps.empty()) steps.refuse(std::string{kAllowed});
   map.finish();
   return access;

@@ -204,7 +204,7 @@ FaultSpec parse_fault(const YamlValue &value, const Scenario &scenario) {
     fault.name = v.text();
     if (fault.name.empty()) v.refuse("a name");
   });
-  map.with("hits", [&](const YamlValue &v) { fault.hits = parse_range(v); });
+  map.with("hits", [&](const YamlValue &v) { fault.hits = parse_range(v, kCounts); });
   fault.noise.victim = fault.node;
   fault.noise.window = fault.window;
   map.finish();

@@ -15,8 +15,12 @@ namespace vericansim::detail {
 /// An item of `nodes` that is no node: `{monitor: vcan1}`; nothing if it is one.
 [[nodiscard]] std::optional<ListenerSpec> parse_listener(const YamlValue &value);
 
-/// A number, or `{min: 1, max: 9}`.
-[[nodiscard]] Range parse_range(const YamlValue &value);
+/// What a number on which something is expected may be; how often something comes.
+inline constexpr Range kAnyNumber{-1e15, 1e15}, kCounts{0, 1e15};
+/// A number, or `{min: 1, max: 9}`, within `possible`.
+[[nodiscard]] Range parse_range(const YamlValue &value, const Range &possible = kAnyNumber);
+/// The same, but not all that is possible: nothing would be asked for.
+[[nodiscard]] Range parse_expected(const YamlValue &value, const Range &possible);
 /// How often something comes; more than once only if it `repeats`, which `with` would bring about.
 [[nodiscard]] std::uint64_t parse_count(const YamlValue &value, bool repeats,
                                         std::string_view with = "a 'period'");

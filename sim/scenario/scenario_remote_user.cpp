@@ -121,6 +121,14 @@ void parse_expected_bytes(const YamlValue &value, NodeId node, const Scenario &s
   places.need_some("addresses with their bytes");
 }
 
+/// Where nobody is, everything would be as it should.
+void need_remote_node(const YamlValue &value, const Scenario &scenario) {
+  const bool any = std::any_of(
+      scenario.nodes.begin(), scenario.nodes.end(),
+      [](const NodeSpec &node) { return std::holds_alternative<RemoteRole>(node.role); });
+  if (!any) value.fail("there is no remote node; allowed: with a node of 'type: remote'");
+}
+
 }  // namespace
 
 void parse_remote_expectations(YamlMap &map, const Scenario &scenario, RemoteExpectations &expect) {
@@ -135,8 +143,12 @@ void parse_remote_expectations(YamlMap &map, const Scenario &scenario, RemoteExp
     nodes.need_some(kRemoteNames);
   });
   for (const char *key : {"refused", "triggers", "lost_set_points", "late_statements"})
-    map.with(key, [&](const YamlValue &v) { expect.numbers[key] = parse_range(v); });
+    map.with(key, [&](const YamlValue &v) {
+      need_remote_node(v, scenario);
+      expect.numbers[key] = parse_expected(v, kCounts);
+    });
   map.with("trigger_skew", [&](const YamlValue &v) {
+    need_remote_node(v, scenario);
     if (v.text() == "bound")
       expect.skew_within_bound = true;
     else

@@ -83,7 +83,7 @@ SignalExpectation parse_expected_signal(const YamlValue &value, const std::strin
   map.with("max", [&](const YamlValue &v) {
     expectation.all.most = parse_signal_number(v, *expectation.signal);
   });
-  map.with("count", [&](const YamlValue &v) { expectation.count = parse_range(v); });
+  map.with("count", [&](const YamlValue &v) { expectation.count = parse_expected(v, kCounts); });
   map.with("mean", [&](const YamlValue &v) { expectation.mean = parse_range(v); });
   const auto range = [&](const char *key, auto &target) {
     map.with(key, [&](const YamlValue &v) { target = parse_signal_range(v, *expectation.signal); });

@@ -182,7 +182,8 @@ std::string fault_line(const Scenario &scenario, const FaultSpec &fault) {
 
 std::string access_text(const Scenario &scenario, const AccessSpec &access) {
   std::string steps;
-  for (const AccessStep &step : access.steps) steps += (steps.empty() ? "" : ", ") + to_text(step);
+  for (const AccessStep &step : access.steps)
+    steps += (steps.empty() ? "" : ", ") + to_text(step, scenario.nodes[access.node].num_mb);
   return fmt::format("  - {{node: {}, at: {}, do: [{}]}}\n", name_of(scenario, access.node),
                      exact_time(access.at), steps);
 }

@@ -162,14 +162,13 @@ void RemoteBench::check(RunReport &report) const {
   for (const auto &user : users_)
     if (user->never_acts())
       report.checks.push_back(
-          {fmt::format("{}: user at {}", scenario_.nodes[user->spec().node].name,
-                       readable_time(user->spec().at)),
+          {fmt::format(
+               "{}: user {}", scenario_.nodes[user->spec().node].name,
+               user->spec().after_apply ? "after apply" : "at " + readable_time(user->spec().at)),
            "done", "not until the end", false});
   const RemoteExpectations &expect = scenario_.expect.remote;
   check_bytes(report);
-  for (const auto &[key, range] : expect.numbers)
-    report.checks.push_back(
-        check_number(key, static_cast<double>(report.remote.total(key)), range));
+  check_numbers(report);
   const bool compared = report.remote.compared != 0;
   const std::string seen =
       compared ? readable_time(report.remote.skew_longest) : "no two nodes that act";
@@ -182,6 +181,18 @@ void RemoteBench::check(RunReport &report) const {
   for (const auto &[node, state] : expect.states) {
     const RemoteNodeReport &unit = report.remote.nodes[unit_of(node)];
     report.checks.push_back({unit.name + ".state", state, unit.state, unit.state == state});
+  }
+}
+
+// Where nothing could be counted, a 0 has not been found to be right.
+void RemoteBench::check_numbers(RunReport &report) const {
+  for (const auto &[key, range] : scenario_.expect.remote.numbers) {
+    CheckResult result = check_number(key, static_cast<double>(report.remote.total(key)), range);
+    if (const std::string none = report.remote.unseen(key); !none.empty()) {
+      result.seen = none;
+      result.ok = false;
+    }
+    report.checks.push_back(std::move(result));
   }
 }
 

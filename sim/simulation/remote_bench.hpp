@@ -41,6 +41,7 @@ class RemoteBench {
   void watch(Bus &bus);
   void add_user(const UserSpec &spec, Bus &bus);
   [[nodiscard]] std::size_t unit_of(NodeId node) const;
+  void check_numbers(RunReport &report) const;
   void check_bytes(RunReport &report) const;
   void add_bounds(RemoteReport &report, Time bit_time) const;
 

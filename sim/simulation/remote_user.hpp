@@ -26,8 +26,10 @@ class RemoteUser {
   void start(Time start, Time stop);
   /// apply_o has pulsed.
   void applied();
-  /// Its time is behind the end.
-  [[nodiscard]] bool never_acts() const { return never_acts_; }
+  /// Its time is behind the end, or it has waited in vain for staged bytes.
+  [[nodiscard]] bool never_acts() const {
+    return never_acts_ || (spec_.after_apply && times_ == 0);
+  }
 
   [[nodiscard]] const UserSpec &spec() const { return spec_; }
   /// Called with the four bytes of each measurement of a plant when they are written.

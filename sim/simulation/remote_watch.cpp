@@ -164,6 +164,7 @@ void RemoteWatch::end_cycle(Time until) {
   for (std::size_t i = 0; i < units_.size(); ++i) {
     const bool acted = std::any_of(actions.begin(), actions.end(),
                                    [&](const Action &action) { return action.unit == i; });
+    units_[i].report.awaited += expected_[i];
     if (expected_[i] != 0 && !acted) ++units_[i].report.lost_set_points;
   }
   tell_cycle(actions);

@@ -84,6 +84,9 @@ TEST(ScenarioAccesses, EveryAddressHasANameThatLeadsBack) {
     EXPECT_EQ(register_address(register_name(address)), address);
   EXPECT_EQ(register_address("FILTER1"), 0x0E4u);
   EXPECT_EQ(register_name(0x88C), "RXIMR3");
+  // Behind the last buffer there are addresses alone.
+  EXPECT_EQ(register_name(0x300, 16), "0x300");
+  EXPECT_EQ(register_address("0x300", 16), 0x300u);
 }
 
 // A script drives a node without software; `check` and `until` decide.

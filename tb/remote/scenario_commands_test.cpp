@@ -175,7 +175,8 @@ TEST(ScenarioCommands, EachCycleIsHeldAgainstTheBus) {
   EXPECT_EQ(seen.report.remote.compared, 5U);
   seen = run(scenario_of(all + "expect: {lost_set_points: 0}\n"
                                "faults: [{kind: cut, node: dab, from: 0, for: 300 us}]\n"));
-  EXPECT_THAT(seen.failed(), ElementsAre("lost_set_points: 8 (0)"));
+  EXPECT_THAT(seen.failed(), ElementsAre("dab: user after apply: not until the end (done)",
+                                         "lost_set_points: 8 (0)"));
 }
 
 // RN-46: a node that misses one write, but not the TRIGGER behind it, shows an old set point.
@@ -272,6 +273,23 @@ TEST(ScenarioCommands, WhatIsNotMetIsTold) {
               ElementsAre("pfc.state: SAFE (OPERATE)"));
   EXPECT_THAT(run(scenario_of(commands + "expect: {trigger_skew: bound}\n")).failed(),
               ElementsAre(HasSubstr("no two nodes that act")));
+}
+
+// Where no node had to act, and none to tell anything, none has been found to do so.
+TEST(ScenarioCommands, WhatNothingHasShownFails) {
+  const std::string silent = "expect: {lost_set_points: 0, late_statements: 0}\n";
+  const std::string trigger = "commands: [{node: host, do: [trigger]}]\n";
+  for (const std::string &commands : {std::string{}, trigger})
+    EXPECT_THAT(run(scenario_of(commands + silent)).failed(),
+                ElementsAre("late_statements: no measurement that was due (0)",
+                            "lost_set_points: no TRIGGER to a node in OPERATE (0)"));
+  for (const std::string expectation : {"triggers: 0", "refused: 0", "lost_set_points: 0",
+                                        "late_statements: 0", "trigger_skew: bound"})
+    EXPECT_THAT(input_error_of([&] {
+                  return parse_scenario("r.yaml",
+                                        "nodes: [{name: a}]\nexpect: {" + expectation + "}\n");
+                }),
+                HasSubstr("there is no remote node; allowed: with a node of 'type: remote'"));
 }
 
 // The watchdog of a node whose host is gone: SAFE, and when.

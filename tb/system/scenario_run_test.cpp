@@ -132,7 +132,8 @@ TEST(Run, WhatIsNotReachedFails) {
        "a: until MCR 0x100000 0x100000"},
       {"commands: [{node: a, at: 9 ms, do: [read 3 0x20 1]}]", "a: read 3 0x20 1"},
       {"commands: [{node: a, at: 9 ms, period: 1 ms, do: [trigger]}]", "a: trigger"},
-      {"user: [{node: p, at: 9 ms, write: {0x20: 05}}]", "p: user at 9.000 ms"}};
+      {"user: [{node: p, at: 9 ms, write: {0x20: 05}}]", "p: user at 9.000 ms"},
+      {"user: [{node: p, after: apply, write: {0x20: 05}}]", "p: user after apply"}};
   for (const auto &[text, what] : cases) {
     const CheckResult check = only_check(text);
     EXPECT_FALSE(check.ok) << text;
@@ -161,7 +162,7 @@ TEST(Run, SaturatedMessagesFillTheBus) {
       "duration: 10 ms\nnodes: [{name: a, clock: 16 MHz}, {name: b, clock: 16 MHz}]\n"
       "traffic: [{node: a, id: 0x10, data: counter, period: saturated}, {node: b, id: 0x20, data: "
       "random, period: saturated}]\n"
-      "expect: {load: {min: 97, max: 100.5}, error_frames: 0, complete: true}\n");
+      "expect: {load: {min: 97}, error_frames: 0, complete: true}\n");
   EXPECT_EQ(failures(report), "");
 }
 

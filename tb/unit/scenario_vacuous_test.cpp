@@ -44,6 +44,21 @@ INSTANTIATE_TEST_SUITE_P(
                 "s.yaml:3: expect.frames: nothing is in it; allowed: max, min"},
         Vacuous{"RangeOfANode", "expect: {nodes: {all: {tec: {}}}}",
                 "s.yaml:2: expect.nodes.all.tec: nothing is in it; allowed: max, min"},
+        Vacuous{"AllCounts", "expect: {frames: {min: 0}}",
+                "s.yaml:2: expect.frames: is always met; allowed: a min or max that can be missed"},
+        Vacuous{"AllLoads", "expect: {load: {max: 100}}", "expect.load: is always met"},
+        Vacuous{"AllCountersOfANode", "expect: {nodes: {a: {tec: {max: 256}}}}",
+                "expect.nodes.a.tec: is always met"},
+        Vacuous{"AllRefusals", "expect: {refused: {min: 0}}", "expect.refused: is always met"},
+        Vacuous{"CountBelowNothing", "expect: {error_frames: {min: -1}}",
+                "'-1' is not allowed; allowed: a number from 0 to 1e+15"},
+        Vacuous{"HitsBelowNothing", "faults: [{kind: short, node: a, hits: {min: -5}}]",
+                "'-5' is not allowed; allowed: a number from 0"},
+        Vacuous{"LoadAboveAll", "expect: {load: {max: 1000}}", "a number from 0 to 100"},
+        Vacuous{"TecAboveAll", "expect: {nodes: {a: {max_tec: {max: 300}}}}", "from 0 to 256"},
+        Vacuous{"RecAboveAll", "expect: {nodes: {all: {rec: 256}}}", "from 0 to 255"},
+        Vacuous{"OverrunsOfARemoteNode", "expect: {nodes: {p: {overruns: 0}}}",
+                "unknown key 'overruns'"},
         Vacuous{"Hits", "faults: [{kind: short, node: a, hits: {}}]",
                 "faults[0].hits: nothing is in it; allowed: max, min"},
         Vacuous{"Node", "expect: {nodes: {a: {}}}",
@@ -95,7 +110,9 @@ TEST(ScenarioNames, NoNodeIsCalledAll) {
 
 TEST(VacuousScenario, WhatAsksForSomethingIsTaken) {
   for (const char *const text :
-       {"expect: {}", "expect: {frames: {min: 0}}",
+       {"expect: {}", "expect: {frames: {max: 0}, load: {min: 0, max: 99}}",
+        "expect: {nodes: {all: {overruns: 0}, a: {tec: 256, max_rec: {max: 254}}}}",
+        "accesses: [{node: a, do: [read MB63.CS, read RXIMR63]}]",
         "faults: [{kind: short, node: a, hits: {min: 0}}]", "traffic: [{node: a, id: 1, count: 1}]",
         "traffic: [{node: a, id: 1, period: saturated, count: 7}]",
         "commands: [{node: a, count: 7, period: 1 ms, do: operate}]",
@@ -103,6 +120,24 @@ TEST(VacuousScenario, WhatAsksForSomethingIsTaken) {
         "accesses: [{node: a, do: [check MCR 0x1 0]}]",
         "expect: {memory: {p: {0x1FF: 00, 0xFFF: 00}}}"})
     EXPECT_EQ(refusal(text), "no error") << text;
+}
+
+// Nobody counts the overruns of a core without software, and there is no buffer behind the last.
+TEST(VacuousScenario, WhatANodeDoesNotHaveIsRefused) {
+  const auto bare = [](const std::string &more) {
+    return input_error_of([&] {
+      return parse_scenario("s.yaml",
+                            "nodes: [{name: n, mailboxes: 16, software: none}]\n" + more + "\n");
+    });
+  };
+  EXPECT_THAT(bare("expect: {nodes: {n: {overruns: 0}}}"), HasSubstr("unknown key 'overruns'"));
+  for (const std::string name : {"MB16.CS", "MB40.DATA1", "RXIMR16"})
+    EXPECT_THAT(bare("accesses: [{node: n, do: [read " + name + "]}]"),
+                HasSubstr("'" + name +
+                          "' is no register; allowed: the names of docs/registers.md, MB0.CS to "
+                          "MB15.DATA1, RXIMR0 to RXIMR15, "));
+  EXPECT_EQ(bare("accesses: [{node: n, do: [read MB15.DATA1, read RXIMR15, read 0x300]}]"),
+            "no error");
 }
 
 // What firmware prints: a list that is empty asks for nothing.
