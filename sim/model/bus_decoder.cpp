@@ -60,6 +60,11 @@ std::optional<Time> BusDecoder::under_way() const {
   return of_frame ? trouble_.frame_start : trouble_.start;
 }
 
+BusEventKind BusDecoder::kind_under_way() const {
+  const bool frame = stage_ == Stage::kStuffed || stage_ == Stage::kTail;
+  return frame ? BusEventKind::kFrame : trouble_.kind;
+}
+
 bool BusDecoder::before_ack_delimiter() const {
   if (stage_ == Stage::kStuffed) return true;
   // The edge into the delimiter is the last of a good frame, and a waveform may end with it.

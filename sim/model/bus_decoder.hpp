@@ -80,6 +80,8 @@ class BusDecoder {
   /// Where the frame began, or the overload frame, that is not at its end so far; unset: none is on
   /// the bus.
   [[nodiscard]] std::optional<Time> under_way() const;
+  /// What it is, if something is.
+  [[nodiscard]] BusEventKind kind_under_way() const;
 
   /// Whether the frame on the bus has not come to its ACK delimiter: how it ends is open. Behind it
   /// recessive bits alone end it.

@@ -44,6 +44,15 @@ void BusMonitor::advance(Time time) {
   settle(time);
 }
 
+void BusMonitor::close(Time time) {
+  advance(time);
+  const std::optional<Time> start = decoder_.under_way();
+  if (!start) return;
+  busy_ += time - *start;
+  if (decoder_.kind_under_way() == BusEventKind::kErrorFrame) ++error_frames_;
+  if (decoder_.kind_under_way() == BusEventKind::kOverloadFrame) ++overload_frames_;
+}
+
 void BusMonitor::count_errors(NodeCounts &counts, std::uint8_t errors) {
   if (errors == 0) return;
   ++counts.errors;

@@ -66,6 +66,9 @@ class BusMonitor : public BusObserver {
   void on_bit(NodeId node, const BitRecord &bit) override;
   /// Lets the decoder see the bus up to `time`. Frames that ended two bits before it are told.
   void advance(Time time);
+  /// Nothing is seen behind `time`: what is on the bus then has held it up to here, and a flag
+  /// without its end counts as an error or overload frame. To be called once.
+  void close(Time time);
 
   /// Called for each acknowledged frame that is valid for receivers, once its sender is known (some
   /// bits after its end).

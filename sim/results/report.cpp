@@ -37,6 +37,8 @@ std::string messages_text(const RunReport &report) {
       fmt::format_to(out, " {:>11}", "none");
     text += '\n';
   }
+  for (const MessageReport &m : report.messages)
+    if (m.unsaid) fmt::format_to(out, "  warning: {} was never queued\n", m.name);
   return text;
 }
 

@@ -31,8 +31,10 @@ struct MessageReport {
   std::uint64_t queued = 0;
   std::uint64_t sent = 0;
   Time shortest = 0, longest = 0,
-       sum = 0;               ///< response times: from the event to the end of the frame, ps
+       sum = 0;      ///< response times: from the event to the end of the frame, ps
+  Time waiting = 0;  ///< since the event of the frame that has waited longest and not left, ps
   std::optional<Time> bound;  ///< analytic worst case
+  bool unsaid = false;        ///< never queued, and no check says so
   [[nodiscard]] Time mean() const { return sent == 0 ? 0 : sum / static_cast<Time>(sent); }
 };
 

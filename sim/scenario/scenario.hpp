@@ -67,7 +67,7 @@ struct TrafficSpec {
   Time period = 0;             ///< 0: once
   Time offset = 0;             ///< of the first frame
   bool random_offset = false;  ///< offset anywhere in the first period
-  Time jitter = 0;             ///< each frame is queued up to this much later
+  Time jitter = 0;             ///< each frame is queued up to this much later, within `duration`
   std::uint64_t count = std::numeric_limits<std::uint64_t>::max();  ///< frames at most
   bool saturated = false;  ///< always one more waiting, as fast as the bus allows
   std::size_t line = 0;    ///< in the file

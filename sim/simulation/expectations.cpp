@@ -161,15 +161,25 @@ void check_all_complete(const Scenario &scenario, const RunReport &report,
                        "nothing to compare", false});
 }
 
-CheckResult check_bound(const MessageReport &message) {
-  const auto ms = [](Time t) {
-    return fmt::format("{:.3f} ms", static_cast<double>(t) / kMillisecond);
-  };
+std::string ms(Time time) {
+  return fmt::format("{:.3f} ms", static_cast<double>(time) / kMillisecond);
+}
+
+/// A frame that still waits has no response time yet, but it is longer than the wait.
+CheckResult check_longest(const MessageReport &message, std::optional<Time> limit,
+                          const std::string &wanted) {
   const bool sent = message.sent != 0;
-  return {"response of " + message.name,
-          message.bound ? "at most the bound, " + ms(*message.bound) : "a bound",
-          sent ? ms(message.longest) : "not sent",
-          sent && message.bound && message.longest <= *message.bound};
+  const bool late = limit && message.waiting > *limit;
+  return {"response of " + message.name, wanted,
+          !sent  ? "not sent"
+          : late ? fmt::format("a frame waits for {}", ms(message.waiting))
+                 : ms(message.longest),
+          sent && !late && limit && message.longest <= *limit};
+}
+
+CheckResult check_bound(const MessageReport &message) {
+  return check_longest(message, message.bound,
+                       message.bound ? "at most the bound, " + ms(*message.bound) : "a bound");
 }
 
 // A message that nobody has queued has no response time; without any nothing has been shown.
@@ -190,12 +200,18 @@ void check_bounds(const RunReport &report, std::vector<CheckResult> &results) {
 CheckResult check_response(const RunReport &report, const std::string &name, Time limit) {
   const auto message = std::find_if(report.messages.begin(), report.messages.end(),
                                     [&](const MessageReport &m) { return m.name == name; });
-  const bool seen = message != report.messages.end() && message->sent > 0;
-  return {"response of " + name,
-          fmt::format("at most {:.3f} ms", static_cast<double>(limit) / kMillisecond),
-          seen ? fmt::format("{:.3f} ms", static_cast<double>(message->longest) / kMillisecond)
-               : "not sent",
-          seen && message->longest <= limit};
+  const std::string wanted = "at most " + ms(limit);
+  if (message == report.messages.end()) return {"response of " + name, wanted, "not sent", false};
+  return check_longest(*message, limit, wanted);
+}
+
+/// A message that the run has left out; where a user has made the run shorter, it may be.
+void check_queued(const Scenario &scenario, const RunReport &report,
+                  std::vector<CheckResult> &results) {
+  if (!scenario.expect.given || scenario.cut_short) return;
+  for (std::size_t i = 0; i < scenario.traffic.size(); ++i)
+    if (report.messages[i].queued == 0)
+      results.push_back({report.messages[i].name + " was queued", "at least once", "never", false});
 }
 
 /// A run that is shorter than its scenario may be over before a fault begins.
@@ -244,6 +260,7 @@ std::vector<CheckResult> check_expectations(const Scenario &scenario, const RunR
   if (expect.within_bound) check_bounds(report, results);
   for (const auto &[name, limit] : expect.response_times)
     results.push_back(check_response(report, name, limit));
+  check_queued(scenario, report, results);
   const auto signals = check_signals(expect.signals, report.signals);
   results.insert(results.end(), signals.begin(), signals.end());
   for (std::size_t i = 0; i < report.faults.size(); ++i)

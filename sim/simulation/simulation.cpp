@@ -211,7 +211,12 @@ RunReport Simulation::collect(bool interrupted) {
   report.overload_frames = monitor_->overload_frames();
   report.pending = stations_.pending();
   report.load = static_cast<double>(monitor_->busy()) / static_cast<double>(report.duration);
-  for (const auto &traffic : traffic_) report.messages.push_back(traffic->report());
+  for (const auto &traffic : traffic_) {
+    report.messages.push_back(traffic->report());
+    MessageReport &message = report.messages.back();
+    message.unsaid =
+        message.queued == 0 && !scenario_.expect.given && !scenario_.cut_short && !interrupted;
+  }
   for (NodeId id = 0; id < stations_.size(); ++id) {
     const Station &station = stations_[id];
     const BusReport ahb = station.node ? station.node->ahb().report() : BusReport{};
@@ -264,6 +269,7 @@ void Simulation::start(Time when) {
 }
 
 RunReport Simulation::finish(bool interrupted) {
+  monitor_->close(bus_.now());
   if (judge_) judge_->finish(bus_.now());
   outputs_->finish(bus_.now());
   RunReport report = collect(interrupted);

@@ -36,9 +36,9 @@ void TrafficSource::start(Time start, Time stop) {
 
 void TrafficSource::schedule(Time event) {
   if (event >= stop_ || report_.queued >= spec_.count) return;
-  const Time late = spec_.jitter == 0
-                        ? 0
-                        : static_cast<Time>(random_() % static_cast<std::uint64_t>(spec_.jitter));
+  // Each event before the end has its frame, whatever the seed.
+  const Time most = std::min(spec_.jitter, stop_ - event);
+  const Time late = most == 0 ? 0 : static_cast<Time>(random_() % static_cast<std::uint64_t>(most));
   bus_.at(event + late, [this, event] {
     queue(event);
     // A second frame of a saturated message waits while the first is on the wire.
@@ -89,6 +89,13 @@ std::optional<Time> TrafficSource::on_frame(const Frame &frame, Time end) {
   report_.longest = std::max(report_.longest, response);
   report_.sum += response;
   return response;
+}
+
+MessageReport TrafficSource::report() const {
+  MessageReport report = report_;
+  for (const Waiting &waiting : waiting_)
+    report.waiting = std::max(report.waiting, bus_.now() - waiting.event);
+  return report;
 }
 
 }  // namespace vericansim

@@ -22,7 +22,7 @@ class TrafficSource {
   /// Throws std::invalid_argument if a time is out of range, or as Frame::validate().
   TrafficSource(const TrafficSpec &spec, Bus &bus, Host &host, std::uint64_t seed);
 
-  /// Begins to queue at `start`; nothing new is queued from `stop` on.
+  /// Begins to queue at `start`. Each event before `stop` has its frame, queued before `stop`, too.
   void start(Time start, Time stop);
   /// The host has sent a frame of this message (saturated messages queue the next one).
   void on_sent();
@@ -34,7 +34,8 @@ class TrafficSource {
   [[nodiscard]] const TrafficSpec &spec() const { return spec_; }
   /// True if `frame` could be one of this message.
   [[nodiscard]] bool matches(const Frame &frame) const;
-  [[nodiscard]] const MessageReport &report() const { return report_; }
+  /// What was seen up to now.
+  [[nodiscard]] MessageReport report() const;
 
  private:
   struct Waiting {

@@ -20,6 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 RunReport run_text(const std::string &text) {
   return run_scenario(parse_scenario("test.yaml", text), 500e3);
@@ -238,6 +239,33 @@ TEST(EmptyExpectation, NoBoundIsGivenWhereTheAnalysisDoesNotHold) {
   EXPECT_EQ(verdict(report, "within_bound"), "FAIL none: " + why);
   EXPECT_THAT(to_text(report), HasSubstr("  no bound: " + why + "\n"));
   EXPECT_EQ(to_json(report)["no_bound"], why);
+}
+
+// A frame that has waited for longer than it may is late, although it has no response time.
+TEST(EmptyExpectation, FramesThatNeverLeaveAreLate) {
+  const std::string cut =
+      "duration: 20 ms\nnodes: [{name: a}, {name: b}, {name: c}]\n"
+      "traffic: [{node: a, name: m, id: 1, period: 1 ms}]\n"
+      "faults: [{kind: cut, node: a, from: 3 ms}]\n";
+  const RunReport report =
+      run_text(cut + "expect: {response_times: {m: 1 ms}, within_bound: true}\n");
+  EXPECT_EQ(report.messages.at(0).sent, 3U);
+  EXPECT_THAT(to_text(report),
+              HasSubstr("FAIL  response of m: a frame waits for 37.032 ms (expected at most the "));
+  EXPECT_THAT(to_text(report), HasSubstr("37.032 ms (expected at most 1.000 ms)"));
+  EXPECT_THAT(verdict(run_text(cut + "expect: {response_times: {m: 38 ms}}\n"), "response of m"),
+              StartsWith("ok 0."));
+}
+
+// A bus that is stuck is one error frame without end, and fully loaded.
+TEST(EmptyExpectation, AStuckBusIsNoQuietOne) {
+  const RunReport report = run_text(
+      "duration: 10 ms\nnodes: [{name: a}, {name: b}, {name: c}]\n"
+      "traffic: [{node: a, id: 0x100, data: '01', period: 1 ms}]\n"
+      "faults: [{kind: short, node: c, from: 500 us}]\n"
+      "expect: {error_frames: 0, load: {max: 90}}\n");
+  EXPECT_EQ(verdict(report, "error_frames"), "FAIL 1");
+  EXPECT_THAT(verdict(report, "load in per cent"), HasSubstr("FAIL 98."));
 }
 
 TEST(EmptyExpectation, AMessageThatNeverLeavesIsNotWithinItsBound) {

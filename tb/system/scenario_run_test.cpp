@@ -146,6 +146,38 @@ TEST(Run, WhatIsNotReachedFails) {
             0U);
 }
 
+// The seed moves the frames of a message with jitter, but not their number: also a frame whose
+// event lies just before the end is queued before it.
+TEST(Run, EveryEventHasItsFrame) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const RunReport report =
+        run_text("seed: " + std::to_string(seed) +
+                 "\nduration: 2.1 ms\nnodes: [{name: a}, {name: b}]\ntraffic:\n"
+                 "  - {node: a, name: m, id: 2, period: 1 ms, jitter: 990 us}\n"
+                 "  - {node: a, name: once, id: 1, jitter: 1000 s}\n"
+                 "expect: {frames: 4, pending: 0}\n");
+    EXPECT_EQ(failures(report), "") << seed;
+  }
+}
+
+// A message that was never queued has shown nothing; a shorter run may leave it out.
+TEST(Run, AMessageThatIsNeverQueuedIsTold) {
+  const std::string text =
+      "duration: 5 ms\nnodes: [{name: a}, {name: b}]\n"
+      "traffic: [{node: a, name: m, id: 1, period: 1000 s, offset: random}]\n";
+  const RunReport unexpected = run_text(text);
+  EXPECT_TRUE(unexpected.ok());
+  EXPECT_THAT(to_text(unexpected), HasSubstr("  warning: m was never queued\n"));
+  const RunReport expected = run_text(text + "expect: {}\n");
+  EXPECT_EQ(failures(expected), "m was queued: never (expected at least once)\n");
+  EXPECT_THAT(to_text(expected), ::testing::Not(HasSubstr("warning")));
+  Scenario shorter = parse_scenario("test.yaml", text + "expect: {}\n");
+  shorter.cut_short = true;
+  const RunReport left_out = run_scenario(shorter, 500e3);
+  EXPECT_TRUE(left_out.ok());
+  EXPECT_THAT(to_text(left_out), ::testing::Not(HasSubstr("warning")));
+}
+
 // FC-18: a lone transmitter ends at TEC 128 and never goes bus-off.
 TEST(Run, FC_18_LoneTransmitter) {
   const RunReport report = run_text(
