@@ -48,7 +48,7 @@ void BusMonitor::close(Time time) {
   advance(time);
   const std::optional<Time> start = decoder_.under_way();
   if (!start) return;
-  busy_ += time - *start;
+  hold(*start, time);
   if (decoder_.kind_under_way() == BusEventKind::kErrorFrame) ++error_frames_;
   if (decoder_.kind_under_way() == BusEventKind::kOverloadFrame) ++overload_frames_;
 }
