@@ -97,16 +97,13 @@ std::unique_ptr<Operator> HostPorts::make_socketcand(const OperatorContext &cont
 
 std::vector<std::string> HostPorts::descriptions() const {
   std::vector<std::string> lines;
-  for (const auto &[address, server] : servers_)
-    lines.push_back(fmt::format("socketcand {} at {}", fmt::join(server.server->buses(), " "),
-                                server.server->address().text()));
+  for (const auto &[address, server] : servers_) lines.push_back(server.server->description());
   return lines;
 }
 
-void HostPorts::wait_for_clients(Wall &wall) {
+void HostPorts::wait_for_clients(Wall &wall, const std::function<void(const std::string &)> &say) {
   for (auto &[address, server] : servers_)
-    while (server.server->receiving() < server.clients && !wall.stop_requested())
-      server.server->serve([&wall](std::vector<pollfd> &set) { wall.wait(set, std::nullopt); });
+    server.server->wait_for_clients(server.clients, wall, say);
 }
 
 }  // namespace vericansim

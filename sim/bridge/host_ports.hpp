@@ -4,6 +4,7 @@
 // HostPorts: makes the nodes of a scenario that are CAN interfaces or socketcand clients.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -24,8 +25,9 @@ class HostPorts : public OperatorFactory {
 
   /// "socketcand can0 can1 at 127.0.0.1:29536", one for each server.
   [[nodiscard]] std::vector<std::string> descriptions() const;
-  /// Serves until as many clients receive as the nodes want, or somebody wants the end.
-  void wait_for_clients(Wall &wall);
+  /// Serves until as many clients receive as the nodes want, or somebody wants the end; `say` tells
+  /// what it waits for.
+  void wait_for_clients(Wall &wall, const std::function<void(const std::string &)> &say);
 
  private:
   /// A server and the ports that no node has taken yet.

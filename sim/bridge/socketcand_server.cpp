@@ -99,6 +99,19 @@ void SocketcandServer::serve(const std::function<void(std::vector<pollfd> &)> &w
   service(set);
 }
 
+void SocketcandServer::wait_for_clients(std::size_t count, Wall &wall,
+                                        const std::function<void(const std::string &)> &say) {
+  if (receiving() < count)
+    say(fmt::format("waits for {} client{} on {}", count, count == 1 ? "" : "s",
+                    fmt::join(buses(), " ")));
+  while (receiving() < count && !wall.stop_requested())
+    serve([&wall](std::vector<pollfd> &set) { wall.wait(set, std::nullopt); });
+}
+
+std::string SocketcandServer::description() const {
+  return fmt::format("socketcand {} at {}", fmt::join(buses(), " "), address().text());
+}
+
 std::size_t SocketcandServer::receiving() const {
   return static_cast<std::size_t>(std::count_if(
       clients_.begin(), clients_.end(), [](const auto &client) { return client->receiving(); }));

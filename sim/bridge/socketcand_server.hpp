@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "can_port.hpp"
+#include "session/wall.hpp"
 #include "socketcand_client.hpp"
 #include "socketcand_limits.hpp"
 #include "socketcand_listener.hpp"
@@ -38,12 +39,18 @@ class SocketcandServer {
   [[nodiscard]] const SocketcandAddress &address() const { return listener_.address(); }
   /// Names of the buses.
   [[nodiscard]] const std::vector<std::string> &buses() const { return shared_.buses; }
+  /// "socketcand can0 can1 at 127.0.0.1:29536".
+  [[nodiscard]] std::string description() const;
   /// A port for each bus, in the order of the names; the server has to outlive them. The first
   /// looks after the descriptors of all.
   [[nodiscard]] std::vector<std::unique_ptr<CanPort>> ports();
   /// For the time when no bridge looks after the ports: accepts clients and answers them. `wait`
   /// is to poll the set.
   void serve(const std::function<void(std::vector<pollfd> &)> &wait);
+  /// Serves until so many clients get frames, or somebody wants the end. What it waits for, if it
+  /// does, is told by `say`.
+  void wait_for_clients(std::size_t count, Wall &wall,
+                        const std::function<void(const std::string &)> &say);
   /// Clients that get frames: in raw mode or with a filter.
   [[nodiscard]] std::size_t receiving() const;
   /// Sends what is queued, for at most `time` (host time), and closes all connections in order.

@@ -176,8 +176,8 @@ int run(const BridgeOptions &options) {
   {
     Bridge bridge{std::move(setup), wall};
     if (server) {
-      say(description(*server));
-      wait_for_clients(*server, options.socketcand.wait_for_clients, wall);
+      say(server->description());
+      server->wait_for_clients(options.socketcand.wait_for_clients, wall, say);
     }
     bridge.start();
     say("ready: " + bridge.description());

@@ -4,8 +4,6 @@
 // See bridge_socketcand.hpp.
 #include "cli/bridge_socketcand.hpp"
 
-#include <fmt/format.h>
-
 namespace vericansim::cli {
 
 void add_socketcand_options(CLI::App &command, SocketcandOptions &options) {
@@ -38,16 +36,6 @@ std::unique_ptr<SocketcandServer> open_socketcand(const SocketcandOptions &optio
       SocketcandAddress::parse("--socketcand", options.address), bus_names(options));
   for (auto &port : server->ports()) setup.ports.push_back(std::move(port));
   return server;
-}
-
-std::string description(const SocketcandServer &server) {
-  return fmt::format("socketcand {} at {}", fmt::join(server.buses(), " "),
-                     server.address().text());
-}
-
-void wait_for_clients(SocketcandServer &server, std::size_t count, Wall &wall) {
-  while (server.receiving() < count && !wall.stop_requested())
-    server.serve([&wall](std::vector<pollfd> &set) { wall.wait(set, std::nullopt); });
 }
 
 }  // namespace vericansim::cli

@@ -30,10 +30,4 @@ void add_socketcand_options(CLI::App &command, SocketcandOptions &options);
 [[nodiscard]] std::unique_ptr<SocketcandServer> open_socketcand(const SocketcandOptions &options,
                                                                 BridgeSetup &setup);
 
-/// "socketcand can0 can1 at 127.0.0.1:29536".
-[[nodiscard]] std::string description(const SocketcandServer &server);
-
-/// Serves until so many clients get frames, or somebody wants the end.
-void wait_for_clients(SocketcandServer &server, std::size_t count, Wall &wall);
-
 }  // namespace vericansim::cli

@@ -28,7 +28,7 @@ void tell(const std::string &line) {
 /// Programs are told where they find the bus, and may come before it begins.
 void open_to_programs(HostPorts &ports, Wall &wall) {
   for (const std::string &line : ports.descriptions()) tell(line);
-  ports.wait_for_clients(wall);
+  ports.wait_for_clients(wall, tell);
 }
 
 }  // namespace

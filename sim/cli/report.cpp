@@ -157,7 +157,7 @@ void add_report(CLI::App &app, int &exit_code) {
   options->command = command;
   command
       ->add_option("input", options->input,
-                   "Scenario (.yaml), waveform (.vcd), or candump log, pcap, .trc, .csv")
+                   "Scenario (.yaml), waveform (.vcd), or a recording of any known format")
       ->required();
   command->add_option("-o,--out", options->outputs.report, "HTML file (the input's name, .html)");
   command->add_option("--signal,-s", options->signal,

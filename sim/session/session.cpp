@@ -145,7 +145,7 @@ void Session::drain() {
     const Time end = bus.now() + live->scenario().drain;
     if (!outlets_.empty())
       while (bus.now() < end && !idle()) bus.run_until(bus.now() + kLook * bit_time_);
-    live->simulation().drain();
+    live->simulation().drain(end);
     if (!outlets_.empty()) let_read(live->simulation());
   }
   give_last();

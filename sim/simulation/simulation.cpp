@@ -164,8 +164,9 @@ bool Simulation::quiet() const {
   return true;
 }
 
-void Simulation::drain() {
-  const Time limit = bus_.now() + scenario_.drain;
+void Simulation::drain() { drain(bus_.now() + scenario_.drain); }
+
+void Simulation::drain(Time limit) {
   while (bus_.now() < limit && stations_.pending() != 0 && !stop_requested())
     bus_.run_until(std::min(limit, bus_.now() + 20 * bit_time_));
   bus_.run_for(16 * bit_time_);

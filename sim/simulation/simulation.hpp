@@ -36,8 +36,10 @@ class Simulation {
   void join();
   /// Runs until `when` (not in the past); the times of the scenario count from there.
   void start(Time when);
-  /// Lets frames that wait go out, and the last one be received, for a limited time.
+  /// Lets frames that wait go out for the scenario's drain, and the last one be received.
   void drain();
+  /// The same until `limit`, a time of the bus.
+  void drain(Time limit);
   /// True while nothing is under way: the nodes with software are idle, or bus-off for good, and
   /// have nothing to send. What the scenario will do later does not count: see Bus::has_actions().
   [[nodiscard]] bool quiet() const;

@@ -289,6 +289,21 @@ TEST(BridgeEngine, RunsForTheTimeAsked) {
   EXPECT_THAT(rig.port(0).frames(), SizeIs(50));
 }
 
+// Frames that still wait have the scenario's drain, once.
+TEST(BridgeEngine, SaturatedBusGoesOnForTheDrain) {
+  const Time limit = 10 * kMillisecond;
+  const Time end_of_drain = limit + Scenario{}.drain;
+  constexpr Time kLastFrame = 130 * 2 * kMicrosecond;  // that is under way, and its reception
+  TrafficSpec flood = beat(kMillisecond);
+  flood.saturated = true;
+  BridgeRig rig{{.traffic = {flood}, .limit = limit}};
+  while (rig.bridge().round()) {
+  }
+  const Time end = rig.bridge().finish().bus.duration;
+  EXPECT_GE(end, end_of_drain);
+  EXPECT_LE(end, end_of_drain + kLastFrame);
+}
+
 // Wherever in a frame the end falls: what the bus has seen the programs get. A frame is over some
 // bits before the CPU has read it.
 TEST(BridgeEngine, NothingIsLostAtTheEnd) {

@@ -151,11 +151,12 @@ traffic:
         with subprocess.Popen(command, text=True, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE) as tool:
             client = self.talk(tool)
+            said = [tool.stderr.readline() for _ in range(2)]
             out, error = tool.communicate(timeout=60)
             client.close()
         self.assertEqual(tool.returncode, 0, out + error)
         self.assertIn("frames 6  error frames 0", out)
-        self.assertIn("verican: ready", error)
+        self.assertEqual(said, ["verican: waits for 1 client on can0\n", "verican: ready\n"])
         self.assertEqual(self.page(page), ({"sensor": 4, "can0": 2}, 6))
 
     def test_missing_interface_is_told_as_in_run(self):
