@@ -96,8 +96,17 @@ endif()
 # VERICAN_PYTHON_DIR (sim/trace/python_helper.hpp).
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/sim/python" DESTINATION "${VERICAN_DATA_DIR}"
         COMPONENT tool FILES_MATCHING PATTERN "*.py")
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${VERICAN_DATA_DIR}" COMPONENT doc
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${VERICAN_DATA_DIR}"
+        USE_SOURCE_PERMISSIONS COMPONENT doc
         REGEX "/examples/systemc/CMakeLists.txt$" EXCLUDE)  # for the project's own build
+# The firmware of mixed.yaml, and the example with the place where that is installed.
+install(FILES "${VERICAN_FIRMWARE_DIR}/ping.elf" "${VERICAN_FIRMWARE_DIR}/pong.elf"
+        DESTINATION "${VERICAN_DATA_DIR}/firmware" COMPONENT doc)
+install(CODE "
+  set(example \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${VERICAN_DATA_DIR}/examples/mixed.yaml\")
+  file(READ \"\${example}\" text)
+  string(REPLACE \"../build/release/firmware/\" \"../firmware/\" text \"\${text}\")
+  file(WRITE \"\${example}\" \"\${text}\")" COMPONENT doc)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/rtl" DESTINATION "${VERICAN_DATA_DIR}" COMPONENT rtl)
 install(FILES "${PROJECT_SOURCE_DIR}/sw/verican.svd" DESTINATION "${VERICAN_DATA_DIR}"
         COMPONENT rtl)
@@ -123,7 +132,7 @@ install(CODE "
 
 # All that must be built before `cmake --install`.
 add_custom_target(installable)
-foreach(target verican vericansim vericansystemc verican_driver verican_python)
+foreach(target verican vericansim vericansystemc verican_driver verican_python firmware)
   if(TARGET ${target})
     add_dependencies(installable ${target})
   endif()

@@ -3,6 +3,7 @@
 #
 # Test install.tree: installs, moves the tree, and looks at what is in it.
 """usage: install_tree.py SOURCE BUILD SANITIZED"""
+import os
 import re
 
 import tree
@@ -46,6 +47,21 @@ def check_links(installed):
         for target in re.findall(r"\]\(([^)\s#]+)[^)]*\)", page.read_text(encoding="utf-8")):
             tree.check(":" in target or (page.parent / target).exists(),
                        f"{page} has a link to {target}, which is not installed")
+
+
+def check_examples(installed):
+    """The files that the examples' scenarios read are installed where they say; programs can be
+    run."""
+    examples = installed.prefix / "share" / "verican" / "examples"
+    read = [(file, name) for file in examples.rglob("*.yaml")
+            for name in re.findall(r"\b(?:firmware|replay|dbc): ([\w./-]+)",
+                                   file.read_text(encoding="utf-8"))]
+    tree.check(len(read) >= 4, f"the scenarios name too few files: {read}")
+    for file, name in read:
+        tree.check((file.parent / name).is_file(), f"{file} names {name}, which is not installed")
+    for program in examples.rglob("*.py"):
+        tree.check(not program.read_bytes().startswith(b"#!") or os.access(program, os.X_OK),
+                   f"{program} may not be executed")
 
 
 def check_versions(installed):
@@ -93,6 +109,7 @@ def test(installed):
     look_for_paths(installed, first)
     check_rtl(installed)
     check_links(installed)
+    check_examples(installed)
     check_versions(installed)
     check_tool(installed)
 
