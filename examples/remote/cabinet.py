@@ -90,6 +90,17 @@ def rows(run):
     ]
 
 
+def kinds(rtl):
+    """Which of the nodes are the RTL, in words."""
+    if rtl == NODES:
+        return f"all {NODES} nodes are RTL"
+    if rtl == 0:
+        return f"all {NODES} nodes are the model of the rules on the RTL's protocol engine"
+    others = NODES - rtl
+    return (f"{rtl} of {NODES} nodes {'is' if rtl == 1 else 'are'} RTL; the other {others} "
+            f"{'is' if others == 1 else 'are'} the model of the rules on the RTL's protocol engine")
+
+
 def print_table(run):
     """The table of RN-98."""
     remote = run["remote"]
@@ -101,9 +112,7 @@ def print_table(run):
           + ", ".join(f"{key.replace('_', ' ')} {sum(n[key] for n in remote['nodes'])}"
                       for key in ("applied", "lost_set_points", "late_statements", "refused"))
           + f"; cycles above the skew's bound {remote['above_bound']}")
-    rtl = sum(n["rtl"] for n in remote["nodes"])
-    print(f"  {rtl} of {NODES} nodes are the RTL, the others the model of its rules on the RTL's "
-          "protocol engine")
+    print(f"  {kinds(sum(n['rtl'] for n in remote['nodes']))}")
     for row in table:
         print("  " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip())
     for node in remote["nodes"]:

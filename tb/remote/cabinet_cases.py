@@ -90,6 +90,15 @@ class Cabinet(unittest.TestCase):
                        "5 cycles; applied 25, lost set points 0, late statements 0, refused 0"):
             self.assertIn(figure, done.stdout)
 
+    def test_words_for_the_kinds_of_nodes(self):
+        """A run in which all nodes are of one kind is not told about others."""
+        model = "the model of the rules on the RTL's protocol engine"
+        for rtl, words in ((5, "all 5 nodes are RTL"), (0, f"all 5 nodes are {model}"),
+                           (3, f"3 of 5 nodes are RTL; the other 2 are {model}"),
+                           (4, f"4 of 5 nodes are RTL; the other 1 is {model}"),
+                           (1, f"1 of 5 nodes is RTL; the other 4 are {model}")):
+            self.assertEqual(cabinet.kinds(rtl), words)
+
 
 if __name__ == "__main__":
     assert os.environ["VERICAN_BINARY"]
