@@ -5,6 +5,7 @@ import importlib.util
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import unittest
@@ -12,7 +13,9 @@ import unittest
 from canopen_run import FIRMWARE, needs_stack
 
 SECONDS = 1  # of the bus; the campaign has ten minutes
-ROBOT = pathlib.Path(__file__).resolve().parent.parent.parent / "examples/robot"
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+ROBOT = ROOT / "examples/robot"
+PAGE = ROOT / "docs/canopen.md"
 sys.path.insert(0, str(ROBOT))
 # Only without the package of this build is there nothing to run, and CI has it; whatever else the
 # example cannot import is its mistake.
@@ -31,6 +34,13 @@ def run(*options, **environment):
                           env={**os.environ, **environment})
 
 
+def largest_on_the_page():
+    """The column of that name in the page's table, by names of messages."""
+    rows = re.findall(r"^  [0-9A-F]{3} (\S.*?) +\d+(?: +[\d.]+){2} +([\d.]+) +[\d.]+$",
+                      PAGE.read_text(encoding="utf-8"), re.MULTILINE)
+    return {name: float(largest) for name, largest in rows}
+
+
 @needs_package
 class CanopenRobot(unittest.TestCase):
     """All of it in simulated time."""
@@ -45,6 +55,9 @@ class CanopenRobot(unittest.TestCase):
         self.assertGreaterEqual(figures["frames"], 11 * 1000 * SECONDS)
         self.assertGreater(figures["uploads"], 4 * SECONDS)
         self.assertTrue(all(check["ok"] for check in figures["checks"]), figures["checks"])
+        # The page shows this second.
+        self.assertEqual({name: round(us, 1) for name, us in figures["largest_us"].items()},
+                         largest_on_the_page())
 
     def test_a_joint_fails_and_comes_back(self):
         done = run("--seconds", "0.2", "--fail")
