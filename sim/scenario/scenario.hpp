@@ -21,6 +21,7 @@
 #include "scenario/number_range.hpp"
 #include "scenario/remote_spec.hpp"
 #include "signals/database.hpp"
+#include "signals/signal_range.hpp"
 
 namespace vericansim {
 
@@ -131,9 +132,10 @@ struct NodeExpectation {
 struct SignalExpectation {
   std::string name;  ///< message.signal
   const Signal *signal = nullptr;
-  Range all;                   ///< every value
+  SignalRange all;             ///< every value
   std::optional<Range> count;  ///< frames that hold it
-  std::optional<Range> first, last, mean;
+  std::optional<Range> mean;
+  std::optional<SignalRange> first, last;
 };
 
 /// What must be true at the end.

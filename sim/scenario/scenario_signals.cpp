@@ -8,6 +8,7 @@
 
 #include "scenario/scenario_parts.hpp"
 #include "signals/signal_codec.hpp"
+#include "signals/signal_range.hpp"
 #include "trace/input_error.hpp"
 #include "trace/text.hpp"
 
@@ -38,24 +39,34 @@ void parse_group_id(const YamlValue &value, const SignalMessage &message, const 
             : fmt::format("none, for message {} has {:#x}", message.name, message.id));
 }
 
-/// A value as text for a signal that a choice or a number may stand for.
-double parse_signal_number(const YamlValue &value, const Signal &signal) {
-  const bool is_choice =
-      !signal.is_float &&
-      std::any_of(signal.choices.begin(), signal.choices.end(),
-                  [&](const auto &choice) { return choice.second == value.text(); });
-  if (!is_choice && !signal.is_float) return value.number(-1e300, 1e300);
+/// A choice of the signal or a number.
+SignalLimit parse_signal_limit(const YamlValue &value, const Signal &signal) {
   try {
-    return value_of(signal, raw_of(signal, value.text())).value;
+    return limit_of(signal, value.text());
   } catch (const SignalError &error) {
     value.fail(error.what());
   }
 }
 
-Range parse_signal_range(const YamlValue &value, const Signal &signal) {
-  if (value.is_map()) return parse_range(value);
-  const double exact = parse_signal_number(value, signal);
-  return {exact, exact};
+/// The limits `min` and `max` of a map that may hold more.
+SignalRange parse_signal_limits(const YamlValue &value, YamlMap &map, const Signal &signal) {
+  SignalRange range;
+  map.with("min", [&](const YamlValue &v) { range.least = parse_signal_limit(v, signal); });
+  map.with("max", [&](const YamlValue &v) { range.most = parse_signal_limit(v, signal); });
+  if (is_empty(signal, range)) value.fail("min is above max");
+  return range;
+}
+
+SignalRange parse_signal_range(const YamlValue &value, const Signal &signal) {
+  if (!value.is_map()) {
+    const SignalLimit exact = parse_signal_limit(value, signal);
+    return {exact, exact};
+  }
+  YamlMap map{value};
+  const SignalRange range = parse_signal_limits(value, map, signal);
+  map.finish();
+  map.need_some();
+  return range;
 }
 
 const Signal &parse_signal_name(const YamlValue &value, const SignalMessage &message,
@@ -77,12 +88,7 @@ SignalExpectation parse_expected_signal(const YamlValue &value, const std::strin
     return expectation;
   }
   YamlMap map{value};
-  map.with("min", [&](const YamlValue &v) {
-    expectation.all.least = parse_signal_number(v, *expectation.signal);
-  });
-  map.with("max", [&](const YamlValue &v) {
-    expectation.all.most = parse_signal_number(v, *expectation.signal);
-  });
+  expectation.all = parse_signal_limits(value, map, *expectation.signal);
   map.with("count", [&](const YamlValue &v) { expectation.count = parse_expected(v, kCounts); });
   map.with("mean", [&](const YamlValue &v) { expectation.mean = parse_range(v); });
   const auto range = [&](const char *key, auto &target) {
@@ -91,7 +97,6 @@ SignalExpectation parse_expected_signal(const YamlValue &value, const std::strin
   range("first", expectation.first);
   range("last", expectation.last);
   map.finish();
-  if (expectation.all.least > expectation.all.most) value.fail("min is above max");
   return expectation;
 }
 

@@ -24,6 +24,11 @@ void for_each_bit(const Signal &signal, Use use) {
   }
 }
 
+/// Ones where a raw value has the bits of the signal.
+[[nodiscard]] inline std::uint64_t mask_of(const Signal &signal) {
+  return ~std::uint64_t{0} >> (64 - signal.length);
+}
+
 /// Bytes that a frame needs to hold the signal.
 [[nodiscard]] inline unsigned bytes_needed(const Signal &signal) {
   unsigned last = 0;

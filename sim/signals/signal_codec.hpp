@@ -60,6 +60,11 @@ using FrameData = std::array<std::uint8_t, 8>;
 /// has. Throws SignalError: no number and no choice, out of range, not the only one of that text.
 [[nodiscard]] std::uint64_t raw_of(const Signal &signal, const std::string &text);
 
+/// The raw value of an integer signal with factor 1 and offset 0 that `text`, a whole number, is,
+/// also one that its bits do not hold; nothing for other signals and texts.
+[[nodiscard]] std::optional<std::uint64_t> exact_integer(const Signal &signal,
+                                                         const std::string &text);
+
 /// Data with the signals of `texts`; others have their start values. Throws SignalError: a value
 /// that is not possible, an unknown signal, one that is not selected, two that share bits, a signal
 /// behind byte 8.

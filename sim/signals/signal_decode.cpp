@@ -59,7 +59,8 @@ bool is_selected(const SignalMessage &message, const Signal &signal, const Frame
   if (!signal.selection) return true;
   const Signal &multiplexer = message.signals[signal.selection->multiplexer];
   if (bytes_needed(multiplexer) > data.size()) return false;
-  const std::uint64_t raw = bits_of(multiplexer, data);
+  // DBC files select by the bits, whether or not they have a sign.
+  const std::uint64_t raw = bits_of(multiplexer, data) & mask_of(multiplexer);
   const auto &ranges = signal.selection->ranges;
   return is_selected(message, multiplexer, data) &&
          std::any_of(ranges.begin(), ranges.end(),

@@ -28,8 +28,6 @@ std::optional<Number> parsed(std::string_view text) {
   return number;
 }
 
-std::uint64_t mask_of(const Signal &signal) { return ~std::uint64_t{0} >> (64 - signal.length); }
-
 void put(const Signal &signal, std::uint64_t raw, FrameData &data) {
   for_each_bit(signal, [&](unsigned place, unsigned weight) {
     const auto bit = static_cast<std::uint8_t>(1U << place % 8);
@@ -41,16 +39,6 @@ void put(const Signal &signal, std::uint64_t raw, FrameData &data) {
 [[noreturn]] void refuse(const Signal &signal, const std::string &text) {
   throw SignalError(signal.name,
                     fmt::format("'{}' is not allowed; allowed: {}", text, allowed_values(signal)));
-}
-
-/// Exact where the file's factor is 1, for doubles do not hold all integers of 64 bits.
-std::optional<std::uint64_t> exact_integer(const Signal &signal, const std::string &text) {
-  if (signal.factor != 1 || signal.offset != 0) return std::nullopt;
-  if (signal.is_signed) {
-    const auto number = parsed<std::int64_t>(text);
-    return number ? std::optional(static_cast<std::uint64_t>(*number)) : std::nullopt;
-  }
-  return parsed<std::uint64_t>(text);
 }
 
 /// Bits of an integer signal for a raw value, if it has so many.
@@ -180,6 +168,16 @@ class Encoder {
 
 }  // namespace
 
+// Doubles do not hold all integers of 64 bits.
+std::optional<std::uint64_t> exact_integer(const Signal &signal, const std::string &text) {
+  if (signal.is_float || signal.factor != 1 || signal.offset != 0) return std::nullopt;
+  if (signal.is_signed) {
+    const auto number = parsed<std::int64_t>(text);
+    return number ? std::optional(static_cast<std::uint64_t>(*number)) : std::nullopt;
+  }
+  return parsed<std::uint64_t>(text);
+}
+
 std::uint64_t raw_of(const Signal &signal, const std::string &text) {
   if (!signal.is_float)
     if (const auto raw = raw_of_choice(signal, text)) return *raw;
@@ -189,7 +187,7 @@ std::uint64_t raw_of(const Signal &signal, const std::string &text) {
   if (!number || !std::isfinite(*number) || *number < signal.minimum - slack ||
       *number > signal.maximum + slack)
     refuse(signal, text);
-  auto raw = signal.is_float ? std::nullopt : exact_integer(signal, text);
+  auto raw = exact_integer(signal, text);
   if (!raw) raw = bits_for(signal, (*number - signal.offset) / signal.factor);
   if (!raw || (!signal.is_float && !fits(signal, *raw))) refuse(signal, text);
   return *raw;

@@ -7,13 +7,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "signals/signal_range.hpp"
+
 namespace vericansim {
 namespace {
 
-/// Takes `value` if `better`; a floating-point signal that is no number gives way to any.
-template <typename Better>
-void keep(SignalValue &kept, const SignalValue &value, Better better) {
-  if (std::isnan(kept.value) || better(value.value, kept.value)) kept = value;
+/// Widens the limits; a floating-point value that is no number gives way to any.
+void keep(SignalSummary &summary, const SignalValue &value) {
+  if (std::isnan(summary.least.value) || is_below(value, summary.least)) summary.least = value;
+  if (std::isnan(summary.most.value) || is_below(summary.most, value)) summary.most = value;
 }
 
 }  // namespace
@@ -37,8 +39,8 @@ void SignalStatistics::add(const SignalMessage *message, const std::vector<Signa
     }
     summary.last = value;
     summary.sum += value.value;
-    keep(summary.least, value, std::less<>{});
-    keep(summary.most, value, std::greater<>{});
+    if (std::isnan(value.value)) ++summary.no_numbers;
+    keep(summary, value);
   }
 }
 

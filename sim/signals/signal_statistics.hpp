@@ -18,7 +18,8 @@ namespace vericansim {
 /// A signal that was on the bus.
 struct SignalSummary {
   const SignalMessage *message = nullptr;
-  std::uint64_t count = 0;  ///< frames that held it
+  std::uint64_t count = 0;       ///< frames that held it
+  std::uint64_t no_numbers = 0;  ///< of them, those in which a floating-point signal was NaN
   SignalValue first, last;
   SignalValue least, most;  ///< by their physical values
   double sum = 0;

@@ -87,6 +87,18 @@ TEST(SignalDecode, NestedMultiplexersAndRanges) {
   EXPECT_THAT(names(0x04), ElementsAre("Outer"));
 }
 
+// The bits select, so that 255 is meant where a signed multiplexer of 8 bits reads -1.
+TEST(SignalDecode, ASignedMultiplexerSelectsByItsBits) {
+  Database database;
+  database.add_text("signed.dbc",
+                    "BO_ 1 A: 8 X\n SG_ K M : 0|8@1- (1,0) [0|0] \"\" X\n"
+                    " SG_ T m255 : 8|8@1+ (1,0) [0|0] \"\" X\n");
+  const SignalMessage &message = *database.messages()[0];
+  EXPECT_EQ(to_text(message, decode(message, frame_of({0xFF, 7}))), "A(K: -1, T: 7)");
+  EXPECT_EQ(to_text(message, decode(message, frame_of({0x7F, 7}))), "A(K: 127)");
+  EXPECT_THAT(encode(message, {{"K", "-1"}, {"T", "7"}}), ElementsAre(0xFF, 7, 0, 0, 0, 0, 0, 0));
+}
+
 TEST(SignalDecode, ShortFramesHoldTheirSignals) {
   EXPECT_THAT(texts_in("EngineData", frame_of({0x80, 0x25})),
               ElementsAre(Pair("EngineSpeed", "2400 rpm")));

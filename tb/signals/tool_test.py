@@ -57,6 +57,49 @@ class Signals(ToolCase):
             with self.subTest(new):
                 self.assertIn(said, self.passes("run", self.scenario(old, new), code=1))
 
+    def wide_scenario(self, expected):
+        """A frame with an integer and a frame with a float, both of 64 bits, and a float that is
+        none: what is expected of them."""
+        (self.path / "wide.dbc").write_text(
+            'BO_ 1 I: 8 X\n SG_ S : 0|64@1- (1,0) [0|0] "" X\n'
+            'BO_ 2 U: 8 X\n SG_ S : 0|64@1+ (-1,0) [0|0] "" X\n'
+            'BO_ 3 F: 8 X\n SG_ S : 0|32@1- (1,0) [0|0] "" X\nSIG_VALTYPE_ 3 S : 1;\n')
+        path = self.path / "wide.yaml"
+        path.write_text(
+            "name: wide\nbitrate: 500k\nduration: 4 ms\ndbc: wide.dbc\n"
+            "nodes: [{name: a, clock: 8 MHz}, {name: b, clock: 8 MHz}]\ntraffic:\n"
+            "  - {node: a, name: i, message: I, data: {S: 9223372036854775807}, period: 8 ms}\n"
+            "  - {node: a, name: j, message: I, data: {S: 9223372036854775806}, period: 8 ms,"
+            " offset: 1 ms}\n"
+            "  - {node: a, name: f, id: 3, data: [0, 0, 0x80, 0x3F], period: 8 ms}\n"
+            "  - {node: a, name: n, id: 3, data: [0, 0, 0xC0, 0x7F], period: 8 ms,"
+            " offset: 2 ms}\n"
+            f"expect:\n  signals:\n    {expected}\n")
+        return path
+
+    def test_integers_of_64_bits_are_compared_exactly(self):
+        for expected, said in [
+                ("I.S: {last: 9223372036854775807}",
+                 "FAIL  I.S last: 9223372036854775806 (expected 9223372036854775807)"),
+                ("I.S: {max: 9223372036854775806}",
+                 "FAIL  I.S: 9223372036854775806 to 9223372036854775807 (expected at most "
+                 "9223372036854775806)"),
+                ("I.S: {min: 9223372036854775807}", "FAIL  I.S: 9223372036854775806 to 92233720")]:
+            with self.subTest(expected):
+                self.assertIn(said, self.passes("run", self.wide_scenario(expected), code=1))
+        self.passes("run", self.wide_scenario(
+            "I.S: {first: 9223372036854775807, min: 9223372036854775806, last: {max: "
+            "9223372036854775806}}"))
+
+    def test_limits_that_cannot_be_compared_exactly_are_refused(self):
+        for expected in ("I.S: {max: 1e18}", "U.S: {min: -9007199254740993}"):
+            self.assertIn("cannot be compared exactly", self.refused(
+                "run", self.wide_scenario(expected)))
+
+    def test_a_float_that_is_no_number_is_in_no_range(self):
+        text = self.passes("run", self.wide_scenario("F.S: 1"), code=1)
+        self.assertIn("FAIL  F.S: 1, nan in 1 frames (expected 1)", text)
+
     def test_bad_signals_are_refused_with_line_and_what_is_allowed(self):
         for old, new, said in [
                 ("EngineSpeed: 2400, Mode", "EngineSpeed: 9000, Mode",
