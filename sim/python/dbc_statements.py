@@ -42,6 +42,7 @@ EXTENDED = 1 << 31
 WITH_ID = re.compile(
     r'^((?:BO_|VAL_|SIG_VALTYPE_|SG_MUL_VAL_|BA_\s+"[^"]*"\s+(?:BO_|SG_))\s+)(\d+)')
 STRING = re.compile(r'"(?:\\.|[^"\\])*"')
+WORD = re.compile(STRING.pattern + r'|[^\s:;"]+')
 
 
 def decoded(data):
@@ -65,6 +66,11 @@ def keyword_of(line):
 def outside_strings(text):
     """The text without the strings that end in it."""
     return STRING.sub("", text)
+
+
+def words_of(text):
+    """The words and strings of a statement behind its keyword."""
+    return WORD.findall(text)[1:]
 
 
 def one_blank(text):
@@ -155,7 +161,7 @@ def with_extended_flag(text):
 def refuse_odd(line, keyword, text):
     """DbcError for what canmatrix takes for something else: any byte order but 1 for big-endian,
     the last of two texts of a value, an identifier below 0."""
-    words = re.findall(r'"(?:\\.|[^"\\])*"|[^\s:;"]+', text)[1:]
+    words = words_of(text)
     if keyword == "BO_" and words and not re.fullmatch(r"\d+", words[0]):
         raise DbcError(line, f"not understood: {text}; allowed: {FORMS['BO_']}")
     if keyword == "SG_":
@@ -196,7 +202,7 @@ class Places:
 
     def keep(self, line, keyword, text):
         """Notes a definition. False for a statement about what is not there."""
-        words = re.findall(r'"(?:\\.|[^"\\])*"|[^\s:;"]+', text)[1:]
+        words = words_of(text)
         if keyword == "BO_" and words:
             self.id = words[0]
             return self.id not in self.INDEPENDENT and self.define(

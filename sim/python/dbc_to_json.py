@@ -10,7 +10,7 @@ import json
 import logging
 import sys
 
-from dbc_checks import check_message
+from dbc_checks import StatementChecks, check_message
 from dbc_statements import DbcError, FORMS, Places, decoded, relevant, statements
 from verican_helper import need, run
 
@@ -56,7 +56,12 @@ def load(given):
     dbc = need("canmatrix.formats.dbc", "python3-canmatrix")
     logger.setLevel(logging.ERROR)
     with contextlib.redirect_stdout(complaints.printed):
-        return dbc.load(Lines(given, complaints), dbcImportEncoding="utf-8")
+        try:
+            return dbc.load(Lines(given, complaints), dbcImportEncoding="utf-8")
+        except DbcError:
+            raise
+        except Exception as error:  # canmatrix fails with whatever Python makes of a bad value
+            raise DbcError(0, f"not understood by canmatrix: {error!r}") from error
 
 
 def is_j1939(frame, database):
@@ -112,6 +117,7 @@ def to_json(data):
     text, is_utf8 = decoded(data)
     given = [s for s in relevant(statements(text)) if places.keep(*s)]
     places.finish()
+    StatementChecks().check(given)
     if not places.messages:
         raise DbcError(0, "no message in it; allowed: a DBC file with BO_ and SG_")
     database = load(given)

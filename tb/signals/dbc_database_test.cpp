@@ -145,7 +145,56 @@ TEST(DbcDatabase, SignalsThatNoFrameCanHoldAreRefused) {
   EXPECT_THAT(with("S m1M : 0|8@1+ (1,0) [0|0] \"\" X\nSG_MUL_VAL_ 1 S S 1-1;"),
               HasSubstr("is multiplexed by itself"));
   EXPECT_THAT(with("S : 0|16@1- (1,0) [0|0] \"\" X\nSIG_VALTYPE_ 1 S : 1;"),
-              HasSubstr("floating-point number of 16 bits; allowed: 32, 64"));
+              HasSubstr("bad.dbc:3: signal S is a floating-point number of 16 bits; allowed with "
+                        "value type 1: 32"));
+}
+
+std::string refusal_after_signal(const std::string &statement) {
+  return refusal(kMessage + " SG_ S : 0|32@1- (1,0) [0|0] \"\" X\n" + statement + "\n");
+}
+
+TEST(DbcDatabase, ValueTypesAreThoseOfTheFormatAndFitTheSignal) {
+  EXPECT_THAT(refusal_after_signal("SIG_VALTYPE_ 1 S : 3;"),
+              HasSubstr("bad.dbc:3: signal S has the value type 3; allowed: 0 (integer), 1 (float "
+                        "of 32 bits), 2 (float of 64 bits)"));
+  EXPECT_THAT(refusal_after_signal("SIG_VALTYPE_ 1 S : -1;"), HasSubstr("has the value type -1"));
+  EXPECT_THAT(refusal_after_signal("SIG_VALTYPE_ 1 S : 2;"),
+              HasSubstr("floating-point number of 32 bits; allowed with value type 2: 64"));
+  EXPECT_EQ(refusal_after_signal("SIG_VALTYPE_ 1 S : 1;"), "no error");
+  EXPECT_EQ(refusal_after_signal("SIG_VALTYPE_ 1 S : 0;"), "no error");
+}
+
+TEST(DbcDatabase, BadValuesOfAttributesAreRefusedWithTheirLine) {
+  const std::string format = "BA_DEF_ BO_ \"VFrameFormat\" ENUM \"StandardCAN\",\"ExtendedCAN\";\n";
+  for (const char *bad : {"14", "\"x\"", "2"})
+    EXPECT_THAT(refusal_after_signal(format + "BA_ \"VFrameFormat\" BO_ 1 " + bad + ";"),
+                HasSubstr("bad.dbc:4: VFrameFormat " + std::string(bad) +
+                          " is not allowed; allowed: the numbers 0 to 1"));
+  EXPECT_EQ(refusal_after_signal(format + "BA_ \"VFrameFormat\" BO_ 1 1;"), "no error");
+  const std::string start = "BA_DEF_ SG_ \"GenSigStartValue\" FLOAT 0 100;\n";
+  for (const char *bad : {"\"abc\"", "\"\"", "1,5", "0x10"})
+    EXPECT_THAT(refusal_after_signal(start + "BA_ \"GenSigStartValue\" SG_ 1 S " + bad + ";"),
+                HasSubstr("bad.dbc:4: GenSigStartValue " + std::string(bad) + " is not allowed"));
+  EXPECT_THAT(refusal_after_signal(start + "BA_DEF_DEF_ \"GenSigStartValue\" 1,5;"),
+              HasSubstr("bad.dbc:4: GenSigStartValue 1,5 is not allowed"));
+  for (const char *good : {"5", "-0.5", "1e2"})
+    EXPECT_EQ(refusal_after_signal(start + "BA_ \"GenSigStartValue\" SG_ 1 S " + good + ";"),
+              "no error");
+  EXPECT_EQ(refusal_after_signal(start + "BA_DEF_DEF_ \"GenSigStartValue\" \"\";"), "no error");
+}
+
+TEST(DbcDatabase, NumbersThatAreTooLargeAreRefusedWithTheirLine) {
+  EXPECT_THAT(refusal_after_signal("VAL_ 1 S 99999999999999999999 \"x\" ;"),
+              HasSubstr("bad.dbc:3: value 99999999999999999999 of signal S is none of 64 bits"));
+  EXPECT_THAT(refusal_after_signal("BO_ 2 B: 99999999999 X"),
+              HasSubstr("bad.dbc:3: message B has 99999999999 bytes; allowed: 0 to 117440505"));
+  EXPECT_THAT(refusal_after_signal(" SG_ M M : 32|8@1+ (1,0) [0|0] \"\" X\n"
+                                   " SG_ T m1 : 40|8@1+ (1,0) [0|0] \"\" X\n"
+                                   "SG_MUL_VAL_ 1 T M 1-2, 5-3;"),
+              HasSubstr("bad.dbc:5: signal T has the range 5-3; allowed: from the smaller to the "
+                        "larger value"));
+  EXPECT_THAT(refusal_after_signal(" SG_ T m99999999999999999999 : 40|8@1+ (1,0) [0|0] \"\" X"),
+              HasSubstr("bad.dbc:3: signal T has the selection m99999999999999999999"));
 }
 
 // What canmatrix takes for something else.
