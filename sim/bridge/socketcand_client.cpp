@@ -74,7 +74,7 @@ std::optional<can_frame> SocketcandClient::take() {
   return frame;
 }
 
-std::size_t SocketcandClient::remaining() {
+std::size_t SocketcandClient::drop_frames() {
   // More than TCP buffers hold: a client that goes on sending does not keep the bridge from ending.
   constexpr std::size_t kMost = std::size_t{64} << 20U;
   std::size_t count = 0;
@@ -87,6 +87,11 @@ std::size_t SocketcandClient::remaining() {
       pending_.reset();
     }
   }
+  return count;
+}
+
+std::size_t SocketcandClient::remaining() {
+  const std::size_t count = drop_frames();
   if (count != 0)
     fail(fmt::format("the bus has ended; the last {} frames of this client were not sent", count));
   return count;
@@ -119,7 +124,8 @@ bool SocketcandClient::put(const std::string &text) {
 }
 
 void SocketcandClient::show(const PortMessage &message) {
-  if (!leaving_ && put(message_text(message))) ++shared_.counts.to_clients;
+  const std::string_view separator = mode_ == kBroadcast ? " " : "";
+  if (!leaving_ && put(message_text(message, separator))) ++shared_.counts.to_clients;
 }
 
 void SocketcandClient::tick() {
@@ -138,6 +144,8 @@ void SocketcandClient::leave() {
   told_ = std::chrono::steady_clock::now();
   pending_.reset();
 }
+
+bool SocketcandClient::connected() const { return connection_.input_open() && !leaving_; }
 
 bool SocketcandClient::done() const {
   const bool delivered = connection_.queued() == 0 || !connection_.output_open();

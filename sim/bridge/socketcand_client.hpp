@@ -57,6 +57,10 @@ class SocketcandClient {
   /// At the end: reads what the client has sent, counts the frames that will not be sent, and tells
   /// the client.
   [[nodiscard]] std::size_t remaining();
+  /// Throws away the frames that it has sent and the bus has not taken; their number.
+  std::size_t drop_frames();
+  /// False when it has ended its side, or was told to go: it may only have frames left to be sent.
+  [[nodiscard]] bool connected() const;
   /// A message of its bus.
   void deliver(const PortMessage &message);
   /// True when it has left, or was told to go, and nothing is left to be done.

@@ -13,7 +13,9 @@
 namespace vericansim {
 
 struct SocketcandLimits {
-  std::size_t clients = 64;  ///< at once; more are told and closed
+  std::size_t clients = 64;  ///< connected at once; more are told and closed
+  /// Clients that have left and whose frames wait for the bus; of more the oldest are given up.
+  std::size_t departed = 256;
   /// Bytes that may wait for a client that does not read; then it is told and closed.
   std::size_t output = std::size_t{8} << 20U;
   /// Bytes of commands that are read ahead of a busy bus; the rest waits in TCP.

@@ -156,6 +156,7 @@ void SocketcandServer::service(std::span<const pollfd> ready) {
   }
   for (const auto &client : clients_) client->work();
   remove_done();
+  give_up_departed();
   if (ready.front().revents != 0) accept_clients();
 }
 
@@ -166,15 +167,34 @@ void SocketcandServer::remove_done() {
   clients_.erase(gone, clients_.end());
 }
 
+std::size_t SocketcandServer::connected() const {
+  return static_cast<std::size_t>(std::count_if(
+      clients_.begin(), clients_.end(), [](const auto &client) { return client->connected(); }));
+}
+
+// A bus that takes nothing must not fill the memory with the frames of those who come and go.
+void SocketcandServer::give_up_departed() {
+  for (std::size_t departed = clients_.size() - connected(); departed > shared_.limits.departed;
+       --departed) {
+    const auto oldest =
+        std::min_element(clients_.begin(), clients_.end(), [](const auto &a, const auto &b) {
+          return std::pair{a->connected(), a->id()} < std::pair{b->connected(), b->id()};
+        });
+    shared_.counts.given_up += (*oldest)->drop_frames();
+    (*oldest)->account();
+    clients_.erase(oldest);
+  }
+}
+
 void SocketcandServer::accept_clients() {
   for (int fd = listener_.accept(); fd >= 0; fd = listener_.accept()) {
-    if (clients_.size() < shared_.limits.clients) {
+    if (connected() < shared_.limits.clients) {
       clients_.push_back(std::make_unique<SocketcandClient>(next_id_++, fd, shared_));
       ++shared_.counts.clients;
       continue;
     }
     const auto text =
-        error_text(fmt::format("there are {} clients, more are not allowed", clients_.size()));
+        error_text(fmt::format("there are {} clients, more are not allowed", connected()));
     // A fresh socket takes a short message at once.
     static_cast<void>(::send(fd, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
     ::close(fd);

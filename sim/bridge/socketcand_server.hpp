@@ -68,6 +68,8 @@ class SocketcandServer {
   void put(std::size_t bus, const PortMessage &message);
   void accept_clients();
   void remove_done();
+  void give_up_departed();
+  [[nodiscard]] std::size_t connected() const;
 
   SocketcandShared shared_;
   SocketcandListener listener_;

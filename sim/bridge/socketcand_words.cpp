@@ -130,14 +130,13 @@ can_frame remote_frame(CommandWords &words) {
   return frame;
 }
 
-std::string message_text(const PortMessage &message) {
+std::string message_text(const PortMessage &message, std::string_view separator) {
   const can_frame &frame = message.frame;
   const auto time = time_text(message.time);
   if ((frame.can_id & CAN_RTR_FLAG) != 0 && (frame.can_id & CAN_ERR_FLAG) == 0)
     return fmt::format("\n< rtr {} {} {} >", id_text(frame.can_id), time, frame.len);
-  std::string data;
-  for (unsigned i = 0; i < frame.len && i < CAN_MAX_DLEN; ++i)
-    data += fmt::format("{:02X}", frame.data[i]);
+  const std::size_t length = std::min<std::size_t>(frame.len, CAN_MAX_DLEN);
+  const auto data = fmt::format("{:02X}", fmt::join(frame.data, frame.data + length, separator));
   if ((frame.can_id & CAN_ERR_FLAG) != 0)
     return fmt::format("\n< error {:08X} {} {} >", frame.can_id, time, data);
   return fmt::format("\n< frame {} {} {} >", id_text(frame.can_id), time, data);

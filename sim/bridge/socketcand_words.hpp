@@ -61,8 +61,10 @@ class CommandWords {
 /// The rest of "sendrtr ID DLC".
 [[nodiscard]] can_frame remote_frame(CommandWords &words);
 
-/// "< frame ... >", "< rtr ... >" or "< error CLASS ... >", with a line feed in front.
-[[nodiscard]] std::string message_text(const PortMessage &message);
+/// "< frame ... >", "< rtr ... >" or "< error CLASS ... >", with a line feed in front. The
+/// protocol has the bytes of a frame with `separator` between: a blank in bcmmode, nothing in
+/// rawmode.
+[[nodiscard]] std::string message_text(const PortMessage &message, std::string_view separator);
 /// "< error TEXT >"; brackets in the text become parentheses.
 [[nodiscard]] std::string error_text(std::string text);
 

@@ -57,6 +57,7 @@ std::string to_text(const SocketcandCounts &counts) {
   Remarks remarks;
   remarks.add(counts.refused, "clients that were one too many, refused");
   remarks.add(counts.too_slow, "clients that did not read, disconnected; frames for them are LOST");
+  remarks.add(counts.given_up, "frames of clients that had left, too many to be kept: LOST");
   remarks.add(counts.undelivered, "messages for clients that were gone before they had read them");
   remarks.add(counts.bad_commands, "commands answered by an error");
   remarks.add(counts.missed, "periods of jobs left out because the bus was busy");
@@ -99,7 +100,8 @@ Json to_json(const SocketcandCounts &counts) {
   return {{"clients", counts.clients},           {"refused", counts.refused},
           {"too_slow", counts.too_slow},         {"bad_commands", counts.bad_commands},
           {"from_clients", counts.from_clients}, {"to_clients", counts.to_clients},
-          {"undelivered", counts.undelivered},   {"missed", counts.missed}};
+          {"undelivered", counts.undelivered},   {"missed", counts.missed},
+          {"given_up", counts.given_up}};
 }
 
 Json to_json(const PaceReport &pace) {

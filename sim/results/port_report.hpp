@@ -54,8 +54,9 @@ struct SocketcandCounts {
   std::uint64_t to_clients = 0;    ///< frames and error messages, each client counted
   std::uint64_t undelivered = 0;   ///< messages for clients that were gone before they took them
   std::uint64_t missed = 0;        ///< periods of jobs for which the bus was too busy
-  /// No frame was lost for a client that did not read.
-  [[nodiscard]] bool ok() const { return too_slow == 0; }
+  std::uint64_t given_up = 0;      ///< frames of clients that had left, too many for the server
+  /// No frame was lost for a client that did not read, and none of those that have left.
+  [[nodiscard]] bool ok() const { return too_slow == 0 && given_up == 0; }
 };
 
 /// Simulated time beside real time.

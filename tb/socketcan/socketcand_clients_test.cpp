@@ -70,6 +70,40 @@ TEST_F(SocketcandClients, OneTooManyIsToldAndClosed) {
   EXPECT_EQ(bench_.server().counts().clients, 4U);
 }
 
+// The bus takes nothing, so that the frames of those who have left wait, but not their places.
+TEST_F(SocketcandClients, WhoHasLeftTakesNoPlace) {
+  bench_.room = 0;
+  for (unsigned i = 0; i < 5; ++i) {
+    SocketcandTestClient client(bench_.port());
+    ASSERT_TRUE(bench_.expect(client, "< hi >")) << "client " << i;
+    ASSERT_TRUE(bench_.send(client, "< open can0 >" + send_text(i)));
+    ASSERT_TRUE(bench_.expect(client, "< ok >"));
+    client.vanish(false);
+    for (unsigned round = 0; round < 3; ++round) bench_.step();
+  }
+  EXPECT_EQ(bench_.server().counts().refused, 0U);
+  bench_.room = SIZE_MAX;
+  ASSERT_TRUE(bench_.until([&] { return bench_.sent.size() == 5; }));
+  EXPECT_TRUE(bench_.server().counts().ok());
+}
+
+TEST(SocketcandDepartedClients, TheOldestAreGivenUpAndCounted) {
+  SocketcandLimits limits = limits_of(3, 200'000);
+  limits.departed = 2;
+  SocketcandBench bench{{"can0"}, limits};
+  bench.room = 0;
+  for (unsigned i = 0; i < 4; ++i) {
+    SocketcandTestClient client(bench.port());
+    ASSERT_TRUE(bench.send(client, "< open can0 >" + send_text(i) + send_text(i)));
+    ASSERT_TRUE(bench.expect(client, "< ok >"));
+  }
+  ASSERT_TRUE(bench.until([&] { return bench.server().counts().given_up == 4; }));
+  EXPECT_FALSE(bench.server().counts().ok());
+  bench.room = SIZE_MAX;
+  ASSERT_TRUE(bench.until([&] { return bench.sent.size() == 4; }));
+  EXPECT_EQ(number_of(bench.sent.front().message.frame), 2U) << "the two youngest";
+}
+
 // The bus takes nothing: what the client sends fills TCP and then waits in the client; no frame is
 // lost, and memory does not grow with it.
 TEST_F(SocketcandClients, AClientThatIsFasterThanTheBusWaits) {

@@ -169,7 +169,7 @@ TEST_F(SocketcandProtocol, MuxFilterOfTheExample) {
   bench_.frame_from_bus(0x123, {0x33, 1});
   bench_.frame_from_bus(0x123, {0x33, 1});
   bench_.frame_from_bus(0x123, {0x34, 1});
-  EXPECT_EQ(ask(client, ""), "\n< frame 123 0.000100 3301 >");
+  EXPECT_EQ(ask(client, ""), "\n< frame 123 0.000100 33 01 >");
   EXPECT_THAT(ask(client, "< muxfilter 0 0 123 1 0 0 0 0 0 0 0 0 >"), HasSubstr("2 to 257 tuples"));
   EXPECT_THAT(ask(client, "< muxfilter 0 0 123 2 0 >"), HasSubstr("byte of a tuple is missing"));
 }

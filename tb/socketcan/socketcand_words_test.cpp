@@ -134,30 +134,39 @@ PortMessage message(canid_t id, std::vector<unsigned char> data, Time time) {
 
 constexpr Time kWhen = 23 * kSecond + 424'242 * kMicrosecond;
 
+/// As in rawmode.
+std::string raw_text(const PortMessage &message) { return message_text(message, ""); }
+
+// The example of the protocol's document has blanks in bcmmode; rawmode has none.
+TEST(SocketcandText, BytesOfBcmModeHaveBlanksBetween) {
+  EXPECT_EQ(message_text(message(0x123, {0x11, 0x22, 0x33, 0x44}, kWhen), " "),
+            "\n< frame 123 23.424242 11 22 33 44 >");
+}
+
 TEST(SocketcandText, Frame) {
-  EXPECT_EQ(message_text(message(0x123, {0x11, 0x22, 0x33, 0x44}, kWhen)),
+  EXPECT_EQ(raw_text(message(0x123, {0x11, 0x22, 0x33, 0x44}, kWhen)),
             "\n< frame 123 23.424242 11223344 >");
-  EXPECT_EQ(message_text(message(0x1, {0x0A}, 1 * kMicrosecond)), "\n< frame 001 0.000001 0A >");
+  EXPECT_EQ(raw_text(message(0x1, {0x0A}, 1 * kMicrosecond)), "\n< frame 001 0.000001 0A >");
 }
 
 TEST(SocketcandText, TwentyNineBitsHaveEightDigits) {
-  EXPECT_EQ(message_text(message(CAN_EFF_FLAG | 0x123, {1}, kWhen)),
+  EXPECT_EQ(raw_text(message(CAN_EFF_FLAG | 0x123, {1}, kWhen)),
             "\n< frame 00000123 23.424242 01 >");
 }
 
 // python-can takes the third word, so the blank in front of no data has to be there.
 TEST(SocketcandText, FrameWithoutDataHasTwoBlanks) {
-  EXPECT_EQ(message_text(message(0x123, {}, kWhen)), "\n< frame 123 23.424242  >");
+  EXPECT_EQ(raw_text(message(0x123, {}, kWhen)), "\n< frame 123 23.424242  >");
 }
 
 TEST(SocketcandText, RemoteFrameHasItsDlc) {
-  EXPECT_EQ(message_text(message(0x123 | CAN_RTR_FLAG, {0, 0, 0, 0}, kWhen)),
+  EXPECT_EQ(raw_text(message(0x123 | CAN_RTR_FLAG, {0, 0, 0, 0}, kWhen)),
             "\n< rtr 123 23.424242 4 >");
 }
 
 TEST(SocketcandText, ErrorMessageHasClassTimeAndData) {
-  EXPECT_EQ(message_text(message(CAN_ERR_FLAG | CAN_ERR_ACK | CAN_ERR_PROT,
-                                 {0, 0, 0, CAN_ERR_PROT_LOC_ACK, 0, 0, 8, 0}, kWhen)),
+  EXPECT_EQ(raw_text(message(CAN_ERR_FLAG | CAN_ERR_ACK | CAN_ERR_PROT,
+                             {0, 0, 0, CAN_ERR_PROT_LOC_ACK, 0, 0, 8, 0}, kWhen)),
             "\n< error 20000028 23.424242 0000001900000800 >");
 }
 
