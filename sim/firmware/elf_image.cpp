@@ -207,19 +207,24 @@ void Parser::read_symbols() {
       read_symbol_table(*symbols, *names);
     break;  // the specification allows one
   }
-  std::sort(image_.functions.begin(), image_.functions.end(),
-            [](const auto &a, const auto &b) { return a.address < b.address; });
+  std::stable_sort(image_.functions.begin(), image_.functions.end(),
+                   [](const auto &a, const auto &b) { return a.address < b.address; });
 }
 
 void Parser::read_symbol_table(const Section &symbols, const Section &names) {
   constexpr unsigned kFunction = 2;
   constexpr std::uint32_t kLongestName = 1024;  // longer ones are cut
+  // Many symbols may have one name: all together are cut where they would be larger than the file.
+  std::size_t room = bytes_.size();
   for (std::uint32_t at = 0; at + kSymbolSize <= symbols.size; at += kSymbolSize) {
     const std::size_t p = symbols.offset + at;
     if ((bytes_[p + 12] & 0xF) != kFunction || u32(p) >= names.size) continue;
     const auto begin = bytes_.begin() + names.offset + u32(p);
     const auto most = bytes_.begin() + names.offset + std::min(names.size, u32(p) + kLongestName);
-    const auto end = std::find(begin, most, std::uint8_t{0});
+    auto end = std::find(begin, most, std::uint8_t{0});
+    if (static_cast<std::size_t>(end - begin) > room)
+      end = begin + static_cast<std::ptrdiff_t>(room);
+    room -= static_cast<std::size_t>(end - begin);
     image_.functions.push_back({u32(p + 4) & ~1U, u32(p + 8), {begin, end}});
   }
 }

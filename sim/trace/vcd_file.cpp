@@ -82,6 +82,13 @@ bool ends_as_name(const std::string &full, const std::string &end) {
                          full[full.size() - end.size() - 1] == '.');
 }
 
+/// True for variables whose values are no bits, whatever their width.
+bool is_text_or_real(const VcdSignal &signal) {
+  return signal.type == "string" || signal.type == "real" || signal.type == "realtime";
+}
+
+bool is_one_bit(const VcdSignal &signal) { return signal.width == 1 && !is_text_or_real(signal); }
+
 /// Refuses a value of several bits that holds something else.
 void check_vector(const std::string &path, std::string_view word, std::size_t line) {
   const bool bits = word[0] == 'b' || word[0] == 'B';
@@ -185,7 +192,7 @@ void VcdFile::fail_with_list(const std::string &message) const {
   std::string names;
   std::size_t count = 0;
   for (const VcdSignal &signal : signals_) {
-    if (signal.width != 1 || signal.type == "string" || signal.type == "real") continue;
+    if (!is_one_bit(signal)) continue;
     if (count++ < kMostNames) names += (names.empty() ? "" : ", ") + signal.name;
   }
   if (count > kMostNames) names += fmt::format(" and {} more", count - kMostNames);
@@ -207,6 +214,8 @@ const VcdSignal &VcdFile::find(const std::string &name) const {
     found = &signal;
   }
   if (found == nullptr) fail_with_list("no signal is called " + in_quotes(name));
+  if (is_text_or_real(*found))
+    fail_with_list(fmt::format("signal '{}' is a {}; allowed: one bit", found->name, found->type));
   if (found->width != 1)
     fail_with_list(fmt::format("signal '{}' has {} bits; allowed: 1", found->name, found->width));
   return *found;
@@ -215,8 +224,7 @@ const VcdSignal &VcdFile::find(const std::string &name) const {
 const VcdSignal &VcdFile::guess_bus() const {
   std::vector<const VcdSignal *> single;
   for (const VcdSignal &signal : signals_)
-    if (signal.width == 1 && signal.type != "string" && signal.type != "real")
-      single.push_back(&signal);
+    if (is_one_bit(signal)) single.push_back(&signal);
   if (single.size() == 1) return *single.front();
   for (const char *name :
        {"can", "can_bus", "bus", "canbus", "can_h", "can_rx", "can_rx_i", "rx", "rxd"})
@@ -246,7 +254,7 @@ Time VcdFile::read(const VcdSignal &signal, const OnChange &change) const {
   Time now = 0;
   int last = -1;
   const auto use = [&](char value) {
-    const int level = value == '0' ? 0 : 1;
+    const int level = value == '0' || value == 'L' || value == 'l' ? 0 : 1;  // L: a weak 0
     if (std::exchange(last, level) != level) change(now, static_cast<Level>(level));
   };
   constexpr std::string_view kScalar = "01xXzZ", kSpaced = "bBrRsS";

@@ -65,6 +65,17 @@ TEST(VcdFile, NamesTheChoiceWhenASignalIsUnclear) {
               HasSubstr("has 8 bits; allowed: 1"));
 }
 
+TEST(VcdFile, AWeakZeroIsDominantAndARealIsNoBit) {
+  const VcdFile file{"a.vcd",
+                     "$timescale 1ps $end $var wire 1 ! rx $end $var real 1 # r $end "
+                     "$enddefinitions $end #0 1! r1.0 # #5 bL ! #9 bH ! "};
+  EXPECT_THAT(changes_of(file, "rx"),
+              ElementsAre(Pair(0, Level::kRecessive), Pair(5, Level::kDominant),
+                          Pair(9, Level::kRecessive)));
+  EXPECT_THAT(input_error_of([&] { static_cast<void>(file.find("r")); }),
+              HasSubstr("signal 'r' is a real; allowed: one bit"));
+}
+
 TEST(VcdFile, GuessesTheBus) {
   const std::string end = " $enddefinitions $end";
   const std::string scale = "$timescale 1ns $end ";
