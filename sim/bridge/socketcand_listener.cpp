@@ -62,7 +62,8 @@ SocketcandAddress SocketcandAddress::parse(const std::string &option, const std:
   }
   const auto *last = port.data() + port.size();
   const auto [end, failure] = std::from_chars(port.data(), last, address.port);
-  if (address.host.empty() || failure != std::errc{} || end != last)
+  const bool zeros_in_front = port.size() > 1 && port.front() == '0';
+  if (address.host.empty() || failure != std::errc{} || end != last || zeros_in_front)
     throw InputError(option, 0,
                      in_quotes(text) +
                          " is not allowed; allowed: [ADDRESS:]PORT with a port from 0 "

@@ -57,7 +57,7 @@ void say(const std::string &line) {
 /// Twice a second, and only on a terminal: simulated time, and the lag as it is now.
 class StatusLine {
  public:
-  StatusLine() : terminal_{::isatty(STDERR_FILENO) != 0} {}
+  StatusLine() : terminal_{::isatty(STDERR_FILENO) != 0 && !is_quiet()} {}
   ~StatusLine() {
     if (terminal_) print_error("\r\033[K");
   }
@@ -79,14 +79,25 @@ class StatusLine {
   std::chrono::steady_clock::time_point next_{};
 };
 
-/// A bus of plain nodes that receive, and so acknowledge.
+/// Names of all interfaces, the monitor's too, and buses.
+std::vector<std::string> port_names(const BridgeOptions &options) {
+  std::vector<std::string> names = options.interfaces;
+  if (!options.monitor.empty()) names.push_back(options.monitor);
+  for (const std::string &bus : bus_names(options.socketcand)) names.push_back(bus);
+  return names;
+}
+
+/// A bus of plain nodes that receive, and so acknowledge. They leave the names of ports out, for a
+/// node of that name would be the port's and not another one.
 Scenario plain_bus(const BridgeOptions &options, double clock) {
   Scenario scenario;
   scenario.file = "--nodes";
   scenario.name = "bridge";
-  for (unsigned i = 0; i < options.nodes; ++i) {
+  const std::vector<std::string> taken = port_names(options);
+  for (unsigned i = 0; scenario.nodes.size() < options.nodes; ++i) {
     NodeSpec node;
     node.name = fmt::format("node{}", i);
+    if (std::find(taken.begin(), taken.end(), node.name) != taken.end()) continue;
     node.clock.frequency_hz = clock;
     scenario.nodes.push_back(node);
   }
@@ -111,14 +122,18 @@ void set_up_bus(BridgeSetup &setup, const BridgeOptions &options) {
   override_outputs(setup.scenario.outputs, options.outputs);
 }
 
-void open_ports(BridgeSetup &setup, const BridgeOptions &options) {
+/// Throws InputError for options that could not do anything.
+void check_options(const BridgeOptions &options) {
   if (options.interfaces.empty() && options.socketcand.address.empty())
     throw InputError("--if", 0,
                      "nothing to bridge; name a CAN interface, as in '--if vcan0', or offer a bus "
                      "by TCP, as in '--socketcand 29536'");
-  std::vector<std::string> names = options.interfaces;
-  if (!options.monitor.empty()) names.push_back(options.monitor);
-  for (const std::string &bus : bus_names(options.socketcand)) names.push_back(bus);
+  if (options.end_when_down && options.interfaces.empty() && options.monitor.empty())
+    throw InputError("--end-when-down", 0, "needs an interface; allowed: with --if or --monitor");
+}
+
+void open_ports(BridgeSetup &setup, const BridgeOptions &options) {
+  const std::vector<std::string> names = port_names(options);
   for (std::size_t i = 0; i < names.size(); ++i)
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
         names.begin() + static_cast<std::ptrdiff_t>(i))
@@ -134,6 +149,7 @@ void open_ports(BridgeSetup &setup, const BridgeOptions &options) {
 }
 
 BridgeSetup make_setup(const BridgeOptions &options) {
+  check_options(options);
   BridgeSetup setup;
   for (const std::string &filter : options.filters)
     setup.options.filters.push_back(parse_filter(filter));
@@ -144,7 +160,7 @@ BridgeSetup make_setup(const BridgeOptions &options) {
   setup.fast = options.fast;
   if (!options.time.empty()) setup.limit = time_option("--time", options.time);
   setup.end_when_down = options.end_when_down;
-  setup.say = say;
+  if (!is_quiet()) setup.say = say;
   set_up_bus(setup, options);
   open_ports(setup, options);
   return setup;
@@ -210,13 +226,17 @@ void add_bus_options(CLI::App &command, BridgeOptions &options) {
 }
 
 void add_port_options(CLI::App &command, BridgeOptions &options) {
-  command.add_option("--if", options.interfaces, "CAN interface that is a node; may be repeated")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  CLI::Option *interface =
+      command
+          .add_option("--if", options.interfaces, "CAN interface that is a node; may be repeated")
+          ->expected(1)
+          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("--monitor", options.monitor,
                      "CAN interface that gets everything that is on the bus, in bus order");
-  command.add_flag("--echo", options.raw.echo,
-                   "Give programs their own frames when these have really been sent");
+  command
+      .add_flag("--echo", options.raw.echo,
+                "Give programs their own frames when these have really been sent")
+      ->needs(interface);
   command
       .add_option("--filter", options.filters,
                   "Frames of the bus for the programs, ID:MASK or ID~MASK; may be repeated")
@@ -232,7 +252,8 @@ void add_port_options(CLI::App &command, BridgeOptions &options) {
   command
       .add_option("--queue", options.raw.queue,
                   "Frames of programs that may wait for the bus, each interface (100000)")
-      ->check(CLI::Range(1, 100'000'000));
+      ->check(CLI::Range(1, 100'000'000))
+      ->needs(interface);
   command.add_flag("--end-when-down", options.end_when_down,
                    "End when an interface goes down, instead of waiting for it");
 }

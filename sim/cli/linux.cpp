@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "cli/cli.hpp"
+#include "cli/output_files.hpp"
 #include "cli/print_error.hpp"
 #include "cli/rate_option.hpp"
 #include "linux/guest_server.hpp"
@@ -118,6 +119,14 @@ void must_exist(const char *option, const std::string &path) {
     throw InputError(option, 0, path + " is a directory; allowed: a file");
 }
 
+/// The guest's logs are made in it while the guest runs, too late to say that they cannot be.
+void must_take_files(const char *option, const std::string &directory) {
+  if (std::error_code none; !std::filesystem::is_directory(directory, none))
+    throw InputError(option, 0, directory + " is no directory");
+  if (::access(directory.c_str(), W_OK | X_OK) != 0)
+    throw InputError(option, 0, directory + " cannot be written: " + std::strerror(errno));
+}
+
 /// Throws InputError for what cannot be run so.
 void check(const LinuxOptions &options) {
   must_exist("--kernel", options.kernel);
@@ -126,6 +135,7 @@ void check(const LinuxOptions &options) {
   must_exist("--dtb", options.dtb);
   must_exist("--init", options.init);
   if (!options.preload.empty()) must_exist("--preload", options.preload);
+  if (!options.board.directory.empty()) must_take_files("--dir", options.board.directory);
   const std::size_t errors = options.board.clock_ppm.size();
   if (errors > options.board.controllers)
     throw InputError("--clock-ppm", 0,
@@ -169,11 +179,12 @@ int run(const LinuxOptions &options) {
   });
   const std::chrono::duration<double> wall = Wall::now() - start;
   board.close_logs();
-  print_error(
-      "verican linux: {:.3f} s of guest time ({:.3f} s asleep), {} accesses, {} interrupts, "
-      "{:.1f} s\n",
-      static_cast<double>(board.now()) / 1e9, static_cast<double>(board.asleep()) / 1e9,
-      server.accesses(), server.interrupts(), wall.count());
+  if (!is_quiet())
+    print_error(
+        "verican linux: {:.3f} s of guest time ({:.3f} s asleep), {} accesses, {} interrupts, "
+        "{:.1f} s\n",
+        static_cast<double>(board.now()) / 1e9, static_cast<double>(board.asleep()) / 1e9,
+        server.accesses(), server.interrupts(), wall.count());
   if (stop_requested()) {
     print_error("verican linux: interrupted; the guest is ended\n");
     return exit_code_after(kFailed);

@@ -75,7 +75,9 @@ int run_tool(int argc, char **argv) {
   cli::add_timesync(app, exit_code);
   for (CLI::App *command : app.get_subcommands({})) {
     CLI::Option *quiet = command->add_flag_callback(
-        "-q,--quiet", cli::be_quiet, "Print nothing but errors; the exit code tells the result");
+        "-q,--quiet", cli::be_quiet,
+        "Print nothing but errors, and where a bus waits for programs; the exit code "
+        "tells the result");
     if (CLI::Option *json = command->get_option_no_throw("--json")) quiet->excludes(json);
   }
   cli::check_numbers(app);

@@ -115,6 +115,8 @@ void be_quiet() {
   print_to(::open("/dev/null", O_WRONLY | O_CLOEXEC));
 }
 
+bool is_quiet() { return quiet; }
+
 int try_flush_standard_output() {
   static int first = 0;
   errno = 0;

@@ -40,6 +40,8 @@ void claim_files(const std::vector<NamedFile> &inputs, const std::vector<NamedFi
 
 /// From now on what the command prints goes nowhere; outputs named "-" are not affected.
 void be_quiet();
+/// True after be_quiet(): what is said on stderr is what has failed, or where the bus is.
+[[nodiscard]] bool is_quiet();
 
 /// Sees to it that all that was printed has been written; the errno of the first failure so far, 0
 /// if there is none.

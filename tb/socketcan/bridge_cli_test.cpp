@@ -63,6 +63,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"--if a0 --bitrate 2M", "--bitrate"}, Refusal{"--if a0 --nodes 61", "--nodes"},
         Refusal{"--if a0 --nodes 1 --bus x.yaml", "--bus"},
         Refusal{"--if a0 --bus nosuch.yaml", "nosuch.yaml"},
+        Refusal{"--socketcand 0 --echo", "--if"}, Refusal{"--socketcand 0 --queue 9", "--if"},
+        Refusal{"--socketcand 0 --end-when-down", "--end-when-down: needs an interface"},
+        Refusal{"--socketcand 0065535", "'0065535' is not allowed"},
         Refusal{"--socketcand 0 --bitrate 500k --clock 3M", "500000 bit/s"}));
 
 // With CAN in the kernel or without: the interface is named, and what helps.
@@ -83,6 +86,21 @@ TEST(BridgeCommand, SeveralBitRatesNeedAChoice) {
   const Outcome chosen = bridge("--socketcand 0 --bitrate 250k --time 5ms --bus " + path.string());
   EXPECT_EQ(chosen.code, 0) << chosen.output;
   std::filesystem::remove(path);
+}
+
+// A node of the port's name would be the port's, and nobody would acknowledge.
+TEST(BridgeCommand, PlainNodesAreOthersThanThePorts) {
+  const Outcome outcome = bridge("--socketcand 0 --bus-name node0 --fast --time 1ms --json");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("\"node0\""));
+  EXPECT_THAT(outcome.output, HasSubstr("\"node1\""));
+}
+
+TEST(BridgeCommand, QuietItSaysWhereTheBusIsAndNothingElse) {
+  const Outcome outcome = bridge("--socketcand 0 --fast --time 1ms -q");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("socketcand can0 at 127.0.0.1:"));
+  EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 2) << outcome.output;
 }
 
 // A scenario of its own traffic: it runs for the time asked, its expectations decide the exit code.
