@@ -63,6 +63,8 @@ void BusMonitor::count_errors(NodeCounts &counts, std::uint8_t errors) {
 void BusMonitor::on_bit(NodeId node, const BitRecord &bit) {
   NodeCounts &counts = nodes_[node];
   const Trace &after = bit.after;
+  // The node's last frame is settled before its next one, also where no edge on the bus shows it.
+  if (after.start && after.transmitter) advance(bit.time);
   count_errors(counts, after.errors);
   if (after.start) {
     counts.sending = after.transmitter;
