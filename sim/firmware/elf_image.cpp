@@ -214,7 +214,8 @@ void Parser::read_symbols() {
 void Parser::read_symbol_table(const Section &symbols, const Section &names) {
   constexpr unsigned kFunction = 2;
   constexpr std::uint32_t kLongestName = 1024;  // longer ones are cut
-  // Many symbols may have one name: all together are cut where they would be larger than the file.
+  // Many symbols may have one name: where the names together would be larger than the file, they
+  // are cut, the last ones to nothing.
   std::size_t room = bytes_.size();
   for (std::uint32_t at = 0; at + kSymbolSize <= symbols.size; at += kSymbolSize) {
     const std::size_t p = symbols.offset + at;

@@ -90,14 +90,14 @@ TEST(BridgeCommand, SeveralBitRatesNeedAChoice) {
 
 // A node of the port's name would be the port's, and nobody would acknowledge.
 TEST(BridgeCommand, PlainNodesAreOthersThanThePorts) {
-  const Outcome outcome = bridge("--socketcand 0 --bus-name node0 --fast --time 1ms --json");
+  const Outcome outcome = bridge("--socketcand 0 --bus-name node0 --time 1ms --json");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("\"node0\""));
   EXPECT_THAT(outcome.output, HasSubstr("\"node1\""));
 }
 
 TEST(BridgeCommand, QuietItSaysWhereTheBusIsAndNothingElse) {
-  const Outcome outcome = bridge("--socketcand 0 --fast --time 1ms -q");
+  const Outcome outcome = bridge("--socketcand 0 --time 1ms -q");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("socketcand can0 at 127.0.0.1:"));
   EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 2) << outcome.output;
