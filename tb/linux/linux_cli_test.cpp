@@ -43,6 +43,8 @@ TEST_F(LinuxCommand, NamesTheFileThatIsMissing) {
   result = tool("--kernel /bin/true --dtb /dev/null --init /bin/true --preload /no/library");
   EXPECT_EQ(result.error, "verican: --preload: cannot read /no/library\n");
   EXPECT_EQ(tool("--dtb /dev/null --init /bin/true").code, 2);
+  result = kernel("exit 0", "--dir /no/directory");
+  EXPECT_EQ(result.error, "verican: --dir: /no/directory is no directory\n");
   EXPECT_EQ(kernel("exit 0", "--controllers 9").code, 2);
   EXPECT_EQ(kernel("exit 0", "--lean --time-unit").code, 2);
 }
