@@ -22,13 +22,13 @@ struct PlannedFrame {
 /// What a ReplayRole takes from its log.
 struct ReplayPlan {
   std::vector<PlannedFrame> frames;
-  Time recorded = 0;          ///< between the first and the latest of them in the recording
-  Time pass = 0;              ///< in a loop: from the begin of one pass to that of the next
-  Time longest_gap = 0;       ///< in the recording, without a frame for this node
-  std::size_t after_gap = 0;  ///< number of the frame that ends it, from 1
-  std::size_t skipped = 0;    ///< entries of the log that are no classical frames
+  Time recorded = 0;                  ///< between the first and the latest of them in the recording
+  Time pass = 0;                      ///< in a loop: from the begin of one pass to that of the next
+  Time longest_gap = 0;               ///< in the recording, without a frame for this node
+  std::size_t after_gap = 0;          ///< number of the frame that ends it, from 1
+  std::size_t skipped = 0;            ///< entries of the log that are no classical frames
   std::vector<std::string> warnings;  ///< of the file that was read, as in CanLog
-  std::string nothing;        ///< why there is no frame to send; empty if there are some
+  std::string nothing;                ///< why there is no frame to send; empty if there are some
 };
 
 /// Throws InputError if the log cannot be read, or a time leaves what can be simulated.
