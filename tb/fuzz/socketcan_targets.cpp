@@ -169,7 +169,8 @@ void fuzz_words(Bytes input) {
       const can_frame frame = send_frame(words);
       require(canonical(frame), "a frame of the bus");
       if ((frame.can_id & CAN_RTR_FLAG) == 0) require_same_by_command(frame);
-      require(message_text({.frame = frame}).ends_with(" >"), "a message in brackets");
+      for (const char *const separator : {"", " "})
+        require(message_text({.frame = frame}, separator).ends_with(" >"), "a message in brackets");
     } else if (words.name() == "sendrtr") {
       require(canonical(remote_frame(words)), "a frame of the bus");
     } else if (words.name() == "interval") {
