@@ -39,8 +39,19 @@ def families():
     return yaml.safe_load((FOLDER / "families.yaml").read_text(encoding="utf-8"))
 
 
+def code(text):
+    """A file of RTL without comments and what white space they leave."""
+    return re.sub(r"\s+", " ", re.sub(r"//[^\n]*|/\*.*?\*/", " ", text, flags=re.DOTALL)).strip()
+
+
+def modules():
+    """name of module -> its code, of all files of RTL."""
+    return {Path(name).stem: code((ROOT / name).read_text(encoding="utf-8"))
+            for name in rtl_files()}
+
+
 def used(tops, files):
-    """Those of the files, name of module -> text, that the tops name, or what they name."""
+    """Those of the files, name of module -> code, that the tops name, or what they name."""
     wanted, found = set(tops), set()
     while wanted:
         name = wanted.pop()
@@ -52,7 +63,7 @@ def used(tops, files):
 def state(entry):
     """A hash of what a family's figures depend on: RTL, tool, settings, profiles."""
     digest = hashlib.sha256(json.dumps(entry, sort_keys=True).encode())
-    files = {Path(name).stem: (ROOT / name).read_text(encoding="utf-8") for name in rtl_files()}
+    files = modules()
     for name in used({settings(build)[0] for build in BUILDS}, files):
         digest.update(files[name].encode())
     for name in ("sw/profiles.yaml", "tools/synth/families/package-lock.json"):

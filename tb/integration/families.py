@@ -65,15 +65,18 @@ class Families(unittest.TestCase):
 
     def test_only_what_is_measured_counts(self):
         """A node without a processor or a bus wrapper more leaves the page as it is."""
-        files = {"top": "unit u; part p; // see other", "unit": "pkg::Width", "pkg": "", "part": "",
+        files = {"top": "unit u; part p;", "unit": "pkg::Width", "pkg": "", "part": "",
                  "other": "top t; unit u;", "apart": "unit u;"}
-        self.assertEqual(families.used({"top"}, files), ["other", "part", "pkg", "top", "unit"])
-        names = {Path(name).stem: (design.ROOT / name).read_text(encoding="utf-8")
-                 for name in families.rtl_files()}
-        used = families.used({"can_core", "can_ahb"}, names)
+        self.assertEqual(families.used({"top"}, files), ["part", "pkg", "top", "unit"])
+        used = families.used({"can_core", "can_ahb"}, families.modules())
         self.assertLess({"can_pkg", "can_regs_pkg", "can_mb_ram", "can_crc15", "can_time"},
                         set(used))
         self.assertFalse({"can_remote", "can_rn_step", "can_apb", "can_wb"} & set(used))
+
+    def test_comments_do_not_count(self):
+        """A figure does not go stale with a comment, nor is a module measured that one names."""
+        self.assertEqual(families.code("unit u;  // see other\n/* top\nt */ part p;\n"),
+                         "unit u; part p;")
 
     def test_unknown_family_is_told(self):
         code, text = design.run("tools/families.py", "stratix")
