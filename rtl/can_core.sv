@@ -144,10 +144,8 @@ module can_core #(
     .we_i(timer_we_i), .be_i(timer_be_i), .wdata_i(timer_wdata_i), .timer_o
   );
 
-  // The bit timing may end a bit in the first clock in which the engine stands. That sample point
-  // counts for nobody, or a frame would become valid behind a stop that has been acknowledged.
   can_bsp #(.ByteWise(ByteWise)) u_bsp (
-    .clk_i, .rst_ni, .run_i(active_q), .sample_i(sample && active_q), .bit_i(bit_value),
+    .clk_i, .rst_ni, .run_i(active_q), .sample_i(sample), .bit_i(bit_value),
     .stay_i(run_i), .boundary_i(boundary), .judge_i(first_q), .edge_i(edge_seen),
     .lom_i, .lpb_i, .fd_tolerant_i, .boff_rec_i, .ec_clear_i, .ec_we_i, .ec_wdata_i,
     .tx_req_i(tx_req_i && !held), .tx_ide_i, .tx_rtr_i, .tx_dlc_i, .tx_word_i,

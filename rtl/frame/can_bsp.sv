@@ -160,7 +160,9 @@ module can_bsp #(
       start_o    <= sample_i && (take_tx || begin_rx);
       stamp_o    <= sample_i && !bit_i && (take_tx || begin_rx || field_o == can_pkg::FldSof);
       rx_hdr_o   <= sample_i && field_o == can_pkg::FldR0 && !stuff_o && !error;
-      rx_valid_o <= sample_i && field_o == can_pkg::FldEof && left_o == 6'd1 && bit_i;  // VA-01
+      // VA-01. A sample point may fall into the first clock in which the engine stands: no frame
+      // becomes valid behind a stop.
+      rx_valid_o <= run_i && sample_i && field_o == can_pkg::FldEof && left_o == 6'd1 && bit_i;
     end
   end
 
