@@ -179,9 +179,9 @@ module can_mb_move #(
         full_q[unres_row_q] <= 1'b0;
       end
       // The frame that begins needs an empty row. If both are full, the one that came last is lost
-      // unless it is being moved, else the one that waits.
+      // unless it is being moved or replaces the one that waits; then that one is lost.
       if (start_i && stays[smb_o]) begin
-        if (crowded && !(mv_q && row_o == smb_o)) begin
+        if (crowded && !replaces && !(mv_q && row_o == smb_o)) begin
           unres_q       <= 1'b0;
           full_q[smb_o] <= 1'b0;
         end else begin
