@@ -162,7 +162,7 @@ module can_bsp #(
       rx_hdr_o   <= sample_i && field_o == can_pkg::FldR0 && !stuff_o && !error;
       // VA-01. A sample point may fall into the first clock in which the engine stands: no frame
       // becomes valid behind a stop.
-      rx_valid_o <= run_i && sample_i && field_o == can_pkg::FldEof && left_o == 6'd1 && bit_i;
+      rx_valid_o <= sample_i && field_o == can_pkg::FldEof && left_o == 6'd1 && bit_i && run_i;
     end
   end
 
