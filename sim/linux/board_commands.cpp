@@ -118,7 +118,7 @@ std::string Board::observe(const Words &words) {
 }
 
 void Board::close_frame_log() {
-  monitor_->advance(now_);
+  monitor_->settle_all(now_);
   if (!log_) return;
   log_.reset();
   log_file_->commit();
@@ -145,7 +145,7 @@ std::string Board::log(const Words &words) {
 }
 
 std::string Board::report() {
-  monitor_->advance(now_);
+  monitor_->settle_all(now_);
   const Time span = std::max<Time>(now_ - observed_since_, 1);
   std::string text =
       fmt::format("bus frames={} unacked={} errors={} overloads={} load={:.4f} access_errors={}\n",

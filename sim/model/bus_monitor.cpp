@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace vericansim {
@@ -44,8 +45,13 @@ void BusMonitor::advance(Time time) {
   settle(time);
 }
 
+void BusMonitor::settle_all(Time time) {
+  decoder_.finish(time);
+  settle(std::numeric_limits<Time>::max());
+}
+
 void BusMonitor::close(Time time) {
-  advance(time);
+  settle_all(time);
   const std::optional<Time> start = decoder_.under_way();
   if (!start) return;
   hold(*start, time);

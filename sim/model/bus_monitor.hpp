@@ -66,6 +66,9 @@ class BusMonitor : public BusObserver {
   void on_bit(NodeId node, const BitRecord &bit) override;
   /// Lets the decoder see the bus up to `time`. Frames that ended two bits before it are told.
   void advance(Time time);
+  /// The same, without waiting for who may still turn out to have sent the last frame: where time
+  /// is passed over behind it, or nothing more is seen.
+  void settle_all(Time time);
   /// Nothing is seen behind `time`: what is on the bus then has held it up to here, and a flag
   /// without its end counts as an error or overload frame. To be called once.
   void close(Time time);
