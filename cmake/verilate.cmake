@@ -33,6 +33,16 @@ elseif(VERICAN_COVERAGE OR VERICAN_RTL_TRANSFORM AND VERICAN_PLAIN_EDGES)
   set(VERICAN_SHORT_CUTS FALSE)
 endif()
 find_package(Threads REQUIRED)
+# Verilator's run-time library asks whether its atomics are free of locks; clang leaves the answer to
+# libatomic, which is part of GCC.
+include(CheckCXXSourceCompiles)
+check_cxx_source_compiles("#include <atomic>
+  int main(int n, char**) { std::atomic<int> a{n}; return a.is_lock_free() ? 0 : 1; }"
+  VERICAN_ATOMICS_INLINE)
+if(NOT VERICAN_ATOMICS_INLINE)
+  set(VERICAN_ATOMIC atomic)
+  set(VERICAN_ATOMIC_OPTION -latomic)  # for vericansim.pc
+endif()
 
 # The run-time library of all models, once.
 add_library(verilated_runtime STATIC "${VERILATOR_ROOT}/include/verilated.cpp"
@@ -47,7 +57,7 @@ if(VERICAN_COVERAGE)
   target_include_directories(verilated_runtime PUBLIC
                              "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/cmake>")
 endif()
-target_link_libraries(verilated_runtime PUBLIC Threads::Threads)
+target_link_libraries(verilated_runtime PUBLIC Threads::Threads ${VERICAN_ATOMIC})
 if(NOT VERICAN_SHORT_CUTS)
   target_compile_definitions(verilated_runtime PUBLIC VERICAN_PLAIN_EDGES)
 endif()

@@ -20,7 +20,9 @@ ROOT = Path(__file__).resolve().parent.parent
 JOBS = 2
 RECENT = 20   # commits whose sources are in every sample
 PART = 8      # one in so many of the other sources
-PRECOMPILED = re.compile(r" -include \S*/cmake_pch\.hxx")  # by the compiler, for itself alone
+# By the compiler, for itself alone: as g++ is told of it, and clang++.
+PRECOMPILED = re.compile(r"( -Xclang -include-pch -Xclang \S*\.pch -Xclang -include -Xclang"
+                         r"| -include) \S*/cmake_pch\.hxx")
 INCLUDE = re.compile(rb'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 TOGETHER = re.compile(r"/Unity/unity_\w+\.cxx$")  # what verican_unity() compiles in one
 FOR_GCC = re.compile(r" -Wno-subobject-linkage\b")

@@ -167,7 +167,7 @@ Task<> Host::set_up_buffers() {
                       : n >= first_tx_ ? reg::kCodeTxInactive
                                        : 0);
   }
-  co_await node_.ahb().read(reg::kMcr);  // in order, so that all writes are done
+  static_cast<void>(co_await node_.ahb().read(reg::kMcr));  // in order, so that all writes are done
 }
 
 // ---- Service
@@ -197,7 +197,7 @@ Task<> Host::load_frames() {
     if (frame.payload_size() > 0) write(reg::mb(n, 2), frame.data_word(0));
     if (frame.payload_size() > 4) write(reg::mb(n, 3), frame.data_word(4));
     write(reg::mb(n, 1), id_word(frame.id, frame.extended));
-    co_await node_.ahb().write(reg::mb(n), reg::kCodeTxData | format);
+    static_cast<void>(co_await node_.ahb().write(reg::mb(n), reg::kCodeTxData | format));
   }
 }
 
@@ -231,7 +231,7 @@ Task<HostFrame> Host::read_buffer(unsigned mb) {
   const auto low = ahb.submit({.address = reg::mb(mb, 2)});
   const auto high = ahb.submit({.address = reg::mb(mb, 3)});
   write(mb < 32 ? reg::kIflag1 : reg::kIflag2, 1u << (mb % 32));
-  co_await ahb.read(reg::kTimer);
+  static_cast<void>(co_await ahb.read(reg::kTimer));
   HostFrame result;
   result.frame = to_frame(cs, ahb.result(id).data, ahb.result(low).data, ahb.result(high).data);
   result.stamp = cs & 0xFFFF;
@@ -284,7 +284,7 @@ Task<> Host::serve_errors() {
   stats_.esr |= esr;
   if ((esr & reg::kEsrErrInt) != 0) ++stats_.error_interrupts;
   if ((esr & reg::kEsrBoffInt) != 0) ++stats_.bus_off;
-  co_await node_.ahb().write(reg::kEsr, esr & reg::kEsrInterrupts);
+  static_cast<void>(co_await node_.ahb().write(reg::kEsr, esr & reg::kEsrInterrupts));
 }
 
 }  // namespace vericansim

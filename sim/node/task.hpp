@@ -27,8 +27,8 @@ struct TaskPromiseBase {
     bool await_ready() noexcept { return false; }
     template <typename Promise>
     std::coroutine_handle<> await_suspend(std::coroutine_handle<Promise> self) noexcept {
-      const auto awaiting = self.promise().awaiting;
-      return awaiting ? awaiting : std::noop_coroutine();
+      const auto next = self.promise().awaiting;
+      return next ? next : std::noop_coroutine();
     }
     void await_resume() noexcept {}
   };

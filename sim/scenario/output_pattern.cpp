@@ -14,7 +14,7 @@ namespace {
 constexpr auto kFlags =
     std::regex::ECMAScript | std::regex::nosubs | std::regex_constants::__polynomial;
 
-constexpr std::size_t kLongest = 1000;  // parentheses in each other cost stack
+constexpr std::size_t kLongestPattern = 1000;  // parentheses in each other cost stack
 
 /// (?= and (?!, which would look at all of the text behind each letter.
 bool looks_ahead(std::string_view pattern) {
@@ -35,7 +35,7 @@ bool looks_ahead(std::string_view pattern) {
 
 /// The pattern with all that may be before it, so that one pass over the text is enough.
 std::string with_begin(const std::string &pattern) {
-  if (pattern.size() > kLongest || looks_ahead(pattern))
+  if (pattern.size() > kLongestPattern || looks_ahead(pattern))
     throw std::regex_error{std::regex_constants::error_complexity};
   static_cast<void>(std::regex{pattern, kFlags});  // its parentheses are its own
   return "[^]*?(?:" + pattern + ")";

@@ -61,7 +61,7 @@ Task<std::uint32_t> AccessScript::read(std::uint32_t address) {
 
 Task<> AccessScript::write(std::uint32_t address, std::uint32_t data) {
   ++accesses_;
-  co_await node_.ahb().write(address, data);
+  static_cast<void>(co_await node_.ahb().write(address, data));
 }
 
 // False: the rest of the script is not to be done.

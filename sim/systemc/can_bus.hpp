@@ -64,6 +64,7 @@ class CanBus : public sc_core::sc_module {
   /// The simulator's bus that runs loosely timed modules, for its observers and faults.
   [[nodiscard]] Bus &kernel() { return kernel_; }
 
+  using sc_core::sc_module::trace;
   /// Writes the level and all pins to a VCD file.
   void trace(sc_core::sc_trace_file *file);
 

@@ -16,7 +16,7 @@ namespace vericansim::fuzz {
 namespace {
 
 constexpr std::uint32_t kWindow = 0x2000;
-constexpr std::uint8_t kUser = 0b0001, kPrivileged = 0b0011;
+constexpr std::uint8_t kUser = 0b0001;
 
 std::uint32_t draw_address(Random &random) {
   const auto word = [&](std::uint32_t base, std::uint32_t words) {

@@ -20,7 +20,6 @@ namespace vericansim {
 namespace {
 
 constexpr unsigned kReceiver = RxFifoRig::kReceiver, kSender = RxFifoRig::kSender;
-constexpr std::uint32_t kAll = 0xFFFFFFFF;
 
 enum class Hammer { kNone, kRead, kMixed, kLock, kCommand };
 enum class Target { kFirstWord, kLastWord, kLastMailboxes };

@@ -12,7 +12,7 @@ namespace vericansim {
 namespace {
 
 constexpr std::uint32_t kSerial = 0xCAFE1234;
-constexpr unsigned kBits = 8;   // within which an answer is offered
+constexpr unsigned kAnswerBits = 8;  // within which an answer is offered
 constexpr unsigned kAll = 240;  // clocks in which a node with producers has looked at all of them
 
 // As tb/CMakeLists.txt has it.
@@ -110,7 +110,7 @@ void PortLockstep::receive_broken(const Frame &frame, unsigned bytes) {
 
 bool PortLockstep::turn(FramePort::End end) {
   work();
-  for (unsigned bits = 0; bits < kBits && !port_->asks(); ++bits) port_->bit();
+  for (unsigned bits = 0; bits < kAnswerBits && !port_->asks(); ++bits) port_->bit();
   const std::optional<Frame> wanted = model_->wants();
   if (!port_->asks()) {
     if (wanted) differ("offers nothing", "-", text_of(wanted));

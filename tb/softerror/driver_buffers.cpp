@@ -63,7 +63,7 @@ Task<> SoftDriver::activate(unsigned slot) {
     write(VERICAN_TTX_OFFSET, co_await read(VERICAN_TIMELO_OFFSET) + kLaunchIn);
     write(VERICAN_TTXMB_OFFSET, VERICAN_TTXMB_HOLD_MASK | n);
   }
-  co_await node_.ahb().write(reg::mb(n), reg::kCodeTxData | format);
+  static_cast<void>(co_await node_.ahb().write(reg::mb(n), reg::kCodeTxData | format));
 }
 
 Task<> SoftDriver::serve() {
@@ -96,10 +96,10 @@ Task<> SoftDriver::serve_fifo() {
   const auto id = ahb.submit({.address = reg::mb(0, 1)});
   const auto low = ahb.submit({.address = reg::mb(0, 2)});
   const auto high = ahb.submit({.address = reg::mb(0, 3)});
-  co_await ahb.read(reg::kRxfir);
+  static_cast<void>(co_await ahb.read(reg::kRxfir));
   const Frame frame = to_frame(ahb.result(cs).data, ahb.result(id).data, ahb.result(low).data,
                                ahb.result(high).data);
-  co_await ahb.write(reg::kIflag1, reg::kIflagFifo);
+  static_cast<void>(co_await ahb.write(reg::kIflag1, reg::kIflagFifo));
   on_received(frame);
 }
 
@@ -114,7 +114,7 @@ Task<> SoftDriver::serve_mailbox(unsigned mb) {
   const auto low = ahb.submit({.address = reg::mb(mb, 2)});
   const auto high = ahb.submit({.address = reg::mb(mb, 3)});
   write(mb < 32 ? reg::kIflag1 : reg::kIflag2, 1u << (mb % 32));
-  co_await ahb.read(reg::kTimer);
+  static_cast<void>(co_await ahb.read(reg::kTimer));
   const std::uint32_t code = cs & reg::kCodeMask;
   if (code == reg::kCodeRxOverrun) ++overruns_;
   // A flag without a frame, which a driver drops: the buffer was not filled.
@@ -124,7 +124,7 @@ Task<> SoftDriver::serve_mailbox(unsigned mb) {
 
 Task<> SoftDriver::serve_sent(unsigned slot) {
   const std::uint32_t cs = co_await read(reg::mb(kFirstTx + slot));
-  co_await node_.ahb().write(reg::kIflag2, 1u << (kFirstTx + slot - 32));
+  static_cast<void>(co_await node_.ahb().write(reg::kIflag2, 1u << (kFirstTx + slot - 32)));
   // A flag of a buffer that is still to be sent, or of none: cleared, and that is all.
   if (!slots_[slot].busy || (cs & reg::kCodeMask) == reg::kCodeTxData) co_return;
   const FrameTag tag = slots_[slot].tag;

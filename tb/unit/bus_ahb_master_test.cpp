@@ -189,7 +189,7 @@ TEST(AhbChecker, NamesWhatMasterAndSlaveMustNotDo) {
 Task<std::uint32_t> add(AhbMaster &master, std::uint32_t a, std::uint32_t b) {
   const std::uint32_t x = (co_await master.read(a)).data;
   const std::uint32_t y = (co_await master.read(b)).data;
-  co_await master.write(0x80, x + y);
+  static_cast<void>(co_await master.write(0x80, x + y));
   co_return x + y;
 }
 

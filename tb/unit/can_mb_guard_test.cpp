@@ -13,7 +13,7 @@
 namespace vericansim {
 namespace {
 
-constexpr unsigned kCs = 0, kMsg = 1, kAbort = 0x9, kActive = 0xC, kAnswer = 0xE;
+constexpr unsigned kCs = 0, kMsg = 1, kAbort = 0x9, kActive = 0xC;
 
 class MbGuard : public ::testing::Test {
  protected:
