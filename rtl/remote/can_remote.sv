@@ -508,7 +508,7 @@ module can_remote #(
       .order_o(order), .again_o(again), .over_o(excess), .part_o(part), .claims_o(claims),
       .want_o(block_want), .next_o(block_job), .begun_o(begun), .then_o(block_then),
       .on_o(add_on), .closes_o(closes), .timeout_o(timeout), .code_o(shown),
-      .own_o(block_own), .cell_o(block_cell), .re_o(), .we_o(block_we),
+      .own_o(block_own), .cell_o(block_cell), .we_o(block_we),
       .no_write_o(block_no_write), .add_o(add), .less_o(block_less), .more_o(block_more)
     );
   end

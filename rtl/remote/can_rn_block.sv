@@ -59,7 +59,6 @@ module can_rn_block #(
   output logic [3:0]       code_o,       // code to store: of the request, or of the end
   output logic             own_o,        // cell_o replaces the byte of the row
   output logic [8:0]       cell_o,       // byte to read or write; 0: none
-  output logic             re_o,         // JobFetch reads
   output logic             we_o,         // JobClose writes
   output logic             no_write_o,   // clock is 0: no write
   output logic [2:0]       add_o,        // added to the byte read
@@ -189,17 +188,23 @@ module can_rn_block #(
   // JobAdd are address, bytes done, bytes left, and sequence number with clock.
   logic [2:0] moved;
   assign moved = write_q ? end_i - 3'd1 : few_q ? left_q : 3'd7;
-  // Registered a clock before its use: the bytes left change in the clock of the addition.
-  logic [2:0] add_q;
-  assign add_o = add_q;
+  // Kept until they have been added: the length of the frame changes when the node begins to send
+  // an answer that waits, the bytes left with the third round.
+  logic [2:0] moved_q;
+  logic       adds_q;
+  assign add_o = moved_q & {3{adds_q}};
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) add_q <= '0;
-    else         add_q <= moved & {3{add && !round3 && phase_i == 2'd1}};
+    if (!rst_ni) begin
+      moved_q <= '0;
+      adds_q  <= 1'b0;
+    end else begin
+      if (!advance_q) moved_q <= moved;
+      adds_q <= add && !round3 && phase_i == 2'd1;
+    end
   end
   assign less_o = (add && turn_q == 2'd2) || key || tick;
   assign more_o = add && (last ? sum_i[8] && !round3 : turn_q == 2'd2 || (round3 && !open_q));
   assign no_write_o = tick && zero_i;
-  assign re_o       = aim && phase_i == 2'd0;
   assign we_o       = close;
 
   function automatic logic [8:0] var_cell(input logic [2:0] index);

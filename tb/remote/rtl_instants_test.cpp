@@ -235,8 +235,55 @@ class RtlBlocks : public ::testing::Test {
     ASSERT_TRUE(bus.bus.run_until(said, 2 * kBar)) << answer;
   }
 
+  /// Requests `frames`, each `pause` bits behind the end of EOF6 of the one before.
+  void request(const std::vector<Frame> &frames, unsigned pause) {
+    for (const Frame &frame : frames) {
+      bus.places.valid = 0;
+      bus.host.request(frame);
+      ASSERT_TRUE(bus.bus.run_until([&] { return bus.places.valid != 0; }, kBar));
+      bus.run_bits(pause);
+    }
+  }
+  /// Writes two frames of seven bytes and one of `last` without waiting for BLOCK's answer,
+  /// `between` behind BLOCK. All of it arrives, and the last answer says so.
+  void write_at_once(unsigned last, unsigned pause, const std::vector<Frame> &between) {
+    SCOPED_TRACE(::testing::Message() << "last " << last << ", pause " << pause);
+    constexpr unsigned kAt = 0x100;
+    const unsigned count = 2 * kPart + last, first = 0x100 * ++writes;  // part() has 8 bits of seq
+    Frame block{0x1FA, false, false, 7, {2, 0xA1, 0, kAt >> 8, static_cast<std::uint8_t>(count)}};
+    std::vector<Frame> frames{block};
+    frames.insert(frames.end(), between.begin(), between.end());
+    for (unsigned i = 0; i < 3; ++i) frames.push_back(part(first + i));
+    frames.back().dlc = static_cast<std::uint8_t>(1 + last);
+    bus.host.received().clear();
+    request(frames, pause);
+    Frame done{0x5FA, false, false, 6, {2, 0xA1, 0, 0, static_cast<std::uint8_t>(count)}};
+    wait_for(candump_frame(done));
+    for (unsigned i = 0; i < count; ++i)
+      ASSERT_EQ(bus.node().peek(kAt + i), byte(first * kPart + i)) << "byte " << i;
+  }
+
   RtlBus bus{rtl_unit(3, RemoteConfig::profile("full"))};
+  unsigned writes = 0;
 };
+
+// RN-41: what DATA moves is counted by its own length, also if an answer waits meanwhile, which the
+// node begins to send right behind DATA: it loses against DATA, wins, or has the bus alone.
+TEST_F(RtlBlocks, DataBeforeTheAnswerOfBlock) {
+  for (unsigned last = 1; last <= kPart; ++last)
+    for (unsigned pause = 0; pause <= 8; ++pause)
+      ASSERT_NO_FATAL_FAILURE(write_at_once(last, pause, {}));
+}
+
+// The same where answers of any length wait.
+TEST_F(RtlBlocks, DataBeforeTheAnswerOfAnotherCommand) {
+  for (unsigned length = 1; length <= 8; ++length)
+    for (unsigned last = 1; last <= kPart; ++last) {
+      SCOPED_TRACE(length);
+      const Frame read = frame_of("1A0#R" + std::to_string(length));
+      ASSERT_NO_FATAL_FAILURE(write_at_once(last, 0, {read}));
+    }
+}
 
 // RN-44: written and read back, each within the bar from the request on.
 TEST_F(RtlBlocks, AllOfTheMemoryInTime) {

@@ -53,6 +53,8 @@
       p_room: assert (!(want_o && next_o == can_rn_pkg::JobFetch && answer_q) || !full_i);
       // RN-07, RN-42: nothing is made off the bus or without a number.
       p_ready: assert (!(want_o && next_o == can_rn_pkg::JobFetch) || ready_i);
+      // RN-41: what was moved is added as it was, whatever the engine shows meanwhile.
+      p_moved: assert (!$past(advance_q) || moved_q == $past(moved_q));
       // RN-40: 1 to 7 bytes and the seq, or six bytes of an answer.
       p_length: assert (length_o >= (answer_q ? 4'd6 : 4'd1) && length_o <= 4'd8);
     end
