@@ -43,7 +43,7 @@ Frame random_frame(Dice &dice) {
 }
 
 StartCounters random_counters(Dice &dice) {
-  constexpr std::uint8_t kLimits[] = {0, 95, 96, 119, 120, 127, 128, 247, 248, 255};
+  static constexpr std::uint8_t kLimits[] = {0, 95, 96, 119, 120, 127, 128, 247, 248, 255};
   const auto value = [&dice] {
     return static_cast<std::uint8_t>(dice.one_in(2) ? kLimits[dice.below(10)] : dice.below(256));
   };
