@@ -31,6 +31,16 @@ elseif(VERICAN_COVERAGE OR VERICAN_RTL_TRANSFORM AND VERICAN_PLAIN_EDGES)
   # The short cuts look at members that do not exist in a model that counts; what they pass over
   # would not be counted either.
   set(VERICAN_SHORT_CUTS FALSE)
+else()
+  include("${CMAKE_CURRENT_LIST_DIR}/short_cuts.cmake")
+  set(short_cuts "${PROJECT_SOURCE_DIR}/sim/node/short_cuts.txt")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${short_cuts}" ${VERICAN_RTL})
+  file(READ "${short_cuts}" proven)
+  verican_short_cuts_fit(VERICAN_SHORT_CUTS "${proven}" ${VERICAN_RTL})
+  if(NOT VERICAN_SHORT_CUTS)
+    message(STATUS "The RTL is not the one that the simulator's short cuts are proven for: every "
+                   "clock is evaluated, which is slower (cmake/short_cuts.cmake)")
+  endif()
 endif()
 find_package(Threads REQUIRED)
 # Verilator's run-time library asks whether its atomics are free of locks; clang leaves the answer to
