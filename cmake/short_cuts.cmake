@@ -5,7 +5,7 @@
 # does. sim/node/short_cuts.txt has the digest of the text that they are proven for; models of any
 # other are clocked plainly, so that what is simulated is always the RTL as it stands.
 #
-# verican_short_cuts_fit(<result> <text of the list> <RTL file>...): TRUE if the list has their digest.
+# verican_short_cuts_fit(<result> <text of that file> <RTL file>...): TRUE if it has their digest.
 #
 # Script, after a change of the RTL: cmake -P cmake/short_cuts.cmake
 # writes the digest of the RTL as it is; the tests that short_cuts.txt names prove it.
@@ -41,5 +41,5 @@ if(CMAKE_SCRIPT_MODE_FILE STREQUAL CMAKE_CURRENT_LIST_FILE)
   file(READ "${list}" text)
   string(REGEX REPLACE "(^|\n)[0-9a-f]+\n" "\\1${digest}\n" text "${text}")
   file(WRITE "${list}" "${text}")
-  message(STATUS "${list}: ${digest}; run bus_rest_test, bus_quiet_engine_test, bus_transmit_scan_test")
+  message(STATUS "${list}: ${digest}; now run the tests that it names")
 endif()

@@ -43,8 +43,8 @@ else()
   endif()
 endif()
 find_package(Threads REQUIRED)
-# Verilator's run-time library asks whether its atomics are free of locks; clang leaves the answer to
-# libatomic, which is part of GCC.
+# Verilator's run-time library asks whether its atomics are free of locks; clang leaves the answer
+# to libatomic, which is part of GCC.
 include(CheckCXXSourceCompiles)
 check_cxx_source_compiles("#include <atomic>
   int main(int n, char**) { std::atomic<int> a{n}; return a.is_lock_free() ? 0 : 1; }"
