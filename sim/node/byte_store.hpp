@@ -16,10 +16,13 @@ namespace vericansim {
 /// RAM is written, undo() puts the host side back to before the pulse and has it see it. Proven
 /// member by member in tb/system/bus_transmit_scan_test.cpp.
 ///
-/// Needs the members that Verilator 5.006 gives the model; without them begin() is always false.
+/// Needs the members that Verilator 5.006 gives the model; without them (in_force() false) begin()
+/// is always false.
 template <typename Root, typename Ports>
 class ByteStore {
  public:
+  [[nodiscard]] static constexpr bool in_force() { return kKnown<Root>; }
+
   /// The engine hands a byte over, nothing else has changed and the model rests: it is stored.
   template <typename Core>
   bool begin(const Core &core, Root &root) {
@@ -42,7 +45,7 @@ class ByteStore {
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_smb__DOT__count_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__rd_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__wr_q;
-    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__we;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__cpu_wr_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__msg_raddr;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__u_msg__DOT__mem;
     root.__VstlTriggered;
@@ -57,7 +60,7 @@ class ByteStore {
             root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_smb__DOT__byte_q |
             root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__rd_q |
             root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__wr_q |
-            root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__we) == 0;
+            root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__cpu_wr_q) == 0;
   }
 
   template <typename Core, typename R>

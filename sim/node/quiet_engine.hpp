@@ -27,12 +27,18 @@ namespace vericansim {
 ///
 /// An engine with the time unit is quiet while that one only counts, too (TimedEngine).
 ///
-/// Needs the members that Verilator 5.006 gives the model; without them nothing is ever quiet.
+/// Needs the members that Verilator 5.006 gives the model; without them (in_force() false) nothing
+/// is ever quiet.
 class QuietEngine {
  public:
   /// Edges from the clock that shows a sample point, a boundary or a synchronising edge until all
   /// has followed.
   static constexpr unsigned kSettle = 2;
+
+  template <typename Engine>
+  [[nodiscard]] static constexpr bool in_force() {
+    return kKnown<std::remove_reference_t<decltype(*std::declval<Engine &>().rootp)>>;
+  }
 
   /// After each edge of `engine` that was evaluated, before what is disturbed() by it.
   template <typename Engine>

@@ -66,6 +66,9 @@ class TimedEngine : public Vcan_core_time {
     return still_ && stamp_rests(*unit_.rootp) ? rest_ - behind_ : 0;
   }
 
+  /// Whether the unit ever rests: not if the model lacks members that are looked at.
+  [[nodiscard]] static constexpr bool in_force() { return kKnown<Root>; }
+
   /// `edges` of them have passed, with the levels of now.
   void pass_time(std::uint64_t edges) {
     if (edges == 0) return;

@@ -18,10 +18,13 @@ namespace vericansim {
 /// indices on; they are found out by what two clocks have left as it was, and done at once. Proven
 /// member by member in tb/system/bus_transmit_scan_test.cpp.
 ///
-/// Needs the members that Verilator 5.006 gives the model; without them there is none of it.
+/// Needs the members that Verilator 5.006 gives the model; without them (in_force() false) there is
+/// none of it.
 template <typename Root>
 class TransmitScan {
  public:
+  [[nodiscard]] static constexpr bool in_force() { return kKnown<Root>; }
+
   /// Clocks to come that only move the pass on, as long as no input of the model changes.
   /// `before`: the model's bytes as they were before the last two clocks; they are written to.
   [[nodiscard]] static std::uint64_t clocks(unsigned char *before, const Root &after) {

@@ -28,6 +28,7 @@
 #include "node/host.hpp"
 #include "node/model_edge.hpp"
 #include "node/model_pins.hpp"
+#include "node/quiet_engine.hpp"
 #include "node/rtl_node.hpp"
 #include "node/split_core.hpp"
 #include "node/timed_engine.hpp"
@@ -213,6 +214,24 @@ TEST_P(TransmitScanTest, SameMembersWithTheTimeUnit) {
 }
 
 TEST_P(TransmitScanTest, SameBuffersWithBytesLeftOut) { run<Vcan_host32>(GetParam(), 32, true); }
+
+// A member that a change of the RTL has renamed or removed turns a short cut off, silently.
+template <typename Model, typename Ports, typename Engine>
+void expect_short_cuts() {
+  using Root = std::remove_reference_t<decltype(*std::declval<Model &>().rootp)>;
+  EXPECT_TRUE(TransmitScan<Root>::in_force());
+  EXPECT_TRUE((ByteStore<Root, Ports>::in_force()));
+  EXPECT_TRUE(QuietEngine::in_force<Engine>());
+  if constexpr (kHasTimeUnit<Engine>) EXPECT_TRUE(Engine::in_force());
+}
+
+TEST(ShortCutsTest, AreInForceInEachModel) {
+  if (kPlainEdges) GTEST_SKIP() << "models without short cuts";
+  expect_short_cuts<Vcan_host16, AhbPorts, Vcan_core>();
+  expect_short_cuts<Vcan_host32, AhbPorts, Vcan_core>();
+  expect_short_cuts<Vcan_host64, AhbPorts, Vcan_core>();
+  expect_short_cuts<Vcan_host64_time, AhbTimePorts, TimedEngine>();
+}
 
 INSTANTIATE_TEST_SUITE_P(Cases, TransmitScanTest, ::testing::ValuesIn(kCases),
                          [](const auto &each) { return std::string{each.param.name}; });
