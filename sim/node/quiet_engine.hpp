@@ -22,8 +22,9 @@ namespace vericansim {
 /// point or a bit boundary, within one of an edge that synchronises; after that, until the next of
 /// them, these only count and follow (rtl/bit/can_tq_gen.sv, can_bit_timing.sv). After a sample
 /// point that raised no pulse the second of its edges does no more than forget the sample point,
-/// which pass() does. Proven bit by bit in tb/system/bus_rest_test.cpp, member by member in
-/// bus_quiet_engine_test.cpp.
+/// which pass() does; within a frame so it does what the first edge of a bit does, in which the bit
+/// is judged (rtl/frame/can_error.sv). Proven bit by bit in tb/system/bus_rest_test.cpp, member by
+/// member in bus_quiet_engine_test.cpp.
 ///
 /// An engine with the time unit is quiet while that one only counts, too (TimedEngine).
 ///
@@ -38,6 +39,11 @@ class QuietEngine {
   template <typename Engine>
   [[nodiscard]] static constexpr bool in_force() {
     return kKnown<std::remove_reference_t<decltype(*std::declval<Engine &>().rootp)>>;
+  }
+  /// Whether the first edge of a bit, too, is done in closed form.
+  template <typename Engine>
+  [[nodiscard]] static constexpr bool judges() {
+    return kJudges<std::remove_reference_t<decltype(*std::declval<Engine &>().rootp)>>;
   }
 
   /// After each edge of `engine` that was evaluated, before what is disturbed() by it.
@@ -81,7 +87,7 @@ class QuietEngine {
   }
 
   /// The next edge begins a bit, within a frame, for which a receiver stays recessive: nothing but
-  /// the place in the bit moves. The edge after it judges the new bit and is to be evaluated.
+  /// the place in the bit moves.
   template <typename Engine>
   [[nodiscard]] bool crosses_boundary(const Engine &engine) const {
     return to_settle_ == kSettle && !disturbed_ && edges_of_time(engine) != 0 &&
@@ -126,6 +132,27 @@ class QuietEngine {
     root.can_core__DOT__u_bsp__DOT__u_fault__DOT__recovered_q;
   };
 
+  // An engine with ByteWise = 1 judges its bits itself.
+  template <typename Root>
+  static constexpr bool kJudges = kKnown<Root> && requires(Root & root) {
+    root.can_core__DOT__stuff;
+    root.can_core__DOT__u_bsp__DOT__ends;
+    root.can_core__DOT__u_bsp__DOT__prev;
+    root.can_core__DOT__u_bsp__DOT__mismatch;
+    root.can_core__DOT__u_bsp__DOT__u_field__DOT__last_q;
+    root.can_core__DOT__u_bsp__DOT__u_field__DOT__join_q;
+    root.can_core__DOT__u_bsp__DOT__u_field__DOT__free_r_q;
+    root.can_core__DOT__u_bsp__DOT__u_field__DOT__free_d_q;
+    root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__load;
+    root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__load_q;
+    root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__high_q;
+    root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__low_q;
+    root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__take;
+    root.can_core__DOT__u_bsp__DOT__u_error__DOT__error_d_q;
+    root.can_core__DOT__u_bsp__DOT__u_error__DOT__error_r_q;
+    root.can_core__DOT__u_bsp__DOT__u_error__DOT__judge__DOT__saw_d;
+  };
+
   template <typename Engine>
   void clocked_(const Engine &engine) {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
@@ -141,7 +168,8 @@ class QuietEngine {
         --to_settle_;
       else if (synchronises)
         to_settle_ = 1;
-      if (to_settle_ == 1 && !synchronises && quiet_sample(engine)) to_settle_ = 0;
+      if (to_settle_ == 1 && !synchronises && (quiet_sample(engine) || only_judges(engine)))
+        to_settle_ = 0;
     }
   }
 
@@ -149,6 +177,21 @@ class QuietEngine {
   template <typename Engine>
   static bool quiet_sample(const Engine &engine) {
     return engine.rootp->can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q != 0 && !pulses(engine);
+  }
+
+  // The edge after this one is the first of a bit of a frame: all that it does is to judge it.
+  template <typename Engine>
+  static bool only_judges(const Engine &engine) {
+    using Root = std::remove_reference_t<decltype(*engine.rootp)>;
+    if constexpr (kJudges<Root>) {
+      const auto &root = *engine.rootp;
+      const Field field = trace_field(root.trace_o);
+      return root.can_core__DOT__first_q != 0 && field >= Field::kSof && field <= Field::kEof &&
+             (root.run_i & root.can_core__DOT__active_q) != 0 &&
+             root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q == 0 && !pulses(engine);
+    } else {
+      return false;
+    }
   }
 
   // Something is to be cleared again.
@@ -249,11 +292,13 @@ class QuietEngine {
   void pass_(Engine &engine, std::uint64_t edges) {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       auto &root = *engine.rootp;
+      const bool judges = root.can_core__DOT__first_q != 0;
       count(engine, edges);
-      const bool shows = root.can_core__DOT__u_bit_timing__DOT__falling != 0 || quanta(engine) == 0;
-      if (root.can_core__DOT__active_q == 0 || root.can_core__DOT__tq == 0 || !shows) return;
-      verican_follow(&root);
-      clocked_(engine);
+      const bool shows =
+          root.can_core__DOT__active_q != 0 && root.can_core__DOT__tq != 0 &&
+          (root.can_core__DOT__u_bit_timing__DOT__falling != 0 || quanta(engine) == 0);
+      if (shows || judges) verican_follow(&root);
+      if (shows) clocked_(engine);
     }
   }
 
@@ -274,11 +319,11 @@ class QuietEngine {
     }
   }
 
-  // No quantum ends, the level stays and no sample point is to be forgotten: what is combinational
-  // has nothing to follow.
+  // No quantum ends, the level stays, no sample point is to be forgotten and no bit to be judged:
+  // what is combinational has nothing to follow.
   template <typename Root>
   static bool between_quanta(const Root &root) {
-    return root.can_core__DOT__tq == 0 &&
+    return root.can_core__DOT__tq == 0 && root.can_core__DOT__first_q == 0 &&
            root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q == 0 &&
            root.can_core__DOT__u_sync__DOT__settled_q == root.can_core__DOT__u_sync__DOT__meta_q;
   }
@@ -301,6 +346,7 @@ class QuietEngine {
       pass_time(engine, edges);
       forget_sample(root);
       if (root.can_core__DOT__active_q == 0) return;
+      if (root.can_core__DOT__first_q != 0) judge(root);
       const Place place = place_of(engine);
       auto &count = root.can_core__DOT__u_tq_gen__DOT__gen_divide__DOT__count_q;
       if (edges < place.to_tick) {
@@ -331,6 +377,71 @@ class QuietEngine {
     root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q = 0;
     if constexpr (requires { root.can_core__DOT__u_bsp__DOT__sampled_q; })
       root.can_core__DOT__u_bsp__DOT__sampled_q = 0;
+  }
+
+  // What the first edge of a bit does within a frame (only_judges()): rtl/frame/can_error.sv, and
+  // the registers of can_field.sv and can_rx_frame.sv.
+  template <typename Root>
+  static void judge(Root &root) {
+    if constexpr (kJudges<Root>) {
+      const Field field = trace_field(root.trace_o);
+      judge_level(root, field);
+      root.can_core__DOT__first_q = 0;
+      root.can_core__DOT__u_bsp__DOT__u_field__DOT__last_q = root.can_core__DOT__u_bsp__DOT__ends;
+      root.can_core__DOT__u_bsp__DOT__u_field__DOT__join_q = 0;
+      root.can_core__DOT__u_bsp__DOT__u_field__DOT__free_r_q = 0;
+      root.can_core__DOT__u_bsp__DOT__u_field__DOT__free_d_q = 0;
+      const bool stuff = root.can_core__DOT__stuff != 0;
+      const bool load =
+          root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__load != 0 && !stuff;
+      const bool data = field == Field::kData && !stuff;
+      root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__load_q = load;
+      root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__high_q =
+          load || data || (field == Field::kId && !stuff);
+      root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__low_q =
+          load || data || (field == Field::kExId && !stuff);
+      root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__take = load;
+    }
+  }
+
+  // Which errors the bit has, if it is dominant and if it is recessive. Verilator keeps the
+  // variables of that block, too.
+  template <typename Root>
+  static void judge_level(Root &root, Field field) {
+#define VERICAN_JUDGE(name) root.can_core__DOT__u_bsp__DOT__u_error__DOT__##name
+    const bool sender = root.transmitter_o != 0, stuff = root.can_core__DOT__stuff != 0;
+    const bool ends = root.can_core__DOT__u_bsp__DOT__ends != 0;
+    const bool prev = root.can_core__DOT__u_bsp__DOT__prev != 0;
+    const bool sent = root.can_core__DOT__tx_q != 0;
+    const unsigned group = static_cast<unsigned>(field) >> 3;  // 1: arbitration
+    const bool saw_d = sender && sent, arbitration = group == 1, foreign_stuff = stuff && !sender;
+    const bool end_counts = field == Field::kEof && (!ends || sender);
+    const bool fixed =
+        (field == Field::kCrcDel && !stuff) || field == Field::kAckDel || end_counts;
+    const bool overload = field == Field::kEof && !end_counts;
+    const bool bit1 = saw_d && !arbitration && (stuff || group == 2);
+    const bool exempt = saw_d && arbitration && stuff, stuff_d = foreign_stuff && !prev;
+    const bool ack = field == Field::kAck && sender && root.lpb_i == 0;
+    const bool crc =
+        field == Field::kAckDel && root.can_core__DOT__u_bsp__DOT__mismatch != 0 && !sender;
+    const bool stuff_r = foreign_stuff && prev;
+    VERICAN_JUDGE(judge__DOT__saw_d) = saw_d;
+    VERICAN_JUDGE(judge__DOT__arbitration) = arbitration;
+    VERICAN_JUDGE(judge__DOT__foreign_stuff) = foreign_stuff;
+    VERICAN_JUDGE(judge__DOT__fixed) = VERICAN_JUDGE(form_q) = fixed;
+    VERICAN_JUDGE(judge__DOT__overload) = VERICAN_JUDGE(overload_q) = overload;
+    VERICAN_JUDGE(judge__DOT__bit1) = VERICAN_JUDGE(bit1_q) = bit1;
+    VERICAN_JUDGE(judge__DOT__exempt) = VERICAN_JUDGE(exempt_q) = exempt;
+    VERICAN_JUDGE(judge__DOT__stuff_d) = stuff_d;
+    VERICAN_JUDGE(judge__DOT__bit0) = VERICAN_JUDGE(bit0_q) = !sent;
+    VERICAN_JUDGE(judge__DOT__ack) = VERICAN_JUDGE(ack_q) = ack;
+    VERICAN_JUDGE(judge__DOT__crc) = VERICAN_JUDGE(crc_q) = crc;
+    VERICAN_JUDGE(judge__DOT__stuff_r) = VERICAN_JUDGE(stuff_r_q) = stuff_r;
+    VERICAN_JUDGE(stuff_d_q) = stuff_d || exempt;
+    VERICAN_JUDGE(lost_q) = saw_d && arbitration && !stuff;
+    VERICAN_JUDGE(error_d_q) = bit1 || fixed || stuff_d || exempt;
+    VERICAN_JUDGE(error_r_q) = !sent || ack || crc || stuff_r;
+#undef VERICAN_JUDGE
   }
 
   static constexpr std::uint64_t kStopped = ~0ULL >> 1;  // until an input changes

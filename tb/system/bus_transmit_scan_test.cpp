@@ -222,6 +222,7 @@ void expect_short_cuts() {
   EXPECT_TRUE(TransmitScan<Root>::in_force());
   EXPECT_TRUE((ByteStore<Root, Ports>::in_force()));
   EXPECT_TRUE(QuietEngine::in_force<Engine>());
+  EXPECT_TRUE(QuietEngine::judges<Engine>());
   if constexpr (kHasTimeUnit<Engine>) EXPECT_TRUE(Engine::in_force());
 }
 
