@@ -17,7 +17,8 @@
 namespace vericansim {
 
 /// Watches an engine edge by edge, says how many edges to come only count quanta and positions, and
-/// does them at once, up to the one that makes a sample point or a boundary show. Everything but
+/// does them at once, up to the one that makes a sample point or a boundary show; up to the sample
+/// point, if the boundary before it begins a bit of the frame in which the node keeps its level. Everything but
 /// prescaler, position and the levels of the last quanta moves within kSettle edges of a sample
 /// point or a bit boundary, within one of an edge that synchronises; after that, until the next of
 /// them, these only count and follow (rtl/bit/can_tq_gen.sv, can_bit_timing.sv). After a sample
@@ -60,11 +61,13 @@ class QuietEngine {
 
   /// Edges to come that only count, as long as no input changes. The last one makes the sample
   /// point, the boundary or the edge show, at which more happens in the one after it; `watched`:
-  /// that one is not among them.
+  /// that one is not among them, nor any boundary.
   template <typename Engine>
   [[nodiscard]] std::uint64_t edges(const Engine &engine, bool watched) const {
-    const std::uint64_t counting =
-        pin_settled(engine) ? std::min(counting_(engine), edges_of_time(engine)) : 0;
+    std::uint64_t counting = pin_settled(engine) ? counting_(engine) : 0;
+    if (counting == 0) return 0;
+    if (!watched) counting += beyond_boundary(engine);
+    counting = std::min(counting, edges_of_time(engine));
     return watched && counting != 0 ? counting - 1 : counting;
   }
 
@@ -86,7 +89,7 @@ class QuietEngine {
     clock_lightly_(engine, rx, false);
   }
 
-  /// The next edge begins a bit, within a frame, for which a receiver stays recessive: nothing but
+  /// The next edge begins a bit, within a frame, for which the node keeps its level: nothing but
   /// the place in the bit moves.
   template <typename Engine>
   [[nodiscard]] bool crosses_boundary(const Engine &engine) const {
@@ -148,6 +151,8 @@ class QuietEngine {
     root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__high_q;
     root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__low_q;
     root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__take;
+    root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__shift_q;
+    root.can_core__DOT__u_bsp__DOT__u_crc15__DOT__crc_q;
     root.can_core__DOT__u_bsp__DOT__u_error__DOT__error_d_q;
     root.can_core__DOT__u_bsp__DOT__u_error__DOT__error_r_q;
     root.can_core__DOT__u_bsp__DOT__u_error__DOT__judge__DOT__saw_d;
@@ -212,17 +217,71 @@ class QuietEngine {
   static bool crosses_boundary_(const Engine &engine) {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       const auto &root = *engine.rootp;
-      const Trace trace = decode_trace(root.trace_o);
-      const bool own_level = trace.transmitter || trace.field == Field::kAck ||
-                             trace.field == Field::kErrFlag || trace.field == Field::kOvlFlag;
+      const bool boundary = (root.trace_o & kTraceBoundary) != 0;
       const unsigned busy = root.can_core__DOT__first_q |
                             root.can_core__DOT__u_bit_timing__DOT__falling |
                             root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q;
-      return trace.boundary && trace.field >= Field::kSof && !own_level && busy == 0 &&
-             !pulses(engine) && root.can_core__DOT__tx_q != 0 && root.rx_req_i == 0 &&
+      return boundary && busy == 0 && keeps_level(root) && !pulses(engine) && root.rx_req_i == 0 &&
              (root.run_i & root.can_core__DOT__active_q) != 0;
     } else {
       return false;
+    }
+  }
+
+  // The next boundary is one of a frame and changes neither the level that the node sends nor the
+  // pin.
+  template <typename Root>
+  static bool keeps_level(const Root &root) {
+    const Field field = trace_field(root.trace_o);
+    if (field < Field::kSof || field == Field::kErrFlag || field == Field::kOvlFlag) return false;
+    const unsigned level = root.can_core__DOT__tx_q;
+    if constexpr (kJudges<Root>) {
+      return next_level(root, field) == (level != 0) &&
+             root.can_tx_o == (level | root.lom_i | root.lpb_i);
+    } else {
+      return root.transmitter_o == 0 && field != Field::kAck && level != 0;
+    }
+  }
+
+  // The level that it sends from the next boundary on, in a frame or a delimiter.
+  template <typename Root>
+  static bool next_level(const Root &root, Field field) {
+    const bool sender = root.transmitter_o != 0;
+    if (field == Field::kAck)
+      return sender || root.can_core__DOT__u_bsp__DOT__mismatch != 0 || root.lom_i != 0;
+    if (!sender || field > Field::kCrcDel) return true;
+    if (root.can_core__DOT__stuff != 0) return root.can_core__DOT__u_bsp__DOT__prev == 0;
+    const std::uint32_t shift =
+        root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__shift_q;
+    switch (field) {
+      case Field::kId: return (shift >> 28 & 1) != 0;
+      case Field::kRtr: return (root.rx_rtr_o | root.rx_ide_o) != 0;
+      case Field::kIde: return root.rx_ide_o != 0;
+      case Field::kExId: return (shift >> 17 & 1) != 0;
+      case Field::kExRtr: return root.rx_rtr_o != 0;
+      case Field::kDlc: return (root.rx_dlc_o >> 3 & 1) != 0;
+      case Field::kData: return shift >> 31 != 0;
+      case Field::kCrc:
+        return (root.can_core__DOT__u_bsp__DOT__u_crc15__DOT__crc_q >> 14 & 1) != 0;
+      case Field::kCrcDel: return true;
+      default: return false;  // SOF, r1, r0
+    }
+  }
+
+  // Edges from the boundary that counting_() goes up to on, to the sample point behind it, if
+  // nothing else happens up to there.
+  template <typename Engine>
+  static std::uint64_t beyond_boundary(const Engine &engine) {
+    using Root = std::remove_reference_t<decltype(*engine.rootp)>;
+    if constexpr (kJudges<Root>) {
+      const auto &root = *engine.rootp;
+      if (root.can_core__DOT__u_bit_timing__DOT__seg2_q == 0 ||
+          trace_field(root.trace_o) > Field::kEof || quanta(engine) == 0 || !keeps_level(root) ||
+          pulses(engine) || (root.run_i & root.can_core__DOT__active_q) == 0 || root.rx_req_i != 0)
+        return 0;
+      return (root.can_core__DOT__u_bit_timing__DOT__tseg1_q + 1U) * (root.presdiv_i + 1U);
+    } else {
+      return 0;
     }
   }
 
@@ -292,8 +351,20 @@ class QuietEngine {
   void pass_(Engine &engine, std::uint64_t edges) {
     if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       auto &root = *engine.rootp;
+      if (root.can_core__DOT__u_bit_timing__DOT__seg2_q != 0) {
+        // None before the boundary that shows already, where an earlier pass_() has ended.
+        const std::uint64_t before = counting_(engine);
+        if (edges > before) {
+          if (before != 0) count(engine, before);
+          const unsigned pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
+          count(engine, 1);
+          begin_bit(engine, pos);
+          to_settle_ = 0;
+          edges -= before + 1;
+        }
+      }
       const bool judges = root.can_core__DOT__first_q != 0;
-      count(engine, edges);
+      if (edges != 0) count(engine, edges);
       const bool shows =
           root.can_core__DOT__active_q != 0 && root.can_core__DOT__tq != 0 &&
           (root.can_core__DOT__u_bit_timing__DOT__falling != 0 || quanta(engine) == 0);
