@@ -30,13 +30,14 @@ The others are plainly Verilated. The lead comes from the split of engine and ho
 that are passed over, not from the RTL: one plain model of `can_ahb` does 2.7 to 3.2.
 """
 
-# The shares: sampled once, saturated_bus/nodes:2/MHz:80/drift:1. The evaluations: counted once.
-SHARES = """Of the time of two saturated nodes with clocks of their own, sampled at 80 MHz, the
-engine's model has 33 %, the host side's 27 %, the bus 15 %, the rest is what ties them together. At
-8, 16 and 80 MHz the engine is evaluated in full 3.1, 3.2 and 3.4 times a bit,
-and 2.5, 2.6 and 3.1 times for what follows from its inputs alone; the host side 61 to 69 times a
-frame and node. The floor of this way is the bit itself: sample point, a sender's boundary and the
-clock after any, each an evaluation of some 730 instructions, and now and then an edge."""
+# The shares and the evaluations: counted once, saturated_bus/nodes:2/drift:1.
+SHARES = """Of the instructions of two saturated nodes with clocks of their own at 80 MHz, the host side's
+model has 35 %, the engine's 28 %, the bus and what ties them together the rest. At
+8, 16 and 80 MHz the engine is evaluated in full 1.7, 1.8 and 1.8 times a bit,
+and 2.4, 2.5 and 2.5 times for what follows from its inputs alone; the host side 75 to 88 times a
+frame and node, 16 of them for accesses. The floor of this way is the sample point, a boundary at
+which the node's level changes and the edge that synchronises, each an evaluation of some 750
+instructions."""
 
 
 def benchmarks(results):

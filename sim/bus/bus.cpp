@@ -142,8 +142,7 @@ Time Bus::next_edge() const {
   return together_ && !resting_ ? next_[0] : *std::min_element(next_.begin(), next_.end());
 }
 
-bool Bus::run_actions(Time until) {
-  if (actions_.empty() || actions_.top().time > until) return false;
+bool Bus::run_action() {
   now_ = std::max(now_, actions_.top().time);
   catch_up_all(std::max(done_before_, now_));
   observe(passed_);

@@ -161,11 +161,18 @@ class Bus {
   // this one.
   [[gnu::flatten]] void run_instant(Time t);
   void clock_together(Time t);
-  /// Clocks the nodes whose turn is at `t`, with the level that `level_for` gives.
+  /// Clocks the nodes whose turn is at `t`, with the level that `level_for` gives. What is looked
+  /// at in every instant stays in registers: next_ does not move while nodes are clocked.
   template <typename LevelFor>
   void clock_due(Time t, LevelFor &&level_for) {
-    for (clocked_ = 0; clocked_ < next_.size(); ++clocked_)
-      if (next_[clocked_] == t) clock_node(clocked_, t, level_for(clocked_));
+    const auto count = static_cast<NodeId>(next_.size());
+    const Time *next = next_.data();
+    for (NodeId id = 0; id < count; ++id) {
+      if (next[id] != t) continue;
+      clocked_ = id;
+      clock_node(id, t, level_for(id));
+    }
+    clocked_ = count;
   }
   void clock_node(NodeId id, Time t, Level rx);
   void driven(NodeId id, Time t, Level level);
@@ -178,7 +185,10 @@ class Bus {
   [[nodiscard]] bool may_skip();
   [[nodiscard]] static std::uint64_t edges_to_skip(const Node &node, Time until);
   [[nodiscard]] Time skip_end(Time until) const;
-  [[nodiscard]] bool run_actions(Time until);
+  [[nodiscard]] bool run_actions(Time until) {
+    return !actions_.empty() && actions_.top().time <= until && run_action();
+  }
+  bool run_action();
 
   std::vector<Entry> nodes_;
   std::vector<Time> next_;  // next edge of each node that is clocked, contiguous for the scan

@@ -65,7 +65,7 @@ void Bus::rest(NodeId id) {
   Entry &entry = nodes_[id];
   if (entry.bits.pending()) return;
   const Clock &clock = entry.node->oscillator_;
-  std::uint64_t quiet = std::min({entry.node->quiet(), clock.steady_edges(), kMost});
+  std::uint64_t quiet = std::min(std::min(entry.node->quiet(), clock.steady_edges()), kMost);
   if (quiet == 0) return;
   const Receiver &receiver = entry.receiver;
   if (!direct_ && receiver.head < receiver.pending.size())

@@ -18,14 +18,14 @@ namespace vericansim {
 
 /// Watches an engine edge by edge, says how many edges to come only count quanta and positions, and
 /// does them at once, up to the one that makes a sample point or a boundary show; up to the sample
-/// point, if the boundary before it begins a bit of the frame in which the node keeps its level. Everything but
-/// prescaler, position and the levels of the last quanta moves within kSettle edges of a sample
-/// point or a bit boundary, within one of an edge that synchronises; after that, until the next of
-/// them, these only count and follow (rtl/bit/can_tq_gen.sv, can_bit_timing.sv). After a sample
-/// point that raised no pulse the second of its edges does no more than forget the sample point,
-/// which pass() does; within a frame so it does what the first edge of a bit does, in which the bit
-/// is judged (rtl/frame/can_error.sv). Proven bit by bit in tb/system/bus_rest_test.cpp, member by
-/// member in bus_quiet_engine_test.cpp.
+/// point, if the boundary before it begins a bit of the frame in which the node keeps its level.
+/// Everything but prescaler, position and the levels of the last quanta moves within kSettle edges
+/// of a sample point or a bit boundary, within one of an edge that synchronises; after that, until
+/// the next of them, these only count and follow (rtl/bit/can_tq_gen.sv, can_bit_timing.sv). After
+/// a sample point that raised no pulse the second of its edges does no more than forget the sample
+/// point, which pass() does; within a frame so it does what the first edge of a bit does, in which
+/// the bit is judged (rtl/frame/can_error.sv). Proven bit by bit in tb/system/bus_rest_test.cpp,
+/// member by member in bus_quiet_engine_test.cpp.
 ///
 /// An engine with the time unit is quiet while that one only counts, too (TimedEngine).
 ///
@@ -80,8 +80,7 @@ class QuietEngine {
   /// The next edge only counts and takes the level of the receive pin on.
   template <typename Engine>
   [[nodiscard]] bool counts(const Engine &engine) const {
-    return to_settle_ == 0 && engine.rx_req_i == 0 && counting_(engine) != 0 &&
-           edges_of_time(engine) != 0;
+    return to_settle_ == 0 && engine.rx_req_i == 0 && counts_(engine) && edges_of_time(engine) != 0;
   }
   /// Does that one, with `rx` at the pin.
   template <typename Engine>
@@ -137,7 +136,7 @@ class QuietEngine {
 
   // An engine with ByteWise = 1 judges its bits itself.
   template <typename Root>
-  static constexpr bool kJudges = kKnown<Root> && requires(Root & root) {
+  static constexpr bool kJudges = kKnown<Root> &&requires(Root &root) {
     root.can_core__DOT__stuff;
     root.can_core__DOT__u_bsp__DOT__ends;
     root.can_core__DOT__u_bsp__DOT__prev;
@@ -261,8 +260,7 @@ class QuietEngine {
       case Field::kExRtr: return root.rx_rtr_o != 0;
       case Field::kDlc: return (root.rx_dlc_o >> 3 & 1) != 0;
       case Field::kData: return shift >> 31 != 0;
-      case Field::kCrc:
-        return (root.can_core__DOT__u_bsp__DOT__u_crc15__DOT__crc_q >> 14 & 1) != 0;
+      case Field::kCrc: return (root.can_core__DOT__u_bsp__DOT__u_crc15__DOT__crc_q >> 14 & 1) != 0;
       case Field::kCrcDel: return true;
       default: return false;  // SOF, r1, r0
     }
@@ -311,6 +309,19 @@ class QuietEngine {
       return place.to_tick + quanta(engine) * place.clocks_of_tq;
     } else {
       return 0;
+    }
+  }
+
+  // As counting_() != 0, while to_settle_ is 0.
+  template <typename Engine>
+  [[nodiscard]] static bool counts_(const Engine &engine) {
+    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
+      const auto &root = *engine.rootp;
+      return root.can_core__DOT__u_bsp__DOT__u_fault__DOT__boff_seen_q == root.boff_o &&
+             (root.can_core__DOT__active_q == 0 || root.can_core__DOT__tq == 0 ||
+              quanta(engine) != 0);
+    } else {
+      return false;
     }
   }
 
@@ -487,8 +498,7 @@ class QuietEngine {
     const unsigned group = static_cast<unsigned>(field) >> 3;  // 1: arbitration
     const bool saw_d = sender && sent, arbitration = group == 1, foreign_stuff = stuff && !sender;
     const bool end_counts = field == Field::kEof && (!ends || sender);
-    const bool fixed =
-        (field == Field::kCrcDel && !stuff) || field == Field::kAckDel || end_counts;
+    const bool fixed = (field == Field::kCrcDel && !stuff) || field == Field::kAckDel || end_counts;
     const bool overload = field == Field::kEof && !end_counts;
     const bool bit1 = saw_d && !arbitration && (stuff || group == 2);
     const bool exempt = saw_d && arbitration && stuff, stuff_d = foreign_stuff && !prev;

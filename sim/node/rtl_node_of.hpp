@@ -46,10 +46,11 @@ class RtlNodeOf final : public RtlNode {
   }
 
   [[gnu::flatten]] void clock(Level rx) override {
-    if (!ahb().active() && quiet_.crosses_boundary(core_.engine()))
+    const bool active = ahb().active();
+    if (!active && quiet_.crosses_boundary(core_.engine()))
       return count(rx, [&] { quiet_.cross_boundary(core_.engine(), rx); });
     core_.engine().can_rx_i = static_cast<std::uint8_t>(rx);
-    if (ahb().active()) {
+    if (active) {
       transfer_cycle();
     } else {
       core_.edge();
@@ -62,8 +63,8 @@ class RtlNodeOf final : public RtlNode {
 
   [[nodiscard, gnu::flatten]] std::uint64_t quiet() const override {
     if (ahb().active() || !core_.resting()) return 0;
-    const std::uint64_t edges =
-        std::min({quiet_.edges(core_.engine(), watched()), edges_to_waiter(), core_.rest()});
+    const std::uint64_t edges = std::min(
+        std::min(quiet_.edges(core_.engine(), watched()), edges_to_waiter()), core_.rest());
     return edges != 0 && core_.wakes() ? 0 : edges;
   }
 
