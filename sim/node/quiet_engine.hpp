@@ -11,6 +11,8 @@
 
 #include "bus/trace.hpp"
 #include "bus/types.hpp"
+#include "node/engine_judge.hpp"
+#include "node/engine_level.hpp"
 #include "node/engine_time.hpp"
 #include "node/model_edge.hpp"
 
@@ -136,26 +138,8 @@ class QuietEngine {
 
   // An engine with ByteWise = 1 judges its bits itself.
   template <typename Root>
-  static constexpr bool kJudges = kKnown<Root> &&requires(Root &root) {
-    root.can_core__DOT__stuff;
-    root.can_core__DOT__u_bsp__DOT__ends;
-    root.can_core__DOT__u_bsp__DOT__prev;
-    root.can_core__DOT__u_bsp__DOT__mismatch;
-    root.can_core__DOT__u_bsp__DOT__u_field__DOT__last_q;
-    root.can_core__DOT__u_bsp__DOT__u_field__DOT__join_q;
-    root.can_core__DOT__u_bsp__DOT__u_field__DOT__free_r_q;
-    root.can_core__DOT__u_bsp__DOT__u_field__DOT__free_d_q;
-    root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__load;
-    root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__load_q;
-    root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__high_q;
-    root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__low_q;
-    root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__take;
-    root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__shift_q;
-    root.can_core__DOT__u_bsp__DOT__u_crc15__DOT__crc_q;
-    root.can_core__DOT__u_bsp__DOT__u_error__DOT__error_d_q;
-    root.can_core__DOT__u_bsp__DOT__u_error__DOT__error_r_q;
-    root.can_core__DOT__u_bsp__DOT__u_error__DOT__judge__DOT__saw_d;
-  };
+  static constexpr bool kJudges =
+      kKnown<Root> &&EngineJudge::kKnown<Root> &&EngineLevel::kKnown<Root>;
 
   template <typename Engine>
   void clocked_(const Engine &engine) {
@@ -235,34 +219,10 @@ class QuietEngine {
     if (field < Field::kSof || field == Field::kErrFlag || field == Field::kOvlFlag) return false;
     const unsigned level = root.can_core__DOT__tx_q;
     if constexpr (kJudges<Root>) {
-      return next_level(root, field) == (level != 0) &&
+      return EngineLevel::next(root, field) == (level != 0) &&
              root.can_tx_o == (level | root.lom_i | root.lpb_i);
     } else {
       return root.transmitter_o == 0 && field != Field::kAck && level != 0;
-    }
-  }
-
-  // The level that it sends from the next boundary on, in a frame or a delimiter.
-  template <typename Root>
-  static bool next_level(const Root &root, Field field) {
-    const bool sender = root.transmitter_o != 0;
-    if (field == Field::kAck)
-      return sender || root.can_core__DOT__u_bsp__DOT__mismatch != 0 || root.lom_i != 0;
-    if (!sender || field > Field::kCrcDel) return true;
-    if (root.can_core__DOT__stuff != 0) return root.can_core__DOT__u_bsp__DOT__prev == 0;
-    const std::uint32_t shift =
-        root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__shift_q;
-    switch (field) {
-      case Field::kId: return (shift >> 28 & 1) != 0;
-      case Field::kRtr: return (root.rx_rtr_o | root.rx_ide_o) != 0;
-      case Field::kIde: return root.rx_ide_o != 0;
-      case Field::kExId: return (shift >> 17 & 1) != 0;
-      case Field::kExRtr: return root.rx_rtr_o != 0;
-      case Field::kDlc: return (root.rx_dlc_o >> 3 & 1) != 0;
-      case Field::kData: return shift >> 31 != 0;
-      case Field::kCrc: return (root.can_core__DOT__u_bsp__DOT__u_crc15__DOT__crc_q >> 14 & 1) != 0;
-      case Field::kCrcDel: return true;
-      default: return false;  // SOF, r1, r0
     }
   }
 
@@ -428,7 +388,9 @@ class QuietEngine {
       pass_time(engine, edges);
       forget_sample(root);
       if (root.can_core__DOT__active_q == 0) return;
-      if (root.can_core__DOT__first_q != 0) judge(root);
+      if constexpr (kJudges<std::remove_reference_t<decltype(*engine.rootp)>>) {
+        if (root.can_core__DOT__first_q != 0) EngineJudge::judge(root);
+      }
       const Place place = place_of(engine);
       auto &count = root.can_core__DOT__u_tq_gen__DOT__gen_divide__DOT__count_q;
       if (edges < place.to_tick) {
@@ -459,70 +421,6 @@ class QuietEngine {
     root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q = 0;
     if constexpr (requires { root.can_core__DOT__u_bsp__DOT__sampled_q; })
       root.can_core__DOT__u_bsp__DOT__sampled_q = 0;
-  }
-
-  // What the first edge of a bit does within a frame (only_judges()): rtl/frame/can_error.sv, and
-  // the registers of can_field.sv and can_rx_frame.sv.
-  template <typename Root>
-  static void judge(Root &root) {
-    if constexpr (kJudges<Root>) {
-      const Field field = trace_field(root.trace_o);
-      judge_level(root, field);
-      root.can_core__DOT__first_q = 0;
-      root.can_core__DOT__u_bsp__DOT__u_field__DOT__last_q = root.can_core__DOT__u_bsp__DOT__ends;
-      root.can_core__DOT__u_bsp__DOT__u_field__DOT__join_q = 0;
-      root.can_core__DOT__u_bsp__DOT__u_field__DOT__free_r_q = 0;
-      root.can_core__DOT__u_bsp__DOT__u_field__DOT__free_d_q = 0;
-      const bool stuff = root.can_core__DOT__stuff != 0;
-      const bool load =
-          root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__load != 0 && !stuff;
-      const bool data = field == Field::kData && !stuff;
-      root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__load_q = load;
-      root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__high_q =
-          load || data || (field == Field::kId && !stuff);
-      root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__low_q =
-          load || data || (field == Field::kExId && !stuff);
-      root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__take = load;
-    }
-  }
-
-  // Which errors the bit has, if it is dominant and if it is recessive. Verilator keeps the
-  // variables of that block, too.
-  template <typename Root>
-  static void judge_level(Root &root, Field field) {
-#define VERICAN_JUDGE(name) root.can_core__DOT__u_bsp__DOT__u_error__DOT__##name
-    const bool sender = root.transmitter_o != 0, stuff = root.can_core__DOT__stuff != 0;
-    const bool ends = root.can_core__DOT__u_bsp__DOT__ends != 0;
-    const bool prev = root.can_core__DOT__u_bsp__DOT__prev != 0;
-    const bool sent = root.can_core__DOT__tx_q != 0;
-    const unsigned group = static_cast<unsigned>(field) >> 3;  // 1: arbitration
-    const bool saw_d = sender && sent, arbitration = group == 1, foreign_stuff = stuff && !sender;
-    const bool end_counts = field == Field::kEof && (!ends || sender);
-    const bool fixed = (field == Field::kCrcDel && !stuff) || field == Field::kAckDel || end_counts;
-    const bool overload = field == Field::kEof && !end_counts;
-    const bool bit1 = saw_d && !arbitration && (stuff || group == 2);
-    const bool exempt = saw_d && arbitration && stuff, stuff_d = foreign_stuff && !prev;
-    const bool ack = field == Field::kAck && sender && root.lpb_i == 0;
-    const bool crc =
-        field == Field::kAckDel && root.can_core__DOT__u_bsp__DOT__mismatch != 0 && !sender;
-    const bool stuff_r = foreign_stuff && prev;
-    VERICAN_JUDGE(judge__DOT__saw_d) = saw_d;
-    VERICAN_JUDGE(judge__DOT__arbitration) = arbitration;
-    VERICAN_JUDGE(judge__DOT__foreign_stuff) = foreign_stuff;
-    VERICAN_JUDGE(judge__DOT__fixed) = VERICAN_JUDGE(form_q) = fixed;
-    VERICAN_JUDGE(judge__DOT__overload) = VERICAN_JUDGE(overload_q) = overload;
-    VERICAN_JUDGE(judge__DOT__bit1) = VERICAN_JUDGE(bit1_q) = bit1;
-    VERICAN_JUDGE(judge__DOT__exempt) = VERICAN_JUDGE(exempt_q) = exempt;
-    VERICAN_JUDGE(judge__DOT__stuff_d) = stuff_d;
-    VERICAN_JUDGE(judge__DOT__bit0) = VERICAN_JUDGE(bit0_q) = !sent;
-    VERICAN_JUDGE(judge__DOT__ack) = VERICAN_JUDGE(ack_q) = ack;
-    VERICAN_JUDGE(judge__DOT__crc) = VERICAN_JUDGE(crc_q) = crc;
-    VERICAN_JUDGE(judge__DOT__stuff_r) = VERICAN_JUDGE(stuff_r_q) = stuff_r;
-    VERICAN_JUDGE(stuff_d_q) = stuff_d || exempt;
-    VERICAN_JUDGE(lost_q) = saw_d && arbitration && !stuff;
-    VERICAN_JUDGE(error_d_q) = bit1 || fixed || stuff_d || exempt;
-    VERICAN_JUDGE(error_r_q) = !sent || ack || crc || stuff_r;
-#undef VERICAN_JUDGE
   }
 
   static constexpr std::uint64_t kStopped = ~0ULL >> 1;  // until an input changes
