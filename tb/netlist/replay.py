@@ -20,11 +20,13 @@ def netlist_of(kind, num_mb, path):
                     *rtl_files()], check=True, stdin=subprocess.DEVNULL)
 
 
-def replay(recordings, num_mb, build, netlist=None, json=None, jobs=1):
-    """Plays recordings (all if there are none named) to the RTL or a netlist; status and text."""
+def replay(recordings, num_mb, build, netlist=None, json=None, jobs=1, device="ahb"):
+    """Plays recordings (all if there are none named) to the RTL or a netlist; status and text.
+    `num_mb`: of the core, device ahb; None: of another device, which has one size."""
     command = [sys.executable, ROOT / "tb/four_state/run.py", *recordings, "--build", build,
-               "--jobs", str(jobs), "--num-mb", *map(str, num_mb if isinstance(num_mb, list)
-                                                     else [num_mb])]
+               "--jobs", str(jobs), "--device", device]
+    if num_mb:
+        command += ["--num-mb", str(num_mb)]
     if netlist:
         command += ["--netlist", netlist]
     if json:

@@ -103,26 +103,29 @@ def proofs(kinds, jobs, scratch):
     return figures
 
 
-# What is replayed in four states: name, kind of netlist (None: the RTL), sizes.
-REPLAYS = [("RTL", None, [16, 64]), ("generic gates", "gates", [16, 64]),
-           ("iCE40 cells", "ice40", [16])]
+# What is replayed in four states: name, kind of netlist (None: the RTL), device, sizes.
+REPLAYS = [("RTL", None, "ahb", [16, 64]), ("RTL, profile small", None, "small", [None]),
+           ("RTL with the time unit", None, "time", [None]),
+           ("RTL of the node without a processor", None, "remote", [None]),
+           ("RTL of the clock without a processor", None, "follower", [None]),
+           ("generic gates", "gates", "ahb", [16, 64]), ("iCE40 cells", "ice40", "ahb", [16])]
 
 
 def four_states(kinds, jobs, scratch):
     """Recorded pins on the RTL and on netlists: figures and the rows of one table."""
     build = ROOT / "build/release"
     figures, rows = [], []
-    for name, kind, sizes in REPLAYS:
+    for name, kind, device, sizes in REPLAYS:
         if kind and kind not in kinds:
             continue
         bad = clocks = flops = 0
         for size in sizes:
-            out, netlist = scratch / f"four_state.{kind}.{size}.json", None
+            out, netlist = scratch / f"four_state.{kind}.{device}.{size}.json", None
             if kind:
                 netlist = scratch / f"{kind}{size}.v"
                 netlist_of(kind, size, netlist)
             out.unlink(missing_ok=True)
-            status, text = replay([], size, build, netlist, out, jobs)
+            status, text = replay([], size, build, netlist, out, jobs, device)
             if not out.exists():
                 sys.exit(f"netlist: replay on {name} ended with status {status}:\n{text}")
             values = [figure["value"] for figure in json.loads(out.read_text())["figures"]]
@@ -130,7 +133,7 @@ def four_states(kinds, jobs, scratch):
         print(f"four states, {name}: {clocks} clocks, {bad} differences", flush=True)
         figures.append({"name": f"four states, {name}: unknown values after reset and outputs that "
                         "differ", "value": bad, "bar": "0", "ok": bad == 0 and clocks > 0})
-        rows.append([name, " and ".join(map(str, sizes)), f"{clocks:,}", flops or "outputs only"])
+        rows.append([name, " and ".join(str(size) for size in sizes if size), f"{clocks:,}", flops or "outputs only"])
     table = {"title": "Recorded pins in Icarus Verilog, all X before the reset",
              "columns": ["core", "buffers", "clocks", "flip-flops watched"], "rows": rows}
     return figures, table
