@@ -61,19 +61,29 @@ def read_both(netlist, num_mb, folder):
     return modules
 
 
+def split(folder, side):
+    """Writes SIDE.MODULE.il of each module of SIDE.il, and SIDE.black.il with all of them as black
+    boxes, so that a proof reads what it is about, and of the rest the ports."""
+    whole = (folder / f"{side}.il").read_text()
+    yosys(f"read_rtlil {folder}/{side}.il; blackbox *; write_rtlil {folder}/{side}.black.il",
+          folder / f"{side}.black.log")
+    for text, name in re.findall(r"^((?:attribute [^\n]*\n)*module \\(\S+)\n.*?^end\n)", whole,
+                                 re.MULTILINE | re.DOTALL):
+        (folder / f"{side}.{name}.il").write_text(text)
+
+
 def top_of(modules):
     """can_ahb as it is called in the files."""
     return next(name for file, name in modules if file == "can_ahb")
 
 
-def prove(module, modules, folder):
+def prove(module, folder):
     """Signals of a module that are not proven equal; None: Yosys could not compare them."""
-    others = "\n".join(f"blackbox {name}" for _, name in modules if name != module)
-
     def side(name):
-        return f"""read_rtlil {folder}/{name}.il
+        return f"""read_rtlil {folder}/{name}.black.il
+delete {module}
+read_rtlil {folder}/{name}.{module}.il
 hierarchy -top {module}
-{others}
 opt_clean; simplemap t:$mux t:$and t:$or t:$not; opt_expr; opt_clean
 techmap -map {RESET}; opt_expr; opt_clean
 rename -hide {module}/w:*_d
@@ -98,9 +108,11 @@ def compare(netlist, num_mb, folder, jobs=2, only=""):
     many, and the faults found."""
     folder.mkdir(parents=True, exist_ok=True)
     modules = read_both(netlist, num_mb, folder)
+    for side in ("rtl", "net"):
+        split(folder, side)
     asked = [(file, name) for file, name in modules if file != "can_mb_ram" and only in ("", file)]
     with ThreadPoolExecutor(jobs) as pool:
-        answers = list(pool.map(lambda entry: prove(entry[1], modules, folder), asked))
+        answers = list(pool.map(lambda entry: prove(entry[1], folder), asked))
     faults = []
     for (file, name), unproven in zip(asked, answers):
         if unproven is None:
