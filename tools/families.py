@@ -10,6 +10,7 @@ Keeps what it measured in tools/synth/families/results.json and writes docs/synt
 state of RTL or tool.
 """
 import argparse
+import functools
 import hashlib
 import json
 import re
@@ -44,6 +45,7 @@ def code(text):
     return re.sub(r"\s+", " ", re.sub(r"//[^\n]*|/\*.*?\*/", " ", text, flags=re.DOTALL)).strip()
 
 
+@functools.cache
 def modules():
     """name of module -> its code, of all files of RTL."""
     return {Path(name).stem: code((ROOT / name).read_text(encoding="utf-8"))
@@ -60,12 +62,18 @@ def used(tops, files):
     return sorted(found)
 
 
+@functools.cache
+def measured():
+    """The code of what is measured, module by module."""
+    files = modules()
+    return [files[name] for name in used({settings(build)[0] for build in BUILDS}, files)]
+
+
 def state(entry):
     """A hash of what a family's figures depend on: RTL, tool, settings, profiles."""
     digest = hashlib.sha256(json.dumps(entry, sort_keys=True).encode())
-    files = modules()
-    for name in used({settings(build)[0] for build in BUILDS}, files):
-        digest.update(files[name].encode())
+    for text in measured():
+        digest.update(text.encode())
     for name in ("sw/profiles.yaml", "tools/synth/families/package-lock.json"):
         digest.update((ROOT / name).read_bytes())
     return digest.hexdigest()[:12]
@@ -87,6 +95,7 @@ def packages(given):
     return folder / "node_modules"
 
 
+@functools.cache
 def settings(build):
     """Top and parameters of a build."""
     if build == "core":

@@ -23,7 +23,7 @@ exec {yosys} "$@"
 
 
 class SynthFallback(unittest.TestCase):
-    """The protocol engine with Yosys as it is and with one whose abc9 stops."""
+    """A small block with Yosys as it is and with one whose abc9 stops."""
 
     def synth(self, stops_at):
         """What is said, and the page; `stops_at`: the top at which abc9 stops."""
@@ -33,7 +33,7 @@ class SynthFallback(unittest.TestCase):
             fake.chmod(0o755)
             page = Path(name) / "page.md"
             environment = os.environ | {
-                "PATH": f"{name}:{os.environ['PATH']}", "BLOCKS": "can_core", "SEEDS": "1",
+                "PATH": f"{name}:{os.environ['PATH']}", "BLOCKS": "can_fault", "SEEDS": "1",
                 "OUT": f"{name}/out", "PAGE": str(page)}
             code, said = design.run("tools/synth.sh", env=environment)
             self.assertEqual(code, 0, said)
@@ -42,10 +42,10 @@ class SynthFallback(unittest.TestCase):
     def test_where_abc9_stops_plain_abc_is_taken(self):
         """That between shift registers, for the clock rate; of the bare block nothing is said."""
         said, page = self.synth("-top area_wrap")
-        self.assertRegex(said, r"abc9 stops at \S+/can_core/ice40_wrapped; plain abc instead: "
+        self.assertRegex(said, r"abc9 stops at \S+/can_fault/ice40_wrapped; plain abc instead: "
                                "ERROR: ABC: execution of command failed")
         self.assertEqual(said.count("abc9"), 1, said)
-        self.assertIn("abc9 stopped at the protocol engine `can_core`: Fmax with plain abc.", page)
+        self.assertIn("abc9 stopped at the protocol engine `can_fault`: Fmax with plain abc.", page)
 
 
 if __name__ == "__main__":
