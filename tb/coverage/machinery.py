@@ -41,11 +41,15 @@ def build(work):
                     f"{work}/model", f"{root}/{FILE}"], check=True, stdout=subprocess.DEVNULL)
     subprocess.run([sys.executable, f"{ROOT}/cmake/coverage_model.py", f"{work}/model", "Vtiny",
                     root], check=True)
-    sources = [f"{work}/model/{f}" for f in os.listdir(f"{work}/model") if f.endswith(".cpp")]
+    # The model as one source: its headers are read once.
+    with open(f"{work}/model.cpp", "w", encoding="utf-8") as whole:
+        whole.writelines(f'#include "{f}"\n' for f in sorted(os.listdir(f"{work}/model"))
+                         if f.endswith(".cpp"))
     subprocess.run(["c++", "-std=c++20", "-w", "-pthread", f"-I{work}/model", f"-I{share}",
                     f"-I{share}/vltstd", f"-I{ROOT}/cmake", "-o", f"{work}/tiny_run",
                     f"{HERE}/tiny_run.cpp", f"{ROOT}/cmake/coverage_writer.cpp",
-                    f"{share}/verilated.cpp", f"{share}/verilated_threads.cpp", *sources],
+                    f"{share}/verilated.cpp", f"{share}/verilated_threads.cpp",
+                    f"{work}/model.cpp"],
                    check=True)
     return root
 
