@@ -5,7 +5,6 @@
 machine alone. TB: directory tb of the build. Exit code 77: a program of the cluster is not
 installed."""
 import json
-import os
 import re
 import subprocess
 import sys
@@ -123,7 +122,8 @@ def main():
     """Sets the cluster up, runs the tests in it, takes it down."""
     Campaigns.tb = Path(sys.argv.pop(1)).resolve()
     try:
-        with PrivateSlurm(cpus=max(2, os.cpu_count() or 2)) as cluster:
+        # More than there are, so that a shard waits for no other: most of the time is Slurm's.
+        with PrivateSlurm(cpus=8) as cluster:
             Campaigns.cluster = cluster
             passed = unittest.main(exit=False, verbosity=2, failfast=True).result.wasSuccessful()
     except Impossible as reason:
