@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""make synth FAMILY=...: a block of the engine in one family by npm's Yosys, installed from the lock file; the
-page is what the results say; bad names are told. VERICAN_FAMILIES=node_modules: what the build has
-fetched."""
+"""make synth FAMILY=...: a block of the engine in one family by npm's Yosys, installed from the
+lock file; the page is what the results say; bad names are told. VERICAN_FAMILIES=node_modules: what
+the build has fetched."""
 
 import json
 import os

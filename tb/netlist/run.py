@@ -133,7 +133,8 @@ def four_states(kinds, jobs, scratch):
         print(f"four states, {name}: {clocks} clocks, {bad} differences", flush=True)
         figures.append({"name": f"four states, {name}: unknown values after reset and outputs that "
                         "differ", "value": bad, "bar": "0", "ok": bad == 0 and clocks > 0})
-        rows.append([name, " and ".join(str(size) for size in sizes if size), f"{clocks:,}", flops or "outputs only"])
+        rows.append([name, " and ".join(str(size) for size in sizes if size), f"{clocks:,}",
+                     flops or "outputs only"])
     table = {"title": "Recorded pins in Icarus Verilog, all X before the reset",
              "columns": ["core", "buffers", "clocks", "flip-flops watched"], "rows": rows}
     return figures, table
