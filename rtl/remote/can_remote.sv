@@ -406,9 +406,9 @@ module can_remote #(
 
   can_rn_tx #(.NameBits(NameBits), .TxDepth(TxDepth), .SameId(SameId != 0)) u_tx (
     .clk_i, .rst_ni,
-    .job_i(job), .phase_i(phase), .flush_i(flush), .number_i(number), .owe_status_i(owe_status),
-    .owe_here_i(owe_here), .one_i(one), .next_i(next_byte), .tail_o(tail),
-    .head_o(head), .age_o(age), .more_o(ages), .header_o(head_byte), .at_o(at),
+    .job_i(job), .phase_i(phase), .live_i(live), .flush_i(flush), .number_i(number),
+    .owe_status_i(owe_status), .owe_here_i(owe_here), .one_i(one), .next_i(next_byte),
+    .tail_o(tail), .head_o(head), .age_o(age), .more_o(ages), .header_o(head_byte), .at_o(at),
     .status_o(tx_status),
     .full_o(full), .some_o(some),
     .load_o(load), .urgent_o(urgent), .try_o(try_due), .gone_o(gone), .gone_status_o(gone_status),

@@ -19,6 +19,7 @@ module can_rn_tx #(
   input  logic                rst_ni,
   input  can_rn_pkg::job_t    job_i,         // present job
   input  logic [1:0]          phase_i,       // phase of the job
+  input  logic                live_i,        // a frame for this node is under way
   input  logic                flush_i,       // queue is emptied, a frame that is offered is dropped
   input  logic [NameBits-1:0] number_i,      // node number
   input  logic                owe_status_i,  // a STATUS frame is to be sent
@@ -152,10 +153,12 @@ module can_rn_tx #(
       if (header_q)                               at_q <= '0;
       else if (tx_next_i)                         at_q <= at_q + 3'd1;
       // JobAge withdraws the request in phase 3, where it may drop the frame: it is not taken then.
-      if (drop || tx_fail_i || tx_next_i || (job_i == can_rn_pkg::JobAge && phase_i[1]))
-                                                  load_q <= 1'b1;
+      // A frame for this node withdraws it until its work is done, however long user logic holds
+      // that: the engine puts DLC and RTR of what it sends where the work looks for the frame's.
       // Cleared in phase 0: an event in a later phase sets it again and repeats the load.
-      else if (loading && phase_i == 2'd0)        load_q <= 1'b0;
+      load_q <= drop || tx_fail_i || tx_next_i || live_i
+                || (job_i == can_rn_pkg::JobAge && phase_i[1])
+                || (load_q && !(loading && phase_i == 2'd0));
       // A frame that goes takes a failed attempt with it that has not been counted.
       if (drop || job_i == can_rn_pkg::JobTry) try_q <= 1'b0;
       else if (tx_fail_i && transmitter_i)     try_q <= 1'b1;
@@ -189,7 +192,7 @@ module can_rn_tx #(
   assign id      = {!request, (number_i & {NameBits{!((&src_q) || all)}}) | NameBits'(all),
                     hold_q[AddrBits-1:0]};
 
-  assign tx_req_o  = !load_q && header_q && !loading;
+  assign tx_req_o  = header_q && !(load_q || loading);
   assign tx_dlc_o  = length_q[3:0];
   assign tx_word_o = {3'b000, id[10:8], header_q ? id[7:0] : hold_q, 18'd0};
 

@@ -139,6 +139,45 @@ TEST(RtlUser, AnswersHoldBothWordsOrNone) {
   EXPECT_EQ(old + changed, static_cast<unsigned>(kAfter - kBefore));
 }
 
+/// The answer of "1A0#R1" waits while user logic holds `request` up, which follows at once, from
+/// before its end until `clocks` behind it. What the node says.
+std::vector<std::string> held_before_an_answer(RtlBus &bus, const std::string &request,
+                                               unsigned clocks) {
+  (void)bus.start();
+  for (const unsigned word : {kWord, kWord + 1}) bus.node().user_write(word, kOld, 0xF);
+  const auto valid = [&bus] { return bus.places.valid != 0; };
+  bus.places.valid = 0;
+  bus.host.request(frame_of("1A0#R1"));
+  bus.host.request(frame_of(request));
+  EXPECT_TRUE(bus.bus.run_until(valid, kMillisecond));
+  bus.run_bits(4);
+  bus.node().hold(true);
+  bus.places.valid = 0;
+  EXPECT_TRUE(bus.bus.run_until(valid, kMillisecond));
+  bus.bus.run_for(clocks * kClock);
+  bus.node().hold(false);
+  return bus.settle();
+}
+
+// RN-52: a request that is held up is carried out as it was, though an answer waits that the node
+// would send behind the intermission.
+TEST(RtlUser, HeldRequestIsDoneBeforeAnAnswerThatWaits) {
+  constexpr unsigned kLongest = 72;  // clocks: a hold lasts 64
+  for (const char *profile : {"small", "standard", "full"})
+    for (unsigned clocks = 0; clocks <= kLongest; ++clocks) {
+      SCOPED_TRACE(::testing::Message() << profile << ", " << clocks << " clocks");
+      const RemoteConfig config = RemoteConfig::profile(profile);
+      RtlBus writes{rtl_unit(3, config)}, reads{rtl_unit(3, config)};
+      EXPECT_THAT(held_before_an_answer(writes, kWrite, clocks), ::testing::ElementsAre("5A0#11"));
+      EXPECT_EQ(writes.node().peek_words(kWord, 2), (Words{kNew, kNew}));
+      // A queue of one refuses the read.
+      const char *second = config.tx_depth == 1 ? "5FE#0200000620000100" : "5A0#1111111111111111";
+      EXPECT_THAT(held_before_an_answer(reads, "1A0#R8", clocks),
+                  ::testing::ElementsAre("5A0#11", second));
+      EXPECT_EQ(reads.node().peek_words(kWord, 2), (Words{kOld, kOld}));
+    }
+}
+
 // RN-51, RN-53: one word that user logic writes is whole in the end, or overwritten whole.
 TEST(RtlUser, LaterWriteStays) {
   OneFrame frame{kWrite, nothing};

@@ -32,6 +32,13 @@
     else         f_loading <= job_i == can_rn_pkg::JobLoad && !phase_i[1] ? phase_i + 2'd1 : 2'd0;
   end
 
+  // A frame for this node is or was under way, and its work is done when JobLoad begins.
+  logic f_work;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) f_work <= 1'b0;
+    else         f_work <= live_i || (f_work && job_i != can_rn_pkg::JobLoad);
+  end
+
   // Answers that wait: what has been pushed and has not gone.
   logic [2:0] f_fill;
   assign f_fill = 3'(PtrWidth'(tail_q - head_q));
@@ -75,6 +82,8 @@
       // HERE.
       p_own_id: assert (!tx_req_o || f_here
                         || tx_word_o[28:18] >> AddrBits == {1'b1, number_i});
+      // RN-52: the engine, which then shows DLC and RTR of its own frame, is offered none before.
+      p_withdrawn: assert (!f_work || !tx_req_o);
       // RN-80: what is offered is what has been loaded for it, in all three phases.
       p_chosen: assert (f_loading != 2'd1 || load_q || src_q != can_rn_pkg::SrcNone);
       p_length: assert (f_loading == 2'd1 || load_q || !header_q || !own
