@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Which compiler, before project(): clang where it is installed, because it compiles the tests three
-# times as fast as g++, and its models run no slower. CC and CXX, -DCMAKE_CXX_COMPILER, a toolchain
-# file and a project around this one go before.
+# times as fast as g++. CC and CXX, -DCMAKE_CXX_COMPILER, a toolchain file and a project around this
+# one go before.
 if(NOT PROJECT_NAME AND NOT CMAKE_TOOLCHAIN_FILE AND NOT CMAKE_C_COMPILER
    AND NOT CMAKE_CXX_COMPILER AND NOT DEFINED ENV{CC} AND NOT DEFINED ENV{CXX})
   find_program(VERICAN_CLANG clang)
