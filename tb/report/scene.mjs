@@ -53,6 +53,32 @@ export class Scene {
     track.level = level;
   }
 
+  /** The levels of a stretch from now on; what others drive is drawn into `wire`. */
+  #levels(name, levels, wire) {
+    const track = this.tracks[name];
+    const steps = new Uint32Array(levels.length);
+    let count = 0;
+    for (let i = 0; i < levels.length; ++i) {
+      wire[i] &= levels[i];
+      if (track.level === levels[i]) continue;
+      const tick = Math.round(this.now + i * this.bit);
+      steps[count++] = tick - track.last;
+      track.last = tick;
+      track.level = levels[i];
+    }
+    track.column.append(steps.subarray(0, count));
+  }
+
+  /** The same of who drives a few bits alone, {bit: level}. */
+  #fewLevels(name, few, wire) {
+    for (const key of Object.keys(few)) {
+      const i = Number(key);
+      this.#level(name, this.now + i * this.bit, few[i]);
+      wire[i] &= few[i];
+      if (few[i + 1] === undefined) this.#level(name, this.now + (i + 1) * this.bit, 1);
+    }
+  }
+
   #counter(node, time = this.now) {
     const {tec, rec} = this.counters[node];
     const state = tec > 255 ? 2 : tec > 127 || rec > 127 ? 1 : 0;
@@ -85,19 +111,14 @@ export class Scene {
     const number = this.columns['s.start'].length;
     const count = lanes[0].bits.length;
     const laneOf = Object.fromEntries(lanes.map((lane) => [lane.node, lane]));
-    const wire = [];
-    for (let i = 0; i < count; ++i) {
-      const time = this.now + i * this.bit;
-      let level = 1;
-      for (let node = 0; node < this.names.length; ++node) {
-        const sent = laneOf[node] ? laneOf[node].bits[i].sent : (drives[node]?.[i] ?? 1);
-        this.#level(this.txNames[node], time, sent);
-        level &= sent;
-      }
-      if (drives.noise?.[i] === 0) level = 0;
-      this.#level('wire', time, level);
-      wire.push(level);
-    }
+    const wire = new Uint8Array(count).fill(1);
+    this.names.forEach((_, node) => {
+      const lane = laneOf[node] && Uint8Array.from(laneOf[node].bits, ({sent}) => sent);
+      if (lane) this.#levels(this.txNames[node], lane, wire);
+      else if (drives[node]) this.#fewLevels(this.txNames[node], drives[node], wire);
+    });
+    for (const [i, level] of Object.entries(drives.noise ?? {})) wire[i] &= level;
+    this.#levels('wire', wire, wire);
     this.#add({
       's.start': this.now,
       's.end': this.now + count * this.bit,
@@ -120,11 +141,14 @@ export class Scene {
       'b.first': this.columns.bit.length,
       'b.count': bits.length,
     });
-    const {bit, 'bit.q': quanta} = this.columns;
+    const packed = new Uint8Array(bits.length);
+    const quanta = new Int8Array(bits.length);
     bits.forEach(({field, stuff = false, sent, sampled, q = 0}, i) => {
-      bit.push(field + (stuff ? 32 : 0) + (sampled ?? wire[i]) * 64 + sent * 128);
-      quanta.push(q);
+      packed[i] = field + (stuff ? 32 : 0) + (sampled ?? wire[i]) * 64 + sent * 128;
+      quanta[i] = q;
     });
+    this.columns.bit.append(packed);
+    this.columns['bit.q'].append(quanta);
   }
 
   /** Bits of a frame as its sender drives them. */

@@ -23,12 +23,22 @@ export class Column {
   }
 
   push(value) {
-    if (this.length === this.values.length) {
-      const more = new kTypes[this.type](2 * this.length);
-      more.set(this.values);
-      this.values = more;
-    }
+    this.#fit(this.length + 1);
     this.values[this.length++] = value;
+  }
+
+  /** All numbers of a list, a typed array at best: much faster than one by one. */
+  append(values) {
+    this.#fit(this.length + values.length);
+    this.values.set(values, this.length);
+    this.length += values.length;
+  }
+
+  #fit(length) {
+    if (length <= this.values.length) return;
+    const more = new kTypes[this.type](2 * length);
+    more.set(this.values);
+    this.values = more;
   }
 }
 
