@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "harness/depth.hpp"
 #include "mailbox/buffer_rig.hpp"
 
 namespace vericansim {
@@ -20,6 +21,15 @@ constexpr Frame kThird{.id = 0x123, .dlc = 2, .data = {0x31, 0x32}};
 /// Clocks before EOF6 at which the sweep begins: the CRC field of the frame, so that the match is
 /// under way; and after it.
 constexpr int kBefore = 200, kAfter = 60;
+/// Clocks around EOF6 in which buffers change: the match is over by then, and the frame moves in.
+constexpr int kMovesFrom = -16, kMovesTo = 40;
+
+/// Whether an access at this clock from EOF6 is part of the test: in `make test` beside the move
+/// every fourth clock is, another one for each setting.
+bool is_tried(int offset, unsigned setting) {
+  if (offset >= kMovesFrom && offset <= kMovesTo) return true;
+  return (static_cast<unsigned>(offset + kBefore) % depth(4U, 1U)) == setting % depth(4U, 1U);
+}
 
 /// State of kMb before the frame of the race.
 enum class State : unsigned { kEmpty, kFull, kServiced, kOverrun, kLocked, kLockedWaiting, kCount };
@@ -97,6 +107,7 @@ TEST_P(LockRace, EveryClock) {
   rig.receive(kThird);
   const std::uint64_t length = rig.end_clock() - rig.start_clock();
   for (int offset = -kBefore; offset <= kAfter && !HasFailure(); ++offset) {
+    if (!is_tried(offset, setting)) continue;
     SCOPED_TRACE(testing::Message() << "clock " << offset << " from EOF6");
     prepare(rig, static_cast<State>(state));
     rig.put(kOtherMb, {.cs = (setting & 2) != 0 ? kRxEmpty << 24 : 0, .id = 0x123u << 18});

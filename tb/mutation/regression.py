@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # The tests that must notice a mutant: GoogleTest programs, run with limits.
-"""programs() names them, Regression runs their tests with and without a mutant.
+"""programs() names them, Regression runs their tests with and without a mutant, whole
+(harness/depth.hpp).
 
 A program with @BUS behind its name runs with the core behind that bus (harness/bus_run.sh)."""
 import concurrent.futures
@@ -99,7 +100,7 @@ class Regression:
         if tests is not None:
             command.append("--gtest_filter=" + ":".join(tests))
         sanitized = program in self.sanitized
-        environment = {**os.environ, **environment,
+        environment = {**os.environ, **environment, "VERICAN_WHOLE_TESTS": "1",
                        "ASAN_OPTIONS": f"hard_rss_limit_mb={MEMORY >> 20}"}
         if "@" in program:
             environment["VERICAN_TEST_BUS"] = program.partition("@")[2]

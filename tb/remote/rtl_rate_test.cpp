@@ -4,6 +4,7 @@
 // The search for the bit rate on the RTL, bit by bit: RN-70, RN-73, RN-74.
 #include <gtest/gtest.h>
 
+#include "harness/depth.hpp"
 #include "remote/rate_search.hpp"
 
 namespace vericansim {
@@ -86,7 +87,7 @@ TEST_F(RtlRate, IsFoundWithASingleSender) {
 
 // RN-73, RN-74: a sample of the campaign's random buses. None is taken for another.
 TEST_F(RtlRate, RandomBuses) {
-  for (unsigned seed = 0; seed < 40; ++seed) {
+  for (unsigned seed = 0; seed < depth(10U, 40U); ++seed) {
     SCOPED_TRACE(seed);
     const RateTrial trial = random_rate_trial(seed);
     EXPECT_TRUE(trial.right);
