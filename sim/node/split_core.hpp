@@ -16,6 +16,7 @@
 #include "core_ports.hpp"
 #include "node/byte_store.hpp"
 #include "node/engine_time.hpp"
+#include "node/host_image.hpp"
 #include "node/model_context.hpp"
 #include "node/model_edge.hpp"
 #include "node/transmit_scan.hpp"
@@ -147,7 +148,7 @@ class SplitCore {
     catch_up();
     if (Ports::to_host(engine_, *host_.rootp)) settle();
     std::swap(before_, earlier_);
-    std::memcpy(before_.get(), static_cast<const void *>(host_.rootp), sizeof(Root));
+    before_.take(*host_.rootp);
     host_edge();
     ++in_a_row_;
     begin_rest();
@@ -222,11 +223,11 @@ class SplitCore {
     const Root &root = *host_.rootp;
     // Which processes have run is not what they have left.
     if constexpr (requires { root.__VnbaTriggered; })
-      reinterpret_cast<Root *>(before_.get())->__VnbaTriggered = root.__VnbaTriggered;
-    resting_ = std::memcmp(before_.get(), static_cast<const void *>(&root), sizeof(Root)) == 0;
+      before_.root().__VnbaTriggered = root.__VnbaTriggered;
+    resting_ = before_.matches(root);
     rest_ = kForever;
     if (resting_ || !passes_rest_) return;
-    rest_ = in_a_row_ < 2 ? 0 : TransmitScan<Root>::clocks(earlier_.get(), root);
+    rest_ = in_a_row_ < 2 ? 0 : TransmitScan<Root>::clocks(earlier_, root);
     resting_ = rest_ > 0;
   }
 
@@ -271,8 +272,7 @@ class SplitCore {
   Engine engine_{&context_, "engine"};
   HostModel host_{&context_, "host"};
   ModelContext model_context_{context_};
-  std::unique_ptr<unsigned char[]> before_ = std::make_unique<unsigned char[]>(sizeof(Root));
-  std::unique_ptr<unsigned char[]> earlier_ = std::make_unique<unsigned char[]>(sizeof(Root));
+  HostImage<Root> before_, earlier_;
   unsigned in_a_row_ = 0;          // edges evaluated since anything else has happened
   std::uint64_t rest_ = kForever;  // while resting_: edges to come that may be left out
   std::uint64_t behind_ = 0;       // edges that have been

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 
+#include "node/host_image.hpp"
 #include "node/model_edge.hpp"
 
 namespace vericansim {
@@ -26,8 +26,8 @@ class TransmitScan {
   [[nodiscard]] static constexpr bool in_force() { return kKnown<Root>; }
 
   /// Clocks to come that only move the pass on, as long as no input of the model changes.
-  /// `before`: the model's bytes as they were before the last two clocks; they are written to.
-  [[nodiscard]] static std::uint64_t clocks(unsigned char *before, const Root &after) {
+  /// `before`: what the model was before the last two clocks; it is written to.
+  [[nodiscard]] static std::uint64_t clocks(HostImage<Root> &before, const Root &after) {
     return clocks_(before, after);
   }
 
@@ -166,11 +166,11 @@ class TransmitScan {
   }
 
   template <typename R>
-  static std::uint64_t clocks_(unsigned char *before, const R &after) {
+  static std::uint64_t clocks_(HostImage<R> &before, const R &after) {
     if constexpr (kKnown<R>) {
       if (!in_full_swing(after)) return 0;
-      copy_moving(*reinterpret_cast<R *>(before), after);
-      if (std::memcmp(before, static_cast<const void *>(&after), sizeof(R)) != 0) return 0;
+      copy_moving(before.root(), after);
+      if (!before.matches(after)) return 0;
       return 2 * to_come(after);
     } else {
       return 0;

@@ -221,6 +221,7 @@ void expect_short_cuts() {
   using Root = std::remove_reference_t<decltype(*std::declval<Model &>().rootp)>;
   EXPECT_TRUE(TransmitScan<Root>::in_force());
   EXPECT_TRUE((ByteStore<Root, Ports>::in_force()));
+  EXPECT_GT(HostImage<Root>::left_out(*Model{}.rootp), sizeof(Root) / 3);
   EXPECT_TRUE(QuietEngine::in_force<Engine>());
   EXPECT_TRUE(QuietEngine::judges<Engine>());
   if constexpr (kHasTimeUnit<Engine>) EXPECT_TRUE(Engine::in_force());
