@@ -16,8 +16,9 @@ from pathlib import Path
 # of nine interleaved rounds, two nodes on a saturated bus, million node-cycles a second.
 BESIDE_OTHERS = """## Beside other cores
 
-One run on one machine, CPU time, medians of nine interleaved rounds, two nodes on a saturated bus,
-million node-cycles a second. Not to be set beside the figures above, which are of another machine.
+Of November 2026, before clocks were passed over: one run on one machine, CPU time, medians of nine
+interleaved rounds, two nodes on a saturated bus, million node-cycles a second. Not to be set beside
+the figures above, which are of another machine and another state of the simulator.
 
 | clock | this simulator, whole cores | noasic, engine alone | OpenCores |
 |---|---|---|---|
@@ -26,8 +27,8 @@ million node-cycles a second. Not to be set beside the figures above, which are 
 | 16 MHz | 13.7 | 7.6 | 3.5 |
 | 50 MHz | 18.5 | 8.2 | 3.5 |
 
-The others are plainly Verilated. The lead comes from the split of engine and host and from clocks
-that are passed over, not from the RTL: one plain model of `can_ahb` does 2.7 to 3.2.
+The others are plainly Verilated. The lead comes from the split of engine and host, not from the
+RTL: one plain model of `can_ahb` does 2.7 to 3.2.
 """
 
 # The shares and the evaluations: counted once, saturated_bus/nodes:2/drift:1.

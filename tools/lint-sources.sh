@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # lint-sources.sh CHECK: one of the checks of all source files that look at nothing but their text:
-# licence_heads, line_length, format. It prints what is wrong; status 1 if something is, or if there
-# are no files to look at.
+# licence_heads, line_length, comments, format. It prints what is wrong; status 1 if something is,
+# or if there are no files to look at.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 . tools/common.sh
@@ -31,14 +31,24 @@ line_length() {
   xargs awk 'length($0) > 100 {print FILENAME ":" FNR ": " length($0) " characters"; bad = 1}
              END {exit bad}' <<<"$files"
 }
+# A comment that begins with "..." goes on with another one, which is not there where it is read.
+comments() {
+  local files bad
+  files=$(our_files '*.sv' '*.v' '*.cpp' '*.hpp' '*.c' '*.h' '*.py' '*.sh' '*.cmake' '*.js' \
+                    '*.mjs' '*.yaml') || return 1
+  bad=$(xargs grep -nE '(//|#|/\*)[/*! ]*\.\.\. ' <<<"$files")
+  [ -z "$bad" ] || printf '%s\n' "$bad"
+  [ -z "$bad" ]
+}
 format() {
   our_files '*.cpp' '*.hpp' '*.c' '*.h' | xargs -r clang-format --dry-run -Werror
 }
 
 case $1 in
-  licence_heads | line_length | format) "$1" ;;
+  licence_heads | line_length | comments | format) "$1" ;;
   *)
-    echo "lint-sources.sh: no check '$1'; there are licence_heads, line_length, format" >&2
+    echo "lint-sources.sh: no check '$1'; there are licence_heads, line_length, comments," \
+      "format" >&2
     exit 2
     ;;
 esac

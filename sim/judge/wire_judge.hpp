@@ -68,9 +68,9 @@ class WireJudge {
     std::string name;
     Time sof = -kSecond;       // of the frame under way or the last one
     Time failed = -kSecond;    // last attempt that failed
-    bool failed_eof6 = false;  // ... at EOF6
-    bool failed_late = false;  // ... at EOF7
-    bool unheard = false;      // ... error passive, for want of an acknowledge
+    bool failed_eof6 = false;  // the last attempt failed at EOF6
+    bool failed_late = false;  // the last attempt failed at EOF7
+    bool unheard = false;      // the last attempt failed for want of an acknowledge, error passive
     Success success{};         // last attempt that ended well
   };
   struct Delivery {

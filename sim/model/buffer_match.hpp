@@ -75,7 +75,7 @@ constexpr bool code_receives(unsigned code) {
 }
 constexpr bool code_sends(unsigned code) { return code == kTxActive || code == kTxAnswer; }
 
-// A frame that is none makes these throw as Frame::validate() does.
+// These throw as Frame::validate() does for a frame that cannot be.
 
 /// A row of the table in 3.5: does the mailbox accept the frame for storing?
 [[nodiscard]] bool mailbox_accepts(const Frame &frame, std::uint32_t cs, std::uint32_t id,

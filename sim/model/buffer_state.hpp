@@ -85,7 +85,7 @@ class BufferState {
   void lock_for_read(unsigned n);
   /// The frame that may be on its way into buffer n, word by word.
   [[nodiscard]] const ArrivedFrame *on_its_way(unsigned n) const;
-  /// ... and has changed a word that the CPU saw, or showed BUSY.
+  /// That frame has changed a word that the CPU saw, or showed BUSY.
   void show_move(unsigned n) { moving |= std::uint64_t{1} << n; }
   [[nodiscard]] bool move_shown(unsigned n) const { return ((moving >> n) & 1) != 0; }
   /// Ends the lock; `read` marks the buffer as serviced. A waiting frame is released.

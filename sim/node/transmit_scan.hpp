@@ -209,7 +209,7 @@ class TransmitScan {
            ((cs >> 21 & 1) != 0 ? 3U << 19 | (id & 0x3FFFF) << 1 | rtr : rtr << 20);
   }
 
-  // ... compared with that of the winner, or of the worst.
+  // Whether a buffer's value is below that of the winner, or of the worst so far.
   template <typename R>
   static bool less(const R &root, unsigned buffer) {
     const std::uint64_t mine = value(root, buffer),

@@ -26,7 +26,7 @@ class RemoteUser {
   void start(Time start, Time stop);
   /// apply_o has pulsed.
   void applied();
-  /// Its time is behind the end, or it has waited in vain for staged bytes.
+  /// Its time is behind the end, or the staged bytes that it waits for never came.
   [[nodiscard]] bool never_acts() const {
     return never_acts_ || (spec_.after_apply && times_ == 0);
   }

@@ -114,7 +114,7 @@ class VericanTlm : public sc_core::sc_module {
   TlmConfig config_;
   std::unique_ptr<RtlNode> node_;
   CanBus *bus_ = nullptr;       // loosely timed
-  sc_core::sc_time idle_from_;  // ... the end of the last transfer, zero: none so far
+  sc_core::sc_time idle_from_;  // loosely timed: end of the last transfer; zero: none so far
   std::vector<std::unique_ptr<sc_core::sc_signal<bool>>> open_ends_;
   Settled rx_{true}, reset_n_{true}, stop_{false};
   bool stop_given_ = false;

@@ -34,7 +34,7 @@ class Inflater {
   Inflater &operator=(const Inflater &) = delete;
 
   /// Appends the next piece to `text`; false at the end. Several members follow each other, as with
-  /// cat; what follows the last one and is none is ignored, as gzip does.
+  /// cat writes them; what follows the last one and is no member is ignored, as gzip does.
   bool next(std::string &text, const std::string &path, std::size_t most) {
     std::array<char, 65536> piece{};
     stream_.next_out = reinterpret_cast<Bytef *>(piece.data());

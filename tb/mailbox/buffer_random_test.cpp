@@ -210,7 +210,7 @@ class RandomAtEvents : public Random {
 TEST_P(RandomAtEvents, Lockstep) { lockstep(); }  // FX-3.4.b, FX-3.5.o, FX-3.3.j
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomAtEvents, ::testing::Range(1u, 61u));
-// Each has found something, in the core or in the model.
+// Seeds that have shown a defect of the core or of the model.
 INSTANTIATE_TEST_SUITE_P(Found, RandomAtEvents,
                          ::testing::Values(582u, 759u, 1350u, 1462u, 1797u, 2171u, 2297u, 4309u,
                                            4824u, 6087u, 14147u, 17127u, 17728u));

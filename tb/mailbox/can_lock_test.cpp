@@ -252,7 +252,7 @@ TEST_F(Reception, RxfirWithoutTheFifoIsNoReadOfBuffer0) {  // FX-3.6.a, FX-MAP.R
   EXPECT_EQ(words.code(), kOverrun) << "nobody has read it";
 }
 
-// ... nor does it end the lock of the buffer that has been read.
+// Nor does a read of RXFIR without the FIFO end the lock of the buffer that has been read.
 TEST_F(Reception, RxfirWithoutTheFifoKeepsTheLock) {  // FX-3.6.e, FX-MAP.RXFIR
   const MbWords before = lock_while_another_waits();
   EXPECT_EQ(rig_.read(0, reg::kRxfir), 0u);

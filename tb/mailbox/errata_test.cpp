@@ -218,7 +218,7 @@ TEST_F(Errata, E3407ARequestWithoutAnswerHoldsUpNobody) {
   }
   EXPECT_EQ(rig_.sent().size(), 5u);
   rig_.compare();
-  rig_.receive(kFirst);  // it comes after all
+  rig_.receive(kFirst);  // what the buffer was waiting for comes now
   EXPECT_EQ((rig_.read(reg::mb(5)) >> 24) & 0xF, unsigned{kRxFull});
 }
 

@@ -120,8 +120,8 @@ std::vector<std::uint64_t> afterwards(MailboxRig &rig, bool fifo, unsigned seed)
   std::mt19937 random{seed};
   Witness witness{rig};
   reset(rig);
-  if (random() % 2 != 0) witness.registers();  // at once, or ...
-  witness.run(300);                            // ... when the RAM has been cleared
+  if (random() % 2 != 0) witness.registers();  // before the RAM is cleared
+  witness.run(300);                            // behind it
   bring_up(rig, fifo, random);
   for (unsigned n = 0; n < 2; ++n) rig.put_tx(n, 11 + random() % 5, frame_of(random));
   for (unsigned n = 0; n < 2; ++n)

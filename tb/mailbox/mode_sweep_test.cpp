@@ -142,7 +142,7 @@ class MovesAreOver : public ModeSweep {
   static constexpr unsigned kOwnMb = 8, kOtherMb = 12;
   const unsigned sender_ = transmitter_ ? ModeRig::kSubject : ModeRig::kPeer;
   Frame stored_;  // in buffer kRxMb before the frame
-  Frame found_;   // ... with the acknowledge
+  Frame found_;   // in buffer kRxMb once the mode is acknowledged
 
   void SetUp() override {
     ASSERT_TRUE(rig_.freeze(ModeRig::kSubject));

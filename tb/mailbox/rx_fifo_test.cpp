@@ -209,8 +209,8 @@ TEST_F(RxFifo, EngineAreaCannotBeWritten) {  // FX-4.a
   EXPECT_EQ(rig_.read(RxFifoRig::kSender, reg::kIflag1), 0u);
 }
 
-// ... and is buffers like any other once FEN is 0: for all transfers but the one that is on its way
-// while FEN is written (docs/integration.md). FX-MCR.FEN
+// The area of the FIFO is buffers like any other once FEN is 0, for all transfers but the one that
+// is on its way while FEN is written (docs/integration.md). FX-MCR.FEN
 TEST_F(RxFifo, EngineAreaIsBuffersOnceFenIsZero) {
   const std::uint32_t mcr = rig_.read(kReceiver, reg::kMcr);
   for (unsigned later = 1; later < 5; ++later) {

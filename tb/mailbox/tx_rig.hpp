@@ -53,7 +53,7 @@ class TxRig : public MailboxRig {
   void occupy_next();
   bool occupied_ = false;
   bool next_armed_ = false;  // the frame after the one that node 1 is sending is in its buffer
-  unsigned next_ = 0;        // ... which is this one of two
+  unsigned next_ = 0;        // that buffer, the first or the second
   unsigned starts_ = 0, sent_ = 0, failed_ = 0;
 };
 

@@ -39,7 +39,7 @@ inline void PrintTo(const Counters &c, std::ostream *out) {
 inline const std::string kOverloadFlag = "000000";
 inline const std::string kDelimiter = "11111111";
 inline const std::string kIntermission = "111";
-/// ... and the suspend time of a passive transmitter (IF-08).
+/// The suspend time of a transmitter in that state: of a passive one alone (IF-08).
 [[nodiscard]] inline std::string suspend_of(const Counters &c) {
   return c.passive() ? "11111111" : "";
 }

@@ -13,7 +13,7 @@ module smoke_script (
   output reg  [31:0] addr,
   output reg  [31:0] wdata,
   input  wire        done,      // for one clock
-  input  wire [31:0] rdata,     // ... with these
+  input  wire [31:0] rdata,     // valid with done
   input  wire        error,
   output reg         finished,
   output reg         passed

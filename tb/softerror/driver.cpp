@@ -15,7 +15,7 @@ namespace {
 
 using namespace driver_map;
 
-// Longer than the longest frame at the bit rates of these runs: who waits longer waits in vain.
+// Longer than the longest frame at the bit rates of these runs: a wait of more never ends.
 constexpr std::uint64_t kModeLimit = 20'000;
 // Without interrupts the driver looks for work this often, in clocks.
 constexpr std::uint64_t kIdleClocks = 4'000;

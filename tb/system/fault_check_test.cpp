@@ -217,7 +217,8 @@ TEST(PossibleFault, RetransmissionsAreFrames) {
 
 // ---- Nothing that happens is refused
 
-using Place = std::tuple<Field, unsigned, unsigned, bool, unsigned>;  // ... stuff bit, frame
+/// Field, bit of it, bits left of it, whether it is a stuff bit, frame.
+using Place = std::tuple<Field, unsigned, unsigned, bool, unsigned>;
 
 /// Every place at which each node has been.
 class Visits : public BusObserver {

@@ -90,6 +90,7 @@ TABLE = [
     ("tools/lint-sources.sh nosuch", 2, "no check 'nosuch'; there are licence_heads, line_le"),
     ("GIT_DIR={tmp}/none tools/lint-sources.sh licence_heads", 1, "not a git repository"),
     ("GIT_DIR={tmp}/none tools/lint-sources.sh line_length", 1, "not a git repository"),
+    ("GIT_DIR={tmp}/none tools/lint-sources.sh comments", 1, "not a git repository"),
     ("GIT_DIR={tmp}/none tools/lint-sources.sh format", 1, "not a git repository"),
     ("bash -c '. tools/common.sh; our_files \"*.nosuch\"'", 1, "no files match: *.nosuch"),
     # Files and folders of the campaign.

@@ -31,7 +31,7 @@ class MbGuard : public ::testing::Test {
     guard_->idx_i = idx;
     guard_->code_i = code;
   }
-  /// ... in its second one, in which it ends.
+  /// The second clock of that access, in which it ends.
   void ends() {
     guard_.clock();
     guard_->end_i = guard_->first_i = 0;

@@ -115,8 +115,8 @@ TEST_F(MbStep, OnlyCopiesTakeTheWritePort) {
   }
 }
 
-// Of a frame being loaded and one that is presented each has its word: what is copied may not be
-// taken after all.
+// A frame being loaded and the one that is presented each have a word of their own: the copy may
+// still be cancelled.
 TEST_F(MbStep, HeaderGoesToItsOwnRowAndTheEndComesFromTheOther) {
   for (const unsigned row : {0u, 1u}) {
     step_->ld_req_i = 1;

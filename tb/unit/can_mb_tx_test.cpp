@@ -256,7 +256,7 @@ TEST_P(MbTx, RetryIsToldUntilItIsInTheWinner) {
   EXPECT_GT(clocks, 1u);
 }
 
-// ... and C/S writes in a row do not shut it out, nor an answer.
+// C/S writes in a row shut out neither a retry nor an answer.
 TEST_P(MbTx, RetriesAndAnswersHaveTheirTurnsBesideWrites) {  // FX-3.3.f
   for (const bool answer : {false, true}) {
     settle();
@@ -583,7 +583,7 @@ TEST_P(MbTx, PassIsWaitedForAgainAfterASpoiledOne) {
   check();
 }
 
-// ... and in which clock of a pass a winner is lost makes no difference, spoilt or not.
+// In which clock of a pass a winner is lost makes no difference, whether the pass is spoilt or not.
 TEST_P(MbTx, WinnerLostInEveryClockOfAPass) {
   buffers_[0].id = 0x100 << 18;
   buffers_[2] = {kActive << 24, 0x200 << 18};

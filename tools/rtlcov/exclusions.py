@@ -6,7 +6,7 @@
       - because: upset          # one of BECAUSE
         reason: why nothing reaches it
         at: "default: state_q"  # line, branch: text of the source line, on one line of the file
-        what: case              # ... and which point there, where there are several
+        what: case              # which point of that line, where there are several
       - because: constant
         reason: ...
         toggle: "rx_i[7:2]:0->1 busy_*"   # signals; a range of bits, one direction, * for any text

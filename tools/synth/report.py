@@ -69,7 +69,7 @@ def wrap(directory):
         for name, width in group:
             pins.append(f".\\{name} ({vector}[{low + width - 1}:{low}])")
             low += width
-    # The names matter: placement follows them, and other cores were measured in this very harness.
+    # The names matter: placement follows them, and other cores were measured in the same harness.
     (directory / "wrap.v").write_text(f"""
 module area_wrap(input clk_pin, input si, input cap, output reg so);
 reg [{ins - 1}:0] ir; reg [{outs - 1}:0] orr; wire [{outs - 1}:0] ow; reg si_q, cap_q;

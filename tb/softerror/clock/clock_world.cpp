@@ -20,7 +20,7 @@ constexpr Time kNever = std::numeric_limits<Time>::max();
 constexpr Time kFollowUp = 300 * kBit;          // behind SYNC
 constexpr Time kSoftware = 200 * kMicrosecond;  // it runs this often
 constexpr Time kIdle = 10 * kBit;               // then a dominant bit is an SOF
-// An access takes a clock or two; who waits longer waits in vain.
+// An access takes a clock or two; a wait of more than this never ends.
 constexpr unsigned kLongestWait = 64;
 // As the driver leaves it, with the fastest slew.
 constexpr std::uint32_t kTctrl = VERICAN_TCTRL_RESET;

@@ -5,7 +5,7 @@
 
 export const kGutter = 118; // room for names at the left
 const kFieldPx = 0.55; // a bit at least this wide: fields apart
-const kBitPx = 9; // ... bits apart
+const kBitPx = 9; // a bit at least this wide: bits apart
 const kQuantumPx = 5; // a quantum at least this wide: quanta apart
 const kBlockPx = 5; // a segment at least this wide on average: segments apart
 
