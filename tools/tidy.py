@@ -5,7 +5,7 @@
 # tidy.py BUILD [--sample]: clang-tidy on every source of ours that the build compiles, two at a
 # time. A file is looked at again only if it, a header of ours that it includes or the settings
 # changed since it was found clean. --sample, for machines that start from nothing each time: only
-# the sources of the last commits, and one in eight of the others, which ones by the commit.
+# the sources of the last commits, and one in sixteen of the others, which ones by the commit.
 import argparse
 import concurrent.futures
 import hashlib
@@ -18,8 +18,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 JOBS = 2
-RECENT = 20   # commits whose sources are in every sample
-PART = 8      # one in so many of the other sources
+RECENT = 12   # commits whose sources are in every sample
+PART = 16      # one in so many of the other sources
 # By the compiler, for itself alone: as g++ is told of it, and clang++.
 PRECOMPILED = re.compile(r"( -Xclang -include-pch -Xclang \S*\.pch -Xclang -include -Xclang"
                          r"| -include) \S*/cmake_pch\.hxx")
@@ -124,7 +124,7 @@ def tidy(folder, name):
 def main():
     parser = argparse.ArgumentParser(description="clang-tidy on what changed")
     parser.add_argument("build", type=Path, help="configured build directory")
-    parser.add_argument("--sample", action="store_true", help="last commits and one in eight")
+    parser.add_argument("--sample", action="store_true", help="last commits and one in sixteen")
     options = parser.parse_args()
     build = options.build.resolve()
     commands = list(commands_of(build))
