@@ -13,6 +13,7 @@
 #include "bus/types.hpp"
 #include "node/engine_judge.hpp"
 #include "node/engine_level.hpp"
+#include "node/engine_place.hpp"
 #include "node/engine_time.hpp"
 #include "node/model_edge.hpp"
 
@@ -104,12 +105,6 @@ class QuietEngine {
   }
 
  private:
-  // The place in the bit, as the RTL has it.
-  struct Place {
-    std::uint64_t clocks_of_tq;  // presdiv + 1
-    std::uint64_t to_tick;       // edges until tq_o is 1; 0: it is
-  };
-
   template <typename Root>
   static constexpr bool kKnown = !kPlainEdges && requires(Root & root) {
     root.can_core__DOT__tq;
@@ -234,8 +229,9 @@ class QuietEngine {
     if constexpr (kJudges<Root>) {
       const auto &root = *engine.rootp;
       if (root.can_core__DOT__u_bit_timing__DOT__seg2_q == 0 ||
-          trace_field(root.trace_o) > Field::kEof || quanta(engine) == 0 || !keeps_level(root) ||
-          pulses(engine) || (root.run_i & root.can_core__DOT__active_q) == 0 || root.rx_req_i != 0)
+          trace_field(root.trace_o) > Field::kEof || EnginePlace::quanta(root) == 0 ||
+          !keeps_level(root) || pulses(engine) ||
+          (root.run_i & root.can_core__DOT__active_q) == 0 || root.rx_req_i != 0)
         return 0;
       return (root.can_core__DOT__u_bit_timing__DOT__tseg1_q + 1U) * (root.presdiv_i + 1U);
     } else {
@@ -265,8 +261,8 @@ class QuietEngine {
           root.can_core__DOT__u_bsp__DOT__u_fault__DOT__boff_seen_q != root.boff_o)
         return 0;
       if (root.can_core__DOT__active_q == 0) return kStopped;
-      const Place place = place_of(engine);
-      return place.to_tick + quanta(engine) * place.clocks_of_tq;
+      return EnginePlace::to_tick(root) +
+             EnginePlace::quanta(root) * EnginePlace::clocks_of_tq(root);
     } else {
       return 0;
     }
@@ -279,43 +275,10 @@ class QuietEngine {
       const auto &root = *engine.rootp;
       return root.can_core__DOT__u_bsp__DOT__u_fault__DOT__boff_seen_q == root.boff_o &&
              (root.can_core__DOT__active_q == 0 || root.can_core__DOT__tq == 0 ||
-              quanta(engine) != 0);
+              EnginePlace::quanta(root) != 0);
     } else {
       return false;
     }
-  }
-
-  // Whole quanta from the next tick until the one at which more happens than counting.
-  template <typename Engine>
-  static std::uint64_t quanta(const Engine &engine) {
-    const auto &root = *engine.rootp;
-    // Of three samples the trace shows the majority, which changes with the levels before.
-    const unsigned levels = level_of(engine) ? 3 : 0;
-    const bool following =
-        root.smp_i != 0 && root.can_core__DOT__u_bit_timing__DOT__prev_q != levels;
-    if (root.can_core__DOT__u_bit_timing__DOT__falling != 0 || following) return 0;
-    const unsigned pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
-    const unsigned last = root.can_core__DOT__u_bit_timing__DOT__seg2_q != 0
-                              ? root.pseg2_i + 1U
-                              : root.can_core__DOT__u_bit_timing__DOT__tseg1_q;
-    return pos < last ? last - pos : 0;
-  }
-
-  template <typename Engine>
-  static Place place_of(const Engine &engine) {
-    const auto &root = *engine.rootp;
-    const std::uint64_t clocks = root.presdiv_i + 1U;
-    const std::uint64_t count = root.can_core__DOT__u_tq_gen__DOT__gen_divide__DOT__count_q;
-    if (root.can_core__DOT__tq != 0) return {clocks, 0};
-    return {clocks, count >= clocks ? 1 : clocks - count};
-  }
-
-  // What the bit timing block sees: the settled pin, in loop-back what the node sends.
-  template <typename Engine>
-  static bool level_of(const Engine &engine) {
-    const auto &root = *engine.rootp;
-    if (root.lpb_i != 0) return (root.trace_o & kTraceTx) != 0;
-    return root.can_core__DOT__u_sync__DOT__settled_q != 0;
   }
 
   template <typename Engine>
@@ -338,7 +301,7 @@ class QuietEngine {
       if (edges != 0) count(engine, edges);
       const bool shows =
           root.can_core__DOT__active_q != 0 && root.can_core__DOT__tq != 0 &&
-          (root.can_core__DOT__u_bit_timing__DOT__falling != 0 || quanta(engine) == 0);
+          (root.can_core__DOT__u_bit_timing__DOT__falling != 0 || EnginePlace::quanta(root) == 0);
       if (shows || judges) verican_follow(&root);
       if (shows) clocked_(engine);
     }
@@ -391,27 +354,7 @@ class QuietEngine {
       if constexpr (kJudges<std::remove_reference_t<decltype(*engine.rootp)>>) {
         if (root.can_core__DOT__first_q != 0) EngineJudge::judge(root);
       }
-      const Place place = place_of(engine);
-      auto &count = root.can_core__DOT__u_tq_gen__DOT__gen_divide__DOT__count_q;
-      if (edges < place.to_tick) {
-        count += static_cast<CData>(edges);
-        return;
-      }
-      // Less than a bit, so that 32 bits are enough, which divide faster.
-      const auto clocks_of_tq = static_cast<std::uint32_t>(place.clocks_of_tq);
-      const auto ticks_and_rest = static_cast<std::uint32_t>(edges - place.to_tick);
-      const std::uint32_t ticks = (ticks_and_rest + clocks_of_tq - 1) / clocks_of_tq;
-      const std::uint32_t rest = ticks * clocks_of_tq - ticks_and_rest;  // to the next tick
-      count = static_cast<CData>(clocks_of_tq - rest);
-      root.can_core__DOT__tq = rest == 0;
-      auto &pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
-      pos = static_cast<CData>(pos + ticks);
-      root.can_core__DOT__u_bit_timing__DOT__ahead = pos;
-      root.can_core__DOT__u_bit_timing__DOT__over = pos > root.pseg2_i;
-      const unsigned level = level_of(engine) ? 1 : 0;
-      auto &prev = root.can_core__DOT__u_bit_timing__DOT__prev_q;
-      if (ticks == 1) prev = static_cast<CData>(((prev << 1) & 3U) | level);
-      if (ticks > 1) prev = static_cast<CData>(3U * level);
+      EnginePlace::count(root, edges);
     }
   }
 

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The VeriCAN authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// EnginePlace: where in its bit a Verilated can_core is.
+#pragma once
+
+#include <cstdint>
+
+#include "bus/trace.hpp"
+#include "verilated.h"
+
+namespace vericansim {
+
+/// The prescaler and the position of the model (rtl/bit/can_tq_gen.sv, can_bit_timing.sv), read and
+/// moved on in closed form. For QuietEngine, which knows when they are all that moves, and looks
+/// for the members.
+class EnginePlace {
+ public:
+  /// Clocks of a time quantum.
+  template <typename Root>
+  [[nodiscard]] static std::uint64_t clocks_of_tq(const Root &root) {
+    return root.presdiv_i + 1U;
+  }
+
+  /// Edges until tq_o is 1; 0: it is.
+  template <typename Root>
+  [[nodiscard]] static std::uint64_t to_tick(const Root &root) {
+    if (root.can_core__DOT__tq != 0) return 0;
+    const std::uint64_t clocks = clocks_of_tq(root);
+    const std::uint64_t count = root.can_core__DOT__u_tq_gen__DOT__gen_divide__DOT__count_q;
+    return count >= clocks ? 1 : clocks - count;
+  }
+
+  /// Whole quanta from the next tick until the one at which more happens than counting.
+  template <typename Root>
+  [[nodiscard]] static std::uint64_t quanta(const Root &root) {
+    // Of three samples the trace shows the majority, which changes with the levels before.
+    const unsigned levels = level(root) ? 3 : 0;
+    const bool following =
+        root.smp_i != 0 && root.can_core__DOT__u_bit_timing__DOT__prev_q != levels;
+    if (root.can_core__DOT__u_bit_timing__DOT__falling != 0 || following) return 0;
+    const unsigned pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
+    const unsigned last = root.can_core__DOT__u_bit_timing__DOT__seg2_q != 0
+                              ? root.pseg2_i + 1U
+                              : root.can_core__DOT__u_bit_timing__DOT__tseg1_q;
+    return pos < last ? last - pos : 0;
+  }
+
+  /// `edges` pass, less than a bit, in which only quanta and positions count.
+  template <typename Root>
+  static void count(Root &root, std::uint64_t edges) {
+    const std::uint64_t before = to_tick(root);
+    auto &count = root.can_core__DOT__u_tq_gen__DOT__gen_divide__DOT__count_q;
+    if (edges < before) {
+      count += static_cast<CData>(edges);
+      return;
+    }
+    // 32 bits are enough, and divide faster.
+    const auto clocks = static_cast<std::uint32_t>(clocks_of_tq(root));
+    const auto ticks_and_rest = static_cast<std::uint32_t>(edges - before);
+    const std::uint32_t ticks = (ticks_and_rest + clocks - 1) / clocks;
+    const std::uint32_t rest = ticks * clocks - ticks_and_rest;  // to the next tick
+    count = static_cast<CData>(clocks - rest);
+    root.can_core__DOT__tq = rest == 0;
+    advance(root, ticks);
+  }
+
+ private:
+  // What the bit timing block sees: the settled pin, in loop-back what the node sends.
+  template <typename Root>
+  static bool level(const Root &root) {
+    if (root.lpb_i != 0) return (root.trace_o & kTraceTx) != 0;
+    return root.can_core__DOT__u_sync__DOT__settled_q != 0;
+  }
+
+  template <typename Root>
+  static void advance(Root &root, std::uint32_t quanta) {
+    auto &pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
+    pos = static_cast<CData>(pos + quanta);
+    root.can_core__DOT__u_bit_timing__DOT__ahead = pos;
+    root.can_core__DOT__u_bit_timing__DOT__over = pos > root.pseg2_i;
+    const unsigned now = level(root) ? 1 : 0;
+    auto &prev = root.can_core__DOT__u_bit_timing__DOT__prev_q;
+    if (quanta == 1) prev = static_cast<CData>(((prev << 1) & 3U) | now);
+    if (quanta > 1) prev = static_cast<CData>(3U * now);
+  }
+};
+
+}  // namespace vericansim
