@@ -83,6 +83,11 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/driver/include/verican"
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/driver/src" "${PROJECT_SOURCE_DIR}/sw/driver/include"
         DESTINATION "${VERICAN_DATA_DIR}/driver" COMPONENT driver)
 
+# The clients of the node without a processor, in C and Python, and the golden vectors.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/remote" DESTINATION "${VERICAN_DATA_DIR}"
+        COMPONENT driver FILES_MATCHING PATTERN "*.[ch]" PATTERN "*.py" PATTERN "vectors.yaml"
+        PATTERN "__pycache__" EXCLUDE)
+
 # For firmware on the simulated board: start-up code, vectors, linker script, semihosting.
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/firmware/common"
         DESTINATION "${VERICAN_DATA_DIR}/firmware" COMPONENT driver)
@@ -122,6 +127,7 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
 set(VERICAN_DOC_PLACES
   "sim=${include_dir}" "rtl=${VERICAN_DATA_DIR}/rtl" "examples=${VERICAN_DATA_DIR}/examples"
   "sw/driver=${VERICAN_DATA_DIR}/driver" "sw/canopennode=${VERICAN_DATA_DIR}/canopennode"
+  "sw/remote=${VERICAN_DATA_DIR}/remote"
   "sw/firmware/common=${VERICAN_DATA_DIR}/firmware/common"
   "sw/verican.svd=${VERICAN_DATA_DIR}/verican.svd")
 list(TRANSFORM VERICAN_DOC_PLACES REPLACE "=" "=\${root}/")

@@ -13,6 +13,8 @@ EXPECTED = [
     "include/verican/verican.h", "include/verican/verican_regs.h", "share/verican/rtl/can.f",
     "share/verican/rtl/host/can_ahb.sv", "share/verican/verican.svd",
     "share/verican/driver/src/init.c", "share/verican/driver/include/verican/verican.h",
+    "share/verican/remote/verican_remote.h", "share/verican/remote/src/ask.c",
+    "share/verican/remote/verican_remote.py", "share/verican/remote/vectors.yaml",
     "share/verican/python/verican_helper.py", "share/verican/examples/two-nodes.yaml",
     "share/verican/examples/external/two_nodes.cpp",
     "share/verican/firmware/common/a2f500.ld", "share/verican/firmware/common/semihost.h",
