@@ -8,6 +8,7 @@ import argparse
 from pathlib import Path
 
 PROFILES = {"small": 0x01, "standard": 0x1F, "full": 0xFF}  # features (RN-25)
+PRODUCERS, MAP = 0x02, 0x04
 
 
 def number(text):
@@ -57,13 +58,24 @@ def spread(areas):
     return [(first + i, byte) for first, data in areas for i, byte in enumerate(data)]
 
 
+def areas(args):
+    """What user logic may set up before the start: memory, configuration, the tables that the
+    profile has (section 8). All else is the engine's own, or read by nobody."""
+    yield range(args.mem_bytes - 512)
+    yield range(0xF00, 0xF20)
+    if PROFILES[args.profile] & PRODUCERS:
+        yield range(0xF40, 0xF80)
+    if PROFILES[args.profile] & MAP:
+        yield range(0xF80, 0xFC0)
+
+
 def own_bytes(args, refuse):
     """The bytes of --set by their addresses."""
     own = {}
     for address, byte in spread(args.set):
-        if args.mem_bytes - 512 <= address < 0xE00 or not 0 <= address < 0x1000:
-            refuse(f"argument --set: {address:#05x} is not in the memory; allowed: 0x000 to "
-                   f"{args.mem_bytes - 513:#05x} and 0xe00 to 0xfff")
+        if not any(address in area for area in areas(args)):
+            refuse(f"argument --set: {address:#05x} is not in the memory; allowed: " + ", ".join(
+                f"{area[0]:#05x} to {area[-1]:#05x}" for area in areas(args)))
         if address in own:
             refuse(f"argument --set: {address:#05x} is given twice; allowed: once")
         own[address] = byte
@@ -74,11 +86,11 @@ def contents(args, own):
     """The bytes of the memory map that are not 0."""
     features = PROFILES[args.profile] & (0xFF if args.stage_bytes else 0xFE)
     size = args.mem_bytes.bit_length() - 1
-    areas = {0xE04: [40],                                             # 10 s, x 256 ms
+    fixed = {0xE04: [40],                                             # 10 s, x 256 ms
              0xF00: [args.number, 0x05, 0, 0, 0x0A, 0x0A, 0x32, 0x08],  # NODE to RETRY (section 8)
              0xFF8: [0x01, features, args.name_bits << 4 | size, args.stage_bytes,
                      *args.serial.to_bytes(4, "little")]}
-    return dict(spread(areas.items())) | own
+    return dict(spread(fixed.items())) | own
 
 
 def main():

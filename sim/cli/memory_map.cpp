@@ -22,7 +22,7 @@ RemoteConfig config_of(unsigned name_bits) {
   return config;
 }
 
-bool sends(const NodeTables &node, const MapEntry &entry, const RemoteConfig &config) {
+bool sends(const NodeTables &node, const RemoteMapEntry &entry, const RemoteConfig &config) {
   return std::any_of(node.producers.begin(), node.producers.end(), [&](const ProducerEntry &one) {
     return ((config.id(1, node.number, one.a) ^ entry.id) & entry.mask & 0x7FF) == 0;
   });
@@ -30,7 +30,7 @@ bool sends(const NodeTables &node, const MapEntry &entry, const RemoteConfig &co
 
 /// Whether somebody sends what the entry waits for. Requests, and statements of the host, are the
 /// host's, of which nothing is known.
-bool anybody_sends(const std::vector<NodeTables> &nodes, const MapEntry &entry,
+bool anybody_sends(const std::vector<NodeTables> &nodes, const RemoteMapEntry &entry,
                    const RemoteConfig &config) {
   const unsigned statement = 0x400;
   const bool any_direction = (entry.mask & statement) == 0;
@@ -43,11 +43,17 @@ bool anybody_sends(const std::vector<NodeTables> &nodes, const MapEntry &entry,
 void complain_of_overlaps(const NodeTables &node, std::vector<std::string> &all) {
   for (std::size_t i = 0; i < node.maps.size(); ++i)
     for (std::size_t j = i + 1; j < node.maps.size(); ++j) {
-      const MapEntry &a = node.maps[i], &b = node.maps[j];
+      const RemoteMapEntry &a = node.maps[i], &b = node.maps[j];
       if (a.address < b.address + b.span() && b.address < a.address + a.span())
         all.push_back(fmt::format("node {}: entries for {:03X} and {:03X} overlap at {:03X}",
                                   node.number, a.id, b.id, std::max(a.address, b.address)));
     }
+}
+
+void complain_of_vain_entries(const NodeTables &node, std::vector<std::string> &all) {
+  for (const RemoteMapEntry &entry : node.maps)
+    if (const std::string why = why_never(entry, node.config, node.number); !why.empty())
+      all.push_back(fmt::format("node {}: entry for {:03X}: {}", node.number, entry.id, why));
 }
 
 std::string producer_text(const ProducerEntry &p, unsigned number, const RemoteConfig &config) {
@@ -61,7 +67,7 @@ std::string producer_text(const ProducerEntry &p, unsigned number, const RemoteC
                      p.length(), p.a, when);
 }
 
-std::string entry_text(const MapEntry &e) {
+std::string entry_text(const RemoteMapEntry &e) {
   std::string text = fmt::format("  takes {:03X} under {:03X} to {:03X}", e.id, e.mask, e.address);
   if ((e.flags & 0x20) != 0) text += ", as TRIGGER";
   if (e.time_out != 0) text += fmt::format(", late after {} ms", 10 * e.time_out);
@@ -70,11 +76,6 @@ std::string entry_text(const MapEntry &e) {
 }
 
 }  // namespace
-
-unsigned MapEntry::span() const {
-  const unsigned length = flags & 0x0F;
-  return (length == 0 ? 8 : length) + (~mask & 0x7F);
-}
 
 NodeTables read_tables(unsigned number, const std::vector<std::uint8_t> &bytes) {
   NodeTables node;
@@ -97,7 +98,8 @@ std::vector<std::string> complaints(const std::vector<NodeTables> &nodes, unsign
   for (const NodeTables &node : nodes) {
     if (node.doubled) all.push_back(fmt::format("number {}: two nodes have it", node.number));
     complain_of_overlaps(node, all);
-    for (const MapEntry &entry : node.maps)
+    complain_of_vain_entries(node, all);
+    for (const RemoteMapEntry &entry : node.maps)
       if (!anybody_sends(nodes, entry, config))
         all.push_back(fmt::format("node {}: waits for {:03X} under {:03X}, which nobody sends",
                                   node.number, entry.id, entry.mask));
@@ -111,7 +113,7 @@ std::string to_text(const std::vector<NodeTables> &nodes, unsigned name_bits) {
   for (const NodeTables &node : nodes) {
     text += fmt::format("node {}\n", node.number);
     for (const ProducerEntry &one : node.producers) text += producer_text(one, node.number, config);
-    for (const MapEntry &one : node.maps) text += entry_text(one);
+    for (const RemoteMapEntry &one : node.maps) text += entry_text(one);
   }
   return text;
 }
@@ -126,7 +128,7 @@ Json to_json(const std::vector<NodeTables> &nodes) {
                            {"mode", p.mode & 0xF0},
                            {"period", p.period},
                            {"gap_ms", p.gap}});
-    for (const MapEntry &e : node.maps)
+    for (const RemoteMapEntry &e : node.maps)
       maps.push_back({{"id", e.id},
                       {"mask", e.mask},
                       {"address", e.address},

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/cli.hpp"
+#include "scenario/remote_tables.hpp"
 
 namespace vericansim::cli {
 
@@ -18,27 +19,20 @@ struct ProducerEntry {
   [[nodiscard]] unsigned length() const { return mode & 0x0F; }
 };
 
-/// An entry of the map (RN-65).
-struct MapEntry {
-  unsigned id = 0, mask = 0, address = 0, flags = 0, time_out = 0;
-  /// Bytes it writes from `address` on: those of a frame, or a copy of the bits that are not
-  /// compared.
-  [[nodiscard]] unsigned span() const;
-};
-
 /// The tables of one node.
 struct NodeTables {
   unsigned number = 0;
   bool doubled = false;  ///< it has heard its own number from another node
+  RemoteConfig config;   ///< as far as the node tells it
   std::vector<ProducerEntry> producers;
-  std::vector<MapEntry> maps;
+  std::vector<RemoteMapEntry> maps;
 };
 
 /// The tables from F40 to FBF as they are read; entries that are off are left out.
 [[nodiscard]] NodeTables read_tables(unsigned number, const std::vector<std::uint8_t> &bytes);
 
 /// What is wrong: numbers that two nodes have, entries of a map that write the same bytes, entries
-/// that wait for identifiers that nobody sends.
+/// that can never have an effect or wait for identifiers that nobody sends.
 [[nodiscard]] std::vector<std::string> complaints(const std::vector<NodeTables> &nodes,
                                                   unsigned name_bits);
 

@@ -173,6 +173,18 @@ void write_bytes(const std::string &path, const Bytes &bytes) {
   file.commit();
 }
 
+/// The parameters of a node that decide what its map can write.
+RemoteConfig config_of(const verican_remote_identity_t &node) {
+  constexpr unsigned kEntries = 8;  // nobody tells whether there are 4
+  const auto has = [&](unsigned bit) { return (node.features >> bit & 1) != 0; };
+  RemoteConfig config;
+  config.name_bits = node.name_bits;
+  config.mem_bytes = node.memory;
+  config.num_prod = has(1) ? kEntries : 0;
+  config.num_map = has(2) ? kEntries : 0;
+  return config;
+}
+
 }  // namespace
 
 int memory_scan(MemoryCalls &calls, const MemoryOptions &options) {
@@ -294,6 +306,7 @@ int memory_map(MemoryCalls &calls, const MemoryOptions &options) {
     // Entries that a node does not have are reserved, and an access to them is refused.
     NodeTables tables;
     tables.number = node.number;
+    tables.config = config_of(node);
     const auto half = [&](unsigned bit, unsigned at) {
       if ((node.features >> bit & 1) == 0) return;
       const Bytes bytes = calls.read(node.number, at, remote_map::kMaps - remote_map::kProducers);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "node/remote_node.hpp"
+#include "scenario/remote_tables.hpp"
 #include "scenario/scenario_remote_parts.hpp"
 #include "trace/input_error.hpp"
 #include "trace/quantity.hpp"
@@ -42,6 +43,7 @@ class Settings {
     byte(address + 1, value >> 8);
   }
   [[nodiscard]] const RemoteConfig &config() const { return role_.config; }
+  [[nodiscard]] unsigned number() const { return role_.number; }
 
  private:
   RemoteRole &role_;
@@ -64,8 +66,9 @@ void parse_flags(YamlMap &map, Settings &settings) {
   if (given) settings.byte(remote_map::kFlags, flags);
 }
 
-/// One area "0x180-0x1FF" of a protection table: whole pages of 128 bytes, or of 16 below 0x80.
-void protect(const YamlValue &value, std::array<unsigned, 5> &table) {
+/// One area "0x180-0x1FF" of a protection table: whole pages of 128 bytes, or of 16 below 0x80, of
+/// a memory that ends below `end`.
+void protect(const YamlValue &value, unsigned end, std::array<unsigned, 5> &table) {
   const std::string area = value.text();
   const std::size_t dash = area.find('-');
   const auto first = parse_integer(std::string_view{area}.substr(0, dash));
@@ -73,10 +76,12 @@ void protect(const YamlValue &value, std::array<unsigned, 5> &table) {
                         ? std::nullopt
                         : parse_integer(std::string_view{area}.substr(dash + 1));
   const auto on_border = [](std::uint64_t at) { return at % (at < 0x80 ? 16 : 128) == 0; };
-  if (!first || !last || *last < *first || *last > 0xDFF || !on_border(*first) ||
+  if (!first || !last || *last < *first || *last >= end || !on_border(*first) ||
       !on_border(*last + 1))
     value.refuse(
-        "an area below 0xE00 of whole pages, as in 0x180-0x1FF: 128 bytes each, 16 below 0x80");
+        fmt::format("an area below 0x{:X} of whole pages, as in 0x180-0x1FF: 128 bytes each, 16 "
+                    "below 0x80",
+                    end));
   for (std::uint64_t at = *first; at <= *last; at += at < 0x80 ? 16 : 128) {
     if (at < 0x80)
       table[4] |= 1U << (at / 16);
@@ -89,7 +94,7 @@ void parse_protection(YamlMap &map, Settings &settings, const char *key, unsigne
   map.with(key, [&](const YamlValue &v) {
     if (!settings.config().protect) v.fail("this node has no protection");
     std::array<unsigned, 5> table{};
-    for (const YamlValue &item : v.items()) protect(item, table);
+    for (const YamlValue &item : v.items()) protect(item, memory_end(settings.config()), table);
     for (unsigned i = 0; i < table.size(); ++i) settings.byte(address + i, table[i]);
   });
 }
@@ -149,6 +154,9 @@ void parse_map_entry(const YamlValue &value, unsigned k, Settings &settings) {
   map.with("safe_when_late", [&](const YamlValue &v) { flags |= v.boolean() ? 0x40 : 0; });
   map.with("time_out", [&](const YamlValue &v) { time_out = units(v, 10 * kMillisecond, 0xFF); });
   map.finish();
+  const std::string never =
+      why_never({id, mask, to, flags, time_out}, settings.config(), settings.number());
+  if (!never.empty()) value.fail(never);
   settings.word(at, id | 0x8000);
   settings.word(at + 2, mask);
   settings.word(at + 4, to);
@@ -179,6 +187,7 @@ void parse_config(const YamlValue &value, RemoteRole &role) {
     settings.byte(remote_map::kLife, units(v, 10 * kMillisecond, 0xFF));
   });
   map.with("block_time_out", [&](const YamlValue &v) {
+    if (!role.config.block) v.fail("this node has no block transfers");
     settings.byte(remote_map::kBlockTimeout, units(v, 10 * kMillisecond, 0xFF));
   });
   map.with("retry",
@@ -199,18 +208,15 @@ void parse_config(const YamlValue &value, RemoteRole &role) {
 /// What user logic may set up before the start (RN-62): memory, configuration and tables.
 void parse_memory(const YamlValue &value, RemoteRole &role) {
   YamlMap map{value};
-  const unsigned end = role.config.mem_bytes - 512;
+  const std::vector<RemoteArea> areas = remote_areas(role.config);
   for (const std::string &key : map.keys()) {
     const YamlValue bytes = map.need(key);
     const std::uint64_t address = parse_integer(key).value_or(remote_map::kSize);
-    const bool config = address >= remote_map::kNode && address < remote_map::kTablesEnd;
-    if (address >= end && !config)
-      bytes.fail(fmt::format("{} is no address; allowed: 0 to 0x{:X}, 0x{:X} to 0x{:X}",
-                             in_quotes(key), end - 1, remote_map::kNode,
-                             remote_map::kTablesEnd - 1));
+    const RemoteArea area = area_of(areas, address);
+    if (area.end == 0)
+      bytes.fail(fmt::format("{} is no address; allowed: {}", in_quotes(key), to_text(areas)));
     const auto at = static_cast<unsigned>(address);
-    add_bytes(bytes, at, parse_bytes(bytes, (config ? remote_map::kTablesEnd : end) - at),
-              role.memory);
+    add_bytes(bytes, at, parse_bytes(bytes, area.end - at), role.memory);
   }
 }
 

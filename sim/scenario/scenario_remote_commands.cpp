@@ -86,8 +86,9 @@ class StepReader {
     return static_cast<unsigned>(*value);
   }
 
-  // A number, or the name of a remote node that has one.
+  // A number, or the name of a remote node that has one; serial_ is that of the node.
   unsigned node(bool or_all = false) {
+    serial_.reset();
     const std::string_view word = take();
     if (or_all && word == "all") return 1;
     for (const NodeSpec &one : scenario_.nodes) {
@@ -201,10 +202,12 @@ class StepReader {
   }
 
   void unlock() {
+    const std::string word{words_.empty() ? "" : words_.front()};
     const unsigned name = node();
+    if (!serial_) refuse_word(word, "a node of this scenario: unlock needs its serial number");
     step_.frame.id = port_id(name, RemotePort::kSetup);
     add(1);
-    for (unsigned i = 0; i < 4; ++i) add(serial_ >> (8 * i) & 0xFF);
+    for (unsigned i = 0; i < 4; ++i) add(*serial_ >> (8 * i) & 0xFF);
   }
 
   void lock() {
@@ -214,8 +217,16 @@ class StepReader {
 
   void frame() {
     const std::string word{take()};
-    if (!parse_candump_frame(word, step_.frame, {value_.file(), value_.line()}))
-      refuse_word(word, "a classical frame as cansend has it: 1A0#5A, 1A0#R5");
+    bool classical = false;
+    try {
+      classical = parse_candump_frame(word, step_.frame, {value_.file(), value_.line()});
+    } catch (const InputError &) {
+      // The place in the scenario says more than what is wrong within the word.
+    }
+    if (!classical)
+      refuse_word(word,
+                  "a classical frame as cansend has it, 1A0#5A, 1A0#R5: identifiers of 3 digits up "
+                  "to 7FF, or of 8 up to 1FFFFFFF");
   }
 
   const YamlValue &value_;
@@ -224,7 +235,7 @@ class StepReader {
   std::string text_;
   Words words_;
   RemoteStep step_;
-  std::uint32_t serial_ = 0;  // of the node last named
+  std::optional<std::uint32_t> serial_;  // of the node last named, if the scenario has it
 };
 
 }  // namespace

@@ -12,6 +12,10 @@
 
 namespace vericansim::detail {
 
+/// Where the memory of a node ends, below the configuration.
+[[nodiscard]] inline unsigned memory_end(const RemoteConfig &config) {
+  return config.mem_bytes - 512;
+}
 /// "01 A5": 1 to `most` hexadecimal bytes.
 [[nodiscard]] std::vector<std::uint8_t> parse_bytes(const YamlValue &value, std::size_t most);
 /// Adds the bytes of `value`, from address `at` on, to those of `memory`; throws if one is there.

@@ -13,8 +13,6 @@
 namespace vericansim::detail {
 namespace {
 
-unsigned memory_end(const RemoteConfig &config) { return config.mem_bytes - 512; }
-
 unsigned parse_place(const YamlValue &value, unsigned length, unsigned end) {
   return static_cast<unsigned>(value.integer(0, end - length));
 }
@@ -50,6 +48,45 @@ void parse_when(YamlMap &map, UserSpec &user) {
   });
 }
 
+/// Whether producer entry `k` is on from the start (RN-63).
+bool is_on(const RemoteRole &role, unsigned k) {
+  const unsigned mode = remote_map::kProducers + 8 * k + 1;
+  return std::any_of(role.memory.begin(), role.memory.end(), [mode](const auto &bytes) {
+    const auto &[first, data] = bytes;
+    return mode >= first && mode < first + data.size() && (data[mode - first] & 0x80) != 0;
+  });
+}
+
+/// Whether somebody may write the tables of a node later: unlocks it, or is a program.
+bool tables_may_change(const Scenario &scenario, const RemoteConfig &config) {
+  const unsigned a = (1U << config.address_bits()) - 1;
+  const unsigned setup = config.first_port() + static_cast<unsigned>(RemotePort::kSetup);
+  const auto unlocks = [&](const Frame &frame) {
+    return !frame.extended && !frame.remote && (frame.id & a) == setup;
+  };
+  return std::any_of(scenario.nodes.begin(), scenario.nodes.end(),
+                     [](const NodeSpec &node) {
+                       return !std::holds_alternative<TrafficRole>(node.role) &&
+                              !std::holds_alternative<RemoteRole>(node.role);
+                     }) ||
+         std::any_of(scenario.traffic.begin(), scenario.traffic.end(),
+                     [&](const TrafficSpec &traffic) { return unlocks(traffic.frame); }) ||
+         std::any_of(scenario.commands.begin(), scenario.commands.end(),
+                     [&](const RemoteCommandSpec &commands) {
+                       return std::any_of(
+                           commands.steps.begin(), commands.steps.end(),
+                           [&](const RemoteStep &step) { return unlocks(step.frame); });
+                     });
+}
+
+void parse_event(const YamlValue &value, const RemoteRole &role, const Scenario &scenario,
+                 UserSpec &user) {
+  if (role.config.num_prod == 0) value.fail("this node has no producers");
+  user.event = static_cast<unsigned>(value.integer(0, role.config.num_prod - 1));
+  if (!is_on(role, *user.event) && !tables_may_change(scenario, role.config))
+    value.fail(fmt::format("producer {} is off; allowed: an entry of 'producers'", *user.event));
+}
+
 void parse_actions(YamlMap &map, const RemoteConfig &config, UserSpec &user) {
   const unsigned end = memory_end(config);
   map.with("write", [&](const YamlValue &v) {
@@ -68,10 +105,6 @@ void parse_actions(YamlMap &map, const RemoteConfig &config, UserSpec &user) {
              [&](const YamlValue &v) { user.step = static_cast<unsigned>(v.integer(1, 0xFFFF)); });
   }
   map.with("plant", [&](const YamlValue &v) { parse_plant(v, config, user); });
-  map.with("event", [&](const YamlValue &v) {
-    if (config.num_prod == 0) v.fail("this node has no producers");
-    user.event = static_cast<unsigned>(v.integer(0, config.num_prod - 1));
-  });
 }
 
 }  // namespace
@@ -87,9 +120,10 @@ UserSpec parse_user(const YamlValue &value, const Scenario &scenario) {
   YamlMap map{value};
   UserSpec user;
   user.node = parse_remote_name(map.need("node"), scenario);
-  const RemoteConfig &config = std::get<RemoteRole>(scenario.nodes[user.node].role).config;
+  const auto &role = std::get<RemoteRole>(scenario.nodes[user.node].role);
   parse_when(map, user);
-  parse_actions(map, config, user);
+  parse_actions(map, role.config, user);
+  map.with("event", [&](const YamlValue &v) { parse_event(v, role, scenario, user); });
   map.finish();
   if (user.write.empty() && !user.ramp && !user.plant && !user.event)
     value.fail("nothing to do; allowed: write, ramp, plant, event");

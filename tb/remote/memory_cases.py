@@ -28,7 +28,7 @@ nodes:
   - {name: a, type: remote, number: 3, serial: 0xCAFE1234, memory: {0x40: 01 02, 0x200: 0A 0B 0C},
      config: {producers: [{send: 0x40, length: 2, period: 30 s, gap: 5 ms}],
               map: [{id: 0x640, to: 0x300, length: 2, time_out: 50 ms}, {id: 0x610, to: 0x301},
-                    {id: 0x190, to: 0x20}]}}
+                    {id: 0x210, to: 0x20}]}}
   - {name: b, type: remote, number: 4, profile: small, serial: 0xBEEF0000, memory: {0x40: 03 04}}
   - {name: c, type: remote, serial: 0x00000005}
 """
@@ -107,12 +107,32 @@ class Commands(unittest.TestCase):
             "  sends 5C0: 2 bytes of 40, every 30000 ms, 5 ms apart at least",
             "  takes 640 under 7FF to 300, late after 50 ms",
             "  takes 610 under 7FF to 301",
-            "  takes 190 under 7FF to 020",
+            "  takes 210 under 7FF to 020",
             "node 4",
             "wrong: node 3: entries for 640 and 610 overlap at 301",
             "wrong: node 3: waits for 640 under 7FF, which nobody sends",
             "wrong: node 3: waits for 610 under 7FF, which nobody sends"])
         self.assertEqual(len(self.json("map", code=1)["complaints"]), 3)
+
+    def test_map_of_entries_that_never_work(self):
+        """RN-65: an address that is none, a request to the node itself, SAFE without a time-out."""
+        nodes = """nodes:
+  - {name: a, type: remote, number: 3, memory: {0xF80: 23 81 FF 07 00 0E 00 00,
+     0xF88: A0 81 FF 07 00 03 00 00, 0xF90: 24 81 FF 07 00 00 40 00,
+     0xF98: 25 81 FF 07 00 04 00 00}}
+  - {name: b, type: remote, number: 4, memory_bytes: 1024,
+     memory: {0xF80: 23 81 FF 07 00 02 04 00}}
+"""
+        with Bridge("--fast", "--errors", "none", scenario=nodes) as self.bridge:
+            lines = self.memory("map", code=1).splitlines()
+        self.assertEqual([line for line in lines if line.startswith("wrong: ")], [
+            "wrong: node 3: entry for 123: no memory for 1 byte at E00; allowed: 0x0 to 0xDFF, "
+            "0xF00 to 0xF1F, 0xF40 to 0xFBF",
+            "wrong: node 3: entry for 1A0: 1A0 is a request, which no entry takes",
+            "wrong: node 3: entry for 124: late leads to SAFE, but without a time-out it is never "
+            "late",
+            "wrong: node 4: entry for 123: no memory for 4 bytes at 200; allowed: 0x0 to 0x1FF, "
+            "0xF00 to 0xF1F, 0xF40 to 0xFBF"])
 
     def test_dump_and_load(self):
         """A table of bytes; a file and back."""

@@ -43,6 +43,8 @@ class MemoryTool(unittest.TestCase):
     def test_one_byte_of_the_configuration(self):
         """Those beside it keep what they have after a reset."""
         self.assertEqual(image("--set", "0xF00=05")[0xF00:0xF08].hex(), "050500000a0a3208")
+        self.assertEqual(image("--profile", "full", "--set", "0xF7F=0102")[0xF7F:0xF81].hex(),
+                         "0102")
 
     def refused(self, text, *words, file="m.hex"):
         """Says what was wrong and what is allowed, in the words of `text`."""
@@ -69,9 +71,12 @@ class MemoryTool(unittest.TestCase):
         """No bytes, half a byte, an address that is none or not in the memory."""
         for text in "0x40", "0x40=", "0x40=1", "0x40=xy", "foo=01":
             self.refused(f"--set: '{text}'; allowed: ADDRESS=HEX", "--serial", "1", "--set", text)
-        for text in "0x1FF=0102", "0x1000=00":
-            self.refused("is not in the memory; allowed: 0x000 to 0x1ff and 0xe00 to 0xfff",
+        for text in "0x1FF=0102", "0xE00=01", "0xF20=01", "0xF40=00", "0xFFF=00", "0x1000=00":
+            self.refused("is not in the memory; allowed: 0x000 to 0x1ff, 0xf00 to 0xf1f\n",
                          "--serial", "1", "--mem-bytes", "1024", "--set", text)
+        for text in "0xF3F=0102", "0xFBF=0102":
+            self.refused("; allowed: 0x000 to 0xdff, 0xf00 to 0xf1f, 0xf40 to 0xf7f, 0xf80 to "
+                         "0xfbf\n", "--serial", "1", "--profile", "standard", "--set", text)
 
     def test_refused_bytes_that_are_given_twice(self):
         """Whichever would win."""

@@ -166,15 +166,16 @@ TEST(ScenarioCommands, EachCycleIsHeldAgainstTheBus) {
                            "expect: {triggers: 8, lost_set_points: 0, late_statements: 0,\n"
                            "  trigger_skew: bound, refused: 0}\n";
   const std::string producers = ", producers: [{send: 0x40, length: 8}]";
-  Seen seen =
-      run(scenario_of(good + "faults: [{kind: cut, node: dab, from: 2.5 ms, for: 3 ms}]\n"));
+  Seen seen = run(
+      scenario_of(good + "faults: [{kind: cut, node: dab, from: 2.5 ms, for: 3 ms}]\n", producers));
   EXPECT_EQ(seen.report.remote.nodes[0].applied, 8U);
   EXPECT_EQ(seen.report.remote.nodes[0].lost_set_points, 0U);
   EXPECT_EQ(seen.report.remote.nodes[1].applied, 5U);
   EXPECT_EQ(seen.report.remote.nodes[1].lost_set_points, 3U);
   EXPECT_EQ(seen.report.remote.compared, 5U);
   seen = run(scenario_of(all + "expect: {lost_set_points: 0}\n"
-                               "faults: [{kind: cut, node: dab, from: 0, for: 300 us}]\n"));
+                               "faults: [{kind: cut, node: dab, from: 0, for: 300 us}]\n",
+                         producers));
   EXPECT_THAT(seen.failed(), ElementsAre("dab: user after apply: not until the end (done)",
                                          "lost_set_points: 8 (0)"));
 }
@@ -324,7 +325,11 @@ TEST(ScenarioCommands, MistakesAreToldWithTheirPlace) {
   EXPECT_THAT(command("read all 0x20 1 = 1"), HasSubstr("the end of the command"));
   EXPECT_THAT(command("trigger 256"), HasSubstr("a count, 0x0 to 0xFF"));
   EXPECT_THAT(command("operate 3 4"), HasSubstr("the end of the command"));
-  EXPECT_THAT(command("frame 1A0"), HasSubstr("1A0"));
+  for (const char *frame : {"1A0", "800#5A", "1A0#5", "1A0##5"})
+    EXPECT_THAT(command("frame " + std::string{frame}),
+                AllOf(HasSubstr("remote.yaml:6: commands[0].do[0]: 'frame "),
+                      HasSubstr("' is not allowed; allowed: a classical frame as cansend has it")));
+  EXPECT_THAT(command("unlock 4"), HasSubstr("'4' is not allowed; allowed: a node of this"));
   EXPECT_THAT(message("commands: [{node: pfc, do: [trigger]}]"), HasSubstr("'pfc'"));
   EXPECT_THAT(message("commands: [{node: host, do: []}]"), HasSubstr("operate|safe"));
   EXPECT_THAT(input_error_of([] {
@@ -336,6 +341,7 @@ TEST(ScenarioCommands, MistakesAreToldWithTheirPlace) {
   EXPECT_THAT(message("user: [{node: pfc, at: 1 ms}]"), HasSubstr("nothing to do"));
   EXPECT_THAT(message("user: [{node: pfc, after: read, event: 0}]"), HasSubstr("apply"));
   EXPECT_THAT(message("user: [{node: pfc, event: 8}]"), HasSubstr("user[0].event"));
+  EXPECT_THAT(message("user: [{node: pfc, event: 1}]"), HasSubstr("producer 1 is off"));
   EXPECT_THAT(message("user: [{node: pfc, write: {0xE00: 1}}]"), HasSubstr("0 to 0xDFF"));
   EXPECT_THAT(message("user: [{node: pfc, plant: {set_point: 0, measured: 2}}]"),
               HasSubstr("a multiple of 4"));

@@ -62,10 +62,11 @@ TEST(ScenarioRemote, ConfigurationIsMemory) {
             0xF40, 13),
       ElementsAre(0x40, 0xB2, 0x2C, 0x01, 5, 0, 0, 0, 0x7E, 0xD8, 2, 0, 0));
   EXPECT_THAT(bytes(", config: {map: [{id: 0x580, mask: 0x780, to: 0x200, time_out: 50 ms}, {id: "
-                    "0x123, to: 0x30, length: 3, trigger: true, safe_when_late: true}]}",
+                    "0x123, to: 0x30, length: 3, trigger: true, safe_when_late: true, "
+                    "time_out: 70 ms}]}",
                     0xF80, 16),
               ElementsAre(0x80, 0x85, 0x80, 0x07, 0x00, 0x02, 0, 5, 0x23, 0x81, 0xFF, 0x07, 0x30, 0,
-                          0x63, 0));
+                          0x63, 7));
 }
 
 TEST(ScenarioRemote, MistakesAreToldWithTheirPlace) {
@@ -77,7 +78,10 @@ TEST(ScenarioRemote, MistakesAreToldWithTheirPlace) {
   EXPECT_THAT(message(", profile: big"), HasSubstr("allowed: small, standard, full"));
   EXPECT_THAT(message(", name_bits: 4"), HasSubstr("NameBits 4 is not allowed; allowed: 3 5"));
   EXPECT_THAT(message(", memory: {0xE00: 01}"), HasSubstr("'0xE00' is no address"));
-  EXPECT_THAT(message(", memory: {0xFC0: 01}"), HasSubstr("0xF00 to 0xFBF"));
+  EXPECT_THAT(message(", memory: {0xFC0: 01}"), HasSubstr("0xF00 to 0xF1F, 0xF40 to 0xFBF"));
+  EXPECT_THAT(message(", memory: {0xF1F: 01 02}"), HasSubstr("1 to 1 bytes"));
+  EXPECT_THAT(message(", profile: small, memory: {0xF40: 01}"),
+              HasSubstr("'0xF40' is no address; allowed: 0x0 to 0xDFF, 0xF00 to 0xF1F"));
   EXPECT_THAT(message(", memory: {0xFBF: 01 02}"), HasSubstr("1 to 1 bytes"));
   EXPECT_THAT(message(", memory: {0xDFF: 01 02}"), HasSubstr("1 to 1 bytes"));
   EXPECT_THAT(message(", memory: {0x20: 123}"), HasSubstr("hexadecimal bytes"));
@@ -99,6 +103,10 @@ TEST(ScenarioRemote, MistakesAreToldWithTheirPlace) {
   EXPECT_THAT(message(", config: {write_protect: 0x40}"), HasSubstr("whole pages"));
   EXPECT_THAT(message(", profile: small, config: {write_protect: 0x20-0x2F}"),
               HasSubstr("no protection"));
+  EXPECT_THAT(message(", memory_bytes: 1024, config: {write_protect: [0x200-0x27F]}"),
+              HasSubstr("an area below 0x200 of whole pages"));
+  EXPECT_THAT(message(", profile: standard, config: {block_time_out: 1 s}"),
+              HasSubstr("no block transfers"));
   EXPECT_THAT(message(", made_of: wood"), HasSubstr("allowed: rtl, model"));
   EXPECT_THAT(message(", profile: small, stage_bytes: 0, made_of: rtl"),
               HasSubstr("no RTL is built with these parameters; allowed: profile small"));
@@ -111,6 +119,44 @@ TEST(ScenarioRemote, MistakesAreToldWithTheirPlace) {
   EXPECT_THAT(input_error_of([] { return with("", "accesses: [{node: pfc, do: read MCR}]"); }),
               HasSubstr("pfc"));
   EXPECT_THAT(input_error_of([] { return with("", "judge: lockstep"); }), HasSubstr("pfc"));
+}
+
+// RN-65: an entry of the map that no frame can make do anything.
+TEST(ScenarioRemote, EntriesThatNeverWork) {
+  const auto message = [](const std::string &entry, const std::string &keys = "") {
+    return input_error_of(
+        [&] { return with(", number: 6" + keys + ", config: {map: [{" + entry + "}]}"); });
+  };
+  const auto no_room = [](const std::string &what) {
+    return HasSubstr("config.map[0]: no memory for " + what + "; allowed: 0x0 to 0xDFF, 0xF00");
+  };
+  EXPECT_THAT(message("id: 0x123, to: 0xE00"), no_room("1 byte at E00"));
+  EXPECT_THAT(message("id: 0x123, to: 0xDFE, length: 4"), no_room("4 bytes at DFE"));
+  EXPECT_THAT(message("id: 0x123, to: 0xFC0"), no_room("1 byte at FC0"));
+  EXPECT_THAT(message("id: 0x123, to: 0xFBF, length: 2"), no_room("2 bytes at FBF"));
+  EXPECT_THAT(message("id: 0x123, to: 0x300", ", memory_bytes: 1024"),
+              HasSubstr("no memory for 1 byte at 300; allowed: 0x0 to 0x1FF, 0xF00"));
+  for (const char *id : {"0x320", "0x310, mask: 0x780", "0x000", "0x0C0"})
+    EXPECT_THAT(message("id: " + std::string{id} + ", to: 0"), HasSubstr("is a request"));
+  EXPECT_THAT(message("id: 0x5FE, mask: 0x7FE, to: 0"), HasSubstr("a port's frame is taken only"));
+  EXPECT_THAT(message("id: 0x123, to: 0, safe_when_late: true"), HasSubstr("it is never late"));
+}
+
+// RN-65: what some frames can reach is allowed, and what a host may unlock.
+TEST(ScenarioRemote, EntriesThatSomeFramesCanWorkFor) {
+  const auto entry = [](const std::string &map, const std::string &keys = "") {
+    const Scenario scenario = with(", number: 6" + keys + ", config: {map: [{" + map + "}]}");
+    return std::get<RemoteRole>(scenario.nodes.at(1).role).memory.at(0xF80).at(0);
+  };
+  EXPECT_EQ(entry("id: 0x123, to: 0xDFC, length: 4"), 0x23);
+  EXPECT_EQ(entry("id: 0x123, to: 0xDFF"), 0x23);
+  EXPECT_EQ(entry("id: 0x123, to: 0xF00, length: 1"), 0x23);
+  EXPECT_EQ(entry("id: 0x123, to: 0xDF0, mask: 0x780, length: 8"), 0x23);
+  EXPECT_EQ(entry("id: 0x320, to: 0, mask: 0x3FF"), 0x20);
+  EXPECT_EQ(entry("id: 0x2A0, to: 0"), 0xA0);
+  EXPECT_EQ(entry("id: 0x5FE, to: 0"), 0xFE);
+  EXPECT_EQ(entry("id: 0x580, to: 0x200, mask: 0x780"), 0x80);
+  EXPECT_EQ(entry("id: 0x240, to: 0x1FF", ", name_bits: 5, memory_bytes: 1024"), 0x40);
 }
 
 /// A host and a node whose keys are `keys` for 20 ms.

@@ -136,7 +136,8 @@ TEST(ScenarioWriter, ProgramsAndTheEndAreWrittenAsTheyAreRead) {
 constexpr const char *kRemote =
     "nodes:\n"
     "  - {name: host}\n"
-    "  - {name: 'p f c', type: remote, profile: standard, number: 6}\n"
+    "  - {name: 'p f c', type: remote, profile: standard, number: 6,\n"
+    "     memory: {0xF79: 81}}\n"
     "commands:\n"
     "  - {node: host, at: 1500 us, do: [operate, 'read 6 0x20 2 = 5A 00', trigger]}\n"
     "  - {node: host, period: 2 ms, count: 3, do: [write all 0x10 round FF]}\n"
