@@ -32,7 +32,7 @@ for scenario in examples/*.yaml; do
 done
 
 headline "The cabinet: five nodes without a processor, 10,000 cycles of a millisecond"
-run "the cabinet" examples/remote/cabinet.py --verican "$verican"
+run "the cabinet" examples/remote/cabinet.py --verican "$verican" -- --report "$out/cabinet.html"
 for variant in plug noise stage; do
   headline "The cabinet: variant $variant"
   run "the cabinet, $variant" examples/remote/cabinet.py --verican "$verican" \

@@ -5,6 +5,7 @@
 #include "results/remote_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -88,6 +89,19 @@ std::string to_text(const RemoteReport &report) {
                    report.triggers, readable_time(report.skew_mean),
                    readable_time(report.skew_longest), readable_time(report.skew_bound),
                    readable_time(report.period_shortest), readable_time(report.period_longest));
+  if (report.latency_longest != 0)
+    fmt::format_to(out,
+                   "  from command to action {} to {}; from TRIGGER to TRIGGER the bus is held for "
+                   "{} to {}, {:.1f} %\n",
+                   readable_time(report.latency_shortest), readable_time(report.latency_longest),
+                   readable_time(report.traffic_shortest), readable_time(report.traffic_longest),
+                   100 * report.cycle_load);
+  // RN-13.
+  if (report.hosts.size() > 1)
+    fmt::format_to(out,
+                   "  warning: {} have 'commands', and these nodes know one host: requests of "
+                   "two collide\n",
+                   fmt::join(report.hosts, ", "));
   return text + frames_text(report) + "\n";
 }
 
@@ -121,6 +135,13 @@ nlohmann::ordered_json to_json(const RemoteReport &report) {
           {"above_bound", report.above_bound},
           {"period_shortest_ps", report.period_shortest},
           {"period_longest_ps", report.period_longest},
+          {"traffic_shortest_ps", report.traffic_shortest},
+          {"traffic_longest_ps", report.traffic_longest},
+          {"traffic_mean_ps", report.traffic_mean},
+          {"cycle_load", report.cycle_load},
+          {"latency_shortest_ps", report.latency_shortest},
+          {"latency_longest_ps", report.latency_longest},
+          {"hosts", report.hosts},
           {"commands", report.commands},
           {"frames", frames_json(report)},
           {"more_frames", report.more_frames}};

@@ -47,9 +47,15 @@ struct RemoteReport {
   Time skew_bound = 0;                   ///< largest bound of a pair (RN-47)
   std::uint64_t above_bound = 0;         ///< TRIGGERs after which a pair was further apart
   Time period_shortest = 0, period_longest = 0;  ///< from action to action
-  std::uint64_t commands = 0;                    ///< steps of hosts that are done
-  std::vector<RemoteFrameReport> frames;         ///< the first ones
-  std::uint64_t more_frames = 0;                 ///< that `frames` leaves out
+  /// For how long the bus was held from one TRIGGER to the next, ps; the part of the time that is.
+  Time traffic_shortest = 0, traffic_longest = 0, traffic_mean = 0;
+  double cycle_load = 0;
+  /// From when a host had nothing else to send than a TRIGGER to the last node's action, ps.
+  Time latency_shortest = 0, latency_longest = 0;
+  std::vector<std::string> hosts;         ///< nodes with commands; there should be one
+  std::uint64_t commands = 0;             ///< steps of hosts that are done
+  std::vector<RemoteFrameReport> frames;  ///< the first ones
+  std::uint64_t more_frames = 0;          ///< that `frames` leaves out
   [[nodiscard]] bool empty() const { return nodes.empty(); }
   /// Sums over the nodes: refused, lost_set_points, late_statements; or triggers.
   [[nodiscard]] std::uint64_t total(const std::string &key) const;

@@ -41,9 +41,10 @@ RemoteBench::RemoteBench(const Scenario &scenario, Stations &stations, Bus &bus)
   for (const RemoteCommandSpec &spec : scenario.commands) {
     const bool there = std::any_of(scripts_.begin(), scripts_.end(),
                                    [&](const auto &one) { return one->node() == spec.node; });
-    if (!there)
-      scripts_.push_back(std::make_unique<RemoteScript>(spec.node, scenario.nodes[spec.node].name,
-                                                        *stations[spec.node].host, bus));
+    if (there) continue;
+    scripts_.push_back(std::make_unique<RemoteScript>(spec.node, scenario.nodes[spec.node].name,
+                                                      *stations[spec.node].host, bus));
+    scripts_.back()->on_command = [this](const Frame &frame) { watch_->commanded(frame); };
   }
   for (const UserSpec &spec : scenario.user) add_user(spec, bus);
   for (std::size_t index = 0; index < nodes_.size(); ++index)
@@ -104,9 +105,9 @@ void RemoteBench::on_received(NodeId node, const Frame &frame) {
     if (script->node() == node) script->on_received(frame);
 }
 
-void RemoteBench::on_frame(const BusFrame &frame) {
+void RemoteBench::on_frame(const BusFrame &frame, Time busy) {
   for (const auto &script : scripts_) script->on_frame(frame);
-  watch_->on_frame(frame);
+  watch_->on_frame(frame, busy);
   if (story_) story_->on_frame(frame);
 }
 
@@ -118,6 +119,7 @@ void RemoteBench::describe(RunReport &report) {
   }
   for (const auto &script : scripts_) {
     report.remote.commands += script->done();
+    report.remote.hosts.push_back(script->name());
     for (MessageReport &message : script->messages()) report.messages.push_back(message);
   }
   if (scenario_.analysis) add_bounds(report.remote, bit_time_of(report.bitrate));

@@ -27,7 +27,8 @@ class RemoteBench {
   /// Times of the scenario count from `start`; nothing new begins at `stop` or later.
   void start(Time start, Time stop);
   void on_received(NodeId node, const Frame &frame);
-  void on_frame(const BusFrame &frame);
+  /// A frame has ended on the bus, which has been held for `busy` up to then.
+  void on_frame(const BusFrame &frame, Time busy);
   /// Adds nodes and messages to the report; to be called once the run is over.
   void describe(RunReport &report);
   /// Adds what was expected, and commands that have failed.

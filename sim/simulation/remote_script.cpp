@@ -70,10 +70,11 @@ void RemoteScript::send(const Due &due, const RemoteStep &step) {
   }
   if (step.counts) frame.data[0] = ++trigger_;
   host_.send(frame);
+  if (on_command) on_command(frame);
   if (due.spec->period == 0) return;
   const std::size_t message = due.first_message + due.step;
-  ++messages_[message].queued;
-  on_bus_.push_back({frame, due.event, message});
+  if (!step.answer || tries_left_ + 1 == kTries) ++messages_[message].queued;
+  if (!step.answer) on_bus_.push_back({frame, due.event, message});
 }
 
 void RemoteScript::ask() {
@@ -99,6 +100,8 @@ void RemoteScript::on_received(const Frame &frame) {
                                         frame.data.begin() + frame.payload_size());
   if (waiting_->wanted && bytes != *waiting_->wanted)
     failed(*waiting_, hex(*waiting_->wanted), hex(bytes));
+  const Due &due = due_.front();
+  if (due.spec->period != 0) respond(due.first_message + due.step, bus_.now() - due.event);
   finish_step();
 }
 
@@ -112,13 +115,16 @@ void RemoteScript::finish_step() {
 // One transmit buffer: frames of the host end in the order in which they were queued.
 void RemoteScript::on_frame(const BusFrame &frame) {
   if (!frame.sent_by(node_) || on_bus_.empty() || on_bus_.front().frame != frame.frame) return;
-  MessageReport &message = messages_[on_bus_.front().message];
-  const Time response = frame.end - on_bus_.front().event;
-  message.shortest = message.sent == 0 ? response : std::min(message.shortest, response);
-  message.longest = std::max(message.longest, response);
-  message.sum += response;
-  ++message.sent;
+  respond(on_bus_.front().message, frame.end - on_bus_.front().event);
   on_bus_.pop_front();
+}
+
+void RemoteScript::respond(std::size_t message, Time response) {
+  MessageReport &report = messages_[message];
+  report.shortest = report.sent == 0 ? response : std::min(report.shortest, response);
+  report.longest = std::max(report.longest, response);
+  report.sum += response;
+  ++report.sent;
 }
 
 void RemoteScript::failed(const RemoteStep &step, const std::string &wanted,

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,11 +35,16 @@ class RemoteScript {
   /// A frame has ended on the bus.
   void on_frame(const BusFrame &frame);
 
+  /// A frame has been given to the host.
+  std::function<void(const Frame &frame)> on_command;
+
   [[nodiscard]] NodeId node() const { return node_; }
+  [[nodiscard]] const std::string &name() const { return name_; }
   [[nodiscard]] std::uint64_t done() const { return done_; }
   /// Answers that were wrong or never came, and what has not come to its end.
   [[nodiscard]] std::vector<CheckResult> failures() const;
-  /// Response times of the steps that come again and again: from their event to the end on the bus.
+  /// Response times of the steps that come again and again: from their event to the end on the bus,
+  /// of those that are answered until the host has the answer.
   [[nodiscard]] std::vector<MessageReport> messages() const;
 
  private:
@@ -62,6 +68,7 @@ class RemoteScript {
   void ask();
   void on_time_out(std::uint64_t asked);
   void finish_step();
+  void respond(std::size_t message, Time response);
   void failed(const RemoteStep &step, const std::string &wanted, const std::string &seen);
 
   NodeId node_;

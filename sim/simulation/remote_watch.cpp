@@ -54,16 +54,28 @@ RemoteWatch::RemoteWatch(Bus &bus, const std::vector<WatchedUnit> &units,
 
 // ---- Frames
 
-void RemoteWatch::on_frame(const BusFrame &frame) {
+bool RemoteWatch::is_trigger(const Frame &frame) const {
+  return !units_.empty() && !frame.extended && !frame.remote && frame.dlc <= 1 &&
+         frame.id == units_.front().watched.config.id(0, 0, 1);
+}
+
+void RemoteWatch::commanded(const Frame &frame) {
+  if (is_trigger(frame)) meter_.commanded(frame, bus_.now());
+}
+
+void RemoteWatch::on_frame(const BusFrame &frame, Time busy) {
   for (Unit &unit : units_) look(unit);
   const Frame &f = frame.frame;
+  const bool trigger = is_trigger(f);
+  if (trigger) take_trigger(frame);
+  meter_.on_frame(frame, trigger, busy);
+  if (trigger) return;
   if (f.extended || units_.empty()) return;
   const RemoteConfig &config = units_.front().watched.config;
   const unsigned name = f.id >> config.address_bits() & config.highest_number();
   const unsigned a = f.id & ((1U << config.address_bits()) - 1);
   if ((f.id >> 10 & 1) != 0) return take_statement(frame, name, a);
   if (f.remote || f.dlc > 8) return;
-  if (name == 0 && a == 1 && f.dlc <= 1) return take_trigger(frame);
   take_request(f, name, a);
 }
 
@@ -192,6 +204,7 @@ void RemoteWatch::compare_actions(const std::vector<Action> &actions) {
     report_.period_longest = std::max(report_.period_longest, period);
   }
   last_action_ = first->time;
+  meter_.acted(last->time);
   if (actions.size() < 2) return;
   ++report_.compared;
   skew_sum_ += last->time - first->time;
@@ -241,6 +254,7 @@ RemoteReport RemoteWatch::report() {
     report_.nodes.push_back(unit.report);
   }
   if (report_.compared != 0) report_.skew_mean = skew_sum_ / static_cast<Time>(report_.compared);
+  meter_.describe(report_);
   return report_;
 }
 

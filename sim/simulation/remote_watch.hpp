@@ -16,6 +16,7 @@
 #include "node/bit_timing.hpp"
 #include "node/remote_unit.hpp"
 #include "results/remote_report.hpp"
+#include "simulation/cycle_meter.hpp"
 
 namespace vericansim {
 
@@ -51,8 +52,10 @@ class RemoteWatch : public BusObserver {
 
   /// Times of the report count from `start`.
   void begin(Time start) { start_ = start; }
-  /// A frame has ended on the bus.
-  void on_frame(const BusFrame &frame);
+  /// A host wants to send a frame.
+  void commanded(const Frame &frame);
+  /// A frame has ended on the bus, which has been held for `busy` up to then.
+  void on_frame(const BusFrame &frame, Time busy);
   /// apply_o of unit `index`.
   void applied(std::size_t index);
   /// A plant has written a measurement, which a statement must tell before the next TRIGGER.
@@ -83,6 +86,7 @@ class RemoteWatch : public BusObserver {
     Time time;
   };
 
+  [[nodiscard]] bool is_trigger(const Frame &frame) const;
   void take_request(const Frame &frame, unsigned name, unsigned a);
   void take_state(const Frame &frame);
   void take_write(Unit &unit, const Frame &frame, unsigned a);
@@ -106,6 +110,7 @@ class RemoteWatch : public BusObserver {
   std::optional<Time> last_action_;
   RemoteReport report_;
   Time skew_sum_ = 0;
+  CycleMeter meter_;
 };
 
 }  // namespace vericansim

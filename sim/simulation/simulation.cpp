@@ -112,7 +112,7 @@ void Simulation::start_traffic() {
 void Simulation::on_frame(const BusFrame &frame) {
   if (scenario_.expect.complete) frames_.push_back(frame);
   outputs_->write(frame, origin_of(frame));
-  remote_->on_frame(frame);
+  remote_->on_frame(frame, monitor_->busy());
   if (judge_) judge_->on_wire(frame);
   if (on_bus_frame) on_bus_frame(frame);
 }

@@ -302,6 +302,33 @@ TEST(ScenarioCommands, LeavingOperateIsTold) {
   EXPECT_THAT(to_text(seen.report), HasSubstr("left OPERATE 1x"));
 }
 
+// RN-13: there is one host.
+TEST(ScenarioCommands, TwoHostsAreWarnedOf) {
+  const auto text = [](const std::string &second) {
+    return to_text(run(parse_scenario("remote.yaml", R"(duration: 4 ms
+nodes: [{name: a}, {name: b}, {name: pfc, type: remote, number: 6}]
+commands: [{node: a, do: [operate]}, {node: a, at: 1 ms, do: [trigger]}, {node: )" +
+                                                         second + R"(, at: 2 ms, do: [trigger]}]
+)"))
+                       .report);
+  };
+  EXPECT_THAT(text("b"), HasSubstr("warning: a, b have 'commands'"));
+  EXPECT_THAT(text("a"), Not(HasSubstr("warning")));
+}
+
+// Traffic and delay of a cycle: that of frames whose bits are known, on an idle bus.
+TEST(ScenarioCommands, WhatACycleCosts) {
+  const Seen seen = run(scenario_of(std::string(kCycles)));
+  const RemoteReport &remote = seen.report.remote;
+  // write all 0x10 of 4 bytes, TRIGGER of one: 95 and 65 bits of 2 us at most, 79 and 55 at least.
+  EXPECT_GE(remote.traffic_shortest, 134 * 2 * kMicrosecond);
+  EXPECT_LE(remote.traffic_longest, 160 * 2 * kMicrosecond);
+  EXPECT_NEAR(remote.cycle_load, static_cast<double>(remote.traffic_mean) / kMillisecond, 0.01);
+  // TRIGGER is queued behind the write; it acts two bits behind its end.
+  EXPECT_GE(remote.latency_shortest, 55 * 2 * kMicrosecond);
+  EXPECT_LE(remote.latency_longest, 75 * 2 * kMicrosecond);
+}
+
 TEST(ScenarioCommands, MistakesAreToldWithTheirPlace) {
   const auto message = [](const std::string &more) {
     return input_error_of([&] { return scenario_of(more); });
