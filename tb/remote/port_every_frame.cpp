@@ -7,24 +7,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <memory>
 #include <random>
 
+#include "remote/frame_texts.hpp"
 #include "remote/port_lockstep.hpp"
 
 namespace vericansim {
 namespace {
 
 constexpr unsigned kRead = 0x78, kWrite = 0x79, kSetup = 0x7C;
-
-Frame frame_of(unsigned id, std::initializer_list<std::uint8_t> data) {
-  Frame frame;
-  frame.id = id;
-  frame.dlc = static_cast<std::uint8_t>(data.size());
-  std::copy(data.begin(), data.end(), frame.data.begin());
-  return frame;
-}
 
 /// A node in lockstep with its model that is made anew when a frame has led it elsewhere.
 class Subject {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // remote_campaign: remote nodes of the RTL beside their model, every frame and random commands at
-// the engine's port and on random buses, the skew of triggers, searches for the bit rate (RN-47,
-// RN-73, RN-101).
+// the engine's port and on random buses, the skew of triggers, searches for the bit rate, a
+// babbling host (RN-36, RN-47, RN-73, RN-101).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +14,7 @@
 #include <mutex>
 
 #include "harness/campaign_settings.hpp"
+#include "remote/babbler.hpp"
 #include "remote/port_every_frame.hpp"
 #include "remote/random_port.hpp"
 #include "remote/random_remotes.hpp"
@@ -29,6 +30,7 @@ constexpr unsigned kBusCommands = 100'000, kOfBus = 50;
 constexpr unsigned kTriggers = 10'000, kOfLine = 25;
 constexpr unsigned kPortCommands = 1'000'000, kOfPort = 1'000;
 constexpr unsigned kSearches = 10'000;
+constexpr unsigned kBabbledBits = 30'000'000, kOfBabble = 500'000;  // ten seconds a profile
 constexpr unsigned kFrames = 1'048'576, kAccesses = 524'288, kStride = 16;
 const std::vector<std::string> kProfiles = {"small", "standard", "full"};
 
@@ -60,6 +62,23 @@ struct RateSum {
     if (trial.setting.noise_per_bit != 0) return;
     unsigned &most = trial.setting.hosts == 1 ? frames_alone : frames;
     most = std::max(most, trial.frames);
+  }
+};
+
+/// What the runs with a babbling host add up to.
+struct BabbleSum {
+  std::uint64_t bits = 0, frames = 0, broken = 0;
+  double lost = 0;  // most, %
+  unsigned longest_wait = 0;
+  std::vector<std::string> silent;  // nodes that did not answer behind it
+
+  void add(const BabbleResult &run, const std::string &what) {
+    bits += run.bits;
+    frames += run.frames;
+    broken += run.broken;
+    lost = std::max(lost, run.lost());
+    longest_wait = std::max(longest_wait, run.longest_wait);
+    if (!run.answers) silent.push_back(what);
   }
 };
 
@@ -99,6 +118,14 @@ class Campaign {
     });
   }
 
+  void babblers() {
+    each(kBabbledBits, kOfBabble, [&](const std::string &profile, unsigned seed) {
+      const BabbleResult run = babble(profile, seed, kOfBabble);
+      const std::lock_guard guard{lock_};
+      babble_.add(run, fmt::format("babbling host, {}, seed {}: no answer", profile, seed));
+    });
+  }
+
   /// All of them at any scale: a minute a profile.
   void every_frame() {
     at_port(frames_, kPortSettings * kStride, [&](const std::string &profile, unsigned n) {
@@ -131,10 +158,11 @@ class Campaign {
     void (Campaign::*run)();
     Json (Campaign::*figures)() const;
   };
-  static const std::array<Part, 5> kParts;
+  static const std::array<Part, 6> kParts;
 
  private:
   [[nodiscard]] Json enough(const char *name, std::uint64_t value, unsigned bar) const;
+  [[nodiscard]] Json of_babblers() const;
   [[nodiscard]] Json of_searches() const;
   [[nodiscard]] Json of_frames() const;
   [[nodiscard]] Json of_commands() const;
@@ -173,9 +201,11 @@ class Campaign {
   PortSum frames_, accesses_, port_;
   TriggerSkew skew_;
   RateSum rates_;
+  BabbleSum babble_;
 };
 
-const std::array<Campaign::Part, 5> Campaign::kParts = {
+const std::array<Campaign::Part, 6> Campaign::kParts = {
+    Part{"babblers", &Campaign::babblers, &Campaign::of_babblers},
     Part{"frames", &Campaign::every_frame, &Campaign::of_frames},
     Part{"buses", &Campaign::buses, &Campaign::of_buses},
     Part{"commands", &Campaign::port_commands, &Campaign::of_commands},
@@ -193,6 +223,16 @@ Json none(const char *name, std::uint64_t value) {
 
 Json within(const char *name, unsigned value, unsigned bar) {
   return campaign_figure(name, value, fmt::format("<= {}", bar), value <= bar);
+}
+
+Json Campaign::of_babblers() const {
+  return {enough("bits of a bus with a babbling host", babble_.bits, kBabbledBits),
+          campaign_figure("its frames", babble_.frames),
+          campaign_figure("its frames that were broken", babble_.broken),
+          campaign_figure("RAM clocks that user logic loses to it, at most, %",
+                          std::round(100 * babble_.lost) / 100, "<= 15", babble_.lost <= 15),
+          within("clocks that user logic waits for, at most", babble_.longest_wait, 24),
+          none("nodes without an answer 1 ms later", babble_.silent.size())};
 }
 
 Json Campaign::of_searches() const {
@@ -239,7 +279,7 @@ Json Campaign::of_buses() const {
 Json Campaign::notes() const {
   Json notes = Json::array();
   for (const auto *texts : {&buses_.differences, &frames_.differences, &accesses_.differences,
-                            &port_.differences, &rates_.failures})
+                            &port_.differences, &rates_.failures, &babble_.silent})
     for (const std::string &text : *texts) notes.push_back(text);
   if (skew_.triggers != 0)
     notes.push_back(
@@ -268,12 +308,13 @@ int main(int argc, char **argv) {
   try {
     CampaignSettings settings;
     settings.add_to(app,
-                    "1,000,000 commands at the port, 100,000 on buses, 10,000 triggers and 10,000 "
-                    "searches for the bit rate");
+                    "1,000,000 commands at the port, 100,000 on buses, 10,000 triggers, 10,000 "
+                    "searches for the bit rate and 30 s with a babbling host");
     std::vector<std::string> parts;
-    app.add_option("--only", parts, "Parts of it: frames, buses, commands, searches, triggers")
+    app.add_option("--only", parts,
+                   "Parts of it: babblers, frames, buses, commands, searches, triggers")
         ->delimiter(',')
-        ->check(CLI::IsMember({"frames", "buses", "commands", "searches", "triggers"}));
+        ->check(CLI::IsMember({"babblers", "frames", "buses", "commands", "searches", "triggers"}));
     if (const auto end = read_options(app, argc, argv)) return *end;
     check_writable(settings.json);
     const Json result = Campaign{settings}.run(parts);
