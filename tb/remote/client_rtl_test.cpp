@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The golden vectors through the C client, its driver and the registers of a core, on the RTL of
-// the node: RN-90, RN-93.
+// The C client, its driver and the registers of a core, on the RTL of the node: the golden vectors
+// and the order of its frames: RN-49, RN-90, RN-93, RN-94.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,13 +19,15 @@ namespace {
 /// A host's core with its driver, a node without a processor, and one that listens to both.
 class ClientOnCore {
  public:
-  explicit ClientOnCore(const golden::Life &life) {
-    RemoteConfig config = RemoteConfig::profile("small");
+  ClientOnCore(const golden::Life &life, const std::string &profile,
+               verican_tx_order_t order = VERICAN_TX_BY_ID) {
+    RemoteConfig config = RemoteConfig::profile(profile);
     config.name_bits = life.name_bits;
     config.serial = life.serial;
     node = rtl_unit(life.number, config);
     core.bus.add(*node);
     core.bus.add(ear);
+    core[0].config.tx_order = order;
     EXPECT_EQ(core[0].up(), VERICAN_OK);
     ear.start();
     driver_ = {&core[0].dev, &now_us, &idle, &core, 0};
@@ -89,13 +91,16 @@ bool from_other(const golden::Vector &vector, const Frame &frame) {
   return false;
 }
 
+class ClientOnRtl : public ::testing::TestWithParam<const char *> {};
+
 // RN-90, RN-93.
-TEST(ClientOnRtl, EveryGoldenVectorThroughRegisters) {
+TEST_P(ClientOnRtl, EveryGoldenVectorThroughRegisters) {
+  const std::string profile = GetParam();
   for (const golden::Life &life : golden::load()) {
-    ClientOnCore bus{life};
+    ClientOnCore bus{life, profile};
     (void)bus.take_requests();
-    GoldenCaller caller{bus.client, "small"};
-    for (const golden::Vector &vector : life.for_features(golden::features_of("small"))) {
+    GoldenCaller caller{bus.client, profile};
+    for (const golden::Vector &vector : life.for_features(golden::features_of(profile))) {
       SCOPED_TRACE(::testing::PrintToString(vector));
       if (vector.calls.empty())
         for (const golden::Step &step : vector.steps) bus.send(step.send, step.from_node);
@@ -109,6 +114,34 @@ TEST(ClientOnRtl, EveryGoldenVectorThroughRegisters) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Profiles, ClientOnRtl, ::testing::Values("small", "full"),
+                         [](const auto &test) { return std::string{test.param}; });
+
+class ClientOrder : public ::testing::TestWithParam<verican_tx_order_t> {};
+
+// RN-94, RN-49: a TRIGGER would win against the write before it on a bus on which both wait.
+TEST_P(ClientOrder, TriggerDoesNotOvertakeTheWriteBeforeIt) {
+  ClientOnCore bus{golden::load().front(), "small", GetParam()};
+  (void)bus.take_requests();
+  bus.ear.request({.id = 0x7F, .dlc = 8});
+  bus.core.run(20 * kMicrosecond);
+  const std::uint8_t bytes[] = {0x5A, 0xA5};
+  EXPECT_EQ(verican_remote_write(&bus.client, 1, 0x10, bytes, 2), VERICAN_REMOTE_OK);
+  ASSERT_TRUE(bus.ear.pending()) << "the bus is busy";
+  EXPECT_EQ(verican_remote_trigger(&bus.client, 1), VERICAN_REMOTE_OK);
+  EXPECT_THAT(bus.take_requests(), ::testing::ElementsAre("090#5AA5", "001#01"));
+}
+
+std::string order_name(const ::testing::TestParamInfo<verican_tx_order_t> &test) {
+  constexpr const char *kNames[] = {"ById", "InOrder", "ByPriority"};
+  return kNames[test.param];
+}
+
+INSTANTIATE_TEST_SUITE_P(Orders, ClientOrder,
+                         ::testing::Values(VERICAN_TX_BY_ID, VERICAN_TX_IN_ORDER,
+                                           VERICAN_TX_BY_PRIORITY),
+                         order_name);
 
 }  // namespace
 }  // namespace vericansim
