@@ -6,6 +6,7 @@
   profiles.py             one line a profile: NAME NumMb=16 Fifo=0 ...
   profiles.py NAME        the parameters of one profile
   profiles.py --features  one line a build that differs in one feature and what that needs: Fifo=0
+  profiles.py --single    one line a build for tests that lacks one feature: no_fifo NumMb=64 Fifo=0
 """
 import sys
 from pathlib import Path
@@ -29,7 +30,9 @@ def main(arguments):
         profiles = model.load_profiles(ROOT / "sw/profiles.yaml", regmap)
     except model.MapError as error:
         sys.exit(f"profiles.py: {error}")
-    if arguments == ["--features"]:
+    if arguments == ["--single"]:
+        lines = [f"{name} {words(one)}" for name, one in model.single_builds(regmap).items()]
+    elif arguments == ["--features"]:
         lines = [f"{feature.name}={1 - feature.default}"
                  + (f" {feature.needs}=1" if feature.needs else "") for feature in regmap.features]
     elif not arguments:

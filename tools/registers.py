@@ -29,6 +29,7 @@ def outputs(regmap):
         "tb/mailbox/register_table.inc": test_table.render(regmap),
         "tb/harness/core_builds.inc": test_table.render_builds(
             regmap, model.load_profiles(PROFILES, regmap)),
+        "tb/harness/single_builds.inc": test_table.render_single_builds(regmap),
         "sw/verican.svd": svd.render(regmap),
         **chapter.render(regmap),
     }

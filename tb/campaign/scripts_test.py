@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the campaign's stages in Python refuse, and how the stage `fuzz` ends."""
+"""What the campaign's stages in Python refuse, how the stage `fuzz` ends, and what the stage
+`features` counts."""
 import contextlib
 import importlib.util
 import io
@@ -11,11 +12,22 @@ import unittest
 import unittest.mock
 from pathlib import Path
 
+import yaml
+
 from refusals import JOBS, SCALES, SEEDS, RefusalCase
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ("tb/formal/run.py", "tb/netlist/run.py", "tb/fuzz/campaign.py", "tb/canopen/campaign.py",
-           "tb/timesync/campaign.py", "tb/mutation/run.py", "tools/coverage.py")
+           "tb/timesync/campaign.py", "tb/mutation/run.py", "tools/coverage.py",
+           "tb/features/run.py")
+
+
+def module_of(name, path):
+    """A script of the project as a module."""
+    spec = importlib.util.spec_from_file_location(name, ROOT / path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 class Scripts(RefusalCase):
@@ -42,10 +54,8 @@ class Scripts(RefusalCase):
 
     def test_coverage_takes_away_nothing_but_its_own(self):
         """In the folder for its counts."""
-        spec = importlib.util.spec_from_file_location("coverage", ROOT / "tools/coverage.py")
-        coverage = importlib.util.module_from_spec(spec)
         with unittest.mock.patch.object(sys, "path", [str(ROOT / "tools"), *sys.path]):
-            spec.loader.exec_module(coverage)
+            coverage = module_of("coverage", "tools/coverage.py")
         for name in ("letter.txt", "program.dat", "program.dat.gz", "program.log"):
             (self.path / name).touch()
         with self.assertRaisesRegex(coverage.points.CoverageError, "letter.txt is not of a run"):
@@ -65,9 +75,7 @@ class Fuzz(RefusalCase):
 
     def status(self, cases=1_000_000, findings=0, failed=0):
         """That of a stage of one parser and the registers, with these results."""
-        spec = importlib.util.spec_from_file_location("fuzz", ROOT / "tb/fuzz/campaign.py")
-        fuzz = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(fuzz)
+        fuzz = module_of("fuzz", "tb/fuzz/campaign.py")
         parser = {"name": "log", "cases": cases, "seconds": 1, "edges": 1, "features": 1,
                   "corpus": 1, "findings": findings}
         registers = {"cases": 1_000_000, "episodes": 1, "failed": failed, "clocks": 1,
@@ -86,6 +94,43 @@ class Fuzz(RefusalCase):
         self.assertEqual(self.status(cases=999_999), 1)
         self.assertEqual(self.status(findings=1), 1)
         self.assertEqual(self.status(failed=1), 1)
+
+
+class Features(RefusalCase):
+    """The stage `features`."""
+
+    def setUp(self):
+        super().setUp()
+        self.features = module_of("features", "tb/features/run.py")
+
+    def test_it_knows_every_build_and_has_its_programs_built(self):
+        self.assertEqual(list(self.features.NEEDS), self.features.single_builds())
+        programs = {program for build in (*self.features.NEEDS, *self.features.PROFILES)
+                    for program in self.features.filters(build)}
+        stages = yaml.safe_load((ROOT / "tb/campaign.yaml").read_text(encoding="utf-8"))["stages"]
+        stage = next(stage for stage in stages if stage["name"] == "features")
+        self.assertEqual(set(stage["targets"]), programs)
+
+    def counts(self, build, lines, code=0, scale=1.0):
+        """What a program counts that says these lines and ends with this code."""
+        program = self.path / "program"
+        program.write_text(f"#!/bin/sh\nprintf '{lines}'\nexit {code}\n")
+        program.chmod(0o755)
+        with unittest.mock.patch.object(self.features, "BINARIES", self.path), \
+                contextlib.redirect_stdout(io.StringIO()):
+            return self.features.run(build, 0, "program", "*", scale, self.path)
+
+    def test_tests_on_another_core_or_none_are_failures(self):
+        passed = "[  PASSED  ] 3 tests.\\n"
+        self.assertEqual(self.counts("no_fifo", "on no_fifo\\n" + passed), (3, 0))
+        self.assertEqual(self.counts("no_fifo", passed), (3, 1))
+        self.assertEqual(self.counts("no_fifo", "on no_abort\\n" + passed), (3, 1))
+        self.assertEqual(self.counts("no_fifo", "on no_fifo\\n[  PASSED  ] 0 tests.\\n"), (0, 1))
+        self.assertEqual(self.counts("no_fifo", "[  PASSED  ] 0 tests.\\n", scale=0.01), (0, 0))
+        self.assertEqual(self.counts("no_fifo", "on no_fifo\\n" + passed + " 2 FAILED TESTS\\n", 1),
+                         (3, 2))
+        self.assertEqual(self.counts("small", passed), (3, 0))
+        self.assertEqual(self.counts("small", passed, 139), (3, 1))
 
 
 if __name__ == "__main__":

@@ -34,7 +34,7 @@ BufferConfig random_config(std::mt19937 &rng) {
   return config;
 }
 
-/// What a core of the profile can have of it.
+/// What a core of the build can have of it.
 BufferConfig random_config(std::mt19937 &rng, const CoreBuild &build) {
   BufferConfig config = random_config(rng);
   config.num_mb = build.num_mb;
@@ -50,9 +50,12 @@ BufferConfig random_config(std::mt19937 &rng, const CoreBuild &build) {
 
 class Random : public ::testing::TestWithParam<unsigned> {
  protected:
-  Random() : rng_{GetParam()}, rig_{random_config(rng_)} {}
-  explicit Random(const char *profile)
-      : rng_{GetParam()}, rig_{random_config(rng_, core_build(profile)), core_build(profile)} {}
+  /// On a core of the build; nullptr: with all features, of a size by chance.
+  explicit Random(const CoreBuild *build = build_under_test())
+      : rng_{GetParam()},
+        own_masks_{build == nullptr || build->features.own_masks},
+        rig_{build == nullptr ? BufferRig{random_config(rng_)}
+                              : BufferRig{random_config(rng_, *build), *build}} {}
 
   Frame frame() {
     const bool extended = rng_() % 3 == 0;
@@ -126,9 +129,13 @@ class Random : public ::testing::TestWithParam<unsigned> {
     look(mb);
   }
 
+  std::uint32_t random_mask() { return rng_() % 2 != 0 ? 0xDFFFFFFF : 0x1FF80000; }
   void masks_and_filters() {
+    if (!own_masks_)
+      for (std::uint32_t mask : {reg::kRxgmask, reg::kRx14mask, reg::kRx15mask})
+        rig_.write(mask, random_mask());
     for (unsigned mb = 0; mb < rig_.config().num_mb; ++mb)
-      rig_.write(reg::rximr(mb), rng_() % 2 != 0 ? 0xDFFFFFFF : 0x1FF80000);
+      rig_.write(reg::rximr(mb), random_mask());
     if (!rig_.config().fen) return;
     for (unsigned i = 0; i < 8; ++i)
       rig_.write(0x0E0 + 4 * i, (0x100u + static_cast<std::uint32_t>(rng_() % 8)) << 19);
@@ -151,6 +158,7 @@ class Random : public ::testing::TestWithParam<unsigned> {
   }
 
   std::mt19937 rng_;
+  bool own_masks_;
   BufferRig rig_;
   unsigned identifiers_ = 6;  // different ones, of each kind
   unsigned buffers_ = 64;     // that software works with
@@ -168,9 +176,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Random, ::testing::Range(1u, 61u));
 // them: clocks that it meets by chance once in a million frames.
 class RandomAtEvents : public Random {
  protected:
-  RandomAtEvents() { few(); }
-  explicit RandomAtEvents(const char *profile) : Random{profile} { few(); }
-  void few() {
+  explicit RandomAtEvents(const CoreBuild *build = build_under_test()) : Random{build} {
     identifiers_ = 2;
     buffers_ = 3;
   }
@@ -218,22 +224,14 @@ INSTANTIATE_TEST_SUITE_P(Found, RandomAtEvents,
 // The profile that lacks every feature: what is left is as in any other core (PK-49).
 class RandomSmall : public Random {
  protected:
-  RandomSmall() : Random{"small"} {}
-  // Masks that some buffers have and others have not.
-  void masks() {
-    for (std::uint32_t mask : {reg::kRxgmask, reg::kRx14mask, reg::kRx15mask})
-      rig_.write(mask, rng_() % 2 != 0 ? 0xDFFFFFFF : 0x1FF80000);
-  }
+  RandomSmall() : Random{&core_build("small")} {}
 };
-TEST_P(RandomSmall, Lockstep) {
-  masks();
-  lockstep();
-}
+TEST_P(RandomSmall, Lockstep) { lockstep(); }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomSmall, ::testing::Range(1u, 31u));
 
 class RandomAtEventsSmall : public RandomAtEvents {
  protected:
-  RandomAtEventsSmall() : RandomAtEvents{"small"} {}
+  RandomAtEventsSmall() : RandomAtEvents{&core_build("small")} {}
 };
 TEST_P(RandomAtEventsSmall, Lockstep) { lockstep(); }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomAtEventsSmall, ::testing::Range(1u, 31u));

@@ -35,10 +35,14 @@ std::uint32_t xctrl_of(const BufferConfig &config) {
   return (config.one_shot ? reg::kXctrlOneShot : 0) | (config.osmb ? reg::kXctrlOsmb : 0);
 }
 
-BufferRig::BufferRig(const BufferConfig &config, const CoreBuild &build,
+BufferRig::BufferRig(const BufferConfig &config, const CoreBuild &listed,
                      const BufferWindows &windows)
+    : BufferRig{config, windows, build_of_test(listed)} {}
+
+BufferRig::BufferRig(const BufferConfig &config, const BufferWindows &windows,
+                     const CoreBuild &build)
     : model{config, windows},
-      node_{make_node("core", build_of_test(build))},
+      node_{make_node("core", build)},
       wave_{std::vector<const Node *>{node_.get()}} {
   peer_.preset_idle();
   run(300);  // until the buffer RAM is cleared

@@ -54,7 +54,7 @@ class BufferRig {
   explicit BufferRig(const BufferConfig &config = {}, const BufferWindows &windows = {})
       : BufferRig{config, {.num_mb = config.num_mb}, windows} {}
   /// A core of a build; `config` must be one that it can have.
-  BufferRig(const BufferConfig &config, const CoreBuild &build, const BufferWindows &windows = {});
+  BufferRig(const BufferConfig &config, const CoreBuild &listed, const BufferWindows &windows = {});
 
   // ---- Software on the core; runs the bus until the access is done
 
@@ -116,6 +116,9 @@ class BufferRig {
   BufferModel model;
 
  private:
+  /// With a core of this build and no other.
+  BufferRig(const BufferConfig &config, const BufferWindows &windows, const CoreBuild &build);
+
   struct Done {
     std::uint64_t clock;
     AhbTransfer transfer;

@@ -30,12 +30,13 @@ struct Setting {
 
 std::vector<Setting> settings() {
   std::vector<Setting> all;
-  for (const CoreBuild &build :
+  for (const CoreBuild &listed :
        {CoreBuild{"full16", 16}, CoreBuild{"full64", 64},
         CoreBuild{"time", 64, {.time_unit = true}}, core_build("small"), core_build("standard")}) {
-    all.push_back({.name = build.name, .build = build});
+    const CoreBuild &build = build_of_test(listed);
+    all.push_back({.name = listed.name, .build = build});
     if (build.features.fifo) {
-      all.push_back({.name = std::string{build.name} + "_fifo", .build = build, .fifo = true});
+      all.push_back({.name = std::string{listed.name} + "_fifo", .build = build, .fifo = true});
     }
   }
   return all;

@@ -26,6 +26,7 @@ from replay import netlist_of, replay
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.append(str(ROOT / "tb"))
 import campaign_settings  # noqa: E402  pylint: disable=wrong-import-position
+import gtest_run  # noqa: E402  pylint: disable=wrong-import-position
 
 KINDS = {"gates": "generic gates", "ice40": "iCE40 cells"}
 # Minutes on iCE40 cells, and nothing in them that the other tests do not reach.
@@ -60,19 +61,10 @@ def build(kind, names, jobs, scratch):
 def run(kind, name, scratch):
     """One program: tests passed, tests failed (a crash counts as one)."""
     log = scratch / f"{kind}.{name}.log"
-    with open(log, "w", encoding="utf-8") as file:
-        status = subprocess.run([f"build/{kind}/tb/{name}"], cwd=ROOT, stdout=file,
-                                stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                check=False).returncode
-    text = log.read_text(errors="replace")
-    passed = re.search(r"^\[  PASSED  \] (\d+) tests?\.", text, re.MULTILINE)
-    failed = re.search(r"^ *(\d+) FAILED TEST", text, re.MULTILINE)
-    bad = int(failed[1]) if failed else 0
-    if status and not bad:
-        bad = 1
+    passed, bad = gtest_run.run([f"build/{kind}/tb/{name}"], log, ROOT)
     if bad:
         print(f"{KINDS[kind]}: {name}: {bad} failed, see {log}", flush=True)
-    return int(passed[1]) if passed else 0, bad
+    return passed, bad
 
 
 def area(kind):

@@ -328,6 +328,18 @@ def read_map(data):
                        recipes, part["doc"])
 
 
+def camel_to_snake(name):
+    """OwnMasks -> own_masks, a member of struct Features of the tests."""
+    return "".join("_" + c.lower() if c.isupper() else c for c in name).lstrip("_")
+
+
+def single_builds(regmap):
+    """Cores with all buffers that lack one of the features that are there by default: {name:
+    parameters}."""
+    return {f"no_{camel_to_snake(feature.name)}": {NUM_MB: 64, feature.name: 0}
+            for feature in regmap.features if feature.default}
+
+
 def load_profiles(path: Path, regmap):
     """name -> {parameter: value} of the profiles in `path`; raises MapError."""
     with mistakes_in(path):

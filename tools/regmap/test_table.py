@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """The rows of the register tests: initialisers of struct RegisterRow (register_table.hpp)."""
-from regmap.model import LAST_MB, MORE_THAN_32, NUM_MB
+from regmap.model import LAST_MB, MORE_THAN_32, NUM_MB, camel_to_snake, single_builds
 
 HEAD = """\
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
@@ -14,11 +14,6 @@ HEAD = """\
 
 ACCESSES = ("ro", "w1c", "rc", "w1s", "wo")
 WRITES = ("any", "freeze", "disable", "wrn_en")
-
-
-def camel_to_snake(name):
-    """OwnMasks -> own_masks, the member of struct Features."""
-    return "".join("_" + c.lower() if c.isupper() else c for c in name).lstrip("_")
 
 
 def conditions(register, features):
@@ -89,8 +84,8 @@ BUILDS = """\
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The profiles of the core: initialisers of CoreBuild, see core_build.hpp. Written by
-// tools/registers.py from sw/profiles.yaml; edits are lost.
+// {what}: initialisers of CoreBuild, see core_build.hpp. Written by
+// tools/registers.py from {source}; edits are lost.
 // clang-format off
 """
 
@@ -104,7 +99,19 @@ def build(name, parameters, features):
             f" .features = {{{', '.join(other)}}}}},".replace(", .wake", ",\n  .wake"))
 
 
+def builds(regmap, named, head):
+    """The text of a file of builds, {name: parameters}."""
+    return head + "\n".join(build(name, parameters, regmap.features)
+                            for name, parameters in named.items()) + "\n"
+
+
 def render_builds(regmap, profiles):
     """The text of the profiles' file."""
-    return BUILDS + "\n".join(build(name, parameters, regmap.features)
-                              for name, parameters in profiles.items()) + "\n"
+    return builds(regmap, profiles, BUILDS.format(what="The profiles of the core",
+                                                  source="sw/profiles.yaml"))
+
+
+def render_single_builds(regmap):
+    """The text of the file of the builds that lack one feature."""
+    return builds(regmap, single_builds(regmap), BUILDS.format(
+        what="Cores that lack one feature each", source="sw/registers.yaml"))
