@@ -53,7 +53,7 @@ BufferRig::BufferRig(const BufferConfig &config, const BufferWindows &windows,
   for (unsigned mb = 0; mb < config.num_mb; ++mb) write(reg::rximr(mb), 0xFFFFFFFF);
   if (build.features.clear_ram) return;
   for (unsigned mb = 0; mb < config.num_mb; ++mb) put(mb, {});
-  for (std::uint32_t mask : {reg::kRxgmask, reg::kRx14mask, reg::kRx15mask})
+  for (std::uint32_t mask : {reg::kRxgmask, reg::kRx14mask, reg::kRx15mask, reg::kRxfgmask})
     write(mask, 0xFFFFFFFF);
 }
 
