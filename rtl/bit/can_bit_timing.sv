@@ -37,45 +37,53 @@ module can_bit_timing #(
   logic       armed_q;  // last sample recessive, no synchronisation since (SY-02, SY-03)
   logic [1:0] prev_q;   // levels at the two previous quanta
 
-  // PROP_SEG + PHASE_SEG1, and the position in PHASE_SEG2 from which on an early edge ends the bit.
-  // Both are constant while running and are registered to keep their adders off the critical path.
-  logic [PosWidth-1:0] tseg1_q;
-  logic [2:0]          reach_q;
-  logic [PosWidth-1:0] tseg2, sjw, ahead;
-  logic       falling, hard, late, early, over, guard;
+  // What the position means, decided with it in the quantum before: the longest paths of the core
+  // begin here, and without this they would begin with comparisons.
+  logic       due_q;    // last quantum of PHASE_SEG1: a recessive level is sampled
+  logic       due_d_q;  // a dominant level, too, because it is no edge
+  logic       near_q;   // in PHASE_SEG2: a dominant level is an edge that ends the bit
+  logic       end_q;    // last quantum of PHASE_SEG2
+
+  // Constant while running, and registered to keep the adders off these paths. A position from
+  // which the next one is the last of PHASE_SEG1, or is within SJW of the end of PHASE_SEG2.
+  logic [PosWidth-1:0] tseg1_q;  // PROP_SEG + PHASE_SEG1 - 1
+  logic [2:0]          reach_q;  // PHASE_SEG2 - 1 - SJW, at least 0
+  logic [PosWidth-1:0] sjw, step;
+  logic       falling, hard, late, early, due, reached, sampling, ending, clipped;
 
   localparam logic [PosWidth-1:0] One = PosWidth'(1);
 
-  assign tseg2 = PosWidth'({2'b0, pseg2_i} + 5'd1);
-  assign sjw   = PosWidth'({3'b0, rjw_i} + 5'd1);
+  assign sjw = PosWidth'({3'b0, rjw_i} + 5'd1);
 
   assign falling = armed_q && prev_q[0] && !rx_i;                  // SY-01
   assign hard    = falling && hard_q;                              // SY-06
   // Positive phase error. It is ignored while this node sends dominant (SY-10), and 0 in SYNC_SEG
   // (SY-07).
-  assign late    = falling && tx_i && (pos_q != '0);
+  assign late    = falling && tx_i && !seg2_q && (pos_q != '0);
   assign early   = falling && seg2_q;
+
+  assign sampling   = rx_i ? due_q : due_d_q;
+  assign ending     = end_q || (near_q && !rx_i);
+  assign sample_o   = tq_i && sampling;
+  assign boundary_o = tq_i && ending;
+  assign edge_o     = tq_i && falling;
+  assign bit_o      = smp_i ? (rx_i && prev_q[0]) || (rx_i && prev_q[1]) || (&prev_q) : rx_i;
 
   // Position after this quantum. A late edge sets it back, which lengthens PHASE_SEG1; an early
   // edge advances it, which shortens PHASE_SEG2; both by SJW at most (SY-08).
-  assign ahead      = early ? pos_q + sjw : pos_q;
-  // 1: PHASE_SEG2 ends with this quantum. As ahead >= tseg2, but without an adder after the edge.
-  assign over       = falling ? pos_q >= PosWidth'(reach_q) : pos_q > PosWidth'(pseg2_i);
-  // An edge in the last quantum of PHASE_SEG1 is before the sample point and therefore moves it.
-  assign guard      = armed_q && prev_q[0] && (hard_q || tx_i);
-  assign sample_o   = tq_i && !seg2_q && (pos_q == tseg1_q) && (rx_i || !guard);
-  assign boundary_o = tq_i && seg2_q && (over || hard);
-  assign edge_o     = tq_i && falling;
-  assign bit_o      = smp_i ? (rx_i && prev_q[0]) || (rx_i && prev_q[1]) || (&prev_q) : rx_i;
+  assign step    = early ? sjw : late ? ~(PosWidth'(rjw_i)) : '0;
+  assign clipped = late && pos_q <= PosWidth'(rjw_i);
+  // The next position is within SJW of the end.
+  assign reached = pos_q >= PosWidth'(reach_q);
 
   // Loaded in every clock, so that an upset is corrected at once.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      tseg1_q <= PosWidth'(2);
+      tseg1_q <= One;
       reach_q <= '0;
     end else begin
-      tseg1_q <= PosWidth'({2'b0, propseg_i} + {2'b0, pseg1_i} + 5'd2);
-      reach_q <= {1'b0, rjw_i} < pseg2_i ? pseg2_i - {1'b0, rjw_i} : 3'd0;
+      tseg1_q <= PosWidth'({2'b0, propseg_i} + {2'b0, pseg1_i} + 5'd1);
+      reach_q <= {1'b0, rjw_i} < pseg2_i ? pseg2_i - {1'b0, rjw_i} - 3'd1 : 3'd0;
     end
   end
 
@@ -94,18 +102,35 @@ module can_bit_timing #(
       prev_q  <= 2'b11;
     end else if (tq_i) begin
       prev_q <= {prev_q[0], rx_i};
-      if (sample_o)     armed_q <= bit_o;
+      if (sampling)     armed_q <= bit_o;
       else if (falling) armed_q <= 1'b0;
-      if (boundary_o)   hard_q  <= hard_i;
-      if (sample_o || boundary_o) seg2_q <= sample_o;
+      if (ending)       hard_q  <= hard_i;
+      if (sampling || ending) seg2_q <= sampling;
 
       // A quantum with a hard edge, or with an early edge within SJW, becomes the new SYNC_SEG.
-      if (sample_o || hard)                pos_q <= One;
-      else if (seg2_q && over)             pos_q <= PosWidth'(ahead != tseg2);
-      else if (seg2_q)                     pos_q <= ahead + One;
-      else if (late)                       pos_q <= (pos_q > sjw) ? pos_q + One - sjw : One;
-      // A position beyond the sample point is due to an upset: sample at the next quantum.
-      else                                 pos_q <= (pos_q >= tseg1_q) ? tseg1_q : pos_q + One;
+      if (sampling || hard || clipped) pos_q <= One;
+      else if (ending)                 pos_q <= PosWidth'(early && pos_q + PosWidth'(rjw_i)
+                                                                   != PosWidth'(pseg2_i));
+      else                             pos_q <= pos_q + step + One;
+    end
+  end
+
+  // An edge in the last quantum of PHASE_SEG1 is before the sample point and therefore moves it. A
+  // position beyond that quantum is due to an upset: sample at the next one.
+  assign due = !sampling && !hard && !seg2_q && (late ? due_q && rjw_i == '0 : pos_q >= tseg1_q);
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni)     {due_q, due_d_q, near_q, end_q} <= '0;
+    else if (!run_i) {due_q, due_d_q, near_q, end_q} <= '0;
+    else if (tq_i) begin
+      due_q   <= due;
+      due_d_q <= due && !(rx_i && armed_q && (hard_q || tx_i));
+      if (sampling) begin
+        near_q <= rx_i && bit_o && (hard_q || reach_q == '0);
+        end_q  <= pseg2_i == '0;
+      end else begin
+        near_q <= rx_i && armed_q && seg2_q && !ending && (hard_q || reached);
+        end_q  <= seg2_q && !ending && (falling ? reached : pos_q >= PosWidth'(pseg2_i));
+      end
     end
   end
 

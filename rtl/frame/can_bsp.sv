@@ -66,7 +66,7 @@ module can_bsp #(
   logic       id_bit, ex_id_bit, data_bit;
   logic [5:0] kind;
   logic [2:0] ones;
-  logic       error, exempt, lost, overload, word_end;
+  logic       error, exempt, lost, overload, flag_r, flag_d, word_end;
 
   can_stuff u_stuff (
     .clk_i, .rst_ni, .sample_i, .bit_i, .field_i(field_o), .stuff_o, .last_o(prev),
@@ -82,12 +82,14 @@ module can_bsp #(
     .clk_i, .rst_ni, .run_i, .judge_i, .field_i(field_o), .last_i(ends), .bit_i,
     .sent_i(tx_o), .transmitter_i(transmitter_o),
     .stuff_i(stuff_o), .prev_i(prev), .crc_mismatch_i(mismatch), .lpb_i,
-    .kind_o(kind), .error_o(error), .exempt_o(exempt), .lost_o(lost), .overload_o(overload)
+    .kind_o(kind), .error_o(error), .exempt_o(exempt), .lost_o(lost), .overload_o(overload),
+    .flag_r_o(flag_r), .flag_d_o(flag_d)
   );
 
   can_field u_field (
     .clk_i, .rst_ni, .run_i, .sample_i, .bit_i, .judge_i, .stuff_i(stuff_o), .prev_i(prev),
     .ones_i(ones), .edge_i, .error_i(error), .lost_i(lost), .overload_i(overload),
+    .flag_r_i(flag_r), .flag_d_i(flag_d),
     .passive_i(passive_o), .boff_i(boff_o), .boff_enter_i(boff_enter), .boff_end_i(boff_end),
     .tx_req_i(tx_req_i && !lom_i), .ide_i(rx_ide_o), .rtr_i(rx_rtr_o), .dlc_i(rx_dlc_o[2:0]),
     .lom_i, .fd_tolerant_i,

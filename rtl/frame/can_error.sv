@@ -24,7 +24,9 @@ module can_error (
   output logic            error_o,        // an error flag follows
   output logic            exempt_o,       // stuff error in arbitration (FC-05 exception 2)
   output logic            lost_o,         // arbitration lost
-  output logic            overload_o      // an overload flag follows
+  output logic            overload_o,     // an overload flag follows
+  output logic            flag_r_o,       // either follows if the bit is recessive
+  output logic            flag_d_o        // either follows if it is dominant
 );
 
   // Results if the bit is dominant.
@@ -89,5 +91,7 @@ module can_error (
   assign exempt_o   = exempt_q && !bit_i;
   assign lost_o     = lost_q && !bit_i;
   assign overload_o = overload_q && !bit_i;
+  assign flag_r_o   = error_r_q;
+  assign flag_d_o   = error_d_q || overload_q;
 
 endmodule

@@ -111,16 +111,17 @@ module can_fault (
     end else if (boff_enter_o) begin
       tec_q[7:0] <= '0;                                                                  // FC-13
     end else if (sequence_q || plus8_q || plus1_q || minus1_q) begin : count
-      logic [8:0] counter, sum;
+      logic [8:0] counter, goes, sum;
       logic       turns;
       // Counting by 1 starts at bit 0, by 8 at bit 3. Up: invert all bits up to and including the
-      // first 0; down: up to and including the first 1. This takes no adder.
+      // first 0; down: up to and including the first 1. This takes no adder, and no bit waits for
+      // the one below.
       counter = on_tec_q ? tec_q : {1'b0, rec_q};
-      turns   = !plus8_q;
+      goes    = counter ^ {9{minus1_q}};  // the bits that a step goes through
       for (int i = 0; i < 9; i++) begin
-        if (i == 3) turns = turns || plus8_q;
+        turns  = i < 3 ? !plus8_q && (&(goes | (9'h1ff << i)))
+                       : (plus8_q || (&goes[2:0])) && (&(goes | 9'd7 | (9'h1ff << i)));
         sum[i] = counter[i] ^ turns;
-        turns  = turns && (counter[i] ^ minus1_q);
       end
       if (on_tec_q)       tec_q <= sum;
       else if (!rec_q[7]) rec_q <= sum[7:0];

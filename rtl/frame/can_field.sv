@@ -20,6 +20,8 @@ module can_field (
   input  logic            error_i,         // error: an error flag follows
   input  logic            lost_i,          // arbitration is lost
   input  logic            overload_i,      // an overload flag follows
+  input  logic            flag_r_i,        // either follows if the bit is recessive
+  input  logic            flag_d_i,        // either follows if it is dominant
   // Fault confinement
   input  logic            passive_i,       // error passive before this bit is counted (EF-05)
   input  logic            boff_i,          // bus-off
@@ -51,7 +53,7 @@ module can_field (
   logic            tx_q, passive_flag_q, overload_q;
 
   logic last_q, free_r_q, free_d_q, join_q;
-  logic ends, suspend, may_begin, fd_frame, restart;
+  logic ends, astray, suspend, may_begin, fd_frame, restart;
 
   assign field_o          = field_q;
   assign left_o           = left_q;
@@ -64,6 +66,8 @@ module can_field (
   // Flags and delimiters have less than eight bits. Upper bits of the count, which only an upset
   // sets there (except in FldWait), must not lengthen a dominant flag.
   assign ends    = (left_q[2:0] == '0) && (left_q[5:3] == '0 || (&field_q[4:2]));
+  // Codes that are no field are left at the end of the bit.
+  assign astray  = field_q[2] && !(&field_q[4:3]) && (field_q[1] || (field_q[0] && !field_q[3]));
   assign suspend = tx_q && passive_i;                                        // IF-08, IF-11
 
   // Whether a frame may begin after this bit. After a recessive bit an own frame may begin; a
@@ -74,7 +78,7 @@ module can_field (
     else if (!run_i) {last_q, free_r_q, free_d_q, join_q} <= '0;
     else begin
       if (judge_i) begin
-        last_q <= ends;
+        last_q <= ends || astray;
         join_q <= !suspend && (field_q == can_pkg::FldIdle || field_q == can_pkg::FldInt);
         case (field_q)
           can_pkg::FldIdle:    {free_r_q, free_d_q} <= 2'b11;
@@ -174,16 +178,17 @@ module can_field (
   end
   // The last bit of a field leads to the next one. Integration and recovery restart their count at
   // a dominant bit; the wait after a flag ends with a recessive bit.
-  logic stops, flags, astray, integ, change, moves, go;
+  logic stops, flags, integ, change, moves, go;
   assign stops  = !run_i || boff_enter_i;
   assign flags  = error_i || overload_i;
-  assign astray = field_q[2] && !(&field_q[4:3]) && (field_q[1] || (field_q[0] && !field_q[3]));
   assign integ  = field_q == can_pkg::FldInteg || field_q == can_pkg::FldBusOff;
-  assign moves  = field_q == can_pkg::FldWait ? bit_i : last_q || astray || (integ && !bit_i);
+  assign moves  = field_q == can_pkg::FldWait ? bit_i : last_q || (integ && !bit_i);
   // A passive flag is complete after six equal bits; a level change restarts the count (EF-03). In
   // the first bit of the flag both branches lead to 4.
   assign change = field_q == can_pkg::FldErrFlag && passive_flag_q && bit_i != prev_i;
-  assign go     = stops || (sample_i && (may_begin || flags || !stuff_i));
+  // As may_begin || flags || !stuff_i, but prepared for both levels: the bit comes late.
+  assign go     = stops || (sample_i && (bit_i ? free_r_q || flag_r_i || !stuff_i
+                                               : free_d_q || flag_d_i || !stuff_i));
 
   always_comb begin
     field_d = moves && !change ? next : field_q;

@@ -36,7 +36,7 @@ module can_tx_frame (
       tx_o     <= can_pkg::Recessive;
       can_tx_o <= can_pkg::Recessive;
     end else if (boundary_i) begin : choose
-      logic level;
+      logic level, other;
       case (field_i)
         can_pkg::FldId:      level = id_bit_i;
         can_pkg::FldRtr:     level = rtr_i || ide_i;  // SRR is recessive (FF-02)
@@ -46,15 +46,19 @@ module can_tx_frame (
         can_pkg::FldDlc:     level = dlc_bit_i;
         can_pkg::FldData:    level = data_bit_i;
         can_pkg::FldCrc:     level = crc_bit_i;
-        can_pkg::FldAck:     level = !ack_i;
-        can_pkg::FldErrFlag: level = passive_flag_i;
-        can_pkg::FldSof, can_pkg::FldR1, can_pkg::FldR0, can_pkg::FldOvlFlag:
-                             level = can_pkg::Dominant;  // FF-04, OV-01
+        can_pkg::FldSof, can_pkg::FldR1, can_pkg::FldR0:
+                             level = can_pkg::Dominant;  // FF-04
         default:             level = can_pkg::Recessive;
       endcase
+      case (field_i)
+        can_pkg::FldAck:     other = !ack_i;
+        can_pkg::FldErrFlag: other = passive_flag_i;
+        can_pkg::FldOvlFlag: other = can_pkg::Dominant;  // OV-01
+        default:             other = can_pkg::Recessive;
+      endcase
       // Only the transmitter sends frame bits. A stuff bit is the complement of the bit before it.
-      if ((field_i[4] ^ field_i[3]) || field_i == can_pkg::FldCrcDel)
-        level = !transmitter_i || (stuff_i ? !prev_i : level);
+      if (stuff_i) level = !prev_i;
+      level = (level || !transmitter_i) && other;
       tx_o     <= level || !run_i;
       can_tx_o <= level || !run_i || mute_i;
     end

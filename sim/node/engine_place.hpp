@@ -42,7 +42,7 @@ class EnginePlace {
     const unsigned pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
     const unsigned last = root.can_core__DOT__u_bit_timing__DOT__seg2_q != 0
                               ? root.pseg2_i + 1U
-                              : root.can_core__DOT__u_bit_timing__DOT__tseg1_q;
+                              : root.can_core__DOT__u_bit_timing__DOT__tseg1_q + 1U;
     return pos < last ? last - pos : 0;
   }
 
@@ -62,11 +62,38 @@ class EnginePlace {
     const std::uint32_t rest = ticks * clocks - ticks_and_rest;  // to the next tick
     count = static_cast<CData>(clocks - rest);
     root.can_core__DOT__tq = rest == 0;
-    advance(root, ticks);
+    if (ticks != 0) advance(root, ticks);
+  }
+
+  /// Sets what follows from the position (can_bit_timing), in a quantum without an edge that
+  /// synchronises.
+  template <typename Root>
+  static void mark(Root &root) {
+    const unsigned pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
+    const bool seg2 = root.can_core__DOT__u_bit_timing__DOT__seg2_q != 0;
+    const bool hard = root.can_core__DOT__u_bit_timing__DOT__hard_q != 0;
+    const bool edge = (root.can_core__DOT__u_bit_timing__DOT__armed_q &
+                       root.can_core__DOT__u_bit_timing__DOT__prev_q & 1U) != 0;
+    const bool due = !seg2 && pos > root.can_core__DOT__u_bit_timing__DOT__tseg1_q;
+    const bool due_d = due && !(edge && (hard || root.can_core__DOT__tx_q != 0));
+    const bool near =
+        seg2 && edge && (hard || pos > root.can_core__DOT__u_bit_timing__DOT__reach_q);
+    const bool end = seg2 && pos > root.pseg2_i;
+    root.can_core__DOT__u_bit_timing__DOT__due_q = due;
+    root.can_core__DOT__u_bit_timing__DOT__due_d_q = due_d;
+    root.can_core__DOT__u_bit_timing__DOT__near_q = near;
+    root.can_core__DOT__u_bit_timing__DOT__end_q = end;
+    const bool sampling = level(root) ? due : due_d;
+    root.can_core__DOT__u_bit_timing__DOT__sampling = sampling;
+    root.can_core__DOT__u_bit_timing__DOT__ending = end || (near && !level(root));
+    root.can_core__DOT__u_bit_timing__DOT__due =
+        !sampling && !seg2 && pos >= root.can_core__DOT__u_bit_timing__DOT__tseg1_q;
+    root.can_core__DOT__u_bit_timing__DOT__reached =
+        pos >= root.can_core__DOT__u_bit_timing__DOT__reach_q;
   }
 
  private:
-  // What the bit timing block sees: the settled pin, in loop-back what the node sends.
+  // What can_bit_timing sees: the settled pin, in loop-back what the node sends.
   template <typename Root>
   static bool level(const Root &root) {
     if (root.lpb_i != 0) return (root.trace_o & kTraceTx) != 0;
@@ -77,12 +104,11 @@ class EnginePlace {
   static void advance(Root &root, std::uint32_t quanta) {
     auto &pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
     pos = static_cast<CData>(pos + quanta);
-    root.can_core__DOT__u_bit_timing__DOT__ahead = pos;
-    root.can_core__DOT__u_bit_timing__DOT__over = pos > root.pseg2_i;
     const unsigned now = level(root) ? 1 : 0;
     auto &prev = root.can_core__DOT__u_bit_timing__DOT__prev_q;
     if (quanta == 1) prev = static_cast<CData>(((prev << 1) & 3U) | now);
     if (quanta > 1) prev = static_cast<CData>(3U * now);
+    mark(root);
   }
 };
 

@@ -118,9 +118,17 @@ class QuietEngine {
     root.can_core__DOT__u_bit_timing__DOT__pos_q;
     root.can_core__DOT__u_bit_timing__DOT__hard_q;
     root.can_core__DOT__u_bit_timing__DOT__prev_q;
+    root.can_core__DOT__u_bit_timing__DOT__armed_q;
     root.can_core__DOT__u_bit_timing__DOT__tseg1_q;
-    root.can_core__DOT__u_bit_timing__DOT__ahead;
-    root.can_core__DOT__u_bit_timing__DOT__over;
+    root.can_core__DOT__u_bit_timing__DOT__reach_q;
+    root.can_core__DOT__u_bit_timing__DOT__due_q;
+    root.can_core__DOT__u_bit_timing__DOT__due_d_q;
+    root.can_core__DOT__u_bit_timing__DOT__near_q;
+    root.can_core__DOT__u_bit_timing__DOT__end_q;
+    root.can_core__DOT__u_bit_timing__DOT__due;
+    root.can_core__DOT__u_bit_timing__DOT__reached;
+    root.can_core__DOT__u_bit_timing__DOT__sampling;
+    root.can_core__DOT__u_bit_timing__DOT__ending;
     root.can_core__DOT__u_bit_timing__DOT__falling;
     root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q;
     root.can_core__DOT__u_bsp__DOT__u_fault__DOT__boff_seen_q;
@@ -233,7 +241,7 @@ class QuietEngine {
           !keeps_level(root) || pulses(engine) ||
           (root.run_i & root.can_core__DOT__active_q) == 0 || root.rx_req_i != 0)
         return 0;
-      return (root.can_core__DOT__u_bit_timing__DOT__tseg1_q + 1U) * (root.presdiv_i + 1U);
+      return (root.can_core__DOT__u_bit_timing__DOT__tseg1_q + 2U) * (root.presdiv_i + 1U);
     } else {
       return 0;
     }
@@ -341,6 +349,7 @@ class QuietEngine {
     root.can_core__DOT__u_bit_timing__DOT__seg2_q = 0;
     root.can_core__DOT__u_bit_timing__DOT__hard_q = 0;
     root.can_core__DOT__first_q = 1;
+    EnginePlace::mark(root);
   }
 
   // Edges that count, without what is combinational in the one that shows something.

@@ -22,7 +22,7 @@ MUTANTS = {
         "ahb", "mailbox/can_mb_port.sv", "scrub_o     <= 1'b1;", "scrub_o     <= 1'b0;",
         "registers", "hrdata is xxxxxxxx"),
     "no stuff bits sent": (
-        "ahb", "frame/can_tx_frame.sv", "(stuff_i ? !prev_i : level)", "level", "arbitration",
+        "ahb", "frame/can_tx_frame.sv", "      if (stuff_i) level = !prev_i;\n", "", "arbitration",
         "can_tx_o is"),
     "a register of the time unit without reset": (
         "time", "time/can_time_cmp.sv", "      target_q <= '0;\n", "", "time_registers",

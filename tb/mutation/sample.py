@@ -19,7 +19,7 @@ from mutants import Design
 MODULE = "can_fault"
 # Rule, what stands in the RTL, what the mutant has instead.
 KILLED = [
-    ("FC-05: 8 for an error", "i == 3", "!(i == 3)"),
+    ("FC-05: 8 for an error", "i < 3", "!(i < 3)"),
     ("FC-02: 1 for a receiver", "!plus8_q", "plus8_q"),
     ("FC-10: back to 127", "8'd127", "8'h80"),
     ("FC-11: either counter", "tec_q[7] || rec_q[7]", "tec_q[7]"),

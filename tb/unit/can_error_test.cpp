@@ -109,6 +109,7 @@ class CanError : public testing::Test {
     error_->judge_i = 0;
     error_->bit_i = s.seen;
     error_.settle();
+    EXPECT_EQ(s.seen ? error_->flag_r_o : error_->flag_d_o, error_->error_o | error_->overload_o);
     return {error_->kind_o, error_->error_o != 0, error_->exempt_o != 0, error_->lost_o != 0,
             error_->overload_o != 0};
   }

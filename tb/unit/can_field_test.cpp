@@ -58,11 +58,13 @@ class CanField : public testing::Test {
     field_->error_i = finding.error;
     field_->lost_i = finding.lost;
     field_->overload_i = finding.overload;
+    field_->flag_r_i = field_->flag_d_i = finding.error || finding.overload;
     field_->bit_i = recessive;
     field_->sample_i = 1;
     field_.clock();
     field_->sample_i = 0;
     field_->error_i = field_->lost_i = field_->overload_i = 0;
+    field_->flag_r_i = field_->flag_d_i = 0;
     field_->prev_i = recessive;
   }
   void bits(int count, bool recessive = true) {

@@ -9,10 +9,16 @@
       p_boundary: assert (boundary_o == (tq_i && !f_boundary
                           && f_now == (f_bound_set ? f_bound_q : f_bound)));
     end
-    // SY-08: an edge in PHASE_SEG2 ends the bit if SJW reaches its end; without one the end is the
-    // last quantum: the compare with a constant is that of the sum.
-    p_over: assert (!f_started || !seg2_q || over == ({2'd0, pos_q} + (falling ? {2'd0, sjw} : 7'd0)
-                                                      >= {2'd0, tseg2}));
+    // BT-05: what is decided a quantum ahead is what the position says. In the last quantum of
+    // PHASE_SEG1 a recessive level is sampled.
+    p_due: assert (due_q == (!seg2_q && {1'b0, pos_q} == f_prop + f_ps1));
+    // SY-08, SY-10: so is a dominant one, if it is no edge that moves the sample point.
+    p_due_d: assert (due_d_q == (due_q && !(armed_q && prev_q[0] && (hard_q || tx_i))));
+    // SY-06, SY-08: an edge in PHASE_SEG2 ends the bit if SJW reaches its end, or if it is hard.
+    p_near: assert (near_q == (seg2_q && armed_q && prev_q[0]
+                               && (hard_q || {1'b0, pos_q} + f_sjw >= f_ps2)));
+    // BT-05: without one the bit ends with the last quantum.
+    p_end: assert (end_q == (seg2_q && {1'b0, pos_q} == f_ps2));
     // SY-01, SY-02, SY-03: one recessive to dominant edge a bit synchronises, after a recessive
     // bit.
     p_one_sync: assert (edge_o == (tq_i && f_edge));
