@@ -62,6 +62,9 @@
       // RN-102 P-9, RN-103: off the bus it waits for no sample point.
       p_no_wait: assert (!$past(job_q == can_rn_pkg::JobInt2 && !run_i)
                          || job_q != can_rn_pkg::JobInt2);
+      // RN-102 P-9: a request does not wait for a fourth sample point to be told.
+      p_ends: assert (!$past(job_q == can_rn_pkg::JobInt2 && f_ticks == 2'd3)
+                      || job_q != can_rn_pkg::JobInt2);
       // RN-102 P-7, RN-45: only for a request that writes, or for TRIGGER.
       p_asked: assert (!written_o || $past(write_i, 1) || $past(write_i, 2));
     end
