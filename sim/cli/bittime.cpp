@@ -138,8 +138,19 @@ Json to_json(const std::vector<RateRow> &rows) {
   return list;
 }
 
+/// can_remote counts a millisecond by its parameter ClocksPerMs, which bounds its clock.
+void check_remote_clock(double hz) {
+  constexpr double kLeastPerMs = 8000, kMostPerMs = 131071;
+  if (hz >= kLeastPerMs * 1000 && hz <= kMostPerMs * 1000) return;
+  throw std::invalid_argument(
+      fmt::format("--clock: {} Hz is not allowed with --table; allowed: 8 MHz to 131.071 MHz, "
+                  "ClocksPerMs of can_remote",
+                  plain_number(hz)));
+}
+
 /// RateTable of can_remote (RN-73).
 int rate_rows(const BitTimeOptions &options) {
+  check_remote_clock(options.clock);
   const std::vector<RateRow> rows = rate_table(options.clock);
   if (options.json)
     print_json({{"clock_hz", options.clock}, {"rows", to_json(rows)}});

@@ -41,7 +41,6 @@ class Table(unittest.TestCase):
         self.assertEqual(self.rows("8M"), RATES)
         self.assertEqual(self.rows("10M"), [rate for rate in RATES if rate != 800])
         self.assertEqual(self.rows("100M"), [rate for rate in RATES if rate != 10])
-        self.assertEqual(self.rows("2M"), [rate for rate in RATES if rate <= 250])
 
     def test_parameters(self):
         """They are what can_remote has for 8 MHz, which all tools that read RTL take."""
@@ -59,6 +58,11 @@ class Table(unittest.TestCase):
             self.assertEqual(sum(map(int, re.findall(r"(\d+)'d", text))), 285)
 
     def test_refused(self):
-        """A clock without any row, and a rate beside the table."""
-        self.assertIn("no rate of the table", tool("--clock", "50k", code=2)[1])
+        """A clock that can_remote cannot have, and a rate beside the table."""
+        rtl = (RTL.parent / "can_rn_tick.sv").read_text(encoding="utf-8")
+        self.assertIn("ClocksPerMs < 8000 || ClocksPerMs > 131071", rtl)
+        for clock in "50k", "1M", "7999999", "131071001":
+            out, error = tool("--clock", clock, code=2)
+            self.assertEqual(out, "")
+            self.assertIn("allowed: 8 MHz to 131.071 MHz", error)
         self.assertIn("excludes", tool("--bitrate", "500k", code=2)[1])
