@@ -14,6 +14,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -44,8 +45,8 @@ MUTANTS = [
      "(cs_written_i && ans_q[0])) && cs_written_idx_i == tgt0_q",
      "(cs_written_i && ans_q[0])) && (@ || cs_written_idx_i == tgt0_q)"),
     ("overrun", "a frame over an unread one counts as the first", "mailbox/can_mb_move.sv",
-     "assign ovr      = ovr_q && !cs_written_hit;",
-     "assign ovr      = ovr_q && !cs_written_hit && !@;"),
+     "assign ovr      = ovr_q && !(cs_written_i && hit_q);",
+     "assign ovr      = ovr_q && !(cs_written_i && hit_q) && !@;"),
 ]
 
 
@@ -54,16 +55,21 @@ def run(*command, mutant=0, **options):
     return subprocess.run(command, env=environment, check=False, text=True, **options)
 
 
-def build(jobs):
-    rtl = BUILD / "rtl"
-    shutil.rmtree(rtl, ignore_errors=True)
-    shutil.copytree(ROOT / "rtl", rtl)
+def insert(rtl):
+    """All mutants into the folder `rtl`; exits if the text of one is not there once."""
     for number, (name, _, file, old, new) in enumerate(MUTANTS, 1):
         path = rtl / file
         text = path.read_text()
         if text.count(old) != 1:
             sys.exit(f"mutants: {name}: rtl/{file} has '{old}' {text.count(old)} times, not once")
         path.write_text(text.replace(old, new.replace("@", AWAKE.format(number))))
+
+
+def build(jobs):
+    rtl = BUILD / "rtl"
+    shutil.rmtree(rtl, ignore_errors=True)
+    shutil.copytree(ROOT / "rtl", rtl)
+    insert(rtl)
     configure = ["cmake", "--preset", "release", "-B", BUILD, f"-DVERICAN_RTL_DIR={rtl}"]
     make = ["cmake", "--build", BUILD, "-j", str(jobs), "--target", "random_campaign", "verican"]
     for command in (configure, make):
@@ -105,7 +111,8 @@ def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", metavar="NAME")
-    parser.add_argument("--list", action="store_true", help="names and what is wrong")
+    parser.add_argument("--list", action="store_true",
+                        help="names and what is wrong, if the RTL has the text of each")
     parser.add_argument("--keep", type=Path, help="folder for the shrunk scenarios")
     parser.add_argument("--seeds", type=int, default=300, help="tried at most (300)")
     parser.add_argument("--frames", type=int, default=150, help="of each, about (150)")
@@ -116,6 +123,8 @@ def main():
         if name not in known:
             parser.error(f"no mutant '{name}'; there are: {', '.join(known)}")
     if options.list:
+        with tempfile.TemporaryDirectory() as folder:
+            insert(Path(shutil.copytree(ROOT / "rtl", Path(folder) / "rtl")))
         print("\n".join(f"{name:16} {what} (rtl/{file})" for name, what, file, *_ in MUTANTS))
         return 0
     build(options.jobs)
