@@ -2,17 +2,39 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# core-file.sh: prints can.core, the FuseSoC description, for the files of rtl/can.f.
+# core-file.sh: prints can.core, the FuseSoC description, for the files of rtl/can.f and the profiles
+# of sw/profiles.yaml.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/common.sh
+
+# What any of this core's own targets may be given, besides what a profile sets.
+parameters=(NumMb Fifo Abort Status OwnMasks Wake Extras ClearRam TimeUnit TimeSync SyncCtrl SyncId
+            SyncDelay RegionBits CheckHprot WakeFilter)
+
+# profile_targets TARGET TEXT: TARGET for each profile, TARGET_small and so on.
+profile_targets() {
+  local name values list parameter
+  while read -r name values; do
+    list=
+    for parameter in "${parameters[@]}"; do
+      case " $values " in
+        *" $parameter="*) list+="$(tr ' ' '\n' <<<"$values" | grep "^$parameter="), " ;;
+        *) list+="$parameter, " ;;
+      esac
+    done
+    printf '  %s_%s:\n    <<: *%s\n    description: Profile %s; %s\n' "$1" "$name" "$1" "$name" "$2"
+    fold -s -w 80 <<<"parameters: [${list%, }]" | sed 's/ *$//;1s/^/    /;2,$s/^/      /'
+  done < <(tools/profiles.py)
+}
 version=$(sed -n 's/^project(verican VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 cat <<EOF
 CAPI=2:
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# can.core: FuseSoC description; written by tools/core-file.sh from rtl/can.f (make lint compares).
+# can.core: FuseSoC description; written by tools/core-file.sh from rtl/can.f and
+# sw/profiles.yaml (make lint compares).
 name: verican:ip:can:$version
 description: CAN 2.0 controller with FlexCAN registers on AHB-Lite, APB, AXI4-Lite or Wishbone
 
@@ -109,29 +131,15 @@ targets:
     filesets: [rtl]
     toplevel: ["is_toplevel? (can_ahb)"]
     parameters:
-      - "is_toplevel? (NumMb)"
-      - "is_toplevel? (Fifo)"
-      - "is_toplevel? (Abort)"
-      - "is_toplevel? (Status)"
-      - "is_toplevel? (OwnMasks)"
-      - "is_toplevel? (Wake)"
-      - "is_toplevel? (Extras)"
-      - "is_toplevel? (ClearRam)"
-      - "is_toplevel? (TimeUnit)"
-      - "is_toplevel? (TimeSync)"
-      - "is_toplevel? (SyncCtrl)"
-      - "is_toplevel? (SyncId)"
-      - "is_toplevel? (SyncDelay)"
-      - "is_toplevel? (RegionBits)"
-      - "is_toplevel? (CheckHprot)"
-      - "is_toplevel? (WakeFilter)"
-  lint:
+$(printf '      - "is_toplevel? (%s)"\n' "${parameters[@]}")
+  lint: &lint
     <<: *default
     description: Lint with Verilator, all warnings
     flow: lint
     flow_options:
       tool: verilator
       verilator_options: [-Wall]
+$(profile_targets lint 'lint with Verilator, all warnings')
   # With --tool icarus, too, from Icarus 12 on (docs/errata.md, E-08).
   sim:
     description: A first frame in loop-back through each bus wrapper
@@ -143,13 +151,14 @@ targets:
       mode: binary
       verilator_options: [--timing, -Wno-fatal]
       iverilog_options: [-g2012]
-  synth_ice40:
+  synth_ice40: &synth_ice40
     <<: *default
     description: Synthesis for iCE40, no place and route
     flow: icestorm
     flow_options:
       pnr: none
       yosys_synth_options: [-device, hx]
+$(profile_targets synth_ice40 'synthesis for iCE40, no place and route')
   # Edalize 0.6.8 starts nextpnr-ecp5 all the same, after the synthesis.
   synth_ecp5:
     <<: *default

@@ -102,7 +102,9 @@ class Check:
             for entry in [tops] if isinstance(tops, str) else tops:
                 self.expect(expand(entry, {"is_toplevel"}), f"{where}: toplevel {entry}")
             for entry in target.get("parameters", []):
-                for used in expand(entry, {"is_toplevel"}) or [f"? {entry}"]:
+                parameter, is_set, value = entry.partition("=")
+                self.expect(not is_set or value.isdecimal(), f"{where}: {entry}: no number")
+                for used in expand(parameter, {"is_toplevel"}) or [f"? {entry}"]:
                     self.expect(used in self.core["parameters"], f"{where}: no parameter {used}")
             flow = target.get("flow")
             if flow is None:

@@ -145,6 +145,7 @@ class CoreDescription(unittest.TestCase):
                 ("rtl/can_core.sv", "rtl/can_cor.sv", "rtl/can_cor.sv: no such file"),
                 ('"is_toplevel? (can_ahb)"', '"can_ahb"', "can_ahb holds in designs"),
                 ("filesets: [rtl, smoke]", "filesets: [rtl, smok]", "no file set smok"),
+                ("NumMb=16", "NumMb=x", "NumMb=x: no number"),
                 ("paramtype: vlogparam", "paramtype: vlogparam\n    default: 1", "no key"),
                 ('"is_toplevel? (Wake)"', '"is_toplevel? (Wak)"', "no parameter Wak")):
             self.assertIn(old, text)
@@ -175,9 +176,22 @@ class CoreDescription(unittest.TestCase):
             if target["toplevel"] in ("can_smoke", "can_hx8k"):  # designs of their own
                 continue
             self.assertEqual(chosen(target["toplevel"], True), ["can_ahb"], name)
-            self.assertEqual(chosen(target["parameters"], True), list(self.core["parameters"]))
+            names = [entry.partition("=")[0] for entry in chosen(target["parameters"], True)]
+            self.assertEqual(names, list(self.core["parameters"]))
             self.assertEqual(chosen(target["toplevel"], False), [], name)
-            self.assertEqual(chosen(target["parameters"], False), [], name)
+            if name == "default":  # what a design that depends on the core gets
+                self.assertEqual(chosen(target["parameters"], False), [])
+
+    def test_profiles_are_those_of_the_file(self):
+        """PK-45: a target of each kind sets what the profile names, and nothing else."""
+        profiles = yaml.safe_load((design.ROOT / "sw/profiles.yaml").read_text(encoding="utf-8"))
+        for name, profile in profiles["profiles"].items():
+            for kind in ("lint", "synth_ice40"):
+                target = self.core["targets"][f"{kind}_{name}"]
+                values = dict(entry.split("=") for entry in target["parameters"] if "=" in entry)
+                self.assertEqual({key: int(value) for key, value in values.items()},
+                                 profile["parameters"], name)
+                self.assertEqual(target["flow"], self.core["targets"][kind]["flow"])
 
     def test_board_target_is_what_the_script_builds(self):
         """As make hx8k: the same files and options. FuseSoC makes the bitstream (FUSESOC)."""
@@ -249,6 +263,13 @@ class CoreDescription(unittest.TestCase):
         files = list(self.work.glob("build/**/*.vc"))
         self.assertEqual(len(files), 1)
         self.assertIn("-GNumMb=16", files[0].read_text(encoding="utf-8"))
+
+    def test_fusesoc_passes_a_profile(self):
+        self.assertNotIn("Warning", self.fusesoc("--target", "lint_small", "verican:ip:can"))
+        files = list(self.work.glob("build/**/*.vc"))
+        self.assertEqual(len(files), 1)
+        for value in ("-GNumMb=16", "-GExtras=0"):
+            self.assertIn(value, files[0].read_text(encoding="utf-8"))
 
     def test_fusesoc_lints_a_design_that_depends_on_it(self):
         self.assertNotIn("Warning", self.fusesoc("--target", "lint", "::user:0"))

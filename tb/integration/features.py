@@ -2,14 +2,17 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """Each feature of the core can be left out alone, and a profile's together: no warning, and no
-block of what is not there (PK-43)."""
+block, flip-flop or RAM of what is not there (PK-43)."""
 
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as ET
 from pathlib import Path
+
+import yaml
 
 import design
 
@@ -18,6 +21,10 @@ BLOCKS = {"Fifo": ("can_mb_filter", "can_rx_fifo"), "Abort": ("can_mb_guard",),
           "Status": ("can_mb_status",), "OwnMasks": (), "Wake": ("can_wake",), "Extras": (),
           "ClearRam": (), "TimeUnit": ("can_time_cmp", "can_time_regs", "can_mb_stamp"),
           "TimeSync": ("can_time_sync", "can_time_sync_regs")}
+# What the netlist of a core of 16 buffers has less, at least, without the features that have no
+# block: bits of flip-flops, RAMs. The masks that OwnMasks = 0 leaves need as many flip-flops as the
+# scan of the third RAM did.
+LESS = {"OwnMasks": (0, 1), "Extras": (23, 0), "ClearRam": (7, 0)}
 # Features that a core has not unless it is asked for them.
 ASKED_FOR = ("TimeUnit", "TimeSync")
 
@@ -52,6 +59,33 @@ def modules(parameters):
         return {module.get("origName") for module in ET.parse(tree).iter("module")}
 
 
+def storage(builds):
+    """(bits of flip-flops, RAMs) of netlists of can_ahb with these parameters."""
+    with tempfile.TemporaryDirectory() as name:
+        design.read_once(design.rtl_files(), [
+            "hierarchy -top can_ahb "
+            + " ".join(f"-chparam {key} {value}" for key, value in build.items())
+            + "; proc; flatten; opt -full; simplemap t:$*dff*; opt_clean; "
+            f"tee -q -o {name}/{i} stat" for i, build in enumerate(builds)])
+        return [counts((Path(name) / str(i)).read_text(encoding="utf-8"))
+                for i in range(len(builds))]
+
+
+def counts(text):
+    """(bits of flip-flops, RAMs) that Yosys' `stat` has counted."""
+    return (sum(map(int, re.findall(r"\$_\w*DFF\w*_ +(\d+)", text))),
+            int(re.search(r"Number of memories: +(\d+)", text)[1]))
+
+
+def documented(text):
+    """The parameters of a profile, as its row in docs/integration.md has them."""
+    parameters = {"NumMb": int(text.split()[0])}
+    if "all features 0" in text:
+        return parameters | {name: 0 for name in BLOCKS if name not in ASKED_FOR}
+    zeros = re.search(r", ((?:`\w+` = )+)0$", text)
+    return parameters | {name: 0 for name in re.findall(r"`(\w+)`", zeros[1] if zeros else "")}
+
+
 class Features(unittest.TestCase):
     def test_builds_without_a_feature_are_clean(self):
         features = settings("--features")
@@ -76,6 +110,24 @@ class Features(unittest.TestCase):
                         default = "0" if feature in ASKED_FOR else "1"
                         self.assertEqual(block in there,
                                          parameters.get(feature, default) == "1")
+
+    def test_registers_of_a_feature_are_not_there_without_it(self):
+        """PK-43, PK-44: for those that are no block."""
+        self.assertEqual(list(LESS), [feature for feature, blocks in BLOCKS.items() if not blocks])
+        full, *without = storage([{"NumMb": 16}] + [{"NumMb": 16, name: 0} for name in LESS])
+        for (feature, less), (flops, rams) in zip(LESS.items(), without):
+            with self.subTest(feature):
+                self.assertGreaterEqual(full[0] - flops, less[0])
+                self.assertEqual(full[1] - rams, less[1])
+
+    def test_page_has_the_profiles_as_they_are(self):
+        """PK-45: the table of docs/integration.md."""
+        page = (design.ROOT / "docs/integration.md").read_text(encoding="utf-8")
+        rows = dict(re.findall(r"^\| (\w+) \| (\d+ buffers, [^|]*) \|", page, re.MULTILINE))
+        profiles = yaml.safe_load((design.ROOT / "sw/profiles.yaml").read_text(encoding="utf-8"))
+        self.assertEqual({name: documented(text) for name, text in rows.items()},
+                         {name: profile["parameters"]
+                          for name, profile in profiles["profiles"].items()})
 
     def refused(self, top, tried, base=None):
         """Each parameter of `tried` is named at each of its values. They do not depend on each
