@@ -70,13 +70,17 @@ class OnBus(unittest.TestCase):
             Bridge("--fast", "--errors", "none", scenario=scenario(*nodes), clients=1))
         bus = self.enterContext(can.Bus(interface="socketcand", channel="can0", host="127.0.0.1",
                                         port=self.bridge.port))
+        self.connect(bus, name_bits, **({"rtr": "never"} | options))
+        for _ in nodes:
+            bus.recv(TIMEOUT)  # BOOT
+
+    def connect(self, bus, name_bits, **options):
+        """self.client on a bus of python-can and, between the two, self.link."""
         self.link = Lossy(bus)
         # As the client would find without the losses in between.
         Lossy.__module__ = type(bus).__module__
-        options = {"timeout": TIMEOUT, "select_wait": 0.5, "rtr": "never"} | options
+        options = {"timeout": TIMEOUT, "select_wait": 0.5} | options
         self.client = remote.Client(self.link, name_bits, **options)
-        for _ in nodes:
-            bus.recv(TIMEOUT)  # BOOT
 
     def enterContext(self, manager):  # pylint: disable=invalid-name
         """As unittest has it from Python 3.11 on."""
@@ -100,31 +104,26 @@ def hexadecimal(text):
     return bytes.fromhex(text.replace(" ", ""))
 
 
-class Golden(OnBus):
-    """sw/remote/vectors.yaml (RN-92, RN-93)."""
+class Vectors(OnBus):
+    """sw/remote/vectors.yaml on any bus."""
 
-    def test_vectors(self):
-        """Every vector: as a call where it is one, else its frames; what they give, and STATUS."""
-        self.run_vectors("full")
+    sends_remote_frames = False  # whether the bus takes them
+    features = {"small": {"stage"}}  # of nodes of a profile; others have all
 
-    def test_vectors_on_the_rtl(self):
-        """RN-93: the vectors of profile small on can_remote itself."""
-        self.run_vectors("small", "made_of: rtl, ", {"stage"})
+    def lives(self):
+        """The lives of nodes that the vectors tell of."""
+        text = (ROOT / "sw/remote/vectors.yaml").read_text(encoding="utf-8")
+        return yaml.safe_load(text)["lives"]
 
-    def run_vectors(self, profile, keys="", features=None):
-        """The vectors of a profile; `features`: those that its nodes have, None: all."""
-        self.profile = profile
-        lives = yaml.safe_load((ROOT / "sw/remote/vectors.yaml").read_text(encoding="utf-8"))
-        for life in lives["lives"]:
-            self.open(f"{keys}profile: {profile}, number: {life['number']}, "
-                      f"name_bits: {life['name_bits']}, serial: 0x{life['serial']:X}",
-                      name_bits=life["name_bits"])
-            self.number = life["number"]
-            for vector in life["vectors"]:
-                if features is not None and not set(vector.get("needs", ())) <= features:
-                    continue
-                with self.subTest(vector=vector["vector"], what=vector["what"]):
-                    self.carry_out(vector)
+    def run_life(self, life, profile):
+        """The vectors that a node of the profile can run."""
+        self.profile, self.number = profile, life["number"]
+        for vector in life["vectors"]:
+            needs = set(vector.get("needs", ()))
+            if not needs <= self.features.get(profile, needs):
+                continue
+            with self.subTest(vector=vector["vector"], what=vector["what"]):
+                self.carry_out(vector)
 
     def carry_out(self, vector):
         """One vector."""
@@ -150,7 +149,7 @@ class Golden(OnBus):
         """The frame of a step, and its answers. A remote frame, which socketcand does not send, is
         a request for STATUS: READ gives the same."""
         frame = frame_of(step["send"])
-        if frame.is_remote_frame:
+        if frame.is_remote_frame and not self.sends_remote_frames:
             row = self.client.read(self.number, 0xFF0, 8)
             self.assertEqual(row, bytes(frame_of(step["answers"][0]).data))
             return
@@ -199,6 +198,30 @@ class Golden(OnBus):
             client.block_write(keys["node"], keys["address"], data)
         else:
             self.fail(f"no call {do}")
+
+
+class Golden(Vectors):
+    """The vectors through socketcand (RN-92, RN-93)."""
+
+    def test_vectors(self):
+        """Every vector: as a call where it is one, else its frames; what they give, and STATUS."""
+        self.run_vectors("full")
+
+    def test_vectors_on_the_rtl(self):
+        """RN-93: the vectors of profile small on can_remote itself."""
+        self.run_vectors("small", "made_of: rtl, ")
+
+    def test_vectors_on_the_rtl_of_profile_full(self):
+        """RN-93: those of blocks, too."""
+        self.run_vectors("full", "made_of: rtl, ")
+
+    def run_vectors(self, profile, keys=""):
+        """The vectors of a profile, each life on a bus of its own."""
+        for life in self.lives():
+            self.open(f"{keys}profile: {profile}, number: {life['number']}, "
+                      f"name_bits: {life['name_bits']}, serial: 0x{life['serial']:X}",
+                      name_bits=life["name_bits"])
+            self.run_life(life, profile)
 
 
 class Calls(OnBus):

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// remote_golden_client: the golden vectors through the C client on a CAN interface of Linux, as
-// tb/socketcan/guest/remote.sh runs it (RN-93). Environment: VERICAN_INTERFACE, VERICAN_VECTORS
-// (vectors.yaml), VERICAN_LIFE (which of its lives), VERICAN_PROFILE of the node.
+// remote_golden_client: the golden vectors through the C client (RN-93), on a CAN interface of
+// Linux as tb/socketcan/guest/remote.sh runs it, or through socketcand as
+// tb/remote/c_client_cases.py does. Environment: VERICAN_INTERFACE or VERICAN_SOCKETCAND (the
+// port), VERICAN_VECTORS (vectors.yaml), VERICAN_LIFE (which of its lives), VERICAN_PROFILE of the
+// node.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/can.h>
@@ -12,9 +14,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
 
 #include "remote/golden_caller.hpp"
+#include "remote/guest/socketcand_client.hpp"
 #include "trace/candump.hpp"
 #include "verican_remote_socketcan.h"
 
@@ -27,43 +31,76 @@ std::string setting(const char *name) {
   return value;
 }
 
-/// The client, and a socket for frames that it does not send.
-class OnInterface {
+/// A way to a bus for the client, and another for frames that it does not send.
+class Way {
  public:
-  OnInterface(const std::string &interface, unsigned name_bits) {
+  Way() = default;
+  virtual ~Way() = default;
+  Way(const Way &) = delete;
+  Way &operator=(const Way &) = delete;
+
+  virtual verican_remote_port_t port() = 0;
+  virtual void put(const Frame &frame) = 0;
+};
+
+class OnInterface : public Way {
+ public:
+  explicit OnInterface(const std::string &interface) {
     EXPECT_EQ(verican_remote_socketcan_open(&socket_, interface.c_str()), 0);
     EXPECT_EQ(verican_remote_socketcan_open(&raw_, interface.c_str()), 0);
-    port_ = verican_remote_socketcan_port(&socket_);
-    EXPECT_EQ(verican_remote_init(&client, &port_, static_cast<std::uint8_t>(name_bits)),
-              VERICAN_REMOTE_OK);
-    client.timeout_us = 5'000'000;  // the simulation shares the computer with others
   }
-  ~OnInterface() {
+  ~OnInterface() override {
     verican_remote_socketcan_close(&raw_);
     verican_remote_socketcan_close(&socket_);
   }
-  OnInterface(const OnInterface &) = delete;
-  OnInterface &operator=(const OnInterface &) = delete;
-
-  /// A frame as it is; the answers, which the client would take for those to its next question, and
-  /// the frame itself if it looks like one.
-  void send(const Frame &frame, const std::vector<Frame> &answers) const {
-    constexpr unsigned kStatement = 0x400;  // RN-03
-    put(frame);
-    if (!frame.extended && (frame.id & kStatement) != 0) await(frame);
-    for (const Frame &answer : answers) await(answer);
-  }
-
-  verican_remote_t client{};
-
- private:
-  void put(const Frame &frame) const {
+  verican_remote_port_t port() override { return verican_remote_socketcan_port(&socket_); }
+  void put(const Frame &frame) override {
     can_frame out{};
     out.can_id =
         frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.remote ? CAN_RTR_FLAG : 0U);
     out.can_dlc = frame.dlc;
     std::memcpy(out.data, frame.data.data(), sizeof out.data);
     ASSERT_EQ(::write(raw_.fd, &out, sizeof out), static_cast<ssize_t>(sizeof out));
+  }
+
+ private:
+  verican_remote_socketcan_t socket_{}, raw_{};
+};
+
+class OnSocketcand : public Way {
+ public:
+  explicit OnSocketcand(std::uint16_t port) : client_{port}, raw_{port} {}
+  verican_remote_port_t port() override { return client_.port(); }
+  void put(const Frame &frame) override { ASSERT_TRUE(raw_.send(frame)); }
+
+ private:
+  SocketcandClient client_, raw_;
+};
+
+/// The way that the environment names.
+std::unique_ptr<Way> way() {
+  if (std::getenv("VERICAN_SOCKETCAND") == nullptr)
+    return std::make_unique<OnInterface>(setting("VERICAN_INTERFACE"));
+  const unsigned long port = std::stoul(setting("VERICAN_SOCKETCAND"));
+  return std::make_unique<OnSocketcand>(static_cast<std::uint16_t>(port));
+}
+
+/// The client on its way.
+class OnBus {
+ public:
+  explicit OnBus(unsigned name_bits) {
+    EXPECT_EQ(verican_remote_init(&client, &port_, static_cast<std::uint8_t>(name_bits)),
+              VERICAN_REMOTE_OK);
+    client.timeout_us = 5'000'000;  // the simulation shares the computer with others
+  }
+
+  /// A frame as it is; the answers, which the client would take for those to its next question, and
+  /// the frame itself if it looks like one.
+  void send(const Frame &frame, const std::vector<Frame> &answers) const {
+    constexpr unsigned kStatement = 0x400;  // RN-03
+    way_->put(frame);
+    if (!frame.extended && (frame.id & kStatement) != 0) await(frame);
+    for (const Frame &answer : answers) await(answer);
   }
 
   /// Takes frames until this one has come.
@@ -77,11 +114,14 @@ class OnInterface {
     ADD_FAILURE() << candump_frame(wanted) << " has not come";
   }
 
-  verican_remote_socketcan_t socket_{}, raw_{};
-  verican_remote_port_t port_{};
+  verican_remote_t client{};
+
+ private:
+  std::unique_ptr<Way> way_ = way();
+  verican_remote_port_t port_ = way_->port();
 };
 
-void expect_memory(OnInterface &bus, const golden::Vector &vector, unsigned number) {
+void expect_memory(OnBus &bus, const golden::Vector &vector, unsigned number) {
   for (const auto &[address, bytes] : vector.memory) {
     std::vector<std::uint8_t> seen(bytes.size());
     EXPECT_EQ(verican_remote_read(&bus.client, static_cast<std::uint8_t>(number), address,
@@ -99,11 +139,13 @@ std::vector<Frame> answers_to(const Frame &frame, const golden::Vector &vector,
 }
 
 // RN-93.
-TEST(GoldenOnInterface, EveryVector) {
+TEST(GoldenOnBus, EveryVector) {
   const std::string profile = setting("VERICAN_PROFILE");
   const golden::Life life =
       golden::load(setting("VERICAN_VECTORS")).at(std::stoul(setting("VERICAN_LIFE")));
-  OnInterface bus{setting("VERICAN_INTERFACE"), life.name_bits};
+  OnBus bus{life.name_bits};
+  // The bus has waited for who comes by socketcand; on an interface the node has begun before.
+  if (std::getenv("VERICAN_SOCKETCAND") != nullptr) bus.await(life.boot);
   GoldenCaller caller{bus.client, profile};
   unsigned number = life.number;
   for (const golden::Vector &vector : life.for_features(golden::features_of(profile))) {
