@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# core-file.sh: prints can.core, the FuseSoC description, for the files of rtl/can.f and the profiles
-# of sw/profiles.yaml.
+# core-file.sh: prints can.core, the FuseSoC description, for the files of rtl/can.f and the
+# profiles of sw/profiles.yaml.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/common.sh
