@@ -35,9 +35,7 @@ int carry_out(const MemoryOptions &options, const std::function<int(MemoryLink &
   try {
     return work(*link);
   } catch (const MemoryFailure &failure) {
-    const std::string said = link->complaint();
-    print_error("verican: memory: {}{}\n", failure.what(),
-                said.empty() ? "" : "; the server says: " + said);
+    print_error("verican: memory: {}{}\n", failure.what(), link->remarks());
     return kFailed;
   }
 }
@@ -95,6 +93,7 @@ class Memory {
     add_node(*state, false);
     add_node(*add_one("status", "Status of a node, or of all", memory_status), false);
     add_one("map", "Producers and maps of all nodes, and what is wrong with them", memory_map);
+    add_node(*add_one("clear", "Clear counters and flags of a node", memory_clear));
     CLI::App *dump = add_one("dump", "Read much, as a table or as a file", memory_dump);
     add_node(*dump);
     add_address(*dump);

@@ -27,8 +27,6 @@ class MemoryCalls {
   MemoryCalls(MemoryLink &link, unsigned name_bits, unsigned timeout_ms);
 
   [[nodiscard]] std::vector<verican_remote_identity_t> scan();
-  /// The nodes that have a number.
-  [[nodiscard]] std::vector<verican_remote_identity_t> numbered();
   [[nodiscard]] std::vector<std::uint8_t> read(unsigned node, unsigned address, unsigned length);
   /// Confirmed, but to all nodes (VERICAN_REMOTE_ALL).
   void write(unsigned node, unsigned address, const std::vector<std::uint8_t> &bytes);
@@ -36,13 +34,20 @@ class MemoryCalls {
   [[nodiscard]] verican_remote_status_t status(unsigned node);
   void trigger(unsigned count);
   void state(unsigned node, unsigned command);
+  void clear(unsigned node);
+  /// Bytes of the node's memory and registers together (RN-25).
+  [[nodiscard]] unsigned memory_size(unsigned node);
   void assign(std::uint32_t serial, unsigned number);
 
   [[nodiscard]] unsigned name_bits() const { return client_.name_bits; }
   [[nodiscard]] unsigned highest_number() const { return (1U << client_.name_bits) - 1; }
 
  private:
-  void check(verican_remote_result_t result, const std::string &who) const;
+  /// `at`: behind "refuses" or what else went wrong.
+  void check(verican_remote_result_t result, const std::string &who,
+             const std::string &at = {}) const;
+  /// The same of a transfer from `first` on; tells where it has ended.
+  void check_transfer(verican_remote_result_t result, unsigned node, unsigned first) const;
 
   verican_remote_t client_{};
 };

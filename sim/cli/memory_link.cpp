@@ -93,6 +93,14 @@ bool read_frame(const std::string &text, verican_remote_frame_t &frame) {
   return true;
 }
 
+/// "error CLASS TIME BYTES", CLASS of eight digits: what the bus shows, while "error" and a text is
+/// a complaint of the server.
+bool is_error_frame(std::string_view message) {
+  const auto words = text::split_blanks(message);
+  const bool time = words.size() >= 3 && words[2].find_first_not_of("0123456789.") == words[2].npos;
+  return time && words[0] == "error" && words[1].size() == 8 && text::parse_unsigned(words[1], 16);
+}
+
 class SocketcandLink : public MemoryLink {
  public:
   SocketcandLink(const std::string &address, const std::string &bus)
@@ -125,7 +133,13 @@ class SocketcandLink : public MemoryLink {
   }
   // Servers write them as data frames, or not at all.
   [[nodiscard]] bool remote_frames() const override { return false; }
-  [[nodiscard]] std::string complaint() const override { return complaint_; }
+  [[nodiscard]] std::string remarks() const override {
+    std::string text = complaint_.empty() ? "" : "; the server says: " + complaint_;
+    if (error_frames_ != 0)
+      text += fmt::format("; {} error frame{} on the bus", error_frames_,
+                          error_frames_ == 1 ? "" : "s");
+    return text;
+  }
 
  private:
   verican_remote_result_t send(const verican_remote_frame_t &frame) {
@@ -142,10 +156,17 @@ class SocketcandLink : public MemoryLink {
       if (gone_) return VERICAN_REMOTE_BUS_OFF;
       if (!text) return VERICAN_REMOTE_TIMEOUT;
       if (read_frame(*text, frame)) return VERICAN_REMOTE_OK;
-      const std::string_view message = text::trimmed(*text);
-      if (message.starts_with("error ")) complaint_ = text::trimmed(message.substr(6));
+      note_error(text::trimmed(*text));
       if (now_us() - begin >= verican_remote_skip_us(timeout_us)) return VERICAN_REMOTE_TIMEOUT;
     }
+  }
+
+  void note_error(std::string_view message) {
+    constexpr std::string_view kError = "error ";
+    if (is_error_frame(message))
+      ++error_frames_;
+    else if (message.starts_with(kError))
+      complaint_ = text::trimmed(message.substr(kError.size()));
   }
 
   bool say(const std::string &text) {
@@ -178,18 +199,18 @@ class SocketcandLink : public MemoryLink {
   void expect(const std::string &answer, const std::string &address) {
     constexpr std::uint32_t kPatience = 5'000'000;  // us
     const auto seen = next(kPatience);
-    if (!seen || text::trimmed(*seen) != answer)
-      throw InputError(
-          "--socketcand", 0,
-          fmt::format("the server at {} says {}; allowed: socketcand with this bus",
-                      in_quotes(address),
-                      in_quotes(std::string{text::trimmed(seen.value_or("nothing"))})));
+    const std::string said{text::trimmed(seen.value_or(""))};
+    if (said != answer)
+      throw InputError("--socketcand", 0,
+                       fmt::format("the server at {} says {}; allowed: socketcand with this bus",
+                                   in_quotes(address), seen ? "'" + said + "'" : "nothing"));
   }
 
   int fd_;
   CommandSplitter splitter_;
   bool gone_ = false;
-  std::string complaint_;
+  std::string complaint_;  // the server's last one
+  std::uint64_t error_frames_ = 0;
 };
 
 }  // namespace

@@ -19,8 +19,8 @@ class MemoryLink {
   [[nodiscard]] virtual verican_remote_port_t port() = 0;
   /// Whether remote frames reach the bus.
   [[nodiscard]] virtual bool remote_frames() const = 0;
-  /// What the server complained about last; empty: nothing.
-  [[nodiscard]] virtual std::string complaint() const { return {}; }
+  /// What else there is to say behind a failure, "; ..."; empty: nothing.
+  [[nodiscard]] virtual std::string remarks() const { return {}; }
 };
 
 /// A CAN interface of this computer. Throws InputError if it is not there, down or not permitted.

@@ -96,7 +96,11 @@ std::vector<std::string> complaints(const std::vector<NodeTables> &nodes, unsign
   const RemoteConfig config = config_of(name_bits);
   std::vector<std::string> all;
   for (const NodeTables &node : nodes) {
-    if (node.doubled) all.push_back(fmt::format("number {}: two nodes have it", node.number));
+    if (node.heard_own)
+      all.push_back(
+          fmt::format("node {0}: has heard its number from another node since CLEAR; 'clear {0}' "
+                      "forgets that",
+                      node.number));
     complain_of_overlaps(node, all);
     complain_of_vain_entries(node, all);
     for (const RemoteMapEntry &entry : node.maps)
@@ -137,7 +141,7 @@ Json to_json(const std::vector<NodeTables> &nodes) {
                       {"safe_when_late", (e.flags & 0x40) != 0},
                       {"time_out_ms", 10 * e.time_out}});
     list.push_back({{"number", node.number},
-                    {"doubled", node.doubled},
+                    {"doubled", node.heard_own},
                     {"producers", producers},
                     {"map", maps}});
   }

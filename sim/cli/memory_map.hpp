@@ -22,8 +22,8 @@ struct ProducerEntry {
 /// The tables of one node.
 struct NodeTables {
   unsigned number = 0;
-  bool doubled = false;  ///< it has heard its own number from another node
-  RemoteConfig config;   ///< as far as the node tells it
+  bool heard_own = false;  ///< from another node, since the last CLEAR (DUP, RN-11)
+  RemoteConfig config;     ///< as far as the node tells it
   std::vector<ProducerEntry> producers;
   std::vector<RemoteMapEntry> maps;
 };
@@ -31,8 +31,8 @@ struct NodeTables {
 /// The tables from F40 to FBF as they are read; entries that are off are left out.
 [[nodiscard]] NodeTables read_tables(unsigned number, const std::vector<std::uint8_t> &bytes);
 
-/// What is wrong: numbers that two nodes have, entries of a map that write the same bytes, entries
-/// that can never have an effect or wait for identifiers that nobody sends.
+/// What is wrong: nodes that have heard their own number, entries of a map that write the same
+/// bytes, entries that can never have an effect or wait for identifiers that nobody sends.
 [[nodiscard]] std::vector<std::string> complaints(const std::vector<NodeTables> &nodes,
                                                   unsigned name_bits);
 

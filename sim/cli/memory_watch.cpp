@@ -31,7 +31,9 @@ int memory_watch(MemoryLink &link, const MemoryOptions &options) {
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
     const std::string words = remote_words(frame, options.name_bits);
     if (options.json)
-      print_json({{"time_s", time.count()}, {"frame", candump_frame(frame)}, {"words", words}});
+      fmt::print(
+          "{}\n",
+          Json{{"time_s", time.count()}, {"frame", candump_frame(frame)}, {"words", words}}.dump());
     else
       fmt::print("{:>12.6f}  {:<20}  {}\n", time.count(), candump_frame(frame), words);
     flush_standard_output();

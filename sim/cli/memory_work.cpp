@@ -11,6 +11,7 @@
 
 #include "cli/cli.hpp"
 #include "cli/memory_map.hpp"
+#include "cli/memory_nodes.hpp"
 #include "cli/number_check.hpp"
 #include "cli/output_files.hpp"
 #include "model/remote_config.hpp"
@@ -49,6 +50,26 @@ void check_range(unsigned address, std::size_t length) {
            fmt::format("1 to {} from 0x{:03X} on", remote_map::kSize - address, address));
 }
 
+/// Bytes that `node` has from `address` on, of memory or of what lies behind the hidden part. Whole
+/// transfers are held against that before anything is sent, so that none is left half done.
+unsigned room_of(MemoryCalls &calls, unsigned node, unsigned address) {
+  const unsigned end = calls.memory_size(node) - (remote_map::kSize - remote_map::kHidden);
+  if (address < end) return end - address;
+  return address < remote_map::kNode ? 0 : remote_map::kSize - address;
+}
+
+/// Throws unless `length` bytes fit, of `what`.
+void require_room(MemoryCalls &calls, unsigned node, unsigned address, std::size_t length,
+                  const std::string &what) {
+  const unsigned room = room_of(calls, node, address);
+  if (room == 0)
+    throw InputError("ADDRESS", 0, fmt::format("node {} has no memory at 0x{:03X}", node, address));
+  if (length > room)
+    throw InputError(what, 0,
+                     fmt::format("{} bytes; allowed: 1 to {} from 0x{:03X} on, in node {}", length,
+                                 room, address, node));
+}
+
 /// Appends the bytes of a word of two digits each.
 void add_bytes(const std::string &word, Bytes &bytes) {
   std::size_t at = 0;
@@ -74,16 +95,6 @@ void require_answers(const MemoryCalls &calls, bool any) {
 }
 
 std::string hex(const Bytes &bytes) { return fmt::format("{:02X}", fmt::join(bytes, " ")); }
-
-constexpr const char *kFeatures[] = {
-    "stage", "producers", "map", "queue of 4", "protection", "block", "automatic rate", "counters"};
-
-std::string features_text(unsigned features) {
-  std::vector<std::string> names;
-  for (unsigned i = 0; i < std::size(kFeatures); ++i)
-    if ((features >> i & 1) != 0) names.emplace_back(kFeatures[i]);
-  return fmt::format("{}", fmt::join(names, ", "));
-}
 
 Json to_json(unsigned number, const verican_remote_status_t &s) {
   return {{"number", number},       {"state", remote_state_name(s.state)},
@@ -164,6 +175,23 @@ void require_state(MemoryCalls &calls, unsigned node, unsigned state, const Stat
                                   remote_state_name(command.state)));
 }
 
+/// Prints what is wrong, beside JSON that has it already; the exit code.
+int tell(const std::vector<std::string> &wrong, const MemoryOptions &options) {
+  if (!options.json)
+    for (const std::string &line : wrong) fmt::print("wrong: {}\n", line);
+  return wrong.empty() ? kOk : kFailed;
+}
+
+/// The nodes that can be asked by their number: those that have one for themselves. `wrong`: what
+/// is wrong with the others.
+MemoryNodes nodes_to_ask(MemoryCalls &calls, std::vector<std::string> &wrong) {
+  MemoryNodes nodes = calls.scan();
+  wrong = complaints(nodes);
+  std::erase_if(nodes, [](const auto &node) { return node.number == 0 || node.doubled; });
+  require_answers(calls, !nodes.empty() || !wrong.empty());
+  return nodes;
+}
+
 /// Behind "-" what is printed goes to stderr.
 void write_bytes(const std::string &path, const Bytes &bytes) {
   claim_files({}, {{"--output", path}});
@@ -190,23 +218,12 @@ RemoteConfig config_of(const verican_remote_identity_t &node) {
 int memory_scan(MemoryCalls &calls, const MemoryOptions &options) {
   const auto nodes = calls.scan();
   require_answers(calls, !nodes.empty());
-  Json list = Json::array();
-  if (!options.json) fmt::print("node  serial    memory  stage  features\n");
-  for (const verican_remote_identity_t &n : nodes) {
-    if (options.json)
-      list.push_back({{"number", n.number},
-                      {"serial", n.serial},
-                      {"memory", n.memory},
-                      {"stage", n.stage},
-                      {"features", n.features}});
-    else if (n.number == 0)
-      fmt::print("none  {:08X}\n", n.serial);
-    else
-      fmt::print("{:>4}  {:08X}  {:>6}  {:>5}  {}\n", n.number, n.serial, n.memory, n.stage,
-                 features_text(n.features));
-  }
-  if (options.json) print_json({{"nodes", list}});
-  return kOk;
+  const auto wrong = complaints(nodes);
+  if (options.json)
+    print_json({{"nodes", to_json(nodes)}, {"complaints", wrong}});
+  else
+    fmt::print("{}", to_text(nodes));
+  return tell(wrong, options);
 }
 
 int memory_assign(MemoryCalls &calls, const MemoryOptions &options) {
@@ -260,8 +277,10 @@ int memory_poll(MemoryCalls &calls, const MemoryOptions &options) {
     else
       fmt::print("{:>4}  {}\n", node, hex(bytes));
   }
-  if (options.json) print_json({{"address", options.address}, {"answers", list}});
-  return kOk;
+  const auto wrong = complaints(answers);
+  if (options.json)
+    print_json({{"address", options.address}, {"answers", list}, {"complaints", wrong}});
+  return tell(wrong, options);
 }
 
 int memory_trigger(MemoryCalls &calls, const MemoryOptions &options) {
@@ -282,11 +301,11 @@ int memory_state(MemoryCalls &calls, const MemoryOptions &options) {
 
 int memory_status(MemoryCalls &calls, const MemoryOptions &options) {
   std::vector<unsigned> numbers;
+  std::vector<std::string> wrong;
   if (options.node == "all")
-    for (const auto &node : calls.numbered()) numbers.push_back(node.number);
+    for (const auto &node : nodes_to_ask(calls, wrong)) numbers.push_back(node.number);
   else
     numbers.push_back(node_of(calls, options));
-  require_answers(calls, !numbers.empty());
   Json list = Json::array();
   if (!options.json) fmt::print("node  state     TEC  REC  accepted  refused  TRIGGER\n");
   for (const unsigned number : numbers) {
@@ -296,13 +315,14 @@ int memory_status(MemoryCalls &calls, const MemoryOptions &options) {
     else
       fmt::print("{}", to_text(number, status));
   }
-  if (options.json) print_json({{"nodes", list}});
-  return kOk;
+  if (options.json) print_json({{"nodes", list}, {"complaints", wrong}});
+  return tell(wrong, options);
 }
 
 int memory_map(MemoryCalls &calls, const MemoryOptions &options) {
   std::vector<NodeTables> nodes;
-  for (const verican_remote_identity_t &node : calls.numbered()) {
+  std::vector<std::string> wrong;
+  for (const verican_remote_identity_t &node : nodes_to_ask(calls, wrong)) {
     // Entries that a node does not have are reserved, and an access to them is refused.
     NodeTables tables;
     tables.number = node.number;
@@ -319,23 +339,29 @@ int memory_map(MemoryCalls &calls, const MemoryOptions &options) {
     };
     half(1, remote_map::kProducers);
     half(2, remote_map::kMaps);
-    tables.doubled = calls.status(node.number).duplicate;
+    tables.heard_own = calls.status(node.number).duplicate;
     nodes.push_back(std::move(tables));
   }
-  require_answers(calls, !nodes.empty());
-  const std::vector<std::string> wrong = complaints(nodes, calls.name_bits());
+  const auto more = complaints(nodes, calls.name_bits());
+  wrong.insert(wrong.end(), more.begin(), more.end());
   if (options.json)
     print_json({{"nodes", to_json(nodes)}, {"complaints", wrong}});
   else
     fmt::print("{}", to_text(nodes, calls.name_bits()));
-  if (!options.json)
-    for (const std::string &line : wrong) fmt::print("wrong: {}\n", line);
-  return wrong.empty() ? kOk : kFailed;
+  return tell(wrong, options);
+}
+
+int memory_clear(MemoryCalls &calls, const MemoryOptions &options) {
+  const unsigned node = node_of(calls, options);
+  calls.clear(node);
+  if (options.json) print_json({{"number", node}});
+  return kOk;
 }
 
 int memory_dump(MemoryCalls &calls, const MemoryOptions &options) {
   const unsigned node = node_of(calls, options);
   check_range(options.address, options.table);
+  require_room(calls, node, options.address, options.table, "LENGTH");
   const Bytes bytes = calls.read(node, options.address, options.table);
   const bool to_file = !options.file.empty();
   if (to_file) write_bytes(options.file, bytes);
@@ -355,6 +381,7 @@ int memory_load(MemoryCalls &calls, const MemoryOptions &options) {
     throw InputError(options.file, 0,
                      fmt::format("{} bytes; allowed: 1 to {} from 0x{:03X} on", content.size(),
                                  remote_map::kSize - options.address, options.address));
+  require_room(calls, node, options.address, content.size(), options.file);
   calls.write(node, options.address, {content.begin(), content.end()});
   if (options.json)
     print_json({{"number", node},

@@ -42,6 +42,7 @@ int memory_trigger(MemoryCalls &calls, const MemoryOptions &options);
 int memory_state(MemoryCalls &calls, const MemoryOptions &options);
 int memory_status(MemoryCalls &calls, const MemoryOptions &options);
 int memory_map(MemoryCalls &calls, const MemoryOptions &options);
+int memory_clear(MemoryCalls &calls, const MemoryOptions &options);
 int memory_dump(MemoryCalls &calls, const MemoryOptions &options);
 int memory_load(MemoryCalls &calls, const MemoryOptions &options);
 /// Prints what is on the bus until SIGINT, SIGTERM or the number of frames.

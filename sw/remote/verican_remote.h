@@ -27,7 +27,8 @@ typedef enum verican_remote_result {
   VERICAN_REMOTE_SEQUENCE = -3, /**< a block transfer lost frames, in every try */
   VERICAN_REMOTE_BUS_OFF = -4,  /**< the host itself is off the bus */
   VERICAN_REMOTE_ARGUMENT = -5, /**< an argument is missing or out of range; nothing was sent */
-  VERICAN_REMOTE_NOT_TAKEN = -6 /**< assign: the node is there, but does not take the number */
+  VERICAN_REMOTE_NOT_TAKEN = -6, /**< assign: the node is there, but does not take the number */
+  VERICAN_REMOTE_IN_USE = -7     /**< assign: another node has the number; nothing was assigned */
 } verican_remote_result_t;
 
 /** Codes of a refused request (RN-31). */
@@ -44,8 +45,8 @@ enum {
   VERICAN_REMOTE_CODE_ABORTED = 0x14
 };
 
-/** Numbers with a meaning of their own (section 1). */
-enum { VERICAN_REMOTE_ALL = 1, VERICAN_REMOTE_NUMBERS = 32 };
+/** Numbers with a meaning of their own (section 1). UNKNOWN: see verican_remote_scan(). */
+enum { VERICAN_REMOTE_ALL = 1, VERICAN_REMOTE_NUMBERS = 32, VERICAN_REMOTE_UNKNOWN = 0xFF };
 
 /** Commands of verican_remote_state(). */
 enum { VERICAN_REMOTE_OPERATE = 0x01, VERICAN_REMOTE_SAFE = 0x02, VERICAN_REMOTE_RESTART = 0x81 };
@@ -97,9 +98,13 @@ typedef struct verican_remote {
   void *user; /**< first argument of on_statement */
 
   uint8_t code; /**< after REFUSED: why, VERICAN_REMOTE_CODE_* */
+  /** Where the part began of which read, write, write_confirmed or configure had no success; what
+   * comes before it has been read or written. */
+  uint16_t address;
 
   verican_remote_port_t port; /* from here on the client's own */
   uint8_t name_bits;
+  bool here;               /* HERE has come */
   uint32_t refusals_known; /* bit n: refusals[n] is valid */
   uint8_t refusals[VERICAN_REMOTE_NUMBERS];
 } verican_remote_t;
@@ -109,7 +114,7 @@ typedef struct verican_remote_status_row {
   uint8_t state; /**< 0 INIT, 1 LISTEN, 2 SAFE, 3 OPERATE */
   bool unlocked;
   bool error_passive;
-  bool duplicate; /**< another node has its number */
+  bool duplicate; /**< it has heard its number from another node since the last CLEAR */
   bool stale;     /**< a statement it waits for is late */
   bool watchdog;
   bool bus_off; /**< since the last CLEAR */
@@ -125,6 +130,7 @@ typedef struct verican_remote_status_row {
 /** What a node is (RN-25). */
 typedef struct verican_remote_identity_row {
   uint8_t number; /**< 0: it has none */
+  bool doubled;   /**< scan: another node has its number, too */
   uint8_t version;
   uint8_t
       features; /**< bits: stage, producers, map, queue of 4, protection, block, rate, counters */
@@ -137,6 +143,7 @@ typedef struct verican_remote_identity_row {
 /** Answers of all nodes to one poll. */
 typedef struct verican_remote_answers {
   uint32_t answered;                       /**< bit n: node n has answered */
+  uint32_t differing; /**< bit n: two answers under number n differ: two nodes have it (RN-11) */
   uint8_t data[VERICAN_REMOTE_NUMBERS][8]; /**< its bytes */
 } verican_remote_answers_t;
 
@@ -195,18 +202,29 @@ verican_remote_result_t verican_remote_identity(verican_remote_t *client, uint8_
 verican_remote_result_t verican_remote_select(verican_remote_t *client, uint32_t value,
                                               uint32_t mask, bool only_new, bool *here);
 /**
- * Lists all nodes: those with a number in its order, then those without by serial number (only
- * this is known of them). `count`: in: places in `nodes`; out: nodes found, at most so many.
+ * Lists all nodes: those with a number in its order, then those without by serial number. `count`:
+ * in: places in `nodes`; out: nodes found, at most so many.
+ *
+ * Nodes that share a number are found, too, by SELECT (RN-26): they disturb each other's answers,
+ * so of them, as of nodes without a number, only the serial number is known. If several numbers
+ * are shared, nobody can tell which node has which: their `number` is VERICAN_REMOTE_UNKNOWN. Two
+ * nodes with one number and one serial number look like one.
  */
 verican_remote_result_t verican_remote_scan(verican_remote_t *client,
                                             verican_remote_identity_t *nodes, size_t *count);
 /**
  * Gives the node with this serial number a number (0: takes it away), and asks it whether it has
  * taken it. TIMEOUT: no such node. NOT_TAKEN: there is one; in OPERATE it takes none, and says
- * nothing (RN-32).
+ * nothing (RN-32). IN_USE: the number is that of another node (RN-11); whether it is takes one
+ * time-out.
  */
 verican_remote_result_t verican_remote_assign(verican_remote_t *client, uint32_t serial,
                                               uint8_t number);
+/**
+ * Clears counters and the flags doubled number, watchdog and bus-off of a node (SETUP CLEAR, RN-24,
+ * RN-35), confirmed.
+ */
+verican_remote_result_t verican_remote_clear(verican_remote_t *client, uint8_t number);
 /**
  * Unlocks a node by its serial number, writes settings confirmed, in their order, and locks it
  * again, whatever comes of them or of the confirmation that it is unlocked; what went wrong first

@@ -379,6 +379,7 @@ TEST_F(ClientCalls, WrongArguments) {
   expect(verican_remote_status(&client, 3, nullptr));
   expect(verican_remote_identity(&client, 3, nullptr));
   expect(verican_remote_assign(&client, 0, 1));
+  expect(verican_remote_clear(&client, VERICAN_REMOTE_ALL));
   expect(verican_remote_scan(&client, nullptr, &count));
   expect(verican_remote_configure(&client, 3, 0, &setting, 1));
   expect(verican_remote_configure(&client, 3, 0, nullptr, 1));
@@ -389,6 +390,21 @@ TEST_F(ClientCalls, WrongArguments) {
   expect(verican_remote_init(&other, &none, 3));
   expect(verican_remote_init(nullptr, &port, 3));
   EXPECT_THAT(bus.take_sent(), IsEmpty());
+}
+
+// RN-91: a transfer of several frames tells which of them had no success.
+TEST_F(ClientCalls, WhereATransferEnds) {
+  Bytes bytes(32);
+  EXPECT_EQ(verican_remote_read(&client, 3, 0xDF2, bytes.data(), bytes.size()),
+            VERICAN_REMOTE_REFUSED);
+  EXPECT_EQ(client.address, 0xDFE);
+  EXPECT_EQ(confirmed(3, 0xC00, Bytes(700)), VERICAN_REMOTE_REFUSED);
+  EXPECT_EQ(client.address, 0xC00);  // a part is 100 frames, here of six bytes
+  EXPECT_EQ(confirmed(3, 0xA00, Bytes(1100)), VERICAN_REMOTE_REFUSED);
+  EXPECT_EQ(client.address, 0xC58);
+  const verican_remote_setting_t setting{.address = 0xF30, .length = 1, .data = {}};
+  EXPECT_EQ(verican_remote_configure(&client, 3, 0xCAFE1233, &setting, 1), VERICAN_REMOTE_REFUSED);
+  EXPECT_EQ(client.address, 0xF30);
 }
 
 // RN-91: off the bus every call says so.
@@ -407,7 +423,7 @@ TEST_F(ClientCalls, BusOff) {
         verican_remote_state(&client, 0, VERICAN_REMOTE_SAFE),
         verican_remote_select(&client, 0, 0, false, &here),
         verican_remote_scan(&client, &node, &count), verican_remote_assign(&client, 0, 3),
-        verican_remote_block_read(&client, 3, 0x20, bytes, 1),
+        verican_remote_clear(&client, 3), verican_remote_block_read(&client, 3, 0x20, bytes, 1),
         verican_remote_block_write(&client, 3, 0x20, bytes, 1),
         verican_remote_configure(&client, 3, 0, nullptr, 0)})
     EXPECT_EQ(result, VERICAN_REMOTE_BUS_OFF);

@@ -25,10 +25,20 @@ class ClientNodes : public ModelClientTest {
     for (std::size_t i = 0; i < places; ++i) found.emplace_back(nodes[i].number, nodes[i].serial);
     return found;
   }
-  void add_new(std::uint32_t serial) {
+  void add_new(std::uint32_t serial, unsigned number = 0) {
     RemoteConfig config = RemoteConfig::profile("small");
     config.serial = serial;
-    bus.add(config, 0);
+    bus.add(config, number);
+  }
+  /// The serial numbers of which a scan says that their number is another node's, too.
+  std::vector<std::uint32_t> doubled() {
+    std::vector<verican_remote_identity_t> nodes(20);
+    std::size_t count = nodes.size();
+    EXPECT_EQ(verican_remote_scan(&client, nodes.data(), &count), VERICAN_REMOTE_OK);
+    std::vector<std::uint32_t> serials;
+    for (std::size_t i = 0; i < count; ++i)
+      if (nodes[i].doubled) serials.push_back(nodes[i].serial);
+    return serials;
   }
 };
 
@@ -52,6 +62,69 @@ TEST_F(ClientNodes, ScanFindsEveryNode) {
   EXPECT_EQ(scan(2).size(), 2U);
 }
 
+// RN-11, RN-26: nodes that share a number are found by their serial numbers, whether their answers
+// destroy each other or come one after the other.
+TEST_F(ClientNodes, ScanFindsNodesThatShareANumber) {
+  add_new(0x12345678, 5);
+  add_new(0x00000001);
+  for (const bool collides : {true, false}) {
+    bus.collides = collides;
+    EXPECT_THAT(scan(), ElementsAre(std::pair(3U, 0xCAFE1233U), std::pair(4U, 0xCAFE1234U),
+                                    std::pair(5U, 0x12345678U), std::pair(5U, 0xCAFE1235U),
+                                    std::pair(0U, 0x00000001U)));
+    EXPECT_THAT(doubled(), ElementsAre(0x12345678U, 0xCAFE1235U));
+  }
+}
+
+// RN-11: with several shared numbers nobody can say which node has which.
+TEST_F(ClientNodes, ScanOfSeveralSharedNumbers) {
+  bus.collides = true;
+  add_new(0x12345678, 5);
+  add_new(0x12345679, 4);
+  constexpr unsigned kUnknown = VERICAN_REMOTE_UNKNOWN;
+  EXPECT_THAT(scan(),
+              ElementsAre(std::pair(3U, 0xCAFE1233U), std::pair(kUnknown, 0x12345678U),
+                          std::pair(kUnknown, 0x12345679U), std::pair(kUnknown, 0xCAFE1234U),
+                          std::pair(kUnknown, 0xCAFE1235U)));
+  EXPECT_EQ(doubled().size(), 4U);
+}
+
+// RN-26: an answer of a node that has its number for itself is lost: SELECT finds it, and it is not
+// taken for one of two.
+TEST_F(ClientNodes, ScanWithALostAnswer) {
+  int lost = 0;
+  bus.filter = [&](const RemoteModel *to, const Frame &frame) {
+    const bool its = to == nullptr && frame.id == 0x678 && frame.data[0] == 0xFC;
+    return !its || lost++ != 0;
+  };
+  EXPECT_THAT(scan(), ElementsAre(std::pair(3U, 0xCAFE1233U), std::pair(4U, 0xCAFE1234U),
+                                  std::pair(5U, 0xCAFE1235U)));
+  EXPECT_EQ(lost, 1);
+  lost = 0;
+  EXPECT_THAT(doubled(), ElementsAre());
+}
+
+// RN-26: HERE comes before what nodes answer to a request behind SELECT; so a scan waits for nodes
+// alone, however long they take, and not for select_us.
+TEST_F(ClientNodes, ScanOnASlowBus) {
+  add_new(0x12345678);
+  bus.latency_us = 40'000;
+  client.select_us = 1000;
+  EXPECT_THAT(scan(), ElementsAre(std::pair(3U, 0xCAFE1233U), std::pair(4U, 0xCAFE1234U),
+                                  std::pair(5U, 0xCAFE1235U), std::pair(0U, 0x12345678U)));
+}
+
+// RN-11: two answers to one poll under one number.
+TEST_F(ClientNodes, APollTellsOfASharedNumber) {
+  add_new(0x12345678, 5);
+  verican_remote_answers_t answers;
+  EXPECT_EQ(verican_remote_poll(&client, 0x20, 1, 0, &answers), VERICAN_REMOTE_OK);
+  EXPECT_EQ(answers.differing, 0U);  // the same bytes are one frame
+  EXPECT_EQ(verican_remote_poll(&client, 0xFFC, 4, 0, &answers), VERICAN_REMOTE_OK);
+  EXPECT_EQ(answers.answered, 0x38U);
+  EXPECT_EQ(answers.differing, 0x20U);
+}
+
 // RN-25, RN-26: an empty bus is soon known to be one.
 TEST_F(ClientNodes, ScanOfAnEmptyBus) {
   bus.filter = [](const RemoteModel *, const Frame &) { return false; };
@@ -72,6 +145,36 @@ TEST_F(ClientNodes, Assign) {
   EXPECT_EQ(bus.node(0).number(), 7U);
   EXPECT_EQ(verican_remote_assign(&client, 0xCAFE1233, 0), VERICAN_REMOTE_OK);
   EXPECT_EQ(bus.node(0).number(), 0U);
+}
+
+// RN-11: a number that another node has is not given once more; its own may be.
+TEST_F(ClientNodes, ANumberInUse) {
+  EXPECT_EQ(verican_remote_assign(&client, 0xCAFE1233, 4), VERICAN_REMOTE_IN_USE);
+  EXPECT_EQ(bus.node(0).number(), 3U);
+  EXPECT_EQ(verican_remote_assign(&client, 0xCAFE1233, 3), VERICAN_REMOTE_OK);
+  bus.collides = true;
+  add_new(0x12345678, 5);
+  EXPECT_EQ(verican_remote_assign(&client, 0xCAFE1235, 5), VERICAN_REMOTE_IN_USE);
+  EXPECT_EQ(verican_remote_assign(&client, 0xCAFE1235, 6), VERICAN_REMOTE_OK);
+  EXPECT_EQ(bus.node(2).number(), 6U);
+  EXPECT_EQ(bus.node(3).number(), 5U);
+}
+
+// RN-24, RN-35: CLEAR forgets that a number was doubled, once it is no more.
+TEST_F(ClientNodes, Clear) {
+  bus.send({.id = 0x5A0, .dlc = 1, .data = {7}});  // as another node 3 would
+  verican_remote_status_t status;
+  ASSERT_EQ(verican_remote_status(&client, 3, &status), VERICAN_REMOTE_OK);
+  EXPECT_TRUE(status.duplicate);
+  int lost = 0;
+  bus.filter = [&](const RemoteModel *, const Frame &frame) {
+    return frame.id != 0x1FC || lost++ >= 3;  // the first CLEAR, to each node
+  };
+  EXPECT_EQ(verican_remote_clear(&client, 3), VERICAN_REMOTE_OK);
+  EXPECT_GT(lost, 3);
+  ASSERT_EQ(verican_remote_status(&client, 3, &status), VERICAN_REMOTE_OK);
+  EXPECT_FALSE(status.duplicate);
+  EXPECT_EQ(verican_remote_clear(&client, 2), VERICAN_REMOTE_TIMEOUT);
 }
 
 // RN-26, RN-91: a node in OPERATE is there, but takes no number; that is not as if it were not.

@@ -34,11 +34,17 @@ nodes:
 """
 
 
-class Commands(unittest.TestCase):
-    """RN-95: each subcommand, on a full node, a small one, and one without a number."""
+IN_USE = ("verican: memory: another node has that number; 'scan' lists them, and 'assign' with 0 "
+          "takes a number away\n")
+
+
+class OnBridge(unittest.TestCase):
+    """The tool on a bus with these nodes."""
+
+    nodes = NODES
 
     def setUp(self):
-        self.bridge = Bridge("--fast", "--errors", "none", scenario=NODES)
+        self.bridge = Bridge("--fast", "--errors", "none", scenario=self.nodes)
         self.bridge.__enter__()  # pylint: disable=unnecessary-dunder-call
         self.addCleanup(self.bridge.__exit__, None, None, None)
 
@@ -55,6 +61,10 @@ class Commands(unittest.TestCase):
         """The same with --json."""
         return json.loads(self.memory(*words, "--json", **keys))
 
+
+class Commands(OnBridge):
+    """RN-95: each subcommand, on a full node, a small one, and one without a number."""
+
     def test_read_and_write(self):
         """By number and address, long ones too, and to all."""
         self.assertEqual(self.memory("read", 3, "0x40", 2), "01 02\n")
@@ -65,7 +75,8 @@ class Commands(unittest.TestCase):
         self.memory("write", "all", "0x40", "AABB")
         self.assertEqual(self.json("poll", "0x40", 2), {
             "address": 0x40,
-            "answers": [{"number": 3, "bytes": "AA BB"}, {"number": 4, "bytes": "AA BB"}]})
+            "answers": [{"number": 3, "bytes": "AA BB"}, {"number": 4, "bytes": "AA BB"}],
+            "complaints": []})
         self.assertEqual(self.memory("poll", "0x40", 1), "   3  AA\n   4  AA\n")
 
     def test_scan_and_assign(self):
@@ -78,6 +89,8 @@ class Commands(unittest.TestCase):
         text = self.memory("scan")
         self.assertIn("   4  BEEF0000    4096      8  stage\n", text)
         self.assertIn("none  00000005\n", text)
+        self.memory("assign", "5", 4, code=1, error=IN_USE)
+        self.memory("assign", "5", 6)
         self.memory("assign", "5", 6)
         self.assertEqual([n["number"] for n in self.json("scan")["nodes"]], [3, 4, 6])
 
@@ -157,6 +170,13 @@ class Commands(unittest.TestCase):
                                          error=said + "\n"), "\1\2")
             self.memory("load", 4, "0xFC0", path, code=2, error=f"verican: {path}: 100 bytes; "
                         "allowed: 1 to 64 from 0xFC0 on\n")
+            self.memory("load", 4, "0xDF8", path, code=2, error=f"verican: {path}: 100 bytes; "
+                        "allowed: 1 to 8 from 0xDF8 on, in node 4\n")
+            self.assertEqual(self.memory("read", 4, "0xDF8", 8), " ".join(8 * ["00"]) + "\n")
+            self.memory("dump", 4, "0xDF0", 32, code=2, error="verican: LENGTH: 32 bytes; "
+                        "allowed: 1 to 16 from 0xDF0 on, in node 4\n")
+            self.memory("dump", 4, "0xE00", code=2,
+                        error="verican: ADDRESS: node 4 has no memory at 0xE00\n")
 
     def test_watch(self):
         """RN-97: each frame with its command in words; after so many the end."""
@@ -171,6 +191,18 @@ class Commands(unittest.TestCase):
         self.assertEqual(words, {("1F8#400002", "3: read 040, 2 bytes"),
                                  ("5F8#40000102", "3 says 040 = 01 02")})
 
+    def test_watch_as_json(self):
+        """A line for each frame."""
+        lines = []
+        watch = threading.Thread(
+            target=lambda: lines.extend(self.memory("--json", "watch", "--frames", 2).splitlines()))
+        watch.start()
+        while watch.is_alive():
+            self.memory("read", 3, "0x40", 2)
+        watch.join()
+        self.assertEqual({json.loads(line)["words"] for line in lines},
+                         {"3: read 040, 2 bytes", "3 says 040 = 01 02"})
+
     def test_watch_tells_of_a_doubled_number(self):
         """RN-13: a node that hears its own number says so."""
         with Client(self.bridge.port, "open can0", "rawmode") as other:
@@ -183,16 +215,23 @@ class Commands(unittest.TestCase):
         watch.start()
         while watch.is_alive():
             self.memory("read", 3, "0xE00", code=1,
-                        error="verican: memory: node 3 refuses: code 02, illegal address\n")
+                        error="verican: memory: node 3 refuses at 0xE00: code 02, illegal address\n")
         watch.join()
         self.assertIn("3 says STATUS SAFE, number doubled", "\n".join(lines))
+        heard = "node 3: has heard its number from another node since CLEAR; 'clear 3' forgets that"
+        self.assertIn(heard, self.json("map", code=1)["complaints"])
+        self.assertEqual(self.json("clear", 3), {"number": 3})
+        self.assertNotIn(heard, self.json("map", code=1)["complaints"])
+        self.assertNotIn("number doubled", self.memory("status"))
 
     def test_refusals(self):
         """One line on stderr, exit code 1; the node's code in words."""
         self.memory("read", 3, "0xE00", code=1,
-                    error="verican: memory: node 3 refuses: code 02, illegal address\n")
+                    error="verican: memory: node 3 refuses at 0xE00: code 02, illegal address\n")
         self.memory("write", 3, "0xF02", "01", code=1,
-                    error="verican: memory: node 3 refuses: code 11, locked\n")
+                    error="verican: memory: node 3 refuses at 0xF02: code 11, locked\n")
+        self.memory("read", 3, "0xDF8", 20, code=1,
+                    error="verican: memory: node 3 refuses at 0xDFE: code 02, illegal address\n")
         self.memory("read", 7, "0x20", code=1, timeout=50,
                     error="verican: memory: node 7 does not answer\n")
         self.memory("assign", "77", 7, code=1, timeout=50,
@@ -202,7 +241,7 @@ class Commands(unittest.TestCase):
         """A node in OPERATE is there, but takes none."""
         self.memory("state", "operate", 3)
         for number in 6, 0:
-            self.memory("assign", "CAFE1234", number, code=1, timeout=50, error=(
+            self.memory("assign", "CAFE1234", number, code=1, timeout=1000, error=(
                 "verican: memory: the node with serial number CAFE1234 is there, but does not take "
                 "the number; in OPERATE it takes none, so: state safe first\n"))
         self.memory("state", "safe", 3)
@@ -260,6 +299,49 @@ class Commands(unittest.TestCase):
             self.memory(*words, code=2, error=f"verican: {error}\n")
 
 
+class SharedNumbers(OnBridge):
+    """RN-11, RN-26, RN-95: two nodes of different profiles with one number, beside another node."""
+
+    nodes = """bitrate: 250k
+nodes:
+  - {name: a, type: remote, number: 7, serial: 1, profile: small}
+  - {name: b, type: remote, number: 7, serial: 0x82345678, profile: standard}
+  - {name: c, type: remote, number: 6, serial: 6, memory: {0x40: 06}}
+"""
+
+    def test_scan(self):
+        """Finds each of them, again and again: the two become error passive on the way."""
+        shared = "number 7: the nodes with serial numbers 00000001, 82345678 have it"
+        for _ in range(3):
+            seen = self.json("scan", code=1, timeout=500)
+            self.assertEqual([(n["number"], n["serial"], n["doubled"]) for n in seen["nodes"]],
+                             [(6, 6, False), (7, 1, True), (7, 0x82345678, True)])
+            self.assertEqual(seen["complaints"], [shared])
+        for words in ("scan",), ("status",), ("map",):
+            self.assertIn(f"\nwrong: {shared}\n", self.memory(*words, code=1, timeout=500))
+        self.assertIn("   7  00000001\n", self.memory("scan", code=1, timeout=500))
+
+    def test_repair(self):
+        """One of them gets another number; then the others forget what they have heard."""
+        self.memory("assign", "1", 7, code=1, timeout=500, error=IN_USE)
+        self.memory("assign", "1", 5)
+        seen = self.json("scan", timeout=500)
+        self.assertEqual([(n["number"], n["serial"]) for n in seen["nodes"]],
+                         [(5, 1), (6, 6), (7, 0x82345678)])
+        for number in 5, 6, 7:
+            self.memory("clear", number)
+        self.assertEqual(self.json("map", timeout=500)["complaints"], [])
+
+    def test_same_serial_number(self):
+        """Two nodes with one serial number: `assign` means both."""
+        self.memory("assign", "1", 5)
+        nodes = self.nodes.replace("0x82345678", "1").replace("number: 7, serial: 1, profile: small",
+                                                              "number: 5, serial: 1")
+        with Bridge("--fast", "--errors", "none", scenario=nodes) as self.bridge:
+            self.assertEqual(self.json("scan", code=1, timeout=500)["complaints"],
+                             ["serial number 00000001: the nodes with numbers 5, 7 have it"])
+
+
 class WithoutABus(unittest.TestCase):
     """What is wrong with the way to the bus."""
 
@@ -287,20 +369,26 @@ class WithoutABus(unittest.TestCase):
 
             thread = threading.Thread(target=answer)
             thread.start()
-            self.assertIn("says 'bye'", self.fails("--socketcand", f"127.0.0.1:{port}", "scan"))
+            self.assertIn("says 'bye'; allowed: socketcand", self.fails("--socketcand", f"127.0.0.1:{port}", "scan"))
             thread.join()
         self.assertIn("nobody answers", self.fails("--socketcand", f"127.0.0.1:{port}", "scan"))
 
     def test_the_complaint_of_a_server(self):
         """It is told behind what did not work."""
-        def wait_for_the_end(client):
-            while client.recv(100):
-                pass
-
         complaint = b"< error this client reads too slowly >"
-        self.assertEqual(self.read_from(complaint, wait_for_the_end), (
+        self.assertEqual(self.read_from(complaint, self.wait_for_the_end), (
             1, "verican: memory: node 6 does not answer; the server says: this client reads too "
                "slowly\n"))
+
+    def test_error_frames(self):
+        """They are counted, and no complaint of the server."""
+        frames = b"< error 20000288 12.000345 0000040A00000008 >< error 20000204 13 0 >"
+        for said, told in ((frames, "; 2 error frames on the bus"),
+                           (frames[:50], "; 1 error frame on the bus"),
+                           (b"< error 20000288 nodes >" + frames[:50],
+                            "; the server says: 20000288 nodes; 1 error frame on the bus")):
+            self.assertEqual(self.read_from(said, self.wait_for_the_end), (
+                1, f"verican: memory: node 6 does not answer{told}\n"))
 
     def test_a_server_that_talks_without_end(self):
         """Extended frames are passed over, but not longer than the time-out."""
@@ -326,6 +414,12 @@ class WithoutABus(unittest.TestCase):
                     self.read_from(b"", lambda client, memory={0xF01: flags, 0xFF0: state}:
                                    self.answer_reads(client, memory), "state", command, node),
                     (1 if error else 0, f"verican: memory: {error}\n" if error else ""))
+
+    @staticmethod
+    def wait_for_the_end(client):
+        """Takes what the client says, and answers nothing."""
+        while client.recv(100):
+            pass
 
     @staticmethod
     def answer_reads(client, memory):

@@ -78,6 +78,25 @@ bool ModelBus::send_waiting() {
   return true;
 }
 
+// Whether another node sends a different frame under this identifier: then both have an error.
+bool ModelBus::collide(const Frame &frame) {
+  const auto wants_it = [&](const auto &node) {
+    const auto wanted = node->wants();
+    return wanted && wanted->id == frame.id;
+  };
+  const bool differ = std::any_of(nodes_.begin(), nodes_.end(), [&](const auto &node) {
+    return wants_it(node) && *node->wants() != frame;
+  });
+  if (!differ) return false;
+  for (auto &node : nodes_) {
+    if (!wants_it(node)) continue;
+    node->attempt();
+    node->failed();
+  }
+  wait(kFrameUs);
+  return true;
+}
+
 // One frame of the nodes, that of the lowest identifier; equal ones are one (RN-12).
 bool ModelBus::step() {
   std::optional<Frame> first;
@@ -86,6 +105,7 @@ bool ModelBus::step() {
     if (frame && (!first || frame->id < first->id)) first = frame;
   }
   if (!first) return false;
+  if (collides && collide(*first)) return true;
   const RemoteModel *sender = nullptr;
   for (auto &node : nodes_) {
     if (node->wants() != first) continue;

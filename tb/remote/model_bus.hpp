@@ -47,11 +47,15 @@ class ModelBus {
   /// What the host receives of a node's frame.
   std::function<Frame(Frame)> heard = [](Frame frame) { return frame; };
   bool bus_off = false;  ///< the host is off the bus
+  /// Different frames of one identifier destroy each other, as between error active nodes (RN-10,
+  /// RN-15). Else one goes after the other, as between error passive ones.
+  bool collides = false;
 
  private:
   verican_remote_result_t receive(verican_remote_frame_t &frame, std::uint32_t timeout_us);
   bool send_waiting();
   bool step();
+  bool collide(const Frame &frame);
   void deliver(const Frame &frame, const RemoteModel *sender);
 
   std::vector<std::unique_ptr<RemoteModel>> nodes_;

@@ -20,6 +20,10 @@ void vr_note_refusals(client_t *c, unsigned number, uint8_t count) {
 }
 
 void vr_pass_on(client_t *c, const frame_t *frame) {
+  if (!frame->remote && frame->dlc == 0 && frame->id == (SYSTEM_SELECT | STATEMENT)) {
+    c->here = true;
+    return;
+  }
   unsigned number;
   if (is_status(c, frame, &number)) vr_note_refusals(c, number, frame->data[6]);
   if (c->on_statement != NULL) c->on_statement(c->user, frame);
@@ -143,5 +147,5 @@ void vr_take_identity(unsigned number, const uint8_t row[8], verican_remote_iden
       .name_bits = (uint8_t)(row[2] >> 4),
       .memory = (uint16_t)(1u << (row[2] & 0x0Fu)),
       .stage = row[3],
-      .serial = row[4] | (uint32_t)row[5] << 8 | (uint32_t)row[6] << 16 | (uint32_t)row[7] << 24};
+      .serial = vr_serial(row + 4)};
 }

@@ -66,7 +66,7 @@ result_t vr_flush(client_t *c);
 result_t vr_send(client_t *c, const frame_t *frame);
 /* The next frame of a wait; TIMEOUT. */
 result_t vr_receive(client_t *c, wait_t *wait, frame_t *frame);
-/* Nobody waits for this frame; what it tells of refusals is kept. */
+/* Nobody waits for this frame; what it tells of refusals is kept, and that it is HERE. */
 void vr_pass_on(client_t *c, const frame_t *frame);
 
 /* A request for `length` bytes from `address`, at most as many as one frame brings; the answer of
@@ -88,7 +88,15 @@ result_t vr_ask(client_t *c, unsigned number, const frame_t *request, const answ
 result_t vr_ask_again(client_t *c, unsigned number, const frame_t *request, const answer_t *answer,
                       frame_t *frame);
 
+/* As verican_remote_select(). `witness`: a node that answers, so that nothing depends on how long
+ * HERE takes; 0: nobody is known, and select_us must do. */
+result_t vr_select(client_t *c, uint32_t value, uint32_t mask, bool only_new, unsigned witness,
+                   bool *here);
+
 /* Fields of the rows. */
+static inline uint32_t vr_serial(const uint8_t bytes[4]) {
+  return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+}
 void vr_take_status(const uint8_t row[8], verican_remote_status_t *status);
 void vr_take_identity(unsigned number, const uint8_t row[8], verican_remote_identity_t *identity);
 

@@ -37,6 +37,7 @@ result_t verican_remote_read(client_t *c, uint8_t number, uint16_t address, uint
     answer_t answer;
     const unsigned n = vr_read_request(c, number, address, (unsigned)length, &request, &answer);
     const result_t result = vr_ask_again(c, number, &request, &answer, &frame);
+    c->address = address;
     if (result != VERICAN_REMOTE_OK) return result;
     memcpy(data, frame.data + answer.head, n);
     data += n;
@@ -75,6 +76,7 @@ result_t verican_remote_write(client_t *c, uint8_t number, uint16_t address, con
     const unsigned n = write_size(c, address, length);
     const frame_t frame = write_frame(c, number, address, data, n);
     const result_t result = vr_send(c, &frame);
+    c->address = address;
     if (result != VERICAN_REMOTE_OK) return result;
     data += n;
     length -= n;
@@ -161,6 +163,7 @@ result_t verican_remote_write_confirmed(client_t *c, uint8_t number, uint16_t ad
     unsigned frames;
     const size_t n = part_of_write(c, address, length, &frames);
     const result_t result = write_part(c, number, address, data, n, frames);
+    c->address = address;
     if (result != VERICAN_REMOTE_OK) return result;
     data += n;
     length -= n;
@@ -201,11 +204,15 @@ result_t verican_remote_identity(client_t *c, uint8_t number, verican_remote_ide
   return result;
 }
 
-/* SETUP: 1 with the key unlocks, 2 locks. */
+/* Operations of SETUP. */
+enum { SETUP_UNLOCK = 1, SETUP_LOCK = 2, SETUP_CLEAR = 4 };
+
+/* UNLOCK has the key behind it. */
 static frame_t setup_frame(const client_t *c, unsigned number, unsigned op, uint32_t key) {
-  frame_t frame = {.id = vr_id(c, number, vr_port(c, PORT_SETUP)), .dlc = op == 1 ? 5 : 1};
+  const bool unlock = op == SETUP_UNLOCK;
+  frame_t frame = {.id = vr_id(c, number, vr_port(c, PORT_SETUP)), .dlc = unlock ? 5 : 1};
   frame.data[0] = (uint8_t)op;
-  for (unsigned i = 0; op == 1 && i < 4; i++) frame.data[1 + i] = (uint8_t)(key >> (8u * i));
+  for (unsigned i = 0; unlock && i < 4; i++) frame.data[1 + i] = (uint8_t)(key >> (8u * i));
   return frame;
 }
 
@@ -215,9 +222,21 @@ static result_t setup(client_t *c, unsigned number, const frame_t *frame, const 
   return result == VERICAN_REMOTE_OK ? confirm(c, number, before, 1) : result;
 }
 
+result_t verican_remote_clear(client_t *c, uint8_t number) {
+  if (c == NULL || !vr_is_node(c, number)) return VERICAN_REMOTE_ARGUMENT;
+  const frame_t frame = setup_frame(c, number, SETUP_CLEAR, 0);
+  uint8_t before[8];
+  result_t result = VERICAN_REMOTE_TIMEOUT;
+  for (unsigned i = 0; i < c->tries && result == VERICAN_REMOTE_TIMEOUT; i++) {
+    result = read_counts(c, number, vr_ask_again, before);
+    if (result == VERICAN_REMOTE_OK) result = setup(c, number, &frame, before);
+  }
+  return result;
+}
+
 /* A node that does not answer is told all the same. */
 static result_t lock(client_t *c, unsigned number) {
-  const frame_t frame = setup_frame(c, number, 2, 0);
+  const frame_t frame = setup_frame(c, number, SETUP_LOCK, 0);
   uint8_t before[8];
   const result_t result = read_counts(c, number, vr_ask_again, before);
   if (result == VERICAN_REMOTE_OK) return setup(c, number, &frame, before);
@@ -233,7 +252,7 @@ result_t verican_remote_configure(client_t *c, uint8_t number, uint32_t serial,
     if (settings[i].length > 8 ||
         !vr_range_is_good(settings[i].data, settings[i].address, settings[i].length))
       return VERICAN_REMOTE_ARGUMENT;
-  const frame_t unlock = setup_frame(c, number, 1, serial);
+  const frame_t unlock = setup_frame(c, number, SETUP_UNLOCK, serial);
   uint8_t before[8];
   result_t result = read_counts(c, number, vr_ask_again, before);
   if (result != VERICAN_REMOTE_OK) return result;
@@ -241,7 +260,7 @@ result_t verican_remote_configure(client_t *c, uint8_t number, uint32_t serial,
   for (size_t i = 0; i < count && result == VERICAN_REMOTE_OK; i++)
     result = verican_remote_write_confirmed(c, number, settings[i].address, settings[i].data,
                                             settings[i].length);
-  const uint8_t code = c->code;
+  const uint8_t code = c->code; /* c->address stays: LOCK is no access to memory */
   const result_t locked = lock(c, number); /* also if nobody knows whether it was unlocked */
   if (result == VERICAN_REMOTE_OK) return locked;
   c->code = code;

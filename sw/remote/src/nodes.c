@@ -7,6 +7,16 @@
 
 #include "internal.h"
 
+/* Keeps the bytes of a node. The same once more is one frame that has come twice (VA-03). */
+static void take_answer(verican_remote_answers_t *poll, unsigned number, const uint8_t *bytes,
+                        size_t length) {
+  const uint32_t bit = UINT32_C(1) << number;
+  if ((poll->answered & bit) != 0 && memcmp(poll->data[number], bytes, length) != 0)
+    poll->differing |= bit;
+  poll->answered |= bit;
+  memcpy(poll->data[number], bytes, length);
+}
+
 /* Collects what nodes answer to a request to all. `answer`: as node 0 would give it. */
 static result_t gather(client_t *c, const frame_t *request, const answer_t *answer,
                        uint32_t expected, verican_remote_answers_t *poll) {
@@ -27,8 +37,7 @@ static result_t gather(client_t *c, const frame_t *request, const answer_t *answ
       vr_pass_on(c, &frame);
       continue;
     }
-    poll->answered |= UINT32_C(1) << number;
-    memcpy(poll->data[number], frame.data + answer->head, answer->bytes);
+    take_answer(poll, number, frame.data + answer->head, answer->bytes);
   }
   return VERICAN_REMOTE_OK;
 }
@@ -61,9 +70,35 @@ result_t verican_remote_state(client_t *c, uint8_t number, uint8_t command) {
   return vr_send(c, &frame);
 }
 
-result_t verican_remote_select(client_t *c, uint32_t value, uint32_t mask, bool only_new,
-                               bool *here) {
-  if (c == NULL || here == NULL) return VERICAN_REMOTE_ARGUMENT;
+/* Waits until HERE comes, for select_us at most. */
+static result_t wait_for_here(client_t *c) {
+  wait_t wait = vr_wait(c, c->select_us);
+  result_t result = VERICAN_REMOTE_OK;
+  while (result == VERICAN_REMOTE_OK && !c->here) {
+    frame_t frame;
+    result = vr_receive(c, &wait, &frame);
+    if (result == VERICAN_REMOTE_OK) vr_pass_on(c, &frame);
+  }
+  return result == VERICAN_REMOTE_TIMEOUT ? VERICAN_REMOTE_OK : result;
+}
+
+/* Asks a node that answers for something, twice. HERE wins arbitration against all other frames of
+ * nodes, so it comes before what answers a request behind SELECT, however slow the bus and the
+ * computer are. Twice: a node that is error passive and has to repeat its HERE lets one frame pass
+ * (IF-10). What the witness answers, or whether it does, is the same to us. */
+static result_t wait_for_witness(client_t *c, unsigned witness) {
+  enum { TIMES = 2 };
+  frame_t request, frame;
+  answer_t answer;
+  (void)vr_read_request(c, witness, ROW_IDENT, 1, &request, &answer);
+  result_t result = VERICAN_REMOTE_OK;
+  for (unsigned i = 0; i < TIMES && result != VERICAN_REMOTE_BUS_OFF; i++)
+    result = vr_ask_again(c, witness, &request, &answer, &frame);
+  return result == VERICAN_REMOTE_BUS_OFF ? result : VERICAN_REMOTE_OK;
+}
+
+result_t vr_select(client_t *c, uint32_t value, uint32_t mask, bool only_new, unsigned witness,
+                   bool *here) {
   frame_t frame = {.id = vr_id(c, NAME_SYSTEM, only_new ? SYSTEM_SELECT_NEW : SYSTEM_SELECT),
                    .dlc = 8};
   for (unsigned i = 0; i < 4; i++) {
@@ -71,73 +106,18 @@ result_t verican_remote_select(client_t *c, uint32_t value, uint32_t mask, bool 
     frame.data[2 * i + 1] = (uint8_t)(mask >> (8u * i));
   }
   result_t result = vr_flush(c);
+  c->here = false;
   if (result == VERICAN_REMOTE_OK) result = vr_send(c, &frame);
-  wait_t wait = vr_wait(c, c->select_us);
-  *here = false;
-  while (result == VERICAN_REMOTE_OK && !*here) {
-    result = vr_receive(c, &wait, &frame);
-    if (result != VERICAN_REMOTE_OK) break;
-    *here = !frame.remote && frame.dlc == 0 && frame.id == (SYSTEM_SELECT | STATEMENT);
-    if (!*here) vr_pass_on(c, &frame);
-  }
-  return result == VERICAN_REMOTE_TIMEOUT ? VERICAN_REMOTE_OK : result;
-}
-
-/* The smallest serial number from `*serial` on that a node without a number has, `*found`. Walks
- * down a tree of prefixes, most significant bit first: 33 SELECTs for a number (RN-26). */
-static result_t next_serial(client_t *c, uint32_t *serial, bool *found) {
-  uint32_t value = *serial;
-  unsigned bit = 31; /* the last one of the prefix that is tried */
-  for (;;) {
-    const uint32_t mask = ~UINT32_C(0) << bit;
-    const result_t result = verican_remote_select(c, value, mask, true, found);
-    if (result != VERICAN_REMOTE_OK) return result;
-    if (*found && bit == 0) {
-      *serial = value;
-      return VERICAN_REMOTE_OK;
-    }
-    if (*found) {
-      bit--;
-      continue;
-    }
-    /* Nobody has this prefix: on to the next larger one, which may be shorter. */
-    while (bit < 32 && (value >> bit & 1u) != 0) bit++;
-    if (bit == 32) return VERICAN_REMOTE_OK;
-    value = (value | UINT32_C(1) << bit) & ~UINT32_C(0) << bit;
-  }
-}
-
-/* Nodes with a number, by their IDENT. */
-static result_t scan_numbers(client_t *c, verican_remote_identity_t *nodes, size_t places,
-                             size_t *count) {
-  verican_remote_answers_t head, tail;
-  result_t result = verican_remote_poll(c, ROW_IDENT, 4, 0, &head);
   if (result == VERICAN_REMOTE_OK)
-    result = verican_remote_poll(c, ROW_IDENT + 4, 4, head.answered, &tail);
-  if (result != VERICAN_REMOTE_OK) return result;
-  for (unsigned number = 0; number < VERICAN_REMOTE_NUMBERS && *count < places; number++) {
-    if ((head.answered >> number & 1u) == 0) continue;
-    memcpy(head.data[number] + 4, tail.data[number], 4);
-    vr_take_identity(number, head.data[number], &nodes[(*count)++]);
-  }
-  return VERICAN_REMOTE_OK;
+    result = witness == 0 ? wait_for_here(c) : wait_for_witness(c, witness);
+  *here = c->here;
+  return result;
 }
 
-result_t verican_remote_scan(client_t *c, verican_remote_identity_t *nodes, size_t *count) {
-  if (c == NULL || nodes == NULL || count == NULL) return VERICAN_REMOTE_ARGUMENT;
-  const size_t places = *count;
-  size_t found = 0;
-  result_t result = scan_numbers(c, nodes, places, &found);
-  uint32_t serial = 0;
-  bool here = true;
-  while (result == VERICAN_REMOTE_OK && here && found < places) {
-    result = next_serial(c, &serial, &here);
-    if (result != VERICAN_REMOTE_OK || !here) break;
-    nodes[found++] = (verican_remote_identity_t){.serial = serial};
-    here = ++serial != 0;
-  }
-  if (result == VERICAN_REMOTE_OK) *count = found;
-  return result;
+result_t verican_remote_select(client_t *c, uint32_t value, uint32_t mask, bool only_new,
+                               bool *here) {
+  if (c == NULL || here == NULL) return VERICAN_REMOTE_ARGUMENT;
+  return vr_select(c, value, mask, only_new, 0, here);
 }
 
 /* Whether a node has this serial number (`only_new`: and no number). */
@@ -167,12 +147,36 @@ static result_t give_number(client_t *c, uint8_t number, const frame_t *request)
   return result == VERICAN_REMOTE_TIMEOUT ? VERICAN_REMOTE_NOT_TAKEN : result;
 }
 
+/* Whether this node, and no other, has the number: what comes from there is its serial number. */
+static result_t require_alone(client_t *c, uint8_t number, uint32_t serial) {
+  verican_remote_answers_t its;
+  const result_t result = verican_remote_poll(c, ROW_IDENT + 4, 4, 0, &its);
+  if (result != VERICAN_REMOTE_OK) return result;
+  const uint32_t bit = UINT32_C(1) << number;
+  const bool alone = (its.answered & ~its.differing & bit) != 0;
+  return alone && vr_serial(its.data[number]) == serial ? VERICAN_REMOTE_OK : VERICAN_REMOTE_IN_USE;
+}
+
+/* IN_USE if another node than that one has the number. Whoever has it answers a reading of what is
+ * the same in all nodes, or refuses it; asked once, for what is disturbed on the bus is repeated
+ * there. */
+static result_t require_free(client_t *c, uint8_t number, uint32_t serial) {
+  frame_t request, frame;
+  answer_t answer;
+  (void)vr_read_request(c, number, ROW_IDENT, 1, &request, &answer);
+  const result_t result = vr_ask(c, number, &request, &answer, &frame);
+  if (result == VERICAN_REMOTE_TIMEOUT) return VERICAN_REMOTE_OK;
+  return result == VERICAN_REMOTE_BUS_OFF ? result : require_alone(c, number, serial);
+}
+
 result_t verican_remote_assign(client_t *c, uint32_t serial, uint8_t number) {
   if (c == NULL || (number != 0 && !vr_is_node(c, number))) return VERICAN_REMOTE_ARGUMENT;
   bool here = false;
-  const result_t result = find(c, serial, false, &here);
+  result_t result = find(c, serial, false, &here);
   if (result != VERICAN_REMOTE_OK) return result;
   if (!here) return VERICAN_REMOTE_TIMEOUT;
+  if (number != 0) result = require_free(c, number, serial);
+  if (result != VERICAN_REMOTE_OK) return result;
   const frame_t request = {.id = vr_id(c, NAME_SYSTEM, SYSTEM_ASSIGN), .dlc = 1, .data = {number}};
   return number == 0 ? take_number(c, serial, &request) : give_number(c, number, &request);
 }
