@@ -31,15 +31,22 @@ class Timeout(RemoteError):
 
 
 class Refused(RemoteError):
-    """The node said no; `code` says why."""
+    """The node said no; `code` says why. `number` is the node's, `address` where the part of a
+    read or write began that was refused (else None); what comes before has been done."""
 
-    def __init__(self, code):
-        super().__init__(f"code {code:02X}: {CODES.get(code, 'unknown')}")
-        self.code = code
+    def __init__(self, code, number=None, address=None):
+        at = "" if address is None else f" at 0x{address:03X}"
+        who = "" if number is None else f"node {number} refuses{at}: "
+        super().__init__(f"{who}code {code:02X}, {CODES.get(code, 'unknown')}")
+        self.code, self.number, self.address = code, number, address
 
 
 class NotTaken(RemoteError):
     """A node is there, but does not take the number that it is given."""
+
+
+class InUse(RemoteError):
+    """Another node has the number; nothing was assigned."""
 
 
 class Sequence(RemoteError):
@@ -56,7 +63,7 @@ class Status:
     state: int  # 0 INIT, 1 LISTEN, 2 SAFE, 3 OPERATE
     unlocked: bool
     error_passive: bool
-    duplicate: bool  # another node has its number
+    duplicate: bool  # it has heard its number from another node since the last CLEAR
     stale: bool      # a statement it waits for is late
     watchdog: bool
     bus_off: bool    # since the last CLEAR
@@ -76,7 +83,8 @@ class Status:
 
 @dataclass
 class Identity:
-    """What a node is; of a node without a number only the serial number is known."""
+    """What a node is. Of a node without a number (0), or one that shares its number with others
+    (`doubled`; None: one of several such numbers), only the serial number is known."""
     number: int
     serial: int
     version: int = 0
@@ -84,6 +92,7 @@ class Identity:
     name_bits: int = 0
     memory: int = 0
     stage: int = 0
+    doubled: bool = False
 
     @classmethod
     def of(cls, number, row):
@@ -105,6 +114,9 @@ class Answer:
 
     def bytes_of(self, message):
         return bytes(message.data)[len(self.head):]
+
+
+HERE = Answer(0x402, 0)
 
 
 class Link:
@@ -131,6 +143,7 @@ class Link:
         self.remote_frames = rtr == "always" or (rtr == "auto" and not self._plain)
         self.window = (1 << (10 - name_bits)) - 8
         self._refusals = {}
+        self.here = False  # HERE has come
 
     def id(self, name, a):
         return name << (10 - self.name_bits) | a
@@ -138,9 +151,11 @@ class Link:
     def port(self, number, port):
         return self.id(number, self.window + port)
 
-    def require_node(self, number, least=2):
-        if not least <= number < 1 << self.name_bits:
-            raise ValueError(f"number {number}: allowed are {least} to "
+    def require_node(self, number, *others):
+        """`others` are numbers with a meaning of their own."""
+        if number not in others and not 2 <= number < 1 << self.name_bits:
+            also = "".join(f"{other}, " for other in others)
+            raise ValueError(f"number {number}: allowed are {also}2 to "
                              f"{(1 << self.name_bits) - 1}")
 
     @staticmethod
@@ -150,8 +165,11 @@ class Link:
 
     @staticmethod
     def require_range(address, length):
-        if length < 1 or address < 0 or address + length > END:
-            raise ValueError(f"{length} bytes from 0x{address:X}: allowed is 0 to 0xFFF")
+        if not 0 <= address < END:
+            raise ValueError(f"address {address}: allowed are 0 to 0xFFF")
+        if not 1 <= length <= END - address:
+            raise ValueError(f"{length} bytes from 0x{address:03X} on: allowed are 1 to "
+                             f"{END - address}")
 
     def send(self, identifier, data=b"", remote=None):
         message = can.Message(arbitration_id=identifier, is_extended_id=False, data=data)
@@ -194,6 +212,10 @@ class Link:
                 return
 
     def pass_on(self, message):
+        """Nobody waits for this frame; what it tells of refusals is kept, and that it is HERE."""
+        if HERE.fits(message):
+            self.here = True
+            return
         status = self._status_of(message)
         if status:
             self._refusals[status[0]] = message.data[6]
@@ -239,7 +261,7 @@ class Link:
             if code and certain and code not in patient:
                 break
         if suspected:
-            raise Refused(suspected)
+            raise Refused(suspected, number)
         return None
 
     def ask_once(self, number, answer, identifier, data=b"", remote=None):

@@ -271,6 +271,22 @@ class Calls(OnBus):
             self.assertEqual(refused.exception.code, code)
         self.assertEqual(self.client.read(3, 0x20, 1), b"\0")
 
+    def test_where_a_transfer_ends(self):
+        """A refusal names node and address; what comes before it has been done."""
+        for act, text in (
+                (lambda: self.client.read(3, 0xDF2, 32),
+                 "node 3 refuses at 0xDFE: code 02, illegal address"),
+                (lambda: self.client.write_confirmed(3, 0xA00, bytes(1100)),
+                 "node 3 refuses at 0xC58: code 02, illegal address"),
+                (lambda: self.client.configure(3, 0xCAFE1233, {0xF18: b"pfc", 0xF30: b"\0"}),
+                 "node 3 refuses at 0xF30: code 02, illegal address")):
+            with self.assertRaises(remote.Refused) as refused:
+                act()
+            self.assertEqual(str(refused.exception), text)
+            self.assertEqual(refused.exception.number, 3)
+        self.assertEqual(refused.exception.address, 0xF30)
+        self.assertEqual(self.client.read(3, 0xF18, 3), b"pfc")
+
     def test_tries(self):
         """A node that is not there is asked three times; an answer that is lost, once more."""
         self.client.timeout = 0.1
@@ -385,6 +401,13 @@ class Calls(OnBus):
                     lambda: remote.Client(self.link, select_wait=-1),
                     lambda: remote.Client(self.link, rtr="maybe")):
             self.assertRaises(ValueError, act)
+        for act, text in (
+                (lambda: client.read(3, 0, 0), "0 bytes from 0x000 on: allowed are 1 to 4096"),
+                (lambda: client.read(3, 0x1000, 1), "address 4096: allowed are 0 to 0xFFF"),
+                (lambda: client.assign(163, 9), "number 9: allowed are 0, 2 to 7"),
+                (lambda: client.write(9, 0, b"\1"), "number 9: allowed are 1, 2 to 7"),
+                (lambda: client.read(9, 0, 1), "number 9: allowed are 2 to 7")):
+            self.assertRaisesRegex(ValueError, f"^{text}$", act)
         self.assertEqual(self.sent(), [])
 
     def test_remote_frames(self):
@@ -399,21 +422,74 @@ class Nodes(OnBus):
     """Who is there."""
 
     def test_scan_and_assign(self):
-        """Nodes with a number and without; one gets a number."""
-        self.open("number: 3, serial: 0xCAFE1233", select_wait=0.2, timeout=1.5)
-        self.assertEqual([(node.number, node.serial) for node in self.client.scan()],
-                         [(3, 0xCAFE1233)])
+        """Nodes with a number and without; one gets a number that is free."""
+        self.open("number: 3, serial: 0xCAFE1233", "number: 4, serial: 0x00000001", timeout=1.5)
+        self.assertEqual(self.scan(), [(3, 0xCAFE1233), (4, 1)])
+        with self.assertRaises(remote.InUse):
+            self.client.assign(0xCAFE1233, 4)
+        self.client.assign(0xCAFE1233, 5)
         self.client.assign(0xCAFE1233, 5)
         self.assertEqual(self.client.identity(5).serial, 0xCAFE1233)
         self.client.assign(0xCAFE1233, 0)
-        self.assertEqual([(node.number, node.serial) for node in self.client.scan()],
-                         [(0, 0xCAFE1233)])
+        self.assertEqual(self.scan(), [(4, 1), (0, 0xCAFE1233)])
         with self.assertRaises(remote.Timeout):
             self.client.assign(0xCAFE1234, 5)
 
+    def scan(self):
+        """Numbers and serial numbers."""
+        return [(node.number, node.serial) for node in self.client.scan()]
+
+    def test_scan_of_shared_numbers(self):
+        """RN-11, RN-26: found in each scan, though the two become error passive; one is given
+        another number, and the other forgets what it has heard."""
+        self.open("number: 7, serial: 1, profile: small", "number: 6, serial: 6",
+                  "number: 7, serial: 0x82345678, profile: standard", timeout=1)
+        for _ in range(3):
+            self.assertEqual([(node.number, node.serial, node.doubled)
+                              for node in self.client.scan()],
+                             [(6, 6, False), (7, 1, True), (7, 0x82345678, True)])
+        with self.assertRaises(remote.InUse):
+            self.client.assign(1, 7)
+        self.client.assign(1, 5)
+        self.assertEqual(self.scan(), [(5, 1), (6, 6), (7, 0x82345678)])
+        for number in 5, 7:
+            self.client.clear(number)
+            self.assertFalse(self.client.status(number).duplicate)
+
+    def test_scan_of_several_shared_numbers(self):
+        """Nobody can tell which of the nodes has which."""
+        self.open("number: 7, serial: 1", "number: 7, serial: 2", "number: 3, serial: 3",
+                  "number: 3, serial: 4", "number: 6, serial: 6", timeout=1)
+        self.assertEqual(self.scan(), [(6, 6), (None, 1), (None, 2), (None, 3), (None, 4)])
+        self.assertEqual([node.doubled for node in self.client.scan()], [False] + 4 * [True])
+
+    def test_scan_with_a_lost_answer(self):
+        """SELECT finds the node, and it is not taken for one of two."""
+        self.open("number: 3, serial: 0xCAFE1233", "number: 4, serial: 0x00000001", timeout=1)
+        lost = [True]
+        self.link.loses = lambda message, sent: (
+            not sent and message.arbitration_id == 0x678 and message.data[0] == 0xFC
+            and bool(lost) and lost.pop())
+        nodes = self.client.scan()
+        self.assertEqual(lost, [])
+        self.assertEqual([(node.number, node.serial, node.memory, node.doubled) for node in nodes],
+                         [(3, 0xCAFE1233, 4096, False), (4, 1, 4096, False)])
+
+    def test_clear(self):
+        """RN-24, RN-35: another node has been heard under the number; CLEAR is lost once."""
+        self.open("number: 3")
+        self.link.send(frame_of("5A0#77"))
+        self.assertTrue(self.client.status(3).duplicate)
+        lost = [True]
+        self.link.loses = lambda message, sent: (
+            sent and message.arbitration_id == 0x1FC and bool(lost) and lost.pop())
+        self.client.clear(3)
+        self.assertEqual(lost, [])
+        self.assertFalse(self.client.status(3).duplicate)
+
     def test_a_number_that_is_not_taken(self):
         """In OPERATE a node is there, but takes none."""
-        self.open("number: 3, serial: 0xCAFE1233", select_wait=0.2, timeout=0.5)
+        self.open("number: 3, serial: 0xCAFE1233", timeout=0.5)
         self.client.state(remote.OPERATE)
         for number in 5, 0:
             with self.assertRaises(remote.NotTaken):
