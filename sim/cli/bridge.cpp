@@ -20,6 +20,7 @@
 #include "cli/output_files.hpp"
 #include "cli/print_error.hpp"
 #include "cli/rate_option.hpp"
+#include "cli/scenario_input.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::cli {
@@ -111,7 +112,7 @@ void set_up_bus(BridgeSetup &setup, const BridgeOptions &options) {
     setup.port_clock_hz = options.clock != 0 ? options.clock : kClocksPerBit * setup.bitrate;
     setup.scenario = plain_bus(options, setup.port_clock_hz);
   } else {
-    setup.scenario = read_scenario(options.bus);
+    setup.scenario = scenario_input(options.bus);
     setup.bitrate = only_bitrate(setup.scenario, options.bitrate);
     setup.port_clock_hz = options.clock;
     if (options.clock == 0)

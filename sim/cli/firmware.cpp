@@ -13,6 +13,7 @@
 #include "cli/output_files.hpp"
 #include "cli/print_error.hpp"
 #include "cli/rate_option.hpp"
+#include "cli/scenario_input.hpp"
 #include "session/firmware_run.hpp"
 #include "simulation/stop_request.hpp"
 #include "trace/input_error.hpp"
@@ -54,10 +55,10 @@ void complain_of(const FirmwareReport &report) {
 
 /// The scenarios of the buses, each with one bit rate.
 void read_buses(const FirmwareOptions &options, FirmwareSetup &setup) {
-  setup.scenarios.push_back(read_scenario(options.bus));
+  setup.scenarios.push_back(scenario_input(options.bus));
   setup.bitrate = only_bitrate(setup.scenarios.front(), setup.bitrate);
   if (options.second_bus.empty()) return;
-  const Scenario &second = setup.scenarios.emplace_back(read_scenario(options.second_bus));
+  const Scenario &second = setup.scenarios.emplace_back(scenario_input(options.second_bus));
   if (second.bitrates.size() > 1)
     throw InputError(second.file, 0, "has several bit rates; allowed for --second-bus: one");
 }

@@ -3,14 +3,18 @@
 //
 // verican memory: the memory of nodes without a processor, over a CAN interface or socketcand.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 
 #include "cli/cli.hpp"
 #include "cli/memory_work.hpp"
+#include "cli/number_check.hpp"
 #include "cli/print_error.hpp"
 #include "trace/input_error.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -28,6 +32,27 @@ std::unique_ptr<MemoryLink> open_link(const MemoryOptions &options) {
 std::string is_bus_name(const std::string &name) {
   const bool good = name.find_first_of("<> \t\r\n") == std::string::npos;
   return good ? "" : in_quotes(name) + " is not allowed; allowed: a word without < and >";
+}
+
+/// A check of CLI11: a number, in the form of all refusals of `verican memory`. Of zeros in front
+/// check_numbers() tells.
+std::function<std::string(const std::string &)> is_within(unsigned least, unsigned most,
+                                                          const std::string &allowed = {}) {
+  return [=](const std::string &text) {
+    const auto number = parse_integer(text);
+    const bool good = number && *number >= least && *number <= most;
+    if (good || has_leading_zeros(text)) return std::string{};
+    return in_quotes(text) + " is not allowed; allowed: " +
+           (allowed.empty() ? fmt::format("{} to {}", least, most) : allowed);
+  };
+}
+
+/// The same for words.
+std::function<std::string(const std::string &)> is_one_of(const std::vector<std::string> &words) {
+  return [=](const std::string &text) {
+    if (std::find(words.begin(), words.end(), text) != words.end()) return std::string{};
+    return fmt::format("{} is not allowed; allowed: {}", in_quotes(text), fmt::join(words, ", "));
+  };
 }
 
 int carry_out(const MemoryOptions &options, const std::function<int(MemoryLink &)> &work) {
@@ -54,9 +79,9 @@ class Memory {
         ->needs(server)
         ->check(is_bus_name);
     command.add_option("--name-bits", o_->name_bits, "Bits of a node's number, 3 or 5 (3)")
-        ->check(CLI::IsMember({3, 5}));
+        ->check(is_one_of({"3", "5"}));
     command.add_option("--timeout", o_->timeout_ms, "For an answer, ms (150)")
-        ->check(CLI::Range(1, 60'000));
+        ->check(is_within(1, 60'000));
     command.add_flag("--json", o_->json, "The result as JSON");
     command.require_subcommand(1);
   }
@@ -80,7 +105,7 @@ class Memory {
     add_one("trigger", "Make staged bytes visible in all nodes", memory_trigger)
         ->add_option("count", o_->count, "Count of the TRIGGER")
         ->required()
-        ->check(CLI::Range(0, 255));
+        ->check(is_within(0, 255));
     add_more();
   }
 
@@ -89,7 +114,7 @@ class Memory {
     CLI::App *state = add_one("state", "OPERATE, SAFE or RESTART", memory_state);
     state->add_option("command", o_->command, "operate, safe, restart")
         ->required()
-        ->check(CLI::IsMember({"operate", "safe", "restart"}));
+        ->check(is_one_of({"operate", "safe", "restart"}));
     add_node(*state, false);
     add_node(*add_one("status", "Status of a node, or of all", memory_status), false);
     add_one("map", "Producers and maps of all nodes, and what is wrong with them", memory_map);
@@ -97,7 +122,7 @@ class Memory {
     CLI::App *dump = add_one("dump", "Read much, as a table or as a file", memory_dump);
     add_node(*dump);
     add_address(*dump);
-    dump->add_option("length", o_->table, "Bytes (128)")->check(CLI::Range(1, 0x1000));
+    dump->add_option("length", o_->table, "Bytes (128)")->check(is_within(1, 0x1000));
     dump->add_option("-o,--output", o_->file, "File for the bytes; - is standard output");
     CLI::App *load = add_one("load", "Write the bytes of a file", memory_load);
     add_node(*load);
@@ -132,10 +157,10 @@ class Memory {
   }
   CLI::Option *add_address(CLI::App &one) {
     return one.add_option("address", o_->address, "Address, 0 to 0xFFF")
-        ->check(CLI::Range(0, 0xFFF));
+        ->check(is_within(0, 0xFFF, "0 to 0xFFF"));
   }
   CLI::Option *add_length(CLI::App &one) {
-    return one.add_option("length", o_->length, "Bytes (1)")->check(CLI::Range(1, 0x1000));
+    return one.add_option("length", o_->length, "Bytes (1)")->check(is_within(1, 0x1000));
   }
 
   std::shared_ptr<MemoryOptions> o_ = std::make_shared<MemoryOptions>();

@@ -32,13 +32,13 @@ using Bytes = std::vector<std::uint8_t>;
                    fmt::format("{} is not allowed; allowed: {}", in_quotes(value), allowed));
 }
 
-/// The node that NODE means.
+/// The node that `node` means.
 unsigned node_of(const MemoryCalls &calls, const MemoryOptions &options, bool or_all = false) {
   if (or_all && options.node == "all") return VERICAN_REMOTE_ALL;
   const auto number = parse_integer(options.node);
   const bool zeros = has_leading_zeros(options.node);
   if (zeros || !number || *number < 2 || *number > calls.highest_number())
-    refuse("NODE", options.node,
+    refuse("node", options.node,
            fmt::format("2 to {}{}{}", calls.highest_number(),
                        zeros ? " without zeros in front" : "", or_all ? ", all" : ""));
   return static_cast<unsigned>(*number);
@@ -46,7 +46,7 @@ unsigned node_of(const MemoryCalls &calls, const MemoryOptions &options, bool or
 
 void check_range(unsigned address, std::size_t length) {
   if (length == 0 || address + length > remote_map::kSize)
-    refuse("LENGTH", std::to_string(length),
+    refuse("length", std::to_string(length),
            fmt::format("1 to {} from 0x{:03X} on", remote_map::kSize - address, address));
 }
 
@@ -63,7 +63,7 @@ void require_room(MemoryCalls &calls, unsigned node, unsigned address, std::size
                   const std::string &what) {
   const unsigned room = room_of(calls, node, address);
   if (room == 0)
-    throw InputError("ADDRESS", 0, fmt::format("node {} has no memory at 0x{:03X}", node, address));
+    throw InputError("address", 0, fmt::format("node {} has no memory at 0x{:03X}", node, address));
   if (length > room)
     throw InputError(what, 0,
                      fmt::format("{} bytes; allowed: 1 to {} from 0x{:03X} on, in node {}", length,
@@ -78,7 +78,7 @@ void add_bytes(const std::string &word, Bytes &bytes) {
     if (!byte) break;
     bytes.push_back(static_cast<std::uint8_t>(*byte));
   }
-  if (at != word.size()) refuse("BYTES", word, "hexadecimal bytes of two digits, 5A 01 or 5A01");
+  if (at != word.size()) refuse("bytes", word, "hexadecimal bytes of two digits, 5A 01 or 5A01");
 }
 
 Bytes bytes_of(const std::vector<std::string> &words) {
@@ -229,9 +229,9 @@ int memory_scan(MemoryCalls &calls, const MemoryOptions &options) {
 int memory_assign(MemoryCalls &calls, const MemoryOptions &options) {
   const auto serial = text::parse_unsigned(options.serial, 16);
   if (!serial || *serial > 0xFFFFFFFF)
-    refuse("SERIAL", options.serial, "up to 8 hexadecimal digits");
+    refuse("serial", options.serial, "up to 8 hexadecimal digits");
   if (options.number == 1 || options.number > calls.highest_number())
-    refuse("NUMBER", std::to_string(options.number),
+    refuse("number", std::to_string(options.number),
            fmt::format("0 (none), 2 to {}", calls.highest_number()));
   calls.assign(static_cast<std::uint32_t>(*serial), options.number);
   if (options.json) print_json({{"serial", *serial}, {"number", options.number}});
@@ -265,7 +265,7 @@ int memory_write(MemoryCalls &calls, const MemoryOptions &options) {
 int memory_poll(MemoryCalls &calls, const MemoryOptions &options) {
   constexpr unsigned kMost = 6;
   check_range(options.address, options.length);
-  if (options.length > kMost) refuse("LENGTH", std::to_string(options.length), "1 to 6");
+  if (options.length > kMost) refuse("length", std::to_string(options.length), "1 to 6");
   const verican_remote_answers_t answers = calls.poll(options.address, options.length);
   require_answers(calls, answers.answered != 0);
   Json list = Json::array();
@@ -361,7 +361,7 @@ int memory_clear(MemoryCalls &calls, const MemoryOptions &options) {
 int memory_dump(MemoryCalls &calls, const MemoryOptions &options) {
   const unsigned node = node_of(calls, options);
   check_range(options.address, options.table);
-  require_room(calls, node, options.address, options.table, "LENGTH");
+  require_room(calls, node, options.address, options.table, "length");
   const Bytes bytes = calls.read(node, options.address, options.table);
   const bool to_file = !options.file.empty();
   if (to_file) write_bytes(options.file, bytes);

@@ -13,6 +13,7 @@
 #include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
 #include "cli/rate_option.hpp"
+#include "cli/scenario_input.hpp"
 #include "session/replay.hpp"
 #include "simulation/stop_request.hpp"
 
@@ -116,7 +117,7 @@ int replay_alone(ReplayCommand &options) {
 
 /// Among the nodes of a scenario.
 int replay_on_bus(const ReplayCommand &options) {
-  Scenario bus = read_scenario(options.bus);
+  Scenario bus = scenario_input(options.bus);
   const double bitrate = only_bitrate(bus, options.bitrate);
   override_outputs(bus.outputs, options.replay.outputs);
   std::vector<NamedFile> inputs = inputs_of(bus);

@@ -13,6 +13,7 @@
 #include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
 #include "cli/rate_option.hpp"
+#include "cli/scenario_input.hpp"
 #include "session/replay.hpp"
 #include "simulation/stop_request.hpp"
 #include "simulation/wave_report.hpp"
@@ -54,7 +55,7 @@ void refuse_options(const ReportOptions &options, std::initializer_list<const ch
 int report_scenario(const ReportOptions &options) {
   refuse_options(options, kOfLogs, "logs of frames");
   refuse_options(options, {"--signal"}, "waveforms");
-  Scenario scenario = read_scenario(options.input);
+  Scenario scenario = scenario_input(options.input);
   if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
   const auto database = with_files(scenario.outputs.database, options.outputs.dbc);
   scenario.outputs.database = database;

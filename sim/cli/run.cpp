@@ -12,6 +12,7 @@
 #include "cli/live_run.hpp"
 #include "cli/output_files.hpp"
 #include "cli/rate_option.hpp"
+#include "cli/scenario_input.hpp"
 #include "simulation/stop_request.hpp"
 
 namespace vericansim::cli {
@@ -38,7 +39,7 @@ void override_with(Scenario &scenario, const RunOptions &options) {
 
 int run(const RunOptions &options) {
   const StopSignals signals;
-  Scenario scenario = read_scenario(options.scenario);
+  Scenario scenario = scenario_input(options.scenario);
   override_with(scenario, options);
   const Outputs outputs = scenario.outputs;
   const bool several = scenario.bitrates.size() > 1;

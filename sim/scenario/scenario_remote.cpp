@@ -104,9 +104,10 @@ unsigned parse_place(const YamlValue &value, const RemoteConfig &config) {
   const unsigned ports = config.first_port();
   if (value.text() == "status") return ports + static_cast<unsigned>(RemotePort::kStatus);
   if (value.text() == "identity") return ports + static_cast<unsigned>(RemotePort::kIdent);
-  if (!parse_integer(value.text()))
+  const auto address = parse_integer(value.text());
+  if (!address || *address >= ports)
     value.refuse(fmt::format("status, identity, or an address of 0 to 0x{:X}", ports - 1));
-  return number(value, ports - 1);
+  return static_cast<unsigned>(*address);
 }
 
 /// An entry of `producers` (RN-63).
@@ -194,7 +195,9 @@ void parse_config(const YamlValue &value, RemoteRole &role) {
            [&](const YamlValue &v) { settings.byte(remote_map::kRetry, number(v, 0xFF)); });
   map.with("label", [&](const YamlValue &v) {
     const std::string label = v.text();
-    if (label.size() > 8) v.refuse("at most 8 letters");
+    if (label.size() > 8)
+      v.fail(fmt::format("{} bytes; allowed: 8 at most, where a letter beyond ASCII has several",
+                         label.size()));
     for (unsigned i = 0; i < label.size(); ++i)
       settings.byte(remote_map::kLabel + i, static_cast<unsigned char>(label[i]));
   });

@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view kAllowedCommands =
     "operate|safe|restart [NODE], trigger [COUNT], write NODE|all ADDRESS BYTE..., "
     "read NODE ADDRESS LENGTH [= BYTE...], read all ADDRESS LENGTH, status NODE [= BYTE...], "
-    "identity NODE [= BYTE...], unlock NODE, lock NODE, frame FRAME";
+    "identity NODE [= BYTE...], unlock NODE, lock NODE, clear NODE, frame FRAME";
 
 using Words = std::vector<std::string_view>;
 
@@ -56,7 +56,9 @@ class StepReader {
     else if (verb == "unlock")
       unlock();
     else if (verb == "lock")
-      lock();
+      setup(2);
+    else if (verb == "clear")
+      setup(4);
     else if (verb == "frame")
       frame();
     else
@@ -210,9 +212,9 @@ class StepReader {
     for (unsigned i = 0; i < 4; ++i) add(*serial_ >> (8 * i) & 0xFF);
   }
 
-  void lock() {
+  void setup(unsigned operation) {
     step_.frame.id = port_id(node(), RemotePort::kSetup);
-    add(2);
+    add(operation);
   }
 
   void frame() {

@@ -174,10 +174,10 @@ class Commands(OnBridge):
             self.memory("load", 4, "0xDF8", path, code=2, error=f"verican: {path}: 100 bytes; "
                         "allowed: 1 to 8 from 0xDF8 on, in node 4\n")
             self.assertEqual(self.memory("read", 4, "0xDF8", 8), " ".join(8 * ["00"]) + "\n")
-            self.memory("dump", 4, "0xDF0", 32, code=2, error="verican: LENGTH: 32 bytes; "
+            self.memory("dump", 4, "0xDF0", 32, code=2, error="verican: length: 32 bytes; "
                         "allowed: 1 to 16 from 0xDF0 on, in node 4\n")
             self.memory("dump", 4, "0xE00", code=2,
-                        error="verican: ADDRESS: node 4 has no memory at 0xE00\n")
+                        error="verican: address: node 4 has no memory at 0xE00\n")
 
     def test_watch(self):
         """RN-97: each frame with its command in words; after so many the end."""
@@ -281,22 +281,22 @@ class Commands(OnBridge):
     def test_arguments(self):
         """Exit code 2, and what is allowed."""
         for words, error in (
-                (("read", 8, 0), "NODE: '8' is not allowed; allowed: 2 to 7"),
-                (("read", "03", 0), "NODE: '03' is not allowed; allowed: 2 to 7 without zeros in "
+                (("read", 8, 0), "node: '8' is not allowed; allowed: 2 to 7"),
+                (("read", "03", 0), "node: '03' is not allowed; allowed: 2 to 7 without zeros in "
                                     "front"),
-                (("write", "010", 0, "1"), "NODE: '010' is not allowed; allowed: 2 to 7 without "
+                (("write", "010", 0, "1"), "node: '010' is not allowed; allowed: 2 to 7 without "
                                            "zeros in front, all"),
-                (("write", "no", 0, "1"), "NODE: 'no' is not allowed; allowed: 2 to 7, all"),
-                (("write", 3, 0, "5AG1"), "BYTES: '5AG1' is not allowed; allowed: hexadecimal "
+                (("write", "no", 0, "1"), "node: 'no' is not allowed; allowed: 2 to 7, all"),
+                (("write", 3, 0, "5AG1"), "bytes: '5AG1' is not allowed; allowed: hexadecimal "
                                           "bytes of two digits, 5A 01 or 5A01"),
-                (("write", 3, 0, "01", "2", "3"), "BYTES: '2' is not allowed; allowed: hexadecimal "
+                (("write", 3, 0, "01", "2", "3"), "bytes: '2' is not allowed; allowed: hexadecimal "
                                                   "bytes of two digits, 5A 01 or 5A01"),
-                (("read", 3, "0xFFF", 2), "LENGTH: '2' is not allowed; allowed: 1 to 1 from 0xFFF "
+                (("read", 3, "0xFFF", 2), "length: '2' is not allowed; allowed: 1 to 1 from 0xFFF "
                                           "on"),
-                (("poll", 0, 7), "LENGTH: '7' is not allowed; allowed: 1 to 6"),
-                (("assign", "xyz", 3), "SERIAL: 'xyz' is not allowed; allowed: up to 8 "
+                (("poll", 0, 7), "length: '7' is not allowed; allowed: 1 to 6"),
+                (("assign", "xyz", 3), "serial: 'xyz' is not allowed; allowed: up to 8 "
                                        "hexadecimal digits"),
-                (("assign", "5", 1), "NUMBER: '1' is not allowed; allowed: 0 (none), 2 to 7")):
+                (("assign", "5", 1), "number: '1' is not allowed; allowed: 0 (none), 2 to 7")):
             self.memory(*words, code=2, error=f"verican: {error}\n")
 
 
@@ -312,6 +312,8 @@ nodes:
 
     def test_scan(self):
         """Finds each of them, again and again: the two become error passive on the way."""
+        self.assertEqual([line.split(": ", 3)[3] for line in self.bridge.warnings], [
+            "number 7 is that of 'a', 'b': their answers destroy each other\n"])
         shared = "number 7: the nodes with serial numbers 00000001, 82345678 have it"
         for _ in range(3):
             seen = self.json("scan", code=1, timeout=500)
@@ -338,6 +340,8 @@ nodes:
         nodes = self.nodes.replace("number: 7, serial: 1,", "number: 5, serial: 1,")
         nodes = nodes.replace("0x82345678", "1")
         with Bridge("--fast", "--errors", "none", scenario=nodes) as self.bridge:
+            self.assertEqual([line.split(": ", 3)[3] for line in self.bridge.warnings], [
+                "serial number 0x00000001 is that of 'a', 'b': ASSIGN means all of them\n"])
             self.assertEqual(self.json("scan", code=1, timeout=500)["complaints"],
                              ["serial number 00000001: the nodes with numbers 5, 7 have it"])
 
@@ -370,6 +374,11 @@ class WithoutABus(unittest.TestCase):
             thread = threading.Thread(target=answer)
             thread.start()
             self.assertIn("says 'bye'; allowed: socketcand",
+                          self.fails("--socketcand", f"127.0.0.1:{port}", "scan"))
+            thread.join()
+            thread = threading.Thread(target=lambda: server.accept()[0].close())
+            thread.start()
+            self.assertIn("says nothing; allowed: socketcand",
                           self.fails("--socketcand", f"127.0.0.1:{port}", "scan"))
             thread.join()
         self.assertIn("nobody answers", self.fails("--socketcand", f"127.0.0.1:{port}", "scan"))
@@ -463,7 +472,13 @@ class WithoutABus(unittest.TestCase):
                           self.fails("--socketcand", "1", "watch", "--frames", count))
         self.assertIn("--name-bits", self.fails("--name-bits", "4", "scan"))
         self.assertIn("subcommand", self.fails())
-        self.assertIn("0 to 255", self.fails("--if", "x", "trigger", "256"))
+        for words, error in (
+                (("trigger", "256"), "count: '256' is not allowed; allowed: 0 to 255"),
+                (("read", "3", "0x1000"), "address: '0x1000' is not allowed; allowed: 0 to 0xFFF"),
+                (("read", "3", "0", "0"), "length: '0' is not allowed; allowed: 1 to 4096"),
+                (("state", "on"), "command: 'on' is not allowed; allowed: operate, safe, restart"),
+                (("--name-bits", "4", "scan"), "--name-bits: '4' is not allowed; allowed: 3, 5")):
+            self.assertIn(f"verican: {error}", self.fails("--if", "x", *words))
 
 
 if __name__ == "__main__":

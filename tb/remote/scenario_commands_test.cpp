@@ -73,6 +73,7 @@ TEST(ScenarioCommands, WordsAreFrames) {
   EXPECT_THAT(sent_by("status 3"), ElementsAre("1FE#R8", "5FE#0200000000000000"));
   EXPECT_THAT(sent_by("identity pfc"), ElementsAre("1FF#R8", "5FF#01FF3C103412FECA"));
   EXPECT_THAT(sent_by("unlock 3, lock 3"), ElementsAre("1FC#013412FECA", "1FC#02"));
+  EXPECT_THAT(sent_by("clear pfc"), ElementsAre("1FC#04"));
   EXPECT_THAT(sent_by("frame 12345678#AA"), ElementsAre("12345678#AA"));
   EXPECT_THAT(sent_by("restart 3"), ElementsAre("000#8103"));
 }

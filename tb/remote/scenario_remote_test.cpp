@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/input_error_of.hpp"
+#include "scenario/scenario_warnings.hpp"
 #include "session/runner.hpp"
 #include "simulation/simulation.hpp"
 
@@ -88,11 +89,14 @@ TEST(ScenarioRemote, MistakesAreToldWithTheirPlace) {
   EXPECT_THAT(message(", config: {watchdog: 1.5 ms}"), HasSubstr("a multiple of 1 ms"));
   EXPECT_THAT(message(", config: {watchdog: 66 s}"), HasSubstr("config.watchdog"));
   EXPECT_THAT(message(", config: {life: 15 ms}"), HasSubstr("a multiple of 10 ms"));
-  EXPECT_THAT(message(", config: {label: too long a label}"), HasSubstr("at most 8 letters"));
+  EXPECT_THAT(message(", config: {label: too long a label}"),
+              HasSubstr("16 bytes; allowed: 8 at most"));
   EXPECT_THAT(message(", config: {wachdog: 1 ms}"), HasSubstr("unknown key 'wachdog'"));
   EXPECT_THAT(message(", profile: small, config: {producers: [{send: 0, length: 1}]}"),
               HasSubstr("1 entries; allowed: 0"));
-  EXPECT_THAT(message(", config: {producers: [{send: 0x78, length: 1}]}"), HasSubstr("0x77"));
+  EXPECT_THAT(message(", config: {producers: [{send: 0x7E, length: 1}]}"),
+              HasSubstr("'0x7E' is not allowed; allowed: status, identity, or an address of 0 to "
+                        "0x77"));
   EXPECT_THAT(message(", config: {producers: [{send: 0x77, length: 2}]}"),
               HasSubstr("beyond the window"));
   EXPECT_THAT(message(", config: {producers: [{send: all, length: 2}]}"), HasSubstr("status"));
@@ -200,6 +204,20 @@ TEST(ScenarioRemote, RtlAndModelTakePartAlike) {
       expect_ok(report, 4);
     }
   }
+}
+
+// RN-11: two nodes with one number, or one serial number.
+TEST(ScenarioRemote, WarningsOfSharedNumbers) {
+  const auto warnings = [](const std::string &more) {
+    return warnings_of(with(", number: 6", "  - {name: dab, type: remote" + more + "}\n"));
+  };
+  EXPECT_THAT(warnings(", number: 7, serial: 1"), ElementsAre());
+  EXPECT_THAT(warnings(", serial: 1"), ElementsAre());
+  EXPECT_THAT(
+      warnings(", number: 6"),
+      ElementsAre("number 6 is that of 'pfc', 'dab': their answers destroy each other",
+                  "serial number 0x00000000 is that of 'pfc', 'dab': ASSIGN means all of them"));
+  EXPECT_THAT(warnings_of(with(", serial: 1", "  - {name: dab, type: remote}\n")), ElementsAre());
 }
 
 }  // namespace

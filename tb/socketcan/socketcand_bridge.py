@@ -34,7 +34,11 @@ class Bridge:
         # pylint: disable-next=consider-using-with
         self.process = subprocess.Popen(command + list(options), stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True)
+        self.warnings = []
         line = self.process.stderr.readline()
+        while line.startswith("verican: warning: "):
+            self.warnings.append(line)
+            line = self.process.stderr.readline()
         found = re.fullmatch(r"verican bridge: socketcand (.*) at 127\.0\.0\.1:(\d+)\n", line)
         if not found:
             self.process.kill()
