@@ -157,8 +157,8 @@ duration: 10 ms
 bitrate: 1000000
 nodes:
   - {name: host, clock: 12 MHz}
-  - {name: pfc, type: remote, number: 6, clock: 12 MHz, memory: {0x40: 01 02}}
-  - {name: dab, type: remote, number: 7, clock: 12 MHz, delay: 50 ns}
+  - {name: pfc, type: remote, number: 6, serial: 6, clock: 12 MHz, memory: {0x40: 01 02}}
+  - {name: dab, type: remote, number: 7, serial: 7, clock: 12 MHz, delay: 50 ns}
 commands:
   - node: host
     at: 2 ms
