@@ -131,10 +131,10 @@ class Commands(OnBridge):
     def test_map_of_entries_that_never_work(self):
         """RN-65: an address that is none, a request to the node itself, SAFE without a time-out."""
         nodes = """nodes:
-  - {name: a, type: remote, number: 3, memory: {0xF80: 23 81 FF 07 00 0E 00 00,
+  - {name: a, type: remote, number: 3, serial: 3, memory: {0xF80: 23 81 FF 07 00 0E 00 00,
      0xF88: A0 81 FF 07 00 03 00 00, 0xF90: 24 81 FF 07 00 00 40 00,
      0xF98: 25 81 FF 07 00 04 00 00}}
-  - {name: b, type: remote, number: 4, memory_bytes: 1024,
+  - {name: b, type: remote, number: 4, serial: 4, memory_bytes: 1024,
      memory: {0xF80: 23 81 FF 07 00 02 04 00}}
 """
         with Bridge("--fast", "--errors", "none", scenario=nodes) as self.bridge:
