@@ -22,11 +22,11 @@ extern "C" {
 /** What every call returns (RN-91). */
 typedef enum verican_remote_result {
   VERICAN_REMOTE_OK = 0,
-  VERICAN_REMOTE_TIMEOUT = -1,  /**< no answer within timeout_us, after all tries */
-  VERICAN_REMOTE_REFUSED = -2,  /**< the node said no; verican_remote_t.code says why */
-  VERICAN_REMOTE_SEQUENCE = -3, /**< a block transfer lost frames, in every try */
-  VERICAN_REMOTE_BUS_OFF = -4,  /**< the host itself is off the bus */
-  VERICAN_REMOTE_ARGUMENT = -5, /**< an argument is missing or out of range; nothing was sent */
+  VERICAN_REMOTE_TIMEOUT = -1,   /**< no answer within timeout_us, after all tries */
+  VERICAN_REMOTE_REFUSED = -2,   /**< the node said no; verican_remote_t.code says why */
+  VERICAN_REMOTE_SEQUENCE = -3,  /**< a block transfer lost frames, in every try */
+  VERICAN_REMOTE_BUS_OFF = -4,   /**< the host itself is off the bus */
+  VERICAN_REMOTE_ARGUMENT = -5,  /**< an argument is missing or out of range; nothing was sent */
   VERICAN_REMOTE_NOT_TAKEN = -6, /**< assign: the node is there, but does not take the number */
   VERICAN_REMOTE_IN_USE = -7     /**< assign: another node has the number; nothing was assigned */
 } verican_remote_result_t;
@@ -143,7 +143,7 @@ typedef struct verican_remote_identity_row {
 
 /** Answers of all nodes to one poll. */
 typedef struct verican_remote_answers {
-  uint32_t answered;                       /**< bit n: node n has answered */
+  uint32_t answered;  /**< bit n: node n has answered */
   uint32_t differing; /**< bit n: two answers under number n differ: two nodes have it (RN-11) */
   uint8_t data[VERICAN_REMOTE_NUMBERS][8]; /**< its bytes */
 } verican_remote_answers_t;

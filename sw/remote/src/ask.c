@@ -140,12 +140,11 @@ void vr_take_status(const uint8_t row[8], verican_remote_status_t *status) {
 }
 
 void vr_take_identity(unsigned number, const uint8_t row[8], verican_remote_identity_t *identity) {
-  *identity = (verican_remote_identity_t){
-      .number = (uint8_t)number,
-      .version = row[0],
-      .features = row[1],
-      .name_bits = (uint8_t)(row[2] >> 4),
-      .memory = (uint16_t)(1u << (row[2] & 0x0Fu)),
-      .stage = row[3],
-      .serial = vr_serial(row + 4)};
+  *identity = (verican_remote_identity_t){.number = (uint8_t)number,
+                                          .version = row[0],
+                                          .features = row[1],
+                                          .name_bits = (uint8_t)(row[2] >> 4),
+                                          .memory = (uint16_t)(1u << (row[2] & 0x0Fu)),
+                                          .stage = row[3],
+                                          .serial = vr_serial(row + 4)};
 }

@@ -260,7 +260,7 @@ result_t verican_remote_configure(client_t *c, uint8_t number, uint32_t serial,
   for (size_t i = 0; i < count && result == VERICAN_REMOTE_OK; i++)
     result = verican_remote_write_confirmed(c, number, settings[i].address, settings[i].data,
                                             settings[i].length);
-  const uint8_t code = c->code; /* c->address stays: LOCK is no access to memory */
+  const uint8_t code = c->code;            /* c->address stays: LOCK is no access to memory */
   const result_t locked = lock(c, number); /* also if nobody knows whether it was unlocked */
   if (result == VERICAN_REMOTE_OK) return locked;
   c->code = code;

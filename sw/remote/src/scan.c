@@ -20,8 +20,7 @@ typedef struct scan {
 
 static void add(scan_t *s, unsigned number, uint32_t serial) {
   if (s->count < s->places)
-    s->nodes[s->count++] =
-        (verican_remote_identity_t){.number = (uint8_t)number, .serial = serial};
+    s->nodes[s->count++] = (verican_remote_identity_t){.number = (uint8_t)number, .serial = serial};
 }
 
 static unsigned lowest(uint32_t numbers) {
