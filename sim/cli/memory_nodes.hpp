@@ -22,6 +22,7 @@ using MemoryNodes = std::vector<verican_remote_identity_t>;
 
 /// The list as a table.
 [[nodiscard]] std::string to_text(const MemoryNodes &nodes);
+/// The list for --json; `number` is null where it is one of several shared ones.
 [[nodiscard]] Json to_json(const MemoryNodes &nodes);
 
 }  // namespace vericansim::cli

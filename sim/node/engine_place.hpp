@@ -12,8 +12,8 @@
 namespace vericansim {
 
 /// The prescaler and the position of the model (rtl/bit/can_tq_gen.sv, can_bit_timing.sv), read and
-/// moved on in closed form. For QuietEngine, which knows when they are all that moves, and looks
-/// for the members.
+/// moved on in closed form. For QuietEngine, which knows when they are all that moves, and whether
+/// the model has their members.
 class EnginePlace {
  public:
   /// Clocks of a time quantum.

@@ -24,6 +24,7 @@ class CycleMeter {
   void on_frame(const BusFrame &frame, bool trigger, Time busy);
   /// The last of the nodes has acted upon the last TRIGGER.
   void acted(Time last);
+  /// Enters times, ps, and load of the cycles that are over; of none: 0.
   void describe(RemoteReport &report) const;
 
  private:
