@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "bus/trace.hpp"
+#include "verilated.h"
 
 namespace vericansim {
 
@@ -22,6 +23,8 @@ class EngineLevel {
     root.can_core__DOT__u_bsp__DOT__mismatch;
     root.can_core__DOT__u_bsp__DOT__u_rx_frame__DOT__gen_words__DOT__shift_q;
     root.can_core__DOT__u_bsp__DOT__u_crc15__DOT__crc_q;
+    root.can_core__DOT__u_bsp__DOT__u_tx_frame__DOT__choose__DOT__level;
+    root.can_core__DOT__u_bsp__DOT__u_tx_frame__DOT__choose__DOT__other;
   };
 
   /// The level that the engine sends from the next boundary on; `field`: its field now, in a frame
@@ -47,6 +50,18 @@ class EngineLevel {
       case Field::kCrcDel: return true;
       default: return false;  // SOF, r1, r0
     }
+  }
+
+  /// Does what a boundary does in can_tx_frame.sv; Verilator keeps the variables of that block,
+  /// too.
+  template <typename Root>
+  static void send(Root &root, Field field) {
+    const bool level = next(root, field);
+    root.can_core__DOT__u_bsp__DOT__u_tx_frame__DOT__choose__DOT__level = level;
+    root.can_core__DOT__u_bsp__DOT__u_tx_frame__DOT__choose__DOT__other =
+        level || field != Field::kAck;
+    root.can_core__DOT__tx_q = level;
+    root.can_tx_o = static_cast<CData>(level | root.lom_i | root.lpb_i);
   }
 };
 

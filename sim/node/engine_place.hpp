@@ -49,11 +49,18 @@ class EnginePlace {
   /// `edges` pass, less than a bit, in which only quanta and positions count.
   template <typename Root>
   static void count(Root &root, std::uint64_t edges) {
+    const std::uint32_t ticks = count_clocks(root, edges);
+    if (ticks != 0) advance(root, ticks);
+  }
+
+  /// As count(), of the prescaler alone; the quanta that end.
+  template <typename Root>
+  static std::uint32_t count_clocks(Root &root, std::uint64_t edges) {
     const std::uint64_t before = to_tick(root);
     auto &count = root.can_core__DOT__u_tq_gen__DOT__gen_divide__DOT__count_q;
     if (edges < before) {
       count += static_cast<CData>(edges);
-      return;
+      return 0;
     }
     // 32 bits are enough, and divide faster.
     const auto clocks = static_cast<std::uint32_t>(clocks_of_tq(root));
@@ -62,7 +69,7 @@ class EnginePlace {
     const std::uint32_t rest = ticks * clocks - ticks_and_rest;  // to the next tick
     count = static_cast<CData>(clocks - rest);
     root.can_core__DOT__tq = rest == 0;
-    if (ticks != 0) advance(root, ticks);
+    return ticks;
   }
 
   /// Sets what follows from the position (can_bit_timing), in a quantum without an edge that
@@ -79,10 +86,42 @@ class EnginePlace {
     const bool near =
         seg2 && edge && (hard || pos > root.can_core__DOT__u_bit_timing__DOT__reach_q);
     const bool end = seg2 && pos > root.pseg2_i;
+    show(root, due, due_d, near, end);
+  }
+
+  /// The quantum that ends has an edge that synchronises (SY-01 to SY-10), neither the sample point
+  /// nor the end of the bit, and the level is dominant: the position moves by it.
+  template <typename Root>
+  static void synchronise(Root &root) {
+    auto &pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
+    const bool seg2 = root.can_core__DOT__u_bit_timing__DOT__seg2_q != 0;
+    const bool hard = root.can_core__DOT__u_bit_timing__DOT__hard_q != 0;
+    const bool late = root.can_core__DOT__tx_q != 0 && !seg2 && pos != 0;
+    const bool clipped = late && pos <= root.rjw_i;
+    const unsigned step = seg2 ? root.rjw_i + 1U : late ? ~static_cast<unsigned>(root.rjw_i) : 0U;
+    const bool due = !hard && !seg2 &&
+                     (late ? root.can_core__DOT__u_bit_timing__DOT__due_q != 0 && root.rjw_i == 0
+                           : pos >= root.can_core__DOT__u_bit_timing__DOT__tseg1_q);
+    const bool end = seg2 && pos >= root.can_core__DOT__u_bit_timing__DOT__reach_q;
+    auto &prev = root.can_core__DOT__u_bit_timing__DOT__prev_q;
+    prev = static_cast<CData>((prev << 1) & 3U);
+    root.can_core__DOT__u_bit_timing__DOT__armed_q = 0;
+    pos = static_cast<CData>(hard || clipped ? 1U : (pos + step + 1U) & kPositions);
+    show(root, due, due, false, end);
+  }
+
+ private:
+  static constexpr unsigned kPositions = 31;  // of an engine with PosWidth = 5
+
+  // Sets the four flip-flops, and what follows from them at once.
+  template <typename Root>
+  static void show(Root &root, bool due, bool due_d, bool near, bool end) {
     root.can_core__DOT__u_bit_timing__DOT__due_q = due;
     root.can_core__DOT__u_bit_timing__DOT__due_d_q = due_d;
     root.can_core__DOT__u_bit_timing__DOT__near_q = near;
     root.can_core__DOT__u_bit_timing__DOT__end_q = end;
+    const unsigned pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
+    const bool seg2 = root.can_core__DOT__u_bit_timing__DOT__seg2_q != 0;
     const bool sampling = level(root) ? due : due_d;
     root.can_core__DOT__u_bit_timing__DOT__sampling = sampling;
     root.can_core__DOT__u_bit_timing__DOT__ending = end || (near && !level(root));

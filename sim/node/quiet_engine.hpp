@@ -11,6 +11,7 @@
 
 #include "bus/trace.hpp"
 #include "bus/types.hpp"
+#include "node/engine_edge.hpp"
 #include "node/engine_judge.hpp"
 #include "node/engine_level.hpp"
 #include "node/engine_place.hpp"
@@ -42,12 +43,12 @@ class QuietEngine {
 
   template <typename Engine>
   [[nodiscard]] static constexpr bool in_force() {
-    return kKnown<std::remove_reference_t<decltype(*std::declval<Engine &>().rootp)>>;
+    return EngineEdge::kKnown<std::remove_reference_t<decltype(*std::declval<Engine &>().rootp)>>;
   }
   /// Whether the first edge of a bit, too, is done in closed form.
   template <typename Engine>
   [[nodiscard]] static constexpr bool judges() {
-    return kJudges<std::remove_reference_t<decltype(*std::declval<Engine &>().rootp)>>;
+    return EngineEdge::kJudges<std::remove_reference_t<decltype(*std::declval<Engine &>().rootp)>>;
   }
 
   /// After each edge of `engine` that was evaluated, before what is disturbed() by it.
@@ -67,9 +68,10 @@ class QuietEngine {
   /// that one is not among them, nor any boundary.
   template <typename Engine>
   [[nodiscard]] std::uint64_t edges(const Engine &engine, bool watched) const {
-    std::uint64_t counting = pin_settled(engine) ? counting_(engine) : 0;
+    const bool settled = EngineEdge::pin_settled(engine);
+    std::uint64_t counting = settled ? counting_(engine) : watched ? 0 : while_settling(engine);
     if (counting == 0) return 0;
-    if (!watched) counting += beyond_boundary(engine);
+    if (!watched && settled) counting += beyond_boundary(engine);
     counting = std::min(counting, edges_of_time(engine));
     return watched && counting != 0 ? counting - 1 : counting;
   }
@@ -83,7 +85,8 @@ class QuietEngine {
   /// The next edge only counts and takes the level of the receive pin on.
   template <typename Engine>
   [[nodiscard]] bool counts(const Engine &engine) const {
-    return to_settle_ == 0 && engine.rx_req_i == 0 && counts_(engine) && edges_of_time(engine) != 0;
+    return to_settle_ == 0 && engine.rx_req_i == 0 && EngineEdge::counts(engine) &&
+           edges_of_time(engine) != 0;
   }
   /// Does that one, with `rx` at the pin.
   template <typename Engine>
@@ -91,12 +94,12 @@ class QuietEngine {
     clock_lightly_(engine, rx, false);
   }
 
-  /// The next edge begins a bit, within a frame, for which the node keeps its level: nothing but
-  /// the place in the bit moves.
+  /// The next edge begins a bit within a frame: nothing but the place in the bit and the level that
+  /// the node sends move.
   template <typename Engine>
   [[nodiscard]] bool crosses_boundary(const Engine &engine) const {
     return to_settle_ == kSettle && !disturbed_ && edges_of_time(engine) != 0 &&
-           crosses_boundary_(engine);
+           EngineEdge::begins_bit(engine);
   }
   /// Does that one, with `rx` at the pin.
   template <typename Engine>
@@ -104,49 +107,21 @@ class QuietEngine {
     clock_lightly_(engine, rx, true);
   }
 
+  /// The next edge does no more than synchronise.
+  template <typename Engine>
+  [[nodiscard]] bool synchronises(const Engine &engine) const {
+    return to_settle_ == 1 && !disturbed_ && EngineEdge::synchronises(engine);
+  }
+  /// Does that one, with `rx` at the pin.
+  template <typename Engine>
+  void synchronise(Engine &engine, Level rx) {
+    synchronise_(engine, rx);
+  }
+
  private:
-  template <typename Root>
-  static constexpr bool kKnown = !kPlainEdges && requires(Root & root) {
-    root.can_core__DOT__tq;
-    root.can_core__DOT__active_q;
-    root.can_core__DOT__first_q;
-    root.can_core__DOT__tx_q;
-    root.can_core__DOT__u_sync__DOT__meta_q;
-    root.can_core__DOT__u_sync__DOT__settled_q;
-    root.can_core__DOT__u_tq_gen__DOT__gen_divide__DOT__count_q;
-    root.can_core__DOT__u_bit_timing__DOT__seg2_q;
-    root.can_core__DOT__u_bit_timing__DOT__pos_q;
-    root.can_core__DOT__u_bit_timing__DOT__hard_q;
-    root.can_core__DOT__u_bit_timing__DOT__prev_q;
-    root.can_core__DOT__u_bit_timing__DOT__armed_q;
-    root.can_core__DOT__u_bit_timing__DOT__tseg1_q;
-    root.can_core__DOT__u_bit_timing__DOT__reach_q;
-    root.can_core__DOT__u_bit_timing__DOT__due_q;
-    root.can_core__DOT__u_bit_timing__DOT__due_d_q;
-    root.can_core__DOT__u_bit_timing__DOT__near_q;
-    root.can_core__DOT__u_bit_timing__DOT__end_q;
-    root.can_core__DOT__u_bit_timing__DOT__due;
-    root.can_core__DOT__u_bit_timing__DOT__reached;
-    root.can_core__DOT__u_bit_timing__DOT__sampling;
-    root.can_core__DOT__u_bit_timing__DOT__ending;
-    root.can_core__DOT__u_bit_timing__DOT__falling;
-    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q;
-    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__boff_seen_q;
-    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__plus8_q;
-    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__plus1_q;
-    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__minus1_q;
-    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__sequence_q;
-    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__recovered_q;
-  };
-
-  // An engine with ByteWise = 1 judges its bits itself.
-  template <typename Root>
-  static constexpr bool kJudges =
-      kKnown<Root> &&EngineJudge::kKnown<Root> &&EngineLevel::kKnown<Root>;
-
   template <typename Engine>
   void clocked_(const Engine &engine) {
-    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
+    if constexpr (EngineEdge::kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       const auto &root = *engine.rootp;
       disturbed_ = false;
       const bool synchronises =
@@ -159,74 +134,30 @@ class QuietEngine {
         --to_settle_;
       else if (synchronises)
         to_settle_ = 1;
-      if (to_settle_ == 1 && !synchronises && (quiet_sample(engine) || only_judges(engine)))
+      if (to_settle_ == 1 && !synchronises &&
+          (EngineEdge::quiet_sample(engine) || EngineEdge::only_judges(engine)))
         to_settle_ = 0;
     }
   }
 
-  // The edge after this one clears nothing but the mark of the sample point.
   template <typename Engine>
-  static bool quiet_sample(const Engine &engine) {
-    return engine.rootp->can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q != 0 && !pulses(engine);
-  }
-
-  // The edge after this one is the first of a bit of a frame: all that it does is to judge it.
-  template <typename Engine>
-  static bool only_judges(const Engine &engine) {
-    using Root = std::remove_reference_t<decltype(*engine.rootp)>;
-    if constexpr (kJudges<Root>) {
-      const auto &root = *engine.rootp;
-      const Field field = trace_field(root.trace_o);
-      return root.can_core__DOT__first_q != 0 && field >= Field::kSof && field <= Field::kEof &&
-             (root.run_i & root.can_core__DOT__active_q) != 0 &&
-             root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q == 0 && !pulses(engine);
-    } else {
-      return false;
+  void synchronise_(Engine &engine, Level rx) {
+    if constexpr (EngineEdge::kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
+      auto &root = *engine.rootp;
+      EnginePlace::count_clocks(root, 1);
+      EnginePlace::synchronise(root);
+      take_level(root, rx);
+      verican_follow(&root);
+      clocked_(engine);
     }
   }
 
-  // Something is to be cleared again.
-  template <typename Engine>
-  static bool pulses(const Engine &engine) {
-    const auto &root = *engine.rootp;
-    const unsigned levels = root.tx_next_o | root.stamp_o | root.rx_hdr_o | root.rx_byte_we_o |
-                            root.can_core__DOT__u_bsp__DOT__u_fault__DOT__plus8_q |
-                            root.can_core__DOT__u_bsp__DOT__u_fault__DOT__plus1_q |
-                            root.can_core__DOT__u_bsp__DOT__u_fault__DOT__minus1_q |
-                            root.can_core__DOT__u_bsp__DOT__u_fault__DOT__sequence_q |
-                            root.can_core__DOT__u_bsp__DOT__u_fault__DOT__recovered_q;
-    return levels != 0 || (root.trace_o & kTraceEvents) != 0;
-  }
-
-  // By rtl/frame/can_tx_frame.sv, where a frame allows no hard synchronisation (SY-05).
-  template <typename Engine>
-  static bool crosses_boundary_(const Engine &engine) {
-    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
-      const auto &root = *engine.rootp;
-      const bool boundary = (root.trace_o & kTraceBoundary) != 0;
-      const unsigned busy = root.can_core__DOT__first_q |
-                            root.can_core__DOT__u_bit_timing__DOT__falling |
-                            root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q;
-      return boundary && busy == 0 && keeps_level(root) && !pulses(engine) && root.rx_req_i == 0 &&
-             (root.run_i & root.can_core__DOT__active_q) != 0;
-    } else {
-      return false;
-    }
-  }
-
-  // The next boundary is one of a frame and changes neither the level that the node sends nor the
-  // pin.
+  // The level of the pin goes one flip-flop of u_sync on.
   template <typename Root>
-  static bool keeps_level(const Root &root) {
-    const Field field = trace_field(root.trace_o);
-    if (field < Field::kSof || field == Field::kErrFlag || field == Field::kOvlFlag) return false;
-    const unsigned level = root.can_core__DOT__tx_q;
-    if constexpr (kJudges<Root>) {
-      return EngineLevel::next(root, field) == (level != 0) &&
-             root.can_tx_o == (level | root.lom_i | root.lpb_i);
-    } else {
-      return root.transmitter_o == 0 && field != Field::kAck && level != 0;
-    }
+  static void take_level(Root &root, Level rx) {
+    root.can_core__DOT__u_sync__DOT__settled_q = root.can_core__DOT__u_sync__DOT__meta_q;
+    root.can_core__DOT__u_sync__DOT__meta_q = static_cast<CData>(rx);
+    root.can_rx_i = static_cast<CData>(rx);
   }
 
   // Edges from the boundary that counting_() goes up to on, to the sample point behind it, if
@@ -234,11 +165,11 @@ class QuietEngine {
   template <typename Engine>
   static std::uint64_t beyond_boundary(const Engine &engine) {
     using Root = std::remove_reference_t<decltype(*engine.rootp)>;
-    if constexpr (kJudges<Root>) {
+    if constexpr (EngineEdge::kJudges<Root>) {
       const auto &root = *engine.rootp;
       if (root.can_core__DOT__u_bit_timing__DOT__seg2_q == 0 ||
           trace_field(root.trace_o) > Field::kEof || EnginePlace::quanta(root) == 0 ||
-          !keeps_level(root) || pulses(engine) ||
+          !EngineEdge::keeps_level(root) || EngineEdge::pulses(engine) ||
           (root.run_i & root.can_core__DOT__active_q) == 0 || root.rx_req_i != 0)
         return 0;
       return (root.can_core__DOT__u_bit_timing__DOT__tseg1_q + 2U) * (root.presdiv_i + 1U);
@@ -247,22 +178,11 @@ class QuietEngine {
     }
   }
 
-  template <typename Engine>
-  [[nodiscard]] static bool pin_settled(const Engine &engine) {
-    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
-      const auto &root = *engine.rootp;
-      return root.can_core__DOT__u_sync__DOT__meta_q == root.can_rx_i &&
-             root.can_core__DOT__u_sync__DOT__settled_q == root.can_rx_i;
-    } else {
-      return false;
-    }
-  }
-
   // As edges(), if the level of the pin has got through.
   template <typename Engine>
   [[nodiscard]] std::uint64_t counting_(const Engine &engine) const {
     using Root = std::remove_reference_t<decltype(*engine.rootp)>;
-    if constexpr (kKnown<Root>) {
+    if constexpr (EngineEdge::kKnown<Root>) {
       const auto &root = *engine.rootp;
       // Bus-off begins a clock after its count.
       if (to_settle_ > 0 ||
@@ -276,23 +196,34 @@ class QuietEngine {
     }
   }
 
-  // As counting_() != 0, while to_settle_ is 0.
+  // As counting_(), while the pin's level has got as far as the first flip-flop of u_sync: the next
+  // edge takes it on. A recessive one has no effect before the sample point, a dominant one may
+  // synchronise with the next quantum.
   template <typename Engine>
-  [[nodiscard]] static bool counts_(const Engine &engine) {
-    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
+  [[nodiscard]] std::uint64_t while_settling(const Engine &engine) const {
+    using Root = std::remove_reference_t<decltype(*engine.rootp)>;
+    if constexpr (EngineEdge::kKnown<Root> && !kHasTimeUnit<Engine>) {
       const auto &root = *engine.rootp;
-      return root.can_core__DOT__u_bsp__DOT__u_fault__DOT__boff_seen_q == root.boff_o &&
-             (root.can_core__DOT__active_q == 0 || root.can_core__DOT__tq == 0 ||
-              EnginePlace::quanta(root) != 0);
+      const unsigned looked_at = root.rx_req_i | root.lpb_i | root.smp_i;
+      if (to_settle_ > 0 || looked_at != 0 || root.can_core__DOT__active_q == 0 ||
+          root.can_core__DOT__u_sync__DOT__meta_q != root.can_rx_i || !EngineEdge::counts(engine))
+        return 0;
+      if (root.can_rx_i != 0) return counting_(engine);
+      return root.can_core__DOT__tq != 0 ? EnginePlace::clocks_of_tq(root)
+                                         : EnginePlace::to_tick(root);
     } else {
-      return false;
+      return 0;
     }
   }
 
   template <typename Engine>
   void pass_(Engine &engine, std::uint64_t edges) {
-    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
+    if constexpr (EngineEdge::kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       auto &root = *engine.rootp;
+      if (!EngineEdge::pin_settled(engine)) {
+        clock_lightly_(engine, static_cast<Level>(root.can_rx_i), false);
+        if (--edges == 0) return;
+      }
       if (root.can_core__DOT__u_bit_timing__DOT__seg2_q != 0) {
         // None before the boundary that shows already, where an earlier pass_() has ended.
         const std::uint64_t before = counting_(engine);
@@ -317,15 +248,13 @@ class QuietEngine {
 
   template <typename Engine>
   void clock_lightly_(Engine &engine, Level rx, bool boundary) {
-    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
+    if constexpr (EngineEdge::kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       auto &root = *engine.rootp;
       const unsigned pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
       const bool between = !boundary && to_settle_ == 0 && between_quanta(root);
       count(engine, 1);
       if (boundary) begin_bit(engine, pos);
-      root.can_core__DOT__u_sync__DOT__settled_q = root.can_core__DOT__u_sync__DOT__meta_q;
-      root.can_core__DOT__u_sync__DOT__meta_q = static_cast<CData>(rx);
-      root.can_rx_i = static_cast<CData>(rx);
+      take_level(root, rx);
       if (between && root.can_core__DOT__tq == 0) return;
       verican_follow(&root);
       clocked_(engine);
@@ -345,6 +274,7 @@ class QuietEngine {
   template <typename Engine>
   static void begin_bit(Engine &engine, unsigned pos) {
     auto &root = *engine.rootp;
+    if constexpr (EngineEdge::kSends<Engine>) EngineLevel::send(root, trace_field(root.trace_o));
     root.can_core__DOT__u_bit_timing__DOT__pos_q = pos != root.pseg2_i + 1U;
     root.can_core__DOT__u_bit_timing__DOT__seg2_q = 0;
     root.can_core__DOT__u_bit_timing__DOT__hard_q = 0;
@@ -355,12 +285,12 @@ class QuietEngine {
   // Edges that count, without what is combinational in the one that shows something.
   template <typename Engine>
   static void count(Engine &engine, std::uint64_t edges) {
-    if constexpr (kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
+    if constexpr (EngineEdge::kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       auto &root = *engine.rootp;
       pass_time(engine, edges);
       forget_sample(root);
       if (root.can_core__DOT__active_q == 0) return;
-      if constexpr (kJudges<std::remove_reference_t<decltype(*engine.rootp)>>) {
+      if constexpr (EngineEdge::kJudges<std::remove_reference_t<decltype(*engine.rootp)>>) {
         if (root.can_core__DOT__first_q != 0) EngineJudge::judge(root);
       }
       EnginePlace::count(root, edges);

@@ -118,10 +118,11 @@ class RtlNode : public Node {
       : Node{std::move(name), clock}, ahb_{[this] { disturbed(); }}, num_mb_{num_mb} {}
   /// For a core with another bus: its master, which lives as long as the node.
   void take_master(BusMaster &master) { master_ = &master; }
-  /// To be called after each clock edge.
-  void after_edge() {
+  /// To be called after each clock edge; `irq_may_rise`: false if the interrupts are as before it.
+  void after_edge(bool irq_may_rise = true) {
     ++cycles_;
-    if (waiter_ && (cycles_ >= wake_cycle_ || (wait_irq_ && irq()))) resume_waiter();
+    if (waiter_ && (cycles_ >= wake_cycle_ || (irq_may_rise && wait_irq_ && irq())))
+      resume_waiter();
   }
 
   /// Edges before the one at which a coroutine goes on in any case.

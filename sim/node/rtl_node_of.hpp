@@ -49,6 +49,8 @@ class RtlNodeOf final : public RtlNode {
     const bool active = ahb().active();
     if (!active && quiet_.crosses_boundary(core_.engine()))
       return count(rx, [&] { quiet_.cross_boundary(core_.engine(), rx); });
+    if (!active && quiet_.synchronises(core_.engine()))
+      return count(rx, [&] { quiet_.synchronise(core_.engine(), rx); });
     core_.engine().can_rx_i = static_cast<std::uint8_t>(rx);
     if (active) {
       transfer_cycle();
@@ -58,7 +60,7 @@ class RtlNodeOf final : public RtlNode {
     quiet_.clocked(core_.engine());
     if (core_.take_engine_disturbed()) quiet_.disturbed();
     drive(static_cast<Level>(core_.engine().can_tx_o));
-    after_edge();
+    after_edge(core_.take_host_moved());
   }
 
   [[nodiscard, gnu::flatten]] std::uint64_t quiet() const override {
@@ -173,7 +175,7 @@ class RtlNodeOf final : public RtlNode {
     if (!counted) quiet_.clocked(core_.engine());
     if (core_.take_engine_disturbed()) quiet_.disturbed();
     drive(static_cast<Level>(core_.engine().can_tx_o));
-    after_edge();
+    after_edge(core_.take_host_moved());
   }
 
   // HREADYOUT, HRESP and HRDATA are read as they have settled with this cycle's request.

@@ -82,6 +82,7 @@ class SplitCore {
 
   /// Lets the host side do what it has left out; its outputs stay as they are.
   void catch_up() {
+    host_moved_ = host_moved_ || behind_ != 0 || stored_;
     if (behind_ != 0) TransmitScan<Root>::pass(*host_.rootp, std::exchange(behind_, 0));
     if (!stored_) return;
     stored_ = false;
@@ -104,7 +105,7 @@ class SplitCore {
     in_a_row_ = 0;
     catch_up();
     resting_ = false;
-    host_settled_ = true;
+    host_settled_ = host_moved_ = true;
     Ports::to_host(engine_, *host_.rootp);
     host_.eval();
     while (show_engine()) {
@@ -165,6 +166,9 @@ class SplitCore {
   /// Whether an input of the engine other than can_rx_i has changed since the last call.
   [[nodiscard]] bool take_engine_disturbed() { return std::exchange(engine_disturbed_, false); }
 
+  /// Whether the host side was evaluated since the last call: if not, its outputs are as they were.
+  [[nodiscard]] bool take_host_moved() { return std::exchange(host_moved_, false); }
+
   /// Everything that the two models remember.
   struct State {
     std::unique_ptr<unsigned char[]> engine, host, unit;
@@ -186,6 +190,7 @@ class SplitCore {
     behind_ = 0;
     engine_moved_ = true;
     storing_ = stored_ = false;
+    host_moved_ = true;
     resting_ = state.resting;
     host_settled_ = state.host_settled;
     engine_settled_ = state.engine_settled;
@@ -255,7 +260,7 @@ class SplitCore {
       settled_edge(host_);
     else
       rising_edge(host_, host_clock());
-    host_settled_ = true;
+    host_settled_ = host_moved_ = true;
   }
 
   // Of the engine's inputs, can_rx_i alone changes without an eval(): only u_sync's first flip-flop
@@ -283,6 +288,7 @@ class SplitCore {
   bool bytes_rest_ = true;
   bool resting_ = false;
   bool host_settled_ = false;
+  bool host_moved_ = true;
   bool engine_settled_ = false;
   bool engine_disturbed_ = false;
   mutable bool engine_moved_ = true;  // since nothing of it was to wake the host side

@@ -124,7 +124,7 @@ class TimedEngine : public Vcan_core_time {
     root.can_time__DOT__u_stamp__DOT__fixed_q;
   };
     // A level of the engine at the unit's inputs.
-#define VERICAN_LEVEL(name) rootp->can_core__DOT__gen_time__DOT__u_time__DOT__##name##_v
+#define VERICAN_LEVEL(name) rootp->VERICAN_AT_TIME_UNIT(name)
 
   // What the host side tells the unit is not what it was at the last edge that was evaluated.
   [[nodiscard]] bool host_changed() const {

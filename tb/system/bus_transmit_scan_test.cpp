@@ -219,9 +219,14 @@ TEST_P(TransmitScanTest, SameBuffersWithBytesLeftOut) { run<Vcan_host32>(GetPara
 template <typename Model, typename Ports, typename Engine>
 void expect_short_cuts() {
   using Root = std::remove_reference_t<decltype(*std::declval<Model &>().rootp)>;
+  SerialContext context;
+  Model model{&context, "host"};
+  Engine engine{&context, "engine"};
+  const ModelContext of_both{context};
   EXPECT_TRUE(TransmitScan<Root>::in_force());
   EXPECT_TRUE((ByteStore<Root, Ports>::in_force()));
-  EXPECT_GT(HostImage<Root>::left_out(*Model{}.rootp), sizeof(Root) / 3);
+  EXPECT_GT(HostImage<Root>::left_out(*model.rootp), sizeof(Root) / 3);
+  EXPECT_TRUE(Ports::in_block(engine, *model.rootp));
   EXPECT_TRUE(QuietEngine::in_force<Engine>());
   EXPECT_TRUE(QuietEngine::judges<Engine>());
   if constexpr (kHasTimeUnit<Engine>) EXPECT_TRUE(Engine::in_force());
