@@ -5,8 +5,8 @@
 
 Builds and runs every stage, keeps its result in build/campaign/STAGE.json and its output in
 STAGE.log, prints all figures, and writes those of a whole run (SCALE=1) to
-docs/campaign/STAGE.md, with a line in docs/verification.md between <!-- campaign STAGE --> and
-<!-- end STAGE -->. --page only writes the pages, from the results that are there. --slurm
+docs/campaign/STAGE.md, and in short to docs/verification.md, between <!-- summary STAGE --> and
+<!-- end -->. --page only writes the pages, from the results that are there. --slurm
 runs the stages as jobs of a Slurm cluster (slurm_campaign.py, docs/cluster.md). Ends with status 1
 if a stage failed or a figure misses its bar.
 
@@ -264,9 +264,9 @@ def write_page(stages):
         name = stage["name"]
         written.append(name)
         (STAGE_PAGES / f"{name}.md").write_text(stage_page(stage, result))
-        text = replace(text, f"<!-- campaign {name} -->", f"<!-- end {name} -->",
-                       f"\n[Figures and tables](campaign/{name}.md): {origin(result)}\n")
-        text = replace(text, f"<!-- summary {name} -->", "<!-- end -->", summary(stage, result))
+        run = f"[{result['commit']}, {result['date']}](campaign/{name}.md)"
+        text = replace(text, f"<!-- summary {name} -->", "<!-- end -->",
+                       f"{summary(stage, result)}; {run}")
         tools = ", ".join(f"{name} {version}" for name, version in result["versions"].items())
         text = replace(text, "<!-- tools -->", "<!-- end tools -->", f"\n{tools}.\n")
     if written:
