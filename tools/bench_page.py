@@ -32,13 +32,11 @@ RTL: one plain model of `can_ahb` does 2.7 to 3.2.
 """
 
 # The shares and the evaluations: counted once, saturated_bus/nodes:2/drift:1.
-SHARES = """Of the instructions of two saturated nodes with clocks of their own at 80 MHz, the host
-side's model has 32 %, the engine's 29 %, the bus and what ties them together the rest. At
-8, 16 and 80 MHz the engine is evaluated in full 1.7, 1.8 and 1.8 times a bit,
-and 2.4, 2.5 and 2.5 times for what follows from its inputs alone; the host side 75 to 88 times a
-frame and node, 16 of them for accesses. The floor of this way is the sample point, a boundary at
-which the node's level changes and the edge that synchronises, each an evaluation of some 750
-instructions."""
+SHARES = """Of the time of two saturated nodes with clocks of their own at 80 MHz, the host side's
+model takes 34 %, the engine's 24 %, the bus and what ties them together the rest. At 8, 16 and
+80 MHz the engine is evaluated in full 1.4 times a bit, and 2.7, 2.8 and 3.0 times for what follows
+from its inputs alone; the host side 75 to 87 times a frame and node, 16 of them for accesses. The
+floor of this way is the sample point, an evaluation of some 750 instructions."""
 
 
 def benchmarks(results):
