@@ -26,6 +26,7 @@
 #include "Vcan_remote_standard_5___024root.h"
 #include "node/engine_frame.hpp"
 #include "node/remote_node.hpp"
+#include "node/remote_serial.hpp"
 #include "node/split_core.hpp"
 
 namespace vericansim {
@@ -42,7 +43,7 @@ class RemoteNodeOf final : public RemoteNode {
     set(timing);
     core_.engine().can_rx_i = 1;
     top_.eval();
-    set_serial(config.serial);
+    set_serial(root(), config.serial);
     top_.node_i = static_cast<std::uint8_t>(number & config.highest_number());
     reset();
   }
@@ -127,14 +128,6 @@ class RemoteNodeOf final : public RemoteNode {
   }
 
  private:
-  // A netlist has the number that it was synthesised with, which is RemoteConfig's.
-  void set_serial(std::uint32_t serial) {
-    if constexpr (requires { top_.rootp->can_remote__DOT__serial; })
-      root().can_remote__DOT__serial = serial;
-    else if (serial != RemoteConfig{}.serial)
-      throw std::logic_error(name() + " is a netlist, whose serial number cannot be set");
-  }
-
   auto &root() { return *top_.rootp; }
 
   void reset() {

@@ -28,6 +28,7 @@
 #include "Vcan_remote_time_3___024root.h"
 #include "node/model_context.hpp"
 #include "node/model_edge.hpp"
+#include "node/remote_serial.hpp"
 #include "remote/frame_port.hpp"
 
 namespace vericansim {
@@ -38,7 +39,7 @@ class FramePortOf final : public FramePort {
  public:
   FramePortOf(std::uint32_t serial, unsigned number) {
     top_.eval();
-    root().can_remote__DOT__serial = serial;
+    set_serial(root(), serial);
     top_.node_i = static_cast<std::uint8_t>(number);
     reset();
   }
