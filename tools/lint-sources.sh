@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # lint-sources.sh CHECK: one of the checks of all source files that look at nothing but their text:
-# licence_heads, line_length, comments, format. It prints what is wrong; status 1 if something is,
-# or if there are no files to look at.
+# licence_heads, line_length, comments, parameters, format. It prints what is wrong; status 1 if
+# something is, or if there are no files to look at.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 . tools/common.sh
@@ -40,15 +40,23 @@ comments() {
   [ -z "$bad" ] || printf '%s\n' "$bad"
   [ -z "$bad" ]
 }
+# Yosys 0.23 takes '1 as the value of a parameter for 1, whatever the parameter's width.
+parameters() {
+  local files bad
+  files=$(our_files 'rtl/*.sv' 'examples/*.sv') || return 1
+  bad=$(xargs grep -nE "(parameter|localparam)[^=]*=[^,;]*'1|\.[A-Z]\w*\('1\)" <<<"$files")
+  [ -z "$bad" ] || printf '%s\n' "$bad"
+  [ -z "$bad" ]
+}
 format() {
   our_files '*.cpp' '*.hpp' '*.c' '*.h' | xargs -r clang-format --dry-run -Werror
 }
 
 case $1 in
-  licence_heads | line_length | comments | format) "$1" ;;
+  licence_heads | line_length | comments | parameters | format) "$1" ;;
   *)
     echo "lint-sources.sh: no check '$1'; there are licence_heads, line_length, comments," \
-      "format" >&2
+      "parameters, format" >&2
     exit 2
     ;;
 esac

@@ -137,6 +137,7 @@ fi
 check "licence heads" tools/lint-sources.sh licence_heads
 check "lines of at most 100 characters" tools/lint-sources.sh line_length
 check "comments that stand by themselves" tools/lint-sources.sh comments
+check "parameters that every tool reads alike" tools/lint-sources.sh parameters
 check "folders of sim/ include downwards only" tools/layers.py
 check "clang-format" tools/lint-sources.sh format
 finish # clang-tidy takes all cores

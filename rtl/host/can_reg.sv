@@ -11,7 +11,7 @@ module can_reg #(
   parameter logic [31:0] Freeze    = '0,   // bits that can be written in freeze mode
   parameter logic [31:0] Disable   = '0,   // bits that can be written in disable mode
   parameter logic [31:0] WrnEn     = '0,   // bits that can be written with MCR.WRN_EN = 1
-  parameter logic [31:0] Has       = '1,   // bits that this core has
+  parameter logic [31:0] Has       = 32'hFFFF_FFFF,  // bits that this core has
   parameter logic [31:0] Without   = '0,   // value that bits without a flip-flop read
   parameter bit          SoftReset = 1'b0  // 1: a soft reset restores Reset
 ) (

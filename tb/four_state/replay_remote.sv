@@ -39,7 +39,11 @@ module replay;
   reg  [11:0] addr_digits;
   reg  [51:0] trace_digits;
 
+`ifdef NETLIST
+  can_remote dut (
+`else
   can_remote #(`PARAMETERS) dut (
+`endif
     .clk_i(clk), .rst_ni(rst_n), .start_i(start), .node_i(node), .rate_i(4'd0),
     .usr_req_i(req), .usr_we_i(we), .usr_be_i(be), .usr_addr_i(addr), .usr_wdata_i(wdata),
     .usr_ready_o(ready), .usr_rdata_o(rdata), .usr_hold_i(hold), .event_i(events),
@@ -52,7 +56,9 @@ module replay;
 
   // Registers by name: check_registers and check_behind_ram, made by registers.py.
   integer cleared;   // clocks since user logic has had access: the RAM is clear
+`ifdef REGISTERS
 `include "registers.vh"
+`endif
 
   task take_row;
     begin
@@ -81,9 +87,11 @@ module replay;
       // Only where a read ends does its data mean something.
       if (read_ends) check("usr_rdata_o", rdata, want_rdata);
       if (^{ready, written, apply, safe, state, can_tx, trace} === 1'bx) unknown("outputs");
+`ifdef REGISTERS
       if (rst_n) check_registers;
       cleared = rst_n && (cleared > 0 || ready === 1'b1) ? cleared + 1 : 0;
       if (cleared > 4) check_behind_ram;
+`endif
     end
   endtask
 

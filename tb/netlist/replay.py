@@ -6,6 +6,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
+sys.path.append(str(ROOT / "tb/four_state"))
+from devices import DEVICES  # noqa: E402  pylint: disable=wrong-import-position
 
 
 def rtl_files():
@@ -14,9 +16,12 @@ def rtl_files():
     return [str(ROOT / "rtl" / line) for line in lines if line]
 
 
-def netlist_of(kind, num_mb, path):
-    """Writes can_ahb with that many buffers as tools/netlist/KIND.sh makes it."""
-    subprocess.run([ROOT / f"tools/netlist/{kind}.sh", path, "can_ahb", f"NumMb={num_mb}", "--",
+def netlist_of(kind, device, size, path):
+    """Writes a device of tb/four_state as tools/netlist/KIND.sh makes it; `size`: buffers of
+    ahb."""
+    top = DEVICES[device]
+    settings = [f"{name}={value}" for name, value in top.parameters(size).items()]
+    subprocess.run([ROOT / f"tools/netlist/{kind}.sh", path, top.top, *settings, "--",
                     *rtl_files()], check=True, stdin=subprocess.DEVNULL)
 
 

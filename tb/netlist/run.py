@@ -84,7 +84,7 @@ def proofs(kinds, jobs, scratch):
     figures = []
     for kind in kinds:
         netlist = scratch / f"{kind}64.v"
-        netlist_of(kind, 64, netlist)
+        netlist_of(kind, "ahb", 64, netlist)
         modules, faults = equal.compare(netlist, 64, scratch / f"equal.{kind}", jobs)
         print(f"{KINDS[kind]}: {modules - len(faults)} of {modules} modules equal to the RTL in "
               "every state", *faults, sep="\n  ", flush=True)
@@ -100,7 +100,10 @@ REPLAYS = [("RTL", None, "ahb", [16, 64]), ("RTL, profile small", None, "small",
            ("RTL with the time unit", None, "time", [None]),
            ("RTL of the node without a processor", None, "remote", [None]),
            ("RTL of the clock without a processor", None, "follower", [None]),
-           ("generic gates", "gates", "ahb", [16, 64]), ("iCE40 cells", "ice40", "ahb", [16])]
+           ("generic gates", "gates", "ahb", [16, 64]), ("iCE40 cells", "ice40", "ahb", [16]),
+           ("generic gates with the time unit", "gates", "time", [None]),
+           ("generic gates of the node without a processor", "gates", "remote", [None]),
+           ("generic gates of the clock without a processor", "gates", "follower", [None])]
 
 
 def four_states(kinds, jobs, scratch):
@@ -114,8 +117,8 @@ def four_states(kinds, jobs, scratch):
         for size in sizes:
             out, netlist = scratch / f"four_state.{kind}.{device}.{size}.json", None
             if kind:
-                netlist = scratch / f"{kind}{size}.v"
-                netlist_of(kind, size, netlist)
+                netlist = scratch / f"{kind}.{device}.{size}.v"
+                netlist_of(kind, device, size, netlist)
             out.unlink(missing_ok=True)
             status, text = replay([], size, build, netlist, out, jobs, device)
             if not out.exists():

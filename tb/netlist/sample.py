@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """sample.py BUILD: recorded pins on a netlist of gates in Icarus Verilog: no output differs, and
 each module is proven equal to its RTL. The same netlist with one AND turned into an OR must differ
-for both, or they are blind."""
+for both, or they are blind. A netlist with the time unit, too: a proof reads the RTL as synthesis
+does, and what both misread only the pins of the simulated RTL show."""
 import re
 import subprocess
 import sys
@@ -25,7 +26,7 @@ def main():
     build = Path(sys.argv[1])
     with tempfile.TemporaryDirectory() as scratch:
         good, bad = Path(scratch) / "good.v", Path(scratch) / "bad.v"
-        netlist_of("gates", 16, good)
+        netlist_of("gates", "ahb", 16, good)
         status, text = replay(["frames"], 16, build, netlist=good)
         print(text)
         if status:
@@ -41,6 +42,12 @@ def main():
         if modules != 1 or not faults:
             sys.exit("netlist: no proof noticed a wrong gate")
         print("a wrong gate is noticed")
+        timed = Path(scratch) / "time.v"
+        netlist_of("gates", "time", None, timed)
+        status, text = replay(["time_registers"], None, build, netlist=timed, device="time")
+        print(text)
+        if status:
+            sys.exit("netlist: the gates with the time unit do not do what the RTL did")
 
 
 if __name__ == "__main__":

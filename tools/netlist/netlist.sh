@@ -49,7 +49,7 @@ case $kind in
 esac
 
 log=$out.log
-write_out="check -assert; tee -o $out.stat stat; write_verilog -noattr $out"
+write_out="check -assert; tee -o $out.stat stat; write_verilog -noattr -simple-lhs $out"
 yosys -q -l "$log" -p "$read_rtl; ${map//$'\n'/ }; $write_out" >"$out.err" 2>&1 || {
   tail -n 5 "$out.err" >&2
   echo "netlist.sh: yosys failed, see $log" >&2
