@@ -89,9 +89,6 @@ class Ports:
     def host(self, name):
         return f"host.{self.root}{name}_v"
 
-    def pair(self, name):
-        return f"{pin(name)}, {self.host(name)}"
-
     def mask(self, names):
         """PortBlock of those of `names` that are in the block."""
         data = bytes(0xFF if name in names else 0 for name in self.block).ljust(8 * self.words,

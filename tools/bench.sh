@@ -20,7 +20,7 @@ fi
 for program in "${programs[@]}"; do
   name=$(basename "$program")
   echo "Measuring: $name"
-  "$program" --benchmark_repetitions=3 --benchmark_report_aggregates_only=true \
+  "$program" --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
     --benchmark_out="$results/$name.json" --benchmark_out_format=json
 done
 # Real recordings, whole; they are not part of the project and may be absent.
