@@ -5,7 +5,8 @@
 # "make help" lists the targets; "make V=1 ..." shows the build's own output.
 
 PRESET ?= release
-JOBS   ?= 2
+# One for each core; in a job of a cluster two.
+JOBS   ?= $(if $(filter 1,$(SLURM)),2,$(shell n=$$(nproc) && echo $$((n > 64 ? 64 : n))))
 LINUX  ?= build/linux
 PREFIX ?= /usr/local
 BUILD  := build/$(PRESET)
