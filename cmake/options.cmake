@@ -49,6 +49,12 @@ function(verican_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
 endfunction()
 
+# verican_runs_once(SOURCE...): what only reads options and writes results is compiled faster than it
+# is ever run.
+function(verican_runs_once)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O0>")
+endfunction()
+
 # verican_unity(TARGET [FOLDER...]): the sources of one folder are compiled together, eight at a
 # time, because most of a file's time is its headers. So what is local to a file has a name of its
 # own in its folder. Files with settings of their own stay alone, and so do those of the FOLDERs.
