@@ -50,7 +50,7 @@ function(verican_warnings target)
 endfunction()
 
 # verican_runs_once(SOURCE...): what only reads options and writes results is compiled faster than it
-# is ever run.
+# is ever run. Not for what users run: the linker may take a template's code from these files.
 function(verican_runs_once)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O0>")
 endfunction()
