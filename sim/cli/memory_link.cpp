@@ -179,15 +179,17 @@ class SocketcandLink : public MemoryLink {
     return true;
   }
 
-  // The next message; nothing: none in time.
+  // The next message; nothing: none in time, whatever else comes meanwhile. What is there already
+  // is looked at in any case.
   std::optional<std::string> next(std::uint32_t timeout_us) {
-    for (;;) {
-      if (const auto item = splitter_.next()) {
+    const std::uint32_t begin = now_us();
+    for (std::uint32_t passed = 0, looks = 0;; passed = now_us() - begin, ++looks) {
+      while (const auto item = splitter_.next())
         if (item->good) return item->text;
-        continue;
-      }
+      if (looks != 0 && passed >= timeout_us) return std::nullopt;
       pollfd one{fd_, POLLIN, 0};
-      if (::poll(&one, 1, static_cast<int>((timeout_us + 999) / 1000)) <= 0) return std::nullopt;
+      const std::uint32_t left = timeout_us - std::min(passed, timeout_us);
+      if (::poll(&one, 1, static_cast<int>((left + 999) / 1000)) <= 0) return std::nullopt;
       std::array<char, 4096> buffer{};
       const ssize_t n = ::recv(fd_, buffer.data(), buffer.size(), 0);
       gone_ = n <= 0;
