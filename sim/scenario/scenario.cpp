@@ -86,6 +86,8 @@ void parse_host(YamlMap &map, NodeSpec &node) {
   });
   map.with("filters", [&](const YamlValue &v) {
     for (const YamlValue &item : v.items()) host.filters.push_back(parse_filter(item));
+    if (host.filters.empty())
+      v.fail("nothing is in it; allowed: one at least, or no 'filters' for any frame");
   });
 }
 

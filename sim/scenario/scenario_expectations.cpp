@@ -4,6 +4,8 @@
 // Scenario files: expectations.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scenario/bound_scope.hpp"
 #include "scenario/output_pattern.hpp"
 #include "scenario/scenario_parts.hpp"
@@ -72,7 +74,7 @@ void parse_firmware_expectation(YamlMap &map, NodeExpectation &expectation) {
   });
 }
 
-/// `several`: for all nodes; what one of them does not have is left out.
+/// `several`: for all nodes, of which some have all of it; what this one does not have is left out.
 NodeExpectation parse_node_expectation(const YamlValue &value, const Scenario &scenario,
                                        NodeId node, bool several) {
   const NodeSpec &spec = scenario.nodes[node];
@@ -105,9 +107,11 @@ void parse_expected_nodes(const YamlValue &value, const Scenario &scenario, Expe
       expect.nodes.push_back(parse_node_expectation(v, scenario, id, false));
     });
   // `all` stands for every node.
+  const bool some_hosted = std::any_of(scenario.nodes.begin(), scenario.nodes.end(),
+                                       [](const NodeSpec &node) { return node.hosted(); });
   map.with("all", [&](const YamlValue &v) {
     for (NodeId id = 0; id < scenario.nodes.size(); ++id)
-      expect.nodes.push_back(parse_node_expectation(v, scenario, id, true));
+      expect.nodes.push_back(parse_node_expectation(v, scenario, id, some_hosted));
   });
   map.finish();
   map.need_some();

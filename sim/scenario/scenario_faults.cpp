@@ -128,7 +128,11 @@ void parse_noise(YamlMap &map, NoiseConfig &noise, std::uint64_t seed) {
   noise.seed = seed;
   map.with("per_bit", [&](const YamlValue &v) { noise.per_bit = v.number(0, 1); });
   map.with("glitches_per_ms", [&](const YamlValue &v) { noise.per_ns = v.number(0, 1e6) / 1e6; });
-  map.with("glitch", [&](const YamlValue &v) { noise.glitch = v.time(1, kSecond); });
+  map.with("glitch", [&](const YamlValue &v) {
+    noise.glitch = v.time(1, kSecond);
+    if (noise.per_ns == 0)
+      v.fail("is the length of glitches, and there are none; allowed: with 'glitches_per_ms'");
+  });
   map.with("seed", [&](const YamlValue &v) { noise.seed = v.integer(0, 0xFFFFFFFF); });
   if (noise.per_bit == 0 && noise.per_ns == 0)
     map.value().fail(

@@ -54,6 +54,8 @@ IdFilter parse_id_filter(const YamlValue &value) {
 void parse_filters(YamlMap &map, std::vector<IdFilter> &filters) {
   map.with("filter", [&](const YamlValue &v) {
     for (const YamlValue &item : v.items()) filters.push_back(parse_id_filter(item));
+    if (filters.empty())
+      v.fail("nothing is in it; allowed: one at least, or no 'filter' for any frame");
   });
 }
 

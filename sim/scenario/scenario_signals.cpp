@@ -106,7 +106,10 @@ void parse_databases(YamlMap &map, Scenario &scenario) {
   map.with("dbc", [&](const YamlValue &list) {
     const std::filesystem::path folder = std::filesystem::path(list.file()).parent_path();
     std::vector<std::string> files;
-    for (const YamlValue &item : list.items()) files.push_back((folder / item.text()).string());
+    for (const YamlValue &item : list.items()) {
+      if (item.text().empty()) item.refuse("the name of a file");
+      files.push_back((folder / item.text()).string());
+    }
     if (files.empty()) list.fail("no database is given");
     scenario.outputs.database = with_files(nullptr, files);
   });

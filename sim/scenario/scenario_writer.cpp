@@ -170,9 +170,10 @@ std::string fault_line(const Scenario &scenario, const FaultSpec &fault) {
       break;
     case Kind::kNoise:
       text += "noise" + node + window_yaml(fault.window) +
-              fmt::format(", per_bit: {}, glitches_per_ms: {}, glitch: {}, seed: {}",
-                          fault.noise.per_bit, fault.noise.per_ns * 1e6,
-                          exact_time(fault.noise.glitch), fault.noise.seed);
+              fmt::format(", per_bit: {}, seed: {}", fault.noise.per_bit, fault.noise.seed);
+      if (fault.noise.per_ns != 0)
+        text += fmt::format(", glitches_per_ms: {}, glitch: {}", fault.noise.per_ns * 1e6,
+                            exact_time(fault.noise.glitch));
       break;
   }
   if (!fault.name.empty()) text += ", name: " + yaml_text(fault.name);

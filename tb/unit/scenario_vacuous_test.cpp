@@ -57,6 +57,11 @@ INSTANTIATE_TEST_SUITE_P(
         Vacuous{"LoadAboveAll", "expect: {load: {max: 1000}}", "a number from 0 to 100"},
         Vacuous{"TecAboveAll", "expect: {nodes: {a: {max_tec: {max: 300}}}}", "from 0 to 256"},
         Vacuous{"RecAboveAll", "expect: {nodes: {all: {rec: 256}}}", "from 0 to 255"},
+        Vacuous{"NamelessDatabase", "dbc: ''",
+                "s.yaml:2: dbc: '' is not allowed; allowed: the name of a file"},
+        Vacuous{"LengthOfNoGlitches", "faults: [{kind: noise, per_bit: 0.1, glitch: 1 us}]",
+                "faults[0].glitch: is the length of glitches, and there are none; allowed: with "
+                "'glitches_per_ms'"},
         Vacuous{"OverrunsOfARemoteNode", "expect: {nodes: {p: {overruns: 0}}}",
                 "unknown key 'overruns'"},
         Vacuous{"Hits", "faults: [{kind: short, node: a, hits: {}}]",
@@ -106,6 +111,33 @@ TEST(ScenarioNames, NoNodeIsCalledAll) {
             }),
             "s.yaml:3: nodes[1].name: 'all' is not allowed; allowed: other names; 'all' stands for "
             "every node");
+}
+
+// Overruns are known of nodes that the simulation's own software works.
+TEST(VacuousScenario, OverrunsOfAllAreRefusedWhereNobodyCountsThem) {
+  const auto overruns_of_all = [](const std::string &node) {
+    return input_error_of([&] {
+      return parse_scenario("s.yaml", "nodes: [{name: p, type: remote, number: 2}" + node +
+                                          "]\nexpect: {nodes: {all: {overruns: 0}}}\n");
+    });
+  };
+  EXPECT_THAT(overruns_of_all(""),
+              HasSubstr("s.yaml:2: expect.nodes.all: unknown key 'overruns'; allowed: bus_off, "));
+  EXPECT_EQ(overruns_of_all(", {name: a}"), "no error");
+}
+
+// An empty list would be taken for none, which takes any frame.
+TEST(VacuousScenario, EmptyFiltersAreRefused) {
+  const auto with = [](const std::string &keys) {
+    return input_error_of(
+        [&] { return parse_scenario("s.yaml", "nodes:\n  - {name: a, " + keys + "}\n"); });
+  };
+  EXPECT_EQ(with("filters: []"),
+            "s.yaml:2: nodes[0].filters: nothing is in it; allowed: one at least, or no 'filters' "
+            "for any frame");
+  EXPECT_EQ(with("replay: a.log, filter: []"),
+            "s.yaml:2: nodes[0].filter: nothing is in it; allowed: one at least, or no 'filter' "
+            "for any frame");
 }
 
 TEST(VacuousScenario, WhatAsksForSomethingIsTaken) {
