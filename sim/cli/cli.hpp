@@ -51,6 +51,8 @@ inline constexpr std::string Outputs::*kOutputPaths[] = {
 /// Adds an option for each of them; `report_names` are those of the page.
 void add_output_options(CLI::App &command, Outputs &outputs,
                         const std::string &report_names = "--report,--report-page");
+/// Throws InputError if a length is given for a page that is not written.
+void require_page(const Outputs &outputs);
 /// What is given on the command line takes the place of what a scenario says; databases are added
 /// and read. Throws InputError.
 void override_outputs(Outputs &target, const Outputs &given);

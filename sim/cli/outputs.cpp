@@ -59,6 +59,13 @@ void load_databases(Outputs &outputs, const std::vector<std::string> &files) {
       throw InputError(option, 0, "needs a database; allowed: --dbc FILE, dbc in the scenario");
 }
 
+void require_page(const Outputs &outputs) {
+  if (outputs.report.empty() && outputs.report_frames != Outputs{}.report_frames)
+    throw InputError(
+        "--report-frames", 0,
+        "no page is written; allowed: with --report-page, or outputs.report of the scenario");
+}
+
 void override_outputs(Outputs &target, const Outputs &given) {
   for (const auto path : kOutputPaths)
     if (!(given.*path).empty()) target.*path = given.*path;
@@ -66,6 +73,7 @@ void override_outputs(Outputs &target, const Outputs &given) {
   target.ids = given.ids;
   load_databases(target, given.dbc);
   if (given.report_frames != Outputs{}.report_frames) target.report_frames = given.report_frames;
+  require_page(target);
 }
 
 Outputs outputs_for(const Outputs &outputs, double bitrate) {

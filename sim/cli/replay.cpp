@@ -98,6 +98,7 @@ int finish(const ReplayCommand &options, const SelectedLog &selected, Json json,
 int replay_alone(ReplayCommand &options) {
   if (options.bitrate != 0) options.replay.bitrate = options.bitrate;
   load_databases(options.replay.outputs, options.replay.outputs.dbc);
+  require_page(options.replay.outputs);
   std::vector<NamedFile> inputs{{"the log", options.log}};
   add_databases(inputs, options.replay.outputs.database);
   claim_files(inputs, files_of(options.replay.outputs));

@@ -86,6 +86,13 @@ TEST(ReportTool, AnUnwritablePathIsRefusedBeforeTheRun) {
   expect_refused("run examples/two-nodes.yaml --report-frames 0", "report-frames");
 }
 
+TEST(ReportTool, TheLengthOfNoPageIsRefused) {
+  const std::string frames = " --report-frames 5", none = "--report-frames: no page is written; ";
+  expect_refused("run examples/two-nodes.yaml" + frames, none);
+  expect_refused("replay examples/boat.log" + frames, none);
+  expect_refused("replay examples/boat.log --bus examples/two-nodes.yaml" + frames, none);
+}
+
 TEST(ReportTool, InputsThatCannotBeShownAreRefused) {
   expect_refused("report " + report_file(".none.yaml"), "no such file");
   expect_refused("report " + report_file(".none.vcd"), "no such file");
