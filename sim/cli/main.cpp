@@ -40,14 +40,22 @@ void refuse_empty(int argc, char **argv) {
 }
 
 /// CLI11 would say that there is no command at all.
-void refuse_unknown_command(const CLI::App &app, int argc, char **argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
+void refuse_unknown_command(const CLI::App &app, const std::string &word) {
   std::string names;
   for (const CLI::App *command : app.get_subcommands({})) {
-    if (command->get_name() == argv[1]) return;
+    if (command->get_name() == word) return;
     names += (names.empty() ? "" : ", ") + command->get_name();
   }
-  throw InputError("verican", 0, in_quotes(argv[1]) + " is no command; allowed: " + names);
+  throw InputError(app.get_parent() == nullptr ? "verican" : app.get_name(), 0,
+                   in_quotes(word) + " is no command; allowed: " + names);
+}
+
+/// The same of commands that have some of their own, when parsing has failed.
+void refuse_unknown_subcommand(const CLI::App &app) {
+  for (const CLI::App *command : app.get_subcommands())
+    if (!command->get_subcommands({}).empty() && command->get_subcommands().empty() &&
+        !command->remaining().empty())
+      refuse_unknown_command(*command, command->remaining().front());
 }
 
 int run_tool(int argc, char **argv) {
@@ -81,7 +89,7 @@ int run_tool(int argc, char **argv) {
     if (CLI::Option *json = command->get_option_no_throw("--json")) quiet->excludes(json);
   }
   cli::check_numbers(app);
-  refuse_unknown_command(app, argc, argv);
+  if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success &request) {  // --help, --version
@@ -90,6 +98,7 @@ int run_tool(int argc, char **argv) {
     fmt::print("{}", cli::plain_digits(text.str()));
     return cli::kOk;
   } catch (const CLI::ParseError &error) {
+    refuse_unknown_subcommand(app);
     cli::print_error("verican: {}; try 'verican --help'\n",
                      cli::option_message(error.what(), argc, argv));
     return cli::kBadInput;

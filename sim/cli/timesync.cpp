@@ -51,6 +51,8 @@ void refuse_idle(const TimeSyncOptions &options, const SyncCase &setting) {
   if (setting.clocks.sine_period_s != SyncCase{}.clocks.sine_period_s &&
       setting.clocks.sine_ppm == 0)
     refuse("sine-period", "is that of a swing; allowed: with sine above 0");
+  if (setting.master_cut && setting.followers < 2)
+    refuse("master-cut", "leaves nobody to follow; allowed: with 2 followers or more");
   if (setting.load + setting.load_above > 1 + 1e-9)
     refuse(options.values.contains("load") ? "load" : "load-above",
            fmt::format("load and load-above take {} % of the bus; allowed: 100 % together",

@@ -47,6 +47,9 @@ void check(const BitTimingRequest &r) {
   require(
       r.clock_error_ppm >= 0 && r.clock_error_ppm <= 50'000,
       fmt::format("clock error {} ppm is out of range; allowed: 0 to 50000", r.clock_error_ppm));
+  require(r.max_rate_error_ppm >= 0 && r.max_rate_error_ppm <= 1'000'000,
+          fmt::format("largest bit-rate error {} ppm is out of range; allowed: 0 to 1000000",
+                      r.max_rate_error_ppm));
 }
 
 double controller_delay(const BitTimingRequest &r) {

@@ -48,6 +48,9 @@ TEST_F(Tool, HelpAndVersion) {
 TEST_F(Tool, BadOptionsAreRefused) {
   expect_refused("", "subcommand");
   expect_refused("runn", "verican: 'runn' is no command; allowed: run, replay, paper, ");
+  expect_refused("memory --socketcand 1 peek 6",
+                 "verican: memory: 'peek' is no command; allowed: scan, assign, read, ");
+  expect_refused("memory --socketcand 1", "subcommand");
   expect_refused("run", "scenario is required");
   expect_refused("run x.yaml --bitrate 5M", "--bitrate");
   expect_refused("bittime", "--bitrate is required");
@@ -56,6 +59,10 @@ TEST_F(Tool, BadOptionsAreRefused) {
                  "bit rate 5000000 bit/s is out of range; allowed: 1000 to 1000000");
   expect_refused("bittime -b 500k -c 10000M",
                  "clock 10000000000 Hz is out of range; allowed: 1000 to 1000000000");
+  for (const std::string error : {"-1", "2000000"})
+    expect_refused(
+        "bittime -b 500k --max-error " + error,
+        "largest bit-rate error " + error + " ppm is out of range; allowed: 0 to 1000000");
   expect_refused("bittime -b 500k -s 0.3", "sample point 0.3 is out of range; allowed: 0.5 to 0.9");
   expect_refused("bittime -b 999k --max-error 1",
                  "no setting of 8 to 25 quanta gives 999000 bit/s");

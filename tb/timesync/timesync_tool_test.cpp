@@ -116,6 +116,8 @@ TEST_F(TimeSync, BadInput) {
                  "e.yaml: filter: is that of the servo in software");
   expect_refused("--how skip --hardware", "--how skip knows no followers in hardware");
   expect_refused("--how rtl --master-cut", "--how rtl knows no cut master");
+  expect_refused("--master-cut --followers 1",
+                 "--master-cut: leaves nobody to follow; allowed: with 2 followers or more");
   expect_refused("--restless", "--restless: is a setting of followers in hardware");
   expect_refused("--sine-period 20s",
                  "--sine-period: is that of a swing; allowed: with sine above 0");
