@@ -105,8 +105,12 @@ def nanoseconds_of(when):
 
 class AscLines:
     """The lines of an ASC file for python-can, which loses the first line of a file that says
-    nothing of internal events, does not count what it passes over, and takes times since the event
-    before ("timestamps relative") for times since the start."""
+    nothing of internal events, takes any line that it does not know for the end of the header, does
+    not count what it passes over, and takes times since the event before ("timestamps relative")
+    for times since the start."""
+    HEADER = re.compile(r"(date|base)\b")
+    NO_EVENT = re.compile(r"$|//|(date|base|begin|end)\b|(no\s+)?internal\s+events\b|"
+                          r".*start of measurement$")
 
     def __init__(self, data):
         self.lines = as_text(data).splitlines(keepends=True)
@@ -127,9 +131,13 @@ class AscLines:
             if not body and re.match(r"\d|begin", text):
                 body = True
                 yield "no internal events logged\n"
-            if re.match(r"-?\d", text) and not text.endswith("start of measurement"):
+            if not self.NO_EVENT.match(text):
                 self.events += 1
-            yield self.absolute(line)
+            if text.startswith("base") and not re.match(r"base\s+(hex|dec)\b", text):
+                raise BadInput(f"line {self.number}: '{line.strip():.60}'; allowed: base hex, "
+                               f"base dec")
+            if body or self.HEADER.match(text):
+                yield self.absolute(line)
 
     def absolute(self, line):
         """The line with the time since the start."""

@@ -366,6 +366,32 @@ TEST_F(PythonLog, AscDataThatIsNotWhatTheLengthSaysIsRefused) {
   EXPECT_EQ(lines_of(log), "(0000000000.100000000) can0 123#01DE R\n");
 }
 
+// What is no event of a known form is counted, wherever it stands; headlines are no events.
+TEST_F(PythonLog, AscLinesOfNoKnownFormAreCounted) {
+  const std::string frame = "0.100000 1  124  Rx   d 1 33";
+  EXPECT_EQ(parse_log(asc("absolute", {frame}), "a.asc").skipped, 0U);
+  EXPECT_EQ(parse_log("// version 9.0.0\nbase hex\nno internal events logged\n\n" + frame, "a.asc")
+                .skipped,
+            0U);
+  for (const char *line : {"rubbish", "x0.2 1 123 Rx d 1 00", "nan 1 123 Rx d 1 00", "0.2 1  12"}) {
+    const CanLog log = parse_log(asc("absolute", {line, frame}), "a.asc");
+    EXPECT_EQ(log.entries.size(), 1U) << line;
+    EXPECT_EQ(log.skipped, 1U) << line;
+  }
+}
+
+// The base of the numbers, behind headlines that python-can does not know or takes for the last.
+TEST_F(PythonLog, AscHeadlinesInAnyOrder) {
+  const std::string date = "date Fri Mar 8 09:41:17 am 2024\n", event = "0.1 1 291 Rx d 1 10\n";
+  for (const std::string line : {"previous log file: a.asc\n", "internal events logged\n"})
+    EXPECT_THAT(
+        lines_of(parse_log(date + line + "base dec  timestamps absolute\n" + event, "a.asc")),
+        HasSubstr(" can0 123#0A R\n"))
+        << line;
+  EXPECT_THAT(error_of(date + "base oct  timestamps absolute\n" + event),
+              HasSubstr("line 2: 'base oct timestamps absolute'; allowed: base hex, base dec"));
+}
+
 // python-can passes over a line of a time before the start; relative times go on from it.
 TEST_F(PythonLog, AscLinesBeforeTheStartAreCounted) {
   const std::vector<std::string> events{"-0.100000 1  123  Rx   d 2 11 22",
