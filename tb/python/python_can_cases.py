@@ -367,6 +367,16 @@ class PythonCanErrors(unittest.TestCase):
         self.assertTrue(any(m.arbitration_id & 0x40 for m in got))   # CAN_ERR_BUSOFF
         self.assertTrue(any(m.arbitration_id & 0x100 for m in got))  # CAN_ERR_RESTARTED
 
+    def test_settings_of_configuration_files(self):
+        """Texts, of which "false" means off."""
+        self.a.shutdown()
+        with open_bus(self.channel, receive_own_messages="true", restart_ms="0") as own:
+            own.send(message(0x12))
+            self.assertEqual(own.recv(WAIT).arbitration_id, 0x12)
+        with open_bus(self.free, nodes="1", error_frames="False") as alone:
+            alone.send(message(0x12))  # nobody acknowledges: there are errors without end
+            self.assertIsNone(alone.recv(0.1))
+
     def test_what_cannot_be_is_refused(self):
         with self.assertRaisesRegex(can.CanInitializationError, "2 nodes.*taken.*nodes="):
             open_bus(self.channel)
@@ -398,6 +408,10 @@ class PythonCanErrors(unittest.TestCase):
                                ({"restart_ms": -1}, "restart_ms -1: 0 to 1000000000"),
                                ({"restart_ms": 10**400}, "restart_ms 10+: 0 to 1000000000"),
                                ({"nodes": "two"}, "nodes 'two': a whole number"),
+                               ({"nodes": 2.7}, "nodes 2.7: a whole number"),
+                               ({"restart_ms": 0.5}, "restart_ms 0.5: a whole number"),
+                               ({"error_frames": "maybe"}, "error_frames 'maybe': true or false"),
+                               ({"receive_own_messages": 2}, "receive_own_messages 2: true or"),
                                ({"nodes": [2]}, r"nodes \[2\]: a whole number")):
             # Without can.Bus, which looks at the bit rate before the interface does.
             with self.assertRaisesRegex(can.CanInitializationError, text):

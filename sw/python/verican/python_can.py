@@ -24,9 +24,23 @@ STATES = {"active": can.BusState.ACTIVE, "passive": can.BusState.PASSIVE,
 def number(what, value):
     """Configuration files have texts."""
     try:
-        return None if value is None else int(value)
+        whole = None if value is None else int(value)
     except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"{what} {value!r}: a whole number is allowed") from error
+    if isinstance(value, float) and whole != value:
+        raise ValueError(f"{what} {value!r}: a whole number is allowed")
+    return whole
+
+
+def flag(what, value):
+    """The same for what is on or off, of which any text would count as on."""
+    words = {"true": True, "yes": True, "on": True, "1": True,
+             "false": False, "no": False, "off": False, "0": False}
+    if isinstance(value, str):
+        value = words.get(value.lower(), value)
+    if value not in (True, False):
+        raise ValueError(f"{what} {value!r}: true or false is allowed")
+    return bool(value)
 
 
 class VericanBus(can.BusABC):
@@ -55,9 +69,10 @@ class VericanBus(can.BusABC):
         self._inbox = queue.SimpleQueue()
         self._room = threading.BoundedSemaphore(QUEUED)
         self.dropped = 0
-        self._own, self._errors, self._open = receive_own_messages, error_frames, False
-        self.channel = channel
+        self.channel, self._open = channel, False
         try:
+            self._own = flag("receive_own_messages", receive_own_messages)
+            self._errors = flag("error_frames", error_frames)
             self._channel, self.node = open_channel(
                 channel, self._deliver, self._wake, nodes=number("nodes", nodes),
                 bitrate=number("bitrate", bitrate), restart_ms=number("restart_ms", restart_ms),
