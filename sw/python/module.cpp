@@ -53,8 +53,9 @@ std::function<void()> signal_check() {
   };
 }
 
-std::unique_ptr<ProgramBus> make_bus(const std::vector<std::string> &nodes, double bitrate,
-                                     double clock_hz, const std::string &scenario, double restart,
+std::unique_ptr<ProgramBus> make_bus(const std::vector<std::string> &nodes,
+                                     std::optional<double> bitrate, double clock_hz,
+                                     const std::string &scenario, double restart,
                                      const std::string &vcd, const std::string &order) {
   if (order != "program" && order != "identifier")
     throw std::invalid_argument("order '" + order + "': program or identifier");
@@ -67,7 +68,7 @@ std::unique_ptr<ProgramBus> make_bus(const std::vector<std::string> &nodes, doub
     setup.scenario = read_scenario(scenario);
   else
     setup.scenario.file = "nodes";  // whose arguments messages are about
-  setup.bitrate = bitrate != 0 || !scenario.empty() ? bitrate : 500e3;
+  setup.bitrate = bitrate || !scenario.empty() ? bitrate : 500e3;
   setup.nodes = nodes;
   setup.clock_hz = clock_hz;
   setup.restart = to_ps("restart", restart);
@@ -173,8 +174,9 @@ void bind_bus(py::module_ &m) {
   py::class_<ProgramBus>(m, "Bus",
                          "A bus of Verilated controllers. Nothing happens but in step() and "
                          "run_until_quiet(). Not for two threads at once.")
-      .def(py::init(&make_bus), "nodes"_a, py::kw_only(), "bitrate"_a = 0.0, "clock_hz"_a = 8e6,
-           "scenario"_a = "", "restart"_a = 0.0, "vcd"_a = "", "order"_a = "program")
+      .def(py::init(&make_bus), "nodes"_a, py::kw_only(), "bitrate"_a = py::none(),
+           "clock_hz"_a = 8e6, "scenario"_a = "", "restart"_a = 0.0, "vcd"_a = "",
+           "order"_a = "program")
       .def("send", &send, "node"_a, "frame"_a, "Queues a frame.")
       .def("receive", &ProgramBus::receive, "node"_a, "Messages since the last call.")
       .def("pending", &ProgramBus::pending, "node"_a, "Frames that have not left.")

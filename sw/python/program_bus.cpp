@@ -17,8 +17,8 @@
 namespace vericansim {
 namespace {
 
-double chosen_rate(double wanted, const Scenario &scenario) {
-  const double rate = wanted != 0 ? wanted : scenario.bitrates.front();
+double chosen_rate(std::optional<double> wanted, const Scenario &scenario) {
+  const double rate = wanted.value_or(scenario.bitrates.front());
   if (!(rate >= 1e3 && rate <= 1e6))
     throw std::invalid_argument(
         fmt::format("bitrate {:g}: 1000 to 1000000 bit/s are allowed", rate));
@@ -31,6 +31,9 @@ double chosen_rate(double wanted, const Scenario &scenario) {
 
 Scenario ProgramBus::with_nodes(ProgramBusSetup &setup) {
   for (const std::string &name : setup.nodes) {
+    if (name.empty() || name == "all")  // of which disturb() and scenarios mean all nodes
+      throw std::invalid_argument(
+          fmt::format("node name '{}': other names are allowed, of at least one letter", name));
     if (std::count(setup.nodes.begin(), setup.nodes.end(), name) > 1)
       throw std::invalid_argument(fmt::format("node name '{}' is used twice", name));
     const NodeId id = take_node(setup.scenario, name, "the program works", setup.clock_hz);
@@ -161,11 +164,20 @@ Time ProgramBus::end_of(Time duration) {
 }
 
 void ProgramBus::look() {
-  constexpr Time kLook = 4096;  // bits
-  const Time now = simulation_.bus().now();
-  if (!on_look || now < next_look_) return;
-  next_look_ = now + kLook * bit_time_;
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kLook{50};
+  if (!on_look || Clock::now() < next_look_) return;
   on_look();
+  next_look_ = Clock::now() + kLook;
+}
+
+// Whoever wants the end does not wait long for a bus whose bits have many clocks.
+Time ProgramBus::stretch() const {
+  constexpr double kMostClocks = 1e6, kMostBits = 512;
+  double clocks = 0;  // of all nodes in a bit
+  for (const NodeSpec &node : scenario_.nodes)
+    clocks += node.clock.frequency_hz / simulation_.bitrate();
+  return static_cast<Time>(std::clamp(kMostClocks / clocks, 1.0, kMostBits)) * bit_time_;
 }
 
 // All that lets time pass begins here.
@@ -179,11 +191,11 @@ void ProgramBus::exchange() {
 
 // Software of a node holds a few frames: it is given more before it runs dry.
 void ProgramBus::run_until(Time when) {
-  constexpr Time kStretch = 512;  // bits
+  const Time most = stretch();
   Bus &bus = simulation_.bus();
   exchange();
   while (bus.now() < when) {
-    bus.run_until(std::min(when, bus.now() + kStretch * bit_time_));
+    bus.run_until(std::min(when, bus.now() + most));
     simulation_.check();
     for (const Worked &worked : worked_) worked.node->check();
     exchange();

@@ -4,8 +4,10 @@
 // ProgramBus: a simulated bus that one program holds, steps and works node by node.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +20,7 @@ namespace vericansim {
 /// What a program wants to have.
 struct ProgramBusSetup {
   Scenario scenario;               ///< nodes, traffic and faults besides; may be empty
-  double bitrate = 0;              ///< bit/s; 0: the first of the scenario
+  std::optional<double> bitrate;   ///< bit/s; none: the first of the scenario
   std::vector<std::string> nodes;  ///< worked by the program; added where the scenario lacks them
   double clock_hz = 8e6;           ///< of nodes that are added
   Time restart = 0;                ///< simulated time from bus-off to recovery; 0: only restart()
@@ -50,8 +52,8 @@ class ProgramBus : private BusObserver {
   /// Lets a bus-off node recover.
   void restart(const std::string &node);
 
-  /// Called every few thousand bits while time passes; what it throws ends the step there, after
-  /// which the bus can go on.
+  /// Called some twenty times a second of the host while time passes; what it throws ends the step
+  /// there, after which the bus can go on.
   std::function<void()> on_look;
 
   /// Lets simulated time pass.
@@ -114,6 +116,7 @@ class ProgramBus : private BusObserver {
   /// When what begins now and takes `duration` ends, on the bus's own clock.
   [[nodiscard]] Time end_of(Time duration);
   void look();
+  [[nodiscard]] Time stretch() const;
   void run_until(Time when);
   [[nodiscard]] Worked &worked(const std::string &name);
   [[nodiscard]] NodeId id_of(const std::string &name) const;
@@ -124,7 +127,7 @@ class ProgramBus : private BusObserver {
   Scenario scenario_;
   Simulation simulation_;
   Time bit_time_;
-  Time next_look_ = 0;
+  std::chrono::steady_clock::time_point next_look_;
   std::vector<Worked> worked_;
   std::vector<PortNode *> by_id_;
   std::vector<BusFrame> frames_;

@@ -161,13 +161,16 @@ class PythonRefusal(unittest.TestCase):
     def test_nodes_rates_and_times_that_cannot_be(self):
         bus = Bus(["a"])
         self.refused("no node 'x'.*a", lambda: bus.send("x", Frame(1)))
-        self.refused("1000 to 1000000", lambda: Bus(["a"], bitrate=2e6))
+        for rate in (0, 2e6):
+            self.refused("1000 to 1000000", lambda rate=rate: Bus(["a"], bitrate=rate))
         self.refused("flip, dominant or recessive",
                      lambda: bus.disturb("loud", 0, 1))
         self.refused("0 to 1000000 s", lambda: bus.step(seconds=-1))
 
     def test_nodes_that_are_none_or_the_same(self):
         self.refused("no node is given; allowed: 1 to 64", lambda: Bus([]))
+        for name in ("", "all"):  # would stand for all of them
+            self.refused(f"node name '{name}': other names", lambda name=name: Bus([name, "b"]))
         self.refused("node name 'a' is used twice", lambda: Bus(["a", "b", "a"]))
         self.assertEqual(Bus([], scenario={"nodes": [{"name": "x"}]}).nodes, ["x"])
 

@@ -3,6 +3,7 @@
 """Ctrl-C while simulated time passes."""
 import concurrent.futures
 import signal
+import time
 import unittest
 
 from verican import Bus, Frame
@@ -45,6 +46,16 @@ class Interruption(unittest.TestCase):
             self.bus.run_until_quiet(self.LONG)
         self.assertLess(self.bus.now, self.LONG / 2)
         self.assertEqual(self.bus.pending("a"), 1)
+
+    def test_bits_of_many_clocks(self):
+        """4,096 bits take ten seconds of the host here."""
+        self.bus = Bus([f"node{i}" for i in range(32)], bitrate=10e3, clock_hz=64e6)
+        self.bus.disturb("flip", 1e5, 1e-6)
+        begin = time.monotonic()
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        with self.assertRaises(KeyboardInterrupt):
+            self.bus.step(seconds=self.LONG)
+        self.assertLess(time.monotonic() - begin, 4)
 
     def test_other_threads_finish_their_step(self):
         with concurrent.futures.ThreadPoolExecutor(1) as pool:
