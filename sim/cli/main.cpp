@@ -22,6 +22,7 @@
 #include "cli/print_error.hpp"
 #include "trace/input_error.hpp"
 #include "trace/output_error.hpp"
+#include "trace/unfinished_files.hpp"
 #include "version/version.hpp"
 
 namespace {
@@ -122,6 +123,22 @@ void keep_write_errors() {
   for (const int signal : {SIGPIPE, SIGXFSZ}) ::sigaction(signal, &action, nullptr);
 }
 
+/// A signal that ends the process leaves no file behind whose name nobody knows. What is ignored
+/// stays so (nohup), and commands that end cleanly take these signals for themselves.
+void clean_up_behind_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int signal) {
+    remove_unfinished();
+    ::raise(signal);
+  };
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler == SIG_DFL) ::sigaction(signal, &action, nullptr);
+  }
+}
+
 /// Descriptors 0 to 2 that are closed would be given to the files that are opened next, which would
 /// take what is printed. They get what fails as they did.
 void occupy_standard_descriptors() {
@@ -135,6 +152,7 @@ void occupy_standard_descriptors() {
 int main(int argc, char **argv) {
   occupy_standard_descriptors();
   keep_write_errors();
+  clean_up_behind_signals();
   try {
     const int code = run_tool(argc, argv);
     cli::flush_standard_output();

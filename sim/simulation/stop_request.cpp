@@ -11,6 +11,8 @@
 #include <csignal>
 #include <cstddef>
 
+#include "trace/unfinished_files.hpp"
+
 namespace vericansim {
 namespace {
 
@@ -24,7 +26,10 @@ std::array<struct sigaction, kSignals.size()> before;
 unsigned nested = 0;
 
 void handle(int signal) {
-  if (wanted_by != 0) ::_exit(128 + signal);
+  if (wanted_by != 0) {
+    remove_unfinished();
+    ::_exit(128 + signal);
+  }
   wanted_by = signal;
   if (wake_descriptor < 0) return;
   const int kept = errno;

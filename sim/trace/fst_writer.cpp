@@ -11,6 +11,7 @@
 
 #include "trace/fst_files.h"
 #include "trace/output_file.hpp"
+#include "trace/unfinished_files.hpp"
 #include "trace/wave_sink.hpp"
 
 namespace vericansim {
@@ -19,7 +20,10 @@ namespace {
 /// A file that is gone at the end, if nobody took it.
 struct Scratch {
   explicit Scratch(std::string path) : name{std::move(path)} {}
-  ~Scratch() { ::unlink(name.c_str()); }
+  ~Scratch() {
+    ::unlink(name.c_str());
+    forget_unfinished(name);
+  }
   Scratch(const Scratch &) = delete;
   Scratch &operator=(const Scratch &) = delete;
   std::string name;

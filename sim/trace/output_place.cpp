@@ -17,6 +17,7 @@
 
 #include "trace/output_file.hpp"
 #include "trace/temporary_folder.hpp"
+#include "trace/unfinished_files.hpp"
 
 namespace vericansim {
 namespace {
@@ -45,6 +46,7 @@ OwnFile own_file(const fs::path &folder) {
     file.descriptor = ::open(file.name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
     if (file.descriptor >= 0 || errno != EEXIST) break;
   }
+  if (file.descriptor >= 0) note_unfinished(file.name);
   return file;
 }
 
@@ -86,7 +88,9 @@ OutputPlace::OutputPlace(const std::string &path) : path_{path}, target_{behind_
 }
 
 OutputPlace::~OutputPlace() {
-  if (!aside_.empty()) ::unlink(aside_.c_str());
+  if (aside_.empty()) return;
+  ::unlink(aside_.c_str());
+  forget_unfinished(aside_);
 }
 
 void OutputPlace::open_directly() {
@@ -118,6 +122,7 @@ void OutputPlace::replace(const std::string &scratch) {
 void OutputPlace::rename() {
   if (direct()) return;
   if (::rename(aside_.c_str(), target_.c_str()) != 0) throw OutputError(path_, kCannotPlace, errno);
+  forget_unfinished(aside_);
   aside_.clear();
 }
 

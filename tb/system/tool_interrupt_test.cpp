@@ -190,12 +190,30 @@ TEST_F(ToolInterrupt, ThePaperStopsBehindAnExperiment) {
 TEST_F(ToolInterrupt, TheSecondSignalEndsAtOnce) {
   const std::string scenario = long_scenario();
   ASSERT_EQ(::mkfifo(in("pipe").c_str(), 0600), 0);
-  RunningTool tool{{"run", scenario, "--candump", in("bus.log"), "--report", in("pipe")}};
-  ASSERT_TRUE(tool.wait_until([&] { return writes(2); }));
+  RunningTool tool{{"run", scenario, "--candump", in("bus.log"), "--fst", in("bus.fst"), "--report",
+                    in("pipe")}};
+  ASSERT_TRUE(tool.wait_until([&] { return files() >= 2 + 3; }));  // that of FST has two
   tool.signal(SIGINT);
   tool.signal(SIGTERM);
   const int code = tool.wait().code;
   EXPECT_TRUE(code == 143 || code == 130) << code;  // two that come together may swap
+  EXPECT_EQ(files(), 2U);
+}
+
+// Commands that do not end cleanly leave none of their files either.
+TEST_F(ToolInterrupt, NothingUnfinishedStays) {
+  const std::string wave = file_with("a.vcd",
+                                     "$timescale 1 us $end\n$var wire 1 ! can $end\n"
+                                     "$enddefinitions $end\n#0\n1!\n#100\n0!\n#110\n1!\n");
+  ASSERT_EQ(::mkfifo(in("pipe").c_str(), 0600), 0);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    RunningTool tool{
+        {"decode", wave, "-b", "100k", "--candump", in("bus.log"), "--pcap", in("pipe")}};
+    ASSERT_TRUE(tool.wait_until([&] { return writes(2); }));
+    tool.signal(signal);
+    EXPECT_EQ(tool.wait().code, -1);  // by the signal, as a shell wants to see it
+    EXPECT_EQ(files(), 2U);
+  }
 }
 
 }  // namespace
