@@ -11,7 +11,8 @@
 
 namespace vericansim {
 
-/// Remote nodes that share a number or a serial number (RN-11), a line each.
+/// Remote nodes that share a number or a serial number (RN-11), and filters that do not stay what
+/// they are, a line each.
 [[nodiscard]] std::vector<std::string> warnings_of(const Scenario &scenario);
 
 }  // namespace vericansim

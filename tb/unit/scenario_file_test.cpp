@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_warnings.hpp"
 #include "simulation/expectations.hpp"
 #include "simulation/node_timing.hpp"
 #include "trace/input_error.hpp"
@@ -16,7 +17,9 @@
 namespace vericansim {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 TEST(Quantity, NumbersWithUnits) {
   EXPECT_EQ(parse_frequency("8 MHz"), 8e6);
@@ -103,6 +106,19 @@ expect:
   response_times: {m: 2 ms}
 outputs: {vcd: a.vcd}
 )";
+
+// What is received replaces the identifier in its buffer (flexcan.md 3.5).
+TEST(ScenarioFile, FiltersThatDoNotStayAreWarnedOf) {
+  const auto warnings = [](const std::string &keys) {
+    return warnings_of(parse_scenario(
+        "s.yaml", "nodes: [{name: a, filters: [{id: 1}, {id: 2, extended: true" + keys + "}]}]\n"));
+  };
+  EXPECT_THAT(warnings(", match_format: false"),
+              ElementsAre("filters[1] of 'a' may take other frames behind its first base frame, "
+                          "which has none of the last 18 bits of 'mask'"));
+  EXPECT_THAT(warnings(""), IsEmpty());
+  EXPECT_THAT(warnings(", match_format: false, mask: 0x1FFC0000"), IsEmpty());
+}
 
 TEST(ScenarioFile, EveryKeyIsUnderstood) {
   const Scenario s = parse_scenario("s.yaml", kGood);
