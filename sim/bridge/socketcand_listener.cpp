@@ -51,6 +51,7 @@ std::uint16_t port_of(int fd) {
 
 SocketcandAddress SocketcandAddress::parse(const std::string &option, const std::string &text) {
   SocketcandAddress address;
+  address.option = option;
   std::string port = text;
   if (const auto colon = text.rfind(':'); colon != std::string::npos) {
     port = text.substr(colon + 1);

@@ -13,6 +13,8 @@ namespace vericansim {
 struct SocketcandAddress {
   std::string host = "127.0.0.1";  ///< address or name; IPv6 without brackets
   std::uint16_t port = 29536;      ///< 0: any free one
+  /// Where it was given, for messages: an option, or the place of a key in a file.
+  std::string option = "--socketcand";
 
   /// "[ADDRESS:]PORT": "29536", "127.0.0.1:0", "[::1]:29536", "localhost:29536". InputError that
   /// names `option` if it is anything else.

@@ -75,7 +75,7 @@ class SocketcandServer::Bus : public CanPort {
 
 SocketcandServer::SocketcandServer(const SocketcandAddress &address, std::vector<std::string> buses,
                                    const SocketcandLimits &limits)
-    : listener_{"--socketcand", address},
+    : listener_{address.option, address},
       timer_{::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)} {
   check_names(buses);
   shared_.buses = std::move(buses);

@@ -8,10 +8,12 @@ VERICAN_BINARY=build/release/verican python3 -m unittest socketcand_cases.Traffi
 
 import logging
 import os
+import pathlib
 import random
 import signal
 import socket
 import subprocess
+import tempfile
 import threading
 import unittest
 
@@ -360,6 +362,14 @@ traffic: [{node: node, id: 0x123, data: counter, period: saturated}]
         for options, text in cases:
             with self.subTest(options=options):
                 self.refused([os.environ["VERICAN_BINARY"]], options, text)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "bus.yaml"
+            path.write_text(f"nodes:\n  - {{name: a, socketcand: '{in_use}'}}\n", encoding="ascii")
+            done = subprocess.run([os.environ["VERICAN_BINARY"], "run", path], text=True,
+                                  capture_output=True, timeout=PATIENCE, check=False)
+        self.assertEqual((done.returncode, done.stderr), (
+            2, f"verican: {path}:2: socketcand: cannot listen on {in_use}: Address already in "
+               f"use\n"))
         taken.close()
 
     def test_port_that_is_not_permitted(self):
