@@ -97,6 +97,7 @@ SignalExpectation parse_expected_signal(const YamlValue &value, const std::strin
   range("first", expectation.first);
   range("last", expectation.last);
   map.finish();
+  map.need_some();
   return expectation;
 }
 

@@ -57,6 +57,10 @@ class Signals(ToolCase):
             with self.subTest(new):
                 self.assertIn(said, self.passes("run", self.scenario(old, new), code=1))
 
+    def test_an_expectation_of_nothing_is_refused(self):
+        self.assertIn("expect.signals.Dashboard.FuelLevel: nothing is in it; allowed: count, first",
+                      self.refused("run", self.scenario("{last: 62.5}", "{}")))
+
     def wide_scenario(self, expected):
         """A frame with an integer and a frame with a float, both of 64 bits, and a float that is
         none: what is expected of them."""
