@@ -149,6 +149,9 @@ int run_sweep(const TimeSyncOptions &options, const SyncWay &way) {
     return counts_in_sweep(name) ? nullptr
                                  : "is set by the rows of the sweep; allowed: without sweep";
   });
+  if (base.followers < 2)
+    refuse_setting(options, "followers",
+                   "leaves nobody to follow where the sweep cuts the master; allowed: 2 or more");
   bool ok = true;
   Json tables = Json::array();
   if (!options.json) {

@@ -118,6 +118,7 @@ TEST_F(TimeSync, BadInput) {
   expect_refused("--how rtl --master-cut", "--how rtl knows no cut master");
   expect_refused("--master-cut --followers 1",
                  "--master-cut: leaves nobody to follow; allowed: with 2 followers or more");
+  expect_refused("--sweep --followers 1", "--followers: leaves nobody to follow where the sweep");
   expect_refused("--restless", "--restless: is a setting of followers in hardware");
   expect_refused("--sine-period 20s",
                  "--sine-period: is that of a swing; allowed: with sine above 0");
