@@ -80,6 +80,7 @@ module can_mb_tx #(
   // more for the winner. own_q: best_val_q is the winner's. any_q: the ESR2 pass has seen an active
   // buffer.
   logic            ins_q, ins_new, new_first, others_q, retry_q, retry_gnt, ans_q, ans_gnt;
+  logic            freed_q;
   logic            ins_want;
   logic [2:0]      retry_on_q;
   logic            reload, lost, found, scan_q, look_q, quiet_q, own_q, again_q, spoilt, last;
@@ -91,19 +92,20 @@ module can_mb_tx #(
   logic            s1_q, s1_look_q, s1_last_q, s2_q, s2_last_q, s3_q, s3_last_q, s3_end;
   logic            s1_reload_q, best_q, any_q, s1_part;
   logic            look2_q, reload2_q, active2_q, free2_q, less_q;
-  logic [IdxW-1:0] s1_idx_q, idx2_q, ans_idx_q;
+  logic [IdxW-1:0] s1_idx_q, idx2_q, ans_idx_q, held_idx_q;
   logic [34:0]     val2_q, best_val_q;
 
   // Insertions: a C/S write comes first, but in turn with the others, of which a retry comes before
-  // an answer. If the winner's value is not in best_val_q, the winner is read before all of them. A
-  // C/S write that waits while another one is done is lost, so a pass follows (lost).
+  // an answer, and that before a released buffer (freed_q). If the winner's value is not in
+  // best_val_q, the winner is read before all of them. A C/S write that waits while another one is
+  // done is lost, so a pass follows (lost).
   assign ins_new    = ins_q || (cs_written_i && cs_written_act_i);
-  assign new_first  = ins_new && !(others_q && (retry_q || ans_q));
-  assign ins_want   = running_i && (ins_new || retry_q || ans_q);
+  assign new_first  = ins_new && !(others_q && (retry_q || ans_q || freed_q));
+  assign ins_want   = running_i && (ins_new || retry_q || ans_q || freed_q);
   assign ins_req_o  = ins_want && !s1_q;
   assign reload     = best_q && !own_q;
   assign ins_idx_o  = reload ? best_idx_o : new_first ? cs_written_idx_i
-                    : retry_q ? cur_idx_i : ans_idx_q;
+                    : retry_q ? cur_idx_i : ans_q ? ans_idx_q : held_idx_q;
   assign retry_gnt  = ins_gnt_i && !reload && !new_first;
   assign ans_gnt    = retry_gnt && !retry_q;
   assign lost       = ins_q && cs_written_i;
@@ -149,23 +151,24 @@ module can_mb_tx #(
   logic candidate, withdrawn;
   assign candidate = s3_q && active2_q && !written2
                   && !(off_i && idx2_q == cur_idx_i);
-  // Launch time (TM-40): a buffer that is released is inserted as if it were written (freed). A
-  // winner that is held from now on is withdrawn, because the runner-up is not known (set_aside).
-  logic            held_q, held2, best_held, freed, set_aside;
-  logic [IdxW-1:0] held_idx_q;
+  // Launch time (TM-40): a buffer that is released is inserted as if it were written (freed). If
+  // TTXMB names another one before that is done (renamed), a pass finds it. A winner that is held
+  // from now on is withdrawn, because the runner-up is not known (set_aside).
+  logic held_q, held2, best_held, freed, renamed, set_aside;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {held_q, held_idx_q} <= '0;
     else         {held_q, held_idx_q} <= {held_i, held_idx_i};
   end
   assign held2   = held_i && idx2_q == held_idx_i;
   assign best_held = held_i && best_idx_o == held_idx_i;
-  assign freed     = held_q && !(held_i && held_idx_q == held_idx_i);
-  assign set_aside = held_i && !(held_q && held_idx_q == held_idx_i) && best_idx_o == held_idx_i;
-  // The winner was rewritten, has started, is not active or is held now. Or a released buffer
-  // cannot be inserted because an answer is: a pass finds it.
+  assign renamed   = held_idx_q != held_idx_i;
+  assign freed     = held_q && (!held_i || renamed);
+  assign set_aside = held_i && (!held_q || renamed) && best_idx_o == held_idx_i;
+  // The winner was rewritten, has started, is not active or is held now, or a released buffer
+  // cannot be inserted.
   assign withdrawn   = best_q && ((cs_written_i && cs_written_idx_i == best_idx_o)
                           || ((start_i || off_i) && cur_idx_i == best_idx_o) || inactive_i
-                          || set_aside || (freed && (ans_i || ans_q)));
+                          || set_aside || ((freed || freed_q) && renamed));
   // The comparison is long, so it has a clock of its own and two halves side by side.
   logic high_less, high_equal, low_less;
   assign high_less  = val2_q[34:17] < best_val_q[34:17];
@@ -243,11 +246,13 @@ module can_mb_tx #(
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)   {ans_q, ans_idx_q} <= '0;
+    if (!rst_ni) {ans_q, ans_idx_q, freed_q} <= '0;
     else begin
-      ans_q <= running_i && (ans_i || freed || (ans_q && !ans_gnt));
-      if (ans_i)                ans_idx_q <= ans_idx_i;
-      else if (freed && !ans_q) ans_idx_q <= held_idx_q;
+      ans_q <= running_i && (ans_i || (ans_q && !ans_gnt));
+      if (ans_i) ans_idx_q <= ans_idx_i;
+      // Written so that synthesis sees that it stays 0 without the time unit.
+      if (freed && !renamed && running_i)                    freed_q <= 1'b1;
+      else if (!running_i || renamed || (ans_gnt && !ans_q)) freed_q <= 1'b0;
     end
   end
 

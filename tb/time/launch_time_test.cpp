@@ -105,6 +105,43 @@ TEST_F(LaunchTime, OrdinaryAfterwards) {
   }
 }
 
+// TM-43: a remote frame is on the bus at T0. While the buffer that answers it becomes one that is
+// to be sent, the one that is released comes to the others, too, and goes first.
+TEST_F(LaunchTime, ReleasedWhileAnAnswerComes) {
+  Frame request = frame_of(0x7F0);
+  request.remote = true;
+  request.dlc = 0;
+  for (int clocks = -16; clocks <= 4; ++clocks) {
+    // Once to see when the remote frame becomes valid, once with T0 there.
+    std::uint64_t valid = 0;
+    for (const bool rehearsal : {true, false}) {
+      rig_.put(0, 7, mb_words(frame_of(0x7F0), 0xA));
+      rig_.run(300);
+      const std::size_t frames = time_.node(0).valids().size();
+      const std::uint64_t begin = time_.node(0).edges();
+      const std::uint64_t t0 = rehearsal ? begin + 5000 : begin + valid + clocks;
+      rig_.put_tx(1, 8, request);
+      rig_.write(0, kTtx, static_cast<std::uint32_t>(t0 * kTimeStep));
+      rig_.write(0, kTtxmb, kHold | 3);
+      rig_.run(60);
+      rig_.put_tx(0, 3, frame_of(0x020));
+      rig_.put_tx(0, 2, frame_of(0x400));
+      if (rehearsal) {
+        ASSERT_TRUE(rig_.wait_flag(1, 8));
+        valid = time_.node(0).valids().at(frames) - begin;
+        rig_.write(0, kTtxmb, 3);
+      } else {
+        ASSERT_TRUE(rig_.wait_flag(0, 3)) << clocks;
+        EXPECT_EQ(rig_.flags(0) & 4u, 0u) << clocks << " clocks from EOF6";
+      }
+      for (const unsigned mb : {2u, 3u, 7u}) ASSERT_TRUE(rig_.wait_flag(0, mb)) << mb;
+      for (const unsigned mb : {2u, 3u, 7u}) rig_.clear_flag(0, mb);
+      rig_.clear_flag(1, 8);
+      rig_.write(0, kTstat, kTxrel);
+    }
+  }
+}
+
 // TM-41: a buffer that is held only when it waits already gives way from then on.
 TEST_F(LaunchTime, HeldLater) {
   rig_.put_tx(1, 8, frame_of(0x005));  // on the bus meanwhile

@@ -277,6 +277,70 @@ TEST_P(MbTx, RetriesAndAnswersHaveTheirTurnsBesideWrites) {  // FX-3.3.f
   }
 }
 
+// TM-40: a released buffer is an ordinary one. Neither it nor the answer that comes before it has
+// had its slot is passed over.
+TEST_P(MbTx, AnswerInEveryClockBehindARelease) {  // TM-40, flexcan.md 3.7
+  for (const bool better : {false, true}) {
+    for (unsigned behind = 0; behind < 12; ++behind) {
+      SCOPED_TRACE(testing::Message() << behind << " clocks behind the release");
+      top_.running_i = 0;
+      buffers_ = {};
+      buffers_[1] = {kActive << 24, 0x020u << 18};
+      buffers_[2] = {kActive << 24, 0x400u << 18};
+      const unsigned answer = better ? 0 : 7;
+      buffers_[answer] = {0xAu << 24, (better ? 0x010u : 0x7F0u) << 18};
+      top_.held_i = 1;
+      top_.held_idx_i = 1;
+      clock({}, 0, 100);
+      top_.running_i = 1;
+      settle();
+      ASSERT_TRUE(top_.settled_o != 0 && top_.best_idx_o == 2);
+      for (unsigned i = 0; i <= behind; ++i) {
+        top_.held_i = 0;
+        if (i == behind) {
+          buffers_[answer].cs = kAnswer << 24;
+          top_.ans_i = 1;
+          top_.ans_idx_i = answer;
+        }
+        clock({}, 0, 100);
+        top_.ans_i = 0;
+        top_.ans_idx_i = 0;
+      }
+      settle();
+      check();
+    }
+  }
+}
+
+// TM-40: nor is it when TTXMB names another buffer, in any clock from the release on.
+TEST_P(MbTx, AnotherNameInEveryClockBehindARelease) {  // TM-40
+  for (const bool held : {false, true}) {
+    for (unsigned behind = 0; behind < 12; ++behind) {
+      SCOPED_TRACE(testing::Message() << behind << " clocks behind the release");
+      top_.running_i = 0;
+      buffers_ = {};
+      buffers_[1] = {kActive << 24, 0x020u << 18};
+      buffers_[2] = {kActive << 24, 0x400u << 18};
+      top_.held_i = 1;
+      top_.held_idx_i = 1;
+      clock({}, 0, 100);
+      top_.running_i = 1;
+      settle();
+      ASSERT_TRUE(top_.settled_o != 0 && top_.best_idx_o == 2);
+      for (unsigned i = 0; i <= behind; ++i) {
+        top_.held_i = 0;
+        if (i == behind) {
+          top_.held_idx_i = 9;  // an inactive one
+          top_.held_i = held;
+        }
+        clock({}, 0, 100);
+      }
+      settle();
+      check();
+    }
+  }
+}
+
 // Read slots are for others: an answer or a retry waits, also behind a buffer that the CPU has
 // written.
 TEST_P(MbTx, AnswersAndRetriesWaitForTheirSlot) {  // flexcan.md 3.7
