@@ -191,6 +191,7 @@ module can_mailbox #(
     .lock_i(lock), .lock_idx_i(lock_idx), .waits_i(mv_waits), .waits_idx_i(mv_waits_idx),
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
     .cs_written_empty_i(cs_written_empty), .cs_written_ide_i(cs_written_ide),
+    .wr_i(wr && !wr_done), .wr_idx_i(cpu_idx),
     .req_o(rx_req), .idx_o(rx_idx), .word_o(rx_word), .cs_o(rx_cs),
     .mask_row_o(rx_mask_row), .gnt_i(rx_gnt),
     .stale_i(stale || id_stale), .cs_i(cs), .msg_i(msg), .mask_i(mask),

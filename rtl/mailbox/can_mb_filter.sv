@@ -26,6 +26,9 @@ module can_mb_filter #(
   input  logic [28:0]     id_i,
   input  logic            ide_i,
   input  logic            rtr_i,
+  // CPU access, see can_mb_port.
+  input  logic            wr_i,         // 1 in the first clock of a write to row wr_idx_i
+  input  logic [IdxW-1:0] wr_idx_i,
   // Read slots (can_mb_step).
   output logic            req_o,        // 1: a read slot is wanted
   output logic [IdxW-1:0] idx_o,        // buffer in whose row the word lies
@@ -41,7 +44,7 @@ module can_mb_filter #(
 );
   // k_q: number of the word; own_q: its mask is RXIMR of the same number, otherwise RXFGMASK.
   logic [6:0] k_q, k_next, s1_k_q, s2_k_q;
-  logic       own_q, scan_q, last;
+  logic       own_q, scan_q, wait_q, last;
   // Stage 1: the word is on the RAM outputs. Stage 2: its bytes have been compared.
   logic       s1_q, s2_q;
   logic [3:0] s2_equal_q;
@@ -51,8 +54,15 @@ module can_mb_filter #(
                             : (IdxW+1)'(NumMb) | (IdxW+1)'(can_mb_pkg::RowRxfgmask);
   assign k_next     = k_q + 1'b1;
   assign last       = k_q[2:0] == '1 && (k_q[6:3] == rffn_i || idx_o == IdxW'(NumMb - 1));
-  assign req_o      = scan_q;
+  assign req_o      = scan_q && !wait_q;
   assign busy_o     = scan_q || s1_q || s2_q;
+
+  // A row that the CPU writes is not read in that clock. In the one before, the CPU reads: no slot is
+  // granted, and idx_o changes with start_i only.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) wait_q <= 1'b0;
+    else         wait_q <= wr_i && (start_i || wr_idx_i == idx_o);
+  end
 
   // key: what the word is compared with; care: the bits that count. Of a base identifier only 11
   // bits count; format C has the upper eight of either kind, without REM and EXT.

@@ -49,6 +49,9 @@ module can_mb_match #(
   input  logic [IdxW-1:0] cs_written_idx_i,
   input  logic            cs_written_empty_i,  // 1: whole word written, with code EMPTY
   input  logic            cs_written_ide_i,  // IDE that was written
+  // CPU access, see can_mb_port.
+  input  logic            wr_i,         // 1 in the first clock of a write to row wr_idx_i
+  input  logic [IdxW-1:0] wr_idx_i,
   // Read slots (can_mb_step).
   output logic            req_o,        // 1: a read slot is wanted
   output logic [IdxW-1:0] idx_o,        // row that is wanted: a buffer, or a global mask
@@ -103,7 +106,7 @@ module can_mb_match #(
   if (Fifo != 0) begin : gen_fifo
     can_mb_filter #(.NumMb(NumMb)) u_filter (
       .clk_i, .rst_ni, .clear_i, .bcc_i, .idam_i, .rffn_i, .first_i,
-      .start_i(rx_hdr_i && fen_i), .id_i(id), .ide_i(ide), .rtr_i(rtr),
+      .start_i(rx_hdr_i && fen_i), .id_i(id), .ide_i(ide), .rtr_i(rtr), .wr_i, .wr_idx_i,
       .req_o(flt_req), .idx_o(flt_idx), .word_o(flt_word), .mask_row_o(flt_mask_row),
       .gnt_i(gnt && flt_busy), .data_i, .mask_i(mask),
       .busy_o(flt_busy), .hit_o(flt_hit), .idhit_o(idhit));
@@ -119,7 +122,7 @@ module can_mb_match #(
     logic unused;
     assign unused = &{1'b0, fen_i, idam_i, rffn_i, mrp_i, id, ide, rtr, mb_free, resolve_i,
                       stored_i, fifo_in_flight_i, pop_i, flt_mask_row, flt_hit, idhit, mask,
-                      data_i};
+                      data_i, wr_i, wr_idx_i};
   end
 
   // Mask of a mailbox: its RXIMR if BCC = 1, otherwise RXGMASK, RX14MASK or RX15MASK. The search
