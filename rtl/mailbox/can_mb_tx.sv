@@ -76,12 +76,12 @@ module can_mb_tx #(
 );
   localparam logic [1:0] MaxSpoils = 2'd3;
 
-  // Passes wanted: scan_q for the winner, look_q for ESR2, quiet_q against upsets. again_q: one
-  // more for the winner. own_q: best_val_q is the winner's. any_q: the ESR2 pass has seen an active
+  // Passes wanted: scan_q for the winner, look_q for ESR2, quiet_q against upsets. open_q: buffers
+  // that have stood for long may beat the winner, which the pass has to find out. again_q: one more
+  // for the winner. own_q: best_val_q is the winner's. any_q: the ESR2 pass has seen an active
   // buffer.
   logic            ins_q, ins_new, new_first, others_q, retry_q, retry_gnt, ans_q, ans_gnt;
-  logic            freed_q;
-  logic            ins_want;
+  logic            freed_q, ins_want, open_q;
   logic [2:0]      retry_on_q;
   logic            reload, lost, found, scan_q, look_q, quiet_q, own_q, again_q, spoilt, last;
   logic            change, redo, restart_q;
@@ -114,7 +114,7 @@ module can_mb_tx #(
                    && !s1_q && !s2_last_q && !s3_last_q;
   assign scan_lazy_o = !scan_q;
   assign spoilt     = spoils_q == MaxSpoils;
-  assign settled_o  = best_q && (!scan_q || spoilt);
+  assign settled_o  = best_q && (!scan_q || !open_q || spoilt);
   assign last       = scan_idx_o == IdxW'(NumMb - 1) || 7'(scan_idx_o) == maxmb_i;
   assign s1_part    = 7'(s1_idx_q) >= first_i && 7'(s1_idx_q) <= maxmb_i
                    && !stale_i && !(cs_written_i && cs_written_idx_i == s1_idx_q);
@@ -260,12 +260,12 @@ module can_mb_tx #(
     if (!rst_ni) begin
       {ins_q, others_q, retry_q, retry_on_q, again_q, spoils_q} <= '0;
       {s1_q, s1_look_q, s1_reload_q, s1_last_q, s2_q, s2_last_q, s3_q, s3_last_q} <= '0;
-      scan_q <= 1'b1;
+      {scan_q, open_q} <= '1;
       {scan_idx_o, s1_idx_q} <= '0;
     end else if (!running_i) begin
       {ins_q, others_q, retry_q, retry_on_q, again_q, spoils_q} <= '0;
       {s1_q, s1_look_q, s1_reload_q, s1_last_q, s2_q, s2_last_q, s3_q, s3_last_q} <= '0;
-      scan_q     <= 1'b1;
+      {scan_q, open_q} <= '1;
       scan_idx_o <= '0;
     end else begin
       ins_q     <= ins_new && !(ins_gnt_i && !reload && new_first);
@@ -285,13 +285,15 @@ module can_mb_tx #(
       if (s3_end) begin                 // every buffer has been looked at
         scan_q     <= again_q || redo || found;
         again_q    <= 1'b0;
-        if (!again_q && !redo) spoils_q <= '0;
+        if (!again_q && !redo) {spoils_q, open_q} <= '0;
         scan_idx_o <= '0;
       end else if (redo || found) begin
         scan_q  <= 1'b1;
         again_q <= spoilt;
       end
       if (redo && scan_q && !spoilt) spoils_q <= spoils_q + 1'b1;
+      // An insertion that is lost leaves a winner that has been compared with all others what it is.
+      if (withdrawn || ((lost || found) && !best_q)) open_q <= 1'b1;
       if (restart_q) begin
         scan_idx_o <= '0;
         {s1_last_q, s2_last_q, s3_last_q} <= '0;

@@ -142,5 +142,42 @@ std::vector<Parameter> combinations() {
 
 INSTANTIATE_TEST_SUITE_P(All, SendRace, ::testing::ValuesIn(combinations()), race_name);
 
+// FX-3.3.f, FX-3.3.g: a buffer is written anew while its frame is on the bus, and is the best of
+// those that wait when that frame ends. C/S words of another, written in a row at every clock
+// around the end, do not let a worse one go first, nor does it miss its start.
+TEST(SendRaceOfOthers, EveryClockOfTheEnd) {
+  constexpr Frame kWorst{.id = 0x500, .dlc = 0};
+  for (const bool retry : {false, true}) {
+    BufferRig rig{{.num_mb = 16, .maxmb = 15}};
+    rig.go();
+    std::uint64_t length = 0;  // from the start of the frame to EOF7, or to its error
+    for (int offset = -40; offset <= 8 && !::testing::Test::HasFailure(); ++offset) {
+      SCOPED_TRACE(testing::Message() << "clock " << offset << (retry ? " from the error" : ""));
+      std::uint64_t frames = rig.frames_started();
+      rig.put_tx(kMb, kMine);
+      ASSERT_TRUE(rig.run_until([&] { return rig.frames_started() > frames; }, 600));
+      rig.put_tx(kOtherMb, kOther);
+      if (retry)
+        rig.disturb(30);
+      else
+        rig.put_tx(kMb, kNew);
+      for (unsigned i = 0; i < 3 && length != 0; ++i) {
+        const MbWords words = mb_words(kWorst, i == 1 ? kTxInactive : kTxActive);
+        rig.at(rig.start_clock() + length + offset,
+               {.address = reg::mb(kOtherMb + 1), .write = true, .data = words.cs});
+      }
+      rig.write(reg::mb(kOtherMb + 1, 1), kWorst.id << 18);
+      rig.run_until([&] { return rig.end_clock() > rig.start_clock(); }, 1000);
+      if (length == 0) {
+        length = rig.end_clock() - rig.start_clock();
+        offset = -41;
+      }
+      rig.quiet();
+      rig.compare();
+      rig.write(reg::kIflag1, 0xFFFF);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vericansim

@@ -341,6 +341,36 @@ TEST_P(MbTx, AnotherNameInEveryClockBehindARelease) {  // TM-40
   }
 }
 
+// Writes of C/S words that follow an activation too fast for its comparison, as in the drivers'
+// workaround of ERR005829, leave the winner what it is: it has been compared with all others.
+TEST_P(MbTx, WritesInARowDoNotUnsettleTheWinner) {  // FX-9.ERR005829, FX-3.3.g
+  for (const bool inactive : {true, false}) {
+    for (unsigned pause = 0; pause < 6; ++pause) {
+      top_.running_i = 0;
+      buffers_ = {};
+      buffers_[2] = {kActive << 24, 0x100u << 18};
+      buffers_[7].id = 0x300u << 18;
+      buffers_[9].id = 0x200u << 18;
+      clock({}, 0, 100);
+      top_.running_i = 1;
+      settle();
+      for (unsigned i = 0; i < 40; ++i) {
+        std::optional<unsigned> write;
+        if (i == 0) write = 7;
+        if (i == pause + 1 || i == pause + 3) write = 9;
+        clock(write, (i == 0 || !inactive ? kActive : 8u) << 24, 50);
+        top_.eval();
+        ASSERT_TRUE(top_.settled_o != 0 && top_.best_idx_o == 2) << pause << ' ' << i;
+      }
+      settle();
+      check();
+      clock(2, 8u << 24, 100);  // nor is what was overtaken forgotten
+      settle();
+      check();
+    }
+  }
+}
+
 // Read slots are for others: an answer or a retry waits, also behind a buffer that the CPU has
 // written.
 TEST_P(MbTx, AnswersAndRetriesWaitForTheirSlot) {  // flexcan.md 3.7
