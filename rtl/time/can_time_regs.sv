@@ -129,6 +129,11 @@ module can_time_regs (
     cmd_o[can_pkg::TimeRead]    = ask_i;
   end
 
+  // A hold that has been written but is still on its way to can_time reads as written.
+  logic held;
+  assign held = (stat_i[can_pkg::TimeStatHeld] && !cmd_o[can_pkg::TimeRelease])
+             || cmd_o[can_pkg::TimeHold];
+
   assign time_out_o = stat_i[can_pkg::TimeStatOut] && tctrl_o[can_regs_pkg::TctrlOuten];
   assign irq_o = (flags_q[can_regs_pkg::TstatExt]   && tctrl_o[can_regs_pkg::TctrlExtie])
               || (flags_q[can_regs_pkg::TstatCmp]   && tctrl_o[can_regs_pkg::TctrlCmpie])
@@ -145,7 +150,7 @@ module can_time_regs (
         Tstat: begin
           rdata_o[5:0] = flags_q;
           rdata_o[can_regs_pkg::TstatSlewing] = stat_i[can_pkg::TimeStatSlewing];
-          rdata_o[can_regs_pkg::TstatHeld]    = stat_i[can_pkg::TimeStatHeld];
+          rdata_o[can_regs_pkg::TstatHeld]    = held;
           rdata_o[can_regs_pkg::TstatOut]     = stat_i[can_pkg::TimeStatOut];
           rdata_o[can_regs_pkg::TstatCmpon]   = stat_i[can_pkg::TimeStatArmed];
         end
@@ -155,7 +160,7 @@ module can_time_regs (
         Textlo: rdata_o = ext_i[31:0];
         Texthi: rdata_o = ext_i[63:32];
         Ttxmb: begin
-          rdata_o[can_regs_pkg::TtxmbHold] = stat_i[can_pkg::TimeStatHeld];
+          rdata_o[can_regs_pkg::TtxmbHold] = held;
           rdata_o[can_regs_pkg::TtxmbMb +: can_regs_pkg::TtxmbMbW] = mb_o;
         end
         default: ;

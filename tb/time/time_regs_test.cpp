@@ -249,6 +249,25 @@ TEST_F(TimeRegs, External) {
   EXPECT_EQ(read(kTstat), 1u);
 }
 
+// TM-40: TTXMB and TSTAT tell of a hold, and of its end, from the clock behind the write on:
+// software that reads TTXMB back at once must not take a buffer that has just been held for
+// released.
+TEST_F(TimeRegs, HoldReadsAsWrittenAtOnce) {  // TM-03, TM-40
+  constexpr std::uint32_t kHold = 1u << 31, kHeld = 1u << 17;
+  const auto both = [&](std::uint32_t data, std::uint32_t address) {
+    return rig_.burst(0, {{.address = kTtxmb, .write = true, .data = data}, {.address = address}})
+        .back()
+        .data;
+  };
+  write(kTtx, static_cast<std::uint32_t>(time() + 1000000));
+  EXPECT_EQ(both(kHold | 5, kTtxmb), kHold | 5);
+  EXPECT_EQ(both(6, kTtxmb), 6u);
+  EXPECT_EQ(both(kHold | 7, kTstat) & kHeld, kHeld);
+  EXPECT_EQ(both(kHold | 8, kTtxmb), kHold | 8);
+  EXPECT_EQ(both(8, kTstat) & kHeld, 0u);
+  EXPECT_EQ(read(kTtxmb), 8u);
+}
+
 // TM-29: software does not write stamps.
 TEST_F(TimeRegs, StampsAreReadOnly) {
   write(stamp(3), 0xFFFFFFFF);

@@ -51,16 +51,21 @@ class RegisterModel {
       case kTcap: return 0x00020003;
       case kTctrl: return tctrl;
       case kTstat:
-        return flags | bit(in.stat, kSlewing) << 16 | bit(in.stat, kHeld) << 17 |
-               bit(in.stat, kOut) << 18 | bit(in.stat, kArmed) << 19;
+        return flags | bit(in.stat, kSlewing) << 16 | held(in) << 17 | bit(in.stat, kOut) << 18 |
+               bit(in.stat, kArmed) << 19;
       case kTimelo: return static_cast<std::uint32_t>(in.now);
       case kTimehi: return static_cast<std::uint32_t>(in.now >> 32);
       case kTslew: return in.left;
-      case kTtxmb: return bit(in.stat, kHeld) << 31 | mb;
+      case kTtxmb: return held(in) << 31 | mb;
       case kTextlo: return static_cast<std::uint32_t>(in.ext);
       case kTexthi: return static_cast<std::uint32_t>(in.ext >> 32);
       default: return 0;
     }
+  }
+  /// HOLD reads as written, although what holds and releases hears of it a clock later.
+  [[nodiscard]] unsigned held(const Inputs &in) const {
+    if (bit(command, kDoHold) != 0) return 1;
+    return bit(command, kDoRelease) != 0 ? 0 : bit(in.stat, kHeld);
   }
   /// An edge of the pin that is asked for, at the output of the synchroniser.
   [[nodiscard]] bool edge() const {
