@@ -234,7 +234,9 @@ module can_mb_port #(
     end else if (serviced_gnt_o) begin
       {w_cs, w_msg, w_mask} = 3'b100;
       w_row  = {2'b00, serviced_idx_i};
-      w_data[31:24] = {4'b1000, 1'b0, serviced_ovr_i, 2'b10};
+      w_data[31:24] = {4'd1 << (can_mb_pkg::CsServiced - 28),
+                       serviced_ovr_i ? can_regs_pkg::MbCsCodeRxOverrun
+                                      : can_regs_pkg::MbCsCodeRxFull};
       w_be   = 4'b1000;
     end
   end

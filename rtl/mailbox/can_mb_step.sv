@@ -150,7 +150,7 @@ module can_mb_step #(
       if (head)  copy_row_o = {1'b0, sent(ld_row_i)};
       if (ended) copy_row_o = {2'b00, cur_idx_i};
       keep       = {9{!ended}};
-      top        = {4'b0100, ld_code_i, 1'b0};                      // CsEnded
+      top        = {4'd1 << (can_mb_pkg::CsEnded - 28), ld_code_i, 1'b0};
     end
     copy_data_o = {(word_i[31:23] & keep) | (top & ~keep), word_i[22:0]};
   end
