@@ -208,7 +208,12 @@ void parse_general(YamlMap &map, Scenario &scenario) {
   map.with("name", [&](const YamlValue &v) { scenario.name = v.text(); });
   map.with("bitrate", [&](const YamlValue &v) {
     scenario.bitrates.clear();
-    for (const YamlValue &item : v.items()) scenario.bitrates.push_back(item.bitrate());
+    for (const YamlValue &item : v.items()) {
+      const double rate = item.bitrate();
+      if (std::ranges::find(scenario.bitrates, rate) != scenario.bitrates.end())
+        item.fail("is there twice; allowed: each bit rate once");
+      scenario.bitrates.push_back(rate);
+    }
     if (scenario.bitrates.empty()) v.refuse("a bit rate, or a list of them");
   });
   map.with("sample_point", [&](const YamlValue &v) { scenario.sample_point = v.part(0.5, 0.9); });

@@ -202,6 +202,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"UnknownKey", "bitrat: 500k\n",
                 "s.yaml:2: unknown key 'bitrat'; allowed: accesses, analysis, bitrate, "},
         Mistake{"TwiceAKey", "seed: 1\nseed: 2\n", "s.yaml:3: key 'seed' is given twice"},
+        Mistake{"BitrateTwice", "bitrate: [500k, 250k, 500000]\n",
+                "s.yaml:2: bitrate[2]: is there twice; allowed: each bit rate once"},
         Mistake{"Bitrate", "bitrate: 2M\n",
                 "s.yaml:2: bitrate: '2M' is not allowed; allowed: 1 kbit/s to 1 Mbit/s"},
         Mistake{"ZeroInFront", "traffic: [{node: a, id: 010}]\n",
