@@ -49,8 +49,8 @@ function(verican_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
 endfunction()
 
-# verican_runs_once(SOURCE...): what only reads options and writes results is compiled faster than it
-# is ever run. Not for what users run: the linker may take a template's code from these files.
+# verican_runs_once(SOURCE...): to optimise what only reads options and writes results takes longer
+# than it ever runs. Not for what users run: the linker may take a template's code from these files.
 function(verican_runs_once)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O0>")
 endfunction()

@@ -21,8 +21,8 @@ export PYTHONDONTWRITEBYTECODE=1 # in what tests run, too: nothing beside the so
 trap 'rm -rf "$TMPDIR"' EXIT
 status=0
 # More at once than there are cores: many wait for the clock, a guest or a browser.
-ctest --test-dir "$build" -j $((jobs + (jobs + 1) / 2)) --output-on-failure --no-tests=error </dev/null >"$log" 2>&1 ||
-  status=$?
+ctest --test-dir "$build" -j $((jobs + (jobs + 1) / 2)) --output-on-failure --no-tests=error \
+  </dev/null >"$log" 2>&1 || status=$?
 if [ "$status" -ne 0 ]; then
   grep -vE '^ *(Start +[0-9]+:|[0-9]+/[0-9]+ Test +#[0-9]+: .* Passed)' "$log" |
     sed '/tests passed, .* tests failed/,$d' | head -n 300

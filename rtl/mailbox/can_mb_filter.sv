@@ -57,8 +57,8 @@ module can_mb_filter #(
   assign req_o      = scan_q && !wait_q;
   assign busy_o     = scan_q || s1_q || s2_q;
 
-  // A row that the CPU writes is not read in that clock. In the one before, the CPU reads: no slot is
-  // granted, and idx_o changes with start_i only.
+  // A row that the CPU writes is not read in that clock. In the one before, the CPU reads: no slot
+  // is granted, and idx_o changes with start_i only.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) wait_q <= 1'b0;
     else         wait_q <= wr_i && (start_i || wr_idx_i == idx_o);

@@ -292,7 +292,7 @@ module can_mb_tx #(
         again_q <= spoilt;
       end
       if (redo && scan_q && !spoilt) spoils_q <= spoils_q + 1'b1;
-      // An insertion that is lost leaves a winner that has been compared with all others what it is.
+      // If an insertion is lost, a winner that has been compared with all others stays what it is.
       if (withdrawn || ((lost || found) && !best_q)) open_q <= 1'b1;
       if (restart_q) begin
         scan_idx_o <= '0;
