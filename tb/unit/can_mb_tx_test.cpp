@@ -260,18 +260,19 @@ TEST_P(MbTx, RetryIsToldUntilItIsInTheWinner) {
 TEST_P(MbTx, RetriesAndAnswersHaveTheirTurnsBesideWrites) {  // FX-3.3.f
   for (const bool answer : {false, true}) {
     settle();
-    buffers_[7] = {(answer ? kAnswer : kActive) << 24, 0};
-    top_.cur_idx_i = answer ? 0 : 7;
+    const unsigned waits = answer ? 9 : 7;  // the winner before keeps its index
+    buffers_[waits] = {(answer ? kAnswer : kActive) << 24, 0};
+    top_.cur_idx_i = answer ? 0 : waits;
     top_.retry_i = !answer;
     top_.ans_i = answer;
-    top_.ans_idx_i = 7;
+    top_.ans_idx_i = waits;
     unsigned clocks = 0;
     do {
       clock(clocks % 2 == 0 ? std::optional{20u} : std::nullopt, kActive << 24, 100);
       top_.ans_i = 0;
       top_.eval();
       ASSERT_LT(++clocks, 40u) << answer;
-    } while (top_.best_idx_o != 7);
+    } while (top_.best_idx_o != waits);
     buffers_ = {};
     for (unsigned i = 0; i < kBuffers; ++i) clock(i, 0x08000000, 100);
   }
