@@ -167,7 +167,8 @@ TEST(SendRaceOfOthers, EveryClockOfTheEnd) {
                {.address = reg::mb(kOtherMb + 1), .write = true, .data = words.cs});
       }
       rig.write(reg::mb(kOtherMb + 1, 1), kWorst.id << 18);
-      rig.run_until([&] { return rig.end_clock() > rig.start_clock(); }, 1000);
+      const auto ended = [&] { return rig.end_clock() > rig.start_clock(); };
+      ASSERT_TRUE(rig.run_until(ended, 1000));
       if (length == 0) {
         length = rig.end_clock() - rig.start_clock();
         offset = -41;

@@ -119,6 +119,21 @@ class MbTx : public ::testing::TestWithParam<Mode> {
     top_.eval();
   }
 
+  // Starts anew with buffers 1, which TTXMB holds and which would win, and 2, which therefore is
+  // the winner.
+  void settle_beside_a_held_one() {
+    top_.running_i = 0;
+    buffers_ = {};
+    buffers_[1] = {kActive << 24, 0x020u << 18};
+    buffers_[2] = {kActive << 24, 0x400u << 18};
+    top_.held_i = 1;
+    top_.held_idx_i = 1;
+    clock({}, 0, 100);
+    top_.running_i = 1;
+    settle();
+    ASSERT_TRUE(top_.settled_o != 0 && top_.best_idx_o == 2);
+  }
+
   void check() {
     const std::optional<unsigned> winner = expected();
     ASSERT_EQ(top_.settled_o != 0, winner.has_value());
@@ -284,18 +299,9 @@ TEST_P(MbTx, AnswerInEveryClockBehindARelease) {  // TM-40, flexcan.md 3.7
   for (const bool better : {false, true}) {
     for (unsigned behind = 0; behind < 12; ++behind) {
       SCOPED_TRACE(testing::Message() << behind << " clocks behind the release");
-      top_.running_i = 0;
-      buffers_ = {};
-      buffers_[1] = {kActive << 24, 0x020u << 18};
-      buffers_[2] = {kActive << 24, 0x400u << 18};
+      ASSERT_NO_FATAL_FAILURE(settle_beside_a_held_one());
       const unsigned answer = better ? 0 : 7;
-      buffers_[answer] = {0xAu << 24, (better ? 0x010u : 0x7F0u) << 18};
-      top_.held_i = 1;
-      top_.held_idx_i = 1;
-      clock({}, 0, 100);
-      top_.running_i = 1;
-      settle();
-      ASSERT_TRUE(top_.settled_o != 0 && top_.best_idx_o == 2);
+      buffers_[answer].id = (better ? 0x010u : 0x7F0u) << 18;
       for (unsigned i = 0; i <= behind; ++i) {
         top_.held_i = 0;
         if (i == behind) {
@@ -318,16 +324,7 @@ TEST_P(MbTx, AnotherNameInEveryClockBehindARelease) {  // TM-40
   for (const bool held : {false, true}) {
     for (unsigned behind = 0; behind < 12; ++behind) {
       SCOPED_TRACE(testing::Message() << behind << " clocks behind the release");
-      top_.running_i = 0;
-      buffers_ = {};
-      buffers_[1] = {kActive << 24, 0x020u << 18};
-      buffers_[2] = {kActive << 24, 0x400u << 18};
-      top_.held_i = 1;
-      top_.held_idx_i = 1;
-      clock({}, 0, 100);
-      top_.running_i = 1;
-      settle();
-      ASSERT_TRUE(top_.settled_o != 0 && top_.best_idx_o == 2);
+      ASSERT_NO_FATAL_FAILURE(settle_beside_a_held_one());
       for (unsigned i = 0; i <= behind; ++i) {
         top_.held_i = 0;
         if (i == behind) {
