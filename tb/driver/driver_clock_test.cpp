@@ -133,7 +133,8 @@ TEST_F(DriverClock, Slew) {
   EXPECT_THAT(writes, ElementsAre(Pair(0x1128, 0xFFFFFC7Cu)));
 }
 
-// TM-31, TM-91: armed for a whole second that is at least 1 ms ahead.
+// TM-31, TM-91: armed for a whole second that is at least 1 ms ahead. Arming sets OUT to 0, so the
+// pin is let out behind that.
 TEST_F(DriverClock, PulsePerSecond) {
   up();
   const auto armed_at = [this](std::uint64_t now) {
@@ -141,10 +142,11 @@ TEST_F(DriverClock, PulsePerSecond) {
     core.word(VERICAN_TIMEHI_OFFSET) = static_cast<std::uint32_t>(now >> 32);
     writes.clear();
     EXPECT_EQ(verican_clock_pps(&dev, true), VERICAN_OK);
-    EXPECT_EQ(writes.size(), 3u);
-    EXPECT_EQ(writes.at(0), std::make_pair(0x1104u, 0x3031u));
+    EXPECT_EQ(writes.size(), 4u);
+    EXPECT_EQ(writes.at(0), std::make_pair(0x1104u, 0x2031u));
     EXPECT_EQ(writes.at(1), std::make_pair(0x1134u, 500'000'000u));
     EXPECT_EQ(writes.at(2).first, 0x1130u);
+    EXPECT_EQ(writes.at(3), std::make_pair(0x1104u, 0x3031u));
     return writes.at(2).second;
   };
   EXPECT_EQ(armed_at(0), 1'000'000'000u);
@@ -173,9 +175,10 @@ TEST_F(DriverClock, PulsesBeginAnewBehindAJump) {
     const std::uint32_t low = set ? 0x1110 : 0x1120;
     EXPECT_THAT(writes,
                 ElementsAre(Pair(0x1104, 0x31), Pair(low, set ? 0u : 0xFFFFFFF9u),
-                            Pair(low + 4, set ? 1u : 0xFFFFFFFFu), Pair(0x1104, 0x3031),
+                            Pair(low + 4, set ? 1u : 0xFFFFFFFFu), Pair(0x1104, 0x2031),
                             Pair(0x1134, 500'000'000u),
-                            Pair(0x1130, set ? 705'032'704u : 1'000'000'000u)));  // 5 s modulo 2^32
+                            Pair(0x1130, set ? 705'032'704u : 1'000'000'000u),  // 5 s modulo 2^32
+                            Pair(0x1104, 0x3031)));
     EXPECT_EQ(std::count(reads.begin(), reads.end(), 0x1110u), 4);
   }
   EXPECT_EQ(verican_clock_pps(&dev, false), VERICAN_OK);

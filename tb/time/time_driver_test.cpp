@@ -116,6 +116,36 @@ TEST(DriverTime, PulsesAreThoseOfTheTime) {
   EXPECT_LT(rises_at() - 1, 3'000u);
 }
 
+// TM-31, TM-91: a jump while the pin is high, and pulses that are asked for anew, lower it; it does
+// not rise again before the next whole second.
+TEST(DriverTime, AJumpLowersThePinOnce) {
+  Domain domain{{0}};
+  DriverNode &node = *domain.nodes[0];
+  verican_t *dev = &node.dev;
+  auto &rtl = dynamic_cast<TimeNode &>(node.rtl());
+  const auto changes_by = [&](auto jump) {  // of the pin, which was high
+    EXPECT_EQ(verican_clock_set(dev, 998'000'000), VERICAN_OK);
+    EXPECT_EQ(verican_clock_pps(dev, true), VERICAN_OK);
+    const Time end = domain.bus.now() + 4 * kMillisecond;
+    while (domain.bus.now() < end && !rtl.time_out()) domain.bus.step();
+    EXPECT_TRUE(rtl.time_out());
+    const std::size_t before = rtl.pulses().size();
+    EXPECT_EQ(jump(), VERICAN_OK);
+    domain.bus.run_for(20 * kMicrosecond);
+    EXPECT_FALSE(rtl.time_out());
+    return rtl.pulses().size() - before;
+  };
+  EXPECT_EQ(changes_by([&] { return verican_clock_set(dev, 5'300'000'000); }), 1u);
+  EXPECT_EQ(changes_by([&] { return verican_clock_shift(dev, 300'000'000); }), 1u);
+  EXPECT_EQ(changes_by([&] { return verican_clock_shift(dev, -300'000'000); }), 1u);
+  EXPECT_EQ(changes_by([&] { return verican_clock_pps(dev, true); }), 1u);
+  EXPECT_EQ(changes_by([&] {
+              (void)verican_clock_pps(dev, false);
+              return verican_clock_pps(dev, true);
+            }),
+            1u);
+}
+
 // TM-26 to TM-28, TM-91: sender and receiver tell the same time of the same edge, within a clock of
 // the receiver.
 TEST(DriverTime, StampsOfAFrame) {

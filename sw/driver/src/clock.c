@@ -51,15 +51,17 @@ static uint32_t control(const verican_t *dev, uint32_t clear, uint32_t set) {
 }
 
 /* Under lock: the first pulse is that of the next whole second. What was written to the clock shows
- * five clocks later, which the reads take. */
+ * five clocks later, which the reads take. Arming sets OUT to 0, and the pin is let out behind
+ * that: one that was high would rise once more. */
 static void start_pulses(const verican_t *dev) {
   uint64_t now = 0;
   for (unsigned n = 0; n < (unsigned)READS_OF_A_JUMP; ++n)
     now = verican_read_pair(dev, VERICAN_TIMELO_OFFSET);
   const uint64_t second = (now + ARM_NS) / SECOND_NS + 1u;
-  (void)control(dev, VERICAN_PPS_PARTS, VERICAN_PPS_PARTS);
+  (void)control(dev, VERICAN_PPS_PARTS, VERICAN_TCTRL_CMPEN_MASK);
   verican_write(dev, VERICAN_TCMPH_OFFSET, SECOND_NS / 2u);
   verican_write(dev, VERICAN_TCMP_OFFSET, (uint32_t)second * SECOND_NS);
+  (void)control(dev, 0u, VERICAN_TCTRL_OUTEN_MASK);
 }
 
 /* The compare unit sees 32 bits, of which a second is no part: after a jump its pulses would go on
