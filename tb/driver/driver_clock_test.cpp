@@ -233,7 +233,7 @@ TEST_F(DriverClock, Events) {
   EXPECT_EQ(
       verican_clock_on_event(&dev, VERICAN_CLOCK_RISING | VERICAN_CLOCK_COMPARE, on_event, &told),
       VERICAN_OK);
-  EXPECT_THAT(writes, ElementsAre(Pair(0x1104, 0x30131)));
+  EXPECT_THAT(writes, ElementsAre(Pair(0x1108, 7), Pair(0x1104, 0x30131)));
   core.word(VERICAN_TSTAT_OFFSET) = 0x0007'0005;
   core.word(VERICAN_TEXTLO_OFFSET) = 92;
   core.word(VERICAN_TEXTHI_OFFSET) = 7;
@@ -249,6 +249,27 @@ TEST_F(DriverClock, Events) {
   EXPECT_THAT(writes, ElementsAre(Pair(0x1104, 0x31)));
   EXPECT_EQ(verican_clock_irq_handler(&dev), VERICAN_OK);
   EXPECT_EQ(told.size(), 2u);
+}
+
+// TM-91: what happened before it was asked for is not told; what is asked for as before, and may
+// wait for the handler, stays.
+TEST_F(DriverClock, EventsOfBefore) {
+  up();
+  paired = true;
+  const auto on_event = [](void *, verican_t *, std::uint32_t, std::uint64_t) {};
+  const auto cleared_by = [&](std::uint32_t events) {
+    writes.clear();
+    EXPECT_EQ(verican_clock_on_event(&dev, events, on_event, nullptr), VERICAN_OK);
+    EXPECT_EQ(writes.back(), std::make_pair(0x1104u, 0x31u | events));
+    return writes.size() == 2 && writes[0].first == 0x1108 ? writes[0].second : 0;
+  };
+  EXPECT_EQ(cleared_by(VERICAN_CLOCK_SLEWED), 0x08u);
+  EXPECT_EQ(cleared_by(VERICAN_CLOCK_SLEWED), 0u);
+  EXPECT_EQ(cleared_by(VERICAN_CLOCK_SLEWED | VERICAN_CLOCK_RELEASED), 0x10u);
+  EXPECT_EQ(cleared_by(VERICAN_CLOCK_FALLING | VERICAN_CLOCK_RELEASED), 0x03u);
+  EXPECT_EQ(cleared_by(VERICAN_CLOCK_RISING | VERICAN_CLOCK_COMPARE), 0x04u);
+  EXPECT_EQ(cleared_by(0), 0u);
+  EXPECT_EQ(cleared_by(VERICAN_CLOCK_EVENTS), 0x1Fu);
 }
 
 // TM-26, TM-27, TM-91: 3 half clocks of 62.5 ns are 93.75 ns, whole ns are taken off; the stamp is

@@ -146,6 +146,36 @@ TEST(DriverTime, AJumpLowersThePinOnce) {
             1u);
 }
 
+// TM-91: a slew and an event of the compare unit that were over before somebody asked are not told;
+// the next ones are.
+TEST(DriverTime, EventsOfBeforeAreNotTold) {
+  Domain domain{{0}};
+  DriverNode &node = *domain.nodes[0];
+  verican_t *dev = &node.dev;
+  auto &rtl = dynamic_cast<TimeNode &>(node.rtl());
+  std::vector<std::uint32_t> told;
+  const auto on_event = [](void *user, verican_t *, std::uint32_t flags, std::uint64_t) {
+    static_cast<std::vector<std::uint32_t> *>(user)->push_back(flags);
+  };
+  const auto run = [&](Time duration) {
+    for (const Time end = domain.bus.now() + duration; domain.bus.now() < end;) {
+      domain.bus.step();
+      if (rtl.irq_time()) verican_clock_irq_handler(dev);
+    }
+  };
+  EXPECT_EQ(verican_clock_set(dev, 998'000'000), VERICAN_OK);
+  EXPECT_EQ(verican_clock_pps(dev, true), VERICAN_OK);
+  EXPECT_EQ(verican_clock_slew(dev, 3), VERICAN_OK);
+  run(3 * kMillisecond);
+  const std::uint32_t events = VERICAN_CLOCK_SLEWED | VERICAN_CLOCK_COMPARE;
+  EXPECT_EQ(verican_clock_on_event(dev, events, on_event, &told), VERICAN_OK);
+  run(100 * kMicrosecond);
+  EXPECT_EQ(told, std::vector<std::uint32_t>{});
+  EXPECT_EQ(verican_clock_slew(dev, 3), VERICAN_OK);
+  run(100 * kMicrosecond);
+  EXPECT_EQ(told, std::vector<std::uint32_t>{VERICAN_TSTAT_SLEWD_MASK});
+}
+
 // TM-26 to TM-28, TM-91: sender and receiver tell the same time of the same edge, within a clock of
 // the receiver.
 TEST(DriverTime, StampsOfAFrame) {

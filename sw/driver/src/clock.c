@@ -135,6 +135,18 @@ verican_result_t verican_clock_pps(verican_t *dev, bool on) {
   return VERICAN_OK;
 }
 
+/* The flags of TSTAT of these events, VERICAN_CLOCK_*. */
+static uint32_t flags_of(uint32_t events) {
+  uint32_t flags = 0;
+  if ((events & VERICAN_TCTRL_EXTIE_MASK) != 0u)
+    flags |= VERICAN_TSTAT_EXT_MASK | VERICAN_TSTAT_EXTOVR_MASK;
+  if ((events & VERICAN_TCTRL_CMPIE_MASK) != 0u) flags |= VERICAN_TSTAT_CMP_MASK;
+  if ((events & VERICAN_TCTRL_SLEWIE_MASK) != 0u) flags |= VERICAN_TSTAT_SLEWD_MASK;
+  if ((events & VERICAN_TCTRL_TXIE_MASK) != 0u) flags |= VERICAN_TSTAT_TXREL_MASK;
+  return flags;
+}
+
+/* Flags are set whether somebody has asked or not: those of before do not count. */
 verican_result_t verican_clock_on_event(verican_t *dev, uint32_t events,
                                         verican_clock_event_t *on_event, void *user) {
   const verican_result_t result = check(dev);
@@ -144,6 +156,8 @@ verican_result_t verican_clock_on_event(verican_t *dev, uint32_t events,
   const uint32_t token = verican_lock(dev);
   dev->on_clock = on_event;
   dev->clock_user = user;
+  const uint32_t stale = flags_of(events & ~verican_read(dev, VERICAN_TCTRL_OFFSET));
+  if (stale != 0u) verican_write(dev, VERICAN_TSTAT_OFFSET, stale);
   (void)control(dev, VERICAN_CLOCK_EVENTS, events);
   verican_unlock(dev, token);
   return VERICAN_OK;

@@ -69,7 +69,10 @@ enum {
 /** Called from verican_clock_irq_handler(): VERICAN_TSTAT_* flags, and the time of an edge. */
 typedef void verican_clock_event_t(void *user, verican_t *dev, uint32_t flags, uint64_t time_ns);
 
-/** Asks for events, VERICAN_CLOCK_*, in place of those before; none: 0 and NULL. */
+/**
+ * Asks for events, VERICAN_CLOCK_*, in place of those before; none: 0 and NULL. What happened
+ * before it was asked for is not told.
+ */
 verican_result_t verican_clock_on_event(verican_t *dev, uint32_t events,
                                         verican_clock_event_t *on_event, void *user);
 
