@@ -93,6 +93,40 @@ TEST(DelayMeasure, OutOfTurn) {
   EXPECT_EQ(verican_delay_start(&delay, 0), VERICAN_ERR_RANGE);
 }
 
+// TM-58: an exchange whose mean no delay can be, because of a response that is none or a clock that
+// was set meanwhile, does not count; those behind it do.
+TEST(DelayMeasure, WhatCannotBe) {
+  constexpr std::int64_t kMost = INT32_MAX, kLeast = INT32_MIN;
+  for (const std::int64_t wrong : {INT64_MAX, INT64_MIN, kMost << 32, kMost + 1, kLeast - 1}) {
+    verican_delay_t delay{};
+    verican_delay_start(&delay, 3);
+    std::int32_t result = -1;
+    const auto response = [&](std::uint64_t master) {
+      const verican_sync_pair_t pair{};
+      EXPECT_TRUE(verican_delay_pair(&delay, &pair, 1'000));  // forth
+      verican_delay_sent(&delay, 8'000'000);
+      return verican_delay_response(&delay, master, &result);
+    };
+    EXPECT_FALSE(response(8'001'000));
+    for (int n = 0; n < 3; ++n)
+      EXPECT_FALSE(response(static_cast<std::uint64_t>(wrong) + 7'999'000)) << wrong;
+    EXPECT_FALSE(response(8'001'000));
+    EXPECT_TRUE(response(8'001'000)) << wrong;
+    EXPECT_EQ(result, 1'000) << wrong;
+  }
+}
+
+// TM-58: the longest that can be measured, as often as can be.
+TEST(DelayMeasure, TheLongest) {
+  for (const std::int64_t sum : {INT32_MAX, INT32_MIN}) {
+    verican_delay_t delay{};
+    verican_delay_start(&delay, 255);
+    std::int32_t result = 0;
+    for (int n = 1; n <= 255; ++n) EXPECT_EQ(exchange(delay, sum - 7, 7, 0, 0, result), n == 255);
+    EXPECT_EQ(result, sum > 0 ? 0x4000'0000 : -0x4000'0000);
+  }
+}
+
 // TM-80: cable of 40 m, transceivers of 150 ns.
 TEST(DelayMeasure, OfCable) {
   EXPECT_EQ(verican_delay_of_cable(40, 150), 350);

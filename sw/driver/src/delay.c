@@ -31,14 +31,18 @@ void verican_delay_sent(verican_delay_t *delay, uint64_t stamp) {
 
 /* Half of the sum of n exchanges, to the nearest. */
 static int32_t mean(int64_t sum, unsigned count) {
-  const int64_t twice = 2 * (int64_t)count;
-  return (int32_t)((sum + (sum < 0 ? -twice / 2 : twice / 2)) / twice);
+  const int32_t n = (int32_t)count;
+  return (int32_t)((sum + (sum < 0 ? -n : n)) / (2 * n));
 }
 
+/* An exchange of 2.1 s or more is of a response that is none, or of clocks one of which was set
+ * meanwhile: it does not count. */
 bool verican_delay_response(verican_delay_t *delay, uint64_t master, int32_t *delay_ns) {
   if (delay->step != (uint8_t)SENT) return false;
   delay->step = (uint8_t)IDLE;
-  delay->sum += delay->forth + (int64_t)(master - delay->sent);
+  const int64_t both = (int64_t)((uint64_t)delay->forth + master - delay->sent);
+  if (both != (int32_t)both) return false;
+  delay->sum += both;
   if (++delay->count < delay->wanted) return false;
   *delay_ns = mean(delay->sum, delay->count);
   delay->wanted = 0;
