@@ -199,6 +199,34 @@ TEST(Master, NoMailbox) {
   EXPECT_THAT(fups(), ::testing::ElementsAre(fup_of(0, 987'654'321)));
 }
 
+// TM-50: a SYNC that finds no mailbox goes out with the first poll behind the one that is free, with
+// the time of then, and the rhythm stays.
+TEST(Master, NoMailboxForAWhile) {
+  DomainRig rig{DomainRig::config_of(), true, kStart};
+  const unsigned foreign = rig.fill();
+  const auto syncs = [&rig] {
+    std::vector<DomainRig::Waiting> own;
+    for (const auto &frame : rig.waiting())
+      if (frame.id == 0x010) own.push_back(frame);
+    return own;
+  };
+  const std::uint64_t free = kStart + kR / 2;
+  for (const std::uint64_t now : {kStart, kStart + kR / 4, free}) {
+    rig.poll_at(now);
+    EXPECT_THAT(syncs(), IsEmpty());
+  }
+  rig.sent(foreign, 1);
+  rig.poll_at(free + 1000);
+  ASSERT_THAT(syncs(), SizeIs(1));
+  EXPECT_EQ(syncs()[0].data, sync_of(0, (free + 1000) / kRigSecond));
+  for (unsigned n = 0; n < 2; ++n) rig.sent(syncs().at(0).mailbox, free + 2000 + n);
+  rig.poll_at(kStart + kR - 1);
+  EXPECT_THAT(syncs(), IsEmpty());
+  rig.poll_at(kStart + kR);
+  ASSERT_THAT(syncs(), SizeIs(1));
+  EXPECT_EQ(syncs()[0].data, sync_of(1, 50));
+}
+
 // TM-50: T4 of 4 s and more has no FUP.
 TEST(Master, FupOfFourSeconds) {
   for (const std::uint64_t t4 : {4 * kRigSecond - 1, 4 * kRigSecond}) {

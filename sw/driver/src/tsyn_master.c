@@ -25,19 +25,20 @@ static bool send_own(verican_tsyn_t *tsyn, const uint8_t *data, uint8_t *mailbox
   return verican_tsyn_send(tsyn, id, data, mailbox) == VERICAN_OK;
 }
 
-/* Under lock, so that the handler does not report a SYNC that is not noted yet. */
-static void send_sync(verican_tsyn_t *tsyn, uint64_t now) {
+/* Under lock, so that the handler does not report a SYNC that is not noted yet. False: there is no
+ * mailbox. */
+static bool send_sync(verican_tsyn_t *tsyn, uint64_t now) {
   uint8_t data[8];
   const verican_tsyn_sender_t before = tsyn->sender;
   const uint32_t token = verican_lock(tsyn->dev);
   verican_tsyn_write_sync(&tsyn->sender, &tsyn->config.rules, now, data);
-  if (send_own(tsyn, data, &tsyn->sync_mailbox)) {
-    tsyn->t0 = now;
+  const bool out = send_own(tsyn, data, &tsyn->sync_mailbox);
+  if (out)
     tsyn->step = (uint8_t)TSYN_SYNC_OUT;
-  } else {
-    tsyn->sender = before; /* no mailbox: the next poll tries again */
-  }
+  else
+    tsyn->sender = before;
   verican_unlock(tsyn->dev, token);
+  return out;
 }
 
 /* FUP, as soon as there is a mailbox for it. */
@@ -110,9 +111,10 @@ void verican_tsyn_run_master(verican_tsyn_t *tsyn, uint64_t now) {
   if (tsyn->step == (uint8_t)TSYN_SYNC_OUT && now - tsyn->t0 > interval) miss(tsyn, now);
   if (!tsyn->sending || tsyn->step == (uint8_t)TSYN_SYNC_OUT) return;
   if ((int64_t)(now - tsyn->next) < 0) return;
-  const bool late = now - tsyn->next > interval;
-  tsyn->next = (late ? now : tsyn->next) + interval;
-  send_sync(tsyn, now);
+  const uint64_t due = now - tsyn->next > interval ? now : tsyn->next;
+  if (!send_sync(tsyn, now)) return; /* the next poll tries again */
+  tsyn->t0 = now;
+  tsyn->next = due + interval;
 }
 
 static void end_of_sync(verican_tsyn_t *tsyn, const verican_tx_event_t *event, bool sent) {
