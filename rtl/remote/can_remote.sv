@@ -263,10 +263,9 @@ module can_remote #(
     .hit_i(hit), .mask_i(rdata[22:16]), .aim_i(aim), .aim_at_i({rdata[15:12], rdata[19:16]}),
     .mapped_i(mapped), .load_i(load_at), .load_at_i(rdata[15:12]), .answer_i(answer),
     .length_i(length),
-    .hdr_o(hdr), .ours_o(ours), .byte_o(has_byte), .live_o(live), .sys_o(sys), .all_o(all),
-    .dup_o(dup), .a_o(a), .port_o(port), .key_o(key), .count_o(count), .op_o(op),
-    .value_bad_o(value_bad),
-    .high_bad_o(high_bad), .mismatch_o(mismatch)
+    .hdr_o(hdr), .ours_o(ours), .byte_o(has_byte), .live_o(live), .valid_o(valid), .sys_o(sys),
+    .all_o(all), .dup_o(dup), .a_o(a), .port_o(port), .key_o(key), .count_o(count), .op_o(op),
+    .value_bad_o(value_bad), .high_bad_o(high_bad), .mismatch_o(mismatch)
   );
 
   // The visit of a producer entry is handled like a remote frame, except that it does not feed the
@@ -298,7 +297,6 @@ module can_remote #(
     .block_o(block), .data_o(data),
     .code_o(code)
   );
-  assign valid   = rx_valid && live;
   // Requests without work: SELECT, STATE for another node, ASSIGN while not selected, a read of a
   // node without a number, a repeated DATA. Registered: known long before the frame is valid.
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -55,6 +55,7 @@ module can_rn_head #(
   input  logic [3:0]          length_i,       // length of the frame that is made
   output logic                byte_o,         // a received data byte waits
   output logic                live_o,         // a frame for this node is under way
+  output logic                valid_o,        // that frame is valid; waits for the sequencer
   output logic                sys_o,          // frame is a system function (name 0)
   output logic                all_o,          // frame is for all nodes (name 1)
   output logic                dup_o,          // frame is a statement under the own number (RN-11)
@@ -67,7 +68,7 @@ module can_rn_head #(
   output logic                high_bad_o,     // address beyond 12 bits
   output logic                mismatch_o      // serial or number differs; BLOCK: count not 0
 );
-  logic                hdr_q, byte_q, live_q;
+  logic                hdr_q, byte_q, live_q, valid_q;
   logic [1:0]          class_q, class_d;
   logic [AddrBits-1:0] a_q;
   logic                port_q;   // A is a port; a decoder behind a_q would be late for the mover
@@ -110,6 +111,9 @@ module can_rn_head #(
   assign hdr_o  = hdr_q;
   assign byte_o = byte_q || (byte_we_i && live_q);
   assign live_o = live_q;
+  // can_rn_step may be counting a timer: its 6 clocks from a sample point on can be more than a bit
+  // that resynchronisation has shortened.
+  assign valid_o = live_q && (valid_i || valid_q);
   assign sys_o  = class_q == ClassSys;
   assign all_o  = class_q == ClassAll;
   assign dup_o  = class_q == ClassDup;
@@ -156,18 +160,22 @@ module can_rn_head #(
   assign mismatch_o  = mismatch_q;
   assign key_byte    = job_i == can_rn_pkg::JobByte;
 
+  logic idle;
+  assign idle = job_i == can_rn_pkg::JobIdle;
+
   // JobEntry: A is read first, then mode and length.
   logic entry;
   assign entry = NumProd != 0 && job_i == can_rn_pkg::JobEntry;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {hdr_q, byte_q, live_q} <= '0;
+      {hdr_q, byte_q, live_q, valid_q} <= '0;
     end else begin
-      hdr_q  <= (hdr_i && !transmitter_i && !ide_i) || (hdr_q && !take_i && !gap_i);
-      byte_q <= byte_o && job_i != can_rn_pkg::JobIdle;
-      if (gap_i || valid_i || (lost_i && !dup_o)) live_q <= 1'b0;
-      else if (take_i)      live_q <= ours_o || search_o;
+      hdr_q   <= (hdr_i && !transmitter_i && !ide_i) || (hdr_q && !take_i && !gap_i);
+      byte_q  <= byte_o && !idle;
+      valid_q <= valid_o && !idle;
+      if (gap_i || (valid_o && idle) || (lost_i && !dup_o)) live_q <= 1'b0;
+      else if (take_i) live_q <= ours_o || search_o;
     end
   end
 

@@ -4,7 +4,7 @@
 // can_rn_step: sequencer of can_remote (RN-36, RN-37). It chooses the next job and steps through
 // its phases. A request comes before all other work. Between the header of a frame for this node
 // and its end only timers, ageing and counters may begin (JobLow, JobAge, JobTally), in the clock
-// after a sample point, so that they end before the next one.
+// after a sample point, so that they end before the next one or soon after it.
 
 module can_rn_step #(
   parameter bit Map = 1'b0,
@@ -18,7 +18,7 @@ module can_rn_step #(
   input  logic             ours_i,        // waiting header: the frame concerns this node
   input  logic             byte_i,        // a received data byte waits
   input  logic             live_i,        // a frame for this node is under way
-  input  logic             valid_i,       // pulse: that frame is valid
+  input  logic             valid_i,       // that frame is valid; until the sequencer is idle
   input  logic             tick_i,        // pulse: sample point
   // Request
   input  logic             dup_i,         // frame is a statement under the own number (RN-11)

@@ -60,6 +60,43 @@ TEST_F(RtlInstants, PulsesBeginInTheClockAfterInt2) {
   EXPECT_EQ(shown[1], bus.places.int2);
 }
 
+// RN-36: a glitch behind the sample point of EOF5 makes that bit up to two clocks shorter (SY-05),
+// and both bytes of the watchdog are counted in it, which ends behind the sample point of EOF6: the
+// frame is taken nevertheless. Wherever glitch and millisecond come.
+TEST_F(RtlInstants, AShortBitBeforeEof6) {
+  constexpr unsigned kAddress = 0x20;
+  const std::string frame = "1A0#55";
+  Time ms = 0;  // the last one of the node
+  bus.node().on_ms = [&] { ms = bus.bus.now(); };
+  bus.node().user_write(0xF00 / 4, 257U << 16, 0xC);  // WDT: its low byte is 0 then
+  const auto start = [&] {
+    bus.host.request(frame_of(frame));
+    EXPECT_TRUE(bus.bus.run_until([&] { return bus.bus.level() == Level::kDominant; },
+                                  kMillisecond));
+    return bus.bus.now();
+  };
+  const Time begin = start();
+  (void)bus.settle();
+  const Time length = bus.places.valid - begin;
+  unsigned shorter = 0, lost = 0;
+  for (int clocks = -32; clocks < 16; clocks += 4)
+    for (int glitch = 7; glitch < 11; ++glitch) {
+      const Time before = ms;
+      ASSERT_TRUE(bus.bus.run_until([&] { return ms != before; }, 2 * kMillisecond));
+      (void)bus.send("191#00");  // feeds the watchdog
+      bus.node().user_write(kAddress / 4, 0, 1);
+      bus.bus.run_until(ms + kMillisecond - length + clocks * kClock);
+      const Time eof6 = start() + length;
+      deaf.add(2, Effect::kDominant, {eof6 - glitch * kClock, eof6 - (glitch - 1) * kClock});
+      bus.bus.run_until(eof6 + 12 * UnitBus::kBit);
+      shorter += bus.places.valid == eof6 - 2 * kClock ? 1 : 0;
+      lost += bus.places.valid <= eof6 && bus.node().peek(kAddress) != 0x55 ? 1 : 0;
+      (void)bus.settle();
+    }
+  EXPECT_GT(shorter, 10U);
+  EXPECT_EQ(lost, 0U);
+}
+
 // RN-45: and the bytes are in the RAM before that, at 8 clocks a bit, whatever their number.
 TEST_F(RtlInstants, BytesAreInTheRamBeforeInt2) {
   for (const char *frame : {"1A0#11", "1A3#1122334455667788", "1F9#0002112233445566"}) {

@@ -18,6 +18,11 @@
     end
   end
 
+  // What may begin while a frame for this node is under way.
+  logic f_timer;
+  assign f_timer = job_q == can_rn_pkg::JobLow || job_q == can_rn_pkg::JobHigh
+                   || job_q == can_rn_pkg::JobAge || job_q == can_rn_pkg::JobTally;
+
   logic f_visit, f_visiting;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) f_visiting <= 1'b0;
@@ -33,9 +38,11 @@
     m_reset: assume (rst_ni == !$initstate);
     // A frame is valid at a sample point, one clock behind it; the next is far away.
     m_valid: assume (!(valid_i && tick_i));
-    // One kind of request, the same until it has been told; none while the one before is at work.
+    // One kind of request, the same until it has been told; none while the one before is at work,
+    // but it may wait for the end of a timer (head.p_waits).
     m_kind: assume (!(write_i && trigger_i) || mapped_i);
-    m_apart: assume (!valid_i || job_q == can_rn_pkg::JobIdle || !live_i);
+    m_apart: assume (!valid_i || idle || f_timer || !live_i);
+    m_waits: assume (!f_ran || !$past(valid_i && !idle) || valid_i);
     // What an entry of a producer leads to (produce.p_then), and that it asks as a read does.
     m_then: assume (then_i == can_rn_pkg::JobIdle || then_i == can_rn_pkg::JobBegin || f_visit);
     m_begun: assume (begun_i == can_rn_pkg::JobFresh);

@@ -51,8 +51,8 @@ module stamp_frame (
   always @(posedge clk_i) begin
     m_reset: assume (rst_ni == !$initstate);
     m_start: assume (rst_ni || group == 2'd0);
-    // Eight clocks a bit at least.
-    m_rest: assume (!sample_i || rest == 3'd7);
+    // Eight clocks a bit at least, of which resynchronisation takes four at most.
+    m_rest: assume (!sample_i || rest >= 3'd3);
     // A field ends at a sample point.
     m_fields: assume (sampled || group == group_q || group == 2'd0);
     // Fields come in the order of a frame; flags may come instead of any.
