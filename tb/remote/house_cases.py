@@ -35,17 +35,17 @@ PROVEN = {
     5: "state.p_flush state.p_numbered",
     6: "check.p_locked",
     7: "step.p_asked step.p_int2 step.p_once step.p_one_kind",
-    8: "ends.p_hold ends.p_waits",
-    9: "ends.p_begin ends.p_hold ends.p_over ends.p_waits "
+    8: "jobs.p_hold jobs.p_waits jobs_small.p_hold jobs_small.p_waits",
+    9: "jobs.p_begin jobs.p_ends jobs.p_hold jobs.p_over jobs.p_waits "
+       "jobs_small.p_begin jobs_small.p_ends jobs_small.p_hold jobs_small.p_over jobs_small.p_waits "
        "step.p_ends step.p_no_wait step.p_rejoins",
     10: "state.p_operate",
     11: "state.p_illegal",
     12: "tally.p_no_wrap"}
-ONLY_SMALL = (8, 9)  # proven of profile small alone
 
 
 class Proofs(unittest.TestCase):
-    """RN-102: P-1 to P-12 are proven, but for what docs/formal.md says is not."""
+    """RN-102: P-1 to P-12 are proven."""
 
     def test_properties(self):
         """Those that name one are those that prove it."""
@@ -57,16 +57,6 @@ class Proofs(unittest.TestCase):
                         named[number].add(f"{proof.name}.{one.label}")
         self.assertEqual(named, {number: set(labels.split())
                                  for number, labels in PROVEN.items()})
-
-    def test_what_is_not_proven(self):
-        """What is proven of one profile alone is said where the figures are."""
-        page = (ROOT / "docs/formal.md").read_text(encoding="utf-8")
-        for number in ONLY_SMALL:
-            self.assertIn(f"(P-{number})", page[page.index("## What is not proven"):])
-        rules = (ROOT / "docs/remote-rules.md").read_text(encoding="utf-8")
-        readme = (ROOT / "README.md").read_text(encoding="utf-8")
-        for text in rules, readme:
-            self.assertIn("P-8 and P-9 of profile *small*", text)
 
     def test_files(self):
         """There is no file of properties that no proof takes."""
