@@ -65,7 +65,7 @@ def ptpperout(run):
                   "longest period")
     jumps = [at[name] for name in ("longest", "forth", "back", "set", "jumps")]
     for lo, hi in zip(jumps, jumps[1:]):
-        # The worker arms again soon after the jump; until then a compare may be overtaken.
+        # The worker arms again soon after the jump; until then the output is off.
         expect_output(found, clock, (lo + 3 * MS, hi), 0, 50 * MS, 8, f"100 ms from {lo}")
     expect_true(all(time <= at["jumps"] for time, _ in found), "edges of an output that was off")
     given = answers(run)
@@ -121,7 +121,7 @@ def ptppps(run):
     clock, _ = follow(run, 0)
     at = marks(run)
     pulses = asserts(run, "pulses.txt")
-    expect([number for number, _ in pulses], list(range(1, 14)), "numbers of the pulses")
+    expect([number for number, _ in pulses], list(range(1, 16)), "numbers of the pulses")
     expect_seconds(clock, pulses, "pulse")
     expect(asserts(run, "last.txt"), pulses[-1:], "last pulse")
     expect([answer for _, answer in answers(run)],
@@ -130,7 +130,10 @@ def ptppps(run):
     expect_true(all(time > at["both"] - 3 * MS for time, _ in found), "an output without request")
     half = SECOND // 2
     expect_output(found, clock, (at["both"], at["shifted"]), 0, half, 9, "with pulses")
-    expect_output(found, clock, (at["shifted"] + 3 * MS, at["output"]), 0, half, 5, "after a shift")
+    expect_output(found, clock, (at["shifted"] + 3 * MS, at["jumped"]), 0, half, 5, "after a shift")
+    expect_output(found, clock, (at["jumped"] + 3 * MS, at["output"]), 0, half, 3, "over a second")
+    inside = [time for time, _ in found if at["jumped"] < time <= at["jumped"] + 3 * MS]
+    expect_true(len(inside) <= 1, f"edges at a jump: {len(inside)}, the output falls once at most")
     expect_output(found, clock, (at["output"], at["off"]), 0, half, 3, "without pulses")
 
 

@@ -27,6 +27,11 @@ pulses 5
 mark shifted
 phc_ctl /dev/ptp0 -- adj 100.25 >/dev/null
 pulses 3
+# Over a second: it is not told, nor let out, behind its time.
+mark jumped
+phc_ctl /dev/ptp0 set 2000000000.2 >/dev/null
+phc_ctl /dev/ptp0 -- adj 1.0 >/dev/null
+pulses 2
 request pps 0
 mark output
 sleep 2

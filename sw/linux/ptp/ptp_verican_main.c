@@ -59,28 +59,32 @@ static int verican_gettimex64(struct ptp_clock_info *info, struct timespec64 *ts
 	return 0;
 }
 
-static int verican_settime64(struct ptp_clock_info *info, const struct timespec64 *ts)
+/*
+ * The compare unit would follow a jump event by event until it has caught up, and tell of a second
+ * that was leapt over. It stands until the worker has armed it for the new time.
+ */
+static void verican_jump(struct verican_ptp *vp, unsigned int offset, u64 ns)
 {
-	struct verican_ptp *vp = container_of(info, struct verican_ptp, info);
-	u64 time = (u64)ts->tv_sec * NSEC_PER_SEC + ts->tv_nsec;
 	unsigned long flags;
 
 	spin_lock_irqsave(&vp->lock, flags);
-	verican_write_pair(vp, TIMELO, lower_32_bits(time), upper_32_bits(time));
+	verican_change_ctrl(vp, TCTRL_CMP, 0);
+	verican_write_pair(vp, offset, lower_32_bits(ns), upper_32_bits(ns));
 	spin_unlock_irqrestore(&vp->lock, flags);
 	verican_rearm(vp);
+}
+
+static int verican_settime64(struct ptp_clock_info *info, const struct timespec64 *ts)
+{
+	struct verican_ptp *vp = container_of(info, struct verican_ptp, info);
+
+	verican_jump(vp, TIMELO, (u64)ts->tv_sec * NSEC_PER_SEC + ts->tv_nsec);
 	return 0;
 }
 
 static int verican_adjtime(struct ptp_clock_info *info, s64 delta)
 {
-	struct verican_ptp *vp = container_of(info, struct verican_ptp, info);
-	unsigned long flags;
-
-	spin_lock_irqsave(&vp->lock, flags);
-	verican_write_pair(vp, TSHLO, lower_32_bits(delta), upper_32_bits(delta));
-	spin_unlock_irqrestore(&vp->lock, flags);
-	verican_rearm(vp);
+	verican_jump(container_of(info, struct verican_ptp, info), TSHLO, delta);
 	return 0;
 }
 
