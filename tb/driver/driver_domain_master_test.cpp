@@ -199,8 +199,8 @@ TEST(Master, NoMailbox) {
   EXPECT_THAT(fups(), ::testing::ElementsAre(fup_of(0, 987'654'321)));
 }
 
-// TM-50: a SYNC that finds no mailbox goes out with the first poll behind the one that is free, with
-// the time of then, and the rhythm stays.
+// TM-50: a SYNC that finds no mailbox goes out with the first poll behind the one that is free,
+// with the time of then, and the rhythm stays.
 TEST(Master, NoMailboxForAWhile) {
   DomainRig rig{DomainRig::config_of(), true, kStart};
   const unsigned foreign = rig.fill();

@@ -71,8 +71,8 @@ TEST_F(RtlInstants, AShortBitBeforeEof6) {
   bus.node().user_write(0xF00 / 4, 257U << 16, 0xC);  // WDT: its low byte is 0 then
   const auto start = [&] {
     bus.host.request(frame_of(frame));
-    EXPECT_TRUE(bus.bus.run_until([&] { return bus.bus.level() == Level::kDominant; },
-                                  kMillisecond));
+    EXPECT_TRUE(
+        bus.bus.run_until([&] { return bus.bus.level() == Level::kDominant; }, kMillisecond));
     return bus.bus.now();
   };
   const Time begin = start();
