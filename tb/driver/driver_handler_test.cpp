@@ -56,6 +56,34 @@ class DriverHandler : public ::testing::Test {
   std::vector<verican_tx_event_t> events_;
 };
 
+// verican_recover() asks for what has just happened by itself: the handler, which comes between the
+// look at the state and the lock, has seen the end of bus-off. Nothing is under way then, and no
+// error interrupts without anybody who listens.
+TEST_F(DriverHandler, RecoverBehindTheEndOfBusOff) {
+  up();
+  constexpr std::uint32_t kBusOff = 2u << VERICAN_ESR1_FLT_CONF_SHIFT;
+  core_.word(VERICAN_ESR1_OFFSET) = kBusOff | VERICAN_ESR1_BOFF_INT_MASK;
+  ASSERT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+  unsigned places = 0;
+  for (unsigned place = 0; place < 8; ++place) {
+    core_.word(VERICAN_ESR1_OFFSET) = kBusOff;
+    (void)verican_irq_handler(&dev_);
+    unsigned left = place;
+    core_.on_open = [&] {
+      if (left-- > 0) return;
+      core_.on_open = nullptr;
+      core_.word(VERICAN_ESR1_OFFSET) = 0;
+      ++places;
+      (void)verican_irq_handler(&dev_);
+    };
+    (void)verican_recover(&dev_);
+    core_.on_open = nullptr;
+    const bool off = core_.word(VERICAN_ESR1_OFFSET) != 0;
+    EXPECT_EQ((core_.word(VERICAN_CTRL1_OFFSET) & VERICAN_CTRL1_ERR_MSK_MASK) != 0, off) << place;
+  }
+  EXPECT_GT(places, 4u);
+}
+
 TEST_F(DriverHandler, NothingToDoIsTold) {
   up();
   EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_ERR_EMPTY);

@@ -96,12 +96,14 @@ verican_result_t verican_recover(verican_t *dev) {
   const verican_result_t result = verican_check_started(dev);
   if (result != VERICAN_OK) return result;
   (void)verican_state_serve(dev);
-  if (dev->state != (uint8_t)VERICAN_STATE_BUS_OFF) return VERICAN_ERR_STATE;
-  const uint32_t token = verican_lock(dev);
-  dev->recovering = true;
-  verican_write_ctrl(dev);
+  const uint32_t token = verican_lock(dev); /* the handler may have seen the end meanwhile */
+  const bool off = dev->state == (uint8_t)VERICAN_STATE_BUS_OFF;
+  if (off) {
+    dev->recovering = true;
+    verican_write_ctrl(dev);
+  }
   verican_unlock(dev, token);
-  return VERICAN_OK;
+  return off ? VERICAN_OK : VERICAN_ERR_STATE;
 }
 
 static void run_delay(verican_t *dev, uint32_t now_ms) {
