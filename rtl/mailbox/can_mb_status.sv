@@ -33,7 +33,8 @@ module can_mb_status #(
   logic            vps_q, imb_q, crc_q, first;
   logic [14:0]     txcrc_q;
 
-  assign esr2_o = {7'(lptm_q), vps_q, imb_q};
+  // A C/S write beats the result before it, in the transfer right behind it too.
+  assign esr2_o = {7'(lptm_q), vps_q && !cs_written_i, imb_q};
   assign crcr_o = {7'(mbcrc_q), txcrc_q} & {22{crc_q}};   // 0 until a frame has been sent
 
   // During a pass LPTM and IMB are those of the buffers seen so far; VPS = 0 tells that they are
