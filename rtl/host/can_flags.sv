@@ -3,7 +3,7 @@
 //
 // can_flags: the events that software sees: IFLAG, IMASK, the event bits of ESR1, and the interrupt
 // lines (flexcan.md 1.4, 1.5 and section 5). An event beats a clear by software in the same clock,
-// so that none is lost.
+// so that none is lost. Flags that end with a write of FEN or WRN_EN read 0 from the next clock on.
 
 module can_flags #(
   parameter int NumMb = 64,
@@ -56,6 +56,7 @@ module can_flags #(
   logic [NumMb-1:0] iflag_q, imask_q;
   always_comb begin
     iflag_o = 64'(iflag_q);
+    if (fifo_clear_i) iflag_o[7:5] = '0;
     if (fen_i) iflag_o[5:0] = {fifo_avail_i, 5'b0};
   end
   assign imask_o = 64'(imask_q);
@@ -121,8 +122,8 @@ module can_flags #(
 
   always_comb begin
     esr1_o = '0;
-    esr1_o[can_regs_pkg::Esr1TwrnInt] = twrn_int_q;
-    esr1_o[can_regs_pkg::Esr1RwrnInt] = rwrn_int_q;
+    esr1_o[can_regs_pkg::Esr1TwrnInt] = twrn_int_q && wrn_en_i;
+    esr1_o[can_regs_pkg::Esr1RwrnInt] = rwrn_int_q && wrn_en_i;
     esr1_o[can_regs_pkg::Esr1Bit1Err] = errors_q[can_pkg::ErrBit1];
     esr1_o[can_regs_pkg::Esr1Bit0Err] = errors_q[can_pkg::ErrBit0];
     esr1_o[can_regs_pkg::Esr1AckErr]  = errors_q[can_pkg::ErrAck];
@@ -140,8 +141,8 @@ module can_flags #(
       {irq_mb_o, irq_boff_o, irq_err_o, irq_twrn_o, irq_rwrn_o, irq_wak_o} <= '0;
     end else begin
       irq_mb_o   <= (iflag_o[NumMb-1:0] & imask_q) != '0;
-      irq_twrn_o <= twrn_int_q && twrn_msk_i;
-      irq_rwrn_o <= rwrn_int_q && rwrn_msk_i;
+      irq_twrn_o <= twrn_int_q && wrn_en_i && twrn_msk_i;
+      irq_rwrn_o <= rwrn_int_q && wrn_en_i && rwrn_msk_i;
       irq_boff_o <= boff_int_q && boff_msk_i;
       irq_err_o  <= err_int_q && err_msk_i;
       irq_wak_o  <= wak_int_q && wak_msk_i;

@@ -174,6 +174,21 @@ TEST_F(ErrorStatus, WithoutWrnEnThereAreNoWarnings) {
   EXPECT_EQ(esr() & kTwrnInt, 0u) << "nor a crossing of before";
 }
 
+// FX-MCR.WRN_EN: nor do they outlast it by a transfer.
+TEST_F(ErrorStatus, WarningsGoWithWrnEn) {
+  preset(0);
+  ASSERT_TRUE(rig_.freeze(0));
+  rig_.write(0, reg::kEcr, 0x6060);
+  ASSERT_EQ(esr() & (kTwrnInt | kRwrnInt), kTwrnInt | kRwrnInt);
+  const std::uint32_t mcr = rig_.read(0, reg::kMcr);
+  const auto results = rig_.burst(
+      0, {{.address = reg::kMcr, .write = true, .data = mcr & ~reg::kMcrWrnEn},
+          {.address = reg::kEsr}});
+  EXPECT_EQ(results[1].data & (kTwrnInt | kRwrnInt), 0u);
+  rig_.write(0, reg::kMcr, mcr);
+  EXPECT_EQ(esr() & (kTwrnInt | kRwrnInt), 0u);
+}
+
 // FX-ECR.TEC, FX-ECR.REC: written in freeze mode only, by byte too.
 TEST_F(ErrorStatus, CountersAreWrittenInFreezeModeOnly) {
   preset(0x1122);

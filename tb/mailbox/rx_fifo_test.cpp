@@ -266,6 +266,28 @@ TEST_F(RxFifo, IsEmptiedByAToggleOfFen) {  // FX-MCR.FEN
   expect_output(7);
 }
 
+// The flags are gone in the transfer behind the write, whether they were those of the FIFO or those
+// of buffers 5 to 7.
+TEST_F(RxFifo, ToggleOfFenClearsItsFlagsAtOnce) {  // FX-MCR.FEN
+  rig_.join();
+  send(0, kDepth + 1);
+  ASSERT_TRUE(rig_.freeze(kReceiver));
+  const std::uint32_t fifo = rig_.read(kReceiver, reg::kMcr), none = fifo & ~reg::kMcrFen;
+  ASSERT_EQ(rig_.iflag(), 0xE0u);
+  const auto flags_behind = [&](std::uint32_t mcr) {
+    const auto results = rig_.burst(kReceiver, {{.address = reg::kMcr, .write = true, .data = mcr},
+                                                {.address = reg::kIflag1}});
+    return results[1].data;
+  };
+  EXPECT_EQ(flags_behind(none), 0u);
+  for (unsigned mb = 4; mb < 9; ++mb) rig_.put_rx(kReceiver, mb, {.id = 0x100 + mb}, ~0u);
+  rig_.go(kReceiver);
+  for (unsigned mb = 4; mb < 9; ++mb) rig_.send({.id = 0x100 + mb});
+  ASSERT_TRUE(rig_.freeze(kReceiver));
+  ASSERT_EQ(rig_.iflag(), 0x1F0u);
+  EXPECT_EQ(flags_behind(fifo), 0x100u);
+}
+
 TEST_F(RxFifo, IsEmptiedBySoftReset) {  // FX-2.3.b
   rig_.join();
   send(0, kDepth + 1);

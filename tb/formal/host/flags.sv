@@ -55,7 +55,9 @@
       p_lines: assert ({irq_mb_o, irq_boff_o, irq_err_o, irq_twrn_o, irq_rwrn_o, irq_wak_o}
                        == f_lines_q);
       // FX-MCR.WRN_EN: without WRN_EN no warning interrupt.
-      p_no_warning: assert (!f_ran || $past(wrn_en_i) || esr1_o[17:16] == 2'b00);
+      p_no_warning: assert (wrn_en_i || esr1_o[17:16] == 2'b00);
+      // FX-MCR.FEN: its change clears what the FIFO shows in IFLAG1[7:6], from that clock on.
+      p_toggled: assert (!fifo_clear_i || iflag_o[7:6] == 2'b00);
       if (f_ran) begin
         // flexcan.md 1.5: a flag rises by its cause only.
         p_cause: assert (!(iflag_q[f_n] && !$past(iflag_q[f_n])) || $past(f_set));
@@ -73,8 +75,8 @@
         // flexcan.md 1.4: interrupt bits of ESR1: set by their event, against a clear too; cleared
         // by a written 1, by a soft reset, the warnings without WRN_EN; nothing else.
         p_esr1_events: assert (f_five(esr1_o) == ($past(clear_i) ? 5'd0
-            : ($past(f_event) | (f_five($past(esr1_o)) & ~f_five($past(f_esr_w1c))
-                                 & {{2{$past(wrn_en_i)}}, 3'b111}))));
+            : (($past(f_event) | (f_five($past(esr1_o)) & ~f_five($past(f_esr_w1c))))
+               & {{2{wrn_en_i}}, 3'b111})));
         // flexcan.md 1.4: error bits: set by their error, cleared by the read that returns them;
         // an error in that very clock is not lost.
         p_esr1_errors: assert (esr1_o[15:10] == ($past(clear_i) ? 6'd0
