@@ -163,7 +163,8 @@ module can_mailbox #(
   logic [IdxW-1:0] lock_idx, serviced_idx;
   can_mb_lock #(.NumMb(NumMb)) u_lock (
     .clk_i, .rst_ni, .clear_i(fifo_clear_i), .bcc_i(bcc),
-    .cs_rd_i(cs_rd), .timer_rd_i(timer_rd), .idx_i(cpu_idx), .code_i(cs_rd_code),
+    .cs_rd_i(cs_rd), .timer_rd_i(timer_rd), .idx_i(cpu_idx), .be3_i(cpu_be[3]),
+    .code_i(cs_rd_code),
     .serviced_i(cs[can_mb_pkg::CsServiced]), .busy_i(cpu_busy),
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
     .lock_o(lock), .lock_idx_o(lock_idx),

@@ -19,6 +19,7 @@ module can_mb_lock #(
   input  logic            cs_rd_i,      // pulse: the CPU reads the C/S word of buffer idx_i
   input  logic            timer_rd_i,   // pulse: the CPU reads TIMER
   input  logic [IdxW-1:0] idx_i,        // buffer of the CPU access
+  input  logic            be3_i,        // 1: the access has the byte with the code
   input  logic [3:0]      code_i,       // code of the C/S word that is read
   input  logic            serviced_i,   // 1: the C/S word that is read has the serviced mark
   input  logic            busy_i,       // 1: buffer idx_i shows BUSY: this read does not lock it
@@ -40,7 +41,7 @@ module can_mb_lock #(
       || (code_i == can_regs_pkg::MbCsCodeRxEmpty && !bcc_i));
   assign same       = lock_idx_o == idx_i;
   assign leave      = timer_rd_i || (cs_rd_i && !same);
-  // A C/S write replaces the code, so it cancels a mark that has not been written yet.
+  // A C/S write that replaces the code cancels a mark that has not been written yet.
   assign overwritten    = cs_written_i && at_serviced_q;
   assign serviced_req_o = req_q && !overwritten;
   assign cs_written_hit    = cs_written_i && cs_written_idx_i == lock_idx_o;
@@ -56,7 +57,7 @@ module can_mb_lock #(
     end else begin
       // Compared a clock before cs_written_i: in the last clock of a write serviced_idx_o does not
       // change, because only a read changes it.
-      at_serviced_q <= idx_i == serviced_idx_o;
+      at_serviced_q <= be3_i && idx_i == serviced_idx_o;
       if (serviced_gnt_i || overwritten) req_q <= 1'b0;
       if (lock_o && (leave || cs_written_hit)) begin
         lock_o <= 1'b0;

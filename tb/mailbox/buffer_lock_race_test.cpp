@@ -207,5 +207,35 @@ INSTANTIATE_TEST_SUITE_P(All, MatchRace,
                                             ::testing::Bool(), ::testing::Bool()),
                          match_race_name);
 
+// FX-3.6.g: a write of bytes that hold no code, right behind the unlock, leaves the mark that the
+// unlock asks for, whatever moves just then.
+TEST(MarkRace, BytesWithoutTheCode) {
+  constexpr Frame kMoves{.id = 0x456, .dlc = 2, .data = {0x41, 0x42}};
+  BufferRig rig{{.num_mb = 16, .maxmb = 15, .bcc = true}};
+  rig.go();
+  rig.receive(kMoves);
+  const std::uint64_t length = rig.end_clock() - rig.start_clock();
+  const std::pair<unsigned, AhbSize> writes[] = {
+      {0, AhbSize::kByte}, {2, AhbSize::kByte}, {0, AhbSize::kHalf}};
+  for (const auto &[byte, size] : writes) {
+    for (int offset = kMovesFrom; offset <= kMovesTo && !::testing::Test::HasFailure(); ++offset) {
+      SCOPED_TRACE(testing::Message() << "byte " << byte << ", clock " << offset << " from EOF6");
+      prepare(rig, State::kFull);
+      rig.put_rx(kOtherMb, kMoves);
+      rig.read_cs(kMb);
+      const std::uint64_t frames = rig.frames_started();
+      rig.peer_sends(kMoves);
+      ASSERT_TRUE(rig.run_until([&] { return rig.frames_started() > frames; }, 400));
+      const std::uint64_t clock = rig.start_clock() + length + offset;
+      rig.at(clock, {.address = reg::kTimer});
+      rig.at(clock, {.address = reg::mb(kMb) + byte, .write = true, .size = size, .data = 2});
+      rig.quiet();
+      rig.receive(kSecond);
+      EXPECT_EQ(rig.read_cs(kMb) >> 24, kRxFull);
+      rig.compare();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vericansim

@@ -4,6 +4,8 @@
 // can_mb_lock alone (flexcan.md 3.6): what locks, what unlocks, and the mark that follows.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "Vcan_mb_lock.h"
 #include "unit/leaf_model.hpp"
 
@@ -41,8 +43,9 @@ class MbLock : public ::testing::Test {
     clock();
   }
   /// Its data phase.
-  void begin_write(unsigned idx) {
+  void begin_write(unsigned idx, bool code = true) {
     lock_->idx_i = idx;
+    lock_->be3_i = code;
     clock();
   }
   LeafModel<Vcan_mb_lock> lock_;
@@ -64,19 +67,20 @@ TEST_F(MbLock, ReadOfAnotherBufferUnlocksAndServices) {  // FX-3.6.c, FX-3.6.e, 
   }
 }
 
-// The mark would be written over the new code.
+// The mark would be written over the new code; a write without one leaves it.
 TEST_F(MbLock, NoMarkInTheClockBehindACsWrite) {  // FX-3.6.g
-  for (const unsigned written : {5u, 6u}) {
+  for (const auto &[written, code] : {std::pair{5u, true}, {5u, false}, {6u, true}}) {
     read(5, kFull);
     read_timer();
     EXPECT_TRUE(lock_->serviced_req_o);
-    begin_write(written);
+    begin_write(written, code);
     lock_->cs_written_i = 1;
     lock_->cs_written_idx_i = written;
     lock_.settle();
-    EXPECT_EQ(lock_->serviced_req_o != 0, written != 5);
+    const bool stays = written != 5 || !code;
+    EXPECT_EQ(lock_->serviced_req_o != 0, stays);
     clock();
-    EXPECT_EQ(lock_->serviced_req_o != 0, written != 5);
+    EXPECT_EQ(lock_->serviced_req_o != 0, stays);
   }
 }
 

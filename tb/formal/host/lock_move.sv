@@ -6,7 +6,7 @@
 
 module lock_move (
   input  logic        clk_i, rst_ni, clear_i, bcc_i, cpu_go_i, cpu_wr_i, cpu_cs_i, cpu_timer_i,
-    cpu_off_i, cs_written_empty_i,
+    cpu_be3_i, cpu_off_i, cs_written_empty_i,
   input  logic        start_i, rx_hdr_i, valid_i, hold_i, match_done_i, hit_i, hit_fifo_i,
   input  logic        hit_ans_i, slot_i, yield_i, ld_req_i, ld_cancel_i, serviced_i,
     serviced_gnt_i,
@@ -24,17 +24,17 @@ module lock_move (
 
   // can_mb_port, can_mb_cpu: an access takes two clocks; in the second of a read its word is there,
   // in that of a write the RAM is written, or not (cpu_off_i).
-  logic       first_q, second_q, wr_q, cs_q, timer_q, cs_rd, timer_rd, cs_written_q;
+  logic       first_q, second_q, wr_q, cs_q, timer_q, be3_q, cs_rd, timer_rd, cs_written_q;
   logic [3:0] idx_q, cs_written_idx_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {first_q, second_q, wr_q, cs_q, timer_q, cs_written_q} <= '0;
+      {first_q, second_q, wr_q, cs_q, timer_q, be3_q, cs_written_q} <= '0;
       {idx_q, cs_written_idx_q} <= '0;
     end else begin
       first_q  <= !first_q && cpu_go_i;
       second_q <= first_q;
       if (!first_q) begin
-        {wr_q, cs_q, timer_q} <= {cpu_wr_i, cpu_cs_i, cpu_timer_i};
+        {wr_q, cs_q, timer_q, be3_q} <= {cpu_wr_i, cpu_cs_i, cpu_timer_i, cpu_be3_i};
         idx_q <= cpu_idx_i;
       end
       cs_written_q <= second_q && wr_q && cs_q && !cpu_off_i;
@@ -47,7 +47,7 @@ module lock_move (
   assign busy_idx = busy_mb && idx == idx_q;
   can_mb_lock #(.NumMb(16)) u_lock (
     .clk_i, .rst_ni, .clear_i, .bcc_i, .cs_rd_i(cs_rd), .timer_rd_i(timer_rd), .idx_i(idx_q),
-    .code_i, .serviced_i, .busy_i(busy_idx), .cs_written_i(cs_written_q),
+    .be3_i(be3_q), .code_i, .serviced_i, .busy_i(busy_idx), .cs_written_i(cs_written_q),
     .cs_written_idx_i(cs_written_idx_q), .lock_o(lock), .lock_idx_o(lock_idx),
     .serviced_req_o(serviced_req), .serviced_idx_o(serviced_idx), .serviced_ovr_o(serviced_ovr),
     .serviced_gnt_i(serviced_gnt_i && serviced_req));
