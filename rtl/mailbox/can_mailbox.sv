@@ -125,7 +125,7 @@ module can_mailbox #(
   logic [3:0]      cpu_be, cs_rd_code, ld_code;
   logic            rd_word;
   logic [31:0]     rd_other, ram_wdata, cs, msg, mask, word;
-  logic            cs_written, cs_written_act, cs_written_empty, cs_written_ide;
+  logic            cs_written, cs_written_act;
   logic [IdxW-1:0] cs_written_idx;
   logic            mv_busy_mb, mv_flag, mv_waits;
   logic [IdxW-1:0] mv_idx, mv_waits_idx;
@@ -145,8 +145,7 @@ module can_mailbox #(
     .timer_rd_o(timer_rd), .timer_wr_o(timer_we_o),
     .cs_rd_o(cs_rd), .cs_rd_code_o(cs_rd_code), .busy_o(cpu_busy),
     .cs_written_o(cs_written), .cs_written_idx_o(cs_written_idx),
-    .cs_written_act_o(cs_written_act), .cs_written_empty_o(cs_written_empty),
-    .cs_written_ide_o(cs_written_ide));
+    .cs_written_act_o(cs_written_act));
 
   // TSYN (flexcan.md 2.10): TIMER is cleared when the first mailbox receives a frame. mv_first_q is
   // compared a clock early, which is safe because mv_idx does not change during a move.
@@ -191,7 +190,6 @@ module can_mailbox #(
     .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_rtr_i,
     .lock_i(lock), .lock_idx_i(lock_idx), .waits_i(mv_waits), .waits_idx_i(mv_waits_idx),
     .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
-    .cs_written_empty_i(cs_written_empty), .cs_written_ide_i(cs_written_ide),
     .wr_i(wr && !wr_done), .wr_idx_i(cpu_idx),
     .req_o(rx_req), .idx_o(rx_idx), .word_o(rx_word), .cs_o(rx_cs),
     .mask_row_o(rx_mask_row), .gnt_i(rx_gnt),
@@ -233,8 +231,7 @@ module can_mailbox #(
     .hit_ans_i(hit_ans), .idhit_i(idhit), .resolve_o(resolve),
     .waits_o(mv_waits), .waits_idx_o(mv_waits_idx),
     .lock_i(lock), .lock_idx_i(lock_idx),
-    .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx),
-    .cs_written_empty_i(cs_written_empty), .cpu_idx_i(cpu_idx),
+    .cs_written_i(cs_written), .cs_written_idx_i(cs_written_idx), .cpu_idx_i(cpu_idx),
     .req_o(mv_req), .step_o(mv_step), .row_o(mv_row), .idx_o(mv_idx),
     .data_i(mv_data), .cs_i(cs), .top_o(mv_top), .cancel_o(mv_cancel),
     .moving_o(moving), .busy_mb_o(mv_busy_mb), .answer_o(mv_answer), .flag_o(mv_flag),

@@ -61,9 +61,7 @@ module can_mb_cpu #(
   // cs_written_idx_o; the RAM holds the new word.
   output logic            cs_written_o,
   output logic [IdxW-1:0] cs_written_idx_o,
-  output logic            cs_written_act_o,   // 1: the code written may be active
-  output logic            cs_written_empty_o, // 1: whole word written, with code EMPTY
-  output logic            cs_written_ide_o    // IDE that was written
+  output logic            cs_written_act_o    // 1: the code written may be active
 );
   // Does the word belong to the Rx FIFO (area), or to its memory (ring)? The six rows of the memory
   // are part of the area for every RFFN. Decoded in the first clock of an access, used in the
@@ -134,16 +132,14 @@ module can_mb_cpu #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {cs_written_o, cs_written_act_o, cs_written_empty_o, cs_written_ide_o} <= '0;
+      {cs_written_o, cs_written_act_o} <= '0;
       cs_written_idx_o <= '0;
     end else begin
       cs_written_o <= cs_wr;
       if (cs_wr) begin
-        cs_written_idx_o   <= idx_i;
-        cs_written_act_o   <= !be_i[3] || code == can_regs_pkg::MbCsCodeTxData
-                              || code == can_regs_pkg::MbCsCodeTxAnswering;
-        cs_written_empty_o <= be_i == '1 && code == can_regs_pkg::MbCsCodeRxEmpty;
-        cs_written_ide_o   <= wdata_i[can_regs_pkg::MbCsIde];
+        cs_written_idx_o <= idx_i;
+        cs_written_act_o <= !be_i[3] || code == can_regs_pkg::MbCsCodeTxData
+                            || code == can_regs_pkg::MbCsCodeTxAnswering;
       end
     end
   end

@@ -47,8 +47,6 @@ module can_mb_match #(
   input  logic [IdxW-1:0] waits_idx_i,
   input  logic            cs_written_i, // pulse: the CPU wrote a C/S word in the clock before
   input  logic [IdxW-1:0] cs_written_idx_i,
-  input  logic            cs_written_empty_i,  // 1: whole word written, with code EMPTY
-  input  logic            cs_written_ide_i,  // IDE that was written
   // CPU access, see can_mb_port.
   input  logic            wr_i,         // 1 in the first clock of a write to row wr_idx_i
   input  logic [IdxW-1:0] wr_idx_i,
@@ -95,7 +93,7 @@ module can_mb_match #(
     .clk_i, .rst_ni, .clear_i, .bcc_i, .eacen_i, .rrs_i, .maxmb_i, .first_i,
     .wait_i(flt_busy || enough), .rx_hdr_i, .rx_id_i, .rx_ide_i, .rx_rtr_i,
     .lock_i, .lock_idx_i, .waits_i, .waits_idx_i,
-    .cs_written_i, .cs_written_idx_i, .cs_written_empty_i, .cs_written_ide_i,
+    .cs_written_i, .cs_written_idx_i,
     .req_o(mb_req), .idx_o(mb_idx), .gnt_i(gnt && !flt_busy), .stale_i,
     .cs_i, .id_i(msg_i), .mask_i(mb_mask),
     .id_o(id), .ide_o(ide), .rtr_o(rtr), .ans_o(mb_ans),

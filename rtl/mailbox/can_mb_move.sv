@@ -38,7 +38,6 @@ module can_mb_move #(
   input  logic [IdxW-1:0] lock_idx_i,
   input  logic            cs_written_i,  // pulse: the CPU wrote a C/S word in the clock before
   input  logic [IdxW-1:0] cs_written_idx_i,
-  input  logic            cs_written_empty_i,  // 1: whole word written, with code EMPTY
   input  logic [IdxW-1:0] cpu_idx_i,     // buffer of the CPU access; next clock: cs_written_idx_i
   // Steps of a move, a copy each (can_mb_step): 0 ID, with a read of the old C/S word; 1 bytes 0-3;
   // 2 bytes 4-7; 3 C/S. An answer has step 3 only.
@@ -94,24 +93,17 @@ module can_mb_move #(
                               : full_q[1] && !fifo_q[1] && !ans_q[1] && !(unres_q && unres_row_q));
   assign waits_idx_o = smb_o ? tgt0_q : tgt1_q;
 
-  // A C/S write cancels a frame that waits for this buffer (flexcan.md 3.4), unless it writes EMPTY
-  // to an unlocked buffer, which remains a target. It always cancels an answer.
-  logic cs_written_cancels;
-  assign cs_written_cancels = cs_written_i && !(cs_written_empty_i && !(lock_i
-      && lock_idx_i == cs_written_idx_i));
-  assign kill[0] = (cs_written_cancels || (cs_written_i && ans_q[0])) && cs_written_idx_i == tgt0_q
-                && !(unres_q && !unres_row_q);
-  assign kill[1] = (cs_written_cancels || (cs_written_i && ans_q[1])) && cs_written_idx_i == tgt1_q
-                && !(unres_q && unres_row_q);
+  // A C/S write, whatever it writes, cancels a frame that waits for this buffer or is moved there
+  // (flexcan.md 3.4): the buffer's identifier or kind may have changed.
+  assign kill[0] = cs_written_i && cs_written_idx_i == tgt0_q && !(unres_q && !unres_row_q);
+  assign kill[1] = cs_written_i && cs_written_idx_i == tgt1_q && !(unres_q && unres_row_q);
 
   // A C/S write to the buffer that is being moved to. hit_q compares its index a clock ahead, so
   // that cancel_o, which gates the write of a step, is early.
-  logic cs_written_hit, hit_q, cancel, ovr;
-  assign cs_written_hit = cs_written_i && cs_written_idx_i == idx_o;
-  assign cancel   = cs_written_hit && !(cs_written_empty_i && !ans);
-  assign cancel_o = cs_written_i && hit_q && !(cs_written_empty_i && !ans);
-  assign ovr      = ovr_q && !(cs_written_i && hit_q);
-  assign top_o    = fifo ? idhit_i : {4'b0, ans, ovr || ans, 2'b10, 1'b0};
+  logic cancel, hit_q;
+  assign cancel   = cs_written_i && cs_written_idx_i == idx_o;
+  assign cancel_o = cs_written_i && hit_q;
+  assign top_o    = fifo ? idhit_i : {4'b0, ans, ovr_q || ans, 2'b10, 1'b0};
   assign fifo     = fifo_q[row_o];
   assign ans      = ans_q[row_o];
   assign req_o    = mv_q && !end_q;
@@ -149,13 +141,12 @@ module can_mb_move #(
       end else if (data_i) begin
         step_o <= step_o + 1'b1;
         // The old code is FULL or OVERRUN, not serviced: the new one is OVERRUN.
-        if (step_o == 2'd0) ovr_q <= (cs_i[25] && !cs_i[can_mb_pkg::CsServiced]) && !cs_written_hit;
+        if (step_o == 2'd0) ovr_q <= cs_i[25] && !cs_i[can_mb_pkg::CsServiced];
         if (step_o == 2'd3) begin
           end_q <= 1'b1;
           {flag_o, stored_o, ans_o} <= {!fifo && !ans, fifo, ans};
         end
       end
-      if (mv_q && cs_written_hit) ovr_q <= 1'b0;
       if (kill[0] && !(end_q && !row_o)) full_q[0] <= 1'b0;
       if (kill[1] && !(end_q && row_o))  full_q[1] <= 1'b0;
 

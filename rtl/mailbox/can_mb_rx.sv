@@ -32,8 +32,6 @@ module can_mb_rx #(
   input  logic [IdxW-1:0] waits_idx_i,
   input  logic            cs_written_i, // pulse: the CPU wrote a C/S word in the clock before
   input  logic [IdxW-1:0] cs_written_idx_i,
-  input  logic            cs_written_empty_i,  // 1: whole word written, with code EMPTY
-  input  logic            cs_written_ide_i,    // IDE that was written
   // Read slots (can_mb_step): C/S, ID and mask of buffer idx_o.
   output logic            req_o,        // 1: a read slot is wanted
   output logic [IdxW-1:0] idx_o,        // buffer that is to be read
@@ -77,11 +75,10 @@ module can_mb_rx #(
   assign skip    = s2_skip_q || (s2_match_q && cs_written_i && cs_written_idx_i == s2_idx_q);
   assign last    = idx_o == IdxW'(NumMb - 1) || 7'(idx_o) == maxmb_i;
 
-  // The CPU has rewritten the buffer that was found: search again. If it wrote EMPTY with the same
-  // IDE, a buffer that is to store the frame remains the result.
+  // The CPU has rewritten the buffer that was found: search again. Its identifier may be another
+  // one, too.
   logic withdrawn;
-  assign withdrawn = hit_o && cs_written_i && cs_written_idx_i == hit_idx_o
-             && !(cs_written_empty_i && cs_written_ide_i == ide_o && !ans_o);
+  assign withdrawn = hit_o && cs_written_i && cs_written_idx_i == hit_idx_o;
 
   assign req_o  = scan_q && !wait_i;
   assign done_o = !scan_q && !s1_q && !s2_q && !withdrawn;

@@ -8,7 +8,7 @@
   logic [IdxW-1:0] f_idx_q;
   // The C/S word is written (can_mb_step: step 3).
   logic f_cancel, f_copy;
-  assign f_cancel = cs_written_i && cs_written_idx_i == idx_o && !(cs_written_empty_i && !ans);
+  assign f_cancel = cs_written_i && cs_written_idx_i == idx_o;
   assign f_copy   = data_i && moving_o;
   assign f_put = data_i && step_o == 2'd3 && moving_o && !cancel_o;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -47,14 +47,11 @@
       // the FIFO the number of the filter.
       p_code: assert (top_o[4:1] == 4'b0010 || top_o[4:1] == 4'b0110 || fifo
                       || (ans && top_o[4:1] == 4'b1110));
-      // flexcan.md 3.4: a C/S write of the CPU that is not EMPTY cancels the move.
+      // flexcan.md 3.4: a C/S write of the CPU cancels the move.
       p_cancel: assert (cancel == f_cancel);
       // flexcan.md 3.4: ... and no word is written to its buffer in that clock: of a step's data
       // the compare of the clock before is right.
       p_cancel_early: assert (!f_copy || cancel_o == f_cancel);
-      // flexcan.md 3.2: nor is a buffer written as EMPTY OVERRUN.
-      p_overrun: assert (!f_copy || fifo || ans
-          || top_o[3] == (ovr_q && !(cs_written_i && cs_written_idx_i == idx_o)));
       if (f_ran) begin
         // flexcan.md 1.5, 3.2: IFLAG tells a frame stored in a mailbox, when its C/S word has been
         // written; nothing else does.

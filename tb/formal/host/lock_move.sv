@@ -6,7 +6,7 @@
 
 module lock_move (
   input  logic        clk_i, rst_ni, clear_i, bcc_i, cpu_go_i, cpu_wr_i, cpu_cs_i, cpu_timer_i,
-    cpu_be3_i, cpu_off_i, cs_written_empty_i,
+    cpu_be3_i, cpu_off_i,
   input  logic        start_i, rx_hdr_i, valid_i, hold_i, match_done_i, hit_i, hit_fifo_i,
   input  logic        hit_ans_i, slot_i, yield_i, ld_req_i, ld_cancel_i, serviced_i,
     serviced_gnt_i,
@@ -56,7 +56,7 @@ module lock_move (
     .clk_i, .rst_ni, .clear_i, .start_i, .rx_hdr_i, .valid_i, .hold_i(hold_i || serviced_req),
     .smb_o(smb), .match_done_i, .hit_i, .hit_idx_i, .hit_fifo_i, .hit_ans_i, .idhit_i,
     .resolve_o(resolve), .lock_i(lock), .lock_idx_i(lock_idx), .cs_written_i(cs_written_q),
-    .cs_written_idx_i(cs_written_idx_q), .cs_written_empty_i, .cpu_idx_i(idx_q),
+    .cs_written_idx_i(cs_written_idx_q), .cpu_idx_i(idx_q),
     .req_o(req), .step_o(step), .row_o(row), .idx_o(idx), .data_i(data), .cs_i,
     .top_o(top), .cancel_o(cancel), .moving_o(moving), .busy_mb_o(busy_mb), .answer_o(answer),
     .flag_o, .stored_o, .ans_o, .busy_o);
