@@ -53,11 +53,12 @@ module can_mb_smb #(
     row_o  = (IdxW+2)'(3 * NumMb) | (IdxW+2)'(hidden);
     data_o = {3'b0, rx_id_i};
     if (cs_o) begin
-      be_o   = stamp_q || tx_stamp_q ? 4'b0011 : 4'b0100;
+      be_o   = stamp_q || tx_stamp_q ? 4'b0011 : 4'b1100;
       row_o  = stamp_q || !tx_stamp_q
                ? (IdxW+2)'(NumMb + can_mb_pkg::RowReceived) | (IdxW+2)'(smb_i)
                : (IdxW+2)'(NumMb + can_mb_pkg::RowSent) | (IdxW+2)'(tx_row_i);
-      // A base frame has no SRR; its bit is stored as 1 (flexcan.md 3.1).
+      // A base frame has no SRR; its bit is stored as 1 (flexcan.md 3.1). The top byte is 0, not
+      // what the RAM held: the CPU may read it in the clock of the move (can_mb_port).
       data_o = {9'b0, rx_srr_i || !rx_ide_i, rx_ide_i, rx_rtr_i, rx_dlc_i, timer_i};
     end else if (!id_q && (zero0_q || zero1_q)) begin   // bytes beyond the DLC read as zero
       data_o = '0;
