@@ -400,6 +400,23 @@ TEST_P(MbTx, AnswersAndRetriesWaitForTheirSlot) {  // flexcan.md 3.7
   }
 }
 
+// A winner that can_mb_load has found not to be active, as an upset flip-flop makes one, does not
+// stand: all buffers are looked at anew.
+TEST_P(MbTx, WinnerThatIsNotActiveIsDropped) {
+  buffers_[20] = {kActive << 24, 0x100 << 18};
+  buffers_[30] = {kActive << 24, 0x200 << 18};
+  settle();
+  ASSERT_TRUE(top_.settled_o != 0 && top_.best_idx_o == 20);
+  buffers_[20].cs = 0x08000000;  // without a C/S write
+  top_.inactive_i = 1;
+  clock({}, 0, 100);
+  top_.inactive_i = 0;
+  top_.eval();
+  EXPECT_FALSE(top_.settled_o);
+  settle();
+  check();
+}
+
 // ESR2 (flexcan.md 1.7): a pass that changes of the buffers ask for is announced once; one that
 // only looks for what an upset may have lost is not.
 TEST_P(MbTx, PassesThatNobodyAskedForAreQuiet) {
