@@ -110,8 +110,11 @@ module can_mailbox #(
   assign rffn  = ctrl2_i[can_regs_pkg::Ctrl2Rffn +: can_regs_pkg::Ctrl2RffnW];
 
   // First buffer that is a mailbox: 8 + 2 * RFFN with the Rx FIFO, to which those below belong.
+  // The lock and frames that wait do not outlast its change: their rows may belong to the table.
   logic [6:0] first, first_now;
+  logic       drop;
   assign first_now = fen ? {1'b0, 5'(rffn) + 5'd4, 1'b0} : 7'd0;
+  assign drop      = fifo_clear_i || first != first_now;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) first <= '0;
     else         first <= first_now;
@@ -161,7 +164,7 @@ module can_mailbox #(
   logic            lock, serviced_req, serviced_ovr, serviced_gnt;
   logic [IdxW-1:0] lock_idx, serviced_idx;
   can_mb_lock #(.NumMb(NumMb)) u_lock (
-    .clk_i, .rst_ni, .clear_i(fifo_clear_i), .bcc_i(bcc),
+    .clk_i, .rst_ni, .clear_i(drop), .bcc_i(bcc),
     .cs_rd_i(cs_rd), .timer_rd_i(timer_rd), .idx_i(cpu_idx), .be3_i(cpu_be[3]),
     .code_i(cs_rd_code),
     .serviced_i(cs[can_mb_pkg::CsServiced]), .busy_i(cpu_busy),
@@ -223,7 +226,7 @@ module can_mailbox #(
   logic [1:0] mv_step;
   logic [8:0] mv_top;
   can_mb_move #(.NumMb(NumMb)) u_move (
-    .clk_i, .rst_ni, .clear_i(fifo_clear_i), .start_i, .rx_hdr_i,
+    .clk_i, .rst_ni, .clear_i(drop), .start_i, .rx_hdr_i,
     .valid_i(rx_valid_i && !(transmitter_i && mcr_i[can_regs_pkg::McrSrxDis])),
     .hold_i(flags_busy || serviced_req || lpm_i || stamp_busy),
     .smb_o(smb),

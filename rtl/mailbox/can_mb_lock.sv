@@ -14,7 +14,7 @@ module can_mb_lock #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            clear_i,      // pulse: soft reset or change of FEN
+  input  logic            clear_i,      // pulse: soft reset, or change of FEN or of the table
   input  logic            bcc_i,        // MCR.BCC
   input  logic            cs_rd_i,      // pulse: the CPU reads the C/S word of buffer idx_i
   input  logic            timer_rd_i,   // pulse: the CPU reads TIMER

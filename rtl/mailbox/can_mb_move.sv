@@ -16,7 +16,8 @@ module can_mb_move #(
 ) (
   input  logic            clk_i,
   input  logic            rst_ni,
-  input  logic            clear_i,       // pulse: soft reset or change of FEN; drops all frames
+  input  logic            clear_i,       // pulse: soft reset, or change of FEN or of the filter
+                                         // table; drops all frames
   // Frame on the bus, see can_core.
   input  logic            start_i,       // pulse: a frame begins
   input  logic            rx_hdr_i,      // pulse: the header of a frame is complete

@@ -288,6 +288,32 @@ TEST_F(RxFifo, ToggleOfFenClearsItsFlagsAtOnce) {  // FX-MCR.FEN
   EXPECT_EQ(flags_behind(fifo), 0x100u);
 }
 
+// Neither the mark of the buffer that was locked, nor the frame that waited for it, gets into the
+// words of the table that now lie there.
+TEST_F(RxFifo, TableGrowsOverALockedBuffer) {  // FX-4.a, FX-3.6.g, FX-CTRL2.RFFN
+  for (const bool waits : {false, true}) {
+    for (unsigned k = 0; k < 8; ++k) rig_.set_filter(k, {0x7E << 24, ~0u});
+    rig_.put_rx(kReceiver, 8, {.id = 0x111}, ~0u);
+    rig_.join();
+    for (unsigned i = 0; i < (waits ? 2u : 1u); ++i) {
+      rig_.send({.id = 0x111, .dlc = 8, .data = {1, 2, 3, 4, 5, 6, 7, 8}});
+      if (i == 0) {
+        ASSERT_EQ(rig_.get(kReceiver, 8).code(), 2u);
+      }
+    }
+    ASSERT_TRUE(rig_.freeze(kReceiver));
+    rig_.write(kReceiver, reg::kCtrl2, reg::ctrl2_rffn(1));
+    for (unsigned k = 8; k < 16; ++k) rig_.write(kReceiver, reg::filter(k), 0x01010101 * k);
+    rig_.write(kReceiver, reg::kIflag1, ~0u);
+    rig_.read(kReceiver, reg::kTimer);
+    rig_.run(100);
+    for (unsigned k = 8; k < 16; ++k)
+      EXPECT_EQ(rig_.read(kReceiver, reg::filter(k)), 0x01010101 * k) << k;
+    EXPECT_EQ(rig_.iflag(), 0u);
+    rig_.write(kReceiver, reg::kCtrl2, 0);
+  }
+}
+
 TEST_F(RxFifo, IsEmptiedBySoftReset) {  // FX-2.3.b
   rig_.join();
   send(0, kDepth + 1);
