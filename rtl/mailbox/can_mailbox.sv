@@ -139,7 +139,7 @@ module can_mailbox #(
     .rd_done_i(rd_done), .wr_done_i(wr_done), .block_i(block), .if_ended_i(if_ended),
     .ended_i(cs[can_mb_pkg::CsEnded]),
     .mem_sel_i(cpu_mem_sel),
-    .rxfir_i(rxfir), .idx_i(cpu_idx), .be_i(cpu_be), .wdata_i,
+    .rxfir_i(rxfir), .idx_i(cpu_idx), .be3_i(cpu_be[3]), .wdata_i,
     .rd_word_i(rd_word), .word_i(word), .other_i(rd_other),
     .ram_code_i(cs[can_regs_pkg::MbCsCode +: can_regs_pkg::MbCsCodeW]),
     .end_i(rd_end), .end_code_i(ld_code), .timer_i,
@@ -159,6 +159,8 @@ module can_mailbox #(
   end
   assign timer_clear_o = clear_i || (ctrl1_i[can_regs_pkg::Ctrl1Tsyn] && mv_flag && mv_first_q);
   assign timer_be_o    = cpu_be[1:0];
+  logic unused_be;   // the byte of IDE, RTR and DLC alone makes no difference
+  assign unused_be     = cpu_be[2];
   assign timer_wdata_o = wdata_i[15:0];
 
   logic            lock, serviced_req, serviced_ovr, serviced_gnt;

@@ -35,7 +35,7 @@ module can_mb_cpu #(
   input  logic [1:0]      mem_sel_i,     // memory that is accessed, can_mb_pkg::Mem*
   input  logic            rxfir_i,       // MemCs: 1 RXFIR, 0 C/S word; MemTimer: 1 TIMER, 0 stamp
   input  logic [IdxW-1:0] idx_i,         // buffer that is accessed
-  input  logic [3:0]      be_i,
+  input  logic            be3_i,         // 1: bits 31:24 are accessed
   input  logic [31:0]     wdata_i,
   input  logic            rd_word_i,     // 1: the read returns word_i
   input  logic [31:0]     word_i,        // C/S or MSG word on the RAM outputs
@@ -138,7 +138,7 @@ module can_mb_cpu #(
       cs_written_o <= cs_wr;
       if (cs_wr) begin
         cs_written_idx_o <= idx_i;
-        cs_written_act_o <= !be_i[3] || code == can_regs_pkg::MbCsCodeTxData
+        cs_written_act_o <= !be3_i || code == can_regs_pkg::MbCsCodeTxData
                             || code == can_regs_pkg::MbCsCodeTxAnswering;
       end
     end

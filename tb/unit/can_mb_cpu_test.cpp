@@ -23,7 +23,7 @@ class MbCpu : public ::testing::Test {
     begin(0, idx);
     cpu_.clock();
     cpu_->wr_done_i = 1;
-    cpu_->be_i = lanes;
+    cpu_->be3_i = lanes >> 3;
     cpu_->wdata_i = code << 24;
     cpu_.settle();
     cpu_.clock();
