@@ -51,9 +51,9 @@ enum class Action : unsigned {
 };
 
 const char *const kStates[] = {"Empty", "Full", "Serviced", "Overrun", "Locked", "LockedWaiting"};
-const char *const kActions[] = {"ReadCs",        "ReadTimer",     "ReadOtherCs", "ReadCsAndTimer",
-                                "WriteEmpty",    "WriteExtended", "WriteOtherId", "WriteInactive",
-                                "WriteFull",     "WriteOther",    "ClearFlag"};
+const char *const kActions[] = {"ReadCs",     "ReadTimer",     "ReadOtherCs",  "ReadCsAndTimer",
+                                "WriteEmpty", "WriteExtended", "WriteOtherId", "WriteInactive",
+                                "WriteFull",  "WriteOther",    "ClearFlag"};
 
 void prepare(BufferRig &rig, State state) {
   rig.write(reg::mb(kMb), 0);

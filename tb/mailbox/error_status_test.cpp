@@ -181,9 +181,9 @@ TEST_F(ErrorStatus, WarningsGoWithWrnEn) {
   rig_.write(0, reg::kEcr, 0x6060);
   ASSERT_EQ(esr() & (kTwrnInt | kRwrnInt), kTwrnInt | kRwrnInt);
   const std::uint32_t mcr = rig_.read(0, reg::kMcr);
-  const auto results = rig_.burst(
-      0, {{.address = reg::kMcr, .write = true, .data = mcr & ~reg::kMcrWrnEn},
-          {.address = reg::kEsr}});
+  const auto results =
+      rig_.burst(0, {{.address = reg::kMcr, .write = true, .data = mcr & ~reg::kMcrWrnEn},
+                     {.address = reg::kEsr}});
   EXPECT_EQ(results[1].data & (kTwrnInt | kRwrnInt), 0u);
   rig_.write(0, reg::kMcr, mcr);
   EXPECT_EQ(esr() & (kTwrnInt | kRwrnInt), 0u);

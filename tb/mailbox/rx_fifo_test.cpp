@@ -275,8 +275,8 @@ TEST_F(RxFifo, ToggleOfFenClearsItsFlagsAtOnce) {  // FX-MCR.FEN
   const std::uint32_t fifo = rig_.read(kReceiver, reg::kMcr), none = fifo & ~reg::kMcrFen;
   ASSERT_EQ(rig_.iflag(), 0xE0u);
   const auto flags_behind = [&](std::uint32_t mcr) {
-    const auto results = rig_.burst(kReceiver, {{.address = reg::kMcr, .write = true, .data = mcr},
-                                                {.address = reg::kIflag1}});
+    const auto results = rig_.burst(
+        kReceiver, {{.address = reg::kMcr, .write = true, .data = mcr}, {.address = reg::kIflag1}});
     return results[1].data;
   };
   EXPECT_EQ(flags_behind(none), 0u);
