@@ -120,7 +120,7 @@ void set_up_bus(BridgeSetup &setup, const BridgeOptions &options) {
                                 ? kClocksPerBit * setup.bitrate
                                 : setup.scenario.nodes.front().clock.frequency_hz;
   }
-  override_outputs(setup.scenario.outputs, options.outputs);
+  override_outputs(setup.scenario.outputs, options.outputs, options.json);
 }
 
 /// Throws InputError for options that could not do anything.

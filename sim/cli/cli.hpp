@@ -53,9 +53,12 @@ void add_output_options(CLI::App &command, Outputs &outputs,
                         const std::string &report_names = "--report,--report-page");
 /// Throws InputError if a length is given for a page that is not written.
 void require_page(const Outputs &outputs);
+/// Throws InputError if the command line names databases (`files`) and nothing shows signals.
+/// `json`: what is printed does.
+void require_signals(const Outputs &outputs, const std::vector<std::string> &files, bool json);
 /// What is given on the command line takes the place of what a scenario says; databases are added
-/// and read. Throws InputError.
-void override_outputs(Outputs &target, const Outputs &given);
+/// and read. `json` as for require_signals(). Throws InputError.
+void override_outputs(Outputs &target, const Outputs &given, bool json);
 /// Adds --dbc.
 void add_database_option(CLI::App &command, std::vector<std::string> &files);
 /// Reads the databases that the command line names. Throws InputError, also if there is none and

@@ -67,7 +67,7 @@ FirmwareSetup make_setup(const FirmwareOptions &options) {
   FirmwareSetup setup = options.setup;
   for (const std::string &file : options.files) setup.images.push_back(firmware::read_elf(file));
   read_buses(options, setup);
-  override_outputs(setup.scenarios.front().outputs, options.outputs);
+  override_outputs(setup.scenarios.front().outputs, options.outputs, options.json);
   for (Scenario &scenario : setup.scenarios) scenario.outputs.ids = options.outputs.ids;
   if (!options.limit.empty()) setup.limit = time_option("--time", options.limit);
   setup.cpu.catch_hard_fault = !options.run_hard_fault;

@@ -66,7 +66,16 @@ void require_page(const Outputs &outputs) {
         "no page is written; allowed: with --report-page, or outputs.report of the scenario");
 }
 
-void override_outputs(Outputs &target, const Outputs &given) {
+void require_signals(const Outputs &outputs, const std::vector<std::string> &files, bool json) {
+  if (files.empty() || json || outputs.signals || !outputs.signals_csv.empty() ||
+      !outputs.report.empty())
+    return;
+  throw InputError("--dbc", 0,
+                   "nothing shows its signals; allowed: with --signals, --signals-csv, --json or "
+                   "--report-page, or outputs.report of the scenario");
+}
+
+void override_outputs(Outputs &target, const Outputs &given, bool json) {
   for (const auto path : kOutputPaths)
     if (!(given.*path).empty()) target.*path = given.*path;
   target.signals = given.signals;
@@ -74,6 +83,7 @@ void override_outputs(Outputs &target, const Outputs &given) {
   load_databases(target, given.dbc);
   if (given.report_frames != Outputs{}.report_frames) target.report_frames = given.report_frames;
   require_page(target);
+  require_signals(target, given.dbc, json);
 }
 
 Outputs outputs_for(const Outputs &outputs, double bitrate) {

@@ -99,6 +99,7 @@ int replay_alone(ReplayCommand &options) {
   if (options.bitrate != 0) options.replay.bitrate = options.bitrate;
   load_databases(options.replay.outputs, options.replay.outputs.dbc);
   require_page(options.replay.outputs);
+  require_signals(options.replay.outputs, options.replay.outputs.dbc, options.json);
   std::vector<NamedFile> inputs{{"the log", options.log}};
   add_databases(inputs, options.replay.outputs.database);
   claim_files(inputs, files_of(options.replay.outputs));
@@ -120,7 +121,7 @@ int replay_alone(ReplayCommand &options) {
 int replay_on_bus(const ReplayCommand &options) {
   Scenario bus = scenario_input(options.bus);
   const double bitrate = only_bitrate(bus, options.bitrate);
-  override_outputs(bus.outputs, options.replay.outputs);
+  override_outputs(bus.outputs, options.replay.outputs, options.json);
   std::vector<NamedFile> inputs = inputs_of(bus);
   add_file(inputs, "the log", options.log);
   claim_files(inputs, files_of(bus.outputs));

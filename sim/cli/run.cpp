@@ -27,7 +27,7 @@ struct RunOptions {
 };
 
 void override_with(Scenario &scenario, const RunOptions &options) {
-  override_outputs(scenario.outputs, options.outputs);
+  override_outputs(scenario.outputs, options.outputs, options.json);
   if (options.bitrate != 0) scenario.bitrates = {options.bitrate};
   if (options.duration.empty()) return;
   const Time duration =

@@ -237,6 +237,22 @@ class Signals(ToolCase):
         self.assertIn("allowed: one message for an identifier",
                       self.refused("signals", self.log(EEC1), "--dbc", DBC, "--dbc", DBC))
 
+    def test_a_database_of_which_nothing_is_shown(self):
+        log, bus = self.log(ENGINE_DATA), self.file("bus.yaml", "nodes: [{name: a}, {name: b}]\n")
+        commands = [("run", bus), ("replay", log), ("replay", log, "--bus", bus),
+                    ("bridge", "--socketcand", "0", "--time", "1ms"),
+                    ("firmware", f"{ELF_FOLDER}/ping.elf", "--bus", "sw/firmware/ping/ping.yaml")]
+        for command in commands:
+            with self.subTest(command):
+                said = self.refused(*command, "--dbc", DBC, "--ids", "--vcd", self.path / "x.vcd")
+                self.assertIn("--dbc: nothing shows its signals; allowed: with --signals, "
+                              "--signals-csv, --json or --report-page", said)
+                self.assertFalse((self.path / "x.vcd").exists())
+        shown = self.file("shown.yaml", "nodes: [{name: a}, {name: b}]\n"
+                          f"outputs: {{report: {self.path}/bus.html}}\n")
+        self.passes("run", shown, "--dbc", DBC)
+        self.passes("run", bus, "--dbc", DBC, "--report", self.path / "page.html")
+
 
 if __name__ == "__main__":
     unittest.main()

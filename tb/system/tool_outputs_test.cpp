@@ -215,8 +215,8 @@ TEST_F(ToolOutputs, NoInputIsWrittenOver) {
 TEST_F(ToolOutputs, NoDatabaseIsWrittenOver) {
   const std::string text = slurp("tb/signals/features.dbc"), dbc = file_with("a.dbc", text);
   const std::string waveform = wave();
-  for (const auto &[command, role] : {std::pair{kRun + "--candump ", "--candump"},
-                                      {"replay " + log() + " --vcd ", "--vcd"},
+  for (const auto &[command, role] : {std::pair{kRun + "--signals --candump ", "--candump"},
+                                      {"replay " + log() + " --signals --vcd ", "--vcd"},
                                       {"report examples/two-nodes.yaml -o ", "--report"},
                                       {"report " + log() + " -o ", "--report"},
                                       {"report " + waveform + " --bitrate 500k -o ", "--report"},
