@@ -32,9 +32,6 @@ bool is_plain(const Scenario &scenario, NodeId node) {
   return scenario.nodes[node].hosted() && !has_accesses(scenario, node);
 }
 
-/// Between frames a bit may begin anew with every edge; within them it can be longer by SJW.
-bool synchronises_hard(const std::optional<Field> &field) { return !field || *field < Field::kSof; }
-
 /// Why the node of a place never comes to it, whatever happens on the bus; empty if it may.
 std::string never_there(const Scenario &scenario, const FaultSpec &fault, double bitrate) {
   const NodeSpec &node = scenario.nodes[fault.watched];
@@ -51,13 +48,18 @@ std::string never_there(const Scenario &scenario, const FaultSpec &fault, double
         "{} is a place of senders, and '{}' has no traffic; allowed: a node that "
         "sends, or the fields of receivers, from ID on",
         field_name(*field), node.name);
-  const BitTiming timing = timing_of(scenario, node, bitrate);
-  const unsigned most =
-      synchronises_hard(field) ? 2 * timing.quanta() : timing.quanta() + timing.sjw;
-  if (fault.first_quantum.value_or(0) >= most)
-    return fmt::format("a bit of '{}' has {} quanta at {} bit/s; allowed: first_tq 0 to {}",
-                       node.name, timing.quanta(), plain_number(bitrate), timing.quanta() - 1);
   return "";
+}
+
+/// Why a fault begins behind the bits that its node has by its timing; empty if it does not. A bit
+/// that synchronisation makes longer has such quanta, but nobody can say which bit that will be.
+std::string behind_the_bit(const Scenario &scenario, const FaultSpec &fault, double bitrate) {
+  if (fault.kind != Kind::kPlace || !is_plain(scenario, fault.watched)) return "";
+  const NodeSpec &node = scenario.nodes[fault.watched];
+  const unsigned quanta = timing_of(scenario, node, bitrate).quanta();
+  if (fault.first_quantum.value_or(0) < quanta) return "";
+  return fmt::format("a bit of '{}' has {} quanta at {} bit/s; allowed: first_tq 0 to {}",
+                     node.name, quanta, plain_number(bitrate), quanta - 1);
 }
 
 /// Why a fault can have no effect, whatever else happens on the bus; empty if it may.
@@ -81,14 +83,19 @@ std::string impossible(const Scenario &scenario, const FaultSpec &fault, double 
 }  // namespace
 
 void check_faults(const Scenario &scenario, double bitrate) {
-  const auto refuse = [&](std::size_t index, const std::string &why) {
+  const auto fail = [&](std::size_t index, const char *what, const std::string &why) {
     throw InputError(
         scenario.file, scenario.faults[index].line,
-        fmt::format("faults[{}]: '{}' can never hit: {}", index, fault_name(scenario, index), why));
+        fmt::format("faults[{}]: '{}' {}: {}", index, fault_name(scenario, index), what, why));
+  };
+  const auto refuse = [&](std::size_t index, const std::string &why) {
+    fail(index, "can never hit", why);
   };
   for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
     const std::string why = impossible(scenario, scenario.faults[i], bitrate);
     if (!why.empty()) refuse(i, why);
+    const std::string behind = behind_the_bit(scenario, scenario.faults[i], bitrate);
+    if (!behind.empty()) fail(i, "begins behind the bit", behind);
   }
   if (scenario.faults.empty()) return;
   const ExpectedFrames frames{scenario, bitrate};
