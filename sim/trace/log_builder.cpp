@@ -16,7 +16,10 @@ Time LogBuilder::since_first(std::int64_t ns, const text::Place &place) {
   if (std::exchange(empty_, false)) first_ns_ = ns;
   std::int64_t distance = 0;
   if (__builtin_sub_overflow(ns, first_ns_, &distance) || distance > kMost || distance < -kMost)
-    text::fail(place, "time is more than 53 days from the first one");
+    text::fail(
+        place,
+        "time is more than 53 days from the first one; allowed: recordings of up to 53 days; "
+        "split longer ones, also where their clock was set");
   return distance * kNanosecond;
 }
 

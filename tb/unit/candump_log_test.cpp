@@ -107,6 +107,15 @@ TEST(CandumpLog, ALastLineWithoutLineEndIsWarnedOf) {
 }
 
 // A length that no DLC stands for cannot have been on a bus.
+// A clock that is set on the way, of a computer that keeps no time while it is off.
+TEST(CandumpLog, TimesThatAreTooFarApartAreRefused) {
+  const std::string set = "(0.0) can0 001#\n(1.0) can0 001#\n(1700000000.0) can0 001#\n";
+  EXPECT_EQ(error_of(set),
+            "log:3: time is more than 53 days from the first one; allowed: recordings of up to "
+            "53 days; split longer ones, also where their clock was set");
+  EXPECT_EQ(error_of("(0.0) can0 001#\n(4579200.0) can0 001#\n"), "no error");
+}
+
 TEST(CandumpLog, FdFramesOfALengthThatThereIsNotAreRefused) {
   for (std::size_t bytes = 0; bytes <= 64; ++bytes) {
     const std::string text = "(1.0) can0 123##1" + std::string(2 * bytes, '5') + "\n";
