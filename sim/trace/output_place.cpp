@@ -5,7 +5,6 @@
 #include "trace/output_place.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -13,8 +12,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
-#include <random>
 
+#include "trace/file_aside.hpp"
 #include "trace/output_file.hpp"
 #include "trace/temporary_folder.hpp"
 #include "trace/unfinished_files.hpp"
@@ -28,27 +27,6 @@ constexpr const char *kCannotOpen = "cannot be opened for writing";
 constexpr const char *kCannotPlace = "cannot be put in its place";
 
 int standard_output = STDOUT_FILENO;
-
-struct OwnFile {
-  std::string name;
-  int descriptor = -1;  // -1: errno tells why
-};
-
-/// A new file in `folder`. Its name is random: the number of a process is another process's too, in
-/// a container or on another computer that writes to the same folder.
-OwnFile own_file(const fs::path &folder) {
-  constexpr mode_t kMode = 0666;
-  constexpr int kTries = 100;
-  std::random_device random;
-  OwnFile file;
-  for (int i = 0; i < kTries; ++i) {
-    file.name = (folder / fmt::format(".verican-{:08x}{:08x}.part", random(), random())).string();
-    file.descriptor = ::open(file.name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
-    if (file.descriptor >= 0 || errno != EEXIST) break;
-  }
-  if (file.descriptor >= 0) note_unfinished(file.name);
-  return file;
-}
 
 std::optional<struct stat> status_of(const std::string &path) {
   struct stat status {};
@@ -88,9 +66,17 @@ OutputPlace::OutputPlace(const std::string &path) : path_{path}, target_{behind_
 }
 
 OutputPlace::~OutputPlace() {
-  if (aside_.empty()) return;
-  ::unlink(aside_.c_str());
-  forget_unfinished(aside_);
+  if (!aside_.empty()) {
+    ::unlink(aside_.c_str());
+    forget_unfinished(aside_);
+  }
+  for (const int descriptor : held_) ::close(descriptor);
+}
+
+FileAside OutputPlace::file_in(const fs::path &folder) const {
+  FileAside file = make_file_aside(folder, fs::path{target_}.filename().string());
+  if (file.descriptor < 0) throw OutputError(path_, kCannotOpen, errno);
+  return file;
 }
 
 void OutputPlace::open_directly() {
@@ -108,10 +94,10 @@ void OutputPlace::open_aside() {
   if (before && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0)
     throw OutputError(path_, kCannotOpen, errno);
   if (target_.empty() || target_.back() == '/') throw OutputError(path_, kCannotOpen, EISDIR);
-  OwnFile file = own_file(fs::path{target_}.parent_path());
-  if (file.descriptor < 0) throw OutputError(path_, kCannotOpen, errno);
+  FileAside file = file_in(fs::path{target_}.parent_path());
   descriptor_ = file.descriptor;
   aside_ = std::move(file.name);
+  if (const int lock = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0); lock >= 0) held_.push_back(lock);
   if (before) ::fchmod(descriptor_, before->st_mode & 07777);
 }
 
@@ -126,11 +112,10 @@ void OutputPlace::rename() {
   aside_.clear();
 }
 
-std::string OutputPlace::make_scratch() const {
-  const OwnFile file =
-      own_file(direct() ? fs::path{temporary_folder()} : fs::path{target_}.parent_path());
-  if (file.descriptor < 0) throw OutputError(path_, kCannotOpen, errno);
-  ::close(file.descriptor);
+std::string OutputPlace::make_scratch() {
+  const FileAside file =
+      file_in(direct() ? fs::path{temporary_folder()} : fs::path{target_}.parent_path());
+  held_.push_back(file.descriptor);
   return file.name;
 }
 

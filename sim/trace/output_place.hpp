@@ -4,7 +4,11 @@
 // OutputPlace: where an output named by the user goes, and under which name it is written.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
+
+#include "trace/file_aside.hpp"
 
 namespace vericansim {
 
@@ -27,16 +31,18 @@ class OutputPlace {
   /// Gives the file, closed by now, its name. Throws OutputError.
   void rename();
   /// An empty file for OutputFile::make_scratch().
-  [[nodiscard]] std::string make_scratch() const;
+  [[nodiscard]] std::string make_scratch();
 
  private:
   void open_directly();
   void open_aside();
+  [[nodiscard]] FileAside file_in(const std::filesystem::path &folder) const;
 
   std::string path_;    // as given
   std::string target_;  // behind symbolic links
   std::string aside_;   // empty: written directly
   int descriptor_ = -1;
+  std::vector<int> held_;  // locks of what is written aside, until it is in its place
 };
 
 }  // namespace vericansim

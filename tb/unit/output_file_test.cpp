@@ -7,9 +7,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +21,7 @@
 #include "firmware/tool_run.hpp"
 #include "harness/scratch_test.hpp"
 #include "harness/small_disk.hpp"
+#include "trace/output_place.hpp"
 
 namespace {
 
@@ -159,6 +162,41 @@ TEST_F(OutputFileTest, FilesAsideHaveNamesOfTheirOwn) {
   EXPECT_EQ(tb::slurp(in("a")), "first");
   second.commit();
   EXPECT_EQ(tb::slurp(in("a")), "second");
+}
+
+// The next one that writes the same file removes what is left of a writer that was killed, and
+// nothing else.
+TEST_F(OutputFileTest, WhatAKilledWriterLeavesIsRemovedByTheNext) {
+  for (const char *name : {"a", "b"}) {
+    const pid_t writer = ::fork();
+    if (writer == 0) {
+      OutputFile file{in(name)};
+      const std::string scratch = file.make_scratch();
+      file.stream() << "half" << std::flush;
+      ::raise(SIGKILL);
+    }
+    ASSERT_EQ(::waitpid(writer, nullptr, 0), writer);
+  }
+  EXPECT_EQ(files(), 4U);
+  OutputFile other{in("a")};
+  const std::string scratch = other.make_scratch();
+  EXPECT_EQ(files(), 4U) << "two of b, two of the writer that lives";
+  write("a", "whole");
+  EXPECT_EQ(files(), 5U);
+  EXPECT_TRUE(fs::exists(scratch));
+  other.commit();
+  fs::remove(scratch);
+  write("b", "whole");
+  EXPECT_EQ(files(), 2U);
+}
+
+// Also between the last byte and the name.
+TEST_F(OutputFileTest, AFinishedFileThatIsNotInItsPlaceYetIsNotRemoved) {
+  OutputPlace place{in("a")};
+  ::close(place.descriptor());
+  write("a", "other");
+  place.rename();
+  EXPECT_EQ(tb::slurp(in("a")), "");
 }
 
 TEST_F(OutputFileTest, PathsThatCannotBeWrittenAreRefusedAtOnce) {
