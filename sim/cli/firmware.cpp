@@ -94,9 +94,9 @@ void print(const FirmwareOptions &options, const std::vector<RunReport> &buses) 
 }
 
 int run(const FirmwareOptions &options) {
-  const StopSignals signals;
   const FirmwareSetup setup = make_setup(options);
   claim_files_of(options, setup);
+  const StopSignals signals;
   FirmwareReport report;
   {
     Console console{setup.images.size() == 1};

@@ -105,6 +105,7 @@ int replay_alone(ReplayCommand &options) {
   claim_files(inputs, files_of(options.replay.outputs));
   const SelectedLog selected = read_selected(options.log, options.selection, false);
   ReplayReport report;
+  const StopSignals signals;
   {
     Progress progress{"replay"};
     report = replay(selected.log, options.replay, [&](double part) { progress.show(part); });
@@ -127,6 +128,7 @@ int replay_on_bus(const ReplayCommand &options) {
   claim_files(inputs, files_of(bus.outputs));
   const SelectedLog selected = read_selected(options.log, options.selection, false);
   const RunReport report =
+  const StopSignals signals;
       simulate(replay_scenario(bus, selected.log, options.replay), bitrate, !options.json);
   if (!options.json) fmt::print("{}", to_text(report));
   const int code = exit_code_of(report);
@@ -137,7 +139,6 @@ int replay_on_bus(const ReplayCommand &options) {
 }
 
 int run(ReplayCommand &options) {
-  const StopSignals signals;
   options.replay.file = std::filesystem::path(options.log).filename().string();
   return options.bus.empty() ? replay_alone(options) : replay_on_bus(options);
 }

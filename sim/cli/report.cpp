@@ -61,6 +61,7 @@ int report_scenario(const ReportOptions &options) {
   scenario.outputs.database = database;
   claim_files(inputs_of(scenario), files_of(options.outputs, scenario.bitrates));
   check_bitrates(scenario);
+  const StopSignals signals;
   int code = kOk;
   for (const double bitrate : scenario.bitrates) {
     scenario.outputs =
@@ -90,6 +91,7 @@ int report_recorded_wave(const ReportOptions &options) {
   if (options.bitrate != 0) decode.bitrate = options.bitrate;
   claim("the waveform", options);
   const Wave wave = read_wave(options.input, decode);
+  const StopSignals signals;
   WaveReport report;
   {
     Progress progress{"report"};
@@ -112,6 +114,7 @@ int report_log(const ReportOptions &options) {
   const SelectedLog selected = read_selected(options.input, options.selection, false);
   ReplayOptions replay_options = options.replay;
   if (options.bitrate != 0) replay_options.bitrate = options.bitrate;
+  const StopSignals signals;
   replay_options.outputs = options.outputs;
   ReplayReport report;
   {
@@ -129,7 +132,6 @@ int report_log(const ReportOptions &options) {
 }
 
 int report(ReportOptions &options) {
-  const StopSignals signals;
   if (options.outputs.report.empty()) {
     if (options.input == "-")
       throw InputError(

@@ -38,13 +38,13 @@ void override_with(Scenario &scenario, const RunOptions &options) {
 }
 
 int run(const RunOptions &options) {
-  const StopSignals signals;
   Scenario scenario = scenario_input(options.scenario);
   override_with(scenario, options);
   const Outputs outputs = scenario.outputs;
   const bool several = scenario.bitrates.size() > 1;
   claim_files(inputs_of(scenario), files_of(outputs, scenario.bitrates));
   check_bitrates(scenario);
+  const StopSignals signals;
   int code = kOk;
   Json list = Json::array();
   for (const double bitrate : scenario.bitrates) {

@@ -7,8 +7,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <functional>
@@ -214,6 +217,28 @@ TEST_F(ToolInterrupt, NothingUnfinishedStays) {
     EXPECT_EQ(tool.wait().code, -1);  // by the signal, as a shell wants to see it
     EXPECT_EQ(files(), 2U);
   }
+}
+
+// Nothing has begun that could end cleanly: who types `verican run -` has to get away again.
+TEST_F(ToolInterrupt, AnInputThatDoesNotComeIsNotWaitedFor) {
+  const std::string log = file_with("a.log", "(1.0) can0 123#11\n");
+  ASSERT_EQ(::mkfifo(in("pipe").c_str(), 0600), 0);
+  for (const std::vector<std::string> &arguments :
+       {std::vector<std::string>{"run", in("pipe")},
+        {"replay", in("pipe")},
+        {"replay", log, "--bus", in("pipe")},
+        {"report", in("pipe"), "-o", in("a.html")},
+        {"firmware", VERICAN_FIRMWARE_DIR "/ping.elf", "--bus", in("pipe")}}) {
+    RunningTool tool{arguments};
+    const int writer = ::open(in("pipe").c_str(), O_WRONLY);  // once the tool reads
+    tool.signal(SIGINT);
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds{10};
+    EXPECT_FALSE(tool.wait_until([&] { return std::chrono::steady_clock::now() > limit; }))
+        << arguments[0];
+    ::close(writer);
+    EXPECT_EQ(tool.wait().code, -1) << arguments[0];
+  }
+  EXPECT_EQ(files(), 2U);
 }
 
 }  // namespace
