@@ -8,6 +8,7 @@
 
 #include "cli/cli.hpp"
 #include "cli/output_files.hpp"
+#include "cli/print_error.hpp"
 #include "cli/rate_option.hpp"
 #include "signals/signal_output.hpp"
 #include "trace/candump.hpp"
@@ -104,7 +105,8 @@ int decode(DecodeOptions &options) {
   if (!options.pcap.empty()) outputs.push_back({"--pcap", options.pcap});
   claim_files(inputs, outputs);
   options.decode.sample_point = static_cast<int>(options.sample_point * 10);
-  const WaveDecodeResult result = decode_wave(options.wave, options.decode);
+  const Wave wave = read_wave(options.wave, options.decode);
+  const WaveDecodeResult result = decode_wave(wave, options.decode.sample_point);
   write_logs(options, result);
   std::size_t frames = 0, errors = 0, overloads = 0;
   Json list = Json::array();
@@ -131,7 +133,10 @@ int decode(DecodeOptions &options) {
   else
     fmt::print("signal {}, {:.0f} bit/s: {} frames, {} error frames, {} overload frames in {}\n",
                result.signal, result.bitrate, frames, errors, overloads, time_text(result.end));
-  return kOk;
+  if (frames == 0) warn_of_bitrate(wave, options.wave);
+  if (!result.events.empty() || result.cut) return kOk;
+  print_error("verican: {}: no frame is in it\n", options.wave);
+  return kFailed;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <map>
 #include <string_view>
 
+#include "cli/print_error.hpp"
 #include "trace/input_error.hpp"
 
 namespace vericansim::cli {
@@ -67,6 +68,11 @@ CLI::Option *add_bitrate_option(CLI::App &command, const std::string &names, dou
   return command.add_option(names, bitrate, help)
       ->transform(bitrate_units())
       ->check(CLI::Range(1e3, 1e6));
+}
+
+void warn_of_bitrate(const Wave &wave, const std::string &path) {
+  if (const std::string why = doubtful_bitrate(wave); !why.empty())
+    print_error("verican: warning: {}: {}\n", path, why);
 }
 
 }  // namespace vericansim::cli

@@ -8,6 +8,8 @@
 
 #include <string>
 
+#include "trace/wave_decode.hpp"
+
 namespace vericansim::cli {
 
 /// A transformation of CLI11 to bit/s: "500000", "500k", "500 kbit/s", in capitals or not.
@@ -18,5 +20,8 @@ namespace vericansim::cli {
 /// Adds an option for the rate of a bus, 1 kbit/s to 1 Mbit/s.
 CLI::Option *add_bitrate_option(CLI::App &command, const std::string &names, double &bitrate,
                                 const std::string &help);
+
+/// Warns that `wave`, in which no frame was found, was read at another rate than its edges show.
+void warn_of_bitrate(const Wave &wave, const std::string &path);
 
 }  // namespace vericansim::cli

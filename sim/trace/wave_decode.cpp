@@ -5,6 +5,8 @@
 #include "trace/wave_decode.hpp"
 
 #include <fmt/format.h>
+
+#include <cmath>
 #include <utility>
 
 #include "bus/range.hpp"
@@ -18,6 +20,12 @@ namespace {
 
 // Bit rates of classical CAN, as --bitrate takes them.
 constexpr double kSlowest = 1e3, kFastest = 1e6;
+
+std::optional<double> detected_bitrate(const Wave &wave) {
+  std::vector<Time> edges;
+  for (const auto &change : wave.changes) edges.push_back(change.first);
+  return detect_bitrate(edges);
+}
 
 }  // namespace
 
@@ -36,13 +44,11 @@ Wave parse_wave(std::string text, const std::string &path, const WaveDecodeOptio
     wave.bitrate = *options.bitrate;
     return wave;
   }
-  std::vector<Time> edges;
-  for (const auto &change : wave.changes) edges.push_back(change.first);
-  const auto bitrate = detect_bitrate(edges);
+  const auto bitrate = detected_bitrate(wave);
   if (!bitrate)
     throw InputError(path, 0,
                      "the bit rate of signal " + in_quotes(signal.name) +
-                         " cannot be told from its " + std::to_string(edges.size()) +
+                         " cannot be told from its " + std::to_string(wave.changes.size()) +
                          " edges; give it with --bitrate");
   if (*bitrate < kSlowest || *bitrate > kFastest)
     throw InputError(
@@ -52,6 +58,14 @@ Wave parse_wave(std::string text, const std::string &path, const WaveDecodeOptio
                     in_quotes(signal.name), *bitrate, *bitrate < 10 ? 3 : 0, kSlowest, kFastest));
   wave.bitrate = *bitrate;
   return wave;
+}
+
+std::string doubtful_bitrate(const Wave &wave) {
+  constexpr double kTolerance = 0.05;  // more than clocks are off by
+  const auto seen = detected_bitrate(wave);
+  if (!seen || std::abs(*seen / wave.bitrate - 1) < kTolerance) return "";
+  return fmt::format("signal {} has edges as at {:.0f} bit/s, and was read at {:.0f}",
+                     in_quotes(wave.signal), *seen, wave.bitrate);
 }
 
 WaveDecodeResult decode_wave(const std::string &path, const WaveDecodeOptions &options) {

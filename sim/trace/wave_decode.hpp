@@ -35,6 +35,10 @@ struct Wave {
 [[nodiscard]] Wave parse_wave(std::string text, const std::string &path,
                               const WaveDecodeOptions &options);
 
+/// Why a waveform without frames may have none: its edges are those of another bit rate than the
+/// one that was given. Empty if they are not.
+[[nodiscard]] std::string doubtful_bitrate(const Wave &wave);
+
 struct WaveDecodeResult {
   std::string signal;  ///< the one taken, full name
   double bitrate = 0;  ///< bit/s, given or detected

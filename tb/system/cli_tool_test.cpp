@@ -243,6 +243,28 @@ TEST_F(Tool, DecodeTellsOfAFrameThatTheFileCuts) {
   EXPECT_THAT(page.out, HasSubstr(": 1 frames, 0 without ACK, 0 error frames, "));
 }
 
+// A wrong bit rate makes errors of frames, or nothing at all: both look like a bus that is so.
+TEST_F(Tool, DecodeTellsWhyItFindsNoFrame) {
+  const std::string log = file_with("a.log", "(1.0) can0 123#112233\n(1.001) can0 124#445566\n");
+  const std::string vcd = in("a.vcd"), page = in("a.html");
+  ASSERT_EQ(run_tool("replay " + log + " --vcd " + vcd).code, 0);
+  const std::string doubt =
+      "verican: warning: " + vcd +
+      ": signal 'bus.can' has edges as at 500000 bit/s, and was read at 250000\n";
+  for (const std::string command :
+       {"decode " + vcd, "decode --json " + vcd, "report " + vcd + " -o " + page})
+    EXPECT_EQ(run_tool(command + " -b 250k").error, doubt) << command;
+  EXPECT_EQ(run_tool("decode " + vcd + " -b 500k").error, "");
+  EXPECT_EQ(run_tool("decode " + vcd + " -b 505k").error, "");
+  const std::string idle =
+      file_with("idle.vcd",
+                "$timescale 1 us $end\n$var wire 1 ! can $end\n$enddefinitions $end\n"
+                "#0\n1!\n#1000\n");
+  const ToolResult nothing = run_tool("decode " + idle + " -b 500k");
+  EXPECT_EQ(nothing.code, 1);
+  EXPECT_EQ(nothing.error, "verican: " + idle + ": no frame is in it\n");
+}
+
 TEST_F(Tool, BittimeJson) {
   const auto json = nlohmann::json::parse(run_tool("bittime -c 8M -b 500k --sjw 1 --json").out);
   EXPECT_EQ(json["settings"][0]["ctrl"], "0x00310005");  // what can-utils prints
