@@ -37,14 +37,13 @@ int run(const ConvertOptions &options) {
   }
   OutputFile file{options.out};
   file.stream() << result.bytes;
+  const IdentifierTable table =
+      options.ids.wanted() ? identifiers_of(selected.log) : IdentifierTable{};
+  write_ids_csv(table, options.ids);
   file.commit();
   fmt::print("{} -> {} ({}): {}\n", options.in, options.out, name_of(format),
              text::counted(result.frames, "frame", "frames"));
-  if (options.ids.wanted()) {
-    const IdentifierTable table = identifiers_of(selected.log);
-    write_ids_csv(table, options.ids);
-    if (options.ids.text) fmt::print("{}", to_text(table));
-  }
+  if (options.ids.text) fmt::print("{}", to_text(table));
   for (const std::string &loss : result.lost) print_error("lost: {}\n", loss);
   if (result.frames == 0)
     print_error("verican: {}: no frame to convert{}\n", options.in,

@@ -228,6 +228,19 @@ TEST_F(ToolOutputs, NoDatabaseIsWrittenOver) {
   EXPECT_EQ(slurp(dbc), text);
 }
 
+// What fails leaves nothing, also what could be written before.
+TEST_F(ToolOutputs, AConversionWhoseTableCannotBeWrittenIsNone) {
+  const std::string recorded = log();
+  const std::size_t before = files();
+  for (const std::string table : {"/no/such/folder/ids.csv", "/dev/full"}) {
+    const ToolResult result =
+        run_tool("convert " + recorded + " " + in("new.pcap") + " --ids-csv " + table);
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(files(), before) << table;
+  }
+}
+
 TEST_F(ToolOutputs, NoRecordingIsWrittenOverByATable) {
   const std::string recorded = log(), text = slurp(recorded);
   const std::string refused =
