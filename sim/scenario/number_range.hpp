@@ -12,6 +12,7 @@ namespace vericansim {
 struct Range {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
+  bool whole = false;  ///< it counts things
   [[nodiscard]] bool contains(double value) const { return value >= least && value <= most; }
 };
 

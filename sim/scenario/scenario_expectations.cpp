@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scenario/bound_scope.hpp"
 #include "scenario/output_pattern.hpp"
@@ -24,8 +25,8 @@ constexpr Range kPercent{0, 100};
 
 /// What a number of a node may be. Bus-off counts as TEC 256.
 Range possible(std::string_view key) {
-  if (key == "tec" || key == "max_tec") return {0, 256};
-  if (key == "rec" || key == "max_rec") return {0, 255};
+  if (key == "tec" || key == "max_tec") return {0, 256, true};
+  if (key == "rec" || key == "max_rec") return {0, 255, true};
   return kCounts;
 }
 
@@ -134,6 +135,8 @@ Range parse_range(const YamlValue &value, const Range &possible) {
   const auto number = [&](const YamlValue &v) { return v.number(possible.least, possible.most); };
   if (!value.is_map()) {
     const double exact = number(value);
+    if (possible.whole && exact != std::trunc(exact))
+      value.refuse("a whole number; nothing is there in parts");
     return {exact, exact};
   }
   Range range;

@@ -16,7 +16,7 @@ namespace vericansim::detail {
 [[nodiscard]] std::optional<ListenerSpec> parse_listener(const YamlValue &value);
 
 /// What a number on which something is expected may be; how often something comes.
-inline constexpr Range kAnyNumber{-1e15, 1e15}, kCounts{0, 1e15};
+inline constexpr Range kAnyNumber{-1e15, 1e15}, kCounts{0, 1e15, true};
 /// A number, or `{min: 1, max: 9}`, within `possible`.
 [[nodiscard]] Range parse_range(const YamlValue &value, const Range &possible = kAnyNumber);
 /// The same, but not all that is possible: nothing would be asked for.

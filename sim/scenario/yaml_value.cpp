@@ -46,11 +46,12 @@ void YamlValue::fail(const std::string &message) const {
 }
 
 void YamlValue::refuse(const std::string &allowed) const {
-  const std::string value = node_.IsScalar()     ? in_quotes(node_.Scalar())
-                            : node_.IsMap()      ? "a map"
-                            : node_.IsSequence() ? "a list"
-                                                 : "nothing";
-  fail(value + " is not allowed; allowed: " + allowed);
+  const std::string what = node_.IsScalar()     ? in_quotes(node_.Scalar()) + " is not allowed"
+                           : node_.IsMap()      ? "a map is not allowed"
+                           : node_.IsSequence() ? "a list is not allowed"
+                           : key_.empty()       ? "is empty"
+                                                : "nothing is given";
+  fail(what + "; allowed: " + allowed);
 }
 
 std::string YamlValue::text() const {
@@ -157,8 +158,10 @@ std::optional<YamlValue> YamlMap::find(const std::string &key) {
 
 YamlValue YamlMap::need(const std::string &key) {
   const auto value = find(key);
-  if (!value) value_.fail("key '" + key + "' is missing");
-  return *value;
+  if (value) return *value;
+  std::string given;  // one of them may be meant for it
+  for (const std::string &name : keys()) given += (given.empty() ? "" : ", ") + in_quotes(name);
+  value_.fail("key '" + key + "' is missing" + (given.empty() ? "" : "; given: " + given));
 }
 
 std::vector<std::string> YamlMap::keys() const {
@@ -184,7 +187,7 @@ void YamlMap::need_some(const std::string &allowed) const {
 std::string YamlMap::asked() const {
   std::string names;
   for (const std::string &name : asked_) names += (names.empty() ? "" : ", ") + name;
-  return names;
+  return names.empty() ? "none" : names;
 }
 
 }  // namespace vericansim
