@@ -51,6 +51,8 @@ inline constexpr std::string Outputs::*kOutputPaths[] = {
 /// Adds an option for each of them; `report_names` are those of the page.
 void add_output_options(CLI::App &command, Outputs &outputs,
                         const std::string &report_names = "--report,--report-page");
+/// Adds --report-frames.
+void add_report_frames_option(CLI::App &command, Outputs &outputs);
 /// Throws InputError if a length is given for a page that is not written.
 void require_page(const Outputs &outputs);
 /// Throws InputError if the command line names databases (`files`) and nothing shows signals.

@@ -57,6 +57,14 @@ void add_selection(CLI::App &command, LogSelection &selection, bool several) {
   command.add_option("--to", selection.to, "Recording: up to this time after its first frame");
 }
 
+void check_senders(unsigned senders, unsigned nodes) {
+  if (senders > nodes)
+    throw InputError("--senders", 0,
+                     fmt::format("{0} are more than the {1} nodes; allowed: 1 to {1}, or --nodes "
+                                 "{0}",
+                                 senders, nodes));
+}
+
 std::string SelectedLog::note() const {
   return interfaces.size() > 1 ? "all interfaces as one bus: " + interfaces_text(interfaces) : "";
 }

@@ -28,6 +28,9 @@ struct LogSelection {
 /// Adds --interface, --filter, --from and --to; `several` as for read_selected().
 void add_selection(CLI::App &command, LogSelection &selection, bool several = false);
 
+/// Throws InputError if more nodes (--senders) are to share a recording than there are (--nodes).
+void check_senders(unsigned senders, unsigned nodes);
+
 /// Two neighbours in a recording, the second of which has the earlier time.
 struct StepBack {
   std::size_t frame = 0;  ///< the second, counted from 1

@@ -12,13 +12,13 @@
 #include <exception>
 #include <sstream>
 #include <stdexcept>
-#include <string_view>
 #include <system_error>
 
 #include "cli/cli.hpp"
 #include "cli/number_check.hpp"
 #include "cli/option_message.hpp"
 #include "cli/output_files.hpp"
+#include "cli/parse_mistake.hpp"
 #include "cli/print_error.hpp"
 #include "trace/input_error.hpp"
 #include "trace/output_error.hpp"
@@ -29,38 +29,8 @@ namespace {
 
 using namespace vericansim;
 
-/// A value that is empty would stand for none. A shell makes it of a variable that is not set.
-void refuse_empty(int argc, char **argv) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view text = argv[i];
-    if (text.empty())
-      throw InputError(argv[i - 1], 0, "an empty value follows; allowed: a value, or none at all");
-    if (text.starts_with("--") && text.ends_with('='))
-      throw InputError(argv[i], 0, "has an empty value; allowed: a value, or none at all");
-  }
-}
-
-/// CLI11 would say that there is no command at all.
-void refuse_unknown_command(const CLI::App &app, const std::string &word) {
-  std::string names;
-  for (const CLI::App *command : app.get_subcommands({})) {
-    if (command->get_name() == word) return;
-    names += (names.empty() ? "" : ", ") + command->get_name();
-  }
-  throw InputError(app.get_parent() == nullptr ? "verican" : app.get_name(), 0,
-                   in_quotes(word) + " is no command; allowed: " + names);
-}
-
-/// The same of commands that have some of their own, when parsing has failed.
-void refuse_unknown_subcommand(const CLI::App &app) {
-  for (const CLI::App *command : app.get_subcommands())
-    if (!command->get_subcommands({}).empty() && command->get_subcommands().empty() &&
-        !command->remaining().empty())
-      refuse_unknown_command(*command, command->remaining().front());
-}
-
 int run_tool(int argc, char **argv) {
-  refuse_empty(argc, argv);
+  cli::refuse_empty(argc, argv);
   CLI::App app{"VeriCAN: CAN controllers in RTL on a simulated bus"};
   app.require_subcommand(1);
   app.set_version_flag("--version", fmt::format("verican {}", version()));
@@ -90,7 +60,7 @@ int run_tool(int argc, char **argv) {
     if (CLI::Option *json = command->get_option_no_throw("--json")) quiet->excludes(json);
   }
   cli::check_numbers(app);
-  if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);
+  cli::refuse_unknown_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success &request) {  // --help, --version
@@ -99,9 +69,7 @@ int run_tool(int argc, char **argv) {
     fmt::print("{}", cli::plain_digits(text.str()));
     return cli::kOk;
   } catch (const CLI::ParseError &error) {
-    refuse_unknown_subcommand(app);
-    cli::print_error("verican: {}; try 'verican --help'\n",
-                     cli::option_message(error.what(), argc, argv));
+    cli::print_error("verican: {}\n", cli::parse_mistake(app, error, argc, argv));
     return cli::kBadInput;
   }
   return exit_code;

@@ -31,10 +31,7 @@ void add_output_options(CLI::App &command, Outputs &outputs, const std::string &
   command.add_option("--pcap", outputs.pcap, "Write the frames as a capture for Wireshark");
   command.add_option(report_names, outputs.report,
                      "Write a page to look at, HTML (docs/report.md)");
-  command
-      .add_option("--report-frames", outputs.report_frames,
-                  "The page keeps bits and edges of so many frames (200000)")
-      ->check(CLI::Range(1U, 10'000'000U));
+  add_report_frames_option(command, outputs);
   add_database_option(command, outputs.dbc);
   command.add_flag("--signals", outputs.signals, "A table of the signals (docs/signals.md)");
   command.add_option("--signals-csv", outputs.signals_csv, "Write the signals of all frames, CSV");
@@ -42,6 +39,14 @@ void add_output_options(CLI::App &command, Outputs &outputs, const std::string &
       "--ids", outputs.ids,
       "For each identifier on the bus: count, period, jitter, last data, changed bytes");
   command.add_option("--ids-csv", outputs.ids_csv, "The same as a CSV file");
+}
+
+void add_report_frames_option(CLI::App &command, Outputs &outputs) {
+  command
+      .add_option("--report-frames", outputs.report_frames,
+                  "The page keeps bits and edges of so many frames (200000)")
+      ->check(CLI::Range(1U, 10'000'000U))
+      ->each([&outputs](const std::string &) { outputs.report_frames_given = true; });
 }
 
 void add_database_option(CLI::App &command, std::vector<std::string> &files) {
@@ -60,7 +65,7 @@ void load_databases(Outputs &outputs, const std::vector<std::string> &files) {
 }
 
 void require_page(const Outputs &outputs) {
-  if (outputs.report.empty() && outputs.report_frames != Outputs{}.report_frames)
+  if (outputs.report.empty() && outputs.report_frames_given)
     throw InputError(
         "--report-frames", 0,
         "no page is written; allowed: with --report-page, or outputs.report of the scenario");
@@ -81,7 +86,8 @@ void override_outputs(Outputs &target, const Outputs &given, bool json) {
   target.signals = given.signals;
   target.ids = given.ids;
   load_databases(target, given.dbc);
-  if (given.report_frames != Outputs{}.report_frames) target.report_frames = given.report_frames;
+  target.report_frames_given = given.report_frames_given;
+  if (given.report_frames_given) target.report_frames = given.report_frames;
   require_page(target);
   require_signals(target, given.dbc, json);
 }

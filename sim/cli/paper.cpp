@@ -98,11 +98,14 @@ void add_paper(CLI::App &app, int &exit_code) {
   auto options = std::make_shared<PaperOptions>();
   CLI::App *command =
       app.add_subcommand("paper", "Repeat the published experiments and compare with the papers");
-  command->add_option("--out", options->folder, "Folder for the waveforms (paper-waves)");
+  CLI::Option *out =
+      command->add_option("--out", options->folder, "Folder for the waveforms (paper-waves)");
   command->add_option("--report,--report-page", options->pages,
                       "Folder for a page of each experiment, HTML (docs/report.md)");
-  command->add_flag("--fst", options->fst, "FST instead of VCD");
-  command->add_flag("--no-waves", options->no_waves, "Write no waveforms");
+  CLI::Option *fst = command->add_flag("--fst", options->fst, "FST instead of VCD");
+  command->add_flag("--no-waves", options->no_waves, "Write no waveforms")
+      ->excludes(out)
+      ->excludes(fst);
   command->add_flag("--json", options->json, "Results as JSON");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -97,6 +97,7 @@ int finish(const ReplayCommand &options, const SelectedLog &selected, Json json,
 /// Through plain nodes, which do nothing else.
 int replay_alone(ReplayCommand &options) {
   if (options.bitrate != 0) options.replay.bitrate = options.bitrate;
+  check_senders(options.replay.senders, options.replay.nodes);
   load_databases(options.replay.outputs, options.replay.outputs.dbc);
   require_page(options.replay.outputs);
   require_signals(options.replay.outputs, options.replay.outputs.dbc, options.json);
@@ -104,8 +105,8 @@ int replay_alone(ReplayCommand &options) {
   add_databases(inputs, options.replay.outputs.database);
   claim_files(inputs, files_of(options.replay.outputs));
   const SelectedLog selected = read_selected(options.log, options.selection, false);
-  ReplayReport report;
   const StopSignals signals;
+  ReplayReport report;
   {
     Progress progress{"replay"};
     report = replay(selected.log, options.replay, [&](double part) { progress.show(part); });
@@ -127,8 +128,8 @@ int replay_on_bus(const ReplayCommand &options) {
   add_file(inputs, "the log", options.log);
   claim_files(inputs, files_of(bus.outputs));
   const SelectedLog selected = read_selected(options.log, options.selection, false);
-  const RunReport report =
   const StopSignals signals;
+  const RunReport report =
       simulate(replay_scenario(bus, selected.log, options.replay), bitrate, !options.json);
   if (!options.json) fmt::print("{}", to_text(report));
   const int code = exit_code_of(report);

@@ -111,11 +111,12 @@ int report_recorded_wave(const ReportOptions &options) {
 
 int report_log(const ReportOptions &options) {
   refuse_options(options, {"--signal"}, "waveforms");
+  check_senders(options.replay.senders, options.replay.nodes);
   claim("the log", options);
   const SelectedLog selected = read_selected(options.input, options.selection, false);
+  const StopSignals signals;
   ReplayOptions replay_options = options.replay;
   if (options.bitrate != 0) replay_options.bitrate = options.bitrate;
-  const StopSignals signals;
   replay_options.outputs = options.outputs;
   ReplayReport report;
   {
@@ -177,10 +178,7 @@ void add_report(CLI::App &app, int &exit_code) {
   command->add_flag("--fast", options->replay.fast,
                     "Log: as fast as the bus allows, instead of as recorded");
   add_selection(*command, options->selection);
-  command
-      ->add_option("--report-frames", options->outputs.report_frames,
-                   "The page keeps bits and edges of so many frames (200000)")
-      ->check(CLI::Range(1U, 10'000'000U));
+  add_report_frames_option(*command, options->outputs);
   add_database_option(*command, options->outputs.dbc);
   command->callback([options, &exit_code] { exit_code = report(*options); });
 }

@@ -158,10 +158,11 @@ struct Outputs {
   std::uint64_t report_frames = 200'000;     ///< the report keeps the bits of so many frames
   std::shared_ptr<const Database> database;  ///< of the signals in `signals_csv`, `report` and JSON
   std::string signals_csv;
-  std::vector<std::string> dbc;  ///< files that a command line adds to `database`
-  bool signals = false;          ///< a command line wants them as a table
-  std::string ids_csv;           ///< the table of identifiers
-  bool ids = false;              ///< a command line wants it as text
+  bool report_frames_given = false;  ///< a command line says how many
+  std::vector<std::string> dbc;      ///< files that a command line adds to `database`
+  bool signals = false;              ///< a command line wants them as a table
+  std::string ids_csv;               ///< the table of identifiers
+  bool ids = false;                  ///< a command line wants it as text
 };
 
 /// How simulated time goes on.

@@ -10,6 +10,7 @@
 
 #include "signals/database_json.hpp"
 #include "trace/input_error.hpp"
+#include "trace/input_file.hpp"
 #include "trace/log.hpp"
 #include "trace/python_helper.hpp"
 
@@ -39,6 +40,7 @@ void Database::add_file(const std::string &path) {
 }
 
 void Database::add_text(const std::string &path, const std::string &text) {
+  refuse_utf16(text, path);
   const std::string json = run_python({"dbc_to_json.py", {}, text, path});
   DatabaseContent content = parse_database_json(path, json);
   for (SignalMessage &message : content.messages) add(std::move(message));

@@ -106,6 +106,11 @@ std::string read_text_file(const std::string &path, std::size_t most) {
   return text;
 }
 
+void refuse_utf16(std::string_view text, const std::string &path) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    throw InputError(path, 0, "is text in UTF-16; allowed: UTF-8, as 'iconv -f UTF-16' makes it");
+}
+
 std::string_view without_gz(std::string_view path) {
   if (path.ends_with(".gz")) path.remove_suffix(3);
   return path;

@@ -23,6 +23,9 @@ inline constexpr std::size_t kMostWritten = std::size_t{64} << 20;
 /// is left out. Throws InputError if it cannot be unpacked, too.
 [[nodiscard]] std::string read_text_file(const std::string &path, std::size_t most = kMostRead);
 
+/// Throws InputError naming `path` if `text` is in UTF-16, as redirections of some shells write it.
+void refuse_utf16(std::string_view text, const std::string &path);
+
 /// `bytes` without gzip's packing, or as they are. Throws InputError naming `path` if they are
 /// damaged or unpack to more than `most` bytes.
 [[nodiscard]] std::string unpacked(std::string bytes, const std::string &path,

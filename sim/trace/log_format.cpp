@@ -87,6 +87,7 @@ LogFormat detect_log_format(std::string_view text, const std::string &path) {
   if (text.starts_with("\x0a\x0d\x0d\x0a")) return LogFormat::kPcapng;
   if (text.starts_with("LOGG")) return LogFormat::kBlf;
   if (text.starts_with("SQLite format 3")) return LogFormat::kSqlite;
+  refuse_utf16(text, path);
   const std::string_view line = first_line(text);
   if (line.starts_with(";")) return LogFormat::kTrc;
   if (line.starts_with("Time Stamp,")) return LogFormat::kGvret;

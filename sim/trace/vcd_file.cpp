@@ -127,6 +127,7 @@ VcdFile::VcdFile(std::string path, std::string text)
 }
 
 void VcdFile::parse_header() {
+  refuse_utf16(text_, path_);
   Words words{text_, 1};
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     const std::size_t line = words.line();

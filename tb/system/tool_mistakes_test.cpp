@@ -84,6 +84,55 @@ TEST_F(ToolMistakes, ValuesAreCitedAsTyped) {
   expect_refused("bittime -b 500k x1e+3", "not expected: x1e+3;");
 }
 
+TEST_F(ToolMistakes, UnknownOptionsAreNamedBesideThoseThatThereAre) {
+  const std::string of_run = "verican: run: '--candmp' is no option; allowed: --help, --vcd, ";
+  for (const char *rest : {" x.log", "=x.log", ""})
+    expect_refused(std::string("run x.yaml --candmp") + rest, of_run);
+  expect_refused("replay x.log -x 3", "verican: replay: '-x' is no option; allowed: --help, --bus");
+  expect_refused("memory --socketcand 1 read 6 0 --fast",
+                 "verican: read: '--fast' is no option; allowed: --help, --if, --socketcand, ");
+  expect_refused("-q run x.yaml", "verican: '-q' is no option; allowed: --help, --version\n");
+}
+
+TEST_F(ToolMistakes, TheHelpThatIsNamedIsThatOfTheCommand) {
+  for (const std::string command : {"bittime", "run", "memory", "memory --if can0 read"}) {
+    const std::string words = command.substr(0, command.find(" --"));
+    const bool inner = words != command;
+    expect_refused(command, "; try 'verican " + words + (inner ? " read" : "") + " --help'\n");
+  }
+  expect_refused("bittime -b 500k 3", "not expected: 3; try 'verican bittime --help'\n");
+  expect_refused("", "; try 'verican --help'\n");
+}
+
+TEST_F(ToolMistakes, OptionsThatWouldSayNothingAreRefused) {
+  // Also where the value is the one that holds without the option.
+  expect_refused("run examples/two-nodes.yaml --report-frames 200000", "no page is written");
+  expect_refused("paper --no-waves --fst", "--fst excludes --no-waves");
+  expect_refused("paper --no-waves --out " + in("waves"), "--out excludes --no-waves");
+  const std::string log = file_with("a.log", "(1.0) can0 123#11\n");
+  for (const std::string command : {"replay ", "report -o x.html "})
+    expect_refused(command + log + " --senders 3",
+                   "--senders: 3 are more than the 2 nodes; allowed: 1 to 2, or --nodes 3\n");
+}
+
+TEST_F(ToolMistakes, AnEmptyFileIsCalledSo) {
+  const std::string empty = file_with("empty", "");
+  expect_refused("run " + empty, empty + ": is empty; allowed: a map of keys and values\n");
+  expect_refused("ids " + empty, empty + ": the file is empty\n");
+}
+
+// What `>` writes in PowerShell.
+TEST_F(ToolMistakes, TextOfAnotherEncodingIsCalledSo) {
+  const std::string utf16 = file_with("utf16",
+                                      "\xFF\xFE(\0"
+                                      "1\0)\0");
+  const std::string log = file_with("a.log", "(1.0) can0 123#11\n");
+  const std::string said = utf16 + ": is text in UTF-16; allowed: UTF-8, as 'iconv -f UTF-16'";
+  expect_refused("ids " + utf16, said);
+  expect_refused("decode " + utf16, said);
+  expect_refused("signals " + log + " --dbc " + utf16, said);
+}
+
 TEST_F(ToolMistakes, LongValuesAreShortened) {
   const std::string digits(60'000, '1'), begin = std::string(40, '1') + "...";
   expect_refused("bittime -b 500k --rows " + digits, "--rows: '" + begin + "' is not allowed");

@@ -291,7 +291,7 @@ TEST_F(ToolOutputs, SeveralBitRatesHaveSeveralFiles) {
 TEST_F(ToolOutputs, QuietPrintsErrorsAlone) {
   for (const std::string &command :
        {kRun, "replay " + log(), "decode " + wave(), "report " + log() + " -o " + in("a.html"),
-        "paper --no-waves --out " + in("waves")}) {
+        "paper --out " + in("waves")}) {
     const ToolResult result = run_tool(command + " --quiet");
     EXPECT_EQ(result.code, 0) << command;
     EXPECT_EQ(result.out + result.error, "") << command;
