@@ -58,6 +58,7 @@ void check_numbers(CLI::App &app) {
     if (type.starts_with("UINT")) option->check(check_unsigned);
     if (type.starts_with("INT")) option->check(check_whole);
     if (type.starts_with("FLOAT")) option->check(check_finite);
+    if (option->get_items_expected_max() == 0) option->disable_flag_override();
   }
   for (CLI::App *command : app.get_subcommands({})) check_numbers(*command);
 }

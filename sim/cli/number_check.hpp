@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers on the command line that CLI11 would take for others.
+// Values on the command line that CLI11 would take for others.
 #pragma once
 
 #include <string_view>
@@ -15,7 +15,7 @@ namespace vericansim::cli {
 
 /// Adds a check to each option of `app` and of its subcommands that takes a number. Refused are a
 /// whole number with zeros in front (strtoull() reads it as octal), one below 0 where there is no
-/// sign, and what is no finite number.
+/// sign, and what is no finite number. Flags take no value.
 void check_numbers(CLI::App &app);
 
 }  // namespace vericansim::cli

@@ -90,6 +90,9 @@ std::string option_message(const std::string &error, int argc, char **argv) {
                               (is_typed(given, argc, argv) ? given : plain_digits(given))) +
            plain_digits(error.substr(range));
   }
+  constexpr std::string_view kFlag = " was given a disallowed flag override";
+  if (error.ends_with(kFlag))
+    return "--" + error.substr(0, error.size() - kFlag.size()) + " takes no value";
   // Numbers that are none have been refused before, so the type cannot hold this one.
   if (const std::size_t is = error.find(kIs);
       error.starts_with(kConversion) && is != std::string::npos)

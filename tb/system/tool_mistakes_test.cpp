@@ -104,6 +104,13 @@ TEST_F(ToolMistakes, TheHelpThatIsNamedIsThatOfTheCommand) {
   expect_refused("", "; try 'verican --help'\n");
 }
 
+TEST_F(ToolMistakes, FlagsTakeNoValue) {
+  for (const std::string flag : {"--json", "--ids", "--quiet"})
+    for (const std::string value : {"3", "no", "maybe"})
+      expect_refused("run examples/two-nodes.yaml " + flag + "=" + value,
+                     "verican: " + flag + " takes no value; try 'verican run --help'\n");
+}
+
 TEST_F(ToolMistakes, OptionsThatWouldSayNothingAreRefused) {
   // Also where the value is the one that holds without the option.
   expect_refused("run examples/two-nodes.yaml --report-frames 200000", "no page is written");
