@@ -184,8 +184,12 @@ def main():
         file, log = pathlib.Path(folder) / "robot.yaml", pathlib.Path(folder) / "robot.log"
         bus = scenario(arguments.firmware.resolve(), cycles, arguments.fail)
         file.write_text(yaml.safe_dump(bus, sort_keys=False), encoding="utf-8")
-        done = subprocess.run([arguments.verican, "run", str(file), "--candump", str(log),
-                               *arguments.options], stdout=subprocess.DEVNULL, check=False)
+        try:
+            done = subprocess.run([arguments.verican, "run", str(file), "--candump", str(log),
+                                   *arguments.options], stdout=subprocess.DEVNULL, check=False)
+        except OSError as error:
+            sys.exit(f"firmware.py: {arguments.verican}: {error.strerror}; --verican says where "
+                     "the tool is")
         if done.returncode:
             return done.returncode
         found = Cycles(log)

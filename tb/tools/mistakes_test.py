@@ -117,6 +117,9 @@ TABLE = [
     ("tb/mutation/run.py --dir /proc/x", 2, "--dir /proc/x: No such file"),
     ("tb/mutation/run.py --part time --scale 0.01 --no-build --build {tmp}/bare", 1,
      "--no-build: {tmp}/bare: can_clock_test has not been built"),
+    ("examples/robot/firmware.py {tmp} --verican {tmp}/nosuch", 1,
+     "firmware.py: {tmp}/nosuch: No such file or directory; --verican says where the tool is"),
+    ("examples/remote/cabinet.py --verican {tmp}/nosuch", 2, "--verican says where the tool is"),
     # Files that are something else.
     ("tools/svd_check.py README.md", 1, "README.md: no XML: not well-formed"),
     ("tools/core_check.py {tmp}/empty", 1, "core: it needs name, filesets, parameters, targets"),
