@@ -110,9 +110,9 @@ void parse_monitor(YamlMap &map, HostConfig &host) {
 
 void parse_mailboxes(YamlMap &map, NodeSpec &node) {
   map.with("mailboxes", [&](const YamlValue &v) {
-    for (const unsigned count : {16U, 32U, 64U})
-      if (v.is_scalar() && parse_integer(v.text()) == count) return void(node.num_mb = count);
-    v.refuse("16, 32, 64");
+    const auto count = v.is_scalar() ? parse_integer(v.text()) : std::nullopt;
+    if (count != 16 && count != 32 && count != 64) v.refuse("16, 32, 64");
+    node.num_mb = static_cast<unsigned>(*count);
   });
 }
 
