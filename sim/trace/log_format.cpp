@@ -94,6 +94,10 @@ LogFormat detect_log_format(std::string_view text, const std::string &path) {
   if (line.starts_with("timestamp,arbitration_id,")) return LogFormat::kCsv;
   if (looks_like_asc(line)) return LogFormat::kAsc;
   if (line.starts_with("(") || looks_like_candump_screen(line)) return LogFormat::kCandump;
+  if (line.starts_with("$"))
+    throw InputError(path, 0,
+                     "is a waveform, no recording of frames; allowed: with 'verican decode' or "
+                     "'verican report'");
   throw InputError(path, 0,
                    text.empty() ? "the file is empty"
                                 : "unknown kind of log; known are candump, pcap and pcapng, Vector "

@@ -127,6 +127,9 @@ VcdFile::VcdFile(std::string path, std::string text)
 }
 
 void VcdFile::parse_header() {
+  constexpr std::string_view kFst{"\0\0\0\0\0\0\0\x01\x49", 9};  // its first block and length
+  if (text_.starts_with(kFst))
+    throw InputError(path_, 0, "FST cannot be read; allowed: VCD, as 'fst2vcd' makes it");
   refuse_utf16(text_, path_);
   Words words{text_, 1};
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {

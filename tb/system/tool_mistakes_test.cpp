@@ -128,6 +128,14 @@ TEST_F(ToolMistakes, AnEmptyFileIsCalledSo) {
   expect_refused("ids " + empty, empty + ": the file is empty\n");
 }
 
+TEST_F(ToolMistakes, WaveformsAreNotTakenForOtherFiles) {
+  const std::string vcd = in("a.vcd"), fst = in("a.fst");
+  ASSERT_EQ(run_tool("run examples/two-nodes.yaml --vcd " + vcd + " --fst " + fst).code, 0);
+  for (const std::string command : {"ids ", "replay ", "convert - x.log < "})
+    expect_refused(command + vcd, "is a waveform, no recording of frames; allowed: with 'verican ");
+  expect_refused("decode " + fst, fst + ": FST cannot be read; allowed: VCD, as 'fst2vcd'");
+}
+
 // What `>` writes in PowerShell.
 TEST_F(ToolMistakes, TextOfAnotherEncodingIsCalledSo) {
   const std::string utf16 = file_with("utf16",
