@@ -14,6 +14,7 @@
 #include "cli/rate_option.hpp"
 #include "timing/bittime.hpp"
 #include "timing/rate_table.hpp"
+#include "trace/input_error.hpp"
 #include "trace/quantity.hpp"
 
 namespace vericansim::cli {
@@ -216,13 +217,14 @@ void add_bittime(CLI::App &app, int &exit_code) {
                       "Error of each node's clock, for the longest cable, ppm (100)");
   command->add_option("--max-error", options->request.max_rate_error_ppm,
                       "Largest bit-rate error, ppm (50000)");
-  command->add_option("--rows", options->rows, "Lines of the table (10)");
+  CLI::Option *rows = command->add_option("--rows", options->rows, "Lines of the table (10)");
   for (const char *of_search : {"--sample-point", "--sjw", "--cable", "--node-delay",
                                 "--controller-delay", "--clock-error", "--max-error", "--rows"})
     table->excludes(command->get_option(of_search));
-  command->add_flag("--json", options->json, "All settings as JSON");
+  command->add_flag("--json", options->json, "All settings as JSON")->excludes(rows);
   command->callback([options, rate, &exit_code] {
     if (!options->table && rate->empty()) throw CLI::RequiredError("--bitrate");
+    if (options->rows == 0) throw InputError("--rows", 0, "'0' is not allowed; allowed: 1 or more");
     exit_code = bittime(*options);
   });
 }

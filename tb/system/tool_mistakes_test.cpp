@@ -114,6 +114,8 @@ TEST_F(ToolMistakes, FlagsTakeNoValue) {
 TEST_F(ToolMistakes, OptionsThatWouldSayNothingAreRefused) {
   // Also where the value is the one that holds without the option.
   expect_refused("run examples/two-nodes.yaml --report-frames 200000", "no page is written");
+  expect_refused("bittime -b 500k --rows 0", "--rows: '0' is not allowed; allowed: 1 or more");
+  expect_refused("bittime -b 500k --rows 3 --json", "--rows excludes --json");
   expect_refused("paper --no-waves --fst", "--fst excludes --no-waves");
   expect_refused("paper --no-waves --out " + in("waves"), "--out excludes --no-waves");
   const std::string log = file_with("a.log", "(1.0) can0 123#11\n");
