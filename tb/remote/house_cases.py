@@ -37,7 +37,8 @@ PROVEN = {
     7: "step.p_asked step.p_int2 step.p_once step.p_one_kind",
     8: "jobs.p_hold jobs.p_waits jobs_small.p_hold jobs_small.p_waits",
     9: "jobs.p_begin jobs.p_ends jobs.p_hold jobs.p_over jobs.p_waits "
-       "jobs_small.p_begin jobs_small.p_ends jobs_small.p_hold jobs_small.p_over jobs_small.p_waits "
+       "jobs_small.p_begin jobs_small.p_ends jobs_small.p_hold jobs_small.p_over "
+       "jobs_small.p_waits "
        "step.p_ends step.p_no_wait step.p_rejoins",
     10: "state.p_operate",
     11: "state.p_illegal",
