@@ -42,11 +42,10 @@ MUTANTS = [
      "seg2_q && !ending && (hard_q || reached)",
      "seg2_q && !ending && (hard_q || (reached && !@))"),
     ("lost-frame", "a C/S write cancels what waits for another buffer", "mailbox/can_mb_move.sv",
-     "(cs_written_i && ans_q[0])) && cs_written_idx_i == tgt0_q",
-     "(cs_written_i && ans_q[0])) && (@ || cs_written_idx_i == tgt0_q)"),
+     "kill[0] = cs_written_i && cs_written_idx_i == tgt0_q",
+     "kill[0] = cs_written_i && (@ || cs_written_idx_i == tgt0_q)"),
     ("overrun", "a frame over an unread one counts as the first", "mailbox/can_mb_move.sv",
-     "assign ovr      = ovr_q && !(cs_written_i && hit_q);",
-     "assign ovr      = ovr_q && !(cs_written_i && hit_q) && !@;"),
+     "ans, ovr_q || ans,", "ans, (ovr_q && !@) || ans,"),
 ]
 
 

@@ -22,7 +22,8 @@ INSTEAD = {
     "bridge --socketcand 29536 --bus my-nodes.yaml &":
         'bridge --fast --socketcand 127.0.0.1:0 --bus my-nodes.yaml 2>bridge.log &\n'
         'trap "kill $!" EXIT\n'
-        'until grep -q ready bridge.log; do kill -0 $!; sleep 0.1; done\n'
+        # -s: the shell in the background may not have made the file yet.
+        'until grep -qs ready bridge.log; do kill -0 $!; sleep 0.1; done\n'
         'PORT=$(sed -n "s/.*socketcand .* at 127.0.0.1://p" bridge.log)\n',
     "memory --socketcand 29536": "memory --timeout 5000 --socketcand $PORT",
     "/usr/bin/python3 ask.py": 'sed -i "s/29536/$PORT/" ask.py\n/usr/bin/python3 ask.py',
