@@ -174,8 +174,8 @@ module can_rn_head #(
       hdr_q   <= (hdr_i && !transmitter_i && !ide_i) || (hdr_q && !take_i && !gap_i);
       byte_q  <= byte_o && !idle;
       valid_q <= (valid_i || valid_q) && !idle;
-      if (gap_i || ((valid_i || valid_q) && idle) || (lost_i && !dup_o)) live_q <= 1'b0;
-      else if (take_i) live_q <= ours_o || search_o;
+      live_q  <= (take_i ? ours_o || search_o : live_q && !(idle && (valid_i || valid_q)))
+                 && !gap_i && !(lost_i && !dup_o);
     end
   end
 

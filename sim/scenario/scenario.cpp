@@ -12,6 +12,7 @@
 #include "scenario/scenario_text.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim {
 namespace detail {
