@@ -33,7 +33,7 @@ bool is_plain(const Scenario &scenario, NodeId node) {
 }
 
 /// Why the node of a place never comes to it, whatever happens on the bus; empty if it may.
-std::string never_there(const Scenario &scenario, const FaultSpec &fault, double bitrate) {
+std::string never_there(const Scenario &scenario, const FaultSpec &fault) {
   const NodeSpec &node = scenario.nodes[fault.watched];
   const std::optional<Field> &field = fault.place.field;
   const bool alone = std::holds_alternative<TrafficRole>(node.role) && !node.software &&
@@ -63,8 +63,8 @@ std::string behind_the_bit(const Scenario &scenario, const FaultSpec &fault, dou
 }
 
 /// Why a fault can have no effect, whatever else happens on the bus; empty if it may.
-std::string impossible(const Scenario &scenario, const FaultSpec &fault, double bitrate) {
-  if (fault.kind == Kind::kPlace) return never_there(scenario, fault, bitrate);
+std::string impossible(const Scenario &scenario, const FaultSpec &fault) {
+  if (fault.kind == Kind::kPlace) return never_there(scenario, fault);
   const bool all_plain = std::all_of(
       scenario.nodes.begin(), scenario.nodes.end(),
       [](const NodeSpec &node) { return std::holds_alternative<TrafficRole>(node.role); });
@@ -92,7 +92,7 @@ void check_faults(const Scenario &scenario, double bitrate) {
     fail(index, "can never hit", why);
   };
   for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
-    const std::string why = impossible(scenario, scenario.faults[i], bitrate);
+    const std::string why = impossible(scenario, scenario.faults[i]);
     if (!why.empty()) refuse(i, why);
     const std::string behind = behind_the_bit(scenario, scenario.faults[i], bitrate);
     if (!behind.empty()) fail(i, "begins behind the bit", behind);
