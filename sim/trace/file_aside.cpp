@@ -74,14 +74,17 @@ FileAside make_file_aside(const fs::path &folder, const std::string &leaf) {
   for (int i = 0; i < kTries; ++i) {
     const std::string name = fmt::format("{}{:08x}{:08x}{}", begin, random(), random(), kEnding);
     file.name = (folder / name).string();
+    // Before it is there: a signal may come right behind open(). Such a name is nobody else's.
+    note_unfinished(file.name);
     file.descriptor = ::open(file.name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
-    if (file.descriptor < 0 && errno != EEXIST) break;
-    if (file.descriptor < 0) continue;
-    if (keep(file.descriptor)) break;
-    ::close(file.descriptor);
+    if (file.descriptor >= 0 && keep(file.descriptor)) return file;
+    const int error = file.descriptor >= 0 ? EEXIST : errno;
+    forget_unfinished(file.name);
+    if (file.descriptor >= 0) ::close(file.descriptor);
     file.descriptor = -1;
+    errno = error;  // of a name that cannot be made; the caller tells it
+    if (error != EEXIST) break;
   }
-  if (file.descriptor >= 0) note_unfinished(file.name);
   return file;
 }
 
