@@ -114,6 +114,19 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
     ASSERT_TRUE(top_.done_o);
   }
 
+  /// A search in which the CPU writes what make() returns to buffers, one in three clocks.
+  template <typename Make>
+  void search_beside_writes(const Header &header, Make make) {
+    start(header);
+    for (unsigned i = 0; i < 100; ++i) {
+      if (random() % 3 != 0)
+        clock();
+      else
+        clock(random() % kBuffers, make());
+    }
+    finish();
+  }
+
   Buffer random_buffer() {
     static constexpr unsigned kCodes[] = {4, 4, 2, 6, 0, 8, 12, 10};
     Buffer buffer{.code = kCodes[random() % 8],
@@ -170,14 +183,7 @@ TEST_P(MbRx, BuffersTakenAwayMeanwhileAreNotChosen) {  // 3.4: a C/S write remov
   for (unsigned round = 0; round < 1500; ++round) {
     for (Buffer &buffer : buffers_) buffer = random_buffer();
     const Header header = random_header();
-    start(header);
-    for (unsigned i = 0; i < 100; ++i) {
-      if (random() % 3 != 0)
-        clock();
-      else
-        clock(random() % kBuffers, Buffer{});
-    }
-    finish();
+    search_beside_writes(header, [] { return Buffer{}; });
     ASSERT_TRUE(top_.hit_o == 0 || matches(top_.hit_idx_o, header)) << "round " << round;
     // Nothing was added, so if one is left that matched all the time, one must have been found.
     ASSERT_TRUE(top_.hit_o != 0 || !expected(header)) << "round " << round;
@@ -189,14 +195,7 @@ TEST_P(MbRx, BuffersRewrittenMeanwhileAreChosenAsTheyAre) {
   for (unsigned round = 0; round < 1500; ++round) {
     for (Buffer &buffer : buffers_) buffer = random_buffer();
     const Header header = random_header();
-    start(header);
-    for (unsigned i = 0; i < 100; ++i) {
-      if (random() % 3 != 0)
-        clock();
-      else
-        clock(random() % kBuffers, random_buffer());
-    }
-    finish();
+    search_beside_writes(header, [this] { return random_buffer(); });
     ASSERT_TRUE(top_.hit_o == 0 || matches(top_.hit_idx_o, header)) << "round " << round;
   }
 }
