@@ -111,8 +111,8 @@ module can_rn_head #(
   assign hdr_o  = hdr_q;
   assign byte_o = byte_q || (byte_we_i && live_q);
   assign live_o = live_q;
-  // can_rn_step may be counting a timer: its 6 clocks from a sample point on can be more than a bit
-  // that resynchronisation has shortened.
+  // can_rn_step may be counting a timer: what begins at a sample point may not be over at the next
+  // one, if resynchronisation has shortened the bit.
   assign valid_o = live_q && (valid_i || valid_q);
   assign sys_o  = class_q == ClassSys;
   assign all_o  = class_q == ClassAll;

@@ -3,8 +3,8 @@
 //
 // can_rn_step: sequencer of can_remote (RN-36, RN-37). It chooses the next job and steps through
 // its phases. A request comes before all other work. Between the header of a frame for this node
-// and its end only timers, ageing and counters may begin (JobLow, JobAge, JobTally), in the clock
-// after a sample point, so that they end before the next one or soon after it.
+// and its end only timers, ageing and counters may begin (JobLow or JobHigh, JobAge, JobTally), one
+// behind each sample point, so that they end before the next one.
 
 module can_rn_step #(
   parameter bit Map = 1'b0,
@@ -89,7 +89,7 @@ module can_rn_step #(
   can_rn_pkg::job_t job_d, work, next;
   logic [1:0] phase_q, int2_q;
   logic [3:0] ten_q;
-  logic       tick_q, timer_q, ms_q, aged_q, row_ready_q, try_ready_q;
+  logic       tick_q, timer_q, high_q, ms_q, aged_q, row_ready_q, try_ready_q;
   logic       guarded, memory, keep, idle, held, over, wait_user, quiet, due, int2, ended_timer;
 
   assign job_o   = job_q;
@@ -126,7 +126,7 @@ module can_rn_step #(
     else if (byte_i)              soon = can_rn_pkg::JobByte;
     else if (quiet && urgent_i)   soon = can_rn_pkg::JobLoad;
     else if (tally_i)             soon = can_rn_pkg::JobTally;
-    else if (ms_q)                soon = can_rn_pkg::JobLow;
+    else if (ms_q)                soon = high_q ? can_rn_pkg::JobHigh : can_rn_pkg::JobLow;
   end
   always_comb begin
     later = can_rn_pkg::JobIdle;
@@ -187,7 +187,6 @@ module can_rn_step #(
       can_rn_pkg::JobLoad:  keep = !phase_q[1];
       can_rn_pkg::JobFresh:   job_d = can_rn_pkg::JobMove;
       can_rn_pkg::JobTrigger: if (operate_i) job_d = can_rn_pkg::JobMove;
-      can_rn_pkg::JobLow:     if (carry_i) job_d = can_rn_pkg::JobHigh;
       can_rn_pkg::JobCount: begin
         if (restart_i)                  job_d = can_rn_pkg::JobStart;
         else if (!refused_i && write_i) job_d = can_rn_pkg::JobInt2;
@@ -268,12 +267,16 @@ module can_rn_step #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       ten_q <= 4'd1;
-      {timer_q, ms_q, aged_q, row_ready_q, try_ready_q} <= '0;
+      {timer_q, high_q, ms_q, aged_q, row_ready_q, try_ready_q} <= '0;
     end else begin
       // ten_q passes 10 of the 15 states of x^4 + x + 1: 1, 2, 4, 8, 3, 6, 12, 11, 5, 10.
       if (ms_i) ten_q <= ten_q == 4'd10 ? 4'd1
                                         : {ten_q[2], ten_q[1], ten_q[0] ^ ten_q[3], ten_q[3]};
       timer_q     <= timer_q ^ ended_timer;
+      // The high byte is counted behind another sample point: before the last phase of a JobByte
+      // that waited for both, the engine could have received the next bit but one of 5 clocks.
+      high_q      <= (job_q == can_rn_pkg::JobLow && phase_q[1] && carry_i)
+                     || (high_q && job_q != can_rn_pkg::JobHigh);
       ms_q        <= ms_i || (ms_q && !(ended_timer && timer_q));
       aged_q      <= ten_o || (aged_q && some_i && (job_q != can_rn_pkg::JobAge || more_i
                                                           || !(&phase_q)));

@@ -61,8 +61,8 @@ TEST_F(RtlInstants, PulsesBeginInTheClockAfterInt2) {
 }
 
 // RN-36: a glitch behind the sample point of EOF5 makes that bit up to two clocks shorter (SY-05),
-// and both bytes of the watchdog are counted in it, which ends behind the sample point of EOF6: the
-// frame is taken nevertheless. Wherever glitch and millisecond come.
+// while both bytes of the watchdog have to be counted: the frame is taken nevertheless. Wherever
+// glitch and millisecond come.
 TEST_F(RtlInstants, AShortBitBeforeEof6) {
   constexpr unsigned kAddress = 0x20;
   const std::string frame = "1A0#55";

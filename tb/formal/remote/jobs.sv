@@ -51,7 +51,7 @@
   function automatic logic [5:0] f_most(input can_rn_pkg::job_t is);
     case (is)
       can_rn_pkg::JobFetch: f_most = 6'd1;
-      can_rn_pkg::JobHigh, can_rn_pkg::JobMove: f_most = 6'd3;
+      can_rn_pkg::JobMove:  f_most = 6'd3;
       can_rn_pkg::JobFresh, can_rn_pkg::JobGuard, can_rn_pkg::JobOpen:
                             f_most = 6'd4;
       can_rn_pkg::JobSame:  f_most = 6'd5;
