@@ -3,7 +3,8 @@
 #
 # Script: writes OUTPUT, a source file that includes all *.cpp of DIR, the sources of the Verilated
 # model NAME. With SHORT_CUTS it gives it the functions below, as far as the model has them,
-# declared in NAME.h.
+# declared in NAME.h. With ASSERT, clock edges are evaluated by eval(): what assertions look at
+# ($past) is kept there alone.
 # Their names are Verilator's own (5.006), of what eval() calls:
 #   verican_clock_edge()  what is clocked, and all that follows from it (sim/node/model_edge.hpp)
 #   verican_follow()      what follows from the inputs in the same clock (sim/node/quiet_engine.hpp)
@@ -35,8 +36,11 @@ endfunction()
 
 if(SHORT_CUTS)
   string(APPEND declarations "void verican_clock_edge(${NAME}___024root *root);\n")
-  string(APPEND text "void verican_clock_edge(${NAME}___024root *root) {\n"
-                     "  ${NAME}___024root___eval_nba(root);\n}\n")
+  set(edge "  ${NAME}___024root___eval_nba(root);\n")
+  if(ASSERT)
+    set(edge "  root->__Vtrigrprev__TOP__clk_i = 0;\n  ${NAME}___024root___eval(root);\n")
+  endif()
+  string(APPEND text "void verican_clock_edge(${NAME}___024root *root) {\n${edge}}\n")
   region(verican_follow ico)
   region(verican_settle stl)
 endif()

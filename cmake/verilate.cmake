@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # verican_verilate(<target> TOP <module> [PARAMS Name=value ...] [REPLACE <file> ...]
-#                  [FILES <file> ...]): a static library with the Verilated model of any module of
+#                  [FILES <file> ...] [ASSERT]): a static library with the Verilated model of any module of
 # rtl/can.f; its class has the name of the target and its header is <target>.h. REPLACE files take
-# the places of those of their names in rtl/can.f; FILES are taken instead of all of rtl/can.f.
+# the places of those of their names in rtl/can.f; FILES are taken instead of all of rtl/can.f. With
+# ASSERT an assertion that fails ends the program.
 #
 # VERICAN_RTL_TRANSFORM: a program that rewrites the RTL before Verilation (a netlist, mutants):
 #   <program> OUT.v TOP [Name=value ...] [--keep FILE ...] -- FILE...
@@ -79,7 +80,11 @@ set(VERICAN_VERILATOR_FLAGS --cc -O3 -fno-split --x-assign fast --x-initial fast
     --output-split 0 --no-timing -Wno-lint -Wno-style)
 
 function(verican_verilate target)
-  cmake_parse_arguments(ARG "" "TOP" "PARAMS;REPLACE;FILES" ${ARGN})
+  cmake_parse_arguments(ARG "ASSERT" "TOP" "PARAMS;REPLACE;FILES" ${ARGN})
+  set(assert "")
+  if(ARG_ASSERT)
+    set(assert --assert)
+  endif()
   set(files ${VERICAN_RTL})
   if(ARG_FILES)
     set(files ${ARG_FILES})
@@ -122,11 +127,11 @@ function(verican_verilate target)
     OUTPUT "${all}" "${dir}/${target}.h"
     COMMAND "${CMAKE_COMMAND}" -E rm -rf "${dir}"
     COMMAND ${transform}
-    COMMAND "${VERILATOR}" ${VERICAN_VERILATOR_FLAGS} --prefix ${target} --Mdir "${dir}"
+    COMMAND "${VERILATOR}" ${VERICAN_VERILATOR_FLAGS} ${assert} --prefix ${target} --Mdir "${dir}"
             --top-module ${ARG_TOP} ${parameters} ${coverage_flags} ${verilated}
     COMMAND ${coverage}
     COMMAND "${CMAKE_COMMAND}" -DDIR=${dir} -DNAME=${target} -DOUTPUT=${all}
-            -DSHORT_CUTS=${VERICAN_SHORT_CUTS}
+            -DSHORT_CUTS=${VERICAN_SHORT_CUTS} -DASSERT=${ARG_ASSERT}
             -P "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake"
     DEPENDS ${files} "${PROJECT_SOURCE_DIR}/cmake/include_all.cmake" ${VERICAN_RTL_TRANSFORM}
             ${coverage_script}

@@ -26,10 +26,11 @@
 
   always @(posedge clk_i) begin
     m_no_reset: assume (rst_ni);
-    // The row of a frame ends with its bytes, that of an answer with what READ counts; 1 to 6, or
-    // can_rn_head says that the value is bad.
+    // The row of a frame ends with its bytes, that of an answer with what READ counts in its third
+    // byte, the last; 1 to 6, or can_rn_head says that the value is bad.
     m_end: assume (end_i == (far_o && !a_i[0] ? end_i : dlc_i));
-    m_count: assume (!(far_o && !a_i[0]) || value_bad_i || (end_i >= 4'd3 && end_i <= 4'd8));
+    m_count: assume (!(far_o && !a_i[0]) || value_bad_i || rtr_i || dlc_i != 4'd3
+                     || (end_i >= 4'd3 && end_i <= 4'd8));
     // The last eight A are ports (can_rn_head).
     m_port: assume (port_i == (!sys_i && (&a_i[AddrBits-1:3])));
     // A direct access starts at A.

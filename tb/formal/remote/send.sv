@@ -32,6 +32,13 @@
     else         f_loading <= job_i == can_rn_pkg::JobLoad && !phase_i[1] ? phase_i + 2'd1 : 2'd0;
   end
 
+  // The phase of JobTry that comes next; 0: none.
+  logic [1:0] f_trying;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) f_trying <= '0;
+    else         f_trying <= job_i == can_rn_pkg::JobTry && !phase_i[1] ? phase_i + 2'd1 : 2'd0;
+  end
+
   // A frame for this node is or was under way, and its work is done when JobLoad begins.
   logic f_work;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -66,15 +73,18 @@
     // Nor is HERE taken back: a SELECT is obeyed before the intermission behind it ends (RN-37).
     m_here: assume (!(f_sending || tx_next_i) || !f_recalled);
     // From a failed attempt to the next are 17 bits at least, many times what JobTry waits for.
-    m_pause: assume (!tx_next_i || f_sending || !(try_q || $past(try_q)));
-    m_tried: assume (job_i != can_rn_pkg::JobTry || try_q);
+    m_pause: assume (!tx_next_i || f_sending
+                     || !(try_q || f_trying != 2'd0 || $past(f_trying) != 2'd0));
+    m_tried: assume (job_i != can_rn_pkg::JobTry || phase_i != 2'd0 || try_q);
     // No job writes the queue while it is flushed.
     m_flush_alone: assume (!flush_i || (job_i != can_rn_pkg::JobPush
                                         && job_i != can_rn_pkg::JobLoad));
     // JobAge has four phases.
     m_age: assume (job_i != can_rn_pkg::JobAge || phase_i == f_aging);
     m_age_ends: assume (f_aging == 2'd0 || job_i == can_rn_pkg::JobAge);
-    // JobLoad has three.
+    // JobTry and JobLoad have three.
+    m_tries: assume (job_i != can_rn_pkg::JobTry || phase_i == f_trying);
+    m_try_ends: assume (f_trying == 2'd0 || job_i == can_rn_pkg::JobTry);
     m_loads: assume (job_i != can_rn_pkg::JobLoad || phase_i == f_loading);
     m_load_ends: assume (f_loading == 2'd0 || job_i == can_rn_pkg::JobLoad);
     if (f_ran) begin

@@ -25,7 +25,7 @@
     // What was before the first clock only the flip-flop tells.
     m_may: assume (f_ran || f_may == may_q);
     // SETUP has ops 1 to 4: can_rn_head tells others, and can_rn_check refuses them.
-    m_op: assume (!setup_i || refused_i || (op_i[2] ? op_i[1:0] == 2'b00 : op_i[1:0] != 2'b00));
+    m_op: assume (!(act && setup_i) || (op_i[2] ? op_i[1:0] == 2'b00 : op_i[1:0] != 2'b00));
     // RN-07, RN-102 P-5: no STATUS without a number.
     p_numbered: assert (!owe_status_o || number_o > NameBits'(1));
     // RN-72, RN-102 P-5: off the bus everything that waits is forgotten.

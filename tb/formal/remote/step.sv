@@ -26,8 +26,15 @@
   logic f_visit, f_visiting;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) f_visiting <= 1'b0;
-    else         f_visiting <= job_q == can_rn_pkg::JobEntry || (f_visiting && !idle);
+    else         f_visiting <= job_q == can_rn_pkg::JobEntry || (f_visiting && !idle)
+                               || (Block && job_q == can_rn_pkg::JobFetch && !live_i);
   end
+  // The same for a frame of a block transfer.
+  logic f_block, f_begun;
+  assign f_block = Block && (then_i == can_rn_pkg::JobGuard || then_i == can_rn_pkg::JobMove);
+  assign f_begun = begun_i == can_rn_pkg::JobFresh
+                   || (Block && (begun_i == can_rn_pkg::JobMove || begun_i == can_rn_pkg::JobSeq
+                                 || begun_i == can_rn_pkg::JobClose));
   assign f_visit = then_i == can_rn_pkg::JobFresh || then_i == can_rn_pkg::JobMove
                    || then_i == can_rn_pkg::JobSame || then_i == can_rn_pkg::JobGap
                    || then_i == can_rn_pkg::JobKeep || then_i == can_rn_pkg::JobDown
@@ -44,11 +51,16 @@
     m_apart: assume (!valid_i || idle || f_timer || !live_i);
     m_waits: assume (!f_ran || !$past(valid_i && !idle) || valid_i);
     // What an entry of a producer leads to (produce.p_then), and that it asks as a read does.
-    m_then: assume (then_i == can_rn_pkg::JobIdle || then_i == can_rn_pkg::JobBegin || f_visit);
-    m_begun: assume (begun_i == can_rn_pkg::JobFresh);
-    m_read: assume (!visit_i || job_q == can_rn_pkg::JobEntry
-                    || (read_i && !write_i && !trigger_i));
-    // It begins with JobEntry and ends where a job is followed by none.
+    m_then: assume (then_i == can_rn_pkg::JobIdle || then_i == can_rn_pkg::JobBegin || f_visit
+                    || f_block);
+    m_begun: assume (f_begun);
+    m_read: assume (!visit_i || job_q == can_rn_pkg::JobEntry || job_q == can_rn_pkg::JobFetch
+                    || job_q == can_rn_pkg::JobGuard || (read_i && !write_i && !trigger_i));
+    // What a block transfer is due for.
+    m_block: assume (!Block || block_job_i == can_rn_pkg::JobFetch
+                     || block_job_i == can_rn_pkg::JobClock
+                     || block_job_i == can_rn_pkg::JobAdd || block_job_i == can_rn_pkg::JobClose);
+    // It begins with JobEntry or JobFetch and ends where a job is followed by none.
     m_visit: assume (visit_i == f_visiting);
     // A map entry takes no read, and nothing but a header or a visit changes whether one has taken
     // the frame (map.p_mapped).

@@ -14,7 +14,7 @@ class ModelError(Exception):
     """The model could not be built; the text says why in one line."""
 
 
-def _spliced(text, module, properties):
+def spliced(text, module, properties):
     pattern = re.compile(rf"\bmodule\s+{module}\b.*?^endmodule", re.S | re.M)
     found = pattern.search(text)
     if not found:
@@ -46,7 +46,7 @@ def write_sources(proof, rtl_root, out, mutant=None):
             done.add(mutant.file)
         for module, properties in proof.splice.items():
             if source.stem == module:
-                text = _spliced(text, module, "".join((proof.folder / file).read_text("utf-8")
+                text = spliced(text, module, "".join((proof.folder / file).read_text("utf-8")
                                                       for file in properties))
                 done.add(module)
         (out / source.name).write_text(text, encoding="utf-8")
