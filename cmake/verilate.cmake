@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # verican_verilate(<target> TOP <module> [PARAMS Name=value ...] [REPLACE <file> ...]
-#                  [FILES <file> ...] [ASSERT]): a static library with the Verilated model of any module of
-# rtl/can.f; its class has the name of the target and its header is <target>.h. REPLACE files take
-# the places of those of their names in rtl/can.f; FILES are taken instead of all of rtl/can.f. With
-# ASSERT an assertion that fails ends the program.
+#                  [FILES <file> ...] [ASSERT]): a static library with the Verilated model of any
+# module of rtl/can.f; its class has the name of the target and its header is <target>.h. REPLACE
+# files take the places of those of their names in rtl/can.f; FILES are taken instead of all of
+# rtl/can.f. With ASSERT an assertion that fails ends the program.
 #
 # VERICAN_RTL_TRANSFORM: a program that rewrites the RTL before Verilation (a netlist, mutants):
 #   <program> OUT.v TOP [Name=value ...] [--keep FILE ...] -- FILE...

@@ -18,8 +18,8 @@ from runner.model import spliced
 # Of the proof alone: how it begins, from any content of the flip-flops.
 PROOF_ONLY = re.compile(r"^\s*m_(reset|no_reset|may): assume", re.MULTILINE)
 PROPERTIES = "always @(posedge clk_i) begin"
-# Proofs of one set of parameters, of which the assumptions alone hold for all, and when: if somebody
-# looks at the request.
+# Proofs of one set of parameters, of which the assumptions alone hold for all, and when: if
+# somebody looks at the request.
 ASSUMPTIONS = {"can_rn_check": "!(can_remote.make || can_remote.block || can_remote.data)"
                                " && (can_remote.request"
                                " || can_remote.job == can_rn_pkg::JobBegin)"}
