@@ -129,10 +129,20 @@ module can_time_regs (
     cmd_o[can_pkg::TimeRead]    = ask_i;
   end
 
-  // A hold that has been written but is still on its way to can_time reads as written.
-  logic held;
-  assign held = (stat_i[can_pkg::TimeStatHeld] && !cmd_o[can_pkg::TimeRelease])
-             || cmd_o[can_pkg::TimeHold];
+  // What has been written but is still on its way to can_time reads as written. SLEWING comes there
+  // two clocks behind its command, as it falls with the pulse that sets SLEWD.
+  logic held, slewing, armed, out, slew_q;
+  assign held    = (stat_i[can_pkg::TimeStatHeld] && !cmd_o[can_pkg::TimeRelease])
+                || cmd_o[can_pkg::TimeHold];
+  assign slewing = stat_i[can_pkg::TimeStatSlewing] || cmd_q[can_pkg::TimeSlew] || slew_q;
+  assign armed   = (stat_i[can_pkg::TimeStatArmed] || cmd_q[can_pkg::TimeArm])
+                && tctrl_o[can_regs_pkg::TctrlCmpen];
+  assign out     = stat_i[can_pkg::TimeStatOut]
+                && !(cmd_q[can_pkg::TimeArm] && tctrl_o[can_regs_pkg::TctrlCmpen]);
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) slew_q <= 1'b0;
+    else         slew_q <= cmd_q[can_pkg::TimeSlew];
+  end
 
   assign time_out_o = stat_i[can_pkg::TimeStatOut] && tctrl_o[can_regs_pkg::TctrlOuten];
   assign irq_o = (flags_q[can_regs_pkg::TstatExt]   && tctrl_o[can_regs_pkg::TctrlExtie])
@@ -149,10 +159,10 @@ module can_time_regs (
         Tctrl: rdata_o = tctrl_o;
         Tstat: begin
           rdata_o[5:0] = flags_q;
-          rdata_o[can_regs_pkg::TstatSlewing] = stat_i[can_pkg::TimeStatSlewing];
+          rdata_o[can_regs_pkg::TstatSlewing] = slewing;
           rdata_o[can_regs_pkg::TstatHeld]    = held;
-          rdata_o[can_regs_pkg::TstatOut]     = stat_i[can_pkg::TimeStatOut];
-          rdata_o[can_regs_pkg::TstatCmpon]   = stat_i[can_pkg::TimeStatArmed];
+          rdata_o[can_regs_pkg::TstatOut]     = out;
+          rdata_o[can_regs_pkg::TstatCmpon]   = armed;
         end
         Timelo: rdata_o = now_i[31:0];
         Timehi: rdata_o = now_i[63:32];

@@ -268,6 +268,42 @@ TEST_F(TimeRegs, HoldReadsAsWrittenAtOnce) {  // TM-03, TM-40
   EXPECT_EQ(read(kTtxmb), 8u);
 }
 
+// TM-15: SLEWING is told from the write of TSLEW to SLEWD: software that waits for the end of a
+// slew must not find it over at once. One that is stopped ends so, too.
+TEST_F(TimeRegs, SlewingIsToldAtOnce) {  // TM-03, TM-15
+  constexpr std::uint32_t kSlewing = 1u << 16, kSlewd = 8;
+  const auto told = [&](std::uint32_t data) {
+    std::vector<AhbTransfer> accesses{{.address = kTslew, .write = true, .data = data}};
+    for (unsigned i = 0; i < 6; ++i) accesses.push_back({.address = kTstat});
+    std::vector<std::uint32_t> flags;
+    for (const AhbResult &result : rig_.burst(0, accesses))
+      flags.push_back(result.data & (kSlewing | kSlewd));
+    return std::vector<std::uint32_t>{flags.begin() + 1, flags.end()};
+  };
+  EXPECT_EQ(told(1000), std::vector<std::uint32_t>(6, kSlewing));
+  const auto ends = told(0);
+  for (const std::uint32_t flags : ends) EXPECT_TRUE(flags == kSlewing || flags == kSlewd);
+  EXPECT_EQ(ends.back(), kSlewd);
+}
+
+// TM-30: TSTAT tells of arming and disarming, and that OUT has been lowered, at once.
+TEST_F(TimeRegs, ArmingIsToldAtOnce) {  // TM-03, TM-30
+  constexpr std::uint32_t kCmpen = 1u << 13, kOut = 1u << 18, kCmpon = 1u << 19;
+  const auto told = [&](std::uint32_t address, std::uint32_t data) {
+    const AhbTransfer write{.address = address, .write = true, .data = data};
+    return rig_.burst(0, {write, {.address = kTstat}}).back().data & (kOut | kCmpon);
+  };
+  EXPECT_EQ(told(kTcmp, 0), 0u);  // not enabled
+  write(kTctrl, kCmpen);
+  EXPECT_EQ(told(kTcmp, static_cast<std::uint32_t>(time() + 1000000)), kCmpon);
+  EXPECT_EQ(told(kTctrl, 0), 0u);
+  write(kTctrl, kCmpen);
+  write(kTcmp, static_cast<std::uint32_t>(time()));
+  rig_.run(10);
+  EXPECT_EQ(read(kTstat) & (kOut | kCmpon), kOut);
+  EXPECT_EQ(told(kTcmp, static_cast<std::uint32_t>(time() + 1000000)), kCmpon);
+}
+
 // TM-29: software does not write stamps.
 TEST_F(TimeRegs, StampsAreReadOnly) {
   write(stamp(3), 0xFFFFFFFF);
