@@ -62,14 +62,16 @@ module can_mb_guard #(
   assign all_block = (cur_q && done_i) || flag_q;
   assign block_o   = cs_block_q || all_block;
   assign ended     = if_ended_o && ended_i;
-  assign abort_o   = abort && cs_block_q && !all_block && !ended;
+  assign abort_o   = abort && cs_block_q && !all_block;
   assign at_once   = abort && !cs_block_q && !all_block && !ended;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {abort_q, flag_q, cs_block_q, if_ended_o, cur_q} <= '0;
     end else begin
-      abort_q    <= guarded && is_cs && be3_i && code_i == can_regs_pkg::MbCsCodeTxAbort;
+      // A frame whose end is told in the first clock has nothing left to abort in the second.
+      abort_q    <= guarded && is_cs && be3_i && code_i == can_regs_pkg::MbCsCodeTxAbort
+                 && !(cur && done_i);
       cs_block_q <= guarded && is_cs && cur && out_i;
       cur_q      <= guarded && cur;
       flag_q     <= guarded && flag_o && idx_i == flag_idx_o;

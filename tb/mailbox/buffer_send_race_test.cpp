@@ -180,5 +180,30 @@ TEST(SendRaceOfOthers, EveryClockOfTheEnd) {
   }
 }
 
+// FX-3.4.b, FX-3.7.b: an abort request for an answer that is being sent is remembered, also while
+// IFLAG still tells of the answer before: it is not tried again when the attempt fails.
+TEST(AbortOfAnAnswer, WhileItsLastFlagStands) {
+  constexpr Frame kRequest{.id = kMine.id, .remote = true, .dlc = 1};
+  for (unsigned clock = 8; clock < 31 * BufferRig::kBit && !::testing::Test::HasFailure();
+       clock += 7) {
+    SCOPED_TRACE(testing::Message() << "clock " << clock);
+    BufferRig rig{{.num_mb = 16, .maxmb = 15, .aen = true}};
+    rig.go();
+    rig.put_tx(kMb, kMine, kTxAnswerWaits);
+    rig.receive(kRequest);
+    ASSERT_EQ(rig.read(reg::kIflag1), 1u << kMb);
+    const std::uint64_t answered = rig.frames_started() + 2;
+    rig.peer_sends(kRequest);
+    ASSERT_TRUE(rig.run_until([&] { return rig.frames_started() == answered; }, 2000));
+    rig.disturb(30);
+    rig.at(rig.start_clock() + clock,
+           {.address = reg::mb(kMb), .write = true, .data = kTxAbort << 24});
+    rig.quiet();
+    EXPECT_EQ((rig.read_cs(kMb) >> 24) & 0xF, kTxAbort);
+    EXPECT_EQ(rig.frames_started(), answered) << "tried again";
+    rig.compare();
+  }
+}
+
 }  // namespace
 }  // namespace vericansim
