@@ -4,7 +4,8 @@
   // Properties of can_mb_port, spliced into it: an access takes two clocks, what the CPU reads
   // stands still, and nobody is kept waiting for ever. CPU, engine and RAM are free.
 
-  logic       f_ran, f_new, f_slot_q, f_read_q, f_eng_cs_q, f_wrote_q;
+  logic       f_ran, f_new, f_slot_q, f_eng_cs_q, f_wrote_q;
+  logic [2:0] f_read_q;                  // the last three clocks: a read of insertion or engine
   logic       f_mark;                    // a mark may be asked for
   logic [2:0] f_received, f_since;
   logic [1:0] f_words;                   // granted of words of the frame received in a row
@@ -23,7 +24,7 @@
       f_since     <= !rx_wr_req_i ? 3'd0 : f_since + 3'(f_since != '1);
       f_words     <= !rx_wr_req_i ? 2'd0 : f_words + 2'(rx_wr_gnt_o && f_words != '1);
       if (eng_slot_o) f_eng_cs_q <= eng_cs_i;
-      f_read_q    <= ins_gnt_o || (eng_slot_o && eng_req_i);
+      f_read_q    <= {f_read_q[1:0], ins_gnt_o || (eng_slot_o && eng_req_i)};
       f_engine    <= !wish || (eng_slot_o && eng_req_i) ? 6'd0 : f_engine + 6'd1;
       f_insertion <= !ins_req_i || ins_gnt_o ? 6'd0 : f_insertion + 6'd1;
     end
@@ -46,8 +47,9 @@
     m_marks: assume (!serviced_req_i || f_mark);
     // host.lock, p_kind: it writes the memory that its step has asked for.
     m_kind: assume (!copy_i || copy_cs_i == f_eng_cs_q);
-    // can_mb_tx: a pass asks for a slot in each clock but that behind a read.
-    m_wish: assume (!eng_pass_i || eng_req_i || f_read_q);
+    // can_mb_tx: a pass asks for a slot in each clock but that behind a read and, as long as its
+    // last buffer is compared, the two behind that.
+    m_wish: assume (!eng_pass_i || eng_req_i || f_read_q != '0);
     // can_mb_smb: hidden rows.
     m_hidden: assume ((rx_wr_cs_i ? rx_wr_row_i[IdxW] : rx_wr_row_i[IdxW+1:IdxW] == 2'd3)
                       && (!of_msg || word_q != 2'd3));
@@ -104,7 +106,7 @@
       p_stamps: assert (!rx_wr_req_i || f_since != 3'd6
           || f_words[1] || (f_words[0] && rx_wr_gnt_o));
       // FX-9.ERR005829: the engine gets a slot, and so does an insertion, whatever the CPU does.
-      p_engine: assert (f_engine < 6'd8);
+      p_engine: assert (f_engine < 6'd10);
       p_insertion: assert (f_insertion < 6'd48);
     end
   end
