@@ -317,7 +317,8 @@ module can_mailbox #(
       .clk_i, .rst_ni, .clear_i, .cs_written_i(cs_written),
       .pass_i(pass), .pass_end_i(pass_end), .seen_i(seen), .seen_idx_i(seen_idx),
       .seen_worst_i(seen_worst), .seen_free_i(seen_free),
-      .sent_i(sent), .tx_ok_i, .cur_idx_i(cur_idx), .crc_i, .esr2_o, .crcr_o);
+      .sent_i(sent && ld_code == can_regs_pkg::MbCsCodeTxInactive), .tx_ok_i,
+      .cur_idx_i(cur_idx), .crc_i, .esr2_o, .crcr_o);
   end else begin : gen_no_status
     assign {esr2_o, crcr_o} = '0;
     logic unused_status;

@@ -22,7 +22,7 @@ module can_mb_status #(
   input  logic            seen_worst_i, // 1: of those seen so far that buffer would be sent last
   input  logic            seen_free_i,  // 1: code of buffer seen_idx_i is INACTIVE
   // Frame on the bus.
-  input  logic            sent_i,       // pulse: buffer cur_idx_i was sent and has its new code
+  input  logic            sent_i,       // pulse: buffer cur_idx_i was sent and is inactive now
   input  logic            tx_ok_i,      // pulse: the frame of buffer cur_idx_i has been sent
   input  logic [IdxW-1:0] cur_idx_i,
   input  logic [14:0]     crc_i,        // CRC of the frame on the bus, valid with tx_ok_i

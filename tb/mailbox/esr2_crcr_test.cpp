@@ -185,6 +185,23 @@ TEST_F(Esr2, CompletionFillsIn) {  // flexcan.md 1.7: IMB = 0 and a frame ends
   EXPECT_EQ(lptm(esr2), 9u);
 }
 
+// A remote frame that was sent leaves a buffer that waits for the answer, an answer one that waits
+// for the next request: neither is inactive, so that software that looks for a free buffer must not
+// be sent there.
+TEST_F(Esr2, CompletionThatLeavesNoInactiveBuffer) {  // FX-ESR2.IMB, flexcan.md 1.7, 3.2
+  start();
+  set(9, 0xA, 0x300u << 18);
+  rig_->join();
+  rig_->put_tx(0, 7, {.id = 0x200, .remote = true});
+  ASSERT_TRUE(rig_->wait_flag(0, 7));
+  EXPECT_EQ(rig_->code(7), 0x4u);
+  EXPECT_EQ(scanned() & (kVps | kImb), kVps);
+  rig_->put_tx(1, 5, {.id = 0x300, .remote = true});
+  ASSERT_TRUE(rig_->wait_flag(0, 9));
+  EXPECT_EQ(rig_->code(9), 0xAu);
+  EXPECT_EQ(scanned() & (kVps | kImb), kVps);
+}
+
 TEST_F(Esr2, BuffersOutsideTheArbitrationDoNotCount) {  // FX-MCR.MAXMB
   start(0, reg::kCtrlLom);
   set(50, 0x8);
