@@ -179,9 +179,12 @@ void BufferModel::merge(std::uint64_t now) {
   states_ = merged.take();
 }
 
+bool BufferModel::may_be(const std::function<bool(const BufferState &)> &so) const {
+  return std::any_of(states_.begin(), states_.end(), so);
+}
+
 bool BufferModel::sending() const {
-  return std::any_of(states_.begin(), states_.end(),
-                     [](const BufferState &state) { return state.flight.has_value(); });
+  return may_be([](const BufferState &state) { return state.flight.has_value(); });
 }
 
 bool BufferModel::must_send_since(std::uint64_t clock) const {
@@ -329,6 +332,25 @@ void BufferModel::send_failed(std::uint64_t now) {
         out.add(std::move(next));
       },
       [] { return "a frame failed that was not being sent"; });
+}
+
+void BufferModel::send_not_begun(std::uint64_t now) {
+  settle(now);
+  ended_at_ = now;
+  replace(
+      [&](const BufferState &state, DistinctStates &out) {
+        if (!state.flight) return;
+        BufferState next = state;
+        const Flight flight = *state.flight;
+        next.flight.reset();
+        if (flight.abort) {
+          next.ended = FlightEnd{.flight = flight, .success = false, .stamp = stamp_};
+        } else if (!flight.orphan) {
+          next.mb.change(flight.mb).request = flight.request;
+        }
+        out.add(std::move(next));
+      },
+      nothing);
 }
 
 void BufferModel::soft_reset(std::uint64_t now) {

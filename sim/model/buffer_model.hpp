@@ -67,6 +67,8 @@ class BufferModel {
   void sent(const Frame &wire, std::uint64_t now);
   /// An own frame lost arbitration or was destroyed.
   void send_failed(std::uint64_t now);
+  /// The node stopped before the SOF of an own frame: the attempt never was.
+  void send_not_begun(std::uint64_t now);
 
   // ---- Verdict
 
@@ -78,6 +80,8 @@ class BufferModel {
   [[nodiscard]] std::size_t possibilities() const { return states_.size(); }
   /// One of the states.
   [[nodiscard]] const BufferState &state() const { return states_.front(); }
+  /// Some state is so.
+  [[nodiscard]] bool may_be(const std::function<bool(const BufferState &)> &so) const;
   /// In some state a frame is being sent.
   [[nodiscard]] bool sending() const;
   /// In every state some buffer has waited to be sent since `clock` or earlier, and no abort of it

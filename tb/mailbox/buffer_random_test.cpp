@@ -15,6 +15,8 @@
 namespace vericansim {
 namespace {
 
+constexpr std::uint32_t kVps = 1u << 14, kImb = 1u << 13;  // of ESR2
+
 BufferConfig random_config(std::mt19937 &rng) {
   const auto one_in = [&](unsigned n) { return rng() % n == 0; };
   BufferConfig config;
@@ -82,6 +84,42 @@ class Random : public ::testing::TestWithParam<unsigned> {
     rig_.read(reg::kIflag1);
     if (rig_.config().num_mb > 32) rig_.read(reg::kIflag2);
     if (rig_.config().aen) rig_.read_cs(mb);
+    if (status_) look_at_status();
+  }
+  // ESR2 (1.7): a buffer that is said to be inactive is: software may fill it. CRCR (1.8) has the
+  // CRC of the last frame sent.
+  void look_at_status() {
+    if (HasFailure()) return;
+    const std::size_t sent = rig_.sent().size();
+    const std::uint32_t esr2 = rig_.read(reg::kEsr2);
+    const std::uint32_t crc = rig_.read(reg::kCrcr) & 0x7FFF;
+    if (sent > sent_ && sent == rig_.sent().size())
+      EXPECT_EQ(crc, encode_frame(rig_.sent().back()).crc) << "CRCR, clock " << rig_.clocks();
+    rig_.run(4);  // until the model has heard of all accesses
+    const unsigned lowest = (esr2 >> 16) & 0x7F;
+    if ((esr2 & kVps) == 0 || (esr2 & kImb) == 0 || HasFailure()) return;
+    EXPECT_TRUE(rig_.model.may_be([&](const BufferState &state) {
+      const unsigned code = state.mb[lowest].code();
+      return code == 0 || code == kTxInactive || state.ended;
+    })) << "ESR2 says that buffer "
+        << lowest << " is inactive, clock " << rig_.clocks();
+  }
+  // Nothing happens and nothing is written any more.
+  void final_status() {
+    if (!status_ || HasFailure()) return;
+    rig_.run(600);
+    const std::uint32_t esr2 = rig_.read(reg::kEsr2);
+    EXPECT_NE(esr2 & kVps, 0u);
+    const auto inactive = [&](unsigned mb) {
+      const unsigned code = rig_.model.state().mb[mb].code();
+      return code == 0 || code == kTxInactive;
+    };
+    if ((esr2 & kImb) != 0) {
+      EXPECT_TRUE(inactive((esr2 >> 16) & 0x7F)) << "clock " << rig_.clocks();
+      return;
+    }
+    for (unsigned mb = rig_.config().first_mailbox(); mb <= rig_.config().maxmb; ++mb)
+      EXPECT_FALSE(inactive(mb)) << mb << ", clock " << rig_.clocks();
   }
   // With AEN=1 a buffer that is being sent does not let itself be deactivated: then hands off.
   bool inactive(unsigned mb) {
@@ -162,6 +200,8 @@ class Random : public ::testing::TestWithParam<unsigned> {
   BufferRig rig_;
   unsigned identifiers_ = 6;  // different ones, of each kind
   unsigned buffers_ = 64;     // that software works with
+  bool status_ = false;       // ESR2 and CRCR are looked at
+  std::size_t sent_ = 0;      // frames before the last soft reset
   // Reads RXFIR too, with or without the FIFO; the seeds of Found keep the accesses they had.
   bool rxfir_ = GetParam() < 100;
 };
@@ -220,6 +260,143 @@ INSTANTIATE_TEST_SUITE_P(Seeds, RandomAtEvents, ::testing::Range(1u, 61u));
 INSTANTIATE_TEST_SUITE_P(Found, RandomAtEvents,
                          ::testing::Values(582u, 759u, 1350u, 1462u, 1797u, 2171u, 2297u, 4309u,
                                            4824u, 6087u, 14147u, 17127u, 17728u));
+
+// Software that also takes the core off the bus at those moments, and comes back with other
+// settings: what it left behind must neither stay nor go.
+class RandomLives : public RandomAtEvents {
+ protected:
+  explicit RandomLives(const CoreBuild *build = build_under_test()) : RandomAtEvents{build} {}
+
+  /// Other settings for the same core; with the Rx FIFO as before.
+  BufferConfig other_config() {
+    const BufferConfig before = rig_.config();
+    const auto one_in = [&](unsigned n) { return rng_() % n == 0; };
+    BufferConfig config = before;
+    if (own_masks_) config.bcc = !one_in(3);
+    if (extras_) {
+      config.maxmb = before.num_mb - 1 - (one_in(3) ? 2 : 0);
+      config.lprio_en = one_in(3);
+      config.lbuf = one_in(3);
+      config.rrs = one_in(2);
+      config.one_shot = one_in(6);
+    }
+    config.osmb = false;  // the model does not keep bit 28 of a C/S word over new settings
+    config.eacen = one_in(2);
+    config.srx_dis = one_in(2);
+    config.mrp = one_in(2);
+    return config;
+  }
+  // A C/S word written as no driver does: whatever the buffer is, whole or in part, twice in a row
+  // or with a read behind it.
+  void raw() {
+    constexpr unsigned kCodes[] = {kRxEmpty, kRxEmpty, kRxFull, 0, kTxInactive, kTxAbort};
+    const unsigned mb = mailbox();
+    std::uint64_t clock = rig_.clocks();
+    for (unsigned i = 1 + static_cast<unsigned>(rng_() % 3); i > 0; --i) {
+      const std::uint32_t code = kCodes[rng_() % std::size(kCodes)];
+      const std::uint32_t kind = (rng_() % 2 != 0 ? reg::kCsIde : 0) >> 16;
+      switch (rng_() % 6) {
+        case 0: rig_.at(clock, {.address = reg::mb(mb)}); break;
+        case 1: rig_.at(clock, {.address = reg::kTimer}); break;
+        case 2:
+          rig_.at(
+              clock,
+              {.address = reg::mb(mb) + 3, .write = true, .size = AhbSize::kByte, .data = code});
+          break;
+        case 3:
+          rig_.at(clock, {.address = reg::mb(mb) + 2,
+                          .write = true,
+                          .size = AhbSize::kHalf,
+                          .data = code << 8 | kind});
+          break;
+        case 4:
+          rig_.at(clock, {.address = reg::mb(mb),
+                          .write = true,
+                          .size = AhbSize::kByte,
+                          .data = static_cast<std::uint32_t>(rng_() % 256)});
+          break;
+        default:
+          rig_.at(clock, {.address = reg::mb(mb), .write = true, .data = code << 24 | kind << 16});
+          break;
+      }
+      clock += rng_() % 5;
+    }
+    rig_.run(12);
+    look(mb);
+    receive_again(mb);
+  }
+  // A move that a C/S word has cut short leaves an identifier that nobody promises.
+  void receive_again(unsigned mb) {
+    rig_.write(reg::mb(mb), 0);
+    if (inactive(mb)) rig_.put_rx(mb, frame());
+  }
+  void reads() {
+    for (unsigned i = static_cast<unsigned>(rng_() % 4); i > 0; --i)
+      rig_.read(rng_() % 2 == 0 ? reg::kTimer : reg::mb(mailbox()));
+  }
+  void freeze() {
+    ASSERT_TRUE(rig_.freeze(8000));
+    reads();
+    if (rng_() % 2 == 0) rig_.configure(other_config());
+    if (rng_() % 2 == 0) masks_and_filters();
+    for (unsigned i = static_cast<unsigned>(rng_() % 3); i > 0; --i) software();
+    rig_.go();
+  }
+  void sleep() {
+    rig_.write(reg::kMcr, mcr_of(rig_.config()) | reg::kMcrMdis);
+    ASSERT_TRUE(
+        rig_.run_until([&] { return (rig_.read(reg::kMcr) & reg::kMcrLpmAck) != 0; }, 8000));
+    reads();
+    for (unsigned i = static_cast<unsigned>(rng_() % 3); i > 0; --i) software();
+    rig_.go();
+  }
+  void reset() {
+    rig_.soft_reset();
+    sent_ = rig_.sent().size();
+    reads();
+    rig_.configure(other_config());
+    if (rng_() % 2 == 0) masks_and_filters();
+    // As drivers do: whether a soft reset forgets which frames were read is open (2.3).
+    for (unsigned mb = rig_.config().first_mailbox(); mb < rig_.config().num_mb; ++mb)
+      rig_.put_rx(mb, frame(), rng_() % 2 == 0 ? kRxEmpty : 0);
+    rig_.go();
+  }
+
+  void lives() {
+    SCOPED_TRACE(testing::Message() << "seed " << GetParam());
+    status_ = build_under_test() == nullptr || build_under_test()->features.status;
+    rig_.configure(other_config());
+    masks_and_filters();
+    rig_.go();
+    for (unsigned step = 0; step < 300 && !HasFailure(); ++step) {
+      if (rng_() % 2 == 0) rig_.peer_sends(peer_frame());
+      if (rng_() % 40 == 0) rig_.disturb(1 + static_cast<unsigned>(rng_() % 60));
+      wait_for_a_moment();
+      for (unsigned i = static_cast<unsigned>(rng_() % 3); i > 0; --i) {
+        if (rng_() % 4 == 0)
+          raw();
+        else
+          software();
+      }
+      switch (rng_() % 24) {
+        case 0: freeze(); break;
+        case 1: sleep(); break;
+        case 2: reset(); break;
+        default: break;
+      }
+      if (step % 25 != 24) continue;
+      rig_.disturb(0, 0);
+      rig_.quiet();
+      rig_.compare();
+      final_status();
+    }
+  }
+  bool extras_ = build_under_test() == nullptr || build_under_test()->features.extras;
+};
+
+TEST_P(RandomLives, Lockstep) { lives(); }
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomLives, ::testing::Range(1u, 61u));
 
 // The profile that lacks every feature: what is left is as in any other core (PK-49).
 class RandomSmall : public Random {

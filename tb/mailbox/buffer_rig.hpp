@@ -158,6 +158,7 @@ class BufferRig {
   std::vector<Frame> sent_;
   std::optional<std::pair<unsigned, unsigned>> disturbance_;  // bit, times
   bool was_running_ = false;
+  bool stopped_ = false;  // in the clock before
   bool failed_ = false;
 };
 

@@ -43,8 +43,10 @@ void BufferRig::step() {
   const Trace trace = decode_trace(word);
   if ((word & (kTraceEvents | kTraceBoundary)) != 0) bus_event(trace);
   if (trace.sample) sampled(trace);
-  // Stopped between the decision to send and the SOF: the attempt never was.
-  if (was_running_ && !trace.running && model.sending()) model.send_failed(clock_);
+  // Stopped between the decision to send and the SOF, or by a soft reset: the attempt never was.
+  // What the engine tells of its last clock comes one clock later.
+  if (stopped_ && model.sending()) model.send_not_begun(clock_);
+  stopped_ = was_running_ && !trace.running;
   was_running_ = trace.running;
   collect_accesses();
   tell_model(false);
