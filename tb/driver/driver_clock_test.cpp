@@ -102,9 +102,9 @@ TEST_F(DriverClock, ExactAccesses) {
   EXPECT_EQ(verican_clock_set(&dev, kTime), VERICAN_OK);
   EXPECT_EQ(verican_clock_shift(&dev, -2), VERICAN_OK);
   EXPECT_EQ(verican_clock_rate(&dev, 0x14'0000'0007), VERICAN_OK);
-  EXPECT_THAT(writes, ElementsAre(Pair(0x1110, 0x9ABCDEF0), Pair(0x1114, 0x12345678),
-                                  Pair(0x1120, 0xFFFFFFFE), Pair(0x1124, 0xFFFFFFFF),
-                                  Pair(0x1118, 0x14), Pair(0x111C, 0x7)));
+  EXPECT_THAT(writes, ElementsAre(Pair(0x1128, 0), Pair(0x1110, 0x9ABCDEF0),
+                                  Pair(0x1114, 0x12345678), Pair(0x1120, 0xFFFFFFFE),
+                                  Pair(0x1124, 0xFFFFFFFF), Pair(0x1118, 0x14), Pair(0x111C, 0x7)));
   EXPECT_EQ(verican_clock_increment(&dev, &increment), VERICAN_OK);
   EXPECT_EQ(increment, 0x14'0000'0007u);
   EXPECT_EQ(core.depth, 0u);
@@ -173,6 +173,11 @@ TEST_F(DriverClock, PulsesBeginAnewBehindAJump) {
     EXPECT_EQ(set ? verican_clock_set(&dev, 0x1'0000'0000) : verican_clock_shift(&dev, -7),
               VERICAN_OK);
     const std::uint32_t low = set ? 0x1110 : 0x1120;
+    if (set) {
+      ASSERT_GT(writes.size(), 1u);
+      EXPECT_EQ(writes[1], std::make_pair(0x1128u, 0u));
+      writes.erase(writes.begin() + 1);
+    }
     EXPECT_THAT(writes,
                 ElementsAre(Pair(0x1104, 0x31), Pair(low, set ? 0u : 0xFFFFFFF9u),
                             Pair(low + 4, set ? 1u : 0xFFFFFFFFu), Pair(0x1104, 0x2031),
@@ -184,7 +189,7 @@ TEST_F(DriverClock, PulsesBeginAnewBehindAJump) {
   EXPECT_EQ(verican_clock_pps(&dev, false), VERICAN_OK);
   writes.clear();
   EXPECT_EQ(verican_clock_set(&dev, 9), VERICAN_OK);
-  EXPECT_THAT(writes, ElementsAre(Pair(0x1110, 9u), Pair(0x1114, 0u)));
+  EXPECT_THAT(writes, ElementsAre(Pair(0x1128, 0u), Pair(0x1110, 9u), Pair(0x1114, 0u)));
 }
 
 // TM-40: what a soft reset keeps. A launch of before would hold the mailbox of the next frame; an

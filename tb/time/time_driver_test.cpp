@@ -89,6 +89,28 @@ TEST(DriverTime, Clock) {
   EXPECT_EQ(now(), stopped);
 }
 
+// TM-15, TM-91: a time that is set is not changed by a slew that was ordered before; a shift adds
+// to what the slew goes on to do.
+TEST(DriverTime, SettingEndsASlew) {
+  Domain domain{{0}};
+  verican_t *dev = &domain.nodes[0]->dev;
+  const auto passes = [&] {  // ns in 4 ms, in which a slew makes 3,906 steps
+    std::uint64_t before = 0, behind = 0;
+    domain.run(2 * kMicrosecond);
+    EXPECT_EQ(verican_clock_get(dev, &before), VERICAN_OK);
+    domain.run(4 * kMillisecond);
+    EXPECT_EQ(verican_clock_get(dev, &behind), VERICAN_OK);
+    return apart(behind, before);
+  };
+  const double usual = passes();
+  ASSERT_EQ(verican_clock_slew(dev, 1'000'000), VERICAN_OK);
+  EXPECT_NEAR(passes() - usual, 3'906, 400);
+  ASSERT_EQ(verican_clock_shift(dev, -5'000), VERICAN_OK);
+  EXPECT_NEAR(passes() - usual, 3'906, 400);
+  ASSERT_EQ(verican_clock_set(dev, 0), VERICAN_OK);
+  EXPECT_NEAR(passes() - usual, 0, 300);
+}
+
 // TM-31, TM-91: the pulses rise with the seconds of the time that the clock has jumped to, and not
 // before.
 TEST(DriverTime, PulsesAreThoseOfTheTime) {

@@ -65,12 +65,14 @@ static void start_pulses(const verican_t *dev) {
 }
 
 /* The compare unit sees 32 bits, of which a second is no part: after a jump its pulses would go on
- * between the seconds. So a jump stops them, and they begin anew in a time that has arrived. */
+ * between the seconds. So a jump stops them, and they begin anew in a time that has arrived. A slew
+ * was ordered for the time of before: it ends where another is set. */
 static verican_result_t jump(const verican_t *dev, uint32_t low, uint64_t ns) {
   const verican_result_t result = check(dev);
   if (result != VERICAN_OK) return result;
   const uint32_t token = verican_lock(dev);
   if (dev->pps) (void)control(dev, VERICAN_PPS_PARTS, 0u);
+  if (low == (uint32_t)VERICAN_TIMELO_OFFSET) verican_write(dev, VERICAN_TSLEW_OFFSET, 0u);
   verican_write_pair(dev, low, (uint32_t)ns, (uint32_t)(ns >> 32));
   if (dev->pps) start_pulses(dev);
   verican_unlock(dev, token);

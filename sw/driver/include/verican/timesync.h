@@ -22,10 +22,10 @@ extern "C" {
 /** The time, ns. What the functions below change shows five clocks later. */
 verican_result_t verican_clock_get(const verican_t *dev, uint64_t *ns);
 
-/** Sets the time. */
+/** Sets the time, and ends a slew that is under way. */
 verican_result_t verican_clock_set(const verican_t *dev, uint64_t ns);
 
-/** Adds to the time at once; nothing is lost. */
+/** Adds to the time at once; nothing is lost, and a slew goes on. */
 verican_result_t verican_clock_shift(const verican_t *dev, int64_t ns);
 
 /** Adds to the time bit by bit, 1 ns in 1,024; replaces what is left of the last one. */
