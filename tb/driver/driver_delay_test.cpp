@@ -93,6 +93,55 @@ TEST(DelayMeasure, OutOfTurn) {
   EXPECT_EQ(verican_delay_start(&delay, 0), VERICAN_ERR_RANGE);
 }
 
+// TM-58: who answers late answers an older request: the master had that one before it sent the SYNC
+// of the pair. The answer to the newer one still counts. One second between two pairs.
+TEST(DelayMeasure, AnswerToAnOlderRequest) {
+  constexpr std::uint64_t kSecond = 1'000'000'000, kDelay = 250;
+  for (const std::int64_t ahead : {0LL, 700LL, -90'000'000LL}) {  // of the own clock
+    const auto own = [&](std::uint64_t t) { return t + static_cast<std::uint64_t>(ahead); };
+    verican_delay_t delay{};
+    verican_delay_start(&delay, 1);
+    std::int32_t result = -1;
+    for (std::uint64_t n = 1; n <= 3; ++n) {  // no answer
+      const verican_sync_pair_t pair{.local = own(n * kSecond + kDelay),
+                                     .master = n * kSecond,
+                                     .now = 0,
+                                     .increment = 0,
+                                     .latency = 0};
+      ASSERT_TRUE(verican_delay_pair(&delay, &pair, 0));
+      verican_delay_sent(&delay, own(n * kSecond + 8'000'000));
+    }
+    for (std::uint64_t n = 1; n <= 2; ++n)
+      EXPECT_FALSE(verican_delay_response(&delay, n * kSecond + 8'000'000 + kDelay, &result));
+    EXPECT_EQ(result, -1);
+    EXPECT_TRUE(verican_delay_response(&delay, 3 * kSecond + 8'000'000 + kDelay, &result));
+    EXPECT_EQ(result, 250);
+  }
+}
+
+// TM-58: a request that went between SYNC and FUP is answered behind that SYNC, too: until the next
+// pair there is no other one.
+TEST(DelayMeasure, RequestBetweenSyncAndFup) {
+  constexpr std::uint64_t kSecond = 1'000'000'000;
+  verican_delay_t delay{};
+  verican_delay_start(&delay, 2);
+  verican_sync_pair_t pair{};
+  const auto ask = [&](std::uint64_t at) {
+    pair.master = at;
+    pair.local = at + 300;
+    return verican_delay_pair(&delay, &pair, 0);
+  };
+  std::int32_t result = -1;
+  ASSERT_TRUE(ask(kSecond));
+  verican_delay_sent(&delay, 2 * kSecond + 1'000);
+  EXPECT_FALSE(ask(2 * kSecond));
+  EXPECT_FALSE(verican_delay_response(&delay, 2 * kSecond + 1'300, &result));
+  EXPECT_TRUE(ask(3 * kSecond));
+  verican_delay_sent(&delay, 3 * kSecond + 1'000);
+  EXPECT_TRUE(verican_delay_response(&delay, 3 * kSecond + 1'300, &result));
+  EXPECT_EQ(result, 300);
+}
+
 // TM-58: an exchange whose mean no delay can be, because of a response that is none or a clock that
 // was set meanwhile, does not count; those behind it do.
 TEST(DelayMeasure, WhatCannotBe) {
@@ -101,11 +150,13 @@ TEST(DelayMeasure, WhatCannotBe) {
     verican_delay_t delay{};
     verican_delay_start(&delay, 3);
     std::int32_t result = -1;
+    verican_sync_pair_t pair{};
     const auto response = [&](std::uint64_t master) {
-      const verican_sync_pair_t pair{};
+      pair.local += 1'000'000'000;
+      pair.master += 1'000'000'000;
       EXPECT_TRUE(verican_delay_pair(&delay, &pair, 1'000));  // forth
-      verican_delay_sent(&delay, 8'000'000);
-      return verican_delay_response(&delay, master, &result);
+      verican_delay_sent(&delay, pair.local + 8'000'000);
+      return verican_delay_response(&delay, pair.master + master, &result);
     };
     EXPECT_FALSE(response(8'001'000));
     for (int n = 0; n < 3; ++n)

@@ -310,6 +310,23 @@ TEST(Follower, RequestThatFails) {
   EXPECT_EQ(rig.core.depth, 0u);
 }
 
+// TM-58: a request that still waits for the bus is that of the next pair, too: answers to two could
+// not be told from each other.
+TEST(Follower, RequestThatWaits) {
+  DomainRig rig{with_delay(), false};
+  verican_tsyn_measure(&rig.tsyn, 1);
+  std::uint64_t stamp = rig.time;
+  for (unsigned n = 0; n < 3; ++n) {
+    if (n != 0) stamp += kR;
+    pair(rig, n, stamp);
+    ASSERT_EQ(rig.waiting().size(), 1u) << n;
+  }
+  const std::uint64_t out = stamp + 2'000'000;
+  rig.sent(rig.waiting().at(0).mailbox, out + kRigSentLate);
+  rig.hear(0x1234'5678, time_of(out + 600), stamp, 8, VERICAN_FRAME_EXTENDED);
+  EXPECT_NEAR(rig.status().delay_ns, 300, 1);
+}
+
 // TM-58: only who is the master answers, with the time of the request.
 TEST(Follower, OnlyTheMasterAnswers) {
   DomainRig follower{with_delay(), false};

@@ -35,11 +35,13 @@ static void apply(verican_tsyn_t *tsyn, const verican_correction_t *correction) 
   tsyn->shift = correction->shift;
 }
 
-/* A request under way was stamped by a clock that is not the same any more. */
+/* A request under way was stamped by a clock that is not the same any more. One that still waits
+ * for the bus is that of this pair: answers to two could not be told from each other. */
 static void ask_for_delay(verican_tsyn_t *tsyn, const verican_sync_pair_t *pair,
                           const verican_correction_t *correction) {
   const uint64_t latency = verican_half_clocks(tsyn->dev, tsyn->dev->rx_latency);
   if (!verican_delay_pair(&tsyn->delay, pair, correction->shift - (int64_t)latency)) return;
+  if (tsyn->delaying) return;
   const uint32_t token = verican_lock(tsyn->dev);
   tsyn->delaying =
       verican_tsyn_send(tsyn, tsyn->config.delay_request, NULL, &tsyn->delay_mailbox) == VERICAN_OK;

@@ -15,9 +15,10 @@ extern "C" {
 
 /** Measurement of the delay by requests and responses. Zero is its beginning. */
 typedef struct verican_delay {
-  int64_t sum;   /* of twice the delays, ns */
-  int64_t forth; /* from the master to here by both clocks: delay and offset */
-  uint64_t sent; /* own time of the request */
+  int64_t sum;     /* of twice the delays, ns */
+  int64_t forth;   /* from the master to here by both clocks: delay and offset */
+  uint64_t master; /* the master's time of the pair */
+  uint64_t sent;   /* own time of the request, 0: it is answered */
   uint8_t wanted;
   uint8_t count;
   uint8_t step;
@@ -26,13 +27,18 @@ typedef struct verican_delay {
 /** Asks for `exchanges` exchanges, 1.. (8 are usual). VERICAN_ERR_RANGE. */
 verican_result_t verican_delay_start(verican_delay_t *delay, uint8_t exchanges);
 
-/** A pair, corrected by `shift`. True: now the request is to be sent. */
+/**
+ * A pair, corrected by `shift`. True: now the request is to be sent. False also if the last one,
+ * not answered yet, went behind this pair's SYNC: its response could not be told from the next.
+ */
 bool verican_delay_pair(verican_delay_t *delay, const verican_sync_pair_t *pair, int64_t shift);
 
 /** The request was sent at the own time `stamp`. */
 void verican_delay_sent(verican_delay_t *delay, uint64_t stamp);
 
-/** The response tells when the master had it. True: all exchanges are done, `delay_ns` is the mean.
+/**
+ * The response tells when the master had it; one of before the pair's SYNC, late, is of an older
+ * request and is passed over. True: all exchanges are done, `delay_ns` is the mean.
  */
 bool verican_delay_response(verican_delay_t *delay, uint64_t master, int32_t *delay_ns);
 
