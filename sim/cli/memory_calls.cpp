@@ -62,9 +62,11 @@ void MemoryCalls::check_transfer(verican_remote_result_t result, unsigned node,
 }
 
 std::vector<verican_remote_identity_t> MemoryCalls::scan() {
-  std::vector<verican_remote_identity_t> nodes(kMostNodes);
+  std::vector<verican_remote_identity_t> nodes(kMostNodes + 1);
   std::size_t count = nodes.size();
   check(verican_remote_scan(&client_, nodes.data(), &count), "the bus");
+  if (count > kMostNodes)  // something answers every SELECT
+    throw MemoryFailure(fmt::format("more than {} nodes answer", kMostNodes));
   nodes.resize(count);
   return nodes;
 }

@@ -15,18 +15,19 @@ import contextlib
 from verican_remote_block import Blocks
 from verican_remote_link import (ALL, BUSY, CODES, OPERATE, READ, RESTART, ROW_STATUS, SAFE, SETUP,
                                  WRITE, BusOff, Identity, InUse, NotTaken, Refused, RemoteError,
-                                 Sequence, Status, Timeout)
+                                 Sequence, Status, Timeout, TooMany)
 from verican_remote_nodes import Nodes, refused_at
 
 __all__ = ["ALL", "CODES", "OPERATE", "SAFE", "RESTART", "Client", "Status", "Identity",
-           "RemoteError", "Timeout", "Refused", "Sequence", "BusOff", "NotTaken", "InUse"]
+           "RemoteError", "Timeout", "Refused", "Sequence", "BusOff", "NotTaken", "InUse",
+           "TooMany"]
 
 CONFIRMED_AT_ONCE = 100  # counts are modulo 256, and a write may come twice
 
 
 class Client(Nodes, Blocks):
-    """The client. Calls raise Timeout, Refused, Sequence, NotTaken, InUse or BusOff, and ValueError
-    for an argument that cannot be; then nothing was sent. `number` is that of a node."""
+    """The client. Calls raise Timeout, Refused, Sequence, NotTaken, InUse, TooMany or BusOff, and
+    ValueError for an argument that cannot be; then nothing was sent. `number` is that of a node."""
 
     def _write_frames(self, number, address, data):
         """Address, identifier and bytes of each frame of a write."""

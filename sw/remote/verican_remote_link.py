@@ -49,6 +49,10 @@ class InUse(RemoteError):
     """Another node has the number; nothing was assigned."""
 
 
+class TooMany(RemoteError):
+    """More nodes answer a scan than can be: something on the bus answers every SELECT."""
+
+
 class Sequence(RemoteError):
     """A block transfer lost frames, in every try."""
 

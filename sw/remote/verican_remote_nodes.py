@@ -4,7 +4,7 @@
 import contextlib
 
 from verican_remote_link import (ALL, IDENT, ROW_IDENT, ROW_STATUS, STATEMENT, STATUS, Answer,
-                                 Identity, InUse, Link, NotTaken, Refused, Status, Timeout)
+                                 Identity, InUse, Link, NotTaken, Refused, Status, Timeout, TooMany)
 
 SERIAL = ROW_IDENT + 4  # address of the serial number
 
@@ -114,10 +114,14 @@ class Nodes(Link):
             with contextlib.suppress(Timeout, Refused):
                 self.ask(witness, answer, *request)
 
-    def scan(self):
+    def scan(self, most=256):
         """All nodes: those with a number in its order, then those without by serial number. Nodes
-        that share a number disturb each other's answers (RN-15); SELECT finds them (RN-26)."""
-        return Scan(self).nodes()
+        that share a number disturb each other's answers (RN-15); SELECT finds them (RN-26).
+        TooMany: more than `most` answer, of whom nobody knows how many there would be: on a bus
+        where every SELECT is answered, 2^32."""
+        if isinstance(most, bool) or not isinstance(most, int) or most < 1:
+            raise ValueError(f"most {most}: allowed are 1 and more")
+        return Scan(self, most).nodes()
 
     def assign(self, serial, number):
         """Gives the node with this serial number a number (0: takes it away), and asks it whether
@@ -167,8 +171,8 @@ class Scan:
     there are, one of serial numbers tells those of nodes that are alone under their number, and
     SELECT, to which equal frames answer, finds whoever is left."""
 
-    def __init__(self, client):
-        self.client = client
+    def __init__(self, client, most):
+        self.client, self.most = client, most
         self.numbers = set(client.poll(ROW_IDENT, 1))
         told = client.gather(SERIAL, 4, self.numbers) if self.numbers else {}
         self.serials = {number: int.from_bytes(answers[0], "little")
@@ -212,11 +216,14 @@ class Scan:
     def _walk(self, only_new, known):
         """Serial numbers that are there (`only_new`: of nodes without a number), in their order;
         for those that are `known` nobody is asked."""
-        serial = 0
+        serial = found = 0
         while serial <= 0xFFFFFFFF:
             serial = self._next_serial(serial, only_new, known)
             if serial is None:
                 return
+            found += 1
+            if found > self.most:
+                raise TooMany(f"more than {self.most} nodes answer")
             yield serial
             serial += 1
 

@@ -421,6 +421,16 @@ class WithoutABus(unittest.TestCase):
             self.assertEqual(self.read_from(b"", talk),
                              (1, "verican: memory: node 6 does not answer\n"))
 
+    def test_a_scan_that_everybody_answers(self):
+        """HERE behind each SELECT (functions 2 and 4): so many nodes are not on a bus."""
+        def serve(client):
+            while request := client.recv(4096):
+                count = len(re.findall(rb"< send 0*[24] 8 ", request))
+                client.sendall(count * b"< frame 402 1.0  >")
+
+        self.assertEqual(self.read_from(b"", serve, "scan"),
+                         (1, "verican: memory: more than 256 nodes answer\n"))
+
     def test_states(self):
         """Told as carried out is what STATUS says behind the command; a node that restarts may be
         in OPERATE if it goes there by itself (RN-70)."""

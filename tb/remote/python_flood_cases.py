@@ -87,6 +87,25 @@ class Flood(unittest.TestCase):
         self.assertFalse(self.ended(lambda: client.select(1)))
         self.assertEqual(self.ended(client.scan), [])
 
+    def test_a_scan_that_everybody_answers(self):
+        """Each SELECT is answered by HERE: so many nodes are not on a bus."""
+        answered = [0]
+
+        def following():
+            if len(self.bus.sent) == answered[0]:
+                return None
+            answered[0] = len(self.bus.sent)
+            return frame(0x402)
+
+        self.bus.following = following
+        with unittest.mock.patch(f"{__name__}.FOR_EVER", 20 * FOR_EVER):
+            for most, call in ((3, lambda: self.client.scan(most=3)), (256, self.client.scan)):
+                with self.assertRaisesRegex(remote.TooMany, f"more than {most} nodes answer"):
+                    self.ended(call)
+        for most in 0, -1, 1.5, True, "3":
+            with self.assertRaisesRegex(ValueError, f"most {most}: allowed are 1 and more"):
+                self.client.scan(most=most)
+
     def test_other_frames(self):
         """Errors and extended frames are passed over, but not for ever."""
         for keys in {"is_error_frame": True}, {"is_extended_id": True}:
