@@ -31,11 +31,13 @@ import gtest_run  # noqa: E402  pylint: disable=wrong-import-position
 KINDS = {"gates": "generic gates", "ice40": "iCE40 cells"}
 # Minutes on iCE40 cells, and nothing in them that the other tests do not reach.
 TOO_LONG = {"ice40": {"can_saturation_test", "rx_fifo_saturation_test"}}
+# Unit tests of a block besides the one that has its name.
+PARTS = {"can_mb_tx_loss", "can_mb_tx_status"}
 
 
 def programs():
     """The test programs that are about the RTL."""
-    modules = {path.stem for path in ROOT.glob("rtl/**/*.sv")}
+    modules = {path.stem for path in ROOT.glob("rtl/**/*.sv")} | PARTS
     leaves = [p for p in ROOT.glob("tb/unit/*_test.cpp") if p.stem.removesuffix("_test") in modules]
     others = [p for folder in ("protocol", "mailbox")
               for p in (ROOT / "tb" / folder).glob("*_test.cpp")]
