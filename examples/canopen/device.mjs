@@ -5,16 +5,14 @@
 // drive (sw/canopennode/drive/drive.eds): SDO server, heartbeat, SYNC and TPDO, EMCY. At each SYNC
 // it goes a step towards its set point. A value written to object 2008 is an error, which it tells.
 import {existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
-import {createRequire} from 'node:module';
 import {tmpdir} from 'node:os';
 import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 
-import {Socketcand} from './socketcand.mjs';
+import {canopen, openBus} from './program.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const {Device, Eds} =
-    createRequire(join(process.env.VERICAN_CANOPEN ?? here, 'x.js'))('canopen');
+const {Device, Eds} = canopen;
 const STEP = 100;
 
 // The library knows no $NODEID.
@@ -32,8 +30,7 @@ function dataSheet(node) {
   }
 }
 
-const [port, node] = process.argv.slice(2, 4).map(Number);
-const bus = await Socketcand.open(port, process.argv[4] ?? 'can0');
+const {bus, node} = await openBus();
 const eds = dataSheet(node);
 // Its SDO parameters are those of the default server: client to server first.
 eds.removeEntry(0x1200);

@@ -3,20 +3,13 @@
 //
 // master.mjs PORT NODE [BUS]: npm's canopen as a master: who is there, starts the drive, moves it
 // by PDO and SYNC, and reads where it is by SDO.
-import {createRequire} from 'node:module';
-import {dirname, join} from 'node:path';
-import {fileURLToPath} from 'node:url';
+import {canopen, openBus} from './program.mjs';
 
-import {Socketcand} from './socketcand.mjs';
-
-const here = dirname(fileURLToPath(import.meta.url));
-const {DataType, Device, Eds} =
-    createRequire(join(process.env.VERICAN_CANOPEN ?? here, 'x.js'))('canopen');
+const {DataType, Device, Eds} = canopen;
 const SYNCS = 10;
 const TARGET = 300;
 
-const [port, node] = process.argv.slice(2, 4).map(Number);
-const bus = await Socketcand.open(port, process.argv[4] ?? 'can0');
+const {bus, node} = await openBus();
 const master = new Device({id: 0x7f, eds: new Eds()});
 master.eds.addSdoClientParameter(node, 0x600 + node, 0x580 + node);
 bus.attach(master);

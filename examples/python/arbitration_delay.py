@@ -34,18 +34,36 @@ def waits(load, seed=1):
             for node in NODES}
 
 
-def main():
-    loads = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9]
+def figures(loads):
+    """The waits at each load, printed as well."""
     results = [waits(load) for load in loads]
     for load, result in zip(loads, results):
         print(f"{load:4.0%}", *(f"{node} {result[node]:.3f} ms" for node in NODES))
+    sys.stdout.flush()
+    return results
+
+
+def draw(picture, loads, results):
     for node in NODES:
         plot.plot([100 * load for load in loads], [r[node] for r in results], "o-",
                   label=f"{node}, {NODES[node]:#05x}")
     plot.xlabel("load of the bus, %")
     plot.ylabel("mean time from queue to end, ms")
     plot.legend()
-    plot.savefig(sys.argv[1])
+    plot.savefig(picture, format="svg")
+
+
+def main():
+    loads = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9]
+    place = "standard output"
+    try:
+        results = figures(loads)
+        place = sys.argv[1]
+        with open(place, "wb") as picture:
+            draw(picture, loads, results)
+    except OSError as error:
+        sys.stdout = None  # what it holds goes nowhere
+        sys.exit(f"arbitration_delay.py: {place}: {error.strerror}")
 
 
 if __name__ == "__main__":

@@ -177,7 +177,18 @@ def story_checks(robot, measure, number):
 
 
 def main():
-    """The command line."""
+    """The command line; a report that cannot be written, and a reader that is gone, are told."""
+    try:
+        code = run()
+        sys.stdout.flush()
+    except (OSError, verican.InputError) as error:
+        sys.stdout = None  # what it holds goes nowhere
+        sys.exit(f"robot.py: {error}")
+    return code
+
+
+def run():
+    """The exit code."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("--seconds", type=float, default=1.0, help="with SYNC, 0.1 to 3600 (1)")
     parser.add_argument("--fail", action="store_true", help="joint 3 fails in the middle")

@@ -80,6 +80,19 @@ class CanopenRobot(unittest.TestCase):
         self.assertIn("docs/python.md", done.stdout)
 
 
+    def test_outputs_that_cannot_be_written(self):
+        for page, said in (("/nonexistent/x.html", "cannot be opened"), ("/dev/full", "No space")):
+            done = run("--seconds", "0.1", "--report", page)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertNotIn("Traceback", done.stdout)
+            self.assertRegex(done.stdout, rf"(?m)^robot.py: {page}: .*{said}")
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([sys.executable, "-B", str(ROBOT / "robot.py"), "--seconds",
+                                   "0.1"], stdout=full, stderr=subprocess.PIPE, text=True,
+                                  check=False)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+
+
 @needs_package
 class CanopenRobotMeasure(unittest.TestCase):
     """What the measurement is there to notice, it notices."""

@@ -22,6 +22,18 @@ class PythonExample(unittest.TestCase):
         high, middle, low = (float(last[i]) for i in (2, 5, 8))
         self.assertTrue(high < middle < low, last)
 
+    def test_outputs_that_cannot_be_written(self):
+        program = EXAMPLES / "arbitration_delay.py"
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            for picture, output, said in (
+                    ("/nonexistent/x.svg", subprocess.DEVNULL, "No such file"),
+                    ("/dev/full", subprocess.DEVNULL, "No space left"),
+                    ("/dev/null", full, "standard output: No space left")):
+                done = subprocess.run([sys.executable, "-B", program, picture], stdout=output,
+                                      stderr=subprocess.PIPE, text=True, check=False)
+                self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+                self.assertIn(said, done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
