@@ -4,13 +4,18 @@
 // BusWave: from bus events to waveform changes in the order of time.
 #include "trace/bus_wave.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
+#include <set>
 #include <string_view>
 
 #include "trace/input_error.hpp"
 
 namespace vericansim {
 namespace {
+
+constexpr const char *kBusScope = "bus";
 
 const char *role_text(const Trace &trace) {
   if (!trace.running) return "OFF";
@@ -47,12 +52,32 @@ std::string scope_name(const std::string &name) {
   return scope;
 }
 
+/// Modules of the nodes. Names that would become one, or that of the bus, get a number; those that
+/// are modules' names as they are go first.
+std::vector<std::string> scopes_of(const std::vector<std::string> &names) {
+  std::vector<std::string> scopes(names.size());
+  std::set<std::string> taken{kBusScope};
+  for (std::size_t n = 0; n < names.size(); ++n)
+    if (scope_name(names[n]) == names[n] && taken.insert(names[n]).second) scopes[n] = names[n];
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    if (!scopes[n].empty()) continue;
+    const std::string base = scope_name(names[n]);
+    scopes[n] = base;
+    for (unsigned k = 2; !taken.insert(scopes[n]).second; ++k)
+      scopes[n] = fmt::format("{}_{}", base, k);
+  }
+  return scopes;
+}
+
 }  // namespace
 
 BusWave::BusWave(const Bus &bus, std::unique_ptr<WaveSink> sink, Time bit_time)
     : sink_{std::move(sink)}, hold_{2 * bit_time} {
-  can_ = sink_->add_wire("bus", "can", 1);
-  for (NodeId id = 0; id < bus.size(); ++id) declare(const_cast<Bus &>(bus).node(id));
+  can_ = sink_->add_wire(kBusScope, "can", 1);
+  std::vector<std::string> names;
+  for (NodeId id = 0; id < bus.size(); ++id)
+    names.push_back(const_cast<Bus &>(bus).node(id).name());
+  for (const std::string &scope : scopes_of(names)) declare(scope);
   sink_->start();
   sink_->set(bus.now(), can_, static_cast<std::uint64_t>(bus.level()));
   for (NodeSignals &node : nodes_) {
@@ -61,8 +86,7 @@ BusWave::BusWave(const Bus &bus, std::unique_ptr<WaveSink> sink, Time bit_time)
   }
 }
 
-void BusWave::declare(const Node &node) {
-  const std::string scope = scope_name(node.name());
+void BusWave::declare(const std::string &scope) {
   NodeSignals signals{};
   signals.tx = sink_->add_wire(scope, "tx", 1);
   signals.rx = sink_->add_wire(scope, "rx", 1);

@@ -62,7 +62,7 @@ class BusWave : public BusObserver {
     int tec_value = -1, rec_value = -1, sampled_value = -1, stuff_value = -1;
   };
 
-  void declare(const Node &node);
+  void declare(const std::string &scope);
   void put(Time time, WaveSink::Signal signal, std::uint64_t value, const char *text = nullptr);
   void put_text(Time time, WaveSink::Signal signal, const char *&last, const char *text);
   void put_value(Time time, WaveSink::Signal signal, int &last, int value);
