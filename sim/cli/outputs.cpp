@@ -22,6 +22,26 @@ std::size_t stem_length(const std::string &path) {
   return stem.replace_extension().string().size();
 }
 
+bool is_standard_input(const std::string &path) {
+  return path == "-" || path == "/dev/stdin" || path == "/dev/fd/0" || path == "/proc/self/fd/0";
+}
+
+void check_standard_input(const CLI::App &command) {
+  std::string reader;
+  for (const char *name : {"scenario", "input", "log", "wave", "--bus", "--dbc"}) {
+    const CLI::Option *option = command.get_option_no_throw(name);
+    if (option == nullptr) continue;
+    for (const std::string &path : option->results()) {
+      if (!is_standard_input(path)) continue;
+      if (!reader.empty())
+        throw InputError(
+            "standard input", 0,
+            fmt::format("is the file of {} and of {}; allowed: of one of them", reader, name));
+      reader = name;
+    }
+  }
+}
+
 }  // namespace
 
 void add_output_options(CLI::App &command, Outputs &outputs, const std::string &report_names) {
@@ -53,6 +73,7 @@ void add_database_option(CLI::App &command, std::vector<std::string> &files) {
   command
       .add_option("--dbc", files, "Database of signals, DBC; may be given again (docs/signals.md)")
       ->allow_extra_args(false);
+  command.parse_complete_callback([&command] { check_standard_input(command); });
 }
 
 void load_databases(Outputs &outputs, const std::vector<std::string> &files) {

@@ -124,6 +124,24 @@ TEST_F(ToolMistakes, OptionsThatWouldSayNothingAreRefused) {
                    "--senders: 3 are more than the 2 nodes; allowed: 1 to 2, or --nodes 3\n");
 }
 
+// Nobody could tell which of two files came first.
+TEST_F(ToolMistakes, StandardInputIsOneFile) {
+  const std::string log = file_with("a.log", "(1.0) can0 123#11\n");
+  const std::string dbc =
+      file_with("a.dbc", "BO_ 291 A: 8 B\n SG_ S : 0|8@1+ (1,0) [0|0] \"\" B\n");
+  for (const char *first : {"-", "/dev/stdin"})
+    for (const char *second : {"-", "/proc/self/fd/0"})
+      expect_refused(std::string("signals ") + first + " --dbc " + second + " < " + log,
+                     "standard input: is the file of log and of --dbc; allowed: of one of them");
+  for (const char *command :
+       {"run - --signals", "replay - --signals", "report - -o /dev/null", "decode - --json"})
+    expect_refused(command + std::string(" --dbc - < ") + log, "standard input: is the file of ");
+  expect_refused("signals " + log + " --dbc - --dbc - < " + dbc, "of --dbc and of --dbc");
+  expect_refused("replay - --bus - < " + log, "standard input: is the file of log and of --bus");
+  EXPECT_EQ(run_tool("signals " + log + " --dbc - < " + dbc).code, 0);
+  EXPECT_EQ(run_tool("signals - --dbc " + dbc + " < " + log).code, 0);
+}
+
 TEST_F(ToolMistakes, AnEmptyFileIsCalledSo) {
   const std::string empty = file_with("empty", "");
   expect_refused("run " + empty, empty + ": is empty; allowed: a map of keys and values\n");
