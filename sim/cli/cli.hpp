@@ -61,8 +61,8 @@ void require_signals(const Outputs &outputs, const std::vector<std::string> &fil
 /// What is given on the command line takes the place of what a scenario says; databases are added
 /// and read. `json` as for require_signals(). Throws InputError.
 void override_outputs(Outputs &target, const Outputs &given, bool json);
-/// Adds --dbc. Refused, before anything is read: standard input as two of the files that the command
-/// reads, of which it would be only one.
+/// Adds --dbc. Refused, before anything is read: standard input as two of the files that the
+/// command reads, of which it would be only one.
 void add_database_option(CLI::App &command, std::vector<std::string> &files);
 /// Reads the databases that the command line names. Throws InputError, also if there is none and
 /// something needs one.
