@@ -61,6 +61,7 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/sim/" DESTINATION "${include_dir}" COMP
   PATTERN "byte_store.hpp" EXCLUDE PATTERN "timed_engine.hpp" EXCLUDE
   PATTERN "host_image.hpp" EXCLUDE PATTERN "engine_place.hpp" EXCLUDE
   PATTERN "engine_judge.hpp" EXCLUDE PATTERN "engine_level.hpp" EXCLUDE
+  PATTERN "engine_count.hpp" EXCLUDE
   PATTERN "engine_edge.hpp" EXCLUDE PATTERN "port_block.hpp" EXCLUDE
   PATTERN "model_edge.hpp" EXCLUDE PATTERN "model_pins.hpp" EXCLUDE
   PATTERN "rtl_node_of.hpp" EXCLUDE

@@ -4,9 +4,11 @@
 // EnginePlace: where in its bit a Verilated can_core is.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "bus/trace.hpp"
+#include "verican/verican_regs.h"
 #include "verilated.h"
 
 namespace vericansim {
@@ -111,7 +113,14 @@ class EnginePlace {
   }
 
  private:
-  static constexpr unsigned kPositions = 31;  // of an engine with PosWidth = 5
+  // Quanta up to the sample point, as many as CTRL1 can say: SYNC_SEG, PROP_SEG, PHASE_SEG1.
+  static constexpr unsigned kMostQuanta =
+      1 + (VERICAN_CTRL1_PROPSEG_GET(VERICAN_CTRL1_PROPSEG_MASK) + 1) +
+      (VERICAN_CTRL1_PSEG1_GET(VERICAN_CTRL1_PSEG1_MASK) + 1);
+  // PosWidth of can_bit_timing; the model has a member of 8 bits for them.
+  static constexpr unsigned kPosWidth = 5;
+  static constexpr unsigned kPositions = (1U << kPosWidth) - 1;
+  static_assert(std::bit_ceil(kMostQuanta) == 1U << kPosWidth, "the least that hold all quanta");
 
   // Sets the four flip-flops, and what follows from them at once.
   template <typename Root>

@@ -11,9 +11,8 @@
 
 #include "bus/trace.hpp"
 #include "bus/types.hpp"
+#include "node/engine_count.hpp"
 #include "node/engine_edge.hpp"
-#include "node/engine_judge.hpp"
-#include "node/engine_level.hpp"
 #include "node/engine_place.hpp"
 #include "node/engine_time.hpp"
 #include "node/model_edge.hpp"
@@ -146,18 +145,10 @@ class QuietEngine {
       auto &root = *engine.rootp;
       EnginePlace::count_clocks(root, 1);
       EnginePlace::synchronise(root);
-      take_level(root, rx);
+      EngineCount::take_level(root, rx);
       verican_follow(&root);
       clocked_(engine);
     }
-  }
-
-  // The level of the pin goes one flip-flop of u_sync on.
-  template <typename Root>
-  static void take_level(Root &root, Level rx) {
-    root.can_core__DOT__u_sync__DOT__settled_q = root.can_core__DOT__u_sync__DOT__meta_q;
-    root.can_core__DOT__u_sync__DOT__meta_q = static_cast<CData>(rx);
-    root.can_rx_i = static_cast<CData>(rx);
   }
 
   // Edges from the boundary that counting_() goes up to on, to the sample point behind it, if
@@ -228,16 +219,16 @@ class QuietEngine {
         // None before the boundary that shows already, where an earlier pass_() has ended.
         const std::uint64_t before = counting_(engine);
         if (edges > before) {
-          if (before != 0) count(engine, before);
+          if (before != 0) EngineCount::count(engine, before);
           const unsigned pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
-          count(engine, 1);
-          begin_bit(engine, pos);
+          EngineCount::count(engine, 1);
+          EngineCount::begin_bit(engine, pos);
           to_settle_ = 0;
           edges -= before + 1;
         }
       }
       const bool judges = root.can_core__DOT__first_q != 0;
-      if (edges != 0) count(engine, edges);
+      if (edges != 0) EngineCount::count(engine, edges);
       const bool shows =
           root.can_core__DOT__active_q != 0 && root.can_core__DOT__tq != 0 &&
           (root.can_core__DOT__u_bit_timing__DOT__falling != 0 || EnginePlace::quanta(root) == 0);
@@ -251,58 +242,14 @@ class QuietEngine {
     if constexpr (EngineEdge::kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
       auto &root = *engine.rootp;
       const unsigned pos = root.can_core__DOT__u_bit_timing__DOT__pos_q;
-      const bool between = !boundary && to_settle_ == 0 && between_quanta(root);
-      count(engine, 1);
-      if (boundary) begin_bit(engine, pos);
-      take_level(root, rx);
+      const bool between = !boundary && to_settle_ == 0 && EngineCount::between_quanta(root);
+      EngineCount::count(engine, 1);
+      if (boundary) EngineCount::begin_bit(engine, pos);
+      EngineCount::take_level(root, rx);
       if (between && root.can_core__DOT__tq == 0) return;
       verican_follow(&root);
       clocked_(engine);
     }
-  }
-
-  // No quantum ends, the level stays, no sample point is to be forgotten and no bit to be judged:
-  // what is combinational has nothing to follow.
-  template <typename Root>
-  static bool between_quanta(const Root &root) {
-    return root.can_core__DOT__tq == 0 && root.can_core__DOT__first_q == 0 &&
-           root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q == 0 &&
-           root.can_core__DOT__u_sync__DOT__settled_q == root.can_core__DOT__u_sync__DOT__meta_q;
-  }
-
-  // What is more at a boundary; `pos`: the position before.
-  template <typename Engine>
-  static void begin_bit(Engine &engine, unsigned pos) {
-    auto &root = *engine.rootp;
-    if constexpr (EngineEdge::kSends<Engine>) EngineLevel::send(root, trace_field(root.trace_o));
-    root.can_core__DOT__u_bit_timing__DOT__pos_q = pos != root.pseg2_i + 1U;
-    root.can_core__DOT__u_bit_timing__DOT__seg2_q = 0;
-    root.can_core__DOT__u_bit_timing__DOT__hard_q = 0;
-    root.can_core__DOT__first_q = 1;
-    EnginePlace::mark(root);
-  }
-
-  // Edges that count, without what is combinational in the one that shows something.
-  template <typename Engine>
-  static void count(Engine &engine, std::uint64_t edges) {
-    if constexpr (EngineEdge::kKnown<std::remove_reference_t<decltype(*engine.rootp)>>) {
-      auto &root = *engine.rootp;
-      pass_time(engine, edges);
-      forget_sample(root);
-      if (root.can_core__DOT__active_q == 0) return;
-      if constexpr (EngineEdge::kJudges<std::remove_reference_t<decltype(*engine.rootp)>>) {
-        if (root.can_core__DOT__first_q != 0) EngineJudge::judge(root);
-      }
-      EnginePlace::count(root, edges);
-    }
-  }
-
-  // The mark of the sample point; Verilator may make one register of two that are equal.
-  template <typename Root>
-  static void forget_sample(Root &root) {
-    root.can_core__DOT__u_bsp__DOT__u_fault__DOT__decided_q = 0;
-    if constexpr (requires { root.can_core__DOT__u_bsp__DOT__sampled_q; })
-      root.can_core__DOT__u_bsp__DOT__sampled_q = 0;
   }
 
   static constexpr std::uint64_t kStopped = ~0ULL >> 1;  // until an input changes
