@@ -134,7 +134,7 @@ NodeSpec parse_node(const YamlValue &value, const Scenario &scenario) {
   node.host.tx_buffers = 0;               // one for each message of the node
   node.host.lowest_buffer_first = false;  // lowest identifier first, as on the bus
   const YamlValue name = map.need("name");
-  node.name = name.text();
+  node.name = name.name();
   if (node.name.empty()) name.refuse("a name of at least one letter");
   if (node.name == "all") name.refuse("other names; 'all' stands for every node");
   for (const NodeSpec &other : scenario.nodes)
@@ -206,7 +206,7 @@ void parse_outputs(const YamlValue &value, Outputs &outputs) {
 }
 
 void parse_general(YamlMap &map, Scenario &scenario) {
-  map.with("name", [&](const YamlValue &v) { scenario.name = v.text(); });
+  map.with("name", [&](const YamlValue &v) { scenario.name = v.name(); });
   map.with("bitrate", [&](const YamlValue &v) {
     scenario.bitrates.clear();
     for (const YamlValue &item : v.items()) {

@@ -136,7 +136,7 @@ TrafficSpec parse_traffic(const YamlValue &value, const Scenario &scenario) {
   map.with("remote", [&](const YamlValue &v) { traffic.frame.remote = v.boolean(); });
   const SignalMessage *message = parse_message(map, scenario, traffic);
   if (message == nullptr) parse_identifier(map, traffic);
-  map.with("name", [&](const YamlValue &v) { traffic.name = v.text(); });
+  map.with("name", [&](const YamlValue &v) { traffic.name = v.name(); });
   check_name(value, traffic, scenario);
   parse_payload(map, traffic, message);
   parse_times(map, traffic);

@@ -205,7 +205,7 @@ FaultSpec parse_fault(const YamlValue &value, const Scenario &scenario) {
     parse_window(map, fault.window);
   parse_victim(map, scenario, fault);
   map.with("name", [&](const YamlValue &v) {
-    fault.name = v.text();
+    fault.name = v.name();
     if (fault.name.empty()) v.refuse("a name");
   });
   map.with("hits", [&](const YamlValue &v) { fault.hits = parse_range(v, kCounts); });

@@ -126,7 +126,7 @@ std::optional<ListenerSpec> parse_listener(const YamlValue &value) {
   const auto monitor = map.find("monitor");
   if (!monitor || !monitor->is_scalar() || monitor->as_boolean()) return std::nullopt;
   ListenerSpec listener{monitor->text(), MonitorRole{monitor->text()}, value.line()};
-  map.with("name", [&](const YamlValue &v) { listener.name = v.text(); });
+  map.with("name", [&](const YamlValue &v) { listener.name = v.name(); });
   map.finish();
   return listener;
 }

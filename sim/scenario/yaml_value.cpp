@@ -12,6 +12,7 @@
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
 #include "trace/quantity.hpp"
+#include "trace/text.hpp"
 
 namespace vericansim {
 namespace {
@@ -57,6 +58,13 @@ void YamlValue::refuse(const std::string &allowed) const {
 std::string YamlValue::text() const {
   if (!node_.IsScalar()) refuse("a word");
   return node_.Scalar();
+}
+
+std::string YamlValue::name() const {
+  std::string name = text();
+  if (text::has_control(name))
+    fail("a control character is in it; allowed: a name without control characters");
+  return name;
 }
 
 std::uint64_t YamlValue::integer(std::uint64_t least, std::uint64_t most) const {

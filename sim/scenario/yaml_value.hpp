@@ -36,6 +36,8 @@ class YamlValue {
   [[nodiscard]] bool is_list() const { return node_.IsSequence(); }
   [[nodiscard]] bool is_scalar() const { return node_.IsScalar(); }
   [[nodiscard]] std::string text() const;
+  /// The same of what is printed in tables: control characters are refused.
+  [[nodiscard]] std::string name() const;
   [[nodiscard]] std::uint64_t integer(std::uint64_t least, std::uint64_t most) const;
   [[nodiscard]] double number(double least, double most) const;
   [[nodiscard]] bool boolean() const;

@@ -49,6 +49,9 @@ void for_each_line(std::string_view text, const std::string &file, Use use) {
 /// A field of a CSV file as it is written (RFC 4180): in quotes if need be.
 [[nodiscard]] std::string csv_field(std::string_view text);
 
+/// Whether there is a control character in a text: in a table or on a terminal it is no text.
+[[nodiscard]] bool has_control(std::string_view text);
+
 /// "1 frame", "2 frames".
 [[nodiscard]] std::string counted(std::size_t count, std::string_view one, std::string_view many);
 

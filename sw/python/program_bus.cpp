@@ -13,6 +13,7 @@
 #include "bridge/frame_form.hpp"
 #include "bus/range.hpp"
 #include "simulation/node_timing.hpp"
+#include "trace/text.hpp"
 
 namespace vericansim {
 namespace {
@@ -31,6 +32,8 @@ double chosen_rate(std::optional<double> wanted, const Scenario &scenario) {
 
 Scenario ProgramBus::with_nodes(ProgramBusSetup &setup) {
   for (const std::string &name : setup.nodes) {
+    if (text::has_control(name))
+      throw std::invalid_argument("a node's name has a control character; allowed: others");
     if (name.empty() || name == "all")  // of which disturb() and scenarios mean all nodes
       throw std::invalid_argument(
           fmt::format("node name '{}': other names are allowed, of at least one letter", name));

@@ -171,6 +171,7 @@ class PythonRefusal(unittest.TestCase):
         self.refused("no node is given; allowed: 1 to 64", lambda: Bus([]))
         for name in ("", "all"):  # would stand for all of them
             self.refused(f"node name '{name}': other names", lambda name=name: Bus([name, "b"]))
+        self.refused("control character", lambda: Bus(["a\nb", "b"]))
         self.refused("node name 'a' is used twice", lambda: Bus(["a", "b", "a"]))
         self.assertEqual(Bus([], scenario={"nodes": [{"name": "x"}]}).nodes, ["x"])
 
