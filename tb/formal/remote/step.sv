@@ -23,6 +23,11 @@
   assign f_timer = job_q == can_rn_pkg::JobLow || job_q == can_rn_pkg::JobHigh
                    || job_q == can_rn_pkg::JobAge || job_q == can_rn_pkg::JobTally;
 
+  // What is done for an entry, or a frame of a block transfer, once it may be sent.
+  logic f_made;
+  assign f_made = job_q == can_rn_pkg::JobBegin || job_q == can_rn_pkg::JobMove
+                  || job_q == can_rn_pkg::JobPush || job_q == can_rn_pkg::JobSeq;
+
   logic f_visit, f_visiting;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) f_visiting <= 1'b0;
@@ -54,8 +59,7 @@
     m_then: assume (then_i == can_rn_pkg::JobIdle || then_i == can_rn_pkg::JobBegin || f_visit
                     || f_block);
     m_begun: assume (f_begun);
-    m_read: assume (!visit_i || job_q == can_rn_pkg::JobEntry || job_q == can_rn_pkg::JobFetch
-                    || job_q == can_rn_pkg::JobGuard || (read_i && !write_i && !trigger_i));
+    m_read: assume (!visit_i || !f_made || (read_i && !write_i && !trigger_i));
     // What a block transfer is due for.
     m_block: assume (!Block || block_job_i == can_rn_pkg::JobFetch
                      || block_job_i == can_rn_pkg::JobClock
