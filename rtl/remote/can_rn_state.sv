@@ -70,7 +70,7 @@ module can_rn_state #(
   assign to_safe    = act && state_i && op_i[1];
   assign restart_o  = !refused_i && state_i && op_i[0] && op_i[2];
   assign expired    = job_i == can_rn_pkg::JobHigh && phase_i[1] && !timer_i && zero_i
-                      && armed_q && operate_o;
+                      && armed_q && operate_o && !owe_feed_q;
 
   assign node_o       = node_q;
   assign operate_o    = node_q == can_rn_pkg::NodeOperate;

@@ -97,6 +97,36 @@ TEST_F(RtlInstants, AShortBitBeforeEof6) {
   EXPECT_EQ(lost, 0U);
 }
 
+// RN-71: STATE feeds the watchdog before its time is over, if both come within some clocks.
+TEST_F(RtlInstants, StateFeedsTheWatchdogThatWouldEnd) {
+  Time ms = 0;  // the last one of the node
+  bus.node().on_ms = [&] { ms = bus.bus.now(); };
+  bus.node().user_write(0xF00 / 4, 2U << 16, 0xC);  // WDT
+  const auto wait_for_ms = [&] {
+    const Time before = ms;
+    EXPECT_TRUE(bus.bus.run_until([&] { return ms != before; }, 2 * kMillisecond));
+  };
+  bus.places.valid = 0;
+  const Time begin = bus.bus.now();
+  bus.host.request(frame_of("000#0103"));
+  while (bus.places.valid == 0) bus.run_bits(1);
+  const Time length = bus.places.valid - begin;
+  unsigned ended = 0;
+  for (int clocks = -8; clocks < 40; ++clocks) {
+    (void)bus.send("000#0203");  // SAFE
+    (void)bus.send("1FC#04");    // CLEAR
+    wait_for_ms();
+    (void)bus.send("191#00");  // feeds it
+    wait_for_ms();
+    bus.bus.run_until(ms + kMillisecond - length - clocks * kClock);
+    bus.host.request(frame_of("000#0103"));
+    bus.run_bits(200);
+    const unsigned status = bus.node().peek(0xFF0);
+    ended += (status & 0x43) != 3;
+  }
+  EXPECT_EQ(ended, 0U);
+}
+
 // RN-45: and the bytes are in the RAM before that, at 8 clocks a bit, whatever their number.
 TEST_F(RtlInstants, BytesAreInTheRamBeforeInt2) {
   for (const char *frame : {"1A0#11", "1A3#1122334455667788", "1F9#0002112233445566"}) {
