@@ -55,10 +55,10 @@
     m_move: assume (!f_moving || (mv_row_i == f_row && mv_idx_i == f_idx && mv_step_i == f_step));
     m_smb: assume (smb_i == f_smb);
     // time.stamp, p_once, p_one, p_kept: one stamp for each good frame, before or right behind its
-    // end, that stays to the next.
+    // end. It stays until an edge behind the intermission; here it is needed while it is written.
     m_once: assume (!we_i || (!f_told && !start_i));
     m_stamped: assume (!start_i || !f_valid || f_told);
-    m_kept: assume (!f_told || stamp_i == f_stamp);
+    m_kept: assume (!write_q || stamp_i == f_stamp);
     // The start of the next frame is two bits of eight clocks away at least; four words are written
     // in less, as the CPU has every second clock at most, a copy one. And a valid frame ends one.
     m_long: assume (!start_i || !write_q);
