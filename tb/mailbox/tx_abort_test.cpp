@@ -180,6 +180,17 @@ TEST(Abort, AtEveryClockOfAFrameThatLosesArbitration) {
   EXPECT_EQ(rig.flags(0), 0u);
 }
 
+// FX-3.4.a: IFLAG of an abort that is done at once can be read in the second transfer behind it at
+// the latest, however closely that follows.
+TEST(Abort, DoneAtOnceIsToldAtOnce) {
+  TxRig rig;
+  rig.put(0, kMb, mb_words(kFrame, kCodeData));
+  const auto results = rig.burst(0, {{.address = reg::mb(kMb), .write = true, .data = kAbortWord},
+                                     {.address = reg::kIflag1},
+                                     {.address = reg::kIflag1}});
+  EXPECT_EQ(results[2].data, 1u << kMb);
+}
+
 // MO-10, FX-3.2.g: a request that comes while a remote frame is sent.
 TEST(Abort, OfARemoteFrameThatSucceedsLeavesAnEmptyBuffer) {
   TxRig rig;
