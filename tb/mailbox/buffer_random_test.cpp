@@ -236,14 +236,19 @@ class RandomAtEvents : public Random {
     rig_.run(static_cast<unsigned>(rng_() % 64));
   }
 
+  // Another frame of the peer's or an error, perhaps, and then a moment of these.
+  void next_moment() {
+    if (rng_() % 2 == 0) rig_.peer_sends(peer_frame());
+    if (rng_() % 40 == 0) rig_.disturb(1 + static_cast<unsigned>(rng_() % 60));
+    wait_for_a_moment();
+  }
+
   void lockstep() {
     SCOPED_TRACE(testing::Message() << "seed " << GetParam());
     masks_and_filters();
     rig_.go();
     for (unsigned step = 0; step < 300 && !HasFailure(); ++step) {
-      if (rng_() % 2 == 0) rig_.peer_sends(peer_frame());
-      if (rng_() % 40 == 0) rig_.disturb(1 + static_cast<unsigned>(rng_() % 60));
-      wait_for_a_moment();
+      next_moment();
       for (unsigned i = 1 + static_cast<unsigned>(rng_() % 3); i > 0; --i) software();
       if (step % 25 != 24) continue;
       rig_.disturb(0, 0);
@@ -369,9 +374,7 @@ class RandomLives : public RandomAtEvents {
     masks_and_filters();
     rig_.go();
     for (unsigned step = 0; step < 300 && !HasFailure(); ++step) {
-      if (rng_() % 2 == 0) rig_.peer_sends(peer_frame());
-      if (rng_() % 40 == 0) rig_.disturb(1 + static_cast<unsigned>(rng_() % 60));
-      wait_for_a_moment();
+      next_moment();
       for (unsigned i = static_cast<unsigned>(rng_() % 3); i > 0; --i) {
         if (rng_() % 4 == 0)
           raw();
