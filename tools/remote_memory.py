@@ -9,6 +9,7 @@ from pathlib import Path
 
 PROFILES = {"small": 0x01, "standard": 0x1F, "full": 0xFF}  # features (RN-25)
 PRODUCERS, MAP = 0x02, 0x04
+NODE = 0xF00  # address of the number
 
 
 def number(text):
@@ -35,7 +36,7 @@ def arguments():
     """The command line, and what refuses it: parser.error(text)."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--serial", type=number, required=True, help="parameter Serial")
-    parser.add_argument("--number", type=number, default=0, help="of the node (0: none)")
+    parser.add_argument("--number", type=number, help="of the node (0: none, which it is without)")
     parser.add_argument("--profile", choices=PROFILES, default="small")
     parser.add_argument("--name-bits", type=int, choices=(3, 5), default=3)
     parser.add_argument("--mem-bytes", type=int, choices=(1024, 2048, 4096), default=4096)
@@ -43,10 +44,10 @@ def arguments():
     parser.add_argument("--set", type=bytes_from, action="append", default=[],
                         metavar="ADDRESS=HEX",
                         help="bytes from this address of the memory map; may be repeated")
-    parser.add_argument("file", type=Path)
+    parser.add_argument("file", type=Path, help="to write; - is standard output")
     args = parser.parse_args()
     last = (1 << args.name_bits) - 1
-    if args.number != 0 and not 2 <= args.number <= last:
+    if args.number not in (None, 0) and not 2 <= args.number <= last:
         parser.error(f"argument --number: {args.number}; allowed: 2 to {last}, or 0 for none")
     if not 0 <= args.serial <= 0xFFFFFFFF:
         parser.error(f"argument --serial: {args.serial:#x}; allowed: 0 to 0xFFFFFFFF")
@@ -76,6 +77,9 @@ def own_bytes(args, refuse):
         if not any(address in area for area in areas(args)):
             refuse(f"argument --set: {address:#05x} is not in the memory; allowed: " + ", ".join(
                 f"{area[0]:#05x} to {area[-1]:#05x}" for area in areas(args)))
+        if address == NODE and args.number is not None:
+            refuse(f"argument --set: {address:#05x} is the number of the node, which --number "
+                   "gives; allowed: one of them")
         if address in own:
             refuse(f"argument --set: {address:#05x} is given twice; allowed: once")
         own[address] = byte
@@ -87,7 +91,8 @@ def contents(args, own):
     features = PROFILES[args.profile] & (0xFF if args.stage_bytes else 0xFE)
     size = args.mem_bytes.bit_length() - 1
     fixed = {0xE04: [40],                                             # 10 s, x 256 ms
-             0xF00: [args.number, 0x05, 0, 0, 0x0A, 0x0A, 0x32, 0x08],  # NODE to RETRY (section 8)
+             # NODE to RETRY (section 8)
+             NODE: [args.number or 0, 0x05, 0, 0, 0x0A, 0x0A, 0x32, 0x08],
              0xFF8: [0x01, features, args.name_bits << 4 | size, args.stage_bytes,
                      *args.serial.to_bytes(4, "little")]}
     return dict(spread(fixed.items())) | own
@@ -100,9 +105,12 @@ def main():
     for address, byte in contents(args, own_bytes(args, refuse)).items():
         ram[address & (args.mem_bytes - 1)] = byte
     words = (ram[i:i + 4] for i in range(0, len(ram), 4))
+    text = "".join(f"{int.from_bytes(word, 'little'):08X}\n" for word in words)
     try:
-        args.file.write_text("".join(f"{int.from_bytes(word, 'little'):08X}\n" for word in words),
-                             encoding="utf-8")
+        if str(args.file) == "-":
+            print(text, end="", flush=True)
+        else:
+            args.file.write_text(text, encoding="utf-8")
     except OSError as error:
         refuse(f"{args.file}: {error.strerror}")
 

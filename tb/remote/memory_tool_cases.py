@@ -83,6 +83,18 @@ class MemoryTool(unittest.TestCase):
         self.refused("--set: 0x041 is given twice",
                      "--serial", "1", "--set", "0x40=0102", "--set", "65=FF")
 
+    def test_two_numbers(self):
+        """NODE has the number: one of them would be lost."""
+        for number in "5", "0":
+            self.refused("--set: 0xf00 is the number of the node, which --number gives",
+                         "--serial", "1", "--number", number, "--set", "0xF00=06")
+
+    def test_standard_output(self):
+        """As `-` of the tools."""
+        done = subprocess.run([sys.executable, "-B", str(TOOL), "--serial", "1", "-"], text=True,
+                              stdout=subprocess.PIPE, timeout=60, check=False)
+        self.assertEqual((done.returncode, len(done.stdout.split())), (0, 1024))
+
     def test_a_file_that_cannot_be_written(self):
         """A full disk, a folder that is not there."""
         self.refused("/dev/full: No space left", "--serial", "1", file="/dev/full")
