@@ -14,6 +14,7 @@
 #include <fstream>
 #include <iostream>
 #include <limits>
+#include <utility>
 
 #include "trace/input_error.hpp"
 
@@ -74,6 +75,14 @@ std::string unreadable() {
   return fmt::format("cannot be opened for reading: {}", std::strerror(errno));
 }
 
+/// Once: it would be empty the second time.
+std::string read_standard_input(std::size_t most) {
+  static bool read = false;
+  if (std::exchange(read, true))
+    throw InputError("standard input", 0, "has been read already, as another file");
+  return read_all(std::cin, "-", most);
+}
+
 }  // namespace
 
 std::string unpacked(std::string bytes, const std::string &path, std::size_t most) {
@@ -88,7 +97,7 @@ std::string unpacked(std::string bytes, const std::string &path, std::size_t mos
 }
 
 std::string read_bytes(const std::string &path, std::size_t most) {
-  if (path == "-") return read_all(std::cin, path, most);
+  if (path == "-") return read_standard_input(most);
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0)
     throw InputError(

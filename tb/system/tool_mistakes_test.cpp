@@ -138,6 +138,8 @@ TEST_F(ToolMistakes, StandardInputIsOneFile) {
     expect_refused(command + std::string(" --dbc - < ") + log, "standard input: is the file of ");
   expect_refused("signals " + log + " --dbc - --dbc - < " + dbc, "of --dbc and of --dbc");
   expect_refused("replay - --bus - < " + log, "standard input: is the file of log and of --bus");
+  const std::string two = "nodes: [{name: a, replay: -}, {name: b, replay: -}]\n";
+  expect_refused("run - < " + file_with("two.yaml", two), "standard input: has been read already");
   EXPECT_EQ(run_tool("signals " + log + " --dbc - < " + dbc).code, 0);
   EXPECT_EQ(run_tool("signals - --dbc " + dbc + " < " + log).code, 0);
 }
