@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -34,8 +35,8 @@ class Inflater {
   Inflater(const Inflater &) = delete;
   Inflater &operator=(const Inflater &) = delete;
 
-  /// Appends the next piece to `text`; false at the end. Several members follow each other, as with
-  /// cat writes them; what follows the last one and is no member is ignored, as gzip does.
+  /// Appends the next piece to `text`; false at the end. Several members follow each other, as cat
+  /// writes them; zeros that fill the last block may follow the last one.
   bool next(std::string &text, const std::string &path, std::size_t most) {
     std::array<char, 65536> piece{};
     stream_.next_out = reinterpret_cast<Bytef *>(piece.data());
@@ -49,7 +50,11 @@ class Inflater {
     if (status == Z_OK) return true;
     const bool more =
         stream_.avail_in >= 2 && stream_.next_in[0] == 0x1F && stream_.next_in[1] == 0x8B;
-    return more && inflateReset(&stream_) == Z_OK;
+    if (more) return inflateReset(&stream_) == Z_OK;
+    if (std::any_of(stream_.next_in, stream_.next_in + stream_.avail_in,
+                    [](Bytef byte) { return byte != 0; }))
+      throw InputError(path, 0, "what follows the packed bytes is not packed (gzip)");
+    return false;
   }
 
  private:

@@ -59,6 +59,10 @@ TEST(InputFile, DamagedGzipIsOneLine) {
   std::string wrong = packed;
   wrong[packed.size() - 8] ^= 1;  // the sum of the bytes
   EXPECT_EQ(error_of(folder.file("wrong.gz", wrong)), folder / "wrong.gz: damaged (gzip)");
+  // What was appended without packing it, also behind what fills a block.
+  for (const std::string &more : {std::string("(2.0) can0 123#22\n"), std::string(9, '\0') + "x"})
+    EXPECT_EQ(error_of(folder.file("more.gz", packed + more)),
+              folder / "more.gz: what follows the packed bytes is not packed (gzip)");
 }
 
 TEST(InputFile, UnpacksUpToALimit) {
