@@ -25,7 +25,8 @@ module stamp_frame (
   logic       sampled, bit_q, mine;
   logic [2:0] run, rest;         // equal bits on the bus; clocks since a sample, both saturate
   logic [4:0] bits;              // behind the arbitration field, saturates
-  logic       good, whole, sof_due;
+  logic       good, whole, sof_due, stuff_error;
+  assign stuff_error = group == 2'd3 && group_q == 2'd2 && run >= 3'd6;
   always_ff @(posedge clk_i) begin
     group_q <= rst_ni ? group : 2'd0;
     sampled <= rst_ni && sample_i;
@@ -43,7 +44,8 @@ module stamp_frame (
       if (group == 2'd0) bits <= '0;
       else if (sample_i && group == 2'd2 && bits != '1) bits <= bits + 1'b1;
       // A frame without an error so far; all of it, once EOF6 is over.
-      good  <= group != 2'd0 && (good || (group == 2'd1 && group_q == 2'd0));
+      good  <= group != 2'd0 && !stuff_error
+               && (good || (group == 2'd1 && group_q == 2'd0));
       whole <= group != 2'd0 && (whole || rx_valid_i);
     end
   end
@@ -59,8 +61,9 @@ module stamp_frame (
     m_order: assume (group == group_q || group == 2'd0 || group == 2'd3
                      || group == group_q + 2'd1);
     // From the arbitration field to the CRC delimiter the engine goes on a recessive or dominant
-    // bit that keeps the rule of stuffing (engine.bsp_always): never six equal ones.
-    m_stuff: assume (!(group == 2'd2 || (group == 2'd3 && group_q == 2'd2)) || run < 3'd6);
+    // bit that keeps the rule of stuffing (engine.bsp_always): never six equal ones, but for the
+    // last ones before an error flag, whose frame does not become valid (good).
+    m_stuff: assume (group != 2'd2 || run < 3'd6);
     // The role stands fast behind the arbitration field.
     m_role: assume (group < 2'd2 || transmitter_i == mine || group != group_q);
     // can_bsp: the pulse of a start of frame follows its sample point, in the first field.
