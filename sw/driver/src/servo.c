@@ -129,6 +129,7 @@ static void take(verican_servo_t *servo, const verican_sync_pair_t *pair,
   const int64_t offset = 256 * verican_limit(whole, OFFSET_LIMIT) - latency;
   const int64_t gate = gate_of(servo, pair);
   const bool first = is_in(servo, VERICAN_SYNC_UNSYNCHRONISED);
+  int64_t rest = offset;
   if (first || has_leapt(servo, offset)) {
     if (is_in(servo, VERICAN_SYNC_LOCKED) && !is_confirmed(servo, whole, gate)) {
       correction->events |= VERICAN_SERVO_LEAP;
@@ -136,15 +137,15 @@ static void take(verican_servo_t *servo, const verican_sync_pair_t *pair,
     }
     if (first) verican_filter_start(servo, pair->increment);
     step(servo, whole, correction);
-    accept(servo, pair, -latency, correction);
-    return;
-  }
-  servo->leaps = 0;
-  if (is_outlier(servo, offset, gate)) {
-    correction->events |= VERICAN_SERVO_OUTLIER;
+    rest = -latency;
   } else {
-    accept(servo, pair, offset, correction);
+    servo->leaps = 0;
+    if (is_outlier(servo, offset, gate)) {
+      correction->events |= VERICAN_SERVO_OUTLIER;
+      return;
+    }
   }
+  accept(servo, pair, rest, correction);
 }
 
 verican_result_t verican_servo_pair(verican_servo_t *servo, const verican_sync_pair_t *pair,

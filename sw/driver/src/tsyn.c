@@ -27,14 +27,15 @@ static uint32_t arbitration_rank(uint32_t id) {
 }
 
 static bool valid_identifiers(const verican_tsyn_config_t *config) {
-  bool good = is_identifier(config->delay_request) && is_identifier(config->delay_response);
+  if (!is_identifier(config->delay_request) || !is_identifier(config->delay_response)) return false;
+  uint32_t before = 0;
   for (unsigned n = 0; n < config->master_count; ++n) {
-    good = good && is_identifier(config->masters[n]);
-    if (n != 0u)
-      good =
-          good && arbitration_rank(config->masters[n - 1u]) < arbitration_rank(config->masters[n]);
+    const uint32_t id = config->masters[n];
+    const uint32_t rank = arbitration_rank(id);
+    if (!is_identifier(id) || (n != 0u && rank <= before)) return false;
+    before = rank;
   }
-  return good;
+  return true;
 }
 
 static bool valid(const verican_tsyn_config_t *config) {

@@ -22,13 +22,9 @@ static void apply(verican_tsyn_t *tsyn, const verican_correction_t *correction) 
   /* Also where it is as before: it may have been upset. */
   (void)verican_clock_rate(tsyn->dev, correction->increment);
   if (correction->shift == 0) return;
-  if (correction->slew) {
-    (void)verican_clock_slew(tsyn->dev, (int32_t)correction->shift);
-  } else {
-    /* What is left of a slew by now is an upset's: it would go on for minutes. */
-    (void)verican_clock_slew(tsyn->dev, 0);
-    (void)verican_clock_shift(tsyn->dev, correction->shift);
-  }
+  /* With a shift, what is left of a slew by now is an upset's: it would go on for minutes. */
+  (void)verican_clock_slew(tsyn->dev, correction->slew ? (int32_t)correction->shift : 0);
+  if (!correction->slew) (void)verican_clock_shift(tsyn->dev, correction->shift);
   verican_masters_shift(&tsyn->masters, correction->shift);
   tsyn->receiver.stamp += (uint64_t)correction->shift;
   tsyn->latest += (uint64_t)correction->shift;
@@ -84,7 +80,7 @@ static void take_message(verican_tsyn_t *tsyn, const verican_frame_t *frame, uin
   verican_tsyn_look(tsyn, stamp);
   const bool sync = verican_tsyn_is_sync(rules, frame->data, dlc, &cause);
   if (!is_followed(tsyn, rank, sync, stamp)) return;
-  verican_sync_pair_t pair = {0};
+  verican_sync_pair_t pair;
   const uint64_t silence = tsyn->servo.config.hold_after * tsyn->masters.interval;
   if (verican_tsyn_receive(&tsyn->receiver, rules, frame->data, dlc, stamp, silence, &pair) ==
       VERICAN_TSYN_PAIR)

@@ -18,10 +18,9 @@ typedef struct verican_delay {
   int64_t sum;     /* of twice the delays, ns */
   int64_t forth;   /* from the master to here by both clocks: delay and offset */
   uint64_t master; /* the master's time of the pair */
-  uint64_t sent;   /* own time of the request, 0: it is answered */
+  uint64_t sent;   /* own time of the request, 0: none is under way */
   uint8_t wanted;
   uint8_t count;
-  uint8_t step;
 } verican_delay_t;
 
 /** Asks for `exchanges` exchanges, 1.. (8 are usual). VERICAN_ERR_RANGE. */
