@@ -21,7 +21,7 @@ constexpr unsigned kTcap = 0, kTctrl = 1, kTstat = 2, kTimelo = 4, kTimehi = 5, 
                    kTtx = 16, kTtxmb = 17, kTextlo = 20, kTexthi = 21;
 constexpr std::uint32_t kTctrlBits = 0x001F3337;
 constexpr unsigned kExt = 0, kExtovr = 1, kCmp = 2, kSlewd = 3, kTxrel = 4, kSync = 5;
-constexpr unsigned kOuten = 12, kExtr = 8, kExtf = 9;
+constexpr unsigned kCmpen = 13, kOuten = 12, kExtr = 8, kExtf = 9;
 // Commands to can_time and what it tells (rtl/can_pkg.sv).
 constexpr unsigned kDoSet = 0, kDoShift = 1, kDoRate = 2, kDoSlew = 3, kDoArm = 4, kDoHold = 5,
                    kDoRelease = 6, kDoExt = 7, kDoRead = 8;
@@ -51,8 +51,7 @@ class RegisterModel {
       case kTcap: return 0x00020003;
       case kTctrl: return tctrl;
       case kTstat:
-        return flags | bit(in.stat, kSlewing) << 16 | held(in) << 17 | bit(in.stat, kOut) << 18 |
-               bit(in.stat, kArmed) << 19;
+        return flags | slewing(in) << 16 | held(in) << 17 | out(in) << 18 | armed(in) << 19;
       case kTimelo: return static_cast<std::uint32_t>(in.now);
       case kTimehi: return static_cast<std::uint32_t>(in.now >> 32);
       case kTslew: return in.left;
@@ -66,6 +65,16 @@ class RegisterModel {
   [[nodiscard]] unsigned held(const Inputs &in) const {
     if (bit(command, kDoHold) != 0) return 1;
     return bit(command, kDoRelease) != 0 ? 0 : bit(in.stat, kHeld);
+  }
+  /// So do SLEWING, which is told two clocks behind the command, OUT and CMPON.
+  [[nodiscard]] unsigned slewing(const Inputs &in) const {
+    return bit(in.stat, kSlewing) | bit(command, kDoSlew) | bit(before_, kDoSlew);
+  }
+  [[nodiscard]] unsigned armed(const Inputs &in) const {
+    return (bit(in.stat, kArmed) | bit(command, kDoArm)) & bit(tctrl, kCmpen);
+  }
+  [[nodiscard]] unsigned out(const Inputs &in) const {
+    return bit(in.stat, kOut) & ~(bit(command, kDoArm) & bit(tctrl, kCmpen));
   }
   /// An edge of the pin that is asked for, at the output of the synchroniser.
   [[nodiscard]] bool edge() const {
@@ -87,6 +96,7 @@ class RegisterModel {
     pin_[2] = pin_[1];
     pin_[1] = pin_[0];
     pin_[0] = in.pin;
+    before_ = command;
     command = 0;
     if (!in.wr) return;
     if (in.address == kTctrl)
@@ -125,6 +135,7 @@ class RegisterModel {
   }
 
   std::uint32_t first_ = 0;
+  unsigned before_ = 0;  // command of the clock before
   bool pin_[3] = {};
 };
 
