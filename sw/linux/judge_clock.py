@@ -65,7 +65,7 @@ def ptpcalls(run):
     clock, readings = follow(run, 0)
     expect_true(not clock.unknown and len(readings) >= 6, "readings")
     # phc_ctl has ppb, the kernel 2^-16 ppm: what is lost there is not the driver's.
-    wanted = [0, 100_000, -100_000_000, 100_000_000, Fraction("12345.678")]
+    wanted = [0, 100_000, -100_000_000, 100_000_000, Fraction("12345.678"), 0]
     expect(len(clock.increments), len(wanted), "rates that were written")
     for found, ppb in zip(clock.increments, wanted):
         scaled = int(ppb * Fraction(65536, 1000))
@@ -79,3 +79,8 @@ def ptpcalls(run):
     expect_near(back - fast, -3 * SECOND // 2, 50_000, "shift back")
     expect_near(forth - back, 86_400_250_000_000, 50_000, "shift forth")
     expect_true("out of range" in run.text("beyond.txt"), "a rate beyond max_adj was taken")
+    expect([ns for ns in clock.slews if ns != 0], [-300_000, 1_000_000], "changes of the phase")
+    (later,) = shown(run.text("set.txt"))
+    half = SECOND // 2
+    expect_near(later, 5_000_000_000 * SECOND + half + PPM[0] * half // 10**6, 20_000,
+                "set during a change of the phase")

@@ -61,7 +61,8 @@ static int verican_gettimex64(struct ptp_clock_info *info, struct timespec64 *ts
 
 /*
  * The compare unit would follow a jump event by event until it has caught up, and tell of a second
- * that was leapt over. It stands until the worker has armed it for the new time.
+ * that was leapt over. It stands until the worker has armed it for the new time. A slew was asked
+ * for in the time of before: it ends where another one is set.
  */
 static void verican_jump(struct verican_ptp *vp, unsigned int offset, u64 ns)
 {
@@ -69,6 +70,8 @@ static void verican_jump(struct verican_ptp *vp, unsigned int offset, u64 ns)
 
 	spin_lock_irqsave(&vp->lock, flags);
 	verican_change_ctrl(vp, TCTRL_CMP, 0);
+	if (offset == TIMELO)
+		verican_write(vp, TSLEW, 0);
 	verican_write_pair(vp, offset, lower_32_bits(ns), upper_32_bits(ns));
 	spin_unlock_irqrestore(&vp->lock, flags);
 	verican_rearm(vp);
