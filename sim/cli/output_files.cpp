@@ -18,6 +18,7 @@
 
 #include "cli/cli.hpp"
 #include "trace/input_error.hpp"
+#include "trace/input_file.hpp"
 #include "trace/output_file.hpp"
 
 namespace vericansim::cli {
@@ -49,6 +50,15 @@ void print_to(int descriptor) {
 
 bool quiet = false;
 
+/// `path` of `option` does not end as files of the option `other` do.
+void check_kind(const std::string &path, const char *option, const char *other,
+                std::string_view ending) {
+  if (without_gz(path).ends_with(ending))
+    throw InputError(path, 0,
+                     fmt::format("is named as the waveforms of {}; allowed for {}: other endings",
+                                 other, option));
+}
+
 }  // namespace
 
 std::vector<NamedFile> files_of(const Outputs &outputs, const std::vector<double> &bitrates) {
@@ -59,6 +69,8 @@ std::vector<NamedFile> files_of(const Outputs &outputs, const std::vector<double
         wanted.push_back(std::move(file));
     return wanted;
   }
+  check_kind(outputs.vcd, "--vcd", "--fst", ".fst");
+  check_kind(outputs.fst, "--fst", "--vcd", ".vcd");
   const NamedFile all[] = {{"--vcd", outputs.vcd},         {"--fst", outputs.fst},
                            {"--candump", outputs.candump}, {"--pcap", outputs.pcap},
                            {"--report", outputs.report},   {"--signals-csv", outputs.signals_csv},

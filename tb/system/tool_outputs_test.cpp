@@ -271,6 +271,18 @@ TEST_F(ToolOutputs, NoFileIsWrittenTwice) {
   EXPECT_EQ(run_tool(kRun + "--candump /dev/null --pcap /dev/null").code, 0);
 }
 
+// A viewer takes the name's word for the format.
+TEST_F(ToolOutputs, AWaveformIsNotNamedAsTheOtherKind) {
+  for (const auto &[option, name, other] : {std::tuple{"--vcd", "a.fst", "--fst"},
+                                            {"--vcd", "a.fst.gz", "--fst"},
+                                            {"--fst", "a.vcd", "--vcd"}})
+    expect_refused(run_tool(kRun + option + " " + in(name)),
+                   in(name) + ": is named as the waveforms of " + other + "; allowed for " +
+                       option + ": other endings\n");
+  EXPECT_EQ(files(), 0U);
+  EXPECT_EQ(run_tool(kRun + "--vcd " + in("fst")).code, 0);
+}
+
 TEST_F(ToolOutputs, SeveralBitRatesHaveSeveralFiles) {
   std::string text = slurp("examples/two-nodes.yaml");
   text.replace(text.find("500k"), 4, "[500k, 250k]");
