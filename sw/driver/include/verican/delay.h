@@ -21,6 +21,7 @@ typedef struct verican_delay {
   uint64_t sent;   /* own time of the request, 0: none is under way */
   uint8_t wanted;
   uint8_t count;
+  bool paired; /* there is a pair, and no exchange with it yet */
 } verican_delay_t;
 
 /** Asks for `exchanges` exchanges, 1.. (8 are usual). VERICAN_ERR_RANGE. */
