@@ -55,12 +55,19 @@ def check():
             "-GTimeUnit=1", "--top-module", "can_ahb", "-F", rtl / "can.f")
 
 
+def count(text):
+    """A number of the command line, 1 or more: none would hold whatever the core does."""
+    if not text.isdecimal() or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"'{text}'; allowed: whole numbers from 1 on")
+    return int(text)
+
+
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true", help="only whether they fit the RTL")
-    parser.add_argument("--seeds", type=int, default=100, help="random buses (100)")
-    parser.add_argument("--jobs", type=int, default=2, help="of the build (2)")
+    parser.add_argument("--seeds", type=count, default=100, help="random buses (100)")
+    parser.add_argument("--jobs", type=count, default=2, help="of the build (2)")
     options = parser.parse_args()
     if options.check:
         return check()
