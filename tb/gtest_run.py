@@ -6,13 +6,13 @@ import re
 import subprocess
 
 
-def run(command, log, cwd, **variables):
+def run(command, log, cwd, timeout=None, **variables):
     """Runs a program with these variables into a log: tests passed, tests failed (a crash counts as
-    one)."""
+    one). Throws subprocess.TimeoutExpired if it takes longer than timeout, s."""
     with open(log, "w", encoding="utf-8") as file:
         status = subprocess.run(command, cwd=cwd, env={**os.environ, **variables}, stdout=file,
                                 stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                check=False).returncode
+                                timeout=timeout, check=False).returncode
     return counts(log.read_text(errors="replace"), status)
 
 

@@ -67,12 +67,13 @@ void BufferModel::write_mask(std::uint32_t address, std::uint32_t data, std::uin
 void BufferModel::write_buffer(unsigned n, unsigned word, std::uint32_t data, std::uint32_t lanes,
                                std::uint64_t now) {
   settle(now);
-  const bool cs = word == 0 && n >= config_.first_mailbox();
+  const bool mailbox = n >= config_.first_mailbox();
+  const bool cs = word == 0 && mailbox;
   replace(
       [&](const BufferState &state, DistinctStates &out) {
         if (cs && config_.aen) return write_cs_aen(state, n, data, lanes, now, out);
         if (cs) return write_cs(state, n, data, lanes, now, out);
-        const bool guarded = config_.aen && state.mb[n].guarded;
+        const bool guarded = config_.aen && mailbox && state.mb[n].guarded;
         if (guarded) out.add(state);
         const unsigned code = state.mb[n].code();
         if (guarded && (code == kTxInactive || code == kTxAbort)) return;
@@ -232,8 +233,8 @@ void BufferModel::read_cs(unsigned n, std::uint32_t value, std::uint64_t now) {
 }
 
 void BufferModel::read_flags(unsigned half, std::uint32_t value) {
-  const auto flags_of = [half](const BufferState &state) {
-    return static_cast<std::uint32_t>(state.flags() >> (32 * half));
+  const auto flags_of = [this, half](const BufferState &state) {
+    return static_cast<std::uint32_t>(state.flags(config_.fen) >> (32 * half));
   };
   keep([&](const BufferState &state) { return flags_of(state) == value; },
        [&] {

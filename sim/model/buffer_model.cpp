@@ -34,8 +34,8 @@ BufferModel::BufferModel(const BufferConfig &config, const BufferWindows &window
 void BufferModel::configure(const BufferConfig &config, std::uint64_t now) {
   config.validate();
   settle(now);
-  if (config.fen != config_.fen)
-    for (BufferState &state : states_) state.fen_changed();
+  if (config.first_mailbox() != config_.first_mailbox())
+    for (BufferState &state : states_) state.area_changed(config.fen != config_.fen);
   config_ = config;
   for (BufferState &state : states_) {
     for (unsigned n = 0; n < config.num_mb; ++n) {

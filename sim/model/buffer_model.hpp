@@ -34,7 +34,8 @@ class BufferModel {
   /// Throws as BufferConfig::validate(), and so does configure().
   explicit BufferModel(const BufferConfig &config, const BufferWindows &windows = {});
 
-  /// In freeze mode: new configuration. A change of FEN empties the FIFO.
+  /// In freeze mode: new configuration. A change of FEN empties the FIFO; one of FEN or RFFN ends
+  /// the lock, and drops the frame that waits for it.
   void configure(const BufferConfig &config, std::uint64_t now = 0);
   [[nodiscard]] const BufferConfig &config() const { return config_; }
 

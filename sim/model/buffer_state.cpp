@@ -47,7 +47,7 @@ SendRequest BufferState::request_of(unsigned n, const BufferConfig &config,
   return {.frame = buffer_frame(words),
           .value = arbitration_value(n, words[0], words[1], config),
           .since = now,
-          .one_shot = config.one_shot};
+          .one_shot = config.one_shot || (config.osmb && mb[n].one_shot)};
 }
 
 void BufferState::withdraw(unsigned n, std::uint64_t now) {
@@ -69,6 +69,8 @@ void BufferState::write(unsigned n, unsigned word, std::uint32_t data, std::uint
   words.known[word] |= lanes;
   if (!cs) return;
   if ((lanes & kStampBits) != 0) words.stamped = false;
+  if ((lanes & kOneShotBit) != 0)
+    buffer.one_shot = config.osmb && (data & kOneShotBit) != 0 && buffer.code() == kTxActive;
   if (matching) left_round |= std::uint64_t{1} << n;
   // A C/S write ends the lock, the pending frame and the request of this buffer (3.4).
   if (lock == n) lock.reset();
@@ -81,8 +83,6 @@ void BufferState::write(unsigned n, unsigned word, std::uint32_t data, std::uint
   buffer.serviced = code_receives(buffer.code()) ? Serviced::kOpen : Serviced::kNo;
   if (!code_sends(buffer.code()) || !config.takes_part(n)) return;
   buffer.request = request_of(n, config, now);
-  if (config.osmb && (data & kOneShotBit) != 0 && buffer.code() == kTxActive)
-    buffer.request->one_shot = true;
 }
 
 bool BufferState::write_blocked(unsigned n) const {
@@ -153,9 +153,13 @@ void BufferState::clear_flags(std::uint64_t bits, const BufferConfig &config) {
     if (((bits >> n) & 1) != 0 && mb[n].guarded) mb.change(n).guarded = false;
 }
 
-void BufferState::fen_changed() {
+void BufferState::area_changed(bool fifo_too) {
+  lock.reset();
+  waiting.reset();
+  if (!fifo_too) return;
   fifo.clear();
   iflag &= ~(kFlagAvailable | kFlagWarning | kFlagOverflow);
+  for (unsigned n = 0; n < 6; ++n) mb.change(n).words = {.word = {}, .known = {}};
 }
 
 void BufferState::soft_reset() {

@@ -96,7 +96,9 @@ class BufferState {
   void abort(unsigned n, std::uint64_t now);
   /// IFLAG is written.
   void clear_flags(std::uint64_t bits, const BufferConfig &config);
-  void fen_changed();
+  /// FEN has changed, or with FEN=1 RFFN (freeze mode): which buffers are mailboxes. `fifo_too`:
+  /// the FIFO is empty then, and what it kept in its buffers is not known.
+  void area_changed(bool fifo_too);
   /// The frame under way is matched no longer.
   void end_round();
   void soft_reset();
@@ -126,8 +128,11 @@ class BufferState {
 
   /// Equal states have equal digests; different ones nearly always different ones.
   [[nodiscard]] std::uint64_t digest() const;
-  /// IFLAG2:IFLAG1 as the CPU reads it.
-  [[nodiscard]] std::uint64_t flags() const { return iflag | (fifo.empty() ? 0 : kFlagAvailable); }
+  /// IFLAG2:IFLAG1 as the CPU reads it; with FEN=1 bits 4 to 0 are unused (1.5).
+  [[nodiscard]] std::uint64_t flags(bool fen) const {
+    if (!fen) return iflag;
+    return (iflag & ~std::uint64_t{0x1F}) | (fifo.empty() ? 0 : kFlagAvailable);
+  }
 
   MessageBuffers mb;
   std::uint64_t iflag = 0;

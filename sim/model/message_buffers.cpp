@@ -45,8 +45,8 @@ std::uint64_t digest_of(const SendRequest &request) {
 
 // A digest of its own for each buffer, so that a processor computes many at once.
 std::uint64_t digest_of(const BufferContent &buffer) {
-  Digest digest{static_cast<unsigned>(buffer.serviced) << 2 | unsigned{buffer.guarded} << 1 |
-                unsigned{buffer.words.stamped}};
+  Digest digest{static_cast<unsigned>(buffer.serviced) << 3 | unsigned{buffer.one_shot} << 2 |
+                unsigned{buffer.guarded} << 1 | unsigned{buffer.words.stamped}};
   digest.add(buffer.words.word);
   digest.add(buffer.words.known);
   if (buffer.request) digest.add(digest_of(*buffer.request));

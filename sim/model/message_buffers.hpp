@@ -41,7 +41,8 @@ struct SendRequest {
 struct BufferContent {
   KnownWords words;
   Serviced serviced = Serviced::kNo;
-  bool guarded = false;  ///< its flag tells the end of a transmission and stands (AEN=1)
+  bool guarded = false;   ///< its flag tells the end of a transmission and stands (AEN=1)
+  bool one_shot = false;  ///< bit 28 of the C/S word, which XCTRL.OSMB let be written (code 1100)
   std::optional<SendRequest> request;
   friend bool operator==(const BufferContent &, const BufferContent &) = default;
   [[nodiscard]] unsigned code() const { return cs_code(words.word[0]); }

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the campaign's stages in Python refuse, how the stage `fuzz` ends, and what the stage
-`features` counts."""
+"""What the campaign's stages in Python refuse, how the stage `fuzz` ends, and what the stages
+`features` and `buffers` count."""
 import contextlib
 import importlib.util
 import io
@@ -19,7 +19,7 @@ from refusals import JOBS, SCALES, SEEDS, RefusalCase
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ("tb/formal/run.py", "tb/netlist/run.py", "tb/fuzz/campaign.py", "tb/canopen/campaign.py",
            "tb/timesync/campaign.py", "tb/mutation/run.py", "tools/coverage.py",
-           "tb/features/run.py")
+           "tb/features/run.py", "tb/mailbox/campaign.py")
 
 
 def module_of(name, path):
@@ -39,11 +39,13 @@ class Scripts(RefusalCase):
                                 ("CAMPAIGN_SCALE", "0")):
                 self.refused(f"{name} is '{value}'; allowed: {SCALES}", sys.executable, "-B",
                              ROOT / script, code=2, **{name: value})
-        for script in ("tb/netlist/run.py", "tb/fuzz/campaign.py", "tb/mutation/run.py"):
+        for script in ("tb/netlist/run.py", "tb/fuzz/campaign.py", "tb/mutation/run.py",
+                       "tb/mailbox/campaign.py"):
             for value in ("x", "0", "65", "1_0"):
                 self.refused(f"CAMPAIGN_JOBS is '{value}'; allowed: {JOBS}", sys.executable, "-B",
                              ROOT / script, code=2, CAMPAIGN_JOBS=value)
-        for script in ("tb/fuzz/campaign.py", "tb/timesync/campaign.py", "tb/mutation/run.py"):
+        for script in ("tb/fuzz/campaign.py", "tb/timesync/campaign.py", "tb/mutation/run.py",
+                       "tb/mailbox/campaign.py"):
             self.refused("CAMPAIGN_SEED is '1.5'; " + SEEDS, sys.executable, "-B", ROOT / script,
                          code=2, CAMPAIGN_SEED="1.5")
 
@@ -131,6 +133,62 @@ class Features(RefusalCase):
                          (3, 2))
         self.assertEqual(self.counts("small", passed), (3, 0))
         self.assertEqual(self.counts("small", passed, 139), (3, 1))
+
+
+class Buffers(RefusalCase):
+    """The stage `buffers`."""
+
+    def setUp(self):
+        super().setUp()
+        self.buffers = module_of("buffers", "tb/mailbox/campaign.py")
+
+    def run_block(self, lines, code=0, block=("Random", 100_000, 3)):
+        """What comes of a block whose program does these lines and ends with this code."""
+        program = self.path / "program"
+        program.write_text(f"#!/bin/sh\n{lines}\nexit {code}\n")
+        program.chmod(0o755)
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            result = self.buffers.run(block, program, self.path)
+        return (result["passed"], result["failed"]), said.getvalue()
+
+    def test_a_block_is_asked_for_by_its_seeds(self):
+        self.assertEqual(self.run_block(
+            "test $VERICAN_RANDOM_SEEDS = 100000+3 || exit 1\n"
+            "test $1 = '--gtest_filter=Seeds/Random.Lockstep/*' || exit 1\n"
+            "echo '[  PASSED  ] 3 tests.'"), ((3, []), ""))
+        self.assertEqual([path.name for path in self.path.iterdir()], ["program"])
+
+    def test_what_fails_is_named_with_the_line_that_repeats_it(self):
+        result, said = self.run_block(
+            "echo '[  PASSED  ] 2 tests.'\n"
+            "echo '[  FAILED  ] Seeds/Random.Lockstep/1, where GetParam() = 100001'\n"
+            "echo ' 1 FAILED TEST'", 1)
+        self.assertEqual(result, (2, ["100001"]))
+        self.assertIn("VERICAN_RANDOM_SEEDS=100001+1", said)
+
+    def test_fewer_seeds_a_crash_and_a_hang_are_failures(self):
+        whole = ["100000 to 100002"]
+        self.assertEqual(self.run_block("echo '[  PASSED  ] 2 tests.'")[0], (2, whole))
+        self.assertEqual(self.run_block("echo '[  PASSED  ] 3 tests.'", 139)[0], (3, whole))
+        with unittest.mock.patch.object(self.buffers, "TIMEOUT", 0.2):
+            self.assertEqual(self.run_block("exec sleep 20")[0], (0, whole))
+
+    def test_blocks_have_every_seed_once_and_none_of_make_test(self):
+        wanted = sum(seeds for seeds, _ in self.buffers.SUITES.values())
+        for seed in (0, 1, 3_999):
+            seeds = [(suite, first + i) for suite, first, count in self.buffers.blocks(seed, 1)
+                     for i in range(count)]
+            self.assertEqual(len(set(seeds)), wanted)
+            self.assertGreaterEqual(min(number for _, number in seeds), 100_000)
+            self.assertLess(max(number for _, number in seeds), 2**32)
+
+    def test_one_failure_misses_the_bar(self):
+        good = [{"suite": "Random", "passed": 3, "failed": []}]
+        bad = good + [{"suite": "Random", "passed": 2, "failed": ["100001"]}]
+        self.assertEqual([figure["ok"] for figure in self.buffers.summary(good, 3)["figures"]],
+                         [True, True])
+        self.assertEqual([figure["ok"] for figure in self.buffers.summary(bad, 6)["figures"]],
+                         [False, False])
 
 
 if __name__ == "__main__":

@@ -6,9 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdlib>
 #include <iterator>
 #include <random>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "mailbox/buffer_rig.hpp"
 
@@ -16,6 +20,25 @@ namespace vericansim {
 namespace {
 
 constexpr std::uint32_t kVps = 1u << 14, kImb = 1u << 13;  // of ESR2
+
+/// The seeds of a suite: those of VERICAN_RANDOM_SEEDS, "FIRST+COUNT" (tb/mailbox/campaign.py),
+/// else 1 to `count`. Throws std::runtime_error if the variable is anything else.
+auto seeds(unsigned count) {
+  const char *text = std::getenv("VERICAN_RANDOM_SEEDS");  // NOLINT(concurrency-mt-unsafe)
+  if (text == nullptr || *text == 0) return ::testing::Range(1u, count + 1);
+  const std::string_view given{text};
+  unsigned first = 0;
+  const auto [plus, wrong] = std::from_chars(given.begin(), given.end(), first);
+  const bool more = wrong == std::errc{} && plus != given.end() && *plus == '+';
+  const auto [end, bad] = std::from_chars(more ? plus + 1 : given.end(), given.end(), count);
+  if (!more || bad != std::errc{} || end != given.end() || count == 0 || first + count < first)
+    throw std::runtime_error("VERICAN_RANDOM_SEEDS is '" + std::string{given} +
+                             "'; allowed: FIRST+COUNT, such as 100000+60, up to 4294967295");
+  return ::testing::Range(first, first + count);
+}
+
+/// The seeds of Found are below: they keep the accesses that they had.
+constexpr unsigned kCampaignSeeds = 100'000;
 
 BufferConfig random_config(std::mt19937 &rng) {
   const auto one_in = [&](unsigned n) { return rng() % n == 0; };
@@ -175,7 +198,7 @@ class Random : public ::testing::TestWithParam<unsigned> {
     for (unsigned mb = 0; mb < rig_.config().num_mb; ++mb)
       rig_.write(reg::rximr(mb), random_mask());
     if (!rig_.config().fen) return;
-    for (unsigned i = 0; i < 8; ++i)
+    for (unsigned i = 0; i < rig_.config().filter_elements(); ++i)
       rig_.write(0x0E0 + 4 * i, (0x100u + static_cast<std::uint32_t>(rng_() % 8)) << 19);
   }
 
@@ -202,15 +225,15 @@ class Random : public ::testing::TestWithParam<unsigned> {
   unsigned buffers_ = 64;     // that software works with
   bool status_ = false;       // ESR2 and CRCR are looked at
   std::size_t sent_ = 0;      // frames before the last soft reset
-  // Reads RXFIR too, with or without the FIFO; the seeds of Found keep the accesses they had.
-  bool rxfir_ = GetParam() < 100;
+  // Reads RXFIR too, with or without the FIFO.
+  bool rxfir_ = GetParam() < 100 || GetParam() >= kCampaignSeeds;
 };
 
 // TH-06: each request ends exactly once. RO-05: nothing of a destroyed
 // frame is left.
 TEST_P(Random, Lockstep) { lockstep(); }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Random, ::testing::Range(1u, 61u));
+INSTANTIATE_TEST_SUITE_P(Seeds, Random, seeds(60));
 
 // Few buffers and identifiers, and software that waits for the moments at which the core works on
 // them: clocks that it meets by chance once in a million frames.
@@ -260,7 +283,7 @@ class RandomAtEvents : public Random {
 
 TEST_P(RandomAtEvents, Lockstep) { lockstep(); }  // FX-3.4.b, FX-3.5.o, FX-3.3.j
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomAtEvents, ::testing::Range(1u, 61u));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomAtEvents, seeds(60));
 // Seeds that have shown a defect of the core or of the model.
 INSTANTIATE_TEST_SUITE_P(Found, RandomAtEvents,
                          ::testing::Values(582u, 759u, 1350u, 1462u, 1797u, 2171u, 2297u, 4309u,
@@ -272,7 +295,7 @@ class RandomLives : public RandomAtEvents {
  protected:
   explicit RandomLives(const CoreBuild *build = build_under_test()) : RandomAtEvents{build} {}
 
-  /// Other settings for the same core; with the Rx FIFO as before.
+  /// Other settings for the same core; with the Rx FIFO and as many filters as before.
   BufferConfig other_config() {
     const BufferConfig before = rig_.config();
     const auto one_in = [&](unsigned n) { return rng_() % n == 0; };
@@ -284,8 +307,8 @@ class RandomLives : public RandomAtEvents {
       config.lbuf = one_in(3);
       config.rrs = one_in(2);
       config.one_shot = one_in(6);
+      config.osmb = one_in(3);
     }
-    config.osmb = false;  // the model does not keep bit 28 of a C/S word over new settings
     config.eacen = one_in(2);
     config.srx_dis = one_in(2);
     config.mrp = one_in(2);
@@ -339,10 +362,33 @@ class RandomLives : public RandomAtEvents {
     for (unsigned i = static_cast<unsigned>(rng_() % 4); i > 0; --i)
       rig_.read(rng_() % 2 == 0 ? reg::kTimer : reg::mb(mailbox()));
   }
+  /// The same, and other buffers that are mailboxes.
+  BufferConfig other_area() {
+    BufferConfig config = other_config();
+    if (!fifo_) return config;
+    config.fen = rng_() % 2 == 0;
+    if (extras_) config.rffn = static_cast<unsigned>(rng_() % (config.num_mb == 16 ? 3 : 6));
+    return config;
+  }
+  // As drivers do: what the FIFO and its filters leave is no C/S word, flags of transmissions may
+  // protect it (3.4), and whether a soft reset forgets which frames were read is open (2.3).
+  void prepare_all() {
+    rig_.write(reg::kIflag1, ~0u);
+    rig_.write(reg::kIflag2, ~0u);
+    for (unsigned mb = rig_.config().first_mailbox(); mb < rig_.config().num_mb; ++mb)
+      rig_.put_rx(mb, frame(), rng_() % 2 == 0 ? kRxEmpty : 0);
+  }
   void freeze() {
     ASSERT_TRUE(rig_.freeze(8000));
     reads();
-    if (rng_() % 2 == 0) rig_.configure(other_config());
+    if (rng_() % 4 == 0) {
+      rig_.run(100);  // until a frame that waited is in its buffer
+      rig_.configure(other_area());
+      masks_and_filters();
+      prepare_all();
+    } else if (rng_() % 2 == 0) {
+      rig_.configure(other_config());
+    }
     if (rng_() % 2 == 0) masks_and_filters();
     for (unsigned i = static_cast<unsigned>(rng_() % 3); i > 0; --i) software();
     rig_.go();
@@ -359,11 +405,11 @@ class RandomLives : public RandomAtEvents {
     rig_.soft_reset();
     sent_ = rig_.sent().size();
     reads();
-    rig_.configure(other_config());
-    if (rng_() % 2 == 0) masks_and_filters();
-    // As drivers do: whether a soft reset forgets which frames were read is open (2.3).
-    for (unsigned mb = rig_.config().first_mailbox(); mb < rig_.config().num_mb; ++mb)
-      rig_.put_rx(mb, frame(), rng_() % 2 == 0 ? kRxEmpty : 0);
+    const BufferConfig before = rig_.config();
+    rig_.configure(other_area());
+    const bool moved = rig_.config().first_mailbox() != before.first_mailbox();
+    if (moved || rng_() % 2 == 0) masks_and_filters();
+    prepare_all();
     rig_.go();
   }
 
@@ -395,11 +441,12 @@ class RandomLives : public RandomAtEvents {
     }
   }
   bool extras_ = build_under_test() == nullptr || build_under_test()->features.extras;
+  bool fifo_ = build_under_test() == nullptr || build_under_test()->features.fifo;
 };
 
 TEST_P(RandomLives, Lockstep) { lives(); }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomLives, ::testing::Range(1u, 61u));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomLives, seeds(60));
 
 // The profile that lacks every feature: what is left is as in any other core (PK-49).
 class RandomSmall : public Random {
@@ -407,14 +454,14 @@ class RandomSmall : public Random {
   RandomSmall() : Random{&core_build("small")} {}
 };
 TEST_P(RandomSmall, Lockstep) { lockstep(); }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomSmall, ::testing::Range(1u, 31u));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomSmall, seeds(30));
 
 class RandomAtEventsSmall : public RandomAtEvents {
  protected:
   RandomAtEventsSmall() : RandomAtEvents{&core_build("small")} {}
 };
 TEST_P(RandomAtEventsSmall, Lockstep) { lockstep(); }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomAtEventsSmall, ::testing::Range(1u, 31u));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomAtEventsSmall, seeds(30));
 
 }  // namespace
 }  // namespace vericansim
