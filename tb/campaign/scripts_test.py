@@ -19,7 +19,7 @@ from refusals import JOBS, SCALES, SEEDS, RefusalCase
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ("tb/formal/run.py", "tb/netlist/run.py", "tb/fuzz/campaign.py", "tb/canopen/campaign.py",
            "tb/timesync/campaign.py", "tb/mutation/run.py", "tools/coverage.py",
-           "tb/features/run.py", "tb/mailbox/campaign.py")
+           "tb/features/run.py", "tb/mailbox/campaign.py", "tb/formal/in_core.py")
 
 
 def module_of(name, path):

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""in_core.py [--check] [--seeds N] [--jobs N]: does the core keep what its proofs assume?
+"""in_core.py [--check]: does the core keep what its proofs assume? (stage `assumptions`)
 
 Proofs assume things of the blocks beside the one that they are of. The files of in_core/, each
 named like a module, say the same as assertions. They are spliced into a copy of the RTL; the random
 software of the buffers and random buses run on it, which end with the first that does not hold.
+Writes figures to CAMPAIGN_OUT if that is set. Ends with status 1 if one does not hold.
 --check: looks only whether the files fit the RTL (Verilator's lint).
 """
 import argparse
+import os
 import re
 import shutil
 import subprocess
@@ -18,8 +20,14 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
+sys.path.append(str(ROOT / "tb"))
+import campaign_settings  # noqa: E402  pylint: disable=wrong-import-position
+import gtest_run  # noqa: E402  pylint: disable=wrong-import-position
+
 BUILD = ROOT / "build/formal-in-core"
-PROGRAMS = ("buffer_random_test", "buffer_burst_test", "stamp_random_test", "random_campaign")
+TESTS = ("buffer_random_test", "buffer_burst_test", "stamp_random_test")
+SOFTWARE = 3000   # seeds of random software beside those of the tests
+BUSES = 100       # random buses
 STATEMENT = re.compile(r"^( *)(m_\w+): assert (\(.*?\));$", re.M | re.S)
 
 
@@ -33,11 +41,12 @@ def assertions(path):
 
 
 def splice(rtl):
-    """All files into the folder `rtl`, a copy of the RTL."""
+    """All files into the folder `rtl`, a copy of the RTL; returns how many assertions there are."""
     for path in sorted((HERE / "in_core").glob("*.sv")):
         module, = rtl.glob(f"*/{path.name}")
         head, end, tail = module.read_text().rpartition("endmodule")
         module.write_text(head + assertions(path) + end + tail)
+    return sum(len(STATEMENT.findall(path.read_text())) for path in (HERE / "in_core").glob("*.sv"))
 
 
 def run(*command):
@@ -55,34 +64,68 @@ def check():
             "-GTimeUnit=1", "--top-module", "can_ahb", "-F", rtl / "can.f")
 
 
-def count(text):
-    """A number of the command line, 1 or more: none would hold whatever the core does."""
-    if not text.isdecimal() or int(text) == 0:
-        raise argparse.ArgumentTypeError(f"'{text}'; allowed: whole numbers from 1 on")
-    return int(text)
+def build(jobs):
+    """The programs on a core with the assertions; returns how many there are."""
+    shutil.rmtree(BUILD / "rtl", ignore_errors=True)
+    rtl = Path(shutil.copytree(ROOT / "rtl", BUILD / "rtl"))
+    number = splice(rtl)
+    run("cmake", "--preset", "release", "-B", BUILD / "build", f"-DVERICAN_RTL_DIR={rtl}")
+    run("cmake", "--build", BUILD / "build", "-j", str(jobs), "--target", *TESTS, "random_campaign")
+    return number
+
+
+def passes(name, log, command, **variables):
+    """Whether a program ends well; if not, its log is named."""
+    with open(log, "w", encoding="utf-8") as file:
+        code = subprocess.run(list(map(str, command)), cwd=ROOT, stdout=file, stderr=file,
+                              env={**os.environ, **variables}, check=False).returncode
+    print(f"{name}: " + ("all assumptions hold" if code == 0 else f"failed, see {log}"), flush=True)
+    return code == 0
+
+
+def campaign(scratch):
+    """The result of the stage."""
+    scale, jobs = campaign_settings.scale(), campaign_settings.jobs()
+    number, tests = build(jobs), []
+    for program in TESTS:
+        log = scratch / f"{program}.log"
+        passed, bad = gtest_run.run([BUILD / "build/tb" / program], log, ROOT)
+        print(f"{program}: {passed} passed, {bad} failed" + (f", see {log}" if bad else ""),
+              flush=True)
+        tests.append((passed, bad or int(passed == 0)))
+    buses = max(1, round(BUSES * scale))
+    good = [
+        passes("random software", scratch / "software.log",
+               ["tb/mailbox/campaign.py", "--program", BUILD / "build/tb/buffer_random_test"],
+               CAMPAIGN_SCALE=str(scale * SOFTWARE / 30_000), CAMPAIGN_OUT="",
+               CAMPAIGN_DIR=str(scratch / "software"), CAMPAIGN_JOBS=str(jobs)),
+        passes("random buses", scratch / "buses.log",
+               [BUILD / "build/tb/random/random_campaign", "--runs", buses, "--frames-a-run", 300,
+                "--no-shrink", "--directory", scratch / "random"], CAMPAIGN_OUT="")]
+    passed, failed = (sum(column) for column in zip(*tests))
+    figures = [
+        {"name": "assumptions that stand in the core as assertions", "value": number, "bar": None,
+         "ok": None},
+        {"name": "tests passed on it", "value": passed, "text": f"{passed} of {passed + failed}",
+         "bar": "all", "ok": failed == 0},
+        {"name": "random software and random buses that ended early", "value": good.count(False),
+         "bar": "0", "ok": all(good)}]
+    notes = [f"Random software: about {round(SOFTWARE * scale)} runs of the stage `buffers`. "
+             f"Random buses: {buses}, some 300 frames each."]
+    return {"figures": figures, "tables": [], "notes": notes}
 
 
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true", help="only whether they fit the RTL")
-    parser.add_argument("--seeds", type=count, default=100, help="random buses (100)")
-    parser.add_argument("--jobs", type=count, default=2, help="of the build (2)")
-    options = parser.parse_args()
-    if options.check:
+    if parser.parse_args().check:
         return check()
-    shutil.rmtree(BUILD / "rtl", ignore_errors=True)
-    rtl = Path(shutil.copytree(ROOT / "rtl", BUILD / "rtl"))
-    splice(rtl)
-    run("cmake", "--preset", "release", "-B", BUILD / "build", f"-DVERICAN_RTL_DIR={rtl}")
-    run("cmake", "--build", BUILD / "build", "-j", str(options.jobs), "--target", *PROGRAMS)
-    for program in PROGRAMS[:-1]:
-        run(BUILD / "build/tb" / program, "--gtest_brief=1")
-        print(f"{program}: all assumptions hold", flush=True)
-    run(BUILD / "build/tb/random/random_campaign", "--runs", str(options.seeds), "--frames-a-run",
-        "300", "--no-shrink", "--directory", BUILD / "random")
-    print(f"{options.seeds} random buses: all assumptions hold")
-    return 0
+    campaign_settings.scale(), campaign_settings.jobs()  # refused before the work
+    out = campaign_settings.result_file()
+    scratch = Path(os.environ.get("CAMPAIGN_DIR", BUILD / "run")).resolve()
+    scratch.mkdir(parents=True, exist_ok=True)
+    return campaign_settings.write_result(out, campaign(scratch))
 
 
 if __name__ == "__main__":
