@@ -23,6 +23,7 @@ ROOT = HERE.parents[1]
 sys.path.append(str(ROOT / "tb"))
 import campaign_settings  # noqa: E402  pylint: disable=wrong-import-position
 import gtest_run  # noqa: E402  pylint: disable=wrong-import-position
+from runner.model import spliced  # noqa: E402  pylint: disable=wrong-import-position
 
 BUILD = ROOT / "build/formal-in-core"
 TESTS = ("buffer_random_test", "buffer_burst_test", "stamp_random_test")
@@ -44,8 +45,7 @@ def splice(rtl):
     """All files into the folder `rtl`, a copy of the RTL; returns how many assertions there are."""
     for path in sorted((HERE / "in_core").glob("*.sv")):
         module, = rtl.glob(f"*/{path.name}")
-        head, end, tail = module.read_text().rpartition("endmodule")
-        module.write_text(head + assertions(path) + end + tail)
+        module.write_text(spliced(module.read_text(), module.stem, assertions(path)))
     return sum(len(STATEMENT.findall(path.read_text())) for path in (HERE / "in_core").glob("*.sv"))
 
 
