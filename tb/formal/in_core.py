@@ -110,7 +110,7 @@ def campaign(scratch):
          "bar": "all", "ok": failed == 0},
         {"name": "random software and random buses that ended early", "value": good.count(False),
          "bar": "0", "ok": all(good)}]
-    notes = [f"Random software: about {round(SOFTWARE * scale)} runs of the stage `buffers`. "
+    notes = [f"Random software: about {round(SOFTWARE * scale):,} runs of the stage `buffers`. "
              f"Random buses: {buses}, some 300 frames each."]
     return {"figures": figures, "tables": [], "notes": notes}
 
