@@ -9,6 +9,8 @@
   OUT/ipxact/can_<bus>.xml           IP-XACT 1685-2014 components
   OUT/fpga/...                       scripts for the packagers of Vivado, Quartus, Libero
   OUT/lists/...                      file lists
+
+Lists and scripts take the RTL from OUT/rtl, as it is in the archive of make dist.
 """
 import argparse
 import sys
@@ -45,7 +47,8 @@ def flat_files(found, wanted):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", type=Path)
     parser.add_argument("--flat", nargs="+", default=[], metavar="BUS_SIZE")
     arguments = parser.parse_args()
@@ -63,6 +66,8 @@ def main():
     except OSError as error:
         sys.exit(f"package.py: {error.filename}: {error.strerror}")
     print(f"{len(files)} files in {arguments.out}")
+    if not (arguments.out / "rtl/can.f").is_file():
+        print(f"they take the RTL from {arguments.out}/rtl, which is not there: link it or copy it")
 
 
 if __name__ == "__main__":

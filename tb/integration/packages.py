@@ -87,6 +87,19 @@ class Case(unittest.TestCase):
         self.assertEqual(names, design.rtl_files())
 
 
+class Place(Case):
+    """The scripts take the RTL from beside them."""
+
+    def test_without_the_rtl_it_says_what_is_missing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            code, text = design.run(design.ROOT / "tools/package.py", folder)
+            self.assertEqual(code, 0, text)
+            self.assertIn(f"they take the RTL from {folder}/rtl, which is not there", text)
+            (Path(folder) / "rtl").symlink_to(design.ROOT / "rtl")
+            code, text = design.run(design.ROOT / "tools/package.py", folder)
+            self.assertEqual((code, text), (0, f"15 files in {folder}\n"))
+
+
 class Wrappers(Case):
     """tools/pack/wrappers.py reads the interfaces as Yosys does."""
 
