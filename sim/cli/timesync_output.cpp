@@ -106,14 +106,14 @@ std::string to_text(const SyncCase &c) {
 }
 
 void print_sync_head() {
-  fmt::print("{:<34} {:>8} {:>8} {:>8} {:>8}  {:>8} {:>8}\n", "ns", "mean", "sd", "max", "between",
+  fmt::print("{:<40} {:>8} {:>8} {:>8} {:>8}  {:>8} {:>8}\n", "ns", "mean", "sd", "max", "between",
              "goal sd", "goal max");
 }
 
 void print_sync_row(const SyncOutcome &outcome) {
   const SyncFigures &f = outcome.figures;
   const auto &goal = outcome.row.goal;
-  fmt::print("{:<34} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f}  {:>8} {:>8}  {}\n", outcome.row.name,
+  fmt::print("{:<40} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f}  {:>8} {:>8}  {}\n", outcome.row.name,
              f.mean(), f.sd(), f.max(), f.between(),
              goal && goal->sd ? fmt::format("{:.1f}", *goal->sd) : "-",
              goal ? fmt::format("{:.1f}", goal->max) : "-", verdict(outcome));

@@ -46,8 +46,8 @@ SyncTable filters() {
 
 std::vector<SyncTable> axes() {
   return {
-      axis("Clock", {16e6, 25e6, 40e6, 50e6}, "{:g} Hz",
-           [](SyncCase &c, double value) { c.clocks.frequency_hz = value; }),
+      axis("Clock", {16, 25, 40, 50}, "{} MHz",
+           [](SyncCase &c, int value) { c.clocks.frequency_hz = value * 1e6; }),
       axis("Errors of the clocks", {0.5, 100.0}, "+-{} ppm",
            [](SyncCase &c, double value) { c.clocks.spread_ppm = value; }),
       automatic_by_wander(),
@@ -68,10 +68,10 @@ std::vector<SyncTable> axes() {
              c.master_cut = true;
              c.filter = static_cast<std::uint8_t>(value);
            }),
-      axis("Followers in hardware", {16e6, 25e6, 40e6, 50e6}, "{:g} Hz",
-           [](SyncCase &c, double value) {
+      axis("Followers in hardware", {16, 25, 40, 50}, "{} MHz",
+           [](SyncCase &c, int value) {
              c.hardware = true;
-             c.clocks.frequency_hz = value;
+             c.clocks.frequency_hz = value * 1e6;
            }),
   };
 }

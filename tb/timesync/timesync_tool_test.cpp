@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <sstream>
 #include <string>
 
 #include "firmware/tool_run.hpp"
@@ -225,6 +226,25 @@ TEST_F(TimeSync, SweepTakesLengthAndFollowersAlone) {
   const json &one = all["tables"][0]["rows"][0]["case"];
   EXPECT_EQ(one["followers"], 2);
   EXPECT_EQ(one["first_seed"], 3);
+}
+
+// TM-125: figures stand below their headings, whatever a row is called, and clocks are in MHz.
+TEST_F(TimeSync, TablesOfTheSweepAreStraight) {
+  std::istringstream lines(run_tool("timesync --sweep --followers 2 --intervals 3 --seeds 1").out);
+  std::size_t end = 0, rows = 0;  // of the heading `mean`; below it
+  bool clocks = false;
+  for (std::string line; std::getline(lines, line);) {
+    clocks |= line.rfind("16 MHz  ", 0) == 0;
+    if (line.rfind("ns ", 0) == 0) end = line.find("mean") + 4;
+    if (line.empty()) end = 0;
+    if (end == 0 || line.rfind("ns ", 0) == 0) continue;
+    ASSERT_GT(line.size(), end + 1) << line;
+    EXPECT_EQ(line[end - 2], '.') << line;
+    EXPECT_EQ(line[end], ' ') << line;
+    ++rows;
+  }
+  EXPECT_GT(rows, 50u);
+  EXPECT_TRUE(clocks);
 }
 
 }  // namespace
