@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""The instances of the wrappers that the pages print, copied into a user's top, have no warning."""
+"""The instances that the pages print, copied into a user's top, have no warning."""
 
 import re
 import tempfile
@@ -33,6 +33,16 @@ def top_around(module, block):
     return f"module user_top (\n  {f',{chr(10)}  '.join(ports)}\n);\n{block}endmodule\n"
 
 
+# A user's top around the node without a processor of docs/remote.md.
+REMOTE_TOP = """module user_top (
+  input  logic clk_i, input logic rst_ni, input logic usr_req, input logic usr_we,
+  input  logic [3:0] usr_be, input logic [9:0] usr_addr, input logic [31:0] usr_wdata,
+  output logic usr_ready, output logic [31:0] usr_rdata, output logic apply, output logic safe,
+  input  logic can_rxd, output logic can_txd
+);
+"""
+
+
 class DocumentedInstance(unittest.TestCase):
     """Each page, in a folder of its own."""
 
@@ -46,6 +56,8 @@ class DocumentedInstance(unittest.TestCase):
         for module in set(wrappers.BUSES) - {"can_ahb"}:
             with self.subTest(module=module):
                 self.check_top(command, top_around(module, instance_on(PAGES[1], module + " ")))
+        node = instance_on("docs/remote.md", "can_remote ")
+        self.check_top(command, f"{REMOTE_TOP}{node}endmodule\n")
 
     def check_top(self, command, text):
         with tempfile.TemporaryDirectory() as name:
