@@ -17,6 +17,9 @@ on      = $(if $(filter-out 0 1,$($1))$(word 2,$($1)),$\
             $(error $1 is '$($1)'; allowed: 0 and 1),$(filter 1,$($1)))
 # Asked here, so that a mistake is told before anything is built or removed.
 options := $(foreach name,ALL SHORT SLURM V,$(if $(call on,$(name)),$(name)))
+# Not given, they have the values above; empty, cmake would take others without a word.
+$(foreach name,JOBS PRESET PREFIX,$(if $(strip $($(name))),,$(error $(name) is empty; allowed: a value, or no $(name))))
+$(if $(filter ~%,$(PREFIX)),$(error PREFIX is '$(PREFIX)'; allowed: a path without ~, which only shells replace))
 QUIET   := tools/quiet.sh$(if $(filter V,$(options)), --show)
 
 .DEFAULT_GOAL := help

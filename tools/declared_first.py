@@ -9,6 +9,11 @@ import re
 import sys
 from pathlib import Path
 
+sys.dont_write_bytecode = True
+
+# ruff: noqa: E402  (no folder of bytecode beside the sources)
+from plain_end import run
+
 COMMENT = re.compile(r"//.*")
 PORTS_END = re.compile(r"\);")
 DECLARATION = re.compile(r"\s*(?:logic|int|state_e|\w+_pkg::\w+_t)\b(?:\s*\[[^\]]*\])*\s+([^;]*)")
@@ -62,4 +67,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

@@ -27,6 +27,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 # ruff: noqa: E402  (the path must be set first)
 from pack.wrappers import ROOT, rtl_files
+from plain_end import run
 from synth.families_page import render
 
 FOLDER = ROOT / "tools/synth/families"
@@ -190,4 +191,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

@@ -8,8 +8,8 @@ is cited, or, with --check, docs/flexcan-rows.md is not what this script would w
 a citation: test_plan.py.
 """
 import re
-import sys
 
+from plain_end import run
 from test_plan import ROOT, Plan, main
 
 PLAN = Plan(noun="row", file=ROOT / "tb/flexcan.yaml", page=ROOT / "docs/flexcan-rows.md",
@@ -17,4 +17,4 @@ PLAN = Plan(noun="row", file=ROOT / "tb/flexcan.yaml", page=ROOT / "docs/flexcan
             heading="FlexCAN rows and their tests", command="make rows")
 
 if __name__ == "__main__":
-    sys.exit(main(PLAN, __doc__))
+    run(lambda: main(PLAN, __doc__))

@@ -10,6 +10,11 @@ import re
 import sys
 from pathlib import Path
 
+sys.dont_write_bytecode = True
+
+# ruff: noqa: E402  (no folder of bytecode beside the sources)
+from plain_end import run
+
 # From the bottom up: a folder includes only from itself and from those before it. Data flows the
 # same way: clock, bit, frame, files of recordings, nodes, judges, what a user wants, what came out.
 LAYERS = ("version", "bus", "model", "trace", "signals", "node", "judge", "timing", "scenario",
@@ -47,4 +52,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

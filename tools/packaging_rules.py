@@ -22,6 +22,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 # ruff: noqa: E402  (the path must be set first)
 from pack.wrappers import ROOT, rtl_files
+from plain_end import run
 from test_plan import TEST, blank_opaque
 
 sys.path.insert(0, str(ROOT / "tb/formal"))
@@ -148,4 +149,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run(main)

@@ -15,6 +15,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 # ruff: noqa: E402  (the path must be set first)
+from plain_end import run
 from regmap import model
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -45,4 +46,4 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    run(lambda: main(sys.argv[1:]))

@@ -14,6 +14,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 # ruff: noqa: E402  (the path must be set first)
+from plain_end import run
 from regmap import c_header, chapter, model, svd, systemverilog, test_table
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -64,4 +65,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run(main)

@@ -5,8 +5,8 @@
 tb/remote/plan.yaml against the tests and writes docs/remote-rules.md.
 """
 import re
-import sys
 
+from plain_end import run
 from test_plan import ROOT, Plan, main
 
 PLAN = Plan(noun="rule", file=ROOT / "tb/remote/plan.yaml", page=ROOT / "docs/remote-rules.md",
@@ -16,4 +16,4 @@ PLAN = Plan(noun="rule", file=ROOT / "tb/remote/plan.yaml", page=ROOT / "docs/re
 
 
 if __name__ == "__main__":
-    sys.exit(main(PLAN, __doc__))
+    run(lambda: main(PLAN, __doc__))

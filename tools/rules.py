@@ -8,8 +8,8 @@ apply is cited, or, with --check, docs/rules.md is not what this script would wr
 a citation: test_plan.py.
 """
 import re
-import sys
 
+from plain_end import run
 from test_plan import ROOT, Plan, main
 
 FAMILIES = "FF|ST|CR|AK|IF|AR|RO|ED|EF|OV|FC|IN|BO|TL|BT|SY|VA|MO|TS|MX|TH|PF"
@@ -20,4 +20,4 @@ PLAN = Plan(noun="rule", file=ROOT / "tb/plan.yaml", page=ROOT / "docs/rules.md"
 
 
 if __name__ == "__main__":
-    sys.exit(main(PLAN, __doc__))
+    run(lambda: main(PLAN, __doc__))

@@ -5,9 +5,9 @@
 tests and writes docs/time-rules.md. Tests and proofs that docs/time-spec.md names have to exist.
 """
 import re
-import sys
 
 import yaml
+from plain_end import run
 from test_plan import ROOT, TEST, Plan, blank_opaque, main
 
 SHOWN_BY = re.compile(r"\*\*\[(TM-\d+)\].*\*Test:\*(.*)")
@@ -58,4 +58,4 @@ PLAN = TimePlan(noun="rule", file=ROOT / "tb/time/plan.yaml", page=ROOT / "docs/
 
 
 if __name__ == "__main__":
-    sys.exit(main(PLAN, __doc__))
+    run(lambda: main(PLAN, __doc__))

@@ -75,6 +75,12 @@ TABLE = [
     ("make -n campaign SLURM=0", 0, '--only "" \n'),
     ("make -n campaign SLURM=1", 0, '--only "" --slurm\n'),
     ("make -n campaign SLURM=no", 2, "SLURM is 'no'; allowed: 0 and 1"),
+    ("make -n install PREFIX=", 2, "PREFIX is empty"),
+    ("make -n install PREFIX=' '", 2, "PREFIX is empty"),
+    ("make -n install PREFIX='~/here'", 2, "PREFIX is '~/here'; allowed: a path without ~"),
+    ("make -n install PREFIX={tmp}/in", 0, "--prefix \"{tmp}/in\""),
+    ("make -n build JOBS=", 2, "JOBS is empty"),
+    ("make -n build PRESET=", 2, "PRESET is empty"),
     ("tools/quiet.sh --show Saying echo hello", 0, "Saying\nhello\n"),
     # What would pass for a success.
     ("tools/install-packages.sh nosuch.txt", 2, "nosuch.txt: no such list"),
@@ -105,6 +111,12 @@ TABLE = [
     # Waveforms.
     ("tools/wave.sh {rel}/build Test7", 0, "waveform: {tmp}/build/waves/x.fst"),
     ("tools/wave.sh {rel}/none Arb", 1, "no test program in {rel}/none/tb; run: make build"),
+    # Output that cannot be written.
+    *((f"bash -c 'tools/{script} >/dev/full'", 1, f"{script.split()[0]}: No space left on device\n")
+      for script in ("profiles.py", "profiles.py small", "flexcan_rows.py --check",
+                     "rules.py --check", "remote_rules.py --check", "time_rules.py --check",
+                     "core_check.py")),
+    ("bash -c 'set -o pipefail; (sleep 1; tools/profiles.py) | true'", 1, ""),
     # Names that are not there.
     ("SEEDS=x OUT={tmp}/none tools/synth.sh", 2, "SEEDS is 'x'; allowed: whole numbers"),
     ("SEEDS=' ' OUT={tmp}/none tools/synth.sh", 2, "SEEDS is ' '; allowed: whole numbers"),
