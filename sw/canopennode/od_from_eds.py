@@ -14,6 +14,7 @@ What is not understood is refused with the section and what is allowed.
 """
 import argparse
 import configparser
+import math
 import pathlib
 import re
 import sys
@@ -24,6 +25,7 @@ TYPES = {0x01: ("bool_t", 1), 0x02: ("int8_t", 1), 0x03: ("int16_t", 2), 0x04: (
          0x05: ("uint8_t", 1), 0x06: ("uint16_t", 2), 0x07: ("uint32_t", 4), 0x08: ("float32_t", 4),
          0x15: ("int64_t", 8), 0x1B: ("uint64_t", 8)}
 VISIBLE_STRING, OCTET_STRING, DOMAIN = 0x09, 0x0A, 0x0F
+LARGEST_REAL32 = (2 - 2**-23) * 2.0**127
 ACCESS = {"ro": "ODA_SDO_R", "const": "ODA_SDO_R", "wo": "ODA_SDO_W", "rw": "ODA_SDO_RW",
           "rwr": "ODA_SDO_RW", "rww": "ODA_SDO_RW"}
 # Counters that CANopen.c asks for: name, and the objects of which one means that there is one.
@@ -56,6 +58,8 @@ class Variable:
             self.ctype, self.size = TYPES[self.type]
         elif self.type in (VISIBLE_STRING, OCTET_STRING):
             longest = number(values, ";Length", section, len(self.default))
+            if longest < 0:
+                raise EdsError(f"[{section}] ;Length={longest}: 0 or more bytes")
             self.ctype, self.size = "char", max(longest, 1)
         elif self.type == DOMAIN:
             self.ctype, self.size = None, 0
@@ -88,7 +92,7 @@ class Variable:
                 raise EdsError(f"[{self.section}] DefaultValue is longer than ;Length={self.size}")
             return "{" + ", ".join(f"0x{ord(c):02X}" for c in self.default + "\0") + "}"
         if self.ctype == "float32_t":
-            return f"{float(self.default or 0)}f"
+            return f"{self._real()}f"
         text = re.sub(r"\$NODEID\s*\+?|\+\s*\$NODEID", "", self.default, flags=re.I).strip() or "0"
         try:
             value = int(text, 0)
@@ -98,6 +102,15 @@ class Variable:
         if not low <= value < 1 << (8 * self.size):
             raise EdsError(f"[{self.section}] DefaultValue={self.default}: no {self.ctype}")
         return f"0x{value:0{2 * self.size}X}" if value >= 0 else str(value)
+
+    def _real(self):
+        try:
+            value = float(self.default or 0)
+        except ValueError:
+            value = math.nan
+        if not abs(value) <= LARGEST_REAL32:
+            raise EdsError(f"[{self.section}] DefaultValue={self.default}: no REAL32")
+        return value
 
 
 class Object:
@@ -129,8 +142,19 @@ class Object:
         names = [sub.name for sub in self.subs]
         if self.kind == RECORD and len(set(names)) != len(names):
             raise EdsError(f"[{self.section}]: two sub-objects have one ParameterName")
-        if self.kind == ARRAY and len({(s.ctype, s.attribute()) for s in self.subs[1:]}) != 1:
+        if self.kind == ARRAY:
+            self._check_elements()
+
+    def _check_elements(self):
+        """They lie one behind the other, each as long as the first."""
+        if len({(s.ctype, s.attribute()) for s in self.subs[1:]}) != 1:
             raise EdsError(f"[{self.section}]: elements of an ARRAY have one type and one access")
+        if any(s.type not in TYPES for s in self.subs[1:]):
+            raise EdsError(f"[{self.section}]: elements of an ARRAY are numbers; others go into a "
+                           "RECORD")
+        if self.subs[-1].sub != len(self.subs) - 1:
+            raise EdsError(f"[{self.section}]: sub-indices of an ARRAY follow each other, 0 to "
+                           f"{len(self.subs) - 1}; here the last one is {self.subs[-1].sub}")
 
     @property
     def group(self):
@@ -233,6 +257,8 @@ def read_objects(path):
         count = number(eds[section], "SupportedObjects", section) if section in eds else 0
         indices += [number(eds[section], str(i + 1), section) for i in range(count)]
     for index in indices:
+        if indices.count(index) > 1:
+            raise EdsError(f"object 0x{index:04X} is listed twice")
         if f"{index:04X}" not in eds:
             raise EdsError(f"object 0x{index:04X} is listed, but has no section [{index:04X}]")
     return [Object(index, eds) for index in sorted(indices)]
@@ -299,9 +325,14 @@ def main():
     except (EdsError, OSError, configparser.Error, UnicodeDecodeError) as error:
         print(f"od_from_eds.py: {arguments.eds}: {error}", file=sys.stderr)
         return 2
-    arguments.out.mkdir(parents=True, exist_ok=True)
-    for name, text in texts.items():
-        (arguments.out / name).write_text(text, encoding="ascii")
+    try:
+        arguments.out.mkdir(parents=True, exist_ok=True)
+        for name, text in texts.items():
+            (arguments.out / name).write_text(text, encoding="ascii")
+    except OSError as error:
+        print(f"od_from_eds.py: {error.filename or arguments.out}: {error.strerror}",
+              file=sys.stderr)
+        return 2
     return 0
 
 

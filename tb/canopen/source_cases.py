@@ -99,6 +99,16 @@ class CanopenDictionary(unittest.TestCase):
                 ("2=0x2006", "2=0x2007", "object 0x2007 is listed, but has no section"),
                 ("DataType=0x0007", "DataType=0x0020", "[1000] DataType=0x0020"),
                 ("AccessType=rw\nDefaultValue=-2", "AccessType=ro\nDefaultValue=-2", "one access"),
+                ("2=0x2006", "2=0x1000", "object 0x1000 is listed twice"),
+                ("[2006sub2]", "[2006sub5]", "follow each other, 0 to 2; here the last one is 5"),
+                ("DataType=0x0003", "DataType=0x0009", "elements of an ARRAY are numbers"),
+                ("DataType=0x0003", "DataType=0x000F", "elements of an ARRAY are numbers"),
+                ("DataType=0x0007", "DataType=0x0009\n;Length=-1", "[1000] ;Length=-1: 0 or more"),
+                ("DataType=0x0007", "DataType=0x0008", "DefaultValue=0x00020192: no REAL32"),
+                ("0x0007\nAccessType=ro\nDefaultValue=0x00020192",
+                 "0x0008\nAccessType=ro\nDefaultValue=1e39", "DefaultValue=1e39: no REAL32"),
+                ("0x0007\nAccessType=ro\nDefaultValue=0x00020192",
+                 "0x0008\nAccessType=ro\nDefaultValue=inf", "DefaultValue=inf: no REAL32"),
                 ("ParameterName=Gains\n", "", "[2006]: ParameterName is missing")):
             with self.subTest(message):
                 self.refused(old, new, message)
@@ -107,6 +117,12 @@ class CanopenDictionary(unittest.TestCase):
         code, text = generate(self.folder / "none.eds", self.folder)
         self.assertEqual(code, 2)
         self.assertIn("No such file", text)
+
+    def test_a_folder_that_cannot_be_written(self):
+        (self.folder / "file").touch()
+        (self.folder / "small.eds").write_text(SMALL, encoding="ascii")
+        self.assertEqual(generate(self.folder / "small.eds", self.folder / "file"),
+                         (2, f"od_from_eds.py: {self.folder}/file: File exists\n"))
 
     def read_back(self, eds):
         """What CANopenNode's functions find in the dictionary of a data sheet, compiled for
