@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Parameters of can_remote by the profile's name (section 10 of docs/remote-node.md), and of two variants that
-# tests have.
+# Parameters of can_remote by the profile's name (section 10 of docs/remote-node.md), and of two
+# variants that tests have.
 set(remote_small "")
 set(remote_standard NumProd=8 NumMap=8 TxDepth=4 Protect=1)
 set(remote_full ${remote_standard} Block=1 AutoRate=1 Counters=1)
