@@ -332,6 +332,10 @@ module can_mailbox #(
   logic [IdxW:0]   eng_cs_row, eng_mask_row;
   logic [IdxW+1:0] copy_row, eng_msg_row;
   logic [31:0]     copy_data;
+  // No copy begins as a byte of the frame being received comes, nor while a word of it waits: a bit
+  // that resynchronisation makes short leaves four clocks to write a byte.
+  logic yields;
+  assign yields = rx_wr_req || rx_byte_we_i;
   can_mb_step #(.NumMb(NumMb)) u_step (
     .clk_i, .rst_ni,
     .ld_req_i(ld_req), .ld_step_i(ld_step), .ld_row_i(ld_row), .ld_word_i(ld_word),
@@ -346,7 +350,7 @@ module can_mailbox #(
     .scan_req_i(scan_req), .scan_lazy_i(scan_lazy), .scan_idx_i(scan_idx), .scan_gnt_o(scan_gnt),
     .req_o(eng_req), .lazy_o(eng_lazy),
     .cs_o(eng_cs), .cs_row_o(eng_cs_row), .msg_row_o(eng_msg_row), .mask_row_o(eng_mask_row),
-    .slot_i(eng_slot), .yield_i(rx_wr_req), .word_i(word),
+    .slot_i(eng_slot), .yield_i(yields), .word_i(word),
     .copy_o(copy), .copy_cs_o(copy_cs), .copy_be_o(copy_be), .copy_off_o(copy_off),
     .copy_end_o(copy_end), .copy_row_o(copy_row),
     .copy_data_o(copy_data));

@@ -54,7 +54,7 @@ module can_mb_step #(
   output logic [IdxW+1:0] msg_row_o,
   output logic [IdxW:0]   mask_row_o,
   input  logic            slot_i,          // 1: the read slot is the engine's
-  input  logic            yield_i,         // 1: can_mb_smb waits to write: begin no copy
+  input  logic            yield_i,         // 1: can_mb_smb waits to write, or will: begin no copy
   input  logic [31:0]     word_i,          // word that the step asked for
   // Write port (can_mb_port): second half of a copy.
   output logic            copy_o,          // 1: a copy writes in this clock
