@@ -61,7 +61,8 @@ module can_mb_load #(
   // Frame presented or on the bus.
   output logic            started_o,     // pulse: buffer cur_idx_o goes on the bus
   output logic [IdxW-1:0] cur_idx_o,     // buffer of the frame presented or on the bus
-  output logic            mine_o,        // 1: frame on the bus, its buffer not rewritten meanwhile
+  output logic            mine_o,        // 1: a frame is on the bus or ends, and its buffer has not
+                                         // been rewritten meanwhile
   // Steps (can_mb_pkg), carried out by can_mb_step.
   output logic            req_o,         // 1: step step_o is wanted
   output logic [2:0]      step_o,
@@ -121,7 +122,7 @@ module can_mb_load #(
                                     || code == can_regs_pkg::MbCsCodeTxAnswering);
   // inactive_o: only an upset makes an inactive buffer the winner. A buffer that was aborted while
   // it was loaded is not reported, because another one is the winner by then.
-  assign mine_o     = on_bus_q && !orphan_q;
+  assign mine_o     = (on_bus_q || end_q) && !orphan_q;
   assign inactive_o = inactive_q;
   assign req_o   = word_q || end_q || state_q == StLow || state_q == StHigh
                 || (state_q == StHead && head_ok);

@@ -43,8 +43,9 @@ module can_mb_stamp #(
   input  logic            mv_cancel_i
 );
   // word_q counts the words to write: 0, 1 row of the own buffer; 2, 3 hidden row. The own buffer
-  // comes first: its end follows one bit after EOF6, where the latest stamps are taken, and busy_o
-  // does not hold it back.
+  // comes first: its end (StepEnd) follows one bit, of five clocks at least, after EOF6, where the
+  // latest stamps are taken, and busy_o does not hold it back. The first word is written before;
+  // what holds back the second also holds back the end.
   logic       write_q, have_q, await_q, copy, own, upper;
   logic [1:0] word_q;
   assign own  = own_i && mine_i;
