@@ -1,13 +1,32 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """The examples of docs/python.md."""
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "python"
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "examples" / "python"
+
+
+class PythonPage(unittest.TestCase):
+    """The programs that the page prints, in its order."""
+
+    def programs(self):
+        page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+        return [subprocess.run([sys.executable, "-B", "-c", program], capture_output=True,
+                               text=True, check=True).stdout
+                for program in re.findall(r"^```python\n(.*?)^```$", page, re.DOTALL | re.M)]
+
+    def test_they_do_what_the_page_says(self):
+        """b wins the arbitration, c reads both; b's error frame and its counter."""
+        module, plug_in = self.programs()
+        self.assertRegex(module, r"(?s)us  b  Frame\(0x100.*us  a  Frame\(0x300.*"
+                                 r"\[Message\(id=0x100, .*Message\(id=0x300, ")
+        self.assertRegex(plug_in, r"ID: 0123 .* 01 02 .*\n.* E .*NodeState\(active, tec 0, rec 8\)")
 
 
 class PythonExample(unittest.TestCase):
