@@ -578,7 +578,7 @@
 /* HELD: A buffer is held. */
 #define VERICAN_TSTAT_HELD_MASK                 0x00020000u
 #define VERICAN_TSTAT_HELD_SHIFT                17u
-/* SLEWING: TSLEW is not worked off. */
+/* SLEWING: A slew is under way, TSLEW is not yet worked off. */
 #define VERICAN_TSTAT_SLEWING_MASK              0x00010000u
 #define VERICAN_TSTAT_SLEWING_SHIFT             16u
 /* SYNC: The follower has changed its state. */
