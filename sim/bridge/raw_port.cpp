@@ -52,7 +52,11 @@ Interface look_at(int fd, const std::string &name) {
   return result;
 }
 
-std::string socket_problem(int error) {
+bool gone_or_down(int error) { return error == ENETDOWN || error == ENODEV || error == ENXIO; }
+
+}  // namespace
+
+std::string can_socket_problem(int error) {
   switch (error) {
     case EAFNOSUPPORT:
     case EPROTONOSUPPORT:
@@ -63,10 +67,6 @@ std::string socket_problem(int error) {
     default: return fmt::format("no CAN socket: {}", std::strerror(error));
   }
 }
-
-bool gone_or_down(int error) { return error == ENETDOWN || error == ENODEV || error == ENXIO; }
-
-}  // namespace
 
 RawCanPort::RawCanPort(std::string interface, const RawPortOptions &options)
     : name_{std::move(interface)}, options_{options} {
@@ -99,7 +99,7 @@ RawCanPort::~RawCanPort() { ::close(fd_); }
 
 void RawCanPort::open_socket() {
   fd_ = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
-  if (fd_ < 0) throw InputError(options_.option + " " + name_, 0, socket_problem(errno));
+  if (fd_ < 0) throw InputError(options_.option + " " + name_, 0, can_socket_problem(errno));
   const int off = 0;
   ::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, &off, sizeof off);
   if (!options_.receives) ::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0);

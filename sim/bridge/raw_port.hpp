@@ -13,6 +13,9 @@
 
 namespace vericansim {
 
+/// What to do where no CAN socket can be opened: socket() has set errno to `error`.
+[[nodiscard]] std::string can_socket_problem(int error);
+
 /// How a RawCanPort treats its interface.
 struct RawPortOptions {
   bool echo = false;     ///< tell the programs when their frames have really left

@@ -12,10 +12,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <deque>
 
+#include "bridge/raw_port.hpp"
 #include "bridge/socketcand_listener.hpp"
 #include "bridge/socketcand_splitter.hpp"
 #include "trace/input_error.hpp"
@@ -29,6 +31,8 @@ class InterfaceLink : public MemoryLink {
  public:
   explicit InterfaceLink(const std::string &name) {
     const int error = verican_remote_socketcan_open(&socket_, name.c_str());
+    if (error == EAFNOSUPPORT || error == EPROTONOSUPPORT)
+      throw InputError("--if", 0, can_socket_problem(error));
     if (error != 0)
       throw InputError("--if", 0,
                        fmt::format("{}: {}; allowed: a CAN interface that is up", in_quotes(name),
