@@ -185,18 +185,21 @@ class Driver(unittest.TestCase):
         groups = [sum(size[name] for name in names) for names in (rest, timed, domain, {"p4"})]
         page = "docs/driver.md"
         self.assertEqual([numbers(row(page, start)[0])[0] for start in (
-            "driver without time", "clock and stamps", "servo, CanTSyn", "messages of P4")], groups)
+            "driver without time", "clock and stamps", "servo, CanTSyn", "messages of P4")],
+            groups, f"{page}: the groups of make size")
         self.assertEqual(numbers(row("README.md", "C driver |")[0]),
                          [round(sum(groups) / 1000, 1), round(sum(groups[1:]) / 1000, 1)])
         self.assertEqual([int(row(page, start)[0]) for start in (
             "`verican_t` |", "`verican_tsyn_t`", "one frame of the ring")],
-            [int(text) for text in re.findall(r"caller: (\d+) bytes", said)])
+            [int(text) for text in re.findall(r"caller: (\d+) bytes", said)],
+            f"{page}: structures, by make size")
         stack = dict(reversed(pair) for pair in re.findall(r"stack +(\d+)  (\w+)$", said, re.M))
         named = [int(stack.pop(f"verican_{name}")) for name in
                  ("self_test", "tsyn_on_frame", "servo_pair")]
         text = (ROOT / page).read_text(encoding="utf-8")
         self.assertEqual(numbers(re.search(r"^Stack: (.*?);", text, re.M)[1]),
-                         [*named, max(int(frame) for frame in stack.values())])
+                         [*named, max(int(frame) for frame in stack.values())],
+                         f"{page}: frames of the stack, by make size")
 
     def test_cost_of_a_pair(self):
         """The table of docs/timesync.md is what the firmware tells."""
@@ -206,7 +209,8 @@ class Driver(unittest.TestCase):
             found = [cells for cells in rows("docs/timesync.md", f"{start} |")
                      if cells[2] != "yes"]  # the other table tells how well
             self.assertEqual([[numbers(cells[at])[0] for at in (1, 2, 4)] for cells in found],
-                             [[*cost[2][name], cost[1][name][1]]], start)
+                             [[*cost[2][name], cost[1][name][1]]],
+                             f"docs/timesync.md, what it costs: {start}")
 
     def cost(self, clocks_per_instruction):
         """Filter -> clocks of a pair, mean and at most."""
