@@ -37,6 +37,7 @@ CAPI=2:
 # sw/profiles.yaml (make lint compares).
 name: verican:ip:can:$version
 description: CAN 2.0 controller with FlexCAN registers on AHB-Lite, APB, AXI4-Lite or Wishbone
+license: Apache-2.0
 
 filesets:
   rtl:

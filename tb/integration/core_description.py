@@ -120,6 +120,14 @@ class CoreDescription(unittest.TestCase):
         version = re.search(r"project\(verican VERSION ([\d.]+)", cmake)[1]
         self.assertEqual(self.core["name"], f"verican:ip:can:{version}")
 
+    def test_licence_is_that_of_the_rtl(self):
+        """PK-50; docs/integration.md says which FuseSoC knows the key."""
+        top = (design.ROOT / "rtl/host/can_ahb.sv").read_text(encoding="utf-8")
+        self.assertEqual(self.core.get("license"),
+                         re.search(r"SPDX-License-Identifier: (\S+)", top)[1])
+        page = (design.ROOT / "docs/integration.md").read_text(encoding="utf-8")
+        self.assertIn("`license:`, so it needs FuseSoC 2.4.4 or newer", page)
+
     def test_parameters_are_those_of_the_top(self):
         """But those that not every tool takes as a number on its command line."""
         rtl = next(wrapper for wrapper in source.wrappers() if wrapper.bus == "ahb").parameters
