@@ -22,6 +22,8 @@ class StatementChecks:
     def __init__(self):
         self.id = None
         self.lengths = {}        # (identifier, signal): bits
+        self.texts = {}          # (identifier, signal, value): its text
+        self.multiplexers = {}   # (identifier, signal): what SG_MUL_VAL_ names
         self.frame_formats = []  # what the file allows for VFrameFormat, if it is an enumeration
         self.checks = {"BO_": self.message, "SG_": self.signal, "VAL_": self.choices,
                        "SIG_VALTYPE_": self.value_type, "SG_MUL_VAL_": self.selection,
@@ -59,6 +61,9 @@ class StatementChecks:
             if re.fullmatch(r"[+-]?\d+", value) and not LEAST_RAW <= int(value) <= MOST_RAW:
                 return (f"value {value} of signal {words[1]} is none of 64 bits; allowed: "
                         f"{LEAST_RAW} to {MOST_RAW}")
+        for value, text in zip(words[2::2], words[3::2]):
+            if self.texts.setdefault((*words[:2], value), text) != text:
+                return f"value {value} of signal {words[1]} has another text already"
         return None
 
     def value_type(self, _, words):
@@ -74,9 +79,12 @@ class StatementChecks:
                     f"value type {words[2]}: {FLOAT_BITS[words[2]]}")
         return None
 
-    @staticmethod
-    def selection(text, words):
+    def selection(self, _, words):
         """SG_MUL_VAL_ <id> <signal> <multiplexer> <first>-<last>, ..."""
+        first = self.multiplexers.setdefault(tuple(words[:2]), words[2:3])
+        if first != words[2:3]:
+            return (f"signal {words[1]} is multiplexed by {' '.join(first)} already; allowed: one "
+                    "multiplexer for a signal")
         for first, last in re.findall(r"(\d+)\s*-\s*(\d+)", " ".join(words[3:])):
             if int(first) > int(last) or int(last) > MOST_RAW:
                 return (f"signal {words[1]} has the range {first}-{last}; allowed: from the "

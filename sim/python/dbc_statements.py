@@ -158,12 +158,30 @@ def with_extended_flag(text):
     return f"{match.group(1)}{int(match.group(2)) | EXTENDED}{text[match.end():]}"
 
 
+def follower_of(keyword, text):
+    """The keyword of a statement that stands in the line of another one, or None."""
+    rest = outside_strings(text)
+    if keyword in ENDED_BY_LINE:
+        return next((word for word in words_of(rest) if word in FORMS), None)
+    return next(filter(None, map(keyword_of, rest.split(";")[1:])), None)
+
+
+def refuse_identifier(line, text, name):
+    """DbcError for the identifier `text` of message `name` if no frame has it."""
+    if text in Places.INDEPENDENT or int(text) & ~EXTENDED <= 0x1FFFFFFF:
+        return
+    raise DbcError(line, f"message {name} has the identifier {text}; allowed: 0 to {0x1FFFFFFF}, "
+                         f"with {EXTENDED} added for an extended one")
+
+
 def refuse_odd(line, keyword, text):
     """DbcError for what canmatrix takes for something else: any byte order but 1 for big-endian,
-    the last of two texts of a value, an identifier below 0."""
+    the last of two texts of a value, an identifier below 0 or of more than 29 bits."""
     words = words_of(text)
-    if keyword == "BO_" and words and not re.fullmatch(r"\d+", words[0]):
-        raise DbcError(line, f"not understood: {text}; allowed: {FORMS['BO_']}")
+    if keyword == "BO_" and words:
+        if not re.fullmatch(r"[0-9]+", words[0]):
+            raise DbcError(line, f"not understood: {text}; allowed: {FORMS['BO_']}")
+        refuse_identifier(line, words[0], " ".join(words[1:2]))
     if keyword == "SG_":
         order = re.search(r"@\s*(\d+)", outside_strings(text))
         if order and order.group(1) not in ("0", "1"):
@@ -179,6 +197,9 @@ def refuse_odd(line, keyword, text):
 def relevant(given):
     """Without what is of no use here, whose mistakes do not matter either."""
     for line, keyword, text in given:
+        if follower := keyword != "NS_" and follower_of(keyword, text):
+            raise DbcError(line, f"{follower} follows {keyword} in one line; allowed: one "
+                                 "statement in a line")
         if keyword not in FORMS:
             continue
         if keyword.startswith("BA_") and attribute_name(text) not in ATTRIBUTES:

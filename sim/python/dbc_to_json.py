@@ -8,6 +8,7 @@ import contextlib
 import io
 import json
 import logging
+import re
 import sys
 
 from dbc_checks import StatementChecks, check_message
@@ -85,6 +86,12 @@ def multiplexing(signal, frame):
             "ranges": [[signal.mux_val, signal.mux_val]]}
 
 
+def unescaped(text):
+    """The text of a string of the file, in which a backslash stands before a quotation mark and
+    before another backslash. Of choices canmatrix has taken the former away already."""
+    return re.sub(r'\\(["\\])', r"\1", text)
+
+
 def signal_json(signal, frame, database):
     return {"name": signal.name,
             "start": signal.get_startbit(bit_numbering=1),
@@ -96,9 +103,9 @@ def signal_json(signal, frame, database):
             "offset": str(signal.offset),
             "minimum": str(signal.min),
             "maximum": str(signal.max),
-            "unit": signal.unit,
+            "unit": unescaped(signal.unit),
             "start_value": str(signal.attribute("GenSigStartValue", db=database, default="0")),
-            "choices": sorted(signal.values.items()),
+            "choices": sorted((raw, unescaped(text)) for raw, text in signal.values.items()),
             "multiplexer": signal.is_multiplexer,
             "multiplexed": multiplexing(signal, frame)}
 

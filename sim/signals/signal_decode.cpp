@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "signals/signal_bits.hpp"
 #include "signals/signal_codec.hpp"
@@ -41,11 +42,28 @@ double rounded(double value, int decimals) {
   return std::abs(value * scale) < kExact ? std::round(value * scale) / scale : value;
 }
 
+/// is_selected() in a frame that has the first `size` bytes of `data`.
+bool is_selected_within(const SignalMessage &message, const Signal &signal, const FrameData &data,
+                        std::size_t size) {
+  if (!signal.selection) return true;
+  const Signal &multiplexer = message.signals[signal.selection->multiplexer];
+  if (bytes_needed(multiplexer) > size) return false;
+  // DBC files select by the bits, whether or not they have a sign.
+  const std::uint64_t raw = bits_of(multiplexer, data) & mask_of(multiplexer);
+  const auto &ranges = signal.selection->ranges;
+  return is_selected_within(message, multiplexer, data, size) &&
+         std::any_of(ranges.begin(), ranges.end(),
+                     [&](const auto &range) { return raw >= range.first && raw <= range.second; });
+}
+
 }  // namespace
 
 SignalValue value_of(const Signal &signal, std::uint64_t raw) {
-  const double physical = number_of(signal, raw) * signal.factor + signal.offset;
-  return {&signal, raw, signal.is_float ? physical : rounded(physical, signal.decimals)};
+  double physical = number_of(signal, raw) * signal.factor + signal.offset;
+  if (!signal.is_float) physical = rounded(physical, signal.decimals);
+  // The sign of what is no number would be printed and means nothing.
+  if (std::isnan(physical)) physical = std::numeric_limits<double>::quiet_NaN();
+  return {&signal, raw, physical};
 }
 
 std::optional<std::string_view> choice_of(const SignalValue &value) {
@@ -56,21 +74,14 @@ std::optional<std::string_view> choice_of(const SignalValue &value) {
 }
 
 bool is_selected(const SignalMessage &message, const Signal &signal, const FrameData &data) {
-  if (!signal.selection) return true;
-  const Signal &multiplexer = message.signals[signal.selection->multiplexer];
-  if (bytes_needed(multiplexer) > data.size()) return false;
-  // DBC files select by the bits, whether or not they have a sign.
-  const std::uint64_t raw = bits_of(multiplexer, data) & mask_of(multiplexer);
-  const auto &ranges = signal.selection->ranges;
-  return is_selected(message, multiplexer, data) &&
-         std::any_of(ranges.begin(), ranges.end(),
-                     [&](const auto &range) { return raw >= range.first && raw <= range.second; });
+  return is_selected_within(message, signal, data, data.size());
 }
 
 std::vector<SignalValue> decode(const SignalMessage &message, const Frame &frame) {
   std::vector<SignalValue> values;
   for (const Signal &signal : message.signals)
-    if (bytes_needed(signal) <= frame.payload_size() && is_selected(message, signal, frame.data))
+    if (bytes_needed(signal) <= frame.payload_size() &&
+        is_selected_within(message, signal, frame.data, frame.payload_size()))
       values.push_back(value_of(signal, bits_of(signal, frame.data)));
   return values;
 }

@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "signals/signal_text.hpp"
+#include "trace/quantity.hpp"
 #include "trace/text.hpp"
 
 namespace vericansim {
@@ -52,7 +53,7 @@ std::string to_text(const SignalReport &report) {
     fmt::format_to(out, "  {:<36} {:>8} {:>14} {:>14} {:>14} {:>14}  {}\n",
                    s.message->name + "." + signal.name, s.count,
                    choice ? std::string(*choice) : number_text(s.last), number_text(s.least),
-                   number_text(s.most), fmt::format("{:.10g}", s.mean()), signal.unit);
+                   number_text(s.most), plain_number(s.mean()), signal.unit);
   }
   return text;
 }

@@ -88,6 +88,7 @@ std::string exact_time(Time time) {
 }
 
 std::string plain_number(double value) {
+  if (std::isnan(value)) return "nan";  // without its sign, which means nothing
   constexpr double kExact = 1e15;
   const bool whole = std::abs(value) < kExact && value == std::trunc(value);
   return whole ? fmt::format("{:.0f}", value + 0.0) : fmt::format("{:.10g}", value);

@@ -96,6 +96,20 @@ TEST(DbcDatabase, UnitsAreReadInBothEncodings) {
   }
 }
 
+TEST(DbcDatabase, StringsStandWithoutTheBackslashesThatHideTheirMarks) {
+  Database database;
+  database.add_text("unit.dbc",
+                    R"(BO_ 1 A: 8 X
+ SG_ S : 0|8@1+ (1,0) [0|0] "5\" \\ \d" X
+VAL_ 1 S 0 "say \"hi\"" 1 "a\\b" 2 "\\" 3 "\d";
+)");
+  const Signal &signal = database.messages()[0]->signals[0];
+  EXPECT_EQ(signal.unit, R"(5" \ \d)");
+  using Choice = std::pair<std::int64_t, std::string>;
+  EXPECT_THAT(signal.choices, testing::ElementsAre(Choice{0, R"(say "hi")"}, Choice{1, R"(a\b)"},
+                                                   Choice{2, R"(\)"}, Choice{3, R"(\d)"}));
+}
+
 /// The message of the InputError that this text gives as file bad.dbc.
 std::string refusal(const std::string &text) {
   return input_error_of([&] {
@@ -211,6 +225,46 @@ TEST(DbcDatabase, OddNumbersAreRefused) {
               HasSubstr("bad.dbc:1: not understood: BO_ -1 M: 8 E; allowed: BO_ <id> <name>"));
   EXPECT_THAT(refusal("BO_ 0x10 M: 8 E\n" + signal),
               HasSubstr("bad.dbc:1: not understood: BO_ 0x10"));
+}
+
+// 29 bits, and bit 31 for the extended format.
+TEST(DbcDatabase, IdentifiersThatNoFrameHasAreRefused) {
+  for (const char *bad :
+       {"536870912", "2684354561", "4294967295", "4294967297", "99999999999999999999999"})
+    EXPECT_EQ(refusal("BO_ " + std::string(bad) + " A: 8 X\n"),
+              "bad.dbc:1: message A has the identifier " + std::string(bad) +
+                  "; allowed: 0 to 536870911, with 2147483648 added for an extended one");
+  for (const char *good : {"0", "2047", "536870911", "2147483648", "2684354559"})
+    EXPECT_EQ(refusal("BO_ " + std::string(good) + " A: 8 X\n"), "no error");
+  EXPECT_EQ(refusal(kMessage + "BO_ 3221225472 VECTOR__INDEPENDENT_SIG_MSG: 0 X\n"), "no error");
+}
+
+// What follows in the line would be left out without a word.
+TEST(DbcDatabase, OneStatementIsInALine) {
+  const std::string s = "SG_ S : 0|32@1- (1,0) [0|0] \"\" X",
+                    t = "SG_ T : 32|8@1+ (1,0) [0|0] \"\" X";
+  EXPECT_EQ(refusal("BO_ 1 A: 8 X " + s + "\n"),
+            "bad.dbc:1: SG_ follows BO_ in one line; allowed: one statement in a line");
+  EXPECT_THAT(refusal(kMessage + " " + s + " " + t + "\n"),
+              HasSubstr("bad.dbc:2: SG_ follows SG_"));
+  EXPECT_THAT(refusal("VERSION \"\" " + kMessage), HasSubstr("bad.dbc:1: BO_ follows VERSION"));
+  EXPECT_THAT(refusal("CM_ \"x\"; " + kMessage), HasSubstr("bad.dbc:1: BO_ follows CM_"));
+  EXPECT_THAT(refusal_after_signal(t + "\nSIG_VALTYPE_ 1 T : 0; SIG_VALTYPE_ 1 S : 1;"),
+              HasSubstr("bad.dbc:4: SIG_VALTYPE_ follows SIG_VALTYPE_"));
+  EXPECT_EQ(refusal_after_signal("CM_ SG_ 1 S \"; BO_ 2\"; // BO_ 3"), "no error");
+}
+
+TEST(DbcDatabase, StatementsThatContradictEachOtherAreRefused) {
+  EXPECT_THAT(refusal_after_signal("VAL_ 1 S 1 \"a\" ;\nVAL_ 1 S 2 \"b\" 1 \"c\" ;"),
+              HasSubstr("bad.dbc:4: value 1 of signal S has another text already"));
+  EXPECT_EQ(refusal_after_signal("VAL_ 1 S 1 \"a\" ;\nVAL_ 1 S 2 \"b\" 1 \"a\" ;"), "no error");
+  EXPECT_THAT(refusal_after_signal(" SG_ M M : 32|8@1+ (1,0) [0|0] \"\" X\n"
+                                   " SG_ N m1M : 40|8@1+ (1,0) [0|0] \"\" X\n"
+                                   " SG_ T m1 : 48|8@1+ (1,0) [0|0] \"\" X\n"
+                                   "SG_MUL_VAL_ 1 N M 1-1;\nSG_MUL_VAL_ 1 T M 1-1;\n"
+                                   "SG_MUL_VAL_ 1 T N 2-2;"),
+              HasSubstr("bad.dbc:8: signal T is multiplexed by M already; allowed: one multiplexer "
+                        "for a signal"));
 }
 
 TEST(DbcDatabase, OneIdentifierHasOneMessage) {

@@ -57,6 +57,16 @@ TEST(SignalDecode, FloatsOfBothSizes) {
               ElementsAre(Pair(testing::_, "-129.448")));
 }
 
+// IEEE 754: exponent all ones, fraction not 0; the sign bit of what is no number has no meaning.
+TEST(SignalDecode, WhatIsNoNumberHasNoSign) {
+  EXPECT_THAT(texts_in("Floats", frame_of({0x00, 0x00, 0xC0, 0xFF, 0x7F, 0xC0, 0, 0})),
+              ElementsAre(Pair("Single", "nan V"), Pair("SingleMotorola", "nan")));
+  EXPECT_THAT(texts_in("Double", frame_of({0, 0, 0, 0, 0, 0, 0xF8, 0xFF})),
+              ElementsAre(Pair(testing::_, "nan")));
+  EXPECT_THAT(texts_in("Double", frame_of({0, 0, 0, 0, 0, 0, 0xF0, 0xFF})),
+              ElementsAre(Pair(testing::_, "-inf")));
+}
+
 // The example of CSS Electronics' introduction to J1939: SPN 190 of EEC1, 68 13 is 621 rpm.
 TEST(SignalDecode, EngineSpeedOfEec1) {
   EXPECT_THAT(texts_in("EEC1", frame_of({0xFF, 0xFF, 0xFF, 0x68, 0x13, 0xFF, 0xFF, 0xFF})),
@@ -106,6 +116,17 @@ TEST(SignalDecode, ShortFramesHoldTheirSignals) {
   remote.remote = true;
   remote.dlc = 8;
   EXPECT_TRUE(decode(message("EngineData"), remote).empty());
+}
+
+// The multiplexer is not in the frame, so that nothing is selected, whatever lies behind its end.
+TEST(SignalDecode, AMultiplexerBehindTheEndOfAFrameSelectsNothing) {
+  Database database;
+  database.add_text("short.dbc",
+                    "BO_ 1 A: 8 X\n SG_ K M : 16|8@1+ (1,0) [0|0] \"\" X\n"
+                    " SG_ T m0 : 0|8@1+ (1,0) [0|0] \"\" X\n");
+  const SignalMessage &message = *database.messages()[0];
+  EXPECT_EQ(to_text(message, decode(message, frame_of({7, 0}))), "A()");
+  EXPECT_EQ(to_text(message, decode(message, frame_of({7, 0, 0}))), "A(K: 0, T: 7)");
 }
 
 TEST(SignalEncode, WhatIsGivenAndStartValuesOfTheRest) {

@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "scenario/scenario.hpp"
 #include "scenario/scenario_warnings.hpp"
 #include "simulation/expectations.hpp"
@@ -52,6 +54,7 @@ TEST(Quantity, EverythingElseIsRefused) {
 TEST(Quantity, NumbersInMessagesHaveTheirDigits) {
   EXPECT_EQ(plain_number(0), "0");
   EXPECT_EQ(plain_number(-0.0), "0");
+  EXPECT_EQ(plain_number(-std::numeric_limits<double>::quiet_NaN()), "nan");
   EXPECT_EQ(plain_number(1e6), "1000000");
   EXPECT_EQ(plain_number(-12'345'678'901'234), "-12345678901234");
   EXPECT_EQ(plain_number(87.5), "87.5");
