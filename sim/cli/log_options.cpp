@@ -80,6 +80,9 @@ CanLog read_and_warn(const std::string &path) {
   CanLog log = read_log(path);
   for (const std::string &text : log.warnings)
     print_error("verican: warning: {}: {}\n", path, text);
+  if (const auto step = first_step_back(log))
+    print_error("verican: warning: {}: frame {} is {} before frame {}\n", path, step->frame,
+                readable_time(step->by), step->frame - 1);
   return log;
 }
 
@@ -94,10 +97,6 @@ SelectedLog read_selected(const std::string &path, const LogSelection &selection
   SelectedLog result;
   result.whole = read.entries.size();
   result.step_back = first_step_back(read);
-  if (result.step_back)
-    print_error("verican: warning: {}: frame {} is {} before frame {}\n", path,
-                result.step_back->frame, readable_time(result.step_back->by),
-                result.step_back->frame - 1);
   result.log = filtered(std::move(read), filter, path);
   result.interfaces = interfaces_of(result.log);
   return result;

@@ -52,7 +52,7 @@ struct SelectedLog {
   [[nodiscard]] std::string why_empty() const;
 };
 
-/// read_log() that tells its warnings on standard error.
+/// read_log() that tells its warnings, and where times first go back, on standard error.
 [[nodiscard]] CanLog read_and_warn(const std::string &path);
 
 /// Reads `path`. Unless `several`, a recording of several interfaces needs a choice. Times that go

@@ -14,6 +14,7 @@
 #include "trace/candump.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
+#include "trace/log_convert.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -47,16 +48,17 @@ int signals(const SignalsOptions &options) {
   add_file(outputs, "--csv", options.csv);
   claim_files(inputs, outputs);
   const CanLog log = read_and_warn(options.log);
+  const std::int64_t start_ns = written_start_ns(log);
   const bool lines = !options.json && !options.table && options.csv.empty();
   std::unique_ptr<SignalCsv> csv;
-  if (!options.csv.empty()) csv = std::make_unique<SignalCsv>(options.csv, log.start_ns);
+  if (!options.csv.empty()) csv = std::make_unique<SignalCsv>(options.csv, start_ns);
   SignalStatistics statistics{database};
   Json list = Json::array();
   for (const LogEntry &entry : log.entries) {
     const DecodedFrame decoded = decode(*database, entry.frame);
     statistics.add(decoded.message, decoded.values);
     if (csv) csv->write(entry, decoded);
-    if (lines) fmt::print("{}\n", line_of(entry, log.start_ns, decoded));
+    if (lines) fmt::print("{}\n", line_of(entry, start_ns, decoded));
     if (options.json) list.push_back(json_of(entry, decoded));
   }
   if (csv) csv->finish();

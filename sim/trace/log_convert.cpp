@@ -109,12 +109,6 @@ std::string bytes_of(const CanLog &log, LogFormat format, const std::string &pat
   return std::move(text).str();
 }
 
-/// Without a time of day the first classical frame is at 0, and what lies before it would have
-/// times that no format holds: the file begins with it then.
-void begin_with_the_earliest(CanLog &log) {
-  log.start_ns = std::max(log.start_ns, -log.earliest() / kNanosecond);
-}
-
 /// Reads the new file. If it is refused, who wrote it is to blame; its lines lie nowhere.
 CanLog read_again(const std::string &bytes, LogFormat format, const std::string &path) {
   try {
@@ -194,13 +188,17 @@ void compare_times(const std::vector<Item> &written, const std::vector<Item> &re
 
 }  // namespace
 
+std::int64_t written_start_ns(const CanLog &log) {
+  return std::max(log.start_ns, -log.earliest() / kNanosecond);
+}
+
 Conversion convert(const CanLog &log, LogFormat format, const std::string &path) {
   Conversion result;
   Losses losses;
   CanLog fitting = that_fits(log, traits_of(format), losses);
   const bool absolute = fitting.start_ns != 0;
   // A trc file without a time of day has times since its own first entry.
-  if (format != LogFormat::kTrc) begin_with_the_earliest(fitting);
+  if (format != LogFormat::kTrc) fitting.start_ns = written_start_ns(fitting);
   result.bytes = bytes_of(fitting, format, path);
   // A file of some formats without a frame is no file of that format to a reader.
   const bool empty = fitting.entries.empty() && fitting.others.empty();

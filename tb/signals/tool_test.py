@@ -28,6 +28,22 @@ class Signals(ToolCase):
         path.write_text("".join(f"({1 + i}.000000) can0 {f}\n" for i, f in enumerate(frames)))
         return path
 
+    def test_times_before_the_first_frame_without_a_time_of_day(self):
+        """PCAN-View 1.1: ms since the start; the lines begin with the earliest one."""
+        path = self.path / "back.trc"
+        path.write_text(";$FILEVERSION=1.1\n  1) 100.0 Rx 0200 2 01 7D\n"
+                        "  2) 50.0 Rx 0200 2 01 7C\n  3) 40.5 Rx 0123 0\n")
+        result = self.tool("signals", path, "--dbc", DBC)
+        self.assertEqual(result.stderr, f"verican: warning: {path}: frame 2 is 50.000 ms before "
+                                        "frame 1\n")
+        self.assertEqual([line.split()[0] for line in result.stdout.splitlines()],
+                         ["(0000000000.059500)", "(0000000000.009500)", "(0000000000.000000)"])
+        table = self.path / "signals.csv"
+        self.passes("signals", path, "--dbc", DBC, "--csv", table)
+        with open(table, encoding="utf-8") as file:
+            times = [row["time"] for row in csv.DictReader(file)]
+        self.assertEqual(sorted(set(times)), ["0.009500000", "0.059500000"])
+
     def scenario(self, old, new):
         """The example with a part replaced; a line of its own for each key that is of interest."""
         text = pathlib.Path(SCENARIO).read_text()
