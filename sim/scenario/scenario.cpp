@@ -60,6 +60,12 @@ void parse_clock(YamlMap &map, ClockConfig &clock) {
   map.with("wander", [&](const YamlValue &v) { parse_wander(v, clock); });
 }
 
+/// Of a core whose clock is that of its board.
+void refuse_clock(YamlMap &map) {
+  for (const char *key : {"clock", "ppm", "phase", "wander"})
+    map.with(key, [](const YamlValue &v) { v.fail("is that of the board; allowed: there alone"); });
+}
+
 void parse_link(YamlMap &map, Link &link) {
   map.with("cable", [&](const YamlValue &v) { link.cable = cable_delay(v.length(10'000)); });
   map.with("delay", [&](const YamlValue &v) {
@@ -97,6 +103,9 @@ void parse_software(YamlMap &map, NodeSpec &node) {
     if (v.text() != "host" && v.text() != "none") v.refuse("host, none");
     node.software = v.text() == "host";
   });
+}
+
+void parse_buffers(YamlMap &map, NodeSpec &node) {
   map.with("tx_buffers", [&](const YamlValue &v) {
     node.host.tx_buffers = static_cast<unsigned>(v.integer(1, 62));
   });
@@ -105,7 +114,8 @@ void parse_software(YamlMap &map, NodeSpec &node) {
 // A node that hears and says nothing.
 void parse_monitor(YamlMap &map, HostConfig &host) {
   map.with("monitor", [&](const YamlValue &v) {
-    if (v.boolean()) host.listen_only = true;
+    if (map.find("listen_only")) v.fail("'listen_only' is given too; allowed: one of them");
+    host.listen_only = v.boolean();
   });
 }
 
@@ -143,17 +153,21 @@ NodeSpec parse_node(const YamlValue &value, const Scenario &scenario) {
   parse_clock(map, node.clock);
   parse_link(map, node.link);
   node.role = parse_role(map, scenario);
+  const bool plain = std::holds_alternative<TrafficRole>(node.role);
+  if (plain) parse_software(map, node);
   if (node.hosted()) parse_host(map, node);
-  if (std::holds_alternative<TrafficRole>(node.role)) {
-    parse_software(map, node);
+  if (node.hosted() && plain) {
+    parse_buffers(map, node);
     parse_monitor(map, node.host);
   }
   parse_bit(map, node, scenario.bitrates);
   if (!std::holds_alternative<RemoteRole>(node.role)) parse_mailboxes(map, node);
   map.finish();
-  if (const auto *second = std::get_if<SecondCoreRole>(&node.role))
+  if (const auto *second = std::get_if<SecondCoreRole>(&node.role)) {
+    refuse_clock(map);
     for (const NodeSpec &board : scenario.nodes)
       if (board.name == second->board) node.clock = board.clock;
+  }
   check_buffers(value, node);
   return node;
 }

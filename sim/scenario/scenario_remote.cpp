@@ -124,6 +124,7 @@ void parse_producer(const YamlValue &value, unsigned k, Settings &settings) {
   unsigned gap = 0;
   map.with("period", [&](const YamlValue &v) {
     period = units(v, kMillisecond, 0xFFFF);
+    if (period == 0) v.refuse("1 ms or more, as a producer with a period of 0 is never due");
     mode |= 0x10;
   });
   map.with("triggers", [&](const YamlValue &v) {
@@ -206,6 +207,22 @@ void parse_config(const YamlValue &value, RemoteRole &role) {
   parse_table(map, "producers", role.config.num_prod, settings, parse_producer);
   parse_table(map, "map", role.config.num_map, settings, parse_map_entry);
   map.finish();
+}
+
+/// Its bytes beside those of `memory`, each of which is given once.
+void add_config(const YamlValue &value, RemoteRole &role) {
+  RemoteRole configured = role;
+  configured.memory.clear();
+  parse_config(value, configured);
+  for (auto &[at, bytes] : configured.memory) add_bytes(value, at, std::move(bytes), role.memory);
+}
+
+/// `number` is that of the node; its place in the memory must not say another one.
+void refuse_number_in_memory(const YamlValue &number, const RemoteRole &role) {
+  for (const auto &[first, bytes] : role.memory)
+    if (first <= remote_map::kNode && remote_map::kNode < first + bytes.size())
+      number.fail(fmt::format("'memory' gives it, too, at 0x{:X}; allowed: one of them",
+                              remote_map::kNode));
 }
 
 /// What user logic may set up before the start (RN-62): memory, configuration and tables.
@@ -299,7 +316,8 @@ RemoteRole parse_remote(const YamlValue &value, YamlMap &map) {
            [&](const YamlValue &v) { role.number = number(v, role.config.highest_number()); });
   map.with("made_of", [&](const YamlValue &v) { parse_body(v, role); });
   map.with("memory", [&](const YamlValue &v) { parse_memory(v, role); });
-  map.with("config", [&](const YamlValue &v) { parse_config(v, role); });
+  if (const auto own = map.find("number")) refuse_number_in_memory(*own, role);
+  map.with("config", [&](const YamlValue &v) { add_config(v, role); });
   return role;
 }
 

@@ -74,7 +74,10 @@ void parse_share(const YamlValue &value, ReplayRole &role) {
 ReplayRole parse_replay(const YamlValue &value, YamlMap &map) {
   ReplayRole role;
   role.file = file_of(value);
-  map.with("channel", [&](const YamlValue &v) { role.channel = v.text(); });
+  map.with("channel", [&](const YamlValue &v) {
+    role.channel = v.text();
+    if (role.channel.empty()) v.refuse("the name of an interface, or no 'channel' for all of them");
+  });
   map.with("start", [&](const YamlValue &v) { role.start = v.time(0, kLongestTime); });
   map.with("from", [&](const YamlValue &v) { role.from = v.time(0, kLongestTime); });
   map.with("to", [&](const YamlValue &v) { role.to = v.time(role.from, kLongestTime); });

@@ -67,7 +67,7 @@ std::string host_text(const HostConfig &host) {
 
 std::string node_text(const NodeSpec &node) {
   std::string text = "  - {name: " + yaml_text(node.name) + role_text(node);
-  text += clock_text(node.clock);
+  if (!std::holds_alternative<SecondCoreRole>(node.role)) text += clock_text(node.clock);
   const auto delay = [&](const char *key, Time value) {
     if (value != 0) text += fmt::format(", {}: {}", key, exact_time(value));
   };

@@ -86,6 +86,16 @@ TEST(ScenarioRemote, MistakesAreToldWithTheirPlace) {
   EXPECT_THAT(message(", memory: {0xFBF: 01 02}"), HasSubstr("1 to 1 bytes"));
   EXPECT_THAT(message(", memory: {0xDFF: 01 02}"), HasSubstr("1 to 1 bytes"));
   EXPECT_THAT(message(", memory: {0x20: 123}"), HasSubstr("hexadecimal bytes"));
+  EXPECT_THAT(message(", number: 6, memory: {0xEFF: 01}"), HasSubstr("is no address"));
+  EXPECT_THAT(message(", number: 6, memory: {0xF00: 05 01}"),
+              HasSubstr("nodes[1].number: 'memory' gives it, too, at 0xF00; allowed: one of them"));
+  EXPECT_EQ(message(", memory: {0xF00: 05 01}"), "no error");
+  EXPECT_THAT(message(", memory: {0xF01: 05 07 08}, config: {tell_writes: true}"),
+              HasSubstr("nodes[1].config: byte 0xF01 is given already; allowed: each byte once"));
+  EXPECT_THAT(message(", memory: {0xF00: 05 01}, config: {tell_writes: true}"),
+              HasSubstr("config: byte 0xF01 is given already"));
+  EXPECT_THAT(message(", config: {producers: [{send: status, length: 1, period: 0 ms}]}"),
+              HasSubstr("producers[0].period: '0 ms' is not allowed; allowed: 1 ms or more"));
   EXPECT_THAT(message(", config: {watchdog: 1.5 ms}"), HasSubstr("a multiple of 1 ms"));
   EXPECT_THAT(message(", config: {watchdog: 66 s}"), HasSubstr("config.watchdog"));
   EXPECT_THAT(message(", config: {life: 15 ms}"), HasSubstr("a multiple of 10 ms"));

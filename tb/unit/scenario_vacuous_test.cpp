@@ -172,6 +172,32 @@ TEST(VacuousScenario, WhatANodeDoesNotHaveIsRefused) {
             "no error");
 }
 
+// Keys of a node that another key makes void.
+TEST(VacuousScenario, KeysOfANodeThatNobodyObeysAreRefused) {
+  const auto node = [](const std::string &keys) {
+    return input_error_of([&] {
+      return parse_scenario("s.yaml",
+                            "nodes:\n  - {name: f, firmware: f.elf}\n  - {name: n" + keys + "}\n");
+    });
+  };
+  for (const std::string key : {"tx_buffers: 2", "filters: [{id: 1}]", "listen_only: true",
+                                "loop_back: true", "bus_off_recovery: never", "monitor: true"})
+    EXPECT_THAT(node(", software: none, " + key),
+                HasSubstr("s.yaml:3: nodes[1]: unknown key '" + key.substr(0, key.find(':'))));
+  EXPECT_EQ(node(", software: none, sjw: 1, mailboxes: 16"), "no error");
+  EXPECT_EQ(node(", monitor: true, listen_only: false"),
+            "s.yaml:3: nodes[1].monitor: 'listen_only' is given too; allowed: one of them");
+  EXPECT_EQ(node(", monitor: true"), "no error");
+  for (const std::string key : {"clock: 16 MHz", "ppm: 5", "phase: 1 ns"})
+    EXPECT_EQ(node(", second_core_of: f, " + key),
+              "s.yaml:3: nodes[1]." + key.substr(0, key.find(':')) +
+                  ": is that of the board; allowed: there alone");
+  EXPECT_EQ(node(", second_core_of: f, cable: 1 m"), "no error");
+  EXPECT_THAT(node(", replay: a.log, channel: ''"),
+              HasSubstr("s.yaml:3: nodes[1].channel: '' is not allowed; allowed: the name of an "
+                        "interface"));
+}
+
 // What firmware prints: a list that is empty asks for nothing.
 TEST(VacuousFirmware, IsRefused) {
   const auto of_firmware = [](const std::string &expectation) {
