@@ -8,12 +8,14 @@
   logic [2:0] f_read_q;                  // the last three clocks: a read of insertion or engine
   logic       f_mark;                    // a mark may be asked for
   logic [2:0] f_received, f_since;
+  (* anyseq *) logic f_comes;            // can_mb_smb is given a byte of the frame received
+  logic       f_came_q, f_byte_q;        // it asks for that byte: in the first clock, in later ones
   logic [1:0] f_words;                   // granted of words of the frame received in a row
   logic [5:0] f_engine, f_insertion;     // clocks that a wish has waited
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {f_ran, f_new, f_slot_q, f_read_q, f_eng_cs_q, f_wrote_q, f_engine, f_insertion} <= '0;
-      {f_mark, f_received, f_since, f_words} <= '0;
+      {f_mark, f_received, f_since, f_words, f_came_q, f_byte_q} <= '0;
     end else begin
       f_ran       <= 1'b1;
       f_new       <= ready_o && (cmd_rd_i || cmd_wr_i);
@@ -22,6 +24,8 @@
       f_mark      <= rd_done_o || (f_mark && !serviced_gnt_o);
       f_received  <= !rx_wr_req_i || rx_wr_gnt_o ? 3'd0 : f_received + 3'd1;
       f_since     <= !rx_wr_req_i ? 3'd0 : f_since + 3'(f_since != '1);
+      f_came_q    <= f_comes;
+      f_byte_q    <= (f_came_q || f_byte_q) && !rx_wr_gnt_o;
       f_words     <= !rx_wr_req_i ? 2'd0 : f_words + 2'(rx_wr_gnt_o && f_words != '1);
       if (eng_slot_o) f_eng_cs_q <= eng_cs_i;
       f_read_q    <= {f_read_q[1:0], ins_gnt_o || (eng_slot_o && eng_req_i)};
@@ -41,8 +45,13 @@
     // host.ahb, host.apb, host.axil, host.wb: p_when_ready; one command.
     m_command: assume (!(cmd_rd_i && cmd_wr_i) && (ready_o || !(cmd_rd_i || cmd_wr_i)));
     // can_mb_step: a step's data is there in the clock after its slot; a copy is one of them, and
-    // none begins while a word of the frame received waits.
-    m_copy: assume (!copy_i || (f_slot_q && !f_wrote_q));
+    // none begins while a word of the frame received waits, nor as a byte of it comes
+    // (can_mailbox).
+    m_copy: assume (!copy_i || (f_slot_q && !f_wrote_q && !f_came_q));
+    // can_mb_smb: a byte is asked for from the next clock on. The words of the header, eight bits
+    // before, are written by then, and so is the byte before.
+    m_byte: assume (!(f_came_q || f_byte_q) || rx_wr_req_i);
+    m_alone: assume (!f_came_q || !f_wrote_q);
     // host.lock, p_asked: each mark follows a read of its own.
     m_marks: assume (!serviced_req_i || f_mark);
     // host.lock, p_kind: it writes the memory that its step has asked for.
@@ -101,6 +110,9 @@
       p_no_copy: assert (!(f_slot_q && wr_done_o));
       // flexcan.md 3.5: a word of the frame received waits for four clocks at most.
       p_received: assert (f_received < 3'd5);
+      // flexcan.md 3.5: a byte of it is written in the four clocks in which the engine still has it
+      // if the bit behind it is as short as SJW allows at 8 clocks a bit, five clocks.
+      p_byte: assert (!(f_came_q || f_byte_q) || f_received < 3'd4);
       // FX-6.c: two words in a row, the stamps of a frame as received and as sent, are
       // written in the seven clocks in which TIMER still has that value at 8 clocks a bit.
       p_stamps: assert (!rx_wr_req_i || f_since != 3'd6
