@@ -192,15 +192,17 @@ TEST_F(DriverClock, PulsesBeginAnewBehindAJump) {
   EXPECT_THAT(writes, ElementsAre(Pair(0x1128, 0u), Pair(0x1110, 9u), Pair(0x1114, 0u)));
 }
 
-// TM-40: what a soft reset keeps. A launch of before would hold the mailbox of the next frame; an
-// interrupt of before has nobody to tell.
-TEST_F(DriverClock, InitForgetsLaunchesAndEvents) {
+// TM-03, TM-40: what a soft reset keeps. A launch of before would hold the mailbox of the next
+// frame; an interrupt of before has nobody to tell; a slew of before would change the time that the
+// next user sets.
+TEST_F(DriverClock, InitForgetsLaunchesEventsAndASlew) {
   up();
   const verican_frame_t frame = one_byte();
   core.word(VERICAN_TIMELO_OFFSET) = 1000;
   ASSERT_EQ(verican_send_at(&dev, &frame, 1'000'000, nullptr), VERICAN_OK);
   ASSERT_NE(core.word(VERICAN_TTXMB_OFFSET) & VERICAN_TTXMB_HOLD_MASK, 0u);
   core.word(VERICAN_TCTRL_OFFSET) |= VERICAN_CLOCK_RISING;
+  ASSERT_EQ(verican_clock_slew(&dev, 1'000'000), VERICAN_OK);
   core.on_write = [&](std::uint32_t, std::uint32_t) {
     const bool quiet = (core.word(VERICAN_TCTRL_OFFSET) & VERICAN_CLOCK_EVENTS) == 0;
     EXPECT_TRUE(core.depth > 0 || quiet) << "nobody would clear it";
@@ -211,6 +213,7 @@ TEST_F(DriverClock, InitForgetsLaunchesAndEvents) {
   ASSERT_EQ(verican_init(&dev, &config), VERICAN_OK);
   EXPECT_EQ(core.word(VERICAN_TTXMB_OFFSET), 0u);
   EXPECT_EQ(core.word(VERICAN_TCTRL_OFFSET), VERICAN_TCTRL_RESET);
+  EXPECT_EQ(core.word(VERICAN_TSLEW_OFFSET), 0u);
 }
 
 // TM-03: the clock runs on in disable mode, and would ask a handler that no longer knows the

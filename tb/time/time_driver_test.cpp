@@ -89,9 +89,9 @@ TEST(DriverTime, Clock) {
   EXPECT_EQ(now(), stopped);
 }
 
-// TM-15, TM-91: a time that is set is not changed by a slew that was ordered before; a shift adds
-// to what the slew goes on to do.
-TEST(DriverTime, SettingEndsASlew) {
+// TM-15, TM-91: a time that is set is not changed by a slew that was ordered before, nor is that of
+// a device that is set up anew; a shift adds to what the slew goes on to do.
+TEST(DriverTime, SettingAndSettingUpEndASlew) {
   Domain domain{{0}};
   verican_t *dev = &domain.nodes[0]->dev;
   const auto passes = [&] {  // ns in 4 ms, in which a slew makes 3,906 steps
@@ -108,6 +108,9 @@ TEST(DriverTime, SettingEndsASlew) {
   ASSERT_EQ(verican_clock_shift(dev, -5'000), VERICAN_OK);
   EXPECT_NEAR(passes() - usual, 3'906, 400);
   ASSERT_EQ(verican_clock_set(dev, 0), VERICAN_OK);
+  EXPECT_NEAR(passes() - usual, 0, 300);
+  ASSERT_EQ(verican_clock_slew(dev, 1'000'000), VERICAN_OK);
+  ASSERT_EQ(domain.nodes[0]->up(), VERICAN_OK);
   EXPECT_NEAR(passes() - usual, 0, 300);
 }
 

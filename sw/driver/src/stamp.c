@@ -28,11 +28,13 @@ uint32_t verican_stamp_quiet(const verican_t *dev) {
   return tctrl;
 }
 
+/* A soft reset leaves the clock: what is left of a slew would go on with the new rate. */
 void verican_stamp_init(verican_t *dev, uint32_t xconfig, uint32_t clock_hz) {
   const uint64_t increment = (((uint64_t)1000000000u << 32) + clock_hz / 2u) / clock_hz;
   dev->time_unit = (xconfig & VERICAN_XCONFIG_TIME_MASK) != 0u && increment >> 40 == 0u;
   if (!dev->time_unit) return;
   dev->half_clock = (uint32_t)(increment >> 25);
+  verican_write(dev, VERICAN_TSLEW_OFFSET, 0);
   verican_write_rate(dev, increment);
   const uint32_t tctrl = verican_stamp_quiet(dev);
   dev->pps = (tctrl & VERICAN_PPS_PARTS) == VERICAN_PPS_PARTS;
