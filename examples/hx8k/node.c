@@ -80,28 +80,31 @@ static bool parse_options(int argc, char **argv, options_t *options) {
   return optind + 1 == argc;
 }
 
-static void print_frame(const verican_frame_t *frame, uint32_t bitrate) {
+/* False, with a word of it, if the output cannot be written. */
+static bool print_frame(const verican_frame_t *frame, uint32_t bitrate) {
   const unsigned long long micros = frame->timestamp * 1000000u / bitrate;
   (void)printf("(%llu.%06llu) can0 ", micros / 1000000u, micros % 1000000u);
   (void)printf((frame->flags & VERICAN_FRAME_EXTENDED) != 0 ? "%08X#" : "%03X#",
                (unsigned)frame->id);
   if ((frame->flags & VERICAN_FRAME_REMOTE) != 0) {
-    (void)printf("R%u", frame->dlc);
+    (void)printf("R%u", frame->dlc < 8 ? frame->dlc : 8u);
   } else {
     for (unsigned i = 0; i < frame->dlc && i < 8; ++i) (void)printf("%02X", frame->data[i]);
   }
   (void)putchar('\n');
-  (void)fflush(stdout);
+  if (fflush(stdout) == 0) return true;
+  (void)fprintf(stderr, "node: standard output: %s\n", strerror(errno));
+  return false;
 }
 
 /* A line of the input as a frame; false if it is none. */
 static bool parse_frame(const char *text, verican_frame_t *frame) {
+  static const char hexadecimal[] = "0123456789abcdefABCDEF";
   const char *mark = strchr(text, '#');
-  char *end = NULL;
   *frame = (verican_frame_t){0};
   if (mark == NULL || (mark - text != 3 && mark - text != 8)) return false;
-  frame->id = (uint32_t)strtoul(text, &end, 16);
-  if (end != mark) return false;
+  if (strspn(text, hexadecimal) != (size_t)(mark - text)) return false;
+  frame->id = (uint32_t)strtoul(text, NULL, 16);
   if (mark - text == 8) frame->flags = VERICAN_FRAME_EXTENDED;
   if (mark[1] == 'R') {
     frame->flags |= VERICAN_FRAME_REMOTE;
@@ -110,7 +113,7 @@ static bool parse_frame(const char *text, verican_frame_t *frame) {
   }
   const size_t digits = strlen(mark + 1);
   if (digits > 16 || digits % 2 != 0) return false;
-  if (strspn(mark + 1, "0123456789abcdefABCDEF") != digits) return false;
+  if (strspn(mark + 1, hexadecimal) != digits) return false;
   frame->dlc = (uint8_t)(digits / 2);
   for (size_t i = 0; i < digits / 2; ++i) {
     const char byte[3] = {mark[1 + 2 * i], mark[2 + 2 * i], '\0'};
@@ -132,8 +135,11 @@ static void fill(input_t *input) {
   if (poll(&ready, 1, 0) <= 0) return;
   const ssize_t got =
       read(STDIN_FILENO, input->text + input->used, sizeof input->text - input->used);
-  if (got <= 0) input->ended = true;
   if (got > 0) input->used += (size_t)got;
+  if (got > 0) return;
+  input->ended = true;
+  /* The last line may have no end. */
+  if (input->used != 0 && input->text[input->used - 1] != '\n') input->text[input->used++] = '\n';
 }
 
 /* Sends the first whole line if there is one and a mailbox is free. */
@@ -189,7 +195,8 @@ static bool work(verican_t *can, uartbone_t *line, const options_t *options) {
     uint8_t waiting = 0;
     (void)verican_irq_handler(can);
     if (line->error != NULL) return false;
-    while (verican_receive(can, &frame) == VERICAN_OK) print_frame(&frame, options->bitrate);
+    while (verican_receive(can, &frame) == VERICAN_OK)
+      if (!print_frame(&frame, options->bitrate)) return false;
     fill(&input);
     if (!send_line(can, &input)) return false;
     (void)verican_tx_waiting(can, &waiting);

@@ -86,8 +86,11 @@ class Hx8k : public ::testing::Test {
     a_.start();
     b_.start();
   }
-  void start(const std::vector<std::string> &more = {}) {
-    std::vector<std::string> command{NODE_PROGRAM, "-b", "1000000", "-t", "240000"};
+  /// `before`: a command that starts the program.
+  void start(const std::vector<std::string> &more = {}, std::vector<std::string> before = {}) {
+    std::vector<std::string> command{std::move(before)};
+    for (const char *word : {NODE_PROGRAM, "-b", "1000000", "-t", "240000"})
+      command.emplace_back(word);
     command.insert(command.end(), more.begin(), more.end());
     program_ = std::make_unique<SerialProgram>(std::move(command));
   }
@@ -215,11 +218,34 @@ TEST_F(Hx8k, LightsTellTheErrorState) {
 
 // What is no frame ends the program with a sentence.
 TEST_F(Hx8k, AWrongLineOfInputIsTold) {
+  for (const std::string line : {"12#3", "+12#11", "0x1#11", " 12#11", "123#R9", "123#1"}) {
+    told_.clear();
+    start();
+    program_->line(line);
+    EXPECT_TRUE(run_until([&] { return !told_.empty(); }, 5000));
+    EXPECT_EQ(told_, std::vector<std::string>{"node: '" + line + "' is no frame; 123#1122 is one"});
+    EXPECT_TRUE(run_until([&] { return program_->exit_code() == 1; }, 1000));
+  }
+}
+
+TEST_F(Hx8k, ALastLineWithoutLineEndIsSent) {
+  others();
   start();
-  program_->line("12#3");
-  EXPECT_TRUE(run_until([&] { return !told_.empty(); }, 5000));
-  EXPECT_EQ(told_, std::vector<std::string>{"node: '12#3' is no frame; 123#1122 is one"});
-  EXPECT_TRUE(run_until([&] { return program_->exit_code() == 1; }, 1000));
+  program_->type("123#11\n124#22");
+  program_->end_of_input();
+  EXPECT_TRUE(run_until([&] { return program_->exit_code() == 0; }, 3000)) << told();
+  ASSERT_EQ(a_.received().size(), 2U);
+  EXPECT_EQ(text_of(a_.received()[1]), "124#22");
+}
+
+// A frame that was received and cannot be shown is not passed over.
+TEST_F(Hx8k, OutputThatCannotBeWrittenIsTold) {
+  others();
+  start({"-l"}, {"/bin/sh", "-c", "exec \"$0\" \"$@\" >/dev/full"});
+  ASSERT_TRUE(run_until([&] { return lit(kRunning); }, 5000)) << told();
+  b_.request(frame_of("123#11"));
+  EXPECT_TRUE(run_until([&] { return program_->exit_code() == 1; }, 2000)) << told();
+  EXPECT_EQ(told_, std::vector<std::string>{"node: standard output: No space left on device"});
 }
 
 }  // namespace

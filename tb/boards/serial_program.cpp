@@ -93,7 +93,7 @@ SerialProgram::~SerialProgram() {
 
 std::string SerialProgram::from_terminal() { return read_some(terminal_); }
 void SerialProgram::to_terminal(const std::string &bytes) { write_all(terminal_, bytes); }
-void SerialProgram::line(const std::string &text) { write_all(input_, text + "\n"); }
+void SerialProgram::type(const std::string &text) { write_all(input_, text); }
 
 void SerialProgram::end_of_input() {
   ::close(input_);

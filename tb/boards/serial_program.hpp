@@ -24,8 +24,9 @@ class SerialProgram {
   /// What it has written to the terminal since the last call.
   std::string from_terminal();
   void to_terminal(const std::string &bytes);
-  /// A line for its standard input.
-  void line(const std::string &text);
+  /// What somebody types at its standard input.
+  void type(const std::string &text);
+  void line(const std::string &text) { type(text + "\n"); }
   /// The end of its standard input.
   void end_of_input();
   /// Whole lines of its standard output and error since the last call.
