@@ -19,6 +19,9 @@
 namespace vericansim {
 namespace {
 
+/// Values of a bit: besides the four those of VHDL, as GHDL writes and GTKWave reads them.
+constexpr std::string_view kBits = "01xXzZuUwWlLhH-";
+
 /// A signal's name with its modules; many signals in deep modules must not fill the memory.
 constexpr std::size_t kLongestName = 1024;
 
@@ -92,8 +95,6 @@ bool is_one_bit(const VcdSignal &signal) { return signal.width == 1 && !is_text_
 /// Refuses a value of several bits that holds something else.
 void check_vector(const std::string &path, std::string_view word, std::size_t line) {
   const bool bits = word[0] == 'b' || word[0] == 'B';
-  // Besides the four values those of VHDL, as GTKWave reads them.
-  constexpr std::string_view kBits = "01xXzZuUwWlLhH-";
   if (bits && (word.size() == 1 || word.find_first_not_of(kBits, 1) != std::string_view::npos))
     throw InputError(path, line,
                      "value " + in_quotes(std::string(word)) +
@@ -261,7 +262,7 @@ Time VcdFile::read(const VcdSignal &signal, const OnChange &change) const {
     const int level = value == '0' || value == 'L' || value == 'l' ? 0 : 1;  // L: a weak 0
     if (std::exchange(last, level) != level) change(now, static_cast<Level>(level));
   };
-  constexpr std::string_view kScalar = "01xXzZ", kSpaced = "bBrRsS";
+  constexpr std::string_view kSpaced = "bBrRsS";
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     const std::size_t line = words.line();
     if (word[0] == '#') {
@@ -273,7 +274,7 @@ Time VcdFile::read(const VcdSignal &signal, const OnChange &change) const {
       continue;
     }
     const bool spaced = kSpaced.find(word[0]) != std::string_view::npos;
-    if (!spaced && kScalar.find(word[0]) == std::string_view::npos)
+    if (!spaced && kBits.find(word[0]) == std::string_view::npos)
       throw InputError(path_, line,
                        "expected a value change, found " + in_quotes(std::string(word)));
     if (spaced) check_vector(path_, word, line);

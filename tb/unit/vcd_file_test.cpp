@@ -76,6 +76,17 @@ TEST(VcdFile, AWeakZeroIsDominantAndARealIsNoBit) {
               HasSubstr("signal 'r' is a real; allowed: one bit"));
 }
 
+// The nine values of std_logic as scalars, 0 and L dominant.
+TEST(VcdFile, ScalarsOfVhdl) {
+  const VcdFile file{"a.vcd",
+                     "$timescale 1ps $end $var wire 1 ! rx $end $enddefinitions $end #0 U! #1 0! "
+                     "#2 W! #3 L! #4 H! #5 L! #6 -! #7 0! #8 Z! #9 0! #10 1! #11 0! #12 X! "};
+  std::vector<std::pair<Time, Level>> expected;
+  for (Time at = 0; at <= 12; ++at)
+    expected.emplace_back(at, at % 2 == 0 ? Level::kRecessive : Level::kDominant);
+  EXPECT_EQ(changes_of(file, "rx"), expected);
+}
+
 TEST(VcdFile, GuessesTheBus) {
   const std::string end = " $enddefinitions $end";
   const std::string scale = "$timescale 1ns $end ";
