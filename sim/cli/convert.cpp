@@ -23,6 +23,10 @@ struct ConvertOptions {
   IdsOutput ids;
 };
 
+void print_losses(const Conversion &result) {
+  for (const std::string &loss : result.lost) print_error("lost: {}\n", loss);
+}
+
 int run(const ConvertOptions &options) {
   const LogFormat format = output_format(options.format, options.out);
   std::vector<NamedFile> outputs{{"the new file", options.out}};
@@ -35,6 +39,12 @@ int run(const ConvertOptions &options) {
                 options.out, options.in, result.difference);
     return kFailed;
   }
+  if (result.frames == 0) {
+    print_losses(result);
+    print_error("verican: {}: no frame to convert{}; not written\n", options.in,
+                selected.log.skipped == 0 ? "" : ": only " + skipped_text(selected.log));
+    return kFailed;
+  }
   OutputFile file{options.out};
   file.stream() << result.bytes;
   const IdentifierTable table =
@@ -44,11 +54,8 @@ int run(const ConvertOptions &options) {
   fmt::print("{} -> {} ({}): {}\n", options.in, options.out, name_of(format),
              text::counted(result.frames, "frame", "frames"));
   if (options.ids.text) fmt::print("{}", to_text(table));
-  for (const std::string &loss : result.lost) print_error("lost: {}\n", loss);
-  if (result.frames == 0)
-    print_error("verican: {}: no frame to convert{}\n", options.in,
-                selected.log.skipped == 0 ? "" : ": only " + skipped_text(selected.log));
-  return result.frames != 0 ? kOk : kFailed;
+  print_losses(result);
+  return kOk;
 }
 
 }  // namespace

@@ -49,9 +49,19 @@ TEST(ToolRecordings, ConvertTellsLossesAndRefusesItsInputAsOutput) {
   const Said none = run_tool("convert " + log + " " + (folder / "none"));
   EXPECT_EQ(none.code, 2);
   EXPECT_THAT(none.text, HasSubstr("the name tells no format; allowed: --format with one of"));
-  const Said empty = run_tool("convert " + log + " " + (folder / "e.log") + " --from '1 s'");
+}
+
+// A filter that fits nothing costs no file that is there.
+TEST(ToolRecordings, ConvertReplacesNoFileByAnEmptyOne) {
+  const ScratchFolder folder;
+  const std::string log = folder.file("a.log", kTwoBuses);
+  const std::string old = folder.file("e.log", "precious");
+  const std::string table = folder / "t.csv";
+  const Said empty = run_tool("convert " + log + " " + old + " --from '1 s' --ids-csv " + table);
   EXPECT_EQ(empty.code, 1);
-  EXPECT_THAT(empty.text, HasSubstr("no frame to convert"));
+  EXPECT_EQ(empty.text, "verican: " + log + ": no frame to convert; not written\n");
+  EXPECT_EQ(shell("cat " + old).text, "precious");
+  EXPECT_EQ(shell("test -e " + table).code, 1);
 }
 
 // A Python that loses a frame as the file is written stands for any mistake of a library.
