@@ -118,13 +118,14 @@ measure() {  # NAME TOP [PARAMETER=VALUE ...]
 # Profiles of can_remote (RN-85), PROFILE PARAMETER=VALUE ..: the list that the simulator builds,
 # without variants, whose names have digits, and without that which shows what SameId does.
 profiles() {
-  sed -n 's/^set(remote_\([a-z]*\) "*\([^")]*\)"*)$/\1 \2/p' sim/CMakeLists.txt | grep -v '^same '
+  sed -n 's/^set(remote_\([a-z]*\) "*\([^")]*\)"*)$/\1 \2/p' cmake/remote_profiles.cmake |
+    grep -v '^same '
 }
 
 measure_profile() {  # remote_PROFILE BLOCK [PARAMETER=VALUE ..]
   local line settings
   line=$(profiles | grep "^${1#remote_} ") || {
-    echo "synth: sim/CMakeLists.txt has no profile ${1#remote_} of can_remote" >&2
+    echo "synth: cmake/remote_profiles.cmake has no profile ${1#remote_} of can_remote" >&2
     exit 1
   }
   read -r -a settings <<<"${line#* }"
