@@ -46,12 +46,11 @@ class TransmitScan {
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__word;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs_rd_code;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__copy_data;
-    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__eng_cs_row;
-    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__eng_msg_row;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__first;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__best_idx;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__gen_status__DOT__u_status__DOT__imb_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_step__DOT__data_q;
+    root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_step__DOT__pass_idx;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__rd_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__wr_q;
     root.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__cs_row;
@@ -131,10 +130,8 @@ class TransmitScan {
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__cs_rd_code;
     to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__copy_data =
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__copy_data;
-    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__eng_cs_row =
-        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__eng_cs_row;
-    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__eng_msg_row =
-        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__eng_msg_row;
+    to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_step__DOT__pass_idx =
+        from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_step__DOT__pass_idx;
     to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__cs_row =
         from.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__cs_row;
     to.can_ahb__DOT__u_top__DOT__u_mailbox__DOT__u_port__DOT__msg_row =
