@@ -6,36 +6,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstdlib>
 #include <iterator>
 #include <random>
-#include <stdexcept>
-#include <string>
-#include <string_view>
 
+#include "harness/random_seeds.hpp"
 #include "mailbox/buffer_rig.hpp"
 
 namespace vericansim {
 namespace {
 
 constexpr std::uint32_t kVps = 1u << 14, kImb = 1u << 13;  // of ESR2
-
-/// The seeds of a suite: those of VERICAN_RANDOM_SEEDS, "FIRST+COUNT" (tb/mailbox/campaign.py),
-/// else 1 to `count`. Throws std::runtime_error if the variable is anything else.
-auto seeds(unsigned count) {
-  const char *text = std::getenv("VERICAN_RANDOM_SEEDS");  // NOLINT(concurrency-mt-unsafe)
-  if (text == nullptr || *text == 0) return ::testing::Range(1u, count + 1);
-  const std::string_view given{text};
-  unsigned first = 0;
-  const auto [plus, wrong] = std::from_chars(given.begin(), given.end(), first);
-  const bool more = wrong == std::errc{} && plus != given.end() && *plus == '+';
-  const auto [end, bad] = std::from_chars(more ? plus + 1 : given.end(), given.end(), count);
-  if (!more || bad != std::errc{} || end != given.end() || count == 0 || first + count < first)
-    throw std::runtime_error("VERICAN_RANDOM_SEEDS is '" + std::string{given} +
-                             "'; allowed: FIRST+COUNT, such as 100000+60, up to 4294967295");
-  return ::testing::Range(first, first + count);
-}
 
 /// The seeds of Found are below: they keep the accesses that they had.
 constexpr unsigned kCampaignSeeds = 100'000;
@@ -233,7 +213,7 @@ class Random : public ::testing::TestWithParam<unsigned> {
 // frame is left.
 TEST_P(Random, Lockstep) { lockstep(); }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Random, seeds(60));
+INSTANTIATE_TEST_SUITE_P(Seeds, Random, random_seeds(60));
 
 // Few buffers and identifiers, and software that waits for the moments at which the core works on
 // them: clocks that it meets by chance once in a million frames.
@@ -283,7 +263,7 @@ class RandomAtEvents : public Random {
 
 TEST_P(RandomAtEvents, Lockstep) { lockstep(); }  // FX-3.4.b, FX-3.5.o, FX-3.3.j
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomAtEvents, seeds(60));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomAtEvents, random_seeds(60));
 // Seeds that have shown a defect of the core or of the model.
 INSTANTIATE_TEST_SUITE_P(Found, RandomAtEvents,
                          ::testing::Values(582u, 759u, 1350u, 1462u, 1797u, 2171u, 2297u, 4309u,
@@ -446,7 +426,7 @@ class RandomLives : public RandomAtEvents {
 
 TEST_P(RandomLives, Lockstep) { lives(); }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomLives, seeds(60));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomLives, random_seeds(60));
 
 // The profile that lacks every feature: what is left is as in any other core (PK-49).
 class RandomSmall : public Random {
@@ -454,14 +434,14 @@ class RandomSmall : public Random {
   RandomSmall() : Random{&core_build("small")} {}
 };
 TEST_P(RandomSmall, Lockstep) { lockstep(); }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomSmall, seeds(30));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomSmall, random_seeds(30));
 
 class RandomAtEventsSmall : public RandomAtEvents {
  protected:
   RandomAtEventsSmall() : RandomAtEvents{&core_build("small")} {}
 };
 TEST_P(RandomAtEventsSmall, Lockstep) { lockstep(); }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomAtEventsSmall, seeds(30));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomAtEventsSmall, random_seeds(30));
 
 }  // namespace
 }  // namespace vericansim

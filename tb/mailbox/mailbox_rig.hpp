@@ -23,6 +23,8 @@ namespace vericansim {
 
 /// CTRL1 timing fields for 8 clocks a bit: PROP 2, PS1 3, PS2 2 tq, SJW 1.
 inline constexpr std::uint32_t kTiming8 = (2u << 19) | (1u << 16) | 1u;
+/// The same with PROP 1, PS1 3, PS2 3 tq and SJW 3: bits of 5 to 11 clocks.
+inline constexpr std::uint32_t kElastic8 = (2u << 22) | (2u << 19) | (2u << 16);
 
 /// What MCR.MCR and CTRL1 get when a node is brought up.
 struct RigConfig {

@@ -15,8 +15,6 @@ namespace vericansim {
 namespace {
 
 constexpr Time kClock = 125 * kNanosecond;
-/// 8 clocks a bit: PROP 1, PS1 3, PS2 3 tq, SJW 3; so the shortest bit has 5.
-constexpr std::uint32_t kShortening = (2U << 22) | (2U << 19) | (2U << 16);
 constexpr Time kShort = 5 * kClock;
 constexpr NodeId kReceiver = 1;
 
@@ -44,7 +42,7 @@ class Receiver {
   Receiver() {
     rig.bus().add(glitches_);
     rig.run(400);
-    for (unsigned n = 0; n < 2; ++n) rig.configure(n, {.ctrl = kShortening});
+    for (unsigned n = 0; n < 2; ++n) rig.configure(n, {.ctrl = kElastic8});
     for (unsigned n = 0; n < 2; ++n) rig.go(n);
     rig.put_rx(kReceiver, 20, data_frame(0x100));
     rig.put_rx(kReceiver, 21, data_frame(0x200));

@@ -17,8 +17,6 @@ using namespace time_reg;
 
 constexpr Time kClock = 125 * kNanosecond;
 constexpr std::uint32_t kPointEof = 0x32;
-/// 8 clocks a bit: PROP 1, PS1 3, PS2 3 tq, SJW 3; so the shortest bit has 5.
-constexpr std::uint32_t kShortening = (2U << 22) | (2U << 19) | (2U << 16);
 constexpr unsigned kShort = 5;
 /// Upper half of TIME, which no buffer has in its stamp yet.
 constexpr std::uint32_t kUpper = 0x1234;
@@ -43,7 +41,7 @@ class OwnFrame {
     rig_.bus().add(eof_);
     rig_.bus().add(glitches_);
     rig_.run(400);
-    for (unsigned n = 0; n < 2; ++n) rig_.configure(n, {.ctrl = kShortening});
+    for (unsigned n = 0; n < 2; ++n) rig_.configure(n, {.ctrl = kElastic8});
     rig_.write(0, kTctrl, kPointEof);
     for (unsigned n = 0; n < 2; ++n) rig_.go(n);
     rig_.write(0, kTimelo, 0);

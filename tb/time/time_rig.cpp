@@ -8,20 +8,37 @@
 
 namespace vericansim {
 
-std::vector<std::unique_ptr<RtlNode>> TimeRig::make(const std::vector<Time> &first_edges,
+namespace {
+
+std::vector<ClockConfig> clocks_of(const std::vector<Time> &first_edges) {
+  std::vector<ClockConfig> clocks;
+  for (const Time phase : first_edges) clocks.push_back({.phase = phase});
+  return clocks;
+}
+
+std::vector<Time> phases_of(const std::vector<ClockConfig> &clocks) {
+  std::vector<Time> phases;
+  for (const ClockConfig &clock : clocks) phases.push_back(clock.phase);
+  return phases;
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<RtlNode>> TimeRig::make(const std::vector<ClockConfig> &clocks,
                                                     std::vector<TimeNode *> &made) {
   std::vector<std::unique_ptr<RtlNode>> all;
-  for (const Time phase : first_edges) {
-    auto node = std::make_unique<TimeNode>("node" + std::to_string(made.size()),
-                                           ClockConfig{.phase = phase});
+  for (const ClockConfig &clock : clocks) {
+    auto node = std::make_unique<TimeNode>("node" + std::to_string(made.size()), clock);
     made.push_back(node.get());
     all.push_back(std::move(node));
   }
   return all;
 }
 
-TimeRig::TimeRig(const std::vector<Time> &first_edges)
-    : phases{first_edges}, rig{make(phases, nodes)} {}
+TimeRig::TimeRig(const std::vector<Time> &first_edges) : TimeRig{clocks_of(first_edges)} {}
+
+TimeRig::TimeRig(const std::vector<ClockConfig> &clocks)
+    : phases{phases_of(clocks)}, rig{make(clocks, nodes)} {}
 
 std::uint64_t TimeRig::time(unsigned n) {
   const std::uint64_t low = rig.read(n, time_reg::kTimelo);

@@ -29,13 +29,15 @@ struct TimeRig {
   explicit TimeRig(unsigned count) : TimeRig{std::vector<Time>(count, 0)} {}
   /// With the time of the first edge of each clock, ps.
   explicit TimeRig(const std::vector<Time> &first_edges);
+  /// With these clocks.
+  explicit TimeRig(const std::vector<ClockConfig> &clocks);
   TimeNode &node(unsigned n) { return *nodes[n]; }
   /// TIME of node n as software reads it.
   std::uint64_t time(unsigned n);
   /// The stamp of a buffer.
   std::uint64_t stamp(unsigned n, unsigned mb);
 
-  /// When edge number `edge` of node n came (TimeNode::edges()).
+  /// When edge number `edge` of node n came (TimeNode::edges()), if its clock is right.
   [[nodiscard]] Time at(unsigned n, std::uint64_t edge) const {
     const auto ticks = static_cast<Time>(edge - TimeNode::kEdgesOfReset);
     return phases[n] + ticks * static_cast<Time>(kTimeStep) * kNanosecond;
@@ -46,7 +48,7 @@ struct TimeRig {
   MailboxRig rig;
 
  private:
-  static std::vector<std::unique_ptr<RtlNode>> make(const std::vector<Time> &first_edges,
+  static std::vector<std::unique_ptr<RtlNode>> make(const std::vector<ClockConfig> &clocks,
                                                     std::vector<TimeNode *> &made);
 };
 
