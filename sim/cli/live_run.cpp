@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "bridge/host_ports.hpp"
@@ -23,6 +25,19 @@ namespace {
 void tell(const std::string &line) {
   print_error("verican: {}\n", line);
   std::fflush(stderr);
+}
+
+/// Who watches the bus reads it at its bit rate: where no node has that, all of it would be errors.
+void check_some_node_has(const Scenario &scenario, double bitrate) {
+  constexpr double kTolerance = 0.05;  // more than clocks are off by
+  const auto other = [bitrate](const NodeSpec &node) {
+    return std::abs(node.bitrate.value_or(bitrate) / bitrate - 1) > kTolerance;
+  };
+  if (scenario.nodes.empty() || !std::ranges::all_of(scenario.nodes, other)) return;
+  throw InputError(scenario.file, scenario.nodes.front().line,
+                   fmt::format("each node has a 'bitrate' of its own, none that of the bus, {:g} "
+                               "bit/s; allowed: a bit rate of the bus that a node has",
+                               bitrate));
 }
 
 /// Programs are told where they find the bus, and may come before it begins.
@@ -64,6 +79,7 @@ int exit_code_of(const RunReport &report) {
 void check_bitrates(const Scenario &scenario) {
   for (const double bitrate : scenario.bitrates) {
     check_faults(scenario, bitrate);
+    check_some_node_has(scenario, bitrate);
     for (const NodeSpec &node : scenario.nodes)
       static_cast<void>(timing_of(scenario, node, bitrate));
   }

@@ -157,6 +157,20 @@ TEST_F(Tool, BitRatesOfAListAreCheckedFirst) {
     EXPECT_FALSE(std::filesystem::exists(in(name))) << name;
 }
 
+// The bus is read at its bit rate: one that no node has would show errors alone.
+TEST_F(Tool, SomeNodeHasTheBitRateOfTheBus) {
+  const std::string file = file_with("own.yaml",
+                                     "bitrate: [500k, 125k]\nnodes:\n  - {name: a, bitrate: 500k}\n"
+                                     "  - {name: b, bitrate: 500k}\ntraffic: [{node: a, id: 1}]\n");
+  const std::string none =
+      "own.yaml:3: each node has a 'bitrate' of its own, none that of the "
+      "bus, 125000 bit/s; allowed: ";
+  expect_refused("run " + file, none);
+  expect_refused("report " + file + " -o " + in("own.html"), none);
+  expect_refused("run " + file + " --bitrate 125k", none);
+  EXPECT_EQ(run_tool("run " + file + " --bitrate 500k -q").code, 0);
+}
+
 // Rates as people write them, wherever there is an option for one; nothing that is none.
 TEST_F(Tool, RatesHaveUnits) {
   for (const char *rate :
