@@ -134,7 +134,7 @@ class Client(Nodes, Blocks):
         self.require_serial(serial)
         if isinstance(settings, dict):
             settings = settings.items()
-        settings = [(address, bytes(data)) for address, data in settings]
+        settings = [(address, self.require_bytes(data)) for address, data in settings]
         for address, data in settings:
             self.require_range(address, len(data))
         before = self._counts(number)

@@ -175,6 +175,13 @@ class Link:
             raise ValueError(f"{length} bytes from 0x{address:03X} on: allowed are 1 to "
                              f"{END - address}")
 
+    @staticmethod
+    def require_bytes(data):
+        """`data` as bytes; of a number Python would make so many zeros."""
+        if isinstance(data, int):
+            raise ValueError(f"data {data}: allowed are bytes, as in b'\\x05'")
+        return bytes(data)
+
     def send(self, identifier, data=b"", remote=None):
         message = can.Message(arbitration_id=identifier, is_extended_id=False, data=data)
         if remote is not None:

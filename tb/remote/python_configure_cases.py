@@ -98,6 +98,15 @@ class Configure(unittest.TestCase):
                                    (WRITE, b"\x02\x0F\x14\0"), LOCK])
         self.assertFalse(self.node.unlocked)
 
+    def test_a_number_is_no_bytes(self):
+        """bytes(20) is twenty zeros, over all of the configuration."""
+        for settings in ([(0xF02, 20)], [(0xF02, b"\x14\0"), (0xF04, True)]):
+            with self.assertRaisesRegex(ValueError, "^data (20|True): allowed are bytes, as in b"):
+                self.configure(*settings)
+        with self.assertRaises(ValueError):
+            self.client.configure(3, 0xCAFE1233, {0xF02: 20})
+        self.assertEqual(self.node.sent, [])
+
     def test_unlock_is_not_confirmed(self):
         """It was carried out, and nobody hears of it."""
         self.node.deaf_from = lambda frame: frame[0] == SETUP
