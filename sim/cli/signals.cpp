@@ -15,6 +15,7 @@
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
 #include "trace/log_convert.hpp"
+#include "trace/text.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -69,9 +70,11 @@ int signals(const SignalsOptions &options) {
     print_json(json);
   }
   if (options.table) fmt::print("{}", to_text(report));
+  if (log.skipped != 0)
+    print_error("verican: warning: {}: without {}\n", options.log, skipped_text(log));
   if (report.known != 0) return kOk;
-  print_error("verican: {}: none of its {} frames is in the database\n", options.log,
-              log.entries.size());
+  print_error("verican: {}: none of its {} is in the database\n", options.log,
+              text::counted(log.entries.size(), "frame", "frames"));
   return kFailed;
 }
 

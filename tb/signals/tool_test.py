@@ -44,6 +44,16 @@ class Signals(ToolCase):
             times = [row["time"] for row in csv.DictReader(file)]
         self.assertEqual(sorted(set(times)), ["0.009500000", "0.059500000"])
 
+    def test_what_is_no_classical_frame_is_told(self):
+        log = self.log("100##180250020", ENGINE_DATA, "20000004#0000080000000000")
+        result = self.tool("signals", log, "--dbc", DBC)
+        self.assertEqual((result.returncode, result.stdout.count("\n")), (0, 1))
+        self.assertEqual(result.stderr,
+                         f"verican: warning: {log}: without 1 CAN FD frame, 1 error message\n")
+        result = self.tool("signals", self.log("7FF#"), "--dbc", DBC)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("none of its 1 frame is in the database", result.stderr)
+
     def scenario(self, old, new):
         """The example with a part replaced; a line of its own for each key that is of interest."""
         text = pathlib.Path(SCENARIO).read_text()
@@ -177,7 +187,7 @@ class Signals(ToolCase):
     def test_a_log_without_any_message_of_the_database_is_a_failure(self):
         result = self.tool("signals", self.log("123#00"), "--dbc", DBC)
         self.assertEqual(result.returncode, 1)
-        self.assertIn("none of its 1 frames is in the database", result.stderr)
+        self.assertIn("none of its 1 frame is in the database", result.stderr)
 
     def test_replay_decode_and_page(self):
         log = self.log(ENGINE_DATA, DASHBOARD, EEC1)
