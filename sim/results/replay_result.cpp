@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "trace/quantity.hpp"
+#include "trace/text.hpp"
 
 namespace vericansim {
 
@@ -39,6 +40,9 @@ std::string to_text(const std::vector<ReplayResult> &replays) {
     if (r.longest_gap >= kLongGap)
       text += fmt::format("    no frame for {} before frame {}\n", long_time(r.longest_gap),
                           r.after_gap);
+    if (r.skipped != 0)
+      text += fmt::format("    left out of {}, as no classical frames: {}\n", r.file,
+                          text::counted(r.skipped, "entry", "entries"));
     for (const std::string &warning : r.warnings)
       text += fmt::format("    warning: {}: {}\n", r.file, warning);
   }

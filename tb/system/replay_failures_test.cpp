@@ -151,5 +151,20 @@ TEST_F(ReplayFailures, LongGapsAreSaid) {
   EXPECT_THAT(said(0.999), ::testing::Not(HasSubstr("no frame for")));
 }
 
+// What classical CAN cannot carry is left out, and said; "every frame" counts the others.
+TEST_F(ReplayFailures, WhatIsLeftOutIsSaid) {
+  const auto said = [&](const std::string &lines) {
+    file_with("fd.log", "(1.0) can0 001#\n" + lines);
+    return to_text(run_scenario(
+        parse_scenario(in("fd.yaml"), "nodes: [{name: boat, replay: fd.log}, {name: other}]\n"),
+        500e3));
+  };
+  EXPECT_THAT(
+      said("(1.1) can0 002##011\n(1.2) can0 20000004#0000080000000000\n"),
+      HasSubstr("    left out of " + in("fd.log") + ", as no classical frames: 2 entries\n"));
+  EXPECT_THAT(said("(1.1) can0 002##011\n"), HasSubstr("frames: 1 entry\n"));
+  EXPECT_THAT(said(""), ::testing::Not(HasSubstr("left out")));
+}
+
 }  // namespace
 }  // namespace vericansim
