@@ -244,7 +244,8 @@ TEST_F(Hx8k, OutputThatCannotBeWrittenIsTold) {
   start({"-l"}, {"/bin/sh", "-c", "exec \"$0\" \"$@\" >/dev/full"});
   ASSERT_TRUE(run_until([&] { return lit(kRunning); }, 5000)) << told();
   b_.request(frame_of("123#11"));
-  EXPECT_TRUE(run_until([&] { return program_->exit_code() == 1; }, 2000)) << told();
+  const auto last_words = [&] { return program_->exit_code() == 1 && !told_.empty(); };
+  EXPECT_TRUE(run_until(last_words, 2000)) << told();
   EXPECT_EQ(told_, std::vector<std::string>{"node: standard output: No space left on device"});
 }
 
