@@ -159,11 +159,10 @@ def with_extended_flag(text):
 
 
 def follower_of(keyword, text):
-    """The keyword of a statement that stands in the line of another one, or None."""
+    """The keyword of a statement that matters and stands in the line of another one, or None."""
     rest = outside_strings(text)
-    if keyword in ENDED_BY_LINE:
-        return next((word for word in words_of(rest) if word in FORMS), None)
-    return next(filter(None, map(keyword_of, rest.split(";")[1:])), None)
+    words = words_of(rest) if keyword in ENDED_BY_LINE else map(keyword_of, rest.split(";")[1:])
+    return next((word for word in words if word in FORMS), None)
 
 
 def refuse_identifier(line, text, name):

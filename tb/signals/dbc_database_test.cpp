@@ -252,6 +252,9 @@ TEST(DbcDatabase, OneStatementIsInALine) {
   EXPECT_THAT(refusal_after_signal(t + "\nSIG_VALTYPE_ 1 T : 0; SIG_VALTYPE_ 1 S : 1;"),
               HasSubstr("bad.dbc:4: SIG_VALTYPE_ follows SIG_VALTYPE_"));
   EXPECT_EQ(refusal_after_signal("CM_ SG_ 1 S \"; BO_ 2\"; // BO_ 3"), "no error");
+  EXPECT_EQ(refusal_after_signal("CM_ \"a\"; CM_ \"b\"; VAL_TABLE_ t 1 \"c\" ;"), "no error");
+  EXPECT_THAT(refusal_after_signal("CM_ \"a\"; CM_ \"b\"; VAL_ 1 S 1 \"c\" ;"),
+              HasSubstr("bad.dbc:3: VAL_ follows CM_"));
 }
 
 TEST(DbcDatabase, StatementsThatContradictEachOtherAreRefused) {
