@@ -83,15 +83,22 @@ def main():
     for node in arguments.nodes:
         if not (1 <= node <= 127 or node == 255):
             parser.error(f"node-ID {node}: 1 to 127, or 255")
-    arguments.out.mkdir(parents=True, exist_ok=True)
+    for name, value, least, most in (("kbit", arguments.kbit, 1, 1000),
+                                     ("clock", arguments.clock, 1_000_000, 1_000_000_000)):
+        if not least <= value <= most:
+            parser.error(f"--{name} {value}: {least} to {most}")
     gcc = "arm-none-eabi-gcc"
     try:
+        arguments.out.mkdir(parents=True, exist_ok=True)
         objects = compile_all(stack, arguments.out, gcc, arguments.clock)
         for node in arguments.nodes:
             link(objects, arguments.out, gcc, node, arguments.kbit)
     except subprocess.CalledProcessError as error:
         print(f"build.py: failed: {error.cmd[0]} ... {error.cmd[-1]}", file=sys.stderr)
         return 1
+    except OSError as error:
+        print(f"build.py: {error.filename or arguments.out}: {error.strerror}", file=sys.stderr)
+        return 2
     return 0
 
 

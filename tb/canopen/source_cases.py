@@ -159,6 +159,40 @@ class CanopenDictionary(unittest.TestCase):
         self.assertEqual(found["2007.0"], "45 " + "00" * 8)
 
 
+class CanopenBuild(unittest.TestCase):
+    """What build.py says where it cannot build; the stack is one without content."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "CANopen.c").touch()
+
+    def told(self, *arguments):
+        """Exit code and messages, without a compiler."""
+        done = subprocess.run(
+            [sys.executable, "-B", str(SOURCES / "build.py"), *map(str, arguments)], check=False,
+            env={"PATH": str(self.folder), "CANOPENNODE": str(self.folder)}, text=True,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        return done.returncode, done.stdout
+
+    def test_no_compiler_and_no_folder(self):
+        self.assertEqual(self.told(self.folder / "out"),
+                         (2, "build.py: arm-none-eabi-gcc: No such file or directory\n"))
+        out = self.folder / "CANopen.c"
+        self.assertEqual(self.told(out), (2, f"build.py: {out}: File exists\n"))
+
+    def test_numbers_out_of_range(self):
+        for arguments, message in ((("--kbit", 0), "--kbit 0: 1 to 1000"),
+                                   (("--kbit", 1001), "--kbit 1001: 1 to 1000"),
+                                   (("--clock", -5), "--clock -5: 1000000 to 1000000000"),
+                                   ((128,), "node-ID 128: 1 to 127, or 255")):
+            code, text = self.told(self.folder / "out", *arguments)
+            self.assertEqual(code, 2, text)
+            self.assertIn(message, text)
+            self.assertFalse((self.folder / "out").exists())
+
+
 def run_here(test, *files):
     """Exit code and messages of a test in C, compiled for here with sanitizers."""
     with tempfile.TemporaryDirectory() as folder:
