@@ -227,6 +227,13 @@ def options():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--timeout", type=int, default=600, help="seconds for one guest")
     args = parser.parse_args()
+    for name in ("jobs", "timeout"):
+        if getattr(args, name) < 1:
+            parser.error(f"--{name} {getattr(args, name)}: at least 1 is needed")
+    try:
+        re.compile(args.only or "")
+    except re.error as error:
+        parser.error(f"--only {args.only!r}: no regular expression: {error}")
     args.build = args.build.resolve()
     args.verican = args.verican.resolve()
     for path in (args.verican, args.build / "modules/linux"):
