@@ -4,11 +4,12 @@
 # The front door: every target installs what it needs, builds, runs and says what it did.
 # "make help" lists the targets; "make V=1 ..." shows the build's own output.
 
-PRESET ?= release
+# A variable of the environment that is empty counts as not given.
+PRESET := $(or $(PRESET),release)
 # One for each core; in a job of a cluster two.
-JOBS   ?= $(if $(filter 1,$(SLURM)),2,$(shell n=$$(nproc) && echo $$((n > 64 ? 64 : n))))
+JOBS   := $(or $(JOBS),$(if $(filter 1,$(SLURM)),2,$(shell n=$$(nproc) && echo $$((n > 64 ? 64 : n)))))
 LINUX  ?= build/linux
-PREFIX ?= /usr/local
+PREFIX := $(or $(PREFIX),/usr/local)
 BUILD  := build/$(PRESET)
 OUT    := $(BUILD)/out
 
@@ -17,7 +18,7 @@ on      = $(if $(filter-out 0 1,$($1))$(word 2,$($1)),$\
             $(error $1 is '$($1)'; allowed: 0 and 1),$(filter 1,$($1)))
 # Asked here, so that a mistake is told before anything is built or removed.
 options := $(foreach name,ALL SHORT SLURM V,$(if $(call on,$(name)),$(name)))
-# Not given, they have the values above; empty, cmake would take others without a word.
+# Given and empty: cmake would take others without a word.
 $(foreach name,JOBS PRESET PREFIX,$(if $(strip $($(name))),,$(error $(name) is empty; allowed: a value, or no $(name))))
 $(if $(filter ~%,$(PREFIX)),$(error PREFIX is '$(PREFIX)'; allowed: a path without ~, which only shells replace))
 QUIET   := tools/quiet.sh$(if $(filter V,$(options)), --show)
