@@ -77,6 +77,7 @@ TABLE = [
     ("make -n campaign SLURM=no", 2, "SLURM is 'no'; allowed: 0 and 1"),
     ("make -n install PREFIX=", 2, "PREFIX is empty"),
     ("make -n install PREFIX=' '", 2, "PREFIX is empty"),
+    ("PREFIX= JOBS= PRESET= make -n install", 0, "--prefix \"/usr/local\""),
     ("make -n install PREFIX='~/here'", 2, "PREFIX is '~/here'; allowed: a path without ~"),
     ("make -n install PREFIX={tmp}/in", 0, "--prefix \"{tmp}/in\""),
     ("make -n build JOBS=", 2, "JOBS is empty"),
