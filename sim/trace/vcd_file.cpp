@@ -19,7 +19,7 @@
 namespace vericansim {
 namespace {
 
-/// Values of a bit: besides the four those of VHDL, as GHDL writes and GTKWave reads them.
+/// Values of a bit: besides the four those of VHDL, as GTKWave reads them.
 constexpr std::string_view kBits = "01xXzZuUwWlLhH-";
 
 /// A signal's name with its modules; many signals in deep modules must not fill the memory.
