@@ -107,7 +107,8 @@ int decode(DecodeOptions &options) {
   options.decode.sample_point = static_cast<int>(options.sample_point * 10);
   const Wave wave = read_wave(options.wave, options.decode);
   const WaveDecodeResult result = decode_wave(wave, options.decode.sample_point);
-  write_logs(options, result);
+  const bool found = !result.events.empty() || result.cut;
+  if (found) write_logs(options, result);
   std::size_t frames = 0, errors = 0, overloads = 0;
   Json list = Json::array();
   for (const BusEvent &event : result.events) {
@@ -134,7 +135,7 @@ int decode(DecodeOptions &options) {
     fmt::print("signal {}, {:.0f} bit/s: {} frames, {} error frames, {} overload frames in {}\n",
                result.signal, result.bitrate, frames, errors, overloads, time_text(result.end));
   if (frames == 0) warn_of_bitrate(wave, options.wave);
-  if (!result.events.empty() || result.cut) return kOk;
+  if (found) return kOk;
   print_error("verican: {}: no frame is in it\n", options.wave);
   return kFailed;
 }

@@ -28,7 +28,8 @@ int run(const IdsOptions &options) {
   claim_files({{"the recording", options.log}}, outputs);
   const SelectedLog selected = read_selected(options.log, options.selection, true);
   const IdentifierTable table = identifiers_of(selected.log);
-  write_ids_csv(table, options.output);
+  const bool found = !selected.log.entries.empty();
+  if (found) write_ids_csv(table, options.output);
   const std::string skipped = skipped_text(selected.log);
   if (options.json) {
     print_json({{"frames", selected.log.entries.size()},
@@ -42,7 +43,7 @@ int run(const IdsOptions &options) {
                text::counted(table.rows().size(), "identifier", "identifiers"),
                skipped.empty() ? "" : "; without " + skipped, to_text(table));
   }
-  if (!selected.log.entries.empty()) return kOk;
+  if (found) return kOk;
   print_error("verican: {}: {}\n", options.log, selected.why_empty());
   return kFailed;
 }

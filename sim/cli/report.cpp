@@ -12,6 +12,7 @@
 #include "cli/live_run.hpp"
 #include "cli/log_options.hpp"
 #include "cli/output_files.hpp"
+#include "cli/print_error.hpp"
 #include "cli/rate_option.hpp"
 #include "cli/scenario_input.hpp"
 #include "session/replay.hpp"
@@ -106,7 +107,11 @@ int report_recorded_wave(const ReportOptions &options) {
       wave.signal, wave.bitrate, report.frames, report.unacknowledged, report.error_frames,
       report.overload_frames, time_text(wave.end), interrupted_text(report.interrupted),
       options.outputs.report);
-  return kOk;
+  if (report.frames + report.unacknowledged + report.error_frames + report.overload_frames != 0 ||
+      report.cut || report.interrupted)
+    return kOk;
+  print_error("verican: {}: no frame is in it\n", options.input);
+  return kFailed;
 }
 
 int report_log(const ReportOptions &options) {

@@ -62,8 +62,8 @@ int signals(const SignalsOptions &options) {
     if (lines) fmt::print("{}\n", line_of(entry, start_ns, decoded));
     if (options.json) list.push_back(json_of(entry, decoded));
   }
-  if (csv) csv->finish();
   const SignalReport report = statistics.report();
+  if (csv && report.known != 0) csv->finish();
   if (options.json) {
     Json json = to_json(report);
     json["entries"] = list;

@@ -274,9 +274,15 @@ TEST_F(Tool, DecodeTellsWhyItFindsNoFrame) {
       file_with("idle.vcd",
                 "$timescale 1 us $end\n$var wire 1 ! can $end\n$enddefinitions $end\n"
                 "#0\n1!\n#1000\n");
-  const ToolResult nothing = run_tool("decode " + idle + " -b 500k");
-  EXPECT_EQ(nothing.code, 1);
-  EXPECT_EQ(nothing.error, "verican: " + idle + ": no frame is in it\n");
+  const std::string old = file_with("old.log", "precious");
+  for (const std::string command : {"decode " + idle + " --candump " + old + " --pcap " + old + "2",
+                                    "report " + idle + " -o " + page}) {
+    const ToolResult nothing = run_tool(command + " -b 500k");
+    EXPECT_EQ(nothing.code, 1) << command;
+    EXPECT_EQ(nothing.error, "verican: " + idle + ": no frame is in it\n");
+  }
+  EXPECT_EQ(slurp(old), "precious");
+  EXPECT_FALSE(std::filesystem::exists(old + "2"));
 }
 
 TEST_F(Tool, BittimeJson) {

@@ -51,8 +51,8 @@ TEST(ToolRecordings, ConvertTellsLossesAndRefusesItsInputAsOutput) {
   EXPECT_THAT(none.text, HasSubstr("the name tells no format; allowed: --format with one of"));
 }
 
-// A filter that fits nothing costs no file that is there.
-TEST(ToolRecordings, ConvertReplacesNoFileByAnEmptyOne) {
+// A filter or a database that fits nothing costs no file that is there.
+TEST(ToolRecordings, NoFileIsReplacedByAnEmptyOne) {
   const ScratchFolder folder;
   const std::string log = folder.file("a.log", kTwoBuses);
   const std::string old = folder.file("e.log", "precious");
@@ -62,6 +62,11 @@ TEST(ToolRecordings, ConvertReplacesNoFileByAnEmptyOne) {
   EXPECT_EQ(empty.text, "verican: " + log + ": no frame to convert; not written\n");
   EXPECT_EQ(shell("cat " + old).text, "precious");
   EXPECT_EQ(shell("test -e " + table).code, 1);
+  EXPECT_EQ(run_tool("ids " + log + " --from '1 s' --csv " + old).code, 1);
+  const std::string others = folder.file("o.log", "(1.0) can0 7FF#\n");
+  EXPECT_EQ(run_tool("signals " + others + " --dbc examples/engine.dbc --csv " + old).code,
+            1);
+  EXPECT_EQ(shell("cat " + old).text, "precious");
 }
 
 // A Python that loses a frame as the file is written stands for any mistake of a library.
