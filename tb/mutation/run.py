@@ -28,7 +28,7 @@ FULL = {"core": 1100, "remote": 330, "time": 250, "buses": 150}   # mutants at s
 PROOF_SECONDS = 120    # limit of one proof
 RECORD_SECONDS = 60    # of one test that records; what takes five times as long hangs
 # Of the tests of one program so many seconds are run for one mutant at first: of long sweeps a
-# part. What survives that, and is not known from survivors.yaml, meets the others, too.
+# part. What survives that, and is not known from survivors.yaml, meets the others, too, at the end.
 PROGRAM_SECONDS = 5
 # Programs that compare everything with a model notice more in a second: they come early, with more.
 JUDGES = {"buffer_random_test", "random_lockstep_test", "random_buses_test",
@@ -215,18 +215,22 @@ class Campaign:
         return time.monotonic() - begin
 
     def judge(self, mutant):
-        """Proves it again, or runs the tests that can see it, the quickest programs first."""
+        """Proves it again, or runs a part of the tests that can see it, the quickest programs
+        first."""
         entry = self.known.find(mutant)
         if entry and entry["verdict"] == "proven":
             where = proof_of(self.design, mutant, PROOF_SECONDS)
             if where:
                 return {"killed": False, "proven": where, "tests": 0, "seconds": 0}
-        short = self.short_run(mutant)
-        result = self.run_against(mutant, short)
-        # A mutant that nobody knows must survive all that can see it, not only the short run.
-        if not (result["killed"] or result.get("stopped") or entry):
-            result = self.run_against(mutant, self.left_out(mutant, short), result)
-        return result
+        return self.run_against(mutant, self.short_run(mutant))
+
+    def is_open(self, mutant, result):
+        """Whether a mutant that the short run left alive has to survive the other tests, too."""
+        return not (result["killed"] or result.get("stopped") or self.known.find(mutant))
+
+    def judge_whole(self, mutant, result):
+        """The verdict of all tests that can see it, behind that of its short run."""
+        return self.run_against(mutant, self.left_out(mutant, self.short_run(mutant)), result)
 
     def short_run(self, mutant):
         """{program: [(test, seconds)]} that can see it, of long programs a part."""
@@ -267,25 +271,34 @@ class Campaign:
     def judge_all(self, run, shard):
         """The verdicts on the shard's mutants, by name."""
         results = self.killed_before(run) if shard.kind == "whole" else {}
-        last = time.monotonic()
         if not results and shard.kind == "whole":
             self.say(f"regression without a mutant: {self.baseline():.0f} s")
         # Scattered over the modules, so that an interrupted run says something of all.
         scattered = shard.mine(sorted((mutant for mutant in run if mutant.name not in results),
                                       key=lambda mutant: zlib.crc32(mutant.name.encode())))
-        total = len(results) + len(scattered)
-        self.say(f"{total} mutants, {len(results)} killed before")
+        self.say(f"{len(results) + len(scattered)} mutants, {len(results)} killed before")
+        self.take_verdicts(scattered, self.judge, results, shard)
+        # After the others: one that nobody notices takes as long as hundreds that somebody does.
+        alive = [mutant for mutant in scattered if self.is_open(mutant, results[mutant.name])]
+        if alive:
+            self.say(f"{len(alive)} of them, which are not known, against all their tests")
+        self.take_verdicts(alive, lambda mutant: self.judge_whole(mutant, results[mutant.name]),
+                           results, shard)
+        return results
+
+    def take_verdicts(self, mutants, judge, results, shard):
+        """judge(mutant) of each into `results`, by name, and its file of progress."""
+        last = time.monotonic()
         for done, (mutant, result) in enumerate(
-                in_parallel(self.options.jobs, self.judge, scattered), len(results) + 1):
+                in_parallel(self.options.jobs, judge, mutants), 1):
             results[mutant.name] = result
             if shard.kind == "whole":
                 with open(self.options.dir / "progress.jsonl", "a", encoding="utf-8") as file:
                     file.write(json.dumps({"name": mutant.name, **result}) + "\n")
-            if time.monotonic() - last > 15 or done == total:
+            if time.monotonic() - last > 15 or done == len(mutants):
                 last = time.monotonic()
                 alive = sum(not entry["killed"] for entry in results.values())
-                self.say(f"{done} of {total}, {alive} not noticed")
-        return results
+                self.say(f"{done} of {len(mutants)}, {alive} not noticed")
 
 
 def main():
