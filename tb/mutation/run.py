@@ -5,6 +5,7 @@
 # Mutation score: does the regression notice when the RTL is wrong? docs/mutation.md.
 """Makes mutants of the RTL, runs the tests against each, and reports those that nobody noticed."""
 import argparse
+import collections
 import fnmatch
 import json
 import os
@@ -146,6 +147,7 @@ class Campaign:
         self.regression = Regression(models.ROOT, options.build)
         self.seen = {}                       # mutant number -> [(program, test, seconds)]
         self.same_builds = False             # as in the run before
+        self.noticed = collections.Counter()  # (module, program): its mutants that it has killed
 
     @staticmethod
     def say(text):
@@ -198,10 +200,14 @@ class Campaign:
         if not (self.options.resume and self.same_builds and path.exists()):
             path.unlink(missing_ok=True)
             return {}
-        names = {mutant.name for mutant in run}
-        before = map(json.loads, path.read_text(encoding="utf-8").splitlines())
-        return {entry.pop("name"): entry for entry in before
-                if entry["killed"] and entry["name"] in names}
+        modules = {mutant.name: mutant.module for mutant in run}
+        before = {}
+        for entry in map(json.loads, path.read_text(encoding="utf-8").splitlines()):
+            name = entry.pop("name")
+            if entry["killed"] and name in modules:
+                before[name] = entry
+                self.noticed[modules[name], entry["by"].split(":")[0]] += 1
+        return before
 
     def baseline(self):
         """The same programs that run the mutants must pass without one."""
@@ -249,9 +255,14 @@ class Campaign:
         return groups
 
     def run_against(self, mutant, groups, before=None):
-        """The verdict of these tests, and of those before: the quickest programs first."""
-        order = sorted(groups, key=lambda name: (sum(s for _, s in groups[name])
-                                                 / (10 if name in JUDGES else 1), name))
+        """The verdict of these tests, and of those before: first the programs that are quick, or
+        have noticed other mutants of the module."""
+        def rank(program):
+            seconds = sum(seconds for _, seconds in groups[program])
+            return (seconds / (10 if program in JUDGES else 1)
+                    / (1 + self.noticed[mutant.module, program]), program)
+
+        order = sorted(groups, key=rank)
         tests = sum(len(group) for group in groups.values()) + (before["tests"] if before else 0)
         used, planned = before["seconds"] if before else 0.0, 0.0
         for program in order:
@@ -264,6 +275,7 @@ class Campaign:
                                           sum(seconds for _, seconds in groups[program]))
             used += outcome.seconds
             if not outcome.passed:
+                self.noticed[mutant.module, program] += 1
                 return {"killed": True, "by": outcome.test, "reason": outcome.reason,
                         "seconds": round(used, 3)}
         return {"killed": False, "seen": tests > 0, "seconds": round(used, 3), "tests": tests}
