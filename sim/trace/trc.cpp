@@ -90,7 +90,7 @@ class TrcReader {
     const auto start = trc::start_ns(value);
     if (!start)
       fail(place, "start time " + in_quotes(std::string(value)) +
-                      " is not allowed; allowed: days since the end of 1899");
+                      " is not allowed; allowed: days since the end of 1899, up to the year 2262");
     start_ns_ = *start;
   }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <ctime>
 #include <iterator>
+#include <limits>
 
 #include "trace/channel_numbers.hpp"
 #include "trace/fd_lengths.hpp"
@@ -28,7 +29,6 @@ constexpr std::int64_t kPart = 1'000'000'000'000;  // a day has so many of them
 std::optional<std::int64_t> start_ns(std::string_view days) {
   const auto parts = text::parse_decimal(days.substr(0, days.find('.') + 13), kPart);
   if (!parts) return std::nullopt;
-  if (*parts / kPart < kUnixDay) return 0;
   const auto us =
       (static_cast<__int128>(*parts % kPart) * kDaySeconds * 1'000'000 + kPart / 2) / kPart;
   const auto of_day = static_cast<std::int64_t>(us);
@@ -38,6 +38,7 @@ std::optional<std::int64_t> start_ns(std::string_view days) {
   if (::gmtime_r(&as_utc, &local) == nullptr) return 0;
   local.tm_isdst = -1;
   const std::time_t seconds = std::mktime(&local);
+  if (seconds > std::numeric_limits<std::int64_t>::max() / kSecondNs - 1) return std::nullopt;
   return seconds < 0 ? 0 : seconds * kSecondNs + of_day % 1'000'000 * 1000;
 }
 
@@ -45,11 +46,12 @@ std::string days_text(std::int64_t ns) {
   const std::time_t seconds = ns / kSecondNs;
   std::tm local{};
   if (::localtime_r(&seconds, &local) == nullptr) return "0.0";
-  const std::int64_t as_utc = ::timegm(&local);
-  const std::int64_t us = as_utc % kDaySeconds * 1'000'000 + ns % kSecondNs / 1000;
+  // West of Greenwich the first hours of 1970 are of the day before.
+  const std::int64_t since = ::timegm(&local) + kUnixDay * kDaySeconds;
+  const std::int64_t us = since % kDaySeconds * 1'000'000 + ns % kSecondNs / 1000;
   const auto part =
       static_cast<std::int64_t>(static_cast<__int128>(us) * kPart / (kDaySeconds * 1'000'000));
-  return fmt::format("{}.{:012d}", as_utc / kDaySeconds + kUnixDay, part);
+  return fmt::format("{}.{:012d}", since / kDaySeconds, part);
 }
 
 }  // namespace trc
@@ -101,7 +103,8 @@ std::string trc_text(const CanLog &log) {
   const std::int64_t start = first_ns - (first_ns % 1000 + 1000) % 1000;
   const auto numbers = channel_numbers(log);
   std::string text = ";$FILEVERSION=2.1\r\n";
-  if (log.start_ns != 0) text += fmt::format(";$STARTTIME={}\r\n", trc::days_text(start));
+  if (log.start_ns != 0 && start >= 0)
+    text += fmt::format(";$STARTTIME={}\r\n", trc::days_text(start));
   text += ";$COLUMNS=N,O,T,B,I,d,R,L,D\r\n;\r\n";
   std::size_t number = 0;
   const auto line = [&](const auto &entry, const char *type, const std::string &id,

@@ -6,12 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <ctime>
-#include <optional>
-
 #include "harness/input_error_of.hpp"
-#include "harness/scoped_env.hpp"
+#include "harness/time_zone.hpp"
 #include "trace/candump.hpp"
 
 namespace vericansim {
@@ -77,24 +73,6 @@ TEST(CandumpScreen, LogLinesHaveTheDirectionBehindTheFrame) {
   EXPECT_EQ(log.entries[1].direction, Direction::kReceived);
   EXPECT_EQ(log.entries[2].direction, Direction::kUnknown);
 }
-
-/// The time zone of this computer for a while.
-class TimeZone {
- public:
-  explicit TimeZone(const char *name) {
-    variable_.emplace("TZ", name);
-    ::tzset();
-  }
-  ~TimeZone() {
-    variable_.reset();
-    ::tzset();
-  }
-  TimeZone(const TimeZone &) = delete;
-  TimeZone &operator=(const TimeZone &) = delete;
-
- private:
-  std::optional<ScopedEnv> variable_;
-};
 
 /// The log as a computer of that time zone reads it.
 CanLog read_in_zone(const char *wanted, const std::string &text) {

@@ -12,6 +12,7 @@
 #include "harness/input_error_of.hpp"
 #include "harness/scratch_folder.hpp"
 #include "harness/shell.hpp"
+#include "harness/time_zone.hpp"
 #include "trace/candump.hpp"
 #include "trace/input_error.hpp"
 #include "trace/log_convert.hpp"
@@ -186,6 +187,35 @@ TEST(Convert, BadTrcIsRefused) {
               HasSubstr("length '16' is not allowed; allowed: 0 to 15"));
   EXPECT_THAT(refusal(";$COLUMNS=N,O,T,I,l,D\n 1 1.0 DT 0100 9 01 02 03 04 05 06 07 08 09\n"),
               HasSubstr("a.trc:3: length '9' is not allowed; allowed: 0 to 8, CAN FD to 64"));
+}
+
+// $STARTTIME is local time: a recording that begins at 1 s, as simulated ones do, begins on the
+// last day of 1969 west of Greenwich. Serial day 25569 is 1970-01-01; five hours are 0.2083333...
+// of one.
+TEST(Convert, TrcKeepsTheTimeOfDayInEveryTimeZone) {
+  const CanLog log = parse_candump("(1.000012) can0 123#11\n(1.5) can0 123#22\n", "log");
+  for (const char *zone : {"UTC0", "EST5", "SST11", "IST-5:30"}) {
+    const TimeZone there{zone};
+    const Conversion result = convert(log, LogFormat::kTrc, "out");
+    EXPECT_THAT(result.lost, IsEmpty()) << zone;
+    EXPECT_EQ(parse_log(result.bytes, "out").start_ns, 1'000'012'000) << zone;
+  }
+  const TimeZone there{"EST5"};
+  EXPECT_THAT(convert(log, LogFormat::kTrc, "out").bytes, HasSubstr(";$STARTTIME=25568.79167"));
+}
+
+// Nanoseconds since 1970 are 64 bits: up to the year 2262, serial day 132320.
+TEST(Convert, ATrcOfAnotherAgeIsRefused) {
+  const auto refusal = [](const std::string &days) {
+    return input_error_of([&] {
+      return parse_trc(";$FILEVERSION=2.1\n;$STARTTIME=" + days + "\n 1 1.0 DT 1 0100 Rx - 0\n",
+                       "a.trc");
+    });
+  };
+  EXPECT_EQ(refusal("132320.5"), "no error");
+  EXPECT_EQ(refusal("132322.5"),
+            "a.trc:2: start time '132322.5' is not allowed; allowed: days since the end of 1899, "
+            "up to the year 2262");
 }
 
 // Our reader and python-can's must see the same frames in a file of ours.
