@@ -129,6 +129,17 @@ struct Item {
   bool error;
 };
 
+/// The text without CANFD_FDF, which newer kernels set in all CAN FD frames: "##" says the same.
+std::string without_fdf(const ForeignEntry &entry) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF", kWithout = "0123012389AB89AB";
+  std::string text = entry.text;
+  if (entry.kind != ForeignEntry::Kind::kFd) return text;
+  char &flags = text[text.find('#') + 2];
+  const std::size_t value = kDigits.find(flags);
+  if (value != std::string_view::npos) flags = kWithout[value];
+  return text;
+}
+
 std::vector<Item> items_of(const CanLog &log) {
   std::vector<Item> items;
   walk(
@@ -138,7 +149,7 @@ std::vector<Item> items_of(const CanLog &log) {
       },
       [&](const ForeignEntry &e) {
         items.push_back(
-            {e.time, e.channel, e.direction, e.text, e.kind == ForeignEntry::Kind::kError});
+            {e.time, e.channel, e.direction, without_fdf(e), e.kind == ForeignEntry::Kind::kError});
       });
   return items;
 }

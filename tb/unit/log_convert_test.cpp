@@ -121,6 +121,21 @@ TEST(Convert, WithoutATimeOfDayTheFileBeginsWithTheEarliestEntry) {
   EXPECT_THAT(convert(log, LogFormat::kGvret, "out").bytes, HasSubstr("\n0,00000125,"));
 }
 
+// Since Linux 6.2 candump writes CANFD_FDF (4), which "##" says too (linux/can.h).
+TEST(Convert, CanFdFramesOfNewerKernelsAreTheSameFrames) {
+  const CanLog log =
+      parse_candump("(1.0) can0 123##4AABB\n(1.1) can0 123##5AABB\n(1.2) can0 123##7AABB\n", "log");
+  for (const LogFormat format : {LogFormat::kCandump, LogFormat::kPcap, LogFormat::kPcapng,
+                                 LogFormat::kTrc, LogFormat::kAsc, LogFormat::kBlf}) {
+    if (traits_of(format).python && !has_python_can()) continue;
+    const Conversion result = convert(log, format, "out");
+    EXPECT_TRUE(result.faithful) << name_of(format) << ": " << result.difference;
+  }
+  EXPECT_THAT(convert(log, LogFormat::kCandump, "out").bytes, HasSubstr(" 123##5AABB\n"));
+  const std::string bytes = convert(log, LogFormat::kPcapng, "out").bytes;
+  EXPECT_EQ(parse_log(bytes, "out").others.at(2).text, "123##3AABB");
+}
+
 // The message names no line of a file that nobody sees.
 TEST(Convert, AFileThatCannotBeReadIsNamed) {
   CanLog log = parse_candump("(1.0) can0 123#11\n(1.1) can0 123##1AABB\n", "log");
