@@ -14,6 +14,7 @@
 #include "trace/candump.hpp"
 #include "trace/gvret.hpp"
 #include "trace/input_error.hpp"
+#include "trace/log_filter.hpp"
 #include "trace/log_walk.hpp"
 #include "trace/pcap_file.hpp"
 #include "trace/pcapng_file.hpp"
@@ -83,6 +84,7 @@ CanLog that_fits(const CanLog &log, const LogFormatTraits &traits, Losses &losse
         result.others.back().before = result.entries.size();
         ++result.skipped;
       });
+  count_from_first(result);
   return result;
 }
 
@@ -207,7 +209,7 @@ Conversion convert(const CanLog &log, LogFormat format, const std::string &path)
   Conversion result;
   Losses losses;
   CanLog fitting = that_fits(log, traits_of(format), losses);
-  const bool absolute = fitting.start_ns != 0;
+  const std::int64_t start_ns = fitting.start_ns;
   // A trc file without a time of day has times since its own first entry.
   if (format != LogFormat::kTrc) fitting.start_ns = written_start_ns(fitting);
   result.bytes = bytes_of(fitting, format, path);
@@ -219,11 +221,10 @@ Conversion convert(const CanLog &log, LogFormat format, const std::string &path)
   result.difference = first_difference(written, read, losses);
   result.faithful = result.difference.empty();
   if (written.size() == read.size()) compare_times(written, read, losses);
-  if (fitting.start_ns != again.start_ns && absolute && result.frames != 0)
-    losses.count(phrase("time of day", "times of day",
-                        again.start_ns == 0 ? ""
-                                            : fmt::format(", by {} ns", std::abs(fitting.start_ns -
-                                                                                 again.start_ns))));
+  if (start_ns != again.start_ns && start_ns != 0 && result.frames != 0)
+    losses.count(phrase(
+        "time of day", "times of day",
+        again.start_ns == 0 ? "" : fmt::format(", by {} ns", std::abs(start_ns - again.start_ns))));
   result.lost = losses.texts();
   return result;
 }

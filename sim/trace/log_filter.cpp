@@ -43,7 +43,8 @@ canid_t can_id_of(const ForeignEntry &entry) {
 }
 canid_t can_id_of(const LogEntry &entry) { return vericansim::can_id_of(entry.frame); }
 
-/// Moves all times so that the first classical frame, else the first entry, is at 0.
+}  // namespace
+
 void count_from_first(CanLog &log) {
   if (log.entries.empty() && log.others.empty()) return;
   const Time first = log.entries.empty() ? log.others.front().time : log.entries.front().time;
@@ -51,8 +52,6 @@ void count_from_first(CanLog &log) {
   walk(log, move, move);
   if (log.start_ns != 0) log.start_ns += first / kNanosecond;
 }
-
-}  // namespace
 
 std::map<std::string, std::size_t> interfaces_of(const CanLog &log) {
   std::map<std::string, std::size_t> interfaces;

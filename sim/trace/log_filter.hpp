@@ -34,4 +34,7 @@ struct LogFilter {
 /// name, or if `from` is behind `to`.
 [[nodiscard]] CanLog filtered(CanLog log, const LogFilter &filter, const std::string &path);
 
+/// Moves all times so that the first classical frame, else the first entry, is at 0.
+void count_from_first(CanLog &log);
+
 }  // namespace vericansim

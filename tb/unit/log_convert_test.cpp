@@ -136,6 +136,30 @@ TEST(Convert, CanFdFramesOfNewerKernelsAreTheSameFrames) {
   EXPECT_EQ(parse_log(bytes, "out").others.at(2).text, "123##3AABB");
 }
 
+// No format has them: if_tsoffset of a capture, or the date of an ASC file, is before 1970.
+TEST(Convert, ATimeOfDayBefore1970IsToldAsLost) {
+  CanLog log = parse_candump("(5.0) can0 123#11\n(5.000001) can0 124#22\n", "log");
+  log.start_ns = -999'499'999'999;
+  for (const LogFormat format :
+       {LogFormat::kCandump, LogFormat::kPcap, LogFormat::kPcapng, LogFormat::kTrc,
+        LogFormat::kGvret, LogFormat::kAsc, LogFormat::kBlf}) {
+    if (traits_of(format).python && !has_python_can()) continue;
+    const Conversion result = convert(log, format, "out");
+    EXPECT_TRUE(result.faithful) << name_of(format);
+    EXPECT_THAT(result.lost, Contains("1 time of day")) << name_of(format);
+    EXPECT_THAT(result.lost, Not(Contains(HasSubstr("since")))) << name_of(format);
+  }
+}
+
+// What is left out may have been the first frame; the others are as far apart as before.
+TEST(Convert, TimesCountFromTheFirstFrameThatIsInTheFile) {
+  const CanLog log = parse_candump(
+      "(1700000000.0) can0 321#R\n(1700000001.0) can0 123#11\n(1700000002.5) can0 123#22\n", "log");
+  const Conversion result = convert(log, LogFormat::kGvret, "out");
+  EXPECT_THAT(result.lost, ElementsAre("1 remote frame", "1 time of day"));
+  EXPECT_THAT(result.bytes, HasSubstr("\n1700000001000000,00000123,"));
+}
+
 // The message names no line of a file that nobody sees.
 TEST(Convert, AFileThatCannotBeReadIsNamed) {
   CanLog log = parse_candump("(1.0) can0 123#11\n(1.1) can0 123##1AABB\n", "log");
