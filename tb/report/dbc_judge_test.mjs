@@ -7,6 +7,7 @@ import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
 import {test} from 'node:test';
+import {bad} from './bad_databases.mjs';
 import * as browser from './browser.mjs';
 import {randomFrom, smallScene} from './scenes.mjs';
 
@@ -128,3 +129,12 @@ for (const path of databases) {
     await closeReport(page);
   });
 }
+
+// A database of the page and one of the tool are the same file.
+test('the tool refuses what the page refuses, in the same line', () => {
+  for (const [name, [text, message]] of Object.entries(bad)) {
+    const line = Number(/line (\d+)/.exec(message.source)?.[1] ?? 0);
+    const {error} = python('sim/python/dbc_to_json.py', [], text);
+    assert.equal(error?.line, line, name);
+  }
+});

@@ -7,6 +7,7 @@ import assert from 'node:assert/strict';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {test} from 'node:test';
+import {bad} from './bad_databases.mjs';
 import * as browser from './browser.mjs';
 import {Scene} from './scene.mjs';
 
@@ -80,6 +81,45 @@ test('every kind of signal has the value that its bits say', async () => {
     frames.map(([, , message, signals]) => [message, signals]),
   );
   await screenshot(page, 'dbc-table');
+  await closeReport(page);
+});
+
+const compared = `
+BO_ 1 Signed: 8 X
+ SG_ Mode M : 0|8@1- (1,0) [0|0] "" X
+ SG_ Low m255 : 8|8@1+ (1,0) [0|0] "" X
+BO_ 2 Wide: 8 X
+ SG_ All M : 0|64@1+ (1,0) [0|0] "" X
+ SG_ Last m18446744073709551615 : 0|8@1+ (1,0) [0|0] "" X
+BO_ 3 Twice: 2 X
+ SG_ Page M : 0|8@1+ (1,0) [0|0] "" X
+ SG_ Both m1 : 8|8@1+ (1,0) [0|0] "" X
+SG_MUL_VAL_ 3 Both Page 1-1;
+SG_MUL_VAL_ 3 Both Page 3-4;
+VAL_ 2 All 9007199254740993 "odd" ;
+`;
+
+// docs/signals.md: m255 is the value -1 of a signed multiplexer of 8 bits. 9007199254740993 is the
+// first integer that a Number does not hold.
+test('what selects a signal, or is a choice, is compared by all its bits', async () => {
+  const list = [
+    [1, 'FF 07 00 00 00 00 00 00', 'Signed', 'Mode -1, Low 7'],
+    [1, '7F 07 00 00 00 00 00 00', 'Signed', 'Mode 127'],
+    [2, 'FF FF FF FF FF FF FF FF', 'Wide', 'All 18446744073709551615, Last 255'],
+    [2, 'FE FF FF FF FF FF FF FF', 'Wide', 'All 18446744073709551614'],
+    [2, '00 00 00 00 00 00 20 00', 'Wide', 'All 9007199254740992'],
+    [2, '01 00 00 00 00 00 20 00', 'Wide', 'All odd'],
+    [3, '01 05', 'Twice', 'Page 1, Both 5'],
+    [3, '02 05', 'Twice', 'Page 2'],
+    [3, '03 05', 'Twice', 'Page 3, Both 5'],
+  ];
+  const databases = [{name: 'compared.dbc', text: compared}];
+  const page = await openReport(writeScene('dbc-compared', sceneOf(list, {databases})));
+  assert.equal(await page.textContent('[role=alert] span'), '');
+  assert.deepEqual(
+    await shown(page),
+    list.map(([, , message, signals]) => [message, signals]),
+  );
   await closeReport(page);
 });
 
@@ -286,47 +326,6 @@ test('a file is dropped; with one that has the same messages it is refused', asy
   await closeReport(page);
 });
 
-const bad = {
-  'no DBC': ['hello\n', /x\.dbc cannot be used: line 1: unknown statement: hello/],
-  empty: ['', /x\.dbc cannot be used: no message in it; allowed: a DBC file with BO_ and SG_/],
-  'bytes of a picture': ['\x89PNG\r\n\x1a\n\0\0', /line 1: unknown statement/],
-  'a signal without its length': [
-    'BO_ 1 A: 8 X\n SG_ S : 0@1+ (1,0) [0|0] "" X\n',
-    /line 2: not understood: SG_ S : 0@1\+ .*allowed: SG_ <name>/,
-  ],
-  'a string without an end': [
-    'BO_ 1 A: 8 X\n\nCM_ BO_ 1 "open\n\n',
-    /line 3: a string that begins here has no end/,
-  ],
-  'a signal that does not fit': [
-    'BO_ 1 A: 2 X\n SG_ S : 9|8@1+ (1,0) [0|0] "" X\n',
-    /line 2: signal S does not fit the 2 bytes of message A: it needs 3/,
-  ],
-  'a big-endian signal that does not fit': [
-    'BO_ 1 A: 1 X\n SG_ S : 3|8@0+ (1,0) [0|0] "" X\n',
-    /line 2: signal S does not fit the 1 bytes of message A: it needs 2/,
-  ],
-  'a value with two texts': [
-    'BO_ 1 A: 8 X\n SG_ S : 0|8@1+ (1,0) [0|0] "" X\nVAL_ 1 S 7 "x" 128 "y" 7 "z" ;\n',
-    /line 3: value 7 of signal S is there twice/,
-  ],
-  'a message twice': [
-    'BO_ 1 A: 8 X\nBO_ 1 B: 8 X\n',
-    /line 2: message 1 is there twice; first in line 1/,
-  ],
-  'an identifier of 31 bits': [
-    'BO_ 1073741823 A: 8 X\n',
-    /line 1: message A has the identifier 1073741823; allowed: 0 to 2047/,
-  ],
-  'a multiplexed signal without a multiplexer': [
-    'BO_ 1 A: 8 X\n SG_ S m1 : 0|8@1+ (1,0) [0|0] "" X\n',
-    /line 2: signal S is multiplexed, but the message has no or more than one multiplexer/,
-  ],
-  'a short float': [
-    'BO_ 1 A: 8 X\n SG_ S : 0|16@1- (1,0) [0|0] "" X\nSIG_VALTYPE_ 1 S : 1;\n',
-    /line 2: signal S is a floating-point number of 16 bits; allowed: 32, 64/,
-  ],
-};
 test('a file of no use is refused with its line and the reason; the page goes on', async () => {
   const page = await openReport(file);
   for (const [name, [text, message]] of Object.entries(bad)) {

@@ -4,7 +4,17 @@
 // A DBC file as messages with signals. candied parses the statements; what it does not understand,
 // and what no frame can hold, is refused with its line.
 import {ASTKinds, Parser} from 'candied/lib/parser/parser';
+import {
+  choicesProblem,
+  frameFormatProblem,
+  messageProblem,
+  rangesProblem,
+  selectionProblem,
+  signalProblem,
+  valueTypeProblem,
+} from './dbc_checks.js';
 import {DbcError, kForms, statementsOf} from './dbc_statements.js';
+import {exact} from './signal_codec.js';
 
 const kExtended = 0x80000000;
 const kIndependent = new Set([0x40000000, 0xc0000000]); // holds the signals of no message
@@ -32,9 +42,11 @@ function parsed({line, keyword, text, strings}) {
 }
 
 /** An identifier with bit 31 where it is extended; many files leave the bit out above 7FF. */
-function keyOf(id) {
-  if (id <= 0x7ff || kIndependent.has(id)) return id;
-  return (id % 0x20000000) + kExtended;
+const keyOf = (id) =>
+  id <= 0x7ff || id >= kExtended || kIndependent.has(id) ? id : id + kExtended;
+
+function refuse(line, problem) {
+  if (problem) throw new DbcError(line, problem);
 }
 
 const decimalsOf = (text) => text.split('.')[1]?.length ?? 0;
@@ -82,7 +94,7 @@ class Reader {
   constructor() {
     this.messages = new Map(); // by key
     this.message = null;
-    this.formats = ['', '', '', 'J1939PG']; // of VFrameFormat, unless the file names them
+    this.formats = []; // names of VFrameFormat's values
     this.attributes = {};
   }
 
@@ -92,18 +104,14 @@ class Reader {
     if (keyword === 'BO_') this.#addMessage(ast, line, text);
     else if (keyword === 'SG_') this.#addSignal(ast, line, strings);
     else if (keyword === 'VAL_') this.#addChoices(ast, statement);
-    else if (keyword === 'SIG_VALTYPE_') this.#setFloat(ast);
+    else if (keyword === 'SIG_VALTYPE_') this.#setFloat(ast, statement);
     else if (keyword === 'SG_MUL_VAL_') this.#setSelection(ast, line);
-    else this.#attribute(keyword, ast);
+    else this.#attribute(ast, statement);
   }
 
   #addMessage({id, name}, line, text) {
-    if (id > 0x1fffffff && id < kExtended && !kIndependent.has(id))
-      throw new DbcError(
-        line,
-        `message ${name} has the identifier ${id}; ` +
-          'allowed: 0 to 2047, and of 29 bits with bit 31 set',
-      );
+    const length = Number(/: (\d+)/.exec(text)[1]);
+    if (!kIndependent.has(id)) refuse(line, messageProblem(name, id, length));
     const key = keyOf(id);
     const known = this.messages.get(key);
     if (known && !kIndependent.has(key))
@@ -113,7 +121,7 @@ class Reader {
       key,
       id: key % kExtended,
       extended: key >= kExtended,
-      length: Number(/: (\d+)/.exec(text)[1]),
+      length,
       j1939: false,
       signals: [],
       line,
@@ -126,24 +134,34 @@ class Reader {
     const known = this.message.signals.find(({name}) => name === ast.name);
     if (known && !kIndependent.has(this.message.key))
       throw new DbcError(line, `signal ${ast.name} is there twice; first in line ${known.line}`);
-    this.message.signals.push(signalOf(ast, line, strings));
+    const signal = signalOf(ast, line, strings);
+    refuse(line, selectionProblem(signal.name, signal.value));
+    this.message.signals.push(signal);
   }
 
   #find(id, name) {
     return this.messages.get(keyOf(id))?.signals.find((signal) => signal.name === name);
   }
 
-  #addChoices({id, name, enum: table}, {line, text: statement, strings}) {
-    const values = [...statement.matchAll(/\s(-?\d+)\s+"/g)].map(([, value]) => value);
-    const twice = values.find((value, index) => values.indexOf(value) !== index);
-    if (twice) throw new DbcError(line, `value ${twice} of signal ${name} is there twice`);
-    const signal = this.#find(id, name);
-    table.forEach((text, raw) => signal?.choices.set(raw, strings[Number(text)]));
+  // The values as they stand: candied's are floating-point numbers.
+  #addChoices({id, name}, {line, text, strings}) {
+    const pairs = [...text.matchAll(/\s(-?\d+|0x[0-9a-f]+)\s+"(\d+)"/gi)];
+    const values = pairs.map(([, value]) => value);
+    refuse(line, choicesProblem(name, values));
+    const choices = this.#find(id, name)?.choices ?? new Map();
+    for (const [, value, number] of pairs) {
+      const [raw, choice] = [exact(value), strings[Number(number)]];
+      if ((choices.get(raw) ?? choice) !== choice)
+        throw new DbcError(line, `value ${value} of signal ${name} has another text already`);
+      choices.set(raw, choice);
+    }
   }
 
-  #setFloat({id, name}) {
+  #setFloat({id, name}, {line, text}) {
     const signal = this.#find(id, name);
-    if (signal) signal.float = true;
+    if (!signal) return;
+    refuse(line, valueTypeProblem(signal, /: ?(\d)/.exec(text)[1]));
+    signal.float = true;
   }
 
   #setSelection({id, name, switch_name: by, value_ranges: ranges}, line) {
@@ -155,10 +173,20 @@ class Reader {
         line,
         `signal ${name} is multiplexed by ${by}, which is no multiplexer (M) of the message`,
       );
-    signal.selection = {multiplexer, ranges: ranges.map(([a, b = a]) => [Number(a), Number(b)])};
+    const before = signal.selection?.multiplexer ?? multiplexer;
+    if (before !== multiplexer)
+      throw new DbcError(
+        line,
+        `signal ${name} is multiplexed by ${before.name} already; allowed: one multiplexer for a ` +
+          'signal',
+      );
+    const given = ranges.map(([first, last = first]) => [first, last]);
+    refuse(line, rangesProblem(name, given));
+    const more = given.map((range) => range.map(exact));
+    signal.selection = {multiplexer, ranges: [...(signal.selection?.ranges ?? []), ...more]};
   }
 
-  #attribute(keyword, ast) {
+  #attribute(ast, {line, keyword, text}) {
     const {name} = ast;
     if (keyword === 'BA_DEF_') {
       if (name === 'VFrameFormat' && ast.enum?.length) this.formats = ast.enum;
@@ -168,7 +196,10 @@ class Reader {
       this.attributes[name] = ast.value;
     } else {
       const message = this.messages.get(keyOf(ast.id));
-      if (name === 'VFrameFormat' && message) message.format = ast.value;
+      if (name === 'VFrameFormat' && message) {
+        refuse(line, frameFormatProblem(/(\S+) ;$/.exec(text)[1], this.formats));
+        message.format = ast.value;
+      }
       if (name === 'SystemMessageLongSymbol' && message) message.long = ast.value;
       const signal = name === 'SystemSignalLongSymbol' && this.#find(ast.id, ast.signal);
       if (signal) signal.long = ast.value;
@@ -179,7 +210,8 @@ class Reader {
   #isJ1939({extended, format = this.attributes.VFrameFormat}) {
     if (!extended) return false;
     if (format === undefined) return (this.attributes.ProtocolType ?? '').includes('J1939');
-    return (this.formats[Number(format)] ?? format) === 'J1939PG' || format === 'J1939PG';
+    const names = this.formats.length > 0 ? this.formats : ['', '', '', 'J1939PG'];
+    return (names[Number(format)] ?? format) === 'J1939PG' || format === 'J1939PG';
   }
 
   finish() {
@@ -212,20 +244,14 @@ function select(signal, message) {
       `signal ${signal.name} is multiplexed, but the message has no or more than one multiplexer ` +
         '(M); allowed: one, or SG_MUL_VAL_ for each signal',
     );
-  const value = Number(signal.value);
+  const value = exact(signal.value);
   signal.selection = {multiplexer, ranges: [[value, value]]};
 }
 
 /** What is wrong with a signal; null: nothing. */
 function problemOf(signal, message) {
-  const {length, float, factor} = signal;
-  if (length < 1 || length > 64) return `has ${length} bits; allowed: 1 to 64`;
-  if (float && length !== 32 && length !== 64)
-    return `is a floating-point number of ${length} bits; allowed: 32, 64`;
-  if (factor === 0) return 'has the factor 0';
-  if (signal.bytes > message.length)
-    return `does not fit the ${message.length} bytes of message ${message.name}: ` +
-      `it needs ${signal.bytes}`;
+  const problem = signalProblem(signal, message);
+  if (problem) return problem;
   const seen = new Set();
   for (let at = signal; at; at = at.selection?.multiplexer) {
     if (seen.has(at)) return 'is multiplexed by itself';

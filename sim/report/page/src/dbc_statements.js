@@ -143,6 +143,25 @@ function canonical({line, keyword, text}) {
   return {line, keyword, text: keyword === 'BO_' ? tight : `${tight} ;`, strings};
 }
 
+/** The keyword of a statement that matters and stands in the line of another one, or undefined. */
+function followerOf({keyword, text}) {
+  if (keyword === 'NS_') return undefined;
+  const rest = text.replace(kString, '');
+  const words = kByLine.has(keyword)
+    ? rest.split(/[\s:;]+/).slice(1)
+    : rest.split(';').slice(1).map((part) => keywordOf(part.trim()));
+  return words.find((word) => Object.hasOwn(kForms, word));
+}
+
+function refuseFollowers(statement) {
+  const follower = followerOf(statement);
+  if (follower)
+    throw new DbcError(
+      statement.line,
+      `${follower} follows ${statement.keyword} in one line; allowed: one statement in a line`,
+    );
+}
+
 const kZero = /:\s*0\s*;?\s*$/; // SIG_VALTYPE_ of an integer
 
 function relevant({keyword, text}) {
@@ -162,5 +181,6 @@ export function statementsOf(text) {
     .split(/\r\n|\r|\n/)
     .forEach((line, i) => splitter.take(line.trim(), i + 1));
   splitter.end();
+  splitter.statements.forEach(refuseFollowers);
   return splitter.statements.filter(relevant).map(canonical);
 }

@@ -13,17 +13,27 @@ function number(places, data) {
   return raw;
 }
 
-/** The bits as an integer: a Number, or a BigInt beyond 53 bits. */
+/** An integer, Number, BigInt or text, as a Number where that is exact. */
+export function exact(value) {
+  const rounded = Number(value);
+  return Number.isSafeInteger(rounded) ? rounded : BigInt(value);
+}
+
+/** The bits as an integer without a sign: a Number, or a BigInt beyond 53 bits. */
+function bitsOf({places, length}, data) {
+  if (length <= 53) return number(places, data);
+  return (
+    (BigInt(number(places.slice(0, -32), data)) << 32n) | BigInt(number(places.slice(-32), data))
+  );
+}
+
+/** The same with its sign. */
 function rawOf(signal, data) {
-  const {places, length, signed, float} = signal;
-  const negative = signed && !float;
-  if (length <= 53) {
-    const raw = number(places, data);
-    return negative && raw >= 2 ** (length - 1) ? raw - 2 ** length : raw;
-  }
-  const raw =
-    (BigInt(number(places.slice(0, -32), data)) << 32n) | BigInt(number(places.slice(-32), data));
-  return negative ? BigInt.asIntN(length, raw) : raw;
+  const {length, signed, float} = signal;
+  const bits = bitsOf(signal, data);
+  if (!signed || float) return bits;
+  if (length > 53) return BigInt.asIntN(length, bits);
+  return bits >= 2 ** (length - 1) ? bits - 2 ** length : bits;
 }
 
 function floatOf(length, raw) {
@@ -50,14 +60,14 @@ export function valueOf(signal, data) {
   return {signal, raw, value: float ? plain : rounded(plain, decimals)};
 }
 
-/** Whether a signal is there: its multiplexer is, and selects it. */
+/** Whether a signal is there: its multiplexer is, and selects it by its bits, sign or not. */
 export function isSelected(signal, data) {
   const {selection} = signal;
   if (!selection) return true;
   const {multiplexer, ranges} = selection;
   if (multiplexer.bytes > data.length || !isSelected(multiplexer, data)) return false;
-  const raw = Number(rawOf(multiplexer, data));
-  return ranges.some(([first, last]) => raw >= first && raw <= last);
+  const bits = bitsOf(multiplexer, data);
+  return ranges.some(([first, last]) => bits >= first && bits <= last);
 }
 
 const isThere = (signal, data) => signal.bytes <= data.length && isSelected(signal, data);
@@ -91,7 +101,7 @@ export function numberText(signal, value) {
 }
 
 export const choiceOf = ({signal, raw}) =>
-  signal.float ? undefined : signal.choices.get(Number(raw));
+  signal.float ? undefined : signal.choices.get(exact(raw));
 
 /** The number of a decoded value, all digits of 64 bits. */
 export function rawText({signal, raw, value}) {
