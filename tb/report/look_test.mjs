@@ -101,6 +101,53 @@ test('the last label of a plot over time is whole', async () => {
   await closeReport(page);
 });
 
+/** {x, busy, lost} of the plot of the bus load. */
+async function loadPlot(page) {
+  await page.click('#tab-load');
+  const data = await page.waitForFunction(() => {
+    const {plot} = window.verican.tabs.entries.find((entry) => entry.id === 'load').plot;
+    return plot && plot.data.map((column) => [...column]);
+  });
+  const [x, busy, lost] = await data.jsonValue();
+  return {x, busy, lost};
+}
+
+test('where a limit has cut off the details the load is not told', async () => {
+  const cut = new Scene(['a', 'b']);
+  for (let i = 0; i < 8; ++i) cut.frame(0, {id: i, dlc: 1, data: [i]}, {gap: 60});
+  const end = cut.log[4].time - 30 * bit;
+  const file = writeScene('look-cut', cut.finish({detail_end_ns: end, truncated: 'Cut.'}));
+  const page = await openReport(file);
+  const {x, busy, lost} = await loadPlot(page);
+  const step = x[1] - x[0];
+  let sum = 0;
+  x.forEach((from, i) => {
+    const known = Math.min(from + step, end) - Math.max(from, 0); // of the window, of the run
+    assert.equal(busy[i] === null, known <= 0, `${from} ns`);
+    assert.equal(lost[i], busy[i] === null ? null : 0);
+    sum += known > 0 ? (busy[i] / 100) * known : 0;
+  });
+  const four = cut.log.slice(0, 4).reduce((time, f) => time + f.end - f.time + 3 * bit, 0);
+  assert.ok(Math.abs(sum - four) < 1, `${sum} ns busy, of four frames ${four}`);
+  assert.match(await page.textContent('#panel-load'), /not known from [\d.]+ ms on: no bits were/);
+  const [mark] = await page.evaluate(() => {
+    const {overview} = window.verican;
+    overview.painter.items = [];
+    overview.draw();
+    return overview.painter.items.filter(({kind}) => kind === 'unknown');
+  });
+  const places = await page.evaluate(
+    ([a, b]) => [window.verican.overview.x(a), window.verican.overview.x(b)],
+    [end, cut.now],
+  );
+  assert.ok(Math.abs(mark.x0 - places[0]) < 1 && mark.x1 > mark.x0, JSON.stringify([mark, places]));
+  await screenshot(page, 'look-cut');
+  await closeReport(page);
+  const whole = await openReport(writeScene('look-whole', cut.finish()));
+  assert.doesNotMatch(await whole.textContent('#panel-load'), /not known/);
+  await closeReport(whole);
+});
+
 test('lanes say that there are more of them, on both sides', async () => {
   const names = Array.from({length: 24}, (_, i) => `node ${i}`);
   const scene = new Scene(names, {title: 'Many nodes'});

@@ -3,7 +3,7 @@
 //
 // Load of the bus over time: part of the time in which it is busy, and what errors took of it.
 import {el, swatch} from './dom.js';
-import {percent} from './format.js';
+import {formatTime, percent} from './format.js';
 import {Plot} from './plot.js';
 import {lastAtOrBelow} from './search.js';
 import {colors} from './theme.js';
@@ -28,6 +28,27 @@ function wastedSums(report) {
   };
 }
 
+/** What is missing in a report whose details a limit has cut off; null: nothing. */
+function missing({detailEnd, duration}) {
+  if (detailEnd >= duration) return null;
+  const from = formatTime(detailEnd, duration / 1000);
+  return el('span', {class: 'alarm'}, `not known from ${from} on: no bits were kept`);
+}
+
+/** Load and what of it failed, in per cent, of equal windows; null where nothing is known. */
+function loadsOf(report, wasted, from, to) {
+  const step = (to - from) / kWindows;
+  const [x, busy, lost] = [[], [], []];
+  for (let i = 0; i <= kWindows; ++i) {
+    const at = from + i * step;
+    const [a, b] = report.known(at, at + step);
+    x.push(at);
+    busy.push(b > a ? 100 * report.loadIn(at, at + step) : null);
+    lost.push(b > a ? (100 * (wasted(b) - wasted(a))) / (b - a) : null);
+  }
+  return [x, busy, lost];
+}
+
 export class LoadTab {
   constructor(report, view) {
     const host = el('div', {class: 'plot'});
@@ -46,23 +67,12 @@ export class LoadTab {
         el('span', {}, swatch(colors().load), 'busy: frames, errors and the three bits after each'),
         el('span', {}, swatch(colors().alarm), 'of it attempts that failed'),
         el('span', {class: 'dim'}, `whole run ${percent(summary.load)}${bound}`),
+        missing(report),
       ),
       host,
     );
     this.plot = new Plot(host, report, view, {
-      data: (from, to) => {
-        const step = (to - from) / kWindows;
-        const x = [];
-        const busy = [];
-        const lost = [];
-        for (let i = 0; i <= kWindows; ++i) {
-          const a = from + i * step;
-          x.push(a);
-          busy.push(100 * report.loadIn(a, a + step));
-          lost.push((100 * (wasted(a + step) - wasted(a))) / step);
-        }
-        return [x, busy, lost];
-      },
+      data: (from, to) => loadsOf(report, wasted, from, to),
       options: () => ({
         label: 'bus load, %',
         scales: {y: {range: () => [0, 100]}},

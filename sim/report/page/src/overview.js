@@ -77,6 +77,7 @@ export class Overview {
         p.note('fault', {x});
       }
     }
+    this.#drawEnd(p);
     p.text('whole run', 10, kHeight / 2, {size: 11, color: 'dim'});
     const a = this.x(this.view.from);
     const b = this.x(this.view.to);
@@ -84,6 +85,15 @@ export class Overview {
     p.rect(b, 0, Math.max(this.width - b, 0), kHeight, 'panel', 0.55);
     p.frame(a - 1, 0.5, Math.max(b - a + 2, 4), kHeight - 1, 'select', 2);
     p.note('window', {x0: a, x1: b});
+  }
+
+  /** Where the load is not known, as a limit has cut off the details. */
+  #drawEnd(p) {
+    const {detailEnd, duration} = this.report;
+    if (detailEnd >= duration) return;
+    const [a, b] = [this.x(detailEnd), this.x(duration)];
+    p.hatch(a, 8, b - a, kHeight - 15, 'dim');
+    p.note('unknown', {x0: a, x1: b});
   }
 
   #attach() {

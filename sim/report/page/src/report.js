@@ -50,6 +50,7 @@ export class Report {
     this.meta = meta;
     this.nodes = meta.nodes;
     this.duration = meta.duration_ns;
+    this.detailEnd = Math.min(meta.detail_end_ns ?? Infinity, this.duration);
     this.bitNs = 1e9 / meta.bitrate;
     this.frames = need(arrays, 'f', [
       'start',
@@ -136,9 +137,15 @@ export class Report {
     return this.busyBefore[i] + Math.min(ns, segments.end[i]) - segments.start[i];
   }
 
-  /** Part of the window in which the bus is busy, 0..1. */
+  /** The part of a window of which all is known: of the run, as far as segments were kept. */
+  known(from, to) {
+    return [Math.max(from, 0), Math.min(to, this.detailEnd)];
+  }
+
+  /** Part of the known time in the window in which the bus is busy, 0..1; NaN: there is none. */
   loadIn(from, to) {
-    return to > from ? (this.busyUntil(to) - this.busyUntil(from)) / (to - from) : 0;
+    const [a, b] = this.known(from, to);
+    return b > a ? (this.busyUntil(b) - this.busyUntil(a)) / (b - a) : NaN;
   }
 
   eventsIn(from, to) {

@@ -174,13 +174,13 @@ export class Scope {
     if (this.faultRow) p.text('faults', 10, kBarEnd + bus + kFaultRow / 2, note);
     p.text('CAN_H', scale.left - 8, kBarEnd + 14, {size: 10, color: 'dim', align: 'right'});
     p.text('CAN_L', scale.left - 8, kBarEnd + bus - 14, {size: 10, color: 'dim', align: 'right'});
-    if (scale.report.meta.detail_end_ns !== undefined) this.#drawEnd(p, scale);
+    this.#drawEnd(p, scale);
   }
 
   /** Where bits and levels end, if a limit cut them off. */
   #drawEnd(p, scale) {
-    const end = scale.report.meta.detail_end_ns;
-    const range = end < scale.report.duration ? scale.range(end, scale.to) : null;
+    const {detailEnd, duration} = scale.report;
+    const range = detailEnd < duration ? scale.range(detailEnd, scale.to) : null;
     if (!range) return;
     p.rect(range[0], kRows.fields[0], range[1] - range[0], p.height, 'raised', 0.6);
     p.fit(
