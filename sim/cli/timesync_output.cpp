@@ -121,8 +121,9 @@ void print_sync_row(const SyncOutcome &outcome) {
 
 void print_sync_foot() {
   fmt::print(
-      "\nmean, sd, max: each follower less the master, at any instant in which it is locked; "
-      "between:\nof two followers. Simulated: transceivers and cables come on top.\n");
+      "\nmean, sd, max: each follower less the master, at any instant in which it is locked, or\n"
+      "from its first lock on where the master is cut; between: of two followers. Simulated:\n"
+      "transceivers and cables come on top.\n");
 }
 
 Json to_json(const SyncOutcome &outcome) {

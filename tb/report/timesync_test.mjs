@@ -222,6 +222,46 @@ test('each seed has its own samples', async () => {
   await closeReport(page);
 });
 
+test('seeds have their numbers', async () => {
+  const page = await openReport(
+    written('seeds', byHand((json) => ({...json, case: {...json.case, first_seed: 17}}))),
+  );
+  assert.deepEqual(
+    await page.$$eval('.seeds button', (list) => list.map((button) => button.textContent)),
+    ['seed 17', 'seed 18'],
+  );
+  await closeReport(page);
+});
+
+// docs/timesync.md: with --master-cut errors count from the first lock on, whatever the state.
+test('of a cut master all counts from the first lock on', async () => {
+  const cut = byHand((json) => {
+    const [run] = json.runs;
+    run.followers[1].error_ps[42] = 90e3; // in holdover
+    return {...json, case: {...json.case, master_cut: true}, runs: [run]};
+  });
+  const page = await openReport(written('cut', cut));
+  // Of looks 4 to 43 half are 41 ns, one of these 90 now, and half are 1 ns.
+  const mean = (19 * 41 + 20 * 1 + 90) / 40;
+  const sd = Math.sqrt((19 * 41 ** 2 + 20 * 1 + 90 ** 2) / 40 - mean ** 2);
+  const [, second] = await rows(page, 'followers');
+  assert.deepEqual(second.slice(0, 5), [
+    'follower 2',
+    '40',
+    mean.toFixed(1),
+    sd.toFixed(1),
+    '90.0',
+  ]);
+  assert.equal((await bars(page)).counts.reduce((a, b) => a + b), 80);
+  const [, high] = await yRange(page, 'offset');
+  assert.ok(high >= 90, `the offset plot ends at ${high} ns`);
+  assert.match(await page.innerHTML('.head'), /Of each follower from its first lock on, all runs/);
+  await closeReport(page);
+  const other = await openReport(file);
+  assert.match(await other.innerHTML('.head'), /Of each follower while locked, all runs/);
+  await closeReport(other);
+});
+
 test('a file without data, or of another format, says so', async () => {
   const cases = [
     ['damaged', (text) => text.replace(/"format":1/, '"format":'), /data of the page is damaged/],

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How often which offset: bars over ns, of the followers that are shown, while they are locked.
+// How often which offset: bars over ns, of the followers that are shown, while their errors count.
 import uPlot from 'uplot';
 import {niceStep} from '../format.js';
 import {colors} from '../theme.js';
@@ -22,7 +22,7 @@ export function histogramOf(values) {
 }
 
 export class Histogram {
-  /** @param page {locked(): values in ns, data} */
+  /** @param page {counted(): values in ns, data} */
   constructor(host, page) {
     Object.assign(this, {host, page});
     new ResizeObserver(() => this.draw()).observe(host);
@@ -32,7 +32,7 @@ export class Histogram {
   draw() {
     const width = this.host.clientWidth;
     const height = this.host.clientHeight;
-    this.bars = histogramOf(this.page.locked());
+    this.bars = histogramOf(this.page.counted());
     this.plot?.destroy();
     this.plot = null;
     if (width < 50 || height < 50) return;
@@ -43,7 +43,7 @@ export class Histogram {
 
   #options(width, height) {
     const theme = colors();
-    const {goal} = this.page.data;
+    const {goal, when} = this.page.data;
     const {step, first, counts} = this.bars;
     const most = Math.max(-first, first + counts.length * step, 1.1 * (goal?.max ?? 0));
     const axis = {
@@ -65,7 +65,7 @@ export class Histogram {
         y: {range: (u, low, high) => [0, 1.05 * (high || 1)]},
       },
       axes: [
-        {...axis, label: 'offset while locked, ns', size: 30},
+        {...axis, label: `offset ${when}, ns`, size: 30},
         {...axis, label: 'samples', size: 60},
       ],
       series: [

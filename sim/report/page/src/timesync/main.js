@@ -16,7 +16,7 @@ const fact = (value, name, title) =>
 const ns = (ps) => `${(ps / 1e3).toFixed(1)} ns`;
 
 /** Verdict and figures of all seeds. */
-function header({json, goal}) {
+function header({json, goal, when}) {
   const {result} = json;
   const verdict = goal
     ? el(
@@ -44,7 +44,7 @@ function header({json, goal}) {
       fact(ns(result.max_ps), 'max', 'Largest error, either way'),
       fact(ns(result.between_ps), 'between followers', 'Largest distance of two followers'),
       ...limits,
-      fact(formatCount(result.samples), 'samples', 'While locked, all runs'),
+      fact(formatCount(result.samples), 'samples', `Of each follower ${when}, all runs`),
     ),
     el(
       'div',
@@ -76,13 +76,13 @@ class Page {
     return !this.hidden.has(n);
   }
 
-  /** Of all followers that are shown, while locked, ns. */
-  locked() {
-    return this.run.followers.flatMap((_, n) => (this.shown(n) ? [...this.run.locked(n)] : []));
+  /** Errors that count of all followers that are shown, ns. */
+  counted() {
+    return this.run.followers.flatMap((_, n) => (this.shown(n) ? [...this.run.counted(n)] : []));
   }
 
   offsetRange() {
-    const most = 1.1 * Math.max(figuresOf(this.locked()).max || 0, this.data.goal?.max ?? 0, 1);
+    const most = 1.1 * Math.max(figuresOf(this.counted()).max || 0, this.data.goal?.max ?? 0, 1);
     return [-most, most];
   }
 
@@ -117,7 +117,7 @@ function toolbar(page, redraw) {
           redraw();
         },
       },
-      `seed ${i + 1}`,
+      `seed ${page.data.firstSeed + i}`,
     ),
   );
   const whole = el(

@@ -32,7 +32,9 @@ export function figuresOf(values) {
 
 /** One run: the looks at all followers, and what their servos did. */
 class SyncRun {
-  constructor(json, nominal) {
+  /** @param throughout errors count from the first time on that a follower is locked */
+  constructor(json, nominal, throughout) {
+    this.throughout = throughout;
     this.at = Float64Array.from(json.at_ps, (ps) => ps / 1e3);
     this.begin = this.at[0] ?? 0;
     this.end = this.at.at(-1) ?? 0;
@@ -61,10 +63,12 @@ class SyncRun {
     follower.meanRate = figuresOf(locked).mean;
   }
 
-  /** Errors of a follower while it is locked, ns. */
-  locked(n) {
+  /** Errors of a follower that count, ns: as the tool's figures, SyncFigures. */
+  counted(n) {
     const {error, state} = this.followers[n];
-    return error.filter((_, i) => state[i] === kLocked);
+    if (!this.throughout) return error.filter((_, i) => state[i] === kLocked);
+    const first = state.indexOf(kLocked);
+    return first < 0 ? error.subarray(0, 0) : error.subarray(first);
   }
 
   /** Stretches of a follower in one state: [from, to, state]. */
@@ -90,7 +94,10 @@ export class SyncData {
   constructor(json) {
     this.json = json;
     this.nominal = (1e9 / json.case.frequency_hz) * 2 ** 32;
-    this.runs = json.runs.map((run) => new SyncRun(run, this.nominal));
+    const {master_cut: cut = false, first_seed: seed = 1} = json.case;
+    this.when = cut ? 'from its first lock on' : 'while locked'; // errors count
+    this.firstSeed = seed;
+    this.runs = json.runs.map((run) => new SyncRun(run, this.nominal, cut));
     this.goal = json.goal && {
       sd: json.goal.sd_ps === null ? null : json.goal.sd_ps / 1e3,
       max: json.goal.max_ps / 1e3,

@@ -27,9 +27,10 @@ function table(head, rows) {
 
 /** A row for each follower; `toggle(n)` shows or hides it. */
 export function followersTable(page, toggle) {
+  const {when} = page.data;
   const goal = page.data.goal?.max ?? Infinity;
   const rows = page.run.followers.map(({meanRate}, n) => {
-    const {count, mean, sd, max} = figuresOf(page.run.locked(n));
+    const {count, mean, sd, max} = figuresOf(page.run.counted(n));
     const box = el('input', {type: 'checkbox', checked: page.shown(n), id: `follower-${n}`});
     box.addEventListener('change', () => toggle(n));
     const name = el('label', {for: `follower-${n}`}, swatch(nodeColor(n)), `follower ${n + 1}`);
@@ -44,8 +45,8 @@ export function followersTable(page, toggle) {
   return table(
     [
       ['', 'Untick it to hide it'],
-      ['samples', 'Looks at it while it was locked', true],
-      ['mean, ns', 'Of the offset while locked', true],
+      ['samples', `Looks at it ${when}`, true],
+      ['mean, ns', `Of the offset ${when}`, true],
       ['sd, ns', 'Standard deviation of the offset', true],
       ['max, ns', 'Largest offset, either way', true],
       ['rate, ppm', 'Mean of its increment against the nominal one', true],
