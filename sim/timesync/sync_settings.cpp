@@ -124,7 +124,7 @@ std::string read_case(const std::string &path, SyncCase &setting, SyncValues &va
       values[one.name] = value.text();
     });
   std::string name;
-  map.with("name", [&](const YamlValue &value) { name = value.text(); });
+  map.with("name", [&](const YamlValue &value) { name = value.name(); });
   map.finish();
   return name;
 }

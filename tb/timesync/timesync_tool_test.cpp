@@ -125,6 +125,8 @@ TEST_F(TimeSync, BadInput) {
                  "--sine-period: is that of a swing; allowed: with sine above 0");
   expect_refused(file_with("c.yaml", "restless: true\n"),
                  "c.yaml: restless: is a setting of followers");
+  expect_refused(file_with("n.yaml", "name: \"a\\e[31m\"\n"),
+                 "n.yaml:1: name: a control character is in it");
   expect_refused(file_with("d.yaml", "seeds: 1\n---\nload: 5\n"), "d.yaml:3: a second document");
   expect_refused("--sweep --report x.html", "excludes");
   expect_refused("--p4 --report x.html", "excludes");
