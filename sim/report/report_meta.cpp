@@ -142,13 +142,21 @@ Json truncated_json(const ReportRecorder &recorder) {
       recorder.limit());
 }
 
-/// For the page, which reads them as if they were dropped onto it.
+std::string leaf_of(const DatabaseFile &file) {
+  return std::filesystem::path(file.path).filename().string();
+}
+
+/// For the page, which reads them as if they were dropped onto it. There one of a name takes the
+/// place of another, so those of several folders with one name keep their folders.
 Json databases_json(const ReportExtras &extras) {
   Json list = Json::array();
   if (extras.database == nullptr) return list;
-  for (const DatabaseFile &file : extras.database->files())
-    list.push_back(
-        {{"name", std::filesystem::path(file.path).filename().string()}, {"text", file.text}});
+  const auto &files = extras.database->files();
+  for (const DatabaseFile &file : files) {
+    const auto same = [&](const DatabaseFile &other) { return leaf_of(other) == leaf_of(file); };
+    const bool alone = std::count_if(files.begin(), files.end(), same) == 1;
+    list.push_back({{"name", alone ? leaf_of(file) : file.path}, {"text", file.text}});
+  }
   return list;
 }
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -75,6 +76,26 @@ traffic: [{node: b, name: '<!--', id: 0x10, period: 1 ms}]
   EXPECT_EQ(count(read.html, "<!--"), count(empty, "<!--") - 2);
   EXPECT_TRUE(read.html.starts_with(empty.substr(0, empty.find(kMetaPlace))));
   EXPECT_TRUE(read.html.ends_with(empty.substr(empty.find(kDataPlace) + kDataPlace.size())));
+}
+
+// On the page a database takes the place of another one of its name.
+TEST(ReportTool, DatabasesOfOneNameKeepTheirFolders) {
+  const std::string folder = report_file(".dbcs"), page = report_file(".html");
+  std::string options;
+  int id = 291;
+  for (const char *name : {"1/can.dbc", "2/can.dbc", "2/other.dbc"}) {
+    const std::filesystem::path path = std::filesystem::path{folder} / name;
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream{path} << "BO_ " << id++ << " M: 8 X\n";
+    options += " --dbc " + path.string();
+  }
+  const std::string log = file_with(".log", "(1.0) can0 123#11\n");
+  ASSERT_EQ(tb::run_tool("report " + log + options + " -o " + page).code, 0);
+  const auto databases = ReportPage{page}.meta.at("databases");
+  ASSERT_EQ(databases.size(), 3U);
+  EXPECT_EQ(databases[0].at("name"), folder + "/1/can.dbc");
+  EXPECT_EQ(databases[1].at("name"), folder + "/2/can.dbc");
+  EXPECT_EQ(databases[2].at("name"), "other.dbc");
 }
 
 TEST(ReportTool, AnUnwritablePathIsRefusedBeforeTheRun) {
