@@ -34,14 +34,21 @@ void check_interface(const CanLog &log, const LogFilter &filter, const std::stri
                                  path, interfaces_text(interfaces)));
 }
 
-/// The identifier of a CAN FD frame or error message with SocketCAN's flags.
+/// The identifier of a CAN FD frame with SocketCAN's flags.
 canid_t can_id_of(const ForeignEntry &entry) {
   const std::size_t digits = entry.text.find('#');
   const auto id = text::parse_unsigned(std::string_view{entry.text}.substr(0, digits), 16);
-  const bool extended = entry.kind == ForeignEntry::Kind::kFd && digits == 8;
-  return static_cast<canid_t>(id.value_or(0)) | (extended ? CAN_EFF_FLAG : 0);
+  return static_cast<canid_t>(id.value_or(0)) | (digits == 8 ? CAN_EFF_FLAG : 0);
 }
-canid_t can_id_of(const LogEntry &entry) { return vericansim::can_id_of(entry.frame); }
+
+bool has_wanted_id(const std::vector<IdFilter> &ids, const LogEntry &entry) {
+  return passes(ids, can_id_of(entry.frame));
+}
+/// An error message has a class in the identifier's place: no filter lets it pass, as in the
+/// kernel.
+bool has_wanted_id(const std::vector<IdFilter> &ids, const ForeignEntry &entry) {
+  return entry.kind == ForeignEntry::Kind::kError ? ids.empty() : passes(ids, can_id_of(entry));
+}
 
 }  // namespace
 
@@ -75,7 +82,7 @@ CanLog filtered(CanLog log, const LogFilter &filter, const std::string &path) {
   const auto wanted = [&filter](const auto &entry) {
     return (filter.interface.empty() || filter.interface == kAll ||
             entry.channel == filter.interface) &&
-           passes(filter.ids, can_id_of(entry)) && entry.time >= filter.from.value_or(entry.time) &&
+           has_wanted_id(filter.ids, entry) && entry.time >= filter.from.value_or(entry.time) &&
            entry.time <= filter.to.value_or(entry.time);
   };
   CanLog result;

@@ -76,7 +76,8 @@ TEST(LogFilter, TimesCountFromTheFirstEntryIfNoClassicalFrameIsLeft) {
   EXPECT_EQ(part.start_ns, 100'100'000'000);
 }
 
-// 29 bits are a flag of CAN FD frames too, and none of error messages, whatever their digits.
+// 29 bits are a flag of CAN FD frames too. Error messages have a class, no identifier: candump's
+// filters let none of them pass, inverted ones neither (linux/can/raw.h, CAN_RAW_ERR_FILTER).
 TEST(LogFilter, OtherEntriesByMask) {
   const CanLog log = parse_candump(
       "(1.0) can0 00000123##1AA\n(1.1) can0 123##1BB\n(1.2) can0 20000123#0000000000000000\n",
@@ -89,7 +90,9 @@ TEST(LogFilter, OtherEntriesByMask) {
     return text;
   };
   EXPECT_EQ(texts("00000123:9FFFFFFF"), "00000123##1AA ");
-  EXPECT_EQ(texts("123:800007FF"), "123##1BB 20000123#0000000000000000 ");
+  EXPECT_EQ(texts("123:800007FF"), "123##1BB ");
+  EXPECT_EQ(texts("0:0"), "00000123##1AA 123##1BB ");
+  EXPECT_EQ(texts("456~7FF"), "00000123##1AA 123##1BB ");
 }
 
 // candump's filters, which see 29-bit identifiers and remote frames by SocketCAN's flags.
