@@ -21,6 +21,7 @@ using text::Place;
 // Layout of a packet (tcpdump.org, LINKTYPE_CAN_SOCKETCAN): identifier and flags, big-endian;
 // length; FD flags; reserved; raw DLC; data.
 constexpr std::size_t kHeader = 8;
+constexpr std::size_t kFdPacket = 72;  // as the kernel hands CAN FD frames over, whatever they hold
 constexpr std::uint32_t kExtended = 0x80000000;
 constexpr std::uint32_t kRemote = 0x40000000;
 constexpr std::uint32_t kError = 0x20000000;
@@ -72,7 +73,9 @@ void add_frame(Bytes bytes, std::uint32_t id, bool fd, std::int64_t ns, LogEntry
   // Old captures have rubbish in the three bytes behind the length: believe them only if they make
   // sense.
   const bool clean = (bytes[5] & ~kFdFlags) == 0 && bytes[6] == 0;
-  fd = fd || (clean && bytes[7] == 0 && (bytes[5] & kFdFrame) != 0) || length > 8;
+  // Older software does not write the flag of CAN FD; then the size of the packet tells it.
+  fd = fd || (clean && bytes[7] == 0 && (bytes[5] & kFdFrame) != 0) || length > 8 ||
+       bytes.size() == kFdPacket;
   const bool error = (id & kError) != 0, remote = !error && !fd && (id & kRemote) != 0;
   if (length > 64 || (fd && !error && !is_fd_length(length))) return log.skip();
   if (!remote && bytes.size() < kHeader + length)

@@ -93,6 +93,24 @@ TEST(Pcap, SkipsErrorMessagesAndFdFrames) {
   EXPECT_EQ(log.entries[0].frame.dlc, 12);  // the raw DLC of Linux 5.11 and later
 }
 
+// tcpdump.org, LINKTYPE_CAN_SOCKETCAN: where CANFD_FDF is not set, a packet of 16 bytes is a CAN
+// frame, one of 72 bytes a CAN FD frame, which may be as short.
+TEST(Pcap, WithoutTheFlagPacketsOf72BytesAreCanFd) {
+  CaptureBuilder file{false, false};
+  std::string plain = packet({0, 0, 0x01, 0x23, 2, 0, 0, 0, 0xAA, 0x55});
+  plain.resize(16, '\0');
+  std::string fd = packet({0, 0, 0x01, 0x23, 2, 0x01, 0, 0, 0xAA, 0x55});
+  fd.resize(72, '\0');
+  file.packet(1000, 0, plain);
+  file.packet(1000, 1, fd);
+  const CanLog log = read_pcap(file.write("size.pcap"));
+  ASSERT_EQ(log.entries.size(), 1U);
+  EXPECT_EQ(log.entries[0].frame, (Frame{0x123, false, false, 2, {0xAA, 0x55}}));
+  ASSERT_EQ(log.others.size(), 1U);
+  EXPECT_EQ(log.others[0].kind, ForeignEntry::Kind::kFd);
+  EXPECT_EQ(log.others[0].text, "123##1AA55");
+}
+
 // Captures of old kernels hold whatever was in memory behind the length.
 TEST(Pcap, RubbishBehindTheLengthIsIgnored) {
   CaptureBuilder file{false, false};
