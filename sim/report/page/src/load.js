@@ -96,7 +96,7 @@ export async function load(documentNode, progress = () => {}) {
   if (typeof DecompressionStream === 'undefined') {
     throw new LoadError(
       'this browser cannot decompress data (DecompressionStream); ' +
-        'Chromium 80, Firefox 113, Safari 16.4 and later can',
+        'Chromium 111, Firefox 113, Safari 16.4 and later show it',
     );
   }
   const size = sizeOf(meta);
