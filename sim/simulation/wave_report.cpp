@@ -89,13 +89,19 @@ void Player::next(std::size_t change) {
 }
 
 /// Behind the end of the waveform: what ends a last frame may be cut off, but nobody knows whether
-/// a frame without its acknowledge has had one. Returns where the frame began that stays cut, ps.
+/// a frame without its acknowledge has had one. No bit more than it needs, for the page counts them
+/// as time of the recording. Returns where the frame began that stays cut, ps.
 std::optional<Time> Player::rest() {
-  constexpr Time kRest = 24;  // bits
+  constexpr unsigned kMost = 24, kIntermission = 3;  // bits
+  const BusDecoder &decoder = monitor_->decoder();
   monitor_->advance(bus_.now());
-  if (!monitor_->decoder().before_ack_delimiter()) bus_.run_for(kRest * bit_time_);
-  monitor_->advance(bus_.now());
-  const std::optional<Time> begin = monitor_->decoder().under_way();
+  const bool ends = decoder.under_way() && !decoder.before_ack_delimiter();
+  for (unsigned bit = 0; ends && decoder.under_way() && bit < kMost; ++bit) {
+    bus_.run_for(bit_time_);
+    monitor_->advance(bus_.now());
+  }
+  if (ends) bus_.run_for(kIntermission * bit_time_);
+  const std::optional<Time> begin = decoder.under_way();
   return begin ? std::optional{*begin - start_} : std::nullopt;
 }
 

@@ -10,9 +10,11 @@
 #include <iterator>
 
 #include "firmware/tool_run.hpp"
+#include "model/frame_codec.hpp"
 #include "paper/paper.hpp"
 #include "report/page_template.hpp"
 #include "report/report_run.hpp"
+#include "simulation/wave_report.hpp"
 
 namespace vericansim {
 namespace {
@@ -150,6 +152,38 @@ TEST(ReportTool, AWaveformShowsTheSameFrames) {
   // A listener drives nothing and shows the bits of every frame.
   EXPECT_EQ(heard.size("tx0"), 0U);
   EXPECT_NE(heard.at("f.segment", 0), 4294967295.0);
+}
+
+/// A frame behind twelve recessive bits, acknowledged; the waveform ends `behind` bits after it.
+Wave wave_of(const Frame &frame, int behind) {
+  constexpr Time kBit = 2 * kMicrosecond, kRest = 12;
+  const EncodedFrame encoded = encode_frame(frame);
+  Wave wave{"can", 500e3, 0, {{0, Level::kRecessive}}};
+  for (std::size_t i = 0; i < encoded.bits.size(); ++i) {
+    const bool ack = i == encoded.stuffed_length + 1;
+    const Level level = ack ? Level::kDominant : encoded.bits[i].level;
+    if (level != wave.changes.back().second)
+      wave.changes.emplace_back((kRest + static_cast<Time>(i)) * kBit, level);
+  }
+  wave.end = (kRest + static_cast<Time>(encoded.bits.size()) + behind) * kBit;
+  return wave;
+}
+
+// Time and load of its page are those of the recording. Where the end of the last frame is cut off,
+// the page lasts until the intermission behind it is over.
+TEST(ReportTool, AWaveformsPageIsAsLongAsTheWaveform) {
+  const Frame frame{.id = 0x123, .dlc = 2, .data = {0x00, 0xFF}};
+  const double bits = static_cast<double>(encode_frame(frame).bits.size());
+  for (const int behind : {20, 3, 1, 0, -1, -7}) {
+    const std::string page = report_file(".html");
+    const WaveReport report = report_wave(wave_of(frame, behind), "wave", {.report = page}, {});
+    EXPECT_EQ(report.frames, 1U) << behind;
+    const ReportPage read{page};
+    const double length = 12 + bits + (behind >= 0 ? behind : 3);
+    EXPECT_NEAR(read.meta.at("duration_ns").get<double>() / 2000, length, 1.1) << behind;
+    EXPECT_NEAR(read.meta.at("summary").at("load").get<double>(), (bits + 3) / length, 0.02)
+        << behind;
+  }
 }
 
 TEST(ReportTool, ALogIsSentThroughCores) {
