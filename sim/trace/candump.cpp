@@ -106,6 +106,9 @@ ForeignEntry foreign_entry(std::string_view text, const Place &place) {
     fail(place, fmt::format("CAN FD frame of {} bytes is not allowed; allowed: {}",
                             digits.size() / 2, fmt::join(kFdLengths, ", ")));
   entry.text = checked_digits(text.substr(0, hash), 8, place) + (fd ? "##" : "#") + digits;
+  if (Frame checked; fd)  // with the flag of an error message it is neither
+    text::set_id(checked, text::parse_unsigned(text.substr(0, hash), 16).value_or(0), hash == 8,
+                 place);
   return entry;
 }
 

@@ -106,6 +106,13 @@ TEST(CandumpLog, ALastLineWithoutLineEndIsWarnedOf) {
   EXPECT_THAT(parse_candump("", "log").warnings, IsEmpty());
 }
 
+// Bit 29 is the flag of error messages, which CAN FD does not have.
+TEST(CandumpLog, CanFdIdentifiersHave29Bits) {
+  EXPECT_THAT(error_of("(1.0) can0 20000123##1AA\n"),
+              HasSubstr("log:1: identifier is above 1FFFFFFF (29 bits)"));
+  EXPECT_EQ(parse_candump("(1.0) can0 1FFFFFFF##1AA\n", "log").others.at(0).text, "1FFFFFFF##1AA");
+}
+
 // A length that no DLC stands for cannot have been on a bus.
 // A clock that is set on the way, of a computer that keeps no time while it is off.
 TEST(CandumpLog, TimesThatAreTooFarApartAreRefused) {
