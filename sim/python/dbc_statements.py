@@ -41,6 +41,10 @@ ATTRIBUTES = frozenset(["VFrameFormat", "ProtocolType", "GenSigStartValue",
 EXTENDED = 1 << 31
 WITH_ID = re.compile(
     r'^((?:BO_|VAL_|SIG_VALTYPE_|SG_MUL_VAL_|BA_\s+"[^"]*"\s+(?:BO_|SG_))\s+)(\d+)')
+# What canmatrix passes over where it is not so; choices of a variable of the environment have no
+# identifier.
+SHAPES = {"SIG_VALTYPE_": re.compile(r"SIG_VALTYPE_ \d+ \w+ ?: ?-?\d+ ?;$"),
+          "VAL_": re.compile(r"VAL_ (\D|\d+ \w+[ ;])")}
 STRING = re.compile(r'"(?:\\.|[^"\\])*"')
 WORD = re.compile(STRING.pattern + r'|[^\s:;"]+')
 
@@ -175,7 +179,8 @@ def refuse_identifier(line, text, name):
 
 def refuse_odd(line, keyword, text):
     """DbcError for what canmatrix takes for something else: any byte order but 1 for big-endian,
-    the last of two texts of a value, an identifier below 0 or of more than 29 bits."""
+    the last of two texts of a value, an identifier below 0 or of more than 29 bits; or passes
+    over: value types and choices of nothing."""
     words = words_of(text)
     if keyword == "BO_" and words:
         if not re.fullmatch(r"[0-9]+", words[0]):
@@ -186,6 +191,8 @@ def refuse_odd(line, keyword, text):
         if order and order.group(1) not in ("0", "1"):
             raise DbcError(line, f"signal {words[0]} has the byte order {order.group(1)}; allowed: "
                                  "0 (big-endian), 1 (little-endian)")
+    if keyword in SHAPES and not SHAPES[keyword].match(text):
+        raise DbcError(line, f"not understood: {text}; allowed: {FORMS[keyword]}")
     if keyword == "VAL_":
         values = words[2::2]
         for number, value in enumerate(values):
@@ -193,14 +200,27 @@ def refuse_odd(line, keyword, text):
                 raise DbcError(line, f"value {value} of signal {words[1]} is there twice")
 
 
+def refuse_place(line, keyword, text, before):
+    """DbcError for a signal that does not stand behind its message: canmatrix gives it to the one
+    that the statement `before` is about."""
+    if keyword == "SG_" and before not in ("BO_", "SG_"):
+        name = " ".join(words_of(text)[:1])
+        place = f"behind {before}" if before else "before any message"
+        raise DbcError(line, f"signal {name} stands {place}; allowed: behind its message and the "
+                             "signals of that")
+
+
 def relevant(given):
     """Without what is of no use here, whose mistakes do not matter either."""
+    before = None
     for line, keyword, text in given:
         if follower := keyword != "NS_" and follower_of(keyword, text):
             raise DbcError(line, f"{follower} follows {keyword} in one line; allowed: one "
                                  "statement in a line")
         if keyword not in FORMS:
             continue
+        refuse_place(line, keyword, text, before)
+        before = keyword
         if keyword.startswith("BA_") and attribute_name(text) not in ATTRIBUTES:
             continue
         if keyword == "SIG_VALTYPE_" and re.search(r":\s*0\s*;", text):

@@ -76,6 +76,38 @@ export const bad = {
     'CM_ "x" ; BO_ 1 A: 8 X\n SG_ S : 0|8@1+ (1,0) [0|0] "" X\n',
     /line 1: BO_ follows CM_ in one line/,
   ],
+  'a signal before any message': [
+    ' SG_ S : 0|8@1+ (1,0) [0|0] "" X\nBO_ 1 A: 8 X\n',
+    /line 1: signal S stands before any message; allowed: behind its message and the signals of/,
+  ],
+  'a signal behind choices, which are of another message': [
+    `${signal}BO_ 2 B: 8 X\nVAL_ 1 S 1 "a" ;\n SG_ T : 8|8@1+ (1,0) [0|0] "" X\n`,
+    /line 5: signal T stands behind VAL_; allowed: behind its message and the signals of that/,
+  ],
+  'a multiplexer that is neither M nor m': [
+    selected.replace('m1', '0m1'),
+    /line 3: not understood: SG_ S 0m1 :/,
+  ],
+  'choices of which one has no beginning': [
+    `${signal}VAL_ 1 S 0 "a" 1 "b" 2 c" 3 "d" 4 "e;\n`,
+    /line 3: not understood: VAL_ 1 S/,
+  ],
+  'choices without a blank behind the identifier': [
+    `${signal}VAL_ 1S 0 "a" ;\n`,
+    /line 3: not understood: VAL_ 1S/,
+  ],
+  'a value type of no signal': [
+    `${signal}SIG_VALTYPE_ 1 : 1;\n`,
+    /line 3: not understood: SIG_VALTYPE_ 1 : 1/,
+  ],
+  'a value type behind a semicolon': [
+    'BO_ 1 A: 8 X\n SG_ S : 0|32@1- (1,0) [0|0] "" X\nSIG_VALTYPE_ 1 S : ;1;\n',
+    /line 3: not understood: SIG_VALTYPE_ 1 S : ;1/,
+  ],
+  'a range without an end': [
+    `${selected}SG_MUL_VAL_ 1 S M 46, 8-8;\n`,
+    /line 4: not understood: SG_MUL_VAL_ 1 S M 46/,
+  ],
   'a value of 80 bits': [
     `${signal}VAL_ 1 S 1208925819614629174706176 "x" ;\n`,
     /line 3: value 1208925819614629174706176 of signal S is none of 64 bits; allowed: -92233/,

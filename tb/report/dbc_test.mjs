@@ -96,7 +96,7 @@ BO_ 3 Twice: 2 X
  SG_ Both m1 : 8|8@1+ (1,0) [0|0] "" X
 SG_MUL_VAL_ 3 Both Page 1-1;
 SG_MUL_VAL_ 3 Both Page 3-4;
-VAL_ 2 All 9007199254740993 "odd" ;
+VAL_ 2 All 9007199254740993"odd" ;
 `;
 
 // docs/signals.md: m255 is the value -1 of a signed multiplexer of 8 bits. 9007199254740993 is the

@@ -227,6 +227,23 @@ TEST(DbcDatabase, OddNumbersAreRefused) {
               HasSubstr("bad.dbc:1: not understood: BO_ 0x10"));
 }
 
+// canmatrix passes over them, or gives the signal to the message of the statement before.
+TEST(DbcDatabase, StatementsOfNothingAreRefused) {
+  const std::string signal = " SG_ A : 0|32@1- (1,0) [0|0] \"\" X\n", more = "BO_ 2 B: 8 X\n";
+  EXPECT_THAT(refusal(kMessage + signal + "SIG_VALTYPE_ 1 : 1;\n"),
+              HasSubstr("bad.dbc:3: not understood: SIG_VALTYPE_ 1 : 1;"));
+  EXPECT_THAT(refusal(kMessage + signal + "SIG_VALTYPE_ 1 A : ;1;\n"),
+              HasSubstr("bad.dbc:3: not understood: SIG_VALTYPE_ 1 A : ;1;"));
+  EXPECT_THAT(refusal(kMessage + signal + "VAL_ 1A 0 \"a\" ;\n"),
+              HasSubstr("bad.dbc:3: not understood: VAL_ 1A"));
+  EXPECT_EQ(refusal(kMessage + signal + "VAL_ Environment 0 \"a\" ;\n"), "no error");
+  EXPECT_EQ(refusal(kMessage + signal + more + "VAL_ 1 A 0 \"a\" ;\n" + signal),
+            "bad.dbc:5: signal A stands behind VAL_; allowed: behind its message and the signals "
+            "of that");
+  EXPECT_EQ(refusal(kMessage + signal + "CM_ \"x\";\n SG_ B : 32|8@1+ (1,0) [0|0] \"\" X\n"),
+            "no error");
+}
+
 // 29 bits, and bit 31 for the extended format.
 TEST(DbcDatabase, IdentifiersThatNoFrameHasAreRefused) {
   for (const char *bad :

@@ -31,10 +31,18 @@ const kKinds = {
   [ASTKinds.AttributeValue]: 'BA_',
 };
 
+/** Whole statements of which candied passes over parts. */
+const kWhole = {
+  SG_: /^SG_ \w+ (?:M |m\d+M? )?: \d+\|\d+@[01][+-] \([^()]*\) \[[^\]]*\] "\d+" .*$/,
+  VAL_: /^VAL_ (?:\D.*|\d+ \w+(?: ?-?(?:\d+|0x[0-9a-f]+) ?"\d+")*(?: -?\d+)? ?;)$/i,
+  SG_MUL_VAL_: /^SG_MUL_VAL_ \d+ \w+ \w+ \d+ ?- ?\d+(?: ?, ?\d+ ?- ?\d+)* ?;$/,
+};
+
 /** What candied makes of a statement. */
 function parsed({line, keyword, text, strings}) {
   const {ast, errs} = new Parser(text).parse();
-  if (!ast || errs?.length || kKinds[ast.kind] !== keyword) {
+  const whole = kWhole[keyword]?.test(text) ?? true;
+  if (!ast || errs?.length || !whole || kKinds[ast.kind] !== keyword) {
     const shown = text.replace(/"(\d+)"/g, (whole, n) => `"${strings[n] ?? n}"`);
     throw new DbcError(line, `not understood: ${shown.slice(0, 120)}; allowed: ${kForms[keyword]}`);
   }
@@ -130,7 +138,6 @@ class Reader {
   }
 
   #addSignal(ast, line, strings) {
-    if (!this.message) throw new DbcError(line, `signal ${ast.name} stands before any message`);
     const known = this.message.signals.find(({name}) => name === ast.name);
     if (known && !kIndependent.has(this.message.key))
       throw new DbcError(line, `signal ${ast.name} is there twice; first in line ${known.line}`);
@@ -145,7 +152,7 @@ class Reader {
 
   // The values as they stand: candied's are floating-point numbers.
   #addChoices({id, name}, {line, text, strings}) {
-    const pairs = [...text.matchAll(/\s(-?\d+|0x[0-9a-f]+)\s+"(\d+)"/gi)];
+    const pairs = [...text.matchAll(/[\s"](-?\d+|0x[0-9a-f]+) ?"(\d+)"/gi)];
     const values = pairs.map(([, value]) => value);
     refuse(line, choicesProblem(name, values));
     const choices = this.#find(id, name)?.choices ?? new Map();
@@ -180,9 +187,8 @@ class Reader {
         `signal ${name} is multiplexed by ${before.name} already; allowed: one multiplexer for a ` +
           'signal',
       );
-    const given = ranges.map(([first, last = first]) => [first, last]);
-    refuse(line, rangesProblem(name, given));
-    const more = given.map((range) => range.map(exact));
+    refuse(line, rangesProblem(name, ranges));
+    const more = ranges.map((range) => range.map(exact));
     signal.selection = {multiplexer, ranges: [...(signal.selection?.ranges ?? []), ...more]};
   }
 

@@ -162,6 +162,28 @@ function refuseFollowers(statement) {
     );
 }
 
+/** A signal belongs to the message that it stands behind, and to nothing else. */
+function refusePlace({line, keyword, text}, before) {
+  if (keyword !== 'SG_' || before === 'BO_' || before === 'SG_') return;
+  const name = /^SG_\s*([^\s:;"]*)/.exec(text)[1];
+  const place = before ? `behind ${before}` : 'before any message';
+  throw new DbcError(
+    line,
+    `signal ${name} stands ${place}; allowed: behind its message and the signals of that`,
+  );
+}
+
+/** In their order: each may stand where it does. */
+function checkPlaces(statements) {
+  let before = null;
+  for (const statement of statements) {
+    refuseFollowers(statement);
+    if (!Object.hasOwn(kForms, statement.keyword)) continue;
+    refusePlace(statement, before);
+    before = statement.keyword;
+  }
+}
+
 const kZero = /:\s*0\s*;?\s*$/; // SIG_VALTYPE_ of an integer
 
 function relevant({keyword, text}) {
@@ -181,6 +203,6 @@ export function statementsOf(text) {
     .split(/\r\n|\r|\n/)
     .forEach((line, i) => splitter.take(line.trim(), i + 1));
   splitter.end();
-  splitter.statements.forEach(refuseFollowers);
+  checkPlaces(splitter.statements);
   return splitter.statements.filter(relevant).map(canonical);
 }
