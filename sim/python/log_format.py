@@ -162,20 +162,28 @@ class AscLines:
 class AscReader(can.io.ASCReader):
     """python-can's reader, which takes half a byte, as a file that is cut short has it, for a byte
     and leaves out what is more than the length; here both are refused. It takes a request to send
-    for the frame, and knows no DLC of a remote frame that is a letter."""
+    for the frame, whatever is not "Rx" for a direction and whatever is not "r" for data, and knows
+    no DLC of a remote frame that is a letter."""
 
     def _process_classic_can_frame(self, line, msg_kwargs):
-        if is_request(line.split()):
+        words = line.split()
+        if line.strip()[:10].lower() == "errorframe":
+            return super()._process_classic_can_frame(line, msg_kwargs)
+        if not is_frame(words) or len(words) > 2 and words[2].lower() not in ("d", "r"):
             return None
         message = super()._process_classic_can_frame(line, msg_kwargs)
+        message.is_rx = words[1].lower() == "rx"
         if message.is_remote_frame:
-            message.dlc = self._remote_dlc(line.split()[3:])
+            message.dlc = self._remote_dlc(words[3:])
         return message
 
     def _process_fd_can_frame(self, line, msg_kwargs):
-        if is_request(line.split()):
+        words = line.split()
+        if not is_frame(words):
             return None
-        return super()._process_fd_can_frame(line, msg_kwargs)
+        message = super()._process_fd_can_frame(line, msg_kwargs)
+        message.is_rx = words[1].lower() == "rx"
+        return message
 
     def _remote_dlc(self, words):
         """The DLC behind "r", where other words may follow or stand instead."""
@@ -199,9 +207,10 @@ class AscReader(can.io.ASCReader):
         super()._process_data_string(data_str, data_length, msg_kwargs)
 
 
-def is_request(words):
-    """Whether an event of ASC tells that its frame waits; when it is sent, another one tells."""
-    return words[1:2] and words[1].lower() == "txrq"
+def is_frame(words):
+    """Whether an event of ASC is a frame, or one that is cut short: of a request to send (TxRq)
+    another one tells when it is sent."""
+    return len(words) < 3 or words[1].lower() in ("rx", "tx")
 
 
 def read_asc(data):

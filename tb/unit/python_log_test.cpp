@@ -111,6 +111,25 @@ TEST_F(PythonLog, AscRequestsToSendAreCountedAsNoFrames) {
   EXPECT_EQ(skipped_text(log), "1 CAN FD frame, 3 other lines or packets");
 }
 
+// Neither a direction nor a kind of frame that nobody knows is one of those that are known.
+TEST_F(PythonLog, AscLinesWithoutADirectionOrAKindAreCountedAsNoFrames) {
+  const std::string fd = "   123  Name  1 0 8  8 01 02 03 04 05 06 07 08   102203  133\n";
+  const CanLog log = parse_log(
+      "base hex  timestamps absolute\n"
+      "   0.010000 1  321             Rx?   d 2 11 22\n"
+      "   0.020000 1  321             Rx   x 2 11 22\n"
+      "   0.030000 1  322             rx   D 1 33\n"
+      "   0.040000 1  323             TX   R 3\n"
+      "   0.050000 CANFD   1 R?x" +
+          fd + "   0.060000 CANFD   1 rx" + fd,
+      "a.asc");
+  EXPECT_EQ(lines_of(log),
+            "(0000000000.030000000) can0 322#33 R\n"
+            "(0000000000.040000000) can0 323#R3 T\n"
+            "(0000000000.060000000) can0 123##10102030405060708 R\n");
+  EXPECT_EQ(skipped_text(log), "1 CAN FD frame, 3 other lines or packets");
+}
+
 std::string little_endian(std::uint64_t value, unsigned count) {
   std::string bytes;
   for (unsigned i = 0; i < count; ++i) bytes += static_cast<char>(value >> 8 * i);
