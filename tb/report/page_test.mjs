@@ -20,7 +20,9 @@ import {
   viewOf,
   writeScene,
 } from './browser.mjs';
+import {F} from './can.mjs';
 import {judgeFrame} from './judge.mjs';
+import {Scene} from './scene.mjs';
 import {lonelyScene, smallScene} from './scenes.mjs';
 
 const small = smallScene();
@@ -81,6 +83,26 @@ test('the table has every frame and error in order of time', async () => {
     times,
     [...times].sort((a, b) => a - b),
   );
+  await closeReport(page);
+});
+
+// Bits of a frame's data have the same numbers in each byte.
+test('an error in the data is told with its byte', async () => {
+  const scene = new Scene(['a', 'b']);
+  const frame = {id: 0x123, dlc: 3, data: [0x55, 0x55, 0x55]};
+  scene.frame(0, frame);
+  const places = Scene.sent(frame).flatMap(({field, stuff}, i) =>
+    field === F.DATA && !stuff ? [i] : [],
+  );
+  for (const at of [places[18], Scene.sent(frame).findIndex(({field}) => field === F.ACK)]) {
+    const start = scene.log[0].time + at * scene.bit;
+    const row = {kind: 0, start, end: start + 20 * scene.bit, node: 0, error: 16, field: F.DATA};
+    for (const [name, value] of Object.entries({...row, index: 18, segment: 0, cause: 0}))
+      scene.columns[`e.${name}`].push(value);
+  }
+  const page = await openReport(writeScene('page-place', scene.finish()));
+  const where = (await rowsOf(page, 'events')).map((row) => row[6]);
+  assert.deepEqual(where, ['DATA byte 2, bit 5', 'ACK']); // the 19th bit is the third of byte 2
   await closeReport(page);
 });
 

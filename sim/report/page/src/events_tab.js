@@ -4,14 +4,14 @@
 // Error and overload frames with their causes in words, and lost arbitrations.
 import {csvButton, tableRows} from './csv.js';
 import {el, tabWithBar} from './dom.js';
-import {errorKinds, fieldName, kErrorKinds, kErrorTexts} from './fields.js';
+import {bitTitle, errorKinds, fieldName, kErrorKinds, kErrorTexts} from './fields.js';
 import {formatCount, hex, milliseconds} from './format.js';
 import {kEventKinds, nodeCell, nodeText} from './frames_tab.js';
 import {Table} from './table.js';
 
 const kLoss = 0x80000000;
 
-/** Where an event was found: "CRC 3" of the lane of the node that found it. */
+/** Where an event was found: "DATA byte 2, bit 5" of the lane of the node that found it. */
 export function placeOf(report, event) {
   const lane =
     report.lanesOf(event.segment).find((l) => l.nodeIndex === event.node) ??
@@ -19,7 +19,7 @@ export function placeOf(report, event) {
   const bit = lane ? lane.bitAt(event.start + lane.tq / 2) : -1;
   if (bit >= 0) {
     const stuff = lane.stuff(bit) ? ' (stuff bit)' : '';
-    return `${fieldName(lane.field(bit))} ${lane.number(bit)}${stuff}`;
+    return `${bitTitle(lane.field(bit), lane.place(bit))}${stuff}`;
   }
   return fieldName(event.field);
 }
