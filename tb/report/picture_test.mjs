@@ -11,8 +11,9 @@ import {smallScene} from './scenes.mjs';
 
 const {assertColor, closeReport, inspect, itemsOf, openReport, outDir, pixel, saved} = browser;
 
-const text = 'BO_ 291 Speeds: 2 X\n SG_ Wheel : 7|16@0+ (1,0) [0|0] "<m/s>" X\n';
-const small = smallScene({databases: [{name: 'a.dbc', text}], title: 'Small & <round>'});
+const text = 'BO_ 291 Speeds: 2 X\n SG_ Wheel : 7|16@0+ (1,0) [0|0] "<m\x01/s>" X\n';
+const title = 'Small & <round>\x1b \u{1f68c}';
+const small = smallScene({databases: [{name: 'a.dbc', text}], title});
 const {log, bit} = small.scene;
 const file = browser.reportFor('picture', small);
 const kTitle = 26; // height of the title above the view
@@ -99,8 +100,8 @@ test('texts of a drawing are texts, and stay texts', async () => {
     };
   }, svg);
   assert.equal(texts.wrong, '');
-  assert.match(texts.texts[0], /^Small & <round> {2}· {2}500 kbit\/s/);
-  for (const wanted of ['CAN_H', 'ID 123', 'left', 'Wheel', '51966 <m/s>'])
+  assert.match(texts.texts[0], /^Small & <round>\ufffd \u{1f68c} {2}· {2}500 kbit\/s/u);
+  for (const wanted of ['CAN_H', 'ID 123', 'left', 'Wheel', '51966 <m\ufffd/s>'])
     assert.ok(texts.texts.includes(wanted), `${wanted} in ${texts.texts}`);
   await closeReport(page);
 });

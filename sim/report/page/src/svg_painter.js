@@ -6,7 +6,12 @@ import {el} from './dom.js';
 import {Painter} from './painter.js';
 
 const kEscapes = {'&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;'};
-const escaped = (text) => String(text).replace(/[&<>"]/g, (letter) => kEscapes[letter]);
+// XML knows no control characters; names of files, and units, may hold some.
+const kNoText = /[^\t\n\r -\ud7ff\ue000-\ufffd\u{10000}-\u{10ffff}]/gu;
+const escaped = (text) =>
+  String(text)
+    .replace(kNoText, '\ufffd')
+    .replace(/[&<>"]/g, (letter) => kEscapes[letter]);
 const short = (value) => +value.toFixed(2);
 const kAnchors = {left: 'start', center: 'middle', right: 'end'};
 const kMiddle = 0.35; // of the size of letters: from their middle down to the line they stand on
