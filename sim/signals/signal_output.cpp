@@ -51,9 +51,9 @@ std::string to_text(const SignalReport &report) {
     const Signal &signal = *s.last.signal;
     const auto choice = choice_of(s.last);
     fmt::format_to(out, "  {:<36} {:>8} {:>14} {:>14} {:>14} {:>14}  {}\n",
-                   s.message->name + "." + signal.name, s.count,
-                   choice ? std::string(*choice) : number_text(s.last), number_text(s.least),
-                   number_text(s.most), plain_number(s.mean()), signal.unit);
+                   text::printable(s.message->name + "." + signal.name), s.count,
+                   choice ? text::printable(*choice) : number_text(s.last), number_text(s.least),
+                   number_text(s.most), plain_number(s.mean()), text::printable(signal.unit));
   }
   return text;
 }

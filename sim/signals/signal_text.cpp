@@ -10,6 +10,8 @@
 #include <cmath>
 #include <limits>
 
+#include "trace/text.hpp"
+
 namespace vericansim {
 namespace {
 
@@ -59,7 +61,7 @@ std::string to_text(const SignalMessage &message, const std::vector<SignalValue>
   std::string text = message.name + "(";
   for (const SignalValue &value : values)
     text += (&value == values.data() ? "" : ", ") + value.signal->name + ": " + to_text(value);
-  return text + ")";
+  return text::printable(text + ")");
 }
 
 std::string allowed_values(const Signal &signal) {

@@ -159,6 +159,9 @@ std::int64_t parse_candump_stamp(std::string_view field, const Place &place) {
 
 std::optional<ForeignEntry::Kind> add_candump_line(const CandumpLine &line, LogBuilder &log,
                                                    const Place &place) {
+  if (text::has_control(line.channel))
+    fail(place, "interface " + in_quotes(line.channel) +
+                    " is not allowed; allowed: a name without control characters");
   LogEntry entry{0, line.channel, {}, line.direction};
   if (parse_candump_frame(line.frame, entry.frame, place)) {
     log.add(line.ns, std::move(entry), place);

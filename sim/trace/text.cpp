@@ -45,9 +45,20 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
+namespace {
+
+bool is_control(char c) { return (c >= 0 && c < ' ') || c == '\x7F'; }
+
+}  // namespace
+
 bool has_control(std::string_view text) {
-  return std::any_of(text.begin(), text.end(),
-                     [](char c) { return (c >= 0 && c < ' ') || c == '\x7F'; });
+  return std::any_of(text.begin(), text.end(), is_control);
+}
+
+std::string printable(std::string_view text) {
+  std::string result{text};
+  std::replace_if(result.begin(), result.end(), is_control, '?');
+  return result;
 }
 
 std::string counted(std::size_t count, std::string_view one, std::string_view many) {

@@ -51,6 +51,8 @@ void for_each_line(std::string_view text, const std::string &file, Use use) {
 
 /// Whether there is a control character in a text: in a table or on a terminal it is no text.
 [[nodiscard]] bool has_control(std::string_view text);
+/// The text with '?' for each of them.
+[[nodiscard]] std::string printable(std::string_view text);
 
 /// "1 frame", "2 frames".
 [[nodiscard]] std::string counted(std::size_t count, std::string_view one, std::string_view many);

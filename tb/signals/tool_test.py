@@ -161,6 +161,15 @@ class Signals(ToolCase):
             "(0000000005.000000) can0 123#00 :: unknown",
             "(0000000006.000000) can0 100#R8 :: EngineData, remote"])
 
+    def test_units_and_choices_do_not_reach_the_terminal_as_commands(self):
+        dbc = self.file("escape.dbc", 'BO_ 1 A: 2 X\n SG_ S : 0|8@1+ (1,0) [0|0] "\x1b[31m" X\n'
+                                      ' SG_ T : 8|8@1+ (1,0) [0|0] "" X\nVAL_ 1 T 2 "a\x07b" ;\n')
+        log = self.log("001#0102")
+        self.assertIn(":: A(S: 1 ?[31m, T: a?b)\n", self.passes("signals", log, "--dbc", dbc))
+        table = self.passes("signals", log, "--dbc", dbc, "--table").splitlines()
+        self.assertTrue(table[2].endswith("  ?[31m"), table)
+        self.assertIn(" a?b ", table[3])
+
     def test_lines_have_the_whole_microseconds_of_the_log(self):
         log = self.file("ns.log", f"(1.000000900) can0 {EEC1}\n(2.000001100) can0 {EEC1}\n")
         lines = self.passes("signals", log, "--dbc", DBC).splitlines()

@@ -106,6 +106,15 @@ TEST(CandumpLog, ALastLineWithoutLineEndIsWarnedOf) {
   EXPECT_THAT(parse_candump("", "log").warnings, IsEmpty());
 }
 
+// Names reach tables and terminals.
+TEST(CandumpLog, InterfacesAreNamesThatCanBePrinted) {
+  for (const char *line :
+       {"(1.0) can\x1B[0 123#11\n", "(1.0) can\x1B[0 123##111\n", "can\x1B[0  123   [1]  11\n"})
+    EXPECT_EQ(error_of(line),
+              "log:1: interface 'can?[0' is not allowed; allowed: a name without control "
+              "characters");
+}
+
 // Bit 29 is the flag of error messages, which CAN FD does not have.
 TEST(CandumpLog, CanFdIdentifiersHave29Bits) {
   EXPECT_THAT(error_of("(1.0) can0 20000123##1AA\n"),
