@@ -94,6 +94,16 @@ static verican_result_t test_loop_back(verican_t *dev, verican_test_report_t *re
   return result != VERICAN_OK ? result : frozen_again;
 }
 
+/* Both mailboxes as they were. A frame in them had been read, or the next one would count as an
+ * overrun: a C/S word that is written takes the mark of that back (flexcan.md 3.6). */
+static void put_back(verican_t *dev, const uint32_t kept[WORDS]) {
+  const uint32_t first = VERICAN_MB_CS_OFFSET(RX);
+  for (unsigned i = (unsigned)WORDS; i-- > 0u;) verican_write(dev, first + 4u * i, kept[i]);
+  (void)verican_read(dev, VERICAN_MB_CS_OFFSET(RX));
+  (void)verican_read(dev, VERICAN_MB_CS_OFFSET(TX));
+  (void)verican_now(dev);
+}
+
 verican_result_t verican_self_test(verican_t *dev, verican_test_report_t *report) {
   verican_result_t result = verican_check_stopped(dev);
   if (result != VERICAN_OK) return result;
@@ -105,7 +115,7 @@ verican_result_t verican_self_test(verican_t *dev, verican_test_report_t *report
   for (unsigned i = 0; i < (unsigned)WORDS; ++i) kept[i] = verican_read(dev, first + 4u * i);
   result = test_memory(dev, &seen);
   if (result == VERICAN_OK) result = test_loop_back(dev, &seen);
-  for (unsigned i = (unsigned)WORDS; i-- > 0u;) verican_write(dev, first + 4u * i, kept[i]);
+  put_back(dev, kept);
   verican_write(dev, verican_mask_offset(dev, RX), kept_mask);
   verican_write(dev, VERICAN_IFLAG1_OFFSET, verican_bit(RX) | verican_bit(TX));
   verican_write_settings(dev);
