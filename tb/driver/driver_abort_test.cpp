@@ -29,6 +29,14 @@ class DriverAbort : public ::testing::TestWithParam<bool> {
     for (const verican_frame_t &frame : bus_[1].received()) count += frame.id == id ? 1 : 0;
     return count;
   }
+  // Fills the transmit mailboxes of node 0 with frames from this identifier on.
+  void send_eight(std::uint32_t first) {
+    bus_[0].events.clear();
+    for (std::uint32_t id = first; id < first + 8; ++id) {
+      const verican_frame_t frame = driver_frame(id, 1);
+      ASSERT_EQ(verican_send(&bus_[0].dev, &frame, nullptr), VERICAN_OK) << id;
+    }
+  }
 
   DriverBus bus_{2};
 };
@@ -177,11 +185,7 @@ TEST_P(DriverAbort, TheMailboxCanBeUsedAgainAtOnce) {
 
 TEST_P(DriverAbort, StoppingFreesAllMailboxes) {
   for (unsigned round = 0; round < 3; ++round) {
-    bus_[0].events.clear();
-    for (std::uint32_t id = 0x100; id < 0x108; ++id) {
-      const verican_frame_t frame = driver_frame(id, 1);
-      ASSERT_EQ(verican_send(&bus_[0].dev, &frame, nullptr), VERICAN_OK) << id;
-    }
+    send_eight(0x100);
     bus_.run((20 + 31 * round) * kBit);
     ASSERT_EQ(verican_stop(&bus_[0].dev), VERICAN_OK);
     ASSERT_EQ(bus_[0].events.size(), 8u);
@@ -192,6 +196,27 @@ TEST_P(DriverAbort, StoppingFreesAllMailboxes) {
     ASSERT_EQ(verican_start(&bus_[0].dev), VERICAN_OK);
     bus_.run(20 * kBit);
   }
+}
+
+// No flag is left for the frames of after the next start, which nobody may take for those given up.
+TEST_P(DriverAbort, StoppingLeavesNoFlagWhereWritesGoOutBackToBack) {
+  bus_[0].post_writes();
+  send_eight(0x100);
+  bus_.run(20 * kBit);
+  ASSERT_EQ(verican_stop(&bus_[0].dev), VERICAN_OK);
+  EXPECT_EQ(bus_[0].rtl().read32(0x2C), 0u) << "IFLAG2";
+  for (unsigned mb = 56; mb < 64; ++mb)
+    EXPECT_EQ(bus_[0].rtl().read32(0x80 + 16 * mb) >> 24, 0x8u) << "inactive " << mb;
+  bus_.run(100 * kBit);
+  (void)bus_[1].received();
+  ASSERT_EQ(verican_start(&bus_[0].dev), VERICAN_OK);
+  bus_[0].interrupts = false;  // the handler comes late
+  send_eight(0x200);
+  bus_[0].interrupts = true;
+  bus_.run(1000 * kBit);
+  ASSERT_EQ(bus_[0].events.size(), 8u);
+  for (const auto &event : bus_[0].events) EXPECT_EQ(event.outcome, VERICAN_TX_SENT);
+  EXPECT_EQ(bus_[1].received().size(), 8u);
 }
 
 TEST_P(DriverAbort, RemoteFramesLeaveNoTrap) {  // FX-3.2.g, FX-3.7.a

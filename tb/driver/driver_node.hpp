@@ -54,6 +54,8 @@ class DriverNode {
     return result == VERICAN_OK ? verican_start(&dev) : result;
   }
   [[nodiscard]] RtlNode &rtl() { return *rtl_; }
+  /// The processor does not wait for its writes: they go out back to back, in front of a read.
+  void post_writes() { config.port.write32 = &post; }
   /// Takes everything out of the ring.
   std::vector<verican_frame_t> received() {
     std::vector<verican_frame_t> frames;
@@ -86,6 +88,9 @@ class DriverNode {
   }
   static void write(void *context, std::uint32_t offset, std::uint32_t value) {
     self(context).rtl_->write32(offset, value);
+  }
+  static void post(void *context, std::uint32_t offset, std::uint32_t value) {
+    self(context).rtl_->master().submit({.address = offset, .write = true, .data = value});
   }
   static void on_sent(void *user, verican_t *, const verican_tx_event_t *event) {
     self(user).events.push_back(*event);

@@ -9,6 +9,13 @@
  */
 enum { FLAG_LIMIT = 8 };
 
+bool verican_abort_flagged(const verican_t *dev, unsigned mb) {
+  for (unsigned n = 0; n < (unsigned)FLAG_LIMIT; ++n) {
+    if (verican_is_flagged(dev, mb)) return true;
+  }
+  return false;
+}
+
 /* Under lock. True if the frame is gone and no interrupt will tell; false leaves the end to the
  * handler. With MCR.AEN the core decides and raises the flag, but a core may skip the flag where
  * the frame had not left its mailbox (FlexCAN2). Without, a frame that has left its mailbox goes on
@@ -23,10 +30,7 @@ static bool take_back(verican_t *dev, unsigned mb) {
   verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_ABORT));
   const uint32_t code = verican_read(dev, VERICAN_MB_CS_OFFSET(mb)) & VERICAN_MB_CS_CODE_MASK;
   if (code != CS_CODE(TX_ABORT)) return false;
-  for (unsigned n = 0; n < (unsigned)FLAG_LIMIT; ++n) {
-    if (verican_is_flagged(dev, mb)) return false;
-  }
-  return true;
+  return !verican_abort_flagged(dev, mb);
 }
 
 verican_result_t verican_abort(verican_t *dev, uint8_t mailbox) {

@@ -126,6 +126,10 @@ bool verican_tx_serve(verican_t *dev, const uint32_t flags[2]);
 /* Gives up all that waits; the core is in freeze mode. */
 void verican_tx_drop_all(verican_t *dev);
 
+/* abort.c */
+/* Behind a code TX_ABORT that was written: waits for the flag; false: there is none. */
+bool verican_abort_flagged(const verican_t *dev, unsigned mb);
+
 /* time.c */
 /* Extends 16 bits of TIMER to 64 and remembers the latest. */
 uint64_t verican_extend(verican_t *dev, uint32_t stamp);

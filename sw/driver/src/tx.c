@@ -189,13 +189,21 @@ bool verican_tx_serve(verican_t *dev, const uint32_t flags[2]) {
   return any;
 }
 
+/* With MCR.AEN the core is asked, and its flag waited for: one that came behind the next start would
+ * be taken for the end of the next frame, and a write before it would not be taken. */
+static void give_up(const verican_t *dev, unsigned mb) {
+  if (dev->abort) {
+    verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_ABORT));
+    (void)verican_abort_flagged(dev, mb);
+  }
+  verican_clear_flag(dev, mb);
+  verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_INACTIVE));
+}
+
 void verican_tx_drop_all(verican_t *dev) {
   for (unsigned mb = dev->first_tx; mb < dev->num_mb; ++mb) {
     if (!verican_is_pending(dev, mb)) continue;
-    verican_write(dev, VERICAN_MB_CS_OFFSET(mb),
-                  dev->abort ? CS_CODE(TX_ABORT) : CS_CODE(TX_INACTIVE));
-    verican_clear_flag(dev, mb);
-    verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_INACTIVE));
+    give_up(dev, mb);
     verican_tx_end(dev, mb, VERICAN_TX_ABORTED);
     verican_tx_tell(dev, mb, VERICAN_TX_ABORTED, verican_now(dev), 0);
   }
