@@ -369,6 +369,34 @@ TEST_F(DriverHandler, StoppedBeforeItHasTheFrameItTakesNone) {
   }
 }
 
+// The core interrupts as soon as it may, and a callback stops the device again: it stays stopped,
+// and nothing of the core interrupts any more.
+TEST_F(DriverHandler, StoppedWhileItStartsItIsStopped) {
+  up();
+  ASSERT_EQ(verican_stop(&dev_), VERICAN_OK);
+  dev_.callbacks.on_state = [](void *, verican_t *dev, verican_state_t state) {
+    if (state == VERICAN_STATE_BUS_OFF) EXPECT_EQ(verican_stop(dev), VERICAN_OK);
+  };
+  const std::uint32_t masks = VERICAN_CTRL1_BOFF_MSK_MASK;
+  bool inside = false;
+  core_.on_open = [&] {
+    const bool line = (core_.word(VERICAN_CTRL1_OFFSET) & masks) != 0 &&
+                      (core_.word(VERICAN_ESR1_OFFSET) & VERICAN_ESR1_BOFF_INT_MASK) != 0;
+    if (!line || std::exchange(inside, true)) return;
+    EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+    inside = false;
+  };
+  core_.on_write = [&](std::uint32_t, std::uint32_t) {
+    if (core_.depth == 0) core_.on_open();
+  };
+  core_.word(VERICAN_ESR1_OFFSET) = VERICAN_ESR1_FLT_CONF_SET(2) | VERICAN_ESR1_BOFF_INT_MASK;
+  EXPECT_EQ(verican_start(&dev_), VERICAN_OK);
+  EXPECT_EQ(core_.word(VERICAN_ESR1_OFFSET) & VERICAN_ESR1_BOFF_INT_MASK, 0u) << "it came";
+  EXPECT_EQ(verican_stop(&dev_), VERICAN_ERR_STATE) << "it is stopped";
+  EXPECT_EQ(core_.word(VERICAN_IMASK1_OFFSET) | core_.word(VERICAN_IMASK2_OFFSET), 0u);
+  EXPECT_EQ(core_.word(VERICAN_CTRL1_OFFSET) & masks, 0u);
+}
+
 // States that come one upon the other are told one after the other.
 class DriverStates : public DriverHandler {
  protected:

@@ -75,15 +75,19 @@ verican_result_t verican_start(verican_t *dev) {
   }
   const uint32_t tx_low = dev->first_tx < 32u ? ~0u << dev->first_tx : 0u;
   const uint32_t tx_high = dev->first_tx < 32u ? ~0u : ~0u << (dev->first_tx - 32u);
+  /* Or a callback of the handler, which may come as soon as one mask is open, could stop the device
+   * before the others are. */
+  const uint32_t token = verican_lock(dev);
   dev->state = (uint8_t)VERICAN_STATE_ACTIVE;
   dev->told = dev->state;
   dev->bus_off_untold = false;
   dev->recovering = false;
   dev->bus_off_timing = false;
-  dev->life = VERICAN_LIFE_STARTED; /* last: a call from an interrupt finds all of the rest */
+  dev->life = VERICAN_LIFE_STARTED;
   verican_write_ctrl(dev);
   verican_write(dev, VERICAN_IMASK1_OFFSET, dev->rx_mask[0] | tx_low);
   if (dev->num_mb > 32u) verican_write(dev, VERICAN_IMASK2_OFFSET, dev->rx_mask[1] | tx_high);
+  verican_unlock(dev, token);
   return VERICAN_OK;
 }
 

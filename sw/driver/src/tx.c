@@ -189,8 +189,8 @@ bool verican_tx_serve(verican_t *dev, const uint32_t flags[2]) {
   return any;
 }
 
-/* With MCR.AEN the core is asked, and its flag waited for: one that came behind the next start would
- * be taken for the end of the next frame, and a write before it would not be taken. */
+/* With MCR.AEN the core is asked, and its flag waited for: one that came behind the next start
+ * would be taken for the end of the next frame, and a write before it would not be taken. */
 static void give_up(const verican_t *dev, unsigned mb) {
   if (dev->abort) {
     verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_ABORT));
