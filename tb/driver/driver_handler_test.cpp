@@ -465,6 +465,13 @@ TEST_F(DriverStates, WhatOnStateFindsIsToldWhenItReturns) {
   EXPECT_THAT(told_, ElementsAre(VERICAN_STATE_PASSIVE, VERICAN_STATE_BUS_OFF));
 }
 
+TEST_F(DriverStates, StoppedInOnStateIsToldWhenItReturns) {
+  on_state_ = [this] { EXPECT_EQ(verican_stop(&dev_), VERICAN_OK); };
+  set_state(kPassive);
+  EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_ERR_EMPTY);
+  EXPECT_THAT(told_, ElementsAre(VERICAN_STATE_PASSIVE, VERICAN_STATE_STOPPED));
+}
+
 TEST_F(DriverStates, StoppedBeforeItLooksItTellsNoOther) {
   core_.on_open = [this] {
     core_.on_open = nullptr;

@@ -160,6 +160,8 @@ bool verican_serve(verican_t *dev);
 /* state.c */
 /* Reads and clears ESR, follows the state, calls back; returns ESR. */
 uint32_t verican_state_serve(verican_t *dev);
+/* Tells what on_state does not know yet. */
+void verican_state_tell(verican_t *dev);
 /* CTRL with the interrupt masks that the state needs. */
 void verican_write_ctrl(const verican_t *dev);
 

@@ -115,9 +115,7 @@ verican_result_t verican_stop(verican_t *dev) {
   verican_tx_drop_all(dev);
   dev->life = VERICAN_LIFE_STOPPED;
   dev->state = (uint8_t)VERICAN_STATE_STOPPED;
-  dev->told = dev->state;
-  if (dev->callbacks.on_state != NULL)
-    dev->callbacks.on_state(dev->callbacks.user, dev, VERICAN_STATE_STOPPED);
+  verican_state_tell(dev);
   return VERICAN_OK;
 }
 

@@ -46,7 +46,7 @@ static uint32_t take_esr(verican_t *dev) {
 
 /* One call tells at a time, the outermost. A change that comes meanwhile, in an interrupt or in
  * on_state itself, is told when on_state returns: what is told last is then what was last. */
-static void tell_changes(verican_t *dev) {
+void verican_state_tell(verican_t *dev) {
   uint32_t token = verican_lock(dev);
   const bool outermost = !dev->telling;
   while (outermost && (dev->bus_off_untold || dev->told != dev->state)) {
@@ -88,7 +88,7 @@ uint32_t verican_state_serve(verican_t *dev) {
   const uint8_t errors = (uint8_t)((esr >> VERICAN_ESR1_STF_ERR_SHIFT) & 0x3Fu);
   if (errors != 0u && dev->callbacks.on_error != NULL)
     dev->callbacks.on_error(dev->callbacks.user, dev, errors);
-  tell_changes(dev);
+  verican_state_tell(dev);
   return esr;
 }
 
