@@ -170,6 +170,17 @@ INSTANTIATE_TEST_SUITE_P(
                       BadFrame{"Priority", [](auto &frame) { frame.priority = 8; }}),
     [](const auto &bad) { return bad.param.what; });
 
+// All its buffers take part, with whatever lies in those that nobody clears.
+TEST_F(DriverArguments, AFixedMaxmbIsThatOfTheConfiguration) {
+  core_.mcr_never = VERICAN_MCR_MAXMB_MASK;
+  core_.mcr_always = VERICAN_MCR_MAXMB_SET(31);
+  for (const auto &[mailboxes, result] :
+       {std::pair{16, VERICAN_ERR_DEVICE}, {32, VERICAN_OK}, {64, VERICAN_ERR_SPACE}}) {
+    config_.mailboxes = static_cast<std::uint8_t>(mailboxes);
+    EXPECT_EQ(init(), result) << mailboxes;
+  }
+}
+
 struct BadFilter {
   const char *what;
   verican_filter_t filter;

@@ -90,10 +90,15 @@ static void plan_registers(verican_t *dev, const verican_config_t *config) {
   verican_apply_mode(dev, config->mode);
 }
 
-/* What the core does not keep, it does not have. */
+/* What the core does not keep, it does not have. With a fixed MAXMB all of its buffers take part:
+ * those beyond num_mb, which nobody clears, would send. */
 static verican_result_t check_kept(verican_t *dev) {
   const uint32_t optional = VERICAN_MCR_FEN_MASK | VERICAN_MCR_AEN_MASK | VERICAN_MCR_LPRIO_EN_MASK;
-  const uint32_t missing = dev->mcr & ~verican_read(dev, VERICAN_MCR_OFFSET);
+  const uint32_t mcr = verican_read(dev, VERICAN_MCR_OFFSET);
+  const uint32_t taking_part = (mcr & VERICAN_MCR_MAXMB_MASK) + 1u;
+  if (taking_part != dev->num_mb)
+    return taking_part < dev->num_mb ? VERICAN_ERR_SPACE : VERICAN_ERR_DEVICE;
+  const uint32_t missing = dev->mcr & ~mcr;
   if ((missing & optional) != 0u) return VERICAN_ERR_UNSUPPORTED;
   if ((missing & ~VERICAN_MCR_BCC_MASK) != 0u) return VERICAN_ERR_DEVICE;
   dev->own_masks = missing == 0u;
