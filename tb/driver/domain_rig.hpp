@@ -59,6 +59,19 @@ class DomainRig {
     core.word(VERICAN_TCAP_OFFSET) = 0x00020703;
     core.word(VERICAN_TCTRL_OFFSET) = VERICAN_TCTRL_RESET;
     set_time(start);
+    start_device();
+    verican_tsyn_init(&tsyn, &dev, &config);
+    result = master ? verican_tsyn_start_master(&tsyn) : verican_tsyn_start_follower(&tsyn);
+    core.on_write = [this](std::uint32_t offset, std::uint32_t value) {
+      if (offset >= VERICAN_TCAP_OFFSET && offset < 0x1200)
+        clock_writes.emplace_back(offset, value);
+    };
+  }
+  DomainRig(const DomainRig &) = delete;
+  DomainRig &operator=(const DomainRig &) = delete;
+
+  /// Anew, too: what waits to be sent is gone, and nobody hears of it.
+  void start_device() {
     verican_config_t device = core.config();
     device.clock_hz = 16'000'000;
     device.abort = true;
@@ -70,15 +83,7 @@ class DomainRig {
     };
     verican_init(&dev, &device);
     verican_start(&dev);
-    verican_tsyn_init(&tsyn, &dev, &config);
-    result = master ? verican_tsyn_start_master(&tsyn) : verican_tsyn_start_follower(&tsyn);
-    core.on_write = [this](std::uint32_t offset, std::uint32_t value) {
-      if (offset >= VERICAN_TCAP_OFFSET && offset < 0x1200)
-        clock_writes.emplace_back(offset, value);
-    };
   }
-  DomainRig(const DomainRig &) = delete;
-  DomainRig &operator=(const DomainRig &) = delete;
 
   void set_time(std::uint64_t now) {
     time = now;

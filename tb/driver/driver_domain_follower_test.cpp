@@ -327,6 +327,25 @@ TEST(Follower, RequestThatWaits) {
   EXPECT_NEAR(rig.status().delay_ns, 300, 1);
 }
 
+// Of a request that waited when the device was initialised anew nobody hears: the next pair asks
+// again.
+TEST(Follower, RequestThatIsGoneWithTheDevice) {
+  DomainRig rig{with_delay(), false};
+  verican_tsyn_measure(&rig.tsyn, 1);
+  std::uint64_t stamp = rig.time;
+  pair(rig, 0, stamp);
+  ASSERT_EQ(rig.waiting().size(), 1u);
+  rig.start_device();
+  ASSERT_THAT(rig.waiting(), IsEmpty());
+  stamp += kR;
+  pair(rig, 1, stamp);
+  ASSERT_EQ(rig.waiting().size(), 1u);
+  const std::uint64_t out = stamp + 2'000'000;
+  rig.sent(rig.waiting().at(0).mailbox, out + kRigSentLate);
+  rig.hear(0x1234'5678, time_of(out + 600), stamp, 8, VERICAN_FRAME_EXTENDED);
+  EXPECT_NEAR(rig.status().delay_ns, 300, 1);
+}
+
 // TM-58: only who is the master answers, with the time of the request.
 TEST(Follower, OnlyTheMasterAnswers) {
   DomainRig follower{with_delay(), false};

@@ -32,12 +32,13 @@ static void apply(verican_tsyn_t *tsyn, const verican_correction_t *correction) 
 }
 
 /* A request under way was stamped by a clock that is not the same any more. One that still waits
- * for the bus is that of this pair: answers to two could not be told from each other. */
+ * for the bus is that of this pair: answers to two could not be told from each other. Where the
+ * device was initialised anew, none waits, and its end is never told. */
 static void ask_for_delay(verican_tsyn_t *tsyn, const verican_sync_pair_t *pair,
                           const verican_correction_t *correction) {
   const uint64_t latency = verican_half_clocks(tsyn->dev, tsyn->dev->rx_latency);
   if (!verican_delay_pair(&tsyn->delay, pair, correction->shift - (int64_t)latency)) return;
-  if (tsyn->delaying) return;
+  if (tsyn->delaying && verican_is_pending(tsyn->dev, tsyn->delay_mailbox)) return;
   const uint32_t token = verican_lock(tsyn->dev);
   tsyn->delaying =
       verican_tsyn_send(tsyn, tsyn->config.delay_request, NULL, &tsyn->delay_mailbox) == VERICAN_OK;
