@@ -137,6 +137,24 @@ TEST(Follower, StepIsNoLossOfTheMaster) {
   EXPECT_TRUE(rig.status().sending);
 }
 
+// TM-87: nor does a clock that somebody sets back keep holdover away: it comes when no pair has
+// been accepted for three intervals, as ever.
+TEST(Follower, HoldoverOfAClockThatIsSetBack) {
+  verican_tsyn_config_t config = DomainRig::config_of();
+  config.servo.filter = 1;
+  DomainRig rig{config, false};
+  std::uint64_t now = rig.time;
+  for (unsigned n = 0; n < 4; ++n) pair(rig, n, now += kR);
+  rig.poll_at(now);
+  ASSERT_EQ(rig.status().state, VERICAN_SYNC_LOCKED);
+  now -= 30 * kRigSecond;
+  rig.poll_at(now);
+  rig.poll_at(now + 2 * kR);
+  EXPECT_EQ(rig.status().state, VERICAN_SYNC_LOCKED);
+  rig.poll_at(now + 3 * kR + 1);
+  EXPECT_EQ(rig.status().state, VERICAN_SYNC_HOLDOVER);
+}
+
 // TM-53: three intervals of silence, or as many as are configured, and the counter begins anew.
 TEST(Follower, CounterBehindSilence) {
   verican_tsyn_config_t config = DomainRig::config_of();

@@ -91,6 +91,7 @@ void verican_tsyn_look(verican_tsyn_t *tsyn, uint64_t now) {
   const int64_t passed = (int64_t)(now - tsyn->latest);
   if (passed >= -(int64_t)tsyn->masters.interval) return;
   verican_masters_shift(&tsyn->masters, passed);
+  tsyn->servo.last = (int64_t)((uint64_t)tsyn->servo.last + (uint64_t)passed);
   tsyn->next += (uint64_t)passed;
   tsyn->latest = now;
 }

@@ -16,8 +16,8 @@ enum { TSYN_IDLE = 0, TSYN_SYNC_OUT = 1, TSYN_SYNC_SENT = 2, TSYN_PROBING = 3 };
 verican_result_t verican_tsyn_check(const verican_tsyn_t *tsyn);
 
 /* tsyn.c */
-/* Follows a clock that somebody has set back by more than R: what was to come, and what was heard,
- * would else lie that far ahead. `now`: the time, or a stamp. */
+/* Follows a clock that somebody has set back by more than R: what was to come, and what was heard
+ * and accepted, would else lie that far ahead. `now`: the time, or a stamp. */
 void verican_tsyn_look(verican_tsyn_t *tsyn, uint64_t now);
 
 /* tsyn_master.c */
