@@ -132,16 +132,18 @@ static const struct ptp_clock_info verican_ptp_info = {
 	.do_aux_work = verican_do_aux_work,
 };
 
-/* The rate of hclk in Hz, 0: nobody knows it. */
-static unsigned long verican_rate(struct device *dev)
+/* The rate of hclk in Hz, 0: nobody knows it. A clock that is still to come is an error. */
+static int verican_rate(struct device *dev, unsigned long *rate)
 {
 	struct clk *clk = devm_clk_get_optional_enabled(dev, NULL);
-	u32 rate = 0;
+	u32 frequency = 0;
 
-	if (!IS_ERR_OR_NULL(clk))
-		return clk_get_rate(clk);
-	of_property_read_u32(dev->of_node, "clock-frequency", &rate);
-	return rate;
+	if (IS_ERR(clk))
+		return PTR_ERR(clk);
+	if (!clk)
+		of_property_read_u32(dev->of_node, "clock-frequency", &frequency);
+	*rate = clk ? clk_get_rate(clk) : frequency;
+	return 0;
 }
 
 /* Nothing is on but the clock itself; its time stays. */
@@ -175,12 +177,15 @@ static void verican_silence(struct verican_ptp *vp)
 static int verican_probe(struct platform_device *pdev)
 {
 	struct device *dev = &pdev->dev;
-	unsigned long rate = verican_rate(dev);
 	struct verican_ptp *vp = devm_kzalloc(dev, sizeof(*vp), GFP_KERNEL);
+	unsigned long rate;
 	int rc;
 
 	if (!vp)
 		return -ENOMEM;
+	rc = verican_rate(dev, &rate);
+	if (rc)
+		return dev_err_probe(dev, rc, "no clock\n");
 	vp->irq = platform_get_irq_optional(pdev, 0);
 	if (vp->irq == -EPROBE_DEFER)
 		return vp->irq;
