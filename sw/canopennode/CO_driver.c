@@ -119,6 +119,10 @@ void CO_CANsetNormalMode(CO_CANmodule_t *module) {
   co_verican_t *can = module->CANptr;
   if (!can->open || !set_filters(can)) return;
   module->CANnormal = verican_start(&can->device) == VERICAN_OK;
+  if (!module->CANnormal) return;
+  CO_LOCK_CAN_SEND(module);
+  co_verican_send_waiting(module);
+  CO_UNLOCK_CAN_SEND(module);
 }
 
 static uint32_t bit_rate(uint16_t kbit) {
@@ -222,7 +226,10 @@ static void renew_filters(co_verican_t *can) {
   const verican_result_t stopped = verican_stop(&can->device);
   if (stopped != VERICAN_OK && stopped != VERICAN_ERR_STATE) return;
   (void)set_filters(can);
-  if (verican_start(&can->device) != VERICAN_OK) can->filters_changed = true;
+  if (verican_start(&can->device) == VERICAN_OK)
+    co_verican_send_waiting(can->module);
+  else
+    can->filters_changed = true;
 }
 
 void CO_CANmodule_process(CO_CANmodule_t *module) {

@@ -11,4 +11,8 @@
 /** on_sent of the driver: a mailbox is free again. */
 void co_verican_sent(void *user, verican_t *dev, const verican_tx_event_t *event);
 
+/** Under lock: hands what waits to the driver. Behind a start nothing else would, as no frame ends.
+ */
+void co_verican_send_waiting(CO_CANmodule_t *module);
+
 #endif /* CO_VERICAN_H */

@@ -52,8 +52,8 @@ CO_ReturnError_t CO_CANsend(CO_CANmodule_t *module, CO_CANtx_t *buffer) {
   return result;
 }
 
-/* Under lock: what waits, lowest buffer first. */
-static void send_waiting(CO_CANmodule_t *module) {
+/* Lowest buffer first. */
+void co_verican_send_waiting(CO_CANmodule_t *module) {
   for (uint16_t i = 0; i < module->txSize && module->CANtxCount != 0u; ++i) {
     CO_CANtx_t *buffer = &module->txArray[i];
     if (!buffer->bufferFull || !put(module->CANptr, buffer)) continue;
@@ -71,7 +71,7 @@ void co_verican_sent(void *user, verican_t *dev, const verican_tx_event_t *event
   can->in_mailbox[event->mailbox] = NULL;
   if (buffer != NULL) buffer->mailbox = CO_VERICAN_NO_MAILBOX;
   if (event->outcome == VERICAN_TX_SENT) module->firstCANtxMessage = false;
-  if (module->CANnormal) send_waiting(module);
+  if (module->CANnormal) co_verican_send_waiting(module);
   can->port.unlock(can->port.context, token);
 }
 

@@ -61,7 +61,7 @@ verican_result_t verican_set_filters(verican_t *dev, const verican_filter_t *of,
   return VERICAN_OK;
 }
 verican_result_t verican_send(verican_t *dev, const verican_frame_t *frame, uint8_t *number) {
-  (void)dev;
+  if (dev == NULL || !started) return VERICAN_ERR_STATE;
   for (uint8_t i = 0; i < MAILBOXES; ++i) {
     if (full[i]) continue;
     full[i] = true;
@@ -271,6 +271,24 @@ static void a_start_that_fails_is_tried_again(void) {
   CHECK(started && module.CANerrorStatus == 0);
 }
 
+/* No end of a frame would bring it out: it would be full for ever. */
+static void what_waits_for_a_start_leaves_with_it(void) {
+  set_up();
+  CO_CANsetNormalMode(&module);
+  take(0, 0x701);
+  start_result = VERICAN_ERR_TIMEOUT;
+  CO_CANmodule_process(&module);
+  CO_CANtx_t *heartbeat = sender(0, 0x701, false), *response = sender(1, 0x581, false);
+  CHECK(CO_CANsend(&module, heartbeat) == CO_ERROR_NO && heartbeat->bufferFull);
+  start_result = VERICAN_OK;
+  CO_CANmodule_process(&module);
+  CHECK(started && full[0] && mailbox[0].id == 0x701 && !heartbeat->bufferFull);
+  CO_CANsetConfigurationMode(&can);
+  CHECK(CO_CANsend(&module, response) == CO_ERROR_NO && response->bufferFull);
+  CO_CANsetNormalMode(&module);
+  CHECK(full[1] && mailbox[1].id == 0x581 && module.CANtxCount == 0);
+}
+
 /* Its line would stay high for ever. */
 static void a_core_that_does_not_stop_is_served(void) {
   set_up();
@@ -295,6 +313,7 @@ int main(void) {
   filters_are_those_of_the_buffers();
   errors_are_told();
   a_start_that_fails_is_tried_again();
+  what_waits_for_a_start_leaves_with_it();
   a_core_that_does_not_stop_is_served();
   return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
