@@ -13,9 +13,11 @@ static void idle(const verican_remote_driver_t *d) {
   if (d->idle != NULL) d->idle(d->context);
 }
 
-static bool is_bus_off(verican_t *device) {
+/* By bus-off, or because somebody has stopped the device. */
+static bool is_off(verican_t *device) {
   verican_status_t status;
-  return verican_get_status(device, &status) == VERICAN_OK && status.state == VERICAN_STATE_BUS_OFF;
+  return verican_get_status(device, &status) != VERICAN_OK ||
+         status.state == VERICAN_STATE_BUS_OFF || status.state == VERICAN_STATE_STOPPED;
 }
 
 /* Hands the frame to the driver unless it could overtake one that waits. */
@@ -35,10 +37,10 @@ static verican_remote_result_t driver_send(void *context, const verican_remote_f
   const uint32_t start = d->now_us(d->context);
   const uint32_t limit = d->send_us != 0 ? d->send_us : SEND_US;
   for (;;) {
-    if (is_bus_off(d->device)) return VERICAN_REMOTE_BUS_OFF;
+    if (is_off(d->device)) return VERICAN_REMOTE_BUS_OFF;
     const verican_result_t result = hand_over(d->device, &out);
     if (result == VERICAN_OK) return VERICAN_REMOTE_OK;
-    if (result != VERICAN_ERR_BUSY) return VERICAN_REMOTE_ARGUMENT;
+    if (result != VERICAN_ERR_BUSY) return VERICAN_REMOTE_BUS_OFF; /* or it listens only */
     if (d->now_us(d->context) - start >= limit) return VERICAN_REMOTE_TIMEOUT;
     idle(d);
   }
@@ -58,7 +60,7 @@ static verican_remote_result_t driver_receive(void *context, verican_remote_fram
       memcpy(frame->data, in.data, sizeof frame->data);
       return VERICAN_REMOTE_OK;
     }
-    if (!got && is_bus_off(d->device)) return VERICAN_REMOTE_BUS_OFF;
+    if (!got && is_off(d->device)) return VERICAN_REMOTE_BUS_OFF;
     const uint32_t limit = got ? verican_remote_skip_us(timeout_us) : timeout_us;
     if (d->now_us(d->context) - start >= limit) return VERICAN_REMOTE_TIMEOUT;
     if (!got) idle(d);

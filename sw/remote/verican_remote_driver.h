@@ -25,7 +25,8 @@ typedef struct verican_remote_driver {
 
 /**
  * The three functions for verican_remote_init(). `driver` must stay where it is. Frames leave in
- * order: with VERICAN_TX_IN_ORDER back to back, else each when the one before has gone (RN-94).
+ * order: with VERICAN_TX_IN_ORDER back to back, else each when the one before has gone (RN-94). A
+ * device that is stopped or listens only is off the bus: VERICAN_REMOTE_BUS_OFF.
  */
 verican_remote_port_t verican_remote_driver_port(verican_remote_driver_t *driver);
 

@@ -101,6 +101,7 @@ static verican_remote_result_t socketcan_receive(void *context, verican_remote_f
 int verican_remote_socketcan_open(verican_remote_socketcan_t *s, const char *interface) {
   struct ifreq request;
   memset(&request, 0, sizeof request);
+  s->fd = -1; /* whatever comes: verican_remote_socketcan_close() may follow */
   if (strlen(interface) >= sizeof request.ifr_name) return ENODEV;
   strcpy(request.ifr_name, interface);
   const int fd = socket(PF_CAN, SOCK_RAW, CAN_RAW);

@@ -19,7 +19,7 @@ typedef struct verican_remote_socketcan {
 
 /**
  * Opens a CAN interface ("can0") that is up. Returns 0, or an errno: ENODEV for no such interface,
- * ENETDOWN, EPERM ...
+ * ENETDOWN, EPERM ...; nothing is open then.
  */
 int verican_remote_socketcan_open(verican_remote_socketcan_t *socket, const char *interface);
 /** Takes a socket that gives and takes struct can_frame, one a read or write. */

@@ -43,6 +43,13 @@ class ClientDriver : public ::testing::Test {
     return count;
   }
 
+  void stop() { EXPECT_EQ(verican_stop(&device_), VERICAN_OK); }
+  void listen_only() {
+    stop();
+    EXPECT_EQ(verican_set_mode(&device_, VERICAN_MODE_LISTEN_ONLY), VERICAN_OK);
+    EXPECT_EQ(verican_start(&device_), VERICAN_OK);
+  }
+
   verican_remote_port_t port{};
   verican_remote_frame_t frame{};
   std::uint32_t time_us = 0xFFFFF000;  // wraps soon
@@ -80,6 +87,22 @@ TEST_F(ClientDriver, ABusFullOfExtendedFrames) {
     EXPECT_LT(time_us - start, 60'000U) << timeout_us;
     EXPECT_NE(waiting(), 0U) << timeout_us;
   }
+}
+
+// RN-91: a device that somebody has stopped is off the bus; ARGUMENT would say that it is the
+// caller's mistake. What has come before is there.
+TEST_F(ClientDriver, AStoppedDeviceIsOffTheBus) {
+  arrive(0, 0x5A0 << 18);
+  stop();
+  EXPECT_EQ(port.send(port.context, &frame), VERICAN_REMOTE_BUS_OFF);
+  EXPECT_EQ(receive(1'000), VERICAN_REMOTE_OK);
+  EXPECT_EQ(receive(1'000), VERICAN_REMOTE_BUS_OFF);
+}
+
+TEST_F(ClientDriver, ADeviceThatListensOnlySendsNothing) {
+  listen_only();
+  EXPECT_EQ(port.send(port.context, &frame), VERICAN_REMOTE_BUS_OFF);
+  EXPECT_EQ(receive(1'000), VERICAN_REMOTE_TIMEOUT);
 }
 
 }  // namespace

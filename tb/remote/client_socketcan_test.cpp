@@ -201,5 +201,15 @@ TEST_F(ClientSocketCan, AnInterfaceThatIsNotThere) {
   EXPECT_EQ(verican_remote_socketcan_open(&none, "a name that no interface has"), ENODEV);
 }
 
+// Whoever cleans up behind an interface that does not open closes nothing: descriptor 0 is that of
+// a socket of zeros.
+TEST(SocketCanOpen, NothingIsOpenBehindAFailure) {
+  for (const char *name : {"nosuchcan0", "a name that is longer than any"}) {
+    verican_remote_socketcan_t socket{};
+    EXPECT_NE(verican_remote_socketcan_open(&socket, name), 0);
+    EXPECT_EQ(socket.fd, -1) << name;
+  }
+}
+
 }  // namespace
 }  // namespace vericansim
