@@ -214,6 +214,13 @@ class CanopenLock(unittest.TestCase):
         self.assertEqual(run_here("lock_test.c"), (0, ""))
 
 
+class CanopenServo(unittest.TestCase):
+    """The motor of the drive's firmware."""
+
+    def test_speed_and_range(self):
+        self.assertEqual(run_here("drive_test.c", str(SOURCES / "drive/drive.c")), (0, ""))
+
+
 @needs_stack
 class CanopenPort(unittest.TestCase):
     """The port on a driver that does as it is told."""

@@ -38,12 +38,12 @@ static uint16_t next_state(const drive_t *drive, uint16_t control) {
   return state;
 }
 
-static int32_t limited(int32_t value, int32_t limit) {
+static int32_t limited(int64_t value, int32_t limit) {
   if (value > limit) return limit;
-  return value < -limit ? -limit : value;
+  return value < -limit ? -limit : (int32_t)value;
 }
 
-void drive_cycle(drive_t *drive, uint16_t control, int32_t target, uint32_t elapsed_us) {
+void drive_cycle(drive_t *drive, uint16_t control, int64_t target, uint32_t elapsed_us) {
   drive->status = next_state(drive, control);
   drive->fault = false; /* the state keeps it */
   drive->velocity = 0;

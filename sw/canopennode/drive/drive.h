@@ -29,7 +29,10 @@ void drive_init(drive_t *drive);
 /** Something in the drive has failed; it is off until a fault reset. */
 void drive_fail(drive_t *drive);
 
-/** A cycle: obeys the controlword (object 6040) and goes on for `elapsed_us` towards `target`. */
-void drive_cycle(drive_t *drive, uint16_t control, int32_t target, uint32_t elapsed_us);
+/**
+ * A cycle: obeys the controlword (object 6040) and goes on for `elapsed_us` towards `target`, a sum
+ * of set points; beyond the range it goes to its end.
+ */
+void drive_cycle(drive_t *drive, uint16_t control, int64_t target, uint32_t elapsed_us);
 
 #endif /* DRIVE_H */

@@ -82,7 +82,7 @@ static void on_real_time(co_node_t *of, bool sync, uint32_t elapsed_us) {
   const uint32_t now = now_us();
   (void)elapsed_us;
   /* The short set point, for PDOs that several drives share, is on top of the long one. */
-  const int32_t target = OD_RAM.x607A_targetPosition + OD_RAM.x2009_shortSetPoint;
+  const int64_t target = (int64_t)OD_RAM.x607A_targetPosition + OD_RAM.x2009_shortSetPoint;
   drive_cycle(&drive, OD_RAM.x6040_controlword, target, now - last_us);
   last_us = now;
   OD_RAM.x6041_statusword = drive.status;
