@@ -64,9 +64,10 @@ typedef struct verican_frame {
  * How the driver reaches the registers of one core, and how it is kept from interrupting itself.
  *
  * Either `base` points to the register window, or it is NULL and both functions are given; `offset`
- * is in bytes, a multiple of 4. lock() masks the core's interrupt (or all) and returns what
- * unlock() needs to undo it; leave both NULL when the handler and all other calls run in one
- * context. They are called in pairs, for a few register accesses each.
+ * is in bytes, a multiple of 4. lock() masks the core's interrupt (with the time unit both, or all)
+ * and returns what unlock() needs to undo it; leave both NULL when the handler and all other calls
+ * run in one context. They are called in pairs, for a few register accesses each; verican_init()
+ * resets the core in between.
  */
 typedef struct verican_port {
   volatile uint32_t *base;
