@@ -74,7 +74,7 @@ class Nodes(Link):
         for message in self.frames(self.timeout):
             number = (message.arbitration_id & 0x3FF) >> (10 - self.name_bits)
             its = Answer(answer.id | self.id(number, 0), answer.dlc, answer.head)
-            if not its.fits(message):
+            if number < 2 or not its.fits(message):  # 0 and 1 are no node's
                 self.pass_on(message)
             elif its.bytes_of(message) not in found.setdefault(number, []):
                 found[number].append(its.bytes_of(message))

@@ -313,6 +313,26 @@ TEST_F(ClientCalls, Polls) {
   EXPECT_EQ(verican_remote_poll(&client, 0x200, 6, 0x38, &answers), VERICAN_REMOTE_OK);
 }
 
+// RN-03, RN-07: 0 and 1 are numbers of no node; a frame that looks like the answer of one is
+// somebody's statement.
+TEST_F(ClientCalls, NumbersOfNoNodeAnswerNothing) {
+  unsigned passed_on = 0;
+  client.user = &passed_on;
+  client.on_statement = [](void *user, const verican_remote_frame_t *) {
+    ++*static_cast<unsigned *>(user);
+  };
+  for (const unsigned number : {0U, 1U}) {
+    bus.heard = [number](Frame frame) {
+      if (frame.id >> 7 == (8U | 5U)) frame.id = (8U | number) << 7 | (frame.id & 0x7F);
+      return frame;
+    };
+    verican_remote_answers_t answers;
+    EXPECT_EQ(verican_remote_poll(&client, 0x40, 2, 0, &answers), VERICAN_REMOTE_OK);
+    EXPECT_EQ(answers.answered, 0x18U) << number;
+    EXPECT_EQ(passed_on, number + 1);
+  }
+}
+
 // Statements that nobody waits for are passed on, in their order.
 TEST_F(ClientCalls, StatementsArePassedOn) {
   std::vector<unsigned> heard;
@@ -373,6 +393,8 @@ TEST_F(ClientCalls, WrongArguments) {
   expect(verican_remote_poll(&client, 0x20, 9, 0, &answers));
   expect(verican_remote_poll(&client, 0x20, 0, 0, &answers));
   expect(verican_remote_poll(&client, 0x20, 1, 0x100, &answers));
+  expect(verican_remote_poll(&client, 0x20, 1, 0x2, &answers));
+  expect(verican_remote_poll(&client, 0x20, 1, 0x1, &answers));
   expect(verican_remote_poll(&client, 0x20, 1, 0, nullptr));
   expect(verican_remote_state(&client, 8, VERICAN_REMOTE_SAFE));
   expect(verican_remote_state(&client, 3, 3));

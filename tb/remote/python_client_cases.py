@@ -545,6 +545,27 @@ class RemoteFrames(OnBus):
             self.assertEqual(client.status(3).trigger, 9)
             notifier.stop()
 
+    def test_numbers_of_no_node(self):
+        """RN-03, RN-07: what looks like the answer of node 0 or 1 is somebody's statement."""
+        with can.Bus(interface="virtual", channel="vn") as bus, \
+                can.Bus(interface="virtual", channel="vn") as node:
+            heard = []
+            client = remote.Client(bus, timeout=0.2, select_wait=0.01, on_statement=heard.append)
+
+            def answer(message):
+                if message.arbitration_id == client.port(1, 0):
+                    for number in 0, 1:
+                        node.send(can.Message(arbitration_id=client.port(number, 0) | 0x400,
+                                              data=message.data[:2] + bytes(message.data[2]),
+                                              is_extended_id=False))
+
+            notifier = can.Notifier(node, [answer])
+            self.assertEqual(client.poll(0xFF8, 1), {})
+            self.assertEqual(client.scan(), [])
+            notifier.stop()
+            self.assertEqual([message.arbitration_id for message in heard],
+                             [0x478, 0x4F8, 0x478, 0x4F8])
+
 
 if __name__ == "__main__":
     assert os.environ["VERICAN_BINARY"]

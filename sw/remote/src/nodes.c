@@ -33,7 +33,7 @@ static result_t gather(client_t *c, const frame_t *request, const answer_t *answ
     const unsigned number = (frame.id & 0x3FFu) >> (10u - c->name_bits);
     answer_t wanted = *answer;
     wanted.id = (uint16_t)(answer->id | vr_id(c, number, 0));
-    if (!vr_answers(&wanted, request, &frame)) {
+    if (!vr_is_node(c, number) || !vr_answers(&wanted, request, &frame)) {
       vr_pass_on(c, &frame);
       continue;
     }
@@ -47,7 +47,7 @@ result_t verican_remote_poll(client_t *c, uint16_t address, uint8_t length, uint
   frame_t request;
   answer_t answer;
   if (c == NULL || poll == NULL || length == 0 || (uint32_t)address + length > MEMORY_END ||
-      (expected >> 1 >> ((1u << c->name_bits) - 1u)) != 0)
+      (expected & 3u) != 0 || (expected >> 1 >> ((1u << c->name_bits) - 1u)) != 0)
     return VERICAN_REMOTE_ARGUMENT;
   if (vr_read_request(c, VERICAN_REMOTE_ALL, address, length, &request, &answer) != length)
     return VERICAN_REMOTE_ARGUMENT; /* more than one frame: not of one moment */
