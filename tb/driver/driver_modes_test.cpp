@@ -310,6 +310,15 @@ TEST_F(DriverModes, TheFifoTellsWhichFilterTookAFrame) {  // FX-MAP.RXFIR
   }
 }
 
+// A boot loader may have chosen the other clock, which a soft reset keeps and disable mode alone
+// changes (flexcan.md 1.2).
+TEST_F(DriverModes, TheClockSourceThatOtherSoftwareChoseStays) {
+  constexpr std::uint32_t kClkSrc = 0x2000;
+  bus_[0].rtl().write32(0x004, kClkSrc);
+  ASSERT_EQ(bus_[0].up(), VERICAN_OK);
+  EXPECT_EQ(bus_[0].rtl().read32(0x004) & kClkSrc, kClkSrc);
+}
+
 TEST_F(DriverModes, ADeviceCanBeInitialisedAgainWhileItRuns) {
   up({0, 1});
   ASSERT_EQ(send(0), VERICAN_OK);

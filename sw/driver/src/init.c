@@ -83,7 +83,9 @@ static void plan_registers(verican_t *dev, const verican_config_t *config) {
     dev->mcr |= VERICAN_MCR_FEN_MASK | (uint32_t)config->fifo_format << VERICAN_MCR_IDAM_SHIFT;
   if (config->abort) dev->mcr |= VERICAN_MCR_AEN_MASK;
   if (config->tx_order == VERICAN_TX_BY_PRIORITY) dev->mcr |= VERICAN_MCR_LPRIO_EN_MASK;
-  dev->ctrl = verican_timing_bits(&dev->timing);
+  /* The clock source can be another in disable mode only: it stays as it is. */
+  dev->ctrl = verican_read(dev, VERICAN_CTRL1_OFFSET) & VERICAN_CTRL1_CLK_SRC_MASK;
+  dev->ctrl |= verican_timing_bits(&dev->timing);
   if (config->triple_sampling) dev->ctrl |= VERICAN_CTRL1_SMP_MASK;
   if (config->tx_order == VERICAN_TX_IN_ORDER) dev->ctrl |= VERICAN_CTRL1_LBUF_MASK;
   if (config->bus_off != VERICAN_BUS_OFF_AUTOMATIC) dev->ctrl |= VERICAN_CTRL1_BOFF_REC_MASK;
