@@ -141,6 +141,43 @@ TEST_P(DriverAbort, AroundALostArbitrationTheReportIsTrue) {  // FX-3.4.b, MO-10
   EXPECT_GT(taken_back, 80u);
 }
 
+// A one-shot frame loses arbitration, and is over with that: maybe in the very moment in which it
+// is taken back. `clock`: from the call that sends to the one that takes back, on a bus of its own,
+// so that nothing else differs.
+verican_tx_outcome_t outcome_of_a_late_abort(bool abort, unsigned clock) {
+  DriverBus bus{2};
+  bus[0].config.abort = abort;
+  for (unsigned n = 0; n < 2; ++n) EXPECT_EQ(bus[n].up(), VERICAN_OK);
+  bus.run(20 * kBit);
+  for (unsigned n = 0; n < 2; ++n) bus[n].interrupts = false;  // handlers would take their time
+  const verican_frame_t filler = driver_frame(0x001, 0), winner = driver_frame(0x100, 0);
+  const verican_frame_t loser = driver_frame(0x2AA, 1, VERICAN_FRAME_ONE_SHOT);
+  std::uint8_t mailbox = 0;
+  EXPECT_EQ(verican_send(&bus[1].dev, &filler, nullptr), VERICAN_OK);
+  bus.run(10 * kBit);
+  EXPECT_EQ(verican_send(&bus[1].dev, &winner, nullptr), VERICAN_OK);
+  EXPECT_EQ(verican_send(&bus[0].dev, &loser, &mailbox), VERICAN_OK);
+  bus.run(clock * kClock);
+  (void)verican_abort(&bus[0].dev, mailbox);
+  for (unsigned n = 0; n < 2; ++n) bus[n].interrupts = true;
+  bus.run(150 * kBit);
+  EXPECT_EQ(bus[0].events.size(), 1u) << "exactly one report";
+  for (const verican_frame_t &frame : bus[1].received()) EXPECT_NE(frame.id, 0x2AAu);
+  return bus[0].events.empty() ? VERICAN_TX_SENT : bus[0].events[0].outcome;
+}
+
+TEST_P(DriverAbort, AOneShotThatFailsMeanwhileIsNotToldAsSent) {
+  unsigned failed = 0;
+  constexpr unsigned kFirst = 8 * 35, kEnd = 8 * 45;
+  for (unsigned clock = kFirst; clock < kEnd; ++clock) {
+    const verican_tx_outcome_t outcome = outcome_of_a_late_abort(certain(), clock);
+    EXPECT_NE(outcome, VERICAN_TX_SENT) << clock << " clocks after the call";
+    failed += outcome == VERICAN_TX_FAILED ? 1 : 0;
+  }
+  EXPECT_GT(failed, 0u);
+  EXPECT_LT(failed, kEnd - kFirst) << "the moments before, too";
+}
+
 // Nobody acknowledges: the frame is repeated for ever, and the abort ends it at the next error.
 TEST_P(DriverAbort, EndsAFrameThatNobodyAcknowledges) {
   ASSERT_EQ(verican_stop(&bus_[1].dev), VERICAN_OK);

@@ -235,6 +235,34 @@ TEST_F(DriverHandler, AFrameThatIsOutAlreadyIsToldAsSent) {
   }
 }
 
+// The same of a one-shot, by its own flag or by the mode of all: it may as well have failed.
+TEST_F(DriverHandler, AOneShotThatEndsAsItIsWithdrawnIsToldAsWithdrawn) {
+  up();
+  for (const unsigned flags : {0u, unsigned{VERICAN_FRAME_ONE_SHOT}}) {
+    ASSERT_EQ(verican_set_one_shot(&dev_, flags == 0), VERICAN_OK);
+    events_.clear();
+    const verican_frame_t frame = driver_frame(0x123, 1, flags);
+    std::uint8_t mailbox = 0;
+    ASSERT_EQ(verican_send(&dev_, &frame, &mailbox), VERICAN_OK);
+    core_.on_write = [&](std::uint32_t offset, std::uint32_t) {
+      if (offset == VERICAN_MB_CS_OFFSET(mailbox)) flag(mailbox);
+    };
+    ASSERT_EQ(verican_abort(&dev_, mailbox), VERICAN_OK);
+    core_.on_write = nullptr;
+    (void)verican_irq_handler(&dev_);
+    ASSERT_EQ(events_.size(), 1u);
+    EXPECT_EQ(events_[0].outcome, VERICAN_TX_WITHDRAWN);
+    // The next one in this mailbox is another matter.
+    ASSERT_EQ(verican_set_one_shot(&dev_, false), VERICAN_OK);
+    const verican_frame_t next = driver_frame(0x124, 1);
+    ASSERT_EQ(verican_send_in(&dev_, &next, mailbox), VERICAN_OK);
+    EXPECT_EQ(dev_.tx_once[0] | dev_.tx_once[1], 0u);
+    core_.word(VERICAN_MB_CS_OFFSET(mailbox)) = 0x08080020;
+    flag(mailbox);
+    ASSERT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+  }
+}
+
 TEST_F(DriverHandler, StampsBeforeTheBeginningAreZero) {
   up();
   core_.word(VERICAN_TIMER_OFFSET) = 5;

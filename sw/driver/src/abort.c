@@ -16,6 +16,23 @@ bool verican_abort_flagged(const verican_t *dev, unsigned mb) {
   return false;
 }
 
+static bool is_once(const verican_t *dev, unsigned mb) {
+  return (dev->tx_once[mb / 32u] & verican_bit(mb)) != 0u ||
+         (dev->extension &&
+          (verican_read(dev, VERICAN_XCTRL_OFFSET) & VERICAN_XCTRL_ONESHOT_MASK) != 0u);
+}
+
+/* Under lock, without MCR.AEN: as take_back(). A frame that ended just before the write is told by
+ * its flag alone. It has been sent then, but a one-shot may as well have failed: withdrawn it is in
+ * either case. */
+static bool withdraw(const verican_t *dev, unsigned mb) {
+  verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_INACTIVE));
+  if (!verican_is_flagged(dev, mb)) return true;
+  if (!is_once(dev, mb)) return false;
+  verican_clear_flag(dev, mb);
+  return true;
+}
+
 /* Under lock. True if the frame is gone and no interrupt will tell; false leaves the end to the
  * handler. With MCR.AEN the core decides and raises the flag, but a core may skip the flag where
  * the frame had not left its mailbox (FlexCAN2). Without, a frame that has left its mailbox goes on
@@ -23,10 +40,7 @@ bool verican_abort_flagged(const verican_t *dev, unsigned mb) {
 static bool take_back(verican_t *dev, unsigned mb) {
   if (verican_is_flagged(dev, mb)) return false;
   dev->tx_taken_back[mb / 32u] |= verican_bit(mb);
-  if (!dev->abort) {
-    verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_INACTIVE));
-    return !verican_is_flagged(dev, mb);
-  }
+  if (!dev->abort) return withdraw(dev, mb);
   verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_ABORT));
   const uint32_t code = verican_read(dev, VERICAN_MB_CS_OFFSET(mb)) & VERICAN_MB_CS_CODE_MASK;
   if (code != CS_CODE(TX_ABORT)) return false;

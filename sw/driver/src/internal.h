@@ -114,7 +114,7 @@ verican_result_t verican_frame_check(const verican_frame_t *frame);
 
 /* tx.c */
 bool verican_is_pending(const verican_t *dev, unsigned mb);
-/* Also forgets that the frame was taken back. */
+/* Also forgets that the frame was taken back, and that it was a one-shot. */
 void verican_set_pending(verican_t *dev, unsigned mb, bool on);
 /* Frees the mailbox, with the launch that waits for its frame, and counts. All in one section: a
  * callback of the handler may give the mailbox its next frame and launch right behind it. */

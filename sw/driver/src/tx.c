@@ -19,6 +19,7 @@ void verican_set_pending(verican_t *dev, unsigned mb, bool on) {
     dev->tx_pending[mb / 32u] &= ~verican_bit(mb);
   }
   dev->tx_taken_back[mb / 32u] &= ~verican_bit(mb);
+  dev->tx_once[mb / 32u] &= ~verican_bit(mb);
 }
 
 /* The free mailbox for the next frame, or num_mb. To keep the order of frames, where the lowest
@@ -56,6 +57,7 @@ static verican_result_t put(verican_t *dev, const verican_frame_t *frame, unsign
   if (result != VERICAN_OK) return result;
   if (mb >= dev->num_mb || verican_is_pending(dev, mb)) return VERICAN_ERR_BUSY;
   verican_set_pending(dev, mb, true);
+  if ((frame->flags & VERICAN_FRAME_ONE_SHOT) != 0u) dev->tx_once[mb / 32u] |= verican_bit(mb);
   verican_frame_write(dev, mb, frame);
   return VERICAN_OK;
 }

@@ -181,7 +181,8 @@ typedef enum verican_tx_outcome {
   VERICAN_TX_SENT = 0,
   VERICAN_TX_ABORTED = 1,  /**< taken back before it was sent; not on the bus */
   VERICAN_TX_FAILED = 2,   /**< one-shot: lost arbitration or met an error */
-  VERICAN_TX_WITHDRAWN = 3 /**< taken back without `abort`: may still be on the bus now */
+  VERICAN_TX_WITHDRAWN = 3 /**< taken back without `abort`: may still be on the bus now, or, a
+                              one-shot, have just got out */
 } verican_tx_outcome_t;
 
 /** The end of a transmission. */
@@ -302,6 +303,7 @@ struct verican {
   uint32_t rx_mask[2];    /* mailboxes that receive, as IMASK1 and IMASK2 */
   uint32_t tx_pending[2]; /* mailboxes that hold a frame to send */
   uint32_t tx_taken_back[2];
+  uint32_t tx_once[2]; /* sent with VERICAN_FRAME_ONE_SHOT */
   uint32_t bus_off_delay_ms;
   uint32_t bus_off_since_ms;
   uint8_t num_mb;
