@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -261,6 +262,40 @@ TEST_F(DriverHandler, AOneShotThatEndsAsItIsWithdrawnIsToldAsWithdrawn) {
     flag(mailbox);
     ASSERT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
   }
+}
+
+// A frame in a mailbox is that of the last call that named it: the handler, which comes when the lock
+// opens, finds the mailbox free and fills it, but the end of the frame before has been told by then.
+TEST_F(DriverHandler, TheEndOfAFrameIsToldBeforeItsMailboxHasAnother) {
+  config_.tx_mailboxes = 2;
+  up();
+  struct User {
+    std::vector<std::string> told;
+  } user;
+  dev_.callbacks.user = &user;
+  dev_.callbacks.on_sent = [](void *self, verican_t *dev, const verican_tx_event_t *event) {
+    User &to = *static_cast<User *>(self);
+    to.told.push_back("end in " + std::to_string(event->mailbox));
+    if (event->outcome != VERICAN_TX_SENT) return;
+    const verican_frame_t next = driver_frame(0x222);
+    std::uint8_t mailbox = 0;
+    EXPECT_EQ(verican_send(dev, &next, &mailbox), VERICAN_OK);
+    to.told.push_back("next in " + std::to_string(mailbox));
+  };
+  const verican_frame_t frame = driver_frame(0x111);
+  for (int i = 0; i < 2; ++i) ASSERT_EQ(verican_send(&dev_, &frame, nullptr), VERICAN_OK);
+  core_.on_write = [&](std::uint32_t offset, std::uint32_t) {
+    if (offset != VERICAN_MB_CS_OFFSET(62)) return;
+    core_.on_write = nullptr;  // the other frame is out while this one is taken back
+    core_.word(VERICAN_MB_CS_OFFSET(63)) = 0x08080020;
+    flag(63);
+    core_.on_open = [&] {
+      core_.on_open = nullptr;
+      EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_OK);
+    };
+  };
+  ASSERT_EQ(verican_abort(&dev_, 62), VERICAN_OK);
+  EXPECT_THAT(user.told, ElementsAre("end in 62", "end in 63", "next in 62"));
 }
 
 TEST_F(DriverHandler, StampsBeforeTheBeginningAreZero) {

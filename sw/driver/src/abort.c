@@ -51,16 +51,17 @@ verican_result_t verican_abort(verican_t *dev, uint8_t mailbox) {
   const verican_result_t result = verican_check_started(dev);
   if (result != VERICAN_OK) return result;
   if (mailbox < dev->first_tx || mailbox >= dev->num_mb) return VERICAN_ERR_RANGE;
+  /* Told under lock: the handler could give the mailbox its next frame before the end of this one
+   * is told, and nobody would know which frame that was. */
   const uint32_t token = verican_lock(dev);
   const bool waits = verican_is_pending(dev, mailbox);
-  const bool gone = waits && take_back(dev, mailbox);
   const verican_tx_outcome_t outcome = dev->abort ? VERICAN_TX_ABORTED : VERICAN_TX_WITHDRAWN;
-  if (gone) verican_tx_end(dev, mailbox, outcome);
-  const uint64_t now = gone ? verican_now(dev) : 0u;
+  if (waits && take_back(dev, mailbox)) {
+    verican_tx_end(dev, mailbox, outcome);
+    verican_tx_tell(dev, mailbox, outcome, verican_now(dev), 0);
+  }
   verican_unlock(dev, token);
-  if (!waits) return VERICAN_ERR_EMPTY;
-  if (gone) verican_tx_tell(dev, mailbox, outcome, now, 0);
-  return VERICAN_OK;
+  return waits ? VERICAN_OK : VERICAN_ERR_EMPTY;
 }
 
 verican_result_t verican_set_one_shot(verican_t *dev, bool on) {

@@ -198,11 +198,11 @@ typedef struct verican_tx_event {
 typedef struct verican verican_t;
 
 /**
- * Called from verican_irq_handler(); on_sent also from verican_abort() and verican_stop(), on_state
- * and on_error also from verican_poll(), verican_recover(), verican_get_status() and
- * verican_stop(), on_receive also from verican_stop(). Any may be NULL. All may call the driver's
- * other functions, but not verican_irq_handler(). In verican_stop() the device is neither started
- * nor stopped: what needs one of the two is VERICAN_ERR_STATE there.
+ * Called from verican_irq_handler(); on_sent also from verican_abort(), under the lock, and from
+ * verican_stop(), on_state and on_error also from verican_poll(), verican_recover(),
+ * verican_get_status() and verican_stop(), on_receive also from verican_stop(). Any may be NULL.
+ * All may call the driver's other functions, but not verican_irq_handler(). In verican_stop() the
+ * device is neither started nor stopped: what needs one of the two is VERICAN_ERR_STATE there.
  */
 typedef struct verican_callbacks {
   /** A mailbox is free again. */
