@@ -264,8 +264,9 @@ TEST_F(DriverHandler, AOneShotThatEndsAsItIsWithdrawnIsToldAsWithdrawn) {
   }
 }
 
-// A frame in a mailbox is that of the last call that named it: the handler, which comes when the lock
-// opens, finds the mailbox free and fills it, but the end of the frame before has been told by then.
+// A frame in a mailbox is that of the last call that named it: the handler, which comes when the
+// lock opens, finds the mailbox free and fills it, but the end of the frame before has been told by
+// then.
 TEST_F(DriverHandler, TheEndOfAFrameIsToldBeforeItsMailboxHasAnother) {
   config_.tx_mailboxes = 2;
   up();
