@@ -163,7 +163,7 @@ typedef struct {
   size_t len;
   uint8_t subIndexOD; /**< 2 to 127 */
   uint8_t attr;       /**< CO_storage_attributes_t */
-  void *memory;       /**< len + 8 bytes that survive a reset */
+  void *memory;       /**< len + 8 bytes that survive a reset, aligned to 4 */
 } CO_storage_entry_t;
 
 /* ---- Critical sections: the application's lock ----------------------------------------------- */

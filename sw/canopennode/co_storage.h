@@ -9,7 +9,8 @@
 
 #include "storage/CO_storage.h"
 
-/** Bytes of memory for a group of `length` bytes: mark and CRC are in front of it. */
+/** Bytes of memory for a group of `length` bytes: mark and CRC are in front of it. It is aligned as
+ * a uint32_t is. */
 #define CO_STORAGE_MEMORY(length) ((length) + 8u)
 
 /**

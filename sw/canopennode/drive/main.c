@@ -30,9 +30,9 @@ static volatile uint32_t milliseconds;
 
 /* Survives SYSRESETREQ: the startup code does not clear it. */
 static struct {
-  uint8_t comm[CO_STORAGE_MEMORY(sizeof(OD_PERSIST_COMM_t))];
-  uint8_t app[CO_STORAGE_MEMORY(sizeof(OD_PERSIST_APP_t))];
-} kept __attribute__((section(".noinit"), aligned(4)));
+  uint8_t comm[CO_STORAGE_MEMORY(sizeof(OD_PERSIST_COMM_t))] __attribute__((aligned(4)));
+  uint8_t app[CO_STORAGE_MEMORY(sizeof(OD_PERSIST_APP_t))] __attribute__((aligned(4)));
+} kept __attribute__((section(".noinit")));
 
 static CO_storage_t storage;
 static CO_storage_entry_t groups[] = {
