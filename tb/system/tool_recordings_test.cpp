@@ -64,8 +64,7 @@ TEST(ToolRecordings, NoFileIsReplacedByAnEmptyOne) {
   EXPECT_EQ(shell("test -e " + table).code, 1);
   EXPECT_EQ(run_tool("ids " + log + " --from '1 s' --csv " + old).code, 1);
   const std::string others = folder.file("o.log", "(1.0) can0 7FF#\n");
-  EXPECT_EQ(run_tool("signals " + others + " --dbc examples/engine.dbc --csv " + old).code,
-            1);
+  EXPECT_EQ(run_tool("signals " + others + " --dbc examples/engine.dbc --csv " + old).code, 1);
   EXPECT_EQ(shell("cat " + old).text, "precious");
 }
 
