@@ -56,8 +56,10 @@ TEST_P(EveryIdentifier, IsObeyedByThoseWhoAreMeant) {
   }
 }
 
-// RN-14, RN-21: remote frames; only a statement of the own number answers, on another identifier.
+// RN-14, RN-21: a remote frame of a request is answered, once, by the statement of the own number
+// at its A; one to a port that has none by STATUS, but not if it went to all.
 TEST_P(EveryIdentifier, IsAnsweredOnAnotherOne) {
+  const unsigned window = (1U << shift) - 8, status = window + 6;
   for (unsigned number = 0; number < numbers; ++number) {
     ModelNode node{with_name_bits(bits), number};
     node.started();
@@ -69,15 +71,15 @@ TEST_P(EveryIdentifier, IsAnsweredOnAnotherOne) {
       node.model.receive(frame);
       const Texts said = node.drain();
       const unsigned name = id >> shift;
-      const bool meant = number >= 2 && (name == 1 || name == number);
-      if (!meant) {
+      const unsigned a = id & ((1U << shift) - 1);
+      const bool readable = a < window || a >= status;
+      if (number < 2 || !(name == number || (name == 1 && readable))) {
         ASSERT_THAT(said, IsEmpty()) << number << ' ' << id;
         continue;
       }
-      for (const std::string &text : said) {
-        ASSERT_NE(frame_of(text).id, id);
-        ASSERT_EQ(frame_of(text).id >> shift, numbers + number);
-      }
+      ASSERT_EQ(said.size(), 1U) << number << ' ' << id;
+      ASSERT_EQ(frame_of(said[0]).id, (numbers + number) << shift | (readable ? a : status)) << id;
+      ASSERT_EQ(frame_of(said[0]).dlc, readable ? 1 : 8) << id;
     }
     EXPECT_FALSE(node.model.status().duplicate);
   }
@@ -115,27 +117,33 @@ TEST(RemoteModelAddress, WindowAndPorts) {
   EXPECT_EQ(five.last(), std::pair(2U, 0x17U));
 }
 
-// RN-06: who listens to statements alone knows every window.
+// RN-06: each statement, asked for or published, has the bytes of its node; who listens to them
+// alone knows every window.
 TEST(RemoteModelAddress, AListenerRebuildsEveryWindow) {
   std::mt19937 dice{6};
   std::vector<std::unique_ptr<ModelNode>> nodes;
   for (unsigned number = 3; number <= 7; ++number) {
     nodes.push_back(std::make_unique<ModelNode>(RemoteConfig::profile("full"), number));
-    nodes.back()->started();
+    nodes.back()->user_write(0xF40, {0x2C, 0x88});  // producer 0: eight bytes from 2C on
+    nodes.back()->started().hear("000#01");
   }
   std::array<std::array<std::uint8_t, 0x78>, 8> mirror{};
-  const auto listen = [&](const Texts &said) {
-    for (const std::string &text : said) {
+  unsigned statements = 0;
+  const auto listen = [&](ModelNode &node) {
+    for (const std::string &text : node.drain()) {
       const Frame frame = frame_of(text);
       const unsigned a = frame.id & 0x7F;
       if (frame.remote || (frame.id & 0x400) == 0 || a >= 0x78) continue;
-      for (unsigned i = 0; i < frame.dlc; ++i) mirror[frame.id >> 7 & 7].at(a + i) = frame.data[i];
+      ++statements;
+      const std::vector<std::uint8_t> told{frame.data.begin(), frame.data.begin() + frame.dlc};
+      EXPECT_EQ(told, node.bytes(a, frame.dlc)) << text;
+      for (unsigned i = 0; i < frame.dlc; ++i) mirror[frame.id >> 7 & 7].at(a + i) = told[i];
     }
   };
   const auto to_all = [&](const Frame &frame) {
     for (auto &node : nodes) {
       node->model.receive(frame);
-      listen(node->drain());
+      listen(*node);
     }
   };
   for (int i = 0; i < 5000; ++i) {
@@ -147,7 +155,11 @@ TEST(RemoteModelAddress, AListenerRebuildsEveryWindow) {
       for (unsigned b = 0; b < frame.dlc; ++b) frame.data[b] = static_cast<std::uint8_t>(dice());
     if (frame.id < 5) continue;  // no system functions: a RESTART would end it
     to_all(frame);
+    ModelNode &node = *nodes[dice() % nodes.size()];
+    node.model.event(0);
+    listen(node);
   }
+  EXPECT_GT(statements, 7000U);
   for (unsigned a = 0; a < 0x78; a += 8) {
     Frame poll;
     poll.id = 0x080 | a;

@@ -18,7 +18,6 @@ void PrintTo(const RemotePulse &pulse, std::ostream *out) {
 
 namespace {
 
-using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
@@ -190,7 +189,8 @@ TEST_F(RemoteModelUser, HoldEndsByItself) {
   node.model.hold_expired();
   EXPECT_EQ(node.bytes(0xFEF, 1)[0], 3);
   node.model.hold(false);
-  EXPECT_THAT(node.model.take_pulses(), Each(written(0x20, 1)));
+  const RemotePulse once = written(0x20, 1);
+  EXPECT_THAT(node.model.take_pulses(), ElementsAre(once, once, once));
 }
 
 // RN-51, RN-53: user logic reads everything and writes all but E00..EFF and FE0..FFF.
