@@ -280,8 +280,9 @@ class IpXact(Case):
     def test_ports_and_maps_are_those_of_the_wrapper(self):
         for wrapper in self.wrappers.values():
             root = self.tree(wrapper)
-            ports = [port.findtext(f"{SPACE}name") for port in root.iter(f"{SPACE}port")]
-            self.assertEqual(ports, [port.name for port in wrapper.ports])
+            self.assertEqual([xact_port(port) for port in root.iter(f"{SPACE}port")],
+                             [(port.name, port.direction, port.width, port.low)
+                              for port in wrapper.ports])
             pairs = [(pair.findtext(f"{SPACE}logicalPort/{SPACE}name"),
                       pair.findtext(f"{SPACE}physicalPort/{SPACE}name"))
                      for pair in root.iter(f"{SPACE}portMap")]
@@ -297,6 +298,14 @@ class IpXact(Case):
             self.assertEqual(files, [f"../{name}" for name in design.rtl_files()])
 
 
+def xact_port(port):
+    """Name, direction, width and lowest bit of a port of an IP-XACT component."""
+    high, low = (int(port.findtext(f".//{SPACE}vector/{SPACE}{end}", "0"))
+                 for end in ("left", "right"))
+    return (port.findtext(f"{SPACE}name"), port.findtext(f"{SPACE}wire/{SPACE}direction") + "put",
+            high - low + 1, low)
+
+
 def rows(entry, tags, number):
     """The addresses of an entry that may be repeated, relative to what holds it. `tags`: number,
     offset and distance."""
@@ -305,7 +314,8 @@ def rows(entry, tags, number):
 
 
 def svd_registers():
-    """(address, name of field) -> (lowest bit, highest bit, access), alternate views left out."""
+    """(address, name of field) -> (lowest bit, highest bit, access, reset, effect of a write, of a
+    read), alternate views left out."""
     found = {}
 
     def visit(parent, base):
@@ -319,9 +329,11 @@ def svd_registers():
             for address in rows(register, ("dim", "addressOffset", "dimIncrement"),
                                 lambda text: int(text, 0)):
                 for field in register.iter("field"):
+                    low, high = int(field.findtext("lsb")), int(field.findtext("msb"))
+                    reset = int(register.findtext("resetValue"), 0) >> low
                     found[base + address, field.findtext("name")] = (
-                        int(field.findtext("lsb")), int(field.findtext("msb")),
-                        field.findtext("access"))
+                        low, high, field.findtext("access"), reset & (2 << high - low) - 1,
+                        field.findtext("modifiedWriteValues"), field.findtext("readAction"))
     visit(ET.parse(design.ROOT / "sw/verican.svd").getroot().find(".//registers"), 0)
     return found
 
@@ -344,8 +356,11 @@ def xact_registers(root):
                 for field in register.iter(f"{SPACE}field"):
                     low = number(field.findtext(f"{SPACE}bitOffset"))
                     width = number(field.findtext(f"{SPACE}bitWidth"))
+                    reset = field.findtext(f"{SPACE}resets/{SPACE}reset/{SPACE}value")
                     found[base + offset + 4 * row, field.findtext(f"{SPACE}name")] = (
-                        low, low + width - 1, field.findtext(f"{SPACE}access"))
+                        low, low + width - 1, field.findtext(f"{SPACE}access"), number(reset),
+                        field.findtext(f"{SPACE}modifiedWriteValue"),
+                        field.findtext(f"{SPACE}readAction"))
     visit(root.find(f".//{SPACE}addressBlock"), 0)
     return found
 
