@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "bus/faults.hpp"
 #include "time/time_rig.hpp"
 
 namespace vericansim {
@@ -227,6 +228,59 @@ TEST_F(LaunchTime, Freeze) {
   EXPECT_EQ(rig_.flags(0) & 8u, 0u);
   rig_.go(0);
   EXPECT_TRUE(rig_.wait_flag(0, 3));
+}
+
+// TM-44: so does bus-off, where time and the CPU release; what they release waits for recovery.
+TEST_F(LaunchTime, BusOff) {
+  ASSERT_TRUE(rig_.freeze(0));
+  rig_.write(0, reg::kEcr, 250);
+  rig_.go(0);
+  rig_.run(200);
+  const Time now = rig_.bus().now();
+  LevelFault fault{0, Effect::kRecessive, {now, now + 50 * kMicrosecond}};
+  rig_.bus().add(fault);
+  const std::uint64_t t0 = hold(3, frame_of(0x001), 3000);
+  rig_.put_tx(0, 8, frame_of(0x155));
+  rig_.run(400);
+  const auto waits_in_bus_off = [&](std::uint32_t status) {
+    EXPECT_EQ(rig_.field(0), Field::kBusOff);
+    EXPECT_EQ(rig_.read(0, kTstat) & (kHeld | kTxrel), status);
+    EXPECT_EQ(rig_.flags(0), 0u);
+  };
+  waits_in_bus_off(kHeld);
+  ASSERT_LT(time_.node(0).edges(), t0);
+  rig_.run(3000);
+  waits_in_bus_off(kTxrel);
+  rig_.write(0, kTstat, kTxrel);
+  hold(4, frame_of(0x002), 100000);
+  rig_.run(1000);
+  waits_in_bus_off(kHeld);
+  rig_.write(0, kTtxmb, 4);
+  rig_.run(1000);
+  waits_in_bus_off(0);
+  for (const unsigned mb : {3u, 4u, 8u}) EXPECT_TRUE(rig_.wait_flag(0, mb, 12000)) << mb;
+}
+
+// TM-44: one attempt, at T0, of a held buffer that asks for one, on a bus without acknowledge.
+TEST_F(LaunchTime, OneShot) {
+  ASSERT_TRUE(rig_.freeze(1));
+  ASSERT_TRUE(rig_.freeze(0));
+  rig_.write(0, reg::kExtControl, 1u << 2);  // OSMB
+  rig_.go(0);
+  rig_.run(200);
+  MbWords words = mb_words(frame_of(0x001), 0xC);
+  words.cs |= 1u << 28;
+  const std::uint64_t t0 = time_.node(0).edges() + 1500;
+  rig_.write(0, kTtx, static_cast<std::uint32_t>(t0 * kTimeStep));
+  rig_.write(0, kTtxmb, kHold | 3);
+  rig_.put(0, 3, words);
+  EXPECT_FALSE(rig_.wait_flag(0, 3, 1200));
+  ASSERT_TRUE(rig_.wait_flag(0, 3));
+  EXPECT_GT(time_.node(0).edges(), t0);
+  EXPECT_EQ(rig_.read(0, reg::mb(3, 0)) >> 24 & 0xF, 9u);
+  EXPECT_EQ(rig_.read(0, reg::kEcr) & 0xFF, 8u);
+  rig_.run(2000);
+  EXPECT_EQ(rig_.read(0, reg::kEcr) & 0xFF, 8u);
 }
 
 // TM-44: rewriting takes a held frame back, before it is loaded and after: nothing is sent of it.

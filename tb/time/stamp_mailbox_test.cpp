@@ -118,6 +118,36 @@ TEST_F(StampMailbox, SofAndEof) {
   EXPECT_LE(time_.stamp(0, 8), ideal + kTimeStep);
 }
 
+// TM-24, TM-25: POINT and TXPIN that are written within a frame are those of the next frame.
+TEST_F(StampMailbox, ChangedWithinAFrame) {
+  const Frame frame = data_frame(0x123, false, 3);
+  const std::size_t reference = reference_bit(frame);
+  std::uint32_t tctrl = kPointSof;
+  bring_up(tctrl);
+  for (unsigned n = 1; n < 3; ++n) rig_.put_rx(n, 5, frame, {});
+  for (const std::uint32_t next : {kPointEdge, kPointEof, kPointEdge | kTxpin, kPointEdge,
+                                   kPointSof, kPointSof | kTxpin, kPointEof, kPointSof}) {
+    const std::size_t falls = time_.node(0).falls().size();
+    rig_.put_tx(0, 8, frame);
+    ASSERT_TRUE(rig_.run_until([&] { return time_.node(0).falls().size() > falls; }, 1000));
+    rig_.run(3 * kClocksPerBit);
+    for (unsigned n = 0; n < 3; ++n) rig_.write(n, kTctrl, next);
+    ASSERT_TRUE(rig_.wait_flag(0, 8));
+    rig_.clear_flag(0, 8);
+    rig_.run(20);
+    const std::uint64_t sof = time_.node(0).falls().at(falls);
+    const std::size_t bit = (tctrl & ~kTxpin) == kPointSof ? 0 : reference;
+    for (unsigned n = 0; n < 3; ++n) {
+      const bool pin = n != 0 || (tctrl & kTxpin) != 0;
+      const std::uint64_t expected = tctrl == kPointEof ? time_.node(n).valids().back() * kTimeStep
+                                     : pin              ? received_at(sof, bit)
+                                                        : sent_at(sof, bit);
+      EXPECT_EQ(time_.stamp(n, n == 0 ? 8 : 5), expected) << n << ' ' << std::hex << tctrl;
+    }
+    tctrl = next;
+  }
+}
+
 // TM-27: a locked buffer keeps its stamp with its frame; the waiting frame brings its own.
 TEST_F(StampMailbox, LockedBuffer) {
   bring_up(kPointEdge, {.mcr = reg::kMcrSrxDis});

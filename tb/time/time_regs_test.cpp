@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "bus/faults.hpp"
 #include "time/time_rig.hpp"
 
 namespace vericansim {
@@ -80,6 +81,14 @@ TEST_F(TimeRegs, EveryMode) {
   ASSERT_TRUE(rig_.run_until([this] { return (read(reg::kMcr) & reg::kMcrLpmAck) != 0; }, 1000));
   check("stop");
   rig_.node(0).request_stop(false);
+  ASSERT_TRUE(rig_.freeze(0));
+  write(reg::kEcr, 250);
+  rig_.go(0);
+  LevelFault fault{0, Effect::kRecessive, {rig_.bus().now(), kSecond}};
+  rig_.bus().add(fault);
+  rig_.put_tx(0, 8, {.id = 0x155});
+  ASSERT_TRUE(rig_.run_until([this] { return rig_.field(0) == Field::kBusOff; }, 1000));
+  check("bus-off");
 }
 
 // TM-03: a soft reset leaves clock and registers.
