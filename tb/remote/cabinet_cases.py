@@ -111,7 +111,9 @@ class Cabinet(unittest.TestCase):
                 ("write 4 bytes, confirmed", 237, 285 + 5,
                  "285 us by reading STATUS, 230 us with ACKW", "SDO 270 us", "about the same")):
             with self.subTest(name):
-                for figure in re.findall(r"[\d.]+", rows[name][0]):
+                figures = re.findall(r"[\d.]+", rows[name][0])
+                self.assertTrue(figures)
+                for figure in figures:
                     self.assertTrue(least <= float(figure) <= most, rows[name][0])
                 self.assertEqual(rows[name][1:len(computed) + 1], computed)
 
