@@ -204,6 +204,7 @@ class Driver(unittest.TestCase):
     def test_cost_of_a_pair(self):
         """The table of docs/timesync.md is what the firmware tells."""
         cost = {clocks: self.cost(clocks) for clocks in (2, 1)}
+        self.assertEqual(list(cost[2]), ["1", "2", "4", "8", "16", "0"])
         for name in cost[2]:
             start = {"0": "automatic", "1": "N = 1"}.get(name, name)
             found = [cells for cells in rows("docs/timesync.md", f"{start} |")
