@@ -189,10 +189,12 @@ TEST_P(Lanes, OutsideTheWindowIsAnError) {
   (void)write(reg::mb(5, 2), 0x12345678, 0xF);
   for (const std::uint32_t bit : {13u, 14u, 15u}) {
     const std::uint32_t far = reg::mb(5, 2) | 1u << bit;
-    EXPECT_TRUE(node_->access({.address = far, .write = true, .data = 1}).error);
+    const AhbResult written = node_->access({.address = far, .write = true, .data = 1});
     const AhbResult read = node_->access({.address = far});
-    EXPECT_TRUE(read.error);
+    EXPECT_TRUE(written.error && read.error);
     EXPECT_EQ(read.data, 0u);
+    if (GetParam() == "axil_slow") continue;  // waits for other reasons
+    EXPECT_EQ(written.waits + read.waits, 0u);
   }
   EXPECT_EQ(node_->read32(reg::mb(5, 2)), 0x12345678u);
   // Not of the region.
