@@ -41,6 +41,15 @@ TEST(Crcr, OfEveryFrameSent) {  // FX-CRCR.TXCRC, FX-CRCR.MBCRC, FX-MAP.CRCR, FX
       ASSERT_TRUE(rig.wait_flag(1, 30));
       rig.clear_flag(1, 30);
       ASSERT_EQ(rig.read(0, kCrcr), before);
+      ASSERT_TRUE(rig.freeze(1));
+      rig.put_tx(0, mb ^ 1, {.id = 0x123});
+      rig.run(1500);
+      rig.write(0, reg::mb(mb ^ 1), 0x09000000);
+      ASSERT_TRUE(rig.wait_flag(0, mb ^ 1));
+      ASSERT_NE(rig.read(0, reg::kEcr), 0u) << "it has failed";
+      ASSERT_EQ(rig.read(0, kCrcr), before);
+      rig.clear_flag(0, mb ^ 1);
+      rig.go(1);
     }
   }
   ASSERT_TRUE(rig.freeze(0));
