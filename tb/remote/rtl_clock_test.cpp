@@ -165,8 +165,7 @@ TEST(RtlClock, PairsAreNoRequests) {
   lock(bus);  // 200 ms
   EXPECT_EQ(bus.nodes[0]->state(), RemoteState::kSafe);
   EXPECT_EQ(bus.word(0, 0xFF4) >> 8 & 0xFFFF, counts & 0xFFFF);
-  ASSERT_EQ(bus.host.received().size(), 1U);  // STATUS, of SAFE
-  EXPECT_EQ(bus.host.received()[0].id, 0x400U | 3U << 7 | 0x7E);
+  EXPECT_EQ(bus.host.received().size(), 0U);
   EXPECT_EQ(bus.nodes[0]->time_state(), kLocked);
   (void)bus.send(frame_of(0x000, {0x81}));
   bus.run(bus.bus.now() + 2 * kMillisecond);
