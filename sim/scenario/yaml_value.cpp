@@ -5,9 +5,10 @@
 #include "scenario/yaml_value.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 
 #include <cstddef>
-#include <vector>
+#include <sstream>
 
 #include "trace/input_error.hpp"
 #include "trace/log.hpp"
@@ -21,6 +22,55 @@ std::size_t line_of(const YAML::Mark &mark) {
   return mark.is_null() ? 0 : static_cast<std::size_t>(mark.line) + 1;
 }
 
+/// Where a document begins, and what is in it, if anything.
+class DocumentMarks : public YAML::EventHandler {
+ public:
+  YAML::Mark start, content = YAML::Mark::null_mark();
+
+  void OnDocumentStart(const YAML::Mark &mark) override { start = mark; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark &, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark &mark, YAML::anchor_t) override { note(mark); }
+  void OnScalar(const YAML::Mark &mark, const std::string &, YAML::anchor_t,
+                const std::string &) override {
+    note(mark);
+  }
+  void OnSequenceStart(const YAML::Mark &mark, const std::string &, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    note(mark);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark &mark, const std::string &, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    note(mark);
+  }
+  void OnMapEnd() override {}
+
+ private:
+  void note(const YAML::Mark &mark) {
+    if (content.is_null()) content = mark;
+  }
+};
+
+/// Refuses what follows the first document. yaml-cpp takes a comma outside of lists and maps for a
+/// document that is empty and never ends, again and again.
+void check_documents(const std::string &path, const std::string &text) {
+  std::istringstream stream{text};
+  YAML::Parser parser{stream};
+  int before = -1;
+  for (unsigned number = 0;; ++number) {
+    DocumentMarks document;
+    if (!parser.HandleNextDocument(document)) return;
+    if (document.start.pos == before)
+      throw InputError(path, line_of(document.start),
+                       "no valid YAML: no document begins like this");
+    before = document.start.pos;
+    if (number != 0 && !document.content.is_null())
+      throw InputError(path, line_of(document.content),
+                       "a second document begins here; allowed: one in a file");
+  }
+}
+
 }  // namespace
 
 YamlValue YamlValue::load(const std::string &path) {
@@ -29,12 +79,8 @@ YamlValue YamlValue::load(const std::string &path) {
 
 YamlValue YamlValue::parse(const std::string &path, const std::string &text) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    for (std::size_t i = 1; i < documents.size(); ++i)
-      if (!documents[i].IsNull())
-        throw InputError(path, line_of(documents[i].Mark()),
-                         "a second document begins here; allowed: one in a file");
-    const YAML::Node root = documents.empty() ? YAML::Node{} : documents.front();
+    check_documents(path, text);
+    const YAML::Node root = YAML::Load(text);
     const std::size_t line = line_of(root.Mark());
     return {path, "", root, line};
   } catch (const YAML::Exception &error) {

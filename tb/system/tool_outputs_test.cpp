@@ -38,12 +38,14 @@ class ToolOutputs : public ScratchTest {
   }
   /// Commands that write a table or a recording, each to the path that follows.
   [[nodiscard]] std::vector<std::string> writers() const {
+    const std::string database =
+        file_with("in.dbc", "BO_ 291 M: 3 a\n SG_ S : 0|8@1+ (1,0) [0|0] \"\" b\n");
     const std::string signals = "--dbc tb/signals/features.dbc --signals-csv ";
     std::vector<std::string> commands{kRun + signals,
                                       "replay " + log() + " " + signals,
                                       "replay " + log() + " --ids-csv ",
                                       "ids " + log() + " --csv ",
-                                      "signals " + log() + " --dbc tb/signals/features.dbc --csv ",
+                                      "signals " + log() + " --dbc " + database + " --csv ",
                                       "convert " + log() + " " + in("other.log") + " --ids-csv "};
     for (const char *format : {"candump", "pcap", "pcapng", "trc", "gvret"})
       commands.push_back("convert " + log() + " --format " + format + " ");

@@ -9,6 +9,7 @@
 
 #include "firmware/elf_image.hpp"
 #include "harness/input_error_of.hpp"
+#include "scenario/scenario.hpp"
 #include "trace/gvret.hpp"
 #include "trace/pcap_file.hpp"
 #include "trace/vcd_file.hpp"
@@ -18,6 +19,7 @@ namespace vericansim {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 
 void append32(std::string &file, std::uint32_t value) {
   for (unsigned i = 0; i < 4; ++i) file += static_cast<char>(value >> 8 * i);
@@ -33,6 +35,15 @@ TEST(HostileVcd, LongNamesAreRefused) {
   const auto read = [&] { static_cast<void>(VcdFile{"a.vcd", text + "$enddefinitions $end\n"}); };
   EXPECT_THAT(input_error_of(read), HasSubstr("a.vcd:3: the name 's"));
   EXPECT_THAT(input_error_of(read), HasSubstr("allowed: 1024 characters"));
+}
+
+// To yaml-cpp a comma outside of all lists and maps is a document without end: all of the memory
+// was filled with empty ones.
+TEST(HostileScenario, ACommaBeginsNoDocument) {
+  for (const char *text : {",", "\n, a", "# none\n,", "[a]\n, b", "nodes: []\n...\n,"})
+    EXPECT_THAT(input_error_of([&] { static_cast<void>(parse_scenario("a.yaml", text)); }),
+                MatchesRegex("a.yaml:[123]: no valid YAML: no document begins like this"))
+        << text;
 }
 
 // Ten bits of rest, then dominant for 40 days: not a loop over 1.7e12 bits.

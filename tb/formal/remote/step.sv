@@ -28,6 +28,12 @@
   assign f_made = job_q == can_rn_pkg::JobBegin || job_q == can_rn_pkg::JobMove
                   || job_q == can_rn_pkg::JobPush || job_q == can_rn_pkg::JobSeq;
 
+  // What is done for a frame that a map entry has taken.
+  logic f_mapped;
+  assign f_mapped = valid_i || job_q == can_rn_pkg::JobByte || job_q == can_rn_pkg::JobGuard
+                    || job_q == can_rn_pkg::JobBegin || job_q == can_rn_pkg::JobMove
+                    || job_q == can_rn_pkg::JobInt2 || job_q == can_rn_pkg::JobTrigger;
+
   logic f_visit, f_visiting;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) f_visiting <= 1'b0;
@@ -67,8 +73,9 @@
     // It begins with JobEntry or JobFetch and ends where a job is followed by none.
     m_visit: assume (visit_i == f_visiting);
     // A map entry takes no read, and nothing but a header or a visit changes whether one has taken
-    // the frame (map.p_mapped).
-    m_mapped: assume (!mapped_i || (!visit_i && !read_i));
+    // the frame (map.p_mapped). While the header of the next frame comes in, read_i may be that of
+    // it already, but not while the frame that was taken is worked on.
+    m_mapped: assume (!mapped_i || (!visit_i && (!read_i || !f_mapped)));
     m_taken: assume (!f_ran || mapped_i == $past(mapped_i) || visit_i || $past(visit_i)
                      || $past(idle || job_q == can_rn_pkg::JobFind));
     if (f_ran) begin
