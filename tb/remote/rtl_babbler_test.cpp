@@ -4,6 +4,8 @@
 // A host that never pauses: RN-36, RN-37. The campaign has ten seconds of it.
 #include <gmock/gmock.h>
 
+#include <ostream>
+
 #include "remote/babbler.hpp"
 #include "remote/remote_entries.hpp"
 #include "remote/rtl_bus.hpp"
@@ -62,6 +64,8 @@ void put_entry(RemoteNode &node, unsigned address, const std::vector<unsigned> &
 struct Tables {
   const char *name, *frame;
   bool producers, map;  // all eight entries
+
+  friend void PrintTo(const Tables &tables, std::ostream *out) { *out << tables.name; }
 };
 
 class RtlBabblerOfTables : public ::testing::TestWithParam<Tables> {};

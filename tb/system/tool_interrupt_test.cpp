@@ -207,7 +207,7 @@ TEST_F(ToolInterrupt, TheSecondSignalEndsAtOnce) {
 TEST_F(ToolInterrupt, NothingUnfinishedStays) {
   const std::string wave = file_with("a.vcd",
                                      "$timescale 1 us $end\n$var wire 1 ! can $end\n"
-                                     "$enddefinitions $end\n#0\n1!\n#100\n0!\n#200\n1!\n#400\n");
+                                     "$enddefinitions $end\n#0\n1!\n#200\n0!\n#300\n1!\n#600\n");
   ASSERT_EQ(::mkfifo(in("pipe").c_str(), 0600), 0);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     RunningTool tool{
