@@ -5,17 +5,9 @@
  */
 #include "drive/drive.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
-static unsigned failures;
-
-#define CHECK(condition)                                         \
-  do {                                                           \
-    if (condition) break;                                        \
-    ++failures;                                                  \
-    printf("line %d: %s does not hold\n", __LINE__, #condition); \
-  } while (0)
+#include "check.h"
 
 static void enable(drive_t *drive) {
   drive_init(drive);

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "301/CO_driver.h"
+#include "check.h"
 
 enum { MAILBOXES = 2, RECEIVERS = 4, SENDERS = 4 };
 
@@ -105,14 +106,6 @@ static CO_CANmodule_t module;
 static CO_CANrx_t receivers[RECEIVERS];
 static CO_CANtx_t senders[SENDERS];
 static unsigned heard[RECEIVERS];
-static unsigned failures;
-
-#define CHECK(condition)                                         \
-  do {                                                           \
-    if (condition) break;                                        \
-    ++failures;                                                  \
-    printf("line %d: %s does not hold\n", __LINE__, #condition); \
-  } while (0)
 
 static uint32_t lock(void *context) { return context == NULL ? 0u : 1u; }
 static void unlock(void *context, uint32_t token) { (void)context, (void)token; }
