@@ -3,7 +3,8 @@
  *
  * Checks of a test in C: what does not hold is printed and counted.
  */
-#pragma once
+#ifndef TB_CANOPEN_CHECK_H
+#define TB_CANOPEN_CHECK_H
 
 #include <stdio.h>
 
@@ -15,3 +16,5 @@ static unsigned failures;
     ++failures;                                                  \
     printf("line %d: %s does not hold\n", __LINE__, #condition); \
   } while (0)
+
+#endif
