@@ -145,11 +145,11 @@ typedef struct co_verican {
   verican_frame_t ring[CO_VERICAN_RING];
   CO_CANmodule_t *module;
   CO_CANtx_t *in_mailbox[64];
-  uint32_t handed_on; /* received frames that the stack has got */
-  uint32_t lost;      /* frames, as last reported */
-  uint16_t tx_errors; /* CO_CAN_ERRTX_*, not reported yet */
-  bool open;          /* the device is initialised */
-  bool filters_changed;
+  uint32_t handed_on;   /* received frames that the stack has got */
+  uint32_t lost;        /* frames, as last reported */
+  uint16_t tx_errors;   /* CO_CAN_ERRTX_*, not reported yet */
+  bool open;            /* the device is initialised */
+  bool filters_changed; /* frames of the stack wait until they are written */
 } co_verican_t;
 
 /** To be called from the handler of the core's interrupt. */

@@ -22,9 +22,12 @@ CO_CANtx_t *CO_CANtxBufferInit(CO_CANmodule_t *module, uint16_t index, uint16_t 
   return buffer;
 }
 
-/* Under lock. False: its frame before has not left, or no mailbox is free. */
+/* Under lock. False: its frame before has not left, no mailbox is free, or filters are due. A
+ * client that is told of a new COB-ID may use it at once, so the answer leaves when its filter is
+ * in place; and a node that sends all the time would never have nothing under way, as new filters
+ * need. */
 static bool put(co_verican_t *can, CO_CANtx_t *buffer) {
-  if (buffer->mailbox != CO_VERICAN_NO_MAILBOX) return false;
+  if (can->filters_changed || buffer->mailbox != CO_VERICAN_NO_MAILBOX) return false;
   verican_frame_t frame = {.id = buffer->ident, .dlc = buffer->DLC};
   if (buffer->rtr) frame.flags = VERICAN_FRAME_REMOTE;
   for (size_t i = 0; i < sizeof frame.data; ++i) frame.data[i] = buffer->data[i];

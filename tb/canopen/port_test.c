@@ -122,6 +122,7 @@ static void set_up(void) {
   state = (verican_status_t){.state = VERICAN_STATE_ACTIVE};
   start_result = stop_result = VERICAN_OK;
   started = false;
+  filter_count = 0;
   can = (co_verican_t){.port = {.lock = lock, .unlock = unlock}, .now_ms = now_ms};
   CHECK(CO_CANmodule_init(&module, &can, receivers, RECEIVERS, senders, SENDERS, 250) ==
         CO_ERROR_NO);
@@ -282,6 +283,23 @@ static void what_waits_for_a_start_leaves_with_it(void) {
   CHECK(full[1] && mailbox[1].id == 0x581 && module.CANtxCount == 0);
 }
 
+/* The answer to an SDO that changes a COB-ID is the client's leave to use it. */
+static void what_follows_a_new_filter_leaves_behind_it(void) {
+  set_up();
+  CO_CANsetNormalMode(&module);
+  CO_CANtx_t *heartbeat = sender(0, 0x701, false), *answer = sender(1, 0x581, false);
+  CHECK(CO_CANsend(&module, heartbeat) == CO_ERROR_NO && full[0]);
+  take(0, 0x733);
+  CHECK(CO_CANsend(&module, answer) == CO_ERROR_NO && !full[1] && answer->bufferFull);
+  CO_CANmodule_process(&module); /* the heartbeat is under way */
+  CHECK(filter_count == 0 && !full[1]);
+  ended(&can.device, 0, VERICAN_TX_SENT);
+  CHECK(!full[0] && !full[1]);
+  CO_CANmodule_process(&module);
+  CHECK(filter_count == 1 && filters[0].id == 0x733);
+  CHECK(full[0] && mailbox[0].id == 0x581 && !answer->bufferFull && module.CANtxCount == 0);
+}
+
 /* Its line would stay high for ever. */
 static void a_core_that_does_not_stop_is_served(void) {
   set_up();
@@ -307,6 +325,7 @@ int main(void) {
   errors_are_told();
   a_start_that_fails_is_tried_again();
   what_waits_for_a_start_leaves_with_it();
+  what_follows_a_new_filter_leaves_behind_it();
   a_core_that_does_not_stop_is_served();
   return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
