@@ -22,8 +22,12 @@ from schemata import rewrite
 # Tops to try, from inside to outside; only those that hold the mutated module.
 TOPS = ["can_bsp", "can_core", "can_mailbox", "can_regs", "can_top"]
 RAM = "can_mb_ram"      # cut off always: what goes into it must be equal
-# Few buffers, as the default: Yosys 0.23 cannot take can_mailbox with -chparam.
-FEWER = ("parameter int NumMb = 64", "parameter int NumMb = 16")
+# Defaults that are changed for a proof, as Yosys 0.23 cannot take can_mailbox with -chparam: few
+# buffers, and, so that no block is left out of both proofs, the features that the defaults have
+# and that they have not.
+BUILDS = {"the defaults": {"NumMb": (64, 16)},
+          "the other features": {"NumMb": (64, 16), "OwnMasks": (1, 0), "TimeUnit": (0, 1),
+                                 "TimeSync": (0, 1)}}
 CELL = """
 module can_ram_cell #(parameter int Depth = 64, localparam int AddrW = $clog2(Depth)) (
   input logic clk_i, input logic re_i, input logic [AddrW-1:0] raddr_i, output logic [31:0] rdata_o,
@@ -84,14 +88,42 @@ def script(design, directory, top, cut):
     return "\n".join(lines) + "\n"
 
 
-def prove(design, mutant, top, cut, seconds):
-    """True if abc has proven it, False if it has found a difference, None if neither."""
+def with_defaults(text, build):
+    """A module's text with other defaults of its parameters."""
+    for name, (before, after) in BUILDS[build].items():
+        text = re.sub(rf"(parameter int {name} *= ){before}\b", rf"\g<1>{after}", text)
+    return text
+
+
+def builds_of(design, top):
+    """The builds in which the parameters of a top and of what is below it are not the same."""
+    files = [file.text for file in design.files if file.module in inside(design, top)]
+    found = {}
+    for build in BUILDS:
+        found.setdefault(tuple(with_defaults(text, build) for text in files), build)
+    return list(found.values())
+
+
+def prove_in_all(design, mutant, top, cut, seconds, show):
+    """Whether it is proven in each build: what one does not hold, it says nothing of."""
+    for build in builds_of(design, top):
+        result, text = prove(design, mutant, (top, cut, build), seconds)
+        show(top, build, cut, result, text)
+        if not result:
+            return False
+    return True
+
+
+def prove(design, mutant, where, seconds):
+    """Of (top, cut off, build): True if abc has proven it, False if it has found a difference, None
+    if neither."""
+    top, cut, build = where
     with tempfile.TemporaryDirectory() as name:
         directory = pathlib.Path(name)
         for side, wanted in (("gold", None), ("gate", mutant)):
             (directory / side).mkdir()
             for file in design.files:
-                text = rewrite(file, Plain(wanted)).replace(*FEWER)
+                text = with_defaults(rewrite(file, Plain(wanted)), build)
                 if file.module == RAM and top != RAM:
                     text = CELL + USED
                 (directory / side / file.path.name).write_text(text, encoding="utf-8")
@@ -152,9 +184,7 @@ def proof_of(design, mutant, seconds, show=lambda *_: None):
     """Where the mutant is proven to change nothing, in words; None if it is not."""
     mutant.number = mutant.number or 1
     for top, cut in attempts(design, mutant):
-        result, text = prove(design, mutant, top, cut, seconds)
-        show(top, cut, result, text)
-        if result:
+        if prove_in_all(design, mutant, top, cut, seconds, show):
             return f"in {top}" + (f" without {', '.join(cut)}" if cut else "")
     return None
 
