@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <random>
 
 #include "Vcan_mb_mask.h"
@@ -29,6 +30,7 @@ class MbMask : public ::testing::TestWithParam<unsigned> {
     mask_->gnt_i = slot && mask_->req_o;
     mask_.settle();
     const bool load = mask_->gnt_i && mask_->load_o, compared = mask_->gnt_o;
+    loads_ += load;
     const unsigned row = mask_->want_i;
     mask_.clock();
     // What is read is there for a clock.
@@ -36,6 +38,7 @@ class MbMask : public ::testing::TestWithParam<unsigned> {
     mask_.settle();
     return compared;
   }
+  unsigned loads_ = 0;  ///< slots in which a mask was read
   std::mt19937 random_{GetParam()};
   LeafModel<Vcan_mb_mask> mask_;
 };
@@ -68,6 +71,27 @@ TEST_P(MbMask, IsReadAnewForEachFrame) {  // FX-3.5.k
     EXPECT_EQ(clocks, 2u);
     EXPECT_TRUE(clock(true)) << "the mask stays";
   }
+}
+
+// A mask takes one read slot, and none while it is in use, so that the slots of a match can be
+// counted (docs/architecture.md). That another one would be wanted, as when the match goes back to
+// the buffer before, does not end its use.
+TEST_P(MbMask, IsReadOnceForAsLongAsItIsUsed) {  // FX-3.5.k
+  mask_->clear_i = 1;
+  clock(false);
+  std::optional<unsigned> in_use;
+  for (unsigned i = 0; i < 20'000; ++i) {
+    mask_->req_i = random_() % 4 != 0;
+    if (random_() % 4 == 0) mask_->want_i = random_() % 4;
+    mask_->clear_i = random_() % 50 == 0;
+    const unsigned before = loads_, want = mask_->want_i;
+    clock(mask_->clear_i == 0 && random_() % 3 != 0);
+    if (mask_->clear_i != 0) in_use.reset();
+    if (loads_ == before) continue;
+    ASSERT_NE(in_use, want) << i;
+    in_use = want;
+  }
+  EXPECT_GT(loads_, 1'000u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, MbMask, ::testing::Values(1u, 2u, 3u));

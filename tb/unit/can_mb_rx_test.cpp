@@ -85,6 +85,8 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
     const bool grant = top_.req_o != 0 && random() % 3 != 0;
     top_.gnt_i = grant;
     const Buffer read = buffers_[top_.idx_o];
+    const bool collides = grant && collides_ == top_.idx_o;
+    if (collides) collides_.reset();
     if (write) buffers_[*write] = value;
     top_.eval();
     top_.clk_i = 1;
@@ -96,6 +98,8 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
       top_.id_i = read.id;
       top_.mask_i = top_.ans_o != 0 ? 0xFFFFFFFF : read.mask;  // as can_mb_match reads it
     }
+    top_.stale_i = collides;
+    if (collides) top_.cs_i = ~read.cs();
     top_.cs_written_i = write.has_value();
     if (write) top_.cs_written_idx_i = *write;
   }
@@ -146,6 +150,7 @@ class MbRx : public ::testing::TestWithParam<unsigned> {
   }
 
   std::array<Buffer, kBuffers> buffers_{};
+  std::optional<unsigned> collides_;  ///< its next read is in the clock of a write to it
   std::uint32_t random() { return static_cast<std::uint32_t>(rng_()); }
   std::mt19937 rng_{3};
   Vcan_mb_rx top_;
@@ -197,6 +202,26 @@ TEST_P(MbRx, BuffersRewrittenMeanwhileAreChosenAsTheyAre) {
     const Header header = random_header();
     search_beside_writes(header, [this] { return random_buffer(); });
     ASSERT_TRUE(top_.hit_o == 0 || matches(top_.hit_idx_o, header)) << "round " << round;
+  }
+}
+
+// The mark of a buffer that the CPU has read and left (flexcan.md 3.6) may be written as the buffer
+// is read for a frame, and the RAM returns anything then. It is a candidate all the same, the last
+// one, whose read ends the search, too.
+TEST_P(MbRx, BufferMarkedWhileItIsReadIsFound) {  // FX-3.5.a, FX-3.6.g
+  const Header header{.id = 0x155u << 18};
+  for (const unsigned last : {kBuffers - 1, 20u}) {
+    top_.maxmb_i = last;
+    for (unsigned i = 0; i <= last; ++i) {
+      buffers_.fill({});
+      buffers_[i] = {.code = 2, .serviced = true, .id = header.id, .mask = ~0u};
+      collides_ = i;
+      start(header);
+      finish();
+      ASSERT_FALSE(collides_) << "buffer " << i << " was not read";
+      ASSERT_TRUE(top_.hit_o) << i;
+      ASSERT_EQ(top_.hit_idx_o, i);
+    }
   }
 }
 
