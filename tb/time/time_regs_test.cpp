@@ -313,11 +313,19 @@ TEST_F(TimeRegs, ArmingIsToldAtOnce) {  // TM-03, TM-30
   EXPECT_EQ(told(kTcmp, static_cast<std::uint32_t>(time() + 1000000)), kCmpon);
 }
 
-// TM-29: software does not write stamps.
+// TM-29: software does not write stamps, nor TIMER with them, which stands still in these modes.
 TEST_F(TimeRegs, StampsAreReadOnly) {
-  write(stamp(3), 0xFFFFFFFF);
-  write(stamp(3) + 4, 0xFFFFFFFF);
-  EXPECT_EQ(time_.stamp(0, 3), 0u);
+  const auto check = [this](const char *mode) {
+    SCOPED_TRACE(mode);
+    write(reg::kTimer, 0x1234);
+    write(stamp(3), 0xFFFFFFFF);
+    write(stamp(3) + 4, 0xFFFFFFFF);
+    EXPECT_EQ(time_.stamp(0, 3), 0u);
+    EXPECT_EQ(read(reg::kTimer), 0x1234u);
+  };
+  check("disable");
+  rig_.configure(0);
+  check("freeze");
 }
 
 }  // namespace
