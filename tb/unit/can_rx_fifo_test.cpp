@@ -189,5 +189,30 @@ TEST_F(RxFifoRing, MailboxesAreSearchedIfTheyCouldGetTheFrame) {  // FX-4.k, FX-
   }
 }
 
+// A frame that is taken and not stored yet has its place. With it the FIFO may be full, so that a
+// mailbox could get the next frame; while there is room, the FIFO gets that one, too.
+TEST_F(RxFifoRing, FrameOnItsWayHasItsPlace) {  // FX-4.b, FX-4.k
+  top_->filter_i = 1;
+  for (const unsigned way : {1u, 2u}) {
+    for (unsigned fill = 0; fill < kDepth; ++fill) {
+      top_.reset();
+      for (unsigned i = 0; i < fill; ++i) {
+        clock(false, true, false);
+        clock(false, false, true);
+      }
+      clock(false, true, false);
+      ASSERT_TRUE(take_) << fill;
+      way_ = way;
+      top_->rx_hdr_i = 1;
+      clock(false, false, false);
+      top_->rx_hdr_i = 0;
+      clock(false, false, false);
+      EXPECT_EQ(top_->enough_o != 0, fill + 1 < kDepth) << fill;
+      way_ = 0;
+      clock(false, false, false);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vericansim
