@@ -220,6 +220,42 @@ TEST_P(Saturation, NothingIsLostAndFramesAreThreeBitsApart) {  // IF-01, MO-06
   for (unsigned n = 0; n < 2; ++n) EXPECT_EQ(rig_.read(n, reg::kEcr), 0u);
 }
 
+class Share : public ::testing::TestWithParam<CoreBuild> {};
+
+// Each write of an active code has its buffer read and compared with the winner, so every slot that
+// the CPU leaves is asked for. The search for a received frame has its share all the same: it ends
+// before the next frame. Any other access would leave it a slot, so there is none meanwhile.
+TEST_P(Share, OfASearchBesideABufferActivatedWithoutEnd) {
+  const CoreBuild &build = build_of_test(GetParam());
+  MailboxRig rig{2, build};
+  const unsigned last = build.num_mb - 1;
+  const Frame received{.id = 0x040, .dlc = 8, .data = {1, 2, 3, 4, 5, 6, 7, 8}};
+  for (unsigned n = 0; n < 2; ++n) {
+    rig.configure(n);
+    for (unsigned mb = 0; mb <= last && !build.features.clear_ram; ++mb) rig.put(n, mb, {});
+  }
+  rig.put_rx(0, last - 1, received);
+  rig.write(0, reg::mb(last, 1), 0x7FFu << 18);
+  for (unsigned n = 0; n < 2; ++n) rig.go(n);
+  rig.put_tx(1, 1, received);
+  ASSERT_TRUE(rig.run_until([&] { return rig.field(0) == Field::kId; }, 400));
+  // The winner is not written; it has been copied when the last of them is there, and compared with
+  // that: nothing is left to do but the search.
+  for (unsigned k = 1; k < 5; ++k) rig.put_tx(0, k, {.id = 0x040 + 0x10 * k, .dlc = 0});
+  ASSERT_EQ(rig.field(0), Field::kId) << "before the search begins";
+  rig.hammer(0, [last]() -> AhbTransfer {
+    return {.address = reg::mb(last), .write = true, .data = 0x0C00'0000};
+  });
+  rig.run(8 * (135 + 55));  // two frames, with stuff bits and intermission
+  rig.hammer(0, nullptr);
+  EXPECT_EQ(rig.flags(0), 1ull << 1 | 1ull << (last - 1)) << "one sent, one received";
+  EXPECT_EQ(mb_frame(rig.get(0, last - 1)), received);
+  EXPECT_FALSE(rig.violated());
+}
+
+INSTANTIATE_TEST_SUITE_P(Builds, Share, ::testing::Values(core_build("full"), core_build("small")),
+                         [](const auto &test) { return std::string{test.param.name}; });
+
 // PROP, PS1, PS2 of eight quanta from one end to the other, SJW from 1 to its largest.
 constexpr std::uint32_t timing(unsigned prop, unsigned ps1, unsigned ps2, unsigned sjw) {
   return ((sjw - 1) << 22) | ((ps1 - 1) << 19) | ((ps2 - 1) << 16) | (prop - 1);

@@ -50,6 +50,18 @@ TEST_F(MbStep, ASlotHasOneOwner) {
   EXPECT_TRUE(step_->scan_gnt_o);
 }
 
+// Whoever wants a slot: without a request can_mb_port gives all of them to insertions.
+TEST_F(MbStep, ASlotIsAskedForIfAnybodyWantsOne) {
+  for (unsigned asks = 0; asks < 16; ++asks) {
+    step_->ld_req_i = asks & 1;
+    step_->rx_req_i = (asks & 2) != 0;
+    step_->scan_req_i = (asks & 4) != 0;
+    step_->mv_req_i = (asks & 8) != 0;
+    step_.settle();
+    EXPECT_EQ(step_->req_o != 0, asks != 0) << asks;
+  }
+}
+
 // Only a pass for ESR2 gives way to the CPU every time.
 TEST_F(MbStep, LazyIsWhatNobodyElseWaitsFor) {
   for (unsigned asks = 0; asks < 16; ++asks) {
