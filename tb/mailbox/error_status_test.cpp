@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "bus/faults.hpp"
@@ -105,6 +106,23 @@ TEST_F(ErrorStatus, ErrIntWithEachErrorThoughTheBitIsSet) {
     rig_.write(0, reg::kEsr, reg::kEsrErrInt);
   }
   EXPECT_EQ(esr() & kErrors, kAckErr) << "the byte reads left it";
+}
+
+// FX-1.4.a: bits 15:10 are cleared by the read that returns them, and so by one that has their
+// byte.
+TEST_F(ErrorStatus, AReadOfOtherBytesLeavesTheErrorBits) {
+  for (const auto &[offset, size, clears] : {std::tuple{0u, AhbSize::kByte, false},
+                                             {2u, AhbSize::kByte, false},
+                                             {3u, AhbSize::kByte, false},
+                                             {2u, AhbSize::kHalf, false},
+                                             {1u, AhbSize::kByte, true},
+                                             {0u, AhbSize::kHalf, true}}) {
+    preset(0);
+    attempt(0, {.address = reg::kMcr});
+    const AhbResult read = rig_.access(0, {.address = reg::kEsr + offset, .size = size});
+    if (clears) EXPECT_EQ(read.data << 8 * offset & kErrors, kAckErr) << offset;
+    EXPECT_EQ(esr() & kErrors, clears ? 0u : kAckErr) << offset;
+  }
 }
 
 // FX-7.a, FX-ESR1.FLT_CONF: alone TEC rises to 128 and stays there.
