@@ -131,6 +131,39 @@ TEST_F(FollowerRegs, ReadAndWrite) {
   EXPECT_EQ(read(kTsdly), 0x00FFFFE2u);
 }
 
+// TIMEHI is of the last read of TIMELO, whatever stands on the address lines meanwhile: no
+// command, one that is withdrawn, or one that is given up before a wait state ends.
+TEST_F(FollowerRegs, NoCommandIsNoReadOfTimelo) {
+  const auto read_late = [this] {
+    write(kTimelo, 0xFFFF'F000);
+    write(kTimehi, 0);
+    clocks(10);
+    EXPECT_GT(read(kTimelo), 0xFFFF'F000u);
+    clocks(400);
+  };
+  read_late();
+  top_->addr_i = kTimelo / 4;
+  top_->we_i = 0;
+  clocks(4);
+  EXPECT_EQ(read(kTimehi), 0u) << "no command";
+  read_late();
+  top_->cancel_i = 1;
+  command(kTimelo, false);
+  top_->cancel_i = 0;
+  EXPECT_EQ(read(kTimehi), 0u) << "a command that is withdrawn";
+  read_late();
+  command(reg::mb(0), false);
+  top_.settle();
+  EXPECT_FALSE(top_->ready_o);
+  command(kTimelo, false);
+  top_.settle();
+  EXPECT_TRUE(top_->ready_o);
+  tick();
+  EXPECT_EQ(read(kTimehi), 0u) << "a command that is not taken";
+  read(kTimelo);
+  EXPECT_EQ(read(kTimehi), 1u) << "it was late enough";
+}
+
 // TM-40: HOLD is the CPU's beside the follower, too.
 TEST_F(FollowerRegs, ABufferMayBeHeld) {
   constexpr std::uint32_t kTtx = 0x1140, kTtxmb = 0x1144, kHold = 1u << 31;
