@@ -70,5 +70,26 @@ TEST_F(CanTop, CommandCountsWhereItIsTaken) {
             (std::vector<std::uint32_t>{1, ~0u}));
 }
 
+// An abort that is done at once sets a flag. A hard reset clears all flags, and no line waits for
+// its end.
+TEST_F(CanTop, NoInterruptInReset) {
+  run({{reg::kMcr, true, reg::kMcrFrz | reg::kMcrHalt}});
+  for (unsigned i = 0; i < 10; ++i) top_.clock();
+  run({{reg::kMcr, true, reg::kMcrFrz | reg::kMcrHalt | 1u << 12 | 15},
+       {reg::kImask1, true, 1},
+       {reg::mb(0), true, 0x09000000}});
+  for (unsigned i = 0; i < 4; ++i) top_.clock();
+  EXPECT_TRUE(top_->irq_o && top_->irq_mb_o);
+  top_->rst_ni = 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    top_.settle();
+    EXPECT_FALSE(top_->irq_o || top_->irq_mb_o) << i;
+    top_.clock();
+  }
+  top_->rst_ni = 1;
+  top_.clock();
+  EXPECT_FALSE(top_->irq_o || top_->irq_mb_o);
+}
+
 }  // namespace
 }  // namespace vericansim
