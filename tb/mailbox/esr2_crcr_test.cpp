@@ -194,6 +194,24 @@ TEST_F(Esr2, CompletionFillsIn) {  // flexcan.md 1.7: IMB = 0 and a frame ends
   EXPECT_EQ(lptm(esr2), 9u);
 }
 
+// flexcan.md 1.7: the same with a pass under way, which has looked at the buffer before its end.
+TEST_F(Esr2, CompletionDuringAPassCounts) {
+  start();
+  rig_->join();
+  for (unsigned clocks = 0; clocks < 80; clocks += 5) {
+    SCOPED_TRACE(clocks);
+    set(9, 0xC, 0x100u << 18);
+    ASSERT_TRUE(rig_->run_until([&] { return rig_->field(0) == Field::kAckDel; }, 2000));
+    rig_->run(clocks);
+    set(40, 0x4);  // nothing new, but it starts the pass
+    ASSERT_TRUE(rig_->wait_flag(0, 9));
+    const std::uint32_t esr2 = scanned();
+    EXPECT_EQ(esr2 & (kVps | kImb), kVps | kImb);
+    EXPECT_EQ(lptm(esr2), 9u);
+    rig_->clear_flag(0, 9);
+  }
+}
+
 // A remote frame that was sent leaves a buffer that waits for the answer, an answer one that waits
 // for the next request: neither is inactive, so that software that looks for a free buffer must not
 // be sent there.
