@@ -274,6 +274,56 @@ TEST_F(MbMove, AFrameThatBeginsOverwritesNoOther) {
       }
 }
 
+// FX-3.5.l, FX-3.5.o: the buffer of a frame that waits is not free for the next one: it is told of
+// from either row, from the start of the next frame until it has moved. Answers and frames for the
+// Rx FIFO wait for no buffer, nor does one whose match is not over.
+TEST_F(MbMove, FrameThatWaitsIsToldOfFromEitherRow) {
+  for (const bool answer : {false, true}) {
+    for (const bool fifo : {false, true}) {
+      move_.reset();
+      move_->hit_ans_i = answer;
+      move_->hit_fifo_i = fifo;
+      for (unsigned buffer = 10; buffer < 14; ++buffer) {  // the rows take turns
+        SCOPED_TRACE(testing::Message() << answer << fifo << ' ' << buffer);
+        move_->hold_i = 1;
+        frame(buffer, false);
+        move_->start_i = 1;
+        clock();
+        EXPECT_FALSE(move_->waits_o) << "its match is not over";
+        move_->match_done_i = 1;
+        clock();
+        EXPECT_EQ(move_->waits_o != 0, !answer && !fifo);
+        EXPECT_TRUE(answer || fifo || move_->waits_idx_o == buffer);
+        move_->hold_i = 0;
+        for (unsigned i = 0; i < 30; ++i) clock();
+        EXPECT_FALSE(move_->busy_o || move_->waits_o);
+      }
+    }
+  }
+}
+
+// Behind a hard reset there is nothing to tell of, neither a flag nor a frame in the Rx FIFO nor an
+// answer, in whatever clock of a move it comes.
+TEST_F(MbMove, HardResetInEveryClockOfAMoveLeavesNothingToTell) {  // FX-2.a
+  for (const unsigned kind : {0u, 1u, 2u}) {
+    unsigned told = 0;
+    move_->hit_fifo_i = kind == 1;
+    move_->hit_ans_i = kind == 2;
+    for (unsigned wait = 0; wait < 30; ++wait) {
+      frame(10);
+      for (unsigned i = 0; i < wait; ++i) clock();
+      told += move_->flag_o || move_->stored_o || move_->ans_o;
+      move_->rst_ni = 0;
+      move_.settle();
+      EXPECT_FALSE(move_->flag_o || move_->stored_o || move_->ans_o) << kind << ' ' << wait;
+      EXPECT_FALSE(move_->moving_o || move_->busy_o) << kind << ' ' << wait;
+      move_->data_i = 0;
+      move_.reset();
+    }
+    EXPECT_EQ(told, 1u) << kind;
+  }
+}
+
 // From the clock after the decision until it is stored, whatever the other row does.
 TEST_F(MbMove, FramesOnTheirWayIntoTheFifoAreCounted) {  // FX-4.b
   move_->hit_fifo_i = move_->hold_i = 1;

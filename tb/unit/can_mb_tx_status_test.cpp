@@ -73,7 +73,7 @@ TEST_P(MbTx, FrameThatFailsCountsInTheStatusAgain) {  // FX-ESR2.LPTM
 
 // The buffer of a frame that is sent has a new code: a pass under way begins anew, in any clock of
 // it; where there is none can_mb_status knows enough.
-TEST_P(MbTx, FrameThatIsSentRestartsAPass) {  // FX-ESR2.LPTM
+TEST_P(MbTx, FrameThatIsSentRestartsAPass) {  // FX-ESR2.LPTM, FX-ESR2.VPS
   settle();
   top_.sent_i = 1;
   clock({}, 0, 100);
@@ -88,6 +88,8 @@ TEST_P(MbTx, FrameThatIsSentRestartsAPass) {  // FX-ESR2.LPTM
     top_.eval();
     if (top_.pass_o == 0) break;
     top_.sent_i = 1;
+    top_.eval();
+    ASSERT_EQ(top_.pass_end_o, 0) << moment << ": what it has found is not valid any more";
     clock({}, 0, 100);
     top_.sent_i = 0;
     top_.eval();
