@@ -164,6 +164,26 @@ TEST_F(FollowerRegs, NoCommandIsNoReadOfTimelo) {
   EXPECT_EQ(read(kTimehi), 1u) << "it was late enough";
 }
 
+// Read data is 0 in all clocks but those of a read, so that wrappers may OR it (can_top).
+TEST_F(FollowerRegs, NoDataWithoutARead) {
+  for (const std::uint32_t address : {kTsctrl, kTctrl, std::uint32_t{reg::kMcr}}) {
+    SCOPED_TRACE(address);
+    const std::uint32_t data = read(address);
+    ASSERT_NE(data, 0u);
+    top_->addr_i = address / 4;
+    top_->we_i = 0;
+    tick();
+    top_.settle();
+    EXPECT_EQ(top_->rdata_o, 0u) << "no command";
+    top_->wdata_i = data;
+    command(address, true);
+    top_.settle();
+    EXPECT_EQ(top_->rdata_o, 0u) << "a write";
+    tick();
+    EXPECT_EQ(read(address), data);
+  }
+}
+
 // TM-40: HOLD is the CPU's beside the follower, too.
 TEST_F(FollowerRegs, ABufferMayBeHeld) {
   constexpr std::uint32_t kTtx = 0x1140, kTtxmb = 0x1144, kHold = 1u << 31;
