@@ -321,6 +321,32 @@ TEST(Abort, FreezeWhileARequestIsPending) {
   }
 }
 
+// FX-2.3.b, FX-3.4.b: a soft reset ends the frame on the bus and with it the request. What is left
+// of that is over when the flags are cleared, also where the CPU's reads take every second slot.
+TEST(Abort, SoftResetWhileARequestIsPending) {
+  TxRig rig;
+  rig.hammer(0, [] { return AhbTransfer{.address = reg::mb(20, 2)}; });
+  rig.join();
+  unsigned under_way = 0;
+  for (unsigned k = 0; k < 400; ++k) {
+    SCOPED_TRACE(k);
+    rig.put_tx(0, kMb, kFrame);
+    rig.run(k);
+    rig.write(0, reg::mb(kMb), kAbortWord);
+    under_way += rig.field(0) >= Field::kSof;
+    rig.write(0, reg::kMcr, reg::kMcrSoftRst);
+    const auto over = [&] { return (rig.read(0, reg::kMcr) & reg::kMcrSoftRst) == 0; };
+    ASSERT_TRUE(rig.run_until(over, 200));
+    rig.run(20);
+    ASSERT_EQ(rig.flags(0), 0u) << "set behind the reset";
+    rig.write(0, reg::mb(kMb), kInactiveWord);
+    rig.configure(0, TxRig::with_aen());
+    rig.go(0);
+    rig.run(200);
+  }
+  EXPECT_GT(under_way, 300u);
+}
+
 // flexcan.md 2.8, 3.4: in bus-off buffers stay active, abort requests and deactivation are obeyed.
 TEST(Abort, InBusOff) {
   TxRig rig;
