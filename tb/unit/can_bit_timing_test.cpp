@@ -229,6 +229,25 @@ TEST(CanBitTiming, HardSynchronisationMakesTheEdgesQuantumSyncSeg) {
   }
 }
 
+// SY-05, SY-06, IF-16: on the bus anew the node integrates and has sampled nothing yet, so that the
+// first edge synchronises hard. The dominant bits from before the stop do not count (SY-02).
+TEST(CanBitTiming, FirstEdgeAfterAStopSynchronisesWhateverWasSampledBefore) {
+  const BitTiming t{.prop = 3, .ps1 = 2, .ps2 = 4, .sjw = 1};
+  for (const bool reset : {false, true}) {
+    for (unsigned at = 0; at < t.prop + t.ps1; ++at) {
+      SCOPED_TRACE(std::string{reset ? "reset" : "stopped"} + ", edge in " + std::to_string(at));
+      BitTimer timer{t};
+      for (unsigned i = 0; i < 2 * t.quanta(); ++i) timer.quantum(kD);
+      timer.stop(reset);
+      const Grid grid = run(timer, 30, at, 30);
+      ASSERT_FALSE(grid.samples.empty());
+      EXPECT_EQ(grid.samples[0], at + t.prop + t.ps1);
+      ASSERT_FALSE(grid.ends.empty());
+      EXPECT_EQ(grid.ends[0], at + t.quanta());
+    }
+  }
+}
+
 // SY-09: the worked examples, PS2 = 4 and SJW = 2; and an edge five quanta late.
 TEST(CanBitTiming, WorkedExamplesOfTheRuleBook) {
   const BitTiming t{.prop = 3, .ps1 = 4, .ps2 = 4, .sjw = 2};  // 12 quanta, PS2 is 8..11
