@@ -247,5 +247,32 @@ TEST(MarkRace, BytesWithoutTheCode) {
   }
 }
 
+// A write of the code is what the buffer has from then on, though the mark comes behind it: right
+// behind the unlock, whatever moves just then.
+TEST(MarkRace, AWordWithItsCode) {
+  constexpr Frame kMoves{.id = 0x456, .dlc = 2, .data = {0x41, 0x42}};
+  BufferRig rig{{.num_mb = 16, .maxmb = 15, .bcc = true}};
+  rig.go();
+  rig.receive(kMoves);
+  const std::uint64_t length = rig.end_clock() - rig.start_clock();
+  for (const unsigned code : {kRxEmpty, kTxInactive}) {
+    for (int offset = kMovesFrom; offset <= kMovesTo && !::testing::Test::HasFailure(); ++offset) {
+      SCOPED_TRACE(testing::Message() << "code " << code << ", clock " << offset << " from EOF6");
+      prepare(rig, State::kFull);
+      rig.put_rx(kOtherMb, kMoves);
+      rig.read_cs(kMb);
+      const std::uint64_t frames = rig.frames_started();
+      rig.peer_sends(kMoves);
+      ASSERT_TRUE(rig.run_until([&] { return rig.frames_started() > frames; }, 400));
+      const std::uint64_t clock = rig.start_clock() + length + offset;
+      rig.at(clock, {.address = reg::kTimer});
+      rig.at(clock, {.address = reg::mb(kMb), .write = true, .data = code << 24});
+      rig.quiet();
+      EXPECT_EQ(rig.read(reg::mb(kMb)) >> 24, code);
+      rig.compare();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vericansim
