@@ -131,6 +131,19 @@ TEST_F(FollowerRegs, ReadAndWrite) {
   EXPECT_EQ(read(kTsdly), 0x00FFFFE2u);
 }
 
+// Masks, TIMER and stamps share a port: each has its own words in a core without own masks, too.
+TEST_F(FollowerRegs, TimerBesideGroupMasks) {
+  write(reg::kMcr, reg::kMcrFrz | reg::kMcrHalt);
+  clocks(20);
+  write(reg::kRxgmask, 0x1234'5678);
+  write(reg::kTimer, 0xA55A);
+  EXPECT_EQ(read(reg::kTimer), 0xA55Au);
+  EXPECT_EQ(read(reg::kRxgmask), 0x1234'5678u);
+  EXPECT_EQ(read(0x1400), 0u) << "the stamp of buffer 0";
+  write(reg::kRxgmask, 0xFFFF'FFFF);
+  EXPECT_EQ(read(reg::kTimer), 0xA55Au) << "TIMER stands in freeze mode";
+}
+
 // TIMEHI is of the last read of TIMELO, whatever stands on the address lines meanwhile: no
 // command, one that is withdrawn, or one that is given up before a wait state ends.
 TEST_F(FollowerRegs, NoCommandIsNoReadOfTimelo) {
