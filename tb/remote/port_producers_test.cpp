@@ -196,6 +196,21 @@ TEST_F(PortProducers, RequestsBetween) {
   }
 }
 
+// RN-37: from an event to its statement, however long that is, the others on or off.
+TEST_F(PortProducers, AStepTakesAtMost40Clocks) {
+  for (const unsigned others : {0U, kOn + 0U})
+    for (unsigned n = 1; n <= 8; ++n)
+      for (unsigned k = 0; k < 8; ++k) {
+        SCOPED_TRACE(testing::Message() << others << ' ' << n << ' ' << k);
+        for (unsigned j = 0; j < 8; ++j) produce(j, 0x30, (j == k ? kOn : others) | n, 0);
+        port->event(1U << k);
+        unsigned clocks = 0;
+        for (; !port->asks() && clocks < 100; ++clocks) port->clocks(1);
+        EXPECT_LE(clocks, 40U);
+        EXPECT_THAT(drain(), SizeIs(1));
+      }
+}
+
 // RN-52, RN-64: no statement is made while user logic holds, for 64 clocks.
 TEST_F(PortProducers, HoldDelays) {
   produce(0, 0x30, kOn | 1, 0);
