@@ -42,6 +42,13 @@ REMOTE_TOP = """module user_top (
 );
 """
 
+# And around the clock without a processor of docs/time.md.
+CLOCK_TOP = """module user_top (
+  input  logic clk_i, input logic rst_ni, output logic pps, output logic [1:0] time_state,
+  output logic [31:0] time_offset, input logic can_rxd, output logic can_txd
+);
+"""
+
 
 class DocumentedInstance(unittest.TestCase):
     """Each page, in a folder of its own."""
@@ -58,6 +65,8 @@ class DocumentedInstance(unittest.TestCase):
                 self.check_top(command, top_around(module, instance_on(PAGES[1], module + " ")))
         node = instance_on("docs/remote.md", "can_remote ")
         self.check_top(command, f"{REMOTE_TOP}{node}endmodule\n")
+        clock = instance_on("docs/time.md", "can_time_node ")
+        self.check_top(command, f"{CLOCK_TOP}{clock}endmodule\n")
 
     def check_top(self, command, text):
         with tempfile.TemporaryDirectory() as name:
