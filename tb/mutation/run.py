@@ -146,7 +146,9 @@ class Campaign:
             models.build(options.build, numbers, targets, options.jobs)
         self.regression = Regression(models.ROOT, options.build)
         self.seen = {}                       # mutant number -> [(program, test, seconds)]
+        self.stamp = []                      # what the programs are
         self.same_builds = False             # as in the run before
+        self.sound = False                   # all programs pass without a mutant
         self.noticed = collections.Counter()  # (module, program): its mutants that it has killed
 
     @staticmethod
@@ -156,17 +158,23 @@ class Campaign:
 
     def record(self):
         """What each test can see; known from before while the programs are the same."""
-        stamp = [[name, stat.st_size, stat.st_mtime_ns] for _, name in self.programs
-                 for stat in [self.regression.path(name).stat()]]
+        self.stamp = [[name, stat.st_size, stat.st_mtime_ns] for _, name in self.programs
+                      for stat in [self.regression.path(name).stat()]]
         path = self.options.dir / "seen.json"
         if path.exists():
             before = json.loads(path.read_text(encoding="utf-8"))
-            self.same_builds = before["stamp"] == stamp
+            self.same_builds = before["stamp"] == self.stamp
             if self.same_builds:
                 self.seen = {int(number): tests for number, tests in before["seen"].items()}
+                self.sound = before.get("sound", False)
                 return
         self.record_anew()
-        path.write_text(json.dumps({"stamp": stamp, "seen": self.seen}), encoding="utf-8")
+        self.keep()
+
+    def keep(self):
+        """For a run that resumes this one."""
+        (self.options.dir / "seen.json").write_text(json.dumps(
+            {"stamp": self.stamp, "seen": self.seen, "sound": self.sound}), encoding="utf-8")
 
     def record_anew(self):
         """Runs every test once and notes which mutants make a difference in it."""
@@ -283,8 +291,10 @@ class Campaign:
     def judge_all(self, run, shard):
         """The verdicts on the shard's mutants, by name."""
         results = self.killed_before(run) if shard.kind == "whole" else {}
-        if not results and shard.kind == "whole":
+        if shard.kind == "whole" and not (self.options.resume and self.sound):
             self.say(f"regression without a mutant: {self.baseline():.0f} s")
+            self.sound = True
+            self.keep()
         # Scattered over the modules, so that an interrupted run says something of all.
         scattered = shard.mine(sorted((mutant for mutant in run if mutant.name not in results),
                                       key=lambda mutant: zlib.crc32(mutant.name.encode())))
