@@ -42,13 +42,18 @@ void NodeJudge::bit(const BitRecord &record, Level pin) {
   failed_ = failed_ || !buffers_.ok();
 }
 
-// The node leaves the bus around a sample point. A recovery from bus-off has counted that bit
-// (BO-02); TIMER has, unless the node had left before it (FX-6.b). Else it is between frames, and
-// nothing follows from the bit.
+// The node leaves the bus around a sample point: a receiver within a frame, too (FX-2.1). Its
+// counters, and a recovery from bus-off (BO-02), have counted that bit. A frame that it ends has
+// been received, and TIMER has counted it (FX-6.b), unless the node had left before it.
 void NodeJudge::cut(const Trace &at) {
-  if (at.running) buffers_.cut_bit();
-  for (RuleFollower &follower : followers_)
-    if (follower.model().state().field == Field::kBusOff) follower.model().sample(at.rx);
+  for (RuleFollower &follower : followers_) follower.model().sample(at.rx);
+  if (!at.running) return;
+  buffers_.cut_bit();
+  const NodeModel &model = followers_.front().model();
+  NodeBit bit;
+  bit.errors = model.events().error != NodeError::kNone ? 1 : 0;
+  bit.delivered = model.events().delivered;
+  if (bit.errors != 0 || bit.delivered) buffers_.end_bit(bit, model.received());
 }
 
 void NodeJudge::interfere(const BufferJudge::Interference &what) {

@@ -66,6 +66,52 @@ TEST(JudgedStop, StampsGoOnFromTheClockOfTheStop) {
   EXPECT_EQ(judged, 4 * kClocksPerBit);
 }
 
+/// Node b, whose REC is 5, receives a frame from 1,440 us on, and leaves the bus for disable mode
+/// `clock` clocks behind that; `faults`: what else befalls it.
+Scenario disabled_in_a_frame(unsigned clock, const std::string &faults) {
+  const std::string at = std::to_string(1'440'000'000 + clock * 125'000) + " ps";
+  return parse_scenario(
+      "frame.yaml",
+      scenario_of("2 ms") + node("a", ", mailboxes: 16") + node("c", ", mailboxes: 16") +
+          node("b", ", mailboxes: 16, software: none") +
+          "traffic:\n"
+          "  - {node: a, id: 0x121, dlc: 0, period: 240 us}\n" +
+          faults +
+          "accesses:\n"
+          "  - {node: b, at: 5 us, do: [write MCR 0x5000000F, until MCR 0x1100000 0x1000000,"
+          " write MCR 0x5002000F, write CTRL1 0x90002, write ECR 0xA00, write MB2.ID 0x4840000,"
+          " write MB2.CS 0x4000000, write MCR 0x4002000F, until MCR 0x1000000 0]}\n"
+          "  - {node: b, at: 1300 us, do: [read MB2.CS, read TIMER]}\n"
+          "  - {node: b, at: " +
+          at +
+          ", do: [write MCR 0xC002000F, until MCR 0x100000 0x100000, write MCR 0x4002000F,"
+          " until MCR 0x1100000 0, read ECR, read IFLAG1, read MB2.CS, read TIMER]}\n");
+}
+
+// FX-2.1: a receiver leaves within a frame. What its last sampled bit brings about, an error, the
+// frame, a count, it has brought about.
+TEST(JudgedStop, WithinAFrameTheLastBitCounts) {
+  const auto fault = [](const char *what) {
+    return std::string{"faults:\n  - {node: b, kind: "} + what + "}\n";
+  };
+  constexpr unsigned kBegin = 29 * kClocksPerBit, kEnd = 49 * kClocksPerBit;  // errors to EOF7
+  for (const auto &[faults, fails] :
+       {std::pair{std::string{}, false},
+        std::pair{fault("dominant, from: 1465 us, for: 7 us"), true},  // STUFF ERROR
+        std::pair{fault("flip, from: 1455 us, for: 1 us"), true}}) {   // CRC ERROR
+    unsigned errors = 0;
+    for (unsigned clock = kBegin; clock < kEnd; ++clock) {
+      const JudgedRun run = run_judged(disabled_in_a_frame(clock, faults));
+      for (const std::string &finding : run.findings)
+        ADD_FAILURE() << faults << clock << " clocks: " << finding;
+      EXPECT_EQ(run.counts.stops, 1u);
+      errors += run.counts.errors != 0 ? 1 : 0;
+    }
+    EXPECT_EQ(errors != 0, fails) << faults;
+    EXPECT_LT(errors, kEnd - kBegin) << faults << "never before the error";
+  }
+}
+
 /// Node a saturates the bus. Node b, with a frame that waits in its last buffer, leaves the bus,
 /// and is back `bits` bit times behind a moment in the frames of a.
 Scenario back_after(unsigned bits) {
