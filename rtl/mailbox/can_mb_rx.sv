@@ -53,8 +53,9 @@ module can_mb_rx #(
 );
   logic            scan_q, last;
   // Stage 1: the buffer is on the RAM outputs. Stage 2: it has been compared.
-  logic            s1_q, s2_q, s2_skip_q, s2_match_q, s2_free_q, skip;
+  logic            s1_q, s2_q, s2_skip_q, s2_match_q, s2_free_q, skip, look_again;
   logic [IdxW-1:0] s1_idx_q, s2_idx_q;
+  logic [2:0]      again_q;     // looks at the buffer of stage 2 that were in vain, a bit each
 
   logic code_ok, ide_ok, rtr_ok, id_ok, free;
   logic [3:0] code;
@@ -71,8 +72,11 @@ module can_mb_rx #(
                 && !(lock_i && lock_idx_i == s1_idx_q)
                 && !(waits_i && waits_idx_i == s1_idx_q);
   // Read the buffer again if it was written while it was read, or if it fitted and has been written
-  // since. One that did not fit needs no second look: it counts as searched before the write.
+  // since. One that did not fit needs no second look: it counts as searched before the write. After
+  // three more looks, as many as the activation of a buffer has writes and a move has, it counts as
+  // one that does not fit: a CPU that writes it without end would hold up the search.
   assign skip    = s2_skip_q || (s2_match_q && cs_written_i && cs_written_idx_i == s2_idx_q);
+  assign look_again = skip && !again_q[2];
   assign last    = idx_o == IdxW'(NumMb - 1) || 7'(idx_o) == maxmb_i;
 
   // The CPU has rewritten the buffer that was found: search again. Its identifier may be another
@@ -99,7 +103,7 @@ module can_mb_rx #(
     if (!rst_ni) begin
       id_o <= '0;
       {ide_o, rtr_o, ans_o} <= '0;
-      {scan_q, s1_q, s2_q, hit_o, hit_free_o} <= '0;
+      {scan_q, s1_q, s2_q, hit_o, hit_free_o, again_q} <= '0;
       {idx_o, s1_idx_q, hit_idx_o} <= '0;
     end else if (rx_hdr_i) begin
       id_o   <= rx_id_i;
@@ -108,11 +112,11 @@ module can_mb_rx #(
       ans_o  <= rx_rtr_i && !rrs_i;
       scan_q <= first_i < 7'(NumMb);
       idx_o  <= first_i[IdxW-1:0];
-      {s1_q, s2_q, hit_o} <= '0;
+      {s1_q, s2_q, hit_o, again_q} <= '0;
     end else if (withdrawn || clear_i) begin
       scan_q <= !clear_i;
       idx_o  <= first_i[IdxW-1:0];
-      {s1_q, s2_q, hit_o} <= '0;
+      {s1_q, s2_q, hit_o, again_q} <= '0;
     end else begin
       s1_q <= gnt_i;
       s2_q <= s1_q;
@@ -121,11 +125,12 @@ module can_mb_rx #(
         idx_o <= idx_o + 1'b1;
         if (last) scan_q <= 1'b0;
       end
-      if (s2_q && skip) begin
+      if (s2_q) again_q <= look_again ? {again_q[1:0], 1'b1} : '0;
+      if (s2_q && look_again) begin
         idx_o  <= s2_idx_q;
         scan_q <= 1'b1;
         {s1_q, s2_q} <= '0;
-      end else if (s2_q && s2_match_q) begin
+      end else if (s2_q && s2_match_q && !skip) begin
         hit_o      <= 1'b1;
         hit_free_o <= s2_free_q;
         hit_idx_o  <= s2_idx_q;

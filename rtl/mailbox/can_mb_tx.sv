@@ -79,9 +79,10 @@ module can_mb_tx #(
   // Passes wanted: scan_q for the winner, look_q for ESR2, quiet_q against upsets. open_q: buffers
   // that have stood for long may beat the winner, which the pass has to find out. again_q: one more
   // for the winner. own_q: best_val_q is the winner's. any_q: the ESR2 pass has seen an active
-  // buffer.
+  // buffer. kept_q: the buffer on the bus beats all that nobody has looked at since, so its retry
+  // needs no pass: after an error in its first bits there is no time for one (IF-03).
   logic            ins_q, ins_new, new_first, others_q, retry_q, retry_gnt, ans_q, ans_gnt;
-  logic            freed_q, ins_want, open_q;
+  logic            freed_q, ins_want, open_q, kept_q;
   logic [2:0]      retry_on_q;
   logic            reload, lost, found, scan_q, look_q, quiet_q, own_q, again_q, spoilt, last;
   logic            change, redo, restart_q;
@@ -258,12 +259,12 @@ module can_mb_tx #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {ins_q, others_q, retry_q, retry_on_q, again_q, spoils_q} <= '0;
+      {ins_q, others_q, retry_q, retry_on_q, again_q, spoils_q, kept_q} <= '0;
       {s1_q, s1_look_q, s1_reload_q, s1_last_q, s2_q, s2_last_q, s3_q, s3_last_q} <= '0;
       {scan_q, open_q} <= '1;
       {scan_idx_o, s1_idx_q} <= '0;
     end else if (!running_i) begin
-      {ins_q, others_q, retry_q, retry_on_q, again_q, spoils_q} <= '0;
+      {ins_q, others_q, retry_q, retry_on_q, again_q, spoils_q, kept_q} <= '0;
       {s1_q, s1_look_q, s1_reload_q, s1_last_q, s2_q, s2_last_q, s3_q, s3_last_q} <= '0;
       {scan_q, open_q} <= '1;
       scan_idx_o <= '0;
@@ -293,7 +294,10 @@ module can_mb_tx #(
       end
       if (redo && scan_q && !spoilt) spoils_q <= spoils_q + 1'b1;
       // If an insertion is lost, a winner that has been compared with all others stays what it is.
-      if (withdrawn || ((lost || found) && !best_q)) open_q <= 1'b1;
+      if (withdrawn || ((lost || found) && !best_q))           open_q <= 1'b1;
+      else if (retry_on_q[2] && candidate && kept_q && !held2) open_q <= 1'b0;
+      if (start_i)                    kept_q <= best_q && best_idx_o == cur_idx_i && !scan_q;
+      else if (redo || retry_on_q[2]) kept_q <= 1'b0;
       if (restart_q) begin
         scan_idx_o <= '0;
         {s1_last_q, s2_last_q, s3_last_q} <= '0;

@@ -253,6 +253,32 @@ TEST_P(Share, OfASearchBesideABufferActivatedWithoutEnd) {
   EXPECT_FALSE(rig.violated());
 }
 
+// Nor is the search held up at a buffer whose C/S word is written without end, whatever is written.
+TEST_P(Share, OfASearchAtABufferThatIsWrittenWithoutEnd) {
+  const CoreBuild &build = build_of_test(GetParam());
+  const Frame received{.id = 0x040, .dlc = 8, .data = {1, 2, 3, 4, 5, 6, 7, 8}};
+  const unsigned last = build.num_mb - 1;
+  for (const std::uint32_t cs : {0x0000'0000u, 0x0400'0000u, 0x0800'0000u, 0x0C00'0000u}) {
+    MailboxRig rig{2, build};
+    for (unsigned n = 0; n < 2; ++n) {
+      rig.configure(n);
+      for (unsigned mb = 0; mb <= last && !build.features.clear_ram; ++mb) rig.put(n, mb, {});
+    }
+    rig.put_rx(0, last, received);
+    rig.write(0, reg::mb(5, 1), 0x7FFu << 18);
+    for (unsigned n = 0; n < 2; ++n) rig.go(n);
+    rig.put_tx(1, 1, received);
+    ASSERT_TRUE(rig.run_until([&] { return rig.field(0) == Field::kId; }, 400));
+    rig.hammer(
+        0, [cs]() -> AhbTransfer { return {.address = reg::mb(5), .write = true, .data = cs}; });
+    ASSERT_TRUE(rig.run_until([&] { return rig.field(0) == Field::kInt; }, 8 * 135));
+    rig.hammer(0, nullptr);
+    rig.run(40);
+    EXPECT_EQ(rig.flags(0), 1ull << last) << std::hex << cs;
+    EXPECT_EQ(mb_frame(rig.get(0, last)), received);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Builds, Share, ::testing::Values(core_build("full"), core_build("small")),
                          [](const auto &test) { return std::string{test.param.name}; });
 

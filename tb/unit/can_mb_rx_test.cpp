@@ -225,6 +225,45 @@ TEST_P(MbRx, BufferMarkedWhileItIsReadIsFound) {  // FX-3.5.a, FX-3.6.g
   }
 }
 
+// A buffer that is written while it is read is read again, three times: a move writes it twice, its
+// activation three times.
+TEST_P(MbRx, BufferThatIsWrittenThreeTimesInARowIsFound) {  // FX-3.5.a
+  const Header header{.id = 0x155u << 18};
+  for (unsigned writes = 1; writes <= 3; ++writes) {
+    buffers_.fill({});
+    buffers_[9] = {.code = 4, .id = header.id, .mask = ~0u};
+    unsigned left = writes;
+    start(header);
+    for (unsigned i = 0; i < 400; ++i) {
+      if (!collides_ && left != 0) --left, collides_ = 9;
+      clock();
+    }
+    ASSERT_FALSE(collides_) << writes << ": was read less often";
+    ASSERT_TRUE(top_.done_o != 0 && top_.hit_o != 0) << writes;
+    ASSERT_EQ(top_.hit_idx_o, 9);
+  }
+}
+
+// A CPU that writes one C/S word without end does not hold up the search, whatever it writes.
+TEST_P(MbRx, BufferThatIsWrittenWithoutEndHoldsNothingUp) {  // FX-3.5.a
+  const Header header{.id = 0x155u << 18};
+  for (const unsigned code : {0u, 4u, 8u, 12u})
+    for (const unsigned every : {1u, 2u, 3u}) {
+      buffers_.fill({});
+      buffers_[10] = {.code = code, .id = 0x2AAu << 18, .mask = ~0u};
+      buffers_[40] = {.code = 4, .id = header.id, .mask = ~0u};
+      start(header);
+      for (unsigned i = 0; i < 300; ++i) {
+        if (i % every == 0)
+          clock(10, buffers_[10]);
+        else
+          clock();
+      }
+      ASSERT_TRUE(top_.done_o != 0 && top_.hit_o != 0) << code << ' ' << every;
+      ASSERT_EQ(top_.hit_idx_o, 40);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(BccEacenRrs, MbRx, ::testing::Range(0u, 8u));
 
 }  // namespace

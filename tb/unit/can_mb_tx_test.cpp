@@ -138,6 +138,83 @@ TEST_P(MbTx, RetryIsToldUntilItIsInTheWinner) {
   EXPECT_GT(clocks, 1u);
 }
 
+// IF-03: a frame that fails in its first bits goes again without a pass: it was the best of all.
+TEST_P(MbTx, RetryOfTheWinnerNeedsNoPass) {
+  for (const unsigned i : {5u, 40u, 63u}) buffers_[i] = {kActive << 24, i << 18};
+  settle();
+  for (unsigned bits = 1; bits < 8; ++bits) {
+    top_.cur_idx_i = top_.best_idx_o;
+    top_.start_i = 1;
+    clock({}, 0, 100);
+    top_.off_i = 1;
+    for (unsigned i = 0; i < 8 * bits; ++i) clock({}, 0, 100);
+    EXPECT_FALSE(top_.settled_o != 0);
+    top_.off_i = 0;
+    top_.retry_i = 1;
+    for (unsigned i = 0; i < 8; ++i) clock({}, 0, 100);
+    top_.eval();
+    EXPECT_FALSE(top_.retry_o);
+    check();
+    settle();
+    check();
+  }
+}
+
+// But with a pass where a buffer may be better that nobody has looked at since.
+TEST_P(MbTx, RetryBehindABetterOneThatIsWithdrawn) {  // FX-3.3.f
+  buffers_[40] = {kActive << 24, 0x300 << 18};
+  buffers_[0].id = 0x100 << 18;  // 0 and 2 are better, 0 than 2
+  buffers_[2].id = 0x200 << 18;
+  settle();
+  ASSERT_EQ(top_.best_idx_o, 40);
+  top_.cur_idx_i = 40;
+  top_.start_i = 1;
+  clock({}, 0, 100);
+  top_.off_i = 1;
+  for (unsigned i = 0; i < 12; ++i) clock({}, 0, 100);  // the pass is beyond both
+  for (const unsigned i : {0u, 2u}) {
+    clock(i, kActive << 24, 100);
+    for (unsigned wait = 0; wait < 8; ++wait) clock({}, 0, 100);
+  }
+  ASSERT_EQ(top_.best_idx_o, 0);
+  clock(0, 0x08000000, 100);
+  top_.off_i = 0;
+  top_.retry_i = 1;
+  for (unsigned i = 0; i < 3 * kPass; ++i) {
+    clock({}, 0, 100);
+    top_.eval();
+    if (top_.settled_o != 0) {
+      ASSERT_EQ(top_.best_idx_o, 2) << i;
+    }
+  }
+  check();
+}
+
+// Nor is the retry the best of all any more if TTXMB holds it now.
+TEST_P(MbTx, RetryThatIsHeldNow) {  // TM-41
+  buffers_[3] = {kActive << 24, 0x100 << 18};
+  buffers_[50] = {kActive << 24, 0x200 << 18};
+  settle();
+  ASSERT_EQ(top_.best_idx_o, 3);
+  top_.cur_idx_i = 3;
+  top_.start_i = 1;
+  clock({}, 0, 100);
+  top_.off_i = 1;
+  top_.held_i = 1;
+  top_.held_idx_i = 3;
+  for (unsigned i = 0; i < 8; ++i) clock({}, 0, 100);
+  top_.off_i = 0;
+  top_.retry_i = 1;
+  for (unsigned i = 0; i < 3 * kPass; ++i) {
+    clock({}, 0, 100);
+    top_.eval();
+    if (top_.settled_o != 0) {
+      ASSERT_EQ(top_.best_idx_o, 50) << i;
+    }
+  }
+  EXPECT_TRUE(top_.settled_o);
+}
+
 // C/S writes in a row shut out neither a retry nor an answer.
 TEST_P(MbTx, RetriesAndAnswersHaveTheirTurnsBesideWrites) {  // FX-3.3.f
   for (const bool answer : {false, true}) {
