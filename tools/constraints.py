@@ -65,17 +65,23 @@ def head(what, tool, mark="#"):
     return HEAD.format(what=what, tool=tool, mark=mark)
 
 
+def clock(place):
+    """The clock, which is all that nextpnr takes of the timing; it stops at what it does not
+    know."""
+    if not place.mhz:
+        return ""
+    return ("# The clock of the core; a bit takes at least 8 clocks.\n"
+            f"create_clock -name can_clock -period {1000 / place.mhz:.3f} "
+            f"[get_ports {{{place.clock}}}]\n")
+
+
 def sdc(place, get="get_cells", separator="/", bound="", suffix=""):
     """The timing, as all tools with SDC have it; `get`: the tool's command for flip-flops."""
     cells = {name: f"[{get} {{{place.cell(parts, separator, suffix)}}}]"
              for name, parts in (("sync", SYNC), ("sent", SENT))}
-    lines = []
-    if place.mhz:
-        lines += ["# The clock of the core; a bit takes at least 8 clocks.\n",
-                  f"create_clock -name can_clock -period {1000 / place.mhz:.3f} "
-                  f"[get_ports {{{place.clock}}}]\n\n"]
-    lines += ["# The CAN bus has no clock: can_sync takes can_rx_i through two flip-flops.\n",
-              f"set_false_path -from [get_ports {{{place.rx}}}] -to {cells['sync']}\n"]
+    lines = [clock(place), "\n" if place.mhz else "",
+             "# The CAN bus has no clock: can_sync takes can_rx_i through two flip-flops.\n",
+             f"set_false_path -from [get_ports {{{place.rx}}}] -to {cells['sync']}\n"]
     if place.reset:
         lines += ["# Asynchronous; the design releases it in step with the clock.\n",
                   f"set_false_path -from [get_ports {{{place.reset}}}]\n"]
@@ -101,12 +107,14 @@ def ecp5(place):
 
 
 def nexus(place):
-    """Post-synthesis constraints of Radiant."""
-    return {"can.pdc": head("can.pdc: for CrossLink-NX and Certus-NX, Radiant; nextpnr-nexus "
-                            "heeds the pins.", "Radiant") + sdc(place) +
-            f"ldc_set_port -iobuf {{IO_TYPE=LVCMOS33 PULLMODE=UP}} [get_ports {{{place.rx}}}]\n"
+    """Post-synthesis constraints of Radiant, and those that nextpnr knows."""
+    pins = (f"ldc_set_port -iobuf {{IO_TYPE=LVCMOS33 PULLMODE=UP}} [get_ports {{{place.rx}}}]\n"
             "ldc_set_port -iobuf {IO_TYPE=LVCMOS33 PULLMODE=UP SLEWRATE=FAST DRIVE=8} "
-            f"[get_ports {{{place.tx}}}]\n"}
+            f"[get_ports {{{place.tx}}}]\n")
+    return {"can.pdc": head("can.pdc: for CrossLink-NX and Certus-NX, Radiant.", "Radiant")
+            + sdc(place) + pins,
+            "can_nextpnr.pdc": head("can_nextpnr.pdc: clock and pins for CrossLink-NX and "
+                                    "Certus-NX, nextpnr-nexus.", "nextpnr") + clock(place) + pins}
 
 
 def gowin(place):
@@ -168,15 +176,15 @@ def efinix(place):
 
 
 def gatemate(place):
-    """SDC, and the pins."""
+    """The clock for nextpnr, and the pins."""
     pins = head("can.ccf: the pins, for GateMate's p_r and nextpnr. The locations are of the "
                 "evaluation board;\n# put in those of yours.", "p_r")
     if place.mhz:
         pins += f'NET "{place.clock}" Loc = "IO_SB_A8" | SCHMITT_TRIGGER=true;\n'
     pins += (f'NET "{place.rx}" Loc = "IO_NA_A0" | SCHMITT_TRIGGER=true | PULLUP=true;\n'
              f'NET "{place.tx}" Loc = "IO_NA_B0" | SLEW=fast;\n')
-    return {"can.sdc": head("can.sdc: timing, for GateMate, nextpnr (--sdc).", "nextpnr")
-            + sdc(place), "can.ccf": pins}
+    return {"can.sdc": head("can.sdc: the clock, for GateMate, nextpnr (--sdc).", "nextpnr")
+            + clock(place), "can.ccf": pins}
 
 
 FAMILIES = {

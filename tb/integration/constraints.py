@@ -28,6 +28,10 @@ foreach kind {ports cells regs registers} {
 }
 """
 TCL = (".sdc", ".pdc", ".xdc", ".tcl")
+# Files that nextpnr reads, and all that it knows of the commands of such a file: it stops at any
+# other, and at a set_false_path without -to, or whose -to is no pin of a placed cell.
+NEXTPNR = {"nexus/can_nextpnr.pdc": {"create_clock", "ldc_set_port"},
+           "gatemate/can.sdc": {"create_clock"}}
 QUOTED = r'"([^"]+)"'
 # Lines of the formats that are no Tcl: what they say, as words.
 LPF = {r"FREQUENCY PORT {q} ([\d.]+) MHZ ;": ("clock",),
@@ -117,22 +121,27 @@ class Facts:
             self.pulls.add(port)
 
 
-def facts_of(folder):
-    """The facts of a folder's files."""
+def commands(path):
+    """Name and words of each command of a file in Tcl."""
+    with tempfile.NamedTemporaryFile("w", suffix=".tcl") as file:
+        file.write(f"{RECORDERS}source {{{path}}}\n")
+        file.flush()
+        code, out = design.run("tclsh", file.name)
+    if code != 0:
+        raise AssertionError(f"{path}: {out}")
+    for line in out.splitlines():
+        mark, name, *words = line.split("\t")
+        assert mark == "RECORD", line
+        yield name, words
+
+
+def facts_of(*paths):
+    """The facts of files."""
     facts = Facts()
-    for path in sorted(folder.glob("can*.*")):
+    for path in paths:
         text = path.read_text(encoding="utf-8")
         if path.suffix in TCL:
-            runner = f"{RECORDERS}source {{{path}}}\n"
-            with tempfile.NamedTemporaryFile("w", suffix=".tcl") as file:
-                file.write(runner)
-                file.flush()
-                code, out = design.run("tclsh", file.name)
-            if code != 0:
-                raise AssertionError(f"{path}: {out}")
-            for line in out.splitlines():
-                mark, name, *words = line.split("\t")
-                assert mark == "RECORD", line
+            for name, words in commands(path):
                 facts.command(name, words)
         elif path.suffix == ".py":
             exec(compile(text, path, "exec"), {"design": facts})  # pylint: disable=exec-used
@@ -162,9 +171,13 @@ class Constraints(unittest.TestCase):
         ports = {name: port["bits"] for name, port in netlist["ports"].items()}
         for family in constraints.FAMILIES:
             with self.subTest(family=family):
-                facts = facts_of(folder / family)
+                facts = facts_of(*sorted(path for path in (folder / family).glob("can*.*")
+                                         if "nextpnr" not in path.name))
                 behind = "_reg" if family == "xilinx" else ""
                 self.assertEqual(facts.clock, [(place.clock, 1000 / place.mhz)])
+                if family == "gatemate":   # its timing is for nextpnr
+                    self.assertIn(place.rx, facts.pulls)
+                    continue
                 (rx, sync), (reset, _) = facts.false
                 self.assertEqual((rx, reset), (place.rx, place.reset))
                 self.assertEqual(facts.false[1][1], None)
@@ -195,6 +208,19 @@ class Constraints(unittest.TestCase):
         for name, text in constraints.render(constraints.Place()).items():
             self.assertEqual((FOLDER / name).read_text(encoding="utf-8"), text, name)
             self.assertRegex(text[:700], r"Not run in the vendor's tool")
+
+    def test_nextpnr_knows_the_commands_of_its_files(self):
+        place = constraints.Place()
+        guide = (design.ROOT / "docs/integration.md").read_text(encoding="utf-8")
+        for name, known in NEXTPNR.items():
+            with self.subTest(name):
+                path = FOLDER / name
+                self.assertLessEqual({command for command, _ in commands(path)}, known)
+                facts = facts_of(path)
+                self.assertEqual(facts.clock, [(place.clock, 1000 / place.mhz)])
+                self.assertEqual(place.rx in facts.pulls, "ldc_set_port" in known)
+                row, = re.findall(rf"^.*\(\.\./constraints/{path.parent.name}\).*$", guide, re.M)
+                self.assertRegex(row, rf"`{re.escape(path.name)}` for nextpnr")
 
     def test_every_family_is_there(self):
         folders = {path.name for path in FOLDER.iterdir()}
