@@ -6,6 +6,7 @@ records the instance, and compares its ports and parameters with can_wb. A desig
 uses it. LITEX=folders of migen and LiteX, separated by colons: a SoC without CPU is elaborated by
 LiteX itself and its result linted."""
 
+import ast
 import json
 import os
 import re
@@ -263,6 +264,22 @@ class StandIn(unittest.TestCase):
         self.assertEqual(names["dts"].count("can@f0040000"), 1)
         self.assertNotIn("main_ram", names["dts"])
         self.compiles("/dts-v1/;\n/ {\n intc0: i {};\n soc {\n" + names["dts"] + " };\n};\n")
+
+
+class Imports(unittest.TestCase):
+    """What the package needs beside it."""
+
+    def test_it_needs_no_more_than_what_comes_with_litex(self):
+        """setup.py of LiteX names migen and three that are not used here; no PyYAML."""
+        allowed = {*sys.stdlib_module_names, "migen", "litex", "verican"}
+        files = sorted((design.ROOT / "sw/litex/verican").glob("*.py"))
+        self.assertGreaterEqual(len(files), 3)
+        for path in files:
+            for entry in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                names = [alias.name for alias in entry.names] if isinstance(entry, ast.Import) \
+                    else [entry.module] if isinstance(entry, ast.ImportFrom) else []
+                more = {name.split(".")[0] for name in names} - allowed
+                self.assertEqual(more, set(), path.name)
 
 
 class LiteX(unittest.TestCase):
