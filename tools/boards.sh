@@ -24,6 +24,7 @@ for name in "${boards[@]}"; do
       ;;
   esac
 done
+all_there yosys nextpnr-ice40 icepack icebox_vlog || exit 1
 mkdir -p "$out"
 mapfile -t rtl < <(rtl_files)
 rtl+=(examples/remote/board/*.sv)

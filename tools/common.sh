@@ -32,3 +32,13 @@ needs() {
     exit 2
   fi
 }
+
+# all_there PROGRAM...: whether all of them can be run; says which cannot. (`command -v` of several
+# succeeds with one.)
+all_there() {
+  local program missing=
+  for program; do
+    command -v "$program" >/dev/null || missing+=" $program"
+  done
+  [ -z "$missing" ] || { echo "missing:$missing" >&2; return 1; }
+}

@@ -12,11 +12,11 @@ cd "$(dirname "$0")/.."
 needs 1 "dist.sh OUT" "$@"
 tools/families.py --check
 bitstream=()
-if command -v nextpnr-ice40 icepack icetime >/dev/null; then
+if all_there nextpnr-ice40 icepack icetime; then
   tools/hx8k.sh build/dist-hx8k
   bitstream=(--bitstream build/dist-hx8k/can_hx8k.bin)
 else
-  echo "dist: no bitstream of examples/hx8k: nextpnr-ice40, icepack or icetime is missing" >&2
+  echo "dist: no bitstream of examples/hx8k" >&2
 fi
 tools/dist.py "$1" "${bitstream[@]}"
 builds=()

@@ -9,6 +9,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/common.sh
+all_there yosys nextpnr-ice40 icepack icetime || exit 1
 out=${1:-build/hx8k}
 mkdir -p "$out"
 mapfile -t rtl < <(rtl_files)

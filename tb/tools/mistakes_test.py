@@ -30,6 +30,10 @@ FILES = {
                           "  seq -f '  Test%.0f' 200000\nelse\n"
                           "  sleep 0.1; touch \"$VERICAN_WAVE_DIR/x.fst\"\nfi\n",
     "build/tb/odd_test": "#!/bin/sh\nexit 3\n",
+    # A PATH with one of the tools for iCE40, and what a script needs to get to the question.
+    "few/dirname": "#!/bin/sh\necho tools\n",
+    "few/python3": "#!/bin/sh\n[ \"$1\" != tools/dist.py ]\n",
+    "few/icepack": "#!/bin/sh\n",
 }
 # What may not be there afterwards: a script has begun to work.
 ABSENT = ("none", "out/toy.json")
@@ -100,6 +104,15 @@ TABLE = [
     ("GIT_DIR={tmp}/none tools/lint-sources.sh comments", 1, "not a git repository"),
     ("GIT_DIR={tmp}/none tools/lint-sources.sh format", 1, "not a git repository"),
     ("bash -c '. tools/common.sh; our_files \"*.nosuch\"'", 1, "no files match: *.nosuch"),
+    # Tools that are not there.
+    ("bash -c '. tools/common.sh; all_there bash nosuch awk nix'", 1, "missing: nosuch nix\n"),
+    ("bash -c '. tools/common.sh; all_there bash awk'", 0, ""),
+    ("env PATH={tmp}/few /bin/bash tools/hx8k.sh {tmp}/none", 1,
+     "missing: yosys nextpnr-ice40 icetime\n"),
+    ("env PATH={tmp}/few /bin/bash tools/boards.sh {tmp}/none", 1,
+     "missing: yosys nextpnr-ice40 icebox_vlog\n"),
+    ("env PATH={tmp}/few /bin/bash tools/dist.sh {tmp}/none", 1,
+     "missing: nextpnr-ice40 icetime\ndist: no bitstream of examples/hx8k\n"),
     # Files and folders of the campaign.
     ("tools/campaign.py --plan {tmp}/nosuch", 1, "nosuch: No such file"),
     ("tools/campaign.py --plan {tmp}/no_yaml.yaml", 1, "no_yaml.yaml: while parsing"),
