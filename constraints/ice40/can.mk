@@ -10,16 +10,19 @@ RTL   := $(addprefix rtl/,$(shell sed 's/\#.*//' rtl/can.f))
 TOP   ?= can_ahb
 NUMMB ?= 32
 OUT   := build/ice40
+BUILD := $(OUT)/$(TOP)_$(NUMMB)
 PLAIN := $(shell yosys -p 'help synth_ice40' | grep -o -m 1 -e -noabc9)
 
-$(OUT)/$(TOP).bin: $(OUT)/$(TOP).asc
+.DELETE_ON_ERROR:
+
+$(BUILD).bin: $(BUILD).asc
 	icepack $< $@
 
-$(OUT)/$(TOP).asc: $(OUT)/$(TOP).json constraints/ice40/can.pcf
+$(BUILD).asc: $(BUILD).json constraints/ice40/can.pcf
 	nextpnr-ice40 --hx8k --package ct256 --json $< --pcf constraints/ice40/can.pcf \
-	  --pcf-allow-unconstrained --freq 12 --asc $@ --log $(OUT)/nextpnr.log -q
+	  --pcf-allow-unconstrained --freq 12 --asc $@ --log $(BUILD).log -q
 
-$(OUT)/$(TOP).json: $(RTL)
+$(BUILD).json: $(RTL)
 	mkdir -p $(OUT)
 	yosys -q -p "read_verilog -sv $(RTL); hierarchy -check -top $(TOP) -chparam NumMb $(NUMMB); \
 	  synth_ice40 $(PLAIN) -device hx -top $(TOP) -json $@"
