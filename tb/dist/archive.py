@@ -224,12 +224,15 @@ class Archive(unittest.TestCase):
     def test_a_design_elsewhere_takes_the_list(self):
         sys.path.insert(0, str(ROOT / "tb/integration"))
         import design  # pylint: disable=import-outside-toplevel
+        variable, = set(re.findall(r"\$\{(\w+)\}", (self.ip / "lists/can_abs.f").read_text(
+            encoding="utf-8")))
+        self.assertIn(f"`{variable}`", (self.ip / "README.md").read_text(encoding="utf-8"))
         other = self.work / "user"
         other.mkdir()
         (other / "user_top.sv").write_text(design.user_top(), encoding="utf-8")
         code, text = run("verilator", "--lint-only", "-Wall", "--top-module", "user_top",
                          self.ip / "rtl/lint.vlt", "-f", self.ip / "lists/can_abs.f",
-                         "user_top.sv", cwd=other, env={"VERICAN_ROOT": str(self.ip)})
+                         "user_top.sv", cwd=other, env={variable: str(self.ip)})
         self.assertEqual((code, text), (0, ""))
 
     def test_it_is_synthesised(self):

@@ -19,6 +19,7 @@ sys.path.insert(0, str(design.ROOT / "tools"))
 sys.dont_write_bytecode = True
 # ruff: noqa: E402  (the path must be set first)
 import constraints
+from pack import shell, wrappers
 
 FOLDER = design.ROOT / "constraints"
 RECORDERS = """\
@@ -221,6 +222,13 @@ class Constraints(unittest.TestCase):
                 self.assertEqual(place.rx in facts.pulls, "ldc_set_port" in known)
                 row, = re.findall(rf"^.*\(\.\./constraints/{path.parent.name}\).*$", guide, re.M)
                 self.assertRegex(row, rf"`{re.escape(path.name)}` for nextpnr")
+
+    def test_guide_says_where_the_core_is_in_a_shell(self):
+        """The flip-flops are found below the core, not below what is around it."""
+        guide = (design.ROOT / "docs/integration.md").read_text(encoding="utf-8")
+        for wrapper in wrappers.wrappers():
+            core, = re.findall(r"^  \) (\w+) \($", shell.render(wrapper), re.M)
+            self.assertIn(f"`{core}` of its shell", guide)
 
     def test_every_family_is_there(self):
         folders = {path.name for path in FOLDER.iterdir()}

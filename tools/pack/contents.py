@@ -27,7 +27,7 @@ Begin with the table "I use ..." of docs/integration.md. What is where:
 |---|---|
 | rtl | SystemVerilog, in the order of rtl/can.f |
 | verilog | a build a file in Verilog-2005; shells with a Verilog top |
-| lists | the file list as paths, and for Tcl |
+| lists | the file list: can_root.f from here, can_abs.f behind `VERICAN_ROOT`; for Tcl |
 | can.core, ipxact, fpga | for FuseSoC, IP-XACT tools, Vivado, Quartus, Libero |
 | constraints | by FPGA family; tools/constraints.py writes them for an instance in a design |
 | examples/hx8k | a CAN node at a serial port; can_hx8k.bin, if it was made: its bitstream |
