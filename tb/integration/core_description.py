@@ -253,6 +253,16 @@ class CoreDescription(unittest.TestCase):
     def test_fusesoc_lints_it(self):
         self.assertNotIn("Warning", self.fusesoc("--target", "lint", "verican:ip:can"))
 
+    def test_fusesoc_takes_what_the_guide_says_of_its_options(self):
+        guide = (design.ROOT / "docs/integration.md").read_text(encoding="utf-8")
+        options = re.findall(r"`(--\w+=[^`]+)`", guide.split("## FuseSoC")[1].split("\n## ")[0])
+        self.assertEqual(len(options), 2, options)
+        self.fusesoc("--setup", "--target", "synth_ice40", "verican:ip:can", *options)
+        script, = self.work.glob("build/**/edalize_yosys_procs.tcl")
+        text = script.read_text(encoding="utf-8")
+        self.assertIn("chparam -set SyncId 2147483649 ", text)
+        self.assertRegex(text, "synth_ice40 .*-noabc9")
+
     def test_fusesoc_simulates_it(self):
         self.assertIn("smoke: passed", self.fusesoc("--target", "sim", "verican:ip:can"))
 
