@@ -414,6 +414,16 @@ class Vendors(Case):
         self.assertEqual(done[asked + 1][:3],
                          ["set_property", "value", str(source.PACKAGED["RegionBits"])])
 
+    def test_vivado_sets_no_value_that_it_has_read_itself(self):
+        """It has read the defaults, and wants those of vectors (TimeInc) as bits or hexadecimal."""
+        done = self.records("fpga/vivado/package.tcl")
+        changed = {name: str(value) for name, value in source.PACKAGED.items()}
+        of = {}
+        for before, words in zip(done, done[1:]):
+            if words[:2] == ["set_property", "value"]:
+                of[before[1]] = words[2]
+        self.assertEqual(of, {"PROTOCOL": "AXI4LITE", **changed})
+
     def test_quartus(self):
         wrapper = self.wrappers["axil"]
         done = self.records("fpga/quartus/can_hw.tcl")
@@ -421,7 +431,10 @@ class Vendors(Case):
         self.assert_sources(sources)
         self.assertTrue(Path(top).is_file())
         self.assertIn(["set_fileset_property", "rtl", "TOP_LEVEL", Path(top).stem], done)
-        parameters = {words[1]: int(words[3]) for words in done if words[0] == "add_parameter"}
+        added = [words[1:] for words in done if words[0] == "add_parameter"]
+        for name, kind, value in added:
+            self.assertEqual(kind == "STD_LOGIC_VECTOR", value.startswith("0x"), name)
+        parameters = {name: int(value, 0) for name, _, value in added}
         self.assertEqual(parameters, {entry.name: entry.number for entry in wrapper.parameters
                                       if entry.name != "RegionBits"})
         ports = {words[2]: (words[4].lower(), int(words[5])) for words in done

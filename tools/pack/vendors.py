@@ -76,7 +76,8 @@ def vivado(wrapper):
              *vivado_bus(wrapper)]
     for entry in wrapper.parameters:
         lines.append(f"set parameter [ipx::get_user_parameters {entry.name} -of_objects $core]\n")
-        lines.append(f"set_property value {entry.packaged} $parameter\n")
+        if entry.packaged != entry.number:   # Vivado has read the others
+            lines.append(f"set_property value {entry.packaged} $parameter\n")
         if allowed(entry.name):
             lines.append("set_property value_validation_type list $parameter\n"
                          "set_property value_validation_list {"
@@ -106,9 +107,9 @@ def quartus(wrapper):
     lines.append(f"add_fileset_file verilog/{top}.v VERILOG PATH "
                  f"[file join $root verilog {top}.v]\n")
     for entry in window_parameters(wrapper):
-        kind = "INTEGER" if not entry.width else f"STD_LOGIC_VECTOR {{}}; # {entry.width} bits"
-        kind = kind.split(" ")[0]
-        lines.append(f"add_parameter {entry.name} {kind} {entry.number}\n"
+        default = f"STD_LOGIC_VECTOR {entry.number:#x}" if entry.width else \
+            f"INTEGER {entry.number}"
+        lines.append(f"add_parameter {entry.name} {default}\n"
                      f"set_parameter_property {entry.name} HDL_PARAMETER true\n")
         if entry.width:
             lines.append(f"set_parameter_property {entry.name} WIDTH {entry.width}\n")
