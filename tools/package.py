@@ -23,6 +23,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 # ruff: noqa: E402  (the path must be set first)
 from pack import flat, ipxact, lists, shell, vendors
 from pack.wrappers import ROOT, wrappers
+from plain_end import run
 from regmap import model
 
 
@@ -63,12 +64,10 @@ def main():
             (arguments.out / name).write_text(text, encoding="utf-8")
     except (flat.FlatError, model.MapError) as error:
         sys.exit(f"package.py: {error}")
-    except OSError as error:
-        sys.exit(f"package.py: {error.filename}: {error.strerror}")
     print(f"{len(files)} files in {arguments.out}")
     if not (arguments.out / "rtl/can.f").is_file():
         print(f"they take the RTL from {arguments.out}/rtl, which is not there: link it or copy it")
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

@@ -131,6 +131,7 @@ TABLE = [
                      "rules.py --check", "remote_rules.py --check", "time_rules.py --check",
                      "core_check.py")),
     ("bash -c 'set -o pipefail; (sleep 1; tools/profiles.py) | true'", 1, ""),
+    ("bash -c 'set -o pipefail; (sleep 1; tools/package.py {tmp}/written) | true'", 1, ""),
     # Names that are not there.
     ("SEEDS=x OUT={tmp}/none tools/synth.sh", 2, "SEEDS is 'x'; allowed: whole numbers"),
     ("SEEDS=' ' OUT={tmp}/none tools/synth.sh", 2, "SEEDS is ' '; allowed: whole numbers"),
