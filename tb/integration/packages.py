@@ -255,6 +255,15 @@ class IpXact(Case):
         for wrapper in self.wrappers.values():
             self.assertEqual(xact_registers(self.tree(wrapper)), described)
 
+    def test_descriptions_are_sentences(self):
+        for wrapper in self.wrappers.values():
+            told = {entry.findtext(f"{SPACE}name"): entry.findtext(f"{SPACE}description")
+                    for entry in self.tree(wrapper).iter(f"{SPACE}register")}
+            self.assertEqual(told["TIMER"],
+                             "Free-running timer. A read unlocks the buffer that was locked.")
+            self.assertRegex(told["IMASK2"], r"\(only if NumMb > 32\)$")
+            self.assertEqual([name for name, text in told.items() if ".." in text], [])
+
     def test_signals_have_the_names_of_the_bus_definitions(self):
         for bus, wrapper in self.wrappers.items():
             root = self.tree(wrapper)

@@ -11,7 +11,7 @@ which are not part of the project.
 import xml.etree.ElementTree as ET
 
 from pack.wrappers import rtl_files, version
-from regmap.model import NUM_MB
+from regmap.model import MORE_THAN_32, NUM_MB
 
 NAMESPACE = "http://www.accellera.org/XMLSchema/IPXACT/1685-2014"
 BUFFERS = 64  # what the map of the largest core has
@@ -121,6 +121,18 @@ def memory_map(component, regmap):
     add(memory, "addressUnitBits", 8)
 
 
+def described(register):
+    """What a register is, when it is there, and what a read of it does."""
+    text = register.title
+    if register.only_if:
+        word = "if" if register.only_if == MORE_THAN_32 else "with"
+        text += f" (only {word} {register.only_if})"
+    if register.read_effect:
+        effect = register.read_effect.rstrip(".")
+        text += f". A read {effect[0].lower()}{effect[1:]}."
+    return text
+
+
 def add_registers(block, register):
     """A register or a row of them; the standard's rows have no gaps, so others are listed."""
     count = BUFFERS if register.count == NUM_MB else register.count
@@ -128,9 +140,7 @@ def add_registers(block, register):
     for number in range(count if apart else 1):
         entry = add(block, "register")
         add(entry, "name", f"{register.name}_{number}" if apart else register.name)
-        add(entry, "description", register.title
-            + (f" (only with {register.only_if})" if register.only_if else "")
-            + (f" Reading it: {register.read_effect}." if register.read_effect else ""))
+        add(entry, "description", described(register))
         if count != 1 and not apart:
             add(entry, "dim", count)
         add(entry, "addressOffset", f"'h{register.offset + number * register.stride:X}")
