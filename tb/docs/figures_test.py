@@ -14,6 +14,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COMPILER = "12.2"  # of sizes and clocks on docs/driver.md and docs/timesync.md
 FAMILY_RAMS, TILES = 24, 11520  # of an A2F500
+CAMPAIGN_LINK = re.compile(r"\[([^\]]*)\]\((?:docs/)?campaign/(\w+\.md)\)")
 NUMBER = re.compile(r"(?<![\w.])\d[\d,]*(?:\.\d+)?(?![\w])")
 
 
@@ -129,6 +130,45 @@ class Area(unittest.TestCase):
             r"([\d,]+) of 7,680\s+cells, (\d+) of 32 RAM blocks, (\d+) MHz", page).groups()
         self.of_row("README.md", "a CAN node from UART to CAN",
                     [numbers(cells)[0], float(rams), float(mhz)])
+
+
+class Campaign(unittest.TestCase):
+    """Figures that pages take over from those that `make campaign` writes."""
+
+    def test_links_say_what_stands_there(self):
+        """The numbers in the text of a link to such a page; dates and commits, too."""
+        found = 0
+        for page in [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]:
+            for text, target in CAMPAIGN_LINK.findall(page.read_text(encoding="utf-8")):
+                there = numbers((ROOT / "docs/campaign" / target).read_text(encoding="utf-8"))
+                for number in numbers(text):
+                    self.assertIn(number, there, f"{page.name}: [{text}], of {target}")
+                    found += 1
+        self.assertGreater(found, 0)
+
+    def test_synchronised_clocks_on_rtl(self):
+        """docs/timesync.md and README.md: standard deviation, largest error, between followers."""
+        source, page = "docs/campaign/timesync.md", "docs/timesync.md"
+        base, *loads = (row(source, f"{name} | skip") for name in (
+            "base", "100 % load below SYNC, bit errors 1e-4", "50 % load below SYNC",
+            "90 % load above SYNC"))
+        shown = rows(page, "100 % load below") + rows(page, "50 % load") + rows(page, "90 % load")
+        self.assertEqual([numbers(" ".join(cells[1:])) for cells in shown],
+                         [numbers(" ".join(cells[1:4])) for cells in loads])
+        text = (ROOT / page).read_text(encoding="utf-8")
+        said = re.search(r"the base case has ([\d.]+) and ([\d.]+) ns", text)
+        self.assertEqual(said.groups(), tuple(base[1:3]))
+        seen = [numbers(cells[-1])[0] for cells in rows(source, "offset alone") +
+                rows(source, "hardware stamps and servo")]
+        said = re.search(r"it is ([\d.]+) and ([\d.]+) us as published.*?, (\d+) and (\d+) ns",
+                         text, re.DOTALL)
+        self.assertEqual([float(number) for number in said.groups()],
+                         [*seen[:2], *map(round, seen[2:])])
+        self.assertEqual(numbers(row("README.md", "IEEE 1588 over CAN")[0]),
+                         [seen[0], round(seen[2])])
+        deviation, largest, busy = (round(float(text)) for text in (*base[1:3], loads[0][2]))
+        said = numbers(row("README.md", "clocks synchronised over CAN")[0].split(";")[0])
+        self.assertEqual(said, [largest, 16, deviation, busy])
 
 
 class Speed(unittest.TestCase):
