@@ -56,6 +56,12 @@ class Machinery(unittest.TestCase):
         self.assertFalse([m.name for m in self.design.candidates()
                           if m.line_text.startswith("assign unused")])
 
+    def test_mutants_that_the_page_names_are_there(self):
+        """Names hold lines and columns, which move with the RTL."""
+        page = (models.ROOT / "docs/mutation.md").read_text(encoding="utf-8")
+        named = set(re.findall(r"\bcan_\w+:\d+\.\d+:\w\b", page))
+        self.assertEqual(named - {m.name for m in self.design.candidates()}, set())
+
     def test_programs_that_a_build_with_mutants_leaves_out_are_not_run(self):
         text = (models.ROOT / "tb/CMakeLists.txt").read_text(encoding="utf-8")
         block = re.search(r"if\(VERICAN_RTL_TRANSFORM\)\n(.*?)endif", text, re.DOTALL)[1]
