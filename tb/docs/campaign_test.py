@@ -7,6 +7,7 @@ import contextlib
 import io
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -59,6 +60,17 @@ class Page(unittest.TestCase):
         text = campaign.PAGE.read_text(encoding="utf-8")
         for stage in stages:
             self.assertEqual(text.count(f"<!-- summary {stage['name']} -->"), 1, stage["name"])
+
+    def test_the_page_of_clusters_has_each_stage(self):
+        """With the number of its shards, one for those that are not cut."""
+        stages = campaign.yaml.safe_load(campaign.PLAN.read_text(encoding="utf-8"))["stages"]
+        text = (TOOLS.parent / "docs/cluster.md").read_text(encoding="utf-8")
+        table = re.search(r"\| shards at most \|\n.*\n((?:\|.*\n)+)", text)[1]
+        said = {}
+        for line in table.splitlines():
+            names, _, shards = (cell.strip().split(", ") for cell in line.split("|")[1:-1])
+            said.update(zip(names, shards * (len(names) if len(shards) == 1 else 1)))
+        self.assertEqual(said, {stage["name"]: str(stage.get("shards", 1)) for stage in stages})
 
 
 class Settings(unittest.TestCase):

@@ -15,6 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 COMPILER = "12.2"  # of sizes and clocks on docs/driver.md and docs/timesync.md
 FAMILY_RAMS, TILES = 24, 11520  # of an A2F500
 CAMPAIGN_LINK = re.compile(r"\[([^\]]*)\]\((?:docs/)?campaign/(\w+\.md)\)")
+RUN_TIME = re.compile(r", (\d+) min (\d+) s on (\d+) cores")
 NUMBER = re.compile(r"(?<![\w.])\d[\d,]*(?:\.\d+)?(?![\w])")
 
 
@@ -145,6 +146,21 @@ class Campaign(unittest.TestCase):
                     self.assertIn(number, there, f"{page.name}: [{text}], of {target}")
                     found += 1
         self.assertGreater(found, 0)
+
+    def test_costs_on_a_cluster(self):
+        """docs/cluster.md: a stage has the core-seconds of its page; what a unit costs."""
+        costs = [cells for cells in rows("docs/cluster.md", "") if len(cells) == 5]
+        for stage, total, units, cost, _ in costs[1:]:  # behind the head of the table
+            page = (ROOT / f"docs/campaign/{stage.split()[0]}.md").read_text(encoding="utf-8")
+            minutes, seconds, cores = map(int, RUN_TIME.search(page).groups())
+            self.assertEqual(numbers(total)[0], cores * (60 * minutes + seconds), stage)
+            if cost:
+                figure, unit = cost.split()
+                number = numbers(units)[0] * (1e6 if "million" in units else 1)
+                seen = numbers(total)[0] / number * {"s": 1, "ms": 1000}[unit]
+                places = len(figure.partition(".")[2])
+                self.assertEqual(f"{seen:.{places}f}", figure, stage)
+        self.assertEqual(len(costs), 9)
 
     def test_synchronised_clocks_on_rtl(self):
         """docs/timesync.md and README.md: standard deviation, largest error, between followers."""
