@@ -8,6 +8,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import verican
+
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples" / "python"
 
@@ -27,6 +29,14 @@ class PythonPage(unittest.TestCase):
         self.assertRegex(module, r"(?s)us  b  Frame\(0x100.*us  a  Frame\(0x300.*"
                                  r"\[Message\(id=0x100, .*Message\(id=0x300, ")
         self.assertRegex(plug_in, r"ID: 0123 .* 01 02 .*\n.* E .*NodeState\(active, tec 0, rec 8\)")
+
+    def test_it_has_every_name_of_the_package(self):
+        """Classes and functions, what they have, and what their objects are made with."""
+        page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+        names = {name for of in (verican, verican.Bus, verican.Frame, verican.Message,
+                                 verican.NodeState) for name in dir(of)}
+        named = set(re.findall(r"\w+", " ".join(re.findall(r"`([^`\n]+)`", page))))
+        self.assertEqual({name for name in names if not name.startswith("_")} - named, set())
 
 
 class PythonExample(unittest.TestCase):
