@@ -213,9 +213,10 @@ void add_linux(CLI::App &app, int &exit_code) {
   command->add_option("--dtb", options->dtb, "Device tree with the controllers")->required();
   command->add_option("--init", options->init, "First program of the guest")->required();
   command->add_option("--preload", options->preload, "Library to preload into the guest kernel");
-  command->add_option("--controllers", options->board.controllers, "Cores on the bus")
+  command->add_option("--controllers", options->board.controllers, "Cores on the bus (2)")
       ->check(CLI::Range(1, 8));
-  command->add_option("--clock", options->board.clock_hz, "Clock of the cores, Hz; as in the DTB")
+  command
+      ->add_option("--clock", options->board.clock_hz, "Clock of the cores, Hz; as in the DTB (8M)")
       ->transform(clock_units());
   command->add_option("--clock-ppm", options->board.clock_ppm, "Error of each core's clock, ppm")
       ->delimiter(',')
@@ -228,8 +229,8 @@ void add_linux(CLI::App &app, int &exit_code) {
       ->excludes(time_unit);
   command->add_option("--dir", options->board.directory, "Directory for logs, also the guest's");
   command->add_flag("--access-logs", options->board.access_logs, "Log each register access");
-  command->add_option("--memory", options->memory, "Memory of the guest");
-  command->add_option("--timeout", options->timeout, "Longest run, seconds of real time");
+  command->add_option("--memory", options->memory, "Memory of the guest (64M)");
+  command->add_option("--timeout", options->timeout, "Longest run, seconds of real time (600)");
   command->add_option("arguments", options->arguments, "More words for the guest's command line");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -228,7 +228,7 @@ void add_timesync(CLI::App &app, int &exit_code) {
   command->add_option("case", options->file, "Case file, YAML (docs/timesync.md)");
   std::string ways;
   for (const SyncWay &way : sync_ways()) ways += (ways.empty() ? "" : ", ") + std::string{way.name};
-  command->add_option("--how", options->how, "Way to run it: " + ways);
+  command->add_option("--how", options->how, "Way to run it: " + ways + " (" + options->how + ")");
   for (const SyncSetting &one : sync_settings()) {
     const std::string name = one.name;
     if (one.is_flag)
