@@ -139,6 +139,13 @@ class Given(unittest.TestCase):
                                           cwd=folder, text=True, capture_output=True, check=False)
                     self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
 
+    def test_keys_of_reports(self):
+        """docs/report.md has those that the page of a report lists itself."""
+        listed = text_of("sim/report/page/src/keys.js").split("export const kKeys")[1]
+        keys = " ".join(re.findall(r"^  \['(.*?)',", listed, re.MULTILINE)).replace("\u2212", "-")
+        table = text_of("docs/report.md").split("## Mouse and keys")[1].split("\n## ")[0]
+        self.assertEqual(set(keys.split()) - set(re.findall(r"`(.*?)`", table)), set())
+
     def test_bit_timings_of_instances(self):
         """Parameters of an instance are the first row of verican bittime."""
         for page, clock in (("docs/remote.md", "12M"), ("docs/time.md", "16M")):
