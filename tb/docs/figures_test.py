@@ -133,6 +133,24 @@ class Area(unittest.TestCase):
                     [numbers(cells)[0], float(rams), float(mhz)])
 
 
+class Proofs(unittest.TestCase):
+    """The properties that README.md counts are those of tb/formal."""
+
+    WRAPPERS = "apb", "axil", "wb", "wb_pipelined"
+
+    def test_readme(self):
+        said = subprocess.run([ROOT / "tb/formal/run.py", "--list"], capture_output=True, text=True,
+                              check=True).stdout
+        count = {"core": 0, "bounded": 0, "wrappers": 0, "remote": 0, "time": 0}
+        for proof in re.findall(r"^\w+\.\w+: .*\n(?:  .*\n)*", said, re.MULTILINE):
+            part, name = re.match(r"(\w+)\.(\w+)", proof).groups()
+            if part in ("engine", "host"):
+                bounded = "(bounded" in proof.split("\n", maxsplit=1)[0]
+                part = ("wrappers" if name in self.WRAPPERS else "bounded" if bounded else "core")
+            count[part] += proof.count("\n  p_")
+        self.assertEqual(numbers(row("README.md", "formal proofs")[0]), list(count.values()))
+
+
 class Campaign(unittest.TestCase):
     """Figures that pages take over from those that `make campaign` writes."""
 
