@@ -177,6 +177,16 @@ class Campaign(unittest.TestCase):
                     found += 1
         self.assertGreater(found, 0)
 
+    def test_coverage(self):
+        """README.md: lines, branches, toggles, and points that are left out."""
+        page = "docs/campaign/coverage.md"
+        lines, branches, toggles = (numbers(row(page, f"RTL {kind} coverage")[0])[1:]
+                                    for kind in ("line", "branch", "toggle"))
+        left_out = sum(numbers(cells[1])[0] for cells in rows(page, "RTL points excluded"))
+        self.assertEqual(lines[0] + branches[0], lines[1] + branches[1], "README.md says: all")
+        self.assertEqual(numbers(row("README.md", "RTL coverage")[0]),
+                         [lines[0], branches[0], *toggles, left_out])
+
     def test_costs_on_a_cluster(self):
         """docs/cluster.md: a stage has the core-seconds of its page; what a unit costs."""
         costs = [cells for cells in rows("docs/cluster.md", "") if len(cells) == 5]
