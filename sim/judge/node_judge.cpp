@@ -42,7 +42,7 @@ void NodeJudge::bit(const BitRecord &record, Level pin) {
   failed_ = failed_ || !buffers_.ok();
 }
 
-// The node leaves the bus around a sample point: a receiver within a frame, too (FX-2.1). Its
+// The node leaves the bus around a sample point: a receiver within a frame, too (FX-2.1.a). Its
 // counters, and a recovery from bus-off (BO-02), have counted that bit. A frame that it ends has
 // been received, and TIMER has counted it (FX-6.b), unless the node had left before it.
 void NodeJudge::cut(const Trace &at) {

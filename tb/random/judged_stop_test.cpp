@@ -88,7 +88,7 @@ Scenario disabled_in_a_frame(unsigned clock, const std::string &faults) {
           " until MCR 0x1100000 0, read ECR, read IFLAG1, read MB2.CS, read TIMER]}\n");
 }
 
-// FX-2.1: a receiver leaves within a frame. What its last sampled bit brings about, an error, the
+// FX-2.1.a: a receiver leaves within a frame. What its last sampled bit brings about, an error, the
 // frame, a count, it has brought about.
 TEST(JudgedStop, WithinAFrameTheLastBitCounts) {
   const auto fault = [](const char *what) {
