@@ -6,6 +6,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/can/error.h>
 #include <linux/can/raw.h>
 #include <linux/sock_diag.h>
 #include <net/if.h>
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstddef>
 #include <cstring>
 
 #include "trace/input_error.hpp"
@@ -50,6 +52,16 @@ Interface look_at(int fd, const std::string &name) {
     result.can = request.ifr_hwaddr.sa_family == ARPHRD_CAN;
   if (::ioctl(fd, SIOCGIFFLAGS, &request) == 0) result.up = (request.ifr_flags & IFF_UP) != 0;
   return result;
+}
+
+/// A message of a program, of the `size` bytes that the kernel gave. What fits in no frame of
+/// CAN 2.0 keeps a length that none has, by which the node refuses and counts it.
+can_frame message_of(const canfd_frame &read, std::size_t size) {
+  can_frame message{};
+  static_assert(offsetof(canfd_frame, data) == offsetof(can_frame, data));
+  std::memcpy(&message, &read, sizeof message);
+  if (size == sizeof read) message.len = CANFD_MAX_DLEN;
+  return message;
 }
 
 bool gone_or_down(int error) { return error == ENETDOWN || error == ENODEV || error == ENXIO; }
@@ -102,7 +114,15 @@ void RawCanPort::open_socket() {
   if (fd_ < 0) throw InputError(options_.option + " " + name_, 0, can_socket_problem(errno));
   const int off = 0;
   ::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, &off, sizeof off);
-  if (!options_.receives) ::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0);
+  if (options_.receives) {
+    // Without these the kernel keeps such messages from the socket, and nobody would hear of them.
+    const int on = 1;
+    const can_err_mask_t all = CAN_ERR_MASK;
+    ::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on);
+    ::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &all, sizeof all);
+  } else {
+    ::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0);
+  }
   if (::setsockopt(fd_, SOL_SOCKET, SO_RCVBUFFORCE, &kReceiveBuffer, sizeof kReceiveBuffer) != 0)
     ::setsockopt(fd_, SOL_SOCKET, SO_RCVBUF, &kReceiveBuffer, sizeof kReceiveBuffer);
 }
@@ -163,13 +183,14 @@ void RawCanPort::read_ahead() {
 }
 
 bool RawCanPort::read_one() {
-  can_frame frame{};
-  const ssize_t got = ::recv(fd_, &frame, sizeof frame, 0);
+  canfd_frame read{};
+  const ssize_t got = ::recv(fd_, &read, sizeof read, 0);
   if (got < 0) {
     if (gone_or_down(errno)) went_down();
     return errno == EINTR;
   }
-  if (got == sizeof frame && options_.receives) waiting_.push_back(frame);
+  if (options_.receives && (got == sizeof(can_frame) || got == sizeof read))
+    waiting_.push_back(message_of(read, static_cast<std::size_t>(got)));
   return true;
 }
 

@@ -3,7 +3,7 @@
 #
 # A pair of interfaces, the programs at one end, the bridge at the other: programs that do without
 # the kernel's loop-back (cangen -x) see their frames when these have been on the bus. Once as fast
-# as possible, once in real time.
+# as possible, once in real time. Then what is refused.
 ip link add vx0 type vxcan peer name vx1 || complain "add vxcan"
 ip link set vx0 up
 ip link set vx1 up
@@ -20,3 +20,12 @@ for way in echo silent; do
   stop_bridge
   hush
 done
+
+# What is no frame of CAN 2.0 the kernel takes from programs all the same.
+start_bridge strange --if vx1 --monitor mon0 --nodes 1 --errors none --json
+before=$(cat /sys/class/net/mon0/statistics/tx_packets)
+for frame in $VERICAN_STRANGE 123#CAFE; do
+  cansend vx0 "$frame" || complain "cansend $frame"
+done
+wait_until 60 has_passed mon0 $((before + 1))
+stop_bridge

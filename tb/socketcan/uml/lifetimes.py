@@ -17,6 +17,10 @@ traffic:
   - {node: other, name: m, id: 0x7FF, data: counter, dlc: 8, period: saturated, count: 300}
 """
 
+# CAN FD frames, short and long, with and without the other bit rate; error messages.
+STRANGE = ("123##0CA", "123##1CAFE", f"12345678##1{'5A' * 64}", "20000004#0008000000000000",
+           "20000088#0000020000000000")
+
 
 def port(run, name, interface):
     """The bridge's own account of an interface, and of the frames on the bus."""
@@ -116,6 +120,8 @@ def vxcan(run):
         account(run, way, "vx1", from_host=300, sent=300, received=300, to_host=300, lost=0,
                 echoes=300 if way == "echo" else 0)
         run.ended(way)
+    account(run, "strange", "vx1", rejected=len(STRANGE), from_host=1, sent=1, lost=0)
+    run.ended("strange")
 
 
 def signals(run):
