@@ -107,6 +107,7 @@ class Session {
   [[nodiscard]] Time next_edge() const;
   [[nodiscard]] bool idle() const;
   [[nodiscard]] bool quiet() const;
+  [[nodiscard]] bool awaits_time() const;
   [[nodiscard]] bool stalled() const;
   [[nodiscard]] bool all_up() const;
   [[nodiscard]] bool all_done() const;

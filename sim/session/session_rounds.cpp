@@ -20,6 +20,8 @@ constexpr WallTime kDownTick = 100'000'000;
 constexpr WallTime kRefusedTick = 1'000'000;
 // Longest stretch that is simulated, not passed over, without a look at the programs.
 constexpr Time kLongestStretch = 2 * kMillisecond;
+// The same as fast as possible, while an outlet has something to do at a later simulated time.
+constexpr Time kAwaitedStretch = kMillisecond;
 // What is simulated between two looks for quiet, bits.
 constexpr Time kQuietLook = 16;
 
@@ -52,8 +54,12 @@ bool Session::quiet() const {
   return idle() &&
          std::none_of(buses_.begin(), buses_.end(),
                       [](const auto &bus) { return bus->simulation().bus().has_actions(); }) &&
-         std::none_of(outlets_.begin(), outlets_.end(),
-                      [](const Outlet *outlet) { return outlet->awaits_time(); });
+         !awaits_time();
+}
+
+bool Session::awaits_time() const {
+  return std::any_of(outlets_.begin(), outlets_.end(),
+                     [](const Outlet *outlet) { return outlet->awaits_time(); });
 }
 
 bool Session::stalled() const {
@@ -126,7 +132,8 @@ void Session::advance() {
 // A session may wait for programs without a limit as soon as all is quiet, so that by then those
 // who listen to the bus must have all frames.
 void Session::advance_fast() {
-  const Time target = std::min(start_ + limit_, now() + stretch_);
+  const Time stretch = awaits_time() ? std::min(stretch_, kAwaitedStretch) : stretch_;
+  const Time target = std::min(start_ + limit_, now() + stretch);
   if (outlets_.empty() || !quiet()) run_until(target);
   if (outlets_.empty() || !quiet()) return;
   for (const auto &bus : buses_) bus->simulation().settle();

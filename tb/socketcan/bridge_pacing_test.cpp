@@ -174,6 +174,20 @@ TEST(BridgePacing, FastGoesOnWithTraffic) {
   EXPECT_EQ(waiting.wall.endless_waits, 0U);
 }
 
+// Jobs of clients have times of their own, which bits of 100 us or more must not hold up.
+TEST(BridgePacing, FastLooksAboutOnceAMillisecondWhileAPortAwaitsTime) {
+  for (const double bitrate : {1e3, 10e3, 500e3}) {
+    BridgeRig rig{{.nodes = 1, .bitrate = bitrate}};
+    rig.port(0).awaits = true;
+    for (unsigned i = 0; i < 20; ++i) {
+      const Time before = rig.bridge().elapsed();
+      ASSERT_TRUE(rig.bridge().round());
+      EXPECT_GT(rig.bridge().elapsed(), before);
+      EXPECT_LE(rig.bridge().elapsed(), before + 2 * kMillisecond) << bitrate;
+    }
+  }
+}
+
 // ---- Signals
 
 TEST(BridgePacing, StopEndsTheRun) {
