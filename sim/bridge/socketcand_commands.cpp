@@ -95,8 +95,9 @@ void SocketcandClient::echo(CommandWords &words) {
 
 void SocketcandClient::enter(Mode mode) {
   mode_ = mode;
-  // Jobs and filters live as long as their mode.
+  // Jobs, filters and statistics live as long as their mode.
   broadcast_.clear();
+  statistics_interval_ = 0;
   receiving_ = mode == kRaw;
 }
 

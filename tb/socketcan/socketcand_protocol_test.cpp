@@ -228,6 +228,18 @@ TEST_F(SocketcandProtocol, StatisticsCountDataBytesAndFrames) {
   EXPECT_EQ(ask(client, ""), "");
 }
 
+// In another mode nobody could turn them off.
+TEST_F(SocketcandProtocol, StatisticsEndWithTheirMode) {
+  for (const char *const mode : {"< rawmode >", "< bcmmode >"}) {
+    SocketcandTestClient client(bench_.port());
+    ASSERT_TRUE(bench_.expect(client, "< hi >"));
+    EXPECT_EQ(ask(client, "< open can0 >< controlmode >< statistics 100 >"), "< ok >< ok >");
+    EXPECT_EQ(ask(client, mode), "< ok >");
+    bench_.now += kSecond;
+    EXPECT_EQ(ask(client, ""), "") << mode;
+  }
+}
+
 TEST(SocketcandServerNames, BadNamesAreNamed) {
   const auto failure = [](std::vector<std::string> names) -> std::string {
     try {
