@@ -40,7 +40,7 @@ Bridge::Bridge(BridgeSetup setup, Wall &wall) {
   std::string names;
   for (auto &port : setup.ports) {
     const NodeId id =
-        take_node(setup.scenario, port->name(), "programs of the host work", setup.port_clock_hz);
+        take_core(setup.scenario, port->name(), "programs of the host work", setup.port_clock_hz);
     names += (names.empty() ? "" : ", ") + port->name();
     setup.scenario.nodes[id].role = role_of(setup, std::move(port));
   }

@@ -343,4 +343,18 @@ NodeId take_node(Scenario &scenario, const std::string &name, const std::string 
   return id;
 }
 
+NodeId take_core(Scenario &scenario, const std::string &name, const std::string &user,
+                 double clock_hz) {
+  const NodeId id = take_node(scenario, name, user, clock_hz);
+  const NodeSpec &node = scenario.nodes[id];
+  if (node.line == 0) return id;  // in no file
+  std::string keys = detail::host_text(node.host);
+  if (!node.software) keys += ", software: none";
+  if (keys.empty()) return id;
+  throw InputError(scenario.file, node.line,
+                   fmt::format("node '{}', which {}, has '{}'; allowed: no keys of the "
+                               "simulation's own software",
+                               name, user, keys.substr(2)));
+}
+
 }  // namespace vericansim

@@ -214,5 +214,9 @@ NodeId find_or_add_node(Scenario &scenario, const std::string &name,
 /// InputError also if the node is of a kind of its own, or traffic of the scenario is its.
 NodeId take_node(Scenario &scenario, const std::string &name, const std::string &user,
                  double clock_hz = ClockConfig{}.frequency_hz);
+/// The same for a node whose registers something else works. Throws InputError also if the file
+/// sets up the simulation's own software there, which nobody would obey.
+NodeId take_core(Scenario &scenario, const std::string &name, const std::string &user,
+                 double clock_hz = ClockConfig{}.frequency_hz);
 
 }  // namespace vericansim

@@ -17,6 +17,9 @@ namespace vericansim::detail {
 /// names the node, if no file can say it.
 [[nodiscard]] std::string role_text(const NodeSpec &node);
 
+/// The keys by which a file sets up the simulation's own software, ", listen_only: true".
+[[nodiscard]] std::string host_text(const HostConfig &host);
+
 /// The same of a remote node.
 [[nodiscard]] std::string remote_text(const RemoteRole &role);
 

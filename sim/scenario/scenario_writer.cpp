@@ -48,23 +48,6 @@ std::string filters_text(const std::vector<RxFilter> &filters) {
   return "[" + text + "]";
 }
 
-std::string host_text(const HostConfig &host) {
-  std::string text;
-  const auto flag = [&](const char *key, bool value) {
-    if (value) text += fmt::format(", {}: true", key);
-  };
-  if (host.tx_buffers != 0) text += fmt::format(", tx_buffers: {}", host.tx_buffers);
-  flag("lowest_buffer_first", host.lowest_buffer_first);
-  flag("listen_only", host.listen_only);
-  flag("loop_back", host.loop_back);
-  flag("self_reception", host.self_reception);
-  flag("triple_sampling", host.triple_sampling);
-  flag("fd_tolerant", host.fd_tolerant);
-  if (host.boff_rec) text += ", bus_off_recovery: never";
-  if (!host.filters.empty()) text += ", filters: " + filters_text(host.filters);
-  return text;
-}
-
 std::string node_text(const NodeSpec &node) {
   std::string text = "  - {name: " + yaml_text(node.name) + role_text(node);
   if (!std::holds_alternative<SecondCoreRole>(node.role)) text += clock_text(node.clock);
@@ -190,6 +173,23 @@ std::string access_text(const Scenario &scenario, const AccessSpec &access) {
 }
 
 }  // namespace
+
+std::string detail::host_text(const HostConfig &host) {
+  std::string text;
+  const auto flag = [&](const char *key, bool value) {
+    if (value) text += fmt::format(", {}: true", key);
+  };
+  if (host.tx_buffers != 0) text += fmt::format(", tx_buffers: {}", host.tx_buffers);
+  flag("lowest_buffer_first", host.lowest_buffer_first);
+  flag("listen_only", host.listen_only);
+  flag("loop_back", host.loop_back);
+  flag("self_reception", host.self_reception);
+  flag("triple_sampling", host.triple_sampling);
+  flag("fd_tolerant", host.fd_tolerant);
+  if (host.boff_rec) text += ", bus_off_recovery: never";
+  if (!host.filters.empty()) text += ", filters: " + filters_text(host.filters);
+  return text;
+}
 
 std::string to_yaml(const Scenario &scenario) {
   std::string text = "name: " + yaml_text(scenario.name) + "\n";

@@ -28,7 +28,7 @@ FirmwareRole role_of(const FirmwareSetup &setup, const ElfImage &image) {
 
 /// Gives the node `name` to firmware.
 NodeSpec &place(Scenario &scenario, const std::string &name, NodeRole role) {
-  NodeSpec &node = scenario.nodes[take_node(scenario, name, "runs firmware")];
+  NodeSpec &node = scenario.nodes[take_core(scenario, name, "runs firmware")];
   node.role = std::move(role);
   return node;
 }

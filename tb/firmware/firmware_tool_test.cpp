@@ -127,6 +127,9 @@ TEST(FirmwareTool, BadInputIsRefused) {
               file_with("2.yaml",
                         "nodes:\n  - {name: firmware}\ntraffic:\n  - {node: firmware, id: 1}\n"),
           "is that of node 'firmware', which runs firmware");
+  for (const std::string key : {"listen_only: true", "software: none"})
+    refused(good + " --bus " + file_with("3.yaml", "nodes:\n  - {name: firmware, " + key + "}\n"),
+            ":2: node 'firmware', which runs firmware, has '" + key + "'; allowed: no keys");
 }
 
 }  // namespace

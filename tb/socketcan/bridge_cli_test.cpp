@@ -88,6 +88,42 @@ TEST(BridgeCommand, SeveralBitRatesNeedAChoice) {
   std::filesystem::remove(path);
 }
 
+/// A bus in a file that goes with the test.
+class BusFile {
+ public:
+  explicit BusFile(const std::string &text)
+      : path_{std::filesystem::temp_directory_path() /
+              ("bridge-bus-" + std::to_string(::getpid()) + ".yaml")} {
+    std::ofstream{path_} << text;
+  }
+  ~BusFile() { std::filesystem::remove(path_); }
+  BusFile(const BusFile &) = delete;
+  BusFile &operator=(const BusFile &) = delete;
+  [[nodiscard]] std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// The port's node acknowledges and takes every frame, whatever the file would have its own software
+// do; what is the core's and the bus's holds.
+TEST(BridgeCommand, KeysThatTheInterfaceDoesNotObeyAreRefused) {
+  for (const std::string keys :
+       {"listen_only: true", "loop_back: true", "self_reception: true", "triple_sampling: true",
+        "fd_tolerant: true", "lowest_buffer_first: true", "bus_off_recovery: never",
+        "tx_buffers: 2", "filters: [{id: 0x100, mask: 0x7FF}]", "software: none"}) {
+    const BusFile bus("nodes:\n  - {name: a}\n  - {name: can0, " + keys + "}\n");
+    const Outcome outcome = bridge("--socketcand 0 --time 1ms --bus " + bus.path());
+    EXPECT_EQ(outcome.code, 2) << outcome.output;
+    EXPECT_EQ(outcome.output, "verican: " + bus.path() +
+                                  ":3: node 'can0', which programs of the host work, has '" + keys +
+                                  "'; allowed: no keys of the simulation's own software\n");
+  }
+  const BusFile bus(
+      "nodes:\n  - {name: a}\n  - {name: can0, ppm: 9, cable: 1 m, mailboxes: 16, sjw: 1}\n");
+  EXPECT_EQ(bridge("--socketcand 0 --time 1ms --bus " + bus.path()).code, 0);
+}
+
 // A node of the port's name would be the port's, and nobody would acknowledge.
 TEST(BridgeCommand, PlainNodesAreOthersThanThePorts) {
   const Outcome outcome = bridge("--socketcand 0 --bus-name node0 --time 1ms --json");
