@@ -162,6 +162,7 @@ void Bus::step() {
 }
 
 void Bus::run_until(Time until) {
+  until = std::min(until, kEndOfTime);
   stopped_ = false;
   while (!stopped_) {
     if (!prepared_) prepare();
@@ -179,7 +180,7 @@ void Bus::run_until(Time until) {
 }
 
 bool Bus::run_until(const std::function<bool()> &done, Time limit) {
-  const Time end = now_ + limit;
+  const Time end = time_behind(now_, limit);
   stopped_ = false;
   while (!done()) {
     end_all_rest();

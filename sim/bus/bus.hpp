@@ -81,9 +81,9 @@ class Bus {
   void step();
   /// Runs every edge and action up to and including `until`, or until stop().
   void run_until(Time until);
-  void run_for(Time duration) { run_until(now_ + duration); }
-  /// Runs until `done()` is true, tested after every instant; false if `limit` (ps from now) came
-  /// first.
+  void run_for(Time duration) { run_until(time_behind(now_, duration)); }
+  /// Runs until `done()` is true, tested after every instant; false if `limit` (ps from now, the
+  /// largest Time: none) came first.
   bool run_until(const std::function<bool()> &done, Time limit);
   /// Lets the run_until() under way return after the current instant.
   void stop() { stopped_ = true; }

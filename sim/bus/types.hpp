@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 namespace vericansim {
 
@@ -19,6 +20,15 @@ inline constexpr Time kNanosecond = 1'000;
 inline constexpr Time kMicrosecond = 1'000'000;
 inline constexpr Time kMillisecond = 1'000'000'000;
 inline constexpr Time kSecond = 1'000'000'000'000;
+
+/// The last time that a bus can reach; a span from here or from anywhere that goes beyond ends
+/// here.
+inline constexpr Time kEndOfTime = std::numeric_limits<Time>::max() - 1;
+
+/// `span` (not negative) behind `time`, at most the end of time.
+constexpr Time time_behind(Time time, Time span) {
+  return span < kEndOfTime - time ? time + span : kEndOfTime;
+}
 
 /// A level on the wire. The bus is the AND of its drivers: one dominant node wins (rule book, 0).
 enum class Level : std::uint8_t { kDominant = 0, kRecessive = 1 };

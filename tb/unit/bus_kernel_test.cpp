@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -237,6 +238,26 @@ TEST(BusKernel, RunsUntilACondition) {
   bus.at(20 * kMicrosecond, [&] { bus.stop(); });
   bus.run_until(kMillisecond);
   EXPECT_EQ(bus.now(), 20 * kMicrosecond);
+}
+
+// "No limit", as a caller may write it, at any time of the bus.
+TEST(BusKernel, ASpanMayGoBeyondTheEndOfTime) {
+  constexpr Time kLongest = std::numeric_limits<Time>::max();
+  StandIn node("a", kMegahertz);
+  Bus bus;
+  bus.add(node);
+  bus.run_for(3 * kMicrosecond);
+  EXPECT_TRUE(bus.run_until([&] { return node.seen().size() == 9; }, kLongest));
+  for (const bool span : {true, false}) {
+    const Time end = bus.now() + 5 * kMicrosecond;
+    bus.at(end, [&] { bus.stop(); });
+    span ? bus.run_for(kLongest) : bus.run_until(kLongest);
+    EXPECT_EQ(bus.now(), end);
+  }
+  Bus empty;
+  empty.run_for(kMicrosecond);
+  EXPECT_FALSE(empty.run_until([] { return false; }, kLongest));
+  empty.run_until(kLongest);
 }
 
 TEST(BusKernel, NodeMayJoinARunningBus) {
