@@ -64,14 +64,27 @@ Host::Host(RtlNode &node, HostConfig config)
   tx_.resize(config_.tx_buffers);
 }
 
-Host::~Host() {
-  node_.forget_waiter();
-  node_.ahb().reset();
-}
+Host::~Host() { stop(); }
 
 // ---- For the user
 
-void Host::start() { main_ = run(); }
+void Host::start() {
+  stop();
+  main_ = run();
+}
+
+// Nobody may resume a coroutine that is destroyed. What it had put into buffers waits again.
+void Host::stop() {
+  if (!main_.done()) {
+    node_.forget_waiter();
+    node_.master().reset();
+  }
+  main_ = {};
+  for (auto slot = tx_.rbegin(); slot != tx_.rend(); ++slot)
+    if (std::exchange(slot->busy, false)) queue_.push_front(slot->frame);
+  loaded_ = 0;
+  ready_ = false;
+}
 
 void Host::start_and_wait() {
   start();
@@ -82,7 +95,7 @@ void Host::start_and_wait() {
 }
 
 void Host::check() {
-  if (main_.done()) main_.result();
+  if (main_ && main_.done()) main_.result();
 }
 
 void Host::send(const Frame &frame) {
@@ -92,8 +105,10 @@ void Host::send(const Frame &frame) {
 }
 
 bool Host::send_and_wait(const Frame &frame, Time limit) {
+  frame.validate();
+  if (!main_) throw std::logic_error(node_.name() + ": its host has not been started");
   send(frame);
-  const Time end = node_.oscillator().next() + limit;
+  const Time end = time_behind(node_.oscillator().next(), limit);
   while (pending() != 0) {
     check();
     if (node_.oscillator().next() > end) return false;

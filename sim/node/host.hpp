@@ -79,7 +79,8 @@ class Host {
   Host(const Host &) = delete;
   Host &operator=(const Host &) = delete;
 
-  /// Begins the set-up; afterwards the node serves its interrupts for ever.
+  /// Begins the set-up; afterwards the node serves its interrupts for ever. Again, as behind a
+  /// reset of the node: the software begins anew, with the frames that have not left.
   void start();
   /// start() and run the bus until the node has left freeze mode.
   void start_and_wait();
@@ -89,6 +90,7 @@ class Host {
   /// Queues a frame for transmission. Throws as Frame::validate().
   void send(const Frame &frame);
   /// send() and run the bus until the frame is out; false if `limit` (ps) passed first.
+  /// std::logic_error without start().
   bool send_and_wait(const Frame &frame, Time limit = kSecond);
   /// With boff_rec: lets the node recover from the bus-off it is in (flexcan.md 2.8); the next one
   /// holds it again.
@@ -114,6 +116,7 @@ class Host {
     Frame frame;
   };
 
+  void stop();
   [[nodiscard]] std::uint32_t ctrl() const;
   Task<> run();
   Task<> set_up();

@@ -75,6 +75,8 @@ class Task {
     if (handle_) handle_.destroy();
   }
 
+  /// False if there is no coroutine.
+  explicit operator bool() const { return handle_ != nullptr; }
   /// True once the coroutine has returned or thrown (or if there is none).
   [[nodiscard]] bool done() const { return !handle_ || handle_.done(); }
   /// The result of a finished task; rethrows what it threw.
