@@ -55,6 +55,9 @@ NodeId Bus::add(Node &node, const Link &link) {
 
 void Bus::set_delay(NodeId from, NodeId to, Time delay) {
   if (delay < 0) throw std::invalid_argument("a delay must not be negative");
+  if (from >= kMaxNodes || to >= kMaxNodes)
+    throw std::invalid_argument("a delay is between nodes 0 to 63, got " +
+                                std::to_string(std::max(from, to)));
   unprepare();
   delay_override_[{from, to}] = delay;
 }
@@ -83,6 +86,7 @@ void Bus::remove(BusObserver &observer) {
 }
 
 void Bus::add(Fault &fault) {
+  fault.attach(*this);  // throws before the bus knows it
   unprepare();
   faults_.push_back(&fault);
   const unsigned hooks = fault.hooks();
@@ -91,7 +95,6 @@ void Bus::add(Fault &fault) {
   if ((hooks & Fault::kLevel) != 0) with_level_.push_back(&fault);
   if ((hooks & Fault::kClocked) != 0) with_clocked_.push_back(&fault);
   levels_disturbed_ = levels_disturbed_ || (hooks & ~Fault::kClocked) != 0;
-  fault.attach(*this);
 }
 
 void Bus::at(Time when, std::function<void()> action) {

@@ -7,12 +7,21 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "bus/bus.hpp"
 
 namespace vericansim {
 
+void require_node(NodeId id, bool others) {
+  if (id < Bus::kMaxNodes || (others && (id == kBusPoint || id == kAllNodes))) return;
+  throw std::invalid_argument("a fault needs a node, 0 to " + std::to_string(Bus::kMaxNodes - 1) +
+                              (others ? ", kAllNodes or kBusPoint" : "") + ", got " +
+                              std::to_string(id));
+}
+
 void ScheduledFaults::add(NodeId victim, Effect effect, Window window, FaultLog *log) {
+  require_node(victim, true);
   const Entry entry{window, effect, log};
   if (victim != kAllNodes) return insert(receiver(victim), entry);
   for_everybody_.push_back(entry);
@@ -50,7 +59,11 @@ Level ScheduledFaults::level(NodeId id, Time t, Level level) {
 }
 
 void ClockFault::attach(Bus &bus) {
+  if (node_ >= bus.size())
+    throw std::invalid_argument("a fault of a clock needs a node of the bus, got " +
+                                std::to_string(node_));
   Node &node = bus.node(node_);
+  Clock{node.oscillator()}.set_error_ppm(error_ppm_);  // refuses here what it would refuse then
   bus.at(when_, [this, &bus, &node] {
     if (node.oscillator().config().error_ppm != error_ppm_) took_effect(node_, when_);
     node.oscillator().set_error_ppm(error_ppm_);
@@ -116,6 +129,10 @@ NoiseFault::NoiseFault(const NoiseConfig &config) : config_{config} {
   if (!is_probability(config.per_bit) || !is_probability(config.per_ns)) {
     throw std::invalid_argument("noise: probabilities must be 0 to 1");
   }
+  if (config.per_ns > 0.0 && config.glitch <= 0)
+    throw std::invalid_argument("noise: a glitch must last, got " + std::to_string(config.glitch) +
+                                " ps");
+  if (config.victim != kAllNodes) require_node(config.victim);
 }
 
 NoiseFault::Victim &NoiseFault::victim(NodeId id) {

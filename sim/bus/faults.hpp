@@ -32,6 +32,10 @@ constexpr Level apply_effect(Effect effect, Level level) {
   return effect == Effect::kDominant ? Level::kDominant : Level::kRecessive;
 }
 
+/// Throws std::invalid_argument unless a bus can have a node `id`, or it is one of the `others`,
+/// kAllNodes and kBusPoint: a fault of no node would never take effect.
+void require_node(NodeId id, bool others = false);
+
 /// Base of all faults. The kernel asks at every clock edge of every node, and only if a fault
 /// exists.
 class Fault {
@@ -74,7 +78,9 @@ class Fault {
 class LevelFault : public Fault {
  public:
   LevelFault(NodeId victim, Effect effect, Window window)
-      : victim_{victim}, effect_{effect}, window_{window} {}
+      : victim_{victim}, effect_{effect}, window_{window} {
+    require_node(victim, true);
+  }
   [[nodiscard]] unsigned hooks() const override { return kLevel; }
   [[nodiscard]] Level level(NodeId receiver, Time t, Level level) override {
     if ((receiver != victim_ && victim_ != kAllNodes) || !window_.contains(t)) return level;
@@ -120,7 +126,7 @@ class ScheduledFaults : public Fault {
 /// Opens the cable of one node: nobody hears it, and it hears only itself.
 class CutFault : public Fault {
  public:
-  CutFault(NodeId node, Window window) : node_{node}, window_{window} {}
+  CutFault(NodeId node, Window window) : node_{node}, window_{window} { require_node(node); }
   [[nodiscard]] unsigned hooks() const override { return kUnheard; }
   [[nodiscard]] std::uint64_t unheard(NodeId receiver, Time t) override {
     if (!window_.contains(t)) return 0;
@@ -136,7 +142,7 @@ class CutFault : public Fault {
 /// A transmitter shorted to dominant: it talks all the time, its own receiver included.
 class ShortFault : public Fault {
  public:
-  ShortFault(NodeId node, Window window) : node_{node}, window_{window} {}
+  ShortFault(NodeId node, Window window) : node_{node}, window_{window} { require_node(node); }
   [[nodiscard]] unsigned hooks() const override { return kBabbling; }
   [[nodiscard]] std::uint64_t babbling(Time t) override {
     return window_.contains(t) ? 1ULL << node_ : 0;
@@ -147,7 +153,8 @@ class ShortFault : public Fault {
   Window window_;
 };
 
-/// From `when` on the oscillator of a node has another constant error.
+/// From `when` on the oscillator of a node has another constant error. The node must be on the bus
+/// when the fault is added, and the error one that its Clock takes (std::invalid_argument).
 class ClockFault : public Fault {
  public:
   ClockFault(NodeId node, Time when, double error_ppm)
@@ -211,7 +218,10 @@ class PlaceFault : public Fault {
  public:
   PlaceFault(NodeId watched, const PlaceSpec &place, Effect effect,
              std::optional<NodeId> victim = {})
-      : watched_{watched}, victim_{victim.value_or(watched)}, place_{place}, effect_{effect} {}
+      : watched_{watched}, victim_{victim.value_or(watched)}, place_{place}, effect_{effect} {
+    require_node(watched);
+    require_node(victim_, true);
+  }
   [[nodiscard]] unsigned hooks() const override { return kLevel | kClocked; }
   [[nodiscard]] Level level(NodeId receiver, Time t, Level level) override;
   void clocked(NodeId node, Time t, std::uint64_t word) override;
@@ -238,7 +248,8 @@ struct NoiseConfig {
   std::uint64_t seed = 1;
 };
 
-/// Throws std::invalid_argument if a probability is outside 0..1.
+/// Throws std::invalid_argument if a probability is outside 0..1, a glitch does not last, or the
+/// victim is no node.
 class NoiseFault : public Fault {
  public:
   explicit NoiseFault(const NoiseConfig &config);

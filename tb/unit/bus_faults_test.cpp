@@ -315,5 +315,45 @@ TEST(Noise, RefusesWhatIsNoProbability) {
   EXPECT_THROW(NoiseFault({.per_ns = -0.1}), std::invalid_argument);
 }
 
+TEST(Noise, RefusesGlitchesThatDoNotLastAndVictimsThatAreNoNodes) {
+  EXPECT_THROW(NoiseFault({.per_ns = 0.1, .glitch = 0}), std::invalid_argument);
+  EXPECT_THROW(NoiseFault({.per_ns = 0.1, .glitch = -1}), std::invalid_argument);
+  EXPECT_NO_THROW(NoiseFault({.per_bit = 0.1, .glitch = 0}));
+  for (const NodeId nobody : {NodeId{Bus::kMaxNodes}, kBusPoint})
+    EXPECT_THROW(NoiseFault({.per_bit = 0.1, .victim = nobody}), std::invalid_argument);
+}
+
+// A fault of no node never takes effect, and a run with it would count as one with a fault.
+TEST(Faults, RefuseNodesThatCannotBe) {
+  for (const NodeId nobody : {NodeId{Bus::kMaxNodes}, kAllNodes, kBusPoint}) {
+    EXPECT_THROW(CutFault(nobody, {}), std::invalid_argument) << nobody;
+    EXPECT_THROW(ShortFault(nobody, {}), std::invalid_argument) << nobody;
+    EXPECT_THROW(PlaceFault(nobody, {}, Effect::kFlip), std::invalid_argument) << nobody;
+  }
+  EXPECT_NO_THROW(CutFault(Bus::kMaxNodes - 1, {}));
+  EXPECT_THROW(LevelFault(Bus::kMaxNodes, Effect::kFlip, {}), std::invalid_argument);
+  EXPECT_THROW(PlaceFault(0, {}, Effect::kFlip, Bus::kMaxNodes), std::invalid_argument);
+  EXPECT_THROW(ScheduledFaults{}.add(Bus::kMaxNodes, Effect::kFlip, {}), std::invalid_argument);
+  for (const NodeId many : {kAllNodes, kBusPoint}) {
+    EXPECT_NO_THROW(LevelFault(many, Effect::kFlip, {})) << many;
+    EXPECT_NO_THROW(PlaceFault(0, {}, Effect::kFlip, many)) << many;
+  }
+  Bus bus;
+  EXPECT_THROW(bus.set_delay(0, Bus::kMaxNodes, 1), std::invalid_argument);
+}
+
+// The bus is as it was before.
+TEST(Faults, AClockFaultNeedsANodeOfTheBusAndAnErrorThatAClockMayHave) {
+  StandIn a("a");
+  Bus bus;
+  bus.add(a);
+  for (const auto &[node, ppm] : {std::pair{NodeId{1}, 5.0}, {kAllNodes, 5.0}, {0, 100'001.0}}) {
+    ClockFault fault{node, kMicrosecond, ppm};
+    EXPECT_THROW(bus.add(fault), std::invalid_argument) << node;
+  }
+  EXPECT_FALSE(bus.has_faults());
+  EXPECT_NO_THROW(bus.run_for(5 * kMicrosecond));
+}
+
 }  // namespace
 }  // namespace vericansim
