@@ -28,9 +28,10 @@ NodeId CanBus::add_pins(const std::string &name, const Link &link) {
 
 NodeId CanBus::attach(VericanTlm &node, const Link &link) {
   if (node.timing() == TlmTiming::kLooselyTimed) {
+    const NodeId id = kernel_.add(node.node(), link);
     node.bus_ = this;
     loose_.push_back(&node);
-    return kernel_.add(node.node(), link);
+    return id;
   }
   std::string pins = node.name();
   std::replace(pins.begin(), pins.end(), '.', '_');
@@ -68,11 +69,18 @@ void CanBus::end_of_elaboration() {
 }
 
 void CanBus::start_of_simulation() {
-  if (quantum_ == sc_core::SC_ZERO_TIME) quantum_ = tlm::tlm_global_quantum::instance().get();
+  global_ = tlm::tlm_global_quantum::instance().get();
   for (const VericanTlm *node : loose_) {
-    const double period = node->node_->oscillator().period_ps();
-    quantum_ = std::max(quantum_, to_sc_time(static_cast<Time>(period)));
+    const auto period = to_sc_time(static_cast<Time>(node->node_->oscillator().period_ps()));
+    shortest_ = shortest_ == sc_core::SC_ZERO_TIME ? period : std::min(shortest_, period);
   }
+  set_quantum(wanted_);
+}
+
+// Zero would let the bus be paced again and again in one instant.
+void CanBus::set_quantum(const sc_core::sc_time &quantum) {
+  wanted_ = quantum;
+  quantum_ = std::max(wanted_ == sc_core::SC_ZERO_TIME ? global_ : wanted_, shortest_);
 }
 
 void CanBus::trace(sc_core::sc_trace_file *file) {

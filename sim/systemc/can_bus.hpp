@@ -51,7 +51,8 @@ class CanBus : public sc_core::sc_module {
   /// Sets the delay from the TX pin of `from` to the RX pin of `to`, instead of the sum of the
   /// links.
   void set_delay(NodeId from, NodeId to, Time delay);
-  [[nodiscard]] Pins &pins(NodeId id) { return *nodes_[id].pins; }
+  /// Of a node that has any; std::out_of_range for others, loosely timed modules among them.
+  [[nodiscard]] Pins &pins(NodeId id) { return *nodes_.at(id).pins; }
 
   /// The level at the star point of the cables. Of loosely timed modules: as far as the bus has
   /// got.
@@ -59,8 +60,8 @@ class CanBus : public sc_core::sc_module {
 
   /// Loosely timed: how far the bus may lag behind SystemC's time. Unset, or zero: the global
   /// quantum of TLM-2.0 as it is when the simulation starts; no less than the shortest clock
-  /// period.
-  void set_quantum(const sc_core::sc_time &quantum) { quantum_ = quantum; }
+  /// period. During the simulation: from the end of the present quantum on.
+  void set_quantum(const sc_core::sc_time &quantum);
   /// The simulator's bus that runs loosely timed modules, for its observers and faults.
   [[nodiscard]] Bus &kernel() { return kernel_; }
 
@@ -113,7 +114,10 @@ class CanBus : public sc_core::sc_module {
 
   Bus kernel_;
   std::vector<VericanTlm *> loose_;
-  sc_core::sc_time quantum_;
+  sc_core::sc_time wanted_;    // set_quantum()
+  sc_core::sc_time global_;    // quantum of TLM-2.0
+  sc_core::sc_time shortest_;  // clock period
+  sc_core::sc_time quantum_;   // what these make
 };
 
 }  // namespace vericansim

@@ -127,6 +127,17 @@ TEST(CanBusPins, TooManyNodesAndNegativeDelaysAreRefused) {
     EXPECT_THROW(bus.add_pins("x", {.cable = -1}), std::invalid_argument);
     for (unsigned i = 0; i < Bus::kMaxNodes; ++i) bus.add_pins("n" + std::to_string(i));
     EXPECT_THROW(bus.add_pins("x"), std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(bus.pins(Bus::kMaxNodes)), std::out_of_range);
+  });
+}
+
+TEST(CanBusPins, LooselyTimedModulesHaveNone) {
+  simulate([] {
+    CanBus bus("bus");
+    VericanTlm can("can", {.timing = TlmTiming::kLooselyTimed});
+    const NodeId id = bus.attach(can);
+    EXPECT_THROW(static_cast<void>(bus.pins(id)), std::out_of_range);
+    EXPECT_THROW(bus.attach(can), std::invalid_argument);
   });
 }
 

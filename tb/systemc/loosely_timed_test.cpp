@@ -16,6 +16,7 @@
 #include "systemc/both_worlds.hpp"
 #include "systemc/can_bus.hpp"
 #include "systemc/register_software.hpp"
+#include "systemc/socket_bench.hpp"
 #include "systemc/systemc_rig.hpp"
 
 namespace vericansim {
@@ -165,6 +166,26 @@ TEST_P(Quantum, FramesBeginWithinAQuantumOfTheExactTimeAndTheRegistersAreTheSame
     EXPECT_GE(exact.starts[i], (i + 2) * kPeriod) << "frame " << i;
   }
   EXPECT_EQ(exact.registers, loose.registers);
+}
+
+// Less than a clock, zero among them, is one clock; the bus is never further behind.
+TEST(LooselyTimed, TheQuantumMayBeSetDuringTheSimulation) {
+  simulate([] {
+    Bench bench(TlmTiming::kLooselyTimed);
+    bench.run([&bench](Master &cpu) {
+      const std::pair<sc_time, sc_time> cases[] = {{sc_core::SC_ZERO_TIME, kClock},
+                                                   {sc_time(1, sc_core::SC_PS), kClock},
+                                                   {sc_time(7, sc_core::SC_US), kClock * 56}};
+      for (const auto &[quantum, most] : cases) {
+        bench.bus.set_quantum(quantum);
+        for (unsigned i = 0; i < 20; ++i) {
+          cpu.pause(sc_time(1030, sc_core::SC_NS));
+          const Time lag = to_ps(sc_core::sc_time_stamp()) - bench.bus.kernel().now();
+          EXPECT_LE(to_sc_time(lag), most);
+        }
+      }
+    });
+  });
 }
 
 // ---- Full load
