@@ -52,6 +52,8 @@ Bridge::Bridge(BridgeSetup setup, Wall &wall) {
   setup.scenario.pacing = setup.fast ? Pacing::kFast : Pacing::kRealTime;
   // Its traffic goes on as long as the bridge does.
   setup.scenario.endless = true;
+  // With programs a recording that has been sent is no end, unless the file wants it to be.
+  setup.scenario.until_done = setup.scenario.done_given;
   SessionOptions options;
   options.limit = setup.limit;
   options.wall = &wall;

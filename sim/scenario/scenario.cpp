@@ -267,6 +267,7 @@ void parse_end(YamlMap &map, Scenario &scenario) {
     if (scenario.until_done && !finite && !firmware)
       v.fail("'done' needs a node that comes to an end: with firmware, or a replay without loop");
     if (!scenario.until_done && !limited && !programs) v.fail("'time' needs a 'duration'");
+    scenario.done_given = scenario.until_done;
   });
 }
 

@@ -181,6 +181,8 @@ struct Scenario {
   bool cut_short = false;   ///< it is below that of the file: what lies behind it is no mistake
   bool until_done = false;  ///< ends as soon as no node has anything left to do
   Pacing pacing = Pacing::kFast;
+  /// `until_done` because the file says so, not because recordings without programs are usually so.
+  bool done_given = false;
   Time drain = 20 * kMillisecond;  ///< at most, after the duration, for frames that still wait
   std::uint64_t seed = 1;
   bool analysis = false;  ///< print the analytic bound beside the measured response times

@@ -154,5 +154,21 @@ TEST(BridgeCommand, ExpectationsOfTheScenarioCount) {
   std::filesystem::remove(path);
 }
 
+// As in a scenario that has the programs as nodes itself.
+TEST(BridgeCommand, ARecordingThatHasBeenSentIsNoEndUnlessTheFileSaysSo) {
+  const BusFile log("(0.000000) can0 123#01\n(0.001000) can0 124#02\n");
+  for (const bool done : {false, true}) {
+    const std::string path = log.path() + ".bus";
+    std::ofstream{path} << (done ? "end: done\n" : "")
+                        << "nodes:\n  - {name: a}\n  - {name: sender, replay: '" << log.path()
+                        << "'}\n";
+    const Outcome outcome = bridge("--socketcand 0 --time 150ms --bus " + path);
+    std::filesystem::remove(path);
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("frames 2 "));
+    EXPECT_THAT(outcome.output, HasSubstr(done ? "bridge: 0.00" : "bridge: 0.15")) << done;
+  }
+}
+
 }  // namespace
 }  // namespace vericansim
