@@ -117,6 +117,12 @@ struct AccessSpec {
   std::vector<AccessStep> steps;
 };
 
+/// Whether a step writes a buffer, or a flag or interrupt mask of one.
+[[nodiscard]] bool writes_buffers(const AccessSpec &access);
+/// What `accesses` of a node may do whose buffers programs of the host work, for messages.
+inline constexpr const char *kBesidePrograms =
+    "to read, and to write other registers than buffers, IFLAG and IMASK";
+
 /// What must be true of one node at the end.
 struct NodeExpectation {
   NodeId node = 0;

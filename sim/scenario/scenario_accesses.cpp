@@ -4,6 +4,10 @@
 // Scenario files: accesses to registers and buffers.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
+#include "model/registers.hpp"
 #include "scenario/access_step.hpp"
 #include "scenario/register_name.hpp"
 #include "scenario/scenario_parts.hpp"
@@ -65,7 +69,21 @@ AccessStep parse_step(const YamlValue &value, unsigned buffers) {
   value.refuse(std::string{kAllowed});
 }
 
+bool writes(const AccessStep &step) {
+  return step.kind == AccessKind::kWrite || step.kind == AccessKind::kSet ||
+         step.kind == AccessKind::kClear;
+}
+
 }  // namespace
+
+bool writes_buffers(const AccessSpec &access) {
+  constexpr std::uint32_t kOfBuffers[] = {reg::kIflag1, reg::kIflag2, reg::kImask1, reg::kImask2};
+  return std::ranges::any_of(access.steps, [&](const AccessStep &step) {
+    const bool flags = std::ranges::find(kOfBuffers, step.address) != std::end(kOfBuffers);
+    const bool words = step.address >= reg::mb(0) && step.address <= reg::mb(63, 3);
+    return writes(step) && (flags || words);
+  });
+}
 
 std::string to_text(const AccessStep &step, unsigned buffers) {
   for (const Verb &verb : kVerbs) {
@@ -91,6 +109,9 @@ AccessSpec detail::parse_access(const YamlValue &value, const Scenario &scenario
   const unsigned buffers = scenario.nodes[access.node].num_mb;
   for (const YamlValue &item : steps.items()) access.steps.push_back(parse_step(item, buffers));
   if (access.steps.empty()) steps.refuse(std::string{kAllowed});
+  if (has_programs(scenario.nodes[access.node].role) && writes_buffers(access))
+    steps.fail(fmt::format("writes buffers of {}, which programs of the host work; allowed: {}",
+                           in_quotes(scenario.nodes[access.node].name), kBesidePrograms));
   map.finish();
   return access;
 }

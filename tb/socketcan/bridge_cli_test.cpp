@@ -154,6 +154,20 @@ TEST(BridgeCommand, ExpectationsOfTheScenarioCount) {
   std::filesystem::remove(path);
 }
 
+// A frame that no program has sent would leave the core of the programs.
+TEST(BridgeCommand, AccessesToBuffersOfTheInterfaceAreRefused) {
+  const std::string nodes = "nodes:\n  - {name: a}\n  - {name: can0}\n";
+  for (const bool buffer : {false, true}) {
+    const BusFile bus(nodes + "accesses:\n  - {node: " + (buffer ? "can0" : "a") +
+                      ", at: 1 ms, do: [write MB5.ID 0x123, write MB5.CS 0x0C010000]}\n" +
+                      "  - {node: can0, at: 2 ms, do: [check MCR 0x100000 0, read MB5.CS]}\n");
+    const Outcome outcome = bridge("--socketcand 0 --time 9ms --bus " + bus.path());
+    EXPECT_EQ(outcome.code, buffer ? 2 : 0) << outcome.output;
+    EXPECT_THAT(outcome.output,
+                HasSubstr(buffer ? ":3: 'accesses' write buffers of node 'can0'" : "frames 1 "));
+  }
+}
+
 // As in a scenario that has the programs as nodes itself.
 TEST(BridgeCommand, ARecordingThatHasBeenSentIsNoEndUnlessTheFileSaysSo) {
   const BusFile log("(0.000000) can0 123#01\n(0.001000) can0 124#02\n");

@@ -172,6 +172,29 @@ TEST(VacuousScenario, WhatANodeDoesNotHaveIsRefused) {
             "no error");
 }
 
+// The buffers of a node whose frames are those of programs are its software's alone.
+TEST(VacuousScenario, WritesOfBuffersBesideProgramsAreRefused) {
+  const auto with = [](const std::string &role, const std::string &step) {
+    return input_error_of([&] {
+      return parse_scenario("s.yaml", "nodes:\n  - {name: n" + role +
+                                          "}\naccesses:\n  - {node: n, do: " + step + "}\n");
+    });
+  };
+  const std::string refusal =
+      "s.yaml:4: accesses[0].do: writes buffers of 'n', which programs of the host work; allowed: "
+      "to read, and to write other registers than buffers, IFLAG and IMASK";
+  for (const std::string step :
+       {"write MB5.CS 0x0C010000", "set MB63.DATA1 1", "clear MB0.ID 1", "write IFLAG1 1",
+        "write IFLAG2 1", "set IMASK1 1", "clear IMASK2 1", "[read MCR, write 0x80 0]"}) {
+    for (const std::string role : {", interface: vcan0", ", socketcand: 29536"})
+      EXPECT_EQ(with(role, step), refusal);
+    EXPECT_EQ(with("", step), "no error");
+  }
+  for (const std::string step : {"read MB5.CS", "check IFLAG1 1 0", "set MCR 0x10000000",
+                                 "write RXIMR0 0", "write 0x7C 0", "write 0x480 0"})
+    EXPECT_EQ(with(", interface: vcan0", step), "no error") << step;
+}
+
 // Keys of a node that another key makes void.
 TEST(VacuousScenario, KeysOfANodeThatNobodyObeysAreRefused) {
   const auto node = [](const std::string &keys) {
