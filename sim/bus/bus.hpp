@@ -123,7 +123,7 @@ class Bus {
     std::vector<Arrival> pending;
     std::size_t head = 0;
 
-    void push(const Arrival &arrival);
+    void push(Arrival arrival);
     void collect(Time before);
   };
 

@@ -79,12 +79,16 @@ Level Bus::with_faults(NodeId id, Time t, std::uint64_t dominant) {
   return level;
 }
 
-// Arrivals keep their order in time; those of one source never overtake each other.
-void Bus::Receiver::push(const Arrival &arrival) {
+// Arrivals keep their order in time; those of one source never overtake each other, though the
+// delay between them may have become shorter: else the older level would stay.
+void Bus::Receiver::push(Arrival arrival) {
   auto place = pending.end();
   while (place - pending.begin() > static_cast<std::ptrdiff_t>(head) &&
          (place - 1)->time > arrival.time) {
-    --place;
+    if ((place - 1)->source == arrival.source)
+      arrival.time = (place - 1)->time;
+    else
+      --place;
   }
   pending.insert(place, arrival);
 }

@@ -93,10 +93,16 @@ void CanBus::trace(sc_core::sc_trace_file *file) {
 
 // ---- Pins
 
-// Changes keep their order in time; those of one source never overtake each other.
-void CanBus::Receiver::push(const Arrival &arrival) {
+// Changes keep their order in time; those of one source never overtake each other, though the delay
+// between them may have become shorter: else the older level would stay.
+void CanBus::Receiver::push(Arrival arrival) {
   auto place = pending.end();
-  while (place != pending.begin() && (place - 1)->time > arrival.time) --place;
+  while (place != pending.begin() && (place - 1)->time > arrival.time) {
+    if ((place - 1)->source == arrival.source)
+      arrival.time = (place - 1)->time;
+    else
+      --place;
+  }
   pending.insert(place, arrival);
 }
 

@@ -82,7 +82,7 @@ class CanBus : public sc_core::sc_module {
     std::uint64_t dominant = 0;
     std::deque<Arrival> pending;
 
-    void push(const Arrival &arrival);
+    void push(Arrival arrival);
     [[nodiscard]] bool collect(Time now);  // the level
   };
   struct Entry {

@@ -106,6 +106,23 @@ TEST(CanBusPins, ADelayCanBeSetForOneWay) {
   });
 }
 
+// What is driven behind a level that is on its way does not overtake it.
+TEST(CanBusPins, AShorterDelayKeepsTheOrderOfASource) {
+  simulate([] {
+    Pair pair;
+    pair.bus.set_delay(0, 1, 500'000);
+    pair.drive(0, 1'000'000, false);
+    sc_core::sc_spawn([&pair] {
+      sc_core::wait(to_sc_time(1'050'000));
+      pair.bus.set_delay(0, 1, 0);
+    });
+    pair.drive(0, 1'100'000, true);
+    pair.drive(0, 2'000'000, false);
+    pair.run();
+    EXPECT_EQ(pair.rx_b->heard, "2000000:d ");
+  });
+}
+
 TEST(CanBusPins, WithoutDelayTheLevelIsThereAtOnce) {
   simulate([] {
     CanBus bus("bus");

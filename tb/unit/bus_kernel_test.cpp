@@ -165,6 +165,22 @@ TEST(BusKernel, PairwiseDelaysOverrideTheLinks) {
   EXPECT_EQ(c.seen(), "11101111");
 }
 
+// A pulse is on its way when the delay becomes shorter: what comes behind it does not overtake it.
+TEST(BusKernel, AShorterDelayKeepsTheOrderOfASource) {
+  Bus bus;
+  StandIn a{"a", kMegahertz, {{0, kD}, {3, kR}, {14, kD}}};
+  StandIn b{"b", kMegahertz};
+  StandIn c{"c", kMegahertz, {{4, kD}, {5, kR}}};
+  bus.add(a);
+  bus.add(b);
+  bus.add(c);
+  bus.set_delay(0, 1, 9 * kMicrosecond);
+  bus.set_delay(2, 1, 4 * kMicrosecond);
+  bus.at(2 * kMicrosecond, [&] { bus.set_delay(0, 1, kMicrosecond); });
+  bus.run_until(17 * kMicrosecond);
+  EXPECT_EQ(b.seen(), "111111111011111100");
+}
+
 // Two short pulses of two nodes are on the same wire at the same time.
 TEST(BusKernel, SeveralChangesTravelAtOnce) {
   Bus bus;
