@@ -19,7 +19,7 @@ Session::Session(std::vector<SessionBus> buses, SessionOptions options)
   if (buses.empty()) throw std::invalid_argument("a session needs a bus");
   for (SessionBus &bus : buses) {
     // Traffic goes on as long as the session does.
-    if (bus.scenario.endless) bus.scenario.duration = kNoLimit / 2;
+    if (bus.scenario.endless) bus.scenario.duration = kNoLimit;
     buses_.push_back(std::make_unique<LiveBus>(std::move(bus)));
   }
   bit_time_ = bit_time_of(simulation().bitrate());
