@@ -217,59 +217,59 @@ INSTANTIATE_TEST_SUITE_P(All, MatchRace,
                                             ::testing::Bool(), ::testing::Bool()),
                          match_race_name);
 
+/// A buffer that is full, has been read and is locked, while a frame for another one moves.
+class MarkRace : public ::testing::Test {
+ protected:
+  MarkRace() {
+    rig_.go();
+    rig_.receive(kMoves);
+    length_ = rig_.end_clock() - rig_.start_clock();
+  }
+
+  /// The unlock and `write` right behind it, from `offset` clocks behind EOF6 of the frame on.
+  void unlock_and(const AhbTransfer &write, int offset) {
+    prepare(rig_, State::kFull);
+    rig_.put_rx(kOtherMb, kMoves);
+    rig_.read_cs(kMb);
+    const std::uint64_t frames = rig_.frames_started();
+    rig_.peer_sends(kMoves);
+    ASSERT_TRUE(rig_.run_until([&] { return rig_.frames_started() > frames; }, 400));
+    const std::uint64_t clock = rig_.start_clock() + length_ + offset;
+    rig_.at(clock, {.address = reg::kTimer});
+    rig_.at(clock, write);
+    rig_.quiet();
+  }
+
+  static constexpr Frame kMoves{.id = 0x456, .dlc = 2, .data = {0x41, 0x42}};
+  BufferRig rig_{{.num_mb = 16, .maxmb = 15, .bcc = true}};
+  std::uint64_t length_ = 0;
+};
+
 // FX-3.6.g: a write of bytes that hold no code, right behind the unlock, leaves the mark that the
 // unlock asks for, whatever moves just then.
-TEST(MarkRace, BytesWithoutTheCode) {
-  constexpr Frame kMoves{.id = 0x456, .dlc = 2, .data = {0x41, 0x42}};
-  BufferRig rig{{.num_mb = 16, .maxmb = 15, .bcc = true}};
-  rig.go();
-  rig.receive(kMoves);
-  const std::uint64_t length = rig.end_clock() - rig.start_clock();
+TEST_F(MarkRace, BytesWithoutTheCode) {
   const std::pair<unsigned, AhbSize> writes[] = {
       {0, AhbSize::kByte}, {2, AhbSize::kByte}, {0, AhbSize::kHalf}};
   for (const auto &[byte, size] : writes) {
-    for (int offset = kMovesFrom; offset <= kMovesTo && !::testing::Test::HasFailure(); ++offset) {
+    for (int offset = kMovesFrom; offset <= kMovesTo && !HasFailure(); ++offset) {
       SCOPED_TRACE(testing::Message() << "byte " << byte << ", clock " << offset << " from EOF6");
-      prepare(rig, State::kFull);
-      rig.put_rx(kOtherMb, kMoves);
-      rig.read_cs(kMb);
-      const std::uint64_t frames = rig.frames_started();
-      rig.peer_sends(kMoves);
-      ASSERT_TRUE(rig.run_until([&] { return rig.frames_started() > frames; }, 400));
-      const std::uint64_t clock = rig.start_clock() + length + offset;
-      rig.at(clock, {.address = reg::kTimer});
-      rig.at(clock, {.address = reg::mb(kMb) + byte, .write = true, .size = size, .data = 2});
-      rig.quiet();
-      rig.receive(kSecond);
-      EXPECT_EQ(rig.read_cs(kMb) >> 24, kRxFull);
-      rig.compare();
+      unlock_and({.address = reg::mb(kMb) + byte, .write = true, .size = size, .data = 2}, offset);
+      rig_.receive(kSecond);
+      EXPECT_EQ(rig_.read_cs(kMb) >> 24, kRxFull);
+      rig_.compare();
     }
   }
 }
 
 // A write of the code is what the buffer has from then on, though the mark comes behind it: right
 // behind the unlock, whatever moves just then.
-TEST(MarkRace, AWordWithItsCode) {
-  constexpr Frame kMoves{.id = 0x456, .dlc = 2, .data = {0x41, 0x42}};
-  BufferRig rig{{.num_mb = 16, .maxmb = 15, .bcc = true}};
-  rig.go();
-  rig.receive(kMoves);
-  const std::uint64_t length = rig.end_clock() - rig.start_clock();
+TEST_F(MarkRace, AWordWithItsCode) {
   for (const unsigned code : {kRxEmpty, kTxInactive}) {
-    for (int offset = kMovesFrom; offset <= kMovesTo && !::testing::Test::HasFailure(); ++offset) {
+    for (int offset = kMovesFrom; offset <= kMovesTo && !HasFailure(); ++offset) {
       SCOPED_TRACE(testing::Message() << "code " << code << ", clock " << offset << " from EOF6");
-      prepare(rig, State::kFull);
-      rig.put_rx(kOtherMb, kMoves);
-      rig.read_cs(kMb);
-      const std::uint64_t frames = rig.frames_started();
-      rig.peer_sends(kMoves);
-      ASSERT_TRUE(rig.run_until([&] { return rig.frames_started() > frames; }, 400));
-      const std::uint64_t clock = rig.start_clock() + length + offset;
-      rig.at(clock, {.address = reg::kTimer});
-      rig.at(clock, {.address = reg::mb(kMb), .write = true, .data = code << 24});
-      rig.quiet();
-      EXPECT_EQ(rig.read(reg::mb(kMb)) >> 24, code);
-      rig.compare();
+      unlock_and({.address = reg::mb(kMb), .write = true, .data = code << 24}, offset);
+      EXPECT_EQ(rig_.read(reg::mb(kMb)) >> 24, code);
+      rig_.compare();
     }
   }
 }

@@ -136,6 +136,30 @@ class MbTx : public ::testing::TestWithParam<Mode> {
     ASSERT_TRUE(top_.settled_o != 0 && top_.best_idx_o == 2);
   }
 
+  // Buffer `index` goes on the bus and has been there for `clocks`; then its frame fails.
+  void send_for(unsigned index, unsigned clocks) {
+    top_.cur_idx_i = index;
+    top_.start_i = 1;
+    clock({}, 0, 100);
+    top_.off_i = 1;
+    for (unsigned i = 0; i < clocks; ++i) clock({}, 0, 100);
+  }
+  void fail() {
+    top_.off_i = 0;
+    top_.retry_i = 1;
+  }
+  // Whoever is settled while two passes go by is `index`.
+  void expect_settled(unsigned index) {
+    for (unsigned i = 0; i < 3 * kPass; ++i) {
+      clock({}, 0, 100);
+      top_.eval();
+      if (top_.settled_o != 0) {
+        ASSERT_EQ(top_.best_idx_o, index) << "clock " << i;
+      }
+    }
+    EXPECT_TRUE(top_.settled_o);
+  }
+
   void check() {
     const std::optional<unsigned> winner = expected();
     ASSERT_EQ(top_.settled_o != 0, winner.has_value());

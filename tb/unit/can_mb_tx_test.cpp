@@ -143,14 +143,9 @@ TEST_P(MbTx, RetryOfTheWinnerNeedsNoPass) {
   for (const unsigned i : {5u, 40u, 63u}) buffers_[i] = {kActive << 24, i << 18};
   settle();
   for (unsigned bits = 1; bits < 8; ++bits) {
-    top_.cur_idx_i = top_.best_idx_o;
-    top_.start_i = 1;
-    clock({}, 0, 100);
-    top_.off_i = 1;
-    for (unsigned i = 0; i < 8 * bits; ++i) clock({}, 0, 100);
+    send_for(top_.best_idx_o, 8 * bits);
     EXPECT_FALSE(top_.settled_o != 0);
-    top_.off_i = 0;
-    top_.retry_i = 1;
+    fail();
     for (unsigned i = 0; i < 8; ++i) clock({}, 0, 100);
     top_.eval();
     EXPECT_FALSE(top_.retry_o);
@@ -167,27 +162,15 @@ TEST_P(MbTx, RetryBehindABetterOneThatIsWithdrawn) {  // FX-3.3.f
   buffers_[2].id = 0x200 << 18;
   settle();
   ASSERT_EQ(top_.best_idx_o, 40);
-  top_.cur_idx_i = 40;
-  top_.start_i = 1;
-  clock({}, 0, 100);
-  top_.off_i = 1;
-  for (unsigned i = 0; i < 12; ++i) clock({}, 0, 100);  // the pass is beyond both
+  send_for(40, 12);  // the pass is beyond both
   for (const unsigned i : {0u, 2u}) {
     clock(i, kActive << 24, 100);
     for (unsigned wait = 0; wait < 8; ++wait) clock({}, 0, 100);
   }
   ASSERT_EQ(top_.best_idx_o, 0);
   clock(0, 0x08000000, 100);
-  top_.off_i = 0;
-  top_.retry_i = 1;
-  for (unsigned i = 0; i < 3 * kPass; ++i) {
-    clock({}, 0, 100);
-    top_.eval();
-    if (top_.settled_o != 0) {
-      ASSERT_EQ(top_.best_idx_o, 2) << i;
-    }
-  }
-  check();
+  fail();
+  expect_settled(2);
 }
 
 // Nor is the retry the best of all any more if TTXMB holds it now.
@@ -196,23 +179,12 @@ TEST_P(MbTx, RetryThatIsHeldNow) {  // TM-41
   buffers_[50] = {kActive << 24, 0x200 << 18};
   settle();
   ASSERT_EQ(top_.best_idx_o, 3);
-  top_.cur_idx_i = 3;
-  top_.start_i = 1;
-  clock({}, 0, 100);
-  top_.off_i = 1;
+  send_for(3, 1);
   top_.held_i = 1;
   top_.held_idx_i = 3;
   for (unsigned i = 0; i < 8; ++i) clock({}, 0, 100);
-  top_.off_i = 0;
-  top_.retry_i = 1;
-  for (unsigned i = 0; i < 3 * kPass; ++i) {
-    clock({}, 0, 100);
-    top_.eval();
-    if (top_.settled_o != 0) {
-      ASSERT_EQ(top_.best_idx_o, 50) << i;
-    }
-  }
-  EXPECT_TRUE(top_.settled_o);
+  fail();
+  expect_settled(50);
 }
 
 // C/S writes in a row shut out neither a retry nor an answer.
