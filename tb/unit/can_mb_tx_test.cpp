@@ -173,6 +173,23 @@ TEST_P(MbTx, RetryBehindABetterOneThatIsWithdrawn) {  // FX-3.3.f
   expect_settled(2);
 }
 
+// Nor is it known to be the best if it starts while a pass looks for an insertion that was lost.
+TEST_P(MbTx, RetryOfAWinnerThatStartedInAPass) {  // FX-3.3.f
+  buffers_[50] = {kActive << 24, 0x300 << 18};
+  buffers_[20].id = 0x100 << 18;
+  buffers_[60].id = 0x400 << 18;
+  settle();
+  ASSERT_EQ(top_.best_idx_o, 50);
+  clock(20, kActive << 24, 100);
+  clock(60, kActive << 24, 100);  // in the next clock: the insertion of 20 is lost
+  for (unsigned i = 0; i < 6; ++i) clock({}, 0, 100);
+  top_.eval();
+  ASSERT_TRUE(top_.settled_o != 0 && top_.best_idx_o == 50 && top_.scan_lazy_o == 0);
+  send_for(50, 8);
+  fail();
+  expect_settled(20);
+}
+
 // Nor is the retry the best of all any more if TTXMB holds it now.
 TEST_P(MbTx, RetryThatIsHeldNow) {  // TM-41
   buffers_[3] = {kActive << 24, 0x100 << 18};
