@@ -66,8 +66,9 @@ TEST(JudgedStop, StampsGoOnFromTheClockOfTheStop) {
   EXPECT_EQ(judged, 4 * kClocksPerBit);
 }
 
-/// Node b, whose REC is 5, receives a frame from 1,440 us on, and leaves the bus for disable mode
-/// `clock` clocks behind that; `faults`: what else befalls it.
+/// Node b, whose REC the frames before have brought from 10 to 5 (FC-10), receives a frame from
+/// 1,440 us on, and leaves the bus for disable mode `clock` clocks behind that; `faults`: what else
+/// befalls it.
 Scenario disabled_in_a_frame(unsigned clock, const std::string &faults) {
   const std::string at = std::to_string(1'440'000'000 + clock * 125'000) + " ps";
   return parse_scenario(

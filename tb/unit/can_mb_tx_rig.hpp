@@ -148,7 +148,7 @@ class MbTx : public ::testing::TestWithParam<Mode> {
     top_.off_i = 0;
     top_.retry_i = 1;
   }
-  // Whoever is settled while two passes go by is `index`.
+  // Whoever is settled, for as long as three passes may take, is `index`; somebody is in the end.
   void expect_settled(unsigned index) {
     for (unsigned i = 0; i < 3 * kPass; ++i) {
       clock({}, 0, 100);
