@@ -255,6 +255,25 @@ class IpXact(Case):
         for wrapper in self.wrappers.values():
             self.assertEqual(xact_registers(self.tree(wrapper)), described)
 
+    def test_what_the_core_changes_is_volatile(self):
+        """PK-60: a model of the registers must not expect there what was written last."""
+        for wrapper in self.wrappers.values():
+            told = {(register.findtext(f"{SPACE}name"), field.findtext(f"{SPACE}name")):
+                    field.findtext(f"{SPACE}volatile") == "true"
+                    for register in self.tree(wrapper).iter(f"{SPACE}register")
+                    for field in register.iter(f"{SPACE}field")}
+            for name in ("TIMER", "ECR", "ESR1", "IFLAG1", "IFLAG2", "ESR2", "CRCR", "RXFIR",
+                         "CS", "ID", "DATA0", "DATA1", "STAMPLO_63"):
+                fields = {told[key] for key in told if key[0] == name}
+                self.assertEqual(fields, {True}, name)
+            for name in ("CTRL1", "CTRL2", "RXGMASK", "IMASK1", "IMASK2", "RXFGMASK", "RXIMR",
+                         "XID", "XVERSION", "XCONFIG", "XCTRL", "TCAP", "TINCN", "TCMP"):
+                fields = {told[key] for key in told if key[0] == name}
+                self.assertEqual(fields, {False}, name)
+            changed = {name for register, name in told if told[register, name]
+                       and register == "MCR"}
+            self.assertEqual(changed, {"NOT_RDY", "SOFT_RST", "FRZ_ACK", "LPM_ACK"})
+
     def test_descriptions_are_sentences(self):
         for wrapper in self.wrappers.values():
             told = {entry.findtext(f"{SPACE}name"): entry.findtext(f"{SPACE}description")

@@ -78,8 +78,9 @@ def bus_interfaces(component, wrapper):
     add(add(slave, "slave"), "memoryMapRef", memoryMapRef="registers")
 
 
-def add_fields(parent, register):
-    """The fields of a register, the lowest first as the standard wants."""
+def add_fields(parent, register, in_buffer):
+    """The fields of a register, the lowest first as the standard wants. The core writes all words
+    of a buffer."""
     for part in sorted(register.fields, key=lambda field: field.low):
         access, on_write, on_read = ACCESS[part.access]
         entry = add(parent, "field")
@@ -90,6 +91,8 @@ def add_fields(parent, register):
         reset = BUFFERS if part.reset == NUM_MB else part.reset
         add(add(add(entry, "resets"), "reset"), "value", f"'h{reset:X}")
         add(entry, "bitWidth", part.width)
+        if in_buffer or part.volatile:
+            add(entry, "volatile", "true")
         add(entry, "access", access)
         if on_write:
             add(entry, "modifiedWriteValue", on_write)
@@ -117,7 +120,7 @@ def memory_map(component, regmap):
     add(row, "addressOffset", f"'h{buffers.offset:X}")
     add(row, "range", f"'h{buffers.stride:X}")
     for word in regmap.words:
-        add_registers(row, word)
+        add_registers(row, word, in_buffer=True)
     add(memory, "addressUnitBits", 8)
 
 
@@ -133,7 +136,7 @@ def described(register):
     return text
 
 
-def add_registers(block, register):
+def add_registers(block, register, in_buffer=False):
     """A register or a row of them; the standard's rows have no gaps, so others are listed."""
     count = BUFFERS if register.count == NUM_MB else register.count
     apart = count != 1 and register.stride != 4
@@ -145,7 +148,7 @@ def add_registers(block, register):
             add(entry, "dim", count)
         add(entry, "addressOffset", f"'h{register.offset + number * register.stride:X}")
         add(entry, "size", 32)
-        add_fields(entry, register)
+        add_fields(entry, register, in_buffer)
 
 
 def model_of(component, wrapper):

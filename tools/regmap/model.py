@@ -141,6 +141,13 @@ class Field:
         """Whether software can give it a value."""
         return self.access == "rw"
 
+    @property
+    def volatile(self):
+        """Whether the core changes it by itself. What can only be read and stays over a soft reset
+        is a constant of the core."""
+        return (self.live or self.access in ("w1c", "rc", "w1s")
+                or (self.access == "ro" and not self.kept))
+
 
 @dataclass
 class Register:
