@@ -165,6 +165,13 @@ class StandIn(unittest.TestCase):
         self.assertEqual([str(Path(path).relative_to(design.ROOT)) for path in core.sources],
                          design.rtl_files())
 
+    def test_gowins_tool_is_told_the_language(self):
+        for chosen, wanted in (({}, "sysv2017"), ({"verilog_std": "sysv2020"}, "sysv2020")):
+            board = Platform()
+            board.toolchain = type("GowinToolchain", (), {"options": chosen})()
+            self.verican.VeriCAN(board, self.pads)
+            self.assertEqual(board.toolchain.options, {"verilog_std": wanted})
+
     def test_it_joins_a_soc(self):
         soc = Soc()
         self.verican.VeriCAN.add_to(soc, "controller0", self.pads, 0xF0040000)

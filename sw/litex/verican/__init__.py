@@ -39,6 +39,16 @@ def rtl_files(folder):
     return [folder / name for name in names if name]
 
 
+def add_sources(platform, folder):
+    """Gives the platform the RTL. Gowin's tool reads even files that end with .sv as Verilog of
+    2001, so a design that has not chosen a standard gets SystemVerilog."""
+    for path in rtl_files(folder):
+        platform.add_source(str(path))
+    toolchain = getattr(platform, "toolchain", None)
+    if type(toolchain).__name__ == "GowinToolchain":
+        toolchain.options.setdefault("verilog_std", "sysv2017")
+
+
 class Interrupt(Module):
     """What LiteX expects as `ev`: the level of irq_o. FlexCAN drivers clear it in the core."""
 
@@ -77,8 +87,7 @@ class VeriCAN(Module):
             o_wb_dat_o=self.bus.dat_r, o_wb_ack_o=self.bus.ack, o_wb_err_o=self.bus.err,
             o_irq_o=self.ev.irq, i_ext_i=0, i_stop_req_i=0,
             i_can_rx_i=pads.rx, o_can_tx_o=pads.tx)
-        for path in rtl_files(folder):
-            platform.add_source(str(path))
+        add_sources(platform, folder)
 
     @classmethod
     def add_to(cls, soc, name, pads, origin, **options):
