@@ -31,7 +31,7 @@ bool WireJudge::disturbed(NodeId id, Time sof, Time end) const {
 }
 
 void WireJudge::bit(NodeId id, Time time, const NodeBit &bit, const Frame &frame) {
-  if (!successes_.empty() || !deliveries_.empty())
+  if (!successes_.empty() || !deliveries_.empty() || !unclaimed_.empty())
     settle(time - 3 * bit_time_, time - kFar * bit_time_);
   NodeView &node = nodes_[id];
   if (bit.started) node.sof = time + (bit.rx == Level::kRecessive ? bit_time_ : 0);
@@ -74,6 +74,7 @@ void WireJudge::settle(Time nodes_until, Time wire_until) {
     judge_left_over(deliveries_.front());
     deliveries_.pop_front();
   }
+  judge_unclaimed(nodes_until);
   while (!unseen_.empty() && unseen_.front().end < wire_until) {
     const Success &success = unseen_.front();
     if (clean(success.sof, success.end)) {
@@ -144,8 +145,19 @@ void WireJudge::judge_left_over(const Delivery &delivery) {
   }
 }
 
+void WireJudge::judge_unclaimed(Time until) {
+  while (!unclaimed_.empty() && unclaimed_.front().end < until) {
+    const BusFrame &frame = unclaimed_.front();
+    report_(fmt::format("{} was on the wire until {:.3f} us, but nobody counts it as sent",
+                        frame_text(frame.frame), static_cast<double>(frame.end) / kMicrosecond));
+    unclaimed_.pop_front();
+  }
+}
+
 void WireJudge::finish(Time now) {
   end_ = now;
+  judge_unclaimed(now - kApart * bit_time_);
+  unclaimed_.clear();  // the run is over before the sender's EOF7
   settle(now + 100 * bit_time_, now + kFar * bit_time_);
 }
 
@@ -153,12 +165,10 @@ void WireJudge::on_wire(const BusFrame &frame) {
   const bool strict = clean(frame.start, frame.end);
   settle(-kFar * bit_time_, frame.start);
   const auto mine = std::find_if(unseen_.begin(), unseen_.end(), [&](const Success &s) {
-    return std::abs(s.end - frame.end) < 2 * bit_time_;
+    return std::abs(s.end - frame.end) < kApart * bit_time_;
   });
   if (mine == unseen_.end()) {
-    if (strict)
-      report_(fmt::format("{} was on the wire until {:.3f} us, but nobody counts it as sent",
-                          frame_text(frame.frame), static_cast<double>(frame.end) / kMicrosecond));
+    if (strict) unclaimed_.push_back(frame);
     return;
   }
   const bool undisturbed = !disturbed(mine->node, mine->sof, mine->end);

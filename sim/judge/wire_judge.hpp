@@ -51,13 +51,16 @@ class WireJudge {
   void bit(NodeId id, Time time, const NodeBit &bit, const Frame &frame);
   /// A frame that the decoder saw.
   void on_wire(const BusFrame &frame);
-  /// Judges what is still open; but what was delivered last may be ended by its sender only later.
+  /// Judges what is still open; but what was delivered, or was on the wire, last may be ended by
+  /// its sender only later.
   void finish(Time now);
 
   [[nodiscard]] const WireCounts &counts() const { return counts_; }
 
  private:
   static constexpr Time kFar = 1'000'000;
+  /// Bits by which the ends of a frame differ at most, as its sender and the decoder see them.
+  static constexpr Time kApart = 2;
 
   struct Success {
     NodeId node = 0;
@@ -85,6 +88,7 @@ class WireJudge {
   [[nodiscard]] bool same_exchange(const Success &a, const Success &b) const;
   [[nodiscard]] bool sent_together(const Success &success) const;
   void judge_left_over(const Delivery &delivery);
+  void judge_unclaimed(Time until);
   [[nodiscard]] bool clean(Time sof, Time end) const;
   [[nodiscard]] bool disturbed(NodeId id, Time sof, Time end) const;
   [[nodiscard]] std::string when(Time time) const;
@@ -96,6 +100,7 @@ class WireJudge {
   std::deque<Success> successes_;  // their bit is over, the nodes' views are not complete
   std::deque<Delivery> deliveries_;
   std::deque<Success> unseen_;                   // by the decoder
+  std::deque<BusFrame> unclaimed_;               // seen by the decoder, and nobody has sent them
   Time end_ = std::numeric_limits<Time>::max();  // of the run
   WireCounts counts_;
 };

@@ -224,5 +224,20 @@ TEST(WireJudgeAlone, SeesLossesDoublesAndChanges) {
   EXPECT_THAT(third_starts(2, kPart), HasSubstr("failed before EOF7"));
 }
 
+// The run may be over between the frame's end on the wire and its sender's sample point of EOF7.
+TEST(WireJudgeAtTheEnd, TheSenderOfTheLastFrameMayNotHaveEndedIt) {
+  const auto judge = [](Time left) {
+    std::string text;
+    WireJudge wire{kMicrosecond, [&](const std::string &line) { text += line + "\n"; }};
+    wire.add_node("a");
+    wire.on_wire({{.id = 1, .dlc = 0}, kMillisecond, kMillisecond + 44 * kMicrosecond, 0});
+    wire.finish(kMillisecond + 44 * kMicrosecond + left);
+    return text;
+  };
+  EXPECT_EQ(judge(0), "");
+  EXPECT_EQ(judge(kMicrosecond), "");
+  EXPECT_THAT(judge(3 * kMicrosecond), HasSubstr("nobody counts it"));
+}
+
 }  // namespace
 }  // namespace vericansim
