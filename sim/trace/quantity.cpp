@@ -20,6 +20,7 @@ namespace {
 struct Unit {
   std::string_view name;
   double factor;
+  double divisor = 1;  // 95 / 100 is 0.95; 95 * 0.01 is a little more
 };
 
 std::optional<double> parse_with(std::string_view text, std::span<const Unit> units) {
@@ -30,7 +31,7 @@ std::optional<double> parse_with(std::string_view text, std::span<const Unit> un
   if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
   const std::string_view unit = text::trimmed({stop, static_cast<std::size_t>(end - stop)});
   for (const Unit &candidate : units)
-    if (unit == candidate.name) return value * candidate.factor;
+    if (unit == candidate.name) return value * candidate.factor / candidate.divisor;
   return std::nullopt;
 }
 
@@ -39,8 +40,8 @@ constexpr Unit kFrequency[] = {{"", 1},    {"Hz", 1},    {"k", 1e3},  {"kHz", 1e
 constexpr Unit kBitrate[] = {{"", 1},         {"bit/s", 1}, {"k", 1e3},
                              {"kbit/s", 1e3}, {"M", 1e6},   {"Mbit/s", 1e6}};
 constexpr Unit kTime[] = {{"ps", 1}, {"ns", 1e3}, {"us", 1e6}, {"ms", 1e9}, {"s", 1e12}};
-constexpr Unit kLength[] = {{"", 1}, {"m", 1}, {"cm", 0.01}, {"km", 1e3}};
-constexpr Unit kPart[] = {{"", 1}, {"%", 0.01}};
+constexpr Unit kLength[] = {{"", 1}, {"m", 1}, {"cm", 1, 100}, {"km", 1e3}};
+constexpr Unit kPart[] = {{"", 1}, {"%", 1, 100}};
 constexpr Unit kNone[] = {{"", 1}};
 
 }  // namespace

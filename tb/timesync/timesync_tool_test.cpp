@@ -81,6 +81,12 @@ TEST_F(TimeSync, Options) {
   EXPECT_EQ(automatic["case"]["filter"], 0);
 }
 
+// TM-124: the largest load that is allowed, as the message for others writes it.
+TEST_F(TimeSync, LargestLoadInPercent) {
+  const json one = run_json("--load-above '95 %' --intervals 20 --seeds 1");
+  EXPECT_EQ(one["case"]["load_above"], 0.95);
+}
+
 // TM-124: a case file, and options that take the place of what it says.
 TEST_F(TimeSync, CaseFile) {
   const std::string file = file_with("case.yaml",

@@ -33,6 +33,8 @@ TEST(Quantity, NumbersWithUnits) {
   EXPECT_EQ(parse_time("0"), 0);
   EXPECT_EQ(parse_length("40 m"), 40.0);
   EXPECT_EQ(parse_part("87.5 %"), 0.875);
+  EXPECT_EQ(parse_part("95 %"), 0.95);
+  EXPECT_EQ(parse_length("29 cm"), 0.29);
   EXPECT_EQ(parse_integer("0x7FF"), 0x7FFU);
   EXPECT_EQ(parse_integer("0b101"), 5U);
 }
