@@ -82,16 +82,18 @@ void SyncLoop::cut_master() {
 
 void SyncLoop::sync(double interval_s, const std::function<bool(unsigned)> &lost) {
   const Nanoseconds before = now;
-  now += interval_s * 1e9L;
+  now = std::max(now + interval_s * 1e9L, over_);
   const Pair pair = send();
   look((before + now) / 2);
   look(pair.handled);
   for (unsigned n = 0; n < setting_.followers; ++n)
-    if (n + 1 != master_ && (!lost || !lost(n))) follow(n, pair);
-  look(pair.handled + 1e3L);
+    if (pair.has_sync && n + 1 != master_ && (!lost || !lost(n))) follow(n, pair);
+  over_ = pair.handled + 1e3L;
+  look(over_);
 }
 
-// SYNC leaves at an edge of the master's clock; FUP follows when software has seen its end (TM-50).
+// SYNC leaves at an edge of the master's clock; FUP follows when software has seen its end. A SYNC
+// that is not sent within R is aborted (TM-50).
 SyncLoop::Pair SyncLoop::send() {
   ClockNode &master = nodes[master_];
   Pair pair{};
@@ -99,6 +101,12 @@ SyncLoop::Pair SyncLoop::send() {
   verican_tsyn_write_sync(&sender_, &rules_, master.now(queued), pair.sync);
   const std::size_t bits = bits_of(pair.sync);
   const Nanoseconds sof = queued + traffic_.until_sof(bits);
+  const Nanoseconds given_up = queued + setting_.interval_s * 1e9L;
+  if (sof + traffic_.duration(bits) > given_up) {
+    pair.handled = given_up;
+    return pair;
+  }
+  pair.has_sync = true;
   const std::int64_t sent = master.oscillator.edge_after(sof);
   pair.edge = master.oscillator.time_of(sent, sof);
   const std::uint64_t t1 = master_stamp(sent, pair.edge);
@@ -182,6 +190,7 @@ std::uint8_t SyncLoop::state_of(unsigned n, std::uint64_t clock) {
 }
 
 void SyncLoop::look(Nanoseconds t) {
+  if (t < over_) return;
   SyncLook look{to_picoseconds(t), {}};
   for (unsigned n = 0; n < setting_.followers; ++n) {
     ClockNode &node = nodes[n + 1];

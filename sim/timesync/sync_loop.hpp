@@ -33,14 +33,14 @@ class SyncLoop {
   std::vector<ClockNode> nodes;  ///< the first is the master, until it is cut off
   std::vector<verican_servo_t> servos;
   SyncRun result;
-  Nanoseconds now = 1e6;  ///< when the last SYNC was due
+  Nanoseconds now = 1e6;  ///< when the last SYNC was due, or could go out
   std::function<void(unsigned follower, const verican_correction_t &)> on_correction;
 
  private:
   /// A SYNC and its FUP on the bus.
   struct Pair {
     std::uint8_t sync[8], fup[8];
-    bool has_fup;
+    bool has_sync, has_fup;
     Nanoseconds edge;     ///< the reference edge of SYNC, at the master's transmit flip-flop
     Nanoseconds handled;  ///< when the followers correct their clocks
   };
@@ -64,6 +64,7 @@ class SyncLoop {
   verican_tsyn_sender_t sender_{};
   std::vector<verican_tsyn_receiver_t> receivers_;
   std::vector<HardwareFollower> hardware_;  // instead of servos, or empty
+  Nanoseconds over_ = 0;                    // when the last pair was over; nothing is before it
   unsigned master_ = 0;                     // of nodes
 };
 

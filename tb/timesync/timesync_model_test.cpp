@@ -229,6 +229,40 @@ TEST(SyncLoop, RunsTheCase) {
             run.looks.back().followers.back().error);
 }
 
+// TM-121: frames above SYNC's priority can keep SYNC and FUP waiting for longer than R. Pairs stay
+// one behind the other then, and who is locked is within the bound of section 12.
+TEST(SyncLoop, PairsThatWaitLongerThanTheyAreApart) {
+  for (const double interval_s : {0.05, 0.1, 0.2}) {
+    SyncCase setting;
+    setting.load_above = 0.9;
+    setting.interval_s = interval_s;
+    const SyncRun run = run_by_model(setting, 1);
+    unsigned locked = 0;
+    for (std::size_t n = 1; n < run.looks.size(); ++n) {
+      EXPECT_GT(run.looks[n].at, run.looks[n - 1].at);
+      for (const SyncReading &reading : run.looks[n].followers) {
+        if (!reading.locked()) continue;
+        ++locked;
+        EXPECT_LE(std::abs(static_cast<double>(reading.error)) / 1e3, *steady_bound(setting));
+      }
+    }
+    EXPECT_GT(locked, 0u) << interval_s;
+  }
+}
+
+// TM-50: a SYNC that is not sent within R is aborted, and no FUP goes out.
+TEST(SyncLoop, SyncThatIsNotSentWithinRIsAborted) {
+  SyncCase setting;
+  setting.load_above = 0.95;
+  setting.interval_s = 0.05;
+  setting.bitrate = 100e3;  // a SYNC waits for a quarter of a second, on average
+  setting.intervals = 100;
+  const SyncRun run = run_by_model(setting, 1);
+  EXPECT_GT(run.frames, 0u);
+  EXPECT_LT(run.frames, 100u);
+  EXPECT_EQ(run.frames % 2, 0u);
+}
+
 // TM-87: a follower that hears nothing for more than three intervals holds over, and tells so.
 TEST(SyncLoop, LosesAndFindsItsMaster) {
   SyncCase setting;
