@@ -51,6 +51,7 @@ void CortexM3::clock() {
   ++cycles_;
   if (halted()) return;
   system_.clock();
+  if (nvic_.take_new_pending() && system_.event_on_pending()) event_ = true;
   if (busy_ > 0) {
     --busy_;
     return;
@@ -68,9 +69,8 @@ void CortexM3::clock() {
 // Between two instructions: wake up, take an exception, or go on.
 void CortexM3::at_boundary() {
   if (state_ == State::kSleeping) {
-    const bool awake = sleeping_for_event_ ? event_ || nvic_.preempting().has_value() ||
-                                                 (system_.event_on_pending() && nvic_.wakes())
-                                           : nvic_.wakes();
+    const bool awake =
+        sleeping_for_event_ ? event_ || nvic_.preempting().has_value() : nvic_.wakes();
     if (!awake) return;
     if (sleeping_for_event_) event_ = false;
     state_ = State::kRunning;

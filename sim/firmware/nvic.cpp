@@ -67,7 +67,7 @@ bool Nvic::enabled(unsigned exception) const {
 
 void Nvic::line(unsigned irq, bool high) {
   const unsigned exception = kIrq0 + irq;
-  if (high && (!lines_.test(exception) || !active_.test(exception))) pending_.set(exception);
+  if (high && (!lines_.test(exception) || !active_.test(exception))) pend(exception);
   lines_.set(exception, high);
 }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "firmware/memory_map.hpp"
 
@@ -50,7 +51,10 @@ class Nvic {
 
   // ---- States
 
-  void pend(unsigned exception) { pending_.set(exception); }
+  void pend(unsigned exception) {
+    new_pending_ = new_pending_ || !pending_.test(exception);
+    pending_.set(exception);
+  }
   void unpend(unsigned exception) { pending_.reset(exception); }
   void enable(unsigned exception, bool on) { enabled_.set(exception, on); }
   void set_priority(unsigned exception, std::uint8_t value);
@@ -78,6 +82,8 @@ class Nvic {
   [[nodiscard]] std::optional<unsigned> first_pending() const;
   /// The exception that preempts what runs now, if any.
   [[nodiscard]] std::optional<unsigned> preempting() const;
+  /// True if an exception, enabled or not, has become pending since the last call.
+  [[nodiscard]] bool take_new_pending() { return std::exchange(new_pending_, false); }
   /// True if a WFI ends now.
   [[nodiscard]] bool wakes() const;
 
@@ -97,6 +103,7 @@ class Nvic {
   [[nodiscard]] std::uint32_t word_of(const Flags &flags, unsigned word) const;
 
   Flags enabled_, pending_, active_, lines_;
+  bool new_pending_ = false;
   std::array<std::uint8_t, kExceptions> priority_{};
 };
 

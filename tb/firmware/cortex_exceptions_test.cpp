@@ -250,6 +250,32 @@ TEST(CortexSleep, WfeEndsWithAnEventOrAHandler) {
   ASSERT_TRUE(other.finish(1));
 }
 
+// B1.5.18: with SCR.SEVONPEND what becomes pending is an event, be it enabled or not, and it is
+// kept for the next WFE. What has been pending before is none.
+TEST(CortexSleep, WfeEndsWithWhatBecomesPending) {
+  tb::CortexRig rig;
+  rig.go("wait_for_event");
+  rig.clock(100);
+  rig.cpu.nvic().pend(kIrq32);  // not enabled, and SEVONPEND is 0
+  rig.clock(100);
+  ASSERT_EQ(rig.cpu.state(), State::kSleeping);
+  ASSERT_TRUE(rig.cpu.system().write(0xE000'ED10, 4, 1U << 4));
+  rig.clock(100);
+  EXPECT_EQ(rig.cpu.state(), State::kSleeping);
+  rig.cpu.nvic().line(31, true);
+  ASSERT_TRUE(rig.finish(1));
+  rig.clock(100);
+  EXPECT_EQ(rig.cpu.state(), State::kSleeping);
+  EXPECT_EQ(rig.reg(7), 1U);
+  EXPECT_TRUE(rig.logged().empty());
+
+  tb::CortexRig before;
+  ASSERT_TRUE(before.cpu.system().write(0xE000'ED10, 4, 1U << 4));
+  before.cpu.nvic().pend(kIrq32);
+  before.go("wait_for_event");
+  EXPECT_TRUE(before.finish(1));
+}
+
 TEST(CortexSleep, SleepOnExit) {
   tb::CortexRig rig;
   ASSERT_TRUE(rig.cpu.system().write(0xE000'ED10, 4, 2));
