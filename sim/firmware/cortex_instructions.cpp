@@ -73,8 +73,7 @@ bool CortexM3::narrow_instruction(std::uint32_t code) {
     finish_instruction(2);
     hint(code >> 4 & 0xF);
   } else if (is_it(code) && system_in_it(code)) {
-    const std::uint32_t pc = engine_.reg(kPc);
-    raise({FaultKind::kSystemInIt, pc}, pc);
+    stop({FaultKind::kSystemInIt, engine_.reg(kPc)}, State::kStopped);
   } else {
     return false;
   }

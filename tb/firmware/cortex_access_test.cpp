@@ -187,6 +187,15 @@ TEST(CortexInstructions, ConditionalSystemInstructionIsRefused) {
   EXPECT_EQ(fault_of("conditional_system", rig).kind, FaultKind::kSystemInIt);
 }
 
+// It is a limit of the simulation: no handler of the firmware's may take it for its own fault.
+TEST(CortexInstructions, RefusalIsNotTheFirmwaresBusiness) {
+  tb::CortexRig rig{{.catch_hard_fault = false}};
+  ASSERT_TRUE(rig.cpu.system().write(0xE000'ED24, 4, 7U << 16));
+  EXPECT_EQ(fault_of("conditional_system", rig).kind, FaultKind::kSystemInIt);
+  EXPECT_EQ(rig.cpu.state(), State::kStopped);
+  EXPECT_THAT(rig.logged(), ElementsAre());
+}
+
 // ---- Faults (B1.5.14): what, where, and which status bit
 
 TEST(CortexFaults, KindAddressAndStatus) {
