@@ -140,7 +140,7 @@ void CortexM3::change_state(std::uint32_t code) {
 void CortexM3::supervisor_call() {
   const std::uint32_t pc = engine_.reg(kPc);
   if (nvic_.group_priority(kSvCall) >= nvic_.execution_priority())
-    return escalate({FaultKind::kSvc, pc}, pc);
+    return raise({FaultKind::kSvc, pc}, pc);
   ++instructions_;
   take(kSvCall, pc + 2);
 }
@@ -148,7 +148,7 @@ void CortexM3::supervisor_call() {
 void CortexM3::breakpoint(unsigned number) {
   constexpr unsigned kSemihosting = 0xAB;
   const std::uint32_t pc = engine_.reg(kPc);
-  if (number != kSemihosting || !on_semihosting) return escalate({FaultKind::kBreakpoint, pc}, pc);
+  if (number != kSemihosting || !on_semihosting) return raise({FaultKind::kBreakpoint, pc}, pc);
   finish_instruction(2);
   on_semihosting();
 }

@@ -30,6 +30,7 @@ void CortexM3::reset() {
   state_ = State::kRunning;
   fault_.reset();
   ipsr_ = control_ = other_sp_ = 0;
+  no_thumb_.reset();
   event_ = sleeping_for_event_ = waiting_ = false;
   replies_.clear();
   busy_ = 0;
@@ -39,12 +40,11 @@ void CortexM3::reset() {
   registers.r[kLr] = 0xFFFF'FFFF;
   registers.r[kPc] = vector & ~1U;
   engine_.set_registers(registers);
-  if ((vector & 1) == 0) stop({FaultKind::kVector, vector, kFlash.base + 4}, State::kLockUp);
+  if ((vector & 1) == 0) stop({FaultKind::kNoThumb, vector, vector}, State::kLockUp);
 }
 
 std::uint32_t CortexM3::xpsr() const {
-  constexpr std::uint32_t kThumb = 1U << 24;
-  return engine_.registers().flags | kThumb | ipsr_;
+  return engine_.registers().flags | (no_thumb_ ? 0 : kXpsrThumb) | ipsr_;
 }
 
 void CortexM3::clock() {
@@ -77,6 +77,7 @@ void CortexM3::at_boundary() {
   }
   if (const auto exception = nvic_.preempting()) return take(*exception, engine_.reg(kPc));
   const std::uint32_t pc = engine_.reg(kPc);
+  if (no_thumb_) return raise(*no_thumb_, pc);
   if (handler_mode() && pc >= 0xFFFF'FFE0) return exception_return(pc | 1);
   execute();
 }
@@ -88,7 +89,9 @@ void CortexM3::execute() {
     case Engine::StepEnd::kFault: {
       replies_.clear();
       const Fault fault = engine_.fault();
-      return raise(fault, fault.kind == FaultKind::kInvalidState ? fault.address : fault.pc);
+      if (fault.kind != FaultKind::kInvalidState) return raise(fault, fault.pc);
+      no_thumb_ = fault;
+      return raise(fault, fault.address);
     }
     case Engine::StepEnd::kDone: break;
   }

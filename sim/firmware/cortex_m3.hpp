@@ -91,6 +91,8 @@ class CortexM3 : private DeviceSpace {
   [[nodiscard]] std::uint32_t control() const { return control_; }
 
  private:
+  static constexpr std::uint32_t kXpsrThumb = 1U << 24;
+
   // cortex_m3.cpp
   DeviceReply access(unsigned index, const DeviceAccess &access) override;
   DeviceReply system_access(const DeviceAccess &access);
@@ -104,12 +106,13 @@ class CortexM3 : private DeviceSpace {
   // cortex_exceptions.cpp
   void take(unsigned exception, std::uint32_t return_address);
   void enter_handler(unsigned exception, std::uint32_t exc_return);
-  [[nodiscard]] std::optional<std::uint32_t> push_frame(std::uint32_t return_address);
+  [[nodiscard]] bool push_frame(std::uint32_t return_address);
+  void go_on_at(std::uint32_t pc, bool thumb);
   void exception_return(std::uint32_t exc_return);
   void pop_frame(std::uint32_t exc_return);
   [[nodiscard]] bool return_is_valid(std::uint32_t exc_return) const;
   void raise(const Fault &fault, std::uint32_t return_address);
-  void escalate(const Fault &fault, std::uint32_t return_address);
+  [[nodiscard]] std::optional<unsigned> handler_of(const Fault &fault);
   void stop(const Fault &fault, State state);
   void swap_stacks();
 
@@ -136,9 +139,10 @@ class CortexM3 : private DeviceSpace {
   State state_ = State::kRunning;
   std::optional<Fault> fault_;
   unsigned ipsr_ = 0;
-  std::uint32_t control_ = 0;   // bit 1 SPSEL, bit 0 nPRIV
-  std::uint32_t other_sp_ = 0;  // the stack pointer that is not SP now
-  bool event_ = false;          // of SEV and WFE
+  std::uint32_t control_ = 0;      // bit 1 SPSEL, bit 0 nPRIV
+  std::uint32_t other_sp_ = 0;     // the stack pointer that is not SP now
+  std::optional<Fault> no_thumb_;  // EPSR.T is 0: what the next instruction does
+  bool event_ = false;             // of SEV and WFE
   bool sleeping_for_event_ = false;
 
   std::uint64_t cycles_ = 0, instructions_ = 0;

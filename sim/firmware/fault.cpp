@@ -47,8 +47,9 @@ std::uint32_t fault_status(FaultKind kind) {
     case FaultKind::kUnstacking: return 1U << 11;  // UNSTKERR
     case FaultKind::kStacking: return 1U << 12;    // STKERR
     case FaultKind::kUndefined:
-    case FaultKind::kSystemInIt: return 1U << 16;     // UNDEFINSTR
-    case FaultKind::kInvalidState: return 1U << 17;   // INVSTATE
+    case FaultKind::kSystemInIt: return 1U << 16;  // UNDEFINSTR
+    case FaultKind::kInvalidState:
+    case FaultKind::kNoThumb: return 1U << 17;        // INVSTATE
     case FaultKind::kInvalidReturn: return 1U << 18;  // INVPC
     case FaultKind::kNoCoprocessor: return 1U << 19;  // NOCP
     case FaultKind::kUnaligned: return 1U << 24;      // UNALIGNED
@@ -78,6 +79,11 @@ std::string fault_text(const Fault &fault, std::size_t cores) {
     case FaultKind::kInvalidState:
       return fmt::format("branch to {} with bit 0 clear (ARM code; this CPU knows Thumb only)",
                          hex32(fault.address));
+    case FaultKind::kNoThumb:
+      return fmt::format(
+          "no Thumb state at {}: the vector of the handler is even, or bit 24 of the "
+          "stacked xPSR is 0",
+          hex32(fault.address));
     case FaultKind::kInvalidReturn:
       return fmt::format("exception return with {}, which does not fit the state of the CPU",
                          hex32(fault.address));
@@ -92,8 +98,7 @@ std::string fault_text(const Fault &fault, std::size_t cores) {
       return fmt::format("exception return: no memory at the stack pointer {}",
                          hex32(fault.address));
     case FaultKind::kVector:
-      return fmt::format("the vector at {} cannot be read, or does not point to Thumb code",
-                         hex32(fault.address));
+      return fmt::format("the vector at {} cannot be read", hex32(fault.address));
     case FaultKind::kBreakpoint: return "BKPT instruction (only BKPT 0xAB, semihosting, is served)";
     case FaultKind::kSvc: return "SVC instruction where SVCall has not priority enough";
   }

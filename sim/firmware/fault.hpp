@@ -19,6 +19,7 @@ enum class FaultKind : std::uint8_t {
   kSystemSize,     ///< byte or half-word access to a system register that takes words
   kUndefined,      ///< no such instruction
   kInvalidState,   ///< branch to an even address: ARM code, which the CPU has not got
+  kNoThumb,        ///< behind a vector or an exception return that says so
   kInvalidReturn,  ///< EXC_RETURN that does not fit the state
   kNoCoprocessor,
   kSystemInIt,  ///< conditional system or coprocessor instruction; a limit of this

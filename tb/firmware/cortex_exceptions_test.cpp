@@ -336,6 +336,154 @@ TEST(CortexReturn, InvalidReturnIsAFault) {
   EXPECT_EQ(rig.cpu.system().cfsr(), 1U << 18);  // INVPC
 }
 
+/// The stacked xPSR of the handler of IRQ 32, which has just been entered.
+constexpr std::uint32_t kStackedXpsr = 0x2000'8000 - 4;
+
+/// Enters the handler of IRQ 32.
+void enter_irq32(tb::CortexRig &rig) {
+  rig.enable(32);
+  rig.cpu.nvic().pend(kIrq32);
+  ASSERT_TRUE(rig.run_until([&] { return rig.cpu.ipsr() == kIrq32; }));
+}
+
+// B1.5.8, B1.4.2: EPSR.T comes from the stacked xPSR, and no instruction can be executed without
+// it.
+TEST(CortexReturn, StackedXpsrWithoutThumbIsAFault) {
+  tb::CortexRig rig;
+  enter_irq32(rig);
+  rig.cpu.engine().write(kStackedXpsr, 4, 0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.cpu.halted(); }));
+  EXPECT_EQ(rig.cpu.system().cfsr(), 1U << 17);  // INVSTATE
+  EXPECT_EQ(rig.cpu.fault()->pc, rig.address("idle"));
+  EXPECT_EQ(rig.cpu.ipsr(), 0U);
+  EXPECT_EQ(rig.cpu.xpsr(), 0U);
+}
+
+// The handler sees in the frame that T was 0, and mends it.
+TEST(CortexReturn, UsageFaultHandlerMendsThumb) {
+  tb::CortexRig rig;
+  ASSERT_TRUE(rig.cpu.system().write(0xE000'ED24, 4, 7U << 16));
+  enter_irq32(rig);
+  rig.cpu.engine().write(kStackedXpsr, 4, 0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.cpu.ipsr() == kUsageFault; }));
+  EXPECT_EQ(rig.word(kStackedXpsr), 0U);
+  EXPECT_EQ(rig.word(kStackedXpsr - 4), rig.address("idle"));
+  rig.handler(kUsageFault, "log_handler");
+  rig.cpu.engine().write(kStackedXpsr, 4, 1U << 24);
+  ASSERT_TRUE(rig.run_until([&] { return rig.cpu.ipsr() == 0; }));
+  rig.clock(100);
+  EXPECT_FALSE(rig.cpu.halted());
+}
+
+// B1.5.8: the stacked exception number must fit the mode that EXC_RETURN asks for.
+TEST(CortexReturn, StackedExceptionNumberMustFitTheMode) {
+  tb::CortexRig rig;
+  enter_irq32(rig);
+  rig.cpu.engine().write(kStackedXpsr, 4, 1U << 24 | kIrq31);
+  ASSERT_TRUE(rig.run_until([&] { return rig.cpu.halted(); }));
+  EXPECT_EQ(rig.cpu.fault()->kind, FaultKind::kInvalidReturn);
+  EXPECT_EQ(rig.cpu.system().cfsr(), 1U << 18);  // INVPC
+}
+
+// ---- Vectors (B1.5.6, B1.5.14)
+
+// Bit 0 of a vector becomes EPSR.T: the fault is that of the handler's first instruction.
+TEST(CortexVector, EvenOneIsAUsageFaultInTheHandler) {
+  tb::CortexRig rig;
+  rig.cpu.engine().write(0x2000'6000 + 4 * kIrq32, 4, rig.address("log_handler"));
+  enter_irq32(rig);
+  ASSERT_TRUE(rig.run_until([&] { return rig.cpu.halted(); }));
+  EXPECT_EQ(rig.cpu.system().cfsr(), 1U << 17);  // INVSTATE
+  EXPECT_EQ(rig.cpu.system().hfsr(), 1U << 30);  // FORCED
+  EXPECT_EQ(rig.cpu.ipsr(), kIrq32);
+
+  tb::CortexRig served;
+  served.cpu.engine().write(0x2000'6000 + 4 * kIrq32, 4, served.address("log_handler"));
+  ASSERT_TRUE(served.cpu.system().write(0xE000'ED24, 4, 7U << 16));
+  served.handler(kUsageFault, "log_handler");
+  served.enable(32, 0x40);
+  served.cpu.nvic().pend(kIrq32);
+  ASSERT_TRUE(served.run_until([&] { return !served.logged().empty(); }));
+  EXPECT_EQ(served.logged().front(), 6U);
+}
+
+// A vector that cannot be read: the HardFault handler takes over the frame, the exception stays
+// pending.
+TEST(CortexVector, UnreadableOneIsAHardFault) {
+  for (const bool caught : {true, false}) {
+    tb::CortexRig rig{{.catch_hard_fault = caught}};
+    // The vector of HardFault is the last but 28 word of SRAM, that of IRQ 32 is behind its end.
+    rig.cpu.engine().write(0x2000'FF80 + 4 * kHardFault, 4, rig.address("log_handler") | 1);
+    ASSERT_TRUE(rig.cpu.system().write(0xE000'ED08, 4, 0x2000'FF80));
+    rig.enable(32);
+    rig.cpu.nvic().pend(kIrq32);
+    rig.clock(20);
+    EXPECT_EQ(rig.cpu.system().hfsr() & 2, 2U);  // VECTTBL
+    EXPECT_TRUE(rig.cpu.nvic().pending(kIrq32));
+    EXPECT_EQ(rig.cpu.halted(), caught);
+    if (caught) {
+      EXPECT_EQ(rig.cpu.fault()->kind, FaultKind::kVector);
+      continue;
+    }
+    EXPECT_EQ(rig.cpu.ipsr(), static_cast<unsigned>(kHardFault));
+    EXPECT_EQ(rig.reg(kSp), 0x2000'8000U - 32);
+    EXPECT_EQ(rig.reg(kLr), 0xFFFF'FFF9U);
+  }
+}
+
+// ---- Faults of stacking and unstacking (B1.5.11): the handler gets no frame of its own
+
+/// Goes on in Thread mode on a process stack where there is no memory for a frame.
+void run_on_lost_process_stack(tb::CortexRig &rig) {
+  rig.go("special_registers");
+  ASSERT_TRUE(rig.run_until([&] { return rig.reg(11) == 0xA800'0000; }));
+  rig.cpu.engine().set_reg(kSp, 0x2000'0010);
+}
+
+TEST(CortexEntry, EnabledBusFaultHandlerServesALostProcessStack) {
+  tb::CortexRig rig;
+  run_on_lost_process_stack(rig);
+  ASSERT_TRUE(rig.cpu.system().write(0xE000'ED24, 4, 1U << 17));
+  rig.handler(kBusFault, "spoil_handler");
+  rig.enable(32);
+  rig.cpu.nvic().pend(kIrq32);
+  ASSERT_TRUE(rig.run_until([&] { return rig.cpu.ipsr() == kBusFault; }));
+  EXPECT_EQ(rig.cpu.system().cfsr(), 1U << 12);  // STKERR
+  EXPECT_EQ(rig.reg(kLr), 0xFFFF'FFFDU);
+  EXPECT_EQ(rig.cpu.psp(), 0x2000'0010U - 32);
+  EXPECT_EQ(rig.reg(kSp), 0x2000'8000U);
+  EXPECT_TRUE(rig.cpu.nvic().pending(kIrq32));
+}
+
+TEST(CortexEntry, HardFaultHandlerServesALostProcessStack) {
+  tb::CortexRig rig{{.catch_hard_fault = false}};
+  run_on_lost_process_stack(rig);
+  rig.handler(kHardFault, "spoil_handler");
+  rig.enable(32);
+  rig.cpu.nvic().pend(kIrq32);
+  ASSERT_TRUE(rig.run_until([&] { return rig.cpu.ipsr() == kHardFault; }));
+  EXPECT_EQ(rig.cpu.system().hfsr(), 1U << 30);  // FORCED
+  EXPECT_EQ(rig.reg(kSp), 0x2000'8000U);
+}
+
+TEST(CortexReturn, LostProcessStack) {
+  for (const bool enabled : {false, true}) {
+    tb::CortexRig rig;
+    rig.go("special_registers");
+    ASSERT_TRUE(rig.run_until([&] { return rig.reg(11) == 0xA800'0000; }));
+    ASSERT_TRUE(rig.cpu.system().write(0xE000'ED24, 4, enabled ? 1U << 17 : 0));
+    rig.handler(kBusFault, "spoil_handler");
+    rig.handler(kIrq32, "lose_process_stack_handler");
+    enter_irq32(rig);
+    ASSERT_TRUE(rig.run_until([&] { return rig.cpu.halted() || rig.cpu.ipsr() == kBusFault; }));
+    EXPECT_EQ(rig.cpu.halted(), !enabled);
+    EXPECT_EQ(rig.cpu.system().cfsr(), 1U << 11);  // UNSTKERR
+    EXPECT_EQ(rig.cpu.msp(), 0x2000'8000U);
+    EXPECT_EQ(rig.cpu.psp(), 0x2000'FFF0U);
+    if (enabled) EXPECT_EQ(rig.reg(kLr), 0xFFFF'FFFDU);
+  }
+}
+
 TEST(CortexEntry, NoStackIsAFault) {
   tb::CortexRig rig;
   rig.go("empty_stack");

@@ -100,6 +100,12 @@ FUNCTION bad_return_handler
   ldr r0, =0xFFFFFFF5
   bx r0
 
+@ The process stack has no room for a frame any more.
+FUNCTION lose_process_stack_handler
+  ldr r0, =0x2000FFF0
+  msr psp, r0
+  bx lr
+
 @ ---- System instructions
 
 FUNCTION wait_for_interrupt
