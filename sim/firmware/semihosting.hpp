@@ -16,7 +16,7 @@
 namespace vericansim::firmware {
 
 /// What firmware finds on the other side. Output goes to one place, whatever the file handle; input
-/// is always at its end.
+/// is always at its end. The one file is that of the features.
 class Semihosting {
  public:
   /// Gets what the firmware prints.
@@ -36,12 +36,16 @@ class Semihosting {
   [[nodiscard]] std::string text_at(std::uint32_t address,
                                     std::optional<std::uint32_t> length) const;
   [[nodiscard]] std::uint32_t call(std::uint32_t operation, std::uint32_t parameter);
-  [[nodiscard]] std::uint32_t open(std::uint32_t block) const;
+  [[nodiscard]] std::uint32_t open(std::uint32_t block);
+  [[nodiscard]] std::uint32_t read(std::uint32_t block);
+  [[nodiscard]] std::uint32_t seek(std::uint32_t block);
+  [[nodiscard]] std::uint32_t length(std::uint32_t block) const;
   [[nodiscard]] std::uint32_t write(std::uint32_t block);
   [[nodiscard]] std::uint32_t elapsed(std::uint32_t block);
   void exit(std::uint32_t reason, std::uint32_t code);
 
-  Engine *engine_ = nullptr;  // while a call is served
+  Engine *engine_ = nullptr;    // while a call is served
+  std::uint32_t position_ = 0;  // in the file of features
   std::optional<int> exit_code_;
 };
 

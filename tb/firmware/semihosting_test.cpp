@@ -73,6 +73,36 @@ TEST_F(SemihostingCall, ConsoleFiles) {
   EXPECT_EQ(call(0x07, 0), 0xFFFF'FFFFU);
 }
 
+// newlib's exit() uses SYS_EXIT_EXTENDED where this file tells of it, and SYS_EXIT, which has no
+// exit code, elsewhere.
+TEST_F(SemihostingCall, FeaturesTellOfTheExitCode) {
+  put_text(":semihosting-features");
+  EXPECT_EQ(call_block(0x01, {kText, 4, 21}), 0xFFFF'FFFFU);  // only for reading
+  const std::uint32_t file = call_block(0x01, {kText, 0, 21});
+  ASSERT_NE(file, 0xFFFF'FFFFU);
+  EXPECT_EQ(call_block(0x0C, {file}), 5U);  // SYS_FLEN
+  EXPECT_EQ(call_block(0x09, {file}), 0U);  // SYS_ISTTY
+  put_text("????????");
+  EXPECT_EQ(call_block(0x06, {file, kText, 4}), 0U);
+  EXPECT_EQ(engine.read(kText, 4), 0x4246'4853U);  // "SHFB"
+  EXPECT_EQ(call_block(0x06, {file, kText + 4, 4}), 3U);
+  EXPECT_EQ(engine.read(kText + 4, 4), 0x3F3F'3F03U);  // SH_EXT_EXIT_EXTENDED, SH_EXT_STDOUT_STDERR
+  EXPECT_EQ(call_block(0x06, {file, kText, 1}), 1U);   // the end
+  EXPECT_EQ(call_block(0x0A, {file, 4}), 0U);          // SYS_SEEK
+  EXPECT_EQ(call_block(0x06, {file, kText, 1}), 0U);
+  EXPECT_EQ(engine.read(kText, 1), 3U);
+  EXPECT_EQ(call_block(0x0A, {file, 6}), 0xFFFF'FFFFU);
+  EXPECT_EQ(call_block(0x05, {file, kText, 3}), 3U);  // not written
+  EXPECT_EQ(call_block(0x02, {file}), 0U);
+  EXPECT_EQ(call_block(0x0C, {1}), 0xFFFF'FFFFU);    // the console has no length
+  EXPECT_EQ(call_block(0x06, {file, 0x10, 1}), 1U);  // at the end: nothing is written
+  EXPECT_FALSE(complaint);
+  ASSERT_EQ(call_block(0x0A, {file, 0}), 0U);
+  call_block(0x06, {file, 0x10, 1});  // flash
+  ASSERT_TRUE(complaint);
+  EXPECT_EQ(printed, "");
+}
+
 TEST_F(SemihostingCall, Time) {
   now = 12'345'678'901;
   EXPECT_EQ(call(0x10, 0), 1'234'567U);  // SYS_CLOCK: hundredths of a second
