@@ -82,14 +82,13 @@ void SyncLoop::cut_master() {
 
 void SyncLoop::sync(double interval_s, const std::function<bool(unsigned)> &lost) {
   const Nanoseconds before = now;
-  now = std::max(now + interval_s * 1e9L, over_);
+  now = std::max(now + interval_s * 1e9L, looked_);
   const Pair pair = send();
   look((before + now) / 2);
   look(pair.handled);
   for (unsigned n = 0; n < setting_.followers; ++n)
     if (pair.has_sync && n + 1 != master_ && (!lost || !lost(n))) follow(n, pair);
-  over_ = pair.handled + 1e3L;
-  look(over_);
+  look(pair.handled + 1e3L);
 }
 
 // SYNC leaves at an edge of the master's clock; FUP follows when software has seen its end. A SYNC
@@ -190,7 +189,8 @@ std::uint8_t SyncLoop::state_of(unsigned n, std::uint64_t clock) {
 }
 
 void SyncLoop::look(Nanoseconds t) {
-  if (t < over_) return;
+  if (t < looked_) return;
+  looked_ = t;
   SyncLook look{to_picoseconds(t), {}};
   for (unsigned n = 0; n < setting_.followers; ++n) {
     ClockNode &node = nodes[n + 1];

@@ -64,7 +64,7 @@ class SyncLoop {
   verican_tsyn_sender_t sender_{};
   std::vector<verican_tsyn_receiver_t> receivers_;
   std::vector<HardwareFollower> hardware_;  // instead of servos, or empty
-  Nanoseconds over_ = 0;                    // when the last pair was over; nothing is before it
+  Nanoseconds looked_ = 0;                  // the last look, nothing is before it
   unsigned master_ = 0;                     // of nodes
 };
 

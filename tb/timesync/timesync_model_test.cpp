@@ -263,6 +263,16 @@ TEST(SyncLoop, SyncThatIsNotSentWithinRIsAborted) {
   EXPECT_EQ(run.frames % 2, 0u);
 }
 
+// TM-125: the samples are one behind the other in time, also where the first follower takes over.
+TEST(SyncLoop, SamplesOfACutAreInOrder) {
+  SyncCase setting;
+  setting.master_cut = true;
+  setting.intervals = 20;
+  const SyncRun run = run_by_model(setting, 1);
+  for (std::size_t n = 1; n < run.looks.size(); ++n)
+    EXPECT_GT(run.looks[n].at, run.looks[n - 1].at);
+}
+
 // TM-87: a follower that hears nothing for more than three intervals holds over, and tells so.
 TEST(SyncLoop, LosesAndFindsItsMaster) {
   SyncCase setting;
