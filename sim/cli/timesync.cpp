@@ -12,6 +12,7 @@
 #include "cli/output_files.hpp"
 #include "cli/timesync_output.hpp"
 #include "simulation/stop_request.hpp"
+#include "timesync/hardware_follower.hpp"
 #include "timesync/sync_page.hpp"
 #include "timesync/sync_settings.hpp"
 #include "timesync/sync_way.hpp"
@@ -38,14 +39,18 @@ struct TimeSyncOptions {
   throw InputError(options.file, 0, name + ": " + why);
 }
 
-/// A setting of something that is not there would change nothing but which goal the case has, and
-/// no bus takes more than all of it.
+/// A setting of something that is not there would change nothing but which goal the case has, no
+/// bus takes more than all of it, and no core a KD above KI.
 void refuse_idle(const TimeSyncOptions &options, const SyncCase &setting) {
   const auto refuse = [&](const std::string &name, const std::string &why) {
     refuse_setting(options, name, why);
   };
   if (setting.hardware && setting.filter != SyncCase{}.filter)
     refuse("filter", "is that of the servo in software; allowed: without hardware");
+  if (const FollowerGains gains = gains_of(setting); setting.hardware && gains.ki < gains.kd)
+    refuse("interval", fmt::format("at this clock KI is {}, and KD of followers in hardware is {}; "
+                                   "allowed: KD up to KI",
+                                   gains.ki, gains.kd));
   if (setting.restless && !setting.hardware)
     refuse("restless", "is a setting of followers in hardware; allowed: with hardware");
   if (setting.clocks.sine_period_s != SyncCase{}.clocks.sine_period_s &&

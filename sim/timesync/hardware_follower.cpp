@@ -15,11 +15,11 @@ TimeSyncSetting setting_of(const SyncCase &setting, std::uint32_t id) {
   const double period = 1e9 / setting.clocks.frequency_hz;
   TimeSyncSetting result;
   result.id = id;
-  // 2^32 / (R f), and holdover as the driver's: three intervals, here a power of two of ns.
-  result.ki = static_cast<unsigned>(
-      std::lround(32 - std::log2(setting.interval_s * setting.clocks.frequency_hz)));
-  result.kd = setting.restless ? 1 : 2;
+  const FollowerGains gains = gains_of(setting);
+  result.ki = gains.ki;
+  result.kd = gains.kd;
   result.halve = !setting.restless;
+  // Holdover as the driver's: three intervals, here a power of two of ns.
   result.tmo = static_cast<unsigned>(std::ceil(std::log2(3e9 * setting.interval_s)));
   result.delay = static_cast<std::int32_t>(std::lround(kReceiveLatency * period / 2));
   result.nominal = static_cast<std::uint64_t>(std::llround(period * 4294967296.0));
@@ -27,6 +27,12 @@ TimeSyncSetting setting_of(const SyncCase &setting, std::uint32_t id) {
 }
 
 }  // namespace
+
+// 2^32 / (R f).
+FollowerGains gains_of(const SyncCase &setting) {
+  const double clocks = setting.interval_s * setting.clocks.frequency_hz;
+  return {static_cast<unsigned>(std::lround(32 - std::log2(clocks))), setting.restless ? 1U : 2U};
+}
 
 HardwareFollower::HardwareFollower(const SyncCase &setting, std::uint32_t id)
     : setting_{setting_of(setting, id)}, model_{setting_} {}

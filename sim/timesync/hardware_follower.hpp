@@ -15,12 +15,19 @@
 
 namespace vericansim {
 
+/// TSCTRL.KI and KD of a case; a core takes KD up to KI.
+struct FollowerGains {
+  unsigned ki, kd;
+};
+/// KI as TM-103 has it, KD by SyncCase::restless.
+[[nodiscard]] FollowerGains gains_of(const SyncCase &setting);
+
 class HardwareFollower {
  public:
   /// Clocks from the end of FUP to the correction: rounds of 64, five of them on average.
   static constexpr std::int64_t kWorkedOff = 320;
 
-  /// KI as TM-103 has it for the case, KD and PHALF by SyncCase::restless; domain 0.
+  /// With gains_of() the case, PHALF by SyncCase::restless; domain 0.
   HardwareFollower(const SyncCase &setting, std::uint32_t id);
 
   /// A SYNC or FUP with its stamp; what it does to the clock it does at `edge`, and `clock` has it

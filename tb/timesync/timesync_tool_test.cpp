@@ -121,6 +121,9 @@ TEST_F(TimeSync, BadInput) {
                  "--filter: is that of the servo in software; allowed: without hardware");
   expect_refused(file_with("e.yaml", "hardware: true\nfilter: automatic\n"),
                  "e.yaml: filter: is that of the servo in software");
+  // 2^32 / (R f) is 2.1, so KI is 1, and KD at most KI (docs/time.md).
+  expect_refused("--hardware --frequency 400M --interval 5s",
+                 "--interval: at this clock KI is 1, and KD of followers in hardware is 2");
   expect_refused("--how skip --hardware", "--how skip knows no followers in hardware");
   expect_refused("--how rtl --master-cut", "--how rtl knows no cut master");
   expect_refused("--master-cut --followers 1",
