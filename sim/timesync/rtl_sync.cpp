@@ -135,9 +135,17 @@ class RtlSync {
   SyncRun run_;
 };
 
+// As verican_init() looks for it.
+bool has_bit_timing(const SyncCase &setting) {
+  verican_timing_t timing;
+  return verican_timing_find(static_cast<std::uint32_t>(setting.clocks.frequency_hz),
+                             static_cast<std::uint32_t>(setting.bitrate), 0, &timing) == VERICAN_OK;
+}
+
 }  // namespace
 
 const char *missing_on_rtl(const SyncCase &setting) {
+  if (!has_bit_timing(setting)) return "bit timing for this bit rate at this clock";
   if (setting.displaced != 0 && (setting.load != 0 || setting.load_above != 0))
     return "displaced edges with load";
   if (setting.clocks.wander != 0 && setting.clocks.sine_ppm != 0) return "wander with a swing";

@@ -125,6 +125,9 @@ TEST_F(TimeSync, BadInput) {
   expect_refused("--hardware --frequency 400M --interval 5s",
                  "--interval: at this clock KI is 1, and KD of followers in hardware is 2");
   expect_refused("--how skip --hardware", "--how skip knows no followers in hardware");
+  // 4 MHz has four clocks a bit; of 13.37 MHz no bit rate near 500 kbit/s is a whole part.
+  expect_refused("--how skip --frequency 4M --bitrate 1M", "knows no bit timing for this bit rate");
+  expect_refused("--how rtl --p4 --frequency 13.37M", "knows no bit timing for this bit rate");
   expect_refused("--how rtl --master-cut", "--how rtl knows no cut master");
   expect_refused("--master-cut --followers 1",
                  "--master-cut: leaves nobody to follow; allowed: with 2 followers or more");
