@@ -37,7 +37,10 @@ void board_can_port(verican_port_t *port, unsigned core);
 /** Enables an interrupt at a priority, 0 (most urgent) to 31. */
 void board_irq_enable(unsigned irq, unsigned priority);
 
-/** Starts SysTick: systick_handler() runs every `microseconds`, at the least urgent priority. */
+/**
+ * Starts SysTick: systick_handler() runs every `microseconds`, at the least urgent priority. From 2
+ * to 2^24 clocks, which are 524 ms at 32 MHz; of BOARD_CLOCK_HZ whole MHz count.
+ */
 void board_systick_start(uint32_t microseconds);
 
 /**
