@@ -6,12 +6,14 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace vericansim {
 namespace {
 
 constexpr Nanoseconds kPiece = 10'000'000;
 constexpr double kPieceSeconds = 0.01;
+constexpr auto kPieces = static_cast<std::size_t>(Oscillator::kBack / kPiece) + 2;
 
 double turn(std::mt19937_64 &dice) { return std::uniform_real_distribution<double>{0, 1}(dice); }
 
@@ -25,8 +27,13 @@ Oscillator::Oscillator(double frequency_hz, const OscillatorError &error, std::u
 }
 
 Nanoseconds Oscillator::count(Nanoseconds t) {
-  while (error_.wander > 0 && pieces_.back().start + kPiece <= t) grow();
-  const Piece &piece = pieces_[error_.wander > 0 ? static_cast<std::size_t>(t / kPiece) : 0];
+  std::size_t number = 0;
+  if (error_.wander > 0) {
+    number = static_cast<std::size_t>(t / kPiece);
+    while (grown_ <= number) grow();
+    if (grown_ - number > kPieces) throw std::logic_error("Oscillator: that is forgotten");
+  }
+  const Piece &piece = pieces_[number % kPieces];
   return piece.count + ((t - piece.start) * (1 + static_cast<Nanoseconds>(piece.error)) +
                         (error_.sine != 0 ? swing(t) : 0)) /
                            nominal_;
@@ -41,12 +48,17 @@ Nanoseconds Oscillator::swing(Nanoseconds t) const {
 }
 
 void Oscillator::grow() {
-  const Piece &last = pieces_.back();
+  const Piece &last = pieces_[(grown_ - 1) % kPieces];
   const double step =
       error_.wander * std::sqrt(kPieceSeconds) * std::normal_distribution<double>{}(dice_);
-  pieces_.push_back({last.start + kPiece,
-                     last.count + kPiece / nominal_ * (1 + static_cast<Nanoseconds>(last.error)),
-                     last.error + step});
+  const Piece next{last.start + kPiece,
+                   last.count + kPiece / nominal_ * (1 + static_cast<Nanoseconds>(last.error)),
+                   last.error + step};
+  if (grown_ < kPieces)
+    pieces_.push_back(next);
+  else
+    pieces_[grown_ % kPieces] = next;
+  ++grown_;
 }
 
 std::int64_t Oscillator::edge_after(Nanoseconds t) {

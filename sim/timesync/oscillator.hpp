@@ -4,6 +4,7 @@
 // Oscillator: when the edges of a clock come whose frequency is never quite the nominal one.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -24,9 +25,11 @@ struct OscillatorError {
 /// Edges as a real number of periods: whole at an edge. The random walk makes a step every 10 ms.
 class Oscillator {
  public:
+  static constexpr Nanoseconds kBack = 60e9L;
+
   Oscillator(double frequency_hz, const OscillatorError &error, std::uint64_t seed);
 
-  /// Periods up to `t`, t >= 0.
+  /// Periods up to `t`, t >= 0. With wander not more than kBack before the latest `t` so far.
   [[nodiscard]] Nanoseconds count(Nanoseconds t);
   /// The first edge at or after `t`.
   [[nodiscard]] std::int64_t edge_after(Nanoseconds t);
@@ -49,7 +52,8 @@ class Oscillator {
   OscillatorError error_;
   std::mt19937_64 dice_;
   double phase_;               ///< of the sine, turns
-  std::vector<Piece> pieces_;  ///< of the random walk
+  std::vector<Piece> pieces_;  ///< of the random walk, the latest: number n at n modulo their most
+  std::size_t grown_ = 1;      ///< pieces so far
 };
 
 }  // namespace vericansim

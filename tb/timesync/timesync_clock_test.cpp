@@ -3,6 +3,7 @@
 //
 // Clocks of the synchronisation without RTL: oscillators, clock registers, stamps (TM-121).
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <cstdint>
@@ -44,6 +45,20 @@ TEST(Oscillator, WanderHasItsDensity) {
   }
   const double sd = std::sqrt(squares / kRuns);
   EXPECT_NEAR(sd, kDensity * 10, 0.1 * kDensity * 10);  // 2.8 sigma of the estimate
+}
+
+// 100,000 intervals of 5 s are six days, and nodes are many: the walk that has been is forgotten.
+TEST(Oscillator, WanderTakesNoMemoryOfItsLength) {
+  const auto most_kilobytes = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  };
+  Oscillator one = oscillator(16e6, {.wander = 1e-9});
+  (void)one.count(100 * kSecond);
+  const long before = most_kilobytes();
+  EXPECT_NEAR(static_cast<double>(one.count(20'000 * kSecond) / (20'000 * 16e6L)), 1, 1e-5);
+  EXPECT_LT(most_kilobytes() - before, 20'000);  // two million steps are 96 MB
 }
 
 // The swing turns the frequency by its amplitude each way, and not on average.
