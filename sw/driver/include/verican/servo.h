@@ -120,7 +120,10 @@ verican_result_t verican_servo_forget(verican_servo_t *servo);
 /** The line of least squares through the first `count` points, the newest first; 1 at least. */
 verican_servo_line_t verican_servo_fit(const verican_servo_point_t *points, unsigned count);
 
-/** How far the clock is off at most, ns: mean error of the pairs, and in holdover the drift. */
+/**
+ * How far the clock is off, ns: mean error of the pairs, and in holdover what the drift adds at
+ * most. It is 0 as long as nothing is known: the state tells.
+ */
 uint64_t verican_servo_bound(const verican_servo_t *servo, uint64_t now);
 
 #ifdef __cplusplus
