@@ -88,12 +88,14 @@ int Nvic::active_priority() const {
   return most_urgent;
 }
 
-int Nvic::wake_priority() const {
-  int priority = active_priority();
-  if (basepri != 0) priority = std::min(priority, basepri & (0xFF << (prigroup + 1)));
+int Nvic::mask_priority() const {
+  int priority = kThreadPriority;
+  if (basepri != 0) priority = basepri & (0xFF << (prigroup + 1));
   if (faultmask) priority = std::min(priority, -1);
   return priority;
 }
+
+int Nvic::wake_priority() const { return std::min(active_priority(), mask_priority()); }
 
 int Nvic::execution_priority() const {
   return primask ? std::min(wake_priority(), 0) : wake_priority();
@@ -116,6 +118,12 @@ std::optional<unsigned> Nvic::first_pending() const {
 std::optional<unsigned> Nvic::preempting() const {
   const auto first = first_pending();
   if (first && group_priority(*first) < execution_priority()) return first;
+  return {};
+}
+
+std::optional<unsigned> Nvic::unmasked() const {
+  const auto first = first_pending();
+  if (first && group_priority(*first) < mask_priority()) return first;
   return {};
 }
 

@@ -80,6 +80,8 @@ class Nvic {
   [[nodiscard]] int group_priority(unsigned exception) const;
   /// The most urgent pending and enabled exception, if any.
   [[nodiscard]] std::optional<unsigned> first_pending() const;
+  /// The same, if neither BASEPRI nor FAULTMASK masks it: what ICSR shows.
+  [[nodiscard]] std::optional<unsigned> unmasked() const;
   /// The exception that preempts what runs now, if any.
   [[nodiscard]] std::optional<unsigned> preempting() const;
   /// True if an exception, enabled or not, has become pending since the last call.
@@ -100,6 +102,7 @@ class Nvic {
   using Flags = std::bitset<kExceptions>;
 
   [[nodiscard]] int active_priority() const;
+  [[nodiscard]] int mask_priority() const;
   [[nodiscard]] std::uint32_t word_of(const Flags &flags, unsigned word) const;
 
   Flags enabled_, pending_, active_, lines_;

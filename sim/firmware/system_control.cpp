@@ -118,7 +118,7 @@ std::uint32_t SystemControl::icsr(unsigned ipsr) const {
   std::uint32_t value = ipsr;
   const auto flag = [&](bool on, unsigned bit) { value |= static_cast<std::uint32_t>(on) << bit; };
   flag(nvic_.active_count() <= 1, 11);  // RETTOBASE
-  value |= nvic_.first_pending().value_or(0) << 12;
+  value |= nvic_.unmasked().value_or(0) << 12;
   for (unsigned e = kIrq0; e < kExceptions; ++e)
     if (nvic_.pending(e)) flag(true, 22);  // ISRPENDING
   flag(nvic_.pending(kSysTick), 26);

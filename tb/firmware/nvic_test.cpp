@@ -169,6 +169,28 @@ TEST(SystemControl, IcsrShowsAndPends) {
   EXPECT_FALSE(nvic.pending(kPendSv));
 }
 
+// VECTPENDING has the effect of BASEPRI and FAULTMASK, not that of PRIMASK or of what is active
+// (Cortex-M3 Devices Generic User Guide, 4.3.3).
+TEST(SystemControl, IcsrLeavesOutWhatIsMasked) {
+  Nvic nvic;
+  SystemControl system{nvic};
+  const auto pending = [&] { return *system.read(0xE000'ED04, 4, 0) >> 12 & 0x1FF; };
+  nvic.enable(kIrq0 + 31, true);
+  nvic.set_priority(kIrq0 + 31, 0x80);
+  nvic.pend(kIrq0 + 31);
+  nvic.primask = true;
+  nvic.enter(kSvCall);
+  EXPECT_EQ(pending(), 47U);
+  nvic.basepri = 0x80;
+  EXPECT_EQ(pending(), 0U);
+  nvic.basepri = 0x88;
+  EXPECT_EQ(pending(), 47U);
+  nvic.faultmask = true;
+  EXPECT_EQ(pending(), 0U);
+  nvic.pend(kNmi);
+  EXPECT_EQ(pending(), 2U);
+}
+
 TEST(SystemControl, SystemPrioritiesByByteAndStatusBits) {
   Nvic nvic;
   SystemControl system{nvic};
