@@ -101,10 +101,11 @@ void Simulation::start_accesses() {
 }
 
 void Simulation::start_traffic() {
-  std::uint64_t seed = scenario_.seed;
   for (const TrafficSpec &spec : scenario_.traffic) {
+    // No message has the numbers of another one, with another seed either.
+    const std::uint64_t stream = scenario_.seed << 32 | (traffic_.size() + 1);
     traffic_.push_back(std::make_unique<TrafficSource>(spec, bus_, *stations_[spec.node].host,
-                                                       ++seed * 0x9E3779B97F4A7C15ULL));
+                                                       stream * 0x9E3779B97F4A7C15ULL));
     traffic_.back()->start(start_, start_ + scenario_.duration);
   }
 }

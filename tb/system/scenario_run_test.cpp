@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cstdlib>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "harness/shell.hpp"
@@ -158,6 +160,22 @@ TEST(Run, EveryEventHasItsFrame) {
                  "expect: {frames: 4, pending: 0}\n");
     EXPECT_EQ(failures(report), "") << seed;
   }
+}
+
+// Runs of several seeds are samples of their own: no message has the random numbers that another
+// one has with the next seed.
+TEST(Run, SeedsHaveNothingInCommon) {
+  std::set<std::array<std::uint8_t, 8>> seen;
+  constexpr unsigned kSeeds = 4, kMessages = 3;
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    const RunReport report = run_text("seed: " + std::to_string(seed) +
+                                      "\nduration: 2 ms\nnodes: [{name: a}, {name: b}]\ntraffic:\n"
+                                      "  - {node: a, id: 1, data: random}\n"
+                                      "  - {node: a, id: 2, data: random}\n"
+                                      "  - {node: b, id: 3, data: random}\n");
+    for (const auto &[key, row] : report.identifiers.rows()) seen.insert(row.last_frame.data);
+  }
+  EXPECT_EQ(seen.size(), kSeeds * kMessages);
 }
 
 // A message that was never queued has shown nothing; a shorter run may leave it out.
