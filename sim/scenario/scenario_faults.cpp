@@ -5,6 +5,7 @@
 // check_faults().
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <set>
 #include <string>
@@ -124,6 +125,16 @@ void parse_place(const YamlValue &value, const Scenario &scenario, FaultSpec &fa
   map.finish();
 }
 
+/// The seed of a noise that has none of its own: that of the scenario for the first one. Noises of
+/// one seed would flip the same bits, so that two undo each other.
+std::uint64_t noise_seed(const Scenario &scenario) {
+  const auto earlier =
+      std::count_if(scenario.faults.begin(), scenario.faults.end(),
+                    [](const FaultSpec &fault) { return fault.kind == FaultSpec::Kind::kNoise; });
+  constexpr std::uint64_t kApart = 0x9E3779B9;  // far from the seeds that a user counts through
+  return (scenario.seed + static_cast<std::uint64_t>(earlier) * kApart) & 0xFFFFFFFF;
+}
+
 void parse_noise(YamlMap &map, NoiseConfig &noise, std::uint64_t seed) {
   noise.seed = seed;
   map.with("per_bit", [&](const YamlValue &v) { noise.per_bit = v.number(0, 1); });
@@ -164,7 +175,7 @@ void parse_kind(YamlMap &map, const Scenario &scenario, FaultSpec &fault) {
     map.with("at", [&](const YamlValue &v) { parse_place(v, scenario, fault); });
   } else if (word == "noise") {
     fault.kind = FaultSpec::Kind::kNoise;
-    parse_noise(map, fault.noise, scenario.seed);
+    parse_noise(map, fault.noise, noise_seed(scenario));
   } else if (word == "clock") {
     fault.kind = FaultSpec::Kind::kClock;
     fault.ppm = map.need("ppm").number(-50'000, 50'000);

@@ -148,6 +148,17 @@ TEST(FaultExpectation, HitsOfAFaultCanBeSaid) {
   EXPECT_THAT(to_text(run_text(never + "{min: 0}}]\n")), Not(HasSubstr("warning")));
 }
 
+// Two equal noises flip bits of their own; with one stream of random numbers each would undo what
+// the other does, and both would count it.
+TEST(FaultReports, NoisesAreIndependent) {
+  const RunReport report = run_text(
+      "duration: 100 ms\nnodes: [{name: a}, {name: b}]\n"
+      "traffic: [{node: a, id: 1, data: counter, period: 1 ms}]\n"
+      "faults: [{kind: noise, node: b, per_bit: 0.001}, {kind: noise, node: b, per_bit: 0.001}]\n");
+  for (const FaultReport &fault : report.faults) EXPECT_GT(fault.hits, 20U);
+  EXPECT_GT(report.nodes.at(1).counts.errors, 20U);
+}
+
 TEST(FaultReports, AreInTextAndJson) {
   const RunReport report = run_text(kBus + kFaults);
   EXPECT_THAT(to_text(report), HasSubstr("flipped at b while b is in CRC, bit 3, frame 2"));
