@@ -159,7 +159,7 @@ Level NoiseFault::level(NodeId receiver, Time t, Level level) {
   Victim &who = victim(receiver);
   while (config_.per_ns > 0.0 && t >= who.next_glitch) {
     who.glitch_end = who.next_glitch + config_.glitch;
-    who.next_glitch += config_.glitch + draw_gap(who);
+    who.next_glitch += draw_gap(who);
     ++hits_;
   }
   if (!who.bit_hit && t >= who.glitch_end) return level;
