@@ -52,6 +52,7 @@ void BusMonitor::settle_all(Time time) {
 
 void BusMonitor::close(Time time) {
   settle_all(time);
+  if (held_until_ > time) busy_ -= held_until_ - time;  // intermission that is not over
   const std::optional<Time> start = decoder_.under_way();
   if (!start) return;
   hold(*start, time);
@@ -125,7 +126,7 @@ void BusMonitor::take_event(const BusEvent &event) {
       break;
     case BusEventKind::kOverloadFrame:
       ++overload_frames_;
-      hold(event.start, event.end);
+      hold(event.start, event.end + kIntermission * bit_time_);
       break;
     case BusEventKind::kBadFrame:
       ++error_frames_;
@@ -135,7 +136,7 @@ void BusMonitor::take_event(const BusEvent &event) {
       ++error_frames_;
       // From the SOF of the frame that was destroyed, if there was one.
       const bool in_frame = event.field >= Field::kSof && event.field <= Field::kEof;
-      hold(in_frame ? event.frame_start : event.start, event.end);
+      hold(in_frame ? event.frame_start : event.start, event.end + kIntermission * bit_time_);
   }
   if (on_event) on_event(event);
 }

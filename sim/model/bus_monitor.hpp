@@ -86,7 +86,7 @@ class BusMonitor : public BusObserver {
   [[nodiscard]] std::uint64_t unacknowledged() const { return unacknowledged_; }
   [[nodiscard]] std::uint64_t error_frames() const { return error_frames_; }
   [[nodiscard]] std::uint64_t overload_frames() const { return overload_frames_; }
-  /// Time in which frames (with their intermission) and error and overload frames held the bus, ps.
+  /// Time in which frames, error and overload frames held the bus, each with its intermission, ps.
   [[nodiscard]] Time busy() const { return busy_; }
   /// The decoder, which has seen the bus up to the last advance().
   [[nodiscard]] const BusDecoder &decoder() const { return decoder_; }

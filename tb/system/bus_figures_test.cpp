@@ -64,6 +64,21 @@ TEST(Load, IsAtMostAllOfTheTimeWithOverloadFrames) {
   EXPECT_LE(report.load, 1.0);
 }
 
+// IF-01: intermission comes behind error frames as behind frames, so that a bus that is never free
+// is full, but for the first frame's way to the bus and the bits behind the last one.
+TEST(Load, IsAllOfTheTimeOnAFullBusWithErrors) {
+  std::string faults;
+  for (int frame = 9; frame < 1000; frame += 9)
+    faults += "  - {kind: flip, at: {node: a, frame: " + std::to_string(frame) +
+              ", field: DATA, bit: 1}, hits: {min: 0}}\n";
+  const RunReport report = run_text(
+      "duration: 60 ms\ndrain: 0\n" + kThree +
+      "traffic: [{node: a, name: m, id: 0x100, data: 00, period: saturated}]\nfaults:\n" + faults);
+  EXPECT_GT(report.error_frames, 50U);
+  EXPECT_GT(report.load, 0.998);
+  EXPECT_LE(report.load, 1.0);
+}
+
 // ---- Senders
 
 TEST(Sender, IsNotTheNodeInLoopBackThatSendsToItself) {
