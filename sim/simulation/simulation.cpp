@@ -62,9 +62,11 @@ void Simulation::observe() {
     longest_bit =
         std::max(longest_bit, static_cast<Time>(stations_[id].timing.clocks_per_bit() * 1e12 /
                                                 scenario_.nodes[id].clock.frequency_hz));
+  // In the middle of the last quantum of PS1: a node that a glitch has moved on by SJW sends edges
+  // where the next one would be, and the others still read them (SY-08).
   const BitTiming &first = stations_[0].timing;
-  monitor_ = std::make_unique<BusMonitor>(bus_, bit_time_,
-                                          1.0 - static_cast<double>(first.ps2) / first.quanta());
+  monitor_ =
+      std::make_unique<BusMonitor>(bus_, bit_time_, 1.0 - (first.ps2 + 0.5) / first.quanta());
   monitor_->on_frame = [this](const BusFrame &frame) { on_frame(frame); };
   monitor_->on_event = [this](const BusEvent &event) {
     if (on_bus_event) on_bus_event(event);

@@ -79,6 +79,24 @@ TEST(Load, IsAllOfTheTimeOnAFullBusWithErrors) {
   EXPECT_LE(report.load, 1.0);
 }
 
+// ---- Frames
+
+// SY-08: a glitch in its PS2 moves the sender on by SJW, here both quanta of PS2. Its edges are
+// then where the others sample, just before; they read them, and so must the decoder.
+TEST(Frames, AreThoseThatTheNodesReadThoughBitsAreShorter) {
+  const RunReport report = run_scenario(
+      parse_scenario(
+          "test.yaml",
+          "duration: 5 ms\nnodes: [{name: a}, {name: b}]\n"
+          "traffic: [{node: a, name: m, id: 0x100, data: 33 33 33 33, period: 1 ms}]\n"
+          "faults: [{kind: dominant, at: {node: a, field: DATA, bit: 10, first_tq: 13, last_tq: "
+          "13}, hits: 5}]\n"
+          "expect: {frames: 5, error_frames: 0, complete: true, response_times: {m: 1 ms},\n"
+          "         nodes: {a: {sent: 5}, b: {received: 5}, all: {errors: 0}}}\n"),
+      250e3);
+  EXPECT_EQ(failures(report), "");
+}
+
 // ---- Senders
 
 TEST(Sender, IsNotTheNodeInLoopBackThatSendsToItself) {
