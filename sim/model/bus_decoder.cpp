@@ -127,7 +127,9 @@ void BusDecoder::sample() {
   switch (stage_) {
     case Stage::kIntegrate:
       count_ = sampled_ == Level::kRecessive ? count_ + 1 : 0;
-      if (count_ == 11) stage_ = Stage::kIdle;
+      if (count_ != 11) break;
+      stage_ = Stage::kIdle;
+      at_rest_since_ = bit_start_ + config_.bit_time;
       break;
     case Stage::kIdle:
       if (sampled_ == Level::kDominant) start_frame();
@@ -168,7 +170,7 @@ void BusDecoder::sample_flag() {
     return;
   }
   trouble_.flag_bits = run_;
-  if (run_ < 6) {
+  if (trouble_.without_end()) {
     emit(trouble_, bit_start_);
     return integrate();
   }

@@ -57,6 +57,9 @@ struct BusEvent {
   unsigned flag_bits = 0;  ///< length of the dominant run that is the flag; 0: passive flag, unseen
   Time frame_start =
       0;  ///< SOF of the frame that an error frame destroyed; of no meaning after DEL
+
+  /// Too short for a flag: the decoder waits for the bus to come to rest.
+  [[nodiscard]] bool without_end() const { return flag_bits != 0 && flag_bits < 6; }
 };
 
 /// One line for a person, for example "12.000 us frame 123 [1] 55 acked".
@@ -82,6 +85,13 @@ class BusDecoder {
   [[nodiscard]] std::optional<Time> under_way() const;
   /// What it is, if something is.
   [[nodiscard]] BusEventKind kind_under_way() const;
+
+  /// Since when the bus is at rest; unset while eleven recessive bits are waited for, at the
+  /// beginning and behind what the decoder has not understood.
+  [[nodiscard]] std::optional<Time> at_rest_since() const {
+    if (stage_ == Stage::kIntegrate) return std::nullopt;
+    return at_rest_since_;
+  }
 
   /// Whether the frame on the bus has not come to its ACK delimiter: how it ends is open. Behind it
   /// recessive bits alone end it.
@@ -135,6 +145,7 @@ class BusDecoder {
   Level line_ = Level::kRecessive;
   Level sampled_ = Level::kRecessive;
   Time bit_start_ = 0;
+  Time at_rest_since_ = 0;
   bool sampled_this_bit_ = false;
   bool sync_armed_ = true;
   bool first_ = true;

@@ -52,6 +52,7 @@ void BusMonitor::settle_all(Time time) {
 
 void BusMonitor::close(Time time) {
   settle_all(time);
+  hold_up_to_rest(time);
   if (held_until_ > time) busy_ -= held_until_ - time;  // intermission that is not over
   const std::optional<Time> start = decoder_.under_way();
   if (!start) return;
@@ -111,8 +112,15 @@ void BusMonitor::hold(Time from, Time to) {
   held_until_ = to;
 }
 
+// What the decoder has not understood goes on until it is at rest again, at `now` at the latest.
+void BusMonitor::hold_up_to_rest(Time now) {
+  if (lost_since_) hold(*lost_since_, decoder_.at_rest_since().value_or(now));
+  lost_since_.reset();
+}
+
 void BusMonitor::take_event(const BusEvent &event) {
   constexpr Time kIntermission = 3;
+  hold_up_to_rest(event.start);
   switch (event.kind) {
     case BusEventKind::kFrame:
       hold(event.start, event.end + kIntermission * bit_time_);
@@ -138,6 +146,7 @@ void BusMonitor::take_event(const BusEvent &event) {
       const bool in_frame = event.field >= Field::kSof && event.field <= Field::kEof;
       hold(in_frame ? event.frame_start : event.start, event.end + kIntermission * bit_time_);
   }
+  if (event.without_end()) lost_since_ = event.end;
   if (on_event) on_event(event);
 }
 

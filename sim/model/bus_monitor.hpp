@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -104,6 +105,7 @@ class BusMonitor : public BusObserver {
   void count_errors(NodeCounts &counts, std::uint8_t errors);
   void hold(Time from, Time to);
   void follow_transmitter(NodeId node, const BitRecord &bit);
+  void hold_up_to_rest(Time now);
   void settle(Time now);
   void add_senders(BusFrame &frame) const;
 
@@ -115,7 +117,8 @@ class BusMonitor : public BusObserver {
   BusDecoder decoder_;
   std::uint64_t frames_ = 0, unacknowledged_ = 0, error_frames_ = 0, overload_frames_ = 0;
   Time busy_ = 0;
-  Time held_until_ = kNever;  // what lies before it is in busy_
+  std::optional<Time> lost_since_;  // the decoder waits for the bus to come to rest
+  Time held_until_ = kNever;        // what lies before it is in busy_
 };
 
 }  // namespace vericansim

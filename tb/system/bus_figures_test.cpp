@@ -79,6 +79,19 @@ TEST(Load, IsAllOfTheTimeOnAFullBusWithErrors) {
   EXPECT_LE(report.load, 1.0);
 }
 
+// A lone node at half the bit rate, whose frames nobody understands once all are error passive: the
+// bus is held from SOF to eleven recessive bits behind the last dominant one. Of an attempt that
+// are 98 bits and the stuff bits (none to 24) of the node, 11 of the bus; then it is quiet for the
+// rest of ACK error, passive flag, delimiter, intermission and suspend, 27 bits of the node.
+TEST(Load, GoesOnWhileNobodyUnderstandsTheBus) {
+  const RunReport report = run_text(
+      "duration: 100 ms\ndrain: 0\nnodes: [{name: a, bitrate: 250k}, {name: b}]\n"
+      "traffic: [{node: a, name: m, id: 0x100, data: counter, period: saturated}]\n");
+  EXPECT_EQ(report.frames, 0U);
+  EXPECT_GT(report.load, (2 * 98 + 11) / (2 * (98 + 27.0)) - 0.02);
+  EXPECT_LT(report.load, (2 * 122 + 11) / (2 * (122 + 27.0)) + 0.02);
+}
+
 // ---- Frames
 
 // SY-08: a glitch in its PS2 moves the sender on by SJW, here both quanta of PS2. Its edges are
