@@ -20,7 +20,11 @@
 namespace vericansim {
 
 Simulation::Simulation(const Scenario &scenario, double bitrate)
-    : scenario_{scenario}, bitrate_{bitrate}, bit_time_{bit_time_of(bitrate)}, faults_{scenario} {
+    : scenario_{scenario},
+      bitrate_{bitrate},
+      bit_time_{bit_time_of(bitrate)},
+      faults_{scenario},
+      sent_(scenario.nodes.size(), SentFrames{bit_time_}) {
   check_faults(scenario_, bitrate_);
   check_traffic(scenario_);
   build_stations();
@@ -102,57 +106,12 @@ void Simulation::start_accesses() {
   }
 }
 
-void Simulation::start_traffic() {
-  for (const TrafficSpec &spec : scenario_.traffic) {
-    // No message has the numbers of another one, with another seed either.
-    const std::uint64_t stream = scenario_.seed << 32 | (traffic_.size() + 1);
-    traffic_.push_back(std::make_unique<TrafficSource>(spec, bus_, *stations_[spec.node].host,
-                                                       stream * 0x9E3779B97F4A7C15ULL));
-    traffic_.back()->start(start_, start_ + scenario_.duration);
-  }
-}
-
 void Simulation::on_frame(const BusFrame &frame) {
   if (scenario_.expect.complete) frames_.push_back(frame);
   outputs_->write(frame, origin_of(frame));
   remote_->on_frame(frame, monitor_->busy());
   if (judge_) judge_->on_wire(frame);
   if (on_bus_frame) on_bus_frame(frame);
-}
-
-// Nodes that have sent a frame together (AR-10) have each a message of their own that it ends.
-FrameOrigin Simulation::origin_of(const BusFrame &frame) {
-  FrameOrigin origin;
-  for (NodeId node = 0; node < stations_.size(); ++node) {
-    if (!frame.sent_by(node)) continue;
-    const FrameOrigin own = origin_at(node, frame);
-    if (origin.message < 0) origin = own;
-  }
-  return origin;
-}
-
-// Several messages of a node may have one identifier; what they hold tells them apart, or it was
-// the one that has waited longest.
-FrameOrigin Simulation::origin_at(NodeId node, const BusFrame &frame) {
-  constexpr Time kNotDue = std::numeric_limits<Time>::max();
-  FrameOrigin origin;
-  Time earliest = kNotDue;
-  for (std::size_t i = 0; i < traffic_.size(); ++i) {
-    if (traffic_[i]->spec().node != node || !traffic_[i]->matches(frame.frame)) continue;
-    const Time event = traffic_[i]->due(frame.frame).value_or(kNotDue);
-    if (origin.message >= 0 && event >= earliest) continue;
-    origin.message = static_cast<int>(i);
-    earliest = event;
-  }
-  if (origin.message >= 0)
-    origin.response = traffic_[origin.message]->on_frame(frame.frame, frame.end);
-  return origin;
-}
-
-void Simulation::on_sent(NodeId node, const Frame &frame) {
-  if (on_host_sent) on_host_sent(node);
-  for (const auto &traffic : traffic_)
-    if (traffic->spec().node == node && traffic->matches(frame)) return traffic->on_sent();
 }
 
 bool Simulation::quiet() const {
@@ -215,6 +174,8 @@ RunReport Simulation::collect(bool interrupted) {
   report.overload_frames = monitor_->overload_frames();
   report.pending = stations_.pending();
   report.load = static_cast<double>(monitor_->busy()) / static_cast<double>(report.duration);
+  for (NodeId id = 0; id < stations_.size(); ++id)
+    forget_lost(id, std::numeric_limits<Time>::max());
   for (const auto &traffic : traffic_) {
     report.messages.push_back(traffic->report());
     MessageReport &message = report.messages.back();

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "judge/bus_judge.hpp"
@@ -17,6 +18,7 @@
 #include "simulation/bus_outputs.hpp"
 #include "simulation/fault_set.hpp"
 #include "simulation/remote_bench.hpp"
+#include "simulation/sent_frames.hpp"
 #include "simulation/station.hpp"
 #include "simulation/traffic_source.hpp"
 
@@ -90,6 +92,8 @@ class Simulation {
   void on_frame(const BusFrame &frame);
   [[nodiscard]] FrameOrigin origin_of(const BusFrame &frame);
   [[nodiscard]] FrameOrigin origin_at(NodeId node, const BusFrame &frame);
+  [[nodiscard]] std::optional<std::size_t> message_of(NodeId node, const Frame &frame) const;
+  void forget_lost(NodeId node, Time time);
   [[nodiscard]] ReportSetup report_setup() const;
   [[nodiscard]] ReportExtras report_extras(const RunReport &report) const;
   void on_sent(NodeId node, const Frame &frame);
@@ -104,6 +108,7 @@ class Simulation {
   std::vector<std::unique_ptr<AccessScript>> scripts_;  // one for each node that has accesses
   std::unique_ptr<BusJudge> judge_;
   FaultSet faults_;
+  std::vector<SentFrames> sent_;  // of each node
   std::vector<std::unique_ptr<TrafficSource>> traffic_;
   std::unique_ptr<RemoteBench> remote_;
   std::vector<BusFrame> frames_;

@@ -91,6 +91,10 @@ std::optional<Time> TrafficSource::on_frame(const Frame &frame, Time end) {
   return response;
 }
 
+void TrafficSource::forget(const Frame &frame) {
+  if (const auto found = find(frame); found != waiting_.end()) waiting_.erase(found);
+}
+
 MessageReport TrafficSource::report() const {
   MessageReport report = report_;
   for (const Waiting &waiting : waiting_)

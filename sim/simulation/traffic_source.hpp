@@ -31,6 +31,9 @@ class TrafficSource {
   /// That frame has ended on the bus at `end`; its response time, if it was due.
   std::optional<Time> on_frame(const Frame &frame, Time end);
 
+  /// The first frame that is due and is `frame` has left without having been one on the bus.
+  void forget(const Frame &frame);
+
   [[nodiscard]] const TrafficSpec &spec() const { return spec_; }
   /// True if `frame` could be one of this message.
   [[nodiscard]] bool matches(const Frame &frame) const;

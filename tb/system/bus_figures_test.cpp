@@ -110,6 +110,19 @@ TEST(Frames, AreThoseThatTheNodesReadThoughBitsAreShorter) {
   EXPECT_EQ(failures(report), "");
 }
 
+// A frame that its sender took for acknowledged, and nobody has heard, is none of the bus. Later
+// frames that hold the same keep their own times: 47 bits and 32 of data, 24 stuff bits at most.
+TEST(Frames, ThatNobodyHasHeardDoNotMoveTheTimesOfOthers) {
+  const RunReport report = run_text(
+      "duration: 20 ms\n" + kThree +
+      "traffic: [{node: a, name: m, id: 0x100, data: 01 02 03 04, period: 1 ms}]\nfaults:\n"
+      "  - {kind: dominant, at: {node: a, frame: 4, field: ACK}}\n"
+      "  - {kind: cut, node: a, from: 2950 us, for: 300 us}\n"
+      "expect: {frames: 19, pending: 0, response_times: {m: 210 us}, nodes: {a: {sent: 20}}}\n");
+  EXPECT_EQ(failures(report), "");
+  EXPECT_EQ(report.messages.at(0).sent, 19U);
+}
+
 // ---- Senders
 
 TEST(Sender, IsNotTheNodeInLoopBackThatSendsToItself) {
