@@ -52,6 +52,7 @@ inline constexpr std::uint64_t kTraceSample = 1ULL << 48;
 inline constexpr std::uint64_t kTraceBoundary = 1ULL << 47;
 inline constexpr std::uint64_t kTraceTx = 1ULL << 45;
 inline constexpr std::uint64_t kTraceStart = 1ULL << 22;
+inline constexpr std::uint64_t kTraceRunning = 1ULL << 20;
 inline constexpr std::uint64_t kTraceEvents =
     0xFFC00000ULL;  ///< errors, rx_valid, tx_ok, tx_fail, start
 

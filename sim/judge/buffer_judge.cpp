@@ -17,8 +17,6 @@ namespace {
 /// moment comes first and its window is open.
 constexpr unsigned kAccessLag = 3;
 
-constexpr std::uint64_t kTraceRunning = 1ULL << 20;
-
 bool is_mask(std::uint32_t address) {
   return address == reg::kRxgmask || address == reg::kRx14mask || address == reg::kRx15mask ||
          address == reg::kRxfgmask || (address >= reg::rximr(0) && address < reg::rximr(64));

@@ -143,7 +143,8 @@ void BusWave::on_bit(NodeId node, const BitRecord &bit) {
 
 void BusWave::on_clock(NodeId node, Time time, std::uint64_t trace) {
   NodeSignals &to = nodes_[node];
-  if (to.boundary) to.bit_start = time;
+  // A node that does not run has no boundaries; its first bit begins when it runs again.
+  if (to.boundary || (trace & kTraceRunning) == 0) to.bit_start = time;
   to.boundary = (trace & kTraceBoundary) != 0;
   if (node == 0) drain(time - hold_);
 }

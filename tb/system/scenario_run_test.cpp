@@ -12,6 +12,8 @@
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "harness/shell.hpp"
 #include "model/frame_codec.hpp"
@@ -194,6 +196,40 @@ TEST(Run, AMessageThatIsNeverQueuedIsTold) {
   const RunReport left_out = run_scenario(shorter, 500e3);
   EXPECT_TRUE(left_out.ok());
   EXPECT_THAT(to_text(left_out), ::testing::Not(HasSubstr("warning")));
+}
+
+/// Times at which a text signal of a VCD file becomes `value`, ns.
+std::vector<Time> times_of_text(const std::string &file, const std::string &value) {
+  std::ifstream in{file};
+  std::vector<Time> times;
+  Time now = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with('#')) now = std::stoll(line.substr(1));
+    if (line.starts_with("s" + value + " ")) times.push_back(now);
+  }
+  return times;
+}
+
+// A core that its CPU starts late, and stops for a while, has bits from then on, and none in
+// between.
+TEST(Run, WaveformsBeginABitOfANodeWhenItRuns) {
+  const std::string file = ::testing::TempDir() + "late.vcd";
+  const RunReport report = run_text(
+      "duration: 30 ms\nnodes: [{name: a}, {name: late, software: none}]\naccesses:\n"
+      "  - {node: late, at: 10 ms, do: [clear MCR 0x80000000, until MCR 0x100000 0,\n"
+      "                                 write CTRL1 0x00710005, clear MCR 0x50000000]}\n"
+      "  - {node: late, at: 15 ms, do: [set MCR 0x50000000]}\n"
+      "  - {node: late, at: 20 ms, do: [clear MCR 0x50000000]}\n"
+      "outputs: {vcd: " +
+      file + "}\n");
+  EXPECT_EQ(failures(report), "");
+  const std::vector<Time> times = times_of_text(file, "INTEGRATING");
+  ASSERT_EQ(times.size(), 3U);  // node a, and late twice
+  constexpr Time kMs = 1'000'000, kJoin = kMs / 2;
+  for (const auto &[time, at] : {std::pair{times[1], 10 * kMs}, std::pair{times[2], 20 * kMs}}) {
+    EXPECT_GE(time, at);
+    EXPECT_LT(time, at + kJoin);
+  }
 }
 
 // FC-18: a lone transmitter ends at TEC 128 and never goes bus-off.
