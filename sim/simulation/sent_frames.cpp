@@ -4,20 +4,23 @@
 // SentFrames: see sent_frames.hpp.
 #include "simulation/sent_frames.hpp"
 
+#include <algorithm>
+
 namespace vericansim {
 
 void SentFrames::told(const Frame &frame, Time time) {
-  const bool on_bus = seen_ && seen_->frame == frame && time - seen_->time < near_;
-  seen_.reset();
-  if (!on_bus) told_.push_back({frame, time});
+  const auto seen = std::find(seen_.begin(), seen_.end(), frame);
+  if (seen == seen_.end())
+    told_.push_back({frame, time});
+  else
+    seen_.erase(seen);
 }
 
 void SentFrames::seen(const Frame &frame, Time end) {
-  seen_.reset();
   if (!told_.empty() && told_.back().frame == frame && end - told_.back().time < near_)
-    told_.pop_back();
-  else
-    seen_ = Ended{frame, end};
+    return told_.pop_back();
+  seen_.push_back(frame);
+  if (seen_.size() > kMost) seen_.pop_front();
 }
 
 std::vector<Frame> SentFrames::lost(Time time) {

@@ -4,8 +4,8 @@
 // SentFrames: frames that the software of a node has sent, held against those on the bus.
 #pragma once
 
+#include <cstddef>
 #include <deque>
-#include <optional>
 #include <vector>
 
 #include "bus/types.hpp"
@@ -14,8 +14,8 @@
 namespace vericansim {
 
 /// A sender may take a frame for sent that was none on the bus, as where a disturbance looks to it
-/// like an acknowledgement. Software and bus tell each frame once, about when it ends, in any
-/// order.
+/// like an acknowledgement. Software and bus tell each frame once: the bus about when it ends, its
+/// software shortly before or any time after.
 class SentFrames {
  public:
   /// `bit_time` of the bus, ps.
@@ -33,11 +33,12 @@ class SentFrames {
     Frame frame;
     Time time;
   };
-  static constexpr Time kNear = 20;  // bits; frames of a node end 47 apart at least
+  static constexpr Time kNear = 20;         // bits; frames of a node end 47 apart at least
+  static constexpr std::size_t kMost = 64;  // buffers of a core whose end its software may not know
 
   Time near_;
-  std::deque<Ended> told_;     // and not seen so far
-  std::optional<Ended> seen_;  // the last one, if not told of
+  std::deque<Ended> told_;  // and not seen so far
+  std::deque<Frame> seen_;  // and not told of so far
 };
 
 }  // namespace vericansim
