@@ -4,6 +4,7 @@
 
 verican_remote.py is what to import.
 """
+import errno
 import time
 from dataclasses import dataclass
 
@@ -20,6 +21,7 @@ READ, WRITE, BLOCK, DATA, SETUP, STATUS, IDENT = 0, 1, 2, 3, 4, 6, 7
 STATEMENT, END = 0x400, 0x1000
 ROW_STATUS, ROW_IDENT = 0xFF0, 0xFF8
 SKIP = 0.01
+SEND, RETRY = 1.0, 0.0002
 
 
 class RemoteError(Exception):
@@ -187,11 +189,23 @@ class Link:
         if remote is not None:
             message = can.Message(arbitration_id=identifier, is_extended_id=False,
                                   is_remote_frame=True, dlc=remote)
-        try:
-            self.bus.send(message, timeout=1)
-        except can.CanError as error:
-            raise BusOff(str(error)) from error
+        until = time.monotonic() + SEND
+        while not self._sent(message):
+            if time.monotonic() >= until:
+                raise Timeout("the interface has no room for a frame")
+            time.sleep(RETRY)
         return message
+
+    def _sent(self, message):
+        """Whether the interface has taken it. python-can waits for room in the socket, not in the
+        queue behind it, which may hold no more than ten frames."""
+        try:
+            self.bus.send(message, timeout=SEND)
+        except (can.CanError, OSError) as error:
+            if getattr(error, "error_code", None) == errno.ENOBUFS:
+                return False
+            raise BusOff(str(error)) from error
+        return True
 
     def _receive(self, until):
         """The next base frame, or None if none comes until then. Others are passed over, for SKIP
@@ -200,7 +214,7 @@ class Link:
         while True:
             try:
                 message = self.bus.recv(max(0.0, until - time.monotonic()))
-            except can.CanError as error:
+            except (can.CanError, OSError) as error:  # OSError: socketcand's, of a server gone
                 raise BusOff(str(error)) from error
             if message is None:
                 return None
