@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """Block transfers of the client of can_remote; verican_remote.py is what to import."""
-from verican_remote_link import (BLOCK, BUSY, DATA, OPEN, SEQUENCE, STATEMENT, TIMEOUT, Link,
-                                 Refused, Sequence, Timeout)
+from verican_remote_link import (ABORTED, BLOCK, BUSY, DATA, OPEN, SEQUENCE, STATEMENT, TIMEOUT,
+                                 Link, Refused, Sequence, Timeout)
 
 _ABORT, _READ, _WRITE = 0, 1, 2
 _IN_A_FRAME = 7
@@ -56,7 +56,17 @@ class Blocks(Link):
             except Refused as refused:
                 if refused.code != BUSY or left == 0:
                     raise
-                self._send_block(number, _ABORT, 0, 0)  # one that a host has left open
+                self._abort_other(number)
+
+    def _abort_other(self, number):
+        """Ends a transfer that a host has left open. The answer has the tag of that one, which may
+        be that of the next try: it is waited for, and that tag is not given again."""
+        self._send_block(number, _ABORT, 0, 0)
+        for message in self.frames(self.timeout):
+            if self._is_block(number, message) and message.data[2] == ABORTED:
+                self.tag = message.data[1]
+                return
+            self.pass_on(message)
 
     @staticmethod
     def _raise(code):
@@ -77,9 +87,12 @@ class Blocks(Link):
         self.flush()
         return self._send_block(number, op, address, length)
 
-    def _is_answer(self, number, op, message):
+    def _is_block(self, number, message):
         return (message.arbitration_id == self.port(number, BLOCK) | STATEMENT
-                and not message.is_remote_frame and message.dlc == 6
+                and not message.is_remote_frame and message.dlc == 6)
+
+    def _is_answer(self, number, op, message):
+        return (self._is_block(number, message)
                 and bytes(message.data[:2]) == bytes([op, self.tag]))
 
     def _next(self, number, op, request, frames):

@@ -15,7 +15,7 @@ OPERATE, SAFE, RESTART = 0x01, 0x02, 0x81
 CODES = {0x01: "illegal function", 0x02: "illegal address", 0x03: "illegal value", 0x05: "open",
          0x06: "busy", 0x10: "protected", 0x11: "locked", 0x12: "sequence", 0x13: "time-out",
          0x14: "aborted"}
-BUSY, OPEN, SEQUENCE, TIMEOUT = 0x06, 0x05, 0x12, 0x13
+BUSY, OPEN, SEQUENCE, TIMEOUT, ABORTED = 0x06, 0x05, 0x12, 0x13, 0x14
 
 READ, WRITE, BLOCK, DATA, SETUP, STATUS, IDENT = 0, 1, 2, 3, 4, 6, 7
 STATEMENT, END = 0x400, 0x1000

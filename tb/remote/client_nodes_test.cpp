@@ -355,6 +355,23 @@ TEST_F(ClientBlocks, ATransferLeftOpen) {
   EXPECT_EQ(block_read(0x300, 40), std::pair(VERICAN_REMOTE_OK, pattern(40)));
 }
 
+// RN-42: the answer to that abort has the tag of what was left open, which a client that has been
+// started anew may be about to give: it is not an answer to its own BLOCK.
+TEST_F(ClientBlocks, ATransferLeftOpenUnderTheNextTag) {
+  bus.latency_us = 20;
+  for (const std::uint8_t op : {1, 2}) {
+    bus.send({.id = 0x1FA,
+              .dlc = 6,
+              .data = {2, static_cast<std::uint8_t>(client.tag + 2), 0, 3, 10, 0}});
+    if (op == 1) {
+      EXPECT_EQ(block_read(0x300, 40), std::pair(VERICAN_REMOTE_OK, Bytes(40)));
+    } else {
+      EXPECT_EQ(block_write(0x300, pattern(40)), VERICAN_REMOTE_OK) << client.code;
+      EXPECT_EQ(memory(0x300, 40), pattern(40));
+    }
+  }
+}
+
 // RN-40: a gap that the host wants.
 TEST_F(ClientBlocks, Gap) {
   client.gap_ms = 5;

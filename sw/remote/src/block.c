@@ -46,11 +46,31 @@ static void abort_block(transfer_t *t) {
   (void)vr_send(t->c, &t->request);
 }
 
+static bool is_answer_of_block(const transfer_t *t, const frame_t *frame) {
+  const unsigned block = vr_id(t->c, t->number, vr_port(t->c, PORT_BLOCK)) | STATEMENT;
+  return !frame->remote && frame->id == block && frame->dlc == 6;
+}
+
+/* Ends a transfer that a host has left open. The answer has the tag of that one, which may be that
+ * of the next try: it is waited for, and that tag is not given again. */
+static void abort_other(transfer_t *t) {
+  client_t *c = t->c;
+  wait_t wait = vr_wait(c, c->timeout_us);
+  frame_t frame;
+  abort_block(t);
+  while (vr_receive(c, &wait, &frame) == VERICAN_REMOTE_OK) {
+    if (is_answer_of_block(t, &frame) && frame.data[2] == VERICAN_REMOTE_CODE_ABORTED) {
+      c->tag = frame.data[1];
+      return;
+    }
+    vr_pass_on(c, &frame);
+  }
+}
+
 /* Waits for the next frame of the transfer. EVENT_FAILED: *result says why. */
 static event_t next_event(transfer_t *t, wait_t *wait, frame_t *frame, result_t *result) {
   client_t *c = t->c;
   const unsigned data = vr_id(c, t->number, vr_port(c, PORT_DATA)) | STATEMENT;
-  const unsigned block = vr_id(c, t->number, vr_port(c, PORT_BLOCK)) | STATEMENT;
   uint8_t suspected = 0;
   bool certain = false;
   while (!certain) {
@@ -58,8 +78,7 @@ static event_t next_event(transfer_t *t, wait_t *wait, frame_t *frame, result_t 
     if (*result != VERICAN_REMOTE_OK) break;
     if (!frame->remote && frame->id == data && frame->dlc >= 2 && t->op == OP_READ)
       return EVENT_DATA;
-    if (!frame->remote && frame->id == block && frame->dlc == 6 && frame->data[0] == t->op &&
-        frame->data[1] == c->tag)
+    if (is_answer_of_block(t, frame) && frame->data[0] == t->op && frame->data[1] == c->tag)
       return EVENT_ANSWER;
     if (vr_refuses(c, t->number, &t->request, frame, &certain)) suspected = frame->data[3];
     /* Busy may be said of a BLOCK that came twice: then the transfer goes on nevertheless. */
@@ -173,7 +192,7 @@ static result_t write_once(transfer_t *t, unsigned address, size_t length) {
 /* Whether a transfer that ended so is worth another try from where it ended. */
 static bool again(transfer_t *t, result_t result) {
   if (result == VERICAN_REMOTE_REFUSED && t->c->code == VERICAN_REMOTE_CODE_BUSY) {
-    abort_block(t); /* one that a host has left open */
+    abort_other(t);
     return true;
   }
   return result == VERICAN_REMOTE_SEQUENCE || result == VERICAN_REMOTE_TIMEOUT;
