@@ -49,8 +49,22 @@ std::string state_words(const Parts &parts) {
                                                 : fmt::format("{} {}", verb, parts.byte(1));
 }
 
+/// Whether system function `a` has this DLC (section 3.3).
+bool is_system_length(unsigned a, unsigned dlc) {
+  switch (a) {
+    case 0: return dlc == 1 || dlc == 2;
+    case 1: return dlc <= 1;
+    case 3: return dlc == 1;
+    default: return dlc == 8;
+  }
+}
+
 std::string system_words(const Parts &parts) {
-  if (!parts.frame.remote) switch (parts.a) {
+  constexpr unsigned kFunctions = 5;
+  const bool known = !parts.frame.remote && parts.a < kFunctions;
+  if (known && !is_system_length(parts.a, parts.frame.dlc))
+    return fmt::format("no command at system function {:02X}", parts.a);
+  if (known) switch (parts.a) {
       case 0: return state_words(parts);
       case 1: return parts.size() == 0 ? "TRIGGER" : fmt::format("TRIGGER {}", parts.byte(0));
       case 2: return select_words(parts, "SELECT");
@@ -84,13 +98,13 @@ std::string port_request(const Parts &parts, RemotePort port) {
       if (remote || parts.size() < 3) break;
       return fmt::format("write {:03X} <- {}", parts.word(0), parts.bytes(2));
     case RemotePort::kBlock:
-      if (remote || parts.size() < 6) break;
+      if (remote || parts.frame.dlc < 6 || parts.frame.dlc > 7 || parts.byte(0) > 2) break;
       return block_request(parts);
     case RemotePort::kData:
       if (remote || parts.size() < 2) break;
       return fmt::format("block data {} <- {}", parts.byte(0), parts.bytes(1));
     case RemotePort::kSetup:
-      if (remote || parts.size() == 0) break;
+      if (remote || parts.frame.dlc != (parts.byte(0) == 1 ? 5 : 1)) break;
       return setup_request(parts);
     case RemotePort::kStatus:
       if (remote) return "read STATUS";

@@ -72,6 +72,22 @@ TEST(RemoteWords, SystemFunctions) {
   EXPECT_EQ(words("005#00"), "unknown system function 05");
 }
 
+// RN-31, RN-32: lengths and operations that no node obeys are no commands: code 3 of every node.
+TEST(RemoteWords, WrongLengthsAreNoCommands) {
+  for (const std::string frame : {"000#", "000#010300"})
+    EXPECT_EQ(words(frame), "no command at system function 00") << frame;
+  EXPECT_EQ(words("001#0102"), "no command at system function 01");
+  for (const std::string frame : {"002#", "002#34FF12FF"})
+    EXPECT_EQ(words(frame), "no command at system function 02") << frame;
+  for (const std::string frame : {"003#", "003#0500"})
+    EXPECT_EQ(words(frame), "no command at system function 03") << frame;
+  EXPECT_EQ(words("004#00"), "no command at system function 04");
+  for (const std::string frame : {"1FA#035B00030A00", "1FA#025B00030A000000"})
+    EXPECT_EQ(words(frame), "3: no command at port 7A") << frame;
+  for (const std::string frame : {"1FC#01", "1FC#0200", "1FC#"})
+    EXPECT_EQ(words(frame), "3: no command at port 7C") << frame;
+}
+
 TEST(RemoteWords, OtherNameBitsAndOtherFrames) {
   EXPECT_EQ(words("124#77", 5), "9: write 004 <- 77");
   EXPECT_EQ(words("524#77", 5), "9 says 004 = 77");
