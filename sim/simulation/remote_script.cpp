@@ -21,6 +21,11 @@ std::string hex(const std::vector<std::uint8_t> &bytes) {
   return fmt::format("{:02X}", fmt::join(bytes, " "));
 }
 
+/// In whichever words; it has the same identifier with both NameBits.
+bool is_trigger(const Frame &frame) {
+  return frame.id == 1 && !frame.extended && !frame.remote && frame.dlc <= 1;
+}
+
 }  // namespace
 
 void RemoteScript::add(const RemoteCommandSpec &spec, Time start, Time stop) {
@@ -68,7 +73,9 @@ void RemoteScript::send(const Due &due, const RemoteStep &step) {
     frame.data[place] = static_cast<std::uint8_t>(due.round);
     frame.data[place + 1] = static_cast<std::uint8_t>(due.round >> 8);
   }
-  if (step.counts) frame.data[0] = ++trigger_;
+  const auto next = static_cast<std::uint8_t>(trigger_ + 1);
+  if (step.counts) frame.data[0] = next;
+  if (is_trigger(frame)) trigger_ = frame.dlc == 0 ? next : frame.data[0];
   host_.send(frame);
   if (on_command) on_command(frame);
   if (due.spec->period == 0) return;

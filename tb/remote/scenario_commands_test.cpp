@@ -63,6 +63,10 @@ TEST(ScenarioCommands, WordsAreFrames) {
   EXPECT_THAT(sent_by("safe 5"), ElementsAre("000#0205"));
   EXPECT_THAT(sent_by("trigger 7"), ElementsAre("001#07"));
   EXPECT_THAT(sent_by("trigger, trigger"), ElementsAre("001#01", "001#02"));
+  EXPECT_THAT(sent_by("trigger 7, trigger"), ElementsAre("001#07", "001#08"));
+  EXPECT_THAT(sent_by("trigger 255, trigger"), ElementsAre("001#FF", "001#00"));
+  EXPECT_THAT(sent_by("frame 001#, trigger, frame 001#09, trigger"),
+              ElementsAre("001#", "001#02", "001#09", "001#0A"));
   EXPECT_THAT(sent_by("write 3 0x20 5A"), ElementsAre("1A0#5A"));
   EXPECT_THAT(sent_by("write pfc 33 1 2 3 4"), ElementsAre("1A1#01020304"));
   EXPECT_THAT(sent_by("write all 0x10 1"), ElementsAre("090#01"));
