@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "model/remote_config.hpp"
+#include "trace/text.hpp"
 
 namespace vericansim::cli {
 namespace {
@@ -22,9 +23,18 @@ RemoteConfig config_of(unsigned name_bits) {
   return config;
 }
 
+/// Entries that are on, but name what no statement has, are off (RN-63).
+bool is_statement(const ProducerEntry &entry, const RemoteConfig &config) {
+  const unsigned status = config.first_port() + static_cast<unsigned>(RemotePort::kStatus);
+  const bool row = entry.a == status || entry.a == status + 1;
+  const unsigned n = entry.length();
+  return n >= 1 && n <= 8 && (row || entry.a + n <= config.first_port());
+}
+
 bool sends(const NodeTables &node, const RemoteMapEntry &entry, const RemoteConfig &config) {
   return std::any_of(node.producers.begin(), node.producers.end(), [&](const ProducerEntry &one) {
-    return ((config.id(1, node.number, one.a) ^ entry.id) & entry.mask & 0x7FF) == 0;
+    return is_statement(one, config) &&
+           ((config.id(1, node.number, one.a) ^ entry.id) & entry.mask & 0x7FF) == 0;
   });
 }
 
@@ -54,6 +64,19 @@ void complain_of_vain_entries(const NodeTables &node, std::vector<std::string> &
   for (const RemoteMapEntry &entry : node.maps)
     if (const std::string why = why_never(entry, node.config, node.number); !why.empty())
       all.push_back(fmt::format("node {}: entry for {:03X}: {}", node.number, entry.id, why));
+}
+
+void complain_of_vain_producers(const NodeTables &node, const RemoteConfig &config,
+                                std::vector<std::string> &all) {
+  const unsigned ports = config.first_port();
+  const unsigned status = ports + static_cast<unsigned>(RemotePort::kStatus);
+  for (const ProducerEntry &entry : node.producers)
+    if (!is_statement(entry, config))
+      all.push_back(fmt::format(
+          "node {}: producer of {:02X}: {} are never sent; allowed: 1 to 8 bytes of 00 to {:02X}, "
+          "of {:02X} or {:02X}",
+          node.number, entry.a, text::counted(entry.length(), "byte", "bytes"), ports - 1, status,
+          status + 1));
 }
 
 std::string producer_text(const ProducerEntry &p, unsigned number, const RemoteConfig &config) {
@@ -102,6 +125,7 @@ std::vector<std::string> complaints(const std::vector<NodeTables> &nodes, unsign
                       "forgets that",
                       node.number));
     complain_of_overlaps(node, all);
+    complain_of_vain_producers(node, config, all);
     complain_of_vain_entries(node, all);
     for (const RemoteMapEntry &entry : node.maps)
       if (!anybody_sends(nodes, entry, config))

@@ -149,6 +149,25 @@ class Commands(OnBridge):
             "wrong: node 4: entry for 123: no memory for 4 bytes at 200; allowed: 0x0 to 0x1FF, "
             "0xF00 to 0xF1F, 0xF40 to 0xFBF"])
 
+    def test_map_of_producers_that_never_send(self):
+        """RN-63: no bytes, too many, beyond the window, at a port that is no row: these are off,
+        and nobody sends what others wait for. A row is sent from any window."""
+        nodes = """nodes:
+  - {name: a, type: remote, number: 3, serial: 3, memory: {0xF40: 20 90 0A 00 00 00 00 00,
+     0xF48: 22 99 0A 00 00 00 00 00, 0xF50: 76 93 0A 00 00 00 00 00,
+     0xF58: 78 92 0A 00 00 00 00 00, 0xF60: 76 92 0A 00 00 00 00 00,
+     0xF68: 7E 98 0A 00 00 00 00 00, 0xF70: 7F 98 0A 00 00 00 00 00}}
+  - {name: b, type: remote, number: 4, serial: 4, config: {map: [{id: 0x5A0, to: 0x300}]}}
+"""
+        allowed = "allowed: 1 to 8 bytes of 00 to 77, of 7E or 7F"
+        with Bridge("--fast", "--errors", "none", scenario=nodes) as self.bridge:
+            self.assertEqual(self.json("map", code=1)["complaints"], [
+                f"node 3: producer of 20: 0 bytes are never sent; {allowed}",
+                f"node 3: producer of 22: 9 bytes are never sent; {allowed}",
+                f"node 3: producer of 76: 3 bytes are never sent; {allowed}",
+                f"node 3: producer of 78: 2 bytes are never sent; {allowed}",
+                "node 4: waits for 5A0 under 7FF, which nobody sends"])
+
     def test_dump_and_load(self):
         """A table of bytes; a file and back."""
         self.assertEqual(self.memory("dump", 3, "0x1F8", 24),
