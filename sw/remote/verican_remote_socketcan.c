@@ -98,6 +98,16 @@ static verican_remote_result_t socketcan_receive(void *context, verican_remote_f
   }
 }
 
+/* Of an interface that is down bind() says nothing: the socket has the error. */
+static int bind_to(int fd, const struct sockaddr_can *address) {
+  int error = 0;
+  socklen_t size = sizeof error;
+  if (bind(fd, (const struct sockaddr *)address, sizeof *address) != 0) return -1;
+  if (getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size) != 0) return -1;
+  errno = error;
+  return error == 0 ? 0 : -1;
+}
+
 int verican_remote_socketcan_open(verican_remote_socketcan_t *s, const char *interface) {
   struct ifreq request;
   memset(&request, 0, sizeof request);
@@ -113,7 +123,7 @@ int verican_remote_socketcan_open(verican_remote_socketcan_t *s, const char *int
   int bad = ioctl(fd, SIOCGIFINDEX, &request);
   address.can_ifindex = request.ifr_ifindex;
   if (bad == 0) bad = setsockopt(fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &errors, sizeof errors);
-  if (bad == 0) bad = bind(fd, (const struct sockaddr *)&address, sizeof address);
+  if (bad == 0) bad = bind_to(fd, &address);
   if (bad != 0) {
     const int error = errno;
     close(fd);

@@ -39,3 +39,6 @@ memory write write 3 0x20 5A A5
 memory read read 3 0x20 3 --json
 memory refused write 3 0xE00 01
 stop_bridge
+
+ip link set vcan0 down
+memory down read 3 0x20 1

@@ -103,6 +103,7 @@ TARGETS = {
                "c-full-1.client": CODE, "python-small-1.client": CODE,
                "python-full-1.txt": (replace("OK", "ok"),),
                "memory.code": CODE, "refused.code": (replace("1", "0"),),
+               "down.code": (replace("2", "1"),),
                "read.out": (replace("(?i)A5|165", "A4"),)},
     "stacks": {"near-bus.log": (lose, double, corrupt), "vcan3.log": LOG, "far-bus.log": LOG,
                "bcm.txt": (lose, corrupt), "far.code": CODE,

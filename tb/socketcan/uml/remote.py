@@ -70,11 +70,13 @@ def remote(run):
     count = sum(check_life(run, client, profile, i) for client in CONTENT for profile in FEATURES
                 for i in range(len(LIVES)))
     run.ended("memory")
-    for name, code in (("scan", 0), ("write", 0), ("read", 0), ("refused", 1)):
+    for name, code in (("scan", 0), ("write", 0), ("read", 0), ("refused", 1), ("down", 2)):
         expect(run.text(f"{name}.code").strip(), str(code), f"memory {name}: exit code")
     expect_true(re.search("cafe1234", run.text("scan.out"), re.I)
                 or str(0xCAFE1234) in run.text("scan.out"), "scan: the serial number")
     data = json.dumps(json.loads(run.text("read.out")))
     expect_true(re.search(r"5A.?A5.?00|90, 165, 0", data, re.I), f"read: {data}")
     expect_true(re.search("illegal address", run.text("refused.err")), run.text("refused.err"))
+    expect_true(re.search("'vcan0': Network is down; allowed: a CAN interface that is up",
+                          run.text("down.err")), run.text("down.err"))
     return [f"{count} frames of the golden vectors through a socket and the RTL"]
