@@ -32,7 +32,7 @@ TEST_P(RandomBus, JudgesAgree) {
 // A bus that the model cannot follow to its end, because too much is open, is no difference, though
 // software had more to do there.
 TEST(RandomBus, CutShortIsNoDifference) {
-  const JudgedRun run = run_judged(random_scenario(62, 3000));
+  const JudgedRun run = run_judged(random_scenario(148, 3000));
   EXPECT_TRUE(run.cut_short);
   EXPECT_THAT(run.findings, ::testing::IsEmpty());
 }
