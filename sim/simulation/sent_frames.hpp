@@ -33,8 +33,9 @@ class SentFrames {
     Frame frame;
     Time time;
   };
-  static constexpr Time kNear = 20;         // bits; frames of a node end 47 apart at least
-  static constexpr std::size_t kMost = 64;  // buffers of a core whose end its software may not know
+  static constexpr Time kNear = 20;  // bits; frames of a node end 47 apart at least
+  /// Frames whose end no software tells of are forgotten: a core has no more buffers than this.
+  static constexpr std::size_t kMost = 64;
 
   Time near_;
   std::deque<Ended> told_;  // and not seen so far

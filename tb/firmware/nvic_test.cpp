@@ -170,7 +170,7 @@ TEST(SystemControl, IcsrShowsAndPends) {
 }
 
 // VECTPENDING has the effect of BASEPRI and FAULTMASK, not that of PRIMASK or of what is active
-// (Cortex-M3 Devices Generic User Guide, 4.3.3).
+// (Cortex-M3 Devices Generic User Guide, ICSR).
 TEST(SystemControl, IcsrLeavesOutWhatIsMasked) {
   Nvic nvic;
   SystemControl system{nvic};
