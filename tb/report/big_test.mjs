@@ -12,6 +12,7 @@ import {
   openBrowser,
   openReport,
   screenshot,
+  settle,
   writeScene,
 } from './browser.mjs';
 import {bigScene} from './scenes.mjs';
@@ -40,12 +41,6 @@ const redraws = (page) =>
 const say = (text, {count, mean, worst}) =>
   console.log(
     `# ${text}: ${count} redraws, mean ${mean.toFixed(1)} ms, worst ${worst.toFixed(1)} ms`,
-  );
-
-/** Lets the browser draw what was asked for. */
-const settle = (page) =>
-  page.evaluate(
-    () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))),
   );
 
 test('a hundred thousand frames open, pan, zoom and are searched', async () => {

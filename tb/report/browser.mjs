@@ -94,8 +94,15 @@ export async function openReport(path, options = {}) {
   page.requests = [];
   await page.goto(pathToFileURL(path).href + hash);
   await page.waitForFunction(() => document.documentElement.dataset.ready);
+  await settle(page); // sizes of the first layout are drawn a frame after it
   return page;
 }
+
+/** Waits until all that was asked for is drawn. */
+export const settle = (page) =>
+  page.evaluate(
+    () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))),
+  );
 
 /** Ends a page; nothing went wrong in it and it asked for nothing but itself. */
 export async function closeReport(page) {

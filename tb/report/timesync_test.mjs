@@ -10,7 +10,7 @@ import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import * as browser from './browser.mjs';
 
-const {assertColor, closeReport, cssColor, openReport, outDir, pixel, screenshot} = browser;
+const {assertColor, closeReport, cssColor, openReport, outDir, pixel, screenshot, settle} = browser;
 const template = process.env.VERICAN_TIMESYNC_PAGE;
 const kNominal = 62.5 * 2 ** 32; // increment at 16 MHz
 
@@ -87,12 +87,6 @@ const placeOf = (page, plot, x, y) =>
     },
     [plot, x, y],
   );
-/** Waits until all that was asked for is drawn. */
-const settle = (page) =>
-  page.evaluate(
-    () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))),
-  );
-
 let file;
 before(async () => {
   await browser.openBrowser();
