@@ -57,12 +57,19 @@ void GoldenCaller::others(const golden::Call &call) {
   } else if (call.what == "poll") {
     poll(call);
   } else if (call.what == "select") {
-    bool here = !call.here;
-    ok(verican_remote_select(&client_, call.value, call.mask, false, &here));
-    EXPECT_EQ(here, call.here);
+    select(call);
   } else {
     FAIL() << "no such call";
   }
+}
+
+void GoldenCaller::select(const golden::Call &call) {
+  const std::uint32_t usual = client_.select_us;
+  if (call.here) client_.select_us = client_.timeout_us;  // HERE is late on a busy computer
+  bool here = !call.here;
+  ok(verican_remote_select(&client_, call.value, call.mask, false, &here));
+  EXPECT_EQ(here, call.here);
+  client_.select_us = usual;
 }
 
 void GoldenCaller::status(std::uint8_t node, const Bytes &row) {

@@ -26,6 +26,7 @@ class GoldenCaller {
   using Bytes = std::vector<std::uint8_t>;
 
   void others(const golden::Call &call);
+  void select(const golden::Call &call);
   void status(std::uint8_t node, const Bytes &row);
   void identity(std::uint8_t node, const Bytes &row);
   void poll(const golden::Call &call);

@@ -7,6 +7,6 @@ for way in timed flat; do
   listen vcan0 $way.log
   [ $way = timed ] && option= || option=-t
   canplayer $option -I "$VERICAN_LOG" vcan0=can0 || complain "canplayer $option"
-  wait_until 20 has_lines $way.log "$VERICAN_FRAMES"
+  wait_until 60 has_lines $way.log "$VERICAN_FRAMES"
   hush
 done

@@ -17,7 +17,7 @@ send -e -n 1624 -I i -L i -D FFFFFFFFFFFFFFFF
 send -R -n 896 -I i -L i
 send -R -e -n 896 -I i -L i
 wait_until 200 has_passed mon0 20000
-wait_until 20 has_lines vcan0.log 20000
+wait_until 60 has_lines vcan0.log 20000
 stop_bridge
 statistics vcan0 vcan0.json
 statistics mon0 mon0.json

@@ -64,7 +64,7 @@ listen() {
   shift 2
   candump -L -r 33554432 "$@" "$what" >"$file" 2>"$file.err" &
   listeners="$listeners $!"
-  wait_until 20 has_sockets "$device" $((before + 1))
+  wait_until 60 has_sockets "$device" $((before + 1))
 }
 
 # A process that sleeps has read what there was.

@@ -15,7 +15,7 @@ vectors() {
       name=$client-$VERICAN_PROFILE-$VERICAN_LIFE
       listen vcan0 $name.log
       start_bridge $name --if vcan0 --bus $VERICAN_PROFILE-$VERICAN_LIFE.yaml --fast --errors none
-      wait_until 20 has_lines $name.log 1
+      wait_until 60 has_lines $name.log 1
       "$@" >$name.txt 2>&1
       echo $? >$name.client
       hush

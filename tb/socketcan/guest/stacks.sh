@@ -20,10 +20,10 @@ A=8000000000000A01 B=8000000000000B02
 listen vcan1 claims.log
 j1939acd -r 0x80,0x90-0x93 -a 0x80 $B vcan0 2>acdB.txt &
 claimers=$!
-wait_until 30 has_text claims.log '18EEFF80#020B'
+wait_until 60 has_text claims.log '18EEFF80#020B'
 j1939acd -r 0x80,0x98-0x9B -a 0x80 $A vcan1 2>acdA.txt &
 claimers="$claimers $!"
-wait_until 30 has_text claims.log '18EEFF90#020B'
+wait_until 60 has_text claims.log '18EEFF90#020B'
 sleep 1
 j1939cat -r vcan1:0x80,0x12500 >there.out 2>there.err &
 takers=$!
@@ -43,8 +43,8 @@ wait $sender
 received() {
   [ "$(wc -c <"$1")" -ge "$2" ]
 }
-wait_until 20 received there.out "$(wc -c <there.bin)"
-wait_until 20 received back.out "$(wc -c <back.bin)"
+wait_until 60 received there.out "$(wc -c <there.bin)"
+wait_until 60 received back.out "$(wc -c <back.bin)"
 kill $takers $claimers
 
 # The broadcast manager.
@@ -60,8 +60,8 @@ cangen vcan3 -g 1 -n 100 -I 444 -L r -D r || complain "cangen from"
 has_frames() {
   [ "$(grep -c " $2#" "$1")" -ge 100 ]
 }
-wait_until 20 has_frames vcan3.log 333
-wait_until 20 has_frames vcan0.log 445
+wait_until 60 has_frames vcan3.log 333
+wait_until 60 has_frames vcan0.log 445
 cangw -L >rules.txt
 cangw -F
 hush

@@ -14,7 +14,7 @@ done
 for frame in $VERICAN_SENT; do
   cansend vcan0 "$frame" || complain "cansend $frame"
 done
-wait_until 20 has_lines all.log "$(echo $VERICAN_SENT | wc -w)"
+wait_until 60 has_lines all.log "$(echo $VERICAN_SENT | wc -w)"
 hush
 
 listen vcan1 played.log
@@ -25,7 +25,7 @@ hush
 open=$(sockets vcan1)
 canbusload -e vcan1@500000 >load.txt &
 load=$!
-wait_until 20 has_sockets vcan1 $((open + 1))  # or listen would take this socket for its own
+wait_until 60 has_sockets vcan1 $((open + 1))  # or listen would take this socket for its own
 listen vcan1 load.log
 cangen vcan0 -g 1 -n 200 -I i -L i -D i || complain "cangen"
 cangen vcan0 -g 0 -e -n 200 -I i -L i -D i || complain "cangen -e"
@@ -49,7 +49,7 @@ for choice in $VERICAN_OWN_FILTERS; do
   for frame in $VERICAN_SENT; do
     cansend vcan0 "$frame" || complain "cansend $frame"
   done
-  wait_until 20 has_lines own$number.log "${choice#*:}"
+  wait_until 60 has_lines own$number.log "${choice#*:}"
   stop_bridge
   hush
 done
