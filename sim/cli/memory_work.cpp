@@ -192,12 +192,21 @@ int memory_write(MemoryCalls &calls, const MemoryOptions &options) {
   return kOk;
 }
 
+/// Why a poll had no answer: nobody is there, or those that are refuse it.
+[[noreturn]] void nobody_has(MemoryCalls &calls, const MemoryOptions &options) {
+  std::string there;
+  for (const auto &[number, state] : states(calls, 0))
+    there += fmt::format("{}{}", there.empty() ? "" : ", ", number);
+  throw MemoryFailure(fmt::format("no node answers at 0x{:03X} with {} bytes; nodes {} are there",
+                                  options.address, options.length, there));
+}
+
 int memory_poll(MemoryCalls &calls, const MemoryOptions &options) {
   constexpr unsigned kMost = 6;
   check_range(options.address, options.length);
   if (options.length > kMost) refuse("length", std::to_string(options.length), "1 to 6");
   const verican_remote_answers_t answers = calls.poll(options.address, options.length);
-  require_answers(calls, answers.answered != 0);
+  if (answers.answered == 0) nobody_has(calls, options);
   Json list = Json::array();
   for (unsigned node = 0; node < VERICAN_REMOTE_NUMBERS; ++node) {
     if ((answers.answered >> node & 1) == 0) continue;

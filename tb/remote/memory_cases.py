@@ -258,6 +258,11 @@ class Commands(OnBridge):
         self.memory("assign", "77", 7, code=1, timeout=50,
                     error="verican: memory: the node with serial number 00000077 does not answer\n")
 
+    def test_poll_that_all_refuse(self):
+        """Nodes 3 and 4 are there, with no memory at this address."""
+        self.memory("poll", "0xDFE", "6", code=1, error=(
+            "verican: memory: no node answers at 0xDFE with 6 bytes; nodes 3, 4 are there\n"))
+
     def test_a_number_that_is_not_taken(self):
         """A node in OPERATE is there, but takes none."""
         self.memory("state", "operate", 3)
