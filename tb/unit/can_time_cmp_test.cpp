@@ -17,6 +17,23 @@ void Vcan_time_cmp___024root___eval_settle(Vcan_time_cmp___024root *root);
 namespace vericansim {
 namespace {
 
+/// Flips a bit of the target, or behind these what is armed and the level of the pin, as upsets of
+/// flip-flops do. Not in a netlist of cells, which has no variable for the target: false.
+template <typename Root>
+bool flip(Root *root, unsigned bit) {
+  if constexpr (requires { root->can_time_cmp__DOT__target_q; }) {
+    if (bit < 32)
+      root->can_time_cmp__DOT__target_q ^= 1U << bit;
+    else
+      (bit == 32 ? root->armed_o : root->out_o) ^= 1;
+    Vcan_time_cmp___024root___eval_settle(root);
+    return true;
+  } else {
+    static_assert(!kHasRegisters<Root>, "the register has another name");
+    return false;
+  }
+}
+
 /// What is given in one clock; `now` is TIME[31:0] of the clock.
 struct Inputs {
   std::uint32_t now = 0, data = 0, period = 0, launch = 0;
@@ -144,14 +161,6 @@ TEST_F(CanTimeCmp, AgainstTheRules) {
 // once, whatever fires meanwhile, until it is armed anew; but for the clock behind an event, in
 // which the parity is taken.
 TEST_F(CanTimeCmp, TellsOfAnUpset) {
-  const auto flip = [this](unsigned bit) {
-    auto &root = rtl_.root();
-    if (bit < 32)
-      root.can_time_cmp__DOT__target_q ^= 1U << bit;
-    else
-      (bit == 32 ? root.armed_o : root.out_o) ^= 1;
-    Vcan_time_cmp___024root___eval_settle(&root);
-  };
   const auto arm = [this] {
     in_.enable = in_.arm = true;
     in_.data = in_.now + 1000;
@@ -166,7 +175,7 @@ TEST_F(CanTimeCmp, TellsOfAnUpset) {
       arm();
       for (unsigned i = 0; i < 4 * kPeriod + wait; ++i) clock();
       ASSERT_EQ(alarms_, 0u);
-      flip(bit);
+      if (!flip(&rtl_.root(), bit)) GTEST_SKIP();
       clock();
       const bool upset = rtl_->upset_o != 0;
       told += upset ? 1 : 0;
