@@ -9,10 +9,12 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <memory>
+#include <vector>
 
 #include "trace/input_error.hpp"
 
@@ -35,6 +37,30 @@ Addresses look_up(const std::string &option, const SocketcandAddress &address) {
     throw InputError(option, 0,
                      in_quotes(address.text()) + ": no such address: " + ::gai_strerror(failure));
   return {found, &::freeaddrinfo};
+}
+
+/// Addresses of IPv4 first: a name may have one of each version, as localhost has, and python-can's
+/// clients look for servers at IPv4 alone.
+std::vector<const addrinfo *> in_order(const addrinfo *found) {
+  std::vector<const addrinfo *> order;
+  for (const addrinfo *entry = found; entry != nullptr; entry = entry->ai_next)
+    order.push_back(entry);
+  std::stable_partition(order.begin(), order.end(),
+                        [](const addrinfo *entry) { return entry->ai_family == AF_INET; });
+  return order;
+}
+
+/// A socket that listens there; -1 with errno if that is not possible.
+int listen_at(const addrinfo &entry) {
+  const int fd = ::socket(entry.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (fd < 0) return -1;
+  const int on = 1;
+  ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  if (::bind(fd, entry.ai_addr, entry.ai_addrlen) == 0 && ::listen(fd, kBacklog) == 0) return fd;
+  const int failure = errno;
+  ::close(fd);
+  errno = failure;
+  return -1;
 }
 
 /// The port that the kernel has chosen.
@@ -82,18 +108,10 @@ SocketcandListener::SocketcandListener(const std::string &option, const Socketca
     : address_{address} {
   const Addresses found = look_up(option, address);
   int failure = 0;
-  for (const addrinfo *entry = found.get(); entry != nullptr && fd_ < 0; entry = entry->ai_next) {
-    const int fd = ::socket(entry->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-    const int on = 1;
-    if (fd >= 0) ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    const bool good = fd >= 0 && ::bind(fd, entry->ai_addr, entry->ai_addrlen) == 0 &&
-                      ::listen(fd, kBacklog) == 0;
-    if (good) {
-      fd_ = fd;
-    } else {
-      failure = errno;
-      if (fd >= 0) ::close(fd);
-    }
+  for (const addrinfo *entry : in_order(found.get())) {
+    fd_ = listen_at(*entry);
+    if (fd_ >= 0) break;
+    failure = errno;
   }
   if (fd_ < 0)
     throw InputError(option, 0,

@@ -383,6 +383,24 @@ traffic: [{node: node, id: 0x123, data: counter, period: saturated}]
         self.refused(command, ["--socketcand", "127.0.0.1:1"],
                      "--socketcand: cannot listen on 127.0.0.1:1: Permission denied")
 
+    def test_name_with_addresses_of_both_versions(self):
+        """Clients that know IPv4 alone find the server at a name that has ::1, too."""
+        with tempfile.TemporaryDirectory() as folder:
+            hosts = pathlib.Path(folder) / "hosts"
+            hosts.write_text("::1 localhost\n127.0.0.1 localhost\n", encoding="ascii")
+            own = ["unshare", "--map-root-user", "--mount", "sh", "-c",
+                   'mount --bind "$0" /etc/hosts && exec "$@"', str(hosts)]
+            if subprocess.run(own + ["true"], capture_output=True, check=False).returncode != 0:
+                self.skipTest("this machine gives no mounts of one's own")
+            with subprocess.Popen(
+                    own + [os.environ["VERICAN_BINARY"], "bridge", "--nodes", "1",
+                           "--socketcand", "localhost:0"],
+                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as bridge:
+                try:
+                    Client(int(bridge.stderr.readline().rsplit(":", 1)[1])).socket.close()
+                finally:
+                    bridge.terminate()
+
     def refused(self, command, options, text):
         """The command ends at once with code 2 and one line that has `text`."""
         result = subprocess.run(command + ["bridge", *options], capture_output=True, text=True,
