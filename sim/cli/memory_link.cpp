@@ -76,25 +76,42 @@ int connect_to(const SocketcandAddress &address) {
   return fd;
 }
 
-/// "frame ID TIME BYTES" as a frame; false: nothing of a bus of remote nodes.
-bool read_frame(const std::string &text, verican_remote_frame_t &frame) {
-  const auto words = text::split_blanks(text);
-  if (words.size() < 3 || (words[0] != "frame" && words[0] != "rtr") || words[1].size() > 3)
-    return false;
-  const auto id = text::parse_unsigned(words[1], 16);
+using Words = std::vector<std::string_view>;
+
+/// The DLC of "rtr ID TIME DLC"; not all servers tell it.
+bool read_length(const Words &words, verican_remote_frame_t &frame) {
+  constexpr unsigned kMost = 8;
+  if (words.size() < 4) return true;
+  const auto dlc = text::parse_unsigned(words[3], 10);
+  if (!dlc || *dlc > 15) return false;
+  frame.dlc = static_cast<std::uint8_t>(std::min<std::uint64_t>(*dlc, kMost));
+  return true;
+}
+
+/// The bytes of "frame ID TIME BYTES".
+bool read_bytes(const Words &words, verican_remote_frame_t &frame) {
   std::string digits;
   for (std::size_t i = 3; i < words.size(); ++i) digits += words[i];
-  if (!id || *id > 0x7FF || digits.size() > 16 || digits.size() % 2 != 0) return false;
-  frame = {};
-  frame.id = static_cast<std::uint16_t>(*id);
-  frame.remote = words[0] == "rtr";
-  if (frame.remote) return true;
+  if (digits.size() > 16 || digits.size() % 2 != 0) return false;
   for (std::size_t i = 0; i < digits.size(); i += 2) {
     const auto byte = text::parse_unsigned(std::string_view{digits}.substr(i, 2), 16);
     if (!byte) return false;
     frame.data[frame.dlc++] = static_cast<std::uint8_t>(*byte);
   }
   return true;
+}
+
+/// A "frame" or "rtr" message as a frame; false: nothing of a bus of remote nodes.
+bool read_frame(const std::string &text, verican_remote_frame_t &frame) {
+  const Words words = text::split_blanks(text);
+  if (words.size() < 3 || (words[0] != "frame" && words[0] != "rtr") || words[1].size() > 3)
+    return false;
+  const auto id = text::parse_unsigned(words[1], 16);
+  if (!id || *id > 0x7FF) return false;
+  frame = {};
+  frame.id = static_cast<std::uint16_t>(*id);
+  frame.remote = words[0] == "rtr";
+  return frame.remote ? read_length(words, frame) : read_bytes(words, frame);
 }
 
 /// "error CLASS TIME BYTES", CLASS of eight digits: what the bus shows, while "error" and a text is

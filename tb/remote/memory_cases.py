@@ -224,6 +224,21 @@ class Commands(OnBridge):
         self.assertEqual({json.loads(line)["words"] for line in lines},
                          {"3: read 040, 2 bytes", "3 says 040 = 01 02"})
 
+    def test_watch_shows_reads_by_remote_frame(self):
+        """RN-21: those of another host, with their length."""
+        lines = []
+        watch = threading.Thread(
+            target=lambda: lines.extend(self.memory("watch", "--frames", 2).splitlines()))
+        watch.start()
+        with Client(self.bridge.port, "open can0", "rawmode") as other:
+            while watch.is_alive():
+                other.send("sendrtr 1C0 2")
+                other.frames(1)
+        watch.join()
+        words = {tuple(line.split(maxsplit=2)[1:]) for line in lines}
+        self.assertEqual(words, {("1C0#R2", "3: read 040, 2 bytes"),
+                                 ("5C0#0102", "3 says 040 = 01 02")})
+
     def test_watch_tells_of_a_doubled_number(self):
         """RN-13: a node that hears its own number says so."""
         with Client(self.bridge.port, "open can0", "rawmode") as other:
