@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # lint-sources.sh CHECK: one of the checks of all source files that look at nothing but their text:
-# licence_heads, line_length, comments, parameters, format. It prints what is wrong; status 1 if
-# something is, or if there are no files to look at.
+# licence_heads, line_length, comments, parameters, registers, format. It prints what is wrong;
+# status 1 if something is, or if there are no files to look at.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 . tools/common.sh
@@ -48,15 +48,23 @@ parameters() {
   [ -z "$bad" ] || printf '%s\n' "$bad"
   [ -z "$bad" ]
 }
+# Unit tests run on netlists, too (tb/netlist), whose cells have no variables for registers.
+registers() {
+  local files bad
+  files=$(our_files 'tb/unit/*.cpp') || return 1
+  bad=$(xargs grep -l '__DOT__' <<<"$files" | xargs -r grep -L 'requires {')
+  [ -z "$bad" ] || sed 's/$/: names a register without a look whether it is there/' <<<"$bad"
+  [ -z "$bad" ]
+}
 format() {
   our_files '*.cpp' '*.hpp' '*.c' '*.h' | xargs -r clang-format --dry-run -Werror
 }
 
 case $1 in
-  licence_heads | line_length | comments | parameters | format) "$1" ;;
+  licence_heads | line_length | comments | parameters | registers | format) "$1" ;;
   *)
     echo "lint-sources.sh: no check '$1'; there are licence_heads, line_length, comments," \
-      "parameters, format" >&2
+      "parameters, registers, format" >&2
     exit 2
     ;;
 esac

@@ -138,6 +138,7 @@ check "licence heads" tools/lint-sources.sh licence_heads
 check "lines of at most 100 characters" tools/lint-sources.sh line_length
 check "comments that stand by themselves" tools/lint-sources.sh comments
 check "parameters that every tool reads alike" tools/lint-sources.sh parameters
+check "registers that netlists lack" tools/lint-sources.sh registers
 check "folders of sim/ include downwards only" tools/layers.py
 check "clang-format" tools/lint-sources.sh format
 finish # clang-tidy takes all cores

@@ -37,8 +37,17 @@ using Ticks =
                    Tick<Vcan_rn_tick_48000, 16, 48'000>, Tick<Vcan_rn_tick_100000, 17, 100'000>,
                    Tick<Vcan_rn_tick_131071, 17, 131'071>>;
 
-/// The shift register; its name begins with that of the module, not of the model.
-auto &state_of(auto &root) { return root.can_rn_tick__DOT__state_q; }
+/// The shift register; its name begins with that of the module, not of the model. A netlist of
+/// cells has no variable for it: nullptr.
+template <typename Root>
+auto *state_of(Root &root) {
+  if constexpr (requires { root.can_rn_tick__DOT__state_q; }) {
+    return &root.can_rn_tick__DOT__state_q;
+  } else {
+    static_assert(!kHasRegisters<Root>, "the register has another name");
+    return static_cast<std::uint32_t *>(nullptr);
+  }
+}
 
 template <typename T>
 class CanRnTick : public testing::Test {
@@ -68,9 +77,10 @@ TYPED_TEST(CanRnTick, EveryMillisecondHasItsClocks) {
 // the time goes on, after one that lasts no longer than all states.
 TYPED_TEST(CanRnTick, NoStateStopsTheTime) {
   constexpr unsigned kStates = (1U << TypeParam::kBits) - 1;
+  auto *state = state_of(this->tick_.root());
+  if (state == nullptr) GTEST_SKIP();
   for (unsigned bit = 0; bit <= TypeParam::kBits; ++bit) {
-    auto &state = state_of(this->tick_.root());
-    state = bit == TypeParam::kBits ? 0 : state ^ 1U << bit;
+    *state = bit == TypeParam::kBits ? 0 : *state ^ 1U << bit;
     this->tick_.settle();
     for (int i = 0; i < 2; ++i) {
       const unsigned clocks = this->to_pulse();
