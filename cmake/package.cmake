@@ -98,6 +98,10 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/firmware/common"
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/canopennode" DESTINATION "${VERICAN_DATA_DIR}"
         USE_SOURCE_PERMISSIONS COMPONENT driver)
 
+# Headers with which NXP's SDK, the user's own, drives the core.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/sw/mcux" DESTINATION "${VERICAN_DATA_DIR}"
+        COMPONENT driver)
+
 if(TARGET verican)
   install(TARGETS verican RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tool)
 endif()
@@ -129,7 +133,7 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
 set(VERICAN_DOC_PLACES
   "sim=${include_dir}" "rtl=${VERICAN_DATA_DIR}/rtl" "examples=${VERICAN_DATA_DIR}/examples"
   "sw/driver=${VERICAN_DATA_DIR}/driver" "sw/canopennode=${VERICAN_DATA_DIR}/canopennode"
-  "sw/remote=${VERICAN_DATA_DIR}/remote"
+  "sw/remote=${VERICAN_DATA_DIR}/remote" "sw/mcux=${VERICAN_DATA_DIR}/mcux"
   "sw/firmware/common=${VERICAN_DATA_DIR}/firmware/common"
   "sw/verican.svd=${VERICAN_DATA_DIR}/verican.svd")
 list(TRANSFORM VERICAN_DOC_PLACES REPLACE "=" "=\${root}/")
