@@ -16,7 +16,7 @@ CPU = ("-mcpu=cortex-m3", "-mthumb", "-std=gnu99", "-Os", "-g", "-ffunction-sect
        "-fdata-sections", "-nostartfiles", "-Wl,--gc-sections", "-T", BOARD / "a2f500.ld")
 OWN = ("-Wall", "-Wextra", "-Werror")
 CHECKS = ("polling", "interrupts", "remote", "fifo, table A", "fifo, table B", "fifo, table C",
-          "abort", "loop-back", "bus-off")
+          "flood", "abort", "loop-back", "listen-only", "bus-off")
 PATIENCE = 250
 needs_sdk = unittest.skipUnless(
     os.environ.get("MCUX_SDK") and os.environ.get("CMSIS_CORE"),

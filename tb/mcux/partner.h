@@ -15,6 +15,9 @@
 /** Identifier of the remote frame, and a byte of the data frame that answers it. */
 #define REMOTE_ID 0x2A5u
 #define REMOTE_BYTE(i) (0xA0u + (i))
+/** Asks for data[0] frames without a pause, data[1] ms later: BURST_ID, numbered in data[0]. */
+#define ORDER_ID 0x2B0u
+#define BURST_ID 0x4C0u
 /** A frame of this identifier ends the partner. */
 #define END_ID 0x3FFu
 /** From when on the partner listens, microseconds. */

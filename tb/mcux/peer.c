@@ -2,10 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0
  *
  * The partner of check.c, on the project's own driver: answers data frames by inverted data under
- * the identifier with ANSWER, and remote frames by data.
+ * the identifier with ANSWER, remote frames by data, and an order by a burst.
  */
 #include "can.h"
 #include "partner.h"
+#include "semihost.h"
 
 static can_t can;
 
@@ -21,6 +22,16 @@ static verican_frame_t answer_to(const verican_frame_t *frame) {
   return answer;
 }
 
+static void burst(unsigned count, uint32_t delay_us) {
+  const uint32_t begin = semihost_microseconds();
+  while (semihost_microseconds() - begin < delay_us) {
+  }
+  for (unsigned n = 0; n < count; ++n) {
+    const verican_frame_t frame = {.id = BURST_ID, .dlc = 1, .data = {(uint8_t)n}};
+    can_send(&can, &frame);
+  }
+}
+
 int main(void) {
   enum { FOREVER_US = 1000000 };
   const verican_config_t config = can_config(&can, 0, 500000);
@@ -29,8 +40,12 @@ int main(void) {
   verican_frame_t frame;
   while (can_receive(&can, &frame, FOREVER_US)) {
     if (frame.flags == 0u && frame.id == END_ID) return 0;
-    const verican_frame_t answer = answer_to(&frame);
-    can_send(&can, &answer);
+    if (frame.flags == 0u && frame.id == ORDER_ID) {
+      burst(frame.data[0], 1000u * frame.data[1]);
+    } else {
+      const verican_frame_t answer = answer_to(&frame);
+      can_send(&can, &answer);
+    }
   }
   return 1;
 }
