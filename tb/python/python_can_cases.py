@@ -143,6 +143,17 @@ class PythonCan(unittest.TestCase):
         gaps = [second - first for first, second in zip(stamps[1:], stamps[2:])]
         self.assertTrue(all(111 * 2e-6 - 1e-6 < gap < 135 * 2e-6 + 1e-6 for gap in gaps), gaps)
 
+    def test_stamps_of_frames_that_come_one_by_one(self):
+        # The bus idles between them, shorter than between two looks at the host's clock.
+        since = time.time()
+        for i in range(60):
+            time.sleep(5e-3)
+            self.a.send(message(i))
+        passed = time.time() - since
+        stamps = [self.b.recv(WAIT).timestamp for _ in range(60)]
+        self.assertAlmostEqual(stamps[-1] - stamps[0], passed, delta=passed / 2)
+        self.assertAlmostEqual(stamps[-1], since + passed, delta=passed / 2)
+
     def test_a_log_is_written_and_played_back(self):
         with tempfile.TemporaryDirectory() as folder:
             path = str(Path(folder) / "bus.log")

@@ -152,13 +152,15 @@ class Channel:
     def _follow(self):
         """In small steps: after `disturb` idle time costs CPU, and where it costs more than it
         lasts the way to the host's time grows while it is gone; whoever calls does not wait for
-        its end."""
-        while not (self._work or self._closing):
+        its end. One step comes before any work: frames that come one by one have their times."""
+        while not self._closing:
             behind = time.time() - self._epoch - self._bus.now
             if behind <= 0:
                 return
             self._bus.pass_time(min(behind, IDLE_LOOK))
             self._give()
+            if self._work:
+                return
 
     def _give(self):
         self._bus.frames()  # nobody reads these here
