@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "bridge/frame_form.hpp"
@@ -53,10 +54,17 @@ std::function<void()> signal_check() {
   };
 }
 
-std::unique_ptr<ProgramBus> make_bus(const std::vector<std::string> &nodes,
-                                     std::optional<double> bitrate, double clock_hz,
-                                     const std::string &scenario, double restart,
-                                     const std::string &vcd, const std::string &order) {
+// A process that was forked leaves its parent's files alone.
+struct Release {
+  void operator()(ProgramBus *bus) const {
+    if (!bus->files_of_another()) std::default_delete<ProgramBus>{}(bus);
+  }
+};
+using OwnedBus = std::unique_ptr<ProgramBus, Release>;
+
+OwnedBus make_bus(const std::vector<std::string> &nodes, std::optional<double> bitrate,
+                  double clock_hz, const std::string &scenario, double restart,
+                  const std::string &vcd, const std::string &order) {
   if (order != "program" && order != "identifier")
     throw std::invalid_argument("order '" + order + "': program or identifier");
   ProgramBusSetup setup;
@@ -74,7 +82,7 @@ std::unique_ptr<ProgramBus> make_bus(const std::vector<std::string> &nodes,
   setup.restart = to_ps("restart", restart);
   setup.by_identifier = order == "identifier";
   if (!vcd.empty()) setup.scenario.outputs.vcd = vcd;
-  auto bus = std::make_unique<ProgramBus>(std::move(setup));
+  OwnedBus bus{std::make_unique<ProgramBus>(std::move(setup)).release()};
   bus->on_look = signal_check();
   return bus;
 }
@@ -171,9 +179,10 @@ void disturb(ProgramBus &bus, const std::string &effect, double begin, double du
 using Unlocked = py::call_guard<py::gil_scoped_release>;
 
 void bind_bus(py::module_ &m) {
-  py::class_<ProgramBus>(m, "Bus",
-                         "A bus of Verilated controllers. Nothing happens but in step() and "
-                         "run_until_quiet(). Not for two threads at once.")
+  py::class_<ProgramBus, OwnedBus>(
+      m, "Bus",
+      "A bus of Verilated controllers. Nothing happens but in step() and "
+      "run_until_quiet(). Not for two threads at once.")
       .def(py::init(&make_bus), "nodes"_a, py::kw_only(), "bitrate"_a = py::none(),
            "clock_hz"_a = 8e6, "scenario"_a = "", "restart"_a = 0.0, "vcd"_a = "",
            "order"_a = "program")

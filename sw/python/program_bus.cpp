@@ -5,6 +5,7 @@
 #include "program_bus.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -24,6 +25,13 @@ double chosen_rate(std::optional<double> wanted, const Scenario &scenario) {
     throw std::invalid_argument(
         fmt::format("bitrate {:g}: 1000 to 1000000 bit/s are allowed", rate));
   return rate;
+}
+
+bool writes_files(const Outputs &outputs) {
+  const auto names = {&outputs.vcd,    &outputs.fst,         &outputs.candump, &outputs.pcap,
+                      &outputs.report, &outputs.signals_csv, &outputs.ids_csv};
+  return std::any_of(names.begin(), names.end(),
+                     [](const std::string *name) { return !name->empty(); });
 }
 
 }  // namespace
@@ -54,7 +62,8 @@ Scenario ProgramBus::with_nodes(ProgramBusSetup &setup) {
 }
 
 ProgramBus::ProgramBus(ProgramBusSetup setup)
-    : scenario_{with_nodes(setup)},
+    : process_{::getpid()},
+      scenario_{with_nodes(setup)},
       simulation_{scenario_, chosen_rate(setup.bitrate, scenario_)},
       bit_time_{bit_time_of(simulation_.bitrate())},
       by_id_(scenario_.nodes.size()) {
@@ -151,7 +160,18 @@ void ProgramBus::on_bit(NodeId id, const BitRecord &bit) {
 
 // ---- Time
 
+bool ProgramBus::files_of_another() const {
+  return process_ != ::getpid() && writes_files(scenario_.outputs);
+}
+
+void ProgramBus::check_process() const {
+  if (files_of_another())
+    throw std::runtime_error(
+        "this bus writes files, which are those of the process that opened it");
+}
+
 void ProgramBus::check_open() const {
+  check_process();
   if (finished_)
     throw std::runtime_error(
         "no frame is sent, no step made, no node disturbed or restarted after finish()");

@@ -4,6 +4,8 @@
 // ProgramBus: a simulated bus that one program holds, steps and works node by node.
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -87,11 +89,15 @@ class ProgramBus : private BusObserver {
   /// Completes the files of the scenario's outputs. send(), restart(), disturb() and whatever lets
   /// time pass throw std::runtime_error after it.
   [[nodiscard]] RunReport finish() {
+    check_process();
     finished_ = true;
     if (quiet()) simulation_.settle();
     return simulation_.finish();
   }
   [[nodiscard]] Time started() const { return simulation_.started(); }
+  /// True in a process that was forked from the one that opened the files of the outputs: finish()
+  /// and what throws after it throw std::runtime_error there, and a destructor would remove them.
+  [[nodiscard]] bool files_of_another() const;
 
  private:
   /// A node of the program.
@@ -111,6 +117,7 @@ class ProgramBus : private BusObserver {
   [[nodiscard]] unsigned interests() const override { return kBits; }
   void on_bit(NodeId id, const BitRecord &bit) override;
   void join();
+  void check_process() const;
   void check_open() const;
   void exchange();
   /// When what begins now and takes `duration` ends, on the bus's own clock.
@@ -124,6 +131,7 @@ class ProgramBus : private BusObserver {
   ScheduledFaults faults_;  // outlives the bus
   bool disturbed_ = false;
   bool finished_ = false;
+  pid_t process_;
   Scenario scenario_;
   Simulation simulation_;
   Time bit_time_;

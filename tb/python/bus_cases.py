@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
 """The package verican: buses of RTL nodes as Python objects. Expected values: can-rules.md."""
+import os
 import tempfile
 import unittest
 from pathlib import Path
@@ -141,6 +142,41 @@ class PythonBus(unittest.TestCase):
             bus.run_until_quiet()
             bus.finish()
             self.assertIn("$enddefinitions", path.read_text())
+
+
+    def test_the_waveform_is_of_the_process_that_opened_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "bus.vcd"
+            bus = Bus(["a", "b"], vcd=str(path))
+            bus.step(bits=100)  # the file has not got all of it yet
+            child = os.fork()
+            if child == 0:
+                try:
+                    with self.assertRaisesRegex(RuntimeError, "process"):
+                        bus.step(bits=1)
+                    with self.assertRaisesRegex(RuntimeError, "process"):
+                        bus.finish()
+                    del bus
+                    os._exit(0)
+                finally:
+                    os._exit(1)
+            self.assertEqual(os.waitpid(child, 0)[1], 0)
+            bus.step(bits=100)
+            bus.finish()
+            self.assertEqual(path.read_text().count("$enddefinitions"), 1)
+
+    def test_a_bus_without_files_goes_on_in_a_process_that_is_forked(self):
+        bus = Bus(["a", "b"])
+        child = os.fork()
+        if child == 0:
+            try:
+                bus.send("a", Frame(0x1))
+                bus.run_until_quiet()
+                os._exit(0 if heard(bus, "b") == [(0x1, b"")] else 1)
+            finally:
+                os._exit(1)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+        self.assertEqual(heard(bus, "b"), [])
 
 
 class PythonRefusal(unittest.TestCase):

@@ -289,6 +289,37 @@ shutil.rmtree({gone!r})""", self.PROGRAM]
                 self.assertEqual(code, 0, text)
                 self.assertIn("a.vcd: cannot be put in its place", text)
 
+    def test_a_process_that_is_forked(self):
+        # It has no copy of the thread that runs the bus; whatever it does, the bus is the parent's.
+        with tempfile.TemporaryDirectory() as folder:
+            wave = Path(folder) / "a.vcd"
+            self.ends(f"""
+import can, os, sys
+a, b = (can.Bus(interface="verican", channel="f", vcd={str(wave)!r}) for _ in range(2))
+one = can.Message(arbitration_id=1)
+child = os.fork()
+if child == 0:
+    for act in (lambda: a.send(one), b.recv, lambda: b.recv(1), a.flush_tx_buffer, lambda: a.state):
+        try:
+            act()
+        except can.CanOperationError as error:
+            assert "forked" in str(error), error
+        else:
+            sys.exit(1)
+    with can.Bus(interface="verican", channel="f") as own, \\
+         can.Bus(interface="verican", channel="f") as other:
+        own.send(one)
+        assert other.recv({WAIT})
+    a.shutdown()
+    sys.exit(0)
+assert os.waitpid(child, 0)[1] == 0
+a.send(one)
+assert b.recv({WAIT})
+a.shutdown()
+b.shutdown()
+print("end")""")
+            self.assertIn("$enddefinitions", wave.read_text())
+
     def test_shutdown_when_the_channels_are_closed(self):
         # Handlers go from the last to the first: this one is older than the package's.
         self.ends("import atexit, can",

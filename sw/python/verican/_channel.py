@@ -5,6 +5,7 @@ import atexit
 import collections
 import concurrent.futures
 import contextlib
+import os
 import threading
 import time
 
@@ -112,6 +113,10 @@ class Channel:
         finally:
             self._bus.finish()
 
+    def leave_to_parent(self):
+        """In a process that was forked: it has no copy of the thread."""
+        self._fail(ChildProcessError("this process was forked from the one that runs the bus"))
+
     def _gone(self):
         """What to raise when the thread does no work any more."""
         why = "is closed" if self._failure is None else f"has failed: {self._failure!r}"
@@ -133,10 +138,13 @@ class Channel:
         try:
             self._serve()
         except BaseException as failure:
-            self._failure = failure
-            for _, fail in list(self._users.values()):
-                fail()
+            self._fail(failure)
             raise  # threading.excepthook shows where it was
+
+    def _fail(self, failure):
+        self._failure = failure
+        for _, fail in list(self._users.values()):
+            fail()
 
     def _serve(self):
         while not self._closing:
@@ -227,6 +235,18 @@ def close_all():
             for channel in _channels.values():
                 stack.callback(channel.close)
             _channels.clear()
+
+
+def leave_all_to_parent():
+    """In a process that was forked; what it opens is its own."""
+    for channel in _channels.values():
+        channel.leave_to_parent()
+    _channels.clear()
+    _lock.release()
+
+
+os.register_at_fork(before=_lock.acquire, after_in_parent=_lock.release,
+                    after_in_child=leave_all_to_parent)
 
 
 def open_names():
