@@ -61,12 +61,6 @@ py::tuple parts_of(const Frame &frame) {
   return py::make_tuple(frame.id, payload(frame), frame.extended, frame.remote, frame.dlc);
 }
 
-Frame from_parts(const py::tuple &parts) {
-  if (parts.size() != 5) throw std::invalid_argument("no parts of a Frame");
-  return make_frame(parts[0], parts[1].cast<py::buffer>(), parts[2].cast<bool>(),
-                    parts[3].cast<bool>(), parts[4]);
-}
-
 // As Python writes it: Frame(0x123, b'\x01').
 std::string to_text(const Frame &frame) {
   const auto flag = [](bool set, const char *text) { return set ? text : ""; };
@@ -118,7 +112,11 @@ void bind_values(py::module_ &m) {
       .def(
           "__eq__", [](const Frame &a, const Frame &b) { return a == b; }, py::is_operator())
       .def("__hash__", [](const Frame &frame) { return py::hash(parts_of(frame)); })
-      .def(py::pickle(&parts_of, &from_parts))
+      // py::pickle() ends the process in protocols 0 and 1.
+      .def("__reduce__",
+           [](const py::object &frame) {
+             return py::make_tuple(py::type::of(frame), parts_of(frame.cast<const Frame &>()));
+           })
       .def("__repr__", &to_text);
   py::class_<PortMessage>(m, "Message",
                           "What a node has for its program: a frame, or an error message in "

@@ -23,7 +23,9 @@ class FrameValues(unittest.TestCase):
     def test_hash_copy_and_pickle(self):
         self.assertEqual(len(set(self.FRAMES)), len(self.FRAMES))
         for frame in self.FRAMES:
-            for twin in (copy.copy(frame), copy.deepcopy(frame), pickle.loads(pickle.dumps(frame))):
+            pickles = [pickle.dumps(frame, protocol)
+                       for protocol in range(pickle.HIGHEST_PROTOCOL + 1)]
+            for twin in (copy.copy(frame), copy.deepcopy(frame), *map(pickle.loads, pickles)):
                 self.assertEqual((twin, hash(twin), repr(twin)),
                                  (frame, hash(frame), repr(frame)))
 
