@@ -6,10 +6,12 @@
 
 #include <poll.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "simulation/stop_request.hpp"
 #include "trace/input_error.hpp"
@@ -25,6 +27,9 @@ constexpr std::size_t kLongestCommand = 4096;
 // Within what the simulator's time holds (106 days).
 constexpr std::uint64_t kLongestRun = 100ULL * 24 * kLongestSleep;
 
+// Between two questions whether to give up, also while the guest is silent.
+constexpr std::chrono::milliseconds kPatience{200};
+
 [[noreturn]] void refuse_guest(const std::string &what) { throw InputError("the guest", 0, what); }
 
 }  // namespace
@@ -36,15 +41,26 @@ GuestServer::GuestServer(Board &board, const std::string &directory)
       register_listener_{directory + "/registers"},
       interrupt_listener_{directory + "/interrupts"} {}
 
-void GuestServer::serve(const std::function<bool()> &given_up) {
-  while (!over_ && !stop_requested() && wait_for_guest(given_up)) {
+void GuestServer::serve(std::function<bool()> given_up) {
+  given_up_ = std::move(given_up);
+  next_question_ = std::chrono::steady_clock::now() + kPatience;
+  while (!ended()) {
+    wait_for_guest();
     if (!over_ && calendar_.waiting()) let_time_pass();
   }
 }
 
-// Serves what the guest has sent, or waits for it. False: given up.
-bool GuestServer::wait_for_guest(const std::function<bool()> &given_up) {
-  constexpr int kPatience = 200;  // ms between two questions whether the guest still lives
+bool GuestServer::ended() {
+  const auto now = std::chrono::steady_clock::now();
+  if (!over_ && now >= next_question_) {
+    over_ = given_up_();
+    next_question_ = now + kPatience;
+  }
+  return over_ || stop_requested();
+}
+
+// Serves what the guest has sent, or waits for it.
+void GuestServer::wait_for_guest() {
   const auto wanted = [](const Channel &channel, const Listener &listener) {
     return pollfd{channel.open() ? channel.get() : listener.get(), POLLIN, 0};
   };
@@ -52,9 +68,9 @@ bool GuestServer::wait_for_guest(const std::function<bool()> &given_up) {
                  wanted(interrupt_, interrupt_listener_)};
   // An interrupt channel that is open has something to say in tell_interrupt() only.
   const nfds_t watched = interrupt_.open() ? 2 : 3;
-  const int ready = ::poll(fds.data(), watched, kPatience);
+  const int ready = ::poll(fds.data(), watched, kPatience.count());
   if (ready < 0 && errno != EINTR) throw std::runtime_error("waiting for the guest failed");
-  if (ready <= 0) return !given_up();
+  if (ready <= 0) return;
   if (fds[0].revents != 0) {
     if (time_.open())
       serve_time();
@@ -68,7 +84,6 @@ bool GuestServer::wait_for_guest(const std::function<bool()> &given_up) {
       registers_ = register_listener_.accept();
   }
   if (watched == 3 && fds[2].revents != 0) interrupt_ = interrupt_listener_.accept();
-  return true;
 }
 
 void GuestServer::serve_time() {
@@ -115,17 +130,19 @@ void GuestServer::serve_registers() {
 
 // The guest waits: time goes on until it wants to run, or until an interrupt makes it want to.
 void GuestServer::let_time_pass() {
-  while (!over_ && !stop_requested() && calendar_.waiting()) {
+  while (!ended() && calendar_.waiting()) {
     const std::uint64_t goal = calendar_.goal();
     const bool for_ever = goal >= calendar_.guest_time() + kLongestSleep;
     const std::uint64_t until = for_ever ? board_.now() + kLongestSleep : goal;
     if (goal > board_.now() && until > kLongestRun)
       refuse_guest("wants to sleep until " + std::to_string(until) +
                    " ns; allowed: up to 100 days");
-    if (goal > board_.now() && board_.run_until(until) && interrupt_.open()) {
+    const bool risen = goal > board_.now() && run_board(until);
+    if (risen && interrupt_.open()) {
       tell_interrupt();
       continue;
     }
+    if (!risen && board_.now() < until) return;  // given up
     if (for_ever && goal > board_.now()) refuse_guest("sleeps, and nothing will ever wake it");
     time_.send(calendar_.run());
     TimeMessage ack;
@@ -133,13 +150,22 @@ void GuestServer::let_time_pass() {
   }
 }
 
+// True if an interrupt line has risen. In parts: where clocks do not rest, hours of simulated time
+// are hours.
+bool GuestServer::run_board(std::uint64_t until) {
+  constexpr std::uint64_t kPart = 10'000'000;  // ns
+  while (board_.now() < until && !ended())
+    if (board_.run_until(std::min(until, board_.now() + kPart))) return true;
+  return false;
+}
+
 // The guest answers on the interrupt socket once it has taken note, and speaks of time meanwhile.
 void GuestServer::tell_interrupt() {
   ++interrupts_;
   interrupt_.send(board_.levels());
-  while (!over_ && !stop_requested()) {
+  while (!ended()) {
     std::array fds{pollfd{interrupt_.get(), POLLIN, 0}, pollfd{time_.get(), POLLIN, 0}};
-    if (::poll(fds.data(), fds.size(), -1) < 0) {
+    if (::poll(fds.data(), fds.size(), kPatience.count()) < 0) {
       if (errno == EINTR) continue;
       throw std::runtime_error("waiting for the guest failed");
     }

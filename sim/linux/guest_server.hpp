@@ -4,6 +4,7 @@
 // GuestServer: serves one guest kernel: its time, its registers, its interrupts.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -24,10 +25,9 @@ class GuestServer {
   GuestServer(Board &board, const std::string &directory);
 
   /// Serves until the guest closes its time socket, until the user wants the end
-  /// (stop_request.hpp), or until `given_up` says so, which is asked while nothing comes from the
-  /// guest. Throws InputError if the guest breaks the rules, or if it
-  /// waits for something that cannot happen.
-  void serve(const std::function<bool()> &given_up);
+  /// (stop_request.hpp), or until `given_up` says so, which is asked some times a second. Throws
+  /// InputError if the guest breaks the rules, or if it waits for something that cannot happen.
+  void serve(std::function<bool()> given_up);
 
   /// True once a guest has asked for the time.
   [[nodiscard]] bool connected() const { return time_.open(); }
@@ -36,10 +36,12 @@ class GuestServer {
   [[nodiscard]] std::uint64_t interrupts() const { return interrupts_; }
 
  private:
-  bool wait_for_guest(const std::function<bool()> &given_up);
+  [[nodiscard]] bool ended();
+  void wait_for_guest();
   void serve_time();
   void serve_registers();
   void let_time_pass();
+  [[nodiscard]] bool run_board(std::uint64_t until);
   void tell_interrupt();
 
   Board &board_;
@@ -52,6 +54,8 @@ class GuestServer {
   Channel interrupt_;
   std::uint64_t accesses_ = 0;
   std::uint64_t interrupts_ = 0;
+  std::function<bool()> given_up_;
+  std::chrono::steady_clock::time_point next_question_;
   bool over_ = false;
 };
 

@@ -5,10 +5,13 @@
 // the glue module.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <sys/un.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -43,10 +46,11 @@ class GuestServerTest : public ::testing::Test {
     server = std::make_unique<GuestServer>(board, folder.path());
     thread = std::thread{[this] {
       try {
-        server->serve([] { return false; });
+        server->serve([this] { return enough.load(); });
       } catch (const std::exception &error) {
         complaint = error.what();
       }
+      ended = true;
     }};
     time = connect_to(folder / "time");
     registers = connect_to(folder / "registers");
@@ -75,6 +79,20 @@ class GuestServerTest : public ::testing::Test {
     EXPECT_EQ(ack.op, static_cast<std::uint32_t>(TimeOp::kAck));
     EXPECT_EQ(ack.seq, seq);
     return ack.time;
+  }
+  // Says so without an end; true if the server has given up within 10 s.
+  bool insist(TimeOp op) {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::seconds{10};
+    while (!ended && Clock::now() < end) {
+      time.send(TimeMessage{static_cast<std::uint32_t>(op), ++seq, 0});
+      pollfd answered{time.get(), POLLIN, 0};
+      TimeMessage ack{};
+      while (!ended && ::poll(&answered, 1, 10) == 0) {
+      }
+      if (!ended) EXPECT_TRUE(time.read(ack));
+    }
+    return ended;
   }
   // Takes the grant that follows a wait.
   std::uint64_t granted() {
@@ -110,6 +128,7 @@ class GuestServerTest : public ::testing::Test {
   Board board{BoardConfig{}};
   const ScratchFolder folder;
   std::unique_ptr<GuestServer> server;
+  std::atomic<bool> enough = false, ended = false;
   std::thread thread;
   std::string complaint;
   Channel time;
@@ -200,6 +219,21 @@ TEST_F(GuestServerTest, ASleepBeyondTheSimulatorsTimeEndsTheRun) {
   (void)say(TimeOp::kWait);
   thread.join();
   EXPECT_THAT(complaint, StartsWith("the guest: wants to sleep until"));
+}
+
+TEST_F(GuestServerTest, AGuestThatNeverFallsSilentIsGivenUp) {
+  enough = true;
+  EXPECT_TRUE(insist(TimeOp::kGet));
+}
+
+TEST_F(GuestServerTest, AGuestThatSleepsWhileTheBusRunsIsGivenUp) {
+  constexpr std::uint64_t kLong = 60'000 * kMs;  // much longer in real time than the patience
+  test::bring_up(port, 0);
+  (void)say(TimeOp::kRequest, kLong);
+  (void)say(TimeOp::kWait);
+  enough = true;
+  thread.join();
+  EXPECT_LT(board.now(), kLong);
 }
 
 TEST(GuestServer, GivesUpWhenTold) {
