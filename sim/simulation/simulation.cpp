@@ -173,7 +173,8 @@ RunReport Simulation::collect(bool interrupted) {
   report.error_frames = monitor_->error_frames();
   report.overload_frames = monitor_->overload_frames();
   report.pending = stations_.pending();
-  report.load = static_cast<double>(monitor_->busy()) / static_cast<double>(report.duration);
+  if (report.duration > 0)
+    report.load = static_cast<double>(monitor_->busy()) / static_cast<double>(report.duration);
   for (NodeId id = 0; id < stations_.size(); ++id)
     forget_lost(id, std::numeric_limits<Time>::max());
   for (const auto &traffic : traffic_) {

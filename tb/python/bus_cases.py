@@ -312,6 +312,10 @@ class ScenarioValues(unittest.TestCase):
         beat = next(message for message in report["messages"] if message["name"] == "beat")
         self.assertEqual((beat["queued"], beat["sent"]), (5, 5))
 
+    def test_report_of_a_bus_on_which_no_time_has_passed(self):
+        report = Bus(["a", "b"]).finish()
+        self.assertEqual((report["duration_ps"], report["load"]), (0, 0))
+
     def test_until_a_message(self):
         bus = Bus(["a", "b"], bitrate=1e6)
         self.assertFalse(bus.run_until_message(1e-3))
