@@ -135,6 +135,7 @@ int decode(DecodeOptions &options) {
     fmt::print("signal {}, {:.0f} bit/s: {} frames, {} error frames, {} overload frames in {}\n",
                result.signal, result.bitrate, frames, errors, overloads, time_text(result.end));
   if (frames == 0) warn_of_bitrate(wave, options.wave);
+  warn_of_beginning(wave, options.decode.sample_point, options.wave);
   if (found) return kOk;
   print_error("verican: {}: no frame is in it\n", options.wave);
   return kFailed;

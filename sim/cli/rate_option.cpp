@@ -75,4 +75,9 @@ void warn_of_bitrate(const Wave &wave, const std::string &path) {
     print_error("verican: warning: {}: {}\n", path, why);
 }
 
+void warn_of_beginning(const Wave &wave, int sample_point, const std::string &path) {
+  if (const std::string what = passed_over(wave, sample_point); !what.empty())
+    print_error("verican: warning: {}: {}\n", path, what);
+}
+
 }  // namespace vericansim::cli

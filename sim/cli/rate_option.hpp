@@ -24,4 +24,7 @@ CLI::Option *add_bitrate_option(CLI::App &command, const std::string &names, dou
 /// Warns that `wave`, in which no frame was found, was read at another rate than its edges show.
 void warn_of_bitrate(const Wave &wave, const std::string &path);
 
+/// Warns that `wave` begins too late for its first frame.
+void warn_of_beginning(const Wave &wave, int sample_point, const std::string &path);
+
 }  // namespace vericansim::cli

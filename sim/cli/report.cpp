@@ -100,6 +100,7 @@ int report_recorded_wave(const ReportOptions &options) {
                          [&](double part) { progress.show(part); });
   }
   if (report.frames + report.unacknowledged == 0) warn_of_bitrate(wave, options.input);
+  warn_of_beginning(wave, decode.sample_point, options.input);
   if (report.cut) fmt::print("{}\n", cut_text(*report.cut));
   fmt::print(
       "signal {}, {:.0f} bit/s: {} frames, {} without ACK, {} error frames, {} overload "

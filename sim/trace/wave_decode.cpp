@@ -27,6 +27,13 @@ std::optional<double> detected_bitrate(const Wave &wave) {
   return detect_bitrate(edges);
 }
 
+DecoderConfig config_of(const Wave &wave, int sample_point) {
+  DecoderConfig config;
+  config.bit_time = bit_time_of(wave.bitrate);
+  config.sample_point = sample_point;
+  return config;
+}
+
 }  // namespace
 
 Wave read_wave(const std::string &path, const WaveDecodeOptions &options) {
@@ -68,15 +75,34 @@ std::string doubtful_bitrate(const Wave &wave) {
                      in_quotes(wave.signal), *seen, wave.bitrate);
 }
 
+std::string passed_over(const Wave &wave, int sample_point) {
+  BusDecoder decoder{config_of(wave, sample_point), [](const BusEvent &) {}};
+  bool busy = false;
+  const auto rests = [&](Time now) {
+    decoder.finish(now);
+    return decoder.at_rest_since();
+  };
+  std::optional<Time> rest;
+  for (const auto &[time, level] : wave.changes) {
+    if (rest = rests(time); rest) break;
+    decoder.on_level(time, level);
+    busy = busy || level == Level::kDominant;
+  }
+  if (!rest) rest = rests(wave.end);
+  if (!busy) return "";
+  if (!rest) return "nowhere in it are eleven recessive bits, behind which alone a frame can begin";
+  return fmt::format(
+      "what is on the bus in its first {:.3f} us is passed over: eleven recessive bits come first",
+      static_cast<double>(*rest) / kMicrosecond);
+}
+
 WaveDecodeResult decode_wave(const std::string &path, const WaveDecodeOptions &options) {
   return decode_wave(read_wave(path, options), options.sample_point);
 }
 
 WaveDecodeResult decode_wave(const Wave &wave, int sample_point) {
   WaveDecodeResult result{wave.signal, wave.bitrate, wave.end, {}, {}};
-  DecoderConfig config;
-  config.bit_time = bit_time_of(result.bitrate);
-  config.sample_point = sample_point;
+  const DecoderConfig config = config_of(wave, sample_point);
   BusDecoder decoder{config, [&](const BusEvent &event) { result.events.push_back(event); }};
   for (const auto &[time, level] : wave.changes) decoder.on_level(time, level);
   decoder.finish(result.end);

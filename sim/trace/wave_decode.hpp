@@ -39,6 +39,10 @@ struct Wave {
 /// one that was given. Empty if they are not.
 [[nodiscard]] std::string doubtful_bitrate(const Wave &wave);
 
+/// What of a waveform's beginning is not looked at, though something is on the bus there: a frame
+/// is heard behind eleven recessive bits (IN-01). Empty if it begins with as many.
+[[nodiscard]] std::string passed_over(const Wave &wave, int sample_point);
+
 struct WaveDecodeResult {
   std::string signal;  ///< the one taken, full name
   double bitrate = 0;  ///< bit/s, given or detected

@@ -285,6 +285,22 @@ TEST_F(Tool, DecodeTellsWhyItFindsNoFrame) {
   EXPECT_FALSE(std::filesystem::exists(old + "2"));
 }
 
+// IN-01: a frame can only be heard behind eleven recessive bits.
+TEST_F(Tool, DecodeTellsThatAWaveformBeginsTooLate) {
+  const std::string wave =
+      file_with("late.vcd",
+                "$timescale 1 us $end\n$var wire 1 ! can $end\n$enddefinitions $end\n"
+                "#0\n1!\n#20\n0!\n#22\n1!\n#40\n");
+  for (const std::string command : {"decode " + wave, "report " + wave + " -o " + in("a.html")})
+    EXPECT_EQ(
+        run_tool(command + " -b 500k").error,
+        "verican: warning: " + wave +
+            ": nowhere in it are eleven recessive bits, behind which alone a frame can begin\n"
+            "verican: " +
+            wave + ": no frame is in it\n")
+        << command;
+}
+
 TEST_F(Tool, BittimeJson) {
   const auto json = nlohmann::json::parse(run_tool("bittime -c 8M -b 500k --sjw 1 --json").out);
   EXPECT_EQ(json["settings"][0]["ctrl"], "0x00310005");  // what can-utils prints

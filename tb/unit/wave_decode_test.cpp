@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The VeriCAN authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Waveforms that end anywhere: in a frame that nobody has seen the end of, and behind one.
+// Waveforms that end anywhere: in a frame that nobody has seen the end of, and behind one; and
+// those that begin too late for their first frame.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "model/frame_codec.hpp"
@@ -63,6 +65,32 @@ TEST(WaveDecode, AFileMayEndWithTheEdgeBehindTheAcknowledge) {
   const auto open = decode_wave(cut_wave(kFrame, false, whole, true), 800);
   EXPECT_TRUE(open.events.empty());
   EXPECT_TRUE(open.cut);
+}
+
+// IN-01: eleven recessive bits come before the first frame that is heard.
+TEST(WaveDecode, WhatComesBeforeElevenRecessiveBitsIsTold) {
+  const auto begun_at = [](Time time, std::size_t frames) {
+    Wave wave{"bus.can", 500e3, 0, {{0, Level::kRecessive}}};
+    const Wave one = cut_wave(kFrame, true, encode_frame(kFrame).bits.size(), false);
+    for (std::size_t n = 0; n < frames; ++n) {
+      const Time shift = time + static_cast<Time>(n) * one.end;
+      for (auto change = one.changes.begin() + 1; change != one.changes.end(); ++change)
+        wave.changes.emplace_back(change->first - kRest * kBit + shift, change->second);
+      wave.end = shift + one.end - kRest * kBit;
+    }
+    return wave;
+  };
+  EXPECT_EQ(passed_over(begun_at(11 * kBit, 2), 800), "");
+  EXPECT_EQ(passed_over(Wave{"bus.can", 500e3, kMillisecond, {{0, Level::kRecessive}}}, 800), "");
+  // SOF, a frame of `bits` bits of which the last eight are recessive (delimiter, EOF), and three.
+  const auto bits = static_cast<Time>(encode_frame(kFrame).bits.size());
+  EXPECT_EQ(decode_wave(begun_at(10 * kBit, 2), 800).events.size(), 1U);
+  EXPECT_EQ(passed_over(begun_at(10 * kBit, 2), 800),
+            fmt::format("what is on the bus in its first {:.3f} us is passed over: eleven "
+                        "recessive bits come first",
+                        static_cast<double>((10 + bits + 3) * kBit) / kMicrosecond));
+  EXPECT_EQ(passed_over(begun_at(10 * kBit, 1), 800),
+            "nowhere in it are eleven recessive bits, behind which alone a frame can begin");
 }
 
 }  // namespace
