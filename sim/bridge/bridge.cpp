@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "port_operator.hpp"
-#include "trace/input_error.hpp"
 
 namespace vericansim {
 namespace {
@@ -35,25 +34,13 @@ OwnRole monitor_role(const BridgeSetup &setup, std::shared_ptr<CanPort> port) {
   }};
 }
 
-/// The node of a port. Frames that nobody has sent, and those whose flags are cleared by others,
-/// would confuse its software.
-NodeId port_node(Scenario &scenario, const std::string &name, double clock_hz) {
-  const char *const user = "programs of the host work";
-  const NodeId id = take_core(scenario, name, user, clock_hz);
-  for (const AccessSpec &access : scenario.accesses)
-    if (access.node == id && writes_buffers(access))
-      throw InputError(scenario.file, scenario.nodes[id].line,
-                       fmt::format("'accesses' write buffers of node '{}', which {}; allowed: {}",
-                                   name, user, kBesidePrograms));
-  return id;
-}
-
 }  // namespace
 
 Bridge::Bridge(BridgeSetup setup, Wall &wall) {
   std::string names;
   for (auto &port : setup.ports) {
-    const NodeId id = port_node(setup.scenario, port->name(), setup.port_clock_hz);
+    const NodeId id = take_buffers(setup.scenario, port->name(), "programs of the host work",
+                                   setup.port_clock_hz);
     names += (names.empty() ? "" : ", ") + port->name();
     setup.scenario.nodes[id].role = role_of(setup, std::move(port));
   }

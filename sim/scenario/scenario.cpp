@@ -358,4 +358,15 @@ NodeId take_core(Scenario &scenario, const std::string &name, const std::string 
                                name, user, keys.substr(2)));
 }
 
+NodeId take_buffers(Scenario &scenario, const std::string &name, const std::string &user,
+                    double clock_hz) {
+  const NodeId id = take_core(scenario, name, user, clock_hz);
+  for (const AccessSpec &access : scenario.accesses)
+    if (access.node == id && writes_buffers(access))
+      throw InputError(scenario.file, scenario.nodes[id].line,
+                       fmt::format("'accesses' write buffers of node '{}', which {}; allowed: {}",
+                                   name, user, kBesidePrograms));
+  return id;
+}
+
 }  // namespace vericansim

@@ -226,5 +226,10 @@ NodeId take_node(Scenario &scenario, const std::string &name, const std::string 
 /// sets up the simulation's own software there, which nobody would obey.
 NodeId take_core(Scenario &scenario, const std::string &name, const std::string &user,
                  double clock_hz = ClockConfig{}.frequency_hz);
+/// The same for a node whose software hands frames to programs. Throws InputError also if
+/// `accesses` write its buffers: frames that nobody has sent, and those whose flags are cleared by
+/// others, would confuse it.
+NodeId take_buffers(Scenario &scenario, const std::string &name, const std::string &user,
+                    double clock_hz = ClockConfig{}.frequency_hz);
 
 }  // namespace vericansim

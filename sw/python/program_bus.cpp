@@ -47,7 +47,7 @@ Scenario ProgramBus::with_nodes(ProgramBusSetup &setup) {
           fmt::format("node name '{}': other names are allowed, of at least one letter", name));
     if (std::count(setup.nodes.begin(), setup.nodes.end(), name) > 1)
       throw std::invalid_argument(fmt::format("node name '{}' is used twice", name));
-    const NodeId id = take_node(setup.scenario, name, "the program works", setup.clock_hz);
+    const NodeId id = take_buffers(setup.scenario, name, "the program works", setup.clock_hz);
     // A role of its own keeps the simulation's software away; no session will ever ask it.
     setup.scenario.nodes[id].role = OwnRole{};
   }

@@ -256,6 +256,28 @@ class PythonRefusal(unittest.TestCase):
     def test_messages_do_not_name_a_file_that_is_not(self):
         self.refused("^nodes: node 'a': no setting", lambda: Bus(["a"], bitrate=900_000))
 
+    def test_keys_that_a_node_of_the_program_does_not_obey(self):
+        for key in ({"listen_only": True}, {"loop_back": True}, {"self_reception": True},
+                    {"triple_sampling": True}, {"fd_tolerant": True}, {"tx_buffers": 2},
+                    {"lowest_buffer_first": True}, {"bus_off_recovery": "never"},
+                    {"filters": [{"id": 0x100}]}, {"software": "none"}):
+            name, = key
+            scenario = {"nodes": [{"name": "a", **key}, {"name": "b"}]}
+            self.refused(f"node 'a', which the program works, has '{name}.*allowed: no keys",
+                         lambda scenario=scenario: Bus(["a"], scenario=scenario))
+        nodes = [{"name": "a", "clock": "16 MHz", "sjw": 1, "ppm": 20, "cable": "2 m"}]
+        self.assertEqual(Bus(["a"], scenario={"nodes": nodes}).nodes, ["a"])
+
+    def test_accesses_to_buffers_of_a_node_of_the_program(self):
+        nodes = [{"name": "a"}, {"name": "b"}]
+        for step in ("write IMASK1 0", "clear IFLAG2 0x80000000", "write MB7.CS 0x0C000000"):
+            accesses = [{"node": "a", "do": step}]
+            self.refused("'accesses' write buffers of node 'a', which the program works; allowed",
+                         lambda accesses=accesses: Bus(["a"], scenario={"nodes": nodes,
+                                                                        "accesses": accesses}))
+        accesses = [{"node": "a", "do": "read ECR"}, {"node": "b", "do": "write IMASK1 0"}]
+        Bus(["a"], scenario={"nodes": nodes, "accesses": accesses}).step(1e-3)
+
     def test_a_missing_scenario(self):
         with self.assertRaisesRegex(verican.InputError, "missing.yaml"):
             Bus(["a"], scenario="missing.yaml")
