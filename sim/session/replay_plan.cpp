@@ -64,16 +64,15 @@ ReplayPlan make_plan(const ReplayRole &role) {
   plan.skipped = log.skipped;
   plan.warnings = read.warnings;
   std::size_t taken = 0;
-  Time first = 0, last = 0, before = 0;
+  Time first = 0, last = 0;
   for (const LogEntry &entry : log.entries) {
     if (!wanted(role, entry)) continue;
     if (role.frames != 0 && taken == role.frames) break;
     ++taken;
     if (share_of(entry.frame, role.shares) != role.share) continue;
     if (plan.frames.empty()) first = last = entry.time;
+    find_gap(plan, entry.time - last);
     last = std::max(last, entry.time);
-    find_gap(plan, plan.frames.empty() ? 0 : entry.time - before);
-    before = entry.time;
     plan.frames.push_back({due_time(role, entry.time), entry.frame});
   }
   plan.recorded = last - first;

@@ -93,6 +93,15 @@ TEST(ReplayPlan, TheLongestGap) {
   EXPECT_EQ(make_plan(role).longest_gap, 0);
 }
 
+// Frames whose times go back are sent at once: the way back to the times before is no pause.
+TEST(ReplayPlan, AStepBackMakesNoGap) {
+  const ReplayRole role = role_of(
+      "(100.000) can0 100#\n(100.005) can0 101#\n(7.000) can0 102#\n(7.020) can0 103#\n"
+      "(100.008) can0 104#\n");
+  EXPECT_EQ(make_plan(role).longest_gap, 5 * kMillisecond);
+  EXPECT_EQ(make_plan(role).after_gap, 2U);
+}
+
 // A pass is as long as the recording and a mean distance; a millisecond where there is none.
 TEST(ReplayPlan, LengthOfAPass) {
   EXPECT_EQ(make_plan(boat()).pass, 20 * kMillisecond + 20 * kMillisecond / 3);
