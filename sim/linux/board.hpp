@@ -129,10 +129,10 @@ class Board {
   std::uint32_t bitrate_ = 500'000;
   std::uint32_t told_ = 0;  // levels that the guest knows
   std::uint64_t bus_errors_ = 0;
-  Time observed_since_ = 0;
-  Time now_ = 0;      // time of the bus, ps
-  Time skipped_ = 0;  // time that the bus has not seen, ps
-  Time touched_ = 0;  // time of the bus at the last access or command
+  Time observed_since_ = 0;  // of the guest's time, ps
+  Time now_ = 0;             // time of the bus, ps
+  Time skipped_ = 0;         // time that the bus has not seen, ps
+  Time touched_ = 0;         // time of the bus at the last access or command
   Bus bus_;
 };
 

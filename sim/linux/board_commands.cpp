@@ -107,7 +107,7 @@ void Board::watch_bus() {
     if (log_) log_->write({frame.start + skipped_, "bus", frame.frame});
   };
   bus_.add(*monitor_);
-  observed_since_ = now_;
+  observed_since_ = now_ + skipped_;
 }
 
 std::string Board::observe(const Words &words) {
@@ -146,7 +146,7 @@ std::string Board::log(const Words &words) {
 
 std::string Board::report() {
   monitor_->settle_all(now_);
-  const Time span = std::max<Time>(now_ - observed_since_, 1);
+  const Time span = std::max<Time>(now_ + skipped_ - observed_since_, 1);
   std::string text =
       fmt::format("bus frames={} unacked={} errors={} overloads={} load={:.4f} access_errors={}\n",
                   monitor_->frames(), monitor_->unacknowledged(), monitor_->error_frames(),

@@ -68,6 +68,19 @@ TEST_F(BoardTest, EachControllerHasAWindow) {
   EXPECT_THAT(board->command("report"), HasSubstr("access_errors=1"));
 }
 
+// Both controllers in freeze mode: the bus rests, and time passes without a clock edge.
+TEST_F(BoardTest, TheLoadIsThatOfAllTimeSinceTheRateWasTold) {
+  bring_up();
+  send(0x123, 0);
+  for (const std::uint32_t window : {0x0000U, 0x1000U}) {
+    port.write(window + reg::kMcr, reg::kMcrMdis | reg::kMcrFrz | reg::kMcrHalt | 63);
+    (void)board->levels();
+  }
+  ASSERT_FALSE(board->run_until(1'000 * kMs));
+  EXPECT_GT(board->asleep(), 900 * kMs);
+  EXPECT_THAT(board->command("report"), HasSubstr(" load=0.0001 "));  // 90 of 10^6 bits
+}
+
 // PK-41, PK-47: bits of features that are not there read 0.
 TEST_F(BoardTest, ALeanControllerKeepsTheFifoAndLacksAbort) {
   constexpr std::uint32_t kFreeze = reg::kMcrFrz | reg::kMcrHalt | 63;
