@@ -105,6 +105,7 @@ bool Board::run_until(std::uint64_t when) {
   while (!rose()) {
     if (now_ >= end) return false;
     if (idle()) {
+      monitor_->settle_all(now_);  // what it has seen was before the time that is skipped
       skipped_ += end - now_;
       return false;
     }

@@ -23,7 +23,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr std::uint64_t kMs = 1'000'000;
+constexpr std::uint64_t kUs = 1'000, kMs = 1'000'000;
 constexpr std::uint32_t kReset = 0xD890000F;  // flexcan.md 1.1
 
 class BoardTest : public ::testing::Test {
@@ -51,6 +51,14 @@ class BoardTest : public ::testing::Test {
     test::send_frame(port, 0, id, data);
     while ((board->levels() & 1) == 0) ASSERT_TRUE(board->run_until(board->now() + 10 * kMs));
   }
+  // Both controllers in freeze mode: the bus rests, and time passes without a clock edge.
+  void fall_asleep() {
+    for (const std::uint32_t window : {0x0000U, 0x1000U})
+      port.write(window + reg::kMcr, reg::kMcrMdis | reg::kMcrFrz | reg::kMcrHalt | 63);
+    (void)board->levels();
+    ASSERT_FALSE(board->run_until(1'000 * kMs));
+    ASSERT_GT(board->asleep(), 900 * kMs);
+  }
   std::uint32_t read1(std::uint32_t offset) { return port.read(0x1000 + offset); }
 
   BoardConfig config;
@@ -68,17 +76,24 @@ TEST_F(BoardTest, EachControllerHasAWindow) {
   EXPECT_THAT(board->command("report"), HasSubstr("access_errors=1"));
 }
 
-// Both controllers in freeze mode: the bus rests, and time passes without a clock edge.
 TEST_F(BoardTest, TheLoadIsThatOfAllTimeSinceTheRateWasTold) {
   bring_up();
   send(0x123, 0);
-  for (const std::uint32_t window : {0x0000U, 0x1000U}) {
-    port.write(window + reg::kMcr, reg::kMcrMdis | reg::kMcrFrz | reg::kMcrHalt | 63);
-    (void)board->levels();
-  }
-  ASSERT_FALSE(board->run_until(1'000 * kMs));
-  EXPECT_GT(board->asleep(), 900 * kMs);
+  fall_asleep();
   EXPECT_THAT(board->command("report"), HasSubstr(" load=0.0001 "));  // 90 of 10^6 bits
+}
+
+TEST_F(BoardTest, AFrameThatATimeWithoutClocksFollowsHasItsOwnTime) {
+  bring_up();
+  board->command("log bus.log");
+  const std::uint64_t before = board->now();
+  send(0x123, 0);
+  const std::uint64_t after = board->now();
+  fall_asleep();
+  board->command("log off");
+  const auto start = static_cast<std::uint64_t>(read_log(folder / "bus.log").start_ns);
+  EXPECT_GE(start + kUs, kLogOriginNs + before);  // logs have whole microseconds
+  EXPECT_LT(start, kLogOriginNs + after);
 }
 
 // PK-41, PK-47: bits of features that are not there read 0.
