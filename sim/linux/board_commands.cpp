@@ -100,7 +100,10 @@ std::string Board::command(const std::string &text) {
 // ---- Judges
 
 void Board::watch_bus() {
-  if (monitor_) bus_.remove(*monitor_);
+  if (monitor_) {
+    monitor_->settle_all(now_);
+    bus_.remove(*monitor_);
+  }
   const Time bit_time = kSecond / bitrate_;
   monitor_ = std::make_unique<BusMonitor>(bus_, bit_time, recommended_sample_point(bitrate_));
   monitor_->on_frame = [this](const BusFrame &frame) {

@@ -83,6 +83,24 @@ TEST_F(BoardTest, TheLoadIsThatOfAllTimeSinceTheRateWasTold) {
   EXPECT_THAT(board->command("report"), HasSubstr(" load=0.0001 "));  // 90 of 10^6 bits
 }
 
+TEST_F(BoardTest, TheLogKeepsTheLastFrameBeforeAnotherRateOrThePeer) {
+  bring_up();
+  const auto pause = [this] {  // behind it a new observer has its eleven recessive bits
+    (void)board->levels();
+    ASSERT_FALSE(board->run_until(board->now() + kMs));
+  };
+  for (const char *command : {"bitrate 1000000", "peer start"}) {
+    board->command("log bus.log");
+    send(0x123, 0);
+    port.write(reg::kIflag2, 1u << 31);
+    pause();
+    board->command(command);
+    pause();
+    board->command("log off");
+    EXPECT_EQ(read_log(folder / "bus.log").entries.size(), 1U) << command;
+  }
+}
+
 TEST_F(BoardTest, AFrameThatATimeWithoutClocksFollowsHasItsOwnTime) {
   bring_up();
   board->command("log bus.log");
