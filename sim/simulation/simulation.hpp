@@ -45,7 +45,7 @@ class Simulation {
   /// True while nothing is under way: the nodes with software are idle, or bus-off for good, and
   /// have nothing to send. What the scenario will do later does not count: see Bus::has_actions().
   [[nodiscard]] bool quiet() const;
-  /// On an idle bus: lets the monitor see the bus up to now, so that the last frame is told.
+  /// Lets the monitor see the bus up to now, so that the last frame is told, which no edge follows.
   void settle() { monitor_->advance(bus_.now()); }
   /// Ends the waveforms and says what happened since start(). `interrupted`: before its time, so
   /// that its expectations are not judged.

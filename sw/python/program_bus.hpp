@@ -107,10 +107,10 @@ class ProgramBus : private BusObserver {
     std::unique_ptr<PortNode> node;
   };
 
-  /// On an idle bus with the last frame, too.
+  /// Without an edge behind it, the last frame is told two bits behind its end.
   template <typename Value>
   [[nodiscard]] std::vector<Value> told(std::vector<Value> &values) {
-    if (quiet()) simulation_.settle();
+    simulation_.settle();
     return std::exchange(values, {});
   }
   static Scenario with_nodes(ProgramBusSetup &setup);

@@ -327,6 +327,18 @@ class ScenarioValues(unittest.TestCase):
         self.assertTrue(4.1e-3 < wrong["start"] < wrong["end"] < 4.3e-3, wrong)
         self.assertEqual(bus.events(), [])
 
+    def test_the_last_frame_beside_a_node_that_never_gets_idle(self):
+        # In freeze mode it has no field of a frame.
+        bus = Bus(["a", "b"], scenario={
+            "nodes": [{"name": "frozen"}],
+            "accesses": [{"node": "frozen", "do": "write MCR 0x5980003F"}]})
+        bus.step(1e-3)
+        bus.send("a", Frame(0x5))
+        bus.step(1e-3)
+        self.assertFalse(bus.quiet)
+        self.assertEqual([frame for _, _, _, frame in bus.frames()], [Frame(0x5)])
+        self.assertEqual([event["kind"] for event in bus.events()], ["frame"])
+
     def test_report_as_a_dictionary(self):
         bus = Bus(["a"], scenario=self.SCENARIO)
         bus.step(0.02)
