@@ -227,8 +227,10 @@ void add_linux(CLI::App &app, int &exit_code) {
       ->add_flag("--lean", options->board.lean,
                  "Cores without the features that the driver can do without")
       ->excludes(time_unit);
-  command->add_option("--dir", options->board.directory, "Directory for logs, also the guest's");
-  command->add_flag("--access-logs", options->board.access_logs, "Log each register access");
+  CLI::Option *const directory = command->add_option("--dir", options->board.directory,
+                                                     "Directory for logs, also the guest's");
+  command->add_flag("--access-logs", options->board.access_logs, "Log each register access")
+      ->needs(directory);
   command->add_option("--memory", options->memory, "Memory of the guest (64M)");
   command->add_option("--timeout", options->timeout, "Longest run, seconds of real time (600)");
   command->add_option("arguments", options->arguments, "More words for the guest's command line");

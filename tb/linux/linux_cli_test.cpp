@@ -19,6 +19,7 @@
 
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 class LinuxCommand : public vericansim::ScratchTest {
@@ -64,6 +65,8 @@ TEST_F(LinuxCommand, WhatCannotBeRunIsRefused) {
   EXPECT_EQ(refusal("--kernel /tmp"), "verican: --kernel: /tmp is a directory; allowed: a file\n");
   EXPECT_EQ(refusal("--kernel /bin/true --preload /tmp"),
             "verican: --preload: /tmp is a directory; allowed: a file\n");
+  EXPECT_THAT(refusal("--kernel /bin/true --access-logs"),
+              AllOf(HasSubstr("--access-logs"), HasSubstr("--dir")));
   EXPECT_EQ(refusal("--kernel /bin/true --clock-ppm 1,2,3"),
             "verican: --clock-ppm: 3 errors of 2 clocks; allowed: as many as --controllers, or "
             "fewer\n");
