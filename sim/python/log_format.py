@@ -17,9 +17,10 @@ import sys
 import tempfile
 import time
 
-from verican_helper import BadInput, need, run
+from verican_helper import BadInput, need, refusals, run
 
-can = need("can", "python3-can")
+with refusals():
+    can = need("can", "python3-can")
 SECOND = 1_000_000_000
 MILLISECOND = 1_000_000
 ERROR_FLAG = 0x20000000  # SocketCAN's mark of an error message
@@ -232,8 +233,12 @@ def read_asc(data):
 
 def asc_origin(date):
     """A date of ASC in nanoseconds; None if it cannot be read."""
+    seconds_of = can.io.ASCReader._datetime_to_timestamp  # pylint: disable=protected-access
     try:
-        seconds = can.io.ASCReader._datetime_to_timestamp(date)  # pylint: disable=protected-access
+        try:
+            seconds = seconds_of(date)
+        except TypeError:  # newer python-can asks for a time zone; None is that of the computer
+            seconds = seconds_of(date, None)
         return round(seconds * 1000) * MILLISECOND
     except (ValueError, OverflowError):
         return None

@@ -7,7 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "harness/input_error_of.hpp"
+#include "harness/scoped_env.hpp"
 #include "harness/scratch_folder.hpp"
 #include "harness/shell.hpp"
 #include "trace/candump.hpp"
@@ -36,6 +39,29 @@ std::string lines_of(const CanLog &log) {
 
 std::string error_of(const std::string &bytes) {
   return input_error_of([&] { return parse_log(bytes, "a.log"); });
+}
+
+TEST_F(PythonLog, WithoutPythonCanItsPackageIsNamed) {
+  const ScratchFolder folder;
+  std::ofstream{folder / "can.py"} << "raise ImportError('not there')\n";
+  const ScopedEnv modules{"PYTHONPATH", folder.path()};
+  EXPECT_EQ(error_of("date Fri Mar 8 09:41:17 am 2024\n"),
+            "a.log: needs the Python package can (Debian: python3-can): not there");
+}
+
+// As python-can has it since February 2026.
+TEST_F(PythonLog, AscDatesWithAPythonCanThatAsksForATimeZone) {
+  const ScratchFolder folder;
+  std::ofstream{folder / "sitecustomize.py"}
+      << "import can\n"
+         "read = can.io.ASCReader._datetime_to_timestamp\n"
+         "can.io.ASCReader._datetime_to_timestamp = staticmethod(lambda text, tz: read(text))\n";
+  const ScopedEnv modules{"PYTHONPATH", folder.path()};
+  const CanLog log = parse_log(
+      "date Fri Mar 8 09:41:17.123 am 2024\nbase hex timestamps absolute\n0.5 1 64 Rx d 1 64\n",
+      "a.asc");
+  EXPECT_EQ(log.start_ns % 1'000'000'000, 623'000'000);
+  EXPECT_EQ(log.warnings, std::vector<std::string>{});
 }
 
 // Frame lines without "internal events logged", a raw DLC, remote frames, CAN FD, error frames, and
