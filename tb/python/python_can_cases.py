@@ -320,6 +320,25 @@ b.shutdown()
 print("end")""")
             self.assertIn("$enddefinitions", wave.read_text())
 
+    def test_a_shutdown_that_is_interrupted(self):
+        # By Ctrl-C, once more: the end of the program completes it.
+        with tempfile.TemporaryDirectory() as folder:
+            wave = Path(folder) / "a.vcd"
+            self.ends(f"""
+import can
+bus = can.Bus(interface="verican", channel="i", vcd={str(wave)!r})
+thread = bus._channel._thread
+join = thread.join
+def interrupted():
+    thread.join = join
+    raise KeyboardInterrupt
+thread.join = interrupted
+try:
+    bus.shutdown()
+except KeyboardInterrupt:
+    print("end")""")
+            self.assertIn("$enddefinitions", wave.read_text())
+
     def test_shutdown_when_the_channels_are_closed(self):
         # Handlers go from the last to the first: this one is older than the package's.
         self.ends("import atexit, can",

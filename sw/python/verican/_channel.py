@@ -54,6 +54,7 @@ class Channel:
         self._epoch = time.time()
         self._offset = self._bus.started_ps / 1e12
         self._thread = threading.Thread(target=self._run, name=f"verican {name}", daemon=True)
+        _living.add(self)
         self._thread.start()
 
     # ---- For the nodes' users
@@ -111,6 +112,7 @@ class Channel:
                 self._work_off()
                 self._bus.run_until_quiet(LAST_FRAMES)
         finally:
+            _living.discard(self)
             self._bus.finish()
 
     def leave_to_parent(self):
@@ -193,6 +195,7 @@ class Channel:
 
 
 _channels = {}
+_living = set()  # channels that have not ended, also those whose close() was interrupted
 _lock = threading.Lock()
 
 
@@ -232,15 +235,16 @@ def close_all():
     interpreter ends would abort the process."""
     with contextlib.ExitStack() as stack:  # goes on behind a file that cannot be written
         with _lock:
-            for channel in _channels.values():
+            for channel in list(_living):
                 stack.callback(channel.close)
             _channels.clear()
 
 
 def leave_all_to_parent():
     """In a process that was forked; what it opens is its own."""
-    for channel in _channels.values():
+    for channel in _living:
         channel.leave_to_parent()
+    _living.clear()
     _channels.clear()
     _lock.release()
 
