@@ -15,6 +15,19 @@ def heard(bus, node):
     return [(m.id, m.data) for m in bus.receive(node) if not m.error and not m.echo]
 
 
+def in_a_child(work):
+    """The status with which a process ends that is forked and calls work(): 0 if nothing fails."""
+    child = os.fork()
+    if child == 0:
+        status = 1
+        try:
+            work()
+            status = 0
+        finally:
+            os._exit(status)  # pylint: disable=protected-access
+    return os.waitpid(child, 0)[1]
+
+
 def frame_length(identifier, data):
     """Bits from SOF to EOF7 of a data frame with 11 bits: FF-01 to FF-12, CR-01, ST-01."""
     bits = f"0{identifier:011b}000{len(data):04b}" + "".join(f"{byte:08b}" for byte in data)
@@ -149,33 +162,27 @@ class PythonBus(unittest.TestCase):
             path = Path(folder) / "bus.vcd"
             bus = Bus(["a", "b"], vcd=str(path))
             bus.step(bits=100)  # the file has not got all of it yet
-            child = os.fork()
-            if child == 0:
-                try:
-                    with self.assertRaisesRegex(RuntimeError, "process"):
-                        bus.step(bits=1)
-                    with self.assertRaisesRegex(RuntimeError, "process"):
-                        bus.finish()
-                    del bus
-                    os._exit(0)
-                finally:
-                    os._exit(1)
-            self.assertEqual(os.waitpid(child, 0)[1], 0)
+
+            def use():
+                nonlocal bus
+                with self.assertRaisesRegex(RuntimeError, "process"):
+                    bus.step(bits=1)
+                with self.assertRaisesRegex(RuntimeError, "process"):
+                    bus.finish()
+                del bus
+            self.assertEqual(in_a_child(use), 0)
             bus.step(bits=100)
             bus.finish()
             self.assertEqual(path.read_text().count("$enddefinitions"), 1)
 
     def test_a_bus_without_files_goes_on_in_a_process_that_is_forked(self):
         bus = Bus(["a", "b"])
-        child = os.fork()
-        if child == 0:
-            try:
-                bus.send("a", Frame(0x1))
-                bus.run_until_quiet()
-                os._exit(0 if heard(bus, "b") == [(0x1, b"")] else 1)
-            finally:
-                os._exit(1)
-        self.assertEqual(os.waitpid(child, 0)[1], 0)
+
+        def use():
+            bus.send("a", Frame(0x1))
+            bus.run_until_quiet()
+            self.assertEqual(heard(bus, "b"), [(0x1, b"")])
+        self.assertEqual(in_a_child(use), 0)
         self.assertEqual(heard(bus, "b"), [])
 
 
