@@ -4,6 +4,7 @@
 // verican._core: ProgramBus and what it gives and takes, for Python. Times are seconds there.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <functional>
@@ -176,7 +177,31 @@ void disturb(ProgramBus &bus, const std::string &effect, double begin, double du
   bus.disturb(node, effect_of(effect), from, to_ps("duration", duration));
 }
 
-using Unlocked = py::call_guard<py::gil_scoped_release>;
+bool interpreter_ends() {
+#if PY_VERSION_HEX >= 0x030D0000
+  return Py_IsFinalizing() != 0;
+#else
+  return _Py_IsFinalizing() != 0;
+#endif
+}
+
+// Lets other Python threads run. A thread that is in here when the interpreter ends does not come
+// back: taking the lock would end the thread in the middle of C++. One that waits for the lock then
+// is ended all the same, by an unwinding that the destructor has to let through.
+class Elsewhere {
+ public:
+  Elsewhere() : state_{PyEval_SaveThread()} {}
+  ~Elsewhere() noexcept(false) {
+    while (interpreter_ends()) ::pause();
+    PyEval_RestoreThread(state_);
+  }
+  Elsewhere(const Elsewhere &) = delete;
+  Elsewhere &operator=(const Elsewhere &) = delete;
+
+ private:
+  PyThreadState *state_;
+};
+using Unlocked = py::call_guard<Elsewhere>;
 
 void bind_bus(py::module_ &m) {
   py::class_<ProgramBus, OwnedBus>(

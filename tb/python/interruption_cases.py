@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The VeriCAN authors
 # SPDX-License-Identifier: Apache-2.0
-"""Ctrl-C while simulated time passes."""
+"""Ctrl-C, or the end of the program, while simulated time passes."""
 import concurrent.futures
 import signal
+import subprocess
+import sys
 import time
 import unittest
 
@@ -65,6 +67,27 @@ class Interruption(unittest.TestCase):
                 step.result()
             step.result()
         self.assertAlmostEqual(self.bus.now, 1, 6)
+
+
+class EndOfTheProgram(unittest.TestCase):
+    """A daemon thread that is in a step then must not take the process down with it."""
+
+    PROGRAM = """
+import threading, time
+from verican import Bus, Frame
+def work(bus):
+    while True:
+        bus.send("a", Frame(1))
+        bus.step(1e-3)
+threading.Thread(target=work, args=[Bus(["a", "b"])], daemon=True).start()
+time.sleep(0.05)
+"""
+
+    def test_within_a_step(self):
+        for _ in range(12):
+            done = subprocess.run([sys.executable, "-B", "-c", self.PROGRAM], capture_output=True,
+                                  text=True, timeout=60, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
 if __name__ == "__main__":
