@@ -85,6 +85,23 @@ bool ends_as_name(const std::string &full, const std::string &end) {
                          full[full.size() - end.size() - 1] == '.');
 }
 
+/// "pins" of "pins[3]", also of "rx[0:0]".
+std::string without_index(const std::string &name) {
+  return name.ends_with(']') ? name.substr(0, name.rfind('[')) : name;
+}
+
+bool is_called(const std::string &name, const std::string &end) {
+  return ends_as_name(name, end) || ends_as_name(without_index(name), end);
+}
+
+/// The words of a name: its index and what analysers call a channel ("Channel 0") stand apart.
+std::string joined_name(const std::vector<std::string_view> &words, std::size_t first) {
+  std::string name{words[first]};
+  for (std::size_t i = first + 1; i < words.size(); ++i)
+    name.append(words[i].starts_with('[') ? "" : " ").append(words[i]);
+  return name;
+}
+
 /// True for variables whose values are no bits, whatever their width.
 bool is_text_or_real(const VcdSignal &signal) {
   return signal.type == "string" || signal.type == "real" || signal.type == "realtime";
@@ -183,13 +200,13 @@ void VcdFile::parse_var(const std::vector<std::string_view> &words, std::size_t 
     name += scope + ".";
     if (name.size() > kLongestName) break;
   }
-  if (name.size() + words[3].size() > kLongestName)
-    throw InputError(
-        path_, line,
-        fmt::format("the name {} is too long; allowed: {} characters with its scopes",
-                    in_quotes(name + std::string(words[3].substr(0, kLongestName))), kLongestName));
-  signals_.push_back({name + std::string(words[3]), std::string(words[0]),
-                      static_cast<unsigned>(*width), std::string(words[2])});
+  name += joined_name(words, 3);
+  if (name.size() > kLongestName)
+    throw InputError(path_, line,
+                     fmt::format("the name {} is too long; allowed: {} characters with its scopes",
+                                 in_quotes(name.substr(0, 2 * kLongestName)), kLongestName));
+  signals_.push_back(
+      {name, std::string(words[0]), static_cast<unsigned>(*width), std::string(words[2])});
 }
 
 void VcdFile::fail_with_list(const std::string &message) const {
@@ -209,7 +226,7 @@ void VcdFile::fail_with_list(const std::string &message) const {
 const VcdSignal &VcdFile::find(const std::string &name) const {
   const VcdSignal *found = nullptr;
   for (const VcdSignal &signal : signals_) {
-    if (!ends_as_name(signal.name, name)) continue;
+    if (!is_called(signal.name, name)) continue;
     if (signal.name == name) {
       found = &signal;
       break;
@@ -234,7 +251,7 @@ const VcdSignal &VcdFile::guess_bus() const {
   for (const char *name :
        {"can", "can_bus", "bus", "canbus", "can_h", "can_rx", "can_rx_i", "rx", "rxd"})
     for (const VcdSignal *signal : single)
-      if (ends_as_name(lower(signal->name), name)) return *signal;
+      if (is_called(lower(signal->name), name)) return *signal;
   fail_with_list("cannot tell which signal is the bus; give its name");
 }
 

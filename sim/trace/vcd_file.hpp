@@ -15,7 +15,7 @@ namespace vericansim {
 
 /// A declared variable.
 struct VcdSignal {
-  std::string name;    ///< with its modules, "top.node.rx"
+  std::string name;    ///< with its modules and index, "top.node.rx", "top.pins[3]"
   std::string type;    ///< "wire", "reg", "string", ...
   unsigned width = 1;  ///< bits
   std::string code;    ///< identifier code of the value changes
@@ -33,9 +33,9 @@ class VcdFile {
 
   [[nodiscard]] const std::vector<VcdSignal> &signals() const { return signals_; }
 
-  /// The signal called `name`: the full name, or the end of exactly one ("rx", "node.rx").
-  /// Throws InputError that lists the signals if there is none or more than one, or if it is no
-  /// single bit.
+  /// The signal called `name`: the full name, or the end of exactly one ("rx", "node.rx"), with its
+  /// index or without. Throws InputError that lists the signals if there is none or more than one,
+  /// or if it is no single bit.
   [[nodiscard]] const VcdSignal &find(const std::string &name) const;
   /// The signal that is most likely the bus: the only one-bit signal, or one called can, can_bus,
   /// can_rx, rx... Throws InputError if there is no such signal.

@@ -76,6 +76,23 @@ TEST(VcdFile, AWeakZeroIsDominantAndARealIsNoBit) {
               HasSubstr("signal 'r' is a real; allowed: one bit"));
 }
 
+// Pins of a port, channels of an analyser: what tells them apart stands in a word of its own.
+TEST(VcdFile, NamesMayHaveSeveralWords) {
+  const VcdFile file{"a.vcd",
+                     "$timescale 1ps $end $scope module top $end $var wire 1 ! pins [0] $end "
+                     "$var wire 1 # pins [1] $end $var wire 1 % Channel 0 $end "
+                     "$var wire 1 & Channel 1 $end $var wire 1 ' rx [0:0] $end $upscope $end "
+                     "$enddefinitions $end "};
+  EXPECT_EQ(file.find("top.pins[1]").code, "#");
+  EXPECT_EQ(file.find("pins[0]").code, "!");
+  EXPECT_EQ(file.find("Channel 1").code, "&");
+  EXPECT_EQ(file.find("rx").code, "'");
+  EXPECT_EQ(file.guess_bus().name, "top.rx[0:0]");
+  EXPECT_THAT(input_error_of([&] { static_cast<void>(file.find("pins")); }),
+              HasSubstr("signal 'pins' is not unique; one-bit signals are top.pins[0], "
+                        "top.pins[1], top.Channel 0, top.Channel 1, top.rx[0:0]"));
+}
+
 // The nine values of std_logic as scalars, 0 and L dominant.
 TEST(VcdFile, ScalarsOfVhdl) {
   const VcdFile file{"a.vcd",
