@@ -230,18 +230,46 @@ TEST(FileNames, AWaveMustBeVcdOrFst) {
   EXPECT_THROW(static_cast<void>(open_vcd("/no/such/folder/a.vcd")), InputError);
 }
 
+/// Edges of a frame at `bit` ps; those from dominant to recessive are `late`.
+std::vector<Time> edges_at(double bit, Time late) {
+  std::vector<Time> edges;
+  Time now = 12345;
+  for (const int bits : {1, 1, 2, 5, 4, 1, 3, 5, 2, 1, 1, 4, 30, 1, 2, 2, 1}) {
+    now += static_cast<Time>(bits * bit) + (bits % 2) * 3;
+    edges.push_back(now + (edges.size() % 2 != 0 ? late : 0));
+  }
+  return edges;
+}
+
 TEST(Bitrate, FoundFromEdges) {
   for (const double rate : {10e3, 50e3, 83.333e3, 125e3, 500e3, 1e6}) {
-    std::vector<Time> edges;
-    Time now = 12345;
-    for (const int bits : {1, 1, 2, 5, 4, 1, 3, 5, 2, 1, 1, 4, 30, 1, 2, 2, 1})
-      edges.push_back(now += static_cast<Time>(bits * 1e12 / rate) + (bits % 2) * 3);
-    const auto found = detect_bitrate(edges);
+    const auto found = detect_bitrate(edges_at(1e12 / rate, 0));
     ASSERT_TRUE(found.has_value());
     EXPECT_NEAR(*found / rate, 1.0, 0.001);
   }
   EXPECT_FALSE(detect_bitrate({1, 2, 3}).has_value());
   EXPECT_FALSE(detect_bitrate(std::vector<Time>(20, 5)).has_value());
+}
+
+// Slow slopes of the wire: dominant bits of 1.2 us, recessive ones of 0.8 us.
+TEST(Bitrate, EdgesOfOneDirectionMayBeLate) {
+  for (const Time late : {100, 150, 200})
+    EXPECT_EQ(detect_bitrate(edges_at(1e6, late * kNanosecond)), 1e6) << late;
+}
+
+// A few glitches among many edges, at the end of a long rest; the fifth part of a bit divides it.
+TEST(Bitrate, GlitchesAreNoBits) {
+  for (const Time glitch : {20, 50, 200, 333, 500}) {
+    std::vector<Time> edges;
+    for (Time begin = 0; begin < 20; ++begin)
+      for (const Time edge : edges_at(1e6, 0)) edges.push_back(edge + begin * 100 * kMicrosecond);
+    const Time last = edges.back();
+    for (Time n = 1; n <= 10; ++n) {
+      edges.push_back(last + n * 50 * kMicrosecond);
+      edges.push_back(edges.back() + glitch * kNanosecond);
+    }
+    EXPECT_EQ(detect_bitrate(edges), 1e6) << glitch;
+  }
 }
 
 }  // namespace
