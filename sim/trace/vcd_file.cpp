@@ -273,10 +273,13 @@ Time VcdFile::read(const VcdSignal &signal, const OnChange &change) const {
   std::unordered_set<std::string_view> codes;
   for (const VcdSignal &declared : signals_) codes.insert(declared.code);
   Words words{std::string_view{text_}.substr(body_), body_line_};
+  std::optional<Time> begin;
   Time now = 0;
   int last = -1;
   const auto use = [&](char value) {
     const int level = value == '0' || value == 'L' || value == 'l' ? 0 : 1;  // L: a weak 0
+    if (!begin) begin = now;
+    if (last < 0 && now > *begin) change(*begin, static_cast<Level>(last = 1));  // it was x so far
     if (std::exchange(last, level) != level) change(now, static_cast<Level>(level));
   };
   constexpr std::string_view kSpaced = "bBrRsS";
@@ -284,6 +287,7 @@ Time VcdFile::read(const VcdSignal &signal, const OnChange &change) const {
     const std::size_t line = words.line();
     if (word[0] == '#') {
       now = stamp(word, now, line);
+      if (!begin) begin = now;
       continue;
     }
     if (word[0] == '$') {

@@ -47,6 +47,21 @@ TEST(VcdFile, ReadsTimescaleHierarchyAndUnknowns) {
   EXPECT_EQ(file.read(file.find("node.rx"), [](Time, Level) {}), 200 * kNanosecond);
 }
 
+// To IEEE 1364 it is x until then. What was before the first time of the file nobody knows.
+TEST(VcdFile, ASignalWithoutAFirstValueIsRecessive) {
+  const auto changes = [](const std::string &body) {
+    return changes_of(VcdFile{"a.vcd", kHeader + body}, "top.rx");
+  };
+  const Time unit = 10 * kNanosecond;
+  for (const char *body : {"#3 1! #5 0#", "#3 #5 0#"})
+    EXPECT_THAT(changes(body),
+                ElementsAre(Pair(3 * unit, Level::kRecessive), Pair(5 * unit, Level::kDominant)))
+        << body;
+  EXPECT_THAT(changes("#5 0#"), ElementsAre(Pair(5 * unit, Level::kDominant)));
+  EXPECT_THAT(changes("0# #5 1#"),
+              ElementsAre(Pair(0, Level::kDominant), Pair(5 * unit, Level::kRecessive)));
+}
+
 TEST(VcdFile, ScaleBelowAPicosecond) {
   const VcdFile file{
       "a.vcd", "$timescale 1fs $end $var wire 1 ! rx $end $enddefinitions $end #0 1! #2500 0! "};
