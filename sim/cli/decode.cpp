@@ -133,7 +133,8 @@ int decode(DecodeOptions &options) {
                 {"events", list}});
   else
     fmt::print("signal {}, {:.0f} bit/s: {} frames, {} error frames, {} overload frames in {}\n",
-               result.signal, result.bitrate, frames, errors, overloads, time_text(result.end));
+               result.signal, result.bitrate, frames, errors, overloads,
+               time_text(wave.end - wave.begin()));
   if (frames == 0) warn_of_bitrate(wave, options.wave);
   warn_of_beginning(wave, options.decode.sample_point, options.wave);
   if (found) return kOk;

@@ -106,8 +106,8 @@ int report_recorded_wave(const ReportOptions &options) {
       "signal {}, {:.0f} bit/s: {} frames, {} without ACK, {} error frames, {} overload "
       "frames in {}{}\n{}\n",
       wave.signal, wave.bitrate, report.frames, report.unacknowledged, report.error_frames,
-      report.overload_frames, time_text(wave.end), interrupted_text(report.interrupted),
-      options.outputs.report);
+      report.overload_frames, time_text(wave.end - wave.begin()),
+      interrupted_text(report.interrupted), options.outputs.report);
   if (report.frames + report.unacknowledged + report.error_frames + report.overload_frames != 0 ||
       report.cut || report.interrupted)
     return kOk;

@@ -47,7 +47,7 @@ class Player {
   std::unique_ptr<BusMonitor> monitor_;
   std::unique_ptr<BusOutputs> outputs_;
   Bus bus_;
-  Time start_ = 0;
+  Time start_ = 0;  // where the recording has its time 0
 };
 
 HostConfig listener() {
@@ -107,15 +107,16 @@ std::optional<Time> Player::rest() {
 
 WaveReport Player::play(const std::function<void(double)> &progress) {
   constexpr Time kPart = 1'000;  // bits
-  start_ = bus_.now();
+  const Time begin = bus_.now();
+  start_ = begin - wave_.begin();
   outputs_->begin(start_);
-  if (!wave_.changes.empty()) bus_.at(start_ + wave_.changes.front().first, [this] { next(0); });
+  if (!wave_.changes.empty()) bus_.at(begin, [this] { next(0); });
   const Time end = start_ + wave_.end;
   while (bus_.now() < end && !stop_requested()) {
     bus_.run_until(std::min(end, bus_.now() + kPart * bit_time_));
     host_->check();
     if (progress)
-      progress(static_cast<double>(bus_.now() - start_) / static_cast<double>(wave_.end));
+      progress(static_cast<double>(bus_.now() - begin) / static_cast<double>(end - begin));
   }
   const bool interrupted = bus_.now() < end;
   const std::optional<Time> cut = rest();

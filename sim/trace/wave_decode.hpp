@@ -26,6 +26,9 @@ struct Wave {
   double bitrate = 0;  ///< bit/s, given or detected
   Time end = 0;        ///< of the waveform, ps
   std::vector<std::pair<Time, Level>> changes;
+
+  /// Where it begins: what is before its first level nobody has recorded. ps
+  [[nodiscard]] Time begin() const { return changes.empty() ? 0 : changes.front().first; }
 };
 
 /// Reads one signal of a VCD file. Throws InputError if the file, the signal or the bit rate cannot

@@ -186,6 +186,22 @@ TEST(ReportTool, AWaveformsPageIsAsLongAsTheWaveform) {
   }
 }
 
+// A recorder that counts from elsewhere: what it has not recorded is no time of a bus at rest.
+TEST(ReportTool, AWaveformMayBeginAtAnyTime) {
+  const Frame frame{.id = 0x123, .dlc = 2, .data = {0x00, 0xFF}};
+  Wave wave = wave_of(frame, 3);
+  const double length = static_cast<double>(wave.end) / kNanosecond;
+  for (auto &change : wave.changes) change.first += kSecond;
+  wave.end += kSecond;
+  const std::string page = report_file(".html");
+  EXPECT_EQ(report_wave(wave, "wave", {.report = page}, {}).frames, 1U);
+  const ReportPage read{page};
+  EXPECT_NEAR(read.meta.at("duration_ns").get<double>(), length, 2.0);
+  EXPECT_EQ(read.meta.at("origin_ns"), 1e9);
+  ASSERT_EQ(read.size("f.start"), 1U);
+  EXPECT_NEAR(read.at("f.start", 0), 24'000.0, 2.0);
+}
+
 TEST(ReportTool, ALogIsSentThroughCores) {
   const std::string page = report_file(".html");
   const std::string log = file_with(".log", "(0.000000) can0 123#1122\n(0.001000) can0 7FF#R3\n");
