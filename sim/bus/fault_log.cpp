@@ -6,11 +6,12 @@
 
 namespace vericansim {
 
-void FaultLog::begin(Stretch &stretch, Time t) {
+void FaultLog::count(Stretch &stretch) {
   ++hits_;
-  stretch = {t, t, 1, stretches_.size()};
+  stretch.bits = 1;
+  stretch.place = stretches_.size();
   if (stretches_.size() < kStretches)
-    stretches_.push_back({t, t});
+    stretches_.push_back({stretch.from, stretch.last});
   else
     more_ = true;
 }
@@ -18,8 +19,12 @@ void FaultLog::begin(Stretch &stretch, Time t) {
 void FaultLog::mark(Time t, unsigned receiver) {
   if (receiver >= now_.size()) now_.resize(receiver + 1);
   Stretch &stretch = now_[receiver];
-  if (stretch.bits == 0 || 2 * (t - stretch.last) > bit_time_) return begin(stretch, t);
+  if (!stretch.begun || 2 * (t - stretch.last) > bit_time_) stretch = {true, t, t, 0, kStretches};
   stretch.last = t;
+  if (stretch.bits == 0) {
+    if (t - stretch.from >= least_) count(stretch);
+    return;
+  }
   if (stretch.place < kStretches) stretches_[stretch.place].to = t;
   if (bit_time_ != 0 && 2 * (t - stretch.from) >= (2 * stretch.bits + 1) * bit_time_) {
     ++stretch.bits;

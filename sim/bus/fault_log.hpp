@@ -22,14 +22,15 @@ struct Window {
 
 /// Counts the bit times in which receivers got another level than without a fault. Clock edges that
 /// saw it and lie less than half a bit time apart form a stretch; a stretch counts as its length in
-/// bit times, rounded, and at least once.
+/// bit times, rounded, and at least once if it is not too short to count.
 class FaultLog {
  public:
   /// Stretches that are kept with their times.
   static constexpr std::size_t kStretches = 10'000;
 
-  /// `bit_time` in ps; 0: each clock edge counts.
-  explicit FaultLog(Time bit_time = 0) : bit_time_{bit_time} {}
+  /// `bit_time` in ps; 0: each clock edge counts. Stretches that last less than `least` (ps from
+  /// the first clock edge to the last) do not count.
+  explicit FaultLog(Time bit_time = 0, Time least = 0) : bit_time_{bit_time}, least_{least} {}
 
   /// A clock edge at `t` (ps, not before the last one) saw another level. Receivers that the fault
   /// disturbs each for itself have numbers of their own.
@@ -43,14 +44,15 @@ class FaultLog {
 
  private:
   struct Stretch {
+    bool begun = false;
     Time from = 0, last = 0;
-    Time bits = 0;  // 0: none yet
+    Time bits = 0;  // counted so far
     std::size_t place = kStretches;
   };
 
-  void begin(Stretch &stretch, Time t);
+  void count(Stretch &stretch);
 
-  Time bit_time_;
+  Time bit_time_, least_;
   std::uint64_t hits_ = 0;
   std::vector<Stretch> now_;  // of each receiver
   std::vector<Window> stretches_;

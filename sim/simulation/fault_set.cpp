@@ -13,6 +13,14 @@ namespace {
 
 constexpr Time kEver = std::numeric_limits<Time>::max();
 
+/// How long a stretch of it lasts at least that counts. A node's bit lags that of the wire by its
+/// synchroniser, so that a place of whole bits has the first clocks of the bit behind them.
+Time least_stretch(const FaultSpec &spec, Time bit_time) {
+  const bool whole_bits =
+      spec.kind == FaultSpec::Kind::kPlace && !spec.first_quantum && !spec.last_quantum;
+  return whole_bits ? bit_time / 4 : 0;
+}
+
 }  // namespace
 
 Window FaultSet::on_bus(const Window &window) const {
@@ -47,7 +55,9 @@ std::unique_ptr<Fault> FaultSet::make(const FaultSpec &spec,
 void FaultSet::add_to(Bus &bus, Time start, Time bit_time,
                       const std::function<unsigned(NodeId)> &prescaler) {
   start_ = start;
-  logs_.assign(scenario_.faults.size(), FaultLog{bit_time});
+  logs_.clear();
+  for (const FaultSpec &spec : scenario_.faults)
+    logs_.emplace_back(bit_time, least_stretch(spec, bit_time));
   std::unique_ptr<ScheduledFaults> scheduled;
   for (std::size_t i = 0; i < scenario_.faults.size(); ++i) {
     const FaultSpec &spec = scenario_.faults[i];

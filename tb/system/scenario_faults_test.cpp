@@ -7,10 +7,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <map>
 #include <string>
 
+#include "model/frame_codec.hpp"
 #include "report/report_run.hpp"
 #include "session/runner.hpp"
 #include "trace/vcd_file.hpp"
@@ -109,6 +112,30 @@ INSTANTIATE_TEST_SUITE_P(
         Counted{"Short", "{kind: short, node: b, from: 5.05 ms, for: 0.5 ms}", "c", 100},
         Counted{"FlippedBits", "{kind: noise, node: c, per_bit: 0.01}", "c", 20, 0.08}),
     [](const auto &item) { return std::string(item.param.name); });
+
+/// How often a level that is forced while `node` is at a bit of the frame 155#00A7 took effect.
+std::uint64_t hits_of(const char *kind, const char *node, const WireBit &bit) {
+  const std::string text = fmt::format(
+      "duration: 1 ms\nnodes: [{{name: a}}, {{name: b}}]\n"
+      "traffic: [{{node: a, id: 0x155, data: 00 A7}}]\n"
+      "faults: [{{kind: {}, at: {{node: {}, frame: 1, field: {}, bit: {}, stuff: {}}}}}]\n",
+      kind, node, field_name(bit.field), bit.index, bit.is_stuff);
+  return run_scenario(parse_scenario("test.yaml", text), 1e6).faults.at(0).hits;
+}
+
+// Each bit of a frame is forced to the level that the frame codec says it has, which changes
+// nothing, and to the other one. At 8 clocks a bit the synchroniser has a quarter of it.
+TEST(Fault, ALevelThatIsThereAlreadyIsNoEffect) {
+  for (const WireBit &bit : encode_frame({.id = 0x155, .dlc = 2, .data = {0x00, 0xA7}}).bits)
+    for (const char *node : {"a", "b"}) {
+      if (bit.field == Field::kSof) continue;  // b is not there
+      const bool dominant = bit.level == Level::kDominant;
+      const std::string place = fmt::format("{} at {} bit {}", node, field_name(bit.field),
+                                            static_cast<unsigned>(bit.index));
+      EXPECT_EQ(hits_of("dominant", node, bit), dominant ? 0U : 1U) << place;
+      EXPECT_EQ(hits_of("recessive", node, bit), dominant ? 1U : 0U) << place;
+    }
+}
 
 // ---- What is said
 

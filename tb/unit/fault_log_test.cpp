@@ -68,6 +68,14 @@ TEST(FaultLog, MoreThanHalfABitWithoutEffectEndsAStretch) {
   EXPECT_EQ(log.hits(), 3U);
 }
 
+TEST(FaultLog, WhatIsTooShortDoesNotCount) {
+  FaultLog log{100, 25};
+  mark(log, 0, 30);     // last edge at 20
+  mark(log, 200, 240);  // at 230
+  EXPECT_EQ(log.hits(), 1U);
+  EXPECT_EQ(times(log), (Times{{200, 230}}));
+}
+
 TEST(FaultLog, ReceiversThatAreDisturbedForThemselvesCountForThemselves) {
   FaultLog log{100};
   for (Time t = 0; t < 200; t += 10)
