@@ -164,6 +164,18 @@ double clock_before(const Scenario &scenario, NodeId node, Time from) {
   return ppm;
 }
 
+/// Refuses errors that are there already, and two at one moment, of which only one could be.
+void check_clock(YamlMap &map, const Scenario &scenario, const FaultSpec &fault) {
+  const std::string &name = scenario.nodes[fault.node].name;
+  for (const FaultSpec &other : scenario.faults)
+    if (other.kind == fault.kind && other.node == fault.node &&
+        other.window.from == fault.window.from)
+      map.value().fail(fmt::format(
+          "the clock of '{}' has a fault at that time already, of {:g} ppm", name, other.ppm));
+  if (clock_before(scenario, fault.node, fault.window.from) == fault.ppm)
+    map.need("ppm").fail(fmt::format("the clock of '{}' has {:g} ppm already", name, fault.ppm));
+}
+
 /// What the word for the kind says; keys of that kind.
 void parse_kind(YamlMap &map, const Scenario &scenario, FaultSpec &fault) {
   const YamlValue kind = map.need("kind");
@@ -198,11 +210,7 @@ void parse_victim(YamlMap &map, const Scenario &scenario, FaultSpec &fault) {
     fault.node = parse_node_name(*node, scenario);
   else if (!everyone)
     map.value().fail("key 'node' is missing");
-  if (fault.kind != Kind::kClock ||
-      clock_before(scenario, fault.node, fault.window.from) != fault.ppm)
-    return;
-  map.need("ppm").fail(fmt::format("the clock of '{}' has {:g} ppm already",
-                                   scenario.nodes[fault.node].name, fault.ppm));
+  if (fault.kind == Kind::kClock) check_clock(map, scenario, fault);
 }
 
 }  // namespace

@@ -370,6 +370,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "faults: [{kind: clock, node: b, from: 1 ms, ppm: 5}, {kind: clock, node: b, from: "
                 "2 ms, ppm: 5}]",
                 "faults[1].ppm: the clock of 'b' has 5 ppm already"},
+        Mistake{"FaultClockTwice",
+                "faults: [{kind: clock, node: b, from: 1 ms, ppm: 5}, {kind: clock, node: b, from: "
+                "1 ms, ppm: 7}]",
+                "faults[1]: the clock of 'b' has a fault at that time already, of 5 ppm"},
         Mistake{"FaultClockEnd", "faults: [{kind: clock, node: b, ppm: 5, to: 1 ms}]",
                 "unknown key 'to'; allowed: from, hits, kind, name, node, ppm"},
         Mistake{"FaultName",
