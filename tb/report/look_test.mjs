@@ -174,3 +174,33 @@ test('lanes say that there are more of them, on both sides', async () => {
   assert.equal(await few.$(below), null, 'three nodes fit');
   await closeReport(few);
 });
+
+// Half of a laptop's screen, and less: what does not fit is wrapped or scrolled, not cut off.
+test('in a small window all tabs are in sight, and all of the page can be reached', async () => {
+  for (const [width, height] of [
+    [900, 600],
+    [640, 480],
+    [1280, 420],
+  ]) {
+    const page = await openReport(file, {width, height, fresh: true});
+    const tabs = await page.$$eval('.tabs button', (buttons) => {
+      const area = document.querySelector('.tab-area').getBoundingClientRect();
+      return buttons.map((button) => {
+        const {left, right, bottom} = button.getBoundingClientRect();
+        return {
+          name: button.textContent,
+          whole: left >= area.left && right <= area.right && bottom <= area.bottom,
+        };
+      });
+    });
+    assert.ok(tabs.length >= 8);
+    for (const {name, whole} of tabs) assert.ok(whole, `${name} at ${width} x ${height}`);
+    await page.mouse.move(width / 2, 12); // on the title
+    await page.mouse.wheel(0, 5000);
+    await page.waitForFunction(
+      () => document.querySelector('.bottom').getBoundingClientRect().bottom <= innerHeight,
+    );
+    await screenshot(page, `look-${width}x${height}`);
+    await closeReport(page);
+  }
+});
