@@ -5,6 +5,7 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import * as browser from './browser.mjs';
+import {F} from './can.mjs';
 import {distance, lab, visions} from './colour.mjs';
 import {Scene} from './scene.mjs';
 import {smallScene} from './scenes.mjs';
@@ -146,6 +147,34 @@ test('where a limit has cut off the details the load is not told', async () => {
   const whole = await openReport(writeScene('look-whole', cut.finish()));
   assert.doesNotMatch(await whole.textContent('#panel-load'), /not known/);
   await closeReport(whole);
+});
+
+// A node whose cable is open sends, and nobody hears it: the head counts no load for that either.
+test('what nobody hears is no load', async () => {
+  const scene = new Scene(['a', 'b', 'cut off']);
+  scene.frame(0, {id: 0x123, dlc: 1, data: [1]}, {gap: 60});
+  const silence = (count) => Array.from({length: count}, () => ({field: F.ID, sent: 1}));
+  scene.segment([{node: 2, bits: silence(100)}]);
+  scene.now += 160 * scene.bit;
+  const sent = Scene.sent({id: 0x321, dlc: 1, data: [2]});
+  const ack = sent.findIndex(({field}) => field === F.ACK);
+  const tail = silence(100);
+  const [own, other] = [[...sent, ...tail], silence(sent.length + tail.length)];
+  scene.segment([{node: 0, bits: own}, {node: 2, bits: other}], {1: {[ack]: 0}});
+  scene.now += (own.length + 60) * scene.bit;
+  const page = await openReport(writeScene('look-unheard', scene.finish()));
+  const {x, busy, lost} = await loadPlot(page);
+  const step = x[1] - x[0];
+  const sum = (list) =>
+    list.reduce((time, part, i) => {
+      const known = Math.min(x[i] + step, scene.now) - Math.max(x[i], 0);
+      return time + (known > 0 ? ((part ?? 0) / 100) * known : 0);
+    }, 0);
+  const frame = scene.log[0].end - scene.log[0].time + 3 * scene.bit;
+  const second = (sent.length + 3) * scene.bit; // no acknowledged one of the table of frames
+  assert.ok(Math.abs(sum(busy) - frame - second) < 1, `${sum(busy)} ns, not ${frame + second}`);
+  assert.ok(Math.abs(sum(lost) - second) < 1, `${sum(lost)} ns lost, not ${second}`);
+  await closeReport(page);
 });
 
 test('lanes say that there are more of them, on both sides', async () => {

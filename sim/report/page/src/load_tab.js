@@ -16,15 +16,12 @@ function wastedSums(report) {
   const {segments} = report;
   const sums = new Float64Array(segments.count + 1);
   for (let i = 0; i < segments.count; ++i) {
-    const lost = report.segmentFrame[i] < 0 ? segments.end[i] - segments.start[i] : 0;
-    sums[i + 1] = sums[i] + lost;
+    sums[i + 1] = sums[i] + (report.segmentFrame[i] < 0 ? report.busyPart(i) : 0);
   }
   return (ns) => {
     const i = lastAtOrBelow(segments.start, ns);
     if (i < 0) return 0;
-    const inside =
-      report.segmentFrame[i] < 0 ? Math.min(ns, segments.end[i]) - segments.start[i] : 0;
-    return sums[i] + inside;
+    return sums[i] + (report.segmentFrame[i] < 0 ? report.busyPart(i, ns) : 0);
   };
 }
 

@@ -22,6 +22,7 @@ const kTypes = {
 };
 const kLanesKept = 600;
 export const kNobody = 255;
+const kFreeBits = 11; // recessive bits behind the last dominant one until the bus is free
 const kExtended = 0x80000000;
 const kRemote = 0x40000000;
 
@@ -112,8 +113,11 @@ export class Report {
   #sums() {
     const {segments, events} = this;
     this.busyBefore = new Float64Array(segments.count + 1);
+    this.busyFrom = Float64Array.from(segments.start);
+    this.busyTo = Float64Array.from(segments.end);
     for (let i = 0; i < segments.count; ++i) {
-      this.busyBefore[i + 1] = this.busyBefore[i] + segments.end[i] - segments.start[i];
+      this.#clipToWire(i);
+      this.busyBefore[i + 1] = this.busyBefore[i] + this.busyPart(i);
     }
     this.segmentEvents = new Map();
     for (let i = 0; i < events.count; ++i) {
@@ -129,12 +133,32 @@ export class Report {
     for (let i = 0; i < this.losses.count; ++i) this.nodeLosses[this.losses.node[i]]?.push(i);
   }
 
-  /** Time in segments from the start up to `ns`. */
+  /** What a node that nobody hears does in a segment does not keep the bus busy. */
+  #clipToWire(i) {
+    const {segments, bitNs} = this;
+    const [start, end] = [segments.start[i], segments.end[i]];
+    let first = Infinity;
+    let last = -Infinity;
+    this.wire.stretches(start - bitNs / 2, end, (from, to, level) => {
+      if (level !== 0) return;
+      first = Math.min(first, from);
+      last = to;
+    });
+    if (first === Infinity) this.busyTo[i] = start;
+    if (first === Infinity || segments.lanes[i] < 2) return;
+    this.busyFrom[i] = Math.max(start, first);
+    this.busyTo[i] = Math.max(this.busyFrom[i], Math.min(end, last + kFreeBits * bitNs));
+  }
+
+  /** Time for which a segment keeps the bus busy, up to `ns`. */
+  busyPart(i, ns = Infinity) {
+    return Math.max(Math.min(ns, this.busyTo[i]) - this.busyFrom[i], 0);
+  }
+
+  /** Time in which the bus is busy, from the start up to `ns`. */
   busyUntil(ns) {
-    const {segments} = this;
-    const i = lastAtOrBelow(segments.start, ns);
-    if (i < 0) return 0;
-    return this.busyBefore[i] + Math.min(ns, segments.end[i]) - segments.start[i];
+    const i = lastAtOrBelow(this.segments.start, ns);
+    return i < 0 ? 0 : this.busyBefore[i] + this.busyPart(i, ns);
   }
 
   /** The part of a window of which all is known: of the run, as far as segments were kept. */
