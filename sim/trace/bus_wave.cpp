@@ -48,7 +48,7 @@ const char *field_text(Field field) { return field_name(field).data(); }
 std::string scope_name(const std::string &name) {
   std::string scope = name.empty() ? "node" : name;
   for (char &c : scope)
-    if (c <= ' ' || c == '$' || c == '.') c = '_';
+    if (static_cast<unsigned char>(c) <= ' ' || c == '$' || c == '.') c = '_';
   return scope;
 }
 

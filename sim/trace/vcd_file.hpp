@@ -43,8 +43,8 @@ class VcdFile {
 
   /// Calls `change` for each change of the signal in the order of time; returns the time of the
   /// end, ps. 'x' and 'z' count as recessive: nobody drives; so does a signal without a value from
-  /// the first time of the file on; 'L' as dominant. Throws InputError on what is no value change of
-  /// a declared variable, also of one that is not asked for.
+  /// the first time of the file on; 'L' as dominant. Throws InputError on what is no value change
+  /// of a declared variable, also of one that is not asked for.
   Time read(const VcdSignal &signal, const OnChange &change) const;
 
  private:

@@ -58,6 +58,8 @@ std::vector<std::string> modules_of(const std::vector<std::string> &nodes) {
 TEST(BusWave, ANodeIsAModuleOfItsName) {
   EXPECT_THAT(modules_of({"gateway", "engine.ecu 2", ""}),
               ElementsAre("bus", "gateway", "engine_ecu_2", "node"));
+  EXPECT_THAT(modules_of({"Lüfter", "Läufer", "\t\x01"}),
+              ElementsAre("bus", "Lüfter", "Läufer", "__"));
 }
 
 // A name that can be kept is kept, whatever comes before it.
