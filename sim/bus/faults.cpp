@@ -87,8 +87,7 @@ void PlaceTracker::enter(std::uint64_t word) {
   const unsigned left = trace_left(word);
   const bool stuff = trace_stuff(word);
   // A stuff bit has the index of the bit that it delays.
-  const bool same_run = field == field_ && left <= left_;
-  if (!same_run) {
+  if (!goes_on(field, left, field_, left_)) {
     index_ = 0;
   } else if (!stuff_) {
     ++index_;

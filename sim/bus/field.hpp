@@ -53,4 +53,12 @@ constexpr std::string_view field_name(Field field) {
   return kNames[static_cast<std::uint8_t>(field) & 31u];
 }
 
+/// Whether a bit with `left` bits of its field behind it goes on with the field of the bit before
+/// it; else the field begins there. A flag in which a bit is wrong is sent anew (EF-06).
+constexpr bool goes_on(Field field, unsigned left, Field before, unsigned left_before) {
+  constexpr unsigned kBehindFirst = 5;  // of the six bits of a flag
+  const bool new_flag = field == Field::kErrFlag && left == kBehindFirst;
+  return field == before && left <= left_before && !new_flag;
+}
+
 }  // namespace vericansim

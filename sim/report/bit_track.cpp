@@ -30,7 +30,7 @@ const TrackedBit &BitTrack::take(const BitRecord &record) {
 // A receiver waits for a SOF in idle or intermission; the trace names that field.
 void BitTrack::place(const BitRecord &record, const TrackedBit &before) {
   bit_.field = bit_.begins ? Field::kSof : record.at.field;
-  const bool same_run = bit_.field == before.field && record.at.left <= left_;
+  const bool same_run = goes_on(bit_.field, record.at.left, before.field, left_);
   left_ = record.at.left;
   if (!same_run) return;
   bit_.index =

@@ -117,6 +117,15 @@ TEST_F(BitBegins, AreMovedByResynchronisation) {
   EXPECT_EQ(early.start, static_cast<double>(13 * kBit - kToSample));
 }
 
+// EF-06: a wrong bit in an error flag makes a new one begin, here at the first bit.
+TEST_F(BitBegins, OfAFlagThatIsSentAnewAreNumberedAnew) {
+  std::vector<int> indices;
+  for (const std::uint8_t left : {5, 5, 4, 3})
+    indices.push_back(
+        bit_at(static_cast<Time>(10 + indices.size()) * kBit, Field::kErrFlag, left).index);
+  EXPECT_EQ(indices, (std::vector<int>{0, 0, 1, 2}));
+}
+
 // SY-06: the SOF of a foreign frame begins anew, wherever the idle bit stood.
 TEST_F(BitBegins, AreSetByHardSynchronisation) {
   bit_at(10 * kBit, Field::kIdle, 0);

@@ -137,6 +137,22 @@ TEST(Fault, ALevelThatIsThereAlreadyIsNoEffect) {
     }
 }
 
+// EF-06: a recessive bit in an active flag makes a new flag begin in the next bit, so that each bit
+// is the first of one. FC-02 and FC-07 make REC 129 with sixteen of them, and the seventeenth is
+// the last in an active flag (EF-05).
+TEST(Fault, EachErrorFlagHasItsFirstBit) {
+  const RunReport report = run_text(
+      "duration: 1 ms\nnodes: [{name: a}, {name: b}, {name: c}]\n"
+      "traffic: [{node: a, id: 0x123, data: 00 FF 55 0F}]\n"
+      "faults:\n"
+      "  - {kind: flip, at: {node: b, frame: 1, field: DATA, bit: 10, stuff: false}}\n"
+      "  - {kind: recessive, at: {node: b, frame: 1, field: ERROR_FLAG, bit: 0}}\n");
+  EXPECT_EQ(report.nodes.at(1).counts.max_rec, 129U);
+  ASSERT_FALSE(report.faults.at(1).times.empty());
+  const Window flags = report.faults.at(1).times.front();
+  EXPECT_NEAR(static_cast<double>(flags.to - flags.from) / static_cast<double>(kBit), 17, 0.5);
+}
+
 // ---- What is said
 
 const std::string kBus =

@@ -171,6 +171,18 @@ TEST(PlaceTracker, CountsBitsOfAFieldWithoutStuffBits) {
   EXPECT_EQ(tracker.frame(), 1u);
 }
 
+// EF-06: the second flag begins at once; EF-03: a passive one goes on, however its count does.
+TEST(PlaceTracker, ANewErrorFlagBeginsWithItsFirstBit) {
+  PlaceTracker tracker;
+  std::string indices;
+  for (const unsigned left : {5, 5, 4, 4, 3, 5, 4}) {
+    tracker.clocked(word(Field::kErrFlag, left, true));
+    tracker.clocked(word(Field::kErrFlag, left));
+    indices += std::to_string(tracker.index());
+  }
+  EXPECT_EQ(indices, "0012301");
+}
+
 struct PlaceCase {
   const char *name;
   PlaceSpec place;
