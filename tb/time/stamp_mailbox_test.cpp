@@ -254,6 +254,54 @@ TEST_F(StampMailbox, OldOrNew) {
   }
 }
 
+// TM-27: while a stamp is copied to the row of a buffer, all that the CPU reads with that number is
+// what it is: the words of the frame, which was there before, and its mask; the stamp is the old
+// one or the new one.
+TEST_F(StampMailbox, ReadsBesideTheCopy) {
+  constexpr std::uint32_t kMask = 0x5FFC'0123, kAhead = 0x0123'4567;
+  constexpr unsigned kReads = 60;
+  bring_up(kPointEdge);
+  const Frame frame = data_frame(0x2AA, false, 8);
+  ASSERT_TRUE(rig_.freeze(1));
+  rig_.write(1, reg::rximr(5), kMask);
+  rig_.put_rx(1, 5, frame, {});
+  rig_.go(1);
+  send(frame);
+  const MbWords words = rig_.get(1, 5);
+  std::uint32_t high = 0;
+  const auto upper = [&] { return time_.stamp(1, 5) >> 32; };
+  const auto reads_at = [&](std::uint32_t address, unsigned clock) {
+    rig_.write(1, kTimelo, 0);
+    rig_.write(1, kTimehi, high += kAhead);
+    rig_.put_tx(0, 8, frame);
+    EXPECT_TRUE(rig_.run_until([&] { return rig_.field(1) == Field::kEof; }, 2000));
+    rig_.run(clock);
+    const std::vector<AhbTransfer> reads(kReads, {.address = address});
+    const auto seen = rig_.burst(1, reads);
+    rig_.read(1, reg::kTimer);
+    EXPECT_TRUE(rig_.wait_flag(0, 8));
+    rig_.clear_flag(0, 8);
+    return seen;
+  };
+  for (const unsigned clock : {0u, 1u}) {  // a read takes two
+    for (const auto &[address, value] : {std::pair{reg::mb(5, 1), words.id},
+                                         {reg::mb(5, 2), words.low},
+                                         {reg::mb(5, 3), words.high},
+                                         {reg::rximr(5), kMask}})
+      for (const AhbResult &result : reads_at(address, clock))
+        ASSERT_EQ(result.data, value) << std::hex << address << ' ' << clock;
+    const std::uint64_t before = upper();
+    unsigned old = 0, fresh = 0;
+    for (const AhbResult &result : reads_at(stamp(5) + 4, clock)) {
+      old += result.data == before ? 1 : 0;
+      fresh += result.data == before + kAhead ? 1 : 0;
+    }
+    EXPECT_EQ(old + fresh, kReads);
+    EXPECT_GT(old, 20u);
+    EXPECT_GT(fresh, 20u);
+  }
+}
+
 // TM-28: a frame whose buffer is rewritten while it is sent leaves no stamp there.
 TEST_F(StampMailbox, RewrittenBuffer) {
   bring_up(kPointEdge);
