@@ -208,6 +208,71 @@ TEST_F(FollowerRegs, ABufferMayBeHeld) {
   }
 }
 
+// TM-40, TM-41: a number beyond the buffers of a smaller core holds none of them, also not the one
+// that its lower bits name: that one is started, and does not give way to a worse one.
+TEST_F(FollowerRegs, ANumberBeyondHoldsNoBuffer) {
+  constexpr std::uint32_t kTtx = 0x1140, kTtxmb = 0x1144, kHold = 1u << 31;
+  constexpr std::uint32_t kBetter = 0x123 << 18, kWorse = 0x7FE << 18;  // differ in the first bit
+  constexpr unsigned kBuffer = 3, kOther = 7, kBits = 20;
+  for (const bool other : {false, true})
+    for (const unsigned number : {kBuffer, 16 + kBuffer, 32 + kBuffer, 48 + kBuffer}) {
+      SCOPED_TRACE(testing::Message() << number << ' ' << other);
+      top_.reset();
+      clocks(300);
+      go();
+      write(reg::kMcr, reg::kMcrFrz | reg::kMcrHalt | 15);
+      clocks(20);
+      write(kTtx, 1'000'000'000);  // in a second
+      write(kTtxmb, kHold | number);
+      write(reg::mb(kBuffer, 1), kBetter);
+      write(reg::mb(kBuffer), 0xCu << 24);
+      write(reg::mb(kOther, 1), kWorse);
+      if (other) write(reg::mb(kOther), 0xCu << 24);
+      write(reg::kMcr, 15);
+      const auto listen = [this] {
+        top_->can_rx_i = top_->can_tx_o;
+        tick();
+      };
+      for (unsigned i = 0; top_->can_tx_o != 0 && i < 8 * kBits; ++i) listen();
+      const bool started = top_->can_tx_o == 0;
+      for (unsigned i = 0; i < 8; ++i) listen();
+      const bool better = top_->can_tx_o == 0;
+      EXPECT_EQ(started, other || number != kBuffer);
+      EXPECT_EQ(better, number != kBuffer);
+      EXPECT_EQ(read(kTtxmb), kHold | number) << "it is said to be held until then";
+    }
+}
+
+// TM-27, section 6 of the rules: a core has as many stamps as buffers; behind them nothing is, and
+// a write there is no other stamp's.
+TEST_F(FollowerRegs, StampsEndWithTheBuffers) {
+  constexpr std::uint32_t kStamps = 0x1400, kUpper = 0x5A5A'0000;
+  write(reg::kMcr, reg::kMcrFrz | reg::kMcrHalt);
+  clocks(20);
+  for (const std::uint32_t mask : {reg::kRxgmask, reg::kRx14mask, reg::kRx15mask}) write(mask, 0);
+  go();
+  write(kTimelo, 0);
+  write(kTimehi, kUpper);
+  clocks(8);
+  for (const unsigned mb : {0u, 3u, 9u, 15u}) {
+    SCOPED_TRACE(mb);
+    write(reg::mb(mb), 0x4u << 24);
+    const std::uint32_t before = read(kTimelo);
+    send({.id = 0x123, .dlc = 1});
+    EXPECT_EQ(read(reg::mb(mb)) >> 24, 2u) << "full";
+    const std::uint32_t at = read(kStamps + 8 * mb);
+    EXPECT_GT(at, before);
+    EXPECT_LT(at, read(kTimelo));
+    EXPECT_EQ(read(kStamps + 8 * mb + 4), kUpper);
+    for (std::uint32_t beyond = kStamps + 8 * 16; beyond < 0x1800; beyond += 4) {
+      ASSERT_EQ(read(beyond), 0u) << std::hex << beyond;
+      write(beyond, 0xFFFF'FFFF);
+    }
+    EXPECT_EQ(read(kStamps + 8 * mb), at);
+    write(reg::mb(mb), 0);
+  }
+}
+
 // TM-104: EN = 0 leaves the clock alone; a pair then sets it, and state, offset, flag and interrupt
 // tell of it. The clock goes on as the CPU commands.
 TEST_F(FollowerRegs, APairSetsTheClock) {
