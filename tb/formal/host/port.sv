@@ -74,9 +74,9 @@
       // PK-15: they are the word of a buffer exactly if one was asked for, and that one.
       p_word: assert (rd_word_o == (rd_done_o && !scrub_o && !mem_sel_q[1])
                       && (!rd_word_o || (rdata_o == '0 && word_o == (of_cs ? cs_o : msg_o))));
-      // flexcan.md 3.4: in the first clock of a write the C/S word of its buffer is read, or on the
+      // flexcan.md 3.4: in the first clock of a write of a buffer its C/S word is read, or on the
       // outputs already, being copied.
-      p_looks: assert (!(f_new && wr_q) || (cs_raddr == {1'b0, row_idx_i}
+      p_looks: assert (!(f_new && wr_q && !mem_sel_q[1]) || (cs_raddr == {1'b0, row_idx_i}
           && (re || (copy_i && copy_cs_i && copy_row_i[IdxW:0] == cs_raddr))));
       // flexcan.md 3.3: in the clock of the CPU nobody else reads.
       p_one_reader: assert (2'(cpu_rd) + 2'(ins_gnt_o) + 2'(eng_slot_o) < 2'd2);
