@@ -172,6 +172,38 @@ TEST(CanTimeSync, Disabled) {
   EXPECT_EQ(rig.state(), 0u);
 }
 
+// TM-104: EN = 0 in any clock in which a pair is worked off ends that: from then on the follower
+// commands nothing, also when EN is 1 again, until the next pair, which it takes for its first.
+TEST(CanTimeSync, DisabledWhileAPairIsWorkedOff) {
+  constexpr unsigned kWork = 520;  // clocks
+  unsigned cut = 0, done = 0;
+  for (const unsigned count : {1u, 70u})
+    for (unsigned from = 0; from < kWork; ++from) {
+      SCOPED_TRACE(testing::Message() << count << " clocks from " << from << " on");
+      TimeSyncSetting setting = usual();
+      setting.pps = true;
+      SyncRig rig{setting};
+      pair(rig, 0, 100);
+      ASSERT_TRUE(rig.settle());
+      rig.upset(true);  // so that the pair arms the compare unit, too
+      pair(rig, 1, 40);
+      const std::uint64_t off = rig.clock_count() - rig.valid_at() + from;
+      rig.disable(from, count);
+      const auto action = rig.settle();
+      rig.clocks(100);
+      EXPECT_EQ(rig.state(), kUnsynchronised);
+      if (action) {
+        EXPECT_LE(rig.latency(), off);
+      }
+      ++(action && action->whole ? done : cut);
+      pair(rig, 2, -77);
+      EXPECT_EQ(rig.settle(),
+                (TimeSyncAction{77, {}, kSecond * (1'700'000'000 + 2 + 2) & 0xFFFFFFFF}));
+    }
+  EXPECT_GT(cut, kWork / 2);
+  EXPECT_GT(done, 0u);
+}
+
 // TM-101: a hard reset forgets a SYNC that waits. Behind it the counter is 0, too.
 TEST(CanTimeSync, HardReset) {
   SyncRig rig{usual()};

@@ -51,6 +51,11 @@ class SyncRig {
     rtl_->delay_i = setting.delay_word();
     rtl_->inc_i = increment_;
   }
+  /// EN is 0 in `count` clocks, the first of which is `from` clocks from now.
+  void disable(unsigned from, unsigned count) {
+    off_from_ = clocks_ + from;
+    off_until_ = off_from_ + count;
+  }
   /// A hard reset; the settings stay.
   void reset() { rtl_.reset(); }
   [[nodiscard]] const TimeSyncSetting &setting() const { return setting_; }
@@ -58,6 +63,8 @@ class SyncRig {
   /// One clock with these commands of the CPU.
   void clock(unsigned cmd = 0) {
     rtl_->cmd_i = static_cast<std::uint16_t>(cmd);
+    const bool off = clocks_ >= off_from_ && clocks_ < off_until_;
+    rtl_->ctrl_i = off ? setting_.ctrl_word() & ~1u : setting_.ctrl_word();
     rtl_.settle();
     ++clocks_;
     changes_ += rtl_->changed_o;
@@ -148,7 +155,7 @@ class SyncRig {
   LeafModel<Vcan_time_sync> rtl_;
   TimeSyncSetting setting_;
   std::uint64_t increment_;
-  std::uint64_t clocks_ = 0, valid_at_ = 0, command_at_ = 0;
+  std::uint64_t clocks_ = 0, valid_at_ = 0, command_at_ = 0, off_from_ = 0, off_until_ = 0;
   unsigned changes_ = 0;
   bool foreign_ = true;
   std::optional<TimeSyncAction> action_;
