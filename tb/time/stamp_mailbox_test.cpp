@@ -96,6 +96,31 @@ TEST_F(StampMailbox, OwnPin) {
   EXPECT_EQ(time_.stamp(0, 8), received_at(sof, reference_bit(frame)));
 }
 
+// TM-21, TM-25, TM-26: in loop-back a node receives what it sends, without the synchroniser and
+// whatever is on the pin: with TXPIN, too, the stamps are those of its transmit flip-flop, in the
+// row of the buffer that sent and in that of the one that took the frame.
+TEST_F(StampMailbox, LoopBack) {
+  constexpr unsigned kSample = 6;  // clocks into a bit: SYNC_SEG 1, PROP_SEG 2, PHASE_SEG1 3
+  bring_up(kPointEdge, {.mcr = reg::kMcrBcc, .ctrl = kTiming8 | reg::kCtrlLpb});
+  const Frame frame = data_frame(0x123, false, 3);
+  const auto bits = encode_frame(frame).bits;
+  for (const std::uint32_t tctrl :
+       {kPointEdge, kPointEdge | kTxpin, kPointSof, kPointSof | kTxpin}) {
+    SCOPED_TRACE(tctrl);
+    rig_.write(0, kTctrl, tctrl);
+    rig_.put_rx(0, 5, frame, {});
+    rig_.put_tx(0, 8, frame);
+    ASSERT_TRUE(rig_.wait_flag(0, 8));
+    ASSERT_TRUE(rig_.wait_flag(0, 5));
+    const std::size_t bit = (tctrl & ~kTxpin) == kPointSof ? 0 : reference_bit(bits);
+    const std::size_t before = kClocksPerBit * (bits.size() - 2 - bit) + kSample;  // to EOF6
+    const std::uint64_t expected = (time_.node(0).valids().back() - before) * kTimeStep;
+    EXPECT_EQ(time_.stamp(0, 8), expected);
+    EXPECT_EQ(time_.stamp(0, 5), expected);
+    for (const unsigned mb : {5u, 8u}) rig_.clear_flag(0, mb);
+  }
+}
+
 // TM-24: start of frame, and the sample point of EOF6.
 TEST_F(StampMailbox, SofAndEof) {
   const Frame frame = data_frame(0x123, false, 3);
