@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vericansim {
 namespace {
@@ -57,9 +58,10 @@ std::optional<double> detect_bitrate(const std::vector<Time> &edges) {
   Fit best;
   for (const std::size_t steps : {1, 2}) {
     const std::vector<double> starts = distances_of(edges, steps);
+    double before = 0.0;
     for (std::size_t percent = 0; percent <= 50; ++percent) {
       const double start = starts[starts.size() * percent / 100] / static_cast<double>(steps);
-      if (start <= 0.0) continue;
+      if (start <= std::exchange(before, start)) continue;
       const Fit fit = fit_grid(distances, start);
       if (fit.whole_ones > best.whole_ones) best = fit;
     }

@@ -93,7 +93,7 @@ std::string passed_over(const Wave &wave, int sample_point) {
   if (!rest) return "nowhere in it are eleven recessive bits, behind which alone a frame can begin";
   return fmt::format(
       "what is on the bus in its first {:.3f} us is passed over: eleven recessive bits come first",
-      static_cast<double>(*rest) / kMicrosecond);
+      static_cast<double>(*rest - wave.begin()) / kMicrosecond);
 }
 
 WaveDecodeResult decode_wave(const std::string &path, const WaveDecodeOptions &options) {

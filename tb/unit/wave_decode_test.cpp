@@ -85,10 +85,15 @@ TEST(WaveDecode, WhatComesBeforeElevenRecessiveBitsIsTold) {
   // SOF, a frame of `bits` bits of which the last eight are recessive (delimiter, EOF), and three.
   const auto bits = static_cast<Time>(encode_frame(kFrame).bits.size());
   EXPECT_EQ(decode_wave(begun_at(10 * kBit, 2), 800).events.size(), 1U);
-  EXPECT_EQ(passed_over(begun_at(10 * kBit, 2), 800),
-            fmt::format("what is on the bus in its first {:.3f} us is passed over: eleven "
-                        "recessive bits come first",
-                        static_cast<double>((10 + bits + 3) * kBit) / kMicrosecond));
+  const std::string told = fmt::format(
+      "what is on the bus in its first {:.3f} us is passed over: eleven "
+      "recessive bits come first",
+      static_cast<double>((10 + bits + 3) * kBit) / kMicrosecond);
+  EXPECT_EQ(passed_over(begun_at(10 * kBit, 2), 800), told);
+  Wave late = begun_at(10 * kBit, 2);
+  for (auto &change : late.changes) change.first += kSecond;
+  late.end += kSecond;
+  EXPECT_EQ(passed_over(late, 800), told) << "from its beginning on, wherever that is";
   EXPECT_EQ(passed_over(begun_at(10 * kBit, 1), 800),
             "nowhere in it are eleven recessive bits, behind which alone a frame can begin");
 }
