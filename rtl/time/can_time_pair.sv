@@ -51,8 +51,10 @@ module can_time_pair (
       sc_q   <= '0;
       ovs_o  <= '0;
       byte_q <= '0;
+    end else if (!enable_i) begin
+      fits_q <= 1'b0;   // the word is not shifted in without the clocks of count_i
     end else if (rx_hdr_i) begin
-      fits_q <= enable_i && !rx_rtr_i && {rx_ide_i, rx_id_i} == {id_i[31], id_i[28:0]};
+      fits_q <= !rx_rtr_i && {rx_ide_i, rx_id_i} == {id_i[31], id_i[28:0]};
       next_q <= '0;
     end else if (rx_byte_we_i) begin
       byte_q <= rx_byte_i;

@@ -56,12 +56,11 @@ module can_time_sync #(
   localparam logic [2:0] OpWhole   = 3'd7;  // compute a whole second; arm half-way
   localparam logic [6:0] OneNs = 7'd26;   // index of the bit of timer_q that is worth 1 ns
 
-  logic       enable, halve, pps;
+  logic       enable, pps;
   logic [4:0] ki;
   logic [1:0] kd;
   logic [5:0] tmo;
   assign enable = ctrl_i[can_regs_pkg::TsctrlEn];
-  assign halve  = ctrl_i[can_regs_pkg::TsctrlPhalf];
   assign pps    = ctrl_i[can_regs_pkg::TsctrlPps];
   assign ki     = ctrl_i[can_regs_pkg::TsctrlKi +: can_regs_pkg::TsctrlKiW];
   assign kd     = ctrl_i[can_regs_pkg::TsctrlKd +: can_regs_pkg::TsctrlKdW];
@@ -198,13 +197,25 @@ module can_time_sync #(
     end
   end
 
+  // The settings of a correction, as they are when its offset is computed: software may change them
+  // in any clock.
+  logic [4:0] k_q;
+  logic       halve_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      k_q     <= '0;
+      halve_q <= 1'b0;
+    end else if (offset_round) begin
+      k_q     <= ki - (light ? {3'b0, kd} : '0);
+      halve_q <= light && ctrl_i[can_regs_pkg::TsctrlPhalf];
+    end
+  end
+
   // New increment: increment - offset 2^K. ofs_o rotates once from bit K on, then its sign is used.
   // With anew, the increment is TimeInc.
-  logic [4:0] k;
   logic       at_k, begun_q, over_q, begun, rate_round, turning, inc, nominal, term, rate, borrow_q;
-  assign k          = ki - (light ? {3'b0, kd} : '0);
   assign rate_round = op_q == OpRate;
-  assign at_k       = rate_round && !anew && count_q[4:0] == k;
+  assign at_k       = rate_round && !anew && count_q[4:0] == k_q;
   assign begun      = begun_q || at_k;
   assign turning    = begun && !over_q && !(begun_q && at_k);
   assign term       = begun && (turning ? ofs_o[0] : ofs_o[31]);
@@ -239,7 +250,7 @@ module can_time_sync #(
   // Data for the clock. Half of the shift: -floor(o / 2) = floor((1 - o) / 2).
   logic        halving, any_q, half_carry_q, next;
   logic [63:0] result_q;
-  assign halving = op_q == OpJudge && halve && light && !step;
+  assign halving = op_q == OpJudge && halve_q && !step;
   always_comb begin
     case (op_q)
       OpOffset: next = offset ^ any_q;

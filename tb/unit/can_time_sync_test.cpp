@@ -204,6 +204,63 @@ TEST(CanTimeSync, DisabledWhileAPairIsWorkedOff) {
   EXPECT_GT(done, 0u);
 }
 
+// TM-101, TM-102, TM-104: software takes EN away for some clocks while a pair is on the bus. It
+// makes nothing of the pair, or what the pair says.
+TEST(CanTimeSync, DisabledAmidAPair) {
+  constexpr unsigned kPair = 480;  // clocks
+  unsigned left = 0, taken = 0;
+  for (const unsigned count : {1u, 9u, 200u})
+    for (unsigned from = 0; from < kPair; ++from) {
+      SyncRig rig{usual()};
+      rig.disable(from, count);
+      pair(rig, 4, 100);
+      const auto action = rig.settle();
+      ASSERT_EQ(action.value_or(TimeSyncAction{-100, {}, {}}), (TimeSyncAction{-100, {}, {}}))
+          << count << " clocks from " << from << " on";
+      ++(action ? taken : left);
+    }
+  EXPECT_GT(left, kPair);
+  EXPECT_GT(taken, 0u);
+}
+
+// TM-103: software changes KI, KD or PHALF in any clock in which a pair may be worked off: the pair
+// is corrected by the old settings or by the new ones.
+TEST(CanTimeSync, SettingsChangedAmidAPair) {
+  constexpr unsigned kWork = 460;  // clocks
+  constexpr std::int64_t kOffset = 1001;
+  const TimeSyncSetting old = usual();
+  TimeSyncSetting halves = usual(), less = usual(), other = usual();
+  halves.halve = true;
+  less.kd = 1;
+  other.ki = 6;
+  const auto shift_by = [](const TimeSyncSetting &by) {
+    return by.halve ? -(kOffset - 1) / 2 : -kOffset;
+  };
+  const auto rate_by = [](std::uint64_t increment, const TimeSyncSetting &by) {
+    return increment - (static_cast<std::uint64_t>(kOffset) << (by.ki - by.kd));
+  };
+  for (const auto &[from, to] :
+       {std::pair{old, halves}, {halves, old}, {old, less}, {old, other}}) {
+    SyncRig rig{from};
+    lock(rig);
+    for (unsigned at = 0; at < kWork; ++at) {
+      SCOPED_TRACE(testing::Message() << from.ctrl_word() << " to " << to.ctrl_word() << ' ' << at);
+      rig.configure(from);
+      while (rig.clock_count() % 64 != 0) rig.clock();
+      const std::uint64_t before = rig.increment();
+      pair(rig, at, kOffset);
+      rig.clocks(at);
+      rig.configure(to);
+      const auto action = rig.settle();
+      ASSERT_TRUE(action && action->increment);
+      ASSERT_TRUE(action->shift == shift_by(from) || action->shift == shift_by(to))
+          << action->shift;
+      ASSERT_TRUE(*action->increment == rate_by(before, from) ||
+                  *action->increment == rate_by(before, to));
+    }
+  }
+}
+
 // TM-101: a hard reset forgets a SYNC that waits. Behind it the counter is 0, too.
 TEST(CanTimeSync, HardReset) {
   SyncRig rig{usual()};
