@@ -44,8 +44,9 @@ class Client(Nodes, Blocks):
     def write(self, number, address, data):
         """Writes without confirmation; number ALL: to all nodes."""
         self.require_node(number, ALL)
+        data = self.require_bytes(data)
         self.require_range(address, len(data))
-        for _, *frame in self._write_frames(number, address, bytes(data)):
+        for _, *frame in self._write_frames(number, address, data):
             self.send(*frame)
 
     def _counts(self, number, ask=None):
@@ -93,8 +94,9 @@ class Client(Nodes, Blocks):
     def write_confirmed(self, number, address, data):
         """Writes, and asks the node whether all of it was accepted."""
         self.require_node(number)
+        data = self.require_bytes(data)
         self.require_range(address, len(data))
-        frames = list(self._write_frames(number, address, bytes(data)))
+        frames = list(self._write_frames(number, address, data))
         for first in range(0, len(frames), CONFIRMED_AT_ONCE):
             part = frames[first:first + CONFIRMED_AT_ONCE]
             at = part[0][0]

@@ -33,8 +33,8 @@ class Blocks(Link):
     def block_write(self, number, address, data):
         """Writes many bytes; after a lost frame it goes on behind those that have arrived."""
         self.require_node(number)
+        data = self.require_bytes(data)
         self.require_range(address, len(data))
-        data = bytes(data)
         done = 0
 
         def once():

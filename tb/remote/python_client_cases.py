@@ -4,6 +4,7 @@
 `verican bridge --socketcand` (RN-92, RN-93). Run by ctest, one case each:
 VERICAN_BINARY=build/release/verican python3 -m unittest python_client_cases.Golden.test_vectors
 """
+import array
 import os
 import pathlib
 import sys
@@ -384,8 +385,14 @@ class Calls(OnBus):
             self.client.block_read(2, 0x300, 40)
 
     def test_arguments(self):
-        """Nothing is sent for what cannot be."""
+        """Nothing is sent for what cannot be. Data of words have more bytes than elements."""
         client = self.client
+        words = array.array("H", [1, 2])
+        for write in (client.write, client.write_confirmed, client.block_write):
+            with self.subTest(write.__name__):
+                self.assertRaisesRegex(ValueError, "^4 bytes from 0xFFE on: allowed are 1 to 2$",
+                                       write, 3, 0xFFE, words)
+                self.assertRaisesRegex(ValueError, "^data 5: allowed are bytes", write, 3, 0, 5)
         for act in (lambda: client.read(1, 0, 1), lambda: client.read(8, 0, 1),
                     lambda: client.read(3, 0, 0), lambda: client.read(3, 0xFFF, 2),
                     lambda: client.write(0, 0, b"\0"), lambda: client.write(3, 0, b""),
