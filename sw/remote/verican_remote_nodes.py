@@ -54,9 +54,10 @@ class Nodes(Link):
         """{number: bytes} of all nodes at one moment, at most 8 bytes (6 beyond the window or
         without remote frames). Ends when the numbers of `expected` have answered; without, after
         the time-out."""
-        found = self.gather(address, length, set(expected))
-        if not set(expected) <= found.keys():
-            raise Timeout(f"no answer of {sorted(set(expected) - found.keys())}")
+        expected = set(expected)  # once: of an iterator nothing is left
+        found = self.gather(address, length, expected)
+        if not expected <= found.keys():
+            raise Timeout(f"no answer of {sorted(expected - found.keys())}")
         return {number: answers[-1] for number, answers in sorted(found.items())}
 
     def gather(self, address, length, expected):

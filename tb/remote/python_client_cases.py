@@ -316,6 +316,8 @@ class Calls(OnBus):
         self.assertEqual(self.client.poll(0x40, 1), {3: b"\3", 4: b"\4"})
         with self.assertRaises(remote.Timeout):
             self.client.poll(0x40, 1, (3, 5))
+        with self.assertRaisesRegex(remote.Timeout, r"no answer of \[5\]"):
+            self.client.poll(0x40, 1, iter((3, 5)))
 
     def test_configure(self):
         """Unlocks, writes, locks; locks again after a refusal."""
