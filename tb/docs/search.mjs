@@ -11,7 +11,7 @@ const {chromium} = createRequire(join(process.env.VERICAN_REPORT_MODULES, 'x.js'
   'playwright-core',
 );
 const address = process.argv[2];
-const patience = 120000; // for slow machines
+const patience = 240000; // for slow machines
 const root = process.getuid() === 0 ? ['--no-sandbox'] : [];
 const browser = await chromium.launch({
   executablePath: '/usr/bin/chromium',
@@ -25,9 +25,20 @@ page.on('request', (request) => {
     outside.push(request.url());
 });
 await page.goto(`${address}index.html`, {timeout: patience});
-await page.fill('input[name="query"]', 'overload');
+// Typed anew until there are results: on a busy machine the page may miss what is typed as it loads.
 const results = '.md-search-result__list a[href]';
-await page.waitForSelector(results, {timeout: patience, state: 'attached'});
+const end = Date.now() + patience;
+for (let typed = false; !typed; ) {
+  await page.fill('input[name="query"]', '');
+  await page.type('input[name="query"]', 'overload');
+  typed = await page
+    .waitForSelector(results, {timeout: 10000, state: 'attached'})
+    .then(() => true)
+    .catch((reason) => {
+      if (Date.now() > end) throw reason;
+      return false;
+    });
+}
 const found = await page.$$eval(results, (links) => links.map((link) => link.href));
 await browser.close();
 console.log(JSON.stringify({found, outside}));
