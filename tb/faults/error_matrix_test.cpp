@@ -124,16 +124,16 @@ TEST(ErrorMatrixTable, HasAllValuesOfTheRuleBook) {
   for (const auto &part : sections()) sizes[part->grid().name()] = part->grid().size();
   // Whoever changes a part on purpose changes its size here; none is lost or shrinks by chance.
   const std::map<std::string, std::size_t> wanted{
-      {"send", 535'401},
-      {"receive", 990'450},
+      {"send", 585'466},
+      {"receive", 1'056'325},
       {"handling", 492'404},
       {"gap", 148'176},
       {"loss", 109'275},
       {"pairs", 197'780},
-      {"listen", 90'900},
-      {"one-shot", 155'439},
-      {"loop-back", 18'180},
-      {"fd-tolerant", 25'560},
+      {"listen", 99'400},
+      {"one-shot", 169'974},
+      {"loop-back", 19'880},
+      {"fd-tolerant", 27'260},
       {"integration", 10'584},
       {"bus-off", 11'280},
       {"counters", 12'288},

@@ -73,6 +73,7 @@ const std::vector<Stream> &all_streams() {
        {.id = 0x2AA, .dlc = 15, .data = {0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x07, 0x08}},
        {}},
       {"ext-remote", {.id = 0x00000000, .extended = true, .remote = true}, {}},
+      {"ext-remote-runs-of-5", {.id = 0x0000000F, .extended = true, .remote = true}, {}},
       {"ext-dlc15",
        {.id = 0x1F07C1F0, .extended = true, .dlc = 15, .data = {0xFF, 0, 0xFF, 0, 15, 131, 224}},
        {}},
