@@ -25,7 +25,7 @@ page.on('request', (request) => {
     outside.push(request.url());
 });
 await page.goto(`${address}index.html`, {timeout: patience});
-// Typed anew until there are results: on a busy machine the page may miss what is typed as it loads.
+// Typed anew until there are results: a busy page may miss what is typed while it loads.
 const results = '.md-search-result__list a[href]';
 const end = Date.now() + patience;
 for (let typed = false; !typed; ) {
