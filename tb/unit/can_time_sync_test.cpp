@@ -223,16 +223,18 @@ TEST(CanTimeSync, DisabledAmidAPair) {
   EXPECT_GT(taken, 0u);
 }
 
-// TM-103: software changes KI, KD or PHALF in any clock in which a pair may be worked off: the pair
-// is corrected by the old settings or by the new ones.
+// TM-103: software changes KI, KD, PHALF or all of them in any clock in which a pair may be worked
+// off: the pair is corrected by the old settings or by the new ones, shift and rate alike.
 TEST(CanTimeSync, SettingsChangedAmidAPair) {
   constexpr unsigned kWork = 460;  // clocks
   constexpr std::int64_t kOffset = 1001;
   const TimeSyncSetting old = usual();
-  TimeSyncSetting halves = usual(), less = usual(), other = usual();
+  TimeSyncSetting halves = usual(), less = usual(), other = usual(), all = usual();
   halves.halve = true;
   less.kd = 1;
-  other.ki = 6;
+  other.ki = all.ki = 6;
+  all.kd = 1;
+  all.halve = true;
   const auto shift_by = [](const TimeSyncSetting &by) {
     return by.halve ? -(kOffset - 1) / 2 : -kOffset;
   };
@@ -240,7 +242,7 @@ TEST(CanTimeSync, SettingsChangedAmidAPair) {
     return increment - (static_cast<std::uint64_t>(kOffset) << (by.ki - by.kd));
   };
   for (const auto &[from, to] :
-       {std::pair{old, halves}, {halves, old}, {old, less}, {old, other}}) {
+       {std::pair{old, halves}, {halves, old}, {old, less}, {old, other}, {old, all}, {all, old}}) {
     SyncRig rig{from};
     lock(rig);
     for (unsigned at = 0; at < kWork; ++at) {
@@ -253,10 +255,10 @@ TEST(CanTimeSync, SettingsChangedAmidAPair) {
       rig.configure(to);
       const auto action = rig.settle();
       ASSERT_TRUE(action && action->increment);
-      ASSERT_TRUE(action->shift == shift_by(from) || action->shift == shift_by(to))
-          << action->shift;
-      ASSERT_TRUE(*action->increment == rate_by(before, from) ||
-                  *action->increment == rate_by(before, to));
+      const auto corrected_by = [&](const TimeSyncSetting &by) {
+        return action->shift == shift_by(by) && *action->increment == rate_by(before, by);
+      };
+      ASSERT_TRUE(corrected_by(from) || corrected_by(to)) << action->shift;
     }
   }
 }
