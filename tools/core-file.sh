@@ -106,7 +106,7 @@ parameters:
     paramtype: vlogparam
   SyncId:
     datatype: int
-    description: Value of TSID after a hard reset (a base identifier in bits 28 to 18)
+    description: Value of TSID after a hard reset (as in an ID word; bit 31 is IDE)
     paramtype: vlogparam
   SyncDelay:
     datatype: int

@@ -126,9 +126,9 @@ module can_remote #(
   can_rn_params #(
     .NameBits(NameBits), .MemBytes(MemBytes), .StageBytes(StageBytes), .TxDepth(TxDepth),
     .NumProd(NumProd), .NumMap(NumMap), .Protect(Protect), .Block(Block), .AutoRate(AutoRate),
-    .Counters(Counters), .SameId(SameId), .RateRows(RateRows), .TimeSync(TimeSync),
-    .TimeInc(TimeInc), .SyncCtrl(SyncCtrl), .SyncId(SyncId), .SyncDelay(SyncDelay),
-    .HalfPeriod(HalfPeriod)
+    .Counters(Counters), .SameId(SameId), .Trace(Trace), .RateRows(RateRows),
+    .TimeSync(TimeSync), .TimeInc(TimeInc), .SyncCtrl(SyncCtrl), .SyncId(SyncId),
+    .SyncDelay(SyncDelay), .HalfPeriod(HalfPeriod)
   ) u_params ();
   can_timing_params #(
     .Brp(Brp), .Prop(Prop), .Ps1(Ps1), .Ps2(Ps2), .Sjw(Sjw)

@@ -17,6 +17,7 @@ module can_rn_params #(
   parameter int AutoRate = 0,
   parameter int Counters = 0,
   parameter int SameId = 0,
+  parameter int Trace = 0,
   parameter int RateRows = 8,
   parameter int TimeSync = 0,
   parameter logic [39:0] TimeInc = '0,
@@ -57,6 +58,9 @@ module can_rn_params #(
   end
   if (SameId != 0 && SameId != 1) begin : gen_check_same_id
     SameId_must_be_0_or_1 u_stop ();
+  end
+  if (Trace != 0 && Trace != 1) begin : gen_check_trace
+    Trace_must_be_0_or_1 u_stop ();
   end
   if (RateRows < 1 || RateRows > 15) begin : gen_check_rate_rows
     RateRows_must_be_1_to_15 u_stop ();

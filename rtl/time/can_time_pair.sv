@@ -9,7 +9,7 @@
 module can_time_pair (
   input  logic        clk_i,
   input  logic        rst_ni,
-  input  logic        enable_i,      // 0: no message is accepted, a waiting SYNC is dropped
+  input  logic        enable_i,      // 0: a SYNC under way or waiting is dropped, none begins
   input  logic [3:0]  domain_i,      // TSCTRL.DOMAIN
   input  logic [31:0] id_i,          // TSID
   // Reception, as in can_core.

@@ -214,6 +214,27 @@ class Features(unittest.TestCase):
                 self.assertEqual(
                     lint({"Brp": 256, "Prop": 8, "Ps1": 8, "Ps2": 8, "Sjw": 4}, top), (0, ""))
 
+    def test_node_without_a_processor_refuses_other_options(self):
+        """remote-node.md, parameters: each just outside what it can be."""
+        switches = dict.fromkeys(("Protect", "Block", "AutoRate", "Counters", "SameId", "Trace"),
+                                 [-1, 2])
+        self.refused("can_remote", {
+            **switches, "NameBits": [2, 4, 6], "MemBytes": [512, 3072, 8192],
+            "StageBytes": [-8, 4, 32], "TxDepth": [0, 2, 8], "NumProd": [-4, 2, 16],
+            "NumMap": [-4, 2, 16], "RateRows": [0, 16]})
+        self.refused("can_remote", {"ClocksPerMs": [7999, 131072]})
+
+    def test_nodes_without_a_processor_refuse_jumps_beyond_a_phase_segment(self):
+        """BT-03: the shorter of both is the limit."""
+        for top in ("can_time_node", "can_remote"):
+            for first, second in ((2, 4), (4, 2)):
+                timing = {"Prop": 4, "Ps1": first, "Ps2": second}
+                with self.subTest(top, **timing):
+                    self.assertEqual(lint({**timing, "Sjw": 2}, top), (0, ""))
+                    code, text = lint({**timing, "Sjw": 3}, top)
+                    self.assertNotEqual(code, 0)
+                    self.assertIn("Sjw_must_be_at_most_Ps1_and_Ps2", text)
+
     def test_engine_refuses_widths_that_hold_no_bit(self):
         """BT-02: PHASE_SEG2 of 8 quanta, and 16 before the sample point, are the longest."""
         for width in (2, 6):

@@ -86,7 +86,7 @@ def main():
     sender.tell(TX_DELETE, 0x320)
     listen([sender, receiver, timers], 0.1)
     sender.tell(TX_SETUP, 0x320, [frame(0x320, b"again")], SETTIMER | STARTTIMER, then=10_000)
-    listen([sender, receiver, timers], 0.1)
+    listen([sender, receiver, timers], 0.3)
 
 
 if __name__ == "__main__":

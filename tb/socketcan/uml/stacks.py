@@ -52,15 +52,32 @@ def transfers(run, log):
         expect_true(bytes(found.data) == message(name), f"{name}: others on the bus")
 
 
+# What 320 has: silence, then contents as guest/bcm.py sends them.
+_SILENCE, _ALIVE, _AGAIN = (re.escape(line) + "\n" for line in (
+    "RX_TIMEOUT", f"RX_CHANGED 320#{b'alive'.hex().upper()}",
+    f"RX_CHANGED 320#{b'again'.hex().upper()}"))
+_TURNS = f"({_SILENCE})?({_ALIVE}{_SILENCE})+({_AGAIN}{_SILENCE})*{_AGAIN}({_SILENCE})?"
+
+
+def silences(told):
+    """Of 320: each silence is told once, and its end. The script makes one; a busy machine makes
+    more, also before the first frame and behind the last."""
+    found = "".join(" ".join([what, *data]) + "\n" for _, what, ident, data in told
+                    if ident == "320")
+    expect_true(re.fullmatch(_TURNS, found), f"messages of 320:\n{found}")
+
+
 def manager(run, log):
     """Contents in turn, changes and the answer to a remote frame; how long anything took is that of
     a busy machine."""
     told = judge_services.told_in(run.text("bcm.txt"))
     judge_services.changes(told)
+    silences(told)
     found = judge_services.frames_of(log, 0x300)
     judge_services.contents(found)
     expect([what for _, what, ident, _ in told if ident == "300"], ["TX_EXPIRED"],
            "messages of 300")
+    expect({ident for _, _, ident, _ in told}, {"300", "310", "320"}, "who is told of")
     expect([(f.remote, f.data) for _, f in judge_services.frames_of(log, 0x330)],
            [(True, b""), (False, b"answer")], "remote frame and its answer")
 
