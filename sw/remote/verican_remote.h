@@ -90,7 +90,7 @@ typedef struct verican_remote {
   uint32_t timeout_us; /**< for an answer, default 150,000; more than the nodes' LIFE (RN-91) */
   uint32_t select_us;  /**< for HERE, default 50,000: more than two frames of the bus. A scan waits
                           so only where no node has a number */
-  uint8_t tries;       /**< for what may be repeated, default 3 */
+  uint8_t tries;       /**< for what may be repeated, default 3; 0 is as 1 */
   uint8_t gap_ms;      /**< between the frames of a block read, default 0 */
   bool data_frames;    /**< true: no remote frames are sent, all is read by port READ (RN-22) */
   uint8_t tag;         /**< of the last block transfer; counts up */

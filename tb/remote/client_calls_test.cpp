@@ -79,6 +79,18 @@ TEST_F(ClientCalls, ReadsAreTriedThreeTimes) {
   EXPECT_LT(bus.now() - start, 70'000U);
 }
 
+// RN-91: no tries are one try, of every call that counts them.
+TEST_F(ClientCalls, NothingIsSentLessThanOnce) {
+  client.tries = 0;
+  EXPECT_EQ(confirmed(3, 0x20, {7}), VERICAN_REMOTE_OK);
+  bus.take_sent();
+  EXPECT_THAT(read(3, 0x20, 1), ElementsAre(7));
+  EXPECT_THAT(bus.take_sent(), ElementsAre("1A0#R1"));
+  EXPECT_EQ(verican_remote_clear(&client, 3), VERICAN_REMOTE_OK);
+  EXPECT_EQ(verican_remote_assign(&client, 0xCAFE1233U, 0), VERICAN_REMOTE_OK);
+  EXPECT_EQ(verican_remote_assign(&client, 0xCAFE1233U, 3), VERICAN_REMOTE_OK);
+}
+
 // RN-91: an answer that comes too late answers no later question.
 TEST_F(ClientCalls, ALateAnswerIsNotTakenForAnother) {
   client.tries = 1;

@@ -114,7 +114,7 @@ result_t vr_ask(client_t *c, unsigned number, const frame_t *request, const answ
 result_t vr_ask_again(client_t *c, unsigned number, const frame_t *request, const answer_t *answer,
                       frame_t *frame) {
   result_t result = VERICAN_REMOTE_TIMEOUT;
-  for (unsigned i = 0; i < c->tries; i++) {
+  for (unsigned i = 0; i < vr_tries(c); i++) {
     result = vr_ask(c, number, request, answer, frame);
     const bool busy = result == VERICAN_REMOTE_REFUSED && c->code == VERICAN_REMOTE_CODE_BUSY;
     if (result != VERICAN_REMOTE_TIMEOUT && !busy) break;

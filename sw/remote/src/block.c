@@ -203,7 +203,7 @@ static result_t transfer(transfer_t *t, result_t (*once)(transfer_t *, unsigned,
                          unsigned address, size_t length) {
   result_t result = VERICAN_REMOTE_TIMEOUT;
   size_t at = 0;
-  for (unsigned tries = t->c->tries; tries != 0; tries--) {
+  for (unsigned tries = vr_tries(t->c); tries != 0; tries--) {
     result = once(t, address + (unsigned)at, length - at);
     at += t->done;
     t->moved = at;

@@ -30,6 +30,9 @@ static inline uint16_t vr_id(const client_t *c, unsigned name, unsigned a) {
 }
 enum { STATEMENT = 0x400 };
 
+/* How often what may be repeated is sent at most. */
+static inline unsigned vr_tries(const client_t *c) { return c->tries != 0 ? c->tries : 1u; }
+
 static inline bool vr_is_node(const client_t *c, unsigned number) {
   return number >= 2u && number < (1u << c->name_bits);
 }

@@ -117,7 +117,7 @@ static bool is_refused(const client_t *c, const uint8_t before[8], const uint8_t
 static result_t confirm(client_t *c, unsigned number, const uint8_t before[8], unsigned writes) {
   uint8_t row[8];
   unsigned unanswered = 0;
-  for (unsigned i = 0; i < c->tries; i++) {
+  for (unsigned i = 0; i < vr_tries(c); i++) {
     const result_t result = read_counts(c, number, vr_ask, row);
     if (result == VERICAN_REMOTE_BUS_OFF) return result;
     if (result != VERICAN_REMOTE_OK) {
@@ -146,7 +146,7 @@ static result_t write_part(client_t *c, uint8_t number, uint16_t address, const 
                            size_t length, unsigned frames) {
   uint8_t before[8];
   result_t result = VERICAN_REMOTE_TIMEOUT;
-  for (unsigned i = 0; i < c->tries && result == VERICAN_REMOTE_TIMEOUT; i++) {
+  for (unsigned i = 0; i < vr_tries(c) && result == VERICAN_REMOTE_TIMEOUT; i++) {
     result = read_counts(c, number, vr_ask_again, before);
     if (result == VERICAN_REMOTE_OK)
       result = verican_remote_write(c, number, address, data, length);
@@ -227,7 +227,7 @@ result_t verican_remote_clear(client_t *c, uint8_t number) {
   const frame_t frame = setup_frame(c, number, SETUP_CLEAR, 0);
   uint8_t before[8];
   result_t result = VERICAN_REMOTE_TIMEOUT;
-  for (unsigned i = 0; i < c->tries && result == VERICAN_REMOTE_TIMEOUT; i++) {
+  for (unsigned i = 0; i < vr_tries(c) && result == VERICAN_REMOTE_TIMEOUT; i++) {
     result = read_counts(c, number, vr_ask_again, before);
     if (result == VERICAN_REMOTE_OK) result = setup(c, number, &frame, before);
   }

@@ -124,7 +124,7 @@ result_t verican_remote_select(client_t *c, uint32_t value, uint32_t mask, bool 
 static result_t find(client_t *c, uint32_t serial, bool only_new, bool *here) {
   result_t result = VERICAN_REMOTE_OK;
   *here = false;
-  for (unsigned i = 0; i < c->tries && result == VERICAN_REMOTE_OK && !*here; i++)
+  for (unsigned i = 0; i < vr_tries(c) && result == VERICAN_REMOTE_OK && !*here; i++)
     result = verican_remote_select(c, serial, ~UINT32_C(0), only_new, here);
   return result;
 }
