@@ -19,6 +19,13 @@
 
 namespace vericansim {
 
+/// Clocks of a bit, by the inputs of `engine` (BT-01).
+template <typename Engine>
+[[nodiscard]] std::uint64_t clocks_of_bit(const Engine &engine) {
+  const unsigned quanta = 4U + engine.propseg_i + engine.pseg1_i + engine.pseg2_i;
+  return std::uint64_t{quanta} * (engine.presdiv_i + 1U);
+}
+
 /// Watches an engine edge by edge, says how many edges to come only count quanta and positions, and
 /// does them at once, up to the one that makes a sample point or a boundary show; up to the sample
 /// point, if the boundary before it begins a bit of the frame in which the node keeps its level.

@@ -61,7 +61,7 @@ void RemoteModelNode::event(unsigned k) {
 }
 
 void RemoteModelNode::clock(Level rx) {
-  count_edge();
+  count_edges(1);
   core_.clock(rx);
   drive(core_.tx());
   if (std::exchange(shows_, false)) show_pulses();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // RemoteNode::create(): one class template for the Verilated profiles of can_remote.
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -25,6 +26,7 @@
 #include "Vcan_remote_standard_5.h"
 #include "Vcan_remote_standard_5___024root.h"
 #include "node/engine_frame.hpp"
+#include "node/quiet_engine.hpp"
 #include "node/remote_node.hpp"
 #include "node/remote_serial.hpp"
 #include "node/split_core.hpp"
@@ -48,13 +50,17 @@ class RemoteNodeOf final : public RemoteNode {
     reset();
   }
 
-  void start() override { starts_ = true; }
+  void start() override {
+    disturbed();
+    starts_ = true;
+  }
 
   void search(std::vector<BitTiming> rates) override {
     if constexpr (requires { top_.rootp->can_remote__DOT__gen_rate__DOT__u_rate__DOT__row_q; }) {
+      disturbed();
       rates_ = std::move(rates);
-      top_.rate_i = 0xF;
       core_.touch();
+      top_.rate_i = 0xF;
       set(rates_.at(0));
       core_.engine().eval();
     } else {
@@ -63,23 +69,62 @@ class RemoteNodeOf final : public RemoteNode {
   }
   [[nodiscard]] unsigned rate_row() const override { return row_; }
 
-  void clock(Level rx) override {
-    count_edge();
-    core_.engine().can_rx_i = static_cast<std::uint8_t>(rx);
+  [[gnu::flatten]] void clock(Level rx) override {
+    const auto &engine = core_.engine();
+    if (engine_alone()) {
+      if (engine_quiet_.crosses_boundary(engine))
+        return count(rx, [&] { engine_quiet_.cross_boundary(core_.engine(), rx); });
+      if (engine_quiet_.synchronises(engine))
+        return count(rx, [&] { engine_quiet_.synchronise(core_.engine(), rx); });
+    }
+    begin_edge(rx);
     const bool taken = show_next();
     count_ms();
     core_.edge();
+    engine_quiet_.clocked(engine);
     if (!rates_.empty()) follow_rate();
     forget_events();
-    drive(static_cast<Level>(core_.engine().can_tx_o));
-    const auto &engine = core_.engine();
-    if (ByteWiseFrame::concerns(engine)) frame_.clocked(engine);
-    quiet_ = ready() && engine.idle_o && !engine.tx_req_i ? quiet_ + 1 : 0;
-    if (top_.written_o | top_.apply_o) tell_pulse();
+    end_edge();
     if (taken) finish_access();
   }
 
-  [[nodiscard]] std::uint64_t trace() const override { return core_.engine().trace_o; }
+  [[nodiscard]] std::uint64_t quiet() const override {
+    if (!engine_alone() || !core_.resting()) return 0;
+    const std::uint64_t edges =
+        std::min({engine_quiet_.edges(core_.engine(), watched()), to_ms_ - 1, core_.rest()});
+    return edges != 0 && core_.wakes() ? 0 : edges;
+  }
+
+  void pass(std::uint64_t edges) override {
+    core_.pass(edges);
+    engine_quiet_.pass(core_.engine(), edges);
+    passed(edges);
+  }
+
+  [[gnu::flatten]] void clock_lightly(Level rx) override {
+    if (!engine_alone() || !engine_quiet_.counts(core_.engine())) return clock(rx);
+    count(rx, [&] { engine_quiet_.clock_lightly(core_.engine(), rx); });
+  }
+
+  // An idle bit is like the one before it, but for TIMER, up to the next millisecond.
+  [[nodiscard]] std::uint64_t skip_period() const override { return clocks_of_bit(core_.engine()); }
+
+  [[nodiscard]] std::uint64_t skip_most() const override {
+    if (!engine_alone() || core_.wakes() || !core_.ignores_ticks()) return 0;
+    return std::min(to_ms_ - 1, core_.rest());
+  }
+
+  void skipped(std::uint64_t edges) override {
+    core_.engine().timer_o += static_cast<std::uint16_t>(edges / skip_period());
+    core_.pass(edges);
+    passed(edges);
+    left_out(edges);
+  }
+
+  [[nodiscard]] std::uint64_t trace() const override {
+    catch_up();
+    return core_.engine().trace_o;
+  }
   [[nodiscard]] RemoteState state() const override {
     return static_cast<RemoteState>(top_.state_o);
   }
@@ -87,27 +132,31 @@ class RemoteNodeOf final : public RemoteNode {
   [[nodiscard]] const Frame &frame() const override { return frame_.frame(); }
 
   void hold(bool on) override {
-    top_.usr_hold_i = on;
+    disturbed();
     core_.touch();
+    top_.usr_hold_i = on;
   }
   void event(unsigned k) override {
-    top_.event_i = static_cast<std::uint8_t>(top_.event_i | 1U << k);
+    disturbed();
     core_.touch();
+    top_.event_i = static_cast<std::uint8_t>(top_.event_i | 1U << k);
   }
 
   [[nodiscard]] bool idle() const override {
+    catch_up();
     if (state() == RemoteState::kInit) return top_.start_i == 0 && !starts_ && accesses_.empty();
     constexpr unsigned kBetweenJobs = 24, kHold = 64;  // clocks
     return accesses_.empty() && quiet_ > (top_.usr_hold_i ? kHold : 0) + kBetweenJobs;
   }
 
   [[nodiscard]] std::vector<std::uint32_t> peek_words(unsigned first, unsigned n) const override {
+    catch_up();
     const auto before = core_.save();
     std::vector<std::uint32_t> words;
     for (unsigned word = first; word < first + n; ++word) {
       const UserAccess read{false, 0, word, 0};
-      show_access(top_, &read);
       core_.touch();
+      show_access(top_, &read);
       while (!ready()) core_.edge();
       core_.edge();
       words.push_back(top_.usr_rdata_o);
@@ -130,6 +179,47 @@ class RemoteNodeOf final : public RemoteNode {
  private:
   auto &root() { return *top_.rootp; }
 
+  // No input changes at the next edge but the pin, and none has at the last.
+  [[nodiscard]] bool engine_alone() const {
+    return to_ms_ > 1 && accesses_.empty() && !shown_ && !starts_ && top_.event_i == 0 &&
+           top_.rootp->can_remote__DOT__u_tick__DOT__ms_v == 0;
+  }
+
+  void begin_edge(Level rx) {
+    count_edges(1);
+    core_.engine().can_rx_i = static_cast<std::uint8_t>(rx);
+  }
+
+  // An edge at which the engine does no more than `of_engine`, unless the other half asks for more.
+  template <typename OfEngine>
+  void count(Level rx, OfEngine &&of_engine) {
+    begin_edge(rx);
+    --to_ms_;
+    if (!core_.edge(std::forward<OfEngine>(of_engine))) engine_quiet_.clocked(core_.engine());
+    if (!rates_.empty()) follow_rate();
+    end_edge();
+  }
+
+  void end_edge() {
+    const auto &engine = core_.engine();
+    if (core_.take_engine_disturbed()) engine_quiet_.disturbed();
+    drive(static_cast<Level>(engine.can_tx_o));
+    if (ByteWiseFrame::concerns(engine)) frame_.clocked(engine);
+    count_quiet(1);
+    if (top_.written_o | top_.apply_o) tell_pulse();
+  }
+
+  void passed(std::uint64_t edges) {
+    count_edges(edges);
+    to_ms_ -= edges;
+    count_quiet(edges);
+  }
+
+  void count_quiet(std::uint64_t edges) {
+    const auto &engine = core_.engine();
+    quiet_ = ready() && engine.idle_o && !engine.tx_req_i ? quiet_ + edges : 0;
+  }
+
   void reset() {
     core_.reset(true);
     for (int i = 0; i < 4; ++i) core_.edge();
@@ -150,6 +240,7 @@ class RemoteNodeOf final : public RemoteNode {
     engine.pseg1_i = timing.ps1 - 1;
     engine.pseg2_i = timing.ps2 - 1;
     engine.rjw_i = timing.sjw - 1;
+    engine_quiet_.disturbed();
   }
 
   // The rows of the RTL's own table are for one clock; here the clock may be any.
@@ -168,23 +259,23 @@ class RemoteNodeOf final : public RemoteNode {
     const UserAccess *next = accesses_.empty() ? nullptr : &accesses_.front().access;
     if (next == nullptr && starts_) join();
     if (next == nullptr && !shown_) return false;
+    core_.touch();
     show_access(top_, next);
     shown_ = next != nullptr;
-    core_.touch();
     return shown_ && ready();
   }
 
   void forget_events() {
     if (top_.event_i == 0) return;
-    top_.event_i = 0;
     core_.touch();
+    top_.event_i = 0;
   }
 
   // Behind what user logic has written before.
   void join() {
     starts_ = false;
-    top_.start_i = 1;
     core_.touch();
+    top_.start_i = 1;
   }
 
   void finish_access() {
@@ -198,8 +289,8 @@ class RemoteNodeOf final : public RemoteNode {
     const bool ends = --to_ms_ == 0;
     if (ends) to_ms_ = clocks_per_ms_;
     if (ends == (root().can_remote__DOT__u_tick__DOT__ms_v != 0)) return;
-    root().can_remote__DOT__u_tick__DOT__ms_v = ends;
     core_.touch();
+    root().can_remote__DOT__u_tick__DOT__ms_v = ends;
     if (ends && on_ms) on_ms();
   }
 
@@ -232,6 +323,7 @@ class RemoteNodeOf final : public RemoteNode {
 
   mutable SplitCore<Model, RemotePorts, Vcan_core_bytes> core_;  // peek_word() puts it back
   Model &top_ = core_.host();
+  QuietEngine engine_quiet_;
   ByteWiseFrame frame_;
   std::uint64_t clocks_per_ms_;
   std::uint64_t to_ms_;

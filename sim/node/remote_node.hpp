@@ -41,6 +41,7 @@ class RemoteNode : public RemoteUnit {
   using ReadDone = std::function<void(std::uint32_t data)>;
   /// An access of user logic, as soon as its port is ready, in the order of the calls.
   void access(const UserAccess &access, ReadDone done = {}) {
+    disturbed();
     accesses_.push_back({access, std::move(done)});
   }
   void user_write(unsigned index, std::uint32_t data, unsigned lanes) override {

@@ -37,19 +37,29 @@ class RemoteUnit : public Node {
   /// event_i[k] for one clock.
   virtual void event(unsigned k) = 0;
 
+  // Its timers count clocks.
+  [[nodiscard]] std::uint64_t skip_most() const override { return 0; }
+
   /// Called in the clock edge in which a pulse of written_o or apply_o begins.
   std::function<void(const RemotePulse &)> on_pulse;
 
   /// Clock edges since the constructor.
-  [[nodiscard]] std::uint64_t cycles() const { return cycles_; }
+  [[nodiscard]] std::uint64_t cycles() const {
+    catch_up();
+    return cycles_;
+  }
+  /// The same without those that Bus::skip() has left out.
+  [[nodiscard]] std::uint64_t clocked() const { return cycles() - left_out_; }
 
  protected:
   RemoteUnit(std::string name, const ClockConfig &clock) : Node{std::move(name), clock} {}
-  /// To be called in each clock edge.
-  void count_edge() { ++cycles_; }
+  /// To be called for each clock edge.
+  void count_edges(std::uint64_t edges) { cycles_ += edges; }
+  /// To be called for those that Bus::skip() leaves out, too.
+  void left_out(std::uint64_t edges) { left_out_ += edges; }
 
  private:
-  std::uint64_t cycles_ = 0;
+  std::uint64_t cycles_ = 0, left_out_ = 0;
 };
 
 }  // namespace vericansim

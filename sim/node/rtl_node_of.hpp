@@ -71,8 +71,8 @@ class RtlNodeOf final : public RtlNode {
   }
 
   [[gnu::flatten]] void pass(std::uint64_t edges) override {
-    quiet_.pass(core_.engine(), edges);
     core_.pass(edges);
+    quiet_.pass(core_.engine(), edges);
     passed(edges);
   }
 
@@ -82,11 +82,7 @@ class RtlNodeOf final : public RtlNode {
   }
 
   // An idle bit is like the one before it, but for TIMER and the time unit.
-  [[nodiscard]] std::uint64_t skip_period() const override {
-    const Engine &engine = core_.engine();
-    const unsigned quanta = 4U + engine.propseg_i + engine.pseg1_i + engine.pseg2_i;
-    return std::uint64_t{quanta} * (engine.presdiv_i + 1U);
-  }
+  [[nodiscard]] std::uint64_t skip_period() const override { return clocks_of_bit(core_.engine()); }
 
   [[nodiscard]] std::uint64_t skip_most() const override {
     if (ahb().active() || !core_.resting() || core_.wakes()) return 0;

@@ -19,6 +19,7 @@
 #include "node/host_image.hpp"
 #include "node/model_context.hpp"
 #include "node/model_edge.hpp"
+#include "node/tick_rest.hpp"
 #include "node/transmit_scan.hpp"
 #include "verilated.h"
 
@@ -29,8 +30,9 @@ namespace vericansim {
 /// quarters of the work of a clock and idle in most of them: when a clock edge has left every bit
 /// of the model as it was, no further edge can change anything until an input does, and the model
 /// is not evaluated. Nor is it while only a pass over its buffers goes on (TransmitScan), which is
-/// made good afterwards, or for a byte that is received (ByteStore). The result is that of the
-/// whole core in every clock (tb/system/bus_split_core_test.cpp).
+/// made good afterwards, or for a byte that is received (ByteStore), or for a sample point that it
+/// does not mind (TickRest). The result is that of the whole core in every clock
+/// (tb/system/bus_split_core_test.cpp).
 template <typename HostModel, typename Ports = AhbPorts, typename Engine = Vcan_core>
 class SplitCore {
  public:
@@ -57,6 +59,7 @@ class SplitCore {
   /// The host side's inputs have changed.
   void touch() {
     catch_up();
+    ticks_.forget();
     resting_ = host_settled_ = false;
   }
 
@@ -66,13 +69,17 @@ class SplitCore {
   [[nodiscard]] std::uint64_t rest() const { return resting_ ? rest_ : 0; }
   /// The engine shows something at which the resting host side has to wake.
   [[nodiscard]] bool wakes() const {
-    engine_moved_ = engine_moved_ && Ports::wakes_host(engine_, *host_.rootp);
+    engine_moved_ = engine_moved_ && Ports::wakes_host(engine_, *host_.rootp) &&
+                    !ticks_.ignores(engine_, *host_.rootp);
     return engine_moved_;
   }
+  /// The resting host side does not wake for sample points (of a node without a processor).
+  [[nodiscard]] bool ignores_ticks() const { return resting_ && ticks_.learned(); }
 
-  /// `edges` have passed at rest, at most rest(), and the engine has done them.
+  /// `edges` pass at rest, at most rest(). To be called before the engine does them.
   void pass(std::uint64_t edges) {
     in_a_row_ = 0;
+    if (edges != 0) tick_ignored_ = edges == 1 && ticks_.learned() && engine_.tick_o != 0;
     engine_counted();
     storing_ = storing_ && edges == 0;
     if (rest_ == kForever) return;
@@ -82,6 +89,7 @@ class SplitCore {
 
   /// Lets the host side do what it has left out; its outputs stay as they are.
   void catch_up() {
+    if (std::exchange(tick_ignored_, false)) see_tick();
     host_moved_ = host_moved_ || behind_ != 0 || stored_;
     if (behind_ != 0) TransmitScan<Root>::pass(*host_.rootp, std::exchange(behind_, 0));
     if (!stored_) return;
@@ -104,14 +112,10 @@ class SplitCore {
   void settle() {
     in_a_row_ = 0;
     catch_up();
+    ticks_.forget();
     resting_ = false;
-    host_settled_ = host_moved_ = true;
     Ports::to_host(engine_, *host_.rootp);
-    host_.eval();
-    while (show_engine()) {
-      if (!Ports::to_host(engine_, *host_.rootp)) return;
-      host_.eval();
-    }
+    follow();
   }
 
   /// One rising edge of the clock behind which the host side's inputs change again, so that nobody
@@ -119,7 +123,8 @@ class SplitCore {
   void busy_edge() {
     in_a_row_ = 0;
     catch_up();
-    if (Ports::to_host(engine_, *host_.rootp)) settle();
+    ticks_.forget();
+    if (Ports::to_host(engine_, *host_.rootp)) follow();
     host_edge();
     resting_ = false;
     engine_edge();
@@ -147,7 +152,11 @@ class SplitCore {
       return true;
     }
     catch_up();
-    if (Ports::to_host(engine_, *host_.rootp)) settle();
+    ticks_.begin(engine_, *host_.rootp, resting_ && rest_ == kForever);
+    if (Ports::to_host(engine_, *host_.rootp)) {
+      in_a_row_ = 0;
+      follow();
+    }
     std::swap(before_, earlier_);
     before_.take(*host_.rootp);
     host_edge();
@@ -159,7 +168,7 @@ class SplitCore {
       of_engine();
     else
       engine_edge();
-    show_engine();
+    if (show_engine()) ticks_.forget();
     return as_before;
   }
 
@@ -188,6 +197,8 @@ class SplitCore {
     if constexpr (kHasTimeUnit<Engine>) engine_.restore_unit(state.unit.get());
     rest_ = state.rest;
     behind_ = 0;
+    tick_ignored_ = false;
+    ticks_.forget();
     engine_moved_ = true;
     storing_ = stored_ = false;
     host_moved_ = true;
@@ -203,6 +214,7 @@ class SplitCore {
     else
       host_.rst_ni = !active;
     engine_.rst_ni = !active;
+    ticks_.forget();
     resting_ = host_settled_ = engine_settled_ = false;
   }
 
@@ -222,6 +234,26 @@ class SplitCore {
     return true;
   }
 
+  // The host side's combinational logic has new inputs.
+  void follow() {
+    host_settled_ = host_moved_ = true;
+    host_.eval();
+    while (show_engine()) {
+      ticks_.forget();
+      if (!Ports::to_host(engine_, *host_.rootp)) return;
+      host_.eval();
+    }
+  }
+
+  // The edge before this one showed a sample point, and something else comes now.
+  void see_tick() {
+    ticks_.forget();
+    ticks_.show(*host_.rootp);
+    host_.eval();
+    host_edge();
+    resting_ = false;
+  }
+
   // After an edge of the host side; before_ is what it was before, earlier_ one edge earlier, if
   // that was evaluated with the same inputs: a pass reads in every second clock.
   void begin_rest() {
@@ -229,7 +261,8 @@ class SplitCore {
     // Which processes have run is not what they have left.
     if constexpr (requires { root.__VnbaTriggered; })
       before_.root().__VnbaTriggered = root.__VnbaTriggered;
-    resting_ = before_.matches(root);
+    ticks_.end(engine_, root);
+    resting_ = ticks_.learned() || before_.matches(root);
     rest_ = kForever;
     if (resting_ || !passes_rest_) return;
     rest_ = in_a_row_ < 2 ? 0 : TransmitScan<Root>::clocks(earlier_, root);
@@ -282,8 +315,10 @@ class SplitCore {
   std::uint64_t rest_ = kForever;  // while resting_: edges to come that may be left out
   std::uint64_t behind_ = 0;       // edges that have been
   ByteStore<Root, Ports> store_;
-  bool storing_ = false;  // a byte in the clock before this one
-  bool stored_ = false;   // one or more, and what is combinational has not followed
+  TickRest<Root, Ports> ticks_;
+  bool tick_ignored_ = false;  // in the last edge
+  bool storing_ = false;       // a byte in the clock before this one
+  bool stored_ = false;        // one or more, and what is combinational has not followed
   bool passes_rest_ = true;
   bool bytes_rest_ = true;
   bool resting_ = false;

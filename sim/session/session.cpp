@@ -64,11 +64,7 @@ void Session::set_limits() {
   const bool wanted =
       !outlets_.empty() || std::any_of(workers_.begin(), workers_.end(),
                                        [](const Worker &w) { return w.op->passes_time(); });
-  // Remote nodes count milliseconds by their clocks.
-  const bool timers = std::any_of(scenario.nodes.begin(), scenario.nodes.end(), [](const auto &n) {
-    return std::holds_alternative<RemoteRole>(n.role);
-  });
-  passes_ = buses_.size() == 1 && !scenario.lockstep && wanted && !timers;
+  passes_ = buses_.size() == 1 && !scenario.lockstep && wanted;
 }
 
 Simulation &Session::simulation(std::size_t bus) { return buses_[bus]->simulation(); }

@@ -118,7 +118,7 @@ std::uint64_t Stations::pending() const {
 std::uint64_t Stations::cycles() const {
   std::uint64_t sum = 0;
   for (const auto &station : stations_)
-    sum += station->remote ? station->remote->cycles() : station->node->clocked();
+    sum += station->remote ? station->remote->clocked() : station->node->clocked();
   return sum;
 }
 

@@ -4,12 +4,14 @@
 // Speed of the simulator: whole cores on a saturated bus of 1 Mbit/s, and the kernel alone.
 #include <benchmark/benchmark.h>
 
+#include <initializer_list>
 #include <memory>
 #include <vector>
 
 #include "bench/saturated_bus.hpp"
 #include "bus/faults.hpp"
 #include "node/core_node.hpp"
+#include "node/remote_node.hpp"
 
 namespace vericansim {
 namespace {
@@ -100,6 +102,28 @@ void core_alone(benchmark::State &state) {
       1000.0 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 BENCHMARK(core_alone)->ArgName("buffers")->Arg(16)->Arg(64)->Unit(benchmark::kMicrosecond);
+
+// Two nodes without a processor at 16 clocks a bit. Argument: reads of a host in 10 ms, 0 to 60.
+void remote_nodes(benchmark::State &state) {
+  const BitTiming timing{.prescaler = 1, .prop = 7, .ps1 = 4, .ps2 = 4, .sjw = 2};
+  CoreNode host{"host", {.timing = timing}};
+  const auto config = RemoteConfig::profile("full");
+  const auto a = RemoteNode::create("a", config, 3, timing);
+  const auto b = RemoteNode::create("b", config, 4, timing);
+  Bus bus;
+  for (Node *node : std::initializer_list<Node *>{&host, a.get(), b.get()}) bus.add(*node);
+  host.start();
+  a->start();
+  b->start();
+  for (auto _ : state) {
+    for (int i = 0; i < state.range(0); ++i)
+      host.request({.id = i % 2 == 0 ? 0x190U : 0x210U, .remote = true, .dlc = 8});
+    bus.run_for(10 * kMillisecond);
+  }
+  state.counters["node_cycles/s"] = benchmark::Counter(
+      static_cast<double>(a->cycles() + b->cycles()), benchmark::Counter::kIsRate);
+}
+BENCHMARK(remote_nodes)->ArgName("reads")->Arg(0)->Arg(20)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace vericansim

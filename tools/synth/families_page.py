@@ -33,6 +33,7 @@ CC_BRAM_20K.
   Cyclone V takes flip-flops, and SmartFusion2's memories are counted as what they are in the RTL,
   beside the logic. The vendors' tools
   have both.
+- \\*: with plain abc, which takes far more LUTs there; abc9 stops ([E-07](errata.md#e-07)).
 - Asynchronous resets appear as an inverter a flip-flop for CrossLink-NX and Xilinx before packing.
 - Not possible with this package: NanoXplore and MAX 10, whose files it lacks.
 - Fusion and SmartFusion (VersaTiles): [synthesis.md](synthesis.md).
@@ -47,6 +48,8 @@ def cell(found):
     text = f"{found['lut']:,} / {found['ff']:,} / {found['ram']}"
     if found.get("lut_ram"):
         text += f" + {found['lut_ram']}"
+    if found.get("plain_abc"):
+        text += " \\*"
     without = found.get("without_lut_ram")
     return text + (f"<br>{cell(without)}" if without else "")
 
