@@ -140,8 +140,8 @@ def page(results):
     text += ["", "## Where the time goes", "", *parts(medians), "",
              "*Bus with time* is the saturated bus with nodes that have the time unit, *kernel*",
              "the bus with nodes that do nothing, *engine* `can_core` and *core* `can_ahb` on an",
-             "idle bus without observers; *remote nodes* are two without a processor, profile full,",
-             "with so many reads of a host in 10 ms."]
+             "idle bus without observers; *remote nodes* are two without a processor, of profile",
+             "full, with so many reads of a host in 10 ms."]
     text += ["", SHARES]
     return "\n".join(text + replays(results) + suite(results)) + "\n"
 
