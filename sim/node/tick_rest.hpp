@@ -55,13 +55,16 @@ class TickRest {
   /// Behind that edge.
   template <typename Core>
   void end(const Core &core, const Root &root) {
-    if (state_ == State::kWoken) {
-      state_ = State::kPulse;
-    } else if (state_ == State::kBehind) {
-      // Data of the engine that mean nothing without a pulse may have changed.
-      Ports::to_host(core, before_.root());
-      before_.root().__VnbaTriggered = root.__VnbaTriggered;
-      state_ = before_.matches(root) ? State::kLearned : State::kNothing;
+    if constexpr (in_force()) {
+      if (state_ == State::kWoken) {
+        state_ = State::kPulse;
+      } else if (state_ == State::kBehind) {
+        // Data of the engine that mean nothing without a pulse may have changed; which processes
+        // have run is not what they have left.
+        Ports::to_host(core, before_.root());
+        before_.root().__VnbaTriggered = root.__VnbaTriggered;
+        state_ = before_.matches(root) ? State::kLearned : State::kNothing;
+      }
     }
   }
 
