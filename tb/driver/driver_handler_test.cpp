@@ -413,6 +413,55 @@ TEST_F(DriverHandler, AfterARestartInACallbackTheNewFramesAreNotOut) {
               static_cast<unsigned>(VERICAN_MB_CS_CODE_TX_DATA));
 }
 
+// verican_init() is allowed at any time, as a way out of trouble, and so is what follows it: the
+// call whose callback it was leaves the new device alone.
+TEST_F(DriverHandler, InitialisedAnewInACallbackTheDeviceIsTheNewOne) {
+  const verican_frame_t frame = driver_frame(0x111);
+  const std::vector<std::function<verican_result_t()>> calls{
+      [&] { return verican_stop(&dev_); }, [&] { return verican_abort(&dev_, 56); },
+      [&] {
+        core_.word(VERICAN_MB_CS_OFFSET(56)) = 0x08080020;
+        flag(56);
+        return verican_irq_handler(&dev_);
+      }};
+  for (const auto &call : calls) {
+    up();
+    struct User {
+      verican_config_t config;
+      unsigned told = 0;
+    } user{config_};
+    user.config.callbacks.user = &user;
+    user.config.callbacks.on_sent = [](void *self, verican_t *dev, const verican_tx_event_t *) {
+      User &to = *static_cast<User *>(self);
+      if (++to.told > 1) return;
+      EXPECT_EQ(verican_init(dev, &to.config), VERICAN_OK);
+      EXPECT_EQ(verican_start(dev), VERICAN_OK);
+      const verican_frame_t next = driver_frame(0x222);
+      for (int i = 0; i < 3; ++i) EXPECT_EQ(verican_send(dev, &next, nullptr), VERICAN_OK);
+    };
+    dev_.callbacks = user.config.callbacks;
+    for (int i = 0; i < 2; ++i) ASSERT_EQ(verican_send(&dev_, &frame, nullptr), VERICAN_OK);
+    EXPECT_EQ(call(), VERICAN_OK);
+    EXPECT_EQ(user.told, 1u) << "frames of before are gone without a word";
+    std::uint8_t waiting = 0;
+    EXPECT_EQ(verican_tx_waiting(&dev_, &waiting), VERICAN_OK);
+    EXPECT_EQ(waiting, 3u);
+    EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_ERR_EMPTY) << "it is started";
+  }
+}
+
+// A device that a callback has started anew while it was to end interrupts nobody any more.
+TEST_F(DriverHandler, StartedAnewWhileItEndsItInterruptsNobody) {
+  up();
+  dev_.callbacks.on_state = [](void *, verican_t *dev, verican_state_t state) {
+    if (state == VERICAN_STATE_STOPPED) EXPECT_EQ(verican_start(dev), VERICAN_OK);
+  };
+  EXPECT_EQ(verican_deinit(&dev_), VERICAN_OK);
+  EXPECT_EQ(verican_irq_handler(&dev_), VERICAN_ERR_STATE);
+  EXPECT_EQ(core_.word(VERICAN_IMASK1_OFFSET) | core_.word(VERICAN_IMASK2_OFFSET), 0u);
+  EXPECT_EQ(core_.word(VERICAN_CTRL1_OFFSET) & VERICAN_CTRL1_BOFF_MSK_MASK, 0u);
+}
+
 // A callback of the handler stops the device while verican_send() is on its way to the mailbox.
 TEST_F(DriverHandler, StoppedBeforeItHasTheFrameItTakesNone) {
   up();

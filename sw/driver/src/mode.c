@@ -113,6 +113,8 @@ verican_result_t verican_stop(verican_t *dev) {
   verican_unlock(dev, token);
   (void)verican_serve(dev);
   verican_tx_drop_all(dev);
+  /* A callback may have initialised the device anew: it is as that has left it. */
+  if (dev->life != VERICAN_LIFE_STOPPING) return VERICAN_OK;
   dev->life = VERICAN_LIFE_STOPPED;
   dev->state = (uint8_t)VERICAN_STATE_STOPPED;
   verican_state_tell(dev);
@@ -128,6 +130,7 @@ verican_result_t verican_deinit(verican_t *dev) {
     if (result != VERICAN_OK) return result;
   }
   const uint32_t token = verican_lock(dev);
+  mask_interrupts(dev); /* a callback of verican_stop() may have started it anew */
   if (dev->time_unit) (void)verican_stamp_quiet(dev);
   verican_write(dev, VERICAN_MCR_OFFSET, dev->mcr | VERICAN_MCR_MDIS_MASK);
   dev->life = 0;

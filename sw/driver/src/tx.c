@@ -202,8 +202,10 @@ static void give_up(const verican_t *dev, unsigned mb) {
   verican_write(dev, VERICAN_MB_CS_OFFSET(mb), CS_CODE(TX_INACTIVE));
 }
 
+/* What a callback sends that has initialised the device anew is not given up. */
 void verican_tx_drop_all(verican_t *dev) {
   for (unsigned mb = dev->first_tx; mb < dev->num_mb; ++mb) {
+    if (dev->life != VERICAN_LIFE_STOPPING) return;
     if (!verican_is_pending(dev, mb)) continue;
     give_up(dev, mb);
     verican_tx_end(dev, mb, VERICAN_TX_ABORTED);
