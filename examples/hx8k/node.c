@@ -192,8 +192,10 @@ static bool work(verican_t *can, uartbone_t *line, const options_t *options) {
   static input_t input;
   for (;;) {
     verican_frame_t frame;
+    uint64_t now = 0;
     uint8_t waiting = 0;
     (void)verican_irq_handler(can);
+    (void)verican_time(can, &now); /* or a silence would be missing in the times of frames */
     if (line->error != NULL) return false;
     while (verican_receive(can, &frame) == VERICAN_OK)
       if (!print_frame(&frame, options->bitrate)) return false;

@@ -102,10 +102,12 @@ class Hx8k : public ::testing::Test {
     if (!said.empty()) program_->to_terminal(said);
     board_.line.type(program_->from_terminal());
     for (std::string &text : program_->lines()) {
-      if (text.rfind('(', 0) == 0)
+      if (text.rfind('(', 0) == 0) {
         frames_.push_back(text.substr(text.rfind(' ') + 1));
-      else
+        seconds_.push_back(std::stod(text.substr(1)));
+      } else {
         told_.push_back(text);
+      }
     }
     // The program is to say something: let it.
     if (board_.line.resting() && !a_.pending() && !b_.pending()) program_->wait();
@@ -163,6 +165,7 @@ class Hx8k : public ::testing::Test {
   Bus bus_;
   std::unique_ptr<SerialProgram> program_;
   std::vector<std::string> frames_, told_;
+  std::vector<double> seconds_;  ///< times of all frames that it has printed
 };
 
 // Each way PINGS frames and their answers, every tenth with an error on the line in a frame of
@@ -236,6 +239,23 @@ TEST_F(Hx8k, ALastLineWithoutLineEndIsSent) {
   EXPECT_TRUE(run_until([&] { return program_->exit_code() == 0; }, 3000)) << told();
   ASSERT_EQ(a_.received().size(), 2U);
   EXPECT_EQ(text_of(a_.received()[1]), "124#22");
+}
+
+// The core's time has 16 bits, 65 ms at this rate, of which half tell how much has passed: the
+// program follows it while nothing comes.
+TEST_F(Hx8k, TimesGoOnOnASilentBus) {
+  others();
+  start({"-l"});
+  ASSERT_TRUE(run_until([&] { return lit(kRunning); }, 5000)) << told();
+  ping_from_bus(1);
+  const Time first = bus_.now();
+  ping_from_bus(2);
+  const Time silence = bus_.now() + 50 * kMillisecond;
+  (void)run_until([&] { return bus_.now() >= silence; }, 60);
+  const double seconds = 1e-12 * static_cast<double>(bus_.now() - first);
+  ping_from_bus(3);
+  ASSERT_EQ(seconds_.size(), 3U);
+  EXPECT_NEAR(seconds_[2] - seconds_[1], seconds, 0.001);
 }
 
 // A frame that was received and cannot be shown is not passed over.
