@@ -383,6 +383,19 @@ TEST_F(DriverArguments, PollingEndsAfterTheLimit) {
   EXPECT_EQ(core_.reads - more, 100'000u);
 }
 
+// verican_stop() waits for the end of a frame, of which each read takes a clock of the core at
+// least: up to 160 bits with stuff bits and intermission, and 20 of an error frame.
+TEST_F(DriverArguments, WithoutALimitPollingOutlastsAFrame) {
+  config_.port.poll_limit = 0;
+  config_.bitrate = 2'000;
+  ASSERT_EQ(init(), VERICAN_OK);
+  ASSERT_EQ(verican_start(&dev_), VERICAN_OK);
+  core_.mcr_never = VERICAN_MCR_FRZ_ACK_MASK;
+  const unsigned reads = core_.reads;
+  EXPECT_EQ(verican_stop(&dev_), VERICAN_ERR_TIMEOUT);
+  EXPECT_GE(core_.reads - reads, 180u * config_.clock_hz / config_.bitrate);
+}
+
 TEST_F(DriverArguments, OneShotNeedsTheExtensionPage) {
   config_.mailboxes = 64;
   ASSERT_EQ(init(), VERICAN_OK);

@@ -4,6 +4,7 @@
 // The driver's self-test: passes on the core, leaves no trace, and finds what is broken.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -115,9 +116,24 @@ class BrokenCore : public ::testing::Test {
       core_.word(VERICAN_MB_CS_OFFSET(0)) ^= cs_fault_;
       for (unsigned word = 4; word < 16; word += 4)
         core_.word(0x80 + word) = core_.word(0x90 + word) ^ (word == faulty_ ? 0x00400000 : 0);
-      if (answers_) core_.word(VERICAN_IFLAG1_OFFSET) |= 3;
+      if (answers_) back_ = std::max(core_.reads, recovered_) + frame_;
+    };
+    core_.on_read = [this](std::uint32_t) {
+      if (core_.reads >= recovered_) core_.word(VERICAN_ESR1_OFFSET) = 0;
+      if (back_ == 0 || core_.reads < back_) return;
+      core_.word(VERICAN_IFLAG1_OFFSET) |= 3;
+      back_ = 0;
     };
   }
+  // A slow bus and a processor so fast that it reads a register in each clock of the core; a frame
+  // has up to 160 bits with stuff bits and intermission.
+  void be_slow() {
+    config_.bitrate = 5'000;
+    config_.port.poll_limit = 0;
+    ASSERT_EQ(verican_init(&dev_, &config_), VERICAN_OK);
+    frame_ = 160 * bit();
+  }
+  [[nodiscard]] unsigned bit() const { return config_.clock_hz / config_.bitrate; }
   verican_test_report_t run(verican_result_t expected) {
     verican_test_report_t report{};
     EXPECT_EQ(verican_self_test(&dev_, &report), expected);
@@ -130,9 +146,26 @@ class BrokenCore : public ::testing::Test {
   std::uint32_t cs_fault_ = 0;
   unsigned faulty_ = 0;
   bool answers_ = true;
+  unsigned frame_ = 0;      ///< reads that a frame lasts
+  unsigned recovered_ = 0;  ///< reads until the end of bus-off
+
+ private:
+  unsigned back_ = 0;  ///< reads until the frame is back, 0: there is none
 };
 
 TEST_F(BrokenCore, PassesWithoutAFault) { EXPECT_EQ(run(VERICAN_OK).step, VERICAN_TEST_PASSED); }
+
+TEST_F(BrokenCore, PassesAtASlowBitRate) {
+  be_slow();
+  EXPECT_EQ(run(VERICAN_OK).step, VERICAN_TEST_PASSED);
+}
+
+TEST_F(BrokenCore, PassesInALongBusOff) {  // BO-02
+  be_slow();
+  core_.word(VERICAN_ESR1_OFFSET) = VERICAN_ESR1_FLT_CONF_SET(VERICAN_ESR1_FLT_CONF_BUS_OFF);
+  recovered_ = core_.reads + 128 * 11 * bit();
+  EXPECT_EQ(run(VERICAN_OK).step, VERICAN_TEST_PASSED);
+}
 
 TEST_F(BrokenCore, AStuckBitInTheMemoryIsFound) {
   core_.lossy = VERICAN_MB_DATA0_OFFSET(17);

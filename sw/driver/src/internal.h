@@ -88,6 +88,9 @@ void verican_write_settings(const verican_t *dev);
 void verican_apply_mode(verican_t *dev, verican_mode_t mode);
 
 /* timing.c */
+/* Clocks of a bit. */
+uint32_t verican_bit_clocks(const verican_timing_t *timing);
+/* The timing in CTRL. */
 uint32_t verican_timing_bits(const verican_timing_t *timing);
 
 /* fifo_filter.c */

@@ -5,7 +5,11 @@
  */
 #include "internal.h"
 
+/* Without a limit of the caller's. At slow bit rates a frame lasts longer than so many reads, of
+ * which each takes a clock of the core at least; with what may follow it has so many bits at most.
+ */
 #define POLL_LIMIT_DEFAULT 100000u
+#define POLL_BITS 200u
 
 uint32_t verican_read(const verican_t *dev, uint32_t offset) {
   if (dev->port.base != NULL) return dev->port.base[offset / 4u];
@@ -20,9 +24,15 @@ void verican_write(const verican_t *dev, uint32_t offset, uint32_t value) {
   }
 }
 
+static uint32_t poll_limit(const verican_t *dev) {
+  if (dev->port.poll_limit != 0u) return dev->port.poll_limit;
+  const uint32_t frame = POLL_BITS * verican_bit_clocks(&dev->timing);
+  return frame > POLL_LIMIT_DEFAULT ? frame : POLL_LIMIT_DEFAULT;
+}
+
 verican_result_t verican_wait(const verican_t *dev, uint32_t offset, uint32_t mask,
                               uint32_t value) {
-  const uint32_t limit = dev->port.poll_limit != 0u ? dev->port.poll_limit : POLL_LIMIT_DEFAULT;
+  const uint32_t limit = poll_limit(dev);
   for (uint32_t n = 0; n < limit; ++n) {
     if ((verican_read(dev, offset) & mask) == value) return VERICAN_OK;
   }

@@ -78,7 +78,16 @@ static verican_result_t loop_frame(verican_t *dev, unsigned n, verican_test_repo
 #define TEST_MCR (VERICAN_MCR_BCC_MASK | (uint32_t)TX)
 #define TEST_MCR_FROZEN (TEST_MCR | VERICAN_MCR_FRZ_MASK | VERICAN_MCR_HALT_MASK)
 
-/* In bus-off nothing comes back: what holds a node there does not hold here. */
+/* In bus-off nothing comes back: what holds a node there does not hold here, and its 1,408 bits
+ * are as long as eight waits for a frame. */
+enum { BUS_OFF_WAITS = 8 };
+
+static void leave_bus_off(const verican_t *dev) {
+  const uint32_t off = VERICAN_ESR1_FLT_CONF_SET(2u);
+  for (unsigned n = 0; n < (unsigned)BUS_OFF_WAITS; ++n)
+    if (verican_wait(dev, VERICAN_ESR1_OFFSET, off, 0) == VERICAN_OK) return;
+}
+
 static verican_result_t test_loop_back(verican_t *dev, verican_test_report_t *report) {
   const uint32_t in_the_way = VERICAN_CTRL1_LOM_MASK | VERICAN_CTRL1_BOFF_REC_MASK;
   verican_write(dev, VERICAN_CTRL1_OFFSET, (dev->ctrl & ~in_the_way) | VERICAN_CTRL1_LPB_MASK);
@@ -86,6 +95,7 @@ static verican_result_t test_loop_back(verican_t *dev, verican_test_report_t *re
   verican_write(dev, VERICAN_MB_CS_OFFSET(TX), CS_CODE(TX_INACTIVE));
   verican_write(dev, VERICAN_MCR_OFFSET, TEST_MCR);
   verican_result_t result = verican_wait(dev, VERICAN_MCR_OFFSET, VERICAN_MCR_FRZ_ACK_MASK, 0);
+  if (result == VERICAN_OK) leave_bus_off(dev);
   for (unsigned n = 0; result == VERICAN_OK && n < (unsigned)FRAMES; ++n)
     result = loop_frame(dev, n, report);
   verican_write(dev, VERICAN_MCR_OFFSET, TEST_MCR_FROZEN);

@@ -14,6 +14,10 @@ static uint32_t quanta_of(const verican_timing_t *timing) {
   return 1u + timing->prop + timing->phase1 + timing->phase2;
 }
 
+uint32_t verican_bit_clocks(const verican_timing_t *timing) {
+  return timing->prescaler * quanta_of(timing);
+}
+
 /* Error in ppm: the clock that would give the bit rate exactly, against the one there is. */
 static uint32_t error_ppm(uint32_t clock_hz, uint32_t bitrate, uint32_t clocks_per_bit) {
   const uint32_t off = distance(clock_hz, bitrate * clocks_per_bit);

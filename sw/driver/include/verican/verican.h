@@ -75,8 +75,11 @@ typedef struct verican_port {
   void (*write32)(void *context, uint32_t offset, uint32_t value);
   uint32_t (*lock)(void *context);
   void (*unlock)(void *context, uint32_t token);
-  void *context;       /**< first argument of the four functions above */
-  uint32_t poll_limit; /**< reads of a register until VERICAN_ERR_TIMEOUT; 0: 100,000 */
+  void *context; /**< first argument of the four functions above */
+  /** Reads of a register until VERICAN_ERR_TIMEOUT; more than a frame lasts, as verican_stop() and
+   * the self-test wait for the end of one. 0: 100,000, or the clocks of 200 bits if they are more.
+   */
+  uint32_t poll_limit;
 } verican_port_t;
 
 /* ---- Bit timing ------------------------------------------------------------------------------ */
