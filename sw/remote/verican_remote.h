@@ -94,7 +94,9 @@ typedef struct verican_remote {
   uint8_t gap_ms;      /**< between the frames of a block read, default 0 */
   bool data_frames;    /**< true: no remote frames are sent, all is read by port READ (RN-22) */
   uint8_t tag;         /**< of the last block transfer; counts up */
-  /** Called with what nobody waits for, statements by producers; may be NULL. */
+  /** Called with what nobody waits for, statements by producers; may be NULL. Of this client it
+   * calls at most what only sends (write, trigger, state): where it waits for an answer it takes
+   * that of the call in which it is, and is called within itself, without end on a busy bus. */
   void (*on_statement)(void *user, const verican_remote_frame_t *frame);
   void *user; /**< first argument of on_statement */
 

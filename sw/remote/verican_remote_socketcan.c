@@ -112,7 +112,7 @@ int verican_remote_socketcan_open(verican_remote_socketcan_t *s, const char *int
   struct ifreq request;
   memset(&request, 0, sizeof request);
   s->fd = -1; /* whatever comes: verican_remote_socketcan_close() may follow */
-  if (strlen(interface) >= sizeof request.ifr_name) return ENODEV;
+  if (interface == NULL || strlen(interface) >= sizeof request.ifr_name) return ENODEV;
   strcpy(request.ifr_name, interface);
   const int fd = socket(PF_CAN, SOCK_RAW, CAN_RAW);
   if (fd < 0) return errno;
