@@ -180,6 +180,7 @@ static verican_result_t start(verican_t *can, uartbone_t *line, const options_t 
   config.port.context = line;
   config.clock_hz = CLOCK_HZ;
   config.bitrate = options->bitrate;
+  config.tx_order = VERICAN_TX_IN_ORDER; /* as the lines came */
   config.rx_ring = ring;
   config.rx_ring_size = sizeof ring / sizeof ring[0];
   config.callbacks.on_state = on_state;

@@ -241,6 +241,22 @@ TEST_F(Hx8k, ALastLineWithoutLineEndIsSent) {
   EXPECT_EQ(text_of(a_.received()[1]), "124#22");
 }
 
+// Lines wait while nobody acknowledges; then they leave as they came, whatever their identifiers.
+TEST_F(Hx8k, LinesAreSentInTheirOrder) {
+  start();
+  ASSERT_TRUE(run_until([&] { return lit(kRunning); }, 5000)) << told();
+  const std::vector<std::string> lines{"300#01", "200#02", "100#03", "200#04"};
+  for (const std::string &line : lines) program_->line(line);
+  ASSERT_TRUE(run_until([&] { return lit(kPassive); }, 1000)) << told();
+  (void)run_until([] { return false; }, 10);  // all are in their mailboxes
+  others();
+  program_->end_of_input();
+  EXPECT_TRUE(run_until([&] { return program_->exit_code() == 0; }, 3000)) << told();
+  std::vector<std::string> received;
+  for (const Frame &frame : a_.received()) received.push_back(text_of(frame));
+  EXPECT_EQ(received, lines);
+}
+
 // The core's time has 16 bits, 65 ms at this rate, of which half tell how much has passed: the
 // program follows it while nothing comes.
 TEST_F(Hx8k, TimesGoOnOnASilentBus) {

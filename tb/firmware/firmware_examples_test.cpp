@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <regex>
 #include <string>
@@ -96,6 +97,30 @@ TEST(FirmwareGateway, ForwardsBetweenTwoBusesWithFilters) {
   ASSERT_EQ(answers.size(), 15U);
   for (std::size_t i = 0; i < answers.size(); ++i) EXPECT_EQ(answers[i].frame.data[0], i);
   EXPECT_EQ(with_id(frames, 0x123).size(), 20U);  // its own, not those of the right bus
+}
+
+// What comes on the faster bus without a pause waits for the slower one; whatever waits, frames of
+// one identifier leave as they came.
+TEST(FirmwareGateway, KeepsTheOrderOfABurst) {
+  const std::string left = tb::temporary(".left.yaml"), right = tb::temporary(".right.yaml");
+  const std::string log = tb::temporary(".log");
+  std::ofstream{left} << "bitrate: 500k\n"
+                         "duration: 60 ms\n"
+                         "nodes: [{name: firmware, clock: 32 MHz}, {name: sensor}]\n"
+                         "traffic:\n"
+                         "  - {node: sensor, id: 0x123, data: counter, dlc: 4, period: 0.25 ms,"
+                         " offset: 5 ms, count: 30}\n"
+                         "  - {node: sensor, id: 0x7FF, offset: 50 ms}\n";
+  std::ofstream{right} << "bitrate: 250k\n"
+                          "nodes: [{name: actuator}, {name: firmware2, clock: 32 MHz}]\n"
+                          "outputs: {candump: "
+                       << log << "}\n";
+  const auto result = tb::run_tool("firmware " + tb::example_elf("gateway") + " --bus " + left +
+                                   " --second-bus " + right);
+  EXPECT_EQ(result.out, "left to right 30, right to left 0, lost 0\n") << result.error;
+  const auto frames = frames_of(log);
+  ASSERT_EQ(frames.size(), 30U);
+  for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i].frame.data[0], i);
 }
 
 // ---- SAE set

@@ -18,7 +18,8 @@ void can1_handler(void) { verican_irq_handler(&sides[RIGHT].device); }
 
 static void open_side(unsigned side, uint32_t bitrate, const verican_filter_t *filters,
                       uint16_t count) {
-  const verican_config_t config = can_config(&sides[side], side, bitrate);
+  verican_config_t config = can_config(&sides[side], side, bitrate);
+  config.tx_order = VERICAN_TX_IN_ORDER; /* or frames of one identifier could change places */
   can_open(&sides[side], &config, filters, count);
 }
 
