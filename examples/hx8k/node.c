@@ -80,8 +80,11 @@ static bool parse_options(int argc, char **argv, options_t *options) {
   return optind + 1 == argc;
 }
 
-/* False, with a word of it, if the output cannot be written. */
+/* False, with a word of it, if the output cannot be written. A frame may tell that one before it
+ * was overwritten. */
 static bool print_frame(const verican_frame_t *frame, uint32_t bitrate) {
+  if ((frame->flags & VERICAN_FRAME_OVERRUN) != 0)
+    (void)fputs("node: frames were lost: the serial port is slower than the bus\n", stderr);
   const unsigned long long micros = frame->timestamp * 1000000u / bitrate;
   (void)printf("(%llu.%06llu) can0 ", micros / 1000000u, micros % 1000000u);
   (void)printf((frame->flags & VERICAN_FRAME_EXTENDED) != 0 ? "%08X#" : "%03X#",

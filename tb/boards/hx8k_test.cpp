@@ -274,6 +274,20 @@ TEST_F(Hx8k, TimesGoOnOnASilentBus) {
   EXPECT_NEAR(seconds_[2] - seconds_[1], seconds, 0.001);
 }
 
+// More frames without a pause than 24 mailboxes hold while the program reads the first ones.
+TEST_F(Hx8k, LostFramesAreTold) {
+  others();
+  start({"-l"});
+  ASSERT_TRUE(run_until([&] { return lit(kRunning); }, 5000)) << told();
+  bus_.run_for(20 * kMicrosecond);  // the board takes part after eleven recessive bits
+  for (unsigned n = 0; n < 80; ++n) b_.request(frame_of(numbered("1", n)));
+  ASSERT_TRUE(run_until([&] { return !b_.pending() && frames_.size() > 24; }, 2000)) << told();
+  (void)run_until([] { return false; }, 20);
+  EXPECT_LT(frames_.size(), 80U);
+  ASSERT_FALSE(told_.empty());
+  EXPECT_EQ(told_[0], "node: frames were lost: the serial port is slower than the bus");
+}
+
 // A frame that was received and cannot be shown is not passed over.
 TEST_F(Hx8k, OutputThatCannotBeWrittenIsTold) {
   others();
