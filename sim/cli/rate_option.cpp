@@ -4,7 +4,11 @@
 // See rate_option.hpp.
 #include "cli/rate_option.hpp"
 
+#include <fmt/format.h>
+
 #include <map>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "cli/print_error.hpp"
@@ -26,13 +30,25 @@ bool take_off(std::string &text, std::string_view ending) {
   return true;
 }
 
+/// CLI11 multiplies by units, but keeps six digits of what comes out.
+bool multiply(std::string &text, const Units &units) {
+  return CLI::AsNumberWithUnit{units}(text).empty();
+}
+
 /// Whether `text` is a number with one of the units, and is now one without.
 bool to_number(std::string &text, const Units &units) {
   // CLI11 takes a unit alone for one of it.
   if (text.find_first_of("0123456789") == std::string::npos) return false;
   try {
-    return CLI::AsNumberWithUnit{units}(text).empty();
+    const std::size_t unit = text.find_last_of("0123456789.") + 1;
+    std::string rounded = text, factor = "1" + text.substr(unit);
+    if (!multiply(rounded, units) || !multiply(factor, units)) return false;
+    const long double number = std::stold(text.substr(0, unit)), times = std::stold(factor);
+    text = fmt::format("{}", static_cast<double>(number * times));
+    return true;
   } catch (const CLI::ValidationError &) {
+    return false;
+  } catch (const std::out_of_range &) {
     return false;
   }
 }

@@ -184,6 +184,13 @@ TEST_F(Tool, RatesHaveUnits) {
     const ToolResult result = run_tool("bittime --json -b 500k -c '" + std::string{clock} + "'");
     EXPECT_EQ(nlohmann::json::parse(result.out, nullptr, false)["clock_hz"], 8'000'000) << clock;
   }
+  // Crystals have more digits than six: this is one of NTSC.
+  for (const char *clock : {"14318180", "14.31818M", "14318.18 kHz", "0.01431818 GHz"}) {
+    const ToolResult result = run_tool("bittime --json -b 125k -c '" + std::string{clock} + "'");
+    EXPECT_EQ(nlohmann::json::parse(result.out, nullptr, false)["clock_hz"], 14'318'180) << clock;
+  }
+  const ToolResult table = run_tool("bittime --table --json -c 8.123456M");  // no whole double
+  EXPECT_EQ(nlohmann::json::parse(table.out, nullptr, false)["clock_hz"], 8'123'456);
   for (const std::string command : {"run x.yaml", "report x.yaml", "decode x.vcd", "replay x.log",
                                     "bittime", "firmware x.elf --bus x.yaml", "bridge --if x"}) {
     for (const char *rate : {"fast", "k", "nan", "inf", "500kbits", "500 k k", "bit/s",
