@@ -19,8 +19,10 @@ namespace vericansim::cli {
 struct SyncOutcome {
   SyncRow row;
   SyncFigures figures;
-  /// Nothing is promised, or it is kept.
-  [[nodiscard]] bool ok() const { return !row.goal || row.goal->reached_by(figures); }
+  /// All followers are locked, and what is promised, if anything is, is kept.
+  [[nodiscard]] bool ok() const {
+    return figures.locked() && (!row.goal || row.goal->reached_by(figures));
+  }
 };
 
 /// "16 MHz +-100 ppm, R = 1 s, ..."

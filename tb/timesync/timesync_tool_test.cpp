@@ -149,13 +149,18 @@ TEST_F(TimeSync, BadInput) {
   expect_refused(file_with("b.yaml", "seeds: 1\nwonder: 1\n"), "wonder");
 }
 
-// TM-124: 1 if a goal is missed; a follower that never locks misses it too.
+// TM-124: 1 if a goal is missed; a follower that never locks misses it too, and fails without one.
 TEST_F(TimeSync, ExitCode) {
   EXPECT_EQ(run_tool("timesync").code, 0);
   const ToolResult missed = run_tool("timesync --intervals 3");
   EXPECT_EQ(missed.code, 1);
   EXPECT_THAT(missed.out, HasSubstr("no, not locked"));
   EXPECT_EQ(run_tool("timesync --filter 16 --wander 1e-7").code, 0);  // nothing is promised
+  const ToolResult unlocked = run_tool("timesync --filter 16 --wander 1e-7 --intervals 2 --json");
+  EXPECT_EQ(unlocked.code, 1);
+  const json without_goal = json::parse(unlocked.out, nullptr, false);
+  EXPECT_EQ(without_goal["goal"], nullptr);
+  EXPECT_EQ(without_goal["ok"], false);
   EXPECT_EQ(run_tool("timesync --p4 --spread 100").code, 1);
   EXPECT_EQ(run_tool("timesync --sweep --intervals 3 --seeds 1").code, 1);
 }
