@@ -154,12 +154,12 @@ class StepReader {
       step_.frame.dlc = static_cast<std::uint8_t>(step_.frame.dlc + 2);
       return;
     }
-    add(byte(word));
+    add(byte(word, "hexadecimal bytes, round"));
   }
 
-  [[nodiscard]] unsigned byte(std::string_view word) const {
+  [[nodiscard]] unsigned byte(std::string_view word, const char *allowed) const {
     const auto value = text::parse_unsigned(word, 16);
-    if (!value || word.size() > 2) refuse_word(word, "hexadecimal bytes, round");
+    if (!value || word.size() > 2) refuse_word(word, allowed);
     return static_cast<unsigned>(*value);
   }
 
@@ -198,8 +198,12 @@ class StepReader {
     if (words_.empty()) return;
     if (const std::string_view equal = take(); equal != "=") refuse_word(equal, "=");
     std::vector<std::uint8_t> bytes;
-    while (!words_.empty()) bytes.push_back(static_cast<std::uint8_t>(byte(take())));
-    if (bytes.size() != length) refuse_word("", fmt::format("{} bytes behind =", length));
+    std::string_view last = "=";
+    while (!words_.empty()) {
+      last = take();
+      bytes.push_back(static_cast<std::uint8_t>(byte(last, "hexadecimal bytes")));
+    }
+    if (bytes.size() != length) refuse_word(last, fmt::format("{} bytes behind =", length));
     step_.wanted = bytes;
   }
 

@@ -14,6 +14,7 @@ namespace vericansim {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -352,7 +353,12 @@ TEST(ScenarioCommands, MistakesAreToldWithTheirPlace) {
   EXPECT_THAT(command("write 3 0x200 1 2 3 4 5 round"), HasSubstr("6 bytes at most"));
   EXPECT_THAT(command("write 3 0x77 1 2"), HasSubstr("bytes up to 0x77"));
   EXPECT_THAT(command("read 3 0x74 5"), HasSubstr("bytes of one frame, 0x1 to 0x4"));
-  EXPECT_THAT(command("read 3 0x20 2 = 1"), HasSubstr("2 bytes behind ="));
+  EXPECT_THAT(command("read 3 0x20 2 = 1"),
+              HasSubstr("'1' is not allowed; allowed: 2 bytes behind ="));
+  EXPECT_THAT(command("read 3 0x20 2 = 1 2 3"),
+              HasSubstr("'3' is not allowed; allowed: 2 bytes behind ="));
+  EXPECT_THAT(command("read 3 0x20 2 = round"),
+              EndsWith("'round' is not allowed; allowed: hexadecimal bytes"));
   EXPECT_THAT(command("read 3 0x20 1 1"), HasSubstr("allowed: ="));
   EXPECT_THAT(command("read all 0x20 1 = 1"), HasSubstr("the end of the command"));
   EXPECT_THAT(command("trigger 256"), HasSubstr("a count, 0x0 to 0xFF"));
