@@ -107,6 +107,9 @@ test('the head has figures of all runs, goal and verdict', async () => {
   const other = await openReport(written('good', good));
   assert.match(await other.textContent('.verdict'), /within its goal/);
   await closeReport(other);
+  const unlocked = await openReport(written('unlocked', byHand((json) => ({...json, goal: null}))));
+  assert.match(await unlocked.textContent('.head'), /not locked/);
+  await closeReport(unlocked);
 });
 
 test('figures of each follower count what is locked alone', async () => {

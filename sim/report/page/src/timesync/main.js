@@ -18,7 +18,7 @@ const ns = (ps) => `${(ps / 1e3).toFixed(1)} ns`;
 /** Verdict and figures of all seeds. */
 function header({json, goal, when}) {
   const {result} = json;
-  const verdict = goal
+  const verdict = goal || !json.ok
     ? el(
         'span',
         {class: `verdict ${json.ok ? 'good' : 'bad'}`},
