@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "scenario/bound_scope.hpp"
 #include "scenario/output_pattern.hpp"
 #include "scenario/scenario_parts.hpp"
 #include "trace/input_error.hpp"
+#include "trace/quantity.hpp"
 
 namespace vericansim::detail {
 namespace {
@@ -132,7 +134,11 @@ void parse_expected_responses(const YamlValue &value, const Scenario &scenario,
 }  // namespace
 
 Range parse_range(const YamlValue &value, const Range &possible) {
-  const auto number = [&](const YamlValue &v) { return v.number(possible.least, possible.most); };
+  const auto number = [&](const YamlValue &v) {
+    const auto count = possible.whole && v.is_scalar() ? parse_integer(v.text()) : std::nullopt;
+    if (count && possible.contains(static_cast<double>(*count))) return static_cast<double>(*count);
+    return v.number(possible.least, possible.most);
+  };
   if (!value.is_map()) {
     const double exact = number(value);
     if (possible.whole && exact != std::trunc(exact))

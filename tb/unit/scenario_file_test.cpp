@@ -434,6 +434,19 @@ TEST(ScenarioFile, ADocumentMayHaveItsMarks) {
     EXPECT_EQ(parse_scenario("s.yaml", marked).seed, 7U) << marked;
 }
 
+// Counters as registers show them; the page allows integers in three ways.
+TEST(ScenarioFile, ExpectedCountsMayBeHexadecimal) {
+  const Scenario s = parse_scenario(
+      "s.yaml", std::string(kTwo) +
+                    "traffic: [{node: a, id: 1}]\n"
+                    "expect: {frames: 0b101, nodes: {a: {tec: 0x80, max_tec: {max: 0x88}}}}\n");
+  EXPECT_TRUE(s.expect.numbers.at("frames").contains(5));
+  ASSERT_EQ(s.expect.nodes.size(), 1U);
+  EXPECT_EQ(s.expect.nodes[0].numbers.at("tec").least, 128);
+  EXPECT_EQ(s.expect.nodes[0].numbers.at("tec").most, 128);
+  EXPECT_EQ(s.expect.nodes[0].numbers.at("max_tec").most, 136);
+}
+
 // A listener has the name of an interface; a truth value is none.
 TEST(ScenarioFile, MonitorIsATruthValueOrAnInterface) {
   const Scenario s = parse_scenario(
