@@ -79,7 +79,8 @@ class SplitCore {
   /// `edges` pass at rest, at most rest(). To be called before the engine does them.
   void pass(std::uint64_t edges) {
     in_a_row_ = 0;
-    if (edges != 0) tick_ignored_ = edges == 1 && ticks_.learned() && engine_.tick_o != 0;
+    if constexpr (TickRest<Root, Ports>::in_force())
+      if (edges != 0) tick_ignored_ = edges == 1 && ticks_.learned() && engine_.tick_o != 0;
     engine_counted();
     storing_ = storing_ && edges == 0;
     if (rest_ == kForever) return;
