@@ -59,7 +59,8 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/sim/" DESTINATION "${include_dir}" COMP
   PATTERN "model_context.hpp" EXCLUDE PATTERN "split_core.hpp" EXCLUDE
   PATTERN "quiet_engine.hpp" EXCLUDE PATTERN "transmit_scan.hpp" EXCLUDE
   PATTERN "byte_store.hpp" EXCLUDE PATTERN "timed_engine.hpp" EXCLUDE
-  PATTERN "host_image.hpp" EXCLUDE PATTERN "engine_place.hpp" EXCLUDE
+  PATTERN "host_image.hpp" EXCLUDE PATTERN "tick_rest.hpp" EXCLUDE
+  PATTERN "engine_place.hpp" EXCLUDE
   PATTERN "engine_judge.hpp" EXCLUDE PATTERN "engine_level.hpp" EXCLUDE
   PATTERN "engine_count.hpp" EXCLUDE
   PATTERN "engine_edge.hpp" EXCLUDE PATTERN "port_block.hpp" EXCLUDE

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -43,8 +44,10 @@ bool to_number(std::string &text, const Units &units) {
     const std::size_t unit = text.find_last_of("0123456789.") + 1;
     std::string rounded = text, factor = "1" + text.substr(unit);
     if (!multiply(rounded, units) || !multiply(factor, units)) return false;
-    const long double number = std::stold(text.substr(0, unit)), times = std::stold(factor);
-    text = fmt::format("{}", static_cast<double>(number * times));
+    const long double number = std::stold(text.substr(0, unit)) * std::stold(factor);
+    const auto value = static_cast<double>(number);
+    // One that is too large for any rate is cited as it is.
+    text = std::isfinite(value) ? fmt::format("{}", value) : fmt::format("{:g}", number);
     return true;
   } catch (const CLI::ValidationError &) {
     return false;
