@@ -71,8 +71,8 @@ class RtlNodeOf final : public RtlNode {
   }
 
   [[gnu::flatten]] void pass(std::uint64_t edges) override {
-    core_.pass(edges);
     quiet_.pass(core_.engine(), edges);
+    core_.pass(edges);
     passed(edges);
   }
 

@@ -76,7 +76,8 @@ class SplitCore {
   /// The resting host side does not wake for sample points (of a node without a processor).
   [[nodiscard]] bool ignores_ticks() const { return resting_ && ticks_.learned(); }
 
-  /// `edges` pass at rest, at most rest(). To be called before the engine does them.
+  /// `edges` pass at rest, at most rest(). To be called before the engine does them where ticks may
+  /// be ignored: whether one shows is that of before.
   void pass(std::uint64_t edges) {
     in_a_row_ = 0;
     if constexpr (TickRest<Root, Ports>::in_force())
@@ -90,7 +91,8 @@ class SplitCore {
 
   /// Lets the host side do what it has left out; its outputs stay as they are.
   void catch_up() {
-    if (std::exchange(tick_ignored_, false)) see_tick();
+    if constexpr (TickRest<Root, Ports>::in_force())
+      if (std::exchange(tick_ignored_, false)) see_tick();
     host_moved_ = host_moved_ || behind_ != 0 || stored_;
     if (behind_ != 0) TransmitScan<Root>::pass(*host_.rootp, std::exchange(behind_, 0));
     if (!stored_) return;
@@ -316,10 +318,8 @@ class SplitCore {
   std::uint64_t rest_ = kForever;  // while resting_: edges to come that may be left out
   std::uint64_t behind_ = 0;       // edges that have been
   ByteStore<Root, Ports> store_;
-  TickRest<Root, Ports> ticks_;
-  bool tick_ignored_ = false;  // in the last edge
-  bool storing_ = false;       // a byte in the clock before this one
-  bool stored_ = false;        // one or more, and what is combinational has not followed
+  bool storing_ = false;  // a byte in the clock before this one
+  bool stored_ = false;   // one or more, and what is combinational has not followed
   bool passes_rest_ = true;
   bool bytes_rest_ = true;
   bool resting_ = false;
@@ -328,6 +328,8 @@ class SplitCore {
   bool engine_settled_ = false;
   bool engine_disturbed_ = false;
   mutable bool engine_moved_ = true;  // since nothing of it was to wake the host side
+  bool tick_ignored_ = false;         // in the last edge
+  TickRest<Root, Ports> ticks_;
 };
 
 }  // namespace vericansim

@@ -25,9 +25,11 @@ class TickRest {
   [[nodiscard]] static constexpr bool in_force() { return kKnown<Root>; }
 
   /// The host side rests and it is known that it does not mind the pulse.
-  [[nodiscard]] bool learned() const { return state_ == State::kLearned; }
+  [[nodiscard]] bool learned() const { return in_force() && state_ == State::kLearned; }
   /// Something else happens to it.
-  void forget() { state_ = State::kNothing; }
+  void forget() {
+    if constexpr (in_force()) state_ = State::kNothing;
+  }
 
   /// The pulse is all that `root`, at rest, has not seen of the engine, and it does not mind.
   template <typename Core>
